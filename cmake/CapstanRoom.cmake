@@ -1,0 +1,53 @@
+# What every room's target has in common.
+
+add_library(capstan_options INTERFACE)
+target_include_directories(capstan_options INTERFACE ${CMAKE_SOURCE_DIR})
+# -ffp-contract=off: same input, same bytes, whatever the compiler may fuse.
+target_compile_options(capstan_options INTERFACE
+  -ffp-contract=off -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror)
+if(CAPSTAN_SANITIZE)
+  target_compile_options(capstan_options INTERFACE
+    -fsanitize=${CAPSTAN_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(capstan_options INTERFACE -fsanitize=${CAPSTAN_SANITIZE})
+endif()
+
+# capstan_room(<name> [DEPENDS room...] [PRIVATE_LIBS lib...])
+#
+# One static library of the .cpp files of the current folder and below it. DEPENDS names rooms
+# (their headers appear in ours), PRIVATE_LIBS what only a .cpp names.
+function(capstan_room name)
+  cmake_parse_arguments(ARG "" "" "DEPENDS;PRIVATE_LIBS;EXCLUDE" ${ARGN})
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  foreach(pattern IN LISTS ARG_EXCLUDE)
+    list(FILTER sources EXCLUDE REGEX "${pattern}")
+  endforeach()
+  add_library(capstan_${name} STATIC ${sources})
+  add_library(capstan::${name} ALIAS capstan_${name})
+  target_link_libraries(capstan_${name} PUBLIC $<BUILD_INTERFACE:capstan_options>)
+  foreach(dep IN LISTS ARG_DEPENDS)
+    target_link_libraries(capstan_${name} PUBLIC capstan::${dep})
+  endforeach()
+  if(ARG_PRIVATE_LIBS)
+    target_link_libraries(capstan_${name} PRIVATE ${ARG_PRIVATE_LIBS})
+  endif()
+endfunction()
+
+# capstan_test(<room> [DEPENDS room...] [LIBS lib...])
+#
+# One test program of tests/<room>/**/*_test.cpp.
+function(capstan_test room)
+  cmake_parse_arguments(ARG "" "" "DEPENDS;LIBS" ${ARGN})
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/tests/${room}/*_test.cpp)
+  if(NOT sources)
+    return()
+  endif()
+  string(REPLACE "/" "_" target ${room})
+  add_executable(${target}_test ${sources})
+  target_link_libraries(${target}_test PRIVATE
+    $<BUILD_INTERFACE:capstan_options> capstan_test_support GTest::gmock GTest::gtest_main ${ARG_LIBS})
+  target_precompile_headers(${target}_test REUSE_FROM capstan_test_pch)
+  foreach(dep IN LISTS ARG_DEPENDS)
+    target_link_libraries(${target}_test PRIVATE capstan::${dep})
+  endforeach()
+  gtest_discover_tests(${target}_test DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
+endfunction()

@@ -1,0 +1,1 @@
+capstan_test(base DEPENDS base)

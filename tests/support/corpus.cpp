@@ -1,0 +1,35 @@
+#include "tests/support/corpus.h"
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "planner/base/file.h"
+
+namespace capstan::testing {
+
+std::string corpus_folder() {
+  const char* named = std::getenv("CAPSTAN_CORPUS");
+  const std::filesystem::path folder =
+      named != nullptr ? std::filesystem::path(named)
+                       : std::filesystem::path(CAPSTAN_SOURCE_DIR) / ".." / "shared" / "corpus";
+  std::error_code ignored;
+  return std::filesystem::is_directory(folder, ignored) ? folder.lexically_normal().string() : std::string();
+}
+
+std::string slurp(const std::string& path) {
+  auto bytes = read_file(path);
+  EXPECT_TRUE(bytes) << path;
+  return bytes ? *std::move(bytes) : std::string();
+}
+
+ScratchFolder::ScratchFolder() {
+  std::string pattern = (std::filesystem::temp_directory_path() / "capstan-test-XXXXXX").string();
+  path_ = ::mkdtemp(pattern.data());
+}
+
+ScratchFolder::~ScratchFolder() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
+}
+
+}  // namespace capstan::testing
