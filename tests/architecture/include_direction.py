@@ -1,0 +1,165 @@
+#!/usr/bin/env python3
+"""Fails on any include against the order of the rooms, naming file and line.
+
+    include_direction.py [ROOT]
+
+The tables below are the architecture; DESIGN speaks, this decides. Tests are not looked at: they may
+include what they like.
+"""
+
+import os
+import re
+import sys
+
+# Folder -> room.
+FOLDERS = {
+    **{f"planner/{name}": name for name in (
+        "base geometry model p21 mechanics motion stock exchange sequence toolpath engagement optimise "
+        "output verify pipeline late facade app").split()},
+    "rules": "rules", "casebase": "casebase", "tooling": "tooling", "include/capstan": "public",
+}
+
+# Room -> what it may include besides itself.
+NOUNS = "base geometry model"
+ALLOWED = {
+    "base": "",
+    "geometry": "base",
+    "model": "base geometry",
+    "p21": NOUNS, "mechanics": NOUNS, "motion": NOUNS, "stock": NOUNS,
+    "rules": NOUNS, "casebase": NOUNS, "output": NOUNS,
+    "exchange": NOUNS + " p21",
+    "tooling": NOUNS + " p21 mechanics",
+    "sequence": NOUNS + " motion",
+    "toolpath": NOUNS + " stock",
+    "engagement": NOUNS + " stock",
+    "optimise": NOUNS + " mechanics motion",
+    "verify": NOUNS + " p21 exchange mechanics",
+    "pipeline": " ".join(r for r in FOLDERS.values() if r not in ("pipeline", "late", "facade", "app", "public")),
+    "late": NOUNS + " pipeline public",
+    "facade": " ".join(r for r in FOLDERS.values() if r != "app"),
+    "app": " ".join(FOLDERS.values()),
+    "public": "",
+}
+ALLOWED = {room: set(names.split()) for room, names in ALLOWED.items()}
+
+# Of these rooms only such headers: the checker shares numbers with the planner, never its reasoning.
+ONLY = {("verify", "mechanics"): re.compile(r"constants?\.h$")}
+
+# External library -> what its includes look like, and how many .cpp files may have them (None: any number).
+# No header may: it would hand the library's names and its compile time to everyone.
+FENCES = {
+    "NLopt": (r"nlopt\.h(pp)?$", 1),
+    "Ipopt": (r"(coin(-or)?/)?Ip[A-Z]\w*\.(hpp|h)$", 1),
+    "FLANN": (r"flann/", 1),
+    "Clipper": (r"(polyclipping/)?clipper\.hpp$", 1),
+    "SQLite": (r"sqlite3(ext)?\.h$", 1),
+    "CLI11": (r"CLI/", None),
+    "nlohmann-json": (r"nlohmann/", None),
+    "yaml-cpp": (r"yaml-cpp/", None),
+    "valijson": (r"valijson/", None),
+    "Eigen": (r"(unsupported/)?Eigen/", None),
+}
+FENCES = {name: (re.compile(pattern), limit) for name, (pattern, limit) in FENCES.items()}
+
+C_HEADERS = {"stdbool.h", "stddef.h", "stdint.h"}
+EXTERNAL_NAME = re.compile(r"\b(Eigen|nlohmann|YAML|CLI|tl|fmt|nlopt|Ipopt|flann|ClipperLib)::|\bsqlite3\b")
+INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)')
+
+
+def room_of(path):
+    """The room a path from the root lies in, or None."""
+    for folder, room in FOLDERS.items():
+        if path.startswith(folder + "/"):
+            return room
+    return None
+
+
+def fence_of(name):
+    return next((library for library, (pattern, _) in FENCES.items() if pattern.match(name)), None)
+
+
+def sources(root):
+    """The sources of all rooms, as paths from the root, in a fixed order."""
+    found = []
+    for top in sorted({folder.split("/")[0] for folder in FOLDERS}):
+        for folder, _, names in os.walk(os.path.join(root, top)):
+            for name in names:
+                if name.endswith((".h", ".hpp", ".cpp", ".cc", ".c")):
+                    found.append(os.path.relpath(os.path.join(folder, name), root).replace(os.sep, "/"))
+    return sorted(found)
+
+
+def fault_of_include(root, path, name, quoted):
+    """What is wrong with one include, or None; and the external library it belongs to, or None."""
+    room = room_of(path)
+    library = fence_of(name)
+    if library:
+        fault = None
+        if room == "public":
+            fault = f"an installed header names {library}"
+        elif not path.endswith(".cpp"):
+            fault = f"{library} belongs into a .cpp, not into a header"
+        return fault, library
+    # Installed headers are included as consumers do, or from the root.
+    own = "include/" + name if name.startswith("capstan/") else name
+    target = room_of(own)
+    if target is None:
+        if quoted:
+            return f'"{name}" is not a path from the root into a room', None
+        if room == "public" and not re.fullmatch(r"[a-z_0-9]+", name) and name not in C_HEADERS:
+            return f"an installed header includes <{name}>, which is not the standard library's", None
+        return None, None
+    if not os.path.exists(os.path.join(root, own)):
+        return f"{own} does not exist", None
+    if target == room:
+        return None, None
+    if target not in ALLOWED[room]:
+        return f"{room} may not include {target} ({name})", None
+    only = ONLY.get((room, target))
+    if only and not only.search(name):
+        return f"{room} may include of {target} only its constants, not {name}", None
+    return None, None
+
+
+def faults(root):
+    """All faults, as (path, line, text), in the order of the files."""
+    found = []
+    users = {}
+    for path in sources(root):
+        if room_of(path) is None:
+            found.append((path, 1, "lies in no room of the table"))
+            continue
+        with open(os.path.join(root, path), encoding="utf-8") as file:
+            for number, line in enumerate(file, 1):
+                if room_of(path) == "public" and EXTERNAL_NAME.search(line.split("//")[0]):
+                    found.append((path, number, "an installed header names an external type"))
+                match = INCLUDE.match(line)
+                if not match:
+                    continue
+                fault, library = fault_of_include(root, path, match[1] or match[2], match[1] is not None)
+                if fault:
+                    found.append((path, number, fault))
+                if library:
+                    users.setdefault(library, {}).setdefault(path, number)
+    for library, places in users.items():
+        limit = FENCES[library][1]
+        if limit is not None and len(places) > limit:
+            for path, number in list(places.items()):
+                found.append((path, number, f"{library} is included by {len(places)} files, {limit} is allowed"))
+    return found
+
+
+def main(root):
+    looked_at = len(sources(root))
+    if looked_at == 0:
+        print(f"{root}: there is nothing to look at")
+        return 1
+    found = faults(root)
+    for path, number, text in found:
+        print(f"{path}:{number}: {text}")
+    print(f"{looked_at} files, {len(found)} faults")
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1] if len(sys.argv) > 1 else "."))
