@@ -1,0 +1,57 @@
+#include "planner/geometry/profile.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace capstan::geometry {
+
+double CutterProfile::height(double r_mm) const {
+  if (r_mm > radius_mm) return std::numeric_limits<double>::infinity();
+  for (const ProfilePiece& p : pieces) {
+    if (r_mm > p.r1_mm) continue;
+    if (p.radius_mm > 0.0) {
+      const double d = std::min(std::abs(r_mm - p.rc_mm), p.radius_mm);
+      return p.zc_mm - std::sqrt((p.radius_mm - d) * (p.radius_mm + d));
+    }
+    return p.z0_mm + p.slope * (r_mm - p.r0_mm);
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+CutterProfile flat_profile(double diameter_mm, double cutting_length_mm) {
+  return bull_profile(diameter_mm, 0.0, cutting_length_mm);
+}
+
+CutterProfile ball_profile(double diameter_mm, double cutting_length_mm) {
+  return bull_profile(diameter_mm, 0.5 * diameter_mm, cutting_length_mm);
+}
+
+CutterProfile bull_profile(double diameter_mm, double corner_radius_mm, double cutting_length_mm) {
+  const double radius = 0.5 * diameter_mm;
+  const double corner = std::clamp(corner_radius_mm, 0.0, radius);
+  CutterProfile out{.pieces = {}, .radius_mm = radius, .cutting_length_mm = cutting_length_mm};
+  if (corner < radius) out.pieces.push_back({.r0_mm = 0.0, .r1_mm = radius - corner});
+  if (corner > 0.0) {
+    out.pieces.push_back({.r0_mm = radius - corner,
+                          .r1_mm = radius,
+                          .radius_mm = corner,
+                          .rc_mm = radius - corner,
+                          .zc_mm = corner});
+  }
+  return out;
+}
+
+CutterProfile cone_profile(double diameter_mm, double point_angle_rad, double cutting_length_mm,
+                           double tip_diameter_mm) {
+  const double radius = 0.5 * diameter_mm;
+  const double tip = std::clamp(0.5 * tip_diameter_mm, 0.0, radius);
+  CutterProfile out{.pieces = {}, .radius_mm = radius, .cutting_length_mm = cutting_length_mm};
+  if (tip > 0.0) out.pieces.push_back({.r0_mm = 0.0, .r1_mm = tip});
+  if (tip < radius) {
+    out.pieces.push_back({.r0_mm = tip, .r1_mm = radius, .slope = 1.0 / std::tan(0.5 * point_angle_rad)});
+  }
+  return out;
+}
+
+}  // namespace capstan::geometry

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <vector>
+
+namespace capstan::geometry {
+
+/// The outline of a rotating cutter in its axial half-plane: height above the tip as a function of the
+/// distance r from the axis, for the side that faces the work. One description for every cutter.
+///
+///     piece: z(r) = z0 + slope (r - r0)                           straight
+///            z(r) = zc - sqrt(radius^2 - (r - rc)^2)              arc (radius > 0), convex towards the work
+///
+/// Units  mm. Pieces cover [0, R] without gaps, z(0) = 0 unless the centre does not cut, z does not fall.
+struct ProfilePiece {
+  double r0_mm = 0.0;
+  double r1_mm = 0.0;
+  double z0_mm = 0.0;      ///< straight: height at r0
+  double slope = 0.0;      ///< straight: dz/dr
+  double radius_mm = 0.0;  ///< arc when > 0
+  double rc_mm = 0.0;
+  double zc_mm = 0.0;
+  friend bool operator==(const ProfilePiece&, const ProfilePiece&) = default;
+};
+
+struct CutterProfile {
+  std::vector<ProfilePiece> pieces;
+  double radius_mm = 0.0;          ///< R, the largest cutting radius
+  double cutting_length_mm = 0.0;  ///< height above the tip up to which the flanks cut (APMX or flute length)
+  /// Height of the cutter's surface above its tip at distance r; +inf outside R.
+  [[nodiscard]] double height(double r_mm) const;
+  friend bool operator==(const CutterProfile&, const CutterProfile&) = default;
+};
+
+[[nodiscard]] CutterProfile flat_profile(double diameter_mm, double cutting_length_mm);
+[[nodiscard]] CutterProfile ball_profile(double diameter_mm, double cutting_length_mm);
+/// Corner radius 0: flat; R: ball.
+[[nodiscard]] CutterProfile bull_profile(double diameter_mm, double corner_radius_mm,
+                                         double cutting_length_mm);
+/// A cone with the given full point angle (rad) up to the diameter: drills, countersinks, vee cutters.
+/// `tip_diameter_mm`: flat at the tip (0: sharp).
+[[nodiscard]] CutterProfile cone_profile(double diameter_mm, double point_angle_rad, double cutting_length_mm,
+                                         double tip_diameter_mm = 0.0);
+
+}  // namespace capstan::geometry
