@@ -1,0 +1,70 @@
+#pragma once
+
+/// The empirical numbers of this room, each with its source. `verify` may use this header and nothing
+/// else of the room: its bounds are then computed apart from ours, from the same constants.
+namespace capstan::mechanics {
+
+// --- Tool materials ---------------------------------------------------------------------------------
+
+/// Young's modulus of cemented carbide (WC with about 10 % Co), N/mm2.
+/// Source: 580 GPa, calculatorhub.com "End Mill Deflection Calculator". Grades run from about 550 (more
+/// cobalt) to 650 (less); the value taken is on the soft side, so that deflection is not understated.
+inline constexpr double kCarbideYoungsModulusNMm2 = 580e3;
+
+/// Young's modulus of high-speed steel, N/mm2.
+/// Source: 200 GPa, the same page; tool steels lie between 200 and 220.
+inline constexpr double kHssYoungsModulusNMm2 = 200e3;
+
+/// Diameter of the plain cylinder that bends like the fluted part, divided by the cutting diameter.
+/// Source: Kops & Vo 1990, "Determination of the Equivalent Diameter of an End Mill Based on its
+/// Compliance", CIRP Annals 39(1): "approximately 80 % of the cutter diameter for both two- and
+/// four-flute end mills".
+inline constexpr double kFluteEquivalentDiameterRatio = 0.8;
+
+// --- Cutting force ----------------------------------------------------------------------------------
+
+/// Radial force of a milling tooth divided by its tangential force, as used for peak force with Kienzle
+/// data, which speak of the tangential force only.
+/// Source: largest Krc/Ktc (788.83 / 1319.41 = 0.598) of the six measured sets for aluminium alloys in
+/// Chin. J. Mech. Eng. 2021, doi 10.1186/s10033-021-00536-9, table 5; smallest there 0.16. Chips much
+/// thinner than 0.03 mm exceed it (edge force), see kForceUncertaintyFactor.
+inline constexpr double kRadialToTangentialRatio = 0.6;
+
+/// By how much a force computed from tabulated coefficients may be too small.
+/// Source: sqrt(1319.41 / 600.46) = 1.48: half the spread (in logarithms) of Ktc for one alloy, Al 7075,
+/// in the same table 5.
+inline constexpr double kForceUncertaintyFactor = 1.5;
+
+/// Growth of the cutting force from a sharp to a worn edge.
+/// Source: Dietrich & Tschaetsch, Praxis der Zerspantechnik: K_ver = 1.3.
+inline constexpr double kWearForceFactor = 1.3;
+
+/// Smallest and largest chip thickness for which Kienzle coefficients are commonly measured, mm. Below,
+/// the law is extrapolated (it then gives more force, not less); the edge rubs rather than cuts.
+/// Source: default, unsourced (order of magnitude of Kienzle's turning tests).
+inline constexpr double kKienzleMinChipThicknessMm = 0.01;
+inline constexpr double kKienzleMaxChipThicknessMm = 2.5;
+
+// --- Machine ----------------------------------------------------------------------------------------
+
+/// Cutting power divided by motor power where the machine does not state it.
+/// Source: 0.8 in Mitsubishi Materials' worked example of milling power; Kyocera's catalogue 2021 gives
+/// 0.7 to 0.8.
+inline constexpr double kDefaultSpindleEfficiency = 0.8;
+
+// --- Drilling, reaming, tapping ---------------------------------------------------------------------
+
+/// Thrust of a twist drill divided by D/2 f kc sin(kappa).
+/// Source: Iscar, Rotating Tools catalogue 2017, p. 601: Ff = 0.63 D/2 f kc sin k kf, kf = 1 (the general
+/// case; 0.85 for that maker's solid carbide drills is not taken).
+inline constexpr double kDrillThrustFactor = 0.63;
+
+/// Reaming torque over the torque of the chips alone: rubbing of the margins. Default, unsourced.
+inline constexpr double kReamingFrictionFactor = 2.0;
+
+/// Tapping torque over that of the thread's cross-section.
+/// Source: Yamawa, catalogue 2021, p. 639, table 2: the largest K there (1.5P straight flutes in brass);
+/// 0.75 is the smallest, 1.35 the usual hand tap in steel.
+inline constexpr double kTappingTorqueFactor = 1.68;
+
+}  // namespace capstan::mechanics

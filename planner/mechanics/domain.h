@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cmath>
+#include <initializer_list>
+#include <string>
+
+#include "planner/base/number.h"
+#include "planner/base/result.h"
+
+namespace capstan::mechanics {
+
+/// A value and the name it has in its struct, for the checks at the doors.
+struct Named {
+  const char* name;
+  double value;
+};
+
+/// Fails with MECH-DOMAIN, naming the first value that is not finite and greater than zero.
+[[nodiscard]] inline Status check_positive(std::initializer_list<Named> values) {
+  for (const Named& v : values) {
+    if (std::isfinite(v.value) && v.value > 0.0) continue;
+    return fail(Diagnostic{
+        .code = "MECH-DOMAIN",
+        .message = std::string(v.name) + " is " + (std::isfinite(v.value) ? shortest(v.value) : "not finite"),
+        .path = v.name,
+        .expected = "a finite value greater than zero"});
+  }
+  return {};
+}
+
+/// Fails with MECH-DOMAIN unless low <= value <= high.
+[[nodiscard]] inline Status check_range(const Named& v, double low, double high) {
+  if (v.value >= low && v.value <= high) return {};
+  return fail(Diagnostic{
+      .code = "MECH-DOMAIN",
+      .message = std::string(v.name) + " is " + (std::isfinite(v.value) ? shortest(v.value) : "not finite"),
+      .path = v.name,
+      .expected = "a value from " + shortest(low) + " to " + shortest(high)});
+}
+
+}  // namespace capstan::mechanics

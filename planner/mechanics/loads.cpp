@@ -1,0 +1,64 @@
+#include "planner/mechanics/loads.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "planner/mechanics/constants.h"
+#include "planner/mechanics/domain.h"
+#include "planner/mechanics/force.h"
+#include "planner/mechanics/immersion.h"
+
+namespace capstan::mechanics {
+namespace {
+
+Status check(const MillingCut& cut, const WorkMaterial& work) {
+  constexpr double kSteepestHelixRad = 1.3962634015954636;  // 80 degrees: tan stays moderate
+  if (auto s = check_positive({{"ap_mm", cut.ap_mm},
+                               {"ae_mm", cut.ae_mm},
+                               {"fz_mm", cut.fz_mm},
+                               {"n_rpm", cut.n_rpm},
+                               {"cutting_diameter_mm", cut.cutting_diameter_mm},
+                               {"teeth", static_cast<double>(cut.teeth)},
+                               {"kc11_n_mm2", work.kc11_n_mm2}});
+      !s) {
+    return s;
+  }
+  if (auto s = check_range({"ae_mm", cut.ae_mm}, 0.0, cut.cutting_diameter_mm); !s) return s;
+  if (auto s = check_range({"helix_rad", cut.helix_rad}, 0.0, kSteepestHelixRad); !s) return s;
+  if (auto s = check_range({"corner_radius_mm", cut.corner_radius_mm}, 0.0, 0.5 * cut.cutting_diameter_mm);
+      !s) {
+    return s;
+  }
+  return check_range({"mc", work.mc}, 0.0, 0.999);
+}
+
+}  // namespace
+
+Result<Loads> milling_loads(const MillingCut& cut, const WorkMaterial& work, const ToolStiffness& tool) {
+  if (auto s = check(cut, work); !s) return fail(s.error());
+  const auto compliance = tip_compliance_mm_n(tool);
+  if (!compliance) return fail(compliance.error());
+
+  const double corner = cut.ball ? 0.5 * cut.cutting_diameter_mm : cut.corner_radius_mm;
+  const double diameter = effective_diameter_mm(cut.ap_mm, cut.cutting_diameter_mm, corner);
+  const double width = std::min(cut.ae_mm, diameter);
+  const EdgeAngle edge = edge_angle(cut.ap_mm, corner);
+
+  Loads loads;
+  loads.h_max_mm = max_chip_thickness_mm(cut.fz_mm, width, diameter, edge.max_sin_kappa);
+  loads.h_mean_mm = mean_chip_thickness_mm(cut.fz_mm, width, diameter, edge.mean_sin_kappa);
+  loads.mrr_mm3_min = removal_rate_mm3_min(cut.ap_mm, cut.ae_mm, cut.fz_mm * cut.teeth * cut.n_rpm);
+  loads.power_w = cutting_power_w(loads.mrr_mm3_min, specific_force_n_mm2(work, loads.h_mean_mm));
+  loads.torque_nm = spindle_torque_nm(loads.power_w, cut.n_rpm);
+  loads.mean_tangential_force_n = 2000.0 * loads.torque_nm / diameter;
+  for (const CutDirection direction : {CutDirection::kUp, CutDirection::kDown}) {
+    const double peak =
+        peak_kienzle_force_n(work, kRadialToTangentialRatio, cut.teeth, cut.ap_mm, cut.fz_mm, diameter,
+                             cut.helix_rad, edge.mean_sin_kappa, immersion_arc(width, diameter, direction));
+    loads.peak_force_n = std::max(loads.peak_force_n, peak);
+  }
+  loads.deflection_mm = loads.peak_force_n * *compliance;
+  return loads;
+}
+
+}  // namespace capstan::mechanics
