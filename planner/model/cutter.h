@@ -1,0 +1,91 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "planner/geometry/profile.h"
+#include "planner/model/attribute.h"
+#include "planner/model/nouns/enumerations.h"
+
+namespace capstan::model {
+
+struct MachiningTool;
+
+/// Classes of cutter the planner tells apart (ISO 14649-111 tool bodies).
+enum class CutterClass : std::uint8_t {
+  kEndmill,
+  kBullnoseEndmill,
+  kBallEndmill,
+  kFacemill,
+  kTwistDrill,
+  kCenterDrill,
+  kSpotDrill,
+  kReamer,
+  kTap,
+  kThreadMill,
+  kBoringTool,
+  kCountersink,
+  kCounterbore,
+  kChamferMill,
+  kTSlotMill,
+  kDovetailMill,
+};
+[[nodiscard]] std::string_view to_text(CutterClass c);  ///< "endmill", "twist_drill", ...
+[[nodiscard]] std::optional<CutterClass> cutter_class_from_text(std::string_view text);
+
+enum class Substrate : std::uint8_t { kHss, kCarbide };
+[[nodiscard]] std::string_view to_text(Substrate s);
+[[nodiscard]] std::optional<Substrate> substrate_from_text(std::string_view text);
+
+/// Start values for one material group, from a catalogue or the shipped table.
+struct CuttingPreset {
+  std::string material_group;  ///< ISO 513 letter (P, M, K, N, S, H) or a material's name
+  double vc_m_min = 0.0;
+  double fz_mm = 0.0;  ///< per tooth; drills, reamers: per revolution divided by teeth
+  std::string source;
+  friend bool operator==(const CuttingPreset&, const CuttingPreset&) = default;
+};
+
+/// A cutter in its holder: what is put into the spindle. mm, rad. Field names in words; ISO 13399 symbol
+/// behind.
+struct Cutter {
+  std::string id;  ///< unique in its library
+  std::string description;
+  CutterClass cutter_class = CutterClass::kEndmill;
+  Substrate substrate = Substrate::kCarbide;
+  double cutting_diameter_mm = 0.0;  ///< DC
+  double corner_radius_mm = 0.0;     ///< RE
+  double point_angle_rad = 0.0;      ///< SIG, full angle; 0 when the tip is flat
+  double tip_diameter_mm = 0.0;  ///< flat at the tip of countersinks, chamfer mills; pilot of centre drills
+  double maximum_depth_of_cut_mm = 0.0;  ///< APMX, flute length for drills (LCF)
+  double usable_length_mm = 0.0;         ///< LU, reach below the holder or a thicker neck
+  double stick_out_mm = 0.0;             ///< LPR, from the holder's face to the tip
+  double functional_length_mm = 0.0;     ///< LF, gage line to tip: the tool length offset
+  double shank_diameter_mm = 0.0;        ///< DMM
+  double holder_diameter_mm = 0.0;       ///< largest diameter of the holder near the tool; 0 unknown
+  int teeth = 0;                         ///< ZEFF
+  double helix_rad = 0.0;                ///< FHA
+  double lead_angle_rad = 0.0;           ///< PSIR of face mills, 0: square shoulder
+  double thread_pitch_mm = 0.0;          ///< TP
+  bool centre_cutting = false;           ///< CCC
+  double maximum_ramp_angle_rad = 0.0;   ///< 0: must not ramp
+  Hand hand = Hand::kRight;              ///< HAND of cut
+  bool coolant_through = false;
+  double maximum_speed_rpm = 0.0;           ///< RPMX; 0 unknown
+  double life_min = 0.0, price = 0.0;       ///< 0 unknown
+  double fz_min_mm = 0.0, fz_max_mm = 0.0;  ///< chip thickness range the maker allows; 0 unknown
+  std::vector<CuttingPreset> presets;
+  std::vector<std::pair<std::string, std::string>>
+      sources;     ///< (field, "stated: ...", "derived: ...", "default: ...")
+  int pocket = 0;  ///< tool number in the machine; 0 not loaded
+  bool operator==(const Cutter&) const = default;
+};
+
+/// The axisymmetric outline that cuts.
+[[nodiscard]] geometry::CutterProfile profile_of(const Cutter& c);
+/// Height of the conical or rounded tip: how far the tip runs ahead of the full diameter, mm.
+[[nodiscard]] double tip_length(const Cutter& c);
+
+}  // namespace capstan::model

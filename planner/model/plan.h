@@ -1,0 +1,114 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "planner/base/result.h"
+#include "planner/geometry/mesh.h"
+#include "planner/geometry/vec.h"
+#include "planner/model/cutter.h"
+#include "planner/model/cutter_path.h"
+#include "planner/model/decision.h"
+#include "planner/model/machine.h"
+#include "planner/model/material.h"
+#include "planner/model/model.h"
+#include "planner/model/nouns/forward.h"
+
+namespace capstan::model {
+
+/// A limit that stopped an optimised number from going further.
+struct ActiveConstraint {
+  std::string name;  ///< "spindle_torque", "tool_deflection", "maximum_feed_per_tooth", ...
+  double value = 0.0, limit = 0.0;
+  std::string unit;
+  double shadow_price = 0.0;  ///< seconds saved per 1 % more of the limit
+  friend bool operator==(const ActiveConstraint&, const ActiveConstraint&) = default;
+};
+
+/// Peak loads of a step.
+struct StepLoads {
+  double peak_force_n = 0.0, torque_nm = 0.0, power_w = 0.0, deflection_mm = 0.0, chip_thickness_mm = 0.0;
+  double mrr_mm3_min = 0.0;
+  friend bool operator==(const StepLoads&, const StepLoads&) = default;
+};
+
+/// What planning computed for one executable step, beside what its nouns hold.
+struct StepResult {
+  Ref<Executable> step;                                ///< machining_workingstep or rapid_movement
+  std::size_t setup = 0;                               ///< index into Plan::setups
+  std::string cutter_id;                               ///< into Plan::cutters
+  double axial_depth_mm = 0.0, radial_depth_mm = 0.0;  ///< as cut
+  double vc_m_min = 0.0, fz_mm = 0.0, spindle_rpm = 0.0, feed_mm_min = 0.0;  ///< before the schedule
+  bool flood = false, mist = false;
+  std::shared_ptr<const CutterPath> path;
+  std::shared_ptr<const SectionSeries> sections;
+  std::shared_ptr<const FeedSchedule> schedule;
+  double cutting_s = 0.0, rapid_s = 0.0;
+  StepLoads loads;
+  std::vector<ActiveConstraint> active;
+};
+
+/// One clamping of the workpiece.
+struct SetupResult {
+  Ref<Setup> setup;
+  std::string work_offset = "G54";
+  double security_z_mm = 0.0;  ///< in the set-up's frame: rapids in XY happen here or above
+};
+
+struct Unplanned {
+  AnyRef feature;
+  std::string reason;
+};
+
+/// A default that nobody asked for by name, or an input with its identity.
+struct Provenance {
+  std::string what, value, source;  ///< e.g. "machine", "generic_vmc", "built-in default"
+  friend bool operator==(const Provenance&, const Provenance&) = default;
+};
+
+/// What is wrong with a plan or a program: a property of safety that does not hold.
+struct Finding {
+  int property = 0;  ///< number of the property
+  std::string code;  ///< "CHK-GOUGE"
+  Severity severity = Severity::kError;
+  std::string step;     ///< persistent id of the workingstep; empty: whole plan
+  long move = -1;       ///< move index in the path, or line of the program; -1 none
+  std::string message;  ///< with the numbers
+  friend bool operator==(const Finding&, const Finding&) = default;
+};
+
+/// The raw piece: a box (or, later, a mesh), in workpiece coordinates.
+struct Stock {
+  geometry::Box3 box;
+  std::string source;                        ///< "given: BLOCK", "inferred from features", "--stock"
+  std::optional<double> cylinder_radius_mm;  ///< about z through the box's centre
+};
+
+/// The whole plan, a value. `model` holds the nouns, the rest what was decided and computed.
+struct Plan {
+  Model model;
+  Ref<Project> project;
+  std::string file_name;  ///< as the user named it
+  std::string header_description, header_time_stamp;
+  std::vector<std::string> header_authors, header_organizations;
+  std::vector<AnyRef> kept;  ///< instances that nothing references but the file had, in order
+  Ledger ledger;
+  Machine machine;
+  WorkMaterial material;
+  Stock stock;
+  std::shared_ptr<const geometry::Mesh>
+      target_mesh;              ///< freeform parts: the finished surface, workpiece frame
+  std::vector<Cutter> cutters;  ///< used, by pocket; Cutter::pocket is the T number
+  std::vector<SetupResult> setups;
+  std::vector<StepResult> steps;  ///< in the order they are executed
+  std::vector<Unplanned> unplanned;
+  std::vector<Provenance> provenance;
+};
+
+/// The step's persistent id: its own, else its its_id, made unique by position.
+[[nodiscard]] std::string step_id(const Plan& plan, const StepResult& step);
+[[nodiscard]] const Cutter* find_cutter(const Plan& plan, std::string_view id);
+
+}  // namespace capstan::model

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "planner/model/cutter.h"
+#include "planner/model/decision.h"
+#include "planner/model/nouns/forward.h"
+
+namespace capstan::model {
+
+/// What an operation needs of its tool. A zero means "does not matter".
+struct ToolRequirement {
+  std::vector<CutterClass> classes;  ///< in order of preference
+  double diameter_min_mm = 0.0, diameter_max_mm = 0.0;
+  double diameter_exact_mm = 0.0;  ///< drills, reamers, taps: this size (within diameter_tolerance_mm)
+  double diameter_tolerance_mm = 0.0;
+  double reach_mm = 0.0;              ///< usable length at least
+  double depth_of_cut_mm = 0.0;       ///< flute length at least
+  double corner_radius_max_mm = 0.0;  ///< with corner_radius_limited
+  bool corner_radius_limited = false;
+  double corner_radius_exact_mm = -1.0;  ///< >= 0: ball or bull of this radius
+  bool centre_cutting = false;           ///< or a ramp the tool allows
+  double point_angle_rad = 0.0;
+  double thread_pitch_mm = 0.0;
+  std::string words;  ///< "a 6 mm end mill with 22 mm reach"
+  bool operator==(const ToolRequirement&) const = default;
+};
+
+enum class StrategyKind : std::uint8_t {
+  kNone,
+  kBidirectional,
+  kUnidirectional,
+  kContourParallel,
+  kContourSpiral,
+  kContourBidirectional,
+  kCenterMilling,
+};
+
+/// One step that a rule proposes for a feature.
+struct ProposedStep {
+  AnyRef feature;
+  TypeId operation = TypeId::kNone;  ///< concrete operation kind, e.g. kDrilling
+  std::string name;                  ///< its_id of the workingstep
+  ToolRequirement tool;
+  StrategyKind strategy = StrategyKind::kNone;
+  bool climb = true;
+  double allowance_side_mm = 0.0, allowance_bottom_mm = 0.0;
+  double start_diameter_mm = 0.0;  ///< hole already there (previous_diameter)
+  double depth_mm = 0.0;           ///< drilling family: depth of the full diameter below the feature's top
+  bool peck = false;
+  double dwell_s = 0.0;
+  bool coolant = true;
+  Reason why;
+  std::vector<std::size_t> after;  ///< indices in the same proposal that must come before
+  int priority = 0;                ///< alternatives: lower is tried first
+};
+
+/// What rules say about one feature: alternatives in order of preference, or why there is none.
+struct Proposal {
+  AnyRef feature;
+  std::vector<std::vector<ProposedStep>> chains;
+  std::vector<Rejected> rejected;
+  std::string cannot;  ///< set when no chain is proposed: the reason, for people
+};
+
+/// A cutter that meets a requirement, with start values, ranked.
+struct Candidate {
+  Cutter cutter;
+  double vc_m_min = 0.0, fz_mm = 0.0;
+  double score = 0.0;  ///< lower is better
+  Reason why;
+};
+struct Selection {
+  std::vector<Candidate> ranked;
+  std::vector<Rejected> rejected;
+  std::string would_fit;  ///< when nothing fits: what would
+};
+
+/// A case as planning uses it: what was cut once, near to what is asked.
+struct Precedent {
+  std::string case_id;
+  double distance = 0.0;
+  int neighbours = 0;
+  std::string provenance;  ///< "measured", "simulated", "entered"
+  double vc_m_min = 0.0, fz_mm = 0.0, ap_mm = 0.0, ae_mm = 0.0;
+};
+
+}  // namespace capstan::model
