@@ -85,14 +85,23 @@ class Hasher {
     text(v.text);
   }
 
+  // What is decided about these is decided one by one: a reference to them says only which kind it is.
+  static bool stands_for_itself(TypeId t) {
+    return is_a(t, TypeId::kExecutable) || is_a(t, TypeId::kOperation) ||
+           is_a(t, TypeId::kManufacturingFeature) || is_a(t, TypeId::kWorkpiece) ||
+           is_a(t, TypeId::kToolpathList);
+  }
+
   // Depth is bounded, so that circles of references end.
   void reference(AnyRef r, int depth) {
     if (!r.set()) return text("$");
     const NounType& type = noun_type(r.type);
     text(type.keyword);
-    if (depth >= kHashDepth) return;
+    if (depth >= kHashDepth || stands_for_itself(r.type)) return;
     const void* object = model_.object(r);
-    for (const Attribute& a : type.attributes) attribute(a, object, depth + 1);
+    for (const Attribute& a : type.attributes) {
+      if (a.in_iso14649) attribute(a, object, depth + 1);  // a value is the same in every file that holds it
+    }
   }
 
   const Model& model_;
