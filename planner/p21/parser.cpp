@@ -1,0 +1,473 @@
+#include "planner/p21/parser.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstring>
+
+#include "planner/p21/number.h"
+#include "planner/p21/text.h"
+
+namespace capstan::p21::detail {
+
+Parser::Parser(Store& store, const Limits& limits, Job& job)
+    : store_(store),
+      limits_(limits),
+      job_(job),
+      begin_(store.text.data()),
+      end_(store.text.data() + store.text.size()),
+      at_{.p = begin_} {}
+
+void Parser::skip_spaces() {
+  for (;;) {
+    const char c = *at_.p;
+    if (c == ' ') {
+      ++at_.p;
+    } else if (c == '\n') {
+      ++at_.p;
+      ++at_.line;
+    } else if (class_of(c) != Class::kSpace || !skip_unusual()) {
+      return;
+    }
+  }
+}
+
+bool Parser::skip_unusual() {
+  const char* p = at_.p;
+  if (*p == '\r') {
+    if (p[1] != '\n') {
+      ++at_.line;
+      if (!warned_bare_cr_) warn("P21-ENCODING", "lines end in a bare carriage return");
+      warned_bare_cr_ = true;
+    }
+    ++at_.p;
+    return true;
+  }
+  if (*p == '\\') {  // \N\ and \F\: new line and form feed of a printout
+    if ((p[1] != 'N' && p[1] != 'F') || p[2] != '\\') return false;
+    at_.p += 3;
+    return true;
+  }
+  if (*p != '/') {
+    ++at_.p;
+    return true;
+  }
+  if (p[1] != '*') return false;
+  const std::string_view rest(p + 2, static_cast<std::size_t>(end_ - p - 2));
+  const std::size_t length = rest.find("*/");
+  if (length == std::string_view::npos) {
+    fault({.message = "a comment is not closed", .expected = "*/"});
+    stop_ = true;
+    at_.p = end_;
+    return true;
+  }
+  at_.line +=
+      static_cast<std::uint32_t>(std::count(rest.begin(), rest.begin() + static_cast<long>(length), '\n'));
+  at_.p += length + 4;
+  return true;
+}
+
+bool Parser::unexpected(const char* expected) {
+  std::string what = "the file ends here";
+  if (!at_end()) {
+    what = *at_.p == '\0' ? "a NUL byte" : name_of(*at_.p) + " does not belong here";
+  }
+  fault({.message = std::move(what), .expected = expected});
+  return false;
+}
+
+void Parser::resync() {
+  const auto* found =
+      static_cast<const char*>(std::memchr(at_.p, ';', static_cast<std::size_t>(end_ - at_.p)));
+  const char* to = found == nullptr ? end_ : found + 1;
+  at_.line += static_cast<std::uint32_t>(std::count(at_.p, to, '\n'));
+  at_.p = to;
+}
+
+bool Parser::semicolon() {
+  skip();
+  if (*at_.p != ';') return unexpected("';'");
+  ++at_.p;
+  return true;
+}
+
+bool Parser::keyword(std::uint32_t& start, std::uint32_t& length) {
+  const char* p = at_.p;
+  const char* const first = p;
+  if (*p == '!') ++p;
+  if (word_class(*p) == 0 || is_digit(*p)) {
+    at_.p = p;
+    return unexpected("a keyword");
+  }
+  unsigned seen = 0;
+  while (const unsigned c = word_class(*p)) {
+    seen |= c;
+    ++p;
+  }
+  start = offset(first);
+  length = static_cast<std::uint32_t>(p - first);
+  if ((seen & 2U) != 0) {
+    for (std::size_t i = start; i < start + length; ++i) {
+      const char c = store_.text[i];
+      if (c >= 'a' && c <= 'z') store_.text[i] = static_cast<char>(c - 'a' + 'A');
+    }
+    if (!warned_lower_case_)
+      warn("P21-SYNTAX", "keywords and enumerations in lower case are read as upper case");
+    warned_lower_case_ = true;
+  }
+  at_.p = p;
+  return true;
+}
+
+// ------------------------------------------------------------------------------------ parameters
+
+bool Parser::open(std::uint32_t typed) {
+  if (frames_.size() >= limits_.depth) {
+    fault({.code = "P21-LIMIT",
+           .message = "parameters are nested deeper than " + std::to_string(limits_.depth)});
+    return false;
+  }
+  frames_.push_back({static_cast<std::uint32_t>(values_.size()), typed});
+  return true;
+}
+
+Node Parser::close() {
+  const Frame frame = frames_.back();
+  frames_.pop_back();
+  const std::size_t count = values_.size() - frame.start;
+  const std::size_t start = store_.nodes.size();
+  store_.nodes.insert(store_.nodes.end(), values_.begin() + frame.start, values_.end());
+  values_.resize(frame.start);
+  return make_node(frame.typed != 0 ? Tag::kTyped : Tag::kList, start, count);
+}
+
+bool Parser::parameters(Node& out) {
+  frames_.clear();
+  values_.clear();
+  if (!open(0)) return false;
+  ++at_.p;
+  bool fresh = true;  // right behind a '(', where an empty list may end
+  for (;;) {
+    skip();
+    const char c = *at_.p;
+    const Class kind = class_of(c);
+    if (kind == Class::kOpen) {
+      if (!open(0)) return false;
+      ++at_.p;
+      fresh = true;
+      continue;
+    }
+    if (kind == Class::kLetter) {
+      std::uint32_t start = 0;
+      std::uint32_t length = 0;
+      if (!keyword(start, length)) return false;
+      skip();
+      if (*at_.p != '(') return unexpected("'(' behind the keyword of a typed parameter");
+      if (!open(1)) return false;
+      values_.push_back(make_node(Tag::kKeyword, start, length));
+      ++at_.p;
+      fresh = false;
+      continue;
+    }
+    if (!(fresh && c == ')') && !simple_value(c)) return false;
+    fresh = false;
+    for (;;) {
+      skip();
+      const char d = *at_.p;
+      if (d == ',') {
+        if (frames_.back().typed != 0) return unexpected("')', for a typed parameter holds one value");
+        if (values_.size() - frames_.back().start >= limits_.list_elements) {
+          fault({.code = "P21-LIMIT",
+                 .message = "a list has more than " + std::to_string(limits_.list_elements) + " elements"});
+          return false;
+        }
+        ++at_.p;
+        break;
+      }
+      if (d != ')') return unexpected("',' or ')'");
+      ++at_.p;
+      const Node node = close();
+      if (frames_.empty()) {
+        out = node;
+        return true;
+      }
+      values_.push_back(node);
+    }
+  }
+}
+
+bool Parser::simple_value(char first) {
+  Node node = 0;
+  bool good = false;
+  switch (class_of(first)) {
+    case Class::kDigit:
+      good = number(node);
+      break;
+    case Class::kQuote:
+      good = string(node);
+      break;
+    case Class::kHash:
+      good = reference(node);
+      break;
+    case Class::kDot:
+      good = enumeration(node);
+      break;
+    case Class::kDoubleQuote:
+      good = binary(node);
+      break;
+    case Class::kDollar:
+    case Class::kStar:
+      node = make_node(first == '$' ? Tag::kOmitted : Tag::kDerived, offset(at_.p), 1);
+      ++at_.p;
+      good = true;
+      break;
+    default:
+      if (first == '@') {
+        fault({.code = "P21-UNSUPPORTED", .message = "value instances (@) of edition 3 are not supported"});
+        return false;
+      }
+      return unexpected("a parameter");
+  }
+  if (good) values_.push_back(node);
+  return good;
+}
+
+bool Parser::number(Node& out) {
+  const char* const start = at_.p;
+  const char* p = start;
+  if (*p == '+' || *p == '-') ++p;
+  const char* const digits = p;
+  p = skip_digits(p);
+  if (p == digits) {
+    at_.p = p;
+    return unexpected("a digit behind the sign");
+  }
+  bool real = false;
+  bool wide = false;  // may leave the range of its type
+  if (*p == '.') {
+    real = true;
+    p = skip_digits(p + 1);
+    wide = p - start > 256;
+  } else {
+    wide = p - start > 18;
+  }
+  if (*p == 'E' || *p == 'e') {
+    if (!real) warn("P21-NUMBER", "a number with an exponent has no decimal point; taken as a real");
+    if (*p == 'e') warn("P21-NUMBER", "an exponent is marked by a small e");
+    real = true;
+    ++p;
+    if (*p == '+' || *p == '-') ++p;
+    const char* const exponent = p;
+    p = skip_digits(p);
+    if (p == exponent) {
+      at_.p = p;
+      return unexpected("the digits of an exponent");
+    }
+    wide = p - exponent > 2 || p - start > 200;
+  }
+  at_.p = p;
+  out = make_node(real ? Tag::kReal : Tag::kInteger, offset(start),
+                  static_cast<std::uint64_t>(p - start) & kMaxLength);
+  return !wide || check_range(start, real);
+}
+
+bool Parser::check_range(const char* start, bool real) {
+  const std::string_view lexeme(start, static_cast<std::size_t>(at_.p - start));
+  if (lexeme.size() > limits_.number_bytes) {
+    fault({.code = "P21-LIMIT", .message = "a number has " + std::to_string(lexeme.size()) + " characters"});
+    return false;
+  }
+  if (real) {
+    const double value = to_real(lexeme);
+    if (!std::isfinite(value)) {
+      fault({.code = "P21-NUMBER",
+             .message = std::string(lexeme.substr(0, 40)) + " is beyond the range of a real"});
+      return false;
+    }
+    const std::string_view mantissa = lexeme.substr(0, lexeme.find_first_of("Ee"));
+    if (value == 0.0 && mantissa.find_first_of("123456789") != std::string_view::npos) {
+      warn("P21-NUMBER",
+           std::string(lexeme.substr(0, 40)) + " is below the range of a real and is read as 0");
+    }
+    return true;
+  }
+  std::string_view digits = lexeme;
+  const bool negative = digits.front() == '-';
+  if (negative || digits.front() == '+') digits.remove_prefix(1);
+  digits.remove_prefix(std::min(digits.find_first_not_of('0'), digits.size()));
+  const std::string_view most = negative ? "9223372036854775808" : "9223372036854775807";
+  if (digits.size() > most.size() || (digits.size() == most.size() && digits > most)) {
+    fault({.code = "P21-NUMBER",
+           .message = std::string(lexeme.substr(0, 40)) + " is beyond the range of an integer of 64 bits"});
+    return false;
+  }
+  return true;
+}
+
+bool Parser::string(Node& out) {
+  const Cursor start = at_;
+  const char* p = start.p + 1;
+  bool pairs = false;
+  bool odd = false;  // holds a byte that the decoder must judge
+  for (;;) {
+    p = find_special(p, end_);
+    const char c = *p;
+    if (c == '\'') {
+      if (p[1] != '\'') break;
+      pairs = true;
+      p += 2;
+      continue;
+    }
+    if (p >= end_) {
+      at_ = {.p = start.p + 1, .line = start.line};
+      fault({.code = "P21-STRING", .message = "a string is not closed", .expected = "'"});
+      // Another one could only come from reading the same bytes in the other phase.
+      if (seen_open_string_) stop_ = true;
+      seen_open_string_ = true;
+      return false;
+    }
+    odd = true;
+    if (c == '\n' || (c == '\r' && p[1] != '\n')) ++at_.line;
+    ++p;
+  }
+  const auto length = static_cast<std::size_t>(p - start.p) - 1;
+  at_.p = p + 1;
+  if (length > limits_.string_bytes) {
+    fault_at(start.line,
+             {.code = "P21-LIMIT", .message = "a string has " + std::to_string(length) + " bytes"});
+    return false;
+  }
+  out = make_node(pairs || odd ? Tag::kEscapedString : Tag::kString, offset(start.p + 1), length);
+  return !odd || check_text(start.p + 1, length, start.line);
+}
+
+bool Parser::check_text(const char* start, std::size_t length, std::uint32_t line) {
+  TextIssues issues;
+  std::string decoded;
+  const std::string_view raw(start, length);
+  decode_text(raw, decoded, issues);
+  if (issues.warning.message != nullptr) warn("P21-STRING", issues.warning.message);
+  if (issues.error.message == nullptr) return true;
+  const auto lines =
+      std::count(raw.begin(), raw.begin() + static_cast<long>(std::min(issues.error.offset, length)), '\n');
+  fault_at(line + static_cast<std::uint32_t>(lines), {.code = "P21-STRING", .message = issues.error.message});
+  return false;
+}
+
+bool Parser::enumeration(Node& out) {
+  ++at_.p;
+  std::uint32_t start = 0;
+  std::uint32_t length = 0;
+  if (*at_.p == '!' || !keyword(start, length)) {
+    if (*at_.p == '!') unexpected("the name of an enumeration value");
+    return false;
+  }
+  if (*at_.p != '.') return unexpected("'.' behind the name of an enumeration value");
+  ++at_.p;
+  out = make_node(Tag::kEnumeration, start, length);
+  return true;
+}
+
+bool Parser::binary(Node& out) {
+  const char* const start = ++at_.p;
+  while (is_digit(*at_.p) || (*at_.p >= 'A' && *at_.p <= 'F')) ++at_.p;
+  if (*at_.p != '"') return unexpected("hexadecimal digits in capitals up to '\"'");
+  if (at_.p == start || *start > '3') {
+    fault({.message = "a binary must begin with a digit 0 to 3, the number of bits to leave out"});
+    return false;
+  }
+  const auto length = static_cast<std::size_t>(at_.p - start);
+  if (length > limits_.string_bytes) {
+    fault({.code = "P21-LIMIT", .message = "a binary has " + std::to_string(length) + " digits"});
+    return false;
+  }
+  ++at_.p;
+  out = make_node(Tag::kBinary, offset(start), length);
+  return true;
+}
+
+// ------------------------------------------------------------------------------------- instances
+
+bool Parser::instance_id(std::uint64_t& id) {
+  const char* p = ++at_.p;
+  const char* const start = p;
+  std::uint64_t value = 0;
+  for (; is_digit(*p); ++p) {
+    const auto digit = static_cast<std::uint64_t>(*p - '0');
+    if (p - start >= 19 && (value > UINT64_MAX / 10 || value * 10 > UINT64_MAX - digit)) {
+      at_.p = skip_digits(p);
+      fault({.code = "P21-ID", .message = "an instance number is beyond 64 bits"});
+      return false;
+    }
+    value = value * 10 + digit;
+  }
+  at_.p = p;
+  if (p == start) {
+    if (class_of(*p) == Class::kLetter) {
+      fault({.code = "P21-UNSUPPORTED", .message = "constants (#NAME) of edition 3 are not supported"});
+      return false;
+    }
+    return unexpected("digits behind '#'");
+  }
+  if (value == 0) {
+    fault({.code = "P21-ID", .message = "0 is no instance number", .expected = "a number above 0"});
+    return false;
+  }
+  if (p - start > 64) {  // zeros in front, which are legal but not without end
+    fault({.code = "P21-LIMIT", .message = "an instance number has more than 64 digits"});
+    return false;
+  }
+  id = value;
+  return true;
+}
+
+bool Parser::reference(Node& out) {
+  const char* const start = at_.p;
+  std::uint64_t id = 0;
+  if (!instance_id(id)) return false;
+  out = make_node(Tag::kReference, offset(start), static_cast<std::uint64_t>(at_.p - start));
+  return true;
+}
+
+bool Parser::record() {
+  Part part;
+  if (class_of(*at_.p) != Class::kLetter) return unexpected("a keyword");
+  if (!keyword(part.keyword_start, part.keyword_length)) return false;
+  skip();
+  if (*at_.p != '(') return unexpected("'(' behind the keyword");
+  if (!parameters(part.parameters)) return false;
+  store_.parts.push_back(part);
+  return true;
+}
+
+bool Parser::instance() {
+  Entity entity{.line = at_.line};
+  entity.part = static_cast<std::uint32_t>(store_.parts.size()) & 0x7FFFFFFFU;
+  id_ = 0;
+  if (!instance_id(entity.id)) return false;
+  id_ = entity.id;
+  skip();
+  if (*at_.p != '=') return unexpected("'=' behind the instance number");
+  ++at_.p;
+  skip();
+  if (*at_.p == '(') {
+    entity.complex = 1;
+    ++at_.p;
+    skip();
+    do {
+      if (!record()) return false;
+      skip();
+    } while (*at_.p != ')');
+    ++at_.p;
+  } else if (*at_.p == '&') {
+    fault({.code = "P21-UNSUPPORTED", .message = "scopes (&SCOPE) of edition 1 are not supported"});
+    return false;
+  } else if (!record()) {
+    return false;
+  }
+  if (!semicolon()) return false;
+  store_.entities.push_back(entity);
+  return true;
+}
+
+}  // namespace capstan::p21::detail

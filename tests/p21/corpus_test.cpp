@@ -1,0 +1,62 @@
+#include <algorithm>
+#include <filesystem>
+
+#include "planner/p21/parse.h"
+#include "planner/p21/print.h"
+#include "tests/support/corpus.h"
+
+namespace capstan::p21 {
+namespace {
+
+std::vector<std::string> part21_files(const std::string& folder) {
+  std::vector<std::string> paths;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    std::string extension = entry.path().extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+    for (const char* known : {".stp", ".step", ".p21", ".stpnc", ".238"}) {
+      if (extension == known) paths.push_back(entry.path().string());
+    }
+  }
+  std::sort(paths.begin(), paths.end());
+  return paths;
+}
+
+TEST(Corpus, EveryFileReadsAndComesBackFromPrintingUnchanged) {
+  if (testing::corpus_folder().empty()) GTEST_SKIP() << "corpus is absent";
+  std::size_t files = 0;
+  for (const std::string& path : part21_files(testing::corpus_folder())) {
+    SCOPED_TRACE(path);
+    Job job;
+    const auto first = parse(testing::slurp(path), path, {}, job);
+    for (const Diagnostic& d : job.diagnostics()) std::cout << to_text(d) << "\n";
+    if (!first) {
+      ADD_FAILURE() << to_text(first.error());
+      continue;
+    }
+    ++files;
+    const std::string printed = print(*first);
+    Job quiet;
+    const auto second = parse(printed, path, {}, quiet);
+    ASSERT_TRUE(second) << to_text(second.error());
+    EXPECT_TRUE(quiet.diagnostics().empty() || quiet.diagnostics().size() == job.diagnostics().size());
+    EXPECT_TRUE(same_content(*first, *second));
+    EXPECT_EQ(print(*second), printed);
+  }
+  EXPECT_GE(files, 20U);
+}
+
+// Counted apart, by `grep -c '^ *#[0-9]* *='`.
+TEST(Corpus, TheStandardsExampleHasItsInstances) {
+  CAPSTAN_CORPUS_FILE(path, "iso14649/nist_ex1.stp");
+  Job job;
+  const auto file = parse(testing::slurp(path), path, {}, job);
+  ASSERT_TRUE(file) << to_text(file.error());
+  const auto project = file->find(1);
+  ASSERT_TRUE(project);
+  EXPECT_EQ(project->keyword(), "PROJECT");
+  EXPECT_EQ(check_references(*file, job), 0U);
+}
+
+}  // namespace
+}  // namespace capstan::p21

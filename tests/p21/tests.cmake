@@ -1,0 +1,1 @@
+capstan_test(p21 DEPENDS p21)
