@@ -1,0 +1,1 @@
+capstan_test(optimise DEPENDS optimise optimise_ipopt)
