@@ -10,7 +10,7 @@ namespace capstan::mechanics {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kNoLagRad = 1e-7;  // below, a helix is straight to within rounding
+constexpr double kNoLagRad = 1e-6;  // below, a helix is straight to within rounding
 
 struct Plane {
   double x = 0.0;
@@ -110,31 +110,33 @@ double peak_kienzle_force_n(const WorkMaterial& work, double radial_ratio, int t
     const double fr = radial_ratio * ft;
     return Plane{-ft * std::cos(a) - fr * std::sin(a), ft * std::sin(a) - fr * std::cos(a)};
   };
-  // The running integral on a grid over the arc; trapezia, and linear between grid points.
+  // Force on a grid over the arc, linear between, so that its running integral is quadratic between: as the
+  // lag goes to nothing, its mean goes to the force, without a jump.
   const double step = (arc.exit_rad - arc.entry_rad) / static_cast<double>(kCells);
+  std::array<Plane, kCells + 1> force;
   std::array<Plane, kCells + 1> running;
-  Plane last = at(arc.entry_rad);
+  force[0] = at(arc.entry_rad);
   running[0] = {};
   for (std::size_t i = 1; i <= kCells; ++i) {
-    const Plane next = at(arc.entry_rad + step * static_cast<double>(i));
-    running[i] = {running[i - 1].x + 0.5 * step * (last.x + next.x),
-                  running[i - 1].y + 0.5 * step * (last.y + next.y)};
-    last = next;
+    force[i] = at(arc.entry_rad + step * static_cast<double>(i));
+    running[i] = {running[i - 1].x + 0.5 * step * (force[i - 1].x + force[i].x),
+                  running[i - 1].y + 0.5 * step * (force[i - 1].y + force[i].y)};
   }
   const auto upto = [&](double a) {
     const double s = std::clamp((a - arc.entry_rad) / step, 0.0, static_cast<double>(kCells));
     const std::size_t i = std::min(static_cast<std::size_t>(s), kCells - 1);
     const double t = s - static_cast<double>(i);
-    return Plane{running[i].x + t * (running[i + 1].x - running[i].x),
-                 running[i].y + t * (running[i + 1].y - running[i].y)};
+    const double late = 0.5 * t * t;
+    const double early = t - late;
+    return Plane{running[i].x + step * (early * force[i].x + late * force[i + 1].x),
+                 running[i].y + step * (early * force[i].y + late * force[i + 1].y)};
   };
   const auto integral = [&](double from, double to) {
     const Plane a = upto(from);
     const Plane b = upto(to);
     return Plane{b.x - a.x, b.y - a.y};
   };
-  double lag = helix_lag_rad(ap_mm, diameter_mm, helix_rad);
-  if (lag < 0.5 * step) lag = 0.0;  // finer than the grid: straight
+  const double lag = helix_lag_rad(ap_mm, diameter_mm, helix_rad);
   const double per_depth = peak_per_depth(teeth, lag, arc, 180, integral, at);
   return work.kc11_n_mm2 * std::pow(fz_mm * sin_kappa, -work.mc) * fz_mm * ap_mm * per_depth;
 }

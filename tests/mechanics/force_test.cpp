@@ -106,6 +106,34 @@ TEST(PeakKienzleForce, EqualsTheMechanisticOneWhereTheLawsCoincide) {
   }
 }
 
+TEST(PeakKienzleForce, OfAFittedMaterialIsNearTheMechanisticOne) {
+  // Ktc h + Kte seen as a specific force Ktc + Kte / h, fitted over chips of an end mill.
+  std::vector<SpecificForcePoint> points;
+  for (const double h : {0.01, 0.02, 0.04, 0.08}) {
+    points.push_back({h, kAl7075.ktc_n_mm2 + kAl7075.kte_n_mm / h});
+  }
+  const WorkMaterial work = fit_kienzle(points)->work;
+  for (const Case& c : kCases) {
+    for (const double helix : {0.0, kHelix30}) {
+      const double measured = peak_milling_force_n(kAl7075, kTeeth, c.ap, c.fz, kDiameter, helix, c.arc);
+      const double ours = peak_kienzle_force_n(work, kRadialToTangentialRatio, kTeeth, c.ap, c.fz, kDiameter,
+                                               helix, 1.0, c.arc);
+      EXPECT_GT(ours, 0.95 * measured) << c.name;
+      EXPECT_LT(ours, 1.25 * measured) << c.name;
+    }
+  }
+}
+
+TEST(PeakKienzleForce, HasNoJumpAsTheHelixVanishes) {
+  const WorkMaterial work{2298.0, 0.20};
+  const auto peak = [&](double helix) {
+    return peak_kienzle_force_n(work, 0.6, 4, 2.0, 0.05, 10.0, helix, 1.0,
+                                immersion_arc(0.5, 10.0, CutDirection::kDown));
+  };
+  for (const double helix : {1e-8, 1e-5, 2.6e-6, 1e-4})
+    EXPECT_NEAR(peak(helix) / peak(0.0), 1.0, 1e-3) << helix;
+}
+
 TEST(PeakKienzleForce, OfOneStraightToothIsTheForceOfTheThickestChip) {
   const WorkMaterial work{2298.0, 0.20};
   const auto arc = immersion_arc(1.0, 10.0, CutDirection::kDown);
