@@ -90,6 +90,8 @@ struct FeatureShape {
   bool thread_left_hand = false;
   double chamfer_width_mm = 0.0, chamfer_angle_rad = 0.0;  ///< along the plane of the edge; against it
   double round_radius_mm = 0.0;                            ///< edge_round
+  double sphere_radius_mm = 0.0;                           ///< spherical_cap
+  std::vector<std::string> assumptions;  ///< how an unusual or incomplete noun was read, a sentence each
 };
 
 /// The shapes of a feature: one for a simple one, several for compounds, patterns, counterbored holes.

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "planner/model/nouns/feature.h"
+#include "planner/model/nouns/profile.h"
+#include "planner/model/shape.h"
+
+// How the shapes of the several kinds of feature are built; only shape/*.cpp include this.
+
+namespace capstan::model::shape {
+
+/// How far beyond an open side the reach of a feature goes: room for a cutter to enter, mm.
+inline constexpr double kOpenReach = 100.0;
+/// Chord tolerance of areas, mm.
+inline constexpr double kAreaTolerance = 0.001;
+
+using Shapes = std::vector<FeatureShape>;
+
+/// Frame, name, depth: what every machining feature has. `kind` is left to the caller.
+Result<FeatureShape> base(const Model& m, AnyRef feature, bool needs_depth);
+
+/// The area of a closed profile in the feature's frame; fills width, length, corner radius and assumptions.
+Result<geometry::Region> closed_area(const Model& m, Ref<ClosedProfile> profile, FeatureShape& into);
+/// The line of an open profile in the feature's frame.
+Result<std::vector<geometry::Vec2>> open_line(const Model& m, Ref<OpenProfile> profile);
+/// The path of travel in the feature's frame.
+Result<std::vector<geometry::Vec2>> travel_line(const Model& m, Ref<TravelPath> path, FeatureShape& into);
+/// The bosses of a pocket or face as islands.
+Status add_islands(const Model& m, const RefList<Boss>& bosses, FeatureShape& into);
+
+/// The frame of a profile within its feature; a profile placed exactly where its feature is repeats it.
+Result<geometry::Placement> profile_frame(const Model& m, const Profile& profile, FeatureShape& into);
+
+Result<Shapes> face(const Model& m, AnyRef self, const PlanarFace& f);
+Result<Shapes> pocket(const Model& m, AnyRef self, const Pocket& f);
+Result<Shapes> slot(const Model& m, AnyRef self, const Slot& f);
+Result<Shapes> step(const Model& m, AnyRef self, const Step& f);
+Result<Shapes> hole(const Model& m, AnyRef self, const RoundHole& f);
+Result<Shapes> outside(const Model& m, AnyRef self, const ProfileFeature& f);
+Result<Shapes> boss(const Model& m, AnyRef self, const Boss& f);
+Result<Shapes> spherical_cap(const Model& m, AnyRef self, const SphericalCap& f);
+Result<Shapes> rounded_end(const Model& m, AnyRef self, const RoundedEnd& f);
+Result<Shapes> thread(const Model& m, AnyRef self, const Thread& f, int depth);
+Result<Shapes> transition(const Model& m, AnyRef self, const TransitionFeature& f, int depth);
+Result<Shapes> compound(const Model& m, AnyRef self, const CompoundFeature& f, int depth);
+Result<Shapes> replicate(const Model& m, AnyRef self, const ReplicateFeature& f, int depth);
+
+/// Dispatch, with the nesting bounded: a file may hold a compound of itself.
+Result<Shapes> any(const Model& m, AnyRef feature, int depth);
+
+tl::unexpected<Diagnostic> missing(const Model& m, AnyRef feature, const std::string& attribute);
+tl::unexpected<Diagnostic> unsupported(const Model& m, AnyRef feature, const std::string& what);
+
+}  // namespace capstan::model::shape

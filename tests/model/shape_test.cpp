@@ -1,0 +1,179 @@
+#include "planner/model/shape.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "planner/model/nouns/all.h"
+
+namespace capstan::model {
+namespace {
+
+/// Makes the small nouns that features are written with.
+class Maker {
+ public:
+  Model m;
+
+  Ref<CartesianPoint> point(double x, double y, double z) {
+    CartesianPoint p;
+    p.coordinates = {{x, y, z}, true};
+    return m.add(p);
+  }
+  Ref<Direction> direction(double x, double y, double z) {
+    Direction d;
+    d.direction_ratios = {{x, y, z}, true};
+    return m.add(d);
+  }
+  Ref<Axis2Placement3d> at(double x, double y, double z, double ref_x = 1, double ref_y = 0) {
+    Axis2Placement3d p;
+    p.location = point(x, y, z);
+    p.axis = direction(0, 0, 1);
+    p.ref_direction = direction(ref_x, ref_y, 0);
+    return m.add(p);
+  }
+  Ref<Plane> depth(double z) {
+    Plane p;
+    p.position = at(0, 0, z);
+    return m.add(p);
+  }
+  Ref<TolerancedLengthMeasure> length(double v) {
+    TolerancedLengthMeasure t;
+    t.theoretical_size = v;
+    return m.add(t);
+  }
+  Ref<RectangularClosedProfile> rectangle(double along_x, double along_y) {
+    RectangularClosedProfile p;
+    p.profile_length = length(along_x);
+    p.profile_width = length(along_y);
+    return m.add(p);
+  }
+  Ref<RoundHole> hole(double x, double y, double diameter, double depth_mm) {
+    RoundHole h;
+    h.its_id = "H";
+    h.feature_placement = at(x, y, 0);
+    h.depth = depth(-depth_mm);
+    h.diameter = length(diameter);
+    h.bottom_condition = m.add(FlatHoleBottom{});
+    return m.add(h);
+  }
+  FeatureShape only(Ref<ManufacturingFeature> f) {
+    auto s = shapes_of(m, f);
+    EXPECT_TRUE(s) << (s ? "" : s.error().message);
+    return s && s->size() == 1 ? s->front() : FeatureShape{};
+  }
+};
+
+TEST(Shape, APocketTurnedByItsReferenceDirectionLiesWhereItsFrameSays) {
+  Maker k;
+  ClosedPocket p;
+  p.feature_placement = k.at(70, 70, 0, 0, 1);  // local x along the workpiece's y
+  p.depth = k.depth(-30);
+  p.bottom_condition = k.m.add(PlanarPocketBottomCondition{});
+  p.orthogonal_radius = k.length(10);
+  p.feature_boundary = k.rectangle(80, 50);
+  const FeatureShape s = k.only(k.m.add(p));
+  EXPECT_EQ(s.depth_mm, 30.0);
+  const auto box = geometry::bounds(s.area);
+  EXPECT_NEAR(box.hi.x, 40.0, 1e-6);
+  EXPECT_NEAR(box.hi.y, 25.0, 1e-6);
+  // Four corners of radius 10 are missing from the rectangle: (4 - pi) r^2.
+  EXPECT_NEAR(geometry::area(s.area), 80 * 50 - (4 - std::numbers::pi) * 100, 0.05);
+  EXPECT_EQ(s.frame.to_parent({40, 0, 0}), (geometry::Vec3{70, 110, 0}));
+  EXPECT_EQ(floor_at(s, {0, 0}), -30.0);
+  EXPECT_FALSE(floor_at(s, {41, 0}));
+}
+
+TEST(Shape, AVeeSlotIsAsWideAsItsAngleAndTipRadiusMakeIt) {
+  Maker k;
+  VeeProfile v;
+  v.profile_radius = k.length(3);
+  v.profile_angle = std::numbers::pi / 2;
+  LinearPath path;
+  path.distance = k.length(120);
+  path.its_direction = k.direction(1, 0, 0);
+  Slot slot;
+  slot.feature_placement = k.at(0, 55, 50);
+  slot.depth = k.depth(-13);
+  slot.course_of_travel = k.m.add(path);
+  slot.swept_shape = k.m.add(v);
+  slot.end_conditions.push_back(k.m.add(OpenSlotEndType{}));
+  slot.end_conditions.push_back(k.m.add(OpenSlotEndType{}));
+  const FeatureShape s = k.only(k.m.add(slot));
+  // The flank's virtual apex lies r (1/sin(45 deg) - 1) below the tip; at 45 degrees half width = height
+  // above it.
+  const double half = 13 + 3 * (std::numbers::sqrt2 - 1);
+  EXPECT_NEAR(s.width.nominal_mm, 2 * half, 1e-9);
+  EXPECT_NEAR(*floor_at(s, {60, 0}), -13.0, 1e-9);
+  EXPECT_NEAR(*floor_at(s, {60, half - 1}), -1.0, 1e-6);
+  EXPECT_TRUE(s.open);
+  EXPECT_GT(geometry::area(s.reach), geometry::area(s.area) + 2 * 90 * 2 * half);
+}
+
+TEST(Shape, AConicalBottomGoesOnBelowTheDepthOfTheFullDiameter) {
+  Maker k;
+  const auto ref = k.hole(50, 50, 10, 10);
+  ConicalHoleBottom c;
+  c.tip_angle = 140 * std::numbers::pi / 180;
+  k.m.get<RoundHole>(ref)->bottom_condition = k.m.add(c);
+  const FeatureShape s = k.only(ref);
+  EXPECT_NEAR(*floor_at(s, {0, 0}), -10 - 5 * std::tan(20 * std::numbers::pi / 180), 1e-9);
+  EXPECT_NEAR(*floor_at(s, {5, 0}), -10.0, 1e-9);
+}
+
+TEST(Shape, ACircularPatternTurnsItsBaseAboutItsOwnPlacement) {
+  Maker k;
+  CircularPattern p;
+  p.feature_placement = k.at(10, 10, 0);
+  p.replicate_base_feature = k.hole(30, 10, 6, 12);
+  p.angle_increment = std::numbers::pi / 2;
+  p.number_of_feature = 4;
+  CircularOmit omit;
+  omit.index = 3;
+  p.missing_base_feature.push_back(k.m.add(omit));
+  const auto s = shapes_of(k.m, k.m.add(p));
+  ASSERT_TRUE(s);
+  ASSERT_EQ(s->size(), 3U);
+  EXPECT_LT(norm((*s)[0].frame.origin - geometry::Vec3{30, 10, 0}), 1e-12);
+  EXPECT_LT(norm((*s)[1].frame.origin - geometry::Vec3{10, 30, 0}), 1e-12);
+  EXPECT_LT(norm((*s)[2].frame.origin - geometry::Vec3{10, -10, 0}), 1e-12);
+}
+
+TEST(Shape, ARectangularPatternCountsRowsAndColumnsFromItsBase) {
+  Maker k;
+  RectangularPattern p;
+  p.feature_placement = k.at(0, 0, 0);
+  p.replicate_base_feature = k.hole(5, 5, 6, 12);
+  p.spacing = k.length(20);
+  p.its_direction = k.direction(1, 0, 0);
+  p.number_of_columns = 3;
+  p.number_of_rows = 2;
+  p.row_spacing = k.length(15);
+  p.row_layout_direction = k.direction(0, 1, 0);
+  const auto s = shapes_of(k.m, k.m.add(p));
+  ASSERT_TRUE(s);
+  ASSERT_EQ(s->size(), 6U);
+  EXPECT_LT(norm(s->back().frame.origin - geometry::Vec3{45, 20, 0}), 1e-12);
+}
+
+TEST(Shape, WhatIsMissingIsNamed) {
+  Maker k;
+  ClosedPocket p;
+  p.its_id = "P";
+  p.feature_placement = k.at(0, 0, 0);
+  p.depth = k.depth(-3);
+  const auto s = shapes_of(k.m, k.m.add(p));
+  ASSERT_FALSE(s);
+  EXPECT_NE(s.error().message.find("CLOSED_POCKET 'P' has no closed profile"), std::string::npos)
+      << s.error().message;
+}
+
+TEST(Shape, ACompoundOfItselfIsRefused) {
+  Maker k;
+  const auto ref = k.m.add(CounterboreHole{});
+  k.m.get<CounterboreHole>(ref)->elements.items.push_back(ref);
+  EXPECT_FALSE(shapes_of(k.m, ref));
+}
+
+}  // namespace
+}  // namespace capstan::model
