@@ -10,7 +10,6 @@
 
 namespace capstan::p21 {
 
-using detail::length_of;
 using detail::start_of;
 using detail::Tag;
 using detail::tag_of;
@@ -51,33 +50,28 @@ const char* to_text(Kind kind) {
 
 // ------------------------------------------------------------------------------------------- Value
 
-Kind Value::kind() const {
-  const Tag tag = tag_of(node_);
-  return tag == Tag::kEscapedString ? Kind::kString : static_cast<Kind>(tag);
-}
-
 std::int64_t Value::as_integer() const {
   if (tag_of(node_) != Tag::kInteger) wrong_kind("an integer", kind());
-  return detail::to_integer(store_->view(node_));
+  return detail::to_integer(view());
 }
 
 double Value::as_real() const {
   if (tag_of(node_) != Tag::kReal && tag_of(node_) != Tag::kInteger) wrong_kind("a number", kind());
-  return detail::to_real(store_->view(node_));
+  return detail::to_real(view());
 }
 
 std::string_view Value::lexeme() const {
   const Tag tag = tag_of(node_);
-  if (store_ == nullptr) return "$";
-  return tag == Tag::kList || tag == Tag::kTyped ? std::string_view() : store_->view(node_);
+  if (arena_ == nullptr) return "$";
+  return tag == Tag::kList || tag == Tag::kTyped ? std::string_view() : view();
 }
 
 std::string_view Value::as_text(std::string& buffer) const {
-  if (tag_of(node_) == Tag::kString) return store_->view(node_);
+  if (tag_of(node_) == Tag::kString) return view();
   if (tag_of(node_) != Tag::kEscapedString) wrong_kind("a string", kind());
   buffer.clear();
   detail::TextIssues ignored;  // the parser has reported them
-  detail::decode_text(store_->view(node_), buffer, ignored);
+  detail::decode_text(view(), buffer, ignored);
   return buffer;
 }
 
@@ -89,27 +83,19 @@ std::string Value::as_text() const {
 
 std::string_view Value::enumeration() const {
   if (tag_of(node_) != Tag::kEnumeration) wrong_kind("an enumeration value", kind());
-  return store_->view(node_);
+  return view();
 }
 
 std::uint64_t Value::reference() const {
   if (tag_of(node_) != Tag::kReference) wrong_kind("a reference", kind());
-  return detail::to_id(store_->view(node_));
+  return detail::to_id(view());
 }
 
-std::size_t Value::size() const {
-  const Tag tag = tag_of(node_);
-  return tag == Tag::kList ? length_of(node_) : tag == Tag::kTyped ? 1 : 0;
-}
-
-Value Value::operator[](std::size_t i) const {
-  if (i >= size()) throw std::out_of_range("p21: no element " + std::to_string(i));
-  return {store_, store_->nodes[start_of(node_) + i + (tag_of(node_) == Tag::kTyped ? 1 : 0)]};
-}
+void Value::no_element(std::size_t i) { throw std::out_of_range("p21: no element " + std::to_string(i)); }
 
 std::string_view Value::keyword() const {
   if (tag_of(node_) != Tag::kTyped) wrong_kind("a typed parameter", kind());
-  return store_->view(store_->nodes[start_of(node_)]);
+  return Value(arena_, arena_->nodes[start_of(node_)]).view();
 }
 
 // ---------------------------------------------------------------------------------------- Instance
@@ -133,7 +119,7 @@ std::size_t Instance::part_count() const {
 Record Instance::part(std::size_t i) const {
   if (i >= part_count()) throw std::out_of_range("p21: no part " + std::to_string(i));
   const detail::Part& part = store_->parts[entity_of(*store_, index_, in_header_).part + i];
-  return {store_->view(part.keyword_start, part.keyword_length), Value(store_, part.parameters)};
+  return {store_->view(part.keyword_start, part.keyword_length), Value(&store_->arena, part.parameters)};
 }
 
 std::string_view Instance::keyword() const { return is_complex() ? std::string_view() : part(0).keyword; }

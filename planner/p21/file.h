@@ -31,7 +31,38 @@ namespace detail {
 /// One parameter in eight bytes: where it stands (offset into the text, or first child in the arena)
 /// in bits 0-31, its length or number of children in bits 32-59, its tag in bits 60-63.
 using Node = std::uint64_t;
+
+/// What a Value needs of its File: the text and the nodes.
+struct Arena {
+  const char* text = nullptr;
+  const Node* nodes = nullptr;
+};
 struct Store;
+
+/// What a node is: the kinds in their order, then two that only the store tells apart.
+enum class Tag : std::uint8_t {
+  kOmitted,
+  kDerived,
+  kInteger,
+  kReal,
+  kString,  ///< needs no decoding
+  kEnumeration,
+  kBinary,
+  kReference,
+  kList,           ///< children are contiguous from `start`
+  kTyped,          ///< two nodes at `start`: the keyword and the parameter
+  kEscapedString,  ///< holds '', an escape or a byte outside printable ASCII
+  kKeyword,
+};
+
+inline constexpr std::uint64_t kMaxLength = (std::uint64_t{1} << 28) - 1;
+
+[[nodiscard]] constexpr Node make_node(Tag tag, std::uint64_t start, std::uint64_t length) {
+  return start | length << 32 | static_cast<std::uint64_t>(tag) << 60;
+}
+[[nodiscard]] constexpr Tag tag_of(Node n) { return static_cast<Tag>(n >> 60); }
+[[nodiscard]] constexpr std::size_t start_of(Node n) { return n & 0xFFFFFFFFU; }
+[[nodiscard]] constexpr std::size_t length_of(Node n) { return n >> 32 & kMaxLength; }
 
 }  // namespace detail
 
@@ -40,9 +71,12 @@ struct Store;
 class Value {
  public:
   Value() = default;  ///< an omitted parameter
-  Value(const detail::Store* store, detail::Node node) : store_(store), node_(node) {}
+  Value(const detail::Arena* arena, detail::Node node) : arena_(arena), node_(node) {}
 
-  [[nodiscard]] Kind kind() const;
+  [[nodiscard]] Kind kind() const {
+    const detail::Tag tag = detail::tag_of(node_);
+    return tag == detail::Tag::kEscapedString ? Kind::kString : static_cast<Kind>(tag);
+  }
   [[nodiscard]] bool is(Kind k) const { return kind() == k; }
   [[nodiscard]] bool is_number() const { return is(Kind::kInteger) || is(Kind::kReal); }
 
@@ -62,15 +96,27 @@ class Value {
   /// kReference: the instance number.
   [[nodiscard]] std::uint64_t reference() const;
   /// kList: the number of elements. kTyped: 1. Others: 0.
-  [[nodiscard]] std::size_t size() const;
+  [[nodiscard]] std::size_t size() const {
+    const detail::Tag tag = detail::tag_of(node_);
+    return tag == detail::Tag::kList ? detail::length_of(node_) : tag == detail::Tag::kTyped ? 1 : 0;
+  }
   [[nodiscard]] bool empty() const { return size() == 0; }
   /// kList or kTyped: the i-th element, in constant time. Throws std::out_of_range.
-  [[nodiscard]] Value operator[](std::size_t i) const;
+  [[nodiscard]] Value operator[](std::size_t i) const {
+    if (i >= size()) no_element(i);
+    const std::size_t skipped = detail::tag_of(node_) == detail::Tag::kTyped ? 1 : 0;
+    return {arena_, arena_->nodes[detail::start_of(node_) + skipped + i]};
+  }
   /// kTyped: the keyword, upper case, with its leading ! where user-defined.
   [[nodiscard]] std::string_view keyword() const;
 
  private:
-  const detail::Store* store_ = nullptr;
+  [[noreturn]] static void no_element(std::size_t i);
+  [[nodiscard]] std::string_view view() const {
+    return {arena_->text + detail::start_of(node_), detail::length_of(node_)};
+  }
+
+  const detail::Arena* arena_ = nullptr;
   detail::Node node_ = 0;
 };
 

@@ -10,7 +10,7 @@ constexpr std::uint64_t kSparsest = 4;
 
 }  // namespace
 
-std::vector<std::size_t> IdIndex::build(const std::vector<Entity>& entities, std::size_t count) {
+std::vector<std::size_t> IdIndex::build(const Buffer<Entity>& entities, std::size_t count) {
   std::vector<std::size_t> duplicates;
   std::uint64_t highest = 0;
   for (std::size_t i = 0; i < count; ++i) highest = std::max(highest, entities[i].id);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #ifdef __SSE2__
@@ -91,5 +92,51 @@ inline constexpr auto kWord = word();
   (void)end;
   return p;
 }
+
+/// Sixteen bytes and what they are, one bit each. Reads p[0] to p[15].
+class Sixteen {
+ public:
+#ifdef __SSE2__
+  explicit Sixteen(const char* p) : v_(_mm_loadu_si128(reinterpret_cast<const __m128i*>(p))) {}
+  [[nodiscard]] unsigned digits() const { return bits(range('0', 10)); }
+  [[nodiscard]] unsigned points() const { return bits(_mm_cmpeq_epi8(v_, _mm_set1_epi8('.'))); }
+  /// Capitals, digits and _.
+  [[nodiscard]] unsigned word() const {
+    return bits(
+        _mm_or_si128(_mm_or_si128(range('A', 26), range('0', 10)), _mm_cmpeq_epi8(v_, _mm_set1_epi8('_'))));
+  }
+
+ private:
+  [[nodiscard]] __m128i range(char first, char count) const {
+    const __m128i from = _mm_sub_epi8(v_, _mm_set1_epi8(first));
+    return _mm_cmpeq_epi8(_mm_min_epu8(from, _mm_set1_epi8(static_cast<char>(count - 1))), from);
+  }
+  [[nodiscard]] static unsigned bits(__m128i v) { return static_cast<unsigned>(_mm_movemask_epi8(v)); }
+  __m128i v_;
+#else
+  explicit Sixteen(const char* p) : p_(p) {}
+  [[nodiscard]] unsigned digits() const {
+    return bits([](char c) { return is_digit(c); });
+  }
+  [[nodiscard]] unsigned points() const {
+    return bits([](char c) { return c == '.'; });
+  }
+  [[nodiscard]] unsigned word() const {
+    return bits([](char c) { return word_class(c) == 1; });
+  }
+
+ private:
+  template <class Test>
+  [[nodiscard]] unsigned bits(Test test) const {
+    unsigned out = 0;
+    for (unsigned i = 0; i < 16; ++i) out |= (test(p_[i]) ? 1U : 0U) << i;
+    return out;
+  }
+  const char* p_;
+#endif
+};
+
+/// The number of bits set from the lowest on.
+[[nodiscard]] inline unsigned leading(unsigned mask) { return static_cast<unsigned>(std::countr_one(mask)); }
 
 }  // namespace capstan::p21::detail

@@ -40,6 +40,7 @@ Result<File> parse(std::string bytes, std::string file_name, const Limits& limit
   store->text = std::move(bytes);
   reserve(*store);
   if (Status read = detail::Parser(*store, within, job).run(); !read) return fail(std::move(read).error());
+  store->arena = {.text = store->text.data(), .nodes = store->nodes.data()};
   return File(std::move(store));
 }
 

@@ -100,6 +100,7 @@ bool Parser::keyword(std::uint32_t& start, std::uint32_t& length) {
     return unexpected("a keyword");
   }
   unsigned seen = 0;
+  if (end_ - p >= 16) p += leading(Sixteen(p).word());
   while (const unsigned c = word_class(*p)) {
     seen |= c;
     ++p;
@@ -136,9 +137,55 @@ Node Parser::close() {
   frames_.pop_back();
   const std::size_t count = values_.size() - frame.start;
   const std::size_t start = store_.nodes.size();
-  store_.nodes.insert(store_.nodes.end(), values_.begin() + frame.start, values_.end());
-  values_.resize(frame.start);
+  store_.nodes.append(values_.from(frame.start), count);
+  values_.shrink(frame.start);
   return make_node(frame.typed != 0 ? Tag::kTyped : Tag::kList, start, count);
+}
+
+// The common spellings of simple values, where sixteen bytes tell all. Returns where it ends, or nullptr:
+// then simple_value reads it with all checks. Accepts nothing that those would refuse.
+const char* Parser::quick_value(const char* p, Node& out) const {
+  if (end_ - p < 32) return nullptr;
+  switch (class_of(*p)) {
+    case Class::kDigit: {
+      const unsigned sign = *p == '-' || *p == '+' ? 1 : 0;
+      const Sixteen bytes(p + sign);
+      const unsigned length = leading(bytes.digits() | bytes.points());
+      const unsigned points = bytes.points() & ((1U << length) - 1);
+      const char next = p[sign + length];
+      if (length == 0 || length > 15 || (points & (points - 1)) != 0 || (points & 1U) != 0) return nullptr;
+      if (next != ',' && next != ')') return nullptr;  // an exponent perhaps
+      out = make_node(points != 0 ? Tag::kReal : Tag::kInteger, offset(p), sign + length);
+      return p + sign + length;
+    }
+    case Class::kHash: {
+      const unsigned length = leading(Sixteen(p + 1).digits());
+      if (length == 0 || length > 15 || p[1] == '0') return nullptr;
+      out = make_node(Tag::kReference, offset(p), length + 1);
+      return p + length + 1;
+    }
+    case Class::kQuote: {
+      const char* const close = find_special(p + 1, end_);
+      const auto length = static_cast<std::size_t>(close - p) - 1;
+      if (*close != '\'' || close[1] == '\'' || length > limits_.string_bytes) return nullptr;
+      out = make_node(Tag::kString, offset(p + 1), length);
+      return close + 1;
+    }
+    case Class::kDot: {
+      const unsigned length = leading(Sixteen(p + 1).word());
+      if (length == 0 || length > 15 || is_digit(p[1]) || p[length + 1] != '.') return nullptr;
+      out = make_node(Tag::kEnumeration, offset(p + 1), length);
+      return p + length + 2;
+    }
+    case Class::kDollar:
+      out = make_node(Tag::kOmitted, offset(p), 1);
+      return p + 1;
+    case Class::kStar:
+      out = make_node(Tag::kDerived, offset(p), 1);
+      return p + 1;
+    default:
+      return nullptr;
+  }
 }
 
 bool Parser::parameters(Node& out) {
@@ -164,12 +211,20 @@ bool Parser::parameters(Node& out) {
       skip();
       if (*at_.p != '(') return unexpected("'(' behind the keyword of a typed parameter");
       if (!open(1)) return false;
-      values_.push_back(make_node(Tag::kKeyword, start, length));
+      values_.push(make_node(Tag::kKeyword, start, length));
       ++at_.p;
       fresh = false;
       continue;
     }
-    if (!(fresh && c == ')') && !simple_value(c)) return false;
+    if (!(fresh && c == ')')) {
+      Node node = 0;
+      if (const char* const behind = quick_value(at_.p, node)) {
+        at_.p = behind;
+        values_.push(node);
+      } else if (!simple_value(c)) {
+        return false;
+      }
+    }
     fresh = false;
     for (;;) {
       skip();
@@ -191,7 +246,7 @@ bool Parser::parameters(Node& out) {
         out = node;
         return true;
       }
-      values_.push_back(node);
+      values_.push(node);
     }
   }
 }
@@ -228,7 +283,7 @@ bool Parser::simple_value(char first) {
       }
       return unexpected("a parameter");
   }
-  if (good) values_.push_back(node);
+  if (good) values_.push(node);
   return good;
 }
 

@@ -12,6 +12,23 @@
 
 namespace capstan::p21::detail {
 
+/// A stack of nodes.
+class NodeStack {
+ public:
+  void clear() { size_ = 0; }
+  [[nodiscard]] std::size_t size() const { return size_; }
+  void shrink(std::size_t n) { size_ = n; }
+  [[nodiscard]] const Node* from(std::size_t i) const { return nodes_.data() + i; }
+  void push(Node n) {
+    if (size_ == nodes_.size()) nodes_.resize(2 * size_ + 64);
+    nodes_[size_++] = n;
+  }
+
+ private:
+  std::vector<Node> nodes_;
+  std::size_t size_ = 0;
+};
+
 /// Where reading stands.
 struct Cursor {
   const char* p = nullptr;
@@ -61,6 +78,7 @@ class Parser {
   bool record();
   bool instance_id(std::uint64_t& id);
   bool parameters(Node& out);
+  const char* quick_value(const char* p, Node& out) const;
   bool simple_value(char first);
   bool open(std::uint32_t typed);
   Node close();
@@ -101,7 +119,7 @@ class Parser {
   Cursor at_;
   std::uint64_t id_ = 0;  ///< of the instance being read
   std::vector<Frame> frames_;
-  std::vector<Node> values_;  ///< stack of finished values whose list is still open
+  NodeStack values_;  ///< stack of finished values whose list is still open
   std::size_t errors_ = 0;
   std::size_t warnings_ = 0;
   Diagnostic first_error_;

@@ -159,7 +159,7 @@ void Parser::data_section() {
   bool good = true;
   if (*at_.p == '(') good = parameters(node);
   if (!good || !semicolon()) resync();
-  DataSection section{.parameters = Value(&store_, node), .first = store_.entities.size()};
+  DataSection section{.parameters = Value(&store_.arena, node), .first = store_.entities.size()};
   while (!stop_) {
     skip();
     if (*at_.p == '#') {

@@ -9,36 +9,13 @@
 #include <utility>
 #include <vector>
 
+#include "planner/p21/buffer.h"
 #include "planner/p21/file.h"
 
 /// How a File is kept; for the files of this room alone.
 namespace capstan::p21::detail {
 
-/// What a node is: the kinds in their order, then two that only the store tells apart.
-enum class Tag : std::uint8_t {
-  kOmitted,
-  kDerived,
-  kInteger,
-  kReal,
-  kString,  ///< needs no decoding
-  kEnumeration,
-  kBinary,
-  kReference,
-  kList,           ///< children are contiguous from `start`
-  kTyped,          ///< two nodes at `start`: the keyword and the parameter
-  kEscapedString,  ///< holds '', an escape or a byte outside printable ASCII
-  kKeyword,
-};
-
-inline constexpr std::uint64_t kMaxLength = (std::uint64_t{1} << 28) - 1;
 inline constexpr std::size_t kMaxBytes = std::numeric_limits<std::uint32_t>::max() - 1U;
-
-[[nodiscard]] constexpr Node make_node(Tag tag, std::uint64_t start, std::uint64_t length) {
-  return start | length << 32 | static_cast<std::uint64_t>(tag) << 60;
-}
-[[nodiscard]] constexpr Tag tag_of(Node n) { return static_cast<Tag>(n >> 60); }
-[[nodiscard]] constexpr std::size_t start_of(Node n) { return n & 0xFFFFFFFFU; }
-[[nodiscard]] constexpr std::size_t length_of(Node n) { return n >> 32 & kMaxLength; }
 
 struct Part {
   std::uint32_t keyword_start = 0;
@@ -62,21 +39,22 @@ struct Section {
 class IdIndex {
  public:
   /// Returns the positions of entities whose number an earlier one has.
-  std::vector<std::size_t> build(const std::vector<Entity>& entities, std::size_t count);
+  std::vector<std::size_t> build(const Buffer<Entity>& entities, std::size_t count);
   [[nodiscard]] std::optional<std::uint32_t> find(std::uint64_t id) const;
 
  private:
-  std::vector<std::uint32_t> dense_;  ///< position + 1; 0 for none
+  Buffer<std::uint32_t> dense_;  ///< position + 1; 0 for none
   std::vector<std::pair<std::uint64_t, std::uint32_t>> sparse_;
 };
 
 struct Store {
+  Arena arena;  ///< of `text` and `nodes`, once they no longer grow
   std::string name;
   std::string text;
-  std::vector<Node> nodes;
-  std::vector<Part> parts;
-  std::vector<Entity> header;    ///< and one past the last
-  std::vector<Entity> entities;  ///< and one past the last
+  Buffer<Node> nodes;
+  Buffer<Part> parts;
+  Buffer<Entity> header;    ///< and one past the last
+  Buffer<Entity> entities;  ///< and one past the last
   std::vector<Section> sections;
   std::vector<VerbatimSection> verbatim;
   std::vector<DataSection> data;

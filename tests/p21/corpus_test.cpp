@@ -29,7 +29,6 @@ TEST(Corpus, EveryFileReadsAndComesBackFromPrintingUnchanged) {
     SCOPED_TRACE(path);
     Job job;
     const auto first = parse(testing::slurp(path), path, {}, job);
-    for (const Diagnostic& d : job.diagnostics()) std::cout << to_text(d) << "\n";
     if (!first) {
       ADD_FAILURE() << to_text(first.error());
       continue;
@@ -39,23 +38,33 @@ TEST(Corpus, EveryFileReadsAndComesBackFromPrintingUnchanged) {
     Job quiet;
     const auto second = parse(printed, path, {}, quiet);
     ASSERT_TRUE(second) << to_text(second.error());
-    EXPECT_TRUE(quiet.diagnostics().empty() || quiet.diagnostics().size() == job.diagnostics().size());
+    EXPECT_LE(quiet.diagnostics().size(), job.diagnostics().size());
     EXPECT_TRUE(same_content(*first, *second));
     EXPECT_EQ(print(*second), printed);
   }
   EXPECT_GE(files, 20U);
 }
 
-// Counted apart, by `grep -c '^ *#[0-9]* *='`.
-TEST(Corpus, TheStandardsExampleHasItsInstances) {
+TEST(Corpus, TheStandardsExampleHangsTogether) {
   CAPSTAN_CORPUS_FILE(path, "iso14649/nist_ex1.stp");
   Job job;
   const auto file = parse(testing::slurp(path), path, {}, job);
   ASSERT_TRUE(file) << to_text(file.error());
-  const auto project = file->find(1);
-  ASSERT_TRUE(project);
-  EXPECT_EQ(project->keyword(), "PROJECT");
+  EXPECT_EQ(file->find(1)->keyword(), "PROJECT");
+  EXPECT_EQ(file->schemas(), (std::vector<std::string>{"MACHINING_SCHEMA", "MILLING_SCHEMA"}));
   EXPECT_EQ(check_references(*file, job), 0U);
+  EXPECT_TRUE(job.diagnostics().empty());
+}
+
+// As its origin says: "edition-3 anchors, two dangling references".
+TEST(Corpus, TheEdition3FileHasItsAnchorsAndTwoDanglingReferences) {
+  CAPSTAN_CORPUS_FILE(path, "ap238/exp2_stepnc_maker3_empty_ed3anchors.stpnc");
+  Job job;
+  const auto file = parse(testing::slurp(path), path, {}, job);
+  ASSERT_TRUE(file) << to_text(file.error());
+  ASSERT_EQ(file->verbatim_sections().size(), 1U);
+  EXPECT_EQ(file->verbatim_sections()[0].keyword, "ANCHOR");
+  EXPECT_EQ(check_references(*file, job), 2U);
 }
 
 }  // namespace
