@@ -80,6 +80,7 @@ struct Cutter {
   std::vector<std::pair<std::string, std::string>>
       sources;     ///< (field, "stated: ...", "derived: ...", "default: ...")
   int pocket = 0;  ///< tool number in the machine; 0 not loaded
+  double adjustable_to_mm = 0.0;  ///< DCX: the largest diameter a boring tool can be set to; 0: fixed
   bool operator==(const Cutter&) const = default;
 };
 
