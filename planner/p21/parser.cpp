@@ -144,7 +144,7 @@ Node Parser::close() {
 
 // The common spellings of simple values, where sixteen bytes tell all. Returns where it ends, or nullptr:
 // then simple_value reads it with all checks. Accepts nothing that those would refuse.
-const char* Parser::quick_value(const char* p, Node& out) const {
+inline const char* Parser::quick_value(const char* p, Node& out) const {
   if (end_ - p < 32) return nullptr;
   switch (class_of(*p)) {
     case Class::kDigit: {

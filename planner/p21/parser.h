@@ -78,7 +78,7 @@ class Parser {
   bool record();
   bool instance_id(std::uint64_t& id);
   bool parameters(Node& out);
-  const char* quick_value(const char* p, Node& out) const;
+  [[gnu::always_inline]] const char* quick_value(const char* p, Node& out) const;
   bool simple_value(char first);
   bool open(std::uint32_t typed);
   Node close();

@@ -235,7 +235,11 @@ Writer& Writer::real_lexeme(std::string_view lexeme) {
 Writer& Writer::text(std::string_view utf8) {
   begin_value();
   out_ += '\'';
-  out_ += encode_text(utf8);
+  if (std::none_of(utf8.begin(), utf8.end(), detail::is_special)) {
+    out_ += utf8;
+  } else {
+    out_ += encode_text(utf8);
+  }
   out_ += '\'';
   return *this;
 }
@@ -271,6 +275,7 @@ Writer& Writer::value(const Value& root) {
     Value value;
     bool closing;
   };
+  std::string buffer;
   std::vector<Step> pending{{root, false}};
   while (!pending.empty()) {
     const Step step = pending.back();
@@ -294,7 +299,7 @@ Writer& Writer::value(const Value& root) {
         real_lexeme(proper_real(v.lexeme()));
         break;
       case Kind::kString:
-        text(v.as_text());
+        text(v.as_text(buffer));
         break;
       case Kind::kEnumeration:
         enumeration(v.enumeration());
