@@ -62,14 +62,21 @@ inline constexpr std::array<MillingTool, 3> kTools = {{
 
 /// Cutting-contact proportion Q is not known from the paper; 0.5 is our choice [C], as are a radial depth of
 /// the full diameter and three tool changes.
+struct MillingStatement {
+  double contact = 0.5;  ///< Q
+  bool power = true;     ///< false: the limit is left out
+  bool roughness = true;
+};
+
 template <class T>
-void tolouei_rad(const std::array<T, 10>& x, T& objective, std::vector<T>& c) {
+void tolouei_rad(const std::array<T, 10>& x, const MillingStatement& statement, T& objective,
+                 std::vector<T>& c, T& cost, T& time) {
   using std::pow;
   constexpr double kSalePrice = 25.0, kMaterial = 0.50, kLabour = 0.45, kOverhead = 1.45;   // [M]
   constexpr double kSetupMin = 2.0, kChangeMin = 0.5, kG = 0.14, kW = 0.28;                 // [M]
   constexpr double kPowerConstant = 2.24, kWear = 1.1, kMotorKw = 8.5, kEfficiency = 0.95;  // [M]
-  constexpr double kQ = 0.5, kChanges = 3.0;                                                // [C]
-  T time = kSetupMin + kChanges * kChangeMin;
+  constexpr double kChanges = 3.0;                                                          // [C]
+  time = kSetupMin + kChanges * kChangeMin;
   T tool_cost = 0.0;
   std::size_t k = 0;
   for (std::size_t i = 0; i < kOperations.size(); ++i) {
@@ -80,27 +87,32 @@ void tolouei_rad(const std::array<T, 10>& x, T& objective, std::vector<T>& c) {
     const T cut = kPi * tool.diameter_mm * op.travel_mm / (1000.0 * tool.teeth * v * f);
     const T area = op.depth_mm * f;
     const T slenderness = op.depth_mm / f;
-    const T life =
-        60.0 / kQ * pow(tool.life_c * pow(slenderness / 5.0, kG) / (v * pow(area, kW)), 1.0 / tool.life_n);
+    const T life = 60.0 / statement.contact *
+                   pow(tool.life_c * pow(slenderness / 5.0, kG) / (v * pow(area, kW)), 1.0 / tool.life_n);
     time = time + cut;
     tool_cost = tool_cost + tool.price * cut / life;
-    c[k++] = 0.78 * kPowerConstant * kWear * tool.teeth * tool.diameter_mm * op.depth_mm /
-                 (60.0 * kPi * tool.diameter_mm * kEfficiency * kMotorKw) * v * pow(f, 0.8) -
-             1.0;
+    T& power = c[k++];
+    power = 0.78 * kPowerConstant * kWear * tool.teeth * tool.diameter_mm * op.depth_mm /
+                (60.0 * kPi * tool.diameter_mm * kEfficiency * kMotorKw) * v * pow(f, 0.8) -
+            1.0;
+    if (!statement.power) power = -1.0;
     if (op.ra_um == 0.0) continue;
+    T& roughness = c[k++];
     const double degree = kPi / 180.0;
-    c[k++] = tool.face
-                 ? 318.0 * f /
-                           ((std::tan(tool.lead_deg * degree) + 1.0 / std::tan(tool.clearance_deg * degree)) *
-                            op.ra_um) -
-                       1.0
-                 : 318.0 * f * f / (4.0 * tool.diameter_mm * op.ra_um) - 1.0;
+    roughness =
+        tool.face
+            ? 318.0 * f /
+                      ((std::tan(tool.lead_deg * degree) + 1.0 / std::tan(tool.clearance_deg * degree)) *
+                       op.ra_um) -
+                  1.0
+            : 318.0 * f * f / (4.0 * tool.diameter_mm * op.ra_um) - 1.0;
+    if (!statement.roughness) roughness = -1.0;
   }
-  const T cost = kMaterial + (kLabour + kOverhead) * time + tool_cost;
+  cost = kMaterial + (kLabour + kOverhead) * time + tool_cost;
   objective = -(kSalePrice - cost) / time;  // profit rate, $/min, maximised
 }
 
-inline Example tolouei_rad_milling(Walk walk = Walk::kLogarithmic) {
+inline Example tolouei_rad_milling(Walk walk = Walk::kLogarithmic, MillingStatement statement = {}) {
   Example e{
       .name = "ToloueiRadMilling", .problem = {}, .best_objective = -2.6702, .best_x = {}, .active = {}};
   for (const MillingOperation& op : kOperations) {
@@ -111,7 +123,11 @@ inline Example tolouei_rad_milling(Walk walk = Walk::kLogarithmic) {
     e.problem.constraints.push_back(name + " power");
     if (op.ra_um != 0.0) e.problem.constraints.push_back(name + " roughness");
   }
-  e.problem.model = differentiate<10>([](const auto& x, auto& f, auto& c) { tolouei_rad(x, f, c); });
+  e.problem.model = differentiate<10>([statement](const auto& x, auto& f, auto& c) {
+    auto cost = f;
+    auto time = f;
+    tolouei_rad(x, statement, f, c, cost, time);
+  });
   // [C]
   e.best_x = {101.414, 0.078176, 42.474, 0.5, 40.0, 0.41518, 34.472, 0.5, 47.221, 0.38851};
   e.active = {"face power", "face roughness", "pocket power", "slot 1 power", "slot 2 roughness"};
