@@ -1,0 +1,204 @@
+#include "planner/engagement/engagement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "planner/base/number.h"
+#include "planner/stock/sweep.h"
+
+namespace capstan::engagement {
+namespace {
+
+using geometry::Vec2;
+using geometry::Vec3;
+using model::CutterPath;
+using model::MoveKind;
+using stock::Tally;
+
+bool is_arc(MoveKind k) { return k == MoveKind::kArcCw || k == MoveKind::kArcCcw; }
+
+bool is_flat(const geometry::CutterProfile& p) {
+  return p.pieces.size() == 1 && p.pieces[0].radius_mm <= 0.0 && p.pieces[0].slope == 0.0;
+}
+
+struct Extent {
+  double size = 0.0, middle = 0.0;
+};
+
+/// The tallest contact over the bins of X.
+Extent axial_extent(const Tally& t) {
+  Extent best;
+  for (std::size_t b = 0; b < Tally::kBins; ++b) {
+    const double size = static_cast<double>(t.high[b]) - static_cast<double>(t.low[b]);
+    if (size > best.size) {
+      best = {size, 0.5 * (static_cast<double>(t.high[b]) + static_cast<double>(t.low[b]))};
+    }
+  }
+  return best;
+}
+
+class Measurer {
+ public:
+  Measurer(const CutterPath& path, geometry::CutterProfile profile, stock::HeightMap& map, double step)
+      : path_(path), profile_(std::move(profile)), map_(map), step_(step) {}
+
+  Measurement run() {
+    for (std::size_t i = 0; i < path_.size(); ++i) move(i);
+    return std::move(out_);
+  }
+
+ private:
+  void move(std::size_t i) {
+    const double length = model::move_length(path_, i);
+    if (i == 0 || path_.kind[i] == MoveKind::kDwell || length <= 0.0) {
+      if (i == 0) out_.rapid_removed_mm3 += stock::cut(map_, profile_, path_, 0);
+      return;
+    }
+    if (path_.kind[i] == MoveKind::kRapid) {
+      turn_to(path_.point(i) - path_.point(i - 1));
+      if (!in_air(i)) out_.rapid_removed_mm3 += stock::cut(map_, profile_, path_, i);
+      return;
+    }
+    if (!is_arc(path_.kind[i]) && in_air(i)) {
+      turn_to(path_.point(i) - path_.point(i - 1));
+      return close(i, length);
+    }
+    feed(i, length);
+  }
+
+  /// Nothing stands in the way of a straight move, judged by the whole disc at its lowest height.
+  [[nodiscard]] bool in_air(std::size_t i) const {
+    const Vec3 a = path_.point(i - 1);
+    const Vec3 b = path_.point(i);
+    return stock::max_height(map_, xy(a), xy(b), profile_.radius_mm) <= std::min(a.z, b.z);
+  }
+
+  void turn_to(Vec3 d) {
+    if (norm(xy(d)) > 1e-9) heading_ = xy(d);
+  }
+
+  void feed(std::size_t i, double length) {
+    const bool arc = is_arc(path_.kind[i]);
+    int n = std::max(1, static_cast<int>(std::ceil(length / step_ - 1e-9)));
+    if (arc)
+      n = std::max(n, static_cast<int>(std::ceil(model::arc_sweep(path_, i) / (std::numbers::pi / 6.0))));
+    Vec3 from = path_.point(i - 1);
+    for (int k = 1; k <= n; ++k) {
+      const Vec3 to = k == n ? path_.point(i) : model::point_on_move(path_, i, static_cast<double>(k) / n);
+      Tally tally;
+      turn_to(to - from);
+      stock::sweep(map_, profile_,
+                   {.from = from,
+                    .to = to,
+                    .arc = arc,
+                    .centre = {path_.cx[i], path_.cy[i]},
+                    .clockwise = path_.kind[i] == MoveKind::kArcCw},
+                   true, heading_, tally);
+      const bool plunge = !arc && norm(xy(to) - xy(from)) < 1e-9;
+      const double at = length * k / n;
+      if (tally.removed_mm3 > 0.0) {
+        add(i, at, length / n, plunge, tally);
+      } else {
+        close(i, at);
+      }
+      from = to;
+    }
+  }
+
+  /// One sample without contact after the last with it.
+  void close(std::size_t i, double at) {
+    if (out_.engagement.empty() || out_.engagement.back().removed_mm3 <= 0.0) return;
+    push(i, at, {}, {}, 0.0, 0.0, {});
+  }
+
+  void add(std::size_t i, double at, double step, bool plunge, const Tally& t) {
+    const double csa = t.removed_mm3 / step;
+    const Extent axial = axial_extent(t);
+    double left = t.left_mm;
+    double right = t.right_mm;
+    if (!plunge) sharpen(csa, axial.size, left, right);
+    const Extent radial{right - left, 0.5 * (left + right)};
+    Engagement e{.ap_mm = axial.size,
+                 .ae_mm = radial.size,
+                 .csa_mm2 = csa,
+                 .removed_mm3 = t.removed_mm3,
+                 .step_mm = step,
+                 .plunge = plunge};
+    if (plunge) {
+      e.exit_rad = 2.0 * std::numbers::pi;
+    } else {
+      const double r = profile_.radius_mm;
+      const auto angle = [&](double x) { return std::acos(std::clamp(-x / r, -1.0, 1.0)); };
+      e.entry_rad = angle(left);
+      e.exit_rad = angle(right);
+    }
+    e.arc_rad = e.exit_rad - e.entry_rad;
+    for (const float high : t.high)
+      out_.highest_contact_mm = std::max(out_.highest_contact_mm, static_cast<double>(high));
+    out_.removed_mm3 += t.removed_mm3;
+    push(i, at, axial, radial, t.sum_x / t.removed_mm3, t.sum_y / t.removed_mm3, e);
+  }
+
+  /// X extents are known to a cell. Where a flat cutter takes an even layer, area over depth says it better;
+  /// the side that is not at the cutter's own edge gives way.
+  void sharpen(double csa, double depth, double& left, double& right) const {
+    if (!is_flat(profile_) || depth <= 0.0) return;
+    const double width = csa / depth;
+    if (std::abs(width - (right - left)) > 2.0 * map_.cell_mm || width > 2.0 * profile_.radius_mm) return;
+    if (profile_.radius_mm - right <= profile_.radius_mm + left) {
+      left = right - width;
+    } else {
+      right = left + width;
+    }
+  }
+
+  void push(std::size_t i, double at, Extent axial, Extent radial, double x, double y, const Engagement& e) {
+    auto& s = out_.sections;
+    s.move.push_back(static_cast<std::uint32_t>(i));
+    s.at_mm.push_back(at);
+    s.ad_max_mm.push_back(axial.size);
+    s.rd_max_mm.push_back(radial.size);
+    s.x_max_ofs_mm.push_back(radial.middle);
+    s.y_max_ofs_mm.push_back(axial.middle);
+    s.csa_mm2.push_back(e.csa_mm2);
+    s.x_cg_ofs_mm.push_back(x);
+    s.y_cg_ofs_mm.push_back(y);
+    s.removed_mm3.push_back(e.removed_mm3);
+    out_.engagement.push_back(e);
+  }
+
+  const CutterPath& path_;
+  geometry::CutterProfile profile_;
+  stock::HeightMap& map_;
+  double step_;
+  Vec2 heading_{1.0, 0.0};
+  Measurement out_;
+};
+
+}  // namespace
+
+Result<Measurement> measure(const CutterPath& path, const model::Cutter& cutter, stock::HeightMap& map,
+                            const Options& options) {
+  if (cutter.cutter_class == model::CutterClass::kTSlotMill ||
+      cutter.cutter_class == model::CutterClass::kDovetailMill) {
+    return fail("ENG-UNDERCUT", "the cut of " + std::string(model::to_text(cutter.cutter_class)) + " '" +
+                                    cutter.id + "' lies under an overhang; it is not measured");
+  }
+  geometry::CutterProfile profile = model::profile_of(cutter);
+  if (!(profile.radius_mm > 0.0) || !std::isfinite(profile.radius_mm) || profile.pieces.empty()) {
+    return fail("ENG-PROFILE", "cutter '" + cutter.id + "' has no cutting diameter");
+  }
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    if (!std::isfinite(path.x[i]) || !std::isfinite(path.y[i]) || !std::isfinite(path.z[i]) ||
+        !std::isfinite(path.cx[i]) || !std::isfinite(path.cy[i])) {
+      return fail("ENG-NUMBER", "point " + std::to_string(i) + " of the path is not finite");
+    }
+  }
+  const double step =
+      options.step_mm > 0.0 ? options.step_mm : std::max(profile.radius_mm / 20.0, 2.0 * map.cell_mm);
+  return Measurer(path, std::move(profile), map, step).run();
+}
+
+}  // namespace capstan::engagement

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <vector>
+
+#include "planner/base/result.h"
+#include "planner/model/cutter.h"
+#include "planner/model/cutter_path.h"
+#include "planner/stock/height_map.h"
+
+namespace capstan::engagement {
+
+/// How the cutter is engaged over one sample's step: what force models ask for.
+struct Engagement {
+  double ap_mm = 0.0;      ///< axial depth: largest height of contact in any column along the axis
+  double ae_mm = 0.0;      ///< radial width across the feed; a plunge: width of the contact seen from above
+  double entry_rad = 0.0;  ///< where a clockwise-turning tooth meets and leaves material, measured in the
+  double exit_rad = 0.0;   ///< turning sense from the left of the feed (0) over its front (pi/2) to its right
+                           ///< (pi); taken at the full radius. Plunge: 0 and 2 pi.
+  double arc_rad = 0.0;    ///< exit - entry
+  double csa_mm2 = 0.0;    ///< removed volume per length of path
+  double removed_mm3 = 0.0;
+  double step_mm = 0.0;  ///< path length that the sample stands for, up to its point
+  bool plunge = false;   ///< the move goes straight along the axis
+  friend bool operator==(const Engagement&, const Engagement&) = default;
+};
+
+struct Options {
+  /// Path length between samples, mm; 0: a fortieth of the diameter, but at least two cells.
+  double step_mm = 0.0;
+};
+
+/// Two parallel series, and what a checker wants to know of the whole path.
+struct Measurement {
+  model::SectionSeries sections;
+  std::vector<Engagement> engagement;
+  double removed_mm3 = 0.0;         ///< at feed
+  double rapid_removed_mm3 = 0.0;   ///< by rapids: more than nothing is a collision
+  double highest_contact_mm = 0.0;  ///< above the tip, at feed: to be held against the cutting length
+};
+
+/// Measures the cut along a path and takes what it cuts from the stock.
+///
+/// One sample stands at the end of each step; its numbers hold for that step (the mean over it, the extreme
+/// for depths). The volume a step sweeps, projected along the feed, is the contact section: CSA is removed
+/// volume over length, its centre of gravity that of the removed volume, which is exact for any rotating
+/// outline and any stock in the limit of small steps. On a plunge the section is the contact area seen along
+/// the axis; X is then measured across the last horizontal feed.
+///
+/// ADmax and RDmax are the greatest extents of contact along Y and across X; Ymaxofs and Xmaxofs are the
+/// middles of those extents. Steps in air give no sample, but one empty sample closes each cut.
+/// On a plunge ADmax is the height of the contact (a cone's length, the step's advance for a flat tip).
+///
+/// Frame   path and stock in the set-up's.
+/// Units   mm.
+/// Fails   ENG-PROFILE for a cutter without diameter; ENG-NUMBER when a coordinate is not finite;
+/// ENG-UNDERCUT
+///         for T-slot and dovetail cutters, whose cut a height map cannot hold.
+/// Source  AP238 edition 2, 4.2.379.4; CSA and centre derived by the divergence theorem.
+[[nodiscard]] Result<Measurement> measure(const model::CutterPath& path, const model::Cutter& cutter,
+                                          stock::HeightMap& stock, const Options& options = {});
+
+}  // namespace capstan::engagement
