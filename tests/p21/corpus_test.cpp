@@ -3,6 +3,7 @@
 
 #include "planner/p21/parse.h"
 #include "planner/p21/print.h"
+#include "tests/support/amplify.h"
 #include "tests/support/corpus.h"
 
 namespace capstan::p21 {
@@ -65,6 +66,19 @@ TEST(Corpus, TheEdition3FileHasItsAnchorsAndTwoDanglingReferences) {
   ASSERT_EQ(file->verbatim_sections().size(), 1U);
   EXPECT_EQ(file->verbatim_sections()[0].keyword, "ANCHOR");
   EXPECT_EQ(check_references(*file, job), 2U);
+}
+
+// What the benchmark reads is a file like any other.
+TEST(Corpus, AnAmplifiedFileHangsTogetherAndHasAboutTheSizeAskedFor) {
+  CAPSTAN_CORPUS_FILE(path, "iso14649/nist_ex1E.stp");
+  constexpr std::size_t kAsked = 2'000'000;
+  const std::string bytes = testing::amplify_part21(testing::slurp(path), kAsked);
+  EXPECT_NEAR(static_cast<double>(bytes.size()), kAsked, 0.1 * kAsked);
+  Job job;
+  const auto file = parse(bytes, path, {}, job);
+  ASSERT_TRUE(file) << to_text(file.error());
+  EXPECT_EQ(check_references(*file, job), 0U);
+  EXPECT_TRUE(job.diagnostics().empty());
 }
 
 }  // namespace
