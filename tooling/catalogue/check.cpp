@@ -1,0 +1,120 @@
+#include "tooling/catalogue/check.h"
+
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <utility>
+
+#include "planner/base/number.h"
+
+namespace capstan::tooling {
+namespace {
+
+using model::Cutter;
+using model::CutterClass;
+
+/// Above any milling tool; a value beyond it is a wrong unit or a slip.
+constexpr double kLongestMm = 2000.0;
+constexpr int kMostTeeth = 60;
+constexpr double kSlackMm = 1e-9;
+
+std::string mm(double v) { return trimmed(v, 4) + " mm"; }
+
+void check_number(double v, const char* name, double most, std::vector<std::string>& out) {
+  if (!std::isfinite(v)) {
+    out.push_back(std::string(name) + " is not a finite number");
+  } else if (v < 0.0) {
+    out.push_back(std::string(name) + " is negative: " + trimmed(v, 6));
+  } else if (v > most) {
+    out.push_back(std::string(name) + " is " + trimmed(v, 6) + ", beyond " + trimmed(most, 6));
+  }
+}
+
+void check_together(const Cutter& c, std::vector<std::string>& out) {
+  const double radius = 0.5 * c.cutting_diameter_mm;
+  if (c.cutting_diameter_mm == 0.0) out.emplace_back("the cutting diameter is zero");
+  if (c.corner_radius_mm > radius + kSlackMm)
+    out.push_back("the corner radius " + mm(c.corner_radius_mm) + " is larger than half the diameter " +
+                  mm(c.cutting_diameter_mm));
+  if (c.tip_diameter_mm > c.cutting_diameter_mm + kSlackMm)
+    out.push_back("the tip " + mm(c.tip_diameter_mm) + " is wider than the diameter " +
+                  mm(c.cutting_diameter_mm));
+  if (c.maximum_depth_of_cut_mm > c.stick_out_mm + kSlackMm)
+    out.push_back("the flutes (" + mm(c.maximum_depth_of_cut_mm) + ") are longer than the tool sticks out (" +
+                  mm(c.stick_out_mm) + ")");
+  if (c.usable_length_mm > c.stick_out_mm + kSlackMm)
+    out.push_back("the usable length " + mm(c.usable_length_mm) + " is longer than the tool sticks out (" +
+                  mm(c.stick_out_mm) + ")");
+  if (c.stick_out_mm > c.functional_length_mm + kSlackMm)
+    out.push_back("the tool sticks out " + mm(c.stick_out_mm) + ", more than from gage line to tip (" +
+                  mm(c.functional_length_mm) + ")");
+  if (c.teeth < 1 || c.teeth > kMostTeeth) out.push_back(std::to_string(c.teeth) + " teeth");
+  if (c.pocket < 0) out.push_back("the tool number is negative: " + std::to_string(c.pocket));
+  if (c.cutter_class == CutterClass::kTap && c.thread_pitch_mm == 0.0)
+    out.emplace_back("a tap without a pitch");
+  if (c.fz_min_mm > c.fz_max_mm)
+    out.push_back("the least feed per tooth " + mm(c.fz_min_mm) + " is above the largest " + mm(c.fz_max_mm));
+  if (c.adjustable_to_mm != 0.0 && c.adjustable_to_mm < c.cutting_diameter_mm)
+    out.push_back("it can be set to " + mm(c.adjustable_to_mm) + ", less than its diameter " +
+                  mm(c.cutting_diameter_mm));
+}
+
+}  // namespace
+
+std::vector<std::string> faults_of(const Cutter& c) {
+  std::vector<std::string> out;
+  const std::pair<double, const char*> lengths[] = {
+      {c.cutting_diameter_mm, "the cutting diameter"}, {c.corner_radius_mm, "the corner radius"},
+      {c.tip_diameter_mm, "the tip diameter"},         {c.maximum_depth_of_cut_mm, "the depth of cut"},
+      {c.usable_length_mm, "the usable length"},       {c.stick_out_mm, "the stick-out"},
+      {c.functional_length_mm, "the length"},          {c.shank_diameter_mm, "the shank diameter"},
+      {c.holder_diameter_mm, "the holder diameter"},   {c.thread_pitch_mm, "the pitch"},
+      {c.fz_min_mm, "the least feed per tooth"},       {c.fz_max_mm, "the largest feed per tooth"},
+      {c.adjustable_to_mm, "the largest diameter"}};
+  for (const auto& [value, name] : lengths) check_number(value, name, kLongestMm, out);
+  const double pi = std::numbers::pi;
+  check_number(c.point_angle_rad, "the point angle (rad)", pi, out);
+  check_number(std::abs(c.helix_rad), "the helix (rad)", 0.5 * pi, out);
+  check_number(c.lead_angle_rad, "the lead angle (rad)", 0.5 * pi, out);
+  check_number(c.maximum_ramp_angle_rad, "the ramp angle (rad)", 0.5 * pi, out);
+  check_number(c.maximum_speed_rpm, "the largest speed", 1e6, out);
+  check_number(c.life_min, "the life", 1e6, out);
+  check_number(c.price, "the price", 1e9, out);
+  if (out.empty()) check_together(c, out);
+  return out;
+}
+
+std::vector<Diagnostic> check_cutters(const std::vector<Cutter>& cutters, const std::string& file,
+                                      const std::vector<std::uint64_t>& lines) {
+  std::vector<Diagnostic> out;
+  std::map<std::string, std::size_t> ids;
+  std::map<int, std::size_t> numbers;
+  for (std::size_t i = 0; i < cutters.size(); ++i) {
+    const Cutter& c = cutters[i];
+    const std::uint64_t line = i < lines.size() ? lines[i] : 0;
+    for (std::string& what : faults_of(c))
+      out.push_back(
+          {.code = "TOOL-VALUE", .message = std::move(what), .file = file, .line = line, .path = c.id});
+    if (c.id.empty())
+      out.push_back({.code = "TOOL-ID", .message = "a tool has no id", .file = file, .line = line});
+    if (!ids.emplace(c.id, i).second)
+      out.push_back({.code = "TOOL-ID",
+                     .message = "the id '" + c.id + "' is given twice",
+                     .file = file,
+                     .line = line,
+                     .path = c.id});
+    if (c.pocket > 0) {
+      const auto [it, fresh] = numbers.emplace(c.pocket, i);
+      if (!fresh)
+        out.push_back({.code = "TOOL-NUMBER",
+                       .message = "tool number " + std::to_string(c.pocket) + " is given twice, first to '" +
+                                  cutters[it->second].id + "'",
+                       .file = file,
+                       .line = line,
+                       .path = c.id});
+    }
+  }
+  return out;
+}
+
+}  // namespace capstan::tooling

@@ -1,0 +1,276 @@
+#include "tooling/catalogue/machine.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "planner/base/file.h"
+#include "planner/base/number.h"
+#include "tooling/catalogue/data.h"
+#include "tooling/catalogue/tree.h"
+
+namespace capstan::tooling {
+namespace {
+
+using model::LinearAxis;
+using model::Machine;
+using model::SpindlePoint;
+
+constexpr std::array<const char*, 3> kAxes = {"X", "Y", "Z"};
+/// A milling spindle that never turns faster than this is a slip of unit: 600 rev/s is 36,000 1/min.
+constexpr double kSlowestTopSpeedRpm = 600.0;
+constexpr double kFastestSpeedRpm = 500000.0;
+constexpr double kRevPerSecond = 60.0;
+
+double watts(double torque_nm, double rpm) { return torque_nm * 2.0 * std::numbers::pi * rpm / 60.0; }
+
+/// Collects where each value of the machine is from; a value without a source is a fault.
+void keep_sources(Fields& f, Machine& m) {
+  for (const auto& [path, source] : f.sources()) {
+    if (source.empty()) f.fault("DATA-SOURCE", "no source is stated", path, f.line());
+    m.sources.emplace_back(path, source);
+  }
+  f.finish();
+}
+
+void positive(Fields& f, std::string_view key, double value) {
+  if (value > 0.0) return;
+  f.fault(key.starts_with("acceleration") ? "MACHINE-ACCELERATION" : "MACHINE-RANGE",
+          std::string(key) + " is " + trimmed(value, 6), key, f.line_of(key), "a number above zero");
+}
+void not_negative(Fields& f, std::string_view key, double value) {
+  if (value >= 0.0) return;
+  f.fault("MACHINE-RANGE", std::string(key) + " is negative: " + trimmed(value, 6), key, f.line_of(key));
+}
+
+LinearAxis read_axis(Fields f, const std::string& name, Machine& m) {
+  LinearAxis a;
+  a.name = name;
+  a.travel_min_mm = f.number("travel_min_mm");
+  a.travel_max_mm = f.number("travel_max_mm");
+  a.rapid_mm_min = f.number("rapid_mm_min");
+  a.feed_max_mm_min = f.number("feed_max_mm_min");
+  a.acceleration_mm_s2 = f.number("acceleration_mm_s2");
+  a.jerk_mm_s3 = f.optional_number("jerk_mm_s3");
+  if (a.travel_min_mm >= a.travel_max_mm)
+    f.fault("MACHINE-RANGE",
+            "travel_min_mm (" + trimmed(a.travel_min_mm, 4) + ") is not below travel_max_mm (" +
+                trimmed(a.travel_max_mm, 4) + ")",
+            "travel_min_mm", f.line_of("travel_min_mm"));
+  positive(f, "rapid_mm_min", a.rapid_mm_min);
+  positive(f, "feed_max_mm_min", a.feed_max_mm_min);
+  positive(f, "acceleration_mm_s2", a.acceleration_mm_s2);
+  if (a.jerk_mm_s3) positive(f, "jerk_mm_s3", *a.jerk_mm_s3);
+  keep_sources(f, m);
+  return a;
+}
+
+void read_axes(Fields& top, Machine& m) {
+  const Node* node = top.child("axes", true);
+  if (node == nullptr) return;
+  Fields f = top.below("axes", *node);
+  for (const auto& [name, child] : node->entries) {
+    if (name == "source") continue;
+    (void)f.child(name, true);
+    const auto it = std::find(kAxes.begin(), kAxes.end(), name);
+    if (it == kAxes.end()) {
+      f.fault("MACHINE-AXIS", "the axis '" + name + "' is not known", name, child.line, "X, Y and Z");
+      continue;
+    }
+    m.axes.at(static_cast<std::size_t>(it - kAxes.begin())) = read_axis(f.below(name, child), name, m);
+  }
+  for (const char* name : kAxes)
+    if (node->find(name) == nullptr)
+      f.fault("MACHINE-AXIS", "the axis " + std::string(name) + " is missing", name, node->line);
+  f.finish();
+}
+
+SpindlePoint read_point(Fields f, Machine& m) {
+  SpindlePoint p;
+  p.rpm = f.number("rpm");
+  const auto power = f.optional_number("power_w"), torque = f.optional_number("torque_nm");
+  if (!power && !torque)
+    f.fault("DATA-MISSING", "a point of the curve needs power_w or torque_nm", "power_w", f.line());
+  positive(f, "rpm", p.rpm);
+  if (power) not_negative(f, "power_w", *power);
+  if (torque) not_negative(f, "torque_nm", *torque);
+  if (p.rpm > 0.0) {
+    p.power_w = power ? *power : watts(*torque, p.rpm);
+    p.torque_nm = torque ? *torque : *power / watts(1.0, p.rpm);
+    const double ratio = p.torque_nm > 0.0 ? p.power_w / watts(p.torque_nm, p.rpm) : 1.0;
+    if (std::abs(ratio - kRevPerSecond) < 0.1 * kRevPerSecond)
+      f.fault("MACHINE-RPM",
+              "power and torque agree only if " + trimmed(p.rpm, 4) +
+                  " is in revolutions per second; write it in 1/min",
+              "rpm", f.line_of("rpm"));
+  }
+  keep_sources(f, m);
+  return p;
+}
+
+void check_curve(Fields& f, const model::Spindle& s) {
+  for (std::size_t i = 1; i < s.curve.size(); ++i) {
+    if (s.curve[i].rpm > s.curve[i - 1].rpm) continue;
+    f.fault("MACHINE-CURVE",
+            "the power curve runs backwards: " + trimmed(s.curve[i].rpm, 4) + " after " +
+                trimmed(s.curve[i - 1].rpm, 4) + " 1/min",
+            "curve", f.line_of("curve"), "speeds rising");
+    return;
+  }
+  if (s.curve.empty()) {
+    f.fault("MACHINE-CURVE", "the power curve has no point", "curve", f.line_of("curve"));
+  } else if (s.curve.front().rpm > s.rpm_min || s.curve.back().rpm < s.rpm_max) {
+    f.fault("MACHINE-CURVE",
+            "the power curve covers " + trimmed(s.curve.front().rpm, 4) + " to " +
+                trimmed(s.curve.back().rpm, 4) + " 1/min, the spindle turns " + trimmed(s.rpm_min, 4) +
+                " to " + trimmed(s.rpm_max, 4),
+            "curve", f.line_of("curve"), "a point at rpm_min and one at rpm_max; nothing is extrapolated");
+  }
+}
+
+void read_spindle(Fields& top, Machine& m) {
+  const Node* node = top.child("spindle", true);
+  if (node == nullptr) return;
+  Fields f = top.below("spindle", *node);
+  model::Spindle& s = m.spindle;
+  s.rpm_min = f.number("rpm_min");
+  s.rpm_max = f.number("rpm_max");
+  s.taper = f.text_or("taper", "");
+  s.efficiency = f.number("efficiency");
+  s.spin_up_s = f.number("spin_up_s");
+  not_negative(f, "rpm_min", s.rpm_min);
+  not_negative(f, "spin_up_s", s.spin_up_s);
+  if (s.efficiency <= 0.0 || s.efficiency > 1.0)
+    f.fault("MACHINE-RANGE", "efficiency is " + trimmed(s.efficiency, 4), "efficiency",
+            f.line_of("efficiency"), "above 0, at most 1");
+  if (s.rpm_min > s.rpm_max)
+    f.fault("MACHINE-RANGE",
+            "rpm_min (" + trimmed(s.rpm_min, 4) + ") is above rpm_max (" + trimmed(s.rpm_max, 4) + ")",
+            "rpm_min", f.line_of("rpm_min"));
+  else if (s.rpm_max < kSlowestTopSpeedRpm)
+    f.fault("MACHINE-RPM",
+            "rpm_max is " + trimmed(s.rpm_max, 4) + ", which looks like revolutions per second; write " +
+                trimmed(s.rpm_max * kRevPerSecond, 4) + " if it is",
+            "rpm_max", f.line_of("rpm_max"), "1/min, at least " + trimmed(kSlowestTopSpeedRpm, 0));
+  else if (s.rpm_max > kFastestSpeedRpm)
+    f.fault("MACHINE-RANGE", "rpm_max is " + trimmed(s.rpm_max, 4), "rpm_max", f.line_of("rpm_max"),
+            "at most " + trimmed(kFastestSpeedRpm, 0));
+  const Node* curve = f.child("curve", true);
+  keep_sources(f, m);
+  if (curve == nullptr) return;
+  for (std::size_t i = 0; i < curve->items.size(); ++i)
+    s.curve.push_back(read_point(f.below("curve[" + std::to_string(i) + "]", curve->items[i]), m));
+  check_curve(f, s);
+}
+
+void read_magazine(Fields& top, Machine& m) {
+  const Node* node = top.child("magazine", true);
+  if (node == nullptr) return;
+  Fields f = top.below("magazine", *node);
+  m.magazine_pockets = static_cast<int>(f.optional_integer("pockets").value_or(0));
+  if (!f.has("pockets")) f.fault("DATA-MISSING", "'pockets' is missing", "pockets", f.line());
+  m.tool_diameter_max_mm = f.number("tool_diameter_max_mm");
+  m.tool_length_max_mm = f.number("tool_length_max_mm");
+  m.tool_change_s = f.number("tool_change_s");
+  not_negative(f, "pockets", m.magazine_pockets);
+  positive(f, "tool_diameter_max_mm", m.tool_diameter_max_mm);
+  positive(f, "tool_length_max_mm", m.tool_length_max_mm);
+  not_negative(f, "tool_change_s", m.tool_change_s);
+  keep_sources(f, m);
+}
+
+void read_coolant(Fields& top, Machine& m) {
+  const Node* node = top.child("coolant", true);
+  if (node == nullptr) return;
+  Fields f = top.below("coolant", *node);
+  m.has_flood = f.flag_or("flood", false);
+  m.has_mist = f.flag_or("mist", false);
+  m.has_through = f.flag_or("through", false);
+  keep_sources(f, m);
+}
+
+void read_control(Fields& top, Machine& m) {
+  const Node* node = top.child("control", true);
+  if (node == nullptr) return;
+  Fields f = top.below("control", *node);
+  m.control.dialect = f.text("dialect");
+  m.control.decimals = static_cast<int>(f.optional_integer("decimals").value_or(m.control.decimals));
+  m.control.feed_decimals =
+      static_cast<int>(f.optional_integer("feed_decimals").value_or(m.control.feed_decimals));
+  m.control.path_tolerance_mm = f.number("path_tolerance_mm");
+  m.control.block_time_s = f.number("block_time_s");
+  for (const auto& [key, value] :
+       {std::pair{"decimals", m.control.decimals}, std::pair{"feed_decimals", m.control.feed_decimals}}) {
+    if (value < 0 || value > 9)
+      f.fault("MACHINE-RANGE", std::string(key) + " is " + std::to_string(value), key, f.line_of(key),
+              "0 to 9");
+  }
+  not_negative(f, "path_tolerance_mm", m.control.path_tolerance_mm);
+  not_negative(f, "block_time_s", m.control.block_time_s);
+  keep_sources(f, m);
+}
+
+}  // namespace
+
+std::vector<std::string> shipped_machines() {
+  constexpr std::string_view kFolder = "machines/", kEnding = ".yaml";
+  std::vector<std::string> out;
+  for (std::string_view name : embedded_names()) {
+    if (!name.starts_with(kFolder) || !name.ends_with(kEnding)) continue;
+    name.remove_prefix(kFolder.size());
+    name.remove_suffix(kEnding.size());
+    out.emplace_back(name);
+  }
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+Result<Machine> read_machine(std::string_view text, const std::string& file, Job& job) {
+  auto root = parse_tree(text, file);
+  if (!root) return fail(root.error());
+  std::vector<Diagnostic> faults;
+  Fields top(*root, file, "", "", faults);
+  Machine m;
+  if (top.text("capstan_machine") != "1")
+    top.fault("DATA-VERSION", "not a machine of version 1", "capstan_machine", 1, "capstan_machine: 1");
+  m.id = top.text("id");
+  m.description = top.text_or("description", m.id);
+  m.cost_per_hour = top.number("cost_per_hour");
+  not_negative(top, "cost_per_hour", m.cost_per_hour);
+  for (const auto& [path, source] : top.sources()) {
+    if (path != "cost_per_hour") continue;
+    if (source.empty()) top.fault("DATA-SOURCE", "no source is stated", path, top.line_of(path));
+    m.sources.emplace_back(path, source);
+  }
+  read_axes(top, m);
+  read_spindle(top, m);
+  read_magazine(top, m);
+  read_coolant(top, m);
+  read_control(top, m);
+  top.finish();
+  if (auto d = tell(std::move(faults), job)) return fail(std::move(*d));
+  return m;
+}
+
+Result<Machine> load_machine(const std::string& path, Job& job) {
+  const auto shipped = shipped_machines();
+  if (std::find(shipped.begin(), shipped.end(), path) != shipped.end()) {
+    const std::string name = "machines/" + path + ".yaml";
+    return read_machine(shipped_text(name), name, job);
+  }
+  auto text = read_file(path, kDataFileCap);
+  if (!text) {
+    Diagnostic d = text.error();
+    std::string names;
+    for (const std::string& s : shipped) names += (names.empty() ? "" : ", ") + s;
+    d.hint = "a machine file, or one of: " + names;
+    return fail(std::move(d));
+  }
+  const auto first = text->find_first_not_of(" \t\r\n");
+  const bool ini =
+      path.ends_with(".ini") || (text->find("[TRAJ]") != std::string::npos && first != std::string::npos);
+  return ini ? read_linuxcnc_ini(*text, path, job) : read_machine(*text, path, job);
+}
+
+}  // namespace capstan::tooling

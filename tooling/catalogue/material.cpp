@@ -1,0 +1,252 @@
+#include "tooling/catalogue/material.h"
+
+#include <algorithm>
+#include <array>
+
+#include "planner/base/number.h"
+#include "tooling/catalogue/data.h"
+#include "tooling/catalogue/tree.h"
+
+namespace capstan::tooling {
+namespace {
+
+using model::WorkMaterial;
+
+constexpr const char* kFile = "materials.yaml";
+/// Shorter names must match as a whole: "O1" must not claim "O1-tool".
+constexpr std::size_t kLeastPrefix = 4;
+
+struct Family {
+  std::vector<std::string> words;
+  std::string material, source;
+};
+struct Table {
+  std::vector<WorkMaterial> materials;
+  std::vector<Family> families;
+  Family unknown;
+};
+
+/// Upper case, letters and digits only: "EN AW-6061" and "ENAW6061" are one name.
+std::string plain(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    if (c >= 'a' && c <= 'z') out += static_cast<char>(c - 'a' + 'A');
+    if ((c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9')) out += c;
+  }
+  return out;
+}
+
+void check(double value, double low, double high, std::string_view key, Fields& f) {
+  if (value >= low && value <= high) return;
+  f.fault("MATERIAL-RANGE", trimmed(value, 6) + " is no value of a material", key, f.line_of(key),
+          trimmed(low, 3) + " to " + trimmed(high, 3));
+}
+
+std::vector<std::string> words_of(const Node& n) {
+  std::vector<std::string> out;
+  if (n.kind == Node::Kind::kScalar) out.push_back(n.text);
+  for (const Node& item : n.items)
+    if (item.kind == Node::Kind::kScalar) out.push_back(item.text);
+  return out;
+}
+
+void read_names(Fields& f, WorkMaterial& m) {
+  const Node* names = f.child("names", false);
+  if (names == nullptr) return;
+  for (const Node& row : names->items) {
+    Fields r = f.below("names", row);
+    if (const Node* name = r.child("name", true)) {
+      for (std::string& word : words_of(*name)) {
+        m.sources.emplace_back("name " + word, r.source());
+        m.names.push_back(std::move(word));
+      }
+    }
+    r.finish();
+  }
+}
+
+WorkMaterial read_material(Fields f, double uncertainty, const std::string& uncertainty_source) {
+  WorkMaterial m;
+  m.id = f.text("id");
+  m.iso_group = f.text("iso_group");
+  m.kc11_n_mm2 = f.number("kc11_n_mm2");
+  m.mc = f.number("mc");
+  m.vc_hss_m_min = f.number("vc_hss_m_min");
+  m.vc_carbide_m_min = f.number("vc_carbide_m_min");
+  m.tensile_strength_n_mm2 = f.number_or("tensile_strength_n_mm2", 0.0);
+  m.kc_uncertainty = f.number_or("kc_uncertainty", uncertainty);
+  for (const auto& [path, source] : f.sources()) {
+    if (source.empty()) f.fault("DATA-SOURCE", "no source is stated", path, f.line());
+    const std::string key = path.substr(path.rfind('.') + 1);
+    if (key != "id" && key != "iso_group") m.sources.emplace_back(key, source);
+  }
+  if (!f.has("kc_uncertainty")) m.sources.emplace_back("kc_uncertainty", uncertainty_source);
+  // What real materials span, with room: public tables have held coefficients a hundred times too large.
+  check(m.kc11_n_mm2, 100, 8000, "kc11_n_mm2", f);
+  check(m.mc, 0, 0.6, "mc", f);
+  check(m.vc_hss_m_min, 0, 500, "vc_hss_m_min", f);
+  check(m.vc_carbide_m_min, 1, 3000, "vc_carbide_m_min", f);
+  check(m.kc_uncertainty, 0, 1, "kc_uncertainty", f);
+  if (m.iso_group.size() != 1 || std::string_view("PMKNSH").find(m.iso_group) == std::string_view::npos)
+    f.fault("MATERIAL-GROUP", "'" + m.iso_group + "' is no group of ISO 513", "iso_group",
+            f.line_of("iso_group"), "P, M, K, N, S or H");
+  read_names(f, m);
+  f.finish();
+  return m;
+}
+
+Family read_family(Fields f) {
+  Family out;
+  if (const Node* words = f.child("words", false))
+    for (const std::string& w : words_of(*words)) out.words.push_back(plain(w));
+  out.material = f.text("material");
+  out.source = f.source();
+  f.finish();
+  return out;
+}
+
+Result<Table> read_table(std::string_view text, const std::string& file, Job& job) {
+  auto root = parse_tree(text, file);
+  if (!root) return fail(root.error());
+  std::vector<Diagnostic> faults;
+  Fields top(*root, file, "", "", faults);
+  Table out;
+  if (top.text("capstan_materials") != "1")
+    top.fault("DATA-VERSION", "not a material table of version 1", "capstan_materials", 1);
+  const double uncertainty = top.number("kc_uncertainty");
+  const std::string uncertainty_source = top.sources().empty() ? "" : top.sources().back().second;
+  if (const Node* rows = top.child("materials", true))
+    for (const Node& row : rows->items)
+      out.materials.push_back(read_material(top.below("materials", row), uncertainty, uncertainty_source));
+  if (const Node* rows = top.child("families", false))
+    for (const Node& row : rows->items) out.families.push_back(read_family(top.below("families", row)));
+  if (const Node* row = top.child("unknown", false)) out.unknown = read_family(top.below("unknown", *row));
+  top.finish();
+  for (std::size_t i = 0; i < out.materials.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (out.materials[i].id == out.materials[j].id)
+        top.fault("DATA-DUPLICATE", "material '" + out.materials[i].id + "' is given twice", "materials", 1);
+  if (auto d = tell(std::move(faults), job)) return fail(std::move(*d));
+  return out;
+}
+
+const WorkMaterial* by_id(const std::vector<WorkMaterial>& materials, const std::string& id) {
+  for (const WorkMaterial& m : materials)
+    if (m.id == id) return &m;
+  return nullptr;
+}
+
+struct Match {
+  const WorkMaterial* material = nullptr;
+  std::string name, source;
+};
+
+Match exact(const std::string& wanted, const std::vector<WorkMaterial>& materials) {
+  for (const WorkMaterial& m : materials) {
+    if (plain(m.id) == wanted) return {&m, m.id, "its id"};
+    for (const std::string& name : m.names) {
+      if (plain(name) != wanted) continue;
+      const auto it = std::find_if(m.sources.begin(), m.sources.end(),
+                                   [&](const auto& s) { return s.first == "name " + name; });
+      return {&m, name, it == m.sources.end() ? "" : it->second};
+    }
+  }
+  return {};
+}
+
+/// The longest known name that the wanted one begins with; what follows may not go on as a number
+/// ("ST-50" must not claim "ST-500").
+Match longest_prefix(const std::string& wanted, const std::vector<WorkMaterial>& materials) {
+  for (std::size_t n = wanted.size(); n-- > kLeastPrefix;) {
+    const bool digits = wanted[n - 1] >= '0' && wanted[n - 1] <= '9' && wanted[n] >= '0' && wanted[n] <= '9';
+    if (digits) continue;
+    if (Match m = exact(wanted.substr(0, n), materials); m.material != nullptr) return m;
+  }
+  return {};
+}
+
+/// A family's word is in the text: long ones anywhere, short ones only as a word of their own.
+bool says(const std::string& text, const std::string& word) {
+  if (word.size() >= 5) return plain(text).find(word) != std::string::npos;
+  std::string token;
+  for (const char c : text + " ") {
+    const std::string p = plain(std::string_view(&c, 1));
+    token += p;
+    if (!p.empty()) continue;
+    if (token == word) return true;
+    token.clear();
+  }
+  return false;
+}
+
+WorkMaterial chosen(const WorkMaterial& m, std::string why) {
+  WorkMaterial out = m;
+  out.sources.emplace_back("chosen", std::move(why));
+  return out;
+}
+
+const WorkMaterial& hardest(const std::vector<WorkMaterial>& materials) {
+  return *std::max_element(materials.begin(), materials.end(),
+                           [](const auto& a, const auto& b) { return a.kc11_n_mm2 < b.kc11_n_mm2; });
+}
+
+std::string joined(const std::vector<std::string>& texts) {
+  std::string out;
+  for (const std::string& t : texts) out += (out.empty() ? "'" : ", '") + t + "'";
+  return out.empty() ? "no material name" : out;
+}
+
+}  // namespace
+
+Result<std::vector<WorkMaterial>> read_materials(std::string_view text, const std::string& file, Job& job) {
+  auto table = read_table(text, file, job);
+  if (!table) return fail(table.error());
+  return std::move(table->materials);
+}
+
+Result<std::vector<WorkMaterial>> shipped_materials() {
+  Job job;
+  return read_materials(shipped_text(kFile), kFile, job);
+}
+
+Result<WorkMaterial> find_material(const std::vector<std::string>& texts,
+                                   const std::vector<WorkMaterial>& materials, Job& job) {
+  if (materials.empty()) return fail("MATERIAL-NONE", "the material table is empty");
+  using Search = Match (*)(const std::string&, const std::vector<WorkMaterial>&);
+  for (const Search search : std::array<Search, 2>{exact, longest_prefix}) {
+    for (const std::string& text : texts) {
+      const Match m = search(plain(text), materials);
+      if (m.material == nullptr) continue;
+      return chosen(*m.material, "'" + text + "' is " + m.name + ": " + m.source);
+    }
+  }
+  auto table = read_table(shipped_text(kFile), kFile, job);
+  if (!table) return fail(table.error());
+  for (const std::string& text : texts) {
+    const Family* best = nullptr;
+    std::size_t longest = 0;
+    for (const Family& f : table->families)
+      for (const std::string& w : f.words)
+        if (w.size() > longest && says(text, w)) {
+          best = &f;
+          longest = w.size();
+        }
+    if (best == nullptr) continue;
+    const WorkMaterial* m = by_id(materials, best->material);
+    if (m == nullptr) continue;
+    job.warn("MATERIAL-FAMILY", "the material '" + text + "' names only a family; taken as " + m->id);
+    return chosen(*m, "'" + text + "': " + best->source);
+  }
+  const WorkMaterial* m = by_id(materials, table->unknown.material);
+  if (m == nullptr) m = &hardest(materials);
+  job.warn("MATERIAL-UNKNOWN", "the material is not known (" + joined(texts) + "); taken as " + m->id +
+                                   ", name one to plan for it");
+  return chosen(*m, table->unknown.source);
+}
+
+Result<WorkMaterial> find_material(const std::string& text, const std::vector<WorkMaterial>& materials,
+                                   Job& job) {
+  return find_material(std::vector<std::string>{text}, materials, job);
+}
+
+}  // namespace capstan::tooling

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "planner/base/job.h"
+#include "planner/base/result.h"
+#include "planner/model/material.h"
+
+namespace capstan::tooling {
+
+/// The material table that comes with the planner (tooling/data/materials.yaml), in file order.
+/// Every number and every name has a source in WorkMaterial::sources ("kc11_n_mm2", "name ST-50", ...).
+[[nodiscard]] Result<std::vector<model::WorkMaterial>> shipped_materials();
+
+/// As above from a text of the same form.
+/// Fails  DATA-*, MATERIAL-RANGE for a value no material has; each fault is reported to the job first.
+[[nodiscard]] Result<std::vector<model::WorkMaterial>> read_materials(std::string_view text,
+                                                                      const std::string& file, Job& job);
+
+/// The material that a file means by these texts, most telling first (standard_identifier before
+/// material_identifier): an id or a name, letter case and punctuation aside; a name followed by a temper or
+/// quality ("EN AW-6061-T6"); else a family's word ("STEEL"), which stands for its hardest card; else the
+/// shipped table's `unknown`. The last two warn MATERIAL-FAMILY, MATERIAL-UNKNOWN.
+/// WorkMaterial::sources then has "chosen": why it was taken.
+/// Fails  MATERIAL-NONE when `materials` is empty.
+[[nodiscard]] Result<model::WorkMaterial> find_material(const std::vector<std::string>& texts,
+                                                        const std::vector<model::WorkMaterial>& materials,
+                                                        Job& job);
+[[nodiscard]] Result<model::WorkMaterial> find_material(const std::string& text,
+                                                        const std::vector<model::WorkMaterial>& materials,
+                                                        Job& job);
+
+}  // namespace capstan::tooling
