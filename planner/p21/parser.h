@@ -79,15 +79,19 @@ class Parser {
   bool instance_id(std::uint64_t& id);
   bool parameters(Node& out);
   [[gnu::always_inline]] const char* quick_value(const char* p, Node& out) const;
-  bool simple_value(char first);
   bool open(std::uint32_t typed);
   Node close();
+
+  // values.cpp
+  bool simple_value(char first);
   bool number(Node& out);
   bool check_range(const char* start, bool real);
   bool string(Node& out);
   bool check_text(const char* start, std::size_t length, std::uint32_t line);
   bool enumeration(Node& out);
   bool binary(Node& out);
+
+  // parser.cpp
   bool reference(Node& out);
   bool keyword(std::uint32_t& start, std::uint32_t& length);
   bool semicolon();
