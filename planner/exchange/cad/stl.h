@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "planner/base/job.h"
+#include "planner/base/result.h"
+#include "planner/geometry/mesh.h"
+#include "planner/model/plan.h"
+
+namespace capstan::exchange {
+
+/// Whether the bytes are an STL mesh: a binary one by its size, which its triangle count fixes; else ASCII.
+[[nodiscard]] bool looks_like_stl(std::string_view bytes);
+
+/// Reads an STL mesh, binary or ASCII. STL has no unit: mm are assumed. Corners at the very same place
+/// become one vertex; normals are dropped, the order of corners tells the outside. Triangles without area
+/// are left out, with a warning.
+///
+/// Fails  STL-SYNTAX (with the line), STL-TRUNCATED, STL-NUMBER (not finite), STL-EMPTY.
+/// Cost   linear; a binary triangle is 50 bytes.
+[[nodiscard]] Result<geometry::Mesh> read_stl(std::string_view bytes, const std::string& name, Job& job);
+
+/// A plan whose part is the mesh: a project with one workpiece, an empty workplan and one region.
+[[nodiscard]] model::Plan plan_of_mesh(geometry::Mesh mesh, const std::string& name);
+
+}  // namespace capstan::exchange

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "planner/base/job.h"
+#include "planner/base/result.h"
+#include "planner/model/plan.h"
+#include "planner/p21/file.h"
+#include "planner/p21/parse.h"
+
+namespace capstan::exchange {
+
+struct ReadOptions {
+  p21::Limits limits;  ///< what a file may cost
+};
+
+/// Reads a part or a plan, told by its content and not by its name: ISO 14649 (Part 21), or STL, which
+/// gives a plan with a target mesh and one region to machine.
+///
+/// Fails  FILE-READ, P21-… (not a Part 21 file), EXC-… (not a plan), EXC-UNKNOWN-FORMAT for anything else,
+///        EXC-UNSUPPORTED for Part 21 files of other schemas; each fault went to `job` before.
+[[nodiscard]] Result<model::Plan> read(const std::string& path, Job& job);
+[[nodiscard]] Result<model::Plan> read(const std::string& path, const ReadOptions& options, Job& job);
+/// As above, from bytes; `name` is what diagnostics call the file.
+[[nodiscard]] Result<model::Plan> read_bytes(std::string bytes, const std::string& name,
+                                             const ReadOptions& options, Job& job);
+
+/// Reads an ISO 14649 plan. Instances that no noun describes are kept verbatim and stay connected.
+///
+/// Numbers   are converted to the model's units; deviations of real files (revolutions per minute, radians,
+///           ...) are recognised and reported, see iso14649/deviations.h.
+/// Open      `$` in its_tool, its_technology, its_operation, and a technology without feed or speed, is
+///           open in the plan's ledger.
+/// Fails     with one summary, after each fault went to `job`: EXC-REFERENCE, EXC-PARAMETERS, EXC-VALUE,
+///           EXC-CYCLE, EXC-GEOMETRY. Faults of what the project does not reach are warnings.
+/// Source    ISO 14649-10, -11, -111 at the published and at the 2001 draft level.
+[[nodiscard]] Result<model::Plan> read_iso14649(const p21::File& file, Job& job);
+
+/// What was written, and what could not be.
+struct Written {
+  std::string bytes;
+  std::vector<std::string> losses;  ///< sentences; empty when the file holds all of the plan
+};
+
+/// Writes the plan as ISO 14649 at the published level, by instance number; numbers of objects that came
+/// from a file are kept. Who bound what goes into user-defined header entities, see the room's README.
+[[nodiscard]] Result<Written> write_iso14649(const model::Plan& plan, Job& job);
+
+}  // namespace capstan::exchange

@@ -1,0 +1,338 @@
+#include "planner/exchange/iso14649/curves.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "planner/base/number.h"
+#include "planner/exchange/iso14649/segments.h"
+#include "planner/model/nouns/all.h"
+#include "planner/model/resolve.h"
+#include "planner/model/walk.h"
+
+namespace capstan::exchange {
+
+using geometry::Placement;
+using geometry::Vec3;
+using model::AnyRef;
+using model::CutterPath;
+using model::MoveRole;
+
+namespace {
+
+constexpr double kAlongZ = 1e-9;  // sine of the angle up to which an axis counts as the set-up's z
+
+/// Appends one curve to a path.
+class Emitter {
+ public:
+  Emitter(const Placement& frame, const CurveOptions& o, MoveRole role, bool rapid)
+      : frame_(frame), o_(o), role_(role), rapid_(rapid) {}
+
+  Status add(const std::vector<curves::Segment>& segments, CutterPath& path) {
+    for (const auto& s : segments) {
+      if (path.size() == 0) path.start(frame_.to_parent(s.from));
+      const bool upright = norm(cross(frame_.direction_to_parent(s.axis), Vec3{0, 0, 1})) < kAlongZ;
+      if (!s.arc) {
+        line(frame_.to_parent(s.to), path);
+      } else if (upright && !rapid_) {
+        arc(s, path);
+      } else {
+        chords(s, path);
+      }
+      if (path.size() > o_.max_moves) return fail("EXC-CURVE", "a path has too many moves");
+    }
+    return {};
+  }
+
+ private:
+  void line(Vec3 to, CutterPath& path) {
+    if (rapid_) return path.rapid(to, role_);
+    path.line(to, role_);
+  }
+
+  // Turn by turn: a move sweeps at most a full one.
+  void arc(const curves::Segment& s, CutterPath& path) {
+    const double turn = 2.0 * std::numbers::pi;
+    const auto n = static_cast<std::size_t>(std::max(1.0, std::ceil(std::abs(s.sweep) / turn - 1e-12)));
+    const bool up = frame_.direction_to_parent(s.axis).z > 0.0;
+    const bool clockwise = (s.sweep < 0.0) == up;
+    const geometry::Vec2 centre = xy(frame_.to_parent(s.centre));
+    for (std::size_t i = 1; i <= n; ++i) {
+      const double t = std::min(1.0, static_cast<double>(i) * turn / std::abs(s.sweep));
+      path.arc(frame_.to_parent(i == n ? s.to : curves::at(s, t)), centre, clockwise, role_);
+    }
+  }
+
+  // An arc of radius r and angle w strays r (1 - cos(w / 2)) from its chord.
+  void chords(const curves::Segment& s, CutterPath& path) {
+    const Vec3 r = s.from - s.centre;
+    const double radius = norm(r - dot(r, s.axis) * s.axis);
+    const double c = std::clamp(1.0 - o_.chord_tolerance_mm / std::max(radius, 1e-9), -1.0, 1.0);
+    const double step = std::max(2.0 * std::acos(c), 1e-4);
+    const auto n = static_cast<std::size_t>(std::max(1.0, std::ceil(std::abs(s.sweep) / step)));
+    for (std::size_t i = 1; i <= n; ++i) {
+      const double t = static_cast<double>(i) / static_cast<double>(n);
+      line(frame_.to_parent(i == n ? s.to : curves::at(s, t)), path);
+    }
+  }
+
+  const Placement& frame_;
+  const CurveOptions& o_;
+  MoveRole role_;
+  bool rapid_;
+};
+
+bool is_rapid(const model::Toolpath& t) {
+  return t.its_speed.text == "RAPID" || (t.its_type == model::ToolpathType::kConnect && !t.its_technology);
+}
+
+MoveRole role_of(const model::Toolpath& t) {
+  switch (t.its_type.value_or(model::ToolpathType::kTrajectoryPath)) {
+    case model::ToolpathType::kApproach:
+      return is_rapid(t) ? MoveRole::kApproach : MoveRole::kPlunge;
+    case model::ToolpathType::kLift:
+      return MoveRole::kRetract;
+    case model::ToolpathType::kConnect:
+    case model::ToolpathType::kNonContact:
+      return MoveRole::kLink;
+    case model::ToolpathType::kContact:
+    case model::ToolpathType::kTrajectoryPath:
+      return is_rapid(t) ? MoveRole::kLink : MoveRole::kCut;
+  }
+  return MoveRole::kCut;
+}
+
+// An approach that does not go straight down is a ramp.
+void tell_ramps(CutterPath& path) {
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const bool down = path.x[i] == path.x[i - 1] && path.y[i] == path.y[i - 1];
+    if (path.role[i] == MoveRole::kPlunge && !down) path.role[i] = MoveRole::kRamp;
+  }
+}
+
+AnyRef curve_of(const model::Model& m, AnyRef toolpath) {
+  if (const auto* t = m.get<model::CutterLocationTrajectory>(toolpath)) return t->basiccurve;
+  if (const auto* t = m.get<model::CutterContactTrajectory>(toolpath)) {
+    if (const auto* c = m.get<model::CurveWithNormalVector>(t->basiccurve)) return c->basiccurve;
+  }
+  return {};
+}
+
+/// Finds the set-up around a step: a walk down from the main workplan that carries the innermost set-up.
+AnyRef setup_around(const model::Plan& plan, AnyRef step) {
+  const auto& m = plan.model;
+  std::vector<AnyRef> plans = m.all(model::TypeId::kWorkplan);
+  if (const auto* project = m.get<model::Project>(plan.project);
+      project != nullptr && project->main_workplan) {
+    plans.insert(plans.begin(), project->main_workplan);
+  }
+  for (const AnyRef root : plans) {
+    std::vector<std::pair<AnyRef, AnyRef>> pending = {{root, {}}};
+    std::size_t visited = 0;
+    while (!pending.empty() && ++visited < 10'000'000) {
+      auto [at, setup] = pending.back();
+      pending.pop_back();
+      if (at == step) return setup;
+      if (const auto* w = m.get<model::Workplan>(at); w != nullptr && w->its_setup) setup = w->its_setup;
+      if (!m.holds<model::ProgramStructure>(at)) continue;
+      model::for_each_reference(m, at, [&, s = setup](AnyRef to) {
+        if (m.holds<model::Executable>(to)) pending.emplace_back(to, s);
+      });
+    }
+  }
+  return {};
+}
+
+AnyRef feature_of(const model::Model& m, AnyRef step) {
+  const auto* w = m.get<model::MachiningWorkingstep>(step);
+  return w == nullptr ? AnyRef{} : AnyRef(w->its_feature);
+}
+
+AnyRef placement_of_feature(const model::Model& m, AnyRef feature) {
+  if (const auto* f = m.get<model::Two5dManufacturingFeature>(feature)) return f->feature_placement;
+  if (const auto* f = m.get<model::Region>(feature)) return f->feature_placement;
+  // A chamfer or an edge round stands where the feature stands whose edge it is.
+  if (const auto* f = m.get<model::TransitionFeature>(feature)) {
+    if (const auto* first = m.get<model::MachiningFeature>(f->first_feature)) return first->feature_placement;
+  }
+  return {};
+}
+
+/// Puts the toolpaths of a step one after the other.
+class StepBuilder {
+ public:
+  StepBuilder(const model::Plan& plan, AnyRef step, const CurveOptions& o, Job& job)
+      : plan_(plan), m_(plan.model), step_(step), o_(o), job_(job) {}
+
+  Result<StepPath> run() {
+    AnyRef list;
+    if (const auto* w = m_.get<model::MachiningWorkingstep>(step_)) {
+      if (const auto* op = m_.get<model::MachiningOperation>(w->its_operation)) {
+        list = op->its_toolpath;
+        technology_ = op->its_technology;
+      }
+    } else if (const auto* r = m_.get<model::RapidMovement>(step_)) {
+      list = r->its_toolpath;
+      rapid_step_ = true;
+    }
+    const auto* toolpaths = m_.get<model::ToolpathList>(list);
+    if (toolpaths == nullptr) return std::move(out_);
+    const auto frame = frame_of_step(plan_, model::Ref<model::Executable>(step_));
+    if (!frame) return fail(frame.error());
+    for (const AnyRef t : toolpaths->its_list.items) {
+      if (auto done = add(t, *frame); !done) return fail(done.error());
+    }
+    return std::move(out_);
+  }
+
+ private:
+  Status add(AnyRef at, const Placement& frame) {
+    const auto* t = m_.get<model::Toolpath>(at);
+    if (t == nullptr) return bad(at, "a toolpath of an unknown kind");
+    if (const auto* stop = m_.get<model::Feedstop>(at)) {
+      if (out_.path.size() == 0) return bad(at, "a feedstop stands before the first move");
+      out_.path.dwell();
+      return settle(*t, stop->dwell.value_or(0.0));
+    }
+    if (m_.holds<model::ConnectDirect>(at)) {
+      bridge_ = true;
+      return {};
+    }
+    const auto* trajectory = m_.get<model::Trajectory>(at);
+    if (trajectory != nullptr && trajectory->path && !curve_of(m_, at).set()) {
+      if (auto joined = join(*trajectory->path, at); !joined) return joined;
+      return settle(*t, 0.0);
+    }
+    auto part = path_of_toolpath(plan_, model::Ref<model::Toolpath>(at), frame, o_, job_);
+    if (!part) return fail(part.error());
+    if (rapid_step_) {
+      for (std::size_t i = 1; i < part->size(); ++i) {
+        if (part->kind[i] == model::MoveKind::kLine) part->kind[i] = model::MoveKind::kRapid;
+        part->role[i] = MoveRole::kLink;
+      }
+    }
+    if (auto joined = join(*part, at); !joined) return joined;
+    return settle(*t, 0.0);
+  }
+
+  Status join(const CutterPath& part, AnyRef at) {
+    auto& path = out_.path;
+    if (part.size() == 0) return {};
+    std::size_t from = 1;
+    if (path.size() == 0) {
+      from = 0;
+    } else if (const double gap = norm(part.point(0) - path.point(path.size() - 1)); gap > o_.gap_mm) {
+      if (!bridge_)
+        return bad(at, "a toolpath begins " + trimmed(gap, 3) + " mm from where the last one ended",
+                   "EXC-GAP");
+      path.line(part.point(0), MoveRole::kLink);
+    }
+    bridge_ = false;
+    const auto append = [from](auto& to, const auto& column) {
+      to.insert(to.end(), column.begin() + static_cast<std::ptrdiff_t>(from), column.end());
+    };
+    append(path.x, part.x);
+    append(path.y, part.y);
+    append(path.z, part.z);
+    append(path.cx, part.cx);
+    append(path.cy, part.cy);
+    append(path.kind, part.kind);
+    append(path.role, part.role);
+    return {};
+  }
+
+  // Feed and speed of the moves added since.
+  Status settle(const model::Toolpath& t, double dwell_s) {
+    const auto* own = m_.get<model::MillingTechnology>(t.its_technology);
+    const auto* general = m_.get<model::MillingTechnology>(technology_);
+    double feed = 0.0, speed = 0.0;
+    for (const auto* tech : {general, own}) {
+      if (tech == nullptr) continue;
+      if (tech->feedrate) feed = *tech->feedrate;
+      if (tech->spindle)
+        speed = -*tech->spindle + 0.0;  // ISO 14649: negative is clockwise; a schedule: positive
+    }
+    if (t.its_speed.real) feed *= *t.its_speed.real;
+    while (out_.schedule.feed_mm_min.size() < out_.path.size()) {
+      out_.schedule.feed_mm_min.push_back(feed);
+      out_.schedule.spindle_rpm.push_back(speed);
+      out_.schedule.dwell_s.push_back(0.0);
+    }
+    if (dwell_s > 0.0) out_.schedule.dwell_s.back() = dwell_s;
+    return {};
+  }
+
+  Status bad(AnyRef at, std::string what, std::string code = "EXC-TOOLPATH") {
+    return fail({.code = std::move(code),
+                 .message = std::move(what),
+                 .line = m_.origin(at).line,
+                 .instance = m_.origin(at).instance});
+  }
+
+  const model::Plan& plan_;
+  const model::Model& m_;
+  AnyRef step_;
+  const CurveOptions& o_;
+  Job& job_;
+  AnyRef technology_;
+  bool rapid_step_ = false;
+  bool bridge_ = false;
+  StepPath out_;
+};
+
+}  // namespace
+
+Result<Placement> frame_of_step(const model::Plan& plan, model::Ref<model::Executable> step) {
+  const auto& m = plan.model;
+  const AnyRef feature = feature_of(m, step);
+  if (!feature.set()) return Placement{};
+  const auto local =
+      model::placement_or_identity(m, model::Ref<model::Axis2Placement3d>(placement_of_feature(m, feature)));
+  if (!local) return fail(local.error());
+  const auto* f = m.get<model::ManufacturingFeature>(feature);
+  const auto* setup = m.get<model::Setup>(setup_around(plan, step));
+  if (setup == nullptr || f == nullptr) return *local;
+  for (const AnyRef at : setup->its_workpiece_setup.items) {
+    const auto* piece = m.get<model::WorkpieceSetup>(at);
+    const bool ours = piece != nullptr &&
+                      (piece->its_workpiece == f->its_workpiece || setup->its_workpiece_setup.size() == 1);
+    if (!ours) continue;
+    const auto outer = model::placement_or_identity(m, piece->its_origin);
+    if (!outer) return fail(outer.error());
+    return geometry::compose(*outer, *local);
+  }
+  return *local;
+}
+
+Result<CutterPath> path_of_toolpath(const model::Plan& plan, model::Ref<model::Toolpath> toolpath,
+                                    const Placement& frame, const CurveOptions& options, Job& job) {
+  const auto& m = plan.model;
+  const AnyRef curve = curve_of(m, toolpath);
+  if (!curve.set()) {
+    return fail({.code = "EXC-TOOLPATH",
+                 .message = std::string(toolpath ? model::noun_type(toolpath.type).keyword : "nothing") +
+                            " has no curve to follow",
+                 .line = toolpath ? m.origin(toolpath).line : 0,
+                 .instance = toolpath ? m.origin(toolpath).instance : 0});
+  }
+  auto segments = curves::segments_of(m, curve, options, job);
+  if (!segments) return fail(segments.error());
+  const auto& t = m.at<model::Toolpath>(toolpath);
+  if (const auto* trajectory = m.get<model::Trajectory>(toolpath);
+      trajectory != nullptr && !trajectory->its_direction.value_or(true)) {
+    curves::reverse(*segments);
+  }
+  CutterPath path;
+  if (auto done = Emitter(frame, options, role_of(t), is_rapid(t)).add(*segments, path); !done) {
+    return fail(done.error());
+  }
+  tell_ramps(path);
+  return path;
+}
+
+Result<StepPath> path_of_step(const model::Plan& plan, model::Ref<model::Executable> step,
+                              const CurveOptions& options, Job& job) {
+  return StepBuilder(plan, step, options, job).run();
+}
+
+}  // namespace capstan::exchange

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstddef>
+
+#include "planner/base/job.h"
+#include "planner/base/result.h"
+#include "planner/geometry/placement.h"
+#include "planner/model/cutter_path.h"
+#include "planner/model/plan.h"
+
+namespace capstan::exchange {
+
+struct CurveOptions {
+  double chord_tolerance_mm =
+      0.001;             ///< of curves that are neither lines nor arcs about z; default, unsourced
+  double gap_mm = 0.01;  ///< ends this near are one point; default, unsourced (files have 4 decimals)
+  std::size_t max_moves = 1'000'000;  ///< of one path
+};
+
+/// The frame in which a step's toolpath coordinates stand, seen from its set-up:
+///
+///     workingstep      workpiece's place in the set-up x the feature's placement
+///     rapid movement   the set-up itself
+///
+/// The set-up is that of the innermost workplan around the step that has one.
+/// Source  ISO 14649-10 (feature placement); confirmed with the published toolkit's motion for example 1.
+[[nodiscard]] Result<geometry::Placement> frame_of_step(const model::Plan& plan,
+                                                        model::Ref<model::Executable> step);
+
+/// One toolpath as moves. Arcs about the set-up's z stay arcs, a helix too (turn by turn); other curves are
+/// sampled. A trimmed LINE runs from trim_1 to trim_2 whatever its sense says (published files contradict
+/// themselves there); a trimmed circle or helix runs from trim_1 to trim_2 in the sense stated.
+///
+/// Moves   rapid when its_speed is RAPID, or when its_type is CONNECT without a technology of its own (so the
+///         published toolkit reads it); else at feed.
+/// Fails   EXC-CURVE (a curve that cannot be followed), EXC-TOOLPATH (a kind without geometry of its own).
+/// Frame   `frame` carries curve coordinates into the path's.
+[[nodiscard]] Result<model::CutterPath> path_of_toolpath(const model::Plan& plan,
+                                                         model::Ref<model::Toolpath> toolpath,
+                                                         const geometry::Placement& frame,
+                                                         const CurveOptions& options, Job& job);
+
+/// What a step's toolpaths say altogether.
+struct StepPath {
+  model::CutterPath path;        ///< in the set-up's frame
+  model::FeedSchedule schedule;  ///< from each toolpath's technology, else the operation's; 0 where open
+};
+
+/// The whole step: toolpaths one after the other; empty when it has none. A toolpath that carries a
+/// model::CutterPath (which is in the set-up's frame already) is taken as it is.
+/// Fails  as path_of_toolpath; EXC-GAP where a toolpath does not begin where the one before ended.
+[[nodiscard]] Result<StepPath> path_of_step(const model::Plan& plan, model::Ref<model::Executable> step,
+                                            const CurveOptions& options, Job& job);
+
+}  // namespace capstan::exchange

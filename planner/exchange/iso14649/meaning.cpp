@@ -1,0 +1,276 @@
+#include <algorithm>
+#include <cmath>
+
+#include "planner/base/number.h"
+#include "planner/exchange/iso14649/reading.h"
+#include "planner/model/nouns/all.h"
+#include "planner/model/walk.h"
+
+namespace capstan::exchange {
+
+using model::AnyRef;
+using model::TypeId;
+
+namespace {
+
+constexpr std::uint64_t kMaxSteps = 1'000'000;  // default, unsourced: executions of one workplan
+constexpr double kLargeToleranceMm = 5.0;       // default, unsourced: no workpiece is that rough
+
+// A depth-first walk over everything that finds references running in a circle. No noun of ISO 14649 may
+// reach itself by its attributes; through a kept instance, whose meaning is unknown, it may.
+class CycleFinder {
+ public:
+  explicit CycleFinder(Reading& r) : r_(r), m_(r.plan.model) {
+    for (std::size_t t = 1; t < model::kTypeCount; ++t) {
+      state_[t].resize(m_.count(static_cast<TypeId>(t)), kNew);
+    }
+  }
+
+  void run() {
+    for (const AnyRef root : r_.object_of) {
+      if (state(root) == kNew) walk(root);
+    }
+  }
+
+ private:
+  enum State : std::uint8_t { kNew, kOnPath, kDone };
+  struct Frame {
+    AnyRef at;
+    std::vector<AnyRef> next;
+    std::size_t i = 0;
+  };
+  std::uint8_t& state(AnyRef a) { return state_[static_cast<std::size_t>(a.type)][a.index]; }
+
+  void walk(AnyRef root) {
+    std::vector<Frame> path;
+    enter(path, root);
+    while (!path.empty()) {
+      Frame& f = path.back();
+      if (f.i == f.next.size()) {
+        state(f.at) = kDone;
+        path.pop_back();
+        continue;
+      }
+      const AnyRef to = f.next[f.i++];
+      if (to.type == TypeId::kKeptInstance) continue;
+      if (state(to) == kOnPath) {
+        circle(path.back().at, to);
+      } else if (state(to) == kNew) {
+        enter(path, to);
+      }
+    }
+  }
+
+  void enter(std::vector<Frame>& path, AnyRef at) {
+    state(at) = kOnPath;
+    Frame f{at, {}, 0};
+    if (at.type != TypeId::kKeptInstance) {
+      model::for_each_reference(m_, at, [&](AnyRef to) { f.next.push_back(to); });
+    }
+    path.push_back(std::move(f));
+  }
+
+  void circle(AnyRef from, AnyRef to) {
+    const std::string what = std::string(model::noun_type(to.type).keyword);
+    r_.doubt(from, {.code = "EXC-CYCLE",
+                    .message = from == to ? what + " refers to itself"
+                                          : std::string(model::noun_type(from.type).keyword) +
+                                                " leads back to #" + std::to_string(m_.origin(to).instance) +
+                                                " " + what + ", which it is part of"});
+    found = true;
+  }
+
+  Reading& r_;
+  const model::Model& m_;
+  std::array<std::vector<std::uint8_t>, model::kTypeCount> state_;
+
+ public:
+  bool found = false;
+};
+
+void fault(Reading& r, AnyRef at, std::string message, std::string code = "EXC-GEOMETRY") {
+  r.doubt(at, {.code = std::move(code), .message = std::move(message)});
+}
+
+void warn(Reading& r, AnyRef at, std::string code, std::string message) {
+  r.doubt(at, {.code = std::move(code), .severity = Severity::kWarning, .message = std::move(message)});
+}
+
+// multiplicities[i] of knots[i]: as many, each in 1..degree+1, together degree + points + 1, knots rising.
+void check_knots(Reading& r, AnyRef at, const std::string& name, std::optional<std::int64_t> degree,
+                 std::size_t points, const model::IntegerList& multiplicities, const model::RealList& knots) {
+  if (!degree || *degree < 1 || *degree > 100) return fault(r, at, name + " has an impossible degree");
+  if (multiplicities.items.size() != knots.items.size()) {
+    return fault(r, at,
+                 name + " has " + std::to_string(multiplicities.items.size()) + " multiplicities for " +
+                     std::to_string(knots.items.size()) + " knots");
+  }
+  std::uint64_t sum = 0;
+  for (const std::int64_t m : multiplicities.items) {
+    if (m < 1 || m > *degree + 1) {
+      return fault(r, at,
+                   name + " has the knot multiplicity " + std::to_string(m) + ", outside 1.." +
+                       std::to_string(*degree + 1));
+    }
+    sum += static_cast<std::uint64_t>(m);
+  }
+  const std::uint64_t want = static_cast<std::uint64_t>(*degree) + points + 1;
+  if (sum != want) {
+    return fault(r, at,
+                 name + "'s multiplicities add up to " + std::to_string(sum) + ", not to " +
+                     std::to_string(want) + " (degree + points + 1)");
+  }
+  for (std::size_t i = 1; i < knots.items.size(); ++i) {
+    if (!(knots.items[i - 1] < knots.items[i])) return fault(r, at, name + "'s knots do not rise");
+  }
+}
+
+void check_splines(Reading& r) {
+  const auto& m = r.plan.model;
+  for (const AnyRef at : m.all(TypeId::kBSplineCurveWithKnots)) {
+    const auto& c = m.at<model::BSplineCurveWithKnots>(at);
+    check_knots(r, at, "B_SPLINE_CURVE_WITH_KNOTS", c.degree, c.control_points_list.size(),
+                c.knot_multiplicities, c.knots);
+  }
+  for (const AnyRef at : m.all(TypeId::kRationalBSplineCurve)) {
+    const auto& c = m.at<model::RationalBSplineCurve>(at);
+    if (c.weights_data.items.size() != c.control_points_list.size()) {
+      fault(r, at, "RATIONAL_B_SPLINE_CURVE has not one weight for each point");
+    }
+  }
+  for (const AnyRef at : m.all(TypeId::kBSplineSurfaceWithKnots)) {
+    const auto& s = m.at<model::BSplineSurfaceWithKnots>(at);
+    const auto& rows = s.control_points_list.items;
+    const std::size_t columns = rows.empty() ? 0 : rows.front().size();
+    const bool even =
+        std::all_of(rows.begin(), rows.end(), [&](const auto& x) { return x.size() == columns; });
+    if (!even) fault(r, at, "B_SPLINE_SURFACE_WITH_KNOTS has rows of unequal length");
+    check_knots(r, at, "B_SPLINE_SURFACE_WITH_KNOTS (u)", s.u_degree, rows.size(), s.u_multiplicities,
+                s.u_knots);
+    check_knots(r, at, "B_SPLINE_SURFACE_WITH_KNOTS (v)", s.v_degree, columns, s.v_multiplicities, s.v_knots);
+  }
+}
+
+void check_directions_and_points(Reading& r) {
+  const auto& m = r.plan.model;
+  for (const AnyRef at : m.all(TypeId::kDirection)) {
+    const auto& d = m.at<model::Direction>(at).direction_ratios.items;
+    if (d.size() != 2 && d.size() != 3) {
+      fault(r, at, "DIRECTION needs two or three ratios");
+    } else if (std::all_of(d.begin(), d.end(), [](double x) { return x == 0.0; })) {
+      fault(r, at, "DIRECTION has no length: all ratios are 0");
+    }
+  }
+  for (const AnyRef at : m.all(TypeId::kCartesianPoint)) {
+    const std::size_t n = m.at<model::CartesianPoint>(at).coordinates.items.size();
+    if (n < 1 || n > 3)
+      warn(r, at, "EXC-GEOMETRY", "CARTESIAN_POINT has " + std::to_string(n) + " coordinates");
+  }
+}
+
+// Sizes that cannot be negative, whatever noun they belong to.
+bool is_size(std::string_view name) {
+  return name.find("radius") != std::string_view::npos || name.find("diameter") != std::string_view::npos ||
+         name == "theoretical_size" || name == "semi_axis_1" || name == "semi_axis_2" || name == "height" ||
+         name == "cutting_edge_length" || name == "expected_tool_life" || name == "dwell" || name == "pitch";
+}
+
+void check_sizes(Reading& r) {
+  const auto& m = r.plan.model;
+  for (const AnyRef at : r.object_of) {
+    if (at.type == TypeId::kKeptInstance) continue;
+    const bool solid = at.type == TypeId::kBlock || at.type == TypeId::kCircle || at.type == TypeId::kHelix;
+    for (const model::Attribute& a : model::noun_type(at.type).attributes) {
+      if (a.storage != model::Storage::kReal) continue;
+      const auto& v = model::value_of<model::Real>(a, m.object(at));
+      const bool axis = at.type == TypeId::kBlock && a.name.size() == 1;
+      if (!v || (!is_size(a.name) && !axis)) continue;
+      if (*v < 0.0 || (*v == 0.0 && solid)) {
+        fault(r, at, attribute_name(at, a.name) + " is " + shortest(*v) + ", not a size", "EXC-SIZE");
+      }
+    }
+  }
+  for (const AnyRef at : m.all(TypeId::kWorkpiece)) {
+    const auto& t = m.at<model::Workpiece>(at).global_tolerance;
+    if (t && *t > kLargeToleranceMm) {
+      warn(r, at, "EXC-TOLERANCE",
+           "WORKPIECE.global_tolerance is " + shortest(*t) + " mm; kept, and hardly meant");
+    }
+  }
+}
+
+void check_sets(Reading& r) {
+  const auto& m = r.plan.model;
+  const auto at_least = [&](AnyRef at, std::string_view what, const model::AnyRefList& list, std::size_t n) {
+    if (!list.given || list.size() >= n) return;
+    warn(r, at, "EXC-EMPTY",
+         attribute_name(at, what) + " has " + std::to_string(list.size()) + " elements, " +
+             std::to_string(n) + " are the least");
+  };
+  for (const AnyRef at : m.all(TypeId::kPolyline))
+    at_least(at, "points", m.at<model::Polyline>(at).points, 2);
+  for (const AnyRef at : m.all(TypeId::kCompositeCurve)) {
+    at_least(at, "segments", m.at<model::CompositeCurve>(at).segments, 1);
+  }
+  for (const AnyRef at : m.all(TypeId::kToolpathList)) {
+    at_least(at, "its_list", m.at<model::ToolpathList>(at).its_list, 1);
+  }
+  for (const AnyRef at : m.all(TypeId::kSetup)) {
+    at_least(at, "its_workpiece_setup", m.at<model::Setup>(at).its_workpiece_setup, 1);
+  }
+  for (const AnyRef at : m.all(TypeId::kProject)) {
+    at_least(at, "its_workpieces", m.at<model::Project>(at).its_workpieces, 1);
+  }
+}
+
+// How often the steps of a workplan would run when shared parts are run wherever they stand: a graph of
+// depth 39 whose levels each use the next one twice has 2^39. Needs a model without circles.
+void check_expansion(Reading& r) {
+  const auto& m = r.plan.model;
+  std::array<std::vector<std::uint64_t>, model::kTypeCount> runs;
+  for (std::size_t t = 1; t < model::kTypeCount; ++t) runs[t].resize(m.count(static_cast<TypeId>(t)), 0);
+  const auto count = [&](AnyRef a) -> std::uint64_t& {
+    return runs[static_cast<std::size_t>(a.type)][a.index];
+  };
+  for (const AnyRef root : m.all_below(TypeId::kProgramStructure)) {
+    std::vector<AnyRef> stack = {root};
+    while (!stack.empty()) {
+      const AnyRef at = stack.back();
+      if (count(at) != 0) {
+        stack.pop_back();
+        continue;
+      }
+      std::uint64_t sum = 1;
+      bool ready = true;
+      model::for_each_reference(m, at, [&](AnyRef to) {
+        if (!m.holds<model::Executable>(to)) return;
+        if (count(to) == 0) {
+          stack.push_back(to);
+          ready = false;
+        }
+        sum = std::min(kMaxSteps + 1, sum + count(to));
+      });
+      if (!ready) continue;
+      count(at) = sum;
+      stack.pop_back();
+    }
+    if (count(root) > kMaxSteps) {
+      fault(r, root, "the workplan expands to more than " + std::to_string(kMaxSteps) + " steps",
+            "EXC-LIMIT");
+    }
+  }
+}
+
+}  // namespace
+
+void check_meaning(Reading& r) {
+  CycleFinder cycles(r);
+  cycles.run();
+  if (!cycles.found) check_expansion(r);
+  check_splines(r);
+  check_directions_and_points(r);
+  check_sizes(r);
+  check_sets(r);
+}
+
+}  // namespace capstan::exchange

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "planner/exchange/iso14649/report.h"
+#include "planner/model/plan.h"
+#include "planner/p21/file.h"
+
+namespace capstan::exchange {
+
+/// What is shared while one file is read.
+struct Reading {
+  const p21::File& file;
+  model::Plan& plan;
+  Reporter& reporter;
+
+  std::vector<model::AnyRef> object_of;  ///< by instance index of the file
+  std::set<std::string> draft;           ///< what showed that the file is at the draft level
+
+  /// A fault that matters only where the project reaches the object: an error there, else a warning.
+  struct Doubt {
+    model::AnyRef object;
+    Diagnostic diagnostic;
+  };
+  std::vector<Doubt> doubts;
+
+  [[nodiscard]] model::AnyRef find(std::uint64_t id) const {
+    const auto instance = file.find(id);
+    return instance ? object_of[instance->index()] : model::AnyRef{};
+  }
+  void doubt(model::AnyRef object, Diagnostic d) { doubts.push_back({object, std::move(d)}); }
+  /// The parameter an attribute was read from; omitted when the object did not come from the file.
+  [[nodiscard]] p21::Value parameter(model::AnyRef object, std::string_view attribute) const;
+};
+
+/// Makes one object per instance, fills its attributes, keeps what no noun describes.
+void read_objects(Reading& reading);
+
+/// Cycles, B-splines, directions, radii, empty sets: what the schema cannot say of a value alone.
+void check_meaning(Reading& reading);
+
+}  // namespace capstan::exchange

@@ -1,0 +1,372 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "planner/base/number.h"
+#include "planner/exchange/exchange.h"
+#include "planner/exchange/iso14649/dialect.h"
+#include "planner/exchange/iso14649/records.h"
+#include "planner/exchange/iso14649/trajectories.h"
+#include "planner/model/nouns/all.h"
+#include "planner/model/walk.h"
+#include "planner/p21/print.h"
+
+namespace capstan::exchange {
+
+using model::AnyRef;
+using model::Attribute;
+using model::Storage;
+using model::TypeId;
+
+namespace {
+
+// What the file will hold of each number: so that hashes are of what is read back.
+void round_units(model::Model& m) {
+  for (std::size_t i = 1; i < model::kTypeCount; ++i) {
+    const auto type = static_cast<TypeId>(i);
+    for (const Attribute& a : model::noun_type(type).attributes) {
+      const double factor = model::iso14649_factor(a.unit);
+      if (!a.in_iso14649 || factor == 1.0) continue;
+      for (const AnyRef at : m.all(type)) {
+        if (a.storage == Storage::kReal) {
+          auto& v = *static_cast<model::Real*>(a.at(m.object(at)));
+          if (v) v = unconverted(*v, factor) * factor;
+        } else if (a.storage == Storage::kRealList) {
+          for (double& v : static_cast<model::RealList*>(a.at(m.object(at)))->items) {
+            v = unconverted(v, factor) * factor;
+          }
+        }
+      }
+    }
+  }
+}
+
+// AP238's own kinds of operation have a form in ISO 14649.
+TypeId written_type(TypeId t) {
+  if (t == TypeId::kFreeformRoughMilling || t == TypeId::kFreeformFinishMilling)
+    return TypeId::kFreeformOperation;
+  return t;
+}
+
+class FileWriter {
+ public:
+  FileWriter(const model::Plan& plan, std::vector<std::string>& losses)
+      : plan_(plan), m_(plan.model), losses_(losses) {}
+
+  std::string run() {
+    collect();
+    number();
+    std::string out = "ISO-10303-21;\nHEADER;\n" + header();
+    out += write_records(plan_, m_, [this](AnyRef at) {
+      const auto it = number_.find(at);
+      return it == number_.end() ? std::uint64_t{0} : it->second;
+    });
+    out += "ENDSEC;\nDATA;\n";
+    for (const auto& [n, at] : by_number_) instance(n, at, out);
+    out += "ENDSEC;\nEND-ISO-10303-21;\n";
+    for (const auto& [what, n] : left_out_) {
+      losses_.push_back(what + " has no place in ISO 14649 (" + std::to_string(n) + " left out)");
+    }
+    return out;
+  }
+
+ private:
+  // --- what is written ---
+
+  void collect() {
+    std::vector<AnyRef> pending;
+    if (plan_.project) pending.push_back(plan_.project);
+    pending.insert(pending.end(), plan_.kept.begin(), plan_.kept.end());
+    for (const AnyRef f : m_.all_below(TypeId::kManufacturingFeature)) pending.push_back(f);
+    std::reverse(pending.begin(), pending.end());
+    std::set<AnyRef> seen;
+    while (!pending.empty()) {
+      const AnyRef at = pending.back();
+      pending.pop_back();
+      if (!at.set() || !seen.insert(at).second) continue;
+      order_.push_back(at);
+      std::vector<AnyRef> next;
+      references(at, [&](AnyRef to) { next.push_back(to); });
+      pending.insert(pending.end(), next.rbegin(), next.rend());
+    }
+  }
+
+  // As for_each_reference, through what ISO 14649 can hold only; counts what it cannot.
+  template <class Visit>
+  void references(AnyRef at, const Visit& visit) {
+    if (const auto* kept = m_.get<model::KeptInstance>(at)) {
+      for (const auto& piece : kept->pieces) {
+        if (const auto* r = std::get_if<AnyRef>(&piece); r != nullptr && r->set()) visit(*r);
+      }
+      return;
+    }
+    const void* data = m_.object(at);
+    if (written_type(at.type) != at.type)
+      ++left_out_[std::string(model::noun_type(at.type).keyword) + " (written as FREEFORM_OPERATION)"];
+    for (const Attribute& a : model::noun_type(at.type).attributes) {
+      if (!a.in_iso14649) {
+        if (model::has_value(a, data)) lost(at, a);
+        continue;
+      }
+      const auto one = [&](AnyRef r) {
+        if (r.set()) visit(r);
+      };
+      if (a.storage == Storage::kRef) one(model::value_of<AnyRef>(a, data));
+      if (a.storage == Storage::kRefList) {
+        for (const AnyRef r : model::value_of<model::AnyRefList>(a, data).items) one(r);
+      }
+      if (a.storage == Storage::kRefTable) {
+        for (const auto& row : model::value_of<model::RefTable>(a, data).items) {
+          for (const AnyRef r : row) one(r);
+        }
+      }
+      if (a.storage == Storage::kSelect) one(model::value_of<model::SelectValue>(a, data).ref);
+      if (a.storage == Storage::kSelectList) {
+        for (const auto& v : model::value_of<model::SelectList>(a, data).items) one(v.ref);
+      }
+    }
+  }
+
+  void lost(AnyRef at, const Attribute& a) {
+    if (a.name == "persistent_id") return;  // in the header, and only for people and Capstan
+    const std::string what = std::string(model::noun_type(at.type).keyword) + "." + std::string(a.name);
+    ++left_out_[a.name == "enabled" ? what + ", kept in the header only," : what];
+  }
+
+  // The file's own numbers where they are free, new ones behind the greatest.
+  void number() {
+    std::uint64_t greatest = 0;
+    for (const AnyRef at : order_) {
+      greatest = std::max(greatest, m_.origin(at).instance);
+      if (const auto* kept = m_.get<model::KeptInstance>(at))
+        greatest = std::max(greatest, greatest_in(*kept));
+      const std::uint64_t n = m_.origin(at).instance;
+      if (n == 0 || !by_number_.emplace(n, at).second) continue;
+      number_[at] = n;
+    }
+    for (const AnyRef at : order_) {
+      if (number_.count(at) != 0) continue;
+      number_[at] = ++greatest;
+      by_number_[greatest] = at;
+    }
+  }
+
+  // Numbers that kept text mentions without pointing anywhere: a new instance must not catch them.
+  static std::uint64_t greatest_in(const model::KeptInstance& kept) {
+    std::uint64_t out = 0;
+    for (const auto& piece : kept.pieces) {
+      const auto* text = std::get_if<std::string>(&piece);
+      if (text == nullptr) continue;
+      for (std::size_t i = text->find('#'); i != std::string::npos; i = text->find('#', i + 1)) {
+        std::uint64_t n = 0;
+        for (std::size_t k = i + 1;
+             k < text->size() && (*text)[k] >= '0' && (*text)[k] <= '9' && n < (1ULL << 53); ++k) {
+          n = 10 * n + static_cast<std::uint64_t>((*text)[k] - '0');
+        }
+        out = std::max(out, n);
+      }
+    }
+    return out;
+  }
+
+  // --- text ---
+
+  static std::string quoted(std::string_view s) { return "'" + p21::encode_text(s) + "'"; }
+
+  static std::string texts(const std::vector<std::string>& items) {
+    std::string out = "(";
+    for (const std::string& s : items) out += (out.size() > 1 ? "," : "") + quoted(s);
+    return items.empty() ? "('')" : out + ")";
+  }
+
+  [[nodiscard]] std::string header() const {
+    std::vector<std::string> lines;
+    std::string line;
+    for (const char c : plan_.header_description + "\n") {
+      if (c != '\n') {
+        line += c;
+        continue;
+      }
+      lines.push_back(line);
+      line.clear();
+    }
+    return "FILE_DESCRIPTION(" + texts(lines) + ",'2;1');\nFILE_NAME(" + quoted(base_name()) + "," +
+           quoted(plan_.header_time_stamp) + "," + texts(plan_.header_authors) + "," +
+           texts(plan_.header_organizations) + ",'Capstan','Capstan','');\n" +
+           "FILE_SCHEMA(('MACHINING_SCHEMA','MILLING_SCHEMA'));\n";
+  }
+  [[nodiscard]] std::string base_name() const {
+    const auto slash = plan_.file_name.find_last_of('/');
+    return slash == std::string::npos ? plan_.file_name : plan_.file_name.substr(slash + 1);
+  }
+
+  void instance(std::uint64_t n, AnyRef at, std::string& out) const {
+    out += "#" + std::to_string(n) + "=";
+    if (const auto* kept = m_.get<model::KeptInstance>(at)) {
+      for (const auto& piece : kept->pieces) {
+        const auto* text = std::get_if<std::string>(&piece);
+        out += text != nullptr ? *text : reference(std::get<AnyRef>(piece));
+      }
+      out += ";\n";
+      return;
+    }
+    out += model::noun_type(written_type(at.type)).keyword;
+    out += '(';
+    bool first = true;
+    for (const Attribute& a : model::noun_type(at.type).attributes) {
+      if (!a.in_iso14649) continue;
+      if (!first) out += ',';
+      first = false;
+      attribute(a, m_.object(at), out);
+    }
+    out += ");\n";
+  }
+
+  [[nodiscard]] std::string reference(AnyRef r) const {
+    const auto it = number_.find(r);
+    return it == number_.end() ? "$" : "#" + std::to_string(it->second);
+  }
+
+  static std::string real(double v, double factor) {
+    return part21_real(factor == 1.0 ? v : unconverted(v, factor));
+  }
+
+  [[nodiscard]] std::string select(const model::SelectValue& v) const {
+    if (v.ref.set()) return reference(v.ref);
+    const std::string bare = v.real ? part21_real(*v.real) : "." + v.text + ".";
+    return v.type.empty() ? bare : v.type + "(" + bare + ")";
+  }
+
+  template <class List, class Show>
+  static void list(const List& items, const Show& show, std::string& out) {
+    out += '(';
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      if (i != 0) out += ',';
+      out += show(items[i]);
+    }
+    out += ')';
+  }
+
+  void attribute(const Attribute& a, const void* data, std::string& out) const {
+    if (!model::has_value(a, data)) {
+      out += '$';
+      return;
+    }
+    const double factor = model::iso14649_factor(a.unit);
+    const auto number = [&](double v) { return real(v, factor); };
+    const auto ref = [&](AnyRef r) { return reference(r); };
+    switch (a.storage) {
+      case Storage::kReal:
+        out += number(*model::value_of<model::Real>(a, data));
+        break;
+      case Storage::kInteger:
+        out += std::to_string(*model::value_of<model::Integer>(a, data));
+        break;
+      case Storage::kBoolean:
+        out += *model::value_of<model::Boolean>(a, data) ? ".T." : ".F.";
+        break;
+      case Storage::kText:
+        out += quoted(*model::value_of<model::Text>(a, data));
+        break;
+      case Storage::kEnum:
+        out += "." +
+               std::string(
+                   a.enumerators[static_cast<std::size_t>(model::value_of<model::AnyEnum>(a, data).code)]) +
+               ".";
+        break;
+      case Storage::kRef:
+        out += ref(model::value_of<AnyRef>(a, data));
+        break;
+      case Storage::kSelect:
+        out += select(model::value_of<model::SelectValue>(a, data));
+        break;
+      case Storage::kRefList:
+        list(model::value_of<model::AnyRefList>(a, data).items, ref, out);
+        break;
+      case Storage::kSelectList:
+        list(
+            model::value_of<model::SelectList>(a, data).items, [&](const auto& v) { return select(v); }, out);
+        break;
+      case Storage::kRealList:
+        list(model::value_of<model::RealList>(a, data).items, number, out);
+        break;
+      case Storage::kIntegerList:
+        list(
+            model::value_of<model::IntegerList>(a, data).items, [](auto v) { return std::to_string(v); },
+            out);
+        break;
+      case Storage::kTextList:
+        list(
+            model::value_of<model::TextList>(a, data).items, [](const auto& s) { return quoted(s); }, out);
+        break;
+      case Storage::kRefTable:
+      case Storage::kRealTable:
+        table(a, data, out);
+        break;
+      case Storage::kPath:
+        out += '$';
+        break;
+    }
+  }
+
+  void table(const Attribute& a, const void* data, std::string& out) const {
+    const auto rows = [&](const auto& items, const auto& show) {
+      list(
+          items,
+          [&](const auto& row) {
+            std::string text;
+            list(row, show, text);
+            return text;
+          },
+          out);
+    };
+    if (a.storage == Storage::kRefTable) {
+      rows(model::value_of<model::RefTable>(a, data).items, [&](AnyRef r) { return reference(r); });
+    } else {
+      rows(model::value_of<model::RealTable>(a, data).items, [](double v) { return part21_real(v); });
+    }
+  }
+
+  const model::Plan& plan_;
+  const model::Model& m_;
+  std::vector<std::string>& losses_;
+  std::vector<AnyRef> order_;
+  std::map<AnyRef, std::uint64_t> number_;
+  std::map<std::uint64_t, AnyRef> by_number_;
+  std::map<std::string, std::size_t> left_out_;
+};
+
+void say_what_the_plan_loses(const model::Plan& plan, std::vector<std::string>& losses) {
+  if (plan.target_mesh) losses.emplace_back("the target mesh has no place in ISO 14649");
+  const bool sections =
+      std::any_of(plan.steps.begin(), plan.steps.end(), [](const auto& s) { return s.sections != nullptr; });
+  if (sections) losses.emplace_back("cross-section parameters have no place in ISO 14649");
+  if (!plan.machine.id.empty()) {
+    losses.emplace_back(
+        "machine parameters have no place in ISO 14649; the machine's name is kept in the header");
+  }
+  for (const AnyRef at : plan.model.all(TypeId::kEndmill)) {
+    (void)at;
+    losses.emplace_back(
+        "ENDMILL is written as in the 2001 draft: the published level knows its subtypes only");
+    break;
+  }
+}
+
+}  // namespace
+
+Result<Written> write_iso14649(const model::Plan& plan, Job& job) {
+  Written out;
+  model::Plan copy = plan;
+  if (auto done = write_curves(copy, out.losses); !done) return fail(done.error());
+  round_units(copy.model);
+  out.bytes = FileWriter(copy, out.losses).run();
+  say_what_the_plan_loses(plan, out.losses);
+  std::sort(out.losses.begin(), out.losses.end());
+  out.losses.erase(std::unique(out.losses.begin(), out.losses.end()), out.losses.end());
+  for (const std::string& loss : out.losses) job.note("EXC-LOSS", loss);
+  return out;
+}
+
+}  // namespace capstan::exchange
