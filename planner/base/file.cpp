@@ -40,12 +40,13 @@ Result<std::string> read_file(const std::string& path, std::size_t cap) {
   if (fd.get() < 0) return io_fault("FILE-READ", path, "cannot be opened for reading");
   struct stat info {};
   if (::fstat(fd.get(), &info) != 0) return io_fault("FILE-READ", path, "cannot be examined");
-  if (S_ISDIR(info.st_mode)) return fail({.code = "FILE-READ", .message = "is a folder", .file = path, .expected = "a file"});
+  if (S_ISDIR(info.st_mode))
+    return fail({.code = "FILE-READ", .message = "is a folder", .file = path, .expected = "a file"});
   std::string bytes;
-  if (info.st_size > 0 && static_cast<std::size_t>(info.st_size) <= cap) {
-    bytes.reserve(static_cast<std::size_t>(info.st_size) + 1);
-  }
   constexpr std::size_t kChunk = std::size_t{1} << 20;
+  if (info.st_size > 0 && static_cast<std::size_t>(info.st_size) <= cap) {
+    bytes.reserve(static_cast<std::size_t>(info.st_size) + kChunk);  // the last read finds the end in place
+  }
   for (;;) {
     const std::size_t at = bytes.size();
     bytes.resize(at + kChunk);

@@ -33,8 +33,8 @@ std::vector<Diagnostic> Job::take_diagnostics() {
 
 std::size_t Job::count(Severity s) const {
   const std::lock_guard lock(mutex_);
-  return static_cast<std::size_t>(
-      std::count_if(diagnostics_.begin(), diagnostics_.end(), [s](const auto& d) { return d.severity == s; }));
+  return static_cast<std::size_t>(std::count_if(diagnostics_.begin(), diagnostics_.end(),
+                                                [s](const auto& d) { return d.severity == s; }));
 }
 
 bool Job::stop_requested() const {

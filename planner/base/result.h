@@ -13,15 +13,15 @@ enum class Severity : std::uint8_t { kNote, kWarning, kError };
 ///
 /// Printed as `file:line: severity: #instance path: message; expected; hint [CODE]` by `to_text`.
 struct Diagnostic {
-  std::string code;      ///< stable, upper case, e.g. "P21-SYNTAX"
+  std::string code;  ///< stable, upper case, e.g. "P21-SYNTAX"
   Severity severity = Severity::kError;
-  std::string message;   ///< what is the matter, a sentence without a full stop
-  std::string file = {};      ///< as the user named it; empty when not about a file
-  std::uint64_t line = 0;     ///< 1-based; 0 unknown
-  std::uint64_t instance = 0; ///< Part 21 instance number; 0 none
-  std::string path = {};      ///< attribute or workingstep, e.g. "its_boss"
-  std::string expected = {};  ///< what should have stood there
-  std::string hint = {};      ///< what the reader can do
+  std::string message;         ///< what is the matter, a sentence without a full stop
+  std::string file = {};       ///< as the user named it; empty when not about a file
+  std::uint64_t line = 0;      ///< 1-based; 0 unknown
+  std::uint64_t instance = 0;  ///< Part 21 instance number; 0 none
+  std::string path = {};       ///< attribute or workingstep, e.g. "its_boss"
+  std::string expected = {};   ///< what should have stood there
+  std::string hint = {};       ///< what the reader can do
   friend bool operator==(const Diagnostic&, const Diagnostic&) = default;
 };
 

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "planner/base/job.h"
+#include "planner/base/result.h"
+#include "planner/model/cutter.h"
+#include "planner/model/machine.h"
+#include "planner/model/material.h"
+#include "planner/model/plan.h"
+#include "planner/optimise/solver/solver.h"
+
+namespace capstan::optimise {
+
+enum class CutKind : std::uint8_t { kRough, kFinish, kDrill, kReam, kTap };
+
+enum class Aim : std::uint8_t { kTime, kCost };
+
+/// What is asked before a path exists: how deep, how wide, how fast. A value given is kept.
+struct CutQuestion {
+  CutKind kind = CutKind::kRough;
+  model::Cutter cutter;
+  model::WorkMaterial material;
+  model::Machine machine;
+  double vc_start_m_min = 0.0;       ///< from catalogue or table: also the most that is taken
+  double fz_start_mm = 0.0;          ///< the same; chip thickness stays at or below it
+  double depth_mm = 0.0;             ///< to remove along the axis, in all
+  double width_mm = 0.0;             ///< to remove across the feed, at most: the slot's width, the allowance
+  double pre_hole_mm = 0.0;          ///< drilling family
+  double deflection_limit_mm = 0.0;  ///< of the tip; 0: kRoughDeflection
+  std::optional<double> ap_mm, ae_mm, n_rpm, feed_mm_min, fz_mm;  ///< given, kept
+  Aim aim = Aim::kTime;
+};
+
+/// Largest deflection of the tip in roughing, mm. Default, unsourced: below the usual side allowance.
+inline constexpr double kRoughDeflectionMm = 0.05;
+/// Widest cut of a rough pass that is not a slot, as a fraction of the diameter. Default, unsourced.
+inline constexpr double kRoughWidthRatio = 0.65;
+/// Taylor's exponent n in v T^n = C for the cost objective. Textbook values: carbide 0.25, HSS 0.125
+/// (Kalpakjian & Schmid, Manufacturing Engineering and Technology, ranges 0.2-0.5 and 0.08-0.2).
+inline constexpr double kTaylorCarbide = 0.25;
+inline constexpr double kTaylorHss = 0.125;
+/// Tool life at the table's speed when the cutter states none, min. Default, unsourced.
+inline constexpr double kLifeAtTableSpeedMin = 15.0;
+
+struct CutAnswer {
+  bool feasible = false;
+  double ap_mm = 0.0, ae_mm = 0.0;
+  int levels = 1;
+  double vc_m_min = 0.0, fz_mm = 0.0, n_rpm = 0.0, feed_mm_min = 0.0;
+  model::StepLoads loads;
+  std::vector<model::ActiveConstraint> active;  ///< shadow_price: fraction of time saved per 1 % of the limit
+  std::string method;                           ///< of the solver
+  std::vector<std::string> violated;            ///< when not feasible: by name, with the numbers
+};
+
+/// Depth, width, speed and feed that cut fastest (or cheapest) within every limit: spindle speed range, power
+/// and torque at that speed, tip deflection, chip thickness, cutting length, axis feed. Forces carry the
+/// uncertainty of their coefficients and a worn edge; limits are thus never met on average values only.
+///
+/// Determinism  same question, same answer. Numbers are rounded towards the safe side: n and feed down,
+/// depths
+///              down to 1 um.
+/// Fails        OPT-QUESTION when the question itself is not one (no diameter, no material).
+[[nodiscard]] Result<CutAnswer> cut(const CutQuestion& question, const Options& options, Job& job);
+
+/// The loads of a cut of these dimensions, uncertainty included; nothing when it is outside the formulas'
+/// range.
+[[nodiscard]] std::optional<model::StepLoads> loads_of(const CutQuestion& q, double ap_mm, double ae_mm,
+                                                       double n_rpm, double feed_mm_min);
+
+/// Relative excess over the limits: the largest of load / limit - 1 over power, torque, deflection and chip
+/// thickness; negative when all hold.
+[[nodiscard]] double worst_excess(const CutQuestion& q, const model::StepLoads& loads, double n_rpm);
+
+}  // namespace capstan::optimise

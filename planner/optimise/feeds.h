@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "planner/base/job.h"
+#include "planner/model/cutter_path.h"
+#include "planner/optimise/cut.h"
+
+namespace capstan::optimise {
+
+/// How the cutter is engaged somewhere along a move; what feeds are chosen from.
+struct CutSample {
+  std::uint32_t move = 0;
+  double ap_mm = 0.0, ae_mm = 0.0;
+  bool plunge = false;
+};
+
+struct FeedQuestion {
+  CutQuestion cut;           ///< limits, cutter, material, machine
+  double n_rpm = 0.0;        ///< of the step; positive clockwise, negative counter-clockwise
+  double feed_mm_min = 0.0;  ///< of the step: the most along the path
+  bool adapt = true;         ///< false: a given feed is executed as given
+  std::vector<double> feed_factor, speed_factor, dwell_s;  ///< of the path's moves
+  std::vector<CutSample> samples;                          ///< in order of moves
+};
+
+/// Feed of a plunge and of a ramp as a fraction of the step's feed, for cutters that may do it.
+/// Default, unsourced (handbooks give a third to a half).
+inline constexpr double kPlungeFraction = 0.3;
+inline constexpr double kRampFraction = 0.5;
+/// Feeds along a path are lowered in steps of this ratio, so that programs stay short and values repeat.
+inline constexpr double kFeedStep = 0.9;
+
+struct FeedAnswer {
+  model::FeedSchedule schedule;
+  model::StepLoads peak;            ///< over all samples at the scheduled feed
+  std::vector<std::string> slowed;  ///< names of the limits that slowed the path somewhere
+  double worst_excess = -1.0;       ///< > 0: some sample exceeds a limit even at the least feed
+};
+
+/// Feed for each move: the step's feed, lowered where the measured section would break a limit on power,
+/// torque, deflection or chip thickness, and for plunges and ramps.
+[[nodiscard]] FeedAnswer feeds(const FeedQuestion& question, const model::CutterPath& path);
+
+}  // namespace capstan::optimise
