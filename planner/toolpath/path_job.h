@@ -45,7 +45,7 @@ struct Peck {
 /// Reduced speed and feed where a drill enters and leaves (drilling_type_strategy).
 struct DrillPhases {
   double speed_at_start = 1.0, feed_at_start = 1.0;  ///< fractions
-  double depth_of_start_mm = 0.0;                    ///< of the full diameter below the feature's top; 0: none
+  double depth_of_start_mm = 0.0;  ///< of the full diameter below the feature's top; 0: none
   double speed_at_end = 1.0, feed_at_end = 1.0;
   double depth_of_end_mm = 0.0;  ///< 0: none
   /// Whether depth_of_end is the depth at which the end phase begins (as NIST's interpreter of 2002 reads
@@ -60,8 +60,8 @@ struct DrillPhases {
 /// Units  mm, rad, s.
 struct PathJob {
   model::FeatureShape shape;
-  geometry::Placement feature_in_setup;  ///< a turn about z and a shift; anything else is refused
-  TypeId operation = TypeId::kNone;      ///< concrete operation, e.g. kBottomAndSideRoughMilling
+  geometry::Placement feature_in_setup;            ///< a turn about z and a shift; anything else is refused
+  model::TypeId operation = model::TypeId::kNone;  ///< concrete operation, e.g. kBottomAndSideRoughMilling
   model::Cutter cutter;
   model::StrategyKind strategy = model::StrategyKind::kNone;  ///< kNone: what suits the shape
   bool climb = true;
@@ -78,12 +78,12 @@ struct PathJob {
   double clearance_mm = 2.0;   ///< between material and what moves fast above it
 
   // Given things; all optional.
-  std::optional<geometry::Vec2> feed_direction;       ///< of straight passes, feature frame
-  std::optional<bool> stepover_left;                  ///< of bidirectional passes, seen along the feed
-  std::optional<double> overlap;                      ///< fraction of the diameter that passes share
-  std::optional<bool> rotation_ccw;                   ///< of contours; with `climb` it says in-out or out-in
-  std::optional<geometry::Vec2> start_point;          ///< feature frame: begin near here
-  std::optional<bool> multiple_passes;                ///< false: one level only
+  std::optional<geometry::Vec2> feed_direction;  ///< of straight passes, feature frame
+  std::optional<bool> stepover_left;             ///< of bidirectional passes, seen along the feed
+  std::optional<double> overlap;                 ///< fraction of the diameter that passes share
+  std::optional<bool> rotation_ccw;              ///< of contours; with `climb` it says in-out or out-in
+  std::optional<geometry::Vec2> start_point;     ///< feature frame: begin near here
+  std::optional<bool> multiple_passes;           ///< false: one level only
   Approach approach, retract;
 
   std::optional<double> cutting_depth_mm;      ///< drilling: of the full diameter (centre drill: of the tip)

@@ -93,8 +93,7 @@ std::optional<Circle> arc_through(const std::vector<Vec2>& p, std::size_t i, std
     const double half_chord = 0.5 * norm(r1 - r0);
     if (half_chord >= c->radius) return std::nullopt;
     // Sagitta: a coarse polygon is a polygon, not a circle.
-    const double sagitta =
-        c->radius - std::sqrt((c->radius - half_chord) * (c->radius + half_chord));
+    const double sagitta = c->radius - std::sqrt((c->radius - half_chord) * (c->radius + half_chord));
     if (sagitta > 2.0 * tolerance) return std::nullopt;
     sweep += std::atan2(std::abs(turn), dot(r0, r1));
     if (sweep > std::numbers::pi * (1.0 + 1e-6)) return std::nullopt;

@@ -1,0 +1,127 @@
+#include <cmath>
+#include <string>
+
+#include "planner/base/number.h"
+#include "planner/toolpath/hole/hole_paths.h"
+#include "planner/toolpath/path_job.h"
+#include "planner/toolpath/region/region_paths.h"
+
+namespace capstan::toolpath {
+
+using model::CutterClass;
+using model::ShapeKind;
+using model::TypeId;
+
+namespace {
+
+Status check(const PathJob& task) {
+  const auto bad = [&](const std::string& what) {
+    return fail({.code = "TPA-INPUT", .message = task.shape.name + ": " + what, .path = task.shape.name});
+  };
+  if (!(task.cutter.cutting_diameter_mm > 0.0)) return bad("the cutter has no diameter");
+  for (const double v : {task.axial_depth_mm, task.radial_depth_mm, task.allowance_side_mm,
+                         task.allowance_bottom_mm, task.clearance_mm, task.cutter.corner_radius_mm}) {
+    if (!std::isfinite(v) || v < 0.0)
+      return bad("a depth, allowance or clearance is negative or not a number");
+  }
+  for (const double v : {task.start_z_mm, task.security_z_mm, task.retract_z_mm, task.shape.depth_mm}) {
+    if (!std::isfinite(v)) return bad("a height is not a number");
+  }
+  if (task.cutter.corner_radius_mm > 0.5 * task.cutter.cutting_diameter_mm + 1e-9)
+    return bad("the cutter's corner radius is larger than its radius");
+  if (task.feature_in_setup.z.z < 1.0 - 1e-9) {
+    return fail({.code = "TPA-FRAME",
+                 .message = "the feature " + task.shape.name + " is tilted against the tool axis",
+                 .path = task.shape.name,
+                 .hint = "machine it in a set-up whose z axis is the feature's"});
+  }
+  return {};
+}
+
+Result<GeneratedPath> hole_milling(const PathJob& task, Job& job) {
+  if (helix_suits(task)) return helix_path(task, job);
+  PathJob wide = task;
+  if (task.cutting_depth_mm) wide.shape.depth_mm = *task.cutting_depth_mm;
+  return area_path(wide, job);
+}
+
+Result<GeneratedPath> milling(const PathJob& task, Job& job) {
+  if (task.cutter.cutter_class == CutterClass::kThreadMill) return thread_mill_path(task, job);
+  switch (task.shape.kind) {
+    case ShapeKind::kFace:
+      return face_path(task, job);
+    case ShapeKind::kPocket:
+      return area_path(task, job);
+    case ShapeKind::kStep:
+      if (task.stock.empty()) {
+        return fail(
+            {.code = "TPA-STOCK",
+             .message = task.shape.name + ": how far a step reaches is known only with the raw outline",
+             .path = task.shape.name});
+      }
+      return area_path(task, job);
+    case ShapeKind::kSlot:
+      return slot_path(task, job);
+    case ShapeKind::kHole:
+      return hole_milling(task, job);
+    case ShapeKind::kOutside:
+      return outside_path(task, job);
+    case ShapeKind::kChamfer:
+      return edge_path(task, job);
+    default:
+      return fail({.code = "TPA-UNSUPPORTED",
+                   .message = task.shape.name + ": a " + std::string(to_text(task.shape.kind)) +
+                              " has no 2.5D path yet",
+                   .path = task.shape.name});
+  }
+}
+
+Result<GeneratedPath> dispatch(const PathJob& task, Job& job) {
+  switch (task.operation) {
+    case TypeId::kDrilling:
+    case TypeId::kCenterDrilling:
+    case TypeId::kCounterSinking:
+    case TypeId::kMultistepDrilling:
+    case TypeId::kBoring:
+    case TypeId::kReaming:
+    case TypeId::kBackBoring:
+      return drill_path(task, job);
+    case TypeId::kTapping:
+      return tap_path(task, job);
+    case TypeId::kThreadDrilling:
+      return thread_mill_path(task, job);
+    case TypeId::kPlaneRoughMilling:
+    case TypeId::kPlaneFinishMilling:
+    case TypeId::kSideRoughMilling:
+    case TypeId::kSideFinishMilling:
+    case TypeId::kBottomAndSideRoughMilling:
+    case TypeId::kBottomAndSideFinishMilling:
+      return milling(task, job);
+    default:
+      return fail({.code = "TPA-UNSUPPORTED",
+                   .message = task.shape.name + ": this operation has no 2.5D path",
+                   .path = task.shape.name});
+  }
+}
+
+}  // namespace
+
+Result<GeneratedPath> generate(const PathJob& task, Job& job) {
+  if (auto ok = check(task); !ok) return tl::unexpected(ok.error());
+  const double depth = task.start_z_mm - (task.feature_in_setup.origin.z - task.shape.depth_mm);
+  if (task.cutter.usable_length_mm > 0.0 && depth > task.cutter.usable_length_mm + 1e-9) {
+    job.warn("TPA-REACH",
+             "the cutter " + task.cutter.id + " reaches " + trimmed(task.cutter.usable_length_mm, 2) +
+                 " mm, the work is " + trimmed(depth, 2) + " mm deep",
+             task.shape.name);
+  }
+  auto out = dispatch(task, job);
+  if (out && out->path.size() < 2) {
+    return fail({.code = "TPA-NO-FIT",
+                 .message = "the path of " + task.shape.name + " is empty",
+                 .path = task.shape.name});
+  }
+  return out;
+}
+
+}  // namespace capstan::toolpath

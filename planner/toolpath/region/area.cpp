@@ -1,0 +1,143 @@
+#include <algorithm>
+#include <cmath>
+
+#include "planner/base/number.h"
+#include "planner/toolpath/region/patterns.h"
+#include "planner/toolpath/region/region_paths.h"
+
+namespace capstan::toolpath {
+
+using geometry::Region;
+using geometry::Vec2;
+using model::StrategyKind;
+using model::TypeId;
+
+bool is_finish(TypeId operation) {
+  return operation == TypeId::kPlaneFinishMilling || operation == TypeId::kSideFinishMilling ||
+         operation == TypeId::kBottomAndSideFinishMilling;
+}
+
+Vec2 pass_direction(const PathJob& task, const Region& area) {
+  if (task.feed_direction) {
+    const auto d =
+        task.feature_in_setup.direction_to_parent({task.feed_direction->x, task.feed_direction->y, 0.0});
+    const double l = norm(xy(d));
+    if (l > 1e-9) return (1.0 / l) * xy(d);
+  }
+  const auto box = geometry::bounds(area);
+  return box.hi.y - box.lo.y > box.hi.x - box.lo.x + 1e-9 ? Vec2{0.0, 1.0} : Vec2{1.0, 0.0};
+}
+
+namespace {
+
+/// Says what no cutter of this size reaches: corners, narrow places. mm2.
+double unreachable(const WorkArea& w, const Region& centres, double reach_mm) {
+  return geometry::area(
+      geometry::subtract(geometry::intersect(w.area, w.reach), geometry::offset(centres, reach_mm)));
+}
+
+/// Whether contours run from the outside in: rotation and cut mode together say so.
+bool outside_in(const PathJob& task) {
+  if (!task.rotation_ccw) return false;
+  return *task.rotation_ccw != walls_on_right(task);
+}
+
+Status cut_level(LevelCutter& c, const Level& level, bool leads) {
+  const PathJob& task = c.task;
+  switch (task.strategy) {
+    case StrategyKind::kBidirectional:
+    case StrategyKind::kUnidirectional:
+    case StrategyKind::kContourBidirectional: {
+      RasterOptions o;
+      o.direction = pass_direction(task, c.area.area);
+      o.one_way = task.strategy == StrategyKind::kUnidirectional;
+      // One way, what is still to be cut lies on the right of a climbing cutter.
+      o.step_left = o.one_way ? !walls_on_right(task) : task.stepover_left.value_or(true);
+      o.walls_first = task.strategy == StrategyKind::kContourBidirectional;
+      return cut_raster(c, level, o);
+    }
+    default: {
+      ContourOptions o;
+      o.spiral = task.strategy == StrategyKind::kContourSpiral;
+      o.outside_in = !leads && outside_in(task);
+      o.lead_arcs = leads;
+      return cut_contours(c, level, o);
+    }
+  }
+}
+
+}  // namespace
+
+Result<GeneratedPath> area_path(const PathJob& task, Job& job) {
+  const auto w = work_area(task);
+  if (!w) return tl::unexpected(w.error());
+  PathWriter writer(task);
+  LevelCutter c(task, *w, writer, job);
+  const bool finish = is_finish(task.operation);
+  const bool floor = task.operation != TypeId::kSideFinishMilling;
+  // Side finishing after an earlier step: only a shell is left on the walls.
+  const bool shell = finish && task.left_on_side_mm.has_value();
+  double end = w->bottom_z_mm + task.allowance_bottom_mm;
+  if (task.shape.through) end -= task.cutter.corner_radius_mm;
+  const bool single = task.multiple_passes.has_value() && !*task.multiple_passes;
+  const auto heights =
+      levels(*w, task.start_z_mm, end, single ? 0.0 : task.axial_depth_mm, task.allowance_bottom_mm);
+  if (heights.empty()) {
+    return fail({.code = "TPA-DEPTH",
+                 .message = task.shape.name + " has nothing to cut between " + trimmed(task.start_z_mm, 3) +
+                            " and " + trimmed(end, 3) + " mm",
+                 .path = task.shape.name});
+  }
+  const double left_bottom = task.left_on_bottom_mm.value_or(0.0);
+  double from = task.start_z_mm;
+  bool any = false;
+  for (std::size_t i = 0; i < heights.size(); ++i) {
+    const double z = heights[i];
+    const bool last = i + 1 == heights.size();
+    double material = from;
+    if (shell) material = std::clamp(w->bottom_z_mm + left_bottom, z, from);
+    Level level(task, *w, z, material, task.allowance_side_mm);
+    from = z;
+    if (level.centres.empty()) {
+      // Narrow above an island's top or in a fillet is no fault; nowhere at all is.
+      continue;
+    }
+    any = true;
+    if (shell) {
+      level.cleared.emplace(
+          centres_at(*w, task.cutter, z, *task.left_on_side_mm + 0.02, task.allowance_bottom_mm));
+    }
+    Status ok;
+    if (shell && !(last && floor)) {
+      ok = cut_contours(c, level, {.lead_arcs = true, .wall_only = true});
+    } else {
+      ok = cut_level(c, level, finish);
+    }
+    if (!ok) return tl::unexpected(ok.error());
+    if (last) {
+      const double lost = unreachable(*w, level.centres,
+                                      0.5 * task.cutter.cutting_diameter_mm + task.allowance_side_mm + 0.01);
+      if (lost > 0.05) {
+        c.warn("TPA-REST", "a cutter of " + trimmed(task.cutter.cutting_diameter_mm, 3) + " mm leaves " +
+                               trimmed(lost, 1) + " mm2 of the floor uncut in corners or narrow places");
+      }
+    }
+  }
+  if (!any) {
+    return fail({.code = "TPA-NO-FIT",
+                 .message = "the cutter " + task.cutter.id + " of " +
+                            trimmed(task.cutter.cutting_diameter_mm, 3) + " mm does not fit into " +
+                            task.shape.name,
+                 .path = task.shape.name,
+                 .hint = "a diameter of at most " +
+                         trimmed(2.0 * (deepest(geometry::intersect(w->reach, w->area)).distance_mm -
+                                        task.allowance_side_mm),
+                                 2) +
+                         " mm would"});
+  }
+  GeneratedPath out = writer.finish();
+  out.levels_z_mm = heights;
+  return out;
+}
+
+}  // namespace capstan::toolpath

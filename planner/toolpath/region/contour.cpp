@@ -1,0 +1,300 @@
+#include <algorithm>
+#include <cmath>
+
+#include "planner/toolpath/region/patterns.h"
+
+namespace capstan::toolpath {
+
+using geometry::Region;
+using geometry::Vec2;
+using model::MoveRole;
+
+namespace {
+
+Vec2 left_of(Vec2 d) { return {-d.y, d.x}; }
+
+/// Tracks of a ring's loops, in the sense that the job asks for.
+std::vector<Track> tracks_of(const Region& piece, bool natural) {
+  std::vector<Track> out;
+  for (const auto& loop : piece.loops) {
+    Track t = track_of(loop);
+    out.push_back(natural ? std::move(t) : reversed(t));
+  }
+  return out;
+}
+
+struct Lead {
+  Track track;  ///< turned to where the arc meets it
+  Vec2 from, to, centre;
+  double radius = 0.0;
+  bool clockwise = false;
+};
+
+bool arc_inside(const Level& level, Vec2 centre, Vec2 a, Vec2 b) {
+  // A quarter turn, by chords that stay within a hundredth of its radius.
+  Vec2 last = a;
+  for (int i = 1; i <= 6; ++i) {
+    const double t = i / 6.0;
+    const Vec2 chord = (1.0 - t) * (a - centre) + t * (b - centre);
+    const Vec2 p = centre + (norm(a - centre) / norm(chord)) * chord;
+    if (!level.inside.contains(last, p)) return false;
+    last = p;
+  }
+  return true;
+}
+
+bool lead_at(const Level& level, const Track& track, const Spot& spot, double radius, bool natural,
+             Lead& out) {
+  out.track = begun_at(track, spot);
+  if (out.track.segments.empty()) return false;
+  const Vec2 t = direction_at(out.track.start, out.track.segments.front(), 0.0);
+  const Vec2 n = natural ? left_of(t) : -1.0 * left_of(t);  // away from the wall
+  out.centre = out.track.start + radius * n;
+  out.from = out.centre - radius * t;
+  out.to = out.centre + radius * t;
+  out.radius = radius;
+  out.clockwise = !natural;
+  return arc_inside(level, out.centre, out.from, out.track.start) &&
+         arc_inside(level, out.centre, out.track.start, out.to);
+}
+
+/// Round the track once while sliding from one to the other; empty when that would leave the centres or
+/// spread the passes too far.
+std::vector<Vec2> melted(const LevelCutter& c, const Level& level, const Track& a, const Track& b) {
+  constexpr double kChord = 0.004;
+  const double la = length_of(a);
+  const double lb = length_of(b);
+  if (la <= 0.0 || lb <= 0.0) return {};
+  std::vector<double> at;
+  for (const auto* t : {&a, &b}) {
+    const auto points = points_of(*t, kChord);
+    double s = 0.0;
+    std::vector<double> run = {0.0};
+    for (std::size_t i = 1; i < points.size(); ++i) run.push_back(s += norm(points[i] - points[i - 1]));
+    for (const double r : run) at.push_back(r / s);
+  }
+  std::sort(at.begin(), at.end());
+  std::vector<Vec2> out;
+  double last = -1.0;
+  for (const double u : at) {
+    if (u - last < 1e-6) continue;
+    last = u;
+    const Vec2 p = at_length(a, u * la).point;
+    const Vec2 q = at_length(b, u * lb).point;
+    if (norm(p - q) > 1.9 * c.radius_mm) return {};
+    const Vec2 x = (1.0 - u) * p + u * q;
+    if (!out.empty() && !level.inside.contains(out.back(), x)) return {};
+    out.push_back(x);
+  }
+  return out;
+}
+
+class Contours {
+ public:
+  Contours(LevelCutter& cutter, const Level& level, const ContourOptions& options)
+      : c_(cutter), level_(level), o_(options), natural_(walls_on_right(cutter.task) != options.outside_in) {
+    if (o_.outside_in) o_.lead_arcs = false;
+  }
+
+  Status run() {
+    if (o_.wall_only) return walls();
+    // Beyond the radius stripes would stay between rings; a corner radius narrows what a ring leaves flat.
+    const double flat = c_.radius_mm - c_.task.cutter.corner_radius_mm;
+    double step = std::min(c_.step_mm, 0.99 * c_.radius_mm);
+    if (flat > 0.1 * c_.radius_mm) step = std::min(step, flat);
+    if (step < c_.step_mm - 1e-9) {
+      c_.warn("TPA-CHANGED", "the stepover of the rings is reduced so that nothing stays between them");
+    }
+    all_ = rings(level_.centres, step);
+    std::vector<std::size_t> order = inside_out(all_);
+    if (o_.outside_in) std::reverse(order.begin(), order.end());
+    done_.assign(all_.size(), {});
+    for (const std::size_t i : order) {
+      if (auto ok = ring(i); !ok) return ok;
+    }
+    flush();
+    return {};
+  }
+
+ private:
+  Status walls() {
+    for (const Region& piece : geometry::pieces(level_.centres)) {
+      for (Track& t : tracks_of(piece, natural_)) {
+        if (!o_.lead_arcs || !cut_with_leads(c_, level_, t)) {
+          auto in = c_.enter(level_, t, nullptr);
+          if (!in) return tl::unexpected(in.error());
+          c_.writer.follow(*in, level_.z_mm, MoveRole::kCut);
+        }
+      }
+    }
+    return {};
+  }
+
+  /// What has been arrived at but not yet gone round.
+  void flush() {
+    if (pending_.segments.empty()) return;
+    c_.writer.follow(pending_, level_.z_mm, MoveRole::kCut);
+    pending_ = {};
+  }
+
+  [[nodiscard]] bool beside(std::size_t i) const {
+    if (last_ == kNone) return false;
+    return o_.outside_in ? all_[i].parent == last_ && i != last_ : all_[last_].parent == i && i != last_;
+  }
+
+  Status ring(std::size_t i) {
+    std::vector<Track> tracks = tracks_of(all_[i].piece, natural_);
+    const bool wall = all_[i].depth == 0;
+    if (o_.spiral && !o_.outside_in && beside(i) && tracks.size() == 1 && all_[i].children.size() == 1 &&
+        done_[last_].size() == 1 && spiral_onto(tracks.front())) {
+      done_[i] = {pending_};
+      last_ = i;
+      if (wall) flush();
+      return {};
+    }
+    flush();
+    const auto& neighbours = o_.outside_in ? std::vector<std::size_t>{all_[i].parent} : all_[i].children;
+    bool entered = false;
+    while (!tracks.empty()) {
+      const std::size_t k = nearest_track(tracks);
+      const Track t = tracks[k];
+      tracks.erase(tracks.begin() + static_cast<std::ptrdiff_t>(k));
+      if (auto ok = one(i, t, neighbours, entered, wall); !ok) return ok;
+      entered = true;
+    }
+    last_ = i;
+    return {};
+  }
+
+  bool spiral_onto(const Track& track) {
+    const Vec2 here = xy(c_.writer.at());
+    const Track to = begun_at(track, nearest(track, here));
+    const auto line = melted(c_, level_, done_[last_].front(), to);
+    if (line.empty() || norm(line.front() - here) > 1e-6) return false;
+    pending_ = {};
+    c_.writer.follow(track_of_line(line, kFitTolerance), level_.z_mm, MoveRole::kCut);
+    pending_ = to;
+    return true;
+  }
+
+  [[nodiscard]] std::size_t nearest_track(const std::vector<Track>& tracks) const {
+    if (!c_.writer.begun()) return 0;
+    std::size_t best = 0;
+    double least = 1e300;
+    for (std::size_t k = 0; k < tracks.size(); ++k) {
+      const double d = nearest(tracks[k], xy(c_.writer.at())).distance_mm;
+      if (d < least - 1e-9) {
+        least = d;
+        best = k;
+      }
+    }
+    return best;
+  }
+
+  void cut(std::size_t i, const Track& t) {
+    c_.writer.follow(t, level_.z_mm, MoveRole::kCut);
+    done_[i].push_back(t);
+  }
+
+  /// One loop of a ring: from where the cutter is, from a neighbour that is cut already, or into the solid.
+  Status one(std::size_t i, const Track& t, const std::vector<std::size_t>& neighbours, bool entered,
+             bool wall) {
+    if (wall && o_.lead_arcs && (entered || !neighbours.empty()) && !all_[i].children.empty() &&
+        cut_with_leads(c_, level_, t)) {
+      done_[i].push_back(t);
+      return {};
+    }
+    if (entered || beside(i)) {
+      const Spot spot = nearest(t, xy(c_.writer.at()));
+      if (c_.cut_to(level_, spot.point)) {
+        cut(i, begun_at(t, spot));
+        return {};
+      }
+    }
+    for (const std::size_t n : neighbours) {
+      if (n == i) continue;
+      for (const Track& d : done_[n]) {
+        // A few places of the neighbour, the nearest first.
+        const Spot near = nearest(d, t.start);
+        for (const Vec2 p : {near.point, d.start, at_length(d, 0.5 * length_of(d)).point}) {
+          const Spot spot = nearest(t, p);
+          if (!level_.inside.contains(p, spot.point)) continue;
+          c_.go_cleared(level_, p);
+          if (!c_.cut_to(level_, spot.point)) continue;
+          cut(i, begun_at(t, spot));
+          return {};
+        }
+      }
+    }
+    const bool leaf = all_[i].children.empty() && !o_.outside_in;
+    auto in = c_.enter(level_, t, leaf ? &all_[i].piece : nullptr);
+    if (!in) return tl::unexpected(in.error());
+    cut(i, *in);
+    return {};
+  }
+
+  LevelCutter& c_;
+  const Level& level_;
+  ContourOptions o_;
+  bool natural_;
+  std::vector<Ring> all_;
+  std::vector<std::vector<Track>> done_;
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+  std::size_t last_ = kNone;
+  Track pending_;
+};
+
+}  // namespace
+
+bool walls_on_right(const PathJob& task) {
+  // A right-hand cutter climbs with the wall on its right.
+  return task.climb != (task.cutter.hand == model::Hand::kLeft);
+}
+
+bool cut_with_leads(LevelCutter& cutter, const Level& level, Track track) {
+  const bool natural = walls_on_right(cutter.task);
+  const bool here_known = cutter.writer.begun();
+  std::vector<Spot> spots;
+  if (here_known) spots.push_back(nearest(track, xy(cutter.writer.at())));
+  Vec2 from = track.start;
+  std::vector<std::pair<double, Spot>> by_length;
+  for (std::size_t i = 0; i < track.segments.size(); ++i) {
+    const Segment& s = track.segments[i];
+    by_length.push_back({length_of(from, s),
+                         Spot{.segment = i, .t = 0.5, .point = point_at(from, s, 0.5), .distance_mm = 0}});
+    from = s.to;
+  }
+  std::stable_sort(by_length.begin(), by_length.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first + 1e-6; });
+  if (by_length.size() > 12) by_length.resize(12);
+  for (const auto& [l, s] : by_length) spots.push_back(s);
+  double wish = 0.5 * cutter.radius_mm;
+  if (cutter.task.approach.kind == Approach::Kind::kTangent && cutter.task.approach.radius_mm > 0.0)
+    wish = cutter.task.approach.radius_mm;
+  for (const double part : {1.0, 0.5, 0.2}) {
+    for (const Spot& s : spots) {
+      Lead lead;
+      if (!lead_at(level, track, s, part * wish, natural, lead)) continue;
+      if (level.cleared && !level.cleared->contains(lead.from)) continue;
+      const bool down = !here_known || std::abs(cutter.writer.at().z - level.z_mm) > 1e-9 ||
+                        !level.inside.contains(xy(cutter.writer.at()), lead.from);
+      if (down) {
+        cutter.go_cleared(level, lead.from);
+      } else {
+        cutter.writer.line({lead.from.x, lead.from.y, level.z_mm}, MoveRole::kLink);
+      }
+      const Vec2 p = lead.track.start;
+      cutter.writer.arc({p.x, p.y, level.z_mm}, lead.centre, lead.clockwise, MoveRole::kCut);
+      cutter.writer.follow(lead.track, level.z_mm, MoveRole::kCut);
+      cutter.writer.arc({lead.to.x, lead.to.y, level.z_mm}, lead.centre, lead.clockwise, MoveRole::kCut);
+      return true;
+    }
+  }
+  return false;
+}
+
+Status cut_contours(LevelCutter& cutter, const Level& level, const ContourOptions& options) {
+  return Contours(cutter, level, options).run();
+}
+
+}  // namespace capstan::toolpath

@@ -1,0 +1,166 @@
+#include <algorithm>
+#include <cmath>
+
+#include "planner/base/number.h"
+#include "planner/toolpath/region/patterns.h"
+#include "planner/toolpath/region/region_paths.h"
+
+namespace capstan::toolpath {
+
+using geometry::Region;
+using geometry::Vec2;
+using model::CutterClass;
+using model::MoveRole;
+
+namespace {
+
+constexpr double kSameWidth = 0.02;  ///< mm; a cutter this much narrower than the slot cuts it in one pass
+
+bool undercuts(const model::Cutter& c) {
+  return c.cutter_class == CutterClass::kTSlotMill || c.cutter_class == CutterClass::kDovetailMill;
+}
+
+/// Whether the cutter's form makes the slot's section in one pass along the spine.
+Status check_form(const PathJob& task) {
+  const auto& s = task.shape;
+  const auto& c = task.cutter;
+  const auto refuse = [&](const std::string& what) {
+    return fail({.code = "TPA-TOOL", .message = s.name + ": " + what, .path = s.name});
+  };
+  if (s.slot_angle_rad > 0.0) {
+    if (std::abs(c.point_angle_rad - s.slot_angle_rad) > 1e-3)
+      return refuse("a vee of " + trimmed(s.slot_angle_rad * 180.0 / M_PI, 2) +
+                    " degrees needs a cutter with that point angle");
+    return {};
+  }
+  if (undercuts(c)) return {};
+  if (s.slot_bottom_radius_mm > 0.0) {
+    if (c.cutter_class != CutterClass::kBallEndmill ||
+        std::abs(0.5 * c.cutting_diameter_mm - s.slot_bottom_radius_mm) > kSameWidth)
+      return refuse("a rounded U needs a ball end mill of " + trimmed(2.0 * s.slot_bottom_radius_mm, 3) +
+                    " mm");
+    return {};
+  }
+  return refuse("its section needs a T-slot or dovetail cutter");
+}
+
+struct Ends {
+  std::vector<Vec2> line;
+  bool open_first = false, open_last = false;
+};
+
+/// The spine as the cutter's centre runs it: out into the air at open ends, short of flat closed ends.
+Ends run_of(const PathJob& task, const WorkArea& w) {
+  Ends e;
+  for (const Vec2 p : task.shape.spine)
+    e.line.push_back(xy(task.feature_in_setup.to_parent({p.x, p.y, 0.0})));
+  if (norm(e.line.front() - e.line.back()) < 1e-6) return e;
+  const double half = 0.5 * std::max(task.shape.width.nominal_mm, 0.1);
+  const double radius = 0.5 * task.cutter.cutting_diameter_mm;
+  const Inside reach(w.reach);
+  const Inside material(w.material);
+  for (const bool last : {false, true}) {
+    Vec2& end = last ? e.line.back() : e.line.front();
+    const Vec2 before = last ? e.line[e.line.size() - 2] : e.line[1];
+    const Vec2 out = (1.0 / norm(end - before)) * (end - before);
+    if (reach.contains(end + (half + 1.0) * out)) {
+      (last ? e.open_last : e.open_first) = true;
+      end = end + (radius + 1.0) * out;
+      for (int i = 0; i < 50 && !material.clear_of(end, radius + 0.2); ++i) end = end + 0.5 * radius * out;
+    } else if (!reach.contains(end + 0.5 * half * out)) {
+      const double length = norm(end - before);
+      end = end - std::min(radius, length) * out;
+    }
+  }
+  return e;
+}
+
+}  // namespace
+
+Result<GeneratedPath> slot_path(const PathJob& task, Job& job) {
+  const auto& s = task.shape;
+  const auto w = work_area(task);
+  if (!w) return tl::unexpected(w.error());
+  const double d = task.cutter.cutting_diameter_mm;
+  const bool form = !s.slot_profile.empty();
+  if (form) {
+    if (auto ok = check_form(task); !ok) return tl::unexpected(ok.error());
+  } else {
+    const double largest =
+        s.width.nominal_mm + std::max(0.0, s.width.upper_mm) - 2.0 * task.allowance_side_mm;
+    if (d > largest + 0.001) {
+      return fail({.code = "TPA-NO-FIT",
+                   .message = "the cutter " + task.cutter.id + " of " + trimmed(d, 3) +
+                              " mm does not fit into " + s.name,
+                   .path = s.name,
+                   .hint = "a diameter of at most " + trimmed(largest, 3) + " mm would"});
+    }
+    if (d < largest - kSameWidth && task.strategy != model::StrategyKind::kCenterMilling)
+      return area_path(task, job);
+  }
+  if (s.spine.size() < 2) {
+    return fail({.code = "TPA-UNSUPPORTED", .message = s.name + " has no course to follow", .path = s.name});
+  }
+  const Ends run = run_of(task, *w);
+  const bool closed = norm(run.line.front() - run.line.back()) < 1e-6;
+  std::vector<Vec2> line = run.line;
+  // Begin at an open end when there is one.
+  if (!run.open_first && run.open_last) std::reverse(line.begin(), line.end());
+  const bool from_air = run.open_first || run.open_last;
+  Track track = track_of_line(line);
+  track.closed = closed;
+  if (undercuts(task.cutter) && !from_air) {
+    return fail({.code = "TPA-ENTRY",
+                 .message = s.name + ": a cutter wider than the slot's mouth needs an open end to enter by",
+                 .path = s.name});
+  }
+  PathWriter writer(task);
+  LevelCutter c(task, *w, writer, job);
+  const double end = w->bottom_z_mm + task.allowance_bottom_mm;
+  const bool single = undercuts(task.cutter) || (task.multiple_passes.has_value() && !*task.multiple_passes);
+  const auto heights =
+      levels(*w, task.start_z_mm, end, single ? 0.0 : task.axial_depth_mm, task.allowance_bottom_mm);
+  if (heights.empty()) {
+    return fail({.code = "TPA-DEPTH",
+                 .message = s.name + " has nothing to cut below " + trimmed(task.start_z_mm, 3) + " mm",
+                 .path = s.name});
+  }
+  double from = task.start_z_mm;
+  bool at_end = false;
+  for (const double z : heights) {
+    const bool both = run.open_first && run.open_last;
+    Track t = at_end && (both || !from_air) ? reversed(track) : track;
+    Level level(task, *w, z, from, 0.0);
+    level.centres = geometry::stroke(points_of(track, 0.001), 0.01, true);
+    level.inside = Inside(level.centres);
+    level.air.clear();
+    if (from_air) {
+      if (at_end && both) {
+        writer.line({t.start.x, t.start.y, z}, MoveRole::kApproach);
+      } else {
+        writer.over(t.start);
+        writer.descend(z, z);
+      }
+    } else {
+      auto in = c.enter(level, t, nullptr);
+      if (!in) return tl::unexpected(in.error());
+      t = *in;
+    }
+    writer.follow(t, z, MoveRole::kCut);
+    if (!from_air && !closed) {
+      // The ramp left a slope behind the start: the whole length once more is cut by the pass itself.
+      at_end = !at_end;
+    } else {
+      at_end = both && !at_end;
+    }
+    from = z;
+  }
+  // A cutter below the mouth leaves the way it came; others rise where they are.
+  if (undercuts(task.cutter) && !(run.open_first && run.open_last))
+    writer.follow(reversed(track), heights.back(), MoveRole::kRetract);
+  GeneratedPath out = writer.finish();
+  out.levels_z_mm = heights;
+  return out;
+}
+
+}  // namespace capstan::toolpath
