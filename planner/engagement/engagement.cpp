@@ -27,13 +27,13 @@ struct Extent {
   double size = 0.0, middle = 0.0;
 };
 
-/// The tallest contact over the bins of X.
-Extent axial_extent(const Tally& t) {
+/// The tallest contact over the bins of X; `tip`: height of the tip above the map's floor.
+Extent axial_extent(const Tally& t, double tip) {
   Extent best;
   for (std::size_t b = 0; b < Tally::kBins; ++b) {
     const double size = static_cast<double>(t.high[b]) - static_cast<double>(t.low[b]);
     if (size > best.size) {
-      best = {size, 0.5 * (static_cast<double>(t.high[b]) + static_cast<double>(t.low[b]))};
+      best = {size, 0.5 * (static_cast<double>(t.high[b]) + static_cast<double>(t.low[b])) - tip};
     }
   }
   return best;
@@ -99,7 +99,7 @@ class Measurer {
       const bool plunge = !arc && norm(xy(to) - xy(from)) < 1e-9;
       const double at = length * k / n;
       if (tally.removed_mm3 > 0.0) {
-        add(i, at, length / n, plunge, tally);
+        add(i, at, length / n, plunge, std::min(from.z, to.z) - map_.origin.z, tally);
       } else {
         close(i, at);
       }
@@ -113,9 +113,9 @@ class Measurer {
     push(i, at, {}, {}, 0.0, 0.0, {});
   }
 
-  void add(std::size_t i, double at, double step, bool plunge, const Tally& t) {
+  void add(std::size_t i, double at, double step, bool plunge, double tip, const Tally& t) {
     const double csa = t.removed_mm3 / step;
-    const Extent axial = axial_extent(t);
+    const Extent axial = axial_extent(t, tip);
     double left = t.left_mm;
     double right = t.right_mm;
     if (!plunge) sharpen(csa, axial.size, left, right);
@@ -136,7 +136,7 @@ class Measurer {
     }
     e.arc_rad = e.exit_rad - e.entry_rad;
     for (const float high : t.high)
-      out_.highest_contact_mm = std::max(out_.highest_contact_mm, static_cast<double>(high));
+      out_.highest_contact_mm = std::max(out_.highest_contact_mm, static_cast<double>(high) - tip);
     out_.removed_mm3 += t.removed_mm3;
     push(i, at, axial, radial, t.sum_x / t.removed_mm3, t.sum_y / t.removed_mm3, e);
   }

@@ -70,65 +70,82 @@ inline Chip lower(Column& c, float cover, float z) {
 // --- cutter outlines
 // ----------------------------------------------------------------------------------------
 
+/// Height above the tip as a function of the squared distance from the axis.
 struct FlatOutline {
-  double operator()(double /*r*/) const { return 0.0; }
+  double operator()(double /*r2*/) const { return 0.0; }
 };
 struct BallOutline {
   double radius;
-  double operator()(double r) const { return radius - std::sqrt(std::max(0.0, (radius - r) * (radius + r))); }
+  double operator()(double r2) const { return radius - std::sqrt(std::max(0.0, radius * radius - r2)); }
+};
+struct BullOutline {
+  double disc, ball;
+  double operator()(double r2) const {
+    if (r2 <= disc * disc) return 0.0;
+    const double off = std::sqrt(r2) - disc;
+    return ball - std::sqrt(std::max(0.0, (ball - off) * (ball + off)));
+  }
 };
 struct AnyOutline {
   const CutterProfile& profile;
-  double operator()(double r) const { return profile.height(r); }
+  double operator()(double r2) const { return profile.height(std::min(std::sqrt(r2), profile.radius_mm)); }
 };
 
 // --- tracks
 // -------------------------------------------------------------------------------------------------
 
-/// Where a cell lies against a track: its distance, the direction of the nearest edge, X of the section and
-/// the foot's height above the track's start.
+/// Where a cell lies against a track: its squared distance and X of the section. `out` points from the track
+/// to the cell.
 struct Seat {
-  double distance, across;
-  Vec2 out;
+  double distance2, across;
 };
 
 struct LineSeat {
   Vec2 from, to, unit;
   double length;
+  [[nodiscard]] Vec2 out(Vec2 p) const {
+    const Vec2 r = p - from;
+    return r - std::clamp(dot(r, unit), 0.0, length) * unit;
+  }
   Seat operator()(Vec2 p) const {
     const Vec2 r = p - from;
-    const double along = std::clamp(dot(r, unit), 0.0, length);
-    const Vec2 out = r - along * unit;
-    return {std::sqrt(dot(out, out)), -geometry::cross(unit, r), out};
+    const double along = dot(r, unit);
+    const double across = -geometry::cross(unit, r);
+    const double past = along - std::clamp(along, 0.0, length);
+    return {across * across + past * past, across};
   }
 };
 
 struct ArcSeat {
   Vec2 from, to, centre;
-  double radius, turn;  ///< turn: +1 counter-clockwise
-  Seat operator()(Vec2 p) const {
+  double radius, turn;  ///< turn: +1 counter-clockwise; at most a half turn
+  [[nodiscard]] bool within(Vec2 r) const {
+    return turn * geometry::cross(from - centre, r) >= 0.0 && turn * geometry::cross(r, to - centre) >= 0.0;
+  }
+  [[nodiscard]] Vec2 out(Vec2 p) const {
     const Vec2 r = p - centre;
-    const double d = std::sqrt(dot(r, r));
-    const double across = turn * (d - radius);
-    const bool within =
-        turn * geometry::cross(from - centre, r) >= 0.0 && turn * geometry::cross(r, to - centre) >= 0.0;
-    if (within && d > 0.0) {
-      const double off = d - radius;
-      return {std::abs(off), across, (off >= 0.0 ? 1.0 : -1.0) * r};
-    }
+    const double d = norm(r);
+    if (within(r) && d > 0.0) return (1.0 - radius / d) * r;
     const Vec2 a = p - from;
     const Vec2 b = p - to;
-    const double da = dot(a, a);
-    const double db = dot(b, b);
-    return da < db ? Seat{std::sqrt(da), across, a} : Seat{std::sqrt(db), across, b};
+    return dot(a, a) < dot(b, b) ? a : b;
+  }
+  Seat operator()(Vec2 p) const {
+    const Vec2 r = p - centre;
+    const double off = std::sqrt(dot(r, r)) - radius;
+    if (within(r)) return {off * off, turn * off};
+    const Vec2 a = p - from;
+    const Vec2 b = p - to;
+    return {std::min(dot(a, a), dot(b, b)), turn * off};
   }
 };
 
 struct PointSeat {
   Vec2 at, heading;
+  [[nodiscard]] Vec2 out(Vec2 p) const { return p - at; }
   Seat operator()(Vec2 p) const {
     const Vec2 r = p - at;
-    return {std::sqrt(dot(r, r)), -geometry::cross(heading, r), r};
+    return {dot(r, r), -geometry::cross(heading, r)};
   }
 };
 
@@ -153,7 +170,7 @@ class Cells {
         tally_(tally),
         bin_scale_(static_cast<double>(Tally::kBins) / (2.0 * frame.radius)) {}
 
-  /// `seat`: Vec2 -> Seat; `surface`: (p, seat, distance to use) -> cutter surface above the map's floor.
+  /// `seat`: Vec2 -> Seat; `surface`: (place, squared distance) -> cutter surface above the map's floor.
   template <class SeatOf, class SurfaceOf>
   void each(const SeatOf& seat, const SurfaceOf& surface) {
     const double cell = map_.cell_mm;
@@ -207,44 +224,78 @@ class Cells {
     const int ix1 = last(hi, map_.origin.x, map_.nx);
     last_done_ = ix1;
     const double cell = map_.cell_mm;
-    const double inner = f_.radius - kHalfDiagonal * cell;
-    const double outer = f_.radius + kHalfDiagonal * cell;
+    const double inner = std::max(0.0, f_.radius - kHalfDiagonal * cell);
+    const double inner2 = inner * inner;
     const auto base = static_cast<float>(std::max(0.0, f_.base));
     Column* const row =
         map_.columns.data() + static_cast<std::size_t>(iy) * static_cast<std::size_t>(map_.nx);
     Vec2 p{0.0, map_.y_of(iy)};
+    Sums sums;
     for (int ix = ix0; ix <= ix1; ++ix) {
       Column& column = row[ix];
       if (column.top_mm <= base) continue;
       p.x = map_.x_of(ix);
       const Seat s = seat(p);
-      if (s.distance >= outer) continue;
-      double cover = 1.0;
-      double at = s.distance;
-      if (s.distance > inner) {
-        cover = coverage(f_.radius - s.distance, s.out, cell);
-        at = 0.5 * (std::min(f_.radius, std::max(0.0, s.distance - 0.5 * cell)) + f_.radius);
-        if (s.distance + 0.5 * cell < f_.radius) at = s.distance;
+      if (s.distance2 > inner2) {
+        rim(column, p, s, seat, surface, sums);
+        continue;
       }
-      const double z = std::max(0.0, surface(p, s, at));
-      const Chip chip = lower(column, static_cast<float>(cover), static_cast<float>(z));
-      if (chip.mean > 0.0F) take(chip, s.across);
+      const auto z = static_cast<float>(std::max(0.0, surface(p, s.distance2)));
+      if (column.share <= 0.0F) {
+        const float depth = column.top_mm - z;
+        if (depth < kThinnest) continue;
+        take({depth, column.top_mm, z}, s.across, sums);
+        column.top_mm = column.low_mm = z;
+      } else {
+        const Chip chip = lower(column, 1.0F, z);
+        if (chip.mean > 0.0F) take(chip, s.across, sums);
+      }
+    }
+    const double area = cell * cell;
+    tally_.removed_mm3 += area * sums.v;
+    tally_.sum_x += area * sums.vx;
+    tally_.sum_y += area * 0.5 * (sums.vz - 2.0 * f_.base * sums.v);
+    if (sums.right >= sums.left) {
+      tally_.left_mm = std::min(tally_.left_mm, std::max(-f_.radius, sums.left - 0.5 * cell));
+      tally_.right_mm = std::max(tally_.right_mm, std::min(f_.radius, sums.right + 0.5 * cell));
     }
   }
 
-  void take(const Chip& chip, double across) {
-    const double v = static_cast<double>(chip.mean);
-    const double x = std::clamp(across, -f_.radius, f_.radius);
-    const double top = static_cast<double>(chip.top) - f_.base;
-    const double bottom = static_cast<double>(chip.bottom) - f_.base;
-    tally_.removed_mm3 += v * map_.cell_mm * map_.cell_mm;
-    tally_.sum_x += v * map_.cell_mm * map_.cell_mm * x;
-    tally_.sum_y += v * map_.cell_mm * map_.cell_mm * 0.5 * (top + bottom);
-    tally_.left_mm = std::min(tally_.left_mm, std::max(-f_.radius, across - 0.5 * map_.cell_mm));
-    tally_.right_mm = std::max(tally_.right_mm, std::min(f_.radius, across + 0.5 * map_.cell_mm));
+  /// Volume per cell area over one row, its moments, and the X range.
+  struct Sums {
+    double v = 0.0, vx = 0.0, vz = 0.0;
+    double left = 1e300, right = -1e300;
+  };
+
+  /// A cell that the cutter's rim may cross.
+  template <class SeatOf, class SurfaceOf>
+  void rim(Column& column, Vec2 p, const Seat& s, const SeatOf& seat, const SurfaceOf& surface, Sums& sums) {
+    const double cell = map_.cell_mm;
+    const double distance = std::sqrt(s.distance2);
+    if (distance >= f_.radius + kHalfDiagonal * cell) return;
+    const Vec2 out = seat.out(p);
+    const double cover = coverage(f_.radius - distance, out, cell);
+    // The height is that in the middle of the covered part.
+    const double at = distance + 0.5 * cell < f_.radius
+                          ? distance
+                          : 0.5 * (std::min(f_.radius, std::max(0.0, distance - 0.5 * cell)) + f_.radius);
+    const Vec2 there = distance > 0.0 ? p + (at / distance - 1.0) * out : p;
+    const double z = std::max(0.0, surface(there, at * at));
+    const Chip chip = lower(column, static_cast<float>(cover), static_cast<float>(z));
+    if (chip.mean > 0.0F) take(chip, s.across, sums);
+  }
+
+  void take(const Chip& chip, double across, Sums& sums) {
+    const auto v = static_cast<double>(chip.mean);
+    const double x = std::min(f_.radius, std::max(-f_.radius, across));
+    sums.v += v;
+    sums.vx += v * x;
+    sums.vz += v * (static_cast<double>(chip.top) + static_cast<double>(chip.bottom));
+    sums.left = std::min(sums.left, across);
+    sums.right = std::max(sums.right, across);
     const auto bin = std::min(Tally::kBins - 1, static_cast<std::size_t>((x + f_.radius) * bin_scale_));
-    tally_.low[bin] = std::min(tally_.low[bin], static_cast<float>(bottom));
-    tally_.high[bin] = std::max(tally_.high[bin], static_cast<float>(top));
+    tally_.low[bin] = std::min(tally_.low[bin], chip.bottom);
+    tally_.high[bin] = std::max(tally_.high[bin], chip.top);
   }
 
   HeightMap& map_;
@@ -261,11 +312,17 @@ bool is_ball(const CutterProfile& p) {
   return p.pieces.size() == 1 && p.pieces[0].radius_mm > 0.0 && p.pieces[0].rc_mm == 0.0;
 }
 
+bool is_bull(const CutterProfile& p) {
+  return p.pieces.size() == 2 && p.pieces[0].radius_mm <= 0.0 && p.pieces[0].slope == 0.0 &&
+         p.pieces[1].radius_mm > 0.0 && p.pieces[1].rc_mm == p.pieces[0].r1_mm;
+}
+
 /// Calls body with the cheapest form of the outline.
 template <class Body>
 void with_outline(const CutterProfile& profile, const Body& body) {
   if (is_flat(profile)) return body(FlatOutline{});
   if (is_ball(profile)) return body(BallOutline{profile.pieces[0].radius_mm});
+  if (is_bull(profile)) return body(BullOutline{profile.pieces[1].rc_mm, profile.pieces[1].radius_mm});
   body(AnyOutline{profile});
 }
 
@@ -275,7 +332,7 @@ void sweep_level(HeightMap& map, const CutterProfile& profile, const Track& t, c
   const Vec2 a = frame.a;
   const Vec2 b = frame.b;
   with_outline(profile, [&](const auto& outline) {
-    const auto surface = [&](Vec2, const Seat&, double at) { return tip + outline(at); };
+    const auto surface = [&](Vec2, double r2) { return tip + outline(r2); };
     Cells cells(map, frame, tally);
     if (t.arc) {
       cells.each(ArcSeat{a, b, t.centre, norm(a - t.centre), t.clockwise ? -1.0 : 1.0}, surface);
@@ -290,12 +347,9 @@ void sweep_slope(HeightMap& map, const CutterProfile& profile, const Track& t, c
   const Vec2 unit = (1.0 / length) * (frame.b - frame.a);
   const double start = t.from.z - map.origin.z;
   const double rise = t.to.z - t.from.z;
-  const auto surface = [&](Vec2 p, const Seat& s, double at) {
-    // A cell under the rim is judged by the middle of its covered part.
-    const double pull = s.distance > 0.0 ? 1.0 - at / s.distance : 0.0;
-    const Vec2 r = p - pull * s.out - frame.a;
-    const double z = swept_height(profile, dot(r, unit), geometry::cross(unit, r), length, rise);
-    return z < kInfinity ? start + z : kInfinity;
+  const auto surface = [&](Vec2 p, double) {
+    const Vec2 r = p - frame.a;
+    return start + swept_height(profile, dot(r, unit), geometry::cross(unit, r), length, rise);
   };
   Cells(map, frame, tally).each(LineSeat{frame.a, frame.b, unit, length}, surface);
 }
@@ -304,7 +358,7 @@ void sweep_down(HeightMap& map, const CutterProfile& profile, const Frame& frame
                 Tally& tally) {
   const double tip = frame.base;
   with_outline(profile, [&](const auto& outline) {
-    const auto surface = [&](Vec2, const Seat&, double at) { return tip + outline(at); };
+    const auto surface = [&](Vec2, double r2) { return tip + outline(r2); };
     Cells(map, frame, tally).each(PointSeat{frame.a, (1.0 / norm(heading)) * heading}, surface);
   });
 }

@@ -26,7 +26,8 @@ struct Tally {
   double removed_mm3 = 0.0;
   double sum_x = 0.0, sum_y = 0.0;            ///< of removed volume times X, Y; mm4
   double left_mm = 1e300, right_mm = -1e300;  ///< X range of what was touched, whole cells, within the radius
-  std::array<float, kBins> low{}, high{};     ///< Y range of what was touched, per bin of X; low > high: none
+  /// Heights above the map's floor between which material was touched, per bin of X; low > high: none.
+  std::array<float, kBins> low{}, high{};
   Tally() {
     low.fill(1e30F);
     high.fill(-1e30F);

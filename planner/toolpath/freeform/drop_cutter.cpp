@@ -21,19 +21,26 @@ double touch_ahead(const Toroid& t, double w, double slope) {
   if (limit2 <= 0.0) return 0.0;
   if (r <= 0.0) return std::sqrt(limit2);
   if (t.disc_mm <= 0.0) return slope * std::sqrt(std::max(0.0, (r - w) * (r + w)) / (1.0 + slope * slope));
-  // (d - disc) u = slope d sqrt(r^2 - (d - disc)^2), d = sqrt(w^2 + u^2): one sign change on [lo, hi].
+  // f(u) = (d - disc) u - slope d sqrt(ball^2 - (d - disc)^2), d = sqrt(w^2 + u^2): one sign change on [lo,
+  // hi]. Newton's step where it stays inside, else the middle.
   double lo = std::sqrt(std::max(0.0, t.disc_mm * t.disc_mm - w * w));
   double hi = std::sqrt(limit2);
+  double u = 0.5 * (lo + hi);
   for (int k = 0; k < 100; ++k) {
-    const double u = 0.5 * (lo + hi);
-    if (u <= lo || u >= hi) break;
     const double d = std::sqrt(w * w + u * u);
     const double off = d - t.disc_mm;
-    const double root = std::sqrt(std::max(0.0, (r - off) * (r + off)));
-    (off * u < slope * d * root ? lo : hi) = u;
-    if (hi - lo < 1e-13 * hi) break;
+    const double root = std::sqrt(std::max(1e-300, (r - off) * (r + off)));
+    const double f = off * u - slope * d * root;
+    (f < 0.0 ? lo : hi) = u;
+    const double grow = u / d;  // dd/du
+    const double slant = grow * u + off - slope * grow * (root - d * off / root);
+    double next = u - f / slant;
+    if (!(next > lo && next < hi)) next = 0.5 * (lo + hi);
+    const double step = std::abs(next - u);
+    u = next;
+    if (step < 1e-13 * hi || hi - lo < 1e-13 * hi) break;
   }
-  return 0.5 * (lo + hi);
+  return u;
 }
 
 /// Height of the outline where `distance` may exceed the radius by rounding.
@@ -98,9 +105,12 @@ void DropCutter::leaf(const Leaf& l, const Toroid& t, double x, double y, double
     const double lo = std::max(-along, -half);
     const double hi = std::min(e.length - along, half);
     if (lo > hi) continue;
-    // No point of the edge within reach is higher than this.
-    if (e.z + e.slope * (along + (e.slope >= 0.0 ? hi : lo)) <= best) continue;
-    const double ahead = touch_ahead(t, std::abs(w), std::abs(e.slope));
+    // No contact is higher than the edge's highest point within reach with the outline's least height there.
+    const double aside = std::abs(w);
+    const double nearest = std::sqrt(w * w + std::pow(std::max({lo, -hi, 0.0}), 2));
+    const double top = e.z + e.slope * (along + (e.slope >= 0.0 ? hi : lo));
+    if (top <= best || top - height_within(t, nearest) <= best) continue;
+    const double ahead = touch_ahead(t, aside, std::abs(e.slope));
     const double u = std::clamp(e.slope >= 0.0 ? ahead : -ahead, lo, hi);
     best = std::max(best, e.z + e.slope * (along + u) - height_within(t, std::sqrt(w * w + u * u)));
   }
