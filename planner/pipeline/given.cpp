@@ -1,0 +1,242 @@
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "planner/base/number.h"
+#include "planner/model/resolve.h"
+#include "planner/pipeline/work.h"
+#include "tooling/nouns/nouns.h"
+
+// What the file already says: set-ups, and workingsteps in the order of the workplan.
+
+namespace capstan::pipeline {
+namespace {
+
+using model::TypeId;
+
+constexpr double kClearPlane =
+    10.0;  // default height of the security plane above the raw piece, mm; unsourced
+
+bool reopens(const Work& w, Reopen level) { return w.policy.reopen >= level; }
+
+/// Walks program structure in order of execution, without recursion.
+class Walker {
+ public:
+  explicit Walker(Work& w) : w_(w) {}
+
+  void walk(AnyRef root) {
+    push({root, {}});
+    while (!pending_.empty()) {
+      const Item at = pending_.back();
+      pending_.pop_back();
+      visit(at);
+    }
+  }
+
+ private:
+  struct Item {
+    AnyRef executable;
+    Ref<model::Setup> setup;
+  };
+
+  void push(Item i) { pending_.push_back(i); }
+  template <class List>
+  void push_all(const List& list, Ref<model::Setup> setup) {
+    for (std::size_t i = list.size(); i-- > 0;) push({list[i], setup});
+  }
+
+  void visit(Item at) {
+    const model::Model& m = w_.plan.model;
+    if (const auto* plan = m.get<model::Workplan>(at.executable)) {
+      if (!entered_.insert(at.executable).second) {
+        return say("PIP-CYCLE", at.executable, "is nested in itself or executed twice; done once");
+      }
+      push_all(plan->its_elements, plan->its_setup.set() ? plan->its_setup : at.setup);
+    } else if (const auto* p = m.get<model::Parallel>(at.executable)) {
+      say("PIP-PARALLEL", at.executable, "has parallel branches; one machine does them one after the other");
+      push_all(p->branches, at.setup);
+    } else if (const auto* n = m.get<model::NonSequential>(at.executable)) {
+      push_all(n->its_elements, at.setup);
+    } else if (const auto* s = m.get<model::Selective>(at.executable)) {
+      choose(*s, at);
+    } else if (m.holds<model::IfStatement>(at.executable) || m.holds<model::WhileStatement>(at.executable) ||
+               m.holds<model::Assignment>(at.executable)) {
+      say("PIP-CONDITION", at.executable,
+          "depends on variables that only the control knows; it is kept in the plan and not planned");
+    } else if (m.holds<model::MachiningWorkingstep>(at.executable) ||
+               m.holds<model::RapidMovement>(at.executable)) {
+      step(at);
+    } else if (m.holds<model::NcFunction>(at.executable)) {
+      say("PIP-NC-FUNCTION", at.executable, "is kept in the plan; programs leave it out");
+    } else if (m.holds<model::TouchProbing>(at.executable)) {
+      say("PIP-PROBING", at.executable, "is a probing step; it is kept in the plan and not planned");
+    } else if (at.executable.set()) {
+      say("PIP-UNHANDLED", at.executable, "is not understood; it is kept in the plan and not executed");
+    }
+  }
+
+  void choose(const model::Selective& s, Item at) {
+    for (std::size_t i = 0; i < s.its_elements.size(); ++i) {
+      const auto* e = w_.plan.model.get<model::Executable>(s.its_elements[i]);
+      if (e != nullptr && e->enabled.value_or(true)) return push({s.its_elements[i], at.setup});
+    }
+    say("PIP-SELECTIVE", at.executable, "has no enabled element to choose");
+  }
+
+  void step(Item at) {
+    const auto* e = w_.plan.model.get<model::Executable>(at.executable);
+    if (!e->enabled.value_or(true)) return say("PIP-DISABLED", at.executable, "is disabled; not executed");
+    StepWork work;
+    work.step = Ref<model::Executable>(at.executable);
+    work.setup = setup_index(at.setup);
+    if (const auto* ws = w_.plan.model.get<model::MachiningWorkingstep>(at.executable)) {
+      work.feature = ws->its_feature;
+      work.operation = ws->its_operation;
+    }
+    w_.steps.push_back(std::move(work));
+  }
+
+  std::size_t setup_index(Ref<model::Setup> setup) {
+    for (std::size_t i = 0; i < w_.setups.size(); ++i) {
+      if (w_.setups[i].setup == setup) return i;
+    }
+    SetupWork work;
+    work.setup = setup;
+    w_.setups.push_back(work);
+    return w_.setups.size() - 1;
+  }
+
+  void say(const char* code, AnyRef what, const std::string& message) {
+    const auto* e = w_.plan.model.get<model::Executable>(what);
+    const std::string name = e != nullptr ? e->its_id.value_or("") : "";
+    w_.job.report({.code = code,
+                   .severity = Severity::kWarning,
+                   .message = std::string(model::noun_type(what.type).keyword) + " '" + name + "' " + message,
+                   .file = w_.plan.file_name,
+                   .line = w_.plan.model.origin(what).line,
+                   .instance = w_.plan.model.origin(what).instance});
+  }
+
+  Work& w_;
+  std::vector<Item> pending_;
+  std::set<AnyRef> entered_;
+};
+
+Status resolve_setup(Work& w, SetupWork& s) {
+  const model::Model& m = w.plan.model;
+  const auto* setup = m.get<model::Setup>(s.setup);
+  bool placed = false;
+  if (setup != nullptr) {
+    for (std::size_t i = 0; i < setup->its_workpiece_setup.size(); ++i) {
+      const auto* ws = m.get<model::WorkpieceSetup>(setup->its_workpiece_setup[i]);
+      if (ws == nullptr) continue;
+      const auto frame = model::placement_or_identity(m, ws->its_origin);
+      if (!frame) return tl::unexpected(frame.error());
+      s.workpiece = *frame;
+      placed = true;
+      break;
+    }
+  }
+  s.stock = transformed(w.plan.stock.box, s.workpiece);
+  const double lowest = s.stock.hi.z + kClearPlane;
+  s.security_z_mm = lowest;
+  if (!placed) {
+    w.job.warn("PIP-SETUP", "no set-up places the workpiece; its own coordinates are taken as the set-up's");
+  }
+  if (setup == nullptr) return {};
+  if (const auto* plane = m.get<model::ElementarySurface>(setup->its_secplane)) {
+    const auto frame = model::placement(m, plane->position);
+    if (!frame) return tl::unexpected(frame.error());
+    s.security_z_mm = frame->origin.z;
+  }
+  return {};
+}
+
+/// The security plane must lie above the raw piece and every feature; a given one that does not is raised.
+void raise_security_plane(Work& w, std::size_t index) {
+  SetupWork& s = w.setups[index];
+  double top = s.stock.hi.z;
+  for (const StepWork& step : w.steps) {
+    if (step.setup != index) continue;
+    for (const auto& shape : step.shapes) {
+      const auto frame = compose(s.workpiece, shape.frame);
+      top = std::max(top, frame.origin.z);
+    }
+  }
+  // Rapids cross at this height: it must clear the material, with the margin that the checker asks too.
+  constexpr double kLeast = 2.0;
+  if (s.security_z_mm >= top + kLeast) return;
+  const double raised = top + kClearPlane;
+  w.job.warn("PIP-SECPLANE", "the security plane at z = " + trimmed(s.security_z_mm, 3) +
+                                 " mm does not clear the material and the features up to z = " +
+                                 trimmed(top, 3) + " mm; raised to " + trimmed(raised, 3) + " mm");
+  w.plan.ledger.bind(s.setup, "its_secplane", model::Binder::kRule,
+                     {"setup.secplane.raised", "raised so that rapid moves clear raw piece and features",
+                      "safety: a rapid clears the material"});
+  s.security_z_mm = raised;
+}
+
+void mark_open(Work& w, StepWork& step) {
+  const model::Model& m = w.plan.model;
+  const auto* op = m.get<model::MachiningOperation>(step.operation);
+  if (op == nullptr) return;
+  model::Ledger& ledger = w.plan.ledger;
+  if (op->its_toolpath.set()) {
+    // A path fixes its cutter; feeds may still be chosen.
+    step.open_tool = !m.holds<model::MachiningTool>(op->its_tool);
+  } else {
+    step.open_tool = reopens(w, Reopen::kTools) || !m.holds<model::MachiningTool>(op->its_tool) ||
+                     ledger.is_open(step.operation, "its_tool") || tooling::is_requirement(m, op->its_tool);
+  }
+  const auto* tech = m.get<model::MillingTechnology>(op->its_technology);
+  const bool no_feed = tech == nullptr || (!tech->feedrate && !tech->feedrate_per_tooth) ||
+                       tech->feedrate.value_or(1.0) <= 0.0;
+  const bool no_speed = tech == nullptr || (!tech->spindle && !tech->cutspeed);
+  step.open_technology = step.open_tool || reopens(w, Reopen::kTechnology) || no_feed || no_speed ||
+                         (op->its_technology.set() && (ledger.is_open(op->its_technology, "feedrate") ||
+                                                       ledger.is_open(op->its_technology, "spindle")));
+}
+
+}  // namespace
+
+Status list_given(Work& w) {
+  const auto* project = w.plan.model.get<model::Project>(w.plan.project);
+  AnyRef root = project != nullptr ? AnyRef(project->main_workplan) : AnyRef{};
+  if (!root.set()) {
+    const auto plans = w.plan.model.all(TypeId::kWorkplan);
+    if (!plans.empty()) root = plans.front();
+  }
+  Walker(w).walk(root);
+  if (w.setups.empty()) {
+    SetupWork s;
+    const auto setups = w.plan.model.all(TypeId::kSetup);
+    if (!setups.empty()) s.setup = Ref<model::Setup>(setups.front());
+    w.setups.push_back(s);
+  }
+  if (w.policy.reopen == Reopen::kOperations || w.policy.reopen == Reopen::kAll) {
+    // The set-ups stay; what is done in them is proposed anew.
+    w.steps.clear();
+  }
+  for (SetupWork& s : w.setups) {
+    if (auto ok = resolve_setup(w, s); !ok) return ok;
+  }
+  std::vector<StepWork> kept;
+  for (StepWork& step : w.steps) {
+    if (step.feature.set() && w.plan.model.holds<model::ManufacturingFeature>(step.feature)) {
+      auto shapes = model::shapes_of(w.plan.model, Ref<model::ManufacturingFeature>(step.feature));
+      if (shapes) step.shapes = *std::move(shapes);
+      // An operation with its own path needs no shape; others say later why they cannot be done.
+    }
+    if (w.plan.model.holds<model::MachiningWorkingstep>(step.step) &&
+        !w.plan.model.holds<model::MachiningOperation>(step.operation)) {
+      continue;  // open: rules propose for its feature
+    }
+    mark_open(w, step);
+    kept.push_back(std::move(step));
+  }
+  w.steps = std::move(kept);
+  for (std::size_t i = 0; i < w.setups.size(); ++i) raise_security_plane(w, i);
+  return {};
+}
+
+}  // namespace capstan::pipeline

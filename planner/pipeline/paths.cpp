@@ -1,0 +1,373 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <tuple>
+
+#include "planner/base/number.h"
+#include "planner/exchange/iso14649/curves.h"
+#include "planner/motion/time.h"
+#include "planner/pipeline/steps.h"
+
+// Step by step in order: depths, path, sections, feeds, with the stock carried on.
+
+namespace capstan::pipeline {
+namespace {
+
+using model::Model;
+using model::ShapeKind;
+
+constexpr double kCellsPerDiameter = 30.0;  // of the stock map, for the smallest cutter of the set-up
+constexpr double kMaximumCells = 600e3;     // keeps a set-up's map near 7 MB
+
+/// What is still left on a feature's walls and floor after the steps so far.
+struct Left {
+  double side_mm = 0.0, bottom_mm = 0.0;
+};
+
+/// What one try at a step came to.
+struct Made {
+  toolpath::GeneratedPath path;
+  optimise::CutQuestion question;
+  optimise::CutAnswer answer;
+  bool depth_open = false, width_open = false;
+};
+
+void append(toolpath::GeneratedPath& to, const toolpath::GeneratedPath& from) {
+  auto& p = to.path;
+  const auto& q = from.path;
+  for (std::size_t i = 0; i < q.size(); ++i) {
+    p.x.push_back(q.x[i]);
+    p.y.push_back(q.y[i]);
+    p.z.push_back(q.z[i]);
+    p.cx.push_back(q.cx[i]);
+    p.cy.push_back(q.cy[i]);
+    p.kind.push_back(i == 0 ? model::MoveKind::kRapid : q.kind[i]);
+    p.role.push_back(i == 0 ? model::MoveRole::kLink : q.role[i]);
+    to.feed_factor.push_back(from.feed_factor[i]);
+    to.speed_factor.push_back(from.speed_factor[i]);
+    to.dwell_s.push_back(from.dwell_s[i]);
+  }
+}
+
+/// Area and height of the highest material over a feature, set-up frame.
+double top_over(const stock::HeightMap& map, const toolpath::PathJob& job) {
+  geometry::Box3 box;
+  const auto b = geometry::bounds(job.shape.area);
+  for (const geometry::Vec2 c :
+       {b.lo, geometry::Vec2{b.hi.x, b.lo.y}, b.hi, geometry::Vec2{b.lo.x, b.hi.y}}) {
+    box.add(job.feature_in_setup.to_parent({c.x, c.y, 0.0}));
+  }
+  const int x0 = std::max(0, static_cast<int>(std::floor((box.lo.x - map.origin.x) / map.cell_mm)));
+  const int x1 = std::min(map.nx - 1, static_cast<int>(std::floor((box.hi.x - map.origin.x) / map.cell_mm)));
+  const int y0 = std::max(0, static_cast<int>(std::floor((box.lo.y - map.origin.y) / map.cell_mm)));
+  const int y1 = std::min(map.ny - 1, static_cast<int>(std::floor((box.hi.y - map.origin.y) / map.cell_mm)));
+  float top = 0.0F;
+  for (int y = y0; y <= y1; ++y) {
+    for (int x = x0; x <= x1; ++x) top = std::max(top, map.at(x, y).top_mm);
+  }
+  return map.origin.z + static_cast<double>(top);
+}
+
+bool opens_outwards(const model::FeatureShape& s) {
+  return s.kind == ShapeKind::kStep || s.kind == ShapeKind::kOutside;
+}
+
+using QuestionKey = std::tuple<std::string, int, double, double, double, double, double, double, double,
+                               double, double, double, double>;
+
+QuestionKey key_of(const optimise::CutQuestion& q) {
+  constexpr double kUnset = -1.0;
+  return {q.cutter.id,
+          static_cast<int>(q.kind),
+          q.vc_start_m_min,
+          q.fz_start_mm,
+          q.depth_mm,
+          q.width_mm,
+          q.pre_hole_mm,
+          q.deflection_limit_mm,
+          q.ap_mm.value_or(kUnset),
+          q.ae_mm.value_or(kUnset),
+          q.n_rpm.value_or(kUnset),
+          q.feed_mm_min.value_or(kUnset),
+          q.fz_mm.value_or(kUnset)};
+}
+
+class PathMaker {
+ public:
+  explicit PathMaker(Work& w) : w_(w), maps_(w.setups.size()) {
+    options_.solver = w.inputs.solver;
+    options_.backends = w.inputs.backends;
+    options_.starts = 2;
+    options_.relative_tolerance = 1e-7;
+  }
+
+  Status run() {
+    std::size_t done = 0;
+    for (StepWork& step : w_.steps) {
+      w_.job.progress("paths", static_cast<double>(done++) / static_cast<double>(w_.steps.size()));
+      if (w_.job.stop_requested())
+        return fail("PIP-STOPPED", "planning was stopped before every step had its path");
+      if (auto ok = make(step); !ok) return ok;
+    }
+    return {};
+  }
+
+ private:
+  Status make(StepWork& step) {
+    if (has_given_path(w_, step)) return explicit_path(step);
+    if (!w_.plan.model.holds<model::MachiningOperation>(step.operation)) return {};
+    if (step.shapes.empty()) {
+      no_path(step, "the shape of its feature is not known");
+      return {};
+    }
+    if (step.cutter.cutting_diameter_mm <= 0.0) return {};  // no cutter was found; said already
+    const std::size_t tries = std::max<std::size_t>(1, step.candidates.size());
+    std::string why_not;
+    for (std::size_t i = 0; i < tries; ++i) {
+      const model::Candidate* candidate = i < step.candidates.size() ? &step.candidates[i] : nullptr;
+      if (candidate != nullptr) step.cutter = candidate->cutter;
+      auto made = attempt(step, candidate);
+      if (!made) {
+        why_not += (why_not.empty() ? "" : "; ") + step.cutter.id + ": " + made.error().message;
+        step.rejected_tools.push_back({step.cutter.id, made.error().message});
+        continue;
+      }
+      if (i > 0) take_cutter(step, *candidate);
+      return finish(step, *std::move(made));
+    }
+    no_path(step, why_not);
+    return {};
+  }
+
+  /// A cutter further down the list does what the first could not.
+  void take_cutter(StepWork& step, const model::Candidate& c) {
+    w_.plan.model.get<model::MachiningOperation>(step.operation)->its_tool = tool_noun(w_, c.cutter);
+    w_.plan.ledger.bind(step.operation, "its_tool", model::Binder::kToolSelection, c.why,
+                        {{step.step, "its_operation"}}, step.rejected_tools);
+  }
+
+  Result<Made> attempt(const StepWork& step, const model::Candidate* candidate) {
+    Made out;
+    bool first = true;
+    for (const auto& shape : step.shapes) {
+      auto job = job_of(w_, step, shape);
+      prepare(step, job);
+      if (first) {
+        out.question = question_of(w_, step, candidate, job);
+        auto answer = cut(out.question);
+        if (!answer) return tl::unexpected(answer.error());
+        out.answer = *std::move(answer);
+        out.depth_open = !out.question.ap_mm.has_value();
+        out.width_open = !out.question.ae_mm.has_value();
+        if (step.open_technology && !out.answer.feasible) {
+          std::string limits;
+          for (const auto& v : out.answer.violated) limits += (limits.empty() ? "" : ", ") + v;
+          return fail("PIP-INFEASIBLE", "no cut keeps every limit: " + limits);
+        }
+      }
+      if (out.depth_open) job.axial_depth_mm = out.answer.ap_mm;
+      if (out.width_open && out.answer.ae_mm > 0.0) job.radial_depth_mm = out.answer.ae_mm;
+      if (out.question.ae_mm) job.radial_depth_mm = *out.question.ae_mm;
+      auto path = toolpath::generate(job, w_.job);
+      if (!path) return tl::unexpected(path.error());
+      if (first) {
+        out.path = *std::move(path);
+      } else {
+        append(out.path, *path);
+      }
+      first = false;
+    }
+    return out;
+  }
+
+  void prepare(const StepWork& step, toolpath::PathJob& job) {
+    const SetupWork& setup = w_.setups[step.setup];
+    if (opens_outwards(job.shape)) {
+      const auto outline = transformed(setup.stock, inverse(job.feature_in_setup));
+      const auto raw = geometry::rectangle(geometry::xy(outline.lo), geometry::xy(outline.hi));
+      job.shape.area = geometry::intersect(job.shape.area, raw);
+    }
+    stock::HeightMap& map = map_of(step.setup);
+    const double top = job.feature_in_setup.origin.z;
+    const double bottom = top - job.shape.depth_mm;
+    const double material = top_over(map, job);
+    // Nothing there at all: the file's own top is as good as any (and the path runs in air).
+    job.start_z_mm = material > bottom ? material : top;
+    if (job.shape.kind == ShapeKind::kHole || job.shape.kind == ShapeKind::kThread ||
+        job.shape.kind == ShapeKind::kChamfer) {
+      job.start_z_mm = std::max(job.start_z_mm, top);
+    }
+    const auto it = left_.find({step.feature, job.shape.member});
+    if (it != left_.end()) {
+      job.left_on_side_mm = it->second.side_mm;
+      job.left_on_bottom_mm = it->second.bottom_mm;
+    }
+  }
+
+  Result<optimise::CutAnswer> cut(const optimise::CutQuestion& q) {
+    const auto key = key_of(q);
+    if (const auto it = answers_.find(key); it != answers_.end()) return it->second;
+    auto a = optimise::cut(q, options_, w_.job);
+    if (a) answers_.emplace(key, *a);
+    return a;
+  }
+
+  Status finish(StepWork& step, Made made) {
+    record_cut(w_, step, made.answer, made.depth_open, made.width_open);
+    for (const auto& shape : step.shapes) {
+      const auto job = job_of(w_, step, shape);
+      if (w_.plan.model.holds<model::Two5dMillingOperation>(step.operation)) {
+        left_[{step.feature, shape.member}] = {job.allowance_side_mm, job.allowance_bottom_mm};
+      }
+    }
+    const auto given = given_technology(w_.plan.model, step.operation, step.cutter);
+    optimise::FeedQuestion fq;
+    fq.cut = made.question;
+    fq.n_rpm = given.rpm.value_or(made.answer.n_rpm);
+    fq.feed_mm_min = given.feed_mm_min.value_or(made.answer.feed_mm_min);
+    fq.adapt = step.open_technology;
+    fq.feed_factor = std::move(made.path.feed_factor);
+    fq.speed_factor = std::move(made.path.speed_factor);
+    fq.dwell_s = std::move(made.path.dwell_s);
+    auto path = std::make_shared<const model::CutterPath>(std::move(made.path.path));
+    model::StepResult r = result_of(step);
+    r.axial_depth_mm = made.answer.ap_mm;
+    r.radial_depth_mm = made.answer.ae_mm;
+    r.active = made.answer.active;
+    if (auto ok = measure(step, *path, r, fq); !ok) return ok;
+    const auto feeds = optimise::feeds(fq, *path);
+    r.schedule = std::make_shared<const model::FeedSchedule>(feeds.schedule);
+    r.loads = feeds.peak;
+    r.path = path;
+    record_path(w_, step, path);
+    return keep(step, std::move(r), fq);
+  }
+
+  Status explicit_path(StepWork& step) {
+    auto given = exchange::path_of_step(w_.plan, step.step, {}, w_.job);
+    if (!given) {
+      w_.job.report(given.error());
+      no_path(step, given.error().message);
+      return {};
+    }
+    if (given->path.size() == 0) return {};
+    model::StepResult r = result_of(step);
+    optimise::FeedQuestion fq;
+    fq.adapt = false;
+    fq.cut.cutter = step.cutter;
+    fq.cut.machine = w_.plan.machine;
+    fq.cut.material = w_.plan.material;
+    auto path = std::make_shared<const model::CutterPath>(std::move(given->path));
+    if (step.cutter.cutting_diameter_mm > 0.0) {
+      if (auto ok = measure(step, *path, r, fq); !ok) return ok;
+    }
+    r.path = path;
+    r.schedule = std::make_shared<const model::FeedSchedule>(std::move(given->schedule));
+    for (std::size_t i = 0; i < path->size(); ++i) {
+      r.feed_mm_min = std::max(r.feed_mm_min, r.schedule->feed_mm_min[i]);
+      if (std::abs(r.schedule->spindle_rpm[i]) > std::abs(r.spindle_rpm))
+        r.spindle_rpm = r.schedule->spindle_rpm[i];
+    }
+    return keep(step, std::move(r), fq);
+  }
+
+  Status measure(const StepWork& step, const model::CutterPath& path, model::StepResult& r,
+                 optimise::FeedQuestion& fq) {
+    auto m = engagement::measure(path, step.cutter, map_of(step.setup));
+    if (!m) {
+      w_.job.warn(m.error().code, "step '" + name_of(step) + "' is not measured: " + m.error().message);
+      return {};
+    }
+    if (m->rapid_removed_mm3 > 1e-3) {
+      w_.job.warn("PIP-RAPID", "step '" + name_of(step) + "': rapid moves touch " +
+                                   trimmed(m->rapid_removed_mm3, 3) + " mm3 of material");
+    }
+    const auto& s = m->sections;
+    for (std::size_t i = 0; i < s.size(); ++i) {
+      fq.samples.push_back(
+          {s.move[i], m->engagement[i].ap_mm, m->engagement[i].ae_mm, m->engagement[i].plunge});
+    }
+    r.sections = std::make_shared<const model::SectionSeries>(std::move(m->sections));
+    return {};
+  }
+
+  Status keep(const StepWork& step, model::StepResult r, const optimise::FeedQuestion& fq) {
+    if (r.feed_mm_min == 0.0) r.feed_mm_min = fq.feed_mm_min;
+    if (r.spindle_rpm == 0.0) r.spindle_rpm = fq.n_rpm;
+    const double d = step.cutter.cutting_diameter_mm;
+    r.vc_m_min = 3.14159265358979323846 * d * std::abs(r.spindle_rpm) / 1000.0;
+    if (r.spindle_rpm != 0.0)
+      r.fz_mm = r.feed_mm_min / (std::abs(r.spindle_rpm) * std::max(1, step.cutter.teeth));
+    const auto t = motion::time_of(*r.path, *r.schedule, w_.plan.machine);
+    if (t) {
+      r.cutting_s = t->cutting_s + t->dwell_s;
+      r.rapid_s = t->rapid_s;
+    } else {
+      w_.job.warn(t.error().code, "step '" + name_of(step) + "' has no time: " + t.error().message);
+    }
+    w_.plan.steps.push_back(std::move(r));
+    return {};
+  }
+
+  model::StepResult result_of(const StepWork& step) const {
+    model::StepResult r;
+    r.step = step.step;
+    r.setup = step.setup;
+    r.cutter_id = step.cutter.id;
+    const auto* op = w_.plan.model.get<model::MachiningOperation>(step.operation);
+    if (op != nullptr) {
+      if (const auto* f = w_.plan.model.get<model::MillingMachineFunctions>(op->its_machine_functions)) {
+        r.flood = f->coolant.value_or(false);
+        r.mist = f->mist.value_or(false);
+      }
+    }
+    return r;
+  }
+
+  std::string name_of(const StepWork& step) const {
+    const auto* e = w_.plan.model.get<model::Executable>(step.step);
+    return e != nullptr ? e->its_id.value_or("") : "";
+  }
+
+  void no_path(const StepWork& step, const std::string& why) {
+    w_.plan.unplanned.push_back({step.feature, "step '" + name_of(step) + "': " + why});
+    w_.job.report({.code = "PIP-NO-PATH",
+                   .severity = Severity::kError,
+                   .message = "step '" + name_of(step) + "' has no path: " + why,
+                   .file = w_.plan.file_name,
+                   .instance = w_.plan.model.origin(step.step).instance});
+  }
+
+  stock::HeightMap& map_of(std::size_t setup) {
+    auto& map = maps_[setup];
+    if (!map) {
+      double smallest = 1e300;
+      for (const StepWork& s : w_.steps) {
+        if (s.setup == setup && s.cutter.cutting_diameter_mm > 0.0) {
+          smallest = std::min(smallest, s.cutter.cutting_diameter_mm);
+        }
+      }
+      if (smallest > 1e200) smallest = 10.0;
+      const auto& box = w_.setups[setup].stock;
+      const double cell = stock::cell_for(smallest, box, kCellsPerDiameter, kMaximumCells);
+      const auto& round = w_.plan.stock.cylinder_radius_mm;
+      map = round ? stock::from_cylinder(box, *round, cell) : stock::from_box(box, cell);
+    }
+    return *map;
+  }
+
+  Work& w_;
+  std::vector<std::optional<stock::HeightMap>> maps_;
+  std::map<std::pair<AnyRef, int>, Left> left_;
+  std::map<QuestionKey, optimise::CutAnswer> answers_;
+  optimise::Options options_;
+};
+
+}  // namespace
+
+Status make_paths(Work& w) { return PathMaker(w).run(); }
+
+}  // namespace capstan::pipeline

@@ -1,0 +1,395 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "planner/base/number.h"
+#include "planner/model/walk.h"
+#include "planner/pipeline/work.h"
+#include "tooling/nouns/nouns.h"
+#include "tooling/select/select.h"
+
+// Features without bound operations: what the rules say, which cutters there are, and the retries between
+// them.
+
+namespace capstan::pipeline {
+namespace {
+
+using model::FeatureShape;
+using model::Model;
+using model::TypeId;
+
+constexpr double kSameAxis = 1e-6;  // sine below which two tool axes are the same
+
+/// Features that are parts of others (elements of compounds, bases of patterns, bosses, threaded holes that a
+/// compound lists) are made with those.
+std::set<AnyRef> parts_of_others(const Model& m) {
+  std::set<AnyRef> out;
+  for (const AnyRef r : m.all_below(TypeId::kManufacturingFeature)) {
+    const auto add = [&](AnyRef part) {
+      if (part.set()) out.insert(part);
+    };
+    if (const auto* c = m.get<model::CompoundFeature>(r)) {
+      for (const AnyRef e : c->elements.items) add(e);
+    }
+    if (const auto* p = m.get<model::ReplicateFeature>(r)) add(p->replicate_base_feature);
+    if (const auto* p = m.get<model::Pocket>(r)) {
+      for (const AnyRef b : p->its_boss.items) add(b);
+    }
+    if (const auto* f = m.get<model::PlanarFace>(r)) {
+      for (const AnyRef b : f->its_boss.items) add(b);
+    }
+    if (const auto* s = m.get<model::Step>(r)) {
+      for (const AnyRef b : s->its_boss.items) add(b);
+    }
+  }
+  return out;
+}
+
+/// Features the file wants made, in the order of the file.
+std::vector<AnyRef> wanted(const Work& w) {
+  const Model& m = w.plan.model;
+  const std::set<AnyRef> parts = parts_of_others(m);
+  std::set<AnyRef> done;
+  for (const StepWork& s : w.steps) done.insert(s.feature);
+  std::vector<AnyRef> out;
+  for (const AnyRef r : m.all_below(TypeId::kManufacturingFeature)) {
+    if (!parts.contains(r) && !done.contains(r) && !m.holds<model::ToolpathFeature>(r)) out.push_back(r);
+  }
+  std::stable_sort(out.begin(), out.end(),
+                   [&](AnyRef a, AnyRef b) { return m.origin(a).instance < m.origin(b).instance; });
+  return out;
+}
+
+/// How much raw material stands above a feature when its steps begin: faces are cut first.
+double stock_above(const Work& w, const FeatureShape& s, const std::vector<FeatureShape>& faces) {
+  double top = transformed(w.plan.stock.box, inverse(s.frame)).hi.z;
+  if (s.kind == model::ShapeKind::kFace) return std::max(0.0, top);
+  for (const FeatureShape& face : faces) {
+    const auto rel = compose(inverse(s.frame), face.frame);
+    if (std::abs(rel.z.z - 1.0) > kSameAxis) continue;
+    const auto here = face.frame.to_local(s.frame.origin);
+    if (!geometry::contains(face.area, geometry::xy(here))) continue;
+    top = std::min(top, rel.origin.z - face.depth_mm);
+  }
+  return std::max(0.0, top);
+}
+
+/// The set-up in which this axis points up; made when there is none.
+std::size_t setup_for(Work& w, const FeatureShape& s) {
+  for (std::size_t i = 0; i < w.setups.size(); ++i) {
+    if (norm(cross(w.setups[i].workpiece.direction_to_parent(s.frame.z), geometry::Vec3{0, 0, 1})) <
+            kSameAxis &&
+        w.setups[i].workpiece.direction_to_parent(s.frame.z).z > 0.0) {
+      return i;
+    }
+  }
+  const auto seen = geometry::make_placement({}, s.frame.z, s.frame.x);
+  geometry::Placement turned = inverse(*seen);
+  // The work offset lies at the raw piece's lower corner, as it is clamped.
+  const auto box = transformed(w.plan.stock.box, turned);
+  turned.origin = turned.origin - box.lo;
+  SetupWork work;
+  work.workpiece = turned;
+  work.setup = add_setup(w, turned);
+  work.stock = transformed(w.plan.stock.box, turned);
+  work.security_z_mm = work.stock.hi.z + 10.0;
+  w.setups.push_back(work);
+  w.plan.ledger.bind(
+      work.setup, "its_origin", model::Binder::kRule,
+      {"setup.access", "made because no set-up of the file reaches feature '" + s.name + "' along its axis",
+       "derived from the feature's placement"});
+  return w.setups.size() - 1;
+}
+
+struct Chosen {
+  const std::vector<model::ProposedStep>* chain = nullptr;
+  std::vector<model::Selection> tools;
+};
+
+std::vector<model::Cutter> usable(const Work& w) {
+  if (!w.policy.only_loaded_cutters) return w.inputs.library;
+  std::vector<model::Cutter> out;
+  for (const auto& c : w.inputs.library) {
+    if (c.pocket > 0) out.push_back(c);
+  }
+  return out;
+}
+
+/// The first chain whose every step finds a cutter; why the others do not.
+Chosen choose(const Work& w, const model::Proposal& p, const std::vector<model::Cutter>& library,
+              std::vector<model::Rejected>& rejected) {
+  for (const auto& chain : p.chains) {
+    Chosen out;
+    std::vector<std::string> used = w.used_cutters;
+    std::string why_not;
+    for (const auto& step : chain) {
+      auto s = tooling::select(step.tool, library, w.plan.material, w.plan.machine, {.used = used});
+      if (s.ranked.empty()) {
+        why_not = step.name + ": no cutter fits; " + s.would_fit + " would";
+        break;
+      }
+      used.push_back(s.ranked.front().cutter.id);
+      out.tools.push_back(std::move(s));
+    }
+    if (why_not.empty()) {
+      out.chain = &chain;
+      return out;
+    }
+    rejected.push_back({chain.empty() ? "chain" : chain.front().why.id, why_not});
+  }
+  return {};
+}
+
+void unplanned(Work& w, const FeatureShape& s, const std::string& reason) {
+  w.plan.unplanned.push_back({s.feature, reason});
+  w.job.report({.code = "PIP-UNPLANNED",
+                .severity = Severity::kWarning,
+                .message = "feature '" + s.name + "' (" + std::string(model::to_text(s.kind)) +
+                           ") is not planned: " + reason,
+                .file = w.plan.file_name,
+                .line = w.plan.model.origin(s.feature).line,
+                .instance = w.plan.model.origin(s.feature).instance});
+}
+
+/// Whether two shapes ask for the same steps and cutters: members of a pattern.
+bool alike(const FeatureShape& a, const FeatureShape& b) {
+  return a.kind == b.kind && a.depth_mm == b.depth_mm && a.diameter.nominal_mm == b.diameter.nominal_mm &&
+         a.area.loops == b.area.loops && a.frame.z == b.frame.z && a.frame.origin.z == b.frame.origin.z &&
+         a.thread_pitch_mm == b.thread_pitch_mm;
+}
+
+class Proposer {
+ public:
+  explicit Proposer(Work& w) : w_(w), library_(usable(w)) {}
+
+  void feature(AnyRef f, const std::vector<FeatureShape>& shapes, const std::vector<FeatureShape>& faces) {
+    rules::Context context;
+    context.material = w_.plan.material;
+    if (const auto* named = w_.plan.model.get<model::ManufacturingFeature>(f)) {
+      if (const auto* piece = w_.plan.model.get<model::Workpiece>(named->its_workpiece)) {
+        context.global_tolerance_mm = piece->global_tolerance;
+      }
+    }
+    context.stock_above_mm = stock_above(w_, shapes.front(), faces);
+    context.has_coolant = w_.plan.machine.has_flood || w_.plan.machine.has_mist;
+    for (const auto& s : shapes) {
+      for (const std::string& a : s.assumptions) {
+        if (said_.insert({f, a}).second) w_.job.warn("PIP-ASSUMED", "feature '" + s.name + "': " + a);
+      }
+      if (s.kind == model::ShapeKind::kFreeform) context.surface_radius_mm = 0.0;
+    }
+    const auto proposals = rules::propose_members(w_.inputs.rules, shapes, context);
+    const auto order = rules::member_order(shapes);
+    std::vector<std::vector<std::size_t>> made(shapes.size());  // indices of steps by shape
+    std::vector<std::size_t> representative(shapes.size());
+    for (std::size_t i = 0; i < shapes.size(); ++i) {
+      representative[i] = i;
+      for (std::size_t j = 0; j < i; ++j) {
+        if (representative[j] == j && alike(shapes[i], shapes[j])) {
+          representative[i] = j;
+          break;
+        }
+      }
+      // Like members are made in one step each of their chain, one after the other.
+      if (representative[i] != i) {
+        for (const std::size_t s : made[representative[i]]) w_.steps[s].shapes.push_back(shapes[i]);
+        continue;
+      }
+      made[i] = shape(f, shapes[i], proposals[i]);
+    }
+    for (const auto& [first, second] : order) {
+      if (representative[first] != first || representative[second] != second) continue;
+      if (made[first].empty() || made[second].empty()) continue;
+      w_.steps[made[second].front()].after.push_back(made[first].back());
+    }
+  }
+
+ private:
+  std::vector<std::size_t> shape(AnyRef f, const FeatureShape& s, const model::Proposal& p) {
+    if (!p.cannot.empty()) {
+      unplanned(w_, s, p.cannot);
+      return {};
+    }
+    std::vector<model::Rejected> rejected = p.rejected;
+    const Chosen chosen = choose(w_, p, library_, rejected);
+    if (chosen.chain == nullptr) {
+      std::string reason = "no cutter in the library fits";
+      for (const auto& r : rejected) reason += "; " + r.why;
+      unplanned(w_, s, reason);
+      return {};
+    }
+    for (std::size_t i = 0; i < p.chains.size(); ++i) {
+      if (&p.chains[i] > chosen.chain && !p.chains[i].empty()) {
+        rejected.push_back({p.chains[i].front().why.id, "an alternative; the rules prefer the chain taken"});
+      }
+    }
+    std::vector<std::size_t> made;
+    const std::size_t setup = setup_for(w_, s);
+    for (std::size_t i = 0; i < chosen.chain->size(); ++i) {
+      StepWork step;
+      step.feature = f;
+      step.setup = setup;
+      step.shapes = {s};
+      step.proposed = true;
+      step.open_technology = true;
+      step.proposal = (*chosen.chain)[i];
+      step.proposal.feature = f;
+      step.candidates = chosen.tools[i].ranked;
+      step.rejected_tools = chosen.tools[i].rejected;
+      step.cutter = step.candidates.front().cutter;
+      for (std::size_t k = 1; k < step.candidates.size() && k < 4; ++k) {
+        step.rejected_tools.push_back(
+            {step.candidates[k].cutter.id, "fits, ranked lower: " + step.candidates[k].why.text});
+      }
+      const auto ws = add_nouns(w_, step.proposal, step.candidates.front(), s, rejected, step.rejected_tools);
+      step.step = ws;
+      step.operation = w_.plan.model.at<model::MachiningWorkingstep>(ws).its_operation;
+      for (const std::size_t before : step.proposal.after) {
+        if (before < made.size()) step.after.push_back(made[before]);
+      }
+      w_.used_cutters.push_back(step.cutter.id);
+      made.push_back(w_.steps.size());
+      w_.steps.push_back(std::move(step));
+    }
+    return made;
+  }
+
+  Work& w_;
+  std::vector<model::Cutter> library_;
+  std::set<std::pair<AnyRef, std::string>> said_;
+};
+
+}  // namespace
+
+Status propose_missing(Work& w) {
+  const std::vector<AnyRef> features = wanted(w);
+  std::vector<std::pair<AnyRef, std::vector<FeatureShape>>> shaped;
+  std::vector<FeatureShape> faces;
+  for (const AnyRef f : w.plan.model.all_below(TypeId::kPlanarFace)) {
+    if (auto s = model::shapes_of(w.plan.model, Ref<model::ManufacturingFeature>(f))) {
+      faces.insert(faces.end(), s->begin(), s->end());
+    }
+  }
+  if (w.policy.reopen >= Reopen::kOperations) {
+    for (const AnyRef f : features)
+      w.plan.model.get<model::ManufacturingFeature>(f)->its_operations.items.clear();
+  }
+  Proposer proposer(w);
+  std::size_t done = 0;
+  for (const AnyRef f : features) {
+    w.job.progress("propose", static_cast<double>(done++) / static_cast<double>(features.size()));
+    const auto shapes = model::shapes_of(w.plan.model, Ref<model::ManufacturingFeature>(f));
+    if (!shapes) {
+      FeatureShape nameless;
+      nameless.feature = f;
+      nameless.name = w.plan.model.get<model::ManufacturingFeature>(f)->its_id.value_or("");
+      unplanned(w, nameless, shapes.error().message);
+      continue;
+    }
+    if (!shapes->empty()) proposer.feature(f, *shapes, faces);
+  }
+  return {};
+}
+
+namespace {
+
+/// What an open tool must be: as the file's requirement says, else as the rules ask for such an operation on
+/// such a feature; deep enough for the feature in any case.
+Result<model::ToolRequirement> requirement_of(Work& w, const StepWork& step) {
+  const auto* op = w.plan.model.get<model::MachiningOperation>(step.operation);
+  const bool deep = !step.shapes.empty();
+  const double reach =
+      deep ? step.shapes.front().depth_mm +
+                 std::max(0.0, transformed(w.plan.stock.box, inverse(step.shapes.front().frame)).hi.z)
+           : 0.0;
+  if (w.plan.model.holds<model::MachiningTool>(op->its_tool)) {
+    auto r = tooling::requirement_from_nouns(w.plan.model, op->its_tool, w.job);
+    if (r) {
+      r->reach_mm = std::max(r->reach_mm, step.shapes.empty() ? 0.0 : step.shapes.front().depth_mm);
+      const bool fits_narrow = deep && step.shapes.front().corner_radius_mm > 0.0;
+      if (fits_narrow && w.plan.model.holds<model::BottomAndSideMilling>(step.operation)) {
+        r->diameter_max_mm = std::min(r->diameter_max_mm, 2.0 * step.shapes.front().corner_radius_mm);
+        r->diameter_min_mm = std::min(r->diameter_min_mm, r->diameter_max_mm);
+      }
+    }
+    return r;
+  }
+  if (deep) {
+    rules::Context context;
+    context.material = w.plan.material;
+    context.stock_above_mm = std::max(0.0, reach - step.shapes.front().depth_mm);
+    const auto p = rules::propose(w.inputs.rules, step.shapes.front(), context);
+    for (const auto& chain : p.chains) {
+      for (const auto& s : chain) {
+        if (s.operation == step.operation.type) return s.tool;
+      }
+    }
+  }
+  return fail({.code = "PIP-TOOL-OPEN",
+               .message = "operation '" + op->its_id.value_or("") +
+                          "' leaves its tool open, and nothing says what it must be",
+               .file = w.plan.file_name,
+               .instance = w.plan.model.origin(step.operation).instance,
+               .expected = "a machining_tool with class and dimensions",
+               .hint = "or re-open the operations"});
+}
+
+/// Picks the cutter of one open operation; false when none fits.
+bool select_one(Work& w, StepWork& step, const std::vector<model::Cutter>& library) {
+  const std::string name = w.plan.model.at<model::MachiningOperation>(step.operation).its_id.value_or("");
+  const auto requirement = requirement_of(w, step);
+  if (!requirement) {
+    w.job.report(requirement.error());
+    w.plan.unplanned.push_back({step.feature, requirement.error().message});
+    return false;
+  }
+  auto s = tooling::select(*requirement, library, w.plan.material, w.plan.machine, {.used = w.used_cutters});
+  if (s.ranked.empty()) {
+    w.plan.unplanned.push_back(
+        {step.feature, "operation '" + name + "': no cutter fits; " + s.would_fit + " would"});
+    w.job.report({.code = "PIP-NO-TOOL",
+                  .severity = Severity::kError,
+                  .message = "operation '" + name + "' finds no cutter",
+                  .file = w.plan.file_name,
+                  .instance = w.plan.model.origin(step.operation).instance,
+                  .expected = s.would_fit,
+                  .hint = "load or add one, or re-open the operations"});
+    return false;
+  }
+  step.candidates = s.ranked;
+  step.cutter = s.ranked.front().cutter;
+  step.rejected_tools = s.rejected;
+  w.used_cutters.push_back(step.cutter.id);
+  const auto tool = tool_noun(w, step.cutter);
+  w.plan.model.get<model::MachiningOperation>(step.operation)->its_tool = tool;
+  w.plan.ledger.bind(step.operation, "its_tool", model::Binder::kToolSelection, s.ranked.front().why,
+                     {{step.step, "its_operation"}}, s.rejected);
+  return true;
+}
+
+}  // namespace
+
+Status select_open_tools(Work& w) {
+  const std::vector<model::Cutter> library = usable(w);
+  for (StepWork& step : w.steps) {
+    if (step.proposed || !step.operation.set()) continue;
+    const auto* op = w.plan.model.get<model::MachiningOperation>(step.operation);
+    if (step.open_tool) {
+      select_one(w, step, library);
+      continue;
+    }
+    auto cutter = tooling::cutter_from_nouns(w.plan.model, op->its_tool, w.job, w.inputs.library);
+    if (cutter) {
+      step.cutter = *std::move(cutter);
+      w.used_cutters.push_back(step.cutter.id);
+      continue;
+    }
+    w.job.report(cutter.error());
+    w.plan.unplanned.push_back(
+        {step.feature, "operation '" + op->its_id.value_or("") + "': " + cutter.error().message});
+  }
+  return {};
+}
+
+}  // namespace capstan::pipeline

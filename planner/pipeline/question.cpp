@@ -1,0 +1,113 @@
+#include <algorithm>
+#include <cmath>
+
+#include "planner/pipeline/steps.h"
+#include "tooling/select/select.h"
+
+// The question that the optimiser is asked for a step, from nouns and geometry.
+
+namespace capstan::pipeline {
+namespace {
+
+using model::Model;
+using model::ShapeKind;
+using model::TypeId;
+using optimise::CutKind;
+
+/// Share of a tolerance zone that bending of the tool may use in finishing. Default, unsourced.
+constexpr double kDeflectionShare = 0.25;
+constexpr double kFinishDeflection = 0.02;  // mm, where no tolerance is stated; default, unsourced
+constexpr double kLeastDeflection = 0.004;  // mm; below, the model's own error rules
+
+CutKind kind_of(const Model& m, AnyRef op, const model::Cutter& c) {
+  if (m.holds<model::Tapping>(op)) return CutKind::kTap;
+  if (c.cutter_class == model::CutterClass::kThreadMill) return CutKind::kFinish;
+  if (m.holds<model::Reaming>(op)) return CutKind::kReam;
+  if (m.holds<model::DrillingTypeOperation>(op)) {
+    const bool mills = c.cutter_class == model::CutterClass::kEndmill ||
+                       c.cutter_class == model::CutterClass::kBullnoseEndmill;
+    return mills && m.holds<model::ThreadDrilling>(op) ? CutKind::kRough : CutKind::kDrill;
+  }
+  if (m.holds<model::SideFinishMilling>(op) || m.holds<model::BottomAndSideFinishMilling>(op) ||
+      m.holds<model::FreeformFinishMilling>(op)) {
+    return CutKind::kFinish;
+  }
+  return CutKind::kRough;
+}
+
+double tolerance_of(const Work& w, const StepWork& step, const model::FeatureShape& s) {
+  double width = 0.0;
+  for (const auto& t : {s.width, s.length, s.diameter}) {
+    if (t.given && t.width() > 0.0) width = width > 0.0 ? std::min(width, t.width()) : t.width();
+  }
+  if (width > 0.0) return width;
+  if (const auto* f = w.plan.model.get<model::ManufacturingFeature>(step.feature)) {
+    if (const auto* piece = w.plan.model.get<model::Workpiece>(f->its_workpiece)) {
+      return 2.0 * piece->global_tolerance.value_or(0.0);
+    }
+  }
+  return 0.0;
+}
+
+/// The widest cut that the feature offers: a slot's width, a pocket's narrower side.
+double width_of(const model::FeatureShape& s) {
+  if (s.kind == ShapeKind::kHole || s.kind == ShapeKind::kThread) return s.diameter.nominal_mm;
+  if (s.kind == ShapeKind::kSlot) {
+    return s.slot_profile.empty() ? s.width.nominal_mm : 2.0 * s.slot_profile.front().y;
+  }
+  if (s.area.empty()) return 0.0;
+  const auto b = geometry::bounds(s.area);
+  return std::min(b.hi.x - b.lo.x, b.hi.y - b.lo.y);
+}
+
+}  // namespace
+
+optimise::CutQuestion question_of(const Work& w, const StepWork& step, const model::Candidate* candidate,
+                                  const toolpath::PathJob& job) {
+  const Model& m = w.plan.model;
+  optimise::CutQuestion q;
+  q.cutter = step.cutter;
+  q.material = w.plan.material;
+  q.machine = w.plan.machine;
+  q.kind = kind_of(m, step.operation, step.cutter);
+  q.aim = w.inputs.objective == Objective::kTime ? optimise::Aim::kTime : optimise::Aim::kCost;
+  if (candidate != nullptr) {
+    q.vc_start_m_min = candidate->vc_m_min;
+    q.fz_start_mm = candidate->fz_mm;
+  } else {
+    const auto start = tooling::start_values(step.cutter, w.plan.material, w.plan.machine);
+    q.vc_start_m_min = start.vc_m_min;
+    q.fz_start_mm = start.fz_mm;
+  }
+  const double bottom = job.feature_in_setup.origin.z - job.shape.depth_mm + job.allowance_bottom_mm;
+  q.depth_mm = std::max(0.0, job.start_z_mm - bottom);
+  q.width_mm = width_of(job.shape);
+  q.pre_hole_mm = job.previous_diameter_mm.value_or(0.0);
+  const double d = step.cutter.cutting_diameter_mm;
+  if (job.axial_depth_mm > 0.0) q.ap_mm = job.axial_depth_mm;
+  if (job.radial_depth_mm > 0.0) {
+    q.ae_mm = job.radial_depth_mm;
+  } else if (job.overlap && !step.proposed) {
+    q.ae_mm = std::max(0.0, 1.0 - *job.overlap) * d;
+  }
+  if (q.kind == CutKind::kFinish) {
+    // What the step before left on the walls; nothing known: the usual finishing allowance.
+    q.width_mm = std::max(0.05, job.left_on_side_mm.value_or(0.5) - job.allowance_side_mm);
+    const double zone = tolerance_of(w, step, job.shape);
+    q.deflection_limit_mm =
+        zone > 0.0 ? std::max(kLeastDeflection, kDeflectionShare * zone) : kFinishDeflection;
+    if (step.cutter.cutter_class == model::CutterClass::kThreadMill) {
+      // Depth of an ISO metric thread's flank, 0.6134 p (ISO 68-1).
+      q.width_mm = 0.6134 * job.shape.thread_pitch_mm;
+      q.ap_mm = std::min(step.cutter.maximum_depth_of_cut_mm, job.shape.thread_pitch_mm);
+    }
+  }
+  if (!step.open_technology) {
+    const auto given = given_technology(m, step.operation, step.cutter);
+    if (given.rpm) q.n_rpm = std::abs(*given.rpm);
+    q.feed_mm_min = given.feed_mm_min;
+  }
+  return q;
+}
+
+}  // namespace capstan::pipeline

@@ -1,0 +1,162 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "planner/base/number.h"
+#include "planner/model/walk.h"
+#include "planner/pipeline/steps.h"
+
+// What was chosen, in the nouns, and why, in the ledger.
+
+namespace capstan::pipeline {
+namespace {
+
+using model::Binder;
+using model::DecisionKey;
+using model::Model;
+
+const char* const kMechanics =
+    "Kienzle forces with the material's kc1.1 and mc, tool bending as a stepped beam, the machine's spindle "
+    "curve";
+
+std::string percent(double fraction) { return trimmed(100.0 * fraction, 2) + " %"; }
+
+/// "limited by chip_thickness (0.05 of 0.05 mm; 1 % more saves 0.9 % of the time)"
+std::string words(const optimise::CutAnswer& a) {
+  if (a.method == "given") return "as given; the numbers follow from the values in the file";
+  if (a.active.empty()) return "no limit is reached; the search ended inside all limits";
+  std::string out = "limited by ";
+  for (std::size_t i = 0; i < a.active.size(); ++i) {
+    const auto& c = a.active[i];
+    if (i > 0) out += ", ";
+    out += c.name + " (" + trimmed(c.value, 4) + " of " + trimmed(c.limit, 4) + " " + c.unit;
+    if (c.shadow_price > 0.0) out += "; 1 % more saves " + percent(c.shadow_price) + " of the cutting time";
+    out += ")";
+  }
+  return out;
+}
+
+/// The technology of the operation, its own: one that came with the file may serve other operations too.
+Ref<model::MillingTechnology> own_technology(Model& m, AnyRef operation) {
+  auto* op = m.get<model::MachiningOperation>(operation);
+  const AnyRef now = op->its_technology;
+  if (m.holds<model::MillingTechnology>(now) && m.origin(now).instance == 0)
+    return Ref<model::MillingTechnology>(now);
+  model::MillingTechnology t;
+  if (const auto* given = m.get<model::MillingTechnology>(now)) t = *given;
+  if (!t.feedrate_reference.set()) t.feedrate_reference = model::ToolReferencePoint::kTcp;
+  if (!t.synchronize_spindle_with_feed) t.synchronize_spindle_with_feed = false;
+  if (!t.inhibit_feedrate_override) t.inhibit_feedrate_override = false;
+  if (!t.inhibit_spindle_override) t.inhibit_spindle_override = false;
+  const auto made = m.add(t);
+  m.get<model::MachiningOperation>(operation)->its_technology = made;
+  return made;
+}
+
+}  // namespace
+
+GivenTechnology given_technology(const Model& m, AnyRef operation, const model::Cutter& cutter) {
+  GivenTechnology out;
+  const auto* op = m.get<model::MachiningOperation>(operation);
+  const auto* t = op != nullptr ? m.get<model::MillingTechnology>(op->its_technology) : nullptr;
+  if (t == nullptr) return out;
+  // ISO 14649 signs the spindle: negative is clockwise seen from the spindle towards the work.
+  if (t->spindle) {
+    out.rpm = -*t->spindle;
+  } else if (t->cutspeed && cutter.cutting_diameter_mm > 0.0) {
+    const double sense = cutter.hand == model::Hand::kLeft ? -1.0 : 1.0;
+    out.rpm = sense * *t->cutspeed / (std::numbers::pi * cutter.cutting_diameter_mm);
+  }
+  if (t->feedrate) {
+    out.feed_mm_min = t->feedrate;
+  } else if (t->feedrate_per_tooth && out.rpm) {
+    out.feed_mm_min = *t->feedrate_per_tooth * std::max(1, cutter.teeth) * std::abs(*out.rpm);
+  }
+  return out;
+}
+
+bool has_given_path(const Work& w, const StepWork& step) {
+  if (w.plan.model.holds<model::RapidMovement>(step.step)) return true;
+  const auto* op = w.plan.model.get<model::MachiningOperation>(step.operation);
+  if (op == nullptr || !op->its_toolpath.set()) return false;
+  const auto* d = w.plan.ledger.find(step.operation, "its_toolpath");
+  return d == nullptr || d->binder == Binder::kGiven || d->pinned;
+}
+
+void record_cut(Work& w, StepWork& step, const optimise::CutAnswer& a, bool depth_open, bool width_open) {
+  Model& m = w.plan.model;
+  model::Ledger& ledger = w.plan.ledger;
+  const DecisionKey tool{step.operation, "its_tool"};
+  const std::string first = a.active.empty() ? "search" : a.active.front().name;
+  const model::Reason why{"limit." + first, words(a), kMechanics};
+  const auto bind = [&](AnyRef object, const char* attribute, std::vector<DecisionKey> on) {
+    ledger.bind(object, attribute, Binder::kOptimiser, why, std::move(on));
+  };
+  if (depth_open) {
+    const double ap = a.ap_mm;
+    bool has = true;
+    if (auto* o = m.get<model::PlaneMilling>(step.operation)) {
+      o->axial_cutting_depth = ap;
+    } else if (auto* s = m.get<model::SideMilling>(step.operation)) {
+      s->axial_cutting_depth = ap;
+    } else if (auto* b = m.get<model::BottomAndSideMilling>(step.operation)) {
+      b->axial_cutting_depth = ap;
+    } else {
+      has = false;
+    }
+    if (has) bind(step.operation, "axial_cutting_depth", {tool});
+  }
+  if (width_open) {
+    bool has = true;
+    if (auto* s = m.get<model::SideMilling>(step.operation)) {
+      s->radial_cutting_depth = a.ae_mm;
+    } else if (auto* b = m.get<model::BottomAndSideMilling>(step.operation)) {
+      b->radial_cutting_depth = a.ae_mm;
+    } else {
+      has = false;
+    }
+    if (has) bind(step.operation, "radial_cutting_depth", {tool});
+    if (const auto* o = m.get<model::PlaneMilling>(step.operation)) {
+      const AnyRef strategy = o->its_machining_strategy;
+      if (auto* t = m.get<model::Two5dMillingStrategy>(strategy);
+          t != nullptr && step.cutter.cutting_diameter_mm > 0.0) {
+        t->overlap = std::max(0.0, 1.0 - a.ae_mm / step.cutter.cutting_diameter_mm);
+        bind(strategy, "overlap", {tool});
+      }
+    }
+  }
+  if (!step.open_technology) return;
+  const auto made = own_technology(m, step.operation);
+  auto* t = m.get<model::MillingTechnology>(made);
+  const double sense = step.cutter.hand == model::Hand::kLeft ? 1.0 : -1.0;
+  t->spindle = sense * a.n_rpm;
+  t->cutspeed.reset();
+  t->feedrate = a.feed_mm_min;
+  t->feedrate_per_tooth.reset();
+  if (m.holds<model::Tapping>(step.operation)) {
+    // Feed and speed of a tap belong together: no override may part them.
+    t->synchronize_spindle_with_feed = true;
+    t->inhibit_feedrate_override = true;
+    t->inhibit_spindle_override = true;
+  }
+  const DecisionKey depth{step.operation, "axial_cutting_depth"};
+  bind(made, "spindle", {tool, depth});
+  bind(made, "feedrate", {tool, depth, {made, "spindle"}});
+}
+
+void record_path(Work& w, const StepWork& step, const std::shared_ptr<const model::CutterPath>& path) {
+  Model& m = w.plan.model;
+  model::CutterLocationTrajectory t;
+  t.its_priority = true;
+  t.its_type = model::ToolpathType::kTrajectoryPath;
+  t.path = path;
+  model::ToolpathList list;
+  list.its_list.push_back(m.add(t));
+  m.get<model::MachiningOperation>(step.operation)->its_toolpath = m.add(list);
+  w.plan.ledger.bind(
+      step.operation, "its_toolpath", Binder::kRule,
+      {"path.generated", "computed from feature, cutter, depths and strategy", "planner/toolpath"},
+      {{step.operation, "its_tool"}, {step.operation, "axial_cutting_depth"}});
+}
+
+}  // namespace capstan::pipeline

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "planner/engagement/engagement.h"
+#include "planner/optimise/cut.h"
+#include "planner/optimise/feeds.h"
+#include "planner/pipeline/work.h"
+#include "planner/stock/height_map.h"
+#include "planner/toolpath/path_job.h"
+
+// What making one step needs; only planner/pipeline/*.cpp include this.
+
+namespace capstan::pipeline {
+
+/// The values a path is made from, as the nouns of the step's operation say them. Heights of material and
+/// what earlier steps left are the caller's to fill.
+[[nodiscard]] toolpath::PathJob job_of(const Work& w, const StepWork& step, const model::FeatureShape& shape);
+
+/// What the nouns say of speed and feed.
+struct GivenTechnology {
+  std::optional<double> rpm;  ///< positive clockwise
+  std::optional<double> feed_mm_min;
+};
+[[nodiscard]] GivenTechnology given_technology(const model::Model& m, AnyRef operation,
+                                               const model::Cutter& cutter);
+
+/// The question for depth, width, speed and feed of a step.
+[[nodiscard]] optimise::CutQuestion question_of(const Work& w, const StepWork& step,
+                                                const model::Candidate* candidate,
+                                                const toolpath::PathJob& job);
+
+/// Writes what was chosen into the nouns, and why into the ledger.
+void record_cut(Work& w, StepWork& step, const optimise::CutAnswer& answer, bool depth_open, bool width_open);
+/// Puts the computed path at the operation's its_toolpath, as derived.
+void record_path(Work& w, const StepWork& step, const std::shared_ptr<const model::CutterPath>& path);
+
+/// Whether the operation's toolpath was computed by an earlier planning, and may be computed again.
+[[nodiscard]] bool has_given_path(const Work& w, const StepWork& step);
+
+}  // namespace capstan::pipeline

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "planner/geometry/placement.h"
+#include "planner/geometry/region.h"
+#include "planner/model/nouns/all.h"
+#include "planner/model/plan.h"
+#include "planner/model/proposal.h"
+#include "planner/model/shape.h"
+#include "planner/pipeline/pipeline.h"
+
+// What the stages hand to each other; only planner/pipeline/*.cpp include this.
+
+namespace capstan::pipeline {
+
+using model::AnyRef;
+using model::Ref;
+
+/// One clamping while it is planned.
+struct SetupWork {
+  Ref<model::Setup> setup;
+  geometry::Placement workpiece;  ///< the workpiece's frame in the set-up's
+  double security_z_mm = 0.0;
+  geometry::Box3 stock;  ///< of the raw piece, set-up frame
+};
+
+/// One workingstep while it is planned.
+struct StepWork {
+  Ref<model::Executable> step;
+  AnyRef feature;    ///< unset for a rapid movement
+  AnyRef operation;  ///< unset for a rapid movement
+  std::size_t setup = 0;
+  std::vector<model::FeatureShape> shapes;  ///< workpiece coordinates; more than one for patterns
+  model::Cutter cutter;
+  bool proposed = false;                     ///< made by rules in this run
+  model::ProposedStep proposal;              ///< when proposed
+  std::vector<model::Candidate> candidates;  ///< when the cutter was selected in this run, best first
+  std::vector<model::Rejected> rejected_tools;
+  bool open_technology = false;  ///< feed or speed to be chosen
+  bool open_tool = false;
+  std::vector<std::size_t> after;  ///< indices into Work::steps that must come before; chain order
+};
+
+struct Work {
+  model::Plan plan;
+  const Inputs& inputs;
+  const Policy& policy;
+  Job& job;
+  std::vector<SetupWork> setups;
+  std::vector<StepWork> steps;            ///< in order of execution once sequenced
+  std::vector<std::string> used_cutters;  ///< ids, so that a further tool change is not asked for lightly
+};
+
+// The stages, in the order bind() runs them.
+Status resolve_workpiece(Work& w);  ///< material and raw piece
+Status list_given(Work& w);         ///< set-ups and workingsteps of the file, what is re-opened marked
+Status propose_missing(Work& w);    ///< rules and tooling for features that have no bound operations
+Status select_open_tools(Work& w);  ///< cutters for given operations
+Status order_steps(Work& w);        ///< set-ups, order, pockets
+Status make_paths(Work& w);         ///< depths, paths, sections, feeds, step by step
+
+// Shared pieces.
+[[nodiscard]] Ref<model::Setup> add_setup(Work& w, const geometry::Placement& workpiece_in_setup);
+/// The nouns of a proposed step, bound in the ledger; gives the new workingstep.
+[[nodiscard]] Ref<model::MachiningWorkingstep> add_nouns(Work& w, const model::ProposedStep& step,
+                                                         const model::Candidate& tool,
+                                                         const model::FeatureShape& shape,
+                                                         std::vector<model::Rejected> rejected_chains,
+                                                         std::vector<model::Rejected> rejected_tools);
+/// The noun of a cutter, made once per plan.
+[[nodiscard]] Ref<model::MachiningTool> tool_noun(Work& w, const model::Cutter& cutter);
+[[nodiscard]] geometry::Box3 transformed(const geometry::Box3& box, const geometry::Placement& to);
+
+}  // namespace capstan::pipeline
