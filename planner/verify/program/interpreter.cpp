@@ -1,0 +1,421 @@
+#include "planner/verify/program/interpreter.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+
+#include "planner/verify/findings.h"
+
+namespace capstan::verify {
+
+using model::MoveKind;
+
+namespace {
+
+constexpr bool is_motion(int g) {
+  return g == 0 || g == 10 || g == 20 || g == 30 || g == 331 || g == 730 || g == 800 || (g >= 810 && g <= 890);
+}
+constexpr bool is_cycle(int g) { return g == 730 || (g >= 810 && g <= 890); }
+
+std::string code_text(char letter, int tenths) {
+  std::string out = letter + std::to_string(tenths / 10);
+  if (tenths % 10 != 0) out += "." + std::to_string(tenths % 10);
+  return out;
+}
+
+/// `name="value"` or `name=value` in a marker, values percent-encoded.
+std::string field(const std::string& text, const std::string& name) {
+  std::size_t at = text.find(" " + name + "=");
+  if (at == std::string::npos) return {};
+  at += name.size() + 2;
+  const bool quoted = at < text.size() && text[at] == '"';
+  const std::size_t end = quoted ? text.find('"', at + 1) : text.find(' ', at);
+  const std::string raw =
+      quoted ? text.substr(at + 1, end == std::string::npos ? end : end - at - 1)
+             : text.substr(at, end == std::string::npos ? end : end - at);
+  std::string out;
+  for (std::size_t i = 0; i < raw.size(); ++i) {
+    const auto hex = [](char c) {
+      if (c >= '0' && c <= '9') return c - '0';
+      if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+      if (c >= 'A' && c <= 'F') return c - 'A' + 10;
+      return -1;
+    };
+    if (raw[i] == '%' && i + 2 < raw.size() && hex(raw[i + 1]) >= 0 && hex(raw[i + 2]) >= 0) {
+      out.push_back(static_cast<char>(hex(raw[i + 1]) * 16 + hex(raw[i + 2])));
+      i += 2;
+    } else {
+      out.push_back(raw[i]);
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+void Interpreter::fault(int property, std::string code, std::string message, bool undecided) {
+  if (out_.faults.size() < kFaultCap)
+    out_.faults.push_back({property, std::move(code), line_, std::move(message), undecided});
+}
+
+void Interpreter::marker(const std::string& comment) {
+  const std::size_t at = comment.find("CAPSTAN STEP ");
+  if (at == std::string::npos || at > 2) return;
+  const std::string n = field(comment, "n");
+  out_.markers.push_back({field(comment, "id"), std::strtol(n.c_str(), nullptr, 10), line_});
+  marker_ = static_cast<int>(out_.markers.size()) - 1;
+  stated_ = 0;
+}
+
+bool Interpreter::gather(const Line& l, Said& s) {
+  for (const Word& w : l.words) {
+    if (w.letter == 'G' || w.letter == 'M') {
+      const double tenths = std::round(w.value * 10.0);
+      if (!(tenths >= 0.0 && tenths < 10000.0) || std::abs(w.value * 10.0 - tenths) > 1e-6) {
+        fault(33, "CHK-UNVERIFIABLE", std::string(1, w.letter) + plain(w.value) + " is not a code", true);
+        return false;
+      }
+      const bool g = w.letter == 'G';
+      int& count = g ? s.g_count : s.m_count;
+      if (count >= (g ? 32 : 16)) continue;
+      (g ? s.g : s.m)[count++] = static_cast<int>(tenths);
+      continue;
+    }
+    const int i = w.letter - 'A';
+    if (s.has[i]) fault(33, "CHK-WORD-TWICE", std::string("the word ") + w.letter + " stands twice in one block");
+    s.has[i] = true;
+    s.value[i] = w.value;
+  }
+  return true;
+}
+
+double Interpreter::speed() const { return spindle_ * speed_; }
+
+Block Interpreter::block() const {
+  Block b;
+  b.line = line_;
+  b.marker = marker_;
+  b.from = b.to = at_;
+  for (int i = 0; i < 3; ++i) b.known_from[i] = b.known_to[i] = known_[i];
+  b.feed_mm_min = feed_mode_ == 95 ? feed_ * std::abs(speed()) : feed_;
+  b.spindle_rpm = speed();
+  b.tool = tool_;
+  b.length_offset = length_;
+  b.radius_offset = radius_;
+  b.work_offset = offset_;
+  b.retracted = retracted_;
+  b.cycle_active = is_cycle(motion_);
+  b.stated = stated_;
+  b.units_stated = units_stated_;
+  return b;
+}
+
+void Interpreter::put(Block b) {
+  moved_ = true;
+  at_ = b.to;
+  for (int i = 0; i < 3; ++i) known_[i] = b.known_to[i];
+  if (b.words[2] || b.from.z != b.to.z) retracted_ = b.in_machine;
+  out_.blocks.push_back(std::move(b));
+}
+
+void Interpreter::length_code(int g, const Said& s) {
+  if (g == 490) {
+    length_ = -1;
+  } else if (g == 430) {
+    length_ = s.is('H') ? static_cast<int>(s.of('H')) : tool_;
+    stated_ |= kStatedLength;
+  } else {
+    length_ = 0;
+    stated_ |= kStatedLength;
+    fault(5, "CHK-DYNAMIC-LENGTH", "G43.1 sets a length offset that no tool table proves", true);
+  }
+}
+
+void Interpreter::state_code(int g, const Said& s) {
+  switch (g) {
+    case 170: plane_xy_ = true; stated_ |= kStatedPlane; break;
+    case 180:
+    case 190:
+      plane_xy_ = false;
+      fault(33, "CHK-UNVERIFIABLE", code_text('G', g) + ": only the XY plane is followed", true);
+      break;
+    case 200:
+    case 210: {
+      const bool inch = g == 200;
+      if (units_stated_ && inch != inch_)
+        fault(2, "CHK-UNITS", "the unit of length is switched from " + std::string(inch_ ? "inch" : "mm") +
+                                  " to " + (inch ? "inch" : "mm"));
+      inch_ = inch;
+      units_stated_ = true;
+      stated_ |= kStatedUnits;
+      break;
+    }
+    case 400: radius_ = -1; stated_ |= kStatedRadius; break;
+    case 410:
+    case 420: radius_ = s.is('D') ? static_cast<int>(s.of('D')) : tool_; break;
+    case 430:
+    case 431:
+    case 490: length_code(g, s); break;
+    case 540: case 550: case 560: case 570: case 580: case 590: case 591: case 592: case 593:
+      offset_ = g;
+      // The work's coordinates of where the tool stands are others now.
+      stated_ |= kStatedOffset;
+      break;
+    case 610: case 611: case 640: case 530: case 40: break;
+    case 900: absolute_ = true; stated_ |= kStatedDistance; break;
+    case 910: absolute_ = false; stated_ |= kStatedDistance; break;
+    case 901: absolute_arcs_ = true; break;
+    case 911: absolute_arcs_ = false; break;
+    case 930: case 940: case 950: feed_mode_ = g / 10; stated_ |= kStatedFeedMode; break;
+    case 970: break;
+    case 980: return_to_r_ = false; break;
+    case 990: return_to_r_ = true; break;
+    default:
+      if (!is_motion(g)) fault(33, "CHK-UNVERIFIABLE", code_text('G', g) + " is not followed", true);
+  }
+}
+
+void Interpreter::state_codes(const Said& s) {
+  for (int i = 0; i < s.g_count; ++i) {
+    // The unit comes first: it tells what the other words mean.
+    if (s.g[i] == 200 || s.g[i] == 210 || (s.g[i] >= 930 && s.g[i] <= 950)) state_code(s.g[i], s);
+  }
+  if (s.is('F')) {
+    feed_ = feed_mode_ == 93 ? s.of('F') : s.of('F') * units();
+    stated_ |= kStatedFeed;
+  }
+  if (s.is('S')) {
+    speed_ = s.of('S');
+    stated_ |= kStatedSpeed;
+  }
+  if (s.is('T')) next_tool_ = static_cast<int>(s.of('T'));
+}
+
+void Interpreter::machine_codes(const Said& s) {
+  for (int i = 0; i < s.m_count; ++i) {
+    switch (s.m[i]) {
+      case 60: {
+        Block b = block();
+        b.kind = Block::Kind::kToolChange;
+        if (next_tool_ < 0) fault(4, "CHK-TOOL", "M6 without a T word");
+        b.tool = tool_ = std::max(0, next_tool_);
+        out_.blocks.push_back(b);
+        spindle_ = 0;  // LinuxCNC stops the spindle for a change
+        break;
+      }
+      case 30: spindle_ = 1; stated_ |= kStatedSpindle; break;
+      case 40: spindle_ = -1; stated_ |= kStatedSpindle; break;
+      case 50: spindle_ = 0; break;
+      case 0: case 10: case 70: case 80: case 90: case 480: case 490: case 600: case 20: case 300: break;
+      default: fault(33, "CHK-UNVERIFIABLE", code_text('M', s.m[i]) + " is not followed", true);
+    }
+  }
+}
+
+void Interpreter::target(const Said& s, Block& b, bool machine_coordinates) {
+  b.in_machine = machine_coordinates;
+  double* to[3] = {&b.to.x, &b.to.y, &b.to.z};
+  for (int i = 0; i < 3; ++i) {
+    const char c = static_cast<char>('X' + i);
+    b.words[i] = s.is(c);
+    if (!s.is(c)) continue;
+    const double v = s.of(c) * units();
+    if (machine_coordinates) {
+      *to[i] = v;
+      b.known_to[i] = false;
+    } else if (absolute_) {
+      *to[i] = v;
+      b.known_to[i] = true;
+    } else {
+      *to[i] += v;
+    }
+  }
+}
+
+void Interpreter::straight(const Said& s, int mode, bool machine_coordinates) {
+  Block b = block();
+  target(s, b, machine_coordinates);
+  if (!b.words[0] && !b.words[1] && !b.words[2]) return;
+  b.move = mode == 0 ? MoveKind::kRapid : MoveKind::kLine;
+  if (mode != 0 && feed_mode_ == 93 && feed_ > 0.0) b.feed_mm_min = feed_ * norm(b.to - b.from);
+  put(b);
+  if (machine_coordinates) {
+    // Where that is in the work's coordinates is not known: the height is taken as clear of everything.
+    double* at[3] = {&at_.x, &at_.y, &at_.z};
+    const double before[3] = {b.from.x, b.from.y, b.from.z};
+    for (int i = 0; i < 3; ++i) {
+      if (b.words[i]) *at[i] = before[i];
+    }
+  }
+}
+
+void Interpreter::arc(const Said& s, bool clockwise) {
+  Block b = block();
+  target(s, b, false);
+  b.move = clockwise ? MoveKind::kArcCw : MoveKind::kArcCcw;
+  if (!plane_xy_) return;
+  if (!known_[0] || !known_[1]) {
+    fault(23, "CHK-ARC", "an arc starts where the position is not known");
+    return;
+  }
+  if (s.is('R')) {
+    const double r = s.of('R') * units();
+    const geometry::Vec2 chord = xy(b.to) - xy(b.from);
+    const double half = 0.5 * norm(chord);
+    if (half < 1e-9) {
+      fault(24, "CHK-ARC-ZERO", "an arc by radius ends where it starts");
+      return;
+    }
+    if (std::abs(r) < half - 1e-3 * units()) {
+      fault(23, "CHK-ARC", "the radius of " + mm(std::abs(r)) + " does not span its chord of " + mm(2.0 * half));
+      return;
+    }
+    const double height = std::sqrt(std::max(0.0, r * r - half * half));
+    const double side = (r > 0.0) == clockwise ? -1.0 : 1.0;
+    const geometry::Vec2 left = (0.5 / half) * geometry::Vec2{-chord.y, chord.x};
+    b.centre = xy(b.from) + 0.5 * chord + (side * height) * left;
+  } else {
+    if (!s.is('I') && !s.is('J')) {
+      fault(23, "CHK-ARC", "an arc without I, J or R");
+      return;
+    }
+    const double i = s.of('I') * units();
+    const double j = s.of('J') * units();
+    b.centre = absolute_arcs_ ? geometry::Vec2{i, j} : xy(b.from) + geometry::Vec2{i, j};
+  }
+  b.radius_start = norm(xy(b.from) - b.centre);
+  b.radius_end = norm(xy(b.to) - b.centre);
+  put(b);
+}
+
+void Interpreter::tap(const Said& s) {
+  Block b = block();
+  target(s, b, false);
+  b.move = MoveKind::kLine;
+  b.synchronised = true;
+  b.pitch_mm = s.of('K') * units();
+  b.feed_mm_min = b.pitch_mm * std::abs(speed());
+  if (!(b.pitch_mm > 0.0)) fault(26, "CHK-CYCLE", "G33.1 without a pitch above zero");
+  const Block down = b;
+  put(b);
+  std::swap(b.from, b.to);
+  b.spindle_rpm = -b.spindle_rpm;
+  b.words[2] = true;
+  for (int i = 0; i < 3; ++i) {
+    b.known_from[i] = down.known_to[i];
+    b.known_to[i] = down.known_from[i];
+  }
+  put(b);
+}
+
+void Interpreter::dwell(double seconds) {
+  Block b = block();
+  b.kind = Block::Kind::kDwell;
+  b.move = MoveKind::kDwell;
+  b.dwell_s = seconds;
+  out_.blocks.push_back(b);
+}
+
+void Interpreter::motion(const Said& s, bool machine_coordinates) {
+  const bool axes = s.is('X') || s.is('Y') || s.is('Z');
+  for (int i = 0; i < s.g_count; ++i) {
+    if (!is_motion(s.g[i])) continue;
+    if (s.g[i] == 800) stated_ |= kStatedCycle;
+    if (is_cycle(s.g[i]) && !is_cycle(motion_)) {
+      cycle_known_ = false;
+      cycle_clear_ = known_[2] ? at_.z : 1e300;
+    }
+    motion_ = s.g[i] == 800 ? -1 : s.g[i];
+  }
+  const bool centre = s.is('I') || s.is('J');
+  if (!axes && !(centre && (motion_ == 20 || motion_ == 30))) return;
+  if (motion_ >= 0 && motion_ != 0 && !units_stated_) {
+    fault(2, "CHK-UNITS", "a feed move before the unit of length was stated (G20 or G21)");
+    units_stated_ = true;
+  }
+  switch (motion_) {
+    case 0:
+    case 10: straight(s, motion_ / 10, machine_coordinates); break;
+    case 20:
+    case 30: arc(s, motion_ == 20); break;
+    case 331: tap(s); break;
+    case -1: fault(33, "CHK-UNVERIFIABLE", "axis words without a motion mode"); break;
+    default: cycle(s);
+  }
+}
+
+void Interpreter::line(const Line& l, long number) {
+  line_ = number;
+  for (const std::string& c : l.comments) marker(c);
+  if (!l.fault.empty()) {
+    const int property = l.not_finite ? 1 : 33;
+    const char* code = l.not_finite ? "CHK-NUMBER" : l.unverifiable ? "CHK-UNVERIFIABLE" : "CHK-SYNTAX";
+    fault(property, code, l.fault, l.unverifiable);
+  }
+  if (l.deleted) {
+    fault(33, "CHK-UNVERIFIABLE", "a block that may be skipped (/) is taken as not skipped", true);
+  }
+  if (l.words.empty() || out_.ended) {
+    if (out_.ended && !l.words.empty())
+      fault(32, "CHK-END", "text goes on after the end of the program");
+    return;
+  }
+  Said s;
+  if (!gather(l, s)) return;
+  state_codes(s);
+  machine_codes(s);
+  bool g53 = false, dwells = false;
+  for (int i = 0; i < s.g_count; ++i) {
+    const int g = s.g[i];
+    g53 = g53 || g == 530;
+    dwells = dwells || g == 40;
+    if (g == 200 || g == 210 || (g >= 930 && g <= 950)) continue;
+    state_code(g, s);
+  }
+  if (dwells) {
+    dwell(s.of('P'));
+  } else {
+    motion(s, g53);
+  }
+  for (int i = 0; i < s.m_count; ++i) {
+    if (s.m[i] != 20 && s.m[i] != 300) continue;
+    Block b = block();
+    b.kind = Block::Kind::kEnd;
+    out_.blocks.push_back(b);
+    out_.ended = true;
+    out_.end_line = line_;
+  }
+}
+
+Program Interpreter::finish(long lines) {
+  out_.lines = lines;
+  return std::move(out_);
+}
+
+Program read_program(std::string_view text) {
+  Interpreter machine;
+  Line line;
+  long number = 0;
+  if (text.size() > kProgramCap) {
+    Program out;
+    out.faults.push_back({33, "CHK-TOO-LARGE", 0, "the program is larger than 256 MiB and was not read", true});
+    return out;
+  }
+  while (!text.empty()) {
+    const std::size_t end = text.find('\n');
+    std::string_view one = text.substr(0, end);
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    ++number;
+    if (one.size() > kLineCap) {
+      line = {};
+      line.fault = "the line has more than 4096 characters";
+    } else {
+      split_line(one, line);
+    }
+    machine.line(line, number);
+  }
+  return machine.finish(number);
+}
+
+}  // namespace capstan::verify

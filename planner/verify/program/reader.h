@@ -1,0 +1,99 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "planner/geometry/vec.h"
+#include "planner/model/cutter_path.h"
+
+namespace capstan::verify {
+
+/// A marker `(CAPSTAN STEP id="..." n=...)`.
+struct StepMarker {
+  std::string id;
+  long n = 0;
+  long line = 0;
+};
+
+/// What a block of the program did: one move, tool change, or another event, with the state it ran in.
+struct Block {
+  enum class Kind : unsigned char { kMove, kDwell, kToolChange, kEnd };
+  Kind kind = Kind::kMove;
+  long line = 0;
+  int marker = -1;  ///< index into Program::markers; -1 before the first
+
+  // Moves. Coordinates are the work offset's, mm.
+  model::MoveKind move = model::MoveKind::kRapid;
+  bool synchronised = false;      ///< G33.1 or a tapping cycle
+  bool in_machine = false;        ///< G53: `to` is in machine coordinates where a word was given
+  bool from_cycle = false;        ///< expanded from a canned cycle
+  bool words[3] = {false, false, false};  ///< which axes the block names
+  bool known_from[3] = {false, false, false}, known_to[3] = {false, false, false};
+  geometry::Vec3 from, to;
+  geometry::Vec2 centre;
+  double radius_start = 0.0, radius_end = 0.0;
+  double pitch_mm = 0.0;
+  double dwell_s = 0.0;
+
+  // State.
+  double feed_mm_min = 0.0;  ///< G94 and G95 (times speed); of G93 length over time
+  double spindle_rpm = 0.0;  ///< positive M3, negative M4, 0 off
+  int tool = 0;              ///< loaded
+  int length_offset = -1;    ///< H; -1 none; 0 for G43.1
+  int radius_offset = -1;    ///< D while G41, G42
+  int work_offset = 0;       ///< 540 .. 590, 591, 592, 593; 0: never stated
+  bool retracted = false;    ///< the last move of Z went up in machine coordinates, or nothing moved yet
+  bool cycle_active = false;
+  unsigned stated = 0;       ///< Stated bits set since the last marker
+  bool units_stated = false;
+};
+
+/// What a program stated since the marker of the current step.
+enum Stated : unsigned {
+  kStatedUnits = 1U << 0U,
+  kStatedPlane = 1U << 1U,
+  kStatedDistance = 1U << 2U,
+  kStatedFeedMode = 1U << 3U,
+  kStatedRadius = 1U << 4U,
+  kStatedCycle = 1U << 5U,
+  kStatedOffset = 1U << 6U,
+  kStatedLength = 1U << 7U,
+  kStatedSpindle = 1U << 8U,
+  kStatedSpeed = 1U << 9U,
+  kStatedFeed = 1U << 10U,
+};
+
+/// Something the reader itself has to say: what it cannot follow, or what is wrong in the text.
+struct ReaderFault {
+  int property = 0;
+  std::string code;
+  long line = 0;
+  std::string message;
+  bool undecided = false;  ///< cannot be verified, rather than wrong
+};
+
+struct Program {
+  std::vector<Block> blocks;
+  std::vector<StepMarker> markers;
+  std::vector<ReaderFault> faults;
+  bool ended = false;
+  long end_line = 0, lines = 0;
+};
+
+/// Largest program read, bytes; longest line; most faults kept.
+inline constexpr std::size_t kProgramCap = std::size_t{256} << 20U;
+inline constexpr std::size_t kLineCap = 4096;
+inline constexpr std::size_t kFaultCap = 1000;
+
+/// Reads RS274/NGC as LinuxCNC does, as far as programs without parameters go: comments, N, G0-G4, G17,
+/// G20, G21, G33.1, G40-G42, G43, G43.1, G49, G53, G54-G59.3, G61, G64, G73, G80-G89, G90, G91, G91.1,
+/// G93-G95, G98, G99, M0-M9, M30, M60. Cycles are expanded into moves. What is beyond that (parameters,
+/// expressions, O-words, other planes) becomes a fault, and reading goes on.
+///
+/// Cost    linear in the text. No recursion.
+/// Source  LinuxCNC 2.9 manual, "G-codes" and "RS274/NGC code overview".
+[[nodiscard]] Program read_program(std::string_view text);
+
+}  // namespace capstan::verify

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace capstan::verify {
+
+struct ToolTableEntry {
+  int tool = 0, pocket = 0;
+  double length_mm = 0.0, diameter_mm = 0.0;
+  bool has_length = false, has_diameter = false;
+  long line = 0;
+};
+struct ToolTable {
+  std::vector<ToolTableEntry> entries;  ///< in the file's order
+  std::vector<std::string> faults;
+};
+
+/// LinuxCNC's tool table: a line per tool of words T, P, Z, D and others, a comment after `;`.
+/// Units   as written, taken as mm.
+/// Source  LinuxCNC 2.9 manual, "Tool table format".
+[[nodiscard]] ToolTable read_tool_table(std::string_view text);
+
+}  // namespace capstan::verify

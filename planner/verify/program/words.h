@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace capstan::verify {
+
+struct Word {
+  char letter = ' ';  ///< upper case
+  double value = 0.0;
+};
+
+/// One line taken apart.
+struct Line {
+  std::vector<Word> words;
+  std::vector<std::string> comments;
+  bool percent = false, deleted = false;
+  std::string fault;  ///< why the rest was not read; empty when all was
+  bool unverifiable = false;  ///< the fault is something this reader does not follow
+  bool not_finite = false;
+};
+
+/// Reuses `out`'s storage.
+void split_line(std::string_view text, Line& out);
+
+}  // namespace capstan::verify
