@@ -157,6 +157,11 @@ double DropCutter::search(const Toroid& t, double x, double y, std::uint32_t& hi
 
 double DropCutter::drop(const Toroid& cutter, double x, double y, double allowance_mm) const {
   std::uint32_t hint = 0;
+  return drop(cutter, x, y, allowance_mm, hint);
+}
+
+double DropCutter::drop(const Toroid& cutter, double x, double y, double allowance_mm,
+                        std::uint32_t& hint) const {
   const Toroid grown{.disc_mm = cutter.disc_mm, .ball_mm = cutter.ball_mm + allowance_mm};
   return search(grown, x, y, hint) + allowance_mm;
 }

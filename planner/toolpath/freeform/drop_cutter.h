@@ -44,6 +44,11 @@ class DropCutter {
   /// Needs  allowance >= 0.
   [[nodiscard]] double drop(const Toroid& cutter, double x, double y, double allowance_mm = 0.0) const;
 
+  /// As above; `hint` (0 at first) carries the last contact along, which saves time where points are near
+  /// each other and changes nothing else.
+  [[nodiscard]] double drop(const Toroid& cutter, double x, double y, double allowance_mm,
+                            std::uint32_t& hint) const;
+
   /// As above for many points; points near each other should follow each other (rows in turn, to and fro).
   /// Uses job.threads; the result does not depend on it.
   [[nodiscard]] std::vector<double> drop(const Toroid& cutter, const std::vector<geometry::Vec2>& points,

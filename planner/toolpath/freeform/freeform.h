@@ -1,0 +1,78 @@
+#pragma once
+
+#include <vector>
+
+#include "planner/base/job.h"
+#include "planner/base/result.h"
+#include "planner/geometry/mesh.h"
+#include "planner/geometry/region.h"
+#include "planner/model/cutter.h"
+#include "planner/model/cutter_path.h"
+#include "planner/stock/height_map.h"
+
+namespace capstan::toolpath::freeform {
+
+/// What a freeform path is made from.
+///
+/// Frame  everything in the set-up's, z along the tool axis.
+/// Units  mm, rad.
+struct FreeformJob {
+  const geometry::Mesh* surface = nullptr;  ///< the finished surface; kept by the caller
+  model::Cutter cutter;                     ///< flat, ball or bull nosed
+  /// Where the cutter's axis may go; empty: the rectangle around the mesh.
+  geometry::Region area;
+  /// Whether there is nothing to spare where the cutter, let down, meets no triangle: it may then go down to
+  /// bottom_z there. Else it stays away.
+  bool beside_is_free = false;
+  const stock::HeightMap* stock = nullptr;  ///< what stands now; null: solid up to top_z under the area
+  double top_z_mm = 0.0;                    ///< of the material
+  double bottom_z_mm = -1e300;              ///< the tip goes no lower
+  double security_z_mm = 0.0;               ///< rapids in XY happen here
+  double clearance_mm = 2.0;                ///< between material and what moves fast above it
+  double allowance_mm = 0.0;                ///< left on the surface, along its normal
+  double tolerance_mm = 0.01;   ///< largest distance of the cut from surface + allowance, outwards
+  double feed_angle_rad = 0.0;  ///< of the passes, against x
+  double axial_depth_mm = 0.0;  ///< rough: at most, per level
+  double stepover_mm = 0.0;     ///< between passes; finish: 0 takes it from scallop_mm
+  double scallop_mm = 0.0;      ///< finish: height of the ridges between passes
+  bool to_and_fro = true;       ///< finish: else all passes in one direction
+};
+
+struct FreeformPath {
+  model::CutterPath path;
+  std::vector<double> levels_z_mm;  ///< rough: heights of the tip that were cut, from above
+  double stepover_mm = 0.0;         ///< as used
+};
+
+/// Distance between two passes of a ball of radius R that leaves ridges of height h on a plane:
+/// 2 sqrt(h (2 R - h)). Across a slope of angle t the ridges are higher (the passes lie 1/cos t further
+/// apart). Source  derived: two equal circles.
+[[nodiscard]] double scallop_stepover(double ball_radius_mm, double scallop_mm);
+
+/// freeform_rough_milling: levels, axial_depth apart, from above; in each, straight passes over what is free
+/// of surface + allowance and still holds material. Between material and the cutter's way in: from the side
+/// in air, else a ramp along the first pass within the cutter's ramp angle, else straight down where the
+/// cutter cuts to its centre.
+///
+/// No gouge   every point of a cut is covered by places where the cutter, grown by the allowance and a
+/// margin,
+///            was let down on the mesh.
+/// Needs      axial_depth, stepover > 0, stepover at most the diameter.
+/// Fails      FRF-CUTTER   not flat, ball or bull nosed
+///            FRF-VALUE    a number that cannot be
+///            FRF-EMPTY    nothing to cut in the area
+///            FRF-STOPPED  the job was stopped
+/// Warns      FRF-REST     places that the cutter can reach but not enter
+/// Not done   passes along the contour of a level; ridges of half a stepover remain on walls that the passes
+///            meet at an angle, for the finish.
+[[nodiscard]] Result<FreeformPath> rough(const FreeformJob& task, Job& job);
+
+/// freeform_finish_milling: parallel passes that follow the surface. Points as far apart as the tolerance
+/// allows; the cut lies between surface + allowance and tolerance above it, never below. Neighbouring passes
+/// are joined along the surface, others over the security plane.
+///
+/// Needs  a ball or bull nosed cutter; stepover or scallop > 0.
+/// Fails  as rough.
+[[nodiscard]] Result<FreeformPath> finish(const FreeformJob& task, Job& job);
+
+}  // namespace capstan::toolpath::freeform
