@@ -32,7 +32,10 @@ void check_number(double v, const char* name, double most, std::vector<std::stri
 
 void check_together(const Cutter& c, std::vector<std::string>& out) {
   const double radius = 0.5 * c.cutting_diameter_mm;
-  if (c.cutting_diameter_mm == 0.0) out.emplace_back("the cutting diameter is zero");
+  if (c.cutting_diameter_mm == 0.0) {
+    out.emplace_back("the cutting diameter is zero");
+    return;
+  }
   if (c.corner_radius_mm > radius + kSlackMm)
     out.push_back("the corner radius " + mm(c.corner_radius_mm) + " is larger than half the diameter " +
                   mm(c.cutting_diameter_mm));

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <vector>
+
+#include "planner/model/cutter.h"
+
+namespace capstan::tooling {
+
+/// Fills what a source left unsaid (zeros, no presets) from the generic cutter of the same class nearest in
+/// diameter, and says so in `sources`; what is said stays. Lengths are kept consistent with what is said:
+/// flutes and usable length within the stick-out, the stick-out within the length to the gage line.
+///
+/// Whether it cuts to the centre and how steeply it may ramp are not taken over: an unnamed end mill is held
+/// not to cut to the centre and to ramp at kCautiousRampRad.
+void complete(model::Cutter& c, const std::vector<model::Cutter>& generic);
+
+inline constexpr double kCautiousRampRad = 3.0 * 3.14159265358979323846 / 180.0;  ///< default, unsourced
+
+/// What it says in `sources` of a field, or null.
+[[nodiscard]] const std::string* source_of(const model::Cutter& c, std::string_view field);
+
+}  // namespace capstan::tooling

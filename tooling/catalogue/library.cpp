@@ -1,0 +1,187 @@
+#include "tooling/catalogue/library.h"
+
+#include <algorithm>
+#include <numbers>
+
+#include "planner/base/file.h"
+#include "tooling/catalogue/check.h"
+#include "tooling/catalogue/complete.h"
+#include "tooling/catalogue/generic.h"
+#include "tooling/catalogue/tree.h"
+
+namespace capstan::tooling {
+namespace {
+
+using model::Cutter;
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kMmPerInch = 25.4;
+
+/// Reads one field when the file has it, and remembers where it is from.
+class CutterFields {
+ public:
+  CutterFields(Fields& f, Cutter& c, double mm_per_unit) : f_(f), c_(c), mm_per_unit_(mm_per_unit) {}
+  void length(const char* key, double& field) { number(key, field, mm_per_unit_); }
+  void angle(const char* key, double& field) { number(key, field, kDegree); }
+  void number(const char* key, double& field, double factor = 1.0) {
+    const auto v = f_.optional_number(key);
+    if (!v) return;
+    field = *v * factor;
+    state(key);
+  }
+  void state(const char* key) {
+    c_.sources.emplace_back(key, "stated: " + (f_.source().empty() ? "the library file" : f_.source()));
+  }
+
+ private:
+  Fields& f_;
+  Cutter& c_;
+  double mm_per_unit_;
+};
+
+void read_presets(Fields& f, Cutter& c, double mm_per_unit) {
+  const Node* list = f.child("presets", false);
+  if (list == nullptr) return;
+  for (const Node& n : list->items) {
+    Fields p = f.below("presets", n);
+    model::CuttingPreset out;
+    out.material_group = p.text("material");
+    out.vc_m_min = p.number_or("vc_m_min", 0.0);
+    out.fz_mm = p.number_or("fz", 0.0) * mm_per_unit;
+    out.source = p.source().empty() ? "the library file" : p.source();
+    if (out.vc_m_min < 0.0 || out.fz_mm < 0.0)
+      p.fault("TOOL-VALUE", "a preset is negative", "material", p.line());
+    p.finish();
+    c.presets.push_back(std::move(out));
+  }
+}
+
+void read_names(Fields& f, Cutter& c) {
+  c.id = f.text("id");
+  c.description = f.text_or("description", c.id);
+  const std::string cls = f.text("class"), substrate = f.text_or("substrate", "hss");
+  const auto k = model::cutter_class_from_text(cls);
+  if (!k) f.fault("DATA-UNKNOWN", "'" + cls + "' is no class of cutter", "class", f.line_of("class"));
+  c.cutter_class = k.value_or(model::CutterClass::kEndmill);
+  const auto s = model::substrate_from_text(substrate);
+  if (!s)
+    f.fault("DATA-UNKNOWN", "'" + substrate + "' is no substrate", "substrate", f.line_of("substrate"),
+            "hss or carbide");
+  c.substrate = s.value_or(model::Substrate::kHss);
+  c.sources.emplace_back("substrate", f.has("substrate") ? "stated" : "default: the slower one");
+  const std::string hand = f.text_or("hand", "right");
+  if (hand != "right" && hand != "left")
+    f.fault("DATA-UNKNOWN", "'" + hand + "' is no hand", "hand", f.line_of("hand"), "right or left");
+  c.hand = hand == "left" ? model::Hand::kLeft : model::Hand::kRight;
+}
+
+Cutter read_cutter(Fields f, double mm_per_unit) {
+  Cutter c;
+  read_names(f, c);
+  CutterFields r(f, c, mm_per_unit);
+  (void)f.child("cutting_diameter", true);
+  r.length("cutting_diameter", c.cutting_diameter_mm);
+  r.length("corner_radius", c.corner_radius_mm);
+  r.length("tip_diameter", c.tip_diameter_mm);
+  r.length("maximum_depth_of_cut", c.maximum_depth_of_cut_mm);
+  r.length("usable_length", c.usable_length_mm);
+  r.length("stick_out", c.stick_out_mm);
+  r.length("functional_length", c.functional_length_mm);
+  r.length("shank_diameter", c.shank_diameter_mm);
+  r.length("holder_diameter", c.holder_diameter_mm);
+  r.length("thread_pitch", c.thread_pitch_mm);
+  r.length("adjustable_to", c.adjustable_to_mm);
+  r.length("fz_min", c.fz_min_mm);
+  r.length("fz_max", c.fz_max_mm);
+  r.angle("point_angle_deg", c.point_angle_rad);
+  r.angle("helix_deg", c.helix_rad);
+  r.angle("lead_angle_deg", c.lead_angle_rad);
+  r.angle("maximum_ramp_angle_deg", c.maximum_ramp_angle_rad);
+  r.number("maximum_speed_rpm", c.maximum_speed_rpm);
+  r.number("life_min", c.life_min);
+  r.number("price", c.price);
+  if (const auto z = f.optional_integer("teeth")) {
+    c.teeth = static_cast<int>(*z);
+    r.state("teeth");
+    if (*z == 0) f.fault("TOOL-VALUE", "0 teeth", "teeth", f.line_of("teeth"));
+  }
+  if (const auto p = f.optional_integer("pocket")) c.pocket = static_cast<int>(*p);
+  if (f.has("centre_cutting")) r.state("centre_cutting");
+  c.centre_cutting = f.flag_or("centre_cutting", false);
+  c.coolant_through = f.flag_or("coolant_through", false);
+  read_presets(f, c, mm_per_unit);
+  f.finish();
+  return c;
+}
+
+Result<std::vector<Cutter>> finished(std::vector<Cutter> cutters, const std::vector<std::uint64_t>& lines,
+                                     const std::string& file, std::vector<Diagnostic> faults, Job& job) {
+  auto generic = generic_library();
+  if (!generic) return fail(generic.error());
+  // What the file says is judged before what we add.
+  for (std::size_t i = 0; i < cutters.size(); ++i) {
+    if (cutters[i].cutting_diameter_mm > 0.0) complete(cutters[i], *generic);
+  }
+  for (Diagnostic& d : check_cutters(cutters, file, lines)) faults.push_back(std::move(d));
+  if (auto d = tell(std::move(faults), job)) return fail(std::move(*d));
+  return cutters;
+}
+
+Result<std::vector<Cutter>> read_own(const Node& root, const std::string& file, Job& job) {
+  std::vector<Diagnostic> faults;
+  Fields top(root, file, "", "", faults);
+  if (top.text("capstan_tools") != "1")
+    top.fault("DATA-VERSION", "not a tool list of version 1", "capstan_tools", 1, "capstan_tools: 1");
+  const std::string unit = top.text("unit");
+  if (unit != "mm" && unit != "inch")
+    top.fault("DATA-UNIT", unit.empty() ? "the unit is missing" : "the unit '" + unit + "' is not known",
+              "unit", top.line_of("unit"), "mm or inch");
+  std::vector<Cutter> cutters;
+  std::vector<std::uint64_t> lines;
+  if (const Node* list = top.child("tools", true)) {
+    for (const Node& n : list->items) {
+      cutters.push_back(read_cutter(top.below("tools", n), unit == "inch" ? kMmPerInch : 1.0));
+      lines.push_back(n.line);
+    }
+  }
+  top.finish();
+  return finished(std::move(cutters), lines, file, std::move(faults), job);
+}
+
+bool looks_like_table(std::string_view text) {
+  while (!text.empty()) {
+    const auto end = text.find('\n');
+    std::string_view line = text.substr(0, end);
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    const auto first = line.find_first_not_of(" \t\r");
+    if (first == std::string_view::npos || line[first] == ';' || line[first] == '#') continue;
+    line.remove_prefix(first);
+    return line.size() > 1 && (line[0] == 'T' || line[0] == 't') && line[1] >= '0' && line[1] <= '9';
+  }
+  return false;
+}
+
+}  // namespace
+
+Result<std::vector<Cutter>> read_library(std::string_view text, const std::string& file, Job& job,
+                                         const LibraryOptions& options) {
+  if (looks_like_table(text)) return read_tool_table(text, file, job, options);
+  auto root = parse_tree(text, file);
+  if (!root) return fail(root.error());
+  if (root->find("capstan_tools") == nullptr) {
+    return fail({.code = "LIBRARY-KIND",
+                 .message = "this is no tool library that can be read",
+                 .file = file,
+                 .expected = "a list with capstan_tools: 1, or a LinuxCNC tool table"});
+  }
+  return read_own(*root, file, job);
+}
+
+Result<std::vector<Cutter>> load_library(const std::string& path, Job& job, const LibraryOptions& options) {
+  if (path == "generic") return generic_library();
+  auto text = read_file(path, kDataFileCap);
+  if (!text) return fail(text.error());
+  return read_library(*text, path, job, options);
+}
+
+}  // namespace capstan::tooling

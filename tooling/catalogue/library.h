@@ -1,0 +1,40 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "planner/base/job.h"
+#include "planner/base/result.h"
+#include "planner/model/cutter.h"
+
+namespace capstan::tooling {
+
+struct LibraryOptions {
+  /// Of a LinuxCNC tool table, which does not say: 1 or 25.4. Unset: millimetres, with a note.
+  std::optional<double> mm_per_unit;
+};
+
+/// A tool library from a file, its kind told by content: our own list (YAML or JSON, tooling/data/README.md)
+/// or a LinuxCNC tool table. "generic" is the shipped one.
+///
+/// Fields that the file leaves out are completed from the generic series (see complete.h), each with its
+/// source. Entries of a tool table that cannot be used (no diameter, no word that tells the class) are left
+/// out, with a warning that says which and why.
+/// Fails  FILE-*, LIBRARY-KIND, DATA-*, TOOL-VALUE, TOOL-ID, TOOL-NUMBER, TBL-SYNTAX, with file and line;
+///        every fault is reported to the job, the last is the result's.
+[[nodiscard]] Result<std::vector<model::Cutter>> load_library(const std::string& path, Job& job,
+                                                              const LibraryOptions& options = {});
+[[nodiscard]] Result<std::vector<model::Cutter>> read_library(std::string_view text, const std::string& file,
+                                                              Job& job, const LibraryOptions& options = {});
+
+/// A LinuxCNC tool table: `T1 P1 D6 Z+80.5 ;6 mm end mill, 2 flutes`.
+[[nodiscard]] Result<std::vector<model::Cutter>> read_tool_table(std::string_view text,
+                                                                 const std::string& file, Job& job,
+                                                                 const LibraryOptions& options = {});
+
+/// The class that the words of a comment tell ("6mm endmill", "5mm tap drill", "16 mm schaftfraeser").
+[[nodiscard]] std::optional<model::CutterClass> class_from_words(std::string_view comment);
+
+}  // namespace capstan::tooling
