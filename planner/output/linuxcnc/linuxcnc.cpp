@@ -1,0 +1,300 @@
+#include "planner/output/linuxcnc/linuxcnc.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "planner/base/number.h"
+#include "planner/model/nouns/workpiece.h"
+#include "planner/output/linuxcnc/arcs.h"
+#include "planner/output/linuxcnc/check.h"
+#include "planner/output/linuxcnc/comment.h"
+#include "planner/output/linuxcnc/program.h"
+#include "planner/output/step_ids.h"
+
+namespace capstan::output {
+namespace {
+
+using geometry::Vec3;
+using model::Cutter;
+using model::CutterPath;
+using model::FeedSchedule;
+using model::MoveKind;
+using model::MoveRole;
+using model::Plan;
+using model::StepResult;
+
+constexpr int kSpeedDecimals = 1;
+constexpr int kDwellDecimals = 3;
+constexpr int kPitchDecimals = 6;
+// Feed and pitch times speed of a tap may differ by what rounding of either explains.
+constexpr double kPitchAgreement = 0.01;
+
+class Writer {
+ public:
+  explicit Writer(const Plan& plan) : plan_(plan), program_(plan.machine.control) {}
+
+  Result<std::string> run() {
+    header();
+    const std::vector<std::string> ids = step_ids(plan_);
+    for (std::size_t n = 0; n < plan_.steps.size(); ++n) {
+      const StepResult& step = plan_.steps[n];
+      const Cutter& cutter = *model::find_cutter(plan_, step.cutter_id);
+      enter(step, cutter, ids[n], n);
+      if (auto done = moves(step, cutter, ids[n]); !done) return tl::unexpected(done.error());
+    }
+    program_.blank();
+    program_.comment("end");
+    retract();
+    stop();
+    program_.line("M2");
+    return program_.take();
+  }
+
+ private:
+  void header() {
+    program_.comment("CAPSTAN PROGRAM version=1");
+    const auto* project = plan_.model.get<model::Project>(plan_.project);
+    if (project != nullptr && project->its_id) program_.comment("part: " + *project->its_id);
+    if (!plan_.file_name.empty()) program_.comment("file: " + plan_.file_name);
+    program_.comment("machine: " + plan_.machine.id);
+    program_.comment("material: " + plan_.material.id);
+    if (!plan_.stock.box.empty()) {
+      const Vec3 s = plan_.stock.box.size();
+      program_.comment("stock: " + program_.number(s.x) + " x " + program_.number(s.y) + " x " +
+                       program_.number(s.z) + " mm");
+    }
+    for (std::size_t i = 0; i < plan_.setups.size(); ++i) {
+      program_.comment("CAPSTAN SETUP n=" + std::to_string(i + 1) + " offset=" + plan_.setups[i].work_offset +
+                       " security=" + program_.number(plan_.setups[i].security_z_mm));
+    }
+    for (const Cutter* c : by_pocket()) {
+      const std::string t = std::to_string(c->pocket);
+      program_.comment("CAPSTAN TOOL T" + t + " H" + t +
+                       " length=" + program_.number(c->functional_length_mm) +
+                       " diameter=" + program_.number(c->cutting_diameter_mm) + " id=\"" +
+                       marker_text(c->id) + "\" " + std::string(model::to_text(c->cutter_class)));
+    }
+    program_.blank();
+    program_.line("G21 G17 G90 G94 G40 G49 G80");
+    tolerance();
+    retract();
+    stop();
+  }
+
+  [[nodiscard]] std::vector<const Cutter*> by_pocket() const {
+    std::vector<const Cutter*> out;
+    for (const Cutter& c : plan_.cutters) out.push_back(&c);
+    std::sort(out.begin(), out.end(), [](const Cutter* a, const Cutter* b) { return a->pocket < b->pocket; });
+    return out;
+  }
+
+  void tolerance() {
+    const double p = plan_.machine.control.path_tolerance_mm;
+    program_.line(program_.number(p) == "0" || p < 0.0 ? "G61" : "G64 P" + program_.number(p));
+  }
+
+  void retract() {
+    program_.line("G53 G0 Z" + program_.number(plan_.machine.axes[2].travel_max_mm));
+    program_.lost_z();
+  }
+
+  void stop() {
+    program_.line("M5");
+    program_.line("M9");
+    speed_ = 0.0;
+    flood_ = mist_ = false;
+  }
+
+  // The marker, and everything the control must know, wherever it comes from.
+  void enter(const StepResult& step, const Cutter& cutter, const std::string& id, std::size_t n) {
+    const model::SetupResult& setup = plan_.setups[step.setup];
+    const bool new_tool = cutter.pocket != tool_;
+    const bool first = tool_ == 0;
+    const bool new_setup = !first && step.setup != setup_;
+    program_.blank();
+    if ((new_tool || new_setup) && !first) {
+      retract();
+      stop();
+    }
+    program_.line("(CAPSTAN STEP id=\"" + marker_text(id) + "\" n=" + std::to_string(n + 1) + " tool=" +
+                  std::to_string(cutter.pocket) + " setup=" + std::to_string(step.setup + 1) + ")");
+    if (new_setup) {
+      program_.line("(MSG, " +
+                    plain_text("set-up " + std::to_string(step.setup + 1) +
+                               ": clamp the workpiece anew, set " + setup.work_offset + ", then continue") +
+                    ")");
+      program_.line("M0");
+    }
+    program_.line("G21 G17 G90 G94 G40 G80");
+    tolerance();
+    program_.line(setup.work_offset);
+    const std::string t = std::to_string(cutter.pocket);
+    if (new_tool) program_.line("T" + t + " M6");
+    program_.line("G43 H" + t);
+    tool_ = cutter.pocket;
+    setup_ = step.setup;
+    approach(step, setup, new_tool || new_setup);
+  }
+
+  // To the start of the path, from the top of the machine or from the security plane.
+  void approach(const StepResult& step, const model::SetupResult& setup, bool from_top) {
+    const Vec3 start = program_.round(step.path->point(0));
+    const auto before = program_.at();
+    program_.forget();
+    if (!from_top) {
+      double top = std::max(start.z, program_.round({0.0, 0.0, setup.security_z_mm}).z);
+      if (before) top = std::max(top, before->z);
+      program_.rapid_z(top);
+    }
+    spindle(speed(step, step.path->size() > 1 ? 1 : 0), true);
+    program_.rapid_xy(start);
+    coolant(step);
+    program_.rapid_z(start.z);
+  }
+
+  static double speed(const StepResult& step, std::size_t move) {
+    return step.schedule ? step.schedule->spindle_rpm[move] : step.spindle_rpm;
+  }
+
+  // `always`: stated even when it is so already. A start and a reversal wait for the spindle.
+  void spindle(double rpm, bool always) {
+    const double wanted = rounded(rpm, kSpeedDecimals);
+    if (wanted == speed_ && !always) return;
+    if (wanted == 0.0) {
+      program_.line("M5");
+      speed_ = 0.0;
+      return;
+    }
+    const bool turns = speed_ != 0.0 && (speed_ > 0.0) == (wanted > 0.0);
+    if (!turns && speed_ != 0.0) program_.line("M5");
+    program_.line("S" + trimmed(std::abs(wanted), kSpeedDecimals) + (wanted > 0.0 ? " M3" : " M4"));
+    const std::string wait = trimmed(plan_.machine.spindle.spin_up_s, kDwellDecimals);
+    if (!turns && plan_.machine.spindle.spin_up_s > 0.0 && wait != "0") program_.line("G4 P" + wait);
+    speed_ = wanted;
+  }
+
+  void coolant(const StepResult& step) {
+    if ((flood_ && !step.flood) || (mist_ && !step.mist) || (!step.flood && !step.mist)) program_.line("M9");
+    if (step.mist) program_.line("M7");
+    if (step.flood) program_.line("M8");
+    flood_ = step.flood;
+    mist_ = step.mist;
+  }
+
+  Status moves(const StepResult& step, const Cutter& cutter, const std::string& id) {
+    const CutterPath& path = *step.path;
+    for (std::size_t i = 1; i < path.size(); ++i) {
+      spindle(speed(step, i), false);
+      const double feed = step.schedule ? step.schedule->feed_mm_min[i] : step.feed_mm_min;
+      const Vec3 to = program_.round(path.point(i));
+      if (path.role[i] == MoveRole::kTap && path.kind[i] != MoveKind::kRapid) {
+        const auto last = tap(step, cutter, i);
+        if (!last) return located(last.error(), id, i);
+        i = *last;
+        continue;
+      }
+      switch (path.kind[i]) {
+        case MoveKind::kRapid:
+          program_.rapid(to);
+          break;
+        case MoveKind::kLine:
+          program_.cut(to, feed);
+          break;
+        case MoveKind::kArcCw:
+        case MoveKind::kArcCcw:
+          if (auto done = arc(path, i, feed); !done) return located(done.error(), id, i);
+          break;
+        case MoveKind::kDwell:
+          dwell(step.schedule ? step.schedule->dwell_s[i] : 0.0);
+          break;
+      }
+    }
+    return {};
+  }
+
+  static tl::unexpected<Diagnostic> located(Diagnostic d, const std::string& id, std::size_t move) {
+    d.path = id + ", move " + std::to_string(move);
+    return fail(std::move(d));
+  }
+
+  void dwell(double seconds) {
+    const std::string text = trimmed(seconds, kDwellDecimals);
+    if (text != "0") program_.line("G4 P" + text);
+  }
+
+  Status arc(const CutterPath& path, std::size_t i, double feed) {
+    const auto pieces = arc_pieces(path, i, *program_.at(), plan_.machine.control.decimals);
+    if (!pieces) return tl::unexpected(pieces.error());
+    for (const ArcPiece& p : *pieces) {
+      if (p.line) {
+        program_.cut(p.to, feed);
+      } else {
+        program_.arc(p.to, p.i, p.j, path.kind[i] == MoveKind::kArcCw, feed);
+      }
+    }
+    return {};
+  }
+
+  // G33.1 goes down in step with the spindle, reverses it, and comes back to where it began: the move down,
+  // perhaps dwells, and the move up. Gives the index of the move up.
+  Result<std::size_t> tap(const StepResult& step, const Cutter& cutter, std::size_t down) {
+    const CutterPath& path = *step.path;
+    const Vec3 top = *program_.at();
+    const Vec3 bottom = program_.round(path.point(down));
+    std::size_t up = down + 1;
+    while (up < path.size() && path.kind[up] == MoveKind::kDwell) ++up;
+    const bool back = up < path.size() && path.kind[up] == MoveKind::kLine &&
+                      path.role[up] == MoveRole::kTap && program_.round(path.point(up)) == top;
+    if (path.kind[down] != MoveKind::kLine || xy(bottom) != xy(top) || bottom.z >= top.z || !back) {
+      return fail("OUT-TAP", "a tapping move must run straight down and the same way back");
+    }
+    if (speed_ == 0.0) return fail("OUT-TAP", "the spindle stands still when tapping begins");
+    const double feed = step.schedule ? step.schedule->feed_mm_min[down] : step.feed_mm_min;
+    const double by_feed = feed / std::abs(speed_);
+    const double pitch = cutter.thread_pitch_mm > 0.0 ? cutter.thread_pitch_mm : by_feed;
+    if (std::abs(by_feed - pitch) > kPitchAgreement * pitch) {
+      return fail("OUT-TAP", "feed and speed make a pitch of " + trimmed(by_feed, 4) + " mm, the tap has " +
+                                 trimmed(pitch, 4) + " mm");
+    }
+    program_.moved("G33.1 Z" + program_.number(bottom.z) + " K" + trimmed(pitch, kPitchDecimals), top);
+    return up;
+  }
+
+  const Plan& plan_;
+  Program program_;
+  int tool_ = 0;
+  std::size_t setup_ = 0;
+  double speed_ = 0.0;
+  bool flood_ = false, mist_ = false;
+};
+
+}  // namespace
+
+Result<std::string> write_linuxcnc(const Plan& plan, Job& job) {
+  if (auto ok = writable(plan, job); !ok) return tl::unexpected(ok.error());
+  return Writer(plan).run();
+}
+
+std::string write_tool_table(const Plan& plan) {
+  std::vector<const Cutter*> loaded;
+  for (const Cutter& c : plan.cutters) {
+    if (c.pocket > 0) loaded.push_back(&c);
+  }
+  std::sort(loaded.begin(), loaded.end(),
+            [](const Cutter* a, const Cutter* b) { return a->pocket < b->pocket; });
+  std::string out;
+  for (const Cutter* c : loaded) {
+    const auto signed_number = [](double v) {
+      const std::string text = fixed(v, 6);
+      return text.front() == '-' ? text : "+" + text;
+    };
+    const std::string t = std::to_string(c->pocket);
+    out += "T" + t + " P" + t + " Z" + signed_number(c->functional_length_mm) + " D" +
+           signed_number(c->cutting_diameter_mm) + " ;" +
+           plain_text(c->description.empty() ? c->id : c->description).substr(0, 120) + "\n";
+  }
+  return out;
+}
+
+}  // namespace capstan::output
