@@ -206,17 +206,37 @@ class Proposer {
   }
 
  private:
-  std::vector<std::size_t> shape(AnyRef f, const FeatureShape& s, const model::Proposal& p) {
+  /// A hole right through, seen from the other side when only that is up in some set-up.
+  [[nodiscard]] FeatureShape reachable_side(const FeatureShape& s) const {
+    const bool plain =
+        s.kind == model::ShapeKind::kHole && s.through && s.bottom_diameter_mm == s.diameter.nominal_mm;
+    if (!plain) return s;
+    bool below = false;
+    for (const SetupWork& setup : w_.setups) {
+      const auto up = setup.workpiece.direction_to_parent(s.frame.z);
+      if (std::abs(up.z - 1.0) < kSameAxis) return s;
+      below = below || std::abs(up.z + 1.0) < kSameAxis;
+    }
+    if (!below) return s;
+    FeatureShape turned = s;
+    turned.frame.origin = s.frame.origin - s.depth_mm * s.frame.z;
+    turned.frame.z = -1.0 * s.frame.z;
+    turned.frame.y = -1.0 * s.frame.y;
+    return turned;
+  }
+
+  std::vector<std::size_t> shape(AnyRef f, const FeatureShape& given, const model::Proposal& p) {
     if (!p.cannot.empty()) {
-      unplanned(w_, s, p.cannot);
+      unplanned(w_, given, p.cannot);
       return {};
     }
+    const FeatureShape s = reachable_side(given);
     std::vector<model::Rejected> rejected = p.rejected;
     const Chosen chosen = choose(w_, p, library_, rejected);
     if (chosen.chain == nullptr) {
       std::string reason = "no cutter in the library fits";
       for (const auto& r : rejected) reason += "; " + r.why;
-      unplanned(w_, s, reason);
+      unplanned(w_, given, reason);
       return {};
     }
     for (std::size_t i = 0; i < p.chains.size(); ++i) {

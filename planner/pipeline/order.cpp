@@ -1,0 +1,147 @@
+#include <algorithm>
+#include <map>
+
+#include "planner/pipeline/work.h"
+#include "planner/sequence/order.h"
+
+// The order of proposed steps, and the workplan that says it.
+
+namespace capstan::pipeline {
+namespace {
+
+using model::Model;
+
+/// Steps of a file keep the file's order and come first; what rules proposed follows, ordered.
+Result<sequence::Order> order_of(Work& w, const std::vector<std::size_t>& proposed) {
+  std::vector<model::FeatureShape> shapes;
+  std::vector<sequence::Item> items;
+  std::map<std::size_t, std::size_t> item_of;  // step -> item
+  std::map<AnyRef, int> chain;
+  sequence::Options options;
+  for (const std::size_t i : proposed) {
+    const StepWork& s = w.steps[i];
+    sequence::Item item;
+    // One shape of a pattern stands for all of it: they are made one after the other.
+    item.feature = shapes.size();
+    for (std::size_t k = 0; k < shapes.size(); ++k) {
+      if (shapes[k].feature == s.shapes.front().feature && shapes[k].member == s.shapes.front().member)
+        item.feature = k;
+    }
+    if (item.feature == shapes.size()) shapes.push_back(s.shapes.front());
+    item.in_chain = chain[s.feature]++;
+    item.name = s.proposal.name;
+    item.cutter_id = s.cutter.id;
+    item.operation = s.operation.type;
+    item_of[i] = items.size();
+    items.push_back(std::move(item));
+  }
+  for (const std::size_t i : proposed) {
+    for (const std::size_t before : w.steps[i].after) {
+      if (item_of.contains(before)) options.given.emplace_back(item_of[before], item_of[i]);
+    }
+  }
+  for (const SetupWork& s : w.setups)
+    options.directions.push_back(s.workpiece.direction_to_local({0.0, 0.0, 1.0}));
+  return sequence::order(shapes, items, options, w.job);
+}
+
+Ref<model::Workplan> plan_of(Model& m, const std::string& id, Ref<model::Setup> setup) {
+  model::Workplan p;
+  p.its_id = id;
+  p.its_setup = setup;
+  p.its_elements.given = true;
+  return m.add(p);
+}
+
+/// The main workplan: what it held before (unless operations were re-opened), then the new steps by set-up.
+void rebuild_workplan(Work& w, bool keep) {
+  Model& m = w.plan.model;
+  auto* project = m.get<model::Project>(w.plan.project);
+  if (project == nullptr) {
+    model::Project p;
+    p.its_id = "project";
+    p.its_workpieces.given = true;
+    for (const AnyRef piece : m.all(model::TypeId::kWorkpiece))
+      p.its_workpieces.push_back(Ref<model::Workpiece>(piece));
+    w.plan.project = m.add(p);
+    project = m.get<model::Project>(w.plan.project);
+  }
+  const auto* old = m.get<model::Workplan>(project->main_workplan);
+  const std::string id = old != nullptr ? old->its_id.value_or("main workplan") : "main workplan";
+  const bool one_setup = w.setups.size() == 1;
+  Ref<model::Workplan> main;
+  if (keep && old != nullptr) {
+    main = project->main_workplan;
+  } else {
+    main = plan_of(m, id, one_setup ? w.setups.front().setup : Ref<model::Setup>{});
+    m.get<model::Project>(w.plan.project)->main_workplan = main;
+  }
+  Ref<model::Workplan> into = main;
+  std::size_t last = w.setups.size();
+  const bool nest = !one_setup || (keep && old != nullptr && !m.at<model::Workplan>(main).its_setup.set());
+  for (const StepWork& s : w.steps) {
+    if (!s.proposed) continue;
+    if (nest && s.setup != last) {
+      into = plan_of(m, "set-up " + std::to_string(s.setup + 1), w.setups[s.setup].setup);
+      m.at<model::Workplan>(main).its_elements.push_back(into);
+      last = s.setup;
+    }
+    m.at<model::Workplan>(into).its_elements.push_back(s.step);
+  }
+}
+
+std::string words(const sequence::Order& order) {
+  std::string out = std::to_string(order.precedences.size()) + " precedences kept, " +
+                    std::to_string(order.tool_changes) + " tool changes";
+  std::size_t said = 0;
+  for (const auto& p : order.precedences) {
+    if (p.cause == sequence::Cause::kChain || p.text.empty()) continue;
+    out += "; " + p.text;
+    if (++said == 12) break;
+  }
+  return out;
+}
+
+/// Set-ups without a step are not clamped.
+void drop_empty_setups(Work& w) {
+  std::vector<std::size_t> renumbered(w.setups.size(), 0);
+  std::vector<SetupWork> used;
+  for (std::size_t i = 0; i < w.setups.size(); ++i) {
+    const bool has = std::any_of(w.steps.begin(), w.steps.end(), [i](const auto& s) { return s.setup == i; });
+    if (!has && w.setups.size() > 1) continue;
+    renumbered[i] = used.size();
+    used.push_back(w.setups[i]);
+  }
+  if (used.empty()) return;
+  for (StepWork& s : w.steps) s.setup = renumbered[s.setup];
+  w.setups = std::move(used);
+}
+
+}  // namespace
+
+Status order_steps(Work& w) {
+  drop_empty_setups(w);
+  std::vector<std::size_t> given;
+  std::vector<std::size_t> proposed;
+  for (std::size_t i = 0; i < w.steps.size(); ++i) (w.steps[i].proposed ? proposed : given).push_back(i);
+  if (proposed.empty()) return {};
+  const auto order = order_of(w, proposed);
+  if (!order) return tl::unexpected(order.error());
+  if (!order->cannot.empty()) return fail("PIP-ORDER", "no order of the steps exists: " + order->cannot);
+  std::vector<StepWork> sorted;
+  for (const std::size_t i : given) sorted.push_back(std::move(w.steps[i]));
+  for (const auto& setup : order->setups) {
+    for (const std::size_t item : setup.steps) sorted.push_back(std::move(w.steps[proposed[item]]));
+  }
+  w.steps = std::move(sorted);
+  for (const auto& d : order->dropped)
+    w.job.note("PIP-ORDER", "an order found by geometry gives way to a given one: " + d.text);
+  rebuild_workplan(w, !given.empty());
+  const auto* project = w.plan.model.get<model::Project>(w.plan.project);
+  w.plan.ledger.bind(project->main_workplan, "its_elements", model::Binder::kRule,
+                     {"sequence.order", words(*order),
+                      "precedences by geometry and chain; few tool changes (planner/sequence)"});
+  return {};
+}
+
+}  // namespace capstan::pipeline
