@@ -97,6 +97,7 @@ Result<GeneratedPath> area_path(const PathJob& task, Job& job) {
     double material = from;
     if (shell) material = std::clamp(w->bottom_z_mm + left_bottom, z, from);
     Level level(task, *w, z, material, task.allowance_side_mm);
+    level.above_mm = from;
     from = z;
     if (level.centres.empty()) {
       // Narrow above an island's top or in a fillet is no fault; nowhere at all is.

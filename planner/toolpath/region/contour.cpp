@@ -120,11 +120,13 @@ class Contours {
   Status walls() {
     for (const Region& piece : geometry::pieces(level_.centres)) {
       for (Track& t : tracks_of(piece, natural_)) {
-        if (!o_.lead_arcs || !cut_with_leads(c_, level_, t)) {
-          auto in = c_.enter(level_, t, nullptr);
-          if (!in) return tl::unexpected(in.error());
-          c_.writer.follow(*in, level_.z_mm, MoveRole::kCut);
-        }
+        if (o_.lead_arcs && cut_with_leads(c_, level_, t)) continue;
+        // Too narrow for arcs: down the wall's own track, as into the solid.
+        Level solid = level_;
+        solid.from_mm = level_.above_mm;
+        auto in = c_.enter(solid, t, nullptr);
+        if (!in) return tl::unexpected(in.error());
+        c_.writer.follow(*in, level_.z_mm, MoveRole::kCut);
       }
     }
     return {};
@@ -276,12 +278,15 @@ bool cut_with_leads(LevelCutter& cutter, const Level& level, Track track) {
       Lead lead;
       if (!lead_at(level, track, s, part * wish, natural, lead)) continue;
       if (level.cleared && !level.cleared->contains(lead.from)) continue;
-      const bool down = !here_known || std::abs(cutter.writer.at().z - level.z_mm) > 1e-9 ||
-                        !level.inside.contains(xy(cutter.writer.at()), lead.from);
-      if (down) {
+      const bool straight = here_known && std::abs(cutter.writer.at().z - level.z_mm) < 1e-9 &&
+                            norm(xy(cutter.writer.at()) - lead.from) <= 4.0 * cutter.radius_mm &&
+                            level.inside.contains(xy(cutter.writer.at()), lead.from);
+      if (straight) {
+        cutter.writer.line({lead.from.x, lead.from.y, level.z_mm}, MoveRole::kCut);
+      } else if (level.from_mm <= level.z_mm + 1e-9) {
         cutter.go_cleared(level, lead.from);
       } else {
-        cutter.writer.line({lead.from.x, lead.from.y, level.z_mm}, MoveRole::kLink);
+        continue;  // nothing says that the place is free down to here
       }
       const Vec2 p = lead.track.start;
       cutter.writer.arc({p.x, p.y, level.z_mm}, lead.centre, lead.clockwise, MoveRole::kCut);

@@ -16,6 +16,8 @@ namespace {
 
 constexpr double kLargestRadius = 5'000.0;  // beyond, lines do
 constexpr std::size_t kFewestChords = 3;
+// Somewhat more than half a turn, so that a circle of any number of chords becomes two arcs.
+constexpr double kMostSweep = 1.15 * std::numbers::pi;
 
 /// Keeps, from an anchor, the cone of directions in which all dropped points lie within the tolerance of
 /// the ray (Sklansky and Gonzalez, Pattern Recognition 12, 1980).
@@ -96,7 +98,7 @@ std::optional<Circle> arc_through(const std::vector<Vec2>& p, std::size_t i, std
     const double sagitta = c->radius - std::sqrt((c->radius - half_chord) * (c->radius + half_chord));
     if (sagitta > 2.0 * tolerance) return std::nullopt;
     sweep += std::atan2(std::abs(turn), dot(r0, r1));
-    if (sweep > std::numbers::pi * (1.0 + 1e-6)) return std::nullopt;
+    if (sweep > kMostSweep) return std::nullopt;
   }
   return c;
 }

@@ -52,6 +52,7 @@ double stepover_of(const PathJob& task) {
 Level::Level(const PathJob& task, const WorkArea& w, double tip_z, double material_z, double allowance)
     : z_mm(tip_z),
       from_mm(material_z),
+      above_mm(material_z),
       allowance_mm(allowance),
       centres(centres_at(w, task.cutter, tip_z, allowance, task.allowance_bottom_mm)),
       inside(geometry::offset(centres, kInsideSlack, 0.5 * kInsideSlack)),

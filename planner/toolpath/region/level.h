@@ -13,9 +13,10 @@ namespace capstan::toolpath {
 struct Level {
   Level(const PathJob& task, const WorkArea& w, double tip_z, double material_z, double allowance);
 
-  double z_mm;                      ///< of the tip
-  double from_mm;                   ///< top of what still stands here
-  double allowance_mm;              ///< left on the walls
+  double z_mm;          ///< of the tip
+  double from_mm;       ///< top of what still stands here
+  double above_mm;      ///< of the level before; above `from_mm` where an earlier step has cleared this one
+  double allowance_mm;  ///< left on the walls
   geometry::Region centres;         ///< where the cutter's centre may be
   Inside inside;                    ///< the same, larger by kInsideSlack
   Inside material;                  ///< outline of what is not air

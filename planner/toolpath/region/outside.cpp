@@ -55,7 +55,8 @@ std::vector<double> ring_distances(const Around& a, double step, bool shell) {
 
 Status cut_around(const Around& a, LevelCutter& c, double z, double from,
                   const std::vector<double>& distances, bool shell) {
-  Level level(c.task, a.w, z, from, a.task.allowance_side_mm);
+  Level level(c.task, a.w, z, shell ? z : from, a.task.allowance_side_mm);
+  level.above_mm = from;
   const double room = 2.0 * a.radius + 2.0;
   const Region edge =
       geometry::offset_sharp(geometry::unite(a.w.material, grown_by(a, distances.front())), room);
@@ -79,6 +80,7 @@ Status cut_around(const Around& a, LevelCutter& c, double z, double from,
     const bool wall = d == distances.back();
     for (const Track& t : rings_around(grown_by(a, d), a.kept, walls_on_right(a.task))) {
       if (wall && shell && cut_with_leads(c, level, t)) continue;
+      if (shell) level.from_mm = from;
       const Spot spot = c.writer.begun() ? nearest(t, xy(c.writer.at())) : Spot{};
       if (!first && c.cut_to(level, spot.point)) {
         c.writer.follow(begun_at(t, spot), z, MoveRole::kCut);

@@ -63,7 +63,7 @@ Deepest deepest(const Region& piece) {
       best = std::move(r);
     }
   }
-  const auto& loop = geometry::pieces(best).front().loops.front();
+  const geometry::Loop loop = geometry::pieces(best).front().loops.front();
   Vec2 sum;
   for (const Vec2 p : loop) sum = sum + p;
   Vec2 at = (1.0 / static_cast<double>(loop.size())) * sum;

@@ -38,7 +38,7 @@ inline constexpr double kSimplifyTolerance = 0.001;
 [[nodiscard]] geometry::Region simplified(const geometry::Region& region, double tolerance_mm);
 
 /// The loop as lines and arcs: three chords or more that turn the same way on one circle become an arc of
-/// half a turn at most.
+/// little more than half a turn at most.
 [[nodiscard]] Track track_of(const geometry::Loop& loop, double tolerance_mm = kFitTolerance);
 /// As above, of an open line.
 [[nodiscard]] Track track_of_line(const std::vector<geometry::Vec2>& line,
