@@ -86,6 +86,22 @@ void fill_milling(Model& m, AnyRef op, const model::ProposedStep& step) {
   }
 }
 
+/// Parallel passes at the usual tolerances; defaults, unsourced.
+Ref<model::FreeformStrategy> passes(Model& m, const model::ProposedStep& step) {
+  model::Tolerances t;
+  t.chordal_tolerance = 0.01;
+  t.scallop_height = 0.01;
+  model::Direction across;
+  across.name = "";
+  across.direction_ratios = {{0.0, 1.0, 0.0}, true};
+  model::PlaneClStrategy s;
+  s.pathmode = model::PathmodeType::kZigzag;
+  s.cutmode = step.climb ? model::CutmodeType::kClimb : model::CutmodeType::kConventional;
+  s.its_milling_tolerances = m.add(t);
+  s.its_plane_normal = m.add(across);
+  return m.add(s);
+}
+
 void fill_drilling(Model& m, AnyRef op, const model::ProposedStep& step) {
   auto* o = m.get<model::DrillingTypeOperation>(op);
   if (o == nullptr) return;
@@ -134,6 +150,10 @@ Ref<model::MachiningWorkingstep> add_nouns(Work& w, const model::ProposedStep& s
   o->its_machine_functions = made_functions;
   fill_milling(m, op, step);
   fill_drilling(m, op, step);
+  if (m.holds<model::FreeformOperation>(op)) {
+    const auto strategy = passes(m, step);
+    m.get<model::FreeformOperation>(op)->its_machining_strategy = strategy;
+  }
   // The retract plane counts from the feature's top; the raw piece may stand higher.
   m.get<model::MachiningOperation>(op)->retract_plane =
       material_above(w.plan.stock.box, shape.frame) + kRetract;

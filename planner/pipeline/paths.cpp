@@ -171,7 +171,9 @@ class PathMaker {
       if (out.depth_open) job.axial_depth_mm = out.answer.ap_mm;
       if (out.width_open && out.answer.ae_mm > 0.0) job.radial_depth_mm = out.answer.ae_mm;
       if (out.question.ae_mm) job.radial_depth_mm = *out.question.ae_mm;
-      auto path = toolpath::generate(job, w_.job);
+      auto path = w_.plan.model.holds<model::FreeformOperation>(step.operation)
+                      ? freeform_path(w_, step, job, out.answer, map_of(step.setup))
+                      : toolpath::generate(job, w_.job);
       if (!path) return tl::unexpected(path.error());
       if (first) {
         out.path = *std::move(path);
@@ -185,6 +187,7 @@ class PathMaker {
 
   void prepare(const StepWork& step, toolpath::PathJob& job) {
     const SetupWork& setup = w_.setups[step.setup];
+    shape_from_mesh(w_, step, job);
     if (opens_outwards(job.shape)) {
       const auto outline = transformed(setup.stock, inverse(job.feature_in_setup));
       const auto raw = geometry::rectangle(geometry::xy(outline.lo), geometry::xy(outline.hi));

@@ -31,6 +31,14 @@ struct GivenTechnology {
                                                 const model::Candidate* candidate,
                                                 const toolpath::PathJob& job);
 
+/// Gives a freeform feature the extent of the plan's mesh; leaves others alone.
+void shape_from_mesh(const Work& w, const StepWork& step, toolpath::PathJob& job);
+/// The path of a freeform operation over the plan's mesh.
+[[nodiscard]] Result<toolpath::GeneratedPath> freeform_path(Work& w, const StepWork& step,
+                                                            const toolpath::PathJob& job,
+                                                            const optimise::CutAnswer& cut,
+                                                            const stock::HeightMap& map);
+
 /// Writes what was chosen into the nouns, and why into the ledger.
 void record_cut(Work& w, StepWork& step, const optimise::CutAnswer& answer, bool depth_open, bool width_open);
 /// Puts the computed path at the operation's its_toolpath, as derived.
