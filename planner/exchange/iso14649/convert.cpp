@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "planner/exchange/iso14649/text.h"
+#include "planner/exchange/iso14649/units.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/walk.h"
 
@@ -21,8 +22,7 @@ namespace {
 
 class Conversion {
  public:
-  Conversion(Reading& r, AnyRef object, const Attribute& a)
-      : r_(r), object_(object), a_(a), factor_(model::iso14649_factor(a.unit)) {}
+  Conversion(Reading& r, AnyRef object, const Attribute& a) : r_(r), object_(object), a_(a) {}
 
   void run(const Value& v) {
     if (v.is(Kind::kOmitted)) return missing();
@@ -97,7 +97,7 @@ class Conversion {
     // Open decisions are told apart, once all is read.
     static constexpr std::array<std::string_view, 3> kOpen = {"its_tool", "its_technology", "its_operation"};
     if (std::find(kOpen.begin(), kOpen.end(), a_.name) != kOpen.end()) return;
-    warn("P21-MANDATORY", name() + (is_list ? " is missing; taken as empty" : " is missing; left open"));
+    warn("P21-MANDATORY", name() + (is_list ? " is missing; taken as empty" : " is missing; left unset"));
   }
 
   void wrong(const Value& v, std::string expected) {
@@ -119,7 +119,7 @@ class Conversion {
     }
     if (v.is(Kind::kInteger))
       warn("EXC-NUMBER", name() + ": integer " + std::string(v.lexeme()) + " read as a real");
-    const double x = v.as_real() * factor_;
+    const double x = from_file(v.as_real(), a_.unit);
     if (!std::isfinite(x)) {
       wrong(v, "a number that is finite in the model's unit");
       return std::nullopt;
@@ -264,7 +264,6 @@ class Conversion {
   Reading& r_;
   AnyRef object_;
   const Attribute& a_;
-  double factor_;
 };
 
 }  // namespace

@@ -215,12 +215,6 @@ void check_sets(Reading& r) {
   for (const AnyRef at : m.all(TypeId::kToolpathList)) {
     at_least(at, "its_list", m.at<model::ToolpathList>(at).its_list, 1);
   }
-  for (const AnyRef at : m.all(TypeId::kSetup)) {
-    at_least(at, "its_workpiece_setup", m.at<model::Setup>(at).its_workpiece_setup, 1);
-  }
-  for (const AnyRef at : m.all(TypeId::kProject)) {
-    at_least(at, "its_workpieces", m.at<model::Project>(at).its_workpieces, 1);
-  }
 }
 
 // How often the steps of a workplan would run when shared parts are run wherever they stand: a graph of

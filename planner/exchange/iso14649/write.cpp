@@ -8,6 +8,7 @@
 #include "planner/exchange/iso14649/dialect.h"
 #include "planner/exchange/iso14649/records.h"
 #include "planner/exchange/iso14649/trajectories.h"
+#include "planner/exchange/iso14649/units.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/walk.h"
 #include "planner/p21/print.h"
@@ -26,15 +27,14 @@ void round_units(model::Model& m) {
   for (std::size_t i = 1; i < model::kTypeCount; ++i) {
     const auto type = static_cast<TypeId>(i);
     for (const Attribute& a : model::noun_type(type).attributes) {
-      const double factor = model::iso14649_factor(a.unit);
-      if (!a.in_iso14649 || factor == 1.0) continue;
+      if (!a.in_iso14649 || model::iso14649_factor(a.unit) == 1.0) continue;
       for (const AnyRef at : m.all(type)) {
         if (a.storage == Storage::kReal) {
           auto& v = *static_cast<model::Real*>(a.at(m.object(at)));
-          if (v) v = unconverted(*v, factor) * factor;
+          if (v) v = from_file(to_file(*v, a.unit), a.unit);
         } else if (a.storage == Storage::kRealList) {
           for (double& v : static_cast<model::RealList*>(a.at(m.object(at)))->items) {
-            v = unconverted(v, factor) * factor;
+            v = from_file(to_file(v, a.unit), a.unit);
           }
         }
       }
@@ -228,10 +228,6 @@ class FileWriter {
     return it == number_.end() ? "$" : "#" + std::to_string(it->second);
   }
 
-  static std::string real(double v, double factor) {
-    return part21_real(factor == 1.0 ? v : unconverted(v, factor));
-  }
-
   [[nodiscard]] std::string select(const model::SelectValue& v) const {
     if (v.ref.set()) return reference(v.ref);
     const std::string bare = v.real ? part21_real(*v.real) : "." + v.text + ".";
@@ -253,8 +249,7 @@ class FileWriter {
       out += '$';
       return;
     }
-    const double factor = model::iso14649_factor(a.unit);
-    const auto number = [&](double v) { return real(v, factor); };
+    const auto number = [&](double v) { return part21_real(to_file(v, a.unit)); };
     const auto ref = [&](AnyRef r) { return reference(r); };
     switch (a.storage) {
       case Storage::kReal:

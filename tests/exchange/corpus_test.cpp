@@ -1,0 +1,175 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/exchange/support.h"
+#include "tests/support/corpus.h"
+
+namespace capstan::exchange {
+namespace {
+
+using testing::codes;
+using ::testing::ElementsAreArray;
+using Codes = std::vector<std::string>;
+
+struct Expected {
+  const char* file;
+  Codes diagnostics;
+};
+
+void PrintTo(const Expected& e, std::ostream* out) { *out << e.file; }
+
+class ExchangeCorpus : public ::testing::TestWithParam<Expected> {};
+
+TEST_P(ExchangeCorpus, ReadsWithoutErrorAndSaysExactlyWhatDeviates) {
+  CAPSTAN_CORPUS_FILE(path, std::string("iso14649/") + GetParam().file);
+  Job job;
+  const auto plan = read(path, job);
+  ASSERT_TRUE(plan) << to_text(plan.error());
+  EXPECT_THAT(codes(job), ElementsAreArray(GetParam().diagnostics));
+}
+
+TEST_P(ExchangeCorpus, IsTheSameModelAfterBeingWrittenAndRead) {
+  CAPSTAN_CORPUS_FILE(path, std::string("iso14649/") + GetParam().file);
+  Job job;
+  const auto plan = read(path, job);
+  ASSERT_TRUE(plan) << to_text(plan.error());
+  const auto written = write_iso14649(*plan, job);
+  ASSERT_TRUE(written) << to_text(written.error());
+  Job second;
+  const auto again = read_bytes(written->bytes, path, ReadOptions{}, second);
+  ASSERT_TRUE(again) << to_text(again.error());
+  EXPECT_EQ(testing::picture(*plan), testing::picture(*again));
+  EXPECT_EQ(testing::ledger_picture(*plan), testing::ledger_picture(*again));
+  EXPECT_EQ(plan->kept.size(), again->kept.size());
+  const auto twice = write_iso14649(*again, second);
+  ASSERT_TRUE(twice);
+  EXPECT_EQ(written->bytes, twice->bytes);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Corpus, ExchangeCorpus,
+    ::testing::Values(
+        Expected{"nist_tiny.stp", {"warning EXC-NO-PROJECT"}},
+        Expected{"nist_ex1.stp",
+                 {"warning EXC-TIP-ANGLE #32", "warning EXC-FEED #40", "warning EXC-FEED #45",
+                  "warning EXC-FEED #48"}},
+        Expected{"nist_ex1E.stp",
+                 {"warning EXC-TIP-ANGLE #32", "warning EXC-FEED #40", "warning EXC-FEED #45"}},
+        Expected{"meduag_furo.p21",
+                 {"warning EXC-TOLERANCE #2", "warning EXC-UNIT-ANGLE #29", "warning EXC-UNIT-ANGLE #46",
+                  "warning EXC-UNIT-ANGLE #51", "warning EXC-TIP-ANGLE #51", "warning EXC-UNIT-CUTSPEED #32",
+                  "warning EXC-SPEED-CONFLICT #32", "warning EXC-FEED #32", "warning EXC-UNIT-CUTSPEED #54",
+                  "warning EXC-SPEED-CONFLICT #54", "warning EXC-FEED #54"}},
+        Expected{"meduag_peca_defesa.p21",
+                 {"warning EXC-TOLERANCE #2", "warning EXC-UNIT-ANGLE #66", "warning EXC-UNIT-ANGLE #88",
+                  "warning EXC-TIP-ANGLE #88", "warning EXC-RATIO #38", "warning EXC-RATIO #109",
+                  "warning EXC-UNIT-CUTSPEED #31", "warning EXC-SPEED-CONFLICT #31",
+                  "warning EXC-UNIT-CUTSPEED #69", "warning EXC-SPEED-CONFLICT #69", "warning EXC-FEED #69",
+                  "warning EXC-UNIT-CUTSPEED #91", "warning EXC-SPEED-CONFLICT #91", "warning EXC-FEED #91",
+                  "warning EXC-UNIT-CUTSPEED #102", "warning EXC-SPEED-CONFLICT #102"}},
+        Expected{
+            "ufsc_Cavidade.p21",
+            {"warning P21-MANDATORY #3", "warning P21-MANDATORY #26", "warning P21-MANDATORY #37",
+             "warning P21-MANDATORY #37", "warning P21-MANDATORY #43", "warning P21-MANDATORY #70",
+             "warning P21-MANDATORY #72", "warning P21-MANDATORY #72", "note EXC-DIALECT",
+             "warning EXC-RATIO #42", "warning EXC-ZERO #35", "warning EXC-UNIT-CUTSPEED #36",
+             "warning EXC-SPEED-CONFLICT #36", "warning EXC-SPINDLE-DIRECTION #36", "warning EXC-ZERO #36",
+             "warning EXC-UNIT-CUTSPEED #71", "warning EXC-SPEED-CONFLICT #71", "note EXC-OPEN #36"}},
+        Expected{"ufsc_FuroBaseEsferica.p21",
+                 {"warning P21-MANDATORY #3",      "warning P21-MANDATORY #26",
+                  "warning P21-MANDATORY #37",     "warning P21-MANDATORY #37",
+                  "warning P21-MANDATORY #52",     "warning P21-MANDATORY #60",
+                  "warning P21-MANDATORY #60",     "warning P21-MANDATORY #63",
+                  "warning P21-MANDATORY #69",     "warning P21-MANDATORY #69",
+                  "warning P21-MANDATORY #76",     "warning P21-MANDATORY #78",
+                  "warning P21-MANDATORY #78",     "note EXC-DIALECT",
+                  "warning EXC-UNIT-ANGLE #34",    "warning EXC-UNIT-ANGLE #57",
+                  "warning EXC-TIP-ANGLE #57",     "warning EXC-UNIT-SPINDLE #36",
+                  "warning EXC-UNIT-CUTSPEED #36", "warning EXC-SPEED-CONFLICT #36",
+                  "warning EXC-FEED #36",          "warning EXC-UNIT-SPINDLE #59",
+                  "warning EXC-UNIT-CUTSPEED #59", "warning EXC-SPEED-CONFLICT #59",
+                  "warning EXC-FEED #59",          "warning EXC-UNIT-SPINDLE #68",
+                  "warning EXC-UNIT-CUTSPEED #68", "warning EXC-SPEED-CONFLICT #68",
+                  "warning EXC-UNIT-SPINDLE #77",  "warning EXC-UNIT-CUTSPEED #77",
+                  "warning EXC-SPEED-CONFLICT #77"}},
+        Expected{"ufsc_FuroConico.p21",
+                 {"warning P21-MANDATORY #3",
+                  "warning P21-MANDATORY #26",
+                  "warning P21-MANDATORY #37",
+                  "warning P21-MANDATORY #37",
+                  "warning P21-MANDATORY #53",
+                  "warning P21-MANDATORY #61",
+                  "warning P21-MANDATORY #61",
+                  "warning P21-MANDATORY #64",
+                  "warning P21-MANDATORY #71",
+                  "warning P21-MANDATORY #71",
+                  "note EXC-DIALECT",
+                  "warning EXC-UNIT-ANGLE #34",
+                  "warning EXC-UNIT-ANGLE #58",
+                  "warning EXC-UNIT-ANGLE #68",
+                  "warning EXC-TIP-ANGLE #58",
+                  "warning EXC-UNIT-SPINDLE #36",
+                  "warning EXC-UNIT-CUTSPEED #36",
+                  "warning EXC-SPEED-CONFLICT #36",
+                  "warning EXC-FEED #36",
+                  "warning EXC-UNIT-SPINDLE #60",
+                  "warning EXC-UNIT-CUTSPEED #60",
+                  "warning EXC-SPEED-CONFLICT #60",
+                  "warning EXC-UNIT-SPINDLE #70",
+                  "warning EXC-UNIT-CUTSPEED #70",
+                  "warning EXC-SPEED-CONFLICT #70"}},
+        Expected{"ufsc_Ranhura.p21",
+                 {"warning P21-MANDATORY #3",
+                  "warning P21-MANDATORY #26",
+                  "warning P21-MANDATORY #37",
+                  "warning P21-MANDATORY #37",
+                  "warning P21-MANDATORY #61",
+                  "warning P21-MANDATORY #61",
+                  "warning P21-MANDATORY #61",
+                  "warning P21-MANDATORY #61",
+                  "warning P21-MANDATORY #64",
+                  "warning P21-MANDATORY #75",
+                  "warning P21-MANDATORY #77",
+                  "warning P21-MANDATORY #77",
+                  "note EXC-DIALECT",
+                  "warning EXC-RATIO #42",
+                  "warning EXC-UNIT-CUTSPEED #36",
+                  "warning EXC-SPEED-CONFLICT #36",
+                  "warning EXC-ZERO #36",
+                  "warning EXC-UNIT-SPINDLE #76",
+                  "warning EXC-UNIT-CUTSPEED #76",
+                  "warning EXC-SPEED-CONFLICT #76",
+                  "note EXC-OPEN #36"}},
+        Expected{"ufsc_RanhuraPerfilRoundedU.p21",
+                 {"warning P21-MANDATORY #3",       "warning P21-MANDATORY #26",
+                  "warning P21-MANDATORY #37",      "warning P21-MANDATORY #37",
+                  "warning P21-MANDATORY #44",      "warning P21-MANDATORY #75",
+                  "warning P21-MANDATORY #77",      "warning P21-MANDATORY #77",
+                  "warning P21-MANDATORY #87",      "warning P21-MANDATORY #89",
+                  "warning P21-MANDATORY #89",      "note EXC-DIALECT",
+                  "warning EXC-RATIO #42",          "warning EXC-UNIT-SPINDLE #36",
+                  "warning EXC-UNIT-CUTSPEED #36",  "warning EXC-SPEED-CONFLICT #36",
+                  "warning EXC-UNIT-SPINDLE #76",   "warning EXC-UNIT-CUTSPEED #76",
+                  "warning EXC-SPEED-CONFLICT #76", "warning EXC-UNIT-CUTSPEED #88",
+                  "warning EXC-SPEED-CONFLICT #88"}},
+        Expected{"ufsc_RanhuraPerfilVee.p21",
+                 {"warning P21-MANDATORY #3",       "warning P21-MANDATORY #26",
+                  "warning P21-MANDATORY #37",      "warning P21-MANDATORY #37",
+                  "warning P21-MANDATORY #44",      "warning P21-MANDATORY #75",
+                  "warning P21-MANDATORY #77",      "warning P21-MANDATORY #77",
+                  "warning P21-MANDATORY #87",      "warning P21-MANDATORY #89",
+                  "warning P21-MANDATORY #89",      "note EXC-DIALECT",
+                  "warning EXC-UNIT-ANGLE #61",     "warning EXC-UNIT-ANGLE #61",
+                  "warning EXC-RATIO #42",          "warning EXC-UNIT-SPINDLE #36",
+                  "warning EXC-UNIT-CUTSPEED #36",  "warning EXC-SPEED-CONFLICT #36",
+                  "warning EXC-UNIT-SPINDLE #76",   "warning EXC-UNIT-CUTSPEED #76",
+                  "warning EXC-SPEED-CONFLICT #76", "warning EXC-UNIT-CUTSPEED #88",
+                  "warning EXC-SPEED-CONFLICT #88"}}),
+    [](const auto& given) {
+      std::string name = given.param.file;
+      std::replace(name.begin(), name.end(), '.', '_');
+      return name;
+    });
+
+}  // namespace
+}  // namespace capstan::exchange

@@ -1,0 +1,1 @@
+capstan_test(exchange DEPENDS base geometry model p21 exchange)
