@@ -1,0 +1,97 @@
+#include "rules/engine/fact.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "planner/base/number.h"
+
+namespace capstan::rules {
+namespace {
+
+FactType number(std::string_view name, double from, double below, std::string_view meaning) {
+  return {name, FactKind::kNumber, from, below, {}, meaning};
+}
+FactType symbols(std::string_view name, std::vector<std::string_view> values, std::string_view meaning) {
+  return {name, FactKind::kSymbol, 0.0, 0.0, std::move(values), meaning};
+}
+
+std::size_t index_of(std::string_view name) {
+  const auto i = find_fact(name);
+  if (!i) throw std::logic_error("there is no fact named " + std::string(name));
+  return *i;
+}
+
+}  // namespace
+
+const std::vector<FactType>& fact_types() {
+  static const std::vector<FactType> kTypes{
+      number("depth_mm", 0.0, 10000.0, "depth of the feature"),
+      number("depth_ratio", 0.0, 10000.0, "depth by diameter, width or passage"),
+      {"it_grade", FactKind::kInteger, 0.0, 19.0, {}, "ISO 286 grade of the tightest size; 0: below IT1"},
+      {"depth_it_grade", FactKind::kInteger, 0.0, 19.0, {}, "ISO 286 grade of the depth"},
+      symbols("material_group", {"P", "M", "K", "N", "S", "H", "unknown"}, "ISO 513 group of the material"),
+      number("diameter_mm", 0.0, 10000.0, "diameter of a hole at its top"),
+      symbols("bottom", {"through", "flat", "flat_with_radius", "conical", "spherical"}, "bottom of a hole"),
+      symbols("taper", {"none", "countersink", "other"},
+              "wall of a hole: upright, a cone a countersink can cut, another cone"),
+      symbols("point", {"none", "drill", "countersink", "other"},
+              "conical bottom: that of a standard drill, of a countersink, of neither"),
+      symbols("reamer", {"fits", "none"}, "whether a standard H7 reamer makes a hole within the tolerance"),
+      symbols("core", {"none", "hole"}, "whether a smaller coaxial hole goes on below the bottom"),
+      symbols("access", {"closed", "open"}, "whether a cutter can enter from the side"),
+      symbols("wall", {"upright", "drafted"}, "walls along the tool axis, or sloped"),
+      symbols("floor", {"open", "closed"}, "whether the bottom is a surface of the part"),
+      symbols("floor_edge", {"sharp", "rounded"}, "edge between wall and bottom"),
+      number("passage_mm", 0.0, 20000.0, "diameter of the largest cutter that reaches every passage"),
+      symbols("slot_form", {"square", "vee", "round", "other"}, "profile of a slot"),
+      number("slot_angle_deg", 0.0, 180.0, "full angle of a vee slot"),
+      symbols("thread_side", {"inside", "outside"}, "thread in a hole, or on a shaft"),
+      symbols("thread_hand", {"right", "left"}, "direction of a thread"),
+      number("thread_major_mm", 0.0, 2000.0, "major diameter of a thread"),
+      number("thread_runout_pitches", 0.0, 10001.0, "depth below the thread by the pitch; 10000: through"),
+      number("chamfer_angle_deg", 0.0, 90.0, "chamfer against the plane of its edge"),
+      number("round_radius_mm", 0.0, 10000.0, "radius of an edge round"),
+      number("surface_radius_mm", 0.0, 100000.0, "smallest concave radius of a surface; 0 unknown"),
+  };
+  return kTypes;
+}
+
+std::optional<std::size_t> find_fact(std::string_view name) {
+  const auto& types = fact_types();
+  const auto it = std::find_if(types.begin(), types.end(), [&](const FactType& t) { return t.name == name; });
+  if (it == types.end()) return std::nullopt;
+  return static_cast<std::size_t>(it - types.begin());
+}
+
+void Facts::set(std::string_view fact, double value) {
+  const std::size_t i = index_of(fact);
+  if (fact_types()[i].kind == FactKind::kSymbol) throw std::logic_error("a symbolic fact takes no number");
+  values_[i] = value;
+}
+
+void Facts::set(std::string_view fact, std::string_view symbol) {
+  const std::size_t i = index_of(fact);
+  const auto& domain = fact_types()[i].symbols;
+  const auto it = std::find(domain.begin(), domain.end(), symbol);
+  if (it == domain.end()) throw std::logic_error("no such symbol: " + std::string(symbol));
+  values_[i] = static_cast<double>(it - domain.begin());
+}
+
+std::optional<double> Facts::number(std::string_view fact) const { return values_[index_of(fact)]; }
+
+std::string_view Facts::symbol(std::string_view fact) const {
+  const std::size_t i = index_of(fact);
+  if (!values_[i]) return {};
+  return fact_types()[i].symbols.at(static_cast<std::size_t>(*values_[i]));
+}
+
+std::string Facts::text(std::size_t fact) const {
+  const FactType& type = fact_types().at(fact);
+  const std::string name(type.name);
+  if (!values_.at(fact)) return name + " is unknown";
+  if (type.kind == FactKind::kSymbol)
+    return name + " = " + std::string(type.symbols.at(static_cast<std::size_t>(*values_[fact])));
+  return name + " = " + trimmed(*values_[fact], 4);
+}
+
+}  // namespace capstan::rules

@@ -1,0 +1,206 @@
+#include "rules/facts/facts.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "planner/base/number.h"
+#include "rules/facts/it_grade.h"
+
+namespace capstan::rules {
+namespace {
+
+using model::FeatureShape;
+using model::HoleBottom;
+using model::ShapeKind;
+using model::Toleranced;
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kAngleMatch = 1.0;  // degrees within which an angle counts as a standard tool's
+
+bool near_any(double value, std::initializer_list<double> standard) {
+  return std::any_of(standard.begin(), standard.end(),
+                     [&](double s) { return std::abs(value - s) <= kAngleMatch; });
+}
+
+// Full angles of countersinks: ISO 3294 (60, 90, 120) and the inch 82, 100.
+bool is_countersink_angle(double deg) { return near_any(deg, {60.0, 82.0, 90.0, 100.0, 120.0}); }
+// Full point angles of twist drills: 118 (type N), 130, 135, 140; files round them to 120 at times.
+bool is_drill_angle(double deg) { return near_any(deg, {118.0, 120.0, 130.0, 135.0, 140.0}); }
+
+std::string_view group_of(const model::WorkMaterial& m) {
+  static constexpr std::array<std::string_view, 6> kGroups{"P", "M", "K", "N", "S", "H"};
+  const auto it = std::find(kGroups.begin(), kGroups.end(), m.iso_group.substr(0, 1));
+  return it == kGroups.end() ? "unknown" : *it;
+}
+
+// ISO 286 speaks of sizes above 0 only; a depth of 0.2 mm is read in the smallest range.
+int grade(const Toleranced& t) { return grade_of_width(std::max(t.nominal_mm, 1e-3), t.width()); }
+
+std::string_view symbol_of(HoleBottom b) {
+  switch (b) {
+    case HoleBottom::kThrough:
+      return "through";
+    case HoleBottom::kFlat:
+      return "flat";
+    case HoleBottom::kFlatWithRadius:
+      return "flat_with_radius";
+    case HoleBottom::kConical:
+      return "conical";
+    case HoleBottom::kSpherical:
+      return "spherical";
+  }
+  return "flat";
+}
+
+std::string_view taper_of(const FeatureShape& s) {
+  const double narrowing = s.diameter.nominal_mm - s.bottom_diameter_mm;
+  if (!(s.bottom_diameter_mm > 0.0) || std::abs(narrowing) < 1e-6) return "none";
+  const double angle = 2.0 * std::atan(0.5 * narrowing / s.depth_mm) / kDegree;
+  return is_countersink_angle(angle) ? "countersink" : "other";
+}
+
+std::string_view point_of(const FeatureShape& s) {
+  if (s.bottom != HoleBottom::kConical) return "none";
+  const double angle = 180.0 - 2.0 * s.bottom_angle_rad / kDegree;
+  // 120 degrees is both: a drill is cheaper.
+  return is_drill_angle(angle) ? "drill" : is_countersink_angle(angle) ? "countersink" : "other";
+}
+
+// A standard H7 reamer makes [nominal, nominal + IT7]: it fits when that lies within the tolerance.
+std::string_view reamer_of(const Toleranced& t) {
+  const double h7 = standard_tolerance_mm(7, t.nominal_mm);
+  const bool inside = h7 > 0.0 && t.lower_mm <= 1e-9 && t.upper_mm >= h7 - 1e-9;
+  return inside && is_reamer_size(t.nominal_mm) ? "fits" : "none";
+}
+
+void note_general(const Toleranced& t, const Context& c, const char* what, std::string& notes) {
+  if (t.given) return;
+  notes += std::string("no tolerance of the ") + what + " stated, taken as ";
+  notes += c.global_tolerance_mm ? "the part's general +-" + trimmed(*c.global_tolerance_mm, 4) + " mm; "
+                                 : "IT" + std::to_string(c.general_grade) + " (default, unsourced); ";
+}
+
+void hole_facts(const FeatureShape& s, const Context& c, FeatureFacts& out) {
+  out.diameter = tolerance_or_general(s.diameter, c);
+  note_general(s.diameter, c, "diameter", out.notes);
+  const double d = out.diameter.nominal_mm;
+  out.facts.set("diameter_mm", d);
+  out.facts.set("it_grade", grade(out.diameter));
+  out.facts.set("depth_ratio", d > 0.0 ? (s.depth_mm + c.stock_above_mm) / d : 0.0);
+  out.facts.set("bottom", symbol_of(s.bottom));
+  out.facts.set("taper", taper_of(s));
+  out.facts.set("point", point_of(s));
+  out.facts.set("reamer", reamer_of(out.diameter));
+  out.facts.set("core", c.core_diameter_mm > 0.0 && c.core_diameter_mm < d - 1e-6 ? "hole" : "none");
+}
+
+void thread_facts(const FeatureShape& s, const Context& c, Facts& out) {
+  out.set("thread_side", c.outer_thread ? "outside" : "inside");
+  out.set("thread_hand", s.thread_left_hand ? "left" : "right");
+  out.set("thread_major_mm", s.thread_major_mm);
+  const double hole = c.core_depth_mm > 0.0 ? c.core_depth_mm : s.depth_mm;
+  const double below = s.thread_pitch_mm > 0.0 ? (hole - s.thread_depth_mm) / s.thread_pitch_mm : 0.0;
+  out.set("thread_runout_pitches", s.through ? 10000.0 : std::clamp(below, 0.0, 9999.0));
+}
+
+int tightest_grade(const FeatureShape& s, const Context& c, FeatureFacts& out) {
+  int best = 99;
+  for (const Toleranced* t : {&s.width, &s.length}) {
+    if (t->nominal_mm > 0.0 && t->given) best = std::min(best, grade(*t));
+  }
+  if (best < 99) return best;
+  Toleranced any = s.width;
+  if (!(any.nominal_mm > 0.0)) any.nominal_mm = std::max(out.passage.widest_mm, 1.0);
+  note_general(any, c, "outline", out.notes);
+  return grade(tolerance_or_general(any, c));
+}
+
+std::string_view slot_form(const FeatureShape& s) {
+  if (s.slot_profile.empty()) return "square";
+  if (s.slot_angle_rad > 0.0) return s.slot_bottom_radius_mm > 0.0 ? "other" : "vee";
+  if (s.slot_bottom_radius_mm <= 0.0) return "other";
+  return std::abs(2.0 * s.slot_bottom_radius_mm - s.width.nominal_mm) < 1e-6 ? "round" : "other";
+}
+
+void area_facts(const FeatureShape& s, const Context& c, FeatureFacts& out) {
+  geometry::Region free = s.reach.empty() ? s.area : s.reach;
+  for (const auto& island : s.islands) free = geometry::subtract(free, island.area);
+  out.passage = passage_of(free);
+  out.facts.set("passage_mm", out.passage.narrowest_mm);
+  out.facts.set("it_grade", tightest_grade(s, c, out));
+  out.facts.set("access", s.open ? "open" : "closed");
+  out.facts.set("wall", std::abs(s.slope_rad) > 1e-6 ? "drafted" : "upright");
+  out.facts.set("floor", s.through ? "open" : "closed");
+  out.facts.set("floor_edge", s.bottom_radius_mm > 0.0 ? "rounded" : "sharp");
+  const double across = out.passage.narrowest_mm;
+  out.facts.set("depth_ratio", across > 0.0 ? s.depth_mm / across : 9999.0);
+  if (s.kind == ShapeKind::kSlot) {
+    out.facts.set("slot_form", slot_form(s));
+    out.facts.set("slot_angle_deg", s.slot_angle_rad / kDegree);
+  }
+}
+
+}  // namespace
+
+Toleranced tolerance_or_general(const Toleranced& t, const Context& c) {
+  if (t.given && t.width() > 0.0) return t;
+  Toleranced out = t;
+  const double half = c.global_tolerance_mm
+                          ? *c.global_tolerance_mm
+                          : 0.5 * standard_tolerance_mm(c.general_grade, std::max(t.nominal_mm, 1e-3));
+  out.lower_mm = -half;
+  out.upper_mm = half;
+  return out;
+}
+
+bool is_reamer_size(double d) {
+  const auto multiple = [&](double step) { return std::abs(d / step - std::round(d / step)) * step < 1e-6; };
+  if (d < 1.0 - 1e-9 || d > 50.0 + 1e-9) return false;
+  return multiple(d <= 20.0 ? 0.5 : d <= 32.0 ? 1.0 : 2.0) || (d > 32.0 && multiple(5.0));
+}
+
+FeatureFacts facts_of(const FeatureShape& s, const Context& c) {
+  FeatureFacts out;
+  Facts& f = out.facts;
+  f.set("depth_mm", s.depth_mm);
+  f.set("material_group", group_of(c.material));
+  const Toleranced depth = [&] {
+    Toleranced t = s.depth_tolerance;
+    t.nominal_mm = s.depth_mm;
+    return tolerance_or_general(t, c);
+  }();
+  f.set("depth_it_grade", grade(depth));
+  switch (s.kind) {
+    case ShapeKind::kHole:
+      hole_facts(s, c, out);
+      break;
+    case ShapeKind::kThread:
+      thread_facts(s, c, f);
+      break;
+    case ShapeKind::kFace:
+    case ShapeKind::kPocket:
+    case ShapeKind::kSlot:
+    case ShapeKind::kStep:
+    case ShapeKind::kOutside:
+      area_facts(s, c, out);
+      break;
+    case ShapeKind::kChamfer:
+      f.set("chamfer_angle_deg", s.chamfer_angle_rad / kDegree);
+      break;
+    case ShapeKind::kEdgeRound:
+      f.set("round_radius_mm", s.round_radius_mm);
+      break;
+    case ShapeKind::kSphericalCap:
+    case ShapeKind::kRoundedEnd:
+    case ShapeKind::kFreeform:
+      f.set("surface_radius_mm", c.surface_radius_mm);
+      break;
+    case ShapeKind::kToolpath:
+      break;
+  }
+  return out;
+}
+
+}  // namespace capstan::rules

@@ -1,0 +1,294 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <string>
+
+#include "planner/base/number.h"
+#include "rules/rules.h"
+#include "rules/strategy/action.h"
+
+namespace capstan::rules {
+namespace {
+
+using model::FeatureShape;
+using model::Proposal;
+using model::ProposedStep;
+using model::ShapeKind;
+
+std::string_view table_of(ShapeKind kind) {
+  switch (kind) {
+    case ShapeKind::kFace:
+      return "face";
+    case ShapeKind::kPocket:
+      return "pocket";
+    case ShapeKind::kSlot:
+      return "slot";
+    case ShapeKind::kStep:
+      return "step";
+    case ShapeKind::kHole:
+      return "hole";
+    case ShapeKind::kOutside:
+      return "outside";
+    case ShapeKind::kChamfer:
+      return "chamfer";
+    case ShapeKind::kEdgeRound:
+      return "edge_round";
+    case ShapeKind::kThread:
+      return "thread";
+    case ShapeKind::kSphericalCap:
+      return "spherical_cap";
+    case ShapeKind::kRoundedEnd:
+      return "rounded_end";
+    case ShapeKind::kFreeform:
+      return "freeform";
+    case ShapeKind::kToolpath:
+      return "toolpath";
+  }
+  return "";
+}
+
+std::string joined(std::initializer_list<std::string_view> parts) {
+  std::string out;
+  for (const std::string_view part : parts) {
+    if (part.empty()) continue;
+    if (!out.empty()) out += "; ";
+    out += part;
+  }
+  return out;
+}
+
+std::string facts_text(const Table& table, const Facts& facts) {
+  std::string out;
+  for (const std::size_t fact : table.facts) out += (out.empty() ? "" : ", ") + facts.text(fact);
+  return out;
+}
+
+/// Whether to cool, with the row's id; on when no row speaks of it.
+struct Coolant {
+  bool on = true;
+  std::string text;
+};
+Coolant coolant(const RuleBase& base, const Facts& facts, const Context& context) {
+  if (!context.has_coolant) return {false, "dry: the machine has no coolant"};
+  const Table* table = base.table("coolant");
+  const Row* row = table == nullptr || missing_fact(*table, facts) ? nullptr : decide(*table, facts);
+  if (row == nullptr) return {};
+  return {find(row->values, "flood").value_or(1.0) > 0.0, row->text + " [" + row->id + "]"};
+}
+
+std::string chain_name(const std::vector<StepSpec>& chain) {
+  std::string out;
+  for (const StepSpec& step : chain) out += (out.empty() ? "" : " + ") + step.action;
+  return out;
+}
+
+double hole_after(const ProposedStep& s, const FeatureShape& shape) {
+  if (s.operation == model::TypeId::kCenterDrilling) return 0.0;
+  if (s.tool.diameter_exact_mm > 0.0) return s.tool.diameter_exact_mm;
+  if (s.operation == model::TypeId::kDrilling) return s.tool.diameter_min_mm;
+  return shape.diameter.nominal_mm - 2.0 * s.allowance_side_mm;
+}
+
+struct Situation {
+  const RuleBase& base;
+  const FeatureShape& shape;
+  const Context& context;
+  const FeatureFacts& known;
+  const Row& row;
+  Coolant cooling;
+};
+
+tl::expected<std::vector<ProposedStep>, std::string> make_chain(const Situation& at,
+                                                                std::size_t alternative) {
+  std::vector<ProposedStep> out;
+  double hole = at.shape.kind == ShapeKind::kHole ? at.context.core_diameter_mm : 0.0;
+  const auto& chain = at.row.chains[alternative];
+  for (const StepSpec& spec : chain) {
+    const Action& action = *find_action(spec.action);
+    Made made = action.make({at.base, at.shape, at.context, at.known, spec, hole});
+    if (!made) return tl::unexpected(spec.action + ": " + made.error());
+    ProposedStep& s = *made;
+    s.feature = at.shape.feature;
+    s.operation = action.operation;
+    s.name =
+        (at.shape.name.empty() ? std::string(table_of(at.shape.kind)) : at.shape.name) + " " + spec.action;
+    s.coolant = at.cooling.on;
+    s.why.id = at.row.id;
+    s.why.source = at.row.source;
+    std::string notes = at.known.notes;
+    while (!notes.empty() && (notes.back() == ' ' || notes.back() == ';')) notes.pop_back();
+    s.why.text = joined({at.row.text, s.why.text, notes, at.cooling.text});
+    s.tool.words = words_of(s.tool);
+    s.priority = static_cast<int>(alternative);
+    if (!out.empty()) s.after.push_back(out.size() - 1);
+    if (at.shape.kind == ShapeKind::kHole) hole = hole_after(s, at.shape);
+    out.push_back(std::move(s));
+  }
+  return out;
+}
+
+// Two shapes for which the rules give the same: copies of a pattern.
+bool alike(const FeatureShape& a, const FeatureShape& b) {
+  return a.kind == b.kind && a.feature == b.feature && a.depth_mm == b.depth_mm && a.bottom == b.bottom &&
+         a.diameter.nominal_mm == b.diameter.nominal_mm && a.diameter.lower_mm == b.diameter.lower_mm &&
+         a.diameter.upper_mm == b.diameter.upper_mm && a.bottom_diameter_mm == b.bottom_diameter_mm &&
+         a.bottom_angle_rad == b.bottom_angle_rad && a.thread_major_mm == b.thread_major_mm &&
+         a.thread_pitch_mm == b.thread_pitch_mm && a.thread_depth_mm == b.thread_depth_mm &&
+         a.bottom_hole_radius_mm == b.bottom_hole_radius_mm && a.slope_rad == b.slope_rad &&
+         a.width.nominal_mm == b.width.nominal_mm && a.corner_radius_mm == b.corner_radius_mm &&
+         a.bottom_radius_mm == b.bottom_radius_mm && a.open == b.open &&
+         a.islands.size() == b.islands.size() && a.slot_profile == b.slot_profile &&
+         a.reach.loops == b.reach.loops && a.through == b.through;
+}
+
+constexpr double kCoaxial = 1e-4;  // mm; unit vectors to the same number of steps
+
+bool is_bore(const FeatureShape& s) { return s.kind == ShapeKind::kHole || s.kind == ShapeKind::kThread; }
+
+/// An axis, on a grid: two bores with the same one are coaxial and are entered from the same side.
+using Axis = std::array<long long, 6>;
+Axis axis_of(const FeatureShape& s) {
+  const auto foot = s.frame.origin - dot(s.frame.origin, s.frame.z) * s.frame.z;
+  const auto grid = [](double v) { return std::llround(v / kCoaxial); };
+  return {grid(s.frame.z.x), grid(s.frame.z.y), grid(s.frame.z.z), grid(foot.x), grid(foot.y), grid(foot.z)};
+}
+double top_of(const FeatureShape& s) { return dot(s.frame.origin, s.frame.z); }
+double bottom_of(const FeatureShape& s) { return top_of(s) - s.depth_mm; }
+
+/// Bores by axis; each group in the order of the shapes.
+std::map<Axis, std::vector<std::size_t>> by_axis(std::span<const FeatureShape> shapes) {
+  std::map<Axis, std::vector<std::size_t>> out;
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    if (is_bore(shapes[i])) out[axis_of(shapes[i])].push_back(i);
+  }
+  return out;
+}
+
+// What shape i may know of the others on its axis.
+Context among(std::span<const FeatureShape> shapes, const std::vector<std::size_t>& axis, std::size_t i,
+              Context context) {
+  const FeatureShape& s = shapes[i];
+  for (const std::size_t k : axis) {
+    const FeatureShape& other = shapes[k];
+    if (k == i || other.kind != ShapeKind::kHole) continue;
+    const double d = other.diameter.nominal_mm;
+    const bool goes_on = bottom_of(other) < bottom_of(s) - kCoaxial;
+    const bool meets = top_of(other) > bottom_of(s) - kCoaxial;
+    if (s.kind == ShapeKind::kHole) {
+      if (goes_on && meets && d < s.diameter.nominal_mm - kCoaxial)
+        context.core_diameter_mm = std::max(context.core_diameter_mm, d);
+    } else if (meets && d < s.thread_major_mm) {
+      context.core_diameter_mm = std::max(context.core_diameter_mm, d);
+      context.core_depth_mm = std::max(context.core_depth_mm, top_of(s) - bottom_of(other));
+    }
+  }
+  return context;
+}
+
+}  // namespace
+
+Proposal propose(const RuleBase& base, const FeatureShape& shape, const Context& context) {
+  Proposal out;
+  out.feature = shape.feature;
+  const std::string name(table_of(shape.kind));
+  const Table* table = base.table(name);
+  if (table == nullptr) {
+    out.cannot = "there is no table of rules for " + name;
+    return out;
+  }
+  const FeatureFacts known = facts_of(shape, context);
+  if (const auto fact = missing_fact(*table, known.facts)) {
+    out.cannot = "table " + name + " does not speak of " + known.facts.text(*fact);
+    return out;
+  }
+  const Row* row = decide(*table, known.facts);
+  if (row == nullptr) {
+    out.cannot = "no row of table " + name + " holds for " + facts_text(*table, known.facts);
+    return out;
+  }
+  if (row->chains.empty()) {
+    out.cannot = (row->cannot.empty() ? "the row proposes nothing" : row->cannot) + " [" + row->id + "]";
+    return out;
+  }
+  const Situation at{base, shape, context, known, *row, coolant(base, known.facts, context)};
+  std::string reasons;
+  for (std::size_t i = 0; i < row->chains.size(); ++i) {
+    auto chain = make_chain(at, i);
+    if (chain) {
+      out.chains.push_back(*std::move(chain));
+      continue;
+    }
+    out.rejected.push_back({chain_name(row->chains[i]), chain.error()});
+    reasons += (reasons.empty() ? "" : "; ") + chain.error();
+  }
+  if (out.chains.empty()) out.cannot = reasons + " [" + row->id + "]";
+  return out;
+}
+
+std::vector<Proposal> propose_members(const RuleBase& base, std::span<const FeatureShape> shapes,
+                                      const Context& context) {
+  std::vector<Context> contexts(shapes.size(), context);
+  for (const auto& [axis, members] : by_axis(shapes)) {
+    if (members.size() < 2) continue;
+    for (const std::size_t i : members) contexts[i] = among(shapes, members, i, context);
+  }
+  const auto same_context = [&](std::size_t a, std::size_t b) {
+    return contexts[a].core_diameter_mm == contexts[b].core_diameter_mm &&
+           contexts[a].core_depth_mm == contexts[b].core_depth_mm;
+  };
+  std::vector<Proposal> out;
+  out.reserve(shapes.size());
+  constexpr std::size_t kLookBack = 16;  // copies of a compound with that many members still find each other
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    std::size_t same = i;
+    for (std::size_t back = 1; back <= std::min(i, kLookBack) && same == i; ++back) {
+      if (same_context(i - back, i) && alike(shapes[i - back], shapes[i])) same = i - back;
+    }
+    out.push_back(same != i ? out[same] : propose(base, shapes[i], contexts[i]));
+  }
+  return out;
+}
+
+std::vector<std::pair<std::size_t, std::size_t>> member_order(std::span<const FeatureShape> shapes) {
+  std::vector<std::pair<std::size_t, std::size_t>> out;
+  for (const auto& [axis, members] : by_axis(shapes)) {
+    for (const std::size_t i : members) {
+      for (const std::size_t k : members) {
+        const FeatureShape& a = shapes[i];
+        const FeatureShape& b = shapes[k];
+        if (i == k || a.kind == ShapeKind::kThread) continue;
+        const bool thread = b.kind == ShapeKind::kThread;
+        if (thread || a.diameter.nominal_mm < b.diameter.nominal_mm - kCoaxial) out.emplace_back(i, k);
+      }
+    }
+  }
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+std::vector<FeatureShape> from_the_top(std::vector<FeatureShape> shapes) {
+  for (const auto& [axis, members] : by_axis(shapes)) {
+    for (const std::size_t i : members) {
+      FeatureShape& s = shapes[i];
+      if (s.kind != ShapeKind::kHole) continue;
+      // Each wider hole may itself sit below a wider one: as often as there are members.
+      for (std::size_t round = 1; round < members.size(); ++round) {
+        for (const std::size_t k : members) {
+          const FeatureShape& wide = shapes[k];
+          if (k == i || wide.kind != ShapeKind::kHole) continue;
+          const double rise = top_of(wide) - top_of(s);
+          const bool wider = wide.diameter.nominal_mm > s.diameter.nominal_mm + kCoaxial;
+          if (!wider || rise <= kCoaxial || top_of(s) < bottom_of(wide) - kCoaxial) continue;
+          s.frame.origin = s.frame.origin + rise * s.frame.z;
+          s.depth_mm += rise;
+          s.assumptions.push_back("drilled from the top of the wider hole around it, " + trimmed(rise, 3) +
+                                  " mm higher");
+        }
+      }
+    }
+  }
+  return shapes;
+}
+
+}  // namespace capstan::rules

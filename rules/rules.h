@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "planner/model/material.h"
+#include "planner/model/proposal.h"
+#include "planner/model/shape.h"
+#include "rules/engine/check.h"
+#include "rules/engine/table.h"
+
+namespace capstan::rules {
+
+/// What surrounds a feature: material, what the file says in general, what the machine can.
+struct Context {
+  model::WorkMaterial material;
+  /// The workpiece's general tolerance, +-mm, for sizes that state none.
+  std::optional<double> global_tolerance_mm;
+  /// Grade taken for such sizes when the file gives no general tolerance either. Default, unsourced.
+  int general_grade = 13;
+  double stock_above_mm = 0.0;  ///< raw material above the feature's top when its steps begin
+  /// A smaller coaxial hole that goes on below this one's bottom, or the hole that a thread is cut into;
+  /// 0: none, or not known. `propose_members` fills it within a compound.
+  double core_diameter_mm = 0.0;
+  double core_depth_mm = 0.0;      ///< threads: depth of that hole below the thread's top; 0: the shape's own
+  bool outer_thread = false;       ///< threads: on a shaft
+  double surface_radius_mm = 0.0;  ///< freeform: smallest concave radius; 0 not known
+  bool rigid_tapping = true;       ///< the control synchronises spindle and feed
+  bool has_coolant = true;
+  std::vector<model::Precedent> precedents;  ///< kept for later tables; no shipped row asks about them
+};
+
+/// What the rules say about one feature: chains in order of preference, each step with its tool requirement,
+/// strategy, allowances and the row that proposed it; or, in `cannot`, why there is none. Chains of a row
+/// that geometry rules out stand in `rejected` with the reason. Never neither.
+///
+/// Units   mm, rad, as in ProposedStep. `depth_mm` of centre drilling, countersinking with a cone and tapping
+///         is that of the tip (of the sharp cone), of all other drilling that of the full diameter.
+///         diameter_min/max of drills bound what `diameter_exact_mm +- diameter_tolerance_mm` admits.
+[[nodiscard]] model::Proposal propose(const RuleBase& base, const model::FeatureShape& shape,
+                                      const Context& context);
+
+/// Shapes of one feature as they are drilled: a narrower hole that starts at the bottom of a coaxial wider
+/// one (a counterbore, a countersink) is made first, so its frame moves up to where the wider one starts and
+/// its depth grows by as much. What it removes besides lies within the wider hole. To be called once, before
+/// anything else looks at the shapes.
+[[nodiscard]] std::vector<model::FeatureShape> from_the_top(std::vector<model::FeatureShape> shapes);
+
+/// One proposal per shape of one feature, in their order: members of a compound know of each other's holes.
+/// Members of a pattern that are alike are proposed once and copied.
+[[nodiscard]] std::vector<model::Proposal> propose_members(const RuleBase& base,
+                                                           std::span<const model::FeatureShape> shapes,
+                                                           const Context& context);
+
+/// Of shapes of one feature, which must be finished before which begins (first, second): of coaxial holes the
+/// narrower first (it is the pilot of the wider), holes before the thread in them.
+[[nodiscard]] std::vector<std::pair<std::size_t, std::size_t>> member_order(
+    std::span<const model::FeatureShape> shapes);
+
+}  // namespace capstan::rules

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <tl/expected.hpp>
+#include <vector>
+
+#include "planner/model/proposal.h"
+#include "rules/facts/facts.h"
+
+namespace capstan::rules {
+
+/// What an action sees while a chain is made, step after step.
+struct Making {
+  const RuleBase& base;
+  const model::FeatureShape& shape;
+  const Context& context;
+  const FeatureFacts& known;
+  const StepSpec& spec;
+  double hole_mm = 0.0;  ///< diameter of the hole that earlier steps of the chain made; 0: none
+  /// The spec's number, else the action's own default.
+  [[nodiscard]] double number(std::string_view parameter) const;
+};
+
+/// A step, or why geometry rules this chain out.
+using Made = tl::expected<model::ProposedStep, std::string>;
+
+struct ActionParameter {
+  std::string_view name;
+  double standard = 0.0;  ///< taken where the row says nothing; default, unsourced unless `meaning` says more
+  std::string_view meaning;
+};
+
+/// Something a chain can do: the bridge from a row to an operation and its tool requirement.
+struct Action {
+  std::string_view name;
+  model::TypeId operation;
+  std::vector<ActionParameter> parameters;
+  Made (*make)(const Making&) = nullptr;
+};
+
+/// All actions; null when there is none of that name.
+[[nodiscard]] const Action* find_action(std::string_view name);
+
+/// The actions of each family, for `find_action`.
+[[nodiscard]] std::vector<Action> hole_actions();
+[[nodiscard]] std::vector<Action> area_actions();
+[[nodiscard]] std::vector<Action> form_actions();
+
+/// Room left between the tool's usable length and the depth, so that the holder stays clear of the face.
+/// Default, unsourced.
+inline constexpr double kReachClearanceMm = 2.0;
+/// Height of a 118 degree tip per diameter, tan(31 deg) / 2: the longest of the usual drill points.
+inline constexpr double kDrillTip = 0.30043;
+
+/// "a 6 mm end mill with 22 mm reach".
+[[nodiscard]] std::string words_of(const model::ToolRequirement& tool);
+
+}  // namespace capstan::rules

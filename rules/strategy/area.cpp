@@ -1,0 +1,202 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "planner/base/number.h"
+#include "rules/strategy/action.h"
+
+// Faces, pockets, square slots, steps and outsides: an area, walls, a floor.
+
+namespace capstan::rules {
+namespace {
+
+using model::CutterClass;
+using model::ProposedStep;
+using model::ShapeKind;
+using model::StrategyKind;
+using model::TypeId;
+
+Made no(std::string why) { return tl::unexpected(std::move(why)); }
+std::string mm(double v) { return trimmed(v, 3) + " mm"; }
+
+ProposedStep begin(const Making& m) {
+  ProposedStep s;
+  s.depth_mm = m.shape.depth_mm;
+  s.tool.reach_mm = m.shape.depth_mm + m.context.stock_above_mm + kReachClearanceMm;
+  s.tool.centre_cutting = !m.shape.open;  // or a ramp that the tool allows
+  return s;
+}
+
+struct Limit {
+  double diameter_mm = 0.0;  // 0: none
+  std::string text;
+};
+
+// The widest cutter for the walls that stay `allowance` away, and what decides it.
+Limit widest_cutter(const Making& m, double of_passage, double allowance) {
+  const auto& s = m.shape;
+  double limit = std::numeric_limits<double>::infinity();
+  Limit out;
+  const auto narrow = [&](double d, std::string why) {
+    if (d < limit) {
+      limit = d;
+      out.text = std::move(why);
+    }
+  };
+  const double passage = m.known.passage.narrowest_mm;
+  const bool bounded =
+      !s.open || !s.islands.empty() || s.kind == ShapeKind::kSlot || s.kind == ShapeKind::kPocket;
+  if (bounded && s.kind != ShapeKind::kStep)
+    narrow(of_passage * (passage - 2.0 * allowance),
+           "the narrowest passage of " + mm(passage) + " limits the cutter");
+  if (s.corner_radius_mm > 0.0) {
+    // A wall moved inwards by the allowance has corners that much tighter.
+    narrow(2.0 * std::max(s.corner_radius_mm - allowance, 0.5 * s.corner_radius_mm),
+           "corners of radius " + mm(s.corner_radius_mm) + " limit the cutter");
+  } else if (!s.open && m.known.passage.exact_mm > 0.0) {
+    narrow(m.known.passage.exact_mm, "the outline's own corners limit the cutter");
+  } else if (!s.open && s.kind != ShapeKind::kFace) {
+    out.text +=
+        (out.text.empty() ? "" : "; ") + std::string("corners are sharp: they keep the cutter's radius");
+  }
+  if (std::isfinite(limit)) out.diameter_mm = limit;
+  return out;
+}
+
+// What a rough step leaves so that a cutter without the fillet's radius stays above the fillet: its corner
+// lies on or above the arc of radius r when both allowances are (1 - 1/sqrt 2) r.
+double for_fillet(const Making& m) { return 0.293 * m.shape.bottom_radius_mm; }
+
+Made rough(const Making& m) {
+  ProposedStep s = begin(m);
+  s.allowance_side_mm = std::max(m.number("allowance_side_mm"), for_fillet(m));
+  s.allowance_bottom_mm = m.shape.through ? 0.0 : std::max(m.number("allowance_bottom_mm"), for_fillet(m));
+  s.tool.classes = {CutterClass::kEndmill, CutterClass::kBullnoseEndmill};
+  const Limit limit = widest_cutter(m, m.number("of_passage"), s.allowance_side_mm);
+  if (limit.diameter_mm < 0.0 || (limit.diameter_mm == 0.0 && !limit.text.empty() && !m.shape.open))
+    return no("no cutter is narrow enough: " + limit.text);
+  s.tool.diameter_max_mm = limit.diameter_mm;
+  s.tool.corner_radius_limited = true;
+  s.tool.corner_radius_max_mm =
+      s.allowance_bottom_mm;  // a corner no larger leaves no more than the allowance
+  s.strategy =
+      m.shape.kind == ShapeKind::kStep ? StrategyKind::kBidirectional : StrategyKind::kContourParallel;
+  s.why.text = limit.text;
+  return s;
+}
+
+Made finish(const Making& m) {
+  ProposedStep s = begin(m);
+  s.allowance_side_mm = m.number("allowance_side_mm");
+  s.allowance_bottom_mm = m.shape.through ? 0.0 : m.number("allowance_bottom_mm");
+  const Limit limit = widest_cutter(m, m.number("of_passage"), s.allowance_side_mm);
+  if (limit.diameter_mm < 0.0) return no("no cutter is narrow enough: " + limit.text);
+  s.tool.diameter_max_mm = limit.diameter_mm;
+  s.tool.corner_radius_limited = true;
+  const double r = m.shape.bottom_radius_mm;
+  s.tool.classes = {CutterClass::kEndmill};
+  if (r > 0.0) {
+    if (limit.diameter_mm > 0.0 && 2.0 * r > limit.diameter_mm + 1e-9)
+      return no("a floor fillet of " + mm(r) + " needs a wider cutter than fits (" + limit.text + ")");
+    s.tool.classes = {CutterClass::kBullnoseEndmill, CutterClass::kBallEndmill};
+    s.tool.corner_radius_exact_mm = r;
+    s.tool.corner_radius_max_mm = r;
+  }
+  s.strategy = StrategyKind::kContourParallel;
+  s.why.text = limit.text;
+  return s;
+}
+
+Made plane(const Making& m, double allowance, StrategyKind strategy) {
+  ProposedStep s = begin(m);
+  s.tool.centre_cutting = false;
+  s.allowance_bottom_mm = allowance;
+  s.tool.classes = {CutterClass::kFacemill, CutterClass::kEndmill, CutterClass::kBullnoseEndmill};
+  s.strategy = strategy;
+  if (!m.shape.islands.empty()) {
+    const Limit limit = widest_cutter(m, 1.0, 0.0);
+    if (!(limit.diameter_mm > 0.0)) return no("no cutter passes between what stays on the face");
+    s.tool.diameter_max_mm = limit.diameter_mm;
+    s.tool.classes = {CutterClass::kEndmill};
+    s.tool.corner_radius_limited = true;
+    s.why.text = limit.text;
+  }
+  return s;
+}
+
+Made plane_rough(const Making& m) {
+  return plane(m, m.number("allowance_bottom_mm"), StrategyKind::kBidirectional);
+}
+Made plane_finish(const Making& m) { return plane(m, 0.0, StrategyKind::kBidirectional); }
+
+// A round-bottomed slot: the ball that is as wide as the slot, along its middle.
+Made ball_slot(const Making& m) {
+  ProposedStep s = begin(m);
+  const double r = m.shape.slot_bottom_radius_mm;
+  s.allowance_bottom_mm = m.number("allowance_bottom_mm");
+  s.tool.classes = {CutterClass::kBallEndmill};
+  s.tool.diameter_exact_mm = 2.0 * r;
+  s.tool.corner_radius_exact_mm = r;
+  s.strategy = StrategyKind::kCenterMilling;
+  return s;
+}
+
+// A vee, roughed by an end mill where it is wide enough: along the middle, to the depth at which the cutter's
+// corners come within the allowance of the flanks.
+Made vee_rough(const Making& m) {
+  const auto& s0 = m.shape;
+  const double half = 0.5 * s0.slot_angle_rad;
+  const double allowance = m.number("allowance_side_mm");
+  const double slope = std::tan(half);
+  // Half the depth leaves half the width: a quarter of the section stays for the vee cutter.
+  const double depth = 0.5 * s0.depth_mm;
+  const double width = 2.0 * ((s0.depth_mm - depth) * slope - allowance / std::cos(half));
+  if (width < m.number("smallest_mm"))
+    return no("half way down the vee is " + mm(std::max(width, 0.0)) + " wide, too narrow to rough");
+  ProposedStep s = begin(m);
+  s.depth_mm = depth;
+  s.allowance_side_mm = allowance;
+  s.allowance_bottom_mm = s0.depth_mm - depth;
+  s.tool.reach_mm -= s0.depth_mm - depth;
+  s.tool.classes = {CutterClass::kEndmill};
+  s.tool.diameter_max_mm = width;
+  s.strategy = StrategyKind::kCenterMilling;
+  return s;
+}
+
+Made vee_finish(const Making& m) {
+  ProposedStep s = begin(m);
+  s.tool.classes = {CutterClass::kChamferMill, CutterClass::kCountersink};
+  s.tool.point_angle_rad = m.shape.slot_angle_rad;
+  s.tool.diameter_min_mm = m.shape.width.nominal_mm;
+  s.tool.depth_of_cut_mm = m.shape.depth_mm;
+  s.strategy = StrategyKind::kCenterMilling;
+  return s;
+}
+
+}  // namespace
+
+std::vector<Action> area_actions() {
+  const ActionParameter side{"allowance_side_mm", 0.0, "left on the walls"};
+  const ActionParameter bottom{"allowance_bottom_mm", 0.0, "left on the floor"};
+  const ActionParameter rough_passage{"of_passage", 0.8, "largest cutter by the narrowest passage"};
+  const ActionParameter finish_passage{"of_passage", 0.95, "largest cutter by the narrowest passage"};
+  return {
+      {"plane_rough", TypeId::kPlaneRoughMilling, {bottom}, plane_rough},
+      {"plane_finish", TypeId::kPlaneFinishMilling, {}, plane_finish},
+      {"area_rough", TypeId::kBottomAndSideRoughMilling, {side, bottom, rough_passage}, rough},
+      {"area_finish", TypeId::kBottomAndSideFinishMilling, {side, bottom, finish_passage}, finish},
+      {"spring_pass", TypeId::kBottomAndSideFinishMilling, {side, bottom, finish_passage}, finish},
+      {"wall_rough", TypeId::kSideRoughMilling, {side, bottom, rough_passage}, rough},
+      {"wall_finish", TypeId::kSideFinishMilling, {side, bottom, finish_passage}, finish},
+      {"wall_spring_pass", TypeId::kSideFinishMilling, {side, bottom, finish_passage}, finish},
+      {"ball_slot", TypeId::kBottomAndSideFinishMilling, {bottom}, ball_slot},
+      {"vee_rough",
+       TypeId::kBottomAndSideRoughMilling,
+       {side, {"smallest_mm", 2.0, "narrowest place that is worth an end mill"}},
+       vee_rough},
+      {"vee_finish", TypeId::kBottomAndSideFinishMilling, {}, vee_finish},
+  };
+}
+
+}  // namespace capstan::rules

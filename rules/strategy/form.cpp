@@ -1,0 +1,136 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "planner/base/number.h"
+#include "rules/strategy/action.h"
+
+// Threads, chamfers and surfaces.
+
+namespace capstan::rules {
+namespace {
+
+using model::CutterClass;
+using model::ProposedStep;
+using model::StrategyKind;
+using model::TypeId;
+
+Made no(std::string why) { return tl::unexpected(std::move(why)); }
+std::string mm(double v) { return trimmed(v, 3) + " mm"; }
+
+/// The hole a thread is cut into: what is known of it, and whether it has the size a thread needs.
+///
+///     minor diameter of ISO metric threads  D1 = D - 1.0825 P
+///
+/// Source  ISO 724 (D1); upper limit D - 0.8 P: the widest 6H minor diameters of ISO 965-1 from M3 up lie
+/// below
+///         it (M3: 2.599 = 3 - 0.802 x 0.5).
+tl::expected<double, std::string> core(const Making& m) {
+  const double major = m.shape.thread_major_mm;
+  const double p = m.shape.thread_pitch_mm;
+  if (!(p > 0.0)) return tl::unexpected(std::string("the thread states no pitch"));
+  if (!(major > 1.0825 * p)) return tl::unexpected(std::string("the pitch is too large for the diameter"));
+  double d = m.context.core_diameter_mm > 0.0 ? m.context.core_diameter_mm : m.shape.diameter.nominal_mm;
+  if (std::abs(d - major) < 1e-6 || !(d > 0.0)) return major - p;  // the hole is named by its thread
+  if (d < major - 1.0825 * p - 0.01 || d > major - 0.8 * p) {
+    return tl::unexpected("a hole of " + mm(d) + " is no core for M" + trimmed(major, 3) + "x" +
+                          trimmed(p, 3) + " (" + mm(major - 1.0825 * p) + " to " + mm(major - 0.8 * p) + ")");
+  }
+  return d;
+}
+
+Made tap(const Making& m) {
+  if (!m.context.rigid_tapping) return no("the machine does not synchronise spindle and feed");
+  const auto c = core(m);
+  if (!c) return tl::unexpected(c.error());
+  const double p = m.shape.thread_pitch_mm;
+  const double lead = m.number("lead_pitches") * p;
+  ProposedStep s;
+  s.depth_mm = m.shape.thread_depth_mm + lead;  // of the tip
+  s.start_diameter_mm = *c;
+  s.tool.classes = {CutterClass::kTap};
+  s.tool.diameter_exact_mm = m.shape.thread_major_mm;
+  s.tool.thread_pitch_mm = p;
+  s.tool.reach_mm = s.depth_mm + m.context.stock_above_mm + kReachClearanceMm;
+  return s;
+}
+
+Made thread_mill(const Making& m) {
+  const auto c = core(m);
+  if (!c) return tl::unexpected(c.error());
+  ProposedStep s;
+  s.depth_mm = m.shape.thread_depth_mm;
+  s.start_diameter_mm = *c;
+  s.tool.classes = {CutterClass::kThreadMill};
+  s.tool.diameter_max_mm = m.number("of_core") * *c;
+  s.tool.thread_pitch_mm = m.shape.thread_pitch_mm;
+  s.tool.reach_mm = s.depth_mm + m.context.stock_above_mm + kReachClearanceMm;
+  return s;
+}
+
+// Along the edge, with a cone whose flank has the chamfer's slope.
+Made chamfer(const Making& m) {
+  const double angle =
+      m.shape.chamfer_angle_rad;  // against the plane: the cone's half angle is its complement
+  const double depth = m.shape.chamfer_width_mm * std::tan(angle);
+  ProposedStep s;
+  s.depth_mm = depth;
+  s.tool.classes = {CutterClass::kChamferMill, CutterClass::kCountersink};
+  s.tool.point_angle_rad = std::numbers::pi - 2.0 * angle;
+  s.tool.diameter_min_mm = 2.0 * m.shape.chamfer_width_mm;
+  s.tool.depth_of_cut_mm = depth;
+  s.tool.reach_mm = depth + m.context.stock_above_mm + kReachClearanceMm;
+  s.strategy = StrategyKind::kContourParallel;
+  return s;
+}
+
+Made freeform_rough(const Making& m) {
+  ProposedStep s;
+  s.depth_mm = m.shape.depth_mm;
+  s.allowance_side_mm = s.allowance_bottom_mm = m.number("allowance_mm");
+  s.tool.classes = {CutterClass::kBullnoseEndmill, CutterClass::kEndmill, CutterClass::kBallEndmill};
+  s.tool.reach_mm = m.shape.depth_mm + m.context.stock_above_mm + kReachClearanceMm;
+  s.tool.centre_cutting = !m.shape.open;
+  s.strategy = StrategyKind::kContourParallel;
+  return s;
+}
+
+Made freeform_finish(const Making& m) {
+  ProposedStep s;
+  s.depth_mm = m.shape.depth_mm;
+  s.tool.classes = {CutterClass::kBallEndmill};
+  double limit = 2.0 * m.context.surface_radius_mm;
+  if (m.shape.bottom_radius_mm > 0.0) limit = 2.0 * m.shape.bottom_radius_mm;
+  if (m.shape.corner_radius_mm > 0.0)
+    limit = limit > 0.0 ? std::min(limit, 2.0 * m.shape.corner_radius_mm) : 2.0 * m.shape.corner_radius_mm;
+  s.tool.diameter_max_mm = limit;
+  s.tool.centre_cutting = true;
+  s.tool.reach_mm = m.shape.depth_mm + m.context.stock_above_mm + kReachClearanceMm;
+  s.strategy = StrategyKind::kBidirectional;
+  if (!(limit > 0.0))
+    s.why.text = "the smallest concave radius is not known: narrower places keep the ball's radius";
+  return s;
+}
+
+}  // namespace
+
+std::vector<Action> form_actions() {
+  return {
+      {"tap",
+       TypeId::kTapping,
+       {{"lead_pitches", 3.0, "chamfered threads of the tap, ISO 8830 form C: 2 to 3"}},
+       tap},
+      {"thread_mill",
+       TypeId::kThreadDrilling,
+       {{"of_core", 0.8, "largest thread mill by core diameter"}},
+       thread_mill},
+      {"chamfer", TypeId::kSideFinishMilling, {}, chamfer},
+      {"freeform_rough",
+       TypeId::kFreeformRoughMilling,
+       {{"allowance_mm", 0.5, "left on the surface"}},
+       freeform_rough},
+      {"freeform_finish", TypeId::kFreeformFinishMilling, {}, freeform_finish},
+  };
+}
+
+}  // namespace capstan::rules

@@ -1,0 +1,327 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "planner/base/number.h"
+#include "rules/strategy/action.h"
+
+// Holes: centre, drill, ream, bore, mill, counterbore, countersink.
+
+namespace capstan::rules {
+namespace {
+
+using model::CutterClass;
+using model::HoleBottom;
+using model::ProposedStep;
+using model::StrategyKind;
+using model::TypeId;
+
+Made no(std::string why) { return tl::unexpected(std::move(why)); }
+std::string mm(double v) { return trimmed(v, 3) + " mm"; }
+
+double lower_limit(const Making& m) { return m.known.diameter.nominal_mm + m.known.diameter.lower_mm; }
+
+ProposedStep begin(const Making& m, double depth_mm) {
+  ProposedStep s;
+  s.depth_mm = depth_mm;
+  s.start_diameter_mm = m.hole_mm;
+  s.tool.reach_mm = depth_mm + m.context.stock_above_mm + kReachClearanceMm;
+  return s;
+}
+
+/// Which drills make the hole, from `lo` to `hi`, `best` when it can be had.
+struct Window {
+  double lo, hi, best;
+};
+
+// A drill cuts a little oversize (how much is not known): nothing above the middle of the tolerance. To size
+// for a later step: what that step leaves, between half and two and a half times `under`.
+Window drill_window(const Making& m) {
+  double under = m.number("under_mm");
+  if (m.number("for_ream") > 0.0) {
+    const Table* table = m.base.table("ream_stock");
+    const Row* row = table == nullptr ? nullptr : decide(*table, m.known.facts);
+    if (row != nullptr) under = find(row->values, "under_mm").value_or(under);
+  }
+  if (under > 0.0) {
+    const double d = lower_limit(m);
+    return {d - 2.5 * under, d - 0.5 * under, d - under};
+  }
+  const auto& t = m.known.diameter;
+  const double lo = t.nominal_mm + t.lower_mm;
+  const double hi = t.middle();
+  return {lo, hi, t.nominal_mm >= lo && t.nominal_mm <= hi ? t.nominal_mm : 0.5 * (lo + hi)};
+}
+
+void require(model::ToolRequirement& tool, const Window& w) {
+  tool.diameter_exact_mm = w.best;
+  tool.diameter_tolerance_mm = std::max(w.hi - w.best, w.best - w.lo);
+  tool.diameter_min_mm = w.lo;
+  tool.diameter_max_mm = w.hi;
+}
+
+// How deep a drill of that diameter may go (full diameter) without touching the bottom's final surface.
+//
+// A drill's cone is straight; each bottom's depth over the radius is concave, so it is enough that the cone
+// stays above it on the axis and at the hole's wall.
+double drill_depth(const Making& m, double drill_mm) {
+  const auto& s = m.shape;
+  const double tip = kDrillTip * drill_mm;
+  const double leave = m.number("leave_mm");
+  const double r = 0.5 * s.diameter.nominal_mm;
+  switch (s.bottom) {
+    case HoleBottom::kThrough:
+      return s.depth_mm + m.number("past_mm");
+    case HoleBottom::kFlat:
+      return s.depth_mm - tip - leave;
+    case HoleBottom::kFlatWithRadius:
+      return std::min(s.depth_mm - tip - leave, s.depth_mm - s.bottom_hole_radius_mm);
+    case HoleBottom::kSpherical: {
+      const double ball = std::max(s.bottom_hole_radius_mm, r);
+      const double rim = ball - std::sqrt(ball * ball - r * r);
+      return std::min(s.depth_mm - tip - leave, s.depth_mm - rim);
+    }
+    case HoleBottom::kConical: {
+      if (m.known.facts.symbol("point") == "drill") return s.depth_mm;
+      const double cone = r * std::tan(s.bottom_angle_rad);
+      return std::min(s.depth_mm, s.depth_mm + cone - tip - leave);
+    }
+  }
+  return s.depth_mm;
+}
+
+// The row on pecking for this depth; its text, or why it cannot be drilled.
+tl::expected<bool, std::string> pecked(const Making& m, double ratio, std::string& text) {
+  const Table* table = m.base.table("drill_depth");
+  if (table == nullptr) return tl::unexpected(std::string("there is no table drill_depth"));
+  Facts facts = m.known.facts;
+  facts.set("depth_ratio", ratio);
+  if (const auto missing = missing_fact(*table, facts)) return tl::unexpected(facts.text(*missing));
+  const Row* row = decide(*table, facts);
+  if (row == nullptr)
+    return tl::unexpected("no row of drill_depth holds for a depth of " + trimmed(ratio, 2) + " D");
+  if (!row->cannot.empty()) return tl::unexpected(row->cannot + " [" + row->id + "]");
+  if (!row->text.empty()) text = row->text + " [" + row->id + "]";
+  return find(row->values, "peck").value_or(0.0) > 0.0;
+}
+
+Made drill(const Making& m) {
+  const Window w = drill_window(m);
+  if (!(w.lo > 0.0)) return no("no drill is small enough for a hole of " + mm(m.shape.diameter.nominal_mm));
+  const double depth = drill_depth(m, w.hi);
+  if (!(depth > 0.0)) {
+    return no("the tip of a " + mm(w.best) + " drill is longer than the hole of " + mm(m.shape.depth_mm) +
+              " is deep");
+  }
+  ProposedStep s = begin(m, depth);
+  s.tool.classes = {CutterClass::kTwistDrill};
+  require(s.tool, w);
+  if (m.known.facts.symbol("point") == "drill" && m.shape.bottom == HoleBottom::kConical)
+    s.tool.point_angle_rad = std::numbers::pi - 2.0 * m.shape.bottom_angle_rad;
+  const double tip = kDrillTip * w.best;
+  s.tool.depth_of_cut_mm = depth + tip + m.context.stock_above_mm;  // chips leave through the flutes
+  s.tool.reach_mm += tip;
+  s.tool.centre_cutting = true;
+  std::string text;
+  const auto peck = pecked(m, (depth + m.context.stock_above_mm) / w.best, text);
+  if (!peck) return tl::unexpected(peck.error());
+  s.peck = *peck;
+  s.why.text = text;
+  return s;
+}
+
+// A hole that a cutter opens: a drill well below it, as large as there is.
+Made pilot(const Making& m) {
+  const double d = lower_limit(m);
+  const double hi = std::min(m.number("of_diameter") * d, m.number("largest_mm"));
+  ProposedStep s = begin(m, drill_depth(m, hi));
+  if (!(s.depth_mm > 0.0)) return no("the tip of a pilot drill is longer than the hole is deep");
+  s.tool.classes = {CutterClass::kTwistDrill};
+  s.tool.diameter_min_mm = 0.5 * hi;
+  s.tool.diameter_max_mm = hi;
+  s.tool.depth_of_cut_mm = s.depth_mm + kDrillTip * hi + m.context.stock_above_mm;
+  s.tool.reach_mm += kDrillTip * hi;
+  s.tool.centre_cutting = true;
+  std::string text;
+  const auto peck = pecked(m, s.depth_mm / (0.5 * hi), text);
+  if (!peck) return tl::unexpected(peck.error());
+  s.peck = *peck;
+  s.why.text = text;
+  return s;
+}
+
+// A mark for the drill: narrower than the hole, so that nothing of it stays.
+Made centre(const Making& m) {
+  const double d = lower_limit(m);
+  const double depth = std::clamp(m.number("of_diameter") * d, 0.0, m.number("deepest_mm"));
+  ProposedStep s = begin(m, depth);
+  s.tool.classes = {CutterClass::kSpotDrill, CutterClass::kCenterDrill};
+  s.tool.depth_of_cut_mm = depth;
+  s.tool.centre_cutting = true;
+  s.start_diameter_mm = 0.0;
+  return s;
+}
+
+// Through: the reamer's lead must pass; blind: it cannot pass the bottom, its lead stays unreamed.
+double to_the_end(const Making& m) {
+  return m.shape.depth_mm + (m.shape.bottom == HoleBottom::kThrough ? m.number("past_mm") : 0.0);
+}
+
+Made ream(const Making& m) {
+  if (m.known.facts.symbol("reamer") != "fits") return no("no standard H7 reamer makes this tolerance");
+  ProposedStep s = begin(m, to_the_end(m));
+  s.tool.classes = {CutterClass::kReamer};
+  s.tool.diameter_exact_mm = m.shape.diameter.nominal_mm;
+  s.tool.depth_of_cut_mm = m.shape.depth_mm;
+  return s;
+}
+
+Made bore(const Making& m) {
+  ProposedStep s = begin(m, to_the_end(m));
+  s.tool.classes = {CutterClass::kBoringTool};
+  s.tool.diameter_exact_mm = m.known.diameter.middle();
+  return s;
+}
+
+Made mill(const Making& m, double allowance_side, double allowance_bottom) {
+  const double d = lower_limit(m);
+  if (m.shape.bottom == HoleBottom::kConical && m.hole_mm < 0.9 * d)
+    return no("an end mill does not make a conical bottom");
+  ProposedStep s = begin(m, m.shape.depth_mm);
+  s.allowance_side_mm = allowance_side;
+  s.allowance_bottom_mm = m.shape.bottom == HoleBottom::kThrough ? 0.0 : allowance_bottom;
+  s.strategy = StrategyKind::kContourSpiral;
+  s.tool.classes = {CutterClass::kEndmill};
+  s.tool.diameter_max_mm = m.number("of_diameter") * d - 2.0 * allowance_side;
+  if (!(s.tool.diameter_max_mm > 0.0)) return no("the allowance leaves no room for an end mill");
+  s.tool.centre_cutting = true;  // or a helix that the tool allows
+  const double radius = m.shape.bottom == HoleBottom::kFlatWithRadius ? m.shape.bottom_hole_radius_mm : 0.0;
+  s.tool.corner_radius_limited = true;
+  if (radius > 0.0 && allowance_side == 0.0) {
+    s.tool.classes = {CutterClass::kBullnoseEndmill};
+    s.tool.corner_radius_exact_mm = radius;
+    s.tool.corner_radius_max_mm = radius;
+    if (2.0 * radius > s.tool.diameter_max_mm)
+      return no("a bottom radius of " + mm(radius) + " needs a cutter wider than the hole lets in");
+  }
+  return s;
+}
+
+// A flat cutter's corner stays above a fillet of radius r when both allowances are (1 - 1/sqrt 2) r.
+double above_fillet(const Making& m) {
+  return m.shape.bottom == HoleBottom::kFlatWithRadius ? 0.293 * m.shape.bottom_hole_radius_mm : 0.0;
+}
+
+Made mill_rough(const Making& m) {
+  const double fillet = above_fillet(m);
+  return mill(m, std::max(m.number("allowance_side_mm"), fillet),
+              std::max(m.number("allowance_bottom_mm"), fillet));
+}
+Made mill_finish(const Making& m) {
+  const double side = m.number("allowance_side_mm");
+  return mill(m, side, 0.0);
+}
+
+Made ball_bottom(const Making& m) {
+  const double r = m.shape.bottom_hole_radius_mm;
+  const double d = m.shape.diameter.nominal_mm;
+  if (std::abs(2.0 * r - d) > 1e-3) {
+    return no("a bottom of radius " + mm(r) + " under a diameter of " + mm(d) +
+              " is no half sphere: a ball end mill that fits the hole does not make it");
+  }
+  ProposedStep s = begin(m, m.shape.depth_mm - r);
+  if (!(s.depth_mm >= 0.0)) return no("the hole is shallower than its half sphere");
+  s.tool.reach_mm += r;
+  s.tool.depth_of_cut_mm = m.shape.depth_mm;
+  s.tool.classes = {CutterClass::kBallEndmill};
+  s.tool.diameter_exact_mm = d;
+  s.tool.corner_radius_exact_mm = r;
+  s.tool.centre_cutting = true;
+  s.dwell_s = m.number("dwell_s");
+  return s;
+}
+
+Made counterbore(const Making& m) {
+  if (!(m.context.core_diameter_mm > 0.0)) return no("a counterbore's pilot needs a hole");
+  ProposedStep s = begin(m, m.shape.depth_mm);
+  s.tool.classes = {CutterClass::kCounterbore};
+  s.tool.diameter_exact_mm = m.shape.diameter.nominal_mm;
+  const auto& t = m.known.diameter;
+  s.tool.diameter_min_mm = t.nominal_mm + t.lower_mm;
+  s.tool.diameter_max_mm = t.nominal_mm + t.upper_mm;
+  s.tool.diameter_tolerance_mm = std::min(-t.lower_mm, t.upper_mm);
+  if (s.tool.diameter_tolerance_mm < 0.0)
+    return no("the tolerance does not hold the nominal size of a counterbore");
+  s.start_diameter_mm = m.context.core_diameter_mm;
+  s.dwell_s = m.number("dwell_s");
+  return s;
+}
+
+// The cone at the top of a hole, or at its bottom.
+Made countersink(const Making& m) {
+  const auto& s0 = m.shape;
+  const bool at_top = m.known.facts.symbol("taper") == "countersink";
+  const double half = at_top ? std::atan(0.5 * (s0.diameter.nominal_mm - s0.bottom_diameter_mm) / s0.depth_mm)
+                             : 0.5 * std::numbers::pi - s0.bottom_angle_rad;
+  const double d = s0.diameter.nominal_mm;
+  const double apex = 0.5 * d / std::tan(half);  // of the sharp cone, below where it is d wide
+  ProposedStep s = begin(m, at_top ? apex : s0.depth_mm + apex);
+  s.tool.classes = {CutterClass::kCountersink, CutterClass::kChamferMill};
+  s.tool.point_angle_rad = 2.0 * half;
+  if (at_top) {
+    s.tool.diameter_min_mm = d;
+    s.start_diameter_mm = s0.bottom_diameter_mm;
+  } else {
+    s.tool.diameter_max_mm = lower_limit(m);
+    s.tool.diameter_min_mm = 0.9 * d;
+  }
+  s.tool.depth_of_cut_mm = at_top ? s0.depth_mm : 0.0;
+  s.dwell_s = m.number("dwell_s");
+  return s;
+}
+
+}  // namespace
+
+std::vector<Action> hole_actions() {
+  const ActionParameter past{"past_mm", 0.5, "through holes: full diameter beyond the bottom"};
+  const ActionParameter leave{"leave_mm", 0.2, "left between the drill's tip and a bottom that is milled"};
+  const ActionParameter dwell{"dwell_s", 0.5, "at the bottom, so that the last turn cleans up"};
+  const ActionParameter side{"allowance_side_mm", 0.0, "left on the wall"};
+  return {
+      {"centre",
+       TypeId::kCenterDrilling,
+       {{"of_diameter", 0.3, "depth by diameter"}, {"deepest_mm", 3.0, "depth"}},
+       centre},
+      {"drill",
+       TypeId::kDrilling,
+       {{"under_mm", 0.0, "left on the diameter for the next step"},
+        {"for_ream", 0.0, "1: leaves what table ream_stock says"},
+        past,
+        leave},
+       drill},
+      {"pilot",
+       TypeId::kDrilling,
+       {{"of_diameter", 0.8, "largest drill by diameter"},
+        {"largest_mm", 20.0, "largest drill"},
+        past,
+        leave},
+       pilot},
+      {"ream", TypeId::kReaming, {{"past_mm", 2.0, "through holes: beyond the bottom, for the lead"}}, ream},
+      {"bore", TypeId::kBoring, {past}, bore},
+      {"mill_rough",
+       TypeId::kBottomAndSideRoughMilling,
+       {{"of_diameter", 0.6, "largest end mill by diameter"},
+        side,
+        {"allowance_bottom_mm", 0.0, "left below"}},
+       mill_rough},
+      {"mill_finish",
+       TypeId::kBottomAndSideFinishMilling,
+       {{"of_diameter", 0.8, "largest end mill by diameter"}, side},
+       mill_finish},
+      {"ball_bottom", TypeId::kDrilling, {dwell}, ball_bottom},
+      {"counterbore", TypeId::kCounterSinking, {dwell}, counterbore},
+      {"countersink", TypeId::kCounterSinking, {dwell}, countersink},
+  };
+}
+
+}  // namespace capstan::rules
