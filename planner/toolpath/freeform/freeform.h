@@ -63,8 +63,8 @@ struct FreeformPath {
 ///            FRF-EMPTY    nothing to cut in the area
 ///            FRF-STOPPED  the job was stopped
 /// Warns      FRF-REST     places that the cutter can reach but not enter
-/// Not done   passes along the contour of a level; ridges of half a stepover remain on walls that the passes
-///            meet at an angle, for the finish.
+/// After the passes of a level the cutter goes once along the border of what is free there (climbing, for a
+/// clockwise spindle), so that walls keep the allowance and not half a stepover more.
 [[nodiscard]] Result<FreeformPath> rough(const FreeformJob& task, Job& job);
 
 /// freeform_finish_milling: parallel passes that follow the surface. Points as far apart as the tolerance

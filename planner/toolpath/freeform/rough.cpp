@@ -7,6 +7,7 @@
 #include "planner/stock/sweep.h"
 #include "planner/toolpath/freeform/freeform.h"
 #include "planner/toolpath/freeform/hatch.h"
+#include "planner/toolpath/freeform/level_contour.h"
 #include "planner/toolpath/freeform/surface_line.h"
 #include "planner/toolpath/freeform/task.h"
 
@@ -21,6 +22,7 @@ constexpr double kBlocked = 1e300;
 constexpr double kNothing = 1e-3;  ///< material thinner than this is not worth a pass, mm
 /// More turns of a ramp than this and a place counts as not to be entered; default, unsourced.
 constexpr int kMostRampTurns = 100;
+constexpr double kMostGridPoints = 2e6;
 
 /// Lowest tip heights along one stripe, evenly spaced.
 struct Probes {
@@ -49,8 +51,9 @@ class Rougher {
     floor_ = std::max(task.bottom_z_mm, rest_.origin.z);
   }
 
-  Result<FreeformPath> run() {
+  Result<FreeformPath> run(const geometry::Region& area) {
     probe_all();
+    probe_grid(area);
     if (job_.stop_requested()) return stopped();
     double lowest = kBlocked;
     for (const Probes& p : probes_) {
@@ -95,10 +98,30 @@ class Rougher {
     return stock::from_box(box, stock::cell_for(task.cutter.cutting_diameter_mm, box, 40.0));
   }
 
-  [[nodiscard]] double reach_down(Vec2 p, std::uint32_t& hint) const {
-    const double z = drop_.drop(cutter_, p.x, p.y, task_.allowance_mm + margin_, hint);
+  [[nodiscard]] double reach_down(Vec2 p, std::uint32_t& hint, double share = 1.0) const {
+    const double z = drop_.drop(cutter_, p.x, p.y, task_.allowance_mm + share * margin_, hint);
     if (z == DropCutter::kNoContact) return task_.beside_is_free ? floor_ : kBlocked;
     return std::max(z, floor_);
+  }
+
+  /// The grid that the borders of levels are read from; how fine it is decides only which borders are seen.
+  void probe_grid(const geometry::Region& area) {
+    const geometry::Box2 box = geometry::bounds(area);
+    const Vec2 size = box.hi - box.lo;
+    grid_.step_mm = std::max(0.125 * cutter_.radius(), std::sqrt(size.x * size.y / kMostGridPoints));
+    grid_.origin = box.lo;
+    grid_.nx = static_cast<int>(size.x / grid_.step_mm) + 1;
+    grid_.ny = static_cast<int>(size.y / grid_.step_mm) + 1;
+    grid_.z.resize(static_cast<std::size_t>(grid_.nx) * static_cast<std::size_t>(grid_.ny));
+    parallel_for(job_, static_cast<std::size_t>(grid_.ny), [&](std::size_t row) {
+      if (job_.stop_requested()) return;
+      std::uint32_t hint = 0;
+      for (int ix = 0; ix < grid_.nx; ++ix) {
+        const Vec2 p = grid_.place(ix, static_cast<int>(row));
+        grid_.z[row * static_cast<std::size_t>(grid_.nx) + static_cast<std::size_t>(ix)] =
+            geometry::contains(area, p) ? reach_down(p, hint) : std::nan("");
+      }
+    });
   }
 
   void probe_all() {
@@ -136,14 +159,17 @@ class Rougher {
     return out;
   }
 
-  /// Last free place from `free` towards `blocked`, which are one probe apart.
-  [[nodiscard]] double border(const Stripe& s, double free, double blocked, double z) const {
+  /// Last free place from `free` towards `blocked`, to a micrometre.
+  [[nodiscard]] Vec2 border(Vec2 free, Vec2 blocked, double z) const {
     std::uint32_t hint = 0;
-    while (std::abs(blocked - free) > 1e-3) {
-      const double middle = 0.5 * (free + blocked);
-      (reach_down(hatch_.place(middle, s.v), hint) <= z ? free : blocked) = middle;
+    while (norm(blocked - free) > 1e-3) {
+      const Vec2 middle = 0.5 * (free + blocked);
+      (reach_down(middle, hint) <= z ? free : blocked) = middle;
     }
     return free;
+  }
+  [[nodiscard]] double border(const Stripe& s, double free, double blocked, double z) const {
+    return dot(border(hatch_.place(free, s.v), hatch_.place(blocked, s.v), z), hatch_.u_axis);
   }
 
   /// Cuts off, and splits at, long stretches without material; keeps a run-in in air where there is one.
@@ -185,7 +211,51 @@ class Rougher {
       any |= cut_pass(todo[i], z, next.has_value());
       next = neighbour(todo, done, i, z);
     }
+    for (const auto& line : level_contour(grid_, z, [&](Vec2 f, Vec2 b) { return border(f, b, z); })) {
+      any |= go_along(line, z);
+    }
+    ends_.clear();
     if (any) out_.levels_z_mm.push_back(z);
+  }
+
+  /// Once along a border, to take what the passes left before it. Comes from the end of a pass of this level;
+  /// leaves out stretches without material and those it cannot be sure of.
+  bool go_along(const std::vector<Vec2>& line, double z) {
+    bool any = false;
+    bool on = false;
+    for (std::size_t i = 1; i < line.size(); ++i) {
+      const bool material = stock::max_height(rest_, line[i - 1], line[i], cutter_.radius()) > z + kNothing;
+      // Two points on a border: the chord may cut the border's corner by what the margin allows.
+      if (!is_free(line[i - 1], line[i], z, 0.5) || (!material && !on)) {
+        on = false;
+        continue;
+      }
+      if (!on) on = approach(line[i - 1], z);
+      if (!on) continue;
+      this->line({line[i].x, line[i].y, z}, MoveRole::kCut);
+      any = true;
+      on = material || i + 1 < line.size();
+    }
+    return any;
+  }
+
+  /// To a point on a border: from here, or from the nearest pass's end with a free way to it.
+  bool approach(Vec2 p, double z) {
+    if (down_ && here().z == z && norm(xy(here()) - p) <= 2.0 * cutter_.radius() &&
+        is_free(xy(here()), p, z, 0.5)) {
+      line({p.x, p.y, z}, MoveRole::kCut);
+      return true;
+    }
+    std::optional<Vec2> from;
+    for (const Vec2 e : ends_) {
+      if (norm(e - p) > 2.0 * cutter_.radius() || (from && norm(e - p) >= norm(*from - p))) continue;
+      if (is_free(e, p, z, 0.5)) from = e;  // the cutter stood there at this level
+    }
+    if (!from) return false;
+    come_down({from->x, from->y, z}, stock::max_height(rest_, *from, cutter_.radius()));
+    down_ = true;
+    line({p.x, p.y, z}, MoveRole::kCut);
+    return true;
   }
 
   /// A pass on the next line that can be reached from here without lifting.
@@ -212,11 +282,14 @@ class Rougher {
     return std::abs(u - p.lo) <= std::abs(u - p.hi) ? p.lo : p.hi;
   }
 
-  [[nodiscard]] bool is_free(Vec2 a, Vec2 b, double z) const {
-    const int n = std::max(1, static_cast<int>(std::ceil(norm(b - a) / spacing_)));
+  /// Whether a straight way at this level is clear with `share` of the margin, between the probes too.
+  [[nodiscard]] bool is_free(Vec2 a, Vec2 b, double z, double share = 1.0) const {
+    const double spacing =
+        std::min(spacing_, probe_spacing(cutter_.ball_mm + task_.allowance_mm, share * margin_));
+    const int n = std::max(1, static_cast<int>(std::ceil(norm(b - a) / spacing)));
     std::uint32_t hint = 0;
     for (int k = 0; k <= n; ++k) {
-      if (reach_down(a + (static_cast<double>(k) / n) * (b - a), hint) > z) return false;
+      if (reach_down(a + (static_cast<double>(k) / n) * (b - a), hint, share) > z) return false;
     }
     return true;
   }
@@ -237,6 +310,7 @@ class Rougher {
       }
     }
     line(at(to, v, z), MoveRole::kCut);
+    for (const double u : {from, to}) ends_.push_back(hatch_.place(u, v));
     down_ = true;
     return true;
   }
@@ -245,9 +319,10 @@ class Rougher {
     const Vec2 p = hatch_.place(u, v);
     return {p.x, p.y, z};
   }
-  [[nodiscard]] bool in_air(double u, double v, double z) const {
-    return stock::max_height(rest_, hatch_.place(u, v), cutter_.radius()) <= z + kNothing;
+  [[nodiscard]] bool in_air(Vec2 p, double z) const {
+    return stock::max_height(rest_, p, cutter_.radius()) <= z + kNothing;
   }
+  [[nodiscard]] bool in_air(double u, double v, double z) const { return in_air(hatch_.place(u, v), z); }
 
   /// From the security plane to the beginning of a pass, on its way from `u` to `far`.
   bool enter(double u, double far, double v, double z) {
@@ -313,6 +388,8 @@ class Rougher {
   stock::HeightMap rest_;
   double margin_ = 0.0, spacing_ = 0.0, floor_ = 0.0;
   std::vector<Probes> probes_;
+  DropGrid grid_;
+  std::vector<Vec2> ends_;  ///< of the passes of this level
   FreeformPath out_;
   bool down_ = false;
   int skipped_ = 0;
@@ -330,9 +407,10 @@ Result<FreeformPath> rough(const FreeformJob& task, Job& job) {
                                  trimmed(task.stepover_mm, 4) + " mm");
   }
   const DropCutter drop(*task.surface);
-  Hatch lines = hatch(area_of(task, drop), task.feed_angle_rad, task.stepover_mm);
+  const geometry::Region area = area_of(task, drop);
+  Hatch lines = hatch(area, task.feed_angle_rad, task.stepover_mm);
   if (lines.stripes.empty()) return fail("FRF-EMPTY", "the area to rough is empty");
-  return Rougher(task, drop, *cutter, std::move(lines), job).run();
+  return Rougher(task, drop, *cutter, std::move(lines), job).run(area);
 }
 
 }  // namespace capstan::toolpath::freeform
