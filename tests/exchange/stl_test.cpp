@@ -80,7 +80,8 @@ TEST(Stl, MeshBecomesAPlanWithAWorkpieceAndARegion) {
 
 TEST(Stl, BrokenMeshesAreRefusedWithAReason) {
   const std::pair<std::string, const char*> cases[] = {
-      {ascii().substr(0, 300), "STL-TRUNCATED"},
+      {ascii().substr(0, ascii().find("endsolid")), "STL-TRUNCATED"},
+      {"solid x\nfacet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 0", "STL-TRUNCATED"},
       {"solid x\nfacet normal 0 0 0\nouter loop\nvertex 0 0 zero\n", "STL-NUMBER"},
       {"solid x\nfacet normal 0 0 0\nouter loop\nvertex 0 0 1\nvertex 0 1 0\nendloop\nendfacet\nendsolid\n",
        "STL-SYNTAX"},

@@ -120,6 +120,11 @@ bool same_word(std::string_view a, std::string_view lower) {
   return true;
 }
 
+tl::unexpected<Diagnostic> truncated(const std::string& name, std::uint64_t line) {
+  return fail(
+      {.code = "STL-TRUNCATED", .message = "the mesh ends without endsolid", .file = name, .line = line});
+}
+
 Result<Mesh> read_ascii(std::string_view s, const std::string& name, Job& job) {
   Words words(s);
   Builder out;
@@ -133,6 +138,7 @@ Result<Mesh> read_ascii(std::string_view s, const std::string& name, Job& job) {
       for (double& x : c) {
         const std::string_view number = words.next();
         const auto v = parse_double(number);
+        if (number.empty()) return truncated(name, words.line());
         if (!v) {
           return fail({.code = "STL-NUMBER",
                        .message = "'" + std::string(number.substr(0, 40)) + "' is no number",
@@ -158,12 +164,7 @@ Result<Mesh> read_ascii(std::string_view s, const std::string& name, Job& job) {
                    .line = words.line()});
     }
   }
-  if (!ended || !out.between_triangles()) {
-    return fail({.code = "STL-TRUNCATED",
-                 .message = "the mesh ends without endsolid",
-                 .file = name,
-                 .line = words.line()});
-  }
+  if (!ended || !out.between_triangles()) return truncated(name, words.line());
   return out.finish(name, job);
 }
 
@@ -205,6 +206,7 @@ model::Plan plan_of_mesh(Mesh mesh, const std::string& name) {
   region.name = "the whole mesh";
   region.cfs_faces.given = true;
   plan.kept.push_back(m.add(std::move(region)));
+  plan.provenance.push_back({"mesh unit", "mm", "assumed: STL states none"});
   plan.target_mesh = std::make_shared<const Mesh>(std::move(mesh));
   return plan;
 }

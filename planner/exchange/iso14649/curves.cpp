@@ -105,8 +105,8 @@ MoveRole role_of(const model::Toolpath& t) {
 // An approach that does not go straight down is a ramp.
 void tell_ramps(CutterPath& path) {
   for (std::size_t i = 1; i < path.size(); ++i) {
-    const bool down = path.kind[i] == model::MoveKind::kLine && path.x[i] == path.x[i - 1] &&
-                      path.y[i] == path.y[i - 1];
+    const bool down =
+        path.kind[i] == model::MoveKind::kLine && path.x[i] == path.x[i - 1] && path.y[i] == path.y[i - 1];
     if (path.role[i] == MoveRole::kPlunge && !down) path.role[i] = MoveRole::kRamp;
   }
 }

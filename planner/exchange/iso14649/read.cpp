@@ -110,7 +110,7 @@ void settle_doubts(Reading& r, const Marks& reached) {
   for (auto& doubt : r.doubts) {
     if (!marked(reached, doubt.object)) {
       if (doubt.diagnostic.severity == Severity::kError)
-        doubt.diagnostic.hint = "the project does not need it";
+        doubt.diagnostic.hint = "what does not fit is left out; the project does not need it";
       doubt.diagnostic.severity = Severity::kWarning;
     }
     r.reporter.about(r.plan.model, doubt.object, std::move(doubt.diagnostic));
