@@ -344,4 +344,9 @@ Result<std::vector<Cutter>> generic_library() {
   return expand_series(shipped_text("cutters.yaml"), "cutters.yaml", *materials, job);
 }
 
+const Result<std::vector<Cutter>>& shared_generic_library() {
+  static const Result<std::vector<Cutter>> kLibrary = generic_library();
+  return kLibrary;
+}
+
 }  // namespace capstan::tooling

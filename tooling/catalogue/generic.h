@@ -15,6 +15,8 @@ namespace capstan::tooling {
 /// None can be bought by this name; every number says "default: ..." in Cutter::sources.
 /// Presets: one per shipped material, and one per ISO 513 group for materials of other tables.
 [[nodiscard]] Result<std::vector<model::Cutter>> generic_library();
+/// The same, made once.
+[[nodiscard]] const Result<std::vector<model::Cutter>>& shared_generic_library();
 
 /// As above from texts of the same form.
 /// Fails  DATA-*, and what `check_cutters` finds.

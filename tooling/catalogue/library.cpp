@@ -116,13 +116,14 @@ Cutter read_cutter(Fields f, double mm_per_unit) {
 
 Result<std::vector<Cutter>> finished(std::vector<Cutter> cutters, const std::vector<std::uint64_t>& lines,
                                      const std::string& file, std::vector<Diagnostic> faults, Job& job) {
-  auto generic = generic_library();
+  const auto& generic = shared_generic_library();
   if (!generic) return fail(generic.error());
   // What the file says is judged before what we add.
   for (std::size_t i = 0; i < cutters.size(); ++i) {
     if (cutters[i].cutting_diameter_mm > 0.0) complete(cutters[i], *generic);
   }
-  for (Diagnostic& d : check_cutters(cutters, file, lines)) faults.push_back(std::move(d));
+  // Values that could not be read need not be judged, too.
+  if (faults.empty()) faults = check_cutters(cutters, file, lines);
   if (auto d = tell(std::move(faults), job)) return fail(std::move(*d));
   return cutters;
 }

@@ -44,15 +44,7 @@ void not_negative(Fields& f, std::string_view key, double value) {
   f.fault("MACHINE-RANGE", std::string(key) + " is negative: " + trimmed(value, 6), key, f.line_of(key));
 }
 
-LinearAxis read_axis(Fields f, const std::string& name, Machine& m) {
-  LinearAxis a;
-  a.name = name;
-  a.travel_min_mm = f.number("travel_min_mm");
-  a.travel_max_mm = f.number("travel_max_mm");
-  a.rapid_mm_min = f.number("rapid_mm_min");
-  a.feed_max_mm_min = f.number("feed_max_mm_min");
-  a.acceleration_mm_s2 = f.number("acceleration_mm_s2");
-  a.jerk_mm_s3 = f.optional_number("jerk_mm_s3");
+void check_axis(Fields& f, const LinearAxis& a) {
   if (a.travel_min_mm >= a.travel_max_mm)
     f.fault("MACHINE-RANGE",
             "travel_min_mm (" + trimmed(a.travel_min_mm, 4) + ") is not below travel_max_mm (" +
@@ -62,6 +54,19 @@ LinearAxis read_axis(Fields f, const std::string& name, Machine& m) {
   positive(f, "feed_max_mm_min", a.feed_max_mm_min);
   positive(f, "acceleration_mm_s2", a.acceleration_mm_s2);
   if (a.jerk_mm_s3) positive(f, "jerk_mm_s3", *a.jerk_mm_s3);
+}
+
+LinearAxis read_axis(Fields f, const std::string& name, Machine& m) {
+  const std::size_t before = f.fault_count();
+  LinearAxis a;
+  a.name = name;
+  a.travel_min_mm = f.number("travel_min_mm");
+  a.travel_max_mm = f.number("travel_max_mm");
+  a.rapid_mm_min = f.number("rapid_mm_min");
+  a.feed_max_mm_min = f.number("feed_max_mm_min");
+  a.acceleration_mm_s2 = f.number("acceleration_mm_s2");
+  a.jerk_mm_s3 = f.optional_number("jerk_mm_s3");
+  if (f.fault_count() == before) check_axis(f, a);
   keep_sources(f, m);
   return a;
 }
@@ -87,15 +92,16 @@ void read_axes(Fields& top, Machine& m) {
 }
 
 SpindlePoint read_point(Fields f, Machine& m) {
+  const std::size_t before = f.fault_count();
   SpindlePoint p;
   p.rpm = f.number("rpm");
   const auto power = f.optional_number("power_w"), torque = f.optional_number("torque_nm");
   if (!power && !torque)
     f.fault("DATA-MISSING", "a point of the curve needs power_w or torque_nm", "power_w", f.line());
-  positive(f, "rpm", p.rpm);
+  if (f.fault_count() == before) positive(f, "rpm", p.rpm);
   if (power) not_negative(f, "power_w", *power);
   if (torque) not_negative(f, "torque_nm", *torque);
-  if (p.rpm > 0.0) {
+  if (f.fault_count() == before) {
     p.power_w = power ? *power : watts(*torque, p.rpm);
     p.torque_nm = torque ? *torque : *power / watts(1.0, p.rpm);
     const double ratio = p.torque_nm > 0.0 ? p.power_w / watts(p.torque_nm, p.rpm) : 1.0;
@@ -129,16 +135,7 @@ void check_curve(Fields& f, const model::Spindle& s) {
   }
 }
 
-void read_spindle(Fields& top, Machine& m) {
-  const Node* node = top.child("spindle", true);
-  if (node == nullptr) return;
-  Fields f = top.below("spindle", *node);
-  model::Spindle& s = m.spindle;
-  s.rpm_min = f.number("rpm_min");
-  s.rpm_max = f.number("rpm_max");
-  s.taper = f.text_or("taper", "");
-  s.efficiency = f.number("efficiency");
-  s.spin_up_s = f.number("spin_up_s");
+void check_spindle(Fields& f, const model::Spindle& s) {
   not_negative(f, "rpm_min", s.rpm_min);
   not_negative(f, "spin_up_s", s.spin_up_s);
   if (s.efficiency <= 0.0 || s.efficiency > 1.0)
@@ -156,27 +153,44 @@ void read_spindle(Fields& top, Machine& m) {
   else if (s.rpm_max > kFastestSpeedRpm)
     f.fault("MACHINE-RANGE", "rpm_max is " + trimmed(s.rpm_max, 4), "rpm_max", f.line_of("rpm_max"),
             "at most " + trimmed(kFastestSpeedRpm, 0));
+}
+
+void read_spindle(Fields& top, Machine& m) {
+  const Node* node = top.child("spindle", true);
+  if (node == nullptr) return;
+  Fields f = top.below("spindle", *node);
+  model::Spindle& s = m.spindle;
+  const std::size_t before = f.fault_count();
+  s.rpm_min = f.number("rpm_min");
+  s.rpm_max = f.number("rpm_max");
+  s.taper = f.text_or("taper", "");
+  s.efficiency = f.number("efficiency");
+  s.spin_up_s = f.number("spin_up_s");
+  if (f.fault_count() == before) check_spindle(f, s);
   const Node* curve = f.child("curve", true);
   keep_sources(f, m);
   if (curve == nullptr) return;
   for (std::size_t i = 0; i < curve->items.size(); ++i)
     s.curve.push_back(read_point(f.below("curve[" + std::to_string(i) + "]", curve->items[i]), m));
-  check_curve(f, s);
+  if (f.fault_count() == before) check_curve(f, s);
 }
 
 void read_magazine(Fields& top, Machine& m) {
   const Node* node = top.child("magazine", true);
   if (node == nullptr) return;
   Fields f = top.below("magazine", *node);
+  const std::size_t before = f.fault_count();
   m.magazine_pockets = static_cast<int>(f.optional_integer("pockets").value_or(0));
   if (!f.has("pockets")) f.fault("DATA-MISSING", "'pockets' is missing", "pockets", f.line());
   m.tool_diameter_max_mm = f.number("tool_diameter_max_mm");
   m.tool_length_max_mm = f.number("tool_length_max_mm");
   m.tool_change_s = f.number("tool_change_s");
-  not_negative(f, "pockets", m.magazine_pockets);
-  positive(f, "tool_diameter_max_mm", m.tool_diameter_max_mm);
-  positive(f, "tool_length_max_mm", m.tool_length_max_mm);
-  not_negative(f, "tool_change_s", m.tool_change_s);
+  if (f.fault_count() == before) {
+    not_negative(f, "pockets", m.magazine_pockets);
+    positive(f, "tool_diameter_max_mm", m.tool_diameter_max_mm);
+    positive(f, "tool_length_max_mm", m.tool_length_max_mm);
+    not_negative(f, "tool_change_s", m.tool_change_s);
+  }
   keep_sources(f, m);
 }
 
@@ -237,7 +251,7 @@ Result<Machine> read_machine(std::string_view text, const std::string& file, Job
   m.id = top.text("id");
   m.description = top.text_or("description", m.id);
   m.cost_per_hour = top.number("cost_per_hour");
-  not_negative(top, "cost_per_hour", m.cost_per_hour);
+  if (top.has("cost_per_hour")) not_negative(top, "cost_per_hour", m.cost_per_hour);
   for (const auto& [path, source] : top.sources()) {
     if (path != "cost_per_hour") continue;
     if (source.empty()) top.fault("DATA-SOURCE", "no source is stated", path, top.line_of(path));

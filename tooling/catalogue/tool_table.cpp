@@ -176,7 +176,7 @@ std::optional<CutterClass> class_from_words(std::string_view comment) {
 
 Result<std::vector<Cutter>> read_tool_table(std::string_view text, const std::string& file, Job& job,
                                             const LibraryOptions& options) {
-  auto generic = generic_library();
+  const auto& generic = shared_generic_library();
   if (!generic) return fail(generic.error());
   if (!options.mm_per_unit)
     job.note("TBL-UNIT", file + ": a tool table does not state its unit; taken as millimetres");

@@ -53,6 +53,9 @@ class Fields {
   /// A child to be read by the caller; null (and a fault when required) when absent.
   [[nodiscard]] const Node* child(std::string_view key, bool required);
   [[nodiscard]] Fields below(std::string_view key, const Node& child);
+  /// How many faults were found so far, here and elsewhere in the file: a value that could not be read need
+  /// not be judged, too.
+  [[nodiscard]] std::size_t fault_count() const { return faults_.size(); }
   /// Reports each entry that nothing asked for.
   void finish();
 

@@ -321,7 +321,7 @@ Result<Cutter> cutter_from_nouns(const Model& m, Ref<MachiningTool> tool, Job& j
     if (usage->its_product) c.description = *usage->its_product;
   }
   if (c.cutting_diameter_mm > 0.0) {
-    auto generic = generic_library();
+    const auto& generic = shared_generic_library();
     if (!generic) return fail(generic.error());
     complete(c, *generic);
   }

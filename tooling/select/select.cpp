@@ -260,7 +260,9 @@ std::string_view words_of(CutterClass c) {
 }
 
 std::string words_of(const ToolRequirement& r) {
-  std::string out = "a ";
+  const bool vowel = r.diameter_exact_mm <= 0.0 && (lower_size(r) <= 0.0 || upper_size(r) <= 0.0) &&
+                     !r.classes.empty() && r.classes.front() == CutterClass::kEndmill;
+  std::string out = vowel ? "an " : "a ";
   const double low = lower_size(r), high = upper_size(r);
   if (r.diameter_exact_mm > 0.0)
     out += mm(r.diameter_exact_mm) + " ";

@@ -1,0 +1,126 @@
+#include "tooling/catalogue/material.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "tests/support/corpus.h"
+
+namespace capstan::tooling {
+namespace {
+
+const std::vector<model::WorkMaterial>& table() {
+  static const std::vector<model::WorkMaterial> kTable = shipped_materials().value();
+  return kTable;
+}
+
+std::string id_of(const std::vector<std::string>& texts, Job& job) {
+  return find_material(texts, table(), job).value().id;
+}
+
+struct Named {
+  const char* text;
+  const char* id;
+};
+void PrintTo(const Named& n, std::ostream* out) { *out << n.text; }
+
+class KnownNames : public ::testing::TestWithParam<Named> {};
+
+TEST_P(KnownNames, AreFoundWithoutAWarning) {
+  Job job;
+  EXPECT_EQ(id_of({GetParam().text}, job), GetParam().id);
+  EXPECT_EQ(job.count(Severity::kWarning), 0u);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Materials, KnownNames,
+    ::testing::Values(Named{"ST-50", "low_alloy_steel"}, Named{"St 50-2", "low_alloy_steel"},
+                      Named{"SAE 1020", "mild_steel"}, Named{"SAE 1015", "mild_steel"},
+                      Named{"ACO SEM LIGA", "low_alloy_steel"}, Named{"EN AW-6061", "wrought_aluminium"},
+                      Named{"EN AW-6061-T6", "wrought_aluminium"}, Named{"en aw 7075", "wrought_aluminium"},
+                      Named{"AISI 304", "austenitic_stainless_steel"}, Named{"mild_steel", "mild_steel"}));
+
+TEST(FindMaterial, PrefersTheFirstTextThatSaysSomething) {
+  Job job;
+  EXPECT_EQ(id_of({"ST-50", "STEEL"}, job), "low_alloy_steel");
+  EXPECT_EQ(id_of({"id", "SAE 1015"}, job), "mild_steel");
+  EXPECT_EQ(job.count(Severity::kWarning), 0u);
+}
+
+TEST(FindMaterial, TakesTheHardestOfAFamilyAndWarns) {
+  Job job;
+  EXPECT_EQ(id_of({"STEEL"}, job), "tool_steel");
+  EXPECT_EQ(id_of({"aluminium"}, job), "cast_aluminium");
+  EXPECT_EQ(job.count(Severity::kWarning), 2u);
+  EXPECT_EQ(job.diagnostics()[0].code, "MATERIAL-FAMILY");
+}
+
+TEST(FindMaterial, TakesTheHardestOfAllForAnUnknownNameAndWarns) {
+  Job job;
+  const auto m = find_material("unobtainium", table(), job).value();
+  for (const auto& other : table()) EXPECT_LE(other.kc11_n_mm2, m.kc11_n_mm2);
+  ASSERT_EQ(job.diagnostics().size(), 1u);
+  EXPECT_EQ(job.diagnostics()[0].code, "MATERIAL-UNKNOWN");
+}
+
+TEST(FindMaterial, DoesNotCutANumberInTwo) {
+  Job job;
+  EXPECT_EQ(id_of({"ST-500"}, job), "tool_steel");  // not ST-50
+  EXPECT_EQ(job.count(Severity::kWarning), 1u);
+}
+
+TEST(ShippedMaterials, NameASourceForEveryNumberAndEveryName) {
+  for (const auto& m : table()) {
+    std::set<std::string> told;
+    for (const auto& [field, source] : m.sources) {
+      EXPECT_FALSE(source.empty()) << m.id << " " << field;
+      told.insert(field);
+    }
+    for (const char* field : {"kc11_n_mm2", "mc", "vc_hss_m_min", "vc_carbide_m_min", "kc_uncertainty"})
+      EXPECT_EQ(told.count(field), 1u) << m.id << " " << field;
+    for (const auto& name : m.names) EXPECT_EQ(told.count("name " + name), 1u) << m.id << " " << name;
+  }
+}
+
+TEST(ShippedMaterials, AgreeWithTheCardsTheyAreFrom) {
+  CAPSTAN_CORPUS_FILE(folder, "tools/cutting_data/");
+  const std::pair<const char*, const char*> cards[] = {
+      {"mild_steel", "MildSteel"},
+      {"low_alloy_steel", "LowAlloySteel"},
+      {"tool_steel", "ToolSteel"},
+      {"austenitic_stainless_steel", "AusteniticStainlessSteel"},
+      {"grey_cast_iron", "GrayCastIron"},
+      {"malleable_cast_iron", "MalleableCastIron"},
+      {"wrought_aluminium", "AluminumWroughtAlloy"},
+      {"cast_aluminium", "AluminumCastAlloy"}};
+  for (const auto& [id, card] : cards) {
+    const std::string text = testing::slurp(folder + card + ".FCMat");
+    const auto value = [&](const std::string& key) {
+      const auto at = text.find("\n    " + key + ":");
+      const auto first = text.find_first_of("0123456789", at);
+      return at == std::string::npos ? -1.0 : std::stod(text.substr(first));
+    };
+    Job job;
+    const auto m = find_material(id, table(), job).value();
+    EXPECT_DOUBLE_EQ(m.kc11_n_mm2, value("UnitCuttingForce")) << id;
+    EXPECT_DOUBLE_EQ(m.mc, value("ChipThicknessExponent")) << id;
+    EXPECT_DOUBLE_EQ(m.vc_hss_m_min, value("SurfaceSpeedHSS")) << id;
+    EXPECT_DOUBLE_EQ(m.vc_carbide_m_min, value("SurfaceSpeedCarbide")) << id;
+  }
+}
+
+TEST(ReadMaterials, RefusesACoefficientAHundredTimesTooLarge) {
+  Job job;
+  const char* text = R"(capstan_materials: 1
+kc_uncertainty: 0.3
+materials:
+  - {source: "x", id: a, iso_group: P, kc11_n_mm2: 229800, mc: 0.2, vc_hss_m_min: 25, vc_carbide_m_min: 70}
+)";
+  const auto got = read_materials(text, "m.yaml", job);
+  ASSERT_FALSE(got);
+  EXPECT_EQ(got.error().code, "MATERIAL-RANGE");
+  EXPECT_EQ(got.error().line, 4u);
+}
+
+}  // namespace
+}  // namespace capstan::tooling

@@ -1,0 +1,248 @@
+#include "tooling/select/select.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numbers>
+#include <random>
+
+#include "tooling/catalogue/generic.h"
+#include "tooling/catalogue/machine.h"
+#include "tooling/catalogue/material.h"
+
+namespace capstan::tooling {
+namespace {
+
+using model::Cutter;
+using model::CutterClass;
+using model::ToolRequirement;
+
+const std::vector<Cutter>& library() {
+  static const std::vector<Cutter> kLibrary = generic_library().value();
+  return kLibrary;
+}
+model::WorkMaterial material(const std::string& id) {
+  Job job;
+  return find_material(id, shipped_materials().value(), job).value();
+}
+model::Machine machine(const std::string& id = "generic_vmc") {
+  Job job;
+  return load_machine(id, job).value();
+}
+model::Selection choose(const ToolRequirement& r, const Preferences& p = {}) {
+  return select(r, library(), material("mild_steel"), machine(), p);
+}
+
+TEST(Select, TakesTheDrillOfTheSizeWanted) {
+  ToolRequirement r;
+  r.classes = {CutterClass::kTwistDrill};
+  r.diameter_exact_mm = 6.8;
+  r.reach_mm = 20;
+  const auto s = choose(r);
+  ASSERT_FALSE(s.ranked.empty());
+  for (const auto& k : s.ranked) EXPECT_DOUBLE_EQ(k.cutter.cutting_diameter_mm, 6.8);
+  EXPECT_GT(s.ranked[0].vc_m_min, 0.0);
+  EXPECT_FALSE(s.ranked[0].why.source.empty());
+  EXPECT_TRUE(s.would_fit.empty());
+}
+
+TEST(Select, TakesTheLargestEndMillThatTheCornersAllow) {
+  ToolRequirement r;
+  r.classes = {CutterClass::kEndmill};
+  r.diameter_max_mm = 11.9;
+  r.depth_of_cut_mm = 5;
+  r.reach_mm = 15;
+  r.centre_cutting = true;
+  const auto s = choose(r);
+  ASSERT_FALSE(s.ranked.empty());
+  EXPECT_DOUBLE_EQ(s.ranked[0].cutter.cutting_diameter_mm, 10.0);
+  EXPECT_EQ(s.ranked[0].cutter.teeth, 4);  // steel
+}
+
+TEST(Select, PrefersFewerTeethInAluminium) {
+  ToolRequirement r;
+  r.classes = {CutterClass::kEndmill};
+  r.diameter_max_mm = r.diameter_min_mm = 10;
+  const auto s = select(r, library(), material("wrought_aluminium"), machine());
+  ASSERT_FALSE(s.ranked.empty());
+  EXPECT_LE(s.ranked[0].cutter.teeth, 3);
+}
+
+TEST(Select, RefusesEveryToolThatIsTooShortAndSaysWhatWouldFit) {
+  ToolRequirement r;
+  r.classes = {CutterClass::kEndmill};
+  r.diameter_exact_mm = 6;
+  r.reach_mm = 80;
+  const auto s = choose(r);
+  EXPECT_TRUE(s.ranked.empty());
+  EXPECT_EQ(s.would_fit, "a 6 mm end mill with 80 mm reach");
+  const auto it = std::find_if(s.rejected.begin(), s.rejected.end(),
+                               [](const auto& x) { return x.what == "generic/endmill_4f_short/6"; });
+  ASSERT_NE(it, s.rejected.end());
+  EXPECT_EQ(it->why, "reach 19 mm is below 80 mm");  // DIN 6527 L: 57 long, 36 held, 2 clear of the chuck
+}
+
+TEST(Select, NamesTheNearestSizesWhenThereIsNoneOfTheSizeWanted) {
+  ToolRequirement r;
+  r.classes = {CutterClass::kReamer};
+  r.diameter_exact_mm = 17;
+  const auto s = choose(r);
+  EXPECT_TRUE(s.ranked.empty());
+  ASSERT_EQ(s.rejected.size(), 1u);
+  EXPECT_NE(s.rejected[0].why.find("16 mm and 18 mm"), std::string::npos) << s.rejected[0].why;
+}
+
+TEST(Select, HoldsEveryHardLimitForAnyRequirement) {
+  std::mt19937 rng(20240229);
+  std::uniform_real_distribution<double> size(1.0, 40.0), reach(0.0, 60.0), unit(0.0, 1.0);
+  int found = 0;
+  for (int i = 0; i < 300; ++i) {
+    ToolRequirement r;
+    r.classes = {unit(rng) < 0.5 ? CutterClass::kEndmill : CutterClass::kBullnoseEndmill,
+                 CutterClass::kBallEndmill};
+    r.diameter_max_mm = size(rng);
+    r.reach_mm = reach(rng);
+    r.depth_of_cut_mm = 0.5 * reach(rng);
+    r.corner_radius_limited = unit(rng) < 0.5;
+    r.corner_radius_max_mm = unit(rng) * 3.0;
+    r.centre_cutting = unit(rng) < 0.5;
+    const auto s = choose(r);
+    EXPECT_EQ(s.ranked.empty(), !s.would_fit.empty());
+    double last = -1e9;
+    for (const auto& k : s.ranked) {
+      const Cutter& c = k.cutter;
+      EXPECT_LE(c.cutting_diameter_mm, r.diameter_max_mm + 1e-6);
+      EXPECT_GE(c.usable_length_mm, r.reach_mm - 1e-6);
+      EXPECT_GE(c.maximum_depth_of_cut_mm, r.depth_of_cut_mm - 1e-6);
+      if (r.corner_radius_limited) {
+        EXPECT_LE(c.corner_radius_mm, r.corner_radius_max_mm + 1e-6);
+      }
+      if (r.centre_cutting) {
+        EXPECT_TRUE(c.centre_cutting || c.maximum_ramp_angle_rad > 0.0);
+      }
+      EXPECT_GE(k.score, last);
+      last = k.score;
+      ++found;
+    }
+  }
+  EXPECT_GT(found, 300);
+}
+
+TEST(Select, DoesNotDependOnTheOrderOfTheLibrary) {
+  ToolRequirement r;
+  r.classes = {CutterClass::kEndmill};
+  r.diameter_max_mm = 16;
+  auto shuffled = library();
+  std::shuffle(shuffled.begin(), shuffled.end(), std::mt19937(7));
+  const auto a = choose(r), b = select(r, shuffled, material("mild_steel"), machine());
+  ASSERT_EQ(a.ranked.size(), b.ranked.size());
+  for (std::size_t i = 0; i < a.ranked.size(); ++i) EXPECT_EQ(a.ranked[i].cutter.id, b.ranked[i].cutter.id);
+  EXPECT_EQ(a.rejected, b.rejected);
+}
+
+TEST(Select, PrefersWhatIsLoadedThenWhatIsInUse) {
+  ToolRequirement r;
+  r.classes = {CutterClass::kEndmill};
+  r.diameter_max_mm = 16;
+  r.diameter_min_mm = 12;
+  Preferences p;
+  p.used = {"generic/endmill_4f_short/14"};
+  EXPECT_EQ(choose(r, p).ranked[0].cutter.id, "generic/endmill_4f_short/14");
+  auto loaded = library();
+  for (Cutter& c : loaded)
+    if (c.id == "generic/endmill_4f_short/12") c.pocket = 5;
+  const auto s = select(r, loaded, material("mild_steel"), machine(), p);
+  EXPECT_EQ(s.ranked[0].cutter.id, "generic/endmill_4f_short/12");
+  EXPECT_NE(s.ranked[0].why.text.find("loaded as T5"), std::string::npos);
+}
+
+TEST(Select, SetsABoringToolToTheBore) {
+  ToolRequirement r;
+  r.classes = {CutterClass::kBoringTool};
+  r.diameter_exact_mm = 20.0105;  // the middle of 20 H7
+  r.reach_mm = 30;
+  const auto s = choose(r);
+  ASSERT_EQ(s.ranked.size(), 1u);
+  EXPECT_DOUBLE_EQ(s.ranked[0].cutter.cutting_diameter_mm, 20.0105);
+}
+
+TEST(Select, RefusesAToolThatTheSpindleCannotTurnSlowlyEnoughFor) {
+  ToolRequirement r;
+  r.classes = {CutterClass::kTwistDrill};
+  r.diameter_exact_mm = 12;
+  // 6000 1/min at 12 mm is 226.2 m/min; HSS in mild steel bears 20.
+  const auto s = select(r, library(), material("mild_steel"), machine("small_router"));
+  EXPECT_TRUE(s.ranked.empty());
+  ASSERT_FALSE(s.rejected.empty());
+  EXPECT_NE(s.rejected[0].why.find("6000 1/min gives 226.2 m/min"), std::string::npos) << s.rejected[0].why;
+}
+
+TEST(Select, RefusesWhatTheMagazineCannotHold) {
+  ToolRequirement r;
+  r.classes = {CutterClass::kFacemill};
+  r.diameter_min_mm = 80;
+  const auto s = select(r, library(), material("mild_steel"), machine("tormach_1100mx"));
+  EXPECT_TRUE(s.ranked.empty());
+  EXPECT_NE(s.rejected[0].why.find("the magazine's 75 mm"), std::string::npos) << s.rejected[0].why;
+}
+
+TEST(StartValues, FollowFromSpeedAndFeedPerTooth) {
+  const Cutter& c = *std::find_if(library().begin(), library().end(),
+                                  [](const Cutter& k) { return k.id == "generic/endmill_4f_short/10"; });
+  const auto s = start_values(c, material("mild_steel"), machine());
+  // 70 m/min on 10 mm: 2228 1/min; fz 0.005 x 10 mm; four teeth.
+  EXPECT_NEAR(s.spindle_rpm, 70000.0 / (10.0 * std::numbers::pi), 1e-9);
+  EXPECT_NEAR(s.feed_mm_min, 4 * 0.05 * s.spindle_rpm, 1e-9);
+  EXPECT_EQ(s.why.id, "tooling.start.mild_steel");
+}
+
+TEST(StartValues, AreClampedToTheSpindleAndSaySo) {
+  const Cutter& c = *std::find_if(library().begin(), library().end(),
+                                  [](const Cutter& k) { return k.id == "generic/endmill_2f_short/2"; });
+  const auto s = start_values(c, material("wrought_aluminium"), machine());
+  EXPECT_DOUBLE_EQ(s.spindle_rpm, 10000.0);  // 270 m/min would need 42972
+  EXPECT_NE(s.why.text.find("lowered from 42972 to 10000 1/min by the spindle"), std::string::npos)
+      << s.why.text;
+}
+
+TEST(StartValues, StayWithinMachineAndToolForEveryCutterAndMaterial) {
+  const auto materials = shipped_materials().value();
+  for (const std::string& id : shipped_machines()) {
+    const auto m = machine(id);
+    for (const auto& w : materials) {
+      for (const Cutter& c : library()) {
+        const auto s = start_values(c, w, m);
+        EXPECT_GE(s.spindle_rpm, m.spindle.rpm_min * (1 - 1e-12)) << c.id;
+        EXPECT_LE(s.spindle_rpm, m.spindle.rpm_max * (1 + 1e-12)) << c.id;
+        EXPECT_GT(s.fz_mm, 0.0) << c.id;
+        EXPECT_LE(s.fz_mm, c.fz_max_mm * (1 + 1e-12)) << c.id;
+        if (c.cutter_class == CutterClass::kTap) {
+          EXPECT_NEAR(s.feed_mm_min, c.thread_pitch_mm * s.spindle_rpm, 1e-9);
+        }
+      }
+    }
+  }
+}
+
+TEST(WordsOf, SayWhatIsNeeded) {
+  ToolRequirement r;
+  r.classes = {CutterClass::kEndmill};
+  r.diameter_max_mm = 12;
+  r.reach_mm = 22;
+  r.centre_cutting = true;
+  EXPECT_EQ(words_of(r), "an end mill of at most 12 mm with 22 mm reach, cutting to centre or ramping");
+}
+
+TEST(AssignPockets, KeepsGivenNumbersAndFillsTheLowestFree) {
+  std::vector<Cutter> cutters(5);
+  cutters[1].pocket = 1;
+  cutters[3].pocket = 4;
+  cutters[4].pocket = 4;  // claimed already
+  assign_pockets(cutters);
+  std::vector<int> pockets;
+  for (const Cutter& c : cutters) pockets.push_back(c.pocket);
+  EXPECT_EQ(pockets, (std::vector<int>{2, 1, 3, 4, 5}));
+}
+
+}  // namespace
+}  // namespace capstan::tooling
