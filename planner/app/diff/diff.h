@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+
+#include "planner/model/plan.h"
+
+namespace capstan::app {
+
+struct Difference {
+  bool same = true;
+  std::string text;  ///< for people, by section; "the plans say the same" when they do
+};
+
+/// What changed from one plan to another, who decided it, and what it costs in time: inputs, tools, features,
+/// steps (removed, added, moved), and in each step that both have the values, binders and reasons, and the
+/// path. Steps are matched by their persistent id, features by kind and name.
+///
+/// Time of steps is motion's where both hold paths, else what the plans state. Same plans, same bytes.
+[[nodiscard]] Difference diff(const model::Plan& before, const model::Plan& after);
+
+}  // namespace capstan::app

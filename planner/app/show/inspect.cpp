@@ -1,0 +1,219 @@
+#include "planner/app/show/inspect.h"
+
+#include <map>
+#include <variant>
+
+#include "planner/app/show/node.h"
+#include "planner/app/show/values.h"
+#include "planner/base/number.h"
+#include "planner/model/nouns/all.h"
+#include "planner/model/shape.h"
+#include "planner/model/walk.h"
+
+namespace capstan::app {
+
+using model::AnyRef;
+using model::Model;
+
+namespace {
+
+constexpr std::string_view kSize = "#size";
+constexpr std::size_t kShown = 40;  // features and unhandled instances shown one by one
+
+using Rows = std::vector<std::vector<std::string>>;
+
+std::string kept_text(const Model& m, const model::KeptInstance& kept) {
+  std::string out;
+  for (const auto& piece : kept.pieces) {
+    if (const auto* text = std::get_if<std::string>(&piece)) {
+      out += *text;
+    } else {
+      out += "#" + std::to_string(m.origin(std::get<AnyRef>(piece)).instance);
+    }
+  }
+  return out;
+}
+
+std::string object_text(const Model& m, AnyRef at) {
+  if (const auto* kept = m.get<model::KeptInstance>(at)) {
+    return "#" + std::to_string(m.origin(at).instance) + " (unhandled, kept as it was read)\n  " +
+           kept_text(m, *kept) + "\n";
+  }
+  Rows rows;
+  for (const auto& a : model::noun_type(at.type).attributes) {
+    const bool shown = model::has_value(a, m.object(at)) || a.in_iso14649;
+    if (shown) rows.push_back({std::string(a.name), value_text(m, a, m.object(at))});
+  }
+  return label(m, at) + "\n" + table(rows);
+}
+
+std::string place_text(const Model& m, const Node& node) {
+  const auto size = list_size(m, node);
+  if (!size) {
+    const AnyRef at = object_of(m, node);
+    return at.set() ? object_text(m, at) : node_text(m, node) + "\n";
+  }
+  std::string out;
+  for (std::size_t i = 0; i < *size; ++i) {
+    Node item = node;
+    if (node.is_list) {
+      item = Node{};
+      item.object = node.list[i];
+    } else {
+      item.item.push_back(i);
+    }
+    out += "[" + std::to_string(i) + "] " + node_text(m, item) + "\n";
+  }
+  return out.empty() ? "(empty)\n" : out;
+}
+
+std::string text_or_dash(const model::Text& t) { return t && !t->empty() ? *t : "-"; }
+
+void workpieces(const model::Plan& plan, std::string& out) {
+  const Model& m = plan.model;
+  const auto* project = m.get<model::Project>(plan.project);
+  if (project == nullptr) return;
+  for (const AnyRef at : project->its_workpieces.items) {
+    const auto* w = m.get<model::Workpiece>(at);
+    if (w == nullptr) continue;
+    out += "Workpiece  " + label(m, at);
+    if (const auto* material = m.get<model::Material>(w->its_material)) {
+      out += ", material " + text_or_dash(material->standard_identifier) + " / " +
+             text_or_dash(material->material_identifier);
+    }
+    if (w->global_tolerance) out += ", tolerance " + with_unit(*w->global_tolerance, model::Unit::kLength);
+    out += "\n";
+  }
+  if (plan.target_mesh != nullptr) {
+    out += "Mesh       " + std::to_string(plan.target_mesh->triangles.size()) + " triangles, " +
+           box_text(geometry::bounds(*plan.target_mesh)) + "\n";
+  }
+}
+
+std::string shape_text(const model::FeatureShape& s) {
+  const auto n = [](double v) { return trimmed(v, 4); };
+  std::string out(model::to_text(s.kind));
+  if (s.diameter.nominal_mm > 0.0) {
+    out += ", diameter " + n(s.diameter.nominal_mm);
+    if (s.diameter.given) out += " (" + n(s.diameter.lower_mm) + ".." + n(s.diameter.upper_mm) + ")";
+  }
+  if (s.thread_major_mm > 0.0) out += ", thread " + n(s.thread_major_mm) + " x " + n(s.thread_pitch_mm);
+  out += s.through ? ", through " : ", depth ";
+  return out + n(s.depth_mm) + " mm, at x " + n(s.frame.origin.x) + " y " + n(s.frame.origin.y) + " z " +
+         n(s.frame.origin.z);
+}
+
+void features(const model::Plan& plan, std::string& out) {
+  const Model& m = plan.model;
+  const auto all = m.all_below(model::TypeId::kManufacturingFeature);
+  if (all.empty()) return;
+  out += "\nFeatures (" + std::to_string(all.size()) + ")\n";
+  Rows rows;
+  for (const AnyRef at : all) {
+    if (rows.size() == kShown) {
+      rows.push_back({"and " + std::to_string(all.size() - kShown) + " more"});
+      break;
+    }
+    const auto shapes = model::shapes_of(m, model::Ref<model::ManufacturingFeature>(at));
+    std::string what = shapes ? (shapes->size() > 1 ? std::to_string(shapes->size()) + " x " : "") +
+                                    shape_text(shapes->front())
+                              : "shape not known: " + shapes.error().message;
+    rows.push_back(
+        {label(m, at),
+         std::to_string(m.at<model::ManufacturingFeature>(at).its_operations.size()) + " operations",
+         std::move(what)});
+  }
+  out += table(rows);
+}
+
+void counts(const Model& m, std::string& out) {
+  Rows rows;
+  std::size_t total = 0;
+  for (std::size_t t = 1; t < model::kTypeCount; ++t) {
+    const auto type = static_cast<model::TypeId>(t);
+    if (type == model::TypeId::kKeptInstance || m.count(type) == 0) continue;
+    total += m.count(type);
+    rows.push_back({std::string(model::noun_type(type).keyword), std::to_string(m.count(type))});
+  }
+  out += "\nInstances by kind (" + std::to_string(total) + ")\n" + table(rows);
+}
+
+void unhandled(const Model& m, std::string& out) {
+  std::map<std::string, std::vector<std::uint64_t>> by_keyword;
+  for (const AnyRef at : m.all(model::TypeId::kKeptInstance)) {
+    by_keyword[m.at<model::KeptInstance>(at).keyword].push_back(m.origin(at).instance);
+  }
+  if (by_keyword.empty()) return;
+  out += "\nUnhandled (kept, written back as they were read)\n";
+  Rows rows;
+  for (const auto& [keyword, numbers] : by_keyword) {
+    std::string where;
+    for (std::size_t i = 0; i < numbers.size() && i < kListShown; ++i)
+      where += (i != 0 ? ", #" : "#") + std::to_string(numbers[i]);
+    if (numbers.size() > kListShown) where += ", ...";
+    rows.push_back({keyword, std::to_string(numbers.size()), where});
+  }
+  out += table(rows);
+}
+
+void open_decisions(const model::Plan& plan, std::string& out) {
+  Rows rows;
+  for (const auto& [key, d] : plan.ledger.entries()) {
+    if (d.state == model::DecisionState::kOpen)
+      rows.push_back({label(plan.model, key.object), key.attribute});
+  }
+  if (rows.empty()) return;
+  out += "\nOpen decisions (" + std::to_string(rows.size()) + ")\n" + table(rows);
+}
+
+void faults(const std::vector<Diagnostic>& diagnostics, std::string& out) {
+  if (diagnostics.empty()) return;
+  out += "\nReading it, said (" + std::to_string(diagnostics.size()) + ")\n";
+  for (Diagnostic d : diagnostics) {
+    d.file.clear();
+    out += "  " + (d.line != 0 ? "line " + std::to_string(d.line) + ": " : std::string()) + to_text(d) + "\n";
+  }
+}
+
+}  // namespace
+
+std::string inspect(const model::Plan& plan, const std::vector<Diagnostic>& diagnostics) {
+  const Model& m = plan.model;
+  std::string out =
+      "Project    " + (plan.project.set() ? label(m, plan.project) : std::string("none")) + "\n";
+  if (!plan.header_description.empty()) out += "About      " + plan.header_description + "\n";
+  workpieces(plan, out);
+  if (!plan.machine.id.empty()) out += "Machine    " + plan.machine.id + "\n";
+  if (!plan.stock.box.empty())
+    out += "Stock      " + box_text(plan.stock.box) + " (" + plan.stock.source + ")\n";
+  out += "Steps      " + std::to_string(m.count(model::TypeId::kMachiningWorkingstep)) + " workingsteps, " +
+         std::to_string(plan.steps.size()) + " planned\n";
+  features(plan, out);
+  counts(m, out);
+  unhandled(m, out);
+  open_decisions(plan, out);
+  faults(diagnostics, out);
+  return out;
+}
+
+Result<std::string> inspect(const model::Plan& plan, std::string_view path) {
+  const bool count = path.ends_with(kSize);
+  if (count) path.remove_suffix(kSize.size());
+  const auto nodes = nodes_at(plan, path);
+  if (!nodes) return tl::unexpected(nodes.error());
+  if (count) {
+    std::string out;
+    for (const Node& n : *nodes) {
+      if (const auto size = list_size(plan.model, n)) out += std::to_string(*size) + "\n";
+    }
+    return out.empty() ? std::to_string(nodes->size()) + "\n" : out;
+  }
+  std::string out;
+  for (const Node& n : *nodes) {
+    const bool one = nodes->size() == 1;
+    out += one ? place_text(plan.model, n) : node_text(plan.model, n) + "\n";
+  }
+  return out;
+}
+
+}  // namespace capstan::app

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "planner/base/result.h"
+#include "planner/model/plan.h"
+
+namespace capstan::app {
+
+/// A place in a plan that a path leads to: an object, an attribute of one, or an item of a list in one.
+struct Node {
+  model::AnyRef object;                         ///< the object, or the owner of `attribute`
+  const model::Attribute* attribute = nullptr;  ///< null: the object itself
+  std::vector<std::size_t> item;                ///< indices into a list or table attribute
+  std::vector<model::AnyRef> list;              ///< with `is_list`: objects that no attribute holds
+  bool is_list = false;
+};
+
+/// Every place that the path leads to, in order; several where it maps with `[*]`.
+///
+///     path     = "/" root { "/" attribute | "[" index "]" | "[*]" } [ "#size" ]
+///     root     = "project" | "kept" | "unhandled" | KEYWORD | "#" number
+///
+/// `#123` may stand alone. KEYWORD lists all objects of that kind or below it (`/ROUND_HOLE[*]/diameter`).
+/// Where `[*]` leads through objects of several kinds, those without the attribute are passed over.
+/// Fails  INS-PATH, naming the segment, and what there is at that place.
+[[nodiscard]] Result<std::vector<Node>> nodes_at(const model::Plan& plan, std::string_view path);
+
+/// How many items a list has; nothing for what is no list.
+[[nodiscard]] std::optional<std::size_t> list_size(const model::Model& m, const Node& node);
+/// The object that the node is or refers to; unset when it is a value, a list, or absent.
+[[nodiscard]] model::AnyRef object_of(const model::Model& m, const Node& node);
+/// The value in one line.
+[[nodiscard]] std::string node_text(const model::Model& m, const Node& node);
+
+}  // namespace capstan::app

@@ -1,0 +1,1 @@
+capstan_test(app DEPENDS base geometry model p21 exchange motion output app)
