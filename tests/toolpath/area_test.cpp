@@ -97,6 +97,29 @@ TEST(AreaPath, ClearsRandomStarsByEveryStrategy) {
   }
 }
 
+TEST(AreaPath, RunsASpiralWithoutStepsBetweenItsTurns) {
+  PathJob t = area_job(geometry::rounded_rectangle({0, 0}, {70, 50}, 10.0), 4.0, 10.0);
+  t.strategy = StrategyKind::kContourSpiral;
+  t.radial_depth_mm = 4.0;
+  expect_sound(t, "spiral");
+  Job job;
+  const auto g = generate(t, job);
+  // Between helix and end no corner is sharper than the pocket's own rings have: 90 degrees.
+  double sharpest = 0.0;
+  Vec2 before{};
+  for (std::size_t i = 1; i < g->path.size(); ++i) {
+    if (g->path.role[i] != model::MoveRole::kCut || g->path.kind[i] != MoveKind::kLine) {
+      before = {};
+      continue;
+    }
+    const Vec2 d = xy(g->path.point(i) - g->path.point(i - 1));
+    if (norm(before) > 0.0)
+      sharpest = std::max(sharpest, std::atan2(std::abs(cross(before, d)), dot(before, d)));
+    before = d;
+  }
+  EXPECT_LT(sharpest, 0.5 * kPi + 0.2);
+}
+
 TEST(AreaPath, ClearsFromOutsideInWhenRotationAndCutModeSaySo) {
   PathJob t = area_job(pocket_with_islands(), 5.0, 8.0);
   t.rotation_ccw = false;

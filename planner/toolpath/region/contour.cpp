@@ -62,28 +62,33 @@ bool lead_at(const Level& level, const Track& track, const Spot& spot, double ra
 /// spread the passes too far.
 std::vector<Vec2> melted(const LevelCutter& c, const Level& level, const Track& a, const Track& b) {
   constexpr double kChord = 0.004;
-  const double la = length_of(a);
-  const double lb = length_of(b);
-  if (la <= 0.0 || lb <= 0.0) return {};
-  std::vector<double> at;
-  for (const auto* t : {&a, &b}) {
-    const auto points = points_of(*t, kChord);
-    double s = 0.0;
-    std::vector<double> run = {0.0};
-    for (std::size_t i = 1; i < points.size(); ++i) run.push_back(s += norm(points[i] - points[i - 1]));
-    for (const double r : run) at.push_back(r / s);
+  constexpr std::size_t kMostWork = 20'000'000;  // places times segments; beyond, rings do
+  const auto corners = points_of(b, kChord);
+  std::vector<Vec2> outer;
+  for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
+    const Vec2 d = corners[i + 1] - corners[i];
+    const int n = std::max(1, static_cast<int>(std::ceil(norm(d) / (0.25 * c.radius_mm))));
+    for (int k = 0; k < n; ++k) outer.push_back(corners[i] + (static_cast<double>(k) / n) * d);
   }
-  std::sort(at.begin(), at.end());
-  std::vector<Vec2> out;
-  double last = -1.0;
-  for (const double u : at) {
-    if (u - last < 1e-6) continue;
-    last = u;
-    const Vec2 p = at_length(a, u * la).point;
-    const Vec2 q = at_length(b, u * lb).point;
-    if (norm(p - q) > 1.9 * c.radius_mm) return {};
-    const Vec2 x = (1.0 - u) * p + u * q;
-    if (!out.empty() && !level.inside.contains(out.back(), x)) return {};
+  outer.push_back(b.start);
+  if (outer.size() * a.segments.size() > kMostWork) return {};
+  double length = 0.0;
+  for (std::size_t i = 1; i < outer.size(); ++i) length += norm(outer[i] - outer[i - 1]);
+  if (!(length > 0.0)) return {};
+  std::vector<Vec2> out = {a.start};
+  double s = 0.0;
+  Vec2 before = a.start;
+  for (std::size_t i = 1; i < outer.size(); ++i) {
+    const double step = norm(outer[i] - outer[i - 1]);
+    s += step;
+    const Vec2 p = nearest(a, outer[i]).point;
+    // In a corner the two lie far apart, yet the stripes beside it do not; a jump means that the ring is no
+    // simple copy of its neighbour.
+    if (norm(p - before) > 2.0 * step + 0.5 * c.step_mm) return {};
+    before = p;
+    const double u = i + 1 == outer.size() ? 1.0 : s / length;
+    const Vec2 x = (1.0 - u) * p + u * outer[i];
+    if (!level.inside.contains(out.back(), x)) return {};
     out.push_back(x);
   }
   return out;

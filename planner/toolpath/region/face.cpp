@@ -18,6 +18,11 @@ namespace {
 /// radius clear of it. Default, unsourced; as NIST's interpreter of ISO 14649 does.
 constexpr double kOverrun = 1.5;
 
+geometry::Loop oriented(geometry::Loop loop) {
+  if (geometry::signed_area(loop) < 0.0) std::reverse(loop.begin(), loop.end());
+  return loop;
+}
+
 struct Stroke {
   Vec2 from, to;
 };
@@ -165,18 +170,22 @@ class Face {
 
   /// Straight passes with something standing on the face: the area between, then along what stands.
   Status around(double z, double from, const std::vector<Stroke>& all, const Region& keep_off) {
-    Region field;
-    for (const Stroke& s : all) {
-      const Vec2 h = (0.5 * radius_) * n_;
-      field = geometry::unite(field, geometry::stroke({s.from - 0.0 * h, s.to}, 1.05 * radius_, false));
-    }
-    const Region grown = geometry::unite(field, geometry::offset_sharp(w_.area, kOverrun * radius_));
     WorkArea open = w_;
-    open.reach = geometry::unite(geometry::offset_sharp(w_.area, (kOverrun + 1.2) * radius_), grown);
+    open.reach = geometry::offset_sharp(w_.area, 3.0 * radius_);
     open.open = true;
     LevelCutter c(task_, open, writer_, job_);
     Level level(task_, open, z, from, task_.allowance_side_mm);
-    level.centres = geometry::subtract(geometry::offset_sharp(w_.area, kOverrun * radius_), keep_off);
+    // Along the passes beyond the edge; across, the first and the last pass are as wide as the others.
+    const Vec2 first = all.front().from;
+    const Vec2 last = all.back().from;
+    const double across = dot(last - first, n_);
+    const double far = 1e4;
+    const geometry::Loop band = {first - far * e_, first + far * e_, first + far * e_ + across * n_,
+                                 first - far * e_ + across * n_};
+    level.centres =
+        geometry::subtract(geometry::intersect(geometry::offset_sharp(w_.area, kOverrun * radius_),
+                                               geometry::clean({oriented(band)})),
+                           keep_off);
     level.inside = Inside(geometry::offset(level.centres, kInsideSlack, 0.5 * kInsideSlack));
     level.air.clear();
     for (const auto& loop : level.centres.loops) {
@@ -188,6 +197,7 @@ class Face {
     o.direction = e_;
     o.one_way = task_.strategy == StrategyKind::kUnidirectional;
     o.step_left = n_ == Vec2{-e_.y, e_.x};
+    o.wall_of = &keep_off;
     return cut_raster(c, level, o);
   }
 

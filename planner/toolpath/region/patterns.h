@@ -21,6 +21,7 @@ struct RasterOptions {
   bool step_left = true;  ///< the next pass lies on the left of the first
   bool walls = true;
   bool walls_first = false;
+  const geometry::Region* wall_of = nullptr;  ///< when set, only loops that touch this boundary are walls
 };
 Status cut_raster(LevelCutter& cutter, const Level& level, const RasterOptions& options);
 

@@ -208,6 +208,12 @@ class Raster {
 
   Status walls() {
     for (std::size_t l = 0; l < level_.centres.loops.size(); ++l) {
+      if (o_.wall_of != nullptr) {
+        const Inside wall(*o_.wall_of);
+        const Loop& loop = level_.centres.loops[l];
+        if (std::none_of(loop.begin(), loop.end(), [&](Vec2 p) { return wall.boundary_within(p, 1e-3); }))
+          continue;
+      }
       Track t = track_of(level_.centres.loops[l]);
       if (!walls_on_right(c_.task)) t = reversed(t);
       // A pass that ends on this loop has cleared the way to it.
