@@ -18,6 +18,9 @@ constexpr bool is_motion(int g) {
 }
 constexpr bool is_cycle(int g) { return g == 730 || (g >= 810 && g <= 890); }
 
+/// A tool or offset number; out of range becomes one that no table has.
+int whole(double v) { return v >= 0.0 && v < 1e9 ? static_cast<int>(v) : 1000000000; }
+
 std::string code_text(char letter, int tenths) {
   std::string out = letter + std::to_string(tenths / 10);
   if (tenths % 10 != 0) out += "." + std::to_string(tenths % 10);
@@ -120,10 +123,11 @@ void Interpreter::put(Block b) {
 }
 
 void Interpreter::length_code(int g, const Said& s) {
+  known_[2] = false;  // the tip's height is another one now
   if (g == 490) {
     length_ = -1;
   } else if (g == 430) {
-    length_ = s.is('H') ? static_cast<int>(s.of('H')) : tool_;
+    length_ = s.is('H') ? whole(s.of('H')) : tool_;
     stated_ |= kStatedLength;
   } else {
     length_ = 0;
@@ -153,13 +157,14 @@ void Interpreter::state_code(int g, const Said& s) {
     }
     case 400: radius_ = -1; stated_ |= kStatedRadius; break;
     case 410:
-    case 420: radius_ = s.is('D') ? static_cast<int>(s.of('D')) : tool_; break;
+    case 420: radius_ = s.is('D') ? whole(s.of('D')) : tool_; break;
     case 430:
     case 431:
     case 490: length_code(g, s); break;
     case 540: case 550: case 560: case 570: case 580: case 590: case 591: case 592: case 593:
-      offset_ = g;
       // The work's coordinates of where the tool stands are others now.
+      if (offset_ != g && offset_ != 0) known_[0] = known_[1] = known_[2] = false;
+      offset_ = g;
       stated_ |= kStatedOffset;
       break;
     case 610: case 611: case 640: case 530: case 40: break;
@@ -189,7 +194,7 @@ void Interpreter::state_codes(const Said& s) {
     speed_ = s.of('S');
     stated_ |= kStatedSpeed;
   }
-  if (s.is('T')) next_tool_ = static_cast<int>(s.of('T'));
+  if (s.is('T')) next_tool_ = whole(s.of('T'));
 }
 
 void Interpreter::machine_codes(const Said& s) {

@@ -4,6 +4,10 @@
 
 namespace capstan::verify {
 
+namespace {
+int whole(double v) { return v >= 0.0 && v < 1e9 ? static_cast<int>(v) : 1000000000; }
+}  // namespace
+
 ToolTable read_tool_table(std::string_view text) {
   constexpr std::size_t kMostEntries = 100000;
   ToolTable out;
@@ -22,9 +26,9 @@ ToolTable read_tool_table(std::string_view text) {
     for (const Word& w : line.words) {
       if (w.letter == 'T') {
         tool = true;
-        e.tool = static_cast<int>(w.value);
+        e.tool = whole(w.value);
       } else if (w.letter == 'P') {
-        e.pocket = static_cast<int>(w.value);
+        e.pocket = whole(w.value);
       } else if (w.letter == 'Z') {
         e.length_mm = w.value;
         e.has_length = true;

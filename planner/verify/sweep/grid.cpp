@@ -1,0 +1,259 @@
+#include "planner/verify/sweep/grid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace capstan::verify {
+
+using geometry::CutterProfile;
+using geometry::Vec2;
+using geometry::Vec3;
+
+Grid::Grid(Vec2 lo, Vec2 hi, double cell_mm, long maximum_cells) : lo_(lo) {
+  const double w = std::max(hi.x - lo.x, 1e-3);
+  const double h = std::max(hi.y - lo.y, 1e-3);
+  cell_ = std::max(cell_mm, std::sqrt(w * h / static_cast<double>(maximum_cells)));
+  cell_ = std::max({cell_, w / static_cast<double>(maximum_cells), h / static_cast<double>(maximum_cells)});
+  const auto count = [&](double size) { return std::max(1, static_cast<int>(std::floor(size / cell_ + 0.5))); };
+  nx_ = count(w);
+  ny_ = count(h);
+  stock.assign(index(0, ny_), kNothing);
+  part.assign(index(0, ny_), kNothing);
+}
+
+std::pair<int, int> Grid::columns(double a, double b) const {
+  const double first = std::ceil((a - lo_.x) / cell_ - 0.5);
+  const double last = std::floor((b - lo_.x) / cell_ - 0.5);
+  return {static_cast<int>(std::clamp(first, 0.0, static_cast<double>(nx_))),
+          static_cast<int>(std::clamp(last + 1.0, 0.0, static_cast<double>(nx_)))};
+}
+
+std::pair<int, int> Grid::rows(double a, double b) const {
+  const double first = std::ceil((a - lo_.y) / cell_ - 0.5);
+  const double last = std::floor((b - lo_.y) / cell_ - 0.5);
+  return {static_cast<int>(std::clamp(first, 0.0, static_cast<double>(ny_))),
+          static_cast<int>(std::clamp(last + 1.0, 0.0, static_cast<double>(ny_)))};
+}
+
+void Grid::find_top() {
+  top_ = kNothing;
+  for (const double s : stock) top_ = std::max(top_, s);
+}
+
+double Grid::highest(Vec2 at, double radius_mm) const {
+  double best = kNothing;
+  const auto [y0, y1] = rows(at.y - radius_mm, at.y + radius_mm);
+  for (int iy = y0; iy < y1; ++iy) {
+    const double dy = centre(0, iy).y - at.y;
+    const double half = std::sqrt(std::max(0.0, radius_mm * radius_mm - dy * dy));
+    const auto [x0, x1] = columns(at.x - half, at.x + half);
+    for (int ix = x0; ix < x1; ++ix) best = std::max(best, stock[index(ix, iy)]);
+  }
+  return best;
+}
+
+double Grid::normal_depth(Vec2 at, double z_mm) const {
+  const auto [x0, x1] = columns(at.x - 0.5 * cell_, at.x + 0.5 * cell_);
+  const auto [y0, y1] = rows(at.y - 0.5 * cell_, at.y + 0.5 * cell_);
+  if (x0 >= x1 || y0 >= y1) return 0.0;
+  const double here = part[index(x0, y0)];
+  double steepest = 0.0;
+  for (const auto [dx, dy] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
+    const int ix = x0 + dx;
+    const int iy = y0 + dy;
+    if (ix < 0 || iy < 0 || ix >= nx_ || iy >= ny_) continue;
+    steepest = std::max(steepest, std::abs(part[index(ix, iy)] - here) / cell_);
+  }
+  return (here - z_mm) / std::sqrt(1.0 + 2.0 * steepest * steepest);
+}
+
+namespace {
+
+/// The cutter's outline with its flat part taken out of the loop.
+struct Outline {
+  explicit Outline(const CutterProfile& p) : profile(p), radius(p.radius_mm) {
+    if (!p.pieces.empty() && p.pieces.front().radius_mm == 0.0 && p.pieces.front().slope == 0.0)
+      flat = p.pieces.front().r1_mm;
+  }
+  [[nodiscard]] double height(double d) const { return d <= flat ? 0.0 : profile.height(std::min(d, radius)); }
+  const CutterProfile& profile;
+  double radius, flat = 0.0;
+};
+
+/// Takes cells down and keeps the account.
+struct Knife {
+  Grid& grid;
+  double allowed;
+  const GougeJudge* judge;
+  Bite& bite;
+  double core;
+  int judged = 0;
+
+  void at(int ix, int iy, double tip_z, double z, double from_axis) {
+    const std::size_t i = grid.index(ix, iy);
+    double& s = grid.stock[i];
+    if (z >= s) return;
+    const double taken = s - z;
+    if (s > Grid::kNothing / 2) {
+      bite.volume_mm3 += (s - std::max(z, floor)) * grid.cell() * grid.cell();
+      bite.contact_mm = std::max(bite.contact_mm, s - tip_z);
+      bite.thickest_mm = std::max(bite.thickest_mm, taken);
+      if (from_axis <= core) bite.core_mm = std::max(bite.core_mm, s - std::max(z, floor));
+      ++bite.cells;
+      const double below = grid.part[i] - z;
+      if (below > allowed && below > bite.gouge_mm) gouge(ix, iy, z, below);
+    }
+    s = z <= floor ? Grid::kNothing : z;
+  }
+  void gouge(int ix, int iy, double z, double below) {
+    constexpr int kMostJudged = 500;  // per move; a true gouge is found by the first
+    if (judge != nullptr && (++judged > kMostJudged || !judge->guilty(grid.centre(ix, iy), z))) return;
+    bite.gouge_mm = below;
+    bite.gouge_at = grid.centre(ix, iy);
+  }
+  double floor = grid.floor;
+};
+
+/// Lowest height of the cutter over a point while it runs along a line; `d` is the distance of the point
+/// from the line, `t` where its foot lies, `length` the line's in XY. Convex in t.
+double lowest(const Outline& o, double z0, double dz, double t_foot, double d, double length) {
+  const double reach = std::sqrt(std::max(0.0, o.radius * o.radius - d * d)) / length;
+  double lo = std::clamp(t_foot - reach, 0.0, 1.0);
+  double hi = std::clamp(t_foot + reach, 0.0, 1.0);
+  const auto f = [&](double t) { return z0 + t * dz + o.height(std::hypot(d, (t - t_foot) * length)); };
+  if (o.flat >= o.radius) return std::min(f(lo), f(hi));
+  for (int i = 0; i < 24; ++i) {
+    const double a = lo + (hi - lo) / 3.0;
+    const double b = hi - (hi - lo) / 3.0;
+    if (f(a) < f(b)) {
+      hi = b;
+    } else {
+      lo = a;
+    }
+  }
+  return f(0.5 * (lo + hi));
+}
+
+void cut_line(Knife& k, const Outline& o, Vec3 a, Vec3 b) {
+  const Vec2 d = xy(b) - xy(a);
+  const double length = norm(d);
+  const double r = o.radius;
+  const double zmin = std::min(a.z, b.z);
+  const bool level = std::abs(b.z - a.z) < 1e-9 || length < 1e-9;
+  const auto [y0, y1] = k.grid.rows(std::min(a.y, b.y) - r, std::max(a.y, b.y) + r);
+  for (int iy = y0; iy < y1; ++iy) {
+    const double y = k.grid.centre(0, iy).y;
+    // Of the line only what lies within r of this row matters.
+    double t0 = 0.0, t1 = 1.0;
+    if (std::abs(d.y) > 1e-12) {
+      t0 = (y - r - a.y) / d.y;
+      t1 = (y + r - a.y) / d.y;
+      if (t0 > t1) std::swap(t0, t1);
+      t0 = std::clamp(t0, 0.0, 1.0);
+      t1 = std::clamp(t1, 0.0, 1.0);
+    }
+    const double xa = a.x + t0 * d.x, xb = a.x + t1 * d.x;
+    const auto [x0, x1] = k.grid.columns(std::min(xa, xb) - r, std::max(xa, xb) + r);
+    for (int ix = x0; ix < x1; ++ix) {
+      if (k.grid.stock[k.grid.index(ix, iy)] <= zmin) continue;
+      const Vec2 p = k.grid.centre(ix, iy);
+      const double foot = length < 1e-9 ? 0.0 : dot(p - xy(a), d) / (length * length);
+      const double t = std::clamp(foot, 0.0, 1.0);
+      const double near = norm(p - (xy(a) + t * d));
+      if (near > r) continue;
+      if (level) {
+        k.at(ix, iy, zmin, zmin + o.height(near), near);
+        continue;
+      }
+      const double off = norm(p - (xy(a) + foot * d));
+      const double z = lowest(o, a.z, b.z - a.z, foot, off, length);
+      k.at(ix, iy, a.z + t * (b.z - a.z), z, near);
+    }
+  }
+}
+
+void cut_level_arc(Knife& k, const Outline& o, const Move& m) {
+  const double ra = 0.5 * (norm(xy(m.from) - m.centre) + norm(xy(m.to) - m.centre));
+  const double r = o.radius;
+  const double sweep = sweep_of(m);
+  const double start = std::atan2(m.from.y - m.centre.y, m.from.x - m.centre.x);
+  const double sign = m.kind == model::MoveKind::kArcCcw ? 1.0 : -1.0;
+  const geometry::Box3 box = box_of(m);
+  constexpr double kTurn = 6.283185307179586;
+  const auto [y0, y1] = k.grid.rows(box.lo.y - r, box.hi.y + r);
+  const auto [x0, x1] = k.grid.columns(box.lo.x - r, box.hi.x + r);
+  for (int iy = y0; iy < y1; ++iy) {
+    for (int ix = x0; ix < x1; ++ix) {
+      if (k.grid.stock[k.grid.index(ix, iy)] <= m.to.z) continue;
+      const Vec2 p = k.grid.centre(ix, iy);
+      const Vec2 q = p - m.centre;
+      const double radial = std::abs(norm(q) - ra);
+      if (radial > r) continue;
+      double ahead = std::fmod(sign * (std::atan2(q.y, q.x) - start), kTurn);
+      if (ahead < 0.0) ahead += kTurn;
+      const double near =
+          ahead <= sweep ? radial : std::min(norm(p - xy(m.from)), norm(p - xy(m.to)));
+      if (near <= r) k.at(ix, iy, m.to.z, m.to.z + o.height(near), near);
+    }
+  }
+}
+
+}  // namespace
+
+Bite cut(Grid& grid, const Move& m, const CutterProfile& cutter, double allowed_mm, const GougeJudge* judge) {
+  Bite bite;
+  if (m.kind == model::MoveKind::kDwell) return bite;
+  if (std::min(m.from.z, m.to.z) >= grid.top()) return bite;
+  const Outline o(cutter);
+  Knife k{grid, allowed_mm, judge, bite, 0.3 * o.radius};
+  if (!is_arc(m.kind)) {
+    cut_line(k, o, m.from, m.to);
+  } else if (std::abs(m.from.z - m.to.z) < 1e-9) {
+    cut_level_arc(k, o, m);
+  } else {
+    const int n = pieces_of(m, 0.002);
+    Vec3 a = m.from;
+    for (int i = 1; i <= n; ++i) {
+      const Vec3 b = point_of(m, static_cast<double>(i) / n);
+      cut_line(k, o, a, b);
+      a = b;
+    }
+  }
+  return bite;
+}
+
+double rapid_collision(const Grid& grid, const Move& m, const CutterProfile& cutter, double clearance_mm,
+                       Vec2& at) {
+  constexpr double kGrazing = 0.01;  // mm: a wall the cutter has just made is not hit by leaving it
+  const double zmin = std::min(m.from.z, m.to.z);
+  const bool vertical = norm(xy(m.to) - xy(m.from)) < 1e-9;
+  if (vertical && m.to.z >= m.from.z) return 0.0;
+  if (zmin >= grid.top() + clearance_mm) return 0.0;
+  const Outline o(cutter);
+  const double r = std::max(0.0, o.radius - kGrazing);
+  const double xa = std::min(m.from.x, m.to.x), xb = std::max(m.from.x, m.to.x);
+  const double ya = std::min(m.from.y, m.to.y), yb = std::max(m.from.y, m.to.y);
+  double worst = 0.0;
+  const auto [y0, y1] = grid.rows(ya - r, yb + r);
+  for (int iy = y0; iy < y1; ++iy) {
+    const double y = grid.centre(0, iy).y;
+    const double dy = y - std::clamp(y, ya, yb);
+    const double half = std::sqrt(std::max(0.0, r * r - dy * dy));
+    const auto [x0, x1] = grid.columns(xa - half, xb + half);
+    for (int ix = x0; ix < x1; ++ix) {
+      const double s = grid.stock[grid.index(ix, iy)];
+      if (s + clearance_mm <= zmin) continue;
+      const double x = grid.centre(ix, iy).x;
+      const double z = zmin + o.height(std::hypot(x - std::clamp(x, xa, xb), dy));
+      const double dip = s + clearance_mm - z;
+      if (dip > worst) {
+        worst = dip;
+        at = grid.centre(ix, iy);
+      }
+    }
+  }
+  return worst;
+}
+
+}  // namespace capstan::verify

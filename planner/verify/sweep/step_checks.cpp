@@ -1,0 +1,366 @@
+#include "planner/verify/sweep/step_checks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "planner/mechanics/constants.h"
+#include "planner/model/nouns/all.h"
+
+namespace capstan::verify {
+
+using geometry::Vec2;
+using model::CutterClass;
+using model::MoveKind;
+using model::MoveRole;
+
+namespace {
+
+constexpr double kRapidClearanceMm = 1e-3;  ///< least gap under a rapid; more than a program's last decimal
+constexpr double kTouchMm3 = 1e-6;          ///< less than this is not a cut
+constexpr double kSlackMm = 0.02;           ///< of lengths measured on heights
+
+std::string here(Vec2 p) { return "(" + plain(p.x) + ", " + plain(p.y) + ")"; }
+
+bool is_mill(const model::Cutter& c) {
+  return !works_along_axis(c) && c.cutter_class != CutterClass::kThreadMill;
+}
+bool undercuts(const model::Cutter& c) {
+  return c.cutter_class == CutterClass::kTSlotMill || c.cutter_class == CutterClass::kDovetailMill;
+}
+bool cuts_to_centre(const model::Cutter& c) {
+  switch (c.cutter_class) {
+    case CutterClass::kTwistDrill:
+    case CutterClass::kCenterDrill:
+    case CutterClass::kSpotDrill:
+      return true;
+    default:
+      return c.centre_cutting;
+  }
+}
+
+}  // namespace
+
+StepChecks::StepChecks(const model::Plan& plan, const StepMoves& step, Grid& grid, Target& target,
+                       Findings& findings)
+    : plan_(plan),
+      step_(step),
+      cutter_(*step.cutter),
+      grid_(grid),
+      target_(target),
+      out_(findings),
+      profile_(model::profile_of(*step.cutter)),
+      radius_(profile_.radius_mm),
+      tip_mm_(model::tip_length(*step.cutter)) {
+  const model::Executable* e = step.planned != nullptr ? plan.model.get<model::Executable>(step.planned->step) : nullptr;
+  const auto* ws = e != nullptr ? plan.model.get<model::MachiningWorkingstep>(step.planned->step) : nullptr;
+  std::string why;
+  if (undercuts(cutter_)) {
+    why = "an undercut is not held as heights";
+  } else if (ws != nullptr) {
+    why = target.undecided(ws->its_feature);
+  }
+  if (!why.empty()) {
+    judge_gouge_ = false;
+    out_.note(11, "CHK-GOUGE-UNDECIDED", {step.order + 1, step.id, -1}, "not judged for gouges: " + why);
+  }
+}
+
+bool StepChecks::hole_tool() const { return works_along_axis(cutter_); }
+
+bool StepChecks::in_hole(const Move& m) const {
+  const double low = std::min(m.from.z, m.to.z);
+  return low < grid_.top() && grid_.highest(xy(m.from), radius_ + 2.0 * grid_.cell()) > low + 0.1;
+}
+
+void StepChecks::run() {
+  for (const Move& m : step_.moves) {
+    if (m.kind == MoveKind::kRapid) {
+      settle();
+      rapid(m);
+    } else if (m.kind != MoveKind::kDwell) {
+      feed(m);
+    }
+  }
+  settle();
+}
+
+void StepChecks::rapid(const Move& m) {
+  helix_turned_ = 0.0;
+  Vec2 where;
+  const double dip = rapid_collision(grid_, m, profile_, kRapidClearanceMm, where);
+  if (dip > 0.0) {
+    const bool falls = m.to.z < m.from.z - 1e-9 && norm(xy(m.to) - xy(m.from)) < 1e-9;
+    const double into = std::max(0.0, dip - kRapidClearanceMm);
+    out_.error(falls ? 10 : 9, falls ? "CHK-RAPID-DOWN" : "CHK-RAPID", at(m),
+               (falls ? "a rapid goes down to z = " + plain(m.to.z) : "a rapid at z = " +
+                    plain(std::min(m.from.z, m.to.z)) + ", axes taken as not arriving together,") +
+                   (into > 0.0 ? " runs " + mm(into) + " into material at " : " touches material at ") +
+                   here(where) + " (cells of " + mm(grid_.cell()) + ")",
+               dip);
+  }
+  if (m.spindle_rpm == 0.0 && hole_tool() && cutter_.cutter_class != CutterClass::kBoringTool && in_hole(m) &&
+      m.to.z > m.from.z) {
+    out_.error(15, "CHK-SPINDLE-STOPPED", at(m),
+               "the tool is withdrawn from z = " + plain(m.from.z) + " with the spindle stopped",
+               m.to.z - m.from.z);
+  }
+}
+
+void StepChecks::feed(const Move& m) {
+  const double allowed = target_.allowed();
+  const Bite bite = cut(grid_, m, profile_, judge_gouge_ ? allowed : 1e300, &target_);
+  if (judge_gouge_) gouge(m, bite);
+  spindle(m, bite);
+  reach(m);
+  if (bite.volume_mm3 > kTouchMm3) {
+    contact(m, bite);
+    entry(m, bite);
+  }
+  if (cutter_.cutter_class == CutterClass::kTap) {
+    tapping(m);
+    return;
+  }
+  account(m, bite);
+}
+
+void StepChecks::gouge(const Move& m, const Bite& bite) {
+  if (bite.gouge_mm > 0.0) {
+    // The point of a drill below a flat bottom is what drilling does to one: said, but apart.
+    const bool point = tip_mm_ > 0.0 && hole_tool() && bite.gouge_mm <= tip_mm_ + target_.allowed();
+    const std::string text = mm(bite.gouge_mm) + " below the finished surface at " + here(bite.gouge_at) +
+                             "; allowed " + mm(target_.allowed()) + " (cells of " + mm(grid_.cell()) + ")";
+    if (point) {
+      out_.warn(11, "CHK-GOUGE-POINT", at(m), "the tool's point ends " + text, bite.gouge_mm);
+    } else {
+      out_.error(11, "CHK-GOUGE", at(m), "the cutter goes " + text, bite.gouge_mm);
+    }
+  }
+  Vec2 where;
+  double worst = target_.wall_gouge(m, radius_, profile_.height(radius_), where);
+  const double flat = profile_.pieces.empty() ? 0.0 : profile_.pieces.front().r1_mm;
+  if (profile_.pieces.size() > 1 && profile_.pieces.front().radius_mm == 0.0 &&
+      profile_.pieces.front().slope == 0.0 && flat > target_.allowed()) {
+    Vec2 other;
+    const double below = target_.wall_gouge(m, flat, 0.0, other);
+    if (below > worst) {
+      worst = below;
+      where = other;
+    }
+  }
+  if (worst > 0.0) {
+    out_.error(11, "CHK-GOUGE-WALL", at(m),
+               "the cutter at " + here(where) + " enters a finished wall by " + mm(worst) + "; allowed " +
+                   mm(target_.allowed()),
+               worst);
+  }
+}
+
+void StepChecks::contact(const Move& m, const Bite& bite) {
+  const double flutes = cutter_.maximum_depth_of_cut_mm;
+  if (flutes <= 0.0) return;
+  if (bite.contact_mm > flutes + kSlackMm) {
+    out_.error(13, "CHK-FLUTE", at(m),
+               "material is cut " + mm(bite.contact_mm) + " above the tip; the flutes are " + mm(flutes) + " long",
+               bite.contact_mm);
+  }
+  if (is_mill(cutter_) && bite.thickest_mm > flutes + kSlackMm) {
+    out_.error(20, "CHK-DEPTH", at(m),
+               "depth of cut " + mm(bite.thickest_mm) + "; the tool's largest is " + mm(flutes), bite.thickest_mm);
+  }
+}
+
+void StepChecks::reach(const Move& m) {
+  const double low = std::min(m.from.z, m.to.z);
+  const double length = cutter_.stick_out_mm;
+  if (length <= 0.0 || grid_.top() - low <= length + kSlackMm) return;
+  const double holder = std::max(0.5 * cutter_.holder_diameter_mm, radius_);
+  const double high = std::max(grid_.highest(xy(m.from), holder), grid_.highest(xy(m.to), holder));
+  if (high - low > length + kSlackMm) {
+    out_.error(13, "CHK-REACH", at(m),
+               "the tip is " + mm(high - low) + " below the material beside the tool; it sticks out " + mm(length),
+               high - low);
+  }
+}
+
+void StepChecks::entry(const Move& m, const Bite& bite) {
+  const double dz = m.to.z - m.from.z;
+  if (dz >= -1e-9) {
+    helix_turned_ = 0.0;
+    return;
+  }
+  const double along = is_arc(m.kind) ? norm(xy(m.to) - m.centre) * sweep_of(m) : norm(xy(m.to) - xy(m.from));
+  const double angle = std::atan2(-dz, along);
+  const bool core = bite.core_mm > 0.05;
+  if (along < 1e-6 || angle > 1.5533) {  // steeper than 89 degrees
+    if (core && !cuts_to_centre(cutter_)) {
+      out_.error(14, "CHK-PLUNGE", at(m),
+                 "the tool does not cut to its centre, but plunges " + mm(-dz) + " into solid material", -dz);
+    }
+    return;
+  }
+  // Following a surface down is not an entry.
+  const bool entering = m.role_known ? (m.role == MoveRole::kRamp || m.role == MoveRole::kPlunge) : core;
+  const bool shaped = cutter_.cutter_class == CutterClass::kBallEndmill || plan_.target_mesh != nullptr;
+  const bool thread = cutter_.cutter_class == CutterClass::kThreadMill;
+  if (!entering || thread || !core || (shaped && !(m.role_known && m.role == MoveRole::kRamp))) return;
+  const double most = cutter_.maximum_ramp_angle_rad;
+  const double degrees = 180.0 / std::numbers::pi;
+  if (angle > most + 1e-4) {
+    out_.error(14, "CHK-RAMP", at(m),
+               "a ramp of " + plain(angle * degrees) + " degrees; the tool may " +
+                   (most > 0.0 ? "ramp at " + plain(most * degrees) + " degrees at most" : "not ramp"),
+               angle);
+  }
+  if (!is_arc(m.kind)) return;
+  helix_turned_ += sweep_of(m);
+  const double helix = norm(xy(m.to) - m.centre);
+  if (helix_turned_ > 2.0 * std::numbers::pi - 1e-6 && helix > radius_ + 1e-6) {
+    out_.error(14, "CHK-HELIX", at(m),
+               "a helix of diameter " + mm(2.0 * helix) + " leaves a core; the cutter's diameter is " +
+                   mm(2.0 * radius_),
+               helix);
+  }
+}
+
+void StepChecks::spindle(const Move& m, const Bite& bite) {
+  const bool touches = bite.volume_mm3 > kTouchMm3;
+  if (m.spindle_rpm == 0.0) {
+    if (touches || (hole_tool() && cutter_.cutter_class != CutterClass::kBoringTool && in_hole(m))) {
+      out_.error(15, "CHK-SPINDLE-STOPPED", at(m),
+                 touches ? "the tool cuts " + plain(bite.volume_mm3) + " mm3 with the spindle stopped"
+                         : "the tool moves in its hole with the spindle stopped",
+                 bite.volume_mm3);
+    }
+    return;
+  }
+  const bool right = cutter_.hand != model::Hand::kLeft;
+  const bool backs_out = cutter_.cutter_class == CutterClass::kTap && m.to.z > m.from.z;
+  if (touches && !backs_out && (m.spindle_rpm > 0.0) != right) {
+    out_.error(15, "CHK-SPINDLE-DIRECTION", at(m),
+               std::string("the spindle turns ") + (right ? "counter-clockwise" : "clockwise") + " for a " +
+                   (right ? "right" : "left") + "-hand tool");
+  }
+}
+
+void StepChecks::tapping(const Move& m) {
+  const double pitch = cutter_.thread_pitch_mm;
+  const double n = std::abs(m.spindle_rpm);
+  if (!(pitch > 0.0) || !in_hole(m) || n == 0.0) return;
+  if (std::abs(m.feed_mm_min - pitch * n) > 0.01 * pitch * n) {
+    out_.error(18, "CHK-TAP-FEED", at(m),
+               "a feed of " + plain(m.feed_mm_min) + " mm/min is not the pitch of " + mm(pitch) + " at " + plain(n) +
+                   " rpm",
+               std::abs(m.feed_mm_min - pitch * n));
+  }
+  // The largest tap torque: K p^2 D kc / 8000, kc at a chip as thick as the pitch divided by eight teeth.
+  const model::WorkMaterial& w = plan_.material;
+  if (!(w.kc11_n_mm2 > 0.0) || m.to.z > m.from.z) return;
+  const double h = std::clamp(pitch / 8.0, mechanics::kKienzleMinChipThicknessMm, mechanics::kKienzleMaxChipThicknessMm);
+  const double kc = w.kc11_n_mm2 * std::pow(h, -w.mc);
+  const double torque = mechanics::kTappingTorqueFactor * pitch * pitch * cutter_.cutting_diameter_mm * kc / 8000.0;
+  const model::SpindlePoint limit = spindle_at(plan_.machine.spindle, n);
+  if (limit.torque_nm > 0.0 && torque > limit.torque_nm * plan_.machine.spindle.efficiency) {
+    out_.error(17, "CHK-TORQUE", at(m),
+               "tapping asks for " + plain(torque) + " Nm; the spindle gives " + plain(limit.torque_nm) + " Nm at " +
+                   plain(n) + " rpm",
+               torque);
+  }
+}
+
+void StepChecks::account(const Move& m, const Bite& bite) {
+  const double length = length_of(m);
+  const double rpm = std::abs(m.spindle_rpm);
+  const bool axial = norm(xy(m.to) - xy(m.from)) < 1e-6 && !is_arc(m.kind);
+  if (sum_.length_mm > 0.0 &&
+      (std::abs(sum_.feed_mm_min - m.feed_mm_min) > 0.01 * sum_.feed_mm_min || sum_.rpm != rpm || sum_.axial != axial)) {
+    settle();
+  }
+  if (!(length > 0.0) || !(m.feed_mm_min > 0.0)) return;
+  if (bite.volume_mm3 <= kTouchMm3) {
+    settle();
+    return;
+  }
+  if (sum_.length_mm == 0.0) sum_.where = m.where;
+  sum_.length_mm += length;
+  sum_.volume_mm3 += bite.volume_mm3;
+  sum_.minutes += length / m.feed_mm_min;
+  sum_.depth_mm = std::max(sum_.depth_mm, bite.thickest_mm);
+  sum_.feed_mm_min = m.feed_mm_min;
+  sum_.rpm = rpm;
+  sum_.axial = axial;
+  if (sum_.length_mm > std::max(2.0, 0.5 * radius_)) settle();
+}
+
+void StepChecks::settle() {
+  if (sum_.length_mm > std::max(0.5, 3.0 * grid_.cell()) && sum_.rpm > 0.0) {
+    const int teeth = std::max(1, cutter_.teeth);
+    const double d = std::max(1e-6, cutter_.cutting_diameter_mm);
+    const double fz = sum_.feed_mm_min / (sum_.rpm * teeth);
+    double width = d;
+    double chip_mm = fz * std::sin(0.5 * (cutter_.point_angle_rad > 0.0 ? cutter_.point_angle_rad : std::numbers::pi));
+    double largest = fz;
+    if (!sum_.axial && sum_.depth_mm > 0.0) {
+      // The mean section and the depth give the width; width and feed give the chip (chord geometry).
+      width = std::clamp(sum_.volume_mm3 / sum_.length_mm / sum_.depth_mm, 0.01 * d, d);
+      const double phi = std::acos(1.0 - 2.0 * width / d);
+      chip_mm = 2.0 * fz * width / (d * phi);
+      if (width < 0.5 * d) largest = fz * std::sin(phi);
+    }
+    chip(largest, fz);
+    power(sum_.volume_mm3, sum_.minutes, chip_mm);
+  }
+  sum_ = {};
+}
+
+void StepChecks::chip(double largest, double fz) {
+  const FeedLimit limit = feed_limit(cutter_);
+  const int teeth = std::max(1, cutter_.teeth);
+  const Findings::Where where{step_.order + 1, step_.id, sum_.where};
+  if (limit.per_revolution) {
+    if (fz * teeth > limit.mm * (1.0 + 1e-6)) {
+      out_.error(18, "CHK-FEED-TOOL", where,
+                 "a feed of " + mm(fz * teeth) + " per revolution; at most " + mm(limit.mm) + " (" + limit.source +
+                     ", diameter " + mm(cutter_.cutting_diameter_mm) + ")",
+                 fz * teeth);
+    }
+    return;
+  }
+  // A tenth more than the limit: the width is measured on cells.
+  if (largest > 1.1 * limit.mm) {
+    out_.error(18, "CHK-FEED-TOOL", where,
+               "chips of up to " + mm(largest) + " (feed per tooth " + mm(fz) + "); at most " + mm(limit.mm) + " (" +
+                   limit.source + ", diameter " + mm(cutter_.cutting_diameter_mm) + ")",
+               largest);
+  }
+}
+
+void StepChecks::power(double volume, double minutes, double chip_mm) {
+  const model::WorkMaterial& w = plan_.material;
+  const model::Spindle& spindle = plan_.machine.spindle;
+  if (!(w.kc11_n_mm2 > 0.0) || spindle.curve.empty() || !(minutes > 0.0)) return;
+  const double h =
+      std::clamp(chip_mm, mechanics::kKienzleMinChipThicknessMm, mechanics::kKienzleMaxChipThicknessMm);
+  double kc = w.kc11_n_mm2 * std::pow(h, -w.mc) * mechanics::kWearForceFactor;
+  if (cutter_.cutter_class == CutterClass::kReamer) kc *= mechanics::kReamingFrictionFactor;
+  const double power_w = kc * volume / minutes / 60000.0;  // N/mm2 mm3/min = N mm/min = 1/60000 W
+  const double torque_nm = power_w / (sum_.rpm * 2.0 * std::numbers::pi / 60.0);
+  const double efficiency = spindle.efficiency > 0.0 ? spindle.efficiency : mechanics::kDefaultSpindleEfficiency;
+  const model::SpindlePoint limit = spindle_at(spindle, sum_.rpm);
+  const Findings::Where where{step_.order + 1, step_.id, sum_.where};
+  const std::string how = ": " + plain(volume / minutes) + " mm3/min at kc = " + plain(kc) + " N/mm2, worn edge";
+  if (limit.power_w > 0.0 && power_w > limit.power_w * efficiency) {
+    out_.error(17, "CHK-POWER", where,
+               "cutting asks for " + plain(power_w) + " W of " + plain(limit.power_w * efficiency) + " W at " +
+                   plain(sum_.rpm) + " rpm" + how,
+               power_w);
+  }
+  if (limit.torque_nm > 0.0 && torque_nm > limit.torque_nm * efficiency) {
+    out_.error(17, "CHK-TORQUE", where,
+               "cutting asks for " + plain(torque_nm) + " Nm of " + plain(limit.torque_nm * efficiency) + " Nm at " +
+                   plain(sum_.rpm) + " rpm" + how,
+               torque_nm);
+  }
+}
+
+}  // namespace capstan::verify

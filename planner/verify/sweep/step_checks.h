@@ -1,0 +1,68 @@
+#pragma once
+
+#include <string>
+
+#include "planner/model/plan.h"
+#include "planner/verify/findings.h"
+#include "planner/verify/moves.h"
+#include "planner/verify/sweep/grid.h"
+#include "planner/verify/sweep/target.h"
+
+namespace capstan::verify {
+
+/// The checks of one step's moves while they cut.
+class StepChecks {
+ public:
+  StepChecks(const model::Plan& plan, const StepMoves& step, Grid& grid, Target& target, Findings& findings);
+  void run();
+
+ private:
+  void rapid(const Move& m);
+  void feed(const Move& m);
+  void gouge(const Move& m, const Bite& bite);
+  void contact(const Move& m, const Bite& bite);
+  void reach(const Move& m);
+  void entry(const Move& m, const Bite& bite);
+  void spindle(const Move& m, const Bite& bite);
+  void account(const Move& m, const Bite& bite);
+  void settle();
+  void power(double volume, double minutes, double chip_mm);
+  void chip(double width, double feed);
+  void tapping(const Move& m);
+  [[nodiscard]] bool hole_tool() const;
+  [[nodiscard]] bool in_hole(const Move& m) const;
+  [[nodiscard]] Findings::Where at(const Move& m) const { return {step_.order + 1, step_.id, m.where}; }
+
+  const model::Plan& plan_;
+  const StepMoves& step_;
+  const model::Cutter& cutter_;
+  Grid& grid_;
+  Target& target_;
+  Findings& out_;
+  geometry::CutterProfile profile_;
+  double radius_, tip_mm_;
+  bool judge_gouge_ = true;
+  double helix_turned_ = 0.0;  ///< rad, of a descending spiral so far
+
+  // Moves taken together until they are long enough to be measured on the grid.
+  struct Account {
+    double length_mm = 0.0, volume_mm3 = 0.0, minutes = 0.0, depth_mm = 0.0;
+    double feed_mm_min = 0.0, rpm = 0.0;
+    bool axial = false;
+    long where = -1;
+  } sum_;
+};
+
+/// Largest feed per tooth, or per revolution for tools that work along their axis, mm, with where it is from.
+struct FeedLimit {
+  double mm = 0.0;
+  bool per_revolution = false;
+  std::string source;
+};
+[[nodiscard]] FeedLimit feed_limit(const model::Cutter& c);
+[[nodiscard]] bool works_along_axis(const model::Cutter& c);
+/// Motor power and torque for continuous running at a speed, between the curve's points; power linear
+/// where torque is not stated.
+[[nodiscard]] model::SpindlePoint spindle_at(const model::Spindle& s, double rpm);
+
+}  // namespace capstan::verify

@@ -1,0 +1,76 @@
+#include "planner/verify/sweep/sweep.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include "planner/verify/sweep/step_checks.h"
+#include "planner/verify/verify.h"
+
+namespace capstan::verify {
+namespace {
+
+constexpr double kUsualCells = 250e3;  // default, unsourced: a compromise of time and resolution
+
+/// One set-up's heights and finished part.
+struct Scene {
+  Target target;
+  Grid grid;
+  Scene(const model::Plan& plan, const PartShapes& part, std::size_t setup, double cell)
+      : target(plan, part, setup),
+        grid(xy(target.stock().lo), xy(target.stock().hi), cell, kMaximumCells) {
+    target.fill(grid);
+  }
+};
+
+double cell_of(const model::Plan& plan) {
+  const geometry::Vec3 size = plan.stock.box.size();
+  // Whatever side lies below: the largest face of the box.
+  const double area = std::max({size.x * size.y, size.y * size.z, size.x * size.z});
+  double smallest = 1e300;
+  for (const auto& c : plan.cutters) {
+    if (c.cutting_diameter_mm > 0.0) smallest = std::min(smallest, c.cutting_diameter_mm);
+  }
+  return std::max({0.02, std::sqrt(area / static_cast<double>(kMaximumCells)),
+                   std::min(std::sqrt(area / kUsualCells), smallest / 8.0)});
+}
+
+bool sound(const model::Cutter* c) {
+  return c != nullptr && std::isfinite(c->cutting_diameter_mm) && c->cutting_diameter_mm > 0.0;
+}
+
+}  // namespace
+
+void check_removal(const model::Plan& plan, const std::vector<StepMoves>& steps, Findings& findings, Job& job) {
+  if (plan.stock.box.empty()) {
+    findings.warn(11, "CHK-NO-STOCK", {0, "", -1}, "there is no raw piece, so that removal cannot be checked");
+    return;
+  }
+  const PartShapes part = shapes_of_part(plan);
+  const double cell = cell_of(plan);
+  std::unique_ptr<Scene> scene;
+  std::size_t current = 0;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const StepMoves& step = steps[i];
+    job.progress("check", static_cast<double>(i) / static_cast<double>(steps.size()));
+    if (job.stop_requested()) return;
+    if (!scene || step.setup != current) {
+      const bool same = scene && workpiece_in(plan, step.setup) == workpiece_in(plan, current);
+      if (!same) {
+        if (scene) {
+          findings.note(9, "CHK-STOCK-FRESH", {step.order + 1, step.id, -1},
+                        "the set-up is checked against the whole raw piece: what another one took from it is not "
+                        "carried over");
+        }
+        scene = std::make_unique<Scene>(plan, part, step.setup, cell);
+      }
+      current = step.setup;
+    }
+    if (!sound(step.cutter)) continue;
+    StepChecks(plan, step, scene->grid, scene->target, findings).run();
+    scene->grid.find_top();
+  }
+}
+
+}  // namespace capstan::verify
