@@ -139,8 +139,22 @@ class Scheduler {
     return best;
   }
 
+  /// How many steps a tool could make in one go, its own steps setting each other free.
+  [[nodiscard]] std::size_t in_one_go(const Pool& p, std::size_t side, const std::string& tool) const {
+    std::map<std::size_t, std::size_t> freed;  // waiting step -> how many of its predecessors would be done
+    std::vector<std::size_t> reached;
+    for (const auto& key : p.ready) reached.push_back(std::get<2>(key));
+    for (std::size_t at = 0; at < reached.size() && reached.size() < p.waiting; ++at) {
+      for (const std::size_t k : next_[reached[at]]) {
+        if (access_.of_feature[items_[k].feature] != side || tool_of(k) != tool) continue;
+        if (++freed[k] == blocked_[k]) reached.push_back(k);
+      }
+    }
+    return reached.size();
+  }
+
   // The tool in the spindle when it has something to do; else one that will not be needed again; else the one
-  // with most to do now; ties by the lowest feature.
+  // with most to do in one go; ties by the lowest feature.
   Pools::iterator pick_pool(std::size_t side) {
     auto& pools = pools_[side];
     const auto current = pools.find(tool_);
@@ -150,8 +164,9 @@ class Scheduler {
     for (auto it = pools.begin(); it != pools.end(); ++it) {
       const Pool& p = it->second;
       if (p.ready.empty()) continue;
-      const std::tuple key{p.ready.size() < p.waiting,
-                           std::numeric_limits<std::size_t>::max() - p.ready.size(), *p.ready.begin()};
+      const std::size_t steps = in_one_go(p, side, it->first);
+      const std::tuple key{steps < p.waiting, std::numeric_limits<std::size_t>::max() - steps,
+                           *p.ready.begin()};
       if (best == pools.end() || key < best_key) {
         best = it;
         best_key = key;

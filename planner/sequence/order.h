@@ -79,7 +79,8 @@ inline constexpr double kSameDirection = 1e-6;
 /// opposite side when that is one (`Order` then lists it there: its shape is the caller's to turn round).
 /// Set-ups follow the precedences between them, then `Options::directions`, then most steps first. Within a
 /// set-up the next step is one whose predecessors are done: with the tool in the spindle when there is one,
-/// else the tool with which most ready steps can be made; ties by feature, then by chain.
+/// else the tool with which most steps can be made in one go, one it will not need again first; ties by
+/// feature, then by chain.
 ///
 /// Fails   SEQ-INDEX for an item that names no shape.
 /// Cost    O(n log n) for features that overlap few others (grid over their boxes).

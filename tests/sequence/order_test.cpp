@@ -65,7 +65,8 @@ TEST(Order, PutsFacesFirstAndFloorsBeforeWhatBeginsInThem) {
   const Plate p;
   const Order o = ordered(p.shapes, p.items);
   ASSERT_EQ(o.setups.size(), 1U);
-  EXPECT_EQ(o.setups[0].steps, (std::vector<std::size_t>{6, 4, 5, 0, 2, 1, 3}));
+  EXPECT_EQ(o.setups[0].steps, (std::vector<std::size_t>{6, 4, 5, 0, 2, 1, 3}))
+      << "the pocket before any hole, so that each tool is loaded once";
   EXPECT_EQ(o.tool_changes, 4U);
   const auto has = [&](std::size_t a, std::size_t b, Cause c) {
     return std::any_of(o.precedences.begin(), o.precedences.end(),
