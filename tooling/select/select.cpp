@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <map>
 #include <numbers>
 #include <optional>
@@ -100,9 +101,7 @@ std::optional<std::string> not_for_machine(const Cutter& c, const StartValues& s
   if (c.maximum_speed_rpm > 0.0 && c.maximum_speed_rpm < m.spindle.rpm_min)
     return "its largest speed " + trimmed(c.maximum_speed_rpm, 0) + " 1/min is below the spindle's least " +
            trimmed(m.spindle.rpm_min, 0);
-  Machine free = m;
-  free.spindle.rpm_min = 0.0;
-  const double wanted = start_values(c, w, free).vc_m_min;
+  const double wanted = start.wanted_vc_m_min;
   if (start.vc_m_min > kFastestOverPreset * wanted)
     return "the spindle's least speed " + trimmed(m.spindle.rpm_min, 0) + " 1/min gives " +
            trimmed(start.vc_m_min, 1) + " m/min, " + w.id + " bears " + trimmed(wanted, 1);
@@ -125,9 +124,7 @@ double score_of(const Cutter& c, std::size_t class_rank, const ToolRequirement& 
   // Chips of aluminium need room between the teeth; in steel more teeth feed faster.
   const int teeth = w.iso_group == "N" ? std::max(0, c.teeth - 3) : std::max(0, 4 - c.teeth);
   s += kPerTooth * teeth;
-  Machine unlimited;
-  unlimited.spindle.rpm_max = 0.0;
-  const double wanted = start_values(c, w, unlimited).vc_m_min;
+  const double wanted = start.wanted_vc_m_min;
   if (wanted > 0.0) s += kPerSpeedShort * std::max(0.0, 1.0 - start.vc_m_min / wanted);
   return rounded(s, 9);
 }
@@ -169,53 +166,73 @@ model::Reason reason_for(const Cutter& c, const ToolRequirement& r, const StartV
   return {"tooling.select." + std::string(model::to_text(c.cutter_class)), text, start.why.source};
 }
 
+/// A cutter that meets all limits, and one that misses one.
+struct Fit {
+  const Cutter* cutter;
+  StartValues start;
+  std::size_t rank;
+  double score;
+};
+struct Near {
+  const Cutter* cutter;
+  std::string why;
+};
+
+/// The largest first: they come nearest to what was wanted.
+void tell_near(std::vector<Near>& near, std::size_t most, Selection& out) {
+  std::sort(near.begin(), near.end(), [](const Near& a, const Near& b) {
+    const double da = a.cutter->cutting_diameter_mm, db = b.cutter->cutting_diameter_mm;
+    return da != db ? da > db : a.cutter->id < b.cutter->id;
+  });
+  const std::size_t told = std::min(near.size(), most);
+  for (std::size_t i = 0; i < told; ++i) out.rejected.push_back({near[i].cutter->id, std::move(near[i].why)});
+  if (near.size() > told)
+    out.rejected.push_back(
+        {std::to_string(near.size() - told) + " more", "smaller, fail one of the same limits"});
+}
+
 }  // namespace
 
 Selection select(const ToolRequirement& requirement, const std::vector<Cutter>& library,
                  const WorkMaterial& material, const Machine& machine, const Preferences& preferences) {
   const ToolRequirement& r = requirement;
   Selection out;
-  std::vector<StartValues> starts;
+  std::deque<Cutter> set;  // boring tools, set to size; addresses stay
+  std::vector<Fit> fits;
+  std::vector<Near> near;
   std::map<CutterClass, std::set<double>> other_sizes;
-  std::vector<model::Rejected> near;
   for (const Cutter& original : library) {
     const std::size_t rank = rank_of(r, original.cutter_class);
-    if (rank == r.classes.size()) continue;
-    const Cutter c = as_set(original, r);
-    if (c.cutting_diameter_mm <= 0.0 || c.teeth <= 0) continue;
+    if (rank == r.classes.size() || original.cutting_diameter_mm <= 0.0 || original.teeth <= 0) continue;
+    const Cutter& c = original.adjustable_to_mm > 0.0 ? set.emplace_back(as_set(original, r)) : original;
     if (wrong_size(c, r)) {
       other_sizes[c.cutter_class].insert(rounded(c.cutting_diameter_mm, 4));
       continue;
     }
     auto why = wrong_shape(c, r);
     if (!why) why = too_short(c, r);
-    const StartValues start = start_values(c, material, machine);
-    if (!why) why = not_for_machine(c, start, material, machine);
-    if (why) {
-      near.push_back({c.id, std::move(*why)});
-      continue;
+    StartValues start;
+    if (!why) {
+      start = start_values(c, material, machine);
+      why = not_for_machine(c, start, material, machine);
     }
-    out.ranked.push_back({c, start.vc_m_min, start.fz_mm, static_cast<double>(rank), {}});
-    starts.push_back(start);
+    if (why)
+      near.push_back({&c, std::move(*why)});
+    else
+      fits.push_back({&c, std::move(start), rank, 0.0});
   }
   double largest = 0.0;
-  for (const auto& k : out.ranked) largest = std::max(largest, k.cutter.cutting_diameter_mm);
-  for (std::size_t i = 0; i < out.ranked.size(); ++i) {
-    model::Candidate& k = out.ranked[i];
-    k.why = reason_for(k.cutter, r, starts[i], preferences, out.ranked.size());
-    k.score =
-        score_of(k.cutter, rank_of(r, k.cutter.cutter_class), r, starts[i], material, largest, preferences);
-  }
-  std::sort(out.ranked.begin(), out.ranked.end(), [](const auto& a, const auto& b) {
-    return a.score != b.score ? a.score < b.score : a.cutter.id < b.cutter.id;
+  for (const Fit& f : fits) largest = std::max(largest, f.cutter->cutting_diameter_mm);
+  for (Fit& f : fits) f.score = score_of(*f.cutter, f.rank, r, f.start, material, largest, preferences);
+  std::sort(fits.begin(), fits.end(), [](const Fit& a, const Fit& b) {
+    return a.score != b.score ? a.score < b.score : a.cutter->id < b.cutter->id;
   });
-  if (out.ranked.size() > preferences.most) out.ranked.resize(preferences.most);
-
-  std::stable_sort(near.begin(), near.end(), [](const auto& a, const auto& b) { return a.what < b.what; });
-  const std::size_t told = std::min(near.size(), preferences.most_rejected);
-  out.rejected.assign(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(told));
-  if (near.size() > told)
-    out.rejected.push_back({std::to_string(near.size() - told) + " more", "fail one of the same limits"});
+  for (std::size_t i = 0; i < std::min(fits.size(), preferences.most); ++i) {
+    const Fit& f = fits[i];
+    out.ranked.push_back({*f.cutter, f.start.vc_m_min, f.start.fz_mm, f.score,
+                          reason_for(*f.cutter, r, f.start, preferences, fits.size())});
+  }
+  tell_near(near, preferences.most_rejected, out);
   sum_up_sizes(r, other_sizes, out);
   if (out.ranked.empty()) out.would_fit = words_of(r);
   return out;

@@ -24,6 +24,7 @@ struct StartValues {
   double fz_mm = 0.0;
   double spindle_rpm = 0.0;
   double feed_mm_min = 0.0;
+  double wanted_vc_m_min = 0.0;  ///< before any limit
   model::Reason why;  ///< id "tooling.start.<material>"; the text names what was clamped, and to what
 };
 /// Needs  cutting diameter > 0, teeth > 0.

@@ -86,6 +86,7 @@ StartValues start_values(const Cutter& c, const WorkMaterial& material, const Ma
   std::string text;
   const double turn_mm = std::numbers::pi * c.cutting_diameter_mm;
   double rpm = 1000.0 * vc / turn_mm;
+  out.wanted_vc_m_min = vc;
   limit_speed(rpm, 0.0, c.maximum_speed_rpm, "tool", text);
   limit_speed(rpm, machine.spindle.rpm_min, machine.spindle.rpm_max, "spindle", text);
   if (!tap && c.fz_max_mm > 0.0 && fz > c.fz_max_mm) {
