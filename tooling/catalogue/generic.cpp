@@ -234,6 +234,12 @@ void set_lengths(const Series& s, const Holding& h, Cutter& c, Fields& where, bo
   c.functional_length_mm = h.gage_length + c.stick_out_mm;
 }
 
+std::string speed_source(const WorkMaterial& m, bool hss) {
+  for (const auto& [field, source] : m.sources)
+    if (field == (hss ? "vc_hss_m_min" : "vc_carbide_m_min")) return source;
+  return "the material's";
+}
+
 void set_presets(const Series& s, const Reader& r, Cutter& c) {
   const auto it = r.feeds.find(s.feeds);
   if (it == r.feeds.end()) return;
@@ -249,10 +255,8 @@ void set_presets(const Series& s, const Reader& r, Cutter& c) {
   for (const WorkMaterial& m : r.materials) {
     const double vc = rounded((hss ? m.vc_hss_m_min : m.vc_carbide_m_min) * s.speed_factor, 3);
     const double fz = tap ? c.fz_min_mm : rounded(feeds.factor.at(m.iso_group) * d, 5);
-    c.presets.push_back(
-        {m.id, vc, fz,
-         "vc: " + std::string(s.speed_factor == 1.0 ? "" : trimmed(s.speed_factor, 3) + " x ") +
-             "the material's; fz: " + r.feeds_source});
+    const std::string times = s.speed_factor == 1.0 ? "" : trimmed(s.speed_factor, 3) + " (default) x ";
+    c.presets.push_back({m.id, vc, fz, "vc: " + times + speed_source(m, hss) + "; fz: " + r.feeds_source});
     const auto [at, fresh] = slowest.emplace(m.iso_group, vc);
     if (!fresh) at->second = std::min(at->second, vc);
   }

@@ -29,8 +29,8 @@ namespace capstan::tooling {
 ///     point angle         tool_top_angle, see `point_angle_from`
 ///     number of teeth     as stated, else as the generic series
 ///
-/// A face mill below 25 mm is taken as an end mill (TOOL-CLASS): no such face mill exists. A tapered end mill
-/// is taken with its taper ignored when it is zero or absent.
+/// A face mill below 25 mm is taken as an end mill (TOOL-CLASS): no such face mill exists. Tapered kinds
+/// without a taper angle are plain tools.
 /// Fails  TOOL-NONE unset or no milling tool, TOOL-BODY no body or no dimension, TOOL-VALUE a fault of its
 ///        values, TOOL-KIND a body that no cutter describes (side mill, woodruff, tapered, user-defined).
 [[nodiscard]] Result<model::Cutter> cutter_from_nouns(const model::Model& m,

@@ -59,9 +59,20 @@ Result<Parts> parts_of(const Model& m, Ref<MachiningTool> tool) {
   return p;
 }
 
+/// Files use tapered kinds without a taper for plain tools.
+bool is_tapered(const Model& m, model::AnyRef body) {
+  model::Real angle;
+  if (const auto* e = m.get<model::TaperedEndmill>(body)) angle = e->taper_angle;
+  if (const auto* d = m.get<model::TaperedDrill>(body)) angle = d->taper_angle;
+  if (const auto* r = m.get<model::TaperedReamer>(body)) angle = r->taper_angle;
+  if (const auto* t = m.get<model::TaperedTap>(body)) angle = t->taper_angle;
+  return angle.value_or(0.0) != 0.0;
+}
+
 std::optional<CutterClass> class_of_body(const Model& m, const Parts& p, double point_angle_rad) {
   const double d = p.dimension->diameter.value_or(0.0), re = p.dimension->edge_radius.value_or(0.0);
   const model::AnyRef b = p.body_ref;
+  if (is_tapered(m, b)) return std::nullopt;
   if (m.holds<model::CenterDrill>(b))
     return point_angle_rad > 75.0 * kDegree ? CutterClass::kSpotDrill : CutterClass::kCenterDrill;
   if (m.holds<model::Countersink>(b)) return CutterClass::kCountersink;
@@ -70,10 +81,6 @@ std::optional<CutterClass> class_of_body(const Model& m, const Parts& p, double 
     return d < kLeastFacemillMm ? CutterClass::kEndmill : CutterClass::kFacemill;
   if (m.holds<model::BallEndmill>(b)) return CutterClass::kBallEndmill;
   if (m.holds<model::BullnoseEndmill>(b)) return CutterClass::kBullnoseEndmill;
-  if (m.holds<model::TaperedEndmill>(b)) {
-    const auto* taper = m.get<model::TaperedEndmill>(b);
-    if (taper->taper_angle.value_or(0.0) != 0.0) return std::nullopt;
-  }
   if (m.holds<model::Endmill>(b)) {
     if (re <= 0.0) return CutterClass::kEndmill;
     return re >= 0.5 * d - kSizeSlackMm ? CutterClass::kBallEndmill : CutterClass::kBullnoseEndmill;

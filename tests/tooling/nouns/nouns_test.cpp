@@ -89,6 +89,30 @@ TEST(CutterFromNouns, TakesATinyFaceMillAsAnEndMillAndSaysSo) {
             CutterClass::kFacemill);
 }
 
+TEST(CutterFromNouns, TakesATaperedKindWithoutATaperAsPlain) {
+  Model m;
+  Job job;
+  const auto tool = given_tool<model::TaperedEndmill>(m, 18.0);
+  EXPECT_EQ(cutter_from_nouns(m, tool, job)->cutter_class, CutterClass::kEndmill);
+  m.at<model::TaperedEndmill>(m.at<model::CuttingTool>(tool).its_tool_body).taper_angle = 3.0 * kDegree;
+  EXPECT_EQ(cutter_from_nouns(m, tool, job).error().code, "TOOL-KIND");
+}
+
+TEST(CutterFromNouns, StartsAGivenHssMillAtTheMaterialsHssSpeed) {
+  Model m;
+  Job job;
+  const auto c = cutter_from_nouns(m, given_tool<model::Endmill>(m, 18.0), job).value();
+  EXPECT_EQ(c.substrate, model::Substrate::kHss);  // nothing says carbide
+  for (const auto& p : c.presets) EXPECT_EQ(p.vc_m_min, 0.0);
+  model::WorkMaterial w;
+  w.iso_group = "P";
+  w.vc_hss_m_min = 25.0;
+  w.vc_carbide_m_min = 70.0;
+  model::Machine machine;
+  machine.spindle.rpm_max = 10000.0;
+  EXPECT_NEAR(start_values(c, w, machine).vc_m_min, 25.0, 1e-9);
+}
+
 TEST(CutterFromNouns, FailsWhereThereIsNothingToGoBy) {
   Model m;
   Job job;
