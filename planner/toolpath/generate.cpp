@@ -39,10 +39,14 @@ Status check(const PathJob& task) {
 }
 
 Result<GeneratedPath> hole_milling(const PathJob& task, Job& job) {
-  if (helix_suits(task)) return helix_path(task, job);
-  PathJob wide = task;
-  if (task.cutting_depth_mm) wide.shape.depth_mm = *task.cutting_depth_mm;
-  return area_path(wide, job);
+  PathJob hole = task;
+  if (task.cutting_depth_mm) hole.shape.depth_mm = *task.cutting_depth_mm;
+  // What an earlier step left is a hole already there.
+  if (!task.previous_diameter_mm && task.left_on_side_mm)
+    hole.previous_diameter_mm = task.shape.diameter.middle() - 2.0 * *task.left_on_side_mm;
+  if (helix_suits(hole)) return helix_path(hole, job);
+  hole.shape.area = hole.shape.reach = geometry::disc({0.0, 0.0}, 0.5 * task.shape.diameter.middle());
+  return area_path(hole, job);
 }
 
 Result<GeneratedPath> milling(const PathJob& task, Job& job) {

@@ -197,6 +197,70 @@ TEST(AreaPath, StopsAtTheTopOfALowIsland) {
   EXPECT_NEAR(map.highest(geometry::offset(geometry::offset(t.shape.reach, -4.0), 3.7)), -10.0, 1e-4);
 }
 
+TEST(AreaPath, FinishesTheTopsOfLowIslandsAndFloorsThickerThanALevel) {
+  for (const double left : {0.3, 2.5}) {
+    PathJob t = area_job(geometry::rectangle({0, 0}, {80, 60}), 10.0, 8.0);
+    const Region island = geometry::disc({40, 30}, 10.0);
+    t.shape.islands.push_back({island, -4.0});
+    t.shape.reach = geometry::subtract(t.shape.area, island);
+    t.operation = model::TypeId::kBottomAndSideFinishMilling;
+    t.axial_depth_mm = 1.0;
+    t.left_on_side_mm = 0.5;
+    t.left_on_bottom_mm = left;
+    Job job;
+    const auto g = generate(t, job);
+    ASSERT_TRUE(g) << g.error().message;
+    EXPECT_THAT(rule_breaks(t, *g), testing::IsEmpty());
+    EXPECT_LE(gouge_mm(*g, t.shape.reach, 4.0, -4.0 - 1e-6), 0.003);
+    HeightMap map({-5, -5}, {85, 65}, 0.25, 0.0);
+    map.set_top(geometry::offset(geometry::rectangle({0, 0}, {80, 60}), -0.5), -4.0 + left);
+    map.set_top(geometry::offset(geometry::offset(t.shape.reach, -4.5), 4.0), -10.0 + left);
+    EXPECT_THAT(map.run(*g, t.cutter).faults, testing::IsEmpty()) << left;
+    EXPECT_NEAR(map.highest(geometry::offset(island, -0.3)), -4.0, 1e-4) << left;
+    EXPECT_NEAR(map.highest(geometry::offset(geometry::offset(t.shape.reach, -4.0), 3.7)), -10.0, 1e-4);
+  }
+}
+
+TEST(AreaPath, FollowsSlopedWallsAndKeepsClearOfTheFilletAtTheirFoot) {
+  PathJob t = area_job(geometry::rectangle({0, 0}, {60, 40}), 10.0, 8.0);
+  t.axial_depth_mm = 2.0;
+  t.shape.slope_rad = 10.0 * kPi / 180.0;
+  t.shape.reach = t.shape.area;
+  Job job;
+  auto g = generate(t, job);
+  ASSERT_TRUE(g) << g.error().message;
+  // The ring at height h above the bottom lies h tan(slope) further out.
+  for (const double h : {8.0, 4.0, 0.0}) {
+    double x = -1e9;
+    for (std::size_t i = 1; i < g->path.size(); ++i) {
+      if (std::abs(g->path.z[i] - (h - 10.0)) < 1e-9) x = std::max(x, g->path.x[i]);
+    }
+    EXPECT_NEAR(x, 60.0 - 4.0 + h * std::tan(t.shape.slope_rad), 1e-4) << h;
+  }
+  // A fillet of 3 mm under a sharp cutter: at its foot the cutter stays 3 mm from the wall.
+  t.shape.slope_rad = 0.0;
+  t.shape.bottom_radius_mm = 3.0;
+  t.axial_depth_mm = 1.0;
+  g = generate(t, job);
+  ASSERT_TRUE(g);
+  for (const double h : {3.0, 2.0, 1.0, 0.0}) {
+    double x = -1e9;
+    for (std::size_t i = 1; i < g->path.size(); ++i) {
+      if (std::abs(g->path.z[i] - (h - 10.0)) < 1e-9) x = std::max(x, g->path.x[i]);
+    }
+    EXPECT_NEAR(x, 60.0 - 4.0 - (3.0 - std::sqrt(9.0 - (3.0 - h) * (3.0 - h))), 1e-4) << h;
+  }
+}
+
+TEST(AreaPath, KeepsOffWhatMustBeAvoided) {
+  PathJob t = area_job(geometry::rectangle({0, 0}, {60, 40}), 4.0, 8.0);
+  t.avoid = geometry::rectangle({40, 25}, {70, 50});
+  Job job;
+  const auto g = generate(t, job);
+  ASSERT_TRUE(g);
+  EXPECT_LE(gouge_mm(*g, geometry::subtract(t.shape.reach, t.avoid), 4.0, -1e-6), 0.003);
+}
+
 TEST(AreaPath, EntersAnOpenPocketFromOutside) {
   PathJob t = area_job(geometry::rectangle({0, 0}, {60, 40}), 6.0, 10.0);
   t.shape.open = true;

@@ -226,6 +226,26 @@ TEST(SlotPath, CutsOpenAndClosedSlotsInOnePassOrWider) {
   }
 }
 
+TEST(SlotPath, EntersATeeSlotByItsOpenEndOnly) {
+  PathJob t = slot_job(8.0, 12.0, 14.0, true);
+  t.shape.slot_profile = {{0, 7}, {4, 7}, {4, 4}, {12, 4}};
+  t.cutter.cutter_class = model::CutterClass::kTSlotMill;
+  t.shape.reach = geometry::stroke({{0, 0}, {160, 0}}, 4.0, false);
+  t.stock = geometry::rectangle({-20, -30}, {60, 30});
+  Job job;
+  const auto g = generate(t, job);
+  ASSERT_TRUE(g) << g.error().message;
+  EXPECT_EQ(g->levels_z_mm.size(), 1U);
+  for (std::size_t i = 1; i < g->path.size(); ++i) {
+    const bool vertical = std::abs(g->path.x[i] - g->path.x[i - 1]) < 1e-9;
+    if (vertical && g->path.z[i] != g->path.z[i - 1]) {
+      EXPECT_GT(g->path.x[i], 60.0 + 7.0);
+    }
+  }
+  t.shape.reach = geometry::stroke(t.shape.spine, 4.0, false);
+  EXPECT_EQ(generate(t, job).error().code, "TPA-ENTRY");
+}
+
 TEST(SlotPath, RefusesACutterWiderThanTheSlotAndAFormThatDoesNotMatch) {
   Job job;
   EXPECT_EQ(generate(slot_job(8.0, 5.0, 8.1, true), job).error().code, "TPA-NO-FIT");

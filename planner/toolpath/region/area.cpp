@@ -66,6 +66,20 @@ Status cut_level(LevelCutter& c, const Level& level, bool leads) {
   }
 }
 
+/// Finishing: the tops of islands that end at this level, where an earlier step left some.
+Status cut_island_tops(LevelCutter& c, const WorkArea& w, const Level& level, double left_mm) {
+  for (const auto& i : w.islands) {
+    if (std::abs(i.top_z_mm + c.task.allowance_bottom_mm - level.z_mm) > 1e-6 || left_mm <= 0.0) continue;
+    Level top = level;
+    top.centres = geometry::intersect(level.centres, inset(i.area, -0.5 * c.radius_mm, kInnerChord));
+    if (top.centres.empty()) continue;
+    top.inside = Inside(geometry::offset(top.centres, kInsideSlack, 0.5 * kInsideSlack));
+    top.from_mm = level.z_mm + left_mm;
+    if (auto ok = cut_level(c, top, false); !ok) return ok;
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<GeneratedPath> area_path(const PathJob& task, Job& job) {
@@ -75,8 +89,10 @@ Result<GeneratedPath> area_path(const PathJob& task, Job& job) {
   LevelCutter c(task, *w, writer, job);
   const bool finish = is_finish(task.operation);
   const bool floor = task.operation != TypeId::kSideFinishMilling;
+  const bool plane =
+      task.operation == TypeId::kPlaneRoughMilling || task.operation == TypeId::kPlaneFinishMilling;
   // Side finishing after an earlier step: only a shell is left on the walls.
-  const bool shell = finish && task.left_on_side_mm.has_value();
+  const bool shell = finish && !plane && task.left_on_side_mm.has_value();
   double end = w->bottom_z_mm + task.allowance_bottom_mm;
   if (task.shape.through) end -= task.cutter.corner_radius_mm;
   const bool single = task.multiple_passes.has_value() && !*task.multiple_passes;
@@ -88,31 +104,37 @@ Result<GeneratedPath> area_path(const PathJob& task, Job& job) {
                             " and " + trimmed(end, 3) + " mm",
                  .path = task.shape.name});
   }
+  // Top of what still stands away from the walls.
+  const bool opened = shell || (plane && task.left_on_bottom_mm.has_value());
   const double left_bottom = task.left_on_bottom_mm.value_or(0.0);
+  double inner = opened ? std::min(task.start_z_mm, w->bottom_z_mm + left_bottom) : task.start_z_mm;
   double from = task.start_z_mm;
   bool any = false;
   for (std::size_t i = 0; i < heights.size(); ++i) {
     const double z = heights[i];
     const bool last = i + 1 == heights.size();
-    double material = from;
-    if (shell) material = std::clamp(w->bottom_z_mm + left_bottom, z, from);
-    Level level(task, *w, z, material, task.allowance_side_mm);
-    level.above_mm = from;
-    from = z;
-    if (level.centres.empty()) {
-      // Narrow above an island's top or in a fillet is no fault; nowhere at all is.
+    const bool whole = !shell || (floor && (last || z < inner - 1e-9));
+    if (plane && opened && !last && z >= inner - 1e-9) {
+      from = z;
       continue;
     }
+    Level level(task, *w, z, std::max(z, inner), task.allowance_side_mm);
+    level.above_mm = from;
+    from = z;
+    if (whole) inner = z;
+    // Narrow above an island's top or in a fillet is no fault; nowhere at all is.
+    if (level.centres.empty()) continue;
     any = true;
     if (shell) {
       level.cleared.emplace(
           centres_at(*w, task.cutter, z, *task.left_on_side_mm + 0.02, task.allowance_bottom_mm));
     }
     Status ok;
-    if (shell && !(last && floor)) {
-      ok = cut_contours(c, level, {.lead_arcs = true, .wall_only = true});
-    } else {
+    if (whole) {
       ok = cut_level(c, level, finish);
+    } else {
+      ok = cut_contours(c, level, {.lead_arcs = true, .wall_only = true});
+      if (ok && floor) ok = cut_island_tops(c, *w, level, left_bottom);
     }
     if (!ok) return tl::unexpected(ok.error());
     if (last) {
