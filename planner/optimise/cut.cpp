@@ -154,13 +154,14 @@ class Search {
       // A thin cut may advance faster for the same chip; chip_thickness is what holds it.
       const double most = largest_fz(q) * (is_milling(q.kind) ? 3.0 : 1.0);
       const double capped = q.cutter.fz_max_mm > 0.0 ? std::min(most, q.cutter.fz_max_mm) : most;
-      add("feed_per_tooth", "mm", 0.1 * largest_fz(q), capped);
+      const double least = is_milling(q.kind) ? 0.1 : kLeastDrillFeed;
+      add("feed_per_tooth", "mm", least * largest_fz(q), capped);
     }
     if (!is_milling(q.kind)) return;
     const double widest = q.width_mm > 0.0 ? std::min(q.width_mm, d) : d;
     if (q.ae_mm) {
       ae_fixed_ = std::min(*q.ae_mm, d);
-    } else if (q.kind == CutKind::kFinish || widest >= 0.98 * d) {
+    } else if (q.kind == CutKind::kFinish || q.slot) {
       ae_fixed_ = q.kind == CutKind::kFinish ? widest : d;
     } else {
       add("radial_cutting_depth", "mm", 0.1 * std::min(widest, d), std::min(widest, kRoughWidthRatio * d));
@@ -290,7 +291,8 @@ double deepest(const CutQuestion& q) {
   const double d = q.cutter.cutting_diameter_mm;
   double most = q.cutter.maximum_depth_of_cut_mm > 0.0 ? q.cutter.maximum_depth_of_cut_mm : d;
   // A rough level no deeper than the diameter (a slot: half of it); default, unsourced.
-  if (q.kind == CutKind::kRough) most = std::min(most, q.width_mm > 0.0 && q.width_mm <= d ? 0.5 * d : d);
+  if (q.kind == CutKind::kRough) most = std::min(most, q.slot ? 0.5 * d : d);
+  if (q.ap_most_mm > 0.0) most = std::min(most, q.ap_most_mm);
   return most;
 }
 
@@ -342,6 +344,7 @@ std::optional<model::StepLoads> loads_of(const CutQuestion& q, double ap_mm, dou
   c.n_rpm = n_rpm;
   c.teeth = teeth(q);
   c.point_angle_rad = q.cutter.point_angle_rad > 0.0 ? q.cutter.point_angle_rad : pi;
+  if (q.engaged_diameter_mm > 0.0) c.diameter_mm = std::min(c.diameter_mm, q.engaged_diameter_mm);
   c.pre_hole_diameter_mm = q.pre_hole_mm < c.diameter_mm ? q.pre_hole_mm : 0.0;
   const auto l =
       q.kind == CutKind::kReam ? mechanics::reaming_loads(c, work) : mechanics::drilling_loads(c, work);

@@ -30,7 +30,10 @@ struct CutQuestion {
   double depth_mm = 0.0;             ///< to remove along the axis, in all
   double width_mm = 0.0;             ///< to remove across the feed, at most: the slot's width, the allowance
   double pre_hole_mm = 0.0;          ///< drilling family
-  double deflection_limit_mm = 0.0;  ///< of the tip; 0: kRoughDeflection
+  double engaged_diameter_mm = 0.0;  ///< centre drills, countersinks: the widest that cuts; 0: all of it
+  bool slot = false;                 ///< milling: the cutter is engaged over its whole diameter
+  double ap_most_mm = 0.0;  ///< depth per level at most, where something else than the cutter says so
+  double deflection_limit_mm = 0.0;                               ///< of the tip; 0: kRoughDeflection
   std::optional<double> ap_mm, ae_mm, n_rpm, feed_mm_min, fz_mm;  ///< given, kept
   Aim aim = Aim::kTime;
 };
@@ -39,6 +42,9 @@ struct CutQuestion {
 inline constexpr double kRoughDeflectionMm = 0.05;
 /// Widest cut of a rough pass that is not a slot, as a fraction of the diameter. Default, unsourced.
 inline constexpr double kRoughWidthRatio = 0.65;
+/// Least feed of drills, reamers and countersinks as a fraction of the start value: below, they rub.
+/// Default, unsourced.
+inline constexpr double kLeastDrillFeed = 0.4;
 /// Taylor's exponent n in v T^n = C for the cost objective. Textbook values: carbide 0.25, HSS 0.125
 /// (Kalpakjian & Schmid, Manufacturing Engineering and Technology, ranges 0.2-0.5 and 0.08-0.2).
 inline constexpr double kTaylorCarbide = 0.25;

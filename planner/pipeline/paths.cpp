@@ -124,6 +124,7 @@ class PathMaker {
       return {};
     }
     if (step.cutter.cutting_diameter_mm <= 0.0) return {};  // no cutter was found; said already
+    rank_by_time(step);
     const std::size_t tries = std::max<std::size_t>(1, step.candidates.size());
     std::string why_not;
     for (std::size_t i = 0; i < tries; ++i) {
@@ -140,6 +141,48 @@ class PathMaker {
     }
     no_path(step, why_not);
     return {};
+  }
+
+  /// Roughing: of the cutters that fit, the one that takes the volume away soonest, tool change included.
+  void rank_by_time(StepWork& step) {
+    if (step.candidates.size() < 2 || step.shapes.empty()) return;
+    const Model& m = w_.plan.model;
+    if (!m.holds<model::PlaneMilling>(step.operation) && !m.holds<model::SideRoughMilling>(step.operation) &&
+        !m.holds<model::BottomAndSideRoughMilling>(step.operation)) {
+      return;
+    }
+    const std::string first = step.candidates.front().cutter.id;
+    constexpr std::size_t kCompared = 5;
+    const std::size_t n = std::min(kCompared, step.candidates.size());
+    std::vector<std::pair<double, std::size_t>> times;
+    for (std::size_t i = 0; i < n; ++i) {
+      StepWork trial = step;
+      trial.cutter = step.candidates[i].cutter;
+      auto job = job_of(w_, trial, step.shapes.front());
+      prepare(trial, job);
+      const auto q = question_of(w_, trial, &step.candidates[i], job);
+      const auto a = cut(q);
+      double t = 1e12 * static_cast<double>(i + 1);
+      if (a && a->feasible) {
+        const double volume = geometry::area(job.shape.area) * q.depth_mm;
+        t = volume / (a->ap_mm * a->ae_mm * a->feed_mm_min) * 60.0;
+        const bool used = std::find(w_.used_cutters.begin(), w_.used_cutters.end(), trial.cutter.id) !=
+                          w_.used_cutters.end();
+        if (!used || trial.cutter.id == first) t += used ? 0.0 : w_.plan.machine.tool_change_s;
+      }
+      times.emplace_back(t, i);
+    }
+    std::stable_sort(times.begin(), times.end());
+    std::vector<model::Candidate> sorted;
+    for (const auto& [t, i] : times) sorted.push_back(step.candidates[i]);
+    for (std::size_t i = n; i < step.candidates.size(); ++i) sorted.push_back(step.candidates[i]);
+    step.candidates = std::move(sorted);
+    if (step.candidates.front().cutter.id == first) return;
+    step.cutter = step.candidates.front().cutter;
+    step.rejected_tools.push_back({first, "fits, but takes " + trimmed(times.back().first, 1) +
+                                              " s or more against " + trimmed(times.front().first, 1) +
+                                              " s of " + step.cutter.id});
+    take_cutter(step, step.candidates.front());
   }
 
   /// A cutter further down the list does what the first could not.
@@ -161,7 +204,11 @@ class PathMaker {
         if (!answer) return tl::unexpected(answer.error());
         out.answer = *std::move(answer);
         out.depth_open = !out.question.ap_mm.has_value();
-        out.width_open = !out.question.ae_mm.has_value();
+        // A finishing pass takes what is left on the wall; across a floor it steps as its path chooses.
+        out.width_open = !out.question.ae_mm.has_value() && out.question.kind == optimise::CutKind::kRough;
+        if (step.open_technology && !out.answer.feasible && out.question.ap_mm && !step.proposed) {
+          if (auto ok = lower_depth(step, out); !ok) return tl::unexpected(ok.error());
+        }
         if (step.open_technology && !out.answer.feasible) {
           std::string limits;
           for (const auto& v : out.answer.violated) limits += (limits.empty() ? "" : ", ") + v;
@@ -183,6 +230,23 @@ class PathMaker {
       first = false;
     }
     return out;
+  }
+
+  /// A given depth at which no feed keeps the limits is cut in thinner levels; said, never silent.
+  Status lower_depth(const StepWork& step, Made& out) {
+    auto q = out.question;
+    q.ap_most_mm = *q.ap_mm;
+    q.ap_mm.reset();
+    auto answer = cut(q);
+    if (!answer) return tl::unexpected(answer.error());
+    if (!answer->feasible) return {};
+    w_.job.warn("PIP-CHANGED", "step '" + name_of(step) + "': the given depth of " +
+                                   trimmed(q.ap_most_mm, 3) + " mm per level breaks " +
+                                   out.answer.violated.front() + "; cut " + trimmed(answer->ap_mm, 3) +
+                                   " mm deep instead");
+    out.question = q;
+    out.answer = *std::move(answer);
+    return {};
   }
 
   void prepare(const StepWork& step, toolpath::PathJob& job) {

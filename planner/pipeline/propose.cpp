@@ -5,7 +5,7 @@
 
 #include "planner/base/number.h"
 #include "planner/model/walk.h"
-#include "planner/pipeline/work.h"
+#include "planner/pipeline/steps.h"
 #include "tooling/nouns/nouns.h"
 #include "tooling/select/select.h"
 
@@ -116,8 +116,37 @@ std::vector<model::Cutter> usable(const Work& w) {
   return out;
 }
 
+/// Drops drills, reamers and taps that the spindle cannot turn at any useful feed; says why when none is
+/// left.
+std::string keep_able(Work& w, const model::ProposedStep& step, model::Selection& s) {
+  if (!model::is_a(step.operation, TypeId::kDrillingTypeOperation) ||
+      model::is_a(step.operation, TypeId::kThreadDrilling))
+    return {};
+  optimise::Options options;
+  options.solver = w.inputs.solver;
+  options.backends = w.inputs.backends;
+  options.starts = 1;
+  std::vector<model::Candidate> able;
+  std::string why;
+  for (const model::Candidate& c : s.ranked) {
+    const auto answer = optimise::cut(hole_question(w, step, c), options, w.job);
+    if (answer && answer->feasible) {
+      able.push_back(c);
+      continue;
+    }
+    const std::string limit = !answer                    ? answer.error().message
+                              : answer->violated.empty() ? ""
+                                                         : answer->violated.front();
+    s.rejected.push_back({c.cutter.id, "no useful feed keeps the limits: " + limit});
+    if (why.empty()) why = step.name + ": " + c.cutter.id + ": no useful feed keeps the limits: " + limit;
+  }
+  if (able.empty()) return why;
+  s.ranked = std::move(able);
+  return {};
+}
+
 /// The first chain whose every step finds a cutter; why the others do not.
-Chosen choose(const Work& w, const model::Proposal& p, const std::vector<model::Cutter>& library,
+Chosen choose(Work& w, const model::Proposal& p, const std::vector<model::Cutter>& library,
               std::vector<model::Rejected>& rejected) {
   for (const auto& chain : p.chains) {
     Chosen out;
@@ -129,6 +158,8 @@ Chosen choose(const Work& w, const model::Proposal& p, const std::vector<model::
         why_not = step.name + ": no cutter fits; " + s.would_fit + " would";
         break;
       }
+      why_not = keep_able(w, step, s);
+      if (!why_not.empty()) break;
       used.push_back(s.ranked.front().cutter.id);
       out.tools.push_back(std::move(s));
     }
@@ -326,7 +357,12 @@ Result<model::ToolRequirement> requirement_of(Work& w, const StepWork& step) {
   if (w.plan.model.holds<model::MachiningTool>(op->its_tool)) {
     auto r = tooling::requirement_from_nouns(w.plan.model, op->its_tool, w.job);
     if (r) {
-      r->reach_mm = std::max(r->reach_mm, step.shapes.empty() ? 0.0 : step.shapes.front().depth_mm);
+      // What the feature needs counts, not how long the given tool was.
+      if (deep) {
+        r->reach_mm = reach;
+        r->depth_of_cut_mm = std::min(r->depth_of_cut_mm, reach);
+        r->point_angle_rad = 0.0;
+      }
       const bool fits_narrow = deep && step.shapes.front().corner_radius_mm > 0.0;
       if (fits_narrow && w.plan.model.holds<model::BottomAndSideMilling>(step.operation)) {
         r->diameter_max_mm = std::min(r->diameter_max_mm, 2.0 * step.shapes.front().corner_radius_mm);

@@ -60,7 +60,40 @@ double width_of(const model::FeatureShape& s) {
   return std::min(b.hi.x - b.lo.x, b.hi.y - b.lo.y);
 }
 
+/// Whether the feature's walls stand on both sides of the cutter.
+bool narrow(const model::FeatureShape& s) {
+  return s.kind == ShapeKind::kPocket || s.kind == ShapeKind::kSlot || s.kind == ShapeKind::kHole;
+}
+
+/// How wide a cone cuts at its depth: 2 t tan(SIG / 2), plus its flat tip; 0 when all of the cutter does.
+double engaged(const Model& m, AnyRef op, const model::Cutter& c, std::optional<double> depth_mm) {
+  const bool cone = m.holds<model::CenterDrilling>(op) || m.holds<model::CounterSinking>(op);
+  if (!cone || !depth_mm || !(c.point_angle_rad > 0.0)) return 0.0;
+  return c.tip_diameter_mm + 2.0 * *depth_mm * std::tan(0.5 * c.point_angle_rad);
+}
+
 }  // namespace
+
+optimise::CutQuestion hole_question(const Work& w, const model::ProposedStep& step,
+                                    const model::Candidate& c) {
+  optimise::CutQuestion q;
+  q.cutter = c.cutter;
+  q.material = w.plan.material;
+  q.machine = w.plan.machine;
+  q.kind = model::is_a(step.operation, TypeId::kTapping)   ? CutKind::kTap
+           : model::is_a(step.operation, TypeId::kReaming) ? CutKind::kReam
+                                                           : CutKind::kDrill;
+  q.vc_start_m_min = c.vc_m_min;
+  q.fz_start_mm = c.fz_mm;
+  q.pre_hole_mm = step.start_diameter_mm;
+  const bool cone = model::is_a(step.operation, TypeId::kCenterDrilling) ||
+                    model::is_a(step.operation, TypeId::kCounterSinking);
+  if (cone && c.cutter.point_angle_rad > 0.0) {
+    q.engaged_diameter_mm =
+        c.cutter.tip_diameter_mm + 2.0 * step.depth_mm * std::tan(0.5 * c.cutter.point_angle_rad);
+  }
+  return q;
+}
 
 optimise::CutQuestion question_of(const Work& w, const StepWork& step, const model::Candidate* candidate,
                                   const toolpath::PathJob& job) {
@@ -82,7 +115,9 @@ optimise::CutQuestion question_of(const Work& w, const StepWork& step, const mod
   const double bottom = job.feature_in_setup.origin.z - job.shape.depth_mm + job.allowance_bottom_mm;
   q.depth_mm = std::max(0.0, job.start_z_mm - bottom);
   q.width_mm = width_of(job.shape);
+  q.slot = narrow(job.shape) && q.width_mm > 0.0 && q.width_mm <= 1.02 * step.cutter.cutting_diameter_mm;
   q.pre_hole_mm = job.previous_diameter_mm.value_or(0.0);
+  q.engaged_diameter_mm = engaged(m, step.operation, step.cutter, job.cutting_depth_mm);
   const double d = step.cutter.cutting_diameter_mm;
   if (job.axial_depth_mm > 0.0) q.ap_mm = job.axial_depth_mm;
   if (job.radial_depth_mm > 0.0) {

@@ -31,6 +31,10 @@ struct GivenTechnology {
                                                 const model::Candidate* candidate,
                                                 const toolpath::PathJob& job);
 
+/// The same for a proposed hole-making step, before any noun exists: can this cutter do it at all?
+[[nodiscard]] optimise::CutQuestion hole_question(const Work& w, const model::ProposedStep& step,
+                                                  const model::Candidate& candidate);
+
 /// Gives a freeform feature the extent of the plan's mesh; leaves others alone.
 void shape_from_mesh(const Work& w, const StepWork& step, toolpath::PathJob& job);
 /// The path of a freeform operation over the plan's mesh.
