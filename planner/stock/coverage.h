@@ -12,7 +12,7 @@ namespace capstan::stock {
 /// any length and sign.
 /// Source  derived: area of a square cut by a line.
 [[nodiscard]] inline double coverage(double inside_mm, geometry::Vec2 normal, double cell_mm) {
-  const double length = std::hypot(normal.x, normal.y);
+  const double length = std::sqrt(dot(normal, normal));
   double a = 1.0;
   double b = 0.0;
   if (length > 0.0) {
@@ -51,7 +51,7 @@ struct Span {
     out.add(c.x + h);
   }
   const geometry::Vec2 d = b - a;
-  const double length = std::hypot(d.x, d.y);
+  const double length = std::sqrt(dot(d, d));
   if (length <= 0.0) return out;
   const geometry::Vec2 n{-d.y / length * radius, d.x / length * radius};
   for (const double side : {-1.0, 1.0}) {

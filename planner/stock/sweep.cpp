@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <type_traits>
 
 #include "planner/stock/coverage.h"
 
@@ -71,12 +72,15 @@ inline Chip lower(Column& c, float cover, float z) {
 // ----------------------------------------------------------------------------------------
 
 /// Height above the tip as a function of the squared distance from the axis.
+/// `clear`: told cheaply that the outline there is no lower than t; false when it may be.
 struct FlatOutline {
   double operator()(double /*r2*/) const { return 0.0; }
+  [[nodiscard]] bool clear(double /*r2*/, double /*t*/) const { return false; }
 };
 struct BallOutline {
   double radius;
   double operator()(double r2) const { return radius - std::sqrt(std::max(0.0, radius * radius - r2)); }
+  [[nodiscard]] bool clear(double r2, double t) const { return t < radius && r2 >= t * (2.0 * radius - t); }
 };
 struct BullOutline {
   double disc, ball;
@@ -85,10 +89,33 @@ struct BullOutline {
     const double off = std::sqrt(r2) - disc;
     return ball - std::sqrt(std::max(0.0, (ball - off) * (ball + off)));
   }
+  [[nodiscard]] bool clear(double /*r2*/, double /*t*/) const { return false; }
 };
 struct AnyOutline {
   const CutterProfile& profile;
   double operator()(double r2) const { return profile.height(std::min(std::sqrt(r2), profile.radius_mm)); }
+  [[nodiscard]] bool clear(double /*r2*/, double /*t*/) const { return false; }
+};
+
+/// Cutter surface over a level or standing track: tip and outline.
+template <class Outline>
+struct LevelSurface {
+  double tip;
+  Outline outline;
+  double operator()(Vec2 /*place*/, double r2) const { return tip + outline(r2); }
+  [[nodiscard]] bool clear(double r2, double top) const { return outline.clear(r2, top - tip); }
+};
+
+/// Cutter surface over a straight sloping track.
+struct SlopeSurface {
+  const CutterProfile& profile;
+  Vec2 from, unit;
+  double length, start, rise;
+  double operator()(Vec2 place, double /*r2*/) const {
+    const Vec2 r = place - from;
+    return start + swept_height(profile, dot(r, unit), geometry::cross(unit, r), length, rise);
+  }
+  [[nodiscard]] bool clear(double /*r2*/, double /*top*/) const { return false; }
 };
 
 // --- tracks
@@ -240,6 +267,7 @@ class Cells {
         rim(column, p, s, seat, surface, sums);
         continue;
       }
+      if (surface.clear(s.distance2, static_cast<double>(column.top_mm))) continue;
       const auto z = static_cast<float>(std::max(0.0, surface(p, s.distance2)));
       if (column.share <= 0.0F) {
         const float depth = column.top_mm - z;
@@ -251,6 +279,7 @@ class Cells {
         if (chip.mean > 0.0F) take(chip, s.across, sums);
       }
     }
+    close_bin(sums);
     const double area = cell * cell;
     tally_.removed_mm3 += area * sums.v;
     tally_.sum_x += area * sums.vx;
@@ -265,6 +294,8 @@ class Cells {
   struct Sums {
     double v = 0.0, vx = 0.0, vz = 0.0;
     double left = 1e300, right = -1e300;
+    int bin = -1;
+    float low = 1e30F, high = -1e30F;  ///< in that bin
   };
 
   /// A cell that the cutter's rim may cross.
@@ -293,9 +324,25 @@ class Cells {
     sums.vz += v * (static_cast<double>(chip.top) + static_cast<double>(chip.bottom));
     sums.left = std::min(sums.left, across);
     sums.right = std::max(sums.right, across);
-    const auto bin = std::min(Tally::kBins - 1, static_cast<std::size_t>((x + f_.radius) * bin_scale_));
-    tally_.low[bin] = std::min(tally_.low[bin], chip.bottom);
-    tally_.high[bin] = std::max(tally_.high[bin], chip.top);
+    const int bin =
+        std::min(static_cast<int>(Tally::kBins) - 1, static_cast<int>((x + f_.radius) * bin_scale_));
+    if (bin != sums.bin) {
+      close_bin(sums);
+      sums.bin = bin;
+    }
+    sums.low = std::min(sums.low, chip.bottom);
+    sums.high = std::max(sums.high, chip.top);
+  }
+
+  /// Neighbours in a row mostly share a bin.
+  void close_bin(Sums& sums) {
+    if (sums.bin >= 0) {
+      const auto b = static_cast<std::size_t>(sums.bin);
+      tally_.low[b] = std::min(tally_.low[b], sums.low);
+      tally_.high[b] = std::max(tally_.high[b], sums.high);
+    }
+    sums.low = 1e30F;
+    sums.high = -1e30F;
   }
 
   HeightMap& map_;
@@ -332,7 +379,7 @@ void sweep_level(HeightMap& map, const CutterProfile& profile, const Track& t, c
   const Vec2 a = frame.a;
   const Vec2 b = frame.b;
   with_outline(profile, [&](const auto& outline) {
-    const auto surface = [&](Vec2, double r2) { return tip + outline(r2); };
+    const LevelSurface<std::decay_t<decltype(outline)>> surface{tip, outline};
     Cells cells(map, frame, tally);
     if (t.arc) {
       cells.each(ArcSeat{a, b, t.centre, norm(a - t.centre), t.clockwise ? -1.0 : 1.0}, surface);
@@ -347,10 +394,7 @@ void sweep_slope(HeightMap& map, const CutterProfile& profile, const Track& t, c
   const Vec2 unit = (1.0 / length) * (frame.b - frame.a);
   const double start = t.from.z - map.origin.z;
   const double rise = t.to.z - t.from.z;
-  const auto surface = [&](Vec2 p, double) {
-    const Vec2 r = p - frame.a;
-    return start + swept_height(profile, dot(r, unit), geometry::cross(unit, r), length, rise);
-  };
+  const SlopeSurface surface{profile, frame.a, unit, length, start, rise};
   Cells(map, frame, tally).each(LineSeat{frame.a, frame.b, unit, length}, surface);
 }
 
@@ -358,7 +402,7 @@ void sweep_down(HeightMap& map, const CutterProfile& profile, const Frame& frame
                 Tally& tally) {
   const double tip = frame.base;
   with_outline(profile, [&](const auto& outline) {
-    const auto surface = [&](Vec2, double r2) { return tip + outline(r2); };
+    const LevelSurface<std::decay_t<decltype(outline)>> surface{tip, outline};
     Cells(map, frame, tally).each(PointSeat{frame.a, (1.0 / norm(heading)) * heading}, surface);
   });
 }

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include "planner/stock/sweep.h"
 
@@ -250,6 +251,81 @@ TEST(Path, ARapidThroughStockIsCountedApart) {
   EXPECT_NEAR(m->rapid_removed_mm3, 800.0, 1.0);
   EXPECT_EQ(m->removed_mm3, 0.0);
   EXPECT_EQ(m->sections.size(), 0U);
+}
+
+TEST(Path, EmptyStandingAndAirPathsGiveNoSamples) {
+  auto map = stock::from_box(kBlock, 0.5);
+  const auto before = map;
+  const Cutter c = cutter(CutterClass::kEndmill, 10.0);
+  EXPECT_EQ(measure({}, c, map)->sections.size(), 0U);
+  CutterPath p;
+  p.start({10.0, 10.0, 3.0});
+  p.line({10.0, 10.0, 3.0}, MoveRole::kCut);
+  p.dwell();
+  p.line({50.0, 10.0, 0.0}, MoveRole::kCut);
+  p.arc({50.0, 30.0, 0.0}, {50.0, 20.0}, true, MoveRole::kCut);
+  const auto m = measure(p, c, map);
+  ASSERT_TRUE(m);
+  EXPECT_EQ(m->sections.size(), 0U);
+  EXPECT_EQ(m->removed_mm3, 0.0);
+  EXPECT_EQ(map, before);
+}
+
+TEST(Path, EntryAndExitAreSeenAndOneEmptySampleClosesTheCut) {
+  auto map = stock::from_box(kBlock, kCell);
+  CutterPath p;
+  p.start({-10.0, 30.0, -2.0});
+  p.line({90.0, 30.0, -2.0}, MoveRole::kCut);
+  const auto m = measure(p, cutter(CutterClass::kEndmill, 10.0), map);
+  ASSERT_TRUE(m);
+  const auto& s = m->sections;
+  EXPECT_NEAR(s.at_mm.front(), 5.0, 0.3);    // the rim touches the block
+  EXPECT_LT(s.csa_mm2.front(), 0.6 * 20.0);  // and widens over the first half diameter
+  EXPECT_EQ(s.csa_mm2.back(), 0.0);
+  EXPECT_GT(s.csa_mm2[s.size() - 2], 0.0);
+  EXPECT_NEAR(m->removed_mm3, 80.0 * 10.0 * 2.0, 1.0);
+  EXPECT_NEAR(m->highest_contact_mm, 2.0, 1e-4);
+}
+
+TEST(Path, RandomPathsGiveFiniteNumbersAndTheVolumeTheStockLost) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> u(0.0, 1.0);
+  const Cutter cutters[] = {cutter(CutterClass::kEndmill, 10.0), cutter(CutterClass::kBallEndmill, 8.0, 4.0),
+                            cutter(CutterClass::kBullnoseEndmill, 12.0, 2.0),
+                            cutter(CutterClass::kChamferMill, 10.0, 0.0, kPi / 2.0)};
+  for (int k = 0; k < 40; ++k) {
+    auto map = stock::from_box(kBlock, 0.4);
+    const double before = stock::volume(map);
+    CutterPath p;
+    p.start({80.0 * u(random), 60.0 * u(random), 1.0});
+    for (int i = 0; i < 12; ++i) {
+      const Vec3 to{100.0 * u(random) - 10.0, 80.0 * u(random) - 10.0, 4.0 - 10.0 * u(random)};
+      if (i % 3 == 2) {
+        const Vec3 at = p.point(p.size() - 1);
+        const Vec2 centre = xy(at) + 6.0 * u(random) * Vec2{std::cos(1.0 * i), std::sin(1.0 * i)};
+        const Vec2 r = xy(at) - centre;
+        const double turn = 6.0 * u(random) + 0.1;
+        p.arc({centre.x + r.x * std::cos(turn) - r.y * std::sin(turn),
+               centre.y + r.x * std::sin(turn) + r.y * std::cos(turn), i % 2 == 0 ? at.z : to.z},
+              centre, false, MoveRole::kCut);
+      } else {
+        p.line(to, MoveRole::kCut);
+      }
+    }
+    const auto m = measure(p, cutters[k % 4], map);
+    ASSERT_TRUE(m);
+    const auto& s = m->sections;
+    for (std::size_t i = 0; i < s.size(); ++i) {
+      for (const double v : {s.ad_max_mm[i], s.rd_max_mm[i], s.x_max_ofs_mm[i], s.y_max_ofs_mm[i],
+                             s.csa_mm2[i], s.x_cg_ofs_mm[i], s.y_cg_ofs_mm[i], m->engagement[i].arc_rad}) {
+        ASSERT_TRUE(std::isfinite(v));
+      }
+      EXPECT_GE(s.csa_mm2[i], 0.0);
+      EXPECT_LE(s.rd_max_mm[i], cutters[k % 4].cutting_diameter_mm + 1e-9);
+    }
+    const double lost = before - stock::volume(map);
+    EXPECT_NEAR(m->removed_mm3 + m->rapid_removed_mm3, lost, 1e-3 * lost);
+  }
 }
 
 TEST(Path, NotANumberIsRefused) {

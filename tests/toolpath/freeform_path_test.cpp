@@ -232,6 +232,56 @@ TEST(Rough, EntersOnlyByWaysTheCutterKnows) {
   EXPECT_GT(job.count(Severity::kWarning), 0U);
 }
 
+TEST(Paths, ADirtyMeshIsNotGouged) {
+  Mesh mesh = surface(40, 50.0, waves);
+  std::mt19937 random(9);
+  std::uniform_real_distribution<double> u(0.0, 50.0);
+  std::uniform_real_distribution<double> small(-4.0, 4.0);
+  for (int k = 0; k < 60; ++k) {  // splinters through the surface: folds, borders, upright and backward ones
+    const Vec3 a{u(random), u(random), -6.0 + small(random)};
+    const auto n = static_cast<std::uint32_t>(mesh.vertices.size());
+    mesh.vertices.insert(mesh.vertices.end(),
+                         {a, a + Vec3{small(random), small(random), small(random)},
+                          a + Vec3{k % 4 == 0 ? 0.0 : small(random), k % 4 == 0 ? 0.0 : small(random), 1.5}});
+    mesh.triangles.push_back({n, n + 1, n + 2});
+    if (k % 3 == 0) mesh.triangles.push_back({n + 2, n + 1, n});
+  }
+  mesh.triangles.erase(mesh.triangles.begin() + 300, mesh.triangles.begin() + 340);  // and a hole
+  const auto ball = cutter(CutterClass::kBallEndmill, 6.0, 3.0);
+  FreeformJob task = job_on(mesh, ball);
+  task.top_z_mm = 2.0;
+  task.allowance_mm = 0.1;
+  task.tolerance_mm = 0.02;
+  Job job;
+  const auto first = rough(task, job);
+  ASSERT_TRUE(first) << first.error().message;
+  EXPECT_GE(clearance(mesh, ball, first->path, 0.1).least, 0.0);
+  task.stepover_mm = 1.5;
+  const auto second = finish(task, job);
+  ASSERT_TRUE(second) << second.error().message;
+  EXPECT_GE(clearance(mesh, ball, second->path, 0.1).least, 0.0);
+}
+
+TEST(Rough, ComesInFromTheSideWhereTheAreaReachesBeyondTheStock) {
+  const Mesh mesh = surface(20, 50.0, [](double x, double) { return x > 25.0 ? -1.0 : -9.0; });
+  const auto map = stock::from_box({{0, 0, -10}, {50, 50, 0}}, 0.25);
+  FreeformJob task = job_on(mesh, cutter(CutterClass::kEndmill, 8.0, 0.0));
+  task.stock = &map;
+  task.allowance_mm = 0.2;
+  task.feed_angle_rad = 0.0;
+  task.beside_is_free = true;
+  task.area = geometry::rectangle({-6.0, -6.0}, {56.0, 56.0});
+  Job job;
+  const auto out = rough(task, job);
+  ASSERT_TRUE(out) << out.error().message;
+  int ramps = 0;
+  for (const MoveRole r : out->path.role) ramps += r == MoveRole::kRamp;
+  EXPECT_EQ(ramps, 0);
+  EXPECT_EQ(job.count(Severity::kWarning), 0U);
+  EXPECT_GE(clearance(mesh, task.cutter, out->path, 0.2).least, 0.0);
+  expect_safe_rapids(out->path, task);
+}
+
 TEST(Paths, DoNotDependOnTheNumberOfThreads) {
   const Mesh mesh = surface(60, 50.0, waves);
   FreeformJob task = job_on(mesh, cutter(CutterClass::kBallEndmill, 6.0, 3.0));
