@@ -43,11 +43,10 @@ struct ResolvedLength : Toleranced {
 /// Source  ISO 14649-10, toleranced_length_measure; ISO 286-1 for deviations.
 [[nodiscard]] Result<ResolvedLength> length(const Model& model, Ref<TolerancedLengthMeasure> m);
 
-/// The standard tolerance of a grade, mm: a multiple of i = 0.45 cbrt(D) + 0.001 D (micrometres, D the
-/// geometric mean of the size range). Grades 5..18, sizes to 500 mm; 0 outside.
-/// Source  ISO 286-1, annex on the calculation of standard tolerances.
+/// The standard tolerance of a grade, mm. Grades 5..18, sizes to 500 mm; 0 outside.
+/// Source  ISO 286-1, table 1.
 [[nodiscard]] double tolerance_of_grade(int grade, double nominal_mm);
-/// The coarsest grade whose tolerance does not exceed `width_mm`, within 5 % (tables are rounded); 0 none.
+/// The coarsest grade whose tolerance does not exceed `width_mm`; 0 none.
 [[nodiscard]] int grade_of_tolerance(double nominal_mm, double width_mm);
 
 /// How deep a feature goes.
