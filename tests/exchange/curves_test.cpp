@@ -201,6 +201,25 @@ TEST(Curves, RapidSpeedMakesRapidMoves) {
   EXPECT_EQ(p->kind[1], MoveKind::kRapid);
 }
 
+TEST(Curves, CuttingSpeedAndFeedPerToothBecomeSpindleAndFeedByTheTool) {
+  Job job;
+  const auto plan = read_text(testing::part21(testing::drilled_plate(
+                                  {{20, "DRILLING(#200,$,'DRILL',10.,$,#44,#45,#41,$,$,$,$,$,$)"},
+                                   {45, "MILLING_TECHNOLOGY($,.TCP.,0.5,$,0.1,.F.,.F.,.F.,$)"},
+                                   {200, "TOOLPATH_LIST((#201))"},
+                                   {201, "CUTTER_LOCATION_TRAJECTORY(.T.,.CONTACT.,$,$,$,$,#300,$,$)"},
+                                   {300, "POLYLINE('',(#95,#110))"}})),
+                              job);
+  ASSERT_TRUE(plan);
+  const auto got = path_of_step(
+      *plan, model::Ref<model::Executable>(plan->model.all(model::TypeId::kMachiningWorkingstep)[0]),
+      kOptions, job);
+  ASSERT_TRUE(got) << to_text(got.error());
+  const double rpm = 30000.0 / (std::numbers::pi * 10.0);  // 30 m/min, 10 mm
+  EXPECT_NEAR(got->schedule.spindle_rpm[1], rpm, 1e-9);
+  EXPECT_NEAR(got->schedule.feed_mm_min[1], 0.1 * 2.0 * rpm, 1e-9);  // two teeth
+}
+
 TEST(Curves, GapWithinACompositeCurveIsRefused) {
   const auto p = follow(
       "#300=COMPOSITE_CURVE('',(#301,#302),.U.);\n#301=POLYLINE('',(#95,#110));\n"

@@ -1,9 +1,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <functional>
+#include <random>
 
+#include "planner/exchange/iso14649/curves.h"
 #include "tests/exchange/support.h"
 
 namespace capstan::exchange {
@@ -272,6 +275,46 @@ TEST_P(Hostile, GetsItsVerdictQuickly) {
   ASSERT_TRUE(written);
   Job second;
   EXPECT_TRUE(read_text(written->bytes, second)) << written->bytes.substr(0, 4000);
+}
+
+// Bytes replaced, removed, doubled: a verdict, and nothing worse.
+TEST(HostileBytes, DamagedFilesAreReadOrRefusedAndNeverBreakAnything) {
+  const std::string whole = spline("(3,3)", "(0.,1.)");
+  std::mt19937 random(99);
+  const std::string alphabet = "0123456789.,()#$*';=ABCT-E/ \n";
+  const auto pick = [&](std::size_t n) {
+    return std::uniform_int_distribution<std::size_t>(0, n - 1)(random);
+  };
+  std::size_t accepted = 0;
+  for (int i = 0; i < 3000; ++i) {
+    std::string bytes = whole;
+    for (std::size_t k = 1 + pick(3); k > 0; --k) {
+      const std::size_t data = whole.find("DATA;");
+      const std::size_t at = std::min(data + pick(whole.size() - data), bytes.size() - 1);
+      switch (pick(3)) {
+        case 0:
+          bytes[at] = alphabet[pick(alphabet.size())];
+          break;
+        case 1:
+          bytes.erase(at, 1 + pick(4));
+          break;
+        default:
+          bytes.insert(at, 1, alphabet[pick(alphabet.size())]);
+      }
+    }
+    Job job;
+    const auto plan = read_text(bytes, job);
+    if (!plan) continue;
+    ++accepted;
+    const auto written = write_iso14649(*plan, job);
+    if (!written) continue;
+    Job second;
+    EXPECT_TRUE(read_text(written->bytes, second)) << bytes;
+    for (const auto step : plan->model.all(model::TypeId::kMachiningWorkingstep)) {
+      (void)path_of_step(*plan, model::Ref<model::Executable>(step), CurveOptions{}, job);
+    }
+  }
+  EXPECT_GT(accepted, 300U);  // damage that nobody can see: names, coordinates
 }
 
 INSTANTIATE_TEST_SUITE_P(Items, Hostile, ::testing::ValuesIn(items()),

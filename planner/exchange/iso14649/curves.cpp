@@ -171,6 +171,9 @@ class StepBuilder {
       if (const auto* op = m_.get<model::MachiningOperation>(w->its_operation)) {
         list = op->its_toolpath;
         technology_ = op->its_technology;
+        if (const auto* tool = m_.get<model::CuttingTool>(op->its_tool)) {
+          body_ = m_.get<model::MillingToolBody>(tool->its_tool_body);
+        }
       }
     } else if (const auto* r = m_.get<model::RapidMovement>(step_)) {
       list = r->its_toolpath;
@@ -244,14 +247,13 @@ class StepBuilder {
 
   // Feed and speed of the moves added since.
   Status settle(const model::Toolpath& t, double dwell_s) {
-    const auto* own = m_.get<model::MillingTechnology>(t.its_technology);
-    const auto* general = m_.get<model::MillingTechnology>(technology_);
     double feed = 0.0, speed = 0.0;
-    for (const auto* tech : {general, own}) {
-      if (tech == nullptr) continue;
-      if (tech->feedrate) feed = *tech->feedrate;
-      if (tech->spindle)
-        speed = -*tech->spindle + 0.0;  // ISO 14649: negative is clockwise; a schedule: positive
+    for (const AnyRef at : {technology_, AnyRef(t.its_technology)}) {
+      if (const auto* tech = m_.get<model::MillingTechnology>(at)) take(*tech, feed, speed);
+    }
+    if (t.its_speed.ref.set()) {
+      job_.warn("EXC-SPEED-PROFILE",
+                "a toolpath's speed curve is not followed; its technology's feed is taken");
     }
     if (t.its_speed.real) feed *= *t.its_speed.real;
     while (out_.schedule.feed_mm_min.size() < out_.path.size()) {
@@ -261,6 +263,27 @@ class StepBuilder {
     }
     if (dwell_s > 0.0) out_.schedule.dwell_s.back() = dwell_s;
     return {};
+  }
+
+  // A speed may be stated as cutting speed, a feed per tooth: both need the tool. ISO 14649 counts
+  // clockwise negative, a schedule positive.
+  void take(const model::MillingTechnology& tech, double& feed, double& speed) const {
+    if (tech.spindle) {
+      speed = -*tech.spindle + 0.0;
+    } else if (const double d = diameter(); tech.cutspeed && d > 0.0) {
+      const bool left = body_ != nullptr && body_->hand_of_cut == model::Hand::kLeft;
+      speed = (left ? -1.0 : 1.0) * *tech.cutspeed / (std::numbers::pi * d);
+    }
+    if (tech.feedrate) {
+      feed = *tech.feedrate;
+    } else if (tech.feedrate_per_tooth && body_ != nullptr && body_->number_of_teeth) {
+      feed = *tech.feedrate_per_tooth * static_cast<double>(*body_->number_of_teeth) * std::abs(speed);
+    }
+  }
+
+  [[nodiscard]] double diameter() const {
+    const auto* d = body_ == nullptr ? nullptr : m_.get<model::MillingToolDimension>(body_->dimension);
+    return d == nullptr ? 0.0 : d->diameter.value_or(0.0);
   }
 
   Status bad(AnyRef at, std::string what, std::string code = "EXC-TOOLPATH") {
@@ -276,6 +299,7 @@ class StepBuilder {
   const CurveOptions& o_;
   Job& job_;
   AnyRef technology_;
+  const model::MillingToolBody* body_ = nullptr;
   bool rapid_step_ = false;
   bool bridge_ = false;
   StepPath out_;

@@ -44,6 +44,7 @@ struct CurveOptions {
 struct StepPath {
   model::CutterPath path;        ///< in the set-up's frame
   model::FeedSchedule schedule;  ///< from each toolpath's technology, else the operation's; 0 where open
+                                 ///< cutspeed and feed per tooth by the tool's diameter and teeth
 };
 
 /// The whole step: toolpaths one after the other; empty when it has none. A toolpath that carries a
