@@ -6,6 +6,7 @@
 #include "planner/base/file.h"
 #include "tooling/catalogue/check.h"
 #include "tooling/catalogue/complete.h"
+#include "tooling/catalogue/fusion.h"
 #include "tooling/catalogue/generic.h"
 #include "tooling/catalogue/tree.h"
 
@@ -169,11 +170,17 @@ Result<std::vector<Cutter>> read_library(std::string_view text, const std::strin
   if (looks_like_table(text)) return read_tool_table(text, file, job, options);
   auto root = parse_tree(text, file);
   if (!root) return fail(root.error());
+  if (const Node* data = root->find("data"); data != nullptr && data->kind == Node::Kind::kList) {
+    const auto& generic = shared_generic_library();
+    if (!generic) return fail(generic.error());
+    return read_fusion(*root, file, job, *generic);
+  }
   if (root->find("capstan_tools") == nullptr) {
-    return fail({.code = "LIBRARY-KIND",
-                 .message = "this is no tool library that can be read",
-                 .file = file,
-                 .expected = "a list with capstan_tools: 1, or a LinuxCNC tool table"});
+    return fail(
+        {.code = "LIBRARY-KIND",
+         .message = "this is no tool library that can be read",
+         .file = file,
+         .expected = "a list with capstan_tools: 1, a LinuxCNC tool table, or a Fusion library (.json)"});
   }
   return read_own(*root, file, job);
 }

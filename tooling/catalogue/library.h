@@ -16,8 +16,8 @@ struct LibraryOptions {
   std::optional<double> mm_per_unit;
 };
 
-/// A tool library from a file, its kind told by content: our own list (YAML or JSON, tooling/data/README.md)
-/// or a LinuxCNC tool table. "generic" is the shipped one.
+/// A tool library from a file, its kind told by content: our own list (YAML or JSON, tooling/data/README.md),
+/// a LinuxCNC tool table, or a Fusion library (.json, see fusion.h). "generic" is the shipped one.
 ///
 /// Fields that the file leaves out are completed from the generic series (see complete.h), each with its
 /// source. Entries of a tool table that cannot be used (no diameter, no word that tells the class) are left

@@ -160,5 +160,38 @@ TEST(ToolTable, ReadsTheTablesOfTheCorpus) {
   }
 }
 
+TEST(FusionLibrary, ReadsSizesInEitherUnitAndLeavesOutWhatItCannotUse) {
+  Job job;
+  const auto tools = read_library(
+      R"({"data": [
+  {"type": "flat end mill", "unit": "inches", "guid": "a", "BMC": "carbide", "description": "quarter inch",
+   "geometry": {"DC": 0.25, "LCF": 0.75, "LB": 1.25, "SFDM": 0.25, "NOF": 3, "HAND": true},
+   "post-process": {"number": 7}},
+  {"type": "drill", "unit": "millimeters", "guid": "b", "geometry": {"DC": 5, "SIG": 118, "NOF": 2}},
+  {"type": "laser cutter", "unit": "millimeters", "guid": "c", "geometry": {"CW": 2}},
+  {"type": "flat end mill", "unit": "millimeters", "guid": "d", "geometry": {"DC": 0, "NOF": 3}},
+  {"type": "flat end mill", "unit": "millimeters", "guid": "e", "geometry": {"DC": 6, "NOF": 3.9}},
+  {"type": "holder", "unit": "millimeters"}], "version": 1})",
+      "lib.json", job);
+  ASSERT_TRUE(tools) << to_text(tools.error());
+  ASSERT_EQ(tools->size(), 2u);
+  EXPECT_DOUBLE_EQ(tools->at(0).cutting_diameter_mm, 6.35);
+  EXPECT_DOUBLE_EQ(tools->at(0).stick_out_mm, 31.75);
+  EXPECT_EQ(tools->at(0).teeth, 3);
+  EXPECT_EQ(tools->at(0).pocket, 7);
+  EXPECT_NEAR(tools->at(1).point_angle_rad, 118.0 * std::numbers::pi / 180.0, 1e-12);
+  EXPECT_EQ(job.count(Severity::kWarning), 3u);
+}
+
+TEST(FusionLibrary, ReadsTheOneOfTheCorpus) {
+  CAPSTAN_CORPUS_FILE(path, "tools/fusion/timm052_Fusion_Tool_Library.json");
+  Job job;
+  const auto tools = load_library(path, job);
+  ASSERT_TRUE(tools) << to_text(tools.error());
+  EXPECT_GE(tools->size(), 15u);
+  for (const auto& c : *tools) EXPECT_TRUE(faults_of(c).empty()) << c.id;
+  EXPECT_EQ(job.count(Severity::kError), 0u);
+}
+
 }  // namespace
 }  // namespace capstan::tooling
