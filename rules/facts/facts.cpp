@@ -127,7 +127,7 @@ std::string_view slot_form(const FeatureShape& s) {
 void area_facts(const FeatureShape& s, const Context& c, FeatureFacts& out) {
   geometry::Region free = s.reach.empty() ? s.area : s.reach;
   for (const auto& island : s.islands) free = geometry::subtract(free, island.area);
-  out.passage = passage_of(free);
+  out.passage = passage_of(free, !s.open && !(s.corner_radius_mm > 0.0));
   out.facts.set("passage_mm", out.passage.narrowest_mm);
   out.facts.set("it_grade", tightest_grade(s, c, out));
   out.facts.set("access", s.open ? "open" : "closed");

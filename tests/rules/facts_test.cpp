@@ -1,0 +1,104 @@
+#include "rules/facts/facts.h"
+
+#include "planner/model/resolve.h"
+#include "rules/facts/it_grade.h"
+
+namespace capstan::rules {
+namespace {
+
+TEST(StandardTolerance, IsThePublishedTableAtItsCorners) {
+  // ISO 286-1:2010, table 1.
+  EXPECT_DOUBLE_EQ(standard_tolerance_mm(7, 20.0), 0.021);
+  EXPECT_DOUBLE_EQ(standard_tolerance_mm(7, 18.0), 0.018) << "18 belongs to the range up to and including 18";
+  EXPECT_DOUBLE_EQ(standard_tolerance_mm(11, 10.0), 0.090);
+  EXPECT_DOUBLE_EQ(standard_tolerance_mm(6, 3.0), 0.006);
+  EXPECT_DOUBLE_EQ(standard_tolerance_mm(1, 500.0), 0.008);
+  EXPECT_DOUBLE_EQ(standard_tolerance_mm(18, 3150.0), 33.0);
+  EXPECT_EQ(standard_tolerance_mm(5, 600.0), 0.0);
+  EXPECT_EQ(standard_tolerance_mm(7, 3151.0), 0.0);
+  EXPECT_EQ(standard_tolerance_mm(7, 0.0), 0.0);
+}
+
+TEST(StandardTolerance, LiesNearTheStandardsOwnFormulaFromIt5To500) {
+  // i = 0.45 cbrt(D) + 0.001 D, D the geometric mean of the range; the published values are rounded by rules
+  // of their own, by up to a tenth.
+  for (int grade = 5; grade <= 18; ++grade) {
+    for (const double size : {4.0, 8.0, 15.0, 25.0, 40.0, 70.0, 100.0, 150.0, 200.0, 300.0, 350.0, 450.0}) {
+      const double formula = model::tolerance_of_grade(grade, size);
+      EXPECT_NEAR(standard_tolerance_mm(grade, size) / formula, 1.0, 0.1) << "IT" << grade << " of " << size;
+    }
+  }
+}
+
+TEST(StandardTolerance, GrowsWithGradeAndSize) {
+  const double sizes[] = {2,   4,   8,   15,  25,  40,   70,   100,  150,  200, 300,
+                          350, 450, 600, 700, 900, 1100, 1400, 1800, 2200, 3000};
+  for (int grade = 6; grade <= 18; ++grade) {
+    double before = 0.0;
+    for (const double size : sizes) {
+      EXPECT_GE(standard_tolerance_mm(grade, size), before);
+      before = standard_tolerance_mm(grade, size);
+      if (grade > 6) {
+        EXPECT_GT(before, standard_tolerance_mm(grade - 1, size));
+      }
+    }
+  }
+}
+
+TEST(GradeOfWidth, IsTheCoarsestThatFits) {
+  EXPECT_EQ(grade_of_width(20.0, 0.021), 7);
+  EXPECT_EQ(grade_of_width(20.0, 0.0209), 6);
+  EXPECT_EQ(grade_of_width(20.0, 0.0329), 7);
+  EXPECT_EQ(grade_of_width(20.0, 0.033), 8);
+  EXPECT_EQ(grade_of_width(20.0, 0.001), 0);
+  EXPECT_EQ(grade_of_width(20.0, 9.0), 18);
+  for (int grade = 1; grade <= 18; ++grade)
+    EXPECT_EQ(grade_of_width(20.0, standard_tolerance_mm(grade, 20.0)), grade);
+}
+
+TEST(Reamers, ComeInHalfMillimetresThenWholeOnes) {
+  for (const double d : {1.0, 6.0, 6.5, 20.0, 22.0, 25.0, 32.0, 35.0, 40.0, 50.0})
+    EXPECT_TRUE(is_reamer_size(d)) << d;
+  for (const double d : {0.9, 6.2, 20.5, 33.0, 51.0}) EXPECT_FALSE(is_reamer_size(d)) << d;
+}
+
+// What the estimates promise: 1 % of the widest, on the small side.
+void expect_passage(const geometry::Region& area, double widest, double narrowest, double exact) {
+  const Passage p = passage_of(area);
+  EXPECT_LE(p.widest_mm, widest + 1e-9);
+  EXPECT_GE(p.widest_mm, 0.97 * widest);
+  EXPECT_LE(p.narrowest_mm, narrowest * 1.001);
+  EXPECT_GE(p.narrowest_mm, narrowest - 0.04 * widest);
+  EXPECT_LE(p.exact_mm, exact * 1.04);
+  EXPECT_GE(p.exact_mm, exact - 0.04 * widest);
+}
+
+TEST(Passage, OfASharpRectangleIsItsWidthAndNoCutterReachesItsCorners) {
+  expect_passage(geometry::rectangle({0, 0}, {100, 40}), 40, 40, 0);
+}
+TEST(Passage, OfARoundedRectangleReachesItsCornersUpToTheirRadius) {
+  expect_passage(geometry::rounded_rectangle({0, 0}, {100, 40}, 6.0), 40, 40, 12);
+}
+TEST(Passage, OfADiscIsItsDiameter) { expect_passage(geometry::disc({5, 5}, 15), 30, 30, 30); }
+TEST(Passage, BetweenIslandAndWallIsTheGap) {
+  const auto area =
+      geometry::subtract(geometry::rectangle({0, 0}, {100, 100}), geometry::rectangle({8, 30}, {70, 70}));
+  const Passage p = passage_of(area);
+  EXPECT_LE(p.narrowest_mm, 8.0 * 1.001);
+  EXPECT_GE(p.narrowest_mm, 0.9 * 8.0);
+  EXPECT_GE(p.widest_mm, 30.0);
+}
+TEST(Passage, OfANarrowFingerIsTheFinger) {
+  const auto area =
+      geometry::unite(geometry::rectangle({0, 0}, {60, 60}), geometry::rectangle({60, 27}, {90, 33}));
+  expect_passage(area, 60, 6, 0);
+}
+TEST(Passage, OfTwoRoomsThroughANeckIsTheNeck) {
+  const auto rooms =
+      geometry::unite(geometry::rectangle({0, 0}, {40, 40}), geometry::rectangle({60, 0}, {100, 40}));
+  expect_passage(geometry::unite(rooms, geometry::rectangle({39, 15}, {61, 25})), 40, 10, 0);
+}
+TEST(Passage, OfNothingIsNothing) { EXPECT_EQ(passage_of({}).widest_mm, 0.0); }
+
+}  // namespace
+}  // namespace capstan::rules

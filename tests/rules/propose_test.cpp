@@ -1,0 +1,472 @@
+#include <numbers>
+
+#include "rules/facts/it_grade.h"
+#include "rules/rules.h"
+
+namespace capstan::rules {
+namespace {
+
+using model::CutterClass;
+using model::FeatureShape;
+using model::HoleBottom;
+using model::Proposal;
+using model::ShapeKind;
+using model::TypeId;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+const RuleBase& shipped() {
+  static const RuleBase kBase = [] {
+    Job job;
+    return load_rules("", job).value();
+  }();
+  return kBase;
+}
+Context steel() {
+  Context c;
+  c.material.iso_group = "P";
+  return c;
+}
+Proposal proposed(const FeatureShape& s, const Context& c = steel()) {
+  Proposal p = propose(shipped(), s, c);
+  EXPECT_NE(p.chains.empty(), p.cannot.empty()) << "chains or a reason, never neither or both: " << p.cannot;
+  for (const auto& chain : p.chains) {
+    for (const auto& step : chain) {
+      EXPECT_FALSE(step.why.id.empty());
+      EXPECT_FALSE(step.why.source.empty());
+      EXPECT_FALSE(step.tool.classes.empty());
+      EXPECT_GT(step.tool.reach_mm, 0.0);
+      EXPECT_FALSE(step.tool.words.empty());
+    }
+  }
+  return p;
+}
+std::vector<TypeId> kinds(const std::vector<model::ProposedStep>& chain) {
+  std::vector<TypeId> out;
+  for (const auto& step : chain) out.push_back(step.operation);
+  return out;
+}
+std::vector<TypeId> first(const Proposal& p) {
+  return p.chains.empty() ? std::vector<TypeId>{} : kinds(p.chains[0]);
+}
+std::string row(const Proposal& p) { return p.chains.empty() ? p.cannot : p.chains[0][0].why.id; }
+
+FeatureShape hole(double d, double depth, HoleBottom bottom = HoleBottom::kThrough) {
+  FeatureShape s;
+  s.kind = ShapeKind::kHole;
+  s.name = "H";
+  s.diameter.nominal_mm = s.bottom_diameter_mm = d;
+  s.depth_mm = depth;
+  s.bottom = bottom;
+  s.through = bottom == HoleBottom::kThrough;
+  s.area = s.reach = geometry::disc({0, 0}, 0.5 * d);
+  return s;
+}
+FeatureShape toleranced(FeatureShape s, double lower, double upper) {
+  s.diameter.lower_mm = lower;
+  s.diameter.upper_mm = upper;
+  s.diameter.given = true;
+  return s;
+}
+FeatureShape h(FeatureShape s, int grade) {
+  return toleranced(s, 0.0, standard_tolerance_mm(grade, s.diameter.nominal_mm));
+}
+FeatureShape pocket(double corner, double depth = 10.0) {
+  FeatureShape s;
+  s.kind = ShapeKind::kPocket;
+  s.name = "P";
+  s.depth_mm = depth;
+  s.corner_radius_mm = corner;
+  s.area = s.reach = geometry::rounded_rectangle({-40, -20}, {40, 20}, corner);
+  return s;
+}
+
+TEST(Hole, WithATighterToleranceGetsAnotherChainAndCitesItsRow) {
+  const FeatureShape s = hole(20, 30);
+  const Proposal it12 = proposed(h(s, 12));
+  EXPECT_THAT(first(it12), ElementsAre(TypeId::kCenterDrilling, TypeId::kDrilling));
+  EXPECT_EQ(row(it12), "hole.drill");
+  const Proposal it11 = proposed(h(s, 11));
+  EXPECT_EQ(row(it11), "hole.drill");
+  const Proposal it10 = proposed(h(s, 10));
+  EXPECT_THAT(first(it10), ElementsAre(TypeId::kCenterDrilling, TypeId::kDrilling, TypeId::kReaming));
+  EXPECT_EQ(row(it10), "hole.ream.it9");
+  const Proposal it7 = proposed(h(s, 7));
+  EXPECT_EQ(row(it7), "hole.ream.it7");
+  EXPECT_THAT(first(it7), ElementsAre(TypeId::kCenterDrilling, TypeId::kDrilling, TypeId::kReaming));
+  EXPECT_THAT(kinds(it7.chains[1]), ElementsAre(TypeId::kCenterDrilling, TypeId::kDrilling, TypeId::kBoring));
+  EXPECT_THAT(proposed(h(s, 6)).cannot, HasSubstr("[hole.grind]"));
+}
+
+TEST(Hole, OutsideTheH7ZoneIsBoredToTheMiddleOfItsTolerance) {
+  const Proposal p = proposed(toleranced(hole(20, 30), -0.035, -0.014));  // P7
+  EXPECT_EQ(row(p), "hole.bore.it7");
+  EXPECT_NEAR(p.chains[0].back().tool.diameter_exact_mm, 20.0 - 0.0245, 1e-12);
+}
+
+TEST(Hole, IsDrilledSmallerForTheReamerAndTheReamerKnows) {
+  const auto chain = proposed(h(hole(20, 30), 7)).chains.at(0);
+  EXPECT_DOUBLE_EQ(chain[1].tool.diameter_exact_mm, 19.7);  // table ream_stock: 0.3 from 20 mm
+  EXPECT_LT(chain[1].tool.diameter_max_mm, 20.0);
+  EXPECT_DOUBLE_EQ(chain[2].tool.diameter_exact_mm, 20.0);
+  EXPECT_DOUBLE_EQ(chain[2].start_diameter_mm, 19.7);
+  EXPECT_THAT(chain[2].after, ElementsAre(1));
+  EXPECT_GT(chain[2].tool.reach_mm, 30.0);
+}
+
+TEST(Hole, AdmitsDrillsFromTheLowerLimitToTheMiddleOfTheTolerance) {
+  const auto drill = proposed(toleranced(hole(10, 20), -0.1, 0.1)).chains.at(0).at(1);
+  EXPECT_DOUBLE_EQ(drill.tool.diameter_exact_mm, 10.0);
+  EXPECT_DOUBLE_EQ(drill.tool.diameter_min_mm, 9.9);
+  EXPECT_DOUBLE_EQ(drill.tool.diameter_max_mm, 10.0);
+}
+
+TEST(Hole, WithoutToleranceSaysWhatWasTaken) {
+  EXPECT_THAT(proposed(hole(10, 20)).chains.at(0).at(1).why.text,
+              HasSubstr("taken as IT13 (default, unsourced)"));
+  Context c = steel();
+  c.global_tolerance_mm = 0.01;
+  const Proposal p = proposed(hole(10, 20), c);
+  EXPECT_THAT(p.chains.at(0).at(1).why.text, HasSubstr("general +-0.01 mm"));
+  EXPECT_EQ(p.chains[0][0].why.id, "hole.bore.it7")
+      << "0.02 mm on 10 mm is IT7, and H7 does not lie within +-0.01";
+}
+
+TEST(Hole, IsPeckedFromThreeDiametersAndRefusedFromTwelve) {
+  const auto drill = [](double depth) { return proposed(hole(10, depth)).chains.at(0).at(1); };
+  EXPECT_FALSE(drill(29.0).peck);
+  EXPECT_TRUE(drill(30.0).peck);
+  EXPECT_THAT(drill(30.0).why.text, HasSubstr("[drill_depth.peck]"));
+  const Proposal deep = proposed(hole(2, 40));
+  EXPECT_THAT(deep.cannot, HasSubstr("drill_depth.too_deep"));
+  EXPECT_EQ(deep.rejected.size(), 2U);
+}
+
+TEST(Hole, WithAFlatBottomIsDrilledShortAndMilled) {
+  const auto chain = proposed(hole(12, 20, HoleBottom::kFlat)).chains.at(0);
+  EXPECT_THAT(kinds(chain),
+              ElementsAre(TypeId::kCenterDrilling, TypeId::kDrilling, TypeId::kBottomAndSideFinishMilling));
+  const double drill = chain[1].tool.diameter_max_mm;
+  EXPECT_LE(chain[1].depth_mm + std::tan(31.0 * kDegree) * 0.5 * drill, 20.0)
+      << "the tip stays above the bottom";
+  EXPECT_LT(chain[1].tool.diameter_max_mm, 12.0);
+  EXPECT_TRUE(chain[2].tool.corner_radius_limited);
+  EXPECT_EQ(chain[2].tool.corner_radius_max_mm, 0.0);
+}
+
+TEST(Hole, TooShallowForADrillsTipIsMilledAlone) {
+  const Proposal p = proposed(hole(12, 3, HoleBottom::kFlat));
+  EXPECT_THAT(first(p), ElementsAre(TypeId::kBottomAndSideRoughMilling, TypeId::kBottomAndSideFinishMilling));
+  ASSERT_EQ(p.rejected.size(), 1U);
+  EXPECT_THAT(p.rejected[0].why, HasSubstr("tip"));
+}
+
+TEST(Hole, WithARadiusAtTheBottomAsksForThatRadius) {
+  FeatureShape s = hole(20, 20, HoleBottom::kFlatWithRadius);
+  s.bottom_hole_radius_mm = 2.0;
+  const auto chain = proposed(s).chains.at(0);
+  EXPECT_EQ(chain.back().tool.corner_radius_exact_mm, 2.0);
+  EXPECT_THAT(chain.back().tool.classes, ElementsAre(CutterClass::kBullnoseEndmill));
+}
+
+TEST(Hole, WithADrillsConeAsksForThatPointAndWithAnotherGivesAReason) {
+  FeatureShape s = hole(10, 20, HoleBottom::kConical);
+  s.bottom_angle_rad = 20.0 * kDegree;  // 140 degrees
+  EXPECT_NEAR(proposed(s).chains.at(0).at(1).tool.point_angle_rad, 140.0 * kDegree, 1e-12);
+  s.bottom_angle_rad = 45.0 * kDegree;
+  EXPECT_EQ(row(proposed(s)), "hole.cone.countersink");
+  s.bottom_angle_rad = 10.0 * kDegree;
+  EXPECT_THAT(proposed(s).cannot, HasSubstr("[hole.cone.other]"));
+}
+
+TEST(Hole, WithASphericalBottomIsFinishedByTheBallThatFits) {
+  FeatureShape s = hole(10, 20, HoleBottom::kSpherical);
+  s.bottom_hole_radius_mm = 5.0;
+  const auto chain = proposed(s).chains.at(0);
+  EXPECT_THAT(chain.back().tool.classes, ElementsAre(CutterClass::kBallEndmill));
+  EXPECT_DOUBLE_EQ(chain.back().depth_mm, 15.0);
+  s.bottom_hole_radius_mm = 8.0;
+  EXPECT_THAT(proposed(s).cannot, HasSubstr("no half sphere"));
+}
+
+TEST(Hole, ThatIsWideIsOpenedFromAPilotAndKeepsAlternativesInOrder) {
+  const Proposal p = proposed(h(hole(60, 30), 12));
+  EXPECT_THAT(first(p), ElementsAre(TypeId::kCenterDrilling, TypeId::kDrilling,
+                                    TypeId::kBottomAndSideRoughMilling, TypeId::kBottomAndSideFinishMilling));
+  EXPECT_LE(p.chains[0][1].tool.diameter_max_mm, 20.0);
+  ASSERT_EQ(p.chains.size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(p.chains[i][0].priority, static_cast<int>(i));
+  EXPECT_EQ(row(proposed(h(hole(24.99, 30), 12))), "hole.drill");
+  EXPECT_EQ(row(proposed(h(hole(25, 30), 12))), "hole.large");
+}
+
+TEST(Hole, ThatTapersGetsACountersinkOrAReason) {
+  FeatureShape s = hole(20, 5);
+  s.bottom_diameter_mm = 10.0;  // 90 degrees
+  EXPECT_THAT(proposed(s).cannot, HasSubstr("[hole.countersink.blind]"));
+  Context c = steel();
+  c.core_diameter_mm = 10.0;
+  const Proposal p = proposed(s, c);
+  EXPECT_THAT(first(p), ElementsAre(TypeId::kCounterSinking));
+  EXPECT_NEAR(p.chains[0][0].tool.point_angle_rad, 90.0 * kDegree, 1e-12);
+  EXPECT_NEAR(p.chains[0][0].depth_mm, 10.0, 1e-12) << "the sharp cone's tip";
+  s.bottom_diameter_mm = 19.0;
+  EXPECT_THAT(proposed(s).cannot, HasSubstr("[hole.tapered]"));
+}
+
+TEST(Counterbore, IsMadeFromTheNarrowHoleOutwards) {
+  FeatureShape wide = hole(20, 8, HoleBottom::kFlat);
+  FeatureShape narrow = hole(11, 22);
+  narrow.frame.origin.z = -8.0;
+  const auto shapes = from_the_top({wide, narrow});
+  EXPECT_EQ(shapes[1].frame.origin.z, 0.0);
+  EXPECT_EQ(shapes[1].depth_mm, 30.0);
+  EXPECT_THAT(member_order(shapes), ElementsAre(std::pair<std::size_t, std::size_t>(1, 0)));
+  const auto proposals = propose_members(shipped(), shapes, steel());
+  EXPECT_EQ(row(proposals[1]), "hole.drill");
+  EXPECT_EQ(row(proposals[0]), "hole.shoulder");
+  EXPECT_EQ(proposals[0].chains[0][0].start_diameter_mm, 11.0);
+  EXPECT_THAT(kinds(proposals[0].chains.at(1)), ElementsAre(TypeId::kCounterSinking));
+}
+
+TEST(Pattern, ProposesTheSameForEachCopyAsForOne) {
+  std::vector<FeatureShape> shapes;
+  for (int i = 0; i < 400; ++i) {
+    shapes.push_back(h(hole(8, 16), 7));
+    shapes.back().frame.origin.x = 20.0 * i;
+  }
+  const auto proposals = propose_members(shipped(), shapes, steel());
+  ASSERT_EQ(proposals.size(), 400U);
+  for (const auto& p : proposals) EXPECT_EQ(kinds(p.chains.at(0)), first(proposed(shapes[0])));
+}
+
+TEST(Face, IsRoughedFromHalfAMillimetre) {
+  FeatureShape s = pocket(0.0);
+  s.kind = ShapeKind::kFace;
+  s.open = true;
+  s.depth_mm = 0.49;
+  EXPECT_THAT(first(proposed(s)), ElementsAre(TypeId::kPlaneFinishMilling));
+  s.depth_mm = 0.5;
+  const Proposal p = proposed(s);
+  EXPECT_THAT(first(p), ElementsAre(TypeId::kPlaneRoughMilling, TypeId::kPlaneFinishMilling));
+  EXPECT_EQ(p.chains[0][0].allowance_bottom_mm, 0.3);
+  EXPECT_EQ(p.chains[0][0].tool.classes.front(), CutterClass::kFacemill);
+}
+
+TEST(Pocket, LimitsTheCutterByItsCorners) {
+  const auto chain = proposed(pocket(6.0)).chains.at(0);
+  EXPECT_THAT(kinds(chain),
+              ElementsAre(TypeId::kBottomAndSideRoughMilling, TypeId::kBottomAndSideFinishMilling));
+  EXPECT_LE(chain[0].tool.diameter_max_mm, 12.0);
+  EXPECT_DOUBLE_EQ(chain[1].tool.diameter_max_mm, 12.0);
+  EXPECT_THAT(chain[1].why.text, HasSubstr("corners of radius 6 mm"));
+  EXPECT_TRUE(chain[0].tool.centre_cutting);
+}
+
+TEST(Pocket, WithSharpCornersSaysWhatTheyKeep) {
+  EXPECT_THAT(proposed(pocket(0.0)).chains.at(0).at(1).why.text, HasSubstr("corners are sharp"));
+}
+
+TEST(Pocket, LimitsTheCutterByTheGapBesideAnIsland) {
+  FeatureShape s = pocket(6.0);
+  s.islands.push_back({geometry::rectangle({-35, -10}, {20, 10}), 0.0});  // 5 mm from the left wall
+  const auto chain = proposed(s).chains.at(0);
+  EXPECT_LT(chain[1].tool.diameter_max_mm, 5.0);
+  EXPECT_LT(chain[0].tool.diameter_max_mm, chain[1].tool.diameter_max_mm);
+}
+
+TEST(Pocket, GetsFewerOrMorePassesByGrade) {
+  FeatureShape s = pocket(6.0);
+  s.width = {40.0, 0.0, standard_tolerance_mm(14, 40.0), true};
+  EXPECT_EQ(row(proposed(s)), "pocket.rough");
+  EXPECT_EQ(proposed(s).chains[0][0].allowance_side_mm, 0.0);
+  s.width.upper_mm = standard_tolerance_mm(8, 40.0);
+  EXPECT_EQ(proposed(s).chains.at(0).size(), 3U);
+  s.width.upper_mm = standard_tolerance_mm(6, 40.0);
+  EXPECT_THAT(proposed(s).cannot, HasSubstr("[pocket.grind]"));
+}
+
+TEST(Pocket, WithAFilletKeepsTheRoughCutterAboveIt) {
+  FeatureShape s = pocket(6.0);
+  s.bottom_radius_mm = 3.0;
+  const auto chain = proposed(s).chains.at(0);
+  EXPECT_EQ(chain[1].tool.corner_radius_exact_mm, 3.0);
+  // A sharp corner at (side, bottom) of the allowances lies inside the fillet's circle around (3, 3).
+  EXPECT_LE(std::hypot(3.0 - chain[0].allowance_side_mm, 3.0 - chain[0].allowance_bottom_mm), 3.0);
+}
+
+TEST(Pocket, TooNarrowOrDraftedAndTightGivesAReason) {
+  FeatureShape s = pocket(0.0);
+  s.area = s.reach = geometry::rectangle({0, 0}, {30, 0.9});
+  EXPECT_THAT(proposed(s).cannot, HasSubstr("[pocket.narrow]"));
+  FeatureShape d = pocket(6.0);
+  d.slope_rad = 5.0 * kDegree;
+  EXPECT_THAT(first(proposed(d)), ElementsAre(TypeId::kFreeformRoughMilling, TypeId::kFreeformFinishMilling));
+  d.width = {40.0, 0.0, standard_tolerance_mm(8, 40.0), true};
+  EXPECT_THAT(proposed(d).cannot, HasSubstr("[pocket.drafted.tight]"));
+}
+
+TEST(Pocket, ThatIsOpenNeedsNoCentreCutting) {
+  FeatureShape s = pocket(6.0);
+  s.open = true;
+  const Proposal p = proposed(s);
+  for (const auto& step : p.chains.at(0)) EXPECT_FALSE(step.tool.centre_cutting);
+}
+
+FeatureShape slot() {
+  FeatureShape s = pocket(0.0, 5.0);
+  s.kind = ShapeKind::kSlot;
+  s.open = true;
+  s.spine = {{-40, 0}, {40, 0}};
+  s.width.nominal_mm = 10.0;
+  s.area = geometry::stroke(s.spine, 5.0, false);
+  s.reach = geometry::stroke({{-90, 0}, {90, 0}}, 5.0, false);
+  return s;
+}
+
+TEST(Slot, OfEachFormGetsItsCutter) {
+  const auto square = proposed(slot()).chains.at(0);
+  EXPECT_LT(square[1].tool.diameter_max_mm, 10.0);
+  EXPECT_GT(square[1].tool.diameter_max_mm, 9.0);
+  FeatureShape vee = slot();
+  vee.slot_angle_rad = 90.0 * kDegree;
+  vee.slot_profile = {{0, 0}, {5, 5}};
+  const auto v = proposed(vee).chains.at(0);
+  EXPECT_THAT(kinds(v), ElementsAre(TypeId::kBottomAndSideRoughMilling, TypeId::kBottomAndSideFinishMilling));
+  EXPECT_LE(v[0].tool.diameter_max_mm, 5.0) << "half way down it is 5 mm wide";
+  EXPECT_NEAR(v[1].tool.point_angle_rad, 90.0 * kDegree, 1e-12);
+  EXPECT_GE(v[1].tool.diameter_min_mm, 10.0);
+  FeatureShape round = slot();
+  round.slot_profile = {{0, 0}, {5, 5}};
+  round.slot_bottom_radius_mm = 5.0;
+  EXPECT_EQ(proposed(round).chains.at(0).at(0).tool.corner_radius_exact_mm, 5.0);
+  FeatureShape tee = slot();
+  tee.slot_profile = {{0, 9}, {2, 9}, {2, 5}, {5, 5}};
+  EXPECT_THAT(proposed(tee).cannot, HasSubstr("[slot.form]"));
+}
+
+TEST(StepAndOutside, AreRoughedAndFinished) {
+  FeatureShape s = pocket(0.0);
+  s.open = true;
+  s.kind = ShapeKind::kStep;
+  EXPECT_THAT(first(proposed(s)),
+              ElementsAre(TypeId::kBottomAndSideRoughMilling, TypeId::kBottomAndSideFinishMilling));
+  s.kind = ShapeKind::kOutside;
+  s.islands.push_back({geometry::disc({0, 0}, 10), 0.0});
+  EXPECT_THAT(first(proposed(s)),
+              ElementsAre(TypeId::kBottomAndSideRoughMilling, TypeId::kBottomAndSideFinishMilling));
+  s.through = true;
+  EXPECT_THAT(first(proposed(s)), ElementsAre(TypeId::kSideRoughMilling, TypeId::kSideFinishMilling));
+}
+
+FeatureShape thread(double major, double pitch, double depth) {
+  FeatureShape s = hole(major - pitch, 30, HoleBottom::kFlat);
+  s.kind = ShapeKind::kThread;
+  s.thread_major_mm = major;
+  s.thread_pitch_mm = pitch;
+  s.thread_depth_mm = depth;
+  return s;
+}
+
+TEST(Thread, IsTappedWhereTheLeadHasRoomAndMilledWhereNot) {
+  const Proposal tapped = proposed(thread(10, 1.5, 25.5));  // 4.5 mm below: three pitches
+  EXPECT_THAT(first(tapped), ElementsAre(TypeId::kTapping));
+  EXPECT_DOUBLE_EQ(tapped.chains[0][0].depth_mm, 30.0);
+  EXPECT_DOUBLE_EQ(tapped.chains[0][0].tool.thread_pitch_mm, 1.5);
+  EXPECT_EQ(row(proposed(thread(10, 1.5, 26))), "thread.mill.short");
+  EXPECT_THAT(proposed(thread(10, 1.5, 30)).cannot, HasSubstr("[thread.no_room]"));
+  EXPECT_EQ(row(proposed(thread(24, 3, 15))), "thread.mill.large");
+  Context c = steel();
+  c.outer_thread = true;
+  EXPECT_THAT(proposed(thread(10, 1.5, 20), c).cannot, HasSubstr("[thread.outside]"));
+  c = steel();
+  c.rigid_tapping = false;
+  EXPECT_THAT(first(proposed(thread(10, 1.5, 20), c)), ElementsAre(TypeId::kThreadDrilling));
+}
+
+TEST(Thread, RefusesAHoleThatIsNoCoreForIt) {
+  FeatureShape s = thread(10, 1.5, 20);
+  s.diameter.nominal_mm = s.bottom_diameter_mm = 9.2;
+  EXPECT_THAT(proposed(s).cannot, HasSubstr("no core for M10x1.5"));
+}
+
+TEST(Chamfer, TakesAConeOfItsAngle) {
+  FeatureShape s = pocket(6.0);
+  s.kind = ShapeKind::kChamfer;
+  s.chamfer_width_mm = 1.0;
+  s.chamfer_angle_rad = 30.0 * kDegree;
+  const auto step = proposed(s).chains.at(0).at(0);
+  EXPECT_NEAR(step.tool.point_angle_rad, 120.0 * kDegree, 1e-12);
+  EXPECT_NEAR(step.depth_mm, std::tan(30.0 * kDegree), 1e-12);
+}
+
+TEST(Unsupported, AlwaysGivesAReason) {
+  FeatureShape s = pocket(0.0);
+  for (const ShapeKind kind : {ShapeKind::kEdgeRound, ShapeKind::kRoundedEnd, ShapeKind::kToolpath}) {
+    s.kind = kind;
+    EXPECT_FALSE(proposed(s).cannot.empty());
+  }
+  EXPECT_FALSE(proposed(hole(0.4, 1)).cannot.empty());
+  EXPECT_FALSE(proposed(hole(20000, 1)).cannot.empty()) << "outside the domain";
+}
+
+TEST(Surfaces, AreRoughedAndFinishedByABall) {
+  FeatureShape s = pocket(0.0);
+  for (const ShapeKind kind : {ShapeKind::kFreeform, ShapeKind::kSphericalCap}) {
+    s.kind = kind;
+    EXPECT_THAT(first(proposed(s)),
+                ElementsAre(TypeId::kFreeformRoughMilling, TypeId::kFreeformFinishMilling));
+  }
+  Context c = steel();
+  c.surface_radius_mm = 4.0;
+  EXPECT_DOUBLE_EQ(proposed(s, c).chains.at(0).at(1).tool.diameter_max_mm, 8.0);
+}
+
+TEST(Coolant, FollowsTheMaterialAndTheMachine) {
+  EXPECT_TRUE(proposed(hole(10, 20)).chains.at(0).at(0).coolant);
+  Context c;
+  c.material.iso_group = "K";
+  EXPECT_FALSE(proposed(hole(10, 20), c).chains.at(0).at(0).coolant);
+  c = steel();
+  c.has_coolant = false;
+  EXPECT_FALSE(proposed(hole(10, 20), c).chains.at(0).at(0).coolant);
+}
+
+// Every hole of a wide grid of sizes, grades and bottoms gets a chain or a reason, and each chain's drill
+// stays within the hole.
+TEST(Hole, OfAnySizeGradeAndBottomGetsAChainOrAReasonAndNoDrillLeavesIt) {
+  int chains = 0;
+  for (const double d : {0.4, 0.5, 1.9, 2.0, 3.0, 5.9, 6.0, 6.3, 12.0, 24.9, 25.0, 26.0, 51.0, 300.0}) {
+    for (int grade = 4; grade <= 18; ++grade) {
+      for (const auto bottom : {HoleBottom::kThrough, HoleBottom::kFlat, HoleBottom::kFlatWithRadius,
+                                HoleBottom::kConical, HoleBottom::kSpherical}) {
+        for (const double depth : {0.2 * d, 2.0 * d, 6.0 * d}) {
+          FeatureShape s = h(hole(d, depth, bottom), grade);
+          s.bottom_angle_rad = 31.0 * kDegree;
+          s.bottom_hole_radius_mm = bottom == HoleBottom::kSpherical ? 0.5 * d : 0.1 * d;
+          const Proposal p = proposed(s);
+          for (const auto& chain : p.chains) {
+            ++chains;
+            for (const auto& step : chain) {
+              if (!step.tool.classes.empty() && step.tool.classes[0] == CutterClass::kTwistDrill) {
+                EXPECT_LE(step.tool.diameter_max_mm, s.diameter.nominal_mm + s.diameter.upper_mm);
+                if (bottom == HoleBottom::kFlat) {
+                  EXPECT_LE(step.depth_mm + 0.3 * step.tool.diameter_max_mm, depth);
+                }
+              }
+              if (step.tool.diameter_exact_mm > 0.0) {
+                EXPECT_LE(step.tool.diameter_exact_mm, d + s.diameter.upper_mm);
+              }
+            }
+          }
+        }
+      }
+    }
+  }
+  EXPECT_GT(chains, 1000);
+}
+
+}  // namespace
+}  // namespace capstan::rules
