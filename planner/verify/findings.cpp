@@ -28,7 +28,9 @@ void Findings::add(Severity severity, int property, std::string code, Where wher
     }
     return;
   }
-  items_.push_back({where.order, badness, 1,
+  items_.push_back({where.order,
+                    badness,
+                    1,
                     {.property = property,
                      .code = std::move(code),
                      .severity = severity,
@@ -54,7 +56,8 @@ std::vector<model::Finding> Findings::take() {
   });
   std::vector<model::Finding> out;
   for (Item& i : items_) {
-    if (i.count > 1) i.finding.message += "; the worst of " + std::to_string(i.count) + " like it in this step";
+    if (i.count > 1)
+      i.finding.message += "; the worst of " + std::to_string(i.count) + " like it in this step";
     out.push_back(std::move(i.finding));
   }
   items_.clear();

@@ -53,8 +53,7 @@ geometry::Box3 box_of(const Move& m) {
     if (m.kind == model::MoveKind::kArcCw) ahead = -ahead;
     ahead = std::fmod(ahead, kTurn);
     if (ahead < 0.0) ahead += kTurn;
-    if (ahead <= sweep)
-      box.add({m.centre.x + r * std::cos(at), m.centre.y + r * std::sin(at), m.to.z});
+    if (ahead <= sweep) box.add({m.centre.x + r * std::cos(at), m.centre.y + r * std::sin(at), m.to.z});
   }
   return box;
 }

@@ -16,7 +16,7 @@ namespace capstan::verify {
 struct Move {
   model::MoveKind kind = model::MoveKind::kRapid;
   model::MoveRole role = model::MoveRole::kCut;
-  bool role_known = false;  ///< a program does not say what its moves are for
+  bool role_known = false;    ///< a program does not say what its moves are for
   bool synchronised = false;  ///< tapping: feed bound to the spindle
   geometry::Vec3 from, to;
   geometry::Vec2 centre;

@@ -28,7 +28,8 @@ void Interpreter::to(geometry::Vec3 p, MoveKind kind, bool synchronised) {
   put(b);
 }
 
-void Interpreter::one_hole(int mode, double x, double y, double z, double r, double q, double p, double clear) {
+void Interpreter::one_hole(int mode, double x, double y, double z, double r, double q, double p,
+                           double clear) {
   const double back = return_to_r_ ? r : std::max(clear, r);
   if (at_.z < r) to({at_.x, at_.y, r}, MoveKind::kRapid);
   to({x, y, at_.z}, MoveKind::kRapid);

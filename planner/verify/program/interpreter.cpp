@@ -14,7 +14,8 @@ using model::MoveKind;
 namespace {
 
 constexpr bool is_motion(int g) {
-  return g == 0 || g == 10 || g == 20 || g == 30 || g == 331 || g == 730 || g == 800 || (g >= 810 && g <= 890);
+  return g == 0 || g == 10 || g == 20 || g == 30 || g == 331 || g == 730 || g == 800 ||
+         (g >= 810 && g <= 890);
 }
 constexpr bool is_cycle(int g) { return g == 730 || (g >= 810 && g <= 890); }
 
@@ -34,9 +35,8 @@ std::string field(const std::string& text, const std::string& name) {
   at += name.size() + 2;
   const bool quoted = at < text.size() && text[at] == '"';
   const std::size_t end = quoted ? text.find('"', at + 1) : text.find(' ', at);
-  const std::string raw =
-      quoted ? text.substr(at + 1, end == std::string::npos ? end : end - at - 1)
-             : text.substr(at, end == std::string::npos ? end : end - at);
+  const std::string raw = quoted ? text.substr(at + 1, end == std::string::npos ? end : end - at - 1)
+                                 : text.substr(at, end == std::string::npos ? end : end - at);
   std::string out;
   for (std::size_t i = 0; i < raw.size(); ++i) {
     const auto hex = [](char c) {
@@ -86,7 +86,8 @@ bool Interpreter::gather(const Line& l, Said& s) {
       continue;
     }
     const int i = w.letter - 'A';
-    if (s.has[i]) fault(33, "CHK-WORD-TWICE", std::string("the word ") + w.letter + " stands twice in one block");
+    if (s.has[i])
+      fault(33, "CHK-WORD-TWICE", std::string("the word ") + w.letter + " stands twice in one block");
     s.has[i] = true;
     s.value[i] = w.value;
   }
@@ -138,7 +139,10 @@ void Interpreter::length_code(int g, const Said& s) {
 
 void Interpreter::state_code(int g, const Said& s) {
   switch (g) {
-    case 170: plane_xy_ = true; stated_ |= kStatedPlane; break;
+    case 170:
+      plane_xy_ = true;
+      stated_ |= kStatedPlane;
+      break;
     case 180:
     case 190:
       plane_xy_ = false;
@@ -148,34 +152,75 @@ void Interpreter::state_code(int g, const Said& s) {
     case 210: {
       const bool inch = g == 200;
       if (units_stated_ && inch != inch_)
-        fault(2, "CHK-UNITS", "the unit of length is switched from " + std::string(inch_ ? "inch" : "mm") +
-                                  " to " + (inch ? "inch" : "mm"));
+        fault(2, "CHK-UNITS",
+              "the unit of length is switched from " + std::string(inch_ ? "inch" : "mm") + " to " +
+                  (inch ? "inch" : "mm"));
       inch_ = inch;
       units_stated_ = true;
       stated_ |= kStatedUnits;
       break;
     }
-    case 400: radius_ = -1; stated_ |= kStatedRadius; break;
+    case 400:
+      radius_ = -1;
+      stated_ |= kStatedRadius;
+      break;
     case 410:
-    case 420: radius_ = s.is('D') ? whole(s.of('D')) : tool_; break;
+    case 420:
+      radius_ = s.is('D') ? whole(s.of('D')) : tool_;
+      break;
     case 430:
     case 431:
-    case 490: length_code(g, s); break;
-    case 540: case 550: case 560: case 570: case 580: case 590: case 591: case 592: case 593:
+    case 490:
+      length_code(g, s);
+      break;
+    case 540:
+    case 550:
+    case 560:
+    case 570:
+    case 580:
+    case 590:
+    case 591:
+    case 592:
+    case 593:
       // The work's coordinates of where the tool stands are others now.
       if (offset_ != g && offset_ != 0) known_[0] = known_[1] = known_[2] = false;
       offset_ = g;
       stated_ |= kStatedOffset;
       break;
-    case 610: case 611: case 640: case 530: case 40: break;
-    case 900: absolute_ = true; stated_ |= kStatedDistance; break;
-    case 910: absolute_ = false; stated_ |= kStatedDistance; break;
-    case 901: absolute_arcs_ = true; break;
-    case 911: absolute_arcs_ = false; break;
-    case 930: case 940: case 950: feed_mode_ = g / 10; stated_ |= kStatedFeedMode; break;
-    case 970: break;
-    case 980: return_to_r_ = false; break;
-    case 990: return_to_r_ = true; break;
+    case 610:
+    case 611:
+    case 640:
+    case 530:
+    case 40:
+      break;
+    case 900:
+      absolute_ = true;
+      stated_ |= kStatedDistance;
+      break;
+    case 910:
+      absolute_ = false;
+      stated_ |= kStatedDistance;
+      break;
+    case 901:
+      absolute_arcs_ = true;
+      break;
+    case 911:
+      absolute_arcs_ = false;
+      break;
+    case 930:
+    case 940:
+    case 950:
+      feed_mode_ = g / 10;
+      stated_ |= kStatedFeedMode;
+      break;
+    case 970:
+      break;
+    case 980:
+      return_to_r_ = false;
+      break;
+    case 990:
+      return_to_r_ = true;
+      break;
     default:
       if (!is_motion(g)) fault(33, "CHK-UNVERIFIABLE", code_text('G', g) + " is not followed", true);
   }
@@ -209,11 +254,30 @@ void Interpreter::machine_codes(const Said& s) {
         spindle_ = 0;  // LinuxCNC stops the spindle for a change
         break;
       }
-      case 30: spindle_ = 1; stated_ |= kStatedSpindle; break;
-      case 40: spindle_ = -1; stated_ |= kStatedSpindle; break;
-      case 50: spindle_ = 0; break;
-      case 0: case 10: case 70: case 80: case 90: case 480: case 490: case 600: case 20: case 300: break;
-      default: fault(33, "CHK-UNVERIFIABLE", code_text('M', s.m[i]) + " is not followed", true);
+      case 30:
+        spindle_ = 1;
+        stated_ |= kStatedSpindle;
+        break;
+      case 40:
+        spindle_ = -1;
+        stated_ |= kStatedSpindle;
+        break;
+      case 50:
+        spindle_ = 0;
+        break;
+      case 0:
+      case 10:
+      case 70:
+      case 80:
+      case 90:
+      case 480:
+      case 490:
+      case 600:
+      case 20:
+      case 300:
+        break;
+      default:
+        fault(33, "CHK-UNVERIFIABLE", code_text('M', s.m[i]) + " is not followed", true);
     }
   }
 }
@@ -273,7 +337,8 @@ void Interpreter::arc(const Said& s, bool clockwise) {
       return;
     }
     if (std::abs(r) < half - 1e-3 * units()) {
-      fault(23, "CHK-ARC", "the radius of " + mm(std::abs(r)) + " does not span its chord of " + mm(2.0 * half));
+      fault(23, "CHK-ARC",
+            "the radius of " + mm(std::abs(r)) + " does not span its chord of " + mm(2.0 * half));
       return;
     }
     const double height = std::sqrt(std::max(0.0, r * r - half * half));
@@ -341,12 +406,21 @@ void Interpreter::motion(const Said& s, bool machine_coordinates) {
   }
   switch (motion_) {
     case 0:
-    case 10: straight(s, motion_ / 10, machine_coordinates); break;
+    case 10:
+      straight(s, motion_ / 10, machine_coordinates);
+      break;
     case 20:
-    case 30: arc(s, motion_ == 20); break;
-    case 331: tap(s); break;
-    case -1: fault(33, "CHK-UNVERIFIABLE", "axis words without a motion mode"); break;
-    default: cycle(s);
+    case 30:
+      arc(s, motion_ == 20);
+      break;
+    case 331:
+      tap(s);
+      break;
+    case -1:
+      fault(33, "CHK-UNVERIFIABLE", "axis words without a motion mode");
+      break;
+    default:
+      cycle(s);
   }
 }
 
@@ -362,8 +436,7 @@ void Interpreter::line(const Line& l, long number) {
     fault(33, "CHK-UNVERIFIABLE", "a block that may be skipped (/) is taken as not skipped", true);
   }
   if (l.words.empty() || out_.ended) {
-    if (out_.ended && !l.words.empty())
-      fault(32, "CHK-END", "text goes on after the end of the program");
+    if (out_.ended && !l.words.empty()) fault(32, "CHK-END", "text goes on after the end of the program");
     return;
   }
   Said s;
@@ -404,7 +477,8 @@ Program read_program(std::string_view text) {
   long number = 0;
   if (text.size() > kProgramCap) {
     Program out;
-    out.faults.push_back({33, "CHK-TOO-LARGE", 0, "the program is larger than 256 MiB and was not read", true});
+    out.faults.push_back(
+        {33, "CHK-TOO-LARGE", 0, "the program is larger than 256 MiB and was not read", true});
     return out;
   }
   while (!text.empty()) {

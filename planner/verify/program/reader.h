@@ -26,9 +26,9 @@ struct Block {
 
   // Moves. Coordinates are the work offset's, mm.
   model::MoveKind move = model::MoveKind::kRapid;
-  bool synchronised = false;      ///< G33.1 or a tapping cycle
-  bool in_machine = false;        ///< G53: `to` is in machine coordinates where a word was given
-  bool from_cycle = false;        ///< expanded from a canned cycle
+  bool synchronised = false;              ///< G33.1 or a tapping cycle
+  bool in_machine = false;                ///< G53: `to` is in machine coordinates where a word was given
+  bool from_cycle = false;                ///< expanded from a canned cycle
   bool words[3] = {false, false, false};  ///< which axes the block names
   bool known_from[3] = {false, false, false}, known_to[3] = {false, false, false};
   geometry::Vec3 from, to;
@@ -46,7 +46,7 @@ struct Block {
   int work_offset = 0;       ///< 540 .. 590, 591, 592, 593; 0: never stated
   bool retracted = false;    ///< the last move of Z went up in machine coordinates, or nothing moved yet
   bool cycle_active = false;
-  unsigned stated = 0;       ///< Stated bits set since the last marker
+  unsigned stated = 0;  ///< Stated bits set since the last marker
   bool units_stated = false;
 };
 

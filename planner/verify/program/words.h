@@ -16,7 +16,7 @@ struct Line {
   std::vector<Word> words;
   std::vector<std::string> comments;
   bool percent = false, deleted = false;
-  std::string fault;  ///< why the rest was not read; empty when all was
+  std::string fault;          ///< why the rest was not read; empty when all was
   bool unverifiable = false;  ///< the fault is something this reader does not follow
   bool not_finite = false;
 };

@@ -36,8 +36,12 @@ FeedLimit feed_limit(const model::Cutter& c) {
   }
   // Shares of the diameter with a cap: default, unsourced; above what catalogues recommend for steel.
   switch (c.cutter_class) {
-    case CutterClass::kReamer: out.mm = std::clamp(0.1 * d, 0.1, 1.5); break;
-    case CutterClass::kFacemill: out.mm = 0.4; break;
+    case CutterClass::kReamer:
+      out.mm = std::clamp(0.1 * d, 0.1, 1.5);
+      break;
+    case CutterClass::kFacemill:
+      out.mm = 0.4;
+      break;
     default:
       out.mm = out.per_revolution ? std::clamp(0.04 * d, 0.02, 0.8) : std::clamp(0.02 * d, 0.01, 0.3);
   }

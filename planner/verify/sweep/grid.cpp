@@ -15,7 +15,9 @@ Grid::Grid(Vec2 lo, Vec2 hi, double cell_mm, long maximum_cells) : lo_(lo) {
   const double h = std::max(hi.y - lo.y, 1e-3);
   cell_ = std::max(cell_mm, std::sqrt(w * h / static_cast<double>(maximum_cells)));
   cell_ = std::max({cell_, w / static_cast<double>(maximum_cells), h / static_cast<double>(maximum_cells)});
-  const auto count = [&](double size) { return std::max(1, static_cast<int>(std::floor(size / cell_ + 0.5))); };
+  const auto count = [&](double size) {
+    return std::max(1, static_cast<int>(std::floor(size / cell_ + 0.5)));
+  };
   nx_ = count(w);
   ny_ = count(h);
   stock.assign(index(0, ny_), kNothing);
@@ -59,7 +61,7 @@ double Grid::normal_depth(Vec2 at, double z_mm) const {
   if (x0 >= x1 || y0 >= y1) return 0.0;
   const double here = part[index(x0, y0)];
   double steepest = 0.0;
-  for (const auto [dx, dy] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
+  for (const auto& [dx, dy] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
     const int ix = x0 + dx;
     const int iy = y0 + dy;
     if (ix < 0 || iy < 0 || ix >= nx_ || iy >= ny_) continue;
@@ -76,7 +78,9 @@ struct Outline {
     if (!p.pieces.empty() && p.pieces.front().radius_mm == 0.0 && p.pieces.front().slope == 0.0)
       flat = p.pieces.front().r1_mm;
   }
-  [[nodiscard]] double height(double d) const { return d <= flat ? 0.0 : profile.height(std::min(d, radius)); }
+  [[nodiscard]] double height(double d) const {
+    return d <= flat ? 0.0 : profile.height(std::min(d, radius));
+  }
   const CutterProfile& profile;
   double radius, flat = 0.0;
 };
@@ -192,8 +196,7 @@ void cut_level_arc(Knife& k, const Outline& o, const Move& m) {
       if (radial > r) continue;
       double ahead = std::fmod(sign * (std::atan2(q.y, q.x) - start), kTurn);
       if (ahead < 0.0) ahead += kTurn;
-      const double near =
-          ahead <= sweep ? radial : std::min(norm(p - xy(m.from)), norm(p - xy(m.to)));
+      const double near = ahead <= sweep ? radial : std::min(norm(p - xy(m.from)), norm(p - xy(m.to)));
       if (near <= r) k.at(ix, iy, m.to.z, m.to.z + o.height(near), near);
     }
   }

@@ -52,10 +52,10 @@ class Grid {
 /// What one move took away.
 struct Bite {
   double volume_mm3 = 0.0;
-  double contact_mm = 0.0;  ///< highest material taken above the tip
-  double thickest_mm = 0.0; ///< most taken off a cell
-  double core_mm = 0.0;     ///< most taken off a cell within 0.3 radii of the axis's track
-  double gouge_mm = 0.0;    ///< deepest below the finished part, beyond the tolerance
+  double contact_mm = 0.0;   ///< highest material taken above the tip
+  double thickest_mm = 0.0;  ///< most taken off a cell
+  double core_mm = 0.0;      ///< most taken off a cell within 0.3 radii of the axis's track
+  double gouge_mm = 0.0;     ///< deepest below the finished part, beyond the tolerance
   geometry::Vec2 gouge_at;
   std::size_t cells = 0;
 };

@@ -32,7 +32,8 @@ Box3 box_of_features(const PartShapes& part) {
   Box3 out;
   for (const auto& e : part.entries) {
     for (const auto& s : e.shapes) {
-      if (s.area.empty() || s.kind == model::ShapeKind::kStep || s.kind == model::ShapeKind::kOutside) continue;
+      if (s.area.empty() || s.kind == model::ShapeKind::kStep || s.kind == model::ShapeKind::kOutside)
+        continue;
       const auto b = geometry::bounds(s.area);
       Box3 local;
       local.add({b.lo.x, b.lo.y, 0.0});

@@ -52,7 +52,8 @@ StepChecks::StepChecks(const model::Plan& plan, const StepMoves& step, Grid& gri
       profile_(model::profile_of(*step.cutter)),
       radius_(profile_.radius_mm),
       tip_mm_(model::tip_length(*step.cutter)) {
-  const model::Executable* e = step.planned != nullptr ? plan.model.get<model::Executable>(step.planned->step) : nullptr;
+  const model::Executable* e =
+      step.planned != nullptr ? plan.model.get<model::Executable>(step.planned->step) : nullptr;
   const auto* ws = e != nullptr ? plan.model.get<model::MachiningWorkingstep>(step.planned->step) : nullptr;
   std::string why;
   if (undercuts(cutter_)) {
@@ -93,8 +94,9 @@ void StepChecks::rapid(const Move& m) {
     const bool falls = m.to.z < m.from.z - 1e-9 && norm(xy(m.to) - xy(m.from)) < 1e-9;
     const double into = std::max(0.0, dip - kRapidClearanceMm);
     out_.error(falls ? 10 : 9, falls ? "CHK-RAPID-DOWN" : "CHK-RAPID", at(m),
-               (falls ? "a rapid goes down to z = " + plain(m.to.z) : "a rapid at z = " +
-                    plain(std::min(m.from.z, m.to.z)) + ", axes taken as not arriving together,") +
+               (falls ? "a rapid goes down to z = " + plain(m.to.z)
+                      : "a rapid at z = " + plain(std::min(m.from.z, m.to.z)) +
+                            ", axes taken as not arriving together,") +
                    (into > 0.0 ? " runs " + mm(into) + " into material at " : " touches material at ") +
                    here(where) + " (cells of " + mm(grid_.cell()) + ")",
                dip);
@@ -160,13 +162,15 @@ void StepChecks::contact(const Move& m, const Bite& bite) {
   const double flutes = cutter_.maximum_depth_of_cut_mm;
   if (flutes <= 0.0) return;
   if (bite.contact_mm > flutes + kSlackMm) {
-    out_.error(13, "CHK-FLUTE", at(m),
-               "material is cut " + mm(bite.contact_mm) + " above the tip; the flutes are " + mm(flutes) + " long",
-               bite.contact_mm);
+    out_.error(
+        13, "CHK-FLUTE", at(m),
+        "material is cut " + mm(bite.contact_mm) + " above the tip; the flutes are " + mm(flutes) + " long",
+        bite.contact_mm);
   }
   if (is_mill(cutter_) && bite.thickest_mm > flutes + kSlackMm) {
     out_.error(20, "CHK-DEPTH", at(m),
-               "depth of cut " + mm(bite.thickest_mm) + "; the tool's largest is " + mm(flutes), bite.thickest_mm);
+               "depth of cut " + mm(bite.thickest_mm) + "; the tool's largest is " + mm(flutes),
+               bite.thickest_mm);
   }
 }
 
@@ -177,9 +181,10 @@ void StepChecks::reach(const Move& m) {
   const double holder = std::max(0.5 * cutter_.holder_diameter_mm, radius_);
   const double high = std::max(grid_.highest(xy(m.from), holder), grid_.highest(xy(m.to), holder));
   if (high - low > length + kSlackMm) {
-    out_.error(13, "CHK-REACH", at(m),
-               "the tip is " + mm(high - low) + " below the material beside the tool; it sticks out " + mm(length),
-               high - low);
+    out_.error(
+        13, "CHK-REACH", at(m),
+        "the tip is " + mm(high - low) + " below the material beside the tool; it sticks out " + mm(length),
+        high - low);
   }
 }
 
@@ -249,21 +254,23 @@ void StepChecks::tapping(const Move& m) {
   if (!(pitch > 0.0) || !in_hole(m) || n == 0.0) return;
   if (std::abs(m.feed_mm_min - pitch * n) > 0.01 * pitch * n) {
     out_.error(18, "CHK-TAP-FEED", at(m),
-               "a feed of " + plain(m.feed_mm_min) + " mm/min is not the pitch of " + mm(pitch) + " at " + plain(n) +
-                   " rpm",
+               "a feed of " + plain(m.feed_mm_min) + " mm/min is not the pitch of " + mm(pitch) + " at " +
+                   plain(n) + " rpm",
                std::abs(m.feed_mm_min - pitch * n));
   }
   // The largest tap torque: K p^2 D kc / 8000, kc at a chip as thick as the pitch divided by eight teeth.
   const model::WorkMaterial& w = plan_.material;
   if (!(w.kc11_n_mm2 > 0.0) || m.to.z > m.from.z) return;
-  const double h = std::clamp(pitch / 8.0, mechanics::kKienzleMinChipThicknessMm, mechanics::kKienzleMaxChipThicknessMm);
+  const double h =
+      std::clamp(pitch / 8.0, mechanics::kKienzleMinChipThicknessMm, mechanics::kKienzleMaxChipThicknessMm);
   const double kc = w.kc11_n_mm2 * std::pow(h, -w.mc);
-  const double torque = mechanics::kTappingTorqueFactor * pitch * pitch * cutter_.cutting_diameter_mm * kc / 8000.0;
+  const double torque =
+      mechanics::kTappingTorqueFactor * pitch * pitch * cutter_.cutting_diameter_mm * kc / 8000.0;
   const model::SpindlePoint limit = spindle_at(plan_.machine.spindle, n);
   if (limit.torque_nm > 0.0 && torque > limit.torque_nm * plan_.machine.spindle.efficiency) {
     out_.error(17, "CHK-TORQUE", at(m),
-               "tapping asks for " + plain(torque) + " Nm; the spindle gives " + plain(limit.torque_nm) + " Nm at " +
-                   plain(n) + " rpm",
+               "tapping asks for " + plain(torque) + " Nm; the spindle gives " + plain(limit.torque_nm) +
+                   " Nm at " + plain(n) + " rpm",
                torque);
   }
 }
@@ -272,8 +279,8 @@ void StepChecks::account(const Move& m, const Bite& bite) {
   const double length = length_of(m);
   const double rpm = std::abs(m.spindle_rpm);
   const bool axial = norm(xy(m.to) - xy(m.from)) < 1e-6 && !is_arc(m.kind);
-  if (sum_.length_mm > 0.0 &&
-      (std::abs(sum_.feed_mm_min - m.feed_mm_min) > 0.01 * sum_.feed_mm_min || sum_.rpm != rpm || sum_.axial != axial)) {
+  if (sum_.length_mm > 0.0 && (std::abs(sum_.feed_mm_min - m.feed_mm_min) > 0.01 * sum_.feed_mm_min ||
+                               sum_.rpm != rpm || sum_.axial != axial)) {
     settle();
   }
   if (!(length > 0.0) || !(m.feed_mm_min > 0.0)) return;
@@ -298,7 +305,8 @@ void StepChecks::settle() {
     const double d = std::max(1e-6, cutter_.cutting_diameter_mm);
     const double fz = sum_.feed_mm_min / (sum_.rpm * teeth);
     double width = d;
-    double chip_mm = fz * std::sin(0.5 * (cutter_.point_angle_rad > 0.0 ? cutter_.point_angle_rad : std::numbers::pi));
+    double chip_mm =
+        fz * std::sin(0.5 * (cutter_.point_angle_rad > 0.0 ? cutter_.point_angle_rad : std::numbers::pi));
     double largest = fz;
     if (!sum_.axial && sum_.depth_mm > 0.0) {
       // The mean section and the depth give the width; width and feed give the chip (chord geometry).
@@ -320,8 +328,8 @@ void StepChecks::chip(double largest, double fz) {
   if (limit.per_revolution) {
     if (fz * teeth > limit.mm * (1.0 + 1e-6)) {
       out_.error(18, "CHK-FEED-TOOL", where,
-                 "a feed of " + mm(fz * teeth) + " per revolution; at most " + mm(limit.mm) + " (" + limit.source +
-                     ", diameter " + mm(cutter_.cutting_diameter_mm) + ")",
+                 "a feed of " + mm(fz * teeth) + " per revolution; at most " + mm(limit.mm) + " (" +
+                     limit.source + ", diameter " + mm(cutter_.cutting_diameter_mm) + ")",
                  fz * teeth);
     }
     return;
@@ -329,8 +337,8 @@ void StepChecks::chip(double largest, double fz) {
   // A tenth more than the limit: the width is measured on cells.
   if (largest > 1.1 * limit.mm) {
     out_.error(18, "CHK-FEED-TOOL", where,
-               "chips of up to " + mm(largest) + " (feed per tooth " + mm(fz) + "); at most " + mm(limit.mm) + " (" +
-                   limit.source + ", diameter " + mm(cutter_.cutting_diameter_mm) + ")",
+               "chips of up to " + mm(largest) + " (feed per tooth " + mm(fz) + "); at most " + mm(limit.mm) +
+                   " (" + limit.source + ", diameter " + mm(cutter_.cutting_diameter_mm) + ")",
                largest);
   }
 }
@@ -345,20 +353,22 @@ void StepChecks::power(double volume, double minutes, double chip_mm) {
   if (cutter_.cutter_class == CutterClass::kReamer) kc *= mechanics::kReamingFrictionFactor;
   const double power_w = kc * volume / minutes / 60000.0;  // N/mm2 mm3/min = N mm/min = 1/60000 W
   const double torque_nm = power_w / (sum_.rpm * 2.0 * std::numbers::pi / 60.0);
-  const double efficiency = spindle.efficiency > 0.0 ? spindle.efficiency : mechanics::kDefaultSpindleEfficiency;
+  const double efficiency =
+      spindle.efficiency > 0.0 ? spindle.efficiency : mechanics::kDefaultSpindleEfficiency;
   const model::SpindlePoint limit = spindle_at(spindle, sum_.rpm);
   const Findings::Where where{step_.order + 1, step_.id, sum_.where};
-  const std::string how = ": " + plain(volume / minutes) + " mm3/min at kc = " + plain(kc) + " N/mm2, worn edge";
+  const std::string how =
+      ": " + plain(volume / minutes) + " mm3/min at kc = " + plain(kc) + " N/mm2, worn edge";
   if (limit.power_w > 0.0 && power_w > limit.power_w * efficiency) {
     out_.error(17, "CHK-POWER", where,
-               "cutting asks for " + plain(power_w) + " W of " + plain(limit.power_w * efficiency) + " W at " +
-                   plain(sum_.rpm) + " rpm" + how,
+               "cutting asks for " + plain(power_w) + " W of " + plain(limit.power_w * efficiency) +
+                   " W at " + plain(sum_.rpm) + " rpm" + how,
                power_w);
   }
   if (limit.torque_nm > 0.0 && torque_nm > limit.torque_nm * efficiency) {
     out_.error(17, "CHK-TORQUE", where,
-               "cutting asks for " + plain(torque_nm) + " Nm of " + plain(limit.torque_nm * efficiency) + " Nm at " +
-                   plain(sum_.rpm) + " rpm" + how,
+               "cutting asks for " + plain(torque_nm) + " Nm of " + plain(limit.torque_nm * efficiency) +
+                   " Nm at " + plain(sum_.rpm) + " rpm" + how,
                torque_nm);
   }
 }

@@ -18,8 +18,7 @@ struct Scene {
   Target target;
   Grid grid;
   Scene(const model::Plan& plan, const PartShapes& part, std::size_t setup, double cell)
-      : target(plan, part, setup),
-        grid(xy(target.stock().lo), xy(target.stock().hi), cell, kMaximumCells) {
+      : target(plan, part, setup), grid(xy(target.stock().lo), xy(target.stock().hi), cell, kMaximumCells) {
     target.fill(grid);
   }
 };
@@ -42,30 +41,35 @@ bool sound(const model::Cutter* c) {
 
 }  // namespace
 
-void check_removal(const model::Plan& plan, const std::vector<StepMoves>& steps, Findings& findings, Job& job) {
+void check_removal(const model::Plan& plan, const std::vector<StepMoves>& steps, Findings& findings,
+                   Job& job) {
   if (plan.stock.box.empty()) {
-    findings.warn(11, "CHK-NO-STOCK", {0, "", -1}, "there is no raw piece, so that removal cannot be checked");
+    findings.warn(11, "CHK-NO-STOCK", {0, "", -1},
+                  "there is no raw piece, so that removal cannot be checked");
     return;
   }
   const PartShapes part = shapes_of_part(plan);
   const double cell = cell_of(plan);
-  std::unique_ptr<Scene> scene;
-  std::size_t current = 0;
+  // Set-ups that hold the piece alike go on with the same stock.
+  std::vector<std::unique_ptr<Scene>> scenes;
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const StepMoves& step = steps[i];
     job.progress("check", static_cast<double>(i) / static_cast<double>(steps.size()));
     if (job.stop_requested()) return;
-    if (!scene || step.setup != current) {
-      const bool same = scene && workpiece_in(plan, step.setup) == workpiece_in(plan, current);
-      if (!same) {
-        if (scene) {
-          findings.note(9, "CHK-STOCK-FRESH", {step.order + 1, step.id, -1},
-                        "the set-up is checked against the whole raw piece: what another one took from it is not "
-                        "carried over");
-        }
-        scene = std::make_unique<Scene>(plan, part, step.setup, cell);
+    const geometry::Placement frame = workpiece_in(plan, step.setup);
+    Scene* scene = nullptr;
+    for (const auto& s : scenes) {
+      if (s->target.frame() == frame) scene = s.get();
+    }
+    if (scene == nullptr) {
+      if (!scenes.empty()) {
+        findings.note(
+            9, "CHK-STOCK-FRESH", {step.order + 1, step.id, -1},
+            "the set-up is checked against the whole raw piece: what another one took from it is not "
+            "carried over");
       }
-      current = step.setup;
+      scenes.push_back(std::make_unique<Scene>(plan, part, step.setup, cell));
+      scene = scenes.back().get();
     }
     if (!sound(step.cutter)) continue;
     StepChecks(plan, step, scene->grid, scene->target, findings).run();

@@ -90,7 +90,8 @@ Target::Target(const model::Plan& plan, const PartShapes& part, std::size_t setu
       frame_(workpiece_in(plan, setup)),
       stock_(placed(plan.stock.box, frame_)),
       part_box_(placed(part.part, frame_)) {
-  if (plan.stock.cylinder_radius_mm && std::abs(frame_.z.z) > kUpright) round_ = *plan.stock.cylinder_radius_mm;
+  if (plan.stock.cylinder_radius_mm && std::abs(frame_.z.z) > kUpright)
+    round_ = *plan.stock.cylinder_radius_mm;
   for (const auto& e : part.entries) {
     for (const auto& s : e.shapes) add(s);
   }
@@ -126,7 +127,8 @@ void Target::add(const FeatureShape& s) {
 }
 
 bool Target::outside(Vec2 p) const {
-  if (p.x < part_box_.lo.x || p.x > part_box_.hi.x || p.y < part_box_.lo.y || p.y > part_box_.hi.y) return true;
+  if (p.x < part_box_.lo.x || p.x > part_box_.hi.x || p.y < part_box_.lo.y || p.y > part_box_.hi.y)
+    return true;
   if (!round_) return false;
   const Vec2 middle = 0.5 * (xy(stock_.lo) + xy(stock_.hi));
   return norm(p - middle) > *round_;
@@ -236,7 +238,8 @@ const Target::Walls& Target::walls(double z) {
     loops.insert(loops.end(), r.loops.begin(), r.loops.end());
   }
   Region part = geometry::rectangle(xy(part_box_.lo), xy(part_box_.hi));
-  if (round_) part = geometry::intersect(part, geometry::disc(0.5 * (xy(stock_.lo) + xy(stock_.hi)), *round_));
+  if (round_)
+    part = geometry::intersect(part, geometry::disc(0.5 * (xy(stock_.lo) + xy(stock_.hi)), *round_));
   out.region = loops.empty() ? part : geometry::subtract(part, geometry::clean(loops));
   for (const auto& loop : out.region.loops) {
     for (std::size_t i = 0; i < loop.size(); ++i) out.edges.push_back({loop[i], loop[(i + 1) % loop.size()]});

@@ -57,13 +57,13 @@ class Target : public GougeJudge {
  private:
   struct Cavity {
     const model::FeatureShape* shape = nullptr;
-    geometry::Placement frame;    ///< feature in set-up
-    geometry::Region area;        ///< set-up XY, widest, lateral tolerance included
+    geometry::Placement frame;  ///< feature in set-up
+    geometry::Region area;      ///< set-up XY, widest, lateral tolerance included
     geometry::Box2 box;
     std::vector<std::pair<geometry::Region, double>> islands;  ///< set-up XY, top
-    double floor_mm = 0.0;        ///< lowest legal height, set-up
-    double deeper_mm = 0.0;       ///< by which the depth's tolerance allows more than the nominal
-    bool open_bottom = false;     ///< anything below is legal, too
+    double floor_mm = 0.0;                                     ///< lowest legal height, set-up
+    double deeper_mm = 0.0;    ///< by which the depth's tolerance allows more than the nominal
+    bool open_bottom = false;  ///< anything below is legal, too
   };
   struct Walls {
     geometry::Region region;  ///< where the part stands above the height

@@ -1,0 +1,19 @@
+#include "planner/verify/plan/plan_checks.h"
+#include "planner/verify/sweep/sweep.h"
+#include "planner/verify/verify.h"
+
+namespace capstan::verify {
+
+std::vector<model::Finding> check_plan(const model::Plan& plan, Job& job) {
+  Findings findings;
+  const std::vector<StepMoves> steps = moves_of(plan, findings);
+  check_tools(plan, steps, findings);
+  check_limits(plan, steps, findings);
+  check_order(plan, findings);
+  check_coverage(plan, findings);
+  check_removal(plan, steps, findings, job);
+  job.progress("check", 1.0);
+  return findings.take();
+}
+
+}  // namespace capstan::verify

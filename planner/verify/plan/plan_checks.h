@@ -1,0 +1,36 @@
+#pragma once
+
+#include <vector>
+
+#include "planner/model/plan.h"
+#include "planner/verify/findings.h"
+#include "planner/verify/moves.h"
+
+namespace capstan::verify {
+
+/// The moves of every step with a path whose numbers are finite; what is not becomes a finding (1).
+[[nodiscard]] std::vector<StepMoves> moves_of(const model::Plan& plan, Findings& findings);
+
+/// Units, offsets, tools, changes, ends: 3, 4, 5, 6, 7, 32.
+void check_tools(const model::Plan& plan, const std::vector<StepMoves>& steps, Findings& findings);
+
+/// Limits that need no stock: 16, 18, 20, 22, 23, 24.
+void check_limits(const model::Plan& plan, const std::vector<StepMoves>& steps, Findings& findings);
+/// Speed, feed, arcs of one step; shared by plans and programs. `radius_gap_mm`: by how much the two radii of
+/// an arc may differ.
+void check_moves(const StepMoves& step, const model::Machine& machine, double radius_gap_mm,
+                 Findings& findings);
+
+/// What must come first: 28.
+void check_order(const model::Plan& plan, Findings& findings);
+
+/// Every feature planned, or said not to be: 34.
+void check_coverage(const model::Plan& plan, Findings& findings);
+
+/// Two radii of an arc differ by no more than coordinates rounded to three decimals explain:
+/// each of start, end and centre by 0.0005 sqrt(2), derived.
+inline constexpr double kRadiusGapMm = 0.0022;
+/// Ends nearer than this become equal, or nearly, in a program: derived, the third decimal.
+inline constexpr double kShortestChordMm = 0.001;
+
+}  // namespace capstan::verify

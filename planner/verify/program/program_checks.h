@@ -1,0 +1,39 @@
+#pragma once
+
+#include <vector>
+
+#include "planner/model/plan.h"
+#include "planner/verify/findings.h"
+#include "planner/verify/moves.h"
+#include "planner/verify/program/reader.h"
+#include "planner/verify/program/tool_table.h"
+
+namespace capstan::verify {
+
+/// What a program's checks look at together.
+struct ProgramCase {
+  const Program& program;
+  const model::Plan* plan;  ///< may be null
+  const model::Machine& machine;
+  const std::vector<model::Cutter>& cutters;
+  [[nodiscard]] const model::Cutter* cutter(int tool) const;
+  /// The step a marker belongs to: position among the plan's steps, or the marker's own number.
+  [[nodiscard]] Findings::Where where(const Block& b) const;
+  /// Index into plan->steps for each marker; -1 unknown.
+  std::vector<long> step_of_marker;
+};
+[[nodiscard]] ProgramCase make_case(const Program& program, const model::Plan* plan,
+                                    const model::Machine& machine, const std::vector<model::Cutter>& cutters);
+
+/// Offsets, tools, changes, compensation, restart, end: 3, 4, 5, 7, 8, 26, 27, 32.
+void check_state(const ProgramCase& c, Findings& findings);
+/// The tool table against the cutters: 4, 5, 6.
+void check_tool_table(const ProgramCase& c, const ToolTable& table, Findings& findings);
+/// Machine coordinates against the travel: 22.
+void check_machine_moves(const ProgramCase& c, Findings& findings);
+/// The text's moves against the plan's paths: 33.
+void compare(const ProgramCase& c, Findings& findings);
+/// The program's moves by step, in the set-up's frame; heights that are not known are taken as clear.
+[[nodiscard]] std::vector<StepMoves> moves_of(const ProgramCase& c);
+
+}  // namespace capstan::verify
