@@ -148,7 +148,8 @@ double max_height(const HeightMap& map, Vec2 a, Vec2 b, double radius_mm) {
       if (top <= best) continue;
       const Vec2 p{map.x_of(ix), map.y_of(iy)};
       const double t = length2 > 0.0 ? std::clamp(dot(p - a, d) / length2, 0.0, 1.0) : 0.0;
-      if (norm(p - a - t * d) <= reach) best = top;
+      const Vec2 out = p - a - t * d;
+      if (dot(out, out) <= reach * reach) best = top;
     }
   }
   return map.origin.z + static_cast<double>(best);

@@ -439,7 +439,7 @@ double still_point(const ProfilePiece& p, double across, double slope) {
   double hi = std::sqrt(std::max(0.0, p.r1_mm * p.r1_mm - w * w));
   for (int k = 0; k < 60 && hi - lo > 1e-12; ++k) {
     const double u = 0.5 * (lo + hi);
-    const double d = std::hypot(u, w);
+    const double d = std::sqrt(u * u + w * w);
     const double off = d - p.rc_mm;
     const double root = std::sqrt(std::max(0.0, (p.radius_mm - off) * (p.radius_mm + off)));
     (off * u < s * d * root ? lo : hi) = u;
@@ -459,8 +459,9 @@ double swept_height(const CutterProfile& profile, double along, double across, d
   const double lo = std::max(along - length, -reach);
   const double hi = std::min(along, reach);
   if (lo > hi) return kInfinity;
+  if (is_flat(profile)) return slope * (along - (slope >= 0.0 ? hi : lo));
   const auto z = [&](double u) {
-    const double d = std::min(std::hypot(u, across), profile.radius_mm);
+    const double d = std::min(std::sqrt(u * u + across * across), profile.radius_mm);
     return slope * (along - u) + profile.height(d);
   };
   double best = std::min(z(lo), z(hi));

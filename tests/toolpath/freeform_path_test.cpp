@@ -80,7 +80,7 @@ Clearance clearance(const Mesh& mesh, const model::Cutter& c, const model::Cutte
   const Toroid t = *toroid_of(model::profile_of(c));
   Clearance out;
   for (std::size_t i = 1; i < path.size(); ++i) {
-    const int n = std::max(1, static_cast<int>(std::ceil(model::move_length(path, i) / 0.02)));
+    const int n = std::max(1, static_cast<int>(std::ceil(model::move_length(path, i) / 0.05)));
     for (int k = 0; k <= n; ++k) {
       const Vec3 p = model::point_on_move(path, i, static_cast<double>(k) / n);
       const double z = drop.drop(t, p.x, p.y, allowance);
