@@ -293,6 +293,28 @@ TEST(Trajectories, PathIsTheSameAfterBeingWrittenAsCurvesAndReadBack) {
   EXPECT_EQ(again->steps[0].cutter_id, "D10");
 }
 
+TEST(Trajectories, PathThatOnlyTheResultsHoldIsWrittenToo) {
+  Job job;
+  auto plan = read_text(testing::part21(testing::drilled_plate()), job);
+  ASSERT_TRUE(plan);
+  auto path = std::make_shared<CutterPath>();
+  path->start({20, 60, 2});
+  path->line({20, 60, -30}, MoveRole::kDrill);
+  model::StepResult result;
+  result.step = model::Ref<model::Executable>(plan->model.all(model::TypeId::kMachiningWorkingstep)[0]);
+  result.path = path;
+  plan->steps.push_back(result);
+  const auto written = write_iso14649(*plan, job);
+  ASSERT_TRUE(written);
+  const auto again = read_text(written->bytes, job);
+  ASSERT_TRUE(again);
+  const auto got = path_of_step(*again, again->steps.at(0).step, kOptions, job);
+  ASSERT_TRUE(got) << to_text(got.error());
+  ASSERT_EQ(got->path.size(), 2U);
+  EXPECT_EQ(got->path.point(1), (geometry::Vec3{20, 60, -30}));
+  EXPECT_EQ(got->schedule.feed_mm_min[1], 300.0);  // the operation's own
+}
+
 TEST(Trajectories, LeftHandedHelixBecomesChordsAndTheLossIsStated) {
   Job job;
   auto plan = read_text(testing::part21(testing::drilled_plate()), job);

@@ -268,9 +268,35 @@ bool has_bare_path(const model::Model& m, AnyRef at) {
   return t != nullptr && t->path && t->path->size() > 1 && !t->basiccurve;
 }
 
+// The list of toolpaths that a step carries, by address; null for other executables.
+model::Ref<model::ToolpathList>* toolpaths_of(model::Model& m, AnyRef step) {
+  if (const auto* w = m.get<model::MachiningWorkingstep>(step)) {
+    auto* op = m.get<model::MachiningOperation>(w->its_operation);
+    return op == nullptr ? nullptr : &op->its_toolpath;
+  }
+  auto* rapid = m.get<model::RapidMovement>(step);
+  return rapid == nullptr ? nullptr : &rapid->its_toolpath;
+}
+
+// Paths that only the plan's results hold get a toolpath in the model.
+void adopt_paths(model::Plan& plan) {
+  for (const auto& s : plan.steps) {
+    auto* list = toolpaths_of(plan.model, s.step);
+    if (list == nullptr || list->set() || !s.path || s.path->size() < 2) continue;
+    model::CutterLocationTrajectory t;
+    t.its_priority = true;
+    t.its_type = model::ToolpathType::kTrajectoryPath;
+    t.path = s.path;
+    model::ToolpathList paths;
+    paths.its_list.push_back(plan.model.add(std::move(t)));
+    *list = plan.model.add(std::move(paths));
+  }
+}
+
 }  // namespace
 
 Status write_curves(model::Plan& plan, std::vector<std::string>& losses) {
+  adopt_paths(plan);
   auto& m = plan.model;
   for (const AnyRef step : m.all_below(model::TypeId::kWorkingstep)) {
     AnyRef list, technology;
