@@ -118,7 +118,9 @@ tl::expected<std::vector<ProposedStep>, std::string> make_chain(const Situation&
     s.why.source = at.row.source;
     std::string notes = at.known.notes;
     while (!notes.empty() && (notes.back() == ' ' || notes.back() == ';')) notes.pop_back();
-    s.why.text = joined({at.row.text, s.why.text, notes, at.cooling.text});
+    std::string assumed;
+    for (const std::string& a : at.shape.assumptions) assumed += (assumed.empty() ? "" : "; ") + a;
+    s.why.text = joined({at.row.text, s.why.text, notes, assumed, at.cooling.text});
     s.tool.words = words_of(s.tool);
     s.priority = static_cast<int>(alternative);
     if (!out.empty()) s.after.push_back(out.size() - 1);

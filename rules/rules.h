@@ -40,7 +40,8 @@ struct Context {
 ///
 /// Units   mm, rad, as in ProposedStep. `depth_mm` of centre drilling, countersinking with a cone and tapping
 ///         is that of the tip (of the sharp cone), of all other drilling that of the full diameter.
-///         diameter_min/max of drills bound what `diameter_exact_mm +- diameter_tolerance_mm` admits.
+///         diameter_min/max of drills are diameter_exact_mm -+ diameter_tolerance_mm, all of it within
+///         tolerance.
 [[nodiscard]] model::Proposal propose(const RuleBase& base, const model::FeatureShape& shape,
                                       const Context& context);
 

@@ -34,8 +34,15 @@ struct Window {
   double lo, hi, best;
 };
 
+/// Twist drills as they are sold: by 0.1 mm to 14 mm, by 0.25 mm to 32 mm (DIN 338), by 0.5 mm beyond (DIN
+/// 345).
+bool is_drill_size(double d) {
+  const double step = d <= 14.0 ? 0.1 : d <= 32.0 ? 0.25 : 0.5;
+  return std::abs(d / step - std::round(d / step)) * step < 1e-6;
+}
+
 // A drill cuts a little oversize (how much is not known): nothing above the middle of the tolerance. To size
-// for a later step: what that step leaves, between half and two and a half times `under`.
+// for a later step: what that step leaves, between half and twice `under`.
 Window drill_window(const Making& m) {
   double under = m.number("under_mm");
   if (m.number("for_ream") > 0.0) {
@@ -45,19 +52,21 @@ Window drill_window(const Making& m) {
   }
   if (under > 0.0) {
     const double d = lower_limit(m);
-    return {d - 2.5 * under, d - 0.5 * under, d - under};
+    return {d - 2.0 * under, d - 0.5 * under, d - 1.25 * under};
   }
   const auto& t = m.known.diameter;
   const double lo = t.nominal_mm + t.lower_mm;
   const double hi = t.middle();
-  return {lo, hi, t.nominal_mm >= lo && t.nominal_mm <= hi ? t.nominal_mm : 0.5 * (lo + hi)};
+  const bool nominal = t.nominal_mm >= lo && t.nominal_mm <= hi && is_drill_size(t.nominal_mm);
+  return {lo, hi, nominal && m.number("any_size") == 0.0 ? t.nominal_mm : 0.5 * (lo + hi)};
 }
 
+// The band around `best` reaches no further than the nearer end of the window: what it admits lies within.
 void require(model::ToolRequirement& tool, const Window& w) {
   tool.diameter_exact_mm = w.best;
-  tool.diameter_tolerance_mm = std::max(w.hi - w.best, w.best - w.lo);
-  tool.diameter_min_mm = w.lo;
-  tool.diameter_max_mm = w.hi;
+  tool.diameter_tolerance_mm = std::max(0.0, std::min(w.hi - w.best, w.best - w.lo));
+  tool.diameter_min_mm = w.best - tool.diameter_tolerance_mm;
+  tool.diameter_max_mm = w.best + tool.diameter_tolerance_mm;
 }
 
 // How deep a drill of that diameter may go (full diameter) without touching the bottom's final surface.
@@ -296,6 +305,7 @@ std::vector<Action> hole_actions() {
        TypeId::kDrilling,
        {{"under_mm", 0.0, "left on the diameter for the next step"},
         {"for_ream", 0.0, "1: leaves what table ream_stock says"},
+        {"any_size", 0.0, "1: any drill that the tolerance admits, where the nominal one cannot be had"},
         past,
         leave},
        drill},

@@ -108,19 +108,27 @@ TEST(Hole, OutsideTheH7ZoneIsBoredToTheMiddleOfItsTolerance) {
 
 TEST(Hole, IsDrilledSmallerForTheReamerAndTheReamerKnows) {
   const auto chain = proposed(h(hole(20, 30), 7)).chains.at(0);
-  EXPECT_DOUBLE_EQ(chain[1].tool.diameter_exact_mm, 19.7);  // table ream_stock: 0.3 from 20 mm
-  EXPECT_LT(chain[1].tool.diameter_max_mm, 20.0);
+  // Table ream_stock: 0.3 from 20 mm; half of it to twice is admitted.
+  EXPECT_DOUBLE_EQ(chain[1].tool.diameter_min_mm, 19.4);
+  EXPECT_DOUBLE_EQ(chain[1].tool.diameter_max_mm, 19.85);
   EXPECT_DOUBLE_EQ(chain[2].tool.diameter_exact_mm, 20.0);
-  EXPECT_DOUBLE_EQ(chain[2].start_diameter_mm, 19.7);
+  EXPECT_DOUBLE_EQ(chain[2].start_diameter_mm, 19.625);
   EXPECT_THAT(chain[2].after, ElementsAre(1));
   EXPECT_GT(chain[2].tool.reach_mm, 30.0);
 }
 
-TEST(Hole, AdmitsDrillsFromTheLowerLimitToTheMiddleOfTheTolerance) {
-  const auto drill = proposed(toleranced(hole(10, 20), -0.1, 0.1)).chains.at(0).at(1);
-  EXPECT_DOUBLE_EQ(drill.tool.diameter_exact_mm, 10.0);
-  EXPECT_DOUBLE_EQ(drill.tool.diameter_min_mm, 9.9);
-  EXPECT_DOUBLE_EQ(drill.tool.diameter_max_mm, 10.0);
+TEST(Hole, AsksForItsNominalDrillThenForAnyUpToTheMiddleOfTheTolerance) {
+  const Proposal p = proposed(toleranced(hole(10, 20), -0.1, 0.1));
+  EXPECT_DOUBLE_EQ(p.chains.at(0).at(1).tool.diameter_exact_mm, 10.0);
+  EXPECT_DOUBLE_EQ(p.chains.at(0).at(1).tool.diameter_tolerance_mm, 0.0)
+      << "10.1 would leave no room for oversize";
+  const auto any = p.chains.at(1).at(1).tool;
+  EXPECT_DOUBLE_EQ(any.diameter_exact_mm - any.diameter_tolerance_mm, 9.9);
+  EXPECT_DOUBLE_EQ(any.diameter_exact_mm + any.diameter_tolerance_mm, 10.0);
+  // No drill is sold as 9.97: any between 9.87 and that.
+  const auto odd = proposed(toleranced(hole(9.97, 20), -0.1, 0.1)).chains.at(0).at(1).tool;
+  EXPECT_NEAR(odd.diameter_exact_mm, 9.92, 1e-12);
+  EXPECT_NEAR(odd.diameter_tolerance_mm, 0.05, 1e-12);
 }
 
 TEST(Hole, WithoutToleranceSaysWhatWasTaken) {
@@ -141,7 +149,7 @@ TEST(Hole, IsPeckedFromThreeDiametersAndRefusedFromTwelve) {
   EXPECT_THAT(drill(30.0).why.text, HasSubstr("[drill_depth.peck]"));
   const Proposal deep = proposed(hole(2, 40));
   EXPECT_THAT(deep.cannot, HasSubstr("drill_depth.too_deep"));
-  EXPECT_EQ(deep.rejected.size(), 2U);
+  EXPECT_EQ(deep.rejected.size(), 3U);
 }
 
 TEST(Hole, WithAFlatBottomIsDrilledShortAndMilled) {
