@@ -1,7 +1,7 @@
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <map>
-#include <set>
+#include <vector>
 
 #include "planner/base/number.h"
 #include "planner/exchange/exchange.h"
@@ -58,10 +58,7 @@ class FileWriter {
     collect();
     number();
     std::string out = "ISO-10303-21;\nHEADER;\n" + header();
-    out += write_records(plan_, m_, [this](AnyRef at) {
-      const auto it = number_.find(at);
-      return it == number_.end() ? std::uint64_t{0} : it->second;
-    });
+    out += write_records(plan_, m_, [this](AnyRef at) { return number_of(at); });
     out += "ENDSEC;\nDATA;\n";
     for (const auto& [n, at] : by_number_) instance(n, at, out);
     out += "ENDSEC;\nEND-ISO-10303-21;\n";
@@ -80,11 +77,16 @@ class FileWriter {
     pending.insert(pending.end(), plan_.kept.begin(), plan_.kept.end());
     for (const AnyRef f : m_.all_below(TypeId::kManufacturingFeature)) pending.push_back(f);
     std::reverse(pending.begin(), pending.end());
-    std::set<AnyRef> seen;
+    std::array<std::vector<bool>, model::kTypeCount> seen;
+    for (std::size_t t = 1; t < model::kTypeCount; ++t) {
+      seen[t].resize(m_.count(static_cast<TypeId>(t)));
+      number_[t].resize(seen[t].size());
+    }
     while (!pending.empty()) {
       const AnyRef at = pending.back();
       pending.pop_back();
-      if (!at.set() || !seen.insert(at).second) continue;
+      if (!at.set() || seen[static_cast<std::size_t>(at.type)][at.index]) continue;
+      seen[static_cast<std::size_t>(at.type)][at.index] = true;
       order_.push_back(at);
       std::vector<AnyRef> next;
       references(at, [&](AnyRef to) { next.push_back(to); });
@@ -134,6 +136,13 @@ class FileWriter {
     ++left_out_[a.name == "enabled" ? what + ", kept in the header only," : what];
   }
 
+  std::uint64_t& slot(AnyRef at) { return number_[static_cast<std::size_t>(at.type)][at.index]; }
+  [[nodiscard]] std::uint64_t number_of(AnyRef at) const {
+    if (!at.set()) return 0;
+    const auto& numbers = number_[static_cast<std::size_t>(at.type)];
+    return at.index < numbers.size() ? numbers[at.index] : 0;
+  }
+
   // The file's own numbers where they are free, new ones behind the greatest.
   void number() {
     std::uint64_t greatest = 0;
@@ -143,11 +152,11 @@ class FileWriter {
         greatest = std::max(greatest, greatest_in(*kept));
       const std::uint64_t n = m_.origin(at).instance;
       if (n == 0 || !by_number_.emplace(n, at).second) continue;
-      number_[at] = n;
+      slot(at) = n;
     }
     for (const AnyRef at : order_) {
-      if (number_.count(at) != 0) continue;
-      number_[at] = ++greatest;
+      if (slot(at) != 0) continue;
+      slot(at) = ++greatest;
       by_number_[greatest] = at;
     }
   }
@@ -224,8 +233,8 @@ class FileWriter {
   }
 
   [[nodiscard]] std::string reference(AnyRef r) const {
-    const auto it = number_.find(r);
-    return it == number_.end() ? "$" : "#" + std::to_string(it->second);
+    const std::uint64_t n = number_of(r);
+    return n == 0 ? "$" : "#" + std::to_string(n);
   }
 
   [[nodiscard]] std::string select(const model::SelectValue& v) const {
@@ -327,7 +336,7 @@ class FileWriter {
   const model::Model& m_;
   std::vector<std::string>& losses_;
   std::vector<AnyRef> order_;
-  std::map<AnyRef, std::uint64_t> number_;
+  std::array<std::vector<std::uint64_t>, model::kTypeCount> number_;  // 0: not written
   std::map<std::uint64_t, AnyRef> by_number_;
   std::map<std::string, std::size_t> left_out_;
 };
