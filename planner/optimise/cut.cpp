@@ -154,8 +154,7 @@ class Search {
       // A thin cut may advance faster for the same chip; chip_thickness is what holds it.
       const double most = largest_fz(q) * (is_milling(q.kind) ? 3.0 : 1.0);
       const double capped = q.cutter.fz_max_mm > 0.0 ? std::min(most, q.cutter.fz_max_mm) : most;
-      const double least = is_milling(q.kind) ? 0.1 : kLeastDrillFeed;
-      add("feed_per_tooth", "mm", least * largest_fz(q), capped);
+      add("feed_per_tooth", "mm", q.least_feed_ratio * largest_fz(q), capped);
     }
     if (!is_milling(q.kind)) return;
     const double widest = q.width_mm > 0.0 ? std::min(q.width_mm, d) : d;

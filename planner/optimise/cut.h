@@ -42,7 +42,7 @@ struct CutQuestion {
 inline constexpr double kRoughDeflectionMm = 0.05;
 /// Widest cut of a rough pass that is not a slot, as a fraction of the diameter. Default, unsourced.
 inline constexpr double kRoughWidthRatio = 0.65;
-/// Least feed of drills, reamers and countersinks as a fraction of the start value: below, they rub.
+/// Least feed at which a drill, reamer or countersink is worth choosing, as a fraction of the start value.
 /// Default, unsourced.
 inline constexpr double kLeastDrillFeed = 0.4;
 /// Taylor's exponent n in v T^n = C for the cost objective. Textbook values: carbide 0.25, HSS 0.125

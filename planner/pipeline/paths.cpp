@@ -267,6 +267,8 @@ class PathMaker {
         job.shape.kind == ShapeKind::kChamfer) {
       job.start_z_mm = std::max(job.start_z_mm, top);
     }
+    const auto hole = holes_.find({step.feature, job.shape.member});
+    if (hole != holes_.end() && !job.previous_diameter_mm) job.previous_diameter_mm = hole->second;
     const auto it = left_.find({step.feature, job.shape.member});
     if (it != left_.end()) {
       job.left_on_side_mm = it->second.side_mm;
@@ -289,6 +291,10 @@ class PathMaker {
       if (w_.plan.model.holds<model::Two5dMillingOperation>(step.operation)) {
         left_[{step.feature, shape.member}] = {job.allowance_side_mm, job.allowance_bottom_mm};
       }
+      const bool bores = w_.plan.model.holds<model::DrillingTypeOperation>(step.operation) &&
+                         !w_.plan.model.holds<model::CenterDrilling>(step.operation) &&
+                         !w_.plan.model.holds<model::CounterSinking>(step.operation);
+      if (bores) holes_[{step.feature, shape.member}] = step.cutter.cutting_diameter_mm;
     }
     const auto given = given_technology(w_.plan.model, step.operation, step.cutter);
     optimise::FeedQuestion fq;
@@ -429,6 +435,7 @@ class PathMaker {
   Work& w_;
   std::vector<std::optional<stock::HeightMap>> maps_;
   std::map<std::pair<AnyRef, int>, Left> left_;
+  std::map<std::pair<AnyRef, int>, double> holes_;  ///< diameter made so far, mm
   std::map<QuestionKey, optimise::CutAnswer> answers_;
   optimise::Options options_;
 };

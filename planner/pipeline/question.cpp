@@ -86,6 +86,7 @@ optimise::CutQuestion hole_question(const Work& w, const model::ProposedStep& st
   q.vc_start_m_min = c.vc_m_min;
   q.fz_start_mm = c.fz_mm;
   q.pre_hole_mm = step.start_diameter_mm;
+  q.least_feed_ratio = optimise::kLeastDrillFeed;
   const bool cone = model::is_a(step.operation, TypeId::kCenterDrilling) ||
                     model::is_a(step.operation, TypeId::kCounterSinking);
   if (cone && c.cutter.point_angle_rad > 0.0) {

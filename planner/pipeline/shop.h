@@ -1,0 +1,42 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "planner/base/job.h"
+#include "planner/base/result.h"
+#include "planner/pipeline/pipeline.h"
+
+namespace capstan::pipeline {
+
+/// What a shop is named by: files, or empty for what comes with the planner.
+struct ShopFiles {
+  std::string machine;   ///< YAML, LinuxCNC .ini, or the id of a shipped machine; empty: the generic one
+  std::string tools;     ///< a library or LinuxCNC tool table; empty: the generic library
+  std::string rules;     ///< a folder of further tables; empty: the shipped ones alone
+  std::string material;  ///< overrides the file's
+};
+
+/// Loads all of it. Each thing that was not named is in `Inputs::provenance` as a built-in default.
+/// Fails  as the rooms that read it, naming file and place.
+[[nodiscard]] Result<Inputs> load_shop(const ShopFiles& files, Job& job);
+
+/// Reads a plan or a part: ISO 14649, STL, or plan JSON, told by content.
+[[nodiscard]] Result<model::Plan> read_plan(std::string bytes, const std::string& name, Job& job);
+
+/// What the checker says of a plan, and of the LinuxCNC program it makes.
+[[nodiscard]] std::vector<model::Finding> findings_of(const model::Plan& plan, Job& job);
+
+/// Holds the tools of a plan against what is in the magazine (`inputs.library`, Cutter::pocket > 0).
+///
+/// A tool that is there (same class and diameter, or the same id) keeps its decisions and takes pocket and
+/// length from the table; one that is not is re-opened, and with it, by the ledger, what depends on it.
+/// Gives what was re-opened, one sentence each, in the order of the plan.
+[[nodiscard]] Result<std::vector<std::string>> match_loaded(model::Plan& plan, Inputs& inputs, Job& job);
+
+enum class Format : std::uint8_t { kIso14649, kJson, kLinuxCnc, kToolTable };
+
+/// The plan in a format; what the format cannot hold is noted to the job.
+[[nodiscard]] Result<std::string> write_plan(const model::Plan& plan, Format format, Job& job);
+
+}  // namespace capstan::pipeline
