@@ -112,7 +112,7 @@ TEST(LinuxCnc, StopsForTheOperatorBetweenSetUps) {
   add_step(plan, "b", "em18", contour()).setup = 1;
   const std::string text = program_of(plan);
   const auto second = position(text, "id=\"b\"");
-  EXPECT_EQ(text.substr(position(text, "(CAPSTAN STEP id=\"b\"") - 17, 17), "G53 G0 Z0\nM5\nM9\n\n");
+  EXPECT_EQ(text.substr(position(text, "(CAPSTAN STEP id=\"b\"") - 16, 16), "G53 G0 Z0\nM5\nM9\n");
   const auto stop =
       position(text, "(MSG, set-up 2: clamp the workpiece anew, set G55, then continue)\nM0\n", second);
   EXPECT_LT(stop, position(text, "\nG55\n", second));
