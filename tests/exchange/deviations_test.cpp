@@ -155,6 +155,13 @@ TEST(Deviations, FeedOfZeroIsOpen) {
   EXPECT_EQ(r->plan.ledger.find(at, "feedrate")->lexeme, "0.0");
 }
 
+TEST(Deviations, SpindleThatStandsStillIsOpen) {
+  const auto r = plate({{45, "MILLING_TECHNOLOGY(0.005,.TCP.,$,0.0,$,.F.,.F.,.F.,$)"}});
+  const auto at = r->plan.model.all(model::TypeId::kMillingTechnology)[0];
+  EXPECT_TRUE(r->plan.ledger.is_open(at, "spindle"));
+  EXPECT_EQ(r->plan.ledger.find(at, "spindle")->lexeme, "0.0");
+}
+
 TEST(Deviations, FeedThatNoCutterTakesIsKeptAndSaid) {
   const auto r = plate({{45, "MILLING_TECHNOLOGY(0.175,.TCP.,$,-16.,$,.F.,.F.,.F.,$)"}});
   EXPECT_THAT(lines(r->job), Contains(HasSubstr("10.938 mm per revolution")));  // 10500 / 960

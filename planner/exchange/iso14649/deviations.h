@@ -21,7 +21,7 @@ struct Reading;
 ///
 /// What can be decided is repaired: the model holds the new value, the ledger the old lexeme under the
 /// reason "given.repaired". What cannot is kept as given under "given.suspicious". Each is one warning.
-/// A feed of 0 is taken as open.
+/// An operation's feed or spindle speed of 0 is taken as open.
 void find_deviations(Reading& reading);
 
 /// A value that is not quite what the file says, or may not be what it means.

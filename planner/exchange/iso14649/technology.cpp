@@ -169,6 +169,15 @@ void check_direction(Reading& r, const Use& use) {
            "-hand cutter; kept as it is");
 }
 
+// Of an operation; a toolpath may well stop the spindle.
+void check_standing(Reading& r, const Use& use) {
+  auto& t = r.plan.model.at<model::MillingTechnology>(use.technology);
+  if (!t.spindle || *t.spindle != 0.0) return;
+  t.spindle.reset();
+  note(r, use.technology, "spindle", true, "EXC-ZERO",
+       in_file(r, use.technology, "spindle") + " cuts nothing; taken as open");
+}
+
 void check_feed(Reading& r, const Use& use) {
   auto& t = r.plan.model.at<model::MillingTechnology>(use.technology);
   if (!t.feedrate) return;
@@ -196,6 +205,7 @@ void check_feed(Reading& r, const Use& use) {
 
 void check_technology(Reading& r) {
   for (const Use& use : uses(r)) {
+    check_standing(r, use);
     check_units(r, use);
     check_agreement(r, use);
     check_direction(r, use);
