@@ -115,7 +115,9 @@ struct SlopeSurface {
     const Vec2 r = place - from;
     return start + swept_height(profile, dot(r, unit), geometry::cross(unit, r), length, rise);
   }
-  [[nodiscard]] bool clear(double /*r2*/, double /*top*/) const { return false; }
+  [[nodiscard]] bool clear(double r2, double top) const {
+    return top <= start + std::min(0.0, rise) + profile.height(std::min(std::sqrt(r2), profile.radius_mm));
+  }
 };
 
 // --- tracks
@@ -447,6 +449,20 @@ double still_point(const ProfilePiece& p, double across, double slope) {
   return 0.5 * (lo + hi);
 }
 
+/// d profile / du at a cell u ahead of the axis (from below where the outline has a kink); not a number on
+/// the axis.
+double steepness(const CutterProfile& profile, double u, double across) {
+  const double d = std::min(std::sqrt(u * u + across * across), profile.radius_mm);
+  if (d < 1e-12) return std::numeric_limits<double>::quiet_NaN();
+  for (const ProfilePiece& p : profile.pieces) {
+    if (d > p.r1_mm) continue;
+    if (p.radius_mm <= 0.0) return p.slope * u / d;
+    const double off = d - p.rc_mm;
+    return off / std::sqrt(std::max(1e-300, (p.radius_mm - off) * (p.radius_mm + off))) * u / d;
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
 }  // namespace
 
 double swept_height(const CutterProfile& profile, double along, double across, double length, double rise) {
@@ -464,6 +480,9 @@ double swept_height(const CutterProfile& profile, double along, double across, d
     const double d = std::min(std::sqrt(u * u + across * across), profile.radius_mm);
     return slope * (along - u) + profile.height(d);
   };
+  // z is convex in u: on a short track it mostly falls or rises all the way.
+  if (steepness(profile, lo, across) >= slope) return z(lo);
+  if (steepness(profile, hi, across) <= slope) return z(hi);
   double best = std::min(z(lo), z(hi));
   const auto look = [&](double u) { best = std::min(best, z(std::clamp(sign * u, lo, hi))); };
   for (const ProfilePiece& p : profile.pieces) {

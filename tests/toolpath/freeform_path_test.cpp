@@ -157,6 +157,23 @@ TEST(Finish, ClimbsAnUprightStepWithoutAGouge) {
   }
 }
 
+TEST(Finish, WarnsOfRidgesOnASlopeAcrossThePassesAndNotAlongThem) {
+  const Mesh mesh = surface(4, 50.0, [](double, double y) { return -10.0 + 0.15 * y; });
+  FreeformJob task = job_on(mesh, cutter(CutterClass::kBallEndmill, 6.0, 3.0));
+  task.stepover_mm = 0.0;
+  task.scallop_mm = 0.05;
+  task.feed_angle_rad = 0.5 * std::numbers::pi;
+  Job along;
+  ASSERT_TRUE(finish(task, along));
+  EXPECT_EQ(along.count(Severity::kWarning), 0U);
+  const Mesh steep = surface(4, 50.0, [](double, double y) { return -20.0 + 0.4 * y; });
+  task.surface = &steep;
+  task.feed_angle_rad = 0.0;
+  Job across;
+  ASSERT_TRUE(finish(task, across));
+  EXPECT_EQ(across.count(Severity::kWarning), 1U);
+}
+
 TEST(Finish, ScallopsOnAPlaneHaveTheHeightAskedFor) {
   const Mesh mesh = surface(4, 50.0, [](double, double) { return -5.0; });
   const auto ball = cutter(CutterClass::kBallEndmill, 6.0, 3.0);

@@ -23,6 +23,32 @@ double way(const Run& run) {
   return sum;
 }
 
+/// Says where ridges come out higher than asked, because the surface slopes across the passes.
+void warn_of_ridges(const FreeformJob& task, double ball_mm, const Hatch& lines, Job& job) {
+  double all = 0.0;
+  double beyond = 0.0;
+  double worst = 0.0;
+  for (const auto& t : task.surface->triangles) {
+    const Vec3 a = task.surface->vertices[t[0]];
+    const Vec3 n = cross(task.surface->vertices[t[1]] - a, task.surface->vertices[t[2]] - a);
+    const double size = norm(n);
+    if (!(size > 0.0)) continue;
+    all += size;
+    // Steeper than 60 degrees a cutter from above does not finish by its ridges.
+    if (std::abs(n.z) < 0.5 * size) continue;
+    const double across = dot(xy(n), lines.v_axis) / n.z;
+    const double half = 0.5 * lines.spacing_mm * std::sqrt(1.0 + across * across);
+    const double ridge = half < ball_mm ? ball_mm - std::sqrt((ball_mm - half) * (ball_mm + half)) : ball_mm;
+    if (ridge <= 1.05 * task.scallop_mm) continue;
+    beyond += size;
+    worst = std::max(worst, ridge);
+  }
+  if (beyond < 1e-3 * all) return;
+  job.warn("FRF-SCALLOP", "on " + trimmed(100.0 * beyond / all, 1) +
+                              " % of the surface the ridges are higher than " + trimmed(task.scallop_mm, 4) +
+                              " mm, up to " + trimmed(worst, 4) + " mm, because it slopes across the passes");
+}
+
 class Finisher {
  public:
   Finisher(const FreeformJob& task, const DropCutter& drop, const Toroid& cutter, Hatch hatch, Job& job)
@@ -122,7 +148,9 @@ Result<FreeformPath> finish(const FreeformJob& task, Job& job) {
       task.stepover_mm > 0.0 ? task.stepover_mm : scallop_stepover(cutter->ball_mm, task.scallop_mm);
   if (!(stepover > 0.0)) return fail("FRF-VALUE", "neither a stepover nor a scallop height is given");
   const DropCutter drop(*task.surface);
-  return Finisher(task, drop, *cutter, hatch(area_of(task, drop), task.feed_angle_rad, stepover), job).run();
+  Hatch lines = hatch(area_of(task, drop), task.feed_angle_rad, stepover);
+  if (task.scallop_mm > 0.0) warn_of_ridges(task, cutter->ball_mm, lines, job);
+  return Finisher(task, drop, *cutter, std::move(lines), job).run();
 }
 
 }  // namespace capstan::toolpath::freeform

@@ -73,6 +73,7 @@ struct FreeformPath {
 ///
 /// Needs  a ball or bull nosed cutter; stepover or scallop > 0.
 /// Fails  as rough.
+/// Warns  FRF-SCALLOP  how much of the surface slopes so much across the passes that ridges exceed scallop_mm
 [[nodiscard]] Result<FreeformPath> finish(const FreeformJob& task, Job& job);
 
 }  // namespace capstan::toolpath::freeform
