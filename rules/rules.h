@@ -38,10 +38,12 @@ struct Context {
 /// strategy, allowances and the row that proposed it; or, in `cannot`, why there is none. Chains of a row
 /// that geometry rules out stand in `rejected` with the reason. Never neither.
 ///
-/// Units   mm, rad, as in ProposedStep. `depth_mm` of centre drilling, countersinking with a cone and tapping
-///         is that of the tip (of the sharp cone), of all other drilling that of the full diameter.
-///         diameter_min/max of drills are diameter_exact_mm -+ diameter_tolerance_mm, all of it within
-///         tolerance.
+/// Units   mm, rad, as in ProposedStep. `depth_mm` of centre drilling, spot drills and tapping is that of the
+/// tip, of
+///         all other drilling that of the full diameter; 0 for a countersink at the top of a hole, where it
+///         follows from the cone and tip of the cutter chosen. How far a tool passes a through bottom is the
+///         path's to say. diameter_min/max of drills are diameter_exact_mm -+ diameter_tolerance_mm, all of
+///         it within tolerance.
 [[nodiscard]] model::Proposal propose(const RuleBase& base, const model::FeatureShape& shape,
                                       const Context& context);
 

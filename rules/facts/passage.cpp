@@ -109,7 +109,7 @@ Passage passage_of(const geometry::Region& given, bool corners) {
   // Sharp corners are common: told by one try at a radius that any fillet worth the name has.
   double exact = 0.0;
   if (corners && cleans(5.0 * accuracy))
-    exact = cleans(passes) ? passes : between(5.0 * accuracy, passes, accuracy, cleans);
+    exact = cleans(passes) ? passes : between(5.0 * accuracy, passes, 2.0 * accuracy, cleans);
   return {2.0 * widest, 2.0 * passes, 2.0 * exact};
 }
 

@@ -274,8 +274,11 @@ Made countersink(const Making& m) {
                              : 0.5 * std::numbers::pi - s0.bottom_angle_rad;
   const double d = s0.diameter.nominal_mm;
   const double apex = 0.5 * d / std::tan(half);  // of the sharp cone, below where it is d wide
+  // Countersinks are flat at the tip: how deep one goes follows from the cutter chosen (depth 0). At the
+  // bottom of a hole only a pointed tool makes the cone.
   ProposedStep s = begin(m, at_top ? apex : s0.depth_mm + apex);
   s.tool.classes = {CutterClass::kCountersink, CutterClass::kChamferMill};
+  if (!at_top) s.tool.classes = {CutterClass::kSpotDrill};
   s.tool.point_angle_rad = 2.0 * half;
   if (at_top) {
     s.tool.diameter_min_mm = d;
@@ -285,6 +288,7 @@ Made countersink(const Making& m) {
     s.tool.diameter_min_mm = 0.9 * d;
   }
   s.tool.depth_of_cut_mm = at_top ? s0.depth_mm : 0.0;
+  if (at_top) s.depth_mm = 0.0;
   s.dwell_s = m.number("dwell_s");
   return s;
 }
@@ -292,7 +296,8 @@ Made countersink(const Making& m) {
 }  // namespace
 
 std::vector<Action> hole_actions() {
-  const ActionParameter past{"past_mm", 0.5, "through holes: full diameter beyond the bottom"};
+  const ActionParameter past{"past_mm", 0.0,
+                             "through holes: full diameter beyond the bottom, besides what the path adds"};
   const ActionParameter leave{"leave_mm", 0.2, "left between the drill's tip and a bottom that is milled"};
   const ActionParameter dwell{"dwell_s", 0.5, "at the bottom, so that the last turn cleans up"};
   const ActionParameter side{"allowance_side_mm", 0.0, "left on the wall"};
