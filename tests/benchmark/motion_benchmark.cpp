@@ -1,0 +1,54 @@
+// The feed profile: microseconds per point of a path of short chords, checked against a closed form.
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "planner/motion/time.h"
+
+namespace capstan::motion {
+namespace {
+
+model::Machine machine() {
+  model::Machine m;
+  for (auto& axis : m.axes) {
+    axis.rapid_mm_min = 12000.0;
+    axis.feed_max_mm_min = 6000.0;
+    axis.acceleration_mm_s2 = 500.0;
+  }
+  m.control.path_tolerance_mm = 0.01;
+  return m;
+}
+
+// A circle of 50 mm radius, run again and again in chords of half a degree.
+void feed_profile(benchmark::State& state) {
+  const auto n = static_cast<std::size_t>(state.range(0));
+  constexpr double kRadius = 50.0;
+  constexpr double kStep = std::numbers::pi / 360.0;
+  constexpr double kFeed = 60.0;  // mm/s, below what the bend allows
+  model::CutterPath path;
+  path.start({kRadius, 0, 0});
+  for (std::size_t i = 1; i <= n; ++i) {
+    const double a = kStep * static_cast<double>(i);
+    path.line({kRadius * std::cos(a), kRadius * std::sin(a), 0}, model::MoveRole::kCut);
+  }
+  const model::FeedSchedule schedule{std::vector<double>(n + 1, 60.0 * kFeed),
+                                     std::vector<double>(n + 1, 1000.0), std::vector<double>(n + 1, 0.0)};
+  const model::Machine m = machine();
+  double seconds = 0.0;
+  for (auto _ : state) {
+    const auto time = time_of(path, schedule, m);
+    seconds = time ? time->cutting_s : -1.0;
+    benchmark::DoNotOptimize(seconds);
+  }
+  // At constant feed but for the ramps at both ends: L / v + v / a.
+  const double length = static_cast<double>(n) * 2.0 * kRadius * std::sin(0.5 * kStep);
+  const double expected = length / kFeed + kFeed / 500.0;
+  if (std::abs(seconds - expected) > 0.01 * expected) state.SkipWithError("the time is wrong");
+  state.counters["points"] =
+      benchmark::Counter(static_cast<double>(n), benchmark::Counter::kIsIterationInvariantRate);
+}
+BENCHMARK(feed_profile)->Arg(1000)->Arg(10000)->Arg(100000)->Arg(1000000)->Unit(benchmark::kMicrosecond);
+
+}  // namespace
+}  // namespace capstan::motion
