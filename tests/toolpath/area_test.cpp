@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 #include <random>
 
@@ -94,6 +95,52 @@ TEST(AreaPath, ClearsRandomStarsByEveryStrategy) {
       t.radial_depth_mm = 2.7;
       expect_sound(t, "star" + std::to_string(seed) + "_" + std::to_string(static_cast<int>(strategy)));
     }
+  }
+}
+
+/// A star with holes, turned; everything about it and its job drawn from the seed.
+PathJob random_job(unsigned seed) {
+  std::mt19937 random(seed);
+  const auto draw = [&](double lo, double hi) {
+    return std::uniform_real_distribution<double>(lo, hi)(random);
+  };
+  Region area = star(seed);
+  const int holes = static_cast<int>(draw(0.0, 3.99));
+  for (int i = 0; i < holes; ++i) {
+    const Vec2 at{draw(25, 75), draw(25, 75)};
+    area = geometry::subtract(area, draw(0, 1) < 0.5
+                                        ? geometry::disc(at, draw(1, 7))
+                                        : geometry::rectangle(at, at + Vec2{draw(1, 12), draw(1, 12)}));
+  }
+  PathJob t = area_job(area, draw(2.0, 9.0), draw(2.5, 9.0));
+  t.strategy = static_cast<StrategyKind>(1 + static_cast<int>(draw(0.0, 4.99)));
+  t.climb = draw(0, 1) < 0.5;
+  t.cutter.centre_cutting = draw(0, 1) < 0.7;
+  t.radial_depth_mm = draw(0.2, 0.98) * t.cutter.cutting_diameter_mm;
+  t.axial_depth_mm = draw(1.0, 5.0);
+  t.allowance_side_mm = draw(0.0, 0.5);
+  t.allowance_bottom_mm = draw(0.0, 0.4);
+  const double a = draw(0.0, 6.28);
+  t.feed_direction = Vec2{std::cos(a), std::sin(a)};
+  if (draw(0, 1) < 0.2) t.rotation_ccw = draw(0, 1) < 0.5;
+  return t;
+}
+
+TEST(AreaPath, HoldsForRandomPocketsToolsAndStrategies) {
+  const char* soak = std::getenv("CAPSTAN_SOAK");
+  const unsigned count = soak != nullptr ? static_cast<unsigned>(std::atoi(soak)) : 30;
+  for (unsigned seed = 100; seed < 100 + count; ++seed) {
+    const PathJob t = random_job(seed);
+    Job job;
+    const auto g = generate(t, job);
+    if (!g) {  // an outcome, not a fault: the cutter is too large, or has no way in
+      EXPECT_THAT(g.error().code, testing::AnyOf("TPA-NO-FIT", "TPA-ENTRY")) << seed;
+      if (g.error().code == "TPA-ENTRY") {
+        EXPECT_FALSE(t.cutter.centre_cutting);
+      }
+      continue;
+    }
+    expect_sound(t, "random" + std::to_string(seed) + "_" + std::to_string(static_cast<int>(t.strategy)));
   }
 }
 

@@ -73,7 +73,7 @@ Status cut_island_tops(LevelCutter& c, const WorkArea& w, const Level& level, do
     Level top = level;
     top.centres = geometry::intersect(level.centres, inset(i.area, -0.5 * c.radius_mm, kInnerChord));
     if (top.centres.empty()) continue;
-    top.inside = Inside(geometry::offset(top.centres, kInsideSlack, 0.5 * kInsideSlack));
+    top.inside = Inside(inset(top.centres, -kInsideSlack, 0.25 * kInsideSlack));
     top.from_mm = level.z_mm + left_mm;
     if (auto ok = cut_level(c, top, false); !ok) return ok;
   }

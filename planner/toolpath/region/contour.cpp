@@ -14,10 +14,10 @@ namespace {
 Vec2 left_of(Vec2 d) { return {-d.y, d.x}; }
 
 /// Tracks of a ring's loops, in the sense that the job asks for.
-std::vector<Track> tracks_of(const Region& piece, bool natural) {
+std::vector<Track> tracks_of(const Region& piece, bool natural, bool wall) {
   std::vector<Track> out;
   for (const auto& loop : piece.loops) {
-    Track t = track_of(loop);
+    Track t = track_of(loop, wall ? kFitTolerance : kInnerChord);
     out.push_back(natural ? std::move(t) : reversed(t));
   }
   return out;
@@ -58,9 +58,37 @@ bool lead_at(const Level& level, const Track& track, const Spot& spot, double ra
          arc_inside(level, out.centre, out.track.start, out.to);
 }
 
+/// What the places of the outer ring that are nearest to one point of the inner ring say: stripes as wide as
+/// a pass can cut, or a corner whose sides they keep to; else a limb of the area has ended between the rings.
+struct Corner {
+  double allowed = 0.0;   ///< width of stripe that is cut in any case
+  double wedge = 0.0;     ///< from the inner corner to the outer one, if both are plain corners
+  double farthest = 0.0;  ///< seen
+  [[nodiscard]] bool simple() const {
+    return farthest <= allowed || std::abs(farthest - wedge) <= 0.03 * wedge;
+  }
+};
+
+/// Distance between the corners of two rings where the inner one has a corner of this angle.
+double wedge_at(const Track& a, const Spot& spot, double ring_step) {
+  const std::size_t n = a.segments.size();
+  const auto begin = [&](std::size_t k) { return k == 0 ? a.start : a.segments[k - 1].to; };
+  std::size_t in = spot.segment;
+  std::size_t out = spot.segment;
+  if (norm(spot.point - begin(spot.segment)) < 1e-6)
+    in = (spot.segment + n - 1) % n;
+  else if (norm(spot.point - a.segments[spot.segment].to) < 1e-6)
+    out = (spot.segment + 1) % n;
+  const Vec2 d0 = direction_at(begin(in), a.segments[in], in == out ? spot.t : 1.0);
+  const Vec2 d1 = direction_at(begin(out), a.segments[out], in == out ? spot.t : 0.0);
+  const double half_turn = 0.5 * std::atan2(std::abs(cross(d0, d1)), dot(d0, d1));
+  return ring_step / std::max(std::cos(half_turn), 1e-6);
+}
+
 /// Round the track once while sliding from one to the other; empty when that would leave the centres or
 /// spread the passes too far.
-std::vector<Vec2> melted(const LevelCutter& c, const Level& level, const Track& a, const Track& b) {
+std::vector<Vec2> melted(const LevelCutter& c, const Level& level, const Track& a, const Track& b,
+                         double ring_step) {
   constexpr double kChord = 0.004;
   constexpr std::size_t kMostWork = 20'000'000;  // places times segments; beyond, rings do
   const auto corners = points_of(b, kChord);
@@ -71,26 +99,34 @@ std::vector<Vec2> melted(const LevelCutter& c, const Level& level, const Track& 
     for (int k = 0; k < n; ++k) outer.push_back(corners[i] + (static_cast<double>(k) / n) * d);
   }
   outer.push_back(b.start);
-  if (outer.size() * a.segments.size() > kMostWork) return {};
+  if (a.segments.empty() || outer.size() * a.segments.size() > kMostWork) return {};
   double length = 0.0;
   for (std::size_t i = 1; i < outer.size(); ++i) length += norm(outer[i] - outer[i - 1]);
   if (!(length > 0.0)) return {};
   std::vector<Vec2> out = {a.start};
   double s = 0.0;
   Vec2 before = a.start;
+  Corner corner{
+      .allowed = 1.9 * c.radius_mm, .wedge = wedge_at(a, nearest(a, a.start), ring_step), .farthest = 0.0};
   for (std::size_t i = 1; i < outer.size(); ++i) {
     const double step = norm(outer[i] - outer[i - 1]);
     s += step;
-    const Vec2 p = nearest(a, outer[i]).point;
-    // In a corner the two lie far apart, yet the stripes beside it do not; a jump means that the ring is no
-    // simple copy of its neighbour.
+    const Spot spot = nearest(a, outer[i]);
+    const Vec2 p = spot.point;
+    // A jump means that the ring is no simple copy of its neighbour.
     if (norm(p - before) > 2.0 * step + 0.5 * c.step_mm) return {};
+    if (norm(p - before) > 1e-9) {
+      if (!corner.simple()) return {};
+      corner = Corner{.allowed = 1.9 * c.radius_mm, .wedge = wedge_at(a, spot, ring_step), .farthest = 0.0};
+    }
+    corner.farthest = std::max(corner.farthest, spot.distance_mm);
     before = p;
     const double u = i + 1 == outer.size() ? 1.0 : s / length;
     const Vec2 x = (1.0 - u) * p + u * outer[i];
     if (!level.inside.contains(out.back(), x)) return {};
     out.push_back(x);
   }
+  if (!corner.simple()) return {};
   return out;
 }
 
@@ -110,6 +146,7 @@ class Contours {
     if (step < c_.step_mm - 1e-9) {
       c_.warn("TPA-CHANGED", "the stepover of the rings is reduced so that nothing stays between them");
     }
+    step_ = step;
     all_ = rings(level_.centres, step);
     std::vector<std::size_t> order = inside_out(all_);
     if (o_.outside_in) std::reverse(order.begin(), order.end());
@@ -124,7 +161,7 @@ class Contours {
  private:
   Status walls() {
     for (const Region& piece : geometry::pieces(level_.centres)) {
-      for (Track& t : tracks_of(piece, natural_)) {
+      for (Track& t : tracks_of(piece, natural_, true)) {
         if (o_.lead_arcs && cut_with_leads(c_, level_, t)) continue;
         // Too narrow for arcs: down the wall's own track, as into the solid.
         Level solid = level_;
@@ -150,8 +187,8 @@ class Contours {
   }
 
   Status ring(std::size_t i) {
-    std::vector<Track> tracks = tracks_of(all_[i].piece, natural_);
     const bool wall = all_[i].depth == 0;
+    std::vector<Track> tracks = tracks_of(all_[i].piece, natural_, wall);
     if (o_.spiral && !o_.outside_in && beside(i) && tracks.size() == 1 && all_[i].children.size() == 1 &&
         done_[last_].size() == 1 && spiral_onto(tracks.front())) {
       done_[i] = {pending_};
@@ -176,10 +213,10 @@ class Contours {
   bool spiral_onto(const Track& track) {
     const Vec2 here = xy(c_.writer.at());
     const Track to = begun_at(track, nearest(track, here));
-    const auto line = melted(c_, level_, done_[last_].front(), to);
+    const auto line = melted(c_, level_, done_[last_].front(), to, step_);
     if (line.empty() || norm(line.front() - here) > 1e-6) return false;
     pending_ = {};
-    c_.writer.follow(track_of_line(line, kFitTolerance), level_.z_mm, MoveRole::kCut);
+    c_.writer.follow(track_of_line(line, 0.0005), level_.z_mm, MoveRole::kCut);
     pending_ = to;
     return true;
   }
@@ -244,6 +281,7 @@ class Contours {
   const Level& level_;
   ContourOptions o_;
   bool natural_;
+  double step_ = 0.0;
   std::vector<Ring> all_;
   std::vector<std::vector<Track>> done_;
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);

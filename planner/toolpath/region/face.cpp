@@ -186,7 +186,7 @@ class Face {
         geometry::subtract(geometry::intersect(geometry::offset_sharp(w_.area, kOverrun * radius_),
                                                geometry::clean({oriented(band)})),
                            keep_off);
-    level.inside = Inside(geometry::offset(level.centres, kInsideSlack, 0.5 * kInsideSlack));
+    level.inside = Inside(inset(level.centres, -kInsideSlack, 0.25 * kInsideSlack));
     level.air.clear();
     for (const auto& loop : level.centres.loops) {
       for (const Vec2 p : loop) {
@@ -215,7 +215,7 @@ class Face {
         inside > 0 ? inset(w_.area, inside, kWallChord) : geometry::offset_sharp(w_.area, -inside + 1e-6);
     const Region lead = geometry::offset_sharp(w_.area, 1.2 * radius_ + 0.3);
     level.centres = geometry::subtract(ring, keep_off);
-    level.inside = Inside(geometry::offset(geometry::subtract(lead, keep_off), kInsideSlack, 0.001));
+    level.inside = Inside(inset(geometry::subtract(lead, keep_off), -kInsideSlack, 0.25 * kInsideSlack));
     level.air.clear();
     for (const auto& loop : lead.loops) {
       for (std::size_t i = 0; i < loop.size(); ++i) {

@@ -55,7 +55,7 @@ Level::Level(const PathJob& task, const WorkArea& w, double tip_z, double materi
       above_mm(material_z),
       allowance_mm(allowance),
       centres(centres_at(w, task.cutter, tip_z, allowance, task.allowance_bottom_mm)),
-      inside(geometry::offset(centres, kInsideSlack, 0.5 * kInsideSlack)),
+      inside(inset(centres, -kInsideSlack, 0.25 * kInsideSlack)),
       material(w.material),
       air(air_points(w, centres, material, 0.5 * task.cutter.cutting_diameter_mm)) {}
 

@@ -61,7 +61,7 @@ Status cut_around(const Around& a, LevelCutter& c, double z, double from,
   const Region edge =
       geometry::offset_sharp(geometry::unite(a.w.material, grown_by(a, distances.front())), room);
   level.centres = geometry::subtract(edge, grown_by(a, distances.back()));
-  level.inside = Inside(geometry::offset(level.centres, kInsideSlack, 0.5 * kInsideSlack));
+  level.inside = Inside(inset(level.centres, -kInsideSlack, 0.25 * kInsideSlack));
   level.air.clear();
   for (const auto& loop : edge.loops) {
     for (std::size_t i = 0; i < loop.size(); ++i) {

@@ -26,11 +26,9 @@ struct Track {
   [[nodiscard]] geometry::Vec2 end() const { return segments.empty() ? start : segments.back().to; }
 };
 
-/// Vertices of an offset polygon may lie this far from the arc that replaces them, and the arc this far
-/// from their chords, mm.
-inline constexpr double kFitTolerance = 0.0015;
-/// Vertices that lie nearer than this to the line through their neighbours go, mm.
-inline constexpr double kSimplifyTolerance = 0.001;
+/// Vertices of an offset polygon may lie this far from the arc that replaces them, and the arc twice
+/// as far from their chords, mm.
+inline constexpr double kFitTolerance = 0.001;
 
 /// The loop without vertices that say nothing: no dropped one lies farther than the tolerance from the new
 /// line. Cost: linear.
