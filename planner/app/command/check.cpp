@@ -1,0 +1,136 @@
+#include <optional>
+#include <utility>
+
+#include "planner/app/command/session.h"
+#include "planner/app/files/inputs.h"
+#include "planner/app/files/load.h"
+#include "planner/base/file.h"
+#include "planner/verify/verify.h"
+#include "tooling/catalogue/library.h"
+#include "tooling/catalogue/machine.h"
+
+namespace capstan::app {
+namespace {
+
+struct Input {
+  std::string path, bytes;
+  Content content = Content::kProgram;
+};
+
+/// What programs are checked against.
+struct Shop {
+  model::Machine machine;
+  std::vector<model::Cutter> cutters;
+  std::string tool_table;
+};
+
+class Check {
+ public:
+  explicit Check(Session& s) : s_(s) {}
+
+  int run() {
+    if (const auto d = read()) return s_.end(*d, kUnreadable);
+    if (const auto d = shop()) return s_.end(*d, kUnreadable);
+    for (const Input& in : inputs_) {
+      if (in.content != Content::kProgram) continue;
+      ++checked_;
+      const model::Plan* plan = plans_.empty() ? nullptr : &plans_.front();
+      add(verify::check_program({in.path, in.bytes, shop_.tool_table}, plan, shop_.machine, shop_.cutters,
+                                s_.job),
+          in.path, true);
+    }
+    return end();
+  }
+
+ private:
+  std::optional<Diagnostic> read() {
+    for (const std::string& path : s_.options.files) {
+      auto bytes = read_file(path);
+      if (!bytes) return bytes.error();
+      const Content content = content_of(*bytes);
+      inputs_.push_back({path, *std::move(bytes), content});
+      if (content == Content::kToolTable) shop_.tool_table = inputs_.back().bytes;
+    }
+    for (Input& in : inputs_) {
+      if (in.content != Content::kPlanJson && in.content != Content::kPart) continue;
+      const std::size_t before = s_.job.diagnostics().size();
+      auto plan = plan_of_bytes(std::move(in.bytes), in.path, s_.job);
+      if (!plan) return plan.error();
+      if (s_.options.schema) schema_ += s_.job.diagnostics().size() - before;
+      ++checked_;
+      add(verify::check_plan(*plan, s_.job), in.path, false);
+      plans_.push_back(*std::move(plan));
+    }
+    return std::nullopt;
+  }
+
+  std::optional<Diagnostic> shop() {
+    const auto& o = s_.options.inputs;
+    const bool has_plan = !plans_.empty();
+    if (has_plan) {
+      shop_.machine = plans_.front().machine;
+      shop_.cutters = plans_.front().cutters;
+    }
+    // An ISO 14649 file names its machine without the data.
+    const bool incomplete = shop_.machine.axes[0].name.empty();
+    if (o.machine || incomplete) {
+      std::string wanted = o.machine.value_or(std::string(tooling::kDefaultMachine));
+      auto machine = tooling::load_machine(wanted, s_.job);
+      if (!machine) return machine.error();
+      shop_.machine = *std::move(machine);
+      if (!o.machine && programs())
+        s_.job.note("APP-DEFAULT", "no machine is named; programs are checked for the built-in " + wanted);
+    }
+    if (o.tools) {
+      auto library = tooling::load_library(*o.tools, s_.job);
+      if (!library) return library.error();
+      shop_.cutters = *std::move(library);
+    } else if (!has_plan && !shop_.tool_table.empty()) {
+      auto table = tooling::read_tool_table(shop_.tool_table, "tool table", s_.job);
+      if (!table) return table.error();
+      shop_.cutters = *std::move(table);
+    }
+    return std::nullopt;
+  }
+
+  [[nodiscard]] bool programs() const {
+    for (const Input& in : inputs_) {
+      if (in.content == Content::kProgram) return true;
+    }
+    return false;
+  }
+
+  void add(const std::vector<model::Finding>& findings, const std::string& file, bool program) {
+    for (const auto& f : findings) {
+      if (!s_.options.json) s_.job.report(as_diagnostic(f, file, program));
+      if (f.severity != Severity::kNote) ++count_;
+      findings_.emplace_back(file, f);
+    }
+  }
+
+  int end() {
+    if (checked_ == 0)
+      return s_.end(
+          {.code = "APP-NOTHING", .message = "there is neither a plan nor a program among the files"},
+          kUsage);
+    if (s_.options.json && !print(findings_json(findings_)))
+      return s_.end({.code = "FILE-WRITE", .message = "standard output is closed"}, kImpossible);
+    s_.summary =
+        "checked " + counted(checked_, "file", "files") + ": " + counted(count_, "finding", "findings");
+    if (schema_ != 0) s_.summary += ", " + counted(schema_, "deviation", "deviations") + " from the schema";
+    return count_ == 0 && schema_ == 0 ? kDone : kFindings;
+  }
+
+  Session& s_;
+  std::vector<Input> inputs_;
+  std::vector<model::Plan> plans_;
+  Shop shop_;
+  std::vector<std::pair<std::string, model::Finding>> findings_;
+  std::size_t count_ = 0, schema_ = 0, checked_ = 0;
+};
+
+}  // namespace
+
+int run_check(Session& s) { return Check(s).run(); }
+
+}  // namespace capstan::app

@@ -1,0 +1,248 @@
+#include "planner/app/command/options.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <map>
+#include <sstream>
+
+#include "planner/app/command/run.h"
+#include "planner/base/number.h"
+
+// The one file that knows CLI11.
+
+namespace capstan::app {
+namespace {
+
+/// Texts as the library gives them, before they mean anything.
+struct Raw {
+  std::string machine, tools, material, rules, cases, stock, deadline;
+  std::string objective, solver, reopen, bind, diagnostics = "text";
+};
+
+const std::map<std::string, pipeline::Reopen> kReopen = {{"operations", pipeline::Reopen::kOperations},
+                                                         {"tools", pipeline::Reopen::kTools},
+                                                         {"technology", pipeline::Reopen::kTechnology},
+                                                         {"all", pipeline::Reopen::kAll}};
+const std::map<std::string, pipeline::Bind> kBind = {{"none", pipeline::Bind::kNone},
+                                                     {"strategy", pipeline::Bind::kStrategy},
+                                                     {"tools", pipeline::Bind::kTools},
+                                                     {"all", pipeline::Bind::kAll}};
+const std::map<std::string, pipeline::Objective> kObjective = {{"time", pipeline::Objective::kTime},
+                                                               {"cost", pipeline::Objective::kCost},
+                                                               {"profit", pipeline::Objective::kProfit}};
+const std::map<std::string, optimise::Solver> kSolver = {{"nlopt", optimise::Solver::kNlopt},
+                                                         {"ipopt", optimise::Solver::kIpopt}};
+
+template <class T>
+std::vector<std::string> names(const std::map<std::string, T>& of) {
+  std::vector<std::string> out;
+  for (const auto& [name, value] : of) out.push_back(name);
+  return out;
+}
+
+class CommandLine {
+ public:
+  CommandLine() : app_("A generative process planner for CNC machining.", "capstan") {
+    app_.require_subcommand(1);
+    app_.set_version_flag("--version", std::string("capstan ") + CAPSTAN_VERSION);
+    app_.fallthrough();
+    app_.add_option("--diagnostics", raw_.diagnostics, "how diagnostics are printed: text or json")
+        ->check(CLI::IsMember(std::vector<std::string>{"text", "json"}));
+    app_.add_option("--threads", out_.threads, "worker threads; results do not depend on it")
+        ->check(CLI::Range(1U, 256U));
+    plan();
+    bind();
+    check();
+    show();
+    shop();
+  }
+
+  Parsed parse(int argc, const char* const* argv) {
+    try {
+      app_.parse(argc, argv);
+    } catch (const CLI::ParseError& e) {
+      std::ostringstream text;
+      const int code = app_.exit(e, text, text);
+      return {std::nullopt, {code == 0 ? static_cast<int>(kDone) : static_cast<int>(kUsage), text.str()}};
+    }
+    const std::string wrong = understand();
+    if (!wrong.empty()) return {std::nullopt, {kUsage, wrong + "\nRun with --help for more information.\n"}};
+    return {std::move(out_), {}};
+  }
+
+ private:
+  CLI::App* command(CLI::App& in, const std::string& name, const std::string& help, Command c) {
+    CLI::App* sub = in.add_subcommand(name, help);
+    sub->callback([this, c] { out_.command = c; });
+    return sub;
+  }
+
+  void file(CLI::App* sub, const std::string& name, const std::string& help, int least = 1, int most = 1) {
+    sub->add_option(name, out_.files, help)->required()->expected(least, most);
+  }
+  void outputs(CLI::App* sub, bool required) {
+    auto* o =
+        sub->add_option("-o,--output", out_.outputs,
+                        "a file to write, its kind told by its ending (.p21 .stp .json .ngc .tbl), or - "
+                        "for JSON on standard output; may be repeated");
+    // One value each, so that a positional may follow.
+    o->expected(1)->take_all();
+    if (required) o->required();
+  }
+  void inputs(CLI::App* sub) {
+    sub->add_option("--machine", raw_.machine, "machine: a file, or the id of a built-in one");
+    sub->add_option("--tools", raw_.tools, "tool library: a file, or `generic`");
+    sub->add_option("--material", raw_.material, "work material, instead of the part's");
+    sub->add_option("--stock", raw_.stock,
+                    "raw piece: block:+2 (the part and 2 mm all round) or box:x0,y0,z0,x1,y1,z1");
+    sub->add_option("--objective", raw_.objective, "time, cost or profit")
+        ->check(CLI::IsMember(names(kObjective)));
+    sub->add_option("--rules", raw_.rules, "a folder of rule tables to add to the built-in ones");
+    sub->add_option("--cases", raw_.cases, "a case base to begin from");
+    sub->add_option("--solver", raw_.solver, "nlopt or ipopt")->check(CLI::IsMember(names(kSolver)));
+  }
+
+  void plan() {
+    auto* sub = command(app_, "plan", "plan a part: operations, tools, paths, feeds", Command::kPlan);
+    file(sub, "part", "ISO 14649 file, plan JSON, or STL mesh");
+    inputs(sub);
+    sub->add_option("--bind", raw_.bind, "how far decisions are closed: none, strategy, tools or all")
+        ->check(CLI::IsMember(names(kBind)));
+    sub->add_option("--reopen", raw_.reopen, "what to plan anew although the file has it")
+        ->check(CLI::IsMember(names(kReopen)));
+    sub->add_flag("--strict", out_.strict, "write nothing when there are findings");
+    outputs(sub, true);
+  }
+  void bind() {
+    auto* sub = command(app_, "bind", "close at the machine what a plan left open", Command::kBind);
+    file(sub, "plan", "plan with open decisions");
+    inputs(sub);
+    sub->add_option("--deadline", raw_.deadline, "e.g. 200ms or 2s");
+    sub->add_flag("--strict", out_.strict, "write nothing when there are findings");
+    outputs(sub, true);
+  }
+  void check() {
+    auto* sub =
+        command(app_, "check", "prove a plan or a program safe, or list what is wrong", Command::kCheck);
+    file(sub, "files", "plans, programs (.ngc) and the programs' tool table (.tbl)", 1, 1000);
+    sub->add_option("--machine", raw_.machine, "machine that programs run on");
+    sub->add_option("--tools", raw_.tools, "tool library with the programs' tools");
+    sub->add_flag("--schema", out_.schema, "what does not follow the schema is a finding, too");
+    sub->add_flag("--json", out_.json, "findings as JSON on standard output");
+  }
+  void show() {
+    auto* explain = command(app_, "explain", "say why each value of a plan is what it is", Command::kExplain);
+    file(explain, "plan", "plan");
+    explain->add_option("workingstep", out_.step, "id or number of a step");
+    explain->add_option("attribute", out_.attribute, "one value of that step");
+    auto* inspect =
+        command(app_, "inspect", "show what a file holds, or one value by path", Command::kInspect);
+    file(inspect, "file", "part or plan");
+    inspect->add_option("path", out_.step,
+                        "e.g. /project/its_workpieces[0]/its_material, #12, /ROUND_HOLE[*]#size");
+    auto* diff = command(app_, "diff", "say what changed between two plans", Command::kDiff);
+    file(diff, "plans", "two plans", 2, 2);
+    auto* convert = command(app_, "convert", "write a part or plan in another format", Command::kConvert);
+    file(convert, "file", "part or plan");
+    outputs(convert, true);
+  }
+  void shop() {
+    auto* tools = app_.add_subcommand("tools", "the tool library");
+    tools->require_subcommand(1);
+    auto* list = command(*tools, "list", "a line per cutter", Command::kToolsList);
+    list->add_option("--tools", raw_.tools, "tool library: a file, or `generic`");
+    list->add_option("filter", out_.words, "only cutters whose id or class contains this");
+    auto* one = command(*tools, "show", "all that is known of a cutter, with sources", Command::kToolsShow);
+    one->add_option("--tools", raw_.tools, "tool library: a file, or `generic`");
+    one->add_option("id", out_.words, "the cutter's id")->required();
+    auto* rules = app_.add_subcommand("rules", "the rule tables");
+    rules->require_subcommand(1);
+    for (auto* sub :
+         {command(*rules, "check", "find gaps, contradictions and dead rows", Command::kRulesCheck),
+          command(*rules, "list", "a line per row", Command::kRulesList)}) {
+      sub->add_option("--rules", raw_.rules, "a folder of rule tables to add to the built-in ones");
+    }
+  }
+
+  template <class T>
+  static void pick(const std::map<std::string, T>& of, const std::string& text, T& into) {
+    if (const auto at = of.find(text); at != of.end()) into = at->second;
+  }
+  static std::optional<std::string> given(std::string text) {
+    return text.empty() ? std::nullopt : std::optional(std::move(text));
+  }
+
+  /// What is wrong, or nothing.
+  std::string understand() {
+    auto& in = out_.inputs;
+    in.machine = given(raw_.machine);
+    in.tools = given(raw_.tools);
+    in.material = given(raw_.material);
+    in.rules = given(raw_.rules);
+    in.cases = given(raw_.cases);
+    if (const auto at = kObjective.find(raw_.objective); at != kObjective.end()) in.objective = at->second;
+    if (const auto at = kSolver.find(raw_.solver); at != kSolver.end()) in.solver = at->second;
+    pick(kReopen, raw_.reopen, out_.reopen);
+    pick(kBind, raw_.bind, out_.bind);
+    out_.json_diagnostics = raw_.diagnostics == "json";
+    if (!raw_.stock.empty()) {
+      if (std::string wrong = parse_stock(raw_.stock, in); !wrong.empty()) return "--stock: " + wrong;
+    }
+    if (!raw_.deadline.empty()) {
+      out_.deadline = parse_duration(raw_.deadline);
+      if (!out_.deadline) return "--deadline: '" + raw_.deadline + "' is no time above 0, e.g. 200ms or 2s";
+    }
+    return {};
+  }
+
+  CLI::App app_;
+  Raw raw_;
+  Options out_;
+};
+
+}  // namespace
+
+std::optional<std::chrono::milliseconds> parse_duration(const std::string& text) {
+  std::string number = text;
+  double factor = 1.0;
+  if (number.ends_with("ms")) {
+    number.resize(number.size() - 2);
+  } else if (number.ends_with("s")) {
+    number.pop_back();
+    factor = 1000.0;
+  }
+  const auto v = parse_double(number);
+  constexpr double kLongest = 1e9;  // ms, above eleven days
+  if (!v || !(*v * factor >= 1.0) || *v * factor > kLongest) return std::nullopt;
+  return std::chrono::milliseconds(static_cast<long>(*v * factor));
+}
+
+std::string parse_stock(const std::string& text, InputOptions& into) {
+  into.stock_text = text;
+  if (text.starts_with("block:")) {
+    const std::string rest = text.substr(text.find(':') + 1);
+    const auto v = parse_double(rest.starts_with("+") ? rest.substr(1) : rest);
+    if (!v || *v < 0.0) return "'" + rest + "' is no allowance in mm, e.g. block:+2";
+    into.stock_allowance_mm = *v;
+    return {};
+  }
+  if (!text.starts_with("box:")) return "'" + text + "' is neither block:+2 nor box:x0,y0,z0,x1,y1,z1";
+  std::vector<double> v;
+  std::istringstream numbers(text.substr(4));
+  for (std::string one; std::getline(numbers, one, ',');) {
+    const auto d = parse_double(one);
+    if (!d) return "'" + one + "' is not a number";
+    v.push_back(*d);
+  }
+  if (v.size() != 6) return "a box needs six numbers, " + std::to_string(v.size()) + " are given";
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (!(v[i] < v[i + 3]))
+      return "the box is empty: each of its first three numbers must be below its partner";
+  }
+  into.stock = geometry::Box3{{v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
+  return {};
+}
+
+Parsed parse_command_line(int argc, const char* const* argv) { return CommandLine().parse(argc, argv); }
+
+}  // namespace capstan::app

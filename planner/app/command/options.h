@@ -1,0 +1,75 @@
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "planner/geometry/vec.h"
+#include "planner/optimise/solver/solver.h"
+#include "planner/pipeline/pipeline.h"
+
+namespace capstan::app {
+
+/// What planning is given beside the part; nothing stands for the built-in default.
+struct InputOptions {
+  std::optional<std::string> machine, tools, material, rules, cases;
+  std::optional<geometry::Box3> stock;
+  std::optional<double> stock_allowance_mm;
+  std::string stock_text;  ///< as given
+  std::optional<pipeline::Objective> objective;
+  std::optional<optimise::Solver> solver;
+};
+
+enum class Command : std::uint8_t {
+  kPlan,
+  kBind,
+  kCheck,
+  kExplain,
+  kInspect,
+  kDiff,
+  kConvert,
+  kToolsList,
+  kToolsShow,
+  kRulesCheck,
+  kRulesList,
+  kCasesAdd,
+  kCasesNearest,
+};
+
+/// A command line, understood.
+struct Options {
+  Command command = Command::kPlan;
+  std::vector<std::string> files;    ///< positional, in order
+  std::vector<std::string> outputs;  ///< -o
+  std::string step, attribute;       ///< explain; `path` of inspect is in `step`
+  InputOptions inputs;
+  pipeline::Reopen reopen = pipeline::Reopen::kNothing;
+  pipeline::Bind bind = pipeline::Bind::kAll;
+  std::optional<std::chrono::milliseconds> deadline;
+  bool strict = false;            ///< plan: outputs only when there is no finding
+  bool json = false;              ///< check: findings as JSON on standard output
+  bool schema = false;            ///< check: what reading found is a finding, too
+  bool json_diagnostics = false;  ///< one JSON object per line on standard error
+  unsigned threads = 1;
+  std::vector<std::string> words;  ///< cases nearest: what is asked; tools: a filter
+};
+
+/// The options, or what to print and the exit code to end with (help, version: 0; wrong usage: 2).
+struct Ending {
+  int code = 0;
+  std::string text;
+};
+struct Parsed {
+  std::optional<Options> options;
+  Ending ending;
+};
+[[nodiscard]] Parsed parse_command_line(int argc, const char* const* argv);
+
+/// "200ms", "1.5s", "200" (milliseconds); nothing when it is no duration above 0.
+[[nodiscard]] std::optional<std::chrono::milliseconds> parse_duration(const std::string& text);
+
+/// "block:+2" sets the allowance, "box:x0,y0,z0,x1,y1,z1" the box; gives what is wrong, or nothing.
+[[nodiscard]] std::string parse_stock(const std::string& text, InputOptions& into);
+
+}  // namespace capstan::app

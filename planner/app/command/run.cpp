@@ -1,0 +1,74 @@
+#include "planner/app/command/run.h"
+
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <utility>
+
+#include "planner/app/command/options.h"
+#include "planner/app/command/session.h"
+
+namespace capstan::app {
+namespace {
+
+int dispatch(Session& s) {
+  switch (s.options.command) {
+    case Command::kPlan:
+      return run_plan(s);
+    case Command::kBind:
+      return run_bind(s);
+    case Command::kCheck:
+      return run_check(s);
+    case Command::kExplain:
+      return run_explain(s);
+    case Command::kInspect:
+      return run_inspect(s);
+    case Command::kDiff:
+      return run_diff(s);
+    case Command::kConvert:
+      return run_convert(s);
+    case Command::kToolsList:
+    case Command::kToolsShow:
+      return run_tools(s);
+    case Command::kRulesCheck:
+    case Command::kRulesList:
+      return run_rules(s);
+    case Command::kCasesAdd:
+    case Command::kCasesNearest:
+      break;
+  }
+  return kUsage;
+}
+
+/// The only place that catches: everything below tells its outcome by value.
+int guarded(Session& s) {
+  try {
+    return dispatch(s);
+  } catch (const std::bad_alloc&) {
+    return s.end({.code = "APP-MEMORY", .message = "the memory does not suffice"}, kOurFault);
+  } catch (const std::exception& e) {
+    return s.end({.code = "APP-FAULT",
+                  .message = std::string("a fault of the program itself: ") + e.what(),
+                  .hint = "please report it, with the input"},
+                 kOurFault);
+  }
+}
+
+}  // namespace
+
+int run(int argc, const char* const* argv) {
+  // A reader that closes its end early is no reason to be killed silently.
+  std::signal(SIGPIPE, SIG_IGN);
+  Parsed parsed = parse_command_line(argc, argv);
+  if (!parsed.options) {
+    std::fputs(parsed.ending.text.c_str(), parsed.ending.code == kDone ? stdout : stderr);
+    return parsed.ending.code;
+  }
+  Session session(*std::move(parsed.options));
+  const int code = guarded(session);
+  print_diagnostics(session, code);
+  return code;
+}
+
+}  // namespace capstan::app

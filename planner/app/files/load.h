@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+
+#include "planner/base/job.h"
+#include "planner/base/result.h"
+#include "planner/model/plan.h"
+
+namespace capstan::app {
+
+enum class Content : std::uint8_t { kPlanJson, kPart, kProgram, kToolTable };
+
+/// What the bytes are: JSON by its first character, Part 21 and STL as `exchange` tells them, a LinuxCNC tool
+/// table by its lines (`T1 P1 ...`), anything else a program.
+[[nodiscard]] Content content_of(std::string_view bytes);
+
+/// A part or a plan from a file, told by its content.
+/// Fails  FILE-READ, and as output::read_json and exchange::read; faults went to the job before.
+[[nodiscard]] Result<model::Plan> load_plan(const std::string& path, Job& job);
+[[nodiscard]] Result<model::Plan> plan_of_bytes(std::string bytes, const std::string& path, Job& job);
+
+}  // namespace capstan::app

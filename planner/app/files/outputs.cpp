@@ -1,0 +1,168 @@
+#include "planner/app/files/outputs.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <set>
+#include <system_error>
+#include <utility>
+
+#include "planner/base/file.h"
+#include "planner/exchange/exchange.h"
+#include "planner/output/json/json.h"
+#include "planner/output/linuxcnc/linuxcnc.h"
+
+namespace capstan::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kSupported = ".p21, .stp, .json, .ngc or .tbl, or - for JSON on standard output";
+
+struct Later {
+  std::string_view ending, what;
+};
+constexpr std::array<Later, 6> kLater = {{{".stpnc", "AP238"},
+                                          {".238", "AP238"},
+                                          {".mpf", "Siemens 840D"},
+                                          {".nc", "Fanuc"},
+                                          {".h", "Heidenhain"},
+                                          {".html", "a report"}}};
+
+std::string lower(std::string s) {
+  std::transform(s.begin(), s.end(), s.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return s;
+}
+
+tl::unexpected<Diagnostic> cannot_write(const std::string& path, std::string why) {
+  return fail({.code = "FILE-WRITE", .message = std::move(why), .file = path});
+}
+
+/// Temporaries that go away unless they were renamed.
+class Temporaries {
+ public:
+  Temporaries() = default;
+  Temporaries(const Temporaries&) = delete;
+  Temporaries& operator=(const Temporaries&) = delete;
+  ~Temporaries() {
+    std::error_code ignored;
+    for (const auto& [from, to] : files_) fs::remove(from, ignored);
+  }
+
+  Status add(const Output& o) {
+    std::error_code ec;
+    if (fs::is_directory(o.path, ec)) return cannot_write(o.path, "is a folder");
+    std::string temporary = o.path + ".capstan-" + std::to_string(::getpid());
+    auto ok = write_file(temporary, o.bytes);
+    if (!ok) {
+      Diagnostic d = ok.error();
+      d.file = o.path;
+      return fail(std::move(d));
+    }
+    files_.emplace_back(std::move(temporary), o.path);
+    return {};
+  }
+
+  Status rename_all() {
+    std::string done;
+    while (!files_.empty()) {
+      std::error_code ec;
+      fs::rename(files_.front().first, files_.front().second, ec);
+      if (ec) {
+        return cannot_write(files_.front().second, "cannot be put in its place: " + ec.message() +
+                                                       (done.empty() ? "" : "; already in place: " + done));
+      }
+      done += (done.empty() ? "" : ", ") + files_.front().second;
+      files_.erase(files_.begin());
+    }
+    return {};
+  }
+
+ private:
+  std::vector<std::pair<std::string, std::string>> files_;
+};
+
+}  // namespace
+
+Result<Output> output_of(const std::string& path) {
+  if (path == "-") return Output{path, OutputKind::kJson, {}};
+  const std::string ending = lower(fs::path(path).extension().string());
+  if (ending == ".p21" || ending == ".stp") return Output{path, OutputKind::kIso14649, {}};
+  if (ending == ".json") return Output{path, OutputKind::kJson, {}};
+  if (ending == ".ngc") return Output{path, OutputKind::kLinuxCnc, {}};
+  if (ending == ".tbl") return Output{path, OutputKind::kToolTable, {}};
+  for (const Later& l : kLater) {
+    if (ending == l.ending)
+      return fail({.code = "OUT-KIND",
+                   .message = "writing " + std::string(l.what) + " (" + ending + ") is not supported yet",
+                   .file = path,
+                   .expected = kSupported});
+  }
+  return fail({.code = "OUT-KIND",
+               .message = ending.empty() ? "has no ending that tells what to write"
+                                         : "'" + ending + "' does not tell what to write",
+               .file = path,
+               .expected = kSupported});
+}
+
+Result<std::vector<Output>> outputs_of(const std::vector<std::string>& paths) {
+  std::vector<Output> out;
+  std::set<std::string> seen;
+  for (const std::string& path : paths) {
+    auto one = output_of(path);
+    if (!one) return tl::unexpected(one.error());
+    if (!seen.insert(fs::path(path).lexically_normal().string()).second)
+      return fail({.code = "OUT-TWICE", .message = "is to be written twice", .file = path});
+    out.push_back(*std::move(one));
+  }
+  return out;
+}
+
+Status make(const model::Plan& plan, std::vector<Output>& outputs, Job& job) {
+  for (Output& o : outputs) {
+    switch (o.kind) {
+      case OutputKind::kJson:
+        o.bytes = output::write_json(plan);
+        break;
+      case OutputKind::kToolTable:
+        o.bytes = output::write_tool_table(plan);
+        break;
+      case OutputKind::kLinuxCnc: {
+        auto text = output::write_linuxcnc(plan, job);
+        if (!text) return tl::unexpected(text.error());
+        o.bytes = *std::move(text);
+        break;
+      }
+      case OutputKind::kIso14649: {
+        auto written = exchange::write_iso14649(plan, job);
+        if (!written) return tl::unexpected(written.error());
+        for (const std::string& loss : written->losses)
+          job.report({.code = "OUT-LOSS", .severity = Severity::kNote, .message = loss, .file = o.path});
+        o.bytes = std::move(written->bytes);
+        break;
+      }
+    }
+  }
+  return {};
+}
+
+Status write_all(const std::vector<Output>& outputs) {
+  Temporaries files;
+  for (const Output& o : outputs) {
+    if (o.path == "-") continue;
+    if (auto ok = files.add(o); !ok) return ok;
+  }
+  if (auto ok = files.rename_all(); !ok) return ok;
+  for (const Output& o : outputs) {
+    if (o.path != "-") continue;
+    const bool put = std::fwrite(o.bytes.data(), 1, o.bytes.size(), stdout) == o.bytes.size();
+    if (!put || std::fflush(stdout) != 0) return cannot_write("-", "standard output cannot be written");
+  }
+  return {};
+}
+
+}  // namespace capstan::app

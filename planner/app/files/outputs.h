@@ -1,0 +1,39 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "planner/base/job.h"
+#include "planner/base/result.h"
+#include "planner/model/plan.h"
+
+namespace capstan::app {
+
+enum class OutputKind : std::uint8_t { kIso14649, kJson, kLinuxCnc, kToolTable };
+
+/// A file to write: its name, and the kind that its ending names ("-": JSON, to standard output).
+struct Output {
+  std::string path;
+  OutputKind kind = OutputKind::kJson;
+  std::string bytes;  ///< once made
+};
+
+/// Told by the ending alone, so that it fails before any work.
+/// Fails  OUT-KIND: an ending that is not supported (yet), or none.
+[[nodiscard]] Result<Output> output_of(const std::string& path);
+/// All of them; the same file twice is a fault (OUT-TWICE).
+[[nodiscard]] Result<std::vector<Output>> outputs_of(const std::vector<std::string>& paths);
+
+/// Fills `bytes`. What ISO 14649 cannot hold is told as notes (OUT-LOSS).
+/// Fails  as the writers.
+[[nodiscard]] Status make(const model::Plan& plan, std::vector<Output>& outputs, Job& job);
+
+/// Writes all files or none: each to a temporary beside its target first, then all are renamed. Only a rename
+/// that fails after another succeeded (another program took the folder away) leaves a part; the fault says
+/// so.
+/// "-" goes to standard output last.
+/// Fails  FILE-WRITE.
+[[nodiscard]] Status write_all(const std::vector<Output>& outputs);
+
+}  // namespace capstan::app

@@ -1,0 +1,157 @@
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "capstan/capstan.h"
+#include "planner/base/file.h"
+#include "planner/exchange/exchange.h"
+#include "planner/motion/time.h"
+#include "planner/output/json/json.h"
+#include "planner/output/linuxcnc/linuxcnc.h"
+#include "planner/pipeline/pipeline.h"
+#include "planner/verify/verify.h"
+#include "rules/rules.h"
+#include "tooling/catalogue/library.h"
+#include "tooling/catalogue/machine.h"
+#include "tooling/catalogue/material.h"
+
+namespace capstan {
+namespace {
+
+constexpr const char* kDefault = "built-in default";
+
+PlanMessage message(const Diagnostic& d) { return {to_text(d.severity), d.code, to_text(d)}; }
+
+template <class T>
+Status pick(const std::map<std::string, T>& of, const std::string& text, const char* what, T& into) {
+  if (text.empty()) return {};
+  const auto at = of.find(text);
+  if (at == of.end()) {
+    std::string names;
+    for (const auto& [name, value] : of) names += (names.empty() ? "" : ", ") + name;
+    return fail(
+        {.code = "API-OPTION", .message = std::string(what) + " is '" + text + "'", .expected = names});
+  }
+  into = at->second;
+  return {};
+}
+
+Result<pipeline::Policy> policy_of(const PlanOptions& o) {
+  using pipeline::Reopen;
+  pipeline::Policy policy;
+  auto ok = pick<Reopen>({{"operations", Reopen::kOperations},
+                          {"tools", Reopen::kTools},
+                          {"technology", Reopen::kTechnology},
+                          {"all", Reopen::kAll}},
+                         o.reopen, "reopen", policy.reopen);
+  if (!ok) return tl::unexpected(ok.error());
+  return policy;
+}
+
+Result<pipeline::Inputs> inputs_of(const PlanOptions& o, Job& job) {
+  using pipeline::Objective;
+  pipeline::Inputs in;
+  auto ok = pick<Objective>(
+      {{"time", Objective::kTime}, {"cost", Objective::kCost}, {"profit", Objective::kProfit}}, o.objective,
+      "objective", in.objective);
+  if (!ok) return tl::unexpected(ok.error());
+  const auto named = [&](const char* what, const std::string& given, const std::string& other) {
+    in.provenance.push_back({what, given.empty() ? other : given, given.empty() ? kDefault : "caller"});
+    return given.empty() ? other : given;
+  };
+  auto machine =
+      tooling::load_machine(named("machine", o.machine, std::string(tooling::kDefaultMachine)), job);
+  if (!machine) return tl::unexpected(machine.error());
+  in.machine = *std::move(machine);
+  auto library = tooling::load_library(named("tools", o.tools, "generic"), job);
+  if (!library) return tl::unexpected(library.error());
+  in.library = *std::move(library);
+  auto materials = tooling::shipped_materials();
+  if (!materials) return tl::unexpected(materials.error());
+  in.materials = *std::move(materials);
+  named("rules", o.rules, "shipped tables");
+  auto rules = rules::load_rules(o.rules, job);
+  if (!rules) return tl::unexpected(rules.error());
+  in.rules = *std::move(rules);
+  if (!o.material.empty()) in.material_name = named("material", o.material, "");
+  if (o.stock_allowance_mm >= 0.0) in.stock_allowance_mm = o.stock_allowance_mm;
+  return in;
+}
+
+Result<model::Plan> part_of(std::string bytes, const std::string& name, Job& job) {
+  const auto first = bytes.find_first_not_of(" \t\r\n");
+  if (first != std::string::npos && bytes[first] == '{')
+    return output::read_json(std::move(bytes), name, job);
+  return exchange::read_bytes(std::move(bytes), name, exchange::ReadOptions{}, job);
+}
+
+Result<model::Plan> planned(std::string part, const std::string& name, const PlanOptions& o, Job& job) {
+  const auto policy = policy_of(o);
+  if (!policy) return tl::unexpected(policy.error());
+  auto read = part_of(std::move(part), name, job);
+  if (!read) return read;
+  const auto inputs = inputs_of(o, job);
+  if (!inputs) return tl::unexpected(inputs.error());
+  return pipeline::bind(*std::move(read), *inputs, *policy, job);
+}
+
+void forms(const model::Plan& plan, PlanOutput& out, Job& job) {
+  out.json = output::write_json(plan);
+  if (auto written = exchange::write_iso14649(plan, job)) {
+    out.iso14649 = std::move(written->bytes);
+  } else {
+    job.report(written.error());
+  }
+  if (plan.steps.empty()) return;
+  if (auto text = output::write_linuxcnc(plan, job)) {
+    out.linuxcnc = *std::move(text);
+    out.tool_table = output::write_tool_table(plan);
+  } else {
+    job.report(text.error());
+  }
+}
+
+void checked(const model::Plan& plan, PlanOutput& out, Job& job) {
+  const auto add = [&](const std::vector<model::Finding>& findings, const std::string& of) {
+    for (const auto& f : findings) {
+      const std::string step = f.step.empty() ? std::string() : "step '" + f.step + "': ";
+      out.findings.push_back({to_text(f.severity), f.code, of + step + f.message});
+    }
+  };
+  add(verify::check_plan(plan, job), "");
+  if (!out.linuxcnc.empty())
+    add(verify::check_program({"program", out.linuxcnc, out.tool_table}, &plan, plan.machine, plan.cutters,
+                              job),
+        "program: ");
+}
+
+}  // namespace
+
+PlanOutput plan_bytes(std::string part, const std::string& name, const PlanOptions& options) {
+  PlanOutput out;
+  Job job;
+  job.threads = options.threads == 0 ? 1 : options.threads;
+  const auto plan = planned(std::move(part), name, options, job);
+  if (plan) {
+    out.planned = true;
+    out.steps = plan->steps.size();
+    out.unplanned = plan->unplanned.size();
+    forms(*plan, out, job);
+    checked(*plan, out, job);
+    if (const auto t = motion::time_of(*plan)) out.time_s = t->total_s();
+  } else {
+    job.report(plan.error());
+  }
+  for (const Diagnostic& d : job.diagnostics()) out.diagnostics.push_back(message(d));
+  return out;
+}
+
+PlanOutput plan_file(const std::string& path, const PlanOptions& options) {
+  auto bytes = read_file(path);
+  if (bytes) return plan_bytes(*std::move(bytes), path, options);
+  PlanOutput out;
+  out.diagnostics.push_back(message(bytes.error()));
+  return out;
+}
+
+}  // namespace capstan

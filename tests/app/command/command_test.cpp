@@ -1,0 +1,221 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "tests/app/plans.h"
+
+// The built program, run as a user runs it.
+
+namespace capstan::app {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+struct Ran {
+  int code = -1;
+  std::string out, err;
+};
+
+std::string slurp(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+class CommandTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (fs::temp_directory_path() / "capstan-app-XXXXXX").string();
+    ASSERT_NE(::mkdtemp(name.data()), nullptr);
+    folder_ = name;
+  }
+  void TearDown() override {
+    std::error_code ignored;
+    fs::remove_all(folder_, ignored);
+  }
+
+  /// `arguments` as a shell takes them.
+  [[nodiscard]] Ran run(const std::string& arguments) const {
+    const fs::path out = folder_ / "stdout.txt";
+    const fs::path err = folder_ / "stderr.txt";
+    const std::string line = "cd '" + folder_.string() + "' && '" CAPSTAN_COMMAND "' " + arguments + " >'" +
+                             out.string() + "' 2>'" + err.string() + "'";
+    const int status = std::system(line.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, slurp(out), slurp(err)};
+  }
+  [[nodiscard]] std::string put(const std::string& name, const std::string& bytes) const {
+    std::ofstream(folder_ / name, std::ios::binary) << bytes;
+    return name;
+  }
+  /// Files of the folder but for the two streams.
+  [[nodiscard]] std::vector<std::string> files() const {
+    std::vector<std::string> out;
+    for (const auto& e : fs::directory_iterator(folder_)) {
+      const std::string name = e.path().filename().string();
+      if (name != "stdout.txt" && name != "stderr.txt") out.push_back(name);
+    }
+    std::sort(out.begin(), out.end());
+    return out;
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(CommandTest, HelpAndVersionGoToStandardOutput) {
+  const Ran help = run("--help");
+  EXPECT_EQ(help.code, 0);
+  EXPECT_THAT(help.out, HasSubstr("explain"));
+  EXPECT_EQ(run("--version").out, "capstan 0.1.0\n");
+}
+
+TEST_F(CommandTest, WrongUsageEndsWithTwoAndSaysWhy) {
+  EXPECT_EQ(run("").code, 2);
+  EXPECT_EQ(run("polish part.p21").code, 2);
+  EXPECT_EQ(run("plan").code, 2);
+  EXPECT_EQ(run("plan part.p21").code, 2);  // no output
+  EXPECT_EQ(run("plan part.p21 -o a.json --reopen everything").code, 2);
+  EXPECT_EQ(run("plan part.p21 -o a.json --threads 0").code, 2);
+  EXPECT_EQ(run("diff one.json").code, 2);
+  const Ran stock = run("plan part.p21 -o a.json --stock ball:3");
+  EXPECT_EQ(stock.code, 2);
+  EXPECT_THAT(stock.err, HasSubstr("neither block:+2 nor box:"));
+  EXPECT_THAT(run("bind part.p21 -o a.json --deadline soon").err, HasSubstr("'soon' is no time"));
+}
+
+TEST_F(CommandTest, WhatIsNotSupportedYetIsSaidBeforeAnyWork) {
+  for (const char* ending : {"stpnc", "238", "mpf", "nc", "h", "html"}) {
+    const Ran r = run(std::string("plan missing.p21 -o plan.") + ending);
+    EXPECT_EQ(r.code, 2) << ending;
+    EXPECT_THAT(r.err, HasSubstr("not supported yet")) << ending;
+  }
+  EXPECT_EQ(run("plan missing.p21 -o plan.xyz").code, 2);
+  EXPECT_EQ(run("plan missing.p21 -o plan").code, 2);
+  EXPECT_EQ(run("plan missing.p21 -o a.json -o ./a.json").code, 2);
+}
+
+TEST_F(CommandTest, AFileThatCannotBeReadEndsWithThreeAndOneClearError) {
+  const Ran missing = run("plan missing.p21 -o a.json");
+  EXPECT_EQ(missing.code, 3);
+  EXPECT_THAT(missing.err, HasSubstr("missing.p21: error: cannot be opened for reading"));
+  EXPECT_EQ(run("inspect .").code, 3);
+  put("broken.p21", "ISO-10303-21;\nHEADER;\nENDSEC;\nDATA;\n#1=PROJECT('P',\nENDSEC;\nEND-ISO-10303-21;\n");
+  const Ran broken = run("inspect broken.p21");
+  EXPECT_EQ(broken.code, 3);
+  EXPECT_THAT(broken.err, HasSubstr("broken.p21:"));
+  put("empty", "");
+  EXPECT_EQ(run("inspect empty").code, 3);
+  put("half.json", "{\"version\": 1, ");
+  EXPECT_EQ(run("inspect half.json").code, 3);
+}
+
+TEST_F(CommandTest, NothingIsWrittenWhenTheInputIsBad) {
+  put("broken.p21", "ISO-10303-21;\nrubbish");
+  EXPECT_EQ(run("plan broken.p21 -o a.json -o b.ngc").code, 3);
+  EXPECT_EQ(files(), std::vector<std::string>{"broken.p21"});
+}
+
+TEST_F(CommandTest, OutputsAreWrittenWholeOrNotAtAll) {
+  put("plate.p21", testing::drilled_plate());
+  put("kept.json", "as it was");
+  fs::create_directory(folder_ / "folder.p21");
+  const Ran r = run("convert plate.p21 -o kept.json -o folder.p21");
+  EXPECT_EQ(r.code, 4);
+  EXPECT_THAT(r.err, HasSubstr("folder.p21: error: is a folder"));
+  EXPECT_EQ(slurp(folder_ / "kept.json"), "as it was");
+  EXPECT_EQ(files(), (std::vector<std::string>{"folder.p21", "kept.json", "plate.p21"}));
+}
+
+TEST_F(CommandTest, ConvertsToJsonAndBackToTheSamePlan) {
+  put("plate.p21", testing::drilled_plate());
+  ASSERT_EQ(run("convert plate.p21 -o a.json -o a.p21").code, 0);
+  ASSERT_EQ(run("convert a.json -o b.p21 -o b.json").code, 0);
+  EXPECT_EQ(slurp(folder_ / "a.p21"), slurp(folder_ / "b.p21"));
+  const Ran same = run("diff a.json b.p21");
+  EXPECT_EQ(same.code, 0) << same.out;
+  EXPECT_EQ(same.out, "the plans say the same\n");
+}
+
+TEST_F(CommandTest, JsonGoesToStandardOutputAndNothingElseDoes) {
+  put("plate.p21", testing::drilled_plate());
+  const Ran r = run("convert plate.p21 -o -");
+  EXPECT_EQ(r.code, 0);
+  EXPECT_EQ(r.out.front(), '{');
+  EXPECT_EQ(r.out.find("capstan:"), std::string::npos);
+  EXPECT_THAT(r.err, HasSubstr("capstan: converted plate.p21"));
+}
+
+TEST_F(CommandTest, InspectsAValueByPath) {
+  put("plate.p21", testing::drilled_plate());
+  const Ran r = run("inspect plate.p21 '/project/its_workpieces[0]/its_material/standard_identifier'");
+  EXPECT_EQ(r.code, 0);
+  EXPECT_EQ(r.out, "'EN AW-6061'\n");
+  EXPECT_EQ(r.err, "");
+  const Ran wrong = run("inspect plate.p21 /project/its_workpeaces");
+  EXPECT_EQ(wrong.code, 2);
+  EXPECT_EQ(wrong.out, "");
+  EXPECT_THAT(wrong.err, HasSubstr("expected its_id, main_workplan, its_workpieces"));
+}
+
+TEST_F(CommandTest, DiagnosticsMayBeJson) {
+  const Ran r = run("--diagnostics json inspect missing.p21");
+  EXPECT_EQ(r.code, 3);
+  std::istringstream lines(r.err);
+  std::size_t n = 0;
+  for (std::string line; std::getline(lines, line); ++n) {
+    EXPECT_EQ(line.front(), '{');
+    EXPECT_EQ(line.back(), '}');
+  }
+  EXPECT_EQ(n, 2U);  // the fault, the summary
+  EXPECT_THAT(r.err, HasSubstr("\"code\":\"FILE-READ\""));
+}
+
+TEST_F(CommandTest, NothingDrawsABarInAPipe) {
+  put("plate.p21", testing::drilled_plate());
+  EXPECT_THAT(run("inspect plate.p21").err, Not(HasSubstr("\r")));
+}
+
+TEST_F(CommandTest, ListsAndShowsTools) {
+  const Ran list = run("tools list twist_drill");
+  EXPECT_EQ(list.code, 0);
+  EXPECT_THAT(list.out, HasSubstr("twist_drill"));
+  EXPECT_THAT(list.out, Not(HasSubstr("reamer")));
+  std::istringstream lines(list.out);
+  std::string line;
+  std::getline(lines, line);
+  std::getline(lines, line);
+  const std::string id = line.substr(0, line.find(' '));
+  const Ran one = run("tools show " + id);
+  EXPECT_EQ(one.code, 0);
+  EXPECT_THAT(one.out, HasSubstr("cutting_diameter"));
+  EXPECT_THAT(one.out, HasSubstr("default:"));
+  EXPECT_EQ(run("tools show nonsense").code, 2);
+}
+
+TEST_F(CommandTest, ShippedRulesHaveNoFinding) {
+  const Ran r = run("rules check");
+  EXPECT_EQ(r.code, 0) << r.err;
+  EXPECT_THAT(r.err, HasSubstr("no finding"));
+  EXPECT_THAT(run("rules list").out, HasSubstr("source"));
+}
+
+TEST_F(CommandTest, AMissingMachineIsAnUnreadableInput) {
+  put("plate.p21", testing::drilled_plate());
+  EXPECT_EQ(run("plate.p21").code, 2);
+  const Ran r = run("plan plate.p21 --machine nowhere.yaml -o a.json");
+  EXPECT_EQ(r.code, 3);
+  EXPECT_THAT(r.err, HasSubstr("nowhere.yaml"));
+  EXPECT_EQ(files(), std::vector<std::string>{"plate.p21"});
+}
+
+}  // namespace
+}  // namespace capstan::app
