@@ -32,14 +32,17 @@ struct CutQuestion {
   double pre_hole_mm = 0.0;          ///< drilling family
   double engaged_diameter_mm = 0.0;  ///< centre drills, countersinks: the widest that cuts; 0: all of it
   bool slot = false;                 ///< milling: the cutter is engaged over its whole diameter
+  double least_feed_ratio = 0.1;     ///< of the start value: below, an edge rubs rather than cuts
   double ap_most_mm = 0.0;  ///< depth per level at most, where something else than the cutter says so
   double deflection_limit_mm = 0.0;                               ///< of the tip; 0: kRoughDeflection
   std::optional<double> ap_mm, ae_mm, n_rpm, feed_mm_min, fz_mm;  ///< given, kept
   Aim aim = Aim::kTime;
 };
 
-/// Largest deflection of the tip in roughing, mm. Default, unsourced: below the usual side allowance.
-inline constexpr double kRoughDeflectionMm = 0.05;
+/// Largest deflection of the tip in roughing, mm. Default, unsourced: a third of the usual side allowance.
+inline constexpr double kRoughDeflectionMm = 0.1;
+/// The same in facing, where bending moves the edge along the face. Default, unsourced.
+inline constexpr double kFaceDeflectionMm = 0.2;
 /// Widest cut of a rough pass that is not a slot, as a fraction of the diameter. Default, unsourced.
 inline constexpr double kRoughWidthRatio = 0.65;
 /// Least feed at which a drill, reamer or countersink is worth choosing, as a fraction of the start value.

@@ -126,6 +126,7 @@ optimise::CutQuestion question_of(const Work& w, const StepWork& step, const mod
   } else if (job.overlap && !step.proposed) {
     q.ae_mm = std::max(0.0, 1.0 - *job.overlap) * d;
   }
+  if (m.holds<model::PlaneMilling>(step.operation)) q.deflection_limit_mm = optimise::kFaceDeflectionMm;
   if (q.kind == CutKind::kFinish) {
     // What the step before left on the walls; nothing known: the usual finishing allowance.
     q.width_mm = std::max(0.05, job.left_on_side_mm.value_or(0.5) - job.allowance_side_mm);
