@@ -11,6 +11,9 @@
 
 namespace capstan::verify {
 
+/// A height that a program leaves unknown (after a move in machine coordinates) is taken as clear of all.
+inline constexpr double kUnknownHeightMm = 1e5;
+
 /// One move as the checks see it, whether it comes from a plan's path or from a program's text.
 /// Frame  the set-up's. Units  mm, mm/min, 1/min, s.
 struct Move {

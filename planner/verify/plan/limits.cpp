@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "planner/verify/plan/plan_checks.h"
 
@@ -104,19 +103,34 @@ void check_moves(const StepMoves& step, const model::Machine& machine, double ra
   }
 }
 
+void Extents::add(const StepMoves& step, Findings& findings) {
+  geometry::Box3& box = boxes_[step.setup];
+  bool* said = said_[step.setup].data();
+  for (const Move& m : step.moves) {
+    const geometry::Box3 b = box_of(m);
+    if (b.hi.z >= kUnknownHeightMm) continue;
+    box.add(b.lo);
+    box.add(b.hi);
+    const geometry::Vec3 size = box.size();
+    const double lengths[3] = {size.x, size.y, size.z};
+    for (std::size_t a = 0; a < 3; ++a) {
+      const model::LinearAxis& axis = machine_.axes[a];
+      const double travel = axis.travel_max_mm - axis.travel_min_mm;
+      if (said[a] || !(travel > 0.0) || lengths[a] <= travel + 1e-6) continue;
+      said[a] = true;
+      findings.error(22, "CHK-TRAVEL-" + axis.name, {step.order + 1, step.id, m.where},
+                     "with this move the paths of one set-up span " + mm(lengths[a]) + " in " + axis.name +
+                         ", arcs included; the axis travels " + mm(travel));
+    }
+  }
+}
+
 void check_limits(const model::Plan& plan, const std::vector<StepMoves>& steps, Findings& findings) {
-  std::map<std::size_t, geometry::Box3> extents;
-  std::map<std::size_t, std::size_t> last;
+  Extents extents(plan.machine);
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const StepMoves& s = steps[i];
     check_moves(s, plan.machine, kRadiusGapMm, findings);
-    geometry::Box3& box = extents[s.setup];
-    for (const Move& m : s.moves) {
-      const geometry::Box3 b = box_of(m);
-      box.add(b.lo);
-      box.add(b.hi);
-    }
-    last[s.setup] = i;
+    extents.add(s, findings);
     if (s.cutter == nullptr || s.planned == nullptr) continue;
     const Findings::Where at{s.order + 1, s.id, -1};
     const bool mills = s.planned->radial_depth_mm > 0.0;
@@ -130,20 +144,6 @@ void check_limits(const model::Plan& plan, const std::vector<StepMoves>& steps, 
       findings.error(20, "CHK-WIDTH-PLANNED", at,
                      "a radial depth of " + mm(s.planned->radial_depth_mm) + "; the tool's diameter is " +
                          mm(s.cutter->cutting_diameter_mm));
-    }
-  }
-  for (const auto& [setup, box] : extents) {
-    const geometry::Vec3 size = box.size();
-    const double lengths[3] = {size.x, size.y, size.z};
-    for (int a = 0; a < 3; ++a) {
-      const model::LinearAxis& axis = plan.machine.axes[static_cast<std::size_t>(a)];
-      const double travel = axis.travel_max_mm - axis.travel_min_mm;
-      if (travel > 0.0 && lengths[a] > travel + 1e-6) {
-        const StepMoves& s = steps[last[setup]];
-        findings.error(22, "CHK-TRAVEL-" + axis.name, {s.order + 1, s.id, -1},
-                       "the paths of set-up " + std::to_string(setup + 1) + " span " + mm(lengths[a]) +
-                           " in " + axis.name + ", arcs included; the axis travels " + mm(travel));
-      }
     }
   }
 }

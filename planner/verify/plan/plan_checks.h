@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <map>
 #include <vector>
 
 #include "planner/model/plan.h"
@@ -20,6 +22,19 @@ void check_limits(const model::Plan& plan, const std::vector<StepMoves>& steps, 
 /// an arc may differ.
 void check_moves(const StepMoves& step, const model::Machine& machine, double radius_gap_mm,
                  Findings& findings);
+
+/// How far the paths of each set-up reach, against the travel: 22. Where the work lies on the machine is not
+/// known, so that only lengths are compared.
+class Extents {
+ public:
+  explicit Extents(const model::Machine& machine) : machine_(machine) {}
+  void add(const StepMoves& step, Findings& findings);
+
+ private:
+  const model::Machine& machine_;
+  std::map<std::size_t, geometry::Box3> boxes_;
+  std::map<std::size_t, std::array<bool, 3>> said_;
+};
 
 /// What must come first: 28.
 void check_order(const model::Plan& plan, Findings& findings);

@@ -214,7 +214,6 @@ void compare(const ProgramCase& c, Findings& findings) {
 
 std::vector<StepMoves> moves_of(const ProgramCase& c) {
   std::vector<StepMoves> out;
-  constexpr double kAbove = 1e5;  // mm: a height that is not known is taken as clear of everything
   for (const Block& b : c.program.blocks) {
     if (b.kind == Block::Kind::kToolChange || b.kind == Block::Kind::kEnd || b.in_machine) continue;
     const model::Cutter* cutter = c.cutter(b.tool);
@@ -236,8 +235,8 @@ std::vector<StepMoves> moves_of(const ProgramCase& c) {
     m.synchronised = b.synchronised;
     m.from = b.from;
     m.to = b.to;
-    if (!b.known_from[2]) m.from.z = kAbove;
-    if (!b.known_to[2]) m.to.z = kAbove;
+    if (!b.known_from[2]) m.from.z = kUnknownHeightMm;
+    if (!b.known_to[2]) m.to.z = kUnknownHeightMm;
     // From an unknown place nothing is swept but the height itself.
     if (!b.known_from[0]) m.from.x = m.to.x;
     if (!b.known_from[1]) m.from.y = m.to.y;

@@ -22,6 +22,8 @@ Grid::Grid(Vec2 lo, Vec2 hi, double cell_mm, long maximum_cells) : lo_(lo) {
   ny_ = count(h);
   stock.assign(index(0, ny_), kNothing);
   part.assign(index(0, ny_), kNothing);
+  before_.assign(index(0, ny_), kNothing);
+  touched_.assign(index(0, ny_), 0U);
 }
 
 std::pair<int, int> Grid::columns(double a, double b) const {
@@ -98,12 +100,12 @@ struct Knife {
     const std::size_t i = grid.index(ix, iy);
     double& s = grid.stock[i];
     if (z >= s) return;
-    const double taken = s - z;
     if (s > Grid::kNothing / 2) {
       bite.volume_mm3 += (s - std::max(z, floor)) * grid.cell() * grid.cell();
       bite.contact_mm = std::max(bite.contact_mm, s - tip_z);
+      const double taken = grid.before_move(i, s) - std::max(z, floor);
       bite.thickest_mm = std::max(bite.thickest_mm, taken);
-      if (from_axis <= core) bite.core_mm = std::max(bite.core_mm, s - std::max(z, floor));
+      if (from_axis <= core) bite.core_mm = std::max(bite.core_mm, taken);
       ++bite.cells;
       const double below = grid.part[i] - z;
       if (below > allowed && below > bite.gouge_mm) gouge(ix, iy, z, below);
@@ -208,6 +210,7 @@ Bite cut(Grid& grid, const Move& m, const CutterProfile& cutter, double allowed_
   Bite bite;
   if (m.kind == model::MoveKind::kDwell) return bite;
   if (std::min(m.from.z, m.to.z) >= grid.top()) return bite;
+  grid.begin_move();
   const Outline o(cutter);
   Knife k{grid, allowed_mm, judge, bite, 0.3 * o.radius};
   if (!is_arc(m.kind)) {
@@ -248,7 +251,9 @@ double rapid_collision(const Grid& grid, const Move& m, const CutterProfile& cut
       const double s = grid.stock[grid.index(ix, iy)];
       if (s + clearance_mm <= zmin) continue;
       const double x = grid.centre(ix, iy).x;
-      const double z = zmin + o.height(std::hypot(x - std::clamp(x, xa, xb), dy));
+      // A point may stand anywhere in the cell: the tip of a cone is taken as that much nearer.
+      const double d = std::hypot(x - std::clamp(x, xa, xb), dy);
+      const double z = zmin + o.height(std::max(0.0, d - 0.71 * grid.cell()));
       const double dip = s + clearance_mm - z;
       if (dip > worst) {
         worst = dip;

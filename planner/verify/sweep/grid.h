@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "planner/geometry/profile.h"
@@ -35,6 +37,16 @@ class Grid {
   static constexpr double kNothing = -1e9;
   double floor = kNothing;  ///< underside of the raw piece
 
+  /// Height of a cell before the current move touched it; `height` is recorded at the first touch.
+  double before_move(std::size_t cell, double height) {
+    if (touched_[cell] != move_) {
+      touched_[cell] = move_;
+      before_[cell] = height;
+    }
+    return before_[cell];
+  }
+  void begin_move() { ++move_; }
+
   /// Highest stock under a disc, cell centres counted; kNothing when none.
   [[nodiscard]] double highest(geometry::Vec2 at, double radius_mm) const;
   /// How far below the part's surface a height is, measured square to the surface; 0 beside an edge of it.
@@ -47,6 +59,9 @@ class Grid {
   double cell_ = 0.0;
   int nx_ = 0, ny_ = 0;
   double top_ = kNothing;
+  std::vector<double> before_;
+  std::vector<std::uint32_t> touched_;
+  std::uint32_t move_ = 0;
 };
 
 /// What one move took away.

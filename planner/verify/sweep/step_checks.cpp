@@ -178,7 +178,7 @@ void StepChecks::reach(const Move& m) {
   const double low = std::min(m.from.z, m.to.z);
   const double length = cutter_.stick_out_mm;
   if (length <= 0.0 || grid_.top() - low <= length + kSlackMm) return;
-  const double holder = std::max(0.5 * cutter_.holder_diameter_mm, radius_);
+  const double holder = std::max(0.5 * cutter_.holder_diameter_mm, radius_ + 2.0 * grid_.cell());
   const double high = std::max(grid_.highest(xy(m.from), holder), grid_.highest(xy(m.to), holder));
   if (high - low > length + kSlackMm) {
     out_.error(
