@@ -21,13 +21,12 @@ bool binder_from_text(std::string_view text, Binder& out) {
   return true;
 }
 
-Ledger::Ledger() { reasons_.push_back({"given", "given in the file", "the file"}); }
+Ledger::Ledger() { reason({"given", "given in the file", "the file"}); }
 
 ReasonId Ledger::reason(Reason r) {
-  const auto it = std::find(reasons_.begin(), reasons_.end(), r);
-  if (it != reasons_.end()) return static_cast<ReasonId>(it - reasons_.begin());
-  reasons_.push_back(std::move(r));
-  return static_cast<ReasonId>(reasons_.size() - 1);
+  const auto [it, fresh] = ids_.try_emplace(std::move(r), static_cast<ReasonId>(reasons_.size()));
+  if (fresh) reasons_.push_back(it->first);
+  return it->second;
 }
 
 void Ledger::set(DecisionKey key, Decision d) { entries_[std::move(key)] = std::move(d); }

@@ -80,6 +80,7 @@ class Ledger {
 
  private:
   std::vector<Reason> reasons_;
+  std::map<Reason, ReasonId> ids_;
   std::map<DecisionKey, Decision> entries_;
 };
 

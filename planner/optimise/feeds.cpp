@@ -104,6 +104,13 @@ FeedAnswer feeds(const FeedQuestion& q, const model::CutterPath& path) {
     double feed = q.feed_mm_min * factor;
     if (q.adapt && q.cut.kind != CutKind::kTap)
       feed = std::max(rounded(std::floor(feed * 10.0 + 1e-6) / 10.0, 1), 0.1);
+    const bool air = path.role[i] == model::MoveRole::kApproach || path.role[i] == model::MoveRole::kLink;
+    if (q.adapt && air && worst.ap <= 0) {
+      const auto& axes = q.cut.machine.axes;
+      const double most =
+          std::min({axes[0].feed_max_mm_min, axes[1].feed_max_mm_min, axes[2].feed_max_mm_min});
+      feed = std::max(feed, std::min(most, kAirFeedMmMin));
+    }
     a.schedule.feed_mm_min[i] = path.kind[i] == model::MoveKind::kRapid ? 0.0 : feed;
     if (i < q.speed_factor.size()) a.schedule.spindle_rpm[i] = q.n_rpm * q.speed_factor[i];
     if (i < q.dwell_s.size()) a.schedule.dwell_s[i] = q.dwell_s[i];

@@ -29,6 +29,9 @@ struct FeedQuestion {
 /// Default, unsourced (handbooks give a third to a half).
 inline constexpr double kPlungeFraction = 0.3;
 inline constexpr double kRampFraction = 0.5;
+/// Feed of moves through air that may not be rapids (close above material): at least this, mm/min, as far as
+/// the axes go. Default, unsourced.
+inline constexpr double kAirFeedMmMin = 3000.0;
 /// Feeds along a path are lowered in steps of this ratio, so that programs stay short and values repeat.
 inline constexpr double kFeedStep = 0.9;
 

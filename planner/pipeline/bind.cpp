@@ -2,6 +2,7 @@
 #include <set>
 #include <utility>
 
+#include "planner/output/step_ids.h"
 #include "planner/pipeline/work.h"
 #include "tooling/select/select.h"
 
@@ -43,8 +44,7 @@ void collect_setups(Work& w) {
 
 /// Each executed step gets a name of its own that every file format carries.
 void name_steps(Work& w) {
-  std::vector<std::string> ids;
-  for (const model::StepResult& r : w.plan.steps) ids.push_back(model::step_id(w.plan, r));
+  const std::vector<std::string> ids = output::step_ids(w.plan);
   for (std::size_t i = 0; i < ids.size(); ++i) {
     auto* e = w.plan.model.get<model::Executable>(w.plan.steps[i].step);
     if (e != nullptr && !e->persistent_id) e->persistent_id = ids[i];

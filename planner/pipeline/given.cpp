@@ -197,6 +197,20 @@ void mark_open(Work& w, StepWork& step) {
                                                        ledger.is_open(op->its_technology, "spindle")));
 }
 
+/// A reamer that stops in its hole marks the wall: given so, it is kept only while everything given is kept.
+void overrule_stop(Work& w, const StepWork& step) {
+  auto* op = w.plan.model.get<model::Reaming>(step.operation);
+  if (op == nullptr || !step.open_technology || !op->spindle_stop_at_bottom.value_or(false)) return;
+  op->spindle_stop_at_bottom = false;
+  w.job.warn("PIP-CHANGED",
+             "operation '" + op->its_id.value_or("") +
+                 "': the reamer would be withdrawn with the spindle stopped; it keeps turning");
+  w.plan.ledger.bind(
+      step.operation, "spindle_stop_at_bottom", model::Binder::kRule,
+      {"safety.reamer_turns", "a reamer withdrawn without turning scores the wall and may break",
+       "safety: the spindle turns while the tool is in the material"});
+}
+
 }  // namespace
 
 Status list_given(Work& w) {
@@ -224,7 +238,7 @@ Status list_given(Work& w) {
   for (StepWork& step : w.steps) {
     if (step.feature.set() && w.plan.model.holds<model::ManufacturingFeature>(step.feature)) {
       auto shapes = model::shapes_of(w.plan.model, Ref<model::ManufacturingFeature>(step.feature));
-      if (shapes) step.shapes = *std::move(shapes);
+      if (shapes) step.shapes = rules::from_the_top(*std::move(shapes));
       // An operation with its own path needs no shape; others say later why they cannot be done.
     }
     if (w.plan.model.holds<model::MachiningWorkingstep>(step.step) &&
@@ -232,6 +246,7 @@ Status list_given(Work& w) {
       continue;  // open: rules propose for its feature
     }
     mark_open(w, step);
+    overrule_stop(w, step);
     kept.push_back(std::move(step));
   }
   w.steps = std::move(kept);

@@ -338,7 +338,7 @@ Status propose_missing(Work& w) {
       unplanned(w, nameless, shapes.error().message);
       continue;
     }
-    if (!shapes->empty()) proposer.feature(f, *shapes, faces);
+    if (!shapes->empty()) proposer.feature(f, rules::from_the_top(*shapes), faces);
   }
   return {};
 }
