@@ -1,0 +1,175 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "planner/base/job.h"
+#include "planner/base/result.h"
+#include "planner/model/cutter.h"
+#include "planner/model/machine.h"
+#include "planner/model/material.h"
+#include "planner/model/plan.h"
+#include "planner/model/proposal.h"
+
+/// What was cut once, found again when something near to it is asked.
+namespace capstan::casebase {
+
+/// What is asked: four categories, which a case has to share exactly, and sizes, which it has to be near to.
+///
+/// Units   mm. Zero: the size does not apply (a face has no diameter; no tolerance was asked). Two
+///         questions of which one has a diameter, a depth or a width and the other has none never match;
+///         no tolerance counts as one of 1 mm.
+/// Shape   categories are keywords: 1 to 80 of letters, digits and `_ . / + -`.
+struct Question {
+  std::string operation;       ///< keyword of the operation, e.g. "DRILLING"
+  std::string material_group;  ///< as `material_group_of` gives it, e.g. "P/mild_steel"
+  std::string tool_class;      ///< as `tool_class_of` gives it, e.g. "carbide/endmill"
+  std::string machine_class;   ///< the machine's id
+  double diameter_mm = 0.0, depth_mm = 0.0, width_mm = 0.0;
+  double tolerance_mm = 0.0;  ///< width of the tolerance zone
+  bool operator==(const Question&) const = default;
+};
+
+/// One executed or simulated workingstep: what was asked, what was bound, what came of it, and where the
+/// numbers come from.
+///
+/// Units   as the names say; zero among the results: not known.
+struct Case {
+  std::string id;  ///< given by `id_of`; what stands here before `add` is ignored
+  Question asked;
+
+  double cutting_diameter_mm = 0.0;
+  int teeth = 0;
+  double vc_m_min = 0.0, fz_mm = 0.0;
+  double ap_mm = 0.0, ae_mm = 0.0;  ///< as cut; zero: not known
+  bool coolant = false;
+
+  double cycle_s = 0.0, peak_force_n = 0.0, surface_ra_um = 0.0, deviation_mm = 0.0, wear_mm = 0.0;
+  std::string verdict = "unknown";  ///< "good", "bad", "unknown"
+  std::string provenance;           ///< "measured", "simulated", "entered"
+  std::string source;  ///< who, which file, which part: repeats of a run differ here, or count once
+  bool operator==(const Case&) const = default;
+};
+
+/// 32 hexadecimal digits of the SHA-256 (FIPS 180-4) of everything but the id: equal cases, equal ids.
+[[nodiscard]] std::string id_of(const Case& c);
+
+/// Why a case cannot be one (a number that is not finite, beyond what any machine does, an unknown
+/// provenance); nothing when it can. Asked before writing and again after reading.
+[[nodiscard]] std::optional<std::string> fault_of(const Case& c);
+[[nodiscard]] std::optional<std::string> fault_of(const Question& q);
+
+struct Neighbour {
+  Case found;
+  double distance = 0.0;  ///< by the normalisation `kNormalisationVersion`
+  friend bool operator==(const Neighbour&, const Neighbour&) = default;
+};
+
+/// Of the fixed scales by which sizes become distances (normalisation.h). Distances of different versions
+/// must not be compared.
+inline constexpr int kNormalisationVersion = 1;
+
+/// Beyond this distance there is no precedent. One size apart by a factor of 2^0.5, or the tolerance by a
+/// factor of 2, all else equal. Default, unsourced.
+inline constexpr double kPrecedentDistance = 0.5;
+
+/// A precedent or, in words for people, why there is none.
+struct Answer {
+  std::optional<model::Precedent> precedent;
+  std::string why;
+};
+
+/// Cases in one SQLite file, with an exact nearest-neighbour index per combination of categories that is
+/// rebuilt from the store, never loaded.
+///
+/// Sees     what stood in the file when it was opened, and what it added itself since.
+/// Threads  the const members may be called from many threads; `add` from one, with nobody reading.
+class CaseBase {
+ public:
+  /// Opens an existing file: "path" or "sqlite:path". Rows whose hash or limits do not hold are reported
+  /// to `job` (CASE-ROW) and left out; then `add` refuses (CASE-DAMAGED).
+  ///
+  /// Fails   CASE-URI other stores; CASE-OPEN missing or unreadable; CASE-SCHEMA not a case base, or of a
+  ///         newer version, or with a table, index, trigger or view that is not ours; CASE-BUSY;
+  ///         CASE-DAMAGED SQLite cannot read it; CASE-LIMIT more than a million cases.
+  [[nodiscard]] static Result<CaseBase> open(const std::string& uri, Job& job);
+  /// The same; makes an empty base where there is no file.
+  [[nodiscard]] static Result<CaseBase> open_or_create(const std::string& uri, Job& job);
+
+  CaseBase(CaseBase&&) noexcept;
+  CaseBase& operator=(CaseBase&&) noexcept;
+  ~CaseBase();
+
+  /// Retain. All of them are stored and synchronised to disk, or none. Cases that are there already are
+  /// passed over, so an `add` whose outcome is unknown may be repeated.
+  ///
+  /// Fails   CASE-INVALID a case that cannot be; CASE-READ-ONLY; CASE-BUSY another writer held the file for
+  ///         5 s; CASE-DAMAGED; CASE-STORE no space, or another fault of the store.
+  [[nodiscard]] Status add(const Case& c);
+  [[nodiscard]] Status add(std::span<const Case> cases);
+
+  /// The k nearest cases of the question's categories, nearest first, equal distances by id. Whatever
+  /// their verdict and provenance: the caller sees both. Fails CASE-INVALID on a question that cannot be.
+  [[nodiscard]] Result<std::vector<Neighbour>> nearest(const Question& q, std::size_t k) const;
+
+  /// The case to start from, or why there is none. Only good cases within `kPrecedentDistance` count
+  /// (simulated ones also while nobody judged them). Provenances are not mixed: measured cases if
+  /// there are any, else entered ones, else simulated ones, and `neighbours` counts those of that kind
+  /// alone. Passed over: a case next to a bad one that was cut no harder and is at least as trustworthy;
+  /// a case whose vc or fz is more than twice or less than half the median, where three or more are near.
+  [[nodiscard]] Answer ask(const Question& q) const;
+  /// Recall: the precedent of `ask`.
+  [[nodiscard]] std::optional<model::Precedent> recall(const Question& q) const;
+
+  [[nodiscard]] std::size_t size() const;
+  /// All cases by id.
+  [[nodiscard]] const std::vector<Case>& cases() const;
+  /// What finds neighbours: "flann" or "linear".
+  [[nodiscard]] std::string_view index_name() const;
+
+ private:
+  struct Impl;
+  explicit CaseBase(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Substrate and class: speeds for one substrate say nothing about another.
+[[nodiscard]] std::string tool_class_of(const model::Cutter& cutter);
+/// ISO 513 letter and the material's id: within one letter speeds differ by more than a start value may.
+[[nodiscard]] std::string material_group_of(const model::WorkMaterial& material);
+
+/// The sizes of what is asked; zero where one does not apply.
+struct Sizes {
+  double diameter_mm = 0.0, depth_mm = 0.0, width_mm = 0.0, tolerance_mm = 0.0;
+  friend bool operator==(const Sizes&, const Sizes&) = default;
+};
+/// The sizes of a feature as its file gives them, the same when asking and when retaining.
+[[nodiscard]] Sizes sizes_of(const model::Model& model, model::AnyRef feature);
+
+[[nodiscard]] Question question_of(std::string_view operation, std::string_view material_group,
+                                   std::string_view tool_class, std::string_view machine_id,
+                                   const Sizes& sizes);
+[[nodiscard]] Question question_of(model::TypeId operation, const model::WorkMaterial& material,
+                                   const model::Cutter& cutter, const model::Machine& machine,
+                                   const Sizes& sizes);
+
+/// A planned step as a simulated case, verdict "unknown"; `source` names the plan's file and the step.
+///
+/// Fails   CASE-STEP when the step is no machining step with a cutter, or its numbers cannot be a case.
+[[nodiscard]] Result<Case> case_of(const model::Plan& plan, const model::StepResult& step);
+
+/// Comma-separated values (RFC 4180), one case per row, the column names in the first; numbers read back to
+/// the same bits.
+[[nodiscard]] std::string to_csv(std::span<const Case> cases);
+/// Reads what `to_csv` writes, columns in any order. An `id` column, where there is one, is checked.
+///
+/// Fails   CASE-CSV with file and line: a column missing or unknown, a field that is no number, a case that
+///         cannot be, an id that does not fit. No row is taken then.
+[[nodiscard]] Result<std::vector<Case>> from_csv(std::string_view text, const std::string& file);
+
+}  // namespace capstan::casebase
