@@ -5,6 +5,7 @@
 #include "planner/app/files/inputs.h"
 #include "planner/app/files/load.h"
 #include "planner/base/file.h"
+#include "planner/pipeline/pipeline.h"
 #include "planner/verify/verify.h"
 #include "tooling/catalogue/library.h"
 #include "tooling/catalogue/machine.h"
@@ -43,6 +44,26 @@ class Check {
   }
 
  private:
+  /// Whether there is something to check at all: planned steps with their paths.
+  static bool has_paths(const model::Plan& plan) {
+    bool any = false;
+    for (const auto& step : plan.steps) {
+      if (step.path == nullptr) return false;
+      any = true;
+    }
+    return any;
+  }
+
+  /// An ISO 14649 file says what is done and not, in full, how: it is executed as given, what is open closed
+  /// as `plan` would.
+  Result<model::Plan> executed(model::Plan plan) {
+    const auto inputs = gather(s_.options.inputs, plan, s_.job);
+    if (!inputs) return tl::unexpected(inputs.error());
+    auto bound = pipeline::bind(std::move(plan), *inputs, pipeline::Policy{}, s_.job);
+    if (bound) unplanned_ += bound->unplanned.size();
+    return bound;
+  }
+
   std::optional<Diagnostic> read() {
     for (const std::string& path : s_.options.files) {
       auto bytes = read_file(path);
@@ -58,6 +79,10 @@ class Check {
       if (!plan) return plan.error();
       if (s_.options.schema) schema_ += s_.job.diagnostics().size() - before;
       ++checked_;
+      if (!has_paths(*plan)) {
+        plan = executed(*std::move(plan));
+        if (!plan) return plan.error();
+      }
       add(verify::check_plan(*plan, s_.job), in.path, false);
       plans_.push_back(*std::move(plan));
     }
@@ -71,9 +96,7 @@ class Check {
       shop_.machine = plans_.front().machine;
       shop_.cutters = plans_.front().cutters;
     }
-    // An ISO 14649 file names its machine without the data.
-    const bool incomplete = shop_.machine.axes[0].name.empty();
-    if (o.machine || incomplete) {
+    if (o.machine || !has_data(shop_.machine)) {
       std::string wanted = o.machine.value_or(std::string(tooling::kDefaultMachine));
       auto machine = tooling::load_machine(wanted, s_.job);
       if (!machine) return machine.error();
@@ -118,7 +141,8 @@ class Check {
     s_.summary =
         "checked " + counted(checked_, "file", "files") + ": " + counted(count_, "finding", "findings");
     if (schema_ != 0) s_.summary += ", " + counted(schema_, "deviation", "deviations") + " from the schema";
-    return count_ == 0 && schema_ == 0 ? kDone : kFindings;
+    if (unplanned_ != 0) s_.summary += ", " + counted(unplanned_, "feature", "features") + " not planned";
+    return count_ == 0 && schema_ == 0 && unplanned_ == 0 ? kDone : kFindings;
   }
 
   Session& s_;
@@ -126,7 +150,7 @@ class Check {
   std::vector<model::Plan> plans_;
   Shop shop_;
   std::vector<std::pair<std::string, model::Finding>> findings_;
-  std::size_t count_ = 0, schema_ = 0, checked_ = 0;
+  std::size_t count_ = 0, schema_ = 0, checked_ = 0, unplanned_ = 0;
 };
 
 }  // namespace

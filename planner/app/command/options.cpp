@@ -15,7 +15,7 @@ namespace {
 
 /// Texts as the library gives them, before they mean anything.
 struct Raw {
-  std::string machine, tools, material, rules, cases, stock, deadline;
+  std::string file, machine, tools, material, rules, cases, stock, deadline;
   std::string objective, solver, reopen, bind, diagnostics = "text";
 };
 
@@ -77,7 +77,10 @@ class CommandLine {
     return sub;
   }
 
-  void file(CLI::App* sub, const std::string& name, const std::string& help, int least = 1, int most = 1) {
+  void file(CLI::App* sub, const std::string& name, const std::string& help) {
+    sub->add_option(name, raw_.file, help)->required();
+  }
+  void files(CLI::App* sub, const std::string& name, const std::string& help, int least, int most) {
     sub->add_option(name, out_.files, help)->required()->expected(least, most);
   }
   void outputs(CLI::App* sub, bool required) {
@@ -124,7 +127,7 @@ class CommandLine {
   void check() {
     auto* sub =
         command(app_, "check", "prove a plan or a program safe, or list what is wrong", Command::kCheck);
-    file(sub, "files", "plans, programs (.ngc) and the programs' tool table (.tbl)", 1, 1000);
+    files(sub, "files", "plans, programs (.ngc) and the programs' tool table (.tbl)", 1, 1000);
     sub->add_option("--machine", raw_.machine, "machine that programs run on");
     sub->add_option("--tools", raw_.tools, "tool library with the programs' tools");
     sub->add_flag("--schema", out_.schema, "what does not follow the schema is a finding, too");
@@ -141,7 +144,7 @@ class CommandLine {
     inspect->add_option("path", out_.step,
                         "e.g. /project/its_workpieces[0]/its_material, #12, /ROUND_HOLE[*]#size");
     auto* diff = command(app_, "diff", "say what changed between two plans", Command::kDiff);
-    file(diff, "plans", "two plans", 2, 2);
+    files(diff, "plans", "two plans", 2, 2);
     auto* convert = command(app_, "convert", "write a part or plan in another format", Command::kConvert);
     file(convert, "file", "part or plan");
     outputs(convert, true);
@@ -174,6 +177,7 @@ class CommandLine {
 
   /// What is wrong, or nothing.
   std::string understand() {
+    if (!raw_.file.empty()) out_.files = {raw_.file};
     auto& in = out_.inputs;
     in.machine = given(raw_.machine);
     in.tools = given(raw_.tools);

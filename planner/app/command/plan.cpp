@@ -99,7 +99,7 @@ int planned(Session& s, const pipeline::Policy& policy) {
   }
   auto part = load_plan(s.options.files[0], s.job);
   if (!part) return s.end(part.error(), kUnreadable);
-  const auto inputs = gather(s.options.inputs, s.job);
+  const auto inputs = gather(s.options.inputs, *part, s.job);
   if (!inputs) return s.end(inputs.error(), kUnreadable);
   if (s.options.deadline) s.job.set_deadline(std::chrono::steady_clock::now() + *s.options.deadline);
   const auto plan = pipeline::bind(*std::move(part), *inputs, policy, s.job);

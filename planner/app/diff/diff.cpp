@@ -77,6 +77,10 @@ class Pairs {
     for (const Attribute& at : model::noun_type(p.a.type).attributes) {
       const std::string name = p.path.empty() ? std::string(at.name) : p.path + "/" + std::string(at.name);
       if (at.name == "persistent_id") continue;
+      // What only one kind of file can hold is no difference when the other says nothing of it.
+      if (!at.in_iso14649 &&
+          model::has_value(at, a_.model.object(p.a)) != model::has_value(at, b_.model.object(p.b)))
+        continue;
       if (is_reference(at.storage)) {
         references(at, p, name);
       } else {
@@ -234,7 +238,9 @@ std::vector<std::string> inputs(const Plan& a, const Plan& b) {
     if (x != y) out.push_back(change(what, x.empty() ? "none" : x, y.empty() ? "none" : y));
   };
   one("machine", a.machine.id, b.machine.id);
-  if (a.machine.id == b.machine.id && !(a.machine == b.machine)) out.emplace_back("machine: its data differ");
+  const bool known = !a.machine.axes[0].name.empty() && !b.machine.axes[0].name.empty();
+  if (a.machine.id == b.machine.id && known && !(a.machine == b.machine))
+    out.emplace_back("machine: its data differ");
   one("material", a.material.id, b.material.id);
   if (a.material.id == b.material.id && a.material.kc11_n_mm2 != b.material.kc11_n_mm2)
     one("kc1.1 of the material", shortest(a.material.kc11_n_mm2), shortest(b.material.kc11_n_mm2));
@@ -250,6 +256,13 @@ std::vector<std::string> inputs(const Plan& a, const Plan& b) {
   return out;
 }
 
+/// A cutter without what an ISO 14649 file leaves out of it.
+model::Cutter bare(model::Cutter c) {
+  c.presets.clear();
+  c.sources.clear();
+  return c;
+}
+
 std::vector<std::string> tools(const Plan& a, const Plan& b) {
   std::vector<std::string> out;
   for (const auto& c : a.cutters) {
@@ -258,7 +271,7 @@ std::vector<std::string> tools(const Plan& a, const Plan& b) {
       out.push_back("- T" + std::to_string(c.pocket) + " " + c.id + " (" + cutter_text(a, c.id) + ")");
     } else if (other->pocket != c.pocket) {
       out.push_back(change(c.id, "T" + std::to_string(c.pocket), "T" + std::to_string(other->pocket)));
-    } else if (!(*other == c)) {
+    } else if (!(bare(*other) == bare(c))) {
       out.push_back("~ " + c.id + ": its data differ");
     }
   }
@@ -313,9 +326,14 @@ std::vector<std::string> features(const Plan& a, const Plan& b) {
   return out;
 }
 
-double seconds_of(const Plan& plan, const StepView& v) {
+bool has_paths(const Plan& plan) {
+  return std::all_of(plan.steps.begin(), plan.steps.end(), [](const auto& s) { return s.path != nullptr; });
+}
+
+/// As motion times the path, or as the plan states it where not both plans hold paths.
+double seconds_of(const Plan& plan, const StepView& v, bool by_path) {
   if (v.result == nullptr) return 0.0;
-  if (v.result->path != nullptr) {
+  if (by_path && v.result->path != nullptr) {
     if (const auto t = motion::time_of(*v.result->path, motion::schedule_of(*v.result), plan.machine))
       return t->total_s();
   }
@@ -351,7 +369,7 @@ std::vector<std::string> results(const Plan& a, const Plan& b, const StepView& x
   number("spindle", p.spindle_rpm, q.spindle_rpm, " 1/min");
   number("feed", p.feed_mm_min, q.feed_mm_min, " mm/min");
   if (p.flood != q.flood || p.mist != q.mist) out.emplace_back("coolant differs");
-  if ((p.path == nullptr) != (q.path == nullptr) || (p.path != nullptr && !(*p.path == *q.path)))
+  if (p.path != nullptr && q.path != nullptr && !(*p.path == *q.path))
     out.push_back(change("path", path_text(p), path_text(q)));
   const bool schedule = p.schedule != nullptr && q.schedule != nullptr && p.path != nullptr &&
                         q.path != nullptr && *p.path == *q.path && !(*p.schedule == *q.schedule);
@@ -397,16 +415,17 @@ std::string about(const Plan& plan, const StepView& v) {
 }
 
 void steps(const Plan& a, const Plan& b, Report& report) {
+  const bool by_path = has_paths(a) && has_paths(b);
   const auto before = views_of(a);
   const auto after = views_of(b);
   std::vector<std::string> listed;
   for (const auto& v : before) {
     if (find(after, v.id) == nullptr)
-      listed.push_back("- " + about(a, v) + ": " + signed_time(-seconds_of(a, v)));
+      listed.push_back("- " + about(a, v) + ": " + signed_time(-seconds_of(a, v, by_path)));
   }
   for (const auto& v : after) {
     if (find(before, v.id) == nullptr)
-      listed.push_back("+ " + about(b, v) + ": " + signed_time(seconds_of(b, v)));
+      listed.push_back("+ " + about(b, v) + ": " + signed_time(seconds_of(b, v, by_path)));
   }
   if (const auto moved = order_change(before, after)) listed.push_back(*moved);
   report.section("Steps", listed);
@@ -419,14 +438,14 @@ void steps(const Plan& a, const Plan& b, Report& report) {
       lines.insert(lines.end(), more.begin(), more.end());
     };
     add(pairs.compare(v.step, w->step));
-    const double gain = seconds_of(b, *w) - seconds_of(a, v);
+    const double gain = seconds_of(b, *w, by_path) - seconds_of(a, v, by_path);
     if (rounded(gain, 1) != 0.0) lines.push_back("time: " + signed_time(gain));
     report.section("Step '" + v.id + "'", lines);
   }
 }
 
-std::optional<double> total(const Plan& plan) {
-  if (const auto t = motion::time_of(plan); t && t->total_s() > 0.0) return t->total_s();
+std::optional<double> total(const Plan& plan, bool by_path) {
+  if (const auto t = motion::time_of(plan); by_path && t && t->total_s() > 0.0) return t->total_s();
   double s = 0.0;
   for (const auto& r : plan.steps) s += r.cutting_s + r.rapid_s;
   return s > 0.0 ? std::optional(s) : std::nullopt;
@@ -441,8 +460,9 @@ Difference diff(const Plan& before, const Plan& after) {
   report.section("Features", features(before, after));
   steps(before, after, report);
   if (!report.same()) {
-    const auto x = total(before);
-    const auto y = total(after);
+    const bool by_path = has_paths(before) && has_paths(after);
+    const auto x = total(before, by_path);
+    const auto y = total(after, by_path);
     if (x && y)
       report.tail("Time in all: " + duration(*x) + " -> " + duration(*y) + " (" + signed_time(*y - *x) + ")");
   }

@@ -15,7 +15,9 @@ struct Difference {
 /// steps (removed, added, moved), and in each step that both have the values, binders and reasons, and the
 /// path. Steps are matched by their persistent id, features by kind and name.
 ///
-/// Time of steps is motion's where both hold paths, else what the plans state. Same plans, same bytes.
+/// What an ISO 14649 file cannot hold (paths as planned, data of the machine) is compared where both plans
+/// have it. Time of steps is motion's where both hold paths, else what the plans state. Same plans, same
+/// bytes.
 [[nodiscard]] Difference diff(const model::Plan& before, const model::Plan& after);
 
 }  // namespace capstan::app

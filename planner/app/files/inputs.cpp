@@ -1,5 +1,6 @@
 #include "planner/app/files/inputs.h"
 
+#include <algorithm>
 #include <string>
 
 #include "planner/base/number.h"
@@ -27,23 +28,76 @@ std::string objective_text(pipeline::Objective o) {
   return "time";
 }
 
-void name_choices(const InputOptions& o, pipeline::Inputs& in) {
+/// What the plan says it was made with under that name, or null.
+const model::Provenance* made_with(const model::Plan& plan, std::string_view what) {
+  for (const auto& p : plan.provenance) {
+    if (p.what == what) return &p;
+  }
+  return nullptr;
+}
+
+/// The option that a plan was made with still holds when it is planned again, unless another is given.
+void choices(const InputOptions& o, const model::Plan& plan, pipeline::Inputs& in) {
   auto& p = in.provenance;
-  if (o.material) p.push_back({"material", *o.material, "--material"});
-  if (!o.stock_text.empty()) p.push_back({"stock", o.stock_text, "--stock"});
+  in.material_name = o.material;
+  if (o.material) {
+    p.push_back({"material", *o.material, "--material"});
+  } else if (const auto* before = made_with(plan, "material")) {
+    in.material_name = before->value;
+    p.push_back(*before);
+  }
+  in.stock = o.stock;
+  in.stock_allowance_mm = o.stock_allowance_mm;
+  if (!o.stock_text.empty()) {
+    p.push_back({"stock", o.stock_text, "--stock"});
+  } else if (const auto* before = made_with(plan, "stock"); before != nullptr && !plan.stock.box.empty()) {
+    in.stock = plan.stock.box;
+    p.push_back(*before);
+  }
+  in.objective = o.objective.value_or(pipeline::Objective::kTime);
   p.push_back({"objective", objective_text(in.objective), o.objective ? "--objective" : kDefault});
+  in.solver = o.solver.value_or(optimise::Solver::kNlopt);
   p.push_back({"solver", in.solver == optimise::Solver::kIpopt ? "ipopt" : "nlopt",
                o.solver ? "--solver" : kDefault});
 }
 
-}  // namespace
-
-Result<pipeline::Inputs> gather(const InputOptions& o, Job& job) {
-  pipeline::Inputs in;
-  auto machine = tooling::load_machine(o.machine.value_or(std::string(tooling::kDefaultMachine)), job);
+Status machine_of(const InputOptions& o, const model::Plan& plan, pipeline::Inputs& in, Job& job) {
+  const auto shipped = tooling::shipped_machines();
+  const bool known = std::find(shipped.begin(), shipped.end(), plan.machine.id) != shipped.end();
+  const auto* before = made_with(plan, "machine");
+  if (!o.machine && has_data(plan.machine)) {
+    in.machine = plan.machine;
+    in.provenance.push_back(
+        before != nullptr ? *before : model::Provenance{"machine", in.machine.id, "the plan's own"});
+    return {};
+  }
+  const bool named = !o.machine && known;
+  auto machine = tooling::load_machine(o.machine ? *o.machine
+                                       : named   ? plan.machine.id
+                                                 : std::string(tooling::kDefaultMachine),
+                                       job);
   if (!machine) return tl::unexpected(machine.error());
   in.machine = *std::move(machine);
-  in.provenance.push_back({"machine", in.machine.id, o.machine ? "--machine " + *o.machine : kDefault});
+  const bool lost = !o.machine && !named && !plan.machine.id.empty();
+  if (lost)
+    job.warn("APP-MACHINE", "the plan was made for machine '" + plan.machine.id +
+                                "', whose data it does not hold; the built-in " + in.machine.id +
+                                " is taken");
+  if (named && before != nullptr) {
+    in.provenance.push_back(*before);
+  } else {
+    in.provenance.push_back({"machine", in.machine.id, o.machine ? "--machine " + *o.machine : kDefault});
+  }
+  return {};
+}
+
+}  // namespace
+
+bool has_data(const model::Machine& machine) { return !machine.axes[0].name.empty(); }
+
+Result<pipeline::Inputs> gather(const InputOptions& o, const model::Plan& plan, Job& job) {
+  pipeline::Inputs in;
+  if (auto ok = machine_of(o, plan, in, job); !ok) return tl::unexpected(ok.error());
 
   auto library = tooling::load_library(o.tools.value_or("generic"), job);
   if (!library) return tl::unexpected(library.error());
@@ -65,13 +119,8 @@ Result<pipeline::Inputs> gather(const InputOptions& o, Job& job) {
                            o.rules ? "shipped tables and " + *o.rules : std::string("shipped tables"),
                            o.rules ? "--rules " + *o.rules : kDefault});
 
-  in.material_name = o.material;
-  in.stock = o.stock;
-  in.stock_allowance_mm = o.stock_allowance_mm;
-  in.objective = o.objective.value_or(pipeline::Objective::kTime);
-  in.solver = o.solver.value_or(optimise::Solver::kNlopt);
   in.backends.ipopt = &optimise::solve_with_ipopt;
-  name_choices(o, in);
+  choices(o, plan, in);
   return in;
 }
 

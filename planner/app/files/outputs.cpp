@@ -86,6 +86,14 @@ class Temporaries {
   std::vector<std::pair<std::string, std::string>> files_;
 };
 
+/// What a writer said about no file in particular is about this one.
+void name_file(Job& job, const std::string& path) {
+  for (Diagnostic& d : job.take_diagnostics()) {
+    if (d.file.empty() && d.code == "EXC-LOSS") d.file = path;
+    job.report(std::move(d));
+  }
+}
+
 }  // namespace
 
 Result<Output> output_of(const std::string& path) {
@@ -140,8 +148,7 @@ Status make(const model::Plan& plan, std::vector<Output>& outputs, Job& job) {
       case OutputKind::kIso14649: {
         auto written = exchange::write_iso14649(plan, job);
         if (!written) return tl::unexpected(written.error());
-        for (const std::string& loss : written->losses)
-          job.report({.code = "OUT-LOSS", .severity = Severity::kNote, .message = loss, .file = o.path});
+        name_file(job, o.path);
         o.bytes = std::move(written->bytes);
         break;
       }

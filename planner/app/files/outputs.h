@@ -25,7 +25,7 @@ struct Output {
 /// All of them; the same file twice is a fault (OUT-TWICE).
 [[nodiscard]] Result<std::vector<Output>> outputs_of(const std::vector<std::string>& paths);
 
-/// Fills `bytes`. What ISO 14649 cannot hold is told as notes (OUT-LOSS).
+/// Fills `bytes`. What ISO 14649 cannot hold is told as notes (EXC-LOSS).
 /// Fails  as the writers.
 [[nodiscard]] Status make(const model::Plan& plan, std::vector<Output>& outputs, Job& job);
 

@@ -1,5 +1,6 @@
 #include "planner/app/show/inspect.h"
 
+#include <algorithm>
 #include <map>
 #include <variant>
 
@@ -181,7 +182,9 @@ std::string inspect(const model::Plan& plan, const std::vector<Diagnostic>& diag
   const Model& m = plan.model;
   std::string out =
       "Project    " + (plan.project.set() ? label(m, plan.project) : std::string("none")) + "\n";
-  if (!plan.header_description.empty()) out += "About      " + plan.header_description + "\n";
+  std::string about = plan.header_description;
+  std::replace(about.begin(), about.end(), '\n', ' ');
+  if (!about.empty()) out += "About      " + about + "\n";
   workpieces(plan, out);
   if (!plan.machine.id.empty()) out += "Machine    " + plan.machine.id + "\n";
   if (!plan.stock.box.empty())

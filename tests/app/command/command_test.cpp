@@ -53,9 +53,8 @@ class CommandTest : public ::testing::Test {
     const int status = std::system(line.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, slurp(out), slurp(err)};
   }
-  [[nodiscard]] std::string put(const std::string& name, const std::string& bytes) const {
+  void put(const std::string& name, const std::string& bytes) const {
     std::ofstream(folder_ / name, std::ios::binary) << bytes;
-    return name;
   }
   /// Files of the folder but for the two streams.
   [[nodiscard]] std::vector<std::string> files() const {
