@@ -162,14 +162,20 @@ void cut_line(Knife& k, const Outline& o, Vec3 a, Vec3 b) {
     const double xa = a.x + t0 * d.x, xb = a.x + t1 * d.x;
     const auto [x0, x1] = k.grid.columns(std::min(xa, xb) - r, std::max(xa, xb) + r);
     for (int ix = x0; ix < x1; ++ix) {
-      if (k.grid.stock[k.grid.index(ix, iy)] <= zmin) continue;
+      const double stands = k.grid.stock[k.grid.index(ix, iy)];
+      if (stands <= zmin) continue;
       const Vec2 p = k.grid.centre(ix, iy);
       const double foot = length < 1e-9 ? 0.0 : dot(p - xy(a), d) / (length * length);
       const double t = std::clamp(foot, 0.0, 1.0);
-      const double near = norm(p - (xy(a) + t * d));
-      if (near > r) continue;
+      const Vec2 apart = p - (xy(a) + t * d);
+      const double square = dot(apart, apart);
+      if (square > r * r) continue;
+      const double near = std::sqrt(square);
+      // No lower than the cutter would be at its nearest, at the lower end.
+      const double bound = zmin + o.height(near);
+      if (stands <= bound) continue;
       if (level) {
-        k.at(ix, iy, zmin, zmin + o.height(near), near);
+        k.at(ix, iy, zmin, bound, near);
         continue;
       }
       const double off = norm(p - (xy(a) + foot * d));

@@ -17,6 +17,7 @@ using model::MoveRole;
 namespace {
 
 constexpr double kRapidClearanceMm = 1e-3;  ///< least gap under a rapid; more than a program's last decimal
+constexpr double kMeasured = 1.1;           ///< by which a rate measured on cells may be too large
 constexpr double kTouchMm3 = 1e-6;          ///< less than this is not a cut
 constexpr double kSlackMm = 0.02;           ///< of lengths measured on heights
 
@@ -129,7 +130,8 @@ void StepChecks::feed(const Move& m) {
 void StepChecks::gouge(const Move& m, const Bite& bite) {
   if (bite.gouge_mm > 0.0) {
     // The point of a drill below a flat bottom is what drilling does to one: said, but apart.
-    const bool point = tip_mm_ > 0.0 && hole_tool() && bite.gouge_mm <= tip_mm_ + target_.allowed();
+    const bool point = tip_mm_ > 0.0 && hole_tool() && bite.gouge_mm <= tip_mm_ + target_.allowed() &&
+                       norm(bite.gouge_at - xy(m.to)) <= 1.5 * grid_.cell();
     const std::string text = mm(bite.gouge_mm) + " below the finished surface at " + here(bite.gouge_at) +
                              "; allowed " + mm(target_.allowed()) + " (cells of " + mm(grid_.cell()) + ")";
     if (point) {
@@ -204,11 +206,10 @@ void StepChecks::entry(const Move& m, const Bite& bite) {
     }
     return;
   }
-  // Following a surface down is not an entry.
-  const bool entering = m.role_known ? (m.role == MoveRole::kRamp || m.role == MoveRole::kPlunge) : core;
+  // Following a surface down with a ball, or down a thread, is not an entry; a mill whose end cuts is.
+  const bool ramp = m.role_known && m.role == MoveRole::kRamp;
   const bool shaped = cutter_.cutter_class == CutterClass::kBallEndmill || plan_.target_mesh != nullptr;
-  const bool thread = cutter_.cutter_class == CutterClass::kThreadMill;
-  if (!entering || thread || !core || (shaped && !(m.role_known && m.role == MoveRole::kRamp))) return;
+  if (!core || cutter_.cutter_class == CutterClass::kThreadMill || (shaped && !ramp)) return;
   const double most = cutter_.maximum_ramp_angle_rad;
   const double degrees = 180.0 / std::numbers::pi;
   if (angle > most + 1e-4) {
@@ -334,8 +335,7 @@ void StepChecks::chip(double largest, double fz) {
     }
     return;
   }
-  // A tenth more than the limit: the width is measured on cells.
-  if (largest > 1.1 * limit.mm) {
+  if (largest > kMeasured * limit.mm) {
     out_.error(18, "CHK-FEED-TOOL", where,
                "chips of up to " + mm(largest) + " (feed per tooth " + mm(fz) + "); at most " + mm(limit.mm) +
                    " (" + limit.source + ", diameter " + mm(cutter_.cutting_diameter_mm) + ")",
@@ -359,13 +359,13 @@ void StepChecks::power(double volume, double minutes, double chip_mm) {
   const Findings::Where where{step_.order + 1, step_.id, sum_.where};
   const std::string how =
       ": " + plain(volume / minutes) + " mm3/min at kc = " + plain(kc) + " N/mm2, worn edge";
-  if (limit.power_w > 0.0 && power_w > limit.power_w * efficiency) {
+  if (limit.power_w > 0.0 && power_w > kMeasured * limit.power_w * efficiency) {
     out_.error(17, "CHK-POWER", where,
                "cutting asks for " + plain(power_w) + " W of " + plain(limit.power_w * efficiency) +
                    " W at " + plain(sum_.rpm) + " rpm" + how,
                power_w);
   }
-  if (limit.torque_nm > 0.0 && torque_nm > limit.torque_nm * efficiency) {
+  if (limit.torque_nm > 0.0 && torque_nm > kMeasured * limit.torque_nm * efficiency) {
     out_.error(17, "CHK-TORQUE", where,
                "cutting asks for " + plain(torque_nm) + " Nm of " + plain(limit.torque_nm * efficiency) +
                    " Nm at " + plain(sum_.rpm) + " rpm" + how,
