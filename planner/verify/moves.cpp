@@ -63,7 +63,7 @@ int pieces_of(const Move& m, double chord_mm) {
   const double r = std::max(norm(xy(m.from) - m.centre), norm(xy(m.to) - m.centre));
   if (r <= chord_mm) return 4;
   const double step = 2.0 * std::acos(1.0 - chord_mm / r);  // sagitta r (1 - cos(step / 2))
-  return std::clamp(static_cast<int>(std::ceil(sweep_of(m) / step)), 1, 20000);
+  return static_cast<int>(std::clamp(std::ceil(sweep_of(m) / std::max(step, 1e-9)), 1.0, 20000.0));
 }
 
 }  // namespace capstan::verify
