@@ -60,8 +60,8 @@ Result<model::Plan> bind(model::Plan plan, const Inputs& inputs, const Policy& p
   plan.unplanned.clear();
   Work w{std::move(plan), inputs, policy, job, {}, {}, {}};
   using Stage = Status (*)(Work&);
-  for (const Stage stage :
-       {resolve_workpiece, list_given, propose_missing, select_open_tools, order_steps, make_paths}) {
+  for (const Stage stage : {resolve_workpiece, list_given, propose_missing, select_open_tools, order_steps,
+                            carry_tools, make_paths, join_paths}) {
     if (auto ok = stage(w); !ok) return tl::unexpected(ok.error());
   }
   collect_cutters(w);

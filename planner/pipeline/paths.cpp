@@ -257,6 +257,7 @@ class PathMaker {
                                    " mm deep instead");
     out.question = q;
     out.answer = *std::move(answer);
+    out.depth_open = true;
     return {};
   }
 

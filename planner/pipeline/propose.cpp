@@ -391,6 +391,17 @@ Result<model::ToolRequirement> requirement_of(Work& w, const StepWork& step) {
                .hint = "or re-open the operations"});
 }
 
+/// A given tool stands out of its holder as far as its feature needs, as long as it is.
+void stand_out(const Work& w, StepWork& step) {
+  constexpr double kSpare = 5.0;  // between holder and material, mm; default, unsourced
+  for (const FeatureShape& s : step.shapes) {
+    const double above = std::max(0.0, transformed(w.plan.stock.box, inverse(s.frame)).hi.z);
+    const double needed = s.depth_mm + above + model::tip_length(step.cutter) + kSpare;
+    step.cutter.stick_out_mm =
+        std::max(step.cutter.stick_out_mm, std::min(needed, step.cutter.functional_length_mm));
+  }
+}
+
 /// Picks the cutter of one open operation; false when none fits.
 bool select_one(Work& w, StepWork& step, const std::vector<model::Cutter>& library) {
   const std::string name = w.plan.model.at<model::MachiningOperation>(step.operation).its_id.value_or("");
@@ -438,6 +449,7 @@ Status select_open_tools(Work& w) {
     auto cutter = tooling::cutter_from_nouns(w.plan.model, op->its_tool, w.job, w.inputs.library);
     if (cutter) {
       step.cutter = *std::move(cutter);
+      stand_out(w, step);
       w.used_cutters.push_back(step.cutter.id);
       continue;
     }

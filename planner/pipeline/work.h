@@ -61,7 +61,9 @@ Status list_given(Work& w);         ///< set-ups and workingsteps of the file, w
 Status propose_missing(Work& w);    ///< rules and tooling for features that have no bound operations
 Status select_open_tools(Work& w);  ///< cutters for given operations
 Status order_steps(Work& w);        ///< set-ups, order, pockets
+Status carry_tools(Work& w);        ///< which tool carries out a rapid movement
 Status make_paths(Work& w);         ///< depths, paths, sections, feeds, step by step
+Status join_paths(Work& w);         ///< given paths are reached from the security plane, and left to it
 
 // Shared pieces.
 [[nodiscard]] Ref<model::Setup> add_setup(Work& w, const geometry::Placement& workpiece_in_setup);
