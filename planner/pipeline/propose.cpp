@@ -391,15 +391,23 @@ Result<model::ToolRequirement> requirement_of(Work& w, const StepWork& step) {
                .hint = "or re-open the operations"});
 }
 
-/// A given tool stands out of its holder as far as its feature needs, as long as it is.
+/// A tool whose holder nobody described stands out of it as far as its feature needs, and as its flutes do;
+/// its length counts from the gage line, holder included. Defaults, unsourced.
 void stand_out(const Work& w, StepWork& step) {
-  constexpr double kSpare = 5.0;  // between holder and material, mm; default, unsourced
+  constexpr double kFluteShare = 1.5;   // of the cutting edge's length
+  constexpr double kSlenderness = 3.0;  // diameters
+  constexpr double kSpare = 5.0;        // between holder and material, mm
+  model::Cutter& c = step.cutter;
+  if (c.stick_out_mm < c.functional_length_mm) return;  // somebody did say
+  double needed = std::max(kFluteShare * c.maximum_depth_of_cut_mm, kSlenderness * c.cutting_diameter_mm);
   for (const FeatureShape& s : step.shapes) {
     const double above = std::max(0.0, transformed(w.plan.stock.box, inverse(s.frame)).hi.z);
-    const double needed = s.depth_mm + above + model::tip_length(step.cutter) + kSpare;
-    step.cutter.stick_out_mm =
-        std::max(step.cutter.stick_out_mm, std::min(needed, step.cutter.functional_length_mm));
+    needed = std::max(needed, s.depth_mm + above + model::tip_length(c) + kSpare);
   }
+  if (!(needed < c.stick_out_mm)) return;
+  c.stick_out_mm = c.usable_length_mm = needed;
+  c.sources.emplace_back("stick_out_mm",
+                         "default: what feature and flutes need, no holder being described; unsourced");
 }
 
 /// Picks the cutter of one open operation; false when none fits.

@@ -17,10 +17,6 @@
 namespace capstan::tooling {
 namespace {
 
-/// How far a tool stands out of a holder that nobody described. Defaults, unsourced.
-constexpr double kFluteShare = 1.5;
-constexpr double kSlenderness = 3.0;
-
 using model::Cutter;
 using model::CutterClass;
 using model::MachiningTool;
@@ -177,17 +173,11 @@ class Reader {
                                    " mm), which is therefore not used");
       return;
     }
-    c_.functional_length_mm = c_.usable_length_mm = length;
+    c_.functional_length_mm = c_.stick_out_mm = c_.usable_length_mm = length;
     stated("functional_length_mm", from);
-    c_.sources.emplace_back("usable_length_mm",
-                            std::string("derived: ") + from + ", no holder being described");
-    // The length counts from the gage line, holder included: what bends is the part that stands out of it.
-    const double slender =
-        std::max(kFluteShare * c_.maximum_depth_of_cut_mm, kSlenderness * c_.cutting_diameter_mm);
-    c_.stick_out_mm = std::min(length, slender);
-    c_.sources.emplace_back("stick_out_mm",
-                            "default: 1.5 times the cutting edge, at least three diameters, at most " +
-                                std::string(from) + "; no holder being described; unsourced");
+    const std::string derived = std::string("derived: ") + from + ", no holder being described";
+    c_.sources.emplace_back("stick_out_mm", derived);
+    c_.sources.emplace_back("usable_length_mm", derived);
   }
   void read_material() {
     c_.substrate = model::Substrate::kHss;
