@@ -15,6 +15,7 @@
 #include "planner/model/material.h"
 #include "planner/model/plan.h"
 #include "planner/model/proposal.h"
+#include "planner/model/shape.h"
 
 /// What was cut once, found again when something near to it is asked.
 namespace capstan::casebase {
@@ -148,8 +149,8 @@ struct Sizes {
   double diameter_mm = 0.0, depth_mm = 0.0, width_mm = 0.0, tolerance_mm = 0.0;
   friend bool operator==(const Sizes&, const Sizes&) = default;
 };
-/// The sizes of a feature as its file gives them, the same when asking and when retaining.
-[[nodiscard]] Sizes sizes_of(const model::Model& model, model::AnyRef feature);
+/// The sizes of a feature, the same when asking and when retaining.
+[[nodiscard]] Sizes sizes_of(const model::FeatureShape& shape);
 
 [[nodiscard]] Question question_of(std::string_view operation, std::string_view material_group,
                                    std::string_view tool_class, std::string_view machine_id,
@@ -159,9 +160,13 @@ struct Sizes {
                                    const Sizes& sizes);
 
 /// A planned step as a simulated case, verdict "unknown"; `source` names the plan's file and the step.
+/// Without `asked` the sizes are those of the workingstep's feature.
 ///
-/// Fails   CASE-STEP when the step is no machining step with a cutter, or its numbers cannot be a case.
+/// Fails   CASE-STEP when the step is no machining step with a cutter, when its feature has no shape or
+///         several of different sizes (a compound: say which was asked), or its numbers cannot be a case.
 [[nodiscard]] Result<Case> case_of(const model::Plan& plan, const model::StepResult& step);
+[[nodiscard]] Result<Case> case_of(const model::Plan& plan, const model::StepResult& step,
+                                   const Sizes& asked);
 
 /// Comma-separated values (RFC 4180), one case per row, the column names in the first; numbers read back to
 /// the same bits.

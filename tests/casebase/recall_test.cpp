@@ -1,0 +1,275 @@
+#include "casebase/casebase.h"
+#include "casebase/index.h"
+#include "casebase/sha256.h"
+#include "planner/model/nouns/all.h"
+#include "tests/casebase/sample.h"
+
+namespace capstan::casebase {
+namespace {
+
+class Recall : public testing::Test {
+ protected:
+  void keep(std::vector<Case> cases) { ASSERT_TRUE(base_.add(cases).has_value()); }
+  Folder folder_;
+  Job job_;
+  CaseBase base_ = CaseBase::open_or_create(folder_.file(), job_).value();
+};
+
+TEST(Sha256, MatchesThePublishedExamples) {  // FIPS 180-2, appendix B.1 and B.2
+  EXPECT_EQ(sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  EXPECT_EQ(sha256("abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq"),
+            "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1");
+  EXPECT_EQ(sha256(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+}
+
+TEST_F(Recall, GivesNothingFromAnEmptyBase) {
+  EXPECT_EQ(base_.size(), 0u);
+  EXPECT_TRUE(base_.nearest(sample().asked, 3)->empty());
+  const Answer a = base_.ask(sample().asked);
+  EXPECT_FALSE(a.precedent.has_value());
+  EXPECT_FALSE(a.why.empty());
+}
+
+TEST_F(Recall, GivesTheCaseWithItsDistanceAndProvenance) {
+  keep({sample(10.0, 30.0)});
+  Question q = sample().asked;
+  q.diameter_mm = 12.0;
+  const auto p = base_.recall(q);
+  ASSERT_TRUE(p.has_value());
+  EXPECT_NEAR(p->distance, std::log2(1.2), 1e-12);
+  EXPECT_EQ(p->provenance, "measured");
+  EXPECT_EQ(p->neighbours, 1);
+  EXPECT_EQ(p->vc_m_min, 30.0);
+  EXPECT_EQ(p->fz_mm, 0.1);
+}
+
+TEST_F(Recall, SaysNoPrecedentPastTheThreshold) {
+  keep({sample(10.0)});
+  Question q = sample().asked;
+  q.diameter_mm = 14.0;  // log2(1.4) = 0.485
+  EXPECT_TRUE(base_.recall(q).has_value());
+  q.diameter_mm = 14.3;  // log2(1.43) = 0.516
+  EXPECT_FALSE(base_.recall(q).has_value());
+  EXPECT_EQ(base_.nearest(q, 1)->size(), 1u);
+}
+
+TEST_F(Recall, MatchesEveryCategoryExactly) {
+  keep({sample()});
+  for (std::string Question::*const category :
+       {&Question::operation, &Question::material_group, &Question::tool_class, &Question::machine_class}) {
+    Question q = sample().asked;
+    q.*category += "x";
+    EXPECT_FALSE(base_.recall(q).has_value());
+    EXPECT_TRUE(base_.nearest(q, 5)->empty());
+  }
+}
+
+TEST_F(Recall, NeverMixesProvenances) {
+  Case near = sample(10.0, 40.0, "plan");
+  near.provenance = "simulated";
+  near.verdict = "unknown";
+  const Case measured = sample(11.0, 30.0);
+  keep({near, measured});
+  const auto p = base_.recall(near.asked);
+  ASSERT_TRUE(p.has_value());
+  EXPECT_EQ(p->provenance, "measured");
+  EXPECT_EQ(p->neighbours, 1);
+  EXPECT_EQ(p->vc_m_min, 30.0);
+}
+
+TEST_F(Recall, DoesNotLeadByABadOrUnjudgedCutting) {
+  Case bad = sample(10.0, 30.0, "broken");
+  bad.verdict = "bad";
+  Case unjudged = sample(10.0, 20.0, "running");
+  unjudged.verdict = "unknown";
+  keep({bad, unjudged});
+  EXPECT_FALSE(base_.recall(bad.asked).has_value());
+}
+
+TEST_F(Recall, PassesOverWhatFailedWhenCutNoHarder) {
+  Case bad = sample(10.0, 28.0, "broken");
+  bad.verdict = "bad";
+  keep({bad, sample(10.0, 30.0), sample(11.0, 25.0)});
+  EXPECT_EQ(base_.recall(bad.asked)->vc_m_min, 25.0);
+}
+
+TEST_F(Recall, PassesOverAPoisonedOutlier) {
+  keep({sample(10.0, 300.0, "poison"), sample(10.5, 30.0), sample(11.0, 32.0)});
+  const auto p = base_.recall(sample(10.0).asked);
+  ASSERT_TRUE(p.has_value());
+  EXPECT_EQ(p->vc_m_min, 30.0);
+  EXPECT_EQ(p->neighbours, 2);
+}
+
+TEST_F(Recall, FindsWhatLookingAtEveryCaseFinds) {
+  const std::vector<Case> all = random_cases(500, 11);
+  keep(all);
+  for (const Case& asked : random_cases(50, 12)) {
+    std::vector<std::pair<double, std::string>> expected;
+    for (const Case& c : base_.cases()) {
+      if (bucket_of(c.asked) != bucket_of(asked.asked)) continue;
+      expected.emplace_back(std::sqrt(distance2(point_of(asked.asked), point_of(c.asked))), c.id);
+    }
+    std::sort(expected.begin(), expected.end());
+    expected.resize(std::min<std::size_t>(expected.size(), 7));
+    std::vector<std::pair<double, std::string>> found;
+    const auto neighbours = base_.nearest(asked.asked, 7);
+    ASSERT_TRUE(neighbours.has_value());
+    for (const Neighbour& n : *neighbours) found.emplace_back(n.distance, n.found.id);
+    EXPECT_EQ(found, expected);
+  }
+}
+
+TEST_F(Recall, RefusesAQuestionThatCannotBe) {
+  Question q = sample().asked;
+  q.depth_mm = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(base_.nearest(q, 1).error().code, "CASE-INVALID");
+  EXPECT_FALSE(base_.recall(q).has_value());
+  q.depth_mm = -1.0;
+  EXPECT_EQ(base_.nearest(q, 1).error().code, "CASE-INVALID");
+}
+
+TEST(CaseFault, IsFoundInWrongUnitsAndImpossibleNumbers) {
+  EXPECT_EQ(fault_of(sample()), std::nullopt);
+  const auto broken = [](auto change) {
+    Case c = sample();
+    change(c);
+    return fault_of(c).has_value();
+  };
+  EXPECT_TRUE(broken([](Case& c) { c.vc_m_min = 12000.0; }));  // 1/min: 382,000 1/min on 10 mm
+  EXPECT_TRUE(broken([](Case& c) { c.fz_mm = 200.0; }));       // mm/min
+  EXPECT_TRUE(broken([](Case& c) { c.fz_mm = 0.0; }));
+  EXPECT_TRUE(broken([](Case& c) { c.ae_mm = 10.1; }));  // wider than the cutter
+  EXPECT_TRUE(broken([](Case& c) { c.cycle_s = std::numeric_limits<double>::infinity(); }));
+  EXPECT_TRUE(broken([](Case& c) { c.wear_mm = std::numeric_limits<double>::quiet_NaN(); }));
+  EXPECT_TRUE(broken([](Case& c) { c.teeth = 0; }));
+  EXPECT_TRUE(broken([](Case& c) { c.provenance = "dreamt"; }));
+  EXPECT_TRUE(broken([](Case& c) { c.source = "a\nb"; }));
+  EXPECT_TRUE(broken([](Case& c) { c.source.clear(); }));
+  EXPECT_TRUE(broken([](Case& c) { c.asked.operation = "DRILLING'; --"; }));
+}
+
+TEST(CaseId, DependsOnEverythingButItself) {
+  const Case c = sample();
+  Case same = c;
+  same.id = "other";
+  same.deviation_mm = -0.0;
+  EXPECT_EQ(id_of(same), c.id);
+  for (auto change : std::vector<void (*)(Case&)>{
+           [](Case& x) { x.asked.tolerance_mm = 0.01; },
+           [](Case& x) { x.vc_m_min = std::nextafter(30.0, 31.0); }, [](Case& x) { x.teeth = 3; },
+           [](Case& x) { x.coolant = false; }, [](Case& x) { x.source = "part 2"; }}) {
+    Case other = c;
+    change(other);
+    EXPECT_NE(id_of(other), c.id);
+  }
+}
+
+TEST(Csv, ReadsBackToTheSameBits) {
+  std::vector<Case> cases = random_cases(50, 3);
+  cases[0].source = "shop \"north\", part 7";
+  cases[0].vc_m_min = 0.1 + 0.2;
+  cases[0].id = id_of(cases[0]);
+  const auto back = from_csv(to_csv(cases), "cases.csv");
+  ASSERT_TRUE(back.has_value()) << to_text(back.error());
+  EXPECT_EQ(*back, cases);
+}
+
+TEST(Csv, SaysWhichLineIsWrong) {
+  std::string text = to_csv(std::vector<Case>{sample(10.0), sample(11.0)});
+  std::string altered = text;
+  altered.replace(altered.rfind(",30,"), 4, ",31,");
+  auto read = from_csv(altered, "cases.csv");
+  ASSERT_FALSE(read.has_value());
+  EXPECT_EQ(read.error().line, 3u);
+  EXPECT_EQ(read.error().code, "CASE-CSV");
+  altered = text;
+  altered.replace(altered.rfind(",30,"), 4, ",30;");
+  EXPECT_EQ(from_csv(altered, "cases.csv").error().line, 3u);
+  EXPECT_FALSE(from_csv("", "cases.csv").has_value());
+  EXPECT_FALSE(from_csv("id,operation\n", "cases.csv").has_value());
+  EXPECT_FALSE(from_csv("\"", "cases.csv").has_value());
+}
+
+/// A plan of one drilled hole.
+struct Planned {
+  model::Plan plan;
+  Planned() {
+    const auto size = plan.model.add(model::TolerancedLengthMeasure{.theoretical_size = 10.0});
+    model::RoundHole hole;
+    hole.its_id = "HOLE";
+    hole.diameter = size;
+    const auto feature = plan.model.add(hole);
+    const auto operation = plan.model.add(model::Drilling{});
+    model::MachiningWorkingstep ws;
+    ws.its_id = "WS DRILL";
+    ws.its_feature = feature;
+    ws.its_operation = operation;
+    plan.file_name = "part.stp";
+    plan.machine.id = "generic_vmc";
+    plan.material.id = "mild_steel";
+    plan.material.iso_group = "P";
+    model::Cutter drill;
+    drill.id = "D10";
+    drill.cutter_class = model::CutterClass::kTwistDrill;
+    drill.substrate = model::Substrate::kHss;
+    drill.cutting_diameter_mm = 10.0;
+    drill.teeth = 2;
+    plan.cutters = {drill};
+    model::StepResult step;
+    step.step = plan.model.add(ws);
+    step.cutter_id = "D10";
+    step.vc_m_min = 30.0;
+    step.fz_mm = 0.1;
+    step.cutting_s = 6.0;
+    step.rapid_s = 0.5;
+    step.flood = true;
+    plan.steps = {step};
+  }
+};
+
+TEST(Retain, MakesASimulatedCaseThatTheSameQuestionFinds) {
+  const Planned p;
+  const Sizes sizes{.diameter_mm = 10.0, .depth_mm = 20.0};
+  const auto c = case_of(p.plan, p.plan.steps[0], sizes);
+  ASSERT_TRUE(c.has_value()) << to_text(c.error());
+  EXPECT_EQ(c->provenance, "simulated");
+  EXPECT_EQ(c->verdict, "unknown");
+  EXPECT_EQ(c->source, "plan part.stp step WS DRILL");
+  EXPECT_EQ(c->cycle_s, 6.5);
+  EXPECT_EQ(c->asked, sample().asked);
+  EXPECT_EQ(c->asked,
+            question_of(model::TypeId::kDrilling, p.plan.material, p.plan.cutters[0], p.plan.machine, sizes));
+
+  const Folder folder;
+  Job job;
+  auto base = CaseBase::open_or_create(folder.file(), job).value();
+  ASSERT_TRUE(base.add(*c).has_value());
+  EXPECT_EQ(base.recall(c->asked)->case_id, c->id);
+}
+
+TEST(Retain, RefusesAStepWithoutACutter) {
+  Planned p;
+  p.plan.cutters.clear();
+  EXPECT_EQ(case_of(p.plan, p.plan.steps[0], Sizes{}).error().code, "CASE-STEP");
+}
+
+TEST(Retain, RefusesAFeatureWhoseShapeIsUnknown) {
+  const Planned p;  // the hole has no depth
+  EXPECT_EQ(case_of(p.plan, p.plan.steps[0]).error().code, "CASE-STEP");
+}
+
+TEST(Retain, TakesTheSizesOfTheShape) {
+  model::FeatureShape hole;
+  hole.kind = model::ShapeKind::kHole;
+  hole.depth_mm = 20.0;
+  hole.diameter = {.nominal_mm = 10.0, .lower_mm = -0.005, .upper_mm = 0.01, .given = true};
+  const Sizes s = sizes_of(hole);
+  EXPECT_EQ(s.diameter_mm, 10.0);
+  EXPECT_EQ(s.depth_mm, 20.0);
+  EXPECT_EQ(s.width_mm, 0.0);
+  EXPECT_DOUBLE_EQ(s.tolerance_mm, 0.015);
+}
+
+}  // namespace
+}  // namespace capstan::casebase

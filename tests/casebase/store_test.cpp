@@ -1,0 +1,381 @@
+#include "casebase/store.h"
+
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <csignal>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <thread>
+
+#include "tests/casebase/sample.h"
+
+namespace capstan::casebase {
+namespace {
+
+using testing::HasSubstr;
+
+std::string code_of_opening(const std::string& path) {
+  Job job;
+  const auto base = CaseBase::open(path, job);
+  return base ? "" : base.error().code;
+}
+
+std::string bytes_of(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+void write_bytes(const std::string& path, const std::string& bytes) {
+  std::ofstream(path, std::ios::binary) << bytes;
+}
+
+TEST(CaseStore, KeepsWhatWasAdded) {
+  const Folder folder;
+  std::vector<Case> cases = random_cases(100, 1);
+  fill(folder.file(), cases);
+  Job job;
+  for (const std::string& uri : {folder.file(), "sqlite:" + folder.file()}) {
+    const auto base = CaseBase::open(uri, job);
+    ASSERT_TRUE(base.has_value()) << to_text(base.error());
+    std::sort(cases.begin(), cases.end(), [](const Case& a, const Case& b) { return a.id < b.id; });
+    EXPECT_EQ(base->cases(), cases);
+  }
+  EXPECT_TRUE(job.diagnostics().empty());
+}
+
+TEST(CaseStore, AddsEqualCasesOnce) {
+  const Folder folder;
+  fill(folder.file(), {sample(), sample(), sample(11.0)});
+  fill(folder.file(), {sample(), sample(12.0)});
+  Job job;
+  EXPECT_EQ(CaseBase::open(folder.file(), job)->size(), 3u);
+  EXPECT_TRUE(job.diagnostics().empty());
+}
+
+TEST(CaseStore, AddsAllOrNone) {
+  const Folder folder;
+  fill(folder.file(), {sample()});
+  Job job;
+  auto base = CaseBase::open(folder.file(), job).value();
+  Case wrong = sample(11.0);
+  wrong.vc_m_min = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<Case> both = {sample(12.0), wrong};
+  const Status added = base.add(both);
+  ASSERT_FALSE(added.has_value());
+  EXPECT_EQ(added.error().code, "CASE-INVALID");
+  EXPECT_THAT(added.error().message, HasSubstr("case 2 of 2"));
+  EXPECT_EQ(base.size(), 1u);
+  EXPECT_EQ(CaseBase::open(folder.file(), job)->size(), 1u);
+}
+
+TEST(CaseStore, RefusesAMissingFileAndDoesNotMakeIt) {
+  const Folder folder;
+  EXPECT_EQ(code_of_opening(folder.file()), "CASE-OPEN");
+  EXPECT_FALSE(std::filesystem::exists(folder.file()));
+  EXPECT_EQ(code_of_opening(folder.path()), "CASE-OPEN");
+}
+
+TEST(CaseStore, RefusesOtherUris) {
+  for (const std::string uri : {"", "sqlite:", "postgresql://host/cases", "http://host/x"}) {
+    EXPECT_EQ(code_of_opening(uri), "CASE-URI") << uri;
+  }
+}
+
+TEST(CaseStore, RefusesWhatIsNoCaseBase) {
+  const Folder folder;
+  write_bytes(folder.file("empty"), "");
+  EXPECT_EQ(code_of_opening(folder.file("empty")), "CASE-SCHEMA");
+  write_bytes(folder.file("text"), std::string(5000, 'x'));
+  EXPECT_EQ(code_of_opening(folder.file("text")), "CASE-SCHEMA");
+  tamper(folder.file("other"), "CREATE TABLE people(name)");
+  EXPECT_EQ(code_of_opening(folder.file("other")), "CASE-SCHEMA");
+  Job job;
+  EXPECT_FALSE(CaseBase::open_or_create(folder.file("other"), job).has_value());
+}
+
+TEST(CaseStore, RefusesANewerSchema) {
+  const Folder folder;
+  fill(folder.file(), {sample()});
+  tamper(folder.file(), "PRAGMA user_version = 2");
+  Job job;
+  const auto base = CaseBase::open(folder.file(), job);
+  ASSERT_FALSE(base.has_value());
+  EXPECT_EQ(base.error().code, "CASE-SCHEMA");
+  EXPECT_THAT(base.error().message, HasSubstr("version 2"));
+}
+
+TEST(CaseStore, RefusesWhatItDidNotMake) {
+  for (const std::string sql : {
+           "CREATE TRIGGER t AFTER INSERT ON capstan_case BEGIN DELETE FROM capstan_case; END",
+           "CREATE VIEW v AS SELECT * FROM capstan_case",
+           "CREATE INDEX i ON capstan_case(vc_m_min)",
+           "CREATE TABLE more(x)",
+           "DROP TABLE capstan_total",
+           "ALTER TABLE capstan_case ADD COLUMN more",
+           "ALTER TABLE capstan_case RENAME TO real; CREATE VIEW capstan_case AS SELECT * FROM real",
+       }) {
+    const Folder folder;
+    fill(folder.file(), {sample()});
+    tamper(folder.file(), sql);
+    EXPECT_EQ(code_of_opening(folder.file()), "CASE-SCHEMA") << sql;
+  }
+}
+
+TEST(CaseStore, RefusesATriggerThatCameAfterOpening) {
+  const Folder folder;
+  fill(folder.file(), {sample()});
+  Job job;
+  auto base = CaseBase::open(folder.file(), job).value();
+  tamper(folder.file(), "CREATE TRIGGER t AFTER INSERT ON capstan_case BEGIN DELETE FROM capstan_case; END");
+  EXPECT_EQ(base.add(sample(11.0)).error().code, "CASE-SCHEMA");
+  EXPECT_EQ(base.size(), 1u);
+}
+
+TEST(CaseStore, LeavesOutAndNamesAlteredRows) {
+  for (const auto& [change, said] :
+       std::map<std::string, std::string>{{"vc_m_min = 31.0", "altered"},
+                                          {"vc_m_min = 9e999", "vc_m_min is not a finite number"},
+                                          {"fz_mm = 50.0", "fz_mm is 50"},
+                                          {"teeth = 4", "altered"},
+                                          {"coolant = 7", "coolant"},
+                                          {"provenance = 'simulated'", "altered"},
+                                          {"source = 'x' || char(0)", "source"},
+                                          {"id = '00000000000000000000000000000000'", "altered"}}) {
+    const Folder folder;
+    fill(folder.file(), {sample(10.0), sample(20.0)});
+    tamper(folder.file(), "UPDATE capstan_case SET " + change + " WHERE diameter_mm = 10.0");
+    Job job;
+    auto base = CaseBase::open(folder.file(), job);
+    ASSERT_TRUE(base.has_value()) << to_text(base.error());
+    EXPECT_EQ(base->cases(), std::vector<Case>{sample(20.0)}) << change;
+    ASSERT_FALSE(job.diagnostics().empty());
+    EXPECT_EQ(job.diagnostics()[0].code, "CASE-ROW");
+    EXPECT_THAT(job.diagnostics()[0].message, HasSubstr(said));
+    EXPECT_EQ(base->add(sample(30.0)).error().code, "CASE-DAMAGED");
+  }
+}
+
+TEST(CaseStore, LeavesOutRowsOfAnotherType) {
+  for (const std::string value : {"'fast'", "NULL", "x'00'"}) {
+    const Folder folder;
+    fill(folder.file(), {sample(10.0), sample(20.0)});
+    sqlite3* db = nullptr;
+    ASSERT_EQ(sqlite3_open(folder.file().c_str(), &db), SQLITE_OK);
+    // The file's text of the schema stays ours; only while this row is written, it is a laxer one.
+    const std::string lax =
+        "PRAGMA writable_schema = ON; CREATE TEMP TABLE kept AS SELECT sql FROM sqlite_schema WHERE name = "
+        "'capstan_case';"
+        "UPDATE sqlite_schema SET sql = replace(replace(replace(sql, ' NOT NULL', ''), ' REAL', ''), ' "
+        "STRICT,', '') "
+        "WHERE name = 'capstan_case'; PRAGMA writable_schema = RESET;";
+    const std::string write = "UPDATE capstan_case SET vc_m_min = " + value + " WHERE diameter_mm = 10.0;";
+    const std::string back =
+        "PRAGMA writable_schema = ON; UPDATE sqlite_schema SET sql = (SELECT sql FROM kept) WHERE name = "
+        "'capstan_case';";
+    ASSERT_EQ(sqlite3_exec(db, (lax + write + back).c_str(), nullptr, nullptr, nullptr), SQLITE_OK)
+        << sqlite3_errmsg(db);
+    sqlite3_close(db);
+    Job job;
+    const auto base = CaseBase::open(folder.file(), job);
+    ASSERT_TRUE(base.has_value()) << to_text(base.error());
+    EXPECT_EQ(base->cases(), std::vector<Case>{sample(20.0)});
+    EXPECT_THAT(job.diagnostics().at(0).message, HasSubstr("vc_m_min is "));
+  }
+}
+
+TEST(CaseStore, NoticesThatRowsAreGoneOrCameBack) {
+  const Folder folder;
+  fill(folder.file(), {sample(10.0), sample(20.0)});
+  tamper(folder.file(), "DELETE FROM capstan_case WHERE diameter_mm = 10.0");
+  Job job;
+  auto base = CaseBase::open(folder.file(), job);
+  ASSERT_TRUE(base.has_value());
+  EXPECT_THAT(job.diagnostics().at(0).message, HasSubstr("should hold 2 cases, and 1"));
+  EXPECT_EQ(base->add(sample(30.0)).error().code, "CASE-DAMAGED");
+}
+
+/// Never a crash, never an altered row; and where anything is missing, something is said.
+void expect_honest(const std::string& path, const std::map<std::string, Case>& originals,
+                   const std::string& how) {
+  Job job;
+  const auto base = CaseBase::open(path, job);
+  if (!base) return;
+  for (const Case& c : base->cases()) {
+    const auto original = originals.find(c.id);
+    ASSERT_NE(original, originals.end()) << how;
+    ASSERT_EQ(c, original->second) << how;
+  }
+  ASSERT_TRUE(base->size() == originals.size() || !job.diagnostics().empty()) << how;
+}
+
+class DamagedStore : public testing::Test {
+ protected:
+  void SetUp() override {
+    const std::vector<Case> cases = random_cases(60, 21);
+    fill(folder_.file(), cases);
+    for (const Case& c : cases) originals_[c.id] = c;
+    bytes_ = bytes_of(folder_.file());
+    ASSERT_GT(bytes_.size(), 8192u);
+  }
+  Folder folder_;
+  std::map<std::string, Case> originals_;
+  std::string bytes_;
+};
+
+TEST_F(DamagedStore, NeverGivesAnAlteredRowForAFlippedBit) {
+  std::mt19937 random(7);
+  for (int i = 0; i < 1500; ++i) {
+    // The first pages, where structure is, as often as all the rest.
+    const std::size_t reach = i % 2 == 0 ? 4096 : bytes_.size();
+    const std::size_t at = random() % reach;
+    const int bit = static_cast<int>(random() % 8);
+    std::string broken = bytes_;
+    broken[at] = static_cast<char>(broken[at] ^ (1 << bit));
+    const std::string path = folder_.file("broken.db");
+    write_bytes(path, broken);
+    expect_honest(path, originals_, "bit " + std::to_string(bit) + " of byte " + std::to_string(at));
+    if (HasFatalFailure()) return;
+    std::filesystem::remove(path + "-wal");  // a flipped header may ask for one
+    std::filesystem::remove(path + "-shm");
+  }
+}
+
+TEST_F(DamagedStore, NeverGivesAnAlteredRowForManyFlippedBytesOrATruncation) {
+  std::mt19937 random(8);
+  for (int i = 0; i < 200; ++i) {
+    std::string broken = bytes_;
+    for (int n = 0; n < 20; ++n) broken[random() % broken.size()] = static_cast<char>(random());
+    if (i % 2 == 0) broken = bytes_.substr(0, random() % bytes_.size());
+    const std::string path = folder_.file("broken.db");
+    write_bytes(path, broken);
+    expect_honest(path, originals_, "round " + std::to_string(i));
+    if (HasFatalFailure()) return;
+    std::filesystem::remove(path + "-wal");
+    std::filesystem::remove(path + "-shm");
+  }
+}
+
+TEST(CaseStore, IsReadWhereItMayNotBeWritten) {
+  const Folder folder;
+  fill(folder.file(), {sample()});
+  chmod(folder.file().c_str(), 0444);
+  chmod(folder.path().c_str(), 0555);
+  const bool root = geteuid() == 0;
+  if (root) ASSERT_EQ(seteuid(65534), 0);  // root writes everywhere
+  Job job;
+  auto base = CaseBase::open(folder.file(), job);
+  std::string added = "opened";
+  if (base) {
+    const Status status = base->add(sample(11.0));
+    added = status ? "added" : status.error().code;
+  }
+  const auto made = CaseBase::open_or_create(folder.file("new.db"), job);
+  if (root) ASSERT_EQ(seteuid(0), 0);
+  ASSERT_TRUE(base.has_value()) << to_text(base.error());
+  EXPECT_TRUE(base->recall(sample().asked).has_value());
+  EXPECT_EQ(added, "CASE-READ-ONLY");
+  ASSERT_FALSE(made.has_value());
+  EXPECT_EQ(made.error().code, "CASE-OPEN");
+}
+
+TEST(CaseStore, SaysWhenAnotherWriterHoldsIt) {
+  const Folder folder;
+  fill(folder.file(), {sample()});
+  Job job;
+  auto store = Store::open(folder.file(), Store::Missing::kRefuse, job, 30).value();
+  sqlite3* other = nullptr;
+  ASSERT_EQ(sqlite3_open(folder.file().c_str(), &other), SQLITE_OK);
+  ASSERT_EQ(sqlite3_exec(other, "BEGIN IMMEDIATE", nullptr, nullptr, nullptr), SQLITE_OK);
+  const std::vector<Case> more = {sample(11.0)};
+  EXPECT_EQ(store.add(more).error().code, "CASE-BUSY");
+  ASSERT_EQ(sqlite3_exec(other, "ROLLBACK", nullptr, nullptr, nullptr), SQLITE_OK);
+  EXPECT_TRUE(store.add(more).has_value());
+  sqlite3_close(other);
+}
+
+TEST(CaseStore, TakesTwoWritersAtATime) {
+  const Folder folder;
+  fill(folder.file(), {});
+  const std::vector<Case> cases = random_cases(40, 31);
+  std::vector<std::string> faults(2);
+  std::vector<std::thread> writers;
+  for (std::size_t w = 0; w < 2; ++w) {
+    writers.emplace_back([&, w] {
+      Job job;
+      auto base = CaseBase::open(folder.file(), job);
+      if (!base) {
+        faults[w] = to_text(base.error());
+        return;
+      }
+      for (std::size_t i = w * 10; i < w * 10 + 30 && faults[w].empty(); ++i) {  // ten of them both
+        if (const Status s = base->add(cases[i]); !s) faults[w] = to_text(s.error());
+      }
+    });
+  }
+  for (std::thread& t : writers) t.join();
+  EXPECT_EQ(faults, std::vector<std::string>(2));
+  Job job;
+  EXPECT_EQ(CaseBase::open(folder.file(), job)->size(), cases.size());
+  EXPECT_TRUE(job.diagnostics().empty());
+}
+
+TEST(CaseStore, LosesNothingWhenNoSpaceIsLeft) {
+  const Folder folder;
+  fill(folder.file(), {sample()});
+  Job job;
+  auto base = CaseBase::open(folder.file(), job).value();
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+  rlimit small = before;
+  small.rlim_cur = std::filesystem::file_size(folder.file());
+  const auto handler = signal(SIGXFSZ, SIG_IGN);
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+  const Status added = base.add(random_cases(2000, 41));
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &before), 0);
+  signal(SIGXFSZ, handler);
+  ASSERT_FALSE(added.has_value());
+  EXPECT_EQ(added.error().code, "CASE-STORE") << to_text(added.error());
+  EXPECT_EQ(base.cases(), std::vector<Case>{sample()});
+  EXPECT_TRUE(base.add(sample(11.0)).has_value());
+  EXPECT_EQ(CaseBase::open(folder.file(), job)->size(), 2u);
+  EXPECT_TRUE(job.diagnostics().empty());
+}
+
+TEST(CaseStore, IsWholeAfterItsWriterWasKilled) {
+  const Folder folder;
+  fill(folder.file(), {});
+  std::mt19937 random(51);
+  std::size_t before = 0;
+  for (unsigned round = 0; round < 25; ++round) {
+    const pid_t writer = fork();
+    ASSERT_GE(writer, 0);
+    if (writer == 0) {
+      Job job;
+      auto base = CaseBase::open(folder.file(), job);
+      for (unsigned i = 0; base; ++i) {
+        if (!base->add(random_cases(5, 1000 + 100 * round + i))) _exit(1);
+      }
+      _exit(2);
+    }
+    usleep(1000 + random() % 30000);
+    kill(writer, SIGKILL);
+    int status = 0;
+    waitpid(writer, &status, 0);
+    ASSERT_TRUE(WIFSIGNALED(status)) << WEXITSTATUS(status);
+    Job job;
+    const auto base = CaseBase::open(folder.file(), job);
+    ASSERT_TRUE(base.has_value()) << to_text(base.error());
+    ASSERT_TRUE(job.diagnostics().empty()) << to_text(job.diagnostics()[0]);
+    ASSERT_GE(base->size(), before);
+    ASSERT_EQ(base->size() % 5, 0u);  // a batch is there whole or not at all
+    before = base->size();
+  }
+  EXPECT_GT(before, 0u);
+}
+
+}  // namespace
+}  // namespace capstan::casebase
