@@ -443,10 +443,24 @@ bool select_one(Work& w, StepWork& step, const std::vector<model::Cutter>& libra
   return true;
 }
 
+/// Files name tools as they like, or not at all: different ones of one name get a name each.
+void tell_apart(std::vector<model::Cutter>& given, model::Cutter& cutter) {
+  const std::string name = cutter.id;
+  for (int n = 2;; ++n) {
+    const auto same =
+        std::find_if(given.begin(), given.end(), [&](const auto& c) { return c.id == cutter.id; });
+    if (same == given.end()) break;
+    if (*same == cutter) return;
+    cutter.id = name + "~" + std::to_string(n);
+  }
+  given.push_back(cutter);
+}
+
 }  // namespace
 
 Status select_open_tools(Work& w) {
   const std::vector<model::Cutter> library = usable(w);
+  std::vector<model::Cutter> given;
   for (StepWork& step : w.steps) {
     if (step.proposed || !step.operation.set()) continue;
     const auto* op = w.plan.model.get<model::MachiningOperation>(step.operation);
@@ -457,6 +471,7 @@ Status select_open_tools(Work& w) {
     auto cutter = tooling::cutter_from_nouns(w.plan.model, op->its_tool, w.job, w.inputs.library);
     if (cutter) {
       step.cutter = *std::move(cutter);
+      tell_apart(given, step.cutter);
       stand_out(w, step);
       w.used_cutters.push_back(step.cutter.id);
       continue;
