@@ -5,6 +5,7 @@
 #include "planner/toolpath/hole/hole_paths.h"
 #include "planner/toolpath/path_job.h"
 #include "planner/toolpath/region/region_paths.h"
+#include "planner/toolpath/section/section_path.h"
 
 namespace capstan::toolpath {
 
@@ -44,6 +45,9 @@ Result<GeneratedPath> hole_milling(const PathJob& task, Job& job) {
   // What an earlier step left is a hole already there.
   if (!task.previous_diameter_mm && task.left_on_side_mm)
     hole.previous_diameter_mm = task.shape.diameter.middle() - 2.0 * *task.left_on_side_mm;
+  if (task.shape.bottom_diameter_mm > 0.0 &&
+      task.shape.bottom_diameter_mm < task.shape.diameter.nominal_mm - 1e-6 && mills_sections(task.cutter))
+    return tapered_hole_path(hole, job);
   if (helix_suits(hole)) return helix_path(hole, job);
   hole.shape.area = hole.shape.reach = geometry::disc({0.0, 0.0}, 0.5 * task.shape.diameter.middle());
   return area_path(hole, job);

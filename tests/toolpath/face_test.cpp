@@ -252,6 +252,8 @@ TEST(SlotPath, RefusesACutterWiderThanTheSlotAndAFormThatDoesNotMatch) {
   PathJob vee = slot_job(8.0, 4.0, 10.0, true);
   vee.shape.slot_angle_rad = std::numbers::pi / 2.0;
   vee.shape.slot_profile = {{0, 0}, {4, 4}};
+  EXPECT_EQ(generate(vee, job).error().code, "TPA-NO-FIT") << "a flat end wider than the vee";
+  vee.cutter.cutter_class = model::CutterClass::kTwistDrill;
   EXPECT_EQ(generate(vee, job).error().code, "TPA-TOOL");
   vee.cutter.cutter_class = model::CutterClass::kChamferMill;
   vee.cutter.point_angle_rad = std::numbers::pi / 2.0;

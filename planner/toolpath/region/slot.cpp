@@ -4,6 +4,7 @@
 #include "planner/base/number.h"
 #include "planner/toolpath/region/patterns.h"
 #include "planner/toolpath/region/region_paths.h"
+#include "planner/toolpath/section/section_path.h"
 
 namespace capstan::toolpath {
 
@@ -28,6 +29,7 @@ Status check_form(const PathJob& task) {
     return fail({.code = "TPA-TOOL", .message = s.name + ": " + what, .path = s.name});
   };
   if (s.slot_angle_rad > 0.0) {
+    if (s.slot_bottom_radius_mm > 0.0) return refuse("no form cutter is known for a vee with a rounded tip");
     if (std::abs(c.point_angle_rad - s.slot_angle_rad) > 1e-3)
       return refuse("a vee of " + trimmed(s.slot_angle_rad * 180.0 / M_PI, 2) +
                     " degrees needs a cutter with that point angle");
@@ -84,7 +86,10 @@ Result<GeneratedPath> slot_path(const PathJob& task, Job& job) {
   const double d = task.cutter.cutting_diameter_mm;
   const bool form = !s.slot_profile.empty();
   if (form) {
-    if (auto ok = check_form(task); !ok) return tl::unexpected(ok.error());
+    if (auto ok = check_form(task); !ok) {
+      if (mills_sections(task.cutter)) return form_slot_path(task, job);
+      return tl::unexpected(ok.error());
+    }
   } else {
     const double largest =
         s.width.nominal_mm + std::max(0.0, s.width.upper_mm) - 2.0 * task.allowance_side_mm;
