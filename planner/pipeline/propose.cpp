@@ -410,6 +410,16 @@ void stand_out(const Work& w, StepWork& step) {
                          "default: what feature and flutes need, no holder being described; unsourced");
 }
 
+/// A cutter that is loaded is where the tool table says, and as long.
+void take_from_magazine(const Work& w, model::Cutter& cutter) {
+  for (const auto& c : w.inputs.library) {
+    if (c.pocket <= 0 || c.id != cutter.id) continue;
+    cutter.pocket = c.pocket;
+    if (c.functional_length_mm > 0.0) cutter.functional_length_mm = c.functional_length_mm;
+    return;
+  }
+}
+
 /// Picks the cutter of one open operation; false when none fits.
 bool select_one(Work& w, StepWork& step, const std::vector<model::Cutter>& library) {
   const std::string name = w.plan.model.at<model::MachiningOperation>(step.operation).its_id.value_or("");
@@ -473,6 +483,7 @@ Status select_open_tools(Work& w) {
       step.cutter = *std::move(cutter);
       tell_apart(given, step.cutter);
       stand_out(w, step);
+      take_from_magazine(w, step.cutter);
       w.used_cutters.push_back(step.cutter.id);
       continue;
     }
