@@ -102,7 +102,7 @@ inline model::Plan planned_plate() {
   r.feed_mm_min = 300.0;
   r.fz_mm = 300.0 / (2.0 * 960.0);
   r.cutting_s = 6.0;
-  r.active = {{"spindle_torque", 11.9, 12.0, "Nm", 0.05}};
+  r.active = {{"spindle_torque", 11.9, 12.0, "Nm", 0.005}};
   plan.setups.push_back({Ref<Setup>(m.all(TypeId::kSetup).front()), "G54", 30.0});
   plan.steps.push_back(r);
   return plan;

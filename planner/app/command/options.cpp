@@ -55,6 +55,7 @@ class CommandLine {
     check();
     show();
     shop();
+    cases();
   }
 
   Parsed parse(int argc, const char* const* argv) {
@@ -165,6 +166,28 @@ class CommandLine {
           command(*rules, "list", "a line per row", Command::kRulesList)}) {
       sub->add_option("--rules", raw_.rules, "a folder of rule tables to add to the built-in ones");
     }
+  }
+
+  void cases() {
+    auto* cases = app_.add_subcommand("cases", "what was cut once");
+    cases->require_subcommand(1);
+    auto* add =
+        command(*cases, "add", "keep cases: of a CSV file, or the steps of a plan", Command::kCasesAdd);
+    add->add_option("base", raw_.cases, "case base; made where there is none")->required();
+    files(add, "files", "CSV files or plans", 1, 1000);
+    auto* near =
+        command(*cases, "nearest", "the nearest cases, and the precedent they make", Command::kCasesNearest);
+    near->add_option("base", raw_.cases, "case base")->required();
+    auto& q = out_.question;
+    near->add_option("--operation", q.operation, "keyword of the operation, e.g. DRILLING")->required();
+    near->add_option("--material", q.material, "work material by any of its names")->required();
+    near->add_option("--tool", q.tool_class, "substrate and class, e.g. carbide/twist_drill")->required();
+    near->add_option("--machine", raw_.machine, "the machine's id");
+    near->add_option("--diameter", q.diameter_mm, "mm");
+    near->add_option("--depth", q.depth_mm, "mm");
+    near->add_option("--width", q.width_mm, "mm");
+    near->add_option("--tolerance", q.tolerance_mm, "width of the tolerance zone, mm");
+    near->add_option("-k", q.count, "how many")->check(CLI::Range(1U, 1000U));
   }
 
   template <class T>

@@ -37,6 +37,13 @@ enum class Command : std::uint8_t {
   kCasesNearest,
 };
 
+/// What `cases nearest` is asked.
+struct CaseQuestion {
+  std::string operation, material, tool_class;
+  double diameter_mm = 0.0, depth_mm = 0.0, width_mm = 0.0, tolerance_mm = 0.0;
+  unsigned count = 5;
+};
+
 /// A command line, understood.
 struct Options {
   Command command = Command::kPlan;
@@ -52,7 +59,8 @@ struct Options {
   bool schema = false;            ///< check: what reading found is a finding, too
   bool json_diagnostics = false;  ///< one JSON object per line on standard error
   unsigned threads = 1;
-  std::vector<std::string> words;  ///< cases nearest: what is asked; tools: a filter
+  std::vector<std::string> words;  ///< tools: a filter, an id
+  CaseQuestion question;           ///< cases nearest; the base is in `inputs.cases`
 };
 
 /// The options, or what to print and the exit code to end with (help, version: 0; wrong usage: 2).

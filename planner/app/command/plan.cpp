@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <utility>
 
@@ -8,6 +7,7 @@
 #include "planner/app/files/load.h"
 #include "planner/app/files/outputs.h"
 #include "planner/app/show/values.h"
+#include "planner/late/late.h"
 #include "planner/motion/time.h"
 #include "planner/pipeline/pipeline.h"
 #include "planner/verify/verify.h"
@@ -83,14 +83,24 @@ bool makes_program(const std::vector<Output>& outputs) {
                      [](const Output& o) { return o.kind == OutputKind::kLinuxCnc; });
 }
 
-/// Reads, plans, finishes.
-int planned(Session& s, const pipeline::Policy& policy) {
+/// What both are given: outputs that can be, a part, inputs. Gives an exit code when something is missing.
+struct Task {
+  std::vector<Output> outputs;
+  model::Plan part;
+  pipeline::Inputs inputs;
+};
+int prepared(Session& s, const pipeline::Policy& policy, Task& task) {
   auto outputs = outputs_of(s.options.outputs);
   if (!outputs) return s.end(outputs.error(), kUsage);
-  if (policy.bind != pipeline::Bind::kAll && makes_program(*outputs)) {
+  task.outputs = *std::move(outputs);
+  if (policy.bind != pipeline::Bind::kAll && makes_program(task.outputs)) {
     return s.end({.code = "OUT-OPEN",
                   .message = "a program needs every decision closed",
                   .hint = "leave --bind out, or write .p21 or .json"},
+                 kUsage);
+  }
+  if (policy.bind != pipeline::Bind::kAll) {
+    return s.end({.code = "APP-BIND", .message = "leaving decisions open (--bind) is not supported yet"},
                  kUsage);
   }
   if (s.options.inputs.cases) {
@@ -99,12 +109,11 @@ int planned(Session& s, const pipeline::Policy& policy) {
   }
   auto part = load_plan(s.options.files[0], s.job);
   if (!part) return s.end(part.error(), kUnreadable);
-  const auto inputs = gather(s.options.inputs, *part, s.job);
+  task.part = *std::move(part);
+  auto inputs = gather(s.options.inputs, task.part, s.job);
   if (!inputs) return s.end(inputs.error(), kUnreadable);
-  if (s.options.deadline) s.job.set_deadline(std::chrono::steady_clock::now() + *s.options.deadline);
-  const auto plan = pipeline::bind(*std::move(part), *inputs, policy, s.job);
-  if (!plan) return s.end(plan.error(), kImpossible);
-  return finish(s, *plan, *std::move(outputs));
+  task.inputs = *std::move(inputs);
+  return kDone;
 }
 
 }  // namespace
@@ -113,14 +122,32 @@ int run_plan(Session& s) {
   pipeline::Policy policy;
   policy.reopen = s.options.reopen;
   policy.bind = s.options.bind;
-  return planned(s, policy);
+  Task task;
+  if (const int code = prepared(s, policy, task); code != kDone) return code;
+  const auto plan = pipeline::bind(std::move(task.part), task.inputs, policy, s.job);
+  if (!plan) return s.end(plan.error(), kImpossible);
+  return finish(s, *plan, std::move(task.outputs));
 }
 
 int run_bind(Session& s) {
-  pipeline::Policy policy;
-  // A library of a machine's own tool table says what is loaded; a catalogue does not.
-  policy.only_loaded_cutters = s.options.inputs.tools.has_value();
-  return planned(s, policy);
+  Task task;
+  if (const int code = prepared(s, {}, task); code != kDone) return code;
+  // A catalogue says nothing of what is loaded.
+  const bool any = std::any_of(task.inputs.library.begin(), task.inputs.library.end(),
+                               [](const model::Cutter& c) { return c.pocket > 0; });
+  if (!any) {
+    return s.end(
+        {.code = "APP-MAGAZINE",
+         .message = "no cutter of the library is in the magazine",
+         .expected = "--tools with the machine's tool table (.tbl), or a list that gives tool numbers"},
+        kUsage);
+  }
+  late::LatePolicy policy;
+  if (s.options.deadline) policy.deadline = *s.options.deadline;
+  const auto outcome = late::bind(std::move(task.part), std::move(task.inputs), policy, s.job);
+  if (!outcome) return s.end(outcome.error(), kImpossible);
+  for (const std::string& what : outcome->reopened) s.job.note("LATE-REOPENED", what, "");
+  return finish(s, outcome->plan, std::move(task.outputs));
 }
 
 }  // namespace capstan::app

@@ -35,8 +35,9 @@ int dispatch(Session& s) {
     case Command::kRulesList:
       return run_rules(s);
     case Command::kCasesAdd:
+      return run_cases_add(s);
     case Command::kCasesNearest:
-      break;
+      return run_cases_nearest(s);
   }
   return kUsage;
 }

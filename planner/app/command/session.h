@@ -46,5 +46,7 @@ int run_diff(Session& s);
 int run_convert(Session& s);
 int run_tools(Session& s);
 int run_rules(Session& s);
+int run_cases_add(Session& s);
+int run_cases_nearest(Session& s);
 
 }  // namespace capstan::app

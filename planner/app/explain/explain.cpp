@@ -56,8 +56,10 @@ void limits(const model::StepResult* result, const std::string& indent, std::str
     out += indent + "held back by " + c.name + ": " + trimmed(c.value, kDecimals) + " of " +
            trimmed(c.limit, kDecimals) + (c.unit.empty() ? "" : " " + c.unit);
     if (c.shadow_price > 0.0) {
-      out += "; 1 % more of it would save " +
-             (c.shadow_price < 1e-4 ? "less than 0.0001" : trimmed(c.shadow_price, 4)) + " s";
+      // The optimiser gives the part of the time that 1 % more of the limit would save.
+      const double percent = 100.0 * c.shadow_price;
+      out += "; 1 % more of it would save " + (percent < 0.01 ? "less than 0.01" : trimmed(percent, 2)) +
+             " % of the cutting time";
     }
     out += "\n";
   }
@@ -187,9 +189,9 @@ void part_text(const Plan& plan, const StepView& v, const StepPart& part, std::s
     const Decision* d = plan.ledger.find(part.object, a.name);
     lines += "  " + std::string(a.name) + " = " + value_of_part(plan, part, a);
     if (d == nullptr) {
-      // Nothing was recorded: from the file, or made with the object that a decision chose.
+      // Nothing was recorded: from the file, or made with an object that a decision chose as a whole.
       const bool from_file = plan.model.origin(part.object).instance != 0;
-      lines += from_file ? "  (in the file)\n" : "  (with the " + part.role + ")\n";
+      lines += from_file ? "  (in the file)\n" : "  (comes with it)\n";
       continue;
     }
     lines += "\n";
@@ -270,9 +272,7 @@ void step_table(const Plan& plan, const std::vector<StepView>& views, std::strin
 
 void open_list(const Plan& plan, std::string& out) {
   Rows rows;
-  for (const auto& [key, d] : plan.ledger.entries()) {
-    if (d.state == model::DecisionState::kOpen) rows.push_back({key_text(plan, key)});
-  }
+  for (const DecisionKey& key : open_decisions(plan)) rows.push_back({key_text(plan, key)});
   if (!rows.empty()) out += "\nStill open\n" + table(rows);
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <map>
+#include <set>
 
 #include "planner/app/show/values.h"
 #include "planner/base/number.h"
@@ -120,6 +121,21 @@ std::string cutter_text(const model::Plan& plan, std::string_view cutter_id) {
   std::string kind(model::to_text(c->cutter_class));
   std::replace(kind.begin(), kind.end(), '_', ' ');
   return trimmed(c->cutting_diameter_mm, 3) + " mm " + kind;
+}
+
+std::vector<model::DecisionKey> open_decisions(const model::Plan& plan) {
+  std::vector<AnyRef> roots = {plan.project};
+  for (const TypeId t : {TypeId::kExecutable, TypeId::kManufacturingFeature}) {
+    const auto all = plan.model.all_below(t);
+    roots.insert(roots.end(), all.begin(), all.end());
+  }
+  const auto list = model::reachable(plan.model, roots);
+  const std::set<AnyRef> reached(list.begin(), list.end());
+  std::vector<model::DecisionKey> out;
+  for (const auto& [key, d] : plan.ledger.entries()) {
+    if (d.state == model::DecisionState::kOpen && reached.contains(key.object)) out.push_back(key);
+  }
+  return out;
 }
 
 }  // namespace capstan::app

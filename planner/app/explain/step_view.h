@@ -31,10 +31,14 @@ struct StepView {
 /// Fails  EXP-STEP.
 [[nodiscard]] Result<StepView> find_step(const model::Plan& plan, std::string_view wanted);
 
-/// The toleranced words for it: who bound the decision ("rule", "given in the file", ...).
+/// Who bound the decision, in words ("rule", "given in the file", ...).
 [[nodiscard]] std::string binder_text(const model::Plan& plan, const model::Decision* d);
 
 /// Diameter, class and id of a cutter in a few words.
 [[nodiscard]] std::string cutter_text(const model::Plan& plan, std::string_view cutter_id);
+
+/// What is still open, of the objects that the project, its steps and features reach: a technology that was
+/// replaced is nobody's any more.
+[[nodiscard]] std::vector<model::DecisionKey> open_decisions(const model::Plan& plan);
 
 }  // namespace capstan::app

@@ -4,6 +4,7 @@
 #include <map>
 #include <variant>
 
+#include "planner/app/explain/step_view.h"
 #include "planner/app/show/node.h"
 #include "planner/app/show/values.h"
 #include "planner/base/number.h"
@@ -157,12 +158,9 @@ void unhandled(const Model& m, std::string& out) {
   out += table(rows);
 }
 
-void open_decisions(const model::Plan& plan, std::string& out) {
+void still_open(const model::Plan& plan, std::string& out) {
   Rows rows;
-  for (const auto& [key, d] : plan.ledger.entries()) {
-    if (d.state == model::DecisionState::kOpen)
-      rows.push_back({label(plan.model, key.object), key.attribute});
-  }
+  for (const auto& key : open_decisions(plan)) rows.push_back({label(plan.model, key.object), key.attribute});
   if (rows.empty()) return;
   out += "\nOpen decisions (" + std::to_string(rows.size()) + ")\n" + table(rows);
 }
@@ -194,7 +192,7 @@ std::string inspect(const model::Plan& plan, const std::vector<Diagnostic>& diag
   features(plan, out);
   counts(m, out);
   unhandled(m, out);
-  open_decisions(plan, out);
+  still_open(plan, out);
   faults(diagnostics, out);
   return out;
 }

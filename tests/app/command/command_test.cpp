@@ -216,5 +216,19 @@ TEST_F(CommandTest, AMissingMachineIsAnUnreadableInput) {
   EXPECT_EQ(files(), std::vector<std::string>{"plate.p21"});
 }
 
+TEST_F(CommandTest, AMissingCaseBaseIsNotMadeByAsking) {
+  const Ran r =
+      run("cases nearest none.db --operation DRILLING --material C45 --tool hss/twist_drill --diameter 8");
+  EXPECT_EQ(r.code, 3);
+  EXPECT_TRUE(files().empty());
+}
+
+TEST_F(CommandTest, ATableWithoutToolsInTheMagazineCannotBind) {
+  put("plate.p21", testing::drilled_plate());
+  const Ran r = run("bind plate.p21 -o a.json");
+  EXPECT_EQ(r.code, 2);
+  EXPECT_THAT(r.err, HasSubstr("no cutter of the library is in the magazine"));
+}
+
 }  // namespace
 }  // namespace capstan::app
