@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <map>
+#include <utility>
+
 #include "planner/model/shape.h"
 #include "tests/app/plans.h"
 
@@ -112,6 +115,19 @@ TEST(Examples, TheBracketIsOpen) {
   EXPECT_EQ(plan->model.count(model::TypeId::kMachiningWorkingstep), 0U);
   for (const auto at : plan->model.all_below(model::TypeId::kManufacturingFeature))
     EXPECT_TRUE(plan->model.at<model::ManufacturingFeature>(at).its_operations.empty());
+}
+
+TEST(Examples, ThePlateIsBoundAsItsTextSays) {
+  Job job;
+  const auto plan = exchange::read(testing::example("plate_bound.p21"), job);
+  ASSERT_TRUE(plan) << to_text(plan.error());
+  EXPECT_EQ(job.count(Severity::kWarning), 0U);
+  EXPECT_EQ(plan->model.count(model::TypeId::kMachiningWorkingstep), 3U);
+  const auto value = [&](const char* path) { return *inspect(*plan, path); };
+  EXPECT_EQ(value("/BOTTOM_AND_SIDE_ROUGH_MILLING[0]/its_technology/feedrate"), "240 mm/min\n");
+  EXPECT_EQ(value("/BOTTOM_AND_SIDE_ROUGH_MILLING[0]/its_technology/spindle"), "-1260 1/min\n");
+  EXPECT_EQ(value("/DRILLING[0]/its_technology/feedrate"), "absent\n");
+  EXPECT_THAT(inspect(*plan, job.diagnostics()), HasSubstr("Open decisions (2)"));
 }
 
 TEST(Examples, TheSurfaceIsAClosedMesh) {
