@@ -4,6 +4,7 @@
 
 #include "planner/output/step_ids.h"
 #include "planner/pipeline/work.h"
+#include "tooling/nouns/nouns.h"
 #include "tooling/select/select.h"
 
 namespace capstan::pipeline {
@@ -51,6 +52,31 @@ void name_steps(Work& w) {
   }
 }
 
+/// Leaves open what the policy does not want bound: feeds and paths always, tools too when only operations
+/// are wanted. A plan written like this is closed by a later bind.
+void leave_open(Work& w) {
+  for (StepWork& s : w.steps) {
+    auto* op = w.plan.model.get<model::MachiningOperation>(s.operation);
+    if (op == nullptr) continue;
+    if (s.open_technology) {
+      const AnyRef technology = op->its_technology;
+      if (auto* t = w.plan.model.get<model::MillingTechnology>(technology); t != nullptr && s.proposed) {
+        t->feedrate.reset();
+        t->spindle.reset();
+      }
+      if (technology.set()) {
+        w.plan.ledger.reopen({technology, "feedrate"});
+        w.plan.ledger.reopen({technology, "spindle"});
+      }
+    }
+    if (w.policy.bind == Bind::kStrategy && s.proposed) {
+      const auto wanted = tooling::nouns_from_requirement(w.plan.model, s.proposal.tool);
+      w.plan.model.get<model::MachiningOperation>(s.operation)->its_tool = wanted;
+      w.plan.ledger.reopen({s.operation, "its_tool"});
+    }
+  }
+}
+
 }  // namespace
 
 Result<model::Plan> bind(model::Plan plan, const Inputs& inputs, const Policy& policy, Job& job) {
@@ -60,11 +86,15 @@ Result<model::Plan> bind(model::Plan plan, const Inputs& inputs, const Policy& p
   plan.unplanned.clear();
   Work w{std::move(plan), inputs, policy, job, {}, {}, {}};
   using Stage = Status (*)(Work&);
-  for (const Stage stage : {resolve_workpiece, list_given, propose_missing, select_open_tools, order_steps,
-                            carry_tools, make_paths, join_paths}) {
+  std::vector<Stage> stages = {resolve_workpiece, list_given};
+  if (policy.bind >= Bind::kStrategy)
+    stages.insert(stages.end(), {propose_missing, select_open_tools, order_steps});
+  if (policy.bind == Bind::kAll) stages.push_back(make_paths);
+  for (const Stage stage : stages) {
     if (auto ok = stage(w); !ok) return tl::unexpected(ok.error());
   }
-  collect_cutters(w);
+  if (policy.bind == Bind::kAll || policy.bind == Bind::kTools) collect_cutters(w);
+  if (policy.bind != Bind::kAll && policy.bind != Bind::kNone) leave_open(w);
   collect_setups(w);
   name_steps(w);
   return std::move(w.plan);

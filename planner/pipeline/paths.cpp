@@ -33,6 +33,7 @@ struct Made {
   optimise::CutQuestion question;
   optimise::CutAnswer answer;
   bool depth_open = false, width_open = false;
+  std::optional<model::Reason> precedent;  ///< the case that speed and feed started from
 };
 
 void append(toolpath::GeneratedPath& to, const toolpath::GeneratedPath& from) {
@@ -211,6 +212,7 @@ class PathMaker {
       prepare(step, job);
       if (first) {
         out.question = question_of(w_, step, candidate, job);
+        if (step.open_technology) out.precedent = start_from_case(w_, step, shape, out.question);
         auto answer = cut(out.question);
         if (!answer) return tl::unexpected(answer.error());
         out.answer = *std::move(answer);
@@ -298,7 +300,7 @@ class PathMaker {
   }
 
   Status finish(StepWork& step, Made made) {
-    record_cut(w_, step, made.answer, made.depth_open, made.width_open);
+    record_cut(w_, step, made.answer, made.depth_open, made.width_open, made.precedent);
     for (const auto& shape : step.shapes) {
       const auto job = job_of(w_, step, shape);
       if (w_.plan.model.holds<model::Two5dMillingOperation>(step.operation)) {

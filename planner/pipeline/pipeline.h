@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -34,10 +35,10 @@ struct Inputs {
   std::vector<model::Cutter> library;
   std::vector<model::WorkMaterial> materials;
   rules::RuleBase rules;
-  const casebase::CaseBase* cases = nullptr;  ///< may be null: no precedents
-  std::optional<std::string> material_name;   ///< overrides the file's
-  std::optional<geometry::Box3> stock;        ///< overrides the file's, workpiece coordinates, mm
-  std::optional<double> stock_allowance_mm;   ///< stock: the finished part grown by this
+  std::shared_ptr<const casebase::CaseBase> cases;  ///< may be null: no precedents
+  std::optional<std::string> material_name;         ///< overrides the file's
+  std::optional<geometry::Box3> stock;              ///< overrides the file's, workpiece coordinates, mm
+  std::optional<double> stock_allowance_mm;         ///< stock: the finished part grown by this
   optimise::Solver solver = optimise::Solver::kNlopt;
   optimise::Backends backends;
   Objective objective = Objective::kTime;

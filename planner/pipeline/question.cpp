@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "casebase/casebase.h"
+#include "planner/base/number.h"
 #include "planner/pipeline/steps.h"
 #include "tooling/select/select.h"
 
@@ -145,6 +147,25 @@ optimise::CutQuestion question_of(const Work& w, const StepWork& step, const mod
     q.feed_mm_min = given.feed_mm_min;
   }
   return q;
+}
+
+std::optional<model::Reason> start_from_case(const Work& w, const StepWork& step,
+                                             const model::FeatureShape& shape, optimise::CutQuestion& q) {
+  // How far above the table's values a case may start; below there is no such limit. Default, unsourced.
+  constexpr double kCaseReach = 1.25;
+  if (!w.inputs.cases) return std::nullopt;
+  const auto asked = casebase::question_of(step.operation.type, w.plan.material, step.cutter, w.plan.machine,
+                                           casebase::sizes_of(shape));
+  const auto p = w.inputs.cases->recall(asked);
+  if (!p) return std::nullopt;
+  q.vc_start_m_min = std::min(p->vc_m_min, kCaseReach * q.vc_start_m_min);
+  q.fz_start_mm = std::min(p->fz_mm, kCaseReach * q.fz_start_mm);
+  if (q.cutter.fz_max_mm > 0.0) q.fz_start_mm = std::min(q.fz_start_mm, q.cutter.fz_max_mm);
+  return model::Reason{"case." + p->case_id,
+                       "starts from a " + p->provenance + " case at distance " + trimmed(p->distance, 3) +
+                           " (" + std::to_string(p->neighbours) + " near): " + trimmed(p->vc_m_min, 2) +
+                           " m/min, " + trimmed(p->fz_mm, 4) + " mm per tooth",
+                       "case base, " + p->provenance};
 }
 
 }  // namespace capstan::pipeline

@@ -83,7 +83,8 @@ bool has_given_path(const Work& w, const StepWork& step) {
   return d == nullptr || d->binder == Binder::kGiven || d->pinned;
 }
 
-void record_cut(Work& w, StepWork& step, const optimise::CutAnswer& a, bool depth_open, bool width_open) {
+void record_cut(Work& w, StepWork& step, const optimise::CutAnswer& a, bool depth_open, bool width_open,
+                const std::optional<model::Reason>& precedent) {
   Model& m = w.plan.model;
   model::Ledger& ledger = w.plan.ledger;
   const DecisionKey tool{step.operation, "its_tool"};
@@ -142,6 +143,14 @@ void record_cut(Work& w, StepWork& step, const optimise::CutAnswer& a, bool dept
   const DecisionKey depth{step.operation, "axial_cutting_depth"};
   bind(made, "spindle", {tool, depth});
   bind(made, "feedrate", {tool, depth, {made, "spindle"}});
+  if (!precedent) return;
+  for (const char* attribute : {"spindle", "feedrate"}) {
+    model::Reason from = *precedent;
+    from.text += "; " + why.text;
+    auto* d = ledger.find(made, attribute);
+    d->binder = Binder::kCase;
+    d->reason = ledger.reason(std::move(from));
+  }
 }
 
 void record_path(Work& w, const StepWork& step, const std::shared_ptr<const model::CutterPath>& path) {

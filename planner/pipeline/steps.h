@@ -43,8 +43,15 @@ void shape_from_mesh(const Work& w, const StepWork& step, toolpath::PathJob& job
                                                             const optimise::CutAnswer& cut,
                                                             const stock::HeightMap& map);
 
+/// Lets the nearest case in the base, if there is one, say where speed and feed start from; never above
+/// kCaseReach times the table's values. Gives the reason, or nothing.
+[[nodiscard]] std::optional<model::Reason> start_from_case(const Work& w, const StepWork& step,
+                                                           const model::FeatureShape& shape,
+                                                           optimise::CutQuestion& q);
+
 /// Writes what was chosen into the nouns, and why into the ledger.
-void record_cut(Work& w, StepWork& step, const optimise::CutAnswer& answer, bool depth_open, bool width_open);
+void record_cut(Work& w, StepWork& step, const optimise::CutAnswer& answer, bool depth_open, bool width_open,
+                const std::optional<model::Reason>& precedent);
 /// Puts the computed path at the operation's its_toolpath, as derived.
 void record_path(Work& w, const StepWork& step, const std::shared_ptr<const model::CutterPath>& path);
 

@@ -63,8 +63,10 @@ Result<GeneratedPath> helix_path(const PathJob& task, Job&) {
   if (angle > 0.0) angle = std::min(angle, kUsualRamp);
   if (task.approach.kind == Approach::Kind::kHelix && task.approach.angle_rad > 0.0)
     angle = std::min(task.approach.angle_rad, task.cutter.maximum_ramp_angle_rad);
-  // In a hole wide enough for the cutter only the flank cuts, and the pitch is the axial depth.
-  const bool open = task.previous_diameter_mm.value_or(0.0) >= task.cutter.cutting_diameter_mm;
+  // In a hole wide enough for the cutter only the flank cuts, and the pitch is the axial depth; but a blind
+  // hole ends in the cone of the drill that made it, which the cutter's end has to take away.
+  const bool open =
+      task.shape.through && task.previous_diameter_mm.value_or(0.0) >= task.cutter.cutting_diameter_mm;
   double pitch = open ? 1e300 : 2.0 * kPi * r * std::tan(angle);
   if (task.axial_depth_mm > 0.0) pitch = std::min(pitch, task.axial_depth_mm);
   pitch = std::min(pitch, top - end);
@@ -74,7 +76,7 @@ Result<GeneratedPath> helix_path(const PathJob& task, Job&) {
   const bool cw = walls_on_right(task) == false;
   PathWriter w(task);
   const Vec2 c = xy(o);
-  const bool room = open && r > 0.0;
+  const bool room = r > 0.0 && task.previous_diameter_mm.value_or(0.0) >= task.cutter.cutting_diameter_mm;
   w.over(room ? c : Vec2{c.x + r, c.y});
   w.descend(top, top);
   if (room) w.arc({c.x + r, c.y, top}, {c.x + 0.5 * r, c.y}, cw, MoveRole::kApproach);
