@@ -70,7 +70,11 @@ namespace {
 Result<Store> open_store(const std::string& uri, Store::Missing missing, Job& job) {
   const Result<std::string> path = path_of(uri);
   if (!path) return fail(path.error());
-  return Store::open(*path, missing, job);
+  Result<Store> store = Store::open(*path, missing, job);
+  if (store && index_name() == "linear") {
+    job.note("CASE-INDEX", "built without FLANN: neighbours are found by looking at every case");
+  }
+  return store;
 }
 
 }  // namespace

@@ -75,7 +75,7 @@ class Reader {
       out = text_.substr(at_, end - at_);
       at_ = end;
       if (out.find('"') != std::string::npos)
-        return tl::unexpected("a quote inside a field that is not quoted");
+        return tl::unexpected<std::string>("a quote inside a field that is not quoted");
       return out;
     }
     for (++at_; !done(); ++at_) {
@@ -87,12 +87,12 @@ class Reader {
       } else {
         ++at_;
         if (!done() && text_[at_] != ',' && text_[at_] != '\r' && text_[at_] != '\n') {
-          return tl::unexpected("text behind a quoted field");
+          return tl::unexpected<std::string>("text behind a quoted field");
         }
         return out;
       }
     }
-    return tl::unexpected("a quoted field that does not end");
+    return tl::unexpected<std::string>("a quoted field that does not end");
   }
 
   void end_line() {

@@ -87,8 +87,8 @@ TEST_P(IndexContract, AnswersManyThreadsAlike) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, IndexContract, testing::Values(&make_linear_index, &make_index),
-                         [](const auto& info) {
-                           return info.index == 0 ? std::string("linear") : std::string("built");
+                         [](const auto& made) {
+                           return made.index == 0 ? std::string("linear") : std::string("built");
                          });
 
 TEST(Normalisation, MeasuresSizesByTheirRatio) {

@@ -195,10 +195,11 @@ TEST(Csv, SaysWhichLineIsWrong) {
 struct Planned {
   model::Plan plan;
   Planned() {
-    const auto size = plan.model.add(model::TolerancedLengthMeasure{.theoretical_size = 10.0});
+    model::TolerancedLengthMeasure size;
+    size.theoretical_size = 10.0;
     model::RoundHole hole;
     hole.its_id = "HOLE";
-    hole.diameter = size;
+    hole.diameter = plan.model.add(size);
     const auto feature = plan.model.add(hole);
     const auto operation = plan.model.add(model::Drilling{});
     model::MachiningWorkingstep ws;

@@ -38,10 +38,11 @@ inline Case sample(double diameter_mm = 10.0, double vc_m_min = 30.0, const std:
 /// Random cases over a few categories, with many equal sizes among them.
 inline std::vector<Case> random_cases(std::size_t n, unsigned seed) {
   std::mt19937 random(seed);
-  const auto pick = [&](unsigned below) { return random() % below; };
+  const auto pick = [&](unsigned below) { return static_cast<int>(random() % below); };
   std::vector<Case> out;
   for (std::size_t i = 0; i < n; ++i) {
-    Case c = sample(1.0 + pick(20), 20.0 + pick(20), "part " + std::to_string(i));
+    Case c =
+        sample(1.0 + pick(20), 20.0 + pick(20), "lot " + std::to_string(seed) + " part " + std::to_string(i));
     c.asked.operation = pick(2) == 0 ? "DRILLING" : "REAMING";
     c.asked.depth_mm = 5.0 * (1 + pick(10));
     c.asked.tolerance_mm = pick(3) == 0 ? 0.0 : 0.01 * (1 + pick(5));

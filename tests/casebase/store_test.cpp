@@ -44,7 +44,7 @@ TEST(CaseStore, KeepsWhatWasAdded) {
     std::sort(cases.begin(), cases.end(), [](const Case& a, const Case& b) { return a.id < b.id; });
     EXPECT_EQ(base->cases(), cases);
   }
-  EXPECT_TRUE(job.diagnostics().empty());
+  EXPECT_EQ(job.count(Severity::kWarning), 0u);
 }
 
 TEST(CaseStore, AddsEqualCasesOnce) {
@@ -53,7 +53,7 @@ TEST(CaseStore, AddsEqualCasesOnce) {
   fill(folder.file(), {sample(), sample(12.0)});
   Job job;
   EXPECT_EQ(CaseBase::open(folder.file(), job)->size(), 3u);
-  EXPECT_TRUE(job.diagnostics().empty());
+  EXPECT_EQ(job.count(Severity::kWarning), 0u);
 }
 
 TEST(CaseStore, AddsAllOrNone) {
@@ -115,7 +115,7 @@ TEST(CaseStore, RefusesWhatItDidNotMake) {
            "CREATE INDEX i ON capstan_case(vc_m_min)",
            "CREATE TABLE more(x)",
            "DROP TABLE capstan_total",
-           "ALTER TABLE capstan_case ADD COLUMN more",
+           "ALTER TABLE capstan_case ADD COLUMN more TEXT",
            "ALTER TABLE capstan_case RENAME TO real; CREATE VIEW capstan_case AS SELECT * FROM real",
        }) {
     const Folder folder;
@@ -152,7 +152,7 @@ TEST(CaseStore, LeavesOutAndNamesAlteredRows) {
     auto base = CaseBase::open(folder.file(), job);
     ASSERT_TRUE(base.has_value()) << to_text(base.error());
     EXPECT_EQ(base->cases(), std::vector<Case>{sample(20.0)}) << change;
-    ASSERT_FALSE(job.diagnostics().empty());
+    ASSERT_NE(job.count(Severity::kWarning), 0u);
     EXPECT_EQ(job.diagnostics()[0].code, "CASE-ROW");
     EXPECT_THAT(job.diagnostics()[0].message, HasSubstr(said));
     EXPECT_EQ(base->add(sample(30.0)).error().code, "CASE-DAMAGED");
@@ -198,18 +198,24 @@ TEST(CaseStore, NoticesThatRowsAreGoneOrCameBack) {
   EXPECT_EQ(base->add(sample(30.0)).error().code, "CASE-DAMAGED");
 }
 
+enum class Outcome { kRefused, kLeftOut, kWhole };
+
 /// Never a crash, never an altered row; and where anything is missing, something is said.
-void expect_honest(const std::string& path, const std::map<std::string, Case>& originals,
-                   const std::string& how) {
+Outcome expect_honest(const std::string& path, const std::map<std::string, Case>& originals,
+                      const std::string& how) {
   Job job;
   const auto base = CaseBase::open(path, job);
-  if (!base) return;
+  if (!base) return Outcome::kRefused;
   for (const Case& c : base->cases()) {
     const auto original = originals.find(c.id);
-    ASSERT_NE(original, originals.end()) << how;
-    ASSERT_EQ(c, original->second) << how;
+    if (original == originals.end()) {
+      ADD_FAILURE() << how;
+    } else {
+      EXPECT_EQ(c, original->second) << how;
+    }
   }
-  ASSERT_TRUE(base->size() == originals.size() || !job.diagnostics().empty()) << how;
+  EXPECT_TRUE(base->size() == originals.size() || job.count(Severity::kWarning) != 0) << how;
+  return base->size() == originals.size() ? Outcome::kWhole : Outcome::kLeftOut;
 }
 
 class DamagedStore : public testing::Test {
@@ -228,7 +234,8 @@ class DamagedStore : public testing::Test {
 
 TEST_F(DamagedStore, NeverGivesAnAlteredRowForAFlippedBit) {
   std::mt19937 random(7);
-  for (int i = 0; i < 1500; ++i) {
+  std::map<Outcome, int> count;
+  for (int i = 0; i < 2000 && !HasFailure(); ++i) {
     // The first pages, where structure is, as often as all the rest.
     const std::size_t reach = i % 2 == 0 ? 4096 : bytes_.size();
     const std::size_t at = random() % reach;
@@ -237,23 +244,50 @@ TEST_F(DamagedStore, NeverGivesAnAlteredRowForAFlippedBit) {
     broken[at] = static_cast<char>(broken[at] ^ (1 << bit));
     const std::string path = folder_.file("broken.db");
     write_bytes(path, broken);
-    expect_honest(path, originals_, "bit " + std::to_string(bit) + " of byte " + std::to_string(at));
-    if (HasFatalFailure()) return;
+    ++count[expect_honest(path, originals_, "bit " + std::to_string(bit) + " of byte " + std::to_string(at))];
     std::filesystem::remove(path + "-wal");  // a flipped header may ask for one
+    std::filesystem::remove(path + "-shm");
+  }
+  // Slack between the rows is most of a page, so many flips touch nothing.
+  EXPECT_GT(count[Outcome::kRefused], 20);
+  EXPECT_GT(count[Outcome::kLeftOut], 200);
+  RecordProperty("refused", count[Outcome::kRefused]);
+  RecordProperty("left_out", count[Outcome::kLeftOut]);
+  RecordProperty("whole", count[Outcome::kWhole]);
+}
+
+TEST_F(DamagedStore, TakesACaseOrRefusesItAfterAFlippedBitButLosesNone) {
+  std::mt19937 random(9);
+  const Case more = sample(99.0);
+  std::map<std::string, Case> with = originals_;
+  with[more.id] = more;
+  for (int i = 0; i < 200 && !HasFailure(); ++i) {
+    const std::size_t at = random() % (i % 2 == 0 ? 200 : bytes_.size());
+    std::string broken = bytes_;
+    broken[at] = static_cast<char>(broken[at] ^ (1 << (random() % 8)));
+    const std::string path = folder_.file("broken.db");
+    write_bytes(path, broken);
+    {
+      Job job;
+      auto base = CaseBase::open(path, job);
+      if (!base || !base->add(more)) continue;
+      EXPECT_EQ(base->size(), with.size()) << at;
+    }
+    EXPECT_EQ(expect_honest(path, with, "byte " + std::to_string(at)), Outcome::kWhole) << at;
+    std::filesystem::remove(path + "-wal");
     std::filesystem::remove(path + "-shm");
   }
 }
 
 TEST_F(DamagedStore, NeverGivesAnAlteredRowForManyFlippedBytesOrATruncation) {
   std::mt19937 random(8);
-  for (int i = 0; i < 200; ++i) {
+  for (int i = 0; i < 200 && !HasFailure(); ++i) {
     std::string broken = bytes_;
     for (int n = 0; n < 20; ++n) broken[random() % broken.size()] = static_cast<char>(random());
     if (i % 2 == 0) broken = bytes_.substr(0, random() % bytes_.size());
     const std::string path = folder_.file("broken.db");
     write_bytes(path, broken);
     expect_honest(path, originals_, "round " + std::to_string(i));
-    if (HasFatalFailure()) return;
     std::filesystem::remove(path + "-wal");
     std::filesystem::remove(path + "-shm");
   }
@@ -265,7 +299,7 @@ TEST(CaseStore, IsReadWhereItMayNotBeWritten) {
   chmod(folder.file().c_str(), 0444);
   chmod(folder.path().c_str(), 0555);
   const bool root = geteuid() == 0;
-  if (root) ASSERT_EQ(seteuid(65534), 0);  // root writes everywhere
+  ASSERT_EQ(seteuid(root ? 65534 : geteuid()), 0);  // root writes everywhere
   Job job;
   auto base = CaseBase::open(folder.file(), job);
   std::string added = "opened";
@@ -274,7 +308,7 @@ TEST(CaseStore, IsReadWhereItMayNotBeWritten) {
     added = status ? "added" : status.error().code;
   }
   const auto made = CaseBase::open_or_create(folder.file("new.db"), job);
-  if (root) ASSERT_EQ(seteuid(0), 0);
+  ASSERT_EQ(seteuid(root ? 0 : geteuid()), 0);
   ASSERT_TRUE(base.has_value()) << to_text(base.error());
   EXPECT_TRUE(base->recall(sample().asked).has_value());
   EXPECT_EQ(added, "CASE-READ-ONLY");
@@ -320,7 +354,7 @@ TEST(CaseStore, TakesTwoWritersAtATime) {
   EXPECT_EQ(faults, std::vector<std::string>(2));
   Job job;
   EXPECT_EQ(CaseBase::open(folder.file(), job)->size(), cases.size());
-  EXPECT_TRUE(job.diagnostics().empty());
+  EXPECT_EQ(job.count(Severity::kWarning), 0u);
 }
 
 TEST(CaseStore, LosesNothingWhenNoSpaceIsLeft) {
@@ -342,7 +376,7 @@ TEST(CaseStore, LosesNothingWhenNoSpaceIsLeft) {
   EXPECT_EQ(base.cases(), std::vector<Case>{sample()});
   EXPECT_TRUE(base.add(sample(11.0)).has_value());
   EXPECT_EQ(CaseBase::open(folder.file(), job)->size(), 2u);
-  EXPECT_TRUE(job.diagnostics().empty());
+  EXPECT_EQ(job.count(Severity::kWarning), 0u);
 }
 
 TEST(CaseStore, IsWholeAfterItsWriterWasKilled) {
@@ -361,7 +395,7 @@ TEST(CaseStore, IsWholeAfterItsWriterWasKilled) {
       }
       _exit(2);
     }
-    usleep(1000 + random() % 30000);
+    usleep(static_cast<unsigned>(1000 + random() % 30000));
     kill(writer, SIGKILL);
     int status = 0;
     waitpid(writer, &status, 0);
@@ -369,7 +403,7 @@ TEST(CaseStore, IsWholeAfterItsWriterWasKilled) {
     Job job;
     const auto base = CaseBase::open(folder.file(), job);
     ASSERT_TRUE(base.has_value()) << to_text(base.error());
-    ASSERT_TRUE(job.diagnostics().empty()) << to_text(job.diagnostics()[0]);
+    ASSERT_EQ(job.count(Severity::kWarning), 0u) << to_text(job.diagnostics()[0]);
     ASSERT_GE(base->size(), before);
     ASSERT_EQ(base->size() % 5, 0u);  // a batch is there whole or not at all
     before = base->size();
