@@ -79,5 +79,31 @@ TEST(CorpusNistExplicit, HelicesStayHelices) {
   EXPECT_EQ(long_ones, 2);
 }
 
+TEST(CorpusNistExplicit, IsToldExactlyWhatIsBadMachiningInIt) {
+  CAPSTAN_CORPUS_FILE(path, "iso14649/nist_ex1E.stp");
+  const Session session = planned(path, Reopen::kNothing);
+  std::vector<std::string> bad;
+  const auto add = [&](const std::string& step, std::initializer_list<const char*> what) {
+    for (const char* w : what) bad.push_back(std::string(w) + " " + step);
+  };
+  for (const char* pass : {"A", "B"}) {
+    add("WS FINISH PLANAR FACE1 " + std::string(pass), {"17 CHK-POWER", "17 CHK-TORQUE", "18 CHK-FEED-TOOL"});
+  }
+  add("WS DRILL HOLE1", {"17 CHK-POWER", "17 CHK-TORQUE", "18 CHK-FEED-TOOL"});
+  add("WS REAM HOLE1", {"15 CHK-SPINDLE-STOPPED", "17 CHK-POWER", "17 CHK-TORQUE", "18 CHK-FEED-TOOL"});
+  // Each level of the pocket is entered by a helix as steep as 10 degrees.
+  for (const char* level : {"A", "B", "C", "D", "D~2"}) {
+    add("WS ROUGH POCKET1 " + std::string(level),
+        {"14 CHK-RAMP", "17 CHK-POWER", "17 CHK-TORQUE", "18 CHK-FEED-TOOL"});
+  }
+  // Finishing goes through what roughing left, 0.5 mm on the floor: only its last helix enters material.
+  for (const char level : std::string("ABCDEFGHIJKLMN")) {
+    add("WS FINISH POCKET1 " + std::string(1, level), {"18 CHK-FEED-TOOL"});
+  }
+  add("WS FINISH POCKET1 P", {"14 CHK-RAMP", "18 CHK-FEED-TOOL"});
+  EXPECT_EQ(findings_of_plan(session), bad) << all_findings(session);
+  EXPECT_EQ(findings_of_program(session), bad);
+}
+
 }  // namespace
 }  // namespace capstan::corpus
