@@ -43,7 +43,7 @@ const std::vector<FactType>& fact_types() {
       symbols("floor", {"open", "closed"}, "whether the bottom is a surface of the part"),
       symbols("floor_edge", {"sharp", "rounded"}, "edge between wall and bottom"),
       number("passage_mm", 0.0, 20000.0, "diameter of the largest cutter that reaches every passage"),
-      symbols("slot_form", {"square", "vee", "round", "other"}, "profile of a slot"),
+      symbols("slot_form", {"square", "vee", "radiused_vee", "round", "other"}, "profile of a slot"),
       number("slot_angle_deg", 0.0, 180.0, "full angle of a vee slot"),
       symbols("thread_side", {"inside", "outside"}, "thread in a hole, or on a shaft"),
       symbols("thread_hand", {"right", "left"}, "direction of a thread"),

@@ -119,7 +119,7 @@ int tightest_grade(const FeatureShape& s, const Context& c, FeatureFacts& out) {
 
 std::string_view slot_form(const FeatureShape& s) {
   if (s.slot_profile.empty()) return "square";
-  if (s.slot_angle_rad > 0.0) return s.slot_bottom_radius_mm > 0.0 ? "other" : "vee";
+  if (s.slot_angle_rad > 0.0) return s.slot_bottom_radius_mm > 0.0 ? "radiused_vee" : "vee";
   if (s.slot_bottom_radius_mm <= 0.0) return "other";
   return std::abs(2.0 * s.slot_bottom_radius_mm - s.width.nominal_mm) < 1e-6 ? "round" : "other";
 }

@@ -221,8 +221,32 @@ TEST(Hole, ThatTapersGetsACountersinkOrAReason) {
   EXPECT_NEAR(p.chains[0][0].tool.point_angle_rad, 90.0 * kDegree, 1e-12);
   EXPECT_EQ(p.chains[0][0].depth_mm, 0.0) << "follows from the tip of the cutter chosen";
   EXPECT_GE(p.chains[0][0].tool.diameter_min_mm, 20.0);
-  s.bottom_diameter_mm = 19.0;
-  EXPECT_THAT(proposed(s).cannot, HasSubstr("[hole.tapered]"));
+}
+
+TEST(Hole, WithALeaningWallIsDrilledNarrowMilledInLevelsAndFinishedByABall) {
+  FeatureShape s = hole(18, 20, HoleBottom::kFlat);
+  s.bottom_diameter_mm = 12.0;
+  const auto chain = proposed(s).chains.at(0);
+  EXPECT_EQ(chain[0].why.id, "hole.tapered");
+  EXPECT_THAT(kinds(chain),
+              ElementsAre(TypeId::kCenterDrilling, TypeId::kDrilling, TypeId::kBottomAndSideRoughMilling,
+                          TypeId::kBottomAndSideFinishMilling, TypeId::kBottomAndSideFinishMilling));
+  EXPECT_LT(chain[1].tool.diameter_max_mm, 12.0);
+  EXPECT_LT(chain[1].depth_mm + 0.3 * chain[1].tool.diameter_max_mm, 20.0)
+      << "its tip stays above the bottom";
+  EXPECT_LT(chain[2].tool.diameter_max_mm + 2.0 * chain[2].allowance_side_mm, 12.0);
+  EXPECT_THAT(chain[4].tool.classes, ElementsAre(model::CutterClass::kBallEndmill));
+  EXPECT_LT(chain[4].tool.diameter_max_mm, 12.0);
+  Context c = steel();
+  c.core_diameter_mm = 8.0;
+  EXPECT_EQ(row(proposed(s, c)), "hole.tapered.over");
+  EXPECT_EQ(row(proposed(h(s, 9))), "hole.tapered");
+  EXPECT_THAT(proposed(h(s, 8)).cannot, HasSubstr("[hole.tapered.tight]"));
+  s.bottom = HoleBottom::kSpherical;
+  EXPECT_THAT(proposed(s).cannot, HasSubstr("[hole.tapered.bottom]"));
+  s.bottom = HoleBottom::kFlat;
+  s.bottom_diameter_mm = 20.0;
+  EXPECT_THAT(proposed(s).cannot, HasSubstr("wider below"));
 }
 
 TEST(Counterbore, IsMadeFromTheNarrowHoleOutwards) {
@@ -351,6 +375,20 @@ TEST(Slot, OfEachFormGetsItsCutter) {
   round.slot_profile = {{0, 0}, {5, 5}};
   round.slot_bottom_radius_mm = 5.0;
   EXPECT_EQ(proposed(round).chains.at(0).at(0).tool.corner_radius_exact_mm, 5.0);
+  EXPECT_LE(proposed(round).chains.at(1).at(1).tool.diameter_max_mm, 9.0) << "else passes of a narrower ball";
+  round.width.given = true;
+  round.width.upper_mm = standard_tolerance_mm(9, 10.0);
+  EXPECT_EQ(row(proposed(round)), "slot.round.tight");
+  EXPECT_THAT(proposed(round).chains.at(0).at(1).tool.classes, ElementsAre(model::CutterClass::kBallEndmill));
+  round.width.upper_mm = standard_tolerance_mm(8, 10.0);
+  EXPECT_THAT(proposed(round).cannot, HasSubstr("[slot.round.tighter]"));
+  FeatureShape radiused = vee;
+  radiused.slot_bottom_radius_mm = 3.0;
+  radiused.slot_profile = {{0, 0}, {0.88, 2.12}, {5, 6.24}};
+  const auto r = proposed(radiused).chains.at(0);
+  EXPECT_EQ(r[0].why.id, "slot.vee.radius");
+  EXPECT_THAT(r[0].tool.classes, ElementsAre(model::CutterClass::kEndmill));
+  EXPECT_EQ(r[1].tool.diameter_max_mm, 6.0) << "no rounder than the tip";
   FeatureShape tee = slot();
   tee.slot_profile = {{0, 9}, {2, 9}, {2, 5}, {5, 5}};
   EXPECT_THAT(proposed(tee).cannot, HasSubstr("[slot.form]"));
