@@ -48,6 +48,7 @@ Result<GeneratedPath> hole_milling(const PathJob& task, Job& job) {
   if (task.shape.bottom_diameter_mm > 0.0 &&
       task.shape.bottom_diameter_mm < task.shape.diameter.nominal_mm - 1e-6 && mills_sections(task.cutter))
     return tapered_hole_path(hole, job);
+  if (is_hole_cutter(hole)) return sunk_path(hole, job);
   if (helix_suits(hole)) return helix_path(hole, job);
   hole.shape.area = hole.shape.reach = geometry::disc({0.0, 0.0}, 0.5 * task.shape.diameter.middle());
   return area_path(hole, job);
@@ -84,6 +85,22 @@ Result<GeneratedPath> milling(const PathJob& task, Job& job) {
   }
 }
 
+/// A boring tool or reamer is known by its diameter alone: the taper of its flanks is not.
+void warn_of_taper(const PathJob& task, Job& job) {
+  const auto& s = task.shape;
+  const bool tapered = s.kind == ShapeKind::kHole && s.bottom_diameter_mm > 0.0 &&
+                       s.bottom_diameter_mm < s.diameter.nominal_mm - 1e-6;
+  if (!tapered || (task.operation != TypeId::kReaming && task.operation != TypeId::kBoring)) return;
+  const double depth = task.cutting_depth_mm.value_or(s.depth_mm);
+  job.warn("TPA-REST",
+           s.name + ": its wall tapers from " + trimmed(s.diameter.nominal_mm, 3) + " to " +
+               trimmed(s.bottom_diameter_mm, 3) + " mm over " + trimmed(s.depth_mm, 3) + " mm; " +
+               task.cutter.id + " is taken as upright, " + trimmed(task.cutter.cutting_diameter_mm, 3) +
+               " mm wide, and goes " + trimmed(depth, 3) +
+               " mm deep as given: that the taper is finished is not shown",
+           s.name);
+}
+
 Result<GeneratedPath> dispatch(const PathJob& task, Job& job) {
   switch (task.operation) {
     case TypeId::kDrilling:
@@ -93,6 +110,7 @@ Result<GeneratedPath> dispatch(const PathJob& task, Job& job) {
     case TypeId::kBoring:
     case TypeId::kReaming:
     case TypeId::kBackBoring:
+      warn_of_taper(task, job);
       return drill_path(task, job);
     case TypeId::kTapping:
       return tap_path(task, job);

@@ -27,12 +27,38 @@ constexpr double kOwnAllowance = 0.3;
 /// Levels of that roughing by the diameter, where no depth is given. Default, unsourced.
 constexpr double kOwnLevel = 0.25;
 constexpr double kUsualRamp = 3.0 * std::numbers::pi / 180.0;  // default, unsourced
-constexpr double kLeastU = 0.02;    ///< mm; nearer to the middle a track is the middle itself
-constexpr double kTellRest = 0.01;  ///< mm
+constexpr double kLeastU = 0.02;     ///< mm; nearer to the middle a track is the middle itself
+constexpr double kSameWidth = 0.02;  ///< mm; so near to the hole's own size a cutter is sunk, not led
+constexpr double kTellRest = 0.01;   ///< mm
 
 bool finishes(TypeId op) {
   return op == TypeId::kBottomAndSideFinishMilling || op == TypeId::kSideFinishMilling;
 }
+
+/// A place on the track, moved to the nearest end of a segment when it is almost there: no crumbs of arcs.
+Spot snapped(const Track& t, Spot s) {
+  constexpr double kCrumb = 0.02;  // mm
+  const Vec2 from = s.segment == 0 ? t.start : t.segments[s.segment - 1].to;
+  const double l = length_of(from, t.segments[s.segment]);
+  if (s.t * l < kCrumb) {
+    s.t = 0.0;
+    s.point = from;
+  } else if ((1.0 - s.t) * l < kCrumb) {
+    s.t = 1.0;
+    s.point = t.segments[s.segment].to;
+  }
+  return s;
+}
+double length_to(const Track& t, const Spot& s) {
+  Vec2 at = t.start;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < s.segment; ++i) {
+    sum += length_of(at, t.segments[i]);
+    at = t.segments[i].to;
+  }
+  return sum + s.t * length_of(at, t.segments[s.segment]);
+}
+Track begun_near(const Track& t, Vec2 p) { return begun_at(t, snapped(t, nearest(t, p))); }
 
 class SectionCutter {
  public:
@@ -102,11 +128,14 @@ class SectionCutter {
                               " reaches nothing below " + trimmed(task_.start_z_mm, 3) + " mm",
                    .path = task_.shape.name});
     }
+    // A hole is narrowest at its bottom: what roughed that has cleared all above but the wall.
+    const bool walls_only = spine_.line.size() == 1 && section_.floor && finishes(task_.operation) &&
+                            task_.left_on_side_mm.has_value();
     double from = task_.start_z_mm;
     for (const double z : zs) {
       const double wide = widest_at(section_, thick, z - zero_z_ - bottom);
       if (wide < 0.0) continue;
-      if (auto ok = level(z, from, wide); !ok) return ok;
+      if (auto ok = walls_only && z > end + 1e-9 ? wall(z, from, wide) : level(z, from, wide); !ok) return ok;
       heights_.push_back(z);
       from = z;
     }
@@ -126,6 +155,14 @@ class SectionCutter {
     return out;
   }
 
+  /// Once around at the wall, from the level before.
+  Status wall(double z, double from, double wide) {
+    for (const Track& t : tracks_at(spine_, wide, right_)) {
+      if (auto ok = writer_.begun() ? pass(t, z) : begin(t, z, from, wide); !ok) return ok;
+    }
+    return {};
+  }
+
   Status level(double z, double from, double wide) {
     bool first = true;
     for (const double u : distances(wide)) {
@@ -140,7 +177,7 @@ class SectionCutter {
   /// Onto the first track of a level and along it.
   Status begin(Track t, double z, double from, double wide) {
     if (spine_.from_air()) {
-      if (t.closed) t = begun_at(t, nearest(t, spine_.line.front()));
+      if (t.closed) t = begun_near(t, spine_.line.front());
       writer_.over(t.start);
       writer_.descend(z, z);
       writer_.follow(t, z, MoveRole::kCut);
@@ -159,7 +196,7 @@ class SectionCutter {
   /// From one track of a level to the next one beside it.
   Status step_to(Track t, double z) {
     const Vec2 here = xy(writer_.at());
-    if (t.closed) t = begun_at(t, nearest(t, here));
+    if (t.closed) t = begun_near(t, here);
     writer_.line({t.start.x, t.start.y, z}, MoveRole::kCut);
     writer_.follow(t, z, MoveRole::kCut);
     return {};
@@ -168,11 +205,14 @@ class SectionCutter {
   Status finish() {
     const Tip thick{tip_.radius_mm + task_.allowance_side_mm, tip_.corner_mm + task_.allowance_side_mm};
     const Finishing all = finishing(section_, thick, kScallop, task_.axial_depth_mm);
-    cutter_.job.note("TPA-DEFAULT", task_.shape.name + ": finished to ridges of " + trimmed(kScallop, 3) +
-                                        " mm at most (default, unsourced)");
+    cutter_.job.note("TPA-DEFAULT",
+                     (task_.shape.name.empty() ? std::string("the section") : task_.shape.name) +
+                         ": finished to ridges of " + trimmed(kScallop, 3) +
+                         " mm at most (default, unsourced)");
     if (all.rest_mm > kTellRest) {
       cutter_.warn("TPA-REST", "the cutter's radius of " + trimmed(tip_.corner_mm, 3) + " mm leaves up to " +
-                                   trimmed(all.rest_mm, 3) + " mm in the corners of the section");
+                                   trimmed(all.rest_mm, 3) +
+                                   " mm in the corners of the section, where no flat end has cut before");
     }
     bool first = true;
     double last_z = task_.start_z_mm;
@@ -194,7 +234,7 @@ class SectionCutter {
 
   Status pass(Track t, double z) {
     const Vec2 here = spine_.from_air() ? spine_.line.front() : xy(writer_.at());
-    if (t.closed) t = begun_at(t, nearest(t, here));
+    if (t.closed) t = begun_near(t, here);
     if (spine_.from_air()) {
       // Both ends of the step lie in the air before the open end.
       writer_.line({t.start.x, t.start.y, writer_.at().z}, MoveRole::kApproach);
@@ -238,12 +278,14 @@ class SectionCutter {
     const int rounds = std::min(1000, static_cast<int>(std::floor(run / length)));
     for (int i = 1; i <= rounds; ++i)
       writer_.follow_down(t, top - fall * (i * length / run), MoveRole::kRamp);
-    const double rest = run - rounds * length;
-    const Track part = part_of(t, 0.0, rest);
-    if (rest > 1e-6 && !part.segments.empty()) {
-      writer_.follow_down(part, z, MoveRole::kRamp);
-      writer_.follow(begun_at(t, at_length(t, rest)), z, MoveRole::kCut);
+    const Spot down = snapped(t, at_length(t, run - rounds * length));
+    const double rest = length_to(t, down);
+    if (rest > 1e-6 && rest < length - 1e-6) {
+      writer_.follow_down(part_of(t, 0.0, rest), z, MoveRole::kRamp);
+      writer_.follow(begun_at(t, down), z, MoveRole::kCut);
     } else {
+      if (rest > 1e-6) writer_.follow_down(t, z, MoveRole::kRamp);
+      writer_.descend(z, writer_.at().z);
       writer_.follow(t, z, MoveRole::kCut);
     }
     return {};
@@ -291,6 +333,45 @@ Result<GeneratedPath> form_slot_path(const PathJob& task, Job& job) {
                  .path = task.shape.name});
   }
   return SectionCutter(task, job, *w, *std::move(section), *std::move(spine)).run();
+}
+
+bool is_hole_cutter(const PathJob& task) {
+  using model::HoleBottom;
+  const auto& s = task.shape;
+  const auto& c = task.cutter;
+  if (std::abs(c.cutting_diameter_mm - s.diameter.middle()) > kSameWidth || task.allowance_side_mm > 0.0)
+    return false;
+  if (s.bottom_diameter_mm > 0.0 && s.bottom_diameter_mm < s.diameter.nominal_mm - 1e-6) return false;
+  if (s.bottom == HoleBottom::kSpherical || s.bottom == HoleBottom::kFlatWithRadius)
+    return std::abs(c.corner_radius_mm - s.bottom_hole_radius_mm) <= kSameWidth;
+  if (s.bottom == HoleBottom::kFlat) return c.corner_radius_mm <= kSameWidth;
+  return s.bottom == HoleBottom::kThrough;
+}
+
+Result<GeneratedPath> sunk_path(const PathJob& task, Job&) {
+  if (!task.cutter.centre_cutting &&
+      task.previous_diameter_mm.value_or(0.0) < task.cutter.cutting_diameter_mm - 1e-6) {
+    return fail({.code = "TPA-ENTRY",
+                 .message = "the cutter " + task.cutter.id + " is as wide as " + task.shape.name +
+                            " and does not cut to its centre",
+                 .path = task.shape.name});
+  }
+  const auto o = task.feature_in_setup.origin;
+  double z = o.z - task.shape.depth_mm + task.allowance_bottom_mm;
+  if (task.shape.through) z -= task.break_through_mm + task.cutter.corner_radius_mm;
+  if (z >= task.start_z_mm - 1e-9) {
+    return fail({.code = "TPA-DEPTH",
+                 .message = task.shape.name + ": there is nothing to cut below " +
+                            trimmed(task.start_z_mm, 3) + " mm",
+                 .path = task.shape.name});
+  }
+  PathWriter writer(task);
+  writer.over(xy(o));
+  writer.descend(z, task.start_z_mm + std::min(task.clearance_mm, 1.0));
+  writer.dwell(task.dwell_s);
+  GeneratedPath out = writer.finish();
+  out.levels_z_mm = {z};
+  return out;
 }
 
 Result<GeneratedPath> tapered_hole_path(const PathJob& task, Job& job) {

@@ -13,6 +13,10 @@ namespace capstan::toolpath {
 [[nodiscard]] Result<GeneratedPath> form_slot_path(const PathJob& task, Job& job);
 /// A hole that narrows downwards, in the same way, on circles.
 [[nodiscard]] Result<GeneratedPath> tapered_hole_path(const PathJob& task, Job& job);
+/// Whether the cutter has the hole's own size and bottom.
+[[nodiscard]] bool is_hole_cutter(const PathJob& task);
+/// Straight down with such a cutter.
+[[nodiscard]] Result<GeneratedPath> sunk_path(const PathJob& task, Job& job);
 /// Whether this cutter mills a section in levels and passes.
 [[nodiscard]] bool mills_sections(const model::Cutter& cutter);
 

@@ -83,8 +83,9 @@ std::vector<Track> tracks_at(const Spine& s, double d, bool walls_right) {
     if (!(d > 0.0)) return {};
     const Vec2 c = s.line.front();
     const Bend bend = walls_right ? Bend::kCcw : Bend::kCw;
-    return {{.start = {c.x + d, c.y},
-             .segments = {{{c.x - d, c.y}, c, bend}, {{c.x + d, c.y}, c, bend}},
+    // Begun beside where a helix ends, so that no crumb of an arc is left there.
+    return {{.start = {c.x, c.y + d},
+             .segments = {{{c.x, c.y - d}, c, bend}, {{c.x, c.y + d}, c, bend}},
              .closed = true}};
   }
   if (!(d > 0.0)) {
