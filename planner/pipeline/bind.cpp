@@ -89,7 +89,7 @@ Result<model::Plan> bind(model::Plan plan, const Inputs& inputs, const Policy& p
   std::vector<Stage> stages = {resolve_workpiece, list_given};
   if (policy.bind >= Bind::kStrategy)
     stages.insert(stages.end(), {propose_missing, select_open_tools, order_steps});
-  if (policy.bind == Bind::kAll) stages.push_back(make_paths);
+  if (policy.bind == Bind::kAll) stages.insert(stages.end(), {carry_tools, make_paths, join_paths});
   for (const Stage stage : stages) {
     if (auto ok = stage(w); !ok) return tl::unexpected(ok.error());
   }
