@@ -316,7 +316,7 @@ class PathMaker {
     fq.cut = made.question;
     fq.n_rpm = given.rpm.value_or(made.answer.n_rpm);
     fq.feed_mm_min = given.feed_mm_min.value_or(made.answer.feed_mm_min);
-    fq.adapt = step.open_technology;
+    fq.adapt = step.open_technology || feed_was_planned(step);
     fq.feed_factor = std::move(made.path.feed_factor);
     fq.speed_factor = std::move(made.path.speed_factor);
     fq.dwell_s = std::move(made.path.dwell_s);
@@ -332,6 +332,15 @@ class PathMaker {
     r.path = path;
     record_path(w_, step, path);
     return keep(step, std::move(r), fq);
+  }
+
+  /// Whether the feed is one that planning bound before: then it is the most, and each move has its own.
+  bool feed_was_planned(const StepWork& step) const {
+    const auto* op = w_.plan.model.get<model::MachiningOperation>(step.operation);
+    if (op == nullptr || !op->its_technology.set()) return false;
+    const auto* d = w_.plan.ledger.find(op->its_technology, "feedrate");
+    return d != nullptr && !d->pinned && d->binder != model::Binder::kGiven &&
+           d->binder != model::Binder::kOperator;
   }
 
   Status explicit_path(StepWork& step) {
