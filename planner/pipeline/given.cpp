@@ -211,6 +211,21 @@ void overrule_stop(Work& w, const StepWork& step) {
        "safety: the spindle turns while the tool is in the material"});
 }
 
+/// A step on a compound or a pattern is for the members that its name begins with ('HOLE[2] drill'), and all
+/// that are like them; without such a name, for all.
+std::vector<model::FeatureShape> members_meant(std::vector<model::FeatureShape> shapes,
+                                               const std::string& name) {
+  for (const model::FeatureShape& meant : shapes) {
+    if (shapes.size() == 1 || !name.starts_with(meant.name + " ")) continue;
+    std::vector<model::FeatureShape> out;
+    for (const model::FeatureShape& s : shapes) {
+      if (alike(s, meant)) out.push_back(s);
+    }
+    return out;
+  }
+  return shapes;
+}
+
 }  // namespace
 
 Status list_given(Work& w) {
@@ -238,7 +253,10 @@ Status list_given(Work& w) {
   for (StepWork& step : w.steps) {
     if (step.feature.set() && w.plan.model.holds<model::ManufacturingFeature>(step.feature)) {
       auto shapes = model::shapes_of(w.plan.model, Ref<model::ManufacturingFeature>(step.feature));
-      if (shapes) step.shapes = rules::from_the_top(*std::move(shapes));
+      if (shapes) {
+        const std::string name = w.plan.model.get<model::Executable>(step.step)->its_id.value_or("");
+        step.shapes = members_meant(rules::from_the_top(*std::move(shapes)), name);
+      }
       // An operation with its own path needs no shape; others say later why they cannot be done.
     }
     if (w.plan.model.holds<model::MachiningWorkingstep>(step.step) &&

@@ -87,6 +87,10 @@ void rebuild_workplan(Work& w, bool keep) {
       last = s.setup;
     }
     m.at<model::Workplan>(into).its_elements.push_back(s.step);
+    if (const auto* setup = m.get<model::Setup>(w.setups[s.setup].setup)) {
+      const auto plane = setup->its_secplane;
+      if (auto* ws = m.get<model::Workingstep>(s.step)) ws->its_secplane = plane;
+    }
   }
 }
 

@@ -183,13 +183,6 @@ void unplanned(Work& w, const FeatureShape& s, const std::string& reason) {
                 .instance = w.plan.model.origin(s.feature).instance});
 }
 
-/// Whether two shapes ask for the same steps and cutters: members of a pattern.
-bool alike(const FeatureShape& a, const FeatureShape& b) {
-  return a.kind == b.kind && a.depth_mm == b.depth_mm && a.diameter.nominal_mm == b.diameter.nominal_mm &&
-         a.area.loops == b.area.loops && a.frame.z == b.frame.z && a.frame.origin.z == b.frame.origin.z &&
-         a.thread_pitch_mm == b.thread_pitch_mm;
-}
-
 class Proposer {
  public:
   explicit Proposer(Work& w) : w_(w), library_(usable(w)) {}
@@ -313,6 +306,12 @@ class Proposer {
 
 }  // namespace
 
+bool alike(const FeatureShape& a, const FeatureShape& b) {
+  return a.kind == b.kind && a.depth_mm == b.depth_mm && a.diameter.nominal_mm == b.diameter.nominal_mm &&
+         a.area.loops == b.area.loops && a.frame.z == b.frame.z && a.frame.origin.z == b.frame.origin.z &&
+         a.thread_pitch_mm == b.thread_pitch_mm;
+}
+
 Status propose_missing(Work& w) {
   const std::vector<AnyRef> features = wanted(w);
   std::vector<std::pair<AnyRef, std::vector<FeatureShape>>> shaped;
@@ -345,6 +344,48 @@ Status propose_missing(Work& w) {
 
 namespace {
 
+/// What the rules ask of the tool of this operation on this feature: of the step of that name, else of that
+/// kind.
+std::optional<model::ToolRequirement> asked_by_rules(Work& w, const StepWork& step) {
+  if (step.shapes.empty()) return std::nullopt;
+  const auto all = model::shapes_of(w.plan.model, Ref<model::ManufacturingFeature>(step.feature));
+  if (!all) return std::nullopt;
+  const auto shapes = rules::from_the_top(*all);
+  rules::Context context;
+  context.material = w.plan.material;
+  if (const auto* f = w.plan.model.get<model::ManufacturingFeature>(step.feature)) {
+    if (const auto* piece = w.plan.model.get<model::Workpiece>(f->its_workpiece)) {
+      context.global_tolerance_mm = piece->global_tolerance;
+    }
+  }
+  context.stock_above_mm = std::max(0.0, transformed(w.plan.stock.box, inverse(shapes.front().frame)).hi.z);
+  const std::string name = w.plan.model.at<model::MachiningOperation>(step.operation).its_id.value_or("");
+  std::optional<model::ToolRequirement> same_kind;
+  const auto proposals = rules::propose_members(w.inputs.rules, shapes, context);
+  for (std::size_t i = 0; i < proposals.size(); ++i) {
+    if (shapes[i].member != step.shapes.front().member) continue;
+    for (const auto& chain : proposals[i].chains) {
+      for (const auto& s : chain) {
+        if (s.operation != step.operation.type) continue;
+        if (s.name == name) return s.tool;
+        if (!same_kind) same_kind = s.tool;
+      }
+    }
+  }
+  return same_kind;
+}
+
+/// Whether a tool that meets the second can meet the first: the stated size lies within what is asked.
+bool agree(const model::ToolRequirement& asked, const model::ToolRequirement& stated) {
+  const double d = stated.diameter_exact_mm > 0.0 ? stated.diameter_exact_mm : stated.diameter_max_mm;
+  if (!(d > 0.0)) return true;
+  constexpr double kSame = 1e-6;
+  if (asked.diameter_exact_mm > 0.0)
+    return std::abs(asked.diameter_exact_mm - d) <= asked.diameter_tolerance_mm + kSame;
+  return d >= asked.diameter_min_mm - kSame &&
+         (asked.diameter_max_mm <= 0.0 || d <= asked.diameter_max_mm + kSame);
+}
+
 /// What an open tool must be: as the file's requirement says, else as the rules ask for such an operation on
 /// such a feature; deep enough for the feature in any case.
 Result<model::ToolRequirement> requirement_of(Work& w, const StepWork& step) {
@@ -354,6 +395,12 @@ Result<model::ToolRequirement> requirement_of(Work& w, const StepWork& step) {
       deep ? step.shapes.front().depth_mm +
                  std::max(0.0, transformed(w.plan.stock.box, inverse(step.shapes.front().frame)).hi.z)
            : 0.0;
+  if (tooling::is_requirement(w.plan.model, op->its_tool)) {
+    // Nouns hold class and size only; what the rules ask for the same operation says more, where both agree.
+    const auto asked = asked_by_rules(w, step);
+    const auto stated = tooling::requirement_from_nouns(w.plan.model, op->its_tool, w.job);
+    if (asked && (!stated || agree(*asked, *stated))) return *asked;
+  }
   if (w.plan.model.holds<model::MachiningTool>(op->its_tool)) {
     auto r = tooling::requirement_from_nouns(w.plan.model, op->its_tool, w.job);
     if (r) {
@@ -371,17 +418,7 @@ Result<model::ToolRequirement> requirement_of(Work& w, const StepWork& step) {
     }
     return r;
   }
-  if (deep) {
-    rules::Context context;
-    context.material = w.plan.material;
-    context.stock_above_mm = std::max(0.0, reach - step.shapes.front().depth_mm);
-    const auto p = rules::propose(w.inputs.rules, step.shapes.front(), context);
-    for (const auto& chain : p.chains) {
-      for (const auto& s : chain) {
-        if (s.operation == step.operation.type) return s.tool;
-      }
-    }
-  }
+  if (const auto asked = asked_by_rules(w, step)) return *asked;
   return fail({.code = "PIP-TOOL-OPEN",
                .message = "operation '" + op->its_id.value_or("") +
                           "' leaves its tool open, and nothing says what it must be",

@@ -66,6 +66,9 @@ Status make_paths(Work& w);         ///< depths, paths, sections, feeds, step by
 Status join_paths(Work& w);         ///< given paths are reached from the security plane, and left to it
 
 // Shared pieces.
+
+/// Whether two shapes ask for the same steps and cutters: members of a pattern.
+[[nodiscard]] bool alike(const model::FeatureShape& a, const model::FeatureShape& b);
 [[nodiscard]] Ref<model::Setup> add_setup(Work& w, const geometry::Placement& workpiece_in_setup);
 /// The nouns of a proposed step, bound in the ledger; gives the new workingstep.
 [[nodiscard]] Ref<model::MachiningWorkingstep> add_nouns(Work& w, const model::ProposedStep& step,
