@@ -225,6 +225,24 @@ TEST(FormSlot, IsFinishedByABallToTheScallopWithoutGouging) {
   }
 }
 
+TEST(FormSlot, IsSteppedFinelyByAFlatEndThatFinishes) {
+  PathJob t = form_slot(3.0, 0.5 * kPi, 13.0, true);
+  t.operation = TypeId::kBottomAndSideFinishMilling;
+  t.cutter = cutter(model::CutterClass::kEndmill, 6.0, 0.0);
+  t.axial_depth_mm = 4.0;
+  t.left_on_side_mm = 0.3;
+  Job job;
+  const auto g = generate(t, job);
+  ASSERT_TRUE(g) << g.error().message;
+  const Wall wall = rounded_vee(3.0, 0.5 * kPi, 13.0);
+  EXPECT_LE(gouge(t, *g, wall), 0.002);
+  // Flanks at 45 degrees: steps of 0.35 sqrt 2; the lowest is 3 wide on each side, 1.757 above the bottom.
+  const auto& z = g->levels_z_mm;
+  for (std::size_t i = 1; i + 1 < z.size(); ++i)
+    EXPECT_NEAR(z[i - 1] - z[i], 0.35 * std::sqrt(2.0), 1e-3) << i;
+  EXPECT_NEAR(z.back(), -13.0 + 3.0 * (1.0 - std::sqrt(0.5)) + (3.0 - 3.0 * std::sqrt(0.5)), 0.002);
+}
+
 TEST(FormSlot, SaysWhatABallTooLargeLeaves) {
   PathJob t = form_slot(3.0, 0.5 * kPi, 13.0, true);
   t.operation = TypeId::kBottomAndSideFinishMilling;
@@ -304,6 +322,44 @@ TEST(TaperedHole, IsRoughedAndFinishedOnCirclesWithoutGouging) {
     for (const auto& d : job.take_diagnostics()) rest = rest || d.code == "TPA-REST";
     EXPECT_EQ(rest, !through) << "a ball leaves the corner of a flat bottom";
   }
+}
+
+TEST(TaperedHole, HasItsCornerCutByTheFlatEndThatStepsDownTheWall) {
+  PathJob t = taper(false);
+  t.operation = TypeId::kBottomAndSideFinishMilling;
+  t.axial_depth_mm = 6.0;
+  t.cutter = cutter(model::CutterClass::kEndmill, 6.0, 0.0);
+  t.left_on_side_mm = t.left_on_bottom_mm = 0.3;
+  Job job;
+  const auto g = generate(t, job);
+  ASSERT_TRUE(g) << g.error().message;
+  EXPECT_THAT(rule_breaks(t, *g), testing::IsEmpty());
+  const Wall wall = [](double d) { return d <= 6.0 ? 0.0 : std::min(20.0, 20.0 * (d - 6.0) / 3.0); };
+  EXPECT_LE(gouge(t, *g, wall), 0.002);
+  EXPECT_LE(g->levels_z_mm.size(), 10U) << "0.35 square to a wall that leans 8.5 degrees: 2.4 apart";
+  double floor = 0.0;
+  each_place(*g, -19.999, 0.1, [&](Vec3 p) { floor = std::max(floor, std::hypot(p.x, p.y)); });
+  EXPECT_NEAR(floor + 3.0, 6.0, 1e-3) << "out to the corner";
+}
+
+TEST(HoleOfTheCuttersOwnSize, IsSunkNotLed) {
+  PathJob t = taper(false);
+  t.shape.diameter.nominal_mm = t.shape.bottom_diameter_mm = 10.0;
+  t.shape.depth_mm = 12.0;
+  t.shape.bottom = model::HoleBottom::kSpherical;
+  t.shape.bottom_hole_radius_mm = 5.0;
+  t.operation = TypeId::kBottomAndSideFinishMilling;
+  t.cutter = ball(10.0);
+  Job job;
+  const auto g = generate(t, job);
+  ASSERT_TRUE(g) << g.error().message;
+  EXPECT_THAT(rule_breaks(t, *g), testing::IsEmpty());
+  EXPECT_EQ(g->levels_z_mm, std::vector<double>{-12.0});
+  for (std::size_t i = 0; i < g->path.size(); ++i) EXPECT_EQ(g->path.x[i], 0.0);
+  t.cutter.centre_cutting = false;
+  EXPECT_EQ(generate(t, job).error().code, "TPA-ENTRY");
+  t.cutter = ball(10.2);
+  EXPECT_EQ(generate(t, job).error().code, "TPA-NO-FIT");
 }
 
 }  // namespace

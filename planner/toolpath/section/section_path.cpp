@@ -20,8 +20,9 @@ namespace {
 
 /// Height of the ridges that finishing leaves, mm. Default, unsourced.
 constexpr double kScallop = 0.01;
-/// Levels of a flat cutter that finishes a leaning or round wall, mm. Default, unsourced.
-constexpr double kFinishLevel = 0.5;
+/// Height of the steps that a flat cutter leaves on a leaning or round wall when it finishes, measured square
+/// to the wall, mm. Default, unsourced.
+constexpr double kFinishStep = 0.35;
 /// What is left for the finishing passes where no earlier step has roughed, mm. Default, unsourced.
 constexpr double kOwnAllowance = 0.3;
 /// Levels of that roughing by the diameter, where no depth is given. Default, unsourced.
@@ -106,9 +107,34 @@ class SectionCutter {
 
   [[nodiscard]] double level_step() const {
     if (task_.multiple_passes.has_value() && !*task_.multiple_passes) return 0.0;
-    const double asked = task_.axial_depth_mm;
-    if (!finishes(task_.operation)) return asked;
-    return asked > 0.0 ? std::min(asked, kFinishLevel) : kFinishLevel;
+    return task_.axial_depth_mm;
+  }
+
+  /// Levels between which the steps on the wall stay small: far apart on steep walls, close on shallow ones.
+  [[nodiscard]] std::vector<double> fine_levels(const Tip& thick, double bottom, double end) const {
+    std::vector<double> out;
+    double from = task_.start_z_mm;
+    const double most = level_step() > 0.0 ? level_step() : 1e300;
+    while (from - end > 1e-6) {
+      const double wide = widest_at(section_, thick, from - zero_z_ - bottom);
+      const auto step_at = [&](double fall) {
+        const double side = wide - std::max(0.0, widest_at(section_, thick, from - fall - zero_z_ - bottom));
+        return fall * side / std::hypot(fall, side);
+      };
+      double hi = std::min(most, from - end);
+      double lo = std::min(hi, kFinishStep);  // a step is never higher than the fall
+      if (step_at(hi) <= kFinishStep) {
+        lo = hi;
+      } else {
+        for (int i = 0; i < 40; ++i) {
+          const double mid = 0.5 * (lo + hi);
+          (step_at(mid) <= kFinishStep ? lo : hi) = mid;
+        }
+      }
+      from = from - lo < end + 0.02 ? end : from - lo;
+      out.push_back(from);
+    }
+    return out;
   }
 
   /// Levels from above, everything within the section that the cutter reaches, from the middle outwards.
@@ -120,7 +146,8 @@ class SectionCutter {
                                    " mm above the bottom: it is wider than the section there");
     }
     const double end = zero_z_ + lowest;
-    const auto zs = levels(area_, task_.start_z_mm, end, step, 0.0);
+    const bool fine = finishes(task_.operation) && tip_.corner_mm <= 0.0;
+    const auto zs = fine ? fine_levels(thick, bottom, end) : levels(area_, task_.start_z_mm, end, step, 0.0);
     if (zs.empty() && lowest >= section_.depth_mm - 1e-6) return no_fit();
     if (zs.empty()) {
       return fail({.code = "TPA-DEPTH",
