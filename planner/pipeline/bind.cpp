@@ -84,7 +84,7 @@ Result<model::Plan> bind(model::Plan plan, const Inputs& inputs, const Policy& p
   plan.setups.clear();
   plan.cutters.clear();
   plan.unplanned.clear();
-  Work w{std::move(plan), inputs, policy, job, {}, {}, {}};
+  Work w{std::move(plan), inputs, policy, job, {}, {}, {}, {}};
   using Stage = Status (*)(Work&);
   std::vector<Stage> stages = {resolve_workpiece, list_given};
   if (policy.bind >= Bind::kStrategy)

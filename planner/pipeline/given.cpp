@@ -229,6 +229,11 @@ std::vector<model::FeatureShape> members_meant(std::vector<model::FeatureShape> 
 }  // namespace
 
 Status list_given(Work& w) {
+  for (const AnyRef f : w.plan.model.all_below(TypeId::kPlanarFace)) {
+    if (auto s = model::shapes_of(w.plan.model, Ref<model::ManufacturingFeature>(f))) {
+      w.faces.insert(w.faces.end(), s->begin(), s->end());
+    }
+  }
   const auto* project = w.plan.model.get<model::Project>(w.plan.project);
   AnyRef root = project != nullptr ? AnyRef(project->main_workplan) : AnyRef{};
   if (!root.set()) {

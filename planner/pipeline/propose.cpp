@@ -61,20 +61,6 @@ std::vector<AnyRef> wanted(const Work& w) {
   return out;
 }
 
-/// How much raw material stands above a feature when its steps begin: faces are cut first.
-double stock_above(const Work& w, const FeatureShape& s, const std::vector<FeatureShape>& faces) {
-  double top = transformed(w.plan.stock.box, inverse(s.frame)).hi.z;
-  if (s.kind == model::ShapeKind::kFace) return std::max(0.0, top);
-  for (const FeatureShape& face : faces) {
-    const auto rel = compose(inverse(s.frame), face.frame);
-    if (std::abs(rel.z.z - 1.0) > kSameAxis) continue;
-    const auto here = face.frame.to_local(s.frame.origin);
-    if (!geometry::contains(face.area, geometry::xy(here))) continue;
-    top = std::min(top, rel.origin.z - face.depth_mm);
-  }
-  return std::max(0.0, top);
-}
-
 /// The set-up in which this axis points up; made when there is none.
 std::size_t setup_for(Work& w, const FeatureShape& s) {
   for (std::size_t i = 0; i < w.setups.size(); ++i) {
@@ -106,15 +92,6 @@ struct Chosen {
   const std::vector<model::ProposedStep>* chain = nullptr;
   std::vector<model::Selection> tools;
 };
-
-std::vector<model::Cutter> usable(const Work& w) {
-  if (!w.policy.only_loaded_cutters) return w.inputs.library;
-  std::vector<model::Cutter> out;
-  for (const auto& c : w.inputs.library) {
-    if (c.pocket > 0) out.push_back(c);
-  }
-  return out;
-}
 
 /// Drops drills, reamers and taps that the spindle cannot turn at any useful feed; says why when none is
 /// left.
@@ -187,7 +164,7 @@ class Proposer {
  public:
   explicit Proposer(Work& w) : w_(w), library_(usable(w)) {}
 
-  void feature(AnyRef f, const std::vector<FeatureShape>& shapes, const std::vector<FeatureShape>& faces) {
+  void feature(AnyRef f, const std::vector<FeatureShape>& shapes) {
     rules::Context context;
     context.material = w_.plan.material;
     if (const auto* named = w_.plan.model.get<model::ManufacturingFeature>(f)) {
@@ -195,7 +172,7 @@ class Proposer {
         context.global_tolerance_mm = piece->global_tolerance;
       }
     }
-    context.stock_above_mm = stock_above(w_, shapes.front(), faces);
+    context.stock_above_mm = stock_above(w_, shapes.front());
     context.has_coolant = w_.plan.machine.has_flood || w_.plan.machine.has_mist;
     for (const auto& s : shapes) {
       for (const std::string& a : s.assumptions) {
@@ -306,6 +283,28 @@ class Proposer {
 
 }  // namespace
 
+double stock_above(const Work& w, const FeatureShape& s) {
+  double top = transformed(w.plan.stock.box, inverse(s.frame)).hi.z;
+  if (s.kind == model::ShapeKind::kFace) return std::max(0.0, top);
+  for (const FeatureShape& face : w.faces) {
+    const auto rel = compose(inverse(s.frame), face.frame);
+    if (std::abs(rel.z.z - 1.0) > kSameAxis) continue;
+    const auto here = face.frame.to_local(s.frame.origin);
+    if (!geometry::contains(face.area, geometry::xy(here))) continue;
+    top = std::min(top, rel.origin.z - face.depth_mm);
+  }
+  return std::max(0.0, top);
+}
+
+std::vector<model::Cutter> usable(const Work& w) {
+  if (!w.policy.only_loaded_cutters) return w.inputs.library;
+  std::vector<model::Cutter> out;
+  for (const auto& c : w.inputs.library) {
+    if (c.pocket > 0) out.push_back(c);
+  }
+  return out;
+}
+
 bool alike(const FeatureShape& a, const FeatureShape& b) {
   return a.kind == b.kind && a.depth_mm == b.depth_mm && a.diameter.nominal_mm == b.diameter.nominal_mm &&
          a.area.loops == b.area.loops && a.frame.z == b.frame.z && a.frame.origin.z == b.frame.origin.z &&
@@ -315,12 +314,6 @@ bool alike(const FeatureShape& a, const FeatureShape& b) {
 Status propose_missing(Work& w) {
   const std::vector<AnyRef> features = wanted(w);
   std::vector<std::pair<AnyRef, std::vector<FeatureShape>>> shaped;
-  std::vector<FeatureShape> faces;
-  for (const AnyRef f : w.plan.model.all_below(TypeId::kPlanarFace)) {
-    if (auto s = model::shapes_of(w.plan.model, Ref<model::ManufacturingFeature>(f))) {
-      faces.insert(faces.end(), s->begin(), s->end());
-    }
-  }
   if (w.policy.reopen >= Reopen::kOperations) {
     for (const AnyRef f : features)
       w.plan.model.get<model::ManufacturingFeature>(f)->its_operations.items.clear();
@@ -337,196 +330,7 @@ Status propose_missing(Work& w) {
       unplanned(w, nameless, shapes.error().message);
       continue;
     }
-    if (!shapes->empty()) proposer.feature(f, rules::from_the_top(*shapes), faces);
-  }
-  return {};
-}
-
-namespace {
-
-/// What the rules ask of the tool of this operation on this feature: of the step of that name, else of that
-/// kind.
-std::optional<model::ToolRequirement> asked_by_rules(Work& w, const StepWork& step) {
-  if (step.shapes.empty()) return std::nullopt;
-  const auto all = model::shapes_of(w.plan.model, Ref<model::ManufacturingFeature>(step.feature));
-  if (!all) return std::nullopt;
-  const auto shapes = rules::from_the_top(*all);
-  rules::Context context;
-  context.material = w.plan.material;
-  if (const auto* f = w.plan.model.get<model::ManufacturingFeature>(step.feature)) {
-    if (const auto* piece = w.plan.model.get<model::Workpiece>(f->its_workpiece)) {
-      context.global_tolerance_mm = piece->global_tolerance;
-    }
-  }
-  context.stock_above_mm = std::max(0.0, transformed(w.plan.stock.box, inverse(shapes.front().frame)).hi.z);
-  const std::string name = w.plan.model.at<model::MachiningOperation>(step.operation).its_id.value_or("");
-  std::optional<model::ToolRequirement> same_kind;
-  const auto proposals = rules::propose_members(w.inputs.rules, shapes, context);
-  for (std::size_t i = 0; i < proposals.size(); ++i) {
-    if (shapes[i].member != step.shapes.front().member) continue;
-    for (const auto& chain : proposals[i].chains) {
-      for (const auto& s : chain) {
-        if (s.operation != step.operation.type) continue;
-        if (s.name == name) return s.tool;
-        if (!same_kind) same_kind = s.tool;
-      }
-    }
-  }
-  return same_kind;
-}
-
-/// Whether a tool that meets the second can meet the first: the stated size lies within what is asked.
-bool agree(const model::ToolRequirement& asked, const model::ToolRequirement& stated) {
-  const double d = stated.diameter_exact_mm > 0.0 ? stated.diameter_exact_mm : stated.diameter_max_mm;
-  if (!(d > 0.0)) return true;
-  constexpr double kSame = 1e-6;
-  if (asked.diameter_exact_mm > 0.0)
-    return std::abs(asked.diameter_exact_mm - d) <= asked.diameter_tolerance_mm + kSame;
-  return d >= asked.diameter_min_mm - kSame &&
-         (asked.diameter_max_mm <= 0.0 || d <= asked.diameter_max_mm + kSame);
-}
-
-/// What an open tool must be: as the file's requirement says, else as the rules ask for such an operation on
-/// such a feature; deep enough for the feature in any case.
-Result<model::ToolRequirement> requirement_of(Work& w, const StepWork& step) {
-  const auto* op = w.plan.model.get<model::MachiningOperation>(step.operation);
-  const bool deep = !step.shapes.empty();
-  const double reach =
-      deep ? step.shapes.front().depth_mm +
-                 std::max(0.0, transformed(w.plan.stock.box, inverse(step.shapes.front().frame)).hi.z)
-           : 0.0;
-  if (tooling::is_requirement(w.plan.model, op->its_tool)) {
-    // Nouns hold class and size only; what the rules ask for the same operation says more, where both agree.
-    const auto asked = asked_by_rules(w, step);
-    const auto stated = tooling::requirement_from_nouns(w.plan.model, op->its_tool, w.job);
-    if (asked && (!stated || agree(*asked, *stated))) return *asked;
-  }
-  if (w.plan.model.holds<model::MachiningTool>(op->its_tool)) {
-    auto r = tooling::requirement_from_nouns(w.plan.model, op->its_tool, w.job);
-    if (r) {
-      // What the feature needs counts, not how long the given tool was.
-      if (deep) {
-        r->reach_mm = reach;
-        r->depth_of_cut_mm = std::min(r->depth_of_cut_mm, reach);
-        r->point_angle_rad = 0.0;
-      }
-      const bool fits_narrow = deep && step.shapes.front().corner_radius_mm > 0.0;
-      if (fits_narrow && w.plan.model.holds<model::BottomAndSideMilling>(step.operation)) {
-        r->diameter_max_mm = std::min(r->diameter_max_mm, 2.0 * step.shapes.front().corner_radius_mm);
-        r->diameter_min_mm = std::min(r->diameter_min_mm, r->diameter_max_mm);
-      }
-    }
-    return r;
-  }
-  if (const auto asked = asked_by_rules(w, step)) return *asked;
-  return fail({.code = "PIP-TOOL-OPEN",
-               .message = "operation '" + op->its_id.value_or("") +
-                          "' leaves its tool open, and nothing says what it must be",
-               .file = w.plan.file_name,
-               .instance = w.plan.model.origin(step.operation).instance,
-               .expected = "a machining_tool with class and dimensions",
-               .hint = "or re-open the operations"});
-}
-
-/// A tool whose holder nobody described stands out of it as far as its feature needs, and as its flutes do;
-/// its length counts from the gage line, holder included. Defaults, unsourced.
-void stand_out(const Work& w, StepWork& step) {
-  constexpr double kFluteShare = 1.5;   // of the cutting edge's length
-  constexpr double kSlenderness = 3.0;  // diameters
-  constexpr double kSpare = 5.0;        // between holder and material, mm
-  model::Cutter& c = step.cutter;
-  if (c.stick_out_mm < c.functional_length_mm) return;  // somebody did say
-  double needed = std::max(kFluteShare * c.maximum_depth_of_cut_mm, kSlenderness * c.cutting_diameter_mm);
-  for (const FeatureShape& s : step.shapes) {
-    const double above = std::max(0.0, transformed(w.plan.stock.box, inverse(s.frame)).hi.z);
-    needed = std::max(needed, s.depth_mm + above + model::tip_length(c) + kSpare);
-  }
-  if (!(needed < c.stick_out_mm)) return;
-  c.stick_out_mm = c.usable_length_mm = needed;
-  c.sources.emplace_back("stick_out_mm",
-                         "default: what feature and flutes need, no holder being described; unsourced");
-}
-
-/// A cutter that is loaded is where the tool table says, and as long.
-void take_from_magazine(const Work& w, model::Cutter& cutter) {
-  for (const auto& c : w.inputs.library) {
-    if (c.pocket <= 0 || c.id != cutter.id) continue;
-    cutter.pocket = c.pocket;
-    if (c.functional_length_mm > 0.0) cutter.functional_length_mm = c.functional_length_mm;
-    return;
-  }
-}
-
-/// Picks the cutter of one open operation; false when none fits.
-bool select_one(Work& w, StepWork& step, const std::vector<model::Cutter>& library) {
-  const std::string name = w.plan.model.at<model::MachiningOperation>(step.operation).its_id.value_or("");
-  const auto requirement = requirement_of(w, step);
-  if (!requirement) {
-    w.job.report(requirement.error());
-    w.plan.unplanned.push_back({step.feature, requirement.error().message});
-    return false;
-  }
-  auto s = tooling::select(*requirement, library, w.plan.material, w.plan.machine, {.used = w.used_cutters});
-  if (s.ranked.empty()) {
-    w.plan.unplanned.push_back(
-        {step.feature, "operation '" + name + "': no cutter fits; " + s.would_fit + " would"});
-    w.job.report({.code = "PIP-NO-TOOL",
-                  .severity = Severity::kError,
-                  .message = "operation '" + name + "' finds no cutter",
-                  .file = w.plan.file_name,
-                  .instance = w.plan.model.origin(step.operation).instance,
-                  .expected = s.would_fit,
-                  .hint = "load or add one, or re-open the operations"});
-    return false;
-  }
-  step.candidates = s.ranked;
-  step.cutter = s.ranked.front().cutter;
-  step.rejected_tools = s.rejected;
-  w.used_cutters.push_back(step.cutter.id);
-  const auto tool = tool_noun(w, step.cutter);
-  w.plan.model.get<model::MachiningOperation>(step.operation)->its_tool = tool;
-  w.plan.ledger.bind(step.operation, "its_tool", model::Binder::kToolSelection, s.ranked.front().why,
-                     {{step.step, "its_operation"}}, s.rejected);
-  return true;
-}
-
-/// Files name tools as they like, or not at all: different ones of one name get a name each.
-void tell_apart(std::vector<model::Cutter>& given, model::Cutter& cutter) {
-  const std::string name = cutter.id;
-  for (int n = 2;; ++n) {
-    const auto same =
-        std::find_if(given.begin(), given.end(), [&](const auto& c) { return c.id == cutter.id; });
-    if (same == given.end()) break;
-    if (*same == cutter) return;
-    cutter.id = name + "~" + std::to_string(n);
-  }
-  given.push_back(cutter);
-}
-
-}  // namespace
-
-Status select_open_tools(Work& w) {
-  const std::vector<model::Cutter> library = usable(w);
-  std::vector<model::Cutter> given;
-  for (StepWork& step : w.steps) {
-    if (step.proposed || !step.operation.set()) continue;
-    const auto* op = w.plan.model.get<model::MachiningOperation>(step.operation);
-    if (step.open_tool) {
-      select_one(w, step, library);
-      continue;
-    }
-    auto cutter = tooling::cutter_from_nouns(w.plan.model, op->its_tool, w.job, w.inputs.library);
-    if (cutter) {
-      step.cutter = *std::move(cutter);
-      tell_apart(given, step.cutter);
-      stand_out(w, step);
-      take_from_magazine(w, step.cutter);
-      w.used_cutters.push_back(step.cutter.id);
-      continue;
-    }
-    w.job.report(cutter.error());
-    w.plan.unplanned.push_back(
-        {step.feature, "operation '" + op->its_id.value_or("") + "': " + cutter.error().message});
+    if (!shapes->empty()) proposer.feature(f, rules::from_the_top(*shapes));
   }
   return {};
 }

@@ -51,7 +51,9 @@ struct Work {
   const Policy& policy;
   Job& job;
   std::vector<SetupWork> setups;
-  std::vector<StepWork> steps;            ///< in order of execution once sequenced
+  std::vector<StepWork> steps;  ///< in order of execution once sequenced
+  std::vector<model::FeatureShape>
+      faces;  ///< planar faces of the part: cut first, so that less stands above the rest
   std::vector<std::string> used_cutters;  ///< ids, so that a further tool change is not asked for lightly
 };
 
@@ -66,6 +68,11 @@ Status make_paths(Work& w);         ///< depths, paths, sections, feeds, step by
 Status join_paths(Work& w);         ///< given paths are reached from the security plane, and left to it
 
 // Shared pieces.
+
+/// How much raw material stands above a feature when its steps begin, mm: faces are cut first.
+[[nodiscard]] double stock_above(const Work& w, const model::FeatureShape& shape);
+/// The cutters that may be used: the library, or what of it is loaded.
+[[nodiscard]] std::vector<model::Cutter> usable(const Work& w);
 
 /// Whether two shapes ask for the same steps and cutters: members of a pattern.
 [[nodiscard]] bool alike(const model::FeatureShape& a, const model::FeatureShape& b);
