@@ -93,7 +93,7 @@ void warn_of_taper(const PathJob& task, Job& job) {
   if (!tapered || (task.operation != TypeId::kReaming && task.operation != TypeId::kBoring)) return;
   const double depth = task.cutting_depth_mm.value_or(s.depth_mm);
   job.warn("TPA-REST",
-           s.name + ": its wall tapers from " + trimmed(s.diameter.nominal_mm, 3) + " to " +
+           "its wall tapers from " + trimmed(s.diameter.nominal_mm, 3) + " to " +
                trimmed(s.bottom_diameter_mm, 3) + " mm over " + trimmed(s.depth_mm, 3) + " mm; " +
                task.cutter.id + " is taken as upright, " + trimmed(task.cutter.cutting_diameter_mm, 3) +
                " mm wide, and goes " + trimmed(depth, 3) +

@@ -225,6 +225,27 @@ TEST(FormSlot, IsFinishedByABallToTheScallopWithoutGouging) {
   }
 }
 
+TEST(FormSlot, OfASharpVeeIsRoughedDownToItsAllowance) {
+  PathJob t = form_slot(1.0, 0.5 * kPi, 10.0, true);
+  t.shape.slot_bottom_radius_mm = 0.0;
+  t.shape.slot_profile = {{0, 0}, {10, 10}};
+  t.shape.area = geometry::stroke(t.shape.spine, 10.0, false);
+  t.shape.reach = geometry::stroke({{-100, 0}, {160, 0}}, 10.0, false);
+  t.operation = TypeId::kBottomAndSideRoughMilling;
+  t.cutter = cutter(model::CutterClass::kEndmill, 5.0, 0.0);
+  t.axial_depth_mm = 2.0;
+  t.allowance_bottom_mm = 5.0;
+  Job job;
+  const auto g = generate(t, job);
+  ASSERT_TRUE(g) << g.error().message;
+  EXPECT_NEAR(g->levels_z_mm.back(), -5.0, 1e-9);
+  EXPECT_LE(gouge(t, *g, [](double d) { return std::min(d, 10.0); }), 1e-6);
+  t.allowance_side_mm = 0.2;
+  const auto thinner = generate(t, job);
+  ASSERT_TRUE(thinner) << thinner.error().message;
+  EXPECT_LE(gouge(t, *thinner, [](double d) { return std::min(d, 10.0); }), -0.2);
+}
+
 TEST(FormSlot, IsSteppedFinelyByAFlatEndThatFinishes) {
   PathJob t = form_slot(3.0, 0.5 * kPi, 13.0, true);
   t.operation = TypeId::kBottomAndSideFinishMilling;

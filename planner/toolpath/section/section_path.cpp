@@ -111,14 +111,14 @@ class SectionCutter {
   }
 
   /// Levels between which the steps on the wall stay small: far apart on steep walls, close on shallow ones.
-  [[nodiscard]] std::vector<double> fine_levels(const Tip& thick, double bottom, double end) const {
+  [[nodiscard]] std::vector<double> fine_levels(const Tip& thick, double rise, double end) const {
     std::vector<double> out;
     double from = task_.start_z_mm;
     const double most = level_step() > 0.0 ? level_step() : 1e300;
     while (from - end > 1e-6) {
-      const double wide = widest_at(section_, thick, from - zero_z_ - bottom);
+      const double wide = widest_at(section_, thick, from - zero_z_ - rise);
       const auto step_at = [&](double fall) {
-        const double side = wide - std::max(0.0, widest_at(section_, thick, from - fall - zero_z_ - bottom));
+        const double side = wide - std::max(0.0, widest_at(section_, thick, from - fall - zero_z_ - rise));
         return fall * side / std::hypot(fall, side);
       };
       double hi = std::min(most, from - end);
@@ -140,14 +140,17 @@ class SectionCutter {
   /// Levels from above, everything within the section that the cutter reaches, from the middle outwards.
   Status clear(double side, double bottom, double step, bool tell) {
     const Tip thick{tip_.radius_mm + side, tip_.corner_mm > 0.0 ? tip_.corner_mm + side : 0.0};
-    const double lowest = std::max(drop(section_, thick, 0.0) + bottom, bottom);
+    // Over a round or leaning wall the allowance stands upright, too; a larger one counts from the lowest
+    // point.
+    const double rise = std::min(side, bottom);
+    const double lowest = std::max(drop(section_, thick, 0.0) + rise, bottom);
     if (tell && lowest > bottom + side + kTellRest) {
       cutter_.warn("TPA-REST", "the cutter " + task_.cutter.id + " stays " + trimmed(lowest, 3) +
                                    " mm above the bottom: it is wider than the section there");
     }
     const double end = zero_z_ + lowest;
     const bool fine = finishes(task_.operation) && tip_.corner_mm <= 0.0;
-    const auto zs = fine ? fine_levels(thick, bottom, end) : levels(area_, task_.start_z_mm, end, step, 0.0);
+    const auto zs = fine ? fine_levels(thick, rise, end) : levels(area_, task_.start_z_mm, end, step, 0.0);
     if (zs.empty() && lowest >= section_.depth_mm - 1e-6) return no_fit();
     if (zs.empty()) {
       return fail({.code = "TPA-DEPTH",
@@ -160,7 +163,7 @@ class SectionCutter {
                             task_.left_on_side_mm.has_value();
     double from = task_.start_z_mm;
     for (const double z : zs) {
-      const double wide = widest_at(section_, thick, z - zero_z_ - bottom);
+      const double wide = widest_at(section_, thick, z - zero_z_ - rise);
       if (wide < 0.0) continue;
       if (auto ok = walls_only && z > end + 1e-9 ? wall(z, from, wide) : level(z, from, wide); !ok) return ok;
       heights_.push_back(z);
