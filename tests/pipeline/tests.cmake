@@ -1,0 +1,1 @@
+capstan_test(pipeline DEPENDS pipeline casebase)
