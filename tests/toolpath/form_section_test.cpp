@@ -264,6 +264,51 @@ TEST(FormSlot, IsSteppedFinelyByAFlatEndThatFinishes) {
   EXPECT_NEAR(z.back(), -13.0 + 3.0 * (1.0 - std::sqrt(0.5)) + (3.0 - 3.0 * std::sqrt(0.5)), 0.002);
 }
 
+TEST(FormSlot, OnABentCourseIsNotGougedAtTheBend) {
+  for (const bool finish : {false, true}) {
+    PathJob t = form_slot(3.0, 0.5 * kPi, 9.0, true);
+    t.shape.spine = {{0, 0}, {30, 0}, {45, 30}};
+    const double half = t.shape.slot_profile.back().y;
+    const Vec2 way = (1.0 / std::hypot(15.0, 30.0)) * Vec2{15, 30};
+    const std::vector<Vec2> longer = {{-100, 0}, {30, 0}, Vec2{45, 30} + 100.0 * way};
+    t.shape.area = geometry::stroke(t.shape.spine, half, false);
+    t.shape.reach = geometry::stroke(longer, half, false);
+    t.stock = geometry::rectangle({0, -40}, {80, 30});
+    t.operation = finish ? TypeId::kBottomAndSideFinishMilling : TypeId::kBottomAndSideRoughMilling;
+    t.cutter = finish ? ball(6.0) : cutter(model::CutterClass::kEndmill, 8.0, 0.0);
+    t.axial_depth_mm = 2.0;
+    if (finish) t.left_on_side_mm = 0.3;
+    Job job;
+    const auto g = generate(t, job);
+    ASSERT_TRUE(g) << g.error().message;
+    EXPECT_THAT(rule_breaks(t, *g), testing::IsEmpty());
+    const Wall wall = rounded_vee(3.0, 0.5 * kPi, 9.0);
+    const auto outline = model::profile_of(t.cutter);
+    const double r = 0.5 * t.cutter.cutting_diameter_mm;
+    const auto distance = [&](Vec2 q) {
+      double best = 1e300;
+      for (std::size_t i = 0; i + 1 < longer.size(); ++i) {
+        const Vec2 d = longer[i + 1] - longer[i];
+        const double f = std::clamp(dot(q - longer[i], d) / dot(d, d), 0.0, 1.0);
+        best = std::min(best, norm(q - longer[i] - f * d));
+      }
+      return best;
+    };
+    double worst = -1e300;
+    each_place(*g, -1e-6, 0.5, [&](Vec3 p) {
+      for (int a = 0; a < 16; ++a) {
+        for (int k = 0; k <= 12; ++k) {
+          const double rho = (r - 1e-6) * k / 12;
+          const Vec2 q{p.x + rho * std::cos(a * kPi / 8.0), p.y + rho * std::sin(a * kPi / 8.0)};
+          worst = std::max(worst, wall(distance(q)) - 9.0 - (p.z + outline.height(rho)));
+        }
+      }
+    });
+    EXPECT_LE(worst, 0.003) << finish;
+    EXPECT_GE(worst, -0.01) << finish << ": it comes to the wall";
+  }
+}
+
 TEST(FormSlot, SaysWhatABallTooLargeLeaves) {
   PathJob t = form_slot(3.0, 0.5 * kPi, 13.0, true);
   t.operation = TypeId::kBottomAndSideFinishMilling;
