@@ -1,0 +1,122 @@
+#include "tests/support/plate.h"
+
+#include <cmath>
+
+#include "planner/base/number.h"
+
+namespace capstan::testing {
+namespace {
+
+constexpr double kCell = 14.0;       // mm between features
+constexpr double kThickness = 20.0;  // mm
+
+/// Instances, numbered as they are added.
+class Writer {
+ public:
+  std::string add(const std::string& instance) {
+    const std::string name = "#" + std::to_string(++n_);
+    text_ += name + "=" + instance + ";\n";
+    return name;
+  }
+
+  std::string point(double x, double y, double z) {
+    return add("CARTESIAN_POINT('',(" + real(x) + "," + real(y) + "," + real(z) + "))");
+  }
+
+  std::string place(double x, double y, double z) {
+    return add("AXIS2_PLACEMENT_3D(''," + point(x, y, z) + "," + up_ + "," + along_ + ")");
+  }
+
+  std::string size(double mm, const std::string& limits) {
+    return add("TOLERANCED_LENGTH_MEASURE(" + real(mm) + "," + limits + ")");
+  }
+
+  std::string limits(double upper, double lower) {
+    return add("PLUS_MINUS_VALUE(" + real(upper) + "," + real(lower) + ",3)");
+  }
+
+  void directions() {
+    up_ = add("DIRECTION('',(0.,0.,1.))");
+    along_ = add("DIRECTION('',(1.,0.,0.))");
+  }
+
+  static std::string real(double v) {
+    std::string s = shortest(v);
+    if (s.find_first_of(".e") == std::string::npos) s += ".";
+    return s;
+  }
+
+  std::string text_;
+
+ private:
+  int n_ = 0;
+  std::string up_, along_;
+};
+
+}  // namespace
+
+Plate plate(std::size_t features) {
+  Plate out;
+  out.features = features;
+  const auto columns = static_cast<std::size_t>(std::ceil(std::sqrt(1.6 * static_cast<double>(features))));
+  const std::size_t rows = (features + columns - 1) / columns;
+  out.length_mm = kCell * static_cast<double>(columns);
+  out.width_mm = kCell * static_cast<double>(rows);
+
+  Writer w;
+  w.directions();
+  const std::string material = w.add("MATERIAL('C45','STEEL',())");
+  const std::string block =
+      w.add("BLOCK('RAW PIECE'," + w.place(0.0, 0.0, -kThickness) + "," + Writer::real(out.length_mm) + "," +
+            Writer::real(out.width_mm) + "," + Writer::real(kThickness) + ")");
+  const std::string raw = w.add("WORKPIECE('RAW PIECE'," + material + ",$,$,$," + block + ",())");
+  const std::string piece = w.add("WORKPIECE('PLATE'," + material + ",0.1," + raw + ",$,$,())");
+  const std::string origin = w.place(0.0, 0.0, 0.0);
+  const std::string security = w.add("PLANE('SECURITY PLANE'," + w.place(0.0, 0.0, 20.0) + ")");
+  const std::string placed = w.add("WORKPIECE_SETUP(" + piece + "," + origin + ",$,$,())");
+  const std::string setup = w.add("SETUP('SETUP'," + origin + "," + security + ",(" + placed + "))");
+  const std::string plan = w.add("WORKPLAN('MAIN',(),$," + setup + ",$)");
+  w.add("PROJECT('PLATE'," + plan + ",(" + piece + "),$,$,$)");
+
+  const std::string coarse = w.limits(0.2, 0.2);
+  const std::string medium = w.limits(0.1, 0.1);
+  const std::string h7 = w.limits(0.015, 0.0);
+  const std::string through = w.add("THROUGH_BOTTOM_CONDITION()");
+  const std::string flat = w.add("PLANAR_POCKET_BOTTOM_CONDITION()");
+  const std::string through_depth = w.add("PLANE(''," + w.place(0.0, 0.0, -kThickness) + ")");
+  const std::string pocket_depth = w.add("PLANE(''," + w.place(0.0, 0.0, -3.0) + ")");
+  for (std::size_t i = 0; i < features; ++i) {
+    const double x = kCell * (static_cast<double>(i % columns) + 0.5);
+    const double y = kCell * (static_cast<double>(i / columns) + 0.5);
+    const std::string at = w.place(x, y, 0.0);
+    const std::string name = "'F" + std::to_string(i + 1) + "'";
+    switch (i % 4) {
+      case 1: {
+        const std::string profile =
+            w.add("RECTANGULAR_CLOSED_PROFILE($," + w.size(8.0, medium) + "," + w.size(10.0, medium) + ")");
+        const std::string corner = w.size(2.5, coarse);
+        w.add("CLOSED_POCKET(" + name + "," + piece + ",()," + at + "," + pocket_depth + ",(),$," + flat +
+              ",$," + corner + "," + profile + ")");
+        ++out.pockets;
+        break;
+      }
+      case 3:
+        w.add("ROUND_HOLE(" + name + "," + piece + ",()," + at + "," + through_depth + "," + w.size(8.0, h7) +
+              ",$," + through + ")");
+        ++out.dowel_holes;
+        break;
+      default:
+        w.add("ROUND_HOLE(" + name + "," + piece + ",()," + at + "," + through_depth + "," +
+              w.size(6.6, coarse) + ",$," + through + ")");
+        ++out.holes;
+    }
+  }
+  out.text =
+      "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION((''),'2;1');\n"
+      "FILE_NAME('plate.p21','',(''),(''),'','','');\n"
+      "FILE_SCHEMA(('MACHINING_SCHEMA','MILLING_SCHEMA'));\nENDSEC;\nDATA;\n" +
+      w.text_ + "ENDSEC;\nEND-ISO-10303-21;\n";
+  return out;
+}
+
+}  // namespace capstan::testing
