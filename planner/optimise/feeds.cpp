@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <vector>
 
 #include "planner/base/number.h"
 
@@ -80,23 +81,32 @@ FeedAnswer feeds(const FeedQuestion& q, const model::CutterPath& path) {
   const bool side_cut = q.cut.kind == CutKind::kRough || q.cut.kind == CutKind::kFinish;
   std::size_t next = 0;
   bool slowed = false;
+  std::vector<Section> sections;  // of one move, each once
   for (std::size_t i = 0; i < n; ++i) {
-    Section worst;
-    for (; next < q.samples.size() && q.samples[next].move <= i; ++next) {
-      if (q.samples[next].move != i) continue;
-      worst.ap = std::max(worst.ap, up(q.samples[next].ap_mm));
-      worst.ae = std::max(worst.ae, up(q.samples[next].ae_mm));
-      worst.plunge = worst.plunge || q.samples[next].plunge;
-    }
     const double given = i < q.feed_factor.size() ? q.feed_factor[i] : 1.0;
     double factor = given * role_factor(q, path, i);
-    if (side_cut && !worst.plunge) {
-      if (q.adapt) {
-        const int k = scheduler.steps_for(worst, factor);
-        slowed = slowed || k > 0;
-        factor *= std::pow(kFeedStep, k);
+    // Each sample is judged by itself: the deepest and the widest cut of a move need not be the same.
+    sections.clear();
+    bool in_air = true;
+    for (; next < q.samples.size() && q.samples[next].move <= i; ++next) {
+      const CutSample& s = q.samples[next];
+      if (s.move != i) continue;
+      const Section section{up(s.ap_mm), up(s.ae_mm), s.plunge};
+      in_air = in_air && section.ap <= 0;
+      if (section.ap > 0 && !s.plunge) sections.push_back(section);
+    }
+    if (side_cut) {
+      std::sort(sections.begin(), sections.end());
+      sections.erase(std::unique(sections.begin(), sections.end()), sections.end());
+      int steps = 0;
+      for (const Section& s : sections) {
+        if (q.adapt) steps = std::max(steps, scheduler.steps_for(s, factor));
       }
-      if (const auto l = scheduler.loads(worst, factor)) {
+      slowed = slowed || steps > 0;
+      factor *= std::pow(kFeedStep, steps);
+      for (const Section& s : sections) {
+        const auto l = scheduler.loads(s, factor);
+        if (!l) continue;
         keep_peak(a.peak, *l);
         a.worst_excess = std::max(a.worst_excess, worst_excess(q.cut, *l, std::abs(q.n_rpm)));
       }
@@ -105,7 +115,7 @@ FeedAnswer feeds(const FeedQuestion& q, const model::CutterPath& path) {
     if (q.adapt && q.cut.kind != CutKind::kTap)
       feed = std::max(rounded(std::floor(feed * 10.0 + 1e-6) / 10.0, 1), 0.1);
     const bool air = path.role[i] == model::MoveRole::kApproach || path.role[i] == model::MoveRole::kLink;
-    if (q.adapt && air && worst.ap <= 0) {
+    if (q.adapt && air && in_air) {
       const auto& axes = q.cut.machine.axes;
       const double most =
           std::min({axes[0].feed_max_mm_min, axes[1].feed_max_mm_min, axes[2].feed_max_mm_min});

@@ -19,6 +19,9 @@ namespace {
 using model::Model;
 using model::ShapeKind;
 
+constexpr double kTolerableExcess =
+    0.1;                         // of a limit, somewhere on a path: sections are known to a cell's width
+constexpr double kWhole = 0.95;  // share of depth times width from which a section is a rectangle
 constexpr double kCellsPerDiameter = 30.0;  // of the stock map, for the smallest cutter of the set-up
 constexpr double kMaximumCells = 600e3;     // keeps a set-up's map near 7 MB
 
@@ -327,6 +330,11 @@ class PathMaker {
     r.active = made.answer.active;
     if (auto ok = measure(step, *path, r, fq); !ok) return ok;
     const auto feeds = optimise::feeds(fq, *path);
+    if (step.open_technology && feeds.worst_excess > kTolerableExcess) {
+      w_.job.warn("PIP-EXCESS", "step '" + name_of(step) +
+                                    "': somewhere along the path a limit is exceeded by " +
+                                    trimmed(100.0 * feeds.worst_excess, 1) + " % even at the least feed");
+    }
     r.schedule = std::make_shared<const model::FeedSchedule>(feeds.schedule);
     r.loads = feeds.peak;
     r.path = path;
@@ -384,8 +392,14 @@ class PathMaker {
     }
     const auto& s = m->sections;
     for (std::size_t i = 0; i < s.size(); ++i) {
-      fq.samples.push_back(
-          {s.move[i], m->engagement[i].ap_mm, m->engagement[i].ae_mm, m->engagement[i].plunge});
+      const engagement::Engagement& e = m->engagement[i];
+      // A section that is no rectangle (a wall and a floor at once) counts as two of its area: as deep, and
+      // as wide.
+      const double ap = e.ap_mm;
+      const double ae = e.ae_mm;
+      const bool whole = e.plunge || !(ap > 0.0 && ae > 0.0) || e.csa_mm2 >= kWhole * ap * ae;
+      fq.samples.push_back({s.move[i], ap, whole ? ae : e.csa_mm2 / ap, e.plunge});
+      if (!whole) fq.samples.push_back({s.move[i], e.csa_mm2 / ae, ae, e.plunge});
     }
     r.sections = std::make_shared<const model::SectionSeries>(std::move(m->sections));
     return {};

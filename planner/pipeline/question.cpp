@@ -55,7 +55,9 @@ double tolerance_of(const Work& w, const StepWork& step, const model::FeatureSha
 double width_of(const model::FeatureShape& s) {
   if (s.kind == ShapeKind::kHole || s.kind == ShapeKind::kThread) return s.diameter.nominal_mm;
   if (s.kind == ShapeKind::kSlot) {
-    return s.slot_profile.empty() ? s.width.nominal_mm : 2.0 * s.slot_profile.front().y;
+    double half = 0.5 * s.width.nominal_mm;
+    for (const geometry::Vec2 p : s.slot_profile) half = std::max(half, p.y);
+    return 2.0 * half;
   }
   if (s.area.empty()) return 0.0;
   const auto b = geometry::bounds(s.area);
@@ -123,9 +125,11 @@ optimise::CutQuestion question_of(const Work& w, const StepWork& step, const mod
   q.engaged_diameter_mm = engaged(m, step.operation, step.cutter, job.cutting_depth_mm);
   const double d = step.cutter.cutting_diameter_mm;
   if (job.axial_depth_mm > 0.0) q.ap_mm = job.axial_depth_mm;
-  if (job.radial_depth_mm > 0.0) {
+  // Across the floor a finishing pass steps as given; what it takes from the wall is what roughing left.
+  const bool rough = q.kind != CutKind::kFinish;
+  if (rough && job.radial_depth_mm > 0.0) {
     q.ae_mm = job.radial_depth_mm;
-  } else if (job.overlap && !step.proposed) {
+  } else if (rough && job.overlap && !step.proposed) {
     q.ae_mm = std::max(0.0, 1.0 - *job.overlap) * d;
   }
   if (m.holds<model::PlaneMilling>(step.operation)) q.deflection_limit_mm = optimise::kFaceDeflectionMm;

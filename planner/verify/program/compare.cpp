@@ -84,6 +84,8 @@ class Comparison {
         return false;
       }
       const Block& b = *text_[at_++];
+      // A rapid to where the tool is already says nothing.
+      if (b.move == MoveKind::kRapid && same(b.from, b.to) && same(b.to, begin)) continue;
       if (!kind_agrees(p, i, b)) return false;
       length += norm(b.to - b.from);
       if (same(b.to, goal) && (!full || length > 0.0)) return numbers_agree(p, i, b);
