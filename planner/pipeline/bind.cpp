@@ -82,9 +82,9 @@ void leave_open(Work& w) {
 Result<model::Plan> bind(model::Plan plan, const Inputs& inputs, const Policy& policy, Job& job) {
   plan.steps.clear();
   plan.setups.clear();
-  plan.cutters.clear();
+  std::vector<model::Cutter> recorded = std::exchange(plan.cutters, {});
   plan.unplanned.clear();
-  Work w{std::move(plan), inputs, policy, job, {}, {}, {}, {}};
+  Work w{std::move(plan), inputs, policy, job, {}, {}, {}, {}, std::move(recorded)};
   using Stage = Status (*)(Work&);
   std::vector<Stage> stages = {resolve_workpiece, list_given};
   if (policy.bind >= Bind::kStrategy)

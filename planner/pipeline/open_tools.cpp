@@ -173,6 +173,30 @@ void tell_apart(std::vector<model::Cutter>& given, model::Cutter& cutter) {
   given.push_back(cutter);
 }
 
+/// A cutter that planning chose before is the one the plan recorded: nouns hold less of it. Where they have
+/// been edited since, or somebody else chose, they count.
+bool take_recorded(const Work& w, const StepWork& step, model::Cutter& cutter) {
+  const auto* d = w.plan.ledger.find(step.operation, "its_tool");
+  if (d == nullptr || d->binder == model::Binder::kGiven || d->binder == model::Binder::kOperator)
+    return false;
+  const auto named = [&](const model::Cutter& c) { return c.id == cutter.id; };
+  const auto it = std::find_if(w.recorded.begin(), w.recorded.end(), named);
+  constexpr double kSame = 1e-6;  // mm
+  if (it == w.recorded.end() || it->cutter_class != cutter.cutter_class || it->teeth != cutter.teeth ||
+      std::abs(it->cutting_diameter_mm - cutter.cutting_diameter_mm) > kSame) {
+    return false;
+  }
+  model::Cutter known = *it;
+  // Start values and sources are the library's; a file does not hold them.
+  const auto item = std::find_if(w.inputs.library.begin(), w.inputs.library.end(), named);
+  const model::Cutter& from = item != w.inputs.library.end() ? *item : cutter;
+  if (known.presets.empty()) known.presets = from.presets;
+  if (known.sources.empty()) known.sources = from.sources;
+  known.adjustable_to_mm = std::max(known.adjustable_to_mm, from.adjustable_to_mm);
+  cutter = std::move(known);
+  return true;
+}
+
 }  // namespace
 
 Status select_open_tools(Work& w) {
@@ -188,8 +212,9 @@ Status select_open_tools(Work& w) {
     auto cutter = tooling::cutter_from_nouns(w.plan.model, op->its_tool, w.job, w.inputs.library);
     if (cutter) {
       step.cutter = *std::move(cutter);
+      const bool recorded = take_recorded(w, step, step.cutter);
       tell_apart(given, step.cutter);
-      stand_out(w, step);
+      if (!recorded) stand_out(w, step);
       take_from_magazine(w, step.cutter);
       w.used_cutters.push_back(step.cutter.id);
       continue;

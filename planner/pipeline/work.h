@@ -55,6 +55,7 @@ struct Work {
   std::vector<model::FeatureShape>
       faces;  ///< planar faces of the part: cut first, so that less stands above the rest
   std::vector<std::string> used_cutters;  ///< ids, so that a further tool change is not asked for lightly
+  std::vector<model::Cutter> recorded;    ///< what the plan said of its cutters when it was read
 };
 
 // The stages, in the order bind() runs them.
