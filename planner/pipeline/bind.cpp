@@ -88,7 +88,7 @@ Result<model::Plan> bind(model::Plan plan, const Inputs& inputs, const Policy& p
   using Stage = Status (*)(Work&);
   std::vector<Stage> stages = {resolve_workpiece, list_given};
   if (policy.bind >= Bind::kStrategy)
-    stages.insert(stages.end(), {propose_missing, select_open_tools, order_steps});
+    stages.insert(stages.end(), {propose_missing, select_open_tools, order_steps, raise_security_planes});
   if (policy.bind == Bind::kAll) stages.insert(stages.end(), {carry_tools, make_paths, join_paths});
   for (const Stage stage : stages) {
     if (auto ok = stage(w); !ok) return tl::unexpected(ok.error());

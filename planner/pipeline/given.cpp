@@ -273,6 +273,10 @@ Status list_given(Work& w) {
     kept.push_back(std::move(step));
   }
   w.steps = std::move(kept);
+  return {};
+}
+
+Status raise_security_planes(Work& w) {
   for (std::size_t i = 0; i < w.setups.size(); ++i) raise_security_plane(w, i);
   return {};
 }

@@ -59,14 +59,15 @@ struct Work {
 };
 
 // The stages, in the order bind() runs them.
-Status resolve_workpiece(Work& w);  ///< material and raw piece
-Status list_given(Work& w);         ///< set-ups and workingsteps of the file, what is re-opened marked
-Status propose_missing(Work& w);    ///< rules and tooling for features that have no bound operations
-Status select_open_tools(Work& w);  ///< cutters for given operations
-Status order_steps(Work& w);        ///< set-ups, order, pockets
-Status carry_tools(Work& w);        ///< which tool carries out a rapid movement
-Status make_paths(Work& w);         ///< depths, paths, sections, feeds, step by step
-Status join_paths(Work& w);         ///< given paths are reached from the security plane, and left to it
+Status resolve_workpiece(Work& w);      ///< material and raw piece
+Status list_given(Work& w);             ///< set-ups and workingsteps of the file, what is re-opened marked
+Status propose_missing(Work& w);        ///< rules and tooling for features that have no bound operations
+Status select_open_tools(Work& w);      ///< cutters for given operations
+Status order_steps(Work& w);            ///< set-ups, order, pockets
+Status carry_tools(Work& w);            ///< which tool carries out a rapid movement
+Status raise_security_planes(Work& w);  ///< above the material and every feature that is cut
+Status make_paths(Work& w);             ///< depths, paths, sections, feeds, step by step
+Status join_paths(Work& w);             ///< given paths are reached from the security plane, and left to it
 
 // Shared pieces.
 
