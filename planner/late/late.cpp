@@ -39,8 +39,9 @@ Result<LateOutcome> bind(model::Plan plan, pipeline::Inputs inputs, const LatePo
   const model::Plan asked = plan;
 
   // The fallback: everything, on a small budget, and checked.
-  job.evaluation_budget = policy.fallback_budget;
+  const std::uint32_t budget = std::exchange(job.evaluation_budget, policy.fallback_budget);
   auto fallback = pipeline::bind(std::move(plan), inputs, policy_of(), job);
+  job.evaluation_budget = budget;
   if (!fallback) return tl::unexpected(fallback.error());
   if (!fallback->unplanned.empty()) {
     return fail({.code = "LATE-OPEN",
@@ -74,6 +75,7 @@ Result<LateOutcome> bind(model::Plan plan, pipeline::Inputs inputs, const LatePo
   if (!(t < out.fallback_s)) return out;
   auto findings = pipeline::findings_of(*better, trial);
   if (first_error(findings) != nullptr || Clock::now() > start + policy.deadline) return out;
+  for (auto& d : trial.take_diagnostics()) job.report(std::move(d));
   out.plan = *std::move(better);
   out.findings = std::move(findings);
   out.improved = true;

@@ -16,7 +16,7 @@ struct LatePolicy {
   std::chrono::milliseconds deadline{200};
   /// Objective evaluations for the fallback, per problem: few, so that it is there early whatever comes.
   std::uint32_t fallback_budget = 60;
-  /// For the improvement, per problem. Budgets, not the clock, make the outcome repeatable.
+  /// For the improvement, per problem. Both plans are repeatable; the clock decides which of them is given.
   std::uint32_t budget = 2000;
 };
 

@@ -33,6 +33,8 @@ void Ledger::set(DecisionKey key, Decision d) { entries_[std::move(key)] = std::
 
 void Ledger::bind(AnyRef object, std::string attribute, Binder binder, Reason why,
                   std::vector<DecisionKey> depends_on, std::vector<Rejected> rejected) {
+  if (const Decision* now = find(object, attribute); now != nullptr && now->pinned)
+    return;  // the operator's stays
   Decision d;
   d.binder = binder;
   d.reason = reason(std::move(why));

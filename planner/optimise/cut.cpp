@@ -86,6 +86,7 @@ double objective(const CutQuestion& q, double ap, double ae, double n, double fe
     const double vc = pi * q.cutter.cutting_diameter_mm * n / 1000.0;
     const double life_at_table = q.cutter.life_min > 0.0 ? q.cutter.life_min : kLifeAtTableSpeedMin;
     const double life = life_at_table * std::pow(q.vc_start_m_min / vc, 1.0 / taylor);
+    // 60 per hour where the machine states no rate: default, unsourced.
     const double hour = q.machine.cost_per_hour > 0.0 ? q.machine.cost_per_hour : 60.0;
     per_minute = hour / 60.0 + (q.cutter.price + hour / 60.0 * q.machine.tool_change_s / 60.0) / life;
   }
@@ -96,28 +97,32 @@ struct Limit {
   const char* name;
   const char* unit;
 };
-constexpr std::array<Limit, 7> kLimits = {{{"spindle_power", "W"},
+constexpr std::array<Limit, 8> kLimits = {{{"spindle_power", "W"},
                                            {"spindle_torque", "Nm"},
                                            {"tool_deflection", "mm"},
                                            {"chip_thickness", "mm"},
                                            {"spindle_speed_least", "1/min"},
                                            {"spindle_speed_most", "1/min"},
-                                           {"axis_feed", "mm/min"}}};
+                                           {"axis_feed", "mm/min"},
+                                           {"cutting_length", "mm"}}};
 
 /// Loads against limits at one point, as (value, limit) in the order of kLimits.
 using Measured = std::array<std::pair<double, double>, kLimits.size()>;
 
-Measured measure(const CutQuestion& q, const model::StepLoads& l, double n, double feed) {
+Measured measure(const CutQuestion& q, const model::StepLoads& l, double ap, double n, double feed) {
   const auto power = capacity(q, n);
   const Range rpm = speeds(q);
   constexpr double kNone = 1e12;  // a limit that the machine does not state
-  return {{{l.power_w, power ? power->power_w * efficiency(q) : kNone},
-           {l.torque_nm, power ? power->torque_nm * efficiency(q) : kNone},
-           {l.deflection_mm, is_milling(q.kind) ? deflection_limit(q) : kNone},
-           {l.chip_thickness_mm, is_milling(q.kind) ? largest_fz(q) : kNone},
-           {rpm.lo, n},
-           {n, rpm.hi},
-           {feed, feed_limit(q, !is_milling(q.kind))}}};
+  return {
+      {{l.power_w, power ? power->power_w * efficiency(q) : kNone},
+       {l.torque_nm, power ? power->torque_nm * efficiency(q) : kNone},
+       {l.deflection_mm, is_milling(q.kind) ? deflection_limit(q) : kNone},
+       {l.chip_thickness_mm, is_milling(q.kind) ? largest_fz(q) : kNone},
+       {rpm.lo, n},
+       {n, rpm.hi},
+       {feed, feed_limit(q, !is_milling(q.kind))},
+       {ap, is_milling(q.kind) && q.cutter.maximum_depth_of_cut_mm > 0.0 ? q.cutter.maximum_depth_of_cut_mm
+                                                                         : kNone}}};
 }
 
 std::string unit_of(const std::string& name) {
@@ -199,7 +204,7 @@ class Search {
           const Point at_x = at(x);
           f = objective(q_, at_x.ap, at_x.ae, at_x.n, at_x.feed) / scale;
           const auto loads = loads_of(q_, at_x.ap, at_x.ae, at_x.n, at_x.feed);
-          const auto m = measure(q_, loads.value_or(model::StepLoads{}), at_x.n, at_x.feed);
+          const auto m = measure(q_, loads.value_or(model::StepLoads{}), at_x.ap, at_x.n, at_x.feed);
           for (std::size_t i = 0; i < m.size(); ++i) c[i] = loads ? m[i].first / m[i].second - 1.0 : 1.0;
         },
         variables_);
@@ -234,7 +239,7 @@ void finish_answer(const CutQuestion& q, const Point& p, CutAnswer& a) {
   a.vc_m_min = pi * q.cutter.cutting_diameter_mm * a.n_rpm / 1000.0;
   const auto loads = loads_of(q, a.ap_mm, a.ae_mm, a.n_rpm, a.feed_mm_min);
   if (loads) a.loads = *loads;
-  const auto m = measure(q, a.loads, a.n_rpm, a.feed_mm_min);
+  const auto m = measure(q, a.loads, a.ap_mm, a.n_rpm, a.feed_mm_min);
   a.feasible = loads.has_value();
   constexpr double kRounding = 1e-6;
   for (std::size_t i = 0; i < m.size(); ++i) {
@@ -247,7 +252,7 @@ void finish_answer(const CutQuestion& q, const Point& p, CutAnswer& a) {
 }
 
 void take_active(const CutQuestion& q, const Solution& s, CutAnswer& a) {
-  const auto m = measure(q, a.loads, a.n_rpm, a.feed_mm_min);
+  const auto m = measure(q, a.loads, a.ap_mm, a.n_rpm, a.feed_mm_min);
   for (const ActiveLimit& l : s.active) {
     model::ActiveConstraint c;
     c.name = l.name;
@@ -357,7 +362,7 @@ std::optional<model::StepLoads> loads_of(const CutQuestion& q, double ap_mm, dou
 }
 
 double worst_excess(const CutQuestion& q, const model::StepLoads& loads, double n_rpm) {
-  const auto m = measure(q, loads, n_rpm, 0.0);
+  const auto m = measure(q, loads, 0.0, n_rpm, 0.0);
   double worst = -1.0;
   for (std::size_t i = 0; i < 4; ++i) worst = std::max(worst, m[i].first / m[i].second - 1.0);
   return worst;

@@ -33,7 +33,8 @@ class Scheduler {
     int k = 0;
     for (; k < kMostSteps; ++k) {
       const auto l = loads(s, base_factor * std::pow(kFeedStep, k));
-      if (!l || worst_excess(q_.cut, *l, std::abs(q_.n_rpm)) <= 1e-6) break;
+      if (l && worst_excess(q_.cut, *l, std::abs(q_.n_rpm)) <= 1e-6)
+        break;  // unknown loads are not safe ones
     }
     known_.emplace(key, k);
     return k;

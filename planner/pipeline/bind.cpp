@@ -14,8 +14,17 @@ namespace {
 void collect_cutters(Work& w) {
   std::set<std::string> seen;
   for (const StepWork& s : w.steps) {
-    if (s.cutter.cutting_diameter_mm > 0.0 && seen.insert(s.cutter.id).second)
+    if (!(s.cutter.cutting_diameter_mm > 0.0)) continue;
+    if (seen.insert(s.cutter.id).second) {
       w.plan.cutters.push_back(s.cutter);
+      continue;
+    }
+    // It stands out as far as the deepest of its steps needs.
+    for (model::Cutter& c : w.plan.cutters) {
+      if (c.id != s.cutter.id) continue;
+      c.stick_out_mm = std::max(c.stick_out_mm, s.cutter.stick_out_mm);
+      c.usable_length_mm = std::max(c.usable_length_mm, s.cutter.usable_length_mm);
+    }
   }
   tooling::assign_pockets(w.plan.cutters);
   for (const StepWork& s : w.steps) {
@@ -32,15 +41,20 @@ void collect_cutters(Work& w) {
                    [](const auto& a, const auto& b) { return a.pocket < b.pocket; });
 }
 
-void collect_setups(Work& w) {
-  // LinuxCNC has nine work offsets; a plan with more set-ups begins again (and says so).
+Status collect_setups(Work& w) {
+  // LinuxCNC has nine work offsets; a plan with more set-ups has to be parted.
   constexpr const char* kOffsets[] = {"G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3"};
   constexpr std::size_t kCount = std::size(kOffsets);
+  if (w.setups.size() > kCount) {
+    return fail("PIP-OFFSETS", "the part needs " + std::to_string(w.setups.size()) +
+                                   " set-ups, and a control has nine work offsets; plan it in parts");
+  }
   for (std::size_t i = 0; i < w.setups.size(); ++i) {
     w.plan.setups.push_back({w.setups[i].setup, kOffsets[i % kCount], w.setups[i].security_z_mm});
   }
   if (w.setups.size() > kCount)
     w.job.warn("PIP-OFFSETS", "there are more set-ups than work offsets; offsets repeat");
+  return {};
 }
 
 /// Each executed step gets a name of its own that every file format carries.
@@ -85,6 +99,10 @@ Result<model::Plan> bind(model::Plan plan, const Inputs& inputs, const Policy& p
   std::vector<model::Cutter> recorded = std::exchange(plan.cutters, {});
   plan.unplanned.clear();
   Work w{std::move(plan), inputs, policy, job, {}, {}, {}, {}, std::move(recorded)};
+  if (inputs.objective == Objective::kProfit) {
+    job.warn("PIP-OBJECTIVE",
+             "what the part earns is not known; planned for least cost instead of most profit");
+  }
   using Stage = Status (*)(Work&);
   std::vector<Stage> stages = {resolve_workpiece, list_given};
   if (policy.bind >= Bind::kStrategy)
@@ -95,7 +113,7 @@ Result<model::Plan> bind(model::Plan plan, const Inputs& inputs, const Policy& p
   }
   if (policy.bind == Bind::kAll || policy.bind == Bind::kTools) collect_cutters(w);
   if (policy.bind != Bind::kAll && policy.bind != Bind::kNone) leave_open(w);
-  collect_setups(w);
+  if (auto ok = collect_setups(w); !ok) return tl::unexpected(ok.error());
   name_steps(w);
   return std::move(w.plan);
 }

@@ -174,6 +174,22 @@ void raise_security_plane(Work& w, std::size_t index) {
                      {"setup.secplane.raised", "raised so that rapid moves clear raw piece and features",
                       "safety: a rapid clears the material"});
   s.security_z_mm = raised;
+  model::Model& m = w.plan.model;
+  model::CartesianPoint at;
+  at.name = "";
+  at.coordinates = {{0.0, 0.0, raised}, true};
+  model::Axis2Placement3d frame;
+  frame.name = "";
+  frame.location = m.add(at);
+  model::Plane plane;
+  plane.name = "SECURITY PLANE";
+  plane.position = m.add(frame);
+  const auto made = m.add(plane);
+  if (auto* setup = m.get<model::Setup>(s.setup)) setup->its_secplane = made;
+  for (const StepWork& step : w.steps) {
+    auto* ws = m.get<model::Workingstep>(step.step);
+    if (step.setup == index && ws != nullptr) ws->its_secplane = made;
+  }
 }
 
 void mark_open(Work& w, StepWork& step) {
@@ -181,12 +197,20 @@ void mark_open(Work& w, StepWork& step) {
   const auto* op = m.get<model::MachiningOperation>(step.operation);
   if (op == nullptr) return;
   model::Ledger& ledger = w.plan.ledger;
+  const auto pinned = [&](AnyRef object, const char* attribute) {
+    const auto* d = object.set() ? ledger.find(object, attribute) : nullptr;
+    return d != nullptr && d->pinned;
+  };
   if (op->its_toolpath.set()) {
     // A path fixes its cutter; feeds may still be chosen.
     step.open_tool = !m.holds<model::MachiningTool>(op->its_tool);
   } else {
     step.open_tool = reopens(w, Reopen::kTools) || !m.holds<model::MachiningTool>(op->its_tool) ||
                      ledger.is_open(step.operation, "its_tool") || tooling::is_requirement(m, op->its_tool);
+    if (pinned(step.operation, "its_tool") && m.holds<model::MachiningTool>(op->its_tool))
+      step.open_tool = false;
+    // What was chosen for the tool that goes, goes with it.
+    if (step.open_tool) ledger.reopen({step.operation, "its_tool"});
   }
   const auto* tech = m.get<model::MillingTechnology>(op->its_technology);
   const bool no_feed = tech == nullptr || (!tech->feedrate && !tech->feedrate_per_tooth) ||
@@ -195,6 +219,8 @@ void mark_open(Work& w, StepWork& step) {
   step.open_technology = step.open_tool || reopens(w, Reopen::kTechnology) || no_feed || no_speed ||
                          (op->its_technology.set() && (ledger.is_open(op->its_technology, "feedrate") ||
                                                        ledger.is_open(op->its_technology, "spindle")));
+  if (pinned(op->its_technology, "feedrate") && pinned(op->its_technology, "spindle"))
+    step.open_technology = false;
 }
 
 /// A reamer that stops in its hole marks the wall: given so, it is kept only while everything given is kept.

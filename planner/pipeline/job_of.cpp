@@ -160,6 +160,9 @@ toolpath::PathJob job_of(const Work& w, const StepWork& step, const model::Featu
   job.cutter = step.cutter;
   take_milling(m, step.operation, job);
   take_drilling(m, step.operation, job);
+  // What was chosen for a tool that has been re-opened is open again, whatever stands in the noun.
+  if (w.plan.ledger.is_open(step.operation, "axial_cutting_depth")) job.axial_depth_mm = 0.0;
+  if (w.plan.ledger.is_open(step.operation, "radial_cutting_depth")) job.radial_depth_mm = 0.0;
   const auto* op = m.get<model::MachiningOperation>(step.operation);
   if (op != nullptr && op->start_point.set()) {
     if (const auto p = model::point(m, op->start_point)) job.start_point = geometry::xy(*p);

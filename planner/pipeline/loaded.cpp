@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -15,17 +16,28 @@ namespace {
 using model::AnyRef;
 using model::Cutter;
 
+constexpr double kSameAngle = 0.01;      // rad, about half a degree
 constexpr double kSameDiameter = 0.001;  // mm; a tool table's diameter is measured to a micrometre at best
+
+/// A name says nothing: every size that both know has to agree, and what a thread is has to be known.
+bool same_tool(const Cutter& a, const Cutter& b) {
+  const auto near = [](double x, double y, double by) { return std::abs(x - y) <= by; };
+  const auto near_if_known = [&](double x, double y, double by) {
+    return x == 0.0 || y == 0.0 || near(x, y, by);
+  };
+  return a.cutter_class == b.cutter_class && a.hand == b.hand &&
+         near(a.cutting_diameter_mm, b.cutting_diameter_mm, kSameDiameter) &&
+         near(a.corner_radius_mm, b.corner_radius_mm, kSameDiameter) &&
+         near(a.thread_pitch_mm, b.thread_pitch_mm, 1e-6) &&
+         near_if_known(a.point_angle_rad, b.point_angle_rad, kSameAngle) &&
+         near_if_known(a.tip_diameter_mm, b.tip_diameter_mm, kSameDiameter);
+}
 
 const Cutter* loaded_like(const std::vector<Cutter>& library, const Cutter& wanted) {
   const Cutter* found = nullptr;
   for (const Cutter& c : library) {
     if (c.pocket <= 0) continue;
-    if (c.id == wanted.id) return &c;
-    const bool same = c.cutter_class == wanted.cutter_class &&
-                      std::abs(c.cutting_diameter_mm - wanted.cutting_diameter_mm) <= kSameDiameter &&
-                      std::abs(c.corner_radius_mm - wanted.corner_radius_mm) <= kSameDiameter;
-    if (same && (found == nullptr || c.pocket < found->pocket)) found = &c;
+    if (same_tool(c, wanted) && (found == nullptr || c.pocket < found->pocket)) found = &c;
   }
   return found;
 }
@@ -45,6 +57,9 @@ Result<std::vector<std::string>> match_loaded(model::Plan& plan, Inputs& inputs,
     if (!wanted) return tl::unexpected(wanted.error());
     if (const Cutter* there = loaded_like(inputs.library, *wanted)) {
       if (!seen.insert(wanted->id).second) continue;
+      const auto same_pocket = [&](const Cutter& m) { return m.pocket == there->pocket; };
+      if (std::any_of(merged.begin(), merged.end(), same_pocket))
+        continue;  // the same tool under another name
       Cutter c = *wanted;
       c.pocket = there->pocket;
       if (there->functional_length_mm > 0.0) c.functional_length_mm = there->functional_length_mm;

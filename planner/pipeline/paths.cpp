@@ -91,7 +91,7 @@ bool opens_outwards(const model::FeatureShape& s) {
 }
 
 using QuestionKey = std::tuple<std::string, int, double, double, double, double, double, double, double,
-                               double, double, double, double>;
+                               double, double, double, double, double, double, double, bool>;
 
 QuestionKey key_of(const optimise::CutQuestion& q) {
   constexpr double kUnset = -1.0;
@@ -107,7 +107,11 @@ QuestionKey key_of(const optimise::CutQuestion& q) {
           q.ae_mm.value_or(kUnset),
           q.n_rpm.value_or(kUnset),
           q.feed_mm_min.value_or(kUnset),
-          q.fz_mm.value_or(kUnset)};
+          q.fz_mm.value_or(kUnset),
+          q.engaged_diameter_mm,
+          q.ap_most_mm,
+          q.least_feed_ratio,
+          q.slot};
 }
 
 class PathMaker {
@@ -183,10 +187,11 @@ class PathMaker {
         t = volume / (a->ap_mm * a->ae_mm * a->feed_mm_min) * 60.0;
         const bool used = std::find(w_.used_cutters.begin(), w_.used_cutters.end(), trial.cutter.id) !=
                           w_.used_cutters.end();
-        if (!used || trial.cutter.id == first) t += used ? 0.0 : w_.plan.machine.tool_change_s;
+        if (!used) t += w_.plan.machine.tool_change_s;
       }
       times.emplace_back(t, i);
     }
+    const double of_first = times.front().first;
     std::stable_sort(times.begin(), times.end());
     std::vector<model::Candidate> sorted;
     for (const auto& [t, i] : times) sorted.push_back(step.candidates[i]);
@@ -194,9 +199,11 @@ class PathMaker {
     step.candidates = std::move(sorted);
     if (step.candidates.front().cutter.id == first) return;
     step.cutter = step.candidates.front().cutter;
-    step.rejected_tools.push_back({first, "fits, but takes " + trimmed(times.back().first, 1) +
-                                              " s or more against " + trimmed(times.front().first, 1) +
-                                              " s of " + step.cutter.id});
+    step.rejected_tools.push_back(
+        {first,
+         "fits, but takes " +
+             (of_first < 1e11 ? trimmed(of_first, 1) + " s" : std::string("too long, or breaks a limit,")) +
+             " against " + trimmed(times.front().first, 1) + " s of " + step.cutter.id});
     take_cutter(step, step.candidates.front());
   }
 

@@ -223,6 +223,23 @@ std::size_t Target::level(double z) const {
                                   levels_.begin());
 }
 
+std::size_t Target::Walls::strip(double y) const {
+  const double at = std::clamp((y - y0_mm) / strip_mm, 0.0, static_cast<double>(strips.size()) - 1.0);
+  return static_cast<std::size_t>(at);
+}
+
+bool Target::Walls::stands(Vec2 p) const {
+  if (strips.empty()) return false;
+  int winding = 0;
+  for (const std::uint32_t i : strips[strip(p.y)]) {
+    const Edge& e = edges[i];
+    if ((e.a.y <= p.y) == (e.b.y <= p.y)) continue;
+    const double x = e.a.x + (p.y - e.a.y) / (e.b.y - e.a.y) * (e.b.x - e.a.x);
+    if (x > p.x) winding += e.b.y > e.a.y ? 1 : -1;
+  }
+  return winding != 0;
+}
+
 const Target::Walls& Target::walls(double z) {
   const std::size_t key = level(z);
   const auto found = walls_.find(key);
@@ -243,6 +260,15 @@ const Target::Walls& Target::walls(double z) {
   out.region = loops.empty() ? part : geometry::subtract(part, geometry::clean(loops));
   for (const auto& loop : out.region.loops) {
     for (std::size_t i = 0; i < loop.size(); ++i) out.edges.push_back({loop[i], loop[(i + 1) % loop.size()]});
+  }
+  constexpr std::size_t kStrips = 512;
+  out.y0_mm = part_box_.lo.y;
+  out.strip_mm = std::max((part_box_.hi.y - part_box_.lo.y) / kStrips, 1e-3);
+  out.strips.resize(kStrips);
+  for (std::uint32_t i = 0; i < out.edges.size(); ++i) {
+    const auto& e = out.edges[i];
+    const std::size_t last = out.strip(std::max(e.a.y, e.b.y));
+    for (std::size_t k = out.strip(std::min(e.a.y, e.b.y)); k <= last; ++k) out.strips[k].push_back(i);
   }
   return walls_.emplace(key, std::move(out)).first->second;
 }
@@ -266,18 +292,22 @@ double Target::wall_gouge(const Move& m, double radius, double height_mm, Vec2& 
       const double reach = radius - allowed();
       const double x0 = std::min(p.x, b.x) - reach, x1 = std::max(p.x, b.x) + reach;
       const double y0 = std::min(p.y, b.y) - reach, y1 = std::max(p.y, b.y) + reach;
-      for (const auto& e : w.edges) {
-        if (std::max(e.a.x, e.b.x) < x0 || std::min(e.a.x, e.b.x) > x1 || std::max(e.a.y, e.b.y) < y0 ||
-            std::min(e.a.y, e.b.y) > y1) {
-          continue;
+      // An edge that lies in several strips is merely looked at again.
+      const std::size_t last = w.strip(y1);
+      for (std::size_t k = w.strip(y0); k <= last; ++k) {
+        for (const std::uint32_t index : w.strips[k]) {
+          const auto& e = w.edges[index];
+          if (std::max(e.a.x, e.b.x) < x0 || std::min(e.a.x, e.b.x) > x1 || std::max(e.a.y, e.b.y) < y0 ||
+              std::min(e.a.y, e.b.y) > y1) {
+            continue;
+          }
+          if (crossing(p, xy(b), e.a, e.b)) near = 0.0;
+          near = std::min({near, segment_distance(p, e.a, e.b), segment_distance(xy(b), e.a, e.b),
+                           segment_distance(e.a, p, xy(b)), segment_distance(e.b, p, xy(b))});
         }
-        if (crossing(p, xy(b), e.a, e.b)) near = 0.0;
-        near = std::min({near, segment_distance(p, e.a, e.b), segment_distance(xy(b), e.a, e.b),
-                         segment_distance(e.a, p, xy(b)), segment_distance(e.b, p, xy(b))});
       }
       double into = radius - near;
-      if (near > reach && !w.region.empty() && geometry::contains(w.region, xy(b)) &&
-          geometry::distance_to_boundary(w.region, xy(b)) > kChordMm) {
+      if (near > std::max(reach, kChordMm) && w.stands(xy(b))) {
         into = radius;
       }
       if (into > allowed() && into > worst) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <optional>
@@ -71,6 +72,12 @@ class Target : public GougeJudge {
       geometry::Vec2 a, b;
     };
     std::vector<Edge> edges;
+    /// Edges by strips of y that they touch, so that a look around a move sees those near it only.
+    std::vector<std::vector<std::uint32_t>> strips;
+    double y0_mm = 0.0, strip_mm = 1.0;
+    [[nodiscard]] std::size_t strip(double y) const;
+    /// Whether the part stands at p: the winding of the edges to its right.
+    [[nodiscard]] bool stands(geometry::Vec2 p) const;
   };
 
   void add(const model::FeatureShape& s);
