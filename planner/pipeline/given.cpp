@@ -270,7 +270,11 @@ Status list_given(Work& w) {
   if (w.setups.empty()) {
     SetupWork s;
     const auto setups = w.plan.model.all(TypeId::kSetup);
-    if (!setups.empty()) s.setup = Ref<model::Setup>(setups.front());
+    s.setup = setups.empty() ? add_setup(w, {}) : Ref<model::Setup>(setups.front());
+    if (setups.empty()) {
+      w.job.warn("PIP-SETUP",
+                 "the file has no set-up; one is made in which the workpiece stands as it is drawn");
+    }
     w.setups.push_back(s);
   }
   if (w.policy.reopen == Reopen::kOperations || w.policy.reopen == Reopen::kAll) {

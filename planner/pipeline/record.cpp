@@ -79,6 +79,8 @@ bool has_given_path(const Work& w, const StepWork& step) {
   if (w.plan.model.holds<model::RapidMovement>(step.step)) return true;
   const auto* op = w.plan.model.get<model::MachiningOperation>(step.operation);
   if (op == nullptr || !op->its_toolpath.set()) return false;
+  // A surface that the file could not hold is cut along the path that was computed when it was there.
+  if (w.plan.model.holds<model::FreeformOperation>(step.operation) && !w.plan.target_mesh) return true;
   const auto* d = w.plan.ledger.find(step.operation, "its_toolpath");
   return d == nullptr || d->binder == Binder::kGiven || d->pinned;
 }

@@ -55,7 +55,8 @@ void record_cut(Work& w, StepWork& step, const optimise::CutAnswer& answer, bool
 /// Puts the computed path at the operation's its_toolpath, as derived.
 void record_path(Work& w, const StepWork& step, const std::shared_ptr<const model::CutterPath>& path);
 
-/// Whether the operation's toolpath was computed by an earlier planning, and may be computed again.
+/// Whether the operation brings a path that is to be executed: not one that an earlier planning computed,
+/// which is computed again.
 [[nodiscard]] bool has_given_path(const Work& w, const StepWork& step);
 
 }  // namespace capstan::pipeline
