@@ -63,6 +63,14 @@ Result<LateOutcome> bind(model::Plan plan, pipeline::Inputs inputs, const LatePo
   out.fallback_s = out.machining_s = machining_s(out.plan);
 
   // The improvement: only in the time left, with twice the time of one check in reserve.
+  const auto passed = Clock::now() - start;
+  if (passed > policy.deadline) {
+    const auto ms = [](Clock::duration d) {
+      return std::to_string(std::chrono::duration_cast<std::chrono::milliseconds>(d).count());
+    };
+    job.warn("LATE-DEADLINE", "the deadline of " + ms(policy.deadline) + " ms is past: a checked plan took " +
+                                  ms(passed) + " ms; it is given all the same");
+  }
   const auto until = start + policy.deadline - 2 * checking;
   if (policy.budget <= policy.fallback_budget || Clock::now() >= until) return out;
   Job trial;

@@ -119,6 +119,8 @@ class PathMaker {
   explicit PathMaker(Work& w) : w_(w), maps_(w.setups.size()) {
     options_.solver = w.inputs.solver;
     options_.backends = w.inputs.backends;
+    // Ipopt has no bound that weak spindles do not reach: it serves who asks for it.
+    if (options_.solver == optimise::Solver::kNlopt) options_.backends.ipopt = nullptr;
     options_.starts = 2;
     options_.relative_tolerance = 1e-7;
   }

@@ -102,6 +102,7 @@ std::string keep_able(Work& w, const model::ProposedStep& step, model::Selection
   optimise::Options options;
   options.solver = w.inputs.solver;
   options.backends = w.inputs.backends;
+  if (options.solver == optimise::Solver::kNlopt) options.backends.ipopt = nullptr;  // no time for it here
   options.starts = 1;
   std::vector<model::Candidate> able;
   std::string why;
@@ -153,7 +154,8 @@ void unplanned(Work& w, const FeatureShape& s, const std::string& reason) {
   w.plan.unplanned.push_back({s.feature, reason});
   w.job.report({.code = "PIP-UNPLANNED",
                 .severity = Severity::kWarning,
-                .message = "feature '" + s.name + "' (" + std::string(model::to_text(s.kind)) +
+                .message = "feature '" + s.name + "' (" +
+                           std::string(model::noun_type(s.feature.type).keyword) +
                            ") is not planned: " + reason,
                 .file = w.plan.file_name,
                 .line = w.plan.model.origin(s.feature).line,
@@ -218,7 +220,10 @@ class Proposer {
       if (std::abs(up.z - 1.0) < kSameAxis) return s;
       below = below || std::abs(up.z + 1.0) < kSameAxis;
     }
-    if (!below) return s;
+    // Only from where it comes out: a hole that ends inside the piece has no other side.
+    constexpr double kOut = 0.5;  // mm
+    const double under = -transformed(w_.plan.stock.box, inverse(s.frame)).lo.z;
+    if (!below || under > s.depth_mm + kOut) return s;
     FeatureShape turned = s;
     turned.frame.origin = s.frame.origin - s.depth_mm * s.frame.z;
     turned.frame.z = -1.0 * s.frame.z;

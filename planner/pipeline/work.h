@@ -69,6 +69,8 @@ Status raise_security_planes(Work& w);  ///< above the material and every featur
 Status make_paths(Work& w);             ///< depths, paths, sections, feeds, step by step
 Status join_paths(Work& w);             ///< given paths are reached from the security plane, and left to it
 
+void report_outside(Work& w);  ///< features that the raw piece does not hold
+
 // Shared pieces.
 
 /// How much raw material stands above a feature when its steps begin, mm: faces are cut first.

@@ -73,6 +73,8 @@ Box3 box_of_features(const Work& w) {
   return out;
 }
 
+constexpr double kLargestPiece = 20'000.0;  // mm: more is a mistake of units
+
 std::string words(const Box3& b) {
   const Vec3 s = b.size();
   return trimmed(s.x, 3) + " x " + trimmed(s.y, 3) + " x " + trimmed(s.z, 3) + " mm, from (" +
@@ -155,7 +157,50 @@ Status resolve_workpiece(Work& w) {
          .file = w.plan.file_name,
          .hint = "give the workpiece a bounding geometry, or name one with --stock"});
   }
+  const Vec3 size = w.plan.stock.box.size();
+  const double largest = std::max({size.x, size.y, size.z});
+  if (!(largest <= kLargestPiece)) {
+    return fail({.code = "PIP-STOCK-SIZE",
+                 .message = "the raw piece would be " + trimmed(largest / 1000.0, 1) + " m long",
+                 .file = w.plan.file_name,
+                 .expected = "at most " + trimmed(kLargestPiece / 1000.0, 0) + " m",
+                 .hint = "look at the unit of the file, or at --stock"});
+  }
   return {};
+}
+
+void report_outside(Work& w) {
+  constexpr double kBeyond = 0.01;  // mm
+  for (const AnyRef f : w.plan.model.all_below(model::TypeId::kMachiningFeature)) {
+    const auto shapes = model::shapes_of(w.plan.model, Ref<model::ManufacturingFeature>(f));
+    if (!shapes) continue;
+    for (const auto& s : *shapes) {
+      if (s.area.empty() || s.kind == model::ShapeKind::kStep || s.kind == model::ShapeKind::kOutside)
+        continue;
+      const auto b = geometry::bounds(s.area);
+      const Box3 raw = transformed(w.plan.stock.box, inverse(s.frame));
+      std::string how;
+      if (b.lo.x > raw.hi.x || b.hi.x < raw.lo.x || b.lo.y > raw.hi.y || b.hi.y < raw.lo.y ||
+          -s.depth_mm > raw.hi.z || raw.lo.z > 0.0) {
+        how = "lies wholly outside the raw piece: its tool cuts air, or what holds the piece";
+      } else if (-s.depth_mm < raw.lo.z - kBeyond ||
+                 (s.kind == model::ShapeKind::kFace && -s.depth_mm < raw.lo.z + kBeyond)) {
+        how = "goes down to or below the underside of the raw piece";
+      } else if (s.kind != model::ShapeKind::kFace && !s.open &&
+                 (b.lo.x < raw.lo.x - kBeyond || b.hi.x > raw.hi.x + kBeyond || b.lo.y < raw.lo.y - kBeyond ||
+                  b.hi.y > raw.hi.y + kBeyond)) {
+        how = "reaches over the edge of the raw piece";
+      }
+      if (how.empty()) continue;
+      w.job.report({.code = "PIP-OUTSIDE",
+                    .severity = Severity::kWarning,
+                    .message = "feature '" + s.name + "' " + how,
+                    .file = w.plan.file_name,
+                    .instance = w.plan.model.origin(f).instance,
+                    .hint = "look at its placement, or at the raw piece (" + words(w.plan.stock.box) + ")"});
+      break;
+    }
+  }
 }
 
 }  // namespace capstan::pipeline

@@ -119,6 +119,11 @@ Result<geometry::Region> closed_area(const Model& m, Ref<ClosedProfile> profile,
     const double x = 0.5 * along->nominal_mm;
     const double y = 0.5 * width->nominal_mm;
     if (!(x > 0.0 && y > 0.0)) return unsupported(m, into.feature, "its rectangle has no area");
+    if (into.corner_radius_mm > std::min(x, y) + 1e-9) {
+      into.assumptions.push_back(
+          "its corner radius is larger than half its width; the ends are taken as half circles");
+      into.corner_radius_mm = std::min(x, y);
+    }
     return moved(*frame,
                  geometry::rounded_rectangle({-x, -y}, {x, y}, into.corner_radius_mm, kAreaTolerance));
   }

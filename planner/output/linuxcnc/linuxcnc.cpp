@@ -272,6 +272,13 @@ class Writer {
 }  // namespace
 
 Result<std::string> write_linuxcnc(const Plan& plan, Job& job) {
+  if (plan.machine.control.dialect != "linuxcnc") {
+    return fail({.code = "OUT-DIALECT",
+                 .message = "the machine '" + plan.machine.id + "' has a control of dialect '" +
+                            plan.machine.control.dialect + "', and this writes LinuxCNC programs only",
+                 .expected = "linuxcnc",
+                 .hint = "write .json or .p21 instead"});
+  }
   if (auto ok = writable(plan, job); !ok) return tl::unexpected(ok.error());
   return Writer(plan).run();
 }
