@@ -137,6 +137,19 @@ const TextFault kFaults[] = {
 INSTANTIATE_TEST_SUITE_P(Program, PlantedInText, ::testing::ValuesIn(kFaults),
                          [](const auto& i) { return std::string(i.param.name); });
 
+TEST(CheckProgram, AReversedSpindleIsFoundWithoutAPlan) {
+  const model::Plan plan = plan_with_arc();
+  std::string text = testing::program_of(plan);
+  for (std::size_t at = text.find(" M3"); at != std::string::npos; at = text.find(" M3", at))
+    text[at + 2] = '4';
+  const auto findings = check(text, plan, false);
+  ASSERT_FALSE(findings.empty());
+  for (const auto& f : findings) {
+    EXPECT_EQ(f.property, 15) << told(findings);
+    EXPECT_EQ(f.severity, Severity::kError);
+  }
+}
+
 TEST(CheckProgram, NamesTheLine) {
   const model::Plan plan = testing::good_plan().plan;
   const std::string text = replaced(testing::program_of(plan), "F225", "F60000");

@@ -129,7 +129,19 @@ class StateChecks {
     if (c_.plan == nullptr && cutting && b.spindle_rpm == 0.0)
       out_.warn(15, "CHK-SPINDLE-STOPPED", c_.where(b),
                 "a feed move with the spindle stopped; without the plan it cannot be told whether it cuts");
+    direction(b, cutting);
     tap(b);
+  }
+
+  /// Without the plan nobody has said that a left-hand cutter is meant.
+  void direction(const Block& b, bool cutting) {
+    if (c_.plan != nullptr || !cutting || b.synchronised || b.spindle_rpm >= 0.0) return;
+    if (!said_.insert({15, b.marker}).second) return;
+    const model::Cutter* t = c_.cutter(b.tool);
+    if (t != nullptr && t->hand == model::Hand::kLeft) return;
+    out_.error(
+        15, "CHK-SPINDLE-REVERSED", c_.where(b),
+        "a feed move with the spindle turning counter-clockwise (M4): that breaks a right-hand cutter");
   }
 
   void tap(const Block& b) {
