@@ -211,6 +211,7 @@ class PathMaker {
 
   /// A cutter further down the list does what the first could not.
   void take_cutter(StepWork& step, const model::Candidate& c) {
+    std::erase_if(step.rejected_tools, [&](const auto& r) { return r.what == c.cutter.id; });
     w_.plan.model.get<model::MachiningOperation>(step.operation)->its_tool = tool_noun(w_, c.cutter);
     w_.plan.ledger.bind(step.operation, "its_tool", model::Binder::kToolSelection, c.why,
                         {{step.step, "its_operation"}}, step.rejected_tools);
