@@ -51,9 +51,10 @@ Rs274Run run_rs274(const std::string& tool_table, const std::string& program) {
   Rs274Run run;
   EXPECT_TRUE(write_file(folder.file("out.tbl"), tool_table));
   EXPECT_TRUE(write_file(folder.file("out.ngc"), program));
-  // It writes its parameters into the working directory.
-  const std::string command =
-      "cd '" + folder.path() + "' && '" + kInterpreter + "' -t out.tbl -g out.ngc > out.txt 2>&1 < /dev/null";
+  // It writes its parameters into the working directory, and shares its tool table with others of the same
+  // HOME.
+  const std::string command = "cd '" + folder.path() + "' && HOME='" + folder.path() + "' '" + kInterpreter +
+                              "' -t out.tbl -g out.ngc > out.txt 2>&1 < /dev/null";
   const int status = std::system(command.c_str());
   run.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   run.output = slurp(folder.file("out.txt"));
