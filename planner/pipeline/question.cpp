@@ -70,8 +70,9 @@ bool narrow(const model::FeatureShape& s) {
 }
 
 /// How wide a cone cuts at its depth: 2 t tan(SIG / 2), plus its flat tip; 0 when all of the cutter does.
-double engaged(const Model& m, AnyRef op, const model::Cutter& c, std::optional<double> depth_mm) {
-  const bool cone = m.holds<model::CenterDrilling>(op) || m.holds<model::CounterSinking>(op);
+double engaged(TypeId operation, const model::Cutter& c, std::optional<double> depth_mm) {
+  const bool cone =
+      model::is_a(operation, TypeId::kCenterDrilling) || model::is_a(operation, TypeId::kCounterSinking);
   if (!cone || !depth_mm || !(c.point_angle_rad > 0.0)) return 0.0;
   return c.tip_diameter_mm + 2.0 * *depth_mm * std::tan(0.5 * c.point_angle_rad);
 }
@@ -91,12 +92,7 @@ optimise::CutQuestion hole_question(const Work& w, const model::ProposedStep& st
   q.fz_start_mm = c.fz_mm;
   q.pre_hole_mm = step.start_diameter_mm;
   q.least_feed_ratio = optimise::kLeastDrillFeed;
-  const bool cone = model::is_a(step.operation, TypeId::kCenterDrilling) ||
-                    model::is_a(step.operation, TypeId::kCounterSinking);
-  if (cone && c.cutter.point_angle_rad > 0.0) {
-    q.engaged_diameter_mm =
-        c.cutter.tip_diameter_mm + 2.0 * step.depth_mm * std::tan(0.5 * c.cutter.point_angle_rad);
-  }
+  q.engaged_diameter_mm = engaged(step.operation, c.cutter, step.depth_mm);
   return q;
 }
 
@@ -122,7 +118,7 @@ optimise::CutQuestion question_of(const Work& w, const StepWork& step, const mod
   q.width_mm = width_of(job.shape);
   q.slot = narrow(job.shape) && q.width_mm > 0.0 && q.width_mm <= 1.02 * step.cutter.cutting_diameter_mm;
   q.pre_hole_mm = job.previous_diameter_mm.value_or(0.0);
-  q.engaged_diameter_mm = engaged(m, step.operation, step.cutter, job.cutting_depth_mm);
+  q.engaged_diameter_mm = engaged(step.operation.type, step.cutter, job.cutting_depth_mm);
   const double d = step.cutter.cutting_diameter_mm;
   if (job.axial_depth_mm > 0.0) q.ap_mm = job.axial_depth_mm;
   // Across the floor a finishing pass steps as given; what it takes from the wall is what roughing left.
