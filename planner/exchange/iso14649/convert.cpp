@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "planner/exchange/iso14649/text.h"
+#include "planner/exchange/text.h"
 #include "planner/exchange/iso14649/units.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/walk.h"

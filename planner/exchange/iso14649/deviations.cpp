@@ -6,7 +6,7 @@
 
 #include "planner/base/number.h"
 #include "planner/exchange/iso14649/deviations_internal.h"
-#include "planner/exchange/iso14649/text.h"
+#include "planner/exchange/text.h"
 #include "planner/model/nouns/all.h"
 
 namespace capstan::exchange {

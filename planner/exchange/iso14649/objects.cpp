@@ -4,7 +4,7 @@
 #include "planner/exchange/iso14649/convert.h"
 #include "planner/exchange/iso14649/dialect.h"
 #include "planner/exchange/iso14649/reading.h"
-#include "planner/exchange/iso14649/text.h"
+#include "planner/exchange/text.h"
 #include "planner/model/nouns/all.h"
 
 namespace capstan::exchange {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "planner/exchange/iso14649/report.h"
+#include "planner/exchange/report.h"
 #include "planner/model/plan.h"
 #include "planner/p21/file.h"
 

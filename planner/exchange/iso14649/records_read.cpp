@@ -3,7 +3,7 @@
 
 #include "planner/base/file.h"
 #include "planner/exchange/iso14649/records.h"
-#include "planner/exchange/iso14649/text.h"
+#include "planner/exchange/text.h"
 #include "planner/model/nouns/all.h"
 
 namespace capstan::exchange {

@@ -1,4 +1,4 @@
-#include "planner/exchange/iso14649/text.h"
+#include "planner/exchange/text.h"
 
 #include "planner/p21/print.h"
 
