@@ -48,4 +48,14 @@ struct Written {
 /// from a file are kept. Who bound what goes into user-defined header entities, see the room's README.
 [[nodiscard]] Result<Written> write_iso14649(const model::Plan& plan, Job& job);
 
+/// Reads an ISO 10303-238 plan (AIM; editions 1 to 4) by the tables of ap238/mapping. What they do not
+/// explain is kept verbatim and stays connected.
+///
+/// Numbers   are converted from the file's units, which may differ from one to the next.
+/// Fails     with one summary, after each fault went to `job`.
+[[nodiscard]] Result<model::Plan> read_ap238(const p21::File& file, Job& job);
+
+/// Writes the plan as ISO 10303-238, edition 3 with what edition 4 adds where the plan has it.
+[[nodiscard]] Result<Written> write_ap238(const model::Plan& plan, Job& job);
+
 }  // namespace capstan::exchange

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <span>
 
 #include "planner/base/file.h"
 #include "planner/exchange/cad/stl.h"
@@ -26,11 +27,14 @@ std::string_view body(std::string_view s) {
   return s;
 }
 
-bool is_iso14649(const p21::File& file) {
+constexpr std::array<std::string_view, 2> kAp238Schemas = {"INTEGRATED_CNC_SCHEMA",
+                                                           "MODEL_BASED_INTEGRATED_MANUFACTURING_SCHEMA"};
+
+bool has_schema(const p21::File& file, std::span<const std::string_view> names) {
   for (const std::string& schema : file.schemas()) {
     std::string upper;
     for (const char c : schema) upper += static_cast<char>(c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c);
-    for (const auto name : kIso14649Schemas) {
+    for (const auto name : names) {
       if (upper.rfind(name, 0) == 0) return true;
     }
   }
@@ -52,14 +56,16 @@ Result<model::Plan> read_bytes(std::string bytes, const std::string& name, const
   if (body(bytes).substr(0, 12) == "ISO-10303-21") {
     const auto file = p21::parse(std::move(bytes), name, options.limits, job);
     if (!file) return fail(file.error());
-    if (is_iso14649(*file)) return read_iso14649(*file, job);
+    if (has_schema(*file, kIso14649Schemas)) return read_iso14649(*file, job);
+    if (has_schema(*file, kAp238Schemas)) return read_ap238(*file, job);
     const auto schemas = file->schemas();
     return fail({.code = "EXC-UNSUPPORTED",
                  .message = "the file's schema " +
                             (schemas.empty() ? std::string("(none)") : schemas.front()) +
                             " cannot be read as a plan",
                  .file = name,
-                 .expected = "MACHINING_SCHEMA, MILLING_SCHEMA or COMBINED_SCHEMA"});
+                 .expected = "MACHINING_SCHEMA, MILLING_SCHEMA, COMBINED_SCHEMA (ISO 14649), INTEGRATED_CNC_SCHEMA or "
+                             "MODEL_BASED_INTEGRATED_MANUFACTURING_SCHEMA (ISO 10303-238)"});
   }
   if (looks_like_stl(bytes)) {
     auto mesh = read_stl(bytes, name, job);

@@ -4,10 +4,12 @@
 #include <map>
 #include <stdexcept>
 
-namespace capstan::exchange::ap238 {
+namespace capstan::exchange {
 
 std::string_view embedded_file(std::string_view name);
 std::span<const std::string_view> embedded_names();
+
+namespace ap238 {
 
 using model::TypeId;
 
@@ -467,7 +469,9 @@ void Mapping::index() {
 const Mapping& Mapping::instance() {
   static const Mapping kMapping = [] {
     std::vector<std::pair<std::string, std::string>> tables;
-    for (const auto name : embedded_names()) tables.emplace_back(name, embedded_file(name));
+    for (const auto name : embedded_names()) {
+      if (name.ends_with(".map")) tables.emplace_back(name, embedded_file(name));
+    }
     std::sort(tables.begin(), tables.end());  // "0_macros.map" comes first
     return Mapping(tables);
   }();
@@ -485,4 +489,5 @@ const SharedRow* Mapping::shared(std::string_view name) const {
   return nullptr;
 }
 
-}  // namespace capstan::exchange::ap238
+}  // namespace ap238
+}  // namespace capstan::exchange

@@ -1,0 +1,199 @@
+#include "planner/exchange/ap238/measure.h"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace capstan::exchange::ap238 {
+
+using p21::Kind;
+using p21::Value;
+
+namespace {
+
+constexpr double kTwoPi = 2.0 * std::numbers::pi;
+
+// SI prefixes (ISO 10303-41 si_prefix).
+std::optional<double> prefix(const Value& v) {
+  if (!v.is(Kind::kEnumeration)) return 1.0;
+  const auto p = v.enumeration();
+  struct Row {
+    std::string_view name;
+    double factor;
+  };
+  static constexpr Row kRows[] = {{"EXA", 1e18},   {"PETA", 1e15},  {"TERA", 1e12},  {"GIGA", 1e9},
+                                  {"MEGA", 1e6},   {"KILO", 1e3},   {"HECTO", 1e2},  {"DECA", 1e1},
+                                  {"DECI", 1e-1},  {"CENTI", 1e-2}, {"MILLI", 1e-3}, {"MICRO", 1e-6},
+                                  {"NANO", 1e-9},  {"PICO", 1e-12}, {"FEMTO", 1e-15}, {"ATTO", 1e-18}};
+  for (const Row& r : kRows) {
+    if (r.name == p) return r.factor;
+  }
+  return std::nullopt;
+}
+
+// SI unit names (ISO 10303-41 si_unit_name) that machining needs: exponents of m, kg, s, then rad.
+std::optional<FileUnit> si_name(std::string_view name) {
+  struct Row {
+    std::string_view name;
+    double factor, m, kg, s, rad;
+  };
+  static constexpr Row kRows[] = {
+      {"METRE", 1, 1, 0, 0, 0},   {"GRAM", 1e-3, 0, 1, 0, 0},  {"SECOND", 1, 0, 0, 1, 0},
+      {"RADIAN", 1, 0, 0, 0, 1},  {"STERADIAN", 1, 0, 0, 0, 2}, {"HERTZ", 1, 0, 0, -1, 0},
+      {"NEWTON", 1, 1, 1, -2, 0}, {"PASCAL", 1, -1, 1, -2, 0},  {"JOULE", 1, 2, 1, -2, 0},
+      {"WATT", 1, 2, 1, -3, 0}};
+  for (const Row& r : kRows) {
+    if (r.name == name) return FileUnit{r.factor, {r.m, r.kg, r.s, 0, 0, 0, 0, r.rad}, false};
+  }
+  if (name == "KELVIN" || name == "DEGREE_CELSIUS") return FileUnit{1.0, {0, 0, 0, 0, 1, 0, 0, 0}, false};
+  if (name == "AMPERE") return FileUnit{1.0, {0, 0, 0, 1, 0, 0, 0, 0}, false};
+  return std::nullopt;
+}
+
+double number(const Value& v) {
+  const Value bare = v.is(Kind::kTyped) ? v[0] : v;
+  return bare.is_number() ? bare.as_real() : std::nan("");
+}
+
+bool is_revolution(const Value& name) {
+  if (!name.is(Kind::kString)) return false;
+  std::string s = name.as_text();
+  for (char& c : s) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c + 32 : c);
+  return s == "revolution" || s == "revolutions" || s == "rotation" || s == "turn" || s == "count" || s == "each" ||
+         s == "tooth" || s == "rev";
+}
+
+}  // namespace
+
+std::optional<FileUnit> Units::unit(Node n) {
+  const auto it = units_.find(n);
+  if (it != units_.end()) return it->second;
+  const auto out = work_out(n, 0);
+  units_[n] = out;
+  return out;
+}
+
+std::optional<FileUnit> Units::work_out(Node n, int depth) {
+  constexpr int kDeepest = 16;  // a unit of a unit of a unit: real ones need three
+  if (depth > kDeepest) return std::nullopt;
+  const auto& schema = g_.schema();
+  const auto is = [&](const char* e) { return g_.is(n, schema.find(e)); };
+  used_.push_back(n);
+  for (const Node user : g_.users(n)) {  // its name, if it has one apart
+    if (g_.is(user, schema.find("NAME_ATTRIBUTE"))) used_.push_back(user);
+  }
+  const auto follow = [&](const Value& v) { return v.is(Kind::kReference) ? g_.find(v.reference()) : kNoNode; };
+  if (const Node d = follow(g_.get(n, "dimensions")); d != kNoNode) used_.push_back(d);
+  if (is("SI_UNIT")) {
+    const Value name = g_.get(n, "si_unit.name");
+    const auto scale = prefix(g_.get(n, "prefix"));
+    auto out = name.is(Kind::kEnumeration) ? si_name(name.enumeration()) : std::nullopt;
+    if (!out || !scale) return std::nullopt;
+    out->factor *= *scale;
+    return out;
+  }
+  if (is("CONVERSION_BASED_UNIT")) {
+    const Node m = follow(g_.get(n, "conversion_factor"));
+    if (m == kNoNode) return std::nullopt;
+    used_.push_back(m);
+    const Node base = follow(g_.get(m, "unit_component"));
+    const double value = number(g_.get(m, "value_component"));
+    if (base == kNoNode || !(value > 0.0) || !std::isfinite(value)) return std::nullopt;
+    auto out = work_out(base, depth + 1);
+    if (!out) return std::nullopt;
+    out->factor *= value;
+    // Files spell the degree with 8 to 12 digits.
+    constexpr double kDegree = std::numbers::pi / 180.0;
+    if (out->exponents[7] == 1.0 && std::abs(out->factor - kDegree) < 1e-9) out->factor = kDegree;
+    out->counted = out->exponents[7] == 1.0 && is_revolution(g_.get(n, "conversion_based_unit.name"));
+    return out;
+  }
+  if (is("CONTEXT_DEPENDENT_UNIT")) {
+    FileUnit out;
+    out.counted = true;
+    if (is_revolution(g_.get(n, "context_dependent_unit.name"))) return out;
+    return is("RATIO_UNIT") ? std::optional(out) : std::nullopt;
+  }
+  if (is("DERIVED_UNIT")) {
+    const Value elements = g_.get(n, "elements");
+    FileUnit out;
+    if (!elements.is(Kind::kList)) return std::nullopt;
+    for (std::size_t i = 0; i < elements.size(); ++i) {
+      const Node e = follow(elements[i]);
+      const Node u = e == kNoNode ? kNoNode : follow(g_.get(e, "unit"));
+      const double exponent = e == kNoNode ? 0.0 : number(g_.get(e, "exponent"));
+      if (u == kNoNode || !std::isfinite(exponent)) return std::nullopt;
+      used_.push_back(e);
+      const auto part = work_out(u, depth + 1);
+      if (!part) return std::nullopt;
+      out.factor *= std::pow(part->factor, exponent);
+      for (std::size_t k = 0; k < out.exponents.size(); ++k) out.exponents[k] += exponent * part->exponents[k];
+      out.counted = out.counted || part->counted;
+    }
+    return out;
+  }
+  if (is("RATIO_UNIT")) return FileUnit{};
+  return std::nullopt;
+}
+
+std::optional<double> Units::factor(const FileUnit& from, model::Unit to) {
+  using model::Unit;
+  struct Row {
+    Unit unit;
+    double m, kg, s, rad;
+    double si;  // the model's unit in SI units
+  };
+  static constexpr Row kRows[] = {{Unit::kLength, 1, 0, 0, 0, 1e-3},     {Unit::kAngle, 0, 0, 0, 1, 1.0},
+                                  {Unit::kSpeed, 1, 0, -1, 0, 1e-3 / 60}, {Unit::kRotSpeed, 0, 0, -1, 0, 1.0 / 60},
+                                  {Unit::kTime, 0, 0, 1, 0, 1.0},         {Unit::kRatio, 0, 0, 0, 0, 1.0},
+                                  {Unit::kNone, 0, 0, 0, 0, 1.0},         {Unit::kPressure, -1, 1, -2, 0, 1e6},
+                                  {Unit::kVolume, 3, 0, 0, 0, 1e-9},      {Unit::kPower, 2, 1, -3, 0, 1.0},
+                                  {Unit::kTorque, 2, 1, -2, 0, 1.0}};
+  for (const Row& r : kRows) {
+    if (r.unit != to) continue;
+    FileUnit f = from;
+    // Revolutions and radians per time are both spindle speeds; a counted thing has no angle.
+    if (f.exponents[7] != 0.0 && r.rad == 0.0 && (f.counted || to == Unit::kRotSpeed)) {
+      f.factor /= std::pow(kTwoPi, f.exponents[7]);
+      f.exponents[7] = 0.0;
+    }
+    const std::array<double, 8> want = {r.m, r.kg, r.s, 0, 0, 0, 0, r.rad};
+    if (f.exponents != want) return std::nullopt;
+    // Exact for what files hold: millimetres, millimetres per minute, inches.
+    const double raw = f.factor / r.si;
+    const double tidy = std::round(raw * 1e9) / 1e9;
+    return std::abs(raw - tidy) <= 1e-15 * std::abs(raw) * 8 && tidy != 0.0 ? tidy : raw;
+  }
+  return std::nullopt;
+}
+
+Scale Units::scale(Node context, const Scale& fallback) {
+  if (context == kNoNode) return fallback;
+  const auto it = scales_.find(context);
+  if (it != scales_.end()) return it->second;
+  used_.push_back(context);
+  Scale out = fallback;
+  out.stated = false;
+  const Value units = g_.get(context, "units");
+  for (std::size_t i = 0; units.is(Kind::kList) && i < units.size(); ++i) {
+    if (!units[i].is(Kind::kReference)) continue;
+    const Node n = g_.find(units[i].reference());
+    if (n == kNoNode) continue;
+    const auto u = unit(n);
+    if (!u) continue;
+    if (const auto f = factor(*u, model::Unit::kLength)) {
+      out.length = *f;
+      out.stated = true;
+    } else if (const auto a = factor(*u, model::Unit::kAngle)) {
+      out.angle = *a;
+    }
+  }
+  const Value uncertainty = g_.get(context, "uncertainty");
+  std::vector<Node> parts;
+  g_.references(uncertainty, parts);
+  used_.insert(used_.end(), parts.begin(), parts.end());
+  scales_[context] = out;
+  return out;
+}
+
+}  // namespace capstan::exchange::ap238

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "planner/exchange/ap238/graph.h"
+#include "planner/model/attribute.h"
+
+namespace capstan::exchange::ap238 {
+
+/// A unit of a file by what it measures and its size in SI units.
+struct FileUnit {
+  double factor = 1.0;  ///< to m, kg, s, A, K, mol, cd, rad; a revolution counts 2 pi
+  /// Exponents of length, mass, time, current, temperature, amount, luminosity; then plane angle.
+  std::array<double, 8> exponents{};
+  bool counted = false;  ///< revolutions and other counts: an angle of 1 instead of 2 pi
+  [[nodiscard]] bool operator==(const FileUnit&) const = default;
+};
+
+/// What numbers of a representation without units of their own are in.
+struct Scale {
+  double length = 1.0;  ///< to mm
+  double angle = 1.0;   ///< to rad
+  bool stated = false;  ///< the context says so
+  [[nodiscard]] bool operator==(const Scale&) const = default;
+  [[nodiscard]] bool identity() const { return length == 1.0 && angle == 1.0; }
+};
+
+/// Units of one file, each worked out once.
+class Units {
+ public:
+  explicit Units(const Graph& g) : g_(g) {}
+
+  /// A NAMED_UNIT or DERIVED_UNIT; nothing when it is none that can be understood. Its parts are added to
+  /// `used`.
+  [[nodiscard]] std::optional<FileUnit> unit(Node n);
+  /// What a number in that unit is times to be the model's `to`; nothing when it measures something else.
+  [[nodiscard]] static std::optional<double> factor(const FileUnit& from, model::Unit to);
+  /// Of a representation's context. Without global units: millimetres and what `fallback` says.
+  [[nodiscard]] Scale scale(Node context, const Scale& fallback);
+  /// Instances that units and contexts consist of, in the order they were met.
+  [[nodiscard]] const std::vector<Node>& used() const { return used_; }
+
+ private:
+  std::optional<FileUnit> work_out(Node n, int depth);
+
+  const Graph& g_;
+  std::unordered_map<Node, std::optional<FileUnit>> units_;
+  std::unordered_map<Node, Scale> scales_;
+  std::vector<Node> used_;
+};
+
+}  // namespace capstan::exchange::ap238

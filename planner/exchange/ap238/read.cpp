@@ -1,0 +1,31 @@
+#include "planner/exchange/ap238/reader.h"
+#include "planner/exchange/exchange.h"
+#include "planner/model/nouns/all.h"
+#include "planner/p21/parse.h"
+
+namespace capstan::exchange {
+
+Result<model::Plan> read_ap238(const p21::File& file, Job& job) {
+  model::Plan plan;
+  plan.file_name = file.name();
+  Reporter reporter(job, file.name());
+  p21::check_references(file, job);
+  const ap238::Graph graph(file, express::Dictionary::ap238());
+  ap238::Reader reader(graph, ap238::Mapping::instance(), plan, reporter);
+  reader.run();
+  if (!plan.project) {
+    reporter.report({.code = "EXC-NO-PROJECT",
+                     .severity = Severity::kWarning,
+                     .message = "the file holds no machining project: there is nothing to carry out"});
+  }
+  reporter.finish();
+  if (reporter.errors() != 0) {
+    return fail({.code = "EXC-AP238",
+                 .message = std::to_string(reporter.errors()) + " fault" + (reporter.errors() == 1 ? "" : "s") +
+                            " in the plan; the first: " + reporter.first_error(),
+                 .file = file.name()});
+  }
+  return plan;
+}
+
+}  // namespace capstan::exchange

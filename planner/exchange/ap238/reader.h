@@ -1,0 +1,119 @@
+#pragma once
+
+#include <deque>
+#include <map>
+#include <set>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "planner/exchange/ap238/graph.h"
+#include "planner/exchange/ap238/mapping.h"
+#include "planner/exchange/ap238/measure.h"
+#include "planner/exchange/report.h"
+#include "planner/model/plan.h"
+
+namespace capstan::exchange::ap238 {
+
+/// Where a path of the mapping led.
+struct Terminal {
+  Node node = kNoNode;
+  Scale scale;            ///< of the representation that was passed last
+  std::uint32_t ordinal = 0;  ///< which element of a list, from 1
+  double order = 0.0;     ///< what puts the elements of a list in order
+  p21::Value text;        ///< of a row that ends in `.attribute`
+  /// The instances on the way: node, prefix, ordinal.
+  struct Mark {
+    Node node;
+    std::uint32_t prefix, ordinal;
+  };
+  std::vector<Mark> trail;
+};
+
+/// Reads a graph into a model by the rows of the mapping. One per file.
+class Reader {
+ public:
+  Reader(const Graph& graph, const Mapping& mapping, model::Plan& plan, Reporter& reporter);
+
+  /// Everything: the project and what it leads to, other application objects, the rest verbatim.
+  void run();
+
+  // What codecs and later stages use.
+  [[nodiscard]] const Graph& graph() const { return g_; }
+  [[nodiscard]] const Mapping& mapping() const { return map_; }
+  [[nodiscard]] model::Plan& plan() { return plan_; }
+  [[nodiscard]] Reporter& reporter() { return reporter_; }
+  [[nodiscard]] Units& units() { return units_; }
+
+  /// The application object, geometry or verbatim instance there, made when it is met first; its attributes
+  /// are read later. `targets` empty: any kind.
+  model::AnyRef object_at(Node n, std::span<const model::TypeId> targets, const Scale& scale);
+  /// Where a row leads from an instance, in the order of the list.
+  [[nodiscard]] std::vector<Terminal> follow(const std::vector<Step>& steps, const std::string& value_of,
+                                             Node root) const;
+  /// The instances on the way to a terminal belong to the owner's mapping; the last one, too, unless it is
+  /// an object of its own.
+  void mark(const Terminal& t, model::AnyRef owner);
+  /// A number with its unit as the model has it; nothing (reported, unless it is `$`) when it cannot be.
+  [[nodiscard]] std::optional<double> measure(Node n, model::Unit unit, const Scale& scale);
+  /// DESCRIPTIVE_REPRESENTATION_ITEM's text, or the name of anything else.
+  [[nodiscard]] std::string description(Node n) const;
+  [[nodiscard]] bool used(Node n) const { return owner_[n].set() || object_[n]; }
+  void about(Node n, Diagnostic d) const;
+  /// The instance a noun was read from.
+  [[nodiscard]] Node root_of(model::AnyRef at) const;
+
+ private:
+  struct Role {
+    model::AnyRef owner;
+    std::uint32_t prefix = 0, ordinal = 0;
+    [[nodiscard]] bool set() const { return owner.set(); }
+  };
+  struct Key {
+    Node node;
+    std::uint32_t scale;
+    friend auto operator<=>(const Key&, const Key&) = default;
+  };
+
+  void drain();
+  void fill(model::AnyRef at, Node n);
+  bool read_row(const Row& row, model::AnyRef at, Node n);
+  bool assign(const Row& row, model::AnyRef at, const model::Attribute& a, std::vector<Terminal>& found);
+  bool scalar(const Row& row, model::AnyRef at, const model::Attribute& a, const Terminal& t);
+  void list(const Row& row, model::AnyRef at, const model::Attribute& a, const std::vector<Terminal>& found);
+  void select(const Row& row, const model::Attribute& a, const Terminal& t, model::SelectValue& out);
+  [[nodiscard]] bool holds(Node n, const Step& s, std::uint32_t* ordinal, double* order) const;
+  [[nodiscard]] const ObjectRow* object_row(Node n, std::span<const model::TypeId> targets) const;
+  model::AnyRef geometry_at(Node n, model::TypeId type, const Scale& scale);
+  void fill_geometry(model::AnyRef at, Node n, const Scale& scale);
+  [[nodiscard]] std::optional<model::TypeId> geometry_type(Node n) const;
+  model::AnyRef kept_at(Node n);
+  model::AnyRef auxiliary(Node n);
+  void fill_kept();
+  void keep_the_rest();
+
+  const Graph& g_;
+  const Mapping& map_;
+  model::Plan& plan_;
+  Reporter& reporter_;
+  Units units_;
+  Scale default_scale_;
+
+  std::vector<Role> owner_;    ///< by node: whose mapping it belongs to
+  std::vector<bool> object_;   ///< by node: root of an application object, or geometry
+  std::unordered_multimap<Node, model::AnyRef> nouns_;
+  std::map<Key, model::AnyRef> geometry_;
+  std::vector<Scale> scales_;
+  std::unordered_map<Node, model::AnyRef> kept_, auxiliary_;
+  std::deque<Node> kept_pending_;
+  std::map<model::AnyRef, Node> root_;
+  struct Pending {
+    model::AnyRef at;
+    Node node;
+    bool geometry;
+    Scale scale;
+  };
+  std::deque<Pending> pending_;
+};
+
+}  // namespace capstan::exchange::ap238

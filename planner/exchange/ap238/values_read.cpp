@@ -1,0 +1,217 @@
+#include <cmath>
+
+#include "planner/exchange/ap238/codecs.h"
+#include "planner/exchange/ap238/reader.h"
+#include "planner/exchange/text.h"
+#include "planner/model/nouns/all.h"
+#include "planner/model/walk.h"
+
+namespace capstan::exchange::ap238 {
+
+using model::AnyRef;
+using model::Attribute;
+using model::Storage;
+using model::TypeId;
+using p21::Kind;
+using p21::Value;
+
+namespace {
+
+Value bare(const Value& v) { return v.is(Kind::kTyped) ? v[0] : v; }
+
+bool same(std::string_view a, std::string_view b) {
+  const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; };
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [&](char x, char y) { return lower(x) == lower(y); });
+}
+
+}  // namespace
+
+std::string Reader::description(Node n) const {
+  Value v = g_.get(n, "description");
+  if (!v.is(Kind::kString)) v = g_.get(n, "name");
+  return v.is(Kind::kString) ? v.as_text() : std::string();
+}
+
+std::optional<double> Reader::measure(Node n, model::Unit unit, const Scale& scale) {
+  const Value v = bare(g_.get(n, "value_component"));
+  if (v.is(Kind::kOmitted)) return std::nullopt;
+  const auto wrong = [&](const std::string& what, const std::string& expected) -> std::optional<double> {
+    about(n, {.code = "EXC-VALUE",
+              .severity = Severity::kWarning,
+              .message = "the measure " + what + "; left unset",
+              .expected = expected});
+    return std::nullopt;
+  };
+  if (!v.is_number()) return wrong("is not a number: " + spelling(v), "a number");
+  double factor = 1.0;
+  const Value u = g_.get(n, "unit_component");
+  if (u.is(Kind::kReference)) {
+    const Node at = g_.find(u.reference());
+    const auto of = at == kNoNode ? std::nullopt : units_.unit(at);
+    const auto f = of ? Units::factor(*of, unit) : std::nullopt;
+    if (!f) {
+      return wrong("has a unit (#" + std::to_string(u.reference()) + ") that does not measure what it should",
+                   "a unit that can be turned into " + std::string(model::symbol(unit)));
+    }
+    factor = *f;
+  } else if (unit == model::Unit::kLength) {
+    factor = scale.length;
+  } else if (unit == model::Unit::kAngle) {
+    factor = scale.angle;
+  }
+  const double x = v.as_real() * factor;
+  if (!std::isfinite(x)) return wrong("is not finite", "a finite number");
+  return x;
+}
+
+bool Reader::assign(const Row& row, AnyRef at, const Attribute& a, std::vector<Terminal>& found) {
+  if (!row.codec.empty()) {
+    const Codec* codec = find_codec(row.codec);
+    if (codec == nullptr) throw std::logic_error(row.place + ": no codec " + row.codec);
+    if (!codec->read(*this, row, at, a, found)) return false;
+    for (const Terminal& t : found) mark(t, at);
+    return true;
+  }
+  switch (a.storage) {
+    case Storage::kRefList:
+    case Storage::kRealList:
+    case Storage::kIntegerList:
+    case Storage::kTextList:
+    case Storage::kSelectList:
+      list(row, at, a, found);
+      return true;
+    default:
+      for (const Terminal& t : found) {
+        if (!scalar(row, at, a, t)) continue;
+        mark(t, at);
+        return true;
+      }
+      // A measure without a value is there and says nothing.
+      for (const Terminal& t : found) {
+        if (a.storage == Storage::kReal && bare(g_.get(t.node, "value_component")).is(Kind::kOmitted)) mark(t, at);
+      }
+      return false;
+  }
+}
+
+bool Reader::scalar(const Row& row, AnyRef at, const Attribute& a, const Terminal& t) {
+  const auto slot = [&]<class T>(T value) {
+    *static_cast<T*>(a.at(plan_.model.object(at))) = std::move(value);
+    return true;
+  };
+  const bool text = !row.value_of.empty();
+  switch (a.storage) {
+    case Storage::kReal: {
+      if (text && !bare(t.text).is_number()) return false;
+      const auto x = text ? std::optional(bare(t.text).as_real()) : measure(t.node, a.unit, t.scale);
+      return x && slot(model::Real(*x));
+    }
+    case Storage::kInteger: {
+      if (text && !bare(t.text).is_number()) return false;
+      const auto x = text ? std::optional(bare(t.text).as_real()) : measure(t.node, model::Unit::kNone, t.scale);
+      if (!x || std::abs(*x) > 9007199254740992.0) return false;
+      return slot(model::Integer(static_cast<std::int64_t>(std::llround(*x))));
+    }
+    case Storage::kText:
+      if (text) return t.text.is(Kind::kString) && slot(model::Text(t.text.as_text()));
+      return slot(model::Text(description(t.node)));
+    case Storage::kBoolean:
+    case Storage::kEnum: {
+      if (text && t.text.is(Kind::kEnumeration) && a.storage == Storage::kBoolean) {
+        return slot(model::Boolean(t.text.enumeration() == "T"));
+      }
+      const std::string s = text ? (t.text.is(Kind::kString) ? t.text.as_text() : "") : description(t.node);
+      for (std::size_t i = 0; i < row.texts.size(); ++i) {
+        if (!same(row.texts[i], s)) continue;
+        if (a.storage == Storage::kBoolean) return slot(model::Boolean(i == 0));
+        return slot(model::AnyEnum{static_cast<std::int8_t>(i)});
+      }
+      about(t.node, {.code = "EXC-VALUE",
+                     .severity = Severity::kWarning,
+                     .message = attribute_name(at, a.name) + " cannot be '" + s + "'; left unset"});
+      return false;
+    }
+    case Storage::kRef: {
+      const AnyRef to = object_at(t.node, a.targets, t.scale);
+      return to.set() && slot(to);
+    }
+    case Storage::kSelect: {
+      model::SelectValue v;
+      select(row, a, t, v);
+      return v.set() && slot(v);
+    }
+    default:
+      throw std::logic_error(row.place + ": needs a codec");
+  }
+}
+
+void Reader::select(const Row& row, const Attribute& a, const Terminal& t, model::SelectValue& out) {
+  if (g_.get(t.node, "value_component").is(Kind::kTyped) || g_.get(t.node, "unit_component").is(Kind::kReference)) {
+    if (const auto x = measure(t.node, a.unit == model::Unit::kNone ? model::Unit::kRatio : a.unit, t.scale)) {
+      out.real = *x;
+      out.type = row.texts.empty() ? std::string(g_.get(t.node, "value_component").keyword()) : row.texts.front();
+    }
+  } else if (g_.is(t.node, g_.schema().find("DESCRIPTIVE_REPRESENTATION_ITEM"))) {
+    std::string s = description(t.node);
+    for (char& c : s) c = static_cast<char>(c >= 'a' && c <= 'z' ? c - 32 : c);
+    out.text = s;
+  } else {
+    out.ref = object_at(t.node, a.targets, t.scale);
+  }
+}
+
+void Reader::list(const Row& row, AnyRef at, const Attribute& a, const std::vector<Terminal>& found) {
+  void* slot = a.at(plan_.model.object(at));
+  for (const Terminal& t : found) {
+    bool done = false;
+    switch (a.storage) {
+      case Storage::kRefList: {
+        const AnyRef to = object_at(t.node, a.targets, t.scale);
+        slot = a.at(plan_.model.object(at));
+        auto& out = *static_cast<model::AnyRefList*>(slot);
+        out.given = true;
+        out.items.push_back(to);
+        done = true;
+        break;
+      }
+      case Storage::kRealList:
+        if (const auto x = measure(t.node, a.unit, t.scale)) {
+          auto& out = *static_cast<model::RealList*>(slot);
+          out.given = true;
+          out.items.push_back(*x);
+          done = true;
+        }
+        break;
+      case Storage::kIntegerList:
+        if (const auto x = measure(t.node, model::Unit::kNone, t.scale)) {
+          auto& out = *static_cast<model::IntegerList*>(slot);
+          out.given = true;
+          out.items.push_back(std::llround(*x));
+          done = true;
+        }
+        break;
+      case Storage::kTextList: {
+        auto& out = *static_cast<model::TextList*>(slot);
+        out.given = true;
+        out.items.push_back(row.value_of.empty() ? description(t.node)
+                                                 : (t.text.is(Kind::kString) ? t.text.as_text() : ""));
+        done = true;
+        break;
+      }
+      case Storage::kSelectList: {
+        model::SelectValue v;
+        select(row, a, t, v);
+        auto& out = *static_cast<model::SelectList*>(a.at(plan_.model.object(at)));
+        out.given = true;
+        out.items.push_back(std::move(v));
+        done = true;
+        break;
+      }
+      default:
+        break;
+    }
+    if (done) mark(t, at);
+  }
+}
+
+}  // namespace capstan::exchange::ap238

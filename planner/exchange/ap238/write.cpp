@@ -1,0 +1,46 @@
+#include <algorithm>
+
+#include "planner/exchange/ap238/writer.h"
+#include "planner/exchange/exchange.h"
+#include "planner/p21/print.h"
+
+namespace capstan::exchange {
+namespace {
+
+std::string quoted(std::string_view s) { return "'" + p21::encode_text(s) + "'"; }
+
+std::string texts(const std::vector<std::string>& items) {
+  std::string out = "(";
+  for (const std::string& s : items) out += (out.size() > 1 ? "," : "") + quoted(s);
+  return items.empty() ? "('')" : out + ")";
+}
+
+std::string header(const model::Plan& plan) {
+  std::vector<std::string> lines(1);
+  for (const char c : plan.header_description) {
+    if (c == '\n') {
+      lines.emplace_back();
+    } else {
+      lines.back() += c;
+    }
+  }
+  const auto slash = plan.file_name.find_last_of('/');
+  const std::string name = slash == std::string::npos ? plan.file_name : plan.file_name.substr(slash + 1);
+  return "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION(" + texts(lines) + ",'2;1');\nFILE_NAME(" + quoted(name) + "," +
+         quoted(plan.header_time_stamp) + "," + texts(plan.header_authors) + "," +
+         texts(plan.header_organizations) +
+         ",'Capstan','Capstan','');\nFILE_SCHEMA(('MODEL_BASED_INTEGRATED_MANUFACTURING_SCHEMA'));\nENDSEC;\nDATA;\n";
+}
+
+}  // namespace
+
+Result<Written> write_ap238(const model::Plan& plan, Job& job) {
+  Written out;
+  ap238::Writer writer(plan, ap238::Mapping::instance(), out.losses);
+  out.bytes = header(plan) + writer.run() + "ENDSEC;\nEND-ISO-10303-21;\n";
+  std::sort(out.losses.begin(), out.losses.end());
+  for (const std::string& loss : out.losses) job.note("EXC-LOSS", loss);
+  return out;
+}
+
+}  // namespace capstan::exchange

@@ -1,0 +1,112 @@
+#pragma once
+
+#include <deque>
+#include <map>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "planner/exchange/ap238/mapping.h"
+#include "planner/model/plan.h"
+
+namespace capstan::exchange::ap238 {
+
+/// An instance being written, by its number.
+using Id = std::uint32_t;
+inline constexpr Id kNoId = 0;
+
+/// Builds the instances of a plan by the rows of the mapping, then prints them. One per file.
+class Writer {
+ public:
+  Writer(const model::Plan& plan, const Mapping& mapping, std::vector<std::string>& losses);
+
+  /// The data section, one instance per line.
+  std::string run();
+
+  // What codecs use.
+  [[nodiscard]] const model::Model& model() const { return m_; }
+  [[nodiscard]] const model::Plan& plan() const { return plan_; }
+  [[nodiscard]] const express::Dictionary& schema() const { return schema_; }
+  /// The instance of an application object, geometry or kept instance; its rows are written later.
+  /// kNoId when AP238 has no place for it (and it is listed as lost).
+  Id instance_of(model::AnyRef at);
+  /// Geometry under the name that its role demands ("'orientation'").
+  Id instance_named(model::AnyRef at, const std::string& name);
+  /// A new instance; attributes unset.
+  Id make(std::vector<EntityId> leaves);
+  Id make(std::string_view entity);  ///< "a&b" for a complex one
+  Id shared(std::string_view name);
+  /// Sets an attribute to a spelling ("'text'", ".T.", "#12"); appends to an aggregate.
+  void set(Id at, std::string_view attribute, std::string spelling);
+  void link(Id from, std::string_view attribute, Id to) { set(from, attribute, "#" + std::to_string(to)); }
+  /// Follows the row's steps from the object's instance and gives the last instance but `leave` steps.
+  Id walk(const Row& row, model::AnyRef owner, Id root, std::size_t leave, std::uint32_t ordinal);
+  /// Joins what the row's last step leads to.
+  void connect(const Step& last, Id from, Id to, std::uint32_t ordinal, model::AnyRef owner);
+  /// A measure with unit as a representation item.
+  Id measure(double value, model::Unit unit, std::string_view name, std::span<const EntityId> entities);
+  Id description(std::string_view name, std::string_view text);
+  void lose(const std::string& what) { ++lost_[what]; }
+
+ private:
+  struct Value {
+    const express::Attribute* attribute;
+    bool aggregate = false;
+    std::string wrapper;
+    std::vector<std::string> items;
+  };
+  struct Made {
+    std::vector<EntityId> leaves;  ///< empty: `noun` is written as it is
+    model::AnyRef noun;
+    std::string name;  ///< of geometry whose role fixes it, as spelled; else empty
+    std::vector<Value> values;
+  };
+  struct MemoKey {
+    model::AnyRef owner;
+    std::uint32_t prefix, ordinal;
+    friend auto operator<=>(const MemoKey&, const MemoKey&) = default;
+  };
+  struct Task {
+    model::AnyRef at;
+    Id root;
+  };
+
+  [[nodiscard]] const ObjectRow* object_row(model::AnyRef at) const;
+  void write_rows(const Task& t);
+  void write_value(const Row& row, model::AnyRef owner, const model::Attribute& a, const void* data, Id root);
+  void write_reference(const Row& row, model::AnyRef owner, model::AnyRef to, Id root, std::uint32_t ordinal);
+  void write_leaf(const Row& row, model::AnyRef owner, Id root, std::uint32_t ordinal, Id leaf);
+  [[nodiscard]] static bool is_geometry(model::AnyRef at);
+  void require(model::AnyRef at);
+  [[nodiscard]] std::string resolved(const std::string& spelling);
+  void write_text(const Row& row, model::AnyRef owner, Id root, std::uint32_t ordinal, const std::string& text);
+  void write_measure(const Row& row, model::AnyRef owner, Id root, std::uint32_t ordinal, double v, model::Unit u);
+  void constrain(Id at, const std::vector<Constraint>& constraints, std::uint32_t ordinal, model::AnyRef owner);
+  void note_unmapped(model::AnyRef at, const ObjectRow* row);
+  Id unit(model::Unit u);
+  void print(Id id, const Made& made, std::string& out);
+  void print_geometry(model::AnyRef at, const std::string& name, std::string& out);
+  void print_kept(const model::KeptInstance& kept, std::string& out);
+  [[nodiscard]] std::string slot_text(const Made& made, const express::Slot& slot) const;
+  [[nodiscard]] std::string attribute_text(const model::Attribute& a, const void* data);
+  [[nodiscard]] std::string reference_text(model::AnyRef r);
+
+  const model::Plan& plan_;
+  const model::Model& m_;
+  const Mapping& map_;
+  const express::Dictionary& schema_;
+  std::vector<std::string>& losses_;
+  std::deque<Made> made_;
+  std::map<model::AnyRef, Id> ids_;
+  std::map<std::pair<model::AnyRef, std::string>, Id> named_;
+  std::map<model::AnyRef, std::string> descriptions_;
+  std::map<MemoKey, Id> memo_;
+  std::map<std::string_view, std::uint32_t> prefix_of_text_;
+  std::map<std::string, Id, std::less<>> shared_;
+  std::map<model::Unit, Id> units_;
+  std::deque<Task> tasks_;
+  std::deque<model::AnyRef> to_scan_;
+  std::map<std::string, std::size_t> lost_;
+};
+
+}  // namespace capstan::exchange::ap238
