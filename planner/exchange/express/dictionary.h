@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -32,6 +33,18 @@ enum class TypeKind : std::uint8_t {
 };
 enum class AggregateKind : std::uint8_t { kList, kSet, kBag, kArray };
 
+/// The numbers that a WHERE rule of a defined type leaves.
+struct Range {
+  double lower, upper;  ///< infinite where open to that side
+  bool lower_included, upper_included;
+  std::string_view spelling;  ///< "[0,24)"
+
+  [[nodiscard]] bool holds(double x) const {
+    return (lower_included ? x >= lower : x > lower) && (upper_included ? x <= upper : x < upper);
+  }
+  [[nodiscard]] std::string text() const { return std::string(spelling); }
+};
+
 /// What an attribute, an element or a select item may hold.
 struct Type {
   static constexpr std::size_t kUnbounded = static_cast<std::size_t>(-1);
@@ -48,6 +61,7 @@ struct Type {
   std::vector<const Type*> items{};             ///< of kSelect: as declared, selects among them
   std::vector<const Type*> values{};      ///< of kSelect: all that is not an entity, through nested selects
   std::vector<std::uint64_t> admitted{};  ///< of kSelect, kEntity: bit per entity, subtypes included
+  std::optional<Range> range{};           ///< of kDefined numbers
   [[nodiscard]] bool is_named() const { return !name.empty(); }
 };
 

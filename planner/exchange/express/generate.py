@@ -12,7 +12,7 @@ entities is that of the parts of complex instances):
 
     entity NAME [abstract] : SUPERTYPE ... ; ATTRIBUTE TYPE ; ATTRIBUTE ? TYPE ; SUPERTYPE\\ATTRIBUTE[=NEW] TYPE ;
                              * SUPERTYPE\\ATTRIBUTE
-    enum NAME = ITEM ...          select NAME = ITEM ...          type NAME = TYPE
+    enum NAME = ITEM ...          select NAME = ITEM ...          type NAME = TYPE [in [0,24)]
     TYPE: NAME | integer | real | number | string | boolean | logical | binary
           | (list|set|bag|array) LOWER:UPPER [unique] [optional] TYPE          UPPER ? is unbounded
 """
@@ -47,6 +47,23 @@ def tokens_of(text):
         if not t.isspace() and not t.startswith("--"):
             tokens.append(t if t.startswith("'") else t.lower())
     return tokens
+
+
+def range_of(where):
+    """" in [0,24)" where the rules bound SELF by numbers; empty where they say something else."""
+    text = " ".join(t for t in where if t not in "()")
+    lower, upper, ends = "?", "?", ["(", ")"]
+    number = r"(\d+(?:\.\d*)?)"
+    if m := re.fullmatch(rf"; where \w+ : self = {number} or self = {number} ;", text):
+        return f" in [{m[1]},{m[2]}]"  # of whole numbers, neighbours
+    for m in re.finditer(rf"(?<!length )self (>=?|<=?) {number}|{number} (<=?) self", text):
+        op, value = (m[1], m[2]) if m[2] else (m[4].replace("<", ">"), m[3])
+        value = value.removesuffix(".0")
+        if op[0] == ">":
+            lower, ends[0] = value, "[" if op == ">=" else "("
+        else:
+            upper, ends[1] = value, "]" if op == "<=" else ")"
+    return "" if lower == upper == "?" else f" in {ends[0]}{lower},{upper}{ends[1]}"
 
 
 class Reader:
@@ -126,9 +143,19 @@ class Reader:
                 self.want(")")
             self.define(kind, name, (items, base, extensible))
         else:
-            self.define("type", name, self.type())
+            kind = self.type()
+            self.define("type", name, kind + range_of(self.where("end_type")))
+            return
         while self.next() != "end_type":
             pass
+
+    def where(self, end):
+        """The tokens of the WHERE rules before `end`."""
+        tokens = []
+        while self.peek() != end:
+            tokens.append(self.next())
+        self.want(end)
+        return tokens
 
     def define(self, kind, name, what):
         if any(name in table for table in self.tables.values()):

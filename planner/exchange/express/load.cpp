@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <bit>
 #include <charconv>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 
@@ -177,10 +178,25 @@ class Loader {
     type.lower = type.upper != Type::kUnbounded ? type.upper : 0;
   }
 
+  // "[0,24)"; ? for no bound.
+  static Range range(std::string_view text) {
+    const auto comma = text.find(',');
+    if (comma == std::string_view::npos || text.size() < 5) malformed(text);
+    const auto number = [](std::string_view s, double none) {
+      std::from_chars(s.data(), s.data() + s.size(), none);  // leaves it where there is no number
+      return none;
+    };
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    return {number(text.substr(1, comma - 1), -kInfinity),
+            number(text.substr(comma + 1, text.size() - comma - 2), kInfinity), text.front() == '[',
+            text.back() == ']', text};
+  }
+
   void type(Words& words, Type& type) {
     words.want("=");
     if (type.kind == TypeKind::kDefined) {
       type.underlying = type_of(words);
+      if (words.take("in")) type.range = range(words.next());
       return;
     }
     while (!words.done()) {
