@@ -5,7 +5,9 @@
 
 #include "planner/exchange/conformance/faults.h"
 #include "planner/exchange/conformance/population.h"
+#include "planner/exchange/conformance/rules.h"
 #include "planner/exchange/conformance/values.h"
+#include "planner/exchange/embedded.h"
 #include "planner/exchange/express/dictionary.h"
 
 namespace capstan::exchange {
@@ -31,6 +33,9 @@ std::size_t check_schema(const p21::File& file, Job& job) {
   }
   const conformance::Population population(file, express::Dictionary::ap238());
   conformance::check_values(population, faults);
+  static const auto rules =
+      conformance::read_rules(embedded_file("conformance/rules.table"), express::Dictionary::ap238());
+  conformance::check_rules(population, rules, faults);
   return faults.finish();
 }
 
