@@ -18,6 +18,7 @@ struct Part {
 /// instances stay connected to it. Kept instances refer to it; it is never written itself.
 [[nodiscard]] inline model::KeptInstance auxiliary_instance(model::AnyRef owner, const Part& part) {
   model::KeptInstance out;
+  out.schema = model::KeptSchema::kAp238;
   out.keyword = "&" + std::to_string(part.ordinal) + " " + part.path;
   out.pieces.emplace_back(owner);
   return out;

@@ -3,6 +3,7 @@
 
 #include "planner/exchange/ap238/auxiliary.h"
 #include "planner/exchange/ap238/reader.h"
+#include "planner/exchange/sections.h"
 #include "planner/exchange/text.h"
 #include "planner/model/nouns/all.h"
 
@@ -37,24 +38,27 @@ AnyRef Reader::auxiliary(Node n) {
   return at;
 }
 
+// What a reference of kept text leads to; nothing when the file holds no such instance.
+AnyRef Reader::connected(std::uint64_t id) {
+  const Node to = g_.find(id);
+  if (to == kNoNode) return {};
+  if (const auto noun = nouns_.find(to); noun != nouns_.end()) return noun->second;
+  // Geometry that was read in the model's own units is written back the same.
+  for (std::uint32_t s = 0; s < scales_.size(); ++s) {
+    if (!scales_[s].identity()) continue;
+    const auto g = geometry_.find({to, s});
+    if (g != geometry_.end()) return g->second;
+  }
+  if (owner_[to].set()) return auxiliary(to);
+  return kept_at(to);
+}
+
 void Reader::fill_kept() {
-  const Scale identity;
   while (!kept_pending_.empty()) {
     const Node n = kept_pending_.front();
     kept_pending_.pop_front();
-    auto kept = keep(g_.instance(n), [&](std::uint64_t id) -> AnyRef {
-      const Node to = g_.find(id);
-      if (to == kNoNode) return {};
-      if (const auto noun = nouns_.find(to); noun != nouns_.end()) return noun->second;
-      // Geometry that was read in the model's own units is written back the same.
-      for (std::uint32_t s = 0; s < scales_.size(); ++s) {
-        if (!scales_[s].identity()) continue;
-        const auto g = geometry_.find({to, s});
-        if (g != geometry_.end()) return g->second;
-      }
-      if (owner_[to].set()) return auxiliary(to);
-      return kept_at(to);
-    });
+    auto kept = keep(g_.instance(n), [&](std::uint64_t id) { return connected(id); });
+    kept.schema = model::KeptSchema::kAp238;
     plan_.model.at<model::KeptInstance>(kept_.at(n)) = std::move(kept);
   }
 }
@@ -102,6 +106,9 @@ void Reader::keep_the_rest() {
   for (const Node n : rest) {
     if (!reached[n]) reach(n);
   }
+  keep_sections(
+      g_.file(), model::KeptSchema::kAp238, [&](std::uint64_t id) { return connected(id); }, plan_, reporter_);
+  fill_kept();
   for (const auto& [keyword, kind] : kinds) {
     about(kind.second, {.code = "EXC-KEPT",
                         .severity = Severity::kNote,

@@ -89,6 +89,7 @@ class Reader {
   [[nodiscard]] std::optional<model::TypeId> geometry_type(Node n) const;
   model::AnyRef kept_at(Node n);
   model::AnyRef auxiliary(Node n);
+  [[nodiscard]] model::AnyRef connected(std::uint64_t id);
   void fill_kept();
   void keep_the_rest();
 

@@ -2,6 +2,7 @@
 
 #include "planner/exchange/ap238/writer.h"
 #include "planner/exchange/exchange.h"
+#include "planner/exchange/sections.h"
 #include "planner/p21/print.h"
 
 namespace capstan::exchange {
@@ -29,7 +30,7 @@ std::string header(const model::Plan& plan) {
   return "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION(" + texts(lines) + ",'2;1');\nFILE_NAME(" + quoted(name) + "," +
          quoted(plan.header_time_stamp) + "," + texts(plan.header_authors) + "," +
          texts(plan.header_organizations) +
-         ",'Capstan','Capstan','');\nFILE_SCHEMA(('MODEL_BASED_INTEGRATED_MANUFACTURING_SCHEMA'));\nENDSEC;\nDATA;\n";
+         ",'Capstan','Capstan','');\nFILE_SCHEMA(('MODEL_BASED_INTEGRATED_MANUFACTURING_SCHEMA'));\nENDSEC;\n";
 }
 
 }  // namespace
@@ -37,7 +38,9 @@ std::string header(const model::Plan& plan) {
 Result<Written> write_ap238(const model::Plan& plan, Job& job) {
   Written out;
   ap238::Writer writer(plan, ap238::Mapping::instance(), out.losses);
-  out.bytes = header(plan) + writer.run() + "ENDSEC;\nEND-ISO-10303-21;\n";
+  const std::string data = writer.run();
+  out.bytes = header(plan) + sections_text(plan, [&](model::AnyRef r) { return writer.reference_text(r); }) +
+              "DATA;\n" + data + "ENDSEC;\nEND-ISO-10303-21;\n";
   std::sort(out.losses.begin(), out.losses.end());
   for (const std::string& loss : out.losses) job.note("EXC-LOSS", loss);
   return out;

@@ -6,6 +6,7 @@
 #include "planner/base/number.h"
 #include "planner/exchange/ap238/auxiliary.h"
 #include "planner/exchange/ap238/codecs.h"
+#include "planner/exchange/sections.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/walk.h"
 #include "planner/p21/print.h"
@@ -47,6 +48,10 @@ Writer::Writer(const model::Plan& plan, const Mapping& mapping, std::vector<std:
   for (const Row& r : map_.rows()) {
     for (const Step& s : r.steps) prefix_of_text_.emplace(map_.prefix_text(s.prefix), s.prefix);
   }
+  for (const AnyRef at : m_.all(TypeId::kKeptInstance)) {
+    const auto& kept = m_.at<model::KeptInstance>(at);
+    if (kept.schema == model::KeptSchema::kAp238) reserved_.merge(unresolved_numbers(kept));
+  }
 }
 
 std::string Writer::run() {
@@ -68,7 +73,9 @@ std::string Writer::run() {
     });
   }
   std::string out;
-  for (Id id = 1; id <= made_.size(); ++id) print(id, made_[id - 1], out);
+  for (Id id = 1; id <= made_.size(); ++id) {
+    if (!reserved_.contains(id)) print(id, made_[id - 1], out);
+  }
   for (const auto& [what, n] : lost_) {
     losses_.push_back(what + " has no place in AP238 (" + std::to_string(n) + " left out)");
   }
@@ -83,6 +90,7 @@ bool Writer::is_geometry(AnyRef at) {
 
 void Writer::require(AnyRef at) {
   if (const auto* kept = m_.get<model::KeptInstance>(at)) {
+    if (kept->section != model::KeptSection::kData) return to_scan_.push_back(at);
     if (const auto part = auxiliary_part(*kept)) {
       instance_of(part->first);
       return;
@@ -91,9 +99,14 @@ void Writer::require(AnyRef at) {
   instance_of(at);
 }
 
-Id Writer::make(std::vector<EntityId> leaves) {
-  made_.push_back({.leaves = std::move(leaves), .noun = {}, .name = {}, .values = {}});
+Id Writer::add(Made made) {
+  while (reserved_.contains(made_.size() + 1)) made_.emplace_back();  // printed as nothing
+  made_.push_back(std::move(made));
   return static_cast<Id>(made_.size());
+}
+
+Id Writer::make(std::vector<EntityId> leaves) {
+  return add({.leaves = std::move(leaves), .noun = {}, .name = {}, .values = {}});
 }
 
 Id Writer::make(std::string_view entity) {
@@ -129,9 +142,14 @@ const ObjectRow* Writer::object_row(AnyRef at) const {
 Id Writer::instance_of(AnyRef at) {
   const auto it = ids_.find(at);
   if (it != ids_.end()) return it->second;
+  if (const auto* kept = m_.get<model::KeptInstance>(at);
+      kept != nullptr && kept->schema != model::KeptSchema::kAp238 && kept->keyword.rfind('!', 0) != 0) {
+    lose(kept->keyword + ", kept from ISO 14649,");
+    ids_.emplace(at, kNoId);
+    return kNoId;
+  }
   if (at.type == TypeId::kKeptInstance || is_geometry(at)) {
-    made_.push_back({.leaves = {}, .noun = at, .name = {}, .values = {}});
-    const Id id = static_cast<Id>(made_.size());
+    const Id id = add({.leaves = {}, .noun = at, .name = {}, .values = {}});
     ids_.emplace(at, id);
     to_scan_.push_back(at);
     return id;
@@ -157,8 +175,7 @@ Id Writer::instance_named(AnyRef at, const std::string& name) {
   if (!is_geometry(at) || name.empty()) return instance_of(at);
   const auto [it, added] = named_.emplace(std::pair(at, name), kNoId);
   if (!added) return it->second;
-  made_.push_back({.leaves = {}, .noun = at, .name = name, .values = {}});
-  it->second = static_cast<Id>(made_.size());
+  it->second = add({.leaves = {}, .noun = at, .name = name, .values = {}});
   to_scan_.push_back(at);
   return it->second;
 }

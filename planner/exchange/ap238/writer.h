@@ -2,6 +2,7 @@
 
 #include <deque>
 #include <map>
+#include <set>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -22,6 +23,8 @@ class Writer {
 
   /// The data section, one instance per line.
   std::string run();
+  /// After run(): how the file refers to an object, "$" when it holds none.
+  [[nodiscard]] std::string reference_text(model::AnyRef r);
 
   // What codecs use.
   [[nodiscard]] const model::Model& model() const { return m_; }
@@ -61,6 +64,7 @@ class Writer {
     std::string name;  ///< of geometry whose role fixes it, as spelled; else empty
     std::vector<Value> values;
   };
+  Id add(Made made);
   struct MemoKey {
     model::AnyRef owner;
     std::uint32_t prefix, ordinal;
@@ -89,7 +93,6 @@ class Writer {
   void print_kept(const model::KeptInstance& kept, std::string& out);
   [[nodiscard]] std::string slot_text(const Made& made, const express::Slot& slot) const;
   [[nodiscard]] std::string attribute_text(const model::Attribute& a, const void* data);
-  [[nodiscard]] std::string reference_text(model::AnyRef r);
 
   const model::Plan& plan_;
   const model::Model& m_;
@@ -97,6 +100,7 @@ class Writer {
   const express::Dictionary& schema_;
   std::vector<std::string>& losses_;
   std::deque<Made> made_;
+  std::set<std::uint64_t> reserved_;  ///< numbers that kept text mentions and no instance has
   std::map<model::AnyRef, Id> ids_;
   std::map<std::pair<model::AnyRef, std::string>, Id> named_;
   std::map<model::AnyRef, std::string> descriptions_;

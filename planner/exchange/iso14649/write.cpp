@@ -9,6 +9,7 @@
 #include "planner/exchange/iso14649/records.h"
 #include "planner/exchange/iso14649/trajectories.h"
 #include "planner/exchange/iso14649/units.h"
+#include "planner/exchange/sections.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/walk.h"
 #include "planner/p21/print.h"
@@ -59,7 +60,7 @@ class FileWriter {
     number();
     std::string out = "ISO-10303-21;\nHEADER;\n" + header();
     out += write_records(plan_, m_, [this](AnyRef at) { return number_of(at); });
-    out += "ENDSEC;\nDATA;\n";
+    out += "ENDSEC;\n" + sections_text(plan_, [this](AnyRef r) { return reference(r); }) + "DATA;\n";
     for (const auto& [n, at] : by_number_) instance(n, at, out);
     out += "ENDSEC;\nEND-ISO-10303-21;\n";
     for (const auto& [what, n] : left_out_) {
@@ -87,11 +88,21 @@ class FileWriter {
       pending.pop_back();
       if (!at.set() || seen[static_cast<std::size_t>(at.type)][at.index]) continue;
       seen[static_cast<std::size_t>(at.type)][at.index] = true;
+      if (is_foreign(at)) continue;
       order_.push_back(at);
       std::vector<AnyRef> next;
       references(at, [&](AnyRef to) { next.push_back(to); });
       pending.insert(pending.end(), next.rbegin(), next.rend());
     }
+  }
+
+  // Kept instances of AP238, and what only stands for parts of its mapping.
+  bool is_foreign(AnyRef at) {
+    const auto* kept = m_.get<model::KeptInstance>(at);
+    if (kept == nullptr || kept->schema != model::KeptSchema::kAp238) return false;
+    if (kept->section != model::KeptSection::kData || kept->keyword.rfind('!', 0) == 0) return false;
+    if (kept->keyword.rfind('&', 0) != 0) ++left_out_[kept->keyword + ", kept from AP238,"];
+    return true;
   }
 
   // As for_each_reference, through what ISO 14649 can hold only; counts what it cannot.
@@ -151,32 +162,26 @@ class FileWriter {
       if (const auto* kept = m_.get<model::KeptInstance>(at))
         greatest = std::max(greatest, greatest_in(*kept));
       const std::uint64_t n = m_.origin(at).instance;
+      if (is_section(at)) continue;
       if (n == 0 || !by_number_.emplace(n, at).second) continue;
       slot(at) = n;
     }
     for (const AnyRef at : order_) {
-      if (slot(at) != 0) continue;
+      if (slot(at) != 0 || is_section(at)) continue;
       slot(at) = ++greatest;
       by_number_[greatest] = at;
     }
   }
 
+  [[nodiscard]] bool is_section(AnyRef at) const {
+    const auto* kept = m_.get<model::KeptInstance>(at);
+    return kept != nullptr && kept->section != model::KeptSection::kData;
+  }
+
   // Numbers that kept text mentions without pointing anywhere: a new instance must not catch them.
   static std::uint64_t greatest_in(const model::KeptInstance& kept) {
-    std::uint64_t out = 0;
-    for (const auto& piece : kept.pieces) {
-      const auto* text = std::get_if<std::string>(&piece);
-      if (text == nullptr) continue;
-      for (std::size_t i = text->find('#'); i != std::string::npos; i = text->find('#', i + 1)) {
-        std::uint64_t n = 0;
-        for (std::size_t k = i + 1;
-             k < text->size() && (*text)[k] >= '0' && (*text)[k] <= '9' && n < (1ULL << 53); ++k) {
-          n = 10 * n + static_cast<std::uint64_t>((*text)[k] - '0');
-        }
-        out = std::max(out, n);
-      }
-    }
-    return out;
+    const auto numbers = unresolved_numbers(kept);
+    return numbers.empty() ? 0 : *numbers.rbegin();
   }
 
   // --- text ---

@@ -322,8 +322,19 @@ class Reader {
   }
 
   void pieces(model::KeptInstance& kept, const Tree& t, const Place& at) {
-    only(t, {"@id", "@instance", "@line", "keyword", "pieces"}, at);
+    only(t, {"@id", "@instance", "@line", "keyword", "schema", "section", "pieces"}, at);
     get(child(t, "keyword", at), kept.keyword, {&at, "keyword"});
+    if (const auto it = t.find("schema"); it != t.end()) {
+      const Place here{&at, "schema"};
+      if (string(*it, here) != "AP238") fault(here, "AP238, or nothing for ISO 14649");
+      kept.schema = model::KeptSchema::kAp238;
+    }
+    if (const auto it = t.find("section"); it != t.end()) {
+      const Place here{&at, "section"};
+      const auto& name = string(*it, here);
+      if (name != "ANCHOR" && name != "REFERENCE") fault(here, "ANCHOR or REFERENCE");
+      kept.section = name == "ANCHOR" ? model::KeptSection::kAnchor : model::KeptSection::kReference;
+    }
     const Tree& list = child(t, "pieces", at);
     const Place here{&at, "pieces"};
     need_array(list, here);

@@ -380,6 +380,10 @@ class SchemaWriter {
     if (kind == TypeId::kKeptInstance) {
       out_.key("keyword");
       type("string");
+      out_.key("schema");
+      type("string");
+      out_.key("section");
+      type("string");
       out_.key("pieces");
       array([this] {
         out_.open('{', false);

@@ -236,6 +236,14 @@ class Writer {
   void pieces(const model::KeptInstance& kept) {
     out_.key("keyword");
     out_.text(kept.keyword);
+    if (kept.schema == model::KeptSchema::kAp238) {
+      out_.key("schema");
+      out_.text("AP238");
+    }
+    if (kept.section != model::KeptSection::kData) {
+      out_.key("section");
+      out_.text(kept.section == model::KeptSection::kAnchor ? "ANCHOR" : "REFERENCE");
+    }
     out_.key("pieces");
     out_.open('[', false);
     for (const auto& piece : kept.pieces) {
