@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "planner/model/type_id.h"
@@ -89,6 +90,20 @@ struct RefList : AnyRefList {
     given = true;
   }
   [[nodiscard]] Ref<T> operator[](std::size_t i) const { return Ref<T>(items[i]); }
+};
+/// A list whose items are of one of several kinds.
+template <class... Ts>
+struct OneOfList : AnyRefList {
+  OneOfList() = default;
+  template <class T>
+  requires(std::is_same_v<Ts, T> || ...) OneOfList(RefList<T> other)
+      : AnyRefList(std::move(other)) {}  // NOLINT: upcasts are safe and wanted
+  template <class U>
+  requires(std::is_base_of_v<Ts, U> || ...) void push_back(Ref<U> r) {
+    items.push_back(r);
+    given = true;
+  }
+  [[nodiscard]] AnyRef operator[](std::size_t i) const { return items[i]; }
 };
 struct SelectList {
   std::vector<SelectValue> items;

@@ -50,7 +50,7 @@ namespace capstan::tooling {
                                                                     Job& job);
 
 /// A cutter as nouns: milling_cutting_tool with body, dimension, one cutting_component and a tool_usage
-/// (its_position: the tool number; its_library_reference: the cutter's id; its_product: its description).
+/// (its_position: the tool number; its_library_reference: the cutter's id; description: its description).
 [[nodiscard]] model::Ref<model::MachiningTool> nouns_from_cutter(model::Model& m, const model::Cutter& c);
 
 /// A requirement as nouns: class and dimensions, nothing else.

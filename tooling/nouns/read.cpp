@@ -246,8 +246,9 @@ Result<Kind> kind_of(const Model& m, const Parts& p, Job& job) {
 const Cutter* named(const Model& m, const Parts& p, const std::vector<Cutter>& library) {
   const auto* usage = m.get<model::ToolUsage>(p.tool->its_usage);
   if (usage == nullptr) return nullptr;
-  for (const auto* text : {&usage->its_library_reference, &usage->its_product}) {
-    if (!*text) continue;
+  const auto* product = m.get<model::Workpiece>(usage->its_product);
+  for (const auto* text : {&usage->its_library_reference, product != nullptr ? &product->its_id : nullptr}) {
+    if (text == nullptr || !*text) continue;
     for (const Cutter& c : library)
       if (c.id == **text) return &c;
   }
@@ -325,7 +326,7 @@ Result<Cutter> cutter_from_nouns(const Model& m, Ref<MachiningTool> tool, Job& j
   c.pocket = pocket_of(m, *p);
   if (const auto* usage = m.get<model::ToolUsage>(p->tool->its_usage)) {
     if (usage->its_library_reference) c.id = *usage->its_library_reference;
-    if (usage->its_product) c.description = *usage->its_product;
+    if (usage->description) c.description = *usage->description;
   }
   if (c.cutting_diameter_mm > 0.0) {
     const auto& generic = shared_generic_library();

@@ -99,7 +99,7 @@ Ref<MachiningTool> nouns_from_cutter(Model& m, const Cutter& c) {
   u.its_id = c.id;
   if (c.pocket > 0) u.its_position = std::to_string(c.pocket);
   u.its_library_reference = c.id;
-  u.its_product = c.description.empty() ? c.id : c.description;
+  u.description = c.description.empty() ? c.id : c.description;
 
   const auto tool = m.add<model::MillingCuttingTool>();
   auto& t = m.at<model::MillingCuttingTool>(tool);

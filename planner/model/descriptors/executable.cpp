@@ -14,25 +14,41 @@ constexpr Attribute kExecutable[] = {
     plan_row<&Executable::to_be>("to_be", kOptional),
     plan_row<&Executable::removal>("removal", kOptional),
     plan_row<&Executable::fixture>("fixture", kOptional),
+    plan_row<&Executable::machine_used>("machine_used", kOptional),
+    plan_row<&Executable::twin_source>("twin_source", kOptional),
+    plan_row<&Executable::twin_plan>("twin_plan", kOptional),
+    plan_row<&Executable::twin_start>("twin_start", kOptional),
+    plan_row<&Executable::twin_end>("twin_end", kOptional),
+    plan_row<&Executable::twin_worktime>("twin_worktime", kOptional, Unit::kTime),
+    plan_row<&Executable::twin_exception>("twin_exception", kOptional),
+    plan_row<&Executable::process_properties>("process_properties", kOptional),
+    plan_row<&Executable::start_content>("start_content", kOptional),
+    plan_row<&Executable::end_content>("end_content", kOptional),
+    plan_row<&Executable::its_broadcasts>("its_broadcasts", kOptional),
+    plan_row<&Executable::last_modified_timestamp>("last_modified_timestamp", kOptional),
 };
 constexpr Attribute kWorkingstep[] = {
     row<&Workingstep::its_secplane>("its_secplane", kRequired),
+    plan_row<&Workingstep::final_features>("final_features", kOptional),
+    plan_row<&Workingstep::toolpath_orientation>("toolpath_orientation", kOptional),
 };
 constexpr Attribute kMachiningWorkingstep[] = {
     row<&MachiningWorkingstep::its_feature>("its_feature", kRequired),
     row<&MachiningWorkingstep::its_operation>("its_operation", kRequired),
     row<&MachiningWorkingstep::its_effect>("its_effect", kOptional),
-    plan_row<&MachiningWorkingstep::final_features>("final_features", kOptional),
-    plan_row<&MachiningWorkingstep::toolpath_orientation>("toolpath_orientation", kOptional),
 };
 constexpr Attribute kRapidMovement[] = {
     row<&RapidMovement::its_toolpath>("its_toolpath", kOptional),
     row<&RapidMovement::its_tool_direction>("its_tool_direction", kOptional),
+    plan_row<&RapidMovement::operation_id>("operation_id", kOptional),
+    plan_row<&RapidMovement::operation_properties>("operation_properties", kOptional),
 };
 constexpr Attribute kTouchProbing[] = {
     row<&TouchProbing::its_toolpath>("its_toolpath", kOptional),
     row<&TouchProbing::its_tool_direction>("its_tool_direction", kOptional),
     row<&TouchProbing::measured_offset>("measured_offset", kRequired),
+    plan_row<&TouchProbing::operation_id>("operation_id", kOptional),
+    plan_row<&TouchProbing::operation_properties>("operation_properties", kOptional),
 };
 constexpr Attribute kWorkpieceProbing[] = {
     row<&WorkpieceProbing::start_position>("start_position", kRequired),
@@ -128,6 +144,21 @@ constexpr Attribute kUnloadTool[] = {
 constexpr Attribute kExtendedNcFunction[] = {
     plan_row<&ExtendedNcFunction::extended_description>("extended_description", kRequired),
 };
+constexpr Attribute kFeatureCompleteProbing[] = {
+    plan_row<&FeatureCompleteProbing::start_position>("start_position", kRequired),
+    plan_row<&FeatureCompleteProbing::expected_value>("expected_value", kOptional),
+    plan_row<&FeatureCompleteProbing::its_probe>("its_probe", kRequired),
+};
+constexpr Attribute kCurveProbing[] = {
+    plan_row<&CurveProbing::its_workpiece>("its_workpiece", kOptional),
+    plan_row<&CurveProbing::its_curve>("its_curve", kRequired),
+    plan_row<&CurveProbing::expected_value>("expected_value", kOptional),
+    plan_row<&CurveProbing::its_probe>("its_probe", kRequired),
+};
+constexpr Attribute kPlanningOperation[] = {
+    plan_row<&PlanningOperation::description>("description", kRequired),
+    plan_row<&PlanningOperation::its_elements>("its_elements", kOptional),
+};
 
 constexpr NounRow kRows[] = {
     {TypeId::kExecutable, "EXECUTABLE", TypeId::kNone, true, true, kExecutable},
@@ -190,6 +221,12 @@ constexpr NounRow kRows[] = {
     {TypeId::kUnloadTool, "UNLOAD_TOOL", TypeId::kNcFunction, false, true, kUnloadTool},
     {TypeId::kExtendedNcFunction, "EXTENDED_NC_FUNCTION", TypeId::kNcFunction, false, false,
      kExtendedNcFunction},
+    {TypeId::kReturnHome, "RETURN_HOME", TypeId::kRapidMovement, false, false, {}},
+    {TypeId::kFeatureCompleteProbing, "FEATURE_COMPLETE_PROBING", TypeId::kTouchProbing, false, false,
+     kFeatureCompleteProbing},
+    {TypeId::kCurveProbing, "CURVE_PROBING", TypeId::kTouchProbing, false, false, kCurveProbing},
+    {TypeId::kPlanningOperation, "PLANNING_OPERATION", TypeId::kProgramStructure, false, false,
+     kPlanningOperation},
 };
 
 }  // namespace

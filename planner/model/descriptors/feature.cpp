@@ -10,6 +10,7 @@ constexpr Attribute kManufacturingFeature[] = {
     row<&ManufacturingFeature::its_id>("its_id", kRequired),
     row<&ManufacturingFeature::its_workpiece>("its_workpiece", kRequired),
     row<&ManufacturingFeature::its_operations>("its_operations", kRequired),
+    plan_row<&ManufacturingFeature::explicit_representation>("explicit_representation", kOptional),
 };
 constexpr Attribute kRegion[] = {
     row<&Region::feature_placement>("feature_placement", kOptional),
@@ -37,6 +38,8 @@ constexpr Attribute kPlanarFace[] = {
     row<&PlanarFace::removal_boundary>("removal_boundary", kRequired),
     row<&PlanarFace::face_boundary>("face_boundary", kOptional),
     row<&PlanarFace::its_boss>("its_boss", kRequired),
+    plan_row<&PlanarFace::removal_depth>("removal_depth", kOptional),
+    plan_row<&PlanarFace::removal_direction>("removal_direction", kOptional),
 };
 constexpr Attribute kPocket[] = {
     row<&Pocket::its_boss>("its_boss", kRequired),
@@ -44,6 +47,8 @@ constexpr Attribute kPocket[] = {
     row<&Pocket::bottom_condition>("bottom_condition", kRequired),
     row<&Pocket::planar_radius>("planar_radius", kOptional),
     row<&Pocket::orthogonal_radius>("orthogonal_radius", kOptional),
+    plan_row<&Pocket::course_of_travel>("course_of_travel", kOptional),
+    plan_row<&Pocket::bottom_at_path_end>("bottom_at_path_end", kOptional),
 };
 constexpr Attribute kClosedPocket[] = {
     row<&ClosedPocket::feature_boundary>("feature_boundary", kRequired),
@@ -91,10 +96,15 @@ constexpr Attribute kRoundHole[] = {
     row<&RoundHole::diameter>("diameter", kRequired),
     row<&RoundHole::change_in_diameter>("change_in_diameter", kOptional),
     row<&RoundHole::bottom_condition>("bottom_condition", kRequired),
+    plan_row<&RoundHole::course_of_travel>("course_of_travel", kOptional),
+    plan_row<&RoundHole::bottom_at_path_end>("bottom_at_path_end", kOptional),
 };
 constexpr Attribute kBoss[] = {
     row<&Boss::its_boundary>("its_boundary", kRequired),
     row<&Boss::slope>("slope", kOptional, Unit::kAngle),
+    plan_row<&Boss::height>("height", kOptional),
+    plan_row<&Boss::top_fillet_radius>("top_fillet_radius", kOptional),
+    plan_row<&Boss::fillet_radius>("fillet_radius", kOptional),
 };
 constexpr Attribute kSphericalCap[] = {
     row<&SphericalCap::internal_angle>("internal_angle", kRequired),
@@ -134,10 +144,14 @@ constexpr Attribute kGeneralPattern[] = {
 constexpr Attribute kTransitionFeature[] = {
     row<&TransitionFeature::first_feature>("first_feature", kRequired),
     row<&TransitionFeature::second_feature>("second_feature", kRequired),
+    plan_row<&TransitionFeature::transition_face>("transition_face", kOptional),
+    plan_row<&TransitionFeature::first_face_shape>("first_face_shape", kOptional),
+    plan_row<&TransitionFeature::second_face_shape>("second_face_shape", kOptional),
 };
 constexpr Attribute kChamfer[] = {
     row<&Chamfer::angle_to_plane>("angle_to_plane", kRequired, Unit::kAngle),
     row<&Chamfer::first_offset_amount>("first_offset_amount", kRequired),
+    plan_row<&Chamfer::second_offset_amount>("second_offset_amount", kOptional),
 };
 constexpr Attribute kEdgeRound[] = {
     row<&EdgeRound::radius>("radius", kRequired),
@@ -154,6 +168,8 @@ constexpr Attribute kThread[] = {
     row<&Thread::major_diameter>("major_diameter", kRequired, Unit::kLength),
     row<&Thread::number_of_threads>("number_of_threads", kRequired),
     row<&Thread::thread_hand>("thread_hand", kRequired),
+    plan_row<&Thread::fit_class_2>("fit_class_2", kOptional),
+    plan_row<&Thread::nominal_size>("nominal_size", kOptional),
 };
 constexpr Attribute kCatalogueThread[] = {
     row<&CatalogueThread::documentation>("documentation", kRequired),
@@ -176,6 +192,11 @@ constexpr Attribute kDefinedThread[] = {
 constexpr Attribute kMachinedSurface[] = {
     row<&MachinedSurface::its_machining_feature>("its_machining_feature", kRequired),
     row<&MachinedSurface::surface_element>("surface_element", kRequired),
+};
+constexpr Attribute kFillet[] = {
+    plan_row<&Fillet::radius>("radius", kRequired),
+    plan_row<&Fillet::first_offset_amount>("first_offset_amount", kOptional),
+    plan_row<&Fillet::second_offset_amount>("second_offset_amount", kOptional),
 };
 
 constexpr NounRow kRows[] = {
@@ -235,6 +256,7 @@ constexpr NounRow kRows[] = {
      kSpecificationUsageConstraint},
     {TypeId::kDefinedThread, "DEFINED_THREAD", TypeId::kThread, false, true, kDefinedThread},
     {TypeId::kMachinedSurface, "MACHINED_SURFACE", TypeId::kNone, false, true, kMachinedSurface},
+    {TypeId::kFillet, "FILLET", TypeId::kTransitionFeature, false, false, kFillet},
 };
 
 }  // namespace

@@ -297,6 +297,8 @@ constexpr NounRow kRows[] = {
      true,
      {}},
     {TypeId::kHelix, "HELIX", TypeId::kCurve, false, true, kHelix},
+    {TypeId::kViaArcPoint, "VIA_ARC_POINT", TypeId::kCartesianPoint, false, false, {}},
+    {TypeId::kViaHelixPoint, "VIA_HELIX_POINT", TypeId::kCartesianPoint, false, false, {}},
 };
 
 }  // namespace

@@ -9,6 +9,9 @@ namespace {
 constexpr Attribute kOperation[] = {
     row<&Operation::its_toolpath>("its_toolpath", kOptional),
     row<&Operation::its_tool_direction>("its_tool_direction", kOptional),
+    plan_row<&Operation::process_properties>("process_properties", kOptional),
+    plan_row<&Operation::its_broadcasts>("its_broadcasts", kOptional),
+    plan_row<&Operation::last_modified_timestamp>("last_modified_timestamp", kOptional),
 };
 constexpr Attribute kMachiningOperation[] = {
     row<&MachiningOperation::its_id>("its_id", kRequired),
@@ -70,6 +73,13 @@ constexpr Attribute kTapping[] = {
 constexpr Attribute kThreadDrilling[] = {
     row<&ThreadDrilling::helical_movement_on_forward>("helical_movement_on_forward", kRequired),
 };
+constexpr Attribute kExtendedOperation[] = {
+    plan_row<&ExtendedOperation::its_id>("its_id", kRequired),
+    plan_row<&ExtendedOperation::description>("description", kRequired),
+    plan_row<&ExtendedOperation::its_machine_functions>("its_machine_functions", kOptional),
+    plan_row<&ExtendedOperation::its_technology>("its_technology", kOptional),
+    plan_row<&ExtendedOperation::its_tool>("its_tool", kOptional),
+};
 
 constexpr NounRow kRows[] = {
     {TypeId::kOperation, "OPERATION", TypeId::kNone, true, true, kOperation},
@@ -120,6 +130,7 @@ constexpr NounRow kRows[] = {
      kThreadDrilling},
     {TypeId::kFreeformRoughMilling, "FREEFORM_ROUGH_MILLING", TypeId::kFreeformOperation, false, false, {}},
     {TypeId::kFreeformFinishMilling, "FREEFORM_FINISH_MILLING", TypeId::kFreeformOperation, false, false, {}},
+    {TypeId::kExtendedOperation, "EXTENDED_OPERATION", TypeId::kOperation, false, false, kExtendedOperation},
 };
 
 }  // namespace

@@ -80,9 +80,11 @@ constexpr Attribute kSquareUProfile[] = {
     row<&SquareUProfile::first_angle>("first_angle", kRequired, Unit::kAngle),
     row<&SquareUProfile::second_radius>("second_radius", kRequired),
     row<&SquareUProfile::second_angle>("second_angle", kRequired, Unit::kAngle),
+    plan_row<&SquareUProfile::depth>("depth", kOptional),
 };
 constexpr Attribute kRoundedUProfile[] = {
     row<&RoundedUProfile::width>("width", kRequired),
+    plan_row<&RoundedUProfile::depth>("depth", kOptional),
 };
 constexpr Attribute kTeeProfile[] = {
     row<&TeeProfile::first_angle>("first_angle", kRequired, Unit::kAngle),
@@ -93,11 +95,14 @@ constexpr Attribute kTeeProfile[] = {
     row<&TeeProfile::width>("width", kRequired),
     row<&TeeProfile::first_offset>("first_offset", kRequired),
     row<&TeeProfile::second_offset>("second_offset", kRequired),
+    plan_row<&TeeProfile::depth>("depth", kOptional),
 };
 constexpr Attribute kVeeProfile[] = {
     row<&VeeProfile::profile_radius>("profile_radius", kRequired),
     row<&VeeProfile::profile_angle>("profile_angle", kRequired, Unit::kAngle),
     row<&VeeProfile::tilt_angle>("tilt_angle", kRequired, Unit::kAngle),
+    plan_row<&VeeProfile::first_length>("first_length", kOptional),
+    plan_row<&VeeProfile::second_length>("second_length", kOptional),
 };
 constexpr Attribute kPartialCircularProfile[] = {
     row<&PartialCircularProfile::radius>("radius", kRequired),
@@ -105,10 +110,12 @@ constexpr Attribute kPartialCircularProfile[] = {
 };
 constexpr Attribute kGeneralProfile[] = {
     row<&GeneralProfile::its_profile>("its_profile", kRequired),
+    plan_row<&GeneralProfile::path_shape_items>("path_shape_items", kOptional),
 };
 constexpr Attribute kRectangularClosedProfile[] = {
     row<&RectangularClosedProfile::profile_width>("profile_width", kRequired),
     row<&RectangularClosedProfile::profile_length>("profile_length", kRequired),
+    plan_row<&RectangularClosedProfile::corner_radius>("corner_radius", kOptional),
 };
 constexpr Attribute kCircularClosedProfile[] = {
     row<&CircularClosedProfile::diameter>("diameter", kRequired),
@@ -117,15 +124,18 @@ constexpr Attribute kNgonClosedProfile[] = {
     row<&NgonClosedProfile::diameter>("diameter", kRequired),
     row<&NgonClosedProfile::number_of_sides>("number_of_sides", kRequired),
     row<&NgonClosedProfile::circumscribed>("circumscribed", kRequired),
+    plan_row<&NgonClosedProfile::corner_radius>("corner_radius", kOptional),
 };
 constexpr Attribute kGeneralClosedProfile[] = {
     row<&GeneralClosedProfile::closed_profile_shape>("closed_profile_shape", kRequired),
+    plan_row<&GeneralClosedProfile::path_shape_items>("path_shape_items", kOptional),
 };
 constexpr Attribute kTravelPath[] = {
     row<&TravelPath::placement>("placement", kOptional),
 };
 constexpr Attribute kGeneralPath[] = {
     row<&GeneralPath::swept_path>("swept_path", kRequired),
+    plan_row<&GeneralPath::path_shape_items>("path_shape_items", kOptional),
 };
 constexpr Attribute kLinearPath[] = {
     row<&LinearPath::distance>("distance", kRequired),
@@ -137,6 +147,13 @@ constexpr Attribute kCircularPath[] = {
 constexpr Attribute kPartialCircularPath[] = {
     row<&PartialCircularPath::sweep_angle>("sweep_angle", kRequired, Unit::kAngle),
 };
+constexpr Attribute kOpenProfile[] = {
+    plan_row<&OpenProfile::profile_limit>("profile_limit", kOptional),
+};
+constexpr Attribute kPlanarPocketBottomCondition[] = {
+    plan_row<&PlanarPocketBottomCondition::floor_location>("floor_location", kOptional),
+    plan_row<&PlanarPocketBottomCondition::floor_normal>("floor_normal", kOptional),
+};
 
 constexpr NounRow kRows[] = {
     {TypeId::kPocketBottomCondition, "POCKET_BOTTOM_CONDITION", TypeId::kNone, true, true, {}},
@@ -146,12 +163,8 @@ constexpr NounRow kRows[] = {
      false,
      true,
      {}},
-    {TypeId::kPlanarPocketBottomCondition,
-     "PLANAR_POCKET_BOTTOM_CONDITION",
-     TypeId::kPocketBottomCondition,
-     false,
-     true,
-     {}},
+    {TypeId::kPlanarPocketBottomCondition, "PLANAR_POCKET_BOTTOM_CONDITION", TypeId::kPocketBottomCondition,
+     false, true, kPlanarPocketBottomCondition},
     {TypeId::kRadiusedPocketBottomCondition, "RADIUSED_POCKET_BOTTOM_CONDITION",
      TypeId::kPocketBottomCondition, false, true, kRadiusedPocketBottomCondition},
     {TypeId::kGeneralPocketBottomCondition, "GENERAL_POCKET_BOTTOM_CONDITION", TypeId::kPocketBottomCondition,
@@ -193,7 +206,7 @@ constexpr NounRow kRows[] = {
     {TypeId::kPartialAreaDefinition, "PARTIAL_AREA_DEFINITION", TypeId::kNone, false, true,
      kPartialAreaDefinition},
     {TypeId::kProfile, "PROFILE", TypeId::kNone, true, true, kProfile},
-    {TypeId::kOpenProfile, "OPEN_PROFILE", TypeId::kProfile, true, true, {}},
+    {TypeId::kOpenProfile, "OPEN_PROFILE", TypeId::kProfile, true, true, kOpenProfile},
     {TypeId::kLinearProfile, "LINEAR_PROFILE", TypeId::kOpenProfile, false, true, kLinearProfile},
     {TypeId::kSquareUProfile, "SQUARE_U_PROFILE", TypeId::kOpenProfile, false, true, kSquareUProfile},
     {TypeId::kRoundedUProfile, "ROUNDED_U_PROFILE", TypeId::kOpenProfile, false, true, kRoundedUProfile},

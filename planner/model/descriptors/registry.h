@@ -101,6 +101,16 @@ struct EnumNames<ContactType> {
 };
 
 template <>
+struct EnumNames<AreaUnitType> {
+  static constexpr std::string_view kNames[] = {"SPHERICAL", "CYLINDRICAL", "RECTANGULAR", "SQUARE",
+                                                "CIRCULAR"};
+};
+template <>
+struct EnumNames<AngleRelator> {
+  static constexpr std::string_view kNames[] = {"SMALL", "LARGE", "EQUAL"};
+};
+
+template <>
 struct EnumNames<Logical3> {
   static constexpr std::string_view kNames[] = {"F", "T", "U"};
 };
@@ -193,6 +203,12 @@ struct Shape<RefList<T>> {
   static constexpr std::span<const TypeId> kTargets = TargetList<T>::kItems;
   static constexpr std::span<const std::string_view> kNames = {};
 };
+template <class... Ts>
+struct Shape<OneOfList<Ts...>> {
+  static constexpr auto kStorage = Storage::kRefList;
+  static constexpr std::span<const TypeId> kTargets = TargetList<Ts...>::kItems;
+  static constexpr std::span<const std::string_view> kNames = {};
+};
 template <class E>
 struct Shape<Enumerated<E>> {
   static constexpr auto kStorage = Storage::kEnum;
@@ -215,6 +231,10 @@ struct Erased<OneOf<Ts...>> {
 };
 template <class T>
 struct Erased<RefList<T>> {
+  using Type = AnyRefList;
+};
+template <class... Ts>
+struct Erased<OneOfList<Ts...>> {
   using Type = AnyRefList;
 };
 template <class E>
@@ -271,5 +291,8 @@ std::span<const NounRow> operation_rows();
 std::span<const NounRow> strategy_rows();
 std::span<const NounRow> tool_rows();
 std::span<const NounRow> trajectory_rows();
+std::span<const NounRow> tolerance_rows();
+std::span<const NounRow> property_rows();
+std::span<const NounRow> broadcast_rows();
 
 }  // namespace capstan::model

@@ -138,6 +138,8 @@ constexpr Attribute kMachineAxisConstraint[] = {
     plan_row<&MachineAxisConstraint::axis_identifier>("axis_identifier", kRequired),
     plan_row<&MachineAxisConstraint::axis_minimum>("axis_minimum", kOptional, Unit::kLength),
     plan_row<&MachineAxisConstraint::axis_maximum>("axis_maximum", kOptional, Unit::kLength),
+    plan_row<&MachineAxisConstraint::angle_minimum>("angle_minimum", kOptional, Unit::kAngle),
+    plan_row<&MachineAxisConstraint::angle_maximum>("angle_maximum", kOptional, Unit::kAngle),
 };
 
 constexpr NounRow kRows[] = {

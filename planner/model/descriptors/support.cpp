@@ -9,6 +9,8 @@ namespace {
 constexpr Attribute kApproval[] = {
     row<&Approval::status>("status", kRequired),
     row<&Approval::level>("level", kRequired),
+    plan_row<&Approval::approval_date_time>("approval_date_time", kOptional),
+    plan_row<&Approval::approvers>("approvers", kOptional),
 };
 constexpr Attribute kApprovalStatus[] = {
     row<&ApprovalStatus::name>("name", kRequired),
@@ -77,6 +79,10 @@ constexpr Attribute kLimitsAndFits[] = {
     row<&LimitsAndFits::deviation>("deviation", kRequired, Unit::kLength),
     row<&LimitsAndFits::grade>("grade", kRequired, Unit::kLength),
     row<&LimitsAndFits::its_fitting_type>("its_fitting_type", kOptional),
+    plan_row<&LimitsAndFits::form_variance>("form_variance", kOptional),
+    plan_row<&LimitsAndFits::zone_variance>("zone_variance", kOptional),
+    plan_row<&LimitsAndFits::tolerance_grade>("tolerance_grade", kOptional),
+    plan_row<&LimitsAndFits::source>("source", kOptional),
 };
 constexpr Attribute kPersonAndAddress[] = {
     row<&PersonAndAddress::its_person>("its_person", kRequired),
@@ -98,10 +104,44 @@ constexpr Attribute kSurfaceTextureParameter[] = {
     row<&SurfaceTextureParameter::measuring_method>("measuring_method", kRequired),
     row<&SurfaceTextureParameter::parameter_index>("parameter_index", kOptional),
     row<&SurfaceTextureParameter::applied_surfaces>("applied_surfaces", kRequired),
+    plan_row<&SurfaceTextureParameter::its_id>("its_id", kOptional),
+    plan_row<&SurfaceTextureParameter::its_workpiece>("its_workpiece", kOptional),
+    plan_row<&SurfaceTextureParameter::applied_to>("applied_to", kOptional),
 };
 constexpr Attribute kCurveWithNormalVector[] = {
     row<&CurveWithNormalVector::basiccurve>("basiccurve", kRequired),
     row<&CurveWithNormalVector::surface_normal>("surface_normal", kRequired),
+};
+constexpr Attribute kOrganization[] = {
+    plan_row<&Organization::its_id>("its_id", kOptional),
+    plan_row<&Organization::name>("name", kRequired),
+    plan_row<&Organization::description>("description", kOptional),
+};
+constexpr Attribute kPersonAndOrganization[] = {
+    plan_row<&PersonAndOrganization::its_person>("its_person", kRequired),
+    plan_row<&PersonAndOrganization::its_organization>("its_organization", kRequired),
+    plan_row<&PersonAndOrganization::description>("description", kOptional),
+};
+constexpr Attribute kApprovingPersonOrganization[] = {
+    plan_row<&ApprovingPersonOrganization::person_organization>("person_organization", kRequired),
+    plan_row<&ApprovingPersonOrganization::role>("role", kOptional),
+};
+constexpr Attribute kPersonOrganizationAssignment[] = {
+    plan_row<&PersonOrganizationAssignment::assigned_person_organization>("assigned_person_organization",
+                                                                          kRequired),
+    plan_row<&PersonOrganizationAssignment::role>("role", kRequired),
+};
+constexpr Attribute kDateTimeAssignment[] = {
+    plan_row<&DateTimeAssignment::assigned_date>("assigned_date", kRequired),
+    plan_row<&DateTimeAssignment::role>("role", kOptional),
+};
+constexpr Attribute kLastModifiedTimestamp[] = {
+    plan_row<&LastModifiedTimestamp::modified_by>("modified_by", kOptional),
+};
+constexpr Attribute kSecurityClassification[] = {
+    plan_row<&SecurityClassification::name>("name", kRequired),
+    plan_row<&SecurityClassification::purpose>("purpose", kOptional),
+    plan_row<&SecurityClassification::security_level>("security_level", kRequired),
 };
 
 constexpr NounRow kRows[] = {
@@ -132,6 +172,18 @@ constexpr NounRow kRows[] = {
      kSurfaceTextureParameter},
     {TypeId::kCurveWithNormalVector, "CURVE_WITH_NORMAL_VECTOR", TypeId::kNone, false, true,
      kCurveWithNormalVector},
+    {TypeId::kOrganization, "ORGANIZATION", TypeId::kNone, false, false, kOrganization},
+    {TypeId::kPersonAndOrganization, "PERSON_AND_ORGANIZATION", TypeId::kNone, false, false,
+     kPersonAndOrganization},
+    {TypeId::kApprovingPersonOrganization, "APPROVING_PERSON_ORGANIZATION", TypeId::kNone, false, false,
+     kApprovingPersonOrganization},
+    {TypeId::kPersonOrganizationAssignment, "PERSON_ORGANIZATION_ASSIGNMENT", TypeId::kNone, false, false,
+     kPersonOrganizationAssignment},
+    {TypeId::kDateTimeAssignment, "DATE_TIME_ASSIGNMENT", TypeId::kNone, false, false, kDateTimeAssignment},
+    {TypeId::kLastModifiedTimestamp, "LAST_MODIFIED_TIMESTAMP", TypeId::kDateTimeAssignment, false, false,
+     kLastModifiedTimestamp},
+    {TypeId::kSecurityClassification, "SECURITY_CLASSIFICATION", TypeId::kNone, false, false,
+     kSecurityClassification},
 };
 
 }  // namespace

@@ -6,9 +6,6 @@
 namespace capstan::model {
 namespace {
 
-constexpr Attribute kTouchProbe[] = {
-    row<&TouchProbe::its_id>("its_id", kRequired),
-};
 constexpr Attribute kMachiningTool[] = {
     row<&MachiningTool::its_id>("its_id", kRequired),
     plan_row<&MachiningTool::its_usage>("its_usage", kOptional),
@@ -54,6 +51,8 @@ constexpr Attribute kMillingToolDimension[] = {
 };
 constexpr Attribute kCountersink[] = {
     row<&Countersink::countersink_radius>("countersink_radius", kOptional, Unit::kLength),
+    plan_row<&Countersink::minimum_cutting_diameter>("minimum_cutting_diameter", kOptional, Unit::kLength),
+    plan_row<&Countersink::maximum_usable_length>("maximum_usable_length", kOptional, Unit::kLength),
 };
 constexpr Attribute kTaperedDrill[] = {
     row<&TaperedDrill::taper_angle>("taper_angle", kOptional, Unit::kAngle),
@@ -97,10 +96,43 @@ constexpr Attribute kToolUsage[] = {
     plan_row<&ToolUsage::gage_placement>("gage_placement", kOptional),
     plan_row<&ToolUsage::tool_end_placement>("tool_end_placement", kOptional),
     plan_row<&ToolUsage::description>("description", kOptional),
+    plan_row<&ToolUsage::its_library_source>("its_library_source", kOptional),
+};
+constexpr Attribute kTouchProbe[] = {
+    plan_row<&TouchProbe::ball_radius>("ball_radius", kOptional, Unit::kLength),
+    plan_row<&TouchProbe::overall_assembly_length>("overall_assembly_length", kOptional, Unit::kLength),
+    plan_row<&TouchProbe::stylus_diameter>("stylus_diameter", kOptional, Unit::kLength),
+};
+constexpr Attribute kFacemill[] = {
+    plan_row<&Facemill::tool_cutting_edge_angle>("tool_cutting_edge_angle", kOptional, Unit::kAngle),
+};
+constexpr Attribute kEndmill[] = {
+    plan_row<&Endmill::tool_cutting_edge_angle>("tool_cutting_edge_angle", kOptional, Unit::kAngle),
+};
+constexpr Attribute kThreadMill[] = {
+    plan_row<&ThreadMill::thread_form_type>("thread_form_type", kOptional),
+    plan_row<&ThreadMill::thread_size>("thread_size", kOptional, Unit::kLength),
+    plan_row<&ThreadMill::thread_pitch>("thread_pitch", kOptional, Unit::kLength),
+};
+constexpr Attribute kTap[] = {
+    plan_row<&Tap::thread_form_type>("thread_form_type", kOptional),
+    plan_row<&Tap::thread_size>("thread_size", kOptional, Unit::kLength),
+    plan_row<&Tap::thread_pitch>("thread_pitch", kOptional, Unit::kLength),
+    plan_row<&Tap::taper_thread_count>("taper_thread_count", kOptional),
+};
+constexpr Attribute kReamer[] = {
+    plan_row<&Reamer::taper_length>("taper_length", kOptional, Unit::kLength),
+};
+constexpr Attribute kBoringTool[] = {
+    plan_row<&BoringTool::retract_movement_forbidden>("retract_movement_forbidden", kOptional),
+};
+constexpr Attribute kStepDrill[] = {
+    plan_row<&StepDrill::diameters>("diameters", kRequired, Unit::kLength),
+    plan_row<&StepDrill::step_length>("step_length", kRequired, Unit::kLength),
 };
 
 constexpr NounRow kRows[] = {
-    {TypeId::kTouchProbe, "TOUCH_PROBE", TypeId::kNone, false, true, kTouchProbe},
+    {TypeId::kTouchProbe, "TOUCH_PROBE", TypeId::kMachiningTool, false, true, kTouchProbe},
     {TypeId::kMachiningTool, "MACHINING_TOOL", TypeId::kNone, true, true, kMachiningTool},
     {TypeId::kCuttingTool, "CUTTING_TOOL", TypeId::kMachiningTool, true, true, kCuttingTool},
     {TypeId::kToolBody, "TOOL_BODY", TypeId::kNone, true, true, {}},
@@ -120,8 +152,8 @@ constexpr NounRow kRows[] = {
     {TypeId::kTaperedDrill, "TAPERED_DRILL", TypeId::kTwistDrill, false, true, kTaperedDrill},
     {TypeId::kSpadeDrill, "SPADE_DRILL", TypeId::kDrill, false, true, {}},
     {TypeId::kMillingCutter, "MILLING_CUTTER", TypeId::kMillingToolBody, true, true, {}},
-    {TypeId::kFacemill, "FACEMILL", TypeId::kMillingCutter, false, true, {}},
-    {TypeId::kEndmill, "ENDMILL", TypeId::kMillingCutter, false, true, {}},
+    {TypeId::kFacemill, "FACEMILL", TypeId::kMillingCutter, false, true, kFacemill},
+    {TypeId::kEndmill, "ENDMILL", TypeId::kMillingCutter, false, true, kEndmill},
     {TypeId::kTaperedEndmill, "TAPERED_ENDMILL", TypeId::kEndmill, false, true, kTaperedEndmill},
     {TypeId::kBallEndmill, "BALL_ENDMILL", TypeId::kEndmill, false, true, {}},
     {TypeId::kBullnoseEndmill, "BULLNOSE_ENDMILL", TypeId::kEndmill, false, true, {}},
@@ -130,20 +162,25 @@ constexpr NounRow kRows[] = {
     {TypeId::kWoodruffKeyseatMill, "WOODRUFF_KEYSEAT_MILL", TypeId::kMillingCutter, false, true,
      kWoodruffKeyseatMill},
     {TypeId::kSideMill, "SIDE_MILL", TypeId::kMillingCutter, false, true, kSideMill},
-    {TypeId::kThreadMill, "THREAD_MILL", TypeId::kMillingCutter, false, true, {}},
-    {TypeId::kTap, "TAP", TypeId::kMillingToolBody, false, true, {}},
+    {TypeId::kThreadMill, "THREAD_MILL", TypeId::kMillingCutter, false, true, kThreadMill},
+    {TypeId::kTap, "TAP", TypeId::kMillingToolBody, false, true, kTap},
     {TypeId::kTaperedTap, "TAPERED_TAP", TypeId::kTap, false, true, kTaperedTap},
     {TypeId::kCombinedDrillAndTap, "COMBINED_DRILL_AND_TAP", TypeId::kTap, false, true, kCombinedDrillAndTap},
     {TypeId::kMillingThreadingTool, "MILLING_THREADING_TOOL", TypeId::kMillingToolBody, false, true, {}},
     {TypeId::kCounterbore, "COUNTERBORE", TypeId::kMillingToolBody, false, true, {}},
     {TypeId::kBacksideCounterbore, "BACKSIDE_COUNTERBORE", TypeId::kCounterbore, false, true, {}},
-    {TypeId::kReamer, "REAMER", TypeId::kMillingToolBody, false, true, {}},
+    {TypeId::kReamer, "REAMER", TypeId::kMillingToolBody, false, true, kReamer},
     {TypeId::kTaperedReamer, "TAPERED_REAMER", TypeId::kReamer, false, true, kTaperedReamer},
     {TypeId::kCombinedDrillAndReamer, "COMBINED_DRILL_AND_REAMER", TypeId::kReamer, false, true,
      kCombinedDrillAndReamer},
-    {TypeId::kBoringTool, "BORING_TOOL", TypeId::kMillingToolBody, false, true, {}},
+    {TypeId::kBoringTool, "BORING_TOOL", TypeId::kMillingToolBody, false, true, kBoringTool},
     {TypeId::kUserDefinedTool, "USER_DEFINED_TOOL", TypeId::kMillingToolBody, false, true, kUserDefinedTool},
     {TypeId::kToolUsage, "TOOL_USAGE", TypeId::kNone, false, false, kToolUsage},
+    {TypeId::kGeneralDrill, "DRILLING_CUTTING_TOOL", TypeId::kDrill, false, false, {}},
+    {TypeId::kSpotdrill, "SPOTDRILL", TypeId::kDrill, false, false, {}},
+    {TypeId::kStepDrill, "STEP_DRILL", TypeId::kDrill, false, false, kStepDrill},
+    {TypeId::kShouldermill, "SHOULDERMILL", TypeId::kMillingCutter, false, false, {}},
+    {TypeId::kProfiledEndMill, "PROFILED_END_MILL", TypeId::kEndmill, false, false, {}},
 };
 
 }  // namespace

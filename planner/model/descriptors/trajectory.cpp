@@ -16,12 +16,15 @@ constexpr Attribute kToolpath[] = {
     row<&Toolpath::its_technology>("its_technology", kOptional),
     row<&Toolpath::its_machine_functions>("its_machine_functions", kOptional),
     plan_row<&Toolpath::its_id>("its_id", kOptional),
+    plan_row<&Toolpath::process_properties>("process_properties", kOptional),
+    plan_row<&Toolpath::last_modified_timestamp>("last_modified_timestamp", kOptional),
 };
 constexpr Attribute kToolpathSpeed[] = {
     row<&ToolpathSpeed::speed>("speed", kRequired),
 };
 constexpr Attribute kFeedstop[] = {
     row<&Feedstop::dwell>("dwell", kRequired, Unit::kTime),
+    plan_row<&Feedstop::dwell_revolutions>("dwell_revolutions", kOptional),
 };
 constexpr Attribute kTrajectory[] = {
     row<&Trajectory::its_direction>("its_direction", kOptional),
@@ -36,6 +39,10 @@ constexpr Attribute kTrajectory[] = {
     plan_row<&Trajectory::tool_axis_maximum_deviation>("tool_axis_maximum_deviation", kOptional,
                                                        Unit::kAngle),
     plan_row<&Trajectory::path>("path", kOptional),
+    plan_row<&Trajectory::cross_section_area_flank_parameters>("cross_section_area_flank_parameters",
+                                                               kOptional),
+    plan_row<&Trajectory::cross_section_area_plunge_parameters>("cross_section_area_plunge_parameters",
+                                                                kOptional),
 };
 constexpr Attribute kCutterLocationTrajectory[] = {
     row<&CutterLocationTrajectory::basiccurve>("basiccurve", kRequired),

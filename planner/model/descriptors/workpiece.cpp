@@ -13,6 +13,7 @@ constexpr Attribute kProject[] = {
     row<&Project::its_owner>("its_owner", kOptional),
     row<&Project::its_release>("its_release", kOptional),
     row<&Project::its_status>("its_status", kOptional),
+    plan_row<&Project::last_modified_timestamp>("last_modified_timestamp", kOptional),
 };
 constexpr Attribute kWorkpiece[] = {
     row<&Workpiece::its_id>("its_id", kRequired),
@@ -22,11 +23,37 @@ constexpr Attribute kWorkpiece[] = {
     row<&Workpiece::its_geometry>("its_geometry", kOptional),
     row<&Workpiece::its_bounding_geometry>("its_bounding_geometry", kOptional),
     row<&Workpiece::clamping_positions>("clamping_positions", kRequired),
+    plan_row<&Workpiece::its_approvals>("its_approvals", kOptional),
+    plan_row<&Workpiece::its_categories>("its_categories", kOptional),
+    plan_row<&Workpiece::its_components>("its_components", kOptional),
+    plan_row<&Workpiece::its_datestamps>("its_datestamps", kOptional),
+    plan_row<&Workpiece::its_orgs>("its_orgs", kOptional),
+    plan_row<&Workpiece::its_people>("its_people", kOptional),
+    plan_row<&Workpiece::its_related_geometry>("its_related_geometry", kOptional),
+    plan_row<&Workpiece::its_timestamps>("its_timestamps", kOptional),
+    plan_row<&Workpiece::product_approvals>("product_approvals", kOptional),
+    plan_row<&Workpiece::product_datestamps>("product_datestamps", kOptional),
+    plan_row<&Workpiece::product_orgs>("product_orgs", kOptional),
+    plan_row<&Workpiece::product_people>("product_people", kOptional),
+    plan_row<&Workpiece::product_timestamps>("product_timestamps", kOptional),
+    plan_row<&Workpiece::revision_approvals>("revision_approvals", kOptional),
+    plan_row<&Workpiece::revision_datestamps>("revision_datestamps", kOptional),
+    plan_row<&Workpiece::revision_id>("revision_id", kOptional),
+    plan_row<&Workpiece::revision_orgs>("revision_orgs", kOptional),
+    plan_row<&Workpiece::revision_people>("revision_people", kOptional),
+    plan_row<&Workpiece::revision_timestamps>("revision_timestamps", kOptional),
+    plan_row<&Workpiece::its_security_classifications>("its_security_classifications", kOptional),
+    plan_row<&Workpiece::last_modified_timestamp>("last_modified_timestamp", kOptional),
+    plan_row<&Workpiece::its_styled_models>("its_styled_models", kOptional),
+    plan_row<&Workpiece::material_workpiece>("material_workpiece", kOptional),
+    plan_row<&Workpiece::its_properties>("its_properties", kOptional),
+    plan_row<&Workpiece::its_requirements>("its_requirements", kOptional),
 };
 constexpr Attribute kMaterial[] = {
     row<&Material::standard_identifier>("standard_identifier", kRequired),
     row<&Material::material_identifier>("material_identifier", kRequired),
     row<&Material::material_property>("material_property", kRequired),
+    plan_row<&Material::its_properties>("its_properties", kOptional),
 };
 constexpr Attribute kInProcessGeometry[] = {
     row<&InProcessGeometry::as_is>("as_is", kOptional),
@@ -57,7 +84,8 @@ constexpr Attribute kSetupInstruction[] = {
 };
 constexpr Attribute kMachineAxisTravel[] = {
     plan_row<&MachineAxisTravel::axis_identifier>("axis_identifier", kRequired),
-    plan_row<&MachineAxisTravel::travel_distance>("travel_distance", kRequired, Unit::kLength),
+    plan_row<&MachineAxisTravel::travel_distance>("travel_distance", kOptional, Unit::kLength),
+    plan_row<&MachineAxisTravel::travel_angle>("travel_angle", kOptional, Unit::kAngle),
 };
 constexpr Attribute kMachineParameters[] = {
     plan_row<&MachineParameters::feedrate>("feedrate", kOptional, Unit::kSpeed),
@@ -82,6 +110,23 @@ constexpr Attribute kFixtureUsage[] = {
     plan_row<&FixtureUsage::workpiece_reference>("workpiece_reference", kOptional),
     plan_row<&FixtureUsage::description>("description", kOptional),
 };
+constexpr Attribute kNextAssemblyUsage[] = {
+    plan_row<&NextAssemblyUsage::its_id>("its_id", kOptional),
+    plan_row<&NextAssemblyUsage::name>("name", kOptional),
+    plan_row<&NextAssemblyUsage::reference_designator>("reference_designator", kOptional),
+    plan_row<&NextAssemblyUsage::child_workpiece>("child_workpiece", kRequired),
+    plan_row<&NextAssemblyUsage::item_transform>("item_transform", kOptional),
+    plan_row<&NextAssemblyUsage::item_transform_origin>("item_transform_origin", kOptional),
+};
+constexpr Attribute kMachineUsage[] = {
+    plan_row<&MachineUsage::its_id>("its_id", kRequired),
+    plan_row<&MachineUsage::its_product>("its_product", kOptional),
+    plan_row<&MachineUsage::description>("description", kOptional),
+};
+constexpr Attribute kMachineWithKinematics[] = {
+    plan_row<&MachineWithKinematics::configuration>("configuration", kOptional),
+    plan_row<&MachineWithKinematics::mechanism>("mechanism", kRequired),
+};
 
 constexpr NounRow kRows[] = {
     {TypeId::kProject, "PROJECT", TypeId::kNone, false, true, kProject},
@@ -95,6 +140,10 @@ constexpr NounRow kRows[] = {
     {TypeId::kMachineAxisTravel, "MACHINE_AXIS_TRAVEL", TypeId::kNone, false, false, kMachineAxisTravel},
     {TypeId::kMachineParameters, "MACHINE_PARAMETERS", TypeId::kNone, false, false, kMachineParameters},
     {TypeId::kFixtureUsage, "FIXTURE_USAGE", TypeId::kNone, false, false, kFixtureUsage},
+    {TypeId::kNextAssemblyUsage, "NEXT_ASSEMBLY_USAGE", TypeId::kNone, false, false, kNextAssemblyUsage},
+    {TypeId::kMachineUsage, "MACHINE_USAGE", TypeId::kNone, false, false, kMachineUsage},
+    {TypeId::kMachineWithKinematics, "MACHINE_WITH_KINEMATICS", TypeId::kWorkpiece, false, false,
+     kMachineWithKinematics},
 };
 
 }  // namespace

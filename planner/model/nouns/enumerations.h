@@ -46,6 +46,8 @@ enum class StrokeConnectionStrategy : std::int8_t { kStraghtline, kLiftShiftPlun
 enum class RotDirection : std::int8_t { kCw, kCcw };
 enum class Hand : std::int8_t { kLeft, kRight, kNeutral };
 enum class ToolpathType : std::int8_t { kApproach, kLift, kConnect, kNonContact, kContact, kTrajectoryPath };
+enum class AreaUnitType : std::int8_t { kSpherical, kCylindrical, kRectangular, kSquare, kCircular };
+enum class AngleRelator : std::int8_t { kSmall, kLarge, kEqual };
 enum class ContactType : std::int8_t { kSide, kFront };
 
 }  // namespace capstan::model

@@ -13,32 +13,48 @@ namespace capstan::model {
 struct Executable : Noun {  // abstract
   static constexpr TypeId kType = TypeId::kExecutable;
   Text its_id;
-  Text persistent_id;      ///< optional, not in ISO 14649
-  Boolean enabled;         ///< optional, not in ISO 14649
-  Ref<Workpiece> as_is;    ///< optional, not in ISO 14649
-  Ref<Workpiece> to_be;    ///< optional, not in ISO 14649
-  Ref<Workpiece> removal;  ///< optional, not in ISO 14649
-  Ref<Workpiece> fixture;  ///< optional, not in ISO 14649
+  Text persistent_id;                                  ///< optional, not in ISO 14649
+  Boolean enabled;                                     ///< optional, not in ISO 14649
+  Ref<Workpiece> as_is;                                ///< optional, not in ISO 14649
+  Ref<Workpiece> to_be;                                ///< optional, not in ISO 14649
+  Ref<Workpiece> removal;                              ///< optional, not in ISO 14649
+  Ref<Workpiece> fixture;                              ///< optional, not in ISO 14649
+  Ref<MachineUsage> machine_used;                      ///< optional, not in ISO 14649
+  Text twin_source;                                    ///< optional, not in ISO 14649
+  Ref<Executable> twin_plan;                           ///< optional, not in ISO 14649
+  Ref<DateAndTime> twin_start;                         ///< optional, not in ISO 14649
+  Ref<DateAndTime> twin_end;                           ///< optional, not in ISO 14649
+  Real twin_worktime;                                  ///< s, optional, not in ISO 14649
+  Text twin_exception;                                 ///< optional, not in ISO 14649
+  RefList<ProcessProperty> process_properties;         ///< optional, not in ISO 14649
+  Ref<BroadcastContent> start_content;                 ///< optional, not in ISO 14649
+  Ref<BroadcastContent> end_content;                   ///< optional, not in ISO 14649
+  RefList<Broadcast> its_broadcasts;                   ///< optional, not in ISO 14649
+  Ref<LastModifiedTimestamp> last_modified_timestamp;  ///< optional, not in ISO 14649
 };
 
 struct Workingstep : Executable {  // abstract
   static constexpr TypeId kType = TypeId::kWorkingstep;
   Ref<ElementarySurface> its_secplane;
+  RefList<ManufacturingFeature> final_features;  ///< optional, not in ISO 14649
+  Ref<Axis2Placement3d> toolpath_orientation;    ///< optional, not in ISO 14649
 };
 
 struct MachiningWorkingstep : Workingstep {
   static constexpr TypeId kType = TypeId::kMachiningWorkingstep;
   Ref<ManufacturingFeature> its_feature;
-  Ref<MachiningOperation> its_operation;
-  Ref<InProcessGeometry> its_effect;             ///< optional
-  RefList<ManufacturingFeature> final_features;  ///< optional, not in ISO 14649
-  Ref<Axis2Placement3d> toolpath_orientation;    ///< optional, not in ISO 14649
+  OneOf<MachiningOperation, ExtendedOperation> its_operation;
+  Ref<InProcessGeometry> its_effect;  ///< optional
 };
 
 struct RapidMovement : Workingstep {
   static constexpr TypeId kType = TypeId::kRapidMovement;
   Ref<ToolpathList> its_toolpath;         ///< optional
   Ref<ToolDirection> its_tool_direction;  ///< optional
+  // ISO 10303-238 splits this into a workingstep and its operation: the its_id and process_properties of the
+  // latter.
+  Text operation_id;                              ///< optional, not in ISO 14649
+  RefList<ProcessProperty> operation_properties;  ///< optional, not in ISO 14649
 };
 
 struct TouchProbing : Workingstep {  // abstract
@@ -46,6 +62,10 @@ struct TouchProbing : Workingstep {  // abstract
   Ref<ToolpathList> its_toolpath;         ///< optional
   Ref<ToolDirection> its_tool_direction;  ///< optional
   Ref<NcVariable> measured_offset;
+  // ISO 10303-238 splits this into a workingstep and its operation: the its_id and process_properties of the
+  // latter.
+  Text operation_id;                              ///< optional, not in ISO 14649
+  RefList<ProcessProperty> operation_properties;  ///< optional, not in ISO 14649
 };
 
 struct WorkpieceProbing : TouchProbing {
@@ -264,6 +284,32 @@ struct UnloadTool : NcFunction {
 struct ExtendedNcFunction : NcFunction {  // ISO 10303-238 only
   static constexpr TypeId kType = TypeId::kExtendedNcFunction;
   Text extended_description;
+};
+
+struct ReturnHome : RapidMovement {  // ISO 10303-238 only
+  static constexpr TypeId kType = TypeId::kReturnHome;
+};
+
+struct FeatureCompleteProbing : TouchProbing {  // ISO 10303-238 only
+  static constexpr TypeId kType = TypeId::kFeatureCompleteProbing;
+  Ref<Axis2Placement3d> start_position;
+  Ref<ManufacturingFeature> expected_value;  ///< optional
+  Ref<TouchProbe> its_probe;
+};
+
+struct CurveProbing : TouchProbing {  // ISO 10303-238 only
+  static constexpr TypeId kType = TypeId::kCurveProbing;
+  Ref<Workpiece> its_workpiece;                 ///< optional
+  Ref<BoundedCurve> its_curve;                  ///< along which the probe measures
+  Ref<TolerancedLengthMeasure> expected_value;  ///< optional
+  Ref<TouchProbe> its_probe;
+};
+
+/// A step of a process plan that is not detailed further, or only by what it holds.
+struct PlanningOperation : ProgramStructure {  // ISO 10303-238 only
+  static constexpr TypeId kType = TypeId::kPlanningOperation;
+  Text description;
+  RefList<Executable> its_elements;  ///< optional
 };
 
 }  // namespace capstan::model

@@ -15,6 +15,7 @@ struct ManufacturingFeature : Noun {  // abstract
   Text its_id;
   Ref<Workpiece> its_workpiece;
   RefList<MachiningOperation> its_operations;
+  RefList<RepresentationItem> explicit_representation;  ///< optional, not in ISO 14649; its faces in the part
 };
 
 struct Region : ManufacturingFeature {  // abstract
@@ -56,6 +57,8 @@ struct PlanarFace : MachiningFeature {
   Ref<LinearProfile> removal_boundary;
   Ref<ClosedProfile> face_boundary;  ///< optional
   RefList<Boss> its_boss;
+  Ref<TolerancedLengthMeasure> removal_depth;  ///< optional, not in ISO 14649
+  Ref<Direction> removal_direction;            ///< optional, not in ISO 14649
 };
 
 struct Pocket : MachiningFeature {  // abstract
@@ -65,6 +68,8 @@ struct Pocket : MachiningFeature {  // abstract
   Ref<PocketBottomCondition> bottom_condition;
   Ref<TolerancedLengthMeasure> planar_radius;      ///< optional
   Ref<TolerancedLengthMeasure> orthogonal_radius;  ///< optional
+  Ref<TravelPath> course_of_travel;                ///< optional, not in ISO 14649; its distance is the depth
+  Boolean bottom_at_path_end;                      ///< optional, not in ISO 14649
 };
 
 struct ClosedPocket : Pocket {
@@ -138,6 +143,8 @@ struct RoundHole : MachiningFeature {
   Ref<TolerancedLengthMeasure> diameter;
   OneOf<DiameterTaper, AngleTaper> change_in_diameter;  ///< optional
   Ref<HoleBottomCondition> bottom_condition;
+  Ref<TravelPath> course_of_travel;  ///< optional, not in ISO 14649; its distance is the depth
+  Boolean bottom_at_path_end;        ///< optional, not in ISO 14649
 };
 
 struct ToolpathFeature : MachiningFeature {
@@ -147,7 +154,10 @@ struct ToolpathFeature : MachiningFeature {
 struct Boss : MachiningFeature {
   static constexpr TypeId kType = TypeId::kBoss;
   Ref<ClosedProfile> its_boundary;
-  Real slope;  ///< rad, optional
+  Real slope;                                      ///< rad, optional
+  Ref<TravelPath> height;                          ///< optional, not in ISO 14649; its distance is the height
+  Ref<TolerancedLengthMeasure> top_fillet_radius;  ///< optional, not in ISO 14649
+  Ref<TolerancedLengthMeasure> fillet_radius;      ///< optional, not in ISO 14649; where it meets the floor
 };
 
 struct SphericalCap : MachiningFeature {
@@ -211,12 +221,17 @@ struct TransitionFeature : ManufacturingFeature {  // abstract
   static constexpr TypeId kType = TypeId::kTransitionFeature;
   Ref<MachiningFeature> first_feature;
   Ref<MachiningFeature> second_feature;
+  Ref<Face> transition_face;    ///< optional, not in ISO 14649
+  Ref<Face> first_face_shape;   ///< optional, not in ISO 14649
+  Ref<Face> second_face_shape;  ///< optional, not in ISO 14649
 };
 
 struct Chamfer : TransitionFeature {
   static constexpr TypeId kType = TypeId::kChamfer;
   Real angle_to_plane;  ///< rad
   Ref<TolerancedLengthMeasure> first_offset_amount;
+  Ref<TolerancedLengthMeasure>
+      second_offset_amount;  ///< optional, not in ISO 14649; in place of angle_to_plane
 };
 
 struct EdgeRound : TransitionFeature {
@@ -237,6 +252,8 @@ struct Thread : MachiningFeature {  // abstract
   Real major_diameter;  ///< mm
   Ref<NumericParameter> number_of_threads;
   Ref<DescriptiveParameter> thread_hand;
+  Ref<DescriptiveParameter> fit_class_2;  ///< optional, not in ISO 14649
+  Ref<NumericParameter> nominal_size;     ///< optional, not in ISO 14649
 };
 
 struct CatalogueThread : Thread {
@@ -269,6 +286,13 @@ struct MachinedSurface : Noun {
   static constexpr TypeId kType = TypeId::kMachinedSurface;
   Ref<MachiningFeature> its_machining_feature;
   Enumerated<BottomOrSide> surface_element;
+};
+
+struct Fillet : TransitionFeature {  // ISO 10303-238 only
+  static constexpr TypeId kType = TypeId::kFillet;
+  Ref<TolerancedLengthMeasure> radius;
+  Ref<TolerancedLengthMeasure> first_offset_amount;   ///< optional
+  Ref<TolerancedLengthMeasure> second_offset_amount;  ///< optional
 };
 
 }  // namespace capstan::model

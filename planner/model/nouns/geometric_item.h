@@ -389,4 +389,15 @@ struct Helix : Curve {
   Real pitch;   ///< mm
 };
 
+/// A point of a polyline, never its first or last: an arc runs from the point before, through this one,
+/// to the point after (less than a full turn; two of them make a full circle).
+struct ViaArcPoint : CartesianPoint {  // ISO 10303-238 only
+  static constexpr TypeId kType = TypeId::kViaArcPoint;
+};
+
+/// As `ViaArcPoint`, for a helix.
+struct ViaHelixPoint : CartesianPoint {  // ISO 10303-238 only
+  static constexpr TypeId kType = TypeId::kViaHelixPoint;
+};
+
 }  // namespace capstan::model

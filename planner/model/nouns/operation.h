@@ -12,8 +12,11 @@ namespace capstan::model {
 
 struct Operation : Noun {  // abstract
   static constexpr TypeId kType = TypeId::kOperation;
-  Ref<ToolpathList> its_toolpath;         ///< optional
-  Ref<ToolDirection> its_tool_direction;  ///< optional
+  Ref<ToolpathList> its_toolpath;                      ///< optional
+  Ref<ToolDirection> its_tool_direction;               ///< optional
+  RefList<ProcessProperty> process_properties;         ///< optional, not in ISO 14649
+  RefList<Broadcast> its_broadcasts;                   ///< optional, not in ISO 14649
+  Ref<LastModifiedTimestamp> last_modified_timestamp;  ///< optional, not in ISO 14649
 };
 
 struct MachiningOperation : Operation {  // abstract
@@ -160,6 +163,15 @@ struct FreeformRoughMilling : FreeformOperation {  // ISO 10303-238 only
 
 struct FreeformFinishMilling : FreeformOperation {  // ISO 10303-238 only
   static constexpr TypeId kType = TypeId::kFreeformFinishMilling;
+};
+
+struct ExtendedOperation : Operation {  // ISO 10303-238 only
+  static constexpr TypeId kType = TypeId::kExtendedOperation;
+  Text its_id;
+  Text description;
+  Ref<MachineFunctions> its_machine_functions;  ///< optional
+  Ref<Technology> its_technology;               ///< optional
+  Ref<MachiningTool> its_tool;                  ///< optional
 };
 
 }  // namespace capstan::model

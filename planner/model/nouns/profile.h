@@ -20,6 +20,8 @@ struct ThroughPocketBottomCondition : PocketBottomCondition {
 
 struct PlanarPocketBottomCondition : PocketBottomCondition {
   static constexpr TypeId kType = TypeId::kPlanarPocketBottomCondition;
+  Ref<CartesianPoint> floor_location;  ///< optional, not in ISO 14649
+  Ref<Direction> floor_normal;         ///< optional, not in ISO 14649
 };
 
 struct RadiusedPocketBottomCondition : PocketBottomCondition {
@@ -161,6 +163,7 @@ struct Profile : Noun {  // abstract
 
 struct OpenProfile : Profile {  // abstract
   static constexpr TypeId kType = TypeId::kOpenProfile;
+  Ref<Representation> profile_limit;  ///< optional, not in ISO 14649
 };
 
 struct LinearProfile : OpenProfile {
@@ -174,12 +177,14 @@ struct SquareUProfile : OpenProfile {
   Ref<TolerancedLengthMeasure> first_radius;
   Real first_angle;  ///< rad
   Ref<TolerancedLengthMeasure> second_radius;
-  Real second_angle;  ///< rad
+  Real second_angle;                   ///< rad
+  Ref<TolerancedLengthMeasure> depth;  ///< optional, not in ISO 14649
 };
 
 struct RoundedUProfile : OpenProfile {
   static constexpr TypeId kType = TypeId::kRoundedUProfile;
   Ref<TolerancedLengthMeasure> width;
+  Ref<TolerancedLengthMeasure> depth;  ///< optional, not in ISO 14649
 };
 
 struct TeeProfile : OpenProfile {
@@ -192,13 +197,16 @@ struct TeeProfile : OpenProfile {
   Ref<TolerancedLengthMeasure> width;
   Ref<TolerancedLengthMeasure> first_offset;
   Ref<TolerancedLengthMeasure> second_offset;
+  Ref<TolerancedLengthMeasure> depth;  ///< optional, not in ISO 14649
 };
 
 struct VeeProfile : OpenProfile {
   static constexpr TypeId kType = TypeId::kVeeProfile;
   Ref<TolerancedLengthMeasure> profile_radius;
-  Real profile_angle;  ///< rad
-  Real tilt_angle;     ///< rad
+  Real profile_angle;                          ///< rad
+  Real tilt_angle;                             ///< rad
+  Ref<TolerancedLengthMeasure> first_length;   ///< optional, not in ISO 14649
+  Ref<TolerancedLengthMeasure> second_length;  ///< optional, not in ISO 14649
 };
 
 struct PartialCircularProfile : OpenProfile {
@@ -210,6 +218,7 @@ struct PartialCircularProfile : OpenProfile {
 struct GeneralProfile : OpenProfile {
   static constexpr TypeId kType = TypeId::kGeneralProfile;
   Ref<BoundedCurve> its_profile;
+  RefList<RepresentationItem> path_shape_items;  ///< optional, not in ISO 14649; beside its_profile, in order
 };
 
 struct ClosedProfile : Profile {  // abstract
@@ -220,6 +229,7 @@ struct RectangularClosedProfile : ClosedProfile {
   static constexpr TypeId kType = TypeId::kRectangularClosedProfile;
   Ref<TolerancedLengthMeasure> profile_width;
   Ref<TolerancedLengthMeasure> profile_length;
+  Ref<TolerancedLengthMeasure> corner_radius;  ///< optional, not in ISO 14649
 };
 
 struct CircularClosedProfile : ClosedProfile {
@@ -232,11 +242,14 @@ struct NgonClosedProfile : ClosedProfile {
   Ref<TolerancedLengthMeasure> diameter;
   Integer number_of_sides;
   Boolean circumscribed;
+  Ref<TolerancedLengthMeasure> corner_radius;  ///< optional, not in ISO 14649
 };
 
 struct GeneralClosedProfile : ClosedProfile {
   static constexpr TypeId kType = TypeId::kGeneralClosedProfile;
   Ref<BoundedCurve> closed_profile_shape;
+  RefList<RepresentationItem>
+      path_shape_items;  ///< optional, not in ISO 14649; beside closed_profile_shape, in order
 };
 
 struct TravelPath : Noun {  // abstract
@@ -247,6 +260,7 @@ struct TravelPath : Noun {  // abstract
 struct GeneralPath : TravelPath {
   static constexpr TypeId kType = TypeId::kGeneralPath;
   Ref<BoundedCurve> swept_path;
+  RefList<RepresentationItem> path_shape_items;  ///< optional, not in ISO 14649; beside swept_path, in order
 };
 
 struct LinearPath : TravelPath {

@@ -245,8 +245,10 @@ struct DrillingTypeStrategy : Noun {
 struct MachineAxisConstraint : Noun {  // ISO 10303-238 only
   static constexpr TypeId kType = TypeId::kMachineAxisConstraint;
   Text axis_identifier;
-  Real axis_minimum;  ///< mm, optional
-  Real axis_maximum;  ///< mm, optional
+  Real axis_minimum;   ///< mm, optional
+  Real axis_maximum;   ///< mm, optional
+  Real angle_minimum;  ///< rad, optional; of a rotary axis
+  Real angle_maximum;  ///< rad, optional; of a rotary axis
 };
 
 }  // namespace capstan::model

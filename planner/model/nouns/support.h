@@ -14,6 +14,8 @@ struct Approval : Noun {
   static constexpr TypeId kType = TypeId::kApproval;
   Ref<ApprovalStatus> status;
   Text level;
+  Ref<DateAndTime> approval_date_time;             ///< optional, not in ISO 14649
+  RefList<ApprovingPersonOrganization> approvers;  ///< optional, not in ISO 14649
 };
 
 struct ApprovalStatus : Noun {
@@ -108,6 +110,10 @@ struct LimitsAndFits : Noun {
   Real deviation;                            ///< mm
   Real grade;                                ///< mm
   Enumerated<FittingType> its_fitting_type;  ///< optional
+  Text form_variance;                        ///< optional, not in ISO 14649; the letter: "H"
+  Text zone_variance;                        ///< optional, not in ISO 14649; "hole" or "shaft"
+  Text tolerance_grade;                      ///< optional, not in ISO 14649; "7"
+  Text source;                               ///< optional, not in ISO 14649
 };
 
 struct PersonAndAddress : Noun {
@@ -139,12 +145,61 @@ struct SurfaceTextureParameter : Noun {
   Text measuring_method;
   Text parameter_index;  ///< optional
   RefList<MachinedSurface> applied_surfaces;
+  Text its_id;                                               ///< optional, not in ISO 14649
+  Ref<Workpiece> its_workpiece;                              ///< optional, not in ISO 14649
+  OneOfList<ManufacturingFeature, ShapeElement> applied_to;  ///< optional, not in ISO 14649
 };
 
 struct CurveWithNormalVector : Noun {
   static constexpr TypeId kType = TypeId::kCurveWithNormalVector;
   Ref<BoundedCurve> basiccurve;
   Ref<BoundedCurve> surface_normal;
+};
+
+struct Organization : Noun {  // ISO 10303-238 only
+  static constexpr TypeId kType = TypeId::kOrganization;
+  Text its_id;  ///< optional
+  Text name;
+  Text description;  ///< optional
+};
+
+/// A person in an organization, as product data names owners and signatories.
+struct PersonAndOrganization : Noun {  // ISO 10303-238 only
+  static constexpr TypeId kType = TypeId::kPersonAndOrganization;
+  Ref<Person> its_person;
+  Ref<Organization> its_organization;
+  Text description;  ///< optional
+};
+
+struct ApprovingPersonOrganization : Noun {  // ISO 10303-238 only
+  static constexpr TypeId kType = TypeId::kApprovingPersonOrganization;
+  OneOf<PersonAndOrganization, PersonAndAddress, Organization> person_organization;
+  Text role;  ///< optional
+};
+
+struct PersonOrganizationAssignment : Noun {  // ISO 10303-238 only
+  static constexpr TypeId kType = TypeId::kPersonOrganizationAssignment;
+  OneOf<PersonAndOrganization, PersonAndAddress, Organization> assigned_person_organization;
+  Text role;
+};
+
+struct DateTimeAssignment : Noun {  // ISO 10303-238 only
+  static constexpr TypeId kType = TypeId::kDateTimeAssignment;
+  OneOf<DateAndTime, Date> assigned_date;
+  Text role;  ///< optional
+};
+
+/// When, and by whom, an object was last changed; the role is "last modified".
+struct LastModifiedTimestamp : DateTimeAssignment {  // ISO 10303-238 only
+  static constexpr TypeId kType = TypeId::kLastModifiedTimestamp;
+  OneOf<PersonAndOrganization, PersonAndAddress, Organization> modified_by;  ///< optional
+};
+
+struct SecurityClassification : Noun {  // ISO 10303-238 only
+  static constexpr TypeId kType = TypeId::kSecurityClassification;
+  Text name;
+  Text purpose;  ///< optional
+  Text security_level;
 };
 
 }  // namespace capstan::model

@@ -10,15 +10,17 @@
 
 namespace capstan::model {
 
-struct TouchProbe : Noun {
-  static constexpr TypeId kType = TypeId::kTouchProbe;
-  Text its_id;
-};
-
 struct MachiningTool : Noun {  // abstract
   static constexpr TypeId kType = TypeId::kMachiningTool;
   Text its_id;
   Ref<ToolUsage> its_usage;  ///< optional, not in ISO 14649
+};
+
+struct TouchProbe : MachiningTool {
+  static constexpr TypeId kType = TypeId::kTouchProbe;
+  Real ball_radius;              ///< mm, optional, not in ISO 14649
+  Real overall_assembly_length;  ///< mm, optional, not in ISO 14649
+  Real stylus_diameter;          ///< mm, optional, not in ISO 14649
 };
 
 struct CuttingTool : MachiningTool {  // abstract
@@ -38,7 +40,7 @@ struct CuttingComponent : Noun {
   Ref<Material> its_material;                            ///< optional
   Ref<CuttingEdgeTechnologicalData> technological_data;  ///< optional
   Real expected_tool_life;                               ///< s, optional
-  Ref<MillingTechnology> its_technology;                 ///< optional
+  Ref<Technology> its_technology;                        ///< optional
 };
 
 struct CuttingEdgeTechnologicalData : Noun {
@@ -80,7 +82,9 @@ struct CenterDrill : MillingToolBody {
 
 struct Countersink : MillingToolBody {
   static constexpr TypeId kType = TypeId::kCountersink;
-  Real countersink_radius;  ///< mm, optional
+  Real countersink_radius;        ///< mm, optional
+  Real minimum_cutting_diameter;  ///< mm, optional, not in ISO 14649
+  Real maximum_usable_length;     ///< mm, optional, not in ISO 14649
 };
 
 struct BacksideCountersink : Countersink {
@@ -110,10 +114,12 @@ struct MillingCutter : MillingToolBody {  // abstract
 
 struct Facemill : MillingCutter {
   static constexpr TypeId kType = TypeId::kFacemill;
+  Real tool_cutting_edge_angle;  ///< rad, optional, not in ISO 14649
 };
 
 struct Endmill : MillingCutter {
   static constexpr TypeId kType = TypeId::kEndmill;
+  Real tool_cutting_edge_angle;  ///< rad, optional, not in ISO 14649
 };
 
 struct TaperedEndmill : Endmill {
@@ -151,10 +157,17 @@ struct SideMill : MillingCutter {
 
 struct ThreadMill : MillingCutter {
   static constexpr TypeId kType = TypeId::kThreadMill;
+  Text thread_form_type;  ///< optional, not in ISO 14649
+  Real thread_size;       ///< mm, optional, not in ISO 14649
+  Real thread_pitch;      ///< mm, optional, not in ISO 14649
 };
 
 struct Tap : MillingToolBody {
   static constexpr TypeId kType = TypeId::kTap;
+  Text thread_form_type;    ///< optional, not in ISO 14649
+  Real thread_size;         ///< mm, optional, not in ISO 14649
+  Real thread_pitch;        ///< mm, optional, not in ISO 14649
+  Real taper_thread_count;  ///< optional, not in ISO 14649
 };
 
 struct TaperedTap : Tap {
@@ -181,6 +194,7 @@ struct BacksideCounterbore : Counterbore {
 
 struct Reamer : MillingToolBody {
   static constexpr TypeId kType = TypeId::kReamer;
+  Real taper_length;  ///< mm, optional, not in ISO 14649
 };
 
 struct TaperedReamer : Reamer {
@@ -195,6 +209,7 @@ struct CombinedDrillAndReamer : Reamer {
 
 struct BoringTool : MillingToolBody {
   static constexpr TypeId kType = TypeId::kBoringTool;
+  Boolean retract_movement_forbidden;  ///< optional, not in ISO 14649
 };
 
 struct UserDefinedTool : MillingToolBody {
@@ -207,11 +222,35 @@ struct ToolUsage : Noun {  // ISO 10303-238 only
   Text its_id;
   Text its_position;                         ///< optional
   Text its_carousel;                         ///< optional
-  Text its_product;                          ///< optional
+  Ref<Workpiece> its_product;                ///< optional
   Text its_library_reference;                ///< optional
   Ref<Axis2Placement3d> gage_placement;      ///< optional
   Ref<Axis2Placement3d> tool_end_placement;  ///< optional
   Text description;                          ///< optional
+  Text its_library_source;                   ///< optional; where its_library_reference is defined
+};
+
+/// A drill of no kind named here: ISO 10303-238's drilling_cutting_tool itself.
+struct GeneralDrill : Drill {  // ISO 10303-238 only
+  static constexpr TypeId kType = TypeId::kGeneralDrill;
+};
+
+struct Spotdrill : Drill {  // ISO 10303-238 only
+  static constexpr TypeId kType = TypeId::kSpotdrill;
+};
+
+struct StepDrill : Drill {  // ISO 10303-238 only
+  static constexpr TypeId kType = TypeId::kStepDrill;
+  RealList diameters;    ///< mm; from the tip up
+  RealList step_length;  ///< mm
+};
+
+struct Shouldermill : MillingCutter {  // ISO 10303-238 only
+  static constexpr TypeId kType = TypeId::kShouldermill;
+};
+
+struct ProfiledEndMill : Endmill {  // ISO 10303-238 only
+  static constexpr TypeId kType = TypeId::kProfiledEndMill;
 };
 
 }  // namespace capstan::model

@@ -12,40 +12,45 @@ namespace capstan::model {
 
 struct ToolpathList : Noun {
   static constexpr TypeId kType = TypeId::kToolpathList;
-  RefList<Toolpath> its_list;
+  OneOfList<Toolpath, NcFunction> its_list;  ///< functions among paths: ISO 10303-238, edition 4
 };
 
 struct Toolpath : Noun {  // abstract
   static constexpr TypeId kType = TypeId::kToolpath;
   Boolean its_priority;
   Enumerated<ToolpathType> its_type;
-  SelectValue its_speed;                        ///< optional
-  Ref<Technology> its_technology;               ///< optional
-  Ref<MachineFunctions> its_machine_functions;  ///< optional
-  Text its_id;                                  ///< optional, not in ISO 14649
+  SelectValue its_speed;                               ///< optional
+  Ref<Technology> its_technology;                      ///< optional
+  Ref<MachineFunctions> its_machine_functions;         ///< optional
+  Text its_id;                                         ///< optional, not in ISO 14649
+  RefList<ProcessProperty> process_properties;         ///< optional, not in ISO 14649
+  Ref<LastModifiedTimestamp> last_modified_timestamp;  ///< optional, not in ISO 14649
 };
 
 struct ToolpathSpeed : Noun {
   static constexpr TypeId kType = TypeId::kToolpathSpeed;
-  Ref<BSplineCurve> speed;
+  Ref<BoundedCurve> speed;  ///< ISO 14649: a b_spline_curve
 };
 
 struct Feedstop : Toolpath {
   static constexpr TypeId kType = TypeId::kFeedstop;
-  Real dwell;  ///< s
+  Real dwell;              ///< s
+  Real dwell_revolutions;  ///< optional, not in ISO 14649; revolutions of the spindle, in place of dwell
 };
 
 struct Trajectory : Toolpath {  // abstract
   static constexpr TypeId kType = TypeId::kTrajectory;
   Boolean its_direction;                            ///< optional
-  Real its_material_removal_depth;                  ///< mm, optional, not in ISO 14649
-  Real its_material_removal_overcut;                ///< mm, optional, not in ISO 14649
+  SelectValue its_material_removal_depth;           ///< mm, or a bounded curve; optional, not in ISO 14649
+  SelectValue its_material_removal_overcut;         ///< mm, or a bounded curve; optional, not in ISO 14649
   Real its_material_removal_total_volume;           ///< mm3, optional, not in ISO 14649
   Ref<BoundedCurve> cross_section_area_parameters;  ///< optional, not in ISO 14649
   Ref<BoundedCurve> its_toolref_direction;          ///< optional, not in ISO 14649
   Real path_maximum_deviation;                      ///< mm, optional, not in ISO 14649
   Real tool_axis_maximum_deviation;                 ///< rad, optional, not in ISO 14649
   PathHandle path;                                  ///< optional, not in ISO 14649
+  Ref<BoundedCurve> cross_section_area_flank_parameters;   ///< optional, not in ISO 14649
+  Ref<BoundedCurve> cross_section_area_plunge_parameters;  ///< optional, not in ISO 14649
 };
 
 struct CutterLocationTrajectory : Trajectory {
