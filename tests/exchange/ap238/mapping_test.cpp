@@ -19,7 +19,9 @@ TEST(MappingTables, NameAttributesThatTheNounOrOneBelowItHas) {
       any = model::is_a(type, row.noun) && model::find_attribute(type, row.attribute.front()) != nullptr;
     }
     EXPECT_TRUE(any) << row.place << ": no attribute " << row.attribute.front();
-    if (!row.codec.empty()) EXPECT_NE(find_codec(row.codec), nullptr) << row.place;
+    if (!row.codec.empty()) {
+      EXPECT_NE(find_codec(row.codec), nullptr) << row.place;
+    }
   }
 }
 

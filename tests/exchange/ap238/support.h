@@ -61,7 +61,9 @@ inline std::vector<std::string> shapes(const std::string& text) {
 /// What differs after writing and reading; empty when nothing does. Names of geometry may (roles fix some).
 inline std::string lost_on_the_way(const model::Plan& plan) {
   const model::Plan back = read_text(written(plan).bytes);
-  return testing::ModelDifference(plan, back, {.item_names = false}).text();
+  testing::DifferenceOptions options;
+  options.item_names = false;
+  return testing::ModelDifference(plan, back, options).text();
 }
 
 /// A project with a workpiece and an empty main workplan, to hang things on.
