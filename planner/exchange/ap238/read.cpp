@@ -1,5 +1,6 @@
 #include "planner/exchange/ap238/reader.h"
 #include "planner/exchange/exchange.h"
+#include "planner/exchange/opening.h"
 #include "planner/model/nouns/all.h"
 #include "planner/p21/parse.h"
 
@@ -18,6 +19,12 @@ Result<model::Plan> read_ap238(const p21::File& file, Job& job) {
                      .severity = Severity::kWarning,
                      .message = "the file holds no machining project: there is nothing to carry out"});
   }
+  std::vector<Doubt> doubts;
+  check_meaning(plan.model, doubts);
+  Marks reached(plan.model);
+  if (plan.project) reached.set_from(plan.model, plan.project);
+  settle_doubts(plan.model, doubts, reached, reporter);
+  if (reporter.errors() == 0) open_what_is_left_out(plan, reached, reporter);
   reporter.finish();
   if (reporter.errors() != 0) {
     return fail({.code = "EXC-AP238",

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "planner/exchange/meaning.h"
 #include "planner/exchange/report.h"
 #include "planner/model/plan.h"
 #include "planner/p21/file.h"
@@ -20,11 +21,6 @@ struct Reading {
   std::vector<model::AnyRef> object_of;  ///< by instance index of the file
   std::set<std::string> draft;           ///< what showed that the file is at the draft level
 
-  /// A fault that matters only where the project reaches the object: an error there, else a warning.
-  struct Doubt {
-    model::AnyRef object;
-    Diagnostic diagnostic;
-  };
   std::vector<Doubt> doubts;
 
   [[nodiscard]] model::AnyRef find(std::uint64_t id) const {
@@ -38,8 +34,5 @@ struct Reading {
 
 /// Makes one object per instance, fills its attributes, keeps what no noun describes.
 void read_objects(Reading& reading);
-
-/// Cycles, B-splines, directions, radii, empty sets: what the schema cannot say of a value alone.
-void check_meaning(Reading& reading);
 
 }  // namespace capstan::exchange

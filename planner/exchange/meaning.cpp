@@ -1,8 +1,11 @@
+#include "planner/exchange/meaning.h"
+
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <tuple>
 
 #include "planner/base/number.h"
-#include "planner/exchange/iso14649/reading.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/walk.h"
 
@@ -16,18 +19,37 @@ namespace {
 constexpr std::uint64_t kMaxSteps = 1'000'000;  // default, unsourced: executions of one workplan
 constexpr double kLargeToleranceMm = 5.0;       // default, unsourced: no workpiece is that rough
 
-// A depth-first walk over everything that finds references running in a circle. No noun of ISO 14649 may
-// reach itself by its attributes; through a kept instance, whose meaning is unknown, it may.
+struct Check {
+  const model::Model& m;
+  std::vector<Doubt>& doubts;
+  std::vector<AnyRef> objects;
+
+  void doubt(AnyRef at, Diagnostic d) { doubts.push_back({at, std::move(d)}); }
+};
+
+// Calls `visit` for what an object is made of. Not for what only looks back at it: a workpiece lists the
+// requirements that each name the workpiece.
+void for_each_part(const model::Model& m, AnyRef at, const std::function<void(AnyRef)>& visit) {
+  const auto* w = m.get<model::Workpiece>(at);
+  if (w == nullptr || !w->its_requirements.given) return model::for_each_reference(m, at, visit);
+  const auto& back = w->its_requirements.items;
+  model::for_each_reference(m, at, [&](AnyRef to) {
+    if (std::find(back.begin(), back.end(), to) == back.end()) visit(to);
+  });
+}
+
+// A depth-first walk over everything that finds references running in a circle. No noun may reach itself by
+// its attributes; through a kept instance, whose meaning is unknown, it may.
 class CycleFinder {
  public:
-  explicit CycleFinder(Reading& r) : r_(r), m_(r.plan.model) {
+  explicit CycleFinder(Check& r) : r_(r), m_(r.m) {
     for (std::size_t t = 1; t < model::kTypeCount; ++t) {
       state_[t].resize(m_.count(static_cast<TypeId>(t)), kNew);
     }
   }
 
   void run() {
-    for (const AnyRef root : r_.object_of) {
+    for (const AnyRef root : r_.objects) {
       if (state(root) == kNew) walk(root);
     }
   }
@@ -65,7 +87,7 @@ class CycleFinder {
     state(at) = kOnPath;
     Frame f{at, {}, 0};
     if (at.type != TypeId::kKeptInstance) {
-      model::for_each_reference(m_, at, [&](AnyRef to) { f.next.push_back(to); });
+      for_each_part(m_, at, [&](AnyRef to) { f.next.push_back(to); });
     }
     path.push_back(std::move(f));
   }
@@ -80,7 +102,7 @@ class CycleFinder {
     found = true;
   }
 
-  Reading& r_;
+  Check& r_;
   const model::Model& m_;
   std::array<std::vector<std::uint8_t>, model::kTypeCount> state_;
 
@@ -88,16 +110,16 @@ class CycleFinder {
   bool found = false;
 };
 
-void fault(Reading& r, AnyRef at, std::string message, std::string code = "EXC-GEOMETRY") {
+void fault(Check& r, AnyRef at, std::string message, std::string code = "EXC-GEOMETRY") {
   r.doubt(at, {.code = std::move(code), .message = std::move(message)});
 }
 
-void warn(Reading& r, AnyRef at, std::string code, std::string message) {
+void warn(Check& r, AnyRef at, std::string code, std::string message) {
   r.doubt(at, {.code = std::move(code), .severity = Severity::kWarning, .message = std::move(message)});
 }
 
 // multiplicities[i] of knots[i]: as many, each in 1..degree+1, together degree + points + 1, knots rising.
-void check_knots(Reading& r, AnyRef at, const std::string& name, std::optional<std::int64_t> degree,
+void check_knots(Check& r, AnyRef at, const std::string& name, std::optional<std::int64_t> degree,
                  std::size_t points, const model::IntegerList& multiplicities, const model::RealList& knots) {
   if (!degree || *degree < 1 || *degree > 100) return fault(r, at, name + " has an impossible degree");
   if (multiplicities.items.size() != knots.items.size()) {
@@ -125,8 +147,8 @@ void check_knots(Reading& r, AnyRef at, const std::string& name, std::optional<s
   }
 }
 
-void check_splines(Reading& r) {
-  const auto& m = r.plan.model;
+void check_splines(Check& r) {
+  const auto& m = r.m;
   for (const AnyRef at : m.all(TypeId::kBSplineCurveWithKnots)) {
     const auto& c = m.at<model::BSplineCurveWithKnots>(at);
     check_knots(r, at, "B_SPLINE_CURVE_WITH_KNOTS", c.degree, c.control_points_list.size(),
@@ -151,8 +173,8 @@ void check_splines(Reading& r) {
   }
 }
 
-void check_directions_and_points(Reading& r) {
-  const auto& m = r.plan.model;
+void check_directions_and_points(Check& r) {
+  const auto& m = r.m;
   for (const AnyRef at : m.all(TypeId::kDirection)) {
     const auto& d = m.at<model::Direction>(at).direction_ratios.items;
     if (d.size() != 2 && d.size() != 3) {
@@ -175,9 +197,9 @@ bool is_size(std::string_view name) {
          name == "cutting_edge_length" || name == "expected_tool_life" || name == "dwell" || name == "pitch";
 }
 
-void check_sizes(Reading& r) {
-  const auto& m = r.plan.model;
-  for (const AnyRef at : r.object_of) {
+void check_sizes(Check& r) {
+  const auto& m = r.m;
+  for (const AnyRef at : r.objects) {
     if (at.type == TypeId::kKeptInstance) continue;
     const bool solid = at.type == TypeId::kBlock || at.type == TypeId::kCircle || at.type == TypeId::kHelix;
     for (const model::Attribute& a : model::noun_type(at.type).attributes) {
@@ -199,8 +221,8 @@ void check_sizes(Reading& r) {
   }
 }
 
-void check_sets(Reading& r) {
-  const auto& m = r.plan.model;
+void check_sets(Check& r) {
+  const auto& m = r.m;
   const auto at_least = [&](AnyRef at, std::string_view what, const model::AnyRefList& list, std::size_t n) {
     if (!list.given || list.size() >= n) return;
     warn(r, at, "EXC-EMPTY",
@@ -219,8 +241,8 @@ void check_sets(Reading& r) {
 
 // How often the steps of a workplan would run when shared parts are run wherever they stand: a graph of
 // depth 39 whose levels each use the next one twice has 2^39. Needs a model without circles.
-void check_expansion(Reading& r) {
-  const auto& m = r.plan.model;
+void check_expansion(Check& r) {
+  const auto& m = r.m;
   std::array<std::vector<std::uint64_t>, model::kTypeCount> runs;
   for (std::size_t t = 1; t < model::kTypeCount; ++t) runs[t].resize(m.count(static_cast<TypeId>(t)), 0);
   const auto count = [&](AnyRef a) -> std::uint64_t& {
@@ -257,7 +279,38 @@ void check_expansion(Reading& r) {
 
 }  // namespace
 
-void check_meaning(Reading& r) {
+Marks::Marks(const model::Model& m) {
+  for (std::size_t t = 1; t < model::kTypeCount; ++t)
+    marks_[t].resize(m.count(static_cast<TypeId>(t)), false);
+}
+
+void Marks::set_from(const model::Model& m, AnyRef root) {
+  std::vector<AnyRef> pending = {root};
+  while (!pending.empty()) {
+    const AnyRef at = pending.back();
+    pending.pop_back();
+    if (has(at)) continue;
+    set(at);
+    model::for_each_reference(m, at, [&](AnyRef to) { pending.push_back(to); });
+  }
+}
+
+std::vector<AnyRef> objects_in_file_order(const model::Model& m) {
+  std::vector<AnyRef> out;
+  for (std::size_t t = 1; t < model::kTypeCount; ++t) {
+    for (const AnyRef at : m.all(static_cast<TypeId>(t))) {
+      if (m.origin(at).instance != 0) out.push_back(at);
+    }
+  }
+  std::sort(out.begin(), out.end(), [&](AnyRef a, AnyRef b) {
+    const auto x = m.origin(a), y = m.origin(b);
+    return std::tie(x.line, x.instance, a) < std::tie(y.line, y.instance, b);
+  });
+  return out;
+}
+
+void check_meaning(const model::Model& m, std::vector<Doubt>& doubts) {
+  Check r{m, doubts, objects_in_file_order(m)};
   CycleFinder cycles(r);
   cycles.run();
   if (!cycles.found) check_expansion(r);
@@ -265,6 +318,22 @@ void check_meaning(Reading& r) {
   check_directions_and_points(r);
   check_sizes(r);
   check_sets(r);
+}
+
+void settle_doubts(const model::Model& m, std::vector<Doubt>& doubts, const Marks& reached,
+                   Reporter& reporter) {
+  std::stable_sort(doubts.begin(), doubts.end(), [&](const auto& a, const auto& b) {
+    return m.origin(a.object).instance < m.origin(b.object).instance;
+  });
+  for (auto& doubt : doubts) {
+    if (!reached.has(doubt.object)) {
+      if (doubt.diagnostic.severity == Severity::kError)
+        doubt.diagnostic.hint = "what does not fit is left out; the project does not need it";
+      doubt.diagnostic.severity = Severity::kWarning;
+    }
+    reporter.about(m, doubt.object, std::move(doubt.diagnostic));
+  }
+  doubts.clear();
 }
 
 }  // namespace capstan::exchange
