@@ -16,8 +16,8 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-// "#instance attribute CODE" of the faults that are not of rules.
-std::vector<std::string> places(const std::string& path) {
+// "#instance attribute CODE" of the faults, or of broken rules "#instance message; expected".
+std::vector<std::string> places(const std::string& path, bool rules = false) {
   Job job;
   const auto file = p21::parse(capstan::testing::slurp(path), path, {}, job);
   EXPECT_TRUE(file);
@@ -25,7 +25,11 @@ std::vector<std::string> places(const std::string& path) {
   check_schema(*file, check);
   std::vector<std::string> out;
   for (const Diagnostic& d : check.diagnostics()) {
-    if (d.code != "SCH-RULE") out.push_back("#" + std::to_string(d.instance) + " " + d.path + " " + d.code);
+    if ((d.code == "SCH-RULE") != rules) continue;
+    if (rules)
+      out.push_back("#" + std::to_string(d.instance) + " " + d.message + "; " + d.expected);
+    else
+      out.push_back("#" + std::to_string(d.instance) + " " + d.path + " " + d.code);
   }
   return out;
 }
@@ -70,6 +74,61 @@ TEST(CorpusConformance, FindsEachDollarOfAnnexJThree) {
                   "#4325 value_component SCH-MANDATORY", "#5505 rep_1 SCH-MANDATORY",
                   "#5505 rep_2 SCH-MANDATORY", "#5506 transform_item_1 SCH-MANDATORY",
                   "#5607 used_representation SCH-TYPE"));
+}
+
+TEST(CorpusConformance, FindsNoBrokenRuleInAnnexJOneAndTwo) {
+  CAPSTAN_CORPUS_FILE(one, "ap238/ap238e4dis_annexJ_cc1.stp");
+  CAPSTAN_CORPUS_FILE(two, "ap238/ap238e4dis_annexJ_cc2.stp");
+  EXPECT_THAT(places(one, true), IsEmpty());
+  EXPECT_THAT(places(two, true), IsEmpty());
+}
+
+// Its technologies give feed and spindle twice (per tooth and as cutting speed, with $ for the value), its
+// components lack placements, its pocket lacks a description.
+TEST(CorpusConformance, FindsTheBrokenRulesOfAnnexJThree) {
+  CAPSTAN_CORPUS_FILE(path, "ap238/ap238e4dis_annexJ_cc3.stp");
+  std::vector<std::string> expected;
+  const auto technology = [&](const std::string& id) {
+    expected.push_back("#" + id + " MACHINING_TECHNOLOGY has 2 property 'feedrate'; 0 to 1");
+    expected.push_back("#" + id + " MACHINING_TECHNOLOGY 'milling' has 2 property 'spindle'; 0 to 1");
+  };
+  const auto speed = [&](const std::string& id, const std::string& item) {
+    expected.push_back("#" + id +
+                       " MACHINING_SPINDLE_SPEED_REPRESENTATION 'cutting speed' has item 'surface speed' (#" +
+                       item + ") of another form; number unit length/time");
+  };
+  const auto feed = [&](const std::string& id, const std::string& item) {
+    expected.push_back("#" + id +
+                       " MACHINING_FEED_SPEED_REPRESENTATION 'feed speed' has item 'feed speed' (#" + item +
+                       ") of another form; number unit length/time");
+  };
+  technology("800");
+  speed("815", "816");
+  expected.insert(expected.end(),
+                  {"#1500 PATH_FEATURE_COMPONENT has no parameter 'orientation' as item PLACEMENT; 1",
+                   "#1500 PATH_FEATURE_COMPONENT 'linear' has 1 parameters; 2",
+                   "#1700 LINEAR_PROFILE has 1 parameters; 2",
+                   "#1700 LINEAR_PROFILE has no parameter 'orientation' as item PLACEMENT; 1",
+                   "#1700 LINEAR_PROFILE has no parameter 'profile length' as length; 1",
+                   "#1800 FLAT_FACE has no DIRECTION_SHAPE_REPRESENTATION 'removal direction'; 1"});
+  technology("2300");
+  speed("2315", "2316");
+  expected.push_back(
+      "#2600 MACHINING_TOOL 'milling cutting tool' 'reamer' has no tool body item 'taper length'; 1");
+  technology("2800");
+  speed("2815", "2816");
+  technology("3800");
+  speed("3815", "3816");
+  feed("3823", "3824");
+  technology("4100");
+  speed("4115", "4116");
+  feed("4123", "4124");
+  expected.insert(
+      expected.end(),
+      {"#4700 CLOSED_PATH_PROFILE has no SHAPE_REPRESENTATION_WITH_PARAMETERS; 1",
+       "#4800 POCKET has the description ''; 'closed rectangular' or 'open rectangular' or 'complex' or "
+       "'circular cutout' or 'complex cutout' or 'recess'"});
+  EXPECT_EQ(places(path, true), expected);
 }
 
 TEST(CorpusConformance, FindsTheDanglingReferencesOfACommercialFile) {
