@@ -235,7 +235,11 @@ class Parser {
     out.written = written;
     out.place = place_;
     out.noun = noun(word(s));
-    out.attribute = split(word(s), '.');
+    for (const auto& part : split(word(s), '.')) {
+      const auto colon = part.find(':');
+      out.attribute.push_back(part.substr(0, colon));
+      out.made.push_back(colon == std::string::npos ? TypeId::kNone : noun(part.substr(colon + 1)));
+    }
     expect_equals(s, *this);
     const std::string text = expanded(s);
     path(text, out);
@@ -341,6 +345,12 @@ class Parser {
       if (out.owner == express::kNoEntity) wrong("no attribute " + out.attribute);
     } else {
       out.attribute = name_of(s);
+      if (!s.empty() && s.front() == '[') {
+        s.remove_prefix(1);
+        for (const char c : name_of(s)) out.index = out.index * 10 + static_cast<std::uint32_t>(c - '0');
+        if (out.index == 0 || s.empty() || s.front() != ']') wrong(">attribute[number] expected");
+        s.remove_prefix(1);
+      }
       if (!s.empty() && s.front() == '^') {
         s.remove_prefix(1);
         for (const char c : name_of(s)) out.wrapper += static_cast<char>(c >= 'a' && c <= 'z' ? c - 32 : c);

@@ -18,7 +18,8 @@ namespace capstan::exchange::ap238 {
 
 using express::EntityId;
 
-/// `attribute = value` (demanded when reading, set when writing) or `attribute := value` (only set).
+/// `attribute = value` (demanded when reading, set when writing) or `attribute := value` (only set). A demanded
+/// `@name` must be an instance such as the shared one.
 struct Constraint {
   enum class Kind : std::uint8_t { kPlain, kShared, kOrdinal, kDescription };
   std::string attribute;  ///< lower case, may be qualified: "shape_aspect.name"
@@ -34,6 +35,7 @@ struct Step {
   bool own = false;                   ///< not shared with other attributes of the object
   EntityId owner = express::kNoEntity;  ///< inverse: what holds the attribute
   std::string attribute;
+  std::uint32_t index = 0;            ///< forward: only this element of the list, from 1; 0: any
   std::string wrapper;                ///< typed parameter around the list, e.g. LIST_REPRESENTATION_ITEM
   std::vector<EntityId> entities;     ///< what stands there: one, or the leaves of a complex instance
   std::vector<Constraint> constraints;
@@ -43,6 +45,8 @@ struct Step {
 struct Row {
   model::TypeId noun = model::TypeId::kNone;
   std::vector<std::string> attribute;  ///< "its_tool_body.dimension.diameter"; empty: structure without value
+  /// For each of them but the last: what is made there when the path finds something; kNone: nothing.
+  std::vector<model::TypeId> made;
   std::vector<Step> steps;
   std::string value_of;                ///< the value is this attribute of the last instance
   std::vector<std::string> texts;      ///< what stands for true and false, or for each enumerator

@@ -69,6 +69,14 @@ bool Reader::holds(Node n, const Step& s, std::uint32_t* ordinal, double* order)
       *ordinal = static_cast<std::uint32_t>(std::clamp(std::lround(*order), 0L, 1L << 30));
       continue;
     }
+    if (c.kind == Constraint::Kind::kShared) {
+      const SharedRow* shared = map_.shared(c.texts.front());
+      const Node to = v.is(Kind::kReference) ? g_.find(v.reference()) : kNoNode;
+      std::uint32_t k = 0;
+      double o = 0.0;
+      if (shared == nullptr || to == kNoNode || !holds(to, shared->root, &k, &o)) return false;
+      continue;
+    }
     if (c.kind != Constraint::Kind::kPlain) continue;
     if (std::none_of(c.texts.begin(), c.texts.end(), [&](const auto& t) { return spelled(v, t); })) return false;
   }
@@ -90,6 +98,9 @@ std::vector<Terminal> Reader::follow(const std::vector<Step>& steps, const std::
         }
       } else {
         g_.references(g_.get(from.node, s.attribute), candidates);
+        if (s.index != 0) {
+          candidates = s.index <= candidates.size() ? std::vector<Node>{candidates[s.index - 1]} : std::vector<Node>{};
+        }
       }
       std::uint32_t k = 0;
       for (const Node n : candidates) {
@@ -219,6 +230,14 @@ void Reader::drain() {
 
 void Reader::fill(AnyRef at, Node n) {
   for (const Row* row : map_.rows_of(at.type)) read_row(*row, at, n);
+  // AP238 has no other way to write a list without elements than to leave it out.
+  for (const Row* row : map_.rows_of(at.type)) {
+    const Attribute* a = row->attribute.size() == 1 ? model::find_attribute(at.type, row->attribute.front()) : nullptr;
+    if (a == nullptr || !a->required) continue;
+    void* slot = a->at(plan_.model.object(at));
+    if (a->storage == model::Storage::kRefList) static_cast<model::AnyRefList*>(slot)->given = true;
+    if (a->storage == model::Storage::kTextList) static_cast<model::TextList*>(slot)->given = true;
+  }
 }
 
 bool Reader::read_row(const Row& row, AnyRef at, Node n) {
@@ -231,7 +250,14 @@ bool Reader::read_row(const Row& row, AnyRef at, Node n) {
   for (std::size_t i = 0; i < row.attribute.size(); ++i) {
     a = holder.set() ? model::find_attribute(holder.type, row.attribute[i]) : nullptr;
     if (a == nullptr) return false;
-    if (i + 1 < row.attribute.size()) holder = *static_cast<AnyRef*>(a->at(plan_.model.object(holder)));
+    if (i + 1 == row.attribute.size()) break;
+    AnyRef next = *static_cast<AnyRef*>(a->at(plan_.model.object(holder)));
+    if (!next.set() && row.made[i] != TypeId::kNone) {
+      if (follow(row.steps, row.value_of, n).empty()) return false;
+      next = plan_.model.add_object(row.made[i]);
+      *static_cast<AnyRef*>(a->at(plan_.model.object(holder))) = next;
+    }
+    holder = next;
   }
   if (model::has_value(*a, plan_.model.object(holder))) return true;  // an earlier row had it
   auto found = follow(row.steps, row.value_of, n);
