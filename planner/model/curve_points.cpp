@@ -61,9 +61,13 @@ Points sample(const Round& r, double t0, double t1, double tolerance_mm) {
   return out;
 }
 
-Result<Points> polyline(const Model& m, const Polyline& p) {
+// An arc taken for its chords would be wrong in silence: only toolpaths have via points, and they are read
+// elsewhere.
+Result<Points> polyline(const Model& m, AnyRef self, const Polyline& p) {
   Points out;
   for (std::size_t i = 0; i < p.points.size(); ++i) {
+    if (m.holds<ViaArcPoint>(p.points[i]) || m.holds<ViaHelixPoint>(p.points[i]))
+      return refuse(m, self, "has via points, which only a toolpath may have");
     auto q = point(m, p.points[i]);
     if (!q) return tl::unexpected(q.error());
     out.push_back(*q);
@@ -220,7 +224,7 @@ Result<Points> points(const Model& m, AnyRef curve, double tolerance_mm, int dep
   if (depth > kNesting) return refuse(m, curve, "is nested too deeply, or in itself");
   Result<Points> out = refuse(m, curve, "is of a kind that is not read");
   if (const auto* p = m.get<Polyline>(curve)) {
-    out = polyline(m, *p);
+    out = polyline(m, curve, *p);
   } else if (const auto* t = m.get<TrimmedCurve>(curve)) {
     out = trimmed(m, curve, *t, tolerance_mm);
   } else if (const auto* c = m.get<CompositeCurve>(curve)) {

@@ -86,6 +86,8 @@ constexpr Attribute kCombinedDrillAndReamer[] = {
 };
 constexpr Attribute kUserDefinedTool[] = {
     row<&UserDefinedTool::identifier>("identifier", kRequired),
+    plan_row<&UserDefinedTool::taper_angle>("taper_angle", kOptional, Unit::kAngle),
+    plan_row<&UserDefinedTool::tip_outer_angle>("tip_outer_angle", kOptional, Unit::kAngle),
 };
 constexpr Attribute kToolUsage[] = {
     plan_row<&ToolUsage::its_id>("its_id", kRequired),

@@ -215,6 +215,8 @@ struct BoringTool : MillingToolBody {
 struct UserDefinedTool : MillingToolBody {
   static constexpr TypeId kType = TypeId::kUserDefinedTool;
   Text identifier;
+  Real taper_angle;      ///< rad, optional, not in ISO 14649; as ISO 10303-238 counts it
+  Real tip_outer_angle;  ///< rad, optional, not in ISO 14649; as ISO 10303-238 counts it
 };
 
 struct ToolUsage : Noun {  // ISO 10303-238 only
