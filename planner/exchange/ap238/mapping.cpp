@@ -102,7 +102,7 @@ class Parser {
     if (kind == "shared") return shared(s);
     if (kind == "object") return object(s);
     if (kind == "row" || kind == "read") return row(s, kind == "row");
-    if (kind == "fixed") return fixed(s);
+    if (kind == "fixed" || kind == "mark") return fixed(s, kind == "fixed");
     wrong("no statement begins with '" + std::string(kind) + "'");
   }
 
@@ -221,6 +221,10 @@ class Parser {
           if (item.size() != 2) wrong("with ATTRIBUTE:NOUN");
           out.with.emplace_back(split(item[0], '.'), noun(item[1]));
         }
+      } else if (kind == "if") {
+        const auto item = split(word(rest), ':');
+        if (item.size() != 2) wrong("if ATTRIBUTE:NOUN");
+        out.when.emplace_back(split(item[0], '.'), noun(item[1]));
       } else if (kind == "unless") {
         out.unless = split(word(rest), '.');
       } else {
@@ -237,7 +241,9 @@ class Parser {
     out.noun = noun(word(s));
     for (const auto& part : split(word(s), '.')) {
       const auto colon = part.find(':');
-      out.attribute.push_back(part.substr(0, colon));
+      const auto equals = part.find('=');
+      out.attribute.push_back(part.substr(0, std::min(colon, equals)));
+      out.only.push_back(equals == std::string::npos ? TypeId::kNone : noun(part.substr(equals + 1)));
       out.made.push_back(colon == std::string::npos ? TypeId::kNone : noun(part.substr(colon + 1)));
     }
     expect_equals(s, *this);
@@ -246,8 +252,9 @@ class Parser {
     out_.rows_.push_back(std::move(out));
   }
 
-  void fixed(std::string_view s) {
+  void fixed(std::string_view s, bool written) {
     Row out;
+    out.written = written;
     out.place = place_;
     out.noun = noun(word(s));
     expect_equals(s, *this);
@@ -318,6 +325,13 @@ class Parser {
     return out;
   }
 
+  void alternatives(std::string_view& s, Step& out) const {
+    while (!s.empty() && s.front() == '/') {
+      s.remove_prefix(1);
+      out.also.push_back(entity(name_of(s)));
+    }
+  }
+
   Step root(std::string_view& s) {
     Step out;
     out.entities = entities(s);
@@ -330,11 +344,12 @@ class Parser {
     Step out;
     out.inverse = s.front() == '<';
     s.remove_prefix(1);
-    for (; !s.empty() && (s.front() == '*' || s.front() == '!'); s.remove_prefix(1)) {
-      (s.front() == '*' ? out.fan : out.own) = true;
+    for (; !s.empty() && (s.front() == '*' || s.front() == '!' || s.front() == '='); s.remove_prefix(1)) {
+      (s.front() == '*' ? out.fan : s.front() == '!' ? out.own : out.exact) = true;
     }
     if (out.inverse) {
       out.entities = entities(s);
+      alternatives(s, out);
       if (s.empty() || s.front() != '.') wrong("<entity.attribute expected");
       s.remove_prefix(1);
       out.attribute = name_of(s);
@@ -358,6 +373,7 @@ class Parser {
       if (!s.empty() && s.front() == ':') {
         s.remove_prefix(1);
         out.entities = entities(s);
+        alternatives(s, out);
       }
     }
     constraints(s, out);
@@ -382,6 +398,8 @@ class Parser {
         c.attribute += "." + std::string(name_of(s));
       }
       s = trimmed(s);
+      c.negated = s.substr(0, 2) == "!=";
+      if (c.negated) s.remove_prefix(1);
       c.demanded = !s.empty() && s.front() == '=';
       if (!c.demanded) {
         if (s.substr(0, 2) != ":=") wrong("'=' or ':=' expected in {" + c.attribute);

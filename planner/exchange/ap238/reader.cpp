@@ -59,7 +59,10 @@ Node Reader::root_of(AnyRef at) const {
 // --- paths ---
 
 bool Reader::holds(Node n, const Step& s, std::uint32_t* ordinal, double* order) const {
-  if (!g_.is_all(n, s.entities)) return false;
+  if (!g_.is_all(n, s.entities) && std::none_of(s.also.begin(), s.also.end(), [&](EntityId e) { return g_.is(n, e); })) {
+    return false;
+  }
+  if (s.exact && g_.entity(n) != s.entities.front()) return false;
   for (const Constraint& c : s.constraints) {
     if (!c.demanded) continue;
     const Value v = g_.get(n, c.attribute);
@@ -74,11 +77,12 @@ bool Reader::holds(Node n, const Step& s, std::uint32_t* ordinal, double* order)
       const Node to = v.is(Kind::kReference) ? g_.find(v.reference()) : kNoNode;
       std::uint32_t k = 0;
       double o = 0.0;
-      if (shared == nullptr || to == kNoNode || !holds(to, shared->root, &k, &o)) return false;
+      if ((shared == nullptr || to == kNoNode || !holds(to, shared->root, &k, &o)) != c.negated) return false;
       continue;
     }
     if (c.kind != Constraint::Kind::kPlain) continue;
-    if (std::none_of(c.texts.begin(), c.texts.end(), [&](const auto& t) { return spelled(v, t); })) return false;
+    const bool so = std::any_of(c.texts.begin(), c.texts.end(), [&](const auto& t) { return spelled(v, t); });
+    if (so == c.negated) return false;
   }
   return true;
 }
@@ -212,7 +216,7 @@ AnyRef Reader::object_at(Node n, std::span<const TypeId> targets, const Scale& s
     pending_.push_back({at, n, false, scale});
     return at;
   }
-  if (const auto type = geometry_type(n); type && fits_any(*type, targets)) return geometry_at(n, *type, scale);
+  if (const auto type = geometry_type(n, scale.ours); type && fits_any(*type, targets)) return geometry_at(n, *type, scale);
   return kept_at(n);
 }
 
@@ -242,7 +246,10 @@ void Reader::fill(AnyRef at, Node n) {
 
 bool Reader::read_row(const Row& row, AnyRef at, Node n) {
   if (row.attribute.empty()) {
-    for (const Terminal& t : follow(row.steps, row.value_of, n)) mark(t, at);
+    for (const Terminal& t : follow(row.steps, row.value_of, n)) {
+      if (geometry_type(t.node)) object_at(t.node, {}, t.scale);  // so that its parts are explained, too
+      mark(t, at);
+    }
     return true;
   }
   AnyRef holder = at;
@@ -252,6 +259,7 @@ bool Reader::read_row(const Row& row, AnyRef at, Node n) {
     if (a == nullptr) return false;
     if (i + 1 == row.attribute.size()) break;
     AnyRef next = *static_cast<AnyRef*>(a->at(plan_.model.object(holder)));
+    if (row.only[i] != TypeId::kNone && !(next.set() && model::is_a(next.type, row.only[i]))) return false;
     if (!next.set() && row.made[i] != TypeId::kNone) {
       if (follow(row.steps, row.value_of, n).empty()) return false;
       next = plan_.model.add_object(row.made[i]);
@@ -273,6 +281,7 @@ void Reader::run() {
     if (g_.is(n, context)) default_scale_ = units_.scale(n, Scale{});
   }
   default_scale_.stated = false;
+  default_scale_.ours = false;
   static constexpr TypeId kProject[] = {TypeId::kProject};
   for (Node n = 0; n < g_.size(); ++n) {
     const ObjectRow* row = object_row(n, kProject);

@@ -120,7 +120,11 @@ bool Reader::scalar(const Row& row, AnyRef at, const Attribute& a, const Termina
       if (text && t.text.is(Kind::kEnumeration) && a.storage == Storage::kBoolean) {
         return slot(model::Boolean(t.text.enumeration() == "T"));
       }
-      const std::string s = text ? (t.text.is(Kind::kString) ? t.text.as_text() : "") : description(t.node);
+      const std::string s = !text                           ? description(t.node)
+                            : t.text.is(Kind::kString)      ? t.text.as_text()
+                            : t.text.is(Kind::kEnumeration) ? "." + std::string(t.text.enumeration()) + "."
+                                                            : "";
+      if (text && s.empty()) return false;
       for (std::size_t i = 0; i < row.texts.size(); ++i) {
         if (!same(row.texts[i], s)) continue;
         if (a.storage == Storage::kBoolean) return slot(model::Boolean(i == 0));

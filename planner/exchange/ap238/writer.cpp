@@ -36,7 +36,9 @@ std::pair<std::string_view, std::string_view> qualified(std::string_view attribu
 // The name a step demands, as spelled; empty when it demands none.
 std::string demanded_name(const Step& s) {
   for (const Constraint& c : s.constraints) {
-    if ((c.attribute == "name" || c.attribute == "representation_item.name") && !c.texts.empty()) return c.texts.front();
+    if ((c.attribute == "name" || c.attribute == "representation_item.name") && !c.texts.empty() && !c.negated) {
+      return c.texts.front();
+    }
   }
   return {};
 }
@@ -130,11 +132,20 @@ const ObjectRow* Writer::object_row(AnyRef at) const {
     }
     return holder;
   };
+  const auto given = [&](const std::vector<std::string>& path) {
+    const AnyRef holder = leads_to({path.begin(), path.end() - 1});
+    const Attribute* a = holder.set() ? model::find_attribute(holder.type, path.back()) : nullptr;
+    return a != nullptr && model::has_value(*a, m_.object(holder));
+  };
   for (const std::uint32_t r : map_.objects_of(at.type)) {
     const ObjectRow& row = map_.objects()[r];
     const bool with = std::all_of(row.with.begin(), row.with.end(),
                                   [&](const auto& w) { return leads_to(w.first).type == w.second; });
-    if (with && (row.unless.empty() || !leads_to(row.unless).set())) return &row;
+    const bool when = std::all_of(row.when.begin(), row.when.end(), [&](const auto& w) {
+      const AnyRef there = leads_to(w.first);
+      return there.set() && model::is_a(there.type, w.second);
+    });
+    if (with && when && (row.unless.empty() || !given(row.unless))) return &row;
   }
   return nullptr;
 }
@@ -148,7 +159,8 @@ Id Writer::instance_of(AnyRef at) {
     ids_.emplace(at, kNoId);
     return kNoId;
   }
-  if (at.type == TypeId::kKeptInstance || is_geometry(at)) {
+  // BLOCK and the like are geometry that AP238 has as representations.
+  if (at.type == TypeId::kKeptInstance || (is_geometry(at) && map_.objects_of(at.type).empty())) {
     const Id id = add({.leaves = {}, .noun = at, .name = {}, .values = {}});
     ids_.emplace(at, id);
     to_scan_.push_back(at);
@@ -211,6 +223,7 @@ std::string Writer::resolved(const std::string& spelling) {
 
 void Writer::constrain(Id at, const std::vector<Constraint>& constraints, std::uint32_t ordinal, AnyRef owner) {
   for (const Constraint& c : constraints) {
+    if (c.negated) continue;
     switch (c.kind) {
       case Constraint::Kind::kPlain:
         set(at, c.attribute, resolved(c.texts.front()));
@@ -348,9 +361,11 @@ void Writer::write_rows(const Task& t) {
     for (std::size_t i = 0; i < row->attribute.size(); ++i) {
       a = holder.set() ? model::find_attribute(holder.type, row->attribute[i]) : nullptr;
       if (a == nullptr) break;
-      if (i + 1 < row->attribute.size()) holder = model::value_of<AnyRef>(*a, m_.object(holder));
+      if (i + 1 == row->attribute.size()) break;
+      holder = model::value_of<AnyRef>(*a, m_.object(holder));
+      if (row->only[i] != TypeId::kNone && holder.set() && !model::is_a(holder.type, row->only[i])) holder = {};
     }
-    if (a == nullptr || !model::has_value(*a, m_.object(holder))) continue;
+    if (a == nullptr || !holder.set() || !model::has_value(*a, m_.object(holder))) continue;
     std::string dotted;
     for (const auto& part : row->attribute) dotted += (dotted.empty() ? "" : ".") + part;
     if (row->when.empty() && std::find(written.begin(), written.end(), dotted) != written.end()) continue;
@@ -397,7 +412,8 @@ void Writer::note_unmapped(AnyRef at, const ObjectRow* object) {
 
 void Writer::write_text(const Row& row, AnyRef owner, Id root, std::uint32_t ordinal, const std::string& text) {
   if (!row.value_of.empty()) {
-    set(walk(row, owner, root, 0, ordinal), row.value_of, quoted(text));
+    const bool enumerator = text.size() > 2 && text.front() == '.' && text.back() == '.' && !row.texts.empty();
+    set(walk(row, owner, root, 0, ordinal), row.value_of, enumerator ? text : quoted(text));
     return;
   }
   write_leaf(row, owner, root, ordinal, description(demanded_name(row.steps.back()), text));
@@ -434,9 +450,11 @@ void Writer::write_reference(const Row& row, AnyRef owner, AnyRef to, Id root, s
   const Step& last = row.steps.back();
   const Id target = instance_named(to, demanded_name(last));
   if (target == kNoId) return;
+  if (last.inverse && to.type == TypeId::kKeptInstance) return;  // says it itself
   const Id from = walk(row, owner, root, 1, ordinal);
-  if (last.inverse && (to.type == TypeId::kKeptInstance || is_geometry(to))) return;  // says it itself
+  if (last.inverse && is_geometry(to)) return;
   connect(last, from, target, ordinal, owner);
+  if (ordinal == 0) memo_.emplace(MemoKey{owner, last.prefix, 0}, target);  // rows may lead on from there
 }
 
 void Writer::write_value(const Row& row, AnyRef owner, const Attribute& a, const void* data, Id root) {
@@ -470,6 +488,9 @@ void Writer::write_value(const Row& row, AnyRef owner, const Attribute& a, const
     case Storage::kReal:
       return write_measure(row, owner, root, 0, *model::value_of<model::Real>(a, data), a.unit);
     case Storage::kInteger:
+      if (!row.value_of.empty()) {
+        return set(walk(row, owner, root, 0, 0), row.value_of, std::to_string(*model::value_of<model::Integer>(a, data)));
+      }
       return write_measure(row, owner, root, 0, static_cast<double>(*model::value_of<model::Integer>(a, data)),
                            model::Unit::kNone);
     case Storage::kText:
