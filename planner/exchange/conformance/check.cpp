@@ -12,12 +12,35 @@
 
 namespace capstan::exchange {
 
-bool is_ap238_schema(std::string_view file_schema) {
-  const std::string_view name = file_schema.substr(0, file_schema.find_first_of(" {"));
-  std::string upper(name);
-  std::transform(upper.begin(), upper.end(), upper.begin(),
+namespace {
+
+std::string in_upper_case(std::string_view s) {
+  std::string out(s);
+  std::transform(out.begin(), out.end(), out.begin(),
                  [](char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; });
-  return upper == "MODEL_BASED_INTEGRATED_MANUFACTURING_SCHEMA" || upper == "INTEGRATED_CNC_SCHEMA";
+  return out;
+}
+
+}  // namespace
+
+bool is_ap238_schema(std::string_view file_schema) {
+  const std::string name = in_upper_case(file_schema.substr(0, file_schema.find_first_of(" {")));
+  return name == "MODEL_BASED_INTEGRATED_MANUFACTURING_SCHEMA" || name == "INTEGRATED_CNC_SCHEMA";
+}
+
+bool declares_ap238(std::string_view bytes) {
+  constexpr std::size_t kHead = std::size_t{1} << 20;
+  const std::string head = in_upper_case(bytes.substr(0, kHead));
+  if (head.find("ISO-10303-21") == std::string::npos) return false;
+  for (std::size_t at = head.find("FILE_SCHEMA"); at != std::string::npos;
+       at = head.find("FILE_SCHEMA", at + 1)) {
+    const std::string_view entity = std::string_view(head).substr(at, head.find(';', at) - at);
+    for (std::size_t quote = entity.find('\''); quote != std::string_view::npos;
+         quote = entity.find('\'', quote + 1)) {
+      if (is_ap238_schema(entity.substr(quote + 1, entity.find('\'', quote + 1) - quote - 1))) return true;
+    }
+  }
+  return false;
 }
 
 std::size_t check_schema(const p21::File& file, Job& job) {

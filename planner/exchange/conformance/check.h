@@ -17,6 +17,9 @@ inline constexpr std::size_t kReportedFaultsPerCode = 50;
 /// identifier.
 [[nodiscard]] bool is_ap238_schema(std::string_view file_schema);
 
+/// Whether the header of a Part 21 file names such a schema; a look at its first megabyte, without parsing.
+[[nodiscard]] bool declares_ap238(std::string_view bytes);
+
 /// Compares every instance with the EXPRESS dictionary of ISO 10303-238 and the rules of its machining
 /// entities. Each fault is one error to `job` with file, line, instance, attribute and what was expected:
 ///
@@ -30,6 +33,8 @@ inline constexpr std::size_t kReportedFaultsPerCode = 50;
 ///   SCH-COMPLEX    parts missing, repeated, unsorted, or abstract ones alone
 ///   SCH-REFERENCE  no such instance (numbers of an edition 3 REFERENCE section are not followed)
 ///   SCH-RULE       a WHERE rule of a machining entity, see rules.table
+///   SCH-LIMIT      the file shares its instances so much that rules would take too long; the rest was not
+///   checked
 ///
 /// User-defined instances (!NAME) are passed over.
 ///

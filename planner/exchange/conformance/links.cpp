@@ -135,6 +135,7 @@ std::vector<std::size_t> Links::targets(std::size_t instance, std::string_view a
   if (!v) return out;
   const Value list = v->is(Kind::kTyped) ? (*v)[0] : *v;  // a select of aggregates
   if (!list.is(Kind::kList)) return out;
+  visits_ += list.size() + 1;
   for (std::size_t i = 0; i < list.size(); ++i) {
     if (const auto t = target(list[i])) out.push_back(*t);
   }

@@ -45,6 +45,8 @@ class Links {
   /// The instances that a list of references names.
   [[nodiscard]] std::vector<std::size_t> targets(std::size_t instance, std::string_view attribute) const;
   [[nodiscard]] bool is_a(std::size_t instance, express::EntityId entity) const;
+  /// Elements of lists looked at so far: what the work grows with.
+  [[nodiscard]] std::size_t visits() const { return visits_; }
   [[nodiscard]] const Population& population() const { return p_; }
 
  private:
@@ -55,6 +57,7 @@ class Links {
   void gather(std::size_t link, std::string_view attribute);
 
   const Population& p_;
+  mutable std::size_t visits_ = 0;
   std::array<std::vector<Pair>, kLinkCount> pairs_;
   std::array<std::vector<std::uint32_t>, kLinkCount> sources_;
 };

@@ -31,6 +31,15 @@ TEST(CheckSchema, KnowsBothNamesOfTheSchema) {
       ElementsAre(HasSubstr("[SCH-SCHEMA]")));
 }
 
+TEST(CheckSchema, IsOfferedFilesWhoseHeaderNamesIt) {
+  EXPECT_TRUE(declares_ap238(conformance::file_of("")));
+  EXPECT_TRUE(declares_ap238(
+      "/* FILE_SCHEMA; */ISO-10303-21;HEADER;file_schema( ( 'integrated_cnc_schema {1 0 10303}' ));"));
+  EXPECT_FALSE(declares_ap238("ISO-10303-21;HEADER;FILE_SCHEMA(('MACHINING_SCHEMA'));ENDSEC;"));
+  EXPECT_FALSE(declares_ap238("ISO-10303-21;HEADER;FILE_SCHEMA(('"));
+  EXPECT_FALSE(declares_ap238("G1 X10"));
+}
+
 TEST(CheckSchema, AcceptsWhatIsRight) {
   EXPECT_THAT(faults_in("#1=CARTESIAN_POINT('',(0.,1.));\n"
                         "#2=(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.));\n"

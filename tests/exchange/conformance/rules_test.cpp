@@ -65,7 +65,7 @@ TEST(Rules, WantRequiredPropertiesWithAllowedTexts) {
   EXPECT_THAT(faults_in(functions), ElementsAre(HasSubstr("has no property 'coolant'; expected 1")));
   EXPECT_THAT(faults_in(functions + property(10, "coolant", text("coolant on")) +
                         property(20, "coolant", text("coolant off"))),
-              ElementsAre(HasSubstr("has 2 property 'coolant'; expected 1")));
+              ElementsAre(HasSubstr("has the property 'coolant' twice; expected 1")));
   EXPECT_THAT(
       faults_in(functions + property(10, "coolant", text("flooded"))),
       ElementsAre(
@@ -144,7 +144,24 @@ TEST(Rules, CompareTheParametersOfProfiles) {
   EXPECT_THAT(faults_in(profile + shape + "#7=" + length("radius") + ";\n"),
               ElementsAre(HasSubstr("has no parameter 'diameter' as length; expected 1")));
   EXPECT_THAT(faults_in(profile + "#6=SHAPE_REPRESENTATION_WITH_PARAMETERS('',(#8),#908);\n"),
-              ElementsAre(HasSubstr("has 1 parameters; expected 2"), HasSubstr("'diameter'")));
+              ElementsAre(HasSubstr("has 1 parameter; expected 2"), HasSubstr("'diameter'")));
+}
+
+// Every property of every strategy shows the same huge representation.
+TEST(Rules, StopWhereAFileSharesTooMuch) {
+  constexpr int kItems = 20000, kStrategies = 4000;
+  std::string data = kUnits + "#10=REPRESENTATION('',(#1000";
+  for (int i = 1; i < kItems; ++i) data += ",#" + std::to_string(1000 + i);
+  data += "),#908);\n";
+  for (int i = 0; i < kItems; ++i) data += "#" + std::to_string(1000 + i) + "=DIRECTION('',(1.,0.));\n";
+  for (int i = 0; i < kStrategies; ++i) {
+    const int id = 100000 + 3 * i;
+    const std::string strategy = "#" + std::to_string(id), property = "#" + std::to_string(id + 1);
+    data += strategy + "=DRILLING_TYPE_STRATEGY('','','','');\n" + property +
+            "=ACTION_PROPERTY('depth of start',''," + strategy + ");\n#" + std::to_string(id + 2) +
+            "=ACTION_PROPERTY_REPRESENTATION('',''," + property + ",#10);\n";
+  }
+  EXPECT_THAT(faults_in(data), ::testing::Contains(HasSubstr("[SCH-LIMIT]")));
 }
 
 // A round hole as annex J 3 has it: three shape aspects, each led to by one relationship.
