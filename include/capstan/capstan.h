@@ -37,6 +37,7 @@ struct PlanOutput {
   bool planned = false;       ///< whether there is a plan at all
   std::string json;           ///< all of the plan
   std::string iso14649;       ///< as Part 21
+  std::string ap238;          ///< ISO 10303-238, as Part 21
   std::string linuxcnc;       ///< the program
   std::string tool_table;     ///< LinuxCNC's .tbl of the program
   std::size_t steps = 0;      ///< workingsteps planned
@@ -46,7 +47,7 @@ struct PlanOutput {
   std::vector<PlanMessage> findings;  ///< of checking the plan and the program; a plan to be run has none
 };
 
-/// Plans a part: an ISO 14649 file, a plan as JSON, or an STL mesh, told by content. `name` is what
+/// Plans a part: an ISO 14649 or AP238 file, a plan as JSON, or an STL mesh, told by content. `name` is what
 /// diagnostics call it. Throws  std::logic_error and what derives from it for a fault of the library itself;
 /// std::bad_alloc.
 [[nodiscard]] PlanOutput plan_bytes(std::string part, const std::string& name,

@@ -30,7 +30,8 @@ typedef enum capstan_late_format {
   CAPSTAN_LATE_ISO14649 = 0, /* the plan, with who bound what */
   CAPSTAN_LATE_JSON = 1,
   CAPSTAN_LATE_LINUXCNC = 2, /* the program */
-  CAPSTAN_LATE_TOOL_TABLE = 3
+  CAPSTAN_LATE_TOOL_TABLE = 3,
+  CAPSTAN_LATE_AP238 = 4
 } capstan_late_format;
 
 /* Opens a session. `machine`: a machine file, or the id of a shipped machine; `tools`: a tool table or library of
@@ -38,7 +39,7 @@ typedef enum capstan_late_format {
  * whether it can be used. Gives NULL only when there is no memory. */
 CAPSTAN_LATE_API capstan_late *capstan_late_open(const char *machine, const char *tools);
 
-/* Binds a plan (ISO 14649 or JSON, `size` bytes) before `deadline_ms` have passed. */
+/* Binds a plan (ISO 14649, AP238 or JSON, `size` bytes) before `deadline_ms` have passed. */
 CAPSTAN_LATE_API capstan_late_code capstan_late_bind(capstan_late *session, const char *plan, size_t size,
                                                      unsigned deadline_ms);
 

@@ -29,7 +29,8 @@ p21::Value at_or_omitted(const p21::Value& list, std::size_t i) {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-// The end of what begins at i and is no place for references: a string, <name>, a comment. i when nothing does.
+// The end of what begins at i and is no place for references: a string, <name>, a comment. i when nothing
+// does.
 std::size_t past_quoted(std::string_view s, std::size_t i) {
   const auto behind = [&](std::string_view end, std::size_t from) {
     const auto at = s.find(end, from);
@@ -129,13 +130,14 @@ void keep_sections(const p21::File& file, model::KeptSchema schema,
             return;
           }
           if (++missing > Reporter::kPerCode) return;
-          line += static_cast<std::uint64_t>(std::count(s.text.begin() + static_cast<std::ptrdiff_t>(counted),
-                                                        s.text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
+          line +=
+              static_cast<std::uint64_t>(std::count(s.text.begin() + static_cast<std::ptrdiff_t>(counted),
+                                                    s.text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
           counted = at;
           reporter.report({.code = "EXC-ANCHOR",
                            .severity = Severity::kWarning,
-                           .message = "the anchor " + entry_name(s.text, at) + " names " + std::string(spelled) +
-                                      ", which the file does not hold; kept as it is",
+                           .message = "the anchor " + entry_name(s.text, at) + " names " +
+                                      std::string(spelled) + ", which the file does not hold; kept as it is",
                            .line = line});
         });
     if (kept.section == KeptSection::kReference) {
@@ -164,6 +166,14 @@ std::string sections_text(const model::Plan& plan, const std::function<std::stri
     }
   }
   return out;
+}
+
+std::string implementation_level(const model::Plan& plan) {
+  const bool sections = std::any_of(plan.kept.begin(), plan.kept.end(), [&](AnyRef at) {
+    const auto* kept = plan.model.get<KeptInstance>(at);
+    return kept != nullptr && kept->section != KeptSection::kData;
+  });
+  return sections ? "4;1" : "2;1";
 }
 
 std::set<std::uint64_t> unresolved_numbers(const KeptInstance& kept) {

@@ -102,6 +102,11 @@ void forms(const model::Plan& plan, PlanOutput& out, Job& job) {
   } else {
     job.report(written.error());
   }
+  if (auto written = exchange::write_ap238(plan, job)) {
+    out.ap238 = std::move(written->bytes);
+  } else {
+    job.report(written.error());
+  }
   if (plan.steps.empty()) return;
   if (auto text = output::write_linuxcnc(plan, job)) {
     out.linuxcnc = *std::move(text);

@@ -12,7 +12,7 @@
 struct capstan_late {
   std::optional<capstan::pipeline::Inputs> inputs;
   std::optional<capstan::late::LateOutcome> outcome;
-  std::array<std::string, 4> outputs;
+  std::array<std::string, 5> outputs;
   std::string message;
   capstan_late_code code = CAPSTAN_LATE_OK;
 };
@@ -105,7 +105,8 @@ const char* capstan_late_output(capstan_late* s, capstan_late_format format, siz
   if (text.empty()) {
     constexpr std::array kFormats = {capstan::pipeline::Format::kIso14649, capstan::pipeline::Format::kJson,
                                      capstan::pipeline::Format::kLinuxCnc,
-                                     capstan::pipeline::Format::kToolTable};
+                                     capstan::pipeline::Format::kToolTable,
+                                     capstan::pipeline::Format::kAp238};
     guarded(*s, [&] {
       Job job;
       auto written = capstan::pipeline::write_plan(s->outcome->plan, kFormats[index], job);

@@ -79,11 +79,12 @@ Result<std::string> write_plan(const model::Plan& plan, Format format, Job& job)
     case Format::kToolTable:
       return output::write_tool_table(plan);
     case Format::kIso14649:
+    case Format::kAp238:
       break;
   }
-  auto written = exchange::write_iso14649(plan, job);
+  auto written =
+      format == Format::kAp238 ? exchange::write_ap238(plan, job) : exchange::write_iso14649(plan, job);
   if (!written) return tl::unexpected(written.error());
-  for (const std::string& loss : written->losses) job.note("EXC-LOSS", loss);
   return std::move(written->bytes);
 }
 

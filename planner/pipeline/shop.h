@@ -21,7 +21,7 @@ struct ShopFiles {
 /// Fails  as the rooms that read it, naming file and place.
 [[nodiscard]] Result<Inputs> load_shop(const ShopFiles& files, Job& job);
 
-/// Reads a plan or a part: ISO 14649, STL, or plan JSON, told by content.
+/// Reads a plan or a part: ISO 14649, AP238, STL, or plan JSON, told by content.
 [[nodiscard]] Result<model::Plan> read_plan(std::string bytes, const std::string& name, Job& job);
 
 /// What the checker says of a plan, and of the LinuxCNC program it makes.
@@ -34,7 +34,7 @@ struct ShopFiles {
 /// Gives what was re-opened, one sentence each, in the order of the plan.
 [[nodiscard]] Result<std::vector<std::string>> match_loaded(model::Plan& plan, Inputs& inputs, Job& job);
 
-enum class Format : std::uint8_t { kIso14649, kJson, kLinuxCnc, kToolTable };
+enum class Format : std::uint8_t { kIso14649, kJson, kLinuxCnc, kToolTable, kAp238 };
 
 /// The plan in a format; what the format cannot hold is noted to the job.
 [[nodiscard]] Result<std::string> write_plan(const model::Plan& plan, Format format, Job& job);

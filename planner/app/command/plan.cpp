@@ -51,7 +51,7 @@ std::string summary_of(const model::Plan& plan, std::size_t findings) {
 std::string written_text(const std::vector<Output>& outputs) {
   std::string out;
   for (const Output& o : outputs) {
-    if (o.path != "-") out += (out.empty() ? "; wrote " : ", ") + o.path;
+    if (o.path != "-") out += (out.empty() ? "; wrote " : ", ") + o.path + losses_text(o);
   }
   return out;
 }

@@ -73,6 +73,9 @@ int run_convert(Session& s) {
   if (auto ok = make(*plan, *outputs, s.job); !ok) return s.end(ok.error(), kImpossible);
   if (auto ok = write_all(*outputs); !ok) return s.end(ok.error(), kImpossible);
   s.summary = "converted " + s.options.files[0];
+  for (const Output& o : *outputs) {
+    if (o.path != "-") s.summary += (&o == outputs->data() ? " to " : ", ") + o.path + losses_text(o);
+  }
   return kDone;
 }
 

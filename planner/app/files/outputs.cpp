@@ -20,17 +20,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kSupported = ".p21, .stp, .json, .ngc or .tbl, or - for JSON on standard output";
+constexpr const char* kSupported =
+    ".p21, .stp, .stpnc, .238, .json, .ngc or .tbl, or - for JSON on standard output";
 
 struct Later {
   std::string_view ending, what;
 };
-constexpr std::array<Later, 6> kLater = {{{".stpnc", "AP238"},
-                                          {".238", "AP238"},
-                                          {".mpf", "Siemens 840D"},
-                                          {".nc", "Fanuc"},
-                                          {".h", "Heidenhain"},
-                                          {".html", "a report"}}};
+constexpr std::array<Later, 4> kLater = {
+    {{".mpf", "Siemens 840D"}, {".nc", "Fanuc"}, {".h", "Heidenhain"}, {".html", "a report"}}};
 
 std::string lower(std::string s) {
   std::transform(s.begin(), s.end(), s.begin(),
@@ -97,12 +94,13 @@ void name_file(Job& job, const std::string& path) {
 }  // namespace
 
 Result<Output> output_of(const std::string& path) {
-  if (path == "-") return Output{path, OutputKind::kJson, {}};
+  if (path == "-") return Output{path, OutputKind::kJson, {}, 0};
   const std::string ending = lower(fs::path(path).extension().string());
-  if (ending == ".p21" || ending == ".stp") return Output{path, OutputKind::kIso14649, {}};
-  if (ending == ".json") return Output{path, OutputKind::kJson, {}};
-  if (ending == ".ngc") return Output{path, OutputKind::kLinuxCnc, {}};
-  if (ending == ".tbl") return Output{path, OutputKind::kToolTable, {}};
+  if (ending == ".p21" || ending == ".stp") return Output{path, OutputKind::kIso14649, {}, 0};
+  if (ending == ".stpnc" || ending == ".238") return Output{path, OutputKind::kAp238, {}, 0};
+  if (ending == ".json") return Output{path, OutputKind::kJson, {}, 0};
+  if (ending == ".ngc") return Output{path, OutputKind::kLinuxCnc, {}, 0};
+  if (ending == ".tbl") return Output{path, OutputKind::kToolTable, {}, 0};
   for (const Later& l : kLater) {
     if (ending == l.ending)
       return fail({.code = "OUT-KIND",
@@ -145,16 +143,25 @@ Status make(const model::Plan& plan, std::vector<Output>& outputs, Job& job) {
         o.bytes = *std::move(text);
         break;
       }
-      case OutputKind::kIso14649: {
-        auto written = exchange::write_iso14649(plan, job);
+      case OutputKind::kIso14649:
+      case OutputKind::kAp238: {
+        auto written = o.kind == OutputKind::kAp238 ? exchange::write_ap238(plan, job)
+                                                    : exchange::write_iso14649(plan, job);
         if (!written) return tl::unexpected(written.error());
         name_file(job, o.path);
         o.bytes = std::move(written->bytes);
+        o.losses = written->losses.size();
         break;
       }
     }
   }
   return {};
+}
+
+std::string losses_text(const Output& o) {
+  if (o.losses == 0) return {};
+  return " (without " + std::to_string(o.losses) + (o.losses == 1 ? " thing" : " things") +
+         ", see the notes)";
 }
 
 Status write_all(const std::vector<Output>& outputs) {

@@ -10,13 +10,14 @@
 
 namespace capstan::app {
 
-enum class OutputKind : std::uint8_t { kIso14649, kJson, kLinuxCnc, kToolTable };
+enum class OutputKind : std::uint8_t { kIso14649, kAp238, kJson, kLinuxCnc, kToolTable };
 
 /// A file to write: its name, and the kind that its ending names ("-": JSON, to standard output).
 struct Output {
   std::string path;
   OutputKind kind = OutputKind::kJson;
-  std::string bytes;  ///< once made
+  std::string bytes;       ///< once made
+  std::size_t losses = 0;  ///< kinds of things that the format cannot hold, once made
 };
 
 /// Told by the ending alone, so that it fails before any work.
@@ -25,9 +26,12 @@ struct Output {
 /// All of them; the same file twice is a fault (OUT-TWICE).
 [[nodiscard]] Result<std::vector<Output>> outputs_of(const std::vector<std::string>& paths);
 
-/// Fills `bytes`. What ISO 14649 cannot hold is told as notes (EXC-LOSS).
+/// Fills `bytes` and `losses`. What ISO 14649 or AP238 cannot hold is told as notes (EXC-LOSS).
 /// Fails  as the writers.
 [[nodiscard]] Status make(const model::Plan& plan, std::vector<Output>& outputs, Job& job);
+
+/// " (without 3 things)", or nothing when the file holds all of the plan.
+[[nodiscard]] std::string losses_text(const Output& output);
 
 /// Writes all files or none: each to a temporary beside its target first, then all are renamed. Only a rename
 /// that fails after another succeeded (another program took the folder away) leaves a part; the fault says

@@ -1,5 +1,6 @@
 #include "planner/exchange/ap238/reader.h"
 #include "planner/exchange/exchange.h"
+#include "planner/exchange/sections.h"
 #include "planner/exchange/opening.h"
 #include "planner/model/nouns/all.h"
 #include "planner/p21/parse.h"
@@ -8,7 +9,7 @@ namespace capstan::exchange {
 
 Result<model::Plan> read_ap238(const p21::File& file, Job& job) {
   model::Plan plan;
-  plan.file_name = file.name();
+  read_header(file, plan);
   Reporter reporter(job, file.name());
   p21::check_references(file, job);
   const ap238::Graph graph(file, express::Dictionary::ap238());

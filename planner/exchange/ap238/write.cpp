@@ -27,10 +27,11 @@ std::string header(const model::Plan& plan) {
   }
   const auto slash = plan.file_name.find_last_of('/');
   const std::string name = slash == std::string::npos ? plan.file_name : plan.file_name.substr(slash + 1);
-  return "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION(" + texts(lines) + ",'2;1');\nFILE_NAME(" + quoted(name) + "," +
-         quoted(plan.header_time_stamp) + "," + texts(plan.header_authors) + "," +
-         texts(plan.header_organizations) +
-         ",'Capstan','Capstan','');\nFILE_SCHEMA(('MODEL_BASED_INTEGRATED_MANUFACTURING_SCHEMA'));\nENDSEC;\n";
+  return "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION(" + texts(lines) + ",'" + implementation_level(plan) +
+         "');\nFILE_NAME(" + quoted(name) + "," + quoted(plan.header_time_stamp) + "," +
+         texts(plan.header_authors) + "," + texts(plan.header_organizations) +
+         ",'Capstan','Capstan','');\nFILE_SCHEMA(('MODEL_BASED_INTEGRATED_MANUFACTURING_SCHEMA'));\nENDSEC;"
+         "\n";
 }
 
 }  // namespace

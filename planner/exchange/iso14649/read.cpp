@@ -4,6 +4,7 @@
 #include "planner/exchange/iso14649/deviations.h"
 #include "planner/exchange/iso14649/reading.h"
 #include "planner/exchange/iso14649/records.h"
+#include "planner/exchange/sections.h"
 #include "planner/exchange/opening.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/walk.h"
@@ -14,35 +15,6 @@ using model::AnyRef;
 using model::TypeId;
 
 namespace {
-
-std::string text_or(const p21::Value& v) { return v.is(p21::Kind::kString) ? v.as_text() : std::string(); }
-
-std::vector<std::string> texts_or(const p21::Value& v) {
-  std::vector<std::string> out;
-  if (v.is(p21::Kind::kString)) out.push_back(v.as_text());
-  for (std::size_t i = 0; v.is(p21::Kind::kList) && i < v.size(); ++i) out.push_back(text_or(v[i]));
-  return out;
-}
-
-p21::Value at_or_omitted(const p21::Value& list, std::size_t i) {
-  return list.is(p21::Kind::kList) && i < list.size() ? list[i] : p21::Value{};
-}
-
-void read_header(Reading& r) {
-  r.plan.file_name = r.file.name();
-  if (const auto d = r.file.header("FILE_DESCRIPTION")) {
-    const auto lines = texts_or(at_or_omitted(d->parameters(), 0));
-    for (const std::string& line : lines) {
-      if (!r.plan.header_description.empty()) r.plan.header_description += '\n';
-      r.plan.header_description += line;
-    }
-  }
-  if (const auto n = r.file.header("FILE_NAME")) {
-    r.plan.header_time_stamp = text_or(at_or_omitted(n->parameters(), 1));
-    r.plan.header_authors = texts_or(at_or_omitted(n->parameters(), 2));
-    r.plan.header_organizations = texts_or(at_or_omitted(n->parameters(), 3));
-  }
-}
 
 void find_project(Reading& r) {
   const auto projects = r.plan.model.all(TypeId::kProject);
@@ -98,7 +70,7 @@ Result<model::Plan> read_iso14649(const p21::File& file, Job& job) {
   Reporter reporter(job, file.name());
   Reading reading{
       .file = file, .plan = plan, .reporter = reporter, .object_of = {}, .draft = {}, .doubts = {}};
-  read_header(reading);
+  read_header(file, plan);
   read_objects(reading);
   note_dialect(reading);
   find_project(reading);
@@ -108,6 +80,8 @@ Result<model::Plan> read_iso14649(const p21::File& file, Job& job) {
   settle_doubts(plan.model, reading.doubts, reached, reporter);
   if (reporter.errors() == 0) {
     keep_the_rest(reading, reached);
+    keep_sections(
+        file, model::KeptSchema::kIso14649, [&](std::uint64_t id) { return reading.find(id); }, plan, reporter);
     find_deviations(reading);
     open_what_is_left_out(plan, reached, reporter);
     read_records(reading);

@@ -205,7 +205,7 @@ class FileWriter {
       lines.push_back(line);
       line.clear();
     }
-    return "FILE_DESCRIPTION(" + texts(lines) + ",'2;1');\nFILE_NAME(" + quoted(base_name()) + "," +
+    return "FILE_DESCRIPTION(" + texts(lines) + ",'" + implementation_level(plan_) + "');\nFILE_NAME(" + quoted(base_name()) + "," +
            quoted(plan_.header_time_stamp) + "," + texts(plan_.header_authors) + "," +
            texts(plan_.header_organizations) + ",'Capstan','Capstan','');\n" +
            "FILE_SCHEMA(('MACHINING_SCHEMA','MILLING_SCHEMA'));\n";
