@@ -31,7 +31,7 @@ std::optional<TypeId> Reader::geometry_type(Node n) const {
 
 AnyRef Reader::geometry_at(Node n, TypeId type, const Scale& scale) {
   const auto at_scale = std::find_if(scales_.begin(), scales_.end(), [&](const Scale& s) {
-    return s.length == scale.length && s.angle == scale.angle;
+    return s.length == scale.length && s.angle == scale.angle && s.coordinates == scale.coordinates;
   });
   const Key key{n, static_cast<std::uint32_t>(at_scale - scales_.begin())};
   if (at_scale == scales_.end()) scales_.push_back(scale);
@@ -49,6 +49,11 @@ AnyRef Reader::geometry_at(Node n, TypeId type, const Scale& scale) {
 void Reader::fill_geometry(AnyRef at, Node n, const Scale& scale) {
   const auto factor = [&](const Attribute& a) {
     return a.unit == model::Unit::kLength ? scale.length : a.unit == model::Unit::kAngle ? scale.angle : 1.0;
+  };
+  const auto coordinate = [&](const Attribute& a, std::size_t i) {
+    if (a.unit != model::Unit::kLength || scale.coordinates == Coordinates::kLengths) return factor(a);
+    if (scale.coordinates == Coordinates::kNumbers) return 1.0;
+    return i == 4 ? scale.length * scale.length : scale.length;
   };
   const auto reference = [&](const Value& v, const Attribute& a) {
     const Node to = v.is(Kind::kReference) ? g_.find(v.reference()) : kNoNode;
@@ -129,7 +134,7 @@ void Reader::fill_geometry(AnyRef at, Node n, const Scale& scale) {
         out.given = true;
         each([&](const Value& e) {
           if (number(e).is_number()) {
-            out.items.push_back(number(e).as_real() * factor(a));
+            out.items.push_back(number(e).as_real() * coordinate(a, out.items.size()));
           } else {
             wrong("numbers");
           }

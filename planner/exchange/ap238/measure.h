@@ -20,11 +20,19 @@ struct FileUnit {
   [[nodiscard]] bool operator==(const FileUnit&) const = default;
 };
 
+/// What coordinates of points are: a curve need not be one in space.
+enum class Coordinates : std::uint8_t {
+  kLengths,
+  kNumbers,   ///< ratios, components of directions: no units
+  kSections,  ///< the seven cross-section parameters: lengths, the fifth an area
+};
+
 /// What numbers of a representation without units of their own are in.
 struct Scale {
   double length = 1.0;  ///< to mm
   double angle = 1.0;   ///< to rad
   bool stated = false;  ///< the context says so
+  Coordinates coordinates = Coordinates::kLengths;
   [[nodiscard]] bool operator==(const Scale&) const = default;
   [[nodiscard]] bool identity() const { return length == 1.0 && angle == 1.0; }
 };
