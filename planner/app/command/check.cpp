@@ -5,6 +5,8 @@
 #include "planner/app/files/inputs.h"
 #include "planner/app/files/load.h"
 #include "planner/base/file.h"
+#include "planner/exchange/conformance/check.h"
+#include "planner/p21/parse.h"
 #include "planner/pipeline/pipeline.h"
 #include "planner/verify/verify.h"
 #include "tooling/catalogue/library.h"
@@ -64,6 +66,28 @@ class Check {
     return bound;
   }
 
+  /// An AP238 file with --schema: compared with the EXPRESS dictionary instance by instance, not executed.
+  std::optional<Diagnostic> compare_with_schema(Input& in) {
+    const auto file = p21::parse(std::move(in.bytes), in.path, {}, s_.job);
+    if (!file) return file.error();
+    const std::size_t before = s_.job.diagnostics().size();
+    schema_ += exchange::check_schema(*file, s_.job);
+    ++checked_;
+    if (!s_.options.json) return std::nullopt;
+    const auto& all = s_.job.diagnostics();
+    for (std::size_t i = before; i < all.size(); ++i) {
+      const std::string instance = all[i].instance == 0 ? "" : "#" + std::to_string(all[i].instance) + " ";
+      const std::string path = all[i].path.empty() ? "" : all[i].path + ": ";
+      const std::string expected = all[i].expected.empty() ? "" : "; expected " + all[i].expected;
+      model::Finding f;
+      f.code = all[i].code;
+      f.severity = all[i].severity;
+      f.message = instance + path + all[i].message + expected;
+      findings_.emplace_back(in.path, std::move(f));
+    }
+    return std::nullopt;
+  }
+
   std::optional<Diagnostic> read() {
     for (const std::string& path : s_.options.files) {
       auto bytes = read_file(path);
@@ -74,6 +98,10 @@ class Check {
     }
     for (Input& in : inputs_) {
       if (in.content != Content::kPlanJson && in.content != Content::kPart) continue;
+      if (s_.options.schema && exchange::declares_ap238(in.bytes)) {
+        if (const auto d = compare_with_schema(in)) return d;
+        continue;
+      }
       const std::size_t before = s_.job.diagnostics().size();
       auto plan = plan_of_bytes(std::move(in.bytes), in.path, s_.job);
       if (!plan) return plan.error();
