@@ -1,9 +1,8 @@
 #include <map>
 
-#include "planner/base/file.h"
 #include "planner/base/number.h"
 #include "planner/exchange/iso14649/records.h"
-#include "planner/model/nouns/all.h"
+#include "planner/exchange/records.h"
 #include "planner/p21/print.h"
 
 namespace capstan::exchange {
@@ -13,141 +12,87 @@ using model::AnyRef;
 namespace {
 
 std::string quoted(std::string_view s) { return "'" + p21::encode_text(s) + "'"; }
-std::string boolean(bool b) { return b ? ".T." : ".F."; }
 
-template <class Range, class Show>
-std::string listed(const Range& range, const Show& show) {
-  std::string out = "(";
-  for (const auto& x : range) {
-    if (out.size() > 1) out += ',';
-    out += show(x);
-  }
-  return out + ")";
-}
-
-std::string reals(std::initializer_list<double> values) {
-  return listed(values, [](double v) { return part21_real(v); });
-}
-
-class RecordWriter {
+/// Reasons by number, each once, before the bindings that refer to them.
+class Reasons {
  public:
-  RecordWriter(const model::Plan& plan, const model::Model& written,
-               const std::function<std::uint64_t(AnyRef)>& number_of)
-      : plan_(plan), written_(written), number_of_(number_of) {}
-
-  std::string run() {
-    facts();
-    executables();
-    bindings();
-    return std::move(out_);
+  explicit Reasons(const model::Reason& given) : number_{{given, 0}} {}
+  std::size_t number(const model::Reason& r) {
+    const auto [it, fresh] = number_.emplace(r, number_.size());
+    if (fresh) {
+      text += "!CAPSTAN_REASON(" + std::to_string(it->second) + "," + quoted(r.id) + "," + quoted(r.text) +
+              "," + quoted(r.source) + ");\n";
+    }
+    return it->second;
   }
+  std::string text;
 
  private:
-  void entity(std::string_view keyword, std::initializer_list<std::string> parameters) {
-    out_ += "!CAPSTAN_";
-    out_ += keyword;
-    out_ += listed(parameters, [](const std::string& s) { return s; });
-    out_ += ";\n";
-  }
-  [[nodiscard]] std::string name(AnyRef at) const { return quoted("#" + std::to_string(number_of_(at))); }
-  [[nodiscard]] bool here(AnyRef at) const { return at.set() && number_of_(at) != 0; }
+  std::map<model::Reason, std::size_t> number_;
+};
 
-  void facts() {
-    if (!plan_.machine.id.empty())
-      entity("MACHINE", {quoted(plan_.machine.id), quoted(plan_.machine.description)});
-    if (const auto& m = plan_.material; !m.id.empty()) {
-      entity("MATERIAL", {quoted(m.id), quoted(m.iso_group),
-                          reals({m.kc11_n_mm2, m.mc, m.vc_hss_m_min, m.vc_carbide_m_min,
-                                 m.tensile_strength_n_mm2, m.kc_uncertainty})});
-    }
-    if (const auto& s = plan_.stock; !s.box.empty()) {
-      entity("STOCK", {reals({s.box.lo.x, s.box.lo.y, s.box.lo.z}),
-                       reals({s.box.hi.x, s.box.hi.y, s.box.hi.z}), quoted(s.source),
-                       s.cylinder_radius_mm ? part21_real(*s.cylinder_radius_mm) : std::string("$")});
-    }
-    for (model::Cutter c : plan_.cutters) {
-      entity("CUTTER", {quoted(c.id), quoted(c.description), quoted(to_text(c.cutter_class)),
-                        quoted(to_text(c.substrate)),
-                        listed(cutter_numbers(c), [](const double* v) { return part21_real(*v); }),
-                        std::to_string(c.teeth), std::to_string(c.pocket), boolean(c.centre_cutting),
-                        boolean(c.coolant_through), boolean(c.hand == model::Hand::kLeft)});
-    }
-    for (const auto& s : plan_.setups) {
-      if (here(s.setup))
-        entity("SETUP", {name(s.setup), quoted(s.work_offset), part21_real(s.security_z_mm)});
-    }
-    for (const auto& s : plan_.steps) {
-      if (!here(s.step)) continue;
-      entity("STEP", {name(s.step), std::to_string(s.setup), quoted(s.cutter_id),
-                      reals({s.axial_depth_mm, s.radial_depth_mm, s.vc_m_min, s.fz_mm, s.spindle_rpm,
-                             s.feed_mm_min, s.cutting_s, s.rapid_s}),
-                      boolean(s.flood), boolean(s.mist)});
-    }
-    for (const auto& u : plan_.unplanned) {
-      if (here(u.feature)) entity("UNPLANNED", {name(u.feature), quoted(u.reason)});
-    }
-    for (const auto& p : plan_.provenance)
-      entity("PROVENANCE", {quoted(p.what), quoted(p.value), quoted(p.source)});
-  }
+class HeaderFields final : public RecordFields {
+ public:
+  HeaderFields(const std::function<std::uint64_t(AnyRef)>& number_of, Reasons& reasons)
+      : number_of_(number_of), reasons_(reasons) {}
 
-  void executables() {
-    std::map<std::uint64_t, AnyRef> by_number;
-    for (const AnyRef at : written_.all_below(model::TypeId::kExecutable)) {
-      if (here(at)) by_number.emplace(number_of_(at), at);
-    }
-    for (const auto& [number, at] : by_number) {
-      const auto& e = written_.at<model::Executable>(at);
-      if (e.persistent_id) entity("IDENTITY", {name(at), quoted(*e.persistent_id)});
-      if (e.enabled) entity("ENABLED", {name(at), boolean(*e.enabled)});
-    }
+  void text(std::string_view, std::string& v) override { put(quoted(v)); }
+  void real(std::string_view, model::Unit, double& v) override { put(part21_real(v)); }
+  void optional_real(std::string_view, model::Unit, std::optional<double>& v) override {
+    put(v ? part21_real(*v) : std::string("$"));
   }
-
-  void bindings() {
-    std::map<std::pair<std::uint64_t, std::string>, const model::Decision*> by_number;
-    std::map<std::pair<std::uint64_t, std::string>, AnyRef> objects;
-    for (const auto& [key, d] : plan_.ledger.entries()) {
-      if (!here(key.object)) continue;
-      by_number[{number_of_(key.object), key.attribute}] = &d;
-      objects[{number_of_(key.object), key.attribute}] = key.object;
-    }
-    std::map<model::ReasonId, std::size_t> reason_number = {{0, 0}};
-    for (const auto& [key, d] : by_number) {
-      const auto [it, fresh] = reason_number.emplace(d->reason, reason_number.size());
-      if (!fresh) continue;
-      const model::Reason& why = plan_.ledger.reason(d->reason);
-      entity("REASON", {std::to_string(it->second), quoted(why.id), quoted(why.text), quoted(why.source)});
-    }
-    for (const auto& [key, d] : by_number) {
-      const AnyRef at = objects[key];
-      std::vector<model::DecisionKey> needs;
-      for (const auto& k : d->depends_on) {
-        if (here(k.object)) needs.push_back(k);
-      }
-      entity("BINDING",
-             {name(at), quoted(key.second), d->state == model::DecisionState::kOpen ? "'open'" : "'bound'",
-              quoted(to_text(d->binder)), boolean(d->pinned), std::to_string(reason_number[d->reason]),
-              quoted(hex64(model::hash_attribute(written_, at, key.second))), quoted(d->lexeme),
-              listed(needs,
-                     [&](const model::DecisionKey& k) {
-                       return quoted("#" + std::to_string(number_of_(k.object)) + "." + k.attribute);
-                     }),
-              listed(d->rejected, [](const model::Rejected& x) {
-                return "(" + quoted(x.what) + "," + quoted(x.why) + ")";
-              })});
-    }
+  void whole(std::string_view, int& v) override { put(std::to_string(v)); }
+  void truth(std::string_view, bool& v) override { put(v ? ".T." : ".F."); }
+  std::string object(std::string_view, AnyRef& v) override {
+    std::string name = "#" + std::to_string(number_of_(v));
+    put(quoted(name));
+    return name;
   }
+  void decision(std::string_view, model::DecisionKey& v) override {
+    put(quoted("#" + std::to_string(number_of_(v.object)) + "." + v.attribute));
+  }
+  void reason(model::Reason& v) override { put(std::to_string(reasons_.number(v))); }
+  void group() override {
+    put("(");
+    first_ = true;
+  }
+  std::size_t list(std::string_view, std::size_t n) override {
+    group();
+    return n;
+  }
+  void element(std::size_t) override {}
+  void end() override {
+    out += ')';
+    first_ = false;
+  }
+  std::string out;
 
-  const model::Plan& plan_;
-  const model::Model& written_;
+ private:
+  void put(std::string_view s) {
+    if (!first_) out += ',';
+    out += s;
+    first_ = false;
+  }
+  bool first_ = true;
   const std::function<std::uint64_t(AnyRef)>& number_of_;
-  std::string out_;
+  Reasons& reasons_;
 };
 
 }  // namespace
 
 std::string write_records(const model::Plan& plan, const model::Model& written,
                           const std::function<std::uint64_t(AnyRef)>& number_of) {
-  return RecordWriter(plan, written, number_of).run();
+  Reasons reasons(plan.ledger.reason(0));
+  std::string facts, bindings;
+  RecordSink sink;
+  sink.order = number_of;
+  sink.record = [&](std::string_view kind, AnyRef, const std::function<void(RecordFields&)>& describe) {
+    HeaderFields fields(number_of, reasons);
+    describe(fields);
+    (kind == "BINDING" ? bindings : facts) += "!CAPSTAN_" + std::string(kind) + "(" + fields.out + ");\n";
+  };
+  write_plan_records(plan, written, sink);
+  return facts + reasons.text + bindings;
 }
 
 }  // namespace capstan::exchange
