@@ -56,8 +56,9 @@ def range_of(where):
     number = r"(\d+(?:\.\d*)?)"
     if m := re.fullmatch(rf"; where \w+ : self = {number} or self = {number} ;", text):
         return f" in [{m[1]},{m[2]}]"  # of whole numbers, neighbours
-    for m in re.finditer(rf"(?<!length )self (>=?|<=?) {number}|{number} (<=?) self", text):
-        op, value = (m[1], m[2]) if m[2] else (m[4].replace("<", ">"), m[3])
+    found = [(m[1], m[2]) for m in re.finditer(rf"(?<!length )self (>=?|<=?) {number}", text)]
+    found += [(m[2].replace("<", ">"), m[1]) for m in re.finditer(rf"{number} (<=?) self", text)]
+    for op, value in found:
         value = value.removesuffix(".0")
         if op[0] == ">":
             lower, ends[0] = value, "[" if op == ">=" else "("
