@@ -116,6 +116,18 @@ void Population::judge(const p21::Instance& i, Layout& layout) const {
            {},
            "one of its subtypes"});
   }
+  for (const EntityId e : layout.parts) {
+    for (const auto& group : dictionary_.exclusive(e)) {
+      std::vector<std::string_view> there;
+      for (const EntityId member : group) {
+        if (std::find(layout.parts.begin(), layout.parts.end(), member) != layout.parts.end())
+          there.push_back(dictionary_.keyword(member));
+      }
+      if (there.size() > 1)
+        layout.faults.push_back(
+            {"SCH-COMPLEX", "the parts " + joined(there) + " exclude each other", {}, "one of them"});
+    }
+  }
   for (const EntityId e : entities) {
     if (e == kNoEntity)
       layout.slots.emplace_back();

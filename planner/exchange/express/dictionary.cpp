@@ -62,6 +62,10 @@ std::span<const EntityId> Dictionary::supertypes(EntityId e) const {
   return tables_->entities.at(index(e)).supertypes;
 }
 
+std::span<const std::vector<EntityId>> Dictionary::exclusive(EntityId e) const {
+  return tables_->entities.at(index(e)).exclusive;
+}
+
 std::vector<EntityId> Dictionary::closure(std::span<const EntityId> leaves) const {
   std::vector<EntityId> out;
   for (const EntityId leaf : leaves) {

@@ -113,6 +113,9 @@ class Dictionary {
   [[nodiscard]] bool admits(const Type& type, EntityId e) const;
   [[nodiscard]] std::span<const EntityId> supertypes(EntityId e) const;  ///< direct, as declared
 
+  /// Groups of its subtypes of which an instance may be only one (ONEOF).
+  [[nodiscard]] std::span<const std::vector<EntityId>> exclusive(EntityId e) const;
+
   /// The leaves and all their supertypes, in alphabetical order: the parts of an external mapping.
   [[nodiscard]] std::vector<EntityId> closure(std::span<const EntityId> leaves) const;
   /// Declared here, in order, without redeclarations: the parameters of this part of an external mapping.

@@ -11,7 +11,7 @@ One declaration per line, sorted by kind and by name as Part 21 spells it, in up
 entities is that of the parts of complex instances):
 
     entity NAME [abstract] : SUPERTYPE ... ; ATTRIBUTE TYPE ; ATTRIBUTE ? TYPE ; SUPERTYPE\\ATTRIBUTE[=NEW] TYPE ;
-                             * SUPERTYPE\\ATTRIBUTE
+                             * SUPERTYPE\\ATTRIBUTE ; ! SUBTYPE ...      (of these only one: ONEOF)
     enum NAME = ITEM ...          select NAME = ITEM ...          type NAME = TYPE [in [0,24)]
     TYPE: NAME | integer | real | number | string | boolean | logical | binary
           | (list|set|bag|array) LOWER:UPPER [unique] [optional] TYPE          UPPER ? is unbounded
@@ -65,6 +65,26 @@ def range_of(where):
         else:
             upper, ends[1] = value, "]" if op == "<=" else ")"
     return "" if lower == upper == "?" else f" in {ends[0]}{lower},{upper}{ends[1]}"
+
+
+def one_of(expression):
+    """The groups ONEOF (a, b, ...) of a supertype expression, as far as their members are names."""
+    groups, at = [], 0
+    while "oneof" in expression[at:]:
+        at = expression.index("oneof", at) + 2
+        depth, member, members = 0, [], []
+        while depth >= 0:
+            token = expression[at]
+            at += 1
+            depth += {"(": 1, ")": -1}.get(token, 0)
+            if depth < 0 or (depth == 0 and token == ","):
+                members += member if len(member) == 1 else []
+                member = []
+            else:
+                member.append(token)
+        if len(members) > 1:
+            groups.append(members)
+    return groups
 
 
 class Reader:
@@ -182,7 +202,7 @@ class Reader:
         return names
 
     def entity(self):
-        name, abstract, supers, parts = self.next(), False, [], []
+        name, abstract, supers, parts, exclusive = self.next(), False, [], [], []
         while not self.take(";"):
             word = self.next()
             if word == "abstract":
@@ -193,7 +213,7 @@ class Reader:
                 supers = [t for t in self.until(")") if t != ","]
             elif word == "supertype" and self.take("of"):
                 self.want("(")
-                self.until(")")
+                exclusive = one_of(self.until(")"))
         while self.peek() not in ("derive", "inverse", "unique", "where", "end_entity"):
             names = self.attribute_names()
             optional = "? " if self.take("optional") else ""
@@ -208,6 +228,7 @@ class Reader:
                 parts += [f"* {n}" for n in names if "\\" in n]
         while self.next() != "end_entity":
             pass
+        parts += ["! " + " ".join(group) for group in exclusive]
         self.define("entity", name, (abstract, supers, parts))
 
 
@@ -236,7 +257,7 @@ def main(paths):
     lines = []
     for name, (abstract, supers, parts) in in_order(tables["entity"]):
         head = f"entity {name}{' abstract' if abstract else ''} : {' '.join(supers)}".rstrip()
-        for word in supers + [p.split()[-1] for p in parts if p[0] != "*"]:
+        for word in supers + [p.split()[-1] for p in parts if p[0] not in "*!"]:
             if word not in known:
                 sys.exit(f"{name} names {word}, which is not declared")
         lines.append(" ; ".join([head, *parts]))

@@ -215,6 +215,12 @@ class Loader {
     while (!words.done() && words.peek() != ";")
       e.supertypes.push_back(named(words.next(), words.line())->entity);
     while (words.take(";")) {
+      if (words.take("!")) {
+        auto& group = e.exclusive.emplace_back();
+        while (!words.done() && words.peek() != ";")
+          group.push_back(named(words.next(), words.line())->entity);
+        continue;
+      }
       const bool derived = words.take("*");
       const std::string_view name = words.next();
       const bool optional = words.take("?");

@@ -39,6 +39,7 @@ struct Entity {
   std::vector<EntityId> supertypes;
   std::vector<Attribute> own;
   std::vector<Redeclaration> redeclared;
+  std::vector<std::vector<EntityId>> exclusive;  ///< ONEOF groups of subtypes
   std::vector<EntityId>
       ancestors_first;  ///< all supertypes in the order of the internal mapping, and itself last
   std::vector<Slot> slots;

@@ -121,6 +121,8 @@ TEST(CheckSchema, WantsComplexInstancesCompleteSortedAndConcrete) {
               ElementsAre(HasSubstr("LENGTH_UNIT is there twice")));
   EXPECT_THAT(faults_in("#1=(LENGTH_UNIT()NAMED_UNIT($)SI_UNIT(.MILLI.,.METRE.));\n"),
               ElementsAre(HasSubstr("[SCH-DERIVED]")));
+  EXPECT_THAT(faults_in("#1=(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.)TIME_UNIT());\n"),
+              ElementsAre(HasSubstr("the parts LENGTH_UNIT, TIME_UNIT exclude each other")));
   EXPECT_THAT(faults_in("#1=CHARACTERIZED_CHAIN_BASED_ITEM_WITHIN_REPRESENTATION();\n"), SizeIs(1));
 }
 

@@ -33,9 +33,10 @@ class Generate(unittest.TestCase):
     def test_keeps_attributes_in_order_and_sorts_by_upper_case(self):
         self.assertEqual(lines("""SCHEMA s; -- a remark
             ENTITY b_c; x, y : REAL; z : OPTIONAL LIST [1:?] OF UNIQUE STRING (22) FIXED; END_ENTITY; (* an (* inner *) one *)
-            ENTITY bd ABSTRACT SUPERTYPE OF (ONEOF (b_c, b_c)) SUBTYPE OF (b_c); WHERE wr1: 'END_ENTITY;' <> 'x'; END_ENTITY;
+            ENTITY bd ABSTRACT SUPERTYPE OF (ONEOF (be, bf)) SUBTYPE OF (b_c); WHERE wr1: 'END_ENTITY;' <> 'x'; END_ENTITY;
+            ENTITY be; END_ENTITY; ENTITY bf; END_ENTITY;
             END_SCHEMA;"""),
-                         ["entity bd abstract : b_c", "entity b_c : ; x real ; y real ; z ? list 1:? unique string"])
+                         ["entity bd abstract : b_c ; ! be bf", "entity be :", "entity bf :", "entity b_c : ; x real ; y real ; z ? list 1:? unique string"])
 
     def test_keeps_redeclarations_renamings_and_what_is_derived(self):
         self.assertEqual(lines("""SCHEMA s; ENTITY a; p : NUMBER; q : a; r : REAL; END_ENTITY;
@@ -60,6 +61,11 @@ class Generate(unittest.TestCase):
             END_SCHEMA;"""),
                          ["type h = integer in [0,24)", "type k = integer in [0,24)", "type m = real in (0,?)",
                           "type n = string"])
+
+    def test_keeps_which_subtypes_exclude_each_other(self):
+        self.assertEqual(lines("""SCHEMA s; ENTITY a SUPERTYPE OF (ONEOF (b, c) ANDOR ONEOF (d, (b ANDOR c), e)); END_ENTITY;
+            ENTITY b SUBTYPE OF (a); END_ENTITY; ENTITY c SUBTYPE OF (a); END_ENTITY; ENTITY d SUBTYPE OF (a); END_ENTITY;
+            ENTITY e SUBTYPE OF (a); END_ENTITY; END_SCHEMA;""")[0], "entity a : ; ! b c ; ! d e")
 
     def test_refuses_names_that_are_not_declared_or_twice(self):
         self.assertNotEqual(run("SCHEMA s; ENTITY a; x : unknown; END_ENTITY; END_SCHEMA;").returncode, 0)
