@@ -2,17 +2,28 @@
 
 #include <array>
 
-#include "planner/exchange/ap238/feature_codec.h"
+#include "planner/exchange/ap238/resource_codec.h"
 #include "planner/exchange/ap238/toolpath_codec.h"
 
 namespace capstan::exchange::ap238 {
 
 const Codec* find_codec(std::string_view name) {
-  static constexpr std::array<const Codec*, 16> kCodecs{
-      &kTolerancedCodec,        &kParameterCodec,    &kParameterTextCodec, &kItsWorkpieceCodec,
-      &kFeatureOperationsCodec, &kFacesInPartCodec,  &kSlotEndsCodec,      &kBesideCodec,
-      &kAcrossFlatsCodec,       &kNgonDiameterCodec, &kToolpathListCodec,  &kToolpathSpeedCodec,
-      &kDirectionsCodec,        &kSectionsCodec,     &kAxisCommandsCodec,  &kAxisNamesCodec};
+  static constexpr std::array<const Codec*, 16> kCodecs{&kSaidCodec,
+                                                        &kTwiceCodec,
+                                                        &kComplementCodec,
+                                                        &kTextsCodec,
+                                                        &kMeasureCodec,
+                                                        &kTypedCodec,
+                                                        &kRoleCodec,
+                                                        &kParameterValueCodec,
+                                                        &kParameterUnitCodec,
+                                                        &kTransformationCodec,
+                                                        &kToolpathListCodec,
+                                                        &kToolpathSpeedCodec,
+                                                        &kDirectionsCodec,
+                                                        &kSectionsCodec,
+                                                        &kAxisCommandsCodec,
+                                                        &kAxisNamesCodec};
   for (const Codec* c : kCodecs) {
     if (c->name == name) return c;
   }

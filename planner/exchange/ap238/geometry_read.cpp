@@ -17,19 +17,26 @@ using model::TypeId;
 using p21::Kind;
 using p21::Value;
 
-std::optional<TypeId> Reader::geometry_type(Node n) const {
+std::optional<TypeId> Reader::geometry_type(Node n, bool solids) const {
   const auto i = g_.instance(n);
   if (i.is_complex()) return std::nullopt;
   const auto t = model::find_noun(i.keyword());
   if (!t) return std::nullopt;
   const bool item = model::is_a(*t, TypeId::kRepresentationItem) || *t == TypeId::kCompositeCurveSegment;
-  if (!item || model::is_a(*t, TypeId::kTopologicalRepresentationItem) || model::is_a(*t, TypeId::kSolidModel)) {
+  const bool solid = item && (model::is_a(*t, TypeId::kTopologicalRepresentationItem) ||
+                              model::is_a(*t, TypeId::kSolidModel));
+  if (!item || (solid && !solids)) {
     return std::nullopt;
   }
   return t;
 }
 
-AnyRef Reader::geometry_at(Node n, TypeId type, const Scale& scale) {
+AnyRef Reader::geometry_at(Node n, TypeId type, const Scale& stated) {
+  Scale scale = stated;
+  // Nothing of these is an angle: the same in a context with degrees as in one with radians.
+  for (const TypeId t : {TypeId::kPlacement, TypeId::kPoint, TypeId::kDirection, TypeId::kVector}) {
+    if (model::is_a(type, t)) scale.angle = 1.0;
+  }
   const auto at_scale = std::find_if(scales_.begin(), scales_.end(), [&](const Scale& s) {
     return s.length == scale.length && s.angle == scale.angle && s.coordinates == scale.coordinates;
   });
@@ -63,7 +70,9 @@ void Reader::fill_geometry(AnyRef at, Node n, const Scale& scale) {
   for (const Attribute& a : model::noun_type(at.type).attributes) {
     const Value v = g_.get(n, a.name);
     if (v.is(Kind::kOmitted) || v.is(Kind::kDerived)) continue;
-    const auto slot = [&]<class T>(T value) { *static_cast<T*>(a.at(plan_.model.object(at))) = std::move(value); };
+    const auto slot = [&]<class T>(T value) {
+      *static_cast<T*>(a.at(plan_.model.object(at))) = std::move(value);
+    };
     const auto wrong = [&](const char* expected) {
       about(n, {.code = "EXC-VALUE",
                 .message = attribute_name(at, a.name) + " cannot be " + spelling(v).substr(0, 60),

@@ -67,9 +67,15 @@ void Reader::keep_the_rest() {
   fill_kept();
   std::vector<bool> explained(g_.size(), false);
   for (const Node n : units_.used()) explained[n] = true;
-  for (const char* entity : {"APPLICATION_CONTEXT", "APPLICATION_CONTEXT_ELEMENT", "APPLICATION_PROTOCOL_DEFINITION"}) {
+  for (const char* entity :
+       {"APPLICATION_CONTEXT", "APPLICATION_CONTEXT_ELEMENT", "APPLICATION_PROTOCOL_DEFINITION"}) {
     const EntityId e = g_.schema().find(entity);  // every file has them; written anew
     for (Node n = 0; n < g_.size(); ++n) explained[n] = explained[n] || g_.is(n, e);
+  }
+  // Shapes that an attribute leads to are explained; verbatim is how the model has them.
+  for (const char* entity : {"REPRESENTATION", "REPRESENTATION_ITEM"}) {
+    const EntityId e = g_.schema().find(entity);
+    for (const auto& [n, at] : kept_) explained[n] = explained[n] || g_.is(n, e);
   }
   std::vector<Node> rest;
   std::map<std::string, std::pair<std::size_t, Node>> kinds;
@@ -81,7 +87,8 @@ void Reader::keep_the_rest() {
   fill_kept();
   for (const auto& [n, at] : kept_) {
     if (explained[n]) continue;
-    auto& kind = kinds.emplace(plan_.model.at<model::KeptInstance>(at).keyword, std::pair(std::size_t{0}, n)).first->second;
+    auto& kind = kinds.emplace(plan_.model.at<model::KeptInstance>(at).keyword, std::pair(std::size_t{0}, n))
+                     .first->second;
     ++kind.first;
     kind.second = std::min(kind.second, n);
   }
@@ -101,13 +108,15 @@ void Reader::keep_the_rest() {
   };
   for (const Node n : rest) {
     const auto users = g_.users(n);
-    if (std::none_of(users.begin(), users.end(), [&](Node u) { return u != n && kept_.contains(u); })) reach(n);
+    if (std::none_of(users.begin(), users.end(), [&](Node u) { return u != n && kept_.contains(u); }))
+      reach(n);
   }
   for (const Node n : rest) {
     if (!reached[n]) reach(n);
   }
   keep_sections(
-      g_.file(), model::KeptSchema::kAp238, [&](std::uint64_t id) { return connected(id); }, plan_, reporter_);
+      g_.file(), model::KeptSchema::kAp238, [&](std::uint64_t id) { return connected(id); }, plan_,
+      reporter_);
   fill_kept();
   for (const auto& [keyword, kind] : kinds) {
     about(kind.second, {.code = "EXC-KEPT",

@@ -167,7 +167,7 @@ class Parser {
       bool done = false;
       for (std::size_t k = 0; m.body[i] == '$' && k < m.names.size() && !done; ++k) {
         const auto& n = m.names[k];
-        if (m.body.compare(i + 1, n.size(), n) != 0) continue;
+        if (n.empty() || m.body.compare(i + 1, n.size(), n) != 0) continue;  // of a macro without arguments
         if (i + 1 + n.size() < m.body.size() && is_word(m.body[i + 1 + n.size()])) continue;
         out += trimmed(arguments[k]);
         i += 1 + n.size();
@@ -334,7 +334,10 @@ class Parser {
 
   Step root(std::string_view& s) {
     Step out;
+    out.exact = !s.empty() && s.front() == '=';
+    if (out.exact) s.remove_prefix(1);
     out.entities = entities(s);
+    s = trimmed(s);
     constraints(s, out);
     return out;
   }

@@ -188,6 +188,8 @@ Scale Units::scale(Node context, const Scale& fallback) {
       out.angle = *a;
     }
   }
+  const Value name = g_.get(context, "context_identifier");
+  out.ours = out.stated && out.identity() && name.is(Kind::kString) && name.as_text() == kWrittenContext;
   const Value uncertainty = g_.get(context, "uncertainty");
   std::vector<Node> parts;
   g_.references(uncertainty, parts);

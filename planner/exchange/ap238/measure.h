@@ -27,11 +27,15 @@ enum class Coordinates : std::uint8_t {
   kSections,  ///< the seven cross-section parameters: lengths, the fifth an area
 };
 
+/// The identifier of the context with units that the writer makes; @context in 0_macros.map.
+inline constexpr std::string_view kWrittenContext = "MILLIMETRE RADIAN STERADIAN";
+
 /// What numbers of a representation without units of their own are in.
 struct Scale {
   double length = 1.0;  ///< to mm
   double angle = 1.0;   ///< to rad
   bool stated = false;  ///< the context says so
+  bool ours = false;    ///< the context is the one that the writer makes: solids are read as the model's own
   Coordinates coordinates = Coordinates::kLengths;
   [[nodiscard]] bool operator==(const Scale&) const = default;
   [[nodiscard]] bool identity() const { return length == 1.0 && angle == 1.0; }

@@ -86,7 +86,7 @@ class Reader {
   [[nodiscard]] const ObjectRow* object_row(Node n, std::span<const model::TypeId> targets) const;
   model::AnyRef geometry_at(Node n, model::TypeId type, const Scale& scale);
   void fill_geometry(model::AnyRef at, Node n, const Scale& scale);
-  [[nodiscard]] std::optional<model::TypeId> geometry_type(Node n) const;
+  [[nodiscard]] std::optional<model::TypeId> geometry_type(Node n, bool solids = false) const;
   model::AnyRef kept_at(Node n);
   model::AnyRef auxiliary(Node n);
   [[nodiscard]] model::AnyRef connected(std::uint64_t id);
