@@ -2,13 +2,24 @@
 
 #include <array>
 
+#include "planner/exchange/ap238/feature_codec.h"
 #include "planner/exchange/ap238/resource_codec.h"
 #include "planner/exchange/ap238/toolpath_codec.h"
 
 namespace capstan::exchange::ap238 {
 
 const Codec* find_codec(std::string_view name) {
-  static constexpr std::array<const Codec*, 16> kCodecs{&kSaidCodec,
+  static constexpr std::array<const Codec*, 26> kCodecs{&kTolerancedCodec,
+                                                        &kParameterCodec,
+                                                        &kParameterTextCodec,
+                                                        &kItsWorkpieceCodec,
+                                                        &kFeatureOperationsCodec,
+                                                        &kFacesInPartCodec,
+                                                        &kSlotEndsCodec,
+                                                        &kBesideCodec,
+                                                        &kAcrossFlatsCodec,
+                                                        &kNgonDiameterCodec,
+                                                        &kSaidCodec,
                                                         &kTwiceCodec,
                                                         &kComplementCodec,
                                                         &kTextsCodec,
