@@ -39,8 +39,8 @@ TEST(MappingTables, RefuseWhatTheyDoNotKnow) {
 
 TEST(Exchange, AnEmptyProjectComesBackEqual) {
   Bench bench;
-  bench.plan.model.at<model::Workplan>(bench.workplan).its_elements.push_back(
-      bench.plan.model.add<model::Workplan>({}));
+  bench.plan.model.at<model::Workplan>(bench.workplan)
+      .its_elements.push_back(bench.plan.model.add<model::Workplan>({}));
   EXPECT_EQ(lost_on_the_way(bench.plan), "");
 }
 
