@@ -1,4 +1,5 @@
 #include "planner/exchange/ap238/reader.h"
+#include "planner/exchange/ap238/records.h"
 #include "planner/exchange/exchange.h"
 #include "planner/exchange/sections.h"
 #include "planner/exchange/opening.h"
@@ -14,6 +15,7 @@ Result<model::Plan> read_ap238(const p21::File& file, Job& job) {
   p21::check_references(file, job);
   const ap238::Graph graph(file, express::Dictionary::ap238());
   ap238::Reader reader(graph, ap238::Mapping::instance(), plan, reporter);
+  ap238::Records records(reader);
   reader.run();
   if (!plan.project) {
     reporter.report({.code = "EXC-NO-PROJECT",
@@ -25,7 +27,10 @@ Result<model::Plan> read_ap238(const p21::File& file, Job& job) {
   Marks reached(plan.model);
   if (plan.project) reached.set_from(plan.model, plan.project);
   settle_doubts(plan.model, doubts, reached, reporter);
-  if (reporter.errors() == 0) open_what_is_left_out(plan, reached, reporter);
+  if (reporter.errors() == 0) {
+    open_what_is_left_out(plan, reached, reporter);
+    records.restore();
+  }
   reporter.finish();
   if (reporter.errors() != 0) {
     return fail({.code = "EXC-AP238",

@@ -42,6 +42,7 @@ Reader::Reader(const Graph& graph, const Mapping& mapping, model::Plan& plan, Re
       reporter_(reporter),
       units_(graph),
       owner_(graph.size()),
+      claimed_(graph.size(), false),
       object_(graph.size(), false) {}
 
 void Reader::about(Node n, Diagnostic d) const {
@@ -56,9 +57,16 @@ Node Reader::root_of(AnyRef at) const {
   return it == root_.end() ? kNoNode : it->second;
 }
 
+AnyRef Reader::noun_at(Node n, TypeId kind) const {
+  const auto [first, last] = nouns_.equal_range(n);
+  const auto it = std::find_if(first, last, [&](const auto& e) { return model::is_a(e.second.type, kind); });
+  return it == last ? AnyRef{} : it->second;
+}
+
 // --- paths ---
 
 bool Reader::holds(Node n, const Step& s, std::uint32_t* ordinal, double* order) const {
+  if (claimed_[n]) return false;
   if (!g_.is_all(n, s.entities) && std::none_of(s.also.begin(), s.also.end(), [&](EntityId e) { return g_.is(n, e); })) {
     return false;
   }

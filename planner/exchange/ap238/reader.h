@@ -58,7 +58,11 @@ class Reader {
   [[nodiscard]] std::optional<double> measure(Node n, model::Unit unit, const Scale& scale);
   /// DESCRIPTIVE_REPRESENTATION_ITEM's text, or the name of anything else.
   [[nodiscard]] std::string description(Node n) const;
-  [[nodiscard]] bool used(Node n) const { return owner_[n].set() || object_[n]; }
+  [[nodiscard]] bool used(Node n) const { return owner_[n].set() || object_[n] || claimed_[n]; }
+  /// Takes an instance away from the mapping: no path leads to it, and it is not kept. Before `run`.
+  void claim(Node n) { claimed_[n] = true; }
+  /// The application object of that kind that was read there; unset when there is none.
+  [[nodiscard]] model::AnyRef noun_at(Node n, model::TypeId kind) const;
   void about(Node n, Diagnostic d) const;
   /// The instance a noun was read from.
   [[nodiscard]] Node root_of(model::AnyRef at) const;
@@ -101,6 +105,7 @@ class Reader {
   Scale default_scale_;
 
   std::vector<Role> owner_;    ///< by node: whose mapping it belongs to
+  std::vector<bool> claimed_;  ///< by node: not for the mapping
   std::vector<bool> object_;   ///< by node: root of an application object, or geometry
   std::unordered_multimap<Node, model::AnyRef> nouns_;
   std::map<Key, model::AnyRef> geometry_;

@@ -6,6 +6,7 @@
 #include "planner/base/number.h"
 #include "planner/exchange/ap238/auxiliary.h"
 #include "planner/exchange/ap238/codecs.h"
+#include "planner/exchange/ap238/records.h"
 #include "planner/exchange/sections.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/walk.h"
@@ -74,6 +75,7 @@ std::string Writer::run() {
       if (to.set()) require(to);
     });
   }
+  write_records(*this);
   std::string out;
   for (Id id = 1; id <= made_.size(); ++id) {
     if (!reserved_.contains(id)) print(id, made_[id - 1], out);
@@ -85,6 +87,16 @@ std::string Writer::run() {
 }
 
 // --- instances ---
+
+Id Writer::written(AnyRef at) const {
+  const auto it = ids_.find(at);
+  return it == ids_.end() ? kNoId : it->second;
+}
+
+bool Writer::is_lost(AnyRef at) const {
+  const auto it = ids_.find(at);
+  return it != ids_.end() && it->second == kNoId;
+}
 
 bool Writer::is_geometry(AnyRef at) {
   return model::is_a(at.type, TypeId::kRepresentationItem) || at.type == TypeId::kCompositeCurveSegment;

@@ -50,6 +50,10 @@ class Writer {
   Id measure(double value, model::Unit unit, std::string_view name, std::span<const EntityId> entities);
   Id description(std::string_view name, std::string_view text);
   void lose(const std::string& what) { ++lost_[what]; }
+  /// The instance of what was written; kNoId for what was not, and for what has none of its own.
+  [[nodiscard]] Id written(model::AnyRef at) const;
+  /// Whether AP238 has no place for the object.
+  [[nodiscard]] bool is_lost(model::AnyRef at) const;
 
  private:
   struct Value {
