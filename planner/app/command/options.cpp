@@ -13,6 +13,17 @@
 namespace capstan::app {
 namespace {
 
+constexpr const char* kQueries = R"(PATH walks the application objects, the same in ISO 14649, AP238 and JSON:
+  /project/main_workplan/its_elements[2]/its_operation   attributes and indices, from 0
+  /ROUND_HOLE[*]/its_id, #12                             a kind of object, an instance number
+  //round_hole, /project/main_workplan//tool_usage       everything of a kind, of all or below
+  ...[condition]                                         what it holds of: =, !=, <, <=, >, >=, `is KIND`,
+                                                         and, or, not, ( ); an attribute alone: it is set
+  ...#size                                               how many
+  //round_hole[diameter.theoretical_size > 10]/its_id
+  //machining_workingstep[its_feature is pocket and its_operation.its_tool]/its_id
+Numbers are in mm, rad, mm/min, 1/min and s. The whole grammar: docs/inspect.md)";
+
 /// Texts as the library gives them, before they mean anything.
 struct Raw {
   std::string file, machine, tools, material, rules, cases, stock, deadline;
@@ -143,7 +154,9 @@ class CommandLine {
         command(app_, "inspect", "show what a file holds, or one value by path", Command::kInspect);
     file(inspect, "file", "part or plan");
     inspect->add_option("path", out_.step,
-                        "e.g. /project/its_workpieces[0]/its_material, #12, /ROUND_HOLE[*]#size");
+                        "e.g. /project/its_workpieces[0]/its_material, #12, /ROUND_HOLE[*]#size, "
+                        "//round_hole[diameter.theoretical_size > 10]/its_id");
+    inspect->footer(kQueries);
     auto* diff = command(app_, "diff", "say what changed between two plans", Command::kDiff);
     files(diff, "plans", "two plans", 2, 2);
     auto* convert = command(app_, "convert", "write a part or plan in another format", Command::kConvert);

@@ -6,6 +6,7 @@
 
 #include "planner/app/explain/step_view.h"
 #include "planner/app/show/node.h"
+#include "planner/app/show/paths.h"
 #include "planner/app/show/values.h"
 #include "planner/base/number.h"
 #include "planner/model/nouns/all.h"
@@ -19,7 +20,6 @@ using model::Model;
 
 namespace {
 
-constexpr std::string_view kSize = "#size";
 constexpr std::size_t kShown = 40;  // features and unhandled instances shown one by one
 
 using Rows = std::vector<std::vector<std::string>>;
@@ -36,7 +36,8 @@ std::string kept_text(const Model& m, const model::KeptInstance& kept) {
   return out;
 }
 
-std::string object_text(const Model& m, AnyRef at) {
+std::string object_text(const model::Plan& plan, AnyRef at) {
+  const Model& m = plan.model;
   if (const auto* kept = m.get<model::KeptInstance>(at)) {
     return "#" + std::to_string(m.origin(at).instance) + " (unhandled, kept as it was read)\n  " +
            kept_text(m, *kept) + "\n";
@@ -46,14 +47,15 @@ std::string object_text(const Model& m, AnyRef at) {
     const bool shown = model::has_value(a, m.object(at)) || a.in_iso14649;
     if (shown) rows.push_back({std::string(a.name), value_text(m, a, m.object(at))});
   }
-  return label(m, at) + "\n" + table(rows);
+  return label(m, at) + "\nat " + Paths(plan).of(at) + "\n" + table(rows);
 }
 
-std::string place_text(const Model& m, const Node& node) {
+std::string place_text(const model::Plan& plan, const Node& node) {
+  const Model& m = plan.model;
   const auto size = list_size(m, node);
   if (!size) {
     const AnyRef at = object_of(m, node);
-    return at.set() ? object_text(m, at) : node_text(m, node) + "\n";
+    return at.set() ? object_text(plan, at) : node_text(m, node) + "\n";
   }
   std::string out;
   for (std::size_t i = 0; i < *size; ++i) {
@@ -198,22 +200,36 @@ std::string inspect(const model::Plan& plan, const std::vector<Diagnostic>& diag
 }
 
 Result<std::string> inspect(const model::Plan& plan, std::string_view path) {
-  const bool count = path.ends_with(kSize);
-  if (count) path.remove_suffix(kSize.size());
-  const auto nodes = nodes_at(plan, path);
+  const auto query = parse_query(path);
+  if (!query) return tl::unexpected(query.error());
+  const auto nodes = nodes_at(plan, *query);
   if (!nodes) return tl::unexpected(nodes.error());
-  if (count) {
+  if (query->count) {
     std::string out;
     for (const Node& n : *nodes) {
       if (const auto size = list_size(plan.model, n)) out += std::to_string(*size) + "\n";
     }
     return out.empty() ? std::to_string(nodes->size()) + "\n" : out;
   }
-  std::string out;
-  for (const Node& n : *nodes) {
-    const bool one = nodes->size() == 1;
-    out += one ? place_text(plan.model, n) : node_text(plan.model, n) + "\n";
+  if (nodes->empty()) return std::string("(none)\n");
+  if (nodes->size() == 1) return place_text(plan, nodes->front());
+  // What a search finds is told with where it stands.
+  const bool search = std::any_of(query->steps.begin(), query->steps.end(), [](const QueryStep& s) {
+    return s.kind == QueryStep::Kind::kBelow || s.kind == QueryStep::Kind::kFilter;
+  });
+  const bool objects = std::all_of(nodes->begin(), nodes->end(),
+                                   [&](const Node& n) { return object_of(plan.model, n).set(); });
+  if (search && objects) {
+    const Paths paths(plan);
+    Rows rows;
+    for (const Node& n : *nodes) {
+      const AnyRef at = object_of(plan.model, n);
+      rows.push_back({paths.of(at), label(plan.model, at)});
+    }
+    return table(rows, "");
   }
+  std::string out;
+  for (const Node& n : *nodes) out += node_text(plan.model, n) + "\n";
   return out;
 }
 

@@ -1,8 +1,8 @@
 #include "planner/app/show/node.h"
 
 #include <algorithm>
-#include <charconv>
 
+#include "planner/app/show/condition.h"
 #include "planner/app/show/values.h"
 #include "planner/base/number.h"
 #include "planner/model/nouns/all.h"
@@ -17,45 +17,9 @@ using model::value_of;
 
 namespace {
 
-constexpr std::size_t kSegments = 256;  // of one path
-
-tl::unexpected<Diagnostic> fault(std::string_view path, std::string message, std::string expected = {}) {
-  return fail({.code = "INS-PATH",
-               .message = std::move(message),
-               .path = std::string(path),
-               .expected = std::move(expected)});
-}
-
-/// "/a[0]" -> {"a", "[0]"}; the first of "#12/a" is "#12".
-Result<std::vector<std::string>> segments_of(std::string_view path) {
-  std::vector<std::string> out;
-  std::size_t i = 0;
-  while (i < path.size()) {
-    if (path[i] == '[') {
-      const auto end = path.find(']', i);
-      if (end == std::string_view::npos) return fault(path, "a bracket is not closed", "']'");
-      out.emplace_back(path.substr(i, end + 1 - i));
-      i = end + 1;
-    } else {
-      if (path[i] == '/') ++i;
-      const auto end = std::min(path.find_first_of("/[", i), path.size());
-      if (end == i) {
-        if (i == path.size()) break;  // a slash at the end
-        return fault(path, "a segment has no name");
-      }
-      out.emplace_back(path.substr(i, end - i));
-      i = end;
-    }
-    if (out.size() > kSegments) return fault(path, "the path has more than 256 segments");
-  }
-  return out;
-}
-
-std::optional<std::uint64_t> whole(std::string_view s) {
-  std::uint64_t v = 0;
-  const auto [end, ec] = std::from_chars(s.data(), s.data() + s.size(), v);
-  if (ec != std::errc() || end != s.data() + s.size() || s.empty()) return std::nullopt;
-  return v;
+tl::unexpected<Diagnostic> fault(const Query& q, const QueryStep& at, const std::string& message,
+                                 std::string expected = {}) {
+  return query_fault(q.text, at.position, message, std::move(expected));
 }
 
 Node object_node(AnyRef at) {
@@ -70,29 +34,48 @@ Node list_node(std::vector<AnyRef> items) {
   return n;
 }
 
+/// Objects that a search found: attributes are asked of each.
+Node objects_node(std::vector<AnyRef> items) {
+  Node n = list_node(std::move(items));
+  n.spread = true;
+  return n;
+}
+
+/// Everything of a kind that the roots reach, without them; of the whole plan when there are none.
+std::vector<AnyRef> below(const model::Plan& plan, std::vector<AnyRef> roots, model::TypeId type) {
+  const bool whole_plan = roots.empty();
+  if (whole_plan) {
+    if (plan.project.set()) roots.push_back(plan.project);
+    for (const AnyRef f : plan.model.all_below(model::TypeId::kManufacturingFeature)) roots.push_back(f);
+    roots.insert(roots.end(), plan.kept.begin(), plan.kept.end());
+  }
+  std::vector<AnyRef> out;
+  for (const AnyRef at : model::reachable(plan.model, roots)) {
+    const bool root = !whole_plan && std::find(roots.begin(), roots.end(), at) != roots.end();
+    if (!root && model::is_a(at.type, type)) out.push_back(at);
+  }
+  return out;
+}
+
 std::vector<AnyRef> unhandled(const Model& m) { return m.all(model::TypeId::kKeptInstance); }
 
-Result<Node> root_of(const model::Plan& plan, std::string_view path, const std::string& name) {
+Result<Node> root_of(const model::Plan& plan, const Query& q) {
   const Model& m = plan.model;
-  if (name == "project") {
-    if (!plan.project.set()) return fault(path, "the plan has no project");
+  const QueryStep& root = q.steps.front();
+  if (root.kind == QueryStep::Kind::kBelow) return objects_node(below(plan, {}, root.type));
+  if (root.name == "project") {
+    if (!plan.project.set()) return fault(q, root, "the plan has no project");
     return object_node(plan.project);
   }
-  if (name == "kept") return list_node(plan.kept);
-  if (name == "unhandled") return list_node(unhandled(m));
-  if (name.starts_with('#')) {
-    const auto n = whole(std::string_view(name).substr(1));
-    if (!n || *n == 0) return fault(path, "'" + name + "' is not an instance number", "#1, #2, ...");
-    for (std::size_t t = 1; t < model::kTypeCount; ++t) {
-      for (const AnyRef at : m.all(static_cast<model::TypeId>(t))) {
-        if (m.origin(at).instance == *n) return object_node(at);
-      }
+  if (root.name == "kept") return list_node(plan.kept);
+  if (root.name == "unhandled") return list_node(unhandled(m));
+  if (root.type != model::TypeId::kNone) return list_node(m.all_below(root.type));
+  for (std::size_t t = 1; t < model::kTypeCount; ++t) {
+    for (const AnyRef at : m.all(static_cast<model::TypeId>(t))) {
+      if (m.origin(at).instance == root.index) return object_node(at);
     }
-    return fault(path, "there is no instance " + name);
   }
-  if (const auto type = model::find_noun(name)) return list_node(m.all_below(*type));
-  return fault(path, "there is no '" + name + "' at the top",
-               "project, unhandled, kept, #<instance number>, or a kind of object such as ROUND_HOLE");
+  return fault(q, root, "there is no instance " + root.name);
 }
 
 std::string names_of(model::TypeId type) {
@@ -104,65 +87,130 @@ std::string names_of(model::TypeId type) {
   return out.empty() ? "nothing: it has no attributes" : out;
 }
 
-Node item_of(const Node& list, std::size_t i) {
-  if (list.is_list) return object_node(list.list[i]);
-  Node out = list;
-  out.item.push_back(i);
-  return out;
-}
-
 /// Where a name leads from one node. `mapped`: nothing instead of a fault where the attribute is not there.
-Result<std::optional<Node>> step_into(const Model& m, const Node& from, const std::string& name,
-                                      std::string_view path, bool mapped) {
+Result<std::optional<Node>> step_into(const Model& m, const Node& from, const Query& q, const QueryStep& step,
+                                      bool mapped) {
+  const std::string& name = step.name;
   const AnyRef at = object_of(m, from);
   if (!at.set()) {
     if (mapped) return std::nullopt;
     if (list_size(m, from))
-      return fault(path, "'" + name + "' is asked of a list", "an index [0], or [*] for all of it");
+      return fault(q, step, "'" + name + "' is asked of a list", "an index [0], or [*] for all of it");
     const std::string what = node_text(m, from);
     if (what == "absent")
-      return fault(path, "'" + name + "' is asked of " + std::string(from.attribute->name) +
-                             ", which is absent on " + label(m, from.object));
-    return fault(path, "'" + name + "' is asked of a value (" + what + "), which has no attributes");
+      return fault(q, step,
+                   "'" + name + "' is asked of " + std::string(from.attribute->name) +
+                       ", which is absent on " + label(m, from.object));
+    return fault(q, step, "'" + name + "' is asked of a value (" + what + "), which has no attributes");
   }
   if (m.holds<model::KeptInstance>(at)) {
     if (mapped) return std::nullopt;
-    return fault(path, label(m, at) + " is kept as it was read; its attributes have no names");
+    return fault(q, step, label(m, at) + " is kept as it was read; its attributes have no names");
   }
   const model::Attribute* a = model::find_attribute(at.type, name);
   if (a == nullptr) {
     if (mapped) return std::nullopt;
-    return fault(path, label(m, at) + " has no attribute '" + name + "'", names_of(at.type));
+    return fault(q, step, label(m, at) + " has no attribute '" + name + "'", names_of(at.type));
   }
   Node out = object_node(at);
   out.attribute = a;
   return out;
 }
 
-Result<std::vector<Node>> index_into(const Model& m, const Node& from, const std::string& bracket,
-                                     std::string_view path, bool mapped) {
+Result<std::vector<Node>> index_into(const Model& m, const Node& from, const Query& q, const QueryStep& step,
+                                     bool mapped) {
   const auto size = list_size(m, from);
   if (!size) {
     if (mapped) return std::vector<Node>{};
-    return fault(path, "'" + bracket + "' is asked of what is no list: " + node_text(m, from));
+    return fault(q, step, "'" + step.name + "' is asked of what is no list: " + node_text(m, from));
   }
-  const std::string inside = bracket.substr(1, bracket.size() - 2);
-  if (inside == "*") {
+  if (step.kind == QueryStep::Kind::kAll) {
     std::vector<Node> out;
     for (std::size_t i = 0; i < *size; ++i) out.push_back(item_of(from, i));
     return out;
   }
-  const auto i = whole(inside);
-  if (!i) return fault(path, "'" + bracket + "' is not an index", "[0], [1], ... or [*]");
-  if (*i >= *size) {
+  if (step.index >= *size) {
     if (mapped) return std::vector<Node>{};
-    return fault(path, "'" + bracket + "' is past the end of the list",
+    return fault(q, step, "'" + step.name + "' is past the end of the list",
                  *size == 0 ? "nothing: the list is empty" : "[0] to [" + std::to_string(*size - 1) + "]");
   }
-  return std::vector<Node>{item_of(from, static_cast<std::size_t>(*i))};
+  return std::vector<Node>{item_of(from, step.index)};
+}
+
+/// The objects that a node is: itself, or the items of its list.
+std::vector<AnyRef> objects_in(const Model& m, const Node& node) {
+  if (node.is_list) return node.list;
+  if (const AnyRef at = object_of(m, node); at.set()) return {at};
+  std::vector<AnyRef> out;
+  for (std::size_t i = 0; i < list_size(m, node).value_or(0); ++i) {
+    const Node item = item_of(node, i);
+    if (const AnyRef at = object_of(m, item); at.set()) out.push_back(at);
+    for (std::size_t k = 0; k < list_size(m, item).value_or(0); ++k) {
+      if (const AnyRef at = object_of(m, item_of(item, k)); at.set()) out.push_back(at);
+    }
+  }
+  return out;
+}
+
+Result<Node> filtered(const Model& m, const Node& from, const Query& q, const QueryStep& step, bool mapped) {
+  const auto all = objects_in(m, from);
+  if (all.empty() && !mapped && !from.is_list && !list_size(m, from))
+    return fault(q, step, "a condition is asked of what is no object and no list: " + node_text(m, from));
+  auto passing = objects_where(m, all, q, step.condition);
+  if (!passing) return tl::unexpected(passing.error());
+  return objects_node(*std::move(passing));
+}
+
+/// One step from one node.
+Result<std::vector<Node>> follow(const model::Plan& plan, const Node& from, const Query& q,
+                                 const QueryStep& step, bool mapped) {
+  const Model& m = plan.model;
+  switch (step.kind) {
+    case QueryStep::Kind::kBelow: {
+      const auto roots = objects_in(m, from);
+      if (roots.empty()) return std::vector<Node>{};
+      return std::vector<Node>{objects_node(below(plan, roots, step.type))};
+    }
+    case QueryStep::Kind::kFilter: {
+      auto node = filtered(m, from, q, step, mapped);
+      if (!node) return tl::unexpected(node.error());
+      return std::vector<Node>{*std::move(node)};
+    }
+    case QueryStep::Kind::kIndex:
+    case QueryStep::Kind::kAll:
+      return index_into(m, from, q, step, mapped);
+    default:
+      break;
+  }
+  std::vector<Node> out;
+  const auto one = [&](const Node& node, bool lenient) -> Status {
+    auto to = step_into(m, node, q, step, lenient);
+    if (!to) return tl::unexpected(to.error());
+    if (*to) out.push_back(**to);
+    return {};
+  };
+  if (!from.spread) {
+    if (auto ok = one(from, mapped); !ok) return tl::unexpected(ok.error());
+    return out;
+  }
+  for (const AnyRef at : from.list) {
+    if (auto ok = one(object_node(at), true); !ok) return tl::unexpected(ok.error());
+  }
+  // Nowhere at all: say what is wrong with the first.
+  if (out.empty() && !from.list.empty()) {
+    if (auto ok = one(object_node(from.list.front()), false); !ok) return tl::unexpected(ok.error());
+  }
+  return out;
 }
 
 }  // namespace
+
+Node item_of(const Node& list, std::size_t i) {
+  if (list.is_list) return object_node(list.list[i]);
+  Node out = list;
+  out.item.push_back(i);
+  return out;
+}
 
 std::optional<std::size_t> list_size(const Model& m, const Node& node) {
   if (node.is_list) return node.list.size();
@@ -255,45 +303,42 @@ std::string node_text(const Model& m, const Node& node) {
   }
 }
 
-Result<std::vector<Node>> nodes_at(const model::Plan& plan, std::string_view path) {
-  const auto segments = segments_of(path);
-  if (!segments) return tl::unexpected(segments.error());
-  if (segments->empty()) return fault(path, "the path is empty", "/project, or #<instance number>");
-  if (segments->front().starts_with('['))
-    return fault(path, "a path does not begin with an index", "/project, or #<instance number>");
-  const auto root = root_of(plan, path, segments->front());
+Result<std::vector<Node>> nodes_at(const model::Plan& plan, const Query& q) {
+  const auto root = root_of(plan, q);
   if (!root) return tl::unexpected(root.error());
   std::vector<Node> at = {*root};
   bool mapped = false;
-  for (std::size_t i = 1; i < segments->size(); ++i) {
-    const std::string& segment = (*segments)[i];
+  for (std::size_t i = 1; i < q.steps.size(); ++i) {
+    const QueryStep& step = q.steps[i];
     std::vector<Node> next;
-    std::optional<Diagnostic> why;
     for (const Node& n : at) {
-      if (segment.starts_with('[')) {
-        auto items = index_into(plan.model, n, segment, path, mapped);
-        if (!items) return tl::unexpected(items.error());
-        next.insert(next.end(), items->begin(), items->end());
-      } else {
-        auto to = step_into(plan.model, n, segment, path, mapped);
-        if (!to) return tl::unexpected(to.error());
-        if (*to) next.push_back(**to);
-      }
+      auto to = follow(plan, n, q, step, mapped);
+      if (!to) return tl::unexpected(to.error());
+      next.insert(next.end(), to->begin(), to->end());
     }
-    if (next.empty() && !at.empty() && mapped) {
-      // Nowhere at all: say what is wrong with the first.
-      if (segment.starts_with('[')) {
-        const auto none = index_into(plan.model, at.front(), segment, path, false);
-        if (!none) return tl::unexpected(none.error());
-      } else {
-        const auto none = step_into(plan.model, at.front(), segment, path, false);
-        if (!none) return tl::unexpected(none.error());
-      }
+    if (next.empty() && !at.empty() && mapped && step.kind != QueryStep::Kind::kBelow) {
+      const auto none = follow(plan, at.front(), q, step, false);
+      if (!none) return tl::unexpected(none.error());
     }
-    mapped = mapped || segment == "[*]";
+    mapped = mapped || step.kind == QueryStep::Kind::kAll || next.size() > 1 ||
+             std::any_of(next.begin(), next.end(), [](const Node& n) { return n.spread; });
     at = std::move(next);
   }
-  return at;
+  std::vector<Node> out;
+  for (Node& n : at) {
+    if (!n.spread) {
+      out.push_back(std::move(n));
+      continue;
+    }
+    for (const AnyRef item : n.list) out.push_back(object_node(item));
+  }
+  return out;
+}
+
+Result<std::vector<Node>> nodes_at(const model::Plan& plan, std::string_view path) {
+  const auto q = parse_query(path);
+  if (!q) return tl::unexpected(q.error());
+  return nodes_at(plan, *q);
 }
 
 }  // namespace capstan::app
