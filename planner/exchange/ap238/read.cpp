@@ -1,3 +1,4 @@
+#include "planner/exchange/ap238/paths.h"
 #include "planner/exchange/ap238/reader.h"
 #include "planner/exchange/ap238/records.h"
 #include "planner/exchange/exchange.h"
@@ -17,6 +18,8 @@ Result<model::Plan> read_ap238(const p21::File& file, Job& job) {
   ap238::Reader reader(graph, ap238::Mapping::instance(), plan, reporter);
   ap238::Records records(reader);
   reader.run();
+  ap238::adopt_frames(plan);
+  ap238::drop_stated_frames(plan);
   if (!plan.project) {
     reporter.report({.code = "EXC-NO-PROJECT",
                      .severity = Severity::kWarning,

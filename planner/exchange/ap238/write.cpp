@@ -1,5 +1,7 @@
 #include <algorithm>
 
+#include "planner/exchange/ap238/paths.h"
+#include "planner/exchange/ap238/placement.h"
 #include "planner/exchange/ap238/writer.h"
 #include "planner/exchange/exchange.h"
 #include "planner/exchange/sections.h"
@@ -38,9 +40,13 @@ std::string header(const model::Plan& plan) {
 
 Result<Written> write_ap238(const model::Plan& plan, Job& job) {
   Written out;
-  ap238::Writer writer(plan, ap238::Mapping::instance(), out.losses);
+  model::Plan copy = plan;
+  if (auto done = ap238::write_paths(copy, out.losses); !done) return fail(done.error());
+  ap238::state_frames(copy);
+  ap238::to_ap238(copy);
+  ap238::Writer writer(copy, ap238::Mapping::instance(), out.losses);
   const std::string data = writer.run();
-  out.bytes = header(plan) + sections_text(plan, [&](model::AnyRef r) { return writer.reference_text(r); }) +
+  out.bytes = header(copy) + sections_text(copy, [&](model::AnyRef r) { return writer.reference_text(r); }) +
               "DATA;\n" + data + "ENDSEC;\nEND-ISO-10303-21;\n";
   std::sort(out.losses.begin(), out.losses.end());
   for (const std::string& loss : out.losses) job.note("EXC-LOSS", loss);

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "planner/base/number.h"
+#include "planner/exchange/ap238/schedules.h"
 #include "planner/exchange/iso14649/segments.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/resolve.h"
@@ -21,6 +22,15 @@ using model::MoveRole;
 namespace {
 
 constexpr double kAlongZ = 1e-9;  // sine of the angle up to which an axis counts as the set-up's z
+constexpr std::size_t kMostOrientations =
+    1000;                          // of workplans within workplans: a file may nest them in a circle
+constexpr double kUpright = 1e-4;  // rad up to which a stated tool axis is: files write four decimals
+
+/// A toolpath as moves, and the parameter of its curve along them.
+struct Followed {
+  CutterPath path;
+  MoveParameters moves;
+};
 
 /// Appends one curve to a path.
 class Emitter {
@@ -28,9 +38,13 @@ class Emitter {
   Emitter(const Placement& frame, const CurveOptions& o, MoveRole role, bool rapid)
       : frame_(frame), o_(o), role_(role), rapid_(rapid) {}
 
-  Status add(const std::vector<curves::Segment>& segments, CutterPath& path) {
+  Status add(const std::vector<curves::Segment>& segments, Followed& out) {
+    CutterPath& path = out.path;
+    out.moves.first = segments.front().u_from;
+    out.moves.last = segments.back().u_to;
     for (const auto& s : segments) {
       if (path.size() == 0) path.start(frame_.to_parent(s.from));
+      const std::size_t before = path.size();
       const bool upright = norm(cross(frame_.direction_to_parent(s.axis), Vec3{0, 0, 1})) < kAlongZ;
       if (!s.arc) {
         line(frame_.to_parent(s.to), path);
@@ -38,6 +52,14 @@ class Emitter {
         arc(s, path);
       } else {
         chords(s, path);
+      }
+      out.moves.from.resize(before);
+      out.moves.to.resize(before);
+      const auto n = static_cast<double>(path.size() - before);
+      for (std::size_t i = before; i < path.size(); ++i) {
+        const auto k = static_cast<double>(i - before);
+        out.moves.from.push_back(s.u_from + (s.u_to - s.u_from) * k / n);
+        out.moves.to.push_back(s.u_from + (s.u_to - s.u_from) * (k + 1.0) / n);
       }
       if (path.size() > o_.max_moves) return fail("EXC-CURVE", "a path has too many moves");
     }
@@ -119,8 +141,66 @@ AnyRef curve_of(const model::Model& m, AnyRef toolpath) {
   return {};
 }
 
-/// Finds the set-up around a step: a walk down from the main workplan that carries the innermost set-up.
-AnyRef setup_around(const model::Plan& plan, AnyRef step) {
+AnyRef axis_of(const model::Model& m, AnyRef toolpath) {
+  if (const auto* t = m.get<model::CutterLocationTrajectory>(toolpath)) return t->its_toolaxis;
+  if (const auto* t = m.get<model::CutterContactTrajectory>(toolpath)) return t->its_toolaxis;
+  return {};
+}
+
+Result<Followed> follow(const model::Plan& plan, AnyRef toolpath, const Placement& frame,
+                        const CurveOptions& given, Job& job) {
+  const auto& m = plan.model;
+  const AnyRef curve = curve_of(m, toolpath);
+  if (!curve.set()) {
+    return fail(
+        {.code = "EXC-TOOLPATH",
+         .message = std::string(toolpath.set() ? model::noun_type(toolpath.type).keyword : "nothing") +
+                    " has no curve to follow",
+         .line = toolpath.set() ? m.origin(toolpath).line : 0,
+         .instance = toolpath.set() ? m.origin(toolpath).instance : 0});
+  }
+  if (const AnyRef axis = axis_of(m, toolpath); axis.set()) {
+    const auto tilt = largest_tilt(m, axis, frame);
+    if (!tilt || *tilt > kUpright) {
+      return fail({.code = "EXC-TOOL-AXIS",
+                   .message = tilt
+                                  ? "the tool axis tilts by " + trimmed(*tilt * 180.0 / std::numbers::pi, 3) +
+                                        " degrees: only paths along the set-up's z are followed"
+                                  : "the tool axis is a curve that is not followed",
+                   .line = m.origin(toolpath).line,
+                   .instance = m.origin(toolpath).instance});
+    }
+  }
+  CurveOptions options = given;
+  options.helix_axis = frame.direction_to_local({0.0, 0.0, 1.0});
+  auto segments = curves::segments_of(m, curve, options, job);
+  if (!segments) return fail(segments.error());
+  const auto& t = m.at<model::Toolpath>(toolpath);
+  const auto* trajectory = m.get<model::Trajectory>(toolpath);
+  const bool against = trajectory != nullptr && !trajectory->its_direction.value_or(true);
+  if (against) curves::reverse(*segments);
+  Followed out;
+  if (auto done = Emitter(frame, options, role_of(t), is_rapid(t)).add(*segments, out); !done) {
+    return fail(done.error());
+  }
+  // What goes along with the curve goes by the curve's own parameter.
+  if (against) {
+    for (auto* list : {&out.moves.from, &out.moves.to}) {
+      for (double& u : *list) u = out.moves.first + out.moves.last - u;
+    }
+  }
+  tell_ramps(out.path);
+  return out;
+}
+
+/// What the workplans around a step say of its place.
+struct Around {
+  AnyRef setup;                      ///< the innermost
+  std::vector<AnyRef> orientations;  ///< of toolpaths, outermost first
+};
+
+/// A walk down from the main workplan.
+Around around(const model::Plan& plan, AnyRef step) {
   const auto& m = plan.model;
   std::vector<AnyRef> plans = m.all(model::TypeId::kWorkplan);
   if (const auto* project = m.get<model::Project>(plan.project);
@@ -128,16 +208,22 @@ AnyRef setup_around(const model::Plan& plan, AnyRef step) {
     plans.insert(plans.begin(), project->main_workplan);
   }
   for (const AnyRef root : plans) {
-    std::vector<std::pair<AnyRef, AnyRef>> pending = {{root, {}}};
+    std::vector<std::pair<AnyRef, Around>> pending(1);
+    pending.front().first = root;
     std::size_t visited = 0;
     while (!pending.empty() && ++visited < 10'000'000) {
-      auto [at, setup] = pending.back();
+      auto [at, here] = std::move(pending.back());
       pending.pop_back();
-      if (at == step) return setup;
-      if (const auto* w = m.get<model::Workplan>(at); w != nullptr && w->its_setup) setup = w->its_setup;
+      if (at == step) return here;
+      if (const auto* w = m.get<model::Workplan>(at); w != nullptr) {
+        if (w->its_setup) here.setup = w->its_setup;
+        if (w->toolpath_orientation && here.orientations.size() < kMostOrientations) {
+          here.orientations.push_back(w->toolpath_orientation);
+        }
+      }
       if (!m.holds<model::ProgramStructure>(at)) continue;
-      model::for_each_reference(m, at, [&, s = setup](AnyRef to) {
-        if (m.holds<model::Executable>(to)) pending.emplace_back(to, s);
+      model::for_each_reference(m, at, [&](AnyRef to) {
+        if (m.holds<model::Executable>(to)) pending.emplace_back(to, here);
       });
     }
   }
@@ -147,16 +233,6 @@ AnyRef setup_around(const model::Plan& plan, AnyRef step) {
 AnyRef feature_of(const model::Model& m, AnyRef step) {
   const auto* w = m.get<model::MachiningWorkingstep>(step);
   return w == nullptr ? AnyRef{} : AnyRef(w->its_feature);
-}
-
-AnyRef placement_of_feature(const model::Model& m, AnyRef feature) {
-  if (const auto* f = m.get<model::Two5dManufacturingFeature>(feature)) return f->feature_placement;
-  if (const auto* f = m.get<model::Region>(feature)) return f->feature_placement;
-  // A chamfer or an edge round stands where the feature stands whose edge it is.
-  if (const auto* f = m.get<model::TransitionFeature>(feature)) {
-    if (const auto* first = m.get<model::MachiningFeature>(f->first_feature)) return first->feature_placement;
-  }
-  return {};
 }
 
 /// Puts the toolpaths of a step one after the other.
@@ -191,12 +267,17 @@ class StepBuilder {
 
  private:
   Status add(AnyRef at, const Placement& frame) {
+    if (m_.holds<model::DisplayMessage>(at)) return {};
+    if (m_.holds<model::NcFunction>(at)) {
+      return bad(at, "the function " + std::string(model::noun_type(at.type).keyword) +
+                         " stands among toolpaths, where it is not carried out");
+    }
     const auto* t = m_.get<model::Toolpath>(at);
     if (t == nullptr) return bad(at, "a toolpath of an unknown kind");
     if (const auto* stop = m_.get<model::Feedstop>(at)) {
       if (out_.path.size() == 0) return bad(at, "a feedstop stands before the first move");
       out_.path.dwell();
-      return settle(*t, stop->dwell.value_or(0.0));
+      return settle(at, *t, stop);
     }
     if (m_.holds<model::ConnectDirect>(at)) {
       bridge_ = true;
@@ -205,10 +286,11 @@ class StepBuilder {
     const auto* trajectory = m_.get<model::Trajectory>(at);
     if (trajectory != nullptr && trajectory->path && !curve_of(m_, at).set()) {
       if (auto joined = join(*trajectory->path, at); !joined) return joined;
-      return settle(*t, 0.0);
+      return settle(at, *t);
     }
-    auto part = path_of_toolpath(plan_, model::Ref<model::Toolpath>(at), frame, o_, job_);
-    if (!part) return fail(part.error());
+    auto followed = follow(plan_, at, frame, o_, job_);
+    if (!followed) return fail(followed.error());
+    CutterPath* part = &followed->path;
     if (rapid_step_) {
       for (std::size_t i = 1; i < part->size(); ++i) {
         if (part->kind[i] == model::MoveKind::kLine) part->kind[i] = model::MoveKind::kRapid;
@@ -216,7 +298,11 @@ class StepBuilder {
       }
     }
     if (auto joined = join(*part, at); !joined) return joined;
-    return settle(*t, 0.0);
+    if (trajectory != nullptr && trajectory->cross_section_area_parameters) {
+      if (auto done = add_sections(m_, *trajectory, followed->moves, out_.path, out_.sections); !done)
+        warn(done.error());
+    }
+    return settle(at, *t, nullptr, &followed->moves);
   }
 
   Status join(const CutterPath& part, AnyRef at) {
@@ -246,23 +332,49 @@ class StepBuilder {
   }
 
   // Feed and speed of the moves added since.
-  Status settle(const model::Toolpath& t, double dwell_s) {
+  Status settle(AnyRef at, const model::Toolpath& t, const model::Feedstop* stop = nullptr,
+                const MoveParameters* moves = nullptr) {
     double feed = 0.0, speed = 0.0;
-    for (const AnyRef at : {technology_, AnyRef(t.its_technology)}) {
-      if (const auto* tech = m_.get<model::MillingTechnology>(at)) take(*tech, feed, speed);
+    for (const AnyRef from : {technology_, AnyRef(t.its_technology)}) {
+      if (const auto* tech = m_.get<model::MillingTechnology>(from)) take(*tech, feed, speed);
     }
-    if (t.its_speed.ref.set()) {
-      job_.warn("EXC-SPEED-PROFILE",
-                "a toolpath's speed curve is not followed; its technology's feed is taken");
+    std::vector<double> ratio;
+    if (const auto* curve = m_.get<model::ToolpathSpeed>(t.its_speed.ref)) {
+      auto found = speed_ratios(m_, curve->speed, moves == nullptr ? MoveParameters{} : *moves, feed);
+      if (found) {
+        ratio = std::move(*found);
+      } else {
+        auto why = found.error();
+        why.message += "; the technology's feed is taken";
+        warn(std::move(why));
+      }
     }
     if (t.its_speed.real) feed *= *t.its_speed.real;
-    while (out_.schedule.feed_mm_min.size() < out_.path.size()) {
-      out_.schedule.feed_mm_min.push_back(feed);
-      out_.schedule.spindle_rpm.push_back(speed);
-      out_.schedule.dwell_s.push_back(0.0);
+    auto& s = out_.schedule;
+    const std::size_t first = out_.path.size() - std::min(out_.path.size(), ratio.size());
+    while (s.feed_mm_min.size() < out_.path.size()) {
+      const std::size_t i = s.feed_mm_min.size();
+      s.feed_mm_min.push_back(i > first && i - first < ratio.size() ? feed * ratio[i - first] : feed);
+      s.spindle_rpm.push_back(speed);
+      s.dwell_s.push_back(0.0);
     }
-    if (dwell_s > 0.0) out_.schedule.dwell_s.back() = dwell_s;
+    return stop == nullptr ? Status{} : dwell(at, *stop, speed);
+  }
+
+  Status dwell(AnyRef at, const model::Feedstop& stop, double speed) {
+    double dwell_s = stop.dwell.value_or(0.0);
+    if (!stop.dwell && stop.dwell_revolutions) {
+      if (speed == 0.0)
+        return bad(at, "a feedstop counts revolutions, and the spindle's speed is not stated");
+      dwell_s = 60.0 * *stop.dwell_revolutions / std::abs(speed);
+    }
+    out_.schedule.dwell_s.back() = std::max(0.0, dwell_s);
     return {};
+  }
+
+  void warn(Diagnostic d) const {
+    d.severity = Severity::kWarning;
+    job_.report(std::move(d));
   }
 
   // A speed may be stated as cutting speed, a feed per tooth: both need the tool. ISO 14649 counts
@@ -307,22 +419,41 @@ class StepBuilder {
 
 }  // namespace
 
+AnyRef toolpath_placement(const model::Model& m, AnyRef feature) {
+  if (const auto* f = m.get<model::Two5dManufacturingFeature>(feature)) return f->feature_placement;
+  if (const auto* f = m.get<model::Region>(feature)) return f->feature_placement;
+  // A chamfer or an edge round stands where the feature stands whose edge it is.
+  if (const auto* f = m.get<model::TransitionFeature>(feature)) {
+    if (const auto* first = m.get<model::MachiningFeature>(f->first_feature)) return first->feature_placement;
+  }
+  return {};
+}
+
 Result<Placement> frame_of_step(const model::Plan& plan, model::Ref<model::Executable> step) {
   const auto& m = plan.model;
+  const auto read = [&](AnyRef at) {
+    return model::placement_or_identity(m, model::Ref<model::Axis2Placement3d>(at));
+  };
   const AnyRef feature = feature_of(m, step);
-  if (!feature.set()) return Placement{};
-  const auto local =
-      model::placement_or_identity(m, model::Ref<model::Axis2Placement3d>(placement_of_feature(m, feature)));
+  const auto* workingstep = m.get<model::Workingstep>(step);
+  const AnyRef own = workingstep != nullptr ? AnyRef(workingstep->toolpath_orientation) : AnyRef{};
+  auto local = read(own.set() ? own : toolpath_placement(m, feature));
   if (!local) return fail(local.error());
+  const Around where = around(plan, step);
+  for (auto at = where.orientations.rbegin(); at != where.orientations.rend(); ++at) {
+    const auto outer = read(*at);
+    if (!outer) return fail(outer.error());
+    *local = geometry::compose(*outer, *local);
+  }
   const auto* f = m.get<model::ManufacturingFeature>(feature);
-  const auto* setup = m.get<model::Setup>(setup_around(plan, step));
+  const auto* setup = m.get<model::Setup>(where.setup);
   if (setup == nullptr || f == nullptr) return *local;
   for (const AnyRef at : setup->its_workpiece_setup.items) {
     const auto* piece = m.get<model::WorkpieceSetup>(at);
     const bool ours = piece != nullptr &&
                       (piece->its_workpiece == f->its_workpiece || setup->its_workpiece_setup.size() == 1);
     if (!ours) continue;
-    const auto outer = model::placement_or_identity(m, piece->its_origin);
+    const auto outer = read(piece->its_origin);
     if (!outer) return fail(outer.error());
     return geometry::compose(*outer, *local);
   }
@@ -331,28 +462,9 @@ Result<Placement> frame_of_step(const model::Plan& plan, model::Ref<model::Execu
 
 Result<CutterPath> path_of_toolpath(const model::Plan& plan, model::Ref<model::Toolpath> toolpath,
                                     const Placement& frame, const CurveOptions& options, Job& job) {
-  const auto& m = plan.model;
-  const AnyRef curve = curve_of(m, toolpath);
-  if (!curve.set()) {
-    return fail({.code = "EXC-TOOLPATH",
-                 .message = std::string(toolpath ? model::noun_type(toolpath.type).keyword : "nothing") +
-                            " has no curve to follow",
-                 .line = toolpath ? m.origin(toolpath).line : 0,
-                 .instance = toolpath ? m.origin(toolpath).instance : 0});
-  }
-  auto segments = curves::segments_of(m, curve, options, job);
-  if (!segments) return fail(segments.error());
-  const auto& t = m.at<model::Toolpath>(toolpath);
-  if (const auto* trajectory = m.get<model::Trajectory>(toolpath);
-      trajectory != nullptr && !trajectory->its_direction.value_or(true)) {
-    curves::reverse(*segments);
-  }
-  CutterPath path;
-  if (auto done = Emitter(frame, options, role_of(t), is_rapid(t)).add(*segments, path); !done) {
-    return fail(done.error());
-  }
-  tell_ramps(path);
-  return path;
+  auto followed = follow(plan, toolpath, frame, options, job);
+  if (!followed) return fail(followed.error());
+  return std::move(followed->path);
 }
 
 Result<StepPath> path_of_step(const model::Plan& plan, model::Ref<model::Executable> step,

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "planner/base/number.h"
+#include "planner/exchange/ap238/via.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/resolve.h"
 
@@ -60,15 +61,51 @@ class Walker {
     return out;
   }
 
+  // The parameter of a polyline is its points' number, from 0. The same point twice in a row advances it
+  // without a move: there, what follows the parameter may jump.
   Result<std::vector<Segment>> polyline(AnyRef at, const model::Polyline& c) {
-    if (c.points.size() < 2) return bad(m_, at, "a POLYLINE needs two points");
-    std::vector<Vec3> points;
-    for (std::size_t i = 0; i < c.points.size(); ++i) {
-      const auto p = model::point(m_, c.points[i]);
-      if (!p) return fail(p.error());
-      points.push_back(*p);
+    const auto& items = c.points.items;
+    if (items.size() < 2) return bad(m_, at, "a POLYLINE needs two points");
+    for (const AnyRef end : {items.front(), items.back()}) {
+      if (is_via(end)) return bad(m_, end, "a via point begins or ends a POLYLINE");
     }
-    return lines(points);
+    std::vector<Segment> out;
+    auto from = model::point(m_, c.points[0]);
+    if (!from) return fail(from.error());
+    for (std::size_t i = 0; i + 1 < items.size();) {
+      std::vector<Vec3> via;
+      std::size_t j = i + 1;
+      for (; is_via(items[j]); ++j) {
+        if (items[j].type != items[i + 1].type)
+          return bad(m_, items[j], "an arc's via points are of two kinds");
+        const auto p = model::point(m_, c.points[j]);
+        if (!p) return fail(p.error());
+        via.push_back(*p);
+      }
+      const auto to = model::point(m_, c.points[j]);
+      if (!to) return fail(to.error());
+      if (j != i + 1 || items[j] != items[i]) {
+        auto s = arc_through(*from, via, *to, via_options(items[i + 1]));
+        if (!s) return bad(m_, items[i + 1], s.error().message);
+        s->u_from = static_cast<double>(i);
+        s->u_to = static_cast<double>(j);
+        out.push_back(*s);
+      }
+      from = to;
+      i = j;
+    }
+    if (out.empty()) return bad(m_, at, "a POLYLINE stays where it is");
+    return out;
+  }
+
+  static bool is_via(AnyRef p) {
+    return p.type == model::TypeId::kViaArcPoint || p.type == model::TypeId::kViaHelixPoint;
+  }
+  [[nodiscard]] ViaOptions via_options(AnyRef via) const {
+    return {.coincident_mm = o_.coincident_mm,
+            .radius_mm = o_.gap_mm,
+            .helix = via.type == model::TypeId::kViaHelixPoint,
+            .axis = o_.helix_axis};
   }
 
   Result<std::vector<Segment>> composite(AnyRef at, const model::CompositeCurve& c, int depth) {
@@ -79,6 +116,7 @@ class Walker {
       auto part = curve(s->parent_curve, depth + 1);
       if (!part) return part;
       if (!s->same_sense.value_or(true)) reverse(*part);
+      follow_on(out, *part);
       if (!out.empty() && norm(part->front().from - out.back().to) > o_.gap_mm) {
         return bad(m_, item,
                    "a COMPOSITE_CURVE has a gap of " +
@@ -89,6 +127,22 @@ class Walker {
     }
     if (out.empty()) return bad(m_, at, "a COMPOSITE_CURVE has no segments");
     return out;
+  }
+  // The parameter of a composite runs on from piece to piece (ISO 10303-42).
+  static void follow_on(std::vector<Segment>& before, std::vector<Segment>& part) {
+    const auto unknown = [](const Segment& s) { return s.u_from == s.u_to; };
+    if (std::any_of(before.begin(), before.end(), unknown) ||
+        std::any_of(part.begin(), part.end(), unknown)) {
+      for (auto* list : {&before, &part}) {
+        for (Segment& s : *list) s.u_from = s.u_to = 0.0;
+      }
+      return;
+    }
+    const double offset = (before.empty() ? 0.0 : before.back().u_to) - part.front().u_from;
+    for (Segment& s : part) {
+      s.u_from += offset;
+      s.u_to += offset;
+    }
   }
   static std::string trimmed_text(double v) { return capstan::trimmed(v, 4); }
 
@@ -231,6 +285,13 @@ void reverse(std::vector<Segment>& segments) {
   for (Segment& s : segments) {
     std::swap(s.from, s.to);
     s.sweep = -s.sweep;
+  }
+  // The parameter runs the other way, from where it began.
+  const double ends = segments.empty() ? 0.0 : segments.front().u_to + segments.back().u_from;
+  for (Segment& s : segments) {
+    const double from = s.u_from;
+    s.u_from = ends - s.u_to;
+    s.u_to = ends - from;
   }
 }
 

@@ -15,6 +15,7 @@ struct Segment {
   bool arc = false;
   geometry::Vec3 centre, axis;
   double sweep = 0.0;
+  double u_from = 0.0, u_to = 0.0;  ///< the curve's parameter at its ends; equal where it is not known
 };
 
 /// The curve from its start to its end. Never recurses deeper than 32.
@@ -31,5 +32,11 @@ void reverse(std::vector<Segment>& segments);
 [[nodiscard]] Result<std::vector<geometry::Vec3>> sample_spline(const model::Model& m, model::AnyRef curve,
                                                                 double from, double to, bool whole,
                                                                 const CurveOptions& options);
+
+/// The least value of a one-dimensional B-spline between the parameters of each move, which are taken as
+/// fractions of its whole range; entry 0 is its first value.
+[[nodiscard]] Result<std::vector<double>> values_of_spline(const model::Model& m, model::AnyRef curve,
+                                                           const std::vector<double>& from,
+                                                           const std::vector<double>& to);
 
 }  // namespace capstan::exchange::curves

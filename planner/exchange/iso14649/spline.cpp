@@ -62,6 +62,12 @@ Result<Spline> spline_of(const model::Model& m, AnyRef at) {
   Spline s;
   s.degree = static_cast<std::size_t>(*c.degree);
   for (std::size_t i = 0; i < c.control_points_list.size(); ++i) {
+    // One coordinate: a curve of plain numbers.
+    const auto* bare = m.get<model::CartesianPoint>(c.control_points_list[i]);
+    if (bare != nullptr && bare->coordinates.items.size() == 1) {
+      s.points.push_back({bare->coordinates.items.front(), 0.0, 0.0});
+      continue;
+    }
     const auto p = model::point(m, c.control_points_list[i]);
     if (!p) return fail(p.error());
     s.points.push_back(*p);
@@ -130,6 +136,36 @@ Result<std::vector<Vec3>> sample_spline(const model::Model& m, AnyRef curve, dou
         if (out.size() > o.max_moves) return fail("EXC-CURVE", "a B-spline needs too many points");
       }
     }
+  }
+  return out;
+}
+
+Result<std::vector<double>> values_of_spline(const model::Model& m, AnyRef curve,
+                                             const std::vector<double>& from, const std::vector<double>& to) {
+  const auto spline = spline_of(m, curve);
+  if (!spline) return fail(spline.error());
+  const double lo = spline->knots[spline->degree], hi = spline->knots[spline->points.size()];
+  double first = 0.0, last = 0.0;
+  for (std::size_t i = 1; i < from.size(); ++i) {
+    first = std::min({i == 1 ? from[i] : first, from[i], to[i]});
+    last = std::max({i == 1 ? to[i] : last, from[i], to[i]});
+  }
+  if (!(last > first)) {
+    return fail({.code = "EXC-SPEED-PROFILE",
+                 .message = "a toolpath's basic curve has no parameter that its speed curve could go by",
+                 .line = m.origin(curve).line,
+                 .instance = m.origin(curve).instance});
+  }
+  constexpr int kSamples = 8;  // of one move
+  std::vector<double> out = {spline->at(lo).x};
+  for (std::size_t i = 1; i < from.size(); ++i) {
+    double least = 0.0;
+    for (int k = 0; k <= kSamples; ++k) {
+      const double u = from[i] + (to[i] - from[i]) * k / kSamples;
+      const double v = spline->at(std::clamp(lo + (hi - lo) * (u - first) / (last - first), lo, hi)).x;
+      least = k == 0 ? v : std::min(least, v);
+    }
+    out.push_back(least);
   }
   return out;
 }

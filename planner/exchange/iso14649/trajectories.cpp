@@ -143,24 +143,6 @@ class CurveWriter {
   const Placement& f_;
 };
 
-model::ToolpathType type_of(MoveRole role, bool rapid) {
-  switch (role) {
-    case MoveRole::kApproach:
-    case MoveRole::kPlunge:
-    case MoveRole::kRamp:
-      return model::ToolpathType::kApproach;
-    case MoveRole::kRetract:
-      return model::ToolpathType::kLift;
-    case MoveRole::kLink:
-      return rapid ? model::ToolpathType::kNonContact : model::ToolpathType::kConnect;
-    case MoveRole::kCut:
-    case MoveRole::kDrill:
-    case MoveRole::kTap:
-      return model::ToolpathType::kTrajectoryPath;
-  }
-  return model::ToolpathType::kTrajectoryPath;
-}
-
 /// Replaces one trajectory with a path by trajectories with curves.
 class Splitter {
  public:
@@ -229,7 +211,7 @@ class Splitter {
     t.path.reset();
     t.basiccurve = curve;
     t.its_priority = t.its_priority.value_or(true);
-    t.its_type = type_of(p.role[first], rapid);
+    t.its_type = toolpath_type_of(p.role[first], rapid);
     t.its_speed = {};
     if (rapid) t.its_speed.text = "RAPID";
     t.its_technology = technology;
@@ -263,10 +245,14 @@ class Splitter {
   std::map<std::tuple<AnyRef, double, double>, model::Ref<model::Technology>> technologies_;
 };
 
+}  // namespace
+
 bool has_bare_path(const model::Model& m, AnyRef at) {
   const auto* t = m.get<model::CutterLocationTrajectory>(at);
   return t != nullptr && t->path && t->path->size() > 1 && !t->basiccurve;
 }
+
+namespace {
 
 // The list of toolpaths that a step carries, by address; null for other executables.
 model::Ref<model::ToolpathList>* toolpaths_of(model::Model& m, AnyRef step) {
@@ -278,7 +264,8 @@ model::Ref<model::ToolpathList>* toolpaths_of(model::Model& m, AnyRef step) {
   return rapid == nullptr ? nullptr : &rapid->its_toolpath;
 }
 
-// Paths that only the plan's results hold get a toolpath in the model.
+}  // namespace
+
 void adopt_paths(model::Plan& plan) {
   for (const auto& s : plan.steps) {
     auto* list = toolpaths_of(plan.model, s.step);
@@ -293,7 +280,32 @@ void adopt_paths(model::Plan& plan) {
   }
 }
 
-}  // namespace
+model::ToolpathType toolpath_type_of(MoveRole role, bool rapid) {
+  switch (role) {
+    case MoveRole::kApproach:
+    case MoveRole::kPlunge:
+    case MoveRole::kRamp:
+      return model::ToolpathType::kApproach;
+    case MoveRole::kRetract:
+      return model::ToolpathType::kLift;
+    case MoveRole::kLink:
+      return rapid ? model::ToolpathType::kNonContact : model::ToolpathType::kConnect;
+    case MoveRole::kCut:
+    case MoveRole::kDrill:
+    case MoveRole::kTap:
+      return model::ToolpathType::kTrajectoryPath;
+  }
+  return model::ToolpathType::kTrajectoryPath;
+}
+
+AnyRef toolpath_list_of(const model::Model& m, AnyRef step) {
+  if (const auto* w = m.get<model::MachiningWorkingstep>(step)) {
+    const auto* op = m.get<model::Operation>(w->its_operation);
+    return op == nullptr ? AnyRef{} : AnyRef(op->its_toolpath);
+  }
+  const auto* rapid = m.get<model::RapidMovement>(step);
+  return rapid == nullptr ? AnyRef{} : AnyRef(rapid->its_toolpath);
+}
 
 Status write_curves(model::Plan& plan, std::vector<std::string>& losses) {
   adopt_paths(plan);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "planner/base/result.h"
+#include "planner/model/nouns/enumerations.h"
 #include "planner/model/plan.h"
 
 namespace capstan::exchange {
@@ -20,5 +21,16 @@ inline constexpr double kHelixChordMm = 0.001;  // default, unsourced
 /// Losses  sentences about what the curves cannot say.
 /// Fails   when a step's frame cannot be found.
 [[nodiscard]] Status write_curves(model::Plan& plan, std::vector<std::string>& losses);
+
+// What both exchanges need of toolpaths.
+
+/// Paths that only the plan's results hold get a toolpath in the model.
+void adopt_paths(model::Plan& plan);
+/// Whether a trajectory has a path and no curves.
+[[nodiscard]] bool has_bare_path(const model::Model& m, model::AnyRef at);
+/// What a run of moves is for, as a file says it.
+[[nodiscard]] model::ToolpathType toolpath_type_of(model::MoveRole role, bool rapid);
+/// The list of toolpaths of an executable, unset when it has none.
+[[nodiscard]] model::AnyRef toolpath_list_of(const model::Model& m, model::AnyRef step);
 
 }  // namespace capstan::exchange

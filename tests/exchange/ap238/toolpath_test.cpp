@@ -91,28 +91,39 @@ using Location = model::CutterLocationTrajectory;
 TEST(Ap238Toolpath, EachAttributeOfAToolpathStandsWhereTheMappingHasIt) {
   using Bench = PathBench<Location>;
   check<Location>({
-      {"its_id", [](Bench& b) { b.at().its_id = "WS 1 TP 1"; },
+      {"its_id",
+       [](Bench& b) { b.at().its_id = "WS 1 TP 1"; },
        {"MACHINING_TOOLPATH('WS 1 TP 1','cutter location trajectory','','');"}},
-      {"required", [](Bench& b) { b.at().its_priority = true; },
+      {"required",
+       [](Bench& b) { b.at().its_priority = true; },
        {property("priority"), "DESCRIPTIVE_REPRESENTATION_ITEM('','required');"}},
-      {"suggested", [](Bench& b) { b.at().its_priority = false; },
+      {"suggested",
+       [](Bench& b) { b.at().its_priority = false; },
        {property("priority"), "DESCRIPTIVE_REPRESENTATION_ITEM('','suggested');"}},
-      {"approach", [](Bench& b) { b.at().its_type = model::ToolpathType::kApproach; },
+      {"approach",
+       [](Bench& b) { b.at().its_type = model::ToolpathType::kApproach; },
        {property("trajectory type"), "DESCRIPTIVE_REPRESENTATION_ITEM('','approach');"}},
-      {"lift", [](Bench& b) { b.at().its_type = model::ToolpathType::kLift; },
+      {"lift",
+       [](Bench& b) { b.at().its_type = model::ToolpathType::kLift; },
        {"DESCRIPTIVE_REPRESENTATION_ITEM('','lift');"}},
-      {"connect", [](Bench& b) { b.at().its_type = model::ToolpathType::kConnect; },
+      {"connect",
+       [](Bench& b) { b.at().its_type = model::ToolpathType::kConnect; },
        {"DESCRIPTIVE_REPRESENTATION_ITEM('','connect');"}},
-      {"non-contact", [](Bench& b) { b.at().its_type = model::ToolpathType::kNonContact; },
+      {"non-contact",
+       [](Bench& b) { b.at().its_type = model::ToolpathType::kNonContact; },
        {"DESCRIPTIVE_REPRESENTATION_ITEM('','non-contact');"}},
-      {"contact", [](Bench& b) { b.at().its_type = model::ToolpathType::kContact; },
+      {"contact",
+       [](Bench& b) { b.at().its_type = model::ToolpathType::kContact; },
        {"DESCRIPTIVE_REPRESENTATION_ITEM('','contact');"}},
-      {"trajectory path", [](Bench& b) { b.at().its_type = model::ToolpathType::kTrajectoryPath; },
+      {"trajectory path",
+       [](Bench& b) { b.at().its_type = model::ToolpathType::kTrajectoryPath; },
        {"DESCRIPTIVE_REPRESENTATION_ITEM('','trajectory path');"}},
-      {"rapid", [](Bench& b) { b.at().its_speed.text = "RAPID"; },
+      {"rapid",
+       [](Bench& b) { b.at().its_speed.text = "RAPID"; },
        {"ACTION_PROPERTY('speed profile','rapid',#);", "DESCRIPTIVE_REPRESENTATION_ITEM('','rapid');",
         "MACHINING_TOOLPATH_SPEED_PROFILE_REPRESENTATION('',(#),#);"}},
-      {"ratio", [](Bench& b) { b.at().its_speed.real = 0.75; },
+      {"ratio",
+       [](Bench& b) { b.at().its_speed.real = 0.75; },
        {property("speed profile"), "MACHINING_TOOLPATH_SPEED_PROFILE_REPRESENTATION('',(#),#);",
         "(MEASURE_REPRESENTATION_ITEM()MEASURE_WITH_UNIT(RATIO_MEASURE(0.75),#)RATIO_MEASURE_WITH_UNIT()"
         "REPRESENTATION_ITEM(''));"}},
@@ -131,49 +142,81 @@ TEST(Ap238Toolpath, EachAttributeOfAToolpathStandsWhereTheMappingHasIt) {
 
 TEST(Ap238Toolpath, EachAttributeOfATrajectoryStandsWhereTheMappingHasIt) {
   using Bench = PathBench<Location>;
-  const std::string seven = "(GEOMETRIC_REPRESENTATION_CONTEXT(7)GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT((#))"
-                            "GLOBAL_UNIT_ASSIGNED_CONTEXT((#))REPRESENTATION_CONTEXT('MILLIMETRE','7D'));";
-  const std::string length = "(LENGTH_MEASURE_WITH_UNIT()MEASURE_REPRESENTATION_ITEM()MEASURE_WITH_UNIT("
-                             "LENGTH_MEASURE(2.5),#)REPRESENTATION_ITEM(''));";
+  const std::string seven =
+      "(GEOMETRIC_REPRESENTATION_CONTEXT(7)GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT((#))"
+      "GLOBAL_UNIT_ASSIGNED_CONTEXT((#))REPRESENTATION_CONTEXT('MILLIMETRE','7D'));";
+  const std::string length =
+      "(LENGTH_MEASURE_WITH_UNIT()MEASURE_REPRESENTATION_ITEM()MEASURE_WITH_UNIT("
+      "LENGTH_MEASURE(2.5),#)REPRESENTATION_ITEM(''));";
   check<Location>({
-      {"along", [](Bench& b) { b.at().its_direction = true; },
+      {"along",
+       [](Bench& b) { b.at().its_direction = true; },
        {property("direction"), "DESCRIPTIVE_REPRESENTATION_ITEM('','beginning to end');"}},
-      {"against", [](Bench& b) { b.at().its_direction = false; },
+      {"against",
+       [](Bench& b) { b.at().its_direction = false; },
        {property("direction"), "DESCRIPTIVE_REPRESENTATION_ITEM('','end to beginning');"}},
-      {"basiccurve", [](Bench& b) { b.at().basiccurve = b.line({{0, 0, 0}, {1, 0, 0}}); },
+      {"basiccurve",
+       [](Bench& b) {
+         b.at().basiccurve = b.line({{0, 0, 0}, {1, 0, 0}});
+       },
        {property("basic curve"), relation(), kInSpace, "POLYLINE('',(#,#));"}},
-      {"its_toolaxis", [](Bench& b) { b.at().its_toolaxis = b.line({{0, 0, 1}, {0, 0.6, 0.8}}); },
+      {"its_toolaxis",
+       [](Bench& b) {
+         b.at().its_toolaxis = b.line({{0, 0, 1}, {0, 0.6, 0.8}});
+       },
        {property("tool axis"), "CARTESIAN_POINT('',(0.,0.6,0.8));"}},
-      {"its_toolref_direction", [](Bench& b) { b.at().its_toolref_direction = b.line({{1, 0, 0}, {0, 1, 0}}); },
+      {"its_toolref_direction",
+       [](Bench& b) {
+         b.at().its_toolref_direction = b.line({{1, 0, 0}, {0, 1, 0}});
+       },
        {property("tool reference direction")}},
-      {"surface_normal", [](Bench& b) { b.at().surface_normal = b.line({{0, 0, 1}, {1, 0, 0}}); },
+      {"surface_normal",
+       [](Bench& b) {
+         b.at().surface_normal = b.line({{0, 0, 1}, {1, 0, 0}});
+       },
        {property("surface normal")}},
-      {"depth", [](Bench& b) { b.at().its_material_removal_depth.real = 2.5; },
+      {"depth",
+       [](Bench& b) { b.at().its_material_removal_depth.real = 2.5; },
        {property("material removal depth"), length}},
-      {"depth curve", [](Bench& b) { b.at().its_material_removal_depth.ref = b.line({{1.0}, {2.0}}); },
+      {"depth curve",
+       [](Bench& b) {
+         b.at().its_material_removal_depth.ref = b.line({{1.0}, {2.0}});
+       },
        {property("material removal depth"), "CARTESIAN_POINT('',(2.));"}},
-      {"overcut", [](Bench& b) { b.at().its_material_removal_overcut.real = 2.5; },
+      {"overcut",
+       [](Bench& b) { b.at().its_material_removal_overcut.real = 2.5; },
        {property("material removal overcut"), length}},
-      {"overcut curve", [](Bench& b) { b.at().its_material_removal_overcut.ref = b.line({{1.0}, {2.0}}); },
+      {"overcut curve",
+       [](Bench& b) {
+         b.at().its_material_removal_overcut.ref = b.line({{1.0}, {2.0}});
+       },
        {property("material removal overcut"), "CARTESIAN_POINT('',(2.));"}},
-      {"total volume", [](Bench& b) { b.at().its_material_removal_total_volume = 1234.5; },
+      {"total volume",
+       [](Bench& b) { b.at().its_material_removal_total_volume = 1234.5; },
        {property("material removal total volume")}},
-      {"path deviation", [](Bench& b) { b.at().path_maximum_deviation = 2.5; },
+      {"path deviation",
+       [](Bench& b) { b.at().path_maximum_deviation = 2.5; },
        {property("path maximum deviation"), length}},
-      {"axis deviation", [](Bench& b) { b.at().tool_axis_maximum_deviation = 0.01; },
+      {"axis deviation",
+       [](Bench& b) { b.at().tool_axis_maximum_deviation = 0.01; },
        {property("tool axis maximum deviation"),
         "(MEASURE_REPRESENTATION_ITEM()MEASURE_WITH_UNIT(PLANE_ANGLE_MEASURE(0.01),#)"
         "PLANE_ANGLE_MEASURE_WITH_UNIT()REPRESENTATION_ITEM(''));"}},
       {"sections",
        [](Bench& b) {
-         b.at().cross_section_area_parameters = b.line({{5, 3, 1, -2, 15, 0.5, -1}, {4, 3, 1, -2, 12, 0.5, -1}});
+         b.at().cross_section_area_parameters =
+             b.line({{5, 3, 1, -2, 15, 0.5, -1}, {4, 3, 1, -2, 12, 0.5, -1}});
        },
        {property("cross section area parameters"), seven, "CARTESIAN_POINT('',(5.,3.,1.,-2.,15.,0.5,-1.));"}},
       {"flank sections",
-       [](Bench& b) { b.at().cross_section_area_flank_parameters = b.line({{5, 3, 1}, {4, 3, 1}}); },
+       [](Bench& b) {
+         b.at().cross_section_area_flank_parameters = b.line({{5, 3, 1}, {4, 3, 1}});
+       },
        {property("cross section area flank parameters")}},
       {"plunge sections",
-       [](Bench& b) { b.at().cross_section_area_plunge_parameters = b.line({{5, 3, 1}, {4, 3, 1}}); },
+       [](Bench& b) {
+         b.at().cross_section_area_plunge_parameters = b.line({{5, 3, 1}, {4, 3, 1}});
+       },
        {property("cross section area plunge parameters")}},
   });
 }
@@ -188,7 +231,8 @@ TEST(Ap238Toolpath, EachAttributeOfTheOtherKindsStandsWhereTheMappingHasIt) {
     b.at().basiccurve = b.plan.model.add(std::move(c));
   };
   check<Contact>({
-      {"normal", with_normal,
+      {"normal",
+       with_normal,
        {"MACHINING_TOOLPATH('path','cutter contact trajectory','','');", property("basic curve", contact),
         property("surface normal", contact)}},
       {"pcurve",
@@ -204,9 +248,11 @@ TEST(Ap238Toolpath, EachAttributeOfTheOtherKindsStandsWhereTheMappingHasIt) {
          b.at().its_toolaxis = b.line({{0, 0, 1}, {0, 0.6, 0.8}});
        },
        {property("tool axis", contact)}},
-      {"side", [&](PathBench<Contact>& b) { b.at().its_contact_type = model::ContactType::kSide; },
+      {"side",
+       [&](PathBench<Contact>& b) { b.at().its_contact_type = model::ContactType::kSide; },
        {property("contact type", contact), "DESCRIPTIVE_REPRESENTATION_ITEM('','side');"}},
-      {"front", [&](PathBench<Contact>& b) { b.at().its_contact_type = model::ContactType::kFront; },
+      {"front",
+       [&](PathBench<Contact>& b) { b.at().its_contact_type = model::ContactType::kFront; },
        {"DESCRIPTIVE_REPRESENTATION_ITEM('','front');"}},
   });
   check<model::AxisTrajectory>({
@@ -220,36 +266,52 @@ TEST(Ap238Toolpath, EachAttributeOfTheOtherKindsStandsWhereTheMappingHasIt) {
         "REPRESENTATION('',(#,#),#);", "POLYLINE('x',(#,#));", "POLYLINE('b',(#,#));"}},
   });
   check<model::Feedstop>({
-      {"time", [](PathBench<model::Feedstop>& b) { b.at().dwell = 0.5; },
+      {"time",
+       [](PathBench<model::Feedstop>& b) { b.at().dwell = 0.5; },
        {property("dwell", "feedstop"), "MACHINING_DWELL_TIME_REPRESENTATION('dwell time',(#),#);",
         "(MEASURE_REPRESENTATION_ITEM()MEASURE_WITH_UNIT(TIME_MEASURE(0.5),#)"
         "REPRESENTATION_ITEM('dwell time')TIME_MEASURE_WITH_UNIT());"}},
-      {"revolutions", [](PathBench<model::Feedstop>& b) { b.at().dwell_revolutions = 3.0; },
+      {"revolutions",
+       [](PathBench<model::Feedstop>& b) { b.at().dwell_revolutions = 3.0; },
        {property("dwell", "feedstop"), "MACHINING_DWELL_TIME_REPRESENTATION('dwell revolution',(#),#);",
         "MEASURE_REPRESENTATION_ITEM('dwell revolution',COUNT_MEASURE(3.),#);"}},
   });
   check<model::ConnectDirect>(
       {{"direct", [](auto&) {}, {"MACHINING_TOOLPATH('path','connect direct','','');"}}});
   check<model::ConnectSecplane>({
-      {"up", [](PathBench<model::ConnectSecplane>& b) { b.at().up_dir = b.direction({0, 0, 1}); },
+      {"up",
+       [](PathBench<model::ConnectSecplane>& b) {
+         b.at().up_dir = b.direction({0, 0, 1});
+       },
        {property("up direction", "connect security plane"), "DIRECTION('',(0.,0.,1.));"}},
-      {"down", [](PathBench<model::ConnectSecplane>& b) { b.at().down_dir = b.direction({0, 0, -1}); },
+      {"down",
+       [](PathBench<model::ConnectSecplane>& b) {
+         b.at().down_dir = b.direction({0, 0, -1});
+       },
        {property("down direction", "connect security plane")}},
   });
   const std::string angle = "approach lift path angle", tangent = "approach lift path tangent";
   check<model::ApLiftPathAngle>({
-      {"angle", [](PathBench<model::ApLiftPathAngle>& b) { b.at().angle = 0.5; },
+      {"angle",
+       [](PathBench<model::ApLiftPathAngle>& b) { b.at().angle = 0.5; },
        {"MACHINING_TOOLPATH('path','approach lift path angle','','');", property("angle", angle)}},
-      {"benddist", [](PathBench<model::ApLiftPathAngle>& b) { b.at().benddist = 4.0; },
+      {"benddist",
+       [](PathBench<model::ApLiftPathAngle>& b) { b.at().benddist = 4.0; },
        {property("bend distance", angle)}},
-      {"fix point", [](PathBench<model::ApLiftPathAngle>& b) { b.at().fix_point = b.point({1, 2, 3}); },
+      {"fix point",
+       [](PathBench<model::ApLiftPathAngle>& b) {
+         b.at().fix_point = b.point({1, 2, 3});
+       },
        {property("fix point", angle), "CARTESIAN_POINT('',(1.,2.,3.));"}},
       {"fix point direction",
-       [](PathBench<model::ApLiftPathAngle>& b) { b.at().fix_point_dir = b.direction({1, 0, 0}); },
+       [](PathBench<model::ApLiftPathAngle>& b) {
+         b.at().fix_point_dir = b.direction({1, 0, 0});
+       },
        {property("fix point direction", angle)}},
   });
   check<model::ApLiftPathTangent>({
-      {"radius", [](PathBench<model::ApLiftPathTangent>& b) { b.at().radius = 4.0; },
+      {"radius",
+       [](PathBench<model::ApLiftPathTangent>& b) { b.at().radius = 4.0; },
        {"MACHINING_TOOLPATH('path','approach lift path tangent','','');", property("radius", tangent)}},
   });
 }
@@ -281,7 +343,8 @@ std::string inch_file(const std::string& more) {
       "#12=MACHINING_OPERATION_RELATIONSHIP('','',#11,#13);\n#13=FREEFORM_MILLING_OPERATION('o','','','');\n"
       "#14=MACHINING_TOOLPATH_SEQUENCE_RELATIONSHIP('','',#13,#15,1.);\n"
       "#15=MACHINING_TOOLPATH('t','cutter location trajectory','','');\n"
-      "#20=(GEOMETRIC_REPRESENTATION_CONTEXT(3)GLOBAL_UNIT_ASSIGNED_CONTEXT((#21))REPRESENTATION_CONTEXT('',''));\n"
+      "#20=(GEOMETRIC_REPRESENTATION_CONTEXT(3)GLOBAL_UNIT_ASSIGNED_CONTEXT((#21))REPRESENTATION_CONTEXT('','"
+      "'));\n"
       "#21=(CONVERSION_BASED_UNIT('INCH',#22)LENGTH_UNIT()NAMED_UNIT(#24));\n"
       "#22=LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE(25.4),#23);\n"
       "#23=(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.));\n"
@@ -308,7 +371,8 @@ TEST(Ap238Toolpath, InchesAreOfPointsAndNotOfDirectionsRatiosOrSquares) {
       "#62=MACHINING_TOOLPATH_SPEED_PROFILE_REPRESENTATION('',(#63),#20);\n#63=POLYLINE('',(#64,#64));\n"
       "#64=CARTESIAN_POINT('',(0.5));\n" +
       action_property(70, "path maximum deviation", "(#73)", 25) +
-      "#73=(LENGTH_MEASURE_WITH_UNIT()MEASURE_REPRESENTATION_ITEM()MEASURE_WITH_UNIT(LENGTH_MEASURE(0.001),#21)"
+      "#73=(LENGTH_MEASURE_WITH_UNIT()MEASURE_REPRESENTATION_ITEM()MEASURE_WITH_UNIT(LENGTH_MEASURE(0.001),#"
+      "21)"
       "REPRESENTATION_ITEM(''));\n"));
   const auto& m = plan.model;
   const auto paths = m.all(model::TypeId::kCutterLocationTrajectory);
@@ -332,8 +396,8 @@ TEST(Ap238ToolpathCorpus, EveryTrajectoryOfTheStandardsExamplesIsDecoded) {
     std::vector<std::string> said;
     const auto plan = read_text(capstan::testing::slurp(path), &said);
     for (const auto& s : said) {
-      EXPECT_THAT(s, ::testing::Not(::testing::AnyOf(HasSubstr("TOOLPATH"), HasSubstr("POLYLINE"),
-                                                     HasSubstr("SPEED"))));
+      EXPECT_THAT(s, ::testing::Not(
+                         ::testing::AnyOf(HasSubstr("TOOLPATH"), HasSubstr("POLYLINE"), HasSubstr("SPEED"))));
     }
     const auto& m = plan.model;
     const auto lists = m.all(model::TypeId::kToolpathList);

@@ -1,0 +1,448 @@
+#include "planner/exchange/ap238/paths.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <tuple>
+
+#include "planner/base/number.h"
+#include "planner/exchange/ap238/via.h"
+#include "planner/exchange/iso14649/curves.h"
+#include "planner/exchange/iso14649/trajectories.h"
+#include "planner/model/nouns/all.h"
+#include "planner/model/resolve.h"
+
+namespace capstan::exchange::ap238 {
+
+using geometry::Placement;
+using geometry::Vec3;
+using model::AnyRef;
+using model::CutterPath;
+using model::MoveKind;
+
+namespace {
+
+constexpr double kCoincidentMm =
+    1e-5;                            // what written files state as uncertainty; @uncertainty in 0_macros.map
+constexpr double kArcMm = 1e-7;      // how far a written arc may read back from what it was
+constexpr double kUpright = 1e-9;    // sine up to which z counts as z
+constexpr double kSamePlace = 1e-9;  // mm, and components of directions
+
+bool is_arc(MoveKind k) { return k == MoveKind::kArcCw || k == MoveKind::kArcCcw; }
+
+/// The measured sections of a path, by place.
+class Sections {
+ public:
+  explicit Sections(const model::SectionSeries* s) : s_(s) {
+    for (std::size_t i = 0; s_ != nullptr && i < s_->size(); ++i) order_.push_back(i);
+    std::stable_sort(order_.begin(), order_.end(), [this](std::size_t a, std::size_t b) {
+      return std::pair(s_->move[a], s_->at_mm[a]) < std::pair(s_->move[b], s_->at_mm[b]);
+    });
+  }
+
+  /// A sample stands at the end of its step, which is as long as its volume over its area.
+  [[nodiscard]] std::array<double, 7> at(std::size_t move, double at_mm) const {
+    const auto it = std::lower_bound(
+        order_.begin(), order_.end(), at_mm - kSamePlace,
+        [&](std::size_t i, double v) { return s_->move[i] != move ? s_->move[i] < move : s_->at_mm[i] < v; });
+    if (it == order_.end() || s_->move[*it] != move) return {};
+    const std::size_t i = *it;
+    const double step = s_->csa_mm2[i] > 0.0 ? s_->removed_mm3[i] / s_->csa_mm2[i] : 0.0;
+    const bool here = at_mm >= s_->at_mm[i] - std::max(step * (1.0 + 1e-6), kSamePlace);
+    if (!here) return {};
+    return {s_->ad_max_mm[i], s_->rd_max_mm[i],   s_->x_max_ofs_mm[i], s_->y_max_ofs_mm[i],
+            s_->csa_mm2[i],   s_->x_cg_ofs_mm[i], s_->y_cg_ofs_mm[i]};
+  }
+
+  [[nodiscard]] double volume(std::size_t first, std::size_t last) const {
+    double out = 0.0;
+    for (std::size_t i = 0; s_ != nullptr && i < s_->size(); ++i) {
+      if (s_->move[i] >= first && s_->move[i] <= last) out += s_->removed_mm3[i];
+    }
+    return out;
+  }
+
+ private:
+  const model::SectionSeries* s_;
+  std::vector<std::size_t> order_;
+};
+
+/// A point of a basic curve, and where on the path it lies.
+struct Place {
+  model::Ref<model::CartesianPoint> point;
+  std::size_t move = 0;
+  double at_mm = 0.0;
+};
+
+template <class Point = model::CartesianPoint>
+model::Ref<model::CartesianPoint> add_point(model::Model& m, std::vector<double> coordinates) {
+  Point p;
+  p.name = "";
+  for (double& c : coordinates) c += 0.0;
+  p.coordinates = {std::move(coordinates), true};
+  return m.add(std::move(p));
+}
+
+/// Curves of one path in the frame's local coordinates.
+class Curves {
+ public:
+  Curves(model::Model& m, const CutterPath& path, const Placement& frame) : m_(m), p_(path), f_(frame) {}
+
+  /// The basic curve of moves first..last. `jumps(i)`: something jumps between the moves i-1 and i.
+  template <class Jumps>
+  std::vector<Place> places(std::size_t first, std::size_t last, const Jumps& jumps) {
+    std::vector<Place> out = {{end_of(first - 1), first, 0.0}};
+    for (std::size_t i = first; i <= last; ++i) {
+      if (i > first && jumps(i)) out.push_back({end_of(i - 1), i, 0.0});
+      if (is_arc(p_.kind[i])) via(i, out);
+      out.push_back({end_of(i), i, model::move_length(p_, i)});
+    }
+    return out;
+  }
+
+  /// A curve with a point for each place. Points of equal numbers are one.
+  template <class Numbers>
+  model::Ref<model::BoundedCurve> beside(const std::vector<Place>& places, const Numbers& numbers) {
+    model::Polyline c;
+    c.name = "";
+    std::map<std::vector<double>, model::Ref<model::CartesianPoint>> known;
+    for (const Place& at : places) {
+      std::vector<double> v = numbers(at);
+      auto& p = known[v];
+      if (!p) p = add_point(m_, std::move(v));
+      c.points.push_back(p);
+    }
+    return m_.add(std::move(c));
+  }
+
+  model::Ref<model::BoundedCurve> basic(const std::vector<Place>& places) {
+    model::Polyline c;
+    c.name = "";
+    for (const Place& at : places) c.points.push_back(at.point);
+    return m_.add(std::move(c));
+  }
+
+  std::size_t straightened = 0;  ///< arcs too small to be told from a line
+
+ private:
+  // Where one run ends, the next begins.
+  model::Ref<model::CartesianPoint> end_of(std::size_t i) {
+    auto& p = ends_[i];
+    if (!p) p = add_point(m_, numbers(p_.point(i)));
+    return p;
+  }
+  [[nodiscard]] std::vector<double> numbers(Vec3 p) const {
+    const Vec3 q = f_.to_local(p);
+    return {q.x, q.y, q.z};
+  }
+
+  void via(std::size_t i, std::vector<Place>& out) {
+    const bool helix = p_.z[i] != p_.z[i - 1];
+    const double length = model::move_length(p_, i);
+    const std::size_t least = curves::via_count(model::arc_sweep(p_, i));
+    for (std::size_t n = least; n <= 2; ++n) {
+      std::vector<double> at;
+      std::vector<Vec3> points;
+      for (std::size_t k = 1; k <= n; ++k) {
+        at.push_back(static_cast<double>(k) / static_cast<double>(n + 1));
+        points.push_back(f_.to_local(model::point_on_move(p_, i, at.back())));
+      }
+      if (!reads_back(i, points, helix)) continue;
+      for (std::size_t k = 0; k < n; ++k) {
+        const std::vector<double> c = {points[k].x, points[k].y, points[k].z};
+        out.push_back({helix ? add_point<model::ViaHelixPoint>(m_, c) : add_point<model::ViaArcPoint>(m_, c),
+                       i, at[k] * length});
+      }
+      return;
+    }
+    ++straightened;
+  }
+
+  // Whether the reader makes the same arc of it.
+  [[nodiscard]] bool reads_back(std::size_t i, const std::vector<Vec3>& via, bool helix) const {
+    const auto s = curves::arc_through(f_.to_local(p_.point(i - 1)), via, f_.to_local(p_.point(i)),
+                                       {.coincident_mm = kCoincidentMm,
+                                        .radius_mm = CurveOptions{}.gap_mm,
+                                        .helix = helix,
+                                        .axis = f_.direction_to_local({0.0, 0.0, 1.0})});
+    if (!s || !s->arc) return false;
+    if (std::abs(std::abs(s->sweep) - model::arc_sweep(p_, i)) > 1e-6) return false;
+    for (const double t : {0.25, 0.5, 0.75}) {
+      if (norm(f_.to_parent(curves::at(*s, t)) - model::point_on_move(p_, i, t)) > kArcMm) return false;
+    }
+    return true;
+  }
+
+  model::Model& m_;
+  const CutterPath& p_;
+  const Placement& f_;
+  std::map<std::size_t, model::Ref<model::CartesianPoint>> ends_;
+};
+
+// f / base as a number that times base gives f again.
+double ratio_of(double f, double base) {
+  const double r = f / base;
+  double up = r, down = r;
+  for (int i = 0; i < 4; ++i) {
+    if (base * up == f) return up;
+    if (base * down == f) return down;
+    up = std::nextafter(up, 2.0 * r);
+    down = std::nextafter(down, 0.0);
+  }
+  return r;
+}
+
+/// Replaces trajectories with a path by trajectories with curves.
+class Splitter {
+ public:
+  Splitter(model::Plan& plan, const Placement& frame, AnyRef step, AnyRef technology,
+           std::vector<std::string>& losses)
+      : plan_(plan), m_(plan.model), frame_(frame), general_(technology), losses_(losses) {
+    const auto* e = m_.get<model::Executable>(step);
+    name_ = e != nullptr ? e->its_id.value_or("") : "";
+  }
+
+  void split(AnyRef at, std::vector<AnyRef>& out) {
+    const auto path = m_.at<model::Trajectory>(at).path;
+    const model::StepResult* result = nullptr;
+    for (const auto& s : plan_.steps) {
+      if (s.path == path) result = &s;
+    }
+    schedule_ = result != nullptr && result->schedule && result->schedule->feed_mm_min.size() == path->size()
+                    ? result->schedule
+                    : nullptr;
+    const Sections sections(result != nullptr ? result->sections.get() : nullptr);
+    Curves curves(m_, *path, frame_);
+    bool first = true;
+    for (std::size_t i = 1; i < path->size();) {
+      std::size_t last = i;
+      while (last + 1 < path->size() && same_run(*path, i, last + 1)) ++last;
+      // The object that had the path is the first run: what refers to it still does.
+      AnyRef target = at;
+      if (path->kind[i] == MoveKind::kDwell) {
+        target = dwell(i, at);
+      } else {
+        if (!first) {
+          auto copy = m_.at<model::CutterLocationTrajectory>(at);
+          copy.its_id.reset();
+          target = m_.add(std::move(copy));
+        }
+        first = false;
+        fill(target, *path, i, last, curves, sections);
+      }
+      auto& id = m_.at<model::Toolpath>(target).its_id;
+      if (!id || id->empty()) id = name_ + " TP " + std::to_string(out.size() + 1);
+      out.push_back(target);
+      i = last + 1;
+    }
+    if (curves.straightened != 0) {
+      losses_.push_back(std::to_string(curves.straightened) +
+                        " arcs no longer than their uncertainty are written as lines");
+    }
+  }
+
+ private:
+  [[nodiscard]] double feed(std::size_t i) const { return schedule_ ? schedule_->feed_mm_min[i] : 0.0; }
+  [[nodiscard]] double speed(std::size_t i) const { return schedule_ ? schedule_->spindle_rpm[i] : 0.0; }
+
+  [[nodiscard]] bool same_run(const CutterPath& p, std::size_t i, std::size_t j) const {
+    if (p.kind[i] == MoveKind::kDwell || p.kind[j] == MoveKind::kDwell) return false;
+    const bool rapid = p.kind[i] == MoveKind::kRapid;
+    if (rapid != (p.kind[j] == MoveKind::kRapid) || p.role[i] != p.role[j]) return false;
+    // A feed of nothing is no multiple of any: such moves stand alone.
+    return rapid || (speed(i) == speed(j) && (feed(i) > 0.0) == (feed(j) > 0.0));
+  }
+
+  AnyRef dwell(std::size_t i, AnyRef at) {
+    model::Feedstop stop;
+    stop.its_priority = m_.at<model::Toolpath>(at).its_priority.value_or(true);
+    stop.its_type = model::ToolpathType::kTrajectoryPath;
+    stop.dwell = schedule_ && i < schedule_->dwell_s.size() ? schedule_->dwell_s[i] : 0.0;
+    return m_.add(std::move(stop));
+  }
+
+  void fill(AnyRef target, const CutterPath& p, std::size_t first, std::size_t last, Curves& curves,
+            const Sections& sections) {
+    const bool rapid = p.kind[first] == MoveKind::kRapid;
+    const auto jumps = [&](std::size_t i) { return !rapid && feed(i) != feed(i - 1); };
+    const auto places = curves.places(first, last, jumps);
+    const auto technology = rapid ? model::Ref<model::Technology>() : technology_for(first, last);
+    const model::SelectValue speed =
+        rapid ? model::SelectValue{.ref = {}, .type = {}, .real = {}, .text = "RAPID"}
+              : speed_for(technology, first, last, places, curves);
+    const auto basic = curves.basic(places);
+    model::Ref<model::BoundedCurve> cut, axis;
+    const double volume = sections.volume(first, last);
+    if (volume > 0.0) {
+      cut = curves.beside(places, [&](const Place& at) {
+        const auto v = sections.at(at.move, at.at_mm);
+        return std::vector<double>(v.begin(), v.end());
+      });
+    }
+    const Vec3 z = frame_.direction_to_local({0.0, 0.0, 1.0});
+    if (std::hypot(z.x, z.y) > kUpright || z.z < 0.0) {
+      axis = curves.beside(places, [&](const Place&) { return std::vector<double>{z.x, z.y, z.z}; });
+    }
+    auto& t = m_.at<model::CutterLocationTrajectory>(target);
+    t.path.reset();
+    t.basiccurve = basic;
+    t.its_priority = t.its_priority.value_or(true);
+    t.its_type = toolpath_type_of(p.role[first], rapid);
+    t.its_speed = speed;
+    t.its_technology = technology;
+    t.cross_section_area_parameters = cut;
+    t.its_toolaxis = axis;
+    t.its_material_removal_total_volume = volume > 0.0 ? model::Real(volume) : std::nullopt;
+    if (!rapid && plan_.machine.control.path_tolerance_mm > 0.0)
+      t.path_maximum_deviation = plan_.machine.control.path_tolerance_mm;
+  }
+
+  model::SelectValue speed_for(AnyRef technology, std::size_t first, std::size_t last,
+                               const std::vector<Place>& places, Curves& curves) {
+    model::SelectValue out;
+    const auto* t = m_.get<model::MillingTechnology>(technology);
+    if (!schedule_ || t == nullptr || !t->feedrate || !(*t->feedrate > 0.0)) return out;
+    const double base = *t->feedrate;
+    bool same = true;
+    for (std::size_t i = first; i <= last; ++i) same = same && feed(i) == feed(first);
+    if (same) {
+      if (feed(first) == base) return out;
+      out.real = ratio_of(feed(first), base);
+      out.type = "POSITIVE_RATIO_MEASURE";
+      return out;
+    }
+    model::ToolpathSpeed speed;
+    speed.speed = curves.beside(
+        places, [&](const Place& at) { return std::vector<double>{ratio_of(feed(at.move), base)}; });
+    out.ref = m_.add(std::move(speed));
+    return out;
+  }
+
+  // The operation's own technology where its spindle turns as fast; else one with the run's greatest feed.
+  model::Ref<model::Technology> technology_for(std::size_t first, std::size_t last) {
+    const auto* general = m_.get<model::MillingTechnology>(general_);
+    if (!schedule_ || general == nullptr) return model::Ref<model::Technology>(general_);
+    const double spindle = -speed(first) + 0.0;
+    const bool moves = feed(first) > 0.0;
+    if (general->spindle == spindle && moves && general->feedrate && *general->feedrate > 0.0) {
+      return model::Ref<model::Technology>(general_);
+    }
+    double most = 0.0;
+    for (std::size_t i = first; i <= last; ++i) most = std::max(most, feed(i));
+    const auto key = std::tuple(most, spindle);
+    const auto known = technologies_.find(key);
+    if (known != technologies_.end()) return known->second;
+    model::MillingTechnology t = *general;
+    t.feedrate = most;
+    t.spindle = spindle;
+    t.cutspeed.reset();
+    t.feedrate_per_tooth.reset();
+    return technologies_[key] = m_.add(std::move(t));
+  }
+
+  model::Plan& plan_;
+  model::Model& m_;
+  const Placement& frame_;
+  AnyRef general_;
+  std::vector<std::string>& losses_;
+  std::string name_;
+  std::shared_ptr<const model::FeedSchedule> schedule_;
+  std::map<std::tuple<double, double>, model::Ref<model::Technology>> technologies_;
+};
+
+AnyRef feature_placement(const model::Model& m, AnyRef step) {
+  const auto* w = m.get<model::MachiningWorkingstep>(step);
+  return w == nullptr ? AnyRef{} : toolpath_placement(m, w->its_feature);
+}
+
+bool has_curves(const model::Model& m, AnyRef step) {
+  const auto* list = m.get<model::ToolpathList>(toolpath_list_of(m, step));
+  if (list == nullptr) return false;
+  const auto& items = list->its_list.items;
+  return std::any_of(items.begin(), items.end(), [&](AnyRef t) {
+    const auto* cl = m.get<model::CutterLocationTrajectory>(t);
+    const auto* cc = m.get<model::CutterContactTrajectory>(t);
+    return (cl != nullptr && cl->basiccurve) || (cc != nullptr && cc->basiccurve.set()) ||
+           m.holds<model::ApproachLiftPath>(t);
+  });
+}
+
+bool same_place(const Placement& a, const Placement& b) {
+  return norm(a.origin - b.origin) <= kSamePlace && norm(a.x - b.x) <= kSamePlace &&
+         norm(a.z - b.z) <= kSamePlace;
+}
+
+model::Ref<model::Axis2Placement3d> copied(model::Model& m, const Placement& p) {
+  const auto direction = [&](Vec3 d) {
+    model::Direction out;
+    out.name = "";
+    out.direction_ratios = {{d.x + 0.0, d.y + 0.0, d.z + 0.0}, true};
+    return m.add(std::move(out));
+  };
+  model::Axis2Placement3d out;
+  out.name = "";
+  out.location = add_point(m, {p.origin.x, p.origin.y, p.origin.z});
+  out.axis = direction(p.z);
+  out.ref_direction = direction(p.x);
+  return m.add(std::move(out));
+}
+
+}  // namespace
+
+Status write_paths(model::Plan& plan, std::vector<std::string>& losses) {
+  adopt_paths(plan);
+  auto& m = plan.model;
+  const auto bare = [&](AnyRef t) { return has_bare_path(m, t); };
+  for (const AnyRef step : m.all_below(model::TypeId::kWorkingstep)) {
+    const AnyRef list = toolpath_list_of(m, step);
+    const auto* toolpaths = m.get<model::ToolpathList>(list);
+    if (toolpaths == nullptr) continue;
+    const std::vector<AnyRef> items = toolpaths->its_list.items;
+    if (std::none_of(items.begin(), items.end(), bare)) continue;
+    const auto frame = frame_of_step(plan, model::Ref<model::Executable>(step));
+    if (!frame) return fail(frame.error());
+    const auto* w = m.get<model::MachiningWorkingstep>(step);
+    const auto* op = w == nullptr ? nullptr : m.get<model::MachiningOperation>(w->its_operation);
+    Splitter splitter(plan, *frame, step, op == nullptr ? AnyRef{} : AnyRef(op->its_technology), losses);
+    std::vector<AnyRef> next;
+    for (const AnyRef t : items) {
+      if (bare(t)) {
+        splitter.split(t, next);
+      } else {
+        next.push_back(t);
+      }
+    }
+    m.at<model::ToolpathList>(list).its_list.items = std::move(next);
+  }
+  return {};
+}
+
+void state_frames(model::Plan& plan) {
+  auto& m = plan.model;
+  for (const AnyRef step : m.all(model::TypeId::kMachiningWorkingstep)) {
+    if (m.at<model::Workingstep>(step).toolpath_orientation || !has_curves(m, step)) continue;
+    const auto at =
+        model::placement_or_identity(m, model::Ref<model::Axis2Placement3d>(feature_placement(m, step)));
+    if (!at || same_place(*at, Placement{})) continue;
+    const auto stated = copied(m, *at);
+    m.at<model::Workingstep>(step).toolpath_orientation = stated;
+  }
+}
+
+void adopt_frames(model::Plan& plan) { state_frames(plan); }
+
+void drop_stated_frames(model::Plan& plan) {
+  auto& m = plan.model;
+  for (const AnyRef step : m.all(model::TypeId::kMachiningWorkingstep)) {
+    auto& w = m.at<model::MachiningWorkingstep>(step);
+    if (!w.toolpath_orientation) continue;
+    const auto stated = model::placement_or_identity(m, w.toolpath_orientation);
+    const auto own =
+        model::placement_or_identity(m, model::Ref<model::Axis2Placement3d>(feature_placement(m, step)));
+    if (stated && own && same_place(*stated, *own)) w.toolpath_orientation = {};
+  }
+}
+
+}  // namespace capstan::exchange::ap238

@@ -1,0 +1,197 @@
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "planner/exchange/ap238/via.h"
+#include "planner/exchange/iso14649/curves.h"
+#include "tests/exchange/ap238/support.h"
+
+namespace capstan::exchange::ap238 {
+namespace {
+
+using curves::arc_through;
+using curves::ViaOptions;
+using geometry::Vec3;
+using ::testing::HasSubstr;
+
+constexpr double kPi = std::numbers::pi;
+
+Result<curves::Segment> through(Vec3 from, std::vector<Vec3> via, Vec3 to, ViaOptions o = {}) {
+  return arc_through(from, via, to, o);
+}
+
+TEST(ViaPoint, ArcRunsFromThePointBeforeThroughItToThePointAfter) {
+  // The standard's example spans 270 degrees.
+  const auto s = through({1, 0, 0}, {{-std::sqrt(0.5), std::sqrt(0.5), 0}}, {0, -1, 0});
+  ASSERT_TRUE(s);
+  EXPECT_TRUE(s->arc);
+  EXPECT_NEAR(norm(s->centre), 0.0, 1e-12);
+  EXPECT_NEAR(s->sweep * s->axis.z, 1.5 * kPi, 1e-12);
+}
+
+TEST(ViaPoint, ArcOnTheOtherSideTurnsTheOtherWay) {
+  const auto s = through({1, 0, 0}, {{std::sqrt(0.5), -std::sqrt(0.5), 0}}, {0, -1, 0});
+  ASSERT_TRUE(s);
+  EXPECT_NEAR(s->sweep * s->axis.z, -0.5 * kPi, 1e-12);
+}
+
+TEST(ViaPoint, FullTurnTakesTwo) {
+  const auto s = through({1, 0, 5}, {{0, 1, 5}, {-1, 0, 5}}, {1, 0, 5});
+  ASSERT_TRUE(s);
+  EXPECT_NEAR(s->sweep * s->axis.z, 2.0 * kPi, 1e-12);
+  const auto clockwise = through({1, 0, 5}, {{0, -1, 5}, {-1, 0, 5}}, {1, 0, 5});
+  ASSERT_TRUE(clockwise);
+  EXPECT_NEAR(clockwise->sweep * clockwise->axis.z, -2.0 * kPi, 1e-12);
+  const auto one = through({1, 0, 5}, {{-1, 0, 5}}, {1, 0, 5});
+  ASSERT_FALSE(one);
+  EXPECT_EQ(one.error().code, "EXC-VIA");
+}
+
+TEST(ViaPoint, CoincidentWithANeighbourMakesALine) {
+  for (const Vec3 via :
+       {Vec3{0, 0, 0}, Vec3{9e-6, 0, 0}, Vec3{10, 0, 0}, Vec3{10, 9e-6, 0}, Vec3{5, 9e-6, 0}}) {
+    const auto s = through({0, 0, 0}, {via}, {10, 0, 0});
+    ASSERT_TRUE(s);
+    EXPECT_FALSE(s->arc);
+  }
+  const auto arc = through({0, 0, 0}, {{5, 2e-5, 0}}, {10, 0, 0});
+  ASSERT_TRUE(arc);
+  EXPECT_TRUE(arc->arc);
+  // A coarser context takes that for a line, too.
+  const auto coarse = through({0, 0, 0}, {{5, 2e-5, 0}}, {10, 0, 0}, {.coincident_mm = 1e-4});
+  ASSERT_TRUE(coarse);
+  EXPECT_FALSE(coarse->arc);
+}
+
+TEST(ViaPoint, SeveralMustLieOnOneRadiusAndInOrder) {
+  const auto on = [](double degrees, double r = 10.0) {
+    return Vec3{r * std::cos(degrees * kPi / 180.0), r * std::sin(degrees * kPi / 180.0), 0.0};
+  };
+  const auto s = through(on(0), {on(30), on(60), on(80)}, on(100));
+  ASSERT_TRUE(s);
+  EXPECT_NEAR(s->sweep * s->axis.z, kPi * 100.0 / 180.0, 1e-12);
+  for (const auto& via :
+       {std::vector<Vec3>{on(30, 10.02), on(60), on(80)}, std::vector<Vec3>{on(60), on(30)},
+        std::vector<Vec3>{on(30), on(60), on(200)}, std::vector<Vec3>{on(30), {8, 8, 1}, on(80)}}) {
+    const auto wrong = through(on(0), via, on(100));
+    ASSERT_FALSE(wrong);
+    EXPECT_EQ(wrong.error().code, "EXC-VIA");
+  }
+}
+
+TEST(ViaPoint, OnTheLineBeyondItsEndsIsRefused) {
+  EXPECT_FALSE(through({0, 0, 0}, {{11, 0, 0}}, {10, 0, 0}));
+  EXPECT_FALSE(through({0, 0, 0}, {{-1, 0, 0}}, {10, 0, 0}));
+}
+
+TEST(ViaPoint, HelixRisesEvenlyAlongItsAxis) {
+  const ViaOptions helix{.helix = true};
+  const auto s = through({1, 0, 0}, {{0, 1, -1}}, {-1, 0, -2}, helix);
+  ASSERT_TRUE(s);
+  EXPECT_NEAR(s->sweep * s->axis.z, kPi, 1e-12);
+  EXPECT_NEAR(norm(curves::at(*s, 0.5) - Vec3{0, 1, -1}), 0.0, 1e-12);
+  const auto uneven = through({1, 0, 0}, {{0, 1, -1.5}}, {-1, 0, -2}, helix);
+  ASSERT_FALSE(uneven);
+  EXPECT_THAT(uneven.error().message, HasSubstr("rise"));
+  const auto turn =
+      through({1, 0, 0}, {{-0.5, -std::sqrt(0.75), -1}, {-0.5, std::sqrt(0.75), -2}}, {1, 0, -3}, helix);
+  ASSERT_TRUE(turn);
+  EXPECT_NEAR(turn->sweep * turn->axis.z, -2.0 * kPi, 1e-12);
+  const auto plunge = through({1, 0, 0}, {{1, 0, -1}}, {1, 0, -2}, helix);
+  ASSERT_TRUE(plunge);
+  EXPECT_FALSE(plunge->arc);
+}
+
+// Any arc in space, by the via points that the writer gives it, is the same arc.
+TEST(ViaPoint, RandomArcsComeBack) {
+  std::mt19937 random(238);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0), radius(0.1, 200.0), angle(0.05, 2.0 * kPi - 0.05);
+  for (int i = 0; i < 2000; ++i) {
+    const Vec3 z = normalised(Vec3{unit(random), unit(random), unit(random)});
+    const Vec3 x = normalised(cross(z, Vec3{0.3, -0.7, 0.2}));
+    const Vec3 y = cross(z, x), c = 300.0 * Vec3{unit(random), unit(random), unit(random)};
+    const double r = radius(random), w = angle(random);
+    const bool helix = i % 2 == 1;
+    const double rise = helix ? 20.0 * unit(random) : 0.0;
+    const auto at = [&](double t) {
+      return c + r * std::cos(t * w) * x + r * std::sin(t * w) * y + t * rise * z;
+    };
+    const auto s = through(at(0), {at(0.5)}, at(1), {.helix = helix, .axis = z});
+    ASSERT_TRUE(s);
+    EXPECT_NEAR(std::abs(s->sweep), w, 1e-9);
+    for (const double t : {0.2, 0.6, 0.9}) EXPECT_LT(norm(curves::at(*s, t) - at(t)), 1e-9);
+    EXPECT_LT(norm(s->centre - c), 1e-8 * std::max(1.0, r));
+  }
+}
+
+model::Plan plan_with(const std::string& points) {
+  return read_text(file_of(
+      "#1=MACHINING_PROJECT('p','','',(#2));\n#2=PRODUCT_CONTEXT('','',#3,'');\n#3=APPLICATION_CONTEXT('');\n"
+      "#4=PRODUCT_DEFINITION_FORMATION('','',#1);\n#5=PRODUCT_DEFINITION('p','',#4,#6);\n"
+      "#6=PRODUCT_DEFINITION_CONTEXT('',#3,'');\n#7=PROCESS_PRODUCT_ASSOCIATION('','',#5,#8);\n"
+      "#8=PRODUCT_DEFINITION_PROCESS('machining','',#9,'');\n#9=MACHINING_WORKPLAN('w','','','');\n"
+      "#10=MACHINING_PROCESS_SEQUENCE_RELATIONSHIP('','',#9,#11,1.);\n"
+      "#11=MACHINING_WORKINGSTEP('s','machining','','');\n"
+      "#12=MACHINING_OPERATION_RELATIONSHIP('','machining',#11,#13);\n#13=FREEFORM_MILLING_OPERATION('o','','"
+      "','');\n"
+      "#14=MACHINING_TOOLPATH_SEQUENCE_RELATIONSHIP('','',#13,#15,1.);\n"
+      "#15=MACHINING_TOOLPATH('t','cutter location trajectory','','');\n"
+      "#20=(GEOMETRIC_REPRESENTATION_CONTEXT(3)GLOBAL_UNIT_ASSIGNED_CONTEXT((#21))REPRESENTATION_CONTEXT('','"
+      "'));\n"
+      "#21=(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.));\n"
+      "#30=ACTION_PROPERTY('basic curve','',#15);\n#31=ACTION_PROPERTY_REPRESENTATION('','',#30,#32);\n"
+      "#32=REPRESENTATION('',(#33),#20);\n" +
+      points));
+}
+
+Result<StepPath> path_in(const std::string& points) {
+  const auto plan = plan_with(points);
+  Job job;
+  return path_of_step(
+      plan, model::Ref<model::Executable>(plan.model.all(model::TypeId::kMachiningWorkingstep).at(0)), {},
+      job);
+}
+
+TEST(ViaPoint, PolylineOfAFileBecomesLinesAndArcs) {
+  const auto got = path_in(
+      "#33=POLYLINE('',(#40,#41,#42,#43,#44,#45,#46));\n#40=CARTESIAN_POINT('',(0.,0.,0.));\n"
+      "#41=CARTESIAN_POINT('',(10.,0.,0.));\n#42=VIA_ARC_POINT('',(15.,5.,0.));\n"
+      "#43=CARTESIAN_POINT('',(10.,10.,0.));\n#44=VIA_HELIX_POINT('',(5.,5.,-1.));\n"
+      "#45=CARTESIAN_POINT('',(10.,0.,-2.));\n#46=CARTESIAN_POINT('',(20.,0.,-2.));\n");
+  ASSERT_TRUE(got) << to_text(got.error());
+  const auto& p = got->path;
+  ASSERT_EQ(p.size(), 5U);
+  EXPECT_EQ(p.kind[1], model::MoveKind::kLine);
+  EXPECT_EQ(p.kind[2], model::MoveKind::kArcCcw);
+  EXPECT_EQ(p.kind[3], model::MoveKind::kArcCcw);
+  EXPECT_EQ(p.kind[4], model::MoveKind::kLine);
+  for (const std::size_t i : {2U, 3U}) {
+    EXPECT_EQ(p.cx[i], 10.0);
+    EXPECT_EQ(p.cy[i], 5.0);
+  }
+  EXPECT_EQ(p.point(3), (Vec3{10, 0, -2}));
+}
+
+TEST(ViaPoint, AtTheEndsOfAPolylineOrOfTwoKindsIsRefused) {
+  const char* points =
+      "#40=CARTESIAN_POINT('',(0.,0.,0.));\n#41=VIA_ARC_POINT('',(5.,5.,0.));\n"
+      "#42=CARTESIAN_POINT('',(10.,0.,0.));\n#43=VIA_HELIX_POINT('',(8.,4.,0.));\n";
+  for (const char* list : {"(#41,#40)", "(#40,#41)", "(#40,#41,#43,#42)", "(#41)", "()", "(#41,#43)"}) {
+    const auto got = path_in("#33=POLYLINE(''," + std::string(list) + ");\n" + points);
+    ASSERT_FALSE(got) << list;
+    EXPECT_EQ(got.error().code, "EXC-CURVE") << list;
+  }
+}
+
+TEST(ViaPoint, IsWrittenAsItWasRead) {
+  const auto plan = plan_with(
+      "#33=POLYLINE('',(#40,#41,#42));\n#40=CARTESIAN_POINT('',(0.,0.,0.));\n#41=VIA_ARC_POINT('',(5.,5.,0.))"
+      ";\n"
+      "#42=CARTESIAN_POINT('',(10.,0.,0.));\n");
+  const auto lines = shapes(written(plan).bytes);
+  EXPECT_THAT(lines, ::testing::Contains("VIA_ARC_POINT('',(5.,5.,0.));"));
+  EXPECT_EQ(lost_on_the_way(plan), "");
+}
+
+}  // namespace
+}  // namespace capstan::exchange::ap238
