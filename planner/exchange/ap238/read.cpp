@@ -18,7 +18,6 @@ Result<model::Plan> read_ap238(const p21::File& file, Job& job) {
   ap238::Reader reader(graph, ap238::Mapping::instance(), plan, reporter);
   ap238::Records records(reader);
   reader.run();
-  ap238::adopt_frames(plan);
   ap238::drop_stated_frames(plan);
   if (!plan.project) {
     reporter.report({.code = "EXC-NO-PROJECT",

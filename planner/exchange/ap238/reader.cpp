@@ -1,5 +1,8 @@
 #include "planner/exchange/ap238/reader.h"
 
+#include "planner/exchange/ap238/paths.h"
+#include "planner/exchange/ap238/placement.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -313,6 +316,9 @@ void Reader::run() {
     plan_.kept.push_back(object_at(n, {}, default_scale_));
     drain();
   }
+  adopt_frames(plan_);
+  to_model(*this);
+  drain();
   keep_the_rest();
 }
 

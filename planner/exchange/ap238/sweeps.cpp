@@ -1,0 +1,279 @@
+#include <cmath>
+
+#include "planner/exchange/ap238/frames.h"
+#include "planner/model/curve_points.h"
+#include "planner/model/kept.h"
+#include "planner/model/resolve.h"
+
+// Slots and steps. AP238's frame lies in the middle of the profile's bottom where the travel starts, z along
+// the travel, y out of the material. How the plan states it (any direction of travel, placements of path and
+// profile) goes along in representations of their own, named below; they count as long as they agree with the
+// frame.
+
+namespace capstan::exchange::ap238::frames {
+
+using model::AnyRef;
+using model::KeptInstance;
+using model::Model;
+using model::Ref;
+
+namespace {
+
+constexpr const char* kFrame = "placement on top";
+constexpr const char* kPath = "placement of the path on top";
+constexpr const char* kDirection = "direction of the path on top";
+constexpr const char* kProfile = "placement of the profile on top";
+constexpr const char* kDepth = "depth on top";
+
+struct Sweep {
+  Ref<model::TravelPath> path;
+  Ref<model::OpenProfile> profile;
+};
+
+Sweep sweep_of(const Model& m, AnyRef feature) {
+  if (const auto* s = m.get<model::Slot>(feature)) return {s->course_of_travel, s->swept_shape};
+  const auto& s = m.at<model::Step>(feature);
+  return {Ref<model::TravelPath>(AnyRef(s.open_boundary)), Ref<model::OpenProfile>(AnyRef(s.wall_boundary))};
+}
+
+void set_path(Model& m, AnyRef feature, AnyRef path) {
+  if (auto* s = m.get<model::Slot>(feature)) {
+    s->course_of_travel = Ref<model::TravelPath>(path);
+  } else {
+    m.at<model::Step>(feature).open_boundary = Ref<model::LinearPath>(path);
+  }
+}
+
+void set_profile(Model& m, AnyRef feature, AnyRef profile) {
+  if (auto* s = m.get<model::Slot>(feature)) {
+    s->swept_shape = Ref<model::OpenProfile>(profile);
+  } else {
+    m.at<model::Step>(feature).wall_boundary = Ref<model::VeeProfile>(profile);
+  }
+}
+
+/// AP238's frame in the model's: where and whither the path starts, lowered by the depth. Nothing when the
+/// path goes nowhere in the plane, or is not understood.
+std::optional<Placement> start_of(const Model& m, AnyRef path, const Placement& at, AnyRef its_direction,
+                                  double depth_mm) {
+  Vec3 start, along;
+  if (m.holds<model::LinearPath>(path)) {
+    const auto d = model::direction(m, Ref<model::Direction>(its_direction));
+    if (!d) return std::nullopt;
+    along = *d;
+  } else if (const auto* c = m.get<model::CircularPath>(path)) {
+    const auto r = model::length(m, c->radius);
+    if (!r) return std::nullopt;
+    start = {r->nominal_mm, 0.0, 0.0};
+    along = {0.0, 1.0, 0.0};
+  } else if (const auto* g = m.get<model::GeneralPath>(path)) {
+    const auto points = model::curve_points(m, g->swept_path, 0.01);
+    if (!points || points->size() < 2) return std::nullopt;
+    start = points->front();
+    along = (*points)[1] - start;
+  }
+  start = at.to_parent(start);
+  along = at.direction_to_parent(along);
+  along.z = 0.0;
+  const double length = norm(along);
+  if (!(length > 1e-9)) return std::nullopt;
+  const Vec3 z = (1.0 / length) * along;
+  return Placement{
+      .origin = {start.x, start.y, -depth_mm}, .x = {-z.y, z.x, 0.0}, .y = {0.0, 0.0, 1.0}, .z = z};
+}
+
+/// The limit of an open profile lies on top: its plane in AP238's frame.
+Placement limit(double depth_mm) {
+  return {.origin = {0.0, depth_mm, 0.0}, .x = {1.0, 0.0, 0.0}, .y = {0.0, 0.0, -1.0}, .z = {0.0, 1.0, 0.0}};
+}
+
+// --- what goes along ---
+
+AnyRef kept(model::Plan& plan, std::string keyword, std::vector<std::variant<std::string, AnyRef>> pieces) {
+  KeptInstance out;
+  out.keyword = std::move(keyword);
+  out.pieces = std::move(pieces);
+  out.schema = model::KeptSchema::kAp238;
+  const AnyRef at = plan.model.add(std::move(out));
+  plan.kept.push_back(at);
+  return at;
+}
+
+void state(model::Plan& plan, AnyRef feature, AnyRef context, const char* role, AnyRef what) {
+  if (!what.set()) return;
+  const std::string name = "'" + std::string(role) + "'";
+  const AnyRef property =
+      kept(plan, "PROPERTY_DEFINITION", {"PROPERTY_DEFINITION(" + name + ",'',", feature, ")"});
+  const AnyRef shape =
+      kept(plan, "SHAPE_REPRESENTATION", {"SHAPE_REPRESENTATION(" + name + ",(", what, "),", context, ")"});
+  kept(plan, "PROPERTY_DEFINITION_REPRESENTATION",
+       {"PROPERTY_DEFINITION_REPRESENTATION(", property, ",", shape, ")"});
+}
+
+AnyRef stated(Reader& reader, AnyRef feature, const char* role) {
+  const Graph& g = reader.graph();
+  const auto is = [&](Node n, const char* e) { return g.is(n, g.schema().find(e)); };
+  const Node root = reader.root_of(feature);
+  if (root == kNoNode) return {};
+  for (const Node p : g.users(root)) {
+    if (!is(p, "PROPERTY_DEFINITION") || !g.get(p, "name").is(p21::Kind::kString) ||
+        g.get(p, "name").as_text() != role)
+      continue;
+    for (const Node r : g.users(p)) {
+      if (!is(r, "PROPERTY_DEFINITION_REPRESENTATION")) continue;
+      std::vector<Node> shapes, items;
+      g.references(g.get(r, "used_representation"), shapes);
+      if (!shapes.empty()) g.references(g.get(shapes.front(), "items"), items);
+      if (items.empty()) continue;
+      return reader.object_at(items.front(), {}, reader.units().scale(shapes.front(), Scale{}));
+    }
+  }
+  return {};
+}
+
+double apart(const Placement& a, const Placement& b) {
+  return norm(a.origin - b.origin) + norm(a.x - b.x) + norm(a.y - b.y) + norm(a.z - b.z);
+}
+
+/// As the plan stated it, when that agrees with what AP238 says.
+bool restore(Reader& reader, AnyRef feature, const Placement& frame) {
+  Model& m = reader.plan().model;
+  const Sweep s = sweep_of(m, feature);
+  const PlacementRef top(stated(reader, feature, kFrame));
+  if (!top || !s.path) return false;
+  const PlacementRef at(stated(reader, feature, kPath));
+  const AnyRef d = stated(reader, feature, kDirection), depth = stated(reader, feature, kDepth);
+  const PlacementRef profile(stated(reader, feature, kProfile));
+  const auto outer = model::placement(m, top);
+  const auto inner = model::placement_or_identity(m, at);
+  auto& f = m.at<model::MachiningFeature>(feature);
+  const auto before = f.depth;
+  *static_cast<AnyRef*>(&f.depth) = depth;
+  const auto h = model::depth_of(m, feature);
+  const auto start = outer && inner && h ? start_of(m, s.path, *inner, d, h->depth_mm) : std::nullopt;
+  if (!start || apart(compose(*outer, *start), frame) > 1e-5) {
+    f.depth = before;
+    reader.about(
+        reader.root_of(feature),
+        {.code = "EXC-PLACEMENT",
+         .severity = Severity::kWarning,
+         .message =
+             "how the plan stated this feature no longer agrees with its placement; the placement is taken"});
+    return false;
+  }
+  f.feature_placement = top;
+  m.at<model::TravelPath>(s.path).placement = at;
+  if (auto* line = m.get<model::LinearPath>(s.path)) line->its_direction = Ref<model::Direction>(d);
+  if (s.profile) m.at<model::OpenProfile>(s.profile).placement = profile;
+  return true;
+}
+
+/// How far the profile reaches out of the material.
+std::optional<double> profile_depth(const Model& m, AnyRef profile) {
+  Ref<model::TolerancedLengthMeasure> at;
+  if (const auto* p = m.get<model::SquareUProfile>(profile)) at = p->depth;
+  if (const auto* p = m.get<model::RoundedUProfile>(profile)) at = p->depth;
+  if (const auto* p = m.get<model::TeeProfile>(profile)) at = p->depth;
+  const auto l = model::length(m, at);
+  return l ? std::optional(l->nominal_mm) : std::nullopt;
+}
+
+}  // namespace
+
+void sweep_to_ap238(model::Plan& plan, AnyRef feature) {
+  Model& m = plan.model;
+  const Sweep s = sweep_of(m, feature);
+  const auto depth = model::depth_of(m, feature);
+  auto& f = m.at<model::MachiningFeature>(feature);
+  const auto frame = model::placement_or_identity(m, f.feature_placement);
+  if (!s.path || !depth || depth->tilted || !frame) return;
+  const auto& path = m.at<model::TravelPath>(s.path);
+  const auto* line = m.get<model::LinearPath>(s.path);
+  const auto at = model::placement_or_identity(m, path.placement);
+  const AnyRef d = line == nullptr ? AnyRef{} : AnyRef(line->its_direction);
+  const auto start = at ? start_of(m, s.path, *at, d, depth->depth_mm) : std::nullopt;
+  if (!start) return;
+
+  const PlacementRef turned = placement(m, compose(*frame, *start));
+  const AnyRef context =
+      kept(plan, "GEOMETRIC_REPRESENTATION_CONTEXT+REPRESENTATION_CONTEXT",
+           {"(GEOMETRIC_REPRESENTATION_CONTEXT(3)REPRESENTATION_CONTEXT('','placement on top'))"});
+  const AnyRef own_path = copy_of(m, s.path);
+  state(plan, feature, context, kFrame,
+        f.feature_placement.set() ? AnyRef(f.feature_placement) : AnyRef(placement(m, *frame)));
+  state(plan, feature, context, kPath, path.placement);
+  state(plan, feature, context, kDirection, d);
+  state(plan, feature, context, kDepth, f.depth);
+  if (auto* own = m.get<model::LinearPath>(own_path)) {
+    own->its_direction = direction(m, {0.0, 0.0, 1.0});
+    own->placement = turned;
+  } else {
+    m.at<model::TravelPath>(own_path).placement = placement(m, compose(inverse(*start), *at));
+  }
+  set_path(m, feature, own_path);
+  if (s.profile && m.at<model::OpenProfile>(s.profile).placement) {
+    const auto q = m.at<model::OpenProfile>(s.profile).placement;
+    state(plan, feature, context, kProfile, q);
+    if (const auto inside = model::placement(m, q)) {
+      const AnyRef own = copy_of(m, s.profile);
+      m.at<model::OpenProfile>(own).placement = placement(m, compose(inverse(*start), *inside));
+      set_profile(m, feature, own);
+    }
+  }
+  f.feature_placement = turned;
+  f.depth = plane(m, limit(depth->depth_mm), "limit");
+}
+
+void sweep_to_model(Reader& reader, AnyRef feature) {
+  Model& m = reader.plan().model;
+  auto& f = m.at<model::MachiningFeature>(feature);
+  const auto frame = model::placement_or_identity(m, f.feature_placement);
+  if (!frame || restore(reader, feature, *frame)) return;
+  const Sweep s = sweep_of(m, feature);
+  std::optional<double> depth_mm;
+  double up = 0.0;
+  if (f.depth) {
+    const auto surface =
+        model::placement(m, f.depth ? m.at<model::ElementarySurface>(f.depth).position : PlacementRef{});
+    if (surface && std::abs(surface->z.y) > 1.0 - 1e-9 && std::abs(surface->origin.y) > 1e-9) {
+      depth_mm = std::abs(surface->origin.y);
+      up = std::max(surface->origin.y, 0.0);
+    }
+  }
+  if (!depth_mm && s.profile) {
+    depth_mm = profile_depth(m, s.profile);
+    up = depth_mm.value_or(0.0);
+  }
+  if (!depth_mm) {
+    reader.about(reader.root_of(feature),
+                 {.code = "EXC-DEPTH",
+                  .severity = Severity::kWarning,
+                  .message = "neither a limit nor the profile says how deep this is"});
+  }
+  const Placement top{
+      .origin = {0.0, up, 0.0}, .x = {-1.0, 0.0, 0.0}, .y = {0.0, 0.0, 1.0}, .z = {0.0, 1.0, 0.0}};
+  const Placement back = inverse(top);
+  if (s.path) {
+    auto& path = m.at<model::TravelPath>(s.path);
+    auto* line = m.get<model::LinearPath>(s.path);
+    if (path.placement || line == nullptr) {
+      const auto at = model::placement_or_identity(m, path.placement);
+      if (at) path.placement = placement(m, compose(back, *at));
+    } else if (const auto d = model::direction(m, line->its_direction)) {
+      line->its_direction = direction(m, back.direction_to_parent(*d));
+    }
+  }
+  if (s.profile && m.at<model::OpenProfile>(s.profile).placement) {
+    auto& at = m.at<model::OpenProfile>(s.profile).placement;
+    if (const auto q = model::placement(m, at)) at = placement(m, compose(back, *q));
+  }
+  f.feature_placement = placement(m, compose(*frame, top));
+  f.depth = {};
+  if (depth_mm) {
+    Placement bottom;
+    bottom.origin.z = -*depth_mm;
+    f.depth = plane(m, bottom, "depth");
+  }
+}
+
+}  // namespace capstan::exchange::ap238::frames
