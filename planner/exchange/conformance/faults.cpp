@@ -14,6 +14,7 @@ bool Faults::wanted(const char* code) const {
 void Faults::add(const p21::Instance& at, Fault f) {
   if (++counts_[f.code] > kReportedFaultsPerCode) return;
   job_.report({.code = f.code,
+               .severity = std::string_view(f.code) == kOpenCode ? Severity::kWarning : Severity::kError,
                .message = std::move(f.message),
                .file = file_.name(),
                .line = at.line(),
@@ -33,10 +34,12 @@ void Faults::add(Fault f) {
 std::size_t Faults::finish() {
   std::size_t all = 0;
   for (const auto& [code, n] : counts_) {
-    all += n;
+    const bool open = code == std::string_view(kOpenCode);
+    if (!open) all += n;
     if (n <= kReportedFaultsPerCode) continue;
     job_.report(
         {.code = "SCH-MORE",
+         .severity = open ? Severity::kWarning : Severity::kError,
          .message = "and " + std::to_string(n - kReportedFaultsPerCode) + " more faults of the kind " + code,
          .file = file_.name()});
   }

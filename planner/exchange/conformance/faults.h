@@ -11,6 +11,9 @@
 
 namespace capstan::exchange::conformance {
 
+/// Of what the schema wants and the file leaves open; a warning, and not counted as an error.
+inline constexpr const char* kOpenCode = "SCH-OPEN";
+
 /// What is wrong with an instance.
 struct Fault {
   const char* code = "";
@@ -25,7 +28,7 @@ class Faults {
   Faults(const p21::File& file, Job& job) : file_(file), job_(job) {}
   void add(const p21::Instance& at, Fault f);
   void add(Fault f);  ///< of the file
-  /// "and N more" per code; call once at the end. Returns the number of all faults.
+  /// "and N more" per code; call once at the end. Returns the number of errors.
   std::size_t finish();
   /// Whether another fault of this code would be reported; if not, its text need not be made.
   [[nodiscard]] bool wanted(const char* code) const;

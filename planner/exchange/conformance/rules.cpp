@@ -145,7 +145,8 @@ class Judge {
                        [&](const Guard& g) { return among(g.values, own(r, i, g.attribute)); });
   }
 
-  void fault(const Rule& r, std::size_t i, const std::string& what, const std::string& expected) {
+  void fault(const Rule& r, std::size_t i, const std::string& what, const std::string& expected,
+             const char* code = "SCH-RULE") {
     std::string where;
     for (const Guard& g : r.guards) {
       const auto value = own(r, i, g.attribute);
@@ -153,13 +154,18 @@ class Judge {
     }
     faults_.add(
         p_.file().instance(i),
-        {"SCH-RULE", std::string(p_.dictionary().keyword(r.entity)) + where + " " + what, {}, expected});
+        {code, std::string(p_.dictionary().keyword(r.entity)) + where + " " + what, {}, expected});
   }
 
   // "has the property 'coolant' twice; expected 1"
   void count(const Rule& r, std::size_t i, std::size_t found, const std::string& thing) {
     if (found >= r.least && found <= r.most) return;
-    fault(r, i, found == 0 ? "has no " + thing : "has the " + thing + " " + times(found), counted(r));
+    // A tool, a technology, an allowance, a length of a tool: what a plan that is not complete leaves open.
+    const bool open = found == 0 && (r.subject == Subject::kProperty || r.subject == Subject::kResource ||
+                                     r.subject == Subject::kTool || r.subject == Subject::kTools ||
+                                     r.subject == Subject::kMethod);
+    fault(r, i, found == 0 ? "has no " + thing : "has the " + thing + " " + times(found), counted(r),
+          open ? kOpenCode : "SCH-RULE");
   }
 
   bool is_all(std::size_t item, const std::vector<EntityId>& entities) const {

@@ -28,7 +28,7 @@ inline std::vector<std::string> faults_of(std::string bytes, const std::string& 
   const std::size_t n = check_schema(*file, check);
   std::vector<std::string> out;
   for (const Diagnostic& d : check.diagnostics()) out.push_back(to_text(d));
-  EXPECT_EQ(n == 0, out.empty());
+  EXPECT_EQ(n == 0, check.count(Severity::kError) == 0);
   return out;
 }
 
