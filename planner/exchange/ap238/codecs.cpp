@@ -9,7 +9,7 @@
 namespace capstan::exchange::ap238 {
 
 const Codec* find_codec(std::string_view name) {
-  static constexpr std::array<const Codec*, 26> kCodecs{&kTolerancedCodec,
+  static constexpr std::array<const Codec*, 27> kCodecs{&kTolerancedCodec,
                                                         &kParameterCodec,
                                                         &kParameterTextCodec,
                                                         &kItsWorkpieceCodec,
@@ -21,7 +21,8 @@ const Codec* find_codec(std::string_view name) {
                                                         &kNgonDiameterCodec,
                                                         &kSaidCodec,
                                                         &kTwiceCodec,
-                                                        &kComplementCodec,
+                                                        &kOtherKindCodec,
+                                                        &kLibraryCodec,
                                                         &kTextsCodec,
                                                         &kMeasureCodec,
                                                         &kTypedCodec,

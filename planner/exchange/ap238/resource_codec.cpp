@@ -1,7 +1,6 @@
 #include "planner/exchange/ap238/resource_codec.h"
 
 #include <algorithm>
-#include <numbers>
 
 #include "planner/base/number.h"
 #include "planner/model/nouns/all.h"
@@ -17,9 +16,13 @@ using p21::Value;
 
 namespace {
 
-constexpr double kRightAngle = std::numbers::pi / 2.0;
-
 std::string quoted(std::string_view s) { return "'" + p21::encode_text(s) + "'"; }
+
+std::string lower(std::string_view s) {
+  std::string out(s);
+  for (char& c : out) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c + 32 : c);
+  return out;
+}
 
 template <class T>
 void assign(Reader& reader, AnyRef at, const Attribute& a, T value) {
@@ -59,7 +62,7 @@ void write_said(Writer& writer, const Row& row, AnyRef owner, const Attribute& a
              quoted(*model::value_of<model::Text>(a, data)));
 }
 
-// --- twice, complement ---
+// --- twice, other_kind ---
 
 bool read_number(Reader& reader, AnyRef at, const Attribute& a, const std::vector<Terminal>& found,
                  double (*model_value)(double)) {
@@ -82,14 +85,11 @@ void write_twice(Writer& writer, const Row& row, AnyRef owner, const Attribute& 
   write_measure(writer, row, owner, root, 2.0 * *model::value_of<model::Real>(a, data), a.unit);
 }
 
-bool read_complement(Reader& reader, const Row&, AnyRef at, const Attribute& a,
+bool read_other_kind(Reader& reader, const Row& row, AnyRef at, const Attribute& a,
                      const std::vector<Terminal>& found) {
-  return read_number(reader, at, a, found, [](double x) { return kRightAngle - x; });
-}
-
-void write_complement(Writer& writer, const Row& row, AnyRef owner, const Attribute& a, const void* data,
-                      Id root) {
-  write_measure(writer, row, owner, root, kRightAngle - *model::value_of<model::Real>(a, data), a.unit);
+  const bool named = found.empty() || !found.front().text.is(Kind::kString) ||
+                     lower(found.front().text.as_text()) == "user defined milling tool";
+  return !named && read_said(reader, row, at, a, found);
 }
 
 // --- texts, typed ---
@@ -133,6 +133,16 @@ void write_typed(Writer& writer, const Row& row, AnyRef owner, const Attribute& 
              "IDENTIFIER(" + quoted(*model::value_of<model::Text>(a, data)) + ")");
 }
 
+void write_library(Writer& writer, const Row& row, AnyRef owner, const Attribute& a, const void* data,
+                   Id root) {
+  write_typed(writer, row, owner, a, data, root);
+  const auto* usage = writer.model().get<model::ToolUsage>(owner);
+  if (usage == nullptr || usage->its_library_source) return;
+  const Id source = writer.make("external_source");
+  writer.set(source, "source_id", "IDENTIFIER('')");
+  writer.link(writer.walk(row, owner, root, 0, 0), "source", source);
+}
+
 // --- measure ---
 
 bool read_measure(Reader& reader, const Row&, AnyRef at, const Attribute& a,
@@ -169,12 +179,6 @@ bool read_value(Reader& reader, const Row&, AnyRef at, const Attribute& a,
 void write_value(Writer& writer, const Row&, AnyRef, const Attribute& a, const void* data, Id root) {
   writer.set(root, "value_component",
              "NUMERIC_MEASURE(" + part21_real(*model::value_of<model::Real>(a, data)) + ")");
-}
-
-std::string lower(std::string_view s) {
-  std::string out(s);
-  for (char& c : out) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c + 32 : c);
-  return out;
 }
 
 // "newton", "millimetre", or the name that the file gives it; of derived units the parts with their
@@ -297,7 +301,8 @@ void write_transformation(Writer& writer, const Row& row, AnyRef owner, const At
 
 const Codec kSaidCodec{"said", read_said, write_said};
 const Codec kTwiceCodec{"twice", read_twice, write_twice};
-const Codec kComplementCodec{"complement", read_complement, write_complement};
+const Codec kOtherKindCodec{"other_kind", read_other_kind, write_said};
+const Codec kLibraryCodec{"library", read_typed, write_library};
 const Codec kTextsCodec{"texts", read_texts, write_texts};
 const Codec kMeasureCodec{"measure", read_measure, write_self};
 const Codec kTypedCodec{"typed", read_typed, write_typed};

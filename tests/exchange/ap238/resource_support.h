@@ -1,0 +1,98 @@
+#pragma once
+
+#include <functional>
+
+#include "planner/base/job.h"
+#include "planner/exchange/conformance/check.h"
+#include "planner/p21/parse.h"
+#include "tests/exchange/ap238/support.h"
+
+// Tools, workpieces and what goes with them, one attribute at a time.
+
+namespace capstan::exchange::ap238 {
+
+/// What the schema checker says of a file; not what is left out on purpose in `but`.
+inline std::vector<std::string> faults(const std::string& bytes, const std::vector<std::string>& but = {}) {
+  Job reading, checking;
+  const auto file = p21::parse(bytes, "written.stpnc", {}, reading);
+  EXPECT_TRUE(file.has_value());
+  std::vector<std::string> out;
+  if (!file) return out;
+  check_schema(*file, checking);
+  for (const auto& d : checking.diagnostics()) {
+    if (d.severity != Severity::kError) continue;  // what is open is said as a warning
+    const std::string text = to_text(d);
+    const bool meant =
+        std::any_of(but.begin(), but.end(), [&](const auto& b) { return text.find(b) != std::string::npos; });
+    if (!meant) out.push_back(text);
+  }
+  return out;
+}
+
+inline std::string length_of(const std::string& name, const std::string& value = "2.5") {
+  return "(LENGTH_MEASURE_WITH_UNIT()MEASURE_REPRESENTATION_ITEM()MEASURE_WITH_UNIT(LENGTH_MEASURE(" + value +
+         "),#)REPRESENTATION_ITEM('" + name + "'));";
+}
+
+inline std::string angle_of(const std::string& name, const std::string& value = "0.5") {
+  return "(MEASURE_REPRESENTATION_ITEM()MEASURE_WITH_UNIT(PLANE_ANGLE_MEASURE(" + value +
+         "),#)PLANE_ANGLE_MEASURE_WITH_UNIT()REPRESENTATION_ITEM('" + name + "'));";
+}
+
+inline std::string time_of(const std::string& name, const std::string& value) {
+  return "(MEASURE_REPRESENTATION_ITEM()MEASURE_WITH_UNIT(TIME_MEASURE(" + value +
+         "),#)REPRESENTATION_ITEM('" + name + "')TIME_MEASURE_WITH_UNIT());";
+}
+
+inline std::string word_of(const std::string& name, const std::string& text) {
+  return "DESCRIPTIVE_REPRESENTATION_ITEM('" + name + "','" + text + "');";
+}
+
+inline std::string count_of(const std::string& name, const std::string& value) {
+  return "MEASURE_REPRESENTATION_ITEM('" + name + "',COUNT_MEASURE(" + value + "),#);";
+}
+
+inline std::string number_of(const std::string& name, const std::string& value) {
+  return "MEASURE_REPRESENTATION_ITEM('" + name + "',NUMERIC_MEASURE(" + value + "),#);";
+}
+
+inline model::Ref<model::CartesianPoint> point(model::Model& m, double x, double y, double z) {
+  model::CartesianPoint p;
+  p.coordinates = {.items = {x, y, z}, .given = true};
+  return m.add(std::move(p));
+}
+
+inline model::Ref<model::Axis2Placement3d> placement(model::Model& m, double x, double y, double z) {
+  model::Axis2Placement3d a;
+  a.location = point(m, x, y, z);
+  return m.add(std::move(a));
+}
+
+/// One thing a plan may have, and the instances that must stand for it.
+struct Case {
+  std::string what;
+  std::function<void(Bench&)> give;
+  std::vector<std::string> instances;
+  std::vector<std::string> faults_meant = {};  ///< of files that say less than the standard demands
+};
+
+/// Writes, looks for the instances, compares with the schema, reads back.
+inline void check(const Case& c) {
+  SCOPED_TRACE(c.what);
+  Bench bench;
+  c.give(bench);
+  const Written out = written(bench.plan);
+  EXPECT_EQ(out.losses, std::vector<std::string>{});
+  const auto lines = shapes(out.bytes);
+  for (const auto& wanted : c.instances) {
+    EXPECT_NE(std::find(lines.begin(), lines.end(), wanted), lines.end()) << "not written: " << wanted << "\n"
+                                                                          << out.bytes;
+  }
+  EXPECT_EQ(faults(out.bytes, c.faults_meant), std::vector<std::string>{}) << out.bytes;
+  std::vector<std::string> said;
+  const model::Plan back = read_text(out.bytes, &said);
+  for (const auto& s : said) EXPECT_EQ(s.find("EXC-KEPT"), std::string::npos) << s << "\n" << out.bytes;
+  EXPECT_EQ(testing::ModelDifference(bench.plan, back, {.item_names = false, .left_out = {}}).text(), "") << out.bytes;
+}
+
+}  // namespace capstan::exchange::ap238
