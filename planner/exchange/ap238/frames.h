@@ -18,6 +18,9 @@ inline constexpr std::string_view kDerived = "derived";
 /// A course of travel made of a depth that was a length.
 inline constexpr std::string_view kDerivedFromLength = "derived from a length";
 
+/// Sides whose angle a plan leaves open: upright (what the model takes them for), told by its last bit.
+inline constexpr double kUpright = 1.5707963267948968;
+
 model::Ref<model::Direction> direction(model::Model& m, Vec3 d, std::string_view name = "");
 PlacementRef placement(model::Model& m, const Placement& at, std::string_view name = "");
 model::Ref<model::ElementarySurface> plane(model::Model& m, const Placement& at, std::string_view name);

@@ -296,6 +296,22 @@ void drilled_to_model(Reader& reader, AnyRef feature) {
   set_depth(m, feature, std::abs(along->z));
 }
 
+// --- profiles ---
+
+// A square U asks for the angles of its sides.
+void sides(Model& m, bool to_ap238) {
+  for (const AnyRef at : m.all(TypeId::kSquareUProfile)) {
+    auto& p = m.at<model::SquareUProfile>(at);
+    for (model::Real* angle : {&p.first_angle, &p.second_angle}) {
+      if (to_ap238 && !*angle) {
+        *angle = kUpright;
+      } else if (!to_ap238 && *angle == kUpright) {
+        angle->reset();
+      }
+    }
+  }
+}
+
 // --- operations ---
 
 // What the plan's workingsteps do to each feature, in the order of the plan.
@@ -320,6 +336,7 @@ std::map<AnyRef, std::vector<AnyRef>> by_workingstep(const model::Plan& plan) {
 void to_ap238(model::Plan& plan) {
   Model& m = plan.model;
   const auto operations = by_workingstep(plan);
+  sides(m, true);
   std::map<AnyRef, AnyRef> placed;
   for (const AnyRef at : m.all_below(TypeId::kManufacturingFeature)) {
     {
@@ -347,6 +364,7 @@ void to_ap238(model::Plan& plan) {
 void to_model(Reader& reader) {
   Model& m = reader.plan().model;
   const auto features = m.all_below(TypeId::kManufacturingFeature);
+  sides(m, false);
   for (const AnyRef at : features) {
     const auto* f = m.get<model::Two5dManufacturingFeature>(at);
     if (f == nullptr || !f->feature_placement) continue;

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "planner/exchange/ap238/auxiliary.h"
 #include "planner/exchange/ap238/frames.h"
 #include "planner/model/curve_points.h"
 #include "planner/model/kept.h"
@@ -99,15 +100,22 @@ AnyRef kept(model::Plan& plan, std::string keyword, std::vector<std::variant<std
   return at;
 }
 
-void state(model::Plan& plan, AnyRef feature, AnyRef context, const char* role, AnyRef what) {
+// The feature's PRODUCT_DEFINITION_SHAPE, which its own rows make.
+AnyRef shape_of(model::Plan& plan, AnyRef feature) {
+  for (const Row* row : Mapping::instance().rows_of(feature.type)) {
+    if (row->attribute.size() != 1 || row->attribute.front() != "feature_placement") continue;
+    const auto path = Mapping::instance().prefix_text(row->steps.front().prefix);
+    return plan.model.add(auxiliary_instance(feature, {std::string(path), 0}));
+  }
+  throw std::logic_error("mapping tables: features have no placement");
+}
+
+void state(model::Plan& plan, AnyRef shape, AnyRef context, const char* role, AnyRef what) {
   if (!what.set()) return;
-  const std::string name = "'" + std::string(role) + "'";
-  const AnyRef property =
-      kept(plan, "PROPERTY_DEFINITION", {"PROPERTY_DEFINITION(" + name + ",'',", feature, ")"});
-  const AnyRef shape =
-      kept(plan, "SHAPE_REPRESENTATION", {"SHAPE_REPRESENTATION(" + name + ",(", what, "),", context, ")"});
+  const AnyRef drawn = kept(plan, "SHAPE_REPRESENTATION",
+                            {"SHAPE_REPRESENTATION('" + std::string(role) + "',(", what, "),", context, ")"});
   kept(plan, "PROPERTY_DEFINITION_REPRESENTATION",
-       {"PROPERTY_DEFINITION_REPRESENTATION(", property, ",", shape, ")"});
+       {"PROPERTY_DEFINITION_REPRESENTATION(", shape, ",", drawn, ")"});
 }
 
 AnyRef stated(Reader& reader, AnyRef feature, const char* role) {
@@ -116,16 +124,18 @@ AnyRef stated(Reader& reader, AnyRef feature, const char* role) {
   const Node root = reader.root_of(feature);
   if (root == kNoNode) return {};
   for (const Node p : g.users(root)) {
-    if (!is(p, "PROPERTY_DEFINITION") || !g.get(p, "name").is(p21::Kind::kString) ||
-        g.get(p, "name").as_text() != role)
-      continue;
+    if (!is(p, "PROPERTY_DEFINITION")) continue;
     for (const Node r : g.users(p)) {
       if (!is(r, "PROPERTY_DEFINITION_REPRESENTATION")) continue;
       std::vector<Node> shapes, items;
       g.references(g.get(r, "used_representation"), shapes);
-      if (!shapes.empty()) g.references(g.get(shapes.front(), "items"), items);
-      if (items.empty()) continue;
-      return reader.object_at(items.front(), {}, reader.units().scale(shapes.front(), Scale{}));
+      if (shapes.empty() || !g.get(shapes.front(), "name").is(p21::Kind::kString) ||
+          g.get(shapes.front(), "name").as_text() != role) {
+        continue;
+      }
+      g.references(g.get(shapes.front(), "items"), items);
+      if (!items.empty())
+        return reader.object_at(items.front(), {}, reader.units().scale(shapes.front(), Scale{}));
     }
   }
   return {};
@@ -198,12 +208,13 @@ void sweep_to_ap238(model::Plan& plan, AnyRef feature) {
   const AnyRef context =
       kept(plan, "GEOMETRIC_REPRESENTATION_CONTEXT+REPRESENTATION_CONTEXT",
            {"(GEOMETRIC_REPRESENTATION_CONTEXT(3)REPRESENTATION_CONTEXT('','placement on top'))"});
+  const AnyRef shape = shape_of(plan, feature);
   const AnyRef own_path = copy_of(m, s.path);
-  state(plan, feature, context, kFrame,
+  state(plan, shape, context, kFrame,
         f.feature_placement.set() ? AnyRef(f.feature_placement) : AnyRef(placement(m, *frame)));
-  state(plan, feature, context, kPath, path.placement);
-  state(plan, feature, context, kDirection, d);
-  state(plan, feature, context, kDepth, f.depth);
+  state(plan, shape, context, kPath, path.placement);
+  state(plan, shape, context, kDirection, d);
+  state(plan, shape, context, kDepth, f.depth);
   if (auto* own = m.get<model::LinearPath>(own_path)) {
     own->its_direction = direction(m, {0.0, 0.0, 1.0});
     own->placement = turned;
@@ -213,7 +224,7 @@ void sweep_to_ap238(model::Plan& plan, AnyRef feature) {
   set_path(m, feature, own_path);
   if (s.profile && m.at<model::OpenProfile>(s.profile).placement) {
     const auto q = m.at<model::OpenProfile>(s.profile).placement;
-    state(plan, feature, context, kProfile, q);
+    state(plan, shape, context, kProfile, q);
     if (const auto inside = model::placement(m, q)) {
       const AnyRef own = copy_of(m, s.profile);
       m.at<model::OpenProfile>(own).placement = placement(m, compose(inverse(*start), *inside));
