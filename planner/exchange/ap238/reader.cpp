@@ -102,6 +102,9 @@ std::vector<Terminal> Reader::follow(const std::vector<Step>& steps, const std::
   std::vector<Terminal> level(1);
   level.front().node = root;
   level.front().scale = default_scale_;
+  if (const Value own = g_.get(root, "context_of_items"); own.is(Kind::kReference)) {
+    level.front().scale = const_cast<Units&>(units_).scale(g_.find(own.reference()), default_scale_);
+  }
   std::vector<Node> candidates;
   for (const Step& s : steps) {
     std::vector<Terminal> next;

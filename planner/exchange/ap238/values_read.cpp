@@ -19,9 +19,15 @@ namespace {
 
 Value bare(const Value& v) { return v.is(Kind::kTyped) ? v[0] : v; }
 
+// A kept instance that is found because it refers to us is written with its own way here.
+bool says_itself(const Row& row, AnyRef to) {
+  return to.type == TypeId::kKeptInstance && !row.steps.empty() && row.steps.back().inverse;
+}
+
 bool same(std::string_view a, std::string_view b) {
   const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; };
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [&](char x, char y) { return lower(x) == lower(y); });
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [&](char x, char y) { return lower(x) == lower(y); });
 }
 
 }  // namespace
@@ -83,12 +89,15 @@ bool Reader::assign(const Row& row, AnyRef at, const Attribute& a, std::vector<T
     default:
       for (const Terminal& t : found) {
         if (!scalar(row, at, a, t)) continue;
-        mark(t, at);
+        if (a.storage != Storage::kRef ||
+            !says_itself(row, *static_cast<AnyRef*>(a.at(plan_.model.object(at)))))
+          mark(t, at);
         return true;
       }
       // A measure without a value is there and says nothing.
       for (const Terminal& t : found) {
-        if (a.storage == Storage::kReal && bare(g_.get(t.node, "value_component")).is(Kind::kOmitted)) mark(t, at);
+        if (a.storage == Storage::kReal && bare(g_.get(t.node, "value_component")).is(Kind::kOmitted))
+          mark(t, at);
       }
       return false;
   }
@@ -108,7 +117,8 @@ bool Reader::scalar(const Row& row, AnyRef at, const Attribute& a, const Termina
     }
     case Storage::kInteger: {
       if (text && !bare(t.text).is_number()) return false;
-      const auto x = text ? std::optional(bare(t.text).as_real()) : measure(t.node, model::Unit::kNone, t.scale);
+      const auto x =
+          text ? std::optional(bare(t.text).as_real()) : measure(t.node, model::Unit::kNone, t.scale);
       if (!x || std::abs(*x) > 9007199254740992.0) return false;
       return slot(model::Integer(static_cast<std::int64_t>(std::llround(*x))));
     }
@@ -150,10 +160,13 @@ bool Reader::scalar(const Row& row, AnyRef at, const Attribute& a, const Termina
 }
 
 void Reader::select(const Row& row, const Attribute& a, const Terminal& t, model::SelectValue& out) {
-  if (g_.get(t.node, "value_component").is(Kind::kTyped) || g_.get(t.node, "unit_component").is(Kind::kReference)) {
-    if (const auto x = measure(t.node, a.unit == model::Unit::kNone ? model::Unit::kRatio : a.unit, t.scale)) {
+  if (g_.get(t.node, "value_component").is(Kind::kTyped) ||
+      g_.get(t.node, "unit_component").is(Kind::kReference)) {
+    if (const auto x =
+            measure(t.node, a.unit == model::Unit::kNone ? model::Unit::kRatio : a.unit, t.scale)) {
       out.real = *x;
-      out.type = row.texts.empty() ? std::string(g_.get(t.node, "value_component").keyword()) : row.texts.front();
+      out.type =
+          row.texts.empty() ? std::string(g_.get(t.node, "value_component").keyword()) : row.texts.front();
     }
   } else if (g_.is(t.node, g_.schema().find("DESCRIPTIVE_REPRESENTATION_ITEM"))) {
     std::string s = description(t.node);
@@ -175,7 +188,7 @@ void Reader::list(const Row& row, AnyRef at, const Attribute& a, const std::vect
         auto& out = *static_cast<model::AnyRefList*>(slot);
         out.given = true;
         out.items.push_back(to);
-        done = true;
+        done = !says_itself(row, to);
         break;
       }
       case Storage::kRealList:

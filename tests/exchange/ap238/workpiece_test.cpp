@@ -1,0 +1,594 @@
+// Projects and workpieces: shapes, materials, what they are made from, assemblies, product data.
+
+#include "tests/exchange/ap238/resource_support.h"
+#include "tests/support/corpus.h"
+
+namespace capstan::exchange::ap238 {
+namespace {
+
+using model::AnyRef;
+using model::Ref;
+
+template <class Give>
+Case workpiece_case(const std::string& what, Give give, std::vector<std::string> instances) {
+  return {what,
+          [=](Bench& b) {
+            b.step(model::OptionalStop{});
+            give(b.plan.model, b.plan.model.at<model::Workpiece>(b.workpiece));
+          },
+          std::move(instances)};
+}
+
+Ref<model::DateAndTime> moment(model::Model& m) {
+  model::CalendarDate date;
+  date.year_component = 2024;
+  date.month_component = 2;
+  date.day_component = 29;
+  model::CoordinatedUniversalTimeOffset zone;
+  zone.hour_offset = 5;
+  zone.minute_offset = 30;
+  zone.sense = model::AheadOrBehind::kAhead;
+  model::LocalTime time;
+  time.hour_component = 23;
+  time.minute_component = 59;
+  time.second_component = 7.5;
+  time.zone = m.add(std::move(zone));
+  model::DateAndTime out;
+  out.date_component = m.add(std::move(date));
+  out.time_component = m.add(std::move(time));
+  return m.add(std::move(out));
+}
+
+Ref<model::Person> person(model::Model& m) {
+  model::Person p;
+  p.id = "4711";
+  p.last_name = "Noether";
+  p.first_name = "Emmy";
+  p.middle_names = {.items = {"Amalie"}, .given = true};
+  p.prefix_titles = {.items = {"Prof.", "Dr."}, .given = true};
+  p.suffix_titles = {.items = {"ForMem"}, .given = true};
+  return m.add(std::move(p));
+}
+
+Ref<model::Organization> organization(model::Model& m) {
+  model::Organization o;
+  o.its_id = "ORG";
+  o.name = "Works";
+  o.description = "where it is made";
+  return m.add(std::move(o));
+}
+
+Ref<model::PersonAndOrganization> member(model::Model& m) {
+  model::PersonAndOrganization p;
+  p.its_person = person(m);
+  p.its_organization = organization(m);
+  return m.add(std::move(p));
+}
+
+// --- project ---
+
+TEST(Project, HasAnOwnerWithAnAddress) {
+  check({"owner",
+         [](Bench& b) {
+           model::Model& m = b.plan.model;
+           b.step(model::OptionalStop{});
+           model::Address address;
+           address.internal_location = "3.14";
+           address.street_number = "5";
+           address.street = "Weg";
+           address.postal_box = "77";
+           address.town = "Erlangen";
+           address.region = "By";
+           address.postal_code = "91054";
+           address.country = "DE";
+           address.facsimile_number = "1";
+           address.telephone_number = "2";
+           address.electronic_mail_address = "a@b";
+           address.telex_number = "3";
+           model::PersonAndAddress owner;
+           owner.its_person = person(m);
+           owner.its_address = m.add(std::move(address));
+           m.at<model::Project>(b.plan.project).its_owner = m.add(std::move(owner));
+         },
+         {"APPLIED_PERSON_AND_ORGANIZATION_ASSIGNMENT(#,#,(#));", "PERSON_AND_ORGANIZATION_ROLE('owner');",
+          "PERSON_AND_ORGANIZATION(#,#);",
+          "PERSON('4711','Noether','Emmy',('Amalie'),('Prof.','Dr.'),('ForMem'));",
+          "PERSONAL_ADDRESS('3.14','5','Weg','77','Erlangen','By','91054','DE','1','2','a@b','3',(#),$);"}});
+}
+
+TEST(Project, HasAnOwnerInAnOrganization) {
+  check({"owner",
+         [](Bench& b) {
+           b.step(model::OptionalStop{});
+           b.plan.model.at<model::Project>(b.plan.project).its_owner = member(b.plan.model);
+         },
+         {"PERSON_AND_ORGANIZATION_ROLE('owner');", "ORGANIZATION('ORG','Works','where it is made');"}});
+}
+
+TEST(Project, HasAReleaseDateAStatusAndATimeOfItsLastChange) {
+  check({"release",
+         [](Bench& b) {
+           model::Model& m = b.plan.model;
+           b.step(model::OptionalStop{});
+           model::Approval approval;
+           approval.level = "released";
+           model::ApprovalStatus status;
+           status.name = "approved";
+           approval.status = m.add(std::move(status));
+           model::LastModifiedTimestamp stamp;
+           stamp.assigned_date = moment(m);
+           stamp.role = "last modified";
+           auto& p = m.at<model::Project>(b.plan.project);
+           p.its_release = moment(m);
+           p.its_status = m.add(std::move(approval));
+           p.last_modified_timestamp = m.add(std::move(stamp));
+         },
+         {"APPLIED_DATE_AND_TIME_ASSIGNMENT(#,#,(#));", "DATE_TIME_ROLE('release date');",
+          "DATE_TIME_ROLE('last modified');", "CALENDAR_DATE(2024,29,2);", "LOCAL_TIME(23,59,7.5,#);",
+          "COORDINATED_UNIVERSAL_TIME_OFFSET(5,30,.AHEAD.);", "APPLIED_APPROVAL_ASSIGNMENT(#,(#));",
+          "APPROVAL(#,'released');", "APPROVAL_STATUS('approved');"}});
+}
+
+// --- workpiece ---
+
+TEST(Workpiece, HasItsNameOfDefinitionAndProduct) {
+  check(workpiece_case("id", [](auto&, auto&) {},
+                       {"PRODUCT_DEFINITION('part',$,#,#);", "PRODUCT('part','',$,(#));",
+                        "MACHINING_PROJECT_WORKPIECE_RELATIONSHIP('','workpiece',$,#,#);"}));
+  check(workpiece_case("revision", [](auto&, auto& w) { w.revision_id = "B.2"; },
+                       {"PRODUCT_DEFINITION_FORMATION('B.2',$,#);"}));
+}
+
+TEST(Workpiece, HasAToleranceAndClampingPositions) {
+  check(workpiece_case("tolerance", [](auto&, auto& w) { w.global_tolerance = 0.01; },
+                       {"PROPERTY_DEFINITION('global tolerance',$,#);", "SHAPE_REPRESENTATION('',(#),#);",
+                        length_of("", "0.01")}));
+  check(workpiece_case("clamping",
+                       [](auto& m, auto& w) {
+                         w.clamping_positions.push_back(point(m, 0, 20, 25));
+                         w.clamping_positions.push_back(point(m, 100, 20, 25));
+                       },
+                       {"PROPERTY_DEFINITION('clamping position',$,#);", "SHAPE_REPRESENTATION('',(#,#),#);",
+                        "CARTESIAN_POINT('',(100.,20.,25.));"}));
+}
+
+TEST(Workpiece, IsBoundedByABlockOrACylinderAndMadeFromARawPiece) {
+  check(workpiece_case(
+      "block",
+      [](auto& m, auto& w) {
+        model::Block block;
+        block.position = placement(m, 1, 2, 3);
+        block.x = 100.0;
+        block.y = 80.0;
+        block.z = 25.0;
+        w.its_bounding_geometry = m.add(std::move(block));
+      },
+      {"MAKE_FROM_USAGE_OPTION('','bounding geometry',$,#,#,0,'',#);",
+       "BLOCK_SHAPE_REPRESENTATION('',(#,#,#,#),#);", "AXIS2_PLACEMENT_3D('orientation',#,$,$);",
+       length_of("length", "100."), length_of("width", "80."), length_of("height", "25.")}));
+  check(workpiece_case(
+      "cylinder",
+      [](auto& m, auto& w) {
+        model::Axis1Placement axis;
+        axis.location = point(m, 1, 2, 3);
+        model::RightCircularCylinder cylinder;
+        cylinder.position = m.add(std::move(axis));
+        cylinder.height = 60.0;
+        cylinder.radius = 20.0;
+        w.its_bounding_geometry = m.add(std::move(cylinder));
+      },
+      {"CYLINDRICAL_SHAPE_REPRESENTATION('',(#,#,#),#);", "AXIS1_PLACEMENT('orientation',#,$);",
+       length_of("length", "60."), length_of("diameter", "40.")}));
+  check(workpiece_case("raw piece, with a bounding block of its own",
+                       [](auto& m, auto& w) {
+                         model::Block block;
+                         block.position = placement(m, 1, 2, 3);
+                         block.x = 100.0;
+                         block.y = 80.0;
+                         block.z = 25.0;
+                         model::Workpiece raw;
+                         raw.its_id = "stock";
+                         raw.clamping_positions.given = true;
+                         raw.its_bounding_geometry = m.add(std::move(block));
+                         w.its_rawpiece = m.add(std::move(raw));
+                       },
+                       {"MAKE_FROM_USAGE_OPTION('','',$,#,#,0,'',#);", "PRODUCT_DEFINITION('stock',$,#,#);",
+                        "MEASURE_WITH_UNIT(COUNT_MEASURE(1.),#);"}));
+  check(workpiece_case("material workpiece",
+                       [](auto& m, auto& w) {
+                         model::Workpiece bar;
+                         bar.its_id = "bar";
+                         bar.clamping_positions.given = true;
+                         w.material_workpiece = m.add(std::move(bar));
+                       },
+                       {"MAKE_FROM_USAGE_OPTION('','material workpiece',$,#,#,0,'',#);"}));
+}
+
+TEST(Workpiece, HasAMaterialWithParametersAndProperties) {
+  check(workpiece_case(
+      "material",
+      [](auto& m, auto& w) {
+        model::DescriptiveParameter text;
+        text.parameter_name = "structure";
+        text.descriptive_string = "annealed";
+        model::NumericParameter number;
+        number.parameter_name = "E";
+        number.its_parameter_value = 210000.0;
+        number.its_parameter_unit = "N/mm2";
+        model::NumericParameter hardness;
+        hardness.parameter_name = "HB";
+        hardness.its_parameter_value = 180.0;
+        hardness.its_parameter_unit = "HB 2.5";
+        model::MaterialProperty property;
+        property.name = "hardness";
+        property.description = "as delivered";
+        property.its_parameters.push_back(m.add(std::move(hardness)));
+        model::Material material;
+        material.material_identifier = "STEEL";
+        material.standard_identifier = "ST-50";
+        material.material_property.push_back(m.add(std::move(text)));
+        material.material_property.push_back(m.add(std::move(number)));
+        material.its_properties.push_back(m.add(std::move(property)));
+        w.its_material = m.add(std::move(material));
+      },
+      {"MATERIAL_DESIGNATION('STEEL',(#));", "APPLIED_DOCUMENT_REFERENCE(#,'',(#));",
+       "DOCUMENT('ST-50','',$,#);", "MATERIAL_DESIGNATION_CHARACTERIZATION('parameters','',#,#);",
+       "MATERIAL_PROPERTY_REPRESENTATION(#,#,#);", word_of("structure", "annealed"),
+       number_of("E", "210000."), "CONTEXT_DEPENDENT_UNIT(#,'N/mm2');",
+       "MATERIAL_DESIGNATION_CHARACTERIZATION('','',#,#);", "MATERIAL_PROPERTY('hardness','as delivered',#);",
+       number_of("HB", "180.")}));
+}
+
+TEST(Workpiece, HasAShapeFromIso14649AsARepresentation) {
+  check(workpiece_case(
+      "brep",
+      [](auto& m, auto& w) {
+        // One triangle suffices: topology is written as it is.
+        model::AdvancedFace face;
+        model::EdgeLoop loop;
+        const double corners[3][3] = {{0, 0, 0}, {10, 0, 0}, {0, 10, 0}};
+        std::vector<Ref<model::VertexPoint>> vertices;
+        for (const auto& c : corners) {
+          model::VertexPoint v;
+          v.vertex_geometry = point(m, c[0], c[1], c[2]);
+          vertices.push_back(m.add(std::move(v)));
+        }
+        for (std::size_t i = 0; i < 3; ++i) {
+          const auto& a = corners[i];
+          const auto& e = corners[(i + 1) % 3];
+          model::Direction d;
+          d.direction_ratios = {.items = {e[0] - a[0], e[1] - a[1], e[2] - a[2]}, .given = true};
+          model::Vector along;
+          along.orientation = m.add(std::move(d));
+          along.magnitude = 1.0;
+          model::Line line;
+          line.pnt = point(m, a[0], a[1], a[2]);
+          line.dir = m.add(std::move(along));
+          model::EdgeCurve edge;
+          edge.edge_start = vertices[i];
+          edge.edge_end = vertices[(i + 1) % 3];
+          edge.edge_geometry = m.add(std::move(line));
+          edge.same_sense = true;
+          model::OrientedEdge oriented;
+          oriented.edge_element = m.add(std::move(edge));
+          oriented.orientation = true;
+          loop.edge_list.push_back(m.add(std::move(oriented)));
+        }
+        model::FaceOuterBound bound;
+        bound.bound = m.add(std::move(loop));
+        bound.orientation = true;
+        face.bounds.push_back(m.add(std::move(bound)));
+        model::Plane plane;
+        plane.position = placement(m, 0, 0, 0);
+        face.face_geometry = m.add(std::move(plane));
+        face.same_sense = true;
+        model::ClosedShell shell;
+        shell.cfs_faces.push_back(m.add(std::move(face)));
+        model::ManifoldSolidBrep solid;
+        solid.outer = m.add(std::move(shell));
+        model::AdvancedBrepShapeRepresentation shape;
+        shape.name = "shape of the part";
+        shape.items.push_back(m.add(std::move(solid)));
+        w.its_geometry = m.add(std::move(shape));
+      },
+      {"SHAPE_DEFINITION_REPRESENTATION(#,#);",
+       "ADVANCED_BREP_SHAPE_REPRESENTATION('shape of the part',(#),#);", "MANIFOLD_SOLID_BREP('',#);"}));
+}
+
+TEST(Workpiece, HasPartsWithTheirPlaces) {
+  check(workpiece_case(
+      "parts",
+      [](auto& m, auto& w) {
+        model::Workpiece child;
+        child.its_id = "child";
+        child.clamping_positions.given = true;
+        model::NextAssemblyUsage usage;
+        usage.its_id = "U1";
+        usage.name = "left";
+        usage.reference_designator = "R1";
+        usage.child_workpiece = m.add(std::move(child));
+        usage.item_transform = placement(m, 10, 0, 0);
+        usage.item_transform_origin = placement(m, 0, 0, 5);
+        w.its_components.push_back(m.add(usage));
+        usage.its_id = "U2";
+        usage.name = "right";
+        usage.reference_designator = "R2";
+        usage.item_transform = placement(m, 50, 0, 0);
+        usage.item_transform_origin = {};
+        w.its_components.push_back(m.add(usage));
+      },
+      {"NEXT_ASSEMBLY_USAGE_OCCURRENCE('U1','left',$,#,#,'R1');",
+       "NEXT_ASSEMBLY_USAGE_OCCURRENCE('U2','right',$,#,#,'R2');",
+       "CONTEXT_DEPENDENT_SHAPE_REPRESENTATION(#,#);", "ITEM_DEFINED_TRANSFORMATION('',$,#,#);",
+       "CARTESIAN_POINT('',(10.,0.,0.));", "CARTESIAN_POINT('',(0.,0.,5.));"}));
+}
+
+TEST(Workpiece, HasApprovalsWithDatesAndApprovers) {
+  const auto approval = [](model::Model& m, const char* level) {
+    model::ApprovalStatus status;
+    status.name = "approved";
+    model::ApprovingPersonOrganization approver;
+    approver.person_organization = member(m);
+    approver.role = "approver";
+    model::Approval out;
+    out.level = level;
+    out.status = m.add(std::move(status));
+    out.approval_date_time = moment(m);
+    out.approvers.push_back(m.add(std::move(approver)));
+    return m.add(std::move(out));
+  };
+  const auto all = [&](model::Model& m, model::Workpiece& w) {
+    w.its_approvals.push_back(approval(m, "definition"));
+    w.revision_approvals.push_back(approval(m, "revision"));
+    w.product_approvals.push_back(approval(m, "product"));
+    w.product_approvals.push_back(approval(m, "product again"));
+  };
+  check(workpiece_case("approvals", all,
+                       {"APPLIED_APPROVAL_ASSIGNMENT(#,(#));", "APPROVAL(#,'definition');",
+                        "APPROVAL(#,'revision');", "APPROVAL(#,'product again');", "APPROVAL_DATE_TIME(#,#);",
+                        "APPROVAL_PERSON_ORGANIZATION(#,#,#);", "APPROVAL_ROLE('approver');"}));
+}
+
+TEST(Workpiece, HasPeopleOrganizationsAndDates) {
+  using W = model::Workpiece;
+  using People = model::RefList<model::PersonOrganizationAssignment> W::*;
+  using Dates = model::RefList<model::DateTimeAssignment> W::*;
+  const auto people = [](const char* what, People list) {
+    return workpiece_case(
+        what,
+        [list](model::Model& m, W& w) {
+          model::PersonOrganizationAssignment a;
+          a.assigned_person_organization = member(m);
+          a.role = "creator";
+          (w.*list).push_back(m.add(std::move(a)));
+        },
+        {"APPLIED_PERSON_AND_ORGANIZATION_ASSIGNMENT(#,#,(#));", "PERSON_AND_ORGANIZATION_ROLE('creator');"});
+  };
+  const auto orgs = [](const char* what, People list) {
+    return workpiece_case(what,
+                          [list](model::Model& m, W& w) {
+                            model::PersonOrganizationAssignment a;
+                            a.assigned_person_organization = organization(m);
+                            a.role = "supplier";
+                            (w.*list).push_back(m.add(std::move(a)));
+                          },
+                          {"APPLIED_ORGANIZATION_ASSIGNMENT(#,#,(#));", "ORGANIZATION_ROLE('supplier');"});
+  };
+  const auto dates = [](const char* what, Dates list) {
+    return workpiece_case(
+        what,
+        [list](model::Model& m, W& w) {
+          model::OrdinalDate date;
+          date.year_component = 2024;
+          date.day_component = 60;
+          model::DateTimeAssignment a;
+          a.assigned_date = m.add(std::move(date));
+          a.role = "ordered";
+          (w.*list).push_back(m.add(std::move(a)));
+        },
+        {"APPLIED_DATE_ASSIGNMENT(#,#,(#));", "DATE_ROLE('ordered');", "ORDINAL_DATE(2024,60);"});
+  };
+  const auto times = [](const char* what, Dates list) {
+    return workpiece_case(what,
+                          [list](model::Model& m, W& w) {
+                            model::DateTimeAssignment a;
+                            a.assigned_date = moment(m);
+                            a.role = "creation_date";
+                            (w.*list).push_back(m.add(std::move(a)));
+                          },
+                          {"APPLIED_DATE_AND_TIME_ASSIGNMENT(#,#,(#));", "DATE_TIME_ROLE('creation_date');"});
+  };
+  check(people("its_people", &W::its_people));
+  check(people("revision_people", &W::revision_people));
+  check(people("product_people", &W::product_people));
+  check(orgs("its_orgs", &W::its_orgs));
+  check(orgs("revision_orgs", &W::revision_orgs));
+  check(orgs("product_orgs", &W::product_orgs));
+  check(dates("its_datestamps", &W::its_datestamps));
+  check(dates("revision_datestamps", &W::revision_datestamps));
+  check(dates("product_datestamps", &W::product_datestamps));
+  check(times("its_timestamps", &W::its_timestamps));
+  check(times("revision_timestamps", &W::revision_timestamps));
+  check(times("product_timestamps", &W::product_timestamps));
+}
+
+TEST(Workpiece, HasCategoriesSecurityAndATimeOfItsLastChange) {
+  check(workpiece_case("categories",
+                       [](auto&, auto& w) {
+                         w.its_categories = {.items = {"rawpiece", "fixture"}, .given = true};
+                       },
+                       {"PRODUCT_RELATED_PRODUCT_CATEGORY('rawpiece',$,(#));",
+                        "PRODUCT_RELATED_PRODUCT_CATEGORY('fixture',$,(#));"}));
+  check(workpiece_case(
+      "security",
+      [](auto& m, auto& w) {
+        model::SecurityClassification s;
+        s.name = "drawing";
+        s.purpose = "export";
+        s.security_level = "confidential";
+        w.its_security_classifications.push_back(m.add(std::move(s)));
+      },
+      {"APPLIED_SECURITY_CLASSIFICATION_ASSIGNMENT(#,(#));", "SECURITY_CLASSIFICATION('drawing','export',#);",
+       "SECURITY_CLASSIFICATION_LEVEL('confidential');"}));
+  check(workpiece_case("last modified beside another time",
+                       [](auto& m, auto& w) {
+                         model::LastModifiedTimestamp last;
+                         last.assigned_date = moment(m);
+                         last.role = "last modified";
+                         model::DateTimeAssignment other;
+                         other.assigned_date = moment(m);
+                         other.role = "creation_date";
+                         w.last_modified_timestamp = m.add(std::move(last));
+                         w.its_timestamps.push_back(m.add(std::move(other)));
+                       },
+                       {"DATE_TIME_ROLE('last modified');", "DATE_TIME_ROLE('creation_date');"}));
+}
+
+TEST(Machine, WithKinematicsIsAProduct) {
+  check(workpiece_case(
+      "kinematics",
+      [](auto& m, auto& w) {
+        model::MachineWithKinematics machine;
+        machine.its_id = "M12";
+        machine.configuration = "C";
+        machine.clamping_positions.given = true;
+        w.material_workpiece = m.add(std::move(machine));
+      },
+      {"PROPERTY_DEFINITION('configuration',$,#);", word_of("", "C"), "PRODUCT_DEFINITION('M12',$,#,#);"}));
+}
+
+// --- files of others ---
+
+TEST(Workpiece, HasTheNameOfItsProductWhereTheDefinitionHasNone) {
+  const auto id = [](const std::string& definition, const std::string& product) {
+    const model::Plan plan = read_text(
+        file_of("#1=MACHINING_PROJECT('p','',$,());\n#2=PRODUCT_DEFINITION_FORMATION('','',#1);\n#3=PRODUCT_"
+                "DEFINITION('','',#2,$);\n"
+                "#4=MACHINING_PROJECT_WORKPIECE_RELATIONSHIP('','','',#3,#5);\n#5=PRODUCT_DEFINITION(" +
+                definition +
+                ",'',#6,$);\n"
+                "#6=PRODUCT_DEFINITION_FORMATION('1.0','',#7);\n#7=PRODUCT(" +
+                product + ",'',());\n"));
+    const auto& p = plan.model.at<model::Project>(plan.project);
+    if (p.its_workpieces.size() != 1) return std::string("?");
+    return plan.model.at<model::Workpiece>(p.its_workpieces[0]).its_id.value_or("none");
+  };
+  EXPECT_EQ(id("'a'", "'b','c'"), "a");
+  EXPECT_EQ(id("''", "'b','c'"), "b");
+  EXPECT_EQ(id("$", "'b','c'"), "b");
+  EXPECT_EQ(id("''", "'','c'"), "c");
+}
+
+TEST(Workpiece, OfAnInchFileKeepsItsShapeVerbatimWithItsUnits) {
+  std::vector<std::string> said;
+  const model::Plan plan = read_text(file_of("#1=MACHINING_PROJECT('p','',$,());\n#2=PRODUCT_DEFINITION_"
+                                             "FORMATION('','',#1);\n#3=PRODUCT_DEFINITION('','',#2,$);\n"
+                                             "#4=MACHINING_PROJECT_WORKPIECE_RELATIONSHIP('','','',#3,#5);\n#"
+                                             "5=PRODUCT_DEFINITION('part','',#6,$);\n"
+                                             "#6=PRODUCT_DEFINITION_FORMATION('1.0','',#7);\n#7=PRODUCT('"
+                                             "part','','',());\n#8=PRODUCT_DEFINITION_SHAPE('','',#5);\n"
+                                             "#9=SHAPE_DEFINITION_REPRESENTATION(#8,#10);\n#10=FACETED_BREP_"
+                                             "SHAPE_REPRESENTATION('f',(#11),#12);\n"
+                                             "#11=FACETED_BREP('solid',#13);\n#13=CLOSED_SHELL('',());\n"
+                                             "#12=(GEOMETRIC_REPRESENTATION_CONTEXT(3)GLOBAL_UNIT_ASSIGNED_"
+                                             "CONTEXT((#14))REPRESENTATION_CONTEXT('INCH','3D'));\n"
+                                             "#14=(CONVERSION_BASED_UNIT('inch',#15)LENGTH_UNIT()NAMED_UNIT(#"
+                                             "17));\n#17=DIMENSIONAL_EXPONENTS(1.,0.,0.,0.,0.,0.,0.);\n"
+                                             "#15=LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE(25.4),#16);\n#16=("
+                                             "LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.));\n"
+                                             "#18=MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION('',"
+                                             "(#19),#12);\n#19=STYLED_ITEM('',(),#11);\n"),
+                                     &said);
+  for (const auto& s : said) EXPECT_EQ(s.find("EXC-KEPT"), std::string::npos) << s;
+  const auto& w =
+      plan.model.at<model::Workpiece>(plan.model.at<model::Project>(plan.project).its_workpieces[0]);
+  ASSERT_TRUE(plan.model.holds<model::KeptInstance>(w.its_geometry));
+  EXPECT_EQ(w.its_styled_models.size(), 1U);
+  const auto lines = shapes(written(plan).bytes);
+  for (const char* wanted :
+       {"SHAPE_DEFINITION_REPRESENTATION(#,#);", "FACETED_BREP_SHAPE_REPRESENTATION('f',(#),#);",
+        "FACETED_BREP('solid',#);",
+        "(GEOMETRIC_REPRESENTATION_CONTEXT(3)GLOBAL_UNIT_ASSIGNED_CONTEXT((#))REPRESENTATION_CONTEXT('INCH','"
+        "3D'));",
+        "(CONVERSION_BASED_UNIT('inch',#)LENGTH_UNIT()NAMED_UNIT(#));", "STYLED_ITEM('',(),#);",
+        "MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION('',(#),#);"}) {
+    EXPECT_EQ(std::count(lines.begin(), lines.end(), wanted), 1) << wanted;
+  }
+}
+
+const model::Workpiece* find(const model::Plan& plan, const std::string& id) {
+  for (const AnyRef w : plan.model.all(model::TypeId::kWorkpiece)) {
+    const auto& found = plan.model.at<model::Workpiece>(w);
+    if (found.its_id == id) return &found;
+  }
+  return nullptr;
+}
+
+TEST(Workpiece, OfAnnexJ3IsReadToTheValue) {
+  CAPSTAN_CORPUS_FILE(path, "ap238/ap238e4dis_annexJ_cc3.stp");
+  Job job;
+  const auto plan = exchange::read(path, job);
+  ASSERT_TRUE(plan);
+  const auto& m = plan->model;
+  const auto* part = find(*plan, "SIMPLE WORKPIECE");
+  const auto* stock = find(*plan, "STOCK");
+  ASSERT_NE(part, nullptr);
+  ASSERT_NE(stock, nullptr);
+  EXPECT_EQ(part->global_tolerance, 0.01);
+  EXPECT_EQ(m.get<model::Workpiece>(part->its_rawpiece), stock);
+  EXPECT_FALSE(part->its_bounding_geometry.set());
+  EXPECT_FALSE(stock->its_rawpiece.set());
+  ASSERT_EQ(part->clamping_positions.size(), 4U);
+  EXPECT_EQ(m.at<model::CartesianPoint>(part->clamping_positions[3]).coordinates.items,
+            (std::vector<double>{100, 100, 25}));
+  const auto& block = m.at<model::Block>(stock->its_bounding_geometry);
+  EXPECT_EQ(block.x, 100.0);
+  EXPECT_EQ(block.y, 100.0);
+  EXPECT_EQ(block.z, 100.0);
+  EXPECT_EQ(AnyRef(part->its_material), AnyRef(stock->its_material));
+  const auto& material = m.at<model::Material>(part->its_material);
+  EXPECT_EQ(material.material_identifier, "STEEL");
+  EXPECT_EQ(material.standard_identifier, "ST-50");
+  ASSERT_EQ(material.material_property.size(), 1U);
+  EXPECT_EQ(m.at<model::DescriptiveParameter>(material.material_property[0]).parameter_name, "E=200000N/M2");
+}
+
+TEST(Workpiece, OfAnnexJ2HasItsPartsShapesAndProductData) {
+  CAPSTAN_CORPUS_FILE(path, "ap238/ap238e4dis_annexJ_cc2.stp");
+  Job job;
+  const auto plan = exchange::read(path, job);
+  ASSERT_TRUE(plan);
+  const auto& m = plan->model;
+  const auto* top = find(*plan, "WP");
+  const auto* child = find(*plan, "WORKPIECE COMPONENT");
+  ASSERT_NE(top, nullptr);
+  ASSERT_NE(child, nullptr);
+  EXPECT_EQ(top->revision_id, "1.0");
+  EXPECT_EQ(m.get<model::Workpiece>(top->its_rawpiece), find(*plan, "RAW"));
+  ASSERT_EQ(top->its_components.size(), 1U);
+  const auto& usage = m.at<model::NextAssemblyUsage>(top->its_components[0]);
+  EXPECT_EQ(m.get<model::Workpiece>(usage.child_workpiece), child);
+  EXPECT_TRUE(m.holds<model::Axis2Placement3d>(usage.item_transform));
+  EXPECT_TRUE(m.holds<model::Axis2Placement3d>(usage.item_transform_origin));
+  EXPECT_EQ(m.at<model::KeptInstance>(child->its_geometry).keyword, "SHAPE_REPRESENTATION");
+  ASSERT_EQ(child->its_related_geometry.size(), 1U);
+  EXPECT_EQ(m.at<model::KeptInstance>(child->its_related_geometry[0]).keyword,
+            "ADVANCED_BREP_SHAPE_REPRESENTATION");
+  ASSERT_EQ(child->its_approvals.size(), 1U);
+  const auto& approval = m.at<model::Approval>(child->its_approvals[0]);
+  EXPECT_EQ(m.at<model::ApprovalStatus>(approval.status).name, "not_yet_approved");
+  EXPECT_EQ(child->its_timestamps.size(), 1U);
+  EXPECT_EQ(child->product_people.size(), 1U);
+  EXPECT_EQ(child->revision_approvals.size(), 1U);
+  ASSERT_EQ(child->revision_people.size(), 2U);
+  EXPECT_EQ(m.at<model::PersonOrganizationAssignment>(child->revision_people[1]).role, "creator");
+  const auto& revision = m.at<model::Approval>(child->revision_approvals[0]);
+  ASSERT_EQ(revision.approvers.size(), 1U);
+  EXPECT_EQ(m.at<model::ApprovingPersonOrganization>(revision.approvers[0]).role, "approver");
+  EXPECT_TRUE(revision.approval_date_time.set());
+  const model::Plan back = read_text(written(*plan).bytes);
+  EXPECT_EQ(testing::ModelDifference(*plan, back, {.item_names = false, .left_out = {}}).text(), "");
+}
+
+}  // namespace
+}  // namespace capstan::exchange::ap238
