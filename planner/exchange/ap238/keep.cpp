@@ -77,6 +77,12 @@ void Reader::keep_the_rest() {
     const EntityId e = g_.schema().find(entity);
     for (const auto& [n, at] : kept_) explained[n] = explained[n] || g_.is(n, e);
   }
+  // Geometry that nothing refers to is in the units of the file.
+  for (Node n = 0; n < g_.size(); ++n) {
+    if (used(n) || explained[n] || kept_.contains(n) || !g_.users(n).empty()) continue;
+    if (const auto type = geometry_type(n)) plan_.kept.push_back(geometry_at(n, *type, default_scale_));
+  }
+  drain();
   std::vector<Node> rest;
   std::map<std::string, std::pair<std::size_t, Node>> kinds;
   for (Node n = 0; n < g_.size(); ++n) {
