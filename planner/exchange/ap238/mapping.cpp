@@ -402,9 +402,12 @@ class Parser {
       }
       s = trimmed(s);
       c.negated = s.substr(0, 2) == "!=";
+      c.fallback = s.substr(0, 2) == "?=";
       if (c.negated) s.remove_prefix(1);
       c.demanded = !s.empty() && s.front() == '=';
-      if (!c.demanded) {
+      if (c.fallback) {
+        s.remove_prefix(1);
+      } else if (!c.demanded) {
         if (s.substr(0, 2) != ":=") wrong("'=' or ':=' expected in {" + c.attribute);
         s.remove_prefix(1);
       }

@@ -25,6 +25,7 @@ struct Constraint {
   std::string attribute;  ///< lower case, may be qualified: "shape_aspect.name"
   bool demanded = false;
   bool negated = false;    ///< `!=`: demanded not to be so; never set
+  bool fallback = false;   ///< `?=`: set in the end, where nothing else has set it
   Kind kind = Kind::kPlain;
   std::vector<std::string> texts;  ///< Part 21 spellings that do; the first is written. kShared: its name
 };

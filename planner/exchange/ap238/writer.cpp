@@ -76,6 +76,7 @@ std::string Writer::run() {
     });
   }
   write_records(*this);
+  fall_back();
   std::string out;
   for (Id id = 1; id <= made_.size(); ++id) {
     if (!reserved_.contains(id)) print(id, made_[id - 1], out);
@@ -84,6 +85,19 @@ std::string Writer::run() {
     losses_.push_back(what + " has no place in AP238 (" + std::to_string(n) + " left out)");
   }
   return out;
+}
+
+// What the standard wants said where the plan says nothing.
+void Writer::fall_back() {
+  const auto pending = std::move(fallbacks_);
+  for (const auto& [at, constraint] : pending) {
+    const auto& values = made_[at - 1].values;
+    const auto name = qualified(constraint->attribute).second;
+    if (std::any_of(values.begin(), values.end(), [&](const Value& v) { return v.attribute->name == name; })) continue;
+    Constraint c = *constraint;
+    c.fallback = false;
+    constrain(at, {c}, 0, {});
+  }
 }
 
 // --- instances ---
@@ -236,6 +250,10 @@ std::string Writer::resolved(const std::string& spelling) {
 void Writer::constrain(Id at, const std::vector<Constraint>& constraints, std::uint32_t ordinal, AnyRef owner) {
   for (const Constraint& c : constraints) {
     if (c.negated) continue;
+    if (c.fallback) {
+      fallbacks_.emplace_back(at, &c);
+      continue;
+    }
     switch (c.kind) {
       case Constraint::Kind::kPlain:
         set(at, c.attribute, resolved(c.texts.front()));

@@ -87,9 +87,13 @@ class Writer {
   [[nodiscard]] static bool is_geometry(model::AnyRef at);
   void require(model::AnyRef at);
   [[nodiscard]] std::string resolved(const std::string& spelling);
-  void write_text(const Row& row, model::AnyRef owner, Id root, std::uint32_t ordinal, const std::string& text);
-  void write_measure(const Row& row, model::AnyRef owner, Id root, std::uint32_t ordinal, double v, model::Unit u);
-  void constrain(Id at, const std::vector<Constraint>& constraints, std::uint32_t ordinal, model::AnyRef owner);
+  void write_text(const Row& row, model::AnyRef owner, Id root, std::uint32_t ordinal,
+                  const std::string& text);
+  void write_measure(const Row& row, model::AnyRef owner, Id root, std::uint32_t ordinal, double v,
+                     model::Unit u);
+  void constrain(Id at, const std::vector<Constraint>& constraints, std::uint32_t ordinal,
+                 model::AnyRef owner);
+  void fall_back();
   void note_unmapped(model::AnyRef at, const ObjectRow* row);
   Id unit(model::Unit u);
   void print(Id id, const Made& made, std::string& out);
@@ -113,6 +117,7 @@ class Writer {
   std::map<std::string, Id, std::less<>> shared_;
   std::map<model::Unit, Id> units_;
   std::deque<Task> tasks_;
+  std::vector<std::pair<Id, const Constraint*>> fallbacks_;
   std::deque<model::AnyRef> to_scan_;
   std::map<std::string, std::size_t> lost_;
 };

@@ -321,6 +321,29 @@ TEST(Tool, MayBeATouchProbe) {
           length_of("overall assembly length", "120."), length_of("stylus diameter", "4.")}});
 }
 
+TEST(Tool, ThatNothingUsesIsForCuttingAndItsMaterialForItself) {
+  check({"unused",
+         [](Bench& b) {
+           model::Model& m = b.plan.model;
+           b.step(model::OptionalStop{});
+           model::Material material;
+           material.material_identifier = "STEEL";
+           material.standard_identifier = "ST-50";
+           material.material_property.given = true;
+           model::MillingToolDimension dimension;
+           dimension.diameter = 8.0;
+           model::Endmill body;
+           body.dimension = m.add(std::move(dimension));
+           model::MillingCuttingTool tool;
+           tool.its_id = "spare";
+           tool.its_tool_body = m.add(std::move(body));
+           b.plan.kept.push_back(m.add(std::move(tool)));
+           b.plan.kept.push_back(m.add(std::move(material)));
+         },
+         {"MACHINING_TOOL('spare','endmill',(#),#);", "ACTION_METHOD('cutting',$,'','cutting');",
+          "MATERIAL_DESIGNATION('STEEL',(#));", "CHARACTERIZED_OBJECT('material','');"}});
+}
+
 // --- files of others ---
 
 std::string file_with_tool(const std::string& tool, const std::string& body) {
