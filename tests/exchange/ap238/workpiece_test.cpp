@@ -479,6 +479,49 @@ TEST(Workpiece, HasTheNameOfItsProductWhereTheDefinitionHasNone) {
   EXPECT_EQ(id("''", "'','c'"), "c");
 }
 
+TEST(Workpiece, WhoseShapeIsABlockIsBoundedByIt) {
+  const model::Plan plan = read_text(file_of(
+      "#1=MACHINING_PROJECT('p','',$,());\n#2=PRODUCT_DEFINITION_FORMATION('','',#1);\n#3=PRODUCT_DEFINITION("
+      "'','',#2,$);\n"
+      "#4=MACHINING_PROJECT_WORKPIECE_RELATIONSHIP('','','',#3,#5);\n#5=PRODUCT_DEFINITION('part','',#6,$);\n"
+      "#6=PRODUCT_DEFINITION_FORMATION('1.0','',#7);\n#7=PRODUCT('part','','',());\n#8=MAKE_FROM_USAGE_"
+      "OPTION('','','',#5,#9,0,'',$);\n"
+      "#9=PRODUCT_DEFINITION('stock','',#10,$);\n#10=PRODUCT_DEFINITION_FORMATION('1.0','',#11);\n#11="
+      "PRODUCT('stock','','',());\n"
+      "#12=PRODUCT_DEFINITION_SHAPE('','',#9);\n#13=SHAPE_DEFINITION_REPRESENTATION(#12,#14);\n"
+      "#14=BLOCK_SHAPE_REPRESENTATION('',(#15,#16,#17,#18),#20);\n#15=AXIS2_PLACEMENT_3D('orientation',#19,$,"
+      "$);\n"
+      "#19=CARTESIAN_POINT('',(1.,0.,0.));\n" +
+      [] {
+        std::string items;
+        const char* names[] = {"length", "width", "height"};
+        for (int i = 0; i < 3; ++i) {
+          items +=
+              "#" + std::to_string(16 + i) +
+              "=(LENGTH_MEASURE_WITH_UNIT()MEASURE_REPRESENTATION_ITEM()MEASURE_WITH_UNIT(LENGTH_MEASURE(" +
+              std::to_string(i + 2) + ".),#24)REPRESENTATION_ITEM('" + names[i] + "'));\n";
+        }
+        return items;
+      }() +
+      "#20=(GEOMETRIC_REPRESENTATION_CONTEXT(3)GLOBAL_UNIT_ASSIGNED_CONTEXT((#21))REPRESENTATION_CONTEXT('"
+      "INCH','3D'));\n"
+      "#21=(CONVERSION_BASED_UNIT('inch',#22)LENGTH_UNIT()NAMED_UNIT(#23));\n#23=DIMENSIONAL_EXPONENTS(1.,0.,"
+      "0.,0.,0.,0.,0.);\n"
+      "#22=LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE(25.4),#24);\n#24=(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(."
+      "MILLI.,.METRE.));\n"));
+  const auto& m = plan.model;
+  const auto& part = m.at<model::Workpiece>(m.at<model::Project>(plan.project).its_workpieces[0]);
+  const auto& stock = m.at<model::Workpiece>(part.its_rawpiece);
+  const auto& block = m.at<model::Block>(stock.its_bounding_geometry);
+  EXPECT_EQ(block.x, 2.0);
+  EXPECT_EQ(block.y, 3.0);
+  EXPECT_EQ(block.z, 4.0);
+  // The sizes have a unit of their own, the point has that of the context.
+  const auto& at = m.at<model::CartesianPoint>(m.at<model::Axis2Placement3d>(block.position).location);
+  EXPECT_EQ(at.coordinates.items, (std::vector<double>{25.4, 0, 0}));
+  EXPECT_EQ(lost_on_the_way(plan), "");
+}
+
 TEST(Workpiece, OfAnInchFileKeepsItsShapeVerbatimWithItsUnits) {
   std::vector<std::string> said;
   const model::Plan plan = read_text(file_of("#1=MACHINING_PROJECT('p','',$,());\n#2=PRODUCT_DEFINITION_"
