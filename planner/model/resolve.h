@@ -28,26 +28,13 @@ namespace capstan::model {
 
 /// A length with its tolerance as deviations from nominal, mm.
 struct ResolvedLength : Toleranced {
-  std::string
-      grade;  ///< "IT9": the coarsest ISO grade that lies within the tolerance; empty when none stated
+  std::string grade;  ///< "IT9": the coarsest ISO grade that the tolerance holds; empty when there is none
 };
 
-/// The length and its tolerance.
-///
-///     plus_minus_value   [nominal - lower_limit, nominal + upper_limit]; where that is empty and
-///                        lower_limit is negative, lower_limit is read as a signed deviation
-///     limits_and_fits    deviation is the fundamental one: the limit nearer to nominal; the tolerance
-///                        lies from there away from nominal. 0: upwards for a hole, downwards for a shaft
-///
-/// Fails   MDL-MISSING when unset or without theoretical_size.
-/// Source  ISO 14649-10, toleranced_length_measure; ISO 286-1 for deviations.
+/// The length and its tolerance, which always has a width; what either kind of tolerance means: fit/stated.h.
+/// Fails  MDL-MISSING when unset or without theoretical_size; as `stated` for a tolerance that cannot be
+/// read.
 [[nodiscard]] Result<ResolvedLength> length(const Model& model, Ref<TolerancedLengthMeasure> m);
-
-/// The standard tolerance of a grade, mm. Grades 5..18, sizes to 500 mm; 0 outside.
-/// Source  ISO 286-1, table 1.
-[[nodiscard]] double tolerance_of_grade(int grade, double nominal_mm);
-/// The coarsest grade whose tolerance does not exceed `width_mm`; 0 none.
-[[nodiscard]] int grade_of_tolerance(double nominal_mm, double width_mm);
 
 /// How deep a feature goes.
 struct ResolvedDepth {

@@ -145,7 +145,7 @@ void area_facts(const FeatureShape& s, const Context& c, FeatureFacts& out) {
 }  // namespace
 
 Toleranced tolerance_or_general(const Toleranced& t, const Context& c) {
-  if (t.given && t.width() > 0.0) return t;
+  if (t.given) return t;  // also one without a width: no chain holds it, and the rules say so
   Toleranced out = t;
   const double half = c.global_tolerance_mm
                           ? *c.global_tolerance_mm

@@ -20,7 +20,7 @@ struct FeatureFacts {
 /// Frame   plain numbers of the shape; no placement enters.
 [[nodiscard]] FeatureFacts facts_of(const model::FeatureShape& shape, const Context& context);
 
-/// The stated tolerance, or the general one, always with a width.
+/// The stated tolerance as it stands, or the general one where none is.
 [[nodiscard]] model::Toleranced tolerance_or_general(const model::Toleranced& t, const Context& context);
 
 /// Sizes that standard machine reamers (H7) come in: 1 to 20 mm by 0.5, to 32 by 1, to 50 by 5 and the even

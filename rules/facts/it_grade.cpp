@@ -1,58 +1,18 @@
 #include "rules/facts/it_grade.h"
 
 #include <algorithm>
-#include <array>
+
+#include "planner/model/fit/grade.h"
 
 namespace capstan::rules {
-namespace {
-
-struct SizeRange {
-  double up_to_mm;                     // the range ends here, included
-  std::array<double, 18> micrometres;  // IT1 .. IT18; 0: none
-};
-
-// ISO 286-1:2010, table 1. Micrometres throughout (the standard prints IT12 and coarser in mm).
-constexpr std::array<SizeRange, 21> kTable{{
-    {3, {0.8, 1.2, 2, 3, 4, 6, 10, 14, 25, 40, 60, 100, 140, 250, 400, 600, 1000, 1400}},
-    {6, {1, 1.5, 2.5, 4, 5, 8, 12, 18, 30, 48, 75, 120, 180, 300, 480, 750, 1200, 1800}},
-    {10, {1, 1.5, 2.5, 4, 6, 9, 15, 22, 36, 58, 90, 150, 220, 360, 580, 900, 1500, 2200}},
-    {18, {1.2, 2, 3, 5, 8, 11, 18, 27, 43, 70, 110, 180, 270, 430, 700, 1100, 1800, 2700}},
-    {30, {1.5, 2.5, 4, 6, 9, 13, 21, 33, 52, 84, 130, 210, 330, 520, 840, 1300, 2100, 3300}},
-    {50, {1.5, 2.5, 4, 7, 11, 16, 25, 39, 62, 100, 160, 250, 390, 620, 1000, 1600, 2500, 3900}},
-    {80, {2, 3, 5, 8, 13, 19, 30, 46, 74, 120, 190, 300, 460, 740, 1200, 1900, 3000, 4600}},
-    {120, {2.5, 4, 6, 10, 15, 22, 35, 54, 87, 140, 220, 350, 540, 870, 1400, 2200, 3500, 5400}},
-    {180, {3.5, 5, 8, 12, 18, 25, 40, 63, 100, 160, 250, 400, 630, 1000, 1600, 2500, 4000, 6300}},
-    {250, {4.5, 7, 10, 14, 20, 29, 46, 72, 115, 185, 290, 460, 720, 1150, 1850, 2900, 4600, 7200}},
-    {315, {6, 8, 12, 16, 23, 32, 52, 81, 130, 210, 320, 520, 810, 1300, 2100, 3200, 5200, 8100}},
-    {400, {7, 9, 13, 18, 25, 36, 57, 89, 140, 230, 360, 570, 890, 1400, 2300, 3600, 5700, 8900}},
-    {500, {8, 10, 15, 20, 27, 40, 63, 97, 155, 250, 400, 630, 970, 1550, 2500, 4000, 6300, 9700}},
-    {630, {0, 0, 0, 0, 0, 44, 70, 110, 175, 280, 440, 700, 1100, 1750, 2800, 4400, 7000, 11000}},
-    {800, {0, 0, 0, 0, 0, 50, 80, 125, 200, 320, 500, 800, 1250, 2000, 3200, 5000, 8000, 12500}},
-    {1000, {0, 0, 0, 0, 0, 56, 90, 140, 230, 360, 560, 900, 1400, 2300, 3600, 5600, 9000, 14000}},
-    {1250, {0, 0, 0, 0, 0, 66, 105, 165, 260, 420, 660, 1050, 1650, 2600, 4200, 6600, 10500, 16500}},
-    {1600, {0, 0, 0, 0, 0, 78, 125, 195, 310, 500, 780, 1250, 1950, 3100, 5000, 7800, 12500, 19500}},
-    {2000, {0, 0, 0, 0, 0, 92, 150, 230, 370, 600, 920, 1500, 2300, 3700, 6000, 9200, 15000, 23000}},
-    {2500, {0, 0, 0, 0, 0, 110, 175, 280, 440, 700, 1100, 1750, 2800, 4400, 7000, 11000, 17500, 28000}},
-    {3150, {0, 0, 0, 0, 0, 135, 210, 330, 540, 860, 1350, 2100, 3300, 5400, 8600, 13500, 21000, 33000}},
-}};
-
-}  // namespace
 
 double standard_tolerance_mm(int grade, double nominal_mm) {
-  if (grade < 1 || grade > 18 || !(nominal_mm > 0.0)) return 0.0;
-  const auto it = std::find_if(kTable.begin(), kTable.end(),
-                               [&](const SizeRange& r) { return nominal_mm <= r.up_to_mm; });
-  if (it == kTable.end()) return 0.0;
-  return it->micrometres[static_cast<std::size_t>(grade - 1)] * 1e-3;
+  if (grade < 1) return 0.0;
+  return model::tolerance_grade(nominal_mm, grade).value_or(0.0);
 }
 
 int grade_of_width(double nominal_mm, double width_mm) {
-  constexpr double kRounding = 1e-9;  // deviations were subtracted in binary
-  for (int grade = 18; grade >= 1; --grade) {
-    const double t = standard_tolerance_mm(grade, nominal_mm);
-    if (t > 0.0 && t <= width_mm + kRounding) return grade;
-  }
-  return 0;
+  return std::max(0, model::grade_of(nominal_mm, width_mm).value_or(0));
 }
 
 }  // namespace capstan::rules

@@ -2,42 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <iterator>
-
 #include "planner/model/nouns/all.h"
 
 namespace capstan::model {
 namespace {
-
-TEST(Resolve, StandardTolerancesAreThoseOfTheTable) {
-  // ISO 286-1, table 1, in micrometres.
-  struct Row {
-    int grade;
-    double size_mm, tolerance_um;
-  };
-  for (const Row& r : {Row{7, 12.0, 18.0}, Row{6, 40.0, 16.0}, Row{9, 60.0, 74.0}, Row{11, 8.0, 90.0},
-                       Row{8, 100.0, 54.0}, Row{12, 200.0, 460.0}, Row{7, 3.0, 10.0}, Row{5, 450.0, 27.0}}) {
-    EXPECT_NEAR(1000.0 * tolerance_of_grade(r.grade, r.size_mm), r.tolerance_um, 1e-9)
-        << "IT" << r.grade << " at " << r.size_mm;
-    EXPECT_EQ(grade_of_tolerance(r.size_mm, 1e-3 * r.tolerance_um), r.grade) << r.size_mm;
-  }
-  // The table is the formula rounded: i = 0.45 cbrt(D) + 0.001 D um, IT7 is 16 i, D the geometric mean of the
-  // range; above 3 mm the rounding stays below 6 %.
-  const double limits[] = {3, 6, 10, 18, 30, 50, 80, 120, 180, 250, 315, 400, 500};
-  for (std::size_t k = 1; k < std::size(limits); ++k) {
-    const double d = std::sqrt(limits[k - 1] * limits[k]);
-    const double it7 = 16.0 * (0.45 * std::cbrt(d) + 0.001 * d);
-    EXPECT_NEAR(1000.0 * tolerance_of_grade(7, limits[k]), it7, 0.06 * it7) << limits[k];
-    for (int grade = 6; grade <= 18; ++grade) {
-      EXPECT_GT(tolerance_of_grade(grade, limits[k]), tolerance_of_grade(grade - 1, limits[k]));
-      EXPECT_GE(tolerance_of_grade(grade, limits[k]), tolerance_of_grade(grade, limits[k - 1]));
-    }
-  }
-  EXPECT_EQ(tolerance_of_grade(4, 10.0), 0.0);
-  EXPECT_EQ(tolerance_of_grade(7, 501.0), 0.0);
-  EXPECT_EQ(grade_of_tolerance(10.0, 0.001), 0);  // finer than IT5
-}
 
 TEST(Resolve, LengthsCarryTheirTolerance) {
   Model m;
@@ -67,16 +35,27 @@ TEST(Resolve, LengthsCarryTheirTolerance) {
   EXPECT_EQ(hole->lower_mm, 0.0);
   EXPECT_EQ(hole->upper_mm, 0.021);
   EXPECT_EQ(hole->grade, "IT7");
-  lf.its_fitting_type = FittingType::kShaft;
-  const auto shaft = length(m, make(lf));  // 20 h7
-  EXPECT_EQ(shaft->lower_mm, -0.021);
-  EXPECT_EQ(shaft->upper_mm, 0.0);
-  lf.deviation = -0.020;  // 20 f7
-  EXPECT_NEAR(length(m, make(lf))->lower_mm, -0.041, 1e-15);
+  EXPECT_DOUBLE_EQ(hole->middle(), 20.0105) << "what paths aim at";
   TolerancedLengthMeasure bare;
   bare.theoretical_size = 5.0;
   EXPECT_FALSE(length(m, m.add(bare))->given);
   EXPECT_EQ(length(m, {}).error().code, "MDL-MISSING");
+}
+
+TEST(Resolve, ATolerancesFaultNamesItsPlaceInTheFile) {
+  Model m;
+  PlusMinusValue pm;
+  pm.upper_limit = pm.lower_limit = 0.0;
+  TolerancedLengthMeasure l;
+  l.theoretical_size = 20.0;
+  const auto tolerance = m.add(pm);
+  m.set_origin(tolerance, {42, 7});
+  l.implicit_tolerance = tolerance;
+  const auto r = length(m, m.add(l));
+  ASSERT_FALSE(r);
+  EXPECT_EQ(r.error().code, "MDL-TOLERANCE");
+  EXPECT_EQ(r.error().instance, 42U);
+  EXPECT_EQ(r.error().line, 7U);
 }
 
 Ref<CartesianPoint> add_point(Model& m, std::vector<double> c) {

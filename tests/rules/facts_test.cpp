@@ -1,6 +1,5 @@
 #include "rules/facts/facts.h"
 
-#include "planner/model/resolve.h"
 #include "rules/facts/it_grade.h"
 
 namespace capstan::rules {
@@ -14,20 +13,10 @@ TEST(StandardTolerance, IsThePublishedTableAtItsCorners) {
   EXPECT_DOUBLE_EQ(standard_tolerance_mm(6, 3.0), 0.006);
   EXPECT_DOUBLE_EQ(standard_tolerance_mm(1, 500.0), 0.008);
   EXPECT_DOUBLE_EQ(standard_tolerance_mm(18, 3150.0), 33.0);
-  EXPECT_EQ(standard_tolerance_mm(5, 600.0), 0.0);
+  EXPECT_DOUBLE_EQ(standard_tolerance_mm(5, 600.0), 0.032);
+  EXPECT_EQ(standard_tolerance_mm(0, 20.0), 0.0) << "rules begin at IT1";
   EXPECT_EQ(standard_tolerance_mm(7, 3151.0), 0.0);
   EXPECT_EQ(standard_tolerance_mm(7, 0.0), 0.0);
-}
-
-TEST(StandardTolerance, LiesNearTheStandardsOwnFormulaFromIt5To500) {
-  // i = 0.45 cbrt(D) + 0.001 D, D the geometric mean of the range; the published values are rounded by rules
-  // of their own, by up to a tenth.
-  for (int grade = 5; grade <= 18; ++grade) {
-    for (const double size : {4.0, 8.0, 15.0, 25.0, 40.0, 70.0, 100.0, 150.0, 200.0, 300.0, 350.0, 450.0}) {
-      const double formula = model::tolerance_of_grade(grade, size);
-      EXPECT_NEAR(standard_tolerance_mm(grade, size) / formula, 1.0, 0.1) << "IT" << grade << " of " << size;
-    }
-  }
 }
 
 TEST(StandardTolerance, GrowsWithGradeAndSize) {
@@ -54,6 +43,20 @@ TEST(GradeOfWidth, IsTheCoarsestThatFits) {
   EXPECT_EQ(grade_of_width(20.0, 9.0), 18);
   for (int grade = 1; grade <= 18; ++grade)
     EXPECT_EQ(grade_of_width(20.0, standard_tolerance_mm(grade, 20.0)), grade);
+}
+
+TEST(StatedTolerance, IsNeverReplacedByTheGeneralOne) {
+  const Context context;
+  const model::Toleranced none{20.0, 0.0, 0.0, true}, below{20.0, -0.041, -0.020, true};
+  EXPECT_EQ(tolerance_or_general(none, context).width(), 0.0);
+  EXPECT_EQ(tolerance_or_general(below, context).lower_mm, -0.041);
+  EXPECT_EQ(tolerance_or_general(below, context).upper_mm, -0.020);
+  EXPECT_GT(tolerance_or_general({20.0, 0.0, 0.0, false}, context).width(), 0.0);
+  model::FeatureShape hole;
+  hole.kind = model::ShapeKind::kHole;
+  hole.depth_mm = 10.0;
+  hole.diameter = none;
+  EXPECT_EQ(facts_of(hole, context).facts.number("it_grade"), 0.0) << "below IT1: no chain holds it";
 }
 
 TEST(Reamers, ComeInHalfMillimetresThenWholeOnes) {

@@ -95,8 +95,9 @@ Result<std::vector<Vec2>> section_of(const Model& m, Ref<OpenProfile> profile, F
     const auto bar = length(m, t->cross_bar_width);
     const auto bar_depth = length(m, t->cross_bar_depth);
     const auto w = length(m, t->width);
-    if (!bar || !bar_depth || !w)
-      return missing(m, s.feature, "swept_shape's cross_bar_width, cross_bar_depth or width");
+    if (!bar) return missing(m, s.feature, "swept_shape's cross_bar_width", bar.error());
+    if (!bar_depth) return missing(m, s.feature, "swept_shape's cross_bar_depth", bar_depth.error());
+    if (!w) return missing(m, s.feature, "swept_shape's width", w.error());
     s.width = *w;
     return std::vector<Vec2>{{0.0, 0.5 * bar->nominal_mm},
                              {bar_depth->nominal_mm, 0.5 * bar->nominal_mm},
@@ -109,7 +110,8 @@ Result<std::vector<Vec2>> section_of(const Model& m, Ref<OpenProfile> profile, F
     s.width = *w;
     if (q->first_radius.set()) {
       const auto r = length(m, q->first_radius);
-      if (r) s.bottom_radius_mm = r->nominal_mm;
+      if (!r) return tl::unexpected(r.error());
+      s.bottom_radius_mm = r->nominal_mm;
     }
     return out;
   }
@@ -245,7 +247,9 @@ Result<Shapes> step(const Model& m, AnyRef self, const Step& f) {
       const double angle = v->profile_angle.value_or(std::numbers::pi / 2.0);
       s->slope_rad = angle - std::numbers::pi / 2.0;
       if (v->profile_radius.set()) {
-        if (const auto r = length(m, v->profile_radius)) s->bottom_radius_mm = r->nominal_mm;
+        const auto r = length(m, v->profile_radius);
+        if (!r) return tl::unexpected(r.error());
+        s->bottom_radius_mm = r->nominal_mm;
       }
     }
   }
@@ -267,15 +271,17 @@ Result<Shapes> outside(const Model& m, AnyRef self, const ProfileFeature& f) {
   if (!s) return tl::unexpected(s.error());
   s->kind = ShapeKind::kOutside;
   s->open = true;
-  if (const auto depth = depth_of(m, self)) {
+  const auto depth = depth_of(m, self);
+  if (depth) {
     s->depth_mm = depth->depth_mm;
+    s->depth_tolerance = depth->tolerance;
   } else if (const auto* swept = m.get<LinearPath>(f.profile_swept_shape)) {
     const auto distance = length(m, swept->distance);
     if (!distance) return tl::unexpected(distance.error());
     s->depth_mm = distance->nominal_mm;
     s->depth_tolerance = *distance;
   } else {
-    return missing(m, self, "depth or profile_swept_shape");
+    return missing(m, self, "depth or profile_swept_shape", depth.error());
   }
   AnyRef profile;
   if (const auto* g = m.get<GeneralOutsideProfile>(self)) profile = g->feature_boundary;

@@ -63,6 +63,14 @@ tl::unexpected<Diagnostic> missing(const Model& m, AnyRef feature, const std::st
                .hint = "give the attribute, or machine the feature by explicit toolpaths"});
 }
 
+tl::unexpected<Diagnostic> missing(const Model& m, AnyRef feature, const std::string& attribute,
+                                   Diagnostic why) {
+  if (why.code == "MDL-MISSING") return missing(m, feature, attribute);
+  why.message = label(m, feature) + ", " + attribute + ": " + why.message;
+  why.path = attribute;
+  return fail(std::move(why));
+}
+
 tl::unexpected<Diagnostic> unsupported(const Model& m, AnyRef feature, const std::string& what) {
   return fail({.code = "SHP-UNSUPPORTED",
                .message = label(m, feature) + ": " + what,

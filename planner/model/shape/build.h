@@ -51,6 +51,9 @@ Result<Shapes> replicate(const Model& m, AnyRef self, const ReplicateFeature& f,
 Result<Shapes> any(const Model& m, AnyRef feature, int depth);
 
 tl::unexpected<Diagnostic> missing(const Model& m, AnyRef feature, const std::string& attribute);
+/// As above; but what stands there and cannot be read (`why`) is said itself.
+tl::unexpected<Diagnostic> missing(const Model& m, AnyRef feature, const std::string& attribute,
+                                   Diagnostic why);
 tl::unexpected<Diagnostic> unsupported(const Model& m, AnyRef feature, const std::string& what);
 
 }  // namespace capstan::model::shape

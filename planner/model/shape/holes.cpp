@@ -50,13 +50,13 @@ Result<Shapes> hole(const Model& m, AnyRef self, const RoundHole& f) {
   if (!s) return tl::unexpected(s.error());
   s->kind = ShapeKind::kHole;
   const auto d = length(m, f.diameter);
-  if (!d) return missing(m, self, "diameter");
+  if (!d) return missing(m, self, "diameter", d.error());
   if (!(d->nominal_mm > 0.0)) return unsupported(m, self, "has no diameter above 0");
   s->diameter = *d;
   s->bottom_diameter_mm = d->nominal_mm;
   if (const auto* t = m.get<DiameterTaper>(f.change_in_diameter)) {
     const auto end = length(m, t->final_diameter);
-    if (!end) return missing(m, self, "final_diameter");
+    if (!end) return missing(m, self, "final_diameter", end.error());
     s->bottom_diameter_mm = end->nominal_mm;
   } else if (const auto* a = m.get<AngleTaper>(f.change_in_diameter)) {
     s->bottom_diameter_mm = d->nominal_mm - 2.0 * s->depth_mm * std::tan(a->angle.value_or(0.0));
@@ -79,12 +79,12 @@ Result<Shapes> hole(const Model& m, AnyRef self, const RoundHole& f) {
   } else if (const auto* r = m.get<SphericalHoleBottom>(f.bottom_condition)) {
     s->bottom = HoleBottom::kSpherical;
     const auto radius = length(m, r->radius);
-    if (!radius) return missing(m, self, "bottom_condition.radius");
+    if (!radius) return missing(m, self, "bottom_condition.radius", radius.error());
     s->bottom_hole_radius_mm = radius->nominal_mm;
   } else if (const auto* w = m.get<FlatWithRadiusHoleBottom>(f.bottom_condition)) {
     s->bottom = HoleBottom::kFlatWithRadius;
     const auto radius = length(m, w->corner_radius);
-    if (!radius) return missing(m, self, "bottom_condition.corner_radius");
+    if (!radius) return missing(m, self, "bottom_condition.corner_radius", radius.error());
     s->bottom_hole_radius_mm = radius->nominal_mm;
   } else if (m.holds<FlatHoleBottom>(f.bottom_condition)) {
     s->bottom = HoleBottom::kFlat;
@@ -135,7 +135,7 @@ Result<Shapes> transition(const Model& m, AnyRef self, const TransitionFeature& 
   if (const auto* c = m.get<Chamfer>(self)) {
     s.kind = ShapeKind::kChamfer;
     const auto width = length(m, c->first_offset_amount);
-    if (!width) return missing(m, self, "first_offset_amount");
+    if (!width) return missing(m, self, "first_offset_amount", width.error());
     s.chamfer_width_mm = width->nominal_mm;
     s.chamfer_angle_rad = c->angle_to_plane.value_or(std::numbers::pi / 4.0);
     if (!(s.chamfer_angle_rad > 0.0 && s.chamfer_angle_rad < std::numbers::pi / 2.0)) {
@@ -147,7 +147,7 @@ Result<Shapes> transition(const Model& m, AnyRef self, const TransitionFeature& 
   if (const auto* e = m.get<EdgeRound>(self)) {
     s.kind = ShapeKind::kEdgeRound;
     const auto r = length(m, e->radius);
-    if (!r) return missing(m, self, "radius");
+    if (!r) return missing(m, self, "radius", r.error());
     s.round_radius_mm = s.depth_mm = r->nominal_mm;
     return Shapes{s};
   }
@@ -200,7 +200,7 @@ Result<Shapes> replicate(const Model& m, AnyRef self, const ReplicateFeature& f,
   if (const auto* r = m.get<RectangularPattern>(self)) {
     const auto spacing = length(m, r->spacing);
     const auto along = direction(m, r->its_direction);
-    if (!spacing) return missing(m, self, "spacing");
+    if (!spacing) return missing(m, self, "spacing", spacing.error());
     if (!along) return missing(m, self, "its_direction");
     const std::int64_t rows = r->number_of_rows.value_or(1);
     const std::int64_t columns = r->number_of_columns.value_or(0);
@@ -211,7 +211,8 @@ Result<Shapes> replicate(const Model& m, AnyRef self, const ReplicateFeature& f,
     if (rows > 1) {
       const auto row_spacing = length(m, r->row_spacing);
       const auto row_direction = direction(m, r->row_layout_direction);
-      if (!row_spacing || !row_direction) return missing(m, self, "row_spacing or row_layout_direction");
+      if (!row_spacing) return missing(m, self, "row_spacing", row_spacing.error());
+      if (!row_direction) return missing(m, self, "row_layout_direction");
       row_step = row_spacing->nominal_mm * about->direction_to_parent(*row_direction);
     }
     const Vec3 column_step = spacing->nominal_mm * about->direction_to_parent(*along);
