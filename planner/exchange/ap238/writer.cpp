@@ -396,6 +396,10 @@ void Writer::write_rows(const Task& t) {
       if (row->only[i] != TypeId::kNone && holder.set() && !model::is_a(holder.type, row->only[i])) holder = {};
     }
     if (a == nullptr || !holder.set() || !model::has_value(*a, m_.object(holder))) continue;
+    if (const Attribute* other = row->unless.empty() ? nullptr : model::find_attribute(holder.type, row->unless);
+        other != nullptr && model::has_value(*other, m_.object(holder))) {
+      continue;
+    }
     std::string dotted;
     for (const auto& part : row->attribute) dotted += (dotted.empty() ? "" : ".") + part;
     if (row->when.empty() && std::find(written.begin(), written.end(), dotted) != written.end()) continue;
@@ -406,11 +410,11 @@ void Writer::write_rows(const Task& t) {
 }
 
 void Writer::note_unmapped(AnyRef at, const ObjectRow* object) {
-  const auto mapped = [&](const std::string& dotted) {
+  const auto mapped = [&](const std::string& dotted, bool whole) {
     for (const Row* row : map_.rows_of(at.type)) {
       std::string d;
       for (const auto& part : row->attribute) d += (d.empty() ? "" : ".") + part;
-      if (row->written && (d == dotted || d.rfind(dotted + ".", 0) == 0)) return true;
+      if (row->written && (d == dotted || (!whole && d.rfind(dotted + ".", 0) == 0))) return true;
     }
     return false;
   };
@@ -423,7 +427,9 @@ void Writer::note_unmapped(AnyRef at, const ObjectRow* object) {
                            for (const auto& part : w.first) d += (d.empty() ? "" : ".") + part;
                            return d == dotted;
                          });
-      if (!inner && !mapped(dotted)) lose(std::string(model::noun_type(holder.type).keyword) + "." + std::string(a.name));
+      // Rows for what is inside say nothing of an object that was kept as it is.
+      const bool kept = a.storage == Storage::kRef && model::value_of<AnyRef>(a, m_.object(holder)).type == TypeId::kKeptInstance;
+      if (!inner && !mapped(dotted, kept)) lose(std::string(model::noun_type(holder.type).keyword) + "." + std::string(a.name));
     }
   };
   look(at, "");

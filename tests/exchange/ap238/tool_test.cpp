@@ -302,6 +302,25 @@ TEST(Tool, WithoutBodyOrDimensionIsNotLost) {
       tool_case("no body", TypeId::kEndmill,
                 [](auto& m, auto& t) { m.template at<model::MillingCuttingTool>(t.tool).its_tool_body = {}; },
                 {"MACHINING_TOOL('T7','unspecified tool',(#),#);"}));
+  check(tool_case("no dimension", TypeId::kFacemill,
+                  [](auto& m, auto& t) {
+                    auto& body = m.template at<model::MillingToolBody>(t.body);
+                    body.dimension = {};
+                    body.number_of_teeth = 5;
+                  },
+                  {"MACHINING_TOOL('T7','facemill',(#),#);", count_of("number of effective teeth", "5.")}));
+}
+
+TEST(Tool, SaysThatABodyItDoesNotKnowIsLeftOut) {
+  Bench b;
+  ToolBench t(b, TypeId::kEndmill);
+  model::KeptInstance vendor;
+  vendor.keyword = "LOLLIPOP_MILL";
+  vendor.pieces.emplace_back("LOLLIPOP_MILL()");
+  b.plan.model.at<model::MillingCuttingTool>(t.tool).its_tool_body =
+      Ref<model::ToolBody>(AnyRef(b.plan.model.add(std::move(vendor))));
+  EXPECT_THAT(written(b.plan).losses,
+              ::testing::ElementsAre(::testing::HasSubstr("MILLING_CUTTING_TOOL.its_tool_body")));
 }
 
 TEST(Tool, MayBeATouchProbe) {
