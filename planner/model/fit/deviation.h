@@ -14,7 +14,7 @@ namespace capstan::model {
 /// standard has none. Not for js, which is symmetrical.
 ///
 /// Needs   a letter of fit_letters, lower case.
-/// Domain  the table ends at 500 mm for a, b, c, j, v .. zc, at 10 mm for cd, ef, fg; t begins above 24, v
+/// Domain  the table ends at 500 mm for a, b, c, j, v .. zc, at 50 mm for cd, ef, fg; t begins above 24, v
 /// above
 ///         14, y above 18 mm; a and b only above 1 mm; j only IT5 to IT8 (IT8: to 3 mm).
 /// Source  ISO 286-1:2010, tables 4 and 5.

@@ -36,9 +36,8 @@ struct FitClass {
 ///     J .. ZC  ES stated, EI = ES - IT        j .. zc  ei stated, es = ei + IT
 ///     JS, js   -IT / 2 to +IT / 2 (not rounded, as the first edition allowed for odd IT7 to IT11)
 ///
-/// Fails   MDL-FIT where the standard states no value, naming what it does state. CD, EF, FG (cd, ef, fg) end
-/// at
-///         10 mm, as in the first edition. IT14 and coarser only above 1 mm.
+/// Fails   MDL-FIT where the standard states no value, naming what it does state; IT14 and coarser only above
+///         1 mm, as the first edition has it.
 /// Source  ISO 286-1:2010, tables 1 to 5; the classes that ISO 286-2:2010 lists give its limits.
 [[nodiscard]] Result<Deviations> fit(double nominal_mm, const FitClass& c);
 [[nodiscard]] Result<Deviations> fit(double nominal_mm, std::string_view designation);

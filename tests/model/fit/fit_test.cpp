@@ -254,13 +254,35 @@ TEST(Fit, HangsShaftsFromAToHWhereTheZccCatalogueAndCobanPrint) {
   for (const Row& row : kRows) {
     for (std::size_t k = 0; k < kLetters.size(); ++k) {
       const std::string name = std::string(kLetters[k]) + "9";
+      if (row.um[k] == 0.0 && row.end_mm <= 50.0) continue;  // they print the first edition
       if (row.um[k] == 0.0) {
         EXPECT_EQ(fit(row.end_mm, name).error().expected,
-                  std::string(kLetters[k]) + " is stated above 0 mm up to 10 mm");
+                  std::string(kLetters[k]) + " is stated above 0 mm up to 50 mm");
       } else {
         expect_fixed(row.end_mm, name, row.um[k]);
       }
     }
+  }
+}
+
+TEST(Fit, HangsCdEfAndFgTo50AsTheSecondEditionDoes) {
+  // ISO 286-1:2010 with Cor.1:2013, as a public Italian calculator cites it ("cd, ef, fg tabulate fino a 50
+  // mm"; ef of 18 to 30 mm printed -25 in 2010, -28 in the corrigendum). Each is the geometric mean of its
+  // neighbours, by the first edition's rule, rounded.
+  struct Row {
+    double end_mm, cd, ef, fg;
+  };
+  for (const Row& row : {Row{14, -70, -23, -10}, Row{18, -70, -23, -10}, Row{24, -85, -28, -12},
+                         Row{30, -85, -28, -12}, Row{40, -100, -35, -15}, Row{50, -100, -35, -15}}) {
+    expect_fixed(row.end_mm, "cd9", row.cd);
+    expect_fixed(row.end_mm, "ef8", row.ef);
+    expect_fixed(row.end_mm, "FG7", -row.fg);
+    const auto mean = [&](const char* x, const char* y) {
+      return std::sqrt(*shaft_deviation_um(row.end_mm, x, 7) * *shaft_deviation_um(row.end_mm, y, 7));
+    };
+    EXPECT_NEAR(-row.cd, mean("c", "d"), 2.1);
+    EXPECT_NEAR(-row.ef, mean("e", "f"), 0.5);
+    EXPECT_NEAR(-row.fg, mean("f", "g"), 0.5);
   }
 }
 
