@@ -2,7 +2,7 @@
 
 #include "tests/exchange/ap238/process_support.h"
 
-namespace capstan::exchange::ap238 {
+namespace capstan::exchange::ap238::process {
 namespace {
 
 TEST(Broadcast, IsToldByItsDescription) {
@@ -97,4 +97,4 @@ TEST(Broadcast, OfEveryKindComesBackWhole) {
 }
 
 }  // namespace
-}  // namespace capstan::exchange::ap238
+}  // namespace capstan::exchange::ap238::process

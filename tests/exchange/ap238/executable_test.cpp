@@ -2,7 +2,7 @@
 
 #include "tests/exchange/ap238/process_support.h"
 
-namespace capstan::exchange::ap238 {
+namespace capstan::exchange::ap238::process {
 namespace {
 
 std::vector<std::string> product_by(const std::string& name) {
@@ -195,6 +195,49 @@ TEST(Expression, KeepsTheOrderOfItsOperands) {
   EXPECT_EQ(constant->its_value, 4.0);
 }
 
+TEST(Expression, OfEditionFourStandsInAnItem) {
+  const auto plan = read_text(
+      file_of("#1=MACHINING_PROCESS_EXECUTABLE('','assignment','','');\n#2=ACTION_PROPERTY('lvalue','',#1);\n"
+              "#3=ACTION_PROPERTY_REPRESENTATION('','',#2,#4);\n#4=REPRESENTATION('',(#5),#90);\n"
+              "#5=EXPRESSION_ITEM_REPRESENTATION_ITEM('depth',#6);\n#6=INT_NUMERIC_VARIABLE();\n"
+              "#7=REPRESENTATION_ITEM_RELATIONSHIP('','initial "
+              "value',#5,#8);\n#8=EXPRESSION_ITEM_REPRESENTATION_ITEM('',#9);\n#9=INT_LITERAL(4);\n"
+              "#12=ACTION_PROPERTY('rvalue','',#1);\n#13=ACTION_PROPERTY_REPRESENTATION('','',#12,#14);\n#14="
+              "REPRESENTATION('',(#15),#90);\n"
+              "#15=EXPRESSION_ITEM_REPRESENTATION_ITEM('limit',#16);\n#16=REAL_LITERAL(2.5);\n#90="
+              "REPRESENTATION_CONTEXT('','');\n"));
+  const auto all = plan.model.all_below(TypeId::kAssignment);
+  ASSERT_EQ(all.size(), 1u);
+  const auto& assignment = plan.model.at<model::Assignment>(all.front());
+  const auto* variable = plan.model.get<model::NcVariable>(assignment.its_lvalue);
+  const auto* constant = plan.model.get<model::NcConstant>(assignment.its_rvalue);
+  ASSERT_NE(variable, nullptr);
+  ASSERT_NE(constant, nullptr);
+  EXPECT_EQ(variable->its_name, "depth");
+  EXPECT_EQ(variable->initial_value, 4.0);
+  EXPECT_EQ(constant->its_name, "limit");
+  EXPECT_EQ(constant->its_value, 2.5);
+}
+
+TEST(Workplan, HasAnEffectOfShapes) {
+  const auto plan =
+      read_text(file_of("#1=MACHINING_WORKPLAN('main','','','');\n#2=ACTION_PROPERTY('as-is "
+                        "shape','',#1);\n#3=ACTION_PROPERTY_REPRESENTATION('','',#2,#4);\n"
+                        "#4=ADVANCED_BREP_SHAPE_REPRESENTATION('',(#5),#90);\n#5=AXIS2_PLACEMENT_3D('',#6,$,$"
+                        ");\n#6=CARTESIAN_POINT('',(0.,0.,0.));\n"
+                        "#90=(GEOMETRIC_REPRESENTATION_CONTEXT(3)GLOBAL_UNIT_ASSIGNED_CONTEXT((#91))"
+                        "REPRESENTATION_CONTEXT('',''));\n"
+                        "#91=(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.));\n"));
+  const auto all = plan.model.all_below(TypeId::kWorkplan);
+  ASSERT_EQ(all.size(), 1u);
+  const auto* effect =
+      plan.model.get<model::InProcessGeometry>(plan.model.at<model::Workplan>(all.front()).its_effect);
+  ASSERT_NE(effect, nullptr);
+  EXPECT_TRUE(effect->as_is.set());
+  EXPECT_FALSE(effect->removal.set());
+  EXPECT_THAT(shapes(written(plan).bytes), ::testing::Contains("ACTION_PROPERTY('as-is shape','',#);"));
+}
+
 TEST(NcFunction, IsToldByItsDescription) {
   const auto function = [](const char* description) {
     return std::vector<std::string>{std::string("MACHINING_NC_FUNCTION('a text','") + description +
@@ -212,6 +255,8 @@ TEST(NcFunction, IsToldByItsDescription) {
       {"LOAD_TOOL", "its_id", 0, function("load tool")},
       {"UNLOAD_TOOL", "its_id", 0, function("unload tool")},
       {"EXTENDED_NC_FUNCTION", "its_id", 0, function("extended function")},
+      {"LOAD_TOOL", "its_tool", 0, {"MACHINING_TOOL('T9','touch probe',(#),#);"}},
+      {"UNLOAD_TOOL", "its_tool", 0, {"MACHINING_TOOL('T9','touch probe',(#),#);"}},
       {"DISPLAY_MESSAGE", "its_text", 0, property("message text", "display message", text_item("a text"))},
       {"WAIT_FOR_MARK",
        "its_channel",
@@ -237,8 +282,15 @@ TEST(NcFunction, OfEditionThreeIsCalledLegacy) {
 }
 
 TEST(Executable, OfEveryKindComesBackWhole) {
-  for (const TypeId t : concrete({TypeId::kExecutable})) check_whole(t, {"persistent_id"});
+  for (const TypeId t : concrete({TypeId::kExecutable})) {
+    std::vector<std::string> others = {"persistent_id"};  // a record of the plan, see records_test.cpp
+    // A feature knows its operations when it is read, and toolpaths follow an orientation: each has a test of
+    // its own.
+    if (t == TypeId::kMachiningWorkingstep)
+      others.insert(others.end(), {"its_feature", "toolpath_orientation"});
+    check_whole(t, others);
+  }
 }
 
 }  // namespace
-}  // namespace capstan::exchange::ap238
+}  // namespace capstan::exchange::ap238::process

@@ -2,7 +2,7 @@
 
 #include "tests/exchange/ap238/process_support.h"
 
-namespace capstan::exchange::ap238 {
+namespace capstan::exchange::ap238::process {
 namespace {
 
 TEST(Operation, IsToldByItsEntityAndItsDescription) {
@@ -248,4 +248,4 @@ TEST(Workingstep, OfTurningIsKeptWhereItStands) {
 }
 
 }  // namespace
-}  // namespace capstan::exchange::ap238
+}  // namespace capstan::exchange::ap238::process

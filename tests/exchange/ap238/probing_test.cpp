@@ -2,7 +2,7 @@
 
 #include "tests/exchange/ap238/process_support.h"
 
-namespace capstan::exchange::ap238 {
+namespace capstan::exchange::ap238::process {
 namespace {
 
 std::vector<std::string> operation(const std::string& description, const std::string& id = "") {
@@ -61,6 +61,38 @@ TEST(TouchProbing, HasItsAttributesAsPropertiesOfTheOperation) {
        "its_workpiece",
        0,
        {"PRODUCT_DEFINITION_PROCESS('workpiece complete probing',$,#,'');"}},
+      {"WORKPIECE_PROBING",
+       "its_probe",
+       0,
+       {"MACHINING_TOOL('T9','touch probe',(#),#);", "ACTION_PROPERTY('probe','workpiece probing',#);"}},
+      {"WORKPIECE_PROBING",
+       "expected_value",
+       0,
+       {"ACTION_PROPERTY('expected value','workpiece probing',#);"}},
+      {"WORKPIECE_COMPLETE_PROBING",
+       "probing_distance",
+       0,
+       {"ACTION_PROPERTY('probing distance','workpiece complete probing',#);"}},
+      {"WORKPIECE_COMPLETE_PROBING",
+       "computed_offset",
+       0,
+       {"ACTION_PROPERTY('computed offset','workpiece complete probing',#);",
+        "MACHINING_OFFSET_VECTOR_REPRESENTATION('',(#),#);"}},
+      {"TOOL_LENGTH_PROBING", "its_tool", 0, {"MACHINING_TOOL('T9','touch probe',(#),#);"}},
+      {"FEATURE_COMPLETE_PROBING",
+       "expected_value",
+       0,
+       {"MACHINING_FEATURE_RELATIONSHIP('','feature complete probing',#,#);",
+        "PROPERTY_PROCESS('expected value','feature complete probing',#,'');"}},
+      {"TOOL_LENGTH_PROBING",
+       "its_toolpath",
+       0,
+       {"MACHINING_TOOLPATH_SEQUENCE_RELATIONSHIP('',$,#,#,1.);",
+        "MACHINING_TOOLPATH_SEQUENCE_RELATIONSHIP('',$,#,#,2.);"}},
+      {"TOOL_LENGTH_PROBING",
+       "operation_properties",
+       0,
+       {"MACHINING_PROCESS_PROPERTY('bound by','the operator',#);"}},
       {"TOOL_LENGTH_PROBING", "offset", 0,
        property("offset", "tool length probing", "CARTESIAN_POINT('',(10.,20.,30.5));")},
       {"TOOL_RADIUS_PROBING", "max_wear", 0, property("maximum wear", "tool radius probing", length_item())},
@@ -118,4 +150,4 @@ TEST(RapidMovement, ReadsWithAFeatureThatEditionThreeGivesIt) {
 }
 
 }  // namespace
-}  // namespace capstan::exchange::ap238
+}  // namespace capstan::exchange::ap238::process

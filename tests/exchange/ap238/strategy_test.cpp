@@ -2,7 +2,7 @@
 
 #include "tests/exchange/ap238/process_support.h"
 
-namespace capstan::exchange::ap238 {
+namespace capstan::exchange::ap238::process {
 namespace {
 
 // A length, angle or ratio as a property of what has this description.
@@ -216,4 +216,4 @@ TEST(Strategy, OfEveryKindComesBackWhole) {
 }
 
 }  // namespace
-}  // namespace capstan::exchange::ap238
+}  // namespace capstan::exchange::ap238::process

@@ -2,7 +2,7 @@
 
 #include "tests/exchange/ap238/process_support.h"
 
-namespace capstan::exchange::ap238 {
+namespace capstan::exchange::ap238::process {
 namespace {
 
 TEST(Technology, HasSpeedsInRepresentationsOfTheirOwn) {
@@ -176,4 +176,4 @@ TEST(Technology, OfAnotherUnitIsConverted) {
 }
 
 }  // namespace
-}  // namespace capstan::exchange::ap238
+}  // namespace capstan::exchange::ap238::process
