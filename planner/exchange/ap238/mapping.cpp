@@ -288,6 +288,8 @@ class Parser {
         out.codec = word(s);
       } else if (kind == "when") {
         out.when = word(s);
+      } else if (kind == "unless") {
+        out.unless = word(s);
       } else {
         wrong("'| " + std::string(kind) + "' is not understood");
       }

@@ -58,6 +58,7 @@ struct Row {
   std::vector<std::string> texts;      ///< what stands for true and false, or for each enumerator
   std::string codec;                   ///< a value that needs code, by name
   std::string when;                    ///< writes only values of this form: text, real, ref, or a noun
+  std::string unless;                  ///< written only where this attribute of the same object is unset
   bool written = true;                 ///< false: an older or other form, read only
   std::string place;                   ///< "operation.map:12", for messages and tests
 };
