@@ -1,3 +1,4 @@
+#include "planner/exchange/ap238/helix.h"
 #include "planner/exchange/ap238/paths.h"
 #include "planner/exchange/ap238/reader.h"
 #include "planner/exchange/ap238/records.h"
@@ -19,6 +20,7 @@ Result<model::Plan> read_ap238(const p21::File& file, Job& job) {
   ap238::Records records(reader);
   reader.run();
   ap238::drop_stated_frames(plan);
+  ap238::via_points_to_helices(plan);
   if (!plan.project) {
     reporter.report({.code = "EXC-NO-PROJECT",
                      .severity = Severity::kWarning,

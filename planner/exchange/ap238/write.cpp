@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "planner/exchange/ap238/helix.h"
 #include "planner/exchange/ap238/paths.h"
 #include "planner/exchange/ap238/placement.h"
 #include "planner/exchange/ap238/writer.h"
@@ -43,6 +44,7 @@ Result<Written> write_ap238(const model::Plan& plan, Job& job) {
   model::Plan copy = plan;
   if (auto done = ap238::write_paths(copy, out.losses); !done) return fail(done.error());
   ap238::state_frames(copy);
+  ap238::helices_to_via_points(copy, out.losses);
   ap238::to_ap238(copy);
   ap238::Writer writer(copy, ap238::Mapping::instance(), out.losses);
   const std::string data = writer.run();

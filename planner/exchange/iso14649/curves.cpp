@@ -159,6 +159,7 @@ Result<Followed> follow(const model::Plan& plan, AnyRef toolpath, const Placemen
          .line = toolpath.set() ? m.origin(toolpath).line : 0,
          .instance = toolpath.set() ? m.origin(toolpath).instance : 0});
   }
+  CurveOptions options = given;
   if (const AnyRef axis = axis_of(m, toolpath); axis.set()) {
     const auto tilt = largest_tilt(m, axis, frame);
     if (!tilt || *tilt > kUpright) {
@@ -170,9 +171,8 @@ Result<Followed> follow(const model::Plan& plan, AnyRef toolpath, const Placemen
                    .line = m.origin(toolpath).line,
                    .instance = m.origin(toolpath).instance});
     }
+    options.helix_axis = frame.direction_to_local({0.0, 0.0, 1.0});
   }
-  CurveOptions options = given;
-  options.helix_axis = frame.direction_to_local({0.0, 0.0, 1.0});
   auto segments = curves::segments_of(m, curve, options, job);
   if (!segments) return fail(segments.error());
   const auto& t = m.at<model::Toolpath>(toolpath);

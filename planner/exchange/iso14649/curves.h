@@ -14,9 +14,10 @@ struct CurveOptions {
   double chord_tolerance_mm =
       0.001;             ///< of curves that are neither lines nor arcs about z; default, unsourced
   double gap_mm = 0.01;  ///< ends this near are one point; default, unsourced (files have 4 decimals)
-  std::size_t max_moves = 1'000'000;      ///< of one path
-  double coincident_mm = 1e-5;            ///< via points this near to a neighbour make no arc
-  geometry::Vec3 helix_axis = {0, 0, 1};  ///< of via_helix_points, in the curve's coordinates
+  std::size_t max_moves = 1'000'000;  ///< of one path
+  double coincident_mm = 1e-5;        ///< via points this near to a neighbour make no arc
+  geometry::Vec3 helix_axis = {0, 0,
+                               1};  ///< of via_helix_points: the stated tool axis, else the curve's own z
 };
 
 /// The frame in which a step's toolpath coordinates stand, seen from its set-up:

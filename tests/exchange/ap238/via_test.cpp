@@ -193,5 +193,67 @@ TEST(ViaPoint, IsWrittenAsItWasRead) {
   EXPECT_EQ(lost_on_the_way(plan), "");
 }
 
+/// A path along a trimmed HELIX, which AP238 does not have.
+model::Plan with_helix(std::vector<double> axis) {
+  model::Plan plan = plan_with(
+      "#33=POLYLINE('',(#40,#41));\n#40=CARTESIAN_POINT('',(5.,0.,0.));\n"
+      "#41=CARTESIAN_POINT('',(0.,5.,-4.5));\n");
+  model::Model& m = plan.model;
+  model::Axis2Placement3d place;
+  model::CartesianPoint origin;
+  origin.coordinates = {{0.0, 0.0, 0.0}, true};
+  model::Direction z;
+  z.direction_ratios = {std::move(axis), true};
+  place.location = m.add(std::move(origin));
+  place.axis = m.add(std::move(z));
+  model::Helix helix;
+  helix.position = m.add(std::move(place));
+  helix.radius = 5.0;
+  helix.pitch = 2.0;
+  model::TrimmedCurve c;
+  c.basis_curve = m.add(std::move(helix));
+  const auto t = m.all(model::TypeId::kCutterLocationTrajectory).at(0);
+  const auto line = m.at<model::Polyline>(m.at<model::CutterLocationTrajectory>(t).basiccurve);
+  c.trim_1 = {{{.ref = line.points.items[0], .type = {}, .real = {}, .text = {}}}, true};
+  c.trim_2 = {{{.ref = line.points.items[1], .type = {}, .real = {}, .text = {}}}, true};
+  c.sense_agreement = true;
+  c.master_representation = model::TrimmingPreference::kCartesian;
+  m.at<model::CutterLocationTrajectory>(t).basiccurve = m.add(std::move(c));
+  return plan;
+}
+
+bool follows_helix(const model::Plan& plan) {
+  const auto& m = plan.model;
+  const auto t = m.all(model::TypeId::kCutterLocationTrajectory).at(0);
+  const auto* c = m.get<model::TrimmedCurve>(m.at<model::CutterLocationTrajectory>(t).basiccurve);
+  return c != nullptr && m.holds<model::Helix>(c->basis_curve);
+}
+
+TEST(Helix, IsWrittenTurnByTurnWithViaPointsAndReadBackAsItWas) {
+  const auto plan = with_helix({0, 0, -1});  // 4.5 high, 2 a turn: 2.25 turns down
+  const Written out = written(plan);
+  const auto lines = shapes(out.bytes);
+  const auto vias =
+      std::count_if(lines.begin(), lines.end(), [](const auto& l) { return l.rfind("VIA_HELIX", 0) == 0; });
+  EXPECT_EQ(vias, 2 + 2 + 1);
+  EXPECT_EQ(lost_on_the_way(plan), "");
+  // Moved points are no longer that helix.
+  std::string moved = out.bytes;
+  moved.replace(moved.find("(0.,5.,-4.5)"), 12, "(0.,5.,-4.4)");
+  EXPECT_FALSE(follows_helix(read_text(moved)));
+  // Nor is a name that is none.
+  std::string named = out.bytes;
+  named.replace(named.find("'HELIX 5 "), 9, "'HELIX x ");
+  EXPECT_FALSE(follows_helix(read_text(named)));
+  EXPECT_TRUE(follows_helix(read_text(out.bytes)));
+}
+
+TEST(Helix, AboutAnotherAxisIsWrittenAsPointsAndSaidSo) {
+  const auto plan = with_helix({0, 0.6, 0.8});
+  const Written out = written(plan);
+  EXPECT_THAT(out.bytes, ::testing::Not(HasSubstr("VIA_HELIX_POINT")));
+  EXPECT_THAT(out.losses, ::testing::Contains(HasSubstr("does not turn about z")));
+}
+
 }  // namespace
 }  // namespace capstan::exchange::ap238
