@@ -92,7 +92,64 @@ inline void check(const Case& c) {
   std::vector<std::string> said;
   const model::Plan back = read_text(out.bytes, &said);
   for (const auto& s : said) EXPECT_EQ(s.find("EXC-KEPT"), std::string::npos) << s << "\n" << out.bytes;
-  EXPECT_EQ(testing::ModelDifference(bench.plan, back, {.item_names = false, .left_out = {}}).text(), "") << out.bytes;
+  EXPECT_EQ(testing::ModelDifference(bench.plan, back, {.item_names = false, .left_out = {}}).text(), "")
+      << out.bytes;
+}
+
+template <class Give>
+Case workpiece_case(const std::string& what, Give give, std::vector<std::string> instances) {
+  return {what,
+          [=](Bench& b) {
+            b.step(model::OptionalStop{});
+            give(b.plan.model, b.plan.model.at<model::Workpiece>(b.workpiece));
+          },
+          std::move(instances)};
+}
+
+inline model::Ref<model::DateAndTime> moment(model::Model& m) {
+  model::CalendarDate date;
+  date.year_component = 2024;
+  date.month_component = 2;
+  date.day_component = 29;
+  model::CoordinatedUniversalTimeOffset zone;
+  zone.hour_offset = 5;
+  zone.minute_offset = 30;
+  zone.sense = model::AheadOrBehind::kAhead;
+  model::LocalTime time;
+  time.hour_component = 23;
+  time.minute_component = 59;
+  time.second_component = 7.5;
+  time.zone = m.add(std::move(zone));
+  model::DateAndTime out;
+  out.date_component = m.add(std::move(date));
+  out.time_component = m.add(std::move(time));
+  return m.add(std::move(out));
+}
+
+inline model::Ref<model::Person> person(model::Model& m) {
+  model::Person p;
+  p.id = "4711";
+  p.last_name = "Noether";
+  p.first_name = "Emmy";
+  p.middle_names = {.items = {"Amalie"}, .given = true};
+  p.prefix_titles = {.items = {"Prof.", "Dr."}, .given = true};
+  p.suffix_titles = {.items = {"ForMem"}, .given = true};
+  return m.add(std::move(p));
+}
+
+inline model::Ref<model::Organization> organization(model::Model& m) {
+  model::Organization o;
+  o.its_id = "ORG";
+  o.name = "Works";
+  o.description = "where it is made";
+  return m.add(std::move(o));
+}
+
+inline model::Ref<model::PersonAndOrganization> member(model::Model& m) {
+  model::PersonAndOrganization p;
+  p.its_person = person(m);
+  p.its_organization = organization(m);
+  return m.add(std::move(p));
 }
 
 }  // namespace capstan::exchange::ap238
