@@ -152,9 +152,8 @@ class Judge {
       const auto value = own(r, i, g.attribute);
       where += " '" + value.value_or("") + "'";
     }
-    faults_.add(
-        p_.file().instance(i),
-        {code, std::string(p_.dictionary().keyword(r.entity)) + where + " " + what, {}, expected});
+    faults_.add(p_.file().instance(i),
+                {code, std::string(p_.dictionary().keyword(r.entity)) + where + " " + what, {}, expected});
   }
 
   // "has the property 'coolant' twice; expected 1"
