@@ -8,6 +8,7 @@
 
 #include "planner/exchange/iso14649/curves.h"
 #include "planner/model/nouns/all.h"
+#include "planner/model/walk.h"
 
 namespace capstan::exchange {
 
@@ -143,11 +144,20 @@ class CurveWriter {
   const Placement& f_;
 };
 
+/// Of paths that no result has.
+using Schedules = std::map<const CutterPath*, std::shared_ptr<const model::FeedSchedule>>;
+
 /// Replaces one trajectory with a path by trajectories with curves.
 class Splitter {
  public:
-  Splitter(model::Plan& plan, const Placement& frame, AnyRef technology, std::vector<std::string>& losses)
-      : plan_(plan), m_(plan.model), frame_(frame), general_(technology), losses_(losses) {}
+  Splitter(model::Plan& plan, const Schedules& schedules, const Placement& frame, AnyRef technology,
+           std::vector<std::string>& losses)
+      : plan_(plan),
+        schedules_(schedules),
+        m_(plan.model),
+        frame_(frame),
+        general_(technology),
+        losses_(losses) {}
 
   void split(AnyRef at, model::RefList<model::Toolpath>& out) {
     const auto path = m_.at<model::Trajectory>(at).path;
@@ -177,7 +187,8 @@ class Splitter {
     for (const auto& s : plan_.steps) {
       if (s.path == path && s.schedule && s.schedule->feed_mm_min.size() == path->size()) return s.schedule;
     }
-    return nullptr;
+    const auto it = schedules_.find(path.get());
+    return it == schedules_.end() ? nullptr : it->second;
   }
 
   [[nodiscard]] double feed(std::size_t i) const { return schedule_ ? schedule_->feed_mm_min[i] : 0.0; }
@@ -237,6 +248,7 @@ class Splitter {
   }
 
   model::Plan& plan_;
+  const Schedules& schedules_;
   model::Model& m_;
   const Placement& frame_;
   AnyRef general_;
@@ -307,8 +319,95 @@ AnyRef toolpath_list_of(const model::Model& m, AnyRef step) {
   return rapid == nullptr ? AnyRef{} : AnyRef(rapid->its_toolpath);
 }
 
+namespace {
+
+bool has_via_points(const model::Model& m, AnyRef list) {
+  const auto* paths = m.get<model::ToolpathList>(list);
+  if (paths == nullptr) return false;
+  for (const AnyRef t : paths->its_list.items) {
+    const auto* trajectory = m.get<model::CutterLocationTrajectory>(t);
+    if (trajectory == nullptr || !trajectory->basiccurve) continue;
+    const AnyRef roots[] = {trajectory->basiccurve};
+    const auto all = model::reachable(m, roots);
+    const auto via = [&](AnyRef p) {
+      return p.type == model::TypeId::kViaArcPoint || p.type == model::TypeId::kViaHelixPoint;
+    };
+    if (std::any_of(all.begin(), all.end(), via)) return true;
+  }
+  return false;
+}
+
+bool same_place(const Placement& a, const Placement& b) {
+  constexpr double kSame = 1e-9;
+  return norm(a.origin - b.origin) <= kSame && norm(a.x - b.x) <= kSame && norm(a.z - b.z) <= kSame;
+}
+
+// Toolpaths that this standard cannot say where or as they stand become paths: their curves are made anew.
+Status unfold(model::Plan& plan, Schedules& schedules, std::vector<std::string>& losses) {
+  auto& m = plan.model;
+  struct Step {
+    AnyRef at;
+    bool via = false;
+    Placement frame;
+    StepPath path;
+  };
+  const auto turned = [&](AnyRef at) {
+    const auto* w = m.get<model::Workingstep>(at);
+    const auto* p = m.get<model::Workplan>(at);
+    return (w != nullptr && w->toolpath_orientation) || (p != nullptr && p->toolpath_orientation);
+  };
+  const auto executables = m.all_below(model::TypeId::kExecutable);
+  const bool any = std::any_of(executables.begin(), executables.end(), turned);
+  const bool via = m.count(model::TypeId::kViaArcPoint) + m.count(model::TypeId::kViaHelixPoint) != 0;
+  if (!any && !via) return {};
+  std::vector<Step> steps;
+  for (const AnyRef at : m.all_below(model::TypeId::kWorkingstep)) {
+    const AnyRef list = toolpath_list_of(m, at);
+    if (!list.set()) continue;
+    Step s{at, has_via_points(m, list), {}, {}};
+    if (!any && !s.via) continue;
+    const model::Ref<model::Executable> step(at);
+    auto frame = frame_of_step(plan, step);
+    if (!frame) return fail(frame.error());
+    Job quiet;
+    auto path = path_of_step(plan, step, {}, quiet);
+    if (!path) return fail(path.error());
+    s.frame = *frame;
+    s.path = std::move(*path);
+    steps.push_back(std::move(s));
+  }
+  for (const AnyRef at : executables) {
+    if (model::is_a(at.type, model::TypeId::kWorkingstep))
+      m.at<model::Workingstep>(at).toolpath_orientation = {};
+    if (at.type == model::TypeId::kWorkplan) m.at<model::Workplan>(at).toolpath_orientation = {};
+  }
+  std::size_t count = 0;
+  for (Step& s : steps) {
+    const auto frame = frame_of_step(plan, model::Ref<model::Executable>(s.at));
+    if (!frame) return fail(frame.error());
+    if ((!s.via && same_place(*frame, s.frame)) || s.path.path.size() < 2) continue;
+    model::CutterLocationTrajectory t;
+    t.its_priority = true;
+    t.its_type = model::ToolpathType::kTrajectoryPath;
+    t.path = std::make_shared<const CutterPath>(std::move(s.path.path));
+    schedules[t.path.get()] = std::make_shared<const model::FeedSchedule>(std::move(s.path.schedule));
+    model::ToolpathList list;
+    list.its_list.push_back(m.add(std::move(t)));
+    const auto fresh = m.add(std::move(list));
+    if (auto* own = toolpaths_of(m, s.at)) *own = fresh;
+    ++count;
+  }
+  losses.push_back("toolpaths of " + std::to_string(count) +
+                   " steps are written anew: ISO 14649 has no via points and no toolpath_orientation");
+  return {};
+}
+
+}  // namespace
+
 Status write_curves(model::Plan& plan, std::vector<std::string>& losses) {
   adopt_paths(plan);
+  Schedules schedules;
+  if (auto done = unfold(plan, schedules, losses); !done) return done;
   auto& m = plan.model;
   for (const AnyRef step : m.all_below(model::TypeId::kWorkingstep)) {
     AnyRef list, technology;
@@ -326,7 +425,7 @@ Status write_curves(model::Plan& plan, std::vector<std::string>& losses) {
     if (std::none_of(items.begin(), items.end(), [&](AnyRef t) { return has_bare_path(m, t); })) continue;
     const auto frame = frame_of_step(plan, model::Ref<model::Executable>(step));
     if (!frame) return fail(frame.error());
-    Splitter splitter(plan, *frame, technology, losses);
+    Splitter splitter(plan, schedules, *frame, technology, losses);
     model::RefList<model::Toolpath> next;
     next.given = true;
     for (const AnyRef t : std::vector<AnyRef>(items)) {

@@ -193,6 +193,35 @@ TEST(ViaPoint, IsWrittenAsItWasRead) {
   EXPECT_EQ(lost_on_the_way(plan), "");
 }
 
+TEST(ViaPoint, BecomesACircleInIso14649) {
+  auto plan = plan_with(
+      "#33=POLYLINE('',(#40,#41,#42));\n#40=CARTESIAN_POINT('',(0.,0.,0.));\n#41=VIA_ARC_POINT('',(5.,5.,0.))"
+      ";\n"
+      "#42=CARTESIAN_POINT('',(10.,0.,0.));\n");
+  auto& m = plan.model;
+  const auto step = m.all(model::TypeId::kMachiningWorkingstep).at(0);
+  model::Axis2Placement3d place;
+  model::CartesianPoint at;
+  at.coordinates = {{100.0, 0.0, 0.0}, true};
+  place.location = m.add(std::move(at));
+  m.at<model::Workingstep>(step).toolpath_orientation = m.add(std::move(place));
+  Job job;
+  const auto out = write_iso14649(plan, job);
+  ASSERT_TRUE(out) << to_text(out.error());
+  EXPECT_THAT(out->bytes, ::testing::Not(HasSubstr("VIA_ARC_POINT")));
+  EXPECT_THAT(out->bytes, HasSubstr("CIRCLE("));
+  EXPECT_THAT(out->losses, ::testing::Contains(HasSubstr("no via points")));
+  const auto again = read_text(out->bytes);
+  const auto got = path_of_step(
+      again, model::Ref<model::Executable>(again.model.all(model::TypeId::kMachiningWorkingstep).at(0)), {},
+      job);
+  ASSERT_TRUE(got) << to_text(got.error());
+  ASSERT_EQ(got->path.size(), 2U);
+  EXPECT_EQ(got->path.point(0), (Vec3{100, 0, 0}));
+  EXPECT_EQ(got->path.cx[1], 105.0);
+  EXPECT_EQ(got->path.kind[1], model::MoveKind::kArcCw);
+}
+
 /// A path along a trimmed HELIX, which AP238 does not have.
 model::Plan with_helix(std::vector<double> axis) {
   model::Plan plan = plan_with(
