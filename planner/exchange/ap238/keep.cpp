@@ -16,12 +16,11 @@ using model::AnyRef;
 using model::TypeId;
 
 AnyRef Reader::kept_at(Node n) {
-  const auto it = kept_.find(n);
-  if (it != kept_.end()) return it->second;
+  if (kept_[n].set()) return kept_[n];
   const AnyRef at = plan_.model.add_object(TypeId::kKeptInstance);
   const auto i = g_.instance(n);
   plan_.model.set_origin(at, {i.id(), i.line()});
-  kept_.emplace(n, at);
+  kept_[n] = at;
   kept_pending_.push_back(n);
   return at;
 }
@@ -59,7 +58,7 @@ void Reader::fill_kept() {
     kept_pending_.pop_front();
     auto kept = keep(g_.instance(n), [&](std::uint64_t id) { return connected(id); });
     kept.schema = model::KeptSchema::kAp238;
-    plan_.model.at<model::KeptInstance>(kept_.at(n)) = std::move(kept);
+    plan_.model.at<model::KeptInstance>(kept_[n]) = std::move(kept);
   }
 }
 
@@ -75,33 +74,34 @@ void Reader::keep_the_rest() {
   // Shapes that an attribute leads to are explained; verbatim is how the model has them.
   for (const char* entity : {"REPRESENTATION", "REPRESENTATION_ITEM"}) {
     const EntityId e = g_.schema().find(entity);
-    for (const auto& [n, at] : kept_) explained[n] = explained[n] || g_.is(n, e);
+    for (Node n = 0; n < g_.size(); ++n) explained[n] = explained[n] || (kept_[n].set() && g_.is(n, e));
   }
   // Geometry that nothing refers to is in the units of the file.
   for (Node n = 0; n < g_.size(); ++n) {
-    if (used(n) || explained[n] || kept_.contains(n) || !g_.users(n).empty()) continue;
+    if (used(n) || explained[n] || kept_[n].set() || !g_.users(n).empty()) continue;
     if (const auto type = geometry_type(n)) plan_.kept.push_back(geometry_at(n, *type, default_scale_));
   }
   drain();
   std::vector<Node> rest;
   std::map<std::string, std::pair<std::size_t, Node>> kinds;
   for (Node n = 0; n < g_.size(); ++n) {
-    if (used(n) || explained[n] || kept_.contains(n)) continue;
+    if (used(n) || explained[n] || kept_[n].set()) continue;
     rest.push_back(n);
     kept_at(n);
   }
   fill_kept();
-  for (const auto& [n, at] : kept_) {
-    if (explained[n]) continue;
-    auto& kind = kinds.emplace(plan_.model.at<model::KeptInstance>(at).keyword, std::pair(std::size_t{0}, n))
-                     .first->second;
+  for (Node n = 0; n < g_.size(); ++n) {
+    if (!kept_[n].set() || explained[n]) continue;
+    auto& kind =
+        kinds.emplace(plan_.model.at<model::KeptInstance>(kept_[n]).keyword, std::pair(std::size_t{0}, n))
+            .first->second;
     ++kind.first;
     kind.second = std::min(kind.second, n);
   }
   // Roots first: what no other kept instance refers to; then, for circles, whatever is left.
   std::vector<bool> reached(g_.size(), false);
   const auto reach = [&](Node root) {
-    plan_.kept.push_back(kept_.at(root));
+    plan_.kept.push_back(kept_[root]);
     std::vector<Node> pending = {root};
     while (!pending.empty()) {
       const Node n = pending.back();
@@ -114,8 +114,7 @@ void Reader::keep_the_rest() {
   };
   for (const Node n : rest) {
     const auto users = g_.users(n);
-    if (std::none_of(users.begin(), users.end(), [&](Node u) { return u != n && kept_.contains(u); }))
-      reach(n);
+    if (std::none_of(users.begin(), users.end(), [&](Node u) { return u != n && kept_[u].set(); })) reach(n);
   }
   for (const Node n : rest) {
     if (!reached[n]) reach(n);

@@ -46,7 +46,8 @@ Reader::Reader(const Graph& graph, const Mapping& mapping, model::Plan& plan, Re
       units_(graph),
       owner_(graph.size()),
       claimed_(graph.size(), false),
-      object_(graph.size(), false) {}
+      object_(graph.size(), false),
+      kept_(graph.size()) {}
 
 void Reader::about(Node n, Diagnostic d) const {
   const auto i = g_.instance(n);
@@ -149,7 +150,7 @@ std::vector<Terminal> Reader::follow(const std::vector<Step>& steps, const std::
 
 void Reader::mark(const Terminal& t, AnyRef owner) {
   for (const auto& m : t.trail) {
-    if (!object_[m.node] && !owner_[m.node].set() && !kept_.contains(m.node)) {
+    if (!object_[m.node] && !owner_[m.node].set() && !kept_[m.node].set()) {
       owner_[m.node] = {owner, m.prefix, m.ordinal};
     }
   }
@@ -313,7 +314,7 @@ void Reader::run() {
   drain();
   // Application objects that the project does not lead to.
   for (Node n = 0; n < g_.size(); ++n) {
-    if (used(n) || kept_.contains(n)) continue;
+    if (used(n) || kept_[n].set()) continue;
     const ObjectRow* row = object_row(n, {});
     if (row == nullptr) continue;
     plan_.kept.push_back(object_at(n, {}, default_scale_));

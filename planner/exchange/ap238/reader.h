@@ -110,7 +110,8 @@ class Reader {
   std::unordered_multimap<Node, model::AnyRef> nouns_;
   std::map<Key, model::AnyRef> geometry_;
   std::vector<Scale> scales_;
-  std::unordered_map<Node, model::AnyRef> kept_, auxiliary_;
+  std::vector<model::AnyRef> kept_;  ///< by node: its verbatim instance
+  std::unordered_map<Node, model::AnyRef> auxiliary_;
   std::deque<Node> kept_pending_;
   std::map<model::AnyRef, Node> root_;
   struct Pending {
