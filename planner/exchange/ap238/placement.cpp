@@ -245,6 +245,38 @@ void flip(Model& m, AnyRef feature) {
   m.at<model::Two5dManufacturingFeature>(feature).feature_placement = at;
 }
 
+// Files whose course of travel is the very direction that is the placement's axis mean one of the two only
+// (the pocket of the standard's own example: its axis points into the part). The feature opens towards the
+// security plane.
+void right_way_up(Reader& reader, AnyRef feature) {
+  Model& m = reader.plan().model;
+  const auto at = m.at<model::Two5dManufacturingFeature>(feature).feature_placement;
+  const auto* path = m.get<model::LinearPath>(*drilled(m, feature).course);
+  if (!at || path == nullptr || !path->its_direction) return;
+  if (AnyRef(path->its_direction) != AnyRef(m.at<model::Axis2Placement3d>(at).axis)) return;
+  const auto frame = model::placement(m, at);
+  if (!frame) return;
+  for (const AnyRef s : m.all(TypeId::kMachiningWorkingstep)) {
+    const auto& step = m.at<model::MachiningWorkingstep>(s);
+    const auto* plane = m.get<model::ElementarySurface>(step.its_secplane);
+    if (AnyRef(step.its_feature) != feature || plane == nullptr) continue;
+    const auto security = model::placement(m, plane->position);
+    if (!security || dot(security->z, frame->z) > -0.9) continue;
+    Placement up = *frame;
+    up.z = -1.0 * frame->z;
+    up.y = -1.0 * frame->y;
+    const PlacementRef turned = placement(m, up);
+    m.at<model::Two5dManufacturingFeature>(feature).feature_placement = turned;
+    reader.about(
+        reader.root_of(feature),
+        {.code = "EXC-PLACEMENT",
+         .severity = Severity::kWarning,
+         .message = "the axis of the placement is the direction of the course of travel and points away from "
+                    "the security plane; it is taken the other way round"});
+    return;
+  }
+}
+
 void drilled_to_model(Reader& reader, AnyRef feature) {
   Model& m = reader.plan().model;
   const Drilled f = drilled(m, feature);
@@ -377,7 +409,10 @@ void to_model(Reader& reader) {
         face != nullptr && name_of(m, face->removal_direction) == kDerived) {
       face->removal_direction = {};
     }
-    if (drilled(m, at).course != nullptr) drilled_to_model(reader, at);
+    if (drilled(m, at).course != nullptr) {
+      right_way_up(reader, at);
+      drilled_to_model(reader, at);
+    }
     if (m.holds<model::Slot>(at) || m.holds<model::Step>(at)) sweep_to_model(reader, at);
   }
   const auto operations = by_workingstep(reader.plan());
