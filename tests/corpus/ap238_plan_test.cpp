@@ -1,8 +1,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "planner/exchange/conformance/check.h"
 #include "planner/exchange/exchange.h"
 #include "planner/exchange/iso14649/curves.h"
+#include "planner/p21/parse.h"
 #include "tests/corpus/session.h"
 
 // Plans as AP238 files: complete, and carried out as they were planned.
@@ -102,6 +104,18 @@ TEST_P(Ap238Plan, ExecutedGivesTheSameProgram) {
   EXPECT_FALSE(first.program.empty());
   EXPECT_EQ(first.program, again.program);
   EXPECT_EQ(first.table, again.table);
+}
+
+TEST_P(Ap238Plan, KeepsToTheSchema) {
+  CAPSTAN_PLAN_FILE();
+  const Session first = planned(path(), GetParam().reopen);
+  Job job;
+  const auto file = p21::parse(as_ap238(first.plan), "plan.stpnc", {}, job);
+  ASSERT_TRUE(file) << to_text(file.error());
+  EXPECT_EQ(exchange::check_schema(*file, job), 0U);
+  for (const auto& d : job.diagnostics()) {
+    if (d.severity == Severity::kError) ADD_FAILURE() << to_text(d);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Files, Ap238Plan,
