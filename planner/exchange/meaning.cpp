@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <set>
 #include <tuple>
 
 #include "planner/base/number.h"
@@ -28,13 +29,14 @@ struct Check {
 };
 
 // Calls `visit` for what an object is made of. Not for what only looks back at it: a workpiece lists the
-// requirements that each name the workpiece.
+// requirements and properties that each name the workpiece.
 void for_each_part(const model::Model& m, AnyRef at, const std::function<void(AnyRef)>& visit) {
   const auto* w = m.get<model::Workpiece>(at);
-  if (w == nullptr || !w->its_requirements.given) return model::for_each_reference(m, at, visit);
-  const auto& back = w->its_requirements.items;
+  if (w == nullptr) return model::for_each_reference(m, at, visit);
+  std::set<AnyRef> back(w->its_requirements.items.begin(), w->its_requirements.items.end());
+  back.insert(w->its_properties.items.begin(), w->its_properties.items.end());
   model::for_each_reference(m, at, [&](AnyRef to) {
-    if (std::find(back.begin(), back.end(), to) == back.end()) visit(to);
+    if (!back.contains(to)) visit(to);
   });
 }
 

@@ -4,6 +4,7 @@
 
 #include "planner/exchange/ap238/feature_codec.h"
 #include "planner/exchange/ap238/resource_codec.h"
+#include "planner/exchange/ap238/tolerance_codec.h"
 #include "planner/exchange/ap238/toolpath_codec.h"
 
 namespace capstan::exchange::ap238 {
@@ -39,7 +40,7 @@ const Codec* find_codec(std::string_view name) {
   for (const Codec* c : kCodecs) {
     if (c->name == name) return c;
   }
-  return nullptr;
+  return find_requirement_codec(name);
 }
 
 }  // namespace capstan::exchange::ap238

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "planner/exchange/ap238/tolerance_codec.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/walk.h"
 
@@ -36,22 +37,6 @@ bool read_workpiece(Reader& reader, const Row&, AnyRef at, const Attribute& a,
   if (!to.set()) return false;
   *static_cast<AnyRef*>(a.at(reader.plan().model.object(at))) = to;
   return true;
-}
-
-// A product definition has one shape: the instance that the workpiece's own rows lead through.
-Id shape_of(Writer& writer, AnyRef workpiece) {
-  const Id root = writer.instance_of(workpiece);
-  if (root == kNoId) return kNoId;
-  const EntityId shape = writer.schema().find("PRODUCT_DEFINITION_SHAPE");
-  for (const Row* row : Mapping::instance().rows_of(TypeId::kWorkpiece)) {
-    if (row->steps.empty() || !row->steps.front().inverse || row->steps.front().attribute != "definition")
-      continue;
-    if (row->steps.front().entities.front() != shape) continue;
-    Row way = *row;
-    way.steps.resize(1);
-    return writer.walk(way, workpiece, root, 0, 0);
-  }
-  return kNoId;
 }
 
 void write_workpiece(Writer& writer, const Row&, AnyRef, const Attribute& a, const void* data, Id root) {
@@ -106,8 +91,7 @@ bool read_items(Reader& reader, const Row&, AnyRef at, const Attribute& a,
 
 void write_faces(Writer& writer, const Row& row, AnyRef owner, const Attribute& a, const void* data,
                  Id root) {
-  const auto* f = writer.model().get<model::ManufacturingFeature>(owner);
-  const auto* w = f == nullptr ? nullptr : writer.model().get<model::Workpiece>(f->its_workpiece);
+  const auto* w = writer.model().get<model::Workpiece>(workpiece_of(writer.model(), owner));
   std::uint32_t i = 0;
   for (const AnyRef to : model::value_of<AnyRefList>(a, data).items) {
     const Id target = to.set() ? writer.instance_of(to) : kNoId;
@@ -177,6 +161,22 @@ void write_beside(Writer& writer, const Row& row, AnyRef owner, const Attribute&
 }
 
 }  // namespace
+
+// A product definition has one shape: the instance that the workpiece's own rows lead through.
+Id shape_of(Writer& writer, AnyRef workpiece) {
+  const Id root = writer.instance_of(workpiece);
+  if (root == kNoId) return kNoId;
+  const EntityId shape = writer.schema().find("PRODUCT_DEFINITION_SHAPE");
+  for (const Row* row : Mapping::instance().rows_of(TypeId::kWorkpiece)) {
+    if (row->steps.empty() || !row->steps.front().inverse || row->steps.front().attribute != "definition")
+      continue;
+    if (row->steps.front().entities.front() != shape) continue;
+    Row way = *row;
+    way.steps.resize(1);
+    return writer.walk(way, workpiece, root, 0, 0);
+  }
+  return kNoId;
+}
 
 const Codec kItsWorkpieceCodec{"its_workpiece", &read_workpiece, &write_workpiece};
 const Codec kFeatureOperationsCodec{"feature_operations", &read_operations, &write_operations};

@@ -21,8 +21,6 @@ using model::TypeId;
 
 namespace {
 
-std::string quoted(std::string_view s) { return "'" + p21::encode_text(s) + "'"; }
-
 bool is_aggregate(const express::Type* t) {
   while (t != nullptr && t->kind == express::TypeKind::kDefined) t = t->underlying;
   return t != nullptr && t->kind == express::TypeKind::kAggregate;
@@ -147,6 +145,24 @@ Id Writer::make(std::string_view entity) {
   }
   return make(std::move(leaves));
 }
+
+void Writer::become(Id at, std::string_view entity) {
+  const EntityId e = schema_.find(entity);
+  if (e == express::kNoEntity) throw std::logic_error("no entity " + std::string(entity));
+  auto& leaves = made_[at - 1].leaves;
+  if (leaves.empty()) return;  // kept, or geometry: written as it is
+  if (std::any_of(leaves.begin(), leaves.end(), [&](EntityId l) { return schema_.is_a(l, e); })) return;
+  std::erase_if(leaves, [&](EntityId l) { return schema_.is_a(e, l); });
+  leaves.push_back(e);
+}
+
+void Writer::turn_into(Id at, std::string_view entity) {
+  const EntityId e = schema_.find(entity);
+  if (e == express::kNoEntity) throw std::logic_error("no entity " + std::string(entity));
+  if (!made_[at - 1].leaves.empty()) made_[at - 1].leaves = {e};
+}
+
+std::string Writer::quoted(std::string_view text) { return "'" + p21::encode_text(text) + "'"; }
 
 const ObjectRow* Writer::object_row(AnyRef at) const {
   const auto leads_to = [&](const std::vector<std::string>& path) {

@@ -41,6 +41,12 @@ class Writer {
   Id shared(std::string_view name);
   /// Sets an attribute to a spelling ("'text'", ".T.", "#12"); appends to an aggregate.
   void set(Id at, std::string_view attribute, std::string spelling);
+  /// Makes an instance something more: another leaf of a complex instance, or a subtype of what it is.
+  void become(Id at, std::string_view entity);
+  /// Makes an instance another entity, one that has the attributes set so far.
+  void turn_into(Id at, std::string_view entity);
+  /// A text as it is spelled.
+  [[nodiscard]] static std::string quoted(std::string_view text);
   void link(Id from, std::string_view attribute, Id to) { set(from, attribute, "#" + std::to_string(to)); }
   /// Follows the row's steps from the object's instance and gives the last instance but `leave` steps.
   Id walk(const Row& row, model::AnyRef owner, Id root, std::size_t leave, std::uint32_t ordinal);
