@@ -86,6 +86,8 @@ const char* exception(const std::string& object, const std::string& attribute) {
       {"GEOMETRIC_CONTEXT", "units and dimensions of a representation; as DERIVED_UNIT"},
       {"CIRCULAR_CLOSED_PROFILE", "a hole's own diameter in the model; compared as ROUND_HOLE.DIAMETER"},
       {"LINEAR_PATH.PLACEMENT", "the feature's own placement, which the model leaves out as ISO 14649 does"},
+      {"CLOSED_POCKET.FEATURE_PLACEMENT",
+       "made anew where the standards' placements differ; placement_test of the exchange compares the numbers"},
       {"NUMERIC_PARAMETER.PARAMETER_NAME", "'PROFILE LENGTH' is the mapping's constant 'profile length'"},
       {"NUMERIC_PARAMETER.ITS_PARAMETER_UNIT", "a unit of the file; a text, 'mm', in the model"},
       {"WORKPIECE.SHAPE_DEFINITION", "an instance of the mapping, not an application object: written anew"},

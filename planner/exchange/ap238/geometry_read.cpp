@@ -21,7 +21,7 @@ std::optional<TypeId> Reader::geometry_type(Node n, bool solids) const {
   const auto i = g_.instance(n);
   if (i.is_complex()) return std::nullopt;
   const auto t = model::find_noun(i.keyword());
-  if (!t) return std::nullopt;
+  if (!t || model::noun_type(*t).abstract) return std::nullopt;
   const bool item = model::is_a(*t, TypeId::kRepresentationItem) || *t == TypeId::kCompositeCurveSegment;
   const bool solid = item && (model::is_a(*t, TypeId::kTopologicalRepresentationItem) ||
                               model::is_a(*t, TypeId::kSolidModel));

@@ -102,6 +102,68 @@ TEST_F(CommandTest, WhatIsNotSupportedYetIsSaidBeforeAnyWork) {
   EXPECT_EQ(run("plan missing.p21 -o a.json -o ./a.json").code, 2);
 }
 
+TEST_F(CommandTest, Ap238IsWrittenByEitherEndingAndTakesThePlanBack) {
+  put("plate.p21", testing::drilled_plate());
+  const Ran there = run("convert plate.p21 -o plate.stpnc -o plate.238");
+  EXPECT_EQ(there.code, 0) << there.err;
+  EXPECT_EQ(slurp(folder_ / "plate.stpnc"), slurp(folder_ / "plate.238"));
+  EXPECT_THAT(slurp(folder_ / "plate.stpnc"), HasSubstr("MODEL_BASED_INTEGRATED_MANUFACTURING_SCHEMA"));
+  // The vendor's instance of the ISO 14649 file has no place in AP238: said, and counted.
+  EXPECT_THAT(there.err, HasSubstr("TROCHOIDAL_WONDER, kept from ISO 14649, has no place in AP238"));
+  EXPECT_THAT(there.err, HasSubstr("plate.stpnc (without 1 thing, see the notes)"));
+  const Ran back = run("convert plate.stpnc -o back.p21");
+  EXPECT_EQ(back.code, 0) << back.err;
+  EXPECT_EQ(run("inspect back.p21 //round_hole/its_id").out,
+            run("inspect plate.p21 //round_hole/its_id").out);
+  EXPECT_EQ(run("inspect plate.stpnc '//round_hole[diameter.theoretical_size = 10]/its_id'").out, "'HOLE'\n");
+  EXPECT_EQ(run("inspect plate.stpnc '//round_hole[diameter'").code, 2);
+}
+
+TEST_F(CommandTest, KeptInstancesOfAp238StayOutOfIso14649) {
+  put("plate.p21", testing::drilled_plate());
+  ASSERT_EQ(run("convert plate.p21 -o plate.stpnc").code, 0);
+  std::string text = slurp(folder_ / "plate.stpnc");
+  text.insert(text.rfind("ENDSEC;"), "#90000=DOCUMENT_TYPE('vendor');\n");
+  put("vendor.stpnc", text);
+  const Ran there = run("convert vendor.stpnc -o vendor.p21 -o again.stpnc -o vendor.json");
+  EXPECT_EQ(there.code, 0) << there.err;
+  EXPECT_THAT(there.err, HasSubstr("DOCUMENT_TYPE, kept from AP238, has no place in ISO 14649"));
+  EXPECT_THAT(slurp(folder_ / "vendor.p21"), Not(HasSubstr("DOCUMENT_TYPE")));
+  EXPECT_THAT(slurp(folder_ / "again.stpnc"), HasSubstr("DOCUMENT_TYPE('vendor')"));
+  // JSON loses nothing: it knows of which standard the text is.
+  ASSERT_EQ(run("convert vendor.json -o json.stpnc -o json.p21").code, 0);
+  EXPECT_THAT(slurp(folder_ / "json.stpnc"), HasSubstr("DOCUMENT_TYPE('vendor')"));
+  EXPECT_THAT(slurp(folder_ / "json.p21"), Not(HasSubstr("DOCUMENT_TYPE")));
+}
+
+TEST_F(CommandTest, AnchorsAndReferencesStayAndASignatureGoes) {
+  put("plate.p21", testing::drilled_plate());
+  std::string text = slurp(folder_ / "plate.p21");
+  const auto end = text.find("ENDSEC;") + 7;
+  text.insert(
+      end,
+      "\nANCHOR;\n<hole>=#17;\n<#17 no>=#99999;\nENDSEC;\nREFERENCE;\n#88888=<other.stp#part>;\nENDSEC;");
+  text += "SIGNATURE\nabcd\nENDSEC;\n";
+  put("signed.p21", text);
+  const Ran there = run("convert signed.p21 -o signed.stpnc -o again.p21");
+  EXPECT_EQ(there.code, 0) << there.err;
+  EXPECT_THAT(there.err, HasSubstr("the anchor <#17 no> names #99999, which the file does not hold"));
+  EXPECT_THAT(there.err, HasSubstr("EXC-SIGNATURE"));
+  EXPECT_THAT(there.err, HasSubstr("EXC-EXTERNAL"));
+  for (const char* name : {"signed.stpnc", "again.p21"}) {
+    const std::string written = slurp(folder_ / name);
+    EXPECT_THAT(written, HasSubstr("#88888=<other.stp#part>;")) << name;
+    EXPECT_THAT(written, HasSubstr("<#17 no>=#99999;")) << name;
+    EXPECT_THAT(written, HasSubstr("'4;1'")) << name;
+    EXPECT_THAT(written, Not(HasSubstr("SIGNATURE"))) << name;
+    // The anchor is still at the hole, whatever its number is now.
+    const auto at = written.find("<hole>=") + 7;
+    const std::string number = written.substr(at, written.find(';', at) - at);
+    EXPECT_THAT(run(std::string("inspect ") + name + " '" + number + "/its_id'").out, HasSubstr("HOLE"))
+        << name;
+  }
+}
+
 TEST_F(CommandTest, AFileThatCannotBeReadEndsWithThreeAndOneClearError) {
   const Ran missing = run("plan missing.p21 -o a.json");
   EXPECT_EQ(missing.code, 3);
