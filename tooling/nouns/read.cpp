@@ -129,6 +129,11 @@ class Reader {
   void stated(const char* field, const char* attribute) {
     c_.sources.emplace_back(field, std::string("stated: ") + attribute);
   }
+  void pitch(const model::Real& stated_pitch) {
+    if (!(stated_pitch.value_or(0.0) > 0.0)) return;
+    c_.thread_pitch_mm = *stated_pitch;
+    stated("thread_pitch_mm", "thread_pitch");
+  }
   void read_shape() {
     if (is_mill(c_.cutter_class) && p_.dimension->edge_radius.value_or(0.0) > 0.0) {
       c_.corner_radius_mm = *p_.dimension->edge_radius;
@@ -143,6 +148,8 @@ class Reader {
       stated("hand", "hand_of_cut");
     }
     c_.coolant_through = p_.body->coolant_through_tool.value_or(false);
+    if (const auto* tap = m_.get<model::Tap>(p_.body_ref)) pitch(tap->thread_pitch);
+    if (const auto* mill = m_.get<model::ThreadMill>(p_.body_ref)) pitch(mill->thread_pitch);
     if (p_.dimension->cutting_edge_length.value_or(0.0) > 0.0) {
       c_.maximum_depth_of_cut_mm = *p_.dimension->cutting_edge_length;
       stated("maximum_depth_of_cut_mm", "cutting_edge_length");

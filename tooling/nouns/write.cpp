@@ -82,6 +82,13 @@ Ref<MachiningTool> nouns_from_cutter(Model& m, const Cutter& c) {
   if (c.teeth > 0) body.number_of_teeth = c.teeth;
   body.hand_of_cut = c.hand;
   body.coolant_through_tool = c.coolant_through;
+  const auto threaded = [&](auto* b) {
+    if (b == nullptr || !(c.thread_pitch_mm > 0.0)) return;
+    b->thread_size = c.cutting_diameter_mm;
+    b->thread_pitch = c.thread_pitch_mm;
+  };
+  threaded(m.get<model::Tap>(body_ref));
+  threaded(m.get<model::ThreadMill>(body_ref));
 
   const auto material = m.add<model::Material>();
   auto& mat = m.at<model::Material>(material);

@@ -437,6 +437,7 @@ void Writer::note_unmapped(AnyRef at, const ObjectRow* object) {
   const auto look = [&](AnyRef holder, const std::string& prefix) {
     for (const Attribute& a : model::noun_type(holder.type).attributes) {
       if (a.storage == Storage::kPath || !model::has_value(a, m_.object(holder))) continue;
+      if (a.name == "persistent_id") continue;  // goes with the records of the plan
       const std::string dotted = prefix + std::string(a.name);
       const bool inner = object != nullptr && std::any_of(object->with.begin(), object->with.end(), [&](const auto& w) {
                            std::string d;
