@@ -53,7 +53,14 @@ class Opening {
   }
 
   void open(AnyRef at, const char* attribute, const std::string& why) {
-    plan_.ledger.reopen({at, attribute});
+    // While nothing depends on anything, which is so of a file just read, there is nothing else to open.
+    if (dependencies_) {
+      plan_.ledger.reopen({at, attribute});
+    } else if (model::Decision* known = plan_.ledger.find(at, attribute)) {
+      known->state = model::DecisionState::kOpen;
+    } else {
+      plan_.ledger.set({at, attribute}, opened_);
+    }
     reporter_.about(m_, at,
                     {.code = "EXC-OPEN",
                      .severity = Severity::kNote,
@@ -61,6 +68,14 @@ class Opening {
   }
 
   model::Plan& plan_;
+  const model::Decision opened_ = [] {
+    model::Decision d;
+    d.state = model::DecisionState::kOpen;
+    return d;
+  }();
+  const bool dependencies_ =
+      std::any_of(plan_.ledger.entries().begin(), plan_.ledger.entries().end(),
+                  [](const auto& entry) { return !entry.second.depends_on.empty() || entry.second.pinned; });
   const model::Model& m_;
   Reporter& reporter_;
 };
