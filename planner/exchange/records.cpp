@@ -20,6 +20,20 @@ void describe(RecordFields& f, model::Machine& m) {
   f.text("description", m.description);
 }
 
+using Sources = std::vector<std::pair<std::string, std::string>>;
+
+void describe_sources(RecordFields& f, Sources& sources) {
+  sources.resize(f.list("source", sources.size()));
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    f.element(i);
+    f.group();
+    f.text("of", sources[i].first);
+    f.text("is", sources[i].second);
+    f.end();
+  }
+  f.end();
+}
+
 void describe(RecordFields& f, model::WorkMaterial& m) {
   f.text("id", m.id);
   f.text("iso group", m.iso_group);
@@ -31,6 +45,14 @@ void describe(RecordFields& f, model::WorkMaterial& m) {
   f.real("tensile strength", Unit::kPressure, m.tensile_strength_n_mm2);
   f.real("uncertainty of kc", Unit::kRatio, m.kc_uncertainty);
   f.end();
+  if (!f.more()) return;
+  m.names.resize(f.list("name", m.names.size()));
+  for (std::size_t i = 0; i < m.names.size(); ++i) {
+    f.element(i);
+    f.text("", m.names[i]);
+  }
+  f.end();
+  describe_sources(f, m.sources);
 }
 
 void describe(RecordFields& f, model::Stock& s) {
@@ -90,6 +112,20 @@ void describe(RecordFields& f, model::Cutter& c) {
   bool left = c.hand == model::Hand::kLeft;
   f.truth("left hand", left);
   c.hand = left ? model::Hand::kLeft : model::Hand::kRight;
+  if (!f.more()) return;
+  f.real("adjustable to", Unit::kLength, c.adjustable_to_mm);
+  c.presets.resize(f.list("preset", c.presets.size()));
+  for (std::size_t i = 0; i < c.presets.size(); ++i) {
+    f.element(i);
+    f.group();
+    f.text("material", c.presets[i].material_group);
+    f.real("cutting speed [m/min]", Unit::kNone, c.presets[i].vc_m_min);
+    f.real("feed per tooth", Unit::kLength, c.presets[i].fz_mm);
+    f.text("source", c.presets[i].source);
+    f.end();
+  }
+  f.end();
+  describe_sources(f, c.sources);
 }
 
 std::string describe(RecordFields& f, model::SetupResult& s) {

@@ -39,6 +39,8 @@ class RecordFields {
   virtual std::size_t list(std::string_view name, std::size_t n) = 0;
   virtual void element(std::size_t i) = 0;
   virtual void end() = 0;
+  /// Whether the record goes on: files of earlier versions may end here.
+  [[nodiscard]] virtual bool more() { return true; }
 };
 
 /// Which records a file takes.

@@ -75,6 +75,7 @@ class HeaderFields final : public RecordFields {
   }
   void element(std::size_t) override {}
   void end() override { open_.pop_back(); }
+  bool more() override { return open_.back().i < open_.back().values.size(); }
 
  private:
   struct Level {

@@ -255,5 +255,54 @@ INSTANTIATE_TEST_SUITE_P(
                               "EXC-CYCLE"}),
     [](const auto& given) { return std::string(given.param.what); });
 
+// As the reader sees them: written from a model that holds them.
+std::vector<std::string> said_of(const model::Plan& plan, bool* accepted) {
+  Job job;
+  const auto back = read_bytes(written(plan).bytes, "t.stpnc", {}, job);
+  *accepted = back.has_value();
+  std::vector<std::string> said;
+  for (const auto& d : job.diagnostics()) said.push_back(to_text(d));
+  return said;
+}
+
+TEST(Ap238Meaning, DirectionsHaveLength) {
+  Bench b;
+  auto& m = b.plan.model;
+  model::CartesianPoint p;
+  p.coordinates.items = {0, 0, 0};
+  p.coordinates.given = true;
+  model::Direction d;
+  d.direction_ratios.items = {0, 0, 0};
+  d.direction_ratios.given = true;
+  model::Axis2Placement3d frame;
+  frame.location = m.add(p);
+  frame.axis = m.add(d);
+  const auto placed = m.add(frame);
+  m.at<model::Workplan>(b.workplan).toolpath_orientation = placed;
+  bool accepted = true;
+  EXPECT_THAT(said_of(b.plan, &accepted), Contains(AllOf(HasSubstr("error"), HasSubstr("EXC-GEOMETRY"))));
+  EXPECT_FALSE(accepted);
+}
+
+TEST(Ap238Meaning, SizesAreNotNegative) {
+  Bench b;
+  auto& m = b.plan.model;
+  model::CartesianPoint p;
+  p.coordinates.items = {0, 0, 0};
+  p.coordinates.given = true;
+  model::Axis2Placement3d frame;
+  frame.location = m.add(p);
+  model::Block block;
+  block.position = m.add(frame);
+  block.x = -10.0;
+  block.y = 10.0;
+  block.z = 10.0;
+  const auto bounds = m.add(block);
+  m.at<model::Workpiece>(b.workpiece).its_bounding_geometry = bounds;
+  bool accepted = true;
+  EXPECT_THAT(said_of(b.plan, &accepted), Contains(AllOf(HasSubstr("error"), HasSubstr("EXC-SIZE"))));
+  EXPECT_FALSE(accepted);
+}
+
 }  // namespace
 }  // namespace capstan::exchange::ap238
