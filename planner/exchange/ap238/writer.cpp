@@ -201,6 +201,12 @@ Id Writer::instance_of(AnyRef at) {
     ids_.emplace(at, kNoId);
     return kNoId;
   }
+  if (is_geometry(at) && map_.objects_of(at.type).empty() &&
+      schema_.find(model::noun_type(at.type).keyword) == express::kNoEntity) {
+    lose(std::string(model::noun_type(at.type).keyword));  // a helix that no toolpath runs along
+    ids_.emplace(at, kNoId);
+    return kNoId;
+  }
   // BLOCK and the like are geometry that AP238 has as representations.
   if (at.type == TypeId::kKeptInstance || (is_geometry(at) && map_.objects_of(at.type).empty())) {
     const Id id = add({.leaves = {}, .noun = at, .name = {}, .values = {}});
@@ -227,6 +233,7 @@ Id Writer::instance_of(AnyRef at) {
 
 Id Writer::instance_named(AnyRef at, const std::string& name) {
   if (!is_geometry(at) || name.empty()) return instance_of(at);
+  if (schema_.find(model::noun_type(at.type).keyword) == express::kNoEntity) return instance_of(at);
   const auto [it, added] = named_.emplace(std::pair(at, name), kNoId);
   if (!added) return it->second;
   it->second = add({.leaves = {}, .noun = at, .name = name, .values = {}});

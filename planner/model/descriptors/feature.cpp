@@ -235,7 +235,7 @@ constexpr NounRow kRows[] = {
     {TypeId::kBoss, "BOSS", TypeId::kMachiningFeature, false, true, kBoss},
     {TypeId::kSphericalCap, "SPHERICAL_CAP", TypeId::kMachiningFeature, false, true, kSphericalCap},
     {TypeId::kRoundedEnd, "ROUNDED_END", TypeId::kMachiningFeature, false, true, kRoundedEnd},
-    {TypeId::kCompoundFeature, "COMPOUND_FEATURE", TypeId::kTwo5dManufacturingFeature, true, true,
+    {TypeId::kCompoundFeature, "COMPOUND_FEATURE", TypeId::kTwo5dManufacturingFeature, false, true,
      kCompoundFeature},
     {TypeId::kCounterboreHole, "COUNTERBORE_HOLE", TypeId::kCompoundFeature, false, true, {}},
     {TypeId::kCountersunkHole, "COUNTERSUNK_HOLE", TypeId::kCompoundFeature, false, true, {}},

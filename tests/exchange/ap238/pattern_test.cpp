@@ -109,6 +109,21 @@ TEST(CompositeHoles, KeepTheirElementsInOrder) {
   EXPECT_EQ(ids, (std::vector<std::string>{"H20", "H8", "H14"}));
 }
 
+TEST(CompoundFeature, OfAnyFeaturesKeepsTheirOrder) {
+  PatternBench b;
+  auto f = b.basic<model::CompoundFeature>("C");
+  f.elements.given = true;
+  for (const double d : {12.0, 30.0, 6.0}) {
+    f.elements.items.push_back(b.hole("H" + std::to_string(static_cast<int>(d)), d));
+  }
+  b.m.add(std::move(f));
+  const Shapes s(b.plan);
+  EXPECT_TRUE(s.has("(CHARACTERIZED_OBJECT('',$)COMPOUND_FEATURE()FEATURE_DEFINITION()INSTANCED_FEATURE()"
+                    "SHAPE_ASPECT('C',$,#,.T.));"));
+  EXPECT_TRUE(s.has("COMPOSITE_SHAPE_ASPECT('compound feature in solid',$,#,.F.);"));
+  EXPECT_EQ(lost_on_the_way(b.plan), "");
+}
+
 TEST(CompositeHoles, AreToldApartByDescription) {
   for (const bool bore : {true, false}) {
     PatternBench b;
