@@ -252,8 +252,9 @@ void right_way_up(Reader& reader, AnyRef feature) {
   Model& m = reader.plan().model;
   const auto at = m.at<model::Two5dManufacturingFeature>(feature).feature_placement;
   const auto* path = m.get<model::LinearPath>(*drilled(m, feature).course);
-  if (!at || path == nullptr || !path->its_direction) return;
-  if (AnyRef(path->its_direction) != AnyRef(m.at<model::Axis2Placement3d>(at).axis)) return;
+  const auto* axes = m.get<model::Axis2Placement3d>(at);  // null: kept, and without meaning here
+  if (axes == nullptr || path == nullptr || !path->its_direction) return;
+  if (AnyRef(path->its_direction) != AnyRef(axes->axis)) return;
   const auto frame = model::placement(m, at);
   if (!frame) return;
   for (const AnyRef s : m.all(TypeId::kMachiningWorkingstep)) {

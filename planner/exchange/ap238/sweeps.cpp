@@ -244,8 +244,8 @@ void sweep_to_model(Reader& reader, AnyRef feature) {
   std::optional<double> depth_mm;
   double up = 0.0;
   if (f.depth) {
-    const auto surface =
-        model::placement(m, f.depth ? m.at<model::ElementarySurface>(f.depth).position : PlacementRef{});
+    const auto* plane = m.get<model::ElementarySurface>(f.depth);  // null: kept, and without meaning here
+    const auto surface = model::placement(m, plane != nullptr ? plane->position : PlacementRef{});
     if (surface && std::abs(surface->z.y) > 1.0 - 1e-9 && std::abs(surface->origin.y) > 1e-9) {
       depth_mm = std::abs(surface->origin.y);
       up = std::max(surface->origin.y, 0.0);

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "planner/exchange/ap238/codecs.h"
@@ -171,7 +172,17 @@ void Reader::select(const Row& row, const Attribute& a, const Terminal& t, model
   } else if (g_.is(t.node, g_.schema().find("DESCRIPTIVE_REPRESENTATION_ITEM"))) {
     std::string s = description(t.node);
     for (char& c : s) c = static_cast<char>(c >= 'a' && c <= 'z' ? c - 32 : c);
-    out.text = s;
+    // An enumerator of a select is written without quotes: it must be a name.
+    const bool name = std::all_of(s.begin(), s.end(), [](char c) {
+      return (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+    });
+    if (name && !s.empty()) {
+      out.text = s;
+    } else {
+      about(t.node, {.code = "EXC-VALUE",
+                     .severity = Severity::kWarning,
+                     .message = std::string(a.name) + " cannot be '" + description(t.node) + "'; left unset"});
+    }
   } else {
     out.ref = object_at(t.node, a.targets, t.scale);
   }
