@@ -1,5 +1,7 @@
 #pragma once
 
+#include "planner/exchange/conformance/check.h"
+#include "planner/p21/parse.h"
 #include "tests/exchange/ap238/support.h"
 
 namespace capstan::exchange::ap238 {
@@ -66,7 +68,18 @@ struct StatedBench : Bench {
     return r;
   }
   [[nodiscard]] std::vector<std::string> lines() const { return shapes(written(plan).bytes); }
-  [[nodiscard]] std::string lost() const { return lost_on_the_way(plan); }
+  /// What is lost, and what the schema has against the file.
+  [[nodiscard]] std::string lost() const {
+    std::string out = lost_on_the_way(plan);
+    Job job;
+    const auto file = p21::parse(written(plan).bytes, "plan.stpnc", {}, job);
+    if (!file) return to_text(file.error());
+    (void)check_schema(*file, job);
+    for (const auto& d : job.diagnostics()) {
+      if (d.severity == Severity::kError) out += to_text(d) + "\n";
+    }
+    return out;
+  }
 };
 
 }  // namespace capstan::exchange::ap238

@@ -26,10 +26,19 @@ T tolerance(const StatedBench& b) {
   return t;
 }
 
+// Kinds that only make sense against datums (subtypes of geometric_tolerance_with_datum_reference).
+template <class T>
+constexpr bool kNeedsDatums =
+    std::is_same_v<T, model::AngularityTolerance> || std::is_same_v<T, model::CircularRunoutTolerance> ||
+    std::is_same_v<T, model::CoaxialityTolerance> || std::is_same_v<T, model::ConcentricityTolerance> ||
+    std::is_same_v<T, model::ParallelismTolerance> || std::is_same_v<T, model::PerpendicularityTolerance> ||
+    std::is_same_v<T, model::SymmetryTolerance> || std::is_same_v<T, model::TotalRunoutTolerance>;
+
 TYPED_TEST(EachTolerance, ComesBackAsItWas) {
   StatedBench b;
   auto t = tolerance<TypeParam>(b);
   t.description = "as drawn";
+  if (kNeedsDatums<TypeParam>) t.its_datum_system = b.system({b.on(b.datum("A"))});
   b.state(t);
   EXPECT_EQ(b.lost(), "");
   const std::string keyword(model::noun_type(TypeParam::kType).keyword);
