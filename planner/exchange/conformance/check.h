@@ -21,7 +21,8 @@ inline constexpr std::size_t kReportedFaultsPerCode = 50;
 [[nodiscard]] bool declares_ap238(std::string_view bytes);
 
 /// Compares every instance with the EXPRESS dictionary of ISO 10303-238 and the rules of its machining
-/// entities. Each fault is one error (SCH-OPEN: one warning) to `job` with file, line, instance, attribute and what was expected:
+/// entities. Each fault is one error (SCH-OPEN: one warning) to `job` with file, line, instance, attribute
+/// and what was expected:
 ///
 ///   SCH-SCHEMA     the file's schema is another; nothing else is looked at
 ///   SCH-ENTITY     no such entity                    SCH-COUNT      number of parameters
@@ -33,7 +34,8 @@ inline constexpr std::size_t kReportedFaultsPerCode = 50;
 ///   SCH-COMPLEX    parts missing, repeated, unsorted, or abstract ones alone
 ///   SCH-REFERENCE  no such instance (numbers of an edition 3 REFERENCE section are not followed)
 ///   SCH-RULE       a WHERE rule of a machining entity, see rules.table
-///   SCH-OPEN       such a rule wants a value, a tool, a technology that the file leaves open: a warning, since
+///   SCH-OPEN       such a rule wants a value, a tool, a technology that the file leaves open: a warning,
+///   since
 ///                  plans may be open; a complete plan has none
 ///   SCH-LIMIT      the file shares its instances so much that rules would take too long; the rest was not
 ///   checked

@@ -159,11 +159,11 @@ class Reader {
         f.unit = l.word();
         f.text += " " + f.unit;
       } else if (word == "to") {
-        f.to = l.entity();
-        spell({f.to}, f.text);
+        f.to = l.entities();
+        spell(f.to, f.text);
       } else if (rule.subject == Subject::kAction) {
-        f.to = dictionary_.find(word);
-        if (f.to == express::kNoEntity) malformed(l.line());
+        f.to = {dictionary_.find(word)};
+        if (f.to.front() == express::kNoEntity) malformed(l.line());
       } else {
         malformed(l.line());
       }
@@ -224,7 +224,7 @@ class Reader {
     for (const auto& s : kSubjects) {
       if (s.word != word) continue;
       r.subject = s.subject;
-      r.names = {l.text()};
+      r.names = l.texts();
       return;
     }
     malformed(l.line());

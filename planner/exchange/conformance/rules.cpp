@@ -298,6 +298,16 @@ class Judge {
   }
 
   std::string keyword(EntityId e) const { return std::string(p_.dictionary().keyword(e)); }
+  std::string keywords(const std::vector<EntityId>& entities) const {
+    std::string out;
+    for (const EntityId e : entities) out += (out.empty() ? "" : " or ") + keyword(e);
+    return out;
+  }
+  // One of them, or anything where none is named.
+  bool is_one(std::size_t instance, const std::vector<EntityId>& entities) const {
+    return entities.empty() || std::any_of(entities.begin(), entities.end(),
+                                           [&](EntityId e) { return links_.is_a(instance, e); });
+  }
 
   void method(const Rule& r, std::size_t i) {
     std::size_t found = 0;
@@ -306,9 +316,9 @@ class Judge {
       if (!r.names.empty() && !among(r.names, links_.text(link, "action_method_relationship.name"))) continue;
       ++found;
       const auto to = links_.target(link, "action_method_relationship.related_method");
-      if (r.form.to != kNoEntity && to && !links_.is_a(*to, r.form.to))
+      if (to && !is_one(*to, r.form.to))
         fault(r, i, "leads by #" + id(link) + " (" + keyword(r.type) + ") to #" + id(*to),
-              keyword(r.form.to));
+              keywords(r.form.to));
     }
     count(r, i, found, keyword(r.type) + (r.names.empty() ? "" : " " + quoted(r.names)));
   }
@@ -325,8 +335,7 @@ class Judge {
     for (const std::size_t action : links_.to(Link::kActionChoosing, i)) {
       if (!among(r.names, links_.text(action, "action.name"))) continue;
       ++found;
-      if (r.form.to != kNoEntity && !links_.is_a(action, r.form.to))
-        fault(r, i, "is chosen by #" + id(action), keyword(r.form.to));
+      if (!is_one(action, r.form.to)) fault(r, i, "is chosen by #" + id(action), keywords(r.form.to));
     }
     count(r, i, found, "action " + quoted(r.names));
   }

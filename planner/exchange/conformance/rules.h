@@ -47,7 +47,7 @@ struct Form {
   std::vector<express::EntityId> item;            ///< one item that is all of these
   std::vector<express::EntityId> representation;  ///< the representation is this
   Names named;                                    ///< and has one of these names
-  express::EntityId to = express::kNoEntity;      ///< of a relationship or an action
+  std::vector<express::EntityId> to;              ///< of a relationship or an action: one of these
   std::string unit;                               ///< a dimension; empty for any
   std::string text;                               ///< as spelled in the table
 };
