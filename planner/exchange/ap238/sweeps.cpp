@@ -32,9 +32,15 @@ struct Sweep {
 };
 
 Sweep sweep_of(const Model& m, AnyRef feature) {
-  if (const auto* s = m.get<model::Slot>(feature)) return {s->course_of_travel, s->swept_shape};
+  // What is kept in their place has no meaning here.
+  const auto understood = [&](AnyRef path, AnyRef profile) {
+    return Sweep{
+        m.holds<model::TravelPath>(path) ? Ref<model::TravelPath>(path) : Ref<model::TravelPath>(),
+        m.holds<model::OpenProfile>(profile) ? Ref<model::OpenProfile>(profile) : Ref<model::OpenProfile>()};
+  };
+  if (const auto* s = m.get<model::Slot>(feature)) return understood(s->course_of_travel, s->swept_shape);
   const auto& s = m.at<model::Step>(feature);
-  return {Ref<model::TravelPath>(AnyRef(s.open_boundary)), Ref<model::OpenProfile>(AnyRef(s.wall_boundary))};
+  return understood(s.open_boundary, s.wall_boundary);
 }
 
 void set_path(Model& m, AnyRef feature, AnyRef path) {
