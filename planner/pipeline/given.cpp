@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -71,7 +72,7 @@ class Walker {
     } else if (m.holds<model::TouchProbing>(at.executable)) {
       say("PIP-PROBING", at.executable, "is a probing step; it is kept in the plan and not planned");
     } else if (at.executable.set()) {
-      say("PIP-UNHANDLED", at.executable, "is not understood; it is kept in the plan and not executed");
+      refuse(at.executable, at.executable, at.executable);
     }
   }
 
@@ -90,10 +91,38 @@ class Walker {
     work.step = Ref<model::Executable>(at.executable);
     work.setup = setup_index(at.setup);
     if (const auto* ws = w_.plan.model.get<model::MachiningWorkingstep>(at.executable)) {
+      if (w_.plan.model.holds<model::KeptInstance>(ws->its_operation))
+        return refuse(at.executable, ws->its_operation,
+                      ws->its_feature.set() ? AnyRef(ws->its_feature) : at.executable);
       work.feature = ws->its_feature;
       work.operation = ws->its_operation;
     }
     w_.steps.push_back(std::move(work));
+  }
+
+  // What has no noun is kept as it is: turning (ISO 14649-12, and its forms in AP238), additive, of a vendor.
+  void refuse(AnyRef executable, AnyRef kept, AnyRef feature) {
+    const auto* k = w_.plan.model.get<model::KeptInstance>(kept);
+    const std::string keyword = k == nullptr ? std::string(model::noun_type(kept.type).keyword) : k->keyword;
+    const std::string why = (is_turning(k) ? "is turning (" + keyword + "), which is not planned"
+                                           : "has " + keyword + ", which is not understood") +
+                            "; it is kept in the plan and not executed";
+    say("PIP-UNHANDLED", executable, why);
+    w_.plan.unplanned.push_back({feature, why});
+  }
+
+  static bool is_turning(const model::KeptInstance* k) {
+    static constexpr std::array<std::string_view, 14> kOperations = {
+        "FACING",          "FACING_ROUGH",     "FACING_FINISH", "GROOVING",         "GROOVING_ROUGH",
+        "GROOVING_FINISH", "CUTTING_IN",       "CONTOURING",    "CONTOURING_ROUGH", "CONTOURING_FINISH",
+        "THREADING_ROUGH", "THREADING_FINISH", "THREADING",     "KNURLING"};  // ISO 14649-12
+    if (k == nullptr) return false;
+    if (k->keyword.find("TURNING") != std::string::npos) return true;
+    for (const auto& piece : k->pieces) {
+      const auto* text = std::get_if<std::string>(&piece);
+      if (text != nullptr && text->find("'turning'") != std::string::npos) return true;
+    }
+    return std::find(kOperations.begin(), kOperations.end(), k->keyword) != kOperations.end();
   }
 
   std::size_t setup_index(Ref<model::Setup> setup) {

@@ -160,6 +160,33 @@ TEST(Bind, SaysWhyAFeatureIsNotPlanned) {
   EXPECT_NE(plan->unplanned.front().reason.find("tap"), std::string::npos) << plan->unplanned.front().reason;
 }
 
+TEST(Bind, RefusesTurningByName) {
+  model::Plan plan = part("bracket.p21");
+  model::Model& m = plan.model;
+  const auto kept = [&](const char* keyword, const char* text) {
+    model::KeptInstance k;
+    k.keyword = keyword;
+    k.pieces.emplace_back(text);
+    return m.add(std::move(k));
+  };
+  model::MachiningWorkingstep turned;
+  turned.its_id = "turned";
+  turned.its_operation.type = model::TypeId::kKeptInstance;
+  turned.its_operation.index =
+      kept("FACING_TURNING_OPERATION", "FACING_TURNING_OPERATION('','roughing','','')").index;
+  auto& workplan = m.at<model::Workplan>(m.at<model::Project>(plan.project).main_workplan);
+  workplan.its_elements.items.push_back(m.add(std::move(turned)));
+  workplan.its_elements.items.push_back(kept("TURNING_WORKINGSTEP", "TURNING_WORKINGSTEP('t',$,(),$)"));
+  workplan.its_elements.items.push_back(kept("VENDOR_STEP", "VENDOR_STEP()"));
+  const model::Plan out = bound(std::move(plan), shop());
+  std::vector<std::string> reasons;
+  for (const auto& u : out.unplanned) reasons.push_back(u.reason);
+  ASSERT_EQ(reasons.size(), 3U);
+  EXPECT_NE(reasons[0].find("is turning (FACING_TURNING_OPERATION)"), std::string::npos) << reasons[0];
+  EXPECT_NE(reasons[1].find("is turning (TURNING_WORKINGSTEP)"), std::string::npos) << reasons[1];
+  EXPECT_NE(reasons[2].find("has VENDOR_STEP, which is not understood"), std::string::npos) << reasons[2];
+}
+
 TEST(Bind, FinishesASurfaceWithinItsTolerance) {
   Inputs in = shop();
   in.material_name = "EN AW-6061";
