@@ -91,9 +91,11 @@ class Walker {
     work.step = Ref<model::Executable>(at.executable);
     work.setup = setup_index(at.setup);
     if (const auto* ws = w_.plan.model.get<model::MachiningWorkingstep>(at.executable)) {
-      if (w_.plan.model.holds<model::KeptInstance>(ws->its_operation))
-        return refuse(at.executable, ws->its_operation,
-                      ws->its_feature.set() ? AnyRef(ws->its_feature) : at.executable);
+      const AnyRef feature = ws->its_feature.set() ? AnyRef(ws->its_feature) : at.executable;
+      if (w_.plan.model.holds<model::KeptInstance>(ws->its_operation) ||
+          w_.plan.model.holds<model::ExtendedOperation>(ws->its_operation)) {
+        return refuse(at.executable, ws->its_operation, feature);
+      }
       work.feature = ws->its_feature;
       work.operation = ws->its_operation;
     }

@@ -160,7 +160,7 @@ TEST(Bind, SaysWhyAFeatureIsNotPlanned) {
   EXPECT_NE(plan->unplanned.front().reason.find("tap"), std::string::npos) << plan->unplanned.front().reason;
 }
 
-TEST(Bind, RefusesTurningByName) {
+TEST(Bind, RefusesByNameWhatItDoesNotPlan) {
   model::Plan plan = part("bracket.p21");
   model::Model& m = plan.model;
   const auto kept = [&](const char* keyword, const char* text) {
@@ -178,13 +178,18 @@ TEST(Bind, RefusesTurningByName) {
   workplan.its_elements.items.push_back(m.add(std::move(turned)));
   workplan.its_elements.items.push_back(kept("TURNING_WORKINGSTEP", "TURNING_WORKINGSTEP('t',$,(),$)"));
   workplan.its_elements.items.push_back(kept("VENDOR_STEP", "VENDOR_STEP()"));
+  model::MachiningWorkingstep extended;
+  extended.its_operation = m.add<model::ExtendedOperation>();
+  m.at<model::Workplan>(m.at<model::Project>(plan.project).main_workplan)
+      .its_elements.items.push_back(m.add(std::move(extended)));
   const model::Plan out = bound(std::move(plan), shop());
   std::vector<std::string> reasons;
   for (const auto& u : out.unplanned) reasons.push_back(u.reason);
-  ASSERT_EQ(reasons.size(), 3U);
+  ASSERT_EQ(reasons.size(), 4U);
   EXPECT_NE(reasons[0].find("is turning (FACING_TURNING_OPERATION)"), std::string::npos) << reasons[0];
   EXPECT_NE(reasons[1].find("is turning (TURNING_WORKINGSTEP)"), std::string::npos) << reasons[1];
   EXPECT_NE(reasons[2].find("has VENDOR_STEP, which is not understood"), std::string::npos) << reasons[2];
+  EXPECT_NE(reasons[3].find("has EXTENDED_OPERATION"), std::string::npos) << reasons[3];
 }
 
 TEST(Bind, FinishesASurfaceWithinItsTolerance) {
