@@ -34,8 +34,10 @@ model::AnyRef copy_of(model::Model& m, model::AnyRef at);
   return out;
 }
 
+/// "SLOT 'name'".
+[[nodiscard]] std::string feature_name(const model::Model& m, model::AnyRef feature);
 /// Slots and steps, whose frames turn (sweeps.cpp).
-void sweep_to_ap238(model::Plan& plan, model::AnyRef feature);
+void sweep_to_ap238(model::Plan& plan, model::AnyRef feature, std::vector<std::string>& losses);
 void sweep_to_model(Reader& reader, model::AnyRef feature);
 
 }  // namespace capstan::exchange::ap238::frames

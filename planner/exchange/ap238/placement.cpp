@@ -51,6 +51,12 @@ std::string name_of(const Model& m, AnyRef at) {
   return d == nullptr ? std::string() : d->name.value_or("");
 }
 
+std::string feature_name(const Model& m, AnyRef feature) {
+  const auto* f = m.get<model::ManufacturingFeature>(feature);
+  return std::string(model::noun_type(feature.type).keyword) + " '" +
+         (f == nullptr ? std::string() : f->its_id.value_or("")) + "'";
+}
+
 AnyRef copy_of(Model& m, AnyRef at) {
   const AnyRef out = m.add_object(at.type);
   m.set_origin(out, m.origin(at));
@@ -172,20 +178,29 @@ void keep_in_place(Model& m, AnyRef feature, Vec3 local, AnyRef own) {
   });
 }
 
-void shift(Model& m, AnyRef feature, Vec3 local) {
+// False, with nothing changed, when the placement is not understood.
+bool shift(Model& m, AnyRef feature, Vec3 local) {
   auto& f = m.at<model::Two5dManufacturingFeature>(feature);
   const auto frame = model::placement_or_identity(m, f.feature_placement);
-  if (!frame) return;
+  if (!frame) return false;
   keep_in_place(m, feature, local, f.feature_placement);
   const PlacementRef at = placement(m, moved(*frame, local));
   m.at<model::Two5dManufacturingFeature>(feature).feature_placement = at;
+  return true;
 }
 
-void drilled_to_ap238(Model& m, AnyRef feature) {
+void drilled_to_ap238(Model& m, AnyRef feature, std::vector<std::string>& losses) {
   const Drilled f = drilled(m, feature);
   const auto depth = model::depth_of(m, feature);
   if (!*f.course) {
-    if (!depth || depth->tilted || !(depth->depth_mm > 0.0)) return;
+    if (!depth || depth->tilted || !(depth->depth_mm > 0.0)) {
+      // On top, as AP238 has it where the bottom is at the end of the course; there is none to say how deep.
+      if (m.at<model::MachiningFeature>(feature).depth) {
+        losses.push_back(feature_name(m, feature) +
+                         ": its depth is not one along its axis; it has no course of travel in AP238");
+      }
+      return;
+    }
     const AnyRef given = m.at<model::MachiningFeature>(feature).depth;
     const bool as_length = m.holds<model::TolerancedLengthMeasure>(given);
     model::LinearPath path;
@@ -194,14 +209,19 @@ void drilled_to_ap238(Model& m, AnyRef feature) {
     const AnyRef course = m.add(std::move(path));
     const Drilled again = drilled(m, feature);
     *again.course = Ref<model::TravelPath>(course);
-    if (!*again.bottom_at_end) *again.bottom_at_end = true;
+    *again.bottom_at_end = true;
     return;
   }
   if (f.bottom_at_end->value_or(true)) return;
   // The course starts at the bottom: so does the frame, and the depth surface is left to the course.
   const auto along = travel(m, *f.course);
-  if (!along) return;
-  shift(m, feature, {-along->x, -along->y, -along->z});
+  if (!along || !shift(m, feature, {-along->x, -along->y, -along->z})) {
+    losses.push_back(
+        feature_name(m, feature) + ": its " + (along ? "placement" : "course of travel") +
+        " is not understood; its placement in AP238 is on top, though its course of travel starts "
+        "at the bottom");
+    return;
+  }
   m.at<model::MachiningFeature>(feature).depth = {};
 }
 
@@ -248,7 +268,7 @@ void flip(Model& m, AnyRef feature) {
 // Files whose course of travel is the very direction that is the placement's axis mean one of the two only
 // (the pocket of the standard's own example: its axis points into the part). The feature opens towards the
 // security plane.
-void right_way_up(Reader& reader, AnyRef feature) {
+void right_way_up(Reader& reader, AnyRef feature, const std::vector<AnyRef>& steps) {
   Model& m = reader.plan().model;
   const auto at = m.at<model::Two5dManufacturingFeature>(feature).feature_placement;
   const auto* path = m.get<model::LinearPath>(*drilled(m, feature).course);
@@ -257,10 +277,9 @@ void right_way_up(Reader& reader, AnyRef feature) {
   if (AnyRef(path->its_direction) != AnyRef(axes->axis)) return;
   const auto frame = model::placement(m, at);
   if (!frame) return;
-  for (const AnyRef s : m.all(TypeId::kMachiningWorkingstep)) {
-    const auto& step = m.at<model::MachiningWorkingstep>(s);
-    const auto* plane = m.get<model::ElementarySurface>(step.its_secplane);
-    if (AnyRef(step.its_feature) != feature || plane == nullptr) continue;
+  for (const AnyRef s : steps) {
+    const auto* plane = m.get<model::ElementarySurface>(m.at<model::MachiningWorkingstep>(s).its_secplane);
+    if (plane == nullptr) continue;
     const auto security = model::placement(m, plane->position);
     if (!security || dot(security->z, frame->z) > -0.9) continue;
     Placement up = *frame;
@@ -278,19 +297,43 @@ void right_way_up(Reader& reader, AnyRef feature) {
   }
 }
 
-void drilled_to_model(Reader& reader, AnyRef feature) {
+// A course of travel that was made of the depth goes, and the depth stays. False: somebody took the depth
+// away or turned the course round; then it counts like any other.
+bool drop_derived(Reader& reader, AnyRef feature) {
   Model& m = reader.plan().model;
   const Drilled f = drilled(m, feature);
   const auto* path = m.get<model::LinearPath>(*f.course);
   const std::string name = path == nullptr ? "" : name_of(m, path->its_direction);
-  if (name == kDerived || name == kDerivedFromLength) {
-    if (name == kDerivedFromLength) {
-      *static_cast<AnyRef*>(&m.at<model::MachiningFeature>(feature).depth) = path->distance;
+  if (name != kDerived && name != kDerivedFromLength) return false;
+  auto& given = m.at<model::MachiningFeature>(feature).depth;
+  const auto along = travel(m, *f.course);
+  const bool down = f.bottom_at_end->value_or(true) && (!along || along->z < 0.0);
+  if (name == kDerivedFromLength && !given) {
+    if (!down) return false;
+    *static_cast<AnyRef*>(&given) = path->distance;
+  } else {
+    const auto depth = model::depth_of(m, feature);
+    if (!depth) return false;
+    if (!along || !down || std::abs(depth->depth_mm + along->z) > kSame) {
+      warn(reader, feature,
+           "the course of travel was made of the depth" +
+               (along ? " and goes " + mm(along->z) + " mm along z now"
+                      : std::string(" and has no length now")) +
+               ", but the depth surface lies " + mm(depth->depth_mm) +
+               " mm below the placement; the surface is taken, the placement for the top");
+    } else if (name == kDerivedFromLength) {
+      *static_cast<AnyRef*>(&given) = path->distance;
     }
-    *f.course = {};
-    f.bottom_at_end->reset();
-    return;
   }
+  *f.course = {};
+  f.bottom_at_end->reset();
+  return true;
+}
+
+void drilled_to_model(Reader& reader, AnyRef feature) {
+  if (drop_derived(reader, feature)) return;
+  Model& m = reader.plan().model;
+  const Drilled f = drilled(m, feature);
   const auto along = travel(m, *f.course);
   const auto surface = m.at<model::MachiningFeature>(feature).depth;
   if (!along || !(std::abs(along->z) > kSame)) return;
@@ -303,13 +346,11 @@ void drilled_to_model(Reader& reader, AnyRef feature) {
     if (at_end && std::abs(depth->depth_mm - by_path) < kSame) return;
     if (!at_end &&
         std::abs(depth->depth_mm) < kSame) {  // the surface is where the course starts, at the bottom
-      shift(m, feature, *along);
-      set_depth(m, feature, by_path);
+      if (shift(m, feature, *along)) set_depth(m, feature, by_path);
       return;
     }
     if (!at_end && std::abs(depth->depth_mm + along->z) < kSame) {  // it is where the course ends, on top
-      shift(m, feature, *along);
-      set_depth(m, feature, by_path);
+      if (shift(m, feature, *along)) set_depth(m, feature, by_path);
       return;
     }
     warn(reader, feature,
@@ -325,7 +366,13 @@ void drilled_to_model(Reader& reader, AnyRef feature) {
     return;
   }
   if (along->z < 0.0) flip(m, feature);
-  if (const auto up = travel(m, *drilled(m, feature).course)) shift(m, feature, *up);
+  const auto up = travel(m, *drilled(m, feature).course);
+  if (!up || !shift(m, feature, *up)) {
+    warn(reader, feature,
+         "the placement at the bottom, where the course of travel starts, is not understood; it stays there, "
+         "without a depth");
+    return;
+  }
   set_depth(m, feature, std::abs(along->z));
 }
 
@@ -366,7 +413,7 @@ std::map<AnyRef, std::vector<AnyRef>> by_workingstep(const model::Plan& plan) {
 
 }  // namespace
 
-void to_ap238(model::Plan& plan) {
+void to_ap238(model::Plan& plan, std::vector<std::string>& losses) {
   Model& m = plan.model;
   const auto operations = by_workingstep(plan);
   sides(m, true);
@@ -387,8 +434,8 @@ void to_ap238(model::Plan& plan) {
       const auto out = direction(m, {0.0, 0.0, 1.0}, kDerived);
       m.at<model::PlanarFace>(at).removal_direction = out;
     }
-    if (drilled(m, at).course != nullptr) drilled_to_ap238(m, at);
-    if (m.holds<model::Slot>(at) || m.holds<model::Step>(at)) sweep_to_ap238(plan, at);
+    if (drilled(m, at).course != nullptr) drilled_to_ap238(m, at, losses);
+    if (m.holds<model::Slot>(at) || m.holds<model::Step>(at)) sweep_to_ap238(plan, at, losses);
     if (const auto* f = m.get<model::Two5dManufacturingFeature>(at))
       place_components(m, at, f->feature_placement, placed);
   }
@@ -405,13 +452,17 @@ void to_model(Reader& reader) {
       if (AnyRef(placement_in(m, to)) == AnyRef(f->feature_placement)) placement_in(m, to) = {};
     });
   }
+  std::map<AnyRef, std::vector<AnyRef>> steps;
+  for (const AnyRef s : m.all(TypeId::kMachiningWorkingstep)) {
+    if (const AnyRef f = m.at<model::MachiningWorkingstep>(s).its_feature; f.set()) steps[f].push_back(s);
+  }
   for (const AnyRef at : features) {
     if (auto* face = m.get<model::PlanarFace>(at);
         face != nullptr && name_of(m, face->removal_direction) == kDerived) {
       face->removal_direction = {};
     }
     if (drilled(m, at).course != nullptr) {
-      right_way_up(reader, at);
+      right_way_up(reader, at, steps[at]);
       drilled_to_model(reader, at);
     }
     if (m.holds<model::Slot>(at) || m.holds<model::Step>(at)) sweep_to_model(reader, at);

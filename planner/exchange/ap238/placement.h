@@ -20,8 +20,9 @@ namespace capstan::exchange::ap238 {
 /// the feature's own instance have none. What is derived only because AP238 asks for it is known by the name
 /// of its direction, and dropped again when it is read.
 
-/// Before writing. `plan` is a copy.
-void to_ap238(model::Plan& plan);
+/// Before writing. `plan` is a copy. `losses`: features that could not be turned, whose placement or depth
+/// therefore is not what AP238 means by it.
+void to_ap238(model::Plan& plan, std::vector<std::string>& losses);
 /// After everything that the project and the features lead to was read.
 void to_model(Reader& reader);
 

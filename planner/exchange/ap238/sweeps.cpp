@@ -26,6 +26,8 @@ constexpr const char* kDirection = "direction of the path on top";
 constexpr const char* kProfile = "placement of the profile on top";
 constexpr const char* kDepth = "depth on top";
 
+constexpr double kAgree = 1e-5;  // the uncertainty of what is written
+
 struct Sweep {
   Ref<model::TravelPath> path;
   Ref<model::OpenProfile> profile;
@@ -89,6 +91,12 @@ std::optional<Placement> start_of(const Model& m, AnyRef path, const Placement& 
       .origin = {start.x, start.y, -depth_mm}, .x = {-z.y, z.x, 0.0}, .y = {0.0, 0.0, 1.0}, .z = z};
 }
 
+/// How far below the top AP238's frame lies. Nothing where the depth is none along the axis: it lies on top.
+std::optional<double> sunk(const Model& m, AnyRef feature) {
+  const auto depth = model::depth_of(m, feature);
+  return depth && !depth->tilted ? std::optional(depth->depth_mm) : std::nullopt;
+}
+
 /// The limit of an open profile lies on top: its plane in AP238's frame.
 Placement limit(double depth_mm) {
   return {.origin = {0.0, depth_mm, 0.0}, .x = {1.0, 0.0, 0.0}, .y = {0.0, 0.0, -1.0}, .z = {0.0, 1.0, 0.0}};
@@ -147,34 +155,45 @@ AnyRef stated(Reader& reader, AnyRef feature, const char* role) {
   return {};
 }
 
+/// Where a limit lies above AP238's frame; nothing when it is none across the profile.
+std::optional<double> limit_height(const Model& m, AnyRef depth) {
+  const auto* plane = m.get<model::ElementarySurface>(depth);  // null: kept, and without meaning here
+  const auto surface = model::placement(m, plane != nullptr ? plane->position : PlacementRef{});
+  if (!surface || !(std::abs(surface->z.y) > 1.0 - 1e-9)) return std::nullopt;
+  return surface->origin.y;
+}
+
 double apart(const Placement& a, const Placement& b) {
   return norm(a.origin - b.origin) + norm(a.x - b.x) + norm(a.y - b.y) + norm(a.z - b.z);
 }
 
-/// As the plan stated it, when that agrees with what AP238 says.
+/// As the plan stated it, when that agrees with what AP238 says. What could not be turned is stated where it
+/// stands.
 bool restore(Reader& reader, AnyRef feature, const Placement& frame) {
   Model& m = reader.plan().model;
   const Sweep s = sweep_of(m, feature);
   const PlacementRef top(stated(reader, feature, kFrame));
-  if (!top || !s.path) return false;
+  if (!top) return false;
   const PlacementRef at(stated(reader, feature, kPath));
   const AnyRef d = stated(reader, feature, kDirection), depth = stated(reader, feature, kDepth);
   const PlacementRef profile(stated(reader, feature, kProfile));
   const auto outer = model::placement(m, top);
   const auto inner = model::placement_or_identity(m, at);
+  if (outer && apart(*outer, frame) <= kAgree) return true;
   auto& f = m.at<model::MachiningFeature>(feature);
   const auto before = f.depth;
   *static_cast<AnyRef*>(&f.depth) = depth;
-  const auto h = model::depth_of(m, feature);
-  const auto start = outer && inner && h ? start_of(m, s.path, *inner, d, h->depth_mm) : std::nullopt;
-  if (!start || apart(compose(*outer, *start), frame) > 1e-5) {
+  const auto h = sunk(m, feature);
+  const auto start =
+      s.path && outer && inner ? start_of(m, s.path, *inner, d, h.value_or(0.0)) : std::nullopt;
+  const auto limit = limit_height(m, before);
+  const bool limit_agrees = !before || (h && (!limit || std::abs(*limit - *h) <= kAgree));
+  if (!start || !limit_agrees || apart(compose(*outer, *start), frame) > kAgree) {
     f.depth = before;
-    reader.about(
-        reader.root_of(feature),
-        {.code = "EXC-PLACEMENT",
-         .severity = Severity::kWarning,
-         .message =
-             "how the plan stated this feature no longer agrees with its placement; the placement is taken"});
+    reader.about(reader.root_of(feature), {.code = "EXC-PLACEMENT",
+                                           .severity = Severity::kWarning,
+                                           .message = "how the plan stated this feature no longer agrees "
+                                                      "with its placement or limit; these are taken"});
     return false;
   }
   f.feature_placement = top;
@@ -196,31 +215,47 @@ std::optional<double> profile_depth(const Model& m, AnyRef profile) {
 
 }  // namespace
 
-void sweep_to_ap238(model::Plan& plan, AnyRef feature) {
+void sweep_to_ap238(model::Plan& plan, AnyRef feature, std::vector<std::string>& losses) {
   Model& m = plan.model;
   const Sweep s = sweep_of(m, feature);
-  const auto depth = model::depth_of(m, feature);
+  const auto depth_mm = sunk(m, feature);
   auto& f = m.at<model::MachiningFeature>(feature);
   const auto frame = model::placement_or_identity(m, f.feature_placement);
-  if (!s.path || !depth || depth->tilted || !frame) return;
-  const auto& path = m.at<model::TravelPath>(s.path);
+  if (!frame) {
+    losses.push_back(feature_name(m, feature) +
+                     ": its placement is not understood; it goes to AP238 unturned");
+    return;
+  }
+  const auto* path = m.get<model::TravelPath>(s.path);
   const auto* line = m.get<model::LinearPath>(s.path);
-  const auto at = model::placement_or_identity(m, path.placement);
+  const auto at = model::placement_or_identity(m, path == nullptr ? PlacementRef{} : path->placement);
   const AnyRef d = line == nullptr ? AnyRef{} : AnyRef(line->its_direction);
-  const auto start = at ? start_of(m, s.path, *at, d, depth->depth_mm) : std::nullopt;
-  if (!start) return;
+  const auto start =
+      path != nullptr && at ? start_of(m, s.path, *at, d, depth_mm.value_or(0.0)) : std::nullopt;
 
-  const PlacementRef turned = placement(m, compose(*frame, *start));
   const AnyRef context =
       kept(plan, "GEOMETRIC_REPRESENTATION_CONTEXT+REPRESENTATION_CONTEXT",
            {"(GEOMETRIC_REPRESENTATION_CONTEXT(3)REPRESENTATION_CONTEXT('','placement on top'))"});
   const AnyRef shape = shape_of(plan, feature);
-  const AnyRef own_path = copy_of(m, s.path);
   state(plan, shape, context, kFrame,
         f.feature_placement.set() ? AnyRef(f.feature_placement) : AnyRef(placement(m, *frame)));
-  state(plan, shape, context, kPath, path.placement);
+  if (!start) {
+    losses.push_back(feature_name(m, feature) +
+                     ": its path is not understood; its placement in AP238 is on top, not along the travel");
+    return;
+  }
+  const PlacementRef turned = placement(m, compose(*frame, *start));
+  const AnyRef own_path = copy_of(m, s.path);
+  state(plan, shape, context, kPath, m.at<model::TravelPath>(s.path).placement);
   state(plan, shape, context, kDirection, d);
-  state(plan, shape, context, kDepth, f.depth);
+  const auto* unknown = m.get<KeptInstance>(f.depth);
+  if (unknown == nullptr || unknown->schema == model::KeptSchema::kAp238) {
+    state(plan, shape, context, kDepth, f.depth);
+  }
+  if (f.depth && !depth_mm) {
+    losses.push_back(feature_name(m, feature) +
+                     ": its depth is not one along its axis; it has no limit in AP238, and stands on top");
+  }
   if (auto* own = m.get<model::LinearPath>(own_path)) {
     own->its_direction = direction(m, {0.0, 0.0, 1.0});
     own->placement = turned;
@@ -238,7 +273,8 @@ void sweep_to_ap238(model::Plan& plan, AnyRef feature) {
     }
   }
   f.feature_placement = turned;
-  f.depth = plane(m, limit(depth->depth_mm), "limit");
+  f.depth = {};
+  if (depth_mm) f.depth = plane(m, limit(*depth_mm), "limit");
 }
 
 void sweep_to_model(Reader& reader, AnyRef feature) {
@@ -249,13 +285,9 @@ void sweep_to_model(Reader& reader, AnyRef feature) {
   const Sweep s = sweep_of(m, feature);
   std::optional<double> depth_mm;
   double up = 0.0;
-  if (f.depth) {
-    const auto* plane = m.get<model::ElementarySurface>(f.depth);  // null: kept, and without meaning here
-    const auto surface = model::placement(m, plane != nullptr ? plane->position : PlacementRef{});
-    if (surface && std::abs(surface->z.y) > 1.0 - 1e-9 && std::abs(surface->origin.y) > 1e-9) {
-      depth_mm = std::abs(surface->origin.y);
-      up = std::max(surface->origin.y, 0.0);
-    }
+  if (const auto limit = limit_height(m, f.depth); limit && std::abs(*limit) > 1e-9) {
+    depth_mm = std::abs(*limit);
+    up = std::max(*limit, 0.0);
   }
   if (!depth_mm && s.profile) {
     depth_mm = profile_depth(m, s.profile);

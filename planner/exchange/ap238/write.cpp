@@ -45,7 +45,7 @@ Result<Written> write_ap238(const model::Plan& plan, Job& job) {
   if (auto done = ap238::write_paths(copy, out.losses); !done) return fail(done.error());
   ap238::state_frames(copy);
   ap238::helices_to_via_points(copy, out.losses);
-  ap238::to_ap238(copy);
+  ap238::to_ap238(copy, out.losses);
   ap238::Writer writer(copy, ap238::Mapping::instance(), out.losses);
   const std::string data = writer.run();
   out.bytes = header(copy) + sections_text(copy, [&](model::AnyRef r) { return writer.reference_text(r); }) +

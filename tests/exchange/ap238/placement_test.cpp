@@ -1,4 +1,6 @@
 #include "planner/base/file.h"
+#include "planner/model/kept.h"
+#include "planner/model/resolve.h"
 #include "planner/model/shape.h"
 #include "tests/exchange/ap238/feature_support.h"
 #include "tests/support/corpus.h"
@@ -228,7 +230,170 @@ TEST(Placement, OfProfilesSharedByTwoFeaturesIsNone) {
   EXPECT_EQ(lost_on_the_way(b.plan), "");
 }
 
+// What is told of the feature when it is written, or nothing.
+std::string told(const model::Plan& plan, const std::string& name) {
+  for (const std::string& loss : written(plan).losses) {
+    if (loss.find("'" + name + "'") != std::string::npos) return loss;
+  }
+  return "";
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  EXPECT_NE(text.find(from), std::string::npos) << from;
+  return text.find(from) == std::string::npos ? text : text.replace(text.find(from), from.size(), to);
+}
+
+FeatureBench flat_hole(double depth_mm) {
+  FeatureBench b;
+  auto f = b.basic<model::RoundHole>("H");
+  f.diameter = b.length(10);
+  f.depth = b.plane(-depth_mm);
+  f.bottom_condition = b.as<model::HoleBottomCondition>(b.m.add(model::FlatHoleBottom{}));
+  b.m.add(std::move(f));
+  return b;
+}
+
+TEST(Placement, OfADepthThatWasEditedInTheCourseOnlyIsWarnedOf) {
+  const std::string bytes = written(flat_hole(17).plan).bytes;
+  std::vector<std::string> said;
+  EXPECT_NEAR(only(read_text(bytes, &said), model::TypeId::kRoundHole).depth_mm, 17.0, 1e-12);
+  EXPECT_THAT(said, ::testing::Not(::testing::Contains(HasSubstr("EXC-DEPTH"))));
+  const auto plan = read_text(replaced(bytes, "LENGTH_MEASURE(17.)", "LENGTH_MEASURE(19.)"), &said);
+  const auto hole = only(plan, model::TypeId::kRoundHole);
+  EXPECT_NEAR(hole.depth_mm, 17.0, 1e-12);  // as for any course: the surface decides
+  EXPECT_NEAR(norm(hole.frame.origin - geometry::Vec3{20.0, 30.0, 5.0}), 0.0, 1e-12);
+  EXPECT_THAT(said, ::testing::Contains(::testing::AllOf(HasSubstr("EXC-DEPTH"), HasSubstr("-19 mm"),
+                                                         HasSubstr("17 mm below"))));
+}
+
+// A surface that no noun describes, in place of the depth.
+template <class T>
+void keep_depth(FeatureBench& b, T& f, model::KeptSchema schema) {
+  model::KeptInstance k;
+  k.keyword = "BOUNDED_SURFACE";
+  k.pieces = {"BOUNDED_SURFACE('bent')"};
+  k.schema = schema;
+  *static_cast<AnyRef*>(&f.depth) = b.m.add(std::move(k));
+}
+
+TEST(Placement, OfAPocketWhoseDepthIsNotUnderstoodStaysAndIsTold) {
+  for (const auto schema : {model::KeptSchema::kIso14649, model::KeptSchema::kAp238}) {
+    FeatureBench b;
+    auto f = b.basic<model::ClosedPocket>("P");
+    f.its_boss.given = true;
+    f.bottom_condition = b.as<model::PocketBottomCondition>(b.m.add(model::PlanarPocketBottomCondition{}));
+    model::RectangularClosedProfile p;
+    p.profile_length = b.length(30);
+    p.profile_width = b.length(20);
+    f.feature_boundary = b.as<model::ClosedProfile>(b.m.add(std::move(p)));
+    keep_depth(b, f, schema);
+    b.m.add(std::move(f));
+    EXPECT_THAT(told(b.plan, "P"), HasSubstr("depth"));
+    const auto back = read_text(written(b.plan).bytes);
+    const auto& pocket = back.model.at<model::ClosedPocket>(back.model.all(model::TypeId::kClosedPocket)[0]);
+    const auto frame = model::placement(back.model, pocket.feature_placement);
+    ASSERT_TRUE(frame.has_value());
+    EXPECT_NEAR(norm(frame->origin - geometry::Vec3{20.0, 30.0, 5.0}), 0.0, 1e-12);
+    EXPECT_NEAR(norm(frame->z - geometry::Vec3{0.0, 0.0, 1.0}), 0.0, 1e-12);
+    EXPECT_FALSE(pocket.course_of_travel);
+    EXPECT_FALSE(model::depth_of(back.model, AnyRef(back.model.all(model::TypeId::kClosedPocket)[0])));
+  }
+}
+
+TEST(Placement, OfAPocketWhoseCourseStartsAtTheBottomKeepsItsDepthWhereItCannotMove) {
+  FeatureBench b;
+  auto f = b.basic<model::RoundHole>("H");
+  f.diameter = b.length(10);
+  f.bottom_condition = b.as<model::HoleBottomCondition>(b.m.add(model::FlatHoleBottom{}));
+  f.bottom_at_path_end = false;
+  f.course_of_travel = b.as<model::TravelPath>(b.line(12, 0, 0, 1));
+  b.m.at<model::Axis2Placement3d>(f.feature_placement).location = {};
+  b.m.add(std::move(f));
+  EXPECT_THAT(told(b.plan, "H"), HasSubstr("placement is not understood"));
+  EXPECT_THAT(shapes(written(b.plan).bytes),
+              ::testing::Contains("SHAPE_REPRESENTATION('maximum feature limit',(#),#);"));
+}
+
 // --- slots ---
+
+struct SlotBench : FeatureBench {
+  model::Slot slot = basic<model::Slot>("S");
+  SlotBench() {
+    slot.feature_placement = placement(20, 30, 50);
+    slot.course_of_travel = as<model::TravelPath>(line(100, 1, 0, 0));
+    model::RoundedUProfile p;
+    p.width = length(8);
+    slot.swept_shape = as<model::OpenProfile>(m.add(std::move(p)));
+    slot.end_conditions.given = true;
+  }
+};
+
+TEST(Placement, OfASlotWithoutADepthTurnsOnTop) {
+  SlotBench b;
+  b.slot.depth = {};
+  b.m.add(std::move(b.slot));
+  const std::string bytes = written(b.plan).bytes;
+  // Travelling along +x: z is, and y is out of the material.
+  EXPECT_THAT(shapes(bytes), ::testing::Not(::testing::Contains(HasSubstr("maximum feature limit"))));
+  EXPECT_EQ(told(b.plan, "S"), "");
+  EXPECT_EQ(lost_on_the_way(b.plan), "");
+
+  // Without what goes along it stands at the same place.
+  std::string bare = bytes;
+  for (const char* role : {"'placement on top'", "'direction of the path on top'"}) {
+    for (auto at = bare.find(role); at != std::string::npos; at = bare.find(role)) bare.replace(at, 2, "'x");
+  }
+  const auto plan = read_text(bare);
+  const auto& s = plan.model.at<model::Slot>(plan.model.all(model::TypeId::kSlot)[0]);
+  const auto frame = model::placement(plan.model, s.feature_placement);
+  ASSERT_TRUE(frame.has_value());
+  EXPECT_NEAR(norm(frame->origin - geometry::Vec3{20.0, 30.0, 50.0}), 0.0, 1e-9);
+  EXPECT_NEAR(norm(frame->y - geometry::Vec3{1.0, 0.0, 0.0}), 0.0, 1e-9);
+}
+
+TEST(Placement, OfASlotWithATiltedOrUnknownDepthTurnsOnTopAndIsTold) {
+  for (const int form : {0, 1, 2}) {
+    SCOPED_TRACE(form);
+    SlotBench b;
+    if (form == 0) {
+      model::Plane p;
+      p.name = "";
+      p.position = b.placement(0, 0, -12);
+      b.m.at<model::Axis2Placement3d>(p.position).axis = b.direction(0, 0.6, 0.8);
+      b.slot.depth = model::Ref<model::ElementarySurface>(AnyRef(b.m.add(std::move(p))));
+    } else {
+      keep_depth(b, b.slot, form == 1 ? model::KeptSchema::kAp238 : model::KeptSchema::kIso14649);
+    }
+    b.m.add(std::move(b.slot));
+    EXPECT_THAT(told(b.plan, "S"), HasSubstr("depth"));
+    if (form == 2) {
+      (void)read_text(written(b.plan).bytes);
+      continue;  // what ISO 14649's text says cannot stand in AP238
+    }
+    EXPECT_EQ(lost_on_the_way(b.plan), "");
+  }
+}
+
+TEST(Placement, OfASlotWhosePathIsNotUnderstoodStaysAndIsTold) {
+  SlotBench b;
+  b.m.at<model::LinearPath>(b.slot.course_of_travel).its_direction = b.direction(0, 0, -1);
+  b.m.add(std::move(b.slot));
+  EXPECT_THAT(told(b.plan, "S"), HasSubstr("path is not understood"));
+  EXPECT_EQ(lost_on_the_way(b.plan), "");
+}
+
+TEST(Placement, OfASlotWhoseLimitWasMovedSinceIsWarnedOf) {
+  SlotBench b;
+  b.m.add(std::move(b.slot));
+  const std::string bytes = written(b.plan).bytes;
+  std::vector<std::string> said;
+  const auto plan =
+      read_text(replaced(bytes, "CARTESIAN_POINT('',(0.,12.,0.))", "CARTESIAN_POINT('',(0.,15.,0.))"), &said);
+  const auto s = only(plan, model::TypeId::kSlot);
+  EXPECT_NEAR(s.depth_mm, 15.0, 1e-9);
+  EXPECT_NEAR(s.frame.origin.z, 53.0, 1e-9);  // the bottom stays at 38
+  EXPECT_THAT(said, ::testing::Contains(HasSubstr("EXC-PLACEMENT")));
+}
 
 TEST(Placement, OfASlotStandsAtItsProfileTravellingAlongZ) {
   FeatureBench b;
