@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "planner/exchange/ap238/reader.h"
 #include "planner/exchange/text.h"
@@ -73,10 +74,24 @@ void Reader::fill_geometry(AnyRef at, Node n, const Scale& scale) {
     const auto slot = [&]<class T>(T value) {
       *static_cast<T*>(a.at(plan_.model.object(at))) = std::move(value);
     };
+    // How much it matters is known when everything is read.
     const auto wrong = [&](const char* expected) {
-      about(n, {.code = "EXC-VALUE",
-                .message = attribute_name(at, a.name) + " cannot be " + spelling(v).substr(0, 60),
-                .expected = std::string("expected ") + expected});
+      doubts_.push_back({at,
+                         {.code = "EXC-VALUE",
+                          .message = attribute_name(at, a.name) + " cannot be " + spelling(v).substr(0, 60),
+                          .expected = std::string("expected ") + expected}});
+    };
+    // A list with a fault is left out whole: one element less would move those behind it.
+    const auto faulty = [&, before = doubts_.size()] { return doubts_.size() != before; };
+    const auto scaled = [&](const Value& e, double by) -> std::optional<double> {
+      if (!number(e).is_number()) {
+        wrong("a number");
+        return std::nullopt;
+      }
+      const double x = number(e).as_real() * by;
+      if (std::isfinite(x)) return x;
+      wrong("a number that is finite in millimetres and radians");
+      return std::nullopt;
     };
     const auto each = [&](const auto& take) {
       if (!v.is(Kind::kList)) return wrong("a list");
@@ -84,11 +99,7 @@ void Reader::fill_geometry(AnyRef at, Node n, const Scale& scale) {
     };
     switch (a.storage) {
       case Storage::kReal:
-        if (!number(v).is_number()) {
-          wrong("a number");
-        } else {
-          slot(model::Real(number(v).as_real() * factor(a)));
-        }
+        if (const auto x = scaled(v, factor(a))) slot(model::Real(*x));
         break;
       case Storage::kInteger:
         if (v.is(Kind::kInteger)) {
@@ -142,12 +153,9 @@ void Reader::fill_geometry(AnyRef at, Node n, const Scale& scale) {
         model::RealList out;
         out.given = true;
         each([&](const Value& e) {
-          if (number(e).is_number()) {
-            out.items.push_back(number(e).as_real() * coordinate(a, out.items.size()));
-          } else {
-            wrong("numbers");
-          }
+          if (const auto x = scaled(e, coordinate(a, out.items.size()))) out.items.push_back(*x);
         });
+        if (faulty()) out.items.clear();
         slot(std::move(out));
         break;
       }
@@ -155,8 +163,10 @@ void Reader::fill_geometry(AnyRef at, Node n, const Scale& scale) {
         model::IntegerList out;
         out.given = true;
         each([&](const Value& e) {
-          if (e.is(Kind::kInteger)) out.items.push_back(e.as_integer());
+          if (!e.is(Kind::kInteger)) return wrong("integers");
+          out.items.push_back(e.as_integer());
         });
+        if (faulty()) out.items.clear();
         slot(std::move(out));
         break;
       }
@@ -165,10 +175,12 @@ void Reader::fill_geometry(AnyRef at, Node n, const Scale& scale) {
         out.given = true;
         each([&](const Value& row) {
           out.items.emplace_back();
-          for (std::size_t k = 0; row.is(Kind::kList) && k < row.size(); ++k) {
-            if (number(row[k]).is_number()) out.items.back().push_back(number(row[k]).as_real());
+          if (!row.is(Kind::kList)) return wrong("lists of numbers");
+          for (std::size_t k = 0; k < row.size(); ++k) {
+            if (const auto x = scaled(row[k], 1.0)) out.items.back().push_back(*x);
           }
         });
+        if (faulty()) out.items.clear();
         slot(std::move(out));
         break;
       }

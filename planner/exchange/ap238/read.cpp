@@ -26,7 +26,7 @@ Result<model::Plan> read_ap238(const p21::File& file, Job& job) {
                      .severity = Severity::kWarning,
                      .message = "the file holds no machining project: there is nothing to carry out"});
   }
-  std::vector<Doubt> doubts;
+  std::vector<Doubt> doubts = std::move(reader.doubts());
   check_meaning(plan.model, doubts);
   Marks reached(plan.model);
   if (plan.project) reached.set_from(plan.model, plan.project);

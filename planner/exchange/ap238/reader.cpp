@@ -247,6 +247,19 @@ void Reader::drain() {
   }
 }
 
+// Before frames are worked out from what was read, whatever of it is at fault: what is needed must be right.
+void Reader::settle() {
+  if (doubts_.empty() || !plan_.project) return;
+  Marks reached(plan_.model);
+  reached.set_from(plan_.model, plan_.project);
+  std::vector<Doubt> needed;
+  const auto rest = std::stable_partition(doubts_.begin(), doubts_.end(),
+                                          [&](const Doubt& d) { return reached.has(d.object); });
+  needed.assign(std::make_move_iterator(doubts_.begin()), std::make_move_iterator(rest));
+  doubts_.erase(doubts_.begin(), rest);
+  settle_doubts(plan_.model, needed, reached, reporter_);
+}
+
 void Reader::fill(AnyRef at, Node n) {
   for (const Row* row : map_.rows_of(at.type)) read_row(*row, at, n);
   // AP238 has no other way to write a list without elements than to leave it out.
@@ -320,6 +333,7 @@ void Reader::run() {
     plan_.kept.push_back(object_at(n, {}, default_scale_));
     drain();
   }
+  settle();
   adopt_frames(plan_);
   to_model(*this);
   drain();

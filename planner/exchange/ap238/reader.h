@@ -10,6 +10,7 @@
 #include "planner/exchange/ap238/graph.h"
 #include "planner/exchange/ap238/mapping.h"
 #include "planner/exchange/ap238/measure.h"
+#include "planner/exchange/meaning.h"
 #include "planner/exchange/report.h"
 #include "planner/model/plan.h"
 
@@ -56,6 +57,11 @@ class Reader {
   void mark(const Terminal& t, model::AnyRef owner);
   /// A number with its unit as the model has it; nothing (reported, unless it is `$`) when it cannot be.
   [[nodiscard]] std::optional<double> measure(Node n, model::Unit unit, const Scale& scale);
+  /// A number of an instance times what its unit is, `what` it is of; nothing (reported) when that is not
+  /// finite.
+  [[nodiscard]] std::optional<double> finite(Node n, double value, double factor, std::string_view what) const;
+  /// The nearest integer; nothing (reported) when a double does not tell it from its neighbours.
+  [[nodiscard]] std::optional<std::int64_t> integer(Node n, double value, std::string_view what) const;
   /// DESCRIPTIVE_REPRESENTATION_ITEM's text, or the name of anything else.
   [[nodiscard]] std::string description(Node n) const;
   [[nodiscard]] bool used(Node n) const { return owner_[n].set() || object_[n] || claimed_[n]; }
@@ -64,6 +70,8 @@ class Reader {
   /// The application object of that kind that was read there; unset when there is none.
   [[nodiscard]] model::AnyRef noun_at(Node n, model::TypeId kind) const;
   void about(Node n, Diagnostic d) const;
+  /// Faults in geometry that the project did not reach as it was read; it may as it is now.
+  [[nodiscard]] std::vector<Doubt>& doubts() { return doubts_; }
   /// The instance a noun was read from.
   [[nodiscard]] Node root_of(model::AnyRef at) const;
 
@@ -80,6 +88,7 @@ class Reader {
   };
 
   void drain();
+  void settle();
   void fill(model::AnyRef at, Node n);
   bool read_row(const Row& row, model::AnyRef at, Node n);
   bool assign(const Row& row, model::AnyRef at, const model::Attribute& a, std::vector<Terminal>& found);
@@ -121,6 +130,7 @@ class Reader {
     Scale scale;
   };
   std::deque<Pending> pending_;
+  std::vector<Doubt> doubts_;
 };
 
 }  // namespace capstan::exchange::ap238

@@ -79,12 +79,15 @@ Qualifiers qualifiers(Reader& reader, const Row& row, AnyRef owner, Node n, doub
     const Value name = g.get(q, "measure_name"), value = g.get(q, "uncertainty_value");
     const Value digits = g.get(q, "precision_value");
     const std::string which = name.is(Kind::kString) ? name.as_text() : "";
-    if (value.is_number() && which == "upper limit") {
-      out.upper = value.as_real() * factor;
-    } else if (value.is_number() && which == "lower limit") {
-      out.lower = value.as_real() * factor;
-    } else if (value.is_number() && which == "deviation") {
-      out.deviation = value.as_real() * factor;
+    std::optional<double>* limit = !value.is_number()       ? nullptr
+                                   : which == "upper limit" ? &out.upper
+                                   : which == "lower limit" ? &out.lower
+                                   : which == "deviation"   ? &out.deviation
+                                                            : nullptr;
+    if (limit != nullptr) {
+      const auto x = reader.finite(q, value.as_real(), factor, "the " + which);
+      if (!x) continue;
+      *limit = *x;
     } else if (digits.is(Kind::kInteger)) {
       out.digits = digits.as_integer();
     } else if (g.is(q, g.schema().find("TYPE_QUALIFIER")) && g.get(q, "name").is(Kind::kString)) {
@@ -126,9 +129,7 @@ AnyRef read_fit(Reader& reader, const std::vector<Node>& way, const Qualifiers& 
   };
   model::LimitsAndFits out;
   const std::string zone = text("zone_variance"), grade = text("grade"), form = text("form_variance");
-  char* end = nullptr;
-  const double number = std::strtod(grade.c_str(), &end);
-  if (end != grade.c_str() && *end == '\0') out.grade = number;
+  if (const auto number = parse_double(grade)) out.grade = *number;
   if (zone == "shaft" || zone == "hole") {
     out.its_fitting_type = zone == "hole" ? model::FittingType::kHole : model::FittingType::kShaft;
   }
@@ -333,7 +334,10 @@ bool read_parameter(Reader& reader, const Row& row, AnyRef at, const Attribute& 
     const Qualifiers q = qualifiers(reader, row, at, t.node, 1.0);
     if (!q.type.empty()) {
       take_type(q.type, out.parameter_name, &out.its_parameter_unit);
-      out.its_parameter_value = *x / factor_of_words(out.its_parameter_unit.value_or(""), as.unit);
+      const double factor = factor_of_words(out.its_parameter_unit.value_or(""), as.unit);
+      const auto said = reader.finite(t.node, *x / factor, 1.0, name);
+      if (!said) continue;
+      out.its_parameter_value = *said;
     }
     const auto made = reader.plan().model.add(std::move(out));
     came_from(reader, made, t.node);
@@ -364,7 +368,11 @@ void write_parameter(Writer& writer, const Row& row, AnyRef owner, const Attribu
   std::string value = "$";
   if (p->its_parameter_value) {
     const double x = *p->its_parameter_value * factor_of_words(p->its_parameter_unit.value_or(""), as.unit);
-    value = std::string(as.measure) + "(" + part21_real(x) + ")";
+    if (std::isfinite(x)) {
+      value = std::string(as.measure) + "(" + part21_real(x) + ")";
+    } else {
+      writer.lose("a parameter that is not finite in " + std::string(as.canonical));
+    }
   }
   writer.set(id, "value_component", value);
   writer.link(id, "unit_component", writer.shared(as.shared));

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/base/number.h"
 #include "planner/exchange/ap238/codecs.h"
 #include "planner/exchange/ap238/reader.h"
 #include "planner/exchange/text.h"
@@ -65,10 +66,34 @@ std::optional<double> Reader::measure(Node n, model::Unit unit, const Scale& sca
     factor = scale.length;
   } else if (unit == model::Unit::kAngle) {
     factor = scale.angle;
+  } else if (unit != model::Unit::kNone && unit != model::Unit::kRatio) {
+    about(n, {.code = "EXC-UNIT",
+              .severity = Severity::kWarning,
+              .message =
+                  "the measure " + spelling(v) + " has no unit; taken as " + std::string(model::symbol(unit)),
+              .expected = "a unit that can be turned into " + std::string(model::symbol(unit))});
   }
-  const double x = v.as_real() * factor;
-  if (!std::isfinite(x)) return wrong("is not finite", "a finite number");
-  return x;
+  return finite(n, v.as_real(), factor, "the measure");
+}
+
+std::optional<double> Reader::finite(Node n, double value, double factor, std::string_view what) const {
+  const double x = value * factor;
+  if (std::isfinite(x)) return x;
+  about(n, {.code = "EXC-VALUE",
+            .severity = Severity::kWarning,
+            .message = std::string(what) + " is not finite in the unit of the plan; left unset",
+            .expected = "a finite number"});
+  return std::nullopt;
+}
+
+std::optional<std::int64_t> Reader::integer(Node n, double value, std::string_view what) const {
+  constexpr double kExact = 9007199254740992.0;  // 2^53: beyond, doubles are more than 1 apart
+  if (std::abs(value) <= kExact) return std::llround(value);
+  about(n, {.code = "EXC-VALUE",
+            .severity = Severity::kWarning,
+            .message = std::string(what) + " cannot be " + shortest(value) + "; left unset",
+            .expected = "an integer"});
+  return std::nullopt;
 }
 
 bool Reader::assign(const Row& row, AnyRef at, const Attribute& a, std::vector<Terminal>& found) {
@@ -113,15 +138,16 @@ bool Reader::scalar(const Row& row, AnyRef at, const Attribute& a, const Termina
   switch (a.storage) {
     case Storage::kReal: {
       if (text && !bare(t.text).is_number()) return false;
-      const auto x = text ? std::optional(bare(t.text).as_real()) : measure(t.node, a.unit, t.scale);
+      const auto x = text ? finite(t.node, bare(t.text).as_real(), 1.0, attribute_name(at, a.name))
+                          : measure(t.node, a.unit, t.scale);
       return x && slot(model::Real(*x));
     }
     case Storage::kInteger: {
       if (text && !bare(t.text).is_number()) return false;
       const auto x =
           text ? std::optional(bare(t.text).as_real()) : measure(t.node, model::Unit::kNone, t.scale);
-      if (!x || std::abs(*x) > 9007199254740992.0) return false;
-      return slot(model::Integer(static_cast<std::int64_t>(std::llround(*x))));
+      const auto whole = x ? integer(t.node, *x, attribute_name(at, a.name)) : std::nullopt;
+      return whole && slot(model::Integer(*whole));
     }
     case Storage::kText:
       if (text) return t.text.is(Kind::kString) && slot(model::Text(t.text.as_text()));
@@ -179,9 +205,10 @@ void Reader::select(const Row& row, const Attribute& a, const Terminal& t, model
     if (name && !s.empty()) {
       out.text = s;
     } else {
-      about(t.node, {.code = "EXC-VALUE",
-                     .severity = Severity::kWarning,
-                     .message = std::string(a.name) + " cannot be '" + description(t.node) + "'; left unset"});
+      about(t.node,
+            {.code = "EXC-VALUE",
+             .severity = Severity::kWarning,
+             .message = std::string(a.name) + " cannot be '" + description(t.node) + "'; left unset"});
     }
   } else {
     out.ref = object_at(t.node, a.targets, t.scale);
@@ -212,9 +239,11 @@ void Reader::list(const Row& row, AnyRef at, const Attribute& a, const std::vect
         break;
       case Storage::kIntegerList:
         if (const auto x = measure(t.node, model::Unit::kNone, t.scale)) {
+          const auto whole = integer(t.node, *x, attribute_name(at, a.name));
+          if (!whole) break;
           auto& out = *static_cast<model::IntegerList*>(slot);
           out.given = true;
-          out.items.push_back(std::llround(*x));
+          out.items.push_back(*whole);
           done = true;
         }
         break;

@@ -139,6 +139,30 @@ TEST(Technology, LeadsToAdaptiveControlThatIsKept) {
   EXPECT_THAT(lines, ::testing::Contains("MACHINING_TECHNOLOGY('','adaptive control','','');"));
 }
 
+TEST(Technology, WithoutAUnitIsTakenInThePlansAndWarnedOf) {
+  std::vector<std::string> said;
+  const auto plan = read_text(
+      file_of(
+          "#1=MACHINING_TECHNOLOGY('','milling','','');\n"
+          "#2=ACTION_PROPERTY('feedrate','milling',#1);\n#3=ACTION_PROPERTY_REPRESENTATION('','milling',#2,"
+          "#4);\n#4=MACHINING_FEED_SPEED_REPRESENTATION('feed speed',(#5),#90);\n"
+          "#5=MEASURE_REPRESENTATION_ITEM('feed speed',NUMERIC_MEASURE(10.),$);\n"
+          "#6=ACTION_PROPERTY('spindle','milling',#1);\n#7=ACTION_PROPERTY_REPRESENTATION('','milling',#6,"
+          "#8);\n#8=MACHINING_SPINDLE_SPEED_REPRESENTATION('spindle speed',(#9),#90);\n"
+          "#9=MEASURE_REPRESENTATION_ITEM('rotational speed',NUMERIC_MEASURE(1000.),$);\n"
+          "#90=REPRESENTATION_CONTEXT('','');\n"),
+      &said);
+  const auto& t =
+      plan.model.at<model::MillingTechnology>(plan.model.all_below(TypeId::kMillingTechnology).front());
+  EXPECT_EQ(t.feedrate.value_or(0), 10.0);
+  EXPECT_EQ(t.spindle.value_or(0), 1000.0);
+  using ::testing::AllOf;
+  using ::testing::Contains;
+  using ::testing::HasSubstr;
+  EXPECT_THAT(said, Contains(AllOf(HasSubstr("EXC-UNIT"), HasSubstr("#5"), HasSubstr("taken as mm/min"))));
+  EXPECT_THAT(said, Contains(AllOf(HasSubstr("EXC-UNIT"), HasSubstr("#9"), HasSubstr("taken as 1/min"))));
+}
+
 TEST(Technology, OfAnotherUnitIsConverted) {
   // 10 in/min, 1000 rev/min as a derived unit of revolutions, 100 ft/min.
   const auto plan = read_text(file_of(

@@ -137,6 +137,74 @@ TEST(TolerancedLength, ReadsAPlainMeasureItemToo) {
   EXPECT_NEAR(*plan.model.at<model::TolerancedLengthMeasure>(hole.diameter).theoretical_size, 12.7, 1e-12);
 }
 
+constexpr const char* kQualified =
+    "(LENGTH_MEASURE_WITH_UNIT()MEASURE_REPRESENTATION_ITEM()MEASURE_WITH_UNIT("
+    "LENGTH_MEASURE(1.),#51)QUALIFIED_REPRESENTATION_ITEM((#27,#28))REPRESENTATION_ITEM('diameter'));";
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  EXPECT_NE(text.find(from), std::string::npos) << from;
+  return text.find(from) == std::string::npos ? text : text.replace(text.find(from), from.size(), to);
+}
+
+TEST(TolerancedLength, HasNoLimitThatIsNotFiniteInMillimetres) {
+  std::vector<std::string> said;
+  const auto plan = read_text(replaced(inch_hole(kQualified), "'',0.002)", "'',1.E308)"), &said);
+  const auto& hole = plan.model.at<model::RoundHole>(plan.model.all(model::TypeId::kRoundHole).front());
+  const auto& d = plan.model.at<model::TolerancedLengthMeasure>(hole.diameter);
+  const auto* limits = plan.model.get<model::PlusMinusValue>(d.implicit_tolerance);
+  ASSERT_NE(limits, nullptr);
+  EXPECT_FALSE(limits->upper_limit.has_value());
+  EXPECT_NEAR(*limits->lower_limit, 0.0254, 1e-12);
+  EXPECT_THAT(said, ::testing::Contains(::testing::AllOf(
+                        ::testing::HasSubstr("#27"), ::testing::HasSubstr("the upper limit is not finite"),
+                        ::testing::HasSubstr("EXC-VALUE"))));
+  (void)written(plan);
+}
+
+TEST(TolerancedLength, HasAGradeOnlyOfDecimalNumbers) {
+  for (const char* grade : {"inf", "nan", "0x10", "1e999"}) {
+    Holed b;
+    model::LimitsAndFits fit;
+    fit.grade = 7.0;
+    fit.tolerance_grade = "seven";
+    fit.zone_variance = "hole";
+    const auto d = b.length(20.0);
+    b.m.at<model::TolerancedLengthMeasure>(d).implicit_tolerance =
+        model::OneOf<model::PlusMinusValue, model::LimitsAndFits>(model::AnyRef(b.m.add(std::move(fit))));
+    b.hole(d);
+    const auto plan = read_text(replaced(written(b.plan).bytes, "'seven'", "'" + std::string(grade) + "'"));
+    const auto fits = plan.model.all(model::TypeId::kLimitsAndFits);
+    ASSERT_EQ(fits.size(), 1u);
+    EXPECT_FALSE(plan.model.at<model::LimitsAndFits>(fits.front()).grade.has_value()) << grade;
+  }
+}
+
+// --- faults in geometry ---
+
+TEST(Geometry, ThatTheProjectDoesNotNeedIsWarnedOfWhereItIsAtFault) {
+  for (const char* coordinates : {"(1.E308,0.,-0.5)", "(2.,.T.,-0.5)"}) {
+    std::vector<std::string> said;
+    const auto plan = read_text(replaced(inch_hole(kQualified), "(2.,0.,-0.5)", coordinates), &said);
+    EXPECT_EQ(plan.model.count(model::TypeId::kRoundHole), 1u);
+    EXPECT_THAT(said, ::testing::Contains(::testing::AllOf(::testing::HasSubstr("warning: #15"),
+                                                           ::testing::HasSubstr("EXC-VALUE"))));
+    (void)written(plan);
+  }
+}
+
+TEST(Geometry, ThatTheProjectNeedsMustBeWithoutFault) {
+  Holed b;
+  model::MachiningWorkingstep step;
+  step.its_id = "step";
+  step.its_feature = b.as<model::ManufacturingFeature>(b.hole(b.length(20.0)));
+  b.step(std::move(step));
+  const std::string text = replaced(written(b.plan).bytes, "(20.,30.,5.)", "(20.,.T.,5.)");
+  Job job;
+  const auto plan = read_bytes(text, "test.stpnc", {}, job);
+  ASSERT_FALSE(plan.has_value());
+  EXPECT_THAT(plan.error().message, ::testing::HasSubstr("CARTESIAN_POINT.coordinates"));
+}
+
 TEST(NumericParameter, KeepsTheNameAndUnitThatItsRoleDoesNotSay) {
   for (const auto& [name, unit, mm] :
        std::vector<std::tuple<std::string, std::string, double>>{{"profile length", "mm", 4.0},

@@ -390,6 +390,18 @@ TEST(Ap238Toolpath, InchesAreOfPointsAndNotOfDirectionsRatiosOrSquares) {
   EXPECT_DOUBLE_EQ(*t.path_maximum_deviation, 0.0254);
 }
 
+TEST(Ap238Toolpath, AFaultInAListIsToldInsteadOfMovingTheRest) {
+  Job job;
+  const auto plan = read_bytes(
+      inch_file(
+          action_property(30, "basic curve", "(#33)", 20) +
+          "#33=B_SPLINE_CURVE_WITH_KNOTS('',1,(#34,#35),.UNSPECIFIED.,.F.,.F.,(2,1.5,2),(0.,1.),"
+          ".UNSPECIFIED.);\n#34=CARTESIAN_POINT('',(0.,0.,1.));\n#35=CARTESIAN_POINT('',(1.,0.,1.));\n"),
+      "test.stpnc", {}, job);
+  ASSERT_FALSE(plan.has_value());
+  EXPECT_THAT(plan.error().message, HasSubstr("knot_multiplicities cannot be (2,1.5,2)"));
+}
+
 TEST(Ap238ToolpathCorpus, EveryTrajectoryOfTheStandardsExamplesIsDecoded) {
   for (const char* name : {"ap238/ap238e4dis_annexJ_cc1.stp", "ap238/ap238e4dis_annexJ_cc2.stp"}) {
     CAPSTAN_CORPUS_FILE(path, name);
