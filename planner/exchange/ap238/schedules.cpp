@@ -46,59 +46,104 @@ bool fits(std::size_t points, const MoveParameters& moves) {
          std::abs(moves.last - static_cast<double>(points - 1)) < kSameParameter;
 }
 
-// What one unit of the values is as a multiple of the feed; nothing when that cannot be told.
-std::optional<double> unit_of(const std::vector<double>& values, double feed) {
+struct Reading {
+  double unit;  ///< times a value: the multiple of the feed
+  const char* name;
+};
+
+// What the values can be; the first is taken. The ratio comes first: it is what stands beside the curve in
+// the same select, and has no unit to state.
+std::vector<Reading> readings_of(const std::vector<double>& values, double feed) {
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
-  const auto plausible = [&, lo = *least, hi = *most](double k) {
-    return k * lo >= kLeastRatio && k * hi <= kMostRatio;
-  };
-  std::vector<double> units = {1.0};
-  if (feed > 0.0) units.insert(units.end(), {kMetrePerSecond / feed, 1.0 / feed});
-  // The ratio comes first: it is what stands beside the curve in the same select, and has no unit to state.
-  for (const double k : units) {
-    if (plausible(k)) return k;
+  std::vector<Reading> out = {{1.0, "multiples of the feed"}};
+  if (feed > 0.0) {
+    out.push_back({kMetrePerSecond / feed, "metres per second"});
+    out.push_back({1.0 / feed, "millimetres per minute"});
   }
-  return std::nullopt;
+  std::erase_if(out, [lo = *least, hi = *most](const Reading& r) {
+    return !(r.unit * lo >= kLeastRatio && r.unit * hi <= kMostRatio);
+  });
+  return out;
+}
+
+Result<double> unit_of(const model::Model& m, AnyRef speed, const std::vector<double>& values, double feed,
+                       Job& job) {
+  const auto wrong = [&](std::string what) { return bad(m, speed, "EXC-SPEED-PROFILE", std::move(what)); };
+  const auto positive = [](double v) { return v > 0.0 && std::isfinite(v); };
+  if (values.empty() || !std::all_of(values.begin(), values.end(), positive)) {
+    return wrong("a toolpath's speed curve has values that are not positive");
+  }
+  const auto readings = readings_of(values, feed);
+  const double most = *std::max_element(values.begin(), values.end());
+  if (readings.empty()) {
+    return wrong("a toolpath's speed curve goes up to " + trimmed(most, 4) + ": no multiple of the feed of " +
+                 trimmed(feed, 1) + " mm/min, and no speed near it");
+  }
+  // A curve whose greatest value is just 1 is one of ratios: of the greatest feed.
+  if (readings.size() > 1 && most != 1.0) {
+    Diagnostic d =
+        wrong("a toolpath's speed curve goes up to " + trimmed(most, 4) + ", which may be " +
+              readings[0].name + " (" + trimmed(readings[0].unit * most * feed, 3) + " mm/min) or " +
+              readings[1].name + " (" + trimmed(readings[1].unit * most * feed, 3) +
+              " mm/min): " + readings[0].name + " are taken")
+            .value();
+    d.severity = Severity::kWarning;
+    job.report(std::move(d));
+  }
+  return readings[0].unit;
+}
+
+// All numbers that a curve consists of: its values lie between the least and the greatest.
+Result<std::vector<double>> stated_values(const model::Model& m, AnyRef speed) {
+  const model::Polyline* line = m.get<model::Polyline>(speed);
+  const auto* spline = m.get<model::BSplineCurve>(speed);
+  std::vector<double> out;
+  const auto add = [&](const auto& items) {
+    for (const AnyRef p : items) {
+      const auto* point = m.get<model::CartesianPoint>(p);
+      if (point == nullptr || point->coordinates.items.empty()) return false;
+      out.push_back(point->coordinates.items.front());
+    }
+    return true;
+  };
+  const bool good = line != nullptr     ? add(line->points.items)
+                    : spline != nullptr ? add(spline->control_points_list.items)
+                                        : false;
+  if (good) return out;
+  return bad(m, speed, "EXC-SPEED-PROFILE", "a toolpath's speed curve is of a kind that is not followed");
 }
 
 }  // namespace
 
+Result<double> least_speed_ratio(const model::Model& m, AnyRef speed, double feed_mm_min, Job& job) {
+  const auto values = stated_values(m, speed);
+  if (!values) return fail(values.error());
+  const auto unit = unit_of(m, speed, *values, feed_mm_min, job);
+  if (!unit) return fail(unit.error());
+  return std::min(1.0, *unit * *std::min_element(values->begin(), values->end()));
+}
+
 Result<std::vector<double>> speed_ratios(const model::Model& m, AnyRef speed, const MoveParameters& moves,
-                                         double feed_mm_min) {
+                                         double feed_mm_min, Job& job) {
   const auto wrong = [&](std::string what) { return bad(m, speed, "EXC-SPEED-PROFILE", std::move(what)); };
-  std::vector<double> values;
   const bool spline = m.holds<model::BSplineCurve>(speed);
-  if (const auto points = numbers_of(m, speed)) {
-    for (const auto* p : *points) values.push_back(p->front());
-  } else if (spline) {
-    const auto curve = curves::values_of_spline(m, speed, moves.from, moves.to);
-    if (!curve) return fail(curve.error());
-    values = *curve;
-  } else {
-    return wrong("a toolpath's speed curve is of a kind that is not followed");
-  }
-  if (values.empty() || *std::min_element(values.begin(), values.end()) <= 0.0) {
-    return wrong("a toolpath's speed curve has values that are not positive");
-  }
-  const auto unit = unit_of(values, feed_mm_min);
-  if (!unit) {
-    return wrong("a toolpath's speed curve goes up to " +
-                 trimmed(*std::max_element(values.begin(), values.end()), 4) +
-                 ": no multiple of the feed of " + trimmed(feed_mm_min, 1) + " mm/min, and no speed near it");
-  }
-  if (!spline && !fits(values.size(), moves)) {
+  auto values = spline ? curves::values_of_spline(m, speed, moves.from, moves.to) : stated_values(m, speed);
+  if (!values) return fail(values.error());
+  if (!spline && !fits(values->size(), moves)) {
     return wrong("a toolpath's speed curve has another parameter range than its basic curve");
   }
+  const auto unit = unit_of(m, speed, *values, feed_mm_min, job);
+  if (!unit) return fail(unit.error());
   std::vector<double> out(moves.from.size(), 1.0);
   for (std::size_t i = 1; i < out.size(); ++i) {
     if (spline) {
-      out[i] = *unit * values[i];
+      out[i] = *unit * (*values)[i];
       continue;
     }
-    const auto at = [&](double u) {
-      const auto k = std::min(static_cast<std::size_t>(std::max(u, 0.0)), values.size() - 1);
+    const auto at = [&v = *values](double u) {
+      const auto k = std::min(static_cast<std::size_t>(std::max(u, 0.0)), v.size() - 1);
       const double t = u - static_cast<double>(k);
-      return t > 0.0 && k + 1 < values.size() ? values[k] + t * (values[k + 1] - values[k]) : values[k];
+      return t > 0.0 && k + 1 < v.size() ? v[k] + t * (v[k + 1] - v[k]) : v[k];
     };
     const double a = std::min(moves.from[i], moves.to[i]), b = std::max(moves.from[i], moves.to[i]);
     double least = std::min(at(a), at(b));
@@ -125,7 +170,9 @@ Status add_sections(const model::Model& m, const model::Trajectory& t, const Mov
   std::vector<double> share;
   double sum = 0.0;
   const auto add = [&](std::size_t move, double fraction, double u, double length_mm) {
-    const auto& p = *(*points)[static_cast<std::size_t>(std::lround(u))];
+    // The nearest point; what a curve is sampled to need not begin or end at one.
+    const double nearest = std::clamp(std::round(u), 0.0, static_cast<double>(points->size() - 1));
+    const auto& p = *(*points)[static_cast<std::size_t>(nearest)];
     out.move.push_back(static_cast<std::uint32_t>(move));
     out.at_mm.push_back(fraction * model::move_length(path, move));
     const std::array<std::vector<double>*, 7> columns = {&out.ad_max_mm,    &out.rd_max_mm, &out.x_max_ofs_mm,
@@ -138,12 +185,12 @@ Status add_sections(const model::Model& m, const model::Trajectory& t, const Mov
   for (std::size_t i = 1; i < moves.from.size(); ++i) {
     const double a = moves.from[i], b = moves.to[i];
     if (i == 1 || a != moves.to[i - 1]) add(first + i, 0.0, a, 0.0);
-    const double step = b > a ? 1.0 : -1.0;
     const auto n = static_cast<std::size_t>(std::lround(std::abs(b - a)));
     const double length = model::move_length(path, first + i);
     for (std::size_t k = 1; k <= n; ++k) {
       const auto d = static_cast<double>(k);
-      add(first + i, d / static_cast<double>(n), a + step * d, length / static_cast<double>(n));
+      add(first + i, d / static_cast<double>(n), a + (b - a) * d / static_cast<double>(n),
+          length / static_cast<double>(n));
     }
   }
   const double volume = t.its_material_removal_total_volume.value_or(0.0);

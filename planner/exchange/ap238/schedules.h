@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "planner/base/job.h"
 #include "planner/base/result.h"
 #include "planner/geometry/placement.h"
 #include "planner/model/cutter_path.h"
@@ -24,10 +25,16 @@ struct MoveParameters {
 
 /// What each move's feed is times the technology's, from a speed curve: the least along the move. The values
 /// are multiples of that feed (what else they could be, metres per second or millimetres per minute, is told
-/// from their size).
+/// from their size; where two of these are plausible, a warning EXC-SPEED-PROFILE says which is taken).
 /// Fails  EXC-SPEED-PROFILE: another parameter range, values that are not positive or could be anything.
 [[nodiscard]] Result<std::vector<double>> speed_ratios(const model::Model& m, model::AnyRef speed,
-                                                       const MoveParameters& moves, double feed_mm_min);
+                                                       const MoveParameters& moves, double feed_mm_min,
+                                                       Job& job);
+
+/// For a curve that cannot be followed: the least multiple of the feed that it states anywhere, at most 1.
+/// Fails  EXC-SPEED-PROFILE: a kind of curve whose values are not known, or values as above.
+[[nodiscard]] Result<double> least_speed_ratio(const model::Model& m, model::AnyRef speed, double feed_mm_min,
+                                               Job& job);
 
 /// Adds the cross-section parameters of one trajectory, whose moves are the last ones of `path`: one sample
 /// where each point of the basic curve lies. What the trajectory removes in total is shared out by area times

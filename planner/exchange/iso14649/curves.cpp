@@ -49,9 +49,9 @@ class Emitter {
       if (!s.arc) {
         line(frame_.to_parent(s.to), path);
       } else if (upright && !rapid_) {
-        arc(s, path);
-      } else {
-        chords(s, path);
+        if (!arc(s, path)) return too_many();
+      } else if (!chords(s, path)) {
+        return too_many();
       }
       out.moves.from.resize(before);
       out.moves.to.resize(before);
@@ -61,21 +61,30 @@ class Emitter {
         out.moves.from.push_back(s.u_from + (s.u_to - s.u_from) * k / n);
         out.moves.to.push_back(s.u_from + (s.u_to - s.u_from) * (k + 1.0) / n);
       }
-      if (path.size() > o_.max_moves) return fail("EXC-CURVE", "a path has too many moves");
+      if (path.size() > o_.max_moves) return too_many();
     }
     return {};
   }
 
  private:
+  static Status too_many() { return fail("EXC-CURVE", "a path has too many moves"); }
+
+  // Whether so many more moves still fit; before they are made.
+  [[nodiscard]] bool room_for(double moves, const CutterPath& path) const {
+    return moves + static_cast<double>(path.size()) <= static_cast<double>(o_.max_moves);
+  }
+
   void line(Vec3 to, CutterPath& path) {
     if (rapid_) return path.rapid(to, role_);
     path.line(to, role_);
   }
 
   // Turn by turn: a move sweeps at most a full one.
-  void arc(const curves::Segment& s, CutterPath& path) {
+  bool arc(const curves::Segment& s, CutterPath& path) {
     const double turn = 2.0 * std::numbers::pi;
-    const auto n = static_cast<std::size_t>(std::max(1.0, std::ceil(std::abs(s.sweep) / turn - 1e-12)));
+    const double turns = std::max(1.0, std::ceil(std::abs(s.sweep) / turn - 1e-12));
+    if (!room_for(turns, path)) return false;
+    const auto n = static_cast<std::size_t>(turns);
     const bool up = frame_.direction_to_parent(s.axis).z > 0.0;
     const bool clockwise = (s.sweep < 0.0) == up;
     const geometry::Vec2 centre = xy(frame_.to_parent(s.centre));
@@ -83,19 +92,23 @@ class Emitter {
       const double t = std::min(1.0, static_cast<double>(i) * turn / std::abs(s.sweep));
       path.arc(frame_.to_parent(i == n ? s.to : curves::at(s, t)), centre, clockwise, role_);
     }
+    return true;
   }
 
   // An arc of radius r and angle w strays r (1 - cos(w / 2)) from its chord.
-  void chords(const curves::Segment& s, CutterPath& path) {
+  bool chords(const curves::Segment& s, CutterPath& path) {
     const Vec3 r = s.from - s.centre;
     const double radius = norm(r - dot(r, s.axis) * s.axis);
     const double c = std::clamp(1.0 - o_.chord_tolerance_mm / std::max(radius, 1e-9), -1.0, 1.0);
     const double step = std::max(2.0 * std::acos(c), 1e-4);
-    const auto n = static_cast<std::size_t>(std::max(1.0, std::ceil(std::abs(s.sweep) / step)));
+    const double count = std::max(1.0, std::ceil(std::abs(s.sweep) / step));
+    if (!room_for(count, path)) return false;
+    const auto n = static_cast<std::size_t>(count);
     for (std::size_t i = 1; i <= n; ++i) {
       const double t = static_cast<double>(i) / static_cast<double>(n);
       line(frame_.to_parent(i == n ? s.to : curves::at(s, t)), path);
     }
+    return true;
   }
 
   const Placement& frame_;
@@ -339,13 +352,24 @@ class StepBuilder {
       if (const auto* tech = m_.get<model::MillingTechnology>(from)) take(*tech, feed, speed);
     }
     std::vector<double> ratio;
+    const double stated = feed;
     if (const auto* curve = m_.get<model::ToolpathSpeed>(t.its_speed.ref)) {
-      auto found = speed_ratios(m_, curve->speed, moves == nullptr ? MoveParameters{} : *moves, feed);
+      auto found = speed_ratios(m_, curve->speed, moves == nullptr ? MoveParameters{} : *moves, feed, job_);
       if (found) {
         ratio = std::move(*found);
       } else {
         auto why = found.error();
-        why.message += "; the technology's feed is taken";
+        // Without it, the whole feed would be taken where the file asks for less.
+        const auto least = least_speed_ratio(m_, curve->speed, stated, job_);
+        if (!least) {
+          why.message += "; nor is there a least speed to go by";
+          why.severity = Severity::kError;
+          return fail(std::move(why));
+        }
+        feed *= *least;
+        why.message += stated > 0.0
+                           ? "; its least speed, " + trimmed(feed, 3) + " mm/min, is taken throughout"
+                           : "; and the technology states no feed";
         warn(std::move(why));
       }
     }

@@ -150,32 +150,35 @@ model::AnyRef curve_of(model::Model& m, const std::vector<double>& values) {
 
 TEST(Schedule, SpeedCurveGoesByTheParameterOfItsBasicCurveAndTheLeastAlongAMoveCounts) {
   model::Model m;
-  const auto got = speed_ratios(m, curve_of(m, {1.0, 0.5, 0.75}), along(2), 300.0);
+  Job job;
+  const auto got = speed_ratios(m, curve_of(m, {1.0, 0.5, 0.75}), along(2), 300.0, job);
   ASSERT_TRUE(got);
   EXPECT_THAT(*got, ::testing::ElementsAre(1.0, 0.5, 0.5));
   // Metres per second and millimetres per minute are told by their size: 300 mm/min are 0.005 m/s.
-  const auto metres = speed_ratios(m, curve_of(m, {0.005, 0.0025, 0.005}), along(2), 300.0);
+  const auto metres = speed_ratios(m, curve_of(m, {0.005, 0.0025, 0.005}), along(2), 300.0, job);
   ASSERT_TRUE(metres);
   EXPECT_NEAR(metres->at(1), 0.5, 1e-12);
-  const auto millimetres = speed_ratios(m, curve_of(m, {300.0, 150.0, 300.0}), along(2), 300.0);
+  const auto millimetres = speed_ratios(m, curve_of(m, {300.0, 150.0, 300.0}), along(2), 300.0, job);
   ASSERT_TRUE(millimetres);
   EXPECT_NEAR(millimetres->at(2), 0.5, 1e-12);
 }
 
 TEST(Schedule, SpeedCurveThatDoesNotFitIsRefused) {
   model::Model m;
+  Job job;
   for (const auto& values :
        {std::vector<double>{1.0, 1.0}, std::vector<double>{1.0, 0.0, 1.0},
         std::vector<double>{1.0, -1.0, 1.0}, std::vector<double>{1e6, 1e6, 1e6}, std::vector<double>{}}) {
-    const auto got = speed_ratios(m, curve_of(m, values), along(2), 300.0);
+    const auto got = speed_ratios(m, curve_of(m, values), along(2), 300.0, job);
     ASSERT_FALSE(got);
     EXPECT_EQ(got.error().code, "EXC-SPEED-PROFILE");
   }
-  EXPECT_FALSE(speed_ratios(m, {}, along(2), 300.0));
+  EXPECT_FALSE(speed_ratios(m, {}, along(2), 300.0, job));
 }
 
 TEST(Schedule, SpeedCurveMayBeASpline) {
   model::Model m;
+  Job job;
   model::BSplineCurveWithKnots c;
   c.degree = 1;
   for (const double v : {1.0, 0.5, 1.0}) {
@@ -186,10 +189,77 @@ TEST(Schedule, SpeedCurveMayBeASpline) {
   c.knot_multiplicities = {{2, 1, 2}, true};
   c.knots = {{0.0, 1.0, 2.0}, true};
   const auto at = m.add(std::move(c));
-  const auto got = speed_ratios(m, at, along(2), 300.0);
+  const auto got = speed_ratios(m, at, along(2), 300.0, job);
   ASSERT_TRUE(got) << to_text(got.error());
   EXPECT_NEAR(got->at(1), 0.5, 1e-12);
   EXPECT_NEAR(got->at(2), 0.5, 1e-12);
+}
+
+TEST(Schedule, SpeedCurveOfTwoPlausibleReadingsIsWarnedOf) {
+  model::Model m;
+  // Of 1200 mm/min: 24 to 60 mm/min, or 1200 to 3000 mm/min.
+  Job job;
+  const auto got = speed_ratios(m, curve_of(m, {0.02, 0.05, 0.02}), along(2), 1200.0, job);
+  ASSERT_TRUE(got);
+  EXPECT_NEAR(got->at(1), 0.02, 1e-12);
+  ASSERT_EQ(job.count(Severity::kWarning), 1U);
+  EXPECT_EQ(job.diagnostics()[0].code, "EXC-SPEED-PROFILE");
+  EXPECT_THAT(job.diagnostics()[0].message, HasSubstr("metres per second (3000 mm/min)"));
+  for (const auto& [values, feed] : {std::pair(std::vector<double>{0.02, 0.05, 0.02}, 300.0),
+                                     std::pair(std::vector<double>{0.5, 1.0, 0.5}, 20000.0),
+                                     std::pair(std::vector<double>{0.005, 0.0025, 0.005}, 300.0)}) {
+    Job quiet;
+    ASSERT_TRUE(speed_ratios(m, curve_of(m, values), along(2), feed, quiet));
+    EXPECT_TRUE(quiet.diagnostics().empty()) << to_text(quiet.diagnostics()[0]);
+  }
+}
+
+// A step of one straight toolpath of two points with a speed curve of these values, and its technology's
+// feed.
+std::pair<Result<StepPath>, double> along_with(const std::vector<double>& values, Job& job) {
+  Planned p;
+  auto& m = p.plan.model;
+  model::Polyline line;
+  for (const double z : {2.0, -2.0}) {
+    model::CartesianPoint c;
+    c.coordinates = {{0.0, 0.0, z}, true};
+    line.points.push_back(m.add(std::move(c)));
+  }
+  model::ToolpathSpeed speed;
+  speed.speed = model::Ref<model::BoundedCurve>(curve_of(m, values));
+  model::CutterLocationTrajectory t;
+  t.basiccurve = m.add(std::move(line));
+  t.its_speed.ref = m.add(std::move(speed));
+  model::ToolpathList list;
+  list.its_list.push_back(m.add(std::move(t)));
+  m.at<model::Drilling>(m.all(model::TypeId::kDrilling).at(0)).its_toolpath = m.add(std::move(list));
+  const double feed =
+      m.at<model::MillingTechnology>(m.all(model::TypeId::kMillingTechnology).at(0)).feedrate.value();
+  return {path_of_step(p.plan, p.step(p.plan), {}, job), feed};
+}
+
+TEST(Schedule, SpeedCurveThatCannotBeFollowedHoldsTheWholePathToItsLeast) {
+  Job job;
+  const auto [got, feed] = along_with({0.5, 0.25, 0.5}, job);  // a point too many for the basic curve
+  ASSERT_TRUE(got) << to_text(got.error());
+  EXPECT_NEAR(got->schedule.feed_mm_min.back(), 0.25 * feed, 1e-9);
+  ASSERT_EQ(job.count(Severity::kWarning), 1U);
+  EXPECT_EQ(job.diagnostics()[0].code, "EXC-SPEED-PROFILE");
+  EXPECT_THAT(job.diagnostics()[0].message, HasSubstr("least speed"));
+  // No faster than the technology, whatever the curve says.
+  Job fast;
+  EXPECT_NEAR(along_with({2.0, 1.5, 2.0}, fast).first.value().schedule.feed_mm_min.back(), feed, 1e-9);
+}
+
+TEST(Schedule, SpeedCurveWithoutALeastSpeedIsRefusedWithItsPath) {
+  for (const auto& values : {std::vector<double>{0.5, 0.0}, std::vector<double>{0.5, -0.5, 0.5},
+                             std::vector<double>{1e6, 1e6}, std::vector<double>{}}) {
+    Job job;
+    const auto got = along_with(values, job).first;
+    ASSERT_FALSE(got);
+    EXPECT_EQ(got.error().code, "EXC-SPEED-PROFILE");
+    EXPECT_EQ(got.error().severity, Severity::kError);
+  }
 }
 
 TEST(Schedule, DwellInRevolutionsIsTimeByTheSpindle) {

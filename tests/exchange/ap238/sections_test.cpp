@@ -124,5 +124,34 @@ TEST(Sections, OfOtherThanSevenNumbersOrAnotherRangeAreNotFollowed) {
   }
 }
 
+TEST(Sections, OfACurveSampledBetweenItsPointsStayWithinThem) {
+  model::Plan plan;
+  auto& m = plan.model;
+  model::Polyline c;
+  for (const double area : {1.0, 2.0, 3.0}) {
+    model::CartesianPoint p;
+    p.coordinates = {{0.0, 0.0, 0.0, 0.0, area, 0.0, 0.0}, true};
+    c.points.push_back(m.add(std::move(p)));
+  }
+  model::Trajectory t;
+  t.cross_section_area_parameters = m.add(std::move(c));
+  t.its_material_removal_total_volume = 6.0;
+  // An arc over both spans, in four chords of half a span each; forwards and backwards.
+  for (const bool back : {false, true}) {
+    model::CutterPath path;
+    MoveParameters moves{.from = {0.0}, .to = {0.0}, .first = 0.0, .last = 2.0};
+    path.start({0, 0, 0});
+    for (int i = 0; i < 4; ++i) {
+      path.line({i + 1.0, 0, 0}, MoveRole::kCut);
+      moves.from.push_back(back ? 2.0 - 0.5 * i : 0.5 * i);
+      moves.to.push_back(back ? 1.5 - 0.5 * i : 0.5 * i + 0.5);
+    }
+    model::SectionSeries out;
+    ASSERT_TRUE(add_sections(m, t, moves, path, out));
+    ASSERT_GT(out.size(), 0U);
+    EXPECT_EQ(out.csa_mm2.back(), back ? 1.0 : 3.0);
+  }
+}
+
 }  // namespace
 }  // namespace capstan::exchange::ap238
