@@ -138,7 +138,7 @@ class PathMaker {
 
  private:
   Status make(StepWork& step) {
-    if (has_given_path(w_, step)) return explicit_path(step);
+    if (has_given_path(w_, step) && !rigid_tap(step)) return explicit_path(step);
     if (!w_.plan.model.holds<model::MachiningOperation>(step.operation)) return {};
     if (step.shapes.empty()) {
       no_path(step, "the shape of its feature is not known");
@@ -359,6 +359,18 @@ class PathMaker {
     const auto* d = w_.plan.ledger.find(op->its_technology, "feedrate");
     return d != nullptr && !d->pinned && d->binder != model::Binder::kGiven &&
            d->binder != model::Binder::kOperator;
+  }
+
+  // A given path is moves at feed; without a compensation chuck that breaks the tap, so the thread is planned
+  // as a synchronised cycle.
+  bool rigid_tap(const StepWork& step) {
+    const auto* tapping = w_.plan.model.get<model::Tapping>(step.operation);
+    if (tapping == nullptr || tapping->compensation_chuck.value_or(false)) return false;
+    w_.job.warn("PIP-CHANGED",
+                "step '" + name_of(step) +
+                    "': the given toolpath of the tap is moves without synchronisation; planned as rigid "
+                    "tapping instead");
+    return true;
   }
 
   Status explicit_path(StepWork& step) {
