@@ -49,6 +49,7 @@ AnyRef Reader::geometry_at(Node n, TypeId type, const Scale& stated) {
   const auto i = g_.instance(n);
   plan_.model.set_origin(at, {i.id(), i.line()});
   geometry_.emplace(key, at);
+  if (type == TypeId::kPolyline && scale.uncertainty_mm > 0.0) uncertainty_mm_[at] = scale.uncertainty_mm;
   object_[n] = true;
   pending_.push_back({at, n, true, scale});
   return at;

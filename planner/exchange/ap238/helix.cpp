@@ -148,8 +148,11 @@ struct Point {
   bool via = false;
 };
 
-// Full turns with two via points, the rest with one.
-std::vector<Point> points_of(const curves::Segment& s, bool upright) {
+// What a written helix may take, as many as a path may have moves; default, unsourced.
+constexpr std::size_t kMostPoints = CurveOptions{}.max_moves;
+
+// Full turns with two via points, the rest with one. Nothing when they are more than `most`.
+std::optional<std::vector<Point>> points_of(const curves::Segment& s, bool upright, std::size_t most) {
   std::vector<Point> out = {{s.from}};
   if (!s.arc) {
     out.push_back({s.to});
@@ -161,7 +164,9 @@ std::vector<Point> points_of(const curves::Segment& s, bool upright) {
   if (!upright)
     step = 2.0 *
            std::acos(std::clamp(1.0 - CurveOptions{}.chord_tolerance_mm / std::max(radius, 1e-6), -1.0, 1.0));
-  const auto n = static_cast<std::size_t>(std::max(1.0, std::ceil(sweep / std::max(step, 1e-4) - 1e-12)));
+  const double steps = std::max(1.0, std::ceil(sweep / std::max(step, 1e-4) - 1e-12));
+  if (!(steps < static_cast<double>(most))) return std::nullopt;  // also what is no number
+  const auto n = static_cast<std::size_t>(steps);
   for (std::size_t i = 1; i <= n; ++i) {
     const double a = static_cast<double>(i - 1) * step / sweep,
                  b = std::min(1.0, static_cast<double>(i) * step / sweep);
@@ -171,17 +176,19 @@ std::vector<Point> points_of(const curves::Segment& s, bool upright) {
           {curves::at(s, a + (b - a) * static_cast<double>(k) / static_cast<double>(vias + 1)), true});
     }
     out.push_back({i == n ? s.to : curves::at(s, b)});
+    if (out.size() > most) return std::nullopt;
   }
   return out;
 }
 
-std::optional<std::vector<Point>> points_of(const model::Model& m, AnyRef trimmed, bool& upright) {
+std::optional<std::vector<Point>> points_of(const model::Model& m, AnyRef trimmed, bool& upright,
+                                            std::size_t most) {
   Job quiet;
   const auto segments = curves::segments_of(m, trimmed, {}, quiet);
   if (!segments || segments->size() != 1) return std::nullopt;
   const auto& s = segments->front();
   upright = !s.arc || std::hypot(s.axis.x, s.axis.y) <= kUpright;
-  return points_of(s, upright);
+  return points_of(s, upright, most);
 }
 
 AnyRef trim_point(const model::SelectList& list) {
@@ -285,8 +292,12 @@ void helices_to_via_points(model::Plan& plan, std::vector<std::string>& losses) 
     if (!m.holds<model::Helix>(curve.basis_curve)) continue;
     const auto form = form_of(m, curve);
     bool upright = true;
-    const auto points = points_of(m, at, upright);
-    if (!form || !points) continue;
+    const auto points = points_of(m, at, upright, kMostPoints);
+    if (!form || !points) {
+      losses.emplace_back("a trimmed HELIX that cannot be followed, or takes more than " +
+                          std::to_string(kMostPoints) + " points, is left out");
+      continue;
+    }
     by[at] = polyline(m, *points, trim_point(curve.trim_1), trim_point(curve.trim_2), text_of(*form));
     if (!upright)
       losses.emplace_back("a HELIX that does not turn about z is written as points within a micrometre");
@@ -304,7 +315,7 @@ void via_points_to_helices(model::Plan& plan) {
     if (!form) continue;
     const AnyRef curve = trimmed_helix(m, *form, line.points.items.front(), line.points.items.back());
     bool upright = true;
-    const auto points = points_of(m, curve, upright);
+    const auto points = points_of(m, curve, upright, line.points.items.size());
     bool same = points && points->size() == line.points.items.size();
     for (std::size_t i = 0; same && i < points->size(); ++i) {
       const auto p = model::point(m, line.points[i]);

@@ -1,5 +1,6 @@
 #include "planner/exchange/ap238/measure.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -66,9 +67,14 @@ bool is_revolution(const Value& name) {
 }  // namespace
 
 std::optional<FileUnit> Units::unit(Node n) {
-  const auto it = units_.find(n);
-  if (it != units_.end()) return it->second;
-  const auto out = work_out(n, 0);
+  return part(n, 0);
+}
+
+std::optional<FileUnit> Units::part(Node n, int depth) {
+  const auto [it, fresh] = units_.try_emplace(n);  // nothing while it is being worked out: a part of itself is none
+  if (!fresh) return it->second;
+  auto out = work_out(n, depth);
+  if (out && !(out->factor > 0.0 && std::isfinite(out->factor))) out.reset();
   units_[n] = out;
   return out;
 }
@@ -99,7 +105,7 @@ std::optional<FileUnit> Units::work_out(Node n, int depth) {
     const Node base = follow(g_.get(m, "unit_component"));
     const double value = number(g_.get(m, "value_component"));
     if (base == kNoNode || !(value > 0.0) || !std::isfinite(value)) return std::nullopt;
-    auto out = work_out(base, depth + 1);
+    auto out = part(base, depth + 1);
     if (!out) return std::nullopt;
     out->factor *= value;
     // Files spell the degree with 8 to 12 digits.
@@ -124,11 +130,11 @@ std::optional<FileUnit> Units::work_out(Node n, int depth) {
       const double exponent = e == kNoNode ? 0.0 : number(g_.get(e, "exponent"));
       if (u == kNoNode || !std::isfinite(exponent)) return std::nullopt;
       used_.push_back(e);
-      const auto part = work_out(u, depth + 1);
-      if (!part) return std::nullopt;
-      out.factor *= std::pow(part->factor, exponent);
-      for (std::size_t k = 0; k < out.exponents.size(); ++k) out.exponents[k] += exponent * part->exponents[k];
-      out.counted = out.counted || part->counted;
+      const auto by = part(u, depth + 1);
+      if (!by) return std::nullopt;
+      out.factor *= std::pow(by->factor, exponent);
+      for (std::size_t k = 0; k < out.exponents.size(); ++k) out.exponents[k] += exponent * by->exponents[k];
+      out.counted = out.counted || by->counted;
     }
     return out;
   }
@@ -194,6 +200,17 @@ Scale Units::scale(Node context, const Scale& fallback) {
   std::vector<Node> parts;
   g_.references(uncertainty, parts);
   used_.insert(used_.end(), parts.begin(), parts.end());
+  // A context with units of its own has only the uncertainty that it states; of several lengths the least.
+  double least = 0.0;
+  for (const Node n : parts) {
+    const Value of = g_.get(n, "unit_component");
+    const Node base = of.is(Kind::kReference) ? g_.find(of.reference()) : kNoNode;
+    const auto u = base == kNoNode ? std::nullopt : unit(base);
+    const auto f = u ? factor(*u, model::Unit::kLength) : std::nullopt;
+    const double mm = f ? *f * number(g_.get(n, "value_component")) : 0.0;
+    if (mm > 0.0 && std::isfinite(mm)) least = least > 0.0 ? std::min(least, mm) : mm;
+  }
+  if (out.stated || least > 0.0) out.uncertainty_mm = least;
   scales_[context] = out;
   return out;
 }

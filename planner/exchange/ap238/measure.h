@@ -34,6 +34,7 @@ inline constexpr std::string_view kWrittenContext = "MILLIMETRE RADIAN STERADIAN
 struct Scale {
   double length = 1.0;  ///< to mm
   double angle = 1.0;   ///< to rad
+  double uncertainty_mm = 0.0;  ///< of distances, as the context states it: points nearer coincide; 0 where open
   bool stated = false;  ///< the context says so
   bool ours = false;    ///< the context is the one that the writer makes: solids are read as the model's own
   Coordinates coordinates = Coordinates::kLengths;
@@ -57,6 +58,8 @@ class Units {
   [[nodiscard]] const std::vector<Node>& used() const { return used_; }
 
  private:
+  // Remembers every unit, also those that are only parts of others.
+  std::optional<FileUnit> part(Node n, int depth);
   std::optional<FileUnit> work_out(Node n, int depth);
 
   const Graph& g_;

@@ -1,7 +1,9 @@
+#include "planner/base/number.h"
 #include "planner/exchange/ap238/helix.h"
 #include "planner/exchange/ap238/paths.h"
 #include "planner/exchange/ap238/reader.h"
 #include "planner/exchange/ap238/records.h"
+#include "planner/exchange/ap238/via.h"
 #include "planner/exchange/exchange.h"
 #include "planner/exchange/sections.h"
 #include "planner/exchange/opening.h"
@@ -19,6 +21,16 @@ Result<model::Plan> read_ap238(const p21::File& file, Job& job) {
   ap238::Reader reader(graph, ap238::Mapping::instance(), plan, reporter);
   ap238::Records records(reader);
   reader.run();
+  for (const auto& [at, uncertainty_mm] : reader.uncertainties_mm()) {
+    const auto n = curves::degenerate_via_points(plan.model, model::Ref<model::Polyline>(at), uncertainty_mm);
+    if (n == 0) continue;
+    reporter.report({.code = "EXC-VIA",
+                     .severity = Severity::kWarning,
+                     .message = std::to_string(n) + " via points lie within the " + trimmed(uncertainty_mm, 6) +
+                                " mm that the file states as uncertainty from a neighbour: lines are taken there",
+                     .line = plan.model.origin(at).line,
+                     .instance = plan.model.origin(at).instance});
+  }
   ap238::drop_stated_frames(plan);
   ap238::via_points_to_helices(plan);
   if (!plan.project) {

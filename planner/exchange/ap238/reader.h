@@ -74,6 +74,8 @@ class Reader {
   [[nodiscard]] std::vector<Doubt>& doubts() { return doubts_; }
   /// The instance a noun was read from.
   [[nodiscard]] Node root_of(model::AnyRef at) const;
+  /// Polylines whose context states how near points coincide, mm.
+  [[nodiscard]] const std::map<model::AnyRef, double>& uncertainties_mm() const { return uncertainty_mm_; }
 
  private:
   struct Role {
@@ -119,6 +121,7 @@ class Reader {
   std::unordered_multimap<Node, model::AnyRef> nouns_;
   std::map<Key, model::AnyRef> geometry_;
   std::vector<Scale> scales_;
+  std::map<model::AnyRef, double> uncertainty_mm_;
   std::vector<model::AnyRef> kept_;  ///< by node: its verbatim instance
   std::unordered_map<Node, model::AnyRef> auxiliary_;
   std::deque<Node> kept_pending_;

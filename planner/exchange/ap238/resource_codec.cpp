@@ -182,8 +182,9 @@ void write_value(Writer& writer, const Row&, AnyRef, const Attribute& a, const v
 }
 
 // "newton", "millimetre", or the name that the file gives it; of derived units the parts with their
-// exponents.
-std::string unit_name(const Graph& g, Node n, int depth) {
+// exponents. `left` counts down the parts that it may still have.
+constexpr std::size_t kMostParts = 64;  // real ones have four; default, unsourced
+std::string unit_name(const Graph& g, Node n, int depth, std::size_t& left) {
   const Value elements = g.get(n, "elements");
   std::string out;
   if (elements.is(Kind::kList) && depth < 4) {
@@ -193,7 +194,9 @@ std::string unit_name(const Graph& g, Node n, int depth) {
       const Value u = g.get(p, "unit"), x = g.get(p, "exponent");
       const Node of = u.is(Kind::kReference) ? g.find(u.reference()) : kNoNode;
       if (of == kNoNode) continue;
-      out += (out.empty() ? "" : " ") + unit_name(g, of, depth + 1);
+      if (left == 0) return out;
+      --left;
+      out += (out.empty() ? "" : " ") + unit_name(g, of, depth + 1, left);
       if (x.is_number() && x.as_real() != 1.0) out += "^" + shortest(x.as_real());
     }
     return out;
@@ -212,7 +215,15 @@ std::string unit_name(const Graph& g, Node n, int depth) {
 bool read_unit(Reader& reader, const Row&, AnyRef at, const Attribute& a,
                const std::vector<Terminal>& found) {
   for (const Terminal& t : found) {
-    assign(reader, at, a, model::Text(unit_name(reader.graph(), t.node, 0)));
+    std::size_t left = kMostParts;
+    auto name = unit_name(reader.graph(), t.node, 0, left);
+    if (left == 0) {
+      reader.about(t.node, {.code = "EXC-VALUE",
+                            .message = "a unit consists of " + std::to_string(kMostParts) + " parts or more",
+                            .expected = "expected a unit of few parts"});
+      return true;
+    }
+    assign(reader, at, a, model::Text(std::move(name)));
     (void)reader.units().unit(t.node);  // its parts are explained
     return true;
   }

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "planner/base/number.h"
+#include "planner/model/nouns/all.h"
+#include "planner/model/resolve.h"
 
 namespace capstan::exchange::curves {
 
@@ -135,6 +137,34 @@ class Through {
 
 Result<Segment> arc_through(Vec3 from, std::span<const Vec3> via, Vec3 to, const ViaOptions& options) {
   return Through(from, via, to, options).run();
+}
+
+std::size_t degenerate_via_points(model::Model& m, model::Ref<model::Polyline> at, double uncertainty_mm) {
+  auto items = m.at<model::Polyline>(at).points.items;
+  const auto via = [&](std::size_t i) {
+    return items[i].type == model::TypeId::kViaArcPoint || items[i].type == model::TypeId::kViaHelixPoint;
+  };
+  const auto near = [&](std::size_t i, std::size_t j) {
+    const auto p = model::point(m, model::Ref<model::CartesianPoint>(items[i]));
+    const auto q = model::point(m, model::Ref<model::CartesianPoint>(items[j]));
+    return p && q && norm(*p - *q) <= uncertainty_mm;
+  };
+  std::size_t count = 0;
+  const auto look = [&](std::size_t i, std::size_t neighbour) {
+    if (!via(i) || items[i] == items[neighbour] || !near(i, neighbour)) return;
+    items[i] = items[neighbour];
+    ++count;
+  };
+  // Ordinary neighbours first: what is left in between coincides with another via point, and says the same.
+  for (std::size_t i = 1; i + 1 < items.size(); ++i) {
+    if (!via(i - 1)) look(i, i - 1);
+  }
+  for (std::size_t i = items.size(); i-- > 2;) {
+    if (!via(i)) look(i - 1, i);
+  }
+  for (std::size_t i = 1; i + 1 < items.size(); ++i) look(i, i - 1);
+  if (count != 0) m.at<model::Polyline>(at).points.items = std::move(items);
+  return count;
 }
 
 std::size_t via_count(double sweep) { return std::abs(sweep) > kTurn - 1e-9 ? 2 : 1; }

@@ -6,6 +6,8 @@
 #include "planner/base/result.h"
 #include "planner/exchange/iso14649/segments.h"
 #include "planner/geometry/vec.h"
+#include "planner/model/nouns/forward.h"
+#include "planner/model/plan.h"
 
 /// @file Points of a polyline that stand for arcs (via_arc_point, via_helix_point): an arc runs from the
 /// ordinary point before, through them, to the ordinary point after, by less than a full turn; a full turn
@@ -28,6 +30,12 @@ struct ViaOptions {
 /// Source ISO 10303-238, via_arc_point and via_helix_point (WHERE rules and informal propositions).
 [[nodiscard]] Result<Segment> arc_through(geometry::Vec3 from, std::span<const geometry::Vec3> via,
                                           geometry::Vec3 to, const ViaOptions& options);
+
+/// Puts, in a polyline, a neighbour in the place of each via point that lies within `uncertainty_mm` of it:
+/// there the arc degenerates to a line. Its points stay as many, so that what goes by its parameter still
+/// does. Returns how many were replaced. Source ISO 10303-238, via_arc_point (coincident within the
+/// uncertainty of its context).
+std::size_t degenerate_via_points(model::Model& m, model::Ref<model::Polyline> at, double uncertainty_mm);
 
 /// How many via points an arc takes: two for a full turn, else one.
 [[nodiscard]] std::size_t via_count(double sweep);

@@ -21,6 +21,7 @@ namespace {
 constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kSameAngle = 1e-9;
 constexpr int kMaxDepth = 32;
+constexpr double kMostTurns = 1e5;  // of one helix; default, unsourced
 
 tl::unexpected<Diagnostic> bad(const model::Model& m, AnyRef at, std::string what) {
   Diagnostic d{.code = "EXC-CURVE", .message = std::move(what)};
@@ -95,6 +96,9 @@ class Walker {
       i = j;
     }
     if (out.empty()) return bad(m_, at, "a POLYLINE stays where it is");
+    // The same point twice at an end: no move goes with it, and the parameter still runs from 0 to the last.
+    out.front().u_from = 0.0;
+    out.back().u_to = static_cast<double>(items.size() - 1);
     return out;
   }
 
@@ -232,6 +236,7 @@ class Walker {
               .sweep = 0.0};
     if (!a.point && !b.point && pitch) {
       s.sweep = angle(b) - angle(a);
+      if (!(std::abs(s.sweep) <= kMostTurns * kTurn)) return bad(m_, at, "a HELIX has too many turns");
       return std::vector<Segment>{s};
     }
     double turn = std::fmod(along ? angle(b) - angle(a) : angle(a) - angle(b), kTurn);
@@ -241,7 +246,7 @@ class Walker {
       if (!(*pitch > 0.0)) return bad(m_, at, "a HELIX has no pitch");
       const double rise = std::abs(dot(s.to - s.from, s.axis));
       const double turns = std::round((rise / *pitch) - turn / kTurn);
-      if (std::abs(turns) > 1e5) return bad(m_, at, "a HELIX has too many turns");
+      if (!(std::abs(turns) <= kMostTurns)) return bad(m_, at, "a HELIX has too many turns");
       turn = std::max(0.0, turn + kTurn * turns);
       if (turn == 0.0) return std::vector<Segment>{{s.from, s.to, false, {}, {}, 0.0}};
     }

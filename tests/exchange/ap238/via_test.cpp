@@ -124,8 +124,8 @@ TEST(ViaPoint, RandomArcsComeBack) {
   }
 }
 
-model::Plan plan_with(const std::string& points) {
-  return read_text(file_of(
+std::string exchange_file(const std::string& points) {
+  return file_of(
       "#1=MACHINING_PROJECT('p','','',(#2));\n#2=PRODUCT_CONTEXT('','',#3,'');\n#3=APPLICATION_CONTEXT('');\n"
       "#4=PRODUCT_DEFINITION_FORMATION('','',#1);\n#5=PRODUCT_DEFINITION('p','',#4,#6);\n"
       "#6=PRODUCT_DEFINITION_CONTEXT('',#3,'');\n#7=PROCESS_PRODUCT_ASSOCIATION('','',#5,#8);\n"
@@ -141,8 +141,10 @@ model::Plan plan_with(const std::string& points) {
       "#21=(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.));\n"
       "#30=ACTION_PROPERTY('basic curve','',#15);\n#31=ACTION_PROPERTY_REPRESENTATION('','',#30,#32);\n"
       "#32=REPRESENTATION('',(#33),#20);\n" +
-      points));
+      points);
 }
+
+model::Plan plan_with(const std::string& points) { return read_text(exchange_file(points)); }
 
 Result<StepPath> path_in(const std::string& points) {
   const auto plan = plan_with(points);
@@ -170,6 +172,80 @@ TEST(ViaPoint, PolylineOfAFileBecomesLinesAndArcs) {
     EXPECT_EQ(p.cy[i], 5.0);
   }
   EXPECT_EQ(p.point(3), (Vec3{10, 0, -2}));
+}
+
+// The uncertainty is stated in a unit of its own: a millimetre (#21) or an inch (#22).
+model::Plan uncertain(const std::string& value, const char* unit, const std::string& points,
+                      std::vector<std::string>* said = nullptr) {
+  std::string text = exchange_file(points);
+  const std::string bare = "GLOBAL_UNIT_ASSIGNED_CONTEXT((#21))";
+  const auto at = text.find(bare);
+  EXPECT_NE(at, std::string::npos);
+  text.replace(at, bare.size(), "GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT((#25))" + bare);
+  text.replace(text.find("#30="), 0,
+               "#25=UNCERTAINTY_MEASURE_WITH_UNIT(LENGTH_MEASURE(" + value + ")," + unit +
+                   ",'DISTANCE_ACCURACY_VALUE','');\n"
+                   "#22=(CONVERSION_BASED_UNIT('inch',#23)LENGTH_UNIT()NAMED_UNIT(#24));\n"
+                   "#23=LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE(25.4),#21);\n"
+                   "#24=DIMENSIONAL_EXPONENTS(1.,0.,0.,0.,0.,0.,0.);\n");
+  return read_text(text, said);
+}
+
+Result<StepPath> path_of(const model::Plan& plan) {
+  Job job;
+  return path_of_step(
+      plan, model::Ref<model::Executable>(plan.model.all(model::TypeId::kMachiningWorkingstep).at(0)), {},
+      job);
+}
+
+TEST(ViaPoint, WithinTheStatedUncertaintyOfANeighbourMakesALine) {
+  struct Case {
+    const char *value, *unit, *via;
+    bool arc;
+  };
+  // 5E-5 inch are 1.27 micrometres: as a number of millimetres they were less than the distance.
+  for (const Case& c :
+       {Case{"0.001", "#21", "(0.,0.0005,0.)", false}, Case{"0.001", "#21", "(10.,0.0005,0.)", false},
+        Case{"5.E-05", "#22", "(0.,0.0005,0.)", false}, Case{"0.0001", "#21", "(0.,0.0005,0.)", true},
+        Case{"1.E-05", "#22", "(0.,0.0005,0.)", true}}) {
+    SCOPED_TRACE(std::string(c.value) + c.unit + c.via);
+    std::vector<std::string> said;
+    const auto plan = uncertain(c.value, c.unit,
+                                "#33=POLYLINE('',(#40,#41,#42));\n#40=CARTESIAN_POINT('',(0.,0.,0.));\n"
+                                "#41=VIA_ARC_POINT(''," +
+                                    std::string(c.via) + ");\n#42=CARTESIAN_POINT('',(10.,0.001,0.));\n",
+                                &said);
+    const auto got = path_of(plan);
+    ASSERT_TRUE(got) << to_text(got.error());
+    ASSERT_EQ(got->path.size(), 2U);
+    EXPECT_EQ(got->path.kind[1] != model::MoveKind::kLine, c.arc);
+    const auto warned = ::testing::Contains(HasSubstr("EXC-VIA"));
+    if (c.arc) {
+      EXPECT_THAT(said, ::testing::Not(warned));
+    } else {
+      EXPECT_THAT(said, warned);
+      // Points stay as many: what stands beside the curve still fits it.
+      const auto t = plan.model.all(model::TypeId::kCutterLocationTrajectory).at(0);
+      const auto line = plan.model.at<model::CutterLocationTrajectory>(t).basiccurve;
+      EXPECT_EQ(plan.model.at<model::Polyline>(line).points.size(), 3U);
+    }
+  }
+}
+
+TEST(ViaPoint, OneOfSeveralWithinTheUncertaintyLeavesTheArc) {
+  const double h = std::sqrt(0.5) * 10.0;
+  const auto at = [](double x, double y) {
+    return "(" + std::to_string(x) + "," + std::to_string(y) + ",0.));\n";
+  };
+  const auto plan = uncertain("0.001", "#21",
+                              "#33=POLYLINE('',(#40,#41,#42,#43));\n#40=CARTESIAN_POINT(''," + at(10, 0) +
+                                  "#41=VIA_ARC_POINT(''," + at(10, 0.0005) + "#42=VIA_ARC_POINT(''," +
+                                  at(h, h) + "#43=CARTESIAN_POINT(''," + at(0, 10));
+  const auto got = path_of(plan);
+  ASSERT_TRUE(got) << to_text(got.error());
+  ASSERT_EQ(got->path.size(), 2U);
+  EXPECT_EQ(got->path.kind[1], model::MoveKind::kArcCcw);
+  EXPECT_NEAR(got->path.cx[1], 0.0, 1e-5);
 }
 
 TEST(ViaPoint, AtTheEndsOfAPolylineOrOfTwoKindsIsRefused) {
@@ -282,6 +358,42 @@ TEST(Helix, AboutAnotherAxisIsWrittenAsPointsAndSaidSo) {
   const Written out = written(plan);
   EXPECT_THAT(out.bytes, ::testing::Not(HasSubstr("VIA_HELIX_POINT")));
   EXPECT_THAT(out.losses, ::testing::Contains(HasSubstr("does not turn about z")));
+}
+
+TEST(Helix, OfMoreTurnsThanItsPointsIsNone) {
+  // A trillion turns in a name; its two points stay what they are.
+  std::string named = written(with_helix({0, 0, -1})).bytes;
+  const auto at = named.find("'HELIX 5 2 ");
+  ASSERT_NE(at, std::string::npos);
+  for (const char* name : {"'HELIX 5 1e-12 ", "'HELIX 5 1e-300 "}) {
+    std::string text = named;
+    text.replace(at, 11, name);
+    EXPECT_FALSE(follows_helix(read_text(text))) << name;
+  }
+  const auto end = named.find('\'', at + 1);
+  std::string text = named;
+  text.replace(at, end - at, "'HELIX 5 2 0 0 0 0 0 -1 $ T 1 - 0 - 1e12");
+  EXPECT_FALSE(follows_helix(read_text(text)));
+}
+
+TEST(Helix, OfTooManyPointsIsNotWrittenAndSaidSo) {
+  for (const double turns : {9e4, 1e12}) {
+    auto plan = with_helix({0, 0.6, 0.8});  // points within a micrometre: hundreds a turn
+    auto& m = plan.model;
+    const auto at = m.all(model::TypeId::kTrimmedCurve).at(0);
+    auto& c = m.at<model::TrimmedCurve>(at);
+    c.master_representation = model::TrimmingPreference::kParameter;
+    c.trim_1 = {{{.ref = {}, .type = "PARAMETER_VALUE", .real = 0.0, .text = {}}}, true};
+    c.trim_2 = {{{.ref = {}, .type = "PARAMETER_VALUE", .real = 360.0 * turns, .text = {}}}, true};
+    Job job;
+    const auto out = write_ap238(plan, job);
+    if (out) {
+      EXPECT_THAT(out->losses, ::testing::Contains(HasSubstr("is left out")));
+    } else {
+      EXPECT_THAT(out.error().message, HasSubstr("HELIX"));
+    }
+    EXPECT_FALSE(path_of(plan));
+  }
 }
 
 }  // namespace
