@@ -222,12 +222,39 @@ Id Writer::instance_of(AnyRef at) {
   }
   const Id id = make(row->root.entities);
   ids_.emplace(at, id);
-  for (const Constraint& c : row->root.constraints) {
+  begin(at, *row, id, 0);
+  return id;
+}
+
+void Writer::begin(AnyRef at, const ObjectRow& row, Id id, std::uint32_t copy) {
+  for (const Constraint& c : row.root.constraints) {
     if ((c.attribute == "description" || c.attribute == "action_method.description") && !c.texts.empty())
       descriptions_[at] = c.texts.front();
   }
-  constrain(id, row->root.constraints, 0, at);
-  tasks_.push_back({at, id});
+  constrain(id, row.root.constraints, 0, at);
+  tasks_.push_back({at, id, copy});
+}
+
+// Whether an attribute that holds one reference holds another one already.
+bool Writer::is_taken(Id at, std::string_view attribute, Id by) const {
+  const auto [owner, bare] = qualified(attribute);
+  const EntityId wanted = owner.empty() ? express::kNoEntity : schema_.find(owner);
+  return std::any_of(made_[at - 1].values.begin(), made_[at - 1].values.end(), [&](const Value& v) {
+    return v.attribute->name == bare && (wanted == express::kNoEntity || v.attribute->owner == wanted) &&
+           !v.aggregate && !v.items.empty() && v.items.front().rfind('#', 0) == 0 &&
+           v.items.front() != "#" + std::to_string(by);
+  });
+}
+
+// Another instance of an object: where it says itself whose it is, and is two objects' at once.
+Id Writer::copy_of(AnyRef at) {
+  const ObjectRow* row = at.type == TypeId::kKeptInstance ? nullptr : object_row(at);
+  if (row == nullptr) {
+    lose("another use of the same " + std::string(model::noun_type(at.type).keyword));
+    return kNoId;
+  }
+  const Id id = make(row->root.entities);
+  begin(at, *row, id, ++copies_);
   return id;
 }
 
@@ -326,7 +353,7 @@ Id Writer::walk(const Row& row, AnyRef owner, Id root, std::size_t leave, std::u
   for (std::size_t k = 0; k + leave < row.steps.size(); ++k) {
     const Step& s = row.steps[k];
     if (s.fan) element = ordinal;
-    const MemoKey key{owner, s.prefix, element};
+    const MemoKey key{owner, s.prefix, element, copy_};
     const auto it = memo_.find(key);
     if (it != memo_.end()) {
       at = it->second;
@@ -402,6 +429,7 @@ Id Writer::description(std::string_view name, std::string_view text) {
 // --- rows ---
 
 void Writer::write_rows(const Task& t) {
+  copy_ = t.copy;
   std::vector<std::string> written;
   for (const Row* row : map_.rows_of(t.at.type)) {
     if (!row->written) continue;
@@ -429,7 +457,8 @@ void Writer::write_rows(const Task& t) {
     written.push_back(dotted);
     write_value(*row, t.at, *a, m_.object(holder), t.root);
   }
-  note_unmapped(t.at, object_row(t.at));
+  copy_ = 0;
+  if (t.copy == 0) note_unmapped(t.at, object_row(t.at));
 }
 
 void Writer::note_unmapped(AnyRef at, const ObjectRow* object) {
@@ -490,7 +519,7 @@ void Writer::write_leaf(const Row& row, AnyRef owner, Id root, std::uint32_t ord
     }
     constrain(leaf, others, ordinal, owner);
   }
-  memo_.emplace(MemoKey{owner, last.prefix, ordinal}, leaf);
+  memo_.emplace(MemoKey{owner, last.prefix, ordinal, copy_}, leaf);
 }
 
 void Writer::write_measure(const Row& row, AnyRef owner, Id root, std::uint32_t ordinal, double v, model::Unit u) {
@@ -508,13 +537,15 @@ void Writer::write_reference(const Row& row, AnyRef owner, AnyRef to, Id root, s
     if (want && !model::is_a(to.type, *want)) return;
   }
   const Step& last = row.steps.back();
-  const Id target = instance_named(to, demanded_name(last));
+  Id target = instance_named(to, demanded_name(last));
   if (target == kNoId) return;
   if (last.inverse && to.type == TypeId::kKeptInstance) return;  // says it itself
   const Id from = walk(row, owner, root, 1, ordinal);
   if (last.inverse && is_geometry(to)) return;
+  if (last.inverse && is_taken(target, last.attribute, from)) target = copy_of(to);
+  if (target == kNoId) return;
   connect(last, from, target, ordinal, owner);
-  if (ordinal == 0) memo_.emplace(MemoKey{owner, last.prefix, 0}, target);  // rows may lead on from there
+  if (ordinal == 0) memo_.emplace(MemoKey{owner, last.prefix, 0, copy_}, target);  // rows may lead on from there
 }
 
 void Writer::write_value(const Row& row, AnyRef owner, const Attribute& a, const void* data, Id root) {

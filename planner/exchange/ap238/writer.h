@@ -78,14 +78,19 @@ class Writer {
   struct MemoKey {
     model::AnyRef owner;
     std::uint32_t prefix, ordinal;
+    std::uint32_t copy = 0;  ///< of an object that is written more than once
     friend auto operator<=>(const MemoKey&, const MemoKey&) = default;
   };
   struct Task {
     model::AnyRef at;
     Id root;
+    std::uint32_t copy = 0;
   };
 
   [[nodiscard]] const ObjectRow* object_row(model::AnyRef at) const;
+  void begin(model::AnyRef at, const ObjectRow& row, Id id, std::uint32_t copy);
+  [[nodiscard]] bool is_taken(Id at, std::string_view attribute, Id by) const;
+  Id copy_of(model::AnyRef at);
   void write_rows(const Task& t);
   void write_value(const Row& row, model::AnyRef owner, const model::Attribute& a, const void* data, Id root);
   void write_reference(const Row& row, model::AnyRef owner, model::AnyRef to, Id root, std::uint32_t ordinal);
@@ -123,6 +128,8 @@ class Writer {
   std::map<std::string, Id, std::less<>> shared_;
   std::map<model::Unit, Id> units_;
   std::deque<Task> tasks_;
+  std::uint32_t copy_ = 0;    ///< which copy of its object is being written; 0: the first
+  std::uint32_t copies_ = 0;
   std::vector<std::pair<Id, const Constraint*>> fallbacks_;
   std::deque<model::AnyRef> to_scan_;
   std::map<std::string, std::size_t> lost_;

@@ -86,7 +86,7 @@ std::string Writer::reference_text(AnyRef r) {
     if (const auto part = auxiliary_part(*kept)) {
       const auto prefix = prefix_of_text_.find(part->second.path);
       if (prefix != prefix_of_text_.end()) {
-        const auto it = memo_.find({part->first, prefix->second, part->second.ordinal});
+        const auto it = memo_.find({part->first, prefix->second, part->second.ordinal, 0});
         if (it != memo_.end()) return "#" + std::to_string(it->second);
       }
       lose("a reference to a part of " + std::string(model::noun_type(part->first.type).keyword));

@@ -231,6 +231,46 @@ TEST(WorkpieceSetup, HasItsOriginAsATransformation) {
                     "ITEM_DEFINED_TRANSFORMATION('',$,#,#);", "CARTESIAN_POINT('',(10.,20.,30.));"}));
 }
 
+// In AP238 the relation says itself whose it is, so two set-ups cannot have the same.
+TEST(WorkpieceSetup, OfTwoSetupsIsWrittenForEachOfThem) {
+  Bench b;
+  SetupBench s(b);
+  model::Model& m = b.plan.model;
+  model::SetupInstruction instruction;
+  instruction.description = "clean the faces";
+  m.at<model::WorkpieceSetup>(s.inside).its_instructions.push_back(m.add(std::move(instruction)));
+  model::Setup second;
+  second.its_id = "S2";
+  second.its_workpiece_setup.push_back(s.inside);
+  second.its_secplane = m.at<model::Setup>(s.setup).its_secplane;
+  model::Workplan inner;
+  inner.its_id = "second clamping";
+  inner.its_setup = m.add(std::move(second));
+  inner.its_elements.push_back(m.add(model::OptionalStop{}));
+  b.step(std::move(inner));
+  const Written out = written(b.plan);
+  EXPECT_EQ(out.losses, std::vector<std::string>{});
+  EXPECT_EQ(faults(out.bytes), std::vector<std::string>{}) << out.bytes;
+  const model::Plan back = read_text(out.bytes);
+  const auto setups = back.model.all(model::TypeId::kSetup);
+  ASSERT_EQ(setups.size(), 2U);
+  std::vector<AnyRef> met;
+  for (const AnyRef at : setups) {
+    const auto& setup = back.model.at<model::Setup>(at);
+    ASSERT_EQ(setup.its_workpiece_setup.size(), 1U) << out.bytes;
+    met.push_back(setup.its_workpiece_setup[0]);
+    const auto& inside = back.model.at<model::WorkpieceSetup>(met.back());
+    EXPECT_TRUE(inside.its_workpiece.set());
+    const auto& origin = back.model.at<model::Axis2Placement3d>(inside.its_origin);
+    EXPECT_EQ(back.model.at<model::CartesianPoint>(origin.location).coordinates.items,
+              (std::vector<double>{10, 20, 30}));
+    ASSERT_EQ(inside.its_instructions.size(), 1U) << out.bytes;
+    EXPECT_EQ(back.model.at<model::SetupInstruction>(inside.its_instructions[0]).description,
+              "clean the faces");
+  }
+  EXPECT_NE(met[0], met[1]);
+}
+
 TEST(WorkpieceSetup, HasInstructionsInOrder) {
   check(setup_case("instructions",
                    [](Bench& b, SetupBench& s) {
