@@ -1,5 +1,6 @@
 #include <functional>
 
+#include "tests/exchange/ap238/resource_support.h"
 #include "tests/exchange/ap238/support.h"
 #include "tests/support/corpus.h"
 
@@ -218,6 +219,36 @@ TEST(Ap238Toolpath, EachAttributeOfATrajectoryStandsWhereTheMappingHasIt) {
          b.at().cross_section_area_plunge_parameters = b.line({{5, 3, 1}, {4, 3, 1}});
        },
        {property("cross section area plunge parameters")}},
+  });
+}
+
+TEST(Ap238Toolpath, HasPropertiesAndATimestampAsOperationsHave) {
+  using Bench = PathBench<Location>;
+  check<Location>({
+      {"process properties",
+       [](Bench& b) {
+         for (const char* name : {"inspected by", "released by"}) {
+           model::DescriptiveParameter who;
+           who.parameter_name = "name";
+           who.descriptive_string = "M8";
+           model::ProcessProperty property;
+           property.name = name;
+           property.description = "the operator";
+           property.its_parameters.push_back(b.plan.model.add(std::move(who)));
+           b.at().process_properties.push_back(b.plan.model.add(std::move(property)));
+         }
+       },
+       {"MACHINING_PROCESS_PROPERTY('inspected by','the operator',#);",
+        "MACHINING_PROCESS_PROPERTY('released by','the operator',#);",
+        "DESCRIPTIVE_REPRESENTATION_ITEM('name','M8');"}},
+      {"last modified",
+       [](Bench& b) {
+         model::LastModifiedTimestamp stamp;
+         stamp.assigned_date = moment(b.plan.model);
+         stamp.role = "last modified";
+         b.at().last_modified_timestamp = b.plan.model.add(std::move(stamp));
+       },
+       {"APPLIED_DATE_AND_TIME_ASSIGNMENT(#,#,(#));", "DATE_TIME_ROLE('last modified');"}},
   });
 }
 
