@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <tuple>
 
 #include "planner/model/nouns/all.h"
 #include "planner/model/walk.h"
@@ -107,12 +109,19 @@ std::vector<Terminal> Reader::follow(const std::vector<Step>& steps, const std::
     level.front().scale = const_cast<Units&>(units_).scale(g_.find(own.reference()), default_scale_);
   }
   std::vector<Node> candidates;
+  std::vector<Meeting> meetings;
+  std::uint32_t elements = 0;
   for (const Step& s : steps) {
     std::vector<Terminal> next;
+    // A way that meets another one goes no further: a thousand representations that share a thousand items
+    // are two thousand steps and not a million.
+    std::set<std::tuple<Node, std::uint32_t, double, std::uint32_t, double, double>> met;
     for (const Terminal& from : level) {
       candidates.clear();
       if (s.inverse) {
-        for (const Node u : g_.users(from.node)) {
+        const auto users = g_.users(from.node);
+        if (!visit(users.size(), root)) return {};
+        for (const Node u : users) {
           if (g_.is(u, s.owner) && g_.refers(g_.get(u, s.attribute), from.node)) candidates.push_back(u);
         }
       } else {
@@ -120,22 +129,33 @@ std::vector<Terminal> Reader::follow(const std::vector<Step>& steps, const std::
         if (s.index != 0) {
           candidates = s.index <= candidates.size() ? std::vector<Node>{candidates[s.index - 1]} : std::vector<Node>{};
         }
+        if (!visit(candidates.size(), root)) return {};
       }
       std::uint32_t k = 0;
+      bool merged = false;
       for (const Node n : candidates) {
         std::uint32_t ordinal = s.fan ? k + 1 : from.ordinal;
         double order = s.fan ? static_cast<double>(k + 1) : from.order;
         if (!holds(n, s, &ordinal, &order)) continue;
         ++k;
+        Scale scale = from.scale;
+        const Value context = g_.get(n, "context_of_items");
+        if (context.is(Kind::kReference)) {
+          scale = const_cast<Units&>(units_).scale(g_.find(context.reference()), default_scale_);
+        }
+        const std::uint32_t element = s.fan ? ++elements : from.fan;
+        if (level.size() > 1 && !met.emplace(n, ordinal, order, element, scale.length, scale.angle).second) {
+          if (!merged) meetings.push_back({from.trail, n, ordinal});
+          merged = true;
+          continue;
+        }
         Terminal t = from;
         t.node = n;
         t.ordinal = ordinal;
         t.order = order;
+        t.fan = element;
+        t.scale = scale;
         t.trail.push_back({n, s.prefix, ordinal});
-        const Value context = g_.get(n, "context_of_items");
-        if (context.is(Kind::kReference)) {
-          t.scale = const_cast<Units&>(units_).scale(g_.find(context.reference()), default_scale_);
-        }
         next.push_back(std::move(t));
       }
     }
@@ -145,13 +165,48 @@ std::vector<Terminal> Reader::follow(const std::vector<Step>& steps, const std::
     for (Terminal& t : level) t.text = g_.get(t.node, value_of);
   }
   std::stable_sort(level.begin(), level.end(), [](const auto& a, const auto& b) { return a.order < b.order; });
+  for (const Terminal& t : level) consume(steps, value_of, root, t);
+  if (!level.empty() && !meetings.empty()) {
+    // The ways that ended where another one had been are explained by it.
+    std::set<std::pair<Node, std::uint32_t>> on;
+    for (const Terminal& t : level) {
+      for (const auto& m : t.trail) on.emplace(m.node, m.ordinal);
+    }
+    for (auto m = meetings.rbegin(); m != meetings.rend(); ++m) {
+      if (!on.contains({m->node, m->ordinal})) continue;
+      for (const auto& mark : m->way) {
+        if (on.emplace(mark.node, mark.ordinal).second) level.front().also.push_back(mark);
+      }
+      Terminal way;
+      way.trail = std::move(m->way);
+      consume(steps, "", root, way);
+    }
+  }
   return level;
 }
 
+// Files where every path branches at every step are refused before they take hours.
+bool Reader::visit(std::size_t candidates, Node root) const {
+  // Default, unsourced.
+  const std::uint64_t most = 4'000'000 + 400ULL * g_.size();
+  const bool before = visits_ > most;
+  visits_ += candidates;
+  if (visits_ <= most) return true;
+  if (!before) {
+    about(root, {.code = "EXC-TANGLED",
+                 .severity = Severity::kError,
+                 .message = "too many ways lead through the instances of this file; given up here",
+                 .expected = "at most " + std::to_string(most) + " steps for a file of this size"});
+  }
+  return false;
+}
+
 void Reader::mark(const Terminal& t, AnyRef owner) {
-  for (const auto& m : t.trail) {
-    if (!object_[m.node] && !owner_[m.node].set() && !kept_[m.node].set()) {
-      owner_[m.node] = {owner, m.prefix, m.ordinal};
+  for (const auto* marks : {&t.trail, &t.also}) {
+    for (const auto& m : *marks) {
+      if (!object_[m.node] && !owner_[m.node].set() && !kept_[m.node].set()) {
+        owner_[m.node] = {owner, m.prefix, m.ordinal};
+      }
     }
   }
 }
@@ -225,6 +280,7 @@ AnyRef Reader::object_at(Node n, std::span<const TypeId> targets, const Scale& s
     nouns_.emplace(n, at);
     root_.emplace(at, n);
     object_[n] = true;
+    consume_constraints(n, row->root.constraints);
     make_inner(plan_.model, at, *row);
     Terminal guard;
     for (const Terminal& t : row->guard.empty() ? std::vector<Terminal>{} : follow(row->guard, "", n)) mark(t, at);
@@ -338,6 +394,7 @@ void Reader::run() {
   to_model(*this);
   drain();
   keep_the_rest();
+  note_unread();
 }
 
 }  // namespace capstan::exchange::ap238

@@ -22,6 +22,7 @@ struct Terminal {
   Scale scale;            ///< of the representation that was passed last
   std::uint32_t ordinal = 0;  ///< which element of a list, from 1
   double order = 0.0;     ///< what puts the elements of a list in order
+  std::uint32_t fan = 0;  ///< the element of the list that the way led through last
   p21::Value text;        ///< of a row that ends in `.attribute`
   /// The instances on the way: node, prefix, ordinal.
   struct Mark {
@@ -29,6 +30,7 @@ struct Terminal {
     std::uint32_t prefix, ordinal;
   };
   std::vector<Mark> trail;
+  std::vector<Mark> also;  ///< of other ways that lead to the same instances
 };
 
 /// Reads a graph into a model by the rows of the mapping. One per file.
@@ -94,10 +96,23 @@ class Reader {
   void fill(model::AnyRef at, Node n);
   bool read_row(const Row& row, model::AnyRef at, Node n);
   bool assign(const Row& row, model::AnyRef at, const model::Attribute& a, std::vector<Terminal>& found);
+  void say_twice(model::AnyRef at, const model::Attribute& a, const Terminal& taken, const std::vector<Terminal>& found);
+  [[nodiscard]] std::string spelling_of(Node n) const;
   bool scalar(const Row& row, model::AnyRef at, const model::Attribute& a, const Terminal& t);
   void list(const Row& row, model::AnyRef at, const model::Attribute& a, const std::vector<Terminal>& found);
   void select(const Row& row, const model::Attribute& a, const Terminal& t, model::SelectValue& out);
   [[nodiscard]] bool holds(Node n, const Step& s, std::uint32_t* ordinal, double* order) const;
+  /// What several ways led to, while a path is followed.
+  struct Meeting {
+    std::vector<Terminal::Mark> way;
+    Node node;
+    std::uint32_t ordinal;
+  };
+  [[nodiscard]] bool visit(std::size_t candidates, Node root) const;
+  void consume(const std::vector<Step>& steps, const std::string& value_of, Node root,
+               const Terminal& t) const;
+  void consume_constraints(Node n, const std::vector<Constraint>& constraints) const;
+  void note_unread();
   [[nodiscard]] const ObjectRow* object_row(Node n, std::span<const model::TypeId> targets) const;
   model::AnyRef geometry_at(Node n, model::TypeId type, const Scale& scale);
   void fill_geometry(model::AnyRef at, Node n, const Scale& scale);
@@ -134,6 +149,10 @@ class Reader {
   };
   std::deque<Pending> pending_;
   std::vector<Doubt> doubts_;
+
+  mutable std::uint64_t visits_ = 0;  ///< steps of paths taken so far, see `visit`
+  /// What paths and constraints have made use of: attributes, and references whichever way they were gone.
+  mutable std::vector<std::uint64_t> read_attributes_, read_references_;
 };
 
 }  // namespace capstan::exchange::ap238

@@ -91,7 +91,10 @@ inline void check(const Case& c) {
   EXPECT_EQ(faults(out.bytes, c.faults_meant), std::vector<std::string>{}) << out.bytes;
   std::vector<std::string> said;
   const model::Plan back = read_text(out.bytes, &said);
-  for (const auto& s : said) EXPECT_EQ(s.find("EXC-KEPT"), std::string::npos) << s << "\n" << out.bytes;
+  for (const auto& s : said) {
+    EXPECT_EQ(s.find("EXC-KEPT"), std::string::npos) << s << "\n" << out.bytes;
+    EXPECT_EQ(s.find("EXC-UNREAD"), std::string::npos) << s << "\n" << out.bytes;
+  }
   EXPECT_EQ(testing::ModelDifference(bench.plan, back, {.item_names = false, .left_out = {}}).text(), "")
       << out.bytes;
 }

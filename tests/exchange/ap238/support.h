@@ -58,12 +58,17 @@ inline std::vector<std::string> shapes(const std::string& text) {
   return out;
 }
 
-/// What differs after writing and reading; empty when nothing does. Names of geometry may (roles fix some).
+/// What differs after writing and reading, and what was written and is not read; empty when nothing. Names of geometry may (roles fix some).
 inline std::string lost_on_the_way(const model::Plan& plan) {
-  const model::Plan back = read_text(written(plan).bytes);
+  std::vector<std::string> said;
+  const model::Plan back = read_text(written(plan).bytes, &said);
   testing::DifferenceOptions options;
   options.item_names = false;
-  return testing::ModelDifference(plan, back, options).text();
+  std::string lost = testing::ModelDifference(plan, back, options).text();
+  for (const auto& s : said) {
+    if (s.find("EXC-UNREAD") != std::string::npos) lost += s + "\n";
+  }
+  return lost;
 }
 
 /// A project with a workpiece and an empty main workplan, to hang things on.
