@@ -119,19 +119,44 @@ TEST(Ap238Hostile, AnchorsToNothingAreWarnedOfAHundredTimes) {
 }
 
 TEST(Ap238Hostile, ValuesOfTheWrongKindAreFaultsAndNotNumbers) {
+  const auto text = [](const std::string& value) {
+    return file_of(kProject +
+                   "#7=MACHINING_PROCESS_SEQUENCE_RELATIONSHIP('','machining',#6,#8,1.);\n"
+                   "#8=MACHINING_WORKINGSTEP('','machining','','');\n"
+                   "#9=MACHINING_OPERATION_RELATIONSHIP('','machining',#8,#10);\n"
+                   "#10=PLANE_MILLING_OPERATION('','finishing','','');\n"
+                   "#11=ACTION_PROPERTY('retract plane','finishing',#10);\n"
+                   "#12=ACTION_PROPERTY_REPRESENTATION('','finishing',#11,#13);\n"
+                   "#13=REPRESENTATION('',(#14),$);\n#14=MEASURE_REPRESENTATION_ITEM(''," +
+                   value + ",#15);\n#15=(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.));\n");
+  };
+  const auto retract_plane = [](const model::Plan& plan) {
+    const auto all = plan.model.all(model::TypeId::kPlaneFinishMilling);
+    EXPECT_EQ(all.size(), 1U);
+    return all.empty() ? model::Real() : plan.model.at<model::PlaneFinishMilling>(all[0]).retract_plane;
+  };
+  {
+    Job job;
+    const auto plan = exchange::read_bytes(text("LENGTH_MEASURE(10.)"), "sound.stpnc", {}, job);
+    ASSERT_TRUE(plan);
+    EXPECT_EQ(retract_plane(*plan), 10.0);  // else the rest would show nothing
+  }
   for (const char* value :
-       {"$", "'10'", ".T.", "(1.)", "COUNT_MEASURE('x')", "1.E400", "-1.E308", "#6", "*"}) {
-    EXPECT_LT(answered(file_of(kProject +
-                               "#7=MACHINING_PROCESS_SEQUENCE_RELATIONSHIP('','machining',#6,#8,1.);\n"
-                               "#8=MACHINING_WORKINGSTEP('','machining','','');\n"
-                               "#9=MACHINING_OPERATION_RELATIONSHIP('','machining',#8,#10);\n"
-                               "#10=PLANE_MILLING_OPERATION('','finishing','','');\n"
-                               "#11=ACTION_PROPERTY('retract plane','finishing',#10);\n"
-                               "#12=ACTION_PROPERTY_REPRESENTATION('','finishing',#11,#13);\n"
-                               "#13=REPRESENTATION('',(#14),$);\n#14=MEASURE_REPRESENTATION_ITEM(''," +
-                               std::string(value) + ",$);\n")),
-              kBound)
-        << value;
+       {"$", "'10'", ".T.", "(1.)", "COUNT_MEASURE('x')", "LENGTH_MEASURE(1.E400)", "1.E400", "#6", "*"}) {
+    SCOPED_TRACE(value);
+    std::string said;
+    EXPECT_LT(answered(text(value), &said), kBound);
+    Job job;
+    const auto plan = exchange::read_bytes(text(value), "hostile.stpnc", {}, job);
+    if (plan) {
+      EXPECT_EQ(retract_plane(*plan), std::nullopt);
+    }
+    // Absent is absent; what cannot be a number is told with its line.
+    if (std::string(value) == "$") continue;
+    const bool refused = std::string(value).find("E400") != std::string::npos;
+    EXPECT_EQ(plan.has_value(), !refused);
+    EXPECT_THAT(said, HasSubstr(refused ? "hostile.stpnc:21: error: #14" : "hostile.stpnc:21: warning: #14"));
+    EXPECT_THAT(said, HasSubstr(refused ? "P21-NUMBER" : "EXC-VALUE"));
   }
 }
 

@@ -268,5 +268,27 @@ INSTANTIATE_TEST_SUITE_P(Files, Ap238File,
                            return name.starts_with("exp2") ? "exp2" : name.substr(18, 3);
                          });
 
+// Its workpiece and its main workplan are not in the file.
+TEST(Ap238Exp2, IsReadWithTheNameOfItsProjectAndBothReferencesToNothingAreTold) {
+  CAPSTAN_CORPUS_FILE(path, "ap238/exp2_stepnc_maker3_empty_ed3anchors.stpnc");
+  Job job;
+  const auto file = p21::parse(testing::slurp(path), "exp2.stpnc", {}, job);
+  ASSERT_TRUE(file) << to_text(file.error());
+  const auto plan = exchange::read_ap238(*file, job);
+  ASSERT_TRUE(plan) << to_text(plan.error());
+  ASSERT_TRUE(plan->project.set());
+  const auto& project = plan->model.at<model::Project>(plan->project);
+  EXPECT_EQ(project.its_id, "exp2");
+  EXPECT_FALSE(project.main_workplan.set());
+  EXPECT_TRUE(project.its_workpieces.empty());
+  std::vector<std::string> dangling;
+  for (const auto& d : job.diagnostics()) {
+    if (d.code == "P21-DANGLING") dangling.push_back(to_text(d));
+  }
+  EXPECT_THAT(dangling,
+              ::testing::ElementsAre(::testing::HasSubstr("exp2.stpnc:45: warning: #11 refers to #20"),
+                                     ::testing::HasSubstr("exp2.stpnc:47: warning: #13 refers to #18")));
+}
+
 }  // namespace
 }  // namespace capstan::corpus
