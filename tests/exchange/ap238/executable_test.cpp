@@ -1,5 +1,7 @@
 // Workplans, workingsteps, program structures, expressions and functions, attribute by attribute.
 
+#include <memory>
+
 #include "tests/exchange/ap238/process_support.h"
 
 namespace capstan::exchange::ap238::process {
@@ -289,6 +291,119 @@ TEST(Executable, OfEveryKindComesBackWhole) {
     if (t == TypeId::kMachiningWorkingstep)
       others.insert(others.end(), {"its_feature", "toolpath_orientation"});
     check_whole(t, others);
+  }
+}
+
+/// Instances of a written file, followed along their references.
+class Chain {
+ public:
+  explicit Chain(std::string bytes) {
+    Job job;
+    auto file = p21::parse(std::move(bytes), "t.stpnc", {}, job);
+    EXPECT_TRUE(file.has_value());
+    if (file) file_ = std::make_unique<p21::File>(std::move(*file));
+  }
+  [[nodiscard]] std::vector<p21::Instance> all(const std::string& keyword) const {
+    std::vector<p21::Instance> out;
+    for (const p21::Instance i : *file_) {
+      if (i.keyword() == keyword) out.push_back(i);
+    }
+    return out;
+  }
+  /// The instances of that kind whose parameter refers to this one.
+  [[nodiscard]] std::vector<p21::Instance> users(const p21::Instance& of, const std::string& keyword,
+                                                 std::size_t parameter) const {
+    std::vector<p21::Instance> out;
+    for (const auto& i : all(keyword)) {
+      const auto v = i.part(0).parameters[parameter];
+      if (v.is(p21::Kind::kReference) && v.reference() == of.id()) out.push_back(i);
+    }
+    return out;
+  }
+  [[nodiscard]] p21::Instance to(const p21::Instance& from, std::size_t parameter) const {
+    return *file_->find(from.part(0).parameters[parameter].reference());
+  }
+  [[nodiscard]] static std::string text(const p21::Instance& i, std::size_t parameter) {
+    return std::string(i.part(0).parameters[parameter].as_text());
+  }
+
+ private:
+  std::unique_ptr<p21::File> file_;
+};
+
+// workingstep . final_features: relating_method <- machining_final_feature_relationship -> related_method
+// machining_feature_process <- chosen_method property_process{name 'machining'} <- process
+// process_property_association -> property_or_shape, the feature.
+TEST(Workingstep, ReachesItsFinalFeaturesByProcessesOfTheirOwn) {
+  check(
+      {"MACHINING_WORKINGSTEP",
+       "final_features",
+       0,
+       {"MACHINING_FINAL_FEATURE_RELATIONSHIP('','machining',#,#);",
+        "MACHINING_FEATURE_PROCESS('','machining','','');", "PROPERTY_PROCESS('machining','machining',#,'');",
+        "PROCESS_PROPERTY_ASSOCIATION('','machining',#,#);"}});
+  Bench bench;
+  const AnyRef at = placed(bench, TypeId::kMachiningWorkingstep);
+  auto& step = bench.plan.model.at<model::MachiningWorkingstep>(at);
+  step.its_id = "last cut";
+  give(bench, at, *model::find_attribute(at.type, "final_features"), 0);
+  const Written out = written(bench.plan);
+  const Chain file(out.bytes);
+  const auto relations = file.all("MACHINING_FINAL_FEATURE_RELATIONSHIP");
+  ASSERT_EQ(relations.size(), 2U);
+  std::vector<std::string> reached;
+  for (const auto& relation : relations) {
+    EXPECT_EQ(Chain::text(file.to(relation, 2), 0), "last cut");
+    const auto process = file.to(relation, 3);
+    EXPECT_EQ(process.keyword(), "MACHINING_FEATURE_PROCESS");
+    const auto actions = file.users(process, "PROPERTY_PROCESS", 2);
+    ASSERT_EQ(actions.size(), 1U);
+    const auto associations = file.users(actions[0], "PROCESS_PROPERTY_ASSOCIATION", 2);
+    ASSERT_EQ(associations.size(), 1U);
+    const auto feature = file.to(associations[0], 3);
+    const std::string line = "#" + std::to_string(feature.id()) + "=";
+    const auto at_line = out.bytes.find("\n" + line);
+    ASSERT_NE(at_line, std::string::npos);
+    reached.push_back(out.bytes.substr(at_line + 1, out.bytes.find('\n', at_line + 1) - at_line - 1));
+  }
+  EXPECT_THAT(reached,
+              ::testing::ElementsAre(::testing::HasSubstr("INSTANCED_FEATURE('','toolpath','feature 0'"),
+                                     ::testing::HasSubstr("INSTANCED_FEATURE('','toolpath','feature 1'")));
+  EXPECT_TRUE(file.all("MACHINING_FEATURE_RELATIONSHIP").empty());  // they are not the feature it works on
+}
+
+// executable . process_properties and operation . process_properties: action_method <- definition
+// machining_process_property, with its parameters in a representation.
+TEST(ProcessProperty, StandsAtExecutablesAndAtOperations) {
+  struct Case {
+    const char* noun;
+    const char* keyword;
+  };
+  for (const Case& c :
+       {Case{"WORKPLAN", "MACHINING_WORKPLAN"}, Case{"MACHINING_WORKINGSTEP", "MACHINING_WORKINGSTEP"},
+        Case{"PROGRAM_STOP", "MACHINING_NC_FUNCTION"}, Case{"IF_STATEMENT", "MACHINING_PROCESS_EXECUTABLE"},
+        Case{"PLANE_FINISH_MILLING", "PLANE_MILLING_OPERATION"}, Case{"DRILLING", "DRILLING_OPERATION"},
+        Case{"TAPPING", "TAPPING_OPERATION"}, Case{"REAMING", "BORING_OPERATION"}}) {
+    SCOPED_TRACE(c.noun);
+    check({c.noun,
+           "process_properties",
+           0,
+           {"MACHINING_PROCESS_PROPERTY('bound by','the operator',#);",
+            "ACTION_PROPERTY_REPRESENTATION('','',#,#);", "REPRESENTATION('',(#,#),#);",
+            "DESCRIPTIVE_REPRESENTATION_ITEM('M','M8');"}});
+    Bench bench;
+    const AnyRef at = placed(bench, noun(c.noun));
+    *static_cast<model::Text*>(model::find_attribute(at.type, "its_id")->at(bench.plan.model.object(at))) =
+        "holder";
+    give(bench, at, *model::find_attribute(at.type, "process_properties"), 0);
+    const Chain file(written(bench.plan).bytes);
+    const auto properties = file.all("MACHINING_PROCESS_PROPERTY");
+    ASSERT_EQ(properties.size(), 2U);
+    for (const auto& property : properties) {
+      EXPECT_EQ(file.to(property, 2).keyword(), c.keyword);
+      EXPECT_EQ(Chain::text(file.to(property, 2), 0), "holder");
+      EXPECT_EQ(file.users(property, "ACTION_PROPERTY_REPRESENTATION", 2).size(), 1U);
+    }
   }
 }
 
