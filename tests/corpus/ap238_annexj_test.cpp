@@ -282,6 +282,8 @@ class Oracle {
         const bool per_minute = a.unit == model::Unit::kSpeed || a.unit == model::Unit::kRotSpeed;
         if (!named.has_text && per_minute) want *= 60.0;
         want *= factor;
+        // 75 for three quarters: the file's ratios of cuts at a hole's ends are percent, and read as such (EXC-RATIO).
+        if (a.unit == model::Unit::kRatio && want >= 10.0) want /= 100.0;
         if (!(std::abs(v - want) <= 1e-9 * std::max(1.0, std::abs(want))))
           differ(named.name, std::to_string(v) + " and not " + std::to_string(want));
         return;

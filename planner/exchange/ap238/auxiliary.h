@@ -25,7 +25,8 @@ struct Part {
 }
 
 /// What such an instance says; nothing for any other kept instance.
-[[nodiscard]] inline std::optional<std::pair<model::AnyRef, Part>> auxiliary_part(const model::KeptInstance& k) {
+[[nodiscard]] inline std::optional<std::pair<model::AnyRef, Part>> auxiliary_part(
+    const model::KeptInstance& k) {
   if (k.keyword.empty() || k.keyword.front() != '&' || k.pieces.size() != 1) return std::nullopt;
   const auto* owner = std::get_if<model::AnyRef>(&k.pieces.front());
   const auto space = k.keyword.find(' ');

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "planner/exchange/ap238/reader.h"
 #include "planner/exchange/text.h"
@@ -50,9 +51,27 @@ AnyRef Reader::geometry_at(Node n, TypeId type, const Scale& stated) {
   plan_.model.set_origin(at, {i.id(), i.line()});
   geometry_.emplace(key, at);
   if (type == TypeId::kPolyline && scale.uncertainty_mm > 0.0) uncertainty_mm_[at] = scale.uncertainty_mm;
+  if (scale.unclear && !model::is_a(type, TypeId::kDirection)) {
+    doubts_.push_back({at,
+                       {.code = "EXC-UNIT",
+                        .message = "the context of " + std::string(model::noun_type(type).keyword) +
+                                   " does not say in which unit lengths are, or says two",
+                        .hint = "give its GLOBAL_UNIT_ASSIGNED_CONTEXT one length unit"}});
+  }
   object_[n] = true;
   pending_.push_back({at, n, true, scale});
   return at;
+}
+
+// Parameters of circles and ellipses are angles in the context's unit; the model has them in degrees, as ISO
+// 14649.
+double Reader::parameter_factor(Node n, const Scale& scale) const {
+  const Value basis = g_.get(n, "basis_curve");
+  const Node curve = basis.is(Kind::kReference) ? g_.find(basis.reference()) : kNoNode;
+  const auto is = [&](const char* entity) {
+    return curve != kNoNode && g_.is(curve, g_.schema().find(entity));
+  };
+  return is("CIRCLE") || is("ELLIPSE") ? scale.angle * 180.0 / std::numbers::pi : 1.0;
 }
 
 void Reader::fill_geometry(AnyRef at, Node n, const Scale& scale) {
@@ -193,7 +212,7 @@ void Reader::fill_geometry(AnyRef at, Node n, const Scale& scale) {
           if (e.is(Kind::kReference)) {
             s.ref = reference(e, a);
           } else if (number(e).is_number()) {
-            s.real = number(e).as_real();
+            s.real = number(e).as_real() * parameter_factor(n, scale);
             if (e.is(Kind::kTyped)) s.type = e.keyword();
           }
           if (s.set()) out.items.push_back(std::move(s));

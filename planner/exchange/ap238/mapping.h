@@ -18,14 +18,15 @@ namespace capstan::exchange::ap238 {
 
 using express::EntityId;
 
-/// `attribute = value` (demanded when reading, set when writing) or `attribute := value` (only set). A demanded
+/// `attribute = value` (demanded when reading, set when writing) or `attribute := value` (only set). A
+/// demanded
 /// `@name` must be an instance such as the shared one.
 struct Constraint {
   enum class Kind : std::uint8_t { kPlain, kShared, kOrdinal, kDescription };
   std::string attribute;  ///< lower case, may be qualified: "shape_aspect.name"
   bool demanded = false;
-  bool negated = false;    ///< `!=`: demanded not to be so; never set
-  bool fallback = false;   ///< `?=`: set in the end, where nothing else has set it
+  bool negated = false;   ///< `!=`: demanded not to be so; never set
+  bool fallback = false;  ///< `?=`: set in the end, where nothing else has set it
   Kind kind = Kind::kPlain;
   std::vector<std::string> texts;  ///< Part 21 spellings that do; the first is written. kShared: its name
 };
@@ -33,17 +34,17 @@ struct Constraint {
 /// From one instance to the next: along an attribute, or against one.
 struct Step {
   bool inverse = false;
-  bool fan = false;                   ///< one per element of the list
-  bool own = false;                   ///< not shared with other attributes of the object
-  bool exact = false;                 ///< of this very entity, no subtype and no complex instance
+  bool fan = false;                     ///< one per element of the list
+  bool own = false;                     ///< not shared with other attributes of the object
+  bool exact = false;                   ///< of this very entity, no subtype and no complex instance
   EntityId owner = express::kNoEntity;  ///< inverse: what holds the attribute
   std::string attribute;
-  std::uint32_t index = 0;            ///< forward: only this element of the list, from 1; 0: any
-  std::string wrapper;                ///< typed parameter around the list, e.g. LIST_REPRESENTATION_ITEM
-  std::vector<EntityId> entities;     ///< what stands there: one, or the leaves of a complex instance
-  std::vector<EntityId> also;         ///< what may stand there instead when reading
+  std::uint32_t index = 0;         ///< forward: only this element of the list, from 1; 0: any
+  std::string wrapper;             ///< typed parameter around the list, e.g. LIST_REPRESENTATION_ITEM
+  std::vector<EntityId> entities;  ///< what stands there: one, or the leaves of a complex instance
+  std::vector<EntityId> also;      ///< what may stand there instead when reading
   std::vector<Constraint> constraints;
-  std::uint32_t prefix = 0;           ///< identifies the way up to here, the same for rows that share it
+  std::uint32_t prefix = 0;  ///< identifies the way up to here, the same for rows that share it
 };
 
 struct Row {
@@ -54,22 +55,23 @@ struct Row {
   /// For each of them but the last: the kind that must stand there, or the row is passed over; kNone: any.
   std::vector<model::TypeId> only;
   std::vector<Step> steps;
-  std::string value_of;                ///< the value is this attribute of the last instance
-  std::vector<std::string> texts;      ///< what stands for true and false, or for each enumerator
-  std::string codec;                   ///< a value that needs code, by name
-  std::string when;                    ///< writes only values of this form: text, real, ref, or a noun
-  std::string unless;                  ///< written only where this attribute of the same object is unset
-  bool written = true;                 ///< false: an older or other form, read only
-  std::string place;                   ///< "operation.map:12", for messages and tests
+  std::string value_of;            ///< the value is this attribute of the last instance
+  std::vector<std::string> texts;  ///< what stands for true and false, or for each enumerator
+  std::string codec;               ///< a value that needs code, by name
+  std::string when;                ///< writes only values of this form: text, real, ref, or a noun
+  std::string unless;              ///< written only where this attribute of the same object is unset
+  bool written = true;             ///< false: an older or other form, read only
+  std::string place;               ///< "operation.map:12", for messages and tests
 };
 
 struct ObjectRow {
   model::TypeId noun = model::TypeId::kNone;
-  Step root;                                              ///< entities and constraints
-  std::vector<Step> guard;                                ///< what must be there for an instance to be this
+  Step root;                ///< entities and constraints
+  std::vector<Step> guard;  ///< what must be there for an instance to be this
   std::vector<std::pair<std::vector<std::string>, model::TypeId>> with;  ///< objects inside, made with it
-  std::vector<std::string> unless;                        ///< dotted attribute that must be unset to write so
-  std::vector<std::pair<std::vector<std::string>, model::TypeId>> when;  ///< what must stand there to write so
+  std::vector<std::string> unless;  ///< dotted attribute that must be unset to write so
+  std::vector<std::pair<std::vector<std::string>, model::TypeId>>
+      when;  ///< what must stand there to write so
   bool written = true;
   std::string place;
 };

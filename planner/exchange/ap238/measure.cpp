@@ -22,10 +22,10 @@ std::optional<double> prefix(const Value& v) {
     std::string_view name;
     double factor;
   };
-  static constexpr Row kRows[] = {{"EXA", 1e18},   {"PETA", 1e15},  {"TERA", 1e12},  {"GIGA", 1e9},
-                                  {"MEGA", 1e6},   {"KILO", 1e3},   {"HECTO", 1e2},  {"DECA", 1e1},
-                                  {"DECI", 1e-1},  {"CENTI", 1e-2}, {"MILLI", 1e-3}, {"MICRO", 1e-6},
-                                  {"NANO", 1e-9},  {"PICO", 1e-12}, {"FEMTO", 1e-15}, {"ATTO", 1e-18}};
+  static constexpr Row kRows[] = {{"EXA", 1e18},  {"PETA", 1e15},  {"TERA", 1e12},   {"GIGA", 1e9},
+                                  {"MEGA", 1e6},  {"KILO", 1e3},   {"HECTO", 1e2},   {"DECA", 1e1},
+                                  {"DECI", 1e-1}, {"CENTI", 1e-2}, {"MILLI", 1e-3},  {"MICRO", 1e-6},
+                                  {"NANO", 1e-9}, {"PICO", 1e-12}, {"FEMTO", 1e-15}, {"ATTO", 1e-18}};
   for (const Row& r : kRows) {
     if (r.name == p) return r.factor;
   }
@@ -38,11 +38,11 @@ std::optional<FileUnit> si_name(std::string_view name) {
     std::string_view name;
     double factor, m, kg, s, rad;
   };
-  static constexpr Row kRows[] = {
-      {"METRE", 1, 1, 0, 0, 0},   {"GRAM", 1e-3, 0, 1, 0, 0},  {"SECOND", 1, 0, 0, 1, 0},
-      {"RADIAN", 1, 0, 0, 0, 1},  {"STERADIAN", 1, 0, 0, 0, 2}, {"HERTZ", 1, 0, 0, -1, 0},
-      {"NEWTON", 1, 1, 1, -2, 0}, {"PASCAL", 1, -1, 1, -2, 0},  {"JOULE", 1, 2, 1, -2, 0},
-      {"WATT", 1, 2, 1, -3, 0}};
+  static constexpr Row kRows[] = {{"METRE", 1, 1, 0, 0, 0},     {"GRAM", 1e-3, 0, 1, 0, 0},
+                                  {"SECOND", 1, 0, 0, 1, 0},    {"RADIAN", 1, 0, 0, 0, 1},
+                                  {"STERADIAN", 1, 0, 0, 0, 2}, {"HERTZ", 1, 0, 0, -1, 0},
+                                  {"NEWTON", 1, 1, 1, -2, 0},   {"PASCAL", 1, -1, 1, -2, 0},
+                                  {"JOULE", 1, 2, 1, -2, 0},    {"WATT", 1, 2, 1, -3, 0}};
   for (const Row& r : kRows) {
     if (r.name == name) return FileUnit{r.factor, {r.m, r.kg, r.s, 0, 0, 0, 0, r.rad}, false};
   }
@@ -60,18 +60,17 @@ bool is_revolution(const Value& name) {
   if (!name.is(Kind::kString)) return false;
   std::string s = name.as_text();
   for (char& c : s) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c + 32 : c);
-  return s == "revolution" || s == "revolutions" || s == "rotation" || s == "turn" || s == "count" || s == "each" ||
-         s == "tooth" || s == "rev";
+  return s == "revolution" || s == "revolutions" || s == "rotation" || s == "turn" || s == "count" ||
+         s == "each" || s == "tooth" || s == "rev";
 }
 
 }  // namespace
 
-std::optional<FileUnit> Units::unit(Node n) {
-  return part(n, 0);
-}
+std::optional<FileUnit> Units::unit(Node n) { return part(n, 0); }
 
 std::optional<FileUnit> Units::part(Node n, int depth) {
-  const auto [it, fresh] = units_.try_emplace(n);  // nothing while it is being worked out: a part of itself is none
+  const auto [it, fresh] =
+      units_.try_emplace(n);  // nothing while it is being worked out: a part of itself is none
   if (!fresh) return it->second;
   auto out = work_out(n, depth);
   if (out && !(out->factor > 0.0 && std::isfinite(out->factor))) out.reset();
@@ -88,7 +87,9 @@ std::optional<FileUnit> Units::work_out(Node n, int depth) {
   for (const Node user : g_.users(n)) {  // its name, if it has one apart
     if (g_.is(user, schema.find("NAME_ATTRIBUTE"))) used_.push_back(user);
   }
-  const auto follow = [&](const Value& v) { return v.is(Kind::kReference) ? g_.find(v.reference()) : kNoNode; };
+  const auto follow = [&](const Value& v) {
+    return v.is(Kind::kReference) ? g_.find(v.reference()) : kNoNode;
+  };
   if (const Node d = follow(g_.get(n, "dimensions")); d != kNoNode) used_.push_back(d);
   if (is("SI_UNIT")) {
     const Value name = g_.get(n, "si_unit.name");
@@ -149,12 +150,13 @@ std::optional<double> Units::factor(const FileUnit& from, model::Unit to) {
     double m, kg, s, rad;
     double si;  // the model's unit in SI units
   };
-  static constexpr Row kRows[] = {{Unit::kLength, 1, 0, 0, 0, 1e-3},     {Unit::kAngle, 0, 0, 0, 1, 1.0},
-                                  {Unit::kSpeed, 1, 0, -1, 0, 1e-3 / 60}, {Unit::kRotSpeed, 0, 0, -1, 0, 1.0 / 60},
-                                  {Unit::kTime, 0, 0, 1, 0, 1.0},         {Unit::kRatio, 0, 0, 0, 0, 1.0},
-                                  {Unit::kNone, 0, 0, 0, 0, 1.0},         {Unit::kPressure, -1, 1, -2, 0, 1e6},
-                                  {Unit::kVolume, 3, 0, 0, 0, 1e-9},      {Unit::kPower, 2, 1, -3, 0, 1.0},
-                                  {Unit::kTorque, 2, 1, -2, 0, 1.0}};
+  static constexpr Row kRows[] = {
+      {Unit::kLength, 1, 0, 0, 0, 1e-3},      {Unit::kAngle, 0, 0, 0, 1, 1.0},
+      {Unit::kSpeed, 1, 0, -1, 0, 1e-3 / 60}, {Unit::kRotSpeed, 0, 0, -1, 0, 1.0 / 60},
+      {Unit::kTime, 0, 0, 1, 0, 1.0},         {Unit::kRatio, 0, 0, 0, 0, 1.0},
+      {Unit::kNone, 0, 0, 0, 0, 1.0},         {Unit::kPressure, -1, 1, -2, 0, 1e6},
+      {Unit::kVolume, 3, 0, 0, 0, 1e-9},      {Unit::kPower, 2, 1, -3, 0, 1.0},
+      {Unit::kTorque, 2, 1, -2, 0, 1.0}};
   for (const Row& r : kRows) {
     if (r.unit != to) continue;
     FileUnit f = from;
@@ -181,19 +183,29 @@ Scale Units::scale(Node context, const Scale& fallback) {
   Scale out = fallback;
   out.stated = false;
   const Value units = g_.get(context, "units");
+  bool failed = false, two = false;
   for (std::size_t i = 0; units.is(Kind::kList) && i < units.size(); ++i) {
-    if (!units[i].is(Kind::kReference)) continue;
-    const Node n = g_.find(units[i].reference());
-    if (n == kNoNode) continue;
-    const auto u = unit(n);
-    if (!u) continue;
+    const Node n = units[i].is(Kind::kReference) ? g_.find(units[i].reference()) : kNoNode;
+    const auto u = n == kNoNode ? std::nullopt : unit(n);
+    if (!u) {
+      failed = true;
+      continue;
+    }
     if (const auto f = factor(*u, model::Unit::kLength)) {
+      // A micron's thousandth to a thousand kilometres: anything else is no unit for a workpiece.
+      failed = failed || !(*f > 1e-9 && *f < 1e9);
+      two = two || (out.stated && *f != out.length);
       out.length = *f;
       out.stated = true;
     } else if (const auto a = factor(*u, model::Unit::kAngle)) {
       out.angle = *a;
     }
   }
+  const Value dimension = g_.get(context, "coordinate_space_dimension");
+  const bool space = dimension.is(Kind::kInteger) && dimension.as_integer() == 3;
+  const bool with_units = g_.is(context, g_.schema().find("GLOBAL_UNIT_ASSIGNED_CONTEXT"));
+  out.unclear =
+      two || (out.stated ? !(out.length > 1e-9 && out.length < 1e9) : with_units && (failed || space));
   const Value name = g_.get(context, "context_identifier");
   out.ours = out.stated && out.identity() && name.is(Kind::kString) && name.as_text() == kWrittenContext;
   const Value uncertainty = g_.get(context, "uncertainty");

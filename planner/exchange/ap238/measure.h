@@ -34,9 +34,11 @@ inline constexpr std::string_view kWrittenContext = "MILLIMETRE RADIAN STERADIAN
 struct Scale {
   double length = 1.0;  ///< to mm
   double angle = 1.0;   ///< to rad
-  double uncertainty_mm = 0.0;  ///< of distances, as the context states it: points nearer coincide; 0 where open
-  bool stated = false;  ///< the context says so
-  bool ours = false;    ///< the context is the one that the writer makes: solids are read as the model's own
+  double uncertainty_mm =
+      0.0;               ///< of distances, as the context states it: points nearer coincide; 0 where open
+  bool unclear = false;  ///< it should say the unit of lengths and cannot be understood, or says two
+  bool stated = false;   ///< the context says so
+  bool ours = false;     ///< the context is the one that the writer makes: solids are read as the model's own
   Coordinates coordinates = Coordinates::kLengths;
   [[nodiscard]] bool operator==(const Scale&) const = default;
   [[nodiscard]] bool identity() const { return length == 1.0 && angle == 1.0; }

@@ -1,12 +1,13 @@
 #include "planner/base/number.h"
+#include "planner/exchange/ap238/doubtful.h"
 #include "planner/exchange/ap238/helix.h"
 #include "planner/exchange/ap238/paths.h"
 #include "planner/exchange/ap238/reader.h"
 #include "planner/exchange/ap238/records.h"
 #include "planner/exchange/ap238/via.h"
 #include "planner/exchange/exchange.h"
-#include "planner/exchange/sections.h"
 #include "planner/exchange/opening.h"
+#include "planner/exchange/sections.h"
 #include "planner/model/nouns/all.h"
 #include "planner/p21/parse.h"
 
@@ -24,13 +25,15 @@ Result<model::Plan> read_ap238(const p21::File& file, Job& job) {
   for (const auto& [at, uncertainty_mm] : reader.uncertainties_mm()) {
     const auto n = curves::degenerate_via_points(plan.model, model::Ref<model::Polyline>(at), uncertainty_mm);
     if (n == 0) continue;
-    reporter.report({.code = "EXC-VIA",
-                     .severity = Severity::kWarning,
-                     .message = std::to_string(n) + " via points lie within the " + trimmed(uncertainty_mm, 6) +
-                                " mm that the file states as uncertainty from a neighbour: lines are taken there",
-                     .line = plan.model.origin(at).line,
-                     .instance = plan.model.origin(at).instance});
+    reporter.report(
+        {.code = "EXC-VIA",
+         .severity = Severity::kWarning,
+         .message = std::to_string(n) + " via points lie within the " + trimmed(uncertainty_mm, 6) +
+                    " mm that the file states as uncertainty from a neighbour: lines are taken there",
+         .line = plan.model.origin(at).line,
+         .instance = plan.model.origin(at).instance});
   }
+  ap238::mend_ratios(plan, reporter);
   ap238::drop_stated_frames(plan);
   ap238::via_points_to_helices(plan);
   if (!plan.project) {
@@ -40,6 +43,7 @@ Result<model::Plan> read_ap238(const p21::File& file, Job& job) {
   }
   std::vector<Doubt> doubts = std::move(reader.doubts());
   check_meaning(plan.model, doubts);
+  ap238::doubt_placements(plan.model, doubts);
   Marks reached(plan.model);
   if (plan.project) reached.set_from(plan.model, plan.project);
   settle_doubts(plan.model, doubts, reached, reporter);
@@ -50,7 +54,8 @@ Result<model::Plan> read_ap238(const p21::File& file, Job& job) {
   reporter.finish();
   if (reporter.errors() != 0) {
     return fail({.code = "EXC-AP238",
-                 .message = std::to_string(reporter.errors()) + " fault" + (reporter.errors() == 1 ? "" : "s") +
+                 .message = std::to_string(reporter.errors()) + " fault" +
+                            (reporter.errors() == 1 ? "" : "s") +
                             " in the plan; the first: " + reporter.first_error(),
                  .file = file.name()});
   }

@@ -23,13 +23,15 @@ namespace {
 
 bool same_letters(std::string_view a, std::string_view b) {
   const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; };
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [&](char x, char y) { return lower(x) == lower(y); });
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [&](char x, char y) { return lower(x) == lower(y); });
 }
 
 // Whether a parameter is what a constraint spells: 'text', .ENUM., a number.
 bool spelled(const Value& v, const std::string& text) {
   if (v.is(Kind::kString)) {
-    return text.size() >= 2 && text.front() == '\'' && same_letters(v.as_text(), text.substr(1, text.size() - 2));
+    return text.size() >= 2 && text.front() == '\'' &&
+           same_letters(v.as_text(), text.substr(1, text.size() - 2));
   }
   if (v.is(Kind::kEnumeration)) {
     return text.size() >= 2 && text.front() == '.' && v.enumeration() == text.substr(1, text.size() - 2);
@@ -73,7 +75,8 @@ AnyRef Reader::noun_at(Node n, TypeId kind) const {
 
 bool Reader::holds(Node n, const Step& s, std::uint32_t* ordinal, double* order) const {
   if (claimed_[n]) return false;
-  if (!g_.is_all(n, s.entities) && std::none_of(s.also.begin(), s.also.end(), [&](EntityId e) { return g_.is(n, e); })) {
+  if (!g_.is_all(n, s.entities) &&
+      std::none_of(s.also.begin(), s.also.end(), [&](EntityId e) { return g_.is(n, e); })) {
     return false;
   }
   if (s.exact && g_.entity(n) != s.entities.front()) return false;
@@ -101,7 +104,8 @@ bool Reader::holds(Node n, const Step& s, std::uint32_t* ordinal, double* order)
   return true;
 }
 
-std::vector<Terminal> Reader::follow(const std::vector<Step>& steps, const std::string& value_of, Node root) const {
+std::vector<Terminal> Reader::follow(const std::vector<Step>& steps, const std::string& value_of,
+                                     Node root) const {
   std::vector<Terminal> level(1);
   level.front().node = root;
   level.front().scale = default_scale_;
@@ -127,7 +131,8 @@ std::vector<Terminal> Reader::follow(const std::vector<Step>& steps, const std::
       } else {
         g_.references(g_.get(from.node, s.attribute), candidates);
         if (s.index != 0) {
-          candidates = s.index <= candidates.size() ? std::vector<Node>{candidates[s.index - 1]} : std::vector<Node>{};
+          candidates =
+              s.index <= candidates.size() ? std::vector<Node>{candidates[s.index - 1]} : std::vector<Node>{};
         }
         if (!visit(candidates.size(), root)) return {};
       }
@@ -164,7 +169,8 @@ std::vector<Terminal> Reader::follow(const std::vector<Step>& steps, const std::
   if (!value_of.empty()) {
     for (Terminal& t : level) t.text = g_.get(t.node, value_of);
   }
-  std::stable_sort(level.begin(), level.end(), [](const auto& a, const auto& b) { return a.order < b.order; });
+  std::stable_sort(level.begin(), level.end(),
+                   [](const auto& a, const auto& b) { return a.order < b.order; });
   for (const Terminal& t : level) consume(steps, value_of, root, t);
   if (!level.empty() && !meetings.empty()) {
     // The ways that ended where another one had been are explained by it.
@@ -283,11 +289,13 @@ AnyRef Reader::object_at(Node n, std::span<const TypeId> targets, const Scale& s
     consume_constraints(n, row->root.constraints);
     make_inner(plan_.model, at, *row);
     Terminal guard;
-    for (const Terminal& t : row->guard.empty() ? std::vector<Terminal>{} : follow(row->guard, "", n)) mark(t, at);
+    for (const Terminal& t : row->guard.empty() ? std::vector<Terminal>{} : follow(row->guard, "", n))
+      mark(t, at);
     pending_.push_back({at, n, false, scale});
     return at;
   }
-  if (const auto type = geometry_type(n, scale.ours); type && fits_any(*type, targets)) return geometry_at(n, *type, scale);
+  if (const auto type = geometry_type(n, scale.ours); type && fits_any(*type, targets))
+    return geometry_at(n, *type, scale);
   return kept_at(n);
 }
 
@@ -320,7 +328,8 @@ void Reader::fill(AnyRef at, Node n) {
   for (const Row* row : map_.rows_of(at.type)) read_row(*row, at, n);
   // AP238 has no other way to write a list without elements than to leave it out.
   for (const Row* row : map_.rows_of(at.type)) {
-    const Attribute* a = row->attribute.size() == 1 ? model::find_attribute(at.type, row->attribute.front()) : nullptr;
+    const Attribute* a =
+        row->attribute.size() == 1 ? model::find_attribute(at.type, row->attribute.front()) : nullptr;
     if (a == nullptr || !a->required) continue;
     void* slot = a->at(plan_.model.object(at));
     if (a->storage == model::Storage::kRefList) static_cast<model::AnyRefList*>(slot)->given = true;
@@ -363,6 +372,14 @@ void Reader::run() {
   const EntityId context = schema.find("GLOBAL_UNIT_ASSIGNED_CONTEXT");
   for (Node n = 0; n < g_.size() && !default_scale_.stated; ++n) {
     if (g_.is(n, context)) default_scale_ = units_.scale(n, Scale{});
+  }
+  const EntityId point = schema.find("CARTESIAN_POINT");
+  for (Node n = 0; n < g_.size() && !default_scale_.stated; ++n) {
+    if (!g_.is(n, point)) continue;
+    about(n, {.code = "EXC-UNIT",
+              .severity = Severity::kWarning,
+              .message = "the file states no unit of length for its geometry; millimetres are taken"});
+    break;
   }
   default_scale_.stated = false;
   default_scale_.ours = false;

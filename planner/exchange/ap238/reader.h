@@ -19,11 +19,11 @@ namespace capstan::exchange::ap238 {
 /// Where a path of the mapping led.
 struct Terminal {
   Node node = kNoNode;
-  Scale scale;            ///< of the representation that was passed last
+  Scale scale;                ///< of the representation that was passed last
   std::uint32_t ordinal = 0;  ///< which element of a list, from 1
-  double order = 0.0;     ///< what puts the elements of a list in order
-  std::uint32_t fan = 0;  ///< the element of the list that the way led through last
-  p21::Value text;        ///< of a row that ends in `.attribute`
+  double order = 0.0;         ///< what puts the elements of a list in order
+  std::uint32_t fan = 0;      ///< the element of the list that the way led through last
+  p21::Value text;            ///< of a row that ends in `.attribute`
   /// The instances on the way: node, prefix, ordinal.
   struct Mark {
     Node node;
@@ -61,7 +61,8 @@ class Reader {
   [[nodiscard]] std::optional<double> measure(Node n, model::Unit unit, const Scale& scale);
   /// A number of an instance times what its unit is, `what` it is of; nothing (reported) when that is not
   /// finite.
-  [[nodiscard]] std::optional<double> finite(Node n, double value, double factor, std::string_view what) const;
+  [[nodiscard]] std::optional<double> finite(Node n, double value, double factor,
+                                             std::string_view what) const;
   /// The nearest integer; nothing (reported) when a double does not tell it from its neighbours.
   [[nodiscard]] std::optional<std::int64_t> integer(Node n, double value, std::string_view what) const;
   /// DESCRIPTIVE_REPRESENTATION_ITEM's text, or the name of anything else.
@@ -96,7 +97,8 @@ class Reader {
   void fill(model::AnyRef at, Node n);
   bool read_row(const Row& row, model::AnyRef at, Node n);
   bool assign(const Row& row, model::AnyRef at, const model::Attribute& a, std::vector<Terminal>& found);
-  void say_twice(model::AnyRef at, const model::Attribute& a, const Terminal& taken, const std::vector<Terminal>& found);
+  void say_twice(model::AnyRef at, const model::Attribute& a, const Terminal& taken,
+                 const std::vector<Terminal>& found);
   [[nodiscard]] std::string spelling_of(Node n) const;
   bool scalar(const Row& row, model::AnyRef at, const model::Attribute& a, const Terminal& t);
   void list(const Row& row, model::AnyRef at, const model::Attribute& a, const std::vector<Terminal>& found);
@@ -115,6 +117,7 @@ class Reader {
   void note_unread();
   [[nodiscard]] const ObjectRow* object_row(Node n, std::span<const model::TypeId> targets) const;
   model::AnyRef geometry_at(Node n, model::TypeId type, const Scale& scale);
+  [[nodiscard]] double parameter_factor(Node n, const Scale& scale) const;
   void fill_geometry(model::AnyRef at, Node n, const Scale& scale);
   [[nodiscard]] std::optional<model::TypeId> geometry_type(Node n, bool solids = false) const;
   model::AnyRef kept_at(Node n);

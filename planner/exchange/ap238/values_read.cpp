@@ -118,6 +118,7 @@ bool Reader::assign(const Row& row, AnyRef at, const Attribute& a, std::vector<T
         if (a.storage != Storage::kRef ||
             !says_itself(row, *static_cast<AnyRef*>(a.at(plan_.model.object(at)))))
           mark(t, at);
+        say_twice(at, a, t, found);
         return true;
       }
       // A measure without a value is there and says nothing.
@@ -127,6 +128,31 @@ bool Reader::assign(const Row& row, AnyRef at, const Attribute& a, std::vector<T
       }
       return false;
   }
+}
+
+// Two that contradict each other are a fault of the file; which is meant cannot be known.
+void Reader::say_twice(AnyRef at, const Attribute& a, const Terminal& taken,
+                       const std::vector<Terminal>& found) {
+  for (const Terminal& t : found) {
+    if (t.node == taken.node || g_.entity(t.node) != g_.entity(taken.node)) continue;
+    if (spelling_of(t.node) == spelling_of(taken.node) && a.storage != Storage::kRef) continue;
+    if (spelling_of(t.node).substr(0, spelling_of(t.node).find('(', 1)) !=
+        spelling_of(taken.node).substr(0, spelling_of(taken.node).find('(', 1)))
+      continue;  // complex instances of other kinds
+    about(taken.node, {.code = "EXC-TWICE",
+                       .severity = Severity::kWarning,
+                       .message = attribute_name(at, a.name) + " is given more than once, here and as #" +
+                                  std::to_string(g_.instance(t.node).id()) + "; this one is taken"});
+    return;
+  }
+}
+
+std::string Reader::spelling_of(Node n) const {
+  std::string out;
+  const auto i = g_.instance(n);
+  for (std::size_t k = 0; k < i.part_count(); ++k)
+    out += std::string(i.part(k).keyword) + spelling(i.part(k).parameters);
+  return out;
 }
 
 bool Reader::scalar(const Row& row, AnyRef at, const Attribute& a, const Terminal& t) {
@@ -167,10 +193,12 @@ bool Reader::scalar(const Row& row, AnyRef at, const Attribute& a, const Termina
         if (a.storage == Storage::kBoolean) return slot(model::Boolean(i == 0));
         return slot(model::AnyEnum{static_cast<std::int8_t>(i)});
       }
+      const bool run = a.name == "enabled";  // what is not surely enabled must not run
       about(t.node, {.code = "EXC-VALUE",
                      .severity = Severity::kWarning,
-                     .message = attribute_name(at, a.name) + " cannot be '" + s + "'; left unset"});
-      return false;
+                     .message = attribute_name(at, a.name) + " cannot be '" + s + "'; " +
+                                (run ? "taken as disabled" : "left unset")});
+      return run && slot(model::Boolean(false));
     }
     case Storage::kRef: {
       const AnyRef to = object_at(t.node, a.targets, t.scale);

@@ -111,6 +111,7 @@ class Writer {
   void print_geometry(model::AnyRef at, const std::string& name, std::string& out);
   void print_kept(const model::KeptInstance& kept, std::string& out);
   [[nodiscard]] std::string slot_text(const Made& made, const express::Slot& slot) const;
+  [[nodiscard]] std::string select_text(const model::SelectValue& v);
   [[nodiscard]] std::string attribute_text(const model::Attribute& a, const void* data);
 
   const model::Plan& plan_;
@@ -128,7 +129,7 @@ class Writer {
   std::map<std::string, Id, std::less<>> shared_;
   std::map<model::Unit, Id> units_;
   std::deque<Task> tasks_;
-  std::uint32_t copy_ = 0;    ///< which copy of its object is being written; 0: the first
+  std::uint32_t copy_ = 0;  ///< which copy of its object is being written; 0: the first
   std::uint32_t copies_ = 0;
   std::vector<std::pair<Id, const Constraint*>> fallbacks_;
   std::deque<model::AnyRef> to_scan_;

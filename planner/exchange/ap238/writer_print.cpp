@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <numbers>
 
 #include "planner/base/number.h"
 #include "planner/exchange/ap238/auxiliary.h"
@@ -67,7 +68,8 @@ void Writer::print(Id id, const Made& made, std::string& out) {
     }
   } else if (made.leaves.size() == 1) {
     out += schema_.keyword(made.leaves.front());
-    out += listed(schema_.slots(made.leaves.front()), [&](const express::Slot& s) { return slot_text(made, s); });
+    out += listed(schema_.slots(made.leaves.front()),
+                  [&](const express::Slot& s) { return slot_text(made, s); });
   } else {
     out += '(';
     for (const EntityId part : schema_.closure(made.leaves)) {
@@ -114,8 +116,23 @@ void Writer::print_geometry(AnyRef at, const std::string& name, std::string& out
     if (s.attribute->name == "name" && !name.empty()) return name;
     const Attribute* a = model::find_attribute(at.type, s.attribute->name);
     if (a == nullptr || !model::has_value(*a, m_.object(at))) return nothing(s.type, s.optional);
+    if (const auto* trimmed = m_.get<model::TrimmedCurve>(at);
+        trimmed != nullptr && a->storage == Storage::kSelectList &&
+        (m_.holds<model::Circle>(trimmed->basis_curve) || m_.holds<model::Ellipse>(trimmed->basis_curve))) {
+      auto values = model::value_of<model::SelectList>(*a, m_.object(at));
+      for (auto& v : values.items) {  // degrees in the model, radians in the written context
+        if (v.real) v.real = *v.real * std::numbers::pi / 180.0;
+      }
+      return listed(values.items, [&](const model::SelectValue& v) { return select_text(v); });
+    }
     return attribute_text(*a, m_.object(at));
   });
+}
+
+std::string Writer::select_text(const model::SelectValue& v) {
+  if (v.ref.set()) return reference_text(v.ref);
+  const std::string bare = v.real ? part21_real(*v.real) : "." + v.text + ".";
+  return v.type.empty() ? bare : v.type + "(" + bare + ")";
 }
 
 std::string Writer::attribute_text(const Attribute& a, const void* data) {
@@ -123,11 +140,7 @@ std::string Writer::attribute_text(const Attribute& a, const void* data) {
   const auto whole = [](std::int64_t v) { return std::to_string(v); };
   const auto text = [](const std::string& s) { return "'" + p21::encode_text(s) + "'"; };
   const auto ref = [&](AnyRef r) { return reference_text(r); };
-  const auto select = [&](const model::SelectValue& v) {
-    if (v.ref.set()) return ref(v.ref);
-    const std::string bare = v.real ? number(*v.real) : "." + v.text + ".";
-    return v.type.empty() ? bare : v.type + "(" + bare + ")";
-  };
+  const auto select = [&](const model::SelectValue& v) { return select_text(v); };
   switch (a.storage) {
     case Storage::kReal:
       return number(*model::value_of<model::Real>(a, data));
@@ -138,7 +151,10 @@ std::string Writer::attribute_text(const Attribute& a, const void* data) {
     case Storage::kText:
       return text(*model::value_of<model::Text>(a, data));
     case Storage::kEnum:
-      return "." + std::string(a.enumerators[static_cast<std::size_t>(model::value_of<model::AnyEnum>(a, data).code)]) + ".";
+      return "." +
+             std::string(
+                 a.enumerators[static_cast<std::size_t>(model::value_of<model::AnyEnum>(a, data).code)]) +
+             ".";
     case Storage::kRef:
       return ref(model::value_of<AnyRef>(a, data));
     case Storage::kSelect:
@@ -154,7 +170,8 @@ std::string Writer::attribute_text(const Attribute& a, const void* data) {
     case Storage::kTextList:
       return listed(model::value_of<model::TextList>(a, data).items, text);
     case Storage::kRefTable:
-      return listed(model::value_of<model::RefTable>(a, data).items, [&](const auto& row) { return listed(row, ref); });
+      return listed(model::value_of<model::RefTable>(a, data).items,
+                    [&](const auto& row) { return listed(row, ref); });
     case Storage::kRealTable:
       return listed(model::value_of<model::RealTable>(a, data).items,
                     [&](const auto& row) { return listed(row, number); });

@@ -130,17 +130,14 @@ void check_drill_points(Reading& r) {
 // --- ratios -----------------------------------------------------------------------------------------------
 
 void check_ratios(Reading& r) {
-  constexpr double kSurelyPercent = 10.0;  // default, unsourced: below, a length in mm may be meant
   auto& m = r.plan.model;
   for (const AnyRef at : r.object_of) {
     if (at.type == model::TypeId::kKeptInstance) continue;
     for (const model::Attribute& a : model::noun_type(at.type).attributes) {
       if (a.unit != model::Unit::kRatio || a.storage != model::Storage::kReal || !a.in_iso14649) continue;
       auto& v = *static_cast<model::Real*>(a.at(m.object(at)));
-      const bool may_exceed_one = a.name == "feed_on_retract";
-      if (!v || *v <= (may_exceed_one ? kSurelyPercent : 1.0)) continue;
-      const bool percent =
-          *v <= (may_exceed_one ? 1000.0 : 100.0) && (*v >= kSurelyPercent || a.name != "overlap");
+      if (!v || !beyond_ratio(a.name, *v)) continue;
+      const bool percent = is_percent(a.name, *v);
       const std::string file = in_file(r, at, a.name);
       if (percent) v = *v / 100.0;
       note(r, at, a.name, percent, "EXC-RATIO",
@@ -173,6 +170,22 @@ void check_zeros(Reading& r) {
 }
 
 }  // namespace
+
+namespace {
+
+constexpr double kSurelyPercent = 10.0;  // default, unsourced: below, a length in mm may be meant
+bool may_exceed_one(std::string_view attribute) { return attribute == "feed_on_retract"; }
+
+}  // namespace
+
+bool beyond_ratio(std::string_view attribute, double value) {
+  return value > (may_exceed_one(attribute) ? kSurelyPercent : 1.0);
+}
+
+bool is_percent(std::string_view attribute, double value) {
+  return value <= (may_exceed_one(attribute) ? 1000.0 : 100.0) &&
+         (value >= kSurelyPercent || attribute != "overlap");
+}
 
 void find_deviations(Reading& r) {
   check_angles(r);

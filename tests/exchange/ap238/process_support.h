@@ -310,7 +310,7 @@ inline bool give(Bench& bench, AnyRef at, const model::Attribute& a, std::size_t
   const auto slot = [&]<class T>(T value) { *static_cast<T*>(a.at(m.object(at))) = std::move(value); };
   switch (a.storage) {
     case Storage::kReal:
-      slot(model::Real(2.5));
+      slot(model::Real(a.unit == model::Unit::kRatio ? 0.25 : 2.5));
       return true;
     case Storage::kInteger:
       slot(model::Integer(3));
@@ -439,7 +439,7 @@ inline std::string length_item(const std::string& name = "") {
 }
 
 inline std::string ratio_item(const std::string& name = "") {
-  return "(MEASURE_REPRESENTATION_ITEM()MEASURE_WITH_UNIT(RATIO_MEASURE(2.5),#)RATIO_MEASURE_WITH_UNIT()"
+  return "(MEASURE_REPRESENTATION_ITEM()MEASURE_WITH_UNIT(RATIO_MEASURE(0.25),#)RATIO_MEASURE_WITH_UNIT()"
          "REPRESENTATION_ITEM('" +
          name + "'));";
 }
