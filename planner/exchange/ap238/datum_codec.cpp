@@ -13,8 +13,6 @@ using p21::Value;
 
 namespace {
 
-bool is(const Graph& g, Node n, const char* entity) { return g.is(n, g.schema().find(entity)); }
-
 // --- what establishes a datum ---
 
 bool read_established(Reader& reader, const Row&, AnyRef at, const Attribute& a,
@@ -53,7 +51,7 @@ void in_shape_of_datum(Writer& writer, Id root, AnyRef reference) {
 
 bool read_base(Reader& reader, const Row&, AnyRef at, const Attribute& a,
                const std::vector<Terminal>& found) {
-  if (!is(reader.graph(), found.front().node, "DATUM")) return false;
+  if (!reader.graph().is(found.front().node, "DATUM")) return false;
   assign_to(reader, at, a, AnyRef(reader.object_at(found.front().node, a.targets, found.front().scale)));
   return true;
 }
@@ -68,7 +66,7 @@ bool read_common(Reader& reader, const Row&, AnyRef at, const Attribute& a,
                  const std::vector<Terminal>& found) {
   bool any = false;
   for (const Terminal& t : found) {
-    if (!is(reader.graph(), t.node, "DATUM_REFERENCE_ELEMENT")) continue;
+    if (!reader.graph().is(t.node, "DATUM_REFERENCE_ELEMENT")) continue;
     const AnyRef to = reader.object_at(t.node, a.targets, t.scale);
     auto& list = *static_cast<AnyRefList*>(a.at(reader.plan().model.object(at)));
     list.given = true;

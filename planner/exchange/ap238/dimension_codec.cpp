@@ -17,18 +17,6 @@ namespace {
 
 constexpr std::uint32_t kFirstOwnOrdinal = 3000;  // of instances that no path of the row leads to
 
-bool is(const Graph& g, Node n, const char* entity) { return g.is(n, g.schema().find(entity)); }
-
-Node referred(const Graph& g, Node n, const char* attribute) {
-  const Value v = g.get(n, attribute);
-  return v.is(Kind::kReference) ? g.find(v.reference()) : kNoNode;
-}
-
-std::string text_of(const Graph& g, Node n, const char* attribute) {
-  const Value v = g.get(n, attribute);
-  return v.is(Kind::kString) ? v.as_text() : std::string();
-}
-
 std::string demanded_name(const Row& row) {
   for (const Constraint& c : row.steps.back().constraints) {
     if (c.attribute == "name" && !c.texts.empty()) return c.texts.front();
@@ -74,8 +62,8 @@ bool read_qualifiers(Reader& reader, const Row& row, AnyRef at, const Attribute&
     std::vector<Node> qualifiers;
     g.references(g.get(t.node, "qualifiers"), qualifiers);
     for (const Node q : qualifiers) {
-      if (!is(g, q, "TYPE_QUALIFIER")) continue;
-      out.items.push_back(text_of(g, q, "name"));
+      if (!g.is(q, "TYPE_QUALIFIER")) continue;
+      out.items.push_back(g.text(q, "name"));
       mark_one(reader, row, at, q, k++);
     }
   }
@@ -98,7 +86,7 @@ AnyRef read_fit(Reader& reader, Node n) {
   const Graph& g = reader.graph();
   model::LimitsAndFits out;
   const auto text = [&](const char* attribute, model::Text& to) {
-    if (const std::string s = text_of(g, n, attribute); !s.empty()) to = s;
+    if (const std::string s = g.text(n, attribute); !s.empty()) to = s;
   };
   text("form_variance", out.form_variance);
   text("zone_variance", out.zone_variance);
@@ -119,7 +107,7 @@ Bounds bounds_of(Reader& reader, const Row& row, AnyRef at, const Terminal& t, U
   Bounds out;
   std::uint32_t k = kFirstOwnOrdinal;
   for (const bool upper : {false, true}) {
-    const Node n = referred(g, t.node, upper ? "upper_bound" : "lower_bound");
+    const Node n = g.referred(t.node, upper ? "upper_bound" : "lower_bound");
     if (n == kNoNode || !measures(reader, n, unit)) return {};
     (upper ? out.upper : out.lower) = reader.measure(n, unit, t.scale);
     mark_one(reader, row, at, n, k++);
@@ -139,7 +127,7 @@ bool read_tolerance(Reader& reader, const Row& row, AnyRef at, const Attribute& 
                     const std::vector<Terminal>& found) {
   const Graph& g = reader.graph();
   const Terminal& t = found.front();
-  if (is(g, t.node, "LIMITS_AND_FITS")) {
+  if (g.is(t.node, "LIMITS_AND_FITS")) {
     assign_to(reader, at, a, AnyRef(read_fit(reader, t.node)));
     return true;
   }
@@ -220,7 +208,7 @@ bool read_kind(Reader& reader, const Row&, AnyRef at, const Attribute& a,
   const Graph& g = reader.graph();
   const Node n = found.front().node;
   if (a.storage == model::Storage::kBoolean) {
-    if (!is(g, n, "DIRECTED_DIMENSIONAL_LOCATION")) return false;
+    if (!g.is(n, "DIRECTED_DIMENSIONAL_LOCATION")) return false;
     assign_to(reader, at, a, model::Boolean(true));
     return true;
   }

@@ -102,6 +102,16 @@ Value Graph::get(Node n, std::string_view attribute) const {
   return omitted;
 }
 
+Node Graph::referred(Node n, std::string_view attribute) const {
+  const Value v = get(n, attribute);
+  return v.is(Kind::kReference) ? find(v.reference()) : kNoNode;
+}
+
+std::string Graph::text(Node n, std::string_view attribute) const {
+  const Value v = get(n, attribute);
+  return v.is(Kind::kString) ? v.as_text() : std::string();
+}
+
 std::span<const Node> Graph::users(Node n) const {
   return std::span(users_).subspan(first_[n], first_[n + 1] - first_[n]);
 }

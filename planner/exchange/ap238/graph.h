@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -32,11 +33,16 @@ class Graph {
   /// Of a simple instance; kNoEntity for a complex one and for a keyword outside the schema.
   [[nodiscard]] EntityId entity(Node n) const { return entity_[n]; }
   [[nodiscard]] bool is(Node n, EntityId e) const;
+  [[nodiscard]] bool is(Node n, std::string_view entity) const { return is(n, schema_.find(entity)); }
   [[nodiscard]] bool is_all(Node n, std::span<const EntityId> es) const;
 
   /// The attribute's value by name, "owner.name" where several supertypes have it; omitted when there is
   /// none.
   [[nodiscard]] p21::Value get(Node n, std::string_view attribute) const;
+  /// What the attribute refers to; kNoNode when it is no reference, or a dangling one.
+  [[nodiscard]] Node referred(Node n, std::string_view attribute) const;
+  /// The attribute's text; empty when it has none.
+  [[nodiscard]] std::string text(Node n, std::string_view attribute) const;
   /// Instances that refer to this one, each once, in file order.
   [[nodiscard]] std::span<const Node> users(Node n) const;
   /// Whether the value refers to the instance, directly or in lists and typed parameters.

@@ -19,13 +19,6 @@ namespace {
 
 constexpr double kMicrometres = 1000.0;  // of a millimetre: what ISO 4287 states heights and widths in
 
-bool is(const Graph& g, Node n, const char* entity) { return g.is(n, g.schema().find(entity)); }
-
-std::string text_of(const Graph& g, Node n, const char* attribute) {
-  const Value v = g.get(n, attribute);
-  return v.is(Kind::kString) ? v.as_text() : std::string();
-}
-
 bool fits_one(TypeId t, const Attribute& a) {
   return std::any_of(a.targets.begin(), a.targets.end(), [&](TypeId want) { return model::is_a(t, want); });
 }
@@ -41,7 +34,7 @@ bool is_ratio(std::string_view name) {
 bool read_value(Reader& reader, const Row&, AnyRef at, const Attribute& a,
                 const std::vector<Terminal>& found) {
   for (const Terminal& t : found) {
-    if (!is(reader.graph(), t.node, "MEASURE_REPRESENTATION_ITEM")) continue;
+    if (!reader.graph().is(t.node, "MEASURE_REPRESENTATION_ITEM")) continue;
     const bool length = measures(reader, t.node, Unit::kLength);
     const auto x = reader.measure(t.node, length ? Unit::kLength : Unit::kRatio, t.scale);
     if (!x) continue;
@@ -65,8 +58,8 @@ void write_value(Writer& writer, const Row& row, AnyRef owner, const Attribute& 
 bool read_name(Reader& reader, const Row&, AnyRef at, const Attribute& a,
                const std::vector<Terminal>& found) {
   for (const Terminal& t : found) {
-    if (!is(reader.graph(), t.node, "MEASURE_REPRESENTATION_ITEM")) continue;
-    assign_to(reader, at, a, model::Text(text_of(reader.graph(), t.node, "representation_item.name")));
+    if (!reader.graph().is(t.node, "MEASURE_REPRESENTATION_ITEM")) continue;
+    assign_to(reader, at, a, model::Text(reader.graph().text(t.node, "representation_item.name")));
     return true;
   }
   return false;
@@ -80,7 +73,7 @@ bool read_surfaces(Reader& reader, const Row& row, AnyRef at, const Attribute& a
   static constexpr TypeId kAny[] = {TypeId::kManufacturingFeature, TypeId::kMachinedSurface,
                                     TypeId::kShapeElement};
   const Terminal& t = found.front();
-  if (!is(reader.graph(), t.node, "SHAPE_ASPECT")) return false;
+  if (!reader.graph().is(t.node, "SHAPE_ASPECT")) return false;
   bool any = false;
   for (const Node n : members_of_group(reader, row, at, t.node)) {
     const AnyRef to = reader.object_at(n, kAny, t.scale);
@@ -118,7 +111,7 @@ void write_surfaces(Writer& writer, const Row&, AnyRef owner, const Attribute& a
 bool read_of(Reader& reader, const Row& row, AnyRef at, const Attribute& a,
              const std::vector<Terminal>& found) {
   const Terminal& t = found.front();
-  if (!is(reader.graph(), t.node, "SHAPE_ASPECT")) return false;
+  if (!reader.graph().is(t.node, "SHAPE_ASPECT")) return false;
   for (const Node n : members_of_group(reader, row, at, t.node)) {
     const AnyRef to = reader.object_at(n, a.targets, t.scale);
     auto& list = *static_cast<AnyRefList*>(a.at(reader.plan().model.object(at)));
@@ -136,7 +129,7 @@ void write_of(Writer& writer, const Row&, AnyRef owner, const Attribute& a, cons
 bool read_general(Reader& reader, const Row& row, AnyRef at, const Attribute& a,
                   const std::vector<Terminal>& found) {
   const Terminal& t = found.front();
-  if (text_of(reader.graph(), t.node, "id").empty()) {
+  if (reader.graph().text(t.node, "id").empty()) {
     mark_one(reader, row, at, t.node, 0);
     return false;
   }
@@ -163,7 +156,7 @@ void write_general(Writer& writer, const Row& row, AnyRef owner, const Attribute
 
 bool read_property_name(Reader& reader, AnyRef at, const Attribute& a) {
   assign_to(reader, at, a,
-            model::Text(text_of(reader.graph(), reader.root_of(at), "property_definition.name")));
+            model::Text(reader.graph().text(reader.root_of(at), "property_definition.name")));
   return true;
 }
 
@@ -177,14 +170,14 @@ bool read_general_or_name(Reader& reader, const Row& row, AnyRef at, const Attri
 // A dimension by which a feature's own measure is toleranced: they share the measure.
 bool is_of_a_parameter(const Graph& g, Node n) {
   for (const Node link : g.users(n)) {
-    if (!is(g, link, "DIMENSIONAL_CHARACTERISTIC_REPRESENTATION")) continue;
+    if (!g.is(link, "DIMENSIONAL_CHARACTERISTIC_REPRESENTATION")) continue;
     std::vector<Node> representations, items;
     g.references(g.get(link, "representation"), representations);
     for (const Node r : representations) g.references(g.get(r, "items"), items);
     for (const Node item : items) {
       const auto users = g.users(item);
       if (std::any_of(users.begin(), users.end(),
-                      [&](Node u) { return is(g, u, "SHAPE_REPRESENTATION_WITH_PARAMETERS"); }))
+                      [&](Node u) { return g.is(u, "SHAPE_REPRESENTATION_WITH_PARAMETERS"); }))
         return true;
     }
   }
@@ -195,30 +188,30 @@ bool is_requirement(const Graph& g, Node n) {
   static constexpr const char* kKinds[] = {"GEOMETRIC_TOLERANCE",  "DIMENSIONAL_SIZE",
                                            "DIMENSIONAL_LOCATION", "DATUM",
                                            "DATUM_TARGET",         "SHAPE_ASPECT"};
-  if (is(g, n, "PROPERTY_DEFINITION"))
-    return text_of(g, n, "property_definition.name") == "surface_condition";
-  if (is(g, n, "DIMENSIONAL_SIZE") && is_of_a_parameter(g, n)) return false;
-  if (is(g, n, "INSTANCED_FEATURE") || is(g, n, "DATUM_FEATURE")) return false;
-  return std::any_of(std::begin(kKinds), std::end(kKinds), [&](const char* k) { return is(g, n, k); });
+  if (g.is(n, "PROPERTY_DEFINITION"))
+    return g.text(n, "property_definition.name") == "surface_condition";
+  if (g.is(n, "DIMENSIONAL_SIZE") && is_of_a_parameter(g, n)) return false;
+  if (g.is(n, "INSTANCED_FEATURE") || g.is(n, "DATUM_FEATURE")) return false;
+  return std::any_of(std::begin(kKinds), std::end(kKinds), [&](const char* k) { return g.is(n, k); });
 }
 
 // Aspects of other kinds are parts of something: zones, systems, references, components.
 bool is_other_aspect(const Graph& g, Node n) {
-  return is(g, n, "SHAPE_ASPECT") && !is(g, n, "DATUM") && !is(g, n, "DATUM_TARGET");
+  return g.is(n, "SHAPE_ASPECT") && !g.is(n, "DATUM") && !g.is(n, "DATUM_TARGET");
 }
 
 bool is_used(const Graph& g, Node n) {
   const auto users = g.users(n);
   return std::any_of(users.begin(), users.end(), [&](Node u) {
-    return is(g, u, "GEOMETRIC_TOLERANCE") || is(g, u, "DIMENSIONAL_SIZE") ||
-           is(g, u, "SHAPE_ASPECT_RELATIONSHIP") || is(g, u, "PROPERTY_DEFINITION") ||
-           is(g, u, "TOLERANCE_ZONE_DEFINITION");
+    return g.is(u, "GEOMETRIC_TOLERANCE") || g.is(u, "DIMENSIONAL_SIZE") ||
+           g.is(u, "SHAPE_ASPECT_RELATIONSHIP") || g.is(u, "PROPERTY_DEFINITION") ||
+           g.is(u, "TOLERANCE_ZONE_DEFINITION");
   });
 }
 
 // A plain aspect is listed only when nothing else is stated of it: it is found there.
 bool is_stated(const Graph& g, Node n) {
-  const bool plain = g.entity(n) == g.schema().find("SHAPE_ASPECT") || is(g, n, "COMPOSITE_SHAPE_ASPECT");
+  const bool plain = g.entity(n) == g.schema().find("SHAPE_ASPECT") || g.is(n, "COMPOSITE_SHAPE_ASPECT");
   if (!plain) return is_requirement(g, n) && !is_other_aspect(g, n);
   return !is_used(g, n);
 }
@@ -235,7 +228,7 @@ std::vector<Node> stated_of(const Graph& g, Node part) {
     pending.pop_back();
     for (const Node u : g.users(n)) {
       const bool way =
-          std::any_of(std::begin(kWays), std::end(kWays), [&](const char* w) { return is(g, u, w); });
+          std::any_of(std::begin(kWays), std::end(kWays), [&](const char* w) { return g.is(u, w); });
       if (!way || !seen.insert(u).second) continue;
       pending.push_back(u);
       if (product_of(g, u) == part) out.push_back(u);
@@ -248,11 +241,11 @@ std::vector<Node> stated_of(const Graph& g, Node part) {
 // A property has a general property; texture is a requirement.
 bool is_property(const Graph& g, Node n) {
   if (g.entity(n) != g.schema().find("PROPERTY_DEFINITION") ||
-      text_of(g, n, "property_definition.name") == "surface_condition")
+      g.text(n, "property_definition.name") == "surface_condition")
     return false;
   const auto users = g.users(n);
   return std::any_of(users.begin(), users.end(),
-                     [&](Node u) { return is(g, u, "GENERAL_PROPERTY_ASSOCIATION"); });
+                     [&](Node u) { return g.is(u, "GENERAL_PROPERTY_ASSOCIATION"); });
 }
 
 bool read_stated(Reader& reader, AnyRef at, const Attribute& a, const Terminal& t,

@@ -21,13 +21,6 @@ constexpr const char* kGroup = "toleranced together";
 constexpr const char* kRegardless = "regardless_of_feature_size";
 constexpr std::uint32_t kFirstOwnOrdinal = 2000;  // of instances that no path of the row leads to
 
-bool is(const Graph& g, Node n, const char* entity) { return g.is(n, g.schema().find(entity)); }
-
-Node referred(const Graph& g, Node n, const char* attribute) {
-  const Value v = g.get(n, attribute);
-  return v.is(Kind::kReference) ? g.find(v.reference()) : kNoNode;
-}
-
 // The older conditions by the newer words.
 std::string modifier_of_condition(const std::string& condition) {
   if (condition == "maximum_material_condition") return "maximum_material_requirement";
@@ -41,7 +34,7 @@ bool read_toleranced(Reader& reader, const Row& row, AnyRef at, const Attribute&
                      const std::vector<Terminal>& found) {
   const Graph& g = reader.graph();
   const Terminal& t = found.front();
-  if (is(g, t.node, "PRODUCT_DEFINITION_SHAPE")) return false;  // of the whole part
+  if (g.is(t.node, "PRODUCT_DEFINITION_SHAPE")) return false;  // of the whole part
   for (const Node n : members_of_group(reader, row, at, t.node)) {
     const AnyRef to = reader.object_at(n, a.targets, t.scale);
     auto& list = *static_cast<AnyRefList*>(a.at(reader.plan().model.object(at)));
@@ -86,14 +79,14 @@ AnyRef system_of(Reader& reader, const Row& row, AnyRef at, std::vector<Node> re
                    [&](Node x, Node y) { return precedence(x) < precedence(y); });
   model::Model& m = reader.plan().model;
   model::DatumSystem system;
-  if (const Node part = product_of(g, referred(g, references.front(), "referenced_datum")); part != kNoNode) {
+  if (const Node part = product_of(g, g.referred(references.front(), "referenced_datum")); part != kNoNode) {
     static constexpr TypeId kPart[] = {TypeId::kWorkpiece};
     system.its_workpiece = model::Ref<model::Workpiece>(reader.object_at(part, kPart, Scale{}));
   }
   std::uint32_t k = kFirstOwnOrdinal;
   for (const Node n : references) {
     model::DatumReference r;
-    const Node datum = referred(g, n, "referenced_datum");
+    const Node datum = g.referred(n, "referenced_datum");
     if (datum != kNoNode)
       r.referenced_datum = model::Ref<model::Datum>(reader.object_at(datum, kDatum, Scale{}));
     const Value modifier = g.get(n, "modifier");
@@ -115,7 +108,7 @@ bool read_datums(Reader& reader, const Row& row, AnyRef at, const Attribute& a,
   std::vector<Node> systems, references;
   g.references(g.get(found.front().node, "datum_system"), systems);
   for (const Node n : systems) {
-    if (is(g, n, "DATUM_REFERENCE")) references.push_back(n);
+    if (g.is(n, "DATUM_REFERENCE")) references.push_back(n);
   }
   if (systems.empty()) return false;
   const AnyRef to = references.empty() ? reader.object_at(systems.front(), a.targets, found.front().scale)
@@ -185,7 +178,7 @@ const Form& form_of(const Attribute& a) {
 bool read_form(Reader& reader, const Row& row, AnyRef at, const Attribute& a,
                const std::vector<Terminal>& found) {
   const Form& form = form_of(a);
-  const Node n = referred(reader.graph(), found.front().node, form.parameter.data());
+  const Node n = reader.graph().referred(found.front().node, form.parameter.data());
   if (n == kNoNode || !measures(reader, n, a.unit)) return false;
   const auto x = reader.measure(n, a.unit, found.front().scale);
   if (!x) return false;
@@ -262,10 +255,10 @@ void write_projected(Writer& writer, const Row& row, AnyRef owner, const Attribu
 bool read_elements(Reader& reader, const Row&, AnyRef at, const Attribute& a,
                    const std::vector<Terminal>& found) {
   const Graph& g = reader.graph();
-  if (!is(g, reader.root_of(at), "COMPOSITE_SHAPE_ASPECT")) return false;
+  if (!g.is(reader.root_of(at), "COMPOSITE_SHAPE_ASPECT")) return false;
   bool any = false;
   for (const Terminal& t : found) {
-    if (is(g, t.node, "DATUM")) continue;  // what it establishes
+    if (g.is(t.node, "DATUM")) continue;  // what it establishes
     const AnyRef to = reader.object_at(t.node, a.targets, t.scale);
     auto& list = *static_cast<AnyRefList*>(a.at(reader.plan().model.object(at)));
     list.given = true;
@@ -295,27 +288,27 @@ void write_elements(Writer& writer, const Row& row, AnyRef owner, const Attribut
 Node product_of(const Graph& g, Node n) {
   constexpr int kDeepest = 8;  // dimension, component, its feature, its shape
   for (int depth = 0; depth < kDeepest && n != kNoNode; ++depth) {
-    if (is(g, n, "PRODUCT_DEFINITION")) return n;
-    if (is(g, n, "GEOMETRIC_TOLERANCE")) {
-      n = referred(g, n, "toleranced_shape_aspect");
-    } else if (is(g, n, "PROPERTY_DEFINITION")) {
-      n = referred(g, n, "definition");
-    } else if (is(g, n, "DIMENSIONAL_SIZE") && !is(g, n, "SHAPE_ASPECT")) {
-      n = referred(g, n, "applies_to");
-    } else if (is(g, n, "SHAPE_ASPECT_RELATIONSHIP")) {
-      n = referred(g, n, "relating_shape_aspect");
-    } else if (is(g, n, "SHAPE_ASPECT")) {
-      const Node shape = referred(g, n, "of_shape");
-      const Node definition = shape == kNoNode ? kNoNode : referred(g, shape, "definition");
-      if (definition != kNoNode && !is(g, definition, "FEATURE_COMPONENT_DEFINITION")) {
+    if (g.is(n, "PRODUCT_DEFINITION")) return n;
+    if (g.is(n, "GEOMETRIC_TOLERANCE")) {
+      n = g.referred(n, "toleranced_shape_aspect");
+    } else if (g.is(n, "PROPERTY_DEFINITION")) {
+      n = g.referred(n, "definition");
+    } else if (g.is(n, "DIMENSIONAL_SIZE") && !g.is(n, "SHAPE_ASPECT")) {
+      n = g.referred(n, "applies_to");
+    } else if (g.is(n, "SHAPE_ASPECT_RELATIONSHIP")) {
+      n = g.referred(n, "relating_shape_aspect");
+    } else if (g.is(n, "SHAPE_ASPECT")) {
+      const Node shape = g.referred(n, "of_shape");
+      const Node definition = shape == kNoNode ? kNoNode : g.referred(shape, "definition");
+      if (definition != kNoNode && !g.is(definition, "FEATURE_COMPONENT_DEFINITION")) {
         n = definition;
         continue;
       }
       // A component of a feature: on to the feature.
       Node feature = kNoNode;
       for (const Node user : g.users(n)) {
-        if (is(g, user, "FEATURE_COMPONENT_RELATIONSHIP") && referred(g, user, "relating_shape_aspect") == n)
-          feature = referred(g, user, "related_shape_aspect");
+        if (g.is(user, "FEATURE_COMPONENT_RELATIONSHIP") && g.referred(user, "relating_shape_aspect") == n)
+          feature = g.referred(user, "related_shape_aspect");
       }
       n = feature;
     } else {
@@ -345,15 +338,15 @@ void mark_one(Reader& reader, const Row& row, AnyRef owner, Node n, std::uint32_
 std::vector<Node> members_of_group(Reader& reader, const Row& row, AnyRef owner, Node n) {
   const Graph& g = reader.graph();
   const Value name = g.get(n, "shape_aspect.description");
-  if (!is(g, n, "COMPOSITE_GROUP_SHAPE_ASPECT") || !name.is(Kind::kString) || name.as_text() != kGroup)
+  if (!g.is(n, "COMPOSITE_GROUP_SHAPE_ASPECT") || !name.is(Kind::kString) || name.as_text() != kGroup)
     return {n};
   std::vector<Node> out;
   std::uint32_t k = kFirstOwnOrdinal + 100;
   mark_one(reader, row, owner, n, k++);
   for (const Node user : g.users(n)) {
-    if (!is(g, user, "SHAPE_ASPECT_RELATIONSHIP") || referred(g, user, "relating_shape_aspect") != n)
+    if (!g.is(user, "SHAPE_ASPECT_RELATIONSHIP") || g.referred(user, "relating_shape_aspect") != n)
       continue;
-    const Node member = referred(g, user, "related_shape_aspect");
+    const Node member = g.referred(user, "related_shape_aspect");
     if (member == kNoNode) continue;
     mark_one(reader, row, owner, user, k++);
     out.push_back(member);
@@ -381,7 +374,7 @@ Id group_of(Writer& writer, AnyRef owner, const std::vector<AnyRef>& items) {
 }
 
 bool measures(Reader& reader, Node n, Unit unit) {
-  const Node u = referred(reader.graph(), n, "unit_component");
+  const Node u = reader.graph().referred(n, "unit_component");
   if (u == kNoNode) return unit == Unit::kLength;
   const auto of = reader.units().unit(u);
   return of && Units::factor(*of, unit).has_value();
