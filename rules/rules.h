@@ -7,8 +7,10 @@
 #include <utility>
 #include <vector>
 
+#include "planner/model/machine.h"
 #include "planner/model/material.h"
 #include "planner/model/proposal.h"
+#include "planner/model/quality.h"
 #include "planner/model/shape.h"
 #include "rules/engine/check.h"
 #include "rules/engine/table.h"
@@ -29,8 +31,14 @@ struct Context {
   double core_depth_mm = 0.0;      ///< threads: depth of that hole below the thread's top; 0: the shape's own
   bool outer_thread = false;       ///< threads: on a shaft
   double surface_radius_mm = 0.0;  ///< freeform: smallest concave radius; 0 not known
-  bool rigid_tapping = true;       ///< the control synchronises spindle and feed
   bool has_coolant = true;
+  model::Quality quality;  ///< surface texture and geometric tolerances of the feature
+  model::MachineAbilities abilities;
+  bool has_through_coolant = false;
+  std::optional<double> wall_thickness_mm;  ///< thinnest wall that stays beside the feature; unset: not known
+  std::optional<double> floor_thickness_mm;  ///< what stays below its bottom; unset: not known
+  int batch = 1;                             ///< pieces
+  double edge_break_mm = 0.0;                ///< the shop's rule: outer edges are chamfered by this; 0: none
   std::vector<model::Precedent> precedents;  ///< kept for later tables; no shipped row asks about them
 };
 

@@ -8,10 +8,30 @@
 namespace capstan::model {
 namespace {
 
-constexpr std::array<std::string_view, 16> kClasses = {
-    "endmill",     "bullnose_endmill", "ball_endmill", "facemill",     "twist_drill", "center_drill",
-    "spotdrill",   "reamer",           "tap",          "thread_mill",  "boring_tool", "countersink",
-    "counterbore", "chamfer_mill",     "t_slot_mill",  "dovetail_mill"};
+constexpr std::array<std::string_view, 23> kClasses = {"endmill",
+                                                       "bullnose_endmill",
+                                                       "ball_endmill",
+                                                       "facemill",
+                                                       "twist_drill",
+                                                       "center_drill",
+                                                       "spotdrill",
+                                                       "reamer",
+                                                       "tap",
+                                                       "thread_mill",
+                                                       "boring_tool",
+                                                       "countersink",
+                                                       "counterbore",
+                                                       "chamfer_mill",
+                                                       "t_slot_mill",
+                                                       "dovetail_mill",
+                                                       "gun_drill",
+                                                       "back_counterbore",
+                                                       "back_countersink",
+                                                       "corner_rounding_mill",
+                                                       "tapered_endmill",
+                                                       "side_mill",
+                                                       "touch_probe"};
+static_assert(kClasses.size() == static_cast<std::size_t>(kLastCutterClass) + 1);
 constexpr std::array<std::string_view, 2> kSubstrates = {"hss", "carbide"};
 
 template <class E, std::size_t N>
@@ -28,6 +48,7 @@ bool has_cone(const Cutter& c) {
     case CutterClass::kSpotDrill:
     case CutterClass::kCountersink:
     case CutterClass::kChamferMill:
+    case CutterClass::kGunDrill:
       return c.point_angle_rad > 0.0;
     default:
       return false;

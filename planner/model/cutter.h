@@ -31,7 +31,15 @@ enum class CutterClass : std::uint8_t {
   kChamferMill,
   kTSlotMill,
   kDovetailMill,
+  kGunDrill,
+  kBackCounterbore,
+  kBackCountersink,
+  kCornerRoundingMill,  ///< a concave quarter round of corner_radius_mm; its tip has tip_diameter_mm
+  kTaperedEndmill,      ///< a cone of taper_angle_rad over a flat, bull or ball tip of cutting_diameter_mm
+  kSideMill,            ///< a disc of cutting_width_mm: side mills, slitting saws, woodruff cutters
+  kTouchProbe,          ///< no cutter: measures; cutting_diameter_mm is that of its ball
 };
+inline constexpr CutterClass kLastCutterClass = CutterClass::kTouchProbe;
 [[nodiscard]] std::string_view to_text(CutterClass c);  ///< "endmill", "twist_drill", ...
 [[nodiscard]] std::optional<CutterClass> cutter_class_from_text(std::string_view text);
 
@@ -46,6 +54,20 @@ struct CuttingPreset {
   double fz_mm = 0.0;  ///< per tooth; drills, reamers: per revolution divided by teeth
   std::string source;
   friend bool operator==(const CuttingPreset&, const CuttingPreset&) = default;
+};
+
+/// A frustum of a holder's outline; the first of a list begins at the holder's face, nearest to the tip.
+struct HolderSegment {
+  double height_mm = 0.0, lower_diameter_mm = 0.0, upper_diameter_mm = 0.0;
+  friend bool operator==(const HolderSegment&, const HolderSegment&) = default;
+};
+
+/// A tool that may take another's place when its life is used up.
+struct SisterTool {
+  std::string id;  ///< of the instance
+  int pocket = 0;  ///< 0: not loaded
+  double life_left_min = 0.0;
+  friend bool operator==(const SisterTool&, const SisterTool&) = default;
 };
 
 /// A cutter in its holder: what is put into the spindle. mm, rad. Field names in words; ISO 13399 symbol
@@ -78,9 +100,26 @@ struct Cutter {
   double fz_min_mm = 0.0, fz_max_mm = 0.0;  ///< chip thickness range the maker allows; 0 unknown
   std::vector<CuttingPreset> presets;
   std::vector<std::pair<std::string, std::string>>
-      sources;     ///< (field, "stated: ...", "derived: ...", "default: ...")
-  int pocket = 0;  ///< tool number in the machine; 0 not loaded
-  double adjustable_to_mm = 0.0;  ///< DCX: the largest diameter a boring tool can be set to; 0: fixed
+      sources;                     ///< (field, "stated: ...", "derived: ...", "default: ...")
+  int pocket = 0;                  ///< tool number in the machine; 0 not loaded
+  double adjustable_to_mm = 0.0;   ///< DCX: the largest diameter a boring tool can be set to; 0: fixed
+  double overall_length_mm = 0.0;  ///< OAL of the tool alone; 0 unknown
+  double neck_diameter_mm = 0.0, neck_length_mm = 0.0;  ///< DN, LN from the tip; 0: no neck
+  double taper_angle_rad = 0.0;                         ///< half angle of a conical flank; 0: upright
+  double cutting_width_mm = 0.0;                        ///< CW of side mills, head height of T-slot cutters
+  double thread_size_mm = 0.0;                          ///< TDZ, nominal major diameter; 0 unknown
+  std::string thread_form;                              ///< THFT: "M", "UN", ...
+  double lead_threads = 0.0;                            ///< taps: threads in the chamfer; 0 unknown
+  double lead_length_mm = 0.0;                          ///< reamers: length of the chamfer; 0 unknown
+  std::string holder_id;
+  std::vector<HolderSegment> holder;  ///< from its face up; empty: only holder_diameter_mm is known
+  std::string library_reference, library_source;  ///< ISO 13399 / PLIB link and where it is defined
+  std::string product_id, carousel;
+  bool stated_in_inches = false;  ///< the library gave its sizes in inches
+  bool loaded = false;            ///< it is in the machine's magazine, in `pocket`
+  int in_stock = -1;              ///< pieces; -1 unknown
+  double life_used_min = 0.0;     ///< of `life_min`
+  std::vector<SisterTool> sisters;
   bool operator==(const Cutter&) const = default;
 };
 

@@ -25,12 +25,23 @@ struct SpindlePoint {
   friend bool operator==(const SpindlePoint&, const SpindlePoint&) = default;
 };
 
+/// A gear (or belt) stage: where it turns, and what it gives there.
+struct SpindleGear {
+  std::string id;
+  double rpm_min = 0.0, rpm_max = 0.0;
+  std::vector<SpindlePoint> curve;     ///< S1, by rising rpm
+  std::vector<SpindlePoint> curve_s6;  ///< S6 (40 %), by rising rpm; empty: not known
+  friend bool operator==(const SpindleGear&, const SpindleGear&) = default;
+};
+
+/// `rpm_min`, `rpm_max` and `curve` are of the gear in use, or of the only one.
 struct Spindle {
   double rpm_min = 0.0, rpm_max = 0.0;
   std::vector<SpindlePoint> curve;  ///< by rising rpm
   std::string taper;
   double efficiency = 1.0;  ///< cutting power / motor power
   double spin_up_s = 0.0;
+  std::vector<SpindleGear> gears;  ///< empty: one, as above
   friend bool operator==(const Spindle&, const Spindle&) = default;
 };
 
@@ -44,6 +55,21 @@ struct Control {
   friend bool operator==(const Control&, const Control&) = default;
 };
 
+/// What a machine can do beside moving and turning; machine_parameters of AP238 where they have a word for
+/// it.
+struct MachineAbilities {
+  int control_axes = 3, simultaneous_axes = 3;
+  double positioning_accuracy_mm = 0.0;  ///< 0 unknown
+  bool table_indexing = false;
+  double table_length_mm = 0.0, table_width_mm = 0.0;  ///< 0 unknown
+  bool rigid_tapping = true;                           ///< the control synchronises spindle and feed
+  bool probe = false;                                  ///< a touch probe is connected
+  double through_pressure_bar = 0.0;                   ///< of coolant through the spindle; 0: none or unknown
+  double feed_override_max = 1.2;     ///< what the operator may turn the feed up to; limits hold there, too
+  double magazine_mass_max_kg = 0.0;  ///< of one tool; 0 unknown
+  friend bool operator==(const MachineAbilities&, const MachineAbilities&) = default;
+};
+
 /// machine_parameters of AP238, and what optimisation needs beside it. `sources` says where each comes from.
 struct Machine {
   std::string id, description;
@@ -55,6 +81,7 @@ struct Machine {
   bool has_flood = true, has_mist = false, has_through = false;
   double cost_per_hour = 0.0;  ///< any currency; used by objective cost
   Control control;
+  MachineAbilities abilities;
   std::vector<std::pair<std::string, std::string>> sources;  ///< (value's path, source), in file order
   friend bool operator==(const Machine&, const Machine&) = default;
 };

@@ -1,32 +1,34 @@
 #include "planner/model/model.h"
 
-#include "planner/model/nouns/all.h"
+#include "planner/model/arena_kinds.h"
 
 namespace capstan::model {
-namespace {
+namespace detail {
 
-template <class T>
-std::unique_ptr<detail::Arena> arena_of() {
-  return std::make_unique<detail::TypedArena<T>>();
-}
-
-std::unique_ptr<detail::Arena> make_arena(TypeId t) {
-  switch (t) {
-#define CAPSTAN_NOUN(T) \
-  case TypeId::k##T:    \
-    return arena_of<T>();
-#include "planner/model/nouns/list.inc"
-#undef CAPSTAN_NOUN
-    case TypeId::kKeptInstance:
-      return arena_of<KeptInstance>();
-    case TypeId::kNone:
-    case TypeId::kCount:
-      break;
+Arena::Arena(const Arena& other) : origins(other.origins), kind_(other.kind_) {
+  blocks_.reserve(other.blocks_.size());
+  while (size_ < other.size_) {
+    kind_.copy(room(), other.at(size_));
+    ++size_;
   }
-  return nullptr;
 }
 
-}  // namespace
+Arena::~Arena() {
+  for (std::uint32_t i = 0; i < size_; ++i) kind_.end(at(i));
+}
+
+void Arena::append() {
+  origins.emplace_back();
+  kind_.make(room());
+  ++size_;
+}
+
+void* Arena::room() {
+  if (size_ == blocks_.size() * kBlock) blocks_.push_back(std::make_unique<std::byte[]>(kind_.size * kBlock));
+  return at(size_);
+}
+
+}  // namespace detail
 
 Model::Model() = default;
 
@@ -35,7 +37,7 @@ Model::Model(const Model& other) { *this = other; }
 Model& Model::operator=(const Model& other) {
   if (this == &other) return *this;
   for (std::size_t i = 0; i < kTypeCount; ++i) {
-    arenas_[i] = other.arenas_[i] ? other.arenas_[i]->clone() : nullptr;
+    arenas_[i] = other.arenas_[i] ? std::make_unique<detail::Arena>(*other.arenas_[i]) : nullptr;
   }
   return *this;
 }
@@ -43,7 +45,7 @@ Model& Model::operator=(const Model& other) {
 AnyRef Model::add_object(TypeId type) {
   if (noun_type(type).abstract) throw std::logic_error("an abstract kind of object cannot be made");
   auto& slot = arenas_[static_cast<std::size_t>(type)];
-  if (!slot) slot = make_arena(type);
+  if (!slot) slot = std::make_unique<detail::Arena>(detail::object_kind(type));
   slot->append();
   return {type, slot->size() - 1};
 }
@@ -55,7 +57,7 @@ detail::Arena& Model::arena(TypeId t) const {
 }
 
 const void* Model::object(AnyRef r) const {
-  auto& a = arena(r.type);
+  const auto& a = arena(r.type);
   if (r.index >= a.size()) throw std::logic_error("a handle points past the model's objects");
   return a.at(r.index);
 }

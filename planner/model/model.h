@@ -1,8 +1,8 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -23,30 +23,34 @@ struct Origin {
 
 namespace detail {
 
+/// How objects of one kind are made, copied and ended: all that an arena needs to know of them.
+struct ObjectKind {
+  std::size_t size = 0;
+  void (*make)(void* at) = nullptr;
+  void (*copy)(void* at, const void* from) = nullptr;
+  void (*end)(void* at) = nullptr;
+};
+
 /// One kind's objects, in the order they were made; addresses stay put. Copied with the model.
 class Arena {
  public:
-  virtual ~Arena() = default;
-  [[nodiscard]] virtual std::unique_ptr<Arena> clone() const = 0;
-  virtual void* append() = 0;
-  [[nodiscard]] virtual void* at(std::uint32_t i) = 0;
-  [[nodiscard]] virtual std::uint32_t size() const = 0;
-  std::vector<Origin> origins;
-};
-
-template <class T>
-class TypedArena final : public Arena {
- public:
-  [[nodiscard]] std::unique_ptr<Arena> clone() const override { return std::make_unique<TypedArena>(*this); }
-  void* append() override {
-    origins.emplace_back();
-    return &items_.emplace_back();
+  explicit Arena(const ObjectKind& kind) : kind_(kind) {}
+  Arena(const Arena& other);
+  Arena& operator=(const Arena&) = delete;
+  ~Arena();
+  void append();
+  [[nodiscard]] void* at(std::uint32_t i) const {
+    return blocks_[i / kBlock].get() + kind_.size * (i % kBlock);
   }
-  [[nodiscard]] void* at(std::uint32_t i) override { return &items_[i]; }
-  [[nodiscard]] std::uint32_t size() const override { return static_cast<std::uint32_t>(items_.size()); }
+  [[nodiscard]] std::uint32_t size() const { return size_; }
+  std::vector<Origin> origins;
 
  private:
-  std::deque<T> items_;
+  static constexpr std::uint32_t kBlock = 32;  ///< objects that are allocated at once
+  [[nodiscard]] void* room();                  ///< for one more object
+  ObjectKind kind_;
+  std::vector<std::unique_ptr<std::byte[]>> blocks_;
+  std::uint32_t size_ = 0;
 };
 
 }  // namespace detail

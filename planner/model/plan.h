@@ -15,6 +15,7 @@
 #include "planner/model/material.h"
 #include "planner/model/model.h"
 #include "planner/model/nouns/forward.h"
+#include "planner/model/workholding.h"
 
 namespace capstan::model {
 
@@ -41,7 +42,9 @@ struct StepResult {
   std::string cutter_id;                               ///< into Plan::cutters
   double axial_depth_mm = 0.0, radial_depth_mm = 0.0;  ///< as cut
   double vc_m_min = 0.0, fz_mm = 0.0, spindle_rpm = 0.0, feed_mm_min = 0.0;  ///< before the schedule
-  bool flood = false, mist = false;
+  bool flood = false, mist = false, through = false;
+  double path_deviation_mm = 0.0;     ///< path_maximum_deviation: chords may leave the wanted path by this
+  double contour_tolerance_mm = 0.0;  ///< the control may round corners by this; 0: its own path tolerance
   std::shared_ptr<const CutterPath> path;
   std::shared_ptr<const SectionSeries> sections;
   std::shared_ptr<const FeedSchedule> schedule;
@@ -55,6 +58,7 @@ struct SetupResult {
   Ref<Setup> setup;
   std::string work_offset = "G54";
   double security_z_mm = 0.0;  ///< in the set-up's frame: rapids in XY happen here or above
+  Workholding holding = {};
 };
 
 struct Unplanned {

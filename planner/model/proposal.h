@@ -23,7 +23,14 @@ struct ToolRequirement {
   bool centre_cutting = false;           ///< or a ramp the tool allows
   double point_angle_rad = 0.0;
   double thread_pitch_mm = 0.0;
-  std::string words;  ///< "a 6 mm end mill with 22 mm reach"
+  double thread_size_mm = 0.0;                                    ///< nominal, thread mills and taps
+  double taper_angle_rad = 0.0;                                   ///< tapered end mills: half angle
+  double cutting_width_min_mm = 0.0, cutting_width_max_mm = 0.0;  ///< side mills, heads of T-slot cutters
+  double neck_diameter_max_mm = 0.0;  ///< what must pass above the head, over `reach_mm`
+  double flute_length_min_mm = 0.0;   ///< walls cut in one depth: flutes at least
+  bool coolant_through = false;
+  bool left_hand = false;  ///< taps of left-hand threads
+  std::string words;       ///< "a 6 mm end mill with 22 mm reach"
   bool operator==(const ToolRequirement&) const = default;
 };
 
@@ -51,6 +58,14 @@ struct ProposedStep {
   bool peck = false;
   double dwell_s = 0.0;
   bool coolant = true;
+  bool coolant_through = false;
+  bool lock_override = false;  ///< feed and spindle overrides are inhibited: rigid tapping, thread milling
+  /// Material that a wider cutter left: only what this diameter did not reach is cut; 0: everything.
+  double rest_of_diameter_mm = 0.0;
+  bool from_below = false;            ///< back boring, back countersinking
+  double path_deviation_mm = 0.0;     ///< path_maximum_deviation, see StepResult; 0: the pipeline's default
+  double contour_tolerance_mm = 0.0;  ///< see StepResult; 0: the control's own
+  double finish_ra_um = 0.0;          ///< surface that this step must leave; 0: none asked
   Reason why;
   std::vector<std::size_t> after;  ///< indices in the same proposal that must come before
   int priority = 0;                ///< alternatives: lower is tried first

@@ -42,6 +42,10 @@ struct Inputs {
   optimise::Solver solver = optimise::Solver::kNlopt;
   optimise::Backends backends;
   Objective objective = Objective::kTime;
+  std::string general_tolerance;  ///< "ISO 2768-m", "ISO 22081 0.2", "+-0.1"; empty: the file's, or none
+  std::string workholding;        ///< ids or a file, see tooling/holding; "auto"; empty or "none": not planned
+  int batch = 1;                  ///< pieces
+  double edge_break_mm = 0.0;     ///< edges that the part leaves sharp are chamfered by this; 0: left
   std::vector<model::Provenance> provenance;  ///< what was named, what is a default
 };
 

@@ -40,7 +40,7 @@ tl::expected<double, std::string> core(const Making& m) {
 }
 
 Made tap(const Making& m) {
-  if (!m.context.rigid_tapping) return no("the machine does not synchronise spindle and feed");
+  if (!m.context.abilities.rigid_tapping) return no("the machine does not synchronise spindle and feed");
   const auto c = core(m);
   if (!c) return tl::unexpected(c.error());
   const double p = m.shape.thread_pitch_mm;

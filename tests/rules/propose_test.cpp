@@ -429,7 +429,7 @@ TEST(Thread, IsTappedWhereTheLeadHasRoomAndMilledWhereNot) {
   c.outer_thread = true;
   EXPECT_THAT(proposed(thread(10, 1.5, 20), c).cannot, HasSubstr("[thread.outside]"));
   c = steel();
-  c.rigid_tapping = false;
+  c.abilities.rigid_tapping = false;
   EXPECT_THAT(first(proposed(thread(10, 1.5, 20), c)), ElementsAre(TypeId::kThreadDrilling));
 }
 

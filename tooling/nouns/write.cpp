@@ -19,7 +19,7 @@ constexpr double kSecondsPerMinute = 60.0;
 /// What a body is made from: a cutter, or as much of one as a requirement fixes.
 struct Body {
   CutterClass cutter_class = CutterClass::kEndmill;
-  double lead_angle_rad = 0.0, thickness_mm = 0.0;
+  double lead_angle_rad = 0.0, thickness_mm = 0.0, taper_angle_rad = 0.0;
 };
 
 Ref<model::MillingToolBody> body_of(Model& m, const Body& b) {
@@ -60,6 +60,29 @@ Ref<model::MillingToolBody> body_of(Model& m, const Body& b) {
       if (b.lead_angle_rad > 0.0) m.at<model::DovetailMill>(t).included_angle = 2.0 * b.lead_angle_rad;
       return t;
     }
+    case CutterClass::kGunDrill:
+      return m.add<model::TwistDrill>();
+    case CutterClass::kBackCounterbore:
+      return m.add<model::BacksideCounterbore>();
+    case CutterClass::kBackCountersink:
+      return m.add<model::BacksideCountersink>();
+    case CutterClass::kTaperedEndmill: {
+      const auto t = m.add<model::TaperedEndmill>();
+      m.at<model::TaperedEndmill>(t).taper_angle = b.taper_angle_rad;
+      return t;
+    }
+    case CutterClass::kSideMill: {
+      const auto t = m.add<model::SideMill>();
+      if (b.thickness_mm > 0.0) m.at<model::SideMill>(t).cutter_width = b.thickness_mm;
+      return t;
+    }
+    case CutterClass::kCornerRoundingMill: {
+      const auto t = m.add<model::UserDefinedTool>();
+      m.at<model::UserDefinedTool>(t).identifier = "corner rounding mill";
+      return t;
+    }
+    case CutterClass::kTouchProbe:
+      break;  // no body: a touch_probe is a tool of its own
   }
   return m.add<model::Endmill>();
 }
@@ -76,7 +99,9 @@ Ref<MachiningTool> nouns_from_cutter(Model& m, const Cutter& c) {
   d.cutting_edge_length = known(c.maximum_depth_of_cut_mm);
   d.edge_radius = known(c.corner_radius_mm);
   d.tool_top_angle = known(0.5 * c.point_angle_rad);
-  const auto body_ref = body_of(m, {c.cutter_class, c.lead_angle_rad, c.maximum_depth_of_cut_mm});
+  const auto body_ref = body_of(
+      m, {c.cutter_class, c.lead_angle_rad,
+          c.cutting_width_mm > 0.0 ? c.cutting_width_mm : c.maximum_depth_of_cut_mm, c.taper_angle_rad});
   auto& body = m.at<model::MillingToolBody>(body_ref);
   body.dimension = dimension;
   if (c.teeth > 0) body.number_of_teeth = c.teeth;

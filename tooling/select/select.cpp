@@ -272,6 +272,20 @@ std::string_view words_of(CutterClass c) {
       return "T-slot cutter";
     case CutterClass::kDovetailMill:
       return "dovetail cutter";
+    case CutterClass::kGunDrill:
+      return "gun drill";
+    case CutterClass::kBackCounterbore:
+      return "back counterbore";
+    case CutterClass::kBackCountersink:
+      return "back countersink";
+    case CutterClass::kCornerRoundingMill:
+      return "corner rounding mill";
+    case CutterClass::kTaperedEndmill:
+      return "tapered end mill";
+    case CutterClass::kSideMill:
+      return "side mill";
+    case CutterClass::kTouchProbe:
+      return "touch probe";
   }
   return "cutter";
 }

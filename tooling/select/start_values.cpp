@@ -42,6 +42,9 @@ bool feeds_along_z(CutterClass c) {
     case CutterClass::kBoringTool:
     case CutterClass::kCountersink:
     case CutterClass::kCounterbore:
+    case CutterClass::kGunDrill:
+    case CutterClass::kBackCounterbore:
+    case CutterClass::kBackCountersink:
       return true;
     default:
       return false;

@@ -28,6 +28,7 @@ Numbers are in mm, rad, mm/min, 1/min and s. The whole grammar: docs/inspect.md)
 struct Raw {
   std::string file, machine, tools, material, rules, cases, stock, deadline;
   std::string objective, solver, reopen, bind, diagnostics = "text";
+  std::string workholding, general_tolerance;
 };
 
 const std::map<std::string, pipeline::Reopen> kReopen = {{"operations", pipeline::Reopen::kOperations},
@@ -115,6 +116,13 @@ class CommandLine {
     sub->add_option("--rules", raw_.rules, "a folder of rule tables to add to the built-in ones");
     sub->add_option("--cases", raw_.cases, "a case base to begin from");
     sub->add_option("--solver", raw_.solver, "nlopt or ipopt")->check(CLI::IsMember(names(kSolver)));
+    sub->add_option("--workholding", raw_.workholding,
+                    "how the piece is held: an id or file of fixtures, auto, or none");
+    sub->add_option("--general-tolerance", raw_.general_tolerance,
+                    "for sizes without one: \"ISO 2768-m\", \"ISO 22081 0.2\" or \"+-0.1\"");
+    sub->add_option("--batch", out_.inputs.batch, "pieces to be made")->check(CLI::Range(1, 1000000));
+    sub->add_option("--edges", out_.inputs.edge_break_mm, "chamfer edges that the part leaves sharp, mm")
+        ->check(CLI::Range(0.0, 10.0));
   }
 
   void plan() {
@@ -220,6 +228,8 @@ class CommandLine {
     in.material = given(raw_.material);
     in.rules = given(raw_.rules);
     in.cases = given(raw_.cases);
+    in.workholding = given(raw_.workholding);
+    in.general_tolerance = given(raw_.general_tolerance);
     if (const auto at = kObjective.find(raw_.objective); at != kObjective.end()) in.objective = at->second;
     if (const auto at = kSolver.find(raw_.solver); at != kSolver.end()) in.solver = at->second;
     pick(kReopen, raw_.reopen, out_.reopen);

@@ -19,6 +19,9 @@ struct InputOptions {
   std::string stock_text;  ///< as given
   std::optional<pipeline::Objective> objective;
   std::optional<optimise::Solver> solver;
+  std::optional<std::string> general_tolerance, workholding;
+  int batch = 1;
+  double edge_break_mm = 0.0;
 };
 
 enum class Command : std::uint8_t {

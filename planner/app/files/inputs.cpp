@@ -56,6 +56,21 @@ void choices(const InputOptions& o, const model::Plan& plan, pipeline::Inputs& i
   }
   in.objective = o.objective.value_or(pipeline::Objective::kTime);
   p.push_back({"objective", objective_text(in.objective), o.objective ? "--objective" : kDefault});
+  const auto carried = [&](const char* what, const std::optional<std::string>& given, std::string& into) {
+    if (given) {
+      into = *given;
+      p.push_back({what, into, std::string("--") + what});
+    } else if (const auto* before = made_with(plan, what)) {
+      into = before->value;
+      p.push_back(*before);
+    }
+  };
+  carried("general-tolerance", o.general_tolerance, in.general_tolerance);
+  carried("workholding", o.workholding, in.workholding);
+  in.batch = o.batch;
+  if (o.batch > 1) p.push_back({"batch", std::to_string(o.batch), "--batch"});
+  in.edge_break_mm = o.edge_break_mm;
+  if (o.edge_break_mm > 0.0) p.push_back({"edges", trimmed(o.edge_break_mm, 4) + " mm", "--edges"});
   in.solver = o.solver.value_or(optimise::Solver::kNlopt);
   p.push_back({"solver", in.solver == optimise::Solver::kIpopt ? "ipopt" : "nlopt",
                o.solver ? "--solver" : kDefault});

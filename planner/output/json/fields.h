@@ -45,7 +45,20 @@ void fields(V& v, Is<model::SpindlePoint> auto& x) {
 template <class V>
 void fields(V& v, Is<model::Spindle> auto& x) {
   v("rpm_min", x.rpm_min), v("rpm_max", x.rpm_max), v("curve", x.curve), v("taper", x.taper);
-  v("efficiency", x.efficiency), v("spin_up_s", x.spin_up_s);
+  v("efficiency", x.efficiency), v("spin_up_s", x.spin_up_s), v("gears", x.gears);
+}
+template <class V>
+void fields(V& v, Is<model::SpindleGear> auto& x) {
+  v("id", x.id), v("rpm_min", x.rpm_min), v("rpm_max", x.rpm_max), v("curve", x.curve);
+  v("curve_s6", x.curve_s6);
+}
+template <class V>
+void fields(V& v, Is<model::MachineAbilities> auto& x) {
+  v("control_axes", x.control_axes), v("simultaneous_axes", x.simultaneous_axes);
+  v("positioning_accuracy_mm", x.positioning_accuracy_mm), v("table_indexing", x.table_indexing);
+  v("table_length_mm", x.table_length_mm), v("table_width_mm", x.table_width_mm);
+  v("rigid_tapping", x.rigid_tapping), v("probe", x.probe), v("through_pressure_bar", x.through_pressure_bar);
+  v("feed_override_max", x.feed_override_max), v("magazine_mass_max_kg", x.magazine_mass_max_kg);
 }
 template <class V>
 void fields(V& v, Is<model::Control> auto& x) {
@@ -59,12 +72,14 @@ void fields(V& v, Is<model::Machine> auto& x) {
   v("tool_length_max_mm", x.tool_length_max_mm), v("tool_change_s", x.tool_change_s);
   v("has_flood", x.has_flood), v("has_mist", x.has_mist), v("has_through", x.has_through);
   v("cost_per_hour", x.cost_per_hour), v("control", x.control), v("sources", x.sources);
+  v("abilities", x.abilities);
 }
 template <class V>
 void fields(V& v, Is<model::WorkMaterial> auto& x) {
   v("id", x.id), v("iso_group", x.iso_group), v("names", x.names), v("kc11_n_mm2", x.kc11_n_mm2);
   v("mc", x.mc), v("vc_hss_m_min", x.vc_hss_m_min), v("vc_carbide_m_min", x.vc_carbide_m_min);
   v("tensile_strength_n_mm2", x.tensile_strength_n_mm2), v("kc_uncertainty", x.kc_uncertainty);
+  v("hardness_hb", x.hardness_hb);
   v("sources", x.sources);
 }
 template <class V>
@@ -87,7 +102,24 @@ void fields(V& v, Is<model::Cutter> auto& x) {
   v("coolant_through", x.coolant_through), v("maximum_speed_rpm", x.maximum_speed_rpm);
   v("life_min", x.life_min), v("price", x.price), v("fz_min_mm", x.fz_min_mm), v("fz_max_mm", x.fz_max_mm);
   v("presets", x.presets), v("sources", x.sources), v("pocket", x.pocket);
-  v("adjustable_to_mm", x.adjustable_to_mm);
+  v("adjustable_to_mm", x.adjustable_to_mm), v("overall_length_mm", x.overall_length_mm);
+  v("neck_diameter_mm", x.neck_diameter_mm), v("neck_length_mm", x.neck_length_mm);
+  v("taper_angle_rad", x.taper_angle_rad), v("cutting_width_mm", x.cutting_width_mm);
+  v("thread_size_mm", x.thread_size_mm), v("thread_form", x.thread_form), v("lead_threads", x.lead_threads);
+  v("lead_length_mm", x.lead_length_mm), v("holder_id", x.holder_id), v("holder", x.holder);
+  v("library_reference", x.library_reference), v("library_source", x.library_source);
+  v("product_id", x.product_id), v("carousel", x.carousel), v("stated_in_inches", x.stated_in_inches);
+  v("loaded", x.loaded), v("in_stock", x.in_stock), v("life_used_min", x.life_used_min);
+  v("sisters", x.sisters);
+}
+template <class V>
+void fields(V& v, Is<model::HolderSegment> auto& x) {
+  v("height_mm", x.height_mm), v("lower_diameter_mm", x.lower_diameter_mm);
+  v("upper_diameter_mm", x.upper_diameter_mm);
+}
+template <class V>
+void fields(V& v, Is<model::SisterTool> auto& x) {
+  v("id", x.id), v("pocket", x.pocket), v("life_left_min", x.life_left_min);
 }
 template <class V>
 void fields(V& v, Is<model::Stock> auto& x) {
@@ -96,6 +128,23 @@ void fields(V& v, Is<model::Stock> auto& x) {
 template <class V>
 void fields(V& v, Is<model::SetupResult> auto& x) {
   v("setup", x.setup), v("work_offset", x.work_offset), v("security_z_mm", x.security_z_mm);
+  v("holding", x.holding);
+}
+template <class V>
+void fields(V& v, Is<model::FixtureSolid> auto& x) {
+  v("id", x.id), v("kind", x.kind), v("outline", x.outline), v("bottom_mm", x.bottom_mm),
+      v("top_mm", x.top_mm);
+  v("presses", x.presses);
+}
+template <class V>
+void fields(V& v, Is<model::Workholding> auto& x) {
+  v("id", x.id), v("description", x.description), v("source", x.source), v("solids", x.solids);
+  v("pickup", x.pickup), v("pickup_text", x.pickup_text), v("clearance_mm", x.clearance_mm);
+  v("holding_force_n", x.holding_force_n);
+}
+template <class V>
+void fields(V& v, Is<geometry::Vec2> auto& x) {
+  v("x", x.x), v("y", x.y);
 }
 template <class V>
 void fields(V& v, Is<model::StepLoads> auto& x) {
@@ -114,7 +163,8 @@ void fields(V& v, Is<model::StepResult> auto& x) {
   v("radial_depth_mm", x.radial_depth_mm), v("vc_m_min", x.vc_m_min), v("fz_mm", x.fz_mm);
   v("spindle_rpm", x.spindle_rpm), v("feed_mm_min", x.feed_mm_min), v("flood", x.flood), v("mist", x.mist);
   v("path", x.path), v("sections", x.sections), v("schedule", x.schedule), v("cutting_s", x.cutting_s);
-  v("rapid_s", x.rapid_s), v("loads", x.loads), v("active", x.active);
+  v("rapid_s", x.rapid_s), v("loads", x.loads), v("active", x.active), v("through", x.through);
+  v("path_deviation_mm", x.path_deviation_mm), v("contour_tolerance_mm", x.contour_tolerance_mm);
 }
 template <class V>
 void fields(V& v, Is<model::Unplanned> auto& x) {
@@ -178,7 +228,7 @@ template <class E>
 [[nodiscard]] std::vector<std::string_view> spellings() {
   std::vector<std::string_view> out;
   if constexpr (std::is_same_v<E, model::CutterClass>) {
-    for (int i = 0; i <= static_cast<int>(model::CutterClass::kDovetailMill); ++i) {
+    for (int i = 0; i <= static_cast<int>(model::kLastCutterClass); ++i) {
       out.push_back(model::to_text(static_cast<model::CutterClass>(i)));
     }
   } else if constexpr (std::is_same_v<E, model::Substrate>) {

@@ -18,6 +18,9 @@ bool works_along_axis(const model::Cutter& c) {
     case CutterClass::kBoringTool:
     case CutterClass::kCountersink:
     case CutterClass::kCounterbore:
+    case CutterClass::kGunDrill:
+    case CutterClass::kBackCounterbore:
+    case CutterClass::kBackCountersink:
       return true;
     default:
       return false;

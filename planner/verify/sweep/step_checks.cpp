@@ -27,7 +27,9 @@ bool is_mill(const model::Cutter& c) {
   return !works_along_axis(c) && c.cutter_class != CutterClass::kThreadMill;
 }
 bool undercuts(const model::Cutter& c) {
-  return c.cutter_class == CutterClass::kTSlotMill || c.cutter_class == CutterClass::kDovetailMill;
+  return c.cutter_class == CutterClass::kTSlotMill || c.cutter_class == CutterClass::kDovetailMill ||
+         c.cutter_class == CutterClass::kBackCounterbore || c.cutter_class == CutterClass::kBackCountersink ||
+         c.cutter_class == CutterClass::kSideMill;
 }
 bool cuts_to_centre(const model::Cutter& c) {
   switch (c.cutter_class) {
