@@ -29,8 +29,9 @@ struct ToolRequirement {
   double neck_diameter_max_mm = 0.0;  ///< what must pass above the head, over `reach_mm`
   double flute_length_min_mm = 0.0;   ///< walls cut in one depth: flutes at least
   bool coolant_through = false;
-  bool left_hand = false;  ///< taps of left-hand threads
-  std::string words;       ///< "a 6 mm end mill with 22 mm reach"
+  bool left_hand = false;   ///< taps of left-hand threads
+  std::string thread_form;  ///< "M", "UN"; empty: any of the pitch
+  std::string words;        ///< "a 6 mm end mill with 22 mm reach"
   bool operator==(const ToolRequirement&) const = default;
 };
 
@@ -85,7 +86,8 @@ struct Proposal {
 struct Candidate {
   Cutter cutter;
   double vc_m_min = 0.0, fz_mm = 0.0;
-  double score = 0.0;  ///< lower is better
+  double score = 0.0;        ///< lower is better
+  double estimated_s = 0.0;  ///< of cutting, its tool's cost as time included; no change, no loading
   Reason why;
 };
 struct Selection {
