@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "planner/model/fit/general.h"
 #include "planner/model/machine.h"
 #include "planner/model/material.h"
 #include "planner/model/proposal.h"
@@ -22,6 +23,8 @@ struct Context {
   model::WorkMaterial material;
   /// The workpiece's general tolerance, +-mm, for sizes that state none.
   std::optional<double> global_tolerance_mm;
+  /// What the drawing says in general (ISO 2768, ISO 22081), by size; goes before global_tolerance_mm.
+  std::optional<model::GeneralTolerance> general;
   /// Grade taken for such sizes when the file gives no general tolerance either. Default, unsourced.
   int general_grade = 13;
   double stock_above_mm = 0.0;  ///< raw material above the feature's top when its steps begin

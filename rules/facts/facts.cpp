@@ -75,11 +75,23 @@ std::string_view reamer_of(const Toleranced& t) {
   return inside && is_reamer_size(t.nominal_mm) ? "fits" : "none";
 }
 
+/// Half the general tolerance of a size; nothing where none is stated for it.
+std::optional<double> general_of(const Toleranced& t, const Context& c) {
+  if (c.general) {
+    if (const auto half = model::general_size(*c.general, t.nominal_mm)) return half;
+  }
+  return c.global_tolerance_mm;
+}
+
 void note_general(const Toleranced& t, const Context& c, const char* what, std::string& notes) {
   if (t.given) return;
   notes += std::string("no tolerance of the ") + what + " stated, taken as ";
-  notes += c.global_tolerance_mm ? "the part's general +-" + trimmed(*c.global_tolerance_mm, 4) + " mm; "
-                                 : "IT" + std::to_string(c.general_grade) + " (default, unsourced); ";
+  if (const auto half = general_of(t, c)) {
+    notes += "the part's general +-" + trimmed(*half, 4) + " mm" +
+             (c.general ? " (" + c.general->text + "); " : "; ");
+    return;
+  }
+  notes += "IT" + std::to_string(c.general_grade) + " (default, unsourced); ";
 }
 
 void hole_facts(const FeatureShape& s, const Context& c, FeatureFacts& out) {
@@ -147,9 +159,8 @@ void area_facts(const FeatureShape& s, const Context& c, FeatureFacts& out) {
 Toleranced tolerance_or_general(const Toleranced& t, const Context& c) {
   if (t.given) return t;  // also one without a width: no chain holds it, and the rules say so
   Toleranced out = t;
-  const double half = c.global_tolerance_mm
-                          ? *c.global_tolerance_mm
-                          : 0.5 * standard_tolerance_mm(c.general_grade, std::max(t.nominal_mm, 1e-3));
+  const double half = general_of(t, c).value_or(
+      0.5 * standard_tolerance_mm(c.general_grade, std::max(t.nominal_mm, 1e-3)));
   out.lower_mm = -half;
   out.upper_mm = half;
   return out;
