@@ -53,6 +53,13 @@ struct DrillPhases {
   bool end_counts_from_top = false;
 };
 
+/// What a wider cutter did in the same area before, to the same floor.
+struct Cleared {
+  double diameter_mm = 0.0;
+  double corner_radius_mm = 0.0;
+  double allowance_side_mm = 0.0;
+};
+
 /// What one workingstep's path is made from.
 ///
 /// Frame  everything named `_z_` is in the set-up's frame, z along the tool axis, away from the work.
@@ -71,6 +78,10 @@ struct PathJob {
   double allowance_side_mm = 0.0, allowance_bottom_mm = 0.0;  ///< to be left
   /// What an earlier step left on walls and floor; nothing: the feature is still solid.
   std::optional<double> left_on_side_mm, left_on_bottom_mm;
+
+  /// Rest machining of areas between upright walls: only what that cutter did not reach is cut.
+  std::optional<Cleared> cleared_by;
+  bool rest_follows = false;  ///< a later step cuts what this cutter cannot reach: no warning of it
 
   double start_z_mm = 0.0;     ///< top of the material over the feature
   double security_z_mm = 0.0;  ///< where the path begins and ends
@@ -118,6 +129,7 @@ struct GeneratedPath {
 ///         TPA-ENTRY    no legal way into the material for this cutter
 ///         TPA-DEPTH    no depth, or deeper than the cutter reaches
 ///         TPA-TOOL     this cutter cannot do this operation
+///         TPA-NO-REST  the wider cutter left nothing
 ///         TPA-UNSUPPORTED  this kind of feature or operation has no path yet
 /// Warns   (to `job`) TPA-REST what the cutter cannot reach, TPA-CHANGED a given value that was not legal.
 [[nodiscard]] Result<GeneratedPath> generate(const PathJob& task, Job& job);

@@ -4,6 +4,7 @@
 #include "planner/base/number.h"
 #include "planner/toolpath/region/patterns.h"
 #include "planner/toolpath/region/region_paths.h"
+#include "planner/toolpath/region/rest.h"
 
 namespace capstan::toolpath {
 
@@ -80,6 +81,44 @@ Status cut_island_tops(LevelCutter& c, const WorkArea& w, const Level& level, do
   return {};
 }
 
+/// Corners and narrow places that a wider cutter left, level by level.
+Result<GeneratedPath> rest_path(const PathJob& task, const WorkArea& w, const std::vector<double>& heights,
+                                LevelCutter& c) {
+  double from = task.start_z_mm;
+  double most = 0.0;
+  for (const double z : heights) {
+    Level level(task, w, z, from, task.allowance_side_mm);
+    from = z;
+    if (level.centres.empty()) continue;
+    const double area = narrow_to_rest(task, w, level);
+    if (area == 0.0) continue;
+    most = std::max(most, area);
+    if (auto ok = cut_contours(c, level, {}); !ok) return tl::unexpected(ok.error());
+  }
+  if (most == 0.0) {
+    return fail({.code = "TPA-NO-REST",
+                 .message = task.shape.name + ": a cutter of " + trimmed(task.cleared_by->diameter_mm, 3) +
+                            " mm left nothing that one of " + trimmed(task.cutter.cutting_diameter_mm, 3) +
+                            " mm reaches",
+                 .path = task.shape.name});
+  }
+  GeneratedPath out = c.writer.finish();
+  out.levels_z_mm = heights;
+  return out;
+}
+
+/// Says what this cutter leaves on the floor, and what no later one is there for.
+void warn_of_rest(LevelCutter& c, const WorkArea& w, const Region& centres) {
+  const PathJob& task = c.task;
+  if (task.rest_follows) return;
+  const double lost =
+      unreachable(w, centres, 0.5 * task.cutter.cutting_diameter_mm + task.allowance_side_mm + 0.01);
+  if (lost > 0.05) {
+    c.warn("TPA-REST", "a cutter of " + trimmed(task.cutter.cutting_diameter_mm, 3) + " mm leaves " +
+                           trimmed(lost, 1) + " mm2 of the floor uncut in corners or narrow places");
+  }
+}
+
 }  // namespace
 
 Result<GeneratedPath> area_path(const PathJob& task, Job& job) {
@@ -104,6 +143,7 @@ Result<GeneratedPath> area_path(const PathJob& task, Job& job) {
                             " and " + trimmed(end, 3) + " mm",
                  .path = task.shape.name});
   }
+  if (task.cleared_by && !plane && w->slope_rad == 0.0) return rest_path(task, *w, heights, c);
   // Top of what still stands away from the walls.
   const bool opened = shell || (plane && task.left_on_bottom_mm.has_value());
   const double left_bottom = task.left_on_bottom_mm.value_or(0.0);
@@ -137,14 +177,7 @@ Result<GeneratedPath> area_path(const PathJob& task, Job& job) {
       if (ok && floor) ok = cut_island_tops(c, *w, level, left_bottom);
     }
     if (!ok) return tl::unexpected(ok.error());
-    if (last) {
-      const double lost = unreachable(*w, level.centres,
-                                      0.5 * task.cutter.cutting_diameter_mm + task.allowance_side_mm + 0.01);
-      if (lost > 0.05) {
-        c.warn("TPA-REST", "a cutter of " + trimmed(task.cutter.cutting_diameter_mm, 3) + " mm leaves " +
-                               trimmed(lost, 1) + " mm2 of the floor uncut in corners or narrow places");
-      }
-    }
+    if (last) warn_of_rest(c, *w, level.centres);
   }
   if (!any) {
     return fail({.code = "TPA-NO-FIT",
