@@ -5,6 +5,7 @@
 #include <string>
 
 #include "planner/base/number.h"
+#include "rules/facts/demand.h"
 #include "rules/rules.h"
 #include "rules/strategy/action.h"
 
@@ -97,37 +98,77 @@ struct Situation {
   const FeatureFacts& known;
   const Row& row;
   Coolant cooling;
+  const Demand& demand;
+  const Row* edges;  ///< row of edge_break that wants edges broken; null: none
 };
+
+/// A step of a chain and the row that wants it.
+struct Wanted {
+  const StepSpec* spec;
+  const Row* row;
+};
+
+const StepSpec& probing() {
+  static const StepSpec kStep{"probe_feature", {}};
+  return kStep;
+}
+
+// The row's own steps; probing before the last of them, which can still be corrected; edges last.
+std::vector<Wanted> wanted(const Situation& at, std::size_t alternative) {
+  std::vector<Wanted> out;
+  for (const StepSpec& spec : at.row.chains[alternative]) out.push_back({&spec, &at.row});
+  if (at.demand.probe != nullptr) out.insert(out.end() - 1, {&probing(), at.demand.probe});
+  if (at.edges != nullptr) {
+    for (const StepSpec& spec : at.edges->chains.front()) out.push_back({&spec, at.edges});
+  }
+  return out;
+}
+
+std::string why(const Situation& at, const Row& row, const std::string& made) {
+  if (&row != &at.row) return joined({row.text, made});
+  std::string notes = at.known.notes;
+  while (!notes.empty() && (notes.back() == ' ' || notes.back() == ';')) notes.pop_back();
+  std::string assumed;
+  for (const std::string& a : at.shape.assumptions) assumed += (assumed.empty() ? "" : "; ") + a;
+  return joined({row.text, at.demand.text, made, notes, assumed, at.cooling.text});
+}
 
 tl::expected<std::vector<ProposedStep>, std::string> make_chain(const Situation& at,
                                                                 std::size_t alternative) {
   std::vector<ProposedStep> out;
   double hole = at.shape.kind == ShapeKind::kHole ? at.context.core_diameter_mm : 0.0;
-  const auto& chain = at.row.chains[alternative];
-  for (const StepSpec& spec : chain) {
-    const Action& action = *find_action(spec.action);
-    Made made = action.make({at.base, at.shape, at.context, at.known, spec, hole});
-    if (!made) return tl::unexpected(spec.action + ": " + made.error());
+  const std::string prefix = at.shape.name.empty() ? std::string(table_of(at.shape.kind)) : at.shape.name;
+  std::size_t last = 0;  // of the row's own steps
+  for (const auto& [spec, row] : wanted(at, alternative)) {
+    const Action* action = find_action(spec->action);
+    if (action == nullptr) return tl::unexpected("there is no action named " + spec->action);
+    Made made = action->make({at.base, at.shape, at.context, at.known, *spec, hole});
+    if (!made) return tl::unexpected(spec->action + ": " + made.error());
     ProposedStep& s = *made;
     s.feature = at.shape.feature;
-    s.operation = action.operation;
-    s.name =
-        (at.shape.name.empty() ? std::string(table_of(at.shape.kind)) : at.shape.name) + " " + spec.action;
-    s.coolant = at.cooling.on;
-    s.why.id = at.row.id;
-    s.why.source = at.row.source;
-    std::string notes = at.known.notes;
-    while (!notes.empty() && (notes.back() == ' ' || notes.back() == ';')) notes.pop_back();
-    std::string assumed;
-    for (const std::string& a : at.shape.assumptions) assumed += (assumed.empty() ? "" : "; ") + a;
-    s.why.text = joined({at.row.text, s.why.text, notes, assumed, at.cooling.text});
+    s.operation = action->operation;
+    s.name = prefix + " " + spec->action;
+    s.coolant = at.cooling.on && s.operation != model::TypeId::kWorkpieceProbing;
+    s.why.id = row->id;
+    s.why.source = row->source;
+    s.why.text = why(at, *row, s.why.text);
     s.tool.words = words_of(s.tool);
     s.priority = static_cast<int>(alternative);
     if (!out.empty()) s.after.push_back(out.size() - 1);
-    if (at.shape.kind == ShapeKind::kHole) hole = hole_after(s, at.shape);
+    if (at.shape.kind == ShapeKind::kHole && row == &at.row) hole = hole_after(s, at.shape);
+    if (row == &at.row) last = out.size();
     out.push_back(std::move(s));
   }
+  out[last].finish_ra_um = at.context.quality.ra_um.value_or(0.0);
   return out;
+}
+
+// The row of edge_break for this feature; it may want edges broken, or say why they are not.
+const Row* edges_row(const RuleBase& base, const Facts& facts) {
+  const Table* table = base.table("edge_break");
+  if (table == nullptr || missing_fact(*table, facts)) return nullptr;
+  const Row* row = decide(*table, facts);
+  return row;
 }
 
 // Two shapes for which the rules give the same: copies of a pattern.
@@ -167,6 +208,12 @@ std::map<Axis, std::vector<std::size_t>> by_axis(std::span<const FeatureShape> s
   return out;
 }
 
+// Of a cone that widens downwards, its upper end.
+double narrowest(const FeatureShape& s) {
+  return s.bottom_diameter_mm > 0.0 ? std::min(s.diameter.nominal_mm, s.bottom_diameter_mm)
+                                    : s.diameter.nominal_mm;
+}
+
 // What shape i may know of the others on its axis.
 Context among(std::span<const FeatureShape> shapes, const std::vector<std::size_t>& axis, std::size_t i,
               Context context) {
@@ -177,7 +224,18 @@ Context among(std::span<const FeatureShape> shapes, const std::vector<std::size_
     const double d = other.diameter.nominal_mm;
     const bool goes_on = bottom_of(other) < bottom_of(s) - kCoaxial;
     const bool meets = top_of(other) > bottom_of(s) - kCoaxial;
+    // Where a wider hole begins at the same height there is no edge; from_the_top brought this one up there.
+    const bool covered = d > s.diameter.nominal_mm + kCoaxial && top_of(other) > top_of(s) - kCoaxial &&
+                         bottom_of(other) < top_of(s) - kCoaxial;
+    if (s.kind == ShapeKind::kHole && covered) context.edge_break_mm = 0.0;
+    const bool above = top_of(other) > top_of(s) + kCoaxial && bottom_of(other) > bottom_of(s) + kCoaxial &&
+                       bottom_of(other) < top_of(s) + kCoaxial;
     if (s.kind == ShapeKind::kHole) {
+      if (above && d < narrowest(s) - kCoaxial) {
+        context.core_above = true;
+        context.core_diameter_mm = d;
+        break;
+      }
       if (goes_on && meets && d < s.diameter.nominal_mm - kCoaxial)
         context.core_diameter_mm = std::max(context.core_diameter_mm, d);
     } else if (meets && d < s.thread_major_mm) {
@@ -199,7 +257,12 @@ Proposal propose(const RuleBase& base, const FeatureShape& shape, const Context&
     out.cannot = "there is no table of rules for " + name;
     return out;
   }
-  const FeatureFacts known = facts_of(shape, context);
+  FeatureFacts known = facts_of(shape, context);
+  const Demand demand = apply_demands(base, known);
+  if (!demand.cannot.empty()) {
+    out.cannot = demand.cannot;
+    return out;
+  }
   if (const auto fact = missing_fact(*table, known.facts)) {
     out.cannot = "table " + name + " does not speak of " + known.facts.text(*fact);
     return out;
@@ -213,7 +276,13 @@ Proposal propose(const RuleBase& base, const FeatureShape& shape, const Context&
     out.cannot = (row->cannot.empty() ? "the row proposes nothing" : row->cannot) + " [" + row->id + "]";
     return out;
   }
-  const Situation at{base, shape, context, known, *row, coolant(base, known.facts, context)};
+  const Row* edges = edges_row(base, known.facts);
+  const Situation at{base,    shape,
+                     context, known,
+                     *row,    coolant(base, known.facts, context),
+                     demand,  edges != nullptr && !edges->chains.empty() ? edges : nullptr};
+  if (edges != nullptr && !edges->cannot.empty())
+    out.rejected.push_back({"breaking edges", edges->cannot + " [" + edges->id + "]"});
   std::string reasons;
   for (std::size_t i = 0; i < row->chains.size(); ++i) {
     auto chain = make_chain(at, i);
@@ -237,6 +306,8 @@ std::vector<Proposal> propose_members(const RuleBase& base, std::span<const Feat
   }
   const auto same_context = [&](std::size_t a, std::size_t b) {
     return contexts[a].core_diameter_mm == contexts[b].core_diameter_mm &&
+           contexts[a].core_above == contexts[b].core_above &&
+           contexts[a].edge_break_mm == contexts[b].edge_break_mm &&
            contexts[a].core_depth_mm == contexts[b].core_depth_mm;
   };
   std::vector<Proposal> out;

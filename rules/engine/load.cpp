@@ -135,6 +135,13 @@ void read_conclusion(const YAML::Node& node, Row& row) {
     if (row.cannot.empty()) refuse("RULE-ROW", "cannot gives no reason", node);
   } else {
     if (!node["values"].IsMap()) refuse("RULE-ROW", "values is not a map", node);
+    static const std::vector<std::string> kValues{"as_grade", "machined",        "probe",    "flood",
+                                                  "peck",     "coolant_through", "under_mm", "none"};
+    for (const auto& item : node["values"]) {
+      const std::string key = item.first.as<std::string>();
+      if (std::find(kValues.begin(), kValues.end(), key) == kValues.end())
+        refuse("RULE-ROW", "no table asks for a value named " + key, node);
+    }
     for (const auto& item : node["values"])
       row.values.emplace_back(item.first.as<std::string>(),
                               number_of(item.second, item.first.as<std::string>()));
@@ -206,7 +213,27 @@ void read_capabilities(const YAML::Node& node, RuleBase& base) {
     Capability c;
     c.action = text_of(item["action"], "action", item);
     if (find_action(c.action) == nullptr) refuse("RULE-ROW", "there is no action named " + c.action, item);
-    c.finest_grade = static_cast<int>(number_of(item["finest_grade"], "finest_grade"));
+    static const std::vector<std::string> kKnown{"action",      "finest_grade", "finest_ra_um",
+                                                 "position_mm", "form_mm",      "source"};
+    for (const auto& field : item) {
+      const std::string key = field.first.as<std::string>();
+      if (std::find(kKnown.begin(), kKnown.end(), key) == kKnown.end())
+        refuse("RULE-ROW", "a capability has no " + key, item);
+    }
+    const auto claimed = [&item](const char* key) -> std::optional<double> {
+      if (!item[key]) return std::nullopt;
+      const double value = number_of(item[key], key);
+      if (value < 0.0) refuse("RULE-ROW", std::string(key) + " is negative", item);
+      return value;
+    };
+    if (const auto grade = claimed("finest_grade")) {
+      if (*grade != std::floor(*grade) || *grade > 18.0)
+        refuse("RULE-ROW", "finest_grade is no ISO 286 grade of 0 to 18", item);
+      c.finest_grade = static_cast<int>(*grade);
+    }
+    c.finest_ra_um = claimed("finest_ra_um");
+    c.position_mm = claimed("position_mm");
+    c.form_mm = claimed("form_mm");
     c.source = text_of(item["source"], "source", item);
     const auto it = std::find_if(base.capabilities.begin(), base.capabilities.end(),
                                  [&](const Capability& k) { return k.action == c.action; });

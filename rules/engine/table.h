@@ -49,10 +49,13 @@ struct Table {
   std::string file;
 };
 
-/// What a process can hold, so that rows can be checked against it.
+/// What a process can hold, so that rows can be checked against it. Unset: nothing is claimed.
 struct Capability {
   std::string action;
-  int finest_grade = 0;  ///< finest ISO 286 grade it holds
+  std::optional<int> finest_grade;     ///< finest ISO 286 grade it holds
+  std::optional<double> finest_ra_um;  ///< finest roughness Ra it leaves
+  std::optional<double> position_mm;   ///< smallest zone of position it keeps
+  std::optional<double> form_mm;       ///< smallest zone of form and orientation it keeps
   std::string source;
 };
 

@@ -58,7 +58,73 @@ std::string_view taper_of(const FeatureShape& s) {
   const double narrowing = s.diameter.nominal_mm - s.bottom_diameter_mm;
   if (!(s.bottom_diameter_mm > 0.0) || std::abs(narrowing) < 1e-6) return "none";
   const double angle = 2.0 * std::atan(0.5 * narrowing / s.depth_mm) / kDegree;
+  if (is_countersink_angle(-angle)) return "countersink_below";
   return is_countersink_angle(angle) ? "countersink" : "other";
+}
+
+// Beyond this a value is as good as not asked: the domain ends there.
+constexpr double kNotAsked = 1000.0;
+constexpr double kUnknownLength = 10000.0;
+
+double asked(std::optional<double> v) { return v && *v >= 0.0 ? std::min(*v, kNotAsked) : kNotAsked; }
+double least(std::initializer_list<std::optional<double>> values) {
+  double out = kNotAsked;
+  for (const auto& v : values) out = std::min(out, asked(v));
+  return out;
+}
+double ratio(double a, double b, double most) { return b > 0.0 ? std::clamp(a / b, 0.0, most) : 0.0; }
+
+std::string_view shape_symbol(const FeatureShape& s) {
+  switch (s.kind) {
+    case ShapeKind::kFace:
+      return "face";
+    case ShapeKind::kPocket:
+      return "pocket";
+    case ShapeKind::kSlot:
+      return "slot";
+    case ShapeKind::kStep:
+      return "step";
+    case ShapeKind::kHole:
+      return taper_of(s).substr(0, 11) == "countersink" ? "countersink" : "hole";
+    case ShapeKind::kOutside:
+      return "outside";
+    case ShapeKind::kChamfer:
+      return "chamfer";
+    case ShapeKind::kEdgeRound:
+      return "edge_round";
+    case ShapeKind::kThread:
+      return "thread";
+    case ShapeKind::kSphericalCap:
+      return "spherical_cap";
+    case ShapeKind::kRoundedEnd:
+      return "rounded_end";
+    case ShapeKind::kFreeform:
+      return "freeform";
+    case ShapeKind::kToolpath:
+      return "toolpath";
+  }
+  return "toolpath";
+}
+
+// What does not depend on the kind of feature: what is asked of it, what surrounds it, what the machine can.
+void surroundings(const FeatureShape& s, const Context& c, Facts& f) {
+  const model::Quality& q = c.quality;
+  f.set("shape", shape_symbol(s));
+  f.set("ra_um", asked(q.ra_um));
+  f.set("position_mm", asked(q.location_mm));
+  f.set("form_mm", least({q.form_mm, q.orientation_mm, q.runout_mm, q.profile_mm}));
+  const double wall = c.wall_thickness_mm.value_or(0.0);
+  const double floor = c.floor_thickness_mm.value_or(0.0);
+  f.set("wall_thickness_mm", wall > 0.0 ? std::min(wall, kUnknownLength) : kUnknownLength);
+  f.set("floor_thickness_mm", floor > 0.0 ? std::min(floor, kUnknownLength) : kUnknownLength);
+  f.set("wall_ratio", ratio(s.depth_mm, wall, kUnknownLength));
+  f.set("floor_ratio", 0.0);
+  f.set("hardness_hb", std::clamp(c.material.hardness_hb, 0.0, 2000.0));
+  f.set("rigid_tapping", c.abilities.rigid_tapping ? "yes" : "no");
+  f.set("through_coolant", c.has_through_coolant ? "yes" : "no");
+  f.set("probe", c.abilities.probe ? "yes" : "no");
+  f.set("batch", std::clamp(c.batch, 1, 1000000));
+  f.set("edge_break_mm", std::clamp(c.edge_break_mm, 0.0, 999.0));
 }
 
 std::string_view point_of(const FeatureShape& s) {
@@ -105,7 +171,8 @@ void hole_facts(const FeatureShape& s, const Context& c, FeatureFacts& out) {
   out.facts.set("taper", taper_of(s));
   out.facts.set("point", point_of(s));
   out.facts.set("reamer", reamer_of(out.diameter));
-  out.facts.set("core", c.core_diameter_mm > 0.0 && c.core_diameter_mm < d - 1e-6 ? "hole" : "none");
+  const bool core = c.core_diameter_mm > 0.0 && c.core_diameter_mm < d - 1e-6;
+  out.facts.set("core", c.core_above ? "above" : core ? "hole" : "none");
 }
 
 void thread_facts(const FeatureShape& s, const Context& c, Facts& out) {
@@ -129,10 +196,23 @@ int tightest_grade(const FeatureShape& s, const Context& c, FeatureFacts& out) {
   return grade(tolerance_or_general(any, c));
 }
 
+// Half widths that shrink upwards: at once (a tee's head under its neck), or evenly (a dovetail).
+std::string_view undercut_form(const std::vector<geometry::Vec2>& q) {
+  constexpr double kSame = 1e-6;
+  int steps = 0, slopes = 0;
+  for (std::size_t i = 1; i < q.size(); ++i) {
+    if (q[i].y > q[i - 1].y + kSame && q[i].x > kSame) return "other";  // wider again above
+    if (q[i].y >= q[i - 1].y - kSame) continue;
+    ++(q[i].x > q[i - 1].x + kSame ? slopes : steps);
+  }
+  if (steps == 1 && slopes == 0) return "tee";
+  return steps == 0 && slopes == 1 && q.size() == 2 ? "dovetail" : "other";
+}
+
 std::string_view slot_form(const FeatureShape& s) {
   if (s.slot_profile.empty()) return "square";
   if (s.slot_angle_rad > 0.0) return s.slot_bottom_radius_mm > 0.0 ? "radiused_vee" : "vee";
-  if (s.slot_bottom_radius_mm <= 0.0) return "other";
+  if (s.slot_bottom_radius_mm <= 0.0) return undercut_form(s.slot_profile);
   return std::abs(2.0 * s.slot_bottom_radius_mm - s.width.nominal_mm) < 1e-6 ? "round" : "other";
 }
 
@@ -141,12 +221,19 @@ void area_facts(const FeatureShape& s, const Context& c, FeatureFacts& out) {
   for (const auto& island : s.islands) free = geometry::subtract(free, island.area);
   out.passage = passage_of(free, !s.open && !(s.corner_radius_mm > 0.0));
   out.facts.set("passage_mm", out.passage.narrowest_mm);
-  out.facts.set("it_grade", tightest_grade(s, c, out));
+  // A face's depth is a removal, not a size: only its texture, flatness and position bring a grade.
+  out.facts.set("it_grade", s.kind == ShapeKind::kFace ? 18 : tightest_grade(s, c, out));
   out.facts.set("access", s.open ? "open" : "closed");
   out.facts.set("wall", std::abs(s.slope_rad) > 1e-6 ? "drafted" : "upright");
   out.facts.set("floor", s.through ? "open" : "closed");
   out.facts.set("floor_edge", s.bottom_radius_mm > 0.0 ? "rounded" : "sharp");
   const double across = out.passage.narrowest_mm;
+  const double corner = s.corner_radius_mm > 0.0 ? s.corner_radius_mm : 0.5 * out.passage.exact_mm;
+  const bool corners = corner > 0.0 && s.kind != ShapeKind::kFace && s.kind != ShapeKind::kOutside;
+  out.facts.set("corner_radius_mm", corners ? std::min(corner, kUnknownLength) : kUnknownLength);
+  out.facts.set("corner_ratio", corners && across > 0.0 ? ratio(2.0 * corner, across, kNotAsked) : kNotAsked);
+  if (!s.through && c.floor_thickness_mm)
+    out.facts.set("floor_ratio", ratio(out.passage.widest_mm, *c.floor_thickness_mm, kUnknownLength));
   out.facts.set("depth_ratio", across > 0.0 ? s.depth_mm / across : 9999.0);
   if (s.kind == ShapeKind::kSlot) {
     out.facts.set("slot_form", slot_form(s));
@@ -159,8 +246,8 @@ void area_facts(const FeatureShape& s, const Context& c, FeatureFacts& out) {
 Toleranced tolerance_or_general(const Toleranced& t, const Context& c) {
   if (t.given) return t;  // also one without a width: no chain holds it, and the rules say so
   Toleranced out = t;
-  const double half = general_of(t, c).value_or(
-      0.5 * standard_tolerance_mm(c.general_grade, std::max(t.nominal_mm, 1e-3)));
+  const double half =
+      general_of(t, c).value_or(0.5 * standard_tolerance_mm(c.general_grade, std::max(t.nominal_mm, 1e-3)));
   out.lower_mm = -half;
   out.upper_mm = half;
   return out;
@@ -177,6 +264,7 @@ FeatureFacts facts_of(const FeatureShape& s, const Context& c) {
   Facts& f = out.facts;
   f.set("depth_mm", s.depth_mm);
   f.set("material_group", group_of(c.material));
+  surroundings(s, c, f);
   const Toleranced depth = [&] {
     Toleranced t = s.depth_tolerance;
     t.nominal_mm = s.depth_mm;

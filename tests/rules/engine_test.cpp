@@ -32,7 +32,7 @@ std::vector<std::string> findings(const std::vector<std::pair<std::string, std::
   const auto base = rules_from_texts(texts);
   if (!base) return {to_text(base.error())};
   std::vector<std::string> out;
-  for (const auto& f : check(*base)) out.push_back(f.text());
+  for (const auto& f : check_tables(*base)) out.push_back(f.text());
   return out;
 }
 
