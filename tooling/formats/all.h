@@ -1,0 +1,19 @@
+#pragma once
+
+#include "tooling/formats/format.h"
+
+/// @file The formats, one folder or file each; `formats()` lists them.
+
+namespace capstan::tooling {
+
+[[nodiscard]] const Format& fusion_format();    ///< `.tools` and `.json`, both ways
+[[nodiscard]] const Format& csv_format();       ///< with a column map, both ways
+[[nodiscard]] const Format& linuxcnc_format();  ///< `.tbl`, PathPilot's too, both ways
+[[nodiscard]] const Format& own_format();       ///< our own list (YAML, JSON), both ways
+[[nodiscard]] const Format& freecad_format();
+[[nodiscard]] const Format& iso13399_format();
+[[nodiscard]] const Format& gtc_format();
+[[nodiscard]] const Format& din4000_format();
+[[nodiscard]] const Format& mtconnect_format();
+
+}  // namespace capstan::tooling
