@@ -51,7 +51,8 @@ void check_together(const Cutter& c, std::vector<std::string>& out) {
   if (c.stick_out_mm > c.functional_length_mm + kSlackMm)
     out.push_back("the tool sticks out " + mm(c.stick_out_mm) + ", more than from gage line to tip (" +
                   mm(c.functional_length_mm) + ")");
-  if (c.teeth < 1 || c.teeth > kMostTeeth) out.push_back(std::to_string(c.teeth) + " teeth");
+  const bool probe = c.cutter_class == CutterClass::kTouchProbe;
+  if (c.teeth < (probe ? 0 : 1) || c.teeth > kMostTeeth) out.push_back(std::to_string(c.teeth) + " teeth");
   if (c.pocket < 0) out.push_back("the tool number is negative: " + std::to_string(c.pocket));
   if (c.cutter_class == CutterClass::kTap && c.thread_pitch_mm == 0.0)
     out.emplace_back("a tap without a pitch");
@@ -73,7 +74,10 @@ std::vector<std::string> faults_of(const Cutter& c) {
       {c.functional_length_mm, "the length"},          {c.shank_diameter_mm, "the shank diameter"},
       {c.holder_diameter_mm, "the holder diameter"},   {c.thread_pitch_mm, "the pitch"},
       {c.fz_min_mm, "the least feed per tooth"},       {c.fz_max_mm, "the largest feed per tooth"},
-      {c.adjustable_to_mm, "the largest diameter"}};
+      {c.adjustable_to_mm, "the largest diameter"},    {c.overall_length_mm, "the overall length"},
+      {c.neck_diameter_mm, "the neck's diameter"},     {c.neck_length_mm, "the neck's length"},
+      {c.cutting_width_mm, "the cutting width"},       {c.thread_size_mm, "the thread's size"},
+      {c.lead_length_mm, "the lead's length"}};
   for (const auto& [value, name] : lengths) check_number(value, name, kLongestMm, out);
   const double pi = std::numbers::pi;
   check_number(c.point_angle_rad, "the point angle (rad)", pi, out);
@@ -83,6 +87,14 @@ std::vector<std::string> faults_of(const Cutter& c) {
   check_number(c.maximum_speed_rpm, "the largest speed", 1e6, out);
   check_number(c.life_min, "the life", 1e6, out);
   check_number(c.price, "the price", 1e9, out);
+  check_number(c.taper_angle_rad, "the taper (rad)", 0.5 * pi, out);
+  check_number(c.lead_threads, "the threads in the lead", 100, out);
+  check_number(c.life_used_min, "the life used", 1e6, out);
+  for (const model::HolderSegment& s : c.holder) {
+    check_number(s.height_mm, "a holder segment's height", kLongestMm, out);
+    check_number(s.lower_diameter_mm, "a holder segment's diameter", kLongestMm, out);
+    check_number(s.upper_diameter_mm, "a holder segment's diameter", kLongestMm, out);
+  }
   if (out.empty()) check_together(c, out);
   return out;
 }

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <deque>
 #include <map>
-#include <numbers>
 #include <optional>
 #include <set>
 
 #include "planner/base/number.h"
+#include "tooling/select/limits.h"
 
 namespace capstan::tooling {
 namespace {
@@ -20,34 +20,19 @@ using model::Selection;
 using model::ToolRequirement;
 using model::WorkMaterial;
 
-/// Sizes are compared after the printer's rounding; below this two are one.
-constexpr double kSizeSlackMm = 1e-6;
-constexpr double kPitchSlackMm = 1e-3;
-constexpr double kAngleSlackRad = 0.5 * std::numbers::pi / 180.0;
-/// The spindle's slowest turn may exceed the preset's cutting speed by this much and no more.
-constexpr double kFastestOverPreset = 1.25;  // default, unsourced
-
-/// Weights of the ranking; default, unsourced. A unit is what the largest cutter is worth over the smallest.
-constexpr double kPerClass = 10.0;
-constexpr double kPerExactMm = 5.0;
-constexpr double kPerSize = 1.0;
-constexpr double kLoaded = 1.5;
-constexpr double kUsed = 0.5;
-constexpr double kPerSlenderness = 0.1;  // of each diameter it sticks out beyond kStiff
+/// Weights beside the estimated seconds; defaults, unsourced. A class that the rules like less has to save
+/// this much; so has a millimetre from the wanted diameter.
+constexpr double kPerClassS = 600.0;
+constexpr double kPerExactMmS = 600.0;
+/// A tool that is used already but not loaded may still drop out of the plan: part of its loading.
+constexpr double kUsedShare = 0.25;
+/// Of each diameter that it sticks out beyond kStiff.
+constexpr double kPerSlendernessS = 2.0;
 constexpr double kStiff = 3.0;
-constexpr double kHssPenalty = 0.4;  // where carbide pays
-constexpr double kPerTooth = 0.1;
-constexpr double kPerSpeedShort = 0.5;
+/// Between equals the larger cutter, which is worth this over the smallest.
+constexpr double kPerSizeS = 1.0;
 
 std::string mm(double v) { return trimmed(v, 3) + " mm"; }
-std::string degrees(double rad) { return trimmed(rad * 180.0 / std::numbers::pi, 1) + " deg"; }
-
-double lower_size(const ToolRequirement& r) {
-  return r.diameter_exact_mm > 0.0 ? r.diameter_exact_mm - r.diameter_tolerance_mm : r.diameter_min_mm;
-}
-double upper_size(const ToolRequirement& r) {
-  return r.diameter_exact_mm > 0.0 ? r.diameter_exact_mm + r.diameter_tolerance_mm : r.diameter_max_mm;
-}
 
 /// A boring tool set to the wanted size, when it can be.
 Cutter as_set(const Cutter& c, const ToolRequirement& r) {
@@ -62,70 +47,23 @@ Cutter as_set(const Cutter& c, const ToolRequirement& r) {
   return out;
 }
 
-std::optional<std::string> wrong_size(const Cutter& c, const ToolRequirement& r) {
-  const double low = lower_size(r), high = upper_size(r), d = c.cutting_diameter_mm;
-  if (low > 0.0 && d < low - kSizeSlackMm) return "diameter " + mm(d) + " is below " + mm(low);
-  if (high > 0.0 && d > high + kSizeSlackMm) return "diameter " + mm(d) + " is above " + mm(high);
-  return std::nullopt;
+/// Seconds until the cutter can cut: the change, and loading what the magazine does not hold.
+double ready_s(const Cutter& c, const Machine& m, const Preferences& p, bool magazine_known) {
+  const bool used = std::find(p.used.begin(), p.used.end(), c.id) != p.used.end();
+  const double change = used ? 0.0 : m.tool_change_s + m.spindle.spin_up_s;
+  const double loading = !magazine_known || c.pocket > 0 ? 0.0 : (used ? kUsedShare : 1.0) * kLoadingS;
+  return change + loading / std::max(1, p.batch);
 }
 
-std::optional<std::string> wrong_shape(const Cutter& c, const ToolRequirement& r) {
-  if (r.corner_radius_exact_mm >= 0.0 &&
-      std::abs(c.corner_radius_mm - r.corner_radius_exact_mm) > kPitchSlackMm)
-    return "corner radius " + mm(c.corner_radius_mm) + " is not " + mm(r.corner_radius_exact_mm);
-  if (r.corner_radius_limited && c.corner_radius_mm > r.corner_radius_max_mm + kSizeSlackMm)
-    return "corner radius " + mm(c.corner_radius_mm) + " is above " + mm(r.corner_radius_max_mm);
-  if (r.point_angle_rad > 0.0 && std::abs(c.point_angle_rad - r.point_angle_rad) > kAngleSlackRad)
-    return "point angle " + degrees(c.point_angle_rad) + " is not " + degrees(r.point_angle_rad);
-  if (r.thread_pitch_mm > 0.0 && std::abs(c.thread_pitch_mm - r.thread_pitch_mm) > kPitchSlackMm)
-    return "pitch " + mm(c.thread_pitch_mm) + " is not " + mm(r.thread_pitch_mm);
-  if (r.centre_cutting && !c.centre_cutting && c.maximum_ramp_angle_rad <= 0.0)
-    return std::string("it neither cuts to centre nor ramps");
-  return std::nullopt;
-}
-
-std::optional<std::string> too_short(const Cutter& c, const ToolRequirement& r) {
-  if (r.reach_mm > c.usable_length_mm + kSizeSlackMm)
-    return "reach " + mm(c.usable_length_mm) + " is below " + mm(r.reach_mm);
-  if (r.depth_of_cut_mm > c.maximum_depth_of_cut_mm + kSizeSlackMm)
-    return "flutes " + mm(c.maximum_depth_of_cut_mm) + " are shorter than " + mm(r.depth_of_cut_mm);
-  return std::nullopt;
-}
-
-std::optional<std::string> not_for_machine(const Cutter& c, const StartValues& start, const WorkMaterial& w,
-                                           const Machine& m) {
-  if (m.tool_diameter_max_mm > 0.0 && c.cutting_diameter_mm > m.tool_diameter_max_mm + kSizeSlackMm)
-    return "diameter " + mm(c.cutting_diameter_mm) + " is above the magazine's " + mm(m.tool_diameter_max_mm);
-  if (m.tool_length_max_mm > 0.0 && c.functional_length_mm > m.tool_length_max_mm + kSizeSlackMm)
-    return "length " + mm(c.functional_length_mm) + " is above the magazine's " + mm(m.tool_length_max_mm);
-  if (c.maximum_speed_rpm > 0.0 && c.maximum_speed_rpm < m.spindle.rpm_min)
-    return "its largest speed " + trimmed(c.maximum_speed_rpm, 0) + " 1/min is below the spindle's least " +
-           trimmed(m.spindle.rpm_min, 0);
-  const double wanted = start.wanted_vc_m_min;
-  if (start.vc_m_min > kFastestOverPreset * wanted)
-    return "the spindle's least speed " + trimmed(m.spindle.rpm_min, 0) + " 1/min gives " +
-           trimmed(start.vc_m_min, 1) + " m/min, " + w.id + " bears " + trimmed(wanted, 1);
-  return std::nullopt;
-}
-
-double score_of(const Cutter& c, std::size_t class_rank, const ToolRequirement& r, const StartValues& start,
-                const WorkMaterial& w, double largest_mm, const Preferences& p) {
-  double s = kPerClass * static_cast<double>(class_rank);
+double score_of(const Cutter& c, std::size_t class_rank, const ToolRequirement& r, const Estimate& e,
+                const Machine& m, double largest_mm, const Preferences& p, bool magazine_known) {
+  double s = e.cutting_s + e.tool_s + ready_s(c, m, p, magazine_known);
+  s += kPerClassS * static_cast<double>(class_rank);
   if (r.diameter_exact_mm > 0.0)
-    s += kPerExactMm * std::abs(c.cutting_diameter_mm - r.diameter_exact_mm);
+    s += kPerExactMmS * std::abs(c.cutting_diameter_mm - r.diameter_exact_mm);
   else if (largest_mm > 0.0)
-    s += kPerSize * (1.0 - c.cutting_diameter_mm / largest_mm);
-  if (c.pocket > 0)
-    s -= kLoaded;
-  else if (std::find(p.used.begin(), p.used.end(), c.id) != p.used.end())
-    s -= kUsed;
-  s += kPerSlenderness * std::max(0.0, c.stick_out_mm / c.cutting_diameter_mm - kStiff);
-  if (c.substrate == model::Substrate::kHss && w.iso_group != "N") s += kHssPenalty;
-  // Chips of aluminium need room between the teeth; in steel more teeth feed faster.
-  const int teeth = w.iso_group == "N" ? std::max(0, c.teeth - 3) : std::max(0, 4 - c.teeth);
-  s += kPerTooth * teeth;
-  const double wanted = start.wanted_vc_m_min;
-  if (wanted > 0.0) s += kPerSpeedShort * std::max(0.0, 1.0 - start.vc_m_min / wanted);
+    s += kPerSizeS * (1.0 - c.cutting_diameter_mm / largest_mm);
+  s += kPerSlendernessS * std::max(0.0, c.stick_out_mm / c.cutting_diameter_mm - kStiff);
   return rounded(s, 9);
 }
 
@@ -152,16 +90,21 @@ void sum_up_sizes(const ToolRequirement& r, const std::map<CutterClass, std::set
 }
 
 model::Reason reason_for(const Cutter& c, const ToolRequirement& r, const StartValues& start,
-                         const Preferences& p, std::size_t fitting) {
+                         const Preferences& p, std::size_t fitting, const Estimate& e) {
   std::string text = c.description.empty() ? c.id : c.description;
   text += ": ";
   text += r.diameter_exact_mm > 0.0 ? "of the size wanted" : "diameter " + mm(c.cutting_diameter_mm);
   if (upper_size(r) > 0.0 && r.diameter_exact_mm <= 0.0) text += " within " + mm(upper_size(r));
-  if (r.reach_mm > 0.0) text += ", reach " + mm(c.usable_length_mm) + " for " + mm(r.reach_mm);
+  if (r.reach_mm > 0.0) text += ", reach " + mm(reach_of(c)) + " for " + mm(r.reach_mm);
   if (c.pocket > 0)
     text += ", loaded as T" + std::to_string(c.pocket);
   else if (std::find(p.used.begin(), p.used.end(), c.id) != p.used.end())
     text += ", used already";
+  if (e.cutting_s > 0.0) {
+    text += "; about " + trimmed(e.cutting_s, 1) + " s of cutting";
+    if (!e.limited_by.empty()) text += ", held back by " + e.limited_by;
+    if (e.tool_s > 0.0) text += ", and " + trimmed(e.tool_s, 1) + " s worth of tool";
+  }
   text += "; one of " + std::to_string(fitting) + " that fit; " + start.why.text;
   return {"tooling.select." + std::string(model::to_text(c.cutter_class)), text, start.why.source};
 }
@@ -171,6 +114,7 @@ struct Fit {
   const Cutter* cutter;
   StartValues start;
   std::size_t rank;
+  Estimate estimate;
   double score;
 };
 struct Near {
@@ -203,7 +147,8 @@ Selection select(const ToolRequirement& requirement, const std::vector<Cutter>& 
   std::map<CutterClass, std::set<double>> other_sizes;
   for (const Cutter& original : library) {
     const std::size_t rank = rank_of(r, original.cutter_class);
-    if (rank == r.classes.size() || original.cutting_diameter_mm <= 0.0 || original.teeth <= 0) continue;
+    if (rank == r.classes.size() || original.cutting_diameter_mm <= 0.0) continue;
+    if (original.teeth <= 0 && original.cutter_class != CutterClass::kTouchProbe) continue;
     const Cutter& c = original.adjustable_to_mm > 0.0 ? set.emplace_back(as_set(original, r)) : original;
     if (wrong_size(c, r)) {
       other_sizes[c.cutter_class].insert(rounded(c.cutting_diameter_mm, 4));
@@ -213,107 +158,34 @@ Selection select(const ToolRequirement& requirement, const std::vector<Cutter>& 
     if (!why) why = too_short(c, r);
     StartValues start;
     if (!why) {
-      start = start_values(c, material, machine);
-      why = not_for_machine(c, start, material, machine);
+      if (c.cutter_class != CutterClass::kTouchProbe) start = start_values(c, material, machine);
+      why = not_for_machine(c, start, material, machine, preferences);
     }
     if (why)
       near.push_back({&c, std::move(*why)});
     else
-      fits.push_back({&c, std::move(start), rank, 0.0});
+      fits.push_back({&c, start, rank, estimate(c, r, start, material, machine, preferences), 0.0});
   }
   double largest = 0.0;
   for (const Fit& f : fits) largest = std::max(largest, f.cutter->cutting_diameter_mm);
-  for (Fit& f : fits) f.score = score_of(*f.cutter, f.rank, r, f.start, material, largest, preferences);
+  // Where nothing is loaded, nothing is known of the magazine.
+  const bool magazine_known =
+      std::any_of(library.begin(), library.end(), [](const Cutter& c) { return c.pocket > 0; });
+  for (Fit& f : fits)
+    f.score = score_of(*f.cutter, f.rank, r, f.estimate, machine, largest, preferences, magazine_known);
   std::sort(fits.begin(), fits.end(), [](const Fit& a, const Fit& b) {
     return a.score != b.score ? a.score < b.score : a.cutter->id < b.cutter->id;
   });
   for (std::size_t i = 0; i < std::min(fits.size(), preferences.most); ++i) {
     const Fit& f = fits[i];
     out.ranked.push_back({*f.cutter, f.start.vc_m_min, f.start.fz_mm, f.score,
-                          reason_for(*f.cutter, r, f.start, preferences, fits.size())});
+                          rounded(f.estimate.cutting_s + f.estimate.tool_s, 6),
+                          reason_for(*f.cutter, r, f.start, preferences, fits.size(), f.estimate)});
   }
   tell_near(near, preferences.most_rejected, out);
   sum_up_sizes(r, other_sizes, out);
   if (out.ranked.empty()) out.would_fit = words_of(r);
   return out;
-}
-
-std::string_view words_of(CutterClass c) {
-  switch (c) {
-    case CutterClass::kEndmill:
-      return "end mill";
-    case CutterClass::kBullnoseEndmill:
-      return "bull-nose end mill";
-    case CutterClass::kBallEndmill:
-      return "ball end mill";
-    case CutterClass::kFacemill:
-      return "face mill";
-    case CutterClass::kTwistDrill:
-      return "twist drill";
-    case CutterClass::kCenterDrill:
-      return "centre drill";
-    case CutterClass::kSpotDrill:
-      return "spot drill";
-    case CutterClass::kReamer:
-      return "reamer";
-    case CutterClass::kTap:
-      return "tap";
-    case CutterClass::kThreadMill:
-      return "thread mill";
-    case CutterClass::kBoringTool:
-      return "boring tool";
-    case CutterClass::kCountersink:
-      return "countersink";
-    case CutterClass::kCounterbore:
-      return "counterbore";
-    case CutterClass::kChamferMill:
-      return "chamfer mill";
-    case CutterClass::kTSlotMill:
-      return "T-slot cutter";
-    case CutterClass::kDovetailMill:
-      return "dovetail cutter";
-    case CutterClass::kGunDrill:
-      return "gun drill";
-    case CutterClass::kBackCounterbore:
-      return "back counterbore";
-    case CutterClass::kBackCountersink:
-      return "back countersink";
-    case CutterClass::kCornerRoundingMill:
-      return "corner rounding mill";
-    case CutterClass::kTaperedEndmill:
-      return "tapered end mill";
-    case CutterClass::kSideMill:
-      return "side mill";
-    case CutterClass::kTouchProbe:
-      return "touch probe";
-  }
-  return "cutter";
-}
-
-std::string words_of(const ToolRequirement& r) {
-  const bool vowel = r.diameter_exact_mm <= 0.0 && (lower_size(r) <= 0.0 || upper_size(r) <= 0.0) &&
-                     !r.classes.empty() && r.classes.front() == CutterClass::kEndmill;
-  std::string out = vowel ? "an " : "a ";
-  const double low = lower_size(r), high = upper_size(r);
-  if (r.diameter_exact_mm > 0.0)
-    out += mm(r.diameter_exact_mm) + " ";
-  else if (low > 0.0 && high > 0.0)
-    out += mm(low) + " to " + mm(high) + " ";
-  for (std::size_t i = 0; i < r.classes.size(); ++i)
-    out += (i == 0 ? "" : " or ") + std::string(words_of(r.classes[i]));
-  if (r.classes.empty()) out += "cutter";
-  if (r.diameter_exact_mm <= 0.0 && low <= 0.0 && high > 0.0) out += " of at most " + mm(high);
-  if (low > 0.0 && high <= 0.0) out += " of at least " + mm(low);
-  std::string with;
-  const auto add = [&](const std::string& text) { with += (with.empty() ? " with " : ", ") + text; };
-  if (r.thread_pitch_mm > 0.0) add(mm(r.thread_pitch_mm) + " pitch");
-  if (r.point_angle_rad > 0.0) add(degrees(r.point_angle_rad) + " point");
-  if (r.corner_radius_exact_mm >= 0.0) add(mm(r.corner_radius_exact_mm) + " corner radius");
-  if (r.corner_radius_limited) add("at most " + mm(r.corner_radius_max_mm) + " corner radius");
-  if (r.depth_of_cut_mm > 0.0) add(mm(r.depth_of_cut_mm) + " flutes");
-  if (r.reach_mm > 0.0) add(mm(r.reach_mm) + " reach");
-  if (r.centre_cutting) with += ", cutting to centre or ramping";
-  return out + with;
 }
 
 void assign_pockets(std::vector<Cutter>& cutters) {

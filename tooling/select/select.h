@@ -31,28 +31,53 @@ struct StartValues {
 [[nodiscard]] StartValues start_values(const model::Cutter& c, const model::WorkMaterial& material,
                                        const model::Machine& machine);
 
-/// What a plan would rather have, all else being near equal.
+/// Seconds that it takes to assemble, measure and load a tool that the magazine does not hold. Default,
+/// unsourced.
+inline constexpr double kLoadingS = 180.0;
+
+/// What the plan around a step says, and what the step removes. Zero: not known.
 struct Preferences {
   std::vector<std::string> used;   ///< ids of cutters that the plan uses already: no further tool change
   std::size_t most = 8;            ///< candidates given
   std::size_t most_rejected = 12;  ///< near misses given one by one; the others are summed up
+  double volume_mm3 = 0.0;         ///< milling: what is to be removed
+  double depth_mm = 0.0;           ///< along the axis, in all
+  double width_mm = 0.0;           ///< across the feed, at most
+  double pre_hole_mm = 0.0;        ///< drilling, tapping: the hole that is there
+  int places = 1;                  ///< members of a pattern made with it
+  int batch = 1;                   ///< pieces that loading is shared by
 };
 
 /// The cutters of the library that meet the requirement on that machine, best first.
 ///
-/// Hard limits: class; diameter; corner radius; point angle; pitch; reach (usable length); flute length;
-/// cutting to centre or a ramp; the spindle's slowest speed; the magazine's largest diameter and length. Each
-/// cutter of a wanted class that fails says which limit, with both numbers. A boring tool that can be set to
-/// the wanted diameter is given set to it.
+/// Hard limits: class; diameter; corner radius; point angle; taper; width of the cutting head; pitch, size,
+/// form and hand of threads; neck; reach (`reach_of`); flute length for the depth of cut and for walls in one
+/// depth; cutting to centre or a ramp; coolant through; the spindle's slowest speed; its torque for the least
+/// useful cut; the magazine's pockets, largest diameter, length and mass. Each cutter of a wanted class that
+/// fails says which limit, with both numbers. A boring tool that can be set to the wanted diameter is given
+/// set to it.
 ///
-/// Rank: order of the wanted classes; nearness to the exact diameter, or else the larger cutter; loaded ones
-/// before others, then those in use; stick-out over diameter; substrate and teeth for the material; speed the
-/// spindle cannot reach. The weights are defaults, unsourced. Ties by id.
+/// Rank: estimated seconds, least first:
+///
+///     cutting     milling V / (ap ae vf), ap cut back to what power, torque and bending of the tip allow
+///     (force
+///                 coefficients with their uncertainty and a worn edge); drilling L / (f n), f cut back
+///                 likewise
+///     tool        minutes of cutting x price / life, as machine time; edges beyond the life left, sisters'
+///     included readiness   a tool change when the plan does not use it yet; loading when the magazine is
+///     known and lacks it
+///
+/// and, as defaults: 600 s for each class that the rules like less and for each mm from the exact diameter, 2
+/// s for each diameter that it sticks out beyond three, 1 s between the smallest and the largest. Ties by id.
 /// When nothing fits, `would_fit` says what would.
 [[nodiscard]] model::Selection select(const model::ToolRequirement& requirement,
                                       const std::vector<model::Cutter>& library,
                                       const model::WorkMaterial& material, const model::Machine& machine,
                                       const Preferences& preferences = {});
+
+/// How deep the cutter may go beside a wall that it cuts: its usable length; beyond, where shank and holder
+/// are no thicker than what cuts.
+[[nodiscard]] double reach_of(const model::Cutter& c);
 
 /// "a 6 mm end mill with 22 mm reach, cutting to centre"
 [[nodiscard]] std::string words_of(const model::ToolRequirement& requirement);

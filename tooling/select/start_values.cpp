@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "planner/base/number.h"
+#include "tooling/select/limits.h"
 #include "tooling/select/select.h"
 
 namespace capstan::tooling {
@@ -32,28 +33,10 @@ const CuttingPreset* preset_for(const Cutter& c, const WorkMaterial& m) {
   return named(m.iso_group);
 }
 
-bool feeds_along_z(CutterClass c) {
-  switch (c) {
-    case CutterClass::kTwistDrill:
-    case CutterClass::kCenterDrill:
-    case CutterClass::kSpotDrill:
-    case CutterClass::kReamer:
-    case CutterClass::kTap:
-    case CutterClass::kBoringTool:
-    case CutterClass::kCountersink:
-    case CutterClass::kCounterbore:
-    case CutterClass::kGunDrill:
-    case CutterClass::kBackCounterbore:
-    case CutterClass::kBackCountersink:
-      return true;
-    default:
-      return false;
-  }
-}
-
 double feed_limit(const Cutter& c, const Machine& m) {
   const double z = m.axes[2].feed_max_mm_min;
-  return feeds_along_z(c.cutter_class) ? z : std::min(m.axes[0].feed_max_mm_min, m.axes[1].feed_max_mm_min);
+  return feeds_along_axis(c.cutter_class) ? z
+                                          : std::min(m.axes[0].feed_max_mm_min, m.axes[1].feed_max_mm_min);
 }
 
 /// Holds the speed within a limit and says so.

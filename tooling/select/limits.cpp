@@ -1,0 +1,315 @@
+#include "tooling/select/limits.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "planner/base/number.h"
+#include "planner/mechanics/constants.h"
+#include "planner/mechanics/drilling.h"
+#include "planner/mechanics/immersion.h"
+#include "planner/mechanics/kienzle.h"
+#include "planner/mechanics/spindle.h"
+
+namespace capstan::tooling {
+
+using model::Cutter;
+using model::CutterClass;
+using model::Machine;
+using model::ToolRequirement;
+using model::WorkMaterial;
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kPitchSlackMm = 1e-3;
+constexpr double kAngleSlackRad = 0.5 * kPi / 180.0;
+/// The spindle's slowest turn may exceed the preset's cutting speed by this much and no more.
+constexpr double kFastestOverPreset = 1.25;  // default, unsourced
+/// The least cut that is worth a tool: a mill's depth and width, a drill's share of its start feed. Defaults,
+/// unsourced; the optimiser may go as low, so that nothing is refused here that it could plan.
+constexpr double kLeastDepthMm = 0.2;
+constexpr double kLeastWidthRatio = 0.1;
+constexpr double kLeastFeedRatio = 0.4;
+/// Densities for the estimate of mass, kg/mm3: steel 7.85 and cemented carbide (6 % Co) 14.9 g/cm3
+/// (handbook values).
+constexpr double kSteelDensity = 7.85e-6, kCarbideDensity = 14.9e-6;
+
+std::string mm(double v) { return trimmed(v, 3) + " mm"; }
+std::string degrees(double rad) { return trimmed(rad * 180.0 / kPi, 1) + " deg"; }
+
+bool threads(CutterClass c) { return c == CutterClass::kTap || c == CutterClass::kThreadMill; }
+
+std::optional<std::string> wrong_thread(const Cutter& c, const ToolRequirement& r) {
+  if (r.thread_pitch_mm > 0.0 && std::abs(c.thread_pitch_mm - r.thread_pitch_mm) > kPitchSlackMm)
+    return "pitch " + mm(c.thread_pitch_mm) + " is not " + mm(r.thread_pitch_mm);
+  if (!threads(c.cutter_class)) return std::nullopt;
+  if (!r.thread_form.empty() && !c.thread_form.empty() && r.thread_form != c.thread_form)
+    return "thread form " + c.thread_form + " is not " + r.thread_form;
+  if (r.thread_size_mm > 0.0 && c.thread_size_mm > 0.0) {
+    if (c.cutter_class == CutterClass::kTap && std::abs(c.thread_size_mm - r.thread_size_mm) > kPitchSlackMm)
+      return "thread " + mm(c.thread_size_mm) + " is not " + mm(r.thread_size_mm);
+    if (c.thread_size_mm > r.thread_size_mm + kPitchSlackMm)
+      return "made for threads from " + mm(c.thread_size_mm) + ", above " + mm(r.thread_size_mm);
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> wrong_hand(const Cutter& c, const ToolRequirement& r) {
+  // A single-profile thread mill cuts either hand: its path turns the other way.
+  const bool tap = c.cutter_class == CutterClass::kTap;
+  const bool left = c.hand == model::Hand::kLeft;
+  if (tap && r.left_hand && !left) return std::string("it cuts right-hand threads");
+  if (left && !(tap && r.left_hand))
+    return tap ? std::string("it cuts left-hand threads") : std::string("it is a left-hand cutter");
+  return std::nullopt;
+}
+
+std::optional<std::string> wrong_neck(const Cutter& c, const ToolRequirement& r) {
+  const double most = r.neck_diameter_max_mm;
+  if (most <= 0.0) return std::nullopt;
+  const bool necked = c.neck_diameter_mm > 0.0;
+  const double thick = necked ? c.neck_diameter_mm : c.shank_diameter_mm;
+  if (thick > most + kSizeSlackMm)
+    return std::string(necked ? "neck " : "shank ") + mm(thick) + " is above " + mm(most);
+  if (necked && c.neck_length_mm + kSizeSlackMm < r.reach_mm && c.shank_diameter_mm > most + kSizeSlackMm)
+    return "neck of " + mm(c.neck_length_mm) + " is shorter than " + mm(r.reach_mm);
+  return std::nullopt;
+}
+
+double efficiency(const Machine& m) {
+  const double e = m.spindle.efficiency;
+  return e > 0.0 && e <= 1.0 ? e : mechanics::kDefaultSpindleEfficiency;
+}
+
+/// The largest torque at or below a speed; nothing where the machine states no curve.
+std::optional<double> largest_torque_nm(const Machine& m, double rpm) {
+  if (m.spindle.curve.empty()) return std::nullopt;
+  std::vector<mechanics::SpindlePoint> points;
+  for (const auto& p : m.spindle.curve) points.push_back({p.rpm, p.power_w, p.torque_nm});
+  const auto curve = mechanics::SpindleCurve::make(std::move(points));
+  if (!curve) return std::nullopt;
+  double out = 0.0;
+  const auto look = [&](double n) {
+    const auto at = curve->at(std::clamp(n, curve->min_rpm(), curve->max_rpm()));
+    if (at) out = std::max(out, at->torque_nm);
+  };
+  look(rpm);
+  look(m.spindle.rpm_min);
+  for (const auto& p : m.spindle.curve) {
+    if (p.rpm <= rpm && p.rpm >= m.spindle.rpm_min) look(p.rpm);
+  }
+  return out;
+}
+
+/// Torque of the least cut that is worth it, Nm; nothing where no formula covers the class.
+std::optional<double> least_torque_nm(const Cutter& c, const StartValues& s, const WorkMaterial& w,
+                                      const Preferences& p) {
+  const mechanics::WorkMaterial work{w.kc11_n_mm2, w.mc};
+  const double margin =
+      std::max(mechanics::kForceUncertaintyFactor, 1.0 + w.kc_uncertainty) * mechanics::kWearForceFactor;
+  const double n = std::max(1.0, s.spindle_rpm);
+  switch (c.cutter_class) {
+    case CutterClass::kTwistDrill:
+    case CutterClass::kGunDrill: {
+      const double hole = p.pre_hole_mm < c.cutting_diameter_mm ? p.pre_hole_mm : 0.0;
+      const auto l =
+          mechanics::drilling_loads({c.cutting_diameter_mm, kLeastFeedRatio * s.fz_mm * c.teeth, n, c.teeth,
+                                     c.point_angle_rad > 0.0 ? c.point_angle_rad : kPi, hole},
+                                    work);
+      if (!l) return std::nullopt;
+      return l->torque_nm * margin;
+    }
+    case CutterClass::kTap: {
+      mechanics::TappingCut t;
+      t.nominal_diameter_mm = c.cutting_diameter_mm;
+      t.pitch_mm = c.thread_pitch_mm;
+      t.core_hole_diameter_mm =
+          p.pre_hole_mm > 0.0 ? p.pre_hole_mm : c.cutting_diameter_mm - c.thread_pitch_mm;
+      t.n_rpm = n;
+      const auto l = mechanics::tapping_loads(t, work);
+      if (!l) return std::nullopt;
+      return l->torque_nm * margin;
+    }
+    case CutterClass::kEndmill:
+    case CutterClass::kBullnoseEndmill:
+    case CutterClass::kBallEndmill:
+    case CutterClass::kFacemill: {
+      const double d = c.cutting_diameter_mm, ae = kLeastWidthRatio * d;
+      const double fz = std::max(c.fz_min_mm, kLeastFeedRatio * s.fz_mm);
+      const double h = mechanics::mean_chip_thickness_mm(fz, ae, d);
+      if (!(h > 0.0)) return std::nullopt;
+      const double ft = mechanics::mean_tangential_force_n(mechanics::specific_force_n_mm2(work, h),
+                                                           kLeastDepthMm, ae, fz, c.teeth, d);
+      return margin * ft * 0.5 * d / 1000.0;
+    }
+    default:
+      return std::nullopt;
+  }
+}
+
+double frustum_mm3(const model::HolderSegment& s) {
+  const double a = 0.5 * s.lower_diameter_mm, b = 0.5 * s.upper_diameter_mm;
+  return kPi / 3.0 * s.height_mm * (a * a + a * b + b * b);
+}
+
+/// At least: the taper in the spindle is not counted, nor a holder that nobody described.
+double least_mass_kg(const Cutter& c) {
+  const double density = c.substrate == model::Substrate::kCarbide && c.cutting_diameter_mm <= 25.0 &&
+                                 c.cutter_class != CutterClass::kFacemill
+                             ? kCarbideDensity
+                             : kSteelDensity;
+  const double d = std::min(c.cutting_diameter_mm,
+                            c.shank_diameter_mm > 0.0 ? c.shank_diameter_mm : c.cutting_diameter_mm);
+  double mass = density * 0.25 * kPi * d * d * c.stick_out_mm;
+  for (const auto& s : c.holder) mass += kSteelDensity * frustum_mm3(s);
+  return mass;
+}
+
+std::optional<std::string> not_in_magazine(const Cutter& c, const Machine& m, const Preferences& p) {
+  if (m.tool_diameter_max_mm > 0.0 && c.cutting_diameter_mm > m.tool_diameter_max_mm + kSizeSlackMm)
+    return "diameter " + mm(c.cutting_diameter_mm) + " is above the magazine's " + mm(m.tool_diameter_max_mm);
+  if (m.tool_length_max_mm > 0.0 && c.functional_length_mm > m.tool_length_max_mm + kSizeSlackMm)
+    return "length " + mm(c.functional_length_mm) + " is above the magazine's " + mm(m.tool_length_max_mm);
+  if (const double most = m.abilities.magazine_mass_max_kg; most > 0.0 && least_mass_kg(c) > most)
+    return "its mass is at least " + trimmed(least_mass_kg(c), 2) + " kg, above the magazine's " +
+           trimmed(most, 2) + " kg";
+  const auto pockets = static_cast<std::size_t>(std::max(0, m.magazine_pockets));
+  const auto used = [&](const std::string& id) {
+    return std::find(p.used.begin(), p.used.end(), id) != p.used.end();
+  };
+  // One pocket is the spindle itself, and tools are changed by hand.
+  if (pockets > 1 && !used(c.id)) {
+    std::vector<std::string> ids = p.used;
+    std::sort(ids.begin(), ids.end());
+    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+    if (ids.size() >= pockets)
+      return "the plan uses " + std::to_string(ids.size()) + " tools, and the magazine has " +
+             std::to_string(pockets) + " pockets";
+  }
+  return std::nullopt;
+}
+
+/// Which gear that is not in use would turn as slowly as wanted.
+std::string slower_gear(const Machine& m, double rpm) {
+  for (const auto& g : m.spindle.gears) {
+    if (g.rpm_min <= rpm && rpm <= g.rpm_max && g.rpm_min < m.spindle.rpm_min)
+      return "; its gear '" + g.id + "' turns " + trimmed(g.rpm_min, 0) + " to " + trimmed(g.rpm_max, 0) +
+             " 1/min";
+  }
+  return {};
+}
+
+}  // namespace
+
+double lower_size(const ToolRequirement& r) {
+  return r.diameter_exact_mm > 0.0 ? r.diameter_exact_mm - r.diameter_tolerance_mm : r.diameter_min_mm;
+}
+double upper_size(const ToolRequirement& r) {
+  return r.diameter_exact_mm > 0.0 ? r.diameter_exact_mm + r.diameter_tolerance_mm : r.diameter_max_mm;
+}
+double flutes_wanted(const ToolRequirement& r) { return std::max(r.depth_of_cut_mm, r.flute_length_min_mm); }
+
+bool feeds_along_axis(CutterClass c) {
+  switch (c) {
+    case CutterClass::kTwistDrill:
+    case CutterClass::kCenterDrill:
+    case CutterClass::kSpotDrill:
+    case CutterClass::kReamer:
+    case CutterClass::kTap:
+    case CutterClass::kBoringTool:
+    case CutterClass::kCountersink:
+    case CutterClass::kCounterbore:
+    case CutterClass::kGunDrill:
+    case CutterClass::kBackCounterbore:
+    case CutterClass::kBackCountersink:
+      return true;
+    default:
+      return false;
+  }
+}
+
+double reach_of(const Cutter& c) {
+  const double reach = c.usable_length_mm;
+  // Chips leave a drill by its flutes, whatever is above them.
+  if (c.cutter_class == CutterClass::kTwistDrill || c.cutter_class == CutterClass::kGunDrill) return reach;
+  const double d = c.cutting_diameter_mm + kSizeSlackMm;
+  if (c.holder.empty() || !(c.shank_diameter_mm > 0.0) || c.shank_diameter_mm > d) return reach;
+  double clear = c.stick_out_mm;
+  bool through = false;
+  for (const auto& s : c.holder) {
+    if (std::max(s.lower_diameter_mm, s.upper_diameter_mm) > d) break;
+    clear += s.height_mm;
+    through = true;
+  }
+  return through ? std::max(reach, clear) : reach;
+}
+
+std::optional<std::string> wrong_size(const Cutter& c, const ToolRequirement& r) {
+  const double low = lower_size(r), high = upper_size(r), d = c.cutting_diameter_mm;
+  if (low > 0.0 && d < low - kSizeSlackMm) return "diameter " + mm(d) + " is below " + mm(low);
+  if (high > 0.0 && d > high + kSizeSlackMm) return "diameter " + mm(d) + " is above " + mm(high);
+  return std::nullopt;
+}
+
+std::optional<std::string> wrong_shape(const Cutter& c, const ToolRequirement& r) {
+  if (r.corner_radius_exact_mm >= 0.0 &&
+      std::abs(c.corner_radius_mm - r.corner_radius_exact_mm) > kPitchSlackMm)
+    return "corner radius " + mm(c.corner_radius_mm) + " is not " + mm(r.corner_radius_exact_mm);
+  if (r.corner_radius_limited && c.corner_radius_mm > r.corner_radius_max_mm + kSizeSlackMm)
+    return "corner radius " + mm(c.corner_radius_mm) + " is above " + mm(r.corner_radius_max_mm);
+  if (r.point_angle_rad > 0.0 && std::abs(c.point_angle_rad - r.point_angle_rad) > kAngleSlackRad)
+    return "point angle " + degrees(c.point_angle_rad) + " is not " + degrees(r.point_angle_rad);
+  if (r.taper_angle_rad > 0.0 && std::abs(c.taper_angle_rad - r.taper_angle_rad) > kAngleSlackRad)
+    return "taper " + degrees(c.taper_angle_rad) + " is not " + degrees(r.taper_angle_rad);
+  // T-slot cutters of older libraries state their head as the length of flutes.
+  const double width = c.cutting_width_mm > 0.0 ? c.cutting_width_mm : c.maximum_depth_of_cut_mm;
+  if (r.cutting_width_min_mm > 0.0 && width < r.cutting_width_min_mm - kSizeSlackMm)
+    return "cutting width " + mm(width) + " is below " + mm(r.cutting_width_min_mm);
+  if (r.cutting_width_max_mm > 0.0 && width > r.cutting_width_max_mm + kSizeSlackMm)
+    return "cutting width " + mm(width) + " is above " + mm(r.cutting_width_max_mm);
+  if (auto why = wrong_thread(c, r)) return why;
+  if (auto why = wrong_hand(c, r)) return why;
+  if (auto why = wrong_neck(c, r)) return why;
+  if (r.centre_cutting && !c.centre_cutting && c.maximum_ramp_angle_rad <= 0.0)
+    return std::string("it neither cuts to centre nor ramps");
+  if (r.coolant_through && !c.coolant_through) return std::string("no coolant comes through it");
+  return std::nullopt;
+}
+
+std::optional<std::string> too_short(const Cutter& c, const ToolRequirement& r) {
+  if (r.reach_mm > reach_of(c) + kSizeSlackMm) {
+    std::string why = "reach " + mm(reach_of(c)) + " is below " + mm(r.reach_mm);
+    const bool thin_enough = c.shank_diameter_mm > 0.0 && c.shank_diameter_mm <= c.cutting_diameter_mm;
+    if (thin_enough && !c.holder.empty() && !feeds_along_axis(c.cutter_class))
+      why += ", and its holder (" +
+             mm(std::max(c.holder.front().lower_diameter_mm, c.holder.front().upper_diameter_mm)) +
+             ") would meet the walls";
+    return why;
+  }
+  if (const double flutes = flutes_wanted(r); flutes > c.maximum_depth_of_cut_mm + kSizeSlackMm)
+    return "flutes " + mm(c.maximum_depth_of_cut_mm) + " are shorter than " + mm(flutes);
+  return std::nullopt;
+}
+
+std::optional<std::string> not_for_machine(const Cutter& c, const StartValues& start, const WorkMaterial& w,
+                                           const Machine& m, const Preferences& p) {
+  if (auto why = not_in_magazine(c, m, p)) return why;
+  if (c.cutter_class == CutterClass::kTouchProbe) return std::nullopt;
+  if (c.maximum_speed_rpm > 0.0 && c.maximum_speed_rpm < m.spindle.rpm_min)
+    return "its largest speed " + trimmed(c.maximum_speed_rpm, 0) + " 1/min is below the spindle's least " +
+           trimmed(m.spindle.rpm_min, 0);
+  const double wanted = start.wanted_vc_m_min;
+  if (start.vc_m_min > kFastestOverPreset * wanted)
+    return "the spindle's least speed " + trimmed(m.spindle.rpm_min, 0) + " 1/min gives " +
+           trimmed(start.vc_m_min, 1) + " m/min, " + w.id + " bears " + trimmed(wanted, 1) +
+           slower_gear(m, 1000.0 * wanted / (kPi * c.cutting_diameter_mm));
+  const auto needed = least_torque_nm(c, start, w, p);
+  const auto most = largest_torque_nm(m, start.spindle_rpm);
+  if (needed && most && *needed > *most * efficiency(m))
+    return "its least useful cut takes " + trimmed(*needed, 2) + " Nm, the spindle gives " +
+           trimmed(*most * efficiency(m), 2) + " at or below " + trimmed(start.spindle_rpm, 0) + " 1/min";
+  return std::nullopt;
+}
+
+}  // namespace capstan::tooling
