@@ -214,6 +214,22 @@ std::string_view to_text(RuleFault f) {
   return "?";
 }
 
+std::string_view code_of(RuleFault f) {
+  switch (f) {
+    case RuleFault::kGap:
+      return "RULE-GAP";
+    case RuleFault::kContradiction:
+      return "RULE-CONTRADICTION";
+    case RuleFault::kDeadRow:
+      return "RULE-DEAD-ROW";
+    case RuleFault::kIncapable:
+      return "RULE-INCAPABLE";
+    case RuleFault::kNoTable:
+      return "RULE-NO-TABLE";
+  }
+  return "RULE";
+}
+
 std::string RuleFinding::text() const {
   std::string ids;
   for (const std::string& id : rows) ids += (ids.empty() ? "" : " and ") + id;

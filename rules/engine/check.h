@@ -15,6 +15,7 @@ enum class RuleFault : std::uint8_t {
   kNoTable,        ///< a kind of feature for which there is no table of chains
 };
 [[nodiscard]] std::string_view to_text(RuleFault f);
+[[nodiscard]] std::string_view code_of(RuleFault f);  ///< "RULE-GAP", "RULE-DEAD-ROW", ... for diagnostics
 
 /// One fault of the tables, with the box of conditions it concerns.
 struct RuleFinding {

@@ -89,7 +89,8 @@ std::string rules_text(const rules::RuleBase& base) {
     out += t.name + " (" + std::to_string(t.rows.size()) + " rows)\n";
     for (const auto& row : t.rows) {
       const std::string when = rules::to_text(row.when, t.facts);
-      out += "  " + row.id + "\n    when    " + (when.empty() ? "always" : when) + "\n    then    " +
+      out += "  " + row.id + " (priority " + std::to_string(row.priority) + ", " + row.file + ":" +
+             std::to_string(row.line) + ")\n    when    " + (when.empty() ? "always" : when) + "\n    then    " +
              conclusion_of(row) + "\n";
       if (!row.text.empty()) out += "    because " + row.text + "\n";
       if (!row.source.empty()) out += "    source  " + row.source + "\n";
@@ -120,7 +121,7 @@ int run_rules(Session& s) {
   if (s.options.command == Command::kRulesList) return print(rules_text(*base)) ? kDone : kImpossible;
   const auto findings = rules::check(*base);
   for (const auto& f : findings) {
-    s.job.report({.code = "RULE-" + std::string(rules::to_text(f.fault)),
+    s.job.report({.code = std::string(rules::code_of(f.fault)),
                   .severity = Severity::kWarning,
                   .message = f.text(),
                   .file = f.file,
