@@ -104,7 +104,7 @@ Result<model::Plan> bind(model::Plan plan, const Inputs& inputs, const Policy& p
              "what the part earns is not known; planned for least cost instead of most profit");
   }
   using Stage = Status (*)(Work&);
-  std::vector<Stage> stages = {resolve_workpiece, list_given};
+  std::vector<Stage> stages = {resolve_workpiece, list_given, take_requirements};
   if (policy.bind >= Bind::kStrategy)
     stages.insert(stages.end(), {propose_missing, select_open_tools, order_steps, raise_security_planes});
   if (policy.bind == Bind::kAll) stages.insert(stages.end(), {carry_tools, make_paths, join_paths});

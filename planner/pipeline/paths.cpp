@@ -75,17 +75,6 @@ double top_over(const stock::HeightMap& map, const toolpath::PathJob& job) {
   return map.origin.z + static_cast<double>(top);
 }
 
-/// Sizes are cut to the middle of their tolerance; a hole's path does that by itself.
-void aim_at_the_middle(model::FeatureShape& s) {
-  if (s.kind != ShapeKind::kPocket && s.kind != ShapeKind::kSlot) return;
-  const double shift = s.width.given ? 0.5 * (s.width.middle() - s.width.nominal_mm) : 0.0;
-  if (shift != 0.0 && s.slot_profile.empty()) {
-    s.area = geometry::offset_sharp(s.area, shift);
-    s.reach = geometry::offset_sharp(s.reach, shift);
-  }
-  if (s.depth_tolerance.given && !s.through) s.depth_mm = s.depth_tolerance.middle();
-}
-
 bool opens_outwards(const model::FeatureShape& s) {
   return s.kind == ShapeKind::kStep || s.kind == ShapeKind::kOutside;
 }

@@ -167,15 +167,7 @@ class Proposer {
   explicit Proposer(Work& w) : w_(w), library_(usable(w)) {}
 
   void feature(AnyRef f, const std::vector<FeatureShape>& shapes) {
-    rules::Context context;
-    context.material = w_.plan.material;
-    if (const auto* named = w_.plan.model.get<model::ManufacturingFeature>(f)) {
-      if (const auto* piece = w_.plan.model.get<model::Workpiece>(named->its_workpiece)) {
-        context.global_tolerance_mm = piece->global_tolerance;
-      }
-    }
-    context.stock_above_mm = stock_above(w_, shapes.front());
-    context.has_coolant = w_.plan.machine.has_flood || w_.plan.machine.has_mist;
+    rules::Context context = context_of(w_, f, shapes);
     for (const auto& s : shapes) {
       for (const std::string& a : s.assumptions) {
         if (said_.insert({f, a}).second) w_.job.warn("PIP-ASSUMED", "feature '" + s.name + "': " + a);

@@ -18,6 +18,10 @@ namespace capstan::pipeline {
 /// what earlier steps left are the caller's to fill.
 [[nodiscard]] toolpath::PathJob job_of(const Work& w, const StepWork& step, const model::FeatureShape& shape);
 
+/// Moves the walls of pockets, slots and outsides, and the floors of these and of steps, to the middle of
+/// their tolerances. A hole's path does that by itself.
+void aim_at_the_middle(model::FeatureShape& shape);
+
 /// What the nouns say of speed and feed.
 struct GivenTechnology {
   std::optional<double> rpm;  ///< positive clockwise

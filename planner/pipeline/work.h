@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "planner/model/nouns/all.h"
 #include "planner/model/plan.h"
 #include "planner/model/proposal.h"
+#include "planner/model/requirements.h"
 #include "planner/model/shape.h"
 #include "planner/pipeline/pipeline.h"
 
@@ -56,11 +58,16 @@ struct Work {
       faces;  ///< planar faces of the part: cut first, so that less stands above the rest
   std::vector<std::string> used_cutters;  ///< ids, so that a further tool change is not asked for lightly
   std::vector<model::Cutter> recorded;    ///< what the plan said of its cutters when it was read
+  std::optional<model::GeneralTolerance> general = {};  ///< of what states none: the user's, else the file's
+  std::map<AnyRef, model::Quality> qualities = {};      ///< by feature
+  std::vector<model::Tie> ties = {};                    ///< features that a tolerance ties together
+  std::vector<model::FeatureShape> shapes = {};         ///< of all features, workpiece coordinates
 };
 
 // The stages, in the order bind() runs them.
 Status resolve_workpiece(Work& w);      ///< material and raw piece
 Status list_given(Work& w);             ///< set-ups and workingsteps of the file, what is re-opened marked
+Status take_requirements(Work& w);      ///< general tolerance, what is asked of each feature
 Status propose_missing(Work& w);        ///< rules and tooling for features that have no bound operations
 Status select_open_tools(Work& w);      ///< cutters for given operations
 Status order_steps(Work& w);            ///< set-ups, order, pockets
@@ -75,6 +82,15 @@ void report_outside(Work& w);  ///< features that the raw piece does not hold
 
 /// How much raw material stands above a feature when its steps begin, mm: faces are cut first.
 [[nodiscard]] double stock_above(const Work& w, const model::FeatureShape& shape);
+/// What stays beside and below a feature when all are made, mm; unset where there is nothing or it is not
+/// known. Features of the same and of the opposite side are seen, and the raw piece; not those across.
+struct Thickness {
+  std::optional<double> wall_mm, floor_mm;
+};
+[[nodiscard]] Thickness thickness_beside(const Work& w, const model::FeatureShape& shape);
+/// What surrounds a feature, for the rules: thinnest wall and floor of its shapes.
+[[nodiscard]] rules::Context context_of(const Work& w, AnyRef feature,
+                                        const std::vector<model::FeatureShape>& shapes);
 /// The cutters that may be used: the library, or what of it is loaded.
 [[nodiscard]] std::vector<model::Cutter> usable(const Work& w);
 

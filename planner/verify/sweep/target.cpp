@@ -122,7 +122,15 @@ void Target::add(const FeatureShape& s) {
   c.floor_mm = at.origin.z - depth - c.deeper_mm;
   c.open_bottom = s.through || below || c.floor_mm <= stock_.lo.z + part_.tolerance_mm;
   if (below) c.floor_mm = stock_.lo.z;
-  for (const auto& i : s.islands) c.islands.emplace_back(moved(i.area, at), at.origin.z + i.top_z_mm);
+  // What an outside leaves may be as small as its tolerance says.
+  double smaller = 0.0;
+  for (const model::Toleranced* t : {&s.width, &s.length}) {
+    if (s.kind == ShapeKind::kOutside && t->given) smaller = std::max(smaller, -0.5 * t->lower_mm);
+  }
+  for (const auto& i : s.islands) {
+    const Region stays = smaller > 0.0 ? geometry::offset(i.area, -smaller) : i.area;
+    c.islands.emplace_back(moved(stays, at), at.origin.z + i.top_z_mm);
+  }
   cavities_.push_back(std::move(c));
 }
 

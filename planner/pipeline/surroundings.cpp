@@ -1,0 +1,211 @@
+#include <algorithm>
+#include <cmath>
+
+#include "planner/model/walk.h"
+#include "planner/pipeline/work.h"
+
+// What surrounds a feature: what is asked of it, what stays beside and below it, what the shop says.
+
+namespace capstan::pipeline {
+namespace {
+
+using geometry::Box2;
+using geometry::Loop;
+using geometry::Vec2;
+using model::FeatureShape;
+using model::Model;
+using model::ShapeKind;
+
+constexpr double kSame = 1e-6;                 // mm, and of directions
+constexpr std::size_t kMostShapes = 4000;      // beyond, thicknesses are left unknown: pairs are compared
+constexpr std::size_t kMostPoints = 400;       // of an outline that distances are measured from
+constexpr std::size_t kMostMeasured = 200000;  // points against segments, of one pair of outlines
+
+/// Heights that a feature takes away, and the box of its area, in another feature's frame.
+struct Seen {
+  double top = 0.0, bottom = 0.0;
+  Box2 box;
+};
+
+Seen see(const FeatureShape& other, const geometry::Placement& to) {
+  const auto rel = compose(to, other.frame);
+  const double a = rel.origin.z;
+  const double b = (rel.origin - other.depth_mm * rel.z).z;
+  Seen out{std::max(a, b), std::min(a, b), {}};
+  const Box2 own = geometry::bounds(other.area);
+  for (const Vec2 c : {own.lo, Vec2{own.hi.x, own.lo.y}, own.hi, Vec2{own.lo.x, own.hi.y}}) {
+    const auto p = rel.to_parent({c.x, c.y, 0.0});
+    out.box.lo = {std::min(out.box.lo.x, p.x), std::min(out.box.lo.y, p.y)};
+    out.box.hi = {std::max(out.box.hi.x, p.x), std::max(out.box.hi.y, p.y)};
+  }
+  return out;
+}
+
+double gap(const Box2& a, const Box2& b) {
+  const double x = std::max({0.0, a.lo.x - b.hi.x, b.lo.x - a.hi.x});
+  const double y = std::max({0.0, a.lo.y - b.hi.y, b.lo.y - a.hi.y});
+  return std::hypot(x, y);
+}
+
+/// What a feature takes away at its bottom: of an outside, all but the contour that stays.
+geometry::Region taken(const FeatureShape& s) {
+  geometry::Region out = s.area;
+  for (const auto& i : s.islands) out = geometry::subtract(out, i.area);
+  return out;
+}
+
+geometry::Region moved(const geometry::Region& r, const geometry::Placement& at) {
+  geometry::Region out;
+  for (const Loop& loop : r.loops) {
+    Loop q;
+    for (const Vec2 p : loop) q.push_back(geometry::xy(at.to_parent({p.x, p.y, 0.0})));
+    if (at.z.z < 0.0) std::reverse(q.begin(), q.end());
+    out.loops.push_back(std::move(q));
+  }
+  return out;
+}
+
+std::size_t points_of(const geometry::Region& r) {
+  std::size_t n = 0;
+  for (const Loop& loop : r.loops) n += loop.size();
+  return n;
+}
+
+/// The smallest distance between two areas; 0 when they meet, nothing when they are too fine to measure.
+std::optional<double> between(const geometry::Region& a, const geometry::Region& b) {
+  if (points_of(a) * points_of(b) > kMostMeasured) return std::nullopt;
+  double out = 1e300;
+  for (const auto& [from, to] : {std::pair(&a, &b), std::pair(&b, &a)}) {
+    for (const Loop& loop : from->loops) {
+      for (const Vec2 p : loop) {
+        if (geometry::contains(*to, p)) return 0.0;
+        out = std::min(out, geometry::distance_to_boundary(*to, p));
+      }
+    }
+  }
+  return out;
+}
+
+void least(std::optional<double>& to, double v) {
+  if (v > kSame) to = to ? std::min(*to, v) : v;
+}
+
+/// From the outline straight out to the sides of the raw piece: what stays there. Sides that the area reaches
+/// are open.
+void to_raw_sides(const FeatureShape& s, const geometry::Box3& raw, std::optional<double>& wall) {
+  const std::size_t stride = points_of(s.area) / kMostPoints + 1;
+  for (const Loop& loop : s.area.loops) {
+    for (std::size_t i = 0; i < loop.size(); i += stride) {
+      const Vec2 a = loop[i];
+      const Vec2 b = loop[(i + 1) % loop.size()];
+      const double n = norm(b - a);
+      if (n < kSame) continue;
+      const Vec2 out{(b.y - a.y) / n, (a.x - b.x) / n};
+      const Vec2 p = 0.5 * (a + b);
+      double t = 1e300;
+      if (out.x > kSame) t = std::min(t, (raw.hi.x - p.x) / out.x);
+      if (out.x < -kSame) t = std::min(t, (raw.lo.x - p.x) / out.x);
+      if (out.y > kSame) t = std::min(t, (raw.hi.y - p.y) / out.y);
+      if (out.y < -kSame) t = std::min(t, (raw.lo.y - p.y) / out.y);
+      if (t < 1e299) least(wall, t);
+    }
+  }
+}
+
+bool has_walls(ShapeKind k) {
+  return k == ShapeKind::kPocket || k == ShapeKind::kSlot || k == ShapeKind::kHole;
+}
+
+}  // namespace
+
+Thickness thickness_beside(const Work& w, const FeatureShape& s) {
+  Thickness out;
+  if (s.area.empty() || w.shapes.size() > kMostShapes || s.kind == ShapeKind::kFreeform) return out;
+  const auto to = inverse(s.frame);
+  const geometry::Box3 raw = transformed(w.plan.stock.box, to);
+  const geometry::Region own = taken(s);
+  const Box2 box = geometry::bounds(own);
+  if (has_walls(s.kind)) to_raw_sides(s, raw, out.wall_mm);
+  double below = s.through ? 0.0 : -s.depth_mm - raw.lo.z;
+  for (const FeatureShape& other : w.shapes) {
+    if (other.feature == s.feature && other.member == s.member) continue;
+    if (other.area.empty() || std::abs(std::abs(dot(other.frame.z, s.frame.z)) - 1.0) > kSame) continue;
+    const Seen seen = see(other, to);
+    const bool same_side = dot(other.frame.z, s.frame.z) > 0.0;
+    const bool beside = seen.bottom < -kSame && seen.top > -s.depth_mm + kSame;
+    const bool under = !same_side && !s.through && seen.top < -s.depth_mm - kSame && !other.through;
+    const double apart = gap(box, seen.box);
+    if (under && apart <= 0.0) {
+      const auto area = moved(taken(other), compose(to, other.frame));
+      if (!geometry::intersect(own, area).empty()) below = std::min(below, -s.depth_mm - seen.top);
+    }
+    if (!beside || other.kind == ShapeKind::kFace || other.kind == ShapeKind::kThread) continue;
+    if (out.wall_mm && apart >= *out.wall_mm) continue;
+    if (const auto d = between(own, moved(taken(other), compose(to, other.frame)))) least(out.wall_mm, *d);
+  }
+  if (below > kSame) out.floor_mm = below;
+  return out;
+}
+
+rules::Context context_of(const Work& w, AnyRef feature, const std::vector<FeatureShape>& shapes) {
+  rules::Context c;
+  c.material = w.plan.material;
+  c.general = w.general;
+  if (const auto* named = w.plan.model.get<model::ManufacturingFeature>(feature)) {
+    if (const auto* piece = w.plan.model.get<model::Workpiece>(named->its_workpiece))
+      c.global_tolerance_mm = piece->global_tolerance;
+  }
+  if (const auto it = w.qualities.find(feature); it != w.qualities.end()) c.quality = it->second;
+  c.stock_above_mm = stock_above(w, shapes.front());
+  c.has_coolant = w.plan.machine.has_flood || w.plan.machine.has_mist;
+  c.has_through_coolant = w.plan.machine.has_through;
+  c.abilities = w.plan.machine.abilities;
+  c.batch = std::max(1, w.inputs.batch);
+  c.edge_break_mm = std::max(0.0, w.inputs.edge_break_mm);
+  std::optional<double> wall, floor;
+  for (const FeatureShape& s : shapes) {
+    const Thickness t = thickness_beside(w, s);
+    if (t.wall_mm) least(wall, *t.wall_mm);
+    if (t.floor_mm) least(floor, *t.floor_mm);
+  }
+  c.wall_thickness_mm = wall;
+  c.floor_thickness_mm = floor;
+  return c;
+}
+
+Status take_requirements(Work& w) {
+  const Model& m = w.plan.model;
+  if (!w.inputs.general_tolerance.empty()) {
+    auto g = model::parse_general(w.inputs.general_tolerance);
+    if (!g) return tl::unexpected(g.error());
+    w.general = *std::move(g);
+    w.plan.provenance.push_back({"general tolerance", w.general->text, "named by the user"});
+  } else {
+    for (const AnyRef piece : m.all(model::TypeId::kWorkpiece)) {
+      auto g = model::general_tolerance_of(m, Ref<model::Workpiece>(piece));
+      if (!g) {
+        w.job.warn(g.error().code, g.error().message + "; taken as not stated");
+      } else if (*g) {
+        w.general = **g;
+        w.plan.provenance.push_back({"general tolerance", w.general->text, "the file"});
+        break;
+      }
+    }
+  }
+  const model::Attribution attribution(m);
+  for (const AnyRef f : m.all_below(model::TypeId::kManufacturingFeature)) {
+    w.qualities[f] = attribution.quality(f);
+    if (auto s = model::shapes_of(m, Ref<model::ManufacturingFeature>(f)))
+      w.shapes.insert(w.shapes.end(), s->begin(), s->end());
+  }
+  w.ties = model::ties_of(m, attribution);
+  std::string lost;
+  for (const auto& l : attribution.lost()) lost += (lost.empty() ? "" : "; ") + l.text;
+  if (!lost.empty()) {
+    w.job.warn("PIP-REQUIREMENT", "no feature answers for what is asked of faces or elements of the part: " +
+                                      lost + "; kept in the plan, and not planned for");
+  }
+  return {};
+}
+
+}  // namespace capstan::pipeline
