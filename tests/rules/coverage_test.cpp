@@ -35,7 +35,7 @@ RuleBase edited(const std::string& file, const std::string& from, const std::str
   auto texts = shipped_texts();
   bool done = false;
   for (auto& [name, text] : texts) {
-    if (name.find(file) == std::string::npos) continue;
+    if (name.substr(name.rfind('/') + 1) != file + ".yaml") continue;
     const std::size_t at = text.find(from);
     if (at == std::string::npos) continue;
     text.replace(at, from.size(), to);
@@ -124,15 +124,14 @@ TEST(ShippedTables, DecideEveryDrawnCombinationOfFactsOnce) {
   for (const Table& table : shipped().tables) {
     for (int round = 0; round < 2000; ++round) {
       Facts facts;
-      for (const std::size_t f : table.facts) {
-        const FactType& type = fact_types()[f];
+      for (std::size_t i = 0; i < table.facts.size(); ++i) {
+        const FactType& type = fact_types()[table.facts[i]];
         if (type.kind == FactKind::kSymbol) {
           facts.set(type.name, type.symbols[random() % type.symbols.size()]);
           continue;
         }
         // Ends of intervals of the rows themselves, or anything between.
-        const Side& side =
-            table.rows[random() % table.rows.size()].when[static_cast<std::size_t>(&f - table.facts.data())];
+        const Side& side = table.rows[random() % table.rows.size()].when[i];
         const double value = random() % 2 == 0
                                  ? side.from
                                  : std::uniform_real_distribution<double>(type.from, type.below)(random);
@@ -193,7 +192,7 @@ FeatureShape drawn(std::mt19937& random) {
 TEST(Proposals, OfFeaturesDrawnAtRandomHoldWhatIsAskedOrSayWhyNot) {
   std::mt19937 random(2024);
   int planned = 0, refused = 0;
-  for (int round = 0; round < 4000; ++round) {
+  for (int round = 0; round < 1500; ++round) {
     const FeatureShape s = drawn(random);
     Context c;
     static constexpr const char* kGroups[] = {"P", "M", "K", "N", "S", "H", ""};
@@ -234,8 +233,8 @@ TEST(Proposals, OfFeaturesDrawnAtRandomHoldWhatIsAskedOrSayWhyNot) {
       }
     }
   }
-  EXPECT_GT(planned, 500);
-  EXPECT_GT(refused, 500);
+  EXPECT_GT(planned, 200);
+  EXPECT_GT(refused, 200);
 }
 
 }  // namespace
