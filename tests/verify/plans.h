@@ -94,6 +94,7 @@ class PlanMaker {
     s.cutter_id = cutter;
     s.feed_mm_min = feed;
     s.spindle_rpm = rpm;
+    s.flood = true;
     const std::size_t n = path.size();
     model::FeedSchedule f{std::vector<double>(n, feed), std::vector<double>(n, rpm),
                           std::vector<double>(n, 0.0)};

@@ -9,6 +9,8 @@ std::vector<model::Finding> check_plan(const model::Plan& plan, Job& job) {
   const std::vector<StepMoves> steps = moves_of(plan, findings);
   check_tools(plan, steps, findings);
   check_limits(plan, steps, findings);
+  check_coolant(plan, steps, findings);
+  check_life(steps, findings);
   check_order(plan, findings);
   check_coverage(plan, findings);
   check_removal(plan, steps, findings, job);

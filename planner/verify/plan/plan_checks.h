@@ -36,6 +36,12 @@ class Extents {
   std::map<std::size_t, std::array<bool, 3>> said_;
 };
 
+/// Coolant: what the operation asks for is on, and machine and tool can give it: 29.
+void check_coolant(const model::Plan& plan, const std::vector<StepMoves>& steps, Findings& findings);
+/// The time that each tool cuts against the life it and its sisters have left: 30. Tools without a stated
+/// life are not judged.
+void check_life(const std::vector<StepMoves>& steps, Findings& findings);
+
 /// What must come first: 28.
 void check_order(const model::Plan& plan, Findings& findings);
 

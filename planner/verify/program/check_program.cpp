@@ -24,6 +24,8 @@ std::vector<model::Finding> check_program(const ProgramText& text, const model::
     }
   }
   check_state(c, findings);
+  check_compensation(c, findings);
+  check_program_coolant(c, findings);
   if (!text.tool_table.empty()) check_tool_table(c, read_tool_table(text.tool_table), findings);
   check_machine_moves(c, findings);
   const std::vector<StepMoves> steps = moves_of(c);
@@ -32,6 +34,7 @@ std::vector<model::Finding> check_program(const ProgramText& text, const model::
     check_moves(s, machine, kRadiusGapMm, findings);
     extents.add(s, findings);
   }
+  check_life(steps, findings);
   if (plan != nullptr) {
     compare(c, findings);
     check_removal(*plan, steps, findings, job);

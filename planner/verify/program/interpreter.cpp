@@ -107,9 +107,12 @@ Block Interpreter::block() const {
   b.tool = tool_;
   b.length_offset = length_;
   b.radius_offset = radius_;
+  b.radius_left = left_;
   b.work_offset = offset_;
   b.retracted = retracted_;
   b.cycle_active = is_cycle(motion_);
+  b.mist = mist_;
+  b.flood = flood_;
   b.stated = stated_;
   b.units_stated = units_stated_;
   return b;
@@ -166,6 +169,7 @@ void Interpreter::state_code(int g, const Said& s) {
       break;
     case 410:
     case 420:
+      left_ = g == 410;
       radius_ = s.is('D') ? whole(s.of('D')) : tool_;
       break;
     case 430:
@@ -265,11 +269,17 @@ void Interpreter::machine_codes(const Said& s) {
       case 50:
         spindle_ = 0;
         break;
+      case 70:
+        mist_ = true;
+        break;
+      case 80:
+        flood_ = true;
+        break;
+      case 90:
+        mist_ = flood_ = false;
+        break;
       case 0:
       case 10:
-      case 70:
-      case 80:
-      case 90:
       case 480:
       case 490:
       case 600:

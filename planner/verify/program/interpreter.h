@@ -60,6 +60,7 @@ class Interpreter {
   int motion_ = -1;  ///< modal motion code times ten
   int tool_ = 0, next_tool_ = -1, length_ = -1, radius_ = -1, offset_ = 0;
   bool retracted_ = true;
+  bool mist_ = false, flood_ = false, left_ = false;
   bool return_to_r_ = false;
   bool cycle_known_ = false;
   double cycle_r_ = 0.0, cycle_z_ = 0.0, cycle_q_ = 0.0, cycle_p_ = 0.0, cycle_clear_ = 0.0;

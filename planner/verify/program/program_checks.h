@@ -27,6 +27,11 @@ struct ProgramCase {
 
 /// Offsets, tools, changes, compensation, restart, end: 3, 4, 5, 7, 8, 26, 27, 32.
 void check_state(const ProgramCase& c, Findings& findings);
+/// Cutter compensation: 25. Concave corners between lines are the control's to find; arcs are looked at here.
+void check_compensation(const ProgramCase& c, Findings& findings);
+/// Coolant in the text as each step wants it: 29. Through the spindle LinuxCNC has no code of its own: either
+/// of M7 and M8 will do.
+void check_program_coolant(const ProgramCase& c, Findings& findings);
 /// The tool table against the cutters: 4, 5, 6.
 void check_tool_table(const ProgramCase& c, const ToolTable& table, Findings& findings);
 /// Machine coordinates against the travel: 22.

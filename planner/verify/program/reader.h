@@ -43,10 +43,12 @@ struct Block {
   int tool = 0;              ///< loaded
   int length_offset = -1;    ///< H; -1 none; 0 for G43.1
   int radius_offset = -1;    ///< D while G41, G42
+  bool radius_left = false;  ///< G41
   int work_offset = 0;       ///< 540 .. 590, 591, 592, 593; 0: never stated
   bool retracted = false;    ///< the last move of Z went up in machine coordinates, or nothing moved yet
   bool cycle_active = false;
-  unsigned stated = 0;  ///< Stated bits set since the last marker
+  bool mist = false, flood = false;  ///< M7, M8
+  unsigned stated = 0;               ///< Stated bits set since the last marker
   bool units_stated = false;
 };
 

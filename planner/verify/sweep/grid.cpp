@@ -22,6 +22,7 @@ Grid::Grid(Vec2 lo, Vec2 hi, double cell_mm, long maximum_cells) : lo_(lo) {
   ny_ = count(h);
   stock.assign(index(0, ny_), kNothing);
   part.assign(index(0, ny_), kNothing);
+  base.assign(index(0, ny_), kNothing);
   before_.assign(index(0, ny_), kNothing);
   touched_.assign(index(0, ny_), 0U);
 }
@@ -100,6 +101,7 @@ struct Knife {
     const std::size_t i = grid.index(ix, iy);
     double& s = grid.stock[i];
     if (z >= s) return;
+    const double floor = grid.base[i];
     if (s > Grid::kNothing / 2) {
       bite.volume_mm3 += (s - std::max(z, floor)) * grid.cell() * grid.cell();
       bite.contact_mm = std::max(bite.contact_mm, s - tip_z);
@@ -118,7 +120,6 @@ struct Knife {
     bite.gouge_mm = below;
     bite.gouge_at = grid.centre(ix, iy);
   }
-  double floor = grid.floor;
 };
 
 /// Lowest height of the cutter over a point while it runs along a line; `d` is the distance of the point

@@ -34,6 +34,7 @@ class Grid {
 
   std::vector<double> stock;  ///< in-process height; kNothing: no material
   std::vector<double> part;   ///< finished height; kNothing: nothing stays here
+  std::vector<double> base;   ///< underside of the stock: above `floor` where it was cut from the other side
   static constexpr double kNothing = -1e9;
   double floor = kNothing;  ///< underside of the raw piece
 

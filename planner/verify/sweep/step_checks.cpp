@@ -53,8 +53,13 @@ StepChecks::StepChecks(const model::Plan& plan, const StepMoves& step, Grid& gri
       target_(target),
       out_(findings),
       profile_(model::profile_of(*step.cutter)),
+      body_(body_of(*step.cutter)),
       radius_(profile_.radius_mm),
       tip_mm_(model::tip_length(*step.cutter)) {
+  constexpr double kThicker = 0.02;  // mm: what is no thicker follows where the cutter has been
+  std::erase_if(body_, [&](const BodyPart& p) {
+    return p.what == BodyPart::What::kCutter || p.radius_mm <= radius_ + kThicker;
+  });
   const model::Executable* e =
       step.planned != nullptr ? plan.model.get<model::Executable>(step.planned->step) : nullptr;
   const auto* ws = e != nullptr ? plan.model.get<model::MachiningWorkingstep>(step.planned->step) : nullptr;
@@ -91,6 +96,7 @@ void StepChecks::run() {
 
 void StepChecks::rapid(const Move& m) {
   helix_turned_ = 0.0;
+  body(m);
   Vec2 where;
   const double dip = rapid_collision(grid_, m, profile_, kRapidClearanceMm, where);
   if (dip > 0.0) {
@@ -118,6 +124,7 @@ void StepChecks::feed(const Move& m) {
   if (judge_gouge_) gouge(m, bite);
   spindle(m, bite);
   reach(m);
+  body(m);
   if (bite.volume_mm3 > kTouchMm3) {
     contact(m, bite);
     entry(m, bite);
@@ -189,6 +196,32 @@ void StepChecks::reach(const Move& m) {
         13, "CHK-REACH", at(m),
         "the tip is " + mm(high - low) + " below the material beside the tool; it sticks out " + mm(length),
         high - low);
+  }
+}
+
+/// Shank and holder against what stands beside the tool: discs along the move that cover their bands.
+void StepChecks::body(const Move& m) {
+  const double low = std::min(m.from.z, m.to.z);
+  for (const BodyPart& p : body_) {
+    if (low + p.from_mm >= grid_.top() - kSlackMm) continue;
+    const double spacing = std::max(grid_.cell(), 0.25 * p.radius_mm);
+    const int n = std::clamp(static_cast<int>(std::ceil(length_of(m) / spacing)), 1, 4000);
+    const double half = 0.5 * length_of(m) / n;
+    const double r = std::hypot(p.radius_mm - kSlackMm, half);
+    for (int i = 0; i < n; ++i) {
+      const geometry::Vec3 at_point = point_of(m, (i + 0.5) / n);
+      const double z =
+          std::min(point_of(m, static_cast<double>(i) / n).z, point_of(m, static_cast<double>(i + 1) / n).z);
+      if (z + p.from_mm >= grid_.top() - kSlackMm) continue;
+      const double into = grid_.highest(xy(at_point), r) - (z + p.from_mm);
+      if (into <= kSlackMm) continue;
+      const bool holder = p.what == BodyPart::What::kHolder;
+      out_.error(12, holder ? "CHK-HOLDER" : "CHK-SHANK", at(m),
+                 std::string(to_text(p.what)) + " (diameter " + mm(2.0 * p.radius_mm) + ", from " +
+                     mm(p.from_mm) + " above the tip) runs " + mm(into) + " into material beside " +
+                     here(xy(at_point)) + " with the tip at z = " + plain(z),
+                 into);
+    }
   }
 }
 

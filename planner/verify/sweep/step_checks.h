@@ -7,6 +7,7 @@
 #include "planner/verify/moves.h"
 #include "planner/verify/sweep/grid.h"
 #include "planner/verify/sweep/target.h"
+#include "planner/verify/sweep/tool_body.h"
 
 namespace capstan::verify {
 
@@ -22,6 +23,7 @@ class StepChecks {
   void gouge(const Move& m, const Bite& bite);
   void contact(const Move& m, const Bite& bite);
   void reach(const Move& m);
+  void body(const Move& m);
   void entry(const Move& m, const Bite& bite);
   void spindle(const Move& m, const Bite& bite);
   void account(const Move& m, const Bite& bite);
@@ -40,6 +42,7 @@ class StepChecks {
   Target& target_;
   Findings& out_;
   geometry::CutterProfile profile_;
+  std::vector<BodyPart> body_;  ///< shank and holder, thicker than what cuts below them
   double radius_, tip_mm_;
   bool judge_gouge_ = true;
   double helix_turned_ = 0.0;  ///< rad, of a descending spiral so far

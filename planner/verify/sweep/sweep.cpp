@@ -5,6 +5,9 @@
 #include <memory>
 #include <optional>
 
+#include "planner/verify/sweep/carry.h"
+#include "planner/verify/sweep/fixtures.h"
+#include "planner/verify/sweep/grip.h"
 #include "planner/verify/sweep/step_checks.h"
 #include "planner/verify/verify.h"
 
@@ -48,10 +51,14 @@ void check_removal(const model::Plan& plan, const std::vector<StepMoves>& steps,
                   "there is no raw piece, so that removal cannot be checked");
     return;
   }
+  check_fixtures(plan, steps, findings);
   const PartShapes part = shapes_of_part(plan);
   const double cell = cell_of(plan);
-  // Set-ups that hold the piece alike go on with the same stock.
+  // Set-ups that hold the piece alike go on with the same stock; others begin with what is left.
   std::vector<std::unique_ptr<Scene>> scenes;
+  Scene* last = nullptr;
+  std::optional<Grip> grip;
+  std::size_t held = static_cast<std::size_t>(-1);
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const StepMoves& step = steps[i];
     job.progress("check", static_cast<double>(i) / static_cast<double>(steps.size()));
@@ -62,18 +69,23 @@ void check_removal(const model::Plan& plan, const std::vector<StepMoves>& steps,
       if (s->target.frame() == frame) scene = s.get();
     }
     if (scene == nullptr) {
-      if (!scenes.empty()) {
-        findings.note(
-            9, "CHK-STOCK-FRESH", {step.order + 1, step.id, -1},
-            "the set-up is checked against the whole raw piece: what another one took from it is not "
-            "carried over");
-      }
       scenes.push_back(std::make_unique<Scene>(plan, part, step.setup, cell));
       scene = scenes.back().get();
+    }
+    if (scene != last) {
+      for (const auto& s : scenes) {
+        if (s.get() != scene) carry(scene->grid, frame, s->grid, s->target.frame());
+      }
+      last = scene;
+    }
+    if (step.setup != held && step.setup < plan.setups.size()) {
+      held = step.setup;
+      grip.emplace(plan.setups[held].holding, scene->grid, step, findings);
     }
     if (!sound(step.cutter)) continue;
     StepChecks(plan, step, scene->grid, scene->target, findings).run();
     scene->grid.find_top();
+    if (grip && step.setup == held) grip->after(step, scene->grid, findings);
   }
 }
 

@@ -171,6 +171,7 @@ void Target::fill(Grid& grid) {
       const Vec2 p = grid.centre(ix, iy);
       const bool there = !round_ || norm(p - 0.5 * (xy(stock_.lo) + xy(stock_.hi))) <= *round_;
       grid.stock[grid.index(ix, iy)] = there ? stock_.hi.z : Grid::kNothing;
+      grid.base[grid.index(ix, iy)] = stock_.lo.z;
       grid.part[grid.index(ix, iy)] = outside(p) || plan_.target_mesh ? Grid::kNothing : part_box_.hi.z;
     }
   }

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <vector>
+
+#include "planner/model/plan.h"
+#include "planner/verify/findings.h"
+#include "planner/verify/moves.h"
+
+namespace capstan::verify {
+
+/// Sweeps every tool, its shank and holder against the solids that hold the piece: 9 (rapids, axes taken as
+/// not arriving together), 12 (shank and holder), 31 (clamps untouched).
+///
+/// Accuracy  exact in XY for lines and rapids, 5 um for arcs; a sloping line is cut into pieces and each is
+///           taken at its lower end.
+/// Source    derived.
+void check_fixtures(const model::Plan& plan, const std::vector<StepMoves>& steps, Findings& findings);
+
+}  // namespace capstan::verify
