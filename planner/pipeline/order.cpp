@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "planner/pipeline/work.h"
 #include "planner/sequence/order.h"
@@ -11,12 +12,63 @@ namespace {
 
 using model::Model;
 
+constexpr std::size_t kMostWishes = 20000;  // each is held against those before it
+
+std::string named(const Model& m, AnyRef feature) {
+  const auto* f = m.get<model::ManufacturingFeature>(feature);
+  return "'" + (f == nullptr ? std::string() : f->its_id.value_or("")) + "'";
+}
+
+/// Datum features first: between all shapes of the one and of the other.
+std::vector<sequence::Wish> wishes_of(const Work& w,
+                                      const std::map<AnyRef, std::set<std::size_t>>& shapes_of) {
+  std::vector<sequence::Wish> out;
+  for (const model::Tie& tie : w.ties) {
+    const auto first = shapes_of.find(tie.first);
+    const auto second = shapes_of.find(tie.second);
+    if (tie.letter.empty() || first == shapes_of.end() || second == shapes_of.end()) continue;
+    const std::string text = "datum " + tie.letter + " (" + named(w.plan.model, tie.first) +
+                             ") first, before " + named(w.plan.model, tie.second) + ": " + tie.text;
+    for (const std::size_t a : first->second) {
+      for (const std::size_t b : second->second) {
+        if (out.size() < kMostWishes) out.push_back({a, b, text});
+      }
+    }
+  }
+  return out;
+}
+
+/// Features that a tolerance ties together and that are not made in one set-up: said, for the tolerance then
+/// holds only as well as the clamping repeats.
+void warn_of_parted(Work& w) {
+  std::map<AnyRef, std::set<std::size_t>> setups;
+  for (const StepWork& s : w.steps) {
+    if (s.feature.set()) setups[s.feature].insert(s.setup);
+    for (const auto& shape : s.shapes) setups[shape.feature].insert(s.setup);
+  }
+  std::set<std::string> said;
+  for (const model::Tie& tie : w.ties) {
+    const auto a = setups.find(tie.first);
+    const auto b = setups.find(tie.second);
+    if (a == setups.end() || b == setups.end()) continue;
+    std::set<std::size_t> both = a->second;
+    both.insert(b->second.begin(), b->second.end());
+    if (both.size() < 2) continue;
+    const std::string datum = tie.letter.empty() ? "" : " (datum " + tie.letter + ")";
+    const std::string text = named(w.plan.model, tie.second) + " and " + named(w.plan.model, tie.first) +
+                             datum + " are not cut in one set-up, for no direction reaches both; '" +
+                             tie.text + "' between them holds only as well as the part is located again";
+    if (said.insert(text).second) w.job.warn("PIP-TIED", text);
+  }
+}
+
 /// Steps of a file keep the file's order and come first; what rules proposed follows, ordered.
 Result<sequence::Order> order_of(Work& w, const std::vector<std::size_t>& proposed) {
   std::vector<model::FeatureShape> shapes;
   std::vector<sequence::Item> items;
   std::map<std::size_t, std::size_t> item_of;  // step -> item
   std::map<AnyRef, int> chain;
+  std::map<AnyRef, std::set<std::size_t>> shapes_of;
   sequence::Options options;
   for (const std::size_t i : proposed) {
     const StepWork& s = w.steps[i];
@@ -28,6 +80,8 @@ Result<sequence::Order> order_of(Work& w, const std::vector<std::size_t>& propos
         item.feature = k;
     }
     if (item.feature == shapes.size()) shapes.push_back(s.shapes.front());
+    shapes_of[s.feature].insert(item.feature);
+    shapes_of[s.shapes.front().feature].insert(item.feature);
     item.in_chain = chain[s.feature]++;
     item.name = s.proposal.name;
     item.cutter_id = s.cutter.id;
@@ -40,6 +94,7 @@ Result<sequence::Order> order_of(Work& w, const std::vector<std::size_t>& propos
       if (item_of.contains(before)) options.given.emplace_back(item_of[before], item_of[i]);
     }
   }
+  options.wishes = wishes_of(w, shapes_of);
   for (const SetupWork& s : w.setups)
     options.directions.push_back(s.workpiece.direction_to_local({0.0, 0.0, 1.0}));
   return sequence::order(shapes, items, options, w.job);
@@ -98,10 +153,14 @@ std::string words(const sequence::Order& order) {
   std::string out = std::to_string(order.precedences.size()) + " precedences kept, " +
                     std::to_string(order.tool_changes) + " tool changes";
   std::size_t said = 0;
-  for (const auto& p : order.precedences) {
-    if (p.cause == sequence::Cause::kChain || p.text.empty()) continue;
-    out += "; " + p.text;
-    if (++said == 12) break;
+  std::set<std::string> texts;
+  for (const bool datums : {true, false}) {
+    for (const auto& p : order.precedences) {
+      if (p.cause == sequence::Cause::kChain || p.text.empty()) continue;
+      if ((p.cause == sequence::Cause::kDatum) != datums || !texts.insert(p.text).second) continue;
+      out += "; " + p.text;
+      if (++said == 12) return out;
+    }
   }
   return out;
 }
@@ -128,7 +187,10 @@ Status order_steps(Work& w) {
   std::vector<std::size_t> given;
   std::vector<std::size_t> proposed;
   for (std::size_t i = 0; i < w.steps.size(); ++i) (w.steps[i].proposed ? proposed : given).push_back(i);
-  if (proposed.empty()) return {};
+  if (proposed.empty()) {
+    warn_of_parted(w);
+    return {};
+  }
   const auto order = order_of(w, proposed);
   if (!order) return tl::unexpected(order.error());
   if (!order->cannot.empty()) return fail("PIP-ORDER", "no order of the steps exists: " + order->cannot);
@@ -139,7 +201,8 @@ Status order_steps(Work& w) {
   }
   w.steps = std::move(sorted);
   for (const auto& d : order->dropped)
-    w.job.note("PIP-ORDER", "an order found by geometry gives way to a given one: " + d.text);
+    w.job.note("PIP-ORDER", "an order that was found gives way to one that must hold: " + d.text);
+  warn_of_parted(w);
   rebuild_workplan(w, !given.empty());
   const auto* project = w.plan.model.get<model::Project>(w.plan.project);
   w.plan.ledger.bind(project->main_workplan, "its_elements", model::Binder::kRule,

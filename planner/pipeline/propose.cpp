@@ -201,15 +201,45 @@ class Proposer {
   }
 
  private:
+  static bool plain_through(const FeatureShape& s) {
+    return s.kind == model::ShapeKind::kHole && s.through && s.bottom_diameter_mm == s.diameter.nominal_mm;
+  }
+
+  /// From which side the features are cut that tolerances tie to this one, directly or through others.
+  struct Sides {
+    bool same = false, opposite = false;
+  };
+  [[nodiscard]] Sides sides_tied_to(AnyRef f, geometry::Vec3 z) const {
+    std::set<AnyRef> joined{f};
+    for (bool grown = true; grown;) {
+      grown = false;
+      for (const model::Tie& t : w_.ties) {
+        if (joined.contains(t.first) == joined.contains(t.second)) continue;
+        joined.insert(t.first);
+        joined.insert(t.second);
+        grown = true;
+      }
+    }
+    Sides out;
+    if (joined.size() == 1) return out;
+    for (const FeatureShape& s : w_.shapes) {
+      if (s.feature == f || !joined.contains(s.feature) || plain_through(s)) continue;
+      out.same = out.same || std::abs(dot(s.frame.z, z) - 1.0) < kSameAxis;
+      out.opposite = out.opposite || std::abs(dot(s.frame.z, z) + 1.0) < kSameAxis;
+    }
+    return out;
+  }
+
   /// A hole right through, seen from the other side when only that is up in some set-up.
-  [[nodiscard]] FeatureShape reachable_side(const FeatureShape& s) const {
-    const bool plain =
-        s.kind == model::ShapeKind::kHole && s.through && s.bottom_diameter_mm == s.diameter.nominal_mm;
-    if (!plain) return s;
-    bool below = false;
+  /// Or from the side from which everything is cut that a tolerance ties it to.
+  [[nodiscard]] FeatureShape reachable_side(AnyRef f, const FeatureShape& s) const {
+    if (!plain_through(s)) return s;
+    const Sides tied = sides_tied_to(f, s.frame.z);
+    if (tied.same) return s;
+    bool below = tied.opposite;
     for (const SetupWork& setup : w_.setups) {
       const auto up = setup.workpiece.direction_to_parent(s.frame.z);
-      if (std::abs(up.z - 1.0) < kSameAxis) return s;
+      if (!tied.opposite && std::abs(up.z - 1.0) < kSameAxis) return s;
       below = below || std::abs(up.z + 1.0) < kSameAxis;
     }
     // Only from where it comes out: a hole that ends inside the piece has no other side.
@@ -228,7 +258,7 @@ class Proposer {
       unplanned(w_, given, p.cannot);
       return {};
     }
-    const FeatureShape s = reachable_side(given);
+    const FeatureShape s = reachable_side(f, given);
     std::vector<model::Rejected> rejected = p.rejected;
     const Chosen chosen = choose(w_, p, library_, rejected);
     if (chosen.chain == nullptr) {

@@ -21,6 +21,10 @@ Status validate(const std::vector<model::FeatureShape>& shapes, const std::vecto
     if (a >= items.size() || b >= items.size())
       return fail("SEQ-INDEX", "a given precedence names a step that is not there");
   }
+  for (const Wish& w : options.wishes) {
+    if (w.before >= shapes.size() || w.after >= shapes.size())
+      return fail("SEQ-INDEX", "a wish names a feature that is not there");
+  }
   return {};
 }
 
@@ -45,6 +49,7 @@ class Scheduler {
     for (const Precedence& p : precedences) {
       next_[p.before].push_back(p.after);
       ++blocked_[p.after];
+      if (side_of(p.before) != side_of(p.after)) across_.emplace_back(p.before, p.after);
     }
     for (std::size_t i = 0; i < items.size(); ++i) {
       ++pool(i).waiting;
@@ -118,10 +123,20 @@ class Scheduler {
     return i;
   }
 
-  // Of the sides with something ready: wanted ones in their order, then the one with most steps left.
+  [[nodiscard]] std::size_t side_of(std::size_t i) const { return access_.of_feature[items_[i].feature]; }
+
+  /// Whether a side would have to be visited again, for some of its steps wait for other sides.
+  [[nodiscard]] bool waits(std::size_t side) const {
+    return std::any_of(across_.begin(), across_.end(), [&](const auto& p) {
+      return !done_[p.first] && !done_[p.second] && side_of(p.second) == side;
+    });
+  }
+
+  // Of the sides with something ready: one that waits for no other, then wanted ones in their order, then the
+  // one with most steps left.
   [[nodiscard]] std::size_t pick_side() const {
     std::size_t best = kNone;
-    std::tuple<std::size_t, std::size_t> best_key;
+    std::tuple<bool, std::size_t, std::size_t> best_key;
     for (std::size_t side = 0; side < pools_.size(); ++side) {
       std::size_t ready = 0, waiting = 0;
       for (const auto& [tool, p] : pools_[side]) {
@@ -129,7 +144,7 @@ class Scheduler {
         waiting += p.waiting;
       }
       if (ready == 0) continue;
-      const std::tuple key{side < wanted_ ? side : wanted_,
+      const std::tuple key{waits(side), side < wanted_ ? side : wanted_,
                            std::numeric_limits<std::size_t>::max() - waiting};
       if (best == kNone || key < best_key) {
         best = side;
@@ -180,6 +195,7 @@ class Scheduler {
   std::vector<std::vector<std::size_t>> next_;
   std::vector<std::size_t> blocked_;
   std::vector<bool> done_;
+  std::vector<std::pair<std::size_t, std::size_t>> across_;  // precedences between sides
   std::vector<Pools> pools_;
   std::size_t remaining_ = 0;
   std::string tool_;
@@ -200,6 +216,25 @@ std::string describe(const std::vector<std::size_t>& cycle, const std::vector<It
   return out;
 }
 
+/// Moves the wishes between sides to those dropped when some side is visited twice; whether any was moved.
+bool keep_sides_whole(const std::vector<Item>& items, const Access& access, Order& out) {
+  std::vector<geometry::Vec3> seen;
+  bool twice = false;
+  for (const SetupOrder& s : out.setups) {
+    twice = twice || std::find(seen.begin(), seen.end(), s.direction) != seen.end();
+    seen.push_back(s.direction);
+  }
+  if (!twice) return false;
+  const auto side = [&](std::size_t i) { return access.of_feature[items[i].feature]; };
+  const auto moved = std::stable_partition(
+      out.precedences.begin(), out.precedences.end(),
+      [&](const Precedence& p) { return p.cause != Cause::kDatum || side(p.before) == side(p.after); });
+  const bool any = moved != out.precedences.end();
+  out.dropped.insert(out.dropped.end(), moved, out.precedences.end());
+  out.precedences.erase(moved, out.precedences.end());
+  return any;
+}
+
 }  // namespace
 
 Result<std::vector<Precedence>> precedences(const std::vector<model::FeatureShape>& shapes,
@@ -215,10 +250,18 @@ Result<Order> order(const std::vector<model::FeatureShape>& shapes, const std::v
   Order out;
   const Access access = access_of(shapes, options);
   out.precedences = all_precedences(shapes, items, options, access, out.dropped);
-  for (const Precedence& p : out.dropped)
-    job.note("SEQ-GIVEN", "not kept, for the opposite is given: " + p.text);
   Scheduler scheduler(items, access, out.precedences, options.directions.size());
-  if (!scheduler.run(out)) {
+  bool done = scheduler.run(out);
+  if (done && out.setups.size() > 1 && keep_sides_whole(items, access, out)) {
+    // A wish between sides is not worth another clamping.
+    out.setups.clear();
+    out.tool_changes = 0;
+    Scheduler again(items, access, out.precedences, options.directions.size());
+    done = again.run(out);
+  }
+  for (const Precedence& p : out.dropped)
+    job.note("SEQ-GIVEN", "not kept, for what must hold says otherwise: " + p.text);
+  if (!done) {
     out.cycle = scheduler.cycle(out.precedences);
     out.cannot = describe(out.cycle, items, out.precedences);
     out.setups.clear();

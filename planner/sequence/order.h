@@ -33,6 +33,7 @@ enum class Cause : std::uint8_t {
   kLiesIn,     ///< the second feature begins at the floor, or in the volume, of the first
   kThread,     ///< the hole before the thread in it
   kEdge,       ///< the feature before the chamfer along its edge
+  kDatum,      ///< a datum feature before what refers to it
 };
 [[nodiscard]] std::string_view to_text(Cause c);
 
@@ -55,15 +56,25 @@ struct SetupOrder {
 struct Order {
   std::vector<SetupOrder> setups;
   std::vector<Precedence> precedences;  ///< all that were kept, by (before, after)
-  std::vector<Precedence> dropped;      ///< found by geometry, but given the other way round: given wins
+  /// Found by geometry, but given the other way round (given wins); wishes that could not be kept.
+  std::vector<Precedence> dropped;
   std::vector<std::size_t> cycle;  ///< outcome when there is no order: items, each before the next, the last
                                    ///< before the first; `setups` is empty then
   std::string cannot;              ///< names the steps of the cycle and their causes
   std::size_t tool_changes = 0;    ///< counted over the whole order, the first tool included
 };
 
+/// One feature wanted before another, where nothing that must hold says otherwise.
+struct Wish {
+  std::size_t before = 0, after = 0;  ///< shapes
+  std::string text;                   ///< "datum A (face 'top') before hole 'H1': position 0.05 | A"
+};
+
 /// What is known besides shapes and items.
 struct Options {
+  /// Datum features before what refers to them. One that contradicts a given, a geometric or an earlier one,
+  /// or for which a side would have to be visited once more, is in Order::dropped.
+  std::vector<Wish> wishes;
   /// Pairs of items (before, after) that hold whatever geometry says.
   std::vector<std::pair<std::size_t, std::size_t>> given;
   /// Directions known beforehand, in the order wanted; others follow by the number of their steps.
@@ -77,10 +88,10 @@ inline constexpr double kSameDirection = 1e-6;
 ///
 /// A feature is cut from its frame's z; a through hole whose z has no set-up of its own is cut from the
 /// opposite side when that is one (`Order` then lists it there: its shape is the caller's to turn round).
-/// Set-ups follow the precedences between them, then `Options::directions`, then most steps first. Within a
-/// set-up the next step is one whose predecessors are done: with the tool in the spindle when there is one,
-/// else the tool with which most steps can be made in one go, one it will not need again first; ties by
-/// feature, then by chain.
+/// Set-ups follow the precedences between them (one that waits for no other first), then
+/// `Options::directions`, then most steps first. Within a set-up the next step is one whose predecessors are
+/// done: with the tool in the spindle when there is one, else the tool with which most steps can be made in
+/// one go, one it will not need again first; ties by feature, then by chain.
 ///
 /// Fails   SEQ-INDEX for an item that names no shape.
 /// Cost    n log n and a sweep over the features' boxes: n^1.5 for n scattered on a square.

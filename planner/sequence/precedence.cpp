@@ -106,6 +106,38 @@ bool precedes(const FeatureShape& a, const Seen& sa, const FeatureShape& b, cons
   return reached && sb.top < sa.top - kLevel;
 }
 
+/// Whether `to` comes after `from` by the edges so far.
+bool follows(const std::vector<std::vector<std::size_t>>& next, std::size_t from, std::size_t to) {
+  std::vector<bool> seen(next.size());
+  std::vector<std::size_t> pending{from};
+  while (!pending.empty()) {
+    const std::size_t at = pending.back();
+    pending.pop_back();
+    if (at == to) return true;
+    if (seen[at]) continue;
+    seen[at] = true;
+    pending.insert(pending.end(), next[at].begin(), next[at].end());
+  }
+  return false;
+}
+
+/// Wishes that contradict nothing that is there already, in their order.
+void add_wishes(const std::vector<Wish>& wishes, const std::vector<std::vector<std::size_t>>& chains,
+                std::size_t items, std::vector<Precedence>& out, std::vector<Precedence>& dropped) {
+  std::vector<std::vector<std::size_t>> next(items);
+  for (const Precedence& p : out) next[p.before].push_back(p.after);
+  std::set<std::pair<std::size_t, std::size_t>> known;
+  for (const Wish& w : wishes) {
+    if (w.before == w.after || chains[w.before].empty() || chains[w.after].empty()) continue;
+    const std::size_t a = chains[w.before].back();
+    const std::size_t b = chains[w.after].front();
+    if (!known.emplace(a, b).second) continue;
+    const bool against = follows(next, b, a);
+    (against ? dropped : out).push_back({a, b, Cause::kDatum, w.text});
+    if (!against) next[a].push_back(b);
+  }
+}
+
 std::string label(const FeatureShape& s, std::size_t i) {
   const std::string name = s.name.empty() ? "number " + std::to_string(i) : "'" + s.name + "'";
   return std::string(model::to_text(s.kind)) + " " + name;
@@ -131,8 +163,8 @@ std::string words(const std::vector<FeatureShape>& shapes, const FeaturePair& p)
 }  // namespace
 
 std::string_view to_text(Cause c) {
-  static constexpr std::array<std::string_view, 6> kNames{"given",   "chain",  "face first",
-                                                          "lies in", "thread", "edge"};
+  static constexpr std::array<std::string_view, 7> kNames{"given",  "chain", "face first", "lies in",
+                                                          "thread", "edge",  "datum"};
   return kNames.at(static_cast<std::size_t>(c));
 }
 
@@ -221,6 +253,7 @@ std::vector<Precedence> all_precedences(const std::vector<FeatureShape>& shapes,
     Precedence edge{chains[p.before].back(), chains[p.after].front(), p.cause, words(shapes, p)};
     (given.contains({p.after, p.before}) ? dropped : out).push_back(std::move(edge));
   }
+  add_wishes(options.wishes, chains, items.size(), out, dropped);
   std::stable_sort(out.begin(), out.end(), [](const Precedence& a, const Precedence& b) {
     return a.before != b.before ? a.before < b.before : a.after < b.after;
   });

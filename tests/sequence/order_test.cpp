@@ -217,5 +217,52 @@ TEST(Order, StaysWellBelowQuadraticFrom2000To16000Features) {
   EXPECT_LT(large, 40.0 * small) << small << " s, " << large << " s";
 }
 
+TEST(Datums, ComeFirstWithTheirReason) {
+  // Two like holes with one drill: by number the first would come first.
+  const std::vector<FeatureShape> shapes{hole("H1", {0, 0, 0}, 6, 8), hole("H2", {40, 0, 0}, 6, 8)};
+  const std::vector<Item> items{step(0, 0, "drill"), step(1, 0, "drill")};
+  Options options;
+  options.wishes.push_back({1, 0, "datum B first"});
+  const Order o = ordered(shapes, items, options);
+  EXPECT_EQ(executed(o), (std::vector<std::size_t>{1, 0}));
+  ASSERT_EQ(o.precedences.size(), 1U);
+  EXPECT_EQ(o.precedences[0].cause, Cause::kDatum);
+  EXPECT_EQ(o.precedences[0].text, "datum B first");
+}
+
+TEST(Datums, GiveWayToWhatMustHold) {
+  const Plate p;
+  Options options;
+  options.wishes.push_back({0, 2, "the hole in the floor before its pocket"});
+  options.wishes.push_back({1, 2, "the hole beside it before the pocket"});
+  options.wishes.push_back({2, 1, "and the other way round"});
+  const Order o = ordered(p.shapes, p.items, options);
+  ASSERT_EQ(o.dropped.size(), 2U);
+  EXPECT_EQ(o.dropped[0].text, "the hole in the floor before its pocket");
+  EXPECT_EQ(o.dropped[1].text, "and the other way round");
+  EXPECT_TRUE(broken(o.precedences, executed(o)).empty());
+}
+
+TEST(Datums, DecideWhichSideIsFirstButCostNoFurtherClamping) {
+  // The datum is cut from below; above there is a hole that refers to it, and one that does not.
+  std::vector<FeatureShape> shapes{hole("H1", {0, 0, 0}, 6, 8), hole("H2", {40, 0, 0}, 6, 8),
+                                   from_below(block(ShapeKind::kPocket, "datum", {0, 0, -30}, 5, 4))};
+  const std::vector<Item> items{step(0, 0, "drill"), step(1, 0, "drill"), step(2, 0, "mill")};
+  Options options;
+  options.directions = {{0, 0, 1}, {0, 0, -1}};
+  options.wishes.push_back({2, 0, "datum first"});
+  const Order o = ordered(shapes, items, options);
+  ASSERT_EQ(o.setups.size(), 2U);
+  EXPECT_EQ(o.setups[0].steps, (std::vector<std::size_t>{2}));
+  // A second datum above, for something below: one of the two has to give way, and no side comes twice.
+  shapes.push_back(from_below(hole("H3", {60, 0, -30}, 6, 8)));
+  std::vector<Item> more = items;
+  more.push_back(step(3, 0, "drill"));
+  options.wishes.push_back({1, 3, "the other datum first"});
+  const Order both = ordered(shapes, more, options);
+  EXPECT_EQ(both.setups.size(), 2U);
+  EXPECT_EQ(both.dropped.size(), 2U);
+}
+
 }  // namespace
 }  // namespace capstan::sequence
