@@ -18,26 +18,27 @@ using model::TypeId;
 
 constexpr double kRetract = 5.0;  // retract plane above the material over a feature, mm; default, unsourced
 
-Ref<model::MachineFunctions> functions(Model& m, bool coolant) {
+Ref<model::MachineFunctions> functions(Model& m, bool coolant, bool through) {
   for (const AnyRef r : m.all(TypeId::kMillingMachineFunctions)) {
     const auto* f = m.get<model::MillingMachineFunctions>(r);
-    if (m.origin(r).instance == 0 && f->coolant == coolant) return Ref<model::MachineFunctions>(r);
+    if (m.origin(r).instance == 0 && f->coolant == coolant && f->through_spindle_coolant == through)
+      return Ref<model::MachineFunctions>(r);
   }
   model::MillingMachineFunctions f;
   f.coolant = coolant;
-  f.through_spindle_coolant = false;
+  f.through_spindle_coolant = through;
   f.chip_removal = false;
   f.axis_clamping.given = true;
   f.other_functions.given = true;
   return m.add(f);
 }
 
-Ref<model::Technology> technology(Model& m) {
+Ref<model::Technology> technology(Model& m, bool lock_override) {
   model::MillingTechnology t;
   t.feedrate_reference = model::ToolReferencePoint::kTcp;
   t.synchronize_spindle_with_feed = false;
-  t.inhibit_feedrate_override = false;
-  t.inhibit_spindle_override = false;
+  t.inhibit_feedrate_override = lock_override;
+  t.inhibit_spindle_override = lock_override;
   return m.add(t);
 }
 
@@ -77,12 +78,21 @@ double material_above(const geometry::Box3& raw, const geometry::Placement& fram
 }
 
 void fill_milling(Model& m, AnyRef op, const model::ProposedStep& step) {
-  if (auto* o = m.get<model::Two5dMillingOperation>(op)) o->its_machining_strategy = strategy(m, step);
+  if (auto* o = m.get<model::Two5dMillingOperation>(op)) {
+    const auto made = strategy(m, step);
+    if (auto* s = m.get<model::Two5dMillingStrategy>(made); s != nullptr && step.one_level)
+      s->allow_multiple_passes = false;
+    o->its_machining_strategy = made;
+  }
   if (auto* o = m.get<model::PlaneMilling>(op)) o->allowance_bottom = step.allowance_bottom_mm;
-  if (auto* o = m.get<model::SideMilling>(op)) o->allowance_side = step.allowance_side_mm;
+  if (auto* o = m.get<model::SideMilling>(op)) {
+    o->allowance_side = step.allowance_side_mm;
+    if (step.axial_depth_mm > 0.0) o->axial_cutting_depth = step.axial_depth_mm;
+  }
   if (auto* o = m.get<model::BottomAndSideMilling>(op)) {
     o->allowance_side = step.allowance_side_mm;
     o->allowance_bottom = step.allowance_bottom_mm;
+    if (step.axial_depth_mm > 0.0) o->axial_cutting_depth = step.axial_depth_mm;
   }
 }
 
@@ -141,8 +151,8 @@ Ref<model::MachiningWorkingstep> add_nouns(Work& w, const model::ProposedStep& s
   model::Ledger& ledger = w.plan.ledger;
   const AnyRef op = m.add_object(step.operation);
   const auto made_tool = tool_noun(w, tool.cutter);
-  const auto made_technology = technology(m);
-  const auto made_functions = functions(m, step.coolant);
+  const auto made_technology = technology(m, step.lock_override);
+  const auto made_functions = functions(m, step.coolant, step.coolant_through);
   auto* o = m.get<model::MachiningOperation>(op);
   o->its_id = step.name;
   o->its_tool = made_tool;
@@ -170,9 +180,9 @@ Ref<model::MachiningWorkingstep> add_nouns(Work& w, const model::ProposedStep& s
   const DecisionKey chain{made, "its_operation"};
   ledger.bind(made, "its_operation", Binder::kRule, step.why, {}, std::move(rejected_chains));
   ledger.bind(op, "its_tool", Binder::kToolSelection, tool.why, {chain}, std::move(rejected_tools));
-  for (const char* name :
-       {"its_machining_strategy", "allowance_side", "allowance_bottom", "cutting_depth", "previous_diameter",
-        "dwell_time_bottom", "first_depth", "depth_of_step", "its_machine_functions"}) {
+  for (const char* name : {"its_machining_strategy", "axial_cutting_depth", "allowance_side",
+                           "allowance_bottom", "cutting_depth", "previous_diameter", "dwell_time_bottom",
+                           "first_depth", "depth_of_step", "its_machine_functions"}) {
     const auto* a = model::find_attribute(op.type, name);
     if (a != nullptr && model::has_value(*a, m.object(op)))
       ledger.bind(op, name, Binder::kRule, step.why, {chain});

@@ -30,6 +30,33 @@ struct Left {
   double side_mm = 0.0, bottom_mm = 0.0;
 };
 
+/// A milling step done, for those after it that cut only what it could not reach.
+struct Milled {
+  model::TypeId operation = model::TypeId::kNone;
+  double diameter_mm = 0.0, corner_radius_mm = 0.0, side_mm = 0.0, bottom_mm = 0.0;
+};
+
+bool is_end_mill(const model::Cutter& c) {
+  return c.cutter_class == model::CutterClass::kEndmill ||
+         c.cutter_class == model::CutterClass::kBullnoseEndmill;
+}
+
+/// The earlier step that reached all of the area but corners and narrow places, if this one has a smaller
+/// cutter and leaves the same: then there is no more to do than the rest.
+std::optional<toolpath::Cleared> cleared_by(const std::vector<Milled>& before, const toolpath::PathJob& job) {
+  constexpr double kSame = 1e-6;
+  std::optional<toolpath::Cleared> out;
+  for (const Milled& b : before) {
+    if (b.operation != job.operation || std::abs(b.side_mm - job.allowance_side_mm) > kSame ||
+        b.bottom_mm > job.allowance_bottom_mm + kSame ||
+        b.diameter_mm < job.cutter.cutting_diameter_mm + kSame)
+      continue;
+    if (!out || b.diameter_mm < out->diameter_mm)
+      out = toolpath::Cleared{b.diameter_mm, b.corner_radius_mm, b.side_mm};
+  }
+  return out;
+}
+
 /// What one try at a step came to.
 struct Made {
   toolpath::GeneratedPath path;
@@ -291,6 +318,25 @@ class PathMaker {
       job.left_on_side_mm = it->second.side_mm;
       job.left_on_bottom_mm = it->second.bottom_mm;
     }
+    take_rest(step, job);
+  }
+
+  /// Whether the step cuts what an earlier one left, and whether a later one will do so after it. A step that
+  /// rules proposed says so itself; of one that was read, its nouns tell.
+  void take_rest(const StepWork& step, toolpath::PathJob& job) const {
+    const bool area = job.shape.kind == ShapeKind::kPocket || job.shape.kind == ShapeKind::kSlot;
+    if (!area || !is_end_mill(job.cutter)) return;
+    if (step.proposed) {
+      const auto after = [&](const StepWork& s) {
+        return s.feature == step.feature && s.proposal.rest_of_diameter_mm > 0.0 &&
+               s.operation.type == step.operation.type;
+      };
+      job.rest_follows =
+          step.proposal.rest_of_diameter_mm == 0.0 && std::any_of(w_.steps.begin(), w_.steps.end(), after);
+      if (step.proposal.rest_of_diameter_mm == 0.0) return;
+    }
+    const auto it = milled_.find({step.feature, job.shape.member});
+    if (it != milled_.end()) job.cleared_by = cleared_by(it->second, job);
   }
 
   Result<optimise::CutAnswer> cut(const optimise::CutQuestion& q) {
@@ -307,6 +353,11 @@ class PathMaker {
       const auto job = job_of(w_, step, shape);
       if (w_.plan.model.holds<model::Two5dMillingOperation>(step.operation)) {
         left_[{step.feature, shape.member}] = {job.allowance_side_mm, job.allowance_bottom_mm};
+        if (is_end_mill(step.cutter)) {
+          milled_[{step.feature, shape.member}].push_back({job.operation, step.cutter.cutting_diameter_mm,
+                                                           step.cutter.corner_radius_mm,
+                                                           job.allowance_side_mm, job.allowance_bottom_mm});
+        }
       }
       const bool bores = w_.plan.model.holds<model::DrillingTypeOperation>(step.operation) &&
                          !w_.plan.model.holds<model::CenterDrilling>(step.operation) &&
@@ -484,6 +535,7 @@ class PathMaker {
   Work& w_;
   std::vector<std::optional<stock::HeightMap>> maps_;
   std::map<std::pair<AnyRef, int>, Left> left_;
+  std::map<std::pair<AnyRef, int>, std::vector<Milled>> milled_;
   std::map<std::pair<AnyRef, int>, double> holes_;  ///< diameter made so far, mm
   std::map<QuestionKey, optimise::CutAnswer> answers_;
   optimise::Options options_;

@@ -141,6 +141,19 @@ optimise::CutQuestion question_of(const Work& w, const StepWork& step, const mod
       q.ap_mm = std::min(step.cutter.maximum_depth_of_cut_mm, job.shape.thread_pitch_mm);
     }
   }
+  const bool floor_only =
+      job.multiple_passes.has_value() && !*job.multiple_passes && job.left_on_bottom_mm.value_or(0.0) > 0.0;
+  if (q.kind == CutKind::kFinish && floor_only) {
+    // A floor alone: as wide as a rough pass, as deep as what is left on it.
+    q.kind = CutKind::kRough;
+    q.width_mm = width_of(job.shape);
+    q.depth_mm = std::max(0.0, *job.left_on_bottom_mm - job.allowance_bottom_mm);
+    q.ap_mm = q.depth_mm;
+  } else if (q.kind == CutKind::kFinish && job.cleared_by) {
+    // Between two right-angled corners of radius R and r stand (sqrt 2 - 1)(R - r) at most.
+    q.width_mm += 0.41422 * std::max(0.0, 0.5 * (job.cleared_by->diameter_mm - d));
+    q.width_mm = std::min(q.width_mm, d);
+  }
   if (!step.open_technology) {
     const auto given = given_technology(m, step.operation, step.cutter);
     if (given.rpm) q.n_rpm = std::abs(*given.rpm);

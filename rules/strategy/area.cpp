@@ -32,8 +32,20 @@ struct Limit {
   std::string text;
 };
 
+// The cutter that fits into the corners of walls that stay `allowance` away; 0: none limits it.
+Limit corner_cutter(const Making& m, double allowance) {
+  const auto& s = m.shape;
+  // A wall moved inwards by the allowance has corners that much tighter.
+  if (s.corner_radius_mm > 0.0)
+    return {2.0 * std::max(s.corner_radius_mm - allowance, 0.5 * s.corner_radius_mm),
+            "corners of radius " + mm(s.corner_radius_mm) + " limit the cutter"};
+  if (!s.open && m.known.passage.exact_mm > 0.0)
+    return {m.known.passage.exact_mm, "the outline's own corners limit the cutter"};
+  return {};
+}
+
 // The widest cutter for the walls that stay `allowance` away, and what decides it.
-Limit widest_cutter(const Making& m, double of_passage, double allowance) {
+Limit widest_cutter(const Making& m, double of_passage, double allowance, bool corners = true) {
   const auto& s = m.shape;
   double limit = std::numeric_limits<double>::infinity();
   Limit out;
@@ -49,18 +61,35 @@ Limit widest_cutter(const Making& m, double of_passage, double allowance) {
   if (bounded && s.kind != ShapeKind::kStep)
     narrow(of_passage * (passage - 2.0 * allowance),
            "the narrowest passage of " + mm(passage) + " limits the cutter");
-  if (s.corner_radius_mm > 0.0) {
-    // A wall moved inwards by the allowance has corners that much tighter.
-    narrow(2.0 * std::max(s.corner_radius_mm - allowance, 0.5 * s.corner_radius_mm),
-           "corners of radius " + mm(s.corner_radius_mm) + " limit the cutter");
-  } else if (!s.open && m.known.passage.exact_mm > 0.0) {
-    narrow(m.known.passage.exact_mm, "the outline's own corners limit the cutter");
+  const Limit corner = corner_cutter(m, allowance);
+  if (!corners) {
+    out.text += (out.text.empty() ? "" : "; ") + std::string("corners are left to a smaller cutter");
+  } else if (corner.diameter_mm > 0.0) {
+    narrow(corner.diameter_mm, corner.text);
   } else if (!s.open && s.kind != ShapeKind::kFace) {
     out.text +=
         (out.text.empty() ? "" : "; ") + std::string("corners are sharp: they keep the cutter's radius");
   }
   if (std::isfinite(limit)) out.diameter_mm = limit;
   return out;
+}
+
+/// A cutter this much wider than the one for the corners is worth a second tool. Default, unsourced.
+constexpr double kWorthARest = 1.25;
+
+// The cutter of a step whose corners a later one cuts; or why there is no use in that.
+tl::expected<Limit, std::string> before_rest(const Making& m, double of_passage, double allowance,
+                                             model::ToolRequirement& tool) {
+  const Limit corner = corner_cutter(m, allowance);
+  if (!(corner.diameter_mm > 0.0))
+    return tl::unexpected(std::string("no corner asks for a smaller cutter: there is no rest to machine"));
+  Limit wide = widest_cutter(m, of_passage, allowance, false);
+  if (wide.diameter_mm > 0.0 && wide.diameter_mm < kWorthARest * corner.diameter_mm)
+    return tl::unexpected("a cutter of at most " + mm(wide.diameter_mm) + " (" + wide.text +
+                          ") is not wide enough to be worth a second one of " + mm(corner.diameter_mm) +
+                          " for the corners");
+  tool.diameter_min_mm = kWorthARest * corner.diameter_mm;
+  return wide;
 }
 
 // What a rough step leaves so that a cutter without the fillet's radius stays above the fillet: its corner
@@ -72,7 +101,12 @@ Made rough(const Making& m) {
   s.allowance_side_mm = std::max(m.number("allowance_side_mm"), for_fillet(m));
   s.allowance_bottom_mm = m.shape.through ? 0.0 : std::max(m.number("allowance_bottom_mm"), for_fillet(m));
   s.tool.classes = {CutterClass::kEndmill, CutterClass::kBullnoseEndmill};
-  const Limit limit = widest_cutter(m, m.number("of_passage"), s.allowance_side_mm);
+  Limit limit = widest_cutter(m, m.number("of_passage"), s.allowance_side_mm);
+  if (m.number("corners") == 0.0) {
+    const auto wide = before_rest(m, m.number("of_passage"), s.allowance_side_mm, s.tool);
+    if (!wide) return no(wide.error());
+    limit = *wide;
+  }
   if (limit.diameter_mm < 0.0 || (limit.diameter_mm == 0.0 && !limit.text.empty() && !m.shape.open))
     return no("no cutter is narrow enough: " + limit.text);
   s.tool.diameter_max_mm = limit.diameter_mm;
@@ -89,7 +123,12 @@ Made finish(const Making& m) {
   ProposedStep s = begin(m);
   s.allowance_side_mm = m.number("allowance_side_mm");
   s.allowance_bottom_mm = m.shape.through ? 0.0 : m.number("allowance_bottom_mm");
-  const Limit limit = widest_cutter(m, m.number("of_passage"), s.allowance_side_mm);
+  Limit limit = widest_cutter(m, m.number("of_passage"), s.allowance_side_mm);
+  if (m.number("corners") == 0.0) {
+    const auto wide = before_rest(m, m.number("of_passage"), s.allowance_side_mm, s.tool);
+    if (!wide) return no(wide.error());
+    limit = *wide;
+  }
   if (limit.diameter_mm < 0.0) return no("no cutter is narrow enough: " + limit.text);
   s.tool.diameter_max_mm = limit.diameter_mm;
   s.tool.corner_radius_limited = true;
@@ -105,6 +144,51 @@ Made finish(const Making& m) {
   s.strategy = StrategyKind::kContourParallel;
   s.why.text = limit.text;
   return s;
+}
+
+// Only what the step before, made with `corners: 0`, could not reach.
+Made rest(const Making& m, Made made) {
+  if (!made) return made;
+  ProposedStep& s = *made;
+  if (std::abs(m.shape.slope_rad) > 1e-6) return no("rest machining needs upright walls");
+  const Limit corner = corner_cutter(m, s.allowance_side_mm);
+  model::ToolRequirement before;
+  const auto wide = before_rest(m, m.number("of_passage"), s.allowance_side_mm, before);
+  if (!wide) return no(wide.error());
+  const double corners = corner_cutter(m, 0.0).diameter_mm;
+  s.tool.diameter_max_mm = std::min(corner.diameter_mm, m.number("of_corner") * corners);
+  s.tool.diameter_min_mm = 0.0;
+  if (s.tool.corner_radius_exact_mm > 0.0 && 2.0 * s.tool.corner_radius_exact_mm > s.tool.diameter_max_mm)
+    return no("a floor fillet of " + mm(s.tool.corner_radius_exact_mm) +
+              " needs a wider cutter than the corners let in");
+  s.rest_of_diameter_mm = wide->diameter_mm > 0.0 ? wide->diameter_mm : before.diameter_min_mm;
+  s.strategy = StrategyKind::kContourParallel;
+  s.why.text = corner.text + "; only what the wider cutter before left is cut";
+  return made;
+}
+Made rest_rough(const Making& m) { return rest(m, rough(m)); }
+Made rest_finish(const Making& m) { return rest(m, finish(m)); }
+
+// The floor alone, at once; the walls keep what they have.
+Made floor_finish(const Making& m) {
+  if (m.shape.through) return no("what is through has no floor");
+  Made made = finish(m);
+  if (!made) return made;
+  made->one_level = true;
+  return made;
+}
+
+// Thin walls: in shallow levels from above, so that what is cut always stands on what is still thick.
+Made thin_wall_finish(const Making& m) {
+  Made made = finish(m);
+  if (!made) return made;
+  const double wall = m.context.wall_thickness_mm.value_or(0.0);
+  made->allowance_bottom_mm = 0.0;
+  made->axial_depth_mm = wall > 0.0 ? m.number("of_thickness") * wall : m.number("axial_mm");
+  made->why.text += (made->why.text.empty() ? "" : "; ") + std::string("levels of ") +
+                    mm(made->axial_depth_mm) +
+                    (wall > 0.0 ? " for a wall of " + mm(wall) : ", the wall's thickness is not known");
+  return made;
 }
 
 Made plane(const Making& m, double allowance, StrategyKind strategy) {
@@ -181,15 +265,38 @@ std::vector<Action> area_actions() {
   const ActionParameter bottom{"allowance_bottom_mm", 0.0, "left on the floor"};
   const ActionParameter rough_passage{"of_passage", 0.8, "largest cutter by the narrowest passage"};
   const ActionParameter finish_passage{"of_passage", 0.95, "largest cutter by the narrowest passage"};
+  const ActionParameter corners{"corners", 1.0, "0: corners do not limit the cutter, a rest step follows"};
+  const ActionParameter of_corner{"of_corner", 0.9, "largest cutter by the diameter of the corners"};
   return {
       {"plane_rough", TypeId::kPlaneRoughMilling, {bottom}, plane_rough},
       {"plane_finish", TypeId::kPlaneFinishMilling, {}, plane_finish},
-      {"area_rough", TypeId::kBottomAndSideRoughMilling, {side, bottom, rough_passage}, rough},
-      {"area_finish", TypeId::kBottomAndSideFinishMilling, {side, bottom, finish_passage}, finish},
-      {"spring_pass", TypeId::kBottomAndSideFinishMilling, {side, bottom, finish_passage}, finish},
-      {"wall_rough", TypeId::kSideRoughMilling, {side, bottom, rough_passage}, rough},
-      {"wall_finish", TypeId::kSideFinishMilling, {side, bottom, finish_passage}, finish},
-      {"wall_spring_pass", TypeId::kSideFinishMilling, {side, bottom, finish_passage}, finish},
+      {"area_rough", TypeId::kBottomAndSideRoughMilling, {side, bottom, rough_passage, corners}, rough},
+      {"area_finish", TypeId::kBottomAndSideFinishMilling, {side, bottom, finish_passage, corners}, finish},
+      {"spring_pass", TypeId::kBottomAndSideFinishMilling, {side, bottom, finish_passage, corners}, finish},
+      {"wall_rough", TypeId::kSideRoughMilling, {side, bottom, rough_passage, corners}, rough},
+      {"wall_finish", TypeId::kSideFinishMilling, {side, bottom, finish_passage, corners}, finish},
+      {"wall_spring_pass", TypeId::kSideFinishMilling, {side, bottom, finish_passage, corners}, finish},
+      {"rest_rough",
+       TypeId::kBottomAndSideRoughMilling,
+       {side, bottom, rough_passage, corners, of_corner},
+       rest_rough},
+      {"rest_finish",
+       TypeId::kBottomAndSideFinishMilling,
+       {side, bottom, finish_passage, corners, of_corner},
+       rest_finish},
+      {"floor_finish",
+       TypeId::kBottomAndSideFinishMilling,
+       {side, bottom, finish_passage, corners},
+       floor_finish},
+      {"thin_wall_finish",
+       TypeId::kSideFinishMilling,
+       {side,
+        bottom,
+        finish_passage,
+        corners,
+        {"of_thickness", 1.0, "depth of a level by the wall's thickness"},
+        {"axial_mm", 2.0, "depth of a level where the wall's thickness is not known"}},
+       thin_wall_finish},
       {"ball_slot", TypeId::kBottomAndSideFinishMilling, {bottom}, ball_slot},
       {"vee_rough",
        TypeId::kBottomAndSideRoughMilling,
