@@ -126,7 +126,8 @@ Result<Imported> import_folder(const std::string& folder, const FormatOptions& o
 const std::vector<Format>& formats() {
   static const std::vector<Format> kFormats = {
       // Archives and marked files first; tables, which are told by little, last.
-      freecad_format(), gtc_format(), iso13399_format(),
+      freecad_format(),   gtc_format(),       iso13399_format(), din4000_format(),
+      hypermill_format(), solidcam_format(), family_format(),   mtconnect_format(),
   };
   return kFormats;
 }
