@@ -71,6 +71,11 @@ geometry::CutterProfile profile_of(const Cutter& c) {
   if (has_cone(c)) {
     return geometry::cone_profile(c.cutting_diameter_mm, c.point_angle_rad, length, c.tip_diameter_mm);
   }
+  if (c.cutter_class == CutterClass::kTaperedEndmill && c.taper_angle_rad > 0.0) {
+    // From a flat tip, whatever its corner: what it cuts besides lies below the real cutter's.
+    const double top = c.cutting_diameter_mm + 2.0 * length * std::tan(c.taper_angle_rad);
+    return geometry::cone_profile(top, 2.0 * c.taper_angle_rad, length, c.cutting_diameter_mm);
+  }
   if (c.cutter_class == CutterClass::kBallEndmill)
     return geometry::ball_profile(c.cutting_diameter_mm, length);
   return geometry::bull_profile(c.cutting_diameter_mm, c.corner_radius_mm, length);

@@ -90,6 +90,7 @@ struct Feeds {
 struct Holding {
   Law clamped, holder;
   double gage_length = 0.0;
+  double nut_height = 0.0, nut_ratio = 1.0;  ///< the nut's chamfered front
   std::string source;
 };
 
@@ -113,6 +114,8 @@ void read_holding(Fields top, Reader& r) {
   r.holding.clamped = read_law(top, "clamped_length");
   r.holding.holder = read_law(top, "holder_diameter");
   r.holding.gage_length = top.number("gage_length");
+  r.holding.nut_height = top.number("nut_height");
+  r.holding.nut_ratio = top.number("nut_ratio");
   r.holding.source = top.source();
   top.finish();
 }
@@ -167,7 +170,8 @@ struct Series {
   Cutter base;
   std::string name, words, source, feeds;
   Law flute, shank;
-  std::optional<Law> stick_out, overall, usable, holder;
+  std::optional<Law> stick_out, overall, usable, holder, lead_length, cutting_width, neck_diameter,
+      neck_length;
   double speed_factor = 1.0;
 };
 
@@ -194,6 +198,11 @@ Series read_series(Fields& f) {
   s.base.helix_rad = f.number_or("helix_deg", 0.0) * kDegree;
   s.base.lead_angle_rad = f.number_or("lead_angle_deg", 0.0) * kDegree;
   s.base.maximum_ramp_angle_rad = f.number_or("max_ramp_deg", 0.0) * kDegree;
+  s.base.taper_angle_rad = f.number_or("taper_deg", 0.0) * kDegree;
+  s.base.thread_form = f.text_or("thread_form", "");
+  s.base.lead_threads = f.number_or("lead_threads", 0.0);
+  s.base.coolant_through = f.flag_or("coolant_through", false);
+  if (f.flag_or("left_hand", false)) s.base.hand = model::Hand::kLeft;
   s.base.centre_cutting = f.flag_or("centre_cutting", false);
   s.flute = read_law(f, "flute_length");
   s.shank = read_law(f, "shank");
@@ -201,8 +210,14 @@ Series read_series(Fields& f) {
   s.overall = optional_law(f, "overall_length");
   s.usable = optional_law(f, "usable_length");
   s.holder = optional_law(f, "holder_diameter");
-  s.feeds = f.text("feeds");
-  s.speed_factor = f.number("speed_factor");
+  s.lead_length = optional_law(f, "lead_length");
+  s.cutting_width = optional_law(f, "cutting_width");
+  s.neck_diameter = optional_law(f, "neck_diameter");
+  s.neck_length = optional_law(f, "neck_length");
+  // A probe neither turns nor cuts.
+  const bool cuts = s.base.cutter_class != CutterClass::kTouchProbe;
+  s.feeds = cuts ? f.text("feeds") : "";
+  s.speed_factor = cuts ? f.number("speed_factor") : 1.0;
   if (!s.stick_out && !s.overall)
     f.fault("DATA-MISSING", "stick_out or overall_length is missing", "stick_out", f.line());
   return s;
@@ -232,6 +247,17 @@ void set_lengths(const Series& s, const Holding& h, Cutter& c, Fields& where, bo
   c.holder_diameter_mm = s.holder ? law(*s.holder, "holder_diameter", g.d)
                                   : law(h.holder, "holder_diameter", c.shank_diameter_mm);
   c.functional_length_mm = h.gage_length + c.stick_out_mm;
+  if (s.overall) c.overall_length_mm = law(*s.overall, "overall_length", g.d);
+  if (s.lead_length) c.lead_length_mm = law(*s.lead_length, "lead_length", g.d);
+  if (s.cutting_width && c.cutting_width_mm == 0.0)
+    c.cutting_width_mm = law(*s.cutting_width, "cutting_width", g.d);
+  if (s.neck_diameter && c.neck_diameter_mm == 0.0)
+    c.neck_diameter_mm = law(*s.neck_diameter, "neck_diameter", g.d);
+  if (s.neck_length && c.neck_length_mm == 0.0) c.neck_length_mm = law(*s.neck_length, "neck_length", g.d);
+  c.holder_id = "generic/chuck/" + trimmed(c.holder_diameter_mm, 3);
+  const double nut = std::min(h.nut_height, h.gage_length);
+  c.holder = {{nut, rounded(h.nut_ratio * c.holder_diameter_mm, 3), c.holder_diameter_mm},
+              {h.gage_length - nut, c.holder_diameter_mm, c.holder_diameter_mm}};
 }
 
 std::string speed_source(const WorkMaterial& m, bool hss) {
@@ -271,7 +297,7 @@ void set_presets(const Series& s, const Reader& r, Cutter& c) {
 
 void set_sources(const Series& s, const Reader& r, Cutter& c) {
   c.sources.emplace_back("*", s.source);
-  for (const char* field : {"stick_out_mm", "holder_diameter_mm", "functional_length_mm"})
+  for (const char* field : {"stick_out_mm", "holder_diameter_mm", "holder", "functional_length_mm"})
     c.sources.emplace_back(field, r.holding.source);
   for (const char* field : {"fz_min_mm", "fz_max_mm"}) c.sources.emplace_back(field, r.feeds_source);
 }
@@ -287,6 +313,10 @@ void add_cutter(const Series& s, const Size& size, Fields& f, Reader& r) {
     c.corner_radius_mm = row.number_or("corner_radius", 0.0);
     c.tip_diameter_mm = row.number_or("tip_diameter", 0.0);
     c.thread_pitch_mm = row.number_or("thread_pitch", 0.0);
+    c.thread_size_mm = row.number_or("thread_size", 0.0);
+    c.cutting_width_mm = row.number_or("cutting_width", 0.0);
+    c.neck_diameter_mm = row.number_or("neck", 0.0);
+    if (row.has("taper_deg")) c.taper_angle_rad = row.number("taper_deg") * kDegree;
     c.adjustable_to_mm = row.number_or("adjustable_to", 0.0);
     if (const auto z = row.optional_integer("teeth")) c.teeth = static_cast<int>(*z);
     row_flute = row.has("flute_length");
@@ -299,6 +329,7 @@ void add_cutter(const Series& s, const Size& size, Fields& f, Reader& r) {
     if (c.corner_radius_mm > 0.0) extra = ", corner " + trimmed(c.corner_radius_mm, 3) + " mm";
     if (c.adjustable_to_mm > 0.0) extra = " to " + trimmed(c.adjustable_to_mm, 3) + " mm";
   }
+  if (c.cutter_class == CutterClass::kTap) c.thread_size_mm = c.cutting_diameter_mm;
   if (c.cutter_class == CutterClass::kBallEndmill) c.corner_radius_mm = 0.5 * c.cutting_diameter_mm;
   c.id = "generic/" + s.name + "/" + label;
   c.description = "generic " + trimmed(size.d, 3) + " mm " + s.words + extra;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 
 #include "planner/base/file.h"
@@ -24,6 +25,12 @@ constexpr double kFastestSpeedRpm = 500000.0;
 constexpr double kRevPerSecond = 60.0;
 
 double watts(double torque_nm, double rpm) { return torque_nm * 2.0 * std::numbers::pi * rpm / 60.0; }
+
+void put_in_gear(Machine& m, const model::SpindleGear& g) {
+  m.spindle.rpm_min = g.rpm_min;
+  m.spindle.rpm_max = g.rpm_max;
+  m.spindle.curve = g.curve;
+}
 
 /// Collects where each value of the machine is from; a value without a source is a fault.
 void keep_sources(Fields& f, Machine& m) {
@@ -115,15 +122,21 @@ SpindlePoint read_point(Fields f, Machine& m) {
   return p;
 }
 
-void check_curve(Fields& f, const model::Spindle& s) {
-  for (std::size_t i = 1; i < s.curve.size(); ++i) {
-    if (s.curve[i].rpm > s.curve[i - 1].rpm) continue;
+/// Speeds rising; false, and a fault, when they do not.
+bool rising(Fields& f, const std::vector<SpindlePoint>& curve, const char* key) {
+  for (std::size_t i = 1; i < curve.size(); ++i) {
+    if (curve[i].rpm > curve[i - 1].rpm) continue;
     f.fault("MACHINE-CURVE",
-            "the power curve runs backwards: " + trimmed(s.curve[i].rpm, 4) + " after " +
-                trimmed(s.curve[i - 1].rpm, 4) + " 1/min",
-            "curve", f.line_of("curve"), "speeds rising");
-    return;
+            "the power curve runs backwards: " + trimmed(curve[i].rpm, 4) + " after " +
+                trimmed(curve[i - 1].rpm, 4) + " 1/min",
+            key, f.line_of(key), "speeds rising");
+    return false;
   }
+  return true;
+}
+
+void check_curve(Fields& f, const model::SpindleGear& s) {
+  if (!rising(f, s.curve, "curve")) return;
   if (s.curve.empty()) {
     f.fault("MACHINE-CURVE", "the power curve has no point", "curve", f.line_of("curve"));
   } else if (s.curve.front().rpm > s.rpm_min || s.curve.back().rpm < s.rpm_max) {
@@ -135,17 +148,14 @@ void check_curve(Fields& f, const model::Spindle& s) {
   }
 }
 
-void check_spindle(Fields& f, const model::Spindle& s) {
+/// `slow`: a gear may end where no whole spindle would.
+void check_speeds(Fields& f, const model::SpindleGear& s, bool slow) {
   not_negative(f, "rpm_min", s.rpm_min);
-  not_negative(f, "spin_up_s", s.spin_up_s);
-  if (s.efficiency <= 0.0 || s.efficiency > 1.0)
-    f.fault("MACHINE-RANGE", "efficiency is " + trimmed(s.efficiency, 4), "efficiency",
-            f.line_of("efficiency"), "above 0, at most 1");
   if (s.rpm_min > s.rpm_max)
     f.fault("MACHINE-RANGE",
             "rpm_min (" + trimmed(s.rpm_min, 4) + ") is above rpm_max (" + trimmed(s.rpm_max, 4) + ")",
             "rpm_min", f.line_of("rpm_min"));
-  else if (s.rpm_max < kSlowestTopSpeedRpm)
+  else if (!slow && s.rpm_max < kSlowestTopSpeedRpm)
     f.fault("MACHINE-RPM",
             "rpm_max is " + trimmed(s.rpm_max, 4) + ", which looks like revolutions per second; write " +
                 trimmed(s.rpm_max * kRevPerSecond, 4) + " if it is",
@@ -155,24 +165,123 @@ void check_spindle(Fields& f, const model::Spindle& s) {
             "at most " + trimmed(kFastestSpeedRpm, 0));
 }
 
+std::vector<SpindlePoint> read_curve(Fields& f, const char* key, bool required, Machine& m) {
+  std::vector<SpindlePoint> out;
+  const Node* curve = f.child(key, required);
+  if (curve == nullptr) return out;
+  for (std::size_t i = 0; i < curve->items.size(); ++i)
+    out.push_back(read_point(f.below(std::string(key) + "[" + std::to_string(i) + "]", curve->items[i]), m));
+  return out;
+}
+
+/// Speeds and curves of a gear, or of a spindle that has one.
+model::SpindleGear read_gear(Fields& f, bool slow, Machine& m) {
+  const std::size_t before = f.fault_count();
+  model::SpindleGear g;
+  g.rpm_min = f.number("rpm_min");
+  g.rpm_max = f.number("rpm_max");
+  if (f.fault_count() == before) check_speeds(f, g, slow);
+  g.curve = read_curve(f, "curve", true, m);
+  if (f.has("curve_s6")) g.curve_s6 = read_curve(f, "curve_s6", false, m);
+  if (f.fault_count() == before) check_curve(f, g);
+  if (f.fault_count() == before) (void)rising(f, g.curve_s6, "curve_s6");
+  return g;
+}
+
+void read_gears(Fields& f, const Node& list, Machine& m) {
+  const std::size_t before = f.fault_count();
+  double top = 0.0;
+  for (std::size_t i = 0; i < list.items.size(); ++i) {
+    Fields row = f.below("gears[" + std::to_string(i) + "]", list.items[i]);
+    const std::string id = row.text("id");
+    for (const auto& other : m.spindle.gears)
+      if (other.id == id)
+        row.fault("DATA-DUPLICATE", "the gear '" + id + "' is given twice", "id", row.line_of("id"));
+    model::SpindleGear g = read_gear(row, true, m);
+    g.id = id;
+    top = std::max(top, g.rpm_max);
+    keep_sources(row, m);
+    m.spindle.gears.push_back(std::move(g));
+  }
+  if (f.fault_count() != before) return;
+  if (list.items.empty())
+    f.fault("DATA-MISSING", "there is no gear in 'gears'", "gears", f.line_of("gears"));
+  else if (top < kSlowestTopSpeedRpm)
+    f.fault("MACHINE-RPM",
+            "no gear turns faster than " + trimmed(top, 4) + ", which looks like revolutions per second",
+            "gears", f.line_of("gears"), "1/min, at least " + trimmed(kSlowestTopSpeedRpm, 0));
+}
+
 void read_spindle(Fields& top, Machine& m) {
   const Node* node = top.child("spindle", true);
   if (node == nullptr) return;
   Fields f = top.below("spindle", *node);
   model::Spindle& s = m.spindle;
   const std::size_t before = f.fault_count();
-  s.rpm_min = f.number("rpm_min");
-  s.rpm_max = f.number("rpm_max");
   s.taper = f.text_or("taper", "");
   s.efficiency = f.number("efficiency");
   s.spin_up_s = f.number("spin_up_s");
-  if (f.fault_count() == before) check_spindle(f, s);
-  const Node* curve = f.child("curve", true);
+  if (f.fault_count() == before) {
+    not_negative(f, "spin_up_s", s.spin_up_s);
+    if (s.efficiency <= 0.0 || s.efficiency > 1.0)
+      f.fault("MACHINE-RANGE", "efficiency is " + trimmed(s.efficiency, 4), "efficiency",
+              f.line_of("efficiency"), "above 0, at most 1");
+  }
+  if (f.has("gears")) {
+    if (const Node* list = f.child("gears", true)) read_gears(f, *list, m);
+  } else {
+    model::SpindleGear only = read_gear(f, false, m);
+    if (only.curve_s6.empty()) {
+      s.rpm_min = only.rpm_min;
+      s.rpm_max = only.rpm_max;
+      s.curve = std::move(only.curve);
+    } else {
+      only.id = "only";  // S6 has its place in a gear
+      s.gears.push_back(std::move(only));
+    }
+  }
   keep_sources(f, m);
-  if (curve == nullptr) return;
-  for (std::size_t i = 0; i < curve->items.size(); ++i)
-    s.curve.push_back(read_point(f.below("curve[" + std::to_string(i) + "]", curve->items[i]), m));
-  if (f.fault_count() == before) check_curve(f, s);
+  if (!s.gears.empty() && f.fault_count() == before) put_in_gear(m, s.gears.front());
+}
+
+void read_abilities(Fields& top, Machine& m) {
+  const Node* node = top.child("abilities", false);
+  if (node == nullptr) {
+    m.sources.emplace_back("abilities", "default, unsourced: the machine file does not state them");
+    return;
+  }
+  Fields f = top.below("abilities", *node);
+  model::MachineAbilities& a = m.abilities;
+  const std::size_t before = f.fault_count();
+  a.control_axes = static_cast<int>(f.optional_integer("control_axes").value_or(a.control_axes));
+  a.simultaneous_axes =
+      static_cast<int>(f.optional_integer("simultaneous_axes").value_or(a.simultaneous_axes));
+  a.positioning_accuracy_mm = f.number_or("positioning_accuracy_mm", a.positioning_accuracy_mm);
+  a.table_indexing = f.flag_or("table_indexing", a.table_indexing);
+  a.table_length_mm = f.number_or("table_length_mm", a.table_length_mm);
+  a.table_width_mm = f.number_or("table_width_mm", a.table_width_mm);
+  a.rigid_tapping = f.flag_or("rigid_tapping", a.rigid_tapping);
+  a.probe = f.flag_or("probe", a.probe);
+  a.through_pressure_bar = f.number_or("through_pressure_bar", a.through_pressure_bar);
+  a.feed_override_max = f.number_or("feed_override_max", a.feed_override_max);
+  a.magazine_mass_max_kg = f.number_or("magazine_mass_max_kg", a.magazine_mass_max_kg);
+  if (f.fault_count() == before) {
+    for (const auto& [key, value] :
+         {std::pair{"positioning_accuracy_mm", a.positioning_accuracy_mm},
+          std::pair{"table_length_mm", a.table_length_mm}, std::pair{"table_width_mm", a.table_width_mm},
+          std::pair{"through_pressure_bar", a.through_pressure_bar},
+          std::pair{"magazine_mass_max_kg", a.magazine_mass_max_kg}})
+      not_negative(f, key, value);
+    if (a.feed_override_max < 1.0 || a.feed_override_max > 3.0)
+      f.fault("MACHINE-RANGE", "feed_override_max is " + trimmed(a.feed_override_max, 4), "feed_override_max",
+              f.line_of("feed_override_max"), "1 to 3, as a factor: 1.2 is 120 %");
+    if (a.control_axes < 3 || a.control_axes > 16 || a.simultaneous_axes < 1 ||
+        a.simultaneous_axes > a.control_axes)
+      f.fault("MACHINE-RANGE",
+              std::to_string(a.simultaneous_axes) + " axes at once of " + std::to_string(a.control_axes),
+              "control_axes", f.line_of("control_axes"), "3 to 16 axes, no more at once than there are");
+  }
+  keep_sources(f, m);
 }
 
 void read_magazine(Fields& top, Machine& m) {
@@ -262,12 +371,41 @@ Result<Machine> read_machine(std::string_view text, const std::string& file, Job
   read_magazine(top, m);
   read_coolant(top, m);
   read_control(top, m);
+  read_abilities(top, m);
   top.finish();
   if (auto d = tell(std::move(faults), job)) return fail(std::move(*d));
   return m;
 }
 
-Result<Machine> load_machine(const std::string& path, Job& job) {
+const model::SpindleGear* gear_for(const Machine& m, double rpm) {
+  const auto turns = [&](double least, double most) { return least <= rpm && rpm <= most; };
+  const model::SpindleGear* found = nullptr;
+  for (const auto& g : m.spindle.gears) {
+    if (!turns(g.rpm_min, g.rpm_max)) continue;
+    if (g.rpm_min == m.spindle.rpm_min && g.rpm_max == m.spindle.rpm_max) return &g;  // the one in use
+    if (found == nullptr) found = &g;
+  }
+  return found;
+}
+
+Result<Machine> in_gear(Machine m, std::string_view id) {
+  std::string names;
+  for (const auto& g : m.spindle.gears) {
+    if (g.id == id) {
+      const model::SpindleGear gear = g;
+      put_in_gear(m, gear);
+      return m;
+    }
+    names += (names.empty() ? "" : ", ") + g.id;
+  }
+  return fail({.code = "MACHINE-GEAR",
+               .message = "the machine '" + m.id + "' has no gear '" + std::string(id) + "'",
+               .expected = names.empty() ? "no gear: it has one only" : "one of: " + names});
+}
+
+namespace {
+
+Result<Machine> load_plain(const std::string& path, Job& job) {
   const auto shipped = shipped_machines();
   if (std::find(shipped.begin(), shipped.end(), path) != shipped.end()) {
     const std::string name = "machines/" + path + ".yaml";
@@ -285,6 +423,19 @@ Result<Machine> load_machine(const std::string& path, Job& job) {
   const bool ini =
       path.ends_with(".ini") || (text->find("[TRAJ]") != std::string::npos && first != std::string::npos);
   return ini ? read_linuxcnc_ini(*text, path, job) : read_machine(*text, path, job);
+}
+
+}  // namespace
+
+Result<Machine> load_machine(const std::string& path, Job& job) {
+  // "name:gear"; a file whose name holds a colon is meant as it is.
+  const auto colon = path.rfind(':');
+  std::error_code ignored;
+  if (colon == std::string::npos || colon == 0 || std::filesystem::exists(path, ignored))
+    return load_plain(path, job);
+  auto m = load_plain(path.substr(0, colon), job);
+  if (!m) return m;
+  return in_gear(*std::move(m), path.substr(colon + 1));
 }
 
 }  // namespace capstan::tooling

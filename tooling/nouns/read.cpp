@@ -6,6 +6,7 @@
 #include <span>
 
 #include "planner/base/number.h"
+#include "planner/model/nouns/geometric_item.h"
 #include "planner/model/nouns/tool.h"
 #include "planner/model/nouns/workpiece.h"
 #include "tooling/catalogue/check.h"
@@ -69,14 +70,34 @@ bool is_tapered(const Model& m, model::AnyRef body) {
   return angle.value_or(0.0) != 0.0;
 }
 
+/// Of side mills and woodruff cutters; 0: not stated, or another body.
+double width_of(const Model& m, model::AnyRef body) {
+  if (const auto* s = m.get<model::SideMill>(body)) return s->cutter_width.value_or(0.0);
+  if (const auto* w = m.get<model::WoodruffKeyseatMill>(body)) return w->cutter_width.value_or(0.0);
+  return 0.0;
+}
+
 std::optional<CutterClass> class_of_body(const Model& m, const Parts& p, double point_angle_rad) {
   const double d = p.dimension->diameter.value_or(0.0), re = p.dimension->edge_radius.value_or(0.0);
   const model::AnyRef b = p.body_ref;
-  if (is_tapered(m, b)) return std::nullopt;
+  if (is_tapered(m, b))
+    return m.holds<model::TaperedEndmill>(b) ? std::optional(CutterClass::kTaperedEndmill) : std::nullopt;
+  if (const auto* u = m.get<model::UserDefinedTool>(b)) {
+    if (u->identifier.value_or("") == "corner rounding mill" && re > 0.0)
+      return CutterClass::kCornerRoundingMill;
+    return std::nullopt;
+  }
+  if (width_of(m, b) > 0.0) return CutterClass::kSideMill;
+  if (m.holds<model::BacksideCountersink>(b)) return CutterClass::kBackCountersink;
+  if (m.holds<model::BacksideCounterbore>(b)) return CutterClass::kBackCounterbore;
   if (m.holds<model::CenterDrill>(b))
     return point_angle_rad > 75.0 * kDegree ? CutterClass::kSpotDrill : CutterClass::kCenterDrill;
   if (m.holds<model::Countersink>(b)) return CutterClass::kCountersink;
-  if (m.holds<model::Drill>(b)) return CutterClass::kTwistDrill;
+  if (m.holds<model::Drill>(b)) {
+    // Neither standard has a word for them: one lip, and coolant through it.
+    const bool gun = p.body->number_of_teeth.value_or(0) == 1 && p.body->coolant_through_tool.value_or(false);
+    return gun ? CutterClass::kGunDrill : CutterClass::kTwistDrill;
+  }
   if (m.holds<model::Facemill>(b))
     return d < kLeastFacemillMm ? CutterClass::kEndmill : CutterClass::kFacemill;
   if (m.holds<model::BallEndmill>(b)) return CutterClass::kBallEndmill;
@@ -98,7 +119,8 @@ std::optional<CutterClass> class_of_body(const Model& m, const Parts& p, double 
 
 bool is_mill(CutterClass c) {
   return c == CutterClass::kEndmill || c == CutterClass::kBullnoseEndmill || c == CutterClass::kBallEndmill ||
-         c == CutterClass::kFacemill;
+         c == CutterClass::kFacemill || c == CutterClass::kTaperedEndmill ||
+         c == CutterClass::kCornerRoundingMill;
 }
 
 /// The points that each class is sold with, deg.
@@ -109,6 +131,44 @@ std::span<const double> usual_points(CutterClass c) {
   if (c == CutterClass::kTwistDrill) return kDrill;
   if (c == CutterClass::kCenterDrill || c == CutterClass::kSpotDrill) return kCentre;
   return kSink;
+}
+
+/// From the gage line to the tool's end; 0 when a placement is missing or they lie together.
+double gage_length(const Model& m, const model::ToolUsage* usage) {
+  if (usage == nullptr) return 0.0;
+  const auto point = [&](Ref<model::Axis2Placement3d> r) -> const model::CartesianPoint* {
+    const auto* p = m.get<model::Axis2Placement3d>(r);
+    const auto* at = p != nullptr ? m.get<model::CartesianPoint>(p->location) : nullptr;
+    return at != nullptr && at->coordinates.items.size() == 3 ? at : nullptr;
+  };
+  const auto* gage = point(usage->gage_placement);
+  const auto* end = point(usage->tool_end_placement);
+  if (gage == nullptr || end == nullptr) return 0.0;
+  const auto& g = gage->coordinates.items;
+  const auto& e = end->coordinates.items;
+  const double length = std::hypot(g[0] - e[0], g[1] - e[1], g[2] - e[2]);
+  return std::isfinite(length) && length > kSizeSlackMm ? length : 0.0;
+}
+
+/// What tool_usage says beside the position: names and links.
+void read_usage(const Model& m, const model::ToolUsage& usage, Cutter& c) {
+  if (usage.its_library_reference) {
+    // A link into somebody's library, or (as we write it) the cutter's own name.
+    const bool link = usage.its_id && !usage.its_id->empty() && *usage.its_id != *usage.its_library_reference;
+    c.id = link ? *usage.its_id : *usage.its_library_reference;
+    if (link) c.library_reference = *usage.its_library_reference;
+  }
+  if (usage.its_library_source) c.library_source = *usage.its_library_source;
+  if (usage.its_carousel) c.carousel = *usage.its_carousel;
+  if (const auto* product = m.get<model::Workpiece>(usage.its_product))
+    c.product_id = product->its_id.value_or("");
+  if (usage.description) c.description = *usage.description;
+}
+
+int position_of(const model::ToolUsage* usage) {
+  if (usage == nullptr || !usage->its_position) return 0;
+  const auto v = parse_double(*usage->its_position);
+  return v && *v >= 1.0 && *v <= 99999.0 && *v == std::floor(*v) ? static_cast<int>(*v) : 0;
 }
 
 class Reader {
@@ -134,6 +194,15 @@ class Reader {
     c_.thread_pitch_mm = *stated_pitch;
     stated("thread_pitch_mm", "thread_pitch");
   }
+  template <class Body>
+  void thread(const Body& b) {
+    pitch(b.thread_pitch);
+    if (b.thread_size.value_or(0.0) > 0.0) {
+      c_.thread_size_mm = *b.thread_size;
+      stated("thread_size_mm", "thread_size");
+    }
+    if (b.thread_form_type) c_.thread_form = *b.thread_form_type;
+  }
   void read_shape() {
     if (is_mill(c_.cutter_class) && p_.dimension->edge_radius.value_or(0.0) > 0.0) {
       c_.corner_radius_mm = *p_.dimension->edge_radius;
@@ -148,8 +217,27 @@ class Reader {
       stated("hand", "hand_of_cut");
     }
     c_.coolant_through = p_.body->coolant_through_tool.value_or(false);
-    if (const auto* tap = m_.get<model::Tap>(p_.body_ref)) pitch(tap->thread_pitch);
-    if (const auto* mill = m_.get<model::ThreadMill>(p_.body_ref)) pitch(mill->thread_pitch);
+    if (const auto* tap = m_.get<model::Tap>(p_.body_ref)) {
+      thread(*tap);
+      c_.lead_threads = std::max(0.0, tap->taper_thread_count.value_or(0.0));
+    }
+    if (const auto* mill = m_.get<model::ThreadMill>(p_.body_ref)) thread(*mill);
+    if (const auto* reamer = m_.get<model::Reamer>(p_.body_ref))
+      c_.lead_length_mm = std::max(0.0, reamer->taper_length.value_or(0.0));
+    if (const auto* sink = m_.get<model::Countersink>(p_.body_ref);
+        sink != nullptr && sink->minimum_cutting_diameter.value_or(0.0) > 0.0) {
+      c_.tip_diameter_mm = *sink->minimum_cutting_diameter;
+      stated("tip_diameter_mm", "minimum_cutting_diameter");
+    }
+    if (const auto* taper = m_.get<model::TaperedEndmill>(p_.body_ref);
+        taper != nullptr && taper->taper_angle.value_or(0.0) > 0.0) {
+      c_.taper_angle_rad = *taper->taper_angle;
+      stated("taper_angle_rad", "taper_angle");
+    }
+    if (const double width = width_of(m_, p_.body_ref); width > 0.0) {
+      c_.cutting_width_mm = width;
+      stated("cutting_width_mm", "cutter_width");
+    }
     if (p_.dimension->cutting_edge_length.value_or(0.0) > 0.0) {
       c_.maximum_depth_of_cut_mm = *p_.dimension->cutting_edge_length;
       stated("maximum_depth_of_cut_mm", "cutting_edge_length");
@@ -164,6 +252,16 @@ class Reader {
   void read_lengths() {
     double length = p_.tool->overall_assembly_length.value_or(0.0);
     const char* from = "overall_assembly_length";
+    if (const double measured = gage_length(m_, m_.get<model::ToolUsage>(p_.tool->its_usage));
+        measured > 0.0) {
+      constexpr double kSame = 0.01;  // mm; lengths are preset to a hundredth
+      if (length > 0.0 && std::abs(length - measured) > kSame)
+        job_.warn("TOOL-LENGTH", p_.name + ": overall_assembly_length says " + trimmed(length, 3) +
+                                     " mm, from gage_placement to tool_end_placement it is " +
+                                     trimmed(measured, 3) + " mm, which holds");
+      length = measured;
+      from = "gage_placement and tool_end_placement";
+    }
     const auto* edge = p_.tool->its_cutting_edge.empty()
                            ? nullptr
                            : m_.get<model::CuttingComponent>(p_.tool->its_cutting_edge.items[0]);
@@ -257,7 +355,9 @@ const Cutter* named(const Model& m, const Parts& p, const std::vector<Cutter>& l
   for (const auto* text : {&usage->its_library_reference, product != nullptr ? &product->its_id : nullptr}) {
     if (text == nullptr || !*text) continue;
     for (const Cutter& c : library)
-      if (c.id == **text) return &c;
+      if (c.id == **text || (!c.library_reference.empty() && c.library_reference == **text) ||
+          (product != nullptr && text == &product->its_id && c.product_id == **text))
+        return &c;
   }
   return nullptr;
 }
@@ -272,10 +372,33 @@ bool same_size(const Parts& p, const Cutter& c) {
 }
 
 int pocket_of(const Model& m, const Parts& p) {
-  const auto* usage = m.get<model::ToolUsage>(p.tool->its_usage);
-  if (usage == nullptr || !usage->its_position) return 0;
-  const auto v = parse_double(*usage->its_position);
-  return v && *v >= 1.0 && *v <= 99999.0 && *v == std::floor(*v) ? static_cast<int>(*v) : 0;
+  return position_of(m.get<model::ToolUsage>(p.tool->its_usage));
+}
+
+/// A probe is no cutter, and not a requirement either.
+Result<Cutter> probe_from(const Model& m, const model::TouchProbe& probe,
+                          const std::vector<Cutter>& library) {
+  Cutter c;
+  c.cutter_class = CutterClass::kTouchProbe;
+  c.id = c.description = probe.its_id.value_or("touch probe");
+  const auto* usage = m.get<model::ToolUsage>(probe.its_usage);
+  if (usage != nullptr) read_usage(m, *usage, c);
+  for (const Cutter& known : library) {
+    if (known.id != c.id || known.cutter_class != CutterClass::kTouchProbe) continue;
+    Cutter out = known;
+    if (const int pocket = position_of(usage); pocket > 0) out.pocket = pocket;
+    return out;
+  }
+  c.pocket = position_of(usage);
+  c.cutting_diameter_mm = 2.0 * probe.ball_radius.value_or(0.0);
+  c.neck_diameter_mm = probe.stylus_diameter.value_or(0.0);
+  double length = gage_length(m, usage);
+  if (!(length > 0.0)) length = probe.overall_assembly_length.value_or(0.0);
+  c.functional_length_mm = c.stick_out_mm = c.usable_length_mm = length;
+  c.sources.emplace_back("*", "stated: touch_probe");
+  if (const auto faults = faults_of(c); !faults.empty())
+    return fail({.code = "TOOL-VALUE", .message = faults.front(), .path = c.id});
+  return c;
 }
 
 }  // namespace
@@ -312,6 +435,7 @@ bool is_requirement(const Model& m, Ref<MachiningTool> tool) {
 
 Result<Cutter> cutter_from_nouns(const Model& m, Ref<MachiningTool> tool, Job& job,
                                  const std::vector<Cutter>& library) {
+  if (const auto* probe = m.get<model::TouchProbe>(tool)) return probe_from(m, *probe, library);
   const auto p = parts_of(m, tool);
   if (!p) return fail(p.error());
   if (const Cutter* known = named(m, *p, library)) {
@@ -332,8 +456,7 @@ Result<Cutter> cutter_from_nouns(const Model& m, Ref<MachiningTool> tool, Job& j
   Reader(m, *p, c, job).read(k->reading);
   c.pocket = pocket_of(m, *p);
   if (const auto* usage = m.get<model::ToolUsage>(p->tool->its_usage)) {
-    if (usage->its_library_reference) c.id = *usage->its_library_reference;
-    if (usage->description) c.description = *usage->description;
+    read_usage(m, *usage, c);
   }
   if (c.cutting_diameter_mm > 0.0) {
     const auto& generic = shared_generic_library();

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "planner/model/nouns/geometric_item.h"
 #include "planner/model/nouns/tool.h"
 #include "planner/model/nouns/workpiece.h"
 #include "tooling/nouns/nouns.h"
@@ -90,9 +91,69 @@ Ref<model::MillingToolBody> body_of(Model& m, const Body& b) {
 /// Zero means unknown here, and is written as absent.
 model::Real known(double v) { return v > 0.0 ? model::Real(v) : std::nullopt; }
 
+/// A place on the tool's axis: origin at the tip, z towards the spindle.
+Ref<model::Axis2Placement3d> on_axis(Model& m, double z_mm) {
+  model::CartesianPoint at;
+  at.name = "";
+  at.coordinates = {{0.0, 0.0, z_mm}, true};
+  model::Axis2Placement3d p;
+  p.name = "";
+  p.location = m.add(at);
+  return m.add(p);
+}
+
+/// Where it sits, what it is, where it is described, and where it is measured from and to.
+Ref<model::ToolUsage> usage_of(Model& m, const Cutter& c) {
+  const auto usage = m.add<model::ToolUsage>();
+  model::ToolUsage u;
+  u.its_id = c.id;
+  if (c.pocket > 0) u.its_position = std::to_string(c.pocket);
+  if (!c.carousel.empty()) u.its_carousel = c.carousel;
+  if (!c.product_id.empty()) {
+    model::Workpiece product;
+    product.its_id = c.product_id;
+    u.its_product = m.add(product);
+  }
+  u.its_library_reference = c.library_reference.empty() ? c.id : c.library_reference;
+  if (!c.library_source.empty()) u.its_library_source = c.library_source;
+  if (c.functional_length_mm > 0.0) {
+    u.gage_placement = on_axis(m, c.functional_length_mm);
+    u.tool_end_placement = on_axis(m, 0.0);
+  }
+  u.description = c.description.empty() ? c.id : c.description;
+  m.at<model::ToolUsage>(usage) = u;
+  return usage;
+}
+
+Ref<MachiningTool> probe_of(Model& m, const Cutter& c) {
+  model::TouchProbe probe;
+  probe.its_id = c.id;
+  probe.its_usage = usage_of(m, c);
+  probe.ball_radius = known(0.5 * c.cutting_diameter_mm);
+  probe.stylus_diameter = known(c.neck_diameter_mm);
+  probe.overall_assembly_length = known(c.functional_length_mm);
+  return m.add(probe);
+}
+
+/// What only some kinds of body say.
+void fill_body(Model& m, model::AnyRef body, const Cutter& c) {
+  const auto threaded = [&](auto* b) {
+    if (b == nullptr || !(c.thread_pitch_mm > 0.0)) return;
+    b->thread_size = c.thread_size_mm > 0.0 ? c.thread_size_mm : c.cutting_diameter_mm;
+    b->thread_pitch = c.thread_pitch_mm;
+    if (!c.thread_form.empty()) b->thread_form_type = c.thread_form;
+  };
+  threaded(m.get<model::Tap>(body));
+  threaded(m.get<model::ThreadMill>(body));
+  if (auto* tap = m.get<model::Tap>(body)) tap->taper_thread_count = known(c.lead_threads);
+  if (auto* reamer = m.get<model::Reamer>(body)) reamer->taper_length = known(c.lead_length_mm);
+  if (auto* sink = m.get<model::Countersink>(body)) sink->minimum_cutting_diameter = known(c.tip_diameter_mm);
+}
+
 }  // namespace
 
 Ref<MachiningTool> nouns_from_cutter(Model& m, const Cutter& c) {
+  if (c.cutter_class == CutterClass::kTouchProbe) return probe_of(m, c);
   const auto dimension = m.add<model::MillingToolDimension>();
   auto& d = m.at<model::MillingToolDimension>(dimension);
   d.diameter = c.cutting_diameter_mm;
@@ -107,13 +168,7 @@ Ref<MachiningTool> nouns_from_cutter(Model& m, const Cutter& c) {
   if (c.teeth > 0) body.number_of_teeth = c.teeth;
   body.hand_of_cut = c.hand;
   body.coolant_through_tool = c.coolant_through;
-  const auto threaded = [&](auto* b) {
-    if (b == nullptr || !(c.thread_pitch_mm > 0.0)) return;
-    b->thread_size = c.cutting_diameter_mm;
-    b->thread_pitch = c.thread_pitch_mm;
-  };
-  threaded(m.get<model::Tap>(body_ref));
-  threaded(m.get<model::ThreadMill>(body_ref));
+  fill_body(m, body_ref, c);
 
   const auto material = m.add<model::Material>();
   auto& mat = m.at<model::Material>(material);
@@ -126,13 +181,7 @@ Ref<MachiningTool> nouns_from_cutter(Model& m, const Cutter& c) {
   e.its_material = material;
   e.expected_tool_life = known(c.life_min * kSecondsPerMinute);
 
-  const auto usage = m.add<model::ToolUsage>();
-  auto& u = m.at<model::ToolUsage>(usage);
-  u.its_id = c.id;
-  if (c.pocket > 0) u.its_position = std::to_string(c.pocket);
-  u.its_library_reference = c.id;
-  u.description = c.description.empty() ? c.id : c.description;
-
+  const auto usage = usage_of(m, c);
   const auto tool = m.add<model::MillingCuttingTool>();
   auto& t = m.at<model::MillingCuttingTool>(tool);
   t.its_id = c.id;

@@ -53,6 +53,7 @@ void limit_speed(double& rpm, double least, double most, const char* whose, std:
 
 StartValues start_values(const Cutter& c, const WorkMaterial& material, const Machine& machine) {
   StartValues out;
+  if (c.cutter_class == CutterClass::kTouchProbe) return out;  // it neither turns nor cuts
   const CuttingPreset* preset = preset_for(c, material);
   double vc = preset != nullptr ? preset->vc_m_min : 0.0;
   double fz = preset != nullptr ? preset->fz_mm : 0.0;

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <cstring>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -25,9 +27,34 @@ void each_field(A& a, T& x);
 template <class T>
 inline constexpr bool kIsStruct = std::is_class_v<T>;
 
+/// Texts that many cutters share (what a preset is for, where values are from), each kept once.
+class SharedTexts {
+ public:
+  [[nodiscard]] std::uint32_t place_of(const std::string& text) {
+    const auto [it, fresh] = places_.emplace(text, static_cast<std::uint32_t>(texts_.size()));
+    if (fresh) texts_.push_back(text);
+    return it->second;
+  }
+  [[nodiscard]] const std::vector<std::string>& texts() const { return texts_; }
+
+ private:
+  std::map<std::string, std::uint32_t> places_;
+  std::vector<std::string> texts_;
+};
+
 class Encoder {
  public:
+  explicit Encoder(SharedTexts* shared = nullptr) : shared_(shared) {}
   std::string bytes;
+
+  void shared(const std::string& v) {
+    if (shared_ == nullptr) return (*this)(v);
+    put(shared_->place_of(v), 4);
+  }
+  void shared(const std::vector<std::pair<std::string, std::string>>& v) {
+    put(v.size(), 4);
+    for (const auto& [a, b] : v) shared(a), shared(b);
+  }
 
   template <class T>
   void operator()(const T& v) {
@@ -65,13 +92,34 @@ class Encoder {
   void put(std::uint64_t v, int size) {
     for (int i = 0; i < size; ++i) bytes += static_cast<char>((v >> (8 * i)) & 0xff);
   }
+  SharedTexts* shared_;
 };
 
 /// Reads what Encoder wrote; `ok()` is false when the bytes end early, hold a value outside its enumeration,
 /// or go on past the end.
 class Decoder {
  public:
-  explicit Decoder(std::string_view bytes) : rest_(bytes) {}
+  explicit Decoder(std::string_view bytes, const std::vector<std::string>* shared = nullptr)
+      : rest_(bytes), shared_(shared) {}
+
+  void shared(std::string& v) {
+    if (shared_ == nullptr) return (*this)(v);
+    const auto place = static_cast<std::size_t>(take(4));
+    if (place >= shared_->size()) {
+      ok_ = false;
+      return;
+    }
+    v = (*shared_)[place];
+  }
+  void shared(std::vector<std::pair<std::string, std::string>>& v) {
+    const std::size_t n = length();
+    v.clear();
+    v.reserve(std::min(n, kReserved));
+    for (std::size_t i = 0; i < n && ok_; ++i) {
+      auto& [a, b] = v.emplace_back();
+      shared(a), shared(b);
+    }
+  }
 
   template <class T>
   void operator()(T& v) {
@@ -107,6 +155,7 @@ class Decoder {
   void operator()(std::vector<T>& v) {
     const std::size_t n = length();  // every element takes a byte at least
     v.clear();
+    v.reserve(std::min(n, kReserved));
     for (std::size_t i = 0; i < n && ok_; ++i) (*this)(v.emplace_back());
   }
   template <class T>
@@ -155,14 +204,16 @@ class Decoder {
     return n;
   }
 
+  static constexpr std::size_t kReserved = 64;  // a length that lies must not cost memory
   std::string_view rest_;
+  const std::vector<std::string>* shared_;
   bool ok_ = true;
 };
 
 template <class A, class T>
 void each_field(A& a, T& x) {
   if constexpr (std::is_same_v<T, model::CuttingPreset>) {
-    a(x.material_group), a(x.vc_m_min), a(x.fz_mm), a(x.source);
+    a.shared(x.material_group), a(x.vc_m_min), a(x.fz_mm), a.shared(x.source);
   } else if constexpr (std::is_same_v<T, model::HolderSegment>) {
     a(x.height_mm), a(x.lower_diameter_mm), a(x.upper_diameter_mm);
   } else if constexpr (std::is_same_v<T, model::SisterTool>) {
@@ -174,7 +225,7 @@ void each_field(A& a, T& x) {
     a(x.holder_diameter_mm), a(x.teeth), a(x.helix_rad), a(x.lead_angle_rad), a(x.thread_pitch_mm);
     a(x.centre_cutting), a(x.maximum_ramp_angle_rad), a(x.hand), a(x.coolant_through);
     a(x.maximum_speed_rpm), a(x.life_min), a(x.price), a(x.fz_min_mm), a(x.fz_max_mm), a(x.presets);
-    a(x.sources), a(x.pocket), a(x.adjustable_to_mm), a(x.overall_length_mm), a(x.neck_diameter_mm);
+    a.shared(x.sources), a(x.pocket), a(x.adjustable_to_mm), a(x.overall_length_mm), a(x.neck_diameter_mm);
     a(x.neck_length_mm), a(x.taper_angle_rad), a(x.cutting_width_mm), a(x.thread_size_mm);
     a(x.thread_form), a(x.lead_threads), a(x.lead_length_mm), a(x.holder_id), a(x.holder);
     a(x.library_reference), a(x.library_source), a(x.product_id), a(x.carousel), a(x.stated_in_inches);

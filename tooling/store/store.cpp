@@ -77,9 +77,9 @@ std::int64_t hash_of(std::string_view kind, std::int64_t place, std::string_view
 struct Header {
   std::string name, source;
   std::vector<std::pair<std::string, std::string>> kept;
-  std::array<std::int64_t, 6> counts{};  ///< item, instance, holder, assembly, entry, cutter
+  std::array<std::int64_t, 7> counts{};  ///< item, instance, holder, assembly, entry, text, cutter
 };
-constexpr std::array<const char*, 5> kKinds = {"item", "instance", "holder", "assembly", "entry"};
+constexpr std::array<const char*, 6> kKinds = {"item", "instance", "holder", "assembly", "entry", "text"};
 
 std::string encoded(const Header& h) {
   Encoder e;
@@ -130,7 +130,7 @@ class Writer {
     return step(s);
   }
   bool cutter(std::int64_t place, const Cutter& c) {
-    Encoder e;
+    Encoder e(&texts_);
     e(c);
     sqlite3_stmt* s = cutter_.get();
     sqlite3_bind_int64(s, 1, place);
@@ -145,6 +145,7 @@ class Writer {
     sqlite3_bind_int64(s, 9, hash_of(k));
     return step(s);
   }
+  [[nodiscard]] const std::vector<std::string>& texts() const { return texts_.texts(); }
   template <class T>
   bool records(const char* kind, const std::vector<T>& rows) {
     std::int64_t place = 0;
@@ -170,22 +171,23 @@ class Writer {
   }
   sqlite3* db_;
   Statement record_, cutter_, index_;
+  SharedTexts texts_;
 };
 
 bool write_all(Writer& w, const ToolLibrary& l, const std::vector<Cutter>& cutters) {
-  Header h{l.name, l.source, l.kept, {}};
-  const std::array<std::size_t, 6> counts = {l.items.size(),      l.instances.size(), l.holders.size(),
-                                             l.assemblies.size(), l.entries.size(),   cutters.size()};
-  for (std::size_t i = 0; i < counts.size(); ++i) h.counts.at(i) = static_cast<std::int64_t>(counts.at(i));
-  if (!w.record("library", 0, encoded(h)) || !w.records("item", l.items) ||
-      !w.records("instance", l.instances) || !w.records("holder", l.holders) ||
-      !w.records("assembly", l.assemblies) || !w.records("entry", l.entries))
-    return false;
   std::int64_t place = 0;
   for (const Cutter& c : cutters) {
     if (!w.cutter(place++, c)) return false;
   }
-  return true;
+  if (!w.records("text", w.texts())) return false;
+  Header h{l.name, l.source, l.kept, {}};
+  const std::array<std::size_t, 7> counts = {l.items.size(),      l.instances.size(), l.holders.size(),
+                                             l.assemblies.size(), l.entries.size(),   w.texts().size(),
+                                             cutters.size()};
+  for (std::size_t i = 0; i < counts.size(); ++i) h.counts.at(i) = static_cast<std::int64_t>(counts.at(i));
+  return w.record("library", 0, encoded(h)) && w.records("item", l.items) &&
+         w.records("instance", l.instances) && w.records("holder", l.holders) &&
+         w.records("assembly", l.assemblies) && w.records("entry", l.entries);
 }
 
 }  // namespace
@@ -195,6 +197,7 @@ struct ToolStore::Impl {
   Database db;
   Statement by_place;
   Header header;
+  std::vector<std::string> texts;
   std::vector<Key> keys;                                        ///< by class, then diameter, then place
   std::map<int, std::pair<std::size_t, std::size_t>> of_class;  ///< where a class begins and ends in `keys`
   std::map<int, double> widest_range;  ///< of tools that can be set, per class: diameter_to - diameter
@@ -267,6 +270,29 @@ Status ToolStore::Impl::check_schema() const {
   return {};
 }
 
+template <class T>
+Status ToolStore::Impl::read_records(const char* kind, std::int64_t count, std::vector<T>& out) const {
+  auto s = prepare("SELECT place, body, hash FROM capstan_record WHERE kind = ? ORDER BY place");
+  if (!s) return fail(s.error());
+  sqlite3_bind_text(s->get(), 1, kind, -1, SQLITE_STATIC);
+  int code = SQLITE_ROW;
+  for (std::int64_t place = 0; (code = sqlite3_step(s->get())) == SQLITE_ROW; ++place) {
+    const std::string row = std::string(kind) + " " + std::to_string(place);
+    if (place >= count || sqlite3_column_int64(s->get(), 0) != place)
+      return damaged(row + " is not where it should be");
+    const std::string_view body = blob_of(s->get(), 1);
+    if (hash_of(kind, place, body) != sqlite3_column_int64(s->get(), 2)) return damaged(row + " was altered");
+    Decoder d(body);
+    d(out.emplace_back());
+    if (!d.done()) return damaged(row + " cannot be read");
+  }
+  if (code != SQLITE_DONE) return damaged(sqlite3_errmsg(db.get()));
+  if (static_cast<std::int64_t>(out.size()) != count)
+    return damaged("it holds " + std::to_string(out.size()) + " of " + std::to_string(count) +
+                   " rows of kind " + kind);
+  return {};
+}
+
 Status ToolStore::Impl::read_header() {
   auto s = prepare("SELECT body, hash FROM capstan_record WHERE kind = 'library' AND place = 0");
   if (!s) return fail(s.error());
@@ -325,6 +351,7 @@ Status ToolStore::Impl::open() {
   if (auto ok = protect(db.get()); !ok) return refuse(ok.error().code, ok.error().message);
   if (auto ok = check_schema(); !ok) return ok;
   if (auto ok = read_header(); !ok) return ok;
+  if (auto ok = read_records(kKinds[5], header.counts[5], texts); !ok) return ok;
   if (auto ok = read_index(); !ok) return ok;
   auto s = prepare("SELECT body, hash FROM capstan_cutter WHERE place = ?");
   if (!s) return fail(s.error());
@@ -333,39 +360,16 @@ Status ToolStore::Impl::open() {
 }
 
 Result<Cutter> ToolStore::Impl::cutter_from(sqlite3_stmt* s, std::int64_t place) const {
-  const std::string row = "cutter " + std::to_string(place);
+  const auto row_of = [&] { return "cutter " + std::to_string(place); };
   const std::string_view body = blob_of(s, 0);
-  if (hash_of("cutter", place, body) != sqlite3_column_int64(s, 1)) return damaged(row + " was altered");
+  if (hash_of("cutter", place, body) != sqlite3_column_int64(s, 1)) return damaged(row_of() + " was altered");
   Cutter c;
-  Decoder d(body);
+  Decoder d(body, &texts);
   d(c);
-  if (!d.done()) return damaged(row + " cannot be read");
+  if (!d.done()) return damaged(row_of() + " cannot be read");
   if (const auto faults = faults_of(c); !faults.empty())
-    return damaged(row + " ('" + c.id + "') is no cutter: " + faults.front());
+    return damaged(row_of() + " ('" + c.id + "') is no cutter: " + faults.front());
   return c;
-}
-
-template <class T>
-Status ToolStore::Impl::read_records(const char* kind, std::int64_t count, std::vector<T>& out) const {
-  auto s = prepare("SELECT place, body, hash FROM capstan_record WHERE kind = ? ORDER BY place");
-  if (!s) return fail(s.error());
-  sqlite3_bind_text(s->get(), 1, kind, -1, SQLITE_STATIC);
-  int code = SQLITE_ROW;
-  for (std::int64_t place = 0; (code = sqlite3_step(s->get())) == SQLITE_ROW; ++place) {
-    const std::string row = std::string(kind) + " " + std::to_string(place);
-    if (place >= count || sqlite3_column_int64(s->get(), 0) != place)
-      return damaged(row + " is not where it should be");
-    const std::string_view body = blob_of(s->get(), 1);
-    if (hash_of(kind, place, body) != sqlite3_column_int64(s->get(), 2)) return damaged(row + " was altered");
-    Decoder d(body);
-    d(out.emplace_back());
-    if (!d.done()) return damaged(row + " cannot be read");
-  }
-  if (code != SQLITE_DONE) return damaged(sqlite3_errmsg(db.get()));
-  if (static_cast<std::int64_t>(out.size()) != count)
-    return damaged("it holds " + std::to_string(out.size()) + " of " + std::to_string(count) +
-                   " rows of kind " + kind);
-  return {};
 }
 
 Result<std::string> store_of(const ToolLibrary& library, const std::vector<Cutter>& cutters) {

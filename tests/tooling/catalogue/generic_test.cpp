@@ -29,11 +29,11 @@ const Cutter* by_id(const std::string& id) {
 }
 
 TEST(GenericLibrary, HoldsSome450SizesAndEveryClass) {
-  EXPECT_GE(library().size(), 380u);
-  EXPECT_LE(library().size(), 480u);
+  EXPECT_GE(library().size(), 430u);
+  EXPECT_LE(library().size(), 530u);
   std::set<CutterClass> classes;
   for (const Cutter& c : library()) classes.insert(c.cutter_class);
-  EXPECT_EQ(classes.size(), 16u);
+  EXPECT_EQ(classes.size(), static_cast<std::size_t>(model::kLastCutterClass) + 1);
 }
 
 TEST(GenericLibrary, HasNoFaultAndNamesASourceForEverything) {
@@ -50,6 +50,7 @@ TEST(GenericLibrary, HasNoFaultAndNamesASourceForEverything) {
 TEST(GenericLibrary, GivesEveryCutterAPresetForEveryShippedMaterialWithinItsRange) {
   const auto materials = shipped_materials().value();
   for (const Cutter& c : library()) {
+    if (c.cutter_class == CutterClass::kTouchProbe) continue;
     std::map<std::string, model::CuttingPreset> presets;
     for (const auto& p : c.presets) EXPECT_TRUE(presets.emplace(p.material_group, p).second) << c.id;
     for (const auto& m : materials) {
@@ -82,6 +83,44 @@ TEST(GenericLibrary, AdvancesATapByItsPitchPerTurn) {
   const Cutter* m6 = by_id("generic/tap/M6");
   ASSERT_NE(m6, nullptr);
   for (const auto& p : m6->presets) EXPECT_NEAR(p.fz_mm * m6->teeth, 1.0, 1e-12);  // M6: pitch 1 mm
+}
+
+TEST(GenericLibrary, DescribesAHolderFromTheToolsFaceToTheGageLine) {
+  for (const Cutter& c : library()) {
+    ASSERT_FALSE(c.holder.empty()) << c.id;
+    double height = 0.0, widest = 0.0;
+    for (const auto& s : c.holder) {
+      height += s.height_mm;
+      widest = std::max({widest, s.lower_diameter_mm, s.upper_diameter_mm});
+    }
+    EXPECT_NEAR(height, c.functional_length_mm - c.stick_out_mm, 1e-9) << c.id;
+    EXPECT_DOUBLE_EQ(widest, c.holder_diameter_mm) << c.id;
+  }
+}
+
+TEST(GenericLibrary, SaysTheThreadOfEveryTapAndThreadMill) {
+  int left = 0;
+  for (const Cutter& c : library()) {
+    if (c.cutter_class != CutterClass::kTap && c.cutter_class != CutterClass::kThreadMill) continue;
+    EXPECT_EQ(c.thread_form, "M") << c.id;
+    EXPECT_GT(c.thread_size_mm, 0.0) << c.id;
+    EXPECT_GT(c.thread_pitch_mm, 0.0) << c.id;
+    if (c.cutter_class == CutterClass::kTap) {
+      EXPECT_GT(c.lead_threads, 0.0) << c.id;
+      EXPECT_DOUBLE_EQ(c.thread_size_mm, c.cutting_diameter_mm) << c.id;
+      left += c.hand == model::Hand::kLeft ? 1 : 0;
+    } else {
+      EXPECT_LT(c.cutting_diameter_mm, c.thread_size_mm) << c.id;
+    }
+  }
+  EXPECT_GE(left, 5);
+}
+
+TEST(GenericLibrary, CornerRoundingMillsAreATipAndTwoRadiiWide) {
+  for (const Cutter& c : library()) {
+    if (c.cutter_class != CutterClass::kCornerRoundingMill) continue;
+    EXPECT_DOUBLE_EQ(c.cutting_diameter_mm, c.tip_diameter_mm + 2.0 * c.corner_radius_mm) << c.id;
+  }
 }
 
 TEST(GenericLibrary, CoversBoresWithoutAGapFromItsSmallestToItsLargestBoringTool) {

@@ -81,6 +81,12 @@ INSTANTIATE_TEST_SUITE_P(
         Slip{"not a number", "rpm_min: 60", "rpm_min: 6O", "DATA-NUMBER", "spindle.rpm_min"},
         Slip{"infinite", "spin_up_s: 1.5", "spin_up_s: 1e400", "DATA-NUMBER", "spindle.spin_up_s"},
         Slip{"given twice", "rpm_min: 60", "rpm_min: 60\n  rpm_min: 60", "DATA-DUPLICATE", ""},
+        Slip{"override as percent", "feed_override_max: 1.2", "feed_override_max: 120", "MACHINE-RANGE",
+             "abilities.feed_override_max"},
+        Slip{"more axes at once than there are", "simultaneous_axes: 3", "simultaneous_axes: 5",
+             "MACHINE-RANGE", "abilities.control_axes"},
+        Slip{"unknown ability", "control_axes: 3", "axes_of_control: 3", "DATA-UNKNOWN",
+             "abilities.axes_of_control"},
         Slip{"half a pocket", "pockets: 24", "pockets: 23.5", "DATA-NUMBER", "magazine.pockets"},
         Slip{"negative cost", "cost_per_hour: 60", "cost_per_hour: -1", "MACHINE-RANGE", "cost_per_hour"}));
 
@@ -104,6 +110,95 @@ TEST(ReadMachine, WantsASourceForEveryNumber) {
   ASSERT_FALSE(m);
   EXPECT_EQ(m.error().code, "DATA-SOURCE");
   EXPECT_GE(job.diagnostics().size(), 20u);  // all of them are told
+}
+
+TEST(Gears, TheFirstIsInUseUnlessAnotherIsNamed) {
+  Job job;
+  const auto high = load_machine("tormach_1100mx", job).value();
+  ASSERT_EQ(high.spindle.gears.size(), 2u);
+  EXPECT_DOUBLE_EQ(high.spindle.rpm_min, 250.0);
+  EXPECT_EQ(high.spindle.curve, high.spindle.gears[0].curve);
+  const auto low = load_machine("tormach_1100mx:low", job).value();
+  EXPECT_DOUBLE_EQ(low.spindle.rpm_min, 70.0);
+  EXPECT_DOUBLE_EQ(low.spindle.rpm_max, 1500.0);
+  EXPECT_EQ(low.spindle.curve, high.spindle.gears[1].curve);
+  const auto none = load_machine("tormach_1100mx:third", job);
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.error().code, "MACHINE-GEAR");
+  EXPECT_NE(none.error().expected.find("high, low"), std::string::npos);
+}
+
+TEST(Gears, ASpeedIsTurnedInTheGearInUseWhereItCanBe) {
+  Job job;
+  const auto m = load_machine("tormach_1100mx", job).value();
+  EXPECT_EQ(gear_for(m, 1000.0)->id, "high");  // both could
+  EXPECT_EQ(gear_for(m, 100.0)->id, "low");
+  EXPECT_EQ(gear_for(m, 9000.0), nullptr);
+  EXPECT_EQ(gear_for(in_gear(m, "low").value(), 1000.0)->id, "low");
+}
+
+TEST(Gears, TheLowRangeNeverGivesMoreThanTheHighOneOverEitherRatio) {
+  Job job;
+  const auto m = load_machine("tormach_1100mx", job).value();
+  const auto power = [](const std::vector<model::SpindlePoint>& curve, double rpm) {
+    for (std::size_t i = 1; i < curve.size(); ++i) {
+      if (rpm > curve[i].rpm) continue;
+      const double t = (rpm - curve[i - 1].rpm) / (curve[i].rpm - curve[i - 1].rpm);
+      return curve[i - 1].power_w + t * (curve[i].power_w - curve[i - 1].power_w);
+    }
+    return curve.back().power_w;
+  };
+  const auto& high = m.spindle.gears[0].curve;
+  const auto& low = m.spindle.gears[1].curve;
+  for (double n = 70.0; n <= 1500.0; n += 5.0)
+    EXPECT_LE(power(low, n), std::min(power(high, n * 250.0 / 70.0), power(high, n * 5.0)) + 0.1) << n;
+}
+
+std::string with_gears(const std::string& gears) {
+  std::string text = shipped_text("machines/tormach_1100mx.yaml");
+  const auto a = text.find("  gears:"), b = text.find("magazine:");
+  return text.replace(a, b - a, gears);
+}
+
+TEST(Gears, AreRefusedLikeASpindleThatHasOne) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"  gears: []\n", "DATA-MISSING"},
+      {"  gears: [{id: a, rpm_min: 900, rpm_max: 700, curve: [{rpm: 700, power_w: 1}]}]\n", "MACHINE-RANGE"},
+      {"  gears: [{id: a, rpm_min: 100, rpm_max: 700, curve: [{rpm: 700, power_w: 1}, {rpm: 100, power_w: "
+       "1}]}]\n",
+       "MACHINE-CURVE"},
+      {"  gears: [{id: a, rpm_min: 100, rpm_max: 700, curve: [{rpm: 100, power_w: 1}, {rpm: 600, power_w: "
+       "1}]}]\n",
+       "MACHINE-CURVE"},
+      {"  gears: [{id: a, rpm_min: 10, rpm_max: 170, curve: [{rpm: 10, power_w: 1}, {rpm: 170, power_w: "
+       "1}]}]\n",
+       "MACHINE-RPM"},
+      {"  gears: [{id: a, rpm_min: 100, rpm_max: 700, curve: [{rpm: 100, power_w: 1}, {rpm: 700, power_w: "
+       "1}],"
+       " curve_s6: [{rpm: 700, power_w: 2}, {rpm: 100, power_w: 2}]}]\n",
+       "MACHINE-CURVE"},
+      {"  gears: [{id: a, rpm_min: 100, rpm_max: 700, curve: [{rpm: 100, power_w: 1}, {rpm: 700, power_w: "
+       "1}]},"
+       " {id: a, rpm_min: 100, rpm_max: 700, curve: [{rpm: 100, power_w: 1}, {rpm: 700, power_w: 1}]}]\n",
+       "DATA-DUPLICATE"}};
+  for (const auto& [gears, code] : cases) {
+    Job job;
+    const auto m = read_machine(with_gears(gears), "shop.yaml", job);
+    ASSERT_FALSE(m) << gears;
+    EXPECT_EQ(m.error().code, code) << gears << to_text(m.error());
+  }
+}
+
+TEST(Gears, KeepTheRatingForIntermittentRunning) {
+  Job job;
+  const auto m = read_machine(
+      with_gears("  gears: [{id: a, rpm_min: 100, rpm_max: 700, curve: [{rpm: 100, power_w: 1}, {rpm: 700, "
+                 "power_w: 1}], curve_s6: [{rpm: 100, power_w: 2}, {rpm: 700, power_w: 2}]}]\n"),
+      "shop.yaml", job);
+  ASSERT_TRUE(m) << to_text(m.error());
+  ASSERT_EQ(m->spindle.gears.size(), 1u);
+  EXPECT_EQ(m->spindle.gears[0].curve_s6.size(), 2u);
+  EXPECT_DOUBLE_EQ(m->spindle.curve[0].power_w, 1.0);  // S1 rules
 }
 
 TEST(ReadMachine, DoesNotDieOfDepth) {
