@@ -1,14 +1,17 @@
 #include "tooling/catalogue/library.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <numbers>
 
 #include "planner/base/file.h"
 #include "tooling/catalogue/check.h"
 #include "tooling/catalogue/complete.h"
-#include "tooling/catalogue/fusion.h"
 #include "tooling/catalogue/generic.h"
 #include "tooling/catalogue/tree.h"
+#include "tooling/formats/all.h"
+#include "tooling/formats/import.h"
+#include "tooling/store/store.h"
 
 namespace capstan::tooling {
 namespace {
@@ -17,6 +20,7 @@ using model::Cutter;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kMmPerInch = 25.4;
+constexpr std::size_t kLibraryBytesCap = std::size_t{256} << 20;
 
 /// Reads one field when the file has it, and remembers where it is from.
 class CutterFields {
@@ -57,6 +61,22 @@ void read_presets(Fields& f, Cutter& c, double mm_per_unit) {
   }
 }
 
+void read_holder(Fields& f, Cutter& c, double mm_per_unit) {
+  c.holder_id = f.text_or("holder_id", "");
+  const Node* list = f.child("holder", false);
+  if (list == nullptr) return;
+  for (const Node& n : list->items) {
+    Fields s = f.below("holder", n);
+    c.holder.push_back({s.number("height") * mm_per_unit, s.number("lower_diameter") * mm_per_unit,
+                        s.number("upper_diameter") * mm_per_unit});
+    s.finish();
+    const auto& last = c.holder.back();
+    if (c.holder_diameter_mm < std::max(last.lower_diameter_mm, last.upper_diameter_mm))
+      c.holder_diameter_mm = std::max(last.lower_diameter_mm, last.upper_diameter_mm);
+  }
+  c.sources.emplace_back("holder_diameter_mm", "derived: the widest of the holder's outline");
+}
+
 void read_names(Fields& f, Cutter& c) {
   c.id = f.text("id");
   c.description = f.text_or("description", c.id);
@@ -78,6 +98,7 @@ void read_names(Fields& f, Cutter& c) {
 
 Cutter read_cutter(Fields f, double mm_per_unit) {
   Cutter c;
+  c.stated_in_inches = mm_per_unit != 1.0;
   read_names(f, c);
   CutterFields r(f, c, mm_per_unit);
   (void)f.child("cutting_diameter", true);
@@ -92,6 +113,13 @@ Cutter read_cutter(Fields f, double mm_per_unit) {
   r.length("holder_diameter", c.holder_diameter_mm);
   r.length("thread_pitch", c.thread_pitch_mm);
   r.length("adjustable_to", c.adjustable_to_mm);
+  r.length("overall_length", c.overall_length_mm);
+  r.length("neck_diameter", c.neck_diameter_mm);
+  r.length("neck_length", c.neck_length_mm);
+  r.length("cutting_width", c.cutting_width_mm);
+  r.length("thread_size", c.thread_size_mm);
+  r.angle("taper_angle_deg", c.taper_angle_rad);
+  r.number("life_used_min", c.life_used_min);
   r.length("fz_min", c.fz_min_mm);
   r.length("fz_max", c.fz_max_mm);
   r.angle("point_angle_deg", c.point_angle_rad);
@@ -110,6 +138,12 @@ Cutter read_cutter(Fields f, double mm_per_unit) {
   if (f.has("centre_cutting")) r.state("centre_cutting");
   c.centre_cutting = f.flag_or("centre_cutting", false);
   c.coolant_through = f.flag_or("coolant_through", false);
+  c.thread_form = f.text_or("thread_form", "");
+  c.product_id = f.text_or("product_id", "");
+  c.carousel = f.text_or("carousel", "");
+  c.loaded = f.flag_or("loaded", false);
+  if (const auto n = f.optional_integer("in_stock")) c.in_stock = static_cast<int>(*n);
+  read_holder(f, c, mm_per_unit);
   read_presets(f, c, mm_per_unit);
   f.finish();
   return c;
@@ -150,46 +184,55 @@ Result<std::vector<Cutter>> read_own(const Node& root, const std::string& file, 
   return finished(std::move(cutters), lines, file, std::move(faults), job);
 }
 
-bool looks_like_table(std::string_view text) {
-  while (!text.empty()) {
-    const auto end = text.find('\n');
-    std::string_view line = text.substr(0, end);
-    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-    const auto first = line.find_first_not_of(" \t\r");
-    if (first == std::string_view::npos || line[first] == ';' || line[first] == '#') continue;
-    line.remove_prefix(first);
-    return line.size() > 1 && (line[0] == 'T' || line[0] == 't') && line[1] >= '0' && line[1] <= '9';
+}  // namespace
+
+Result<std::vector<Cutter>> read_own_list(std::string_view text, const std::string& file, Job& job) {
+  const auto root = parse_tree(text, file);
+  if (!root) return fail(root.error());
+  return read_own(*root, file, job);
+}
+
+bool looks_like_own_list(std::string_view text) {
+  // The key stands at the beginning of a line, or in quotes where the list is JSON.
+  for (auto at = text.find("capstan_tools"); at != std::string_view::npos;
+       at = text.find("capstan_tools", at + 1)) {
+    if (at == 0 || text[at - 1] == '\n' || text[at - 1] == '"' || text[at - 1] == '{' || text[at - 1] == ' ')
+      return true;
   }
   return false;
 }
 
-}  // namespace
-
 Result<std::vector<Cutter>> read_library(std::string_view text, const std::string& file, Job& job,
                                          const LibraryOptions& options) {
-  if (looks_like_table(text)) return read_tool_table(text, file, job, options);
-  auto root = parse_tree(text, file);
-  if (!root) return fail(root.error());
-  if (const Node* data = root->find("data"); data != nullptr && data->kind == Node::Kind::kList) {
-    const auto& generic = shared_generic_library();
-    if (!generic) return fail(generic.error());
-    return read_fusion(*root, file, job, *generic);
+  // Our own list names every field of a cutter: no way round by the records.
+  if (own_format().recognises(text, file)) return read_own_list(text, file, job);
+  if (looks_like_store(text)) {
+    const auto store = ToolStore::from_bytes(std::string(text), file);
+    if (!store) return fail(store.error());
+    return store->all_cutters();
   }
-  if (root->find("capstan_tools") == nullptr) {
-    return fail(
-        {.code = "LIBRARY-KIND",
-         .message = "this is no tool library that can be read",
-         .file = file,
-         .expected = "a list with capstan_tools: 1, a LinuxCNC tool table, or a Fusion library (.json)"});
-  }
-  return read_own(*root, file, job);
+  FormatOptions o;
+  o.mm_per_unit = options.mm_per_unit;
+  const auto imported = import_bytes(text, file, o, job);
+  if (!imported) return fail(imported.error());
+  LossReport report;
+  return cutters_of(imported->library, report, job);
 }
 
 Result<std::vector<Cutter>> load_library(const std::string& path, Job& job, const LibraryOptions& options) {
   if (path == "generic") return generic_library();
-  auto text = read_file(path, kDataFileCap);
-  if (!text) return fail(text.error());
-  return read_library(*text, path, job, options);
+  std::error_code error;
+  if (!std::filesystem::is_directory(path, error)) {
+    const auto text = read_file(path, kLibraryBytesCap);
+    if (!text) return fail(text.error());
+    return read_library(*text, path, job, options);
+  }
+  FormatOptions o;
+  o.mm_per_unit = options.mm_per_unit;
+  const auto imported = import_library(path, o, job);
+  if (!imported) return fail(imported.error());
+  LossReport report;
+  return cutters_of(imported->library, report, job);
 }
 
 }  // namespace capstan::tooling
