@@ -388,7 +388,9 @@ class PathMaker {
     r.schedule = std::make_shared<const model::FeedSchedule>(feeds.schedule);
     r.loads = feeds.peak;
     r.path = path;
-    record_path(w_, step, path);
+    const Deviation deviation = deviation_of(w_, step, job_of(w_, step, step.shapes.front()));
+    r.path_deviation_mm = r.contour_tolerance_mm = deviation.mm;
+    record_path(w_, step, path, deviation.why);
     return keep(step, std::move(r), fq);
   }
 

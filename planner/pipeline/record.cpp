@@ -155,7 +155,8 @@ void record_cut(Work& w, StepWork& step, const optimise::CutAnswer& a, bool dept
   }
 }
 
-void record_path(Work& w, const StepWork& step, const std::shared_ptr<const model::CutterPath>& path) {
+void record_path(Work& w, const StepWork& step, const std::shared_ptr<const model::CutterPath>& path,
+                 const std::string& deviation) {
   Model& m = w.plan.model;
   model::CutterLocationTrajectory t;
   t.its_priority = true;
@@ -166,7 +167,9 @@ void record_path(Work& w, const StepWork& step, const std::shared_ptr<const mode
   m.get<model::MachiningOperation>(step.operation)->its_toolpath = m.add(list);
   w.plan.ledger.bind(
       step.operation, "its_toolpath", Binder::kRule,
-      {"path.generated", "computed from feature, cutter, depths and strategy", "planner/toolpath"},
+      {"path.generated",
+       "computed from feature, cutter, depths and strategy" + (deviation.empty() ? "" : "; " + deviation),
+       "planner/toolpath"},
       {{step.operation, "its_tool"}, {step.operation, "axial_cutting_depth"}});
 }
 

@@ -22,6 +22,15 @@ namespace capstan::pipeline {
 /// their tolerances. A hole's path does that by itself.
 void aim_at_the_middle(model::FeatureShape& shape);
 
+/// How far the path of a step, and the control that follows it, may leave what is wanted, mm; 0: the
+/// control's own. For milling: of a step that leaves material a quarter of that, of a finishing one a tenth
+/// of the tightest tolerance. Default, unsourced.
+struct Deviation {
+  double mm = 0.0;
+  std::string why;
+};
+[[nodiscard]] Deviation deviation_of(const Work& w, const StepWork& step, const toolpath::PathJob& job);
+
 /// What the nouns say of speed and feed.
 struct GivenTechnology {
   std::optional<double> rpm;  ///< positive clockwise
@@ -57,7 +66,8 @@ void shape_from_mesh(const Work& w, const StepWork& step, toolpath::PathJob& job
 void record_cut(Work& w, StepWork& step, const optimise::CutAnswer& answer, bool depth_open, bool width_open,
                 const std::optional<model::Reason>& precedent);
 /// Puts the computed path at the operation's its_toolpath, as derived.
-void record_path(Work& w, const StepWork& step, const std::shared_ptr<const model::CutterPath>& path);
+void record_path(Work& w, const StepWork& step, const std::shared_ptr<const model::CutterPath>& path,
+                 const std::string& deviation);
 
 /// Whether the operation brings a path that is to be executed: not one that an earlier planning computed,
 /// which is computed again.

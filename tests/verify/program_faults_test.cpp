@@ -207,6 +207,22 @@ TEST(CheckProgram, WhatItCannotFollowIsAWarning) {
   }
 }
 
+TEST(CheckProgram, APathToleranceWiderThanTheStepAllowsIsFoundOncePerStep) {
+  model::Plan plan = testing::good_plan().plan;
+  const std::string text = testing::program_of(plan);
+  plan.steps.front().contour_tolerance_mm = 0.01;
+  EXPECT_TRUE(check(text, plan).empty()) << told(check(text, plan));
+  for (const char* wide : {"G64 P0.0101", "G64", "G20 G64 P0.001\nG21"}) {
+    const auto findings = check(replaced(text, "G64 P0.01", wide), plan);
+    EXPECT_EQ(std::count_if(findings.begin(), findings.end(),
+                            [](const auto& f) { return f.code == "CHK-TEXT-TOLERANCE" && f.property == 33; }),
+              1)
+        << wide << "\n"
+        << told(findings);
+  }
+  EXPECT_TRUE(check(replaced(text, "G64 P0.01", "G61"), plan).empty()) << "exact stop is tighter";
+}
+
 TEST(CheckProgram, InchesAndRadiusArcsAreRead) {
   // The same motion in inches, the arc by its radius: within the travel, nothing to say.
   const std::string text =

@@ -210,6 +210,9 @@ class Splitter {
     for (const auto& s : plan_.steps) {
       if (s.path == path) result = &s;
     }
+    deviation_mm_ = result != nullptr && result->path_deviation_mm > 0.0
+                        ? result->path_deviation_mm
+                        : plan_.machine.control.path_tolerance_mm;
     schedule_ = result != nullptr && result->schedule && result->schedule->feed_mm_min.size() == path->size()
                     ? result->schedule
                     : nullptr;
@@ -295,8 +298,7 @@ class Splitter {
     t.cross_section_area_parameters = cut;
     t.its_toolaxis = axis;
     t.its_material_removal_total_volume = volume > 0.0 ? model::Real(volume) : std::nullopt;
-    if (!rapid && plan_.machine.control.path_tolerance_mm > 0.0)
-      t.path_maximum_deviation = plan_.machine.control.path_tolerance_mm;
+    if (!rapid && deviation_mm_ > 0.0) t.path_maximum_deviation = deviation_mm_;
   }
 
   model::SelectValue speed_for(AnyRef technology, std::size_t first, std::size_t last,
@@ -349,6 +351,7 @@ class Splitter {
   std::vector<std::string>& losses_;
   std::string name_;
   std::shared_ptr<const model::FeedSchedule> schedule_;
+  double deviation_mm_ = 0.0;  ///< what the path, and the control that follows it, may leave it by
   std::map<std::tuple<double, double>, model::Ref<model::Technology>> technologies_;
 };
 

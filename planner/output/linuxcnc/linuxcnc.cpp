@@ -77,7 +77,7 @@ class Writer {
     }
     program_.blank();
     program_.line("G21 G17 G90 G94 G40 G49 G80");
-    tolerance();
+    tolerance(0.0);
     retract();
     stop();
   }
@@ -89,8 +89,10 @@ class Writer {
     return out;
   }
 
-  void tolerance() {
-    const double p = plan_.machine.control.path_tolerance_mm;
+  // The step's own tolerance, where the control blends at all.
+  void tolerance(double of_step_mm) {
+    const double own = plan_.machine.control.path_tolerance_mm;
+    const double p = own > 0.0 && of_step_mm > 0.0 ? of_step_mm : own;
     program_.line(program_.number(p) == "0" || p < 0.0 ? "G61" : "G64 P" + program_.number(p));
   }
 
@@ -127,7 +129,7 @@ class Writer {
       program_.line("M0");
     }
     program_.line("G21 G17 G90 G94 G40 G80");
-    tolerance();
+    tolerance(step.contour_tolerance_mm);
     program_.line(setup.work_offset);
     const std::string t = std::to_string(cutter.pocket);
     if (new_tool) program_.line("T" + t + " M6");

@@ -15,7 +15,7 @@ namespace capstan::output {
 ///
 ///     (CAPSTAN STEP id="finish%20pocket" n=3 tool=2 setup=1)
 ///     G21 G17 G90 G94 G40 G80      units, plane, distances, feed per minute, no compensation, no cycle
-///     G64 P0.01                    path tolerance (G61 when the machine states none)
+///     G64 P0.01                    path tolerance: the step's, else the machine's (G61 when it states none)
 ///     G54                          the set-up's work offset
 ///     T2 M6                        only when the tool changes: retracted, spindle and coolant off
 ///     G43 H2                       the length offset of the loaded tool

@@ -181,6 +181,25 @@ class Comparison {
 
 }  // namespace
 
+namespace {
+
+/// Corners may be rounded by no more than the step allows.
+void check_tolerance(const model::StepResult& step, const std::vector<const Block*>& text,
+                     const Findings::Where& at, Findings& findings) {
+  constexpr double kRounding = 1e-6;
+  if (!(step.contour_tolerance_mm > 0.0)) return;
+  for (const Block* b : text) {
+    if (b->move == MoveKind::kRapid || b->tolerance_mm <= step.contour_tolerance_mm + kRounding) continue;
+    const std::string stated =
+        b->tolerance_mm >= kNoTolerance ? "no path tolerance" : "a path tolerance of " + mm(b->tolerance_mm);
+    findings.error(33, "CHK-TEXT-TOLERANCE", {at.order, at.step, b->line},
+                   "the text cuts with " + stated + "; the step allows " + mm(step.contour_tolerance_mm));
+    return;
+  }
+}
+
+}  // namespace
+
 void compare(const ProgramCase& c, Findings& findings) {
   if (c.plan == nullptr) return;
   std::vector<std::vector<const Block*>> text(c.program.markers.size());
@@ -203,6 +222,7 @@ void compare(const ProgramCase& c, Findings& findings) {
     last = std::max(last, step);
     const auto i = static_cast<std::size_t>(step);
     written[i] = true;
+    check_tolerance(c.plan->steps[i], text[m], at, findings);
     if (c.plan->steps[i].path && c.plan->steps[i].path->size() > 0)
       Comparison(c, m, i, std::move(text[m]), findings).run();
   }

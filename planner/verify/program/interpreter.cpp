@@ -115,6 +115,7 @@ Block Interpreter::block() const {
   b.flood = flood_;
   b.stated = stated_;
   b.units_stated = units_stated_;
+  b.tolerance_mm = tolerance_;
   return b;
 }
 
@@ -193,7 +194,11 @@ void Interpreter::state_code(int g, const Said& s) {
       break;
     case 610:
     case 611:
-    case 640:
+      tolerance_ = 0.0;
+      break;
+    case 640:  // without P as fast as it likes
+      tolerance_ = s.is('P') ? s.of('P') * units() : kNoTolerance;
+      break;
     case 530:
     case 40:
       break;

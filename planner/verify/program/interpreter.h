@@ -65,6 +65,7 @@ class Interpreter {
   bool cycle_known_ = false;
   double cycle_r_ = 0.0, cycle_z_ = 0.0, cycle_q_ = 0.0, cycle_p_ = 0.0, cycle_clear_ = 0.0;
   bool has_q_ = false;
+  double tolerance_ = kNoTolerance;
   unsigned stated_ = 0;
 };
 

@@ -50,7 +50,9 @@ struct Block {
   bool mist = false, flood = false;  ///< M7, M8
   unsigned stated = 0;               ///< Stated bits set since the last marker
   bool units_stated = false;
+  double tolerance_mm = 0.0;  ///< G64 P: corners may be rounded by this; 0 G61; kNoTolerance G64 alone
 };
+inline constexpr double kNoTolerance = 1e300;
 
 /// What a program stated since the marker of the current step.
 enum Stated : unsigned {

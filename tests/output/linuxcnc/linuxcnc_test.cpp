@@ -248,6 +248,19 @@ TEST(LinuxCnc, GivesTheSameBytesForTheSamePlan) {
   EXPECT_EQ(program_of(plan), program_of(Plan(plan)));
 }
 
+TEST(LinuxCnc, GivesEachStepItsOwnPathTolerance) {
+  Plan plan = empty_plan();
+  add_step(plan, "rough", "em18", contour());
+  add_step(plan, "finish", "em18", contour());
+  plan.steps[0].contour_tolerance_mm = 0.05;
+  plan.steps[1].contour_tolerance_mm = 0.0021;
+  const std::string text = program_of(plan);
+  const auto rough = text.find("G64 P0.05"), finish = text.find("G64 P0.0021");
+  ASSERT_NE(rough, std::string::npos);
+  ASSERT_NE(finish, std::string::npos);
+  EXPECT_LT(rough, finish);
+}
+
 TEST(LinuxCnc, SurvivesNamesThatWouldEndAComment) {
   Plan plan = empty_plan();
   add_step(plan, "evil) G0 Z-100 (\"\n%;" + std::string(400, 'x'), "em18", contour());
