@@ -230,7 +230,8 @@ class Maker {
     const CatalogueItem& item = *t.item;
     const std::string who = item.description.empty() ? item.id : item.description;
     if (!item.cutter_class) {
-      left_out(who, "no cutter describes a '" + item.kind + "'");
+      const std::string* why = find_kept(item.kept, "left out");
+      left_out(who, why != nullptr ? *why : "no cutter describes a '" + item.kind + "'");
       return std::nullopt;
     }
     Cutter c;
@@ -265,9 +266,13 @@ class Maker {
   }
 
   static void numbers(const CatalogueItem& item, Cutter& c) {
+    // Of a bare tool, LF runs from the tip to its shank's end at most: no length in a holder.
+    const auto lf = number_of(item, "LF"), oal = number_of(item, "OAL");
+    const bool bare = lf && oal && *lf <= *oal + 1e-9;
     for (const FieldOf& f : kFields) {
       const Property* p = find(item.properties, f.symbol);
       if (p == nullptr || !p->number || *p->number == 0.0 || c.*f.field != 0.0) continue;
+      if (bare && std::string_view(f.symbol) == "LF") continue;
       c.*f.field = *p->number;
       c.sources.emplace_back(f.name, words_of(*p));
     }

@@ -45,7 +45,8 @@ std::string cell(std::string text) {
     for (auto at = text.find(blank); at != std::string::npos; at = text.find(blank))
       text.replace(at, blank.size(), " ");
   while (!text.empty() && (text.back() == '~' || text.back() == ' ')) text.pop_back();
-  return std::string(trimmed_text(text));
+  text = trimmed_text(text);
+  return text == "-" ? std::string() : text;  // a dash: not given
 }
 
 /// The text of a description without its tags.

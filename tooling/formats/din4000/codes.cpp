@@ -22,6 +22,8 @@ constexpr std::array kCodes = {
     Code{"", "H5", "COATING", ""},
     Code{"", "H21", "CNSC", ""},
     Code{"", "H22", "CXSC", ""},
+    Code{"", "H4", "", ""},
+    Code{"", "H11", "", ""},
     Code{"", "J3", "", ""},
     Code{"", "J21", "", ""},
     Code{"", "J22", "", ""},

@@ -59,7 +59,7 @@ class RecordReader {
 
   void person(const std::string& code, const std::string& text) {
     if (code == "J23" || (code == "J22" && item_.description.empty())) item_.description = text;
-    if (code == "J22") item_.kept.emplace_back("J22", text);
+    if (code == "J22" || code == "H4" || code == "H11") item_.kept.emplace_back(code, text);
     if (code == "J3" && item_.manufacturer.empty()) item_.manufacturer = text;
     if (code == "J21" && item_.id.empty()) item_.id = item_.product_id = text;
   }

@@ -123,7 +123,7 @@ class BitReader {
     } else if (key == "Material" && (text == "HSS" || text == "Carbide")) {
       (void)add_value(item_, {"SUBSTRATE", text == "HSS" ? "hss" : "carbide", "", "FreeCAD Material"},
                       {file_, 0, {}});
-    } else {
+    } else if (key != "CuttingEdgeHeight" && key != "TaperAngle") {  // these are used below
       report_.dropped.push_back({item_.id, key, "no symbol for it; kept word for word"});
     }
   }

@@ -120,7 +120,8 @@ class BitWriter {
     } else if (path.starts_with("attribute/")) {
       auto value = parse_json(text, path);
       attributes.set(path.substr(10), value ? *std::move(value) : Json::string(text));
-    } else if (path != "version" && path != "id" && path != "shape" && path != "shape-type") {
+    } else if (path != kLeftOut && path != "version" && path != "id" && path != "shape" &&
+               path != "shape-type") {
       drop(path, "of another format, no place for it");
     }
   }

@@ -51,7 +51,7 @@ struct Item {
 class Reader {
  public:
   Reader(const p21::File& f, const std::string& file, Imported& out, Job& job)
-      : f_(f), file_(file), out_(out), gatherer_(out, file, "TOOL-VALUE", job) {}
+      : f_(f), file_(file), out_(out), job_(job), gatherer_(out, file, "TOOL-VALUE", job) {}
 
   Status read(const IsoReadOptions& options) {
     if (Status s = collect(); !s) return s;
@@ -397,6 +397,22 @@ class Reader {
     }
     if (n == nullptr && symbol_fact(symbol) == nullptr)
       out_.report.dropped.push_back({out.id, symbol, "no symbol that is known; kept under its name"});
+    const SymbolFact* fact = symbol_fact(symbol);
+    if (fact != nullptr && fact->quantity == Quantity::kAngle && mm_per_unit_of(v.unit)) {
+      // Public files do this: the number may be right, nothing says so.
+      out.kept.emplace_back(symbol, v.text + " " + v.unit);
+      const std::string what =
+          "an angle in " + v.unit + " is no angle: " + v.text + " " + v.unit + " is not used";
+      out_.report.dropped.push_back({out.id, symbol, what});
+      job_.report({.code = "DATA-UNIT",
+                   .severity = Severity::kWarning,
+                   .message = symbol + ": " + what,
+                   .file = file_,
+                   .line = v.line,
+                   .instance = v.id,
+                   .expected = "deg or rad"});
+      return;
+    }
     const std::size_t before = out.properties.size();
     auto fault = add_value(out, {symbol, v.text, v.unit, source},
                            {file_, v.line, "#" + std::to_string(v.id) + " of item " + out.id});
@@ -464,6 +480,7 @@ class Reader {
   const p21::File& f_;
   const std::string& file_;
   Imported& out_;
+  Job& job_;
   ItemGatherer gatherer_;
   std::map<std::uint64_t, Item> items_;
   std::vector<std::uint64_t> order_;

@@ -173,7 +173,8 @@ class Writer {
     if (!item.product_id.empty() && item.product_id != item.id)
       drop(item.id, "product_id", "the item's id is written");
     for (const auto& [path, text] : item.kept)
-      if (path != "name" && path != "role") drop(item.id, path, "of another format, no place for it");
+      if (path != "name" && path != "role" && path != kLeftOut)
+        drop(item.id, path, "of another format, no place for it");
   }
 
   Exported& out_;

@@ -34,6 +34,7 @@ std::optional<Diagnostic> weight(const StatedValue& v, const Place& place, Prope
   if (*number < 0.0) return fault_at(place, "TOOL-VALUE", "WT (weight) is " + std::string(v.text), "from 0");
   out = number_property("WT", *number * *factor, "", ValueState::kStated, v.source);
   out.text = trimmed_text(v.text);
+  std::ranges::replace(out.text, ',', '.');
   out.unit = v.unit;
   return std::nullopt;
 }
@@ -55,8 +56,10 @@ std::optional<Diagnostic> add_value(CatalogueItem& item, const StatedValue& valu
   } else {
     p = text_property(symbol, trimmed_text(value.text), value.source);
     p.unit = value.unit;
-    if (auto read = property_from(symbol, value.text, value.unit, "", place, value.decimal_comma))
+    if (auto read = property_from(symbol, value.text, value.unit, "", place, value.decimal_comma)) {
       p.number = read->number;
+      p.text = read->text;
+    }
   }
   if (const Property* other = find(item.properties, symbol)) {
     if (other->number == p.number && (p.number || other->text == p.text)) return std::nullopt;
@@ -106,6 +109,7 @@ std::vector<std::string> item_faults(const CatalogueItem& item) {
 
 void leave_out(CatalogueItem& item, const std::string& why, LossReport& report) {
   item.cutter_class.reset();
+  item.kept.emplace_back(kLeftOut, why);
   report.dropped.push_back({item.id, "class", "not used for planning: " + why});
 }
 

@@ -38,6 +38,8 @@ void add_derived_text(CatalogueItem& item, std::string_view symbol, std::string_
 /// longer than the tool, a radius beyond half the diameter, an unknown hand, no teeth.
 [[nodiscard]] std::vector<std::string> item_faults(const CatalogueItem& item);
 
+/// Where `leave_out` keeps its reason in CatalogueItem::kept; readers find it again, writers leave it.
+inline constexpr std::string_view kLeftOut = "left out";
 /// The class is taken back: what is known does not allow planning with the tool.
 void leave_out(CatalogueItem& item, const std::string& why, LossReport& report);
 

@@ -5,6 +5,7 @@
 
 #include "planner/base/number.h"
 #include "tooling/formats/all.h"
+#include "tooling/formats/item/item.h"
 #include "tooling/formats/mtconnect/mtconnect.h"
 #include "tooling/formats/values.h"
 #include "tooling/formats/xml.h"
@@ -335,7 +336,8 @@ class Writer {
       drop("presets", std::to_string(item.presets.size()) +
                           " start values: one per tool has a place, which is not known");
     if (!item.product_link.empty()) drop("product_link", "no place for it");
-    for (const auto& [path, text] : item.kept) drop(path, "of another format, no place for it");
+    for (const auto& [path, text] : item.kept)
+      if (path != kLeftOut) drop(path, "of another format, no place for it");
     if (a.holder != nullptr && !a.holder->segments.empty()) drop("holder", "its outline has no place");
     if (a.entry != nullptr && !a.entry->offsets.empty())
       drop("offsets", "offsets of a tool table have no place");
