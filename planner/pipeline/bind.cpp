@@ -50,7 +50,8 @@ Status collect_setups(Work& w) {
                                    " set-ups, and a control has nine work offsets; plan it in parts");
   }
   for (std::size_t i = 0; i < w.setups.size(); ++i) {
-    w.plan.setups.push_back({w.setups[i].setup, kOffsets[i % kCount], w.setups[i].security_z_mm});
+    w.plan.setups.push_back(
+        {w.setups[i].setup, kOffsets[i % kCount], w.setups[i].security_z_mm, w.setups[i].holding});
   }
   if (w.setups.size() > kCount)
     w.job.warn("PIP-OFFSETS", "there are more set-ups than work offsets; offsets repeat");
@@ -95,10 +96,13 @@ void leave_open(Work& w) {
 
 Result<model::Plan> bind(model::Plan plan, const Inputs& inputs, const Policy& policy, Job& job) {
   plan.steps.clear();
+  std::vector<std::pair<Ref<model::Setup>, model::Workholding>> held;
+  for (const auto& s : plan.setups) held.emplace_back(s.setup, s.holding);
   plan.setups.clear();
   std::vector<model::Cutter> recorded = std::exchange(plan.cutters, {});
   plan.unplanned.clear();
   Work w{std::move(plan), inputs, policy, job, {}, {}, {}, {}, std::move(recorded)};
+  w.held = std::move(held);
   if (inputs.objective == Objective::kProfit) {
     job.warn("PIP-OBJECTIVE",
              "what the part earns is not known; planned for least cost instead of most profit");
@@ -106,7 +110,8 @@ Result<model::Plan> bind(model::Plan plan, const Inputs& inputs, const Policy& p
   using Stage = Status (*)(Work&);
   std::vector<Stage> stages = {resolve_workpiece, list_given, take_requirements};
   if (policy.bind >= Bind::kStrategy)
-    stages.insert(stages.end(), {propose_missing, select_open_tools, order_steps, raise_security_planes});
+    stages.insert(stages.end(),
+                  {propose_missing, select_open_tools, order_steps, hold_workpieces, raise_security_planes});
   if (policy.bind == Bind::kAll) stages.insert(stages.end(), {carry_tools, make_paths, join_paths});
   for (const Stage stage : stages) {
     if (auto ok = stage(w); !ok) return tl::unexpected(ok.error());

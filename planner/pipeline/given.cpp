@@ -194,10 +194,14 @@ void raise_security_plane(Work& w, std::size_t index) {
       top = std::max(top, frame.origin.z);
     }
   }
+  double least = 2.0;
+  for (const auto& solid : s.holding.solids) {
+    top = std::max(top, solid.top_mm);
+    least = std::max(least, s.holding.clearance_mm);
+  }
   // Rapids cross at this height: it must clear the material, with the margin that the checker asks too.
-  constexpr double kLeast = 2.0;
-  if (s.security_z_mm >= top + kLeast) return;
-  const double raised = top + kClearPlane;
+  if (s.security_z_mm >= top + least) return;
+  const double raised = top + std::max(kClearPlane, least);
   w.job.warn("PIP-SECPLANE", "the security plane at z = " + trimmed(s.security_z_mm, 3) +
                                  " mm does not clear the material and the features up to z = " +
                                  trimmed(top, 3) + " mm; raised to " + trimmed(raised, 3) + " mm");

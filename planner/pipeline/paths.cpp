@@ -9,7 +9,9 @@
 #include "planner/base/number.h"
 #include "planner/exchange/iso14649/curves.h"
 #include "planner/motion/time.h"
+#include "planner/pipeline/holding.h"
 #include "planner/pipeline/steps.h"
+#include "planner/stock/turned.h"
 
 // Step by step in order: depths, path, sections, feeds, with the stock carried on.
 
@@ -260,9 +262,11 @@ class PathMaker {
       if (out.depth_open) job.axial_depth_mm = out.answer.ap_mm;
       if (out.width_open && out.answer.ae_mm > 0.0) job.radial_depth_mm = out.answer.ae_mm;
       if (out.question.ae_mm) job.radial_depth_mm = *out.question.ae_mm;
-      auto path = w_.plan.model.holds<model::FreeformOperation>(step.operation)
-                      ? freeform_path(w_, step, job, out.answer, map_of(step.setup))
-                      : toolpath::generate(job, w_.job);
+      const bool freeform = w_.plan.model.holds<model::FreeformOperation>(step.operation);
+      auto path = kept_clear(w_, step, job, [&](const toolpath::PathJob& j) {
+        return freeform ? freeform_path(w_, step, j, out.answer, map_of(step.setup))
+                        : toolpath::generate(j, w_.job);
+      });
       if (!path) return tl::unexpected(path.error());
       if (first) {
         out.path = *std::move(path);
@@ -423,6 +427,10 @@ class PathMaker {
       return {};
     }
     if (given->path.size() == 0) return {};
+    if (const auto touch = touch_of(given->path, step.cutter, w_.setups[step.setup].holding)) {
+      no_path(step, "the given path is not kept: " + touch->text);
+      return {};
+    }
     model::StepResult r = result_of(step);
     optimise::FeedQuestion fq;
     fq.adapt = false;
@@ -528,13 +536,23 @@ class PathMaker {
       if (smallest > 1e200) smallest = 10.0;
       const auto& box = w_.setups[setup].stock;
       const double cell = stock::cell_for(smallest, box, kCellsPerDiameter, kMaximumCells);
+      const bool upright = std::abs(w_.setups[setup].workpiece.z.z) > 1.0 - 1e-9;
       const auto& round = w_.plan.stock.cylinder_radius_mm;
-      map = round ? stock::from_cylinder(box, *round, cell) : stock::from_box(box, cell);
+      map = round && upright ? stock::from_cylinder(box, *round, cell) : stock::from_box(box, cell);
+    }
+    if (setup != last_setup_) {
+      // Another clamping: what the others took away is gone here, too.
+      last_setup_ = setup;
+      for (std::size_t i = 0; i < maps_.size(); ++i) {
+        if (i != setup && maps_[i])
+          stock::take_over(*map, w_.setups[setup].workpiece, *maps_[i], w_.setups[i].workpiece);
+      }
     }
     return *map;
   }
 
   Work& w_;
+  std::size_t last_setup_ = static_cast<std::size_t>(-1);
   std::vector<std::optional<stock::HeightMap>> maps_;
   std::map<std::pair<AnyRef, int>, Left> left_;
   std::map<std::pair<AnyRef, int>, std::vector<Milled>> milled_;

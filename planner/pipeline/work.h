@@ -28,6 +28,7 @@ struct SetupWork {
   geometry::Placement workpiece;  ///< the workpiece's frame in the set-up's
   double security_z_mm = 0.0;
   geometry::Box3 stock;  ///< of the raw piece, set-up frame
+  model::Workholding holding = {};
 };
 
 /// One workingstep while it is planned.
@@ -61,7 +62,9 @@ struct Work {
   std::optional<model::GeneralTolerance> general = {};  ///< of what states none: the user's, else the file's
   std::map<AnyRef, model::Quality> qualities = {};      ///< by feature
   std::vector<model::Tie> ties = {};                    ///< features that a tolerance ties together
-  std::vector<model::FeatureShape> shapes = {};         ///< of all features, workpiece coordinates
+  std::vector<std::pair<Ref<model::Setup>, model::Workholding>> held =
+      {};                                        ///< as the plan said when it was read
+  std::vector<model::FeatureShape> shapes = {};  ///< of all features, workpiece coordinates
 };
 
 // The stages, in the order bind() runs them.
@@ -71,6 +74,7 @@ Status take_requirements(Work& w);      ///< general tolerance, what is asked of
 Status propose_missing(Work& w);        ///< rules and tooling for features that have no bound operations
 Status select_open_tools(Work& w);      ///< cutters for given operations
 Status order_steps(Work& w);            ///< set-ups, order, pockets
+Status hold_workpieces(Work& w);        ///< fixtures and clamps of each set-up, where that is wanted
 Status carry_tools(Work& w);            ///< which tool carries out a rapid movement
 Status raise_security_planes(Work& w);  ///< above the material and every feature that is cut
 Status make_paths(Work& w);             ///< depths, paths, sections, feeds, step by step

@@ -62,7 +62,9 @@ void choices(const InputOptions& o, const model::Plan& plan, pipeline::Inputs& i
       p.push_back({what, into, std::string("--") + what});
     } else if (const auto* before = made_with(plan, what)) {
       into = before->value;
-      p.push_back(*before);
+      constexpr std::string_view kKept = ", of the plan";
+      p.push_back({what, into,
+                   before->source.ends_with(kKept) ? before->source : before->source + std::string(kKept)});
     }
   };
   carried("general-tolerance", o.general_tolerance, in.general_tolerance);

@@ -1,0 +1,105 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "tests/app/plans.h"
+
+// A part on two set-ups, in a vise and under clamps, planned and checked by the built program.
+
+namespace capstan::app {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class Workholding : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (fs::temp_directory_path() / "capstan-hold-XXXXXX").string();
+    ASSERT_NE(::mkdtemp(name.data()), nullptr);
+    folder_ = name;
+  }
+  void TearDown() override {
+    std::error_code ignored;
+    fs::remove_all(folder_, ignored);
+  }
+  /// Exit code; `said` is what went to both streams.
+  int run(const std::string& arguments) {
+    const std::string line =
+        "cd '" + folder_.string() + "' && '" CAPSTAN_COMMAND "' " + arguments + " >said.txt 2>&1";
+    const int status = std::system(line.c_str());
+    said_ = slurp("said.txt");
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  [[nodiscard]] std::string slurp(const std::string& name) const {
+    std::ifstream in(folder_ / name, std::ios::binary);
+    std::ostringstream text;
+    text << in.rdbuf();
+    return text.str();
+  }
+  fs::path folder_;
+  std::string said_;
+};
+
+const std::string kPlan = "plan '" + testing::example("two_setups.p21") + "' --workholding ";
+
+TEST_F(Workholding, APartIsTurnedOverAndItsProgramKeepsClearOfJawsAndClamps) {
+  ASSERT_EQ(run(kPlan + "'" + testing::example("two_setups_holding.yaml") + "' -o p.json -o p.ngc -o p.p21"),
+            0)
+      << said_;
+  const std::string plan = slurp("p.json");
+  EXPECT_THAT(plan, HasSubstr("vise.fixed_jaw"));
+  EXPECT_THAT(plan, HasSubstr("\"clamp 2\""));
+  const std::string text = slurp("p.p21");
+  EXPECT_THAT(text, HasSubstr("SETUP_INSTRUCTION"));
+  EXPECT_THAT(text, HasSubstr("face against the fixed jaw"));
+  EXPECT_THAT(text, HasSubstr("-Z up; turned over about X"));
+  EXPECT_EQ(run("check p.json p.ngc"), 0) << said_;
+  // The same paths under a clamp that somebody moved afterwards: seen by the check alone.
+  std::string moved = plan;
+  const std::string jaw = "\"top_mm\":-20";
+  std::size_t at = moved.find(jaw);
+  if (at == std::string::npos) at = moved.find("\"top_mm\": -20");
+  ASSERT_NE(at, std::string::npos);
+  moved.replace(moved.find("-20", at), 3, "8.5");
+  std::ofstream(folder_ / "moved.json", std::ios::binary) << moved;
+  EXPECT_EQ(run("check moved.json"), 1) << said_;
+  EXPECT_THAT(said_, HasSubstr("vise.fixed_jaw"));
+  EXPECT_THAT(said_, HasSubstr("FIXTURE"));
+}
+
+TEST_F(Workholding, AClampInTheWayIsRefusedWithTheMoveAndTheClamp) {
+  EXPECT_EQ(run(kPlan + "'" + testing::example("two_setups_clamp_in_way.yaml") + "' -o p.json"), 1) << said_;
+  EXPECT_THAT(said_, HasSubstr("BOTTOM POCKET"));
+  EXPECT_THAT(said_, HasSubstr("would enter 'clamp 1'"));
+  EXPECT_THAT(said_, HasSubstr("move "));
+  EXPECT_EQ(run("check p.json"), 0) << said_;  // what is left of the plan keeps clear
+}
+
+TEST_F(Workholding, IsChosenWhenNobodySaysHow) {
+  ASSERT_EQ(run(kPlan + "auto -o p.json -o p.ngc"), 0) << said_;
+  EXPECT_THAT(slurp("p.json"), HasSubstr("vise.moving_jaw"));
+  EXPECT_EQ(run("check p.json p.ngc"), 0) << said_;
+}
+
+TEST_F(Workholding, FaultsOfTheFileAreToldOnceEach) {
+  const auto with = [&](const std::string& setup) {
+    std::ofstream(folder_ / "h.yaml") << "capstan_workholding: 1\nunit: mm\nsetups:\n  - " << setup << "\n";
+    return run(kPlan + "h.yaml -o p.json");
+  };
+  EXPECT_NE(with("{setup: 1, fixture: grandfathers_vise}"), 0);
+  EXPECT_THAT(said_, HasSubstr("HOLD-UNKNOWN"));
+  EXPECT_NE(with("{setup: 7, fixture: vise_125}"), 0);
+  EXPECT_THAT(said_, HasSubstr("there is no set-up '7'"));
+  EXPECT_NE(run(kPlan + "no_such_file.yaml -o p.json"), 0);
+  EXPECT_THAT(said_, HasSubstr("no_such_file.yaml"));
+}
+
+}  // namespace
+}  // namespace capstan::app
