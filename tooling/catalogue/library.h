@@ -16,18 +16,23 @@ struct LibraryOptions {
   std::optional<double> mm_per_unit;
 };
 
-/// A tool library from a file, its kind told by content: our own list (YAML or JSON, tooling/data/README.md),
-/// a LinuxCNC tool table, or a Fusion library (.json, see fusion.h). "generic" is the shipped one.
+/// A tool library from a file or folder, its kind told by content: our own list (YAML or JSON,
+/// tooling/data/README.md), or any format of `tooling/formats` that can be read. "generic" is the shipped one.
 ///
 /// Fields that the file leaves out are completed from the generic series (see complete.h), each with its
-/// source. Entries of a tool table that cannot be used (no diameter, no word that tells the class) are left
-/// out, with a warning that says which and why.
-/// Fails  FILE-*, LIBRARY-KIND, DATA-*, TOOL-VALUE, TOOL-ID, TOOL-NUMBER, TBL-SYNTAX, with file and line;
-///        every fault is reported to the job, the last is the result's.
+/// source. Entries that cannot be used (no diameter, a kind that planning does not know) are left out, with a
+/// warning that says which and why.
+/// Fails  FILE-*, LIBRARY-KIND, DATA-*, TOOL-VALUE, TOOL-ID, TOOL-NUMBER, TBL-SYNTAX, with file and place, and
+///        as the formats; every fault is reported to the job, the last is the result's.
 [[nodiscard]] Result<std::vector<model::Cutter>> load_library(const std::string& path, Job& job,
                                                               const LibraryOptions& options = {});
 [[nodiscard]] Result<std::vector<model::Cutter>> read_library(std::string_view text, const std::string& file,
                                                               Job& job, const LibraryOptions& options = {});
+
+/// Our own list alone.
+[[nodiscard]] Result<std::vector<model::Cutter>> read_own_list(std::string_view text, const std::string& file,
+                                                               Job& job);
+[[nodiscard]] bool looks_like_own_list(std::string_view text);
 
 /// A LinuxCNC tool table: `T1 P1 D6 Z+80.5 ;6 mm end mill, 2 flutes`.
 [[nodiscard]] Result<std::vector<model::Cutter>> read_tool_table(std::string_view text,

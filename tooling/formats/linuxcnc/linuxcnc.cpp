@@ -1,0 +1,384 @@
+#include "tooling/formats/linuxcnc/linuxcnc.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <map>
+
+#include "planner/base/number.h"
+#include "tooling/catalogue/library.h"
+#include "tooling/catalogue/tree.h"
+#include "tooling/formats/all.h"
+#include "tooling/formats/values.h"
+
+namespace capstan::tooling {
+namespace {
+
+constexpr int kMostToolNumber = 99999;
+constexpr std::string_view kAxes = "XYZABCUVW";  // in the order they are written
+constexpr std::string_view kAfter = "DIJQ";
+constexpr std::size_t kLongestLine = 4096;
+constexpr const char* kUnitKey = "linuxcnc.mm_per_unit";
+
+struct Line {
+  MachineEntry entry;
+  std::string diameter;  ///< as spelled; empty: none
+  bool has_tool = false;
+};
+
+class Reader {
+ public:
+  Reader(const std::string& file, const FormatOptions& options, Job& job)
+      : file_(file), mm_per_unit_(options.mm_per_unit.value_or(1.0)), job_(job) {
+    if (!options.mm_per_unit) {
+      job_.note("TBL-UNIT", file + ": a tool table does not state its unit; taken as millimetres");
+      out_.report.derived.push_back(
+          {"", "unit", "a tool table does not state its unit; taken as millimetres"});
+    }
+  }
+
+  Result<Imported> read(std::string_view text) {
+    out_.library.source = file_;
+    out_.library.kept.emplace_back(kUnitKey, shortest(mm_per_unit_));
+    while (!text.empty() && faults_.size() < 100) {
+      const auto end = text.find('\n');
+      const std::string_view line = text.substr(0, end);
+      text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+      ++number_;
+      if (line.size() > kLongestLine)
+        refuse("TBL-SYNTAX", "a line longer than " + std::to_string(kLongestLine) + " bytes", "a tool table");
+      else if (auto l = parse(line))
+        take(*std::move(l));
+    }
+    if (!empty_.empty())
+      job_.warn("TBL-EMPTY", file_ + ": " + std::to_string(empty_.size()) +
+                                 " tools have no diameter and are not used, " + empty_.front() +
+                                 (empty_.size() > 1 ? " to " + empty_.back() : ""));
+    if (auto d = tell(std::move(faults_), job_)) return fail(*std::move(d));
+    out_.report.tools = out_.library.entries.size();
+    return std::move(out_);
+  }
+
+ private:
+  void refuse(std::string code, std::string message, std::string expected,
+              std::string hint = "correct the line") {
+    faults_.push_back(fault_at({file_, number_, ""}, std::move(code), std::move(message), std::move(expected),
+                               std::move(hint)));
+  }
+
+  std::optional<Line> parse(std::string_view text) {
+    Line out;
+    if (const auto semicolon = text.find(';'); semicolon != std::string_view::npos) {
+      out.entry.comment = trimmed_text(text.substr(semicolon + 1));
+      text = text.substr(0, semicolon);
+    }
+    std::string seen;
+    for (text = trimmed_text(text); !text.empty(); text = trimmed_text(text)) {
+      const std::string_view word = text.substr(0, text.find_first_of(" \t"));
+      text.remove_prefix(word.size());
+      const char letter = static_cast<char>(std::toupper(static_cast<unsigned char>(word[0])));
+      const bool known = std::string_view("TPXYZABCUVWDIJQ").find(letter) != std::string_view::npos;
+      const auto value = number_from(word.substr(1), {file_, number_, ""});
+      if (!known || !value) {
+        refuse("TBL-SYNTAX",
+               "'" + std::string(word.substr(0, 40)) + "' is not a letter of a tool table with a number" +
+                   (known && !value ? ": " + value.error().message : ""),
+               "T, P, an axis, D, I, J or Q and a decimal number");
+        return std::nullopt;
+      }
+      if (seen.find(letter) != std::string::npos) {
+        refuse("DATA-DUPLICATE", std::string("the letter ") + letter + " is given twice", "each letter once");
+        return std::nullopt;
+      }
+      seen.push_back(letter);
+      if (!put(letter, *value, word, out)) return std::nullopt;
+    }
+    if (!out.has_tool) {
+      if (!seen.empty()) refuse("TBL-SYNTAX", "a line without a tool number", "T and a number");
+      return std::nullopt;
+    }
+    return out;
+  }
+
+  bool put(char letter, double value, std::string_view word, Line& out) {
+    if (letter == 'T' || letter == 'P') {
+      const double least = letter == 'T' ? 1.0 : 0.0;
+      if (value != std::floor(value) || value < least || value > kMostToolNumber) {
+        refuse("TOOL-NUMBER",
+               std::string(word) + (letter == 'T' ? " is no tool number" : " is no pocket number"),
+               "a whole number from " + trimmed(least, 0) + " to " + std::to_string(kMostToolNumber));
+        return false;
+      }
+      if (letter == 'P') {
+        out.entry.pocket = static_cast<int>(value);
+      } else {
+        out.entry.number = static_cast<int>(value);
+        out.has_tool = true;
+      }
+      return true;
+    }
+    if (letter == 'D') {
+      out.diameter = trimmed_text(word.substr(1));
+      if (out.diameter.starts_with('+')) out.diameter.erase(0, 1);
+      if (value < 0.0) {
+        refuse("TOOL-VALUE", "T" + std::to_string(out.entry.number) + ": the diameter is negative",
+               "a diameter of at least 0");
+        return false;
+      }
+    }
+    out.entry.offsets.emplace_back(letter, value);
+    return true;
+  }
+
+  void take(Line line) {
+    MachineEntry& e = line.entry;
+    const std::string name = "T" + std::to_string(e.number);
+    const auto [at, fresh] = lines_.emplace(e.number, number_);
+    if (!fresh) {
+      refuse("TOOL-NUMBER",
+             "tool number " + std::to_string(e.number) + " is given twice, first in line " +
+                 std::to_string(at->second),
+             "each tool number once", "give one of the tools another number");
+      return;
+    }
+    const double d = diameter_of(e);
+    if (d == 0.0) {
+      empty_.push_back(name);
+      out_.report.dropped.push_back({name, "", "no diameter: kept as a line of the table only"});
+    } else {
+      const bool inches = mm_per_unit_ == kMmPerInch;
+      auto dc = property_from("DC", line.diameter, inches ? "in" : "mm", "the tool table's D",
+                              {file_, number_, name});
+      if (!dc) {
+        faults_.push_back(dc.error());
+        return;
+      }
+      add_item(name, e, *std::move(dc), inches);
+      e.assembly = name;
+    }
+    out_.library.entries.push_back(std::move(e));
+  }
+
+  static double diameter_of(const MachineEntry& e) {
+    for (const auto& [letter, value] : e.offsets)
+      if (letter == 'D') return value;
+    return 0.0;
+  }
+
+  void add_item(const std::string& name, const MachineEntry& e, Property dc, bool inches) {
+    CatalogueItem item;
+    item.id = name;
+    item.description = e.comment;
+    item.kind = e.comment;
+    item.inches = inches;
+    item.cutter_class = class_from_words(e.comment);
+    const double diameter = dc.number.value_or(0.0);
+    item.properties.push_back(std::move(dc));
+    const auto derived = [&](Property p, const char* why) {
+      p.state = ValueState::kDerived;
+      p.source = why;
+      out_.report.derived.push_back({name, p.symbol, why});
+      item.properties.push_back(std::move(p));
+    };
+    if (!item.cutter_class) {
+      out_.report.dropped.push_back(
+          {name, "class", "no word of its comment '" + e.comment + "' tells what kind of tool it is"});
+      job_.report(
+          {.code = "TBL-CLASS",
+           .severity = Severity::kWarning,
+           .message = name + ": no word of its comment '" + e.comment + "' tells what kind of tool it is",
+           .file = file_,
+           .line = number_,
+           .hint = "name it in the comment: end mill, drill, reamer, tap, ..."});
+    } else {
+      const CommentWords w = words_of_comment(e.comment, *item.cutter_class, diameter);
+      derived(text_property("CLASS", model::to_text(*item.cutter_class), ""),
+              "from the words of the comment");
+      if (w.carbide) derived(text_property("SUBSTRATE", "carbide", ""), "from the words of the comment");
+      if (w.teeth > 0)
+        derived(number_property("ZEFF", w.teeth, "", ValueState::kDerived, ""),
+                "from the words of the comment");
+      if (w.pitch_mm > 0.0)
+        derived(number_property("TP", w.pitch_mm, "mm", ValueState::kDerived, ""),
+                "from the comment or the coarse series");
+    }
+    ToolAssembly a;
+    a.id = a.item = name;
+    out_.library.items.push_back(std::move(item));
+    out_.library.assemblies.push_back(std::move(a));
+  }
+
+  const std::string& file_;
+  double mm_per_unit_;
+  Job& job_;
+  Imported out_;
+  std::uint64_t number_ = 0;
+  std::map<int, std::uint64_t> lines_;
+  std::vector<std::string> empty_;
+  std::vector<Diagnostic> faults_;
+};
+
+class Writer {
+ public:
+  Writer(const ToolLibrary& library, const FormatOptions& options) : l_(library) {
+    const std::string* kept = find_kept(library.kept, kUnitKey);
+    const auto of_source = kept != nullptr ? parse_double(*kept) : std::nullopt;
+    from_mm_per_unit_ = of_source.value_or(1.0);
+    mm_per_unit_ = options.mm_per_unit.value_or(from_mm_per_unit_);
+  }
+
+  Exported write() {
+    for (const auto& i : l_.items) items_.emplace(i.id, &i);
+    for (const auto& a : l_.assemblies) assemblies_.emplace(a.id, &a);
+    for (const auto& e : l_.entries)
+      if (e.number > 0) taken_.emplace(e.number, &e);
+    std::map<std::string, bool> written;
+    for (const auto& e : l_.entries) {
+      if (!e.assembly.empty()) written[e.assembly] = true;
+      entry(e);
+    }
+    for (const auto& a : l_.assemblies)
+      if (!written.contains(a.id)) unplaced(a.id);
+    std::map<std::string, bool> assembled;
+    for (const auto& a : l_.assemblies) assembled[a.item] = true;
+    for (const auto& i : l_.items)
+      if (!assembled.contains(i.id)) unplaced(i.id);
+    if (!l_.holders.empty()) drop("", "holders", "a tool table has no place for holders");
+    if (!l_.instances.empty()) drop("", "instances", "a tool table has no place for stock and life");
+    for (const auto& [path, text] : l_.kept)
+      if (path != kUnitKey) drop("", path, "a tool table has no place for it");
+    return std::move(out_);
+  }
+
+ private:
+  void drop(const std::string& who, std::string field, std::string why) {
+    out_.report.dropped.push_back({who, std::move(field), std::move(why)});
+  }
+  [[nodiscard]] std::string unit() const { return mm_per_unit_ == kMmPerInch ? "in" : "mm"; }
+
+  void unplaced(const std::string& id) {
+    while (taken_.contains(next_)) ++next_;
+    MachineEntry e;
+    e.number = next_++;
+    e.assembly = id;
+    out_.report.derived.push_back(
+        {id, "T", "it had no tool number; T" + std::to_string(e.number) + " is taken"});
+    entry(e);
+  }
+
+  void entry(MachineEntry e) {
+    const auto a = assemblies_.find(e.assembly);
+    const std::string item_id = a != assemblies_.end() ? a->second->item : e.assembly;
+    const auto i = items_.find(item_id);
+    const CatalogueItem* item = i != items_.end() ? i->second : nullptr;
+    if (const auto at = taken_.find(e.number);
+        e.number <= 0 || (at != taken_.end() && at->second->assembly != e.assembly)) {
+      const std::string why = e.number <= 0
+                                  ? "it had no tool number"
+                                  : "T" + std::to_string(e.number) + " is that of " + at->second->assembly;
+      while (taken_.contains(next_)) ++next_;
+      e.number = next_++;
+      out_.report.derived.push_back({e.assembly, "T", why + "; T" + std::to_string(e.number) + " is taken"});
+    }
+    std::string line = "T" + std::to_string(e.number) + " P" + std::to_string(e.pocket.value_or(e.number));
+    const double factor = from_mm_per_unit_ / mm_per_unit_;
+    const auto offset = [&e](char letter) -> std::optional<double> {
+      for (const auto& [l, v] : e.offsets)
+        if (l == letter) return v;
+      return std::nullopt;
+    };
+    for (const char axis : kAxes) {
+      auto v = offset(axis);
+      const bool linear = std::string_view("ABC").find(axis) == std::string_view::npos;
+      if (v && linear && factor != 1.0) v = unconverted(*v * from_mm_per_unit_, mm_per_unit_);
+      // The table's length is that from the gage line.
+      if (axis == 'Z' && !v && a != assemblies_.end() && a->second->functional_length_mm)
+        v = parse_double(spelled(*a->second->functional_length_mm, mm_per_unit_));
+      if (v) line += " " + std::string(1, axis) + shortest(*v);
+    }
+    for (const char letter : kAfter) {
+      if (letter == 'D') {
+        const Property* dc = item != nullptr ? find(item->properties, "DC") : nullptr;
+        if (dc != nullptr && dc->number)
+          line += " D" + spelled_in(*dc, unit());
+        else if (const auto d = offset('D'))
+          line += " D" + shortest(*d * factor);
+      } else if (const auto v = offset(letter)) {
+        line += " " + std::string(1, letter) + shortest(*v);
+      }
+    }
+    const std::string comment = comment_of(e, item);
+    out_.bytes += line + (comment.empty() ? "" : " ;" + comment) + "\n";
+    ++out_.report.tools;
+    if (item != nullptr) told(*item, comment, e.assembly);
+  }
+
+  /// The words by which the class is told when the table is read again.
+  std::string comment_of(const MachineEntry& e, const CatalogueItem* item) {
+    std::string out = e.comment;
+    if (out.empty() && item != nullptr) out = item->description;
+    for (char& c : out)
+      if (c == '\n' || c == '\r' || c == ';') c = ' ';
+    out = trimmed_text(out);
+    if (item == nullptr || !item->cutter_class || class_from_words(out) == item->cutter_class) return out;
+    std::string words(model::to_text(*item->cutter_class));
+    std::replace(words.begin(), words.end(), '_', ' ');
+    const std::string with = out.empty() ? words : words + ", " + out;
+    return class_from_words(with) == item->cutter_class ? with : out;
+  }
+
+  void told(const CatalogueItem& item, const std::string& comment, const std::string& who) {
+    if (item.cutter_class && class_from_words(comment) != item.cutter_class)
+      drop(who, "class",
+           "no words of a comment tell the class " + std::string(model::to_text(*item.cutter_class)));
+    std::string fields;
+    for (const Property& p : item.properties) {
+      if (p.symbol == "DC" || p.symbol == "CLASS" || p.state == ValueState::kDerived) continue;
+      fields += (fields.empty() ? "" : " ") + p.symbol;
+    }
+    if (!fields.empty()) drop(who, fields, "a tool table has no place for these");
+    if (!item.presets.empty()) drop(who, "presets", "a tool table has no place for start values");
+    for (const auto& [path, text] : item.kept) drop(who, path, "a tool table has no place for it");
+  }
+
+  const ToolLibrary& l_;
+  double from_mm_per_unit_ = 1.0, mm_per_unit_ = 1.0;
+  Exported out_;
+  std::map<std::string, const CatalogueItem*> items_;
+  std::map<std::string, const ToolAssembly*> assemblies_;
+  std::map<int, const MachineEntry*> taken_;
+  int next_ = 1;
+};
+
+bool recognises(std::string_view bytes, std::string_view) { return looks_like_tool_table(bytes); }
+
+Result<Imported> read(std::string_view bytes, const std::string& file, const FormatOptions& options,
+                      Job& job) {
+  return Reader(file, options, job).read(bytes);
+}
+
+Result<Exported> write(const ToolLibrary& library, const FormatOptions& options, Job&) {
+  return Writer(library, options).write();
+}
+
+}  // namespace
+
+bool looks_like_tool_table(std::string_view text) {
+  while (!text.empty()) {
+    const auto end = text.find('\n');
+    std::string_view line = trimmed_text(text.substr(0, end));
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    if (line.empty() || line[0] == ';' || line[0] == '#') continue;
+    const auto is_number = [](char c) { return (c >= '0' && c <= '9') || c == '-' || c == '+'; };
+    return line.size() > 1 && (line[0] == 'T' || line[0] == 't') && is_number(line[1]);
+  }
+  return false;
+}
+
+const Format& linuxcnc_format() {
+  static const Format kFormat{
+      "linuxcnc", "LinuxCNC or PathPilot tool table (.tbl)", {".tbl"}, &recognises, &read, &write};
+  return kFormat;
+}
+
+}  // namespace capstan::tooling
