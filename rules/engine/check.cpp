@@ -140,6 +140,15 @@ bool leads_to(const Table& table, const Row& row, const Table& demands, const Ro
   return table.name != "hole" || (shape == "countersink" ? sunk : straight);
 }
 
+// What both tables ask about is the same thing: of the demand's box, only what the row takes.
+void narrow_to(const Table& table, const Row& row, const Table& demands, Box& box) {
+  for (std::size_t i = 0; i < demands.facts.size(); ++i) {
+    const auto at = std::find(table.facts.begin(), table.facts.end(), demands.facts[i]);
+    if (at != table.facts.end())
+      box[i] = intersect(box[i], row.when[static_cast<std::size_t>(at - table.facts.begin())]);
+  }
+}
+
 // What the demand's row accepts where nothing of better priority decides, against what the chain holds.
 bool holds_demand(const RuleBase& base, const Table& table, const Row& row, const DemandKind& kind,
                   std::string_view shape, const Holds& chain, std::vector<RuleFinding>& out) {
@@ -155,7 +164,8 @@ bool holds_demand(const RuleBase& base, const Table& table, const Row& row, cons
         probe != nullptr && probe->position_mm)
       least = std::min(least, std::max(*probe->position_mm, kProbed * least));
     for (Box box : undecided(*demands, demand.when, demand.priority)) {
-      if (!(box[*side].from < least)) continue;
+      narrow_to(table, row, *demands, box);
+      if (empty(box) || !(box[*side].from < least)) continue;
       box[*side].below = std::min(box[*side].below, least);
       incapable(table, row, to_text(box, demands->facts) + " (accepted by " + demand.id + ")", out);
       return false;

@@ -206,7 +206,7 @@ std::string_view undercut_form(const std::vector<geometry::Vec2>& q) {
     ++(q[i].x > q[i - 1].x + kSame ? slopes : steps);
   }
   if (steps == 1 && slopes == 0) return "tee";
-  return steps == 0 && slopes == 1 && q.size() == 2 ? "dovetail" : "other";
+  return steps == 0 && slopes == 1 ? "dovetail" : "other";
 }
 
 std::string_view slot_form(const FeatureShape& s) {

@@ -269,6 +269,79 @@ TEST_F(CommandTest, ShippedRulesHaveNoFinding) {
   EXPECT_THAT(run("rules list").out, HasSubstr("source"));
 }
 
+TEST_F(CommandTest, RulesOfAShopWithFaultsEndWithOneAndNameTheBoxes) {
+  fs::create_directory(folder_ / "shop");
+  put("shop/shop.yaml", R"(table: hole
+rows:
+  - {id: hole.tiny, priority: 12, when: {diameter_mm: {from: 0, below: 0.3}}, cannot: "not here", source: shop}
+  - {id: shop.drill, priority: 50, when: {bottom: [through], diameter_mm: {from: 3, below: 9}, it_grade: {from: 11, to: 12}},
+     cannot: "not here", source: shop}
+  - {id: shop.dead, priority: 999, when: {diameter_mm: {from: 0, below: 0.1}}, cannot: "never", source: shop}
+  - {id: shop.all, priority: 1000, cannot: "never", source: shop}
+)");
+  const Ran r = run("rules check --rules shop");
+  EXPECT_EQ(r.code, 1);
+  EXPECT_THAT(r.err,
+              HasSubstr("gap: no row for taper in {none}, bottom in {flat}, core in {none}, diameter_mm in "
+                        "[0.3, 0.5), it_grade in [7, 19) [RULE-GAP]"))
+      << "a row without conditions closes no gap";
+  EXPECT_THAT(r.err,
+              HasSubstr("contradiction: hole.drill and shop.drill conclude differently for taper in {none}, "
+                        "bottom in {through}, core in {none}, diameter_mm in [3, 9), it_grade in [11, 13)"));
+  EXPECT_THAT(r.err,
+              HasSubstr("shop.yaml:6: warning: hole: dead row: shop.dead never decides: better rows cover "
+                        "diameter_mm in [0, 0.1) [RULE-DEAD-ROW]"));
+}
+
+TEST_F(CommandTest, RulesOfAShopThatCannotBeReadEndWithThree) {
+  EXPECT_EQ(run("rules check --rules nowhere").code, 3);
+  fs::create_directory(folder_ / "shop");
+  put("shop/shop.yaml", "table: hole\nrows:\n  - {id: a, source: s, chains: [[laser]]}\n");
+  const Ran r = run("rules check --rules shop");
+  EXPECT_EQ(r.code, 3);
+  EXPECT_THAT(r.err, HasSubstr("shop.yaml:3"));
+  EXPECT_THAT(r.err, HasSubstr("no action named laser"));
+}
+
+TEST_F(CommandTest, RowsOfAShopReplaceAndAdd) {
+  fs::create_directory(folder_ / "shop");
+  put("shop/shop.yaml", R"(table: hole
+rows:
+  - {id: hole.tiny, priority: 12, when: {diameter_mm: {from: 0, below: 0.5}}, cannot: "no such drills", source: shop}
+  - {id: shop.bore, priority: 40, when: {bottom: [through], core: [none], taper: [none], diameter_mm: {from: 7, below: 9},
+     it_grade: {from: 7, to: 8}}, chains: [[centre, {do: drill, under_mm: 0.5}, bore]], text: "we bore", source: "our shop, 2024"}
+)");
+  EXPECT_EQ(run("rules check --rules shop").code, 0);
+  const Ran listed = run("rules list --rules shop");
+  EXPECT_THAT(listed.out, HasSubstr("no such drills"));
+  EXPECT_THAT(listed.out, Not(HasSubstr("holes below 0.5 mm are not planned")));
+  EXPECT_THAT(listed.out, HasSubstr("shop.bore (priority 40, "));
+  EXPECT_THAT(listed.out, HasSubstr("source  our shop, 2024"));
+}
+
+// The dowel holes of the example, 8 H11, 8 H9 and 8 H7.
+TEST_F(CommandTest, ATighterHoleGetsAnotherChainAndExplainCitesTheRow) {
+  const std::string bracket = slurp(testing::example("bracket.p21"));
+  const std::string h7 = "#95=PLUS_MINUS_VALUE(0.015,0.,3)";
+  ASSERT_NE(bracket.find(h7), std::string::npos);
+  const auto explained = [&](const std::string& upper) {
+    std::string text = bracket;
+    text.replace(text.find(h7), h7.size(), "#95=PLUS_MINUS_VALUE(" + upper + ",0.,3)");
+    put(upper + ".p21", text);
+    const Ran planned = run("plan " + upper + ".p21 -o " + upper + ".json");
+    EXPECT_LE(planned.code, 1) << planned.err;
+    const Ran drill = run("explain " + upper + ".json 'DOWEL HOLE 1 drill'");
+    const Ran ream = run("explain " + upper + ".json 'DOWEL HOLE 1 ream'");
+    return drill.out + (ream.code == 0 ? ream.out : "");
+  };
+  const std::string h11 = explained("0.09");
+  EXPECT_THAT(h11, HasSubstr("[hole.drill; "));
+  EXPECT_THAT(h11, Not(HasSubstr("REAMING")));
+  EXPECT_THAT(explained("0.036"), HasSubstr("[hole.ream.it9; default, unsourced]"));
+  EXPECT_THAT(explained("0.015"), HasSubstr("[hole.ream.it7; default, unsourced]"));
+  EXPECT_EQ(explained("0.009"), "") << "8 H6: no chain holds it";
+}
+
 TEST_F(CommandTest, AMissingMachineIsAnUnreadableInput) {
   put("plate.p21", testing::drilled_plate());
   EXPECT_EQ(run("plate.p21").code, 2);
