@@ -42,6 +42,10 @@ void check_coolant(const model::Plan& plan, const std::vector<StepMoves>& steps,
 /// life are not judged.
 void check_life(const std::vector<StepMoves>& steps, Findings& findings);
 
+/// What the plan or the part's file says that a machine must have (its_minimum_machine_params): 16, 17,
+/// 18, 22.
+void check_machine(const model::Plan& plan, Findings& findings);
+
 /// What must come first: 28.
 void check_order(const model::Plan& plan, Findings& findings);
 
