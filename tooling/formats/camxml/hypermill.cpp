@@ -106,7 +106,8 @@ class Reader {
     if (!item.cutter_class) leave_out(item, "the type '" + item.kind + "' is not known", out_.report);
     const auto dc = number_of(item, "DC");
     if (!dc) {
-      gatherer_.fault({file_, 0, item.id}, "the cutting diameter is missing", "toolDiameter");
+      if (!gatherer_.has_fault())
+        gatherer_.fault({file_, 0, item.id}, "the cutting diameter is missing", "toolDiameter");
     }
     class_by_radius(item);
   }

@@ -62,7 +62,8 @@ class Reader {
     // Of the sub-types only this one is confirmed by a file.
     if (item.kind == "EndMill") item.cutter_class = CutterClass::kEndmill;
     if (!item.cutter_class) leave_out(item, "the sub-type '" + item.kind + "' is not known", out_.report);
-    if (!number_of(item, "DC")) gatherer_.fault(place, "the cutting diameter is missing", "diameter");
+    if (!number_of(item, "DC") && !gatherer_.has_fault())
+      gatherer_.fault(place, "the cutting diameter is missing", "diameter");
     class_by_radius(item);
     ToolAssembly assembly{.id = item.id,
                           .item = item.id,

@@ -117,7 +117,8 @@ class RecordReader {
         add_derived(item_, "DC", *size, "mm", "A21: the nominal diameter of the thread", report_);
       if (!number_of(item_, "TP")) leave_out(item_, "the tap has no pitch (A3)", report_);
     } else if (!dc) {
-      gatherer_.fault(place_, "the cutting diameter is missing", table_ == "81" ? "A11" : "A1");
+      if (!gatherer_.has_fault())
+        gatherer_.fault(place_, "the cutting diameter is missing", table_ == "81" ? "A11" : "A1");
     } else if (item_.cutter_class == CutterClass::kBallEndmill) {
       add_derived(item_, "RE", 0.5 * *dc, "mm", "half the diameter of a ball end mill", report_);
     }

@@ -131,8 +131,9 @@ class BitReader {
   void derive() {
     const auto dc = number_of(item_, "DC");
     if (!dc) {
-      gatherer_.fault(Place{file_, 0, item_.id}, "the Diameter is missing",
-                      "a parameter Diameter like \"6.0000 mm\"");
+      if (!gatherer_.has_fault())
+        gatherer_.fault(Place{file_, 0, item_.id}, "the Diameter is missing",
+                        "a parameter Diameter like \"6.0000 mm\"");
       return;
     }
     const std::string_view t = shape_->type;

@@ -157,7 +157,8 @@ std::vector<FreecadFile> lists_of(const ToolLibrary& library, const std::map<std
     if (e.pocket || !e.offsets.empty())
       report.dropped.push_back({item, "table", "FreeCAD's libraries hold neither pockets nor offsets"});
     Json entry = Json::map();
-    entry.set("nr", Json::number(std::to_string(e.number))).set("path", Json::string(path));
+    entry.set("nr", Json::number(std::to_string(e.number)));
+    entry.set("path", Json::string(path));
     std::string name = e.carousel.empty() ? library.name : e.carousel;
     auto [it, fresh] = lists.try_emplace(file_name(name.empty() ? "Library" : name), Json::list());
     it->second.items.push_back(std::move(entry));
@@ -165,7 +166,9 @@ std::vector<FreecadFile> lists_of(const ToolLibrary& library, const std::map<std
   std::vector<FreecadFile> out;
   for (auto& [name, list] : lists) {
     Json root = Json::map();
-    root.set("label", Json::string(name)).set("tools", std::move(list)).set("version", Json::number("1"));
+    root.set("label", Json::string(name));
+    root.set("tools", std::move(list));
+    root.set("version", Json::number("1"));
     out.push_back({"Library/" + name + ".fctl", json_text(root, 2) + "\n"});
   }
   return out;

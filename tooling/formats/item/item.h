@@ -59,6 +59,8 @@ class ItemGatherer {
     if (d) pending_.push_back(std::move(*d));
   }
   void fault(const Place& place, std::string what, std::string expected = {});
+  /// Whether the next item has one already: a value that could not be read is not missed, too.
+  [[nodiscard]] bool has_fault() const { return !pending_.empty(); }
   /// Takes the item, or drops it when it has faults; whether it was taken.
   bool take(CatalogueItem item, const Place& place);
   /// Fails with the first fault when no item is left, or (TOOL-ID) when an id is given twice.
