@@ -73,7 +73,8 @@ Range speeds(const CutQuestion& q) {
 
 double largest_fz(const CutQuestion& q) {
   double fz = q.fz_start_mm;
-  if (q.cutter.fz_max_mm > 0.0) fz = std::min(fz, q.cutter.fz_max_mm);
+  // The start value is what is planned for; the cutter's largest must hold with the override, too.
+  if (q.cutter.fz_max_mm > 0.0) fz = std::min(fz, q.cutter.fz_max_mm / feed_override(q));
   return fz;
 }
 
@@ -158,7 +159,8 @@ class Search {
     } else {
       // A thin cut may advance faster for the same chip; chip_thickness is what holds it.
       const double most = largest_fz(q) * (is_milling(q.kind) ? 3.0 : 1.0);
-      const double capped = q.cutter.fz_max_mm > 0.0 ? std::min(most, q.cutter.fz_max_mm) : most;
+      const double capped =
+          q.cutter.fz_max_mm > 0.0 ? std::min(most, q.cutter.fz_max_mm / feed_override(q)) : most;
       add("feed_per_tooth", "mm", q.least_feed_ratio * largest_fz(q), capped);
     }
     if (!is_milling(q.kind)) return;
@@ -302,11 +304,17 @@ double deepest(const CutQuestion& q) {
 
 }  // namespace
 
+double feed_override(const CutQuestion& q) {
+  if (q.override_locked || q.kind == CutKind::kTap || q.feed_mm_min) return 1.0;
+  return std::max(1.0, q.machine.abilities.feed_override_max);
+}
+
 std::optional<model::StepLoads> loads_of(const CutQuestion& q, double ap_mm, double ae_mm, double n_rpm,
                                          double feed_mm_min) {
   const mechanics::WorkMaterial work{q.material.kc11_n_mm2, q.material.mc};
   const double margin = force_margin(q);
-  const double fz = feed_mm_min / (n_rpm * teeth(q));
+  const double up = feed_override(q);
+  const double fz = up * feed_mm_min / (n_rpm * teeth(q));
   model::StepLoads out;
   if (is_milling(q.kind)) {
     mechanics::MillingCut c;
@@ -325,8 +333,8 @@ std::optional<model::StepLoads> loads_of(const CutQuestion& q, double ap_mm, dou
     out.torque_nm = l->torque_nm * margin;
     out.power_w = l->power_w * margin;
     out.deflection_mm = l->deflection_mm * margin;
-    out.chip_thickness_mm = l->h_max_mm;
-    out.mrr_mm3_min = l->mrr_mm3_min;
+    out.chip_thickness_mm = l->h_max_mm / up;
+    out.mrr_mm3_min = l->mrr_mm3_min / up;
     return out;
   }
   if (q.kind == CutKind::kTap) {
@@ -344,7 +352,7 @@ std::optional<model::StepLoads> loads_of(const CutQuestion& q, double ap_mm, dou
   }
   mechanics::DrillingCut c;
   c.diameter_mm = q.cutter.cutting_diameter_mm;
-  c.feed_mm_per_rev = feed_mm_min / n_rpm;
+  c.feed_mm_per_rev = up * feed_mm_min / n_rpm;
   c.n_rpm = n_rpm;
   c.teeth = teeth(q);
   c.point_angle_rad = q.cutter.point_angle_rad > 0.0 ? q.cutter.point_angle_rad : pi;
@@ -356,8 +364,8 @@ std::optional<model::StepLoads> loads_of(const CutQuestion& q, double ap_mm, dou
   out.peak_force_n = l->thrust_n * margin;
   out.torque_nm = l->torque_nm * margin;
   out.power_w = l->power_w * margin;
-  out.chip_thickness_mm = l->chip_thickness_mm;
-  out.mrr_mm3_min = l->removal_mm3_min;
+  out.chip_thickness_mm = l->chip_thickness_mm / up;
+  out.mrr_mm3_min = l->removal_mm3_min / up;
   return out;
 }
 

@@ -37,6 +37,7 @@ struct CutQuestion {
   double deflection_limit_mm = 0.0;                               ///< of the tip; 0: kRoughDeflection
   std::optional<double> ap_mm, ae_mm, n_rpm, feed_mm_min, fz_mm;  ///< given, kept
   Aim aim = Aim::kTime;
+  bool override_locked = false;  ///< the operator cannot turn the feed up: no margin for it
 };
 
 /// Largest deflection of the tip in roughing, mm. Default, unsourced: a third of the usual side allowance.
@@ -76,8 +77,13 @@ struct CutAnswer {
 /// Fails        OPT-QUESTION when the question itself is not one (no diameter, no material).
 [[nodiscard]] Result<CutAnswer> cut(const CutQuestion& question, const Options& options, Job& job);
 
-/// The loads of a cut of these dimensions, uncertainty included; nothing when it is outside the formulas'
-/// range.
+/// How far the operator may turn the feed up: the limits of power, torque and bending hold there, and so does
+/// the largest chip that the cutter bears. 1 where overrides are locked, for taps, and for a feed that is
+/// given (it is executed as it is).
+[[nodiscard]] double feed_override(const CutQuestion& q);
+
+/// The loads of a cut of these dimensions, uncertainty included, with the feed turned up as far as it goes
+/// (chip and removal rate: as planned); nothing when it is outside the formulas' range.
 [[nodiscard]] std::optional<model::StepLoads> loads_of(const CutQuestion& q, double ap_mm, double ae_mm,
                                                        double n_rpm, double feed_mm_min);
 

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "planner/model/walk.h"
+#include "planner/pipeline/share.h"
 #include "planner/pipeline/steps.h"
 #include "tooling/nouns/nouns.h"
 #include "tooling/select/select.h"
@@ -136,7 +137,17 @@ bool select_one(Work& w, StepWork& step, const std::vector<model::Cutter>& libra
     w.plan.unplanned.push_back({step.feature, requirement.error().message});
     return false;
   }
-  auto s = tooling::select(*requirement, library, w.plan.material, w.plan.machine, {.used = w.used_cutters});
+  tooling::Preferences wanted;
+  if (!step.shapes.empty()) {
+    model::ProposedStep as_proposed;
+    as_proposed.operation = step.operation.type;
+    if (const auto* drills = w.plan.model.get<model::DrillingTypeOperation>(step.operation))
+      as_proposed.start_diameter_mm = drills->previous_diameter.value_or(0.0);
+    wanted = preferences_of(w, as_proposed, step.shapes.front());
+    wanted.places = static_cast<int>(step.shapes.size());
+  }
+  wanted.used = w.used_cutters;
+  auto s = tooling::select(*requirement, library, w.plan.material, w.plan.machine, wanted);
   if (s.ranked.empty()) {
     w.plan.unplanned.push_back(
         {step.feature, "operation '" + name + "': no cutter fits; " + s.would_fit + " would"});
@@ -223,6 +234,7 @@ Status select_open_tools(Work& w) {
     w.plan.unplanned.push_back(
         {step.feature, "operation '" + op->its_id.value_or("") + "': " + cutter.error().message});
   }
+  share_tools(w);
   return {};
 }
 

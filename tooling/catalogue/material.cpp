@@ -74,6 +74,7 @@ WorkMaterial read_material(Fields f, double uncertainty, const std::string& unce
   m.vc_hss_m_min = f.number("vc_hss_m_min");
   m.vc_carbide_m_min = f.number("vc_carbide_m_min");
   m.tensile_strength_n_mm2 = f.number_or("tensile_strength_n_mm2", 0.0);
+  m.hardness_hb = f.number_or("hardness_hb", 0.0);
   m.kc_uncertainty = f.number_or("kc_uncertainty", uncertainty);
   for (const auto& [path, source] : f.sources()) {
     if (source.empty()) f.fault("DATA-SOURCE", "no source is stated", path, f.line());
@@ -87,6 +88,7 @@ WorkMaterial read_material(Fields f, double uncertainty, const std::string& unce
   check(m.vc_hss_m_min, 0, 500, "vc_hss_m_min", f);
   check(m.vc_carbide_m_min, 1, 3000, "vc_carbide_m_min", f);
   check(m.kc_uncertainty, 0, 1, "kc_uncertainty", f);
+  check(m.hardness_hb, 0, 800, "hardness_hb", f);
   if (m.iso_group.size() != 1 || std::string_view("PMKNSH").find(m.iso_group) == std::string_view::npos)
     f.fault("MATERIAL-GROUP", "'" + m.iso_group + "' is no group of ISO 513", "iso_group",
             f.line_of("iso_group"), "P, M, K, N, S or H");

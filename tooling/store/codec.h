@@ -189,8 +189,12 @@ class Decoder {
       return 0;
     }
     std::uint64_t v = 0;
-    for (std::size_t i = 0; i < size; ++i)
-      v |= static_cast<std::uint64_t>(static_cast<unsigned char>(rest_[i])) << (8 * i);
+    if constexpr (std::endian::native == std::endian::little) {
+      std::memcpy(&v, rest_.data(), size);
+    } else {
+      for (std::size_t i = 0; i < size; ++i)
+        v |= static_cast<std::uint64_t>(static_cast<unsigned char>(rest_[i])) << (8 * i);
+    }
     rest_.remove_prefix(size);
     return v;
   }

@@ -111,6 +111,12 @@ class Check {
         plan = executed(*std::move(plan));
         if (!plan) return plan.error();
       }
+      // A plan made for one machine may be asked of another.
+      if (const auto& named = s_.options.inputs.machine) {
+        auto machine = tooling::load_machine(*named, s_.job);
+        if (!machine) return machine.error();
+        plan->machine = *std::move(machine);
+      }
       add(verify::check_plan(*plan, s_.job), in.path, false);
       plans_.push_back(*std::move(plan));
     }

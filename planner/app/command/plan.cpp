@@ -43,6 +43,11 @@ std::string summary_of(const model::Plan& plan, std::size_t findings) {
                     counted(plan.setups.size(), "set-up", "set-ups") + " with " +
                     counted(plan.cutters.size(), "tool", "tools");
   if (const auto t = motion::time_of(plan)) out += ", " + duration(t->total_s());
+  const auto loaded = static_cast<std::size_t>(
+      std::count_if(plan.cutters.begin(), plan.cutters.end(), [](const auto& c) { return c.loaded; }));
+  // Where none is in the magazine, nothing is known of it.
+  if (loaded > 0 && loaded < plan.cutters.size())
+    out += ", " + std::to_string(plan.cutters.size() - loaded) + " of them to load";
   if (!plan.unplanned.empty())
     out += "; " + counted(plan.unplanned.size(), "feature", "features") + " not planned";
   return out + "; " + counted(findings, "finding", "findings");

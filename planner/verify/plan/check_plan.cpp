@@ -11,6 +11,7 @@ std::vector<model::Finding> check_plan(const model::Plan& plan, Job& job) {
   check_limits(plan, steps, findings);
   check_coolant(plan, steps, findings);
   check_life(steps, findings);
+  check_machine(plan, findings);
   check_order(plan, findings);
   check_coverage(plan, findings);
   check_removal(plan, steps, findings, job);
