@@ -29,6 +29,13 @@ void collect_cutters(Work& w) {
   tooling::assign_pockets(w.plan.cutters);
   for (const StepWork& s : w.steps) {
     const auto* op = w.plan.model.get<model::MachiningOperation>(s.operation);
+    if (const auto* probing = w.plan.model.get<model::WorkpieceProbing>(s.step)) {
+      const model::Cutter* c = model::find_cutter(w.plan, s.cutter.id);
+      const auto* probe = w.plan.model.get<model::TouchProbe>(probing->its_probe);
+      auto* usage = probe == nullptr ? nullptr : w.plan.model.get<model::ToolUsage>(probe->its_usage);
+      if (c != nullptr && usage != nullptr) usage->its_position = std::to_string(c->pocket);
+      continue;
+    }
     auto* tool = op != nullptr ? w.plan.model.get<model::MachiningTool>(op->its_tool) : nullptr;
     const model::Cutter* c = model::find_cutter(w.plan, s.cutter.id);
     if (tool == nullptr || c == nullptr) continue;

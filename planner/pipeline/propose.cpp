@@ -132,6 +132,10 @@ Chosen choose(Work& w, const model::Proposal& p, const std::vector<model::Cutter
     std::string why_not;
     for (const auto& step : chain) {
       auto s = tooling::select(step.tool, library, w.plan.material, w.plan.machine, {.used = used});
+      if (step.operation == TypeId::kWorkpieceProbing) {  // can be measured by other means
+        out.tools.push_back(std::move(s));
+        continue;
+      }
       if (s.ranked.empty()) {
         why_not = step.name + ": no cutter fits; " + s.would_fit + " would";
         break;
@@ -283,6 +287,10 @@ class Proposer {
       step.open_technology = true;
       step.proposal = (*chosen.chain)[i];
       step.proposal.feature = f;
+      if (step.proposal.operation == TypeId::kWorkpieceProbing) {
+        made.push_back(probing(std::move(step), *chosen.chain, i, chosen.tools[i], made));
+        continue;
+      }
       step.candidates = chosen.tools[i].ranked;
       step.rejected_tools = chosen.tools[i].rejected;
       step.cutter = step.candidates.front().cutter;
@@ -301,6 +309,21 @@ class Proposer {
       w_.steps.push_back(std::move(step));
     }
     return made;
+  }
+
+  /// A step between others that measures; gives its index.
+  std::size_t probing(StepWork step, const std::vector<model::ProposedStep>& chain, std::size_t i,
+                      const model::Selection& tools, const std::vector<std::size_t>& made) {
+    const model::Candidate* probe = tools.ranked.empty() ? nullptr : &tools.ranked.front();
+    step.open_technology = false;
+    if (probe != nullptr) {
+      step.cutter = probe->cutter;
+      w_.used_cutters.push_back(step.cutter.id);
+    }
+    step.step = add_probing(w_, chain, i, probe, step.shapes.front());
+    if (!made.empty()) step.after.push_back(made.back());
+    w_.steps.push_back(std::move(step));
+    return w_.steps.size() - 1;
   }
 
   Work& w_;

@@ -107,6 +107,11 @@ struct Thickness {
                                                          const model::FeatureShape& shape,
                                                          std::vector<model::Rejected> rejected_chains,
                                                          std::vector<model::Rejected> rejected_tools);
+/// A step that measures: start and direction in workpiece coordinates, the distance expected until the ball
+/// touches (before the last step, so less what that still takes off) and its tolerance. `probe` may be null.
+[[nodiscard]] Ref<model::Executable> add_probing(Work& w, const std::vector<model::ProposedStep>& chain,
+                                                 std::size_t at, const model::Candidate* probe,
+                                                 const model::FeatureShape& shape);
 /// The noun of a cutter, made once per plan.
 [[nodiscard]] Ref<model::MachiningTool> tool_noun(Work& w, const model::Cutter& cutter);
 [[nodiscard]] geometry::Box3 transformed(const geometry::Box3& box, const geometry::Placement& to);

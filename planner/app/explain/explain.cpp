@@ -263,11 +263,23 @@ void step_table(const Plan& plan, const std::vector<StepView>& views, std::strin
   if (rows.size() > 1) out += "\nSteps, in order\n" + table(rows);
   Rows waiting;
   for (const StepView& v : views) {
-    if (v.result == nullptr)
+    if (v.result == nullptr && !plan.model.holds<model::WorkpieceProbing>(v.step))
       waiting.push_back({"'" + v.id + "'", feature_name(plan, v.feature),
                          v.operation.set() ? name_of(plan.model, v.operation) : "-"});
   }
   if (!waiting.empty()) out += "\nWorkingsteps not planned\n" + table(waiting);
+  std::string measured;
+  for (const StepView& v : views) {
+    if (!plan.model.holds<model::WorkpieceProbing>(v.step)) continue;
+    const auto* d = plan.ledger.find(v.step, "expected_value");
+    measured += "  '" + v.id + "'";
+    if (d != nullptr) {
+      const auto& r = plan.ledger.reason(d->reason);
+      measured += ": " + r.text + " [" + r.id + "; " + r.source + "]";
+    }
+    measured += "\n";
+  }
+  if (!measured.empty()) out += "\nMeasured in the process\n" + measured;
 }
 
 void open_list(const Plan& plan, std::string& out) {

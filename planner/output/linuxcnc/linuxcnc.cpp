@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <vector>
 
 #include "planner/base/number.h"
@@ -9,6 +10,7 @@
 #include "planner/output/linuxcnc/arcs.h"
 #include "planner/output/linuxcnc/check.h"
 #include "planner/output/linuxcnc/comment.h"
+#include "planner/output/linuxcnc/probing.h"
 #include "planner/output/linuxcnc/program.h"
 #include "planner/output/step_ids.h"
 
@@ -32,7 +34,8 @@ constexpr double kPitchAgreement = 0.01;
 
 class Writer {
  public:
-  explicit Writer(const Plan& plan) : plan_(plan), program_(plan.machine.control) {}
+  explicit Writer(const Plan& plan)
+      : plan_(plan), program_(plan.machine.control), probings_(probings_before(plan)) {}
 
   Result<std::string> run() {
     header();
@@ -40,10 +43,12 @@ class Writer {
     for (std::size_t n = 0; n < plan_.steps.size(); ++n) {
       const StepResult& step = plan_.steps[n];
       const Cutter& cutter = *model::find_cutter(plan_, step.cutter_id);
+      measured_ = probe(step.step);
       enter(step, cutter, ids[n], n);
       if (auto done = moves(step, cutter, ids[n]); !done) return tl::unexpected(done.error());
     }
     program_.blank();
+    (void)probe({});
     program_.comment("end");
     retract();
     stop();
@@ -52,6 +57,23 @@ class Writer {
   }
 
  private:
+  // Measurements before a step (at the end: those that are left): a stop each, with nothing moving. Whether
+  // there was one.
+  bool probe(model::AnyRef before) {
+    const auto due = probings_.find(before);
+    if (due == probings_.end()) return false;
+    program_.blank();
+    retract();
+    stop();
+    for (const model::AnyRef r : due->second) {
+      const std::vector<std::string> lines = probing_text(plan_, r);
+      for (const std::string& line : lines) program_.comment(line);
+      program_.line("(MSG, " + plain_text(lines.front() + ", then continue").substr(0, 200) + ")");
+      program_.line("M0");
+    }
+    return true;
+  }
+
   void header() {
     program_.comment("CAPSTAN PROGRAM version=1");
     const auto* project = plan_.model.get<model::Project>(plan_.project);
@@ -136,7 +158,7 @@ class Writer {
     program_.line("G43 H" + t);
     tool_ = cutter.pocket;
     setup_ = step.setup;
-    approach(step, setup, new_tool || new_setup);
+    approach(step, setup, new_tool || new_setup || measured_);
   }
 
   // To the start of the path, from the top of the machine or from the security plane.
@@ -265,6 +287,8 @@ class Writer {
 
   const Plan& plan_;
   Program program_;
+  std::map<model::AnyRef, std::vector<model::AnyRef>> probings_;  // by the step they precede
+  bool measured_ = false;
   int tool_ = 0;
   std::size_t setup_ = 0;
   double speed_ = 0.0;

@@ -27,6 +27,11 @@ namespace capstan::output {
 ///         agree within the last decimal after rounding; arcs flatter than half the last decimal become
 ///         lines. Moves without length after rounding are left out. A tapping move and its way back are one
 ///         G33.1, which turns the spindle round by itself.
+/// Probing a workpiece_probing of the workplan becomes a stop before the step it precedes: retracted, spindle
+///         and coolant off, `M0` with a message that says what to measure, what is expected, and its
+///         tolerance. No move of a probe is written, whether the machine has one or not: its approach is not
+///         planned and so not checked against the piece and what holds it; the operator measures by hand or
+///         with a routine of the machine's own, and corrects the cutter or the work offset.
 /// Start   a path's first point is reached by rapid from straight above it; a path's maker vouches for that.
 /// Needs   each step bound: a path, a cutter with a pocket, a set-up.
 /// Fails   OUT-EMPTY, OUT-OPEN (no path), OUT-TOOL, OUT-SETUP, OUT-SCHEDULE, OUT-NUMBER (not finite or out of
