@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "planner/output/step_ids.h"
+#include "planner/pipeline/machine_needs.h"
 #include "planner/pipeline/work.h"
 #include "tooling/nouns/nouns.h"
 #include "tooling/select/select.h"
@@ -124,6 +125,8 @@ Result<model::Plan> bind(model::Plan plan, const Inputs& inputs, const Policy& p
     if (auto ok = stage(w); !ok) return tl::unexpected(ok.error());
   }
   if (policy.bind == Bind::kAll || policy.bind == Bind::kTools) collect_cutters(w);
+  if (policy.bind == Bind::kAll || policy.bind == Bind::kTools) tell_loading(w);
+  if (policy.bind == Bind::kAll) state_machine_needs(w);
   if (policy.bind != Bind::kAll && policy.bind != Bind::kNone) leave_open(w);
   if (auto ok = collect_setups(w); !ok) return tl::unexpected(ok.error());
   name_steps(w);

@@ -5,6 +5,7 @@
 
 #include "planner/base/number.h"
 #include "planner/model/walk.h"
+#include "planner/pipeline/share.h"
 #include "planner/pipeline/steps.h"
 #include "tooling/nouns/nouns.h"
 #include "tooling/select/select.h"
@@ -124,14 +125,16 @@ std::string keep_able(Work& w, const model::ProposedStep& step, model::Selection
 }
 
 /// The first chain whose every step finds a cutter; why the others do not.
-Chosen choose(Work& w, const model::Proposal& p, const std::vector<model::Cutter>& library,
-              std::vector<model::Rejected>& rejected) {
+Chosen choose(Work& w, const model::Proposal& p, const FeatureShape& shape,
+              const std::vector<model::Cutter>& library, std::vector<model::Rejected>& rejected) {
   for (const auto& chain : p.chains) {
     Chosen out;
     std::vector<std::string> used = w.used_cutters;
     std::string why_not;
     for (const auto& step : chain) {
-      auto s = tooling::select(step.tool, library, w.plan.material, w.plan.machine, {.used = used});
+      tooling::Preferences wanted = preferences_of(w, step, shape);
+      wanted.used = used;
+      auto s = tooling::select(step.tool, library, w.plan.material, w.plan.machine, wanted);
       if (step.operation == TypeId::kWorkpieceProbing) {  // can be measured by other means
         out.tools.push_back(std::move(s));
         continue;
@@ -264,7 +267,7 @@ class Proposer {
     }
     const FeatureShape s = reachable_side(f, given);
     std::vector<model::Rejected> rejected = p.rejected;
-    const Chosen chosen = choose(w_, p, library_, rejected);
+    const Chosen chosen = choose(w_, p, s, library_, rejected);
     if (chosen.chain == nullptr) {
       std::string reason = "no cutter in the library fits";
       for (const auto& r : rejected) reason += "; " + r.why;
