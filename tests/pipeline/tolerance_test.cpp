@@ -1,0 +1,331 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "planner/model/nouns/all.h"
+#include "planner/model/requirements.h"
+#include "planner/output/linuxcnc/probing.h"
+#include "planner/pipeline/shop.h"
+#include "tests/support/corpus.h"
+
+namespace capstan::pipeline {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+const Inputs& shop() {
+  static const Inputs kShop = [] {
+    Job job;
+    auto in = load_shop({}, job);
+    return in ? *std::move(in) : Inputs{};
+  }();
+  return kShop;
+}
+
+/// A block of 100 x 100 x 20 mm with its top at z = 0 and its middle at (50, 50), and `features` of #4 in it.
+/// #50 is a placement in its middle, #53 a plane 5 mm, #56 one 10 mm below that.
+std::string part_text(const std::string& features) {
+  return "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION((''),'2;1');\nFILE_NAME('','',(''),(''),'','','');\n"
+         "FILE_SCHEMA(('MACHINING_SCHEMA','MILLING_SCHEMA'));\nENDSEC;\nDATA;\n"
+         "#1=PROJECT('PART',#2,(#4),$,$,$);\n#2=WORKPLAN('MAIN WORKPLAN',(),$,#8,$);\n"
+         "#4=WORKPIECE('PART',#6,0.1,#5,$,$,());\n#5=WORKPIECE('RAW PIECE',#6,$,$,$,#26,());\n"
+         "#6=MATERIAL('EN AW-6061','ALUMINIUM',());\n#8=SETUP('SETUP1',#28,#31,(#9));\n"
+         "#9=WORKPIECE_SETUP(#4,#28,$,$,());\n#21=DIRECTION('',(0.,0.,1.));\n#22=DIRECTION('',(1.,0.,0.));\n"
+         "#24=CARTESIAN_POINT('',(0.,0.,-20.));\n#25=AXIS2_PLACEMENT_3D('',#24,#21,#22);\n"
+         "#26=BLOCK('RAW PIECE',#25,100.,100.,20.);\n#27=CARTESIAN_POINT('',(0.,0.,0.));\n"
+         "#28=AXIS2_PLACEMENT_3D('',#27,#21,#22);\n#29=CARTESIAN_POINT('',(0.,0.,20.));\n"
+         "#30=AXIS2_PLACEMENT_3D('',#29,#21,#22);\n#31=PLANE('',#30);\n"
+         "#49=CARTESIAN_POINT('',(50.,50.,0.));\n#50=AXIS2_PLACEMENT_3D('',#49,#21,#22);\n"
+         "#51=CARTESIAN_POINT('',(0.,0.,-5.));\n#52=AXIS2_PLACEMENT_3D('',#51,#21,#22);\n#53=PLANE('',#52);\n"
+         "#54=CARTESIAN_POINT('',(0.,0.,-10.));\n#55=AXIS2_PLACEMENT_3D('',#54,#21,#22);\n#56=PLANE('',#55);"
+         "\n"
+         "#57=PLANAR_POCKET_BOTTOM_CONDITION();\n#58=THROUGH_BOTTOM_CONDITION();\n" +
+         features + "ENDSEC;\nEND-ISO-10303-21;\n";
+}
+
+model::Plan read(const std::string& features) {
+  Job job;
+  auto plan = read_plan(part_text(features), "part.p21", job);
+  EXPECT_TRUE(plan) << (plan ? "" : to_text(plan.error()));
+  return plan ? *std::move(plan) : model::Plan{};
+}
+
+struct Planned {
+  model::Plan plan;
+  std::string said;  ///< diagnostics
+};
+Planned bound(model::Plan plan, const Inputs& in = shop()) {
+  Job job;
+  auto out = bind(std::move(plan), in, {}, job);
+  EXPECT_TRUE(out) << (out ? "" : to_text(out.error()));
+  Planned p{out ? *std::move(out) : model::Plan{}, {}};
+  for (const auto& d : job.diagnostics()) p.said += to_text(d) + "\n";
+  for (const auto& u : p.plan.unplanned) p.said += "unplanned: " + u.reason + "\n";
+  return p;
+}
+
+/// Nearest and farthest that a cutter's flank comes to the axis through (50, 50) while it cuts.
+struct Flank {
+  double nearest = 1e300, farthest = 0.0;
+};
+Flank flank_of(const model::Plan& plan) {
+  Flank out;
+  for (const auto& s : plan.steps) {
+    const double r = 0.5 * model::find_cutter(plan, s.cutter_id)->cutting_diameter_mm;
+    for (std::size_t i = 0; s.path && i < s.path->size(); ++i) {
+      if (s.path->z[i] > -1.0) continue;
+      const double d = std::hypot(s.path->x[i] - 50.0, s.path->y[i] - 50.0);
+      out.nearest = std::min(out.nearest, d - r);
+      out.farthest = std::max(out.farthest, d + r);
+    }
+  }
+  return out;
+}
+
+TEST(Aim, CutsAPocketOf20H7At20Point0105) {
+  const Planned p =
+      bound(read("#60=PLUS_MINUS_VALUE(0.021,0.,3);\n#61=TOLERANCED_LENGTH_MEASURE(20.,#60);\n"
+                 "#62=CIRCULAR_CLOSED_PROFILE($,#61);\n"
+                 "#63=CLOSED_POCKET('P',#4,(),#50,#53,(),$,#57,$,$,#62);\n"));
+  ASSERT_FALSE(p.plan.steps.empty()) << p.said;
+  EXPECT_NEAR(2.0 * flank_of(p.plan).farthest, 20.0105, 0.002);
+}
+
+TEST(Aim, CutsAnOutsideOf60H9At59Point963AndTheCheckHoldsItGood) {
+  const Planned p =
+      bound(read("#60=PLUS_MINUS_VALUE(0.,0.074,3);\n#61=TOLERANCED_LENGTH_MEASURE(60.,#60);\n"
+                 "#62=CIRCULAR_CLOSED_PROFILE($,#61);\n"
+                 "#63=GENERAL_OUTSIDE_PROFILE('O',#4,(),#50,#53,$,#62);\n"));
+  ASSERT_FALSE(p.plan.steps.empty()) << p.said;
+  EXPECT_NEAR(2.0 * flank_of(p.plan).nearest, 60.0 - 0.037, 0.002);
+  Job job;
+  for (const auto& f : findings_of(p.plan, job)) EXPECT_NE(f.code, "CHK-GOUGE") << f.message;
+}
+
+TEST(Aim, MovesOnlyTheSidesWhoseSizeIsToleranced) {
+  // 60 along x without, 40 along y with a tolerance of +0.1 to +0.3: 40.2 wide, 60 long.
+  const Planned p =
+      bound(read("#60=PLUS_MINUS_VALUE(0.3,-0.1,3);\n#61=TOLERANCED_LENGTH_MEASURE(40.,#60);\n"
+                 "#64=TOLERANCED_LENGTH_MEASURE(60.,$);\n#66=TOLERANCED_LENGTH_MEASURE(6.,$);\n"
+                 "#62=RECTANGULAR_CLOSED_PROFILE($,#61,#64);\n"
+                 "#63=CLOSED_POCKET('P',#4,(),#50,#53,(),$,#57,$,#66,#62);\n"));
+  ASSERT_FALSE(p.plan.steps.empty()) << p.said;
+  double x = 0.0, y = 0.0;
+  for (const auto& s : p.plan.steps) {
+    const double r = 0.5 * model::find_cutter(p.plan, s.cutter_id)->cutting_diameter_mm;
+    for (std::size_t i = 0; i < s.path->size(); ++i) {
+      if (s.path->z[i] > -1.0) continue;
+      x = std::max(x, std::abs(s.path->x[i] - 50.0) + r);
+      y = std::max(y, std::abs(s.path->y[i] - 50.0) + r);
+    }
+  }
+  EXPECT_NEAR(2.0 * x, 60.0, 0.003);
+  EXPECT_NEAR(2.0 * y, 40.2, 0.003);
+}
+
+const char* const kHole =
+    "#60=PLUS_MINUS_VALUE(0.021,0.,3);\n#61=TOLERANCED_LENGTH_MEASURE(20.,#60);\n"
+    "#63=ROUND_HOLE('H',#4,(),#50,#56,#61,$,#58);\n";
+
+TEST(GeneralTolerance, ThatIsNotUnderstoodIsOneError) {
+  Inputs in = shop();
+  in.general_tolerance = "ISO 2768-x";
+  Job job;
+  const auto out = bind(read(kHole), in, {}, job);
+  ASSERT_FALSE(out);
+  EXPECT_EQ(out.error().code, "MDL-GENERAL");
+}
+
+TEST(GeneralTolerance, DecidesTheChainOfWhatStatesNone) {
+  const std::string plain =
+      "#61=TOLERANCED_LENGTH_MEASURE(20.,$);\n#63=ROUND_HOLE('H',#4,(),#50,#56,#61,$,#58);\n";
+  const auto reason = [&](const char* general) {
+    Inputs in = shop();
+    in.general_tolerance = general;
+    const Planned p = bound(read(plain), in);
+    EXPECT_FALSE(p.plan.steps.empty()) << p.said;
+    const auto* d = p.plan.ledger.find(p.plan.steps.front().step, "its_operation");
+    return d == nullptr ? std::string() : p.plan.ledger.reason(d->reason).text;
+  };
+  EXPECT_THAT(reason("ISO 2768-m"), HasSubstr("+-0.2 mm (ISO 2768-m)"));
+  EXPECT_THAT(reason("ISO 2768-f"), HasSubstr("+-0.1 mm (ISO 2768-f)"));
+}
+
+TEST(Deviation, FollowsFromWhatAStepLeavesAndFromTheTolerance) {
+  const Planned p =
+      bound(read("#60=PLUS_MINUS_VALUE(0.03,0.,3);\n#61=TOLERANCED_LENGTH_MEASURE(40.,#60);\n"
+                 "#62=CIRCULAR_CLOSED_PROFILE($,#61);\n"
+                 "#63=CLOSED_POCKET('P',#4,(),#50,#53,(),$,#57,$,$,#62);\n"));
+  ASSERT_GE(p.plan.steps.size(), 2U) << p.said;
+  const auto& rough = p.plan.steps.front();
+  const auto& finish = p.plan.steps.back();
+  EXPECT_NEAR(finish.contour_tolerance_mm, 0.003, 1e-9) << "a tenth of 0.03";
+  EXPECT_GT(rough.contour_tolerance_mm, finish.contour_tolerance_mm);
+  Job job;
+  const auto text = write_plan(p.plan, Format::kLinuxCnc, job);
+  ASSERT_TRUE(text);
+  EXPECT_THAT(*text, HasSubstr("G64 P0.003\n"));
+}
+
+/// Makes `datum` datum A and ties `feature` to it by a position tolerance.
+void tie(model::Model& m, model::AnyRef datum, model::AnyRef feature, double value) {
+  model::Datum a;
+  a.identification = "A";
+  a.established_by.push_back(model::Ref<model::ManufacturingFeature>(datum));
+  model::DatumReference r;
+  r.referenced_datum = m.add(a);
+  model::DatumSystem s;
+  s.constituents.push_back(m.add(r));
+  model::PositionTolerance t;
+  t.tolerance_value = value;
+  t.applied_to.push_back(model::Ref<model::ManufacturingFeature>(feature));
+  t.its_datum_system = m.add(s);
+  m.add(t);
+}
+
+model::AnyRef feature(const model::Plan& plan, const std::string& id) {
+  for (const auto r : plan.model.all_below(model::TypeId::kManufacturingFeature)) {
+    if (plan.model.at<model::ManufacturingFeature>(r).its_id == id) return r;
+  }
+  return {};
+}
+
+const char* const kTwoHoles =
+    "#61=TOLERANCED_LENGTH_MEASURE(8.,$);\n#63=ROUND_HOLE('H1',#4,(),#50,#56,#61,$,#58);\n"
+    "#64=CARTESIAN_POINT('',(20.,20.,0.));\n#65=AXIS2_PLACEMENT_3D('',#64,#21,#22);\n"
+    "#66=ROUND_HOLE('H2',#4,(),#65,#56,#61,$,#58);\n";
+
+TEST(Datums, AreCutFirstAndTheReasonSaysSo) {
+  model::Plan plan = read(kTwoHoles);
+  tie(plan.model, feature(plan, "H2"), feature(plan, "H1"), 0.2);
+  const Planned p = bound(std::move(plan));
+  ASSERT_FALSE(p.plan.steps.empty()) << p.said;
+  const auto* project = p.plan.model.get<model::Project>(p.plan.project);
+  const auto* d = p.plan.ledger.find(project->main_workplan, "its_elements");
+  ASSERT_NE(d, nullptr);
+  EXPECT_THAT(p.plan.ledger.reason(d->reason).text,
+              HasSubstr("datum A ('H2') first, before 'H1': position 0.2 | A"));
+  std::vector<std::string> order;
+  for (const auto& s : p.plan.steps) order.push_back(model::step_id(p.plan, s));
+  const auto last_of = [&](const std::string& name) {
+    const auto it =
+        std::find_if(order.rbegin(), order.rend(), [&](const auto& n) { return n.starts_with(name); });
+    return order.rend() - it;
+  };
+  const auto first_of = [&](const std::string& name) {
+    const auto it =
+        std::find_if(order.begin(), order.end(), [&](const auto& n) { return n.starts_with(name); });
+    return it - order.begin() + 1;
+  };
+  EXPECT_LT(last_of("H2"), first_of("H1"));
+}
+
+TEST(Ties, BetweenSidesThatOneSetUpDoesNotReachAreSaid) {
+  // A blind pocket from below, and one from above that refers to it.
+  model::Plan plan = read(
+      "#61=TOLERANCED_LENGTH_MEASURE(30.,$);\n#62=CIRCULAR_CLOSED_PROFILE($,#61);\n"
+      "#63=CLOSED_POCKET('ABOVE',#4,(),#50,#53,(),$,#57,$,$,#62);\n"
+      "#70=DIRECTION('',(0.,0.,-1.));\n#71=CARTESIAN_POINT('',(50.,50.,-20.));\n"
+      "#72=AXIS2_PLACEMENT_3D('',#71,#70,#22);\n"
+      "#73=CLOSED_POCKET('BELOW',#4,(),#72,#53,(),$,#57,$,$,#62);\n");
+  tie(plan.model, feature(plan, "BELOW"), feature(plan, "ABOVE"), 0.1);
+  const Planned p = bound(std::move(plan));
+  EXPECT_THAT(p.said, HasSubstr("PIP-TIED"));
+  EXPECT_THAT(p.said, HasSubstr("'ABOVE' and 'BELOW' (datum A)"));
+  EXPECT_THAT(p.said, HasSubstr("position 0.1 | A"));
+}
+
+TEST(Ties, TurnAThroughHoleToTheSideOfItsDatum) {
+  model::Plan plan = read(
+      "#61=TOLERANCED_LENGTH_MEASURE(30.,$);\n#62=CIRCULAR_CLOSED_PROFILE($,#61);\n"
+      "#54000=CARTESIAN_POINT('',(0.,0.,-20.));\n#55000=AXIS2_PLACEMENT_3D('',#54000,#21,#22);\n"
+      "#56000=PLANE('',#55000);\n#69=TOLERANCED_LENGTH_MEASURE(8.,$);\n"
+      "#64=CARTESIAN_POINT('',(20.,20.,0.));\n#65=AXIS2_PLACEMENT_3D('',#64,#21,#22);\n"
+      "#66=ROUND_HOLE('H',#4,(),#65,#56000,#69,$,#58);\n"
+      "#70=DIRECTION('',(0.,0.,-1.));\n#71=CARTESIAN_POINT('',(50.,50.,-20.));\n"
+      "#72=AXIS2_PLACEMENT_3D('',#71,#70,#22);\n"
+      "#73=CLOSED_POCKET('BELOW',#4,(),#72,#53,(),$,#57,$,$,#62);\n");
+  tie(plan.model, feature(plan, "BELOW"), feature(plan, "H"), 0.1);
+  const Planned p = bound(std::move(plan));
+  EXPECT_TRUE(p.plan.unplanned.empty()) << p.said;
+  EXPECT_THAT(p.said, Not(HasSubstr("PIP-TIED")));
+  for (const auto& s : p.plan.steps) EXPECT_EQ(s.setup, p.plan.steps.front().setup);
+}
+
+TEST(Probing, StopsTheProgramBeforeTheLastStepWhereThePositionAsksForIt) {
+  Inputs in = shop();
+  in.machine.abilities.probe = true;
+  model::Plan plan = read(kTwoHoles);
+  tie(plan.model, feature(plan, "H2"), feature(plan, "H1"), 0.02);
+  const Planned p = bound(std::move(plan), in);
+  const auto probings = p.plan.model.all(model::TypeId::kWorkpieceProbing);
+  ASSERT_EQ(probings.size(), 1U) << p.said;
+  const auto before = output::probings_before(p.plan);
+  ASSERT_EQ(before.size(), 1U);
+  for (const auto& s : p.plan.steps) {
+    if (s.step != before.begin()->first) continue;
+    EXPECT_TRUE(model::step_id(p.plan, s).starts_with("H1")) << model::step_id(p.plan, s);
+  }
+  const auto& probing = p.plan.model.at<model::WorkpieceProbing>(probings.front());
+  const auto& expected = p.plan.model.at<model::TolerancedLengthMeasure>(probing.expected_value);
+  EXPECT_GT(*expected.theoretical_size, 3.0);
+  EXPECT_LE(*expected.theoretical_size, 4.0) << "what the last step takes off is still there";
+  Job job;
+  const auto program = write_plan(p.plan, Format::kLinuxCnc, job);
+  ASSERT_TRUE(program) << to_text(program.error());
+  const auto stop = program->find("measure H1 probe_feature");
+  ASSERT_NE(stop, std::string::npos);
+  EXPECT_LT(program->rfind("M5", stop), stop);
+  EXPECT_NE(program->find("M0", stop), std::string::npos);
+  EXPECT_EQ(program->find("G38"), std::string::npos) << "no move of a probe is written";
+  const std::vector<const char*> kNames{"WORKPIECE_PROBING", "workpiece probing", "workpiece_probing"};
+  for (const Format f : {Format::kIso14649, Format::kAp238, Format::kJson}) {
+    const auto text = write_plan(p.plan, f, job);
+    ASSERT_TRUE(text) << to_text(text.error());
+    const bool holds = std::any_of(kNames.begin(), kNames.end(),
+                                   [&](const char* n) { return text->find(n) != std::string::npos; });
+    EXPECT_TRUE(holds) << static_cast<int>(f);
+  }
+}
+
+TEST(Probing, IsNotAskedOfAMachineWithoutAProbe) {
+  Inputs in = shop();
+  in.machine.abilities.probe = false;
+  model::Plan plan = read(kTwoHoles);
+  tie(plan.model, feature(plan, "H2"), feature(plan, "H1"), 0.02);
+  EXPECT_TRUE(bound(std::move(plan), in).plan.model.all(model::TypeId::kWorkpieceProbing).empty());
+}
+
+TEST(Quality, OfTheAnnexJPartIsItsGeneralTolerance) {
+  CAPSTAN_CORPUS_FILE(path, "ap238/ap238e4dis_annexJ_cc3.stp");
+  Job job;
+  const auto plan = read_plan(testing::slurp(path), "cc3.stp", job);
+  ASSERT_TRUE(plan);
+  for (const auto f : plan->model.all_below(model::TypeId::kManufacturingFeature))
+    EXPECT_TRUE(model::quality_of(plan->model, model::Ref<model::ManufacturingFeature>(f)).texts.empty());
+  EXPECT_TRUE(model::Attribution(plan->model).lost().empty());
+  const auto pieces = plan->model.all(model::TypeId::kWorkpiece);
+  std::vector<double> stated;
+  for (const auto piece : pieces) {
+    const auto g = model::general_tolerance_of(plan->model, model::Ref<model::Workpiece>(piece));
+    ASSERT_TRUE(g);
+    if (*g) stated.push_back(*model::general_size(**g, 50.0));
+  }
+  EXPECT_THAT(stated, ::testing::ElementsAre(0.01));
+}
+
+TEST(Quality, OfTheToolMakersFileIsNotAsked) {
+  CAPSTAN_CORPUS_FILE(path, "ap238/exp2_stepnc_maker3_empty_ed3anchors.stpnc");
+  Job job;
+  const auto plan = read_plan(testing::slurp(path), "exp2.stpnc", job);
+  ASSERT_TRUE(plan);
+  for (const auto f : plan->model.all_below(model::TypeId::kManufacturingFeature))
+    EXPECT_TRUE(model::quality_of(plan->model, model::Ref<model::ManufacturingFeature>(f)).texts.empty());
+}
+
+}  // namespace
+}  // namespace capstan::pipeline
