@@ -364,6 +364,11 @@ Status hold_workpieces(Work& w) {
       return fail("HOLD-KIND", "'" + how + "' is a clamp: it needs a plate or a vise under it");
     } else {
       const auto text = read_file(how);
+      if (!text && !asked_now) {
+        w.job.warn("PIP-HOLDING", "the plan was held by '" + how + "', which cannot be read now (" +
+                                      text.error().message + "); what holds the piece is not planned");
+        return {};
+      }
       if (!text) {
         auto error = text.error();
         error.hint = "workholding is auto, none, the id of a fixture, or a file";
