@@ -47,12 +47,21 @@ class Workholding : public ::testing::Test {
   std::string said_;
 };
 
-const std::string kPlan = "plan '" + testing::example("two_setups.p21") + "' --workholding ";
+/// The file of an example, as a shell takes it.
+std::string quoted(const char* name) {
+  std::string out = "'";
+  out.append(testing::example(name)).append("'");
+  return out;
+}
+
+std::string plan_with(const std::string& workholding) {
+  std::string out = "plan ";
+  out.append(quoted("two_setups.p21")).append(" --workholding ").append(workholding).append(" -o p.json");
+  return out;
+}
 
 TEST_F(Workholding, APartIsTurnedOverAndItsProgramKeepsClearOfJawsAndClamps) {
-  ASSERT_EQ(run(kPlan + "'" + testing::example("two_setups_holding.yaml") + "' -o p.json -o p.ngc -o p.p21"),
-            0)
-      << said_;
+  ASSERT_EQ(run(plan_with(quoted("two_setups_holding.yaml")).append(" -o p.ngc -o p.p21")), 0) << said_;
   const std::string plan = slurp("p.json");
   EXPECT_THAT(plan, HasSubstr("vise.fixed_jaw"));
   EXPECT_THAT(plan, HasSubstr("\"clamp 2\""));
@@ -75,7 +84,7 @@ TEST_F(Workholding, APartIsTurnedOverAndItsProgramKeepsClearOfJawsAndClamps) {
 }
 
 TEST_F(Workholding, AClampInTheWayIsRefusedWithTheMoveAndTheClamp) {
-  EXPECT_EQ(run(kPlan + "'" + testing::example("two_setups_clamp_in_way.yaml") + "' -o p.json"), 1) << said_;
+  EXPECT_EQ(run(plan_with(quoted("two_setups_clamp_in_way.yaml"))), 1) << said_;
   EXPECT_THAT(said_, HasSubstr("BOTTOM POCKET"));
   EXPECT_THAT(said_, HasSubstr("would enter 'clamp 1'"));
   EXPECT_THAT(said_, HasSubstr("move "));
@@ -83,7 +92,7 @@ TEST_F(Workholding, AClampInTheWayIsRefusedWithTheMoveAndTheClamp) {
 }
 
 TEST_F(Workholding, IsChosenWhenNobodySaysHow) {
-  ASSERT_EQ(run(kPlan + "auto -o p.json -o p.ngc"), 0) << said_;
+  ASSERT_EQ(run(plan_with("auto").append(" -o p.ngc")), 0) << said_;
   EXPECT_THAT(slurp("p.json"), HasSubstr("vise.moving_jaw"));
   EXPECT_EQ(run("check p.json p.ngc"), 0) << said_;
 }
@@ -91,13 +100,13 @@ TEST_F(Workholding, IsChosenWhenNobodySaysHow) {
 TEST_F(Workholding, FaultsOfTheFileAreToldOnceEach) {
   const auto with = [&](const std::string& setup) {
     std::ofstream(folder_ / "h.yaml") << "capstan_workholding: 1\nunit: mm\nsetups:\n  - " << setup << "\n";
-    return run(kPlan + "h.yaml -o p.json");
+    return run(plan_with("h.yaml"));
   };
   EXPECT_NE(with("{setup: 1, fixture: grandfathers_vise}"), 0);
   EXPECT_THAT(said_, HasSubstr("HOLD-UNKNOWN"));
   EXPECT_NE(with("{setup: 7, fixture: vise_125}"), 0);
   EXPECT_THAT(said_, HasSubstr("there is no set-up '7'"));
-  EXPECT_NE(run(kPlan + "no_such_file.yaml -o p.json"), 0);
+  EXPECT_NE(run(plan_with("no_such_file.yaml")), 0);
   EXPECT_THAT(said_, HasSubstr("no_such_file.yaml"));
 }
 
