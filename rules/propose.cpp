@@ -87,7 +87,7 @@ std::string chain_name(const std::vector<StepSpec>& chain) {
 double hole_after(const ProposedStep& s, const FeatureShape& shape) {
   if (s.operation == model::TypeId::kCenterDrilling) return 0.0;
   if (s.tool.diameter_exact_mm > 0.0) return s.tool.diameter_exact_mm;
-  if (s.operation == model::TypeId::kDrilling) return s.tool.diameter_min_mm;
+  if (model::is_a(s.operation, model::TypeId::kDrillingOperation)) return s.tool.diameter_min_mm;
   return shape.diameter.nominal_mm - 2.0 * s.allowance_side_mm;
 }
 
@@ -133,8 +133,8 @@ std::string why(const Situation& at, const Row& row, const std::string& made) {
   return joined({row.text, at.demand.text, made, notes, assumed, at.cooling.text});
 }
 
-tl::expected<std::vector<ProposedStep>, std::string> make_chain(const Situation& at,
-                                                                std::size_t alternative) {
+tl::expected<std::vector<ProposedStep>, std::string> make_chain(const Situation& at, std::size_t alternative,
+                                                                std::vector<model::Rejected>& left_out) {
   std::vector<ProposedStep> out;
   double hole = at.shape.kind == ShapeKind::kHole ? at.context.core_diameter_mm : 0.0;
   const std::string prefix = at.shape.name.empty() ? std::string(table_of(at.shape.kind)) : at.shape.name;
@@ -143,10 +143,15 @@ tl::expected<std::vector<ProposedStep>, std::string> make_chain(const Situation&
     const Action* action = find_action(spec->action);
     if (action == nullptr) return tl::unexpected("there is no action named " + spec->action);
     Made made = action->make({at.base, at.shape, at.context, at.known, *spec, hole});
+    if (!made && row == at.edges) {  // a broken edge is wanted, but no reason to leave the feature unmade
+      const model::Rejected why_not{"breaking edges", made.error() + " [" + row->id + "]"};
+      if (std::find(left_out.begin(), left_out.end(), why_not) == left_out.end()) left_out.push_back(why_not);
+      continue;
+    }
     if (!made) return tl::unexpected(spec->action + ": " + made.error());
     ProposedStep& s = *made;
     s.feature = at.shape.feature;
-    s.operation = action->operation;
+    if (s.operation == model::TypeId::kNone) s.operation = action->operation;
     s.name = prefix + " " + spec->action;
     s.coolant = at.cooling.on && s.operation != model::TypeId::kWorkpieceProbing;
     s.why.id = row->id;
@@ -285,7 +290,7 @@ Proposal propose(const RuleBase& base, const FeatureShape& shape, const Context&
     out.rejected.push_back({"breaking edges", edges->cannot + " [" + edges->id + "]"});
   std::string reasons;
   for (std::size_t i = 0; i < row->chains.size(); ++i) {
-    auto chain = make_chain(at, i);
+    auto chain = make_chain(at, i, out.rejected);
     if (chain) {
       out.chains.push_back(*std::move(chain));
       continue;

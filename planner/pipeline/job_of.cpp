@@ -148,6 +148,27 @@ void take_drilling(const Model& m, AnyRef op, toolpath::PathJob& job) {
   }
 }
 
+/// ISO 14649 has no place for necks: that of a form cutter read from a file is the one of the library's
+/// cutter of the same name, class and diameter.
+model::Cutter with_neck(const Work& w, model::Cutter c) {
+  const bool form = c.cutter_class == model::CutterClass::kTSlotMill ||
+                    c.cutter_class == model::CutterClass::kDovetailMill ||
+                    c.cutter_class == model::CutterClass::kCornerRoundingMill;
+  if (!form) return c;
+  for (const model::Cutter& known : w.inputs.library) {
+    if (known.id != c.id || known.cutter_class != c.cutter_class ||
+        std::abs(known.cutting_diameter_mm - c.cutting_diameter_mm) > 1e-6)
+      continue;
+    if (c.neck_diameter_mm <= 0.0) {
+      c.neck_diameter_mm = known.neck_diameter_mm;
+      c.neck_length_mm = known.neck_length_mm;
+    }
+    if (c.tip_diameter_mm <= 0.0) c.tip_diameter_mm = known.tip_diameter_mm;
+    if (c.corner_radius_mm <= 0.0) c.corner_radius_mm = known.corner_radius_mm;
+  }
+  return c;
+}
+
 }  // namespace
 
 toolpath::PathJob job_of(const Work& w, const StepWork& step, const model::FeatureShape& shape) {
@@ -157,7 +178,7 @@ toolpath::PathJob job_of(const Work& w, const StepWork& step, const model::Featu
   job.shape = shape;
   job.feature_in_setup = compose(setup.workpiece, shape.frame);
   job.operation = step.operation.type;
-  job.cutter = step.cutter;
+  job.cutter = with_neck(w, step.cutter);
   take_milling(m, step.operation, job);
   take_drilling(m, step.operation, job);
   // What was chosen for a tool that has been re-opened is open again, whatever stands in the noun.

@@ -126,6 +126,15 @@ void fill_drilling(Model& m, AnyRef op, const model::ProposedStep& step) {
     s->depth_of_step = d;
     s->retract_distance = 0.0;
   }
+  if (!step.tool.classes.empty() && step.tool.classes.front() == model::CutterClass::kGunDrill) {
+    // Into its pilot a gun drill turns slowly; defaults, unsourced.
+    model::DrillingTypeStrategy slow;
+    slow.reduced_cut_at_start = 0.3;
+    slow.reduced_feed_at_start = 0.3;
+    slow.depth_of_start = 1.5 * step.tool.diameter_exact_mm;
+    const auto made = m.add(slow);
+    m.get<model::DrillingTypeOperation>(op)->its_machining_strategy = made;
+  }
   if (auto* b = m.get<model::BoringOperation>(op)) b->spindle_stop_at_bottom = false;
   if (auto* t = m.get<model::Tapping>(op)) t->compensation_chuck = false;
   if (auto* t = m.get<model::ThreadDrilling>(op)) t->helical_movement_on_forward = true;

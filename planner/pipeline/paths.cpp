@@ -366,7 +366,9 @@ class PathMaker {
       const bool bores = w_.plan.model.holds<model::DrillingTypeOperation>(step.operation) &&
                          !w_.plan.model.holds<model::CenterDrilling>(step.operation) &&
                          !w_.plan.model.holds<model::CounterSinking>(step.operation);
-      if (bores) holes_[{step.feature, shape.member}] = step.cutter.cutting_diameter_mm;
+      // A pilot or a mark that ends far above the bottom is no hole for the next tool to go through.
+      const bool deep = job.cutting_depth_mm.value_or(shape.depth_mm) >= 0.5 * shape.depth_mm;
+      if (bores && deep) holes_[{step.feature, shape.member}] = step.cutter.cutting_diameter_mm;
     }
     const auto given = given_technology(w_.plan.model, step.operation, step.cutter);
     optimise::FeedQuestion fq;

@@ -77,6 +77,33 @@ double engaged(TypeId operation, const model::Cutter& c, std::optional<double> d
   return c.tip_diameter_mm + 2.0 * *depth_mm * std::tan(0.5 * c.point_angle_rad);
 }
 
+/// The upright shank that bends as far as a shank with a thinner neck does: both as cantilevers in line,
+///
+///     1 / I = (l^3 / I_n + (L^3 - l^3) / I_s) / L^3        I ~ d^4
+///
+/// Source  as mechanics' tip_compliance_mm_n; derived.
+double equal_shank(const model::Cutter& c) {
+  const double stick = c.stick_out_mm;
+  const double neck = c.neck_diameter_mm;
+  if (!(neck > 0.0 && neck < c.shank_diameter_mm && stick > 0.0)) return c.shank_diameter_mm;
+  const double part =
+      std::pow(std::clamp(c.neck_length_mm > 0.0 ? c.neck_length_mm / stick : 1.0, 0.0, 1.0), 3.0);
+  return std::pow(part / std::pow(neck, 4.0) + (1.0 - part) / std::pow(c.shank_diameter_mm, 4.0), -0.25);
+}
+
+/// Cuts under an overhang are not measured along the path: asked for as a slot of the head's full height and
+/// diameter, with half the start feed, for the chips cannot leave upwards. The half is a default, unsourced.
+void under_an_overhang(optimise::CutQuestion& q, const model::Cutter& c) {
+  constexpr double kFeedShare = 0.5;
+  q.kind = CutKind::kRough;
+  q.slot = true;
+  q.ap_mm = c.cutting_width_mm > 0.0 ? c.cutting_width_mm : c.maximum_depth_of_cut_mm;
+  q.depth_mm = *q.ap_mm;
+  q.ae_mm = q.width_mm = c.cutting_diameter_mm;
+  q.fz_start_mm *= kFeedShare;
+  q.cutter.shank_diameter_mm = equal_shank(c);
+}
+
 }  // namespace
 
 optimise::CutQuestion hole_question(const Work& w, const model::ProposedStep& step,
@@ -154,6 +181,13 @@ optimise::CutQuestion question_of(const Work& w, const StepWork& step, const mod
     q.width_mm += 0.41422 * std::max(0.0, 0.5 * (job.cleared_by->diameter_mm - d));
     q.width_mm = std::min(q.width_mm, d);
   }
+  if (step.cutter.cutter_class == model::CutterClass::kTSlotMill ||
+      step.cutter.cutter_class == model::CutterClass::kDovetailMill)
+    under_an_overhang(q, job.cutter);
+  const bool cone = step.cutter.cutter_class == model::CutterClass::kChamferMill ||
+                    step.cutter.cutter_class == model::CutterClass::kCountersink;
+  // A broken edge: as wide as it is deep.
+  if (cone && q.kind == CutKind::kFinish && q.ap_mm) q.width_mm = std::max(0.05, *q.ap_mm);
   if (!step.open_technology) {
     const auto given = given_technology(m, step.operation, step.cutter);
     if (given.rpm) q.n_rpm = std::abs(*given.rpm);

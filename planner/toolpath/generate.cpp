@@ -56,6 +56,11 @@ Result<GeneratedPath> hole_milling(const PathJob& task, Job& job) {
 
 Result<GeneratedPath> milling(const PathJob& task, Job& job) {
   if (task.cutter.cutter_class == CutterClass::kThreadMill) return thread_mill_path(task, job);
+  const bool cone = task.cutter.cutter_class == CutterClass::kChamferMill ||
+                    task.cutter.cutter_class == CutterClass::kCountersink;
+  const bool edged = task.shape.kind == ShapeKind::kPocket || task.shape.kind == ShapeKind::kHole ||
+                     task.shape.kind == ShapeKind::kOutside;
+  if (cone && edged && task.operation == TypeId::kSideFinishMilling) return broken_edge_path(task, job);
   switch (task.shape.kind) {
     case ShapeKind::kFace:
       return face_path(task, job);
@@ -76,6 +81,7 @@ Result<GeneratedPath> milling(const PathJob& task, Job& job) {
     case ShapeKind::kOutside:
       return outside_path(task, job);
     case ShapeKind::kChamfer:
+    case ShapeKind::kEdgeRound:
       return edge_path(task, job);
     default:
       return fail({.code = "TPA-UNSUPPORTED",

@@ -51,6 +51,7 @@ Made tap(const Making& m) {
   s.tool.classes = {CutterClass::kTap};
   s.tool.diameter_exact_mm = m.shape.thread_major_mm;
   s.tool.thread_pitch_mm = p;
+  s.lock_override = true;  // feed and spindle run in step
   s.tool.reach_mm = s.depth_mm + m.context.stock_above_mm + kReachClearanceMm;
   return s;
 }
@@ -64,6 +65,7 @@ Made thread_mill(const Making& m) {
   s.tool.classes = {CutterClass::kThreadMill};
   s.tool.diameter_max_mm = m.number("of_core") * *c;
   s.tool.thread_pitch_mm = m.shape.thread_pitch_mm;
+  s.lock_override = true;
   s.tool.reach_mm = s.depth_mm + m.context.stock_above_mm + kReachClearanceMm;
   return s;
 }
@@ -81,6 +83,54 @@ Made chamfer(const Making& m) {
   s.tool.depth_of_cut_mm = depth;
   s.tool.reach_mm = depth + m.context.stock_above_mm + kReachClearanceMm;
   s.strategy = StrategyKind::kContourParallel;
+  return s;
+}
+
+// Along the edge, with a mill whose concave quarter round has the edge's radius.
+Made edge_round(const Making& m) {
+  const double r = m.shape.round_radius_mm;
+  if (!(r > 0.0)) return no("the edge round states no radius");
+  ProposedStep s;
+  s.depth_mm = r;
+  s.tool.classes = {CutterClass::kCornerRoundingMill};
+  s.tool.corner_radius_exact_mm = r;
+  s.tool.reach_mm = r + m.context.stock_above_mm + kReachClearanceMm;
+  s.strategy = StrategyKind::kContourParallel;
+  s.why.text = "a corner rounding mill of the edge's radius, its tip along the wall";
+  return s;
+}
+
+// A bevel of 45 degrees along the upper edge, where the shop wants no sharp ones.
+Made break_edge(const Making& m) {
+  using model::ShapeKind;
+  const double c = m.context.edge_break_mm;
+  if (!(c > 0.0)) return no("no edges are asked to be broken");
+  const auto& s0 = m.shape;
+  const bool closed = (s0.kind == ShapeKind::kPocket || s0.kind == ShapeKind::kHole) && !s0.open;
+  if (!closed && s0.kind != ShapeKind::kOutside)
+    return no("only the edges of closed pockets, holes and outside contours are broken");
+  if (std::abs(s0.slope_rad) > 1e-6) return no("edges over leaning walls are not broken");
+  if (c >= s0.depth_mm) return no("the feature is no deeper than the chamfer of its edge");
+  ProposedStep s;
+  s.depth_mm = s.axial_depth_mm = c;
+  s.tool.classes = {CutterClass::kChamferMill, CutterClass::kCountersink};
+  s.tool.point_angle_rad = 0.5 * std::numbers::pi;
+  s.tool.diameter_min_mm = 2.0 * c;
+  s.tool.depth_of_cut_mm = c;
+  s.tool.reach_mm = c + m.context.stock_above_mm + kReachClearanceMm;
+  s.strategy = StrategyKind::kContourParallel;
+  s.why.text = "edges are broken by " + mm(c);
+  return s;
+}
+
+// Measured in the machine before the step that can still correct it.
+Made probe_feature(const Making& m) {
+  ProposedStep s;
+  s.depth_mm = m.shape.depth_mm;
+  s.coolant = false;
+  s.tool.classes = {CutterClass::kTouchProbe};
+  s.tool.reach_mm = m.number("of_depth") * m.shape.depth_mm + m.context.stock_above_mm + kReachClearanceMm;
+  s.why.text = "measured before the step that can still correct it";
   return s;
 }
 
@@ -125,6 +175,12 @@ std::vector<Action> form_actions() {
        {{"of_core", 0.8, "largest thread mill by core diameter"}},
        thread_mill},
       {"chamfer", TypeId::kSideFinishMilling, {}, chamfer},
+      {"edge_round", TypeId::kSideFinishMilling, {}, edge_round},
+      {"break_edge", TypeId::kSideFinishMilling, {}, break_edge},
+      {"probe_feature",
+       TypeId::kWorkpieceProbing,
+       {{"of_depth", 0.5, "how deep the probe goes, by the feature's depth"}},
+       probe_feature},
       {"freeform_rough",
        TypeId::kFreeformRoughMilling,
        {{"allowance_mm", 0.5, "left on the surface"}},

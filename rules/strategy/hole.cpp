@@ -135,7 +135,61 @@ Made drill(const Making& m) {
   const auto peck = pecked(m, (depth + m.context.stock_above_mm) / w.best, text);
   if (!peck) return tl::unexpected(peck.error());
   s.peck = *peck;
+  if (s.peck) s.operation = TypeId::kMultistepDrilling;
+  if (m.number("coolant_through") > 0.0) {
+    if (!m.context.has_through_coolant) return no("the machine has no coolant through the spindle");
+    s.coolant_through = s.tool.coolant_through = true;
+  }
   s.why.text = text;
+  return s;
+}
+
+// Out of the hole after every step, whatever the table on depths says.
+Made peck_drill(const Making& m) {
+  Made made = drill(m);
+  if (!made || made->peck) return made;
+  made->peck = true;
+  made->operation = TypeId::kMultistepDrilling;
+  return made;
+}
+
+// The bore that guides a gun drill: of its diameter, a little deep. The drill that makes it must not be
+// smaller than the gun drill.
+Made gun_pilot(const Making& m) {
+  const Window w = drill_window(m);
+  if (!(w.lo > 0.0)) return no("no drill is small enough for a hole of " + mm(m.shape.diameter.nominal_mm));
+  const double depth = m.number("depth_ratio") * w.best;
+  if (depth + kDrillTip * w.hi >= m.shape.depth_mm)
+    return no("the hole is too shallow for a pilot and a gun drill");
+  ProposedStep s = begin(m, depth);
+  s.tool.classes = {CutterClass::kTwistDrill};
+  require(s.tool, w);
+  s.tool.depth_of_cut_mm = depth + kDrillTip * w.best + m.context.stock_above_mm;
+  s.tool.reach_mm += kDrillTip * w.best;
+  s.tool.centre_cutting = true;
+  s.why.text = "guides the gun drill";
+  return s;
+}
+
+// Deep holes at one go, chips washed out by coolant through the drill.
+Made gun_drill(const Making& m) {
+  if (!m.context.has_through_coolant)
+    return no("a gun drill needs coolant through the spindle: the machine has none");
+  const Window w = drill_window(m);
+  if (!(w.lo > 0.0)) return no("no drill is small enough for a hole of " + mm(m.shape.diameter.nominal_mm));
+  const double depth = drill_depth(m, w.hi);
+  if (!(depth > 0.0)) return no("the tip of a gun drill is longer than the hole is deep");
+  if (!(m.hole_mm > 0.0)) return no("a gun drill starts in a pilot bore: gun_pilot comes before it");
+  ProposedStep s = begin(m, depth);
+  s.start_diameter_mm = 0.0;  // the pilot ends far above the bottom
+  s.tool.classes = {CutterClass::kGunDrill};
+  require(s.tool, w);
+  const double tip = kDrillTip * w.best;
+  s.tool.depth_of_cut_mm = depth + tip + m.context.stock_above_mm;
+  s.tool.reach_mm += tip;
+  s.tool.centre_cutting = true;
+  s.coolant_through = s.tool.coolant_through = true;
+  s.why.text = "enters its pilot slowly, then drills in one go";
   return s;
 }
 
@@ -155,6 +209,7 @@ Made pilot(const Making& m) {
   const auto peck = pecked(m, s.depth_mm / (0.5 * hi), text);
   if (!peck) return tl::unexpected(peck.error());
   s.peck = *peck;
+  if (s.peck) s.operation = TypeId::kMultistepDrilling;
   s.why.text = text;
   return s;
 }
@@ -301,19 +356,26 @@ std::vector<Action> hole_actions() {
   const ActionParameter leave{"leave_mm", 0.2, "left between the drill's tip and a bottom that is milled"};
   const ActionParameter dwell{"dwell_s", 0.5, "at the bottom, so that the last turn cleans up"};
   const ActionParameter side{"allowance_side_mm", 0.0, "left on the wall"};
+  const ActionParameter under{"under_mm", 0.0, "left on the diameter for the next step"};
+  const ActionParameter for_ream{"for_ream", 0.0, "1: leaves what table ream_stock says"};
+  const ActionParameter any_size{
+      "any_size", 0.0, "1: any drill that the tolerance admits, where the nominal one cannot be had"};
+  const ActionParameter through{"coolant_through", 0.0, "1: drill and machine give coolant through the tool"};
   return {
       {"centre",
        TypeId::kCenterDrilling,
        {{"of_diameter", 0.3, "depth by diameter"}, {"deepest_mm", 3.0, "depth"}},
        centre},
-      {"drill",
+      {"drill", TypeId::kDrilling, {under, for_ream, any_size, through, past, leave}, drill},
+      {"peck_drill",
+       TypeId::kMultistepDrilling,
+       {under, for_ream, any_size, through, past, leave},
+       peck_drill},
+      {"gun_pilot",
        TypeId::kDrilling,
-       {{"under_mm", 0.0, "left on the diameter for the next step"},
-        {"for_ream", 0.0, "1: leaves what table ream_stock says"},
-        {"any_size", 0.0, "1: any drill that the tolerance admits, where the nominal one cannot be had"},
-        past,
-        leave},
-       drill},
+       {under, for_ream, any_size, {"depth_ratio", 1.5, "depth by diameter"}},
+       gun_pilot},
+      {"gun_drill", TypeId::kDrilling, {under, for_ream, any_size, past, leave}, gun_drill},
       {"pilot",
        TypeId::kDrilling,
        {{"of_diameter", 0.8, "largest drill by diameter"},

@@ -88,6 +88,7 @@ Made taper_drill(const Making& m) {
   if (row == nullptr || !row->cannot.empty())
     return no(row == nullptr ? "no row of drill_depth holds" : row->cannot + " [" + row->id + "]");
   s.peck = find(row->values, "peck").value_or(0.0) > 0.0;
+  if (s.peck) s.operation = TypeId::kMultistepDrilling;
   s.strategy = StrategyKind::kNone;
   s.tool.classes = {CutterClass::kTwistDrill};
   s.tool.diameter_min_mm = 0.5 * hi;

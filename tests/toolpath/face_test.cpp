@@ -230,6 +230,8 @@ TEST(SlotPath, EntersATeeSlotByItsOpenEndOnly) {
   PathJob t = slot_job(8.0, 12.0, 14.0, true);
   t.shape.slot_profile = {{0, 7}, {4, 7}, {4, 4}, {12, 4}};
   t.cutter.cutter_class = model::CutterClass::kTSlotMill;
+  t.cutter.cutting_width_mm = 4.0;
+  t.cutter.neck_diameter_mm = 7.0;
   t.shape.reach = geometry::stroke({{0, 0}, {160, 0}}, 4.0, false);
   t.stock = geometry::rectangle({-20, -30}, {60, 30});
   Job job;

@@ -337,13 +337,16 @@ TEST(FormSlot, ClearsItselfFirstWhereNothingHasRoughedIt) {
   EXPECT_LE(gouge(t, *g, rounded_u(5.5, 13.0)), 0.002);
 }
 
-TEST(FormSlot, RefusesATeeForACutterFromAbove) {
+TEST(FormSlot, RefusesASectionThatBulgesBelowItsMouthAndBallsInATee) {
   PathJob t = form_slot(5.5, 0.0, 13.0, true);
   t.shape.slot_bottom_radius_mm = 0.0;
-  t.shape.slot_profile = {{0, 9}, {4, 9}, {4, 5}, {13, 5}};
+  t.shape.slot_profile = {{0, 5}, {4, 9}, {8, 5}, {13, 5}};
   t.operation = TypeId::kBottomAndSideRoughMilling;
   t.cutter = cutter(model::CutterClass::kEndmill, 6.0, 0.0);
   Job job;
+  EXPECT_EQ(generate(t, job).error().code, "TPA-UNSUPPORTED");
+  t.shape.slot_profile = {{0, 9}, {4, 9}, {4, 5}, {13, 5}};
+  t.cutter = cutter(model::CutterClass::kBallEndmill, 6.0, 3.0);
   EXPECT_EQ(generate(t, job).error().code, "TPA-UNSUPPORTED");
 }
 

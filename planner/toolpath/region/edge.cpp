@@ -10,32 +10,77 @@ namespace capstan::toolpath {
 namespace {
 constexpr double kTipBelow =
     0.5;  ///< mm the tip reaches below the chamfer, so that the cone cuts, not its tip
+
+/// Round what stays of an outside contour, as an upright cutter as wide as the form cutter's tip would go.
+Result<GeneratedPath> around_outside(const PathJob& slim, double z_mm, Job& job) {
+  PathJob t = slim;
+  t.shape.kind = model::ShapeKind::kOutside;
+  t.shape.depth_mm = t.feature_in_setup.origin.z - z_mm;
+  t.shape.slope_rad = 0.0;
+  t.shape.through = false;
+  t.operation = model::TypeId::kSideFinishMilling;
+  t.allowance_side_mm = t.allowance_bottom_mm = t.axial_depth_mm = 0.0;
+  t.left_on_side_mm = t.left_on_bottom_mm = 0.0;
+  return outside_path(t, job);
 }
+
+/// The tip's radius where it runs along the wall, and its height below the edge.
+struct TipAt {
+  double radius_mm = 0.0, below_mm = 0.0;
+};
+
+Result<TipAt> tip_of_cone(const PathJob& task) {
+  const auto& s = task.shape;
+  const auto refuse = [&](const char* code, const std::string& what) {
+    return fail({.code = code, .message = s.name + ": " + what, .path = s.name});
+  };
+  // The flank's angle against the axis is the complement of the chamfer's against the plane.
+  const double half = 0.5 * task.cutter.point_angle_rad;
+  if (std::abs(std::tan(half) - 1.0 / std::tan(s.chamfer_angle_rad)) > 1e-3 || !(half > 0.0))
+    return refuse("TPA-TOOL", "the cutter's point angle does not make the chamfer's angle");
+  const double radius = 0.5 * task.cutter.tip_diameter_mm + kTipBelow * std::tan(half);
+  const double needed = radius + s.chamfer_width_mm;
+  if (2.0 * needed > task.cutter.cutting_diameter_mm + 1e-9)
+    return refuse("TPA-NO-FIT", "the chamfer is wider than the cutter's cone; a cutter of " +
+                                    trimmed(2.0 * needed, 2) + " mm would do");
+  return TipAt{radius, s.depth_mm + kTipBelow};
+}
+
+Result<TipAt> tip_of_round(const PathJob& task) {
+  const auto& s = task.shape;
+  const auto& c = task.cutter;
+  const auto refuse = [&](const std::string& what) {
+    return fail({.code = "TPA-TOOL", .message = s.name + ": " + what, .path = s.name});
+  };
+  if (c.cutter_class != model::CutterClass::kCornerRoundingMill)
+    return refuse("a rounded edge needs a corner rounding mill");
+  if (std::abs(c.corner_radius_mm - s.round_radius_mm) > 1e-3)
+    return refuse("the cutter's radius of " + trimmed(c.corner_radius_mm, 3) + " mm is not the edge's " +
+                  trimmed(s.round_radius_mm, 3) + " mm");
+  if (!(c.tip_diameter_mm > 0.0)) return refuse("the diameter of the cutter's tip is not known");
+  return TipAt{0.5 * c.tip_diameter_mm, s.round_radius_mm};
+}
+
+}  // namespace
 
 Result<GeneratedPath> edge_path(const PathJob& task, Job& job) {
   const auto& s = task.shape;
   const auto refuse = [&](const char* code, const std::string& what) {
     return fail({.code = code, .message = s.name + ": " + what, .path = s.name});
   };
-  if (s.open || s.area.empty())
+  const bool outside = s.open && s.islands.size() == 1 && std::abs(s.islands.front().top_z_mm) < 1e-9;
+  if ((s.open && !outside) || s.area.empty())
     return refuse("TPA-UNSUPPORTED",
-                  "only the upper edges of closed pockets and holes have chamfer paths yet");
+                  "only the upper edges of closed pockets, holes and outside contours have paths yet");
+  const auto tip = s.kind == model::ShapeKind::kEdgeRound ? tip_of_round(task) : tip_of_cone(task);
+  if (!tip) return tl::unexpected(tip.error());
   auto w = work_area(task);
   if (!w) return tl::unexpected(w.error());
-  // The flank's angle against the axis is the complement of the chamfer's against the plane.
-  const double half = 0.5 * task.cutter.point_angle_rad;
-  if (std::abs(std::tan(half) - 1.0 / std::tan(s.chamfer_angle_rad)) > 1e-3 || !(half > 0.0))
-    return refuse("TPA-TOOL", "the cutter's point angle does not make the chamfer's angle");
-  const double tip = 0.5 * task.cutter.tip_diameter_mm;
-  const double offset = tip + kTipBelow * std::tan(half);
-  const double needed = offset + s.chamfer_width_mm;
-  if (2.0 * needed > task.cutter.cutting_diameter_mm + 1e-9)
-    return refuse("TPA-NO-FIT", "the chamfer is wider than the cutter's cone; a cutter of " +
-                                    trimmed(2.0 * needed, 2) + " mm would do");
-  const double z = w->top_z_mm - s.depth_mm - kTipBelow;
-  PathJob slim = task;  // at its tip the cone is as wide as this
-  slim.cutter.cutting_diameter_mm = 2.0 * offset;
+  const double z = w->top_z_mm - tip->below_mm;
+  PathJob slim = task;  // at its tip the cutter is as wide as this
+  slim.cutter.cutting_diameter_mm = 2.0 * tip->radius_mm;
   slim.cutter.corner_radius_mm = 0.0;
+  if (outside) return around_outside(slim, z, job);
   w->bottom_z_mm = z;
   w->slope_rad = w->bottom_radius_mm = 0.0;
   PathWriter writer(task);
@@ -48,6 +93,25 @@ Result<GeneratedPath> edge_path(const PathJob& task, Job& job) {
   GeneratedPath out = writer.finish();
   out.levels_z_mm = {z};
   return out;
+}
+
+Result<GeneratedPath> broken_edge_path(const PathJob& task, Job& job) {
+  PathJob edge = task;
+  auto& s = edge.shape;
+  if (!(task.axial_depth_mm > 0.0)) {
+    return fail({.code = "TPA-DEPTH",
+                 .message = s.name + ": how deep its edge is to be broken is not said (axial_cutting_depth)",
+                 .path = s.name});
+  }
+  if (s.kind == model::ShapeKind::kHole)
+    s.area = s.reach = geometry::disc({0.0, 0.0}, 0.5 * s.diameter.middle());
+  s.kind = model::ShapeKind::kChamfer;
+  s.chamfer_angle_rad = 0.5 * (M_PI - task.cutter.point_angle_rad);
+  s.depth_mm = task.axial_depth_mm;
+  s.chamfer_width_mm = s.depth_mm / std::tan(s.chamfer_angle_rad);
+  s.through = false;
+  edge.axial_depth_mm = 0.0;
+  return edge_path(edge, job);
 }
 
 }  // namespace capstan::toolpath

@@ -14,8 +14,10 @@ namespace capstan::toolpath {
 [[nodiscard]] Result<GeneratedPath> outside_path(const PathJob& task, Job& job);
 /// Along a slot's spine: cutters as wide as the slot, and form cutters.
 [[nodiscard]] Result<GeneratedPath> slot_path(const PathJob& task, Job& job);
-/// Chamfers along the upper edge of a closed pocket or a hole.
+/// Chamfers and rounds along the upper edge of a closed pocket, a hole or an outside contour.
 [[nodiscard]] Result<GeneratedPath> edge_path(const PathJob& task, Job& job);
+/// The bevel of a cone along a feature's own upper edge, as deep as `axial_depth_mm`.
+[[nodiscard]] Result<GeneratedPath> broken_edge_path(const PathJob& task, Job& job);
 
 /// Whether the operation is one that finishes.
 [[nodiscard]] bool is_finish(model::TypeId operation);

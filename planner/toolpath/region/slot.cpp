@@ -4,6 +4,7 @@
 #include "planner/base/number.h"
 #include "planner/toolpath/region/patterns.h"
 #include "planner/toolpath/region/region_paths.h"
+#include "planner/toolpath/region/undercut.h"
 #include "planner/toolpath/section/section_path.h"
 
 namespace capstan::toolpath {
@@ -16,10 +17,6 @@ using model::MoveRole;
 namespace {
 
 constexpr double kSameWidth = 0.02;  ///< mm; a cutter this much narrower than the slot cuts it in one pass
-
-bool undercuts(const model::Cutter& c) {
-  return c.cutter_class == CutterClass::kTSlotMill || c.cutter_class == CutterClass::kDovetailMill;
-}
 
 /// Whether the cutter's form makes the slot's section in one pass along the spine.
 Status check_form(const PathJob& task) {
@@ -35,7 +32,6 @@ Status check_form(const PathJob& task) {
                     " degrees needs a cutter with that point angle");
     return {};
   }
-  if (undercuts(c)) return {};
   if (s.slot_bottom_radius_mm > 0.0) {
     if (c.cutter_class != CutterClass::kBallEndmill ||
         std::abs(0.5 * c.cutting_diameter_mm - s.slot_bottom_radius_mm) > kSameWidth)
@@ -46,14 +42,9 @@ Status check_form(const PathJob& task) {
   return refuse("its section needs a T-slot or dovetail cutter");
 }
 
-struct Ends {
-  std::vector<Vec2> line;
-  bool open_first = false, open_last = false;
-};
-
 /// The spine as the cutter's centre runs it: out into the air at open ends, short of flat closed ends.
-Ends run_of(const PathJob& task, const WorkArea& w) {
-  Ends e;
+SlotRun run_of(const PathJob& task, const WorkArea& w) {
+  SlotRun e;
   for (const Vec2 p : task.shape.spine)
     e.line.push_back(xy(task.feature_in_setup.to_parent({p.x, p.y, 0.0})));
   if (norm(e.line.front() - e.line.back()) < 1e-6) return e;
@@ -85,6 +76,18 @@ Result<GeneratedPath> slot_path(const PathJob& task, Job& job) {
   if (!w) return tl::unexpected(w.error());
   const double d = task.cutter.cutting_diameter_mm;
   const bool form = !s.slot_profile.empty();
+  const bool end_mill = task.cutter.cutter_class == CutterClass::kEndmill ||
+                        task.cutter.cutter_class == CutterClass::kBullnoseEndmill;
+  const auto u = undercut_of(s);
+  if (u && end_mill) return slot_path(neck_of(task, *u), job);
+  if (u && undercuts(task.cutter)) {
+    if (s.spine.size() < 2 || norm(s.spine.front() - s.spine.back()) < 1e-6) {
+      return fail({.code = "TPA-ENTRY",
+                   .message = s.name + ": a cutter wider than the slot's mouth needs an open end to enter by",
+                   .path = s.name});
+    }
+    return undercut_path(task, *u, run_of(task, *w), job);
+  }
   if (form) {
     if (auto ok = check_form(task); !ok) {
       if (mills_sections(task.cutter)) return form_slot_path(task, job);
@@ -106,7 +109,7 @@ Result<GeneratedPath> slot_path(const PathJob& task, Job& job) {
   if (s.spine.size() < 2) {
     return fail({.code = "TPA-UNSUPPORTED", .message = s.name + " has no course to follow", .path = s.name});
   }
-  const Ends run = run_of(task, *w);
+  const SlotRun run = run_of(task, *w);
   const bool closed = norm(run.line.front() - run.line.back()) < 1e-6;
   std::vector<Vec2> line = run.line;
   // Begin at an open end when there is one.
@@ -114,15 +117,10 @@ Result<GeneratedPath> slot_path(const PathJob& task, Job& job) {
   const bool from_air = run.open_first || run.open_last;
   Track track = track_of_line(line);
   track.closed = closed;
-  if (undercuts(task.cutter) && !from_air) {
-    return fail({.code = "TPA-ENTRY",
-                 .message = s.name + ": a cutter wider than the slot's mouth needs an open end to enter by",
-                 .path = s.name});
-  }
   PathWriter writer(task);
   LevelCutter c(task, *w, writer, job);
   const double end = w->bottom_z_mm + task.allowance_bottom_mm;
-  const bool single = undercuts(task.cutter) || (task.multiple_passes.has_value() && !*task.multiple_passes);
+  const bool single = task.multiple_passes.has_value() && !*task.multiple_passes;
   const auto heights =
       levels(*w, task.start_z_mm, end, single ? 0.0 : task.axial_depth_mm, task.allowance_bottom_mm);
   if (heights.empty()) {
@@ -160,9 +158,6 @@ Result<GeneratedPath> slot_path(const PathJob& task, Job& job) {
     }
     from = z;
   }
-  // A cutter below the mouth leaves the way it came; others rise where they are.
-  if (undercuts(task.cutter) && !(run.open_first && run.open_last))
-    writer.follow(reversed(track), heights.back(), MoveRole::kRetract);
   GeneratedPath out = writer.finish();
   out.levels_z_mm = heights;
   return out;

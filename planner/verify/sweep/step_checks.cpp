@@ -31,6 +31,10 @@ bool undercuts(const model::Cutter& c) {
          c.cutter_class == CutterClass::kBackCounterbore || c.cutter_class == CutterClass::kBackCountersink ||
          c.cutter_class == CutterClass::kSideMill;
 }
+/// T-slot and dovetail cutters: run along a slot whose mouth is open already.
+bool under_overhangs(const model::Cutter& c) {
+  return c.cutter_class == CutterClass::kTSlotMill || c.cutter_class == CutterClass::kDovetailMill;
+}
 bool cuts_to_centre(const model::Cutter& c) {
   switch (c.cutter_class) {
     case CutterClass::kTwistDrill:
@@ -119,6 +123,13 @@ void StepChecks::rapid(const Move& m) {
 }
 
 void StepChecks::feed(const Move& m) {
+  if (under_overhangs(cutter_)) {
+    // Heights hold no overhang: what the head cuts is not taken from them.
+    spindle(m, {});
+    reach(m);
+    neck(m);
+    return;
+  }
   const double allowed = target_.allowed();
   const Bite bite = cut(grid_, m, profile_, judge_gouge_ ? allowed : 1e300, &target_);
   if (judge_gouge_) gouge(m, bite);
@@ -134,6 +145,35 @@ void StepChecks::feed(const Move& m) {
     return;
   }
   account(m, bite);
+}
+
+// Above its head such a cutter has nothing that cuts: the mouth must be open for the neck, and there must be
+// nothing under the head where it goes down.
+void StepChecks::neck(const Move& m) {
+  const double head =
+      cutter_.cutting_width_mm > 0.0 ? cutter_.cutting_width_mm : cutter_.maximum_depth_of_cut_mm;
+  double radius = 0.5 * cutter_.neck_diameter_mm;
+  if (radius <= 0.0 && cutter_.cutter_class == CutterClass::kDovetailMill)
+    radius = radius_ - head * std::tan(cutter_.lead_angle_rad);
+  const double slack = 1.5 * grid_.cell();
+  if (radius <= slack) return;  // not known, or too thin to be judged on these cells
+  const double length = length_of(m);
+  const int n = std::max(1, static_cast<int>(std::ceil(length / std::max(grid_.cell(), 0.5 * radius))));
+  const bool falls = m.to.z < m.from.z - 1e-9;
+  for (int i = 0; i <= n; ++i) {
+    const geometry::Vec3 p = point_of(m, static_cast<double>(i) / n);
+    const double beside = grid_.highest(xy(p), radius - slack) - (p.z + head);
+    const double below = falls ? grid_.highest(xy(p), radius_ - slack) - p.z : 0.0;
+    if (beside > kSlackMm || below > kSlackMm) {
+      const bool first = beside > kSlackMm;
+      out_.error(11, first ? "CHK-NECK" : "CHK-HEAD", at(m),
+                 std::string(first ? "the tool's neck" : "the tool goes down and its head") + " runs " +
+                     mm(first ? beside : below) + " into material at " + here(xy(p)) + " (cells of " +
+                     mm(grid_.cell()) + ")",
+                 first ? beside : below);
+      return;
+    }
+  }
 }
 
 void StepChecks::gouge(const Move& m, const Bite& bite) {

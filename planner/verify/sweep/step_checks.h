@@ -21,6 +21,7 @@ class StepChecks {
   void rapid(const Move& m);
   void feed(const Move& m);
   void gouge(const Move& m, const Bite& bite);
+  void neck(const Move& m);
   void contact(const Move& m, const Bite& bite);
   void reach(const Move& m);
   void body(const Move& m);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "planner/model/nouns/all.h"
 #include "planner/verify/findings.h"
 
 namespace capstan::verify {
@@ -19,6 +20,7 @@ using model::ShapeKind;
 namespace {
 
 constexpr double kUpright = 1.0 - 1e-9;
+constexpr double kMostEdgeBreakMm = 1.0;  ///< deeper is a chamfer, and must be a feature; default, unsourced
 
 Region moved(const Region& r, const Placement& to) {
   std::vector<geometry::Loop> loops;
@@ -95,6 +97,7 @@ Target::Target(const model::Plan& plan, const PartShapes& part, std::size_t setu
   for (const auto& e : part.entries) {
     for (const auto& s : e.shapes) add(s);
   }
+  add_broken_edges();
   for (const Cavity& c : cavities_) {
     levels_.push_back(c.floor_mm);
     for (const auto& [region, top] : c.islands) levels_.push_back(top);
@@ -132,6 +135,38 @@ void Target::add(const FeatureShape& s) {
     c.islands.emplace_back(moved(stays, at), at.origin.z + i.top_z_mm);
   }
   cavities_.push_back(std::move(c));
+}
+
+// A finishing step with a cone along the side of a feature that is no chamfer breaks its upper edge, as deep
+// as the operation says, but no deeper than what still counts as broken.
+void Target::add_broken_edges() {
+  for (const model::StepResult& step : plan_.steps) {
+    const auto* ws = plan_.model.get<model::MachiningWorkingstep>(step.step);
+    const model::Cutter* c = model::find_cutter(plan_, step.cutter_id);
+    if (ws == nullptr || c == nullptr || !(c->point_angle_rad > 0.0)) continue;
+    const bool cone = c->cutter_class == model::CutterClass::kChamferMill ||
+                      c->cutter_class == model::CutterClass::kCountersink;
+    const auto* op = plan_.model.get<model::SideFinishMilling>(ws->its_operation);
+    if (!cone || op == nullptr) continue;
+    const double depth = op->axial_cutting_depth.value_or(0.0);
+    const PartShapes::Entry* e = part_.find(ws->its_feature);
+    if (e == nullptr || !(depth > 0.0 && depth <= kMostEdgeBreakMm)) continue;
+    for (const FeatureShape& s : e->shapes) {
+      if (s.kind != ShapeKind::kPocket && s.kind != ShapeKind::kHole && s.kind != ShapeKind::kOutside)
+        continue;
+      FeatureShape& bevel = bevels_.emplace_back(s);
+      bevel.kind = ShapeKind::kChamfer;
+      bevel.through = false;
+      if (s.kind == ShapeKind::kHole)
+        bevel.area = geometry::disc({0.0, 0.0}, 0.5 * (s.diameter.nominal_mm + s.diameter.upper_mm));
+      for (const auto& i : s.islands) bevel.area = geometry::subtract(bevel.area, i.area);
+      bevel.islands.clear();
+      bevel.chamfer_angle_rad = 0.5 * (std::numbers::pi - c->point_angle_rad);
+      bevel.depth_mm = depth;
+      bevel.chamfer_width_mm = depth / std::tan(bevel.chamfer_angle_rad);
+      add(bevel);
+    }
+  }
 }
 
 bool Target::outside(Vec2 p) const {

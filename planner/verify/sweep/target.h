@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <map>
 #include <memory>
 #include <optional>
@@ -81,6 +82,7 @@ class Target : public GougeJudge {
   };
 
   void add(const model::FeatureShape& s);
+  void add_broken_edges();
   [[nodiscard]] double floor_of(const Cavity& c, geometry::Vec2 p) const;
   [[nodiscard]] double height(geometry::Vec2 p) const;
   void fill_mesh(Grid& grid) const;
@@ -92,7 +94,8 @@ class Target : public GougeJudge {
   const PartShapes& part_;
   geometry::Placement frame_;
   geometry::Box3 stock_, part_box_;
-  std::optional<double> round_;  ///< radius of a bar along the tool axis
+  std::optional<double> round_;             ///< radius of a bar along the tool axis
+  std::deque<model::FeatureShape> bevels_;  ///< of edges that the plan breaks
   std::vector<Cavity> cavities_;
   std::vector<double> levels_;
   std::map<std::size_t, Walls> walls_;

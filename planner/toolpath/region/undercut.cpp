@@ -1,0 +1,214 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "planner/base/number.h"
+#include "planner/toolpath/region/patterns.h"
+#include "planner/toolpath/region/undercut.h"
+
+namespace capstan::toolpath {
+
+using geometry::Vec2;
+using model::CutterClass;
+using model::MoveRole;
+
+namespace {
+
+constexpr double kSameSize = 0.02;    ///< mm; what a head narrower or lower than the slot by this still makes
+constexpr double kNeckClear = 0.1;    ///< mm between the neck and the mouth's walls
+constexpr double kFreeAir = 0.2;      ///< mm between a cutter in air and the material
+constexpr double kSidePart = 0.1;     ///< of the diameter: most that a pass takes further; default, unsourced
+constexpr double kSameAngle = 0.002;  ///< rad
+constexpr int kMostPasses = 200;
+
+/// The cutter's head: what cuts under the mouth.
+struct Head {
+  double diameter_mm = 0.0, height_mm = 0.0, neck_mm = 0.0;
+};
+
+tl::unexpected<Diagnostic> refuse(const PathJob& task, const char* code, const std::string& what) {
+  return fail({.code = code, .message = task.shape.name + ": " + what, .path = task.shape.name});
+}
+
+Result<Head> head_of(const PathJob& task, const Undercut& u) {
+  const auto& c = task.cutter;
+  Head h{c.cutting_diameter_mm, c.cutting_width_mm > 0.0 ? c.cutting_width_mm : c.maximum_depth_of_cut_mm,
+         c.neck_diameter_mm > 0.0 ? c.neck_diameter_mm : c.shank_diameter_mm};
+  if (!(h.height_mm > 0.0)) return refuse(task, "TPA-TOOL", "the height of the cutter's head is not known");
+  if (u.flank_rad > 0.0) {
+    if (c.cutter_class != CutterClass::kDovetailMill || std::abs(c.lead_angle_rad - u.flank_rad) > kSameAngle)
+      return refuse(task, "TPA-TOOL",
+                    "flanks that lean " + trimmed(u.flank_rad * 180.0 / std::numbers::pi, 2) +
+                        " degrees need a dovetail cutter of that angle");
+    if (h.height_mm < u.height_mm - kSameSize)
+      return refuse(task, "TPA-NO-FIT",
+                    "the cutter's head is " + trimmed(h.height_mm, 3) + " mm high, the flanks are " +
+                        trimmed(u.height_mm, 3) + " mm");
+    if (!(c.neck_diameter_mm > 0.0)) h.neck_mm = h.diameter_mm - 2.0 * h.height_mm * std::tan(u.flank_rad);
+  } else {
+    if (c.cutter_class != CutterClass::kTSlotMill)
+      return refuse(task, "TPA-TOOL", "its section needs a T-slot cutter");
+    if (h.height_mm > u.height_mm + 0.005)
+      return refuse(task, "TPA-NO-FIT",
+                    "the cutter's head is " + trimmed(h.height_mm, 3) + " mm high, the slot's wide part is " +
+                        trimmed(u.height_mm, 3) + " mm");
+  }
+  if (!(h.neck_mm > 0.0))
+    return refuse(task, "TPA-TOOL", "the cutter's neck is not known: it must pass the mouth");
+  return h;
+}
+
+/// The line moved sideways (left positive), its corners mitred.
+std::vector<Vec2> beside(const std::vector<Vec2>& line, double by) {
+  std::vector<Vec2> out;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const Vec2 a = i > 0 ? line[i] - line[i - 1] : line[1] - line[0];
+    const Vec2 b = i + 1 < line.size() ? line[i + 1] - line[i] : a;
+    const Vec2 u = (1.0 / norm(a)) * a;
+    const Vec2 v = (1.0 / norm(b)) * b;
+    const Vec2 n{-(u.y + v.y), u.x + v.x};
+    const double l2 = dot(n, n);
+    if (l2 < 1e-9) return {};  // it turns back on itself
+    out.push_back(line[i] + (2.0 * by / l2) * n);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::optional<Undercut> undercut_of(const model::FeatureShape& s) {
+  const auto& q = s.slot_profile;
+  if (q.size() < 2) return std::nullopt;
+  double widest = 0.0;
+  for (const Vec2 p : q) widest = std::max(widest, p.y);
+  if (widest <= q.back().y + 1e-6) return std::nullopt;
+  Undercut u;
+  u.mouth_mm = q.back().y;
+  u.widest_mm = q.front().y;
+  if (u.widest_mm < widest - 1e-6) return std::nullopt;  // wider above its floor than on it
+  // Upright flanks under a flat overhang, or leaning ones.
+  if (std::abs(q[1].y - q[0].y) < 1e-9 && q[1].x > 0.0 && q.size() > 2) {
+    if (std::abs(q[2].x - q[1].x) > 1e-9 || std::abs(q[2].y - u.mouth_mm) > 1e-9) return std::nullopt;
+    u.height_mm = q[1].x;
+    return u;
+  }
+  if (!(q[1].x > 0.0) || std::abs(q[1].y - u.mouth_mm) > 1e-9) return std::nullopt;
+  u.height_mm = q[1].x;
+  u.flank_rad = std::atan((q[0].y - q[1].y) / q[1].x);
+  return u;
+}
+
+bool undercuts(const model::Cutter& c) {
+  return c.cutter_class == CutterClass::kTSlotMill || c.cutter_class == CutterClass::kDovetailMill;
+}
+
+PathJob neck_of(const PathJob& task, const Undercut& u) {
+  PathJob neck = task;
+  auto& s = neck.shape;
+  s.slot_profile.clear();
+  const double shift = u.mouth_mm - 0.5 * s.width.nominal_mm;
+  s.width.nominal_mm = 2.0 * u.mouth_mm;
+  if (std::abs(shift) > 1e-9) {
+    s.area = geometry::offset_sharp(s.area, shift);
+    s.reach = geometry::offset_sharp(s.reach, shift);
+  }
+  return neck;
+}
+
+Result<GeneratedPath> undercut_path(const PathJob& task, const Undercut& u, SlotRun run, Job& job) {
+  const auto& s = task.shape;
+  const auto w = work_area(task);
+  if (!w) return tl::unexpected(w.error());
+  const auto head = head_of(task, u);
+  if (!head) return tl::unexpected(head.error());
+  const double radius = 0.5 * head->diameter_mm;
+  const double aside = u.widest_mm - task.allowance_side_mm - radius;
+  if (aside < -0.001) {
+    return fail({.code = "TPA-NO-FIT",
+                 .message = "the cutter " + task.cutter.id + " of " + trimmed(head->diameter_mm, 3) +
+                            " mm does not fit into " + s.name,
+                 .path = s.name,
+                 .hint = "a diameter of at most " + trimmed(2.0 * (aside + radius), 3) + " mm would"});
+  }
+  const double room = u.mouth_mm - kNeckClear - 0.5 * head->neck_mm;
+  if (std::max(aside, 0.0) > room + 1e-9)
+    return refuse(task, "TPA-NO-FIT",
+                  "to reach the sides the cutter moves " + trimmed(std::max(aside, 0.0), 3) +
+                      " mm off the middle; its neck of " + trimmed(head->neck_mm, 3) + " mm leaves " +
+                      trimmed(std::max(room, 0.0), 3) + " mm in the mouth");
+  if (run.line.size() < 2 || (!run.open_first && !run.open_last)) {
+    return refuse(task, "TPA-ENTRY", "a cutter wider than the slot's mouth needs an open end to enter by");
+  }
+  if (!run.open_first) {
+    std::reverse(run.line.begin(), run.line.end());
+    std::swap(run.open_first, run.open_last);
+  }
+  // The whole head stands free at open ends, for every pass.
+  const Inside material(w->material);
+  const double most_aside = std::max(aside, 0.0);
+  for (const bool last : {false, true}) {
+    if (last && !run.open_last) continue;
+    Vec2& end = last ? run.line.back() : run.line.front();
+    const Vec2 before = last ? run.line[run.line.size() - 2] : run.line[1];
+    const Vec2 out = (1.0 / norm(end - before)) * (end - before);
+    int steps = 0;
+    while (!material.clear_of(end, radius + most_aside + kFreeAir)) {
+      if (++steps > 400)
+        return refuse(task, "TPA-ENTRY", "the cutter does not get free of the material at the open end");
+      end = end + 0.5 * radius * out;
+    }
+  }
+  const bool both = run.open_first && run.open_last;
+  if (!both && aside > kSameSize)
+    job.warn("TPA-REST",
+             "its closed end stays " + trimmed(aside, 3) +
+                 " mm narrower beside the cutter's round: a cutter of " + trimmed(2.0 * u.widest_mm, 3) +
+                 " mm would finish it",
+             s.name);
+  std::vector<double> sides = {0.0};
+  if (aside > 1e-6) {
+    const double step = task.radial_depth_mm > 0.0
+                            ? std::min(task.radial_depth_mm, kSidePart * head->diameter_mm)
+                            : kSidePart * head->diameter_mm;
+    const int n = std::max(1, static_cast<int>(std::ceil(aside / step - 1e-9)));
+    if (n > kMostPasses) return refuse(task, "TPA-NO-FIT", "the cutter is much too small for the slot");
+    for (int i = 1; i <= n; ++i) {
+      sides.push_back(aside * i / n);
+      sides.push_back(-aside * i / n);
+    }
+  }
+  const double bottom = w->bottom_z_mm + task.allowance_bottom_mm;
+  std::vector<double> heights;
+  const double spare = u.flank_rad > 0.0 ? 0.0 : u.height_mm - task.allowance_bottom_mm - head->height_mm;
+  const int n = spare > kSameSize ? static_cast<int>(std::ceil(spare / head->height_mm - 1e-9)) : 0;
+  for (int i = 0; i <= n; ++i) heights.push_back(bottom + (n > 0 ? std::max(spare, 0.0) * (n - i) / n : 0.0));
+  PathWriter writer(task);
+  bool begun = false;
+  bool back = false;  // the cutter stands at the far end
+  for (const double z : heights) {
+    for (const double side : sides) {
+      const auto line = std::abs(side) < 1e-12 ? run.line : beside(run.line, side);
+      if (line.empty()) return refuse(task, "TPA-UNSUPPORTED", "its course turns back on itself");
+      Track there = track_of_line(line);
+      if (back) there = reversed(there);
+      if (!begun) {
+        writer.over(there.start);
+        writer.descend(z, z);
+        begun = true;
+      } else {
+        writer.line({there.start.x, there.start.y, z}, MoveRole::kLink);
+      }
+      writer.follow(there, z, MoveRole::kCut);
+      if (both) {
+        back = !back;
+      } else {
+        writer.follow(reversed(there), z, MoveRole::kRetract);
+      }
+    }
+  }
+  GeneratedPath out = writer.finish();
+  out.levels_z_mm = heights;
+  return out;
+}
+
+}  // namespace capstan::toolpath

@@ -1,0 +1,248 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "planner/toolpath/path_job.h"
+#include "tests/toolpath/path_helpers.h"
+
+namespace capstan::toolpath {
+namespace {
+
+using geometry::Region;
+using geometry::Vec2;
+using model::CutterClass;
+using model::MoveKind;
+using model::MoveRole;
+
+constexpr double kPi = std::numbers::pi;
+
+/// A slot along x from 0 to 60, open at x = 60 and, with `both`, at 0; the raw piece ends there.
+PathJob slot(double mouth, std::vector<Vec2> section, bool both) {
+  PathJob t = area_job(geometry::stroke({{0, 0}, {60, 0}}, 0.5 * mouth, false), section.back().x, 10.0);
+  t.shape.kind = model::ShapeKind::kSlot;
+  t.shape.width.nominal_mm = mouth;
+  t.shape.spine = {{0, 0}, {60, 0}};
+  t.shape.slot_profile = std::move(section);
+  t.shape.open = true;
+  t.shape.reach = geometry::stroke({{both ? -100.0 : 0.0, 0}, {160, 0}}, 0.5 * mouth, false);
+  t.stock = geometry::rectangle({0, -40}, {60, 40});
+  t.operation = model::TypeId::kBottomAndSideFinishMilling;
+  t.axial_depth_mm = 0.0;
+  return t;
+}
+
+/// A T-slot as DIN 650 has it for 14 mm: mouth 14, below 23 wide and 9 high.
+PathJob tee(bool both) { return slot(14.0, {{0, 11.5}, {9, 11.5}, {9, 7}, {23, 7}}, both); }
+
+void t_cutter(PathJob& t, double d, double head, double neck) {
+  t.cutter = endmill(d);
+  t.cutter.cutter_class = CutterClass::kTSlotMill;
+  t.cutter.cutting_width_mm = head;
+  t.cutter.neck_diameter_mm = neck;
+  t.cutter.centre_cutting = false;
+}
+
+/// Area that the head's disc passes at one height.
+Region passed(const GeneratedPath& g, double z, double radius) {
+  Region out;
+  for (std::size_t i = 1; i < g.path.size(); ++i) {
+    if (std::abs(g.path.z[i] - z) > 1e-9 || std::abs(g.path.z[i - 1] - z) > 1e-9) continue;
+    const Vec2 a = xy(g.path.point(i - 1));
+    const Vec2 b = xy(g.path.point(i));
+    if (norm(b - a) < 1e-9) continue;
+    out = geometry::unite(out, geometry::stroke({a, b}, radius, true));
+  }
+  return out;
+}
+
+void expect_clean(const PathJob& t, const GeneratedPath& g, double widest, double neck) {
+  EXPECT_THAT(rule_breaks(t, g), testing::IsEmpty());
+  const double radius = 0.5 * t.cutter.cutting_diameter_mm;
+  const double mouth = 0.5 * t.shape.width.nominal_mm;
+  const Region wide = geometry::stroke({{-100, 0}, {200, 0}}, widest, false);
+  const Region narrow = geometry::stroke({{-100, 0}, {200, 0}}, mouth, false);
+  EXPECT_LE(gouge_mm(g, wide, radius, -1e-6), 0.003) << "the head stays under the overhang";
+  EXPECT_LE(gouge_mm(g, narrow, 0.5 * neck, -1e-6), 0.0) << "the neck stays in the mouth";
+  for (const double z : g.levels_z_mm) {
+    const Region floor = geometry::rectangle({radius, -widest}, {60, widest});
+    EXPECT_LT(geometry::area(geometry::subtract(floor, passed(g, z, radius + 0.002))), 0.01) << z;
+  }
+  // Up and down only where the whole head is out of the piece.
+  for (std::size_t i = 1; i < g.path.size(); ++i) {
+    if (std::abs(g.path.z[i] - g.path.z[i - 1]) < 1e-9) continue;
+    if (std::min(g.path.z[i], g.path.z[i - 1]) > -1e-6) continue;
+    const bool right = g.path.x[i] >= 60.0 + radius;
+    const bool left = g.path.x[i] <= -radius;
+    EXPECT_TRUE(right || left) << "at x = " << g.path.x[i];
+  }
+}
+
+TEST(UndercutPath, CutsATeeSlotAtOnceWithAHeadOfItsSize) {
+  PathJob t = tee(true);
+  t_cutter(t, 23.0, 9.0, 12.0);
+  Job job;
+  const auto g = generate(t, job);
+  ASSERT_TRUE(g) << g.error().message;
+  EXPECT_EQ(g->levels_z_mm.size(), 1U);
+  EXPECT_THAT(job.diagnostics(), testing::IsEmpty());
+  expect_clean(t, *g, 11.5, 12.0);
+}
+
+TEST(UndercutPath, GoesAsideAndDownWithASmallerHead) {
+  PathJob t = tee(true);
+  t_cutter(t, 18.0, 8.0, 8.0);  // 2.5 mm aside, a neck that leaves 3 mm
+  Job job;
+  const auto g = generate(t, job);
+  ASSERT_TRUE(g) << g.error().message;
+  ASSERT_EQ(g->levels_z_mm.size(), 2U);
+  EXPECT_NEAR(g->levels_z_mm.front(), -22.0, 1e-9) << "the head's top under the overhang";
+  EXPECT_NEAR(g->levels_z_mm.back(), -23.0, 1e-9);
+  expect_clean(t, *g, 11.5, 8.0);
+}
+
+TEST(UndercutPath, LeavesAClosedEndTheWayItCame) {
+  PathJob t = tee(false);
+  t_cutter(t, 23.0, 9.0, 12.0);
+  Job job;
+  const auto g = generate(t, job);
+  ASSERT_TRUE(g) << g.error().message;
+  expect_clean(t, *g, 11.5, 12.0);
+  bool back = false;
+  for (const auto role : g->path.role) back = back || role == MoveRole::kRetract;
+  EXPECT_TRUE(back);
+}
+
+TEST(UndercutPath, RefusesWhatWouldTouchAndSaysWhy) {
+  Job job;
+  PathJob t = tee(true);
+  t_cutter(t, 25.0, 9.0, 12.0);
+  EXPECT_EQ(generate(t, job).error().code, "TPA-NO-FIT") << "head too wide";
+  t_cutter(t, 23.0, 9.5, 12.0);
+  EXPECT_EQ(generate(t, job).error().code, "TPA-NO-FIT") << "head too high";
+  t_cutter(t, 23.0, 9.0, 14.0);
+  EXPECT_EQ(generate(t, job).error().code, "TPA-NO-FIT") << "neck as wide as the mouth";
+  t_cutter(t, 18.0, 8.0, 10.0);
+  EXPECT_EQ(generate(t, job).error().code, "TPA-NO-FIT") << "the neck does not let the head to the sides";
+  t_cutter(t, 23.0, 9.0, 0.0);
+  t.cutter.shank_diameter_mm = 0.0;
+  EXPECT_EQ(generate(t, job).error().code, "TPA-TOOL") << "neck unknown";
+  t_cutter(t, 23.0, 9.0, 12.0);
+  t.shape.reach = geometry::stroke(t.shape.spine, 7.0, false);
+  EXPECT_EQ(generate(t, job).error().code, "TPA-ENTRY") << "no open end";
+}
+
+TEST(UndercutPath, AnEndMillClearsTheSlotThroughTheMouthFirst) {
+  PathJob t = tee(true);
+  t.cutter = endmill(12.0);
+  t.operation = model::TypeId::kBottomAndSideRoughMilling;
+  t.axial_depth_mm = 8.0;
+  Job job;
+  const auto g = generate(t, job);
+  ASSERT_TRUE(g) << g.error().message;
+  EXPECT_LE(gouge_mm(*g, t.shape.reach, 6.0, -1e-6), 0.003);
+  HeightMap map({-20, -12}, {80, 12}, 0.25, 0.0);
+  map.only(geometry::rectangle({0, -12}, {60, 12}));
+  EXPECT_THAT(map.run(*g, t.cutter).faults, testing::IsEmpty());
+  EXPECT_NEAR(map.highest(geometry::offset(t.shape.area, -0.3)), -23.0, 1e-4);
+}
+
+TEST(UndercutPath, CutsBothFlanksOfADovetail) {
+  // 60 degrees against the floor, as guides have it: 30 from the axis; 30 wide on the floor, 8 deep.
+  const double lean = kPi / 6.0;
+  const double mouth = 15.0 - 8.0 * std::tan(lean);
+  PathJob t = slot(2.0 * mouth, {{0, 15}, {8, mouth}, {8.0, mouth}}, true);
+  t.cutter = endmill(20.0);
+  t.cutter.cutter_class = CutterClass::kDovetailMill;
+  t.cutter.lead_angle_rad = lean;
+  t.cutter.maximum_depth_of_cut_mm = 9.0;
+  t.cutter.neck_diameter_mm = 9.0;
+  t.cutter.centre_cutting = false;
+  Job job;
+  const auto g = generate(t, job);
+  ASSERT_TRUE(g) << g.error().message;
+  expect_clean(t, *g, 15.0, 9.0);
+  double most = 0.0;
+  for (std::size_t i = 0; i < g->path.size(); ++i) most = std::max(most, std::abs(g->path.y[i]));
+  EXPECT_NEAR(most, 5.0, 1e-9) << "(30 - 20) / 2: the flank of the cutter lies on that of the slot";
+  t.cutter.lead_angle_rad = kPi / 4.0;
+  EXPECT_EQ(generate(t, job).error().code, "TPA-TOOL");
+  t.cutter.lead_angle_rad = lean;
+  t.cutter.maximum_depth_of_cut_mm = 7.0;
+  EXPECT_EQ(generate(t, job).error().code, "TPA-NO-FIT");
+}
+
+/// Distance of the lowest points of a path from the boundary of a region, least and most.
+std::pair<double, double> distances(const GeneratedPath& g, const Region& r) {
+  double lo = 1e300;
+  double hi = 0.0;
+  const double z = g.levels_z_mm.back();
+  for (std::size_t i = 0; i < g.path.size(); ++i) {
+    if (std::abs(g.path.z[i] - z) > 1e-9 || g.path.role[i] != MoveRole::kCut) continue;
+    const double d = geometry::distance_to_boundary(r, xy(g.path.point(i)));
+    lo = std::min(lo, d);
+    hi = std::max(hi, d);
+  }
+  return {lo, hi};
+}
+
+TEST(EdgePath, RunsTheTipOfACornerRoundingMillAlongTheWall) {
+  PathJob t = area_job(geometry::rounded_rectangle({0, 0}, {50, 30}, 6.0), 2.0, 9.0);
+  t.shape.kind = model::ShapeKind::kEdgeRound;
+  t.shape.round_radius_mm = 2.0;
+  t.operation = model::TypeId::kSideFinishMilling;
+  t.cutter.cutter_class = CutterClass::kCornerRoundingMill;
+  t.cutter.corner_radius_mm = 2.0;
+  t.cutter.tip_diameter_mm = 5.0;
+  Job job;
+  const auto g = generate(t, job);
+  ASSERT_TRUE(g) << g.error().message;
+  EXPECT_NEAR(g->levels_z_mm.front(), -2.0, 1e-12) << "the round ends where the wall begins";
+  EXPECT_NEAR(distances(*g, t.shape.area).first, 2.5, 0.002);
+  t.cutter.corner_radius_mm = 2.5;
+  EXPECT_EQ(generate(t, job).error().code, "TPA-TOOL");
+}
+
+TEST(EdgePath, BreaksTheEdgesOfPocketsHolesAndOutsideContours) {
+  const auto cone = [](PathJob& t) {
+    t.operation = model::TypeId::kSideFinishMilling;
+    t.cutter = endmill(8.0);
+    t.cutter.cutter_class = CutterClass::kChamferMill;
+    t.cutter.point_angle_rad = 0.5 * kPi;
+    t.cutter.tip_diameter_mm = 1.0;
+    t.axial_depth_mm = 0.3;
+    t.left_on_side_mm = t.left_on_bottom_mm = 0.0;
+  };
+  Job job;
+  // Half a millimetre below the bevel's foot, as wide as the cone there: 0.5 + 0.5 beside the wall.
+  PathJob pocket = area_job(geometry::rounded_rectangle({0, 0}, {50, 30}, 6.0), 10.0, 8.0);
+  cone(pocket);
+  const auto in = generate(pocket, job);
+  ASSERT_TRUE(in) << in.error().message;
+  EXPECT_NEAR(in->levels_z_mm.front(), -0.8, 1e-12);
+  EXPECT_NEAR(distances(*in, pocket.shape.area).first, 1.0, 0.002);
+  PathJob hole = area_job(geometry::disc({0, 0}, 6.0), 10.0, 8.0);
+  hole.shape.kind = model::ShapeKind::kHole;
+  hole.shape.diameter.nominal_mm = hole.shape.bottom_diameter_mm = 12.0;
+  cone(hole);
+  const auto round = generate(hole, job);
+  ASSERT_TRUE(round) << round.error().message;
+  EXPECT_NEAR(distances(*round, geometry::disc({0, 0}, 6.0)).first, 1.0, 0.002);
+  PathJob boss = area_job(geometry::rectangle({-30, -30}, {80, 60}), 10.0, 8.0);
+  const Region kept = geometry::rounded_rectangle({0, 0}, {50, 30}, 5.0);
+  boss.shape.kind = model::ShapeKind::kOutside;
+  boss.shape.open = true;
+  boss.shape.islands = {{kept, 0.0}};
+  boss.shape.reach = geometry::subtract(boss.shape.area, kept);
+  boss.stock = geometry::rectangle({-10, -10}, {60, 40});
+  cone(boss);
+  const auto out = generate(boss, job);
+  ASSERT_TRUE(out) << out.error().message;
+  EXPECT_NEAR(out->levels_z_mm.front(), -0.8, 1e-12);
+  EXPECT_NEAR(distances(*out, kept).first, 1.0, 0.002);
+  boss.axial_depth_mm = 0.0;
+  EXPECT_EQ(generate(boss, job).error().code, "TPA-DEPTH");
+}
+
+}  // namespace
+}  // namespace capstan::toolpath
