@@ -110,6 +110,24 @@ TEST(Hole, WithACloserPositionIsNotReamedAfterADrillThatRan) {
   EXPECT_THAT(chain(0.01).cannot, HasSubstr("[position.ground]"));
 }
 
+TEST(Probing, IsProposedBeforeTheLastStepWhereTheChainAloneDoesNotHoldThePosition) {
+  Context c = steel();
+  c.abilities.probe = true;
+  c.quality.location_mm = 0.02;
+  const Proposal p = propose(shipped(), hole(9), c);
+  EXPECT_THAT(actions(p), ElementsAre("centre", "drill", "probe_feature", "bore"));
+  const auto& probe = p.chains.at(0).at(2);
+  EXPECT_EQ(probe.operation, model::TypeId::kWorkpieceProbing);
+  EXPECT_THAT(probe.tool.classes, ElementsAre(model::CutterClass::kTouchProbe));
+  EXPECT_EQ(probe.why.id, "position.tight.hole");
+  EXPECT_FALSE(probe.coolant);
+  EXPECT_THAT(p.chains[0][3].after, ElementsAre(2U));
+  EXPECT_THAT(actions(propose(shipped(), area(ShapeKind::kPocket), c)),
+              ElementsAre("area_rough", "area_finish", "probe_feature", "spring_pass"));
+  c.quality.location_mm = 0.04;
+  EXPECT_THAT(actions(propose(shipped(), hole(9), c)), ElementsAre("centre", "drill", "bore"));
+}
+
 TEST(Hole, WithACloserFormIsReamedOrBored) {
   Context c = steel();
   c.quality.orientation_mm = 0.03;

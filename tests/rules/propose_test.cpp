@@ -200,7 +200,8 @@ TEST(Hole, WithASphericalBottomIsFinishedByTheBallThatFits) {
 
 TEST(Hole, ThatIsWideIsOpenedFromAPilotAndKeepsAlternativesInOrder) {
   const Proposal p = proposed(h(hole(60, 30), 12));
-  EXPECT_THAT(first(p), ElementsAre(TypeId::kCenterDrilling, TypeId::kDrilling,
+  EXPECT_THAT(first(p), ElementsAre(TypeId::kCenterDrilling,
+                                    testing::AnyOf(TypeId::kDrilling, TypeId::kMultistepDrilling),
                                     TypeId::kBottomAndSideRoughMilling, TypeId::kBottomAndSideFinishMilling));
   EXPECT_LE(p.chains[0][1].tool.diameter_max_mm, 20.0);
   ASSERT_EQ(p.chains.size(), 3U);
@@ -390,7 +391,7 @@ TEST(Slot, OfEachFormGetsItsCutter) {
   EXPECT_EQ(r[1].tool.diameter_max_mm, 6.0) << "no rounder than the tip";
   FeatureShape tee = slot();
   tee.slot_profile = {{0, 9}, {2, 9}, {2, 5}, {5, 5}};
-  EXPECT_THAT(proposed(tee).cannot, HasSubstr("[slot.tee]"));
+  EXPECT_EQ(row(proposed(tee)), "slot.tee");
   tee.slot_profile = {{0, 9}, {2, 9}, {2, 5}, {3, 7}};
   EXPECT_THAT(proposed(tee).cannot, HasSubstr("[slot.form]")) << "wider again above";
 }
