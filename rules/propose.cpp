@@ -113,13 +113,24 @@ const StepSpec& probing() {
   return kStep;
 }
 
-// The row's own steps; probing before the last of them, which can still be corrected; edges last.
+// Nothing is cut on a hole after the step that sizes it: its edge is broken before.
+bool sizes_a_hole(const StepSpec& spec) {
+  const Action* action = find_action(spec.action);
+  return action != nullptr && model::is_a(action->operation, model::TypeId::kBoringOperation);
+}
+
+// The row's own steps; probing before the last of them, which can still be corrected; edges last, or before
+// the step that sizes a hole.
 std::vector<Wanted> wanted(const Situation& at, std::size_t alternative) {
   std::vector<Wanted> out;
   for (const StepSpec& spec : at.row.chains[alternative]) out.push_back({&spec, &at.row});
   if (at.demand.probe != nullptr) out.insert(out.end() - 1, {&probing(), at.demand.probe});
   if (at.edges != nullptr) {
-    for (const StepSpec& spec : at.edges->chains.front()) out.push_back({&spec, at.edges});
+    const auto place =
+        at.row.chains[alternative].size() > 1 && sizes_a_hole(*out.back().spec) ? out.end() - 1 : out.end();
+    std::vector<Wanted> edges;
+    for (const StepSpec& spec : at.edges->chains.front()) edges.push_back({&spec, at.edges});
+    out.insert(place, edges.begin(), edges.end());
   }
   return out;
 }

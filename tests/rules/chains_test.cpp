@@ -153,6 +153,8 @@ TEST(Edges, AreBrokenWhereTheShopWantsIt) {
   ASSERT_EQ(chain.size(), 3U);
   EXPECT_EQ(chain[2].why.id, "edge_break.upper");
   EXPECT_EQ(chain[2].why.source, "the shop's rule");
+  EXPECT_THAT(actions(hole(10, 25, 7), c), ElementsAre("centre", "drill", "break_edge", "ream"))
+      << "nothing is cut on a hole after the step that sizes it";
   EXPECT_THAT(actions(area(ShapeKind::kPocket), c), ElementsAre("area_rough", "area_finish", "break_edge"));
   EXPECT_THAT(actions(area(ShapeKind::kFace), c), ElementsAre("plane_rough", "plane_finish"));
   FeatureShape shallow = hole(10, 0.2);
