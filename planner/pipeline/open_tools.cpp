@@ -22,14 +22,7 @@ std::optional<model::ToolRequirement> asked_by_rules(Work& w, const StepWork& st
   const auto all = model::shapes_of(w.plan.model, Ref<model::ManufacturingFeature>(step.feature));
   if (!all) return std::nullopt;
   const auto shapes = rules::from_the_top(*all);
-  rules::Context context;
-  context.material = w.plan.material;
-  if (const auto* f = w.plan.model.get<model::ManufacturingFeature>(step.feature)) {
-    if (const auto* piece = w.plan.model.get<model::Workpiece>(f->its_workpiece)) {
-      context.global_tolerance_mm = piece->global_tolerance;
-    }
-  }
-  context.stock_above_mm = stock_above(w, shapes.front());
+  const rules::Context context = context_of(w, step.feature, shapes);
   const std::string name = w.plan.model.at<model::MachiningOperation>(step.operation).its_id.value_or("");
   std::optional<model::ToolRequirement> same_kind;
   const auto proposals = rules::propose_members(w.inputs.rules, shapes, context);

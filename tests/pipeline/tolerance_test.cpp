@@ -174,17 +174,24 @@ TEST(Deviation, FollowsFromWhatAStepLeavesAndFromTheTolerance) {
 /// Makes `datum` datum A and ties `feature` to it by a position tolerance.
 void tie(model::Model& m, model::AnyRef datum, model::AnyRef feature, double value) {
   model::Datum a;
+  const auto piece = model::Ref<model::Workpiece>(m.at<model::ManufacturingFeature>(feature).its_workpiece);
   a.identification = "A";
+  a.its_workpiece = piece;
   a.established_by.push_back(model::Ref<model::ManufacturingFeature>(datum));
   model::DatumReference r;
-  r.referenced_datum = m.add(a);
+  const auto made = m.add(a);
+  r.referenced_datum = made;
   model::DatumSystem s;
+  s.its_workpiece = piece;
   s.constituents.push_back(m.add(r));
   model::PositionTolerance t;
   t.tolerance_value = value;
   t.applied_to.push_back(model::Ref<model::ManufacturingFeature>(feature));
   t.its_datum_system = m.add(s);
-  m.add(t);
+  t.its_workpiece = piece;
+  const auto tolerance = m.add(t);
+  m.at<model::Workpiece>(piece).its_requirements.push_back(made);
+  m.at<model::Workpiece>(piece).its_requirements.push_back(tolerance);
 }
 
 model::AnyRef feature(const model::Plan& plan, const std::string& id) {
@@ -222,6 +229,28 @@ TEST(Datums, AreCutFirstAndTheReasonSaysSo) {
     return it - order.begin() + 1;
   };
   EXPECT_LT(last_of("H2"), first_of("H1"));
+}
+
+TEST(Datums, GoThroughAp238AndDecideTheSame) {
+  model::Plan plan = read(kTwoHoles);
+  tie(plan.model, feature(plan, "H2"), feature(plan, "H1"), 0.04);
+  Job job;
+  const auto text = write_plan(plan, Format::kAp238, job);
+  ASSERT_TRUE(text) << to_text(text.error());
+  auto again = read_plan(*text, "part.stp", job);
+  ASSERT_TRUE(again) << to_text(again.error());
+  const auto q =
+      model::quality_of(again->model, model::Ref<model::ManufacturingFeature>(feature(*again, "H1")));
+  EXPECT_EQ(q.location_mm, 0.04);
+  EXPECT_THAT(q.texts, ::testing::ElementsAre("position 0.04 | A"));
+  const auto chain = [](const model::Plan& p) {
+    std::vector<std::string> out;
+    for (const auto& s : p.steps) out.push_back(model::step_id(p, s));
+    return out;
+  };
+  const Planned first = bound(std::move(plan));
+  const Planned second = bound(*std::move(again));
+  EXPECT_EQ(chain(first.plan), chain(second.plan)) << second.said;
 }
 
 TEST(Ties, BetweenSidesThatOneSetUpDoesNotReachAreSaid) {
