@@ -110,6 +110,7 @@ TEST(CatalogueFamily, ReadsEverySizeOfALargePageFast) {
   EXPECT_NEAR(*number_of(i, "RMPX"), 5.0 * kDegree, 1e-12);
   EXPECT_EQ(i.cutter_class, CutterClass::kEndmill);
   EXPECT_EQ(number_of(r.library.items.back(), "RPMX"), 28492.0);
+  EXPECT_EQ(number_of(r.library.items.back(), "WT"), 0.94);  // under a picture of a weight
   // The page names no unit: said, not hidden.
   EXPECT_THAT(r.report.derived, Contains(Field(&LossReport::Line::field, "unit")));
   EXPECT_EQ(job.count(Severity::kNote), 1U);

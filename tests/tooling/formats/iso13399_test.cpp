@@ -206,6 +206,24 @@ TEST(Iso13399, RandomLibrariesSurviveARoundTrip) {
   EXPECT_EQ(third->library.items, back->library.items);
 }
 
+TEST(Iso13399, AToolThatMustNotBePlannedWithStaysOut) {
+  ToolLibrary l;
+  CatalogueItem i;
+  i.id = "a";
+  i.description = "45 deg chamfer mill";  // words that would give it a class
+  i.kind = "Chamfer";
+  i.kept.emplace_back("left out", "its sizes contradict each other");
+  l.items.push_back(i);
+  Job job;
+  const auto w = write_iso13399(l, {}, job);
+  ASSERT_TRUE(w);
+  const auto back = import_bytes(w->bytes, "a.p21", {}, job);
+  ASSERT_TRUE(back) << to_text(back.error());
+  EXPECT_EQ(back->library.items.front().cutter_class, std::nullopt);
+  EXPECT_EQ(back->library.items.front().kind, "Chamfer");
+  EXPECT_EQ(*find_kept(back->library.items.front().kept, "left out"), "its sizes contradict each other");
+}
+
 TEST(Iso13399, WhatIsNotWrittenIsTold) {
   ToolLibrary l;
   CatalogueItem i;

@@ -121,7 +121,9 @@ class FamilyReader {
   void property(CatalogueItem& item, const XmlNode& c, const Place& place) {
     const std::string name = heading(c.name), text = cell(c.text);
     if (text.empty() || c.name == "Designation") return;
-    const std::string symbol(trimmed_text(name.substr(0, name.find_first_of(" \t"))));
+    std::string symbol(trimmed_text(name.substr(0, name.find_first_of(" \t"))));
+    // A weight has a picture for a heading, Kg.svg.
+    if (symbol.empty() && c.name.find("Kg.svg") != std::string::npos) symbol = "WT";
     if (symbol == "CSP") {
       gatherer_.fault(add_value(item, {"CSP", text == "0" ? "false" : "true", "", "catalogue CSP"}, place));
     } else if (find_symbol(symbol) != nullptr || symbol_fact(symbol) != nullptr) {
@@ -129,7 +131,7 @@ class FamilyReader {
     } else {
       // Columns without a heading hold numbers of the catalogue's own.
       item.kept.emplace_back(symbol.empty() ? "column" : symbol, text);
-      if (!symbol.starts_with("Column"))
+      if (!symbol.empty() && !symbol.starts_with("Column"))
         out_.report.dropped.push_back(
             {item.id, symbol, "no symbol that is known; kept word for word: " + text});
     }

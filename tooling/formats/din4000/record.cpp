@@ -79,6 +79,13 @@ class RecordReader {
     const auto head = number_of(item_, "LH");
     if (head && *head > 0.0)
       add_derived(item_, "LPR", *head, "mm", "B3: all but the shank stands out", report_);
+    // The codes that are known: 0 none; 1 to 3 through the tool, along the axis, across it or slanting.
+    if (const Property* coolant = find(item_.properties, "CXSC");
+        coolant != nullptr && coolant->text.size() == 1) {
+      const char code = coolant->text.front();
+      if (code >= '0' && code <= '3')
+        add_derived_text(item_, "CSP", code == '0' ? "false" : "true", "H22, exit of the coolant", report_);
+    }
     substrate();
   }
 

@@ -32,6 +32,10 @@ struct IsoReadOptions {
 [[nodiscard]] Result<Imported> read_iso13399(std::string_view bytes, const std::string& file,
                                              const IsoReadOptions& options, Job& job);
 
+/// What a tool that must not be planned with is classified as, its reason being the class: else its words
+/// might give it a class again.
+inline constexpr std::string_view kNotPlanned = "not for planning";
+
 [[nodiscard]] Result<Exported> write_iso13399(const ToolLibrary& library, const FormatOptions& options,
                                               Job& job);
 

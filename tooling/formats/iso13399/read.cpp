@@ -43,7 +43,7 @@ struct Stated {
 
 struct Item {
   std::uint64_t id = 0, line = 0;
-  std::string number, name, description, role, kind, maker, link;
+  std::string number, name, description, role, kind, maker, left_out;
   std::optional<CutterClass> cutter_class;
   std::vector<Stated> values;
 };
@@ -237,6 +237,8 @@ class Reader {
     Item& item = items_.at(*owner);
     if (*about == "ISO 14649-111 tool body") {
       item.cutter_class = model::cutter_class_from_text(*id);
+    } else if (*about == kNotPlanned) {
+      item.left_out = *id;
     } else if (!id->empty()) {
       item.kind = *id;
     }
@@ -460,6 +462,10 @@ class Reader {
 
   void classify(CatalogueItem& out, const Item& item, const IsoReadOptions& options) {
     out.kind = options.gtc_class.empty() ? item.kind : options.gtc_class;
+    if (!item.left_out.empty()) {
+      leave_out(out, item.left_out, out_.report);
+      return;
+    }
     if (item.cutter_class) {
       out.cutter_class = item.cutter_class;
       return;

@@ -34,6 +34,7 @@ class Writer {
                                     role == nullptr ? "tool item" : *role, item.manufacturer);
     if (item.cutter_class)
       classify(definition.item, "ISO 14649-111 tool body", model::to_text(*item.cutter_class));
+    if (const std::string* why = find_kept(item.kept, kLeftOut)) classify(definition.item, kNotPlanned, *why);
     if (!item.kind.empty()) classify(definition.item, "class", item.kind);
     for (const Property& p : item.properties) property(p, definition.definition);
     tell(item);
