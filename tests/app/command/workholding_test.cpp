@@ -7,8 +7,6 @@
 #include <fstream>
 #include <sstream>
 
-#include "tests/app/plans.h"
-
 // A part on two set-ups, in a vise and under clamps, planned and checked by the built program.
 
 namespace capstan::app {
@@ -31,8 +29,9 @@ class Workholding : public ::testing::Test {
   }
   /// Exit code; `said` is what went to both streams.
   int run(const std::string& arguments) {
-    const std::string line =
-        "cd '" + folder_.string() + "' && '" CAPSTAN_COMMAND "' " + arguments + " >said.txt 2>&1";
+    std::string line = "cd '";
+    line.append(folder_.string()).append("' && '" CAPSTAN_COMMAND "' ").append(arguments);
+    line.append(" >said.txt 2>&1");
     const int status = std::system(line.c_str());
     said_ = slurp("said.txt");
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
@@ -50,7 +49,7 @@ class Workholding : public ::testing::Test {
 /// The file of an example, as a shell takes it.
 std::string quoted(const char* name) {
   std::string out = "'";
-  out.append(testing::example(name)).append("'");
+  out.append((fs::path(CAPSTAN_SOURCE_DIR) / "examples" / name).string()).append("'");
   return out;
 }
 
