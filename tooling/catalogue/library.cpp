@@ -168,7 +168,7 @@ Result<std::vector<Cutter>> read_own(const Node& root, const std::string& file, 
   Fields top(root, file, "", "", faults);
   if (top.text("capstan_tools") != "1")
     top.fault("DATA-VERSION", "not a tool list of version 1", "capstan_tools", 1, "capstan_tools: 1");
-  const std::string unit = top.text("unit");
+  const std::string unit = top.text_or("unit", "");
   if (unit != "mm" && unit != "inch")
     top.fault("DATA-UNIT", unit.empty() ? "the unit is missing" : "the unit '" + unit + "' is not known",
               "unit", top.line_of("unit"), "mm or inch");

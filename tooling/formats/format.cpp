@@ -126,10 +126,9 @@ Result<Imported> import_folder(const std::string& folder, const FormatOptions& o
 const std::vector<Format>& formats() {
   static const std::vector<Format> kFormats = {
       // Archives and marked files first; tables, which are told by little, last.
-      store_format(),
-      fusion_format(),    fusion_json_format(), own_format(),       freecad_format(),  gtc_format(),
-      iso13399_format(),  din4000_format(),     hypermill_format(), solidcam_format(), family_format(),
-      mtconnect_format(), linuxcnc_format(),    csv_format(),
+      store_format(),  fusion_format(),    fusion_json_format(), own_format(),       freecad_format(),
+      gtc_format(),    iso13399_format(),  din4000_format(),     hypermill_format(), solidcam_format(),
+      family_format(), mtconnect_format(), linuxcnc_format(),    csv_format(),
   };
   return kFormats;
 }
@@ -152,7 +151,8 @@ const Format* format_of_ending(std::string_view path) {
 
 Result<Imported> import_bytes(std::string_view bytes, const std::string& file, const FormatOptions& options,
                               Job& job) {
-  const Format* format = format_of(bytes, file);
+  // Who gives a column map says that it is a table.
+  const Format* format = options.column_map.empty() ? format_of(bytes, file) : &csv_format();
   if (format == nullptr) return fail(unknown_kind(file, "this is no tool library that can be read"));
   if (format->read == nullptr)
     return fail(unknown_kind(file, std::string(format->title) + " can be written, not read"));

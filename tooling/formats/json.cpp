@@ -101,7 +101,11 @@ class Parser {
       ++at_;
       blanks();
     }
-    if (map && !key(top)) return false;
+    if (at_ < s_.size() && map && !key(top)) return false;
+    if (at_ >= s_.size()) {
+      refuse("the text ends within the document", "a whole JSON document");
+      return false;
+    }
     return value();
   }
 

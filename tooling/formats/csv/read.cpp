@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "planner/base/number.h"
 #include "tooling/catalogue/library.h"
@@ -97,6 +98,7 @@ class Reader {
 
   void row(const Row& r) {
     row_ = &r;
+    unit_told_ = false;
     words_.clear();
     if (r.cells.size() != map_.columns.size()) {
       faults_.push_back(fault_at({file_, r.line, ""}, "CSV-SYNTAX",
@@ -203,6 +205,7 @@ class Reader {
     if (stated.empty()) return unit_;
     const auto f = mm_per_unit_of(stated);
     if (!f) {
+      unit_told_ = true;
       refuse(title_of("unit"), "DATA-UNIT", "the unit '" + stated + "' is not known", "mm or inch");
       return {};
     }
@@ -211,6 +214,12 @@ class Reader {
 
   [[nodiscard]] static std::string unit_of(const Column& c, const std::string& row_unit) {
     return c.unit.empty() || c.unit == "L" ? row_unit : c.unit;
+  }
+
+  void unit_missing(std::string_view title, std::string_view field) {
+    if (std::exchange(unit_told_, true)) return;
+    refuse(title, "DATA-UNIT", "the unit of " + std::string(field) + " is missing", "mm or inch",
+           "name it in the title ([mm]), in a column 'unit', or as unit: in the column map");
   }
 
   void sizes(CatalogueItem& item, const std::string& row_unit) {
@@ -245,8 +254,7 @@ class Reader {
         unit = unit_of(c, row_unit);
       }
       if (sized && unit.empty()) {
-        refuse(c.title, "DATA-UNIT", "the unit of " + symbol + " is missing", "mm or inch",
-               "name it in the title ([mm]), in a column 'unit', or as unit: in the column map");
+        unit_missing(c.title, symbol);
         continue;
       }
       auto p = property(symbol, text, unit, c.title);
@@ -292,8 +300,7 @@ class Reader {
       const std::string unit = unit_of(c, row_unit);
       const auto f = mm_per_unit_of(unit);
       if (!f) {
-        refuse(c.title, "DATA-UNIT", "the unit of " + std::string(field) + " is missing", "mm or inch",
-               "name it in the title ([mm]), in a column 'unit', or as unit: in the column map");
+        unit_missing(c.title, field);
         return std::nullopt;
       }
       return number(field, *f);
@@ -464,6 +471,7 @@ class Reader {
   const ColumnMap& map_;
   Job& job_;
   bool comma_, grouped_ = false;
+  bool unit_told_ = false;  // one fault a row suffices
   std::string unit_, words_;
   const Row* row_ = nullptr;
   Imported out_;

@@ -13,6 +13,9 @@
 
 namespace capstan::tooling::fusion {
 
+/// ToolLibrary::kept: the id of a holder that stands for itself, not only in tools.
+inline constexpr const char* kListedKey = "fusion:listed";
+
 /// A number of "geometry". What the key is called when no ISO 13399 symbol means the same: the key itself.
 struct GeometryKey {
   std::string_view key, symbol;

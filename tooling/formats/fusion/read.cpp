@@ -45,7 +45,7 @@ class Reader {
       if (!t.is(Json::Kind::kMap)) {
         refuse(place(t), "JSON-KIND", "this is no tool", "a map with type, unit and geometry");
       } else if (t.text_of("type") == "holder") {
-        (void)holder(t);
+        if (const std::string id = holder(t); !id.empty()) out.library.kept.emplace_back(kListedKey, id);
       } else {
         tool(t);
       }

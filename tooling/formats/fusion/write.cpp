@@ -38,6 +38,9 @@ class Writer {
         tool(i, a, data);
       }
     }
+    // Holders that stand for themselves come behind the tools.
+    for (const auto& [key, id] : l_.kept)
+      if (key == kListedKey) used.erase(id);
     for (const auto& h : l_.holders)
       if (!used.contains(h.id)) data.items.push_back(holder(h));
     rest();
@@ -59,6 +62,7 @@ class Writer {
   std::optional<Diagnostic> put_kept(const std::vector<std::pair<std::string, std::string>>& kept,
                                      const std::string& who, Json& into) {
     for (const auto& [path, text] : kept) {
+      if (path == kListedKey || path == "left out") continue;
       const auto value = parse_json(text, "kept");
       const bool ours = value && path.find(':') == std::string::npos;
       Json* at = &into;
@@ -163,7 +167,7 @@ class Writer {
       if (a->functional_length_mm && number_of(i, "assemblyGaugeLength") != a->functional_length_mm)
         g.set("assemblyGaugeLength", Json::number(spelled(*a->functional_length_mm, factor)));
     }
-    if (g.find("HAND") == nullptr) g.set("HAND", Json::truth(type != "tap left hand"));
+    if (g.find("HAND") == nullptr && class_of(type)) g.set("HAND", Json::truth(type != "tap left hand"));
     return g;
   }
 

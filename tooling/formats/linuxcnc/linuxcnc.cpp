@@ -183,13 +183,8 @@ class Reader {
     if (!item.cutter_class) {
       out_.report.dropped.push_back(
           {name, "class", "no word of its comment '" + e.comment + "' tells what kind of tool it is"});
-      job_.report(
-          {.code = "TBL-CLASS",
-           .severity = Severity::kWarning,
-           .message = name + ": no word of its comment '" + e.comment + "' tells what kind of tool it is",
-           .file = file_,
-           .line = number_,
-           .hint = "name it in the comment: end mill, drill, reamer, tap, ..."});
+      item.kept.emplace_back("left out", "no word of its comment '" + e.comment +
+                                             "' tells what kind of tool it is (end mill, drill, tap, ...)");
     } else {
       const CommentWords w = words_of_comment(e.comment, *item.cutter_class, diameter);
       derived(text_property("CLASS", model::to_text(*item.cutter_class), ""),
@@ -338,7 +333,8 @@ class Writer {
     }
     if (!fields.empty()) drop(who, fields, "a tool table has no place for these");
     if (!item.presets.empty()) drop(who, "presets", "a tool table has no place for start values");
-    for (const auto& [path, text] : item.kept) drop(who, path, "a tool table has no place for it");
+    for (const auto& [path, text] : item.kept)
+      if (path != "left out") drop(who, path, "a tool table has no place for it");
   }
 
   const ToolLibrary& l_;
