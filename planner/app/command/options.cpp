@@ -180,12 +180,40 @@ class CommandLine {
     auto* one = command(*tools, "show", "all that is known of a cutter, with sources", Command::kToolsShow);
     one->add_option("--tools", raw_.tools, "tool library: a file, or `generic`");
     one->add_option("id", out_.words, "the cutter's id")->required();
+    tool_files(*tools);
     auto* rules = app_.add_subcommand("rules", "the rule tables");
     rules->require_subcommand(1);
     for (auto* sub :
          {command(*rules, "check", "find gaps, contradictions and dead rows", Command::kRulesCheck),
           command(*rules, "list", "a line per row", Command::kRulesList)}) {
       sub->add_option("--rules", raw_.rules, "a folder of rule tables to add to the built-in ones");
+    }
+  }
+
+  void tool_files(CLI::App& tools) {
+    auto* import = command(tools, "import",
+                           "read a library of any known format, say what was read, derived "
+                           "and dropped, and write it",
+                           Command::kToolsImport);
+    file(import, "library", "a file or folder; its format is told by its content");
+    auto* convert = command(tools, "convert", "write a library in another format", Command::kToolsConvert);
+    file(convert, "library", "a file or folder");
+    auto* out = command(tools, "export", "write the library that planning uses", Command::kToolsExport);
+    out->add_option("--tools", raw_.tools, "tool library: a file, a folder, or `generic`");
+    for (auto* sub : {import, convert, out}) {
+      auto* o = sub->add_option("-o,--output", out_.outputs,
+                                "a file to write, its format told by its ending; may be repeated");
+      o->expected(1)->take_all();
+      if (sub != import) o->required();
+      sub->add_option("--format", out_.tools.format, "the output's format by name");
+      sub->add_option("--column-map", out_.tools.column_map, "what the columns of a table hold: a saved map");
+      sub->add_option("--unit", out_.tools.unit, "mm or inch, where a file does not say")
+          ->check(CLI::IsMember(std::vector<std::string>{"mm", "inch"}));
+      sub->add_flag("--report", out_.tools.report, "every value that is derived or dropped");
+      sub->add_flag("--json", out_.json, "the report as JSON on standard output");
+      if (sub != out)
+        sub->add_option("--save-map", out_.tools.save_map,
+                        "write the map of the table's columns, to be edited");
     }
   }
 

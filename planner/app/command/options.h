@@ -34,6 +34,9 @@ enum class Command : std::uint8_t {
   kConvert,
   kToolsList,
   kToolsShow,
+  kToolsImport,
+  kToolsExport,
+  kToolsConvert,
   kRulesCheck,
   kRulesList,
   kCasesAdd,
@@ -45,6 +48,14 @@ struct CaseQuestion {
   std::string operation, material, tool_class;
   double diameter_mm = 0.0, depth_mm = 0.0, width_mm = 0.0, tolerance_mm = 0.0;
   unsigned count = 5;
+};
+
+/// How tool libraries are read and written.
+struct ToolsOptions {
+  std::string column_map, save_map;  ///< files
+  std::string unit;                  ///< mm or inch, of files that do not say
+  std::string format;                ///< instead of what the output's ending tells
+  bool report = false;               ///< every line of the loss report
 };
 
 /// A command line, understood.
@@ -63,6 +74,7 @@ struct Options {
   bool json_diagnostics = false;  ///< one JSON object per line on standard error
   unsigned threads = 1;
   std::vector<std::string> words;  ///< tools: a filter, an id
+  ToolsOptions tools;
   CaseQuestion question;           ///< cases nearest; the base is in `inputs.cases`
 };
 

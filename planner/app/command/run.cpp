@@ -31,6 +31,10 @@ int dispatch(Session& s) {
     case Command::kToolsList:
     case Command::kToolsShow:
       return run_tools(s);
+    case Command::kToolsImport:
+    case Command::kToolsExport:
+    case Command::kToolsConvert:
+      return run_tools_convert(s);
     case Command::kRulesCheck:
     case Command::kRulesList:
       return run_rules(s);

@@ -45,6 +45,7 @@ int run_inspect(Session& s);
 int run_diff(Session& s);
 int run_convert(Session& s);
 int run_tools(Session& s);
+int run_tools_convert(Session& s);
 int run_rules(Session& s);
 int run_cases_add(Session& s);
 int run_cases_nearest(Session& s);
