@@ -224,11 +224,7 @@ std::map<Axis, std::vector<std::size_t>> by_axis(std::span<const FeatureShape> s
   return out;
 }
 
-// Of a cone that widens downwards, its upper end.
-double narrowest(const FeatureShape& s) {
-  return s.bottom_diameter_mm > 0.0 ? std::min(s.diameter.nominal_mm, s.bottom_diameter_mm)
-                                    : s.diameter.nominal_mm;
-}
+double widest(const FeatureShape& s) { return std::max(s.diameter.nominal_mm, s.bottom_diameter_mm); }
 
 // What shape i may know of the others on its axis.
 Context among(std::span<const FeatureShape> shapes, const std::vector<std::size_t>& axis, std::size_t i,
@@ -247,7 +243,7 @@ Context among(std::span<const FeatureShape> shapes, const std::vector<std::size_
     const bool above = top_of(other) > top_of(s) + kCoaxial && bottom_of(other) > bottom_of(s) + kCoaxial &&
                        bottom_of(other) < top_of(s) + kCoaxial;
     if (s.kind == ShapeKind::kHole) {
-      if (above && d < narrowest(s) - kCoaxial) {
+      if (above && d < widest(s) - kCoaxial) {
         context.core_above = true;
         context.core_diameter_mm = d;
         break;

@@ -79,6 +79,27 @@ TEST(DeepHole, IsPeckedThenGunDrilledThenRefused) {
   EXPECT_THAT(row(hole(10, 150), c), HasSubstr("[hole.gun.position]"));
 }
 
+// Two coaxial holes entered from the same side, the narrow one above: a back counterbore's work.
+TEST(HoleBelowANarrowerOne, IsNotTakenForOneThatIsOpenAbove) {
+  FeatureShape narrow = hole(10, 20);
+  FeatureShape wide = hole(20, 8);
+  wide.frame.origin.z = -20.0;
+  const auto proposals = propose_members(shipped(), std::vector{narrow, wide}, steel());
+  EXPECT_EQ(proposals[0].chains.at(0)[0].why.id, "hole.drill");
+  EXPECT_THAT(proposals[1].cannot, HasSubstr("[hole.back.counterbore]"));
+  FeatureShape cone = hole(10, 5);
+  cone.bottom_diameter_mm = 20.0;  // 90 degrees, wider below
+  cone.frame.origin.z = -20.0;
+  EXPECT_THAT(propose_members(shipped(), std::vector{narrow, cone}, steel())[1].cannot,
+              HasSubstr("[hole.back.countersink]"));
+  EXPECT_THAT(row(cone, steel()), HasSubstr("[hole.widening]")) << "without a hole above it";
+  // The other way round it is an ordinary counterbore.
+  wide.frame.origin.z = 0.0;
+  narrow.depth_mm = 30.0;
+  EXPECT_EQ(propose_members(shipped(), std::vector{narrow, wide}, steel())[1].chains.at(0)[0].why.id,
+            "hole.shoulder");
+}
+
 TEST(TightCorners, AreRestMachinedWhereThePassageIsMuchWider) {
   const FeatureShape tight = area(ShapeKind::kPocket, 10.0, 3.0);  // 6 mm by a passage of 40 mm
   EXPECT_THAT(actions(tight, steel()), ElementsAre("area_rough", "rest_rough", "area_finish"));
