@@ -86,8 +86,8 @@ void state_machine_needs(Work& w) {
   model::MachineParameters p;
   p.feedrate = up(n.feed_mm_min, 0.1);
   p.spindle_speed = up(n.rpm, 0.1);
-  if (n.power_w > 0.0) p.spindle_power = up(n.power_w, 1.0);
-  if (n.torque_nm > 0.0) p.spindle_torque = up(n.torque_nm, 0.01);
+  if (n.power_w > 0.0) p.spindle_power = up(n.power_w, 0.01);
+  if (n.torque_nm > 0.0) p.spindle_torque = up(n.torque_nm, 0.0001);
   p.number_of_control_axis = 3;
   p.number_of_simultaneous_axis = n.axes_at_once;
   p.axis_travel.given = true;

@@ -16,7 +16,7 @@ using model::FeatureShape;
 using model::ShapeKind;
 using model::TypeId;
 
-/// What a finishing pass finds on the walls, mm. Default, unsourced: the usual allowance.
+/// What a finishing pass finds on walls and floors, mm. Default, unsourced: the usual allowance.
 constexpr double kLeftOnWalls = 0.5;
 
 double perimeter(const geometry::Region& area) {
@@ -65,6 +65,11 @@ class Sharer {
         }
         stay.insert(id);
       }
+    }
+    // What gave way is not used any more.
+    w_.used_cutters.clear();
+    for (const StepWork& s : w_.steps) {
+      if (!s.cutter.id.empty()) w_.used_cutters.push_back(s.cutter.id);
     }
   }
 
@@ -163,6 +168,11 @@ tooling::Preferences preferences_of(const Work& w, const model::ProposedStep& st
   const double depth = s.kind == ShapeKind::kFace ? std::max(above, s.depth_mm) : s.depth_mm + above;
   if (model::is_a(step.operation, TypeId::kDrillingTypeOperation)) {
     p.depth_mm = step.depth_mm > 0.0 ? step.depth_mm + above : depth;
+    return p;
+  }
+  if (model::is_a(step.operation, TypeId::kPlaneFinishMilling)) {
+    p.depth_mm = std::min(depth, kLeftOnWalls);
+    p.volume_mm3 = geometry::area(s.area) * p.depth_mm;
     return p;
   }
   if (finishes(step.operation)) {

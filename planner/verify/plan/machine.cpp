@@ -15,8 +15,9 @@ namespace {
 using model::Machine;
 using model::MachineParameters;
 
-/// Rounding of what was stated.
-constexpr double kSlack = 1e-6;
+/// Rounding of what was stated, and of curves: power and torque of a point follow from each other with few
+/// digits.
+constexpr double kSlack = 1e-4;
 
 struct Figure {
   int property;
