@@ -15,6 +15,15 @@ using model::TypeId;
 
 namespace {
 
+/// A cone along the side of a feature that is no chamfer.
+bool breaks_edge(const PathJob& task) {
+  const bool cone = task.cutter.cutter_class == CutterClass::kChamferMill ||
+                    task.cutter.cutter_class == CutterClass::kCountersink;
+  const bool edged = task.shape.kind == ShapeKind::kPocket || task.shape.kind == ShapeKind::kHole ||
+                     task.shape.kind == ShapeKind::kOutside;
+  return cone && edged && task.operation == TypeId::kSideFinishMilling;
+}
+
 Status check(const PathJob& task) {
   const auto bad = [&](const std::string& what) {
     return fail({.code = "TPA-INPUT", .message = task.shape.name + ": " + what, .path = task.shape.name});
@@ -56,11 +65,7 @@ Result<GeneratedPath> hole_milling(const PathJob& task, Job& job) {
 
 Result<GeneratedPath> milling(const PathJob& task, Job& job) {
   if (task.cutter.cutter_class == CutterClass::kThreadMill) return thread_mill_path(task, job);
-  const bool cone = task.cutter.cutter_class == CutterClass::kChamferMill ||
-                    task.cutter.cutter_class == CutterClass::kCountersink;
-  const bool edged = task.shape.kind == ShapeKind::kPocket || task.shape.kind == ShapeKind::kHole ||
-                     task.shape.kind == ShapeKind::kOutside;
-  if (cone && edged && task.operation == TypeId::kSideFinishMilling) return broken_edge_path(task, job);
+  if (breaks_edge(task)) return broken_edge_path(task, job);
   switch (task.shape.kind) {
     case ShapeKind::kFace:
       return face_path(task, job);
@@ -140,7 +145,8 @@ Result<GeneratedPath> dispatch(const PathJob& task, Job& job) {
 
 Result<GeneratedPath> generate(const PathJob& task, Job& job) {
   if (auto ok = check(task); !ok) return tl::unexpected(ok.error());
-  const double depth = task.start_z_mm - (task.feature_in_setup.origin.z - task.shape.depth_mm);
+  const double down = breaks_edge(task) ? task.axial_depth_mm : task.shape.depth_mm;
+  const double depth = task.start_z_mm - (task.feature_in_setup.origin.z - down);
   if (task.cutter.usable_length_mm > 0.0 && depth > task.cutter.usable_length_mm + 1e-9) {
     job.warn("TPA-REACH",
              "the cutter " + task.cutter.id + " reaches " + trimmed(task.cutter.usable_length_mm, 2) +

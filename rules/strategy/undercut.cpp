@@ -87,7 +87,7 @@ Made dovetail(const Making& m) { return form(m, CutterClass::kDovetailMill, true
 std::vector<Action> undercut_actions() {
   const ActionParameter side{"allowance_side_mm", 0.0, "left on the mouth's walls"};
   const ActionParameter passage{"of_passage", 0.95, "largest end mill by the mouth"};
-  const ActionParameter width{"of_width", 0.7, "narrowest form cutter by the slot's widest place"};
+  const ActionParameter width{"of_width", 0.9, "narrowest form cutter by the slot's widest place"};
   return {
       {"t_slot_rough", TypeId::kBottomAndSideRoughMilling, {side, passage}, neck},
       {"t_slot_finish", TypeId::kBottomAndSideFinishMilling, {width}, t_slot},

@@ -24,6 +24,32 @@ Result<GeneratedPath> around_outside(const PathJob& slim, double z_mm, Job& job)
   return outside_path(t, job);
 }
 
+/// Round each edge: on arcs where they fit, else from the middle of the hole, where the cutter stands free.
+Status along_edges(LevelCutter& c, const Level& level) {
+  const bool natural = walls_on_right(c.task);
+  for (const geometry::Region& piece : geometry::pieces(level.centres)) {
+    const geometry::Vec2 middle = deepest(piece).point;
+    for (const auto& loop : piece.loops) {
+      const Track track = natural ? track_of(loop) : reversed(track_of(loop));
+      if (cut_with_leads(c, level, track)) continue;
+      const Spot spot = nearest(track, middle);
+      Track from = begun_at(track, spot);
+      if (level.inside.contains(middle, spot.point)) {
+        c.writer.over(middle);
+        c.writer.descend(level.z_mm, level.z_mm);
+        c.writer.line({spot.point.x, spot.point.y, level.z_mm}, model::MoveRole::kCut);
+        c.writer.follow(from, level.z_mm, model::MoveRole::kCut);
+        c.writer.line({middle.x, middle.y, level.z_mm}, model::MoveRole::kCut);
+        continue;
+      }
+      auto in = c.enter(level, track, nullptr);
+      if (!in) return tl::unexpected(in.error());
+      c.writer.follow(*in, level.z_mm, model::MoveRole::kCut);
+    }
+  }
+  return {};
+}
+
 /// The tip's radius where it runs along the wall, and its height below the edge.
 struct TipAt {
   double radius_mm = 0.0, below_mm = 0.0;
@@ -88,8 +114,7 @@ Result<GeneratedPath> edge_path(const PathJob& task, Job& job) {
   Level level(slim, *w, z, z, 0.0);
   if (level.centres.empty()) return refuse("TPA-NO-FIT", "the cutter's tip does not fit inside the edge");
   level.cleared.emplace(level.centres);
-  if (auto ok = cut_contours(c, level, {.lead_arcs = true, .wall_only = true}); !ok)
-    return tl::unexpected(ok.error());
+  if (auto ok = along_edges(c, level); !ok) return tl::unexpected(ok.error());
   GeneratedPath out = writer.finish();
   out.levels_z_mm = {z};
   return out;

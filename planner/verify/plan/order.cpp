@@ -74,11 +74,19 @@ std::vector<Entry> entries_of(const model::Plan& plan) {
   return out;
 }
 
+/// A cone along the side of a feature breaks its edge: it comes when the feature is done.
+bool breaks_edges(const model::Plan& plan, const Entry& e) {
+  const model::Cutter* c = model::find_cutter(plan, plan.steps[e.order].cutter_id);
+  return e.operation.type == TypeId::kSideFinishMilling && c != nullptr &&
+         (c->cutter_class == model::CutterClass::kChamferMill ||
+          c->cutter_class == model::CutterClass::kCountersink);
+}
+
 void check_ranks(const model::Plan& plan, const std::vector<Entry>& entries, Findings& findings) {
   std::map<AnyRef, const Entry*> highest;
   for (const Entry& e : entries) {
     const int rank = rank_of(e.operation.type);
-    if (rank == 0) continue;
+    if (rank == 0 || breaks_edges(plan, e)) continue;
     const Entry*& before = highest[group_of(plan.model, e.feature)];
     if (before != nullptr && rank < rank_of(before->operation.type)) {
       findings.error(28, "CHK-ORDER", {e.order + 1, e.id, -1},
