@@ -149,6 +149,9 @@ TEST(Slot, WiderBelowThanAboveGetsFormCutters) {
   s.width.nominal_mm = 10.0;
   s.slot_profile = {{0, 9}, {4, 9}, {4, 5}, {10, 5}};
   EXPECT_THAT(actions(s, steel()), ElementsAre("t_slot_rough", "t_slot_finish"));
+  s.open = false;
+  EXPECT_THAT(row(s, steel()), HasSubstr("[slot.undercut.closed]"));
+  s.open = true;
   s.slot_profile = {{0, 11}, {9, 5.8}, {10, 5.8}};  // flanks of 60 degrees under a lip
   EXPECT_THAT(actions(s, steel()), ElementsAre("dovetail_rough", "dovetail_finish"));
   s.width = {10.0, 0.0, standard_tolerance_mm(8, 10.0), true};
