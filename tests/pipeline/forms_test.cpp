@@ -80,7 +80,7 @@ TEST(EdgeBreaks, AreCutWhereTheShopAsksAndCheckedWithoutFindings) {
 }
 
 TEST(RestMachining, FollowsAWideCutterWithOneThatFitsTheCorners) {
-  const std::filesystem::path dir = std::filesystem::path(testing::TempDir()) / "rest_rows";
+  const std::filesystem::path dir = std::filesystem::path(::testing::TempDir()) / "rest_rows";
   std::filesystem::create_directories(dir);
   std::ofstream(dir / "pocket.yaml") << R"(table: pocket
 rows:
