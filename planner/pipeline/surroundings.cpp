@@ -17,7 +17,7 @@ using model::Model;
 using model::ShapeKind;
 
 constexpr double kSame = 1e-6;                 // mm, and of directions
-constexpr std::size_t kMostShapes = 4000;      // beyond, thicknesses are left unknown: pairs are compared
+constexpr std::size_t kMostShapes = 2000;      // beyond, thicknesses are left unknown: pairs are compared
 constexpr std::size_t kMostPoints = 400;       // of an outline that distances are measured from
 constexpr std::size_t kMostMeasured = 200000;  // points against segments, of one pair of outlines
 
@@ -116,6 +116,17 @@ bool has_walls(ShapeKind k) {
   return k == ShapeKind::kPocket || k == ShapeKind::kSlot || k == ShapeKind::kHole;
 }
 
+/// Form and orientation that the general tolerance asks where the feature states none: over its longest and
+/// its shorter extent.
+void take_general(const model::GeneralTolerance& g, const FeatureShape& s, model::Quality& q) {
+  if (s.area.empty()) return;
+  const Box2 box = geometry::bounds(s.area);
+  const double x = box.hi.x - box.lo.x, y = box.hi.y - box.lo.y;
+  if (!q.form_mm && s.kind == ShapeKind::kFace) q.form_mm = model::general_flatness(g, std::max(x, y));
+  if (!q.orientation_mm && has_walls(s.kind))
+    q.orientation_mm = model::general_perpendicularity(g, std::max(s.depth_mm, 1.0));
+}
+
 }  // namespace
 
 Thickness thickness_beside(const Work& w, const FeatureShape& s) {
@@ -156,6 +167,7 @@ rules::Context context_of(const Work& w, AnyRef feature, const std::vector<Featu
       c.global_tolerance_mm = piece->global_tolerance;
   }
   if (const auto it = w.qualities.find(feature); it != w.qualities.end()) c.quality = it->second;
+  if (w.general) take_general(*w.general, shapes.front(), c.quality);
   c.stock_above_mm = stock_above(w, shapes.front());
   c.has_coolant = w.plan.machine.has_flood || w.plan.machine.has_mist;
   c.has_through_coolant = w.plan.machine.has_through;

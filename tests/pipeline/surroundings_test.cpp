@@ -1,0 +1,86 @@
+#include <gtest/gtest.h>
+
+#include "planner/pipeline/work.h"
+
+namespace capstan::pipeline {
+namespace {
+
+using geometry::Vec3;
+using model::FeatureShape;
+using model::ShapeKind;
+
+/// A raw piece of 100 x 100 x 20 mm, its top at z = 0, and features in it.
+struct Piece {
+  Inputs inputs;
+  Policy policy;
+  Job job;
+  Work w{{}, inputs, policy, job, {}, {}, {}, {}, {}};
+  Piece() { w.plan.stock.box = {{0, 0, -20}, {100, 100, 0}}; }
+
+  const FeatureShape& add(ShapeKind kind, Vec3 top, double x, double y, double depth,
+                          bool from_below = false) {
+    FeatureShape s;
+    s.kind = kind;
+    s.member = static_cast<int>(w.shapes.size());
+    s.frame.origin = top;
+    if (from_below) {
+      s.frame.z = {0, 0, -1};
+      s.frame.y = {0, -1, 0};
+    }
+    s.depth_mm = depth;
+    s.area = s.reach = geometry::rectangle({-0.5 * x, -0.5 * y}, {0.5 * x, 0.5 * y});
+    w.shapes.push_back(s);
+    return w.shapes.back();
+  }
+};
+
+TEST(Thickness, IsWhatStaysToTheSidesAndTheBottomOfTheRawPiece) {
+  Piece p;
+  const Thickness t = thickness_beside(p.w, p.add(ShapeKind::kPocket, {50, 30, 0}, 40, 50, 15));
+  EXPECT_DOUBLE_EQ(t.wall_mm.value_or(0), 5.0) << "30 less half of 50";
+  EXPECT_DOUBLE_EQ(t.floor_mm.value_or(0), 5.0);
+}
+
+TEST(Thickness, LeavesOutAnOpenSide) {
+  Piece p;
+  const Thickness t = thickness_beside(p.w, p.add(ShapeKind::kPocket, {50, 25, 0}, 40, 50, 15));
+  EXPECT_DOUBLE_EQ(t.wall_mm.value_or(0), 30.0) << "y = 0 is open; 50 less half of 40 stays beside";
+}
+
+TEST(Thickness, IsTheWallBetweenTwoPocketsAtOverlappingDepths) {
+  Piece p;
+  p.add(ShapeKind::kPocket, {30, 50, 0}, 30, 40, 10);
+  p.add(ShapeKind::kPocket, {62, 50, 0}, 30, 40, 6);
+  EXPECT_NEAR(thickness_beside(p.w, p.w.shapes[0]).wall_mm.value_or(0), 2.0, 1e-9);
+  EXPECT_NEAR(thickness_beside(p.w, p.w.shapes[1]).wall_mm.value_or(0), 2.0, 1e-9);
+  // One that begins below the other's floor stands beside nothing.
+  p.w.shapes[1].frame.origin.z = -11.0;
+  EXPECT_DOUBLE_EQ(thickness_beside(p.w, p.w.shapes[0]).wall_mm.value_or(0), 15.0);
+}
+
+TEST(Thickness, SeesWhatIsCutFromTheOtherSide) {
+  Piece p;
+  p.add(ShapeKind::kPocket, {50, 50, 0}, 40, 40, 8);
+  p.add(ShapeKind::kPocket, {50, 50, -20}, 40, 40, 9, true);
+  EXPECT_NEAR(thickness_beside(p.w, p.w.shapes[0]).floor_mm.value_or(0), 3.0, 1e-9);
+  EXPECT_NEAR(thickness_beside(p.w, p.w.shapes[1]).floor_mm.value_or(0), 3.0, 1e-9);
+  p.w.shapes[1].frame.origin.x = 95;
+  EXPECT_NEAR(thickness_beside(p.w, p.w.shapes[0]).floor_mm.value_or(0), 12.0, 1e-9) << "not below it";
+}
+
+TEST(Thickness, OfWhatGoesThroughHasNoFloor) {
+  Piece p;
+  p.add(ShapeKind::kPocket, {50, 50, 0}, 40, 40, 20);
+  p.w.shapes[0].through = true;
+  EXPECT_FALSE(thickness_beside(p.w, p.w.shapes[0]).floor_mm);
+}
+
+TEST(Context, TakesGeneralFlatnessOfAFaceThatStatesNone) {
+  Piece p;
+  p.w.general = *model::parse_general("ISO 2768-mH");
+  p.add(ShapeKind::kFace, {50, 50, 0}, 100, 80, 1);
+  EXPECT_EQ(context_of(p.w, {}, {p.w.shapes[0]}).quality.form_mm, 0.1) << "up to 100 mm";
+}
+
+}  // namespace
+}  // namespace capstan::pipeline
