@@ -106,7 +106,9 @@ TEST(Hole, WithACloserPositionIsNotReamedAfterADrillThatRan) {
   EXPECT_THAT(actions(chain(0.1)), ElementsAre("centre", "drill", "mill_finish"));
   EXPECT_THAT(chain(0.1).chains[0][2].why.text, HasSubstr("[position.hole.milled; "));
   EXPECT_THAT(actions(chain(0.04)), ElementsAre("centre", "drill", "bore"));
-  EXPECT_THAT(chain(0.02).cannot, HasSubstr("no touch probe"));
+  EXPECT_THAT(actions(chain(0.02)), ElementsAre("centre", "drill", "probe_feature", "bore"));
+  EXPECT_THAT(chain(0.02).chains[0][2].why.text, HasSubstr("measured in the machine by other means"));
+  EXPECT_THAT(chain(0.018).cannot, HasSubstr("no touch probe [position.tight.blind]"));
   EXPECT_THAT(chain(0.01).cannot, HasSubstr("[position.ground]"));
 }
 
