@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <vector>
 
@@ -61,6 +62,15 @@ double role_factor(const FeedQuestion& q, const model::CutterPath& path, std::si
   return 1.0;
 }
 
+/// What the axis across the others allows on a move that goes down or up; arcs by their chord, which is
+/// shorter.
+double steepest_feed(const FeedQuestion& q, const model::CutterPath& path, std::size_t i) {
+  const double dz = std::abs(path.z[i] - path.z[i - 1]);
+  const double most = q.cut.machine.axes[2].feed_max_mm_min;
+  if (!(dz > 0.0) || !(most > 0.0)) return std::numeric_limits<double>::infinity();
+  return most * std::hypot(path.x[i] - path.x[i - 1], path.y[i] - path.y[i - 1], dz) / dz;
+}
+
 void keep_peak(model::StepLoads& peak, const model::StepLoads& l) {
   peak.peak_force_n = std::max(peak.peak_force_n, l.peak_force_n);
   peak.torque_nm = std::max(peak.torque_nm, l.torque_nm);
@@ -113,6 +123,7 @@ FeedAnswer feeds(const FeedQuestion& q, const model::CutterPath& path) {
       }
     }
     double feed = q.feed_mm_min * factor;
+    if (q.adapt && q.cut.kind != CutKind::kTap && i > 0) feed = std::min(feed, steepest_feed(q, path, i));
     if (q.adapt && q.cut.kind != CutKind::kTap)
       feed = std::max(rounded(std::floor(feed * 10.0 + 1e-6) / 10.0, 1), 0.1);
     const bool air = path.role[i] == model::MoveRole::kApproach || path.role[i] == model::MoveRole::kLink;

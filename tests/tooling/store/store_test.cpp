@@ -9,8 +9,10 @@
 
 #include "planner/base/file.h"
 #include "tooling/catalogue/generic.h"
+#include "tooling/catalogue/library.h"
 #include "tooling/catalogue/machine.h"
 #include "tooling/catalogue/material.h"
+#include "tooling/formats/format.h"
 #include "tooling/select/select.h"
 
 namespace capstan::tooling {
@@ -205,6 +207,23 @@ TEST(ToolStore, RefusesACutterThatCannotBeThoughItsHashFits) {
   std::vector<Cutter> bad(cutters().begin(), cutters().begin() + 3);
   bad[1].teeth = -4;
   EXPECT_EQ(code_of(store_of({}, bad).value()), "TOOLSTORE-DAMAGED");
+}
+
+TEST(StoreFormat, IsALibraryLikeAnyOther) {
+  const Format* format = find_format("store");
+  ASSERT_NE(format, nullptr);
+  const ToolLibrary l = library_of({cutters().begin(), cutters().begin() + 40}, "forty");
+  Job job;
+  const auto written = format->write(l, {}, job);
+  ASSERT_TRUE(written) << to_text(written.error());
+  EXPECT_TRUE(format->recognises(written->bytes, "tools"));
+  const auto back = format->read(written->bytes, "tools.sqlite", {}, job);
+  ASSERT_TRUE(back) << to_text(back.error());
+  EXPECT_EQ(back->library, l);
+  LossReport report;
+  EXPECT_EQ(ToolStore::from_bytes(written->bytes, "").value().all_cutters().value(),
+            cutters_of(l, report, job).value());
+  EXPECT_EQ(read_library(written->bytes, "tools.sqlite", job).value(), cutters_of(l, report, job).value());
 }
 
 TEST(ToolStore, IsNoneOfTheOtherFiles) {
