@@ -118,6 +118,8 @@ Cutter read_cutter(Fields f, double mm_per_unit) {
   r.length("neck_length", c.neck_length_mm);
   r.length("cutting_width", c.cutting_width_mm);
   r.length("thread_size", c.thread_size_mm);
+  r.length("lead_length", c.lead_length_mm);
+  r.number("lead_threads", c.lead_threads);
   r.angle("taper_angle_deg", c.taper_angle_rad);
   r.number("life_used_min", c.life_used_min);
   r.length("fz_min", c.fz_min_mm);

@@ -51,6 +51,8 @@ constexpr std::array kFields{
     FieldOf{"TA", &Cutter::taper_angle_rad, "taper_angle_rad", "deg"},
     FieldOf{"CW", &Cutter::cutting_width_mm, "cutting_width_mm", "mm"},
     FieldOf{"TDZ", &Cutter::thread_size_mm, "thread_size_mm", "mm"},
+    FieldOf{"LEADLENGTH", &Cutter::lead_length_mm, "lead_length_mm", "mm"},
+    FieldOf{"LEADTHREADS", &Cutter::lead_threads, "lead_threads", ""},
 };
 
 bool yes(std::string_view text) {

@@ -35,6 +35,8 @@ constexpr Field kFields[] = {
     {"holder_diameter", &Cutter::holder_diameter_mm, 'L', "holder_diameter_mm"},
     {"thread_pitch", &Cutter::thread_pitch_mm, 'L', "thread_pitch_mm"},
     {"thread_size", &Cutter::thread_size_mm, 'L', "thread_size_mm"},
+    {"lead_length", &Cutter::lead_length_mm, 'L', "lead_length_mm"},
+    {"lead_threads", &Cutter::lead_threads, '1', "lead_threads"},
     {"fz_min", &Cutter::fz_min_mm, 'L', "fz_min_mm"},
     {"fz_max", &Cutter::fz_max_mm, 'L', "fz_max_mm"},
     {"point_angle_deg", &Cutter::point_angle_rad, 'D', "point_angle_rad"},

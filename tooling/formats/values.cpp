@@ -48,6 +48,8 @@ constexpr std::array kFacts{
     length("CHW", "corner chamfer width"),
     length("CW", "cutting width"),
     length("TDZ", "thread size"),
+    length("LEADLENGTH", "length of the lead"),
+    SymbolFact{"LEADTHREADS", Quantity::kNumber, 0.0, 100.0, "threads in the lead"},
     length("TP", "thread pitch"),
     length("TPN", "smallest thread pitch"),
     length("TPX", "largest thread pitch"),

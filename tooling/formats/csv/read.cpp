@@ -523,10 +523,12 @@ Result<Imported> read(std::string_view bytes, const std::string& file, const For
     map.separator = separator_of(bytes);
     if (map.separator == '\0') map.separator = ',';
   }
-  const auto rows = parse_rows(bytes, map.separator, file);
+  auto rows = parse_rows(bytes, map.separator, file);
   if (!rows) return fail(rows.error());
   if (rows->empty())
     return fail({.code = "CSV-SYNTAX", .message = "the table is empty", .file = file, .expected = "titles"});
+  // Fusion marks its export behind the last title; no row has a cell there.
+  if (rows->front().cells.back().starts_with("CSV_TOOLS_VERSION")) rows->front().cells.pop_back();
   const auto& titles = rows->front().cells;
   if (saved) {
     auto m = fitted(map, titles, file);
