@@ -272,6 +272,32 @@ void overrule_stop(Work& w, const StepWork& step) {
        "safety: the spindle turns while the tool is in the material"});
 }
 
+/// Coolant that the machine does not have cannot be switched on: the next best is, and it is said.
+void overrule_coolant(Work& w, const StepWork& step) {
+  const auto* op = w.plan.model.get<model::MachiningOperation>(step.operation);
+  if (op == nullptr) return;
+  const AnyRef functions = op->its_machine_functions;
+  auto* f = w.plan.model.get<model::MillingMachineFunctions>(functions);
+  if (f == nullptr) return;
+  const model::Machine& machine = w.plan.machine;
+  const bool through = f->through_spindle_coolant.value_or(false) && !machine.has_through;
+  const bool mist = f->mist.value_or(false) && !machine.has_mist;
+  // Without flood, too, there is nothing to fall back on: the checker refuses the machine.
+  if ((!through && !mist) || !machine.has_flood) return;
+  if (through) f->through_spindle_coolant = false;
+  if (mist) f->mist = false;
+  f->coolant = true;
+  const std::string what =
+      std::string(through ? "coolant through the spindle" : "mist") + (through && mist ? " and mist" : "");
+  const std::string text = "machine '" + machine.id + "' has no " + what + ": flood coolant instead";
+  w.job.warn("PIP-CHANGED", "operation '" + op->its_id.value_or("") + "': " + text);
+  for (const char* attribute : {"through_spindle_coolant", "mist"}) {
+    if ((attribute[0] == 't' && !through) || (attribute[0] == 'm' && !mist)) continue;
+    w.plan.ledger.bind(functions, attribute, model::Binder::kRule,
+                       {"machine.coolant", text, "the machine's own description"});
+  }
+}
+
 /// A step on a compound or a pattern is for the members that its name begins with ('HOLE[2] drill'), and all
 /// that are like them; without such a name, for all.
 std::vector<model::FeatureShape> members_meant(std::vector<model::FeatureShape> shapes,
@@ -336,6 +362,7 @@ Status list_given(Work& w) {
     }
     mark_open(w, step);
     overrule_stop(w, step);
+    overrule_coolant(w, step);
     kept.push_back(std::move(step));
   }
   w.steps = std::move(kept);

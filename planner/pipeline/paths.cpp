@@ -507,6 +507,7 @@ class PathMaker {
       if (const auto* f = w_.plan.model.get<model::MillingMachineFunctions>(op->its_machine_functions)) {
         r.flood = f->coolant.value_or(false);
         r.mist = f->mist.value_or(false);
+        r.through = f->through_spindle_coolant.value_or(false);
       }
     }
     return r;

@@ -40,7 +40,7 @@ void check_coolant(const model::Plan& plan, const std::vector<StepMoves>& steps,
     lacks(p.mist, plan.machine.has_mist, "mist");
     lacks(p.through, plan.machine.has_through, "coolant through the spindle");
     if (p.through && s.cutter != nullptr && !s.cutter->coolant_through)
-      findings.error(
+      findings.warn(
           29, "CHK-COOLANT-TOOL", at,
           "the step wants coolant through the spindle; tool " + s.cutter->id + " has no channel for it");
   }

@@ -46,12 +46,12 @@ bool sound(const model::Cutter* c) {
 
 void check_removal(const model::Plan& plan, const std::vector<StepMoves>& steps, Findings& findings,
                    Job& job) {
+  check_fixtures(plan, steps, findings);
   if (plan.stock.box.empty()) {
     findings.warn(11, "CHK-NO-STOCK", {0, "", -1},
                   "there is no raw piece, so that removal cannot be checked");
     return;
   }
-  check_fixtures(plan, steps, findings);
   const PartShapes part = shapes_of_part(plan);
   const double cell = cell_of(plan);
   // Set-ups that hold the piece alike go on with the same stock; others begin with what is left.
