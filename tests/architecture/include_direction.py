@@ -52,7 +52,7 @@ FENCES = {
     "Ipopt": (r"(coin(-or)?/)?Ip[A-Z]\w*\.(hpp|h)$", 1),
     "FLANN": (r"flann/", 1),
     "Clipper": (r"(polyclipping/)?clipper\.hpp$", 1),
-    "SQLite": (r"sqlite3(ext)?\.h$", 1),
+    "SQLite": (r"sqlite3(ext)?\.h$", 2),
     "CLI11": (r"CLI/", None),
     "nlohmann-json": (r"nlohmann/", None),
     "yaml-cpp": (r"yaml-cpp/", None),
