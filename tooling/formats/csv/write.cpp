@@ -34,6 +34,8 @@ class Writer {
     for (const auto& e : l_.entries)
       if (!e.assembly.empty()) entries_.emplace(e.assembly, &e);
     for (const auto& i : l_.instances) instances_.emplace(i.id, &i);
+    for (const auto& e : l_.entries)
+      if (e.number > 0 && !e.assembly.empty()) numbers_.emplace(e.number, e.assembly);
     for (const auto& i : l_.items) items_.emplace(i.id, &i);
     gather();
   }
@@ -261,7 +263,9 @@ class Writer {
     if (line.entry == nullptr) return true;
     const MachineEntry& e = *line.entry;
     if (f == "number") {
-      out = e.number > 0 ? std::to_string(e.number) : "";
+      // A list of a shop's tools gives each number once.
+      const auto owner = numbers_.find(e.number);
+      out = owner != numbers_.end() && owner->second == line.id ? std::to_string(e.number) : "";
     } else if (f == "pocket") {
       out = e.pocket ? std::to_string(*e.pocket) : "";
     } else if (f == "carousel") {
@@ -287,6 +291,11 @@ class Writer {
       if (!fields.contains(name) && !one_unit && !as_group)
         out.dropped.push_back({"", need.title, "the column map has no column for it"});
     }
+    for (const auto& e : l_.entries)
+      if (const auto owner = numbers_.find(e.number);
+          owner != numbers_.end() && !e.assembly.empty() && owner->second != e.assembly)
+        out.dropped.push_back(
+            {e.assembly, "number", "tool number " + std::to_string(e.number) + " is that of another tool"});
     for (const auto& e : l_.entries)
       if (e.assembly.empty())
         out.dropped.push_back(
@@ -324,6 +333,7 @@ class Writer {
   std::map<std::string, const Holder*> holders_;
   std::map<std::string, const MachineEntry*> entries_;
   std::map<std::string, const ToolInstance*> instances_;
+  std::map<int, std::string> numbers_;  // of whom
   std::map<std::string, const CatalogueItem*> items_;
   std::vector<Line> lines_;
 };

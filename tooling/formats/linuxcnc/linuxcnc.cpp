@@ -285,7 +285,8 @@ class Writer {
     for (const char axis : kAxes) {
       auto v = offset(axis);
       const bool linear = std::string_view("ABC").find(axis) == std::string_view::npos;
-      if (v && linear && factor != 1.0) v = unconverted(*v * from_mm_per_unit_, mm_per_unit_);
+      // To a billionth, so that 107.95 does not become 107.94999999999999.
+      if (v && linear && factor != 1.0) v = rounded(*v * factor, 9);
       // The table's length is that from the gage line.
       if (axis == 'Z' && !v && a != assemblies_.end() && a->second->functional_length_mm)
         v = parse_double(spelled(*a->second->functional_length_mm, mm_per_unit_));
@@ -297,7 +298,7 @@ class Writer {
         if (dc != nullptr && dc->number)
           line += " D" + spelled_in(*dc, unit());
         else if (const auto d = offset('D'))
-          line += " D" + shortest(*d * factor);
+          line += " D" + shortest(factor == 1.0 ? *d : rounded(*d * factor, 9));
       } else if (const auto v = offset(letter)) {
         line += " " + std::string(1, letter) + shortest(*v);
       }
@@ -333,8 +334,15 @@ class Writer {
     }
     if (!fields.empty()) drop(who, fields, "a tool table has no place for these");
     if (!item.presets.empty()) drop(who, "presets", "a tool table has no place for start values");
-    for (const auto& [path, text] : item.kept)
-      if (path != "left out") drop(who, path, "a tool table has no place for it");
+    std::vector<std::string> rest;  // "presets.0.guid" and its like are said once, as "presets"
+    for (const auto& [path, text] : item.kept) {
+      std::string stem = path.substr(0, path.find_first_of(".#"));
+      if (stem != "left out" && std::find(rest.begin(), rest.end(), stem) == rest.end())
+        rest.push_back(std::move(stem));
+    }
+    std::string stems;
+    for (const std::string& stem : rest) stems += (stems.empty() ? "" : " ") + stem;
+    if (!stems.empty()) drop(who, stems, "what its source keeps there has no place in a tool table");
   }
 
   const ToolLibrary& l_;
