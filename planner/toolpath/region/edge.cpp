@@ -24,14 +24,17 @@ Result<GeneratedPath> around_outside(const PathJob& slim, double z_mm, Job& job)
   return outside_path(t, job);
 }
 
-/// Round each edge: on arcs where they fit, else from the middle of the hole, where the cutter stands free.
-Status along_edges(LevelCutter& c, const Level& level) {
+/// Round each edge: on arcs where they fit, else, and in openings narrower than the cutter, from the middle,
+/// where the cutter stands free. `diameter_mm` of the whole cutter.
+Status along_edges(LevelCutter& c, const Level& level, double diameter_mm) {
   const bool natural = walls_on_right(c.task);
   for (const geometry::Region& piece : geometry::pieces(level.centres)) {
-    const geometry::Vec2 middle = deepest(piece).point;
+    const Deepest deep = deepest(piece);
+    const geometry::Vec2 middle = deep.point;
+    const bool narrow = deep.distance_mm + c.radius_mm < 0.5 * diameter_mm;
     for (const auto& loop : piece.loops) {
       const Track track = natural ? track_of(loop) : reversed(track_of(loop));
-      if (cut_with_leads(c, level, track)) continue;
+      if (!narrow && cut_with_leads(c, level, track)) continue;
       const Spot spot = nearest(track, middle);
       Track from = begun_at(track, spot);
       if (level.inside.contains(middle, spot.point)) {
@@ -106,6 +109,11 @@ Result<GeneratedPath> edge_path(const PathJob& task, Job& job) {
   PathJob slim = task;  // at its tip the cutter is as wide as this
   slim.cutter.cutting_diameter_mm = 2.0 * tip->radius_mm;
   slim.cutter.corner_radius_mm = 0.0;
+  if (slim.approach.kind == Approach::Kind::kFree) {
+    // Wide enough that the cone or round is clear of the edge where the arc begins.
+    slim.approach.kind = Approach::Kind::kTangent;
+    slim.approach.radius_mm = 2.0 * s.depth_mm + 2.0 * s.chamfer_width_mm + 0.5;
+  }
   if (outside) return around_outside(slim, z, job);
   w->bottom_z_mm = z;
   w->slope_rad = w->bottom_radius_mm = 0.0;
@@ -114,7 +122,8 @@ Result<GeneratedPath> edge_path(const PathJob& task, Job& job) {
   Level level(slim, *w, z, z, 0.0);
   if (level.centres.empty()) return refuse("TPA-NO-FIT", "the cutter's tip does not fit inside the edge");
   level.cleared.emplace(level.centres);
-  if (auto ok = along_edges(c, level); !ok) return tl::unexpected(ok.error());
+  if (auto ok = along_edges(c, level, task.cutter.cutting_diameter_mm); !ok)
+    return tl::unexpected(ok.error());
   GeneratedPath out = writer.finish();
   out.levels_z_mm = {z};
   return out;
