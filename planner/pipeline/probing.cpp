@@ -96,7 +96,7 @@ Measure measure_of(const Work& w, const FeatureShape& s, Left left) {
 }
 
 Ref<model::TouchProbe> probe_noun(Model& m, const model::Cutter* c) {
-  const std::string id = c == nullptr ? "touch probe" : c->id;
+  const std::string id = c == nullptr ? "by hand" : c->id;
   for (const AnyRef r : m.all(model::TypeId::kTouchProbe)) {
     if (m.origin(r).instance == 0 && m.at<model::TouchProbe>(r).its_id == id)
       return Ref<model::TouchProbe>(r);
@@ -163,7 +163,9 @@ Ref<model::Executable> add_probing(Work& w, const std::vector<model::ProposedSte
     w.plan.ledger.bind(made, "its_probe", Binder::kToolSelection, probe->why, {{made, "expected_value"}});
   } else {
     w.job.warn("PIP-PROBE",
-               "'" + step.name + "': the library has no touch probe; it is measured with what the shop has");
+               "'" + step.name +
+                   "': machine or library has no touch probe; the program stops, and it is measured by "
+                   "other means");
   }
   return made;
 }

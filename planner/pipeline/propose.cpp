@@ -317,7 +317,8 @@ class Proposer {
   /// A step between others that measures; gives its index.
   std::size_t probing(StepWork step, const std::vector<model::ProposedStep>& chain, std::size_t i,
                       const model::Selection& tools, const std::vector<std::size_t>& made) {
-    const model::Candidate* probe = tools.ranked.empty() ? nullptr : &tools.ranked.front();
+    const bool has = w_.plan.machine.abilities.probe && !tools.ranked.empty();
+    const model::Candidate* probe = has ? &tools.ranked.front() : nullptr;
     step.open_technology = false;
     if (probe != nullptr) {
       step.cutter = probe->cutter;

@@ -321,12 +321,19 @@ TEST(Probing, StopsTheProgramBeforeTheLastStepWhereThePositionAsksForIt) {
   }
 }
 
-TEST(Probing, IsNotAskedOfAMachineWithoutAProbe) {
+TEST(Probing, IsDoneByHandOnAMachineWithoutAProbe) {
   Inputs in = shop();
   in.machine.abilities.probe = false;
   model::Plan plan = read(kTwoHoles);
   tie(plan.model, feature(plan, "H2"), feature(plan, "H1"), 0.02);
-  EXPECT_TRUE(bound(std::move(plan), in).plan.model.all(model::TypeId::kWorkpieceProbing).empty());
+  const Planned p = bound(std::move(plan), in);
+  ASSERT_EQ(p.plan.model.all(model::TypeId::kWorkpieceProbing).size(), 1U);
+  EXPECT_THAT(p.said, HasSubstr("PIP-PROBE"));
+  for (const auto& c : p.plan.cutters) EXPECT_NE(c.cutter_class, model::CutterClass::kTouchProbe);
+  Job job;
+  const auto program = write_plan(p.plan, Format::kLinuxCnc, job);
+  ASSERT_TRUE(program);
+  EXPECT_THAT(*program, HasSubstr("by hand, in the machine"));
 }
 
 TEST(Quality, OfTheAnnexJPartIsItsGeneralTolerance) {

@@ -62,8 +62,8 @@ std::vector<std::string> probing_text(const model::Plan& plan, AnyRef probing) {
   if (const auto* probe = m.get<model::TouchProbe>(p.its_probe)) {
     const auto* usage = m.get<model::ToolUsage>(probe->its_usage);
     const std::string position = usage == nullptr ? "" : usage->its_position.value_or("");
-    out.push_back("with " + probe->its_id.value_or("a touch probe") +
-                  (position.empty() ? "" : ", T" + position));
+    out.push_back(position.empty() ? "by hand, in the machine"
+                                   : "with " + probe->its_id.value_or("a touch probe") + ", T" + position);
   }
   return out;
 }
