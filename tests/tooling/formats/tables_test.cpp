@@ -107,6 +107,15 @@ TEST(Csv, RefusesAPointWhereTheMapSaysComma) {
   EXPECT_THAT(point.error().path, HasSubstr("column 'd'"));
 }
 
+TEST(Csv, WhatATableKeepsDoesNotBecomeAKeyOfFusions) {
+  Job job;
+  const auto read =
+      import_bytes("description,type,DC,unit,Shelf\nx,drill,5,mm,7\n", "a.csv", {}, job).value();
+  const auto out = fusion_json_format().write(read.library, {}, job).value();
+  EXPECT_EQ(out.bytes.find("Shelf"), std::string::npos);
+  EXPECT_THAT(dropped(out.report), HasSubstr("csv.Shelf:it has no place in a Fusion library"));
+}
+
 TEST(Csv, AToolNumberIsWrittenForTheFirstThatHasIt) {
   CAPSTAN_CORPUS_FILE(path, "tools/fusion/Makera_Ball_Endmills.tools");
   Job job;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "tooling/formats/csv/columns.h"
+#include "tooling/formats/csv/table.h"
 #include "tooling/formats/format.h"
 
 namespace capstan::tooling::csv {
@@ -10,6 +11,9 @@ inline constexpr const char* kMapKey = "csv:map";
 
 [[nodiscard]] Result<Imported> read(std::string_view bytes, const std::string& file,
                                     const FormatOptions& options, Job& job);
+/// The rows below the titles, each cell by its column's meaning.
+[[nodiscard]] Result<Imported> read_rows(const std::vector<Row>& rows, const ColumnMap& map,
+                                         const std::string& file, const FormatOptions& options, Job& job);
 [[nodiscard]] Result<Exported> write(const ToolLibrary& library, const FormatOptions& options, Job& job);
 
 /// "H6.5 L7.5 U9; H2 L9 U9": height, lower and upper diameter of each segment in the tool's unit.

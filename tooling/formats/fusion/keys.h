@@ -15,6 +15,8 @@ namespace capstan::tooling::fusion {
 
 /// ToolLibrary::kept: the id of a holder that stands for itself, not only in tools.
 inline constexpr const char* kListedKey = "fusion:listed";
+/// ToolLibrary::kept: the records were read from Fusion, and what they keep is Fusion's.
+inline constexpr const char* kReadKey = "fusion:read";
 
 /// A number of "geometry". What the key is called when no ISO 13399 symbol means the same: the key itself.
 struct GeometryKey {

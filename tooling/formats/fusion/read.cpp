@@ -38,6 +38,7 @@ class Reader {
     Imported out;
     out_ = &out;
     out.library.source = file_;
+    out.library.kept.emplace_back(kReadKey, "");
     const Json* data = root.find("data");
     for (std::size_t i = 0; i < data->items.size(); ++i) {
       const Json& t = data->items[i];

@@ -62,9 +62,9 @@ class Writer {
   std::optional<Diagnostic> put_kept(const std::vector<std::pair<std::string, std::string>>& kept,
                                      const std::string& who, Json& into) {
     for (const auto& [path, text] : kept) {
-      if (path == kListedKey || path == "left out") continue;
+      if (path == kListedKey || path == kReadKey || path == "left out") continue;
       const auto value = parse_json(text, "kept");
-      const bool ours = value && path.find(':') == std::string::npos;
+      const bool ours = ours_ && value && path.find(':') == std::string::npos;
       Json* at = &into;
       std::string_view rest = path;
       if (ours && rest.starts_with("presets.")) {
@@ -198,7 +198,7 @@ class Writer {
     return false;
   }
 
-  static Json holder(const Holder& h) {
+  Json holder(const Holder& h) const {
     const double factor = h.inches ? kMmPerInch : 1.0;
     Json out = Json::map();
     out.set("type", Json::string("holder"));
@@ -219,7 +219,7 @@ class Writer {
     }
     out.set("segments", std::move(segments));
     for (const auto& [path, text] : h.kept)
-      if (auto value = parse_json(text, "kept")) out.set(path, *std::move(value));
+      if (auto value = parse_json(text, "kept"); value && ours_) out.set(path, *std::move(value));
     return out;
   }
 
@@ -274,6 +274,7 @@ class Writer {
 
   const ToolLibrary& l_;
   LossReport& report_;
+  bool ours_ = find_kept(l_.kept, kReadKey) != nullptr;
   std::map<std::string, const Holder*> holders_;
   std::map<std::string, const MachineEntry*> entries_;
   std::optional<Diagnostic> fault_;
