@@ -321,6 +321,23 @@ TEST(CheckPlan, FoldsWhatRepeatsInAStepIntoItsWorst) {
   EXPECT_EQ(axis, 1U);
 }
 
+TEST(CheckPlan, AFormCutterWhoseHeadOrNeckRunsIntoTheSolidIsFound) {
+  PlanMaker k = testing::good_plan();
+  for (model::Cutter& c : k.plan.cutters) {
+    if (c.cutter_class != model::CutterClass::kEndmill) continue;
+    c.cutter_class = model::CutterClass::kTSlotMill;
+    c.cutting_width_mm = 2.0;
+    c.neck_diameter_mm = 6.0;
+  }
+  bool head = false;
+  for (const auto& f : check(k.plan)) {
+    if (f.code != "CHK-HEAD" && f.code != "CHK-NECK") continue;
+    head = true;
+    EXPECT_EQ(f.property, 11);
+  }
+  EXPECT_TRUE(head);
+}
+
 TEST(CheckPlan, ASunkHelixThatLeavesACoreIsFound) {
   PlanMaker k = testing::good_plan();
   model::CutterPath p;
