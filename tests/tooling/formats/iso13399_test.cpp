@@ -224,6 +224,28 @@ TEST(Iso13399, AToolThatMustNotBePlannedWithStaysOut) {
   EXPECT_EQ(*find_kept(back->library.items.front().kept, "left out"), "its sizes contradict each other");
 }
 
+TEST(Iso13399, NumbersWithoutAUnitAreWrittenInOurs) {
+  ToolLibrary l;
+  CatalogueItem i;
+  i.id = i.description = "end mill";
+  for (const auto& [symbol, value] :
+       {std::pair{"DC", 6.0}, std::pair{"SIG", 2.0}, std::pair{"WT", 0.25}, std::pair{"RPMX", 9000.0}})
+    i.properties.push_back(number_property(symbol, value, "", ValueState::kStated, ""));
+  l.items.push_back(i);
+  Job job;
+  const auto back = import_bytes(write_iso13399(l, {}, job)->bytes, "a.p21", {}, job);
+  ASSERT_TRUE(back) << to_text(back.error());
+  for (const Property& p : i.properties)
+    EXPECT_EQ(number_of(back->library.items.front(), p.symbol), p.number);
+}
+
+TEST(Iso13399, SpeedsPerSecondAreRefused) {
+  const auto r =
+      read(file(std::string(kLong) + "#50=UNIT('1/s');\n#51=NUMERICAL_VALUE('RPMX',$,#50,'200');\n"));
+  ASSERT_FALSE(r);
+  EXPECT_EQ(r.error().code, "DATA-UNIT");
+}
+
 TEST(Iso13399, WhatIsNotWrittenIsTold) {
   ToolLibrary l;
   CatalogueItem i;

@@ -126,6 +126,16 @@ class Writer {
         .end();
   }
 
+  /// A number without a unit is in ours.
+  static std::string unit_of(const Property& p) {
+    if (p.unit == "\"") return "in";
+    if (!p.unit.empty() || !p.number) return p.unit;
+    const SymbolFact* fact = symbol_fact(p.symbol);
+    if (fact != nullptr && fact->quantity == Quantity::kLength) return "mm";
+    if (fact != nullptr && fact->quantity == Quantity::kAngle) return "rad";
+    return p.symbol == "WT" ? "kg" : p.symbol == "RPMX" ? "1/min" : "";
+  }
+
   std::uint64_t unit(const std::string& name) {
     for (const auto& [known, id] : units_)
       if (known == name) return id;
@@ -146,7 +156,8 @@ class Writer {
     const std::string symbol = p.symbol == "DMM" ? "DCONMS" : p.symbol;
     std::string about;
     if (p.state != ValueState::kStated) about = std::string(to_text(p.state)) + ": " + p.source;
-    const std::uint64_t unit_id = p.unit.empty() ? 0 : unit(p.unit == "\"" ? "in" : p.unit);
+    const std::string unit_name = unit_of(p);
+    const std::uint64_t unit_id = unit_name.empty() ? 0 : unit(unit_name);
     const auto property = next(), value = next(), representation = next(), association = next();
     w_.instance(property, "PROPERTY").list().end().text(about).text(symbol);
     ref(source).omitted().omitted().end();

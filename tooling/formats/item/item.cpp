@@ -22,6 +22,12 @@ std::optional<double> kg_per_unit(std::string_view unit) {
   return std::nullopt;
 }
 
+/// Speeds are in revolutions per minute; one per second would be sixty times as fast.
+bool per_minute(std::string_view unit) {
+  const std::string u = lower_text(unit);
+  return u.empty() || u == "1/min" || u == "r/min" || u == "rev/min" || u == "rpm" || u == "min-1";
+}
+
 std::optional<Diagnostic> weight(const StatedValue& v, const Place& place, Property& out) {
   const auto factor = kg_per_unit(v.unit);
   if (!factor)
@@ -46,6 +52,9 @@ std::optional<Diagnostic> add_value(CatalogueItem& item, const StatedValue& valu
   const IsoName* name = find_symbol(value.symbol);
   const std::string symbol(name == nullptr ? value.symbol : name->symbol);
   Property p;
+  if (symbol == "RPMX" && !per_minute(value.unit))
+    return fault_at(place, "DATA-UNIT", "the unit '" + std::string(value.unit) + "' is none of speeds",
+                    "1/min");
   if (symbol == "WT") {
     if (auto d = weight(value, place, p)) return d;
   } else if (symbol_fact(symbol) != nullptr) {
