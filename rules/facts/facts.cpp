@@ -206,6 +206,8 @@ std::string_view undercut_form(const std::vector<geometry::Vec2>& q) {
     ++(q[i].x > q[i - 1].x + kSame ? slopes : steps);
   }
   if (steps == 1 && slopes == 0) return "tee";
+  // A dovetail cutter's flank begins at its floor.
+  if (q.size() > 1 && std::abs(q[1].y - q[0].y) <= kSame) return "other";
   return steps == 0 && slopes == 1 ? "dovetail" : "other";
 }
 

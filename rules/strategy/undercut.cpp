@@ -66,6 +66,7 @@ Made form(const Making& m, CutterClass c, bool leaning) {
   s.tool.diameter_min_mm = m.number("of_width") * 2.0 * q->widest;
   if (leaning) {
     s.tool.depth_of_cut_mm = q->height;
+    s.tool.taper_angle_rad = std::atan((q->widest - q->mouth) / q->height);
   } else {
     s.tool.cutting_width_max_mm = q->height;
     s.tool.neck_diameter_max_mm = 2.0 * q->mouth - 0.2;

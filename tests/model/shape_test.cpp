@@ -110,6 +110,96 @@ TEST(Shape, AVeeSlotIsAsWideAsItsAngleAndTipRadiusMakeIt) {
   EXPECT_GT(geometry::area(s.reach), geometry::area(s.area) + 2 * 90 * 2 * half);
 }
 
+/// A slot 60 mm along y with a section drawn as a polyline of (across, height).
+Result<std::vector<FeatureShape>> drawn_slot(Maker& k, const std::vector<geometry::Vec2>& section,
+                                             double deep) {
+  Polyline line;
+  for (const auto p : section) line.points.push_back(k.point(p.x, p.y, 0.0));
+  GeneralProfile g;
+  g.its_profile = k.m.add(line);
+  LinearPath path;
+  path.distance = k.length(60);
+  path.its_direction = k.direction(0, 1, 0);
+  Slot s;
+  s.its_id = "S";
+  s.feature_placement = k.at(0, 0, 0);
+  s.depth = k.depth(-deep);
+  s.course_of_travel = k.m.add(path);
+  s.swept_shape = k.m.add(g);
+  return shapes_of(k.m, k.m.add(s));
+}
+
+TEST(Shape, ADrawnDovetailIsTheSameWhicheverWayItsPolylineRuns) {
+  const std::vector<geometry::Vec2> floor_first = {{7, 6}, {13, 0}, {-13, 0}, {-7, 6}};
+  std::vector<geometry::Vec2> from_the_top,
+      finer = {{-7, 0}, {-10, -3}, {-13, -6}, {0, -6}, {13, -6}, {10, -3}, {7, 0}};
+  for (const auto p : floor_first) from_the_top.insert(from_the_top.begin(), {p.x, p.y - 6.0});
+  for (const auto& section : {floor_first, from_the_top, finer}) {
+    Maker k;
+    const auto s = drawn_slot(k, section, 6);
+    ASSERT_TRUE(s) << (s ? "" : s.error().message);
+    EXPECT_EQ(s->front().slot_profile, (std::vector<geometry::Vec2>{{0, 13}, {6, 7}}));
+    EXPECT_NEAR(s->front().width.nominal_mm, 14.0, 1e-12);
+  }
+}
+
+TEST(Shape, DrawnSquaresVeesAndTeesAreKnownForWhatTheyAre) {
+  Maker k;
+  const auto square = drawn_slot(k, {{-4, 0}, {-4, -5}, {4, -5}, {4, 0}}, 5);
+  ASSERT_TRUE(square);
+  EXPECT_TRUE(square->front().slot_profile.empty());
+  EXPECT_NEAR(square->front().width.nominal_mm, 8.0, 1e-12);
+  // Drawn beyond the top by 1 mm, where it is 12 wide: at the slot's top it is 10 wide.
+  const auto vee = drawn_slot(k, {{-6, 6}, {0, 0}, {6, 6}}, 5);
+  ASSERT_TRUE(vee);
+  EXPECT_NEAR(vee->front().slot_angle_rad, std::numbers::pi / 2.0, 1e-9);
+  EXPECT_NEAR(vee->front().width.nominal_mm, 10.0, 1e-9);
+  const auto tee = drawn_slot(k, {{-3, 9}, {-3, 4}, {-6, 4}, {-6, 0}, {6, 0}, {6, 4}, {3, 4}, {3, 9}}, 9);
+  ASSERT_TRUE(tee);
+  EXPECT_EQ(tee->front().slot_profile, (std::vector<geometry::Vec2>{{0, 6}, {4, 6}, {4, 3}, {9, 3}}));
+}
+
+TEST(Shape, ADrawnSectionThatIsNotUnderstoodIsRefusedWithItsReason) {
+  const auto why = [](const std::vector<geometry::Vec2>& section, double deep) {
+    Maker k;
+    const auto s = drawn_slot(k, section, deep);
+    return s ? std::string("read") : s.error().message;
+  };
+  EXPECT_NE(why({{-7, 6}, {-13, 0}, {10, 0}, {7, 6}}, 6).find("not symmetric"), std::string::npos);
+  EXPECT_NE(why({{-7, 6}, {-13, 0}, {13, 0}, {7, 5}}, 6).find("one height"), std::string::npos);
+  EXPECT_NE(why({{-7, 6}, {-13, 0}, {13, 0}, {7, 6}}, 8).find("lower than the slot is deep"),
+            std::string::npos);
+  EXPECT_NE(why({{-9, 6}, {-9, 0}, {-4, 2}, {4, 2}, {9, 0}, {9, 6}}, 6).find("beside"), std::string::npos);
+}
+
+TEST(Shape, ASquareProfileWithAnglesBelowARightAngleIsADovetailOnItsBase) {
+  Maker k;
+  const auto slot_with = [&](double first, double second) {
+    SquareUProfile q;
+    q.width = k.length(22);
+    q.first_angle = first;
+    q.second_angle = second;
+    LinearPath path;
+    path.distance = k.length(60);
+    path.its_direction = k.direction(0, 1, 0);
+    Slot s;
+    s.feature_placement = k.at(0, 0, 0);
+    s.depth = k.depth(-5);
+    s.course_of_travel = k.m.add(path);
+    s.swept_shape = k.m.add(q);
+    return shapes_of(k.m, k.m.add(s));
+  };
+  const double deg = std::numbers::pi / 180.0;
+  const auto s = slot_with(60 * deg, 60 * deg);
+  ASSERT_TRUE(s) << s.error().message;
+  EXPECT_NEAR(s->front().width.nominal_mm, 22.0 - 10.0 * std::tan(30 * deg), 1e-9);
+  ASSERT_EQ(s->front().slot_profile.size(), 2U);
+  EXPECT_NEAR(s->front().slot_profile.front().y, 11.0, 1e-12);
+  for (const double upright : {0.0, 90 * deg})
+    EXPECT_TRUE(slot_with(upright, 90 * deg)->front().slot_profile.empty());
+  EXPECT_FALSE(slot_with(60 * deg, 90 * deg));
+}
+
 TEST(Shape, AConicalBottomGoesOnBelowTheDepthOfTheFullDiameter) {
   Maker k;
   const auto ref = k.hole(50, 50, 10, 10);

@@ -68,6 +68,20 @@ TEST(FormFeatures, ArePlannedWholeAndCheckedWithoutFindings) {
   EXPECT_TRUE(plan.model.holds<model::MultistepDrilling>(ws->its_operation));
 }
 
+TEST(FormFeatures, DovetailsDrawnOrByTheirAnglesAreCutByACutterOfTheirAngle) {
+  const model::Plan plan = planned("/tests/pipeline/parts/dovetails.p21", shop());
+  expect_sound(plan);
+  for (const auto& [name, lean_deg] : {std::pair("DRAWN", 45.0), std::pair("ANGLED", 30.0)}) {
+    const auto* form = step(plan, std::string(name) + " dovetail_finish");
+    ASSERT_NE(form, nullptr) << name;
+    ASSERT_TRUE(form->path) << name;
+    const model::Cutter* cutter = model::find_cutter(plan, form->cutter_id);
+    ASSERT_NE(cutter, nullptr);
+    EXPECT_EQ(cutter->cutter_class, model::CutterClass::kDovetailMill);
+    EXPECT_NEAR(cutter->lead_angle_rad * 180.0 / 3.14159265358979, lean_deg, 0.01);
+  }
+}
+
 TEST(EdgeBreaks, AreCutWhereTheShopAsksAndCheckedWithoutFindings) {
   Inputs in = shop();
   in.edge_break_mm = 0.3;

@@ -260,8 +260,10 @@ std::optional<std::string> wrong_shape(const Cutter& c, const ToolRequirement& r
     return "corner radius " + mm(c.corner_radius_mm) + " is above " + mm(r.corner_radius_max_mm);
   if (r.point_angle_rad > 0.0 && std::abs(c.point_angle_rad - r.point_angle_rad) > kAngleSlackRad)
     return "point angle " + degrees(c.point_angle_rad) + " is not " + degrees(r.point_angle_rad);
-  if (r.taper_angle_rad > 0.0 && std::abs(c.taper_angle_rad - r.taper_angle_rad) > kAngleSlackRad)
-    return "taper " + degrees(c.taper_angle_rad) + " is not " + degrees(r.taper_angle_rad);
+  // A dovetail's flanks lean inwards by its lead angle.
+  const double taper = c.cutter_class == CutterClass::kDovetailMill ? c.lead_angle_rad : c.taper_angle_rad;
+  if (r.taper_angle_rad > 0.0 && std::abs(taper - r.taper_angle_rad) > kAngleSlackRad)
+    return "taper " + degrees(taper) + " is not " + degrees(r.taper_angle_rad);
   // T-slot cutters of older libraries state their head as the length of flutes.
   const double width = c.cutting_width_mm > 0.0 ? c.cutting_width_mm : c.maximum_depth_of_cut_mm;
   if (r.cutting_width_min_mm > 0.0 && width < r.cutting_width_min_mm - kSizeSlackMm)

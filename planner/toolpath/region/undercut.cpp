@@ -44,7 +44,11 @@ Result<Head> head_of(const PathJob& task, const Undercut& u) {
       return refuse(task, "TPA-NO-FIT",
                     "the cutter's head is " + trimmed(h.height_mm, 3) + " mm high, the flanks are " +
                         trimmed(u.height_mm, 3) + " mm");
-    if (!(c.neck_diameter_mm > 0.0)) h.neck_mm = h.diameter_mm - 2.0 * h.height_mm * std::tan(u.flank_rad);
+    if (!(c.neck_diameter_mm > 0.0)) {
+      h.neck_mm = h.diameter_mm - 2.0 * h.height_mm * std::tan(u.flank_rad);
+      // The shank is in the mouth where the slot is deeper than the head is high.
+      if (task.shape.depth_mm > h.height_mm + 1e-9) h.neck_mm = std::max(h.neck_mm, c.shank_diameter_mm);
+    }
   } else {
     if (c.cutter_class != CutterClass::kTSlotMill)
       return refuse(task, "TPA-TOOL", "its section needs a T-slot cutter");
