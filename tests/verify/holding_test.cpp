@@ -107,6 +107,97 @@ TEST(Fixtures, TheHolderClearsTheJawsOrIsNamed) {
   EXPECT_NE(f->message.find("vise.fixed_jaw"), std::string::npos) << f->message;
 }
 
+/// A head of 50 that is 10 high, under an arbor of 22.
+model::Cutter wide_head() {
+  model::Cutter c = testing::endmill();
+  c.id = "head50";
+  c.cutting_diameter_mm = 50;
+  c.maximum_depth_of_cut_mm = 10;
+  c.shank_diameter_mm = 22;
+  c.stick_out_mm = 90;
+  c.holder_diameter_mm = 22;
+  c.pocket = 5;
+  return c;
+}
+
+TEST(Fixtures, AHeadThatPassesAnOverhangOnItsWayDownIsNamed) {
+  PlanMaker k = held();
+  k.plan.setups[0].security_z_mm = 80;
+  // Down beside a bar that ends 15 or 18 mm from the axis; the head's radius is 25. At its lowest the head is
+  // 3 mm under the bar, and the arbor 4 mm or more beside it.
+  k.plan.setups[0].holding.solids.push_back(box("bar", -45, 0, -20, 100, 8, 20));
+  k.plan.cutters.push_back(wide_head());
+  for (const double x : {-5.0, -2.0}) {
+    for (const bool rapid : {true, false}) {
+      PlanMaker one = k;
+      model::CutterPath p;
+      p.start({x, -50, 80});
+      p.rapid({x, 50, 80});
+      if (rapid)
+        p.rapid({x, 50, -5});
+      else
+        p.line({x, 50, -5}, model::MoveRole::kPlunge);
+      p.rapid({x, 50, 80}, model::MoveRole::kRetract);
+      one.step<model::BottomAndSideRoughMilling>("head", one.pocket("E", 50, 96, 30, 10), "head50", p, 600,
+                                                 3000);
+      const auto findings = check(one.plan);
+      const auto* f = find(findings, rapid ? "CHK-RAPID-FIXTURE" : "CHK-CLAMP-CUT");
+      ASSERT_NE(f, nullptr) << told(findings);
+      EXPECT_EQ(f->step, "head");
+      EXPECT_NE(f->message.find("the cutter enters 'bar'"), std::string::npos) << f->message;
+      EXPECT_NE(f->message.find(x < -4 ? "by 10 mm" : "by 7 mm"), std::string::npos) << f->message;
+    }
+  }
+}
+
+TEST(Fixtures, ARampMeetsAnOverhangOnlyWhereItIsAtThatHeight) {
+  PlanMaker k = held();
+  k.plan.setups[0].security_z_mm = 80;
+  k.plan.cutters.push_back(wide_head());
+  model::CutterPath p;
+  p.start({-70, 50, 80});
+  p.line({-70, 50, 60}, model::MoveRole::kRamp);
+  p.line({30, 50, 10}, model::MoveRole::kRamp);  // 1 mm down on 2
+  p.rapid({30, 50, 80}, model::MoveRole::kRetract);
+  k.step<model::BottomAndSideRoughMilling>("ramp", k.pocket("E", 50, 96, 30, 10), "head50", p, 600, 3000);
+  // From x = -70 to -40, where the head leaves the low bar, its underside comes down from 60 to 45.
+  k.plan.setups[0].holding.solids.push_back(box("low bar", -75, 40, -65, 60, 0, 40));
+  EXPECT_EQ(find(check(k.plan), "CHK-CLAMP-CUT"), nullptr) << told(check(k.plan));
+  k.plan.setups[0].holding.solids.back() = box("high bar", -45, 40, -35, 60, 40, 50);
+  EXPECT_NE(find(check(k.plan), "CHK-CLAMP-CUT"), nullptr) << told(check(k.plan));
+}
+
+TEST(Bodies, AToolThatIsNotDescribedIsSaidNotToBeJudged) {
+  PlanMaker k = held();
+  k.plan.cutters[0].holder_diameter_mm = 0;
+  auto findings = check(k.plan);
+  ASSERT_EQ(findings.size(), 1U) << told(findings);
+  EXPECT_EQ(findings[0].code, "CHK-BODY-UNDECIDED");
+  EXPECT_EQ(findings[0].property, 12);
+  EXPECT_EQ(findings[0].severity, Severity::kWarning);
+  EXPECT_NE(findings[0].message.find("tool 'em10': its holder is not described"), std::string::npos);
+  k.plan.cutters[0].stick_out_mm = 0;
+  k.plan.cutters[0].shank_diameter_mm = 0;
+  findings = check(k.plan);
+  const auto* f = find(findings, "CHK-BODY-UNDECIDED");
+  ASSERT_NE(f, nullptr) << told(findings);
+  EXPECT_NE(f->message.find("stick-out is not stated"), std::string::npos) << f->message;
+  EXPECT_NE(f->message.find("taken as thick as its cutter, 10 mm"), std::string::npos) << f->message;
+  k.plan.setups[0].holding = {};
+  EXPECT_EQ(find(check(k.plan), "CHK-BODY-UNDECIDED")->severity, Severity::kNote);
+}
+
+TEST(Bodies, AShankOfUnknownSizeIsAsThickAsTheCutter) {
+  PlanMaker k = held();
+  k.plan.cutters[0].shank_diameter_mm = 0;
+  // The axis comes to x = 65 at z = -10; the flutes end at 12, where the overhang begins 4 mm from it.
+  k.plan.setups[0].holding.solids.push_back(box("bridge", 69, 40, 90, 60, 13, 25));
+  k.plan.setups[0].security_z_mm = 10;
+  EXPECT_NE(find(check(k.plan), "CHK-HOLDER-FIXTURE"), nullptr) << told(check(k.plan));
+  k.plan.cutters[0].stick_out_mm = 0;
+  EXPECT_NE(find(check(k.plan), "CHK-HOLDER-FIXTURE"), nullptr) << told(check(k.plan));
+}
+
 TEST(Holder, ASegmentOfTheHolderThatEntersTheStockIsNamed) {
   PlanMaker k = testing::good_plan();
   k.plan.cutters[0].holder = {{10, 20, 20}, {30, 50, 50}};
@@ -192,6 +283,7 @@ void rapid_into_the_hole(PlanMaker& k) {
   model::Cutter thin = testing::drill();
   thin.id = "d6";
   thin.cutting_diameter_mm = 6;
+  thin.shank_diameter_mm = 6;
   thin.pocket = 4;
   k.plan.cutters.push_back(thin);
   k.step<model::Drilling>("second", k.hole("H2", 15, 15, 8, 20), "d6", p, 100, 500).setup = 1;
@@ -255,6 +347,12 @@ TEST(Coolant, IsOnInTheProgramWhereTheStepWantsIt) {
   model::Plan dry = plan;
   for (auto& s : dry.steps) s.flood = false;
   EXPECT_NE(find(check(text, dry), "CHK-COOLANT-DRY"), nullptr);
+  // Mist that the machine has not, instead of the flood that the step wants: both are said.
+  model::Plan none = plan;
+  none.machine.has_mist = false;
+  const auto both = check(replaced(text, "M8\n", "M7\n"), none);
+  EXPECT_NE(find(both, "CHK-COOLANT-MACHINE"), nullptr) << told(both);
+  EXPECT_NE(find(both, "CHK-COOLANT"), nullptr) << told(both);
 }
 
 TEST(ToolLife, LastsForTheCutsOrIsSaidToRunOut) {
@@ -269,6 +367,11 @@ TEST(ToolLife, LastsForTheCutsOrIsSaidToRunOut) {
   ASSERT_NE(f, nullptr) << told(findings);
   EXPECT_EQ(f->property, 30);
   EXPECT_NE(f->message.find("0.5 min are left"), std::string::npos) << f->message;
+  // A sister that is worn out takes no life from another one.
+  k.plan.cutters[0].life_used_min = 20;
+  k.plan.cutters[0].sisters = {{"em10 b", 7, -60}};
+  EXPECT_TRUE(check(k.plan).empty()) << told(check(k.plan));
+  k.plan.cutters[0].life_used_min = 29.5;
   k.plan.cutters[0].sisters = {{"em10 b", 7, 20}};
   EXPECT_TRUE(check(k.plan).empty()) << told(check(k.plan));
 }

@@ -131,7 +131,9 @@ inline model::Cutter endmill() {
   c.cutter_class = model::CutterClass::kEndmill;
   c.cutting_diameter_mm = 10;
   c.maximum_depth_of_cut_mm = 22;
+  c.shank_diameter_mm = 10;
   c.stick_out_mm = 40;
+  c.holder_diameter_mm = 30;
   c.functional_length_mm = 100;
   c.teeth = 4;
   c.centre_cutting = true;
@@ -148,7 +150,9 @@ inline model::Cutter drill() {
   c.cutting_diameter_mm = 8;
   c.point_angle_rad = kPoint;
   c.maximum_depth_of_cut_mm = 53;
+  c.shank_diameter_mm = 8;
   c.stick_out_mm = 70;
+  c.holder_diameter_mm = 30;
   c.functional_length_mm = 130;
   c.teeth = 2;
   c.pocket = 2;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <map>
 
 #include "planner/model/nouns/all.h"
@@ -60,7 +61,7 @@ void check_life(const std::vector<StepMoves>& steps, Findings& findings) {
     double left = s.cutter->life_min - s.cutter->life_used_min;
     std::string sisters;
     for (const auto& sister : s.cutter->sisters) {
-      left += sister.life_left_min;
+      left += std::max(0.0, sister.life_left_min);  // a worn sister takes nothing from the others
       sisters += (sisters.empty() ? "; sister tools: " : ", ") + sister.id + " " +
                  plain(sister.life_left_min) + " min";
     }

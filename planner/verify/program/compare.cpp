@@ -59,7 +59,10 @@ class Comparison {
   }
   void say(long line, const std::string& what, long move) {
     out_.error(33, "CHK-TEXT", {marker_ + 2, c_.program.markers[marker_].id, line},
-               (move >= 0 ? "move " + std::to_string(move) + " of the plan: " : "") + what);
+               (move >= 0 ? "move " + std::to_string(move) + " of step '" + c_.program.markers[marker_].id +
+                                "' of the plan: "
+                          : "") +
+                   what);
   }
 
   [[nodiscard]] double feed_of(std::size_t i) const {

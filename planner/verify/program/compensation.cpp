@@ -1,5 +1,7 @@
 #include <cmath>
 #include <set>
+#include <string>
+#include <utility>
 
 #include "planner/verify/program/program_checks.h"
 
@@ -94,13 +96,13 @@ class Compensation {
 void check_compensation(const ProgramCase& c, Findings& findings) { Compensation(c, findings).run(); }
 
 void check_program_coolant(const ProgramCase& c, Findings& findings) {
-  std::set<int> said;
+  // Of each step each kind once: that the machine lacks something does not hide that it is off.
+  std::set<std::pair<int, std::string>> said;
   for (const Block& b : c.program.blocks) {
     const bool cuts = b.kind == Block::Kind::kMove && b.move != MoveKind::kRapid && !b.in_machine;
-    if (!cuts || said.contains(b.marker)) continue;
+    if (!cuts) continue;
     const auto lacks = [&](bool machine_has, const char* word) {
-      if (machine_has) return;
-      said.insert(b.marker);
+      if (machine_has || !said.insert({b.marker, std::string("has no ") + word}).second) return;
       findings.error(29, "CHK-COOLANT-MACHINE", c.where(b),
                      std::string(word) + " is on; machine '" + c.machine.id + "' has none");
     };
@@ -111,7 +113,7 @@ void check_program_coolant(const ProgramCase& c, Findings& findings) {
     if (i < 0) continue;
     const model::StepResult& s = c.plan->steps[static_cast<std::size_t>(i)];
     const auto missing = [&](const char* what, const char* code) {
-      if (!said.insert(b.marker).second) return;
+      if (!said.insert({b.marker, what}).second) return;
       findings.error(
           29, "CHK-COOLANT", c.where(b),
           "the step cuts with " + std::string(what) + "; the program has not switched it on (" + code + ")");
@@ -119,7 +121,7 @@ void check_program_coolant(const ProgramCase& c, Findings& findings) {
     if (s.flood && !b.flood) missing("flood coolant", "M8");
     if (s.mist && !b.mist) missing("mist", "M7");
     if (s.through && !b.mist && !b.flood) missing("coolant through the spindle", "M7 or M8");
-    if (!s.flood && !s.mist && !s.through && (b.flood || b.mist) && said.insert(b.marker).second)
+    if (!s.flood && !s.mist && !s.through && (b.flood || b.mist) && said.insert({b.marker, "dry"}).second)
       findings.warn(29, "CHK-COOLANT-DRY", c.where(b),
                     "the step is planned dry; the program cuts with coolant on");
   }

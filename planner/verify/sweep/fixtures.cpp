@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "planner/verify/sweep/tool_body.h"
 
@@ -55,18 +56,17 @@ double apart(const std::vector<Vec2>& a, const std::vector<Vec2>& b) {
   return best;
 }
 
-/// A piece of a move: where its axis may be, and how low the tip.
+/// A piece of a move: where its axis may be, and how low and how high the tip.
 struct Piece {
   std::vector<Vec2> track;
-  double low_mm = 0.0;
+  double low_mm = 0.0, high_mm = 0.0;
 };
 
 std::vector<Piece> pieces(const Move& m) {
-  const double low = std::min(m.from.z, m.to.z);
   if (m.kind == MoveKind::kRapid) {
     const Vec2 lo{std::min(m.from.x, m.to.x), std::min(m.from.y, m.to.y)};
     const Vec2 hi{std::max(m.from.x, m.to.x), std::max(m.from.y, m.to.y)};
-    return {{{lo, {hi.x, lo.y}, hi, {lo.x, hi.y}}, low}};
+    return {{{lo, {hi.x, lo.y}, hi, {lo.x, hi.y}}, std::min(m.from.z, m.to.z), std::max(m.from.z, m.to.z)}};
   }
   const bool slopes = std::abs(m.from.z - m.to.z) > 1e-9 && norm(xy(m.to) - xy(m.from)) > 1e-9;
   const int n = std::max(pieces_of(m, kChordMm), slopes ? kPieces : 1);
@@ -74,7 +74,7 @@ std::vector<Piece> pieces(const Move& m) {
   geometry::Vec3 a = m.from;
   for (int i = 1; i <= n; ++i) {
     const geometry::Vec3 b = point_of(m, static_cast<double>(i) / n);
-    out.push_back({{xy(a), xy(b)}, std::min(a.z, b.z)});
+    out.push_back({{xy(a), xy(b)}, std::min(a.z, b.z), std::max(a.z, b.z)});
     a = b;
   }
   return out;
@@ -120,8 +120,9 @@ class FixtureChecks {
       const double flat = apart(piece.track, s.outline);
       for (const BodyPart& p : body_) {
         const double beside = flat - p.radius_mm - (is_arc(m.kind) ? kChordMm : 0.0);
+        // The part passes all heights between its lowest and its highest place.
         const double above =
-            std::max(piece.low_mm + p.from_mm - s.top_mm, s.bottom_mm - piece.low_mm - p.to_mm);
+            std::max(piece.low_mm + p.from_mm - s.top_mm, s.bottom_mm - (piece.high_mm + p.to_mm));
         const double one = std::max(beside, above);
         if (one < gap) {
           gap = one;
@@ -166,6 +167,24 @@ class FixtureChecks {
 };
 
 }  // namespace
+
+void check_bodies(const model::Plan& plan, const std::vector<StepMoves>& steps, Findings& findings) {
+  std::set<std::string> said;
+  for (const StepMoves& step : steps) {
+    if (step.cutter == nullptr || !(step.cutter->cutting_diameter_mm > 0.0)) continue;
+    const std::string what = not_described(*step.cutter);
+    if (what.empty()) continue;
+    // Where something stands around the piece this is no small matter.
+    const bool fixtures = step.setup < plan.setups.size() && !plan.setups[step.setup].holding.solids.empty();
+    if (!said.insert(step.cutter->id + (fixtures ? "/held" : "")).second) continue;
+    const Findings::Where at{step.order + 1, step.id, -1};
+    if (fixtures) {
+      findings.warn(12, "CHK-BODY-UNDECIDED", at, "tool '" + step.cutter->id + "': " + what);
+    } else {
+      findings.note(12, "CHK-BODY-UNDECIDED", at, "tool '" + step.cutter->id + "': " + what);
+    }
+  }
+}
 
 void check_fixtures(const model::Plan& plan, const std::vector<StepMoves>& steps, Findings& findings) {
   for (const StepMoves& step : steps) {

@@ -9,8 +9,8 @@ namespace {
 using geometry::Vec2;
 using model::FixtureSolid;
 
-constexpr double kPressMm = 0.05;     // a clamp touches what is within this below it
-constexpr double kLostShare = 0.005;  // of a contact, that sampling may lose
+constexpr double kPressMm = 0.05;     // a clamp touches what is within this of it; default, unsourced
+constexpr double kLostShare = 0.005;  // of a contact, that sampling may lose; default, unsourced
 
 /// The cell a point lies in; nothing outside.
 std::optional<std::size_t> cell_at(const Grid& g, Vec2 p) {

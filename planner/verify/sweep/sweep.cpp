@@ -46,6 +46,7 @@ bool sound(const model::Cutter* c) {
 
 void check_removal(const model::Plan& plan, const std::vector<StepMoves>& steps, Findings& findings,
                    Job& job) {
+  check_bodies(plan, steps, findings);
   check_fixtures(plan, steps, findings);
   if (plan.stock.box.empty()) {
     findings.warn(11, "CHK-NO-STOCK", {0, "", -1},

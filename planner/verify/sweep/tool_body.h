@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "planner/model/cutter.h"
@@ -15,9 +16,13 @@ struct BodyPart {
 [[nodiscard]] const char* to_text(BodyPart::What what);
 
 /// What is known of the tool, from its tip up: flutes as a full cylinder, shank, holder by its segments (each
-/// as thick as its thicker end), else by its largest diameter above the stick-out. Parts whose size is not
-/// stated are left out.
+/// as thick as its thicker end), else by its largest diameter above the stick-out. A shank that is not
+/// described is taken as thick as the cutter, and a tool of unknown stick-out goes on for kSpindleMm; both
+/// are defaults, unsourced. A holder that is not described is left out.
 [[nodiscard]] std::vector<BodyPart> body_of(const model::Cutter& c);
+
+/// What of a tool is not described, and what is taken instead; empty when all is.
+[[nodiscard]] std::string not_described(const model::Cutter& c);
 
 /// Above the holder there is the spindle; its nose is not known, so that the last part goes on this far, mm.
 inline constexpr double kSpindleMm = 300.0;
