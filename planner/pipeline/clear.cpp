@@ -19,6 +19,8 @@ constexpr double kSlack = 0.005;       // mm: chords of paths and of the regions
 constexpr double kSpindle = 300.0;     // mm above the holder that count as holder, too
 constexpr double kChord = 0.002;       // mm, of arcs
 constexpr double kNoArea = 0.01;       // mm2
+constexpr double kRise = 0.5;          // mm of height that one piece of a slope spans at most, up to ...
+constexpr int kMostPieces = 64;        // ... so many; longer pieces are taken with all their heights
 constexpr double kUsualCutter = 20.0;  // mm: overrun of a step whose cutter is not known yet; unsourced
 
 struct Cylinder {
@@ -26,26 +28,32 @@ struct Cylinder {
   double from, to, radius;
 };
 
+/// A shank whose diameter is not stated is taken as thick as the cutter; a tool whose stick-out is not stated
+/// goes on as it is. A holder that is not described has no cylinder: the checks of the plan say so.
 std::vector<Cylinder> cylinders(const model::Cutter& c) {
   const double r = std::max(0.5 * c.cutting_diameter_mm, model::profile_of(c).radius_mm);
-  const double out = c.stick_out_mm > 0.0 ? c.stick_out_mm : std::max(c.maximum_depth_of_cut_mm, 1.0);
+  const bool placed = c.stick_out_mm > 0.0;
+  const double out =
+      placed ? c.stick_out_mm
+             : kSpindle + std::max({c.maximum_depth_of_cut_mm, c.neck_length_mm, c.usable_length_mm});
   const double flutes = c.maximum_depth_of_cut_mm > 0.0 ? std::min(out, c.maximum_depth_of_cut_mm) : out;
+  const double shank = c.shank_diameter_mm > 0.0 ? 0.5 * c.shank_diameter_mm : r;
   std::vector<Cylinder> all = {{"the cutter", 0.0, flutes, r}};
   const double thick =
       std::clamp(c.neck_length_mm > 0.0 ? c.neck_length_mm : c.usable_length_mm, flutes, out);
-  const double neck =
-      c.neck_diameter_mm > 0.0 ? 0.5 * c.neck_diameter_mm : std::min(r, 0.5 * c.shank_diameter_mm);
+  const double neck = c.neck_diameter_mm > 0.0 ? 0.5 * c.neck_diameter_mm : std::min(r, shank);
   if (thick > flutes && neck > 0.0) all.push_back({"the shank", flutes, thick, neck});
-  if (out > thick && c.shank_diameter_mm > 0.0)
-    all.push_back({"the shank", thick, out, 0.5 * c.shank_diameter_mm});
-  if (!(c.stick_out_mm > 0.0)) return all;
+  if (out > thick) all.push_back({"the shank", thick, out, shank});
+  if (!placed) return all;
   double at = out;
+  const std::size_t below = all.size();
   for (const auto& s : c.holder) {
+    if (!(s.height_mm > 0.0) || !(std::max(s.lower_diameter_mm, s.upper_diameter_mm) > 0.0)) continue;
     all.push_back(
         {"the holder", at, at + s.height_mm, 0.5 * std::max(s.lower_diameter_mm, s.upper_diameter_mm)});
     at += s.height_mm;
   }
-  if (!c.holder.empty()) {
+  if (all.size() > below) {
     all.back().to += kSpindle;
   } else if (c.holder_diameter_mm > 0.0) {
     all.push_back({"the holder", out, out + kSpindle, 0.5 * c.holder_diameter_mm});
@@ -70,6 +78,36 @@ std::vector<Vec2> track(const model::CutterPath& p, std::size_t i) {
     return out;
   }
   out.push_back(b);
+  return out;
+}
+
+/// A piece of a move: where its axis may be, and between which heights its tip.
+struct Leg {
+  std::vector<Vec2> line;
+  double low, high;
+};
+
+/// Axes of a rapid need not arrive together, so that it may be anywhere in its box at any of its heights.
+std::vector<Leg> legs(const model::CutterPath& p, std::size_t i) {
+  std::vector<Vec2> line = track(p, i);
+  const double z0 = p.z[i - 1], z1 = p.z[i];
+  const double rise = std::abs(z1 - z0);
+  const bool upright = line.size() == 2 && norm(line[1] - line[0]) < 1e-9;
+  if (p.kind[i] == MoveKind::kRapid || upright || rise < 1e-9)
+    return {{std::move(line), std::min(z0, z1), std::max(z0, z1)}};
+  if (p.kind[i] == MoveKind::kLine) {
+    const Vec2 a = line[0], d = line[1] - line[0];
+    const int n = std::clamp(static_cast<int>(std::ceil(rise / kRise)), 1, kMostPieces);
+    line.clear();
+    for (int k = 0; k <= n; ++k) line.push_back(a + (static_cast<double>(k) / n) * d);
+  }
+  std::vector<Leg> out;
+  const auto n = static_cast<double>(line.size() - 1);
+  for (std::size_t k = 1; k < line.size(); ++k) {
+    const double za = z0 + (z1 - z0) * static_cast<double>(k - 1) / n;
+    const double zb = z0 + (z1 - z0) * static_cast<double>(k) / n;
+    out.push_back({{line[k - 1], line[k]}, std::min(za, zb), std::max(za, zb)});
+  }
   return out;
 }
 
@@ -107,6 +145,16 @@ double apart(const std::vector<Vec2>& line, bool closed, const FixtureSolid& s, 
 
 std::string place_text(Vec3 p) {
   return "(" + trimmed(p.x, 2) + ", " + trimmed(p.y, 2) + ", " + trimmed(p.z, 2) + ")";
+}
+
+std::string touch_text(const model::CutterPath& path, std::size_t i, const char* what, double gap,
+                       const FixtureSolid& s, const model::Workholding& h) {
+  const std::string move = "move " + std::to_string(i) +
+                           (path.kind[i] == MoveKind::kRapid ? " (rapid)" : "") + " from " +
+                           place_text(path.point(i - 1)) + " to " + place_text(path.point(i));
+  if (gap < 0.0) return move + ": " + what + " would enter '" + s.id + "' by " + trimmed(-gap, 2) + " mm";
+  return move + ": " + what + " would pass " + trimmed(gap, 2) + " mm from '" + s.id + "', less than " +
+         trimmed(h.clearance_mm, 2) + " mm";
 }
 
 Region region_of(const FixtureSolid& s) { return {{s.outline}}; }
@@ -154,16 +202,16 @@ std::optional<Touch> touch_of(const model::CutterPath& path, const model::Cutter
           b.hi.y + reach < around.lo.y) {
         continue;
       }
-      const double flat = apart(line, path.kind[i] == MoveKind::kRapid, s, area);
-      for (const Cylinder& c : tool) {
-        const double gap = std::max({flat - c.radius, low + c.from - s.top_mm, s.bottom_mm - low - c.to});
-        if (gap >= worst) continue;
-        worst = gap;
-        out = Touch{i, "move " + std::to_string(i) + (path.kind[i] == MoveKind::kRapid ? " (rapid)" : "") +
-                           " to " + place_text(path.point(i)) + ": " + c.what +
-                           (gap < 0.0 ? " would enter '" + s.id + "' by " + trimmed(-gap, 2) + " mm"
-                                      : " would pass " + trimmed(gap, 2) + " mm from '" + s.id +
-                                            "', less than " + trimmed(h.clearance_mm, 2) + " mm")};
+      for (const Leg& leg : legs(path, i)) {
+        const double flat = apart(leg.line, path.kind[i] == MoveKind::kRapid, s, area);
+        for (const Cylinder& c : tool) {
+          // Between the tip's lowest and highest place the cylinder is everywhere.
+          const double gap =
+              std::max({flat - c.radius, leg.low + c.from - s.top_mm, s.bottom_mm - leg.high - c.to});
+          if (gap >= worst) continue;
+          worst = gap;
+          out = Touch{i, touch_text(path, i, c.what, gap, s, h)};
+        }
       }
     }
   }

@@ -21,7 +21,6 @@ using tooling::HoldingWish;
 using tooling::Side;
 
 constexpr const char* kMark = "Workholding: ";  // begins the instruction that this stage writes
-constexpr double kLeastGrip = 3.0, kMostGrip = 2.0 / 3.0;
 
 std::string n(double v) { return trimmed(v, 3); }
 
@@ -121,7 +120,7 @@ class Chooser {
     for (const Side side : {Side::kPlusY, Side::kPlusX}) {
       for (const Vec2 p : parallels) {
         const double grip = f->height_mm - p.y;
-        if (grip < kLeastGrip || grip > kMostGrip * piece_.size().z) continue;
+        if (grip < tooling::kLeastGrip || grip > tooling::kUsualGrip * piece_.size().z) continue;
         HoldingWish wish = wish_of(id);
         wish.fixed_jaw = side;
         wish.parallel = p;
@@ -381,7 +380,14 @@ Status hold_workpieces(Work& w) {
     if (!done) return done;
   }
   for (std::size_t i = 0; i < w.setups.size(); ++i) {
-    if (!w.setups[i].holding.solids.empty()) write_nouns(w, i);
+    if (!w.setups[i].holding.solids.empty()) {
+      write_nouns(w, i);
+    } else if (kept) {
+      w.job.warn("PIP-HOLDING", "the plan says what holds other set-ups, but nothing of set-up " +
+                                    std::to_string(i + 1) +
+                                    ": what holds it is not planned and no fixture is checked there; "
+                                    "--workholding plans all of them anew");
+    }
   }
   return {};
 }

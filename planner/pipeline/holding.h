@@ -18,7 +18,8 @@ struct Touch {
   std::string text;  ///< move, part of the tool, solid and distance
 };
 /// The worst move of a path, or nothing when all keep clear. Rapids are taken as the box between their ends;
-/// the tool as upright cylinders: flutes, shank, holder.
+/// the tool as upright cylinders
+/// (flutes, shank, holder), each at all heights that the move takes it through.
 [[nodiscard]] std::optional<Touch> touch_of(const model::CutterPath& path, const model::Cutter& cutter,
                                             const model::Workholding& holding);
 

@@ -4,6 +4,7 @@
 
 #include "planner/base/file.h"
 #include "planner/model/nouns/all.h"
+#include "planner/pipeline/grouped.h"
 #include "planner/pipeline/shop.h"
 
 namespace capstan::pipeline {
@@ -62,6 +63,51 @@ TEST(Touch, TakesARapidAsTheBoxBetweenItsEnds) {
   EXPECT_FALSE(touch_of(q, mill(), one(80, 10, 90, 20, -5, 10)));
 }
 
+TEST(Touch, AHeadIsEverywhereBetweenTheEndsOfAnUprightMove) {
+  model::Cutter head = mill();
+  head.cutting_diameter_mm = 50;
+  head.maximum_depth_of_cut_mm = 10;
+  head.shank_diameter_mm = 22;
+  head.holder_diameter_mm = 22;
+  head.stick_out_mm = 90;
+  // At its lowest the head is 3 mm under the bar and the arbor 4 mm beside it.
+  const auto bar = one(15, -20, 30, 20, 8, 20);
+  for (const bool rapid : {true, false}) {
+    model::CutterPath p;
+    p.start({0, 0, 80});
+    if (rapid)
+      p.rapid({0, 0, -5});
+    else
+      p.line({0, 0, -5}, model::MoveRole::kPlunge);
+    const auto t = touch_of(p, head, bar);
+    ASSERT_TRUE(t);
+    EXPECT_NE(t->text.find("the cutter would enter 'clamp 1' by 10 mm"), std::string::npos) << t->text;
+  }
+  model::CutterPath under;
+  under.start({0, 0, -5});
+  under.line({0, 10, -5}, model::MoveRole::kCut);
+  EXPECT_FALSE(touch_of(under, head, bar));
+}
+
+TEST(Touch, TakesASlopeAtTheHeightsItHas) {
+  model::CutterPath p;
+  p.start({0, 0, 60});
+  p.line({100, 0, 10}, model::MoveRole::kRamp);
+  EXPECT_FALSE(touch_of(p, mill(), one(0, -5, 10, 5, -5, 45)));  // 20 mm further the tip is at 50
+  EXPECT_TRUE(touch_of(p, mill(), one(60, -5, 70, 5, -5, 28)));  // it ends there 2.5 mm lower
+}
+
+TEST(Touch, TakesWhatIsNotDescribedAsThickAsTheCutter) {
+  model::CutterPath p;
+  p.start({0, 0, 0});
+  p.line({100, 0, 0}, model::MoveRole::kCut);
+  model::Cutter c = mill();
+  c.shank_diameter_mm = 0;
+  EXPECT_TRUE(touch_of(p, c, one(40, 4, 60, 20, 25, 35)));
+  c.stick_out_mm = 0;
+  EXPECT_TRUE(touch_of(p, c, one(40, 4, 60, 20, 25, 35)));
+}
+
 TEST(Touch, FollowsArcs) {
   model::CutterPath p;
   p.start({-50, 0, 0});
@@ -69,6 +115,16 @@ TEST(Touch, FollowsArcs) {
   EXPECT_FALSE(touch_of(p, mill(), one(-5, 57.1, 5, 70, -5, 10)));
   EXPECT_TRUE(touch_of(p, mill(), one(-5, 56.9, 5, 70, -5, 10)));
   EXPECT_FALSE(touch_of(p, mill(), one(-5, -70, 5, -40, -5, 10)));
+}
+
+TEST(GroupedReasons, SayOnceWhatIsTheSameForMany) {
+  GroupedReasons r;
+  r.add("em10", "it is too short");
+  r.add("em12", "it is too wide");
+  r.add("em8", "it is too short");
+  EXPECT_EQ(r.text(), "em10: it is too short, the same for 1 more cutter; em12: it is too wide");
+  r.add("em6", "it is too short");
+  EXPECT_EQ(r.text(), "em10: it is too short, the same for 2 more cutters; em12: it is too wide");
 }
 
 Inputs shop(const std::string& workholding) {
@@ -110,6 +166,21 @@ TEST(Hold, AutoHoldsBothSidesOfAPlateInAViseAndKeepsItWhenBoundAgain) {
   for (const auto r : again->model.all(model::TypeId::kWorkpieceSetup))
     EXPECT_EQ(again->model.get<model::WorkpieceSetup>(r)->its_instructions.items.size(), 1U);
   for (const auto& f : findings_of(*again, job)) EXPECT_NE(f.severity, Severity::kError) << f.message;
+}
+
+TEST(Hold, ASetUpWithoutAHoldingAmongOthersIsNamed) {
+  Job job;
+  auto plan = bind(part("two_setups.p21"), shop("auto"), {}, job);
+  ASSERT_TRUE(plan);
+  plan->setups[1].holding = {};
+  Job second;
+  const auto again = bind(*plan, shop(""), {}, second);
+  ASSERT_TRUE(again);
+  EXPECT_FALSE(again->setups[0].holding.solids.empty());
+  bool said = false;
+  for (const auto& d : second.diagnostics())
+    said = said || (d.code == "PIP-HOLDING" && d.message.find("set-up 2") != std::string::npos);
+  EXPECT_TRUE(said);
 }
 
 TEST(Hold, AClampIsRefusedWhereAViseIsMeant) {

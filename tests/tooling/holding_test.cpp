@@ -108,6 +108,21 @@ TEST(Holding, EachFaultHasOneErrorThatNamesIt) {
   }
 }
 
+TEST(Holding, AForceBelowZeroIsRefused) {
+  Job job;
+  const auto with = [&](const std::string& force) {
+    return read(
+        "  - {setup: 1, fixture: mine}\nfixtures:\n  - {id: mine, kind: plate, width: 400, length: 300, "
+        "height: 40, support: 10, holding_force_n: " +
+            force + "}\n",
+        job);
+  };
+  EXPECT_TRUE(with("4000")) << with("4000").error().message;
+  ASSERT_FALSE(with("-4000"));
+  EXPECT_EQ(with("-4000").error().code, "DATA-RANGE");
+  EXPECT_NE(with("-4000").error().message.find("holding_force_n is -4000"), std::string::npos);
+}
+
 TEST(Holding, AVisesOpeningMustTakeThePiece) {
   Job job;
   const auto file = read("  - {setup: 1, fixture: vise_100, fixed_jaw: -x}\n", job);

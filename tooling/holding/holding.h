@@ -61,6 +61,9 @@ struct HoldingFile {
   std::vector<Fixture> fixtures;  ///< the shipped ones and the file's own, which come first
 };
 
+inline constexpr double kLeastGrip = 3.0;        ///< mm held by jaws, at least; default, unsourced
+inline constexpr double kUsualGrip = 2.0 / 3.0;  ///< of the piece's height, at most; default, unsourced
+
 /// The shipped fixtures.
 /// Fails  DATA-* when $CAPSTAN_DATA holds a damaged file.
 [[nodiscard]] Result<std::vector<Fixture>> shipped_fixtures(Job& job);

@@ -13,11 +13,11 @@ using geometry::Vec3;
 using model::FixtureSolid;
 using model::Workholding;
 
-constexpr double kTouch = 0.01;           // mm: nearer is contact, deeper is inside
-constexpr double kLeastGrip = 3.0;        // mm held by the jaws; default, unsourced
-constexpr double kUsualGrip = 2.0 / 3.0;  // of the piece's height, at most; default, unsourced
-constexpr double kLeastStanding = 1.0;    // mm of the piece above the jaws; default, unsourced
-constexpr double kBlock = 20.0;           // mm: a strap clamp's rear block; default, unsourced
+constexpr double kTouch = 0.01;         // mm: nearer is contact, deeper is inside
+constexpr double kLeastStanding = 1.0;  // mm of the piece above the jaws; default, unsourced
+constexpr double kBlock = 20.0;         // mm: a strap clamp's rear block; default, unsourced
+constexpr double kBoltToPiece = 3.0;    // mm between a strap clamp's bolt and the piece; default, unsourced
+constexpr double kBehindBolt = 2.0;     // mm of the strap behind its bolt; default, unsourced
 
 std::string n(double v) { return trimmed(v, 3); }
 
@@ -208,8 +208,8 @@ class Placer {
                 c.at,
             {std::abs(back.x), std::abs(back.y)}) *
         (back.x + back.y);
-    const double stud = std::max(edge, 0.0) + 0.5 * f->stud_mm + 3.0;
-    if (stud + 0.5 * f->stud_mm + 2.0 > f->length_mm) {
+    const double stud = std::max(edge, 0.0) + 0.5 * f->stud_mm + kBoltToPiece;
+    if (stud + 0.5 * f->stud_mm + kBehindBolt > f->length_mm) {
       return wrong("HOLD-CONTACT",
                    c.name + " ('" + c.clamp + "') is " + n(f->length_mm) +
                        " mm long: its bolt would stand in the "

@@ -97,7 +97,11 @@ Fixture fixture_of(Fields f) {
     out.stud_mm = positive(f, "stud");
     out.stud_height_mm = positive(f, "stud_height");
   }
+  const std::size_t before = f.fault_count();
   out.holding_force_n = f.number_or("holding_force_n", 0.0);
+  if (f.fault_count() == before && !(out.holding_force_n >= 0.0 && std::isfinite(out.holding_force_n)))
+    f.fault("DATA-RANGE", "holding_force_n is " + trimmed(out.holding_force_n, 4), "holding_force_n",
+            f.line_of("holding_force_n"), "a force of zero, for not known, or more");
   f.finish();
   out.source = f.source().empty() ? "not stated" : f.source();
   return out;
