@@ -396,9 +396,13 @@ Result<CutAnswer> cut(const CutQuestion& q, const Options& options, Job& job) {
   std::optional<CutAnswer> best;
   double best_time = 0.0;
   int tries = 0;
-  for (int levels = fewest; tries < 12;
+  // Thinner levels than this are not tried; default, unsourced.
+  constexpr double kThinnestMm = 0.05;
+  constexpr int kMostTries = 24;
+  for (int levels = fewest; tries < kMostTries;
        levels = std::max(levels + 1, static_cast<int>(levels * 1.3)), ++tries) {
     const double ap = depth / levels;
+    if (best && ap < kThinnestMm) break;
     auto a = solve_at(q, ap, options, job);
     if (!a) return a;
     a->levels = levels;

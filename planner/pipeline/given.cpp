@@ -282,17 +282,31 @@ void overrule_coolant(Work& w, const StepWork& step) {
   const model::Machine& machine = w.plan.machine;
   const bool through = f->through_spindle_coolant.value_or(false) && !machine.has_through;
   const bool mist = f->mist.value_or(false) && !machine.has_mist;
-  // Without flood, too, there is nothing to fall back on: the checker refuses the machine.
-  if ((!through && !mist) || !machine.has_flood) return;
+  const bool flood = f->coolant.value_or(false) && !machine.has_flood;
+  if (!through && !mist && !flood) return;
+  std::string what;
+  for (const auto& [lacks, name] : {std::pair{through, "coolant through the spindle"},
+                                    std::pair{mist, "mist"}, std::pair{flood, "flood coolant"}}) {
+    if (lacks) what += (what.empty() ? "" : " and ") + std::string(name);
+  }
   if (through) f->through_spindle_coolant = false;
   if (mist) f->mist = false;
-  f->coolant = true;
-  const std::string what =
-      std::string(through ? "coolant through the spindle" : "mist") + (through && mist ? " and mist" : "");
-  const std::string text = "machine '" + machine.id + "' has no " + what + ": flood coolant instead";
+  if (flood) f->coolant = false;
+  const bool on = f->coolant.value_or(false) || f->mist.value_or(false);
+  const char* instead = on ? "without it" : "cut dry";
+  if (!on && machine.has_flood) {
+    f->coolant = true;
+    instead = "flood coolant instead";
+  } else if (!on && machine.has_mist) {
+    f->mist = true;
+    instead = "mist instead";
+  }
+  const std::string text = "machine '" + machine.id + "' has no " + what + ": " + instead;
   w.job.warn("PIP-CHANGED", "operation '" + op->its_id.value_or("") + "': " + text);
-  for (const char* attribute : {"through_spindle_coolant", "mist"}) {
-    if ((attribute[0] == 't' && !through) || (attribute[0] == 'm' && !mist)) continue;
+  for (const char* attribute : {"through_spindle_coolant", "mist", "coolant"}) {
+    if ((attribute[0] == 't' && !through) || (attribute[0] == 'm' && !mist) ||
+        (attribute[0] == 'c' && !flood))
+      continue;
     w.plan.ledger.bind(functions, attribute, model::Binder::kRule,
                        {"machine.coolant", text, "the machine's own description"});
   }

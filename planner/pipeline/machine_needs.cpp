@@ -125,6 +125,9 @@ void tell_loading(Work& w) {
     list += (list.empty() ? "" : "; ") + ("T" + std::to_string(c.pocket)) + " " + c.id;
   }
   if (known && missing > 0) w.job.note("PIP-TO-LOAD", "to load: " + list);
+  if (w.plan.machine.magazine_pockets == 1 && w.plan.cutters.size() > 1)
+    w.job.note("PIP-BY-HAND", "machine '" + w.plan.machine.id + "' has no tool changer: the " +
+                                  std::to_string(w.plan.cutters.size()) + " tools are changed by hand");
 }
 
 }  // namespace capstan::pipeline

@@ -18,15 +18,35 @@ using model::TypeId;
 
 constexpr double kRetract = 5.0;  // retract plane above the material over a feature, mm; default, unsourced
 
-Ref<model::MachineFunctions> functions(Model& m, bool coolant, bool through) {
+/// The coolant that a step wants, or the next best that the machine has: mist for flood, else none.
+struct Coolant {
+  bool flood = false, mist = false, through = false;
+  std::string instead;  ///< what was taken in place of what; empty: as wanted
+};
+
+Coolant coolant_on(const model::Machine& machine, const model::ProposedStep& step) {
+  Coolant out{step.coolant, false, step.coolant_through, {}};
+  if (!out.flood || machine.has_flood) return out;
+  out.flood = false;
+  out.mist = machine.has_mist;
+  out.instead =
+      "machine '" + machine.id + "' has no flood coolant: " + (out.mist ? "mist instead" : "cut dry");
+  return out;
+}
+
+Ref<model::MachineFunctions> functions(Work& w, const Coolant& want) {
+  Model& m = w.plan.model;
   for (const AnyRef r : m.all(TypeId::kMillingMachineFunctions)) {
     const auto* f = m.get<model::MillingMachineFunctions>(r);
-    if (m.origin(r).instance == 0 && f->coolant == coolant && f->through_spindle_coolant == through)
+    if (m.origin(r).instance == 0 && f->coolant == want.flood && f->through_spindle_coolant == want.through &&
+        f->mist.value_or(false) == want.mist)
       return Ref<model::MachineFunctions>(r);
   }
+  if (!want.instead.empty()) w.job.warn("PIP-CHANGED", want.instead);
   model::MillingMachineFunctions f;
-  f.coolant = coolant;
-  f.through_spindle_coolant = through;
+  f.coolant = want.flood;
+  if (want.mist) f.mist = true;
+  f.through_spindle_coolant = want.through;
   f.chip_removal = false;
   f.axis_clamping.given = true;
   f.other_functions.given = true;
@@ -161,7 +181,8 @@ Ref<model::MachiningWorkingstep> add_nouns(Work& w, const model::ProposedStep& s
   const AnyRef op = m.add_object(step.operation);
   const auto made_tool = tool_noun(w, tool.cutter);
   const auto made_technology = technology(m, step.lock_override);
-  const auto made_functions = functions(m, step.coolant, step.coolant_through);
+  const Coolant coolant = coolant_on(w.plan.machine, step);
+  const auto made_functions = functions(w, coolant);
   auto* o = m.get<model::MachiningOperation>(op);
   o->its_id = step.name;
   o->its_tool = made_tool;
@@ -196,6 +217,10 @@ Ref<model::MachiningWorkingstep> add_nouns(Work& w, const model::ProposedStep& s
     if (a != nullptr && model::has_value(*a, m.object(op)))
       ledger.bind(op, name, Binder::kRule, step.why, {chain});
   }
+  if (!coolant.instead.empty())
+    ledger.bind(op, "its_machine_functions", Binder::kRule,
+                {"machine.coolant", step.why.text + "; " + coolant.instead, "the machine's own description"},
+                {chain});
   ledger.bind(
       op, "retract_plane", Binder::kDefault,
       {"default.retract_plane", trimmed(kRetract, 3) + " mm above the raw piece", "default, unsourced"});

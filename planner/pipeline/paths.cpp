@@ -10,6 +10,7 @@
 #include "planner/exchange/iso14649/curves.h"
 #include "planner/motion/time.h"
 #include "planner/pipeline/holding.h"
+#include "planner/pipeline/split.h"
 #include "planner/pipeline/steps.h"
 #include "planner/stock/turned.h"
 
@@ -109,7 +110,7 @@ bool opens_outwards(const model::FeatureShape& s) {
 }
 
 using QuestionKey = std::tuple<std::string, int, double, double, double, double, double, double, double,
-                               double, double, double, double, double, double, double, bool>;
+                               double, double, double, double, double, double, double, bool, bool>;
 
 QuestionKey key_of(const optimise::CutQuestion& q) {
   constexpr double kUnset = -1.0;
@@ -129,7 +130,8 @@ QuestionKey key_of(const optimise::CutQuestion& q) {
           q.engaged_diameter_mm,
           q.ap_most_mm,
           q.least_feed_ratio,
-          q.slot};
+          q.slot,
+          q.override_locked};
 }
 
 class PathMaker {
@@ -379,7 +381,7 @@ class PathMaker {
     fq.feed_factor = std::move(made.path.feed_factor);
     fq.speed_factor = std::move(made.path.speed_factor);
     fq.dwell_s = std::move(made.path.dwell_s);
-    auto path = std::make_shared<const model::CutterPath>(std::move(made.path.path));
+    auto path = std::make_shared<model::CutterPath>(std::move(made.path.path));
     model::StepResult r = result_of(step);
     r.axial_depth_mm = made.answer.ap_mm;
     r.radial_depth_mm = made.answer.ae_mm;
@@ -439,7 +441,7 @@ class PathMaker {
     fq.cut.cutter = step.cutter;
     fq.cut.machine = w_.plan.machine;
     fq.cut.material = w_.plan.material;
-    auto path = std::make_shared<const model::CutterPath>(std::move(given->path));
+    auto path = std::make_shared<model::CutterPath>(std::move(given->path));
     if (step.cutter.cutting_diameter_mm > 0.0) {
       if (auto ok = measure(step, *path, r, fq); !ok) return ok;
     }
@@ -453,7 +455,8 @@ class PathMaker {
     return keep(step, std::move(r), fq);
   }
 
-  Status measure(const StepWork& step, const model::CutterPath& path, model::StepResult& r,
+  /// Sections along the path, for feeds: where those may be chosen, straight moves are cut where they change.
+  Status measure(const StepWork& step, model::CutterPath& path, model::StepResult& r,
                  optimise::FeedQuestion& fq) {
     auto m = engagement::measure(path, step.cutter, map_of(step.setup));
     if (!m) {
@@ -464,7 +467,9 @@ class PathMaker {
       w_.job.warn("PIP-RAPID", "step '" + name_of(step) + "': rapid moves touch " +
                                    trimmed(m->rapid_removed_mm3, 3) + " mm3 of material");
     }
-    const auto& s = m->sections;
+    auto& s = m->sections;
+    const bool mills = fq.cut.kind == optimise::CutKind::kRough || fq.cut.kind == optimise::CutKind::kFinish;
+    if (fq.adapt && mills) split_uneven(step.cutter.cutting_diameter_mm, path, s, fq);
     for (std::size_t i = 0; i < s.size(); ++i) {
       const engagement::Engagement& e = m->engagement[i];
       // A section that is no rectangle (a wall and a floor at once) counts as two of its area: as deep, and
@@ -472,7 +477,14 @@ class PathMaker {
       const double ap = e.ap_mm;
       const double ae = e.ae_mm;
       const bool whole = e.plunge || !(ap > 0.0 && ae > 0.0) || e.csa_mm2 >= kWhole * ap * ae;
-      fq.samples.push_back({s.move[i], ap, whole ? ae : e.csa_mm2 / ap, e.plunge});
+      // On an arc about a corner the edge goes farther than the centre, and removes more than depth times
+      // width.
+      const double swept = ap > 0.0 ? e.csa_mm2 / ap : ae;
+      fq.samples.push_back({s.move[i], ap,
+                            whole && !e.plunge ? std::max(ae, swept)
+                            : whole            ? ae
+                                               : swept,
+                            e.plunge});
       if (!whole) fq.samples.push_back({s.move[i], e.csa_mm2 / ae, ae, e.plunge});
     }
     r.sections = std::make_shared<const model::SectionSeries>(std::move(m->sections));
@@ -490,11 +502,26 @@ class PathMaker {
     if (t) {
       r.cutting_s = t->cutting_s + t->dwell_s;
       r.rapid_s = t->rapid_s;
+      tell_slow(step, r);
     } else {
       w_.job.warn(t.error().code, "step '" + name_of(step) + "' has no time: " + t.error().message);
     }
     w_.plan.steps.push_back(std::move(r));
     return {};
+  }
+
+  /// Hours of cutting are worth another tool: said with what holds the step back.
+  void tell_slow(const StepWork& step, const model::StepResult& r) {
+    constexpr double kSlowS = 4.0 * 3600.0;  // default, unsourced
+    if (!step.open_technology || r.cutting_s < kSlowS) return;
+    std::string limits;
+    for (const auto& a : r.active) limits += (limits.empty() ? "" : ", ") + a.name;
+    w_.job.warn("PIP-SLOW", "step '" + name_of(step) + "' cuts " + trimmed(r.cutting_s / 3600.0, 1) +
+                                " h with " + step.cutter.id + " (" +
+                                trimmed(step.cutter.cutting_diameter_mm, 3) + " mm, " +
+                                trimmed(step.cutter.stick_out_mm, 1) + " mm out), held back by " +
+                                (limits.empty() ? "given values" : limits) +
+                                "; a larger or shorter cutter would be quicker");
   }
 
   model::StepResult result_of(const StepWork& step) const {

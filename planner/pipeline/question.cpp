@@ -4,6 +4,7 @@
 #include "casebase/casebase.h"
 #include "planner/base/number.h"
 #include "planner/pipeline/steps.h"
+#include "planner/toolpath/hole/hole_paths.h"
 #include "tooling/select/select.h"
 
 // The question that the optimiser is asked for a step, from nouns and geometry.
@@ -119,6 +120,7 @@ optimise::CutQuestion hole_question(const Work& w, const model::ProposedStep& st
   q.fz_start_mm = c.fz_mm;
   q.pre_hole_mm = step.start_diameter_mm;
   q.least_feed_ratio = optimise::kLeastDrillFeed;
+  q.override_locked = step.lock_override;
   q.engaged_diameter_mm = engaged(step.operation, c.cutter, step.depth_mm);
   return q;
 }
@@ -182,12 +184,20 @@ optimise::CutQuestion question_of(const Work& w, const StepWork& step, const mod
     q.width_mm = std::min(q.width_mm, d);
   }
   if (step.cutter.cutter_class == model::CutterClass::kTSlotMill ||
-      step.cutter.cutter_class == model::CutterClass::kDovetailMill)
+      step.cutter.cutter_class == model::CutterClass::kDovetailMill ||
+      step.cutter.cutter_class == model::CutterClass::kBackCountersink)
     under_an_overhang(q, job.cutter);
+  if (q.slot && job.shape.kind == model::ShapeKind::kHole && toolpath::cuts_from_below(job)) {
+    const auto most = toolpath::back_cut(job);
+    q.slot = false;
+    q.ap_mm = q.depth_mm = most.ap_mm;
+    q.ae_mm = q.width_mm = most.ae_mm;
+  }
   const bool cone = step.cutter.cutter_class == model::CutterClass::kChamferMill ||
                     step.cutter.cutter_class == model::CutterClass::kCountersink;
   // A broken edge: as wide as it is deep.
   if (cone && q.kind == CutKind::kFinish && q.ap_mm) q.width_mm = std::max(0.05, *q.ap_mm);
+  q.override_locked = step.proposed && step.proposal.lock_override;
   if (!step.open_technology) {
     const auto given = given_technology(m, step.operation, step.cutter);
     if (given.rpm) q.n_rpm = std::abs(*given.rpm);

@@ -65,6 +65,8 @@ void fill_lengths(Cutter& c, const Cutter& g, Filler& f) {
   }
 }
 
+constexpr const char* kBorrowed = " (as generic/";
+
 void fill_feeds(Cutter& c, const Cutter& g, Filler& f) {
   // A smaller tooth bears less; a larger one is not trusted with more.
   const double scale = std::min(1.0, c.cutting_diameter_mm / g.cutting_diameter_mm);
@@ -75,17 +77,29 @@ void fill_feeds(Cutter& c, const Cutter& g, Filler& f) {
     if (c.fz_min_mm == 0.0)
       f.take(c.fz_min_mm, std::min(c.fz_max_mm, rounded(g.fz_min_mm * scale, 5)), "fz_min_mm");
   }
-  if (!c.presets.empty()) return;
+  std::string own;
+  for (const model::CuttingPreset& p : c.presets) {
+    // Whoever was completed before has them already.
+    if (borrowed(p)) return;
+    own += (own.empty() ? "" : ", ") + p.material_group;
+  }
+  const std::size_t stated = c.presets.size();
   for (model::CuttingPreset p : g.presets) {
+    const auto end = c.presets.begin() + static_cast<std::ptrdiff_t>(stated);
+    if (std::any_of(c.presets.begin(), end,
+                    [&](const auto& o) { return o.material_group == p.material_group; }))
+      continue;
     p.fz_mm = rounded(p.fz_mm * scale, 5);
     // Another substrate bears another speed: the material's own is taken then.
     if (c.substrate != g.substrate) p.vc_m_min = 0.0;
-    p.source += " (as " + g.id + ")";
+    p.source += " (as " + g.id + (own.empty() ? "" : "; its own values are for " + own + " only") + ")";
     c.presets.push_back(std::move(p));
   }
 }
 
 }  // namespace
+
+bool borrowed(const model::CuttingPreset& p) { return p.source.find(kBorrowed) != std::string::npos; }
 
 void complete(Cutter& c, const std::vector<Cutter>& generic) {
   const Cutter* g = nearest(c, generic);

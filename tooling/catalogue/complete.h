@@ -14,6 +14,10 @@ namespace capstan::tooling {
 /// not to cut to the centre and to ramp at kCautiousRampRad.
 void complete(model::Cutter& c, const std::vector<model::Cutter>& generic);
 
+/// Whether a preset is not the cutter's own but taken from the generic cutter nearest to it: it counts only
+/// where no own preset is for the material.
+[[nodiscard]] bool borrowed(const model::CuttingPreset& p);
+
 inline constexpr double kCautiousRampRad = 3.0 * 3.14159265358979323846 / 180.0;  ///< default, unsourced
 
 /// What it says in `sources` of a field, or null.

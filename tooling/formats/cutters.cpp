@@ -490,7 +490,10 @@ CatalogueItem item_of(const Cutter& c) {
   if (!c.thread_form.empty()) text("THFT", c.thread_form, "thread_form");
   if (!c.library_reference.empty()) text("PLIB", c.library_reference, "library_reference");
   if (!c.library_source.empty()) text("PLIBSOURCE", c.library_source, "library_source");
+  const bool own =
+      std::any_of(c.presets.begin(), c.presets.end(), [](const auto& p) { return !borrowed(p); });
   for (const auto& p : c.presets) {
+    if (own && borrowed(p)) continue;  // filled in again by whoever reads
     Preset q;
     q.name = q.material = p.material_group;
     if (p.vc_m_min > 0.0) q.vc_m_min = p.vc_m_min;

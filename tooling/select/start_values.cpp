@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "planner/base/number.h"
+#include "tooling/catalogue/complete.h"
 #include "tooling/select/limits.h"
 #include "tooling/select/select.h"
 
@@ -22,15 +23,19 @@ constexpr double kSlack = 1e-9;
 constexpr double kLeastFeedPerDiameter = 0.002;  // default, unsourced
 
 const CuttingPreset* preset_for(const Cutter& c, const WorkMaterial& m) {
-  const auto named = [&](const std::string& name) -> const CuttingPreset* {
-    for (const CuttingPreset& p : c.presets)
-      if (p.material_group == name) return &p;
-    return nullptr;
-  };
-  if (const auto* p = named(m.id)) return p;
-  for (const std::string& name : m.names)
-    if (const auto* p = named(name)) return p;
-  return named(m.iso_group);
+  // The cutter's own presets first, from the material itself to its group; then those of its like.
+  for (const bool of_its_like : {false, true}) {
+    const auto named = [&](const std::string& name) -> const CuttingPreset* {
+      for (const CuttingPreset& p : c.presets)
+        if (p.material_group == name && borrowed(p) == of_its_like) return &p;
+      return nullptr;
+    };
+    if (const auto* p = named(m.id)) return p;
+    for (const std::string& name : m.names)
+      if (const auto* p = named(name)) return p;
+    if (const auto* p = named(m.iso_group)) return p;
+  }
+  return nullptr;
 }
 
 double feed_limit(const Cutter& c, const Machine& m) {

@@ -282,6 +282,19 @@ void step_table(const Plan& plan, const std::vector<StepView>& views, std::strin
   if (!measured.empty()) out += "\nMeasured in the process\n" + measured;
 }
 
+/// Where something is loaded, what else the magazine needs.
+void loading_list(const Plan& plan, std::string& out) {
+  const auto loaded = [](const model::Cutter& c) { return c.loaded; };
+  const bool known = std::any_of(plan.cutters.begin(), plan.cutters.end(), loaded);
+  Rows rows;
+  for (const model::Cutter& c : plan.cutters) {
+    if (known && !c.loaded) rows.push_back({"T" + std::to_string(c.pocket), c.id, cutter_text(plan, c.id)});
+  }
+  if (!rows.empty()) out += "\nTo load\n" + table(rows);
+  if (plan.machine.magazine_pockets == 1 && plan.cutters.size() > 1)
+    out += "\nThe machine has no tool changer: tools are changed by hand.\n";
+}
+
 void open_list(const Plan& plan, std::string& out) {
   Rows rows;
   for (const DecisionKey& key : open_decisions(plan)) rows.push_back({key_text(plan, key)});
@@ -300,6 +313,7 @@ std::string explain(const Plan& plan) {
     out += "\nNot planned\n";
     for (const auto& u : plan.unplanned) out += "  " + label(plan.model, u.feature) + ": " + u.reason + "\n";
   }
+  loading_list(plan, out);
   open_list(plan, out);
   if (!views.empty()) {
     out += "\nFor one step, with the reason of each value: capstan explain PLAN '" + views.front().id + "'\n";

@@ -100,6 +100,15 @@ class Writer {
     out_.number(cutting);
     out_.key("rapid_s");
     out_.number(rapid);
+    const auto loaded = [](const model::Cutter& c) { return c.loaded; };
+    if (std::any_of(plan_.cutters.begin(), plan_.cutters.end(), loaded)) {
+      out_.key("to_load");
+      out_.open('[', false);
+      for (const model::Cutter& c : plan_.cutters) {
+        if (!c.loaded) out_.text(c.id);
+      }
+      out_.close();
+    }
     out_.close();
   }
 

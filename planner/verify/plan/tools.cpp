@@ -25,7 +25,8 @@ void check_cutter(const model::Plan& plan, const model::Cutter& c, Findings& fin
   if (!(c.cutting_diameter_mm > 0.0))
     findings.error(4, "CHK-TOOL", whole, "tool " + c.id + " has no cutting diameter");
   const int pockets = plan.machine.magazine_pockets;
-  if (c.pocket <= 0 || (pockets > 0 && c.pocket > pockets)) {
+  // One pocket is the spindle itself: tools are changed by hand, and numbers are free.
+  if (c.pocket <= 0 || (pockets > 1 && c.pocket > pockets)) {
     findings.error(4, "CHK-TOOL", whole,
                    "tool " + c.id + " is in pocket " + std::to_string(c.pocket) + "; the magazine has " +
                        std::to_string(pockets));

@@ -96,7 +96,7 @@ class StateChecks {
     if (b.cycle_active) out_.error(26, "CHK-CYCLE", c_.where(b), "M6 while a cycle is active");
     if (b.tool > 0 && c_.cutter(b.tool) == nullptr)
       out_.error(4, "CHK-TOOL", c_.where(b), "T" + std::to_string(b.tool) + " is not in the tool library");
-    if (c_.machine.magazine_pockets > 0 && b.tool > c_.machine.magazine_pockets) {
+    if (c_.machine.magazine_pockets > 1 && b.tool > c_.machine.magazine_pockets) {
       out_.error(4, "CHK-TOOL", c_.where(b),
                  "T" + std::to_string(b.tool) + "; the magazine has " +
                      std::to_string(c_.machine.magazine_pockets) + " pockets");

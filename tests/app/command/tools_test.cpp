@@ -1,0 +1,163 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+// Tool libraries through the built program: read, written, converted, with what is lost on the way.
+
+namespace capstan::app {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class ToolsCommand : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (fs::temp_directory_path() / "capstan-tools-XXXXXX").string();
+    ASSERT_NE(::mkdtemp(name.data()), nullptr);
+    folder_ = name;
+    put("mill.fctb", R"({"version": 2, "name": "Mill 5", "shape": "endmill.fcstd", "parameter": {
+      "CuttingEdgeHeight": "20 mm", "Diameter": "5 mm", "Length": "50 mm", "ShankDiameter": "6 mm"},
+      "attribute": {}})");
+    put("own.yaml",
+        "capstan_tools: 1\nunit: mm\ntools:\n"
+        "  - {id: em6, class: endmill, cutting_diameter: 6, teeth: 3, stick_out: 25}\n"
+        "  - {id: dr5, class: twist_drill, cutting_diameter: 5, teeth: 2, stick_out: 60}\n");
+    put("bare.csv", "id,class,diameter\nem,endmill,0.5\n");
+    put("nothing.txt", "no library at all\n");
+  }
+  void TearDown() override {
+    std::error_code ignored;
+    fs::remove_all(folder_, ignored);
+  }
+  /// Exit code; the two streams are kept.
+  int run(const std::string& arguments) {
+    std::string line = "cd '";
+    line.append(folder_.string()).append("' && '" CAPSTAN_COMMAND "' tools ").append(arguments);
+    line.append(" >out.txt 2>err.txt");
+    const int status = std::system(line.c_str());
+    out_ = slurp("out.txt");
+    err_ = slurp("err.txt");
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  void put(const std::string& name, const std::string& bytes) const {
+    std::ofstream(folder_ / name, std::ios::binary) << bytes;
+  }
+  [[nodiscard]] std::string slurp(const std::string& name) const {
+    std::ifstream in(folder_ / name, std::ios::binary);
+    std::ostringstream text;
+    text << in.rdbuf();
+    return text.str();
+  }
+  [[nodiscard]] bool there(const std::string& name) const { return fs::exists(folder_ / name); }
+
+  fs::path folder_;
+  std::string out_, err_;
+};
+
+TEST_F(ToolsCommand, ListsAndShowsWhatALibraryHolds) {
+  EXPECT_EQ(run("list --tools own.yaml"), 0) << err_;
+  EXPECT_THAT(out_, HasSubstr("em6"));
+  EXPECT_THAT(out_, HasSubstr("dr5"));
+  EXPECT_EQ(run("show em6 --tools own.yaml"), 0) << err_;
+  EXPECT_THAT(out_, HasSubstr("cutting_diameter      6 mm"));
+  EXPECT_THAT(out_, HasSubstr("stick_out             25 mm"));
+}
+
+TEST_F(ToolsCommand, ACutterThatIsNotThereIsAWrongUse) {
+  EXPECT_EQ(run("show em7 --tools own.yaml"), 2);
+  EXPECT_THAT(err_, HasSubstr("em7"));
+}
+
+TEST_F(ToolsCommand, ImportSaysWhatIsLostAndWritesTheRest) {
+  EXPECT_EQ(run("import mill.fctb -o a.yaml"), 0) << err_;
+  EXPECT_THAT(err_, HasSubstr("TOOLS-DROPPED"));
+  EXPECT_THAT(err_, HasSubstr("read 1 tool from mill.fctb"));
+  EXPECT_THAT(slurp("a.yaml"), HasSubstr("cutting_diameter: 5"));
+  EXPECT_THAT(slurp("a.yaml"), HasSubstr("maximum_depth_of_cut: 20"));
+}
+
+TEST_F(ToolsCommand, WithoutAnOutputImportSaysWhatPlanningCanUse) {
+  EXPECT_EQ(run("import own.yaml"), 0) << err_;
+  EXPECT_THAT(err_, HasSubstr("planning can use 2"));
+}
+
+TEST_F(ToolsCommand, TheReportIsJsonOnStandardOutputAndNamesEveryField) {
+  EXPECT_EQ(run("convert mill.fctb -o a.yaml --json"), 0) << err_;
+  EXPECT_THAT(out_, HasSubstr("\"read\": {"));
+  EXPECT_THAT(out_, HasSubstr("\"written\": [{\"file\": \"a.yaml\""));
+  EXPECT_THAT(out_, HasSubstr("\"dropped\": ["));
+  EXPECT_THAT(out_, HasSubstr("\"field\": \"shape\""));
+}
+
+TEST_F(ToolsCommand, ConvertKeepsTheSizesThroughEveryFormatThatIsWritten) {
+  for (const char* name : {"a.csv", "a.tools", "a.json", "a.sqlite", "a.p21", "a.zip"}) {
+    EXPECT_EQ(run(std::string("convert own.yaml -o ") + name), 0) << name << "\n" << err_;
+    EXPECT_EQ(run(std::string("list --tools ") + name), 0) << name << "\n" << err_;
+    EXPECT_THAT(out_, ::testing::ContainsRegex("endmill +6 ")) << name;
+    EXPECT_THAT(out_, ::testing::ContainsRegex("drill +5 ")) << name;
+  }
+}
+
+TEST_F(ToolsCommand, ThereAreFormatsForMachinesThatAreOnlyWritten) {
+  EXPECT_EQ(run("convert own.yaml -o a.xml"), 0) << err_;
+  EXPECT_THAT(slurp("a.xml"), HasSubstr("MTConnectAssets"));
+  EXPECT_EQ(run("list --tools a.xml"), 3);
+}
+
+TEST_F(ToolsCommand, ExportWritesTheLibraryThatPlanningUses) {
+  EXPECT_EQ(run("export --tools own.yaml -o e.csv"), 0) << err_;
+  EXPECT_THAT(slurp("e.csv"), HasSubstr("em6"));
+  EXPECT_EQ(run("export -o g.yaml"), 0) << err_;
+  EXPECT_THAT(slurp("g.yaml"), HasSubstr("generic/"));
+}
+
+TEST_F(ToolsCommand, AUnitThatTheFileLeavesOpenIsTheCallers) {
+  EXPECT_EQ(run("import bare.csv --unit inch -o inch.yaml"), 0) << err_;
+  EXPECT_EQ(run("show em --tools inch.yaml"), 0) << err_;
+  EXPECT_THAT(out_, HasSubstr("cutting_diameter      12.7 mm"));  // 0.5 x 25.4
+  EXPECT_EQ(run("import bare.csv --unit mm -o mm.yaml"), 0) << err_;
+  EXPECT_EQ(run("show em --tools mm.yaml"), 0) << err_;
+  EXPECT_THAT(out_, HasSubstr("cutting_diameter      0.5 mm"));
+}
+
+TEST_F(ToolsCommand, WrongUseEndsWithTwoAndWritesNothing) {
+  EXPECT_EQ(run("import own.yaml --unit furlong -o a.csv"), 2);
+  EXPECT_THAT(err_, HasSubstr("furlong"));
+  EXPECT_EQ(run("convert own.yaml -o a.zzz"), 2);
+  EXPECT_THAT(err_, HasSubstr("APP-FORMAT"));
+  EXPECT_EQ(run("convert own.yaml"), 2);
+  EXPECT_EQ(run("convert own.yaml -o a.csv --format cobol"), 2);
+  EXPECT_EQ(run("import own.yaml --save-map m.yaml"), 2);
+  EXPECT_FALSE(there("a.csv") || there("a.zzz") || there("m.yaml"));
+}
+
+TEST_F(ToolsCommand, WhatCannotBeReadEndsWithThreeAndWritesNothing) {
+  EXPECT_EQ(run("import nothing.txt -o a.csv"), 3);
+  EXPECT_THAT(err_, HasSubstr("LIBRARY-KIND"));
+  EXPECT_EQ(run("import absent.csv -o a.csv"), 3);
+  EXPECT_EQ(run("list --tools nothing.txt"), 3);
+  EXPECT_FALSE(there("a.csv"));
+}
+
+TEST_F(ToolsCommand, AnOutputThatCannotBeWrittenEndsWithFour) {
+  EXPECT_EQ(run("convert own.yaml -o absent/a.csv"), 4);
+  EXPECT_THAT(err_, HasSubstr("FILE-WRITE"));
+  EXPECT_EQ(run("export --tools own.yaml -o absent/a.csv"), 4);
+}
+
+TEST_F(ToolsCommand, TheSameInputGivesTheSameBytes) {
+  EXPECT_EQ(run("convert own.yaml -o a.csv -o a.yaml"), 0) << err_;
+  EXPECT_EQ(run("convert own.yaml -o b.csv -o b.yaml"), 0) << err_;
+  EXPECT_EQ(slurp("a.csv"), slurp("b.csv"));
+  EXPECT_EQ(slurp("a.yaml"), slurp("b.yaml"));
+}
+
+}  // namespace
+}  // namespace capstan::app
