@@ -53,6 +53,7 @@ void describe(RecordFields& f, model::WorkMaterial& m) {
   }
   f.end();
   describe_sources(f, m.sources);
+  if (f.more()) f.real("hardness [HB]", Unit::kNone, m.hardness_hb);
 }
 
 void describe(RecordFields& f, model::Stock& s) {
@@ -77,6 +78,50 @@ void named(RecordFields& f, std::string_view name, E& v, const Parse& parse) {
   const auto parsed = parse(text);
   if (!parsed) throw MalformedRecord{};
   v = *parsed;
+}
+
+/// What planning learnt to ask of a cutter after the first files were written.
+void describe_body(RecordFields& f, model::Cutter& c) {
+  f.group();
+  f.real("overall length", Unit::kLength, c.overall_length_mm);
+  f.real("neck diameter", Unit::kLength, c.neck_diameter_mm);
+  f.real("neck length", Unit::kLength, c.neck_length_mm);
+  f.real("taper angle", Unit::kAngle, c.taper_angle_rad);
+  f.real("cutting width", Unit::kLength, c.cutting_width_mm);
+  f.real("thread size", Unit::kLength, c.thread_size_mm);
+  f.text("thread form", c.thread_form);
+  f.real("threads of the chamfer", Unit::kNone, c.lead_threads);
+  f.real("length of the chamfer", Unit::kLength, c.lead_length_mm);
+  f.text("library reference", c.library_reference);
+  f.text("library", c.library_source);
+  f.text("product", c.product_id);
+  f.text("carousel", c.carousel);
+  f.truth("stated in inches", c.stated_in_inches);
+  f.truth("loaded", c.loaded);
+  f.whole("in stock", c.in_stock);
+  f.real("life used [min]", Unit::kNone, c.life_used_min);
+  f.text("holder", c.holder_id);
+  f.end();
+  c.holder.resize(f.list("holder segment", c.holder.size()));
+  for (std::size_t i = 0; i < c.holder.size(); ++i) {
+    f.element(i);
+    f.group();
+    f.real("height", Unit::kLength, c.holder[i].height_mm);
+    f.real("lower diameter", Unit::kLength, c.holder[i].lower_diameter_mm);
+    f.real("upper diameter", Unit::kLength, c.holder[i].upper_diameter_mm);
+    f.end();
+  }
+  f.end();
+  c.sisters.resize(f.list("sister", c.sisters.size()));
+  for (std::size_t i = 0; i < c.sisters.size(); ++i) {
+    f.element(i);
+    f.group();
+    f.text("id", c.sisters[i].id);
+    f.whole("pocket", c.sisters[i].pocket);
+    f.real("life left [min]", Unit::kNone, c.sisters[i].life_left_min);
+    f.end();
+  }
+  f.end();
 }
 
 void describe(RecordFields& f, model::Cutter& c) {
@@ -126,12 +171,54 @@ void describe(RecordFields& f, model::Cutter& c) {
   }
   f.end();
   describe_sources(f, c.sources);
+  if (f.more()) describe_body(f, c);
+}
+
+void describe(RecordFields& f, std::vector<model::FixtureSolid>& solids) {
+  solids.resize(f.list("solid", solids.size()));
+  for (std::size_t i = 0; i < solids.size(); ++i) {
+    model::FixtureSolid& s = solids[i];
+    f.element(i);
+    f.group();
+    f.text("id", s.id);
+    f.text("kind", s.kind);
+    f.real("bottom", Unit::kLength, s.bottom_mm);
+    f.real("top", Unit::kLength, s.top_mm);
+    f.truth("presses", s.presses);
+    s.outline.resize(f.list("corner", s.outline.size()));
+    for (std::size_t k = 0; k < s.outline.size(); ++k) {
+      f.element(k);
+      f.group();
+      f.real("x", Unit::kLength, s.outline[k].x);
+      f.real("y", Unit::kLength, s.outline[k].y);
+      f.end();
+    }
+    f.end();
+    f.end();
+  }
+  f.end();
+}
+
+void describe(RecordFields& f, model::Workholding& h) {
+  f.group();
+  f.text("fixture", h.id);
+  f.text("fixture description", h.description);
+  f.text("fixture source", h.source);
+  f.text("pickup", h.pickup_text);
+  f.real("pickup x", Unit::kLength, h.pickup.x);
+  f.real("pickup y", Unit::kLength, h.pickup.y);
+  f.real("pickup z", Unit::kLength, h.pickup.z);
+  f.real("clearance", Unit::kLength, h.clearance_mm);
+  f.real("holding force [N]", Unit::kNone, h.holding_force_n);
+  f.end();
+  describe(f, h.solids);
 }
 
 std::string describe(RecordFields& f, model::SetupResult& s) {
   std::string address = f.object("set-up", s.setup);
   f.text("work offset", s.work_offset);
   f.real("security height", Unit::kLength, s.security_z_mm);
+  if (f.more()) describe(f, s.holding);
   return address;
 }
 
@@ -154,6 +241,10 @@ std::string describe(RecordFields& f, model::StepResult& s) {
   f.end();
   f.truth("flood", s.flood);
   f.truth("mist", s.mist);
+  if (!f.more()) return address;
+  f.truth("through", s.through);
+  f.real("path deviation", Unit::kLength, s.path_deviation_mm);
+  f.real("contour tolerance", Unit::kLength, s.contour_tolerance_mm);
   return address;
 }
 
