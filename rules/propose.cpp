@@ -240,14 +240,17 @@ Context among(std::span<const FeatureShape> shapes, const std::vector<std::size_
     const bool covered = d > s.diameter.nominal_mm + kCoaxial && top_of(other) > top_of(s) - kCoaxial &&
                          bottom_of(other) < top_of(s) - kCoaxial;
     if (s.kind == ShapeKind::kHole && covered) context.edge_break_mm = 0.0;
-    const bool above = top_of(other) > top_of(s) + kCoaxial && bottom_of(other) > bottom_of(s) + kCoaxial &&
-                       bottom_of(other) < top_of(s) + kCoaxial;
+    // However deep it goes: what begins higher and is narrower is the way in.
+    const bool above = top_of(other) > top_of(s) + kCoaxial && bottom_of(other) < top_of(s) + kCoaxial;
     if (s.kind == ShapeKind::kHole) {
       if (above && d < widest(s) - kCoaxial) {
+        if (!context.core_above || d < context.core_diameter_mm) context.core_diameter_mm = d;
         context.core_above = true;
-        context.core_diameter_mm = d;
-        break;
+        context.core_depth_mm = std::max(context.core_depth_mm, top_of(s) - bottom_of(other));
+        context.core_height_mm = std::max(context.core_height_mm, top_of(other) - top_of(s));
+        continue;
       }
+      if (context.core_above) continue;
       if (goes_on && meets && d < s.diameter.nominal_mm - kCoaxial)
         context.core_diameter_mm = std::max(context.core_diameter_mm, d);
     } else if (meets && d < s.thread_major_mm) {
@@ -320,7 +323,8 @@ std::vector<Proposal> propose_members(const RuleBase& base, std::span<const Feat
     return contexts[a].core_diameter_mm == contexts[b].core_diameter_mm &&
            contexts[a].core_above == contexts[b].core_above &&
            contexts[a].edge_break_mm == contexts[b].edge_break_mm &&
-           contexts[a].core_depth_mm == contexts[b].core_depth_mm;
+           contexts[a].core_depth_mm == contexts[b].core_depth_mm &&
+           contexts[a].core_height_mm == contexts[b].core_height_mm;
   };
   std::vector<Proposal> out;
   out.reserve(shapes.size());

@@ -31,8 +31,11 @@ struct Context {
   /// A smaller coaxial hole that goes on below this one's bottom, or the hole that a thread is cut into;
   /// 0: none, or not known. `propose_members` fills it within a compound.
   double core_diameter_mm = 0.0;
-  bool core_above = false;         ///< that hole is the only way in from above: this one lies below it
-  double core_depth_mm = 0.0;      ///< threads: depth of that hole below the thread's top; 0: the shape's own
+  bool core_above = false;  ///< that hole is the only way in from above: this one lies below it
+  /// Threads: depth of that hole below the thread's top; 0: the shape's own. With core_above: how far it goes
+  /// down below this one's top.
+  double core_depth_mm = 0.0;
+  double core_height_mm = 0.0;     ///< with core_above: how high above this one's top it begins
   bool outer_thread = false;       ///< threads: on a shaft
   double surface_radius_mm = 0.0;  ///< freeform: smallest concave radius; 0 not known
   bool has_coolant = true;

@@ -182,7 +182,8 @@ class Measurer {
 Result<Measurement> measure(const CutterPath& path, const model::Cutter& cutter, stock::HeightMap& map,
                             const Options& options) {
   if (cutter.cutter_class == model::CutterClass::kTSlotMill ||
-      cutter.cutter_class == model::CutterClass::kDovetailMill) {
+      cutter.cutter_class == model::CutterClass::kDovetailMill ||
+      cutter.cutter_class == model::CutterClass::kBackCountersink) {
     return fail("ENG-UNDERCUT", "the cut of " + std::string(model::to_text(cutter.cutter_class)) + " '" +
                                     cutter.id + "' lies under an overhang; it is not measured");
   }

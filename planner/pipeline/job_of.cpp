@@ -153,6 +153,7 @@ void take_drilling(const Model& m, AnyRef op, toolpath::PathJob& job) {
 model::Cutter with_neck(const Work& w, model::Cutter c) {
   const bool form = c.cutter_class == model::CutterClass::kTSlotMill ||
                     c.cutter_class == model::CutterClass::kDovetailMill ||
+                    c.cutter_class == model::CutterClass::kBackCountersink ||
                     c.cutter_class == model::CutterClass::kCornerRoundingMill;
   if (!form) return c;
   for (const model::Cutter& known : w.inputs.library) {
@@ -167,6 +168,24 @@ model::Cutter with_neck(const Work& w, model::Cutter c) {
     if (c.corner_radius_mm <= 0.0) c.corner_radius_mm = known.corner_radius_mm;
   }
   return c;
+}
+
+/// The narrowest hole of the same feature that begins higher on the shape's axis and reaches it; 0: none.
+double hole_above(const Model& m, AnyRef feature, const model::FeatureShape& s) {
+  constexpr double kSame = 1e-4;  // mm
+  if (s.kind != model::ShapeKind::kHole) return 0.0;
+  const auto all = model::shapes_of(m, Ref<model::ManufacturingFeature>(feature));
+  if (!all) return 0.0;
+  double out = 0.0;
+  for (const model::FeatureShape& other : *all) {
+    if (other.kind != model::ShapeKind::kHole) continue;
+    const auto rel = compose(inverse(s.frame), other.frame);
+    const bool coaxial = std::hypot(rel.origin.x, rel.origin.y) < kSame && rel.z.z > 1.0 - kSame;
+    const double d = other.diameter.nominal_mm;
+    if (!coaxial || rel.origin.z < kSame || rel.origin.z - other.depth_mm > kSame) continue;
+    if (d < std::max(s.diameter.nominal_mm, s.bottom_diameter_mm) - kSame && (out == 0.0 || d < out)) out = d;
+  }
+  return out;
 }
 
 }  // namespace
@@ -193,6 +212,7 @@ toolpath::PathJob job_of(const Work& w, const StepWork& step, const model::Featu
   job.retract_z_mm =
       std::min(setup.security_z_mm, top + (op != nullptr ? op->retract_plane.value_or(5.0) : 5.0));
   job.stock = geometry::rectangle(geometry::xy(setup.stock.lo), geometry::xy(setup.stock.hi));
+  job.hole_above_mm = hole_above(m, step.feature, shape);
   if (shape.through) job.break_through_mm = 1.0;  // below what is through; default, unsourced
   return job;
 }

@@ -49,6 +49,7 @@ Status check(const PathJob& task) {
 }
 
 Result<GeneratedPath> hole_milling(const PathJob& task, Job& job) {
+  if (cuts_from_below(task)) return back_path(task, job);
   PathJob hole = task;
   if (task.cutting_depth_mm) hole.shape.depth_mm = *task.cutting_depth_mm;
   // What an earlier step left is a hole already there.

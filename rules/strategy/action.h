@@ -48,6 +48,7 @@ struct Action {
 [[nodiscard]] std::vector<Action> form_actions();
 [[nodiscard]] std::vector<Action> section_actions();
 [[nodiscard]] std::vector<Action> undercut_actions();
+[[nodiscard]] std::vector<Action> back_actions();
 
 /// Room left between the tool's usable length and the depth, so that the holder stays clear of the face.
 /// Default, unsourced.

@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <string>
 
 #include "planner/model/nouns/all.h"
@@ -80,6 +82,44 @@ TEST(FormFeatures, DovetailsDrawnOrByTheirAnglesAreCutByACutterOfTheirAngle) {
     EXPECT_EQ(cutter->cutter_class, model::CutterClass::kDovetailMill);
     EXPECT_NEAR(cutter->lead_angle_rad * 180.0 / 3.14159265358979, lean_deg, 0.01);
   }
+}
+
+TEST(FormFeatures, FarEndsOfHolesAreMilledFromBelowThroughTheNarrowHole) {
+  const model::Plan plan = planned("/tests/pipeline/parts/far_ends.p21", shop());
+  expect_sound(plan);
+  for (const char* name : {"COUNTERBORED[2] back_mill", "COUNTERSUNK[2] back_chamfer"}) {
+    const auto* s = step(plan, name);
+    ASSERT_NE(s, nullptr) << name;
+    ASSERT_TRUE(s->path) << name;
+    const model::Cutter* c = model::find_cutter(plan, s->cutter_id);
+    ASSERT_NE(c, nullptr);
+    const bool cone = c->cutter_class == model::CutterClass::kBackCountersink;
+    const double x = cone ? 85.0 : 30.0, widest = cone ? 12.5 : 13.0;
+    double reached = 0.0;
+    for (std::size_t i = 0; i < s->path->size(); ++i) {
+      const auto p = s->path->point(i);
+      const double aside = std::hypot(p.x - x, p.y - 30.0);
+      reached = std::max(reached, aside + 0.5 * c->cutting_diameter_mm);
+      if (p.z > -25.0) EXPECT_LT(aside, 1e-9) << "the head is in the narrow hole: in its middle only";
+      EXPECT_LE(0.5 * c->neck_diameter_mm + aside, 9.9 + 1e-9);
+    }
+    EXPECT_NEAR(reached, widest, 1e-6) << name;
+  }
+}
+
+TEST(FormFeatures, AHeadThatTurnsOutInsideTheNarrowHoleIsFound) {
+  model::Plan plan = planned("/tests/pipeline/parts/far_ends.p21", shop());
+  for (auto& s : plan.steps) {
+    if (model::step_id(plan, s) != "COUNTERBORED[2] back_mill" || !s.path) continue;
+    model::CutterPath higher = *s.path;
+    for (double& z : higher.z) z += 2.0;
+    s.path = std::make_shared<const model::CutterPath>(std::move(higher));
+  }
+  Job job;
+  const auto findings = findings_of(plan, job);
+  EXPECT_TRUE(std::any_of(findings.begin(), findings.end(), [](const auto& f) {
+    return f.code == "CHK-HEAD" && f.step == "COUNTERBORED[2] back_mill";
+  }));
 }
 
 TEST(EdgeBreaks, AreCutWhereTheShopAsksAndCheckedWithoutFindings) {

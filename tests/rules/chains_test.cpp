@@ -79,6 +79,27 @@ TEST(DeepHole, IsPeckedThenGunDrilledThenRefused) {
   EXPECT_THAT(row(hole(10, 150), c), HasSubstr("[hole.gun.position]"));
 }
 
+TEST(HoleBelowANarrowerOne, IsMilledFromBelowByAHeadOnANeck) {
+  FeatureShape narrow = hole(20, 30);
+  FeatureShape wide = hole(26, 10);
+  wide.frame.origin.z = -20.0;
+  wide.through = true;
+  const auto open = propose_members(shipped(), std::vector{narrow, wide}, steel())[1];
+  ASSERT_FALSE(open.chains.empty()) << open.cannot;
+  ASSERT_EQ(open.chains[0].size(), 1U) << "the narrow hole goes right through";
+  const auto& s = open.chains[0][0];
+  EXPECT_TRUE(s.from_below);
+  EXPECT_EQ(s.tool.classes.front(), model::CutterClass::kTSlotMill);
+  EXPECT_NEAR(s.tool.diameter_max_mm, 19.6, 1e-9) << "0.2 mm clear on each side";
+  EXPECT_NEAR(s.tool.neck_step_min_mm, 6.2, 1e-9) << "26 - 20 and 0.1 mm clear on each side";
+  EXPECT_GE(s.tool.reach_mm, 30.0);
+  narrow.depth_mm = 20.0;
+  const auto shut = propose_members(shipped(), std::vector{narrow, wide}, steel())[1];
+  ASSERT_FALSE(shut.chains.empty()) << shut.cannot;
+  EXPECT_EQ(shut.chains[0].front().operation, model::TypeId::kDrilling) << "first the way to the far end";
+  EXPECT_LT(shut.chains[0].front().tool.diameter_max_mm, 20.0);
+}
+
 // Two coaxial holes entered from the same side, the narrow one above: a back counterbore's work.
 TEST(HoleBelowANarrowerOne, IsNotTakenForOneThatIsOpenAbove) {
   FeatureShape narrow = hole(10, 20);
@@ -86,6 +107,7 @@ TEST(HoleBelowANarrowerOne, IsNotTakenForOneThatIsOpenAbove) {
   wide.frame.origin.z = -20.0;
   const auto proposals = propose_members(shipped(), std::vector{narrow, wide}, steel());
   EXPECT_EQ(proposals[0].chains.at(0)[0].why.id, "hole.drill");
+  EXPECT_THAT(proposals[1].cannot, HasSubstr("leaves no room for a neck"));
   EXPECT_THAT(proposals[1].cannot, HasSubstr("[hole.back.counterbore]"));
   FeatureShape cone = hole(10, 5);
   cone.bottom_diameter_mm = 20.0;  // 90 degrees, wider below

@@ -132,6 +132,60 @@ TEST(UndercutPath, RefusesWhatWouldTouchAndSaysWhy) {
   EXPECT_EQ(generate(t, job).error().code, "TPA-ENTRY") << "no open end";
 }
 
+/// 26 mm wide and 10 deep below a hole of 20 mm, its top 30 mm down; through.
+PathJob far_end(double head, double height, double neck) {
+  PathJob t = area_job(geometry::disc({0, 0}, 13.0, 0.01), 10.0, head);
+  t.shape.kind = model::ShapeKind::kHole;
+  t.shape.diameter.nominal_mm = t.shape.bottom_diameter_mm = 26.0;
+  t.shape.through = true;
+  t.shape.bottom = model::HoleBottom::kThrough;
+  t.operation = model::TypeId::kBottomAndSideFinishMilling;
+  t.feature_in_setup.origin = {0, 0, -30};
+  t.start_z_mm = 0.0;
+  t.hole_above_mm = 20.0;
+  t_cutter(t, head, height, neck);
+  return t;
+}
+
+TEST(BackPath, MillsTheWholeRingBelowANarrowHoleAndNothingAbove) {
+  const PathJob t = far_end(18.0, 6.0, 9.0);
+  Job job;
+  const auto g = generate(t, job);
+  ASSERT_TRUE(g) << g.error().message;
+  double reached = 0.0, up = -100.0;
+  for (std::size_t i = 0; i < g->path.size(); ++i) {
+    const auto p = g->path.point(i);
+    const double aside = std::hypot(p.x, p.y);
+    if (p.z > -36.0 + 1e-9) EXPECT_LT(aside, 1e-9) << "sideways with the head above the shoulder";
+    if (aside > 1e-6) up = std::max(up, p.z);
+    reached = std::max(reached, aside);
+  }
+  EXPECT_NEAR(reached, 4.0, 1e-9) << "(26 - 18) / 2";
+  EXPECT_NEAR(up, -36.0, 1e-9) << "the head's top at the shoulder";
+  // From below: every level cuts above the last, and none more than a quarter of the head's height.
+  EXPECT_NEAR(g->levels_z_mm.front(), -40.0 + 1.5 - 6.0, 1e-9);
+  for (std::size_t i = 1; i < g->levels_z_mm.size(); ++i) {
+    EXPECT_GT(g->levels_z_mm[i], g->levels_z_mm[i - 1]);
+    EXPECT_LE(g->levels_z_mm[i] - g->levels_z_mm[i - 1], 1.5 + 1e-9);
+  }
+}
+
+TEST(BackPath, RefusesAHeadOrANeckThatDoesNotPassAndSaysWhatWould) {
+  Job job;
+  const auto wide = generate(far_end(19.8, 6.0, 9.0), job);
+  ASSERT_FALSE(wide);
+  EXPECT_EQ(wide.error().code, "TPA-NO-FIT");
+  // The head of 19.6 is 6.4 narrower than 26: its neck may be 20 - 0.2 - 6.4.
+  EXPECT_NE(wide.error().hint.find("19.6 mm on a neck of at most 13.4 mm"), std::string::npos)
+      << wide.error().hint;
+  EXPECT_EQ(generate(far_end(12.0, 4.0, 6.0), job).error().code, "TPA-NO-FIT")
+      << "7 aside, the neck leaves 6.9";
+  EXPECT_EQ(generate(far_end(18.0, 6.0, 0.0), job).error().code, "TPA-TOOL") << "neck unknown";
+  PathJob none = far_end(18.0, 6.0, 9.0);
+  none.hole_above_mm = 0.0;
+  EXPECT_EQ(generate(none, job).error().code, "TPA-ENTRY");
+}
+
 TEST(UndercutPath, AnEndMillClearsTheSlotThroughTheMouthFirst) {
   PathJob t = tee(true);
   t.cutter = endmill(12.0);

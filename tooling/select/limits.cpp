@@ -66,7 +66,12 @@ std::optional<std::string> wrong_hand(const Cutter& c, const ToolRequirement& r)
 }
 
 std::optional<std::string> wrong_neck(const Cutter& c, const ToolRequirement& r) {
-  const double most = r.neck_diameter_max_mm;
+  double most = r.neck_diameter_max_mm;
+  if (r.neck_step_min_mm > 0.0) {
+    const double by_step = c.cutting_diameter_mm - r.neck_step_min_mm;
+    if (by_step <= 0.0) return "diameter " + mm(c.cutting_diameter_mm) + " leaves no neck";
+    most = most > 0.0 ? std::min(most, by_step) : by_step;
+  }
   if (most <= 0.0) return std::nullopt;
   const bool necked = c.neck_diameter_mm > 0.0;
   const double thick = necked ? c.neck_diameter_mm : c.shank_diameter_mm;

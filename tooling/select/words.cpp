@@ -99,6 +99,11 @@ std::string words_of(const ToolRequirement& r) {
     add("at least " + mm(r.cutting_width_min_mm) + " width");
   }
   if (r.neck_diameter_max_mm > 0.0) add("a neck of at most " + mm(r.neck_diameter_max_mm));
+  if (r.neck_step_min_mm > 0.0) {
+    add(high > r.neck_step_min_mm ? "a neck of at most " + mm(high - r.neck_step_min_mm) + " (" +
+                                        mm(r.neck_step_min_mm) + " below its head)"
+                                  : "a neck " + mm(r.neck_step_min_mm) + " below its head");
+  }
   if (const double flutes = flutes_wanted(r); flutes > 0.0) add(mm(flutes) + " flutes");
   if (r.reach_mm > 0.0) add(mm(r.reach_mm) + " reach");
   if (r.centre_cutting) with += ", cutting to centre or ramping";

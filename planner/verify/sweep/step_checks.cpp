@@ -33,7 +33,43 @@ bool undercuts(const model::Cutter& c) {
 }
 /// T-slot and dovetail cutters: run along a slot whose mouth is open already.
 bool under_overhangs(const model::Cutter& c) {
-  return c.cutter_class == CutterClass::kTSlotMill || c.cutter_class == CutterClass::kDovetailMill;
+  return c.cutter_class == CutterClass::kTSlotMill || c.cutter_class == CutterClass::kDovetailMill ||
+         c.cutter_class == CutterClass::kBackCountersink;
+}
+
+/// How far the head, its tip at p, is in the walls of the feature's upright holes, mm; 0 where there are
+/// none. A back countersink's cone ends at its neck, at the head's top.
+double into_hole_walls(const std::vector<model::FeatureShape>& shapes, const geometry::Placement& frame,
+                       const model::Cutter& c, double head_mm, const geometry::Vec3& p) {
+  constexpr int kSlices = 8;
+  const double r = 0.5 * c.cutting_diameter_mm;
+  const bool cone = c.cutter_class == CutterClass::kBackCountersink && c.point_angle_rad > 0.0;
+  const double lean = cone ? std::tan(0.5 * c.point_angle_rad) : 0.0;
+  const double widest_mm = cone ? head_mm - (r - 0.5 * c.neck_diameter_mm) / lean : head_mm;
+  double worst = 0.0;
+  for (int i = 0; i <= kSlices; ++i) {
+    // Just inside the ends: a head that touches a shoulder does not cut it.
+    const double t = std::clamp(head_mm * i / kSlices, 1e-3, head_mm - 1e-3);
+    const double own = t > widest_mm ? r - (t - widest_mm) * lean : r;
+    double low = 1e300, high = -1e300, room = -1e300;
+    for (const model::FeatureShape& s : shapes) {
+      if (s.kind != model::ShapeKind::kHole) continue;
+      const geometry::Placement at = compose(frame, s.frame);
+      if (at.z.z < 1.0 - 1e-9) continue;
+      const double down = at.origin.z - (p.z + t);
+      low = std::min(low, at.origin.z - s.depth_mm);
+      high = std::max(high, at.origin.z);
+      if (down < -1e-6 || down > s.depth_mm + 1e-6) continue;
+      const double wide = s.diameter.nominal_mm +
+                          (s.bottom_diameter_mm - s.diameter.nominal_mm) * down / std::max(s.depth_mm, 1e-9);
+      const double more = s.diameter.given ? std::max(0.0, s.diameter.upper_mm) : 0.0;
+      room = std::max(room, 0.5 * (wide + more) - norm(xy(p) - xy(at.origin)));
+    }
+    // Above the uppermost and below the lowest hole other material is judged by its heights.
+    if (low > high || p.z + t > high || p.z + t < low) continue;
+    worst = std::max(worst, own - room);
+  }
+  return worst;
 }
 bool cuts_to_centre(const model::Cutter& c) {
   switch (c.cutter_class) {
@@ -155,6 +191,25 @@ void StepChecks::neck(const Move& m) {
   double radius = 0.5 * cutter_.neck_diameter_mm;
   if (radius <= 0.0 && cutter_.cutter_class == CutterClass::kDovetailMill)
     radius = radius_ - head * std::tan(cutter_.lead_angle_rad);
+  if (step_.planned != nullptr) {
+    const auto* ws = plan_.model.get<model::MachiningWorkingstep>(step_.planned->step);
+    const auto shapes = ws != nullptr
+                            ? model::shapes_of(plan_.model, ws->its_feature)
+                            : Result<std::vector<model::FeatureShape>>(std::vector<model::FeatureShape>{});
+    const bool holes = shapes && !shapes->empty() &&
+                       std::all_of(shapes->begin(), shapes->end(),
+                                   [](const auto& s) { return s.kind == model::ShapeKind::kHole; });
+    const int pieces = holes ? std::max(4, static_cast<int>(std::ceil(length_of(m)))) : -1;
+    for (int i = 0; i <= pieces; ++i) {
+      const geometry::Vec3 p = point_of(m, static_cast<double>(i) / pieces);
+      const double into =
+          into_hole_walls(*shapes, workpiece_in(plan_, step_.planned->setup), cutter_, head, p);
+      if (into <= kSlackMm) continue;
+      out_.error(11, "CHK-HEAD", at(m),
+                 "the tool's head runs " + mm(into) + " into a hole's wall at " + here(xy(p)), into);
+      return;
+    }
+  }
   const double slack = 1.5 * grid_.cell();
   if (radius <= slack) return;  // not known, or too thin to be judged on these cells
   const double length = length_of(m);
