@@ -100,7 +100,9 @@ TEST(FormFeatures, FarEndsOfHolesAreMilledFromBelowThroughTheNarrowHole) {
       const auto p = s->path->point(i);
       const double aside = std::hypot(p.x - x, p.y - 30.0);
       reached = std::max(reached, aside + 0.5 * c->cutting_diameter_mm);
-      if (p.z > -25.0) EXPECT_LT(aside, 1e-9) << "the head is in the narrow hole: in its middle only";
+      if (p.z > -25.0) {
+        EXPECT_LT(aside, 1e-9) << "the head is in the narrow hole: in its middle only";
+      }
       EXPECT_LE(0.5 * c->neck_diameter_mm + aside, 9.9 + 1e-9);
     }
     EXPECT_NEAR(reached, widest, 1e-6) << name;

@@ -156,7 +156,9 @@ TEST(BackPath, MillsTheWholeRingBelowANarrowHoleAndNothingAbove) {
   for (std::size_t i = 0; i < g->path.size(); ++i) {
     const auto p = g->path.point(i);
     const double aside = std::hypot(p.x, p.y);
-    if (p.z > -36.0 + 1e-9) EXPECT_LT(aside, 1e-9) << "sideways with the head above the shoulder";
+    if (p.z > -36.0 + 1e-9) {
+      EXPECT_LT(aside, 1e-9) << "sideways with the head above the shoulder";
+    }
     if (aside > 1e-6) up = std::max(up, p.z);
     reached = std::max(reached, aside);
   }
