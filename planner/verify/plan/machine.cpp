@@ -1,9 +1,12 @@
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <string>
 #include <tuple>
 
+#include "planner/model/fit/stated.h"
 #include "planner/model/nouns/all.h"
+#include "planner/model/quality.h"
 #include "planner/model/walk.h"
 #include "planner/verify/plan/plan_checks.h"
 
@@ -129,9 +132,107 @@ void check_one(const model::Plan& plan, const MachineParameters& p, Findings& fi
   check_travel(plan, p, findings);
 }
 
+bool taps(const model::Plan& plan, const model::StepResult& step) {
+  if (step.path && std::find(step.path->role.begin(), step.path->role.end(), model::MoveRole::kTap) !=
+                       step.path->role.end())
+    return true;
+  const auto* ws = plan.model.get<model::MachiningWorkingstep>(step.step);
+  return ws != nullptr && plan.model.get<model::Tapping>(ws->its_operation) != nullptr;
+}
+
+void check_steps(const model::Plan& plan, Findings& findings) {
+  const Machine& m = plan.machine;
+  std::set<std::string> seen;
+  for (std::size_t i = 0; i < plan.steps.size(); ++i) {
+    const model::StepResult& s = plan.steps[i];
+    const Findings::Where at{i + 1, model::step_id(plan, s), -1};
+    if (!m.abilities.rigid_tapping && taps(plan, s))
+      findings.error(22, "CHK-MACHINE-TAPPING", at,
+                     "the step taps with the feed bound to the spindle; the machine '" + m.id +
+                         "' does not synchronise them");
+    const model::Cutter* c = model::find_cutter(plan, s.cutter_id);
+    // Lengths are judged for each tool of the plan among the tools.
+    if (c != nullptr && seen.insert(c->id).second)
+      check_tool_size({"tool " + c->id, 0.0, c->cutting_diameter_mm}, m, at, findings);
+  }
+}
+
+/// The widths of tolerances that the axes must keep: sizes but for holes, whose diameter is their tool's,
+/// and zones of location.
+class Tightest {
+ public:
+  explicit Tightest(const model::Plan& plan) : plan_(plan) {
+    std::vector<model::AnyRef> roots;
+    for (const model::StepResult& s : plan.steps) {
+      const auto* ws = plan.model.get<model::MachiningWorkingstep>(s.step);
+      if (ws != nullptr) roots.emplace_back(ws->its_feature);
+    }
+    const std::vector<model::AnyRef> all = model::reachable(plan.model, roots);
+    std::set<model::AnyRef> bores;
+    for (const model::AnyRef r : all) {
+      if (const auto* hole = plan.model.get<model::RoundHole>(r)) bores.insert(hole->diameter);
+    }
+    for (const model::AnyRef r : all) {
+      const auto* size = plan.model.get<model::TolerancedLengthMeasure>(r);
+      if (size != nullptr && !bores.contains(r)) add_size(*size);
+    }
+    for (const model::StepResult& s : plan.steps) {
+      const auto* ws = plan.model.get<model::MachiningWorkingstep>(s.step);
+      if (ws == nullptr) continue;
+      const model::Quality q = model::quality_of(plan.model, ws->its_feature);
+      if (q.location_mm) add(*q.location_mm, "a location of step '" + model::step_id(plan, s) + "'");
+    }
+  }
+  double width_mm = 1e300;
+  std::string what;
+
+ private:
+  void add(double width, std::string name) {
+    if (!(width > 0.0) || width >= width_mm) return;
+    width_mm = width;
+    what = std::move(name);
+  }
+  void add_size(const model::TolerancedLengthMeasure& size) {
+    const double nominal = size.theoretical_size.value_or(0.0);
+    Result<std::optional<model::Deviations>> said = std::optional<model::Deviations>{};
+    if (const auto* t = plan_.model.get<model::PlusMinusValue>(size.implicit_tolerance))
+      said = model::stated(*t);
+    else if (const auto* f = plan_.model.get<model::LimitsAndFits>(size.implicit_tolerance))
+      said = model::stated(nominal, *f);
+    // What cannot be read is told where it is planned.
+    if (said && *said) add((*said)->width(), "a size of " + mm(nominal));
+  }
+  const model::Plan& plan_;
+};
+
+void check_accuracy(const model::Plan& plan, Findings& findings) {
+  const double accuracy = plan.machine.abilities.positioning_accuracy_mm;
+  if (!(accuracy > 0.0)) return;
+  const Tightest t(plan);
+  if (accuracy <= t.width_mm + kSlack) return;
+  findings.warn(22, "CHK-MACHINE-TOLERANCE", {Findings::kWhole, "", -1},
+                t.what + " has a tolerance " + mm(t.width_mm) + " wide; the machine '" + plan.machine.id +
+                    "' positions to " + mm(accuracy));
+}
+
 }  // namespace
 
+void check_tool_size(const ToolSize& tool, const Machine& m, const Findings::Where& at, Findings& findings) {
+  if (m.tool_diameter_max_mm > 0.0 && tool.diameter_mm > m.tool_diameter_max_mm + kSlack)
+    findings.error(4, "CHK-MACHINE-TOOL", at,
+                   tool.name + " has a diameter of " + mm(tool.diameter_mm) + "; the machine '" + m.id +
+                       "' takes " + mm(m.tool_diameter_max_mm) + " at most",
+                   tool.diameter_mm);
+  if (m.tool_length_max_mm > 0.0 && tool.length_mm > m.tool_length_max_mm + kSlack)
+    findings.error(6, "CHK-TOOL-LENGTH", at,
+                   tool.name + " is " + mm(tool.length_mm) + " long; the machine '" + m.id + "' takes " +
+                       mm(m.tool_length_max_mm) + " at most: check the unit of its length",
+                   tool.length_mm);
+}
+
 void check_machine(const model::Plan& plan, Findings& findings) {
+  check_steps(plan, findings);
+  check_accuracy(plan, findings);
   const std::vector<model::AnyRef> roots = {plan.project};
   for (const model::AnyRef r : model::reachable(plan.model, roots)) {
     const auto* workplan = plan.model.get<model::Workplan>(r);

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <map>
+#include <string>
 #include <vector>
 
 #include "planner/model/plan.h"
@@ -43,8 +44,16 @@ void check_coolant(const model::Plan& plan, const std::vector<StepMoves>& steps,
 void check_life(const std::vector<StepMoves>& steps, Findings& findings);
 
 /// What the plan or the part's file says that a machine must have (its_minimum_machine_params): 16, 17,
-/// 18, 22.
+/// 18, 22; and what follows from its steps: diameters of tools (4), tapping (22), accuracy (22, a warning).
 void check_machine(const model::Plan& plan, Findings& findings);
+
+/// A tool against what the machine can take: its diameter (4) and its length (6).
+struct ToolSize {
+  std::string name;
+  double length_mm = 0.0, diameter_mm = 0.0;  ///< 0: not known
+};
+void check_tool_size(const ToolSize& tool, const model::Machine& machine, const Findings::Where& at,
+                     Findings& findings);
 
 /// What must come first: 28.
 void check_order(const model::Plan& plan, Findings& findings);
