@@ -26,7 +26,15 @@ std::vector<model::Finding> check_program(const ProgramText& text, const model::
   check_state(c, findings);
   check_compensation(c, findings);
   check_program_coolant(c, findings);
-  if (!text.tool_table.empty()) check_tool_table(c, read_tool_table(text.tool_table), findings);
+  check_setups(c, findings);
+  ToolTable table;
+  if (!text.tool_table.empty()) {
+    table = read_tool_table(text.tool_table);
+    check_tool_table(c, table, findings);
+  }
+  check_header_tools(c, table, findings);
+  check_abilities(c, findings);
+  say_unjudged(c, findings);
   check_machine_moves(c, findings);
   const std::vector<StepMoves> steps = moves_of(c);
   Extents extents(machine);

@@ -28,47 +28,11 @@ std::string code_text(char letter, int tenths) {
   return out;
 }
 
-/// `name="value"` or `name=value` in a marker, values percent-encoded.
-std::string field(const std::string& text, const std::string& name) {
-  std::size_t at = text.find(" " + name + "=");
-  if (at == std::string::npos) return {};
-  at += name.size() + 2;
-  const bool quoted = at < text.size() && text[at] == '"';
-  const std::size_t end = quoted ? text.find('"', at + 1) : text.find(' ', at);
-  const std::string raw = quoted ? text.substr(at + 1, end == std::string::npos ? end : end - at - 1)
-                                 : text.substr(at, end == std::string::npos ? end : end - at);
-  std::string out;
-  for (std::size_t i = 0; i < raw.size(); ++i) {
-    const auto hex = [](char c) {
-      if (c >= '0' && c <= '9') return c - '0';
-      if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-      if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-      return -1;
-    };
-    if (raw[i] == '%' && i + 2 < raw.size() && hex(raw[i + 1]) >= 0 && hex(raw[i + 2]) >= 0) {
-      out.push_back(static_cast<char>(hex(raw[i + 1]) * 16 + hex(raw[i + 2])));
-      i += 2;
-    } else {
-      out.push_back(raw[i]);
-    }
-  }
-  return out;
-}
-
 }  // namespace
 
 void Interpreter::fault(int property, std::string code, std::string message, bool undecided) {
   if (out_.faults.size() < kFaultCap)
     out_.faults.push_back({property, std::move(code), line_, std::move(message), undecided});
-}
-
-void Interpreter::marker(const std::string& comment) {
-  const std::size_t at = comment.find("CAPSTAN STEP ");
-  if (at == std::string::npos || at > 2) return;
-  const std::string n = field(comment, "n");
-  out_.markers.push_back({field(comment, "id"), std::strtol(n.c_str(), nullptr, 10), line_});
-  marker_ = static_cast<int>(out_.markers.size()) - 1;
-  stated_ = 0;
 }
 
 bool Interpreter::gather(const Line& l, Said& s) {
@@ -441,7 +405,7 @@ void Interpreter::motion(const Said& s, bool machine_coordinates) {
 
 void Interpreter::line(const Line& l, long number) {
   line_ = number;
-  for (const std::string& c : l.comments) marker(c);
+  for (const std::string& c : l.comments) comment(c);
   if (!l.fault.empty()) {
     const int property = l.not_finite ? 1 : 33;
     const char* code = l.not_finite ? "CHK-NUMBER" : l.unverifiable ? "CHK-UNVERIFIABLE" : "CHK-SYNTAX";
@@ -472,6 +436,8 @@ void Interpreter::line(const Line& l, long number) {
     motion(s, g53);
   }
   for (int i = 0; i < s.m_count; ++i) {
+    // M1 stops only where the operator has said so.
+    if (s.m[i] == 0 || s.m[i] == 600) out_.stops.push_back(block());
     if (s.m[i] != 20 && s.m[i] != 300) continue;
     Block b = block();
     b.kind = Block::Kind::kEnd;

@@ -27,7 +27,8 @@ class Interpreter {
   };
 
   bool gather(const Line& l, Said& s);
-  void marker(const std::string& comment);
+  void comment(const std::string& text);
+  void marker(const std::string& text);
   void fault(int property, std::string code, std::string message, bool undecided = false);
   void state_codes(const Said& s);
   void state_code(int g, const Said& s);

@@ -5,6 +5,7 @@
 #include "planner/model/plan.h"
 #include "planner/verify/findings.h"
 #include "planner/verify/moves.h"
+#include "planner/verify/plan/plan_checks.h"
 #include "planner/verify/program/reader.h"
 #include "planner/verify/program/tool_table.h"
 
@@ -34,6 +35,15 @@ void check_compensation(const ProgramCase& c, Findings& findings);
 void check_program_coolant(const ProgramCase& c, Findings& findings);
 /// The tool table against the cutters: 4, 5, 6.
 void check_tool_table(const ProgramCase& c, const ToolTable& table, Findings& findings);
+/// The tools as the program's header has them, against table (may be empty) and cutters: 6.
+void check_header_tools(const ProgramCase& c, const ToolTable& table, Findings& findings);
+/// What the text asks of the machine: tapping in step with the spindle (22), room for its tools (4, 6).
+void check_abilities(const ProgramCase& c, Findings& findings);
+/// The work offset of each step against the plan's, or the header's: 3. A stop before each other set-up, with
+/// the tool away, spindle and coolant off: 31.
+void check_setups(const ProgramCase& c, Findings& findings);
+/// Notes what a program alone cannot be held against.
+void say_unjudged(const ProgramCase& c, Findings& findings);
 /// Machine coordinates against the travel: 22.
 void check_machine_moves(const ProgramCase& c, Findings& findings);
 /// The text's moves against the plan's paths: 33.

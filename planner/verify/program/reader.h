@@ -10,10 +10,25 @@
 
 namespace capstan::verify {
 
-/// A marker `(CAPSTAN STEP id="..." n=...)`.
+/// A marker `(CAPSTAN STEP id="..." n=... tool=... setup=...)`.
 struct StepMarker {
   std::string id;
   long n = 0;
+  long line = 0;
+  long setup = 0;  ///< counted from 1; 0: not said
+};
+
+/// What a program's own header says of a set-up: `(CAPSTAN SETUP n=1 offset=G54 security=20)`.
+struct HeaderSetup {
+  long n = 0;
+  int offset = 0;  ///< 540 .. 593; 0: none that there is
+  std::optional<double> security_mm;
+  long line = 0;
+};
+/// And of a tool: `(CAPSTAN TOOL T1 H1 length=102 diameter=10 ...)`.
+struct HeaderTool {
+  int tool = 0;
+  std::optional<double> length_mm, diameter_mm;
   long line = 0;
 };
 
@@ -82,9 +97,18 @@ struct Program {
   std::vector<Block> blocks;
   std::vector<StepMarker> markers;
   std::vector<ReaderFault> faults;
+  std::vector<HeaderSetup> setups;
+  std::vector<HeaderTool> tools;
+  std::string stock;         ///< the header's `(stock: ...)`, as written; empty: none
+  std::vector<Block> stops;  ///< M0 and M60, with the state they stop in
   bool ended = false;
   long end_line = 0, lines = 0;
 };
+
+/// "G54" .. "G59.3" as a code times ten; 0 for anything else.
+[[nodiscard]] int offset_code(std::string_view name);
+/// 551 is "G55.1".
+[[nodiscard]] std::string offset_name(int code);
 
 /// Largest program read, bytes; longest line; most faults kept.
 inline constexpr std::size_t kProgramCap = std::size_t{256} << 20U;
