@@ -91,9 +91,14 @@ void least(std::optional<double>& to, double v) {
 }
 
 /// From the outline straight out to the sides of the raw piece: what stays there. Sides that the area reaches
-/// are open.
+/// are open: where its outline runs out over one there is no wall, however near its corners come to it.
 void to_raw_sides(const FeatureShape& s, const geometry::Box3& raw, std::optional<double>& wall) {
   const std::size_t stride = points_of(s.area) / kMostPoints + 1;
+  const Box2 box = geometry::bounds(s.area);
+  const bool right = raw.hi.x - box.hi.x > kSame;
+  const bool left = box.lo.x - raw.lo.x > kSame;
+  const bool back = raw.hi.y - box.hi.y > kSame;
+  const bool front = box.lo.y - raw.lo.y > kSame;
   for (const Loop& loop : s.area.loops) {
     for (std::size_t i = 0; i < loop.size(); i += stride) {
       const Vec2 a = loop[i];
@@ -103,10 +108,10 @@ void to_raw_sides(const FeatureShape& s, const geometry::Box3& raw, std::optiona
       const Vec2 out{(b.y - a.y) / n, (a.x - b.x) / n};
       const Vec2 p = 0.5 * (a + b);
       double t = 1e300;
-      if (out.x > kSame) t = std::min(t, (raw.hi.x - p.x) / out.x);
-      if (out.x < -kSame) t = std::min(t, (raw.lo.x - p.x) / out.x);
-      if (out.y > kSame) t = std::min(t, (raw.hi.y - p.y) / out.y);
-      if (out.y < -kSame) t = std::min(t, (raw.lo.y - p.y) / out.y);
+      if (right && out.x > kSame) t = std::min(t, (raw.hi.x - p.x) / out.x);
+      if (left && out.x < -kSame) t = std::min(t, (raw.lo.x - p.x) / out.x);
+      if (back && out.y > kSame) t = std::min(t, (raw.hi.y - p.y) / out.y);
+      if (front && out.y < -kSame) t = std::min(t, (raw.lo.y - p.y) / out.y);
       if (t < 1e299) least(wall, t);
     }
   }

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "planner/pipeline/work.h"
 
 namespace capstan::pipeline {
@@ -45,6 +47,22 @@ TEST(Thickness, LeavesOutAnOpenSide) {
   Piece p;
   const Thickness t = thickness_beside(p.w, p.add(ShapeKind::kPocket, {50, 25, 0}, 40, 50, 15));
   EXPECT_DOUBLE_EQ(t.wall_mm.value_or(0), 30.0) << "y = 0 is open; 50 less half of 40 stays beside";
+}
+
+TEST(Thickness, ARoundedCornerBesideAnOpenSideIsNoThinWall) {
+  Piece p;
+  FeatureShape s = p.add(ShapeKind::kPocket, {50, 20, 0}, 40, 50, 15);  // runs out over y = 0 by 5 mm
+  // Corners of 10 mm, in small pieces: some of them end just inside the raw piece's side.
+  geometry::Loop loop;
+  for (int corner = 0; corner < 4; ++corner) {
+    const double cx = corner == 0 || corner == 3 ? 10 : -10, cy = corner < 2 ? 15 : -15;
+    for (int k = 0; k <= 30; ++k) {
+      const double a = 1.5707963267948966 * (corner + k / 30.0);
+      loop.push_back({cx + 10 * std::cos(a), cy + 10 * std::sin(a)});
+    }
+  }
+  s.area = s.reach = geometry::Region{{loop}};
+  EXPECT_NEAR(thickness_beside(p.w, s).wall_mm.value_or(0), 30.0, 1e-6) << "50 less half of 40";
 }
 
 TEST(Thickness, IsTheWallBetweenTwoPocketsAtOverlappingDepths) {
