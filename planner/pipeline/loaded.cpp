@@ -36,7 +36,7 @@ bool same_tool(const Cutter& a, const Cutter& b) {
 const Cutter* loaded_like(const std::vector<Cutter>& library, const Cutter& wanted) {
   const Cutter* found = nullptr;
   for (const Cutter& c : library) {
-    if (c.pocket <= 0) continue;
+    if (!c.loaded || c.pocket <= 0) continue;
     if (same_tool(c, wanted) && (found == nullptr || c.pocket < found->pocket)) found = &c;
   }
   return found;
@@ -62,6 +62,7 @@ Result<std::vector<std::string>> match_loaded(model::Plan& plan, Inputs& inputs,
         continue;  // the same tool under another name
       Cutter c = *wanted;
       c.pocket = there->pocket;
+      c.loaded = true;
       if (there->functional_length_mm > 0.0) c.functional_length_mm = there->functional_length_mm;
       merged.push_back(std::move(c));
       continue;
@@ -74,7 +75,7 @@ Result<std::vector<std::string>> match_loaded(model::Plan& plan, Inputs& inputs,
   // Loaded cutters that the plan did not name stay as the table describes them; a name counts once.
   for (const Cutter& c : inputs.library) {
     bool taken = false;
-    for (const Cutter& m : merged) taken = taken || m.pocket == c.pocket;
+    for (const Cutter& m : merged) taken = taken || (c.pocket > 0 && m.pocket == c.pocket);
     if (!taken) merged.push_back(c);
   }
   inputs.library = std::move(merged);

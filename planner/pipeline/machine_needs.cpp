@@ -5,6 +5,7 @@
 #include <map>
 
 #include "planner/base/number.h"
+#include "planner/mechanics/constants.h"
 
 namespace capstan::pipeline {
 namespace {
@@ -50,7 +51,8 @@ void add_path(Needs& n, const model::StepResult& s) {
 
 Needs needs_of(const model::Plan& plan) {
   Needs n;
-  const double e = plan.machine.spindle.efficiency > 0.0 ? plan.machine.spindle.efficiency : 1.0;
+  const double given = plan.machine.spindle.efficiency;
+  const double e = given > 0.0 && given <= 1.0 ? given : mechanics::kDefaultSpindleEfficiency;
   for (const model::StepResult& s : plan.steps) {
     if (s.path) add_path(n, s);
     if (s.schedule) {
@@ -115,10 +117,10 @@ void tell_loading(Work& w) {
   std::string list;
   int missing = 0;
   bool known = false;
-  for (const model::Cutter& c : w.inputs.library) known = known || c.pocket > 0;
+  for (const model::Cutter& c : w.inputs.library) known = known || c.loaded;
   for (model::Cutter& c : w.plan.cutters) {
     c.loaded = std::any_of(w.inputs.library.begin(), w.inputs.library.end(), [&](const model::Cutter& k) {
-      return k.id == c.id && k.pocket > 0 && k.pocket == c.pocket;
+      return k.id == c.id && k.loaded && k.pocket == c.pocket;
     });
     if (c.loaded) continue;
     ++missing;

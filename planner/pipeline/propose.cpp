@@ -356,7 +356,7 @@ std::vector<model::Cutter> usable(const Work& w) {
   if (!w.policy.only_loaded_cutters) return w.inputs.library;
   std::vector<model::Cutter> out;
   for (const auto& c : w.inputs.library) {
-    if (c.pocket > 0) out.push_back(c);
+    if (c.loaded) out.push_back(c);
   }
   return out;
 }

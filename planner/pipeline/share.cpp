@@ -50,7 +50,7 @@ class Sharer {
  public:
   explicit Sharer(Work& w) : w_(w) {
     magazine_known_ = std::any_of(w.inputs.library.begin(), w.inputs.library.end(),
-                                  [](const model::Cutter& c) { return c.pocket > 0; });
+                                  [](const model::Cutter& c) { return c.loaded; });
   }
 
   void run() {
@@ -131,7 +131,7 @@ class Sharer {
   [[nodiscard]] double saved_s(const model::Cutter& c) const {
     const model::Machine& m = w_.plan.machine;
     const double loading =
-        magazine_known_ && c.pocket <= 0 ? tooling::kLoadingS / std::max(1, w_.inputs.batch) : 0.0;
+        magazine_known_ && !c.loaded ? tooling::kLoadingS / std::max(1, w_.inputs.batch) : 0.0;
     return m.tool_change_s + m.spindle.spin_up_s + loading;
   }
 

@@ -122,7 +122,9 @@ TEST(Tools, WhatIsNotInTheMagazineIsListed) {
   const std::string missing = free.cutters.back().id;
   for (auto& c : in.library) {
     for (const auto& used : free.cutters) {
-      if (c.id == used.id && c.id != missing) c.pocket = used.pocket;
+      if (c.id != used.id || c.id == missing) continue;
+      c.pocket = used.pocket;
+      c.loaded = true;
     }
   }
   Job told;

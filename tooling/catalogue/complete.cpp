@@ -71,7 +71,8 @@ void fill_feeds(Cutter& c, const Cutter& g, Filler& f) {
   // A smaller tooth bears less; a larger one is not trusted with more.
   const double scale = std::min(1.0, c.cutting_diameter_mm / g.cutting_diameter_mm);
   if (c.cutter_class == CutterClass::kTap) {
-    if (c.fz_min_mm == 0.0 && c.fz_max_mm == 0.0) c.fz_min_mm = c.fz_max_mm = c.thread_pitch_mm / c.teeth;
+    if (c.fz_min_mm == 0.0 && c.fz_max_mm == 0.0)
+      c.fz_min_mm = c.fz_max_mm = c.thread_pitch_mm / std::max(c.teeth, 1);
   } else {
     if (c.fz_max_mm == 0.0) f.take(c.fz_max_mm, rounded(g.fz_max_mm * scale, 5), "fz_max_mm");
     if (c.fz_min_mm == 0.0)
@@ -113,9 +114,12 @@ void complete(Cutter& c, const std::vector<Cutter>& generic) {
     c.teeth = g->teeth;
     f.note("teeth", f.source());
   }
-  f.take(c.point_angle_rad, g->point_angle_rad, "point_angle_rad");
+  // A pitch, a corner and the angle of a cone are never assumed: see `faults_of`. Points of drills are.
+  const bool point = c.cutter_class == CutterClass::kTwistDrill ||
+                     c.cutter_class == CutterClass::kCenterDrill ||
+                     c.cutter_class == CutterClass::kSpotDrill || c.cutter_class == CutterClass::kGunDrill;
+  if (point) f.take(c.point_angle_rad, g->point_angle_rad, "point_angle_rad");
   f.take(c.tip_diameter_mm, std::min(g->tip_diameter_mm, c.cutting_diameter_mm), "tip_diameter_mm");
-  f.take(c.thread_pitch_mm, g->thread_pitch_mm, "thread_pitch_mm");
   f.take(c.helix_rad, g->helix_rad, "helix_rad");
   f.take(c.shank_diameter_mm, g->shank_diameter_mm, "shank_diameter_mm");
   f.take(c.holder_diameter_mm, g->holder_diameter_mm, "holder_diameter_mm");

@@ -143,7 +143,7 @@ Cutter read_cutter(Fields f, double mm_per_unit) {
   c.thread_form = f.text_or("thread_form", "");
   c.product_id = f.text_or("product_id", "");
   c.carousel = f.text_or("carousel", "");
-  c.loaded = f.flag_or("loaded", false);
+  c.loaded = f.flag_or("loaded", c.pocket > 0);
   if (const auto n = f.optional_integer("in_stock")) c.in_stock = static_cast<int>(*n);
   read_holder(f, c, mm_per_unit);
   read_presets(f, c, mm_per_unit);

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "planner/base/number.h"
-#include "tooling/catalogue/generic.h"
 #include "tooling/catalogue/library.h"
 #include "tooling/formats/all.h"
 #include "tooling/formats/linuxcnc/linuxcnc.h"
@@ -86,22 +85,6 @@ int teeth_from_words(const std::string& comment) {
   return comment[end - 1] - '0';
 }
 
-/// "M6", "M8x1.25": the pitch stated, else that of the coarse series by the diameter.
-double pitch_from_words(const std::string& comment, double diameter_mm, const std::vector<Cutter>& generic) {
-  const auto x = comment.find('x');
-  if (x != std::string::npos && x > 0 && std::isdigit(static_cast<unsigned char>(comment[x - 1])) != 0) {
-    const auto end = comment.find_first_not_of("0123456789.", x + 1);
-    if (const auto v = parse_double(
-            std::string_view(comment).substr(x + 1, end == std::string::npos ? end : end - x - 1));
-        v && *v > 0.0 && *v < diameter_mm)
-      return *v;
-  }
-  for (const Cutter& g : generic)
-    if (g.cutter_class == CutterClass::kTap && std::abs(g.cutting_diameter_mm - diameter_mm) < 1e-3)
-      return g.thread_pitch_mm;
-  return 0.0;
-}
-
 }  // namespace
 
 std::optional<CutterClass> class_from_words(std::string_view comment) {
@@ -112,13 +95,13 @@ std::optional<CutterClass> class_from_words(std::string_view comment) {
   return std::nullopt;
 }
 
-CommentWords words_of_comment(std::string_view comment, CutterClass c, double diameter_mm) {
+CommentWords words_of_comment(std::string_view comment, CutterClass c, double diameter_mm,
+                              double mm_per_unit) {
   const std::string words = lower(comment);
   CommentWords out;
   out.carbide = holds(words, "carbide") || holds(words, "vhm") || holds(words, "hartmetall");
   out.teeth = teeth_from_words(words);
-  if (const auto& generic = shared_generic_library(); c == CutterClass::kTap && generic)
-    out.pitch_mm = pitch_from_words(words, diameter_mm, *generic);
+  out.sizes = sizes_of_words(words, c, diameter_mm, mm_per_unit);
   return out;
 }
 

@@ -8,6 +8,7 @@
 #include "tooling/catalogue/generic.h"
 #include "tooling/catalogue/material.h"
 #include "tooling/formats/format.h"
+#include "tooling/formats/linuxcnc/linuxcnc.h"
 #include "tooling/formats/values.h"
 
 // Records to cutters, and back.
@@ -253,9 +254,11 @@ class Maker {
       return std::nullopt;
     }
     const std::size_t before = c.sources.size();
+    words(item, c);
     presets.take(item, c);
     const bool own_presets = !c.presets.empty();
     complete(c, generic);
+    pointed(item, c);
     if (own_presets) widen_feeds(c);
     if (t.entry != nullptr) table_length(*t.entry, item.inches ? kMmPerInch : 1.0, c);
     for (std::size_t k = before; k < c.sources.size(); ++k)
@@ -295,6 +298,34 @@ class Maker {
                                                    *kapr < 0.5 * std::numbers::pi) {
       c.lead_angle_rad = 0.5 * std::numbers::pi - *kapr;
       c.sources.emplace_back("lead_angle_rad", "derived: 90 degrees - KAPR");
+    }
+  }
+
+  /// What the numbers leave open and the tool's names say.
+  static void words(const CatalogueItem& item, Cutter& c) {
+    for (const std::string* text : {&item.description, &item.id, &item.kind}) {
+      const CommentSizes s =
+          sizes_of_words(*text, c.cutter_class, c.cutting_diameter_mm, item.inches ? kMmPerInch : 1.0);
+      const auto take = [&](double& field, double value, const char* name) {
+        if (field != 0.0 || value <= 0.0) return;
+        field = value;
+        set_source(c, name, "derived: from the words '" + *text + "'");
+      };
+      take(c.thread_pitch_mm, s.pitch_mm, "thread_pitch_mm");
+      take(c.corner_radius_mm, s.corner_radius_mm, "corner_radius_mm");
+      take(c.point_angle_rad, s.point_angle_rad, "point_angle_rad");
+      take(c.tip_diameter_mm, s.tip_mm, "tip_diameter_mm");
+    }
+  }
+  /// A V-bit comes to a point; the flat of a chamfer mill is not assumed of it.
+  static void pointed(const CatalogueItem& item, Cutter& c) {
+    const std::string* source = source_of(c, "tip_diameter_mm");
+    if (source == nullptr || !source->starts_with("default")) return;
+    for (const std::string* text : {&item.description, &item.id, &item.kind}) {
+      if (!sizes_of_words(*text, c.cutter_class, c.cutting_diameter_mm).pointed) continue;
+      c.tip_diameter_mm = 0.0;
+      set_source(c, "tip_diameter_mm", "derived: a V-bit comes to a point");
+      return;
     }
   }
 

@@ -76,7 +76,7 @@ std::string tool_text(const Cutter& c, double mm_per_unit) {
   if (!c.thread_form.empty()) line("thread_form", json_quoted(c.thread_form));
   if (!c.product_id.empty()) line("product_id", json_quoted(c.product_id));
   if (c.pocket > 0) line("pocket", std::to_string(c.pocket));
-  if (c.loaded) line("loaded", "true");
+  if (c.loaded != (c.pocket > 0)) line("loaded", c.loaded ? "true" : "false");
   if (!c.carousel.empty()) line("carousel", json_quoted(c.carousel));
   if (c.in_stock >= 0) line("in_stock", std::to_string(c.in_stock));
   if (!c.holder_id.empty()) line("holder_id", json_quoted(c.holder_id));

@@ -51,7 +51,7 @@ Cutter as_set(const Cutter& c, const ToolRequirement& r) {
 double ready_s(const Cutter& c, const Machine& m, const Preferences& p, bool magazine_known) {
   const bool used = std::find(p.used.begin(), p.used.end(), c.id) != p.used.end();
   const double change = used ? 0.0 : m.tool_change_s + m.spindle.spin_up_s;
-  const double loading = !magazine_known || c.pocket > 0 ? 0.0 : (used ? kUsedShare : 1.0) * kLoadingS;
+  const double loading = !magazine_known || c.loaded ? 0.0 : (used ? kUsedShare : 1.0) * kLoadingS;
   return change + loading / std::max(1, p.batch);
 }
 
@@ -96,7 +96,7 @@ model::Reason reason_for(const Cutter& c, const ToolRequirement& r, const StartV
   text += r.diameter_exact_mm > 0.0 ? "of the size wanted" : "diameter " + mm(c.cutting_diameter_mm);
   if (upper_size(r) > 0.0 && r.diameter_exact_mm <= 0.0) text += " within " + mm(upper_size(r));
   if (r.reach_mm > 0.0) text += ", reach " + mm(reach_of(c)) + " for " + mm(r.reach_mm);
-  if (c.pocket > 0)
+  if (c.loaded)
     text += ", loaded as T" + std::to_string(c.pocket);
   else if (std::find(p.used.begin(), p.used.end(), c.id) != p.used.end())
     text += ", used already";
@@ -170,7 +170,7 @@ Selection select(const ToolRequirement& requirement, const std::vector<Cutter>& 
   for (const Fit& f : fits) largest = std::max(largest, f.cutter->cutting_diameter_mm);
   // Where nothing is loaded, nothing is known of the magazine.
   const bool magazine_known =
-      std::any_of(library.begin(), library.end(), [](const Cutter& c) { return c.pocket > 0; });
+      std::any_of(library.begin(), library.end(), [](const Cutter& c) { return c.loaded; });
   for (Fit& f : fits)
     f.score = score_of(*f.cutter, f.rank, r, f.estimate, machine, largest, preferences, magazine_known);
   std::sort(fits.begin(), fits.end(), [](const Fit& a, const Fit& b) {
@@ -190,8 +190,14 @@ Selection select(const ToolRequirement& requirement, const std::vector<Cutter>& 
 
 void assign_pockets(std::vector<Cutter>& cutters) {
   std::set<int> taken;
-  for (Cutter& c : cutters) {
-    if (c.pocket > 0 && !taken.insert(c.pocket).second) c.pocket = 0;
+  // What is in the magazine stays there; of the others, the first that prefers a number has it.
+  for (const bool loaded : {true, false}) {
+    for (Cutter& c : cutters) {
+      if (c.loaded == loaded && c.pocket > 0 && !taken.insert(c.pocket).second) {
+        c.pocket = 0;
+        c.loaded = false;
+      }
+    }
   }
   int next = 1;
   for (Cutter& c : cutters) {

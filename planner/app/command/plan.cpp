@@ -140,7 +140,7 @@ int run_bind(Session& s) {
   if (const int code = prepared(s, {}, task); code != kDone) return code;
   // A catalogue says nothing of what is loaded.
   const bool any = std::any_of(task.inputs.library.begin(), task.inputs.library.end(),
-                               [](const model::Cutter& c) { return c.pocket > 0; });
+                               [](const model::Cutter& c) { return c.loaded; });
   if (!any) {
     return s.end(
         {.code = "APP-MAGAZINE",

@@ -80,12 +80,16 @@ TEST(Freecad, FindsWhatThePublicBitsGetWrong) {
   // The chamfer mill says 45 deg; from 5 mm over 6.35 mm, 12.3323 mm is a cone of 60 deg.
   EXPECT_EQ(item(r->library, "45degree_chamfer").cutter_class, std::nullopt);
   EXPECT_THAT(r->report.dropped, Contains(Field(&LossReport::Line::what, HasSubstr("contradict"))));
-  // The tap has a pitch of 0.
-  EXPECT_EQ(item(r->library, "375-16_Tap").cutter_class, std::nullopt);
+  // The tap has a pitch of 0; its name tells it: 3/8 in, 16 threads an inch.
+  EXPECT_EQ(number_of(item(r->library, "375-16_Tap"), "TP"), 0.0);
   LossReport report;
   const auto cutters = cutters_of(r->library, report, job);
   ASSERT_TRUE(cutters) << to_text(cutters.error());
-  EXPECT_EQ(cutters->size(), 12U);
+  EXPECT_EQ(cutters->size(), 12U);  // without the chamfer mill and a thread mill that has no pitch
+  for (const auto& c : *cutters)
+    if (c.id == "375-16_Tap") {
+      EXPECT_NEAR(c.thread_pitch_mm, 25.4 / 16.0, 1e-9);
+    }
 }
 
 TEST(Freecad, ALibraryFindsItsBitsInTheFolderBesideItsOwn) {

@@ -151,7 +151,10 @@ TEST(Select, PrefersWhatIsLoadedThenWhatIsInUse) {
   EXPECT_EQ(choose(r, p).ranked[0].cutter.id, "generic/endmill_4f_short/14");
   auto loaded = library();
   for (Cutter& c : loaded)
-    if (c.id == "generic/endmill_4f_short/12") c.pocket = 5;
+    if (c.id == "generic/endmill_4f_short/12") {
+      c.pocket = 5;
+      c.loaded = true;
+    }
   const auto s = select(r, loaded, material("mild_steel"), machine(), p);
   EXPECT_EQ(s.ranked[0].cutter.id, "generic/endmill_4f_short/12");
   EXPECT_NE(s.ranked[0].why.text.find("loaded as T5"), std::string::npos);
@@ -359,6 +362,7 @@ TEST(Select, TakesALoadedToolUnlessLoadingTheFasterOnePays) {
   r.diameter_max_mm = 16;
   Cutter small = endmill("small", 6), large = endmill("large", 16);
   small.pocket = 4;
+  small.loaded = true;
   for (Cutter* c : {&small, &large}) c->presets[0].fz_mm = 0.005 * c->cutting_diameter_mm;
   Preferences p;
   p.volume_mm3 = 500;

@@ -12,6 +12,7 @@
 #include "tooling/formats/freecad/shapes.h"
 #include "tooling/formats/item/item.h"
 #include "tooling/formats/json.h"
+#include "tooling/formats/linuxcnc/linuxcnc.h"
 #include "tooling/formats/zip.h"
 
 namespace capstan::tooling {
@@ -148,7 +149,9 @@ class BitReader {
     } else if (t == "Tap") {
       add_derived(item_, "TDZ", *dc, d->unit, "the diameter of a tap is that of its thread", report_);
       const Property* pitch = find(item_.properties, "TP");
-      if (pitch == nullptr || pitch->number == 0.0)
+      const bool named = sizes_of_words(item_.description, model::CutterClass::kTap, *dc).pitch_mm > 0.0 ||
+                         sizes_of_words(item_.id, model::CutterClass::kTap, *dc).pitch_mm > 0.0;
+      if (!named && (pitch == nullptr || pitch->number == 0.0))
         leave_out(item_, pitch == nullptr ? "the tap has no pitch" : "the pitch of the tap is 0", report_);
     } else if (t == "TaperedBallNose" || t == "Dovetail" || t == "Radius" || t == "Fillet") {
       derive_form(*dc);

@@ -156,6 +156,7 @@ class Reader {
       add_item(name, e, *std::move(dc), inches);
       e.assembly = name;
     }
+    if (!e.pocket) e.pocket = e.number;  // a tool table tells of what is in the machine
     out_.library.entries.push_back(std::move(e));
   }
 
@@ -186,16 +187,22 @@ class Reader {
       item.kept.emplace_back("left out", "no word of its comment '" + e.comment +
                                              "' tells what kind of tool it is (end mill, drill, tap, ...)");
     } else {
-      const CommentWords w = words_of_comment(e.comment, *item.cutter_class, diameter);
+      const CommentWords w = words_of_comment(e.comment, *item.cutter_class, diameter, mm_per_unit_);
       derived(text_property("CLASS", model::to_text(*item.cutter_class), ""),
               "from the words of the comment");
       if (w.carbide) derived(text_property("SUBSTRATE", "carbide", ""), "from the words of the comment");
       if (w.teeth > 0)
         derived(number_property("ZEFF", w.teeth, "", ValueState::kDerived, ""),
                 "from the words of the comment");
-      if (w.pitch_mm > 0.0)
-        derived(number_property("TP", w.pitch_mm, "mm", ValueState::kDerived, ""),
-                "from the comment or the coarse series");
+      const std::pair<const char*, double> sizes[] = {{"TP", w.sizes.pitch_mm},
+                                                      {"RE", w.sizes.corner_radius_mm},
+                                                      {"SIG", w.sizes.point_angle_rad},
+                                                      {"DCN", w.sizes.tip_mm}};
+      for (const auto& [symbol, value] : sizes)
+        if (value > 0.0)
+          derived(number_property(symbol, value, std::string_view(symbol) == "SIG" ? "deg" : "mm",
+                                  ValueState::kDerived, ""),
+                  "from the words of the comment");
     }
     ToolAssembly a;
     a.id = a.item = name;
@@ -303,7 +310,7 @@ class Writer {
         line += " " + std::string(1, letter) + shortest(*v);
       }
     }
-    const std::string comment = comment_of(e, item);
+    const std::string comment = with_sizes(comment_of(e, item), item);
     out_.bytes += line + (comment.empty() ? "" : " ;" + comment) + "\n";
     ++out_.report.tools;
     if (item != nullptr) told(*item, comment, e.assembly);
@@ -323,6 +330,40 @@ class Writer {
     return class_from_words(with) == item->cutter_class ? with : out;
   }
 
+  /// Sizes that the comment does not tell yet, in words that are read again.
+  std::string with_sizes(std::string comment, const CatalogueItem* item) const {
+    if (item == nullptr || !item->cutter_class) return comment;
+    const double dc = number_of(*item, "DC").value_or(0.0);
+    const auto add = [&](const char* symbol, double CommentSizes::*size, const auto& words) {
+      const auto v = number_of(*item, symbol);
+      if (!v || *v <= 0.0) return;
+      const auto says = [&](const std::string& text) {
+        return std::abs(sizes_of_words(text, *item->cutter_class, dc, mm_per_unit_).*size - *v) < 1e-4;
+      };
+      const std::string with = comment + (comment.empty() ? "" : ", ") + words(*v);
+      if (!says(comment) && says(with)) comment = with;
+    };
+    const auto mm = [](double v) { return trimmed(v, 5) + " mm"; };
+    add("TP", &CommentSizes::pitch_mm, [&](double v) { return "pitch " + mm(v); });
+    add("RE", &CommentSizes::corner_radius_mm, [&](double v) { return "R" + mm(v); });
+    add("SIG", &CommentSizes::point_angle_rad,
+        [](double v) { return trimmed(v / kRadPerDegree, 4) + " deg included"; });
+    add("DCN", &CommentSizes::tip_mm, [&](double v) { return "tip " + mm(v); });
+    return comment;
+  }
+
+  bool said(const Property& p, const CatalogueItem& item, const std::string& comment) const {
+    if (!item.cutter_class || !p.number) return false;
+    const auto s =
+        sizes_of_words(comment, *item.cutter_class, number_of(item, "DC").value_or(0.0), mm_per_unit_);
+    const double v = p.symbol == "TP"    ? s.pitch_mm
+                     : p.symbol == "RE"  ? s.corner_radius_mm
+                     : p.symbol == "SIG" ? s.point_angle_rad
+                     : p.symbol == "DCN" ? s.tip_mm
+                                         : 0.0;
+    return v > 0.0 && std::abs(v - *p.number) < 1e-4;
+  }
+
   void told(const CatalogueItem& item, const std::string& comment, const std::string& who) {
     if (item.cutter_class && class_from_words(comment) != item.cutter_class)
       drop(who, "class",
@@ -330,6 +371,7 @@ class Writer {
     std::string fields;
     for (const Property& p : item.properties) {
       if (p.symbol == "DC" || p.symbol == "CLASS" || p.state == ValueState::kDerived) continue;
+      if (said(p, item, comment)) continue;
       fields += (fields.empty() ? "" : " ") + p.symbol;
     }
     if (!fields.empty()) drop(who, fields, "a tool table has no place for these");

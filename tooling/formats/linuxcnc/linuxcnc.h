@@ -16,12 +16,26 @@ namespace capstan::tooling {
 [[nodiscard]] bool looks_like_tool_table(std::string_view text);
 
 /// What the words of a comment tell beyond the class; see also `class_from_words`.
+/// Sizes that names and comments of tools state in words; 0: they say nothing, and nothing is guessed.
+struct CommentSizes {
+  double pitch_mm = 0.0;  ///< taps, thread mills: "M6x0.75", "1/4-20", "20 TPI", "M6" (coarse, ISO 261)
+  double corner_radius_mm = 0.0;  ///< bull noses: "R1.5"
+  double point_angle_rad = 0.0;   ///< cones: "30 deg"; the full angle
+  double tip_mm = 0.0;            ///< cones: "tip 0.5"
+  bool pointed = false;           ///< a V-bit
+};
+/// Of a thread only what suits the diameter is taken: a tap of 6.35 mm is no M6. `mm_per_unit` is for radii
+/// and tips without a unit. An angle below 60 degrees counts for a chamfer mill only when it is a V-bit or
+/// the angle is called included: "45 deg" is often said of one side.
+[[nodiscard]] CommentSizes sizes_of_words(std::string_view words, model::CutterClass c, double diameter_mm,
+                                          double mm_per_unit = 1.0);
+
 struct CommentWords {
-  int teeth = 0;          ///< "4 flute", "3fl"
-  bool carbide = false;   ///< "carbide", "VHM", "Hartmetall"
-  double pitch_mm = 0.0;  ///< "M8x1.25", or the coarse pitch of the diameter; taps only
+  int teeth = 0;         ///< "4 flute", "3fl"
+  bool carbide = false;  ///< "carbide", "VHM", "Hartmetall"
+  CommentSizes sizes;
 };
 [[nodiscard]] CommentWords words_of_comment(std::string_view comment, model::CutterClass c,
-                                            double diameter_mm);
+                                            double diameter_mm, double mm_per_unit = 1.0);
 
 }  // namespace capstan::tooling
