@@ -55,6 +55,52 @@ TEST(Fixtures, APieceHeldBelowWhatIsCutHasNoFinding) {
   EXPECT_TRUE(findings.empty()) << told(findings);
 }
 
+TEST(Holding, GrippingSolidsInOnePlaceAreFound) {
+  PlanMaker k = held();
+  auto& solids = k.plan.setups[0].holding.solids;
+  solids.push_back(box("clamp 1", 2, 2, 6, 6, 0, 5));
+  solids.push_back(box("clamp 2", 6, 2, 10, 6, 0, 5));
+  EXPECT_EQ(find(check(k.plan), "CHK-HOLD-OVERLAP"), nullptr) << "they touch only";
+  solids.back() = box("clamp 2", 5, 2, 9, 6, 3, 8);
+  const auto findings = check(k.plan);
+  const auto* f = find(findings, "CHK-HOLD-OVERLAP");
+  ASSERT_NE(f, nullptr) << told(findings);
+  EXPECT_EQ(f->property, 31);
+  EXPECT_EQ(f->severity, Severity::kError);
+  EXPECT_NE(f->message.find("1 mm into"), std::string::npos) << f->message;  // across x; 2 mm in height
+  solids.back().id = "clamp 1.bolt";
+  solids.back().presses = false;
+  EXPECT_EQ(find(check(k.plan), "CHK-HOLD-OVERLAP"), nullptr) << "parts of one clamp may";
+}
+
+TEST(Holding, AClampAloneIsAWarning) {
+  PlanMaker k = held();
+  auto& solids = k.plan.setups[0].holding.solids;
+  solids = {box("clamp 1", 2, 2, 6, 6, 0, 5)};
+  auto findings = check(k.plan);
+  const auto* f = find(findings, "CHK-HOLD-ALONE");
+  ASSERT_NE(f, nullptr) << told(findings);
+  EXPECT_EQ(f->severity, Severity::kWarning);
+  solids.push_back(box("clamp 2", 94, 94, 98, 98, 0, 5));
+  findings = check(k.plan);
+  EXPECT_EQ(find(findings, "CHK-HOLD-ALONE"), nullptr) << told(findings);
+}
+
+TEST(Holding, AForceBelowTwiceThatOfTheHeaviestMillingStepIsAWarning) {
+  PlanMaker k = held();
+  k.plan.steps[0].loads.peak_force_n = 1000;
+  k.plan.steps[1].loads.peak_force_n = 5000;  // a drill's thrust does not slide the piece
+  for (const auto& [force, told_so] : {std::pair{0.0, false}, {1999.0, true}, {2001.0, false}}) {
+    k.plan.setups[0].holding.holding_force_n = force;
+    const auto findings = check(k.plan);
+    const auto* f = find(findings, "CHK-HOLD-FORCE");
+    ASSERT_EQ(f != nullptr, told_so) << force << told(findings);
+    if (f != nullptr) {
+      EXPECT_EQ(f->step, "pocket");
+    }
+  }
+}
+
 TEST(Fixtures, ARapidIntoAClampIsNamedWithMoveAndClamp) {
   PlanMaker k = held();
   k.plan.setups[0].holding.solids.push_back(box("clamp 7", 10, 10, 20, 20, 0, 6));

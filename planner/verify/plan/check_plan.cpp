@@ -12,6 +12,7 @@ std::vector<model::Finding> check_plan(const model::Plan& plan, Job& job) {
   check_coolant(plan, steps, findings);
   check_life(steps, findings);
   check_machine(plan, findings);
+  check_holding(plan, findings);
   check_order(plan, findings);
   check_coverage(plan, findings);
   check_removal(plan, steps, findings, job);

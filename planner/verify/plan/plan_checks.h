@@ -55,6 +55,11 @@ struct ToolSize {
 void check_tool_size(const ToolSize& tool, const model::Machine& machine, const Findings::Where& at,
                      Findings& findings);
 
+/// What holds the piece: gripping solids in one place (error), a clamp alone, a holding force below twice the
+/// cutting force (warnings): 31. The force is that which the plan states for its milling steps; outlines that
+/// are not convex are not compared.
+void check_holding(const model::Plan& plan, Findings& findings);
+
 /// What must come first: 28.
 void check_order(const model::Plan& plan, Findings& findings);
 
