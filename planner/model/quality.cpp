@@ -268,8 +268,13 @@ void take_location(const Model& m, AnyRef r, Quality& out) {
                       ((*s)->lower_mm < 0.0 ? "" : "+") + trimmed((*s)->lower_mm, 6));
 }
 
+/// Of the whole part is only a profile "all over" (ISO 1660, ISO 16792). A flatness or a position that names
+/// nothing has lost what it is of: nobody knows of which feature, so it is no feature's.
 bool names_nothing(const Model& m, AnyRef r) {
-  if (const auto* t = m.get<GeometricTolerance>(r)) return t->applied_to.empty();
+  if (const auto* t = m.get<GeometricTolerance>(r)) {
+    const KindOfTolerance* kind = kind_of(r.type);
+    return kind != nullptr && kind->family == Family::kProfile && t->applied_to.empty();
+  }
   if (const auto* s = m.get<SurfaceTextureParameter>(r))
     return s->applied_surfaces.empty() && s->applied_to.empty();
   return false;

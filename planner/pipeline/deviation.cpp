@@ -19,6 +19,7 @@ constexpr double kFinishShare = 0.1;
 constexpr double kRoughShare = 0.25;
 constexpr double kFinest = 0.001;   // mm: what the paths themselves are made to
 constexpr double kCoarsest = 0.05;  // mm; default, unsourced
+constexpr double kUnstated = 0.01;  // mm: most for a finish where the machine states none; default, unsourced
 constexpr double kGrid = 0.0001;    // mm: stated no finer, and rounded down
 
 double clipped(double v, double most) {
@@ -74,8 +75,9 @@ Deviation deviation_of(const Work& w, const StepWork& step, const toolpath::Path
   }
   const double own = w.plan.machine.control.path_tolerance_mm;
   const Tightest t = tightest(w, step.feature, step.shapes.front());
-  const double finest =
-      t.mm > 0.0 ? clipped(kFinishShare * t.mm, own > 0.0 ? std::max(own, kFinest) : 0.01) : own;
+  const double most = own > 0.0 ? std::max(own, kFinest) : kUnstated;
+  const double share = kFinishShare * t.mm;
+  const double finest = t.mm > 0.0 ? clipped(share, most) : own;
   // What stays on every surface that it cuts: of a face the floor, of a wall alone the side.
   double left = 0.0;
   if (m.holds<model::PlaneMilling>(step.operation)) {
@@ -91,8 +93,17 @@ Deviation deviation_of(const Work& w, const StepWork& step, const toolpath::Path
               trimmed(left, 3) + " mm that it leaves (default, unsourced)";
   } else if (t.mm > 0.0 && finest > 0.0) {
     out.mm = finest;
-    out.why = "path deviation and contour tolerance " + trimmed(out.mm, 4) + " mm: a tenth of " + t.of +
-              ", " + trimmed(t.mm, 4) + " mm wide, at most the control's own (default, unsourced)";
+    const std::string asked =
+        "a tenth of " + t.of + ", " + trimmed(t.mm, 4) + " mm wide (default, unsourced)";
+    out.why = "path deviation and contour tolerance " + trimmed(out.mm, 4) + " mm: ";
+    if (share < kFinest) {
+      out.why += "the finest that paths are made to; " + asked + " would be " + trimmed(share, 5) + " mm";
+    } else if (share > most) {
+      out.why += (own > 0.0 ? "the control's own; " : "the most for a finish (default, unsourced); ") +
+                 asked + " would be " + trimmed(share, 4) + " mm";
+    } else {
+      out.why += asked;
+    }
   }
   return out;
 }

@@ -200,6 +200,7 @@ Status order_steps(Work& w) {
     for (const std::size_t item : setup.steps) sorted.push_back(std::move(w.steps[proposed[item]]));
   }
   w.steps = std::move(sorted);
+  add_probings(w);
   for (const auto& d : order->dropped)
     w.job.note("PIP-ORDER", "an order that was found gives way to one that must hold: " + d.text);
   warn_of_parted(w);

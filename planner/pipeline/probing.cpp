@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "planner/base/number.h"
+#include "planner/pipeline/touches.h"
 #include "planner/pipeline/work.h"
 #include "tooling/nouns/nouns.h"
 
@@ -16,17 +17,6 @@ using model::FeatureShape;
 using model::Model;
 using model::ShapeKind;
 
-constexpr double kClear =
-    10.0;  // mm above the floor's top where a measurement downwards begins; default, unsourced
-
-/// One measuring move: from where, which way, how far until it touches, and what that distance may be.
-struct Measure {
-  Vec3 start, direction, reference;
-  double distance_mm = 0.0;
-  std::optional<double> lower_mm, upper_mm;
-  std::string what;  ///< "radius"
-};
-
 /// The deviations of a size: its own, else the general ones.
 std::optional<model::Deviations> deviations(const Work& w, const model::Toleranced& t) {
   if (t.given) return model::Deviations{t.lower_mm, t.upper_mm};
@@ -36,9 +26,6 @@ std::optional<model::Deviations> deviations(const Work& w, const model::Toleranc
 }
 
 /// What the last step will still take off the wall and the floor: what the one before it leaves.
-struct Left {
-  double side_mm = 0.0, bottom_mm = 0.0;
-};
 Left left_at(const std::vector<model::ProposedStep>& chain, std::size_t at, const FeatureShape& s) {
   Left out;
   if (at > 0 && model::is_a(chain[at - 1].operation, model::TypeId::kMillingTypeOperation)) {
@@ -50,48 +37,51 @@ Left left_at(const std::vector<model::ProposedStep>& chain, std::size_t at, cons
   return out;
 }
 
-/// Holes: from the axis, half way down, to the wall. Pockets and slots that state a width: from the middle to
-/// the wall. All else: from above down to the floor.
-Measure measure_of(const Work& w, const FeatureShape& s, Left left) {
-  Measure out;
-  const auto half = [&](const model::Toleranced& t, const char* what) {
-    out.distance_mm = 0.5 * t.middle() - left.side_mm;
-    if (const auto d = deviations(w, t)) {
+/// What is measured before a step, and how far its walls may be from where they are expected.
+struct Measured {
+  Touches found;
+  std::string of;  ///< "datum A, 'H2'"
+  std::optional<double> lower_mm, upper_mm;
+};
+
+/// The datum that the position of this step's feature refers to, when it is done before in the same set-up.
+std::optional<Measured> datum_of(const Work& w, std::size_t at, double ball) {
+  const StepWork& step = w.steps[at];
+  for (const model::Tie& tie : w.ties) {
+    if (tie.letter.empty() || tie.second != step.feature || tie.first == step.feature) continue;
+    const auto is_datum = [&](const StepWork& s) { return s.feature == tie.first; };
+    const auto here = w.steps.begin() + static_cast<std::ptrdiff_t>(at);
+    if (std::none_of(w.steps.begin(), here, is_datum) || std::any_of(here, w.steps.end(), is_datum)) continue;
+    if (std::any_of(w.steps.begin(), here,
+                    [&](const auto& s) { return is_datum(s) && s.setup != step.setup; }))
+      continue;
+    // As it is cut: a hole right through may be entered from its other side.
+    const auto last = std::find_if(std::make_reverse_iterator(here), w.steps.rend(), is_datum);
+    if (last->shapes.size() != 1) continue;
+    const FeatureShape& s = last->shapes.front();
+    const bool placed = s.kind == ShapeKind::kHole || s.kind == ShapeKind::kOutside ||
+                        (s.kind == ShapeKind::kPocket && !s.open);
+    if (!placed || dot(s.frame.z, step.shapes.front().frame.z) < 1.0 - 1e-6) continue;
+    Measured out{touches_of(w, s, {}, ball), "datum " + tie.letter + ", '" + s.name + "'", {}, {}};
+    if (out.found.touches.empty()) continue;
+    if (const auto d = s.kind == ShapeKind::kHole ? deviations(w, s.diameter) : std::nullopt) {
       out.lower_mm = 0.5 * (d->lower_mm - d->middle());
       out.upper_mm = 0.5 * (d->upper_mm - d->middle());
     }
-    out.what = what;
-  };
-  out.reference = s.frame.z;
-  if (s.kind == ShapeKind::kHole) {
-    out.start = s.frame.origin - 0.5 * s.depth_mm * s.frame.z;
-    out.direction = s.frame.x;
-    half(s.diameter, "radius");
     return out;
   }
-  const auto box = geometry::bounds(s.area);
-  const geometry::Vec2 middle = 0.5 * (box.lo + box.hi);
-  const auto size = box.hi - box.lo;
-  constexpr double kSame = 1e-3;
-  const bool across_y = std::abs(size.y - s.width.nominal_mm) < kSame;
-  const bool across_x = std::abs(size.x - s.width.nominal_mm) < kSame;
-  if (s.kind == ShapeKind::kPocket && s.width.given && s.islands.empty() && (across_x || across_y)) {
-    out.start = s.frame.to_parent({middle.x, middle.y, -0.5 * s.depth_mm});
-    out.direction = across_y ? s.frame.y : s.frame.x;
-    half(s.width, "half width");
-    return out;
-  }
-  out.start = s.frame.to_parent({middle.x, middle.y, kClear});
-  out.direction = -1.0 * s.frame.z;
-  out.reference = s.frame.x;
-  model::Toleranced depth = s.depth_tolerance;
-  depth.nominal_mm = s.depth_mm;
-  out.distance_mm = kClear + depth.middle() - left.bottom_mm;
-  if (const auto d = deviations(w, depth)) {
-    out.lower_mm = d->lower_mm - d->middle();
-    out.upper_mm = d->upper_mm - d->middle();
-  }
-  out.what = "floor, from " + trimmed(kClear, 3) + " mm above";
+  return std::nullopt;
+}
+
+Measured measured_before(const Work& w, std::size_t at) {
+  const StepWork& step = w.steps[at];
+  const Probing& p = *step.probing;
+  const double ball = p.probe ? 0.5 * p.probe->cutter.cutting_diameter_mm : 0.0;
+  if (auto datum = datum_of(w, at, ball)) return *std::move(datum);
+  const FeatureShape& s = step.shapes.front();
+  Measured out{
+      touches_of(w, s, left_at(p.chain, p.at, s), ball), "'" + s.name + "' as it is cut so far", {}, {}};
+  if (step.shapes.size() > 1) out.of += ", the first of " + std::to_string(step.shapes.size());
   return out;
 }
 
@@ -114,25 +104,23 @@ Ref<model::Direction> direction(Model& m, Vec3 v) {
   return m.add(d);
 }
 
-}  // namespace
-
-Ref<model::Executable> add_probing(Work& w, const std::vector<model::ProposedStep>& chain, std::size_t at,
-                                   const model::Candidate* probe, const FeatureShape& shape) {
+Ref<model::Executable> touch_noun(Work& w, const StepWork& next, const Measured& what, std::size_t at) {
   Model& m = w.plan.model;
-  const model::ProposedStep& step = chain[at];
-  const Measure what = measure_of(w, shape, left_at(chain, at, shape));
+  const Probing& wanted = *next.probing;
+  const model::ProposedStep& step = wanted.chain[wanted.at];
+  const Touch& touch = what.found.touches[at];
 
   model::CartesianPoint point;
   point.name = "";
-  point.coordinates = {{what.start.x, what.start.y, what.start.z}, true};
+  point.coordinates = {{touch.start.x, touch.start.y, touch.start.z}, true};
   model::Axis2Placement3d start;
   start.name = "";
   start.location = m.add(point);
-  start.axis = direction(m, what.reference);
-  start.ref_direction = direction(m, what.direction);
+  start.axis = direction(m, touch.reference);
+  start.ref_direction = direction(m, touch.direction);
 
   model::TolerancedLengthMeasure expected;
-  expected.theoretical_size = what.distance_mm;
+  expected.theoretical_size = touch.distance_mm;
   if (what.lower_mm && what.upper_mm) {
     model::PlusMinusValue t;
     t.upper_limit = *what.upper_mm;
@@ -144,30 +132,64 @@ Ref<model::Executable> add_probing(Work& w, const std::vector<model::ProposedSte
   result.its_name = "probed_" + std::to_string(m.all(model::TypeId::kWorkpieceProbing).size() + 1);
 
   model::WorkpieceProbing p;
-  p.its_id = step.name;
+  p.its_id = step.name + " " + touch.side;
   p.measured_offset = m.add(result);
   p.start_position = m.add(start);
-  if (const auto* f = m.get<model::ManufacturingFeature>(step.feature)) p.its_workpiece = f->its_workpiece;
-  p.direction = direction(m, what.direction);
+  if (const auto* f = m.get<model::ManufacturingFeature>(next.feature)) p.its_workpiece = f->its_workpiece;
+  p.direction = direction(m, touch.direction);
   p.expected_value = m.add(expected);
-  p.its_probe = probe_noun(m, probe == nullptr ? nullptr : &probe->cutter);
+  p.its_probe = probe_noun(m, wanted.probe ? &wanted.probe->cutter : nullptr);
   const auto made = m.add(p);
 
   model::Reason why = step.why;
-  why.text +=
-      (why.text.empty() ? "" : "; ") + what.what + " expected at " + trimmed(what.distance_mm, 4) + " mm";
-  if (what.lower_mm && what.upper_mm)
-    why.text += " (" + trimmed(*what.lower_mm, 4) + " to +" + trimmed(*what.upper_mm, 4) + ")";
+  why.text += (why.text.empty() ? "" : "; ") + what.of + ", " + touch.side + ": expected after " +
+              trimmed(touch.distance_mm, 4) + " mm, " +
+              (wanted.probe ? "the ball's radius of " +
+                                  trimmed(0.5 * wanted.probe->cutter.cutting_diameter_mm, 4) + " mm taken off"
+                            : "from the start to the wall itself");
+  if (what.found.touches.size() > 1)
+    why.text += "; half the difference of two touches facing each other is what the middle is off";
   w.plan.ledger.bind(made, "expected_value", Binder::kRule, why);
-  if (probe != nullptr) {
-    w.plan.ledger.bind(made, "its_probe", Binder::kToolSelection, probe->why, {{made, "expected_value"}});
-  } else {
-    w.job.warn("PIP-PROBE",
-               "'" + step.name +
-                   "': machine or library has no touch probe; the program stops, and it is measured by "
-                   "other means");
-  }
+  if (wanted.probe)
+    w.plan.ledger.bind(made, "its_probe", Binder::kToolSelection, wanted.probe->why,
+                       {{made, "expected_value"}});
   return made;
+}
+
+}  // namespace
+
+void add_probings(Work& w) {
+  std::vector<StepWork> out;
+  for (std::size_t i = 0; i < w.steps.size(); ++i) {
+    const StepWork& next = w.steps[i];
+    if (next.probing) {
+      const model::ProposedStep& wanted = next.probing->chain[next.probing->at];
+      const Measured what = measured_before(w, i);
+      if (what.found.touches.empty()) {
+        w.job.warn("PIP-PROBE", "'" + wanted.name + "' is not proposed: " + what.found.why_not +
+                                    "; the steps are kept, and do not hold by themselves what is asked: " +
+                                    wanted.why.text + " [" + wanted.why.id + "]");
+      } else if (!next.probing->probe) {
+        w.job.warn("PIP-PROBE", "'" + wanted.name +
+                                    "': machine or library has no touch probe; the program stops, and it is "
+                                    "measured by other means");
+      }
+      for (std::size_t k = 0; k < what.found.touches.size(); ++k) {
+        StepWork step;
+        step.feature = next.feature;
+        step.setup = next.setup;
+        step.shapes = next.shapes;
+        step.proposed = true;
+        step.proposal = wanted;
+        step.proposal.feature = next.feature;
+        if (next.probing->probe) step.cutter = next.probing->probe->cutter;
+        step.step = touch_noun(w, next, what, k);
+        out.push_back(std::move(step));
+      }
+    }
+    out.push_back(next);
+  }
+  w.steps = std::move(out);
 }
 
 }  // namespace capstan::pipeline

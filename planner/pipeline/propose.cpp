@@ -2,6 +2,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "planner/base/number.h"
 #include "planner/model/walk.h"
@@ -282,6 +283,8 @@ class Proposer {
       }
     }
     std::vector<std::size_t> made;
+    std::vector<std::optional<std::size_t>> made_of;  // by step of the chain
+    std::optional<Probing> probing;
     const std::size_t setup = setup_for(w_, s);
     for (std::size_t i = 0; i < chosen.chain->size(); ++i) {
       StepWork step;
@@ -293,7 +296,8 @@ class Proposer {
       step.proposal = (*chosen.chain)[i];
       step.proposal.feature = f;
       if (step.proposal.operation == TypeId::kWorkpieceProbing) {
-        made.push_back(probing(std::move(step), *chosen.chain, i, chosen.tools[i], made));
+        probing = probing_at(*chosen.chain, i, chosen.tools[i]);
+        made_of.push_back(made.empty() ? std::nullopt : std::optional(made.back()));
         continue;
       }
       step.candidates = chosen.tools[i].ranked;
@@ -307,8 +311,10 @@ class Proposer {
       step.step = ws;
       step.operation = w_.plan.model.at<model::MachiningWorkingstep>(ws).its_operation;
       for (const std::size_t before : step.proposal.after) {
-        if (before < made.size()) step.after.push_back(made[before]);
+        if (before < made_of.size() && made_of[before]) step.after.push_back(*made_of[before]);
       }
+      step.probing = std::exchange(probing, std::nullopt);
+      made_of.push_back(w_.steps.size());
       w_.used_cutters.push_back(step.cutter.id);
       made.push_back(w_.steps.size());
       w_.steps.push_back(std::move(step));
@@ -316,20 +322,14 @@ class Proposer {
     return made;
   }
 
-  /// A step between others that measures; gives its index.
-  std::size_t probing(StepWork step, const std::vector<model::ProposedStep>& chain, std::size_t i,
-                      const model::Selection& tools, const std::vector<std::size_t>& made) {
-    const bool has = w_.plan.machine.abilities.probe && !tools.ranked.empty();
-    const model::Candidate* probe = has ? &tools.ranked.front() : nullptr;
-    step.open_technology = false;
-    if (probe != nullptr) {
-      step.cutter = probe->cutter;
-      w_.used_cutters.push_back(step.cutter.id);
+  Probing probing_at(const std::vector<model::ProposedStep>& chain, std::size_t i,
+                     const model::Selection& tools) {
+    Probing out{chain, i, {}};
+    if (w_.plan.machine.abilities.probe && !tools.ranked.empty()) {
+      out.probe = tools.ranked.front();
+      w_.used_cutters.push_back(out.probe->cutter.id);
     }
-    step.step = add_probing(w_, chain, i, probe, step.shapes.front());
-    if (!made.empty()) step.after.push_back(made.back());
-    w_.steps.push_back(std::move(step));
-    return w_.steps.size() - 1;
+    return out;
   }
 
   Work& w_;

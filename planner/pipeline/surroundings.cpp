@@ -190,6 +190,29 @@ rules::Context context_of(const Work& w, AnyRef feature, const std::vector<Featu
   return c;
 }
 
+namespace {
+
+/// Zones of no width (0 at maximum material): what the size leaves. Which that is, only the finished size
+/// says.
+void warn_of_zero_zones(const Work& w, const model::Attribution& attribution) {
+  const Model& m = w.plan.model;
+  for (const AnyRef r : m.all_below(model::TypeId::kGeometricTolerance)) {
+    const auto& value = m.at<model::GeometricTolerance>(r).tolerance_value;
+    if (value && *value > 0.0) continue;
+    std::string of;
+    for (const AnyRef f : attribution.features(r)) {
+      const auto* feature = m.get<model::ManufacturingFeature>(f);
+      if (feature != nullptr) of += (of.empty() ? " of '" : ", '") + feature->its_id.value_or("") + "'";
+    }
+    w.job.warn("PIP-REQUIREMENT",
+               std::string(model::noun_type(r.type).keyword) + of +
+                   (value ? " has a zone of 0, the whole of which the size leaves" : " states no value") +
+                   "; kept in the plan, and not planned for: hold it by the size");
+  }
+}
+
+}  // namespace
+
 Status take_requirements(Work& w) {
   const Model& m = w.plan.model;
   if (!w.inputs.general_tolerance.empty()) {
@@ -222,6 +245,7 @@ Status take_requirements(Work& w) {
     w.job.warn("PIP-REQUIREMENT", "no feature answers for what is asked of faces or elements of the part: " +
                                       lost + "; kept in the plan, and not planned for");
   }
+  warn_of_zero_zones(w, attribution);
   return {};
 }
 

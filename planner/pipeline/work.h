@@ -31,6 +31,13 @@ struct SetupWork {
   model::Workholding holding = {};
 };
 
+/// A measurement that a chain wants before one of its steps.
+struct Probing {
+  std::vector<model::ProposedStep> chain;  ///< whole
+  std::size_t at = 0;                      ///< of the measuring step in it
+  std::optional<model::Candidate> probe;   ///< unset: by hand
+};
+
 /// One workingstep while it is planned.
 struct StepWork {
   Ref<model::Executable> step;
@@ -45,7 +52,8 @@ struct StepWork {
   std::vector<model::Rejected> rejected_tools;
   bool open_technology = false;  ///< feed or speed to be chosen
   bool open_tool = false;
-  std::vector<std::size_t> after;  ///< indices into Work::steps that must come before; chain order
+  std::vector<std::size_t> after;       ///< indices into Work::steps that must come before; chain order
+  std::optional<Probing> probing = {};  ///< measured right before this step, if it can be
 };
 
 struct Work {
@@ -107,11 +115,15 @@ struct Thickness {
                                                          const model::FeatureShape& shape,
                                                          std::vector<model::Rejected> rejected_chains,
                                                          std::vector<model::Rejected> rejected_tools);
-/// A step that measures: start and direction in workpiece coordinates, the distance expected until the ball
-/// touches (before the last step, so less what that still takes off) and its tolerance. `probe` may be null.
-[[nodiscard]] Ref<model::Executable> add_probing(Work& w, const std::vector<model::ProposedStep>& chain,
-                                                 std::size_t at, const model::Candidate* probe,
-                                                 const model::FeatureShape& shape);
+/// Puts what is to be measured before the steps that want it, once the order is known: a workpiece_probing
+/// per touch, start and direction in workpiece coordinates, the distance expected from the start until the
+/// ball touches (its radius taken off, and what later steps still take off).
+///
+/// Measured is the datum that the position refers to, where that is a hole, a pocket or an outside made
+/// before in the same set-up, else the feature itself: of a hole, a pocket or an outside opposite walls in x
+/// and in y, of a slot across, of a face its level. Where no start is known to be free and no wall known to
+/// be there, nothing is proposed and PIP-PROBE says why.
+void add_probings(Work& w);
 /// The noun of a cutter, made once per plan.
 [[nodiscard]] Ref<model::MachiningTool> tool_noun(Work& w, const model::Cutter& cutter);
 [[nodiscard]] geometry::Box3 transformed(const geometry::Box3& box, const geometry::Placement& to);

@@ -5,7 +5,8 @@
 namespace capstan::rules {
 namespace {
 
-// Share of a chain's error of position that is left when the feature is probed before its last step. Default,
+// Share of a chain's error of position that is left when the program stops before the last step, it is
+// measured, and the operator corrects the work offset. Nothing in a program corrects by itself. Default,
 // unsourced.
 constexpr double kProbed = 0.5;
 constexpr double kCoarsest = 19.0;  // beyond IT18: a demand that asks for no grade

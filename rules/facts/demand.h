@@ -13,7 +13,8 @@ namespace capstan::rules {
 ///
 /// Values  as_grade: the chain is chosen as if the size had this ISO 286 grade, when that is the finer one;
 ///         machined: 1: a hole's wall is placed by the axes of the machine, not by a drill before: no reamer;
-///         probe: 1: the feature (or its datum) is probed before the last step.
+///         probe: 1: the feature (or its datum) is measured before the last step, and the operator corrects
+///         the work offset by what is found.
 inline constexpr std::string_view kDemandTables[] = {"texture", "position", "form"};
 inline constexpr int kNoGrade = 19;  ///< as_grade of a row that asks for none
 

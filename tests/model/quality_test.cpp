@@ -184,6 +184,18 @@ TEST(Quality, NamesWhatNoFeatureAnswersForOnce) {
   EXPECT_EQ(quality_of(p.m, p.pocket).profile_mm, 0.5) << "all over";
 }
 
+TEST(Quality, PutsOnlyAProfileThatNamesNothingOnEverything) {
+  Part p;
+  p.tolerance<FlatnessTolerance>(0.005);
+  p.tolerance<PositionTolerance>(0.01);
+  p.tolerance<TotalRunoutTolerance>(0.01);
+  const Quality q = quality_of(p.m, p.hole);
+  EXPECT_FALSE(q.form_mm || q.location_mm || q.runout_mm);
+  EXPECT_THAT(q.texts, IsEmpty());
+  const auto lost = Attribution(p.m).lost();
+  ASSERT_EQ(lost.size(), 3U) << "kept, and said";
+}
+
 TEST(Quality, EndsOnShapeElementsThatHoldEachOther) {
   Part p;
   const auto one = p.m.add(ShapeElement{});

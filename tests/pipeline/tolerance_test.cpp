@@ -285,6 +285,134 @@ TEST(Ties, TurnAThroughHoleToTheSideOfItsDatum) {
   for (const auto& s : p.plan.steps) EXPECT_EQ(s.setup, p.plan.steps.front().setup);
 }
 
+/// A touch as the plan says it: start, direction, and the distance expected.
+struct Made {
+  double x, y, z, dx, dy, dz, distance;
+};
+std::vector<Made> touches(const model::Plan& plan) {
+  std::vector<Made> out;
+  for (const auto r : plan.model.all(model::TypeId::kWorkpieceProbing)) {
+    const auto& p = plan.model.at<model::WorkpieceProbing>(r);
+    const auto& at = plan.model.at<model::Axis2Placement3d>(p.start_position);
+    const auto& c = plan.model.at<model::CartesianPoint>(at.location).coordinates.items;
+    const auto& d = plan.model.at<model::Direction>(p.direction).direction_ratios.items;
+    const auto& e = plan.model.at<model::TolerancedLengthMeasure>(p.expected_value);
+    out.push_back({c[0], c[1], c[2], d[0], d[1], d[2], e.theoretical_size.value_or(-1.0)});
+  }
+  return out;
+}
+double probe_radius(const model::Plan& plan) {
+  for (const auto& c : plan.cutters) {
+    if (c.cutter_class == model::CutterClass::kTouchProbe) return 0.5 * c.cutting_diameter_mm;
+  }
+  return 0.0;
+}
+
+/// What is planned for a feature whose position is asked within 0.02 mm and which refers to no datum.
+Planned placed(const std::string& features, const std::string& id) {
+  Inputs in = shop();
+  in.machine.abilities.probe = true;
+  model::Plan plan = read(features);
+  model::PositionTolerance t;
+  t.tolerance_value = 0.02;
+  t.applied_to.push_back(model::Ref<model::ManufacturingFeature>(feature(plan, id)));
+  plan.model.add(t);
+  return bound(std::move(plan), in);
+}
+
+TEST(Probing, TouchesOppositeWallsOfAPocketInXAndY) {
+  for (const char* bottom : {"#57", "#58"}) {  // its floor is never touched, and need not be there
+    const Planned p = placed(
+        "#61=TOLERANCED_LENGTH_MEASURE(40.,$);\n#64=TOLERANCED_LENGTH_MEASURE(60.,$);\n"
+        "#66=TOLERANCED_LENGTH_MEASURE(8.,$);\n"
+        "#62=RECTANGULAR_CLOSED_PROFILE($,#61,#64);\n"
+        "#63=CLOSED_POCKET('P',#4,(),#50,#56,(),$," +
+            std::string(bottom) + ",$,#66,#62);\n",
+        "P");
+    const auto made = touches(p.plan);
+    ASSERT_EQ(made.size(), 4U) << p.said;
+    const double ball = probe_radius(p.plan);
+    double x = 0.0, y = 0.0;
+    for (const Made& t : made) {
+      EXPECT_NEAR(t.x, 50.0, 1e-6);
+      EXPECT_NEAR(t.y, 50.0, 1e-6);
+      EXPECT_NEAR(t.z, -5.0, 1e-6) << "below the top, above the floor";
+      EXPECT_EQ(t.dz, 0.0);
+      x += t.dx;
+      y += t.dy;
+      // What the last step takes off is still there.
+      const double half = std::abs(t.dx) > 0.5 ? 30.0 : 20.0;
+      EXPECT_LE(t.distance, half - ball + 1e-6);
+      EXPECT_GT(t.distance, half - ball - 0.5);
+    }
+    EXPECT_EQ(x, 0.0);
+    EXPECT_EQ(y, 0.0);
+  }
+}
+
+TEST(Probing, OfAnOutsideStartsBesideItAndMovesInwards) {
+  const Planned p = placed(
+      "#61=TOLERANCED_LENGTH_MEASURE(60.,$);\n#62=CIRCULAR_CLOSED_PROFILE($,#61);\n"
+      "#63=GENERAL_OUTSIDE_PROFILE('O',#4,(),#50,#56,$,#62);\n",
+      "O");
+  const auto made = touches(p.plan);
+  ASSERT_EQ(made.size(), 4U) << p.said;
+  const double ball = probe_radius(p.plan);
+  for (const Made& t : made) {
+    const double from = std::hypot(t.x - 50.0, t.y - 50.0);
+    EXPECT_GT(from - ball, 30.0 + 5.0) << "not over what stands";
+    EXPECT_LT((t.x - 50.0) * t.dx + (t.y - 50.0) * t.dy, 0.0) << "inwards";
+    EXPECT_GE(from - ball - t.distance, 30.0 - 0.01);
+    EXPECT_LT(from - ball - t.distance, 30.5);
+    EXPECT_NEAR(t.z, -5.0, 1e-6);
+  }
+}
+
+TEST(Probing, OfAFaceIsItsLevel) {
+  const Planned p = placed(
+      "#61=TOLERANCED_LENGTH_MEASURE(100.,$);\n#62=LINEAR_PROFILE($,#68);\n#68=NUMERIC_PARAMETER('PROFILE "
+      "LENGTH',100.,'MM');\n"
+      "#64=CARTESIAN_POINT('',(0.,0.,0.));\n#65=AXIS2_PLACEMENT_3D('',#64,#21,#22);\n"
+      "#66=LINEAR_PATH($,#61,#67);\n#67=DIRECTION('',(0.,1.,0.));\n"
+      "#63=PLANAR_FACE('F',#4,(),#65,#53,#66,#62,$,());\n",
+      "F");
+  const auto made = touches(p.plan);
+  ASSERT_EQ(made.size(), 1U) << p.said;
+  EXPECT_EQ(made[0].dz, -1.0);
+  EXPECT_GT(made[0].z - made[0].distance - probe_radius(p.plan), -5.0 - 1e-9);
+  EXPECT_LT(made[0].z - made[0].distance - probe_radius(p.plan), -4.0);
+}
+
+TEST(Probing, IsNotProposedWhereTheWallIsCutAway) {
+  // A pocket over the whole width of another hole's wall: the hole's wall is not there at any height.
+  const Planned p = placed(
+      "#61=TOLERANCED_LENGTH_MEASURE(8.,$);\n#63=ROUND_HOLE('H1',#4,(),#50,#56,#61,$,#57000);\n"
+      "#57000=FLAT_HOLE_BOTTOM();\n#64=TOLERANCED_LENGTH_MEASURE(40.,$);\n"
+      "#62=CIRCULAR_CLOSED_PROFILE($,#64);\n"
+      "#66=CLOSED_POCKET('P',#4,(),#50,#56,(),$,#57,$,$,#62);\n",
+      "H1");
+  EXPECT_TRUE(touches(p.plan).empty());
+  EXPECT_THAT(p.said, HasSubstr("'H1 probe_feature' is not proposed: along x and y there are no two walls"));
+}
+
+TEST(Requirements, OfAZoneOfZeroAreSaid) {
+  model::Plan plan = read(kTwoHoles);
+  tie(plan.model, feature(plan, "H2"), feature(plan, "H1"), 0.0);
+  const Planned p = bound(std::move(plan));
+  EXPECT_THAT(p.said, HasSubstr("POSITION_TOLERANCE of 'H1' has a zone of 0"));
+}
+
+TEST(Requirements, ThatNameNothingAreKeptAndSaid) {
+  model::Plan plan = read(kTwoHoles);
+  model::FlatnessTolerance t;
+  t.tolerance_value = 0.001;  // what no cutter holds
+  plan.model.add(t);
+  const Planned p = bound(std::move(plan));
+  EXPECT_TRUE(p.plan.unplanned.empty());
+  EXPECT_THAT(p.said, HasSubstr("PIP-REQUIREMENT"));
+  EXPECT_THAT(p.said, HasSubstr("flatness 0.001"));
+}
+
 TEST(Probing, StopsTheProgramBeforeTheLastStepWhereThePositionAsksForIt) {
   Inputs in = shop();
   in.machine.abilities.probe = true;
@@ -292,17 +420,22 @@ TEST(Probing, StopsTheProgramBeforeTheLastStepWhereThePositionAsksForIt) {
   tie(plan.model, feature(plan, "H2"), feature(plan, "H1"), 0.02);
   const Planned p = bound(std::move(plan), in);
   const auto probings = p.plan.model.all(model::TypeId::kWorkpieceProbing);
-  ASSERT_EQ(probings.size(), 1U) << p.said;
+  ASSERT_EQ(probings.size(), 4U) << p.said;
   const auto before = output::probings_before(p.plan);
-  ASSERT_EQ(before.size(), 1U);
+  ASSERT_EQ(before.size(), 1U) << "one stop";
   for (const auto& s : p.plan.steps) {
     if (s.step != before.begin()->first) continue;
     EXPECT_TRUE(model::step_id(p.plan, s).starts_with("H1")) << model::step_id(p.plan, s);
   }
-  const auto& probing = p.plan.model.at<model::WorkpieceProbing>(probings.front());
-  const auto& expected = p.plan.model.at<model::TolerancedLengthMeasure>(probing.expected_value);
-  EXPECT_GT(*expected.theoretical_size, 3.0);
-  EXPECT_LE(*expected.theoretical_size, 4.0) << "what the last step takes off is still there";
+  // Datum A is the finished hole H2 of 8 mm at (20, 20): from its axis to the wall, less the ball.
+  const double ball = probe_radius(p.plan);
+  EXPECT_GT(ball, 0.0);
+  for (const Made& t : touches(p.plan)) {
+    EXPECT_NEAR(t.distance, 4.0 - ball, 1e-9);
+    EXPECT_NEAR(t.x, 20.0, 1e-9);
+    EXPECT_NEAR(t.y, 20.0, 1e-9);
+    EXPECT_NEAR(t.z, -5.0, 1e-9) << "half way down";
+  }
   Job job;
   const auto program = write_plan(p.plan, Format::kLinuxCnc, job);
   ASSERT_TRUE(program) << to_text(program.error());
@@ -327,8 +460,9 @@ TEST(Probing, IsDoneByHandOnAMachineWithoutAProbe) {
   model::Plan plan = read(kTwoHoles);
   tie(plan.model, feature(plan, "H2"), feature(plan, "H1"), 0.02);
   const Planned p = bound(std::move(plan), in);
-  ASSERT_EQ(p.plan.model.all(model::TypeId::kWorkpieceProbing).size(), 1U);
+  ASSERT_EQ(p.plan.model.all(model::TypeId::kWorkpieceProbing).size(), 4U);
   EXPECT_THAT(p.said, HasSubstr("PIP-PROBE"));
+  for (const Made& t : touches(p.plan)) EXPECT_NEAR(t.distance, 4.0, 1e-9) << "no ball: to the wall itself";
   for (const auto& c : p.plan.cutters) EXPECT_NE(c.cutter_class, model::CutterClass::kTouchProbe);
   Job job;
   const auto program = write_plan(p.plan, Format::kLinuxCnc, job);

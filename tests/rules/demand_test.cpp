@@ -108,7 +108,7 @@ TEST(Hole, WithACloserPositionIsNotReamedAfterADrillThatRan) {
   EXPECT_THAT(actions(chain(0.04)), ElementsAre("centre", "drill", "bore"));
   EXPECT_THAT(actions(chain(0.02)), ElementsAre("centre", "drill", "probe_feature", "bore"));
   EXPECT_THAT(chain(0.02).chains[0][2].why.text, HasSubstr("measured in the machine by other means"));
-  EXPECT_THAT(chain(0.018).cannot, HasSubstr("no touch probe [position.tight.blind]"));
+  EXPECT_THAT(chain(0.018).cannot, HasSubstr("[position.ground]"));
   EXPECT_THAT(chain(0.01).cannot, HasSubstr("[position.ground]"));
 }
 
@@ -122,12 +122,26 @@ TEST(Probing, IsProposedBeforeTheLastStepWhereTheChainAloneDoesNotHoldThePositio
   EXPECT_EQ(probe.operation, model::TypeId::kWorkpieceProbing);
   EXPECT_THAT(probe.tool.classes, ElementsAre(model::CutterClass::kTouchProbe));
   EXPECT_EQ(probe.why.id, "position.tight.hole");
+  EXPECT_THAT(probe.why.text, HasSubstr("the operator corrects the work offset"));
   EXPECT_FALSE(probe.coolant);
   EXPECT_THAT(p.chains[0][3].after, ElementsAre(2U));
   EXPECT_THAT(actions(propose(shipped(), area(ShapeKind::kPocket), c)),
               ElementsAre("area_rough", "area_finish", "probe_feature", "spring_pass"));
   c.quality.location_mm = 0.04;
   EXPECT_THAT(actions(propose(shipped(), hole(9), c)), ElementsAre("centre", "drill", "bore"));
+}
+
+TEST(Probing, HoldsNoMoreWithAProbeThanWithoutForNothingCorrectsByItself) {
+  for (const bool probe : {false, true}) {
+    Context c = steel();
+    c.abilities.probe = probe;
+    c.quality.location_mm = 0.0199;
+    EXPECT_THAT(propose(shipped(), hole(9), c).cannot, HasSubstr("closer than 0.02 mm")) << probe;
+    EXPECT_THAT(propose(shipped(), area(ShapeKind::kPocket), c).cannot, HasSubstr("closer than 0.02 mm"))
+        << probe;
+    c.quality.location_mm = 0.02;
+    EXPECT_TRUE(propose(shipped(), hole(9), c).cannot.empty()) << probe;
+  }
 }
 
 TEST(Hole, WithACloserFormIsReamedOrBored) {

@@ -65,12 +65,17 @@ class Writer {
     program_.blank();
     retract();
     stop();
+    std::string first;
     for (const model::AnyRef r : due->second) {
       const std::vector<std::string> lines = probing_text(plan_, r);
       for (const std::string& line : lines) program_.comment(line);
-      program_.line("(MSG, " + plain_text(lines.front() + ", then continue").substr(0, 200) + ")");
-      program_.line("M0");
+      if (first.empty()) first = lines.front();
     }
+    const std::size_t n = due->second.size();
+    const std::string what = n == 1 ? first : std::to_string(n) + " touches as listed: " + first + ", ...";
+    const std::string after = ", correct the work offset, then continue";
+    program_.line("(MSG, " + plain_text(what).substr(0, 200 - after.size()) + after + ")");
+    program_.line("M0");
     return true;
   }
 
