@@ -83,7 +83,7 @@ class Check {
       f.code = all[i].code;
       f.severity = all[i].severity;
       f.message = instance + path + all[i].message + expected;
-      findings_.emplace_back(in.path, std::move(f));
+      findings_.push_back({in.path, std::move(f)});
     }
     return std::nullopt;
   }
@@ -161,7 +161,7 @@ class Check {
     for (const auto& f : findings) {
       if (!s_.options.json) s_.job.report(as_diagnostic(f, file, program));
       if (f.severity != Severity::kNote) ++count_;
-      findings_.emplace_back(file, f);
+      findings_.push_back({file, f, program});
     }
   }
 
@@ -183,7 +183,7 @@ class Check {
   std::vector<Input> inputs_;
   std::vector<model::Plan> plans_;
   Shop shop_;
-  std::vector<std::pair<std::string, model::Finding>> findings_;
+  std::vector<Told> findings_;
   std::size_t count_ = 0, schema_ = 0, checked_ = 0, unplanned_ = 0;
 };
 

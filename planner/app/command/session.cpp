@@ -106,7 +106,8 @@ Diagnostic as_diagnostic(const model::Finding& f, const std::string& file, bool 
   Diagnostic d{.code = f.code, .severity = f.severity, .message = f.message, .file = file};
   if (program && f.move > 0) d.line = static_cast<std::uint64_t>(f.move);
   if (!f.step.empty()) d.path = "step '" + f.step + "'";
-  if (!program && f.move >= 0) d.path += (d.path.empty() ? "" : ", ") + ("move " + std::to_string(f.move));
+  if (!program && f.move >= 0)
+    d.path = "move " + std::to_string(f.move) + (d.path.empty() ? "" : " of " + d.path);
   return d;
 }
 

@@ -29,8 +29,14 @@ bool print(const std::string& text);
 
 /// A finding as a diagnostic of the plan or program it is about.
 [[nodiscard]] Diagnostic as_diagnostic(const model::Finding& f, const std::string& file, bool program);
-/// Findings as a JSON document.
-[[nodiscard]] std::string findings_json(const std::vector<std::pair<std::string, model::Finding>>& findings);
+/// A finding, and the file it is about.
+struct Told {
+  std::string file;
+  model::Finding finding;
+  bool program = false;  ///< then the finding's place is a line, else a move of its step
+};
+/// Findings as a JSON document; its places are `line` in a program, `move` in a plan.
+[[nodiscard]] std::string findings_json(const std::vector<Told>& findings);
 /// One diagnostic as a JSON object in a line.
 [[nodiscard]] std::string diagnostic_json(const Diagnostic& d);
 /// "3 findings", "1 finding", "no finding"

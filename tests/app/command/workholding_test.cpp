@@ -80,6 +80,7 @@ TEST_F(Workholding, APartIsTurnedOverAndItsProgramKeepsClearOfJawsAndClamps) {
   EXPECT_EQ(run("check moved.json"), 1) << said_;
   EXPECT_THAT(said_, HasSubstr("vise.fixed_jaw"));
   EXPECT_THAT(said_, HasSubstr("FIXTURE"));
+  EXPECT_THAT(said_, ::testing::ContainsRegex("move [0-9]+ of step '"));
 }
 
 TEST_F(Workholding, AClampInTheWayIsRefusedWithTheMoveAndTheClamp) {
