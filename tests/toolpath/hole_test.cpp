@@ -217,6 +217,38 @@ TEST(HelixPath, MillsAHoleWithoutLeavingACoreOrPlunging) {
   }
 }
 
+// Steepest fall of the tip along an arc, rad.
+double steepest_arc(const GeneratedPath& g) {
+  double out = 0.0;
+  for (std::size_t i = 1; i < g.path.size(); ++i) {
+    if (g.path.kind[i] != MoveKind::kArcCw && g.path.kind[i] != MoveKind::kArcCcw) continue;
+    const double r = std::hypot(g.path.x[i] - g.path.cx[i], g.path.y[i] - g.path.cy[i]);
+    out = std::max(out, std::atan2(g.path.z[i - 1] - g.path.z[i], kPi * r));  // half a turn at most
+  }
+  return out;
+}
+
+TEST(HelixPath, GoesDownByTheAxialDepthOnlyWhereTheCuttersMiddleIsInTheHoleThatIsThere) {
+  PathJob t = hole_job(TypeId::kBottomAndSideRoughMilling, CutterClass::kEndmill, 30.0, 30.0);
+  t.cutter = endmill(14.0);
+  t.cutter.maximum_ramp_angle_rad = 7.0 * kPi / 180.0;
+  t.allowance_side_mm = 0.3;
+  t.axial_depth_mm = 10.0;
+  // The axis runs 7.7 mm from the middle: the rim of a hole of 16 mm lies under the cutter's middle, and a
+  // helix wider than the cutter would leave a core where there was none.
+  t.previous_diameter_mm = 16.0;
+  Job job;
+  const auto narrow = generate(t, job);
+  ASSERT_TRUE(narrow) << narrow.error().message;
+  EXPECT_LE(steepest_arc(*narrow), t.cutter.maximum_ramp_angle_rad + 1e-9);
+  // 29.4 mm leave the middle free: 31 mm in levels of 10.
+  t.previous_diameter_mm = 29.4;
+  t.allowance_side_mm = 0.0;
+  const auto wide = generate(t, job);
+  ASSERT_TRUE(wide) << wide.error().message;
+  EXPECT_NEAR(steepest_arc(*wide), std::atan2(32.0 / 8.0, kPi * 8.0), 0.02);
+}
+
 TEST(HelixPath, LeavesLargeHolesToTheRings) {
   PathJob t = hole_job(TypeId::kBottomAndSideRoughMilling, CutterClass::kEndmill, 60.0, 8.0);
   t.shape.through = false;

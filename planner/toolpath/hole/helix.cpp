@@ -31,6 +31,13 @@ void half_turn(PathWriter& w, Vec2 c, double r, bool to_right, double z, bool cw
   w.arc({c.x + (to_right ? r : -r), c.y, z}, c, cw, why);
 }
 
+/// Whether the middle of the cutter, which cuts badly or not at all, goes down in the hole that is there.
+bool middle_in_air(const PathJob& task) {
+  constexpr double kMiddle = 0.3;  // of the radius; default, unsourced
+  return task.shape.through && helix_radius(task) + kMiddle * 0.5 * task.cutter.cutting_diameter_mm <=
+                                   0.5 * task.previous_diameter_mm.value_or(0.0);
+}
+
 }  // namespace
 
 bool helix_suits(const PathJob& task) {
@@ -38,8 +45,10 @@ bool helix_suits(const PathJob& task) {
   const double flat = 0.5 * task.cutter.cutting_diameter_mm - task.cutter.corner_radius_mm;
   const double open = 0.5 * task.previous_diameter_mm.value_or(0.0);
   const double core = std::max(r - std::max(flat, 0.25 * task.cutter.cutting_diameter_mm), 0.0);
-  return r > 0.0 && core <= open + 1e-9 &&
-         (task.cutter.maximum_ramp_angle_rad > 0.0 || 2.0 * open >= task.cutter.cutting_diameter_mm) &&
+  // Into material no wider than the cutter, so that no core is left, and no steeper than it may ramp.
+  const bool may_enter =
+      task.cutter.maximum_ramp_angle_rad > 0.0 && r <= 0.5 * task.cutter.cutting_diameter_mm + 1e-9;
+  return r > 0.0 && core <= open + 1e-9 && (middle_in_air(task) || may_enter) &&
          task.shape.bottom_diameter_mm >= task.shape.diameter.nominal_mm - 1e-6;
 }
 
@@ -63,10 +72,10 @@ Result<GeneratedPath> helix_path(const PathJob& task, Job&) {
   if (angle > 0.0) angle = std::min(angle, kUsualRamp);
   if (task.approach.kind == Approach::Kind::kHelix && task.approach.angle_rad > 0.0)
     angle = std::min(task.approach.angle_rad, task.cutter.maximum_ramp_angle_rad);
-  // In a hole wide enough for the cutter only the flank cuts, and the pitch is the axial depth; but a blind
-  // hole ends in the cone of the drill that made it, which the cutter's end has to take away.
-  const bool open =
-      task.shape.through && task.previous_diameter_mm.value_or(0.0) >= task.cutter.cutting_diameter_mm;
+  // Where the cutter's middle goes down in the hole that is there, only its flank and rim cut, and the pitch
+  // is the axial depth; but a blind hole ends in the cone of the drill that made it, which the cutter's end
+  // has to take away.
+  const bool open = middle_in_air(task);
   double pitch = open ? 1e300 : 2.0 * kPi * r * std::tan(angle);
   if (task.axial_depth_mm > 0.0) pitch = std::min(pitch, task.axial_depth_mm);
   pitch = std::min(pitch, top - end);

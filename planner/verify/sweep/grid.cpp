@@ -88,13 +88,18 @@ struct Outline {
   double radius, flat = 0.0;
 };
 
-/// Takes cells down and keeps the account.
+/// How far the pieces of a helix stay inside its arc.
+constexpr double kChordMm = 0.002;
+
+/// Takes cells down and keeps the account. What only the outermost rim takes may be what the pieces of a
+/// helix left before: no depth of cut.
+
 struct Knife {
   Grid& grid;
   double allowed;
   const GougeJudge* judge;
   Bite& bite;
-  double core;
+  double core, rim;
   int judged = 0;
 
   void at(int ix, int iy, double tip_z, double z, double from_axis) {
@@ -104,9 +109,11 @@ struct Knife {
     const double floor = grid.base[i];
     if (s > Grid::kNothing / 2) {
       bite.volume_mm3 += (s - std::max(z, floor)) * grid.cell() * grid.cell();
-      bite.contact_mm = std::max(bite.contact_mm, s - tip_z);
       const double taken = grid.before_move(i, s) - std::max(z, floor);
-      bite.thickest_mm = std::max(bite.thickest_mm, taken);
+      if (from_axis <= rim) {
+        bite.contact_mm = std::max(bite.contact_mm, s - tip_z);
+        bite.thickest_mm = std::max(bite.thickest_mm, taken);
+      }
       if (from_axis <= core) bite.core_mm = std::max(bite.core_mm, taken);
       ++bite.cells;
       const double below = grid.part[i] - z;
@@ -232,13 +239,13 @@ Bite cut(Grid& grid, const Move& m, const CutterProfile& cutter, double allowed_
   if (std::min(m.from.z, m.to.z) >= grid.top()) return bite;
   grid.begin_move();
   const Outline o(cutter);
-  Knife k{grid, allowed_mm, judge, bite, 0.3 * o.radius};
+  Knife k{grid, allowed_mm, judge, bite, 0.3 * o.radius, o.radius - 2.0 * kChordMm};
   if (!is_arc(m.kind)) {
     cut_line(k, o, m.from, m.to);
   } else if (std::abs(m.from.z - m.to.z) < 1e-9) {
     cut_level_arc(k, o, m);
   } else {
-    const int n = pieces_of(m, 0.002);
+    const int n = pieces_of(m, kChordMm);
     Vec3 a = m.from;
     for (int i = 1; i <= n; ++i) {
       const Vec3 b = point_of(m, static_cast<double>(i) / n);
