@@ -6,6 +6,7 @@
 #include <span>
 
 #include "planner/base/file.h"
+#include "planner/base/number.h"
 #include "rules/engine/table.h"
 #include "rules/strategy/action.h"
 
@@ -95,6 +96,19 @@ void read_conditions(const YAML::Node& node, const Table& table, Row& row) {
   }
 }
 
+constexpr std::size_t kLongestChain = 32;
+constexpr std::size_t kMostChains = 64;
+
+/// No parameter of a step and no value of a table means anything below zero; what is a part of a size is no
+/// more than all of it.
+void check_range(const std::string& key, double value, const YAML::Node& at) {
+  if (value < 0.0) refuse("RULE-ROW", key + " is " + trimmed(value, 3) + ", below zero", at);
+  const bool part = key.starts_with("of_") && key != "of_thickness";
+  if (part && !(value > 0.0 && value <= 1.0))
+    refuse("RULE-ROW", key + " is " + trimmed(value, 3) + "; a part of a size lies above 0 and at most at 1",
+           at);
+}
+
 StepSpec read_step(const YAML::Node& node) {
   StepSpec step;
   if (node.IsScalar()) {
@@ -114,6 +128,7 @@ StepSpec read_step(const YAML::Node& node) {
     if (std::none_of(action->parameters.begin(), action->parameters.end(),
                      [&k = key](const ActionParameter& p) { return p.name == k; }))
       refuse("RULE-ROW", step.action + " takes no " + key, node);
+    check_range(key, value, node);
   }
   return step;
 }
@@ -124,9 +139,18 @@ void read_conclusion(const YAML::Node& node, Row& row) {
   if (const YAML::Node chains = node["chains"]) {
     if (!chains.IsSequence() || chains.size() == 0)
       refuse("RULE-ROW", "chains is not a list of chains", chains);
+    if (chains.size() > kMostChains)
+      refuse("RULE-ROW",
+             std::to_string(chains.size()) + " chains; a row has at most " + std::to_string(kMostChains),
+             chains);
     for (const auto& chain : chains) {
       if (!chain.IsSequence() || chain.size() == 0)
         refuse("RULE-ROW", "a chain is not a list of steps", chain);
+      if (chain.size() > kLongestChain)
+        refuse("RULE-ROW",
+               "a chain of " + std::to_string(chain.size()) + " steps; it has at most " +
+                   std::to_string(kLongestChain),
+               chain);
       row.chains.emplace_back();
       for (const auto& step : chain) row.chains.back().push_back(read_step(step));
     }
@@ -142,9 +166,11 @@ void read_conclusion(const YAML::Node& node, Row& row) {
       if (std::find(kValues.begin(), kValues.end(), key) == kValues.end())
         refuse("RULE-ROW", "no table asks for a value named " + key, node);
     }
-    for (const auto& item : node["values"])
-      row.values.emplace_back(item.first.as<std::string>(),
-                              number_of(item.second, item.first.as<std::string>()));
+    for (const auto& item : node["values"]) {
+      const std::string key = item.first.as<std::string>();
+      row.values.emplace_back(key, number_of(item.second, key));
+      check_range(key, row.values.back().second, item.second);
+    }
     std::sort(row.values.begin(), row.values.end());
   }
 }

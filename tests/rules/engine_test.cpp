@@ -53,6 +53,38 @@ TEST(Check, CountsARowWithoutConditionsAsAGap) {
       ElementsAre("pocket: gap: no row for everything"));
 }
 
+std::string told(const std::string& chains) {
+  const auto base = rules_from_texts({{"t.yaml",
+                                       "table: pocket\nfacts: [wall]\nrows:\n  - {id: a, when: {wall: "
+                                       "[upright]}, source: \"test\", chains: [" +
+                                           chains + "]}\n"}});
+  return base ? std::string() : to_text(base.error());
+}
+
+TEST(Load, RefusesAChainOfMoreStepsThanAnyFeatureTakes) {
+  const auto steps = [](int n) {
+    std::string out = "area_finish";
+    for (int i = 1; i < n; ++i) out += ", area_finish";
+    return "[" + out + "]";
+  };
+  EXPECT_EQ(told(steps(32)), "");
+  EXPECT_THAT(told(steps(33)), HasSubstr("a chain of 33 steps; it has at most 32"));
+  EXPECT_THAT(told(steps(3000)), HasSubstr("RULE-ROW"));
+}
+
+TEST(Load, RefusesParametersBelowZeroAndPartsOfASizeAboveOne) {
+  EXPECT_EQ(told("[{do: area_finish, allowance_side_mm: 0.2, of_passage: 1}]"), "");
+  EXPECT_THAT(told("[{do: area_finish, allowance_side_mm: -0.2}]"),
+              HasSubstr("allowance_side_mm is -0.2, below zero"));
+  EXPECT_THAT(told("[{do: area_finish, of_passage: 1.5}]"), HasSubstr("of_passage is 1.5"));
+  EXPECT_THAT(told("[{do: area_finish, of_passage: 0}]"), HasSubstr("of_passage is 0"));
+  const auto base = rules_from_texts({{"t.yaml",
+                                       "table: pocket\nfacts: [wall]\nrows:\n  - {id: a, source: \"test\", "
+                                       "when: {wall: [upright]}, values: {peck: -7}}\n"}});
+  ASSERT_FALSE(base);
+  EXPECT_THAT(to_text(base.error()), HasSubstr("peck is -7, below zero"));
+}
+
 TEST(Check, NamesTheBoxOfAPlantedContradiction) {
   EXPECT_THAT(
       findings(table(R"(
