@@ -14,6 +14,8 @@ namespace capstan::tooling {
 /// longer than the tool sticks out, the stick-out not longer than gage line to tip, teeth 1 to 60, angles in
 /// range, a pitch for taps.
 [[nodiscard]] std::vector<std::string> faults_of(const model::Cutter& c);
+/// A size that exists but is more likely of another unit; empty: none.
+[[nodiscard]] std::string unlikely_of(const model::Cutter& c);
 
 /// Faults of a whole library: those of each cutter (TOOL-VALUE), ids given twice (TOOL-ID) and tool numbers
 /// given twice (TOOL-NUMBER). `lines`: of each cutter in the file, or empty.

@@ -162,6 +162,14 @@ Result<std::vector<Cutter>> finished(std::vector<Cutter> cutters, const std::vec
   // Values that could not be read need not be judged, too.
   if (faults.empty()) faults = check_cutters(cutters, file, lines);
   if (auto d = tell(std::move(faults), job)) return fail(std::move(*d));
+  for (std::size_t i = 0; i < cutters.size(); ++i)
+    if (const std::string odd = unlikely_of(cutters[i]); !odd.empty())
+      job.report({.code = "TOOL-UNLIKELY",
+                  .severity = Severity::kWarning,
+                  .message = "'" + cutters[i].id + "': " + odd,
+                  .file = file,
+                  .line = i < lines.size() ? lines[i] : 0,
+                  .hint = "look at the unit: millimetres read as inches are 25.4 times too large"});
   return cutters;
 }
 

@@ -10,6 +10,7 @@
 #include "tooling/formats/format.h"
 #include "tooling/formats/linuxcnc/linuxcnc.h"
 #include "tooling/formats/values.h"
+#include "tooling/select/limits.h"
 
 // Records to cutters, and back.
 
@@ -90,7 +91,7 @@ class Presets {
       const auto per_minute = [&](double feed) {
         return p.rpm && *p.rpm > 0.0 ? feed / *p.rpm / teeth : 0.0;
       };
-      const bool drills = along_z(c.cutter_class);
+      const bool drills = feeds_along_axis(c.cutter_class);
       if (!drills && p.fz_mm) {
         out.fz_mm = *p.fz_mm;
       } else if (!drills && p.feed_mm_min) {
@@ -103,25 +104,6 @@ class Presets {
         out.fz_mm = *p.fz_mm;
       }
       if (out.vc_m_min > 0.0 || out.fz_mm > 0.0) c.presets.push_back(std::move(out));
-    }
-  }
-
-  static bool along_z(CutterClass k) {
-    switch (k) {
-      case CutterClass::kTwistDrill:
-      case CutterClass::kCenterDrill:
-      case CutterClass::kSpotDrill:
-      case CutterClass::kReamer:
-      case CutterClass::kTap:
-      case CutterClass::kBoringTool:
-      case CutterClass::kCountersink:
-      case CutterClass::kCounterbore:
-      case CutterClass::kGunDrill:
-      case CutterClass::kBackCounterbore:
-      case CutterClass::kBackCountersink:
-        return true;
-      default:
-        return false;
     }
   }
 
@@ -267,6 +249,12 @@ class Maker {
       left_out(who, faults.front());
       return std::nullopt;
     }
+    if (const std::string odd = unlikely_of(c); !odd.empty())
+      job_.report({.code = "TOOL-UNLIKELY",
+                   .severity = Severity::kWarning,
+                   .message = "'" + who + "': " + odd,
+                   .file = l_.source,
+                   .hint = "look at the unit: millimetres read as inches are 25.4 times too large"});
     return c;
   }
 
@@ -528,7 +516,7 @@ CatalogueItem item_of(const Cutter& c) {
     Preset q;
     q.name = q.material = p.material_group;
     if (p.vc_m_min > 0.0) q.vc_m_min = p.vc_m_min;
-    if (p.fz_mm > 0.0 && Presets::along_z(c.cutter_class))
+    if (p.fz_mm > 0.0 && feeds_along_axis(c.cutter_class))
       q.feed_per_revolution_mm = p.fz_mm * std::max(c.teeth, 1);
     else if (p.fz_mm > 0.0)
       q.fz_mm = p.fz_mm;

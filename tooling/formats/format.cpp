@@ -100,9 +100,17 @@ Result<Imported> import_folder(const std::string& folder, const FormatOptions& o
   if (!files) return fail(files.error());
   Imported out;
   bool any = false;
+  std::size_t total = 0;
   for (const std::string& file : *files) {
     auto bytes = read_file(file, kLibraryBytesCap);
     if (!bytes) return fail(bytes.error());
+    total += bytes->size();
+    if (total > kLibraryBytesCap)
+      return fail(
+          {.code = "FILE-TOO-LARGE",
+           .message = "the folder's files are larger than " + std::to_string(kLibraryBytesCap) + " bytes",
+           .file = folder,
+           .hint = "name the library's own folder"});
     const Format* format = format_of(*bytes, file);
     // A column of words in some file of a folder is no library: tables are named one by one.
     if (format == nullptr || format->read == nullptr || format->name == "csv") {

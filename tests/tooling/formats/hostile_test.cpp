@@ -139,11 +139,11 @@ TEST_P(Hostile, GetsOneClearError) {
 INSTANTIATE_TEST_SUITE_P(Library, Hostile, ::testing::ValuesIn(bad_inputs()),
                          [](const auto& one) { return one.param.name; });
 
-TEST(HostileTable, ASecondDiameterColumnIsKeptNotMixed) {
+TEST(HostileTable, ASecondDiameterColumnIsRefused) {
   Job job;
-  const auto read = import_bytes("description,DC,unit,DC\nx,5,mm,6\n", "a.csv", {}, job).value();
-  EXPECT_EQ(number_of(read.library.items.at(0), "DC"), 5.0);
-  EXPECT_EQ(read.library.items.at(0).kept.at(0).second, "6");
+  const auto read = import_bytes("description,DC,unit,DC\nx,5,mm,6\n", "a.csv", {}, job);
+  ASSERT_FALSE(read);
+  EXPECT_EQ(read.error().code, "DATA-DUPLICATE");
   FormatOptions both;
   both.column_map =
       "capstan_columns: 1\nunit: mm\ncolumns:\n  - {title: a, field: DC}\n  - {title: b, field: DC}\n";

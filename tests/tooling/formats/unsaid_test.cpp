@@ -8,6 +8,7 @@
 #include "tooling/formats/import.h"
 #include "tooling/formats/linuxcnc/linuxcnc.h"
 #include "tooling/formats/values.h"
+#include "tooling/formats/zip.h"
 
 // What a tool does not say and may not be guessed.
 
@@ -149,6 +150,71 @@ TEST(Unsaid, ANumberOfACatalogueIsNoPlaceInTheMagazine) {
   ASSERT_TRUE(back) << to_text(back.error());
   EXPECT_TRUE(back->at(0).loaded);
   EXPECT_FALSE(back->at(1).loaded);
+}
+
+TEST(Unlikely, AMillimetreToolReadAsInchesIsWarnedOf) {
+  Job job;
+  LibraryOptions inch;
+  inch.mm_per_unit = 25.4;
+  ASSERT_TRUE(read_tool_table("T1 P1 D6 ;end mill\nT2 P2 D6 ;face mill\n", "a.tbl", job, inch));
+  EXPECT_THAT(told(job), HasSubstr("TOOL-UNLIKELY: 'end mill': a diameter of 152.4 mm"));
+  EXPECT_THAT(told(job), ::testing::Not(HasSubstr("'face mill': a diameter")));
+}
+
+TEST(Unlikely, AFractionBesideTheSameNumberSaysInches) {
+  Job job;
+  const auto refused = read_tool_table("T1 P1 D+0.25 ;1/4 end mill\n", "a.tbl", job);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, "TBL-UNIT");
+  LibraryOptions inch;
+  inch.mm_per_unit = 25.4;
+  const auto read = read_tool_table("T1 P1 D+0.25 ;1/4 end mill\n", "a.tbl", job, inch);
+  ASSERT_TRUE(read);
+  EXPECT_DOUBLE_EQ(read->at(0).cutting_diameter_mm, 6.35);
+}
+
+TEST(Unlikely, TwoColumnsOfDiametersAreRefused) {
+  Job job;
+  const auto r = import_bytes("id,class,diameter,DC\na,endmill,6,8\n", "t.csv", {}, job);
+  ASSERT_FALSE(r);
+  EXPECT_EQ(r.error().code, "DATA-DUPLICATE");
+}
+
+TEST(Unlikely, AnArchiveOfTwoLibrariesIsRefused) {
+  const std::string one = R"({"data": [{"type": "drill", "unit": "millimeters", "guid": "a",
+      "geometry": {"DC": 5, "NOF": 2}}], "version": 1})";
+  Job job;
+  const auto two = write_zip({{"tools.json", one}, {"more.json", one}});
+  ASSERT_TRUE(two);
+  EXPECT_FALSE(import_bytes(*two, "a.tools", {}, job));
+  const auto single = write_zip({{"tools.json", one}});
+  ASSERT_TRUE(single);
+  EXPECT_TRUE(import_bytes(*single, "a.tools", {}, job));
+}
+
+TEST(Unlikely, ANumberGivenTwiceIsWrittenOnceToFreecad) {
+  ToolLibrary l;
+  for (const char* id : {"a", "b"}) {
+    CatalogueItem i;
+    i.id = i.description = id;
+    i.cutter_class = CutterClass::kEndmill;
+    i.properties = {number_property("DC", 6, "mm", ValueState::kStated, "")};
+    l.items.push_back(i);
+    ToolAssembly a;
+    a.id = a.item = id;
+    l.assemblies.push_back(a);
+    MachineEntry e;
+    e.number = 1;
+    e.assembly = id;
+    l.entries.push_back(e);
+  }
+  Job job;
+  const auto out = freecad_format().write(l, {}, job);
+  ASSERT_TRUE(out) << to_text(out.error());
+  EXPECT_THAT(::testing::PrintToString(out->report.dropped.size()), ::testing::Not("0"));
+  const auto back = import_bytes(out->bytes, "b.zip", {}, job);
+  ASSERT_TRUE(back) << to_text(back.error());
+  EXPECT_EQ(back->library.items.size(), 2u);
 }
 
 }  // namespace

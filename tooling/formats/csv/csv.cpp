@@ -84,6 +84,20 @@ Result<Imported> read(std::string_view bytes, const std::string& file, const For
     map = *std::move(m);
   } else {
     map = map_of_titles(titles, map.separator);
+    // Which of two diameters cuts is not for us to say.
+    std::string first;
+    for (const std::string& title : titles) {
+      if (map_of_titles({title}, map.separator).columns.front().field != "DC") continue;
+      if (!first.empty())
+        return fail(
+            {.code = "DATA-DUPLICATE",
+             .message = "the columns '" + first + "' and '" + title + "' are both the cutting diameter",
+             .file = file,
+             .line = 1,
+             .expected = "one column of diameters",
+             .hint = "rename one of them, or give a column map"});
+      first = title;
+    }
     if (has_decimal_commas(*rows, map)) map.decimal = ',';
   }
   std::map<std::string, std::string> fields;

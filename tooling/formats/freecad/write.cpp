@@ -145,6 +145,7 @@ class BitWriter {
 std::vector<FreecadFile> lists_of(const ToolLibrary& library, const std::map<std::string, std::string>& bits,
                                   LossReport& report) {
   std::map<std::string, Json> lists;
+  std::map<std::string, std::set<int>> numbers;
   for (const MachineEntry& e : library.entries) {
     const auto assembly = std::ranges::find(library.assemblies, e.assembly, &ToolAssembly::id);
     std::string item = assembly == library.assemblies.end() ? e.assembly : assembly->item;
@@ -154,13 +155,21 @@ std::vector<FreecadFile> lists_of(const ToolLibrary& library, const std::map<std
       report.dropped.push_back({item, "number", "tool " + std::to_string(e.number) + " has no bit"});
       continue;
     }
+    const std::string name = e.carousel.empty() ? library.name : e.carousel;
+    const std::string list = file_name(name.empty() ? "Library" : name);
+    if (!numbers[list].insert(e.number).second) {
+      report.dropped.push_back(
+          {item, "number",
+           "tool number " + std::to_string(e.number) +
+               " is that of another tool of the library; FreeCAD holds each number once"});
+      continue;
+    }
     if (e.pocket || !e.offsets.empty())
       report.dropped.push_back({item, "table", "FreeCAD's libraries hold neither pockets nor offsets"});
     Json entry = Json::map();
     entry.set("nr", Json::number(std::to_string(e.number)));
     entry.set("path", Json::string(path));
-    std::string name = e.carousel.empty() ? library.name : e.carousel;
-    auto [it, fresh] = lists.try_emplace(file_name(name.empty() ? "Library" : name), Json::list());
+    auto [it, fresh] = lists.try_emplace(list, Json::list());
     it->second.items.push_back(std::move(entry));
   }
   std::vector<FreecadFile> out;

@@ -338,13 +338,14 @@ Result<Imported> read(std::string_view bytes, const std::string& file, const For
     if (!root) return fail(root.error());
     return read_tree(*root, file, job);
   }
-  const auto entries = read_zip(bytes, file, [](std::string_view name) { return name == "tools.json"; });
+  const auto entries = read_zip(bytes, file, [](std::string_view name) { return name.ends_with(".json"); });
   if (!entries) return fail(entries.error());
   if (entries->size() != 1)
     return fail({.code = "ZIP-SYNTAX",
-                 .message = "the archive has " + std::to_string(entries->size()) + " entries tools.json",
+                 .message = "the archive has " + std::to_string(entries->size()) + " libraries (.json)",
                  .file = file,
-                 .expected = "one tools.json"});
+                 .expected = "one tools.json",
+                 .hint = "unpack it and give the libraries one by one"});
   const auto root = parse_json(entries->front().bytes, file + ":tools.json");
   if (!root) return fail(root.error());
   auto out = read_tree(*root, file + ":tools.json", job);

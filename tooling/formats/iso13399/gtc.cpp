@@ -31,21 +31,29 @@ bool marks(std::string_view name) {
 Result<std::vector<ZipEntry>> unpacked(std::string_view bytes, const std::string& file) {
   auto entries = read_zip(bytes, file, wanted);
   if (!entries) return entries;
+  // One allowance for the package and all the archives within.
+  ZipCaps left;
+  const auto used = [&left](const std::vector<ZipEntry>& some) {
+    left.entries -= std::min(left.entries, some.size());
+    for (const ZipEntry& e : some) left.total_bytes -= std::min(left.total_bytes, e.bytes.size());
+  };
+  used(*entries);
   std::vector<ZipEntry> out;
   for (ZipEntry& e : *entries) {
     if (!is_zip(e.bytes)) {
       out.push_back(std::move(e));
       continue;
     }
-    auto inner = read_zip(e.bytes, file + " (" + e.name + ")", wanted);
+    auto inner = read_zip(e.bytes, file + " (" + e.name + ")", wanted, left);
     if (!inner) return inner;
+    used(*inner);
     for (ZipEntry& i : *inner) out.push_back(std::move(i));
   }
   return out;
 }
 
 struct Listed {
-  std::string product_id, gtc_class, vendor_class, unit_system;
+  std::string product_id, gtc_class, vendor_class;
 };
 
 /// package_assortment.xml: file name of the product data -> what it says.
@@ -65,7 +73,7 @@ Result<std::map<std::string, Listed>> assortment(const ZipEntry& e, const std::s
                    .path = e.name,
                    .expected = "p21_file_name"});
     out[std::string(base_name(p21))] = {item.text_of("product_id"), item.text_of("gtc_generic_class_id"),
-                                        item.text_of("gtc_vendor_class_id"), item.text_of("unit_system")};
+                                        item.text_of("gtc_vendor_class_id")};
   }
   return out;
 }

@@ -29,7 +29,10 @@ struct Line {
 class Reader {
  public:
   Reader(const std::string& file, const FormatOptions& options, Job& job)
-      : file_(file), mm_per_unit_(options.mm_per_unit.value_or(1.0)), job_(job) {
+      : file_(file),
+        mm_per_unit_(options.mm_per_unit.value_or(1.0)),
+        unit_assumed_(!options.mm_per_unit),
+        job_(job) {
     if (!options.mm_per_unit) {
       job_.note("TBL-UNIT", file + ": a tool table does not state its unit; taken as millimetres");
       out_.report.derived.push_back(
@@ -142,6 +145,13 @@ class Reader {
       return;
     }
     const double d = diameter_of(e);
+    if (unit_assumed_ && says_fraction(e.comment, d)) {
+      refuse("TBL-UNIT",
+             name + " has a diameter of " + trimmed(d, 5) + ", taken as mm, and its comment '" + e.comment +
+                 "' gives the same size in inches",
+             "one unit", "--unit inch, or --unit mm when the comment is wrong");
+      return;
+    }
     if (d == 0.0) {
       empty_.push_back(name);
       out_.report.dropped.push_back({name, "", "no diameter: kept as a line of the table only"});
@@ -158,6 +168,22 @@ class Reader {
     }
     if (!e.pocket) e.pocket = e.number;  // a tool table tells of what is in the machine
     out_.library.entries.push_back(std::move(e));
+  }
+
+  /// "1/4 end mill" beside 0.25: nobody writes fractions of a millimetre.
+  static bool says_fraction(std::string_view comment, double d) {
+    for (auto at = comment.find('/'); at != std::string_view::npos; at = comment.find('/', at + 1)) {
+      const auto digit = [&](std::size_t k) {
+        return k < comment.size() && comment[k] >= '0' && comment[k] <= '9';
+      };
+      std::size_t from = at, to = at + 1;
+      while (from > 0 && digit(from - 1)) --from;
+      while (digit(to)) ++to;
+      const auto a = parse_double(comment.substr(from, at - from));
+      const auto b = parse_double(comment.substr(at + 1, to - at - 1));
+      if (a && b && *b > 0.0 && *a < *b && std::abs(*a / *b - d) <= 0.01 * d && d > 0.0) return true;
+    }
+    return false;
   }
 
   static double diameter_of(const MachineEntry& e) {
@@ -212,6 +238,7 @@ class Reader {
 
   const std::string& file_;
   double mm_per_unit_;
+  bool unit_assumed_;
   Job& job_;
   Imported out_;
   std::uint64_t number_ = 0;
