@@ -102,11 +102,39 @@ class Writer {
                        " diameter=" + program_.number(c->cutting_diameter_mm) + " id=\"" +
                        marker_text(c->id) + "\" " + std::string(model::to_text(c->cutter_class)));
     }
+    if (!plan_.steps.empty()) clamped(plan_.steps.front().setup);
     program_.blank();
     program_.line("G21 G17 G90 G94 G40 G49 G80");
     tolerance(0.0);
     retract();
     stop();
+  }
+
+  // What the operator must know before a set-up begins: where zero is, what holds the piece, and where.
+  void clamped(std::size_t n) {
+    const model::SetupResult& setup = plan_.setups[n];
+    const model::Workholding& h = setup.holding;
+    const std::string name = "set-up " + std::to_string(n + 1) + ": ";
+    program_.comment(name + "zero " + setup.work_offset + ": " +
+                     (h.pickup_text.empty() ? "the origin of the set-up in the part file" : h.pickup_text));
+    if (h.solids.empty()) {
+      program_.comment(name + "what holds the piece is not planned: fixtures and clamps are not checked");
+      return;
+    }
+    program_.comment(name + "held by " + (h.description.empty() ? h.id : h.description));
+    for (const model::FixtureSolid& s : h.solids) {
+      geometry::Box3 box;
+      for (const geometry::Vec2 p : s.outline) {
+        box.add({p.x, p.y, s.bottom_mm});
+        box.add({p.x, p.y, s.top_mm});
+      }
+      if (box.empty()) continue;
+      const auto range = [&](double lo, double hi) {
+        return program_.number(lo) + " to " + program_.number(hi);
+      };
+      program_.comment(name + s.id + ": X " + range(box.lo.x, box.hi.x) + ", Y " + range(box.lo.y, box.hi.y) +
+                       ", Z " + range(box.lo.z, box.hi.z) + " mm" + (s.presses ? "" : ", does not press"));
+    }
   }
 
   [[nodiscard]] std::vector<const Cutter*> by_pocket() const {
@@ -149,6 +177,7 @@ class Writer {
     program_.line("(CAPSTAN STEP id=\"" + marker_text(id) + "\" n=" + std::to_string(n + 1) + " tool=" +
                   std::to_string(cutter.pocket) + " setup=" + std::to_string(step.setup + 1) + ")");
     if (new_setup) {
+      clamped(step.setup);
       program_.line("(MSG, " +
                     plain_text("set-up " + std::to_string(step.setup + 1) +
                                ": clamp the workpiece anew, set " + setup.work_offset + ", then continue") +
@@ -159,6 +188,9 @@ class Writer {
     tolerance(step.contour_tolerance_mm);
     program_.line(setup.work_offset);
     const std::string t = std::to_string(cutter.pocket);
+    if (new_tool && cutter.cutter_class == model::CutterClass::kBoringTool)
+      program_.comment("T" + t + ": the boring tool is set to diameter " +
+                       program_.number(cutter.cutting_diameter_mm) + " mm");
     if (new_tool) program_.line("T" + t + " M6");
     program_.line("G43 H" + t);
     tool_ = cutter.pocket;

@@ -119,6 +119,40 @@ TEST(LinuxCnc, StopsForTheOperatorBetweenSetUps) {
   EXPECT_LT(position(text, "\nG55\n", second), position(text, "G0 X-12", second));
 }
 
+TEST(LinuxCnc, SaysAtEachSetUpWhereZeroIsAndWhatHoldsThePiece) {
+  Plan plan = empty_plan();
+  plan.setups.push_back({.setup = {}, .work_offset = "G55", .security_z_mm = 30.0});
+  auto& h = plan.setups[1].holding;
+  h.description = "plate with strap clamps (M12)";
+  h.pickup_text = "lower left corner of the raw piece, Z at its top";
+  h.solids.push_back({"clamp 1", "clamp", {{-10, 20}, {15, 20}, {15, 45}, {-10, 45}}, 0.0, 18.5, true});
+  h.solids.push_back({std::string(400, '('), "plate", {{0, 0}, {50, 0}, {50, 40}}, -20.0, 0.0, false});
+  add_step(plan, "a", "em18", contour());
+  add_step(plan, "b", "em18", contour()).setup = 1;
+  const std::string text = program_of(plan);
+  const auto first = position(text, "(set-up 1: zero G54: the origin of the set-up in the part file)\n");
+  EXPECT_LT(first, position(text, "(set-up 1: what holds the piece is not planned"));
+  EXPECT_LT(first, position(text, "(CAPSTAN STEP id=\"a\""));
+  const auto zero =
+      position(text, "(set-up 2: zero G55: lower left corner of the raw piece, Z at its top)\n");
+  EXPECT_LT(position(text, "(CAPSTAN STEP id=\"b\""), zero);
+  EXPECT_LT(zero, position(text, "(MSG, set-up 2"));
+  EXPECT_NE(text.find("(set-up 2: held by plate with strap clamps [M12])\n"), std::string::npos);
+  EXPECT_NE(text.find("(set-up 2: clamp 1: X -10 to 15, Y 20 to 45, Z 0 to 18.5 mm)\n"), std::string::npos);
+  for (std::size_t at = 0, end = 0; (end = text.find('\n', at)) != std::string::npos; at = end + 1)
+    EXPECT_LE(end - at, 255U);
+}
+
+TEST(LinuxCnc, SaysWhatABoringToolIsSetToBeforeItIsChanged) {
+  Plan plan = empty_plan();
+  plan.cutters[0].cutter_class = model::CutterClass::kBoringTool;
+  plan.cutters[0].cutting_diameter_mm = 18.0105;
+  add_step(plan, "a", "em18", contour());
+  const std::string text = program_of(plan);
+  EXPECT_LT(position(text, "(T1: the boring tool is set to diameter 18.0105 mm)\n"),
+            position(text, "T1 M6\n"));
+}
+
 TEST(LinuxCnc, SpeaksOfFeedOnlyWhenItChanges) {
   Plan plan = empty_plan();
   auto& step = add_step(plan, "a", "em18", contour());
