@@ -520,7 +520,8 @@ Result<model::Plan> read_json(std::string bytes, std::string file_name, Job& job
     Diagnostic d{
         .code = "JSON-VALUE", .message = "the plan's JSON is not as its schema says", .file = file_name};
     d.path = f.place;
-    d.expected = "expected " + f.expected;
+    d.expected = f.expected;
+    if (f.expected == "this field") d.hint = "a plan of an earlier build may lack it: plan the part anew";
     return fail(std::move(d));
   }
 }
