@@ -134,7 +134,8 @@ Cutter read_cutter(Fields f, double mm_per_unit) {
   if (const auto z = f.optional_integer("teeth")) {
     c.teeth = static_cast<int>(*z);
     r.state("teeth");
-    if (*z == 0) f.fault("TOOL-VALUE", "0 teeth", "teeth", f.line_of("teeth"));
+    if (*z == 0 && c.cutter_class != model::CutterClass::kTouchProbe)
+      f.fault("TOOL-VALUE", "0 teeth", "teeth", f.line_of("teeth"));
   }
   if (const auto p = f.optional_integer("pocket")) c.pocket = static_cast<int>(*p);
   if (f.has("centre_cutting")) r.state("centre_cutting");

@@ -217,5 +217,14 @@ TEST(Unlikely, ANumberGivenTwiceIsWrittenOnceToFreecad) {
   EXPECT_EQ(back->library.items.size(), 2u);
 }
 
+TEST(Unlikely, AProbeMayHaveNoTeeth) {
+  Job job;
+  const std::string head =
+      "capstan_tools: 1\nunit: mm\ntools:\n  - {id: a, cutting_diameter: 6, teeth: 0, class: ";
+  const auto probe = import_bytes(head + "touch_probe}\n", "own.yaml", {}, job);
+  ASSERT_TRUE(probe) << to_text(probe.error());
+  EXPECT_FALSE(import_bytes(head + "endmill}\n", "own.yaml", {}, job));
+}
+
 }  // namespace
 }  // namespace capstan::tooling

@@ -108,7 +108,8 @@ std::vector<std::string> item_faults(const CatalogueItem& item) {
       out.push_back("the flutes (" + std::string(symbol) + " " + mm(*l) + ") are longer than the tool (" +
                     mm(*oal) + ")");
   }
-  if (number_of(item, "ZEFF") == 0.0) out.emplace_back("the tool has 0 teeth (ZEFF)");
+  if (number_of(item, "ZEFF") == 0.0 && item.cutter_class != model::CutterClass::kTouchProbe)
+    out.emplace_back("the tool has 0 teeth (ZEFF)");
   if (const Property* hand = find(item.properties, "HAND"))
     if (hand->text != "R" && hand->text != "L" && hand->text != "N" && hand->text != "left" &&
         hand->text != "right")
