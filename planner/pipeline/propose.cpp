@@ -176,6 +176,9 @@ class Proposer {
 
   void feature(AnyRef f, const std::vector<FeatureShape>& shapes) {
     rules::Context context = context_of(w_, f, shapes);
+    const std::optional<Core> core = core_of(shapes);
+    if (core) context.core_diameter_mm = core->diameter_mm;
+    judge_tolerances(shapes.front());
     for (const auto& s : shapes) {
       for (const std::string& a : s.assumptions) {
         if (said_.insert({f, a}).second) w_.job.warn("PIP-ASSUMED", "feature '" + s.name + "': " + a);
@@ -200,6 +203,7 @@ class Proposer {
         continue;
       }
       made[i] = shape(f, shapes[i], proposals[i]);
+      if (core && !made[i].empty()) w_.steps[made[i].front()].after.push_back(core->last_step);
     }
     for (const auto& [first, second] : order) {
       if (representative[first] != first || representative[second] != second) continue;
@@ -209,6 +213,74 @@ class Proposer {
   }
 
  private:
+  /// A narrower hole of another feature that an earlier step makes right through where these holes are.
+  struct Core {
+    double diameter_mm = 0.0;
+    std::size_t last_step = 0;
+  };
+
+  /// Whether `hole` runs on the axis of `s`, from above its bottom to below it, from whichever side it is
+  /// cut.
+  static bool runs_through(const FeatureShape& hole, const FeatureShape& s) {
+    constexpr double kCoaxial = 1e-4;  // mm
+    if (hole.kind != model::ShapeKind::kHole || hole.bottom_diameter_mm < hole.diameter.nominal_mm - kCoaxial)
+      return false;
+    if (hole.diameter.nominal_mm > s.diameter.nominal_mm - kCoaxial) return false;
+    const auto rel = compose(inverse(s.frame), hole.frame);
+    if (std::abs(std::abs(rel.z.z) - 1.0) > kSameAxis || std::hypot(rel.origin.x, rel.origin.y) > kCoaxial)
+      return false;
+    const double a = rel.origin.z, b = rel.origin.z - hole.depth_mm * rel.z.z;
+    return std::min(a, b) < -s.depth_mm - kCoaxial && std::max(a, b) > -kCoaxial;
+  }
+
+  /// The set-up in which these would be cut; past the last when none has their axis up yet.
+  [[nodiscard]] std::size_t setup_up(geometry::Vec3 z) const {
+    for (std::size_t i = 0; i < w_.setups.size(); ++i) {
+      if (std::abs(w_.setups[i].workpiece.direction_to_parent(z).z - 1.0) < kSameAxis) return i;
+    }
+    return w_.setups.size();
+  }
+
+  [[nodiscard]] std::optional<Core> core_of(const std::vector<FeatureShape>& shapes) const {
+    std::optional<Core> out;
+    for (const FeatureShape& s : shapes) {
+      if (s.kind != model::ShapeKind::kHole || s.through) return std::nullopt;
+      std::optional<Core> here;
+      for (std::size_t i = 0; i < w_.steps.size(); ++i) {
+        const StepWork& step = w_.steps[i];
+        if (step.feature == s.feature || step.setup > setup_up(s.frame.z)) continue;
+        for (const FeatureShape& hole : step.shapes) {
+          if (!runs_through(hole, s)) continue;
+          if (!here || hole.diameter.nominal_mm >= here->diameter_mm)
+            here = Core{hole.diameter.nominal_mm, i};
+        }
+      }
+      if (!here || (out && out->diameter_mm != here->diameter_mm)) return std::nullopt;
+      out = Core{here->diameter_mm, std::max(here->last_step, out ? out->last_step : 0)};
+    }
+    return out;
+  }
+
+  /// A tolerance wider than its size is more likely a slip of the pen than meant.
+  void judge_tolerances(const FeatureShape& s) {
+    for (const auto& [what, t] : {std::pair("diameter", s.diameter), std::pair("width", s.width)}) {
+      if (!t.given || !(t.nominal_mm > 0.0) || t.upper_mm - t.lower_mm < t.nominal_mm) continue;
+      w_.job.warn("MDL-TOLERANCE", "feature '" + s.name + "': the tolerance of its " + what + ", " +
+                                       trimmed(t.lower_mm, 4) + " to " + trimmed(t.upper_mm, 4) +
+                                       " mm, is as wide as the size of " + trimmed(t.nominal_mm, 4) +
+                                       " mm or wider; look at its unit and value");
+    }
+  }
+  /// Why the tolerance leaves nothing to make; empty when it leaves something.
+  static std::string swallowed(const FeatureShape& s) {
+    for (const auto& [what, t] : {std::pair("diameter", s.diameter), std::pair("width", s.width)}) {
+      if (!t.given || !(t.nominal_mm > 0.0) || t.nominal_mm + t.lower_mm > 0.0) continue;
+      return "the tolerance swallows the size: a " + std::string(what) + " of " + trimmed(t.nominal_mm, 4) +
+             " mm with a lower limit " + trimmed(-t.lower_mm, 4) + " mm below it";
+    }
+    return {};
+  }
+
   static bool plain_through(const FeatureShape& s) {
     return s.kind == model::ShapeKind::kHole && s.through && s.bottom_diameter_mm == s.diameter.nominal_mm;
   }
@@ -262,9 +334,13 @@ class Proposer {
   }
 
   std::vector<std::size_t> shape(AnyRef f, const FeatureShape& given, const model::Proposal& p) {
-    if (!p.cannot.empty()) {
-      unplanned(w_, given, p.cannot);
+    if (const std::string why = swallowed(given); !why.empty() || !p.cannot.empty()) {
+      unplanned(w_, given, why.empty() ? p.cannot : why);
       return {};
+    }
+    for (const model::Rejected& r : p.rejected) {
+      if (r.what == "breaking edges" && said_.insert({f, "edges: " + r.why}).second)
+        w_.job.note("PIP-EDGE", "feature '" + given.name + "': its edges are not broken: " + r.why);
     }
     const FeatureShape s = reachable_side(f, given);
     std::vector<model::Rejected> rejected = p.rejected;

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <sstream>
 
@@ -28,7 +29,7 @@ Numbers are in mm, rad, mm/min, 1/min and s. The whole grammar: docs/inspect.md)
 struct Raw {
   std::string file, machine, tools, material, rules, cases, stock, deadline;
   std::string objective, solver, reopen, bind, diagnostics = "text";
-  std::string workholding, general_tolerance;
+  std::string workholding, general_tolerance, edges;
 };
 
 const std::map<std::string, pipeline::Reopen> kReopen = {{"operations", pipeline::Reopen::kOperations},
@@ -121,8 +122,7 @@ class CommandLine {
     sub->add_option("--general-tolerance", raw_.general_tolerance,
                     "for sizes without one: \"ISO 2768-m\", \"ISO 22081 0.2\" or \"+-0.1\"");
     sub->add_option("--batch", out_.inputs.batch, "pieces to be made")->check(CLI::Range(1, 1000000));
-    sub->add_option("--edges", out_.inputs.edge_break_mm, "chamfer edges that the part leaves sharp, mm")
-        ->check(CLI::Range(0.0, 10.0));
+    sub->add_option("--edges", raw_.edges, "chamfer edges that the part leaves sharp, mm");
   }
 
   void plan() {
@@ -243,6 +243,26 @@ class CommandLine {
   static void pick(const std::map<std::string, T>& of, const std::string& text, T& into) {
     if (const auto at = of.find(text); at != of.end()) into = at->second;
   }
+  /// Options whose value was given, and is empty: not the same as left out.
+  [[nodiscard]] std::string empty_value() const {
+    for (const CLI::App* sub : app_.get_subcommands()) {
+      for (const char* name : {"--general-tolerance", "--workholding", "--edges"}) {
+        const CLI::Option* o = sub->get_option_no_throw(name);
+        if (o != nullptr && o->count() > 0 && o->results().front().empty())
+          return std::string(name) + ": the value is empty; leave the option out instead";
+      }
+    }
+    return {};
+  }
+  /// What is wrong with --edges, or nothing. How wide an edge the tables break is theirs to say.
+  std::string edges() {
+    if (raw_.edges.empty()) return {};
+    const auto v = parse_double(raw_.edges);
+    if (!v || !std::isfinite(*v) || *v < 0.0)
+      return "--edges: '" + raw_.edges + "' is no width of 0 or more in mm, e.g. 0.3";
+    out_.inputs.edge_break_mm = *v;
+    return {};
+  }
   static std::optional<std::string> given(std::string text) {
     return text.empty() ? std::nullopt : std::optional(std::move(text));
   }
@@ -250,6 +270,11 @@ class CommandLine {
   /// What is wrong, or nothing.
   std::string understand() {
     if (!raw_.file.empty()) out_.files = {raw_.file};
+    if (std::string wrong = empty_value(); !wrong.empty()) return wrong;
+    if (std::string wrong = edges(); !wrong.empty()) return wrong;
+    if (raw_.general_tolerance.find(',') != std::string::npos)
+      return "--general-tolerance: '" + raw_.general_tolerance +
+             "' has a comma; decimals are written with a point";
     auto& in = out_.inputs;
     in.machine = given(raw_.machine);
     in.tools = given(raw_.tools);

@@ -8,10 +8,14 @@
 #include "planner/app/files/load.h"
 #include "planner/app/files/outputs.h"
 #include "planner/app/show/values.h"
+#include "planner/base/file.h"
+#include "planner/base/number.h"
 #include "planner/late/late.h"
 #include "planner/motion/time.h"
 #include "planner/pipeline/pipeline.h"
 #include "planner/verify/verify.h"
+#include "rules/engine/check.h"
+#include "tooling/holding/holding.h"
 
 namespace capstan::app {
 namespace {
@@ -86,6 +90,65 @@ int finish(Session& s, const model::Plan& plan, std::vector<Output> outputs) {
   return clean ? kDone : kFindings;
 }
 
+/// What a shop's own tables lack or say twice: planning goes on, for the rows that do decide are sound.
+void judge_rules(const rules::RuleBase& base, Job& job) {
+  constexpr std::size_t kMostTold = 10;
+  const auto findings = rules::check(base);
+  for (std::size_t i = 0; i < std::min(kMostTold, findings.size()); ++i) {
+    const auto& f = findings[i];
+    job.report({.code = std::string(rules::code_of(f.fault)),
+                .severity = Severity::kWarning,
+                .message = f.text(),
+                .file = f.file,
+                .line = f.line});
+  }
+  if (findings.size() > kMostTold)
+    job.warn("RULE-MORE", std::to_string(findings.size() - kMostTold) +
+                              " further findings in the rules; capstan rules check --rules shows them all");
+}
+
+/// Why edges cannot be broken so wide, with the widths that the tables know; nothing when they can.
+std::optional<Diagnostic> edges_wrong(const pipeline::Inputs& in) {
+  const double width = in.edge_break_mm;
+  const rules::Table* table = in.rules.table("edge_break");
+  const auto fact = rules::find_fact("edge_break_mm");
+  if (!(width > 0.0) || table == nullptr || !fact) return std::nullopt;
+  const auto at = std::find(table->facts.begin(), table->facts.end(), *fact);
+  if (at == table->facts.end()) return std::nullopt;
+  const auto side = static_cast<std::size_t>(at - table->facts.begin());
+  std::string ranges;
+  for (const rules::Row& row : table->rows) {
+    if (row.chains.empty()) continue;
+    const rules::Side& s = row.when[side];
+    if (rules::holds(s, width)) return std::nullopt;
+    const std::string range = "from " + trimmed(s.from, 3) + " to below " + trimmed(s.below, 3) + " mm";
+    if (ranges.find(range) == std::string::npos) ranges += (ranges.empty() ? "" : ", ") + range;
+  }
+  return Diagnostic{.code = "APP-EDGES",
+                    .message = "--edges " + trimmed(width, 4) + ": no rule breaks edges so wide",
+                    .expected = "0 for none, or a width " + (ranges.empty() ? "that rules know" : ranges)};
+}
+
+/// Reads what holds the piece before anything is planned: a file that cannot be read is no failure of
+/// planning.
+std::optional<Diagnostic> holding_wrong(const std::string& how, Job& job) {
+  if (how == "auto" || how == "none") return std::nullopt;
+  auto fixtures = tooling::shipped_fixtures(job);
+  if (!fixtures || tooling::find_fixture(*fixtures, how) != nullptr) return std::nullopt;
+  auto text = read_file(how);
+  if (!text) {
+    text.error().hint = "workholding is auto, none, the id of a fixture, or a file";
+    return text.error();
+  }
+  Job silent;  // what there is to say of it is said when it is used
+  auto file = tooling::read_holding(*text, how, silent);
+  if (file) return std::nullopt;
+  for (const Diagnostic& d : silent.diagnostics()) {
+    if (!(d == file.error())) job.report(d);
+  }
+  return file.error();
+}
+
 bool makes_program(const std::vector<Output>& outputs) {
   return std::any_of(outputs.begin(), outputs.end(),
                      [](const Output& o) { return o.kind == OutputKind::kLinuxCnc; });
@@ -113,6 +176,12 @@ int prepared(Session& s, const pipeline::Policy& policy, Task& task) {
   auto inputs = gather(s.options.inputs, task.part, s.job);
   if (!inputs) return s.end(inputs.error(), kUnreadable);
   task.inputs = *std::move(inputs);
+  if (const auto wrong = edges_wrong(task.inputs)) return s.end(*wrong, kUsage);
+  if (s.options.inputs.rules) judge_rules(task.inputs.rules, s.job);
+  if (s.options.inputs.workholding) {
+    if (const auto wrong = holding_wrong(*s.options.inputs.workholding, s.job))
+      return s.end(*wrong, kUnreadable);
+  }
   if (s.options.inputs.cases) {
     auto base = casebase::CaseBase::open(*s.options.inputs.cases, s.job);
     if (!base) return s.end(base.error(), kUnreadable);

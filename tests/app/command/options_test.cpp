@@ -48,6 +48,31 @@ TEST(Options, ACommandLineIsUnderstood) {
   EXPECT_EQ(o.threads, 2U);
 }
 
+std::string refused(std::vector<const char*> more) {
+  std::vector<const char*> argv{"capstan", "plan", "part.p21", "-o", "a.json"};
+  argv.insert(argv.end(), more.begin(), more.end());
+  const auto parsed = parse_command_line(static_cast<int>(argv.size()), argv.data());
+  return parsed.options ? std::string() : parsed.ending.text;
+}
+
+TEST(Options, EdgesAreAFiniteWidth) {
+  EXPECT_EQ(refused({"--edges", "0.3"}), "");
+  EXPECT_EQ(refused({"--edges", "0"}), "");
+  for (const char* bad : {"nan", "inf", "-1", "0,3", "wide", ""})
+    EXPECT_THAT(refused({"--edges", bad}), testing::HasSubstr("--edges")) << bad;
+}
+
+TEST(Options, AnEmptyValueIsNotTheSameAsNone) {
+  EXPECT_THAT(refused({"--general-tolerance", ""}),
+              testing::HasSubstr("--general-tolerance: the value is empty"));
+  EXPECT_THAT(refused({"--workholding", ""}), testing::HasSubstr("--workholding"));
+}
+
+TEST(Options, ADecimalCommaIsRefused) {
+  EXPECT_EQ(refused({"--general-tolerance", "+-0.1"}), "");
+  EXPECT_THAT(refused({"--general-tolerance", "+-0,1"}), testing::HasSubstr("comma"));
+}
+
 TEST(Options, AFileMayFollowItsOutputs) {
   const char* argv[] = {"capstan", "plan", "-o", "a.json", "part.p21"};
   const auto parsed = parse_command_line(static_cast<int>(std::size(argv)), argv);

@@ -1,0 +1,132 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+// Plans of the examples with one thing changed, as users change them, end to end.
+
+namespace capstan::app {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+std::string slurp(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+class Planned : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (fs::temp_directory_path() / "capstan-planned-XXXXXX").string();
+    ASSERT_NE(::mkdtemp(name.data()), nullptr);
+    folder_ = name;
+  }
+  void TearDown() override {
+    std::error_code ignored;
+    fs::remove_all(folder_, ignored);
+  }
+  int run(const std::string& arguments) {
+    const std::string line =
+        "cd '" + folder_.string() + "' && '" CAPSTAN_COMMAND "' " + arguments + " >out 2>&1";
+    const int status = std::system(line.c_str());
+    said_ = slurp(folder_ / "out");
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  /// An example with texts replaced, as p.p21.
+  void part(const std::string& example, const std::vector<std::pair<std::string, std::string>>& changes) {
+    std::string text = slurp(fs::path(CAPSTAN_SOURCE_DIR) / "examples" / example);
+    for (const auto& [from, to] : changes) {
+      const auto at = text.find(from);
+      ASSERT_NE(at, std::string::npos) << from;
+      text.replace(at, from.size(), to);
+    }
+    std::ofstream(folder_ / "p.p21", std::ios::binary) << text;
+  }
+
+  fs::path folder_;
+  std::string said_;
+};
+
+TEST_F(Planned, AHoleDeeperThanItsEndMillsFlutesIsMilledInTurnsThatTheyReach) {
+  part("two_setups.p21", {{"#70=TOLERANCED_LENGTH_MEASURE(6.6,#25);",
+                           "#70=TOLERANCED_LENGTH_MEASURE(16.5,#225);\n#225=PLUS_MINUS_VALUE(0.043,0.,4);"}});
+  EXPECT_EQ(run("plan p.p21 -o p.json -o p.ngc"), 0) << said_;
+}
+
+TEST_F(Planned, AWideFittedHoleIsRoughedWithinTheRampOfItsCutter) {
+  part("two_setups.p21",
+       {{"#70=TOLERANCED_LENGTH_MEASURE(6.6,#25);",
+         "#70=TOLERANCED_LENGTH_MEASURE(20.,#225);\n#225=PLUS_MINUS_VALUE(0.021,0.,4);"},
+        {"CARTESIAN_POINT('HOLE 1',(12.,30.,0.))", "CARTESIAN_POINT('HOLE 1',(14.,28.,0.))"}});
+  (void)run("plan p.p21 -o p.json -o p.ngc");
+  EXPECT_THAT(said_, Not(HasSubstr("CHK-"))) << said_;
+}
+
+TEST_F(Planned, AShoulderAroundAHoleOfAnotherFeatureNeedsNoCentring) {
+  part("two_setups.p21", {});
+  ASSERT_EQ(run("plan p.p21 -o p.json -o p.ngc"), 0) << said_;
+  ASSERT_EQ(run("explain p.json"), 0) << said_;
+  EXPECT_THAT(said_, HasSubstr("COUNTERBORE 1 mill_rough"));
+  EXPECT_THAT(said_, Not(HasSubstr("COUNTERBORE 1 centre")));
+  EXPECT_THAT(said_, Not(HasSubstr("COUNTERBORE 1 drill")));
+}
+
+TEST_F(Planned, EdgesThatNoRuleBreaksAreRefusedWithTheRange) {
+  part("two_setups.p21", {});
+  for (const char* width : {"2", "3", "0.01"}) {
+    EXPECT_EQ(run(std::string("plan p.p21 -o p.json --edges ") + width), 2) << said_;
+    EXPECT_THAT(said_, HasSubstr("from 0.05 to below 2 mm"));
+  }
+}
+
+TEST_F(Planned, FeaturesWhoseEdgesStaySharpSaySoOnce) {
+  part("two_setups.p21", {});
+  (void)run("plan p.p21 -o p.json --edges 0.3");
+  const auto first = said_.find("'TOP SLOT': its edges are not broken");
+  ASSERT_NE(first, std::string::npos) << said_;
+  EXPECT_EQ(said_.find("'TOP SLOT': its edges", first + 1), std::string::npos) << said_;
+}
+
+TEST_F(Planned, AToleranceWiderThanItsSizeIsDoubted) {
+  part("two_setups.p21", {{"#70=TOLERANCED_LENGTH_MEASURE(6.6,#25);",
+                           "#70=TOLERANCED_LENGTH_MEASURE(6.6,#225);\n#225=PLUS_MINUS_VALUE(100.,0.,4);"}});
+  (void)run("plan p.p21 -o p.json");
+  EXPECT_THAT(said_, HasSubstr("MDL-TOLERANCE")) << said_;
+  part("two_setups.p21", {{"#70=TOLERANCED_LENGTH_MEASURE(6.6,#25);",
+                           "#70=TOLERANCED_LENGTH_MEASURE(6.6,#225);\n#225=PLUS_MINUS_VALUE(0.,8.,4);"}});
+  EXPECT_EQ(run("plan p.p21 -o p.json"), 1) << said_;
+  EXPECT_THAT(said_, HasSubstr("the tolerance swallows the size")) << said_;
+}
+
+TEST_F(Planned, RulesOfAShopThatContradictEachOtherAreWarnedOf) {
+  part("two_setups.p21", {});
+  fs::create_directory(folder_ / "shop");
+  std::ofstream(folder_ / "shop/a.yaml") << R"(table: hole
+rows:
+  - {id: shop.drill, priority: 50, when: {bottom: [through], diameter_mm: {from: 3, below: 4}, it_grade: {from: 11, to: 12}},
+     cannot: "not here", source: shop}
+)";
+  (void)run("plan p.p21 -o p.json --rules shop");
+  EXPECT_THAT(said_, HasSubstr("hole.drill and shop.drill conclude differently")) << said_;
+}
+
+TEST_F(Planned, WorkholdingThatCannotBeReadEndsWithThree) {
+  part("two_setups.p21", {});
+  EXPECT_EQ(run("plan p.p21 -o p.json --workholding nowhere.yaml"), 3) << said_;
+  std::ofstream(folder_ / "bad.yaml") << "setups: 5\n";
+  EXPECT_EQ(run("plan p.p21 -o p.json --workholding bad.yaml"), 3) << said_;
+}
+
+}  // namespace
+}  // namespace capstan::app
