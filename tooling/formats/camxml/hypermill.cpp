@@ -154,13 +154,7 @@ bool recognises(std::string_view bytes, std::string_view /*file*/) {
 
 Result<Imported> read(std::string_view bytes, const std::string& file, const FormatOptions& /*options*/,
                       Job& job) {
-  auto root = parse_xml(bytes, file);
-  if (!root) return fail(root.error());
-  Imported out;
-  out.library.source = file;
-  Reader reader(file, out, job);
-  if (Status s = reader.read(*root); !s) return fail(s.error());
-  return out;
+  return camxml::read_with<Reader>(bytes, file, job);
 }
 
 }  // namespace

@@ -25,6 +25,18 @@ void read_parameters(const XmlNode& tool, std::span<const Parameter> known,
                      std::string_view system, const Place& place, CatalogueItem& item, ItemGatherer& gatherer,
                      LossReport& report);
 
+/// An XML library read by a `Reader(file, out, job)` whose `read(root)` gives a Status.
+template <class Reader>
+[[nodiscard]] Result<Imported> read_with(std::string_view bytes, const std::string& file, Job& job) {
+  auto root = parse_xml(bytes, file);
+  if (!root) return fail(root.error());
+  Imported out;
+  out.library.source = file;
+  Reader reader(file, out, job);
+  if (Status s = reader.read(*root); !s) return fail(s.error());
+  return out;
+}
+
 /// A number above zero, of start values; nothing for none, zero or an empty text.
 /// A text that is no number is a fault of the item.
 [[nodiscard]] std::optional<double> positive(std::string_view text, const Place& place,
