@@ -305,7 +305,8 @@ double deepest(const CutQuestion& q) {
 }  // namespace
 
 double feed_override(const CutQuestion& q) {
-  if (q.override_locked || q.kind == CutKind::kTap || q.feed_mm_min) return 1.0;
+  if (q.override_locked || q.kind == CutKind::kTap) return 1.0;
+  if (q.feed_mm_min && !q.feed_by_planning) return 1.0;
   return std::max(1.0, q.machine.abilities.feed_override_max);
 }
 

@@ -37,7 +37,8 @@ struct CutQuestion {
   double deflection_limit_mm = 0.0;                               ///< of the tip; 0: kRoughDeflection
   std::optional<double> ap_mm, ae_mm, n_rpm, feed_mm_min, fz_mm;  ///< given, kept
   Aim aim = Aim::kTime;
-  bool override_locked = false;  ///< the operator cannot turn the feed up: no margin for it
+  bool override_locked = false;   ///< the operator cannot turn the feed up: no margin for it
+  bool feed_by_planning = false;  ///< feed_mm_min was chosen by planning before: the margin holds for it, too
 };
 
 /// Largest deflection of the tip in roughing, mm. Default, unsourced: a third of the usual side allowance.

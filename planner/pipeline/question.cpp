@@ -92,6 +92,31 @@ double equal_shank(const model::Cutter& c) {
   return std::pow(part / std::pow(neck, 4.0) + (1.0 - part) / std::pow(c.shank_diameter_mm, 4.0), -0.25);
 }
 
+AnyRef technology_of(const Work& w, const StepWork& step) {
+  const auto* op = w.plan.model.get<model::MachiningOperation>(step.operation);
+  return op != nullptr ? AnyRef(op->its_technology) : AnyRef{};
+}
+
+bool override_locked(const Work& w, const StepWork& step) {
+  const auto* t = w.plan.model.get<model::MillingTechnology>(technology_of(w, step));
+  return (step.proposed && step.proposal.lock_override) ||
+         (t != nullptr && t->inhibit_feedrate_override.value_or(false));
+}
+
+/// Whether planning chose the feed that stands there, now or when the plan was made: then it keeps the same
+/// margins when it is planned again. A feed that somebody edited since is theirs.
+bool feed_by_planning(const Work& w, const StepWork& step) {
+  const AnyRef technology = technology_of(w, step);
+  if (!technology.set()) return false;
+  for (const char* name : {"feedrate", "feedrate_per_tooth"}) {
+    const auto* d = w.plan.ledger.find(technology, name);
+    if (d != nullptr && d->state == model::DecisionState::kBound && d->binder != model::Binder::kGiven &&
+        d->binder != model::Binder::kOperator)
+      return true;
+  }
+  return false;
+}
+
 /// Cuts under an overhang are not measured along the path: asked for as a slot of the head's full height and
 /// diameter, with half the start feed, for the chips cannot leave upwards. The half is a default, unsourced.
 void under_an_overhang(optimise::CutQuestion& q, const model::Cutter& c) {
@@ -197,11 +222,12 @@ optimise::CutQuestion question_of(const Work& w, const StepWork& step, const mod
                     step.cutter.cutter_class == model::CutterClass::kCountersink;
   // A broken edge: as wide as it is deep.
   if (cone && q.kind == CutKind::kFinish && q.ap_mm) q.width_mm = std::max(0.05, *q.ap_mm);
-  q.override_locked = step.proposed && step.proposal.lock_override;
+  q.override_locked = override_locked(w, step);
   if (!step.open_technology) {
     const auto given = given_technology(m, step.operation, step.cutter);
     if (given.rpm) q.n_rpm = std::abs(*given.rpm);
     q.feed_mm_min = given.feed_mm_min;
+    q.feed_by_planning = feed_by_planning(w, step);
   }
   return q;
 }

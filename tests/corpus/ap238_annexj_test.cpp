@@ -87,7 +87,8 @@ const char* exception(const std::string& object, const std::string& attribute) {
       {"CIRCULAR_CLOSED_PROFILE", "a hole's own diameter in the model; compared as ROUND_HOLE.DIAMETER"},
       {"LINEAR_PATH.PLACEMENT", "the feature's own placement, which the model leaves out as ISO 14649 does"},
       {"CLOSED_POCKET.FEATURE_PLACEMENT",
-       "made anew where the standards' placements differ; placement_test of the exchange compares the numbers"},
+       "made anew where the standards' placements differ; placement_test of the exchange compares the "
+       "numbers"},
       {"NUMERIC_PARAMETER.PARAMETER_NAME", "'PROFILE LENGTH' is the mapping's constant 'profile length'"},
       {"NUMERIC_PARAMETER.ITS_PARAMETER_UNIT", "a unit of the file; a text, 'mm', in the model"},
       {"WORKPIECE.SHAPE_DEFINITION", "an instance of the mapping, not an application object: written anew"},
@@ -282,7 +283,8 @@ class Oracle {
         const bool per_minute = a.unit == model::Unit::kSpeed || a.unit == model::Unit::kRotSpeed;
         if (!named.has_text && per_minute) want *= 60.0;
         want *= factor;
-        // 75 for three quarters: the file's ratios of cuts at a hole's ends are percent, and read as such (EXC-RATIO).
+        // 75 for three quarters: the file's ratios of cuts at a hole's ends are percent, and read as such
+        // (EXC-RATIO).
         if (a.unit == model::Unit::kRatio && want >= 10.0) want /= 100.0;
         if (!(std::abs(v - want) <= 1e-9 * std::max(1.0, std::abs(want))))
           differ(named.name, std::to_string(v) + " and not " + std::to_string(want));

@@ -127,9 +127,13 @@ TEST(Ap238Ledger, AnEditedFeedIsGivenAgain) {
   // The first feed that the optimiser bound.
   const std::regex feed("('(?:feedrate|feed speed)',NUMERIC_MEASURE\\()([0-9.E+-]+)\\)");
   std::smatch found;
-  ASSERT_TRUE(std::regex_search(bytes, found, feed));
-  const std::string edited =
-      std::string(found.prefix()) + found[1].str() + "123.25)" + std::string(found.suffix());
+  // Before it stands the feed that the plan asks of a machine.
+  const auto machine = bytes.find("RESOURCE_PROPERTY('feedrate'");
+  ASSERT_NE(machine, std::string::npos);
+  const std::string rest = bytes.substr(machine);
+  ASSERT_TRUE(std::regex_search(rest, found, feed));
+  const std::string edited = bytes.substr(0, machine) + std::string(found.prefix()) + found[1].str() +
+                             "123.25)" + std::string(found.suffix());
   std::vector<std::string> said;
   const auto again = read_again(edited, &said);
   EXPECT_THAT(said, ::testing::Contains(::testing::HasSubstr(

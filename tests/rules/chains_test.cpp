@@ -91,7 +91,8 @@ TEST(HoleBelowANarrowerOne, IsMilledFromBelowByAHeadOnANeck) {
   EXPECT_TRUE(s.from_below);
   EXPECT_EQ(s.tool.classes.front(), model::CutterClass::kTSlotMill);
   EXPECT_NEAR(s.tool.diameter_max_mm, 19.6, 1e-9) << "0.2 mm clear on each side";
-  EXPECT_NEAR(s.tool.neck_step_min_mm, 6.2, 1e-9) << "26 - 20 and 0.1 mm clear on each side";
+  EXPECT_NEAR(s.tool.neck_step_min_mm, wide.diameter.middle() - 20.0 + 0.2, 1e-9)
+      << "out to the middle of the tolerance, and 0.1 mm clear on each side";
   EXPECT_GE(s.tool.reach_mm, 30.0);
   narrow.depth_mm = 20.0;
   const auto shut = propose_members(shipped(), std::vector{narrow, wide}, steel())[1];

@@ -107,23 +107,28 @@ std::optional<double> largest_torque_nm(const Machine& m, double rpm) {
   return out;
 }
 
+/// The least feed per tooth that planning may choose: the cutter's own where it is known.
+double least_fz_mm(const Cutter& c, const StartValues& s) {
+  const double share = kLeastFeedRatio * s.fz_mm;
+  return c.fz_min_mm > 0.0 ? std::min(c.fz_min_mm, share) : share;
+}
+
 /// Torque of the least cut that is worth it, Nm; nothing where no formula covers the class.
 std::optional<double> least_torque_nm(const Cutter& c, const StartValues& s, const WorkMaterial& w,
                                       const Preferences& p) {
   const mechanics::WorkMaterial work{w.kc11_n_mm2, w.mc};
-  const double margin =
-      std::max(mechanics::kForceUncertaintyFactor, 1.0 + w.kc_uncertainty) * mechanics::kWearForceFactor;
+  // Average values: margins for spread and wear are the optimiser's, which may feed slower for them.
   const double n = std::max(1.0, s.spindle_rpm);
   switch (c.cutter_class) {
     case CutterClass::kTwistDrill:
     case CutterClass::kGunDrill: {
       const double hole = p.pre_hole_mm < c.cutting_diameter_mm ? p.pre_hole_mm : 0.0;
       const auto l =
-          mechanics::drilling_loads({c.cutting_diameter_mm, kLeastFeedRatio * s.fz_mm * c.teeth, n, c.teeth,
+          mechanics::drilling_loads({c.cutting_diameter_mm, least_fz_mm(c, s) * c.teeth, n, c.teeth,
                                      c.point_angle_rad > 0.0 ? c.point_angle_rad : kPi, hole},
                                     work);
       if (!l) return std::nullopt;
-      return l->torque_nm * margin;
+      return l->torque_nm;
     }
     case CutterClass::kTap: {
       mechanics::TappingCut t;
@@ -134,19 +139,19 @@ std::optional<double> least_torque_nm(const Cutter& c, const StartValues& s, con
       t.n_rpm = n;
       const auto l = mechanics::tapping_loads(t, work);
       if (!l) return std::nullopt;
-      return l->torque_nm * margin;
+      return l->torque_nm;
     }
     case CutterClass::kEndmill:
     case CutterClass::kBullnoseEndmill:
     case CutterClass::kBallEndmill:
     case CutterClass::kFacemill: {
       const double d = c.cutting_diameter_mm, ae = kLeastWidthRatio * d;
-      const double fz = std::max(c.fz_min_mm, kLeastFeedRatio * s.fz_mm);
+      const double fz = least_fz_mm(c, s);
       const double h = mechanics::mean_chip_thickness_mm(fz, ae, d);
       if (!(h > 0.0)) return std::nullopt;
       const double ft = mechanics::mean_tangential_force_n(mechanics::specific_force_n_mm2(work, h),
                                                            kLeastDepthMm, ae, fz, c.teeth, d);
-      return margin * ft * 0.5 * d / 1000.0;
+      return ft * 0.5 * d / 1000.0;
     }
     default:
       return std::nullopt;
