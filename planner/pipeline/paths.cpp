@@ -9,6 +9,7 @@
 #include "planner/base/number.h"
 #include "planner/exchange/iso14649/curves.h"
 #include "planner/motion/time.h"
+#include "planner/pipeline/grouped.h"
 #include "planner/pipeline/holding.h"
 #include "planner/pipeline/split.h"
 #include "planner/pipeline/steps.h"
@@ -167,20 +168,20 @@ class PathMaker {
     if (step.cutter.cutting_diameter_mm <= 0.0) return {};  // no cutter was found; said already
     rank_by_time(step);
     const std::size_t tries = std::max<std::size_t>(1, step.candidates.size());
-    std::string why_not;
+    GroupedReasons why_not;
     for (std::size_t i = 0; i < tries; ++i) {
       const model::Candidate* candidate = i < step.candidates.size() ? &step.candidates[i] : nullptr;
       if (candidate != nullptr) step.cutter = candidate->cutter;
       auto made = attempt(step, candidate);
       if (!made) {
-        why_not += (why_not.empty() ? "" : "; ") + step.cutter.id + ": " + made.error().message;
+        why_not.add(step.cutter.id, made.error().message);
         step.rejected_tools.push_back({step.cutter.id, made.error().message});
         continue;
       }
       if (i > 0) take_cutter(step, *candidate);
       return finish(step, *std::move(made));
     }
-    no_path(step, why_not);
+    no_path(step, why_not.text());
     return {};
   }
 
