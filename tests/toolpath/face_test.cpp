@@ -262,6 +262,13 @@ TEST(SlotPath, RefusesACutterWiderThanTheSlotAndAFormThatDoesNotMatch) {
   const auto g = generate(vee, job);
   ASSERT_TRUE(g) << g.error().message;
   EXPECT_NEAR(g->levels_z_mm.back(), -4.0, 1e-12);
+  vee.cutter.tip_diameter_mm = 0.1;  // as an engraving cutter has: 0.05 out of each flank
+  EXPECT_TRUE(generate(vee, job));
+  vee.cutter.tip_diameter_mm = 1.0;
+  const auto blunt = generate(vee, job);
+  ASSERT_FALSE(blunt) << "half a millimetre would be cut from each flank";
+  EXPECT_EQ(blunt.error().code, "TPA-TOOL");
+  EXPECT_NE(blunt.error().message.find("flat tip of 1 mm"), std::string::npos);
 }
 
 TEST(EdgePath, ChamfersTheUpperEdgeOfAPocketWithTheConesFlank) {

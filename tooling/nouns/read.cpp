@@ -127,7 +127,7 @@ bool is_mill(CutterClass c) {
 std::span<const double> usual_points(CutterClass c) {
   static constexpr std::array<double, 6> kDrill{118, 140, 135, 130, 120, 90};
   static constexpr std::array<double, 3> kCentre{60, 90, 120};
-  static constexpr std::array<double, 4> kSink{90, 60, 82, 120};
+  static constexpr std::array<double, 5> kSink{90, 60, 82, 120, 30};
   if (c == CutterClass::kTwistDrill) return kDrill;
   if (c == CutterClass::kCenterDrill || c == CutterClass::kSpotDrill) return kCentre;
   return kSink;

@@ -38,7 +38,7 @@ inline constexpr double kLoadingS = 180.0;
 /// What the plan around a step says, and what the step removes. Zero: not known.
 struct Preferences {
   std::vector<std::string> used;   ///< ids of cutters that the plan uses already: no further tool change
-  std::size_t most = 8;            ///< candidates given
+  std::size_t most = 12;           ///< candidates given
   std::size_t most_rejected = 12;  ///< near misses given one by one; the others are summed up
   double volume_mm3 = 0.0;         ///< milling: what is to be removed
   double depth_mm = 0.0;           ///< along the axis, in all

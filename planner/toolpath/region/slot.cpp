@@ -18,6 +18,10 @@ namespace {
 
 constexpr double kSameWidth = 0.02;  ///< mm; a cutter this much narrower than the slot cuts it in one pass
 
+/// By how much a flat tip may stand out of a vee's flanks where no tolerance says more, mm; default,
+/// unsourced.
+constexpr double kSharpVee = 0.05;
+
 /// Whether the cutter's form makes the slot's section in one pass along the spine.
 Status check_form(const PathJob& task) {
   const auto& s = task.shape;
@@ -30,6 +34,13 @@ Status check_form(const PathJob& task) {
     if (std::abs(c.point_angle_rad - s.slot_angle_rad) > 1e-3)
       return refuse("a vee of " + trimmed(s.slot_angle_rad * 180.0 / M_PI, 2) +
                     " degrees needs a cutter with that point angle");
+    // A flat tip at the bottom of a sharp vee stands out of its flanks by half its width at most.
+    const double off = 0.5 * c.tip_diameter_mm;
+    const double most = s.width.given ? std::max(kSharpVee, 0.25 * s.width.width()) : kSharpVee;
+    if (off > most)
+      return refuse("the cutter's flat tip of " + trimmed(c.tip_diameter_mm, 3) +
+                    " mm would cut into the flanks of a sharp vee; at most " + trimmed(2.0 * most, 3) +
+                    " mm would do");
     return {};
   }
   if (s.slot_bottom_radius_mm > 0.0) {
