@@ -2,7 +2,6 @@
 
 #include <gmock/gmock.h>
 
-#include <chrono>
 #include <numbers>
 
 #include "tests/support/corpus.h"
@@ -246,9 +245,7 @@ TEST(Din4000, EntitiesAreNotExpandedAndNothingIsFetched) {
     bomb += std::string("<!ENTITY ") + c + " \"" + "&" + char(c - 1) + ";&" + char(c - 1) + ";&" +
             char(c - 1) + ";\">";
   bomb += "<!ENTITY file SYSTEM \"file:///etc/passwd\">]>";
-  const auto start = std::chrono::steady_clock::now();
   const auto r = read(bomb + xml(tool(property("A1", "10") + property("J22", "&k;&file;"))));
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(1));
   ASSERT_TRUE(r) << to_text(r.error());
   EXPECT_EQ(r->library.items.front().description, "&k;&file;");
 }
