@@ -17,38 +17,6 @@ using model::Proposal;
 using model::ProposedStep;
 using model::ShapeKind;
 
-std::string_view table_of(ShapeKind kind) {
-  switch (kind) {
-    case ShapeKind::kFace:
-      return "face";
-    case ShapeKind::kPocket:
-      return "pocket";
-    case ShapeKind::kSlot:
-      return "slot";
-    case ShapeKind::kStep:
-      return "step";
-    case ShapeKind::kHole:
-      return "hole";
-    case ShapeKind::kOutside:
-      return "outside";
-    case ShapeKind::kChamfer:
-      return "chamfer";
-    case ShapeKind::kEdgeRound:
-      return "edge_round";
-    case ShapeKind::kThread:
-      return "thread";
-    case ShapeKind::kSphericalCap:
-      return "spherical_cap";
-    case ShapeKind::kRoundedEnd:
-      return "rounded_end";
-    case ShapeKind::kFreeform:
-      return "freeform";
-    case ShapeKind::kToolpath:
-      return "toolpath";
-  }
-  return "";
-}
-
 std::string joined(std::initializer_list<std::string_view> parts) {
   std::string out;
   for (const std::string_view part : parts) {
@@ -148,7 +116,8 @@ tl::expected<std::vector<ProposedStep>, std::string> make_chain(const Situation&
                                                                 std::vector<model::Rejected>& left_out) {
   std::vector<ProposedStep> out;
   double hole = at.shape.kind == ShapeKind::kHole ? at.context.core_diameter_mm : 0.0;
-  const std::string prefix = at.shape.name.empty() ? std::string(table_of(at.shape.kind)) : at.shape.name;
+  const std::string prefix =
+      at.shape.name.empty() ? std::string(model::to_text(at.shape.kind)) : at.shape.name;
   std::size_t last = 0;  // of the row's own steps
   for (const auto& [spec, row] : wanted(at, alternative)) {
     const Action* action = find_action(spec->action);
@@ -266,7 +235,7 @@ Context among(std::span<const FeatureShape> shapes, const std::vector<std::size_
 Proposal propose(const RuleBase& base, const FeatureShape& shape, const Context& context) {
   Proposal out;
   out.feature = shape.feature;
-  const std::string name(table_of(shape.kind));
+  const std::string name(model::to_text(shape.kind));
   const Table* table = base.table(name);
   if (table == nullptr) {
     out.cannot = "there is no table of rules for " + name;

@@ -64,12 +64,10 @@ struct ProposedStep {
   bool lock_override = false;  ///< feed and spindle overrides are inhibited: rigid tapping, thread milling
   /// Material that a wider cutter left: only what this diameter did not reach is cut; 0: everything.
   double rest_of_diameter_mm = 0.0;
-  double axial_depth_mm = 0.0;     ///< per level, where the rule fixes it: thin walls, edge breaks; 0: chosen
-  bool one_level = false;          ///< at the bottom only: floors finished apart from their walls
-  bool from_below = false;         ///< back boring, back countersinking
-  double path_deviation_mm = 0.0;  ///< path_maximum_deviation, see StepResult; 0: the pipeline's default
-  double contour_tolerance_mm = 0.0;  ///< see StepResult; 0: the control's own
-  double finish_ra_um = 0.0;          ///< surface that this step must leave; 0: none asked
+  double axial_depth_mm = 0.0;  ///< per level, where the rule fixes it: thin walls, edge breaks; 0: chosen
+  bool one_level = false;       ///< at the bottom only: floors finished apart from their walls
+  bool from_below = false;      ///< back boring, back countersinking
+  double finish_ra_um = 0.0;    ///< surface that this step must leave; 0: none asked
   Reason why;
   std::vector<std::size_t> after;  ///< indices in the same proposal that must come before
   int priority = 0;                ///< alternatives: lower is tried first

@@ -68,11 +68,6 @@ Deviation deviation_of(const Work& w, const StepWork& step, const toolpath::Path
   const model::Model& m = w.plan.model;
   if (!m.holds<model::MillingTypeOperation>(step.operation) || step.shapes.empty()) return out;
   if (m.holds<model::DrillingTypeOperation>(step.operation)) return out;
-  if (step.proposed && step.proposal.contour_tolerance_mm > 0.0) {
-    out.mm = clipped(step.proposal.contour_tolerance_mm, kCoarsest);
-    out.why = "path deviation and contour tolerance " + trimmed(out.mm, 4) + " mm, as its rule says";
-    return out;
-  }
   const double own = w.plan.machine.control.path_tolerance_mm;
   const Tightest t = tightest(w, step.feature, step.shapes.front());
   const double most = own > 0.0 ? std::max(own, kFinest) : kUnstated;

@@ -74,36 +74,10 @@ double least(std::initializer_list<std::optional<double>> values) {
 }
 double ratio(double a, double b, double most) { return b > 0.0 ? std::clamp(a / b, 0.0, most) : 0.0; }
 
+/// A countersink is asked about apart from other holes.
 std::string_view shape_symbol(const FeatureShape& s) {
-  switch (s.kind) {
-    case ShapeKind::kFace:
-      return "face";
-    case ShapeKind::kPocket:
-      return "pocket";
-    case ShapeKind::kSlot:
-      return "slot";
-    case ShapeKind::kStep:
-      return "step";
-    case ShapeKind::kHole:
-      return taper_of(s).substr(0, 11) == "countersink" ? "countersink" : "hole";
-    case ShapeKind::kOutside:
-      return "outside";
-    case ShapeKind::kChamfer:
-      return "chamfer";
-    case ShapeKind::kEdgeRound:
-      return "edge_round";
-    case ShapeKind::kThread:
-      return "thread";
-    case ShapeKind::kSphericalCap:
-      return "spherical_cap";
-    case ShapeKind::kRoundedEnd:
-      return "rounded_end";
-    case ShapeKind::kFreeform:
-      return "freeform";
-    case ShapeKind::kToolpath:
-      return "toolpath";
-  }
-  return "toolpath";
+  if (s.kind == ShapeKind::kHole && taper_of(s).starts_with("countersink")) return "countersink";
+  return model::to_text(s.kind);
 }
 
 // What does not depend on the kind of feature: what is asked of it, what surrounds it, what the machine can.

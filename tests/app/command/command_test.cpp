@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "tests/app/plans.h"
+#include "tests/support/corpus.h"
 
 // The built program, run as a user runs it.
 
@@ -34,16 +35,6 @@ std::string slurp(const fs::path& path) {
 
 class CommandTest : public ::testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "capstan-app-XXXXXX").string();
-    ASSERT_NE(::mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override {
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
-  }
-
   /// `arguments` as a shell takes them.
   [[nodiscard]] Ran run(const std::string& arguments) const {
     const fs::path out = folder_ / "stdout.txt";
@@ -67,7 +58,8 @@ class CommandTest : public ::testing::Test {
     return out;
   }
 
-  fs::path folder_;
+  ::capstan::testing::ScratchFolder scratch_;
+  fs::path folder_ = scratch_.path();
 };
 
 TEST_F(CommandTest, HelpAndVersionGoToStandardOutput) {

@@ -9,6 +9,8 @@
 #include <sstream>
 #include <string>
 
+#include "tests/support/corpus.h"
+
 // Plans of the examples with one thing changed, as users change them, end to end.
 
 namespace capstan::app {
@@ -27,15 +29,6 @@ std::string slurp(const fs::path& path) {
 
 class Planned : public ::testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "capstan-planned-XXXXXX").string();
-    ASSERT_NE(::mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override {
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
-  }
   int run(const std::string& arguments) {
     const std::string line =
         "cd '" + folder_.string() + "' && '" CAPSTAN_COMMAND "' " + arguments + " >out 2>&1";
@@ -54,7 +47,8 @@ class Planned : public ::testing::Test {
     std::ofstream(folder_ / "p.p21", std::ios::binary) << text;
   }
 
-  fs::path folder_;
+  ::capstan::testing::ScratchFolder scratch_;
+  fs::path folder_ = scratch_.path();
   std::string said_;
 };
 

@@ -7,6 +7,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "tests/support/corpus.h"
+
 // Tool libraries through the built program: read, written, converted, with what is lost on the way.
 
 namespace capstan::app {
@@ -19,9 +21,6 @@ using ::testing::Not;
 class ToolsCommand : public ::testing::Test {
  protected:
   void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "capstan-tools-XXXXXX").string();
-    ASSERT_NE(::mkdtemp(name.data()), nullptr);
-    folder_ = name;
     put("mill.fctb", R"({"version": 2, "name": "Mill 5", "shape": "endmill.fcstd", "parameter": {
       "CuttingEdgeHeight": "20 mm", "Diameter": "5 mm", "Length": "50 mm", "ShankDiameter": "6 mm"},
       "attribute": {}})");
@@ -31,10 +30,6 @@ class ToolsCommand : public ::testing::Test {
         "  - {id: dr5, class: twist_drill, cutting_diameter: 5, teeth: 2, stick_out: 60}\n");
     put("bare.csv", "id,class,diameter\nem,endmill,0.5\n");
     put("nothing.txt", "no library at all\n");
-  }
-  void TearDown() override {
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
   }
   /// Exit code; the two streams are kept.
   int run(const std::string& arguments) {
@@ -57,7 +52,8 @@ class ToolsCommand : public ::testing::Test {
   }
   [[nodiscard]] bool there(const std::string& name) const { return fs::exists(folder_ / name); }
 
-  fs::path folder_;
+  ::capstan::testing::ScratchFolder scratch_;
+  fs::path folder_ = scratch_.path();
   std::string out_, err_;
 };
 

@@ -7,6 +7,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "tests/support/corpus.h"
+
 // A part on two set-ups, in a vise and under clamps, planned and checked by the built program.
 
 namespace capstan::app {
@@ -18,15 +20,6 @@ using ::testing::Not;
 
 class Workholding : public ::testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "capstan-hold-XXXXXX").string();
-    ASSERT_NE(::mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override {
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
-  }
   /// Exit code; `said` is what went to both streams.
   int run(const std::string& arguments) {
     std::string line = "cd '";
@@ -42,7 +35,8 @@ class Workholding : public ::testing::Test {
     text << in.rdbuf();
     return text.str();
   }
-  fs::path folder_;
+  ::capstan::testing::ScratchFolder scratch_;
+  fs::path folder_ = scratch_.path();
   std::string said_;
 };
 
