@@ -119,6 +119,7 @@ struct Cutter {
   bool loaded = false;            ///< it is in the machine's magazine, in `pocket`
   int in_stock = -1;              ///< pieces; -1 unknown
   double life_used_min = 0.0;     ///< of `life_min`
+  double runout_mm = 0.0;         ///< of the teeth in the spindle, radial, total indicated; 0 unknown
   std::vector<SisterTool> sisters;
   bool operator==(const Cutter&) const = default;
 };

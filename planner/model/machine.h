@@ -55,6 +55,14 @@ struct Control {
   friend bool operator==(const Control&, const Control&) = default;
 };
 
+/// A mode of vibration of a tool point, as a tap test gives it.
+struct ToolPointMode {
+  std::string cutter_id;  ///< empty: any
+  std::string direction;  ///< "x" or "y" of the machine
+  double frequency_hz = 0.0, damping_ratio = 0.0, stiffness_n_mm = 0.0;
+  friend bool operator==(const ToolPointMode&, const ToolPointMode&) = default;
+};
+
 /// What a machine can do beside moving and turning; machine_parameters of AP238 where they have a word for
 /// it.
 struct MachineAbilities {
@@ -82,6 +90,7 @@ struct Machine {
   double cost_per_hour = 0.0;  ///< any currency; used by objective cost
   Control control;
   MachineAbilities abilities;
+  std::vector<ToolPointMode> modes;  ///< empty: stability is judged by slenderness alone
   std::vector<std::pair<std::string, std::string>> sources;  ///< (value's path, source), in file order
   friend bool operator==(const Machine&, const Machine&) = default;
 };

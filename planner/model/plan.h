@@ -24,14 +24,37 @@ struct ActiveConstraint {
   std::string name;  ///< "spindle_torque", "tool_deflection", "maximum_feed_per_tooth", ...
   double value = 0.0, limit = 0.0;
   std::string unit;
-  double shadow_price = 0.0;  ///< seconds saved per 1 % more of the limit
+  double shadow_price = 0.0;  ///< fraction of the objective (time or cost) saved per 1 % more of the limit
+  double saves_s = 0.0;       ///< seconds of the step that 10 % more of the limit would save; 0: not known
+  double at_rpm = 0.0;        ///< spindle speed at which the limit holds; 0: it does not depend on it
   friend bool operator==(const ActiveConstraint&, const ActiveConstraint&) = default;
 };
 
-/// Peak loads of a step.
+/// Forces on the cutter: x along the feed, y to its left, z along the axis, away from the work. N.
+struct AxisForces {
+  double x_n = 0.0, y_n = 0.0, z_n = 0.0;
+  friend bool operator==(const AxisForces&, const AxisForces&) = default;
+};
+
+/// A limit that held the feed along part of a path.
+struct LimitAlongPath {
+  std::string name;  ///< "peak_force", "axis_acceleration", ...
+  double limit = 0.0;
+  std::string unit;
+  double share = 0.0;    ///< of the cutting time, in [0, 1]
+  double saves_s = 0.0;  ///< seconds that 10 % more of this limit alone would save
+  friend bool operator==(const LimitAlongPath&, const LimitAlongPath&) = default;
+};
+
+/// Peak loads of a step, the spread of the coefficients and a worn edge included.
 struct StepLoads {
   double peak_force_n = 0.0, torque_nm = 0.0, power_w = 0.0, deflection_mm = 0.0, chip_thickness_mm = 0.0;
   double mrr_mm3_min = 0.0;
+  AxisForces mean_force, peak_force;  ///< largest by amount over the path, each component by itself
+  double wall_error_mm = 0.0;         ///< of the wall the step leaves, by bending; > 0: material is left
+  double surface_rz_mm = 0.0;         ///< feed marks by geometry alone; 0: not computed
+  double tool_life_min = 0.0;         ///< expected at these conditions; 0: not known
+  double force_margin = 0.0;          ///< factor on the forces of a sharp edge with mean coefficients
   friend bool operator==(const StepLoads&, const StepLoads&) = default;
 };
 
@@ -51,6 +74,7 @@ struct StepResult {
   double cutting_s = 0.0, rapid_s = 0.0;
   StepLoads loads;
   std::vector<ActiveConstraint> active;
+  std::vector<LimitAlongPath> held_by;  ///< of the feed schedule, largest share first
 };
 
 /// One clamping of the workpiece.

@@ -17,7 +17,8 @@ namespace capstan::optimise {
 
 enum class CutKind : std::uint8_t { kRough, kFinish, kDrill, kReam, kTap };
 
-enum class Aim : std::uint8_t { kTime, kCost };
+/// What is made least: time, cost, or cost less what the time would earn elsewhere (profit per time).
+enum class Aim : std::uint8_t { kTime, kCost, kProfit };
 
 /// What is asked before a path exists: how deep, how wide, how fast. A value given is kept.
 struct CutQuestion {
@@ -37,6 +38,7 @@ struct CutQuestion {
   double deflection_limit_mm = 0.0;                               ///< of the tip; 0: kRoughDeflection
   std::optional<double> ap_mm, ae_mm, n_rpm, feed_mm_min, fz_mm;  ///< given, kept
   Aim aim = Aim::kTime;
+  double earning_per_min = 0.0;   ///< kProfit: what a minute of this machine earns, net of its own cost
   bool override_locked = false;   ///< the operator cannot turn the feed up: no margin for it
   bool feed_by_planning = false;  ///< feed_mm_min was chosen by planning before: the margin holds for it, too
 };

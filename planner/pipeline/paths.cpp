@@ -481,12 +481,22 @@ class PathMaker {
       // On an arc about a corner the edge goes farther than the centre, and removes more than depth times
       // width.
       const double swept = ap > 0.0 ? e.csa_mm2 / ap : ae;
-      fq.samples.push_back({s.move[i], ap,
-                            whole && !e.plunge ? std::max(ae, swept)
-                            : whole            ? ae
-                                               : swept,
-                            e.plunge});
-      if (!whole) fq.samples.push_back({s.move[i], e.csa_mm2 / ae, ae, e.plunge});
+      optimise::CutSample sample{.move = s.move[i],
+                                 .ap_mm = ap,
+                                 .ae_mm = whole && !e.plunge ? std::max(ae, swept)
+                                          : whole            ? ae
+                                                             : swept,
+                                 .plunge = e.plunge,
+                                 .at_mm = s.at_mm[i],
+                                 .step_mm = e.step_mm,
+                                 .entry_rad = e.entry_rad,
+                                 .exit_rad = e.exit_rad,
+                                 .csa_mm2 = e.csa_mm2};
+      fq.samples.push_back(sample);
+      if (whole) continue;
+      sample.ap_mm = e.csa_mm2 / ae;
+      sample.ae_mm = ae;
+      fq.samples.push_back(sample);
     }
     r.sections = std::make_shared<const model::SectionSeries>(std::move(m->sections));
     return {};

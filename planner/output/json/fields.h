@@ -72,7 +72,24 @@ void fields(V& v, Is<model::Machine> auto& x) {
   v("tool_length_max_mm", x.tool_length_max_mm), v("tool_change_s", x.tool_change_s);
   v("has_flood", x.has_flood), v("has_mist", x.has_mist), v("has_through", x.has_through);
   v("cost_per_hour", x.cost_per_hour), v("control", x.control), v("sources", x.sources);
-  v("abilities", x.abilities);
+  v("abilities", x.abilities), v("modes", x.modes);
+}
+template <class V>
+void fields(V& v, Is<model::MechanisticSet> auto& x) {
+  v("substrate", x.substrate), v("ktc_n_mm2", x.ktc_n_mm2), v("kte_n_mm", x.kte_n_mm);
+  v("krc_n_mm2", x.krc_n_mm2), v("kre_n_mm", x.kre_n_mm), v("kac_n_mm2", x.kac_n_mm2);
+  v("kae_n_mm", x.kae_n_mm), v("uncertainty", x.uncertainty), v("source", x.source);
+}
+template <class V>
+void fields(V& v, Is<model::ToolLifeLaw> auto& x) {
+  v("substrate", x.substrate), v("v0_m_min", x.v0_m_min), v("life_min", x.life_min), v("h0_mm", x.h0_mm);
+  v("a0_mm", x.a0_mm), v("n", x.n), v("p", x.p), v("q", x.q), v("scatter", x.scatter);
+  v("source", x.source);
+}
+template <class V>
+void fields(V& v, Is<model::ToolPointMode> auto& x) {
+  v("cutter_id", x.cutter_id), v("direction", x.direction), v("frequency_hz", x.frequency_hz);
+  v("damping_ratio", x.damping_ratio), v("stiffness_n_mm", x.stiffness_n_mm);
 }
 template <class V>
 void fields(V& v, Is<model::WorkMaterial> auto& x) {
@@ -80,6 +97,7 @@ void fields(V& v, Is<model::WorkMaterial> auto& x) {
   v("mc", x.mc), v("vc_hss_m_min", x.vc_hss_m_min), v("vc_carbide_m_min", x.vc_carbide_m_min);
   v("tensile_strength_n_mm2", x.tensile_strength_n_mm2), v("kc_uncertainty", x.kc_uncertainty);
   v("hardness_hb", x.hardness_hb);
+  v("mechanistic", x.mechanistic), v("life", x.life);
   v("sources", x.sources);
 }
 template <class V>
@@ -110,7 +128,7 @@ void fields(V& v, Is<model::Cutter> auto& x) {
   v("library_reference", x.library_reference), v("library_source", x.library_source);
   v("product_id", x.product_id), v("carousel", x.carousel), v("stated_in_inches", x.stated_in_inches);
   v("loaded", x.loaded), v("in_stock", x.in_stock), v("life_used_min", x.life_used_min);
-  v("sisters", x.sisters);
+  v("sisters", x.sisters), v("runout_mm", x.runout_mm);
 }
 template <class V>
 void fields(V& v, Is<model::HolderSegment> auto& x) {
@@ -147,15 +165,25 @@ void fields(V& v, Is<geometry::Vec2> auto& x) {
   v("x", x.x), v("y", x.y);
 }
 template <class V>
+void fields(V& v, Is<model::AxisForces> auto& x) {
+  v("x_n", x.x_n), v("y_n", x.y_n), v("z_n", x.z_n);
+}
+template <class V>
+void fields(V& v, Is<model::LimitAlongPath> auto& x) {
+  v("name", x.name), v("limit", x.limit), v("unit", x.unit), v("share", x.share), v("saves_s", x.saves_s);
+}
+template <class V>
 void fields(V& v, Is<model::StepLoads> auto& x) {
   v("peak_force_n", x.peak_force_n), v("torque_nm", x.torque_nm), v("power_w", x.power_w);
   v("deflection_mm", x.deflection_mm), v("chip_thickness_mm", x.chip_thickness_mm);
-  v("mrr_mm3_min", x.mrr_mm3_min);
+  v("mrr_mm3_min", x.mrr_mm3_min), v("mean_axis_force", x.mean_force), v("peak_axis_force", x.peak_force);
+  v("wall_error_mm", x.wall_error_mm), v("surface_rz_mm", x.surface_rz_mm);
+  v("tool_life_min", x.tool_life_min), v("force_margin", x.force_margin);
 }
 template <class V>
 void fields(V& v, Is<model::ActiveConstraint> auto& x) {
   v("name", x.name), v("value", x.value), v("limit", x.limit), v("unit", x.unit);
-  v("shadow_price", x.shadow_price);
+  v("shadow_price", x.shadow_price), v("saves_s", x.saves_s), v("at_rpm", x.at_rpm);
 }
 template <class V>
 void fields(V& v, Is<model::StepResult> auto& x) {
@@ -165,6 +193,7 @@ void fields(V& v, Is<model::StepResult> auto& x) {
   v("path", x.path), v("sections", x.sections), v("schedule", x.schedule), v("cutting_s", x.cutting_s);
   v("rapid_s", x.rapid_s), v("loads", x.loads), v("active", x.active), v("through", x.through);
   v("path_deviation_mm", x.path_deviation_mm), v("contour_tolerance_mm", x.contour_tolerance_mm);
+  v("held_by", x.held_by);
 }
 template <class V>
 void fields(V& v, Is<model::Unplanned> auto& x) {
