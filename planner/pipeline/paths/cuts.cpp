@@ -1,0 +1,60 @@
+#include "planner/pipeline/paths/cuts.h"
+
+#include <string>
+#include <tuple>
+
+namespace capstan::pipeline {
+namespace {
+
+using QuestionKey = std::tuple<std::string, int, double, double, double, double, double, double, double,
+                               double, double, double, double, double, double, double, bool, bool, bool>;
+
+QuestionKey key_of(const optimise::CutQuestion& q) {
+  constexpr double kUnset = -1.0;
+  return {q.cutter.id,
+          static_cast<int>(q.kind),
+          q.vc_start_m_min,
+          q.fz_start_mm,
+          q.depth_mm,
+          q.width_mm,
+          q.pre_hole_mm,
+          q.deflection_limit_mm,
+          q.ap_mm.value_or(kUnset),
+          q.ae_mm.value_or(kUnset),
+          q.n_rpm.value_or(kUnset),
+          q.feed_mm_min.value_or(kUnset),
+          q.fz_mm.value_or(kUnset),
+          q.engaged_diameter_mm,
+          q.ap_most_mm,
+          q.least_feed_ratio,
+          q.slot,
+          q.override_locked,
+          q.feed_by_planning};
+}
+
+}  // namespace
+
+struct Cuts::Known {
+  std::map<QuestionKey, optimise::CutAnswer> answers;
+};
+
+Cuts::Cuts(Work& w) : w_(w), known_(std::make_unique<Known>()) {
+  options_.solver = w.inputs.solver;
+  options_.backends = w.inputs.backends;
+  // Ipopt has no bound that weak spindles do not reach: it serves who asks for it.
+  if (options_.solver == optimise::Solver::kNlopt) options_.backends.ipopt = nullptr;
+  options_.starts = 2;
+  options_.relative_tolerance = 1e-7;
+}
+
+Cuts::~Cuts() = default;
+
+Result<optimise::CutAnswer> Cuts::answer(const optimise::CutQuestion& q) {
+  const auto key = key_of(q);
+  if (const auto it = known_->answers.find(key); it != known_->answers.end()) return it->second;
+  auto a = optimise::cut(q, options_, w_.job);
+  if (a) known_->answers.emplace(key, *a);
+  return a;
+}
+
+}  // namespace capstan::pipeline

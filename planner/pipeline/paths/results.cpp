@@ -1,0 +1,78 @@
+#include "planner/pipeline/paths/results.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "planner/base/number.h"
+#include "planner/motion/time.h"
+
+namespace capstan::pipeline {
+namespace {
+
+/// Hours of cutting are worth another tool: said with what holds the step back.
+void tell_slow(Work& w, const StepWork& step, const model::StepResult& r) {
+  constexpr double kSlowS = 4.0 * 3600.0;  // default, unsourced
+  if (!step.open_technology || r.cutting_s < kSlowS) return;
+  std::string limits;
+  for (const auto& a : r.active) limits += (limits.empty() ? "" : ", ") + a.name;
+  w.job.warn("PIP-SLOW", "step '" + name_of(w, step) + "' cuts " + trimmed(r.cutting_s / 3600.0, 1) +
+                             " h with " + step.cutter.id + " (" +
+                             trimmed(step.cutter.cutting_diameter_mm, 3) + " mm, " +
+                             trimmed(step.cutter.stick_out_mm, 1) + " mm out), held back by " +
+                             (limits.empty() ? "given values" : limits) +
+                             "; a larger or shorter cutter would be quicker");
+}
+
+}  // namespace
+
+void keep(Work& w, const StepWork& step, model::StepResult r, const optimise::FeedQuestion& fq) {
+  if (r.feed_mm_min == 0.0) r.feed_mm_min = fq.feed_mm_min;
+  if (r.spindle_rpm == 0.0) r.spindle_rpm = fq.n_rpm;
+  const double d = step.cutter.cutting_diameter_mm;
+  r.vc_m_min = std::numbers::pi * d * std::abs(r.spindle_rpm) / 1000.0;
+  if (r.spindle_rpm != 0.0)
+    r.fz_mm = r.feed_mm_min / (std::abs(r.spindle_rpm) * std::max(1, step.cutter.teeth));
+  const auto t = motion::time_of(*r.path, *r.schedule, w.plan.machine);
+  if (t) {
+    r.cutting_s = t->cutting_s + t->dwell_s;
+    r.rapid_s = t->rapid_s;
+    tell_slow(w, step, r);
+  } else {
+    w.job.warn(t.error().code, "step '" + name_of(w, step) + "' has no time: " + t.error().message);
+  }
+  w.plan.steps.push_back(std::move(r));
+}
+
+model::StepResult result_of(const Work& w, const StepWork& step) {
+  model::StepResult r;
+  r.step = step.step;
+  r.setup = step.setup;
+  r.cutter_id = step.cutter.id;
+  const auto* op = w.plan.model.get<model::MachiningOperation>(step.operation);
+  if (op != nullptr) {
+    if (const auto* f = w.plan.model.get<model::MillingMachineFunctions>(op->its_machine_functions)) {
+      r.flood = f->coolant.value_or(false);
+      r.mist = f->mist.value_or(false);
+      r.through = f->through_spindle_coolant.value_or(false);
+    }
+  }
+  return r;
+}
+
+std::string name_of(const Work& w, const StepWork& step) {
+  const auto* e = w.plan.model.get<model::Executable>(step.step);
+  return e != nullptr ? e->its_id.value_or("") : "";
+}
+
+void no_path(Work& w, const StepWork& step, const std::string& why) {
+  w.plan.unplanned.push_back({step.feature, "step '" + name_of(w, step) + "': " + why});
+  w.job.report({.code = "PIP-NO-PATH",
+                .severity = Severity::kError,
+                .message = "step '" + name_of(w, step) + "' has no path: " + why,
+                .file = w.plan.file_name,
+                .instance = w.plan.model.origin(step.step).instance});
+}
+
+}  // namespace capstan::pipeline

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+
+#include "planner/optimise/feeds.h"
+#include "planner/pipeline/work.h"
+
+// What a step came to; only planner/pipeline/*.cpp include this.
+
+namespace capstan::pipeline {
+
+/// The name that messages call a step by.
+[[nodiscard]] std::string name_of(const Work& w, const StepWork& step);
+/// What is known of a step before it has a path.
+[[nodiscard]] model::StepResult result_of(const Work& w, const StepWork& step);
+/// Puts the step into the plan, with its time. Says PIP-SLOW of hours.
+void keep(Work& w, const StepWork& step, model::StepResult result, const optimise::FeedQuestion& asked);
+/// The step stays without a path: said, and kept as unplanned.
+void no_path(Work& w, const StepWork& step, const std::string& why);
+
+}  // namespace capstan::pipeline

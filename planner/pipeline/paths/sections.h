@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "planner/engagement/engagement.h"
+#include "planner/model/cutter_path.h"
+#include "planner/optimise/feeds.h"
+
+// Cross sections as feeds ask for them, measured or brought by a file; only planner/pipeline/*.cpp include
+// this.
+
+namespace capstan::pipeline {
+
+/// Of a measured path. A section that is no rectangle (a wall and a floor at once) counts as two of its area:
+/// as deep, and as wide.
+[[nodiscard]] std::vector<optimise::CutSample> samples_of(const engagement::Measurement& measured);
+
+/// Of the seven numbers alone, no simulation: depth ADmax, width RDmax, and the arc of contact from the width
+/// about Xmaxofs on the cutter's diameter,
+///
+///     entry = acos(-x1 / R), exit = acos(-x2 / R)    x1, x2 = Xmaxofs -+ RDmax / 2, within +-R
+///
+/// A step ends where its sample stands and begins at the sample before on the same move; over it the larger
+/// of both holds, for between two points of a polyline the numbers change evenly.
+/// Source  AP238 edition 2, 4.2.379.4; chord geometry.
+[[nodiscard]] std::vector<optimise::CutSample> samples_of(const model::SectionSeries& series,
+                                                          const model::CutterPath& path,
+                                                          double cutting_diameter_mm);
+
+/// What a file says of a path's sections, held against what was measured.
+struct SectionsCompared {
+  std::vector<optimise::CutSample> samples;  ///< the file's; measured ones where those are larger
+  std::size_t contradictions = 0;            ///< places where both differ by more than the tolerance
+  std::optional<std::size_t> worst_move;
+  std::string worst;  ///< the place and both numbers
+};
+
+/// Tolerance of a comparison: a part of the larger area, and of depth times diameter. Twice and more what
+/// measuring on a coarse map may be off; default, unsourced.
+inline constexpr double kSectionsTolerance = 0.15;
+inline constexpr double kSectionsFloor = 0.03;
+
+[[nodiscard]] SectionsCompared compared(const std::vector<optimise::CutSample>& stated,
+                                        const std::vector<optimise::CutSample>& measured,
+                                        double cutting_diameter_mm);
+
+}  // namespace capstan::pipeline

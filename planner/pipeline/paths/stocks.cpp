@@ -1,0 +1,61 @@
+#include "planner/pipeline/paths/stocks.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "planner/stock/turned.h"
+
+namespace capstan::pipeline {
+namespace {
+
+constexpr double kCellsPerDiameter = 30.0;  // of the stock map, for the smallest cutter of the set-up
+constexpr double kMaximumCells = 600e3;     // keeps a set-up's map near 7 MB
+
+}  // namespace
+
+stock::HeightMap& Stocks::of(std::size_t setup) {
+  auto& map = maps_[setup];
+  if (!map) {
+    double smallest = 1e300;
+    for (const StepWork& s : w_.steps) {
+      if (s.setup == setup && s.cutter.cutting_diameter_mm > 0.0) {
+        smallest = std::min(smallest, s.cutter.cutting_diameter_mm);
+      }
+    }
+    if (smallest > 1e200) smallest = 10.0;
+    const auto& box = w_.setups[setup].stock;
+    const double cell = stock::cell_for(smallest, box, kCellsPerDiameter, kMaximumCells);
+    const bool upright = std::abs(w_.setups[setup].workpiece.z.z) > 1.0 - 1e-9;
+    const auto& round = w_.plan.stock.cylinder_radius_mm;
+    map = round && upright ? stock::from_cylinder(box, *round, cell) : stock::from_box(box, cell);
+  }
+  if (setup != last_) {
+    // Another clamping: what the others took away is gone here, too.
+    last_ = setup;
+    for (std::size_t i = 0; i < maps_.size(); ++i) {
+      if (i != setup && maps_[i])
+        stock::take_over(*map, w_.setups[setup].workpiece, *maps_[i], w_.setups[i].workpiece);
+    }
+  }
+  return *map;
+}
+
+double top_over(const stock::HeightMap& map, const toolpath::PathJob& job) {
+  geometry::Box3 box;
+  const auto b = geometry::bounds(job.shape.area);
+  for (const geometry::Vec2 c :
+       {b.lo, geometry::Vec2{b.hi.x, b.lo.y}, b.hi, geometry::Vec2{b.lo.x, b.hi.y}}) {
+    box.add(job.feature_in_setup.to_parent({c.x, c.y, 0.0}));
+  }
+  const int x0 = std::max(0, static_cast<int>(std::floor((box.lo.x - map.origin.x) / map.cell_mm)));
+  const int x1 = std::min(map.nx - 1, static_cast<int>(std::floor((box.hi.x - map.origin.x) / map.cell_mm)));
+  const int y0 = std::max(0, static_cast<int>(std::floor((box.lo.y - map.origin.y) / map.cell_mm)));
+  const int y1 = std::min(map.ny - 1, static_cast<int>(std::floor((box.hi.y - map.origin.y) / map.cell_mm)));
+  float top = 0.0F;
+  for (int y = y0; y <= y1; ++y) {
+    for (int x = x0; x <= x1; ++x) top = std::max(top, map.at(x, y).top_mm);
+  }
+  return map.origin.z + static_cast<double>(top);
+}
+
+}  // namespace capstan::pipeline

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "planner/pipeline/work.h"
+#include "planner/stock/height_map.h"
+#include "planner/toolpath/path_job.h"
+
+// The in-process workpiece of each set-up; only planner/pipeline/*.cpp include this.
+
+namespace capstan::pipeline {
+
+class Stocks {
+ public:
+  explicit Stocks(const Work& w) : w_(w), maps_(w.setups.size()) {}
+
+  /// What still stands in a set-up; in another one than before, less what the others took away since.
+  [[nodiscard]] stock::HeightMap& of(std::size_t setup);
+
+ private:
+  const Work& w_;
+  std::size_t last_ = static_cast<std::size_t>(-1);
+  std::vector<std::optional<stock::HeightMap>> maps_;
+};
+
+/// Height of the highest material over a feature, set-up frame.
+[[nodiscard]] double top_over(const stock::HeightMap& map, const toolpath::PathJob& job);
+
+}  // namespace capstan::pipeline
