@@ -1,0 +1,63 @@
+#include "planner/optimise/cut/cost.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string_view>
+
+#include "planner/optimise/cut/limits.h"
+
+namespace capstan::optimise {
+namespace {
+
+const model::ToolLifeLaw* law_of(const CutQuestion& q) {
+  const std::string_view substrate = model::to_text(q.cutter.substrate);
+  for (const model::ToolLifeLaw& l : q.material.life) {
+    if (l.substrate == substrate && l.life_min > 0.0) return &l;
+  }
+  return nullptr;
+}
+
+/// (x / x0)^(-1/e); 1 where the law knows no such influence.
+double influence(double x, double x0, double e) {
+  return e > 0.0 && x0 > 0.0 ? std::pow(x / x0, -1.0 / e) : 1.0;
+}
+
+}  // namespace
+
+double edge_life_min(const CutQuestion& q, const CutPoint& at) {
+  const double vc = std::numbers::pi * q.cutter.cutting_diameter_mm * at.n_rpm / 1000.0;
+  if (const auto* l = law_of(q)) {
+    const double fz = at.feed_mm_min / (at.n_rpm * teeth_of(q));
+    const double depth = is_milling(q.kind) ? at.ap_mm : 0.5 * q.cutter.cutting_diameter_mm;
+    return l->life_min * influence(vc, l->v0_m_min, l->n) * influence(fz, l->h0_mm, l->p) *
+           influence(depth, l->a0_mm, l->q) * std::exp(-std::max(0.0, l->scatter));
+  }
+  const double n = q.cutter.substrate == model::Substrate::kCarbide ? kTaylorCarbide : kTaylorHss;
+  const double at_table = q.cutter.life_min > 0.0 ? q.cutter.life_min : kLifeAtTableSpeedMin;
+  return q.vc_start_m_min > 0.0 ? at_table * influence(vc, q.vc_start_m_min, n) : at_table;
+}
+
+double time_of(const CutQuestion& q, const CutPoint& at) {
+  if (!is_milling(q.kind)) return 1.0 / at.feed_mm_min;
+  // The area of a level is at least that of a square on the narrower side.
+  const double area =
+      q.width_mm > 0.0 ? q.width_mm * std::max(q.width_mm, q.cutter.cutting_diameter_mm) : 0.0;
+  const double change =
+      area > 0.0 && q.kind == CutKind::kRough ? kLevelOverheadS / 60.0 / (area * at.ap_mm) : 0.0;
+  return 1.0 / (at.ap_mm * at.ae_mm * at.feed_mm_min) + change;
+}
+
+double objective_of(const CutQuestion& q, const CutPoint& at) {
+  const double time = time_of(q, at);
+  if (q.aim == Aim::kTime) return time;
+  const double cutting =
+      is_milling(q.kind) ? 1.0 / (at.ap_mm * at.ae_mm * at.feed_mm_min) : 1.0 / at.feed_mm_min;
+  const double rate = (q.machine.cost_per_hour > 0.0 ? q.machine.cost_per_hour : kMachinePerHour) / 60.0;
+  // What stands still while an edge is changed costs what it would have earned, too.
+  const double minute = rate + (q.aim == Aim::kProfit ? std::max(0.0, q.earning_per_min) : 0.0);
+  const double edge = std::max(0.0, q.cutter.price) + minute * q.machine.tool_change_s / 60.0;
+  return minute * time + edge * cutting / edge_life_min(q, at);
+}
+
+}  // namespace capstan::optimise

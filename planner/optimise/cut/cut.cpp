@@ -1,0 +1,343 @@
+#include "planner/optimise/cut.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "planner/base/number.h"
+#include "planner/optimise/cut/cost.h"
+#include "planner/optimise/cut/limits.h"
+#include "planner/optimise/cut/search.h"
+
+namespace capstan::optimise {
+namespace {
+
+using std::numbers::pi;
+
+/// Points that one search may evaluate, whatever the job's budget: a smooth one needs a tenth of them.
+constexpr std::uint32_t kPointsPerSearch = 400;
+/// By how much a limit may seem exceeded after rounding.
+constexpr double kRounding = 1e-6;
+/// More levels than this are a mistake of the question.
+constexpr int kMostLevels = 1000000;
+
+double floor_to(double v, double step) { return std::floor(v / step + 1e-9) * step; }
+
+double feed_step(double feed_mm_min) { return feed_mm_min >= 20.0 ? 1.0 : 0.1; }
+
+double round_feed(double feed_mm_min) {
+  const double step = feed_step(feed_mm_min);
+  return rounded(floor_to(feed_mm_min, step), step < 1.0 ? 1 : 0);
+}
+
+/// A solved search: the point before rounding, and what held it.
+struct Solved {
+  CutPoint point;
+  std::vector<Variable> box;  ///< the piece it was found in
+  Solution solution;
+};
+
+/// What is wrong with the given values; a cut cannot be computed with them.
+std::vector<std::string> not_a_cut(const CutQuestion& q) {
+  struct Given {
+    const char* name;
+    const std::optional<double>& value;
+    double least, most;
+  };
+  // Far outside of anything that turns or moves.
+  const Given given[] = {{"speed", q.n_rpm, 1e-3, 1e7},
+                         {"feed", q.feed_mm_min, 1e-3, 1e7},
+                         {"feed per tooth", q.fz_mm, 1e-7, 1e3},
+                         {"axial depth", q.ap_mm, 1e-6, 1e5},
+                         {"radial depth", q.ae_mm, 1e-6, 1e5}};
+  std::vector<std::string> out;
+  for (const Given& g : given) {
+    if (!g.value || (*g.value >= g.least && *g.value <= g.most)) continue;
+    out.push_back(std::string(g.name) + ": " +
+                  (std::isfinite(*g.value) ? shortest(*g.value) : std::string("what is no number")) +
+                  " is none that cuts");
+  }
+  return out;
+}
+
+void measure_answer(const CutQuestion& q, CutAnswer& a) {
+  a.fz_mm = a.feed_mm_min / (a.n_rpm * teeth_of(q));
+  a.vc_m_min = pi * q.cutter.cutting_diameter_mm * a.n_rpm / 1000.0;
+  const auto loads = loads_of(q, a.ap_mm, a.ae_mm, a.n_rpm, a.feed_mm_min);
+  a.loads = loads.value_or(model::StepLoads{});
+  a.violated.clear();
+  a.feasible = loads.has_value();
+  if (!loads) a.violated.emplace_back("the cut lies outside the range of the force formulas");
+  const Measures m = measures(q, a.loads, a.ap_mm, a.n_rpm, a.feed_mm_min);
+  for (std::size_t i = 0; i < m.size(); ++i) {
+    if (!m[i].stated() || m[i].value <= m[i].limit * (1.0 + kRounding)) continue;
+    a.feasible = false;
+    a.violated.push_back(std::string(kLimitsOfCut[i].name) + ": " + trimmed(m[i].value, 4) + " against " +
+                         trimmed(m[i].limit, 4) + " " + kLimitsOfCut[i].unit);
+  }
+  const bool chosen = !q.feed_mm_min && !q.fz_mm;
+  const double least = least_fz(q) / ease_of(q, "feed_per_tooth_least");
+  const double step = feed_step(a.feed_mm_min) / (a.n_rpm * teeth_of(q));
+  if (chosen && a.fz_mm + step < least * (1.0 - kRounding)) {
+    a.feasible = false;
+    a.violated.push_back("feed_per_tooth_least: " + trimmed(a.fz_mm, 4) + " against " + trimmed(least, 4) +
+                         " mm");
+  }
+}
+
+/// The largest excess of a limit that a lower feed keeps.
+double excess_by_feed(const CutQuestion& q, const CutAnswer& a) {
+  const Measures m = measures(q, a.loads, a.ap_mm, a.n_rpm, a.feed_mm_min);
+  double worst = 0.0;
+  for (std::size_t i = 0; i < m.size(); ++i) {
+    if (kLimitsOfCut[i].of_loads || std::string_view(kLimitsOfCut[i].name) == "axis_feed")
+      worst = std::max(worst, m[i].excess());
+  }
+  return worst;
+}
+
+/// Rounds a point to what is programmed, and measures it.
+CutAnswer answer_at(const CutQuestion& q, const CutPoint& p) {
+  CutAnswer a;
+  a.ap_mm = p.ap_mm;
+  a.ae_mm = q.ae_mm || q.kind == CutKind::kFinish ? p.ae_mm : rounded(floor_to(p.ae_mm, 0.001), 3);
+  a.n_rpm = q.n_rpm ? *q.n_rpm : std::max(floor_to(p.n_rpm, 1.0), std::ceil(speeds(q).lo));
+  a.feed_mm_min = q.feed_mm_min ? *q.feed_mm_min : p.feed_mm_min / p.n_rpm * a.n_rpm;
+  const bool free_feed = !q.feed_mm_min && q.kind != CutKind::kTap;
+  if (free_feed) a.feed_mm_min = round_feed(a.feed_mm_min);
+  measure_answer(q, a);
+  // A limit may be lower at the rounded speed than at the one that was solved for.
+  constexpr int kMostRepairs = 6;
+  constexpr double kLittle = 0.02;
+  for (int i = 0; i < kMostRepairs && free_feed && !a.feasible; ++i) {
+    const double excess = excess_by_feed(q, a);
+    if (!(excess > kRounding && excess < kLittle)) break;
+    a.feed_mm_min = round_feed(a.feed_mm_min * (1.0 - 1.5 * excess));
+    measure_answer(q, a);
+  }
+  a.life_min = edge_life_min(q, {a.ap_mm, a.ae_mm, a.n_rpm, a.feed_mm_min});
+  return a;
+}
+
+bool better(const Solution& a, const Solution& b) {
+  if (a.feasible != b.feasible) return a.feasible;
+  return a.feasible ? a.objective < b.objective : a.max_violation < b.max_violation;
+}
+
+/// The best of the whole box; where that is not shown to be optimal, of the pieces between the corners.
+Result<Solved> best_of(const Search& search, Options options, Job& job,
+                       const std::optional<CutPoint>& start = {}) {
+  const std::uint32_t budget =
+      options.evaluation_budget != 0 ? options.evaluation_budget : job.evaluation_budget;
+  options.evaluation_budget = std::min(budget, kPointsPerSearch);
+  const auto pieces = search.pieces();
+  Options first = options;
+  if (pieces.size() > 1) first.fall_back = false;
+  auto whole = solve(search.problem(search.variables(), start), first, job);
+  if (!whole) return tl::unexpected(whole.error());
+  Solved best{search.at(whole->x), search.variables(), *std::move(whole)};
+  if (best.solution.outcome == Outcome::kOptimal || pieces.size() == 1) return best;
+  for (const auto& box : pieces) {
+    auto piece = solve(search.problem(box, start), options, job);
+    if (!piece) continue;  // the model has no value there
+    if (better(*piece, best.solution)) best = {search.at(piece->x), box, *std::move(piece)};
+  }
+  return best;
+}
+
+/// The cut under a question whose limit `name` is `factor` times as large, from where it is now.
+std::optional<CutPoint> eased(const CutQuestion& q, const Solved& now, const std::string& name, double factor,
+                              const Options& options, Job& job) {
+  CutQuestion more = q;
+  more.eased = {name, factor};
+  const Search search(more, now.point.ap_mm);
+  Options one = options;
+  one.starts = 1;
+  const auto solved = best_of(search, one, job, now.point);
+  if (!solved || !solved->solution.feasible) return std::nullopt;
+  return solved->point;
+}
+
+struct Held {
+  model::ActiveConstraint limit;
+  bool at_corner = false;  ///< the multiplier is that of one side of a corner
+};
+
+std::vector<Held> held_by(const CutQuestion& q, const Solved& s, const CutAnswer& a, const Search& search) {
+  const Measures m = measures(q, a.loads, a.ap_mm, a.n_rpm, a.feed_mm_min);
+  std::vector<Held> out;
+  bool corner = false;
+  for (const ActiveLimit& l : s.solution.active) {
+    model::ActiveConstraint c;
+    if (l.kind == ActiveLimit::Kind::kConstraint) {
+      const auto* at = std::find_if(kLimitsOfCut.begin(), kLimitsOfCut.end(),
+                                    [&](const LimitOfCut& k) { return l.name == k.name; });
+      const auto i = static_cast<std::size_t>(at - kLimitsOfCut.begin());
+      c.name = l.name;
+      c.unit = at->unit;
+      c.value = m[i].value;
+      c.limit = m[i].limit;
+      if (at->at_rpm) c.at_rpm = a.n_rpm;
+      c.shadow_price = 0.01 * l.multiplier;
+    } else {
+      const auto bound = search.bound(l.name, l.kind == ActiveLimit::Kind::kUpperBound, l.value);
+      if (!bound) {
+        corner = corner || l.multiplier > 0.0;
+        continue;
+      }
+      c.name = bound->name;
+      c.unit = bound->unit;
+      c.value = c.limit = bound->value;
+      c.shadow_price = 0.01 * l.multiplier * l.value;
+    }
+    out.push_back({std::move(c), false});
+  }
+  for (Held& h : out) h.at_corner = corner;
+  return out;
+}
+
+/// What more of each limit is worth.
+void take_active(const CutQuestion& q, const Solved& s, const Options& options, Job& job, CutAnswer& a) {
+  const Search search(q, s.point.ap_mm);
+  constexpr double kOnePercent = 1.01;
+  constexpr double kTenth = 1.1;
+  for (Held& h : held_by(q, s, a, search)) {
+    if (h.at_corner) {
+      const auto one = eased(q, s, h.limit.name, kOnePercent, options, job);
+      const double saved = one ? 1.0 - objective_of(q, *one) / objective_of(q, s.point) : 0.0;
+      h.limit.shadow_price = std::max(0.0, saved);
+    }
+    double tenth = 0.0;
+    if (h.limit.shadow_price > 0.0) {
+      if (const auto more = eased(q, s, h.limit.name, kTenth, options, job))
+        tenth = 1.0 - time_of(q, *more) / time_of(q, s.point);
+    }
+    a.active.push_back(std::move(h.limit));
+    a.saved_by_tenth.push_back(tenth);
+  }
+}
+
+/// The answer for a cut that no point of the search can make; nothing when there may be one.
+std::optional<CutAnswer> hopeless(const CutQuestion& q, const Search& search) {
+  std::optional<CutPoint> nearest;
+  double least = 0.0;
+  for (const CutPoint& p : search.gentlest()) {
+    const auto loads = loads_of(q, p.ap_mm, p.ae_mm, p.n_rpm, p.feed_mm_min);
+    if (!loads) return std::nullopt;
+    const double excess = worst_excess(q, *loads, p.n_rpm);
+    if (excess <= kRounding) return std::nullopt;
+    if (!nearest || excess < least) {
+      nearest = p;
+      least = excess;
+    }
+  }
+  CutAnswer a = answer_at(q, *nearest);
+  if (a.feasible) return std::nullopt;  // by a hair, after rounding
+  a.method = "least";
+  return a;
+}
+
+struct Level {
+  CutAnswer answer;
+  std::optional<Solved> solved;
+};
+
+Result<Level> solve_level(const CutQuestion& q, double ap_mm, const Options& options, Job& job) {
+  const Search search(q, ap_mm);
+  if (search.fixed()) {
+    Level out{answer_at(q, search.at({})), std::nullopt};
+    out.answer.method = "given";
+    return out;
+  }
+  if (auto a = hopeless(q, search)) return Level{*std::move(a), std::nullopt};
+  auto solved = best_of(search, options, job);
+  if (!solved) return tl::unexpected(solved.error());
+  Level out{answer_at(q, solved->point), std::nullopt};
+  out.answer.method = solved->solution.method;
+  out.solved = *std::move(solved);
+  return out;
+}
+
+/// Whole levels: the fewest that are allowed and some more; the best of them.
+Result<Level> best_level(const CutQuestion& q, const Options& options, Job& job) {
+  if (!is_milling(q.kind)) return solve_level(q, 0.0, options, job);
+  const double depth = q.depth_mm > 0.0 && std::isfinite(q.depth_mm) ? q.depth_mm : q.ap_mm.value_or(0.1);
+  const auto levels_of = [&](double level) {
+    const double n = std::ceil(depth / level - 1e-9);
+    return n < 1.0 ? 1 : n < kMostLevels ? static_cast<int>(n) : kMostLevels;
+  };
+  if (q.ap_mm) {
+    auto level = solve_level(q, std::min(*q.ap_mm, depth), options, job);
+    if (level) level->answer.levels = levels_of(*q.ap_mm);
+    return level;
+  }
+  // Thinner levels than this are not tried; default, unsourced.
+  constexpr double kThinnestMm = 0.05;
+  constexpr int kMostTries = 24;
+  constexpr int kPatience = 2;
+  std::optional<Level> best;
+  double least = 0.0;
+  int worse = 0;
+  int levels = levels_of(deepest_level(q));
+  for (int tries = 0; tries < kMostTries && worse < kPatience; ++tries) {
+    const double ap = depth / levels;
+    if (best && ap < kThinnestMm) break;
+    auto level = solve_level(q, ap, options, job);
+    if (!level) return level;
+    CutAnswer& a = level->answer;
+    a.levels = levels;
+    const double objective = objective_of(q, {a.ap_mm, a.ae_mm, a.n_rpm, a.feed_mm_min});
+    const bool improves = !best || (a.feasible && !best->answer.feasible) ||
+                          (a.feasible == best->answer.feasible && objective < least * (1.0 - 1e-6));
+    if (improves) {
+      best = *std::move(level);
+      least = objective;
+      worse = 0;
+    } else if (best->answer.feasible) {
+      ++worse;
+    }
+    levels = std::min(kMostLevels, std::max(levels + 1, static_cast<int>(1.3 * levels)));
+  }
+  return *std::move(best);
+}
+
+Result<CutAnswer> answer(const CutQuestion& q, const Options& options, Job& job) {
+  auto level = best_level(q, options, job);
+  if (!level) return tl::unexpected(level.error());
+  CutAnswer a = std::move(level->answer);
+  if (level->solved && level->solved->solution.feasible && a.feasible)
+    take_active(q, *level->solved, options, job, a);
+  return a;
+}
+
+}  // namespace
+
+Result<CutAnswer> cut(const CutQuestion& q, const Options& options, Job& job) {
+  if (!(q.cutter.cutting_diameter_mm > 0.0) || !(q.material.kc11_n_mm2 > 0.0)) {
+    return fail("OPT-QUESTION", "a cut needs a cutter with a diameter and a material with a specific force");
+  }
+  if (auto wrong = not_a_cut(q); !wrong.empty()) {
+    CutAnswer a;
+    a.method = "given";
+    a.violated = std::move(wrong);
+    return a;
+  }
+  const bool needs_start = !(q.n_rpm && (q.feed_mm_min || q.fz_mm));
+  const bool has_speed = q.vc_start_m_min > 0.0 && std::isfinite(q.vc_start_m_min);
+  const bool has_feed = q.fz_start_mm > 0.0 && std::isfinite(q.fz_start_mm);
+  if (needs_start && !(has_speed && (has_feed || q.kind == CutKind::kTap))) {
+    return fail("OPT-QUESTION", "no start values of speed and feed are known for cutter " + q.cutter.id);
+  }
+  auto a = answer(q, options, job);
+  const bool asks_least = !q.feed_mm_min && !q.fz_mm && least_fz(q) > 0.0 && !least_fz_stated(q);
+  if (!a || a->feasible || !asks_least) return a;
+  // A least feed that the maker did not state gives way before the cut does.
+  CutQuestion lower = q;
+  lower.cutter.fz_min_mm = 0.0;
+  auto b = answer(lower, options, job);
+  if (!b || !b->feasible) return a;
+  b->below_least_feed = b->fz_mm < q.cutter.fz_min_mm * (1.0 - kRounding);
+  return b;
+}
+
+}  // namespace capstan::optimise

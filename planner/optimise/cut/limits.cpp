@@ -1,0 +1,119 @@
+#include "planner/optimise/cut/limits.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "planner/mechanics/constants.h"
+#include "planner/mechanics/surface.h"
+
+namespace capstan::optimise {
+namespace {
+
+double efficiency(const CutQuestion& q) {
+  const double e = q.machine.spindle.efficiency;
+  return e > 0.0 && e < 1.0 ? e : mechanics::kDefaultSpindleEfficiency;
+}
+
+/// The smaller of two axes' feeds, or the Z axis's; an axis that states none does not limit.
+double axis_feed(const CutQuestion& q) {
+  const auto& a = q.machine.axes;
+  if (!is_milling(q.kind)) return a[2].feed_max_mm_min;
+  return std::min(a[0].feed_max_mm_min, a[1].feed_max_mm_min);
+}
+
+double deflection_limit(const CutQuestion& q) {
+  return q.deflection_limit_mm > 0.0 ? q.deflection_limit_mm : kRoughDeflectionMm;
+}
+
+}  // namespace
+
+Range speeds(const CutQuestion& q) {
+  Range r{std::max(1.0, q.machine.spindle.rpm_min), q.machine.spindle.rpm_max};
+  if (q.cutter.maximum_speed_rpm > 0.0) r.hi = std::min(r.hi, q.cutter.maximum_speed_rpm);
+  return r;
+}
+
+std::optional<mechanics::SpindleCurve> curve_of(const CutQuestion& q) {
+  if (q.machine.spindle.curve.empty()) return std::nullopt;
+  std::vector<mechanics::SpindlePoint> points;
+  points.reserve(q.machine.spindle.curve.size());
+  for (const auto& p : q.machine.spindle.curve) points.push_back({p.rpm, p.power_w, p.torque_nm});
+  auto curve = mechanics::SpindleCurve::make(std::move(points));
+  if (!curve) return std::nullopt;
+  return *std::move(curve);
+}
+
+double largest_fz(const CutQuestion& q) {
+  double fz = q.fz_start_mm;
+  // The start value is what is planned for; the cutter's largest must hold with the override, too.
+  if (q.cutter.fz_max_mm > 0.0) fz = std::min(fz, q.cutter.fz_max_mm / feed_override(q));
+  return fz;
+}
+
+double least_fz(const CutQuestion& q) {
+  if (q.kind == CutKind::kTap || !(q.cutter.fz_min_mm > 0.0)) return 0.0;
+  return q.cutter.fz_min_mm;
+}
+
+bool least_fz_stated(const CutQuestion& q) {
+  const auto& s = q.cutter.sources;
+  const auto it = std::find_if(s.begin(), s.end(), [](const auto& p) { return p.first == "fz_min_mm"; });
+  return it == s.end() || it->second.starts_with("stated");
+}
+
+double ease_of(const CutQuestion& q, std::string_view limit) {
+  return q.eased.name == limit ? q.eased.factor : 1.0;
+}
+
+double deepest_level(const CutQuestion& q) {
+  const double d = q.cutter.cutting_diameter_mm;
+  double most = q.cutter.maximum_depth_of_cut_mm > 0.0
+                    ? q.cutter.maximum_depth_of_cut_mm * ease_of(q, "cutting_length")
+                    : d;
+  double level = most;
+  // A rough level no deeper than the diameter (a slot: half of it); default, unsourced.
+  if (q.kind == CutKind::kRough) level = std::min(level, q.slot ? 0.5 * d : d);
+  if (q.ap_most_mm > 0.0) level = std::min(level, q.ap_most_mm);
+  return std::min(most, level * ease_of(q, "level_depth"));
+}
+
+Measures measures(const CutQuestion& q, const model::StepLoads& l, double ap, double n, double feed) {
+  const bool mills = is_milling(q.kind);
+  const Range rpm = speeds(q);
+  Measures m;
+  if (const auto curve = curve_of(q)) {
+    if (const auto c = curve->at(std::clamp(n, curve->min_rpm(), curve->max_rpm()))) {
+      m[0] = {l.power_w, c->power_w * efficiency(q)};
+      m[1] = {l.torque_nm, c->torque_nm * efficiency(q)};
+    }
+  }
+  if (mills) {
+    m[2] = {l.deflection_mm, deflection_limit(q)};
+    if (largest_fz(q) > 0.0) m[3] = {l.chip_thickness_mm, largest_fz(q)};
+    if (q.wall_error_limit_mm > 0.0) m[4] = {std::abs(l.wall_error_mm), q.wall_error_limit_mm};
+    if (q.surface_ra_um > 0.0)
+      m[5] = {1000.0 * kRoughnessOverGeometry * mechanics::kArcRaOverRz * l.surface_rz_mm, q.surface_ra_um};
+  }
+  if (q.peak_force_limit_n > 0.0) m[6] = {l.peak_force_n, q.peak_force_limit_n};
+  if (mills && q.least_chip_mm > 0.0) m[7] = {q.least_chip_mm, l.chip_thickness_mm};
+  m[8] = {rpm.lo, n};
+  if (rpm.hi > 0.0) m[9] = {n, rpm.hi};
+  if (axis_feed(q) > 0.0) m[10] = {feed, axis_feed(q)};
+  if (mills && q.cutter.maximum_depth_of_cut_mm > 0.0) m[11] = {ap, q.cutter.maximum_depth_of_cut_mm};
+  if (mills && q.ap_most_mm > 0.0) m[12] = {ap, q.ap_most_mm};
+  for (std::size_t i = 0; i < m.size(); ++i) m[i].limit *= ease_of(q, kLimitsOfCut[i].name);
+  return m;
+}
+
+double worst_excess(const CutQuestion& q, const model::StepLoads& loads, double n_rpm) {
+  const Measures m = measures(q, loads, 0.0, n_rpm, 0.0);
+  double worst = -1.0;
+  for (std::size_t i = 0; i < m.size(); ++i) {
+    if (!kLimitsOfCut[i].of_loads) continue;
+    const double excess = m[i].excess();
+    worst = std::isnan(excess) ? std::numeric_limits<double>::infinity() : std::max(worst, excess);
+  }
+  return worst;
+}
+
+}  // namespace capstan::optimise
