@@ -30,6 +30,12 @@ inline constexpr double kFluteEquivalentDiameterRatio = 0.8;
 /// thinner than 0.03 mm exceed it (edge force), see kForceUncertaintyFactor.
 inline constexpr double kRadialToTangentialRatio = 0.6;
 
+/// Axial force of a milling tooth divided by its tangential force and the tangent of its helix angle, for
+/// Kienzle data, which speak of the tangential force only.
+/// Source: largest Kac/Ktc (273 / 631 = 0.433) in the same table 5, taken to be at 30 degrees of helix (the
+/// table does not tell; the growth with the tangent follows from the edge's direction): 0.433 / 0.577.
+inline constexpr double kAxialToTangentialRatio = 0.75;
+
 /// By how much a force computed from tabulated coefficients may be too small.
 /// Source: sqrt(1319.41 / 600.46) = 1.48: half the spread (in logarithms) of Ktc for one alloy, Al 7075,
 /// in the same table 5.

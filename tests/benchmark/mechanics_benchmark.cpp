@@ -1,0 +1,50 @@
+// Loads of one section, microseconds per call, and the feed that keeps its limits.
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "planner/mechanics/section.h"
+
+namespace capstan::mechanics {
+namespace {
+
+const ForceLaw kMeasured{.mechanistic = CuttingCoefficients{767.01, 27.7, 168.8, 26.6, 222.0, 0.7}};
+const ForceLaw kTabulated{.kienzle = {641.0, 0.27}};
+
+Section shoulder() { return {.ap_mm = 4.0, .arc = immersion_arc(3.0, 12.0, CutDirection::kDown)}; }
+Section slot() { return {.ap_mm = 4.0, .arc = {0.0, std::numbers::pi}}; }
+Tooth flat() { return {.cutting_diameter_mm = 12.0, .helix_rad = 0.5, .teeth = 4}; }
+Tooth ball() { return {.cutting_diameter_mm = 12.0, .corner_radius_mm = 6.0, .helix_rad = 0.5, .teeth = 2}; }
+
+void loads(benchmark::State& state, const Section& s, const Tooth& t, const ForceLaw& law) {
+  double fz = 0.05;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(fz);
+    auto l = section_loads(s, t, law, fz, 6000.0);
+    benchmark::DoNotOptimize(l);
+  }
+  const auto l = section_loads(s, t, law, fz, 6000.0);
+  if (!l || !(l->peak_force_n > 0.0)) state.SkipWithError("no loads");
+}
+BENCHMARK_CAPTURE(loads, shoulder_tabulated, shoulder(), flat(), kTabulated);
+BENCHMARK_CAPTURE(loads, shoulder_measured, shoulder(), flat(), kMeasured);
+BENCHMARK_CAPTURE(loads, slot_tabulated, slot(), flat(), kTabulated);
+BENCHMARK_CAPTURE(loads, slot_measured, slot(), flat(), kMeasured);
+BENCHMARK_CAPTURE(loads, ball_tabulated, slot(), ball(), kTabulated);
+
+void feed_of_a_force(benchmark::State& state) {
+  const Section s = shoulder();
+  double fz = 0.0;
+  for (auto _ : state) {
+    auto found = feed_within(s, flat(), kTabulated, {.peak_force_n = 120.0}, 6000.0, 0.001, 0.5);
+    fz = found ? found->fz_mm : 0.0;
+    benchmark::DoNotOptimize(fz);
+  }
+  const auto l = section_loads(s, flat(), kTabulated, fz, 6000.0);
+  if (!l || std::abs(l->peak_force_n / 120.0 - 1.0) > 2e-3) state.SkipWithError("not the force asked for");
+}
+BENCHMARK(feed_of_a_force);
+
+}  // namespace
+}  // namespace capstan::mechanics
