@@ -1,0 +1,22 @@
+# Programs on a machine that LinuxCNC simulates: cycle times, and the reference part.
+set(simulated ${CMAKE_CURRENT_LIST_DIR})
+add_library(capstan_fast_clock MODULE ${simulated}/fast_clock.c)
+target_compile_options(capstan_fast_clock PRIVATE -Wall -Wextra -Werror)
+
+file(GLOB simulated_sources CONFIGURE_DEPENDS ${simulated}/*.cpp)
+list(FILTER simulated_sources EXCLUDE REGEX "_test\\.cpp$")
+add_library(capstan_simulated STATIC ${simulated_sources})
+target_link_libraries(capstan_simulated PUBLIC $<BUILD_INTERFACE:capstan_options> capstan_test_support
+  capstan::motion capstan::output)
+# LinuxCNC takes what is built, as it is used: the command and the clock.
+add_dependencies(capstan_simulated capstan capstan_fast_clock)
+target_compile_definitions(capstan_simulated PRIVATE
+  CAPSTAN_COMMAND="$<TARGET_FILE:capstan>" CAPSTAN_FAST_CLOCK="$<TARGET_FILE:capstan_fast_clock>")
+
+file(GLOB simulated_tests CONFIGURE_DEPENDS ${simulated}/*_test.cpp)
+add_executable(linuxcnc_test ${simulated_tests})
+target_link_libraries(linuxcnc_test PRIVATE capstan_simulated capstan::tooling GTest::gmock GTest::gtest_main)
+target_precompile_headers(linuxcnc_test REUSE_FROM capstan_test_pch)
+# LinuxCNC's shared memory has fixed keys, and its clock runs fast: one at a time, with both processors.
+gtest_discover_tests(linuxcnc_test DISCOVERY_TIMEOUT 60
+  PROPERTIES TIMEOUT 900 RESOURCE_LOCK linuxcnc PROCESSORS 2)
