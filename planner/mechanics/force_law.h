@@ -1,0 +1,39 @@
+#pragma once
+
+#include "planner/mechanics/constants.h"
+#include "planner/mechanics/section.h"
+#include "planner/model/cutter.h"
+#include "planner/model/material.h"
+
+/// From the nouns of the model to the values of this room: which law of force holds for a material, how far
+/// it may be wrong, and what of a cutter cuts.
+namespace capstan::mechanics {
+
+/// By how much the force in a real cut may exceed the computed one.
+struct ForceMargin {
+  double spread = 1.0;             ///< of the coefficients
+  double wear = kWearForceFactor;  ///< of a worn edge against a sharp one
+  [[nodiscard]] double factor() const { return spread * wear; }
+};
+
+/// The measured set that is used: the first for the tool's substrate; null when there is none.
+[[nodiscard]] const model::MechanisticSet* measured_set(const model::WorkMaterial& material,
+                                                        model::Substrate substrate);
+
+/// The measured set where there is one for this substrate, else Kienzle's law; uncertainty_factor is the
+/// margin's spread. The Kienzle values are there either way.
+[[nodiscard]] ForceLaw force_law(const model::WorkMaterial& material, model::Substrate substrate);
+
+/// Spread: 1 + the set's own uncertainty, kForceUncertaintyFactor for a set that states none; with Kienzle's
+/// law the larger of kForceUncertaintyFactor and 1 + kc_uncertainty. Wear: kWearForceFactor.
+///
+/// Source    constants.h; the uncertainties of sets are told with them (tooling/data/materials.yaml).
+[[nodiscard]] ForceMargin force_margin(const model::WorkMaterial& material, model::Substrate substrate);
+
+/// The same for Kienzle's law alone: drilling, reaming, tapping, and whoever cannot use a measured set.
+[[nodiscard]] ForceMargin kienzle_margin(const model::WorkMaterial& material);
+
+/// What of a cutter cuts when it mills: a ball's corner radius is half its diameter, no tooth is one.
+[[nodiscard]] Tooth tooth_of(const model::Cutter& cutter);
+
+}  // namespace capstan::mechanics
