@@ -1,0 +1,48 @@
+#pragma once
+
+#include "planner/geometry/profile.h"
+#include "planner/stock/planar/planar_stock.h"
+
+namespace capstan::engagement {
+
+/// What a cutter takes at one place, per length of its horizontal way; or, of a plunge, down to one height.
+///
+/// Frame  X across the feed, negative to the left; Y along the axis from the tip.
+/// Units  mm, and mm2 (mm3 of a plunge) for the amounts.
+struct Contact {
+  double amount = 0.0;                       ///< area of the section; of a plunge the volume above the tip
+  double moment_x = 0.0, moment_y = 0.0;     ///< amount times centre of gravity
+  double left = 1e300, right = -1e300;       ///< of contacts that are no slivers
+  double low = 1e300, high = -1e300;         ///< of the tallest of them
+  double highest = 0.0;                      ///< of any, above the tip
+  void extend(const Contact& o);             ///< the extremes of both
+  void add(const Contact& o, double times);  ///< amounts alone
+  [[nodiscard]] bool seen() const { return right > left; }
+};
+
+/// Looks at the stock for one cutter; keeps its buffers.
+class Prober {
+ public:
+  Prober(const stock::PlanarStock& stock, const geometry::CutterProfile& profile)
+      : stock_(stock), profile_(profile) {}
+
+  /// The trails within the cutter's radius of a rectangle. True when nothing there stands above z.
+  bool turn_to(geometry::Vec2 lo, geometry::Vec2 hi, double z_mm);
+  /// A flat cutter on its way: the front half circle takes what stands above the tip; `fall` (1 per 1,
+  /// positive downwards) also what stands under it.
+  [[nodiscard]] Contact on_the_way(geometry::Vec2 at, geometry::Vec2 unit_heading, double z_mm, double fall);
+  /// Everything that stands inside the outline with the tip at z, of what is there now; extremes of the last
+  /// `advance_mm` of the plunge.
+  [[nodiscard]] Contact inside(geometry::Vec2 at, geometry::Vec2 unit_heading, double z_mm,
+                               double advance_mm);
+
+ private:
+  void under_tip(geometry::Vec2 at, geometry::Vec2 unit_heading, double z_mm, double fall, Contact& c);
+  double reach_at(double height_mm) const;
+  const stock::PlanarStock& stock_;
+  const geometry::CutterProfile& profile_;
+  stock::PlanarStock::Nearby near_;
+  stock::Heights heights_;
+};
+
+}  // namespace capstan::engagement
