@@ -58,28 +58,36 @@ class Measurer {
     }
     if (path_.kind[i] == MoveKind::kRapid) {
       turn_to(path_.point(i) - path_.point(i - 1));
-      if (!in_air(i)) out_.rapid_removed_mm3 += stock::cut(map_, profile_, path_, i);
+      if (ceiling_over(i) > std::min(path_.z[i - 1], path_.z[i]))
+        out_.rapid_removed_mm3 += stock::cut(map_, profile_, path_, i);
       return;
     }
-    if (!is_arc(path_.kind[i]) && in_air(i)) {
-      turn_to(path_.point(i) - path_.point(i - 1));
+    const double ceiling = ceiling_over(i);
+    if (ceiling <= std::min(path_.z[i - 1], path_.z[i])) {
+      if (!is_arc(path_.kind[i])) turn_to(path_.point(i) - path_.point(i - 1));
       return close(i, length);
     }
-    feed(i, length);
+    feed(i, length, ceiling);
   }
 
-  /// Nothing stands in the way of a straight move, judged by the whole disc at its lowest height.
-  [[nodiscard]] bool in_air(std::size_t i) const {
-    const Vec3 a = path_.point(i - 1);
-    const Vec3 b = path_.point(i);
-    return stock::max_height(map_, xy(a), xy(b), profile_.radius_mm) <= std::min(a.z, b.z);
+  /// Highest material under the move, judged by the whole disc.
+  [[nodiscard]] double ceiling_over(std::size_t i) const {
+    const Vec2 a = xy(path_.point(i - 1));
+    const Vec2 b = xy(path_.point(i));
+    const double r = profile_.radius_mm;
+    if (!is_arc(path_.kind[i])) return stock::max_height(map_, a, b, r);
+    const Vec2 centre{path_.cx[i], path_.cy[i]};
+    const double arc = std::max(norm(a - centre), norm(b - centre));
+    const double half = 0.5 * model::arc_sweep(path_, i);
+    if (half > 0.5 * std::numbers::pi) return stock::max_height(map_, centre, arc + r);
+    return stock::max_height(map_, a, b, r + arc * (1.0 - std::cos(half)));
   }
 
   void turn_to(Vec3 d) {
     if (norm(xy(d)) > 1e-9) heading_ = xy(d);
   }
 
-  void feed(std::size_t i, double length) {
+  void feed(std::size_t i, double length, double ceiling) {
     const bool arc = is_arc(path_.kind[i]);
     int n = std::max(1, static_cast<int>(std::ceil(length / step_ - 1e-9)));
     if (arc)
@@ -94,7 +102,8 @@ class Measurer {
                     .to = to,
                     .arc = arc,
                     .centre = {path_.cx[i], path_.cy[i]},
-                    .clockwise = path_.kind[i] == MoveKind::kArcCw},
+                    .clockwise = path_.kind[i] == MoveKind::kArcCw,
+                    .ceiling_mm = ceiling},
                    true, heading_, tally);
       const bool plunge = !arc && norm(xy(to) - xy(from)) < 1e-9;
       const double at = length * k / n;

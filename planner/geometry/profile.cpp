@@ -19,6 +19,21 @@ double CutterProfile::height(double r_mm) const {
   return std::numeric_limits<double>::infinity();
 }
 
+double CutterProfile::radius_at(double height_mm) const {
+  for (auto p = pieces.rbegin(); p != pieces.rend(); ++p) {
+    if (height(p->r1_mm) <= height_mm) return p->r1_mm;
+    if (p->radius_mm > 0.0) {
+      const double below = p->zc_mm - height_mm;  // under the arc's centre
+      if (below > p->radius_mm) continue;
+      const double r = p->rc_mm + std::sqrt((p->radius_mm - below) * (p->radius_mm + below));
+      if (r >= p->r0_mm) return std::min(r, p->r1_mm);
+    } else if (p->z0_mm <= height_mm && p->slope > 0.0) {
+      return std::min(p->r0_mm + (height_mm - p->z0_mm) / p->slope, p->r1_mm);
+    }
+  }
+  return 0.0;
+}
+
 CutterProfile flat_profile(double diameter_mm, double cutting_length_mm) {
   return bull_profile(diameter_mm, 0.0, cutting_length_mm);
 }

@@ -28,6 +28,9 @@ struct CutterProfile {
   double cutting_length_mm = 0.0;  ///< height above the tip up to which the flanks cut (APMX or flute length)
   /// Height of the cutter's surface above its tip at distance r; +inf outside R.
   [[nodiscard]] double height(double r_mm) const;
+  /// The largest distance from the axis at which the surface is no higher than this above the tip; at most R,
+  /// 0 when none is.
+  [[nodiscard]] double radius_at(double height_mm) const;
   friend bool operator==(const CutterProfile&, const CutterProfile&) = default;
 };
 

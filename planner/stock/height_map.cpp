@@ -43,11 +43,30 @@ void rasterise(HeightMap& map, const Vec3& a, const Vec3& b, const Vec3& c) {
       const double wc = 1.0 - wa - wb;
       if (wa < kEdge || wb < kEdge || wc < kEdge) continue;
       const auto z = static_cast<float>(wa * a.z + wb * b.z + wc * c.z - map.origin.z);
-      Column& column = map.at(ix, iy);
-      if (z > column.top_mm) column = {z, z, 0.0F};
+      if (z > map.at(ix, iy).top_mm) map.set(ix, iy, {z, z, 0.0F});
     }
   }
 }
+
+/// A maximum over stretches of rows; several side by side, so that one need not wait for the other.
+class Highest {
+ public:
+  void look(const HeightMap& map, int iy, int ix0, int ix1) {
+    const float* const row = map.top.data() + map.index(0, iy);
+    int ix = ix0;
+    for (; ix + kLanes <= ix1 + 1; ix += kLanes) {
+      for (int k = 0; k < kLanes; ++k) best_[k] = row[ix + k] > best_[k] ? row[ix + k] : best_[k];
+    }
+    for (; ix <= ix1; ++ix) best_[0] = std::max(best_[0], row[ix]);
+  }
+  [[nodiscard]] double height() const {
+    return static_cast<double>(*std::max_element(best_, best_ + kLanes));
+  }
+
+ private:
+  static constexpr int kLanes = 16;
+  float best_[kLanes] = {};
+};
 
 }  // namespace
 
@@ -65,10 +84,10 @@ HeightMap empty_map(const Box3& box, double cell_mm) {
   double cell = cell_mm;
   const auto cells = [&] { return (std::ceil(size.x / cell) + 1.0) * (std::ceil(size.y / cell) + 1.0); };
   while (cells() > kMaximumCells) cell *= 1.25;
-  HeightMap map{.origin = box.lo, .cell_mm = cell, .nx = 0, .ny = 0, .columns = {}};
+  HeightMap map{.origin = box.lo, .cell_mm = cell, .nx = 0, .ny = 0, .top = {}, .low = {}, .share = {}};
   map.nx = std::max(1, static_cast<int>(std::ceil(size.x / cell - 1e-6)));
   map.ny = std::max(1, static_cast<int>(std::ceil(size.y / cell - 1e-6)));
-  map.columns.resize(static_cast<std::size_t>(map.nx) * static_cast<std::size_t>(map.ny));
+  for (auto* column : {&map.top, &map.low, &map.share}) column->resize(map.cells() + HeightMap::kPadding);
   return map;
 }
 
@@ -80,7 +99,7 @@ HeightMap from_box(const Box3& box, double cell_mm) {
     const double fy = filled(iy, box.size().y);
     for (int ix = 0; ix < map.nx; ++ix) {
       const double full = fy * filled(ix, box.size().x);
-      map.at(ix, iy) = partial(height, full > 1.0 - 1e-6 ? 0.0 : 1.0 - full);
+      map.set(ix, iy, partial(height, full > 1.0 - 1e-6 ? 0.0 : 1.0 - full));
     }
   }
   return map;
@@ -94,7 +113,7 @@ HeightMap from_cylinder(const Box3& box, double radius_mm, double cell_mm) {
   for (int iy = 0; iy < map.ny; ++iy) {
     for (int ix = 0; ix < map.nx; ++ix) {
       const Vec2 out = Vec2{map.x_of(ix), map.y_of(iy)} - centre;
-      map.at(ix, iy) = partial(box.size().z, 1.0 - coverage(radius_mm - norm(out), out, map.cell_mm));
+      map.set(ix, iy, partial(box.size().z, 1.0 - coverage(radius_mm - norm(out), out, map.cell_mm)));
     }
   }
   return map;
@@ -113,9 +132,9 @@ HeightMap from_mesh(const geometry::Mesh& mesh, double floor_mm, double cell_mm)
 
 double volume(const HeightMap& map) {
   double sum = 0.0;
-  for (const Column& c : map.columns) {
-    sum += static_cast<double>(c.top_mm) -
-           static_cast<double>(c.share) * (static_cast<double>(c.top_mm) - static_cast<double>(c.low_mm));
+  for (std::size_t i = 0; i < map.cells(); ++i) {
+    const auto top = static_cast<double>(map.top[i]);
+    sum += top - static_cast<double>(map.share[i]) * (top - static_cast<double>(map.low[i]));
   }
   return sum * map.cell_mm * map.cell_mm;
 }
@@ -133,26 +152,19 @@ double max_height(const HeightMap& map, Vec2 centre, double radius_mm) {
 
 double max_height(const HeightMap& map, Vec2 a, Vec2 b, double radius_mm) {
   const double reach = radius_mm + 0.7072 * map.cell_mm;  // a cell's corner may lie under the rim
-  const Vec2 d = b - a;
-  const double length2 = dot(d, d);
   const int iy0 = std::max(0, index_of(std::min(a.y, b.y) - reach, map.origin.y, map.cell_mm, map.ny));
   const int iy1 =
       std::min(map.ny - 1, index_of(std::max(a.y, b.y) + reach, map.origin.y, map.cell_mm, map.ny));
-  float best = 0.0F;
+  Highest best;
   for (int iy = iy0; iy <= iy1; ++iy) {
     const Span row = capsule_row(a, b, reach, map.y_of(iy));
-    const int ix0 = std::max(0, index_of(row.lo, map.origin.x, map.cell_mm, map.nx));
-    const int ix1 = std::min(map.nx - 1, index_of(row.hi, map.origin.x, map.cell_mm, map.nx));
-    for (int ix = ix0; ix <= ix1; ++ix) {
-      const float top = map.at(ix, iy).top_mm;
-      if (top <= best) continue;
-      const Vec2 p{map.x_of(ix), map.y_of(iy)};
-      const double t = length2 > 0.0 ? std::clamp(dot(p - a, d) / length2, 0.0, 1.0) : 0.0;
-      const Vec2 out = p - a - t * d;
-      if (dot(out, out) <= reach * reach) best = top;
-    }
+    if (row.lo > row.hi) continue;
+    // Cells whose centre lies in the row.
+    const int ix0 = index_of(row.lo + 0.5 * map.cell_mm, map.origin.x, map.cell_mm, map.nx);
+    const int ix1 = index_of(row.hi - 0.5 * map.cell_mm, map.origin.x, map.cell_mm, map.nx);
+    best.look(map, iy, std::max(0, ix0), std::min(map.nx - 1, ix1));
   }
-  return map.origin.z + static_cast<double>(best);
+  return map.origin.z + best.height();
 }
 
 }  // namespace capstan::stock

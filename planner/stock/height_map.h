@@ -9,7 +9,8 @@
 namespace capstan::stock {
 
 /// What still stands on one cell: a share of it is at `low_mm`, the rest at `top_mm`. Both are heights above
-/// the map's floor; share is 0 on a uniform cell. Two levels let an edge that crosses a cell keep its place.
+/// the map's floor; on a uniform cell share is 0 and both are equal. Two levels let an edge that crosses a
+/// cell keep its place.
 struct Column {
   float top_mm = 0.0F;
   float low_mm = 0.0F;
@@ -24,23 +25,32 @@ struct Column {
 ///
 /// Frame  the set-up's, z away from the work.
 /// Units  mm.
-/// Shape  columns[iy * nx + ix]; cell (ix, iy) covers origin + cell * [ix, ix + 1] x [iy, iy + 1].
+/// Shape  top[iy * nx + ix] and so on, with kPadding entries more at the end that belong to no cell; cell
+///        (ix, iy) covers origin + cell * [ix, ix + 1] x [iy, iy + 1].
 struct HeightMap {
+  static constexpr std::size_t kPadding = 16;  ///< a vector's width may be read beyond the last cell
+
   geometry::Vec3 origin;  ///< corner of cell (0, 0); z is the floor, the underside of the raw piece
   double cell_mm = 0.0;
   int nx = 0, ny = 0;
-  std::vector<Column> columns;
+  std::vector<float> top, low, share;  ///< of the cells' columns
 
   [[nodiscard]] double x_of(int ix) const { return origin.x + (ix + 0.5) * cell_mm; }
   [[nodiscard]] double y_of(int iy) const { return origin.y + (iy + 0.5) * cell_mm; }
-  [[nodiscard]] const Column& at(int ix, int iy) const {
-    return columns[static_cast<std::size_t>(iy) * static_cast<std::size_t>(nx) +
-                   static_cast<std::size_t>(ix)];
+  [[nodiscard]] std::size_t index(int ix, int iy) const {
+    return static_cast<std::size_t>(iy) * static_cast<std::size_t>(nx) + static_cast<std::size_t>(ix);
   }
-  [[nodiscard]] Column& at(int ix, int iy) {
-    return columns[static_cast<std::size_t>(iy) * static_cast<std::size_t>(nx) +
-                   static_cast<std::size_t>(ix)];
+  [[nodiscard]] std::size_t cells() const {
+    return static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny);
   }
+  [[nodiscard]] Column at(std::size_t i) const { return {top[i], low[i], share[i]}; }
+  [[nodiscard]] Column at(int ix, int iy) const { return at(index(ix, iy)); }
+  void set(std::size_t i, const Column& c) {
+    top[i] = c.top_mm;
+    low[i] = c.low_mm;
+    share[i] = c.share;
+  }
+  void set(int ix, int iy, const Column& c) { set(index(ix, iy), c); }
   friend bool operator==(const HeightMap&, const HeightMap&) = default;
 };
 

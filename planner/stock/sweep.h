@@ -17,6 +17,7 @@ struct Track {
   bool arc = false;
   geometry::Vec2 centre;  ///< of the arc
   bool clockwise = false;
+  double ceiling_mm = 1e300;  ///< known: no material under the track stands higher (z); only a saving of time
 };
 
 /// What a sweep took away, in the section frame of the track: X across (negative left of the feed), Y along
@@ -43,6 +44,8 @@ struct Tally {
 /// `heading`        feed direction that X is measured against on a vertical track; any length but 0.
 /// Needs            a profile whose height does not fall and is convex in r (as geometry/profile.h says).
 /// Units            mm. No allocation.
+/// Accuracy         level tracks are computed in single precision from the track: heights are good to about
+///                  1e-6 of the cutter's diameter; the same on every processor.
 void sweep(HeightMap& map, const geometry::CutterProfile& profile, const Track& track, bool behind_is_cut,
            geometry::Vec2 heading, Tally& tally);
 

@@ -25,19 +25,21 @@ float highest(const HeightMap& map, Vec2 lo, Vec2 hi) {
   const int y1 = std::min(map.ny - 1, cell(hi.y, map.origin.y, -kEdge));
   float top = 0.0F;
   for (int y = y0; y <= y1; ++y) {
-    for (int x = x0; x <= x1; ++x) top = std::max(top, map.at(x, y).top_mm);
+    for (int x = x0; x <= x1; ++x) top = std::max(top, map.top[map.index(x, y)]);
   }
   return top;
 }
 
-void sink(Column& c, float height) {
+void sink(HeightMap& map, std::size_t i, float height) {
+  Column c = map.at(i);
   if (c.top_mm <= height) return;
+  c.top_mm = height;
   if (height <= kNothing) {
     c = {};
-    return;
+  } else if (c.low_mm >= height) {
+    c = {height, height, 0.0F};
   }
-  c.top_mm = height;
-  if (c.low_mm >= height) c = {height, height, 0.0F};
+  map.set(i, c);
 }
 
 /// The highest point of what stands in `from`, along a direction of its own frame.
@@ -45,7 +47,7 @@ double extent(const HeightMap& from, Vec3 along) {
   double best = -1e300;
   for (int y = 0; y < from.ny; ++y) {
     for (int x = 0; x < from.nx; ++x) {
-      const float top = from.at(x, y).top_mm;
+      const float top = from.top[from.index(x, y)];
       if (top <= kNothing) continue;
       const double half = 0.5 * from.cell_mm;
       const double flat =
@@ -66,13 +68,13 @@ void take_over(HeightMap& to, const Placement& to_frame, const HeightMap& from, 
     const Placement back = inverse(there);
     const double top = extent(from, there.z) + back.origin.z;
     const auto height = static_cast<float>(std::max(0.0, top - to.origin.z));
-    for (Column& c : to.columns) sink(c, height);
+    for (std::size_t i = 0; i < to.cells(); ++i) sink(to, i, height);
     return;
   }
   for (int y = 0; y < to.ny; ++y) {
     for (int x = 0; x < to.nx; ++x) {
-      Column& c = to.at(x, y);
-      if (c.top_mm <= kNothing) continue;
+      const std::size_t i = to.index(x, y);
+      if (to.top[i] <= kNothing) continue;
       const Vec2 corner{to.origin.x + x * to.cell_mm, to.origin.y + y * to.cell_mm};
       Vec2 lo{1e300, 1e300}, hi{-1e300, -1e300};
       for (const double dx : {0.0, to.cell_mm}) {
@@ -84,12 +86,12 @@ void take_over(HeightMap& to, const Placement& to_frame, const HeightMap& from, 
       }
       const float top = highest(from, lo, hi);
       if (same < 0.0) {
-        if (top <= kNothing) c = {};
+        if (top <= kNothing) to.set(i, {});
         continue;
       }
       // The same height over the workpiece, above this map's floor.
       const double z = from.origin.z + static_cast<double>(top) - there.origin.z;
-      sink(c, static_cast<float>(std::max(0.0, top <= kNothing ? 0.0 : z - to.origin.z)));
+      sink(to, i, static_cast<float>(std::max(0.0, top <= kNothing ? 0.0 : z - to.origin.z)));
     }
   }
 }

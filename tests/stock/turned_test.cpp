@@ -18,7 +18,7 @@ geometry::Box3 piece() {
 /// Cuts the cells x0..x1 (excluded), all y, down to z.
 void cut_to(HeightMap& map, int x0, int x1, float z) {
   for (int y = 0; y < map.ny; ++y) {
-    for (int x = x0; x < x1; ++x) map.at(x, y) = z > 0.0F ? Column{z, z, 0.0F} : Column{};
+    for (int x = x0; x < x1; ++x) map.set(x, y, z > 0.0F ? Column{z, z, 0.0F} : Column{});
   }
 }
 

@@ -1,0 +1,87 @@
+// Included once by each variant's source, inside its unnamed namespace, after kWidth is defined: eight floats
+// side by side in vectors of kWidth, so that every variant does the same on the same lanes.
+
+constexpr int kParts = kLanes / kWidth;
+typedef float Native __attribute__((vector_size(4 * kWidth)));
+typedef int NativeMask __attribute__((vector_size(4 * kWidth)));
+
+struct Mask {
+  NativeMask p[kParts];
+};
+
+struct Float {
+  Native p[kParts];
+  Float() = default;
+  Float(float v) {  // NOLINT(google-explicit-constructor): numbers and vectors mix in formulas
+    for (int i = 0; i < kParts; ++i) p[i] = Native{} + v;
+  }
+  static Float at(const float* from) {
+    Float out;
+    __builtin_memcpy(out.p, from, sizeof(out.p));
+    return out;
+  }
+  void put(float* to) const { __builtin_memcpy(to, p, sizeof(p)); }
+  static Float count() {  // 0, 1, ... 7
+    constexpr float kCount[kLanes] = {0, 1, 2, 3, 4, 5, 6, 7};
+    return at(kCount);
+  }
+};
+
+#define CAPSTAN_LANES(result, type, expression)                \
+  type result;                                                 \
+  for (int i = 0; i < kParts; ++i) result.p[i] = (expression); \
+  return result
+
+inline Float operator+(Float a, Float b) { CAPSTAN_LANES(r, Float, a.p[i] + b.p[i]); }
+inline Float operator-(Float a, Float b) { CAPSTAN_LANES(r, Float, a.p[i] - b.p[i]); }
+inline Float operator*(Float a, Float b) { CAPSTAN_LANES(r, Float, a.p[i] * b.p[i]); }
+inline Float operator/(Float a, Float b) { CAPSTAN_LANES(r, Float, a.p[i] / b.p[i]); }
+inline Mask operator<(Float a, Float b) { CAPSTAN_LANES(r, Mask, a.p[i] < b.p[i]); }
+inline Mask operator<=(Float a, Float b) { CAPSTAN_LANES(r, Mask, a.p[i] <= b.p[i]); }
+inline Mask operator&(Mask a, Mask b) { CAPSTAN_LANES(r, Mask, a.p[i] & b.p[i]); }
+inline Mask operator|(Mask a, Mask b) { CAPSTAN_LANES(r, Mask, a.p[i] | b.p[i]); }
+inline Mask operator~(Mask a) { CAPSTAN_LANES(r, Mask, ~a.p[i]); }
+inline Float select(Mask m, Float a, Float b) { CAPSTAN_LANES(r, Float, m.p[i] ? a.p[i] : b.p[i]); }
+inline Float greater(Float a, Float b) { CAPSTAN_LANES(r, Float, a.p[i] > b.p[i] ? a.p[i] : b.p[i]); }
+inline Float smaller(Float a, Float b) { CAPSTAN_LANES(r, Float, a.p[i] < b.p[i] ? a.p[i] : b.p[i]); }
+inline Float magnitude(Float a) { return greater(a, 0.0F - a); }
+
+inline Native root(Native v) {
+#if defined(__AVX2__)
+  return _mm256_sqrt_ps(v);
+#elif defined(__SSE2__)
+  return _mm_sqrt_ps(v);
+#else
+  for (int i = 0; i < kWidth; ++i) v[i] = __builtin_sqrtf(v[i]);
+  return v;
+#endif
+}
+inline Float root(Float a) { CAPSTAN_LANES(r, Float, root(a.p[i])); }
+
+inline bool any(Mask m) {
+#if defined(__AVX2__)
+  return _mm256_movemask_ps(reinterpret_cast<__m256>(m.p[0])) != 0;
+#elif defined(__SSE2__)
+  return _mm_movemask_ps(reinterpret_cast<__m128>(m.p[0] | m.p[1])) != 0;
+#else
+  int out = 0;
+  for (const NativeMask& part : m.p) {
+    for (int i = 0; i < kWidth; ++i) out |= part[i];
+  }
+  return out != 0;
+#endif
+}
+
+/// Cut off towards zero.
+inline void whole_numbers(Float a, int* to) {
+#if defined(__AVX2__)
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), _mm256_cvttps_epi32(a.p[0]));
+#elif defined(__SSE2__)
+  _mm_storeu_si128(reinterpret_cast<__m128i*>(to), _mm_cvttps_epi32(a.p[0]));
+  _mm_storeu_si128(reinterpret_cast<__m128i*>(to + 4), _mm_cvttps_epi32(a.p[1]));
+#else
+  for (int i = 0; i < kLanes; ++i) to[i] = static_cast<int>(a.p[i / kWidth][i % kWidth]);
+#endif
+}
+
+#undef CAPSTAN_LANES
