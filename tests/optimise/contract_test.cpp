@@ -35,8 +35,12 @@ class Contract : public ::testing::TestWithParam<Way> {
     o.fall_back = false;
     o.evaluation_budget = 20000;
     o.backends.ipopt = &solve_with_ipopt;
+    if (referee()) o.starts = 1;  // it starts everywhere by itself
     return o;
   }
+
+  /// The evolution strategy: comes near an optimum and stays there until its budget ends.
+  static bool referee() { return GetParam().algorithm == Algorithm::kIsres; }
 
   void SetUp() override {
     Job job;
@@ -54,21 +58,32 @@ class Contract : public ::testing::TestWithParam<Way> {
     return s ? *s : Solution{};
   }
   /// First-order methods find an optimum to many digits; COBYLA, without slopes, to fewer.
-  double accuracy() const { return GetParam().algorithm == Algorithm::kCobyla ? 1e-3 : 1e-5; }
+  static double accuracy() {
+    if (referee()) return 1e-2;
+    return GetParam().algorithm == Algorithm::kCobyla ? 1e-3 : 1e-5;
+  }
+  static void expect_at_optimum(const Solution& s) {
+    EXPECT_TRUE(s.feasible);
+    if (!referee()) {
+      EXPECT_EQ(s.outcome, Outcome::kOptimal);
+    }
+  }
 };
 
 TEST_P(Contract, FindsAKnownMinimumAndItsShadowPrice) {
   const Solution s = solved(examples::projected_point());
-  ASSERT_EQ(s.outcome, Outcome::kOptimal);
+  expect_at_optimum(s);
   EXPECT_NEAR(s.x[0], 2.0, accuracy());
   EXPECT_NEAR(s.x[1], 1.0, accuracy());
   EXPECT_NEAR(s.objective, 2.0, accuracy());
+  if (referee()) return;  // near the limit, not at it
   ASSERT_EQ(s.active.size(), 1u);
   EXPECT_EQ(s.active[0].name, "sum");
   EXPECT_NEAR(s.active[0].multiplier, 2.0, 1e-3);
 }
 
 TEST_P(Contract, ShadowPriceIsWhatMoreOfTheLimitIsWorth) {
+  if (referee()) return;
   const Solution s = solved(examples::projected_point(3.0));
   const Solution more = solved(examples::projected_point(3.001));
   EXPECT_NEAR((s.objective - more.objective) / 0.001, s.active.at(0).multiplier, 5e-3 + accuracy() / 0.001);
@@ -79,8 +94,9 @@ TEST_P(Contract, NamesTheBoundThatHoldsTheSolution) {
                   .constraints = {},
                   .model = differentiate<1>([](const auto& x, auto& f, auto&) { f = 1.0 / x[0]; })};
   const Solution s = solved(p);
-  ASSERT_EQ(s.outcome, Outcome::kOptimal);
-  EXPECT_NEAR(s.x[0], 0.5, 1e-5);
+  expect_at_optimum(s);
+  EXPECT_NEAR(s.x[0], 0.5, accuracy());
+  if (referee()) return;
   ASSERT_EQ(s.active.size(), 1u);
   EXPECT_EQ(s.active[0].kind, ActiveLimit::Kind::kUpperBound);
   EXPECT_NEAR(s.active[0].multiplier, 4.0, 1e-3);  // -d(1/x)/dx at 0.5
@@ -150,7 +166,7 @@ TEST_P(Contract, StepsBackFromWhereTheModelIsNotANumber) {
   p.variables[0].start = 3.0;
   const Solution s = solved(p);
   EXPECT_TRUE(s.feasible);
-  EXPECT_NEAR(s.objective, 2.0, 1e-3);
+  EXPECT_NEAR(s.objective, 2.0, std::max(1e-3, accuracy()));
 }
 
 TEST_P(Contract, StaysWithinItsBudget) {
@@ -198,6 +214,10 @@ void expect_matches(const Example& e, const Solution& s, double relative) {
 }
 
 TEST_P(Contract, SolvesThePublishedProblems) {
+  if (referee()) {  // with its full budget: published_test.cpp
+    const auto e = examples::drilled_hole();
+    return expect_matches(e, solved(e.problem), 1e-2);
+  }
   if (GetParam().algorithm == Algorithm::kCobyla) {  // linear models without slopes: near, not at the optimum
     const auto e = examples::quiza_turning(QuizaGoal::kTime);
     return expect_matches(e, solved(e.problem), 1e-2);
@@ -229,10 +249,32 @@ TEST_P(Contract, SolvesThePublishedProblems) {
   }
 }
 
+TEST(AbsentBackend, IsRefusedWithWhatToBuild) {
+  // Where the build has both, there is nothing to refuse; the build without them runs this in earnest.
+  for (const Solver solver : {Solver::kNlopt, Solver::kIpopt}) {
+    Options o;
+    o.solver = solver;
+    o.backends.ipopt = &solve_with_ipopt;
+    o.fall_back = false;
+    Job job;
+    const auto s = solve(examples::projected_point(), o, job);
+    if (s) {
+      EXPECT_EQ(s->outcome, Outcome::kOptimal);
+      continue;
+    }
+    EXPECT_EQ(s.error().code, "OPT-BACKEND-ABSENT");
+    const char* name = solver == Solver::kNlopt ? "NLopt" : "Ipopt";
+    EXPECT_NE(s.error().message.find(name), std::string::npos) << s.error().message;
+    const char* option = solver == Solver::kNlopt ? "-DCAPSTAN_WITH_NLOPT=ON" : "-DCAPSTAN_WITH_IPOPT=ON";
+    EXPECT_NE(s.error().hint.find(option), std::string::npos) << s.error().hint;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Ways, Contract,
                          ::testing::Values(Way{"slsqp", Solver::kNlopt, Algorithm::kSlsqp},
                                            Way{"auglag", Solver::kNlopt, Algorithm::kAuglagLbfgs},
                                            Way{"cobyla", Solver::kNlopt, Algorithm::kCobyla},
+                                           Way{"isres", Solver::kNlopt, Algorithm::kIsres},
                                            Way{"ipopt", Solver::kIpopt, Algorithm::kSlsqp}),
                          [](const auto& test) { return std::string(test.param.name); });
 

@@ -66,6 +66,8 @@ struct MillingStatement {
   double contact = 0.5;  ///< Q
   bool power = true;     ///< false: the limit is left out
   bool roughness = true;
+  enum class Goal { kProfitRate, kTime, kParametric } goal = Goal::kProfitRate;
+  double earning = 0.0;  ///< of kParametric: cost + earning * time, $/min
 };
 
 template <class T>
@@ -109,7 +111,17 @@ void tolouei_rad(const std::array<T, 10>& x, const MillingStatement& statement, 
     if (!statement.roughness) roughness = -1.0;
   }
   cost = kMaterial + (kLabour + kOverhead) * time + tool_cost;
-  objective = -(kSalePrice - cost) / time;  // profit rate, $/min, maximised
+  switch (statement.goal) {
+    case MillingStatement::Goal::kProfitRate:
+      objective = -(kSalePrice - cost) / time;  // $/min, maximised
+      break;
+    case MillingStatement::Goal::kTime:
+      objective = time;
+      break;
+    case MillingStatement::Goal::kParametric:
+      objective = cost + statement.earning * time;
+      break;
+  }
 }
 
 inline Example tolouei_rad_milling(Walk walk = Walk::kLogarithmic, MillingStatement statement = {}) {
@@ -175,6 +187,7 @@ void chen_tsai(const std::array<T, 5>& x, double total_depth, int passes, T& obj
 /// 6 mm in one roughing pass they leave d_s = 3 alone.
 inline Example chen_tsai_turning(double total_depth, int passes, double best) {
   Example e{.name = "ChenTsaiTurning", .problem = {}, .best_objective = best, .best_x = {}, .active = {}};
+  if (total_depth == 6.0 && passes == 1) e.best_x = {109.663, 0.56553, 169.978, 0.22621, 3.0};  // [C]
   const double ds_low = std::max(1.0, total_depth - 3.0 * passes);
   const double ds_high = std::min({3.0, total_depth / (passes + 1), total_depth - passes});
   e.problem.variables = {{"rough speed", "m/min", 50.0, 500.0, 150.0, Walk::kLogarithmic},
@@ -238,6 +251,54 @@ inline Example quiza_turning(QuizaGoal goal) {
       e.best_x = {250.0, 0.2740, 4.0361};
       break;
   }
+  return e;
+}
+
+// --- Textbook speeds and a drilled hole ----------------------------------------------------------------
+
+/// Ghosh & Mallik, Manufacturing Science, examples 4.26 and 4.28 (solutions by FOSSEE, Scilab-TBC-Uploads
+/// 3250/CH4): inputs [S], values [C]. Cost per length of cut: Lc / V + (Lc t + Tc) / (V T), T = (C /
+/// V)^(1/n); time per length: 1 / V + t / (V T).
+inline Example textbook_speed(bool least_cost) {
+  Example e{.name = least_cost ? "LeastCostSpeed" : "MostProductionSpeed",
+            .problem = {},
+            .best_objective = 0.0,
+            .best_x = {least_cost ? 27.417 : 47.921},
+            .active = {}};
+  e.problem.variables = {{"speed", "m/min", 5.0, 200.0, 100.0, Walk::kLogarithmic}};
+  e.problem.model = differentiate<1>([least_cost](const auto& x, auto& f, auto&) {
+    using std::pow;
+    constexpr double kC = 75.0, kN = 0.25, kLabour = 0.15, kTool = 2.5, kChange = 2.0;  // [S]
+    const auto& v = x[0];
+    const auto life = pow(kC / v, 1.0 / kN);
+    f = least_cost ? kLabour / v + (kLabour * kChange + kTool) / (v * life) : 1.0 / v + kChange / (v * life);
+  });
+  const double v = e.best_x[0];
+  const double life = std::pow(75.0 / v, 4.0);
+  e.best_objective = least_cost ? 0.15 / v + 2.8 / (v * life) : 1.0 / v + 2.0 / (v * life);
+  return e;
+}
+
+/// A hole of 10 mm, 25 mm deep, at least cost; stated here, from no paper. V T^0.2 f^0.4 = 25.9; thrust
+/// 6170 f^0.7 <= 3000 N; machine 1, change 1 min, edge 8. Optimum [C], also in closed form:
+/// f = (3000 / 6170)^(1 / 0.7), V = C f^-0.4 [n / (1 - n) r / (r tc + ct)]^n.
+inline Example drilled_hole() {
+  Example e{.name = "DrilledHole",
+            .problem = {},
+            .best_objective = 0.144008,
+            .best_x = {19.0981, 0.356963},
+            .active = {"thrust"}};
+  e.problem.variables = {{"speed", "m/min", 5.0, 60.0, 15.0, Walk::kLogarithmic},
+                         {"feed", "mm", 0.05, 1.0, 0.2, Walk::kLogarithmic}};
+  e.problem.constraints = {"thrust"};
+  e.problem.model = differentiate<2>([](const auto& x, auto& f, auto& c) {
+    using std::pow;
+    const auto& [v, feed] = x;
+    const auto life = pow(25.9 / (v * pow(feed, 0.4)), 5.0);
+    const auto time = kPi * 10.0 * 25.0 / (1000.0 * v * feed);
+    f = time + (1.0 + 8.0) * time / life;
+    c[0] = 6170.0 * pow(feed, 0.7) / 3000.0 - 1.0;
+  });
   return e;
 }
 
