@@ -1,0 +1,58 @@
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "tests/support/corpus.h"
+#include "tests/validation/comparisons.h"
+
+namespace capstan::validation {
+namespace {
+
+std::string document() { return testing::slurp(CAPSTAN_SOURCE_DIR "/docs/validation.md"); }
+
+const std::vector<Comparison>& computed() {
+  static const std::vector<Comparison> all = all_comparisons(testing::corpus_folder());
+  return all;
+}
+
+TEST(Document, SaysTheFiguresThatAreComputed) {
+  const std::string text = document();
+  std::string skipped;
+  for (const Comparison& c : computed()) {
+    if (!c.skipped.empty()) {
+      skipped += c.name + " (" + c.skipped + ") ";
+      continue;
+    }
+    EXPECT_EQ(standing(text, c.name), c.text) << c.name << ": run ./dev validate";
+  }
+  if (!skipped.empty()) GTEST_SKIP() << "not checked: " << skipped;
+}
+
+TEST(Document, HasAPlaceAndAPictureForEachComparison) {
+  const std::string text = document();
+  for (const Comparison& c : computed()) {
+    EXPECT_NE(text.find("<!-- begin " + c.name + " -->"), std::string::npos) << c.name;
+    EXPECT_NE(text.find("<!-- end " + c.name + " -->"), std::string::npos) << c.name;
+  }
+  std::size_t at = 0;
+  int pictures = 0;
+  while ((at = text.find("](validation/", at)) != std::string::npos) {
+    at += 2;
+    const std::string file = text.substr(at, text.find(')', at) - at);
+    EXPECT_FALSE(testing::slurp(CAPSTAN_SOURCE_DIR "/docs/" + file).empty()) << file;
+    ++pictures;
+  }
+  EXPECT_GT(pictures, 0);
+}
+
+TEST(Document, IsRenewedBetweenItsMarkersOnly) {
+  const std::string before = "a\n<!-- begin x -->\nold\n<!-- end x -->\nb\n";
+  const Comparison c{.name = "x", .text = "new\n"};
+  const std::string after = renewed(before, c);
+  EXPECT_EQ(after, "a\n<!-- begin x -->\nnew\n<!-- end x -->\nb\n");
+  EXPECT_EQ(standing(after, "x"), "new\n");
+  EXPECT_EQ(renewed("no place", c), "");
+}
+
+}  // namespace
+}  // namespace capstan::validation

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace capstan::validation {
+
+/// A table of the document: every cell is text already.
+struct Table {
+  std::vector<std::string> head;
+  std::vector<std::vector<std::string>> rows;
+};
+
+/// A table as Markdown.
+[[nodiscard]] std::string markdown(const Table& table);
+
+/// What one comparison came to: `text` is what stands in the document between the markers
+/// `<!-- begin NAME -->` and `<!-- end NAME -->`; `data` are the files (name, content) that its plots read.
+struct Comparison {
+  std::string name;
+  std::string text = {};
+  std::vector<std::pair<std::string, std::string>> data = {};
+  std::string skipped = {};  ///< why there is nothing; empty: there is
+};
+
+/// Columns for gnuplot: blanks between them, quotes around cells with a blank.
+[[nodiscard]] std::string columns(const Table& table);
+
+/// The document with the comparison's text between its markers; empty when the markers are missing.
+[[nodiscard]] std::string renewed(const std::string& document, const Comparison& comparison);
+
+/// What stands between the markers now; empty when they are missing.
+[[nodiscard]] std::string standing(const std::string& document, const std::string& name);
+
+/// "3.2 %" of a ratio minus one, with its sign.
+[[nodiscard]] std::string percent(double ratio_minus_one, int decimals = 1);
+
+/// Median and largest by amount of some relative errors, and how many are within a bound.
+struct Spread {
+  int n = 0, within = 0;
+  double median = 0.0, worst = 0.0, rms = 0.0;
+};
+[[nodiscard]] Spread spread_of(std::vector<double> errors, double bound);
+
+}  // namespace capstan::validation

@@ -1,0 +1,13 @@
+# What docs/validation.md compares: one library of comparisons, the program that writes the document's figures
+# and the data of its plots (./dev validate), and the test that the document says what the program computes.
+set(validation ${CMAKE_CURRENT_LIST_DIR})
+file(GLOB_RECURSE validation_sources CONFIGURE_DEPENDS ${validation}/*.cpp)
+list(FILTER validation_sources EXCLUDE REGEX "_test\\.cpp$|/main\\.cpp$")
+find_package(yaml-cpp REQUIRED)
+add_library(capstan_validation_comparisons STATIC ${validation_sources})
+target_link_libraries(capstan_validation_comparisons
+  PUBLIC $<BUILD_INTERFACE:capstan_options> capstan_test_support
+  PRIVATE capstan::motion capstan::mechanics capstan::optimise capstan::optimise_ipopt capstan::verify yaml-cpp)
+add_executable(capstan_validation ${validation}/main.cpp)
+target_link_libraries(capstan_validation PRIVATE capstan_validation_comparisons)
+capstan_test(validation LIBS capstan_validation_comparisons)
