@@ -65,9 +65,8 @@ void Contact::add(const Contact& o, double times) {
 }
 
 bool Prober::turn_to(Vec2 lo, Vec2 hi, double z_mm) {
-  const Vec2 r{profile_.radius_mm, profile_.radius_mm};
-  if (stock_.highest(lo - r, hi + r) <= z_mm + stock::kTouch) return true;
-  stock_.gather(lo - r, hi + r, near_);
+  if (stock_.highest(lo, hi) <= z_mm + stock::kTouch) return true;
+  stock_.gather(lo, hi, near_);
   return false;
 }
 

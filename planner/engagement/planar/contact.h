@@ -26,7 +26,7 @@ class Prober {
   Prober(const stock::PlanarStock& stock, const geometry::CutterProfile& profile)
       : stock_(stock), profile_(profile) {}
 
-  /// The trails within the cutter's radius of a rectangle. True when nothing there stands above z.
+  /// The trails in a rectangle. True when nothing there stands above z.
   bool turn_to(geometry::Vec2 lo, geometry::Vec2 hi, double z_mm);
   /// A flat cutter on its way: the front half circle takes what stands above the tip; `fall` (1 per 1,
   /// positive downwards) also what stands under it.

@@ -19,7 +19,7 @@ using stock::kTouch;
 using stock::Trail;
 
 constexpr double kAir = 1e-6;         // mm2: sections below are none
-constexpr double kTolerance = 2e-8;   // of a section's area, in a step
+constexpr double kTolerance = 3e-7;   // of diameter times depth, in a step
 constexpr int kDeepest = 14;          // halvings of a step
 constexpr double kFromTheEnd = 1e-5;  // of the radius: ends of moves are seen from just inside
 constexpr double kMostSteps = 1e7;
@@ -70,7 +70,7 @@ class Measurer {
  private:
   void start() {
     const Vec2 p = xy(path_.point(0));
-    if (prober_.turn_to(p, p, path_.z[0])) return;
+    if (over_air(p, path_.z[0])) return;
     out_.rapid_removed_mm3 += prober_.inside(p, heading_, path_.z[0], 0.0).amount;
     upright(p, path_.z[0]);
   }
@@ -110,7 +110,7 @@ class Measurer {
 
   void plunge(std::size_t i, const Trail& t, double from, double to, int steps, double step, bool rapid) {
     // Upwards nothing is met that was not met where it began.
-    if (to >= from || prober_.turn_to(t.a, t.a, to)) {
+    if (to >= from || over_air(t.a, to)) {
       if (!rapid) close(i, model::move_length(path_, i));
       return;
     }
@@ -165,18 +165,35 @@ class Measurer {
     }
   }
 
+  bool over_air(Vec2 p, double z) {
+    const Vec2 r{profile_.radius_mm, profile_.radius_mm};
+    return prober_.turn_to(p - r, p + r, z);
+  }
+
   bool over_air(double s0, double s1) {
     const Vec3 a = way_->at(s0);
     const Vec3 b = way_->at(s1);
     Vec2 lo{std::min(a.x, b.x), std::min(a.y, b.y)};
     Vec2 hi{std::max(a.x, b.x), std::max(a.y, b.y)};
-    if (way_->trail.arc) {
+    if (way_->trail.arc) {  // no point of the piece is farther from its middle than half of it
       const Vec2 m = xy(way_->at(0.5 * (s0 + s1)));
-      const double r = s1 - s0;  // no point of the piece is farther from its middle than half of it
+      const double r = 0.5 * (s1 - s0);
       lo = m - Vec2{r, r};
       hi = m + Vec2{r, r};
     }
-    return prober_.turn_to(lo, hi, std::min(a.z, b.z));
+    // Only what lies ahead of the cutter, unless it falls: how far its front half reaches to each side of its
+    // centre. Headings of a piece are less than a half turn apart, so that their ends say it all.
+    Vec2 back{0.0, 0.0};
+    Vec2 front{0.0, 0.0};
+    for (const double s : {s0, s1}) {
+      const Vec2 h = way_->heading(s);
+      const auto reach = [&](double towards, double beside) {
+        return profile_.radius_mm * (towards >= -1e-9 || fall_ > 0.0 ? 1.0 : std::abs(beside));
+      };
+      front = {std::max(front.x, reach(h.x, h.y)), std::max(front.y, reach(h.y, h.x))};
+      back = {std::max(back.x, reach(-h.x, h.y)), std::max(back.y, reach(-h.y, h.x))};
+    }
+    return prober_.turn_to(lo - back, hi + front, std::min(a.z, b.z));
   }
 
   Contact look(double s) {
@@ -196,8 +213,8 @@ class Measurer {
   void halves(double s0, const Contact& a, const Contact& m, double s1, const Contact& b, Contact& sum,
               int depth) {
     const double h = s1 - s0;
-    const double most = std::max({a.amount, m.amount, b.amount});
-    const double allowed = kTolerance * most;
+    const double allowed =
+        kTolerance * 2.0 * profile_.radius_mm * std::max({a.highest, m.highest, b.highest});
     const auto simpson = [&] {
       sum.add(a, h / 6.0);
       sum.add(m, 4.0 * h / 6.0);
@@ -214,8 +231,7 @@ class Measurer {
         (a.amount + 4.0 * left.amount + 2.0 * m.amount + 4.0 * right.amount + b.amount) / 12.0;
     // A part of a step may be less exact than the whole by as much as it is shorter.
     const double scale = static_cast<double>(1U << static_cast<unsigned>(depth));
-    if (depth >= kDeepest || std::abs(fine - coarse) <= allowed * scale ||
-        std::abs(fine - coarse) <= kAir * 0.1) {
+    if (depth >= kDeepest || std::abs(fine - coarse) <= allowed * scale) {
       // Richardson: the error of the halves is a fifteenth of their difference.
       sum.add(a, h / 12.0);
       sum.add(left, 4.0 * h / 12.0);

@@ -148,8 +148,55 @@ void PlanarStock::place(std::uint32_t id, Vec2 lo, Vec2 hi) {
         tile.highest_mm = t.highest_mm;
       }
       tile.trails.push_back(id);
+      if (tile.trails.size() >= tile.thin_at) thin(tile, middle);
     }
   }
+}
+
+void PlanarStock::thin(Tile& tile, Vec2 middle) {
+  std::vector<std::uint32_t> others;
+  for (std::size_t i = 0; i < tile.trails.size();) {  // oldest first
+    const Trail& t = trails_[tile.trails[i]];
+    others.clear();
+    for (std::size_t k = 0; k < tile.trails.size(); ++k) {
+      if (k != i && trails_[tile.trails[k]].highest_mm <= t.lowest_mm) others.push_back(tile.trails[k]);
+    }
+    if (!others.empty() && covered(t, others, middle, 0.5 * tile_mm_, 0)) {
+      tile.trails.erase(tile.trails.begin() + static_cast<std::ptrdiff_t>(i));
+    } else {
+      ++i;
+    }
+  }
+  tile.thin_at = std::max(kThinAt, 2 * tile.trails.size());
+}
+
+// Distance to a track changes by no more than the place does: a square lies inside a trail or outside of it
+// when its middle does so by half its diagonal. What stays open after a few quarterings counts as not
+// covered.
+bool PlanarStock::covered(const Trail& trail, const std::vector<std::uint32_t>& others, Vec2 middle,
+                          double half_mm, int depth) const {
+  constexpr int kQuarterings = 3;
+  const double corner = half_mm * std::numbers::sqrt2;
+  const double own = trail.distance(middle);
+  if (own - corner >= trail.radius_mm) return true;
+  std::vector<std::uint32_t> near;
+  bool inside = false;
+  for (const std::uint32_t id : others) {
+    const Trail& o = trails_[id];
+    const double d = o.distance(middle);
+    if (d + corner <= o.radius_mm) return true;
+    if (d - corner >= o.radius_mm) continue;
+    inside = inside || d <= o.radius_mm;
+    near.push_back(id);
+  }
+  if (near.empty() || depth >= kQuarterings || (!inside && own <= trail.radius_mm)) return false;
+  const double q = 0.5 * half_mm;
+  for (const double dx : {-q, q}) {
+    for (const double dy : {-q, q}) {
+      if (!covered(trail, near, middle + Vec2{dx, dy}, q, depth + 1)) return false;
+    }
+  }
+  return true;
 }
 
 void PlanarStock::take(Trail trail) {
@@ -230,6 +277,8 @@ Status PlanarStock::cut(const CutterProfile& profile, const CutterPath& path) {
 }
 
 void PlanarStock::gather(Vec2 lo, Vec2 hi, Nearby& out) const {
+  const Vec2 middle = 0.5 * (lo + hi);
+  const double corner = 0.5 * norm(hi - lo);
   out.trails.clear();
   if (out.seen.size() < trails_.size()) out.seen.resize(trails_.size() + trails_.size() / 2 + 64, 0);
   if (++out.round == 0) {
@@ -245,7 +294,8 @@ void PlanarStock::gather(Vec2 lo, Vec2 hi, Nearby& out) const {
       for (const std::uint32_t id : tile.trails) {
         if (out.seen[id] == out.round) continue;
         out.seen[id] = out.round;
-        out.trails.push_back(id);
+        const Trail& t = trails_[id];
+        if (t.distance(middle) < t.radius_mm + corner) out.trails.push_back(id);
       }
     }
   }
@@ -288,12 +338,23 @@ void PlanarStock::heights(const Probe& probe, const Nearby& near, double above_m
       if (!inside(probe.at(0.5 * (cuts[i] + cuts[i + 1])))) out.lower(cuts[i], cuts[i + 1], above_mm);
     }
   }
+  // What still stands is looked at as a circle about its middle: most trails are not near it.
+  Heights::Piece left{};
+  Vec2 about;
+  double reach = 0.0;
+  const auto look_again = [&] {
+    left = out.standing(above_mm);
+    if (left.x0 > left.x1) return false;
+    about = probe.at(0.5 * (left.x0 + left.x1));
+    reach = std::max(norm(probe.at(left.x0) - about), norm(probe.at(left.x1) - about));
+    return true;
+  };
+  if (!look_again()) return;
   for (const std::uint32_t id : near.trails) {
-    const double left = out.highest();
-    if (left <= above_mm) return;
     const Trail& t = trails_[id];
-    if (t.lowest_mm >= left) return;  // the rest lie higher
-    t.lower(probe, above_mm, out);
+    if (t.lowest_mm >= left.z_mm) return;  // the rest lie higher
+    if (t.distance(about) >= t.radius_mm + reach) continue;
+    if (t.lower(probe, above_mm, out) && !look_again()) return;
   }
 }
 

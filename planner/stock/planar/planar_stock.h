@@ -75,10 +75,15 @@ class PlanarStock {
   struct Tile {
     std::vector<std::uint32_t> trails;
     double highest_mm = 0.0;
+    std::size_t thin_at = kThinAt;  ///< as many trails are looked through for superfluous ones
   };
+  static constexpr std::size_t kThinAt = 8;
   PlanarStock() = default;
   void tiles_of(geometry::Vec2 lo, geometry::Vec2 hi, int& x0, int& x1, int& y0, int& y1) const;
   void place(std::uint32_t id, geometry::Vec2 lo, geometry::Vec2 hi);
+  void thin(Tile& tile, geometry::Vec2 middle);
+  bool covered(const Trail& trail, const std::vector<std::uint32_t>& others, geometry::Vec2 middle,
+               double half_mm, int depth) const;
 
   geometry::Box3 box_;
   double bar_radius_mm_ = 0.0;  ///< 0: a block

@@ -78,10 +78,10 @@ void Heights::push(double x0, double x1, double z_mm) {
   }
 }
 
-void Heights::lower(double x0, double x1, double z_mm) {
+bool Heights::lower(double x0, double x1, double z_mm) {
   bool any = false;
   for (const Piece& p : pieces_) any = any || (p.z_mm > z_mm && p.x0 < x1 && p.x1 > x0);
-  if (!any) return;
+  if (!any) return false;
   scratch_.clear();
   for (const Piece& p : pieces_) {
     if (p.z_mm <= z_mm || p.x1 <= x0 || p.x0 >= x1) {
@@ -93,12 +93,18 @@ void Heights::lower(double x0, double x1, double z_mm) {
     push(x1, p.x1, p.z_mm);
   }
   std::swap(pieces_, scratch_);
+  return true;
 }
 
-double Heights::highest() const {
-  double best = -1e300;
-  for (const Piece& p : pieces_) best = std::max(best, p.z_mm);
-  return best;
+Heights::Piece Heights::standing(double above_mm) const {
+  Piece out{1e300, -1e300, -1e300};
+  for (const Piece& p : pieces_) {
+    out.z_mm = std::max(out.z_mm, p.z_mm);
+    if (p.z_mm <= above_mm) continue;
+    out.x0 = std::min(out.x0, p.x0);
+    out.x1 = std::max(out.x1, p.x1);
+  }
+  return out;
 }
 
 }  // namespace capstan::stock

@@ -49,9 +49,10 @@ class Heights {
     double x0, x1, z_mm;
   };
   void reset(double lo, double hi, double z_mm);
-  /// Takes down to z what stands higher between x0 and x1.
-  void lower(double x0, double x1, double z_mm);
-  [[nodiscard]] double highest() const;
+  /// Takes down to z what stands higher between x0 and x1; whether there was any.
+  bool lower(double x0, double x1, double z_mm);
+  /// Highest, and the range of what stands above z; lo > hi: nothing does.
+  [[nodiscard]] Piece standing(double above_mm) const;
   [[nodiscard]] const std::vector<Piece>& pieces() const { return pieces_; }
 
  private:

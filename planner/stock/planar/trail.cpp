@@ -100,15 +100,14 @@ double Trail::floor_at(Vec2 p) const {
   return za + (zb - za) * (arc ? deepest_on_arc(*this, p) : deepest_on_line(*this, p));
 }
 
-void Trail::lower(const Probe& probe, double above_mm, Heights& heights) const {
+bool Trail::lower(const Probe& probe, double above_mm, Heights& heights) const {
   Cuts cuts;
   const double reach = radius_mm + probe.radius_mm;
   if (probe.radius_mm > 0.0) {
     const double d = distance(probe.origin);
-    if (d >= reach - kTouch) return;
+    if (d >= reach - kTouch) return false;
     if (d <= radius_mm - probe.radius_mm + kTouch && (level() || highest_mm <= above_mm)) {
-      heights.lower(probe.lo, probe.hi, std::max(lowest_mm, above_mm));
-      return;
+      return heights.lower(probe.lo, probe.hi, std::max(lowest_mm, above_mm));
     }
   }
   cuts.add(probe.lo);
@@ -127,6 +126,7 @@ void Trail::lower(const Probe& probe, double above_mm, Heights& heights) const {
   }
   cuts.sort();
   const bool even = level() || highest_mm <= above_mm;
+  bool any = false;
   for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
     const double x0 = cuts[i];
     const double x1 = cuts[i + 1];
@@ -134,7 +134,7 @@ void Trail::lower(const Probe& probe, double above_mm, Heights& heights) const {
     const Vec2 middle = probe.at(0.5 * (x0 + x1));
     if (distance(middle) > radius_mm + kTouch) continue;
     if (even) {
-      heights.lower(x0, x1, std::max(lowest_mm, above_mm));
+      any = heights.lower(x0, x1, std::max(lowest_mm, above_mm)) || any;
       continue;
     }
     const double z0 = floor_at(probe.at(x0));
@@ -145,9 +145,11 @@ void Trail::lower(const Probe& probe, double above_mm, Heights& heights) const {
     for (int k = 0; k < n; ++k) {
       const double from = x0 + (x1 - x0) * k / n;
       const double to = x0 + (x1 - x0) * (k + 1) / n;
-      heights.lower(from, to, std::max(above_mm, floor_at(probe.at(0.5 * (from + to)))));
+      const double z = std::max(above_mm, floor_at(probe.at(0.5 * (from + to))));
+      any = heights.lower(from, to, z) || any;
     }
   }
+  return any;
 }
 
 }  // namespace capstan::stock

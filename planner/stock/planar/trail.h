@@ -33,10 +33,10 @@ struct Trail {
   /// Height of the floor at a place within the radius.
   [[nodiscard]] double floor_at(geometry::Vec2 p) const;
   /// Lowers what stands along the probe; what lies below `above_mm` does not matter and may be said to be
-  /// there.
+  /// there. Whether it lowered anything.
   /// Accuracy  level floors: exact but for rounding; others in strips of at most a 16th of what they cover,
   ///           each at the height of its middle.
-  void lower(const Probe& probe, double above_mm, Heights& heights) const;
+  bool lower(const Probe& probe, double above_mm, Heights& heights) const;
 };
 
 /// Distances closer than this are the same, mm.
