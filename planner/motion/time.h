@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "planner/base/result.h"
@@ -9,6 +10,14 @@
 
 namespace capstan::motion {
 
+/// What sets the most that a move runs at.
+enum class TopBy : std::uint8_t {
+  kFeed,     ///< the schedule
+  kAxes,     ///< the axes' speed
+  kTurning,  ///< an arc's centripetal acceleration
+  kBlock,    ///< the control's least time per block
+};
+
 /// How long one workingstep takes. Units: s, mm/min.
 struct StepTime {
   double cutting_s = 0.0;  ///< moves at feed
@@ -17,10 +26,15 @@ struct StepTime {
   double spindle_s = 0.0;           ///< waiting for changes of speed or direction within the step
   std::vector<double> move_s;       ///< parallel to the path; entry 0 is 0
   std::vector<double> peak_mm_min;  ///< the highest speed each move reaches: below the feed where it is short
+  std::vector<double> at_top_s;     ///< of move_s: at constant speed, the most that `top` allows the move
+  std::vector<TopBy> top;
+  double corner_s =
+      0.0;  ///< of cutting_s: braking to and speeding up from corners that the path tolerance slows
   [[nodiscard]] double total_s() const { return cutting_s + rapid_s + dwell_s + spindle_s; }
 };
 
-/// The time of a path, limited by acceleration as LinuxCNC 2.9 limits it (it has no jerk limit).
+/// The time of a path, limited by acceleration as LinuxCNC 2.9 limits it, and by jerk where an axis states
+/// one (LinuxCNC 2.9 has no jerk limit; leave it out of its machines).
 ///
 /// Between stops a forward and a backward scan keep each speed reachable. A junction is passed at the speed
 /// of the arc that rounds it within the path tolerance P of G64:
@@ -33,6 +47,11 @@ struct StepTime {
 /// speed, at both ends of tapping moves, at either end of the path. The time of the corner itself is that of
 /// the sharp one (the rounding is shorter).
 ///
+/// With jerk, every change of speed is one S-curve (profile.h) from where acceleration is zero to where it is
+/// again: between places that are passed at their own limit, over as many moves as lie between. Corners and
+/// the ends of arcs are passed at the same speeds as without: the jerk of turning is left to the tolerance.
+/// Never faster than without jerk, and the same in the limit of large jerk.
+///
 /// Units   the path's and schedule's; the machine's axes limit speed and acceleration each.
 /// Needs   a schedule parallel to the path.
 /// Fails   MOT-SCHEDULE when the schedule is of another length, MOT-FEED for a move without a feed,
@@ -42,6 +61,23 @@ struct StepTime {
 ///         BLEND_ACC_RATIO_NORMAL = sqrt(1 - 0.5^2)), tp.c (handleModeChange).
 [[nodiscard]] Result<StepTime> time_of(const model::CutterPath& path, const model::FeedSchedule& schedule,
                                        const model::Machine& machine);
+
+/// What the axes can do along each move, the feed aside: what a feed schedule has to know.
+struct MoveReach {
+  double length_mm = 0.0;
+  double most_mm_min = 0.0;         ///< axes and centripetal acceleration
+  double acceleration_mm_s2 = 0.0;  ///< along the path
+  double jerk_mm_s3 = 0.0;          ///< 0: no limit
+  double entry_mm_min = 0.0;        ///< the most at which it is entered from the move before; 0: after a stop
+};
+
+/// Parallel to the path; entry 0, dwells and moves without length are zeros.
+/// Fails  as `time_of`.
+[[nodiscard]] Result<std::vector<MoveReach>> reach_along(const model::CutterPath& path,
+                                                         const model::Machine& machine);
+
+/// The most at which a move may be run so that it is braked within itself to `exit_mm_min`.
+[[nodiscard]] double braked_mm_min(const MoveReach& move, double exit_mm_min);
 
 /// How long the spindle takes from one speed to another, s: proportional to the difference, `spin_up_s` for
 /// a start to rpm_max. Source: constant angular acceleration, derived.

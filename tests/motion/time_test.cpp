@@ -6,6 +6,8 @@
 #include <numbers>
 #include <random>
 
+#include "planner/motion/profile.h"
+
 namespace capstan::motion {
 namespace {
 
@@ -250,6 +252,163 @@ TEST(TimeProperty, NoRandomPathBreaksASpeedOrIsFasterThanItsLengthAllows) {
           std::sqrt(4.0 * model::move_length(p, i) / kA) + model::move_length(p, i) / (peak + 1e-9);
       EXPECT_LE(t->move_s[i], rest + 1e-9);
     }
+  }
+}
+
+// --- Jerk -------------------------------------------------------------------------------------------
+
+Machine with_jerk(double jerk_mm_s3, double tolerance_mm = 0.0) {
+  Machine m = machine(tolerance_mm);
+  for (auto& axis : m.axes) axis.jerk_mm_s3 = jerk_mm_s3;
+  return m;
+}
+
+TEST(JerkTime, OfALongMoveIsTwoSCurvesAndAStretchBetween) {
+  // v = 50, a = 500, j = 5000: a is just reached (a^2 / j = 50); each ramp 2 a / j = 0.2 s over 5 mm.
+  const CutterPath p = straight(100.0);
+  const auto t = time_of(p, feed(p, 50.0), with_jerk(5000.0));
+  ASSERT_TRUE(t);
+  EXPECT_NEAR(t->cutting_s, 0.2 + 90.0 / 50.0 + 0.2, 1e-9);
+  EXPECT_NEAR(t->peak_mm_min[1], 3000.0, 1e-9);
+  EXPECT_NEAR(t->at_top_s[1], 90.0 / 50.0, 1e-9);
+}
+
+TEST(JerkTime, OfAShortMoveIsFourPartsOfConstantJerk) {
+  // Rest to rest without reaching a or v: T = 4 (L / 2 j)^(1/3).
+  const CutterPath p = straight(0.5);
+  const double jerk = 5000.0;
+  const auto t = time_of(p, feed(p, 100.0), with_jerk(jerk));
+  ASSERT_TRUE(t);
+  EXPECT_NEAR(t->cutting_s, 4.0 * std::cbrt(0.5 / (2.0 * jerk)), 1e-7);
+}
+
+TEST(JerkTime, OfAStraightLineDoesNotDependOnHowManyBlocksItIsCutInto) {
+  const CutterPath whole = straight(100.0);
+  CutterPath pieces;
+  pieces.start({0, 0, 0});
+  for (int i = 1; i <= 1000; ++i) pieces.line({0.1 * i, 0, 0}, MoveRole::kCut);
+  const auto a = time_of(whole, feed(whole, 80.0), with_jerk(20000.0));
+  const auto b = time_of(pieces, feed(pieces, 80.0), with_jerk(20000.0));
+  ASSERT_TRUE(a);
+  ASSERT_TRUE(b);
+  // The ramps end at block ends: at most one block on each side is run at other than the feed.
+  EXPECT_NEAR(a->cutting_s, b->cutting_s, 2.0 * 0.1 / 80.0);
+}
+
+TEST(JerkTime, TendsToThatOfAccelerationAloneAsJerkGrows) {
+  std::mt19937 random(9);
+  std::uniform_real_distribution<double> at(-20.0, 20.0), how_fast(5.0, 100.0);
+  for (int round = 0; round < 50; ++round) {
+    CutterPath p;
+    p.start({0, 0, 0});
+    for (int i = 0; i < 40; ++i) p.line({at(random), at(random), 0.1 * at(random)}, MoveRole::kCut);
+    FeedSchedule f = feed(p, 1.0);
+    for (double& v : f.feed_mm_min) v = 60.0 * how_fast(random);
+    const auto plain = time_of(p, f, machine(0.02));
+    ASSERT_TRUE(plain);
+    const auto stiff = time_of(p, f, with_jerk(1e12, 0.02));
+    ASSERT_TRUE(stiff);
+    EXPECT_NEAR(stiff->cutting_s, plain->cutting_s, 1e-4 * plain->cutting_s);
+    double slower = plain->cutting_s * (1.0 - 1e-9);
+    for (const double jerk : {1e6, 1e5, 2e4, 5e3}) {
+      const auto t = time_of(p, f, with_jerk(jerk, 0.02));
+      ASSERT_TRUE(t);
+      EXPECT_GE(t->cutting_s, slower) << jerk;
+      slower = t->cutting_s * (1.0 - 1e-3);
+      for (std::size_t i = 1; i < p.size(); ++i) {
+        EXPECT_LE(t->peak_mm_min[i], f.feed_mm_min[i] * (1.0 + 1e-9));
+        EXPECT_GE(t->move_s[i] * f.feed_mm_min[i] / 60.0, model::move_length(p, i) * (1.0 - 1e-9));
+      }
+    }
+  }
+}
+
+TEST(Reachable, SmoothlyIsTheInverseOfTheRamp) {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> log_v(-2, 2), log_l(-4, 2), log_j(2, 7);
+  for (int i = 0; i < 5000; ++i) {
+    const double v = i % 10 == 0 ? 0.0 : std::pow(10.0, log_v(random));
+    const double length = std::pow(10.0, log_l(random));
+    const double jerk = std::pow(10.0, log_j(random));
+    const double top = reachable_smoothly(v, length, kA, jerk);
+    EXPECT_GT(top, v);
+    EXPECT_NEAR(ramp_mm(v, top, kA, jerk), length, 1e-4 * length);  // v1 - v cancels
+  }
+  EXPECT_EQ(reachable_smoothly(3.0, 0.0, kA, 1e5), 3.0);
+}
+
+// --- What holds -------------------------------------------------------------------------------------
+
+TEST(Time, TellsWhatHoldsEachMove) {
+  CutterPath p;
+  p.start({0, 0, 0});
+  p.line({100, 0, 0}, MoveRole::kCut);                  // at its feed
+  p.line({200, 0, 0}, MoveRole::kCut);                  // asks for more than the axes give
+  p.arc({200, 2, 0}, {200, 1}, false, MoveRole::kCut);  // a tight arc
+  FeedSchedule f = feed(p, 50.0);
+  f.feed_mm_min[2] = f.feed_mm_min[3] = 60.0 * 300.0;
+  const auto t = time_of(p, f, machine(0.01));
+  ASSERT_TRUE(t);
+  EXPECT_EQ(t->top[1], TopBy::kFeed);
+  EXPECT_EQ(t->top[2], TopBy::kAxes);
+  EXPECT_EQ(t->top[3], TopBy::kTurning);
+  for (std::size_t i = 1; i < p.size(); ++i) EXPECT_LE(t->at_top_s[i], t->move_s[i]);
+  EXPECT_EQ(t->corner_s, 0.0);
+}
+
+TEST(Time, CountsTheRampsOfCornersThatTheToleranceSlows) {
+  CutterPath p;
+  p.start({0, 0, 0});
+  p.line({100, 0, 0}, MoveRole::kCut);
+  p.line({100, 100, 0}, MoveRole::kCut);
+  const auto t = time_of(p, feed(p, 50.0), machine(0.05));
+  ASSERT_TRUE(t);
+  const double s = std::sin(pi / 4.0);
+  const double corner = std::sqrt(kNormalShare * kA * 0.05 * s / (1.0 - s));
+  EXPECT_NEAR(t->corner_s, 2.0 * (50.0 - corner) / kA, 1e-9);
+}
+
+TEST(ReachAlong, SaysLengthSpeedAndWhetherAMoveIsEnteredInMotion) {
+  CutterPath p;
+  p.start({0, 0, 10});
+  p.rapid({10, 0, 10});
+  p.line({10, 0, 0}, MoveRole::kPlunge);
+  p.line({60, 0, 0}, MoveRole::kCut);
+  p.line({110, 0, 0}, MoveRole::kCut);
+  const auto r = reach_along(p, machine(0.01));
+  ASSERT_TRUE(r);
+  ASSERT_EQ(r->size(), p.size());
+  EXPECT_EQ((*r)[2].entry_mm_min, 0.0);  // after a rapid
+  EXPECT_NEAR((*r)[4].entry_mm_min, 6000.0, 1e-9);
+  EXPECT_NEAR((*r)[4].length_mm, 50.0, 1e-12);
+  EXPECT_NEAR((*r)[4].most_mm_min, 6000.0, 1e-9);
+  // v^2 = 2 a L + v1^2
+  EXPECT_NEAR(braked_mm_min((*r)[4], 600.0), 60.0 * std::sqrt(100.0 + 2.0 * kA * 50.0), 1e-9);
+  p.x[3] = std::nan("");
+  EXPECT_EQ(reach_along(p, machine()).error().code, "MOT-NUMBER");
+}
+
+TEST(TimeProperty, MoreOfAnythingIsNeverSlowerOnStraightMoves) {
+  std::mt19937 random(12);
+  std::uniform_real_distribution<double> at(-20.0, 20.0), how_fast(5.0, 100.0);
+  for (int round = 0; round < 60; ++round) {
+    CutterPath p;
+    p.start({0, 0, 0});
+    for (int i = 0; i < 40; ++i) p.line({at(random), at(random), at(random)}, MoveRole::kCut);
+    FeedSchedule f = feed(p, 1.0);
+    for (double& v : f.feed_mm_min) v = 60.0 * how_fast(random);
+    const Machine m = round % 2 == 0 ? machine(0.02) : with_jerk(3e4, 0.02);
+    const double base = time_of(p, f, m)->cutting_s;
+    FeedSchedule faster = f;
+    faster.feed_mm_min[1 + random() % 40] *= 1.3;
+    const double slack = round % 2 == 0 ? 1e-9 : 1e-3;  // with jerk, ramps end at the ends of moves
+    EXPECT_LE(time_of(p, faster, m)->cutting_s, base * (1.0 + slack));
+    Machine stronger = m;
+    for (auto& axis : stronger.axes) axis.acceleration_mm_s2 *= 1.2;
+    EXPECT_LE(time_of(p, f, stronger)->cutting_s, base * (1.0 + slack));
+    Machine looser = m;
+    looser.control.path_tolerance_mm *= 2.0;
+    EXPECT_LE(time_of(p, f, looser)->cutting_s, base * (1.0 + slack));
   }
 }
 
