@@ -69,8 +69,10 @@ void measure_answer(const CutQuestion& q, CutAnswer& a) {
   a.feasible = loads.has_value();
   if (!loads) a.violated.emplace_back("the cut lies outside the range of the force formulas");
   const Measures m = measures(q, a.loads, a.ap_mm, a.n_rpm, a.feed_mm_min);
+  const bool torque = short_of_torque(q, a.n_rpm);
   for (std::size_t i = 0; i < m.size(); ++i) {
     if (!m[i].stated() || m[i].value <= m[i].limit * (1.0 + kRounding)) continue;
+    if (i == (torque ? 0u : 1u)) continue;  // the same limit by its other name
     a.feasible = false;
     a.violated.push_back(std::string(kLimitsOfCut[i].name) + ": " + trimmed(m[i].value, 4) + " against " +
                          trimmed(m[i].limit, 4) + " " + kLimitsOfCut[i].unit);
@@ -124,23 +126,28 @@ bool better(const Solution& a, const Solution& b) {
   return a.feasible ? a.objective < b.objective : a.max_violation < b.max_violation;
 }
 
-/// The best of the whole box; where that is not shown to be optimal, of the pieces between the corners.
-Result<Solved> best_of(const Search& search, Options options, Job& job,
-                       const std::optional<CutPoint>& start = {}) {
+/// Whether no point of a piece keeps the limits of loads.
+bool hopeless(const CutQuestion& q, const Search& search, const std::vector<Variable>& piece) {
+  const auto points = search.gentlest(piece);
+  return std::all_of(points.begin(), points.end(), [&](const CutPoint& p) {
+    const auto loads = loads_of(q, p.ap_mm, p.ae_mm, p.n_rpm, p.feed_mm_min);
+    return loads && worst_excess(q, *loads, p.n_rpm) > kRounding;
+  });
+}
+
+/// The best of the pieces between the corners; nothing when none of them holds a cut.
+Result<std::optional<Solved>> best_of(const CutQuestion& q, const Search& search, Options options, Job& job,
+                                      const std::optional<CutPoint>& start = {}) {
   const std::uint32_t budget =
       options.evaluation_budget != 0 ? options.evaluation_budget : job.evaluation_budget;
   options.evaluation_budget = std::min(budget, kPointsPerSearch);
-  const auto pieces = search.pieces();
-  Options first = options;
-  if (pieces.size() > 1) first.fall_back = false;
-  auto whole = solve(search.problem(search.variables(), start), first, job);
-  if (!whole) return tl::unexpected(whole.error());
-  Solved best{search.at(whole->x), search.variables(), *std::move(whole)};
-  if (best.solution.outcome == Outcome::kOptimal || pieces.size() == 1) return best;
-  for (const auto& box : pieces) {
-    auto piece = solve(search.problem(box, start), options, job);
-    if (!piece) continue;  // the model has no value there
-    if (better(*piece, best.solution)) best = {search.at(piece->x), box, *std::move(piece)};
+  std::optional<Solved> best;
+  for (const auto& piece : search.pieces()) {
+    if (hopeless(q, search, piece)) continue;
+    auto s = solve(search.problem(piece, start), options, job);
+    if (!s && s.error().code == "OPT-MODEL") continue;  // no point of it has a value
+    if (!s) return tl::unexpected(s.error());
+    if (!best || better(*s, best->solution)) best = Solved{search.at(s->x), piece, *std::move(s)};
   }
   return best;
 }
@@ -153,9 +160,9 @@ std::optional<CutPoint> eased(const CutQuestion& q, const Solved& now, const std
   const Search search(more, now.point.ap_mm);
   Options one = options;
   one.starts = 1;
-  const auto solved = best_of(search, one, job, now.point);
-  if (!solved || !solved->solution.feasible) return std::nullopt;
-  return solved->point;
+  const auto solved = best_of(more, search, one, job, now.point);
+  if (!solved || !*solved || !(*solved)->solution.feasible) return std::nullopt;
+  return (*solved)->point;
 }
 
 struct Held {
@@ -172,9 +179,10 @@ std::vector<Held> held_by(const CutQuestion& q, const Solved& s, const CutAnswer
     if (l.kind == ActiveLimit::Kind::kConstraint) {
       const auto* at = std::find_if(kLimitsOfCut.begin(), kLimitsOfCut.end(),
                                     [&](const LimitOfCut& k) { return l.name == k.name; });
-      const auto i = static_cast<std::size_t>(at - kLimitsOfCut.begin());
-      c.name = l.name;
-      c.unit = at->unit;
+      auto i = static_cast<std::size_t>(at - kLimitsOfCut.begin());
+      if (l.name == "spindle_power" && short_of_torque(q, a.n_rpm)) i = 1;
+      c.name = kLimitsOfCut[i].name;
+      c.unit = kLimitsOfCut[i].unit;
       c.value = m[i].value;
       c.limit = m[i].limit;
       if (at->at_rpm) c.at_rpm = a.n_rpm;
@@ -217,24 +225,23 @@ void take_active(const CutQuestion& q, const Solved& s, const Options& options, 
   }
 }
 
-/// The answer for a cut that no point of the search can make; nothing when there may be one.
-std::optional<CutAnswer> hopeless(const CutQuestion& q, const Search& search) {
-  std::optional<CutPoint> nearest;
+/// The answer when nothing can be cut: what comes nearest, with what it violates.
+CutAnswer nearest(const CutQuestion& q, const Search& search) {
+  std::optional<CutAnswer> best;
   double least = 0.0;
-  for (const CutPoint& p : search.gentlest()) {
-    const auto loads = loads_of(q, p.ap_mm, p.ae_mm, p.n_rpm, p.feed_mm_min);
-    if (!loads) return std::nullopt;
-    const double excess = worst_excess(q, *loads, p.n_rpm);
-    if (excess <= kRounding) return std::nullopt;
-    if (!nearest || excess < least) {
-      nearest = p;
+  for (const auto& piece : search.pieces()) {
+    for (const CutPoint& p : search.gentlest(piece)) {
+      CutAnswer a = answer_at(q, p);
+      const double excess = worst_excess(q, a.loads, a.n_rpm);
+      const bool better_one =
+          !best || (a.feasible && !best->feasible) || (a.feasible == best->feasible && excess < least);
+      if (!better_one) continue;
+      best = std::move(a);
       least = excess;
     }
   }
-  CutAnswer a = answer_at(q, *nearest);
-  if (a.feasible) return std::nullopt;  // by a hair, after rounding
-  a.method = "least";
-  return a;
+  best->method = "least";
+  return *std::move(best);
 }
 
 struct Level {
@@ -249,11 +256,11 @@ Result<Level> solve_level(const CutQuestion& q, double ap_mm, const Options& opt
     out.answer.method = "given";
     return out;
   }
-  if (auto a = hopeless(q, search)) return Level{*std::move(a), std::nullopt};
-  auto solved = best_of(search, options, job);
+  auto solved = best_of(q, search, options, job);
   if (!solved) return tl::unexpected(solved.error());
-  Level out{answer_at(q, solved->point), std::nullopt};
-  out.answer.method = solved->solution.method;
+  if (!*solved) return Level{nearest(q, search), std::nullopt};
+  Level out{answer_at(q, (*solved)->point), std::nullopt};
+  out.answer.method = (*solved)->solution.method;
   out.solved = *std::move(solved);
   return out;
 }

@@ -61,6 +61,23 @@ bool least_fz_stated(const CutQuestion& q) {
   return it == s.end() || it->second.starts_with("stated");
 }
 
+bool short_of_torque(const CutQuestion& q, double n_rpm) {
+  constexpr double kNearlyAll = 0.98;
+  const auto curve = curve_of(q);
+  if (!curve) return false;
+  double most = 0.0;
+  for (const auto& p : curve->points()) {
+    if (const auto c = curve->at(p.rpm)) most = std::max(most, c->power_w);
+  }
+  const auto c = curve->at(std::clamp(n_rpm, curve->min_rpm(), curve->max_rpm()));
+  // Beyond the speed of most power the power falls again, and it is power that is short.
+  if (!c || c->power_w >= kNearlyAll * most) return false;
+  return std::any_of(curve->points().begin(), curve->points().end(), [&](const auto& p) {
+    const auto at = curve->at(p.rpm);
+    return at && p.rpm > n_rpm && at->power_w > c->power_w;
+  });
+}
+
 double ease_of(const CutQuestion& q, std::string_view limit) {
   return q.eased.name == limit ? q.eased.factor : 1.0;
 }
@@ -89,7 +106,8 @@ Measures measures(const CutQuestion& q, const model::StepLoads& l, double ap, do
   }
   if (mills) {
     m[2] = {l.deflection_mm, deflection_limit(q)};
-    if (largest_fz(q) > 0.0) m[3] = {l.chip_thickness_mm, largest_fz(q)};
+    // A catalogue's feed is along the feed: with a lead angle its chip is thinner from the start.
+    if (largest_fz(q) > 0.0) m[3] = {l.chip_thickness_mm, largest_fz(q) * std::cos(q.cutter.lead_angle_rad)};
     if (q.wall_error_limit_mm > 0.0) m[4] = {std::abs(l.wall_error_mm), q.wall_error_limit_mm};
     if (q.surface_ra_um > 0.0)
       m[5] = {1000.0 * kRoughnessOverGeometry * mechanics::kArcRaOverRz * l.surface_rz_mm, q.surface_ra_um};
@@ -102,6 +120,9 @@ Measures measures(const CutQuestion& q, const model::StepLoads& l, double ap, do
   if (mills && q.cutter.maximum_depth_of_cut_mm > 0.0) m[11] = {ap, q.cutter.maximum_depth_of_cut_mm};
   if (mills && q.ap_most_mm > 0.0) m[12] = {ap, q.ap_most_mm};
   for (std::size_t i = 0; i < m.size(); ++i) m[i].limit *= ease_of(q, kLimitsOfCut[i].name);
+  // More power is more torque at the same speed, and the other way round.
+  m[0].limit *= ease_of(q, kLimitsOfCut[1].name);
+  m[1].limit *= ease_of(q, kLimitsOfCut[0].name);
   return m;
 }
 

@@ -66,6 +66,10 @@ struct Range {
 /// Whether the least feed is the maker's own word, and not derived or a default.
 [[nodiscard]] bool least_fz_stated(const CutQuestion& q);
 
+/// Whether a spindle that gives no more at this speed is short of torque rather than of power: below the
+/// lowest speed at which it has (nearly) all its power.
+[[nodiscard]] bool short_of_torque(const CutQuestion& q, double n_rpm);
+
 /// `factor` of CutQuestion::eased for this limit.
 [[nodiscard]] double ease_of(const CutQuestion& q, std::string_view limit);
 

@@ -2,9 +2,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "planner/mechanics/beam.h"
 #include "planner/mechanics/constants.h"
 #include "planner/mechanics/drilling.h"
-#include "planner/mechanics/loads.h"
+#include "planner/mechanics/force_law.h"
+#include "planner/mechanics/section.h"
 #include "planner/mechanics/surface.h"
 #include "planner/optimise/cut/limits.h"
 
@@ -12,12 +14,6 @@ namespace capstan::optimise {
 namespace {
 
 using std::numbers::pi;
-
-/// How much larger a force may be than the coefficients say: their spread, and a worn edge.
-double force_margin(const CutQuestion& q) {
-  return std::max(mechanics::kForceUncertaintyFactor, 1.0 + q.material.kc_uncertainty) *
-         mechanics::kWearForceFactor;
-}
 
 mechanics::ToolStiffness stiffness(const model::Cutter& c) {
   const double e = c.substrate == model::Substrate::kCarbide ? mechanics::kCarbideYoungsModulusNMm2
@@ -36,6 +32,59 @@ double surface_rz(const CutQuestion& q, double fz_mm) {
   return corner > 0.0 ? std::max(wall, mechanics::floor_rz_mm(fz_mm, corner)) : wall;
 }
 
+model::AxisForces of(const mechanics::ForceVector& f, double margin) {
+  return {f.fx_n * margin, f.fy_n * margin, f.fz_n * margin};
+}
+
+/// How far bending pushes the wall that this arc leaves; nothing when it cannot be said.
+std::optional<double> wall_error(const CutQuestion& q, const mechanics::Section& section,
+                                 const mechanics::Tooth& tooth, const mechanics::ForceLaw& law, double fz_mm,
+                                 mechanics::WallSide side) {
+  const auto beam = mechanics::beam_of(q.cutter);
+  if (!beam) return std::nullopt;
+  const auto error = mechanics::wall_error(section, tooth, law, fz_mm, side, *beam);
+  if (!error) return std::nullopt;
+  return error->largest_mm();
+}
+
+/// A straight side cut, up or down milling, whichever is worse: the path may have both. `fz_mm` is with the
+/// feed turned up.
+std::optional<model::StepLoads> milling(const CutQuestion& q, double ap_mm, double ae_mm, double n_rpm,
+                                        double fz_mm) {
+  const auto compliance = mechanics::tip_compliance_mm_n(stiffness(q.cutter));
+  if (!compliance || !(ae_mm > 0.0) || !(ap_mm > 0.0)) return std::nullopt;
+  const mechanics::Tooth tooth = mechanics::tooth_of(q.cutter);
+  const mechanics::ForceLaw law = mechanics::force_law(q.material, q.cutter.substrate);
+  const double margin = mechanics::force_margin(q.material, q.cutter.substrate).factor();
+  const double up = feed_override(q);
+  model::StepLoads out;
+  for (const auto direction : {mechanics::CutDirection::kUp, mechanics::CutDirection::kDown}) {
+    const mechanics::Section section{
+        .ap_mm = ap_mm, .arc = mechanics::immersion_arc(ae_mm, tooth.cutting_diameter_mm, direction)};
+    const auto l = mechanics::section_loads(section, tooth, law, fz_mm, n_rpm);
+    if (!l) return std::nullopt;
+    if (l->peak_force_n * margin > out.peak_force_n) {
+      out.peak_force_n = l->peak_force_n * margin;
+      out.mean_force = of(l->mean, margin);
+      out.peak_force = of(l->peak, margin);
+    }
+    out.torque_nm = std::max(out.torque_nm, l->torque_nm * margin);
+    out.power_w = std::max(out.power_w, l->power_w * margin);
+    out.chip_thickness_mm = std::max(out.chip_thickness_mm, l->h_max_mm / up);
+    if (q.wall_error_limit_mm > 0.0) {
+      const bool is_up = direction == mechanics::CutDirection::kUp;
+      const auto error = wall_error(q, section, tooth, law, fz_mm,
+                                    is_up ? mechanics::WallSide::kLeft : mechanics::WallSide::kRight);
+      if (!error) return std::nullopt;
+      if (std::abs(*error * margin) > std::abs(out.wall_error_mm)) out.wall_error_mm = *error * margin;
+    }
+  }
+  out.deflection_mm = out.peak_force_n * *compliance;
+  out.mrr_mm3_min = ap_mm * ae_mm * fz_mm / up * tooth.teeth * n_rpm;
+  out.surface_rz_mm = surface_rz(q, fz_mm / up);
+  return out;
+}
+
 }  // namespace
 
 double feed_override(const CutQuestion& q) {
@@ -46,33 +95,12 @@ double feed_override(const CutQuestion& q) {
 
 std::optional<model::StepLoads> loads_of(const CutQuestion& q, double ap_mm, double ae_mm, double n_rpm,
                                          double feed_mm_min) {
-  const mechanics::WorkMaterial work{q.material.kc11_n_mm2, q.material.mc};
-  const double margin = force_margin(q);
   const double up = feed_override(q);
   const double fz = up * feed_mm_min / (n_rpm * teeth_of(q));
+  if (is_milling(q.kind)) return milling(q, ap_mm, std::min(ae_mm, q.cutter.cutting_diameter_mm), n_rpm, fz);
+  const mechanics::WorkMaterial work{q.material.kc11_n_mm2, q.material.mc};
+  const double margin = mechanics::kienzle_margin(q.material).factor();
   model::StepLoads out;
-  if (is_milling(q.kind)) {
-    mechanics::MillingCut c;
-    c.ap_mm = ap_mm;
-    c.ae_mm = std::min(ae_mm, q.cutter.cutting_diameter_mm);
-    c.fz_mm = fz;
-    c.n_rpm = n_rpm;
-    c.cutting_diameter_mm = q.cutter.cutting_diameter_mm;
-    c.teeth = teeth_of(q);
-    c.helix_rad = q.cutter.helix_rad;
-    c.corner_radius_mm = q.cutter.corner_radius_mm;
-    c.ball = q.cutter.cutter_class == model::CutterClass::kBallEndmill;
-    const auto l = mechanics::milling_loads(c, work, stiffness(q.cutter));
-    if (!l) return std::nullopt;
-    out.peak_force_n = l->peak_force_n * margin;
-    out.torque_nm = l->torque_nm * margin;
-    out.power_w = l->power_w * margin;
-    out.deflection_mm = l->deflection_mm * margin;
-    out.chip_thickness_mm = l->h_max_mm / up;
-    out.mrr_mm3_min = l->mrr_mm3_min / up;
-    out.surface_rz_mm = surface_rz(q, fz / up);
-    return out;
-  }
   if (q.kind == CutKind::kTap) {
     mechanics::TappingCut c;
     c.nominal_diameter_mm = q.cutter.cutting_diameter_mm;

@@ -144,18 +144,14 @@ std::vector<std::vector<Variable>> Search::pieces() const {
   return out;
 }
 
-std::vector<CutPoint> Search::gentlest() const {
+std::vector<CutPoint> Search::gentlest(const std::vector<Variable>& piece) const {
   std::vector<double> x;
-  for (const Variable& v : variables_) x.push_back(v.lower);
+  for (const Variable& v : piece) x.push_back(v.lower);
   std::vector<CutPoint> out = {at(x)};
-  for (std::size_t j = 0; j < variables_.size(); ++j) {
-    if (variables_[j].name != kSpeed) continue;
-    std::vector<double> at_speed = corners(variables_[j]);
-    at_speed.push_back(variables_[j].upper);
-    for (const double v : at_speed) {
-      x[j] = v;
-      out.push_back(at(x));
-    }
+  for (std::size_t j = 0; j < piece.size(); ++j) {
+    if (piece[j].name != kSpeed) continue;
+    x[j] = piece[j].upper;
+    out.push_back(at(x));
   }
   return out;
 }
@@ -176,7 +172,8 @@ Problem Search::problem(std::vector<Variable> box, const std::optional<CutPoint>
   for (std::size_t i = 0; i < stated.size(); ++i) {
     const std::string name = kLimitsOfCut[i].name;
     const bool varies = kLimitsOfCut[i].of_loads || name == "chip_thickness_least" || name == "axis_feed";
-    if (!varies || !stated[i].stated()) continue;
+    // Power and torque of a spindle are one limit at any speed: see SpindleCurve::at.
+    if (!varies || !stated[i].stated() || name == "spindle_torque") continue;
     limits.push_back(i);
     p.constraints.push_back(name);
   }

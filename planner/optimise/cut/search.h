@@ -24,10 +24,10 @@ class Search {
   /// where the chip stops growing and where the effective diameter ends. One: there are none.
   [[nodiscard]] std::vector<std::vector<Variable>> pieces() const;
 
-  /// Where a cut asks for least: lowest feed, narrowest width, at the speeds between which the spindle's
-  /// torque runs without a corner. Loads rise with feed and width, so if none of these points keeps the
+  /// Where a piece asks for least: lowest feed, narrowest width, at either end of its speeds. Loads rise with
+  /// feed and width, and the spindle's torque has no corner inside a piece, so if neither point keeps the
   /// limits of loads, no point does.
-  [[nodiscard]] std::vector<CutPoint> gentlest() const;
+  [[nodiscard]] std::vector<CutPoint> gentlest(const std::vector<Variable>& piece) const;
 
   /// Minimise the logarithm of the objective over a part of the box, from `start` where one is known. A
   /// multiplier then is a fraction of the objective.
