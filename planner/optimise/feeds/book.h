@@ -1,0 +1,54 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <tuple>
+#include <vector>
+
+#include "planner/optimise/feeds/judge.h"
+
+/// Sections on a grid: each is judged once, however many samples share it.
+namespace capstan::optimise::feed {
+
+/// What a class of sections bears, at the edge's feed (gain 1).
+struct Page {
+  Cut cut;                      ///< the heaviest of the class
+  double feed_mm_min = 0.0;     ///< the largest within every limit; 0: not even the least feed
+  Column at_limit{};            ///< largest feed of each limit alone
+  Column at_more{};             ///< the same with 10 % more of that limit
+  bool known = true;            ///< false: outside the formulas' range
+  double most_scheduled = 0.0;  ///< largest edge feed scheduled so far; for the peak loads
+};
+
+/// By how much more of one limit the saving is told.
+inline constexpr double kMoreOfALimit = 1.1;
+
+class Book {
+ public:
+  explicit Book(const FeedQuestion& q) : q_(q) {}
+
+  [[nodiscard]] const Judge& judge(double n_rpm);
+  /// The class of a cut, rounded to the heavier side: depth by 0.25 %, arc by 1 to 2 %.
+  [[nodiscard]] Page& page(const Cut& cut, double n_rpm);
+  [[nodiscard]] const Page& plunge(double n_rpm);
+
+  /// Each page once, in a fixed order.
+  template <class F>
+  void each(F&& f) {
+    for (auto& [key, page] : pages_) f(judge(std::get<0>(key)), page);
+  }
+  [[nodiscard]] std::size_t pages() const { return pages_.size(); }
+
+ private:
+  using Key = std::tuple<double, long, long, long>;  // speed, depth, sweep, entry
+  void fill(Page& page, const Judge& judge) const;
+
+  const FeedQuestion& q_;
+  std::map<double, Judge> judges_;
+  std::map<Key, Page> pages_;
+  std::map<double, Page> plunges_;
+  Key last_key_{-1.0, 0, 0, 0};
+  Page* last_ = nullptr;
+};
+
+}  // namespace capstan::optimise::feed

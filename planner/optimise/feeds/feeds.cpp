@@ -1,0 +1,181 @@
+#include "planner/optimise/feeds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "planner/mechanics/surface.h"
+#include "planner/optimise/feeds/followed.h"
+
+namespace capstan::optimise {
+namespace {
+
+using namespace feed;
+using model::CutterPath;
+using model::MoveKind;
+using model::MoveRole;
+
+/// Plunges and ramps keep their own feed, where it is lower.
+bool ends_in(MoveRole r) { return r == MoveRole::kPlunge || r == MoveRole::kRamp; }
+
+/// The largest feed that every section of the cut bears, to 1e-6: by the grid first, directly where it
+/// matters.
+double constant_feed(const FeedQuestion& q, const CutterPath& path, Book& book) {
+  double best = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const double given = i < q.feed_factor.size() ? std::max(q.feed_factor[i], 0.0) : 1.0;
+    if (path.role[i] == MoveRole::kCut && given > 0.0)
+      best = std::max(best, q.samples.empty() ? q.feed_mm_min : book.judge(rpm_on(q, i)).ceiling_mm_min());
+  }
+  if (!(best > 0.0)) best = q.feed_mm_min;
+  if (!cuts_sideways(q.cut.kind) || !q.adapt) return best;
+  const double diameter = q.cut.cutter.cutting_diameter_mm;
+  std::vector<std::pair<double, std::size_t>> order;
+  for (std::size_t k = 0; k < q.samples.size(); ++k) {
+    const CutSample& s = q.samples[k];
+    if (s.plunge || !(s.ap_mm > 0.0) || s.move >= path.size() || ends_in(path.role[s.move])) continue;
+    const double n = rpm_on(q, s.move);
+    const double on_grid = bears(book, s, diameter, n).feed_mm_min;
+    if (on_grid < best) order.emplace_back(on_grid, k);
+  }
+  std::sort(order.begin(), order.end());
+  for (const auto& [on_grid, k] : order) {
+    if (on_grid >= best) break;
+    const CutSample& s = q.samples[k];
+    const Judge& judge = book.judge(rpm_on(q, s.move));
+    const Cuts cuts = cuts_of(s, diameter);
+    for (std::size_t c = 0; c < cuts.n; ++c) {
+      const auto at_best = judge.at(cuts.cut[c], best);
+      if (at_best && ratio(at_best->load, judge.limits()) <= 1.0) continue;
+      best = std::max(judge.largest(cuts.cut[c], best), judge.floor_mm_min());
+    }
+  }
+  return best;
+}
+
+void keep_largest(double& a, double b) {
+  if (std::abs(b) > std::abs(a)) a = b;
+}
+
+void keep_peak(model::StepLoads& peak, const State& s, const Judge& judge) {
+  const auto load = [&](Limit l) { return s.load[static_cast<std::size_t>(l)]; };
+  peak.peak_force_n = std::max(peak.peak_force_n, load(Limit::kForce));
+  peak.deflection_mm = std::max(peak.deflection_mm, load(Limit::kDeflection));
+  peak.torque_nm = std::max(peak.torque_nm, load(Limit::kTorque));
+  peak.power_w = std::max(peak.power_w, load(Limit::kPower));
+  peak.chip_thickness_mm = std::max(peak.chip_thickness_mm, load(Limit::kChip));
+  // From the Ra that `cut` compares back to the height of the marks.
+  const double rz = load(Limit::kSurface) / (1000.0 * kRoughnessOverGeometry * mechanics::kArcRaOverRz);
+  peak.surface_rz_mm = std::max(peak.surface_rz_mm, rz);
+  peak.wall_error_mm = std::max(peak.wall_error_mm, load(Limit::kWallError));
+  const double margin = judge.margin();
+  keep_largest(peak.mean_force.x_n, margin * s.raw.mean.fx_n);
+  keep_largest(peak.mean_force.y_n, margin * s.raw.mean.fy_n);
+  keep_largest(peak.mean_force.z_n, margin * s.raw.mean.fz_n);
+  keep_largest(peak.peak_force.x_n, margin * s.raw.peak.fx_n);
+  keep_largest(peak.peak_force.y_n, margin * s.raw.peak.fy_n);
+  keep_largest(peak.peak_force.z_n, margin * s.raw.peak.fz_n);
+  peak.force_margin = margin;
+}
+
+/// Loads of every class of section at the largest feed it is cut with.
+void measure_peaks(const FeedQuestion& q, const model::FeedSchedule& schedule, Book& book, FeedAnswer& a) {
+  const double diameter = q.cut.cutter.cutting_diameter_mm;
+  double removal = 0.0;
+  for (const CutSample& s : q.samples) {
+    if (s.plunge || s.move >= schedule.feed_mm_min.size()) continue;
+    const double feed = schedule.feed_mm_min[s.move];
+    const Cuts cuts = cuts_of(s, diameter);
+    for (std::size_t c = 0; c < cuts.n && feed > 0.0; ++c) {
+      Page& page = book.page(cuts.cut[c], rpm_on(q, s.move));
+      page.most_scheduled = std::max(page.most_scheduled, feed * cuts.cut[c].gain);
+      removal = std::max(removal, feed * (s.csa_mm2 > 0.0 ? s.csa_mm2 : s.ap_mm * s.ae_mm));
+    }
+  }
+  book.each([&](const Judge& judge, const Page& page) {
+    if (!(page.most_scheduled > 0.0)) return;
+    const auto s = judge.at(page.cut, page.most_scheduled);
+    if (!s) return;
+    keep_peak(a.peak, *s, judge);
+    a.worst_excess = std::max(a.worst_excess, ratio(s->load, judge.limits()) - 1.0);
+  });
+  a.peak.mrr_mm3_min = removal;
+}
+
+/// Feeds that are given, and those of drills, reamers and taps.
+void as_planned(const FeedQuestion& q, const CutterPath& path, const std::vector<Cap>& caps, FeedAnswer& a) {
+  std::vector<double> feed(path.size(), 0.0);
+  const auto reach = motion::reach_along(path, q.cut.machine);
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    feed[i] = caps[i].feed_mm_min;
+    if (!q.adapt || q.cut.kind == CutKind::kTap || path.kind[i] == MoveKind::kRapid ||
+        path.kind[i] == MoveKind::kDwell)
+      continue;
+    if (reach && (*reach)[i].length_mm > 0.0) feed[i] = std::min(feed[i], (*reach)[i].most_mm_min);
+    feed[i] = std::max(std::floor(feed[i] * 10.0 + 1e-6) / 10.0, 0.1);
+  }
+  if (!feed.empty()) feed[0] = q.feed_mm_min;
+  a.schedule = schedule_with(q, path, std::move(feed));
+}
+
+}  // namespace
+
+FeedAnswer feeds(const FeedQuestion& q, const CutterPath& path) {
+  FeedAnswer a;
+  Book book(q);
+  const std::vector<Cap> caps = caps_of(q, path, book);
+  const bool sideways = cuts_sideways(q.cut.kind);
+  if (!q.adapt || !sideways) {
+    as_planned(q, path, caps, a);
+  } else {
+    std::vector<double> most(path.size(), 0.0);
+    std::vector<Holder> by(path.size(), Holder::kStepFeed);
+    const double one = q.constant ? constant_feed(q, path, book) : 0.0;
+    for (std::size_t i = 1; i < path.size(); ++i) {
+      most[i] = caps[i].feed_mm_min;
+      by[i] = caps[i].by;
+      if (!q.constant || by[i] == Holder::kAir) continue;
+      most[i] = ends_in(path.role[i]) ? std::min(most[i], one) : one;
+    }
+    Followed f = followed(q, path, std::move(most), std::move(by), q.cut.machine);
+    if (q.explain && !q.constant) a.held_by = held_by(q, path, caps, book, f);
+    for (std::size_t k = 0; k < kLimits; ++k) {
+      for (std::size_t i = 1; i < path.size(); ++i) {
+        if (static_cast<std::size_t>(caps[i].by) != k || caps[i].feed_mm_min >= q.feed_mm_min) continue;
+        a.slowed.emplace_back(kLimitNames[k]);
+        break;
+      }
+    }
+    if (!f.feed_mm_min.empty()) f.feed_mm_min[0] = q.feed_mm_min;
+    a.schedule = schedule_with(q, path, std::move(f.feed_mm_min));
+  }
+  if (sideways) {
+    measure_peaks(q, a.schedule, book, a);
+  } else if (const auto l = loads_of(q.cut, 0.0, 0.0, std::abs(q.n_rpm), q.feed_mm_min)) {
+    a.peak = *l;
+    a.worst_excess = worst_excess(q.cut, *l, std::abs(q.n_rpm));
+  }
+  return a;
+}
+
+double largest_feed(const FeedQuestion& q, const CutSample& s) {
+  const Judge judge(q, rpm_on(q, s.move));
+  const Cuts cuts = cuts_of(s, q.cut.cutter.cutting_diameter_mm);
+  double best = judge.ceiling_mm_min();
+  for (std::size_t c = 0; c < cuts.n; ++c) best = std::min(best, judge.largest(cuts.cut[c], best));
+  return best;
+}
+
+std::optional<double> excess_at(const FeedQuestion& q, const CutSample& s, double feed_mm_min) {
+  const Judge judge(q, rpm_on(q, s.move));
+  const Cuts cuts = cuts_of(s, q.cut.cutter.cutting_diameter_mm);
+  double worst = -1.0;
+  for (std::size_t c = 0; c < cuts.n; ++c) {
+    const auto state = judge.at(cuts.cut[c], feed_mm_min);
+    if (!state) return std::nullopt;
+    worst = std::max(worst, ratio(state->load, judge.limits()) - 1.0);
+  }
+  return worst;
+}
+
+}  // namespace capstan::optimise

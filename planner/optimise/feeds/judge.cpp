@@ -1,0 +1,188 @@
+#include "planner/optimise/feeds/judge.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "planner/mechanics/constants.h"
+#include "planner/mechanics/drilling.h"
+#include "planner/mechanics/force_law.h"
+#include "planner/mechanics/surface.h"
+#include "planner/optimise/cut/limits.h"
+
+namespace capstan::optimise::feed {
+namespace {
+
+using std::numbers::pi;
+
+constexpr double kNoLimit = 1e12;  // of what nobody states
+constexpr double kWhole = 0.95;    // share of depth times width from which a section is a rectangle
+
+mechanics::ToolStiffness stiffness(const model::Cutter& c) {
+  const double e = c.substrate == model::Substrate::kCarbide ? mechanics::kCarbideYoungsModulusNMm2
+                                                             : mechanics::kHssYoungsModulusNMm2;
+  const double out =
+      c.stick_out_mm > 0.0 ? c.stick_out_mm : std::max(c.usable_length_mm, 3.0 * c.cutting_diameter_mm);
+  const double shank = c.shank_diameter_mm > 0.0 ? c.shank_diameter_mm : c.cutting_diameter_mm;
+  const double flute = c.maximum_depth_of_cut_mm > 0.0 ? std::min(c.maximum_depth_of_cut_mm, out) : out;
+  return {out, shank, flute, c.cutting_diameter_mm, e};
+}
+
+/// Width of an arc across the feed.
+double width_of(double entry, double exit, double diameter) {
+  return 0.5 * diameter * (std::cos(entry) - std::cos(exit));
+}
+
+/// An arc of this width within a measured one, at the side where the measured one ends in the wall.
+Cut trimmed_arc(double ap, double width, const CutSample& s, double diameter) {
+  const double w = std::clamp(width, 0.0, diameter);
+  const double phi = std::acos(std::clamp(1.0 - 2.0 * w / diameter, -1.0, 1.0));
+  const bool up = s.entry_rad < pi - s.exit_rad - 1e-9;
+  return up ? Cut{ap, 0.0, phi, 1.0} : Cut{ap, pi - phi, pi, 1.0};
+}
+
+/// The rectangle of a depth and a width at the section's place: the arc that was measured where it is about
+/// as wide, else one of that width. What the arc lacks is speed of the edge.
+Cut rectangle(double ap, double ae, const CutSample& s, double diameter) {
+  const double entry = std::clamp(s.entry_rad, 0.0, pi);
+  const double exit = std::clamp(s.exit_rad, entry, pi);
+  const double measured = width_of(entry, exit, diameter);
+  // Inside of a corner the edge removes more than the arc's width; much more is an arc not measured.
+  constexpr double kTooWide = 0.98;
+  constexpr double kTooNarrow = 1.4;
+  Cut c = measured > 0.0 && ae >= kTooWide * measured && ae <= kTooNarrow * measured
+              ? Cut{ap, entry, exit, 1.0}
+              : trimmed_arc(ap, ae, s, diameter);
+  const double width = width_of(c.entry_rad, c.exit_rad, diameter);
+  if (width > 0.0) c.gain = std::max(1.0, ae / width);
+  return c;
+}
+
+}  // namespace
+
+Cuts cuts_of(const CutSample& s, double diameter) {
+  Cuts out;
+  const double ap = s.ap_mm;
+  const double ae = s.ae_mm;
+  if (!(ap > 0.0) || !(ae > 0.0) || !(diameter > 0.0)) return out;
+  if (s.csa_mm2 > 0.0 && s.csa_mm2 < kWhole * ap * ae) {
+    out.cut[out.n++] = rectangle(ap, s.csa_mm2 / ap, s, diameter);
+    out.cut[out.n++] = rectangle(s.csa_mm2 / ae, ae, s, diameter);
+    return out;
+  }
+  out.cut[out.n++] = rectangle(ap, std::max(ae, s.csa_mm2 / ap), s, diameter);
+  return out;
+}
+
+double ratio(const Column& load, const Column& limit) {
+  double worst = 0.0;
+  for (std::size_t i = 0; i < kLimits; ++i) worst = std::max(worst, load[i] / limit[i]);
+  return worst;
+}
+
+Judge::Judge(const FeedQuestion& question, double n_rpm)
+    : q_(question.cut),
+      n_(std::abs(n_rpm)),
+      tooth_(mechanics::tooth_of(question.cut.cutter)),
+      law_(mechanics::force_law(question.cut.material, question.cut.cutter.substrate)) {
+  up_ = feed_override(q_);
+  margin_ = mechanics::force_margin(q_.material, q_.cutter.substrate).factor();
+  if (const auto c = mechanics::tip_compliance_mm_n(stiffness(q_.cutter))) compliance_ = *c;
+  if (q_.wall_error_limit_mm > 0.0) {
+    if (auto beam = mechanics::beam_of(q_.cutter)) beam_ = *std::move(beam);
+  }
+  // Limits are those of `cut`: power, torque, deflection, chip, wall, surface, force.
+  const Measures m = measures(q_, {}, 0.0, n_, 0.0);
+  constexpr std::array<std::size_t, kLimits> kOfCut = {6, 2, 1, 0, 3, 5, 4};
+  for (std::size_t i = 0; i < kLimits; ++i) limits_[i] = std::min(m[kOfCut[i]].limit, kNoLimit);
+  const double chip = limits_[static_cast<std::size_t>(Limit::kChip)];
+  const double nominal = question.feed_mm_min;
+  // Finishing goes faster than planned only where a surface that is asked for bounds it.
+  const bool faster = chip < kNoLimit && (q_.kind == CutKind::kRough || q_.surface_ra_um > 0.0);
+  ceiling_ = faster ? std::max(nominal, kMostThinning * chip * tooth_.teeth * n_) : nominal;
+  floor_ = kLeastFeedShare * nominal;
+}
+
+double Judge::surface_um(double fz) const {
+  const double wall = mechanics::wall_rz_mm(fz, q_.cutter.cutting_diameter_mm);
+  const double corner = q_.cutter.corner_radius_mm;
+  const double rz = corner > 0.0 ? std::max(wall, mechanics::floor_rz_mm(fz, corner)) : wall;
+  return 1000.0 * kRoughnessOverGeometry * mechanics::kArcRaOverRz * rz;
+}
+
+std::optional<double> Judge::wall_mm(const mechanics::Section& section, double fz) const {
+  double worst = 0.0;
+  constexpr double kReaches = 1e-9;
+  const auto side = [&](mechanics::WallSide w) {
+    const auto e = mechanics::wall_error(section, tooth_, law_, fz, w, beam_);
+    if (!e) return false;
+    worst = std::max(worst, std::abs(e->largest_mm()));
+    return true;
+  };
+  if (section.arc.entry_rad <= kReaches && !side(mechanics::WallSide::kLeft)) return std::nullopt;
+  if (section.arc.exit_rad >= pi - kReaches && !side(mechanics::WallSide::kRight)) return std::nullopt;
+  return worst;
+}
+
+std::optional<State> Judge::at(const Cut& cut, double feed) const {
+  const double fz = feed / (n_ * tooth_.teeth) * cut.gain;
+  const mechanics::Section section{.ap_mm = cut.ap_mm, .arc = {cut.entry_rad, cut.exit_rad}};
+  const auto l = mechanics::section_loads(section, tooth_, law_, up_ * fz, n_);
+  if (!l) return std::nullopt;
+  State s;
+  s.raw = *l;
+  const double force = l->peak_force_n * margin_;
+  // Chip and surface as planned, as in `cut`; what breaks something also with the override.
+  s.load = {force,
+            force * compliance_,
+            l->torque_nm * margin_,
+            l->power_w * margin_,
+            l->h_max_mm / up_,
+            surface_um(fz),
+            0.0};
+  if (!beam_.segments.empty()) {
+    const auto wall = wall_mm(section, up_ * fz);
+    if (!wall) return std::nullopt;
+    s.load[static_cast<std::size_t>(Limit::kWallError)] = *wall * margin_;
+  }
+  for (const double v : s.load) {
+    if (!std::isfinite(v)) return std::nullopt;
+  }
+  return s;
+}
+
+std::optional<State> Judge::plunging(double feed) const {
+  mechanics::DrillingCut c;
+  c.diameter_mm = q_.cutter.cutting_diameter_mm;
+  c.feed_mm_per_rev = up_ * feed / n_;
+  c.n_rpm = n_;
+  c.teeth = tooth_.teeth;
+  c.point_angle_rad = pi;
+  const auto l = mechanics::drilling_loads(c, law_.kienzle);
+  if (!l) return std::nullopt;
+  State s;
+  s.load[static_cast<std::size_t>(Limit::kTorque)] = l->torque_nm * margin_;
+  s.load[static_cast<std::size_t>(Limit::kPower)] = l->power_w * margin_;
+  s.load[static_cast<std::size_t>(Limit::kChip)] = l->chip_thickness_mm / up_;
+  return s;
+}
+
+double Judge::largest(const Cut& cut, double most) const {
+  const auto ok = [&](double feed) {
+    const auto s = at(cut, feed);
+    return s && ratio(s->load, limits_) <= 1.0;
+  };
+  if (!(most > 0.0) || ok(most)) return most;
+  double lo = floor_;
+  double hi = most;
+  if (!(lo < hi) || !ok(lo)) return 0.0;
+  constexpr double kNear = 1e-7;
+  for (int i = 0; i < 60 && hi > lo * (1.0 + kNear); ++i) {
+    const double mid = std::sqrt(lo * hi);
+    (ok(mid) ? lo : hi) = mid;
+  }
+  return lo;
+}
+
+}  // namespace capstan::optimise::feed
