@@ -284,6 +284,36 @@ void read_abilities(Fields& top, Machine& m) {
   keep_sources(f, m);
 }
 
+/// Modes of the tool point, as a tap test gives them: far apart from what can be, a slip of unit.
+void read_modes(Fields& top, Machine& m) {
+  const Node* list = top.child("modes", false);
+  if (list == nullptr) return;
+  for (std::size_t i = 0; i < list->items.size(); ++i) {
+    Fields f = top.below("modes[" + std::to_string(i) + "]", list->items[i]);
+    const std::size_t before = f.fault_count();
+    model::ToolPointMode mode;
+    mode.cutter_id = f.text_or("cutter", "");
+    mode.direction = f.text("direction");
+    mode.frequency_hz = f.number("frequency_hz");
+    mode.damping_ratio = f.number("damping_ratio");
+    mode.stiffness_n_mm = f.number("stiffness_n_mm");
+    const auto within = [&](const char* key, double value, double low, double high, const char* expected) {
+      if (value >= low && value <= high) return;
+      f.fault("MACHINE-RANGE", std::string(key) + " is " + trimmed(value, 6), key, f.line_of(key), expected);
+    };
+    if (f.fault_count() == before) {
+      if (mode.direction != "x" && mode.direction != "y")
+        f.fault("MACHINE-RANGE", "the direction is '" + mode.direction + "'", "direction",
+                f.line_of("direction"), "x or y, of the machine");
+      within("frequency_hz", mode.frequency_hz, 5.0, 20000.0, "5 to 20,000 Hz");
+      within("damping_ratio", mode.damping_ratio, 1e-4, 0.5, "0.0001 to 0.5, as a fraction of the critical");
+      within("stiffness_n_mm", mode.stiffness_n_mm, 10.0, 1e7, "10 to 10,000,000 N/mm (1 N/um is 1000 N/mm)");
+    }
+    keep_sources(f, m);
+    m.modes.push_back(std::move(mode));
+  }
+}
+
 void read_magazine(Fields& top, Machine& m) {
   const Node* node = top.child("magazine", true);
   if (node == nullptr) return;
@@ -372,6 +402,7 @@ Result<Machine> read_machine(std::string_view text, const std::string& file, Job
   read_coolant(top, m);
   read_control(top, m);
   read_abilities(top, m);
+  read_modes(top, m);
   top.finish();
   if (auto d = tell(std::move(faults), job)) return fail(std::move(*d));
   return m;

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "planner/base/number.h"
+#include "planner/model/cutter.h"
 #include "tooling/catalogue/data.h"
 #include "tooling/catalogue/tree.h"
 
@@ -65,6 +66,85 @@ void read_names(Fields& f, WorkMaterial& m) {
   }
 }
 
+/// The substrate of a measured set or a life law, checked.
+std::string read_substrate(Fields& f) {
+  std::string out = f.text("substrate");
+  if (!out.empty() && !model::substrate_from_text(out))
+    f.fault("MATERIAL-SUBSTRATE", "'" + out + "' is no substrate of a tool", "substrate",
+            f.line_of("substrate"), "hss or carbide");
+  return out;
+}
+
+/// Where each set's alloys are kept until a name is looked up: "set 0 for 6061".
+std::string set_key(std::size_t set) { return "set " + std::to_string(set) + " for "; }
+
+void read_sets(Fields& f, WorkMaterial& m) {
+  const Node* rows = f.child("mechanistic", false);
+  if (rows == nullptr) return;
+  for (const Node& row : rows->items) {
+    Fields r = f.below("mechanistic", row);
+    const std::size_t before = r.fault_count();
+    model::MechanisticSet set;
+    set.substrate = read_substrate(r);
+    set.ktc_n_mm2 = r.number("ktc_n_mm2");
+    set.kte_n_mm = r.number_or("kte_n_mm", 0.0);
+    set.krc_n_mm2 = r.number("krc_n_mm2");
+    set.kre_n_mm = r.number_or("kre_n_mm", 0.0);
+    set.kac_n_mm2 = r.number_or("kac_n_mm2", 0.0);
+    set.kae_n_mm = r.number_or("kae_n_mm", 0.0);
+    set.uncertainty = r.number("uncertainty");
+    set.source = r.source();
+    if (set.source.empty()) r.fault("DATA-SOURCE", "no source is stated", "mechanistic", r.line());
+    if (r.fault_count() == before) {
+      check(set.ktc_n_mm2, 50, 10000, "ktc_n_mm2", r);
+      check(set.krc_n_mm2, 0, 10000, "krc_n_mm2", r);
+      check(set.kac_n_mm2, 0, 10000, "kac_n_mm2", r);
+      check(set.kte_n_mm, 0, 200, "kte_n_mm", r);
+      check(set.kre_n_mm, 0, 200, "kre_n_mm", r);
+      check(set.kae_n_mm, 0, 200, "kae_n_mm", r);
+      check(set.uncertainty, 0, 5, "uncertainty", r);
+    }
+    if (const Node* alloys = r.child("for", false))
+      for (const std::string& name : words_of(*alloys))
+        m.sources.emplace_back(set_key(m.mechanistic.size()) + name, set.source);
+    m.mechanistic.push_back(std::move(set));
+    r.finish();
+  }
+}
+
+void read_life(Fields& f, WorkMaterial& m) {
+  const Node* rows = f.child("life", false);
+  if (rows == nullptr) return;
+  for (const Node& row : rows->items) {
+    Fields r = f.below("life", row);
+    const std::size_t before = r.fault_count();
+    model::ToolLifeLaw law;
+    law.substrate = read_substrate(r);
+    law.v0_m_min = r.number("v0_m_min");
+    law.life_min = r.number("life_min");
+    law.n = r.number("n");
+    law.h0_mm = r.number_or("h0_mm", 0.0);
+    law.p = r.number_or("p", 0.0);
+    law.a0_mm = r.number_or("a0_mm", 0.0);
+    law.q = r.number_or("q", 0.0);
+    law.scatter = r.number_or("scatter", 0.0);
+    law.source = r.source();
+    if (law.source.empty()) r.fault("DATA-SOURCE", "no source is stated", "life", r.line());
+    if (r.fault_count() == before) {
+      check(law.v0_m_min, 1, 3000, "v0_m_min", r);
+      check(law.life_min, 0.1, 10000, "life_min", r);
+      check(law.n, 0.02, 1.0, "n", r);
+      check(law.scatter, 0, 2, "scatter", r);
+      check(law.p, 0, 20, "p", r);
+      check(law.q, 0, 20, "q", r);
+      if (law.p > 0.0) check(law.h0_mm, 0.001, 5, "h0_mm", r);
+      if (law.q > 0.0) check(law.a0_mm, 0.01, 200, "a0_mm", r);
+    }
+    m.life.push_back(std::move(law));
+    r.finish();
+  }
+}
+
 WorkMaterial read_material(Fields f, double uncertainty, const std::string& uncertainty_source) {
   WorkMaterial m;
   m.id = f.text("id");
@@ -93,6 +173,8 @@ WorkMaterial read_material(Fields f, double uncertainty, const std::string& unce
     f.fault("MATERIAL-GROUP", "'" + m.iso_group + "' is no group of ISO 513", "iso_group",
             f.line_of("iso_group"), "P, M, K, N, S or H");
   read_names(f, m);
+  read_sets(f, m);
+  read_life(f, m);
   f.finish();
   return m;
 }
@@ -181,8 +263,23 @@ bool says(const std::string& text, const std::string& word) {
   return false;
 }
 
-WorkMaterial chosen(const WorkMaterial& m, std::string why) {
+/// The material with those measured sets that are of the alloy meant: a set that names its alloys holds for
+/// them alone, and is dropped when only the family is known.
+WorkMaterial chosen(const WorkMaterial& m, const std::string& alloy, std::string why) {
   WorkMaterial out = m;
+  out.mechanistic.clear();
+  std::erase_if(out.sources, [](const auto& s) { return s.first.starts_with("set "); });
+  for (std::size_t i = 0; i < m.mechanistic.size(); ++i) {
+    const std::string key = set_key(i);
+    bool named = false;
+    bool meant = false;
+    for (const auto& [path, source] : m.sources) {
+      if (!path.starts_with(key)) continue;
+      named = true;
+      meant = meant || plain(path.substr(key.size())) == plain(alloy);
+    }
+    if (!named || meant) out.mechanistic.push_back(m.mechanistic[i]);
+  }
   out.sources.emplace_back("chosen", std::move(why));
   return out;
 }
@@ -219,7 +316,7 @@ Result<WorkMaterial> find_material(const std::vector<std::string>& texts,
     for (const std::string& text : texts) {
       const Match m = search(plain(text), materials);
       if (m.material == nullptr) continue;
-      return chosen(*m.material, "'" + text + "' is " + m.name + ": " + m.source);
+      return chosen(*m.material, m.name, "'" + text + "' is " + m.name + ": " + m.source);
     }
   }
   auto table = read_table(shipped_text(kFile), kFile, job);
@@ -237,13 +334,13 @@ Result<WorkMaterial> find_material(const std::vector<std::string>& texts,
     const WorkMaterial* m = by_id(materials, best->material);
     if (m == nullptr) continue;
     job.warn("MATERIAL-FAMILY", "the material '" + text + "' names only a family; taken as " + m->id);
-    return chosen(*m, "'" + text + "': " + best->source);
+    return chosen(*m, {}, "'" + text + "': " + best->source);
   }
   const WorkMaterial* m = by_id(materials, table->unknown.material);
   if (m == nullptr) m = &hardest(materials);
   job.warn("MATERIAL-UNKNOWN", "the material is not known (" + joined(texts) + "); taken as " + m->id +
                                    ", name one to plan for it");
-  return chosen(*m, table->unknown.source);
+  return chosen(*m, {}, table->unknown.source);
 }
 
 Result<WorkMaterial> find_material(const std::string& text, const std::vector<WorkMaterial>& materials,

@@ -11,11 +11,12 @@
 namespace capstan::tooling {
 
 /// The material table that comes with the planner (tooling/data/materials.yaml), in file order.
-/// Every number and every name has a source in WorkMaterial::sources ("kc11_n_mm2", "name ST-50", ...).
+/// Every number and every name has a source in WorkMaterial::sources ("kc11_n_mm2", "name ST-50", ...). Measured
+/// sets that hold for some alloys only have them there, too ("set 0 for 6061"); find_material picks by them.
 [[nodiscard]] Result<std::vector<model::WorkMaterial>> shipped_materials();
 
 /// As above from a text of the same form.
-/// Fails  DATA-*, MATERIAL-RANGE for a value no material has; each fault is reported to the job first.
+/// Fails  DATA-*, MATERIAL-RANGE for a value no material has, MATERIAL-SUBSTRATE; each fault is reported to the job first.
 [[nodiscard]] Result<std::vector<model::WorkMaterial>> read_materials(std::string_view text,
                                                                       const std::string& file, Job& job);
 
@@ -23,7 +24,7 @@ namespace capstan::tooling {
 /// material_identifier): an id or a name, letter case and punctuation aside; a name followed by a temper or
 /// quality ("EN AW-6061-T6"); else a family's word ("STEEL"), which stands for its hardest card; else the
 /// shipped table's `unknown`. The last two warn MATERIAL-FAMILY, MATERIAL-UNKNOWN.
-/// WorkMaterial::sources then has "chosen": why it was taken.
+/// WorkMaterial::sources then has "chosen": why it was taken; its measured sets are those of the alloy named.
 /// Fails  MATERIAL-NONE when `materials` is empty.
 [[nodiscard]] Result<model::WorkMaterial> find_material(const std::vector<std::string>& texts,
                                                         const std::vector<model::WorkMaterial>& materials,

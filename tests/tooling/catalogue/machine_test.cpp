@@ -263,5 +263,32 @@ TEST(LinuxcncIni, ReadsTheMachinesOfTheCorpus) {
   }
 }
 
+TEST(ReadMachine, ReadsModesOfTheToolPoint) {
+  const std::string plain = shipped_text("machines/generic_vmc.yaml");
+  const auto read = [&](const std::string& rows) {
+    Job job;
+    return read_machine(plain + "\nmodes:\n" + rows, "shop.yaml", job);
+  };
+  const auto m = read(
+      "  - {direction: x, frequency_hz: 922, damping_ratio: 0.011, stiffness_n_mm: 1340, source: tap}\n"
+      "  - {cutter: em12, direction: y, frequency_hz: 800, damping_ratio: 0.03, stiffness_n_mm: 9e3, source: "
+      "tap}\n");
+  ASSERT_TRUE(m) << m.error().message;
+  ASSERT_EQ(m->modes.size(), 2u);
+  EXPECT_EQ(m->modes[0].cutter_id, "");
+  EXPECT_EQ(m->modes[1].cutter_id, "em12");
+  EXPECT_EQ(m->modes[1].stiffness_n_mm, 9000.0);
+  const auto refused = [&](const char* row) {
+    return read(std::string("  - {source: tap, ") + row + "}\n").error();
+  };
+  EXPECT_EQ(refused("direction: z, frequency_hz: 922, damping_ratio: 0.01, stiffness_n_mm: 1340").code,
+            "MACHINE-RANGE");
+  EXPECT_EQ(refused("direction: x, frequency_hz: 922, damping_ratio: 1.1, stiffness_n_mm: 1340").path,
+            "modes[0].damping_ratio");
+  EXPECT_EQ(refused("direction: x, frequency_hz: -1, damping_ratio: 0.01, stiffness_n_mm: 1340").path,
+            "modes[0].frequency_hz");
+  EXPECT_EQ(refused("direction: x, frequency_hz: 922, damping_ratio: 0.01").code, "DATA-MISSING");
+}
+
 }  // namespace
 }  // namespace capstan::tooling

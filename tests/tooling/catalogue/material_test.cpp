@@ -122,5 +122,91 @@ materials:
   EXPECT_EQ(got.error().line, 4u);
 }
 
+TEST(FindMaterial, KeepsTheMeasuredSetsOfTheAlloyNamedAndNoOthers) {
+  Job job;
+  const auto sets = [&](const char* name) { return find_material(name, table(), job).value().mechanistic; };
+  // Chin. J. Mech. Eng. 2021, doi 10.1186/s10033-021-00536-9, table 5 [S].
+  const auto al7075 = sets("EN AW-7075-T6");
+  ASSERT_EQ(al7075.size(), 4u);
+  EXPECT_EQ(al7075[0].ktc_n_mm2, 767.01);
+  EXPECT_EQ(al7075[0].kae_n_mm, 0.7);
+  EXPECT_EQ(al7075[3].substrate, "hss");
+  // The uncertainty of the first reaches the largest published: 600 to 1319 is the spread of one alloy.
+  EXPECT_NEAR(al7075[0].ktc_n_mm2 * (1.0 + al7075[0].uncertainty), 1319.41, 1.0);
+  const auto al6061 = sets("6061-T6");
+  ASSERT_EQ(al6061.size(), 2u);
+  EXPECT_EQ(al6061[0].ktc_n_mm2, 631.0);
+  EXPECT_EQ(al6061[1].ktc_n_mm2, 243.77);
+  EXPECT_NEAR(al6061[1].ktc_n_mm2 * (1.0 + al6061[1].uncertainty), 631.0 * 1.72, 1.0);
+  EXPECT_EQ(sets("EN AW-6082").size(), 1u);
+  EXPECT_TRUE(sets("wrought aluminium").empty());  // only the family is known
+  EXPECT_TRUE(sets("EN AW-5083").empty());
+  EXPECT_TRUE(sets("aluminium").empty());
+}
+
+TEST(ShippedMaterials, StateNoLifeLawWithoutASource) {
+  for (const auto& m : table()) {
+    for (const auto& law : m.life) EXPECT_FALSE(law.source.empty()) << m.id;
+    for (const auto& set : m.mechanistic) EXPECT_FALSE(set.source.empty()) << m.id;
+  }
+}
+
+std::string with(const std::string& rows) {
+  return R"(capstan_materials: 1
+kc_uncertainty: 0.3
+materials:
+  - source: "x"
+    id: a
+    iso_group: P
+    kc11_n_mm2: 2298
+    mc: 0.2
+    vc_hss_m_min: 25
+    vc_carbide_m_min: 70
+)" + rows;
+}
+
+TEST(ReadMaterials, ReadsSetsAndLawsOfLife) {
+  Job job;
+  const auto got = read_materials(
+      with("    mechanistic:\n      - {substrate: hss, ktc_n_mm2: 900, krc_n_mm2: 300, uncertainty: 0.4}\n"
+           "    life:\n      - {substrate: carbide, v0_m_min: 100, life_min: 20, n: 0.25, h0_mm: 0.5, p: 2.8,"
+           " scatter: 0.2, source: \"y\"}\n"),
+      "m.yaml", job);
+  ASSERT_TRUE(got) << got.error().message;
+  ASSERT_EQ((*got)[0].mechanistic.size(), 1u);
+  EXPECT_EQ((*got)[0].mechanistic[0].kte_n_mm, 0.0);
+  EXPECT_EQ((*got)[0].mechanistic[0].source, "x");
+  ASSERT_EQ((*got)[0].life.size(), 1u);
+  EXPECT_EQ((*got)[0].life[0].scatter, 0.2);
+  EXPECT_EQ((*got)[0].life[0].source, "y");
+  // A set that names no alloys holds for every name of the material.
+  EXPECT_EQ(find_material("a", *got, job).value().mechanistic.size(), 1u);
+}
+
+TEST(ReadMaterials, RefusesSetsAndLawsThatCannotBe) {
+  const auto code = [](const std::string& rows) {
+    Job job;
+    const auto got = read_materials(with(rows), "m.yaml", job);
+    return got ? std::string("accepted") : got.error().code;
+  };
+  EXPECT_EQ(
+      code("    mechanistic:\n      - {substrate: wood, ktc_n_mm2: 900, krc_n_mm2: 300, uncertainty: 0.4}\n"),
+      "MATERIAL-SUBSTRATE");
+  EXPECT_EQ(
+      code("    mechanistic:\n      - {substrate: hss, ktc_n_mm2: 9, krc_n_mm2: 300, uncertainty: 0.4}\n"),
+      "MATERIAL-RANGE");
+  EXPECT_EQ(code("    mechanistic:\n      - {substrate: hss, ktc_n_mm2: 900, krc_n_mm2: 300}\n"),
+            "DATA-MISSING");
+  EXPECT_EQ(
+      code("    mechanistic:\n      - {substrate: hss, ktc_n_mm2: .nan, krc_n_mm2: 3, uncertainty: 0}\n"),
+      "DATA-NUMBER");
+  EXPECT_EQ(code("    life:\n      - {substrate: hss, v0_m_min: 20, life_min: 30, n: 4}\n"),
+            "MATERIAL-RANGE");
+  EXPECT_EQ(code("    life:\n      - {substrate: hss, v0_m_min: 20, life_min: 30, n: 0.1, p: 2}\n"),
+            "MATERIAL-RANGE");  // an influence without its reference
+  EXPECT_EQ(code("    life:\n      - {substrate: hss, v0_m_min: 20, life_min: 30, n: 0.1, wear: 0.3}\n"),
+            "DATA-UNKNOWN");
+}
+
 }  // namespace
 }  // namespace capstan::tooling
