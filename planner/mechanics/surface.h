@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 /// The surface that geometry alone leaves, in mm: a lower bound. Measured roughness is larger, and in
@@ -26,6 +27,14 @@ template <class T>
   return kArcRaOverRz * wall_rz_mm(fz_mm, diameter_mm);
 }
 
+/// A row of marks of height Rz(fz) whose teeth stand out by up to `runout`: no deeper than the marks plus the
+/// runout, and no deeper than those of a single tooth that alone leaves its mark, (z fz)^2 in place of fz^2.
+/// Range     an upper bound; without runout it is the mark itself. Source: geometry, derived.
+[[nodiscard]] inline double rz_with_runout_mm(double mark_rz_mm, int teeth, double runout_mm) {
+  const double alone = mark_rz_mm * static_cast<double>(teeth) * static_cast<double>(teeth);
+  return std::min(mark_rz_mm + std::max(runout_mm, 0.0), std::max(alone, mark_rz_mm));
+}
+
 /// Floor left by a corner radius: Rz = fz^2 / (8 re), for fz well below re.
 template <class T>
 [[nodiscard]] T floor_rz_mm(const T& fz_mm, double corner_radius_mm) {
@@ -38,6 +47,19 @@ template <class T>
 template <class T>
 [[nodiscard]] T faced_rz_mm(const T& feed_mm, double lead_rad, double clearance_rad) {
   return feed_mm / (std::tan(lead_rad) + 1.0 / std::tan(clearance_rad));
+}
+
+/// Step between two neighbouring passes on a floor when the tool leans across the feed by a small angle
+/// (bending, beam.h, or a spindle out of square): s tan(tilt).
+[[nodiscard]] inline double floor_step_mm(double stepover_mm, double tilt_rad) {
+  return stepover_mm * std::tan(std::abs(tilt_rad));
+}
+
+/// How hollow a pass of width w is that a tool of diameter D leaves when it leans along the feed:
+/// D / 2 sin(tilt) (1 - sqrt(1 - (w / D)^2)), w <= D. Source: the tilted circle seen along the feed, derived.
+[[nodiscard]] inline double floor_hollow_mm(double width_mm, double diameter_mm, double tilt_rad) {
+  const double q = std::min(width_mm / diameter_mm, 1.0);
+  return 0.5 * diameter_mm * std::sin(std::abs(tilt_rad)) * q * q / (1.0 + std::sqrt((1.0 - q) * (1.0 + q)));
 }
 
 /// Ridge between two passes of a ball of radius R on a flat: R - sqrt(R^2 - (s/2)^2), s <= 2 R.

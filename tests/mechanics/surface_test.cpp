@@ -53,5 +53,26 @@ TEST(DrilledCone, OfA118DegreePointIsPoint3Diameters) {
   EXPECT_NEAR(drilled_cone_mm(10.0, 118.0 * std::numbers::pi / 180.0), 3.004, 5e-4);
 }
 
+TEST(SurfaceWithRunout, LiesBetweenTheMarksOfAllTeethAndOfOne) {
+  const double mark = wall_rz_mm(0.1, 10.0);
+  EXPECT_DOUBLE_EQ(rz_with_runout_mm(mark, 4, 0.0), mark);
+  EXPECT_DOUBLE_EQ(rz_with_runout_mm(mark, 4, 0.001), mark + 0.001);
+  EXPECT_DOUBLE_EQ(rz_with_runout_mm(mark, 4, 1.0), wall_rz_mm(0.4, 10.0));
+  EXPECT_DOUBLE_EQ(rz_with_runout_mm(mark, 1, 1.0), mark);
+  EXPECT_NEAR(rz_with_runout_mm(floor_rz_mm(0.1, 0.8), 3, 0.1), floor_rz_mm(0.3, 0.8), 1e-15);
+}
+
+TEST(FloorTilt, LeavesStepsAcrossAndAHollowAlong) {
+  EXPECT_NEAR(floor_step_mm(6.0, -1e-3), 6e-3, 1e-8);
+  // The rim of a circle of 50 mm that leans by 1e-3: its side stands 25 um above its lowest point.
+  EXPECT_NEAR(floor_hollow_mm(50.0, 50.0, 1e-3), 0.025, 1e-7);
+  EXPECT_NEAR(floor_hollow_mm(30.0, 50.0, 1e-3), 25.0 * 1e-3 * (1.0 - 0.8), 1e-7);
+  EXPECT_EQ(floor_hollow_mm(0.0, 50.0, 1e-3), 0.0);
+}
+
+TEST(FloorOfFlatTeeth, IsTheFeedTimesTheTangentOfTheEndClearance) {
+  EXPECT_NEAR(faced_rz_mm(0.1, 0.0, 0.05), 0.1 * std::tan(0.05), 1e-15);
+}
+
 }  // namespace
 }  // namespace capstan::mechanics
