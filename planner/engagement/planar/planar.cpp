@@ -19,7 +19,7 @@ using stock::kTouch;
 using stock::Trail;
 
 constexpr double kAir = 1e-6;         // mm2: sections below are none
-constexpr double kTolerance = 3e-7;   // of diameter times depth, in a step
+constexpr double kTolerance = 1e-6;   // of diameter times depth, in a step
 constexpr int kDeepest = 14;          // halvings of a step
 constexpr double kFromTheEnd = 1e-5;  // of the radius: ends of moves are seen from just inside
 constexpr double kMostSteps = 1e7;

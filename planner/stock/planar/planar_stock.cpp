@@ -1,6 +1,7 @@
 #include "planner/stock/planar/planar_stock.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -305,7 +306,7 @@ void PlanarStock::gather(Vec2 lo, Vec2 hi, Nearby& out) const {
   });
 }
 
-void PlanarStock::heights(const Probe& probe, const Nearby& near, double above_mm, Heights& out) const {
+void PlanarStock::heights(const Probe& probe, Nearby& near, double above_mm, Heights& out) const {
   out.reset(probe.lo, probe.hi, std::max(box_.hi.z, above_mm));
   if (box_.hi.z <= above_mm) return;
   const Vec2 lo = xy(box_.lo);
@@ -338,24 +339,49 @@ void PlanarStock::heights(const Probe& probe, const Nearby& near, double above_m
       if (!inside(probe.at(0.5 * (cuts[i] + cuts[i + 1])))) out.lower(cuts[i], cuts[i + 1], above_mm);
     }
   }
-  // What still stands is looked at as a circle about its middle: most trails are not near it.
+  // What still stands is looked at as a few circles that hold it: most trails are near none of them.
+  constexpr std::size_t kCircles = 4;
+  std::array<Vec2, kCircles> about;
+  std::array<double, kCircles> reach{};
   Heights::Piece left{};
-  Vec2 about;
-  double reach = 0.0;
   const auto look_again = [&] {
     left = out.standing(above_mm);
     if (left.x0 > left.x1) return false;
-    about = probe.at(0.5 * (left.x0 + left.x1));
-    reach = std::max(norm(probe.at(left.x0) - about), norm(probe.at(left.x1) - about));
+    Vec2 from = probe.at(left.x0);
+    for (std::size_t i = 0; i < kCircles; ++i) {
+      const double step = (left.x1 - left.x0) / kCircles;
+      const Vec2 to = probe.at(i + 1 == kCircles ? left.x1 : left.x0 + step * static_cast<double>(i + 1));
+      about[i] = probe.at(left.x0 + step * (static_cast<double>(i) + 0.5));
+      const Vec2 a = from - about[i];
+      const Vec2 b = to - about[i];
+      reach[i] = std::sqrt(std::max(dot(a, a), dot(b, b)));
+      from = to;
+    }
     return true;
   };
-  if (!look_again()) return;
-  for (const std::uint32_t id : near.trails) {
+  const auto is_near = [&](const Trail& t) {
+    for (std::size_t i = 0; i < kCircles; ++i) {
+      if (t.distance(about[i]) < t.radius_mm + reach[i]) return true;
+    }
+    return false;
+  };
+  near.helped.clear();
+  bool open = look_again();
+  const auto take_down = [&](std::uint32_t id) {
     const Trail& t = trails_[id];
-    if (t.lowest_mm >= left.z_mm) return;  // the rest lie higher
-    if (t.distance(about) >= t.radius_mm + reach) continue;
-    if (t.lower(probe, above_mm, out) && !look_again()) return;
+    if (!is_near(t) || !t.lower(probe, above_mm, out)) return;
+    near.helped.push_back(id);
+    open = look_again();
+  };
+  for (std::size_t i = 0; open && i < near.first.size(); ++i) take_down(near.first[i]);
+  for (std::size_t i = 0; open && i < near.trails.size(); ++i) {
+    if (trails_[near.trails[i]].lowest_mm >= left.z_mm) break;  // the rest lie higher
+    take_down(near.trails[i]);
   }
+  // Those that came last took away what the others had left.
+  constexpr std::size_t kKept = 6;
+  near.first.assign(near.helped.rbegin(),
+                    near.helped.rbegin() + static_cast<std::ptrdiff_t>(std::min(kKept, near.helped.size())));
 }
 
 double PlanarStock::height_at(Vec2 p) const {

@@ -55,12 +55,14 @@ class PlanarStock {
   /// Trails that may matter near a place; kept by the caller so that asking allocates nothing.
   struct Nearby {
     std::vector<std::uint32_t> trails;  ///< deepest floor first
+    std::vector<std::uint32_t> first;   ///< what shaped the last answer; likely to shape the next
+    std::vector<std::uint32_t> helped;
     std::vector<std::uint32_t> seen;
     std::uint32_t round = 0;
   };
   void gather(geometry::Vec2 lo, geometry::Vec2 hi, Nearby& out) const;
   /// What stands along the probe; `near` was gathered around it. Below `above_mm` nothing is told apart.
-  void heights(const Probe& probe, const Nearby& near, double above_mm, Heights& out) const;
+  void heights(const Probe& probe, Nearby& near, double above_mm, Heights& out) const;
 
   /// Not below the highest material over a rectangle; the floor where there is none.
   [[nodiscard]] double highest(geometry::Vec2 lo, geometry::Vec2 hi) const;

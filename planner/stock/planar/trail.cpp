@@ -78,13 +78,7 @@ void Trail::settle() {
   }
 }
 
-double Trail::distance(Vec2 p) const {
-  if (!arc) {
-    const Vec2 w = p - a;
-    const double u = std::clamp(dot(w, along), 0.0, length_mm);
-    const Vec2 d = w - u * along;
-    return std::sqrt(dot(d, d));
-  }
+double Trail::distance_to_arc(Vec2 p) const {
   const Vec2 w = p - centre;
   const double side = turn_rad >= 0.0 ? 1.0 : -1.0;
   if (side * cross(along, w) >= 0.0 && side * cross(w, last) >= 0.0)

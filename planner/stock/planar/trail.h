@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "planner/geometry/profile.h"
 #include "planner/geometry/vec.h"
 #include "planner/stock/planar/probe.h"
@@ -29,7 +32,14 @@ struct Trail {
   void settle();
   [[nodiscard]] bool level() const { return outline == nullptr && za == zb; }
   /// Distance from p to the track.
-  [[nodiscard]] double distance(geometry::Vec2 p) const;
+  [[nodiscard]] double distance(geometry::Vec2 p) const {
+    if (arc) return distance_to_arc(p);
+    const geometry::Vec2 w = p - a;
+    const double u = std::clamp(dot(w, along), 0.0, length_mm);
+    const geometry::Vec2 d = w - u * along;
+    return std::sqrt(dot(d, d));
+  }
+  [[nodiscard]] double distance_to_arc(geometry::Vec2 p) const;
   /// Height of the floor at a place within the radius.
   [[nodiscard]] double floor_at(geometry::Vec2 p) const;
   /// Lowers what stands along the probe; what lies below `above_mm` does not matter and may be said to be

@@ -20,7 +20,7 @@ constexpr std::array<double, 4> kWeights{0.3626837833783620, 0.3137066458778873,
 /// what begins or ends like a root there is smooth.
 class Rows {
  public:
-  Rows(const PlanarStock& stock, const PlanarStock::Nearby& near) : stock_(stock), near_(near) {}
+  Rows(const PlanarStock& stock, PlanarStock::Nearby& near) : stock_(stock), near_(near) {}
 
   double between(double y0, double y1, double tolerance) {
     y0_ = y0;
@@ -64,7 +64,7 @@ class Rows {
   }
 
   const PlanarStock& stock_;
-  const PlanarStock::Nearby& near_;
+  PlanarStock::Nearby& near_;
   Heights heights_;
   double y0_ = 0.0, y1_ = 0.0;
 };
