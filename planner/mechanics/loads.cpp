@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "planner/mechanics/constants.h"
 #include "planner/mechanics/domain.h"
@@ -57,6 +58,56 @@ Result<Loads> milling_loads(const MillingCut& cut, const WorkMaterial& work, con
                              cut.helix_rad, edge.mean_sin_kappa, immersion_arc(width, diameter, direction));
     loads.peak_force_n = std::max(loads.peak_force_n, peak);
   }
+  loads.deflection_mm = loads.peak_force_n * *compliance;
+  return loads;
+}
+
+Section side_section(double ap_mm, double ae_mm, const Tooth& tooth, CutDirection direction) {
+  const double d = tooth.cutting_diameter_mm;
+  const double corner = std::min(tooth.corner_radius_mm, 0.5 * d);
+  const double widest = effective_diameter_mm(ap_mm, d, corner);
+  const double width = std::min(ae_mm, widest);
+  Section s{.ap_mm = ap_mm};
+  if (corner <= 0.0) {
+    s.arc = immersion_arc(width, d, direction);
+    return s;
+  }
+  s.csa_mm2 = ap_mm * width;
+  if (width >= widest) {
+    s.arc = {0.0, std::numbers::pi};
+    return s;
+  }
+  // The pass before stands ae away: the two corners meet half way, the flanks a whole step.
+  const double outer = std::min(widest / d, 1.0);
+  const double inner =
+      std::clamp(std::min(0.5 * d - corner - 0.5 * width, 0.5 * widest - width) / (0.5 * d), -1.0, outer);
+  s.arc = direction == CutDirection::kUp ? ImmersionArc{std::acos(outer), std::acos(inner)}
+                                         : ImmersionArc{std::acos(-inner), std::acos(-outer)};
+  return s;
+}
+
+Result<Loads> milling_loads(const MillingCut& cut, const Tooth& tooth, const ForceLaw& law,
+                            const ToolStiffness& tool) {
+  if (auto s = check_positive({{"ap_mm", cut.ap_mm}, {"ae_mm", cut.ae_mm}}); !s) return fail(s.error());
+  if (auto s = check_range({"ae_mm", cut.ae_mm}, 0.0, tooth.cutting_diameter_mm); !s) return fail(s.error());
+  const auto compliance = tip_compliance_mm_n(tool);
+  if (!compliance) return fail(compliance.error());
+  Loads loads;
+  for (const CutDirection direction : {CutDirection::kUp, CutDirection::kDown}) {
+    const auto l =
+        section_loads(side_section(cut.ap_mm, cut.ae_mm, tooth, direction), tooth, law, cut.fz_mm, cut.n_rpm);
+    if (!l) return fail(l.error());
+    loads.peak_force_n = std::max(loads.peak_force_n, l->peak_force_n);
+    loads.power_w = std::max(loads.power_w, l->power_w);
+    loads.torque_nm = std::max(loads.torque_nm, l->torque_nm);
+    loads.h_max_mm = std::max(loads.h_max_mm, l->h_max_mm);
+    loads.h_mean_mm = l->h_mean_mm;
+  }
+  loads.mrr_mm3_min = removal_rate_mm3_min(cut.ap_mm, cut.ae_mm, cut.fz_mm * tooth.teeth * cut.n_rpm);
+  const double diameter =
+      effective_diameter_mm(cut.ap_mm, tooth.cutting_diameter_mm,
+                            std::min(tooth.corner_radius_mm, 0.5 * tooth.cutting_diameter_mm));
+  loads.mean_tangential_force_n = 2000.0 * loads.torque_nm / diameter;
   loads.deflection_mm = loads.peak_force_n * *compliance;
   return loads;
 }
