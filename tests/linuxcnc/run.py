@@ -208,8 +208,6 @@ class Operator:
             idle = 0 if running else idle + 1
             if begun and idle > 20:
                 break
-            if s.interp_state == lib.INTERP_PAUSED and s.task_paused == 0:
-                pass
             if time.monotonic() > end:
                 raise Failed(f'the program did not end within {limit} s (at line {s.motion_line})')
         self.listen()
@@ -273,6 +271,7 @@ def in_child(folder, options):
                 os.setgid(NOBODY)
                 os.setuid(NOBODY)
             libc.prctl(36, 1, 0, 0, 0)  # PR_SET_CHILD_SUBREAPER
+            libc.prctl(1, signal.SIGTERM, 0, 0, 0)  # PR_SET_PDEATHSIG: when this process's parent is killed
             os.chdir(folder)
             for name in ('DISPLAY', 'WAYLAND_DISPLAY', 'LD_PRELOAD', 'INI_FILE_NAME'):
                 os.environ.pop(name, None)
@@ -284,12 +283,22 @@ def in_child(folder, options):
             reason.write_text(f'{type(error).__name__}: {error}')
         finally:
             os._exit(status)
-    _, result = os.waitpid(pid, 0)
+    try:
+        _, result = os.waitpid(pid, 0)
+    except BaseException:  # told to stop: LinuxCNC stops first
+        os.kill(pid, signal.SIGTERM)
+        os.waitpid(pid, 0)
+        raise
     status = os.waitstatus_to_exitcode(result)
     return status, reason.read_text() if reason.exists() else f'ended by signal {-status}'
 
 
+def stop_here(*_):
+    raise Failed('stopped')
+
+
 def main():
+    signal.signal(signal.SIGTERM, stop_here)
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     for name in ('program', 'tools', 'clock', 'samples'):
         parser.add_argument(f'--{name}', required=True)
@@ -310,14 +319,16 @@ def main():
         remove_shared_memory()
         prepare(folder, options)
         status, reason = in_child(folder, options)
-        remove_shared_memory()
         if status != 0 and (folder / 'linuxcnc.log').exists():
             reason += '\n' + (folder / 'linuxcnc.log').read_text(errors='replace')[-2000:]
         if status == 0:
             shutil.copyfile(folder / 'samples.txt', options.samples)
     except Absent as error:
         status, reason = SKIPPED, str(error)
+    except Failed as error:
+        status, reason = 1, str(error)
     finally:
+        remove_shared_memory()
         if options.keep:
             shutil.copytree(folder, options.keep, dirs_exist_ok=True)
         shutil.rmtree(folder, ignore_errors=True)
