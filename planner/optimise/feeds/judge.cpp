@@ -65,7 +65,7 @@ Cuts cuts_of(const CutSample& s, double diameter) {
   Cuts out;
   const double ap = s.ap_mm;
   const double ae = s.ae_mm;
-  if (!(ap > 0.0) || !(ae > 0.0) || !(diameter > 0.0)) return out;
+  if (!(ap > 0.0) || !(ae > 0.0) || !(diameter > 0.0) || !std::isfinite(ap * ae)) return out;
   if (s.csa_mm2 > 0.0 && s.csa_mm2 < kWhole * ap * ae) {
     out.cut[out.n++] = rectangle(ap, s.csa_mm2 / ap, s, diameter);
     out.cut[out.n++] = rectangle(s.csa_mm2 / ae, ae, s, diameter);

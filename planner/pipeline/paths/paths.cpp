@@ -14,7 +14,6 @@
 #include "planner/pipeline/paths/results.h"
 #include "planner/pipeline/paths/sections.h"
 #include "planner/pipeline/paths/stocks.h"
-#include "planner/pipeline/split.h"
 #include "planner/pipeline/steps.h"
 
 // Step by step in order: depths, path, sections, feeds, with the stock carried on.
@@ -219,6 +218,7 @@ class PathMaker {
     fq.n_rpm = given.rpm.value_or(made.answer.n_rpm);
     fq.feed_mm_min = given.feed_mm_min.value_or(made.answer.feed_mm_min);
     fq.adapt = step.open_technology || feed_was_planned(step);
+    fq.constant = w_.inputs.constant_feeds;
     fq.feed_factor = std::move(made.path.feed_factor);
     fq.speed_factor = std::move(made.path.speed_factor);
     fq.dwell_s = std::move(made.path.dwell_s);
@@ -226,10 +226,10 @@ class PathMaker {
     model::StepResult r = result_of(w_, step);
     r.axial_depth_mm = made.answer.ap_mm;
     r.radial_depth_mm = made.answer.ae_mm;
-    r.active = made.answer.active;
+    r.active = active_of(made.answer);
     if (auto m = measured(w_, step, *path, stocks_.of(step.setup))) {
-      if (fq.adapt && mills(fq.cut)) split_uneven(step.cutter.cutting_diameter_mm, *path, m->sections, fq);
       fq.samples = samples_of(*m);
+      optimise::split_moves(fq, *path, &m->sections);
       r.sections = std::make_shared<const model::SectionSeries>(std::move(m->sections));
     }
     const auto feeds = optimise::feeds(fq, *path);
@@ -240,6 +240,7 @@ class PathMaker {
     }
     r.schedule = std::make_shared<const model::FeedSchedule>(feeds.schedule);
     r.loads = feeds.peak;
+    if (!(r.loads.tool_life_min > 0.0)) r.loads.tool_life_min = made.answer.life_min;
     r.held_by = feeds.held_by;
     r.path = path;
     const Deviation deviation = deviation_of(w_, step, job_of(w_, step, step.shapes.front()));
