@@ -51,9 +51,10 @@ def shared_memory():
     return out
 
 
-def remove_shared_memory():
+def remove_shared_memory(others):
+    """LinuxCNC's segments that nobody uses and that are not among `others`."""
     for key, (segment, attached) in shared_memory().items():
-        if key in KEYS and attached == 0:
+        if key in KEYS and attached == 0 and segment not in others:
             libc.shmctl(segment, 0, None)  # 0: IPC_RMID
 
 
@@ -229,7 +230,6 @@ def run_inside(options):
     finally:
         machine.stop()
         end_children()
-        remove_shared_memory()
 
 
 def prepare(folder, options):
@@ -312,11 +312,10 @@ def main():
                    os.O_CREAT | os.O_RDWR, 0o600)
     fcntl.flock(lock, fcntl.LOCK_EX)
     folder = pathlib.Path(tempfile.mkdtemp(prefix='capstan-linuxcnc-'))
+    others = {segment for segment, _ in shared_memory().values()}
     try:
-        busy = shared_memory().get(HAL_KEY, (0, 0))
-        if busy[1] > 0:
-            raise Absent('another LinuxCNC runs on this computer')
-        remove_shared_memory()
+        if HAL_KEY in shared_memory():
+            raise Absent('another LinuxCNC runs on this computer, or left its shared memory (ipcs -m, key 0x48414c32)')
         prepare(folder, options)
         status, reason = in_child(folder, options)
         if status != 0 and (folder / 'linuxcnc.log').exists():
@@ -328,7 +327,7 @@ def main():
     except Failed as error:
         status, reason = 1, str(error)
     finally:
-        remove_shared_memory()
+        remove_shared_memory(others)
         if options.keep:
             shutil.copytree(folder, options.keep, dirs_exist_ok=True)
         shutil.rmtree(folder, ignore_errors=True)
