@@ -11,6 +11,8 @@
 ///           Manufacturing Automation, 2nd ed., section 2.7). Straight pass, straight stock.
 /// Numbers   the functions take any number type T that has the arithmetic of double (found by argument
 ///           lookup), so that an optimiser can differentiate them.
+/// Range     the tooth's path is taken for a circle; the chip of the true trochoid differs by about
+///           z fz / (pi D) of it (1 % for four teeth, 0.1 mm, 12 mm; derived).
 /// Needs     positive finite lengths; not checked here but at the doors (loads.h).
 namespace capstan::mechanics {
 

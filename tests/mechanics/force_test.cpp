@@ -13,7 +13,8 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kHelix30 = kPi / 6.0;
 
-// Al 7075-T6, Chin. J. Mech. Eng. 2021, doi 10.1186/s10033-021-00536-9, table 5, its reference [190].
+// [S] the coefficients, [C] the forces. Al 7075-T6, Chin. J. Mech. Eng. 2021, doi 10.1186/s10033-021-00536-9,
+// table 5, its reference [190].
 constexpr CuttingCoefficients kAl7075{767.01, 27.7, 168.8, 26.6, 222.0, 0.7};
 constexpr int kTeeth = 4;
 constexpr double kDiameter = 12.0;

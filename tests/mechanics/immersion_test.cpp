@@ -40,7 +40,7 @@ TEST(ImmersionArc, OfDownMillingIsThatOfUpMillingMirrored) {
 }
 
 TEST(ChipThickness, MatchesTheTableOfRadialThinning) {
-  // r, h_max / fz, h_mean / fz to the digits of the table.
+  // [C] r, h_max / fz, h_mean / fz to the digits of the table.
   constexpr double kTable[][3] = {{0.02, 0.28, 0.1409}, {0.05, 0.4359, 0.2217}, {0.1, 0.6, 0.3108},
                                   {0.2, 0.8, 0.4314},   {0.5, 1.0, 0.6366},     {1.0, 1.0, 0.6366}};
   for (const auto& row : kTable) {

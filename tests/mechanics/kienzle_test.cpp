@@ -19,8 +19,9 @@ struct MilledRow {
   double mc;
 };
 
-// Mitsubishi Materials, technical information, "Cutting power for face milling": kc in MPa at feeds of
-// 0.1, 0.2, 0.3, 0.4 and 0.6 mm per tooth; the fit is over the feed, not the chip thickness.
+// [S] the points, [C] the fits. Mitsubishi Materials, technical information, "Cutting power for face
+// milling": kc in MPa at feeds of 0.1, 0.2, 0.3, 0.4 and 0.6 mm per tooth; the fit is over the feed, not the
+// chip thickness.
 constexpr double kFeeds[] = {0.1, 0.2, 0.3, 0.4, 0.6};
 constexpr MilledRow kMilled[] = {
     {"mild steel 520", {2200, 1950, 1820, 1700, 1580}, 1442, 0.186},
@@ -67,8 +68,9 @@ struct TurnedRow {
   double mc;
 };
 
-// Roehm, operating manual RN-1391, p. 43, table 2: kc in kN/mm2 at feeds of 0.16 .. 1.6 mm and an edge
-// angle of 45 degrees. The rows' labels did not survive in the copy read; the values did.
+// [S] the points, [C] the fits. Roehm, operating manual RN-1391, p. 43, table 2: kc in kN/mm2 at feeds of
+// 0.16 .. 1.6 mm and an edge angle of 45 degrees. The rows' labels did not survive in the copy read; the
+// values did.
 constexpr double kTurnedFeeds[] = {0.16, 0.25, 0.4, 0.63, 1.0, 1.6};
 constexpr TurnedRow kTurned[] = {
     {{2.60, 2.40, 2.20, 2.05, 1.90, 1.80}, 1811, 0.162}, {{3.50, 3.10, 2.75, 2.45, 2.15, 1.95}, 1991, 0.257},
@@ -111,13 +113,14 @@ TEST(KienzleFit, RefusesWhatDoesNotFixALine) {
 }
 
 TEST(CuttingPower, MatchesTheToolMakersWorkedExample) {
-  // ap 2, ae 80 mm, vf 280 mm/min, kc 1800 MPa, coefficient 0.8: 1.68 kW.
+  // [S] ap 2, ae 80 mm, vf 280 mm/min, kc 1800 MPa, coefficient 0.8: 1.68 kW.
   const double at_tool = cutting_power_w(removal_rate_mm3_min(2.0, 80.0, 280.0), 1800.0);
   EXPECT_NEAR(motor_power_w(at_tool, kDefaultSpindleEfficiency), 1680.0, 1e-9);
 }
 
 TEST(CuttingPower, MatchesGhoshAndMallikSlabMilling) {
-  // Ghosh & Mallik, Manufacturing Science, problems 4.15 to 4.18; specific energy in J/mm3 is kN/mm2.
+  // [S] the problems (as FOSSEE's programs state them), [C] the powers. Ghosh & Mallik, Manufacturing
+  // Science, problems 4.15 to 4.18; specific energy in J/mm3 is kN/mm2.
   const auto power = [](double width, double depth, double feed, WorkMaterial work, double h) {
     return cutting_power_w(removal_rate_mm3_min(depth, width, feed), specific_force_n_mm2(work, h));
   };

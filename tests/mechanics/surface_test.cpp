@@ -15,6 +15,12 @@ TEST(WallRoughness, IsTheUsualFormulaOfFeedAndRadius) {
   EXPECT_NEAR(wall_ra_mm(fz, 2.0 * radius), 0.0321 * fz * fz / radius, 5e-4 * fz * fz / radius);
 }
 
+TEST(WallRoughness, IsAQuarterUnderTheFormulaOfToloueiRadAndBidhendi) {
+  // Their 318 fz^2 / (4 d) um is 24 % above 0.0321 fz^2 / R [M] for the constant, [C] for the ratio.
+  const double theirs = 318e-3 * 0.2 * 0.2 / (4.0 * 10.0);
+  EXPECT_NEAR(theirs / wall_ra_mm(0.2, 10.0), 1.24, 0.005);
+}
+
 TEST(WallRoughness, RaOverRzIsThatOfAParabola) {
   EXPECT_DOUBLE_EQ(kArcRaOverRz, 4.0 / (9.0 * std::sqrt(3.0)));
   double mean = 0.0;

@@ -8,14 +8,16 @@ namespace capstan::mechanics {
 namespace {
 
 TEST(EconomicSpeed, MatchesGhoshAndMallik) {
-  // Problems 4.26 and 4.28: C 75, n 0.25, labour 0.15 per min, tool 2.5, change 2 min.
+  // [S] the problems (as FOSSEE's programs state them), [C] the speeds. Problems 4.26 and 4.28: C 75, n 0.25,
+  // labour 0.15 per min, tool 2.5, change 2 min.
   const TaylorLife life{.c = 75.0, .n = 0.25};
   EXPECT_NEAR(min_cost_speed_m_min(life, {0.15, 2.0, 2.5}), 27.417, 5e-4);
   EXPECT_NEAR(max_production_speed_m_min(life, 2.0), 47.921, 5e-4);
 }
 
 TEST(EconomicSpeed, OfDrillingMatchesTheConstructedExample) {
-  // d 10, L 25 mm; V T^0.2 f^0.4 = 25.9; thrust 6170 f^0.7 <= 3000 N; r = 1, change 1 min, edge 8.
+  // [C] constructed, not from a paper. d 10, L 25 mm; V T^0.2 f^0.4 = 25.9; thrust 6170 f^0.7 <= 3000 N; r =
+  // 1, change 1 min, edge 8.
   const TaylorLife life{.c = 25.9, .n = 0.2, .p = 0.4};
   const double feed = std::pow(3000.0 / 6170.0, 1.0 / 0.7);
   EXPECT_NEAR(feed, 0.356963, 5e-7);
