@@ -11,7 +11,12 @@ namespace capstan::mechanics {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr std::size_t kSlices = 64;
+constexpr double kReach = 1e-6;  // rad: an arc this close to the wall reaches it
+// Gauss-Legendre on -1 .. 1.
+constexpr std::array<double, 6> kNode = {-0.9324695142031521, -0.6612093864662645, -0.2386191860831969,
+                                         0.2386191860831969,  0.6612093864662645,  0.9324695142031521};
+constexpr std::array<double, 6> kWeight = {0.1713244923791704, 0.3607615730481386, 0.4679139345726910,
+                                           0.4679139345726910, 0.3607615730481386, 0.1713244923791704};
 
 double stiffness_nmm2(const BeamSegment& s) {
   const double d2 = s.diameter_mm * s.diameter_mm;
@@ -121,43 +126,77 @@ double tilt_rad_n(const ToolBeam& beam, double force_mm, double seen_mm) {
 
 double WallError::largest_mm() const { return most_left_mm >= -most_over_mm ? most_left_mm : most_over_mm; }
 
+namespace {
+
+struct Edge {
+  const Section& section;
+  const Tooth& tooth;
+  const ForceLaw& law;
+  const ToolBeam& beam;
+  double fz = 0.0, wall = 0.0, lag = 0.0;  // lag per height
+};
+
+/// Bending at a height (above the lower end of contact) while an edge there stands at the wall.
+double bend_at(const Edge& e, double above) {
+  constexpr double kStraight = 1e-9;
+  const double seen = e.section.from_tip_mm + above;
+  const double pitch = 2.0 * kPi / e.tooth.teeth;
+  const double entry = e.section.arc.entry_rad - kReach;
+  const double exit = e.section.arc.exit_rad + kReach;
+  const double ap = e.section.ap_mm;
+  const auto integral = [&](double low, double high, double turned) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < kNode.size(); ++i) {
+      const double at = 0.5 * (low + high) + 0.5 * (high - low) * kNode[i];
+      const double angle = turned + e.lag * (above - at);
+      const double place = e.section.from_tip_mm + at;
+      sum += 0.5 * (high - low) * kWeight[i] * force_y(e.tooth, e.law, e.fz, angle, place) *
+             bending_mm_n(e.beam, place, seen);
+    }
+    return sum;
+  };
+  double bend = 0.0;
+  // Teeth at wall + k pitch + lag (above - z): those whose edge is in the arc somewhere along the contact.
+  const double reach = std::abs(e.lag) * ap;
+  const auto first = static_cast<int>(std::floor((entry - e.wall - reach) / pitch));
+  const auto last = static_cast<int>(std::ceil((exit - e.wall + reach) / pitch));
+  for (int k = first; k <= last; ++k) {
+    const double turned = e.wall + pitch * k;
+    if (std::abs(e.lag) * ap < kStraight) {
+      if (turned >= entry && turned <= exit) bend += integral(0.0, ap, turned);
+      continue;
+    }
+    const double at_exit = above - (exit - turned) / e.lag;
+    const double at_entry = above - (entry - turned) / e.lag;
+    const double low = std::max(0.0, std::min(at_exit, at_entry));
+    const double high = std::min(ap, std::max(at_exit, at_entry));
+    if (low < high) bend += integral(low, high, turned);
+  }
+  return bend;
+}
+
+}  // namespace
+
 Result<WallError> wall_error(const Section& section, const Tooth& tooth, const ForceLaw& law, double fz_mm,
                              WallSide side, const ToolBeam& beam) {
-  if (const auto l = section_loads(section, tooth, law, fz_mm, 1.0); !l) return fail(l.error());
+  if (auto ok = check_section(section, tooth, law, fz_mm, 1.0); !ok) return fail(ok.error());
   WallError out;
   if (!(section.ap_mm > 0.0)) return out;
-  constexpr double kReach = 1e-6;
   const double wall = side == WallSide::kLeft ? 0.0 : kPi;
   if (section.arc.entry_rad > wall + kReach || section.arc.exit_rad < wall - kReach)
     return fail(Diagnostic{.code = "MECH-DOMAIN",
                            .message = "the arc does not reach the wall",
                            .path = "arc",
                            .expected = side == WallSide::kLeft ? "entry at 0" : "exit at pi"});
-  const double pitch = 2.0 * kPi / tooth.teeth;
-  const double lag = helix_lag_rad(1.0, tooth.cutting_diameter_mm, tooth.helix_rad);
-  const double slice = section.ap_mm / static_cast<double>(kSlices);
+  const Edge edge{
+      section, tooth, law, beam, fz_mm, wall, helix_lag_rad(1.0, tooth.cutting_diameter_mm, tooth.helix_rad)};
   // Towards the wall is +y on the left and -y on the right; material is left when the tool gives way from it.
   const double away = side == WallSide::kLeft ? -1.0 : 1.0;
   for (std::size_t i = 0; i < WallError::kHeights; ++i) {
     const double above =
         section.ap_mm * static_cast<double>(i) / static_cast<double>(WallError::kHeights - 1);
-    const double seen = section.from_tip_mm + above;
-    double bend = 0.0;
-    for (std::size_t k = 0; k < kSlices; ++k) {
-      const double at = slice * (static_cast<double>(k) + 0.5);
-      const double place = section.from_tip_mm + at;
-      double force = 0.0;
-      for (int j = 0; j < tooth.teeth; ++j) {
-        double angle = wall + lag * (above - at) + pitch * j;
-        angle -= 2.0 * kPi * std::floor(angle / (2.0 * kPi));
-        if (angle > 2.0 * kPi - kReach) angle = 0.0;
-        if (angle < section.arc.entry_rad - kReach || angle > section.arc.exit_rad + kReach) continue;
-        force += force_y(tooth, law, fz_mm, angle, place);
-      }
-      bend += force * slice * bending_mm_n(beam, place, seen);
-    }
-    out.height_mm[i] = seen;
-    out.error_mm[i] = away * bend;
+    out.height_mm[i] = section.from_tip_mm + above;
+    out.error_mm[i] = away * bend_at(edge, above);
     out.most_left_mm = std::max(out.most_left_mm, out.error_mm[i]);
     out.most_over_mm = std::min(out.most_over_mm, out.error_mm[i]);
   }

@@ -61,7 +61,7 @@ inline constexpr double kHolderYoungsModulusNMm2 = 200e3;
 
 /// Error of a wall: material left (positive) or cut into the part (negative), mm.
 struct WallError {
-  static constexpr std::size_t kHeights = 17;
+  static constexpr std::size_t kHeights = 9;
   std::array<double, kHeights> height_mm{};  ///< above the tip, from the lower to the upper end of contact
   std::array<double, kHeights> error_mm{};
   double most_left_mm = 0.0;                ///< largest error_mm, at least 0
@@ -79,7 +79,7 @@ enum class WallSide { kLeft, kRight };
 /// The section must reach that side (arc from 0, or to pi); the forces are those of section.h's model at the
 /// nominal chip, without runout. Flanks only: heights of a corner radius or a ball count as their own radius.
 /// Fails     MECH-DOMAIN as section_loads, or when the arc does not reach the wall.
-/// Accuracy  heights as above, forces in kSlices slices: within 1 % of the integral. Of the model: the
+/// Accuracy  six Gauss points on each tooth's part in the arc: within 1 % of the integral. Of the model: the
 /// force's
 ///           uncertainty (force_law.h) times the beam's.
 /// Source    Kline, DeVor & Shareef 1982 ("The prediction of surface accuracy in end milling", J. Eng. Ind.

@@ -26,9 +26,7 @@ struct ForceVector {
 };
 
 /// The mean over a revolution. It does not depend on the helix.
-/// Uncertainty  of all three: that of the coefficients, of which one alloy has published sets 600 to 1319
-/// N/mm2
-///           (force_law.h).
+/// Uncertainty  of all three: the coefficients'; one alloy has published sets of 600 to 1319 N/mm2.
 /// Source: Altintas, equation 2.83 (closed integrals of the tooth's force over the arc).
 [[nodiscard]] ForceVector mean_milling_force(const CuttingCoefficients& k, int teeth, double ap_mm,
                                              double fz_mm, const ImmersionArc& arc);

@@ -309,37 +309,6 @@ void set_force(Pieces& all, const ForceLaw& law, double helix_rad, double fz) {
 constexpr double kSteepestHelixRad = 1.3962634015954636;  // 80 degrees: tan stays moderate
 constexpr double kFlattestLeadRad = 1.5;                  // 86 degrees
 
-Status check(const Section& s, const Tooth& t, const ForceLaw& law, double fz, double n) {
-  constexpr double kMost = 1e9;
-  if (auto ok = check_positive({{"fz_mm", fz},
-                                {"n_rpm", n},
-                                {"cutting_diameter_mm", t.cutting_diameter_mm},
-                                {"teeth", static_cast<double>(t.teeth)}});
-      !ok)
-    return ok;
-  for (const Named& v :
-       {Named{"ap_mm", s.ap_mm}, Named{"csa_mm2", s.csa_mm2}, Named{"from_tip_mm", s.from_tip_mm},
-        Named{"corner_radius_mm", t.corner_radius_mm}, Named{"runout_mm", t.runout_mm}})
-    if (auto ok = check_range(v, 0.0, kMost); !ok) return ok;
-  if (auto ok = check_range({"helix_rad", std::abs(t.helix_rad)}, 0.0, kSteepestHelixRad); !ok) return ok;
-  if (auto ok = check_range({"lead_angle_rad", t.lead_angle_rad + t.taper_angle_rad}, 0.0, kFlattestLeadRad);
-      !ok)
-    return ok;
-  if (auto ok = check_range({"entry_rad", s.arc.entry_rad}, -kMost, kMost); !ok) return ok;
-  if (auto ok = check_range({"arc", s.arc.exit_rad - s.arc.entry_rad}, 0.0, 2.0 * kPi + 1e-9); !ok) return ok;
-  if (law.mechanistic) {
-    const CuttingCoefficients& k = *law.mechanistic;
-    if (auto ok = check_positive({{"ktc_n_mm2", k.ktc_n_mm2}}); !ok) return ok;
-    for (const Named& v :
-         {Named{"kte_n_mm", k.kte_n_mm}, Named{"krc_n_mm2", k.krc_n_mm2}, Named{"kre_n_mm", k.kre_n_mm},
-          Named{"kac_n_mm2", k.kac_n_mm2}, Named{"kae_n_mm", k.kae_n_mm}})
-      if (auto ok = check_range(v, 0.0, kMost); !ok) return ok;
-    return {};
-  }
-  if (auto ok = check_positive({{"kc11_n_mm2", law.kienzle.kc11_n_mm2}}); !ok) return ok;
-  return check_range({"mc", law.kienzle.mc}, 0.0, 0.999);
-}
-
 bool is_plunge(const ImmersionArc& arc) { return arc.exit_rad - arc.entry_rad >= 2.0 * kPi - 1e-6; }
 
 SectionLoads plunge_loads(const Section& s, const Tooth& t, const ForceLaw& law, double fz, double n) {
@@ -396,9 +365,40 @@ ForceVector scaled(const ForceVector& f, double k) { return {f.fx_n * k, f.fy_n 
 
 }  // namespace
 
+Status check_section(const Section& s, const Tooth& t, const ForceLaw& law, double fz, double n) {
+  constexpr double kMost = 1e9;
+  if (auto ok = check_positive({{"fz_mm", fz},
+                                {"n_rpm", n},
+                                {"cutting_diameter_mm", t.cutting_diameter_mm},
+                                {"teeth", static_cast<double>(t.teeth)}});
+      !ok)
+    return ok;
+  for (const Named& v :
+       {Named{"ap_mm", s.ap_mm}, Named{"csa_mm2", s.csa_mm2}, Named{"from_tip_mm", s.from_tip_mm},
+        Named{"corner_radius_mm", t.corner_radius_mm}, Named{"runout_mm", t.runout_mm}})
+    if (auto ok = check_range(v, 0.0, kMost); !ok) return ok;
+  if (auto ok = check_range({"helix_rad", std::abs(t.helix_rad)}, 0.0, kSteepestHelixRad); !ok) return ok;
+  if (auto ok = check_range({"lead_angle_rad", t.lead_angle_rad + t.taper_angle_rad}, 0.0, kFlattestLeadRad);
+      !ok)
+    return ok;
+  if (auto ok = check_range({"entry_rad", s.arc.entry_rad}, -kMost, kMost); !ok) return ok;
+  if (auto ok = check_range({"arc", s.arc.exit_rad - s.arc.entry_rad}, 0.0, 2.0 * kPi + 1e-9); !ok) return ok;
+  if (law.mechanistic) {
+    const CuttingCoefficients& k = *law.mechanistic;
+    if (auto ok = check_positive({{"ktc_n_mm2", k.ktc_n_mm2}}); !ok) return ok;
+    for (const Named& v :
+         {Named{"kte_n_mm", k.kte_n_mm}, Named{"krc_n_mm2", k.krc_n_mm2}, Named{"kre_n_mm", k.kre_n_mm},
+          Named{"kac_n_mm2", k.kac_n_mm2}, Named{"kae_n_mm", k.kae_n_mm}})
+      if (auto ok = check_range(v, 0.0, kMost); !ok) return ok;
+    return {};
+  }
+  if (auto ok = check_positive({{"kc11_n_mm2", law.kienzle.kc11_n_mm2}}); !ok) return ok;
+  return check_range({"mc", law.kienzle.mc}, 0.0, 0.999);
+}
+
 Result<SectionLoads> section_loads(const Section& section, const Tooth& tooth, const ForceLaw& law,
                                    double fz_mm, double n_rpm) {
-  if (auto ok = check(section, tooth, law, fz_mm, n_rpm); !ok) return fail(ok.error());
+  if (auto ok = check_section(section, tooth, law, fz_mm, n_rpm); !ok) return fail(ok.error());
   if (is_plunge(section.arc)) {
     if (!(section.ap_mm > 0.0) && !(section.csa_mm2 > 0.0)) return SectionLoads{};
     return plunge_loads(section, tooth, law, fz_mm, n_rpm);

@@ -97,6 +97,10 @@ inline constexpr double kIrregular = 0.05;
 [[nodiscard]] Result<SectionLoads> section_loads(const Section& section, const Tooth& tooth,
                                                  const ForceLaw& law, double fz_mm, double n_rpm);
 
+/// What section_loads refuses, and nothing else: for whoever walks along the edge himself.
+[[nodiscard]] Status check_section(const Section& section, const Tooth& tooth, const ForceLaw& law,
+                                   double fz_mm, double n_rpm);
+
 /// What a section may ask for; infinity: no limit. Divide by margins before.
 struct LoadLimits {
   double peak_force_n = std::numeric_limits<double>::infinity();

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "planner/mechanics/beam.h"
 #include "planner/mechanics/section.h"
 
 namespace capstan::mechanics {
@@ -45,6 +46,22 @@ void feed_of_a_force(benchmark::State& state) {
   if (!l || std::abs(l->peak_force_n / 120.0 - 1.0) > 2e-3) state.SkipWithError("not the force asked for");
 }
 BENCHMARK(feed_of_a_force);
+
+void error_of_a_wall(benchmark::State& state) {
+  model::Cutter c;
+  c.cutting_diameter_mm = c.shank_diameter_mm = 12.0;
+  c.maximum_depth_of_cut_mm = 26.0;
+  c.stick_out_mm = 40.0;
+  const ToolBeam beam = beam_of(c).value();
+  double error = 0.0;
+  for (auto _ : state) {
+    const auto e = wall_error(shoulder(), flat(), kTabulated, 0.05, WallSide::kRight, beam);
+    error = e ? e->largest_mm() : 0.0;
+    benchmark::DoNotOptimize(error);
+  }
+  if (!(error > 0.0)) state.SkipWithError("down milling leaves material");
+}
+BENCHMARK(error_of_a_wall);
 
 }  // namespace
 }  // namespace capstan::mechanics
