@@ -19,21 +19,59 @@ constexpr std::array<double, 4> kNodes{0.1834346424956498, 0.5255324099163290, 0
                                        0.9602898564975363};
 constexpr std::array<double, 4> kWeights{0.3626837833783620, 0.3137066458778873, 0.2223810344533745,
                                          0.1012285362903763};
-constexpr int kPanels = 4;  // of eight lines each, over a disc
+constexpr double kShare = 1e-5;  // of a plunge's advance times radius squared
+constexpr int kDeepest = 10;     // halvings of the lines' panels
 
-/// Calls f(x, weight) for the lines across a disc: x = R sin t, so that a whole disc comes out exactly.
+/// Amounts over a disc, from what f finds on the lines x across it, by panels that are halved until `allowed`
+/// is kept: x = R sin t, so that a whole disc comes out exactly. f(x, c) adds to c per length of x.
 template <class F>
-void over_disc(double radius, F&& f) {
-  for (int panel = 0; panel < kPanels; ++panel) {
-    const double half = 0.5 * std::numbers::pi / kPanels;
-    const double middle = -0.5 * std::numbers::pi + (2 * panel + 1) * half;
+class Disc {
+ public:
+  Disc(double radius, double allowed, F& f) : radius_(radius), allowed_(allowed), f_(f) {}
+  Contact all() {
+    constexpr double kQuarter = 0.5 * std::numbers::pi;
+    Contact out;
+    refined(-kQuarter, kQuarter, panel(-kQuarter, kQuarter), 0, out);
+    return out;
+  }
+
+ private:
+  Contact panel(double t0, double t1) {
+    Contact sum;
     for (std::size_t i = 0; i < kNodes.size(); ++i) {
       for (const double side : {-1.0, 1.0}) {
-        const double t = middle + side * half * kNodes[i];
-        f(radius * std::sin(t), kWeights[i] * half * radius * std::cos(t));
+        const double t = 0.5 * (t0 + t1) + side * 0.5 * (t1 - t0) * kNodes[i];
+        Contact c;
+        f_(radius_ * std::sin(t), c);
+        sum.add(c, kWeights[i] * 0.5 * (t1 - t0) * radius_ * std::cos(t));
+        sum.extend(c);
       }
     }
+    return sum;
   }
+
+  void refined(double t0, double t1, const Contact& whole, int depth, Contact& out) {
+    const double middle = 0.5 * (t0 + t1);
+    const Contact left = panel(t0, middle);
+    const Contact right = panel(middle, t1);
+    if (depth >= kDeepest || std::abs(left.amount + right.amount - whole.amount) <= allowed_) {
+      for (const Contact& c : {left, right}) {
+        out.add(c, 1.0);
+        out.extend(c);
+      }
+      return;
+    }
+    refined(t0, middle, left, depth + 1, out);
+    refined(middle, t1, right, depth + 1, out);
+  }
+
+  double radius_, allowed_;
+  F& f_;
+};
+
+template <class F>
+Contact over_disc(double radius, double allowed, F&& f) {
+  return Disc<F>(radius, allowed, f).all();
 }
 
 /// Joins pieces that touch, so that strips of one contact are not taken for slivers.
@@ -98,24 +136,24 @@ Contact Prober::on_the_way(Vec2 at, Vec2 unit_heading, double z_mm, double fall)
 void Prober::under_tip(Vec2 at, Vec2 ahead, double z_mm, double fall, Contact& c) {
   const double radius = profile_.radius_mm;
   const Vec2 along{ahead.y, -ahead.x};
-  over_disc(radius, [&](double x, double weight) {
+  const Contact under = over_disc(radius, kShare * radius * radius, [&](double x, Contact& line) {
     const double half = std::sqrt(std::max(0.0, (radius - x) * (radius + x)));
-    stock_.heights(Probe::straight(at + x * along, ahead, -half, half), near_, z_mm + stock::kTouch,
-                   heights_);
+    const Probe across = Probe::straight(at + x * along, ahead, -half, half);
+    stock_.heights(across, near_, z_mm + stock::kTouch, heights_);
     double length = 0.0;
     for (const Heights::Piece& p : heights_.pieces()) {
       if (p.z_mm > z_mm + 2.0 * stock::kTouch) length += p.x1 - p.x0;
     }
     if (length < kSliver) return;
-    c.amount += fall * weight * length;
-    c.moment_x += fall * weight * length * x;
+    line.amount = length;
+    line.moment_x = length * x;
     // The lines stop short of the edge by less than their own distance.
     const double to_edge = std::abs(x) > 0.99 * radius ? std::copysign(radius, x) : x;
-    c.left = std::min(c.left, to_edge);
-    c.right = std::max(c.right, to_edge);
-    c.low = std::min(c.low, 0.0);
-    c.high = std::max(c.high, 0.0);
+    line.left = line.right = to_edge;
+    line.low = line.high = 0.0;
   });
+  c.add(under, fall);
+  c.extend(under);
 }
 
 double Prober::reach_at(double height_mm) const {
@@ -131,12 +169,12 @@ double Prober::reach_at(double height_mm) const {
 }
 
 Contact Prober::inside(Vec2 at, Vec2 ahead, double z_mm, double advance_mm) {
-  Contact c;
   const double radius = profile_.radius_mm;
   const Vec2 along{ahead.y, -ahead.x};
   double last_height = -1.0;
   double last_reach = 0.0;
-  over_disc(radius, [&](double x, double weight) {
+  const double allowed = kShare * radius * radius * std::max(advance_mm, kShare * radius);
+  Contact out = over_disc(radius, allowed, [&](double x, Contact& c) {
     const double half = std::sqrt(std::max(0.0, (radius - x) * (radius + x)));
     stock_.heights(Probe::straight(at + x * along, ahead, -half, half), near_, z_mm + stock::kTouch,
                    heights_);
@@ -157,7 +195,7 @@ Contact Prober::inside(Vec2 at, Vec2 ahead, double z_mm, double advance_mm) {
           for (const double side : {-1.0, 1.0}) {
             const double y = 0.5 * (from + to) + side * 0.5 * (to - from) * kNodes[i];
             const double base = profile_.height(std::hypot(x, y));
-            const double w = weight * kWeights[i] * 0.5 * (to - from);
+            const double w = kWeights[i] * 0.5 * (to - from);
             c.amount += w * (h - base);
             c.moment_x += w * (h - base) * x;
             c.moment_y += w * (h - base) * 0.5 * (h + base);
@@ -173,8 +211,8 @@ Contact Prober::inside(Vec2 at, Vec2 ahead, double z_mm, double advance_mm) {
       }
     }
   });
-  c.highest = std::max(0.0, c.high);
-  return c;
+  out.highest = std::max(0.0, out.high);
+  return out;
 }
 
 }  // namespace capstan::engagement
