@@ -35,8 +35,9 @@ double median_life_min(const model::ToolLifeLaw& law, double v_m_min, double h_m
   const bool known = law.life_min > 0.0 && law.v0_m_min > 0.0 && law.n > 0.0 && v_m_min > 0.0 &&
                      (!(law.p > 0.0) || h_mm > 0.0) && (!(law.q > 0.0) || a_mm > 0.0);
   if (!known) return 0.0;
-  return law.life_min * influence(v_m_min, law.v0_m_min, law.n) * influence(h_mm, law.h0_mm, law.p) *
-         influence(a_mm, law.a0_mm, law.q);
+  const double life = law.life_min * influence(v_m_min, law.v0_m_min, law.n) *
+                      influence(h_mm, law.h0_mm, law.p) * influence(a_mm, law.a0_mm, law.q);
+  return std::isnan(life) ? 0.0 : life;
 }
 
 double scatter_of(const model::ToolLifeLaw& law) { return law.scatter > 0.0 ? law.scatter : kLifeScatter; }
@@ -49,7 +50,9 @@ double mean_life_min(const model::ToolLifeLaw& law, double v_m_min, double h_mm,
 double sure_life_min(const model::ToolLifeLaw& law, double confidence, double v_m_min, double h_mm,
                      double a_mm) {
   if (!(confidence > 0.0 && confidence < 1.0)) return 0.0;
-  return median_life_min(law, v_m_min, h_mm, a_mm) * std::exp(-normal_quantile(confidence) * scatter_of(law));
+  const double life =
+      median_life_min(law, v_m_min, h_mm, a_mm) * std::exp(-normal_quantile(confidence) * scatter_of(law));
+  return std::isnan(life) ? 0.0 : life;
 }
 
 double normal_quantile(double share) {

@@ -24,12 +24,16 @@ Status check(const MillingCut& cut, const WorkMaterial& work) {
       !s) {
     return s;
   }
+  // So that no sum over teeth is endless: no cutter has a thousand, or an edge of 160 turns.
+  if (auto s = check_range({"teeth", static_cast<double>(cut.teeth)}, 1.0, 1000.0); !s) return s;
   if (auto s = check_range({"ae_mm", cut.ae_mm}, 0.0, cut.cutting_diameter_mm); !s) return s;
   if (auto s = check_range({"helix_rad", cut.helix_rad}, 0.0, kSteepestHelixRad); !s) return s;
   if (auto s = check_range({"corner_radius_mm", cut.corner_radius_mm}, 0.0, 0.5 * cut.cutting_diameter_mm);
       !s) {
     return s;
   }
+  const double lag = helix_lag_rad(cut.ap_mm, cut.cutting_diameter_mm, cut.helix_rad);
+  if (auto s = check_range({"lag of the helix, rad", lag}, 0.0, 1000.0); !s) return s;
   return check_range({"mc", work.mc}, 0.0, 0.999);
 }
 

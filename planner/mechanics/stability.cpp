@@ -16,6 +16,8 @@ namespace {
 
 using Complex = std::complex<double>;
 constexpr double kPi = std::numbers::pi;
+constexpr double kLeastHz = 1.0;
+constexpr double kMostHz = 1e5;
 constexpr double kNone = std::numeric_limits<double>::infinity();
 
 /// Mean directional coefficients, per unit of N Kt / (2 pi).
@@ -92,14 +94,15 @@ std::vector<double> grid(const Modes& modes) {
 Status check(const Modes& modes, const ChatterCut& cut) {
   if (modes.empty()) return fail("MECH-MODES", "there is no mode of the tool point");
   for (const auto& m : modes) {
-    const bool good = (m.direction == "x" || m.direction == "y") && m.frequency_hz > 0.0 &&
-                      std::isfinite(m.frequency_hz) && m.damping_ratio > 0.0 && m.damping_ratio < 1.0 &&
+    const bool good = (m.direction == "x" || m.direction == "y") && m.frequency_hz >= kLeastHz &&
+                      m.frequency_hz <= kMostHz && m.damping_ratio > 0.0 && m.damping_ratio < 1.0 &&
                       m.stiffness_n_mm > 0.0 && std::isfinite(m.stiffness_n_mm);
     if (!good) return fail("MECH-MODES", "a mode of the tool point is out of range");
   }
   if (auto ok = check_positive({{"teeth", static_cast<double>(cut.teeth)}, {"ktc_n_mm2", cut.ktc_n_mm2}});
       !ok)
     return ok;
+  if (auto ok = check_range({"teeth", static_cast<double>(cut.teeth)}, 1.0, 1000.0); !ok) return ok;
   if (auto ok = check_range({"krc_n_mm2", cut.krc_n_mm2}, 0.0, 1e9); !ok) return ok;
   if (auto ok = check_range({"entry_rad", cut.arc.entry_rad}, 0.0, kPi); !ok) return ok;
   return check_range({"exit_rad", cut.arc.exit_rad}, cut.arc.entry_rad, kPi);
