@@ -37,8 +37,6 @@ rows::Piece piece_of(const ProfilePiece& p) {
   return out;
 }
 
-bool is_flat(const rows::Work& w) { return w.pieces == 1 && w.piece[0].form == rows::Form::kLevel; }
-
 /// The cutter, on a level track from a to b.
 rows::Work work_of(const HeightMap& map, const CutterProfile& profile, Vec2 a, Vec2 b, double tip_z) {
   if (profile.pieces.size() > static_cast<std::size_t>(rows::kPieces)) {
@@ -158,11 +156,12 @@ void sweep(HeightMap& map, const CutterProfile& profile, const Track& track, boo
     w.reach += sagitta;
     w.inner -= sagitta;
   }
+  w.hx = ahead.x;
+  w.hy = ahead.y;
   if (behind_is_cut && !standing) {
     w.half = true;
-    w.hx = ahead.x;
-    w.hy = ahead.y;
-    if (is_flat(w)) w.hollow = std::max(0.0, profile.radius_mm - half_diagonal);
+    const ProfilePiece& bottom = profile.pieces.front();
+    if (w.piece[0].form == rows::Form::kLevel) w.hollow = std::max(0.0, bottom.r1_mm - half_diagonal);
   }
   take(map, w, tally);
 }

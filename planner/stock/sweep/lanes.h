@@ -58,19 +58,20 @@ inline Native root(Native v) {
 }
 inline Float root(Float a) { CAPSTAN_LANES(r, Float, root(a.p[i])); }
 
-inline bool any(Mask m) {
+/// Bit k: lane k.
+inline unsigned bits(Mask m) {
 #if defined(__AVX2__)
-  return _mm256_movemask_ps(reinterpret_cast<__m256>(m.p[0])) != 0;
+  return static_cast<unsigned>(_mm256_movemask_ps(reinterpret_cast<__m256>(m.p[0])));
 #elif defined(__SSE2__)
-  return _mm_movemask_ps(reinterpret_cast<__m128>(m.p[0] | m.p[1])) != 0;
+  return static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(m.p[0]))) |
+         (static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(m.p[1]))) << 4U);
 #else
-  int out = 0;
-  for (const NativeMask& part : m.p) {
-    for (int i = 0; i < kWidth; ++i) out |= part[i];
-  }
-  return out != 0;
+  unsigned out = 0;
+  for (int k = 0; k < kLanes; ++k) out |= m.p[k / kWidth][k % kWidth] != 0 ? 1U << unsigned(k) : 0U;
+  return out;
 #endif
 }
+inline bool any(Mask m) { return bits(m) != 0; }
 
 /// Cut off towards zero.
 inline void whole_numbers(Float a, int* to) {

@@ -1,17 +1,25 @@
 // Included once by each variant's source, inside its unnamed namespace, after lanes.h. No sum is reordered.
 
+// Inlined throughout, so that the constants of a sweep are laid out once and not for each row.
+#define CAPSTAN_INLINE __attribute__((always_inline)) inline
+
+constexpr int kMostFine = 512;
+constexpr int kFine = kMostFine + 4 * kLanes;
+
 /// Sums lane by lane.
 struct Totals {
   Float v = 0.0F, vx = 0.0F, vz = 0.0F;
   Float left = 1e30F, right = -1e30F;
   double volume[kLanes] = {}, x[kLanes] = {}, y[kLanes] = {};
-  float low[kBins][kLanes], high[kBins][kLanes];
+  /// Extremes of contact over narrow bins of X: as wide as the cells of a row are apart in X, so that the
+  /// cells of a block go to neighbouring bins at once. Bins count from -R, from +R where X falls along rows.
+  float low[kFine], high[kFine];
   int blocks = 0;
 
-  Totals() {
-    for (int b = 0; b < kBins; ++b) {
-      Float(1e30F).put(low[b]);
-      Float(-1e30F).put(high[b]);
+  explicit Totals(int bins) {
+    for (int b = 0; b < bins; b += kLanes) {
+      Float(1e30F).put(low + b);
+      Float(-1e30F).put(high + b);
     }
   }
   /// Single precision adds up a limited number of cells only.
@@ -24,6 +32,20 @@ struct Totals {
     }
     v = vx = vz = 0.0F;
   }
+  /// Narrow bins become those of the section.
+  void gather(int bins, float per_bin, bool falling, Sums& out) const {
+    for (int b = 0; b < kBins; ++b) {
+      out.low[b] = 1e30F;
+      out.high[b] = -1e30F;
+    }
+    for (int i = 0; i < bins; ++i) {
+      const int nth = static_cast<int>((static_cast<float>(i) + 0.5F) * per_bin);
+      const int within = nth < kBins - 1 ? nth : kBins - 1;
+      const int b = falling ? kBins - 1 - within : within;
+      out.low[b] = low[i] < out.low[b] ? low[i] : out.low[b];
+      out.high[b] = high[i] > out.high[b] ? high[i] : out.high[b];
+    }
+  }
   void finish(Sums& out) {
     flush();
     for (int k = 0; k < kLanes; ++k) {
@@ -34,25 +56,17 @@ struct Totals {
       out.left = l < out.left ? l : out.left;
       out.right = r > out.right ? r : out.right;
     }
-    for (int b = 0; b < kBins; ++b) {
-      float l = low[b][0];
-      float h = high[b][0];
-      for (int k = 1; k < kLanes; ++k) {
-        l = low[b][k] < l ? low[b][k] : l;
-        h = high[b][k] > h ? high[b][k] : h;
-      }
-      out.low[b] = l;
-      out.high[b] = h;
-    }
   }
 };
 
-/// The constants of a sweep in single precision.
+/// The constants of a sweep, laid out in lanes once: formulas take them from memory.
 struct Constants {
-  float radius, cell, inverse_cell, half_cell, tip, bin_scale;
-  float inverse_arc_radius, turn;
-  float ex, ey, gx, gy, ux, uy;
-  float along_step, across_step;  ///< from one cell of a row to the next
+  Float radius, cell, inverse_cell, half_cell, tip, twice_tip, base;
+  Float inverse_arc_radius, turn, ex, ey, gx, gy, ux, uy;
+  Float along_step, across_step;       ///< from one cell of a row to the next
+  Float rc, zc, round, round_squared;  ///< the outline's last piece, where it is an arc
+  float bin_scale, bin_sign, bin_shift;
+  int bins;
 };
 
 struct Seats {
@@ -60,26 +74,39 @@ struct Seats {
   Float nx, ny, n;  ///< across the nearest edge, and its length
 };
 
-/// Where kLanes cells of a row lie against the track; (x, y): centre of the first.
+/// Where a cell lies against the track, from both ends of it: along and across, for an arc x and y.
+struct Start {
+  float a0, a1, b0, b1;
+};
 template <bool kArc>
-inline Seats seat(const Work& w, const Constants& c, double x, double y) {
+CAPSTAN_INLINE Start start(const Work& w, double x, double y) {
   const double rx = x - w.ax, ry = y - w.ay;
   const double qx = x - w.bx, qy = y - w.by;
+  if constexpr (kArc) {
+    return {static_cast<float>(rx), static_cast<float>(ry), static_cast<float>(qx), static_cast<float>(qy)};
+  } else {
+    return {static_cast<float>(rx * w.ux + ry * w.uy), static_cast<float>(rx * w.uy - ry * w.ux),
+            static_cast<float>(qx * w.ux + qy * w.uy), 0.0F};
+  }
+}
+
+/// kLanes cells of a row, `ahead` cells and more after the one at the start.
+template <bool kArc>
+CAPSTAN_INLINE Seats seat(const Constants& c, const Start& from, float ahead) {
+  const Float cells = Float::count() + ahead;
   Seats s;
   if constexpr (!kArc) {
-    const Float step = Float::count() * c.along_step;
-    const Float along_a = step + static_cast<float>(rx * w.ux + ry * w.uy);
-    const Float along_b = step + static_cast<float>(qx * w.ux + qy * w.uy);
-    s.across = Float::count() * c.across_step + static_cast<float>(rx * w.uy - ry * w.ux);
+    const Float along_a = cells * c.along_step + from.a0;
+    const Float along_b = cells * c.along_step + from.b0;
+    s.across = cells * c.across_step + from.a1;
     const Float past = greater(along_b, 0.0F) + smaller(along_a, 0.0F);
     s.distance2 = s.across * s.across + past * past;
     s.nx = past * c.ux + s.across * c.uy;
     s.ny = past * c.uy - s.across * c.ux;
     s.n = root(s.distance2);
   } else {
-    const Float step = Float::count() * c.cell;
-    const Float ax = step + static_cast<float>(rx), ay = static_cast<float>(ry);
-    const Float bx = step + static_cast<float>(qx), by = static_cast<float>(qy);
+    const Float ax = cells * c.cell + from.a0, ay = from.a1;
+    const Float bx = cells * c.cell + from.b0, by = from.b1;
     const Float a2 = ax * ax + ay * ay, b2 = bx * bx + by * by;
     // |r| - radius without the loss of digits that a large radius would bring.
     const Float m = Float(2.0F) * (ax * c.ex + ay * c.ey) + a2 * c.inverse_arc_radius;
@@ -99,33 +126,52 @@ inline Seats seat(const Work& w, const Constants& c, double x, double y) {
   return s;
 }
 
+/// Outlines that are worth a loop of their own; kBull: a disc and a round.
+enum class Shape { kFlat, kBall, kBull, kAny };
+
+inline Shape shape_of(const Work& w) {
+  if (w.pieces == 1 && w.piece[0].form == Form::kLevel) return Shape::kFlat;
+  if (w.pieces == 1 && w.piece[0].form == Form::kBall) return Shape::kBall;
+  if (w.pieces == 2 && w.piece[0].form == Form::kLevel && w.piece[1].form == Form::kRound)
+    return Shape::kBull;
+  return Shape::kAny;
+}
+
+CAPSTAN_INLINE Float height(const Piece& p, Float r2) {
+  if (p.form == Form::kBall) return Float(p.zc) - root(greater(0.0F, Float(p.radius_squared) - r2));
+  if (p.form == Form::kSlant) return (root(r2) - p.r0) * p.slope + p.z0;
+  if (p.form == Form::kLevel) return p.z0;
+  const Float off = root(r2) - p.rc;
+  return Float(p.zc) - root(greater(0.0F, (Float(p.radius) - off) * (off + p.radius)));
+}
+
 /// Height of the cutter above the floor at squared distances from the axis.
-inline Float outline(const Work& w, const Constants& c, Float r2) {
+template <Shape kShape>
+CAPSTAN_INLINE Float outline(const Work& w, const Constants& c, Float r2) {
   Float z = 0.0F;
-  for (int i = 0; i < w.pieces; ++i) {
-    const Piece& p = w.piece[i];
-    Float v = p.z0;
-    if (p.form == Form::kBall) {
-      v = Float(p.zc) - root(greater(0.0F, Float(p.radius_squared) - r2));
-    } else if (p.form == Form::kSlant) {
-      v = (root(r2) - p.r0) * p.slope + p.z0;
-    } else if (p.form == Form::kRound) {
-      const Float off = root(r2) - p.rc;
-      v = Float(p.zc) - root(greater(0.0F, (Float(p.radius) - off) * (off + p.radius)));
+  if constexpr (kShape == Shape::kBall) {
+    z = c.zc - root(greater(0.0F, c.round_squared - r2));
+  } else if constexpr (kShape == Shape::kBull) {
+    const Float off = greater(root(r2) - c.rc, 0.0F);
+    z = c.zc - root(greater(0.0F, (c.round - off) * (off + c.round)));
+  } else if constexpr (kShape == Shape::kAny) {
+    z = height(w.piece[0], r2);
+    for (int i = 1; i < w.pieces; ++i) {
+      const Piece& p = w.piece[i];
+      z = select(Float(p.r0_squared) < r2, height(p, r2), z);
     }
-    z = i == 0 ? v : select(Float(p.r0_squared) < r2, v, z);
   }
   return greater(0.0F, z + c.tip);
 }
 
 /// How much of each cell the cutter covers (the part of a square inside a straight edge, as coverage.h), and
 /// the squared distance at which its height is taken: the middle of the covered part.
-inline Float rim(const Constants& c, const Seats& s, Float& at2) {
+CAPSTAN_INLINE Float rim(const Constants& c, const Seats& s, Float& at2) {
   const Float d = root(s.distance2);
   const Float inverse = Float(1.0F) / greater(s.n, 1e-12F);
   const Float nx = magnitude(s.nx) * inverse, ny = magnitude(s.ny) * inverse;
   const Float a = greater(nx, ny), b = smaller(nx, ny);
-  const Float away = magnitude(Float(c.radius) - d) * c.inverse_cell;
+  const Float away = magnitude(c.radius - d) * c.inverse_cell;
   const Float rest = (a + b) * 0.5F - away;
   const Mask straight = away <= (a - b) * 0.5F;
   const Float over = select(straight, away, rest * rest);
@@ -146,7 +192,7 @@ struct Chips {
 };
 
 /// Uniform cells that the cutter covers as a whole.
-inline Chips lower_uniform(Float z, Mask valid, float tip, float* top, float* low) {
+CAPSTAN_INLINE Chips lower_uniform(Float z, Mask valid, const Constants& c0, float* top, float* low) {
   const Float t = Float::at(top);
   const Float depth = t - z;
   Chips out;
@@ -155,20 +201,21 @@ inline Chips lower_uniform(Float z, Mask valid, float tip, float* top, float* lo
   now.put(top);
   now.put(low);
   out.drop = select(out.touched, depth, 0.0F);
-  out.moment = out.drop * (t + z - 2.0F * tip);
+  out.moment = out.drop * (t + z - c0.twice_tip);
   out.top = t;
   out.bottom = z;
   return out;
 }
 
-inline Float twice_moment(Float t, Float l, Float s, float tip) {
+CAPSTAN_INLINE Float twice_moment(Float t, Float l, Float s, Float tip) {
   const Float a = t - tip, b = l - tip;
   return (Float(1.0F) - s) * a * a + s * b * b;
 }
 
 /// Lowers the covered part of columns to z. Parts are taken as nested: an edge that comes back to a cell is
 /// the edge that was there before.
-inline Chips lower_parts(Float c, Float z, Mask valid, float tip, float* top, float* low, float* share) {
+CAPSTAN_INLINE Chips lower_parts(Float c, Float z, Mask valid, const Constants& c0, float* top, float* low,
+                                 float* share) {
   const Float t = Float::at(top), l = Float::at(low), s = Float::at(share);
   const Mask whole = Float(1.0F) <= c;
   const Mask below = z <= l;
@@ -186,7 +233,7 @@ inline Chips lower_parts(Float c, Float z, Mask valid, float tip, float* top, fl
   const Mask from_low_part = below & (~wider | ((c - s) * (t - l) < s * (l - z)));
   const Mask from_low = (whole & (t - z < kThinnest)) | (~whole & from_low_part);
   out.drop = select(out.touched, drop, 0.0F);
-  out.moment = select(out.touched, twice_moment(t, l, s, tip) - twice_moment(t1, l1, s1, tip), 0.0F);
+  out.moment = select(out.touched, twice_moment(t, l, s, c0.tip) - twice_moment(t1, l1, s1, c0.tip), 0.0F);
   out.top = select(from_low, l, t);
   out.bottom = z;
   select(out.touched, t1, t).put(top);
@@ -195,53 +242,79 @@ inline Chips lower_parts(Float c, Float z, Mask valid, float tip, float* top, fl
   return out;
 }
 
-inline void add(const Constants& c, Float across, const Chips& chips, Totals& totals) {
-  const Float x = smaller(c.radius, greater(-c.radius, across));
+template <bool kArc, bool kCovered>
+CAPSTAN_INLINE void add(const Constants& c, Float across, const Chips& chips, Totals& totals) {
+  const Float x = kCovered && !kArc ? across : smaller(c.radius, greater(0.0F - c.radius, across));
   totals.v = totals.v + chips.drop;
   totals.vx = totals.vx + chips.drop * x;
   totals.vz = totals.vz + chips.moment;
   totals.left = smaller(totals.left, select(chips.touched, across, 1e30F));
   totals.right = greater(totals.right, select(chips.touched, across, -1e30F));
-  int bin[kLanes];
-  float top[kLanes], bottom[kLanes];
-  whole_numbers(smaller((x + c.radius) * c.bin_scale, static_cast<float>(kBins) - 0.5F), bin);
-  select(chips.touched, chips.top, -1e30F).put(top);
-  select(chips.touched, chips.bottom, 1e30F).put(bottom);
-#pragma GCC unroll 8
-  for (int k = 0; k < kLanes; ++k) {
-    float& low = totals.low[bin[k]][k];
-    float& high = totals.high[bin[k]][k];
-    low = bottom[k] < low ? bottom[k] : low;
-    high = top[k] > high ? top[k] : high;
+  const Float lowest = select(chips.touched, chips.bottom, 1e30F);
+  const Float highest = select(chips.touched, chips.top, -1e30F);
+  if constexpr (kArc) {  // X is no linear function along a row
+    int bin[kLanes];
+    float bottom[kLanes], top[kLanes];
+    whole_numbers((x + c.radius) * c.bin_scale, bin);
+    lowest.put(bottom);
+    highest.put(top);
+    for (int k = 0; k < kLanes; ++k) {
+      float& low = totals.low[bin[k]];
+      float& high = totals.high[bin[k]];
+      low = bottom[k] < low ? bottom[k] : low;
+      high = top[k] > high ? top[k] : high;
+    }
+  } else {
+    const float place = (across.p[0][0] * c.bin_sign + c.bin_shift) * c.bin_scale;
+    const int nth = place > 0.0F ? static_cast<int>(place) : 0;
+    const int bin = nth < c.bins - kLanes ? nth : c.bins - kLanes;
+    float* const low = totals.low + bin;
+    float* const high = totals.high + bin;
+    smaller(lowest, Float::at(low)).put(low);
+    greater(highest, Float::at(high)).put(high);
   }
 }
 
+/// A place is carried on in single precision over so many blocks.
+constexpr int kSteps = 16;
+
 /// Cells ix0 to ix1 of a row. kCovered: all of them covered as a whole.
-template <bool kArc, bool kCovered>
+template <bool kArc, Shape kShape, bool kCovered>
 inline void run(const Grid& g, const Work& w, const Constants& c, int iy, int ix0, int ix1, Totals& totals) {
   const double y = g.y0 + static_cast<double>(iy) * g.cell;
   const unsigned long row = static_cast<unsigned long>(iy) * static_cast<unsigned long>(g.nx);
-  const float base = c.tip > 0.0F ? c.tip : 0.0F;
-  for (int ix = ix0; ix <= ix1; ix += kLanes) {
+  float* const row_top = g.top + row;
+  float* const row_low = g.low + row;
+  float* const row_share = g.share + row;
+  // From behind to the front, as the rows: the lowest contact in a bin then mostly comes first.
+  const int blocks = (ix1 - ix0) / kLanes;
+  const int way = w.hx < 0.0 ? -1 : 1;
+  Start from;
+  int start_ix = 0;
+  for (int i = 0; i <= blocks; ++i) {
+    const int ix = ix0 + kLanes * (way > 0 ? i : blocks - i);
+    if (i % kSteps == 0) {
+      from = start<kArc>(w, g.x0 + static_cast<double>(ix) * g.cell, y);
+      start_ix = ix;
+    }
+    float* const top = row_top + ix;
+    float* const low = row_low + ix;
+    float* const share = row_share + ix;
+    if (!any(c.base < Float::at(top))) continue;
     const Mask valid = Float::count() < static_cast<float>(ix1 - ix + 1);
-    const unsigned long at = row + static_cast<unsigned long>(ix);
-    float* const top = g.top + at;
-    float* const low = g.low + at;
-    float* const share = g.share + at;
-    if (!any(Float(base) < Float::at(top))) continue;
-    const Seats s = seat<kArc>(w, c, g.x0 + static_cast<double>(ix) * g.cell, y);
+    const Seats s = seat<kArc>(c, from, static_cast<float>(ix - start_ix));
     Chips chips;
     if constexpr (kCovered) {
-      const Float z = outline(w, c, s.distance2);
-      chips = any(Float(0.0F) < Float::at(share)) ? lower_parts(1.0F, z, valid, c.tip, top, low, share)
-                                                  : lower_uniform(z, valid, c.tip, top, low);
+      const Float z = outline<kShape>(w, c, s.distance2);
+      chips = any(Float(0.0F) < Float::at(share)) ? lower_parts(1.0F, z, valid, c, top, low, share)
+                                                  : lower_uniform(z, valid, c, top, low);
     } else {
       Float at2;
       const Float cover = rim(c, s, at2);
-      chips = lower_parts(cover, outline(w, c, at2), valid, c.tip, top, low, share);
+      chips = lower_parts(cover, outline<kShape>(w, c, at2), valid, c, top, low, share);
     }
     if (!any(chips.touched)) continue;
-    add(c, s.across, chips, totals);
+    add<kArc, kCovered>(c, s.across, chips, totals);
     if (++totals.blocks >= 64) totals.flush();
   }
 }
@@ -307,8 +380,16 @@ inline void ranges(const Grid& g, const Work& w, int iy, Ranges& out) {
   Spans outer;
   Spans inner;
   capsule(w, static_cast<float>(w.reach), above, cell, outer);
-  const bool any_inner = w.inner > 0.0;
-  capsule(w, any_inner ? static_cast<float>(w.inner) : 0.0F, above, cell, inner);
+  // Where the middle is cut already and the step is short, few cells in a row are covered as a whole.
+  const bool any_inner = w.inner > 0.0 && !(w.hollow >= w.inner && w.length < 6.0 * g.cell);
+  if (any_inner) {
+    capsule(w, static_cast<float>(w.inner), above, cell, inner);
+  } else {
+    for (int k = 0; k < kLanes; ++k) {
+      inner.lo[k] = 1.0F;
+      inner.hi[k] = -1.0F;
+    }
+  }
   const auto hx = static_cast<float>(w.hx), hy = static_cast<float>(w.hy);
   const bool upright = __builtin_fabsf(hx) < 1e-6F;
   const float tilt = upright ? 0.0F : hy / hx;
@@ -338,20 +419,20 @@ inline void ranges(const Grid& g, const Work& w, int iy, Ranges& out) {
   }
 }
 
-template <bool kArc>
+template <bool kArc, Shape kShape>
 inline void part(const Grid& g, const Work& w, const Constants& c, int iy, int first, int last,
                  int inner_first, int inner_last, Totals& totals) {
   const int i0 = inner_first > first ? inner_first : first;
   const int i1 = inner_last < last ? inner_last : last;
   if (i1 - i0 < kLanes - 1 && (i0 > first || i1 < last)) {
-    return run<kArc, false>(g, w, c, iy, first, last, totals);
+    return run<kArc, kShape, false>(g, w, c, iy, first, last, totals);
   }
-  if (i0 > first) run<kArc, false>(g, w, c, iy, first, i0 - 1, totals);
-  run<kArc, true>(g, w, c, iy, i0, i1, totals);
-  if (i1 < last) run<kArc, false>(g, w, c, iy, i1 + 1, last, totals);
+  if (i0 > first) run<kArc, kShape, false>(g, w, c, iy, first, i0 - 1, totals);
+  run<kArc, kShape, true>(g, w, c, iy, i0, i1, totals);
+  if (i1 < last) run<kArc, kShape, false>(g, w, c, iy, i1 + 1, last, totals);
 }
 
-template <bool kArc>
+template <bool kArc, Shape kShape>
 inline void each_row(const Grid& g, const Work& w, const Constants& c, Totals& totals) {
   const double lowest = (w.ay < w.by ? w.ay : w.by) - w.reach;
   const double highest = (w.ay > w.by ? w.ay : w.by) + w.reach;
@@ -360,30 +441,52 @@ inline void each_row(const Grid& g, const Work& w, const Constants& c, Totals& t
   const int iy0 = from > 0.0 ? static_cast<int>(from) : 0;
   const int iy1 = to < static_cast<double>(g.ny - 1) ? static_cast<int>(to) : g.ny - 1;
   Ranges r;
-  for (int iy = iy0; iy <= iy1; ++iy) {
-    const int k = (iy - iy0) % kLanes;
-    if (k == 0) ranges(g, w, iy, r);
+  const int rows = iy1 - iy0 + 1;
+  const bool up = w.hy >= 0.0;
+  for (int i = 0; i < rows; ++i) {
+    const int nth = up ? i : rows - 1 - i;
+    const int iy = iy0 + nth;
+    const int k = nth % kLanes;
+    if (i == 0 || k == (up ? 0 : kLanes - 1)) ranges(g, w, iy - k, r);
     const int first = r.first[k] > 0 ? r.first[k] : 0;
     const int last = r.last[k] < g.nx - 1 ? r.last[k] : g.nx - 1;
     if (first > last) continue;
     const int h0 = r.hollow_first[k], h1 = r.hollow_last[k];
     if (h0 > h1 || h1 < first || h0 > last) {
-      part<kArc>(g, w, c, iy, first, last, r.inner_first[k], r.inner_last[k], totals);
+      part<kArc, kShape>(g, w, c, iy, first, last, r.inner_first[k], r.inner_last[k], totals);
       continue;
     }
-    if (first < h0) part<kArc>(g, w, c, iy, first, h0 - 1, r.inner_first[k], r.inner_last[k], totals);
-    if (h1 < last) part<kArc>(g, w, c, iy, h1 + 1, last, r.inner_first[k], r.inner_last[k], totals);
+    if (first < h0) part<kArc, kShape>(g, w, c, iy, first, h0 - 1, r.inner_first[k], r.inner_last[k], totals);
+    if (h1 < last) part<kArc, kShape>(g, w, c, iy, h1 + 1, last, r.inner_first[k], r.inner_last[k], totals);
+  }
+}
+
+template <bool kArc>
+inline void shaped(const Grid& g, const Work& w, const Constants& c, Totals& totals) {
+  switch (shape_of(w)) {
+    case Shape::kFlat:
+      return each_row<kArc, Shape::kFlat>(g, w, c, totals);
+    case Shape::kBall:
+      return each_row<kArc, Shape::kBall>(g, w, c, totals);
+    case Shape::kBull:
+      return each_row<kArc, Shape::kBull>(g, w, c, totals);
+    case Shape::kAny:
+      return each_row<kArc, Shape::kAny>(g, w, c, totals);
   }
 }
 
 inline void sweep_rows(const Grid& g, const Work& w, Sums& out) {
+  const auto radius = static_cast<float>(w.radius), cell = static_cast<float>(g.cell);
+  const auto tip = static_cast<float>(w.tip);
+  const auto across_step = static_cast<float>(g.cell * w.uy);
   Constants c;
-  c.radius = static_cast<float>(w.radius);
-  c.cell = static_cast<float>(g.cell);
-  c.inverse_cell = 1.0F / c.cell;
-  c.half_cell = 0.5F * c.cell;
-  c.tip = static_cast<float>(w.tip);
-  c.bin_scale = static_cast<float>(kBins) / (2.0F * c.radius);
+  c.radius = radius;
+  c.cell = cell;
+  c.inverse_cell = 1.0F / cell;
+  c.half_cell = 0.5F * cell;
+  c.tip = tip;
+  c.twice_tip = 2.0F * tip;
+  c.base = tip > 0.0F ? tip : 0.0F;
   c.inverse_arc_radius = w.arc ? static_cast<float>(1.0 / w.arc_radius) : 0.0F;
   c.turn = static_cast<float>(w.turn);
   c.ex = static_cast<float>(w.ex);
@@ -393,12 +496,26 @@ inline void sweep_rows(const Grid& g, const Work& w, Sums& out) {
   c.ux = static_cast<float>(w.ux);
   c.uy = static_cast<float>(w.uy);
   c.along_step = static_cast<float>(g.cell * w.ux);
-  c.across_step = static_cast<float>(g.cell * w.uy);
-  Totals totals;
+  c.across_step = across_step;
+  const Piece& last = w.piece[w.pieces - 1];
+  c.rc = last.rc;
+  c.zc = last.zc;
+  c.round = last.radius;
+  c.round_squared = last.radius_squared;
+  const float least = 2.0F * radius / static_cast<float>(kMostFine);
+  const float width = more(w.arc ? 0.7F * cell : __builtin_fabsf(across_step), least);
+  c.bin_scale = 1.0F / width;
+  c.bin_sign = !w.arc && across_step < 0.0F ? -1.0F : 1.0F;
+  c.bin_shift = radius;
+  c.bins = static_cast<int>(2.0F * radius / width) + kLanes + 1;
+  Totals totals(c.bins);
   if (w.arc) {
-    each_row<true>(g, w, c, totals);
+    shaped<true>(g, w, c, totals);
   } else {
-    each_row<false>(g, w, c, totals);
+    shaped<false>(g, w, c, totals);
   }
   totals.finish(out);
+  totals.gather(c.bins, width * static_cast<float>(kBins) / (2.0F * radius), c.bin_sign < 0.0F, out);
 }
+
+#undef CAPSTAN_INLINE
