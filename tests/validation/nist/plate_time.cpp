@@ -8,16 +8,6 @@
 #include "planner/optimise/solver/solver.h"
 
 namespace capstan::validation::nist {
-namespace {
-
-constexpr double kInch = 25.4;
-constexpr double kWanted = 0.10;  // times within 10 %
-constexpr int kEngraver = 23;
-constexpr int kWithoutLaterRun = 1;  // its engraver has no later run: 154 s where the other parts have 196 s
-constexpr double kWaiting_s =
-    20.0;  // standing still that long is waiting for the operator (M01), not the machine
-constexpr double kTopSpeed_rpm = 12000.0;
-
 model::Machine machine_of(const Plate& plate, const MachineFit& fit) {
   model::Machine m;
   m.id = "hurco";
@@ -31,6 +21,16 @@ model::Machine machine_of(const Plate& plate, const MachineFit& fit) {
   m.control.block_time_s = fit.block_time_s;
   return m;
 }
+
+namespace {
+
+constexpr double kInch = 25.4;
+constexpr double kWanted = 0.10;  // times within 10 %
+constexpr int kEngraver = 23;
+constexpr int kWithoutLaterRun = 1;  // its engraver has no later run: 154 s where the other parts have 196 s
+constexpr double kWaiting_s =
+    20.0;  // standing still that long is waiting for the operator (M01), not the machine
+constexpr double kTopSpeed_rpm = 12000.0;
 
 const ToolRun* run_of(const Plate& plate, const PlatePart& part, int tool) {
   const int program = part.part >= 19 ? 20 : 2;

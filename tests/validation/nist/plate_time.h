@@ -1,5 +1,6 @@
 #pragma once
 
+#include "planner/model/machine.h"
 #include "tests/validation/nist/plate_data.h"
 #include "tests/validation/report.h"
 
@@ -16,6 +17,9 @@ struct MachineFit {
   double spindle_12000_s = 0.0;  ///< it grows with the square of the speed (constant power)
   double rms = 0.0;              ///< of ln(predicted / measured) over the calibrating rows
 };
+
+/// The machine of the plates with what was calibrated.
+[[nodiscard]] model::Machine machine_of(const Plate& plate, const MachineFit& fit);
 
 /// One tool of one part: measured moving time and the prediction.
 struct Row {

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+
+#include "tests/validation/nist/plate_time.h"
+#include "tests/validation/report.h"
+
+namespace capstan::validation {
+
+/// Bores milled by the slender end mills of the NIST plates: measured sizes, and what the model holds of
+/// them.
+[[nodiscard]] Comparison small_holes(const nist::Plate& plate, const nist::TimeStudy& study,
+                                     const std::vector<nist::Measured>& measured);
+
+/// The extended life law on the NASA milling data, with leave-one-out prediction.
+[[nodiscard]] Comparison wear(const std::string& corpus);
+
+/// Mean and peak forces against the tabulated cases, and the spread between published coefficients.
+[[nodiscard]] Comparison forces();
+
+/// Fits of Kienzle's law against the tables they are made from.
+[[nodiscard]] Comparison kienzle();
+
+/// The published problems by both solvers against the optima of our statement.
+[[nodiscard]] Comparison optima();
+
+/// Stability lobes against a simulation in time.
+[[nodiscard]] Comparison lobes();
+
+/// Measured sections of skewed paths against closed forms, by size of cell.
+[[nodiscard]] Comparison sections();
+
+}  // namespace capstan::validation
