@@ -37,6 +37,9 @@ struct Solved {
   Solution solution;
 };
 
+/// At most four decimals; a sum of nonsense may be no number.
+std::string number(double v) { return std::isfinite(v) ? trimmed(v, 4) : std::string("no number"); }
+
 /// What is wrong with the given values; a cut cannot be computed with them.
 std::vector<std::string> not_a_cut(const CutQuestion& q) {
   struct Given {
@@ -74,16 +77,15 @@ void measure_answer(const CutQuestion& q, CutAnswer& a) {
     if (!m[i].stated() || m[i].value <= m[i].limit * (1.0 + kRounding)) continue;
     if (i == (torque ? 0u : 1u)) continue;  // the same limit by its other name
     a.feasible = false;
-    a.violated.push_back(std::string(kLimitsOfCut[i].name) + ": " + trimmed(m[i].value, 4) + " against " +
-                         trimmed(m[i].limit, 4) + " " + kLimitsOfCut[i].unit);
+    a.violated.push_back(std::string(kLimitsOfCut[i].name) + ": " + number(m[i].value) + " against " +
+                         number(m[i].limit) + " " + kLimitsOfCut[i].unit);
   }
   const bool chosen = !q.feed_mm_min && !q.fz_mm;
   const double least = least_fz(q) / ease_of(q, "feed_per_tooth_least");
   const double step = feed_step(a.feed_mm_min) / (a.n_rpm * teeth_of(q));
   if (chosen && a.fz_mm + step < least * (1.0 - kRounding)) {
     a.feasible = false;
-    a.violated.push_back("feed_per_tooth_least: " + trimmed(a.fz_mm, 4) + " against " + trimmed(least, 4) +
-                         " mm");
+    a.violated.push_back("feed_per_tooth_least: " + number(a.fz_mm) + " against " + number(least) + " mm");
   }
 }
 
@@ -210,13 +212,13 @@ void take_active(const CutQuestion& q, const Solved& s, const Options& options, 
   constexpr double kOnePercent = 1.01;
   constexpr double kTenth = 1.1;
   for (Held& h : held_by(q, s, a, search)) {
-    if (h.at_corner) {
+    if (h.at_corner && q.eased.name.empty()) {
       const auto one = eased(q, s, h.limit.name, kOnePercent, options, job);
       const double saved = one ? 1.0 - objective_of(q, *one) / objective_of(q, s.point) : 0.0;
       h.limit.shadow_price = std::max(0.0, saved);
     }
     double tenth = 0.0;
-    if (h.limit.shadow_price > 0.0) {
+    if (h.limit.shadow_price > 0.0 && q.eased.name.empty()) {
       if (const auto more = eased(q, s, h.limit.name, kTenth, options, job))
         tenth = 1.0 - time_of(q, *more) / time_of(q, s.point);
     }
@@ -320,7 +322,9 @@ Result<CutAnswer> answer(const CutQuestion& q, const Options& options, Job& job)
 }  // namespace
 
 Result<CutAnswer> cut(const CutQuestion& q, const Options& options, Job& job) {
-  if (!(q.cutter.cutting_diameter_mm > 0.0) || !(q.material.kc11_n_mm2 > 0.0)) {
+  const auto within = [](double v, double least, double most) { return v >= least && v <= most; };
+  // Far outside of any tool and material.
+  if (!within(q.cutter.cutting_diameter_mm, 1e-3, 1e4) || !within(q.material.kc11_n_mm2, 1e-3, 1e6)) {
     return fail("OPT-QUESTION", "a cut needs a cutter with a diameter and a material with a specific force");
   }
   if (auto wrong = not_a_cut(q); !wrong.empty()) {
@@ -330,8 +334,8 @@ Result<CutAnswer> cut(const CutQuestion& q, const Options& options, Job& job) {
     return a;
   }
   const bool needs_start = !(q.n_rpm && (q.feed_mm_min || q.fz_mm));
-  const bool has_speed = q.vc_start_m_min > 0.0 && std::isfinite(q.vc_start_m_min);
-  const bool has_feed = q.fz_start_mm > 0.0 && std::isfinite(q.fz_start_mm);
+  const bool has_speed = within(q.vc_start_m_min, 1e-6, 1e6);
+  const bool has_feed = within(q.fz_start_mm, 1e-7, 1e3);
   if (needs_start && !(has_speed && (has_feed || q.kind == CutKind::kTap))) {
     return fail("OPT-QUESTION", "no start values of speed and feed are known for cutter " + q.cutter.id);
   }
