@@ -6,6 +6,7 @@
 #include <complex>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "planner/mechanics/constants.h"
 #include "planner/mechanics/domain.h"
@@ -44,17 +45,21 @@ Complex response(const Modes& modes, std::string_view direction, double f) {
   for (const auto& m : modes) {
     if (m.direction != direction) continue;
     const double r = f / m.frequency_hz;
-    sum += 1.0 / (m.stiffness_n_mm * Complex(1.0 - r * r, 2.0 * m.damping_ratio * r));
+    const double re = 1.0 - r * r;
+    const double im = 2.0 * m.damping_ratio * r;
+    sum += Complex(re, -im) / (m.stiffness_n_mm * (re * re + im * im));
   }
   return sum;
 }
 
-/// The two eigenvalues of A0 G at a frequency, the feed turned by beta from the machine's x.
-std::array<Complex, 2> eigenvalues(const Modes& modes, const Directional& a, double beta, double f) {
-  const Complex gx = response(modes, "x", f);
-  const Complex gy = response(modes, "y", f);
-  const double c = std::cos(beta);
-  const double s = std::sin(beta);
+/// 1 / z; the library's division also looks after infinities.
+Complex inverse(Complex z) {
+  const double n = std::norm(z);
+  return {z.real() / n, -z.imag() / n};
+}
+
+/// The two eigenvalues of A0 G, the feed turned from the machine's x by an angle of this sine and cosine.
+std::array<Complex, 2> eigenvalues(Complex gx, Complex gy, const Directional& a, double s, double c) {
   const Complex xx = c * c * gx + s * s * gy;
   const Complex yy = s * s * gx + c * c * gy;
   const Complex xy = c * s * (gy - gx);
@@ -63,7 +68,11 @@ std::array<Complex, 2> eigenvalues(const Modes& modes, const Directional& a, dou
   const Complex m21 = a.yx * xx + a.yy * xy;
   const Complex m22 = a.yx * xy + a.yy * yy;
   const Complex half = 0.5 * (m11 + m22);
-  const Complex root = std::sqrt(half * half - (m11 * m22 - m12 * m21));
+  // The product of complex numbers by hand, too.
+  const auto times = [](Complex p, Complex q) {
+    return Complex(p.real() * q.real() - p.imag() * q.imag(), p.real() * q.imag() + p.imag() * q.real());
+  };
+  const Complex root = std::sqrt(times(half, half) - (times(m11, m22) - times(m12, m21)));
   return {half + root, half - root};
 }
 
@@ -76,9 +85,9 @@ std::vector<double> grid(const Modes& modes) {
     high = std::max(high, m.frequency_hz);
   }
   std::vector<double> out;
-  constexpr double kCoarse = 1.004;
+  constexpr double kCoarse = 1.008;
   for (double f = 0.3 * low; f < 4.0 * high; f *= kCoarse) out.push_back(f);
-  constexpr int kFine = 400;
+  constexpr int kFine = 200;
   for (const auto& m : modes) {
     const double width = 20.0 * m.damping_ratio * m.frequency_hz;
     for (int i = -kFine; i <= kFine; ++i) {
@@ -136,19 +145,25 @@ Result<StabilityLobes> StabilityLobes::make(const std::vector<model::ToolPointMo
   const Directional a = directional(cut.arc, cut.krc_n_mm2 / cut.ktc_n_mm2);
   const double unit = 2.0 * kPi / (cut.teeth * cut.ktc_n_mm2);
   const std::vector<double> frequencies = grid(modes);
+  std::vector<std::pair<Complex, Complex>> responses;
+  responses.reserve(frequencies.size());
+  for (const double f : frequencies) responses.emplace_back(response(modes, "x", f), response(modes, "y", f));
   for (const double beta : directions) {
+    const double sine = std::sin(beta);
+    const double cosine = std::cos(beta);
     std::array<std::vector<Point>, 2> branch;
+    for (auto& b : branch) b.reserve(frequencies.size());
     std::array<Complex, 2> last{};
     for (std::size_t i = 0; i < frequencies.size(); ++i) {
-      std::array<Complex, 2> e = eigenvalues(modes, a, beta, frequencies[i]);
-      if (i > 0 && std::abs(e[0] - last[0]) + std::abs(e[1] - last[1]) >
-                       std::abs(e[1] - last[0]) + std::abs(e[0] - last[1]))
+      std::array<Complex, 2> e = eigenvalues(responses[i].first, responses[i].second, a, sine, cosine);
+      if (i > 0 && std::norm(e[0] - last[0]) + std::norm(e[1] - last[1]) >
+                       std::norm(e[1] - last[0]) + std::norm(e[0] - last[1]))
         std::swap(e[0], e[1]);
       last = e;
       for (std::size_t k = 0; k < 2; ++k) {
         Point p{.frequency_hz = frequencies[i], .depth_mm = -1.0};
-        if (std::abs(e[k]) > 0.0) {
-          const Complex w = unit / e[k];
+        if (std::norm(e[k]) > 0.0) {
+          const Complex w = unit * inverse(e[k]);
           if (w.real() > 0.0) {
             const double kappa = w.imag() / w.real();
             p.depth_mm = 0.5 * w.real() * (1.0 + kappa * kappa);
