@@ -5,6 +5,7 @@
 #include <numbers>
 #include <string_view>
 
+#include "planner/mechanics/life.h"
 #include "planner/optimise/cut/limits.h"
 
 namespace capstan::optimise {
@@ -30,8 +31,8 @@ double edge_life_min(const CutQuestion& q, const CutPoint& at) {
   if (const auto* l = law_of(q)) {
     const double fz = at.feed_mm_min / (at.n_rpm * teeth_of(q));
     const double depth = is_milling(q.kind) ? at.ap_mm : 0.5 * q.cutter.cutting_diameter_mm;
-    return l->life_min * influence(vc, l->v0_m_min, l->n) * influence(fz, l->h0_mm, l->p) *
-           influence(depth, l->a0_mm, l->q) * std::exp(-std::max(0.0, l->scatter));
+    const double life = mechanics::median_life_min(*l, vc, fz, depth) * std::exp(-mechanics::scatter_of(*l));
+    if (life > 0.0) return life;
   }
   const double n = q.cutter.substrate == model::Substrate::kCarbide ? kTaylorCarbide : kTaylorHss;
   const double at_table = q.cutter.life_min > 0.0 ? q.cutter.life_min : kLifeAtTableSpeedMin;

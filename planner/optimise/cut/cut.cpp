@@ -8,6 +8,7 @@
 #include "planner/optimise/cut/cost.h"
 #include "planner/optimise/cut/limits.h"
 #include "planner/optimise/cut/search.h"
+#include "planner/optimise/cut/stability.h"
 
 namespace capstan::optimise {
 namespace {
@@ -267,6 +268,47 @@ Result<Level> solve_level(const CutQuestion& q, double ap_mm, const Options& opt
   return out;
 }
 
+/// A level that does not chatter where the machine's modes tell: at the speed found, else at the next slower
+/// one whose lobe is deep enough. Lobes have corners everywhere, so speeds are tried one by one.
+Result<Level> quiet_level(const CutQuestion& q, double ap_mm, const Options& options, Job& job) {
+  auto level = solve_level(q, ap_mm, options, job);
+  if (!level || !level->answer.feasible || !has_modes(q)) return level;
+  const auto limit = [&](const CutAnswer& a) {
+    return stable_depth(q, a.ae_mm, a.fz_mm, a.n_rpm).value_or(0.0) * ease_of(q, "stable_depth");
+  };
+  const double allowed = limit(level->answer);
+  if (level->answer.ap_mm <= allowed) return level;
+  constexpr int kMostTries = 4;  // a slower cut may take wider or thicker chips, and chatter again
+  CutQuestion slower = q;
+  double from = level->answer.n_rpm;
+  for (int i = 0; i < kMostTries && !q.n_rpm; ++i) {
+    const auto n =
+        quiet_speed(q, ap_mm / ease_of(q, "stable_depth"), level->answer.ae_mm, level->answer.fz_mm, from);
+    if (!n) break;
+    slower.n_rpm = *n;
+    auto other = solve_level(slower, ap_mm, options, job);
+    if (!other) return other;
+    const double stable = limit(other->answer);
+    if (other->answer.feasible && other->answer.ap_mm <= stable) {
+      model::ActiveConstraint c;
+      c.name = "stable_depth";
+      c.unit = "mm";
+      c.value = other->answer.ap_mm;
+      c.limit = stable;
+      c.at_rpm = other->answer.n_rpm;
+      other->answer.active = {c};
+      other->answer.saved_by_tenth = {0.0};
+      other->solved.reset();  // its prices are those of a given speed
+      return other;
+    }
+    from = 0.98 * *n;
+  }
+  level->answer.feasible = false;
+  level->answer.violated.push_back("stable_depth: " + number(level->answer.ap_mm) + " against " +
+                                   number(allowed) + " mm");
+  return level;
+}
+
 /// Whole levels: the fewest that are allowed and some more; the best of them.
 Result<Level> best_level(const CutQuestion& q, const Options& options, Job& job) {
   if (!is_milling(q.kind)) return solve_level(q, 0.0, options, job);
@@ -276,7 +318,7 @@ Result<Level> best_level(const CutQuestion& q, const Options& options, Job& job)
     return n < 1.0 ? 1 : n < kMostLevels ? static_cast<int>(n) : kMostLevels;
   };
   if (q.ap_mm) {
-    auto level = solve_level(q, std::min(*q.ap_mm, depth), options, job);
+    auto level = quiet_level(q, std::min(*q.ap_mm, depth), options, job);
     if (level) level->answer.levels = levels_of(*q.ap_mm);
     return level;
   }
@@ -291,7 +333,7 @@ Result<Level> best_level(const CutQuestion& q, const Options& options, Job& job)
   for (int tries = 0; tries < kMostTries && worse < kPatience; ++tries) {
     const double ap = depth / levels;
     if (best && ap < kThinnestMm) break;
-    auto level = solve_level(q, ap, options, job);
+    auto level = quiet_level(q, ap, options, job);
     if (!level) return level;
     CutAnswer& a = level->answer;
     a.levels = levels;

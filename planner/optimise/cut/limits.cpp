@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "planner/mechanics/constants.h"
+#include "planner/mechanics/stability.h"
 #include "planner/mechanics/surface.h"
 
 namespace capstan::optimise {
@@ -82,6 +83,14 @@ double ease_of(const CutQuestion& q, std::string_view limit) {
   return q.eased.name == limit ? q.eased.factor : 1.0;
 }
 
+double slender_depth(const CutQuestion& q) {
+  const model::Cutter& c = q.cutter;
+  const bool speaks = q.kind == CutKind::kRough && !q.ap_mm && c.stick_out_mm > 0.0 &&
+                      mechanics::modes_for(q.machine, c.id).empty();
+  const double depth = speaks ? mechanics::slender_depth_mm(c.cutting_diameter_mm, c.stick_out_mm) : 0.0;
+  return depth > 0.0 ? depth : std::numeric_limits<double>::infinity();
+}
+
 double deepest_level(const CutQuestion& q) {
   const double d = q.cutter.cutting_diameter_mm;
   double most = q.cutter.maximum_depth_of_cut_mm > 0.0
@@ -91,7 +100,8 @@ double deepest_level(const CutQuestion& q) {
   // A rough level no deeper than the diameter (a slot: half of it); default, unsourced.
   if (q.kind == CutKind::kRough) level = std::min(level, q.slot ? 0.5 * d : d);
   if (q.ap_most_mm > 0.0) level = std::min(level, q.ap_most_mm);
-  return std::min(most, level * ease_of(q, "level_depth"));
+  level = std::min(level * ease_of(q, "level_depth"), slender_depth(q) * ease_of(q, "stable_depth"));
+  return std::min(most, level);
 }
 
 Measures measures(const CutQuestion& q, const model::StepLoads& l, double ap, double n, double feed) {
@@ -119,6 +129,7 @@ Measures measures(const CutQuestion& q, const model::StepLoads& l, double ap, do
   if (axis_feed(q) > 0.0) m[10] = {feed, axis_feed(q)};
   if (mills && q.cutter.maximum_depth_of_cut_mm > 0.0) m[11] = {ap, q.cutter.maximum_depth_of_cut_mm};
   if (mills && q.ap_most_mm > 0.0) m[12] = {ap, q.ap_most_mm};
+  m[13] = {ap, slender_depth(q)};
   for (std::size_t i = 0; i < m.size(); ++i) m[i].limit *= ease_of(q, kLimitsOfCut[i].name);
   // More power is more torque at the same speed, and the other way round.
   m[0].limit *= ease_of(q, kLimitsOfCut[1].name);

@@ -19,7 +19,7 @@ struct LimitOfCut {
   bool at_rpm;    ///< holds at one speed of the spindle
 };
 
-inline constexpr std::array<LimitOfCut, 13> kLimitsOfCut = {{{"spindle_power", "W", true, true},
+inline constexpr std::array<LimitOfCut, 14> kLimitsOfCut = {{{"spindle_power", "W", true, true},
                                                              {"spindle_torque", "Nm", true, true},
                                                              {"tool_deflection", "mm", true, false},
                                                              {"chip_thickness", "mm", true, false},
@@ -31,7 +31,8 @@ inline constexpr std::array<LimitOfCut, 13> kLimitsOfCut = {{{"spindle_power", "
                                                              {"spindle_speed_most", "1/min", false, false},
                                                              {"axis_feed", "mm/min", false, false},
                                                              {"cutting_length", "mm", false, false},
-                                                             {"level_depth", "mm", false, false}}};
+                                                             {"level_depth", "mm", false, false},
+                                                             {"stable_depth", "mm", false, false}}};
 
 /// A value and what it must not exceed; a limit that nobody states is infinite.
 struct Measure {
@@ -72,6 +73,10 @@ struct Range {
 
 /// `factor` of CutQuestion::eased for this limit.
 [[nodiscard]] double ease_of(const CutQuestion& q, std::string_view limit);
+
+/// Depth that a chosen rough level may have where no modes are known, by the cutter's slenderness; infinite
+/// for what the rule does not speak of (finishing, given depths, drills).
+[[nodiscard]] double slender_depth(const CutQuestion& q);
 
 /// Depth of a level at most.
 [[nodiscard]] double deepest_level(const CutQuestion& q);

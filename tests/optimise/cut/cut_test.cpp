@@ -7,8 +7,11 @@
 #include <numbers>
 
 #include "planner/mechanics/constants.h"
+#include "planner/mechanics/force_law.h"
+#include "planner/mechanics/stability.h"
 #include "planner/optimise/cut/cost.h"
 #include "planner/optimise/cut/limits.h"
+#include "planner/optimise/cut/stability.h"
 #include "planner/optimise/solver/ipopt_backend.h"
 #include "tests/optimise/cut/questions.h"
 
@@ -318,6 +321,49 @@ TEST_F(Cut, AFeedThatIsNoneIsAnOutcome) {
     q.n_rpm = 2000.0;
     EXPECT_FALSE(answered(q).feasible);
   }
+}
+
+TEST_F(Cut, LevelsOfSlenderCuttersAreShallow) {
+  CutQuestion q = questions::roughing();
+  q.deflection_limit_mm = 10.0;  // the rule alone
+  q.material.kc11_n_mm2 = 300.0;
+  q.cutter.stick_out_mm = 40.0;
+  EXPECT_EQ(answered(q).levels, 2);  // four diameters: no deeper than the diameter, as ever
+  q.cutter.stick_out_mm = 80.0;      // 1.5 D / 2^3 = 1.875 mm
+  const CutAnswer a = answered(q);
+  EXPECT_LE(a.ap_mm, 1.875);
+  EXPECT_GE(a.levels, 7);
+  q.ap_mm = 6.0;  // given: the rule of thumb does not overrule it
+  EXPECT_TRUE(answered(q).feasible);
+}
+
+TEST_F(Cut, KeepsOutOfTheLobesThatTheModesTell) {
+  CutQuestion q = questions::roughing();
+  q.machine.modes = {{"", "x", 700.0, 0.03, 8000.0}, {"", "y", 700.0, 0.03, 8000.0}};
+  const CutAnswer free = answered(questions::roughing());
+  const CutAnswer a = answered(q);
+  ASSERT_TRUE(a.feasible);
+  const auto allowed = stable_depth(q, a.ae_mm, a.fz_mm, a.n_rpm);
+  ASSERT_TRUE(allowed);
+  EXPECT_LE(a.ap_mm, *allowed * (1.0 + 1e-9));
+  // The same as mechanics says, in the direction that allows less.
+  const auto law = mechanics::force_law(q.material, q.cutter.substrate);
+  double least = 1e300;
+  for (const auto d : {mechanics::CutDirection::kUp, mechanics::CutDirection::kDown}) {
+    const auto s = mechanics::stable_depth_mm(q.machine, q.cutter, law,
+                                              mechanics::immersion_arc(a.ae_mm, 10.0, d), a.fz_mm, a.n_rpm);
+    ASSERT_TRUE(s);
+    least = std::min(least, s->depth_mm);
+  }
+  EXPECT_NEAR(*allowed, least, 1e-9 * least);
+  const auto before = stable_depth(q, free.ae_mm, free.fz_mm, free.n_rpm);
+  ASSERT_TRUE(before);
+  EXPECT_GT(free.ap_mm, *before);  // else this shows nothing
+  // A depth that is given and chatters at every speed is said to.
+  q.ap_mm = 12.0;
+  q.ae_mm = 6.0;
+  const CutAnswer never = answered(q);
+  EXPECT_FALSE(never.feasible);
 }
 
 TEST_F(Cut, SaysWhatIsViolatedWhenNothingCanBeCut) {
