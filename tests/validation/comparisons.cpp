@@ -35,6 +35,7 @@ std::vector<Comparison> all_comparisons(const std::string& corpus) {
   out.push_back(optima());
   out.push_back(lobes());
   out.push_back(sections());
+  out.push_back(cycle_times(CAPSTAN_SOURCE_DIR "/docs/validation/cycle_times.csv"));
   return out;
 }
 

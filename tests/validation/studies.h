@@ -30,4 +30,7 @@ namespace capstan::validation {
 /// Measured sections of skewed paths against closed forms, by size of cell.
 [[nodiscard]] Comparison sections();
 
+/// Cycle times on LinuxCNC's simulated machine, as `capstan_cycle_times` recorded them in a file.
+[[nodiscard]] Comparison cycle_times(const std::string& file);
+
 }  // namespace capstan::validation

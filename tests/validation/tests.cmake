@@ -2,7 +2,7 @@
 # and the data of its plots (./dev validate), and the test that the document says what the program computes.
 set(validation ${CMAKE_CURRENT_LIST_DIR})
 file(GLOB_RECURSE validation_sources CONFIGURE_DEPENDS ${validation}/*.cpp)
-list(FILTER validation_sources EXCLUDE REGEX "_test\\.cpp$|/main\\.cpp$")
+list(FILTER validation_sources EXCLUDE REGEX "_test\\.cpp$|main\\.cpp$")
 find_package(yaml-cpp REQUIRED)
 add_library(capstan_validation_comparisons STATIC ${validation_sources})
 target_link_libraries(capstan_validation_comparisons
@@ -12,3 +12,9 @@ target_link_libraries(capstan_validation_comparisons
 add_executable(capstan_validation ${validation}/main.cpp)
 target_link_libraries(capstan_validation PRIVATE capstan_validation_comparisons)
 capstan_test(validation LIBS capstan_validation_comparisons)
+
+# Records cycle times on LinuxCNC's simulated machine: capstan_cycle_times FOLDER.
+if(TARGET capstan_simulated)
+  add_executable(capstan_cycle_times ${validation}/linuxcnc/cycle_times_main.cpp)
+  target_link_libraries(capstan_cycle_times PRIVATE capstan_simulated)
+endif()
