@@ -24,6 +24,13 @@ double influence(double x, double x0, double e) {
   return e > 0.0 && x0 > 0.0 ? std::pow(x / x0, -1.0 / e) : 1.0;
 }
 
+/// What a minute counts. What stands still while an edge is changed costs what it would have earned, too.
+double minute_of(const CutQuestion& q) {
+  if (q.aim == Aim::kTime) return 1.0;
+  const double rate = (q.machine.cost_per_hour > 0.0 ? q.machine.cost_per_hour : kMachinePerHour) / 60.0;
+  return rate + (q.aim == Aim::kProfit ? std::max(0.0, q.earning_per_min) : 0.0);
+}
+
 }  // namespace
 
 double edge_life_min(const CutQuestion& q, const CutPoint& at) {
@@ -49,16 +56,16 @@ double time_of(const CutQuestion& q, const CutPoint& at) {
   return 1.0 / (at.ap_mm * at.ae_mm * at.feed_mm_min) + change;
 }
 
+double objective_without_edges(const CutQuestion& q, const CutPoint& at) {
+  return minute_of(q) * time_of(q, at);
+}
+
 double objective_of(const CutQuestion& q, const CutPoint& at) {
-  const double time = time_of(q, at);
-  if (q.aim == Aim::kTime) return time;
+  if (q.aim == Aim::kTime) return time_of(q, at);
   const double cutting =
       is_milling(q.kind) ? 1.0 / (at.ap_mm * at.ae_mm * at.feed_mm_min) : 1.0 / at.feed_mm_min;
-  const double rate = (q.machine.cost_per_hour > 0.0 ? q.machine.cost_per_hour : kMachinePerHour) / 60.0;
-  // What stands still while an edge is changed costs what it would have earned, too.
-  const double minute = rate + (q.aim == Aim::kProfit ? std::max(0.0, q.earning_per_min) : 0.0);
-  const double edge = std::max(0.0, q.cutter.price) + minute * q.machine.tool_change_s / 60.0;
-  return minute * time + edge * cutting / edge_life_min(q, at);
+  const double edge = std::max(0.0, q.cutter.price) + minute_of(q) * q.machine.tool_change_s / 60.0;
+  return objective_without_edges(q, at) + edge * cutting / edge_life_min(q, at);
 }
 
 }  // namespace capstan::optimise

@@ -26,4 +26,7 @@ struct CutPoint {
 /// What Aim makes least, per volume or depth.
 [[nodiscard]] double objective_of(const CutQuestion& q, const CutPoint& at);
 
+/// The same without edges: no more than objective_of.
+[[nodiscard]] double objective_without_edges(const CutQuestion& q, const CutPoint& at);
+
 }  // namespace capstan::optimise

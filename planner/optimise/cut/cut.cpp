@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "planner/base/number.h"
 #include "planner/optimise/cut/cost.h"
@@ -325,29 +326,41 @@ Result<Level> best_level(const CutQuestion& q, const Options& options, Job& job)
   // Thinner levels than this are not tried; default, unsourced.
   constexpr double kThinnestMm = 0.05;
   constexpr int kMostTries = 24;
-  constexpr int kPatience = 2;
   std::optional<Level> best;
   double least = 0.0;
-  int worse = 0;
-  int levels = levels_of(deepest_level(q));
-  for (int tries = 0; tries < kMostTries && worse < kPatience; ++tries) {
-    const double ap = depth / levels;
-    if (best && ap < kThinnestMm) break;
-    auto level = quiet_level(q, ap, options, job);
-    if (!level) return level;
+  const auto improves = [&](int levels) -> Result<bool> {
+    auto level = quiet_level(q, depth / levels, options, job);
+    if (!level) return tl::unexpected(level.error());
     CutAnswer& a = level->answer;
     a.levels = levels;
     const double objective = objective_of(q, {a.ap_mm, a.ae_mm, a.n_rpm, a.feed_mm_min});
-    const bool improves = !best || (a.feasible && !best->answer.feasible) ||
-                          (a.feasible == best->answer.feasible && objective < least * (1.0 - 1e-6));
-    if (improves) {
-      best = *std::move(level);
-      least = objective;
-      worse = 0;
-    } else if (best->answer.feasible) {
-      ++worse;
+    const bool better_one = !best || (a.feasible && !best->answer.feasible) ||
+                            (a.feasible == best->answer.feasible && objective < least * (1.0 - 1e-6));
+    if (!better_one) return false;
+    best = *std::move(level);
+    least = objective;
+    return true;
+  };
+  const int fewest = levels_of(deepest_level(q));
+  std::set<int> tried;
+  for (int levels = fewest; static_cast<int>(tried.size()) < kMostTries;
+       levels = std::max(levels + 1, static_cast<int>(1.3 * levels))) {
+    if (levels > kMostLevels || (best && depth / levels < kThinnestMm)) break;
+    // Thinner levels only lower what could be removed at most.
+    const Search search(q, depth / levels);
+    if (best && best->answer.feasible && objective_without_edges(q, search.fastest()) >= least) break;
+    const auto better_one = improves(levels);
+    if (!better_one) return tl::unexpected(better_one.error());
+    tried.insert(levels);
+  }
+  // Between the numbers tried: from the best one by one, as long as it gets better.
+  for (const int step : {-1, 1}) {
+    for (int levels = best->answer.levels + step; best->answer.feasible && levels >= fewest; levels += step) {
+      if (static_cast<int>(tried.size()) >= 2 * kMostTries || !tried.insert(levels).second) break;
+      const auto better_one = improves(levels);
+      if (!better_one) return tl::unexpected(better_one.error());
+      if (!*better_one) break;
     }
-    levels = std::min(kMostLevels, std::max(levels + 1, static_cast<int>(1.3 * levels)));
   }
   return *std::move(best);
 }

@@ -156,6 +156,20 @@ std::vector<CutPoint> Search::gentlest(const std::vector<Variable>& piece) const
   return out;
 }
 
+CutPoint Search::fastest() const {
+  std::vector<double> x;
+  for (const Variable& v : variables_) x.push_back(v.upper);
+  CutPoint p = at(x);
+  const model::Cutter& c = q_.cutter;
+  const bool upright = corner_of(c) == 0.0 && c.lead_angle_rad == 0.0 && c.taper_angle_rad == 0.0;
+  if (!is_milling(q_.kind) || !upright || feed_fixed_ || fz_fixed_ || !(largest_fz(q_) > 0.0)) return p;
+  // The area per tooth, ae fz at a given chip, rises with ae: D / 2 sqrt(r / (1 - r)), then ae.
+  const double chip = mechanics::max_chip_thickness_mm(1.0, p.ae_mm, c.cutting_diameter_mm);
+  const double fz = largest_fz(q_) * ease_of(q_, "chip_thickness") / chip;
+  p.feed_mm_min = std::min(p.feed_mm_min, fz * teeth_of(q_) * p.n_rpm);
+  return p;
+}
+
 Problem Search::problem(std::vector<Variable> box, const std::optional<CutPoint>& start) const {
   Problem p;
   if (start) {

@@ -29,6 +29,10 @@ class Search {
   /// limits of loads, no point does.
   [[nodiscard]] std::vector<CutPoint> gentlest(const std::vector<Variable>& piece) const;
 
+  /// No cut of this depth removes more per time than this one would, limits of loads aside: the fastest
+  /// speed, the widest cut, the largest feed that bound and chip leave there.
+  [[nodiscard]] CutPoint fastest() const;
+
   /// Minimise the logarithm of the objective over a part of the box, from `start` where one is known. A
   /// multiplier then is a fraction of the objective.
   [[nodiscard]] Problem problem(std::vector<Variable> box, const std::optional<CutPoint>& start = {}) const;

@@ -67,6 +67,30 @@ TEST_F(Cut, IsNoSlowerThanAnyPointOfAGrid) {
   }
 }
 
+TEST_F(Cut, NoOtherNumberOfLevelsIsBetter) {
+  CutQuestion deep = questions::roughing();
+  deep.depth_mm = 30.0;
+  CutQuestion stiff = deep;
+  stiff.deflection_limit_mm = 0.02;
+  CutQuestion slot = questions::roughing();
+  slot.slot = true;
+  slot.width_mm = 10.0;
+  for (const auto& q : {deep, stiff, slot}) {
+    const CutAnswer a = answered(q);
+    ASSERT_TRUE(a.feasible);
+    const double found = objective_of(q, point(a));
+    for (int levels = 1; levels <= 3 * a.levels; ++levels) {
+      CutQuestion given = q;
+      given.ap_mm = q.depth_mm / levels;
+      if (*given.ap_mm > deepest_level(q)) continue;
+      const CutAnswer b = answered(given);
+      if (b.feasible) {
+        EXPECT_LE(found, objective_of(q, point(b)) * 1.005) << levels << " not " << a.levels;
+      }
+    }
+  }
+}
+
 TEST_F(Cut, AWeakSpindleIsSearchedToTheEndByEitherSolver) {
   Options ipopt;
   ipopt.solver = Solver::kIpopt;
@@ -133,6 +157,7 @@ TEST_F(Cut, ShadowPricesAreWhatMoreOfALimitSaves) {
   expect_price(corner, "spindle_power");  // where torque ends and power begins
   CutQuestion wide = questions::roughing();
   wide.deflection_limit_mm = 0.01;
+  wide.ap_mm = 0.4;
   expect_price(wide, "tool_deflection");
   CutQuestion light = questions::roughing();
   light.ap_mm = 0.5;
@@ -140,6 +165,7 @@ TEST_F(Cut, ShadowPricesAreWhatMoreOfALimitSaves) {
   expect_price(light, "chip_thickness");
   CutQuestion soft = questions::roughing();
   soft.peak_force_limit_n = 200.0;
+  soft.ap_mm = 0.6;
   expect_price(soft, "peak_force");
   CutQuestion smooth = questions::finishing();
   smooth.surface_ra_um = 0.01;
