@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "planner/base/number.h"
 
@@ -18,6 +19,18 @@ bool at_feed(const CutterPath& path, std::size_t i) {
 }
 
 double down(double feed) { return std::max(rounded(std::floor(feed * 10.0 + 1e-6) / 10.0, 1), kLeastFeed); }
+
+/// A feed that needs no look at the direction: two axes together could do more, but what a machine is said to
+/// do at most is that of one.
+double across_mm_min(const CutterPath& path, std::size_t i, const model::Machine& machine) {
+  double most = std::numeric_limits<double>::infinity();
+  if (path.kind[i] == MoveKind::kLine && path.x[i] == path.x[i - 1] && path.y[i] == path.y[i - 1])
+    return most;
+  for (const std::size_t k : {0U, 1U}) {
+    if (machine.axes[k].feed_max_mm_min > 0.0) most = std::min(most, machine.axes[k].feed_max_mm_min);
+  }
+  return most;
+}
 
 /// Each move brakes within itself to the feed of the next that has a length.
 void brake(const CutterPath& path, const std::vector<motion::MoveReach>& reach, Followed& f) {
@@ -109,8 +122,10 @@ Followed followed(const FeedQuestion& q, const CutterPath& path, std::vector<dou
   const auto reach = motion::reach_along(path, machine);
   for (std::size_t i = 1; i < path.size(); ++i) {
     if (!at_feed(path, i)) continue;
-    if (reach && (*reach)[i].length_mm > 0.0 && (*reach)[i].most_mm_min < f.feed_mm_min[i]) {
-      f.feed_mm_min[i] = (*reach)[i].most_mm_min;
+    double axes = across_mm_min(path, i, machine);
+    if (reach && (*reach)[i].length_mm > 0.0) axes = std::min(axes, (*reach)[i].most_mm_min);
+    if (axes < f.feed_mm_min[i]) {
+      f.feed_mm_min[i] = axes;
       f.by[i] = Holder::kAxisFeed;
     }
   }

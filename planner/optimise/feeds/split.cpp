@@ -64,7 +64,8 @@ class Pieces {
  public:
   Pieces(const FeedQuestion& q, Book& book) : q_(q), book_(book) {}
 
-  std::vector<Piece> of(std::size_t move, std::size_t first, std::size_t last, double length) {
+  std::vector<Piece> of(std::size_t move, std::size_t first, std::size_t last, double length,
+                        double least_mm) {
     const double n = rpm_on(q_, move);
     const double least = book_.judge(n).floor_mm_min();
     const double top = book_.judge(n).ceiling_mm_min();
@@ -88,11 +89,27 @@ class Pieces {
     }
     if (length > from + kRounding) add(out, length, from, top);
     if (!out.empty()) out.back().end_mm = length;
-    return out;
+    return binned(out, least_mm, length);
   }
 
  private:
   static constexpr double kRounding = 1e-9;
+
+  /// Joined from the left until none is much shorter than a piece may be: a bound on what is left to do.
+  static std::vector<Piece> binned(const std::vector<Piece>& p, double least_mm, double length) {
+    constexpr std::size_t kFew = 64;
+    if (p.size() <= kFew) return p;
+    const double bin = std::max(0.125 * least_mm, length / 2000.0);
+    std::vector<Piece> out;
+    for (const Piece& x : p) {
+      if (!out.empty() && out.back().length_mm < bin) {
+        out.back() = {x.end_mm, out.back().length_mm + x.length_mm, std::min(out.back().feed, x.feed)};
+      } else {
+        out.push_back(x);
+      }
+    }
+    return out;
+  }
 
   /// Neighbours that bear nearly the same are one piece from the start.
   void add(std::vector<Piece>& out, double end, double begin, double feed) const {
@@ -164,7 +181,7 @@ void split_moves(FeedQuestion& q, CutterPath& path, model::SectionSeries* s) {
     const double length = i > 0 ? model::move_length(path, i) : 0.0;
     std::vector<Piece> pieces;
     if (may_be_cut(q, path, i) && first < next && length > least) {
-      pieces = pieces_of.of(i, first, next, length);
+      pieces = pieces_of.of(i, first, next, length, least);
       join(pieces, least);
     }
     if (pieces.empty()) pieces.push_back({length, length, 0.0});

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "planner/mechanics/immersion.h"
 #include "planner/motion/time.h"
@@ -174,6 +175,60 @@ TEST(Feeds, OfHeavierCutsThanTheLeastFeedBearsSaySo) {
   const auto a = feeds(q, p);
   EXPECT_GT(a.worst_excess, 1.0);
   EXPECT_NEAR(a.schedule.feed_mm_min[1], kLeastFeedShare * 800.0, 0.1);
+}
+
+TEST(Feeds, StayWithinWhatOneAxisDoesEvenWhereTwoShareTheWay) {
+  FeedQuestion q = question();
+  for (auto& axis : q.cut.machine.axes) axis.feed_max_mm_min = 700.0;
+  CutterPath p;
+  p.start({0, 0, 0});
+  p.line({50, 50, 0}, MoveRole::kCut);
+  cut_along(q, p, 1, 1.0, 0.5);
+  const auto a = feeds(q, p);
+  EXPECT_EQ(a.schedule.feed_mm_min[1], 700.0);
+  ASSERT_FALSE(a.held_by.empty());
+  EXPECT_EQ(a.held_by.front().name, "axis_feed");
+}
+
+TEST(Feeds, OfNumbersThatAreNoneAreFeedsStill) {
+  const double nan = std::nan("");
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const double bad : {nan, infinity, -1.0, 0.0}) {
+    FeedQuestion q = question();
+    CutterPath p = straight();
+    for (int k = 0; k < 6; ++k) {
+      CutSample s = examples::down_cut(1, 10.0 * k + 10.0, 10.0, 2.0, 2.0);
+      (k == 0   ? s.ap_mm
+       : k == 1 ? s.ae_mm
+       : k == 2 ? s.csa_mm2
+       : k == 3 ? s.entry_rad
+       : k == 4 ? s.exit_rad
+                : s.step_mm) = bad;
+      q.samples.push_back(s);
+    }
+    split_moves(q, p, nullptr);
+    const auto a = feeds(q, p);
+    ASSERT_EQ(a.schedule.feed_mm_min.size(), p.size());
+    for (std::size_t i = 1; i < p.size(); ++i) {
+      EXPECT_TRUE(std::isfinite(a.schedule.feed_mm_min[i]));
+      EXPECT_GT(a.schedule.feed_mm_min[i], 0.0);
+      EXPECT_LE(a.schedule.feed_mm_min[i], kMostThinning * 800.0);
+    }
+    EXPECT_TRUE(std::isfinite(a.peak.peak_force_n));
+  }
+}
+
+TEST(Feeds, KeepAWallErrorWhereItIsLimited) {
+  FeedQuestion q = question();
+  q.cut.kind = CutKind::kFinish;
+  q.cut.wall_error_limit_mm = 0.01;
+  const CutterPath p = straight();
+  cut_along(q, p, 1, 10.0, 0.5);
+  const auto a = feeds(q, p);
+  EXPECT_LE(std::abs(a.peak.wall_error_mm), 0.01 * (1.0 + 1e-9));
+  FeedQuestion tight = q;
+  tight.cut.wall_error_limit_mm = 0.5 * std::abs(a.peak.wall_error_mm);
+  EXPECT_LT(feeds(tight, p).schedule.feed_mm_min[1], a.schedule.feed_mm_min[1]);
 }
 
 TEST(Feeds, OfAnEmptyPathAreNone) {
