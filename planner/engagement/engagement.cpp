@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <string>
 
 #include "planner/base/number.h"
@@ -13,6 +14,7 @@ namespace {
 
 using geometry::Vec2;
 using geometry::Vec3;
+using model::CutterClass;
 using model::CutterPath;
 using model::MoveKind;
 using stock::Tally;
@@ -21,6 +23,21 @@ bool is_arc(MoveKind k) { return k == MoveKind::kArcCw || k == MoveKind::kArcCcw
 
 bool is_flat(const geometry::CutterProfile& p) {
   return p.pieces.size() == 1 && p.pieces[0].radius_mm <= 0.0 && p.pieces[0].slope == 0.0;
+}
+
+constexpr double kSlack = 1e-3;    // mm: heights are single precision
+constexpr double kFarthest = 1e5;  // mm, from the set-up's origin: no machine is a hundred metres long
+
+bool usable(const geometry::CutterProfile& p) {
+  const auto sound = [](const geometry::ProfilePiece& piece) {
+    for (const double v :
+         {piece.r0_mm, piece.r1_mm, piece.z0_mm, piece.slope, piece.radius_mm, piece.rc_mm, piece.zc_mm}) {
+      if (!std::isfinite(v)) return false;
+    }
+    return true;
+  };
+  return p.radius_mm > 0.0 && p.radius_mm <= kFarthest && !p.pieces.empty() &&
+         std::all_of(p.pieces.begin(), p.pieces.end(), sound);
 }
 
 struct Extent {
@@ -125,8 +142,12 @@ class Measurer {
   void add(std::size_t i, double at, double step, bool plunge, double tip, const Tally& t) {
     const double csa = t.removed_mm3 / step;
     const Extent axial = axial_extent(t, tip);
-    double left = t.left_mm;
-    double right = t.right_mm;
+    double highest = 0.0;  // above the tip
+    for (const float high : t.high) highest = std::max(highest, static_cast<double>(high) - tip);
+    // Contact lies within the outline's radius at its highest point.
+    const double reach = profile_.radius_at(highest);
+    double left = std::max(t.left_mm, -reach);
+    double right = std::min(t.right_mm, reach);
     if (!plunge) sharpen(csa, axial.size, left, right);
     const Extent radial{right - left, 0.5 * (left + right)};
     Engagement e{.ap_mm = axial.size,
@@ -144,10 +165,30 @@ class Measurer {
       e.exit_rad = angle(right);
     }
     e.arc_rad = e.exit_rad - e.entry_rad;
-    for (const float high : t.high)
-      out_.highest_contact_mm = std::max(out_.highest_contact_mm, static_cast<double>(high) - tip);
+    if (!plunge) e.arc_rad -= gaps(t, left, right);
+    out_.highest_contact_mm = std::max(out_.highest_contact_mm, highest);
     out_.removed_mm3 += t.removed_mm3;
     push(i, at, axial, radial, t.sum_x / t.removed_mm3, t.sum_y / t.removed_mm3, e);
+  }
+
+  /// Angle between entry and exit at which nothing was touched, at the full radius. What is narrower than two
+  /// bins or a cell and a half is not told from the spacing of cells.
+  [[nodiscard]] double gaps(const Tally& t, double left, double right) const {
+    const double r = profile_.radius_mm;
+    const double bin = 2.0 * r / static_cast<double>(Tally::kBins);
+    const double narrow = std::max(1.5 * map_.cell_mm, 1.5 * bin);
+    const auto touched = [&](std::size_t b) { return t.high[b] >= t.low[b]; };
+    double sum = 0.0;
+    for (std::size_t b = 0; b < Tally::kBins; ++b) {
+      if (touched(b)) continue;
+      std::size_t end = b;
+      while (end < Tally::kBins && !touched(end)) ++end;
+      const double lo = std::max(left, bin * static_cast<double>(b) - r);
+      const double hi = std::min(right, bin * static_cast<double>(end) - r);
+      if (b > 0 && end < Tally::kBins && hi - lo > narrow) sum += std::acos(-hi / r) - std::acos(-lo / r);
+      b = end;
+    }
+    return sum;
   }
 
   /// X extents are known to a cell. Where a flat cutter takes an even layer, area over depth says it better;
@@ -188,27 +229,50 @@ class Measurer {
 
 }  // namespace
 
+bool undercuts(model::CutterClass c) {
+  return c == CutterClass::kTSlotMill || c == CutterClass::kDovetailMill ||
+         c == CutterClass::kBackCountersink || c == CutterClass::kBackCounterbore;
+}
+
+std::optional<double> head_height(const model::Cutter& c) {
+  if (c.cutter_class == CutterClass::kSideMill && c.cutting_width_mm > 0.0) return c.cutting_width_mm;
+  if (c.cutter_class == CutterClass::kSideMill || c.cutter_class == CutterClass::kThreadMill) {
+    return c.maximum_depth_of_cut_mm;
+  }
+  return std::nullopt;
+}
+
 Result<Measurement> measure(const CutterPath& path, const model::Cutter& cutter, stock::HeightMap& map,
                             const Options& options) {
-  if (cutter.cutter_class == model::CutterClass::kTSlotMill ||
-      cutter.cutter_class == model::CutterClass::kDovetailMill ||
-      cutter.cutter_class == model::CutterClass::kBackCountersink) {
+  if (undercuts(cutter.cutter_class)) {
     return fail("ENG-UNDERCUT", "the cut of " + std::string(model::to_text(cutter.cutter_class)) + " '" +
                                     cutter.id + "' lies under an overhang; it is not measured");
   }
   geometry::CutterProfile profile = model::profile_of(cutter);
-  if (!(profile.radius_mm > 0.0) || !std::isfinite(profile.radius_mm) || profile.pieces.empty()) {
-    return fail("ENG-PROFILE", "cutter '" + cutter.id + "' has no cutting diameter");
+  if (!usable(profile)) {
+    return fail("ENG-PROFILE", "cutter '" + cutter.id + "' has no cutting diameter, or no shape that cuts");
   }
   for (std::size_t i = 0; i < path.size(); ++i) {
-    if (!std::isfinite(path.x[i]) || !std::isfinite(path.y[i]) || !std::isfinite(path.z[i]) ||
-        !std::isfinite(path.cx[i]) || !std::isfinite(path.cy[i])) {
-      return fail("ENG-NUMBER", "point " + std::to_string(i) + " of the path is not finite");
+    for (const double v : {path.x[i], path.y[i], path.z[i], path.cx[i], path.cy[i]}) {
+      if (std::abs(v) <= kFarthest) continue;  // not so for what is not a number
+      return fail("ENG-NUMBER",
+                  "point " + std::to_string(i) + " of the path is not finite or beyond any machine");
     }
   }
+  if (map.cells() == 0) return Measurement{};
   const double step =
       options.step_mm > 0.0 ? options.step_mm : std::max(profile.radius_mm / 20.0, 2.0 * map.cell_mm);
-  return Measurer(path, std::move(profile), map, step).run();
+  const std::optional<double> head = head_height(cutter);
+  if (!head) return Measurer(path, std::move(profile), map, step).run();
+  stock::HeightMap trial = map;
+  Measurement out = Measurer(path, std::move(profile), trial, step).run();
+  if (out.highest_contact_mm > *head + kSlack) {
+    return fail("ENG-UNDERCUT", "material stands over the head of " +
+                                    std::string(model::to_text(cutter.cutter_class)) + " '" + cutter.id +
+                                    "' (" + trimmed(*head, 3) + " mm high): its cut is not measured");
+  }
+  map = std::move(trial);
+  return out;
 }
 
 }  // namespace capstan::engagement

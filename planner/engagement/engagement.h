@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "planner/base/result.h"
@@ -16,8 +17,9 @@ struct Engagement {
   double entry_rad = 0.0;  ///< where a clockwise-turning tooth meets and leaves material, measured in the
   double exit_rad = 0.0;   ///< turning sense from the left of the feed (0) over its front (pi/2) to its right
                            ///< (pi); taken at the full radius. Plunge: 0 and 2 pi.
-  double arc_rad = 0.0;    ///< exit - entry
-  double csa_mm2 = 0.0;    ///< removed volume per length of path
+  double arc_rad =
+      0.0;  ///< angle of contact: exit - entry less what lies free between, as beside a thin wall
+  double csa_mm2 = 0.0;  ///< removed volume per length of path
   double removed_mm3 = 0.0;
   double step_mm = 0.0;  ///< path length that the sample stands for, up to its point
   bool plunge = false;   ///< the move goes straight along the axis
@@ -28,6 +30,11 @@ struct Options {
   /// Path length between samples, mm; 0: a fortieth of the diameter, but at least two cells.
   double step_mm = 0.0;
 };
+
+/// Cutters whose cut always lies under an overhang.
+[[nodiscard]] bool undercuts(model::CutterClass c);
+/// Height of a head behind which the body is thinner, mm: nothing over it is cut. None: the flanks go up.
+[[nodiscard]] std::optional<double> head_height(const model::Cutter& c);
 
 /// Two parallel series, and what a checker wants to know of the whole path.
 struct Measurement {
@@ -50,12 +57,18 @@ struct Measurement {
 /// middles of those extents. Steps in air give no sample, but one empty sample closes each cut.
 /// On a plunge ADmax is the height of the contact (a cone's length, the step's advance for a flat tip).
 ///
-/// Frame   path and stock in the set-up's.
-/// Units   mm.
-/// Fails   ENG-PROFILE for a cutter without diameter; ENG-NUMBER when a coordinate is not finite;
-/// ENG-UNDERCUT
-///         for T-slot and dovetail cutters, whose cut a height map cannot hold.
-/// Source  AP238 edition 2, 4.2.379.4; CSA and centre derived by the divergence theorem.
+/// Angles are those of the X extremes of contact, whatever the depth, at the full radius. Where contact lies
+/// at several depths they span all of it: entry is the first, exit the last. Contact in separate arcs (a wall
+/// or the air between) has entry and exit outermost and an arc_rad less than their difference.
+///
+/// Frame    path and stock in the set-up's.
+/// Units    mm.
+/// Fails    ENG-PROFILE for a cutter without diameter or with an outline that is none; ENG-NUMBER when a
+///          coordinate is not finite or farther than a hundred metres; ENG-UNDERCUT for T-slot, dovetail and
+///          back cutters, and for side and thread mills where material stands over their head: a height map
+///          cannot hold such a cut. The stock is then as it was.
+/// Accuracy cells of D/100: README.md. Angles: those of X known to a cell or, for an even layer, to that of
+/// CSA. Source   AP238 edition 2, 4.2.379.4; CSA and centre derived by the divergence theorem.
 [[nodiscard]] Result<Measurement> measure(const model::CutterPath& path, const model::Cutter& cutter,
                                           stock::HeightMap& stock, const Options& options = {});
 

@@ -76,6 +76,12 @@ geometry::CutterProfile profile_of(const Cutter& c) {
     const double top = c.cutting_diameter_mm + 2.0 * length * std::tan(c.taper_angle_rad);
     return geometry::cone_profile(top, 2.0 * c.taper_angle_rad, length, c.cutting_diameter_mm);
   }
+  if (c.cutter_class == CutterClass::kFacemill && c.lead_angle_rad > 0.0 && length > 0.0) {
+    // DC is measured at the tip, the inserts lean outwards (ISO 13399: DCX = DC + 2 APMX tan PSIR). Their
+    // corners' rounding is left out: what is cut besides lies below the real cutter's.
+    const double top = c.cutting_diameter_mm + 2.0 * length * std::tan(c.lead_angle_rad);
+    return geometry::cone_profile(top, 2.0 * c.lead_angle_rad, length, c.cutting_diameter_mm);
+  }
   if (c.cutter_class == CutterClass::kBallEndmill)
     return geometry::ball_profile(c.cutting_diameter_mm, length);
   return geometry::bull_profile(c.cutting_diameter_mm, c.corner_radius_mm, length);

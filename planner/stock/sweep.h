@@ -23,7 +23,7 @@ struct Track {
 /// What a sweep took away, in the section frame of the track: X across (negative left of the feed), Y along
 /// the axis from the lowest tip height of the track.
 struct Tally {
-  static constexpr std::size_t kBins = 32;  ///< across the cutter's diameter
+  static constexpr std::size_t kBins = 64;  ///< across the cutter's diameter
   double removed_mm3 = 0.0;
   double sum_x = 0.0, sum_y = 0.0;            ///< of removed volume times X, Y; mm4
   double left_mm = 1e300, right_mm = -1e300;  ///< X range of what was touched, whole cells, within the radius

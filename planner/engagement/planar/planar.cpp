@@ -269,7 +269,7 @@ class Measurer {
       e.entry_rad = angle(c.left);
       e.exit_rad = angle(c.right);
     }
-    e.arc_rad = e.exit_rad - e.entry_rad;
+    e.arc_rad = e.exit_rad - e.entry_rad - c.gap_rad;
     out_.highest_contact_mm = std::max(out_.highest_contact_mm, c.highest);
     push(i, at, c, e);
   }
@@ -302,11 +302,6 @@ class Measurer {
   Vec2 heading_{0.0, 1.0};
   Measurement out_;
 };
-
-bool undercuts(model::CutterClass c) {
-  return c == model::CutterClass::kTSlotMill || c == model::CutterClass::kDovetailMill ||
-         c == model::CutterClass::kBackCountersink;
-}
 
 /// Whether a cutter that is not flat below does more than plunge into material.
 bool mills(const CutterPath& path, const geometry::CutterProfile& profile, const stock::PlanarStock& stock) {
@@ -342,6 +337,8 @@ Result<Measurement> measure(const CutterPath& path, const model::Cutter& cutter,
     }
   }
   if (!stock.lost().empty()) return fail("ENG-NOT-PLANAR", "the planar stock was lost: " + stock.lost());
+  if (head_height(cutter))  // whether anything stands over it is for the height map to say
+    return fail("ENG-NOT-PLANAR", "cutter '" + cutter.id + "' is thinner behind its head");
   if (!stock::is_flat(profile) && mills(path, profile, stock)) {
     return fail("ENG-NOT-PLANAR",
                 "cutter '" + cutter.id + "' is not flat below: what it mills is measured on a height map");

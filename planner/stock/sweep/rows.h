@@ -7,7 +7,7 @@
 namespace capstan::stock::rows {
 
 inline constexpr int kLanes = 8;
-inline constexpr int kBins = 32;
+inline constexpr int kBins = 64;
 inline constexpr int kPieces = 8;
 /// Removals thinner than this are left standing: single precision could not tell them from rounding, mm.
 inline constexpr float kThinnest = 2e-5F;
@@ -59,7 +59,8 @@ struct Sums {
 using Kernel = void (*)(const Grid&, const Work&, Sums&);
 
 [[nodiscard]] Kernel portable();
-[[nodiscard]] Kernel avx2();  ///< null where the compiler or the processor has none
-[[nodiscard]] Kernel best();  ///< chosen once
+[[nodiscard]] Kernel avx2();    ///< null where the compiler or the processor has none
+[[nodiscard]] Kernel avx512();  ///< as above
+[[nodiscard]] Kernel best();    ///< chosen once
 
 }  // namespace capstan::stock::rows

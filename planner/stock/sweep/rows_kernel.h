@@ -34,16 +34,18 @@ struct Totals {
   }
   /// Narrow bins become those of the section.
   void gather(int bins, float per_bin, bool falling, Sums& out) const {
-    for (int b = 0; b < kBins; ++b) {
-      out.low[b] = 1e30F;
-      out.high[b] = -1e30F;
-    }
-    for (int i = 0; i < bins; ++i) {
-      const int nth = static_cast<int>((static_cast<float>(i) + 0.5F) * per_bin);
-      const int within = nth < kBins - 1 ? nth : kBins - 1;
-      const int b = falling ? kBins - 1 - within : within;
-      out.low[b] = low[i] < out.low[b] ? low[i] : out.low[b];
-      out.high[b] = high[i] > out.high[b] ? high[i] : out.high[b];
+    const float each = 1.0F / per_bin;
+    int i = 0;
+    for (int nth = 0; nth < kBins; ++nth) {
+      const int end = nth < kBins - 1 ? static_cast<int>(static_cast<float>(nth + 1) * each) : bins;
+      float l = 1e30F, h = -1e30F;
+      for (; i < end && i < bins; ++i) {
+        l = low[i] < l ? low[i] : l;
+        h = high[i] > h ? high[i] : h;
+      }
+      const int b = falling ? kBins - 1 - nth : nth;
+      out.low[b] = l;
+      out.high[b] = h;
     }
   }
   void finish(Sums& out) {
@@ -233,8 +235,12 @@ CAPSTAN_INLINE Chips lower_parts(Float c, Float z, Mask valid, const Constants& 
   const Mask from_low_part = below & (~wider | ((c - s) * (t - l) < s * (l - z)));
   const Mask from_low = (whole & (t - z < kThinnest)) | (~whole & from_low_part);
   out.drop = select(out.touched, drop, 0.0F);
-  out.moment = select(out.touched, twice_moment(t, l, s, c0.tip) - twice_moment(t1, l1, s1, c0.tip), 0.0F);
   out.top = select(from_low, l, t);
+  // Levels that were made one tell no more from where the chip came.
+  const Mask kept_apart = whole | (below & (s <= c));
+  const Float difference = twice_moment(t, l, s, c0.tip) - twice_moment(t1, l1, s1, c0.tip);
+  const Float chip = drop * (out.top + z - c0.twice_tip);
+  out.moment = select(out.touched, select(kept_apart, difference, chip), 0.0F);
   out.bottom = z;
   select(out.touched, t1, t).put(top);
   select(out.touched, select(s1 <= 0.0F, t1, l1), l).put(low);
@@ -289,18 +295,19 @@ inline void run(const Grid& g, const Work& w, const Constants& c, int iy, int ix
   // From behind to the front, as the rows: the lowest contact in a bin then mostly comes first.
   const int blocks = (ix1 - ix0) / kLanes;
   const int way = w.hx < 0.0 ? -1 : 1;
-  Start from;
-  int start_ix = 0;
-  for (int i = 0; i <= blocks; ++i) {
+  Start from{};
+  int start_ix = 0, carried = kSteps;
+  for (int i = 0; i <= blocks; ++i, ++carried) {
     const int ix = ix0 + kLanes * (way > 0 ? i : blocks - i);
-    if (i % kSteps == 0) {
-      from = start<kArc>(w, g.x0 + static_cast<double>(ix) * g.cell, y);
-      start_ix = ix;
-    }
     float* const top = row_top + ix;
     float* const low = row_low + ix;
     float* const share = row_share + ix;
     if (!any(c.base < Float::at(top))) continue;
+    if (carried >= kSteps) {
+      from = start<kArc>(w, g.x0 + static_cast<double>(ix) * g.cell, y);
+      start_ix = ix;
+      carried = 0;
+    }
     const Mask valid = Float::count() < static_cast<float>(ix1 - ix + 1);
     const Seats s = seat<kArc>(c, from, static_cast<float>(ix - start_ix));
     Chips chips;
