@@ -1,6 +1,7 @@
 #include "tests/linuxcnc/reference.h"
 
-#include <cmath>
+#include <algorithm>
+#include <sstream>
 
 #include "planner/base/number.h"
 #include "planner/motion/time.h"
@@ -8,22 +9,55 @@
 namespace capstan::linuxcnc {
 namespace {
 
+/// Where the number of an F word begins, or npos; comments have none.
+std::size_t feed_word(const std::string& line) {
+  if (line.starts_with("(")) return std::string::npos;
+  const auto at = line.find(" F");
+  return at == std::string::npos ? at : at + 2;
+}
+
+/// The least feed of a program, mm/min.
+double least_feed(const std::string& program) {
+  double out = 1e300;
+  std::istringstream lines(program);
+  for (std::string line; std::getline(lines, line);) {
+    const auto at = feed_word(line);
+    if (at != std::string::npos) out = std::min(out, parse_double(line.substr(at)).value_or(out));
+  }
+  return out;
+}
+
+std::string with_one_feed(const std::string& program, double feed_mm_min) {
+  std::string out;
+  std::istringstream lines(program);
+  for (std::string line; std::getline(lines, line);) {
+    const auto at = feed_word(line);
+    out += (at == std::string::npos ? line : line.substr(0, at) + trimmed(feed_mm_min, 1)) + "\n";
+  }
+  return out;
+}
+
+void execute(ReferenceRun& out) {
+  out.record = run(
+      {.program = out.planned.program, .tools = out.planned.tools, .offsets = offsets_for(out.planned.plan)});
+  out.failed = out.record.failed;
+  if (out.failed.empty() && out.record.absent.empty())
+    out.measured = measured(out.planned.program, out.record);
+}
+
 ReferenceRun run_with(const std::string& feeds) {
   ReferenceRun out;
   out.planned = plan({"examples/reference_pocket.p21", "--machine", "examples/reference_pocket_machine.yaml",
                       "--tools", "examples/reference_pocket_tools.yaml", "--feeds", feeds});
   out.failed = out.planned.failed;
   if (!out.failed.empty()) return out;
-  out.record = run(
-      {.program = out.planned.program, .tools = out.planned.tools, .offsets = offsets_for(out.planned.plan)});
-  out.failed = out.record.failed;
+  execute(out);
   if (!out.failed.empty() || !out.record.absent.empty()) return out;
   const auto foreseen = predicted(out.planned.plan);
   if (!foreseen) {
     out.failed = to_text(foreseen.error());
     return out;
   }
-  out.measured = measured(out.planned.program, out.record);
   out.time = compare(out.measured, *foreseen);
   return out;
 }
@@ -73,16 +107,29 @@ void add_path(const std::string& name, const model::Plan& plan, std::string& out
 
 void add_times(const std::string& name, const ReferenceRun& r, std::string& out) {
   const auto foreseen = predicted(r.planned.plan);
-  for (std::size_t i = 0; foreseen && i < std::min(r.measured.size(), foreseen->steps.size()); ++i) {
-    out += row(
-        {name, foreseen->steps[i].id, fixed(r.measured[i].path_s, 3), fixed(foreseen->steps[i].path_s, 3)});
+  const bool planned = r.time.predicted_s > 0.0 && foreseen;
+  for (std::size_t i = 0; i < r.measured.size(); ++i) {
+    const double p = planned && i < foreseen->steps.size() ? foreseen->steps[i].path_s : 0.0;
+    out += row({name, r.measured[i].id, fixed(r.measured[i].path_s, 3), fixed(p, 3)});
   }
   out += row({name, "all", fixed(r.time.measured_s, 3), fixed(r.time.predicted_s, 3)});
 }
 
 }  // namespace
 
-Reference reference() { return {run_with("scheduled"), run_with("constant")}; }
+Reference reference() {
+  Reference out;
+  out.scheduled = run_with("scheduled");
+  if (!out.failed().empty() || !out.absent().empty()) return out;
+  out.constant = run_with("constant");
+  if (!out.failed().empty() || !out.absent().empty()) return out;
+  out.one_feed_mm_min = least_feed(out.constant.planned.program);
+  out.one_feed.planned = out.constant.planned;
+  out.one_feed.planned.program = with_one_feed(out.constant.planned.program, out.one_feed_mm_min);
+  execute(out.one_feed);
+  out.one_feed.time = compare(out.one_feed.measured, {});
+  return out;
+}
 
 double path_length_mm(const model::Plan& plan) {
   double out = 0.0;
@@ -102,6 +149,7 @@ std::vector<std::pair<std::string, std::string>> tables(const Reference& r) {
     add_path(name, run.planned.plan, path);
     add_times(name, run, times);
   }
+  add_times("one feed", r.one_feed, times);
   return {{"reference_pocket.csv", motion},
           {"reference_pocket_path.csv", path},
           {"reference_pocket_times.csv", times}};

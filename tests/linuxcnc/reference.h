@@ -19,15 +19,25 @@ struct ReferenceRun {
   std::vector<StepSeconds> measured;  ///< by step
 };
 
-/// Both runs of the same path: the schedule that the sections bear, and one feed for each step, the largest
-/// that its heaviest section bears (`capstan plan --feeds constant`; plunges, ramps and ways through air are
-/// the same in both).
+/// The runs of the same path.
 struct Reference {
-  ReferenceRun scheduled, constant;
-  [[nodiscard]] std::string absent() const { return scheduled.record.absent + constant.record.absent; }
-  [[nodiscard]] std::string failed() const { return scheduled.failed + constant.failed; }
-  /// Simulated machine time of the schedule over that of the constant feed.
+  ReferenceRun scheduled;  ///< the schedule that the sections bear
+  /// One feed for each step, the largest that its heaviest section bears (`capstan plan --feeds constant`);
+  /// plunges, ramps and ways through air as in the schedule.
+  ReferenceRun constant;
+  /// One feed for the whole program: what the heaviest of all its moves bears, plunges included.
+  ReferenceRun one_feed;
+  double one_feed_mm_min = 0.0;
+  [[nodiscard]] std::string absent() const {
+    return scheduled.record.absent + constant.record.absent + one_feed.record.absent;
+  }
+  [[nodiscard]] std::string failed() const { return scheduled.failed + constant.failed + one_feed.failed; }
+  /// Simulated machine time of the schedule over that of the constant feed of each step.
   [[nodiscard]] double ratio() const { return scheduled.time.measured_s / constant.time.measured_s; }
+  /// The same over that of one feed for all.
+  [[nodiscard]] double ratio_to_one_feed() const {
+    return scheduled.time.measured_s / one_feed.time.measured_s;
+  }
 };
 [[nodiscard]] Reference reference();
 
@@ -44,7 +54,8 @@ inline constexpr double kOtherPlannerS = 260.0;
 ///   each 10 ms reference_pocket_path.csv     run, step, at_mm, depth_mm, width_mm, section_mm2, feed_mm_min:
 ///   what was planned,
 ///                                 along the path's length within its step
-///   reference_pocket_times.csv    run, step, measured_s, predicted_s
+///   reference_pocket_times.csv    run, step, measured_s, predicted_s (of one feed for all: 0, it is not
+///   planned)
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> tables(const Reference& r);
 
 }  // namespace capstan::linuxcnc

@@ -25,6 +25,7 @@ int main(int argc, char** argv) {
     if (!write_file(std::string(argv[1]) + "/" + name, content)) return 1;
   }
   std::cout << r.scheduled.time.table << r.constant.time.table << "scheduled / constant "
-            << fixed(r.ratio(), 3) << "\n";
+            << fixed(r.ratio(), 3) << ", scheduled / one feed for all " << fixed(r.ratio_to_one_feed(), 3)
+            << "\n";
   return 0;
 }

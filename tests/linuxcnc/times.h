@@ -39,6 +39,7 @@ struct Comparison {
   std::string table;                           ///< step by step, for people
   [[nodiscard]] double error() const { return predicted_s / measured_s - 1.0; }
 };
+/// Nothing predicted: only what was measured.
 [[nodiscard]] Comparison compare(const std::vector<StepSeconds>& measured, const Predicted& predicted);
 
 /// Work offsets that keep every tool of the plan within the travel of its machine's Z axis, as `run` takes

@@ -1,0 +1,42 @@
+#include "tests/linuxcnc/reference.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iostream>
+
+#include "planner/base/number.h"
+
+namespace capstan::linuxcnc {
+namespace {
+
+/// The aim against the other planner's time.
+constexpr double kOfOtherPlanner = 0.4;
+/// What the schedule takes of the constant feed's time, and how far that may move before somebody should
+/// look.
+constexpr double kRatioReached = 1.0;
+constexpr double kRatioMayMove = 0.03;
+
+TEST(ReferencePocket, TakesLessTimeWithItsScheduleThanWithTheBestConstantFeed) {
+  const Reference r = reference();
+  if (!r.absent().empty()) GTEST_SKIP() << r.absent();
+  ASSERT_EQ(r.failed(), "");
+  std::cout << "scheduled feeds\n"
+            << r.scheduled.time.table << "one feed for each step\n"
+            << r.constant.time.table;
+  std::cout << "one feed for all, " << fixed(r.one_feed_mm_min, 1) << " mm/min\n" << r.one_feed.time.table;
+  std::cout << "scheduled / one feed for all " << fixed(r.ratio_to_one_feed(), 3) << ", scheduled / constant "
+            << fixed(r.ratio(), 3) << ", scheduled / " << fixed(kOtherPlannerS, 0) << " s "
+            << fixed(r.scheduled.time.measured_s / kOtherPlannerS, 3) << "\n";
+  // The way is the same: a schedule only divides moves.
+  EXPECT_NEAR(path_length_mm(r.scheduled.planned.plan), path_length_mm(r.constant.planned.plan), 1e-3);
+  EXPECT_LT(r.ratio(), 1.0);
+  EXPECT_NEAR(r.ratio(), kRatioReached, kRatioMayMove);
+  EXPECT_LE(r.scheduled.time.measured_s, kOfOtherPlanner * kOtherPlannerS);
+  // Both are predicted as closely as other programs.
+  EXPECT_LE(std::abs(r.scheduled.time.error()), 0.05);
+  EXPECT_LE(std::abs(r.constant.time.error()), 0.05);
+}
+
+}  // namespace
+}  // namespace capstan::linuxcnc
