@@ -10,7 +10,7 @@ struct Order {
   std::string program;                    ///< G-code
   std::string tools;                      ///< tool table (.tbl)
   std::vector<std::string> offsets = {};  ///< "G54:0,0,-58": where a work offset's zero is on the machine, mm
-  double rate = 12.0;  ///< how many times faster than real time; what is measured does not depend on it
+  double rate = 16.0;  ///< how many times faster than real time; what is measured does not depend on it
 };
 
 /// What the machine did: columns, one entry per servo period (1 ms of its time).

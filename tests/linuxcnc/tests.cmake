@@ -4,7 +4,7 @@ add_library(capstan_fast_clock MODULE ${simulated}/fast_clock.c)
 target_compile_options(capstan_fast_clock PRIVATE -Wall -Wextra -Werror)
 
 file(GLOB simulated_sources CONFIGURE_DEPENDS ${simulated}/*.cpp)
-list(FILTER simulated_sources EXCLUDE REGEX "_test\\.cpp$|_main\\.cpp$")
+list(FILTER simulated_sources EXCLUDE REGEX "_test\\.cpp$")
 add_library(capstan_simulated STATIC ${simulated_sources})
 target_link_libraries(capstan_simulated PUBLIC $<BUILD_INTERFACE:capstan_options> capstan_test_support
   capstan::motion capstan::output)
@@ -20,7 +20,3 @@ target_precompile_headers(linuxcnc_test REUSE_FROM capstan_test_pch)
 # LinuxCNC's shared memory has fixed keys, and its clock runs fast: one at a time, with both processors.
 gtest_discover_tests(linuxcnc_test DISCOVERY_TIMEOUT 60
   PROPERTIES TIMEOUT 900 RESOURCE_LOCK linuxcnc PROCESSORS 2)
-
-# Writes the tables of the reference pocket: linuxcnc_reference FOLDER.
-add_executable(linuxcnc_reference ${simulated}/reference_main.cpp)
-target_link_libraries(linuxcnc_reference PRIVATE capstan_simulated)
