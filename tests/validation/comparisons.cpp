@@ -1,5 +1,8 @@
 #include "tests/validation/comparisons.h"
 
+#include <algorithm>
+#include <utility>
+
 #include "tests/validation/studies.h"
 
 namespace capstan::validation {
@@ -24,6 +27,33 @@ void add_plate(const std::string& corpus, std::vector<Comparison>& out) {
   out.push_back(small_holes(*plate, *study, *measured));
 }
 
+/// The headlines of all, for the head of the document.
+Comparison summary(const std::vector<Comparison>& all) {
+  const std::pair<const char*, const char*> titles[] = {
+      {"nist-times", "1. NIST plate: time per tool"},
+      {"small-holes", "2. NIST plate: small bores"},
+      {"wear", "3. NASA milling: tool life"},
+      {"forces", "4. Forces"},
+      {"kienzle", "5. Kienzle's law"},
+      {"optima", "6. Published optimisation problems"},
+      {"lobes", "7. Stability lobes"},
+      {"sections", "8. Cross sections"},
+      {"cycle-times", "9. Cycle times on a simulated machine"}};
+  Comparison out{.name = "summary"};
+  Table rows{{"comparison", "figure"}, {}};
+  for (const auto& [name, title] : titles) {
+    const auto found =
+        std::find_if(all.begin(), all.end(), [&](const Comparison& c) { return c.name == name; });
+    if (found == all.end() || !found->skipped.empty()) {
+      out.skipped = std::string("for ") + name + " is";
+      return out;
+    }
+    rows.rows.push_back({title, found->headline});
+  }
+  out.text = markdown(rows);
+  return out;
+}
+
 }  // namespace
 
 std::vector<Comparison> all_comparisons(const std::string& corpus) {
@@ -36,6 +66,7 @@ std::vector<Comparison> all_comparisons(const std::string& corpus) {
   out.push_back(lobes());
   out.push_back(sections());
   out.push_back(cycle_times(CAPSTAN_SOURCE_DIR "/docs/validation/cycle_times.csv"));
+  out.push_back(summary(out));
   return out;
 }
 

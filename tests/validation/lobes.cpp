@@ -138,6 +138,9 @@ Comparison lobes() {
       points.rows.push_back({std::to_string(n), fixed(theirs, 4), fixed(ours, 4)});
     }
     const Spread s = spread_of(errors, 0.1);
+    out.headline += std::string(out.headline.empty() ? "" : "; ") + cut.name +
+                    ": median difference to the simulation " + fixed(100.0 * s.median, 1) + " %, largest " +
+                    percent(s.worst);
     rows.rows.push_back({cut.name, std::to_string(s.n), fixed(100.0 * s.median, 1) + " %", percent(s.worst),
                          std::to_string(above)});
     out.data.emplace_back(std::string(cut.file) + ".dat", columns(curve));

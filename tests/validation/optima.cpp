@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "planner/base/number.h"
@@ -52,6 +53,7 @@ Comparison optima() {
   Table rows{{"problem", "tabulated", "by NLopt", "difference", "by Ipopt", "difference"}, {}};
   Table data{{"index", "nlopt", "ipopt"}, {}};
   int n = 0;
+  double worst = 0.0;
   const auto difference = [](double v, double tabled) { return std::abs(v / tabled - 1.0); };
   // Differences below what is printed of the tabulated optimum say nothing; six decimals of the objective do.
   const auto text = [](double v) { return v < 5e-7 ? std::string("< 1e-6") : fixed(1e6 * v, 0) + "e-6"; };
@@ -65,9 +67,12 @@ Comparison optima() {
     }
     rows.rows.push_back({s.name, shortest(rounded(tabled, 6)), fixed(a, 6), text(difference(a, tabled)),
                          fixed(b, 6), text(difference(b, tabled))});
+    worst = std::max({worst, difference(a, tabled), difference(b, tabled)});
     data.rows.push_back({std::to_string(n++), fixed(1e6 * std::max(difference(a, tabled), 1e-8), 4),
                          fixed(1e6 * std::max(difference(b, tabled), 1e-8), 4)});
   }
+  out.headline = std::to_string(n) + " problems by NLopt and Ipopt, largest relative difference " +
+                 fixed(1e6 * worst, 0) + "e-6";
   out.text = markdown(rows);
   out.data.emplace_back("optima.dat", columns(data));
   return out;

@@ -20,6 +20,7 @@ struct Table {
 struct Comparison {
   std::string name;
   std::string text = {};
+  std::string headline = {};  ///< the figure that says most, for the table at the head of the document
   std::vector<std::pair<std::string, std::string>> data = {};
   std::string skipped = {};  ///< why there is nothing; empty: there is
 };

@@ -146,6 +146,8 @@ Comparison wear(const std::string& corpus) {
                    {"rms of ln(predicted/measured), each case left out in turn", fixed(s.rms, 2)},
                    {"predicted within a factor of 1.5 when left out",
                     std::to_string(s.within) + " of " + std::to_string(s.n)}}};
+  out.headline = "rms of ln(predicted/measured) " + fixed(s.rms, 2) + ", each case left out in turn; " +
+                 std::to_string(s.within) + " of " + std::to_string(s.n) + " within a factor of 1.5";
   out.text = markdown(law) + "\n" + markdown(rows);
   out.data.emplace_back("wear.dat", columns(data));
   return out;

@@ -267,6 +267,11 @@ Comparison compare_times(const Plate& plate, const TimeStudy& study) {
       if (wanted(r)) errors.push_back(error(r));
     }
     const Spread s = spread_of(errors, kWanted);
+    if (out.headline.empty()) {
+      out.headline = std::to_string(s.within) + " of " + std::to_string(s.n) +
+                     " tested times of tools in motion within 10 %, median error " +
+                     fixed(100.0 * s.median, 1) + " %";
+    }
     summary.rows.push_back({name, std::to_string(s.n), std::to_string(s.within),
                             fixed(100.0 * s.median, 1) + " %", percent(s.worst)});
   };

@@ -257,6 +257,10 @@ Comparison small_holes(const Plate& plate, const nist::TimeStudy& study,
        "exponent", "correlation of the logarithms"},
       {{"as programmed", fixed(by_program.exponent, 2), fixed(by_program.r, 2)},
        {"as the machine moves (predicted)", fixed(by_motion.exponent, 2), fixed(by_motion.r, 2)}}};
+  out.headline =
+      "sizes not predicted: bending has the wrong sign; they follow the feed per revolution as the machine "
+      "moves, correlation " +
+      fixed(by_motion.r, 2);
   out.text = markdown(tools) + "\n" + markdown(rows) + "\n" + markdown(fits);
   out.data.emplace_back("small_holes.dat", columns(data));
   return out;
