@@ -76,19 +76,22 @@ Contact over_disc(double radius, double allowed, F&& f) {
 
 /// Joins pieces that touch, so that strips of one contact are not taken for slivers.
 struct Run {
-  double x0 = 0.0, x1 = -1e300, height = 0.0;
-  void into(Contact& c) const {
+  double x0 = 0.0, x1 = -1e300, low = 0.0, high = 0.0;
+  void into(Contact& c, double radius) const {
     if (x1 - x0 < kSliver) return;
+    const auto angle = [&](double x) { return std::acos(std::clamp(-x / radius, -1.0, 1.0)); };
+    if (c.seen()) c.gap_rad += angle(x0) - angle(c.right);
     c.left = std::min(c.left, x0);
     c.right = std::max(c.right, x1);
-    c.low = std::min(c.low, 0.0);
-    c.high = std::max(c.high, height);
+    c.low = std::min(c.low, low);
+    c.high = std::max(c.high, high);
   }
 };
 
 }  // namespace
 
 void Contact::extend(const Contact& o) {
+  if (o.seen()) gap_rad = seen() ? std::min(gap_rad, o.gap_rad) : o.gap_rad;
   left = std::min(left, o.left);
   right = std::max(right, o.right);
   low = std::min(low, o.low);
@@ -110,26 +113,28 @@ bool Prober::turn_to(Vec2 lo, Vec2 hi, double z_mm) {
 
 Contact Prober::on_the_way(Vec2 at, Vec2 unit_heading, double z_mm, double fall) {
   Contact c;
-  stock_.heights(Probe::front(at, unit_heading, profile_.radius_mm), near_, z_mm + stock::kTouch, heights_);
+  const double base = std::max(0.0, stock_.box().lo.z - z_mm);  // where the piece begins, above the tip
+  stock_.heights(Probe::front(at, unit_heading, profile_.radius_mm), near_, z_mm + base + stock::kTouch,
+                 heights_);
   Run run;
   for (const Heights::Piece& p : heights_.pieces()) {
-    const double h = p.z_mm - z_mm;
+    const double h = p.z_mm - z_mm - base;
     if (h <= 2.0 * stock::kTouch) continue;
     const double area = h * (p.x1 - p.x0);
     c.amount += area;
     c.moment_x += area * 0.5 * (p.x0 + p.x1);
-    c.moment_y += area * 0.5 * h;
-    c.highest = std::max(c.highest, h);
+    c.moment_y += area * (base + 0.5 * h);
+    c.highest = std::max(c.highest, base + h);
     if (p.x0 > run.x1) {
-      run.into(c);
-      run = {.x0 = p.x0, .x1 = p.x1, .height = h};
+      run.into(c, profile_.radius_mm);
+      run = {.x0 = p.x0, .x1 = p.x1, .low = base, .high = base + h};
     } else {
       run.x1 = p.x1;
-      run.height = std::max(run.height, h);
+      run.high = std::max(run.high, base + h);
     }
   }
-  run.into(c);
-  if (fall > 0.0) under_tip(at, unit_heading, z_mm, fall, c);
+  run.into(c, profile_.radius_mm);
+  if (fall > 0.0 && base <= 0.0) under_tip(at, unit_heading, z_mm, fall, c);
   return c;
 }
 
@@ -153,7 +158,7 @@ void Prober::under_tip(Vec2 at, Vec2 ahead, double z_mm, double fall, Contact& c
     line.low = line.high = 0.0;
   });
   c.add(under, fall);
-  c.extend(under);
+  c.extend(under);  // what is cut below leaves no gap
 }
 
 double Prober::reach_at(double height_mm) const {
@@ -170,44 +175,53 @@ double Prober::reach_at(double height_mm) const {
 
 Contact Prober::inside(Vec2 at, Vec2 ahead, double z_mm, double advance_mm) {
   const double radius = profile_.radius_mm;
+  const double bottom = std::max(0.0, stock_.box().lo.z - z_mm);  // where the piece begins, above the tip
+  const double through = bottom > 0.0 ? reach_at(bottom) : 0.0;   // there the outline is past it
   const Vec2 along{ahead.y, -ahead.x};
   double last_height = -1.0;
   double last_reach = 0.0;
+  const auto on_line = [&](double x, double from, double to, double h, Contact& c) {
+    if (!(to - from > stock::kTouch)) return;
+    for (std::size_t i = 0; i < kNodes.size(); ++i) {
+      for (const double side : {-1.0, 1.0}) {
+        const double y = 0.5 * (from + to) + side * 0.5 * (to - from) * kNodes[i];
+        const double base = std::max(bottom, profile_.height(std::hypot(x, y)));
+        const double w = kWeights[i] * 0.5 * (to - from) * (h - base);
+        c.amount += w;
+        c.moment_x += w * x;
+        c.moment_y += w * 0.5 * (h + base);
+      }
+    }
+    const double far = std::max(std::hypot(x, from), std::hypot(x, to));
+    const double rim = far > 0.99 * radius ? radius : far;
+    const double low = std::max(bottom, profile_.height(std::min(std::abs(x), radius)));
+    c.high = std::max({c.high, low, std::min(h, profile_.height(rim) + advance_mm)});
+    c.low = std::min(c.low, low);
+    const double to_edge = std::abs(x) > 0.99 * radius ? std::copysign(radius, x) : x;
+    c.left = std::min(c.left, to_edge);
+    c.right = std::max(c.right, to_edge);
+  };
   const double allowed = kShare * radius * radius * std::max(advance_mm, kShare * radius);
   Contact out = over_disc(radius, allowed, [&](double x, Contact& c) {
     const double half = std::sqrt(std::max(0.0, (radius - x) * (radius + x)));
-    stock_.heights(Probe::straight(at + x * along, ahead, -half, half), near_, z_mm + stock::kTouch,
-                   heights_);
+    const Probe across = Probe::straight(at + x * along, ahead, -half, half);
+    stock_.heights(across, near_, z_mm + bottom + stock::kTouch, heights_);
     for (const Heights::Piece& p : heights_.pieces()) {
       const double h = p.z_mm - z_mm;
-      if (h <= 2.0 * stock::kTouch) continue;
+      if (h - bottom <= 2.0 * stock::kTouch) continue;
       if (h != last_height) {
         last_height = h;
         last_reach = reach_at(h);
       }
       if (std::abs(x) >= last_reach) continue;
       const double most = std::sqrt((last_reach - x) * (last_reach + x));
-      // Halves on either side of the axis: an outline may have its tip there.
-      for (const auto& [from, to] : {std::pair{std::max(p.x0, -most), std::min({p.x1, most, 0.0})},
-                                     std::pair{std::max({p.x0, -most, 0.0}), std::min(p.x1, most)}}) {
-        if (!(to - from > stock::kTouch)) continue;
-        for (std::size_t i = 0; i < kNodes.size(); ++i) {
-          for (const double side : {-1.0, 1.0}) {
-            const double y = 0.5 * (from + to) + side * 0.5 * (to - from) * kNodes[i];
-            const double base = profile_.height(std::hypot(x, y));
-            const double w = kWeights[i] * 0.5 * (to - from);
-            c.amount += w * (h - base);
-            c.moment_x += w * (h - base) * x;
-            c.moment_y += w * (h - base) * 0.5 * (h + base);
-          }
-        }
-        const double far = std::max(std::hypot(x, from), std::hypot(x, to));
-        const double rim = far > 0.99 * radius ? radius : far;
-        c.high = std::max(c.high, std::min(h, profile_.height(rim) + advance_mm));
-        c.low = std::min(c.low, profile_.height(std::min(std::abs(x), radius)));
-        const double to_edge = std::abs(x) > 0.99 * radius ? std::copysign(radius, x) : x;
-        c.left = std::min(c.left, to_edge);
-        c.right = std::max(c.right, to_edge);
+      // Between the places where the outline has corners: its axis, and where it leaves the piece below.
+      const double corner =
+          std::abs(x) < through ? std::min(most, std::sqrt((through - x) * (through + x))) : 0.0;
+      double from = -most;
+      for (const double to : {-corner, 0.0, corner, most}) {
+        on_line(x, std::max(from, p.x0), std::min(to, p.x1), h, c);
+        from = to;
       }
     }
   });

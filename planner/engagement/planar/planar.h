@@ -21,7 +21,8 @@ namespace capstan::engagement {
 ///           strips; plunges into material that is cut already: 1e-3 of the cutter's area times the advance.
 /// Cost      by what lies near the cutter; see planner/engagement/README.md.
 /// Fails     ENG-PROFILE, ENG-NUMBER, ENG-UNDERCUT as there; ENG-NOT-PLANAR for a cutter that is not flat
-///           below and does more than plunge, and on a stock that was lost. Then nothing is cut.
+///           below and does more than plunge, for one with a head (engagement.h), and on a stock that was
+///           lost. Then nothing is cut.
 [[nodiscard]] Result<Measurement> measure(const model::CutterPath& path, const model::Cutter& cutter,
                                           stock::PlanarStock& stock, const Options& options = {});
 

@@ -178,6 +178,22 @@ TEST(PlanarCorner, WidthIsThatOfTheCircleInTheRoundedCorner) {
   }
 }
 
+TEST(PlanarWall, AirBetweenTwoContactsIsNoArcOfContact) {
+  // A slot of 6 mm, then a cutter of 10 mm down its middle: 2 mm on either side.
+  auto stock = PlanarStock::from_box(kBlock);
+  ASSERT_TRUE(measure(line(0.0, -3.0, 40.0), cutter(CutterClass::kEndmill, 6.0), stock));
+  const auto m = measure(line(0.0, -3.0, 40.0), cutter(CutterClass::kEndmill, 10.0), stock);
+  ASSERT_TRUE(m);
+  EXPECT_LT(worst_csa(*m, 3, 10.0, 34.0, 12.0), 1e-6);
+  for (std::size_t i = 0; i < m->sections.size(); ++i) {
+    if (m->sections.move[i] != 3 || m->sections.at_mm[i] < 10.0 || m->sections.at_mm[i] > 34.0) continue;
+    EXPECT_NEAR(m->engagement[i].arc_rad, 2.0 * std::acos(3.0 / 5.0), 1e-6);
+    EXPECT_NEAR(m->engagement[i].entry_rad, 0.0, 1e-6);
+    EXPECT_NEAR(m->engagement[i].exit_rad, kPi, 1e-6);
+    EXPECT_NEAR(m->sections.x_cg_ofs_mm[i], 0.0, 1e-6);
+  }
+}
+
 TEST(PlanarArc, SlotAndRingOnAnArcFollowPappus) {
   for (const double radius : {6.0, 17.0}) {
     for (const bool clockwise : {false, true}) {
@@ -291,6 +307,27 @@ TEST(PlanarDrill, HoleIsConeAndCylinderAndPecksTakeNothingTwice) {
   EXPECT_TRUE(m->engagement.back().plunge);
   EXPECT_NEAR(m->sections.ad_max_mm.back(), tip, 0.1 * tip);
   EXPECT_NEAR(m->engagement.back().ae_mm, 10.0, 1e-9);
+}
+
+TEST(PlanarMeasure, BelowThePieceThereIsNothingToCut) {
+  auto stock = PlanarStock::from_box(kBlock);
+  const double tip = 5.0 / std::tan(59.0 * kPi / 180.0);
+  CutterPath p;
+  p.start({30.0, 30.0, 1.0});
+  p.line({30.0, 30.0, -20.0 - tip - 2.0}, MoveRole::kDrill);
+  const auto drill = measure(p, cutter(CutterClass::kTwistDrill, 10.0, 0.0, 118.0 * kPi / 180.0), stock);
+  ASSERT_TRUE(drill);
+  EXPECT_NEAR(drill->removed_mm3, kPi * 25.0 * 20.0, 1e-4 * drill->removed_mm3);
+  CutterPath around;
+  around.start({-10.0, 0.0, -23.0});
+  around.line({90.0, 0.0, -23.0}, MoveRole::kCut);
+  const auto m = measure(around, cutter(CutterClass::kEndmill, 10.0), stock);
+  ASSERT_TRUE(m);
+  EXPECT_LT(worst_csa(*m, 1, 20.0, 80.0, 5.0 * 20.0), 1e-6);
+  const std::size_t middle = m->sections.size() / 2;
+  EXPECT_NEAR(m->sections.ad_max_mm[middle], 20.0, 1e-6);
+  EXPECT_NEAR(m->sections.y_cg_ofs_mm[middle], 13.0, 1e-6);
+  EXPECT_NEAR(m->highest_contact_mm, 23.0, 1e-6);
 }
 
 TEST(PlanarMeasure, RefusesWhatItCannotHoldAndCutsNothingThen) {
