@@ -65,8 +65,8 @@ struct Totals {
 struct Constants {
   Float radius, cell, inverse_cell, half_cell, tip, twice_tip, base;
   Float inverse_arc_radius, turn, ex, ey, gx, gy, ux, uy;
-  Float along_step, across_step;       ///< from one cell of a row to the next
-  Float rc, zc, round, round_squared;  ///< the outline's last piece, where it is an arc
+  Float along_step, across_step;                  ///< from one cell of a row to the next
+  Float rc, zc, round, round_squared, r0, slope;  ///< of the outline's last piece
   float bin_scale, bin_sign, bin_shift;
   int bins;
 };
@@ -128,14 +128,18 @@ CAPSTAN_INLINE Seats seat(const Constants& c, const Start& from, float ahead) {
   return s;
 }
 
-/// Outlines that are worth a loop of their own; kBull: a disc and a round.
-enum class Shape { kFlat, kBall, kBull, kAny };
+/// Outlines that are worth a loop of their own; kBull: a disc and a round; kCone: a disc or a point and a
+/// slant.
+enum class Shape { kFlat, kBall, kBull, kCone, kAny };
 
 inline Shape shape_of(const Work& w) {
   if (w.pieces == 1 && w.piece[0].form == Form::kLevel) return Shape::kFlat;
   if (w.pieces == 1 && w.piece[0].form == Form::kBall) return Shape::kBall;
   if (w.pieces == 2 && w.piece[0].form == Form::kLevel && w.piece[1].form == Form::kRound)
     return Shape::kBull;
+  if (w.pieces == 1 && w.piece[0].form == Form::kSlant) return Shape::kCone;
+  if (w.pieces == 2 && w.piece[0].form == Form::kLevel && w.piece[1].form == Form::kSlant)
+    return Shape::kCone;
   return Shape::kAny;
 }
 
@@ -156,6 +160,8 @@ CAPSTAN_INLINE Float outline(const Work& w, const Constants& c, Float r2) {
   } else if constexpr (kShape == Shape::kBull) {
     const Float off = greater(root(r2) - c.rc, 0.0F);
     z = c.zc - root(greater(0.0F, (c.round - off) * (off + c.round)));
+  } else if constexpr (kShape == Shape::kCone) {
+    z = greater(root(r2) - c.r0, 0.0F) * c.slope;
   } else if constexpr (kShape == Shape::kAny) {
     z = height(w.piece[0], r2);
     for (int i = 1; i < w.pieces; ++i) {
@@ -477,6 +483,8 @@ inline void shaped(const Grid& g, const Work& w, const Constants& c, Totals& tot
       return each_row<kArc, Shape::kBall>(g, w, c, totals);
     case Shape::kBull:
       return each_row<kArc, Shape::kBull>(g, w, c, totals);
+    case Shape::kCone:
+      return each_row<kArc, Shape::kCone>(g, w, c, totals);
     case Shape::kAny:
       return each_row<kArc, Shape::kAny>(g, w, c, totals);
   }
@@ -505,6 +513,8 @@ inline void sweep_rows(const Grid& g, const Work& w, Sums& out) {
   c.along_step = static_cast<float>(g.cell * w.ux);
   c.across_step = across_step;
   const Piece& last = w.piece[w.pieces - 1];
+  c.r0 = last.r0;
+  c.slope = last.slope;
   c.rc = last.rc;
   c.zc = last.zc;
   c.round = last.radius;
