@@ -59,6 +59,10 @@ Comparison cycle_times(const std::string& file) {
   std::vector<double> of_steps, of_programs;
 
   for (const Time& t : read(*text)) {
+    if (t.predicted_s <= 0.0) {
+      whole[t.program + " " + t.step] = t.measured_s;
+      continue;
+    }
     const double error = t.predicted_s / t.measured_s - 1.0;
     data.rows.push_back({fixed(t.measured_s, 3), fixed(t.predicted_s, 3),
                          t.step == "all"
@@ -77,9 +81,18 @@ Comparison cycle_times(const std::string& file) {
   }
   const double scheduled = whole["pocket-scheduled"], constant = whole["pocket-constant"];
   Table aims{{"reference pocket", "reached", "aimed at"}, {}};
+  const double one_feed = whole["pocket-one-feed all"];
   if (scheduled > 0.0 && constant > 0.0) {
-    aims.rows.push_back(
-        {"simulated time, scheduled over the best constant feed", fixed(scheduled / constant, 3), "≤ 0.6"});
+    aims.rows.push_back({"simulated time, scheduled over the best constant feed of each step",
+                         fixed(scheduled / constant, 3), "≤ 0.6"});
+  }
+  if (scheduled > 0.0 && one_feed > 0.0) {
+    aims.rows.push_back({"the same over one feed for the whole program, " +
+                             fixed(whole["pocket-one-feed feed_mm_min"], 1) +
+                             " mm/min, what its plunge bears",
+                         fixed(scheduled / one_feed, 3), "(≤ 0.6)"});
+  }
+  if (scheduled > 0.0) {
     aims.rows.push_back({"simulated time over the 260 s of another planner at F600",
                          fixed(scheduled / kOtherPlanner_s, 3), "≤ 0.4"});
   }

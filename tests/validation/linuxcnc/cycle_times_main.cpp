@@ -1,7 +1,7 @@
 // capstan_cycle_times FOLDER [DATA]: plans parts with the built command, runs the programs on the machine
 // that LinuxCNC simulates, and writes cycle_times.csv (program, step, measured_s, predicted_s; the step "all"
-// is the whole program with the ways between steps) into FOLDER, and what the reference pocket did into DATA.
-// Status 77 where LinuxCNC is absent.
+// is the whole program with the ways between steps; predicted 0: it is not) into FOLDER, and what the
+// reference pocket did into DATA. Status 77 where LinuxCNC is absent.
 
 #include <iostream>
 #include <string>
@@ -57,6 +57,9 @@ int add_reference(const std::string& data, std::string& out) {
     if (!foreseen) return std::cerr << to_text(foreseen.error()) << "\n", 1;
     add(name, run.measured, *foreseen, run.time, out);
   }
+  // Not planned so, hence not predicted.
+  out += "pocket-one-feed,feed_mm_min," + fixed(r.one_feed_mm_min, 1) + ",0\n";
+  out += "pocket-one-feed,all," + fixed(r.one_feed.time.measured_s, 3) + ",0\n";
   for (const auto& [name, content] : tables(r)) {
     if (!data.empty() && !write_file(data + "/" + name, content)) return 1;
   }
