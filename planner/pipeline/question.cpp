@@ -21,6 +21,8 @@ using optimise::CutKind;
 constexpr double kDeflectionShare = 0.25;
 constexpr double kFinishDeflection = 0.02;  // mm, where no tolerance is stated; default, unsourced
 constexpr double kLeastDeflection = 0.004;  // mm; below, the model's own error rules
+/// Height of the terraces that roughing of a surface leaves, in diameters, at most. Default, unsourced.
+constexpr double kTerraceShare = 0.25;
 
 CutKind kind_of(const Model& m, AnyRef op, const model::Cutter& c) {
   if (m.holds<model::Tapping>(op)) return CutKind::kTap;
@@ -175,6 +177,9 @@ optimise::CutQuestion question_of(const Work& w, const StepWork& step, const mod
   q.engaged_diameter_mm = engaged(step.operation.type, step.cutter, job.cutting_depth_mm);
   const double d = step.cutter.cutting_diameter_mm;
   if (job.axial_depth_mm > 0.0) q.ap_mm = job.axial_depth_mm;
+  // What a level leaves standing on a slope is cut by the finishing pass.
+  if (m.holds<model::FreeformOperation>(step.operation) && q.kind == CutKind::kRough)
+    q.ap_most_mm = kTerraceShare * d;
   // Across the floor a finishing pass steps as given; what it takes from the wall is what roughing left.
   const bool rough = q.kind != CutKind::kFinish;
   if (rough && job.radial_depth_mm > 0.0) {
