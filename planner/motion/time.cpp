@@ -76,17 +76,21 @@ class Scan {
  private:
   // Moves without length do not exist for the scan: the next one joins the last that had a length.
   Status fill() {
+    if (path_.size() > 0 && !finite_point(path_, 0))
+      return bad("MOT-NUMBER", "a coordinate is not finite", 0);
     Shape before;
     std::size_t last = 0;
     for (std::size_t i = 1; i < path_.size(); ++i) {
       const MoveKind kind = path_.kind[i];
       if (!finite_point(path_, i)) return bad("MOT-NUMBER", "a coordinate is not finite", i);
+      if (!std::isfinite(schedule_.spindle_rpm[i])) return bad("MOT-NUMBER", "a speed is not finite", i);
       const double change =
           spindle_change_s(machine_.spindle, schedule_.spindle_rpm[i - 1], schedule_.spindle_rpm[i]);
       const bool new_speed = i > 1 && schedule_.spindle_rpm[i] != schedule_.spindle_rpm[i - 1];
       if (new_speed) out_.spindle_s += change;
       if (kind == MoveKind::kDwell) {
-        if (!(schedule_.dwell_s[i] >= 0.0)) return bad("MOT-NUMBER", "a dwell has no time", i);
+        if (!(schedule_.dwell_s[i] >= 0.0 && std::isfinite(schedule_.dwell_s[i])))
+          return bad("MOT-NUMBER", "a dwell has no time", i);
         out_.move_s[i] = schedule_.dwell_s[i];
         out_.dwell_s += schedule_.dwell_s[i];
         last = 0;
@@ -289,6 +293,7 @@ Result<std::vector<MoveReach>> reach_along(const CutterPath& path, const Machine
   const auto limits = limits_of(machine);
   if (!limits) return tl::unexpected(limits.error());
   std::vector<MoveReach> out(path.size());
+  if (path.size() > 0 && !finite_point(path, 0)) return bad("MOT-NUMBER", "a coordinate is not finite", 0);
   Shape before;
   std::size_t last = 0;
   for (std::size_t i = 1; i < path.size(); ++i) {

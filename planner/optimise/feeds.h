@@ -84,8 +84,8 @@ struct FeedAnswer {
 /// corner at the end of a long move does not slow all of it: a feed is one per move. The way itself stays as
 /// it is. Pieces are no shorter than a fifth of the diameter, and only made where they save time.
 ///
-/// Needs   samples and sections of this very path, `at_mm` from the start of each move. `sections` may be
-///         null.
+/// Needs   samples and sections of this very path, `at_mm` from the start of each move, steps of samples that
+///         do not overlap (but the second rectangle of one step). `sections` may be null.
 /// Shape   samples, sections and factors are renumbered with the moves; a dwell stays at the end of the last
 ///         piece.
 void split_moves(FeedQuestion& question, model::CutterPath& path, model::SectionSeries* sections);

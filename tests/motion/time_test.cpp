@@ -221,8 +221,21 @@ TEST(Time, NamesWhatItCannotTime) {
   EXPECT_EQ(time_of(p, f, machine()).error().code, "MOT-FEED");
   EXPECT_EQ(time_of(p, {}, machine()).error().code, "MOT-SCHEDULE");
   EXPECT_EQ(time_of(p, feed(p, 50.0), Machine{}).error().code, "MOT-MACHINE");
-  p.x[1] = std::nan("");
-  EXPECT_EQ(time_of(p, feed(p, 50.0), machine()).error().code, "MOT-NUMBER");
+  f = feed(p, 50.0);
+  f.feed_mm_min[1] = std::nan("");
+  EXPECT_EQ(time_of(p, f, machine()).error().code, "MOT-FEED");
+  f = feed(p, 50.0, std::nan(""));
+  EXPECT_EQ(time_of(p, f, machine()).error().code, "MOT-NUMBER");
+  for (const std::size_t i : {0U, 1U}) {
+    CutterPath broken = p;
+    broken.x[i] = std::nan("");
+    EXPECT_EQ(time_of(broken, feed(p, 50.0), machine()).error().code, "MOT-NUMBER");
+    EXPECT_EQ(reach_along(broken, machine()).error().code, "MOT-NUMBER");
+  }
+  p.dwell();
+  f = feed(p, 50.0);
+  f.dwell_s[2] = std::nan("");
+  EXPECT_EQ(time_of(p, f, machine()).error().code, "MOT-NUMBER");
 }
 
 TEST(TimeProperty, NoRandomPathBreaksASpeedOrIsFasterThanItsLengthAllows) {
