@@ -122,6 +122,7 @@ CutAnswer answer_at(const CutQuestion& q, const CutPoint& p) {
     measure_answer(q, a);
   }
   a.life_min = edge_life_min(q, {a.ap_mm, a.ae_mm, a.n_rpm, a.feed_mm_min});
+  if (std::isfinite(a.life_min)) a.loads.tool_life_min = a.life_min;
   return a;
 }
 

@@ -79,6 +79,7 @@ std::optional<model::StepLoads> milling(const CutQuestion& q, double ap_mm, doub
       if (std::abs(*error * margin) > std::abs(out.wall_error_mm)) out.wall_error_mm = *error * margin;
     }
   }
+  out.force_margin = margin;
   out.deflection_mm = out.peak_force_n * *compliance;
   out.mrr_mm3_min = ap_mm * ae_mm * fz_mm / up * tooth.teeth * n_rpm;
   out.surface_rz_mm = surface_rz(q, fz_mm / up);
@@ -101,6 +102,7 @@ std::optional<model::StepLoads> loads_of(const CutQuestion& q, double ap_mm, dou
   const mechanics::WorkMaterial work{q.material.kc11_n_mm2, q.material.mc};
   const double margin = mechanics::kienzle_margin(q.material).factor();
   model::StepLoads out;
+  out.force_margin = margin;
   if (q.kind == CutKind::kTap) {
     mechanics::TappingCut c;
     c.nominal_diameter_mm = q.cutter.cutting_diameter_mm;
