@@ -19,10 +19,12 @@ struct PlanOptions {
   std::string tools;      ///< file of a tool library
   std::string material;   ///< name, instead of the part's
   std::string rules;      ///< folder of rule tables, added to the built-in ones
-  std::string objective;  ///< "time", "cost", "profit"
+  std::string objective;  ///< "time", "cost", "profit" (per time; needs `revenue`)
+  std::string feeds;      ///< "scheduled" along the path, "constant"
   std::string reopen;  ///< "operations", "tools", "technology", "all": planned anew although the file has it
   double stock_allowance_mm = -1.0;  ///< at least 0: the raw piece is the part grown by this
-  unsigned threads = 1;              ///< results do not depend on it
+  double revenue = 0.0;  ///< what a piece brings less its material, in the currency of the machine's rate
+  unsigned threads = 1;  ///< results do not depend on it
 };
 
 /// A thing said about the input or the plan, as the command prints it.

@@ -55,6 +55,9 @@ Result<pipeline::Inputs> inputs_of(const PlanOptions& o, Job& job) {
       {{"time", Objective::kTime}, {"cost", Objective::kCost}, {"profit", Objective::kProfit}}, o.objective,
       "objective", in.objective);
   if (!ok) return tl::unexpected(ok.error());
+  auto feeds = pick<bool>({{"scheduled", false}, {"constant", true}}, o.feeds, "feeds", in.constant_feeds);
+  if (!feeds) return tl::unexpected(feeds.error());
+  if (o.revenue > 0.0) in.revenue = o.revenue;
   const auto named = [&](const char* what, const std::string& given, const std::string& other) {
     in.provenance.push_back({what, given.empty() ? other : given, given.empty() ? kDefault : "caller"});
     return given.empty() ? other : given;

@@ -4,6 +4,7 @@
 
 #include "planner/output/step_ids.h"
 #include "planner/pipeline/machine_needs.h"
+#include "planner/pipeline/profit.h"
 #include "planner/pipeline/work.h"
 #include "tooling/nouns/nouns.h"
 #include "tooling/select/select.h"
@@ -100,9 +101,8 @@ void leave_open(Work& w) {
   }
 }
 
-}  // namespace
-
-Result<model::Plan> bind(model::Plan plan, const Inputs& inputs, const Policy& policy, Job& job) {
+Result<model::Plan> bind_once(model::Plan plan, const Inputs& inputs, const Policy& policy,
+                              double earning_per_min, Job& job) {
   plan.steps.clear();
   std::vector<std::pair<Ref<model::Setup>, model::Workholding>> held;
   for (const auto& s : plan.setups) held.emplace_back(s.setup, s.holding);
@@ -111,10 +111,7 @@ Result<model::Plan> bind(model::Plan plan, const Inputs& inputs, const Policy& p
   plan.unplanned.clear();
   Work w{std::move(plan), inputs, policy, job, {}, {}, {}, {}, std::move(recorded)};
   w.held = std::move(held);
-  if (inputs.objective == Objective::kProfit) {
-    job.warn("PIP-OBJECTIVE",
-             "what the part earns is not known; planned for least cost instead of most profit");
-  }
+  w.earning_per_min = earning_per_min;
   using Stage = Status (*)(Work&);
   std::vector<Stage> stages = {resolve_workpiece, list_given, take_requirements};
   if (policy.bind >= Bind::kStrategy)
@@ -131,6 +128,25 @@ Result<model::Plan> bind(model::Plan plan, const Inputs& inputs, const Policy& p
   if (auto ok = collect_setups(w); !ok) return tl::unexpected(ok.error());
   name_steps(w);
   return std::move(w.plan);
+}
+
+}  // namespace
+
+Result<model::Plan> bind(model::Plan plan, const Inputs& inputs, const Policy& policy, Job& job) {
+  if (inputs.objective != Objective::kProfit) return bind_once(std::move(plan), inputs, policy, 0.0, job);
+  if (!inputs.revenue) {
+    return fail({.code = "PIP-REVENUE",
+                 .message = "most profit needs to be told what a piece brings",
+                 .expected = "its price less its material, in the currency of the machine's cost per hour"});
+  }
+  // What is left open has no time, and so no profit: planned for least cost.
+  if (policy.bind != Bind::kAll) return bind_once(std::move(plan), inputs, policy, 0.0, job);
+  return most_profit(
+      *inputs.revenue,
+      [&](double earning_per_min, Job& trial) {
+        return bind_once(plan, inputs, policy, earning_per_min, trial);
+      },
+      job);
 }
 
 }  // namespace capstan::pipeline

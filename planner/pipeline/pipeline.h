@@ -42,12 +42,18 @@ struct Inputs {
   optimise::Solver solver = optimise::Solver::kNlopt;
   optimise::Backends backends;
   Objective objective = Objective::kTime;
+  /// Objective::kProfit: what a piece brings less its material, in the currency of Machine::cost_per_hour.
+  std::optional<double> revenue;
+  bool constant_feeds = false;    ///< one feed for all of a step's path: the largest that every section bears
   std::string general_tolerance;  ///< "ISO 2768-m", "ISO 22081 0.2", "+-0.1"; empty: the file's, or none
-  std::string workholding;        ///< ids or a file, see tooling/holding; "auto"; empty or "none": not planned
-  int batch = 1;                  ///< pieces
-  double edge_break_mm = 0.0;     ///< edges that the part leaves sharp are chamfered by this; 0: left
+  std::string workholding;     ///< ids or a file, see tooling/holding; "auto"; empty or "none": not planned
+  int batch = 1;               ///< pieces
+  double edge_break_mm = 0.0;  ///< edges that the part leaves sharp are chamfered by this; 0: left
   std::vector<model::Provenance> provenance;  ///< what was named, what is a default
 };
+
+/// Plannings for most profit, the first for least cost among them; two or three usually do.
+inline constexpr int kMostPlannings = 5;
 
 struct Policy {
   Reopen reopen = Reopen::kNothing;
@@ -61,8 +67,13 @@ struct Policy {
 ///
 /// What the file binds is kept; a change that safety forces is reported. A feature that cannot be planned is
 /// in Plan::unplanned with its reason; that is an outcome, not an error.
-/// Determinism  same inputs, any number of threads: same plan.
-/// Fails        PIP-… when nothing can be planned at all: no workpiece, no machine, a set-up that is none.
+/// Objective::kProfit makes (revenue - cost) / time largest: the plan is made for least cost first, then
+/// again with what a minute earned in it, until that stays within a thousandth or kMostPlannings are made;
+/// the best of them is kept (W. Dinkelbach, Management Science 13 (1967) 492-498). A piece that loses money
+/// even at least cost is planned so, and PIP-LOSS says it. Determinism  same inputs, any number of threads:
+/// same plan. Fails        PIP-… when nothing can be planned at all: no workpiece, no machine, a set-up that
+/// is none;
+///              PIP-REVENUE for profit without a revenue.
 [[nodiscard]] Result<model::Plan> bind(model::Plan plan, const Inputs& inputs, const Policy& policy,
                                        Job& job);
 

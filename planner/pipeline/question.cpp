@@ -160,7 +160,10 @@ optimise::CutQuestion question_of(const Work& w, const StepWork& step, const mod
   q.material = w.plan.material;
   q.machine = w.plan.machine;
   q.kind = kind_of(m, step.operation, step.cutter);
-  q.aim = w.inputs.objective == Objective::kTime ? optimise::Aim::kTime : optimise::Aim::kCost;
+  q.aim = w.inputs.objective == Objective::kTime   ? optimise::Aim::kTime
+          : w.inputs.objective == Objective::kCost ? optimise::Aim::kCost
+                                                   : optimise::Aim::kProfit;
+  q.earning_per_min = w.earning_per_min;
   if (candidate != nullptr) {
     q.vc_start_m_min = candidate->vc_m_min;
     q.fz_start_mm = candidate->fz_mm;

@@ -73,6 +73,7 @@ struct Work {
   std::vector<std::pair<Ref<model::Setup>, model::Workholding>> held =
       {};                                        ///< as the plan said when it was read
   std::vector<model::FeatureShape> shapes = {};  ///< of all features, workpiece coordinates
+  double earning_per_min = 0.0;                  ///< Objective::kProfit: what a minute earns above its cost
 };
 
 // The stages, in the order bind() runs them.

@@ -29,7 +29,7 @@ Numbers are in mm, rad, mm/min, 1/min and s. The whole grammar: docs/inspect.md)
 struct Raw {
   std::string file, machine, tools, material, rules, cases, stock, deadline;
   std::string objective, solver, reopen, bind, diagnostics = "text";
-  std::string workholding, general_tolerance, edges;
+  std::string workholding, general_tolerance, edges, feeds, revenue;
 };
 
 const std::map<std::string, pipeline::Reopen> kReopen = {{"operations", pipeline::Reopen::kOperations},
@@ -112,8 +112,16 @@ class CommandLine {
     sub->add_option("--material", raw_.material, "work material, instead of the part's");
     sub->add_option("--stock", raw_.stock,
                     "raw piece: block:+2 (the part and 2 mm all round) or box:x0,y0,z0,x1,y1,z1");
-    sub->add_option("--objective", raw_.objective, "time, cost or profit")
+    sub->add_option("--objective", raw_.objective,
+                    "what is made least or most: time, cost, or profit per time (needs --revenue)")
         ->check(CLI::IsMember(names(kObjective)));
+    sub->add_option("--revenue", raw_.revenue,
+                    "what a piece brings less its material, in the currency of the machine's cost per hour");
+    sub->add_option(
+           "--feeds", raw_.feeds,
+           "scheduled: along the path, as each cross section bears (the default); constant: one feed, "
+           "the largest that all of them bear")
+        ->check(CLI::IsMember(std::vector<std::string>{"constant", "scheduled"}));
     sub->add_option("--rules", raw_.rules, "a folder of rule tables to add to the built-in ones");
     sub->add_option("--cases", raw_.cases, "a case base to begin from");
     sub->add_option("--solver", raw_.solver, "nlopt or ipopt")->check(CLI::IsMember(names(kSolver)));
@@ -246,7 +254,7 @@ class CommandLine {
   /// Options whose value was given, and is empty: not the same as left out.
   [[nodiscard]] std::string empty_value() const {
     for (const CLI::App* sub : app_.get_subcommands()) {
-      for (const char* name : {"--general-tolerance", "--workholding", "--edges"}) {
+      for (const char* name : {"--general-tolerance", "--workholding", "--edges", "--revenue"}) {
         const CLI::Option* o = sub->get_option_no_throw(name);
         if (o != nullptr && o->count() > 0 && o->results().front().empty())
           return std::string(name) + ": the value is empty; leave the option out instead";
@@ -263,6 +271,21 @@ class CommandLine {
     out_.inputs.edge_break_mm = *v;
     return {};
   }
+  /// What is wrong with --revenue, or nothing: profit cannot do without it, nothing else needs it.
+  std::string revenue() {
+    const bool profit = raw_.objective == "profit";
+    if (raw_.revenue.empty()) {
+      return profit ? "--objective profit: needs --revenue, what a piece brings less its material, in the "
+                      "currency of the machine's cost per hour"
+                    : "";
+    }
+    const auto v = parse_double(raw_.revenue);
+    if (!v || !std::isfinite(*v) || !(*v > 0.0))
+      return "--revenue: '" + raw_.revenue + "' is no amount above 0, e.g. 12.5";
+    if (!profit) return "--revenue: only --objective profit asks what a piece brings";
+    out_.inputs.revenue = *v;
+    return {};
+  }
   static std::optional<std::string> given(std::string text) {
     return text.empty() ? std::nullopt : std::optional(std::move(text));
   }
@@ -272,6 +295,7 @@ class CommandLine {
     if (!raw_.file.empty()) out_.files = {raw_.file};
     if (std::string wrong = empty_value(); !wrong.empty()) return wrong;
     if (std::string wrong = edges(); !wrong.empty()) return wrong;
+    if (std::string wrong = revenue(); !wrong.empty()) return wrong;
     if (raw_.general_tolerance.find(',') != std::string::npos)
       return "--general-tolerance: '" + raw_.general_tolerance +
              "' has a comma; decimals are written with a point";
@@ -282,6 +306,7 @@ class CommandLine {
     in.rules = given(raw_.rules);
     in.cases = given(raw_.cases);
     in.workholding = given(raw_.workholding);
+    in.feeds = given(raw_.feeds);
     in.general_tolerance = given(raw_.general_tolerance);
     if (const auto at = kObjective.find(raw_.objective); at != kObjective.end()) in.objective = at->second;
     if (const auto at = kSolver.find(raw_.solver); at != kSolver.end()) in.solver = at->second;

@@ -49,20 +49,57 @@ std::string key_value(const Plan& plan, const DecisionKey& key) {
   return value_text(plan.model, *a, plan.model.object(key.object), kDecimals);
 }
 
+/// "spindle torque" of "spindle_torque"
+std::string plain_name(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+/// "2,000 rpm"
+std::string rpm_text(double rpm) {
+  std::string out = trimmed(rpm, 0);
+  for (std::size_t i = out.size(); i > 3; i -= 3) out.insert(i - 3, ",");
+  return out + " rpm";
+}
+
+std::string seconds_saved(double saves_s) {
+  return saves_s < 0.05 ? std::string("less than 0.1 s") : duration(saves_s);
+}
+
 /// The limits that hold a value of the step back: of what the optimiser chose.
 void limits(const model::StepResult* result, const std::string& indent, std::string& out) {
   if (result == nullptr) return;
   for (const auto& c : result->active) {
-    out += indent + "held back by " + c.name + ": " + trimmed(c.value, kDecimals) + " of " +
-           trimmed(c.limit, kDecimals) + (c.unit.empty() ? "" : " " + c.unit);
-    if (c.shadow_price > 0.0) {
-      // The optimiser gives the part of the time that 1 % more of the limit would save.
+    out += indent + "limited by " + plain_name(c.name);
+    if (c.at_rpm > 0.0) out += " at " + rpm_text(c.at_rpm);
+    out += ": " + trimmed(c.value, kDecimals) + " of " + trimmed(c.limit, kDecimals) +
+           (c.unit.empty() ? "" : " " + c.unit);
+    if (c.saves_s > 0.0) {
+      out += "; 10 % more would save " + seconds_saved(c.saves_s);
+    } else if (c.shadow_price > 0.0) {
+      // The optimiser gives the part of the objective that 1 % more of the limit would save.
       const double percent = 100.0 * c.shadow_price;
       out += "; 1 % more of it would save " + (percent < 0.01 ? "less than 0.01" : trimmed(percent, 2)) +
              " % of the cutting time";
     }
     out += "\n";
   }
+}
+
+/// What held the feed along the path, and for how much of the time.
+void along_the_path(const model::StepResult& result, std::string& out) {
+  if (result.held_by.empty()) return;
+  out += "\nalong the path\n";
+  Rows rows;
+  for (const auto& h : result.held_by) {
+    const double percent = 100.0 * h.share;
+    std::string limit;
+    if (h.limit > 0.0) limit = trimmed(h.limit, kDecimals) + (h.unit.empty() ? "" : " " + h.unit);
+    rows.push_back({(percent < 0.1 ? "less than 0.1" : trimmed(percent, 1)) + " % of the time",
+                    "held by " + plain_name(h.name), limit,
+                    h.saves_s > 0.0 ? "10 % more would save " + seconds_saved(h.saves_s) : ""});
+  }
+  out += table(rows);
 }
 
 void rejected(const Decision& d, const std::string& indent, std::string& out) {
@@ -140,6 +177,20 @@ std::vector<Computed> computed_of(const Plan& plan, const StepView& v) {
   add("power", r->loads.power_w, " W", "largest");
   add("deflection", r->loads.deflection_mm, " mm", "of the tip, largest");
   add("chip_thickness", r->loads.chip_thickness_mm, " mm", "largest");
+  const auto axes = [](const model::AxisForces& f) {
+    return trimmed(f.x_n, 0) + ", " + trimmed(f.y_n, 0) + ", " + trimmed(f.z_n, 0) + " N";
+  };
+  const auto forces = [&](const char* name, const model::AxisForces& f, const char* how) {
+    if (f.x_n != 0.0 || f.y_n != 0.0 || f.z_n != 0.0) out.push_back({name, axes(f), how});
+  };
+  forces("mean_forces", r->loads.mean_force,
+         "along the feed, to its left, away from the work: largest means");
+  forces("peak_forces", r->loads.peak_force, "the same, largest at any moment");
+  add("force_margin", r->loads.force_margin, "",
+      "factor in these loads on a sharp edge's with mean coefficients: their spread, and wear");
+  add("wall_error", r->loads.wall_error_mm, " mm", "that bending leaves on the wall; above 0: material");
+  add("surface_rz", 1000.0 * r->loads.surface_rz_mm, " um", "feed marks by geometry alone");
+  add("edge_life", r->loads.tool_life_min, " min", "cutting time of an edge at this speed and feed");
   add("removal_rate", r->loads.mrr_mm3_min, " mm3/min", "largest");
   if (r->cutting_s + r->rapid_s > 0.0) {
     out.push_back({"time", duration(r->cutting_s + r->rapid_s),
@@ -331,6 +382,13 @@ Result<std::string> explain(const Plan& plan, std::string_view step) {
   if (v->result != nullptr && !v->result->active.empty()) {
     out += "\nlimits reached\n";
     limits(v->result, "  ", out);
+  }
+  if (v->result != nullptr) {
+    along_the_path(*v->result, out);
+    const auto& loads = v->result->loads;
+    const bool cuts = !v->result->cutter_id.empty() && v->result->path && v->result->cutting_s > 0.0;
+    if (cuts && v->result->active.empty() && loads.torque_nm == 0.0 && loads.peak_force_n == 0.0)
+      out += "\nno loads and limits here: a plan keeps them in its JSON, Part 21 files do not\n";
   }
   for (const StepPart& part : v->parts) part_text(plan, *v, part, out);
   return out;

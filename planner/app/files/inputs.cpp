@@ -56,6 +56,8 @@ void choices(const InputOptions& o, const model::Plan& plan, pipeline::Inputs& i
   }
   in.objective = o.objective.value_or(pipeline::Objective::kTime);
   p.push_back({"objective", objective_text(in.objective), o.objective ? "--objective" : kDefault});
+  in.revenue = o.revenue;
+  if (o.revenue) p.push_back({"revenue", trimmed(*o.revenue, 4) + " a piece", "--revenue"});
   const auto carried = [&](const char* what, const std::optional<std::string>& given, std::string& into) {
     if (given) {
       into = *given;
@@ -69,6 +71,9 @@ void choices(const InputOptions& o, const model::Plan& plan, pipeline::Inputs& i
   };
   carried("general-tolerance", o.general_tolerance, in.general_tolerance);
   carried("workholding", o.workholding, in.workholding);
+  std::string feeds = "scheduled";
+  carried("feeds", o.feeds, feeds);
+  in.constant_feeds = feeds == "constant";
   in.batch = o.batch;
   if (o.batch > 1) p.push_back({"batch", std::to_string(o.batch), "--batch"});
   in.edge_break_mm = o.edge_break_mm;

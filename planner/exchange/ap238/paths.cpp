@@ -5,11 +5,14 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <tuple>
 
 #include "planner/base/number.h"
+#include "planner/exchange/ap238/path_sections.h"
 #include "planner/exchange/ap238/via.h"
 #include "planner/exchange/iso14649/curves.h"
+#include "planner/exchange/iso14649/section_points.h"
 #include "planner/exchange/iso14649/trajectories.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/resolve.h"
@@ -32,48 +35,12 @@ constexpr double kSamePlace = 1e-9;  // mm, and components of directions
 
 bool is_arc(MoveKind k) { return k == MoveKind::kArcCw || k == MoveKind::kArcCcw; }
 
-/// The measured sections of a path, by place.
-class Sections {
- public:
-  explicit Sections(const model::SectionSeries* s) : s_(s) {
-    for (std::size_t i = 0; s_ != nullptr && i < s_->size(); ++i) order_.push_back(i);
-    std::stable_sort(order_.begin(), order_.end(), [this](std::size_t a, std::size_t b) {
-      return std::pair(s_->move[a], s_->at_mm[a]) < std::pair(s_->move[b], s_->at_mm[b]);
-    });
-  }
-
-  /// A sample stands at the end of its step, which is as long as its volume over its area.
-  [[nodiscard]] std::array<double, 7> at(std::size_t move, double at_mm) const {
-    const auto it = std::lower_bound(
-        order_.begin(), order_.end(), at_mm - kSamePlace,
-        [&](std::size_t i, double v) { return s_->move[i] != move ? s_->move[i] < move : s_->at_mm[i] < v; });
-    if (it == order_.end() || s_->move[*it] != move) return {};
-    const std::size_t i = *it;
-    const double step = s_->csa_mm2[i] > 0.0 ? s_->removed_mm3[i] / s_->csa_mm2[i] : 0.0;
-    const bool here = at_mm >= s_->at_mm[i] - std::max(step * (1.0 + 1e-6), kSamePlace);
-    if (!here) return {};
-    return {s_->ad_max_mm[i], s_->rd_max_mm[i],   s_->x_max_ofs_mm[i], s_->y_max_ofs_mm[i],
-            s_->csa_mm2[i],   s_->x_cg_ofs_mm[i], s_->y_cg_ofs_mm[i]};
-  }
-
-  [[nodiscard]] double volume(std::size_t first, std::size_t last) const {
-    double out = 0.0;
-    for (std::size_t i = 0; s_ != nullptr && i < s_->size(); ++i) {
-      if (s_->move[i] >= first && s_->move[i] <= last) out += s_->removed_mm3[i];
-    }
-    return out;
-  }
-
- private:
-  const model::SectionSeries* s_;
-  std::vector<std::size_t> order_;
-};
-
 /// A point of a basic curve, and where on the path it lies.
 struct Place {
   model::Ref<model::CartesianPoint> point;
   std::size_t move = 0;
   double at_mm = 0.0;
+  std::optional<SectionNumbers> section = {};  ///< of a point that only the sections need
 };
 
 template <class Point = model::CartesianPoint>
@@ -90,13 +57,19 @@ class Curves {
  public:
   Curves(model::Model& m, const CutterPath& path, const Placement& frame) : m_(m), p_(path), f_(frame) {}
 
-  /// The basic curve of moves first..last. `jumps(i)`: something jumps between the moves i-1 and i.
+  /// The basic curve of moves first..last. `jumps(i)`: something jumps between the moves i-1 and i. Lines get
+  /// points where `sections` change.
   template <class Jumps>
-  std::vector<Place> places(std::size_t first, std::size_t last, const Jumps& jumps) {
+  std::vector<Place> places(std::size_t first, std::size_t last, const Jumps& jumps,
+                            const PathSections& sections) {
     std::vector<Place> out = {{end_of(first - 1), first, 0.0}};
     for (std::size_t i = first; i <= last; ++i) {
       if (i > first && jumps(i)) out.push_back({end_of(i - 1), i, 0.0});
-      if (is_arc(p_.kind[i])) via(i, out);
+      if (is_arc(p_.kind[i])) {
+        via(i, out);
+      } else if (p_.kind[i] == MoveKind::kLine) {
+        between(i, sections, out);
+      }
       out.push_back({end_of(i), i, model::move_length(p_, i)});
     }
     return out;
@@ -136,6 +109,16 @@ class Curves {
   [[nodiscard]] std::vector<double> numbers(Vec3 p) const {
     const Vec3 q = f_.to_local(p);
     return {q.x, q.y, q.z};
+  }
+
+  void between(std::size_t i, const PathSections& sections, std::vector<Place>& out) {
+    const double length = model::move_length(p_, i);
+    for (const auto& [at_mm, numbers_there] : sections.inside(i, length)) {
+      const auto q = numbers(model::point_on_move(p_, i, at_mm / length));
+      const auto point = add_point(m_, q);
+      m_.at<model::CartesianPoint>(point).name = kSectionPoint;
+      out.push_back({point, i, at_mm, numbers_there});
+    }
   }
 
   void via(std::size_t i, std::vector<Place>& out) {
@@ -216,7 +199,7 @@ class Splitter {
     schedule_ = result != nullptr && result->schedule && result->schedule->feed_mm_min.size() == path->size()
                     ? result->schedule
                     : nullptr;
-    const Sections sections(result != nullptr ? result->sections.get() : nullptr);
+    const PathSections sections(result != nullptr ? result->sections.get() : nullptr);
     Curves curves(m_, *path, frame_);
     bool first = true;
     for (std::size_t i = 1; i < path->size();) {
@@ -267,10 +250,10 @@ class Splitter {
   }
 
   void fill(AnyRef target, const CutterPath& p, std::size_t first, std::size_t last, Curves& curves,
-            const Sections& sections) {
+            const PathSections& sections) {
     const bool rapid = p.kind[first] == MoveKind::kRapid;
     const auto jumps = [&](std::size_t i) { return !rapid && feed(i) != feed(i - 1); };
-    const auto places = curves.places(first, last, jumps);
+    const auto places = curves.places(first, last, jumps, sections);
     const auto technology = rapid ? model::Ref<model::Technology>() : technology_for(first, last);
     const model::SelectValue speed =
         rapid ? model::SelectValue{.ref = {}, .type = {}, .real = {}, .text = "RAPID"}
@@ -280,7 +263,7 @@ class Splitter {
     const double volume = sections.volume(first, last);
     if (volume > 0.0) {
       cut = curves.beside(places, [&](const Place& at) {
-        const auto v = sections.at(at.move, at.at_mm);
+        const auto v = at.section ? *at.section : sections.at(at.move, at.at_mm);
         return std::vector<double>(v.begin(), v.end());
       });
     }

@@ -15,15 +15,13 @@ namespace capstan::exchange::ap238 {
 /// CUTTER_LOCATION_TRAJECTORY per run of equal purpose and spindle speed, in the place of the one that had
 /// the path. A step whose path stands only in `plan.steps` gets toolpaths first.
 ///
-///     basiccurve                     POLYLINE, arcs and helices by via points; where the feed jumps, its
-///     point
-///                                    stands twice, so that what follows the parameter may jump, too
-///     its_speed                      RAPID; a ratio of the technology's feed; where the feed varies, a
-///     polyline
-///                                    of ratios, a point for each of the basic curve
-///     cross_section_area_parameters  a polyline of seven numbers, a point for each of the basic curve: those
-///     of
-///                                    the measured step in which the point lies, none where nothing is cut
+///     basiccurve   POLYLINE, arcs and helices by via points; lines with points named "section" where their
+///                  cross sections change inside; where the feed jumps, its point stands twice, so that what
+///                  follows the parameter may jump, too
+///     its_speed    RAPID; a ratio of the technology's feed; where the feed varies, a polyline of ratios, a
+///                  point for each of the basic curve
+///     cross_section_area_parameters   a polyline of seven numbers, a point for each of the basic curve:
+///                  those of the measured step in which the point lies, none where nothing is cut
 ///     its_material_removal_total_volume, path_maximum_deviation (what the machine may round corners by),
 ///     its_toolaxis where the curve's z is not the set-up's; FEEDSTOP for a dwell
 ///

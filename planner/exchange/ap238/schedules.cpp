@@ -179,7 +179,10 @@ Status add_sections(const model::Model& m, const model::Trajectory& t, const Mov
                                                          &out.y_max_ofs_mm, &out.csa_mm2,   &out.x_cg_ofs_mm,
                                                          &out.y_cg_ofs_mm};
     for (std::size_t k = 0; k < 7; ++k) columns[k]->push_back(p[k]);
-    share.push_back(std::max(0.0, p[4]) * length_mm);
+    // Between two points the area changes evenly.
+    const double area = std::max(0.0, p[4]);
+    const double before = length_mm > 0.0 && out.size() - begin > 1 ? out.csa_mm2[out.size() - 2] : area;
+    share.push_back(0.5 * (area + std::max(0.0, before)) * length_mm);
     sum += share.back();
   };
   for (std::size_t i = 1; i < moves.from.size(); ++i) {

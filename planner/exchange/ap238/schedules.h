@@ -37,8 +37,8 @@ struct MoveParameters {
                                                Job& job);
 
 /// Adds the cross-section parameters of one trajectory, whose moves are the last ones of `path`: one sample
-/// where each point of the basic curve lies. What the trajectory removes in total is shared out by area times
-/// length.
+/// where each point of the basic curve lies. What the trajectory removes in total is shared out by length
+/// times the mean area of both its ends.
 /// Fails  EXC-SECTIONS: another parameter range, or points of other than seven numbers.
 [[nodiscard]] Status add_sections(const model::Model& m, const model::Trajectory& t,
                                   const MoveParameters& moves, const model::CutterPath& path,

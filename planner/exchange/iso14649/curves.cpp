@@ -6,6 +6,7 @@
 
 #include "planner/base/number.h"
 #include "planner/exchange/ap238/schedules.h"
+#include "planner/exchange/iso14649/section_points.h"
 #include "planner/exchange/iso14649/segments.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/resolve.h"
@@ -315,7 +316,9 @@ class StepBuilder {
       if (auto done = add_sections(m_, *trajectory, followed->moves, out_.path, out_.sections); !done)
         warn(done.error());
     }
-    return settle(at, *t, nullptr, &followed->moves);
+    if (auto done = settle(at, *t, nullptr, &followed->moves); !done) return done;
+    join_at_section_points(m_, curve_of(m_, at), followed->moves, out_);
+    return {};
   }
 
   Status join(const CutterPath& part, AnyRef at) {

@@ -6,8 +6,9 @@
 namespace capstan::pipeline {
 namespace {
 
-using QuestionKey = std::tuple<std::string, int, double, double, double, double, double, double, double,
-                               double, double, double, double, double, double, double, bool, bool, bool>;
+using QuestionKey =
+    std::tuple<std::string, int, double, double, double, double, double, double, double, double, double,
+               double, double, double, double, double, bool, bool, bool, double, double, double, double>;
 
 QuestionKey key_of(const optimise::CutQuestion& q) {
   constexpr double kUnset = -1.0;
@@ -29,7 +30,11 @@ QuestionKey key_of(const optimise::CutQuestion& q) {
           q.least_feed_ratio,
           q.slot,
           q.override_locked,
-          q.feed_by_planning};
+          q.feed_by_planning,
+          q.surface_ra_um,
+          q.wall_error_limit_mm,
+          q.peak_force_limit_n,
+          q.least_chip_mm};
 }
 
 }  // namespace

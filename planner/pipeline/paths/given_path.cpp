@@ -81,12 +81,14 @@ Result<model::FeedSchedule> chosen(Work& w, StepWork& step, const model::CutterP
   out.feeds.n_rpm = (step.cutter.hand == model::Hand::kLeft ? -1.0 : 1.0) * answer->n_rpm;
   out.feeds.feed_mm_min = answer->feed_mm_min;
   out.feeds.adapt = true;
+  out.feeds.constant = w.inputs.constant_feeds;
   out.feeds.dwell_s = stated.dwell_s;
   out.result.axial_depth_mm = answer->ap_mm;
   out.result.radial_depth_mm = answer->ae_mm;
-  out.result.active = answer->active;
+  out.result.active = active_of(*answer);
   const auto feeds = optimise::feeds(out.feeds, path);
   out.result.loads = feeds.peak;
+  if (!(out.result.loads.tool_life_min > 0.0)) out.result.loads.tool_life_min = answer->life_min;
   out.result.held_by = feeds.held_by;
   return feeds.schedule;
 }
@@ -108,8 +110,8 @@ void state_path(Work& w, const StepWork& step, const std::shared_ptr<const model
 }  // namespace
 
 std::optional<engagement::Measurement> measured(Work& w, const StepWork& step, const model::CutterPath& path,
-                                                stock::HeightMap& stock) {
-  auto m = engagement::measure(path, step.cutter, stock);
+                                                Stocks& stocks) {
+  auto m = stocks.measure(step.setup, path, step.cutter);
   if (!m) {
     w.job.warn(m.error().code, "step '" + name_of(w, step) + "' is not measured: " + m.error().message);
     return std::nullopt;
@@ -140,7 +142,7 @@ Result<std::optional<GivenPath>> given_path(Work& w, StepWork& step, Stocks& sto
   if (asks) fq.cut = question_for(w, step, progress, stocks.of(step.setup));
   auto path = std::make_shared<const model::CutterPath>(std::move(given->path));
   if (cuts_here) {
-    auto found = measured(w, step, *path, stocks.of(step.setup));
+    auto found = measured(w, step, *path, stocks);
     fq.samples = samples_for(w, step, *path, given->sections, found);
     if (found) {
       out.result.sections = std::make_shared<const model::SectionSeries>(std::move(found->sections));

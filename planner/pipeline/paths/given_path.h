@@ -26,8 +26,7 @@ struct GivenPath {
 
 /// Measures a path and takes what it cuts from the stock. Says why not, and PIP-RAPID of rapids that cut.
 [[nodiscard]] std::optional<engagement::Measurement> measured(Work& w, const StepWork& step,
-                                                              const model::CutterPath& path,
-                                                              stock::HeightMap& stock);
+                                                              const model::CutterPath& path, Stocks& stocks);
 
 /// Whether the step mills: then feeds follow the sections.
 [[nodiscard]] inline bool mills(const optimise::CutQuestion& q) {

@@ -227,7 +227,7 @@ class PathMaker {
     r.axial_depth_mm = made.answer.ap_mm;
     r.radial_depth_mm = made.answer.ae_mm;
     r.active = active_of(made.answer);
-    if (auto m = measured(w_, step, *path, stocks_.of(step.setup))) {
+    if (auto m = measured(w_, step, *path, stocks_)) {
       fq.samples = samples_of(*m);
       optimise::split_moves(fq, *path, &m->sections);
       r.sections = std::make_shared<const model::SectionSeries>(std::move(m->sections));

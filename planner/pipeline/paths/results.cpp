@@ -27,6 +27,13 @@ void tell_slow(Work& w, const StepWork& step, const model::StepResult& r) {
 
 }  // namespace
 
+std::vector<model::ActiveConstraint> active_of(const optimise::CutAnswer& answer) {
+  auto out = answer.active;
+  for (std::size_t i = 0; i < out.size(); ++i)
+    out[i].saves_s = i < answer.saved_by_tenth.size() ? answer.saved_by_tenth[i] : 0.0;
+  return out;
+}
+
 void keep(Work& w, const StepWork& step, model::StepResult r, const optimise::FeedQuestion& fq) {
   if (r.feed_mm_min == 0.0) r.feed_mm_min = fq.feed_mm_min;
   if (r.spindle_rpm == 0.0) r.spindle_rpm = fq.n_rpm;
@@ -38,8 +45,10 @@ void keep(Work& w, const StepWork& step, model::StepResult r, const optimise::Fe
   if (t) {
     r.cutting_s = t->cutting_s + t->dwell_s;
     r.rapid_s = t->rapid_s;
+    for (auto& a : r.active) a.saves_s = std::max(0.0, a.saves_s * t->cutting_s);
     tell_slow(w, step, r);
   } else {
+    for (auto& a : r.active) a.saves_s = 0.0;
     w.job.warn(t.error().code, "step '" + name_of(w, step) + "' has no time: " + t.error().message);
   }
   w.plan.steps.push_back(std::move(r));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "planner/optimise/feeds.h"
 #include "planner/pipeline/work.h"
@@ -13,7 +14,10 @@ namespace capstan::pipeline {
 [[nodiscard]] std::string name_of(const Work& w, const StepWork& step);
 /// What is known of a step before it has a path.
 [[nodiscard]] model::StepResult result_of(const Work& w, const StepWork& step);
-/// Puts the step into the plan, with its time. Says PIP-SLOW of hours.
+/// The limits of an answer; `saves_s` is the part of the cutting time that a tenth more of each saves, until
+/// `keep` knows that time.
+[[nodiscard]] std::vector<model::ActiveConstraint> active_of(const optimise::CutAnswer& answer);
+/// Puts the step into the plan, with its time and the seconds that its limits cost. Says PIP-SLOW of hours.
 void keep(Work& w, const StepWork& step, model::StepResult result, const optimise::FeedQuestion& asked);
 /// The step stays without a path: said, and kept as unplanned.
 void no_path(Work& w, const StepWork& step, const std::string& why);

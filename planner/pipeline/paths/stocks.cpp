@@ -40,6 +40,11 @@ stock::HeightMap& Stocks::of(std::size_t setup) {
   return *map;
 }
 
+Result<engagement::Measurement> Stocks::measure(std::size_t setup, const model::CutterPath& path,
+                                                const model::Cutter& cutter) {
+  return engagement::measure(path, cutter, of(setup));
+}
+
 double top_over(const stock::HeightMap& map, const toolpath::PathJob& job) {
   geometry::Box3 box;
   const auto b = geometry::bounds(job.shape.area);

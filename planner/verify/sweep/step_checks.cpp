@@ -18,6 +18,8 @@ namespace {
 
 constexpr double kRapidClearanceMm = 1e-3;  ///< least gap under a rapid; more than a program's last decimal
 constexpr double kMeasured = 1.1;           ///< by which a rate measured on cells may be too large
+constexpr double kResolved = 4.0;           ///< cells across from which a width is known
+constexpr double kMostThinning = 3.0;       ///< feed per tooth over the chip, at most; default, unsourced
 constexpr double kTouchMm3 = 1e-6;          ///< less than this is not a cut
 constexpr double kSlackMm = 0.02;           ///< of lengths measured on heights
 
@@ -71,6 +73,13 @@ double into_hole_walls(const std::vector<model::FeatureShape>& shapes, const geo
   }
   return worst;
 }
+/// How far the outermost point of the edge goes: on an arc farther than the centre. A volume divided by it is
+/// the least width that can have been cut, whichever side of the arc it lies on.
+double edge_length(const Move& m, double radius_mm) {
+  const double arc = is_arc(m.kind) ? norm(xy(m.to) - m.centre) : 0.0;
+  return length_of(m) * (arc > 1e-6 ? (arc + radius_mm) / arc : 1.0);
+}
+
 bool cuts_to_centre(const model::Cutter& c) {
   switch (c.cutter_class) {
     case CutterClass::kTwistDrill:
@@ -421,6 +430,7 @@ void StepChecks::account(const Move& m, const Bite& bite) {
   }
   if (sum_.length_mm == 0.0) sum_.where = m.where;
   sum_.length_mm += length;
+  sum_.edge_mm += edge_length(m, radius_);
   sum_.volume_mm3 += bite.volume_mm3;
   sum_.minutes += length / m.feed_mm_min;
   sum_.depth_mm = std::max(sum_.depth_mm, bite.thickest_mm);
@@ -441,10 +451,15 @@ void StepChecks::settle() {
     double largest = fz;
     if (!sum_.axial && sum_.depth_mm > 0.0) {
       // The mean section and the depth give the width; width and feed give the chip (chord geometry).
-      width = std::clamp(sum_.volume_mm3 / sum_.length_mm / sum_.depth_mm, 0.01 * d, d);
+      width = std::clamp(sum_.volume_mm3 / sum_.edge_mm / sum_.depth_mm, 0.01 * d, d);
       const double phi = std::acos(1.0 - 2.0 * width / d);
       chip_mm = 2.0 * fz * width / (d * phi);
-      if (width < 0.5 * d) largest = fz * std::sin(phi);
+      // A strip may cover a row of cells more than it is wide. What is thinner than a few is not resolved:
+      // there only a feed is too high that no thinning excuses.
+      const double sure = std::max(0.01 * d, width - grid_.cell());
+      if (sure < 0.5 * d) largest = fz * std::sin(std::acos(1.0 - 2.0 * sure / d));
+      if (width < std::min(kResolved * grid_.cell(), 0.5 * d))
+        largest = std::min(largest, fz / kMostThinning);
     }
     chip(largest, fz);
     power(sum_.volume_mm3, sum_.minutes, chip_mm);

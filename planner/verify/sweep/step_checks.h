@@ -50,7 +50,7 @@ class StepChecks {
 
   // Moves taken together until they are long enough to be measured on the grid.
   struct Account {
-    double length_mm = 0.0, volume_mm3 = 0.0, minutes = 0.0, depth_mm = 0.0;
+    double length_mm = 0.0, edge_mm = 0.0, volume_mm3 = 0.0, minutes = 0.0, depth_mm = 0.0;
     double feed_mm_min = 0.0, rpm = 0.0;
     bool axial = false;
     long where = -1;

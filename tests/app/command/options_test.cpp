@@ -55,6 +55,20 @@ std::string refused(std::vector<const char*> more) {
   return parsed.options ? std::string() : parsed.ending.text;
 }
 
+TEST(Options, ProfitNeedsARevenueAndNothingElseDoes) {
+  EXPECT_EQ(refused({"--objective", "profit", "--revenue", "12.5"}), "");
+  EXPECT_NE(refused({"--objective", "profit"}).find("needs --revenue"), std::string::npos);
+  EXPECT_NE(refused({"--revenue", "12.5"}).find("only --objective profit"), std::string::npos);
+  for (const char* bad : {"", "0", "-3", "nan", "inf", "much"})
+    EXPECT_NE(refused({"--objective", "profit", "--revenue", bad}), "") << bad;
+}
+
+TEST(Options, FeedsAreScheduledOrConstant) {
+  EXPECT_EQ(refused({"--feeds", "constant"}), "");
+  EXPECT_EQ(refused({"--feeds", "scheduled"}), "");
+  EXPECT_NE(refused({"--feeds", "fast"}), "");
+}
+
 TEST(Options, EdgesAreAFiniteWidth) {
   EXPECT_EQ(refused({"--edges", "0.3"}), "");
   EXPECT_EQ(refused({"--edges", "0"}), "");

@@ -39,8 +39,26 @@ TEST(Explain, AStepNamesRuleSourceAndActiveConstraint) {
   EXPECT_THAT(
       *text,
       HasSubstr(
-          "held back by spindle_torque: 11.9 of 12 Nm; 1 % more of it would save 0.5 % of the cutting time"));
+          "limited by spindle torque: 11.9 of 12 Nm; 1 % more of it would save 0.5 % of the cutting time"));
   EXPECT_THAT(*text, HasSubstr("diameter = 10 mm  (in the file)"));
+}
+
+TEST(Explain, LimitsAreToldWithTheirSpeedAndTheSecondsTheyCost) {
+  auto plan = testing::planned_plate();
+  auto& step = plan.steps.front();
+  ASSERT_FALSE(step.active.empty());
+  step.active.front().at_rpm = 2000.0;
+  step.active.front().saves_s = 4.0;
+  step.held_by = {{"peak_force", 500.0, "N", 0.62, 2.5}, {"axis_acceleration", 0.0, "", 0.38, 0.0}};
+  step.loads.mean_force = {100.0, -40.0, 12.0};
+  const auto text = explain(plan, "DRILL IT");
+  ASSERT_TRUE(text);
+  EXPECT_THAT(*text,
+              HasSubstr("limited by spindle torque at 2,000 rpm: 11.9 of 12 Nm; 10 % more would save 4 s"));
+  EXPECT_THAT(*text,
+              HasSubstr("62 % of the time  held by peak force         500 N  10 % more would save 2.5 s"));
+  EXPECT_THAT(*text, HasSubstr("38 % of the time  held by axis acceleration"));
+  EXPECT_THAT(*text, HasSubstr("100, -40, 12 N"));
 }
 
 TEST(Explain, AStepIsFoundByItsNumberToo) {

@@ -64,8 +64,12 @@ TEST(Sections, StandAsSevenNumbersForEachPointOfTheBasicCurve) {
   EXPECT_THAT(lines, Contains("CARTESIAN_POINT('',(0.,0.,0.,0.,0.,0.,0.));"));       // where it ended, in air
   EXPECT_THAT(lines, Contains("CARTESIAN_POINT('',(1.,1.,0.,-0.5,1.,0.,-0.5));"));   // at the via point
   EXPECT_THAT(lines, Contains("CARTESIAN_POINT('',(1.,2.,0.,-0.5,2.,0.,-0.5));"));
-  // Four points of the path, one of them a via point; four of sections.
-  EXPECT_EQ(std::count(lines.begin(), lines.end(), "POLYLINE('',(#,#,#,#));"), 2);
+  // Four points of the path, one of them a via point, and two where the cut ends and where that is measured;
+  // as many of sections.
+  EXPECT_EQ(std::count(lines.begin(), lines.end(), "POLYLINE('',(#,#,#,#,#,#));"), 2);
+  EXPECT_EQ(std::count_if(lines.begin(), lines.end(),
+                          [](const auto& l) { return l.starts_with("CARTESIAN_POINT('section',"); }),
+            2);
 }
 
 TEST(Sections, ComeBackWhereThePointsAreAndWithTheVolume) {
@@ -79,13 +83,15 @@ TEST(Sections, ComeBackWhereThePointsAreAndWithTheVolume) {
   ASSERT_TRUE(got) << to_text(got.error());
   const auto& s = got->sections;
   const auto& path = *cut.plan.steps[0].path;
-  ASSERT_EQ(s.size(), 4U);
+  // Points that only the sections need make no moves of their own.
+  EXPECT_EQ(got->path.kind, path.kind);
+  ASSERT_EQ(s.size(), 6U);
   const double length = model::move_length(path, 4);
-  const double at[] = {0.0, 10.0, 0.5 * length, length};
-  const double area[] = {6.0, 0.0, 1.0, 2.0};
-  const std::uint32_t move[] = {3, 3, 4, 4};
+  const double at[] = {0.0, 5.0, 7.5, 10.0, 0.5 * length, length};
+  const double area[] = {6.0, 6.0, 0.0, 0.0, 1.0, 2.0};
+  const std::uint32_t move[] = {3, 3, 3, 3, 4, 4};
   double removed = 0.0;
-  for (std::size_t i = 0; i < 4; ++i) {
+  for (std::size_t i = 0; i < s.size(); ++i) {
     EXPECT_EQ(s.move[i], move[i]);
     EXPECT_NEAR(s.at_mm[i], at[i], 1e-9);
     EXPECT_EQ(s.csa_mm2[i], area[i]);
