@@ -18,6 +18,7 @@ using geometry::Vec3;
 
 static_assert(Tally::kBins == rows::kBins);
 constexpr double kHalfDiagonal = 0.70711;
+constexpr double kLongest = 20.0;  // mm: so far single precision keeps a slope's heights
 
 rows::Piece piece_of(const ProfilePiece& p) {
   rows::Piece out;
@@ -37,7 +38,12 @@ rows::Piece piece_of(const ProfilePiece& p) {
   return out;
 }
 
-/// The cutter, on a level track from a to b.
+/// A flat or a ball: their envelopes over a slope need no search.
+bool is_plain(const CutterProfile& p) {
+  return p.pieces.size() == 1 && p.pieces[0].slope == 0.0 && p.pieces[0].rc_mm == 0.0;
+}
+
+/// The cutter, on a track from a to b.
 rows::Work work_of(const HeightMap& map, const CutterProfile& profile, Vec2 a, Vec2 b, double tip_z) {
   if (profile.pieces.size() > static_cast<std::size_t>(rows::kPieces)) {
     throw std::logic_error("an outline of too many pieces");
@@ -114,7 +120,8 @@ void sweep(HeightMap& map, const CutterProfile& profile, const Track& track, boo
   const double length = norm(b - a);
   const double half_diagonal = kHalfDiagonal * map.cell_mm;
   const double lowest = std::min(track.from.z, track.to.z);
-  if (length >= 1e-9 && rise != 0.0) {
+  const bool sloping = length >= 1e-9 && rise != 0.0;
+  if (sloping && !(is_plain(profile) && length < kLongest)) {
     const Vec2 unit = (1.0 / length) * (b - a);
     return sweep_slope(map, profile,
                        {.a = a,
@@ -135,6 +142,10 @@ void sweep(HeightMap& map, const CutterProfile& profile, const Track& track, boo
   rows::Work w = work_of(map, profile, a, standing ? a : b, lowest);
   w.inner = profile.radius_mm - half_diagonal;
   w.reach = touching_radius(profile, track.ceiling_mm - lowest) + half_diagonal;
+  if (sloping) {
+    w.start = track.from.z - map.origin.z;
+    w.slope = rise / length;
+  }
   Vec2 ahead = standing ? heading : b - a;
   ahead = (1.0 / norm(ahead)) * ahead;
   w.ux = ahead.x;
@@ -158,10 +169,11 @@ void sweep(HeightMap& map, const CutterProfile& profile, const Track& track, boo
   }
   w.hx = ahead.x;
   w.hy = ahead.y;
-  if (behind_is_cut && !standing) {
+  if (behind_is_cut && !standing && rise >= 0.0) {
     w.half = true;
     const ProfilePiece& bottom = profile.pieces.front();
-    if (w.piece[0].form == rows::Form::kLevel) w.hollow = std::max(0.0, bottom.r1_mm - half_diagonal);
+    if (w.piece[0].form == rows::Form::kLevel && !sloping)
+      w.hollow = std::max(0.0, bottom.r1_mm - half_diagonal);
   }
   take(map, w, tally);
 }

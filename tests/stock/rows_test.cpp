@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <random>
@@ -69,6 +70,11 @@ rows::Work random_work(std::mt19937& random) {
     w.length = std::hypot(w.bx - w.ax, w.by - w.ay);
     w.reach += 0.3;
     w.inner -= 0.3;
+  }
+  if (!w.arc && w.length > 0.0 && w.pieces == 1 && u(random) < 0.5) {
+    w.slope = 0.6 * (u(random) - 0.5);
+    w.start = w.tip - std::min(0.0, w.slope * w.length);
+    w.half = w.half && w.slope > 0.0;
   }
   return w;
 }

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -102,6 +103,34 @@ TEST(SweptHeight, IsTheEnvelopeOfDenseStamps) {
       if (dense > 1e200) continue;
       EXPECT_LE(exact, dense + 1e-9);
       EXPECT_GE(exact, dense - 0.03) << "a rim's step between two stamps";
+    }
+  }
+}
+
+TEST(Sweep, ASlopeLeavesItsEnvelope) {
+  std::mt19937 random(12);
+  std::uniform_real_distribution<double> u(0.0, 1.0);
+  for (const auto& profile : {geometry::flat_profile(6.0, 20.0), geometry::ball_profile(6.0, 20.0),
+                              geometry::bull_profile(6.0, 1.0, 20.0)}) {
+    for (int k = 0; k < 20; ++k) {
+      HeightMap map = from_box({{0, 0, 0}, {20, 20, 20}}, 0.25);
+      const double turned = 6.283 * u(random), length = 0.2 + 4.0 * u(random), rise = 4.0 * (u(random) - 0.5);
+      const Vec3 from{10.0, 10.0, 12.0};
+      const Vec2 unit{std::cos(turned), std::sin(turned)};
+      const Vec3 to{10.0 + length * unit.x, 10.0 + length * unit.y, 12.0 + rise};
+      Tally tally;
+      sweep(map, profile, {.from = from, .to = to, .arc = false, .centre = {}, .clockwise = false}, false,
+            unit, tally);
+      for (int iy = 0; iy < map.ny; ++iy) {
+        for (int ix = 0; ix < map.nx; ++ix) {
+          const Vec2 p = Vec2{map.x_of(ix), map.y_of(iy)} - xy(from);
+          const double along = dot(p, unit), across = cross(unit, p);
+          const double past = along - std::clamp(along, 0.0, length);
+          if (std::hypot(past, across) > 3.0 - 0.2) continue;  // the rim covers a part of a cell
+          const double z = std::min(20.0, 12.0 + swept_height(profile, along, across, length, rise));
+          ASSERT_NEAR(height_at(map, {map.x_of(ix), map.y_of(iy)}), z, 2e-5);
+        }
+      }
     }
   }
 }

@@ -29,12 +29,14 @@ struct Grid {
   int nx = 0, ny = 0;
 };
 
-/// A level track of a cutter: straight from a to b, round about a centre, or standing (a = b).
+/// A track of a cutter: straight from a to b, round about a centre, or standing (a = b); level, or of a flat
+/// or a ball and straight.
 struct Work {
   Piece piece[kPieces];
   int pieces = 0;
   double radius = 0.0;
-  double tip = 0.0;  ///< height above the floor; may lie below it
+  double tip = 0.0;                 ///< lowest, above the floor; may lie below it
+  double start = 0.0, slope = 0.0;  ///< height of the tip at a, and what it rises per length
   double ax = 0.0, ay = 0.0, bx = 0.0, by = 0.0;
   double ux = 1.0, uy = 0.0;  ///< unit feed direction; X of the section is measured across it
   double length = 0.0;        ///< from a to b

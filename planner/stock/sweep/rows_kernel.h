@@ -67,13 +67,16 @@ struct Constants {
   Float inverse_arc_radius, turn, ex, ey, gx, gy, ux, uy;
   Float along_step, across_step;                  ///< from one cell of a row to the next
   Float rc, zc, round, round_squared, r0, slope;  ///< of the outline's last piece
+  Float start, rise, steepness, length,
+      radius_squared;  ///< of a sloping track; steepness: |s| / sqrt(1 + s^2), signed
   float bin_scale, bin_sign, bin_shift;
   int bins;
 };
 
 struct Seats {
   Float across, distance2;
-  Float nx, ny, n;  ///< across the nearest edge, and its length
+  Float along, past;  ///< on straight tracks: from a, and what lies beyond the nearer end
+  Float nx, ny, n;    ///< across the nearest edge, and its length
 };
 
 /// Where a cell lies against the track, from both ends of it: along and across, for an arc x and y.
@@ -102,6 +105,8 @@ CAPSTAN_INLINE Seats seat(const Constants& c, const Start& from, float ahead) {
     const Float along_b = cells * c.along_step + from.b0;
     s.across = cells * c.across_step + from.a1;
     const Float past = greater(along_b, 0.0F) + smaller(along_a, 0.0F);
+    s.along = along_a;
+    s.past = past;
     s.distance2 = s.across * s.across + past * past;
     s.nx = past * c.ux + s.across * c.uy;
     s.ny = past * c.uy - s.across * c.ux;
@@ -130,9 +135,10 @@ CAPSTAN_INLINE Seats seat(const Constants& c, const Start& from, float ahead) {
 
 /// Outlines that are worth a loop of their own; kBull: a disc and a round; kCone: a disc or a point and a
 /// slant.
-enum class Shape { kFlat, kBall, kBull, kCone, kAny };
+enum class Shape { kFlat, kBall, kBull, kCone, kAny, kSlopingFlat, kSlopingBall };
 
 inline Shape shape_of(const Work& w) {
+  if (w.slope != 0.0) return w.piece[0].form == Form::kBall ? Shape::kSlopingBall : Shape::kSlopingFlat;
   if (w.pieces == 1 && w.piece[0].form == Form::kLevel) return Shape::kFlat;
   if (w.pieces == 1 && w.piece[0].form == Form::kBall) return Shape::kBall;
   if (w.pieces == 2 && w.piece[0].form == Form::kLevel && w.piece[1].form == Form::kRound)
@@ -170,6 +176,21 @@ CAPSTAN_INLINE Float outline(const Work& w, const Constants& c, Float r2) {
     }
   }
   return greater(0.0F, z + c.tip);
+}
+
+/// As above beside a straight sloping track: the least over the positions u behind a cell at which the cutter
+/// reaches it. That is convex in u: an end, or for a ball the place where it falls no further.
+template <Shape kShape>
+CAPSTAN_INLINE Float envelope(const Constants& c, Float along, Float across) {
+  const Float reach2 = greater(0.0F, c.radius_squared - across * across);
+  const Float reach = root(reach2);
+  const Float lo = greater(along - c.length, 0.0F - reach);
+  const Float hi = smaller(along, reach);
+  Float u = select(c.rise < 0.0F, lo, hi);
+  if constexpr (kShape == Shape::kSlopingBall) u = smaller(greater(c.steepness * reach, lo), hi);
+  Float z = c.start + c.rise * (along - u);
+  if constexpr (kShape == Shape::kSlopingBall) z = z + c.zc - root(greater(0.0F, reach2 - u * u));
+  return greater(0.0F, z);
 }
 
 /// How much of each cell the cutter covers (the part of a square inside a straight edge, as coverage.h), and
@@ -293,6 +314,7 @@ constexpr int kSteps = 16;
 /// Cells ix0 to ix1 of a row. kCovered: all of them covered as a whole.
 template <bool kArc, Shape kShape, bool kCovered>
 inline void run(const Grid& g, const Work& w, const Constants& c, int iy, int ix0, int ix1, Totals& totals) {
+  constexpr bool kSloping = kShape == Shape::kSlopingFlat || kShape == Shape::kSlopingBall;
   const double y = g.y0 + static_cast<double>(iy) * g.cell;
   const unsigned long row = static_cast<unsigned long>(iy) * static_cast<unsigned long>(g.nx);
   float* const row_top = g.top + row;
@@ -318,13 +340,24 @@ inline void run(const Grid& g, const Work& w, const Constants& c, int iy, int ix
     const Seats s = seat<kArc>(c, from, static_cast<float>(ix - start_ix));
     Chips chips;
     if constexpr (kCovered) {
-      const Float z = outline<kShape>(w, c, s.distance2);
+      Float z;
+      if constexpr (kSloping) {
+        z = envelope<kShape>(c, s.along, s.across);
+      } else {
+        z = outline<kShape>(w, c, s.distance2);
+      }
       chips = any(Float(0.0F) < Float::at(share)) ? lower_parts(1.0F, z, valid, c, top, low, share)
                                                   : lower_uniform(z, valid, c, top, low);
     } else {
-      Float at2;
+      Float at2, z;
       const Float cover = rim(c, s, at2);
-      chips = lower_parts(cover, outline<kShape>(w, c, at2), valid, c, top, low, share);
+      if constexpr (kSloping) {
+        const Float shift = root(at2) / greater(s.n, 1e-12F);
+        z = envelope<kShape>(c, s.along + (shift - 1.0F) * s.past, s.across * shift);
+      } else {
+        z = outline<kShape>(w, c, at2);
+      }
+      chips = lower_parts(cover, z, valid, c, top, low, share);
     }
     if (!any(chips.touched)) continue;
     add<kArc, kCovered>(c, s.across, chips, totals);
@@ -487,6 +520,12 @@ inline void shaped(const Grid& g, const Work& w, const Constants& c, Totals& tot
       return each_row<kArc, Shape::kCone>(g, w, c, totals);
     case Shape::kAny:
       return each_row<kArc, Shape::kAny>(g, w, c, totals);
+    case Shape::kSlopingFlat:
+      if constexpr (!kArc) each_row<false, Shape::kSlopingFlat>(g, w, c, totals);
+      return;
+    case Shape::kSlopingBall:
+      if constexpr (!kArc) each_row<false, Shape::kSlopingBall>(g, w, c, totals);
+      return;
   }
 }
 
@@ -513,6 +552,11 @@ inline void sweep_rows(const Grid& g, const Work& w, Sums& out) {
   c.along_step = static_cast<float>(g.cell * w.ux);
   c.across_step = across_step;
   const Piece& last = w.piece[w.pieces - 1];
+  c.start = static_cast<float>(w.start);
+  c.rise = static_cast<float>(w.slope);
+  c.steepness = static_cast<float>(w.slope / __builtin_sqrt(1.0 + w.slope * w.slope));
+  c.length = static_cast<float>(w.length);
+  c.radius_squared = radius * radius;
   c.r0 = last.r0;
   c.slope = last.slope;
   c.rc = last.rc;
