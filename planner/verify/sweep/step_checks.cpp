@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kRapidClearanceMm = 1e-3;  ///< least gap under a rapid; more than a program's last decimal
 constexpr double kMeasured = 1.1;           ///< by which a rate measured on cells may be too large
-constexpr double kResolved = 4.0;           ///< cells across from which a width is known
+constexpr double kResolved = 4.0;           ///< cells from which a width, or an area, is known
 constexpr double kMostThinning = 3.0;       ///< feed per tooth over the chip, at most; default, unsourced
 constexpr double kTouchMm3 = 1e-6;          ///< less than this is not a cut
 constexpr double kSlackMm = 0.02;           ///< of lengths measured on heights
@@ -458,8 +458,10 @@ void StepChecks::settle() {
       // there only a feed is too high that no thinning excuses.
       const double sure = std::max(0.01 * d, width - grid_.cell());
       if (sure < 0.5 * d) largest = fz * std::sin(std::acos(1.0 - 2.0 * sure / d));
-      if (width < std::min(kResolved * grid_.cell(), 0.5 * d))
-        largest = std::min(largest, fz / kMostThinning);
+      const double cell = grid_.cell();
+      const bool thin = width < std::min(kResolved * cell, 0.5 * d);
+      const bool sliver = sum_.volume_mm3 < kResolved * cell * cell * sum_.edge_mm;
+      if (thin || sliver) largest = std::min(largest, fz / kMostThinning);
     }
     chip(largest, fz);
     power(sum_.volume_mm3, sum_.minutes, chip_mm);
