@@ -9,6 +9,8 @@ namespace {
 constexpr int kWidth = 4;
 #include "planner/stock/sweep/lanes.h"
 // Formulas in lanes, then the loops.
+#include "planner/stock/sweep/rows_cells.h"
+// The loops over rows.
 #include "planner/stock/sweep/rows_kernel.h"
 }  // namespace
 
