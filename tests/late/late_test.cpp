@@ -87,6 +87,52 @@ TEST(Late, ReopensAToolThatIsNotInTheMagazine) {
   EXPECT_NE(reopened->front().find("END MILL 12"), std::string::npos) << reopened->front();
 }
 
+TEST(Late, FeedsOfAGivenPathComeFromTheSectionsThatItsFileStates) {
+  // The plan as another system would bring it: path and sections given, speed and feed open.
+  Job job;
+  const auto planned = pipeline::bind(plate(), shop(kMagazine), {}, job);
+  ASSERT_TRUE(planned) << to_text(planned.error());
+  const auto text = pipeline::write_plan(*planned, pipeline::Format::kAp238, job);
+  ASSERT_TRUE(text);
+  const auto opened = [&](double factor) {
+    Job quiet;
+    auto plan = *pipeline::read_plan(*text, "plate.stpnc", quiet);
+    auto& m = plan.model;
+    for (const auto at : m.all(model::TypeId::kMillingTechnology)) {
+      m.at<model::MillingTechnology>(at).feedrate.reset();
+      m.at<model::MillingTechnology>(at).spindle.reset();
+    }
+    plan.ledger = model::Ledger{};
+    for (const auto at : m.all(model::TypeId::kCutterLocationTrajectory)) {
+      const auto* line = m.get<model::Polyline>(m.at<model::Trajectory>(at).cross_section_area_parameters);
+      if (line == nullptr) continue;
+      for (const auto p : line->points.items) {
+        auto& c = m.at<model::CartesianPoint>(p).coordinates.items;
+        if (c.size() == 7) c[4] *= factor;
+      }
+    }
+    return plan;
+  };
+  const auto warned = [&](double factor) {
+    Job said;
+    pipeline::Policy policy;
+    policy.only_loaded_cutters = true;
+    const auto bound = pipeline::bind(opened(factor), shop(kMagazine), policy, said);
+    EXPECT_TRUE(bound) << (bound ? "" : to_text(bound.error()));
+    if (bound) {
+      for (const auto& s : bound->steps) {
+        if (!(s.cutting_s > 0.0)) continue;
+        EXPECT_GT(s.feed_mm_min, 0.0) << model::step_id(*bound, s);
+        EXPECT_NE(s.spindle_rpm, 0.0);
+      }
+    }
+    return texts(said).find("PIP-SECTIONS") != std::string::npos;
+  };
+  EXPECT_FALSE(warned(1.0));
+  EXPECT_TRUE(warned(0.3));
+  EXPECT_TRUE(warned(3.0));
+}
+
 TEST(LateInterface, SaysWhatIsWrongAndNeverThrows) {
   EXPECT_EQ(capstan_late_bind(nullptr, "x", 1, 10), CAPSTAN_LATE_USAGE);
   EXPECT_EQ(capstan_late_output(nullptr, CAPSTAN_LATE_JSON, nullptr), nullptr);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <tuple>
 
@@ -43,6 +44,13 @@ double most_near(const std::vector<CutSample>& s, std::uint32_t move, double fro
     if (it->at_mm >= from_mm && it->at_mm - it->step_mm <= to_mm) out = std::max(out, it->csa_mm2);
   }
   return out;
+}
+
+/// The area at the end of a move: where two moves meet, one point stands for both.
+double last_of(const std::vector<CutSample>& s, std::uint32_t move) {
+  const auto behind = std::upper_bound(s.begin(), s.end(), move,
+                                       [](std::uint32_t m, const CutSample& a) { return m < a.move; });
+  return behind != s.begin() && std::prev(behind)->move == move ? std::prev(behind)->csa_mm2 : 0.0;
 }
 
 double tolerance(const CutSample& s, double other_mm2, double d_mm) {
@@ -126,7 +134,8 @@ SectionsCompared compared(const std::vector<CutSample>& stated, const std::vecto
   for (std::size_t i = 0; i < stated.size(); ++i) {
     const CutSample& s = stated[i];
     if (i > 0 && place(stated[i - 1]) == place(s)) continue;
-    const double found = most_near(measured, s.move, s.at_mm - s.step_mm - reach, s.at_mm + reach);
+    double found = most_near(measured, s.move, s.at_mm - s.step_mm - reach, s.at_mm + reach);
+    if (s.at_mm - s.step_mm <= reach && s.move > 0) found = std::max(found, last_of(measured, s.move - 1));
     if (s.csa_mm2 > found + tolerance(s, found, d_mm)) tell(s, s.csa_mm2, found);
   }
   std::stable_sort(out.samples.begin(), out.samples.end(),
