@@ -20,6 +20,7 @@ constexpr std::array<double, 4> kNodes{0.1834346424956498, 0.5255324099163290, 0
 constexpr std::array<double, 4> kWeights{0.3626837833783620, 0.3137066458778873, 0.2223810344533745,
                                          0.1012285362903763};
 constexpr double kShare = 1e-5;  // of a plunge's advance times radius squared
+constexpr int kUnderTip = 2;     // the same on a ramp, whose floor beneath is strips anyway
 constexpr int kDeepest = 10;     // halvings of the lines' panels
 
 /// Amounts over a disc, from what f finds on the lines x across it, by panels that are halved until `allowed`
@@ -27,7 +28,8 @@ constexpr int kDeepest = 10;     // halvings of the lines' panels
 template <class F>
 class Disc {
  public:
-  Disc(double radius, double allowed, F& f) : radius_(radius), allowed_(allowed), f_(f) {}
+  Disc(double radius, double allowed, int deepest, F& f)
+      : radius_(radius), allowed_(allowed), deepest_(deepest), f_(f) {}
   Contact all() {
     constexpr double kQuarter = 0.5 * std::numbers::pi;
     Contact out;
@@ -54,7 +56,7 @@ class Disc {
     const double middle = 0.5 * (t0 + t1);
     const Contact left = panel(t0, middle);
     const Contact right = panel(middle, t1);
-    if (depth >= kDeepest || std::abs(left.amount + right.amount - whole.amount) <= allowed_) {
+    if (depth >= deepest_ || std::abs(left.amount + right.amount - whole.amount) <= allowed_) {
       for (const Contact& c : {left, right}) {
         out.add(c, 1.0);
         out.extend(c);
@@ -66,12 +68,13 @@ class Disc {
   }
 
   double radius_, allowed_;
+  int deepest_;
   F& f_;
 };
 
 template <class F>
-Contact over_disc(double radius, double allowed, F&& f) {
-  return Disc<F>(radius, allowed, f).all();
+Contact over_disc(double radius, double allowed, F&& f, int deepest = kDeepest) {
+  return Disc<F>(radius, allowed, deepest, f).all();
 }
 
 /// Joins pieces that touch, so that strips of one contact are not taken for slivers.
@@ -141,22 +144,25 @@ Contact Prober::on_the_way(Vec2 at, Vec2 unit_heading, double z_mm, double fall)
 void Prober::under_tip(Vec2 at, Vec2 ahead, double z_mm, double fall, Contact& c) {
   const double radius = profile_.radius_mm;
   const Vec2 along{ahead.y, -ahead.x};
-  const Contact under = over_disc(radius, kShare * radius * radius, [&](double x, Contact& line) {
-    const double half = std::sqrt(std::max(0.0, (radius - x) * (radius + x)));
-    const Probe across = Probe::straight(at + x * along, ahead, -half, half);
-    stock_.heights(across, near_, z_mm + stock::kTouch, heights_);
-    double length = 0.0;
-    for (const Heights::Piece& p : heights_.pieces()) {
-      if (p.z_mm > z_mm + 2.0 * stock::kTouch) length += p.x1 - p.x0;
-    }
-    if (length < kSliver) return;
-    line.amount = length;
-    line.moment_x = length * x;
-    // The lines stop short of the edge by less than their own distance.
-    const double to_edge = std::abs(x) > 0.99 * radius ? std::copysign(radius, x) : x;
-    line.left = line.right = to_edge;
-    line.low = line.high = 0.0;
-  });
+  const Contact under = over_disc(
+      radius, kShare * radius * radius,
+      [&](double x, Contact& line) {
+        const double half = std::sqrt(std::max(0.0, (radius - x) * (radius + x)));
+        const Probe across = Probe::straight(at + x * along, ahead, -half, half);
+        stock_.heights(across, near_, z_mm + stock::kTouch, heights_);
+        double length = 0.0;
+        for (const Heights::Piece& p : heights_.pieces()) {
+          if (p.z_mm > z_mm + 2.0 * stock::kTouch) length += p.x1 - p.x0;
+        }
+        if (length < kSliver) return;
+        line.amount = length;
+        line.moment_x = length * x;
+        // The lines stop short of the edge by less than their own distance.
+        const double to_edge = std::abs(x) > 0.99 * radius ? std::copysign(radius, x) : x;
+        line.left = line.right = to_edge;
+        line.low = line.high = 0.0;
+      },
+      kUnderTip);
   c.add(under, fall);
   c.extend(under);  // what is cut below leaves no gap
 }
