@@ -100,6 +100,7 @@ void Contact::extend(const Contact& o) {
   low = std::min(low, o.low);
   high = std::max(high, o.high);
   highest = std::max(highest, o.highest);
+  in_strips = in_strips || o.in_strips;
 }
 
 void Contact::add(const Contact& o, double times) {
@@ -119,6 +120,7 @@ Contact Prober::on_the_way(Vec2 at, Vec2 unit_heading, double z_mm, double fall)
   const double base = std::max(0.0, stock_.box().lo.z - z_mm);  // where the piece begins, above the tip
   stock_.heights(Probe::front(at, unit_heading, profile_.radius_mm), near_, z_mm + base + stock::kTouch,
                  heights_);
+  c.in_strips = near_.in_strips;
   Run run;
   for (const Heights::Piece& p : heights_.pieces()) {
     const double h = p.z_mm - z_mm - base;

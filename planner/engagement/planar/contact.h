@@ -15,6 +15,7 @@ struct Contact {
   double left = 1e300, right = -1e300;       ///< of contacts that are no slivers
   double low = 1e300, high = -1e300;         ///< of the tallest of them
   double highest = 0.0;                      ///< of any, above the tip
+  bool in_strips = false;                    ///< floors read in strips had their share in it
   double gap_rad = 0.0;                      ///< angle between left and right at which nothing is touched
   void extend(const Contact& o);             ///< the extremes of both
   void add(const Contact& o, double times);  ///< amounts alone
@@ -32,6 +33,8 @@ class Prober {
   /// A flat cutter on its way: the front half circle takes what stands above the tip; `fall` (1 per 1,
   /// positive downwards) also what stands under it.
   [[nodiscard]] Contact on_the_way(geometry::Vec2 at, geometry::Vec2 unit_heading, double z_mm, double fall);
+  /// Whether the section across the axis is the same between two heights.
+  [[nodiscard]] bool even(double from_mm, double to_mm) const { return stock_.even(near_, from_mm, to_mm); }
   /// Everything that stands inside the outline with the tip at z, of what is there now; extremes of the last
   /// `advance_mm` of the plunge.
   [[nodiscard]] Contact inside(geometry::Vec2 at, geometry::Vec2 unit_heading, double z_mm,

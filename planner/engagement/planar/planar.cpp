@@ -18,9 +18,12 @@ using model::MoveKind;
 using stock::kTouch;
 using stock::Trail;
 
-constexpr double kAir = 1e-6;         // mm2: sections below are none
-constexpr double kTolerance = 1e-6;   // of diameter times depth, in a step
-constexpr int kDeepest = 14;          // halvings of a step
+constexpr double kAir = 1e-6;        // mm2: sections below are none
+constexpr double kTolerance = 1e-6;  // of diameter times depth, in a step
+constexpr int kDeepest = 14;         // halvings of a step
+constexpr double kInStrips =
+    1e-3;  // the same two where floors in strips are cut, which no halving makes even
+constexpr int kDeepestInStrips = 2;
 constexpr double kFromTheEnd = 1e-5;  // of the radius: ends of moves are seen from just inside
 constexpr double kMostSteps = 1e7;
 
@@ -56,8 +59,8 @@ struct Way {
 class Measurer {
  public:
   Measurer(const CutterPath& path, const geometry::CutterProfile& profile, stock::PlanarStock& stock,
-           double step)
-      : path_(path), profile_(profile), stock_(stock), prober_(stock, profile), step_(step) {
+           double step, Ways ways)
+      : path_(path), profile_(profile), stock_(stock), prober_(stock, profile), step_(step), ways_(ways) {
     outline_ = stock.keep(profile);
   }
 
@@ -90,6 +93,8 @@ class Measurer {
     if (path_.kind[i] == MoveKind::kDwell || !(length > 0.0)) return;
     const auto trails = stock::trails_of(path_, i, profile_.radius_mm, outline_);
     const bool rapid = path_.kind[i] == MoveKind::kRapid;
+    if (ways_ == Ways::kUprightAndLevel && path_.z[i] != path_.z[i - 1] && trails[0].length_mm > kTouch)
+      return pass_over(trails, rapid);
     const double steps = std::clamp(std::ceil(length / step_ - 1e-9), 1.0, kMostSteps);
     const int per_trail =
         std::max(1, static_cast<int>(std::ceil(steps / static_cast<double>(trails.size()))));
@@ -108,6 +113,16 @@ class Measurer {
     }
   }
 
+  /// Cut, not measured: it may have left the cutter in material.
+  void pass_over(const std::vector<Trail>& trails, bool rapid) {
+    for (const Trail& t : trails) stock_.take(t);
+    const Trail& t = trails.back();
+    heading_ =
+        Way{.trail = t, .level_length = t.length_mm, .turn_sign = t.turn_rad >= 0.0 ? 1.0 : -1.0}.heading(
+            t.length_mm);
+    open_ = open_ || !rapid;
+  }
+
   void plunge(std::size_t i, const Trail& t, double from, double to, int steps, double step, bool rapid) {
     // Upwards nothing is met that was not met where it began.
     if (to >= from || over_air(t.a, to)) {
@@ -117,21 +132,34 @@ class Measurer {
     if (rapid) {
       out_.rapid_removed_mm3 += prober_.inside(t.a, heading_, to, from - to).amount;
     } else {
-      Contact before = prober_.inside(t.a, heading_, from, 0.0);
-      double from_z = from;
-      for (int k = 1; k <= steps; ++k) {
-        const double z = from + (to - from) * k / steps;
-        const Contact all = prober_.inside(t.a, heading_, z, from_z - z);
-        Contact c = all;  // what the last step alone took
-        c.amount = all.amount - before.amount;
-        c.moment_x = all.moment_x - before.moment_x;
-        c.moment_y = all.moment_y - before.moment_y - before.amount * (from_z - z);
-        before = all;
-        from_z = z;
-        sample(i, step * k, step, c, c.amount > kAir * step && c.seen(), true);
-      }
+      measure_plunge(i, t, from, to, steps, step);
     }
     upright(t.a, to);
+  }
+
+  void measure_plunge(std::size_t i, const Trail& t, double from, double to, int steps, double step) {
+    const bool flat = stock::is_flat(profile_);
+    const auto height = [&](int k) { return k == 0 ? from : from + (to - from) * k / steps; };
+    Contact c;           // what the last step alone took
+    Contact before;      // all down to ..
+    int before_at = -1;  // .. the end of this step
+    double same_from = from;
+    for (int k = 1; k <= steps; ++k) {
+      const double z = height(k);
+      // A flat cutter takes the same from step to step, as long as no floor begins or ends on its way.
+      if (!(k > 1 && flat && prober_.even(z, same_from))) {
+        same_from = height(k - 1);
+        if (before_at != k - 1) before = prober_.inside(t.a, heading_, same_from, 0.0);
+        const Contact all = prober_.inside(t.a, heading_, z, same_from - z);
+        c = all;
+        c.amount = all.amount - before.amount;
+        c.moment_x = all.moment_x - before.moment_x;
+        c.moment_y = all.moment_y - before.moment_y - before.amount * (same_from - z);
+        before = all;
+        before_at = k;
+      }
+      sample(i, step * k, step, c, c.amount > kAir * step && c.seen(), true);
+    }
   }
 
   void along(std::size_t i, const Way& way, int steps, double step, double start, bool rapid) {
@@ -213,8 +241,9 @@ class Measurer {
   void halves(double s0, const Contact& a, const Contact& m, double s1, const Contact& b, Contact& sum,
               int depth) {
     const double h = s1 - s0;
-    const double allowed =
-        kTolerance * 2.0 * profile_.radius_mm * std::max({a.highest, m.highest, b.highest});
+    const bool strips = a.in_strips || m.in_strips || b.in_strips;
+    const double allowed = (strips ? kInStrips : kTolerance) * 2.0 * profile_.radius_mm *
+                           std::max({a.highest, m.highest, b.highest});
     const auto simpson = [&] {
       sum.add(a, h / 6.0);
       sum.add(m, 4.0 * h / 6.0);
@@ -231,7 +260,7 @@ class Measurer {
         (a.amount + 4.0 * left.amount + 2.0 * m.amount + 4.0 * right.amount + b.amount) / 12.0;
     // A part of a step may be less exact than the whole by as much as it is shorter.
     const double scale = static_cast<double>(1U << static_cast<unsigned>(depth));
-    if (depth >= kDeepest || std::abs(fine - coarse) <= allowed * scale) {
+    if (depth >= (strips ? kDeepestInStrips : kDeepest) || std::abs(fine - coarse) <= allowed * scale) {
       // Richardson: the error of the halves is a fifteenth of their difference.
       sum.add(a, h / 12.0);
       sum.add(left, 4.0 * h / 12.0);
@@ -247,7 +276,8 @@ class Measurer {
 
   /// One sample without contact after the last with it.
   void close(std::size_t i, double at) {
-    if (out_.engagement.empty() || out_.engagement.back().removed_mm3 <= 0.0) return;
+    const bool closed = out_.engagement.empty() || out_.engagement.back().removed_mm3 <= 0.0;
+    if (closed && !open_) return;
     push(i, at, {}, {});
   }
 
@@ -288,6 +318,7 @@ class Measurer {
     s.y_cg_ofs_mm.push_back(any ? c.moment_y / c.amount : 0.0);
     s.removed_mm3.push_back(e.removed_mm3);
     out_.engagement.push_back(e);
+    open_ = false;
   }
 
   const CutterPath& path_;
@@ -295,10 +326,12 @@ class Measurer {
   stock::PlanarStock& stock_;
   Prober prober_;
   double step_;
+  Ways ways_;
   const geometry::CutterProfile* outline_ = nullptr;
   const Way* way_ = nullptr;
   double fall_ = 0.0;
   bool cuts_ = false;
+  bool open_ = false;  ///< after what was passed over
   Vec2 heading_{0.0, 1.0};
   Measurement out_;
 };
@@ -322,7 +355,7 @@ bool mills(const CutterPath& path, const geometry::CutterProfile& profile, const
 }  // namespace
 
 Result<Measurement> measure(const CutterPath& path, const model::Cutter& cutter, stock::PlanarStock& stock,
-                            const Options& options) {
+                            const Options& options, Ways ways) {
   if (undercuts(cutter.cutter_class)) {
     return fail("ENG-UNDERCUT", "the cut of " + std::string(model::to_text(cutter.cutter_class)) + " '" +
                                     cutter.id + "' lies under an overhang; it is not measured");
@@ -344,7 +377,7 @@ Result<Measurement> measure(const CutterPath& path, const model::Cutter& cutter,
                 "cutter '" + cutter.id + "' is not flat below: what it mills is measured on a height map");
   }
   const double step = options.step_mm > 0.0 ? options.step_mm : profile.radius_mm / 20.0;
-  return Measurer(path, profile, stock, step).run();
+  return Measurer(path, profile, stock, step, ways).run();
 }
 
 }  // namespace capstan::engagement

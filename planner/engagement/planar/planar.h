@@ -1,11 +1,18 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "planner/engagement/engagement.h"
 #include "planner/stock/planar/planar_stock.h"
 
 namespace capstan::engagement {
+
+/// What of a path is measured; all of it is cut.
+enum class Ways : std::uint8_t {
+  kAll,
+  kUprightAndLevel,  ///< no samples of ramps and helices
+};
 
 /// As `measure` with a height map (engagement.h), by geometry instead of cells: at a place of the path the
 /// front half of the cutter's circle is cut with the trails that earlier moves left, and what is found is
@@ -16,15 +23,16 @@ namespace capstan::engagement {
 ///
 /// Frame     path and stock in the set-up's.
 /// Units     mm.
-/// Accuracy  level cuts of flat cutters: 1e-6 of D times ap. Ramps and helices: 1e-3 of it, from their floors
-/// in
-///           strips; plunges into material that is cut already: 1e-3 of the cutter's area times the advance.
+/// Accuracy  level cuts of flat cutters: 1e-6 of D times ap; ramps and helices, and level cuts into floors
+///           that those or points of drills left: 1e-3 of it, from their floors in strips; plunges into
+///           material that is cut already: 1e-3 of the cutter's area times the advance.
 /// Cost      by what lies near the cutter; see planner/engagement/README.md.
 /// Fails     ENG-PROFILE, ENG-NUMBER, ENG-UNDERCUT as there; ENG-NOT-PLANAR for a cutter that is not flat
 ///           below and does more than plunge, for one with a head (engagement.h), and on a stock that was
 ///           lost. Then nothing is cut.
 [[nodiscard]] Result<Measurement> measure(const model::CutterPath& path, const model::Cutter& cutter,
-                                          stock::PlanarStock& stock, const Options& options = {});
+                                          stock::PlanarStock& stock, const Options& options = {},
+                                          Ways ways = Ways::kAll);
 
 /// Contacts narrower than this are traces of rounding, mm.
 inline constexpr double kSliver = 1e-3;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/engagement/planar/merged.h"
+#include "planner/engagement/planar/planar.h"
 #include "planner/stock/turned.h"
 
 namespace capstan::pipeline {
@@ -28,21 +30,47 @@ stock::HeightMap& Stocks::of(std::size_t setup) {
     const bool upright = std::abs(w_.setups[setup].workpiece.z.z) > 1.0 - 1e-9;
     const auto& round = w_.plan.stock.cylinder_radius_mm;
     map = round && upright ? stock::from_cylinder(box, *round, cell) : stock::from_box(box, cell);
+    if (!w_.policy.only_loaded_cutters) {
+      exact_[setup] = round && upright ? stock::PlanarStock::from_cylinder(box, *round)
+                                       : stock::PlanarStock::from_box(box);
+    }
   }
   if (setup != last_) {
     // Another clamping: what the others took away is gone here, too.
     last_ = setup;
+    const double before = stock::volume(*map);
     for (std::size_t i = 0; i < maps_.size(); ++i) {
       if (i != setup && maps_[i])
         stock::take_over(*map, w_.setups[setup].workpiece, *maps_[i], w_.setups[i].workpiece);
     }
+    if (exact_[setup] && stock::volume(*map) != before) exact_[setup]->lose("cut in another clamping");
   }
   return *map;
 }
 
 Result<engagement::Measurement> Stocks::measure(std::size_t setup, const model::CutterPath& path,
                                                 const model::Cutter& cutter) {
-  return engagement::measure(path, cutter, of(setup));
+  auto& map = of(setup);
+  auto cells = engagement::measure(path, cutter, map);
+  auto& exact = exact_[setup];
+  if (!cells || !exact || !exact->lost().empty()) return cells;
+  const auto profile = model::profile_of(cutter);
+  if (engagement::head_height(cutter)) {
+    exact->lose("cut by a cutter that is thinner behind its head");
+    return cells;
+  }
+  if (!stock::is_flat(profile)) {
+    // Held if it can be, else lost, and it says so itself.
+    if (auto held = exact->cut(profile, path); !held) exact->lose(held.error().message);
+    return cells;
+  }
+  const engagement::Options options{.step_mm = std::max(profile.radius_mm / 20.0, 2.0 * map.cell_mm)};
+  const auto level = engagement::measure(path, cutter, *exact, options, engagement::Ways::kUprightAndLevel);
+  if (!level) {
+    exact->lose(level.error().message);
+    return cells;
+  }
+  return engagement::merged(path, *level, *cells);
 }
 
 double top_over(const stock::HeightMap& map, const toolpath::PathJob& job) {

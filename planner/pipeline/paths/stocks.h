@@ -8,6 +8,7 @@
 #include "planner/engagement/engagement.h"
 #include "planner/pipeline/work.h"
 #include "planner/stock/height_map.h"
+#include "planner/stock/planar/planar_stock.h"
 #include "planner/toolpath/path_job.h"
 
 // The in-process workpiece of each set-up; only planner/pipeline/*.cpp include this.
@@ -16,13 +17,14 @@ namespace capstan::pipeline {
 
 class Stocks {
  public:
-  explicit Stocks(const Work& w) : w_(w), maps_(w.setups.size()) {}
+  explicit Stocks(const Work& w) : w_(w), maps_(w.setups.size()), exact_(w.setups.size()) {}
 
   /// What still stands in a set-up; in another one than before, less what the others took away since.
   [[nodiscard]] stock::HeightMap& of(std::size_t setup);
 
-  /// Sections along a step's path; takes what is cut from the stock. Measured on the height map: the exact
-  /// planar stock asks for ten times the time of planning a whole part, and late binding has 200 ms.
+  /// Sections along a step's path; takes what is cut from the stock. Level and upright moves of flat cutters
+  /// are measured by geometry as long as all that was cut in the set-up can be held so; the rest, and all of
+  /// it when late binding asks (it has 200 ms), on the height map.
   /// Fails  as engagement::measure; then nothing was cut.
   [[nodiscard]] Result<engagement::Measurement> measure(std::size_t setup, const model::CutterPath& path,
                                                         const model::Cutter& cutter);
@@ -31,6 +33,7 @@ class Stocks {
   const Work& w_;
   std::size_t last_ = static_cast<std::size_t>(-1);
   std::vector<std::optional<stock::HeightMap>> maps_;
+  std::vector<std::optional<stock::PlanarStock>> exact_;  ///< beside the maps; lost when it cannot follow
 };
 
 /// Height of the highest material over a feature, set-up frame.

@@ -43,6 +43,19 @@ void bounds_of(const Trail& t, Vec2& lo, Vec2& hi) {
   hi = hi + r;
 }
 
+/// How far from the axis an outline is lower than a height above its tip, never too little.
+double reach_of(const CutterProfile& outline, double radius_mm, double height_mm) {
+  if (outline.height(radius_mm) <= height_mm) return radius_mm;
+  double inside = 0.0;
+  double outside = radius_mm;
+  if (outline.height(0.0) >= height_mm) return 0.0;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (inside + outside);
+    (outline.height(middle) < height_mm ? inside : outside) = middle;
+  }
+  return outside;
+}
+
 }  // namespace
 
 bool is_flat(const CutterProfile& p) {
@@ -148,6 +161,11 @@ void PlanarStock::place(std::uint32_t id, Vec2 lo, Vec2 hi) {
         std::erase_if(tile.trails, [&](std::uint32_t o) { return trails_[o].lowest_mm >= t.highest_mm; });
         tile.highest_mm = t.highest_mm;
       }
+      std::erase_if(tile.trails, [&](std::uint32_t o) {  // holes inside of holes
+        const Trail& u = trails_[o];
+        return u.length_mm == 0.0 && u.lowest_mm >= t.highest_mm &&
+               t.distance(u.a) + u.radius_mm <= t.radius_mm + kTouch;
+      });
       tile.trails.push_back(id);
       if (tile.trails.size() >= tile.thin_at) thin(tile, middle);
     }
@@ -201,6 +219,12 @@ bool PlanarStock::covered(const Trail& trail, const std::vector<std::uint32_t>& 
 }
 
 void PlanarStock::take(Trail trail) {
+  if (trail.outline != nullptr) {  // what of it goes over the piece's top matters to nobody
+    const double most = reach_of(*trail.outline, trail.radius_mm, box_.hi.z - trail.za);
+    if (!(most > kTouch)) return;
+    trail.radius_mm = most;
+    trail.settle();
+  }
   Vec2 lo, hi;
   bounds_of(trail, lo, hi);
   if (highest(lo, hi) <= trail.lowest_mm) return;
@@ -306,8 +330,18 @@ void PlanarStock::gather(Vec2 lo, Vec2 hi, Nearby& out) const {
   });
 }
 
+bool PlanarStock::even(const Nearby& near, double from_mm, double to_mm) const {
+  const auto apart = [&](double lowest, double highest) {
+    return highest <= from_mm + kTouch || lowest >= to_mm - kTouch;
+  };
+  if (!apart(box_.lo.z, box_.lo.z) || !apart(box_.hi.z, box_.hi.z)) return false;
+  return std::all_of(near.trails.begin(), near.trails.end(),
+                     [&](std::uint32_t id) { return apart(trails_[id].lowest_mm, trails_[id].highest_mm); });
+}
+
 void PlanarStock::heights(const Probe& probe, Nearby& near, double above_mm, Heights& out) const {
   out.reset(probe.lo, probe.hi, std::max(box_.hi.z, above_mm));
+  near.in_strips = false;
   if (box_.hi.z <= above_mm) return;
   const Vec2 lo = xy(box_.lo);
   const Vec2 hi = xy(box_.hi);
@@ -371,6 +405,7 @@ void PlanarStock::heights(const Probe& probe, Nearby& near, double above_mm, Hei
     const Trail& t = trails_[id];
     if (!is_near(t) || !t.lower(probe, above_mm, out)) return;
     near.helped.push_back(id);
+    near.in_strips = near.in_strips || !t.level();
     open = look_again();
   };
   for (std::size_t i = 0; open && i < near.first.size(); ++i) take_down(near.first[i]);

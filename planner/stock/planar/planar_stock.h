@@ -59,8 +59,11 @@ class PlanarStock {
     std::vector<std::uint32_t> helped;
     std::vector<std::uint32_t> seen;
     std::uint32_t round = 0;
+    bool in_strips = false;  ///< the last answer came from floors that are read in strips, in part
   };
   void gather(geometry::Vec2 lo, geometry::Vec2 hi, Nearby& out) const;
+  /// Whether what stands there is the same at all heights between: no floor begins or ends in between.
+  [[nodiscard]] bool even(const Nearby& near, double from_mm, double to_mm) const;
   /// What stands along the probe; `near` was gathered around it. Below `above_mm` nothing is told apart.
   void heights(const Probe& probe, Nearby& near, double above_mm, Heights& out) const;
 

@@ -96,6 +96,19 @@ bool Heights::lower(double x0, double x1, double z_mm) {
   return true;
 }
 
+bool Heights::narrow(double& x0, double& x1, double above_mm) const {
+  double from = x1;
+  double to = x0;
+  for (const Piece& p : pieces_) {
+    if (p.z_mm <= above_mm || p.x1 <= x0 || p.x0 >= x1) continue;
+    from = std::min(from, std::max(p.x0, x0));
+    to = std::max(to, std::min(p.x1, x1));
+  }
+  x0 = from;
+  x1 = to;
+  return to > from;
+}
+
 Heights::Piece Heights::standing(double above_mm) const {
   Piece out{1e300, -1e300, -1e300};
   for (const Piece& p : pieces_) {

@@ -53,6 +53,8 @@ class Heights {
   bool lower(double x0, double x1, double z_mm);
   /// Highest, and the range of what stands above z; lo > hi: nothing does.
   [[nodiscard]] Piece standing(double above_mm) const;
+  /// Narrows x0 .. x1 to what stands above z between them; false: nothing does.
+  [[nodiscard]] bool narrow(double& x0, double& x1, double above_mm) const;
   [[nodiscard]] const std::vector<Piece>& pieces() const { return pieces_; }
 
  private:

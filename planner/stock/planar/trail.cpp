@@ -122,18 +122,18 @@ bool Trail::lower(const Probe& probe, double above_mm, Heights& heights) const {
   const bool even = level() || highest_mm <= above_mm;
   bool any = false;
   for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
-    const double x0 = cuts[i];
-    const double x1 = cuts[i + 1];
+    double x0 = cuts[i];
+    double x1 = cuts[i + 1];
     if (!(x1 - x0 > 1e-12)) continue;
-    const Vec2 middle = probe.at(0.5 * (x0 + x1));
-    if (distance(middle) > radius_mm + kTouch) continue;
+    if (distance(probe.at(0.5 * (x0 + x1))) > radius_mm + kTouch) continue;
     if (even) {
       any = heights.lower(x0, x1, std::max(lowest_mm, above_mm)) || any;
       continue;
     }
+    if (!heights.narrow(x0, x1, std::max(lowest_mm, above_mm)) || x1 - x0 < kTouch) continue;
     const double z0 = floor_at(probe.at(x0));
     const double z1 = floor_at(probe.at(x1));
-    const double zm = floor_at(middle);
+    const double zm = floor_at(probe.at(0.5 * (x0 + x1)));
     const double range = std::max({z0, z1, zm}) - std::min({z0, z1, zm});
     const int n = std::clamp(static_cast<int>(std::ceil(range / kStrip)), 1, kMostStrips);
     for (int k = 0; k < n; ++k) {
