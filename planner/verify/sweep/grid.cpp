@@ -91,16 +91,43 @@ struct Outline {
 /// How far the pieces of a helix stay inside its arc.
 constexpr double kChordMm = 0.002;
 
+/// A point nearer to the rim than this at the start of a move is met by the move, not by what was before.
+constexpr double kMetMm = 1e-6;
+
 /// Takes cells down and keeps the account. What only the outermost rim takes may be what the pieces of a
 /// helix left before: no depth of cut.
-
 struct Knife {
   Grid& grid;
   double allowed;
   const GougeJudge* judge;
   Bite& bite;
   double core, rim;
+  const Outline& outline;
+  double advance;
   int judged = 0;
+
+  /// The chip at a centre that stands `above` the tip and is cut `deep`. `meets(rho)`: cosine between the
+  /// way and the direction from the axis to the centre, both level, as a circle of that radius meets it;
+  /// below 0: it does not, or the cutter stood over it before the move.
+  template <class Meets>
+  void chip(int ix, int iy, double above, double deep, const Meets& meets) {
+    if (advance <= 0.0 || deep <= 0.0) return;
+    const double rho = outline.profile.radius_at(above);
+    if (rho <= 0.0) return;
+    const double cosine = meets(rho);
+    if (cosine < 0.0) return;
+    // How upright the surface is there.
+    constexpr double kStep = 1e-4;
+    const double lean = above > kStep ? (rho - outline.profile.radius_at(above - kStep)) / kStep : 0.0;
+    const double upright = advance / std::sqrt(1.0 + lean * lean);
+    const double thick = std::min(upright * cosine, deep);
+    if (thick > bite.chip_mm) {
+      bite.chip_mm = thick;
+      bite.chip_at = grid.centre(ix, iy);
+    }
+    const double aside = std::max(0.0, std::sqrt(1.0 - std::min(1.0, cosine * cosine)) - grid.cell() / rho);
+    bite.chip_most_mm = std::max(bite.chip_most_mm, std::min(upright * std::sqrt(1.0 - aside * aside), deep));
+  }
 
   void at(int ix, int iy, double tip_z, double z, double from_axis) {
     const std::size_t i = grid.index(ix, iy);
@@ -195,6 +222,20 @@ void cut_line(Knife& k, const Outline& o, Vec3 a, Vec3 b) {
       // No lower than the cutter would be at its nearest, at the lower end.
       const double bound = zmin + o.height(near);
       if (stands <= bound) continue;
+      if (length > 1e-9) {
+        const double along = foot * length;
+        const double off2 = std::max(0.0, dot(p - xy(a), p - xy(a)) - along * along);
+        // Where the rim of the full radius meets the centre: the tip's height there.
+        const double met = along - std::sqrt(std::max(0.0, r * r - off2));
+        const double tip = a.z + std::clamp(met / length, 0.0, 1.0) * (b.z - a.z);
+        const double under = std::max(tip, k.grid.base[k.grid.index(ix, iy)]);
+        k.chip(ix, iy, stands - tip, stands - under, [&](double rho) {
+          if (off2 >= rho * rho) return -1.0;
+          const double ahead = std::sqrt(rho * rho - off2);
+          const double begins = along - ahead;
+          return begins < -kMetMm || begins > length ? -1.0 : ahead / rho;
+        });
+      }
       if (level) {
         k.at(ix, iy, zmin, bound, near);
         continue;
@@ -226,20 +267,38 @@ void cut_level_arc(Knife& k, const Outline& o, const Move& m) {
       double ahead = std::fmod(sign * (std::atan2(q.y, q.x) - start), kTurn);
       if (ahead < 0.0) ahead += kTurn;
       const double near = ahead <= sweep ? radial : std::min(norm(p - xy(m.from)), norm(p - xy(m.to)));
-      if (near <= r) k.at(ix, iy, m.to.z, m.to.z + o.height(near), near);
+      if (near > r) continue;
+      const std::size_t cell = k.grid.index(ix, iy);
+      const double stands = k.grid.stock[cell];
+      if (stands > m.to.z + o.height(near)) {
+        const double away = norm(q);
+        k.chip(ix, iy, stands - m.to.z, stands - std::max(m.to.z, k.grid.base[cell]), [&](double rho) {
+          // The triangle of the arc's centre, the axis and the point: the axis is `early` before it.
+          if (away < 1e-9 || ra < 1e-9) return -1.0;
+          const double c = (away * away + ra * ra - rho * rho) / (2.0 * away * ra);
+          if (c >= 1.0 || c <= -1.0) return -1.0;
+          const double early = std::acos(c);
+          const double met = ahead - early;
+          if (met < -kMetMm / ra || met > sweep) return -1.0;
+          // Way and direction to the point at that time: away sin(early) / rho.
+          return std::min(1.0, away * std::sin(early) / rho);
+        });
+      }
+      k.at(ix, iy, m.to.z, m.to.z + o.height(near), near);
     }
   }
 }
 
 }  // namespace
 
-Bite cut(Grid& grid, const Move& m, const CutterProfile& cutter, double allowed_mm, const GougeJudge* judge) {
+Bite cut(Grid& grid, const Move& m, const CutterProfile& cutter, double allowed_mm, const GougeJudge* judge,
+         double advance_mm) {
   Bite bite;
   if (m.kind == model::MoveKind::kDwell) return bite;
   if (std::min(m.from.z, m.to.z) >= grid.top()) return bite;
   grid.begin_move();
   const Outline o(cutter);
-  Knife k{grid, allowed_mm, judge, bite, 0.3 * o.radius, o.radius - 2.0 * kChordMm};
+  Knife k{grid, allowed_mm, judge, bite, 0.3 * o.radius, o.radius - 2.0 * kChordMm, o, advance_mm};
   if (!is_arc(m.kind)) {
     cut_line(k, o, m.from, m.to);
   } else if (std::abs(m.from.z - m.to.z) < 1e-9) {

@@ -74,6 +74,10 @@ struct Bite {
   double gouge_mm = 0.0;     ///< deepest below the finished part, beyond the tolerance
   geometry::Vec2 gouge_at;
   std::size_t cells = 0;
+  double chip_mm = 0.0;  ///< thickest chip that the front of the cutter took off a cell's centre
+  double chip_most_mm =
+      0.0;  ///< the same where material may end up to a cell nearer to the middle of the way
+  geometry::Vec2 chip_at;
 };
 
 /// Whether a point that lies `depth_mm` below the finished surface at height z is a gouge, or within the
@@ -86,8 +90,12 @@ class GougeJudge {
 
 /// Cuts with the move and says what it took. `allowed_mm`: depth below the part that is within tolerance.
 /// Exact at cell centres for straight moves and level arcs; helices by chords of 2 um.
+///
+/// Chips: a centre that the front of the cutter meets has met it at one place of its surface, whose normal n
+/// and the direction of travel v are known exactly. `advance_mm`, what a tooth advances, times n v is the
+/// chip there; no thicker than the material is deep. 0: chips are not measured.
 Bite cut(Grid& grid, const Move& m, const geometry::CutterProfile& cutter, double allowed_mm,
-         const GougeJudge* judge);
+         const GougeJudge* judge, double advance_mm = 0.0);
 
 /// How deep a rapid would dip into what stands there, > 0: it does, also when axes do not arrive together:
 /// the box that the two ends span, swept by the cutter. `at` says where.

@@ -30,7 +30,9 @@ class StepChecks {
   void account(const Move& m, const Bite& bite);
   void settle();
   void power(double volume, double minutes, double chip_mm);
-  void chip(double width, double feed);
+  [[nodiscard]] double feed_per_tooth(const Move& m) const;
+  void chip(const Move& m, double thickest_mm, double fz, geometry::Vec2 where);
+  void axial_feed(double fz);
   void tapping(const Move& m);
   [[nodiscard]] bool hole_tool() const;
   [[nodiscard]] bool in_hole(const Move& m) const;
