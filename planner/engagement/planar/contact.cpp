@@ -19,9 +19,10 @@ constexpr std::array<double, 4> kNodes{0.1834346424956498, 0.5255324099163290, 0
                                        0.9602898564975363};
 constexpr std::array<double, 4> kWeights{0.3626837833783620, 0.3137066458778873, 0.2223810344533745,
                                          0.1012285362903763};
-constexpr double kShare = 1e-5;  // of a plunge's advance times radius squared
-constexpr int kUnderTip = 2;     // the same on a ramp, whose floor beneath is strips anyway
-constexpr int kDeepest = 10;     // halvings of the lines' panels
+constexpr double kShare = 1e-5;    // of a plunge's advance times radius squared
+constexpr double kOfFront = 1e-3;  // on a ramp: of the section ahead of it
+constexpr int kUnderTip = 2;       // the same on a ramp, whose floor beneath is strips anyway
+constexpr int kDeepest = 10;       // halvings of the lines' panels
 
 /// Amounts over a disc, from what f finds on the lines x across it, by panels that are halved until `allowed`
 /// is kept: x = R sin t, so that a whole disc comes out exactly. f(x, c) adds to c per length of x.
@@ -147,11 +148,11 @@ void Prober::under_tip(Vec2 at, Vec2 ahead, double z_mm, double fall, Contact& c
   const double radius = profile_.radius_mm;
   const Vec2 along{ahead.y, -ahead.x};
   const Contact under = over_disc(
-      radius, kShare * radius * radius,
+      radius, std::max(kShare * radius * radius, kOfFront * c.amount / fall),
       [&](double x, Contact& line) {
         const double half = std::sqrt(std::max(0.0, (radius - x) * (radius + x)));
         const Probe across = Probe::straight(at + x * along, ahead, -half, half);
-        stock_.heights(across, near_, z_mm + stock::kTouch, heights_);
+        stock_.heights(across, near_, z_mm + stock::kTouch, heights_, z_mm + 3.0 * stock::kTouch);
         double length = 0.0;
         for (const Heights::Piece& p : heights_.pieces()) {
           if (p.z_mm > z_mm + 2.0 * stock::kTouch) length += p.x1 - p.x0;

@@ -59,8 +59,8 @@ struct Way {
 class Measurer {
  public:
   Measurer(const CutterPath& path, const geometry::CutterProfile& profile, stock::PlanarStock& stock,
-           double step, Ways ways)
-      : path_(path), profile_(profile), stock_(stock), prober_(stock, profile), step_(step), ways_(ways) {
+           double step)
+      : path_(path), profile_(profile), stock_(stock), prober_(stock, profile), step_(step) {
     outline_ = stock.keep(profile);
   }
 
@@ -93,8 +93,6 @@ class Measurer {
     if (path_.kind[i] == MoveKind::kDwell || !(length > 0.0)) return;
     const auto trails = stock::trails_of(path_, i, profile_.radius_mm, outline_);
     const bool rapid = path_.kind[i] == MoveKind::kRapid;
-    if (ways_ == Ways::kUprightAndLevel && path_.z[i] != path_.z[i - 1] && trails[0].length_mm > kTouch)
-      return pass_over(trails, rapid);
     const double steps = std::clamp(std::ceil(length / step_ - 1e-9), 1.0, kMostSteps);
     const int per_trail =
         std::max(1, static_cast<int>(std::ceil(steps / static_cast<double>(trails.size()))));
@@ -111,16 +109,6 @@ class Measurer {
       heading_ = way.heading(way.level_length);
       if (cuts_) stock_.take(t);
     }
-  }
-
-  /// Cut, not measured: it may have left the cutter in material.
-  void pass_over(const std::vector<Trail>& trails, bool rapid) {
-    for (const Trail& t : trails) stock_.take(t);
-    const Trail& t = trails.back();
-    heading_ =
-        Way{.trail = t, .level_length = t.length_mm, .turn_sign = t.turn_rad >= 0.0 ? 1.0 : -1.0}.heading(
-            t.length_mm);
-    open_ = open_ || !rapid;
   }
 
   void plunge(std::size_t i, const Trail& t, double from, double to, int steps, double step, bool rapid) {
@@ -276,8 +264,7 @@ class Measurer {
 
   /// One sample without contact after the last with it.
   void close(std::size_t i, double at) {
-    const bool closed = out_.engagement.empty() || out_.engagement.back().removed_mm3 <= 0.0;
-    if (closed && !open_) return;
+    if (out_.engagement.empty() || out_.engagement.back().removed_mm3 <= 0.0) return;
     push(i, at, {}, {});
   }
 
@@ -318,7 +305,6 @@ class Measurer {
     s.y_cg_ofs_mm.push_back(any ? c.moment_y / c.amount : 0.0);
     s.removed_mm3.push_back(e.removed_mm3);
     out_.engagement.push_back(e);
-    open_ = false;
   }
 
   const CutterPath& path_;
@@ -326,12 +312,10 @@ class Measurer {
   stock::PlanarStock& stock_;
   Prober prober_;
   double step_;
-  Ways ways_;
   const geometry::CutterProfile* outline_ = nullptr;
   const Way* way_ = nullptr;
   double fall_ = 0.0;
   bool cuts_ = false;
-  bool open_ = false;  ///< after what was passed over
   Vec2 heading_{0.0, 1.0};
   Measurement out_;
 };
@@ -355,7 +339,7 @@ bool mills(const CutterPath& path, const geometry::CutterProfile& profile, const
 }  // namespace
 
 Result<Measurement> measure(const CutterPath& path, const model::Cutter& cutter, stock::PlanarStock& stock,
-                            const Options& options, Ways ways) {
+                            const Options& options) {
   if (undercuts(cutter.cutter_class)) {
     return fail("ENG-UNDERCUT", "the cut of " + std::string(model::to_text(cutter.cutter_class)) + " '" +
                                     cutter.id + "' lies under an overhang; it is not measured");
@@ -377,7 +361,7 @@ Result<Measurement> measure(const CutterPath& path, const model::Cutter& cutter,
                 "cutter '" + cutter.id + "' is not flat below: what it mills is measured on a height map");
   }
   const double step = options.step_mm > 0.0 ? options.step_mm : profile.radius_mm / 20.0;
-  return Measurer(path, profile, stock, step, ways).run();
+  return Measurer(path, profile, stock, step).run();
 }
 
 }  // namespace capstan::engagement

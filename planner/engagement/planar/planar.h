@@ -1,18 +1,11 @@
 #pragma once
 
-#include <cstdint>
 #include <string>
 
 #include "planner/engagement/engagement.h"
 #include "planner/stock/planar/planar_stock.h"
 
 namespace capstan::engagement {
-
-/// What of a path is measured; all of it is cut.
-enum class Ways : std::uint8_t {
-  kAll,
-  kUprightAndLevel,  ///< no samples of ramps and helices
-};
 
 /// As `measure` with a height map (engagement.h), by geometry instead of cells: at a place of the path the
 /// front half of the cutter's circle is cut with the trails that earlier moves left, and what is found is
@@ -31,8 +24,7 @@ enum class Ways : std::uint8_t {
 ///           below and does more than plunge, for one with a head (engagement.h), and on a stock that was
 ///           lost. Then nothing is cut.
 [[nodiscard]] Result<Measurement> measure(const model::CutterPath& path, const model::Cutter& cutter,
-                                          stock::PlanarStock& stock, const Options& options = {},
-                                          Ways ways = Ways::kAll);
+                                          stock::PlanarStock& stock, const Options& options = {});
 
 /// Contacts narrower than this are traces of rounding, mm.
 inline constexpr double kSliver = 1e-3;

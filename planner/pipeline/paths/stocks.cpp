@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
-#include "planner/engagement/planar/merged.h"
 #include "planner/engagement/planar/planar.h"
+#include "planner/stock/sweep.h"
 #include "planner/stock/turned.h"
 
 namespace capstan::pipeline {
@@ -12,6 +13,8 @@ namespace {
 
 constexpr double kCellsPerDiameter = 30.0;  // of the stock map, for the smallest cutter of the set-up
 constexpr double kMaximumCells = 600e3;     // keeps a set-up's map near 7 MB
+constexpr double kContradiction = 0.1;  // of a step's volume, between map and geometry; default, unsourced
+constexpr double kTraceMm3 = 1.0;       // the same of next to nothing
 
 }  // namespace
 
@@ -51,26 +54,35 @@ stock::HeightMap& Stocks::of(std::size_t setup) {
 Result<engagement::Measurement> Stocks::measure(std::size_t setup, const model::CutterPath& path,
                                                 const model::Cutter& cutter) {
   auto& map = of(setup);
-  auto cells = engagement::measure(path, cutter, map);
   auto& exact = exact_[setup];
-  if (!cells || !exact || !exact->lost().empty()) return cells;
+  if (!exact || !exact->lost().empty()) return engagement::measure(path, cutter, map);
   const auto profile = model::profile_of(cutter);
-  if (engagement::head_height(cutter)) {
-    exact->lose("cut by a cutter that is thinner behind its head");
-    return cells;
-  }
-  if (!stock::is_flat(profile)) {
-    // Held if it can be, else lost, and it says so itself.
-    if (auto held = exact->cut(profile, path); !held) exact->lose(held.error().message);
+  if (engagement::head_height(cutter) || !stock::is_flat(profile)) {
+    auto cells = engagement::measure(path, cutter, map);
+    if (!cells) return cells;
+    if (engagement::head_height(cutter)) {
+      exact->lose("cut by a cutter that is thinner behind its head");
+    } else if (auto held = exact->cut(profile, path); !held) {
+      exact->lose(held.error().message);
+    }
     return cells;
   }
   const engagement::Options options{.step_mm = std::max(profile.radius_mm / 20.0, 2.0 * map.cell_mm)};
-  const auto level = engagement::measure(path, cutter, *exact, options, engagement::Ways::kUprightAndLevel);
-  if (!level) {
-    exact->lose(level.error().message);
-    return cells;
+  auto measured = engagement::measure(path, cutter, *exact, options);
+  if (!measured) {
+    if (exact->lost().empty()) exact->lose(measured.error().message);
+    return engagement::measure(path, cutter, map);
   }
-  return engagement::merged(path, *level, *cells);
+  // Two accounts of one cut: where they contradict each other the map's is kept.
+  stock::HeightMap after = map;
+  const double cells_mm3 = stock::cut(after, profile, path);
+  const double exact_mm3 = measured->removed_mm3 + measured->rapid_removed_mm3;
+  if (std::abs(cells_mm3 - exact_mm3) > kContradiction * std::max(cells_mm3, exact_mm3) + kTraceMm3) {
+    exact->lose("it contradicts the height map");
+    return engagement::measure(path, cutter, map);
+  }
+  map = std::move(after);
+  return measured;
 }
 
 double top_over(const stock::HeightMap& map, const toolpath::PathJob& job) {

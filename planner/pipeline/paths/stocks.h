@@ -22,9 +22,9 @@ class Stocks {
   /// What still stands in a set-up; in another one than before, less what the others took away since.
   [[nodiscard]] stock::HeightMap& of(std::size_t setup);
 
-  /// Sections along a step's path; takes what is cut from the stock. Level and upright moves of flat cutters
-  /// are measured by geometry as long as all that was cut in the set-up can be held so; the rest, and all of
-  /// it when late binding asks (it has 200 ms), on the height map.
+  /// Sections along a step's path; takes what is cut from the stock. Flat cutters are measured by geometry,
+  /// as long as all that was cut in the set-up can be held so and the map's volume of each step bears it out;
+  /// other cutters, and all when late binding asks (it has 200 ms), on the height map.
   /// Fails  as engagement::measure; then nothing was cut.
   [[nodiscard]] Result<engagement::Measurement> measure(std::size_t setup, const model::CutterPath& path,
                                                         const model::Cutter& cutter);

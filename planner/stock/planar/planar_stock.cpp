@@ -161,11 +161,7 @@ void PlanarStock::place(std::uint32_t id, Vec2 lo, Vec2 hi) {
         std::erase_if(tile.trails, [&](std::uint32_t o) { return trails_[o].lowest_mm >= t.highest_mm; });
         tile.highest_mm = t.highest_mm;
       }
-      std::erase_if(tile.trails, [&](std::uint32_t o) {  // holes inside of holes
-        const Trail& u = trails_[o];
-        return u.length_mm == 0.0 && u.lowest_mm >= t.highest_mm &&
-               t.distance(u.a) + u.radius_mm <= t.radius_mm + kTouch;
-      });
+      std::erase_if(tile.trails, [&](std::uint32_t o) { return t.covers(trails_[o]); });
       tile.trails.push_back(id);
       if (tile.trails.size() >= tile.thin_at) thin(tile, middle);
     }
@@ -339,8 +335,9 @@ bool PlanarStock::even(const Nearby& near, double from_mm, double to_mm) const {
                      [&](std::uint32_t id) { return apart(trails_[id].lowest_mm, trails_[id].highest_mm); });
 }
 
-void PlanarStock::heights(const Probe& probe, Nearby& near, double above_mm, Heights& out) const {
-  out.reset(probe.lo, probe.hi, std::max(box_.hi.z, above_mm));
+void PlanarStock::heights(const Probe& probe, Nearby& near, double above_mm, Heights& out,
+                          double most_mm) const {
+  out.reset(probe.lo, probe.hi, std::max(std::min(box_.hi.z, most_mm), above_mm));
   near.in_strips = false;
   if (box_.hi.z <= above_mm) return;
   const Vec2 lo = xy(box_.lo);

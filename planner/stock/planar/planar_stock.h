@@ -64,8 +64,9 @@ class PlanarStock {
   void gather(geometry::Vec2 lo, geometry::Vec2 hi, Nearby& out) const;
   /// Whether what stands there is the same at all heights between: no floor begins or ends in between.
   [[nodiscard]] bool even(const Nearby& near, double from_mm, double to_mm) const;
-  /// What stands along the probe; `near` was gathered around it. Below `above_mm` nothing is told apart.
-  void heights(const Probe& probe, Nearby& near, double above_mm, Heights& out) const;
+  /// What stands along the probe; `near` was gathered around it. Below `above_mm` nothing is told apart,
+  /// nor is it above `most_mm`: it is said to be so high.
+  void heights(const Probe& probe, Nearby& near, double above_mm, Heights& out, double most_mm = 1e300) const;
 
   /// Not below the highest material over a rectangle; the floor where there is none.
   [[nodiscard]] double highest(geometry::Vec2 lo, geometry::Vec2 hi) const;

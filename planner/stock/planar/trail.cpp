@@ -88,6 +88,26 @@ double Trail::distance_to_arc(Vec2 p) const {
   return std::sqrt(std::min(dot(from_a, from_a), dot(from_b, from_b)));
 }
 
+bool Trail::covers(const Trail& other) const {
+  if (highest_mm > other.lowest_mm) return false;
+  const double most = radius_mm - other.radius_mm + kTouch;
+  if (most < 0.0 || distance(other.a) > most) return false;
+  if (other.length_mm == 0.0) return true;
+  if (distance(other.b) > most) return false;
+  // Farther from a straight track than both of its ends no straight one goes.
+  if (!arc && !other.arc) return true;
+  if (!arc || !other.arc || norm(centre - other.centre) > kTouch) return false;
+  const double side = turn_rad >= 0.0 ? 1.0 : -1.0;
+  const auto turned = [&](Vec2 p) {  // lies in the arc's wedge
+    const Vec2 w = p - centre;
+    return side * cross(along, w) >= -kTouch && side * cross(w, last) >= -kTouch;
+  };
+  // About one centre: within an arc of less than a half turn lies what begins, ends and turns like it, or
+  // less.
+  return std::abs(path_radius_mm - other.path_radius_mm) <= most &&
+         std::abs(other.turn_rad) <= std::abs(turn_rad) + kTouch && turned(other.a) && turned(other.b);
+}
+
 double Trail::floor_at(Vec2 p) const {
   if (outline != nullptr) return za + outline->height(std::min(distance(p), radius_mm));
   if (za == zb) return za;

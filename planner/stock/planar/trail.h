@@ -40,6 +40,9 @@ struct Trail {
     return std::sqrt(dot(d, d));
   }
   [[nodiscard]] double distance_to_arc(geometry::Vec2 p) const;
+  /// Whether nothing is left of the other, seen from their tracks alone: holes inside of holes, turns of a
+  /// helix above each other, ways there and back. False where it is not that plain.
+  [[nodiscard]] bool covers(const Trail& other) const;
   /// Height of the floor at a place within the radius.
   [[nodiscard]] double floor_at(geometry::Vec2 p) const;
   /// Lowers what stands along the probe; what lies below `above_mm` does not matter and may be said to be
