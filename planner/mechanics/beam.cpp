@@ -91,6 +91,10 @@ Result<ToolBeam> beam_of(const model::Cutter& c, const HolderCompliance& holder)
   return beam;
 }
 
+Result<double> tip_compliance_mm_n(const model::Cutter& cutter) {
+  return beam_of(cutter).map([](const ToolBeam& beam) { return bending_mm_n(beam, 0.0, 0.0); });
+}
+
 double bending_mm_n(const ToolBeam& beam, double force_mm, double seen_mm) {
   const double low = std::max({force_mm, seen_mm, 0.0});
   double from = 0.0;

@@ -56,6 +56,10 @@ inline constexpr double kHolderYoungsModulusNMm2 = 200e3;
 /// Source    Euler-Bernoulli, unit load; derived.
 [[nodiscard]] double bending_mm_n(const ToolBeam& beam, double force_mm, double seen_mm);
 
+/// Bending of the tip per force at the tip, mm/N: flutes, neck, shank and the holder's outline as in beam_of.
+/// Fails     as beam_of.
+[[nodiscard]] Result<double> tip_compliance_mm_n(const model::Cutter& cutter);
+
 /// Tilt of the axis at `seen_mm` per force at `force_mm`, rad/N.
 [[nodiscard]] double tilt_rad_n(const ToolBeam& beam, double force_mm, double seen_mm);
 

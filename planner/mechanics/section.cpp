@@ -356,6 +356,51 @@ Contact contact_of(const Section& s, double d) {
   return c;
 }
 
+/// The pieces of edge that a strip meets. A corner or ball does not reach a strip at the rim of the full
+/// radius, and meets less than its area where it reaches a part: there the strip is widened, first towards
+/// the axis, until the edge sweeps the area that is known to be removed.
+Pieces met_by(const Section& s, const Contact& c, const Tooth& tooth) {
+  Pieces all = pieces_of(s, c.arc, c.ap, tooth);
+  const double full = 0.5 * tooth.cutting_diameter_mm;
+  const double corner = std::min(tooth.corner_radius_mm, full);
+  if (!(corner > 0.0)) return all;
+  const double strip = full * (std::cos(c.arc.entry_rad) - std::cos(c.arc.exit_rad));
+  const double wanted = s.csa_mm2 > 0.0 ? s.csa_mm2 : (all.area > 0.0 ? 0.0 : c.ap * strip);
+  constexpr double kRounding = 1e-9;
+  if (all.area >= wanted * (1.0 - kRounding)) return all;
+  const double top = s.from_tip_mm + c.ap;
+  const double reach = std::min(full, 0.5 * effective_diameter_mm(top, tooth.cutting_diameter_mm, corner));
+  // Ends of the strip across the feed, positive to the left.
+  double left = std::clamp(full * std::cos(c.arc.entry_rad), -reach, reach);
+  double right = std::clamp(full * std::cos(c.arc.exit_rad), -reach, reach);
+  const auto between = [&](double l, double r) {
+    return pieces_of(s, {std::acos(std::min(l / full, 1.0)), std::acos(std::max(r / full, -1.0))}, c.ap,
+                     tooth);
+  };
+  const auto move = [&](double& end, double most) {
+    const double from = end;
+    end = most;
+    all = between(left, right);
+    if (all.area < wanted) return false;
+    double enough = 1.0;
+    double less = 0.0;
+    constexpr int kHalvings = 24;
+    for (int i = 0; i < kHalvings; ++i) {
+      const double t = 0.5 * (less + enough);
+      end = from + t * (most - from);
+      Pieces p = between(left, right);
+      (p.area >= wanted ? enough : less) = t;
+      if (p.area >= wanted) all = p;
+    }
+    end = from + enough * (most - from);
+    return true;
+  };
+  const bool leans_left = left + right >= 0.0;
+  if (!move(leans_left ? right : left, leans_left ? -reach : reach))
+    move(leans_left ? left : right, leans_left ? reach : -reach);
+  return all;
+}
+
 /// The feed at which an even cutter has the thickest chip of one that runs out.
 double widened_feed(double fz, const Tooth& t, double front_sin) {
   if (!(t.runout_mm > 0.0) || !(front_sin > 0.0)) return fz;
@@ -411,8 +456,15 @@ Result<SectionLoads> section_loads(const Section& section, const Tooth& tooth, c
   const Contact contact = contact_of(section, tooth.cutting_diameter_mm);
   SectionLoads out;
   if (!(contact.ap > 0.0) || !(contact.arc.exit_rad > contact.arc.entry_rad)) return out;
-  Pieces all = pieces_of(section, contact.arc, contact.ap, tooth);
-  if (all.count == 0 || !(all.area > 0.0)) return out;
+  Pieces all = met_by(section, contact, tooth);
+  if (all.count == 0 || !(all.area > 0.0)) {
+    if (!(section.csa_mm2 > 0.0)) return out;
+    return fail(Diagnostic{.code = "MECH-DOMAIN",
+                           .message = "an area of " + told(section.csa_mm2) + " mm2 at a depth of " +
+                                      told(contact.ap) + " mm where no edge is",
+                           .path = "csa_mm2",
+                           .expected = "an area that the edge can sweep"});
+  }
 
   const double ratio = section.csa_mm2 > 0.0 ? section.csa_mm2 / all.area : 1.0;
   out.irregular = std::abs(ratio - 1.0) > kIrregular;

@@ -72,7 +72,12 @@ inline constexpr double kIrregular = 0.05;
 ///
 /// summed over teeth and along the edge, which lags by 2 z tan(helix) / D. Below the full radius (corner,
 /// ball) the arc is the part of the given strip that this radius reaches; above it (lead, taper) the given
-/// arc.
+/// arc. Where corner or ball reach less of the strip than csa says, the strip is widened, towards the axis
+/// first, until the edge sweeps that area; so is a strip that they do not reach at all (without csa: to depth
+/// times width).
+///
+/// Power     of a section with an area is never below the law's force at the whole feed times that area:
+///           Ktc csa v_f, or kc1.1 fz^-mc csa v_f.
 ///
 /// Runout    shifts the teeth against one another by up to e = runout sin(pi / z). The thickest chip is
 ///           min(h + e, z h); peaks are those of all teeth at the feed that has this chip (no smaller than
@@ -88,7 +93,7 @@ inline constexpr double kIrregular = 0.05;
 ///           is that of a single tooth over the whole radius: a bound for unevenly met teeth.
 /// Monotone  every load rises with fz: with fz^(1 - mc), or linearly (mean) and convexly (peak).
 /// Fails     MECH-DOMAIN: a value that is not finite, negative, or out of its range (fz or n not positive, no
-///           teeth, an arc longer than a turn or running backwards).
+///           teeth, an arc longer than a turn or running backwards), or an area where there is no edge.
 /// Accuracy  integration within 3e-3 of the model on a straight edge (mean forces of measured coefficients:
 ///           exact), within 3 % where a corner or ball is cut by a narrow strip; of the model: force.h and
 ///           ForceLaw::uncertainty_factor, which is not applied here.
