@@ -6,6 +6,7 @@
 #include <optional>
 #include <string_view>
 
+#include "planner/mechanics/section.h"
 #include "planner/mechanics/spindle.h"
 #include "planner/optimise/cut.h"
 
@@ -50,6 +51,17 @@ using Measures = std::array<Measure, kLimitsOfCut.size()>;
 
 [[nodiscard]] inline bool is_milling(CutKind k) { return k == CutKind::kRough || k == CutKind::kFinish; }
 [[nodiscard]] inline int teeth_of(const CutQuestion& q) { return q.cutter.teeth > 0 ? q.cutter.teeth : 1; }
+
+/// As the model's nouns have them: the force along the axis counts away from the work there, and towards it
+/// in mechanics; a left-hand cutter is the mirror image of the one that mechanics computes.
+[[nodiscard]] model::AxisForces axis_forces(const mechanics::ForceVector& f, double margin,
+                                            const model::Cutter& cutter);
+
+/// The thickest chip at the planned feed, from what is known with the feed turned up: what runout adds does
+/// not grow with the feed.
+[[nodiscard]] double planned_chip_mm(const mechanics::Section& section, const mechanics::Tooth& tooth,
+                                     const mechanics::ForceLaw& law, double turned_up_fz_mm, double up,
+                                     double n_rpm, double turned_up_chip_mm);
 
 struct Range {
   double lo = 0.0, hi = 0.0;

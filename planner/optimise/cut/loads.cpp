@@ -6,6 +6,7 @@
 #include "planner/mechanics/constants.h"
 #include "planner/mechanics/drilling.h"
 #include "planner/mechanics/force_law.h"
+#include "planner/mechanics/loads.h"
 #include "planner/mechanics/section.h"
 #include "planner/mechanics/surface.h"
 #include "planner/optimise/cut/limits.h"
@@ -15,25 +16,11 @@ namespace {
 
 using std::numbers::pi;
 
-mechanics::ToolStiffness stiffness(const model::Cutter& c) {
-  const double e = c.substrate == model::Substrate::kCarbide ? mechanics::kCarbideYoungsModulusNMm2
-                                                             : mechanics::kHssYoungsModulusNMm2;
-  const double out =
-      c.stick_out_mm > 0.0 ? c.stick_out_mm : std::max(c.usable_length_mm, 3.0 * c.cutting_diameter_mm);
-  const double shank = c.shank_diameter_mm > 0.0 ? c.shank_diameter_mm : c.cutting_diameter_mm;
-  const double flute = c.maximum_depth_of_cut_mm > 0.0 ? std::min(c.maximum_depth_of_cut_mm, out) : out;
-  return {out, shank, flute, c.cutting_diameter_mm, e};
-}
-
 /// Feed marks on the wall, and on the floor where a corner radius leaves some; at the planned feed.
 double surface_rz(const CutQuestion& q, double fz_mm) {
   const double wall = mechanics::wall_rz_mm(fz_mm, q.cutter.cutting_diameter_mm);
   const double corner = q.cutter.corner_radius_mm;
   return corner > 0.0 ? std::max(wall, mechanics::floor_rz_mm(fz_mm, corner)) : wall;
-}
-
-model::AxisForces of(const mechanics::ForceVector& f, double margin) {
-  return {f.fx_n * margin, f.fy_n * margin, f.fz_n * margin};
 }
 
 /// How far bending pushes the wall that this arc leaves; nothing when it cannot be said.
@@ -51,7 +38,7 @@ std::optional<double> wall_error(const CutQuestion& q, const mechanics::Section&
 /// feed turned up.
 std::optional<model::StepLoads> milling(const CutQuestion& q, double ap_mm, double ae_mm, double n_rpm,
                                         double fz_mm) {
-  const auto compliance = mechanics::tip_compliance_mm_n(stiffness(q.cutter));
+  const auto compliance = mechanics::tip_compliance_mm_n(q.cutter);
   if (!compliance || !(ae_mm > 0.0) || !(ap_mm > 0.0)) return std::nullopt;
   const mechanics::Tooth tooth = mechanics::tooth_of(q.cutter);
   const mechanics::ForceLaw law = mechanics::force_law(q.material, q.cutter.substrate);
@@ -59,21 +46,24 @@ std::optional<model::StepLoads> milling(const CutQuestion& q, double ap_mm, doub
   const double up = feed_override(q);
   model::StepLoads out;
   for (const auto direction : {mechanics::CutDirection::kUp, mechanics::CutDirection::kDown}) {
-    const mechanics::Section section{
-        .ap_mm = ap_mm, .arc = mechanics::immersion_arc(ae_mm, tooth.cutting_diameter_mm, direction)};
+    const mechanics::Section section = mechanics::side_section(ap_mm, ae_mm, tooth, direction);
     const auto l = mechanics::section_loads(section, tooth, law, fz_mm, n_rpm);
     if (!l) return std::nullopt;
     if (l->peak_force_n * margin > out.peak_force_n) {
       out.peak_force_n = l->peak_force_n * margin;
-      out.mean_force = of(l->mean, margin);
-      out.peak_force = of(l->peak, margin);
+      out.mean_force = axis_forces(l->mean, margin, q.cutter);
+      out.peak_force = axis_forces(l->peak, margin, q.cutter);
     }
     out.torque_nm = std::max(out.torque_nm, l->torque_nm * margin);
     out.power_w = std::max(out.power_w, l->power_w * margin);
-    out.chip_thickness_mm = std::max(out.chip_thickness_mm, l->h_max_mm / up);
+    out.chip_thickness_mm =
+        std::max(out.chip_thickness_mm, planned_chip_mm(section, tooth, law, fz_mm, up, n_rpm, l->h_max_mm));
     if (q.wall_error_limit_mm > 0.0) {
       const bool is_up = direction == mechanics::CutDirection::kUp;
-      const auto error = wall_error(q, section, tooth, law, fz_mm,
+      // The wall stands at the full radius, where the flank makes it.
+      const mechanics::Section flank{
+          .ap_mm = ap_mm, .arc = mechanics::immersion_arc(ae_mm, tooth.cutting_diameter_mm, direction)};
+      const auto error = wall_error(q, flank, tooth, law, fz_mm,
                                     is_up ? mechanics::WallSide::kLeft : mechanics::WallSide::kRight);
       if (!error) return std::nullopt;
       if (std::abs(*error * margin) > std::abs(out.wall_error_mm)) out.wall_error_mm = *error * margin;
@@ -87,6 +77,19 @@ std::optional<model::StepLoads> milling(const CutQuestion& q, double ap_mm, doub
 }
 
 }  // namespace
+
+model::AxisForces axis_forces(const mechanics::ForceVector& f, double margin, const model::Cutter& cutter) {
+  const double left = cutter.hand == model::Hand::kLeft ? -1.0 : 1.0;
+  return {f.fx_n * margin, left * f.fy_n * margin, -f.fz_n * margin};
+}
+
+double planned_chip_mm(const mechanics::Section& section, const mechanics::Tooth& tooth,
+                       const mechanics::ForceLaw& law, double turned_up_fz_mm, double up, double n_rpm,
+                       double turned_up_chip_mm) {
+  if (!(tooth.runout_mm > 0.0) || up == 1.0) return turned_up_chip_mm / up;
+  const auto l = mechanics::section_loads(section, tooth, law, turned_up_fz_mm / up, n_rpm);
+  return l ? l->h_max_mm : turned_up_chip_mm;
+}
 
 double feed_override(const CutQuestion& q) {
   if (q.override_locked || q.kind == CutKind::kTap) return 1.0;

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <optional>
 
 namespace capstan::optimise::feed {
 namespace {
@@ -11,6 +13,11 @@ using std::numbers::pi;
 
 constexpr double kDepthStep = 0.0025;  // of the logarithm
 constexpr double kSweepStep = 0.01;
+/// Along a corner the edge is integrated at four points: a heavier class may come out lighter, by 0.23 % at
+/// most in random sections. More than that is added.
+constexpr double kCornerGrid = 1.01;
+constexpr double kGainStep = 0.1;
+constexpr long kNoArea = std::numeric_limits<long>::min();
 constexpr int kPoints = 7;  // feeds at which a class is judged, from above the ceiling down
 
 struct Point {
@@ -30,11 +37,22 @@ double crossing(const Point& lo, const Point& hi, std::size_t i, double limit) {
 
 /// `points` by falling feed.
 double feed_at(const std::vector<Point>& points, std::size_t i, double limit) {
-  if (points.front().load[i] <= limit) return points.front().feed;
+  if (points.front().load[i] <= limit) return std::numeric_limits<double>::infinity();
   for (std::size_t k = 1; k < points.size(); ++k) {
     if (points[k].load[i] <= limit) return crossing(points[k], points[k - 1], i, limit);
   }
   return 0.0;
+}
+
+/// Loads of a class, of a corner's no less than any of the class has.
+std::optional<Column> loads_at(const Judge& judge, const Cut& cut, double feed) {
+  const auto s = judge.at(cut, feed);
+  if (!s) return std::nullopt;
+  Column load = s->load;
+  if (cut.csa_mm2 > 0.0) {
+    for (double& v : load) v *= kCornerGrid;
+  }
+  return load;
 }
 
 bool within(const Column& load, const Column& limits) { return ratio(load, limits) <= 1.0; }
@@ -55,12 +73,17 @@ Page& Book::page(const Cut& cut, double n_rpm) {
   const double swept = std::exp(kSweepStep * static_cast<double>(sweep_class));
   const double entry_step = swept * (1.0 - std::exp(-kSweepStep));
   const long entry_class = static_cast<long>(std::floor(cut.entry_rad / entry_step + 1e-9));
-  const Key key{n_rpm, depth, sweep_class, entry_class};
+  const long area =
+      cut.csa_mm2 > 0.0 ? static_cast<long>(std::ceil(std::log(cut.csa_mm2) / kDepthStep - 1e-9)) : kNoArea;
+  const long gain = static_cast<long>(std::ceil(std::log(std::max(cut.gain, 1.0)) / kGainStep - 1e-9));
+  const Key key{n_rpm, depth, sweep_class, entry_class, area, gain};
   if (last_ != nullptr && key == last_key_) return *last_;
   auto it = pages_.find(key);
   if (it == pages_.end()) {
     Page p;
     p.cut.ap_mm = std::exp(kDepthStep * static_cast<double>(depth));
+    if (area != kNoArea) p.cut.csa_mm2 = std::exp(kDepthStep * static_cast<double>(area));
+    p.gain = std::exp(kGainStep * static_cast<double>(gain));
     p.cut.entry_rad = std::min(static_cast<double>(entry_class) * entry_step, cut.entry_rad);
     p.cut.exit_rad = std::min(p.cut.entry_rad + swept, std::max(pi, cut.exit_rad));
     fill(p, judge(n_rpm));
@@ -95,20 +118,20 @@ const Page& Book::plunge(double n_rpm) {
 }
 
 void Book::fill(Page& page, const Judge& judge) const {
-  const double top = kMoreOfALimit * judge.ceiling_mm_min();
+  const double top = kMoreOfALimit * judge.ceiling_mm_min() * page.gain;
   const double bottom = judge.floor_mm_min();
   const Column& limits = judge.limits();
   std::vector<Point> points;
   const double step = std::pow(bottom / top, 1.0 / (kPoints - 1));
   for (int k = 0; k < kPoints; ++k) {
     const double feed = k + 1 == kPoints ? bottom : top * std::pow(step, k);
-    const auto s = judge.at(page.cut, feed);
-    if (!s) {
+    const auto load = loads_at(judge, page.cut, feed);
+    if (!load) {
       page.known = false;
       return;
     }
-    points.push_back({feed, s->load});
-    if (within(s->load, limits)) break;
+    points.push_back({feed, *load});
+    if (within(*load, limits)) break;
   }
   for (std::size_t i = 0; i < kLimits; ++i) {
     page.at_limit[i] = feed_at(points, i, limits[i]);
@@ -126,9 +149,9 @@ void Book::fill(Page& page, const Judge& judge) const {
   double guess = first;
   for (int i = 0; i < 6 && bad.feed > good.feed * (1.0 + kNear); ++i) {
     guess = std::clamp(guess, good.feed * (1.0 + 0.1 * kNear), bad.feed / (1.0 + 0.1 * kNear));
-    const auto s = judge.at(page.cut, guess);
-    if (!s) break;
-    const Point p{guess, s->load};
+    const auto load = loads_at(judge, page.cut, guess);
+    if (!load) break;
+    const Point p{guess, *load};
     const double r = ratio(p.load, limits);
     (r <= 1.0 ? good : bad) = p;
     if (r <= 1.0 && r > 1.0 - kNear) break;

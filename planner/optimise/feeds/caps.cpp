@@ -16,6 +16,7 @@ constexpr double kAnyFeed = std::numeric_limits<double>::infinity();
 struct OnMove {
   bool cuts = false;  ///< sideways somewhere
   bool plunges = false;
+  bool known = true;  ///< all of its sections lie within the formulas' range
   Column at_limit{};
   std::array<double, kLimits> more{};
 };
@@ -33,7 +34,8 @@ OnMove on_move(const FeedQuestion& q, Book& book, std::size_t move, std::size_t&
       continue;
     }
     out.cuts = true;
-    const Bears b = bears(book, s, q.cut.cutter.cutting_diameter_mm, n);
+    const Bears b = bears(book, s, q.cut.cutter, n);
+    out.known = out.known && b.known;
     for (std::size_t k = 0; k < kLimits; ++k) {
       out.at_limit[k] = std::min(out.at_limit[k], b.at_limit[k]);
       double with_more = b.at_more[k];
@@ -62,20 +64,24 @@ Cap open_cap(double feed) {
   return cap;
 }
 
-void bound_by_sections(Cap& cap, const OnMove& m, double share, double least) {
+/// A share of a feed, of none that is bounded too.
+double part(double share, double feed) { return std::isfinite(feed) ? share * feed : feed; }
+
+void bound_by_sections(Cap& cap, const OnMove& m, const Judge& judge, double share) {
   const double ceiling = cap.feed_mm_min;
   for (std::size_t k = 0; k < kLimits; ++k) {
-    const double feed = std::max(share * m.at_limit[k], std::min(least, ceiling));
+    const double feed = std::max(part(share, m.at_limit[k]), std::min(judge.floor_mm_min(), ceiling));
     if (feed < cap.feed_mm_min) {
       cap.feed_mm_min = feed;
-      cap.by = static_cast<Holder>(k);
+      // Where no load can be computed every limit counts as reached, those that nobody states, too.
+      cap.by = stated(judge.limits()[k]) && m.known ? static_cast<Holder>(k) : Holder::kUnknown;
     }
   }
   const auto step = static_cast<std::size_t>(Holder::kStepFeed);
   for (std::size_t k = 0; k < kLimits; ++k)
-    cap.more[k] = std::clamp(share * m.more[k], cap.feed_mm_min, std::max(ceiling, cap.feed_mm_min));
+    cap.more[k] = std::clamp(part(share, m.more[k]), cap.feed_mm_min, std::max(ceiling, cap.feed_mm_min));
   double of_sections = kAnyFeed;
-  for (const double f : m.at_limit) of_sections = std::min(of_sections, share * f);
+  for (const double f : m.at_limit) of_sections = std::min(of_sections, part(share, f));
   cap.more[step] = std::max(cap.feed_mm_min, std::min(cap.more[step], of_sections));
 }
 
@@ -87,14 +93,23 @@ double air_feed(const FeedQuestion& q) {
   return std::min(most, kAirFeedMmMin);
 }
 
+/// Straight down, where no sample could say so.
+bool unmeasured_plunge(const FeedQuestion& q, const model::CutterPath& p, std::size_t i) {
+  return q.samples.empty() && !in_air_by_role(p.role[i]) && p.kind[i] == MoveKind::kLine &&
+         p.x[i] == p.x[i - 1] && p.y[i] == p.y[i - 1] && p.z[i] < p.z[i - 1];
+}
+
 /// A move of a milling step whose feed is free.
-Cap milled(const FeedQuestion& q, Book& book, MoveRole role, std::size_t i, double given, const OnMove& m) {
+Cap milled(const FeedQuestion& q, Book& book, const model::CutterPath& path, std::size_t i, double given,
+           const OnMove& m) {
+  const MoveRole role = path.role[i];
   const Judge& judge = book.judge(rpm_on(q, i));
   // Without any section nothing is known of the cut: then never faster than planned.
   const bool measured = !q.samples.empty() && !m.plunges;
   Cap cap = open_cap(given * (measured ? judge.ceiling_mm_min() : q.feed_mm_min));
-  if (m.cuts) bound_by_sections(cap, m, std::min(1.0, given), judge.floor_mm_min());
-  if (role == MoveRole::kPlunge) {
+  if (m.cuts) bound_by_sections(cap, m, judge, std::min(1.0, given));
+  // By its direction where samples tell it: a given trajectory may call a plunge a cut.
+  if (role == MoveRole::kPlunge || m.plunges || unmeasured_plunge(q, path, i)) {
     bound(cap, kPlungeFraction * given * q.feed_mm_min, Holder::kEndCut);
     bound(cap, book.plunge(rpm_on(q, i)).feed_mm_min, Holder::kEndCut);
   } else if (role == MoveRole::kRamp) {
@@ -116,15 +131,16 @@ double rpm_on(const FeedQuestion& q, std::size_t move) {
   return std::abs(move < q.speed_factor.size() ? q.n_rpm * q.speed_factor[move] : q.n_rpm);
 }
 
-Bears bears(Book& book, const CutSample& sample, double diameter, double n_rpm) {
+Bears bears(Book& book, const CutSample& sample, const model::Cutter& cutter, double n_rpm) {
   Bears out;
   out.feed_mm_min = kAnyFeed;
   out.at_limit.fill(kAnyFeed);
   out.at_more.fill(kAnyFeed);
-  const Cuts cuts = cuts_of(sample, diameter);
+  const Cuts cuts = cuts_of(sample, cutter);
   for (std::size_t c = 0; c < cuts.n; ++c) {
     const Page& page = book.page(cuts.cut[c], n_rpm);
     const double per_gain = 1.0 / cuts.cut[c].gain;
+    out.known = out.known && page.known;
     out.feed_mm_min = std::min(out.feed_mm_min, page.feed_mm_min * per_gain);
     for (std::size_t k = 0; k < kLimits; ++k) {
       out.at_limit[k] = std::min(out.at_limit[k], page.at_limit[k] * per_gain);
@@ -149,7 +165,7 @@ std::vector<Cap> caps_of(const FeedQuestion& q, const model::CutterPath& path, B
     }
     if (i == 0 || path.kind[i] == MoveKind::kRapid || path.kind[i] == MoveKind::kDwell) continue;
     if (sideways && q.adapt) {
-      out[i] = milled(q, book, path.role[i], i, given, m);
+      out[i] = milled(q, book, path, i, given, m);
       continue;
     }
     out[i] = open_cap(given * q.feed_mm_min);

@@ -23,8 +23,9 @@ enum class Holder : std::uint8_t {
   kAir,
   kAxisFeed,
   kAcceleration,
+  kUnknown,  ///< sections outside the formulas' range: the least feed
 };
-inline constexpr std::size_t kHolders = 12;
+inline constexpr std::size_t kHolders = 13;
 
 /// `more[k]`: the same with 10 % more of Holder k, as far as sections and the planned feed go.
 struct Cap {
@@ -40,8 +41,9 @@ struct Cap {
 struct Bears {
   double feed_mm_min = 0.0;
   Column at_limit{}, at_more{};
+  bool known = true;  ///< false: outside the formulas' range
 };
-[[nodiscard]] Bears bears(Book& book, const CutSample& sample, double diameter_mm, double n_rpm);
+[[nodiscard]] Bears bears(Book& book, const CutSample& sample, const model::Cutter& cutter, double n_rpm);
 
 /// The spindle's speed on a move.
 [[nodiscard]] double rpm_on(const FeedQuestion& q, std::size_t move);

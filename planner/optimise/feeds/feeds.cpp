@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
 #include <utility>
 
 #include "planner/mechanics/surface.h"
+#include "planner/optimise/cut/limits.h"
 #include "planner/optimise/feeds/followed.h"
 
 namespace capstan::optimise {
@@ -29,13 +32,12 @@ double constant_feed(const FeedQuestion& q, const CutterPath& path, Book& book) 
   }
   if (!(best > 0.0)) best = q.feed_mm_min;
   if (!cuts_sideways(q.cut.kind) || !q.adapt) return best;
-  const double diameter = q.cut.cutter.cutting_diameter_mm;
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t k = 0; k < q.samples.size(); ++k) {
     const CutSample& s = q.samples[k];
     if (s.plunge || !(s.ap_mm > 0.0) || s.move >= path.size() || ends_in(path.role[s.move])) continue;
     const double n = rpm_on(q, s.move);
-    const double on_grid = bears(book, s, diameter, n).feed_mm_min;
+    const double on_grid = bears(book, s, q.cut.cutter, n).feed_mm_min;
     if (on_grid < best) order.emplace_back(on_grid, k);
   }
   std::sort(order.begin(), order.end());
@@ -43,7 +45,7 @@ double constant_feed(const FeedQuestion& q, const CutterPath& path, Book& book) 
     if (on_grid >= best) break;
     const CutSample& s = q.samples[k];
     const Judge& judge = book.judge(rpm_on(q, s.move));
-    const Cuts cuts = cuts_of(s, diameter);
+    const Cuts cuts = cuts_of(s, q.cut.cutter);
     for (std::size_t c = 0; c < cuts.n; ++c) {
       const auto at_best = judge.at(cuts.cut[c], best);
       if (at_best && ratio(at_best->load, judge.limits()) <= 1.0) continue;
@@ -57,7 +59,7 @@ void keep_largest(double& a, double b) {
   if (std::abs(b) > std::abs(a)) a = b;
 }
 
-void keep_peak(model::StepLoads& peak, const State& s, const Judge& judge) {
+void keep_peak(model::StepLoads& peak, const State& s, const Judge& judge, const model::Cutter& cutter) {
   const auto load = [&](Limit l) { return s.load[static_cast<std::size_t>(l)]; };
   peak.peak_force_n = std::max(peak.peak_force_n, load(Limit::kForce));
   peak.deflection_mm = std::max(peak.deflection_mm, load(Limit::kDeflection));
@@ -69,23 +71,29 @@ void keep_peak(model::StepLoads& peak, const State& s, const Judge& judge) {
   peak.surface_rz_mm = std::max(peak.surface_rz_mm, rz);
   peak.wall_error_mm = std::max(peak.wall_error_mm, load(Limit::kWallError));
   const double margin = judge.margin();
-  keep_largest(peak.mean_force.x_n, margin * s.raw.mean.fx_n);
-  keep_largest(peak.mean_force.y_n, margin * s.raw.mean.fy_n);
-  keep_largest(peak.mean_force.z_n, margin * s.raw.mean.fz_n);
-  keep_largest(peak.peak_force.x_n, margin * s.raw.peak.fx_n);
-  keep_largest(peak.peak_force.y_n, margin * s.raw.peak.fy_n);
-  keep_largest(peak.peak_force.z_n, margin * s.raw.peak.fz_n);
+  const auto keep = [](model::AxisForces& a, const model::AxisForces& b) {
+    keep_largest(a.x_n, b.x_n);
+    keep_largest(a.y_n, b.y_n);
+    keep_largest(a.z_n, b.z_n);
+  };
+  keep(peak.mean_force, axis_forces(s.raw.mean, margin, cutter));
+  keep(peak.peak_force, axis_forces(s.raw.peak, margin, cutter));
   peak.force_margin = margin;
 }
 
 /// Loads of every class of section at the largest feed it is cut with.
 void measure_peaks(const FeedQuestion& q, const model::FeedSchedule& schedule, Book& book, FeedAnswer& a) {
-  const double diameter = q.cut.cutter.cutting_diameter_mm;
   double removal = 0.0;
+  std::map<double, double> plunging;  // largest feed by speed
   for (const CutSample& s : q.samples) {
-    if (s.plunge || s.move >= schedule.feed_mm_min.size()) continue;
+    if (s.move >= schedule.feed_mm_min.size()) continue;
     const double feed = schedule.feed_mm_min[s.move];
-    const Cuts cuts = cuts_of(s, diameter);
+    if (s.plunge) {
+      double& most = plunging[rpm_on(q, s.move)];
+      if (s.ap_mm > 0.0) most = std::max(most, feed);
+      continue;
+    }
+    const Cuts cuts = cuts_of(s, q.cut.cutter);
     for (std::size_t c = 0; c < cuts.n && feed > 0.0; ++c) {
       Page& page = book.page(cuts.cut[c], rpm_on(q, s.move));
       page.most_scheduled = std::max(page.most_scheduled, feed * cuts.cut[c].gain);
@@ -95,10 +103,21 @@ void measure_peaks(const FeedQuestion& q, const model::FeedSchedule& schedule, B
   book.each([&](const Judge& judge, const Page& page) {
     if (!(page.most_scheduled > 0.0)) return;
     const auto s = judge.at(page.cut, page.most_scheduled);
-    if (!s) return;
-    keep_peak(a.peak, *s, judge);
+    if (!s) {
+      a.worst_excess = std::numeric_limits<double>::infinity();
+      return;
+    }
+    keep_peak(a.peak, *s, judge, q.cut.cutter);
     a.worst_excess = std::max(a.worst_excess, ratio(s->load, judge.limits()) - 1.0);
   });
+  for (const auto& [n, feed] : plunging) {
+    if (!(feed > 0.0)) continue;
+    const Judge& judge = book.judge(n);
+    const auto s = judge.plunging(feed);
+    if (s) keep_peak(a.peak, *s, judge, q.cut.cutter);
+    const double excess = s ? ratio(s->load, judge.limits()) - 1.0 : std::numeric_limits<double>::infinity();
+    a.worst_excess = std::max(a.worst_excess, excess);
+  }
   a.peak.mrr_mm3_min = removal;
 }
 
@@ -135,7 +154,10 @@ FeedAnswer feeds(const FeedQuestion& q, const CutterPath& path) {
       most[i] = caps[i].feed_mm_min;
       by[i] = caps[i].by;
       if (!q.constant || by[i] == Holder::kAir) continue;
-      most[i] = ends_in(path.role[i]) ? std::min(most[i], one) : one;
+      const double given = i < q.feed_factor.size() ? q.feed_factor[i] : 1.0;
+      const bool own = ends_in(path.role[i]) || by[i] == Holder::kEndCut;
+      const double all = std::min(1.0, given) * one;
+      most[i] = own ? std::min(most[i], all) : all;
     }
     Followed f = followed(q, path, std::move(most), std::move(by), q.cut.machine);
     if (q.explain && !q.constant) a.held_by = held_by(q, path, caps, book, f);
@@ -160,7 +182,7 @@ FeedAnswer feeds(const FeedQuestion& q, const CutterPath& path) {
 
 double largest_feed(const FeedQuestion& q, const CutSample& s) {
   const Judge judge(q, rpm_on(q, s.move));
-  const Cuts cuts = cuts_of(s, q.cut.cutter.cutting_diameter_mm);
+  const Cuts cuts = cuts_of(s, q.cut.cutter);
   double best = judge.ceiling_mm_min();
   for (std::size_t c = 0; c < cuts.n; ++c) best = std::min(best, judge.largest(cuts.cut[c], best));
   return best;
@@ -168,7 +190,7 @@ double largest_feed(const FeedQuestion& q, const CutSample& s) {
 
 std::optional<double> excess_at(const FeedQuestion& q, const CutSample& s, double feed_mm_min) {
   const Judge judge(q, rpm_on(q, s.move));
-  const Cuts cuts = cuts_of(s, q.cut.cutter.cutting_diameter_mm);
+  const Cuts cuts = cuts_of(s, q.cut.cutter);
   double worst = -1.0;
   for (std::size_t c = 0; c < cuts.n; ++c) {
     const auto state = judge.at(cuts.cut[c], feed_mm_min);

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "planner/optimise/feeds/followed.h"
 
@@ -11,14 +12,15 @@ using model::CutterPath;
 // What may hold along a path: the holders of a feed, then what only motion knows.
 enum Name : std::size_t { kTolerance = kHolders, kBlockTime, kNames };
 constexpr std::array<const char*, kNames - kLimits> kText = {
-    "step_feed", "end_cutting", "air_feed", "axis_feed", "axis_acceleration", "path_tolerance", "block_time"};
+    "step_feed",         "end_cutting", "air_feed",       "axis_feed",
+    "axis_acceleration", "least_feed",  "path_tolerance", "block_time"};
 constexpr std::array<const char*, kNames - kLimits> kUnit = {"mm/min", "mm/min", "mm/min", "mm/min",
-                                                             "mm/s2",  "mm",     "s"};
+                                                             "mm/s2",  "mm/min", "mm",     "s"};
 
 double limit_value(const FeedQuestion& q, Book& book, std::size_t name) {
   const Judge& judge = book.judge(rpm_on(q, q.speed_factor.size()));
   const auto& axes = q.cut.machine.axes;
-  if (name < kLimits) return judge.limits()[name];
+  if (name < kLimits) return stated(judge.limits()[name]) ? judge.limits()[name] : 0.0;
   switch (name) {
     case static_cast<std::size_t>(Holder::kStepFeed):
       return judge.ceiling_mm_min();
@@ -30,6 +32,8 @@ double limit_value(const FeedQuestion& q, Book& book, std::size_t name) {
       return std::min(axes[0].feed_max_mm_min, axes[1].feed_max_mm_min);
     case static_cast<std::size_t>(Holder::kAcceleration):
       return std::min(axes[0].acceleration_mm_s2, axes[1].acceleration_mm_s2);
+    case static_cast<std::size_t>(Holder::kUnknown):
+      return judge.floor_mm_min();
     case kTolerance:
       return q.cut.machine.control.path_tolerance_mm;
     default:
@@ -95,6 +99,7 @@ std::vector<model::LimitAlongPath> held_by(const FeedQuestion& q, const CutterPa
     l.name = k < kLimits ? kLimitNames[k] : kText[k - kLimits];
     l.unit = k < kLimits ? kLimitUnits[k] : kUnit[k - kLimits];
     l.limit = limit_value(q, book, k);
+    if (!std::isfinite(l.limit)) l.limit = 0.0;
     l.share = share;
     const double quicker = seconds_with_more(q, path, caps, k);
     if (quicker >= 0.0) l.saves_s = std::max(0.0, t->cutting_s - quicker);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -16,18 +17,8 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kNoLimit = 1e12;  // of what nobody states
-constexpr double kWhole = 0.95;    // share of depth times width from which a section is a rectangle
-
-mechanics::ToolStiffness stiffness(const model::Cutter& c) {
-  const double e = c.substrate == model::Substrate::kCarbide ? mechanics::kCarbideYoungsModulusNMm2
-                                                             : mechanics::kHssYoungsModulusNMm2;
-  const double out =
-      c.stick_out_mm > 0.0 ? c.stick_out_mm : std::max(c.usable_length_mm, 3.0 * c.cutting_diameter_mm);
-  const double shank = c.shank_diameter_mm > 0.0 ? c.shank_diameter_mm : c.cutting_diameter_mm;
-  const double flute = c.maximum_depth_of_cut_mm > 0.0 ? std::min(c.maximum_depth_of_cut_mm, out) : out;
-  return {out, shank, flute, c.cutting_diameter_mm, e};
-}
+constexpr double kNoLimit = std::numeric_limits<double>::infinity();  // of what nobody states
+constexpr double kWhole = 0.95;  // share of depth times width from which a section is a rectangle
 
 /// Width of an arc across the feed.
 double width_of(double entry, double exit, double diameter) {
@@ -39,7 +30,7 @@ Cut trimmed_arc(double ap, double width, const CutSample& s, double diameter) {
   const double w = std::clamp(width, 0.0, diameter);
   const double phi = std::acos(std::clamp(1.0 - 2.0 * w / diameter, -1.0, 1.0));
   const bool up = s.entry_rad < pi - s.exit_rad - 1e-9;
-  return up ? Cut{ap, 0.0, phi, 1.0} : Cut{ap, pi - phi, pi, 1.0};
+  return up ? Cut{.ap_mm = ap, .exit_rad = phi} : Cut{.ap_mm = ap, .entry_rad = pi - phi, .exit_rad = pi};
 }
 
 /// The rectangle of a depth and a width at the section's place: the arc that was measured where it is about
@@ -52,7 +43,7 @@ Cut rectangle(double ap, double ae, const CutSample& s, double diameter) {
   constexpr double kTooWide = 0.98;
   constexpr double kTooNarrow = 1.4;
   Cut c = measured > 0.0 && ae >= kTooWide * measured && ae <= kTooNarrow * measured
-              ? Cut{ap, entry, exit, 1.0}
+              ? Cut{.ap_mm = ap, .entry_rad = entry, .exit_rad = exit}
               : trimmed_arc(ap, ae, s, diameter);
   const double width = width_of(c.entry_rad, c.exit_rad, diameter);
   if (width > 0.0) c.gain = std::max(1.0, ae / width);
@@ -61,11 +52,30 @@ Cut rectangle(double ap, double ae, const CutSample& s, double diameter) {
 
 }  // namespace
 
-Cuts cuts_of(const CutSample& s, double diameter) {
+Cuts cuts_of(const CutSample& sample, const model::Cutter& cutter) {
   Cuts out;
+  CutSample s = sample;
+  const double diameter = cutter.cutting_diameter_mm;
   const double ap = s.ap_mm;
   const double ae = s.ae_mm;
   if (!(ap > 0.0) || !(ae > 0.0) || !(diameter > 0.0) || !std::isfinite(ap * ae)) return out;
+  // Sections are measured for a clockwise tooth; one that turns the other way meets the right side first.
+  if (cutter.hand == model::Hand::kLeft) {
+    s.entry_rad = pi - sample.exit_rad;
+    s.exit_rad = pi - sample.entry_rad;
+  }
+  const double corner = mechanics::tooth_of(cutter).corner_radius_mm;
+  if (corner > 0.0) {
+    const double entry = std::clamp(s.entry_rad, 0.0, pi);
+    const double exit = std::clamp(s.exit_rad, 0.0, pi);
+    const double area = s.csa_mm2 > 0.0 ? s.csa_mm2 : ap * ae;
+    // An arc that was not measured is made of the width.
+    Cut c = exit > entry ? Cut{.ap_mm = ap, .entry_rad = entry, .exit_rad = exit}
+                         : trimmed_arc(ap, ae, s, diameter);
+    c.csa_mm2 = area;
+    out.cut[out.n++] = c;
+    return out;
+  }
   if (s.csa_mm2 > 0.0 && s.csa_mm2 < kWhole * ap * ae) {
     out.cut[out.n++] = rectangle(ap, s.csa_mm2 / ap, s, diameter);
     out.cut[out.n++] = rectangle(s.csa_mm2 / ae, ae, s, diameter);
@@ -81,6 +91,8 @@ double ratio(const Column& load, const Column& limit) {
   return worst;
 }
 
+bool stated(double limit) { return limit < kNoLimit; }
+
 Judge::Judge(const FeedQuestion& question, double n_rpm)
     : q_(question.cut),
       n_(std::abs(n_rpm)),
@@ -88,7 +100,7 @@ Judge::Judge(const FeedQuestion& question, double n_rpm)
       law_(mechanics::force_law(question.cut.material, question.cut.cutter.substrate)) {
   up_ = feed_override(q_);
   margin_ = mechanics::force_margin(q_.material, q_.cutter.substrate).factor();
-  if (const auto c = mechanics::tip_compliance_mm_n(stiffness(q_.cutter))) compliance_ = *c;
+  if (const auto c = mechanics::tip_compliance_mm_n(q_.cutter)) compliance_ = *c;
   if (q_.wall_error_limit_mm > 0.0) {
     if (auto beam = mechanics::beam_of(q_.cutter)) beam_ = *std::move(beam);
   }
@@ -114,20 +126,31 @@ double Judge::surface_um(double fz) const {
 std::optional<double> Judge::wall_mm(const mechanics::Section& section, double fz) const {
   double worst = 0.0;
   constexpr double kReaches = 1e-9;
+  mechanics::Section to_wall = section;
+  to_wall.csa_mm2 = 0.0;
+  // A corner or ball that is not in with its full radius touches the wall with what is in.
+  const double top =
+      mechanics::effective_diameter_mm(section.ap_mm, tooth_.cutting_diameter_mm, tooth_.corner_radius_mm);
+  const double at_wall = std::acos(std::min(1.0, top / tooth_.cutting_diameter_mm)) + kReaches;
+  if (tooth_.corner_radius_mm > 0.0) {
+    if (section.arc.entry_rad <= at_wall) to_wall.arc.entry_rad = 0.0;
+    if (section.arc.exit_rad >= pi - at_wall) to_wall.arc.exit_rad = pi;
+  }
   const auto side = [&](mechanics::WallSide w) {
-    const auto e = mechanics::wall_error(section, tooth_, law_, fz, w, beam_);
+    const auto e = mechanics::wall_error(to_wall, tooth_, law_, fz, w, beam_);
     if (!e) return false;
     worst = std::max(worst, std::abs(e->largest_mm()));
     return true;
   };
-  if (section.arc.entry_rad <= kReaches && !side(mechanics::WallSide::kLeft)) return std::nullopt;
-  if (section.arc.exit_rad >= pi - kReaches && !side(mechanics::WallSide::kRight)) return std::nullopt;
+  if (to_wall.arc.entry_rad <= kReaches && !side(mechanics::WallSide::kLeft)) return std::nullopt;
+  if (to_wall.arc.exit_rad >= pi - kReaches && !side(mechanics::WallSide::kRight)) return std::nullopt;
   return worst;
 }
 
 std::optional<State> Judge::at(const Cut& cut, double feed) const {
   const double fz = feed / (n_ * tooth_.teeth) * cut.gain;
-  const mechanics::Section section{.ap_mm = cut.ap_mm, .arc = {cut.entry_rad, cut.exit_rad}};
+  const mechanics::Section section{
+      .ap_mm = cut.ap_mm, .arc = {cut.entry_rad, cut.exit_rad}, .csa_mm2 = cut.csa_mm2};
   const auto l = mechanics::section_loads(section, tooth_, law_, up_ * fz, n_);
   if (!l) return std::nullopt;
   State s;
@@ -138,7 +161,7 @@ std::optional<State> Judge::at(const Cut& cut, double feed) const {
             force * compliance_,
             l->torque_nm * margin_,
             l->power_w * margin_,
-            l->h_max_mm / up_,
+            planned_chip_mm(section, tooth_, law_, up_ * fz, up_, n_, l->h_max_mm),
             surface_um(fz),
             0.0};
   if (!beam_.segments.empty()) {
@@ -161,9 +184,10 @@ std::optional<State> Judge::plunging(double feed) const {
   c.point_angle_rad = pi;
   const auto l = mechanics::drilling_loads(c, law_.kienzle);
   if (!l) return std::nullopt;
+  const double margin = mechanics::kienzle_margin(q_.material).factor();
   State s;
-  s.load[static_cast<std::size_t>(Limit::kTorque)] = l->torque_nm * margin_;
-  s.load[static_cast<std::size_t>(Limit::kPower)] = l->power_w * margin_;
+  s.load[static_cast<std::size_t>(Limit::kTorque)] = l->torque_nm * margin;
+  s.load[static_cast<std::size_t>(Limit::kPower)] = l->power_w * margin;
   s.load[static_cast<std::size_t>(Limit::kChip)] = l->chip_thickness_mm / up_;
   return s;
 }

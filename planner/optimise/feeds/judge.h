@@ -26,15 +26,17 @@ using Column = std::array<double, kLimits>;  ///< loads or limits, in the order 
 /// gain  the edge's feed over the centre's: more than 1 where the path turns about the inside of a corner.
 struct Cut {
   double ap_mm = 0.0, entry_rad = 0.0, exit_rad = 0.0, gain = 1.0;
+  double csa_mm2 = 0.0;  ///< measured area; 0: depth times width
 };
 
 /// One or two: a section that is no rectangle (a wall and a floor at once) counts as two of its area, as deep
-/// and as wide.
+/// and as wide. Of a cutter with a corner radius or a ball it is one, as measured: at its rim there is no
+/// edge. Of a left-hand cutter angles are mirrored: in mechanics they count in the sense of rotation.
 struct Cuts {
   std::array<Cut, 2> cut;
   std::size_t n = 0;
 };
-[[nodiscard]] Cuts cuts_of(const CutSample& sample, double diameter_mm);
+[[nodiscard]] Cuts cuts_of(const CutSample& sample, const model::Cutter& cutter);
 
 /// Loads of a cut, margins and override included, and the forces by axis.
 struct State {
@@ -75,5 +77,8 @@ class Judge {
 
 /// The largest of load / limit.
 [[nodiscard]] double ratio(const Column& load, const Column& limit);
+
+/// Whether somebody states this limit; one that nobody states is larger than any load, and never told.
+[[nodiscard]] bool stated(double limit);
 
 }  // namespace capstan::optimise::feed

@@ -12,6 +12,8 @@
 #include "planner/mechanics/drilling.h"
 #include "planner/mechanics/force_law.h"
 #include "planner/mechanics/immersion.h"
+#include "planner/mechanics/kienzle.h"
+#include "planner/mechanics/loads.h"
 #include "planner/mechanics/section.h"
 #include "planner/mechanics/spindle.h"
 #include "planner/optimise/cut.h"
@@ -123,14 +125,25 @@ void expect_kept(const CutQuestion& q, const CutAnswer& a, int number) {
     mechanics::Tooth tooth = mechanics::tooth_of(c);
     const auto law = mechanics::force_law(q.material, c.substrate);
     for (const auto side : {mechanics::CutDirection::kUp, mechanics::CutDirection::kDown}) {
-      const auto l = mechanics::section_loads(
-          {.ap_mm = a.ap_mm, .arc = mechanics::immersion_arc(a.ae_mm, c.cutting_diameter_mm, side)}, tooth,
-          law, up * fz, a.n_rpm);
+      // A flat cutter's arc is known; a corner or ball has to remove what the cut removes.
+      mechanics::Section section{.ap_mm = a.ap_mm,
+                                 .arc = mechanics::immersion_arc(a.ae_mm, c.cutting_diameter_mm, side)};
+      const bool round = tooth.corner_radius_mm > 0.0;
+      if (round) section = mechanics::side_section(a.ap_mm, a.ae_mm, tooth, side);
+      const auto l = mechanics::section_loads(section, tooth, law, up * fz, a.n_rpm);
       ASSERT_TRUE(l);
+      const auto planned_loads = mechanics::section_loads(section, tooth, law, fz, a.n_rpm);
+      ASSERT_TRUE(planned_loads);
       torque = std::max(torque, l->torque_nm);
       force = std::max(force, l->peak_force_n);
-      chip = std::max(chip, l->h_max_mm / up);
+      chip = std::max(chip, planned_loads->h_max_mm);
     }
+    const double width = std::min(
+        a.ae_mm, mechanics::effective_diameter_mm(a.ap_mm, c.cutting_diameter_mm, tooth.corner_radius_mm));
+    const double law_n_mm2 =
+        law.mechanistic ? law.mechanistic->ktc_n_mm2 : mechanics::specific_force_n_mm2(law.kienzle, up * fz);
+    EXPECT_GE(torque * 2.0 * pi * a.n_rpm / 60.0,
+              0.99 * mechanics::cutting_power_w(a.ap_mm * width * up * a.feed_mm_min, law_n_mm2));
     const double margin = mechanics::force_margin(q.material, c.substrate).factor();
     torque *= margin;
     force *= margin;
