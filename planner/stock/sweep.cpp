@@ -38,9 +38,16 @@ rows::Piece piece_of(const ProfilePiece& p) {
   return out;
 }
 
-/// A flat or a ball: their envelopes over a slope need no search.
+/// A flat, a ball, a bull nose or a cone with or without a flat tip: outlines whose envelopes over a slope
+/// are found in vectors.
 bool is_plain(const CutterProfile& p) {
-  return p.pieces.size() == 1 && p.pieces[0].slope == 0.0 && p.pieces[0].rc_mm == 0.0;
+  const auto level = [](const ProfilePiece& q) { return q.radius_mm <= 0.0 && q.slope == 0.0; };
+  const auto slant = [](const ProfilePiece& q) {
+    return q.radius_mm <= 0.0 && q.slope != 0.0 && q.z0_mm == 0.0;
+  };
+  if (p.pieces.size() == 1) return slant(p.pieces[0]) || p.pieces[0].rc_mm == 0.0;
+  return p.pieces.size() == 2 && level(p.pieces[0]) &&
+         (slant(p.pieces[1]) || (p.pieces[1].radius_mm > 0.0 && p.pieces[1].rc_mm > 0.0));
 }
 
 /// The cutter, on a track from a to b.

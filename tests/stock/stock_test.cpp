@@ -110,8 +110,10 @@ TEST(SweptHeight, IsTheEnvelopeOfDenseStamps) {
 TEST(Sweep, ASlopeLeavesItsEnvelope) {
   std::mt19937 random(12);
   std::uniform_real_distribution<double> u(0.0, 1.0);
-  for (const auto& profile : {geometry::flat_profile(6.0, 20.0), geometry::ball_profile(6.0, 20.0),
-                              geometry::bull_profile(6.0, 1.0, 20.0)}) {
+  for (const auto& profile :
+       {geometry::flat_profile(6.0, 20.0), geometry::ball_profile(6.0, 20.0),
+        geometry::bull_profile(6.0, 1.0, 20.0), geometry::bull_profile(6.0, 0.1, 20.0),
+        geometry::cone_profile(6.0, 2.0, 20.0), geometry::cone_profile(6.0, 1.5, 20.0, 2.0)}) {
     for (int k = 0; k < 20; ++k) {
       HeightMap map = from_box({{0, 0, 0}, {20, 20, 20}}, 0.25);
       const double turned = 6.283 * u(random), length = 0.2 + 4.0 * u(random), rise = 4.0 * (u(random) - 0.5);

@@ -29,8 +29,8 @@ struct Grid {
   int nx = 0, ny = 0;
 };
 
-/// A track of a cutter: straight from a to b, round about a centre, or standing (a = b); level, or of a flat
-/// or a ball and straight.
+/// A track of a cutter: straight from a to b, round about a centre, or standing (a = b); level, or straight
+/// and of a flat, a ball, a bull nose or a cone.
 struct Work {
   Piece piece[kPieces];
   int pieces = 0;

@@ -1,5 +1,5 @@
-// Included once by each variant's source, inside its unnamed namespace, after lanes.h: formulas for the cells of
-// one block. No sum is reordered.
+// Included once by each variant's source, inside its unnamed namespace, after lanes.h: formulas for the cells
+// of one block. No sum is reordered.
 
 // Inlined throughout, so that the constants of a sweep are laid out once and not for each row.
 #define CAPSTAN_INLINE __attribute__((always_inline)) inline
@@ -14,13 +14,16 @@ struct Totals {
   double volume[kLanes] = {}, x[kLanes] = {}, y[kLanes] = {};
   /// Extremes of contact over narrow bins of X: as wide as the cells of a row are apart in X, so that the
   /// cells of a block go to neighbouring bins at once. Bins count from -R, from +R where X falls along rows.
-  float low[kFine], high[kFine];
+  /// Two sets, taken in turns: a block need not wait for what its neighbour has just written beside it.
+  float low[2][kFine], high[2][kFine];
   int blocks = 0;
 
   explicit Totals(int bins) {
     for (int b = 0; b < bins; b += kLanes) {
-      Float(1e30F).put(low + b);
-      Float(-1e30F).put(high + b);
+      for (int set = 0; set < 2; ++set) {
+        Float(1e30F).put(low[set] + b);
+        Float(-1e30F).put(high[set] + b);
+      }
     }
   }
   /// Single precision adds up a limited number of cells only.
@@ -34,15 +37,19 @@ struct Totals {
     v = vx = vz = 0.0F;
   }
   /// Narrow bins become those of the section.
-  void gather(int bins, float per_bin, bool falling, Sums& out) const {
+  void gather(int bins, float per_bin, bool falling, Sums& out) {
     const float each = 1.0F / per_bin;
+    for (int b = 0; b < bins; b += kLanes) {
+      smaller(Float::at(low[0] + b), Float::at(low[1] + b)).put(low[0] + b);
+      greater(Float::at(high[0] + b), Float::at(high[1] + b)).put(high[0] + b);
+    }
     int i = 0;
     for (int nth = 0; nth < kBins; ++nth) {
       const int end = nth < kBins - 1 ? static_cast<int>(static_cast<float>(nth + 1) * each) : bins;
       float l = 1e30F, h = -1e30F;
       for (; i < end && i < bins; ++i) {
-        l = low[i] < l ? low[i] : l;
-        h = high[i] > h ? high[i] : h;
+        l = low[0][i] < l ? low[0][i] : l;
+        h = high[0][i] > h ? high[0][i] : h;
       }
       const int b = falling ? kBins - 1 - nth : nth;
       out.low[b] = l;
@@ -68,8 +75,11 @@ struct Constants {
   Float inverse_arc_radius, turn, ex, ey, gx, gy, ux, uy;
   Float along_step, across_step;                  ///< from one cell of a row to the next
   Float rc, zc, round, round_squared, r0, slope;  ///< of the outline's last piece
-  Float start, rise, steepness, length,
-      radius_squared;  ///< of a sloping track; steepness: |s| / sqrt(1 + s^2), signed
+  // Of a sloping track. steepness: s / sqrt(1 + s^2). still: u over |across| where a cone's slant falls no
+  // further, far out when it falls all the way; sign: of s.
+  Float start, rise, steepness, length, radius_squared, still, sign, disc_squared;
+  Float inner_squared;  ///< cells nearer than this are covered as a whole
+  int halvings;         ///< of the stretch that holds the place where a round falls no further
   float bin_scale, bin_sign, bin_shift;
   int bins;
 };
@@ -136,10 +146,9 @@ CAPSTAN_INLINE Seats seat(const Constants& c, const Start& from, float ahead) {
 
 /// Outlines that are worth a loop of their own; kBull: a disc and a round; kCone: a disc or a point and a
 /// slant.
-enum class Shape { kFlat, kBall, kBull, kCone, kAny, kSlopingFlat, kSlopingBall };
+enum class Shape { kFlat, kBall, kBull, kCone, kAny, kSlopingFlat, kSlopingBall, kSlopingBull, kSlopingCone };
 
-inline Shape shape_of(const Work& w) {
-  if (w.slope != 0.0) return w.piece[0].form == Form::kBall ? Shape::kSlopingBall : Shape::kSlopingFlat;
+inline Shape level_shape_of(const Work& w) {
   if (w.pieces == 1 && w.piece[0].form == Form::kLevel) return Shape::kFlat;
   if (w.pieces == 1 && w.piece[0].form == Form::kBall) return Shape::kBall;
   if (w.pieces == 2 && w.piece[0].form == Form::kLevel && w.piece[1].form == Form::kRound)
@@ -148,6 +157,15 @@ inline Shape shape_of(const Work& w) {
   if (w.pieces == 2 && w.piece[0].form == Form::kLevel && w.piece[1].form == Form::kSlant)
     return Shape::kCone;
   return Shape::kAny;
+}
+
+/// Others than these four do not come here on a slope.
+inline Shape shape_of(const Work& w) {
+  const Shape level = level_shape_of(w);
+  if (w.slope == 0.0) return level;
+  if (level == Shape::kBall) return Shape::kSlopingBall;
+  if (level == Shape::kBull) return Shape::kSlopingBull;
+  return level == Shape::kCone ? Shape::kSlopingCone : Shape::kSlopingFlat;
 }
 
 CAPSTAN_INLINE Float height(const Piece& p, Float r2) {
@@ -179,8 +197,44 @@ CAPSTAN_INLINE Float outline(const Work& w, const Constants& c, Float r2) {
   return greater(0.0F, z + c.tip);
 }
 
+/// Whether a cutter with a disc and a round still comes down on a cell that lies u ahead of its axis, when
+/// the track falls no faster than c.rise: profile'(d) u / d < s.
+CAPSTAN_INLINE Mask comes_down(const Constants& c, Float u, Float across2) {
+  const Float d = smaller(root(u * u + across2), c.radius);
+  const Float off = greater(d - c.rc, 0.0F);
+  const Float wall = root(greater(0.0F, (c.round - off) * (off + c.round)));
+  return off * u < c.rise * greater(d, 1e-6F) * wall;
+}
+
+/// The u between lo and hi at which it comes down no further. `end`: the end that a disc would have, lo where
+/// the track falls.
+CAPSTAN_INLINE Float lowest_of_round(const Constants& c, Float lo, Float hi, Float end, Float across) {
+  const Float across2 = across * across;
+  // Where that end lies under the disc or before the axis it is the place.
+  const Mask settled = (c.sign * end <= 0.0F) | (end * end + across2 <= c.disc_squared);
+  if (!any(~settled)) return end;
+  const Mask falls = c.rise < 0.0F;
+  const Float other = select(falls, hi, lo);
+  const Mask down_at_other = comes_down(c, other, across2);
+  const Mask at_other = ~settled & ((falls & down_at_other) | (~falls & ~down_at_other));
+  const Float at_end = select(at_other, other, end);
+  const Mask open = ~settled & ~at_other;
+  if (!any(open)) return at_end;
+  const Mask down_at_end = comes_down(c, end, across2);
+  const Mask between = open & ((falls & down_at_end) | (~falls & ~down_at_end));
+  if (!any(between)) return at_end;
+  Float from = lo, to = hi;
+  for (int k = 0; k < c.halvings; ++k) {
+    const Float middle = (from + to) * 0.5F;
+    const Mask down = comes_down(c, middle, across2);
+    from = select(down, middle, from);
+    to = select(down, to, middle);
+  }
+  return select(between, (from + to) * 0.5F, at_end);
+}
+
 /// As above beside a straight sloping track: the least over the positions u behind a cell at which the cutter
-/// reaches it. That is convex in u: an end, or for a ball the place where it falls no further.
+/// reaches it. That is convex in u: an end, or the place where it falls no further.
 template <Shape kShape>
 CAPSTAN_INLINE Float envelope(const Constants& c, Float along, Float across) {
   const Float reach2 = greater(0.0F, c.radius_squared - across * across);
@@ -189,8 +243,25 @@ CAPSTAN_INLINE Float envelope(const Constants& c, Float along, Float across) {
   const Float hi = smaller(along, reach);
   Float u = select(c.rise < 0.0F, lo, hi);
   if constexpr (kShape == Shape::kSlopingBall) u = smaller(greater(c.steepness * reach, lo), hi);
+  if constexpr (kShape == Shape::kSlopingBull) u = lowest_of_round(c, lo, hi, u, across);
+  if constexpr (kShape == Shape::kSlopingCone) {  // on the slant, or where the disc ends, or at the rim
+    const Float disc = root(greater(0.0F, c.disc_squared - across * across));
+    const Float still = smaller(greater(c.still * magnitude(across), disc), reach);
+    u = smaller(greater(c.sign * still, lo), hi);
+  }
   Float z = c.start + c.rise * (along - u);
   if constexpr (kShape == Shape::kSlopingBall) z = z + c.zc - root(greater(0.0F, reach2 - u * u));
+  if constexpr (kShape == Shape::kSlopingBull || kShape == Shape::kSlopingCone) {
+    const Float d2 = u * u + across * across;
+    if (any(c.disc_squared < d2)) {
+      const Float off = greater(root(d2) - c.r0, 0.0F);
+      if constexpr (kShape == Shape::kSlopingCone) {
+        z = z + off * c.slope;
+      } else {
+        z = z + c.zc - root(greater(0.0F, (c.round - off) * (off + c.round)));
+      }
+    }
+  }
   return greater(0.0F, z);
 }
 
@@ -276,9 +347,9 @@ CAPSTAN_INLINE Chips lower_parts(Float c, Float z, Mask valid, const Constants& 
   return out;
 }
 
-template <bool kArc, bool kCovered>
+template <bool kArc>
 CAPSTAN_INLINE void add(const Constants& c, Float across, const Chips& chips, Totals& totals) {
-  const Float x = kCovered && !kArc ? across : smaller(c.radius, greater(0.0F - c.radius, across));
+  const Float x = smaller(c.radius, greater(0.0F - c.radius, across));
   totals.v = totals.v + chips.drop;
   totals.vx = totals.vx + chips.drop * x;
   totals.vz = totals.vz + chips.moment;
@@ -293,8 +364,8 @@ CAPSTAN_INLINE void add(const Constants& c, Float across, const Chips& chips, To
     lowest.put(bottom);
     highest.put(top);
     for (int k = 0; k < kLanes; ++k) {
-      float& low = totals.low[bin[k]];
-      float& high = totals.high[bin[k]];
+      float& low = totals.low[0][bin[k]];
+      float& high = totals.high[0][bin[k]];
       low = bottom[k] < low ? bottom[k] : low;
       high = top[k] > high ? top[k] : high;
     }
@@ -302,8 +373,9 @@ CAPSTAN_INLINE void add(const Constants& c, Float across, const Chips& chips, To
     const float place = (across.p[0][0] * c.bin_sign + c.bin_shift) * c.bin_scale;
     const int nth = place > 0.0F ? static_cast<int>(place) : 0;
     const int bin = nth < c.bins - kLanes ? nth : c.bins - kLanes;
-    float* const low = totals.low + bin;
-    float* const high = totals.high + bin;
+    const int set = totals.blocks % 2;
+    float* const low = totals.low[set] + bin;
+    float* const high = totals.high[set] + bin;
     smaller(lowest, Float::at(low)).put(low);
     greater(highest, Float::at(high)).put(high);
   }

@@ -1,13 +1,14 @@
-// Included once by each variant's source, inside its unnamed namespace, after rows_cells.h: which cells of which
-// rows are looked at.
+// Included once by each variant's source, inside its unnamed namespace, after rows_cells.h: which cells of
+// which rows are looked at.
 
 /// A place is carried on in single precision over so many blocks.
 constexpr int kSteps = 16;
 
-/// Cells ix0 to ix1 of a row. kCovered: all of them covered as a whole.
-template <bool kArc, Shape kShape, bool kCovered>
+/// Cells ix0 to ix1 of a row. The rim is looked at only in blocks that it may cross.
+template <bool kArc, Shape kShape>
 inline void run(const Grid& g, const Work& w, const Constants& c, int iy, int ix0, int ix1, Totals& totals) {
-  constexpr bool kSloping = kShape == Shape::kSlopingFlat || kShape == Shape::kSlopingBall;
+  constexpr bool kSloping = kShape == Shape::kSlopingFlat || kShape == Shape::kSlopingBall ||
+                            kShape == Shape::kSlopingBull || kShape == Shape::kSlopingCone;
   const double y = g.y0 + static_cast<double>(iy) * g.cell;
   const unsigned long row = static_cast<unsigned long>(iy) * static_cast<unsigned long>(g.nx);
   float* const row_top = g.top + row;
@@ -32,7 +33,7 @@ inline void run(const Grid& g, const Work& w, const Constants& c, int iy, int ix
     const Mask valid = Float::count() < static_cast<float>(ix1 - ix + 1);
     const Seats s = seat<kArc>(c, from, static_cast<float>(ix - start_ix));
     Chips chips;
-    if constexpr (kCovered) {
+    if (!any((c.inner_squared < s.distance2) & valid)) {
       Float z;
       if constexpr (kSloping) {
         z = envelope<kShape>(c, s.along, s.across);
@@ -53,7 +54,7 @@ inline void run(const Grid& g, const Work& w, const Constants& c, int iy, int ix
       chips = lower_parts(cover, z, valid, c, top, low, share);
     }
     if (!any(chips.touched)) continue;
-    add<kArc, kCovered>(c, s.across, chips, totals);
+    add<kArc>(c, s.across, chips, totals);
     if (++totals.blocks >= 64) totals.flush();
   }
 }
@@ -96,10 +97,9 @@ inline void capsule(const Work& w, float radius, float above, float cell, Spans&
   }
 }
 
-/// Cells of kLanes rows: those to look at, those covered as a whole, those between that are cut already.
+/// Cells of kLanes rows: those to look at, those between that are cut already.
 struct Ranges {
-  int first[kLanes], last[kLanes], inner_first[kLanes], inner_last[kLanes], hollow_first[kLanes],
-      hollow_last[kLanes];
+  int first[kLanes], last[kLanes], hollow_first[kLanes], hollow_last[kLanes];
 };
 
 inline int floor_of(float v) { return static_cast<int>(__builtin_floorf(v)); }
@@ -117,18 +117,7 @@ inline void ranges(const Grid& g, const Work& w, int iy, Ranges& out) {
   const auto within = static_cast<float>(bounded_place - floor);
   const float margin = 0.01F + 1e-6F * static_cast<float>(w.length) * inverse;
   Spans outer;
-  Spans inner;
   capsule(w, static_cast<float>(w.reach), above, cell, outer);
-  // Where the middle is cut already and the step is short, few cells in a row are covered as a whole.
-  const bool any_inner = w.inner > 0.0 && !(w.hollow >= w.inner && w.length < 6.0 * g.cell);
-  if (any_inner) {
-    capsule(w, static_cast<float>(w.inner), above, cell, inner);
-  } else {
-    for (int k = 0; k < kLanes; ++k) {
-      inner.lo[k] = 1.0F;
-      inner.hi[k] = -1.0F;
-    }
-  }
   const auto hx = static_cast<float>(w.hx), hy = static_cast<float>(w.hy);
   const bool upright = __builtin_fabsf(hx) < 1e-6F;
   const float tilt = upright ? 0.0F : hy / hx;
@@ -146,29 +135,12 @@ inline void ranges(const Grid& g, const Work& w, int iy, Ranges& out) {
     hi = clip_row & (hy * y < -cell) ? -1e30F : hi;
     out.first[k] = base + floor_of(bounded(within + lo * inverse - margin));
     out.last[k] = base + floor_of(bounded(within + hi * inverse + margin));
-    // Cells whose centre lies inside.
-    const bool has = any_inner & (inner.lo[k] <= inner.hi[k]);
-    out.inner_first[k] = has ? base + floor_of(bounded(within + inner.lo[k] * inverse + 0.5F + margin)) : 1;
-    out.inner_last[k] = has ? base + floor_of(bounded(within + inner.hi[k] * inverse - 0.5F - margin)) : 0;
     const float h2 = hollow2 - y * y;
     const float h = __builtin_sqrtf(more(0.0F, h2)) - 0.5F * cell;
     const bool empty = (hollow > 0.0F) & (h2 > 0.0F) & (h > 0.0F);
     out.hollow_first[k] = empty ? base + floor_of(bounded(within - h * inverse + margin)) + 1 : 1;
     out.hollow_last[k] = empty ? base + floor_of(bounded(within + h * inverse - margin)) - 1 : 0;
   }
-}
-
-template <bool kArc, Shape kShape>
-inline void part(const Grid& g, const Work& w, const Constants& c, int iy, int first, int last,
-                 int inner_first, int inner_last, Totals& totals) {
-  const int i0 = inner_first > first ? inner_first : first;
-  const int i1 = inner_last < last ? inner_last : last;
-  if (i1 - i0 < kLanes - 1 && (i0 > first || i1 < last)) {
-    return run<kArc, kShape, false>(g, w, c, iy, first, last, totals);
-  }
-  if (i0 > first) run<kArc, kShape, false>(g, w, c, iy, first, i0 - 1, totals);
-  run<kArc, kShape, true>(g, w, c, iy, i0, i1, totals);
-  if (i1 < last) run<kArc, kShape, false>(g, w, c, iy, i1 + 1, last, totals);
 }
 
 template <bool kArc, Shape kShape>
@@ -192,11 +164,11 @@ inline void each_row(const Grid& g, const Work& w, const Constants& c, Totals& t
     if (first > last) continue;
     const int h0 = r.hollow_first[k], h1 = r.hollow_last[k];
     if (h0 > h1 || h1 < first || h0 > last) {
-      part<kArc, kShape>(g, w, c, iy, first, last, r.inner_first[k], r.inner_last[k], totals);
+      run<kArc, kShape>(g, w, c, iy, first, last, totals);
       continue;
     }
-    if (first < h0) part<kArc, kShape>(g, w, c, iy, first, h0 - 1, r.inner_first[k], r.inner_last[k], totals);
-    if (h1 < last) part<kArc, kShape>(g, w, c, iy, h1 + 1, last, r.inner_first[k], r.inner_last[k], totals);
+    if (first < h0) run<kArc, kShape>(g, w, c, iy, first, h0 - 1, totals);
+    if (h1 < last) run<kArc, kShape>(g, w, c, iy, h1 + 1, last, totals);
   }
 }
 
@@ -218,6 +190,12 @@ inline void shaped(const Grid& g, const Work& w, const Constants& c, Totals& tot
       return;
     case Shape::kSlopingBall:
       if constexpr (!kArc) each_row<false, Shape::kSlopingBall>(g, w, c, totals);
+      return;
+    case Shape::kSlopingBull:
+      if constexpr (!kArc) each_row<false, Shape::kSlopingBull>(g, w, c, totals);
+      return;
+    case Shape::kSlopingCone:
+      if constexpr (!kArc) each_row<false, Shape::kSlopingCone>(g, w, c, totals);
       return;
   }
 }
@@ -251,6 +229,16 @@ inline void sweep_rows(const Grid& g, const Work& w, Sums& out) {
   c.length = static_cast<float>(w.length);
   c.radius_squared = radius * radius;
   c.r0 = last.r0;
+  c.disc_squared = last.r0_squared;
+  c.sign = w.slope < 0.0 ? -1.0F : 1.0F;
+  const double steep = __builtin_fabs(w.slope), slant = static_cast<double>(last.slope);
+  c.still = steep < slant ? static_cast<float>(steep / __builtin_sqrt(slant * slant - steep * steep)) : 1e9F;
+  // A place e away costs e^2 / 2 times the curvature, (1 + s^2)^(3/2) / round: 1e-6 mm.
+  const double steeper = 1.0 + steep * steep;
+  const double near = 2e-6 * static_cast<double>(last.radius) / (steeper * __builtin_sqrt(steeper));
+  c.inner_squared = w.inner > 0.0 ? static_cast<float>(w.inner * w.inner) : -1.0F;
+  c.halvings = 1;
+  for (double e = 0.25 * w.length; e * e > near && c.halvings < 24; e *= 0.5) ++c.halvings;
   c.slope = last.slope;
   c.rc = last.rc;
   c.zc = last.zc;
