@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
@@ -234,9 +235,11 @@ class PathMaker {
     }
     const auto feeds = optimise::feeds(fq, *path);
     if (step.open_technology && feeds.worst_excess > kTolerableExcess) {
-      w_.job.warn("PIP-EXCESS", "step '" + name_of(w_, step) +
-                                    "': somewhere along the path a limit is exceeded by " +
-                                    trimmed(100.0 * feeds.worst_excess, 1) + " % even at the least feed");
+      w_.job.warn("PIP-EXCESS",
+                  "step '" + name_of(w_, step) + "': somewhere along the path a limit is exceeded by " +
+                      (std::isfinite(feeds.worst_excess) ? trimmed(100.0 * feeds.worst_excess, 1) + " %"
+                                                         : std::string("what no formula tells")) +
+                      " even at the least feed");
     }
     r.schedule = std::make_shared<const model::FeedSchedule>(feeds.schedule);
     r.loads = feeds.peak;
