@@ -6,7 +6,7 @@
 namespace capstan::verify {
 
 std::string_view property_text(int number) {
-  static constexpr std::array<std::pair<int, std::string_view>, 33> kTexts = {{
+  static constexpr std::array<std::pair<int, std::string_view>, 34> kTexts = {{
       {1, "All numbers are finite."},
       {2, "One length unit, stated once and never switched."},
       {3, "The work offset is explicit and defined."},
@@ -28,6 +28,7 @@ std::string_view property_text(int number) {
       {17, "Torque and power are within the spindle's curve at that speed."},
       {18, "Every feed is above zero and within the limits of machine and tool."},
       {20, "Depth and width of cut are within the tool's limits."},
+      {21, "The tool bends no further than a cut bears."},
       {22, "Axis travel is respected, extrema of arcs included."},
       {23, "Both radii of an arc agree after rounding."},
       {24, "No accidental full or zero-length arc."},

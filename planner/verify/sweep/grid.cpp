@@ -106,9 +106,9 @@ struct Knife {
   double advance;
   int judged = 0;
 
-  /// The chip at a centre that stands `above` the tip and is cut `deep`. `meets(rho)`: cosine between the
-  /// way and the direction from the axis to the centre, both level, as a circle of that radius meets it;
-  /// below 0: it does not, or the cutter stood over it before the move.
+  /// The chip at a centre that stands `above` the tip and of which no more than `deep` is taken.
+  /// `meets(rho)`: cosine between the way and the direction from the axis to the centre, both level, as a
+  /// circle of that radius meets it; below 0: it does not, or the cutter stood over it before the move.
   template <class Meets>
   void chip(int ix, int iy, double above, double deep, const Meets& meets) {
     if (advance <= 0.0 || deep <= 0.0) return;
@@ -228,7 +228,7 @@ void cut_line(Knife& k, const Outline& o, Vec3 a, Vec3 b) {
         // Where the rim of the full radius meets the centre: the tip's height there.
         const double met = along - std::sqrt(std::max(0.0, r * r - off2));
         const double tip = a.z + std::clamp(met / length, 0.0, 1.0) * (b.z - a.z);
-        const double under = std::max(tip, k.grid.base[k.grid.index(ix, iy)]);
+        const double under = std::max(bound, k.grid.base[k.grid.index(ix, iy)]);
         k.chip(ix, iy, stands - tip, stands - under, [&](double rho) {
           if (off2 >= rho * rho) return -1.0;
           const double ahead = std::sqrt(rho * rho - off2);
@@ -272,17 +272,18 @@ void cut_level_arc(Knife& k, const Outline& o, const Move& m) {
       const double stands = k.grid.stock[cell];
       if (stands > m.to.z + o.height(near)) {
         const double away = norm(q);
-        k.chip(ix, iy, stands - m.to.z, stands - std::max(m.to.z, k.grid.base[cell]), [&](double rho) {
-          // The triangle of the arc's centre, the axis and the point: the axis is `early` before it.
-          if (away < 1e-9 || ra < 1e-9) return -1.0;
-          const double c = (away * away + ra * ra - rho * rho) / (2.0 * away * ra);
-          if (c >= 1.0 || c <= -1.0) return -1.0;
-          const double early = std::acos(c);
-          const double met = ahead - early;
-          if (met < -kMetMm / ra || met > sweep) return -1.0;
-          // Way and direction to the point at that time: away sin(early) / rho.
-          return std::min(1.0, away * std::sin(early) / rho);
-        });
+        k.chip(ix, iy, stands - m.to.z, stands - std::max(m.to.z + o.height(near), k.grid.base[cell]),
+               [&](double rho) {
+                 // The triangle of the arc's centre, the axis and the point: the axis is `early` before it.
+                 if (away < 1e-9 || ra < 1e-9) return -1.0;
+                 const double c = (away * away + ra * ra - rho * rho) / (2.0 * away * ra);
+                 if (c >= 1.0 || c <= -1.0) return -1.0;
+                 const double early = std::acos(c);
+                 const double met = ahead - early;
+                 if (met < -kMetMm / ra || met > sweep) return -1.0;
+                 // Way and direction to the point at that time: away sin(early) / rho.
+                 return std::min(1.0, away * std::sin(early) / rho);
+               });
       }
       k.at(ix, iy, m.to.z, m.to.z + o.height(near), near);
     }

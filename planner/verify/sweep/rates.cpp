@@ -12,9 +12,12 @@ using model::CutterClass;
 
 namespace {
 
-constexpr double kMeasured = 1.1;   ///< by which a rate measured on cells may be too large
-constexpr double kTouchMm3 = 1e-6;  ///< less than this is not a cut
-constexpr double kWritten = 0.005;  ///< by which feed and speed may be off through their decimals
+constexpr double kMeasured = 1.1;    ///< by which a rate measured on cells may be too large
+constexpr double kTouchMm3 = 1e-6;   ///< less than this is not a cut
+constexpr double kDeeper = 1.5;      ///< depth over that planned, at most; default, unsourced
+constexpr double kWider = 8.0;       ///< mean section over that planned, at most; default, unsourced
+constexpr double kMostBentMm = 0.2;  ///< of the tip, under the mean force alone; default, unsourced
+constexpr double kWritten = 0.005;   ///< by which feed and speed may be off through their decimals
 
 /// How far the outermost point of the edge goes: on an arc farther than the centre. A volume divided by it is
 /// the least width that can have been cut, whichever side of the arc it lies on.
@@ -36,6 +39,7 @@ void StepChecks::account(const Move& m, const Bite& bite) {
   if (!(length > 0.0) || !(m.feed_mm_min > 0.0)) return;
   if (bite.volume_mm3 <= kTouchMm3) {
     settle();
+    left_ = {};
     return;
   }
   if (sum_.length_mm == 0.0) sum_.where = m.where;
@@ -48,6 +52,39 @@ void StepChecks::account(const Move& m, const Bite& bite) {
   sum_.rpm = rpm;
   sum_.axial = axial;
   if (sum_.length_mm > std::max(2.0, 0.5 * radius_)) settle();
+  if (axial) return;
+  if (left_.edge_mm == 0.0) left_.where = m.where;
+  left_.edge_mm += edge_length(m, radius_);
+  left_.volume_mm3 += bite.volume_mm3;
+  left_.depth_mm = std::max(left_.depth_mm, bite.thickest_mm);
+  if (left_.edge_mm > 2.0 * radius_) planned_section();
+}
+
+// What roughing left falls to finishing, whose cut was chosen for less.
+void StepChecks::planned_section() {
+  const Account a = left_;
+  left_ = {};
+  if (step_.planned == nullptr || works_along_axis(cutter_)) return;
+  const double depth = step_.planned->axial_depth_mm, width = step_.planned->radial_depth_mm;
+  if (!(depth > 0.0) || !(width > 0.0)) return;
+  const double section = a.volume_mm3 / a.edge_mm;
+  const Findings::Where where{step_.order + 1, step_.id, a.where};
+  if (a.depth_mm > kDeeper * depth + 2.0 * grid_.cell()) {
+    out_.error(20, "CHK-DEPTH-LEFT", where,
+               mm(a.depth_mm) + " are cut; the step was planned for a depth of " + mm(depth), a.depth_mm);
+  }
+  if (section > kWider * depth * width) {
+    out_.error(20, "CHK-WIDTH-LEFT", where,
+               "over " + mm(a.edge_mm) + " a section of " + plain(section) +
+                   " mm2 is cut; the step was planned for " + mm(depth) + " x " + mm(width),
+               section);
+  }
+}
+
+double StepChecks::override_most() const {
+  if (cutter_.cutter_class == CutterClass::kTap || cutter_.cutter_class == CutterClass::kThreadMill)
+    return 1.0;
+  return std::max(1.0, plan_.machine.abilities.feed_override_max);
 }
 
 void StepChecks::settle() {
@@ -112,18 +149,45 @@ void StepChecks::power(double volume, double minutes, double chip_mm) {
   const Findings::Where where{step_.order + 1, step_.id, sum_.where};
   const std::string how =
       ": " + plain(volume / minutes) + " mm3/min at kc = " + plain(kc) + " N/mm2, worn edge";
-  if (limit.power_w > 0.0 && power_w > kMeasured * limit.power_w * efficiency) {
-    out_.error(17, "CHK-POWER", where,
-               "cutting asks for " + plain(power_w) + " W of " + plain(limit.power_w * efficiency) +
-                   " W at " + plain(sum_.rpm) + " rpm" + how,
-               power_w);
-  }
-  if (limit.torque_nm > 0.0 && torque_nm > kMeasured * limit.torque_nm * efficiency) {
-    out_.error(17, "CHK-TORQUE", where,
-               "cutting asks for " + plain(torque_nm) + " Nm of " + plain(limit.torque_nm * efficiency) +
-                   " Nm at " + plain(sum_.rpm) + " rpm" + how,
-               torque_nm);
-  }
+  // Written feeds must hold; the operator's override is told apart. h^-mc makes force grow slower than feed.
+  const double up = std::pow(override_most(), 1.0 - w.mc);
+  const auto judge = [&](const char* code, const char* unit, double asked, double gives) {
+    if (!(gives > 0.0)) return;
+    const double most = gives * efficiency;
+    if (up * asked <= kMeasured * most) return;
+    const bool written = asked > kMeasured * most;
+    const std::string text = std::string("cutting asks for ") + plain(written ? asked : up * asked) + unit +
+                             " of " + plain(most) + unit + " at " + plain(sum_.rpm) + " rpm" + how +
+                             (written ? "" : ", the operator's feed override at its most");
+    if (written)
+      out_.error(17, code, where, text, asked);
+    else
+      out_.warn(17, code + std::string("-OVERRIDE"), where, text, asked);
+  };
+  judge("CHK-POWER", " W", power_w, limit.power_w);
+  judge("CHK-TORQUE", " Nm", torque_nm, limit.torque_nm);
+  deflection(up * torque_nm);
+}
+
+// Least bending: the mean tangential force and its radial share at the tip, the neck as thick as the shank.
+void StepChecks::deflection(double torque_nm) {
+  const double flutes = std::min(cutter_.maximum_depth_of_cut_mm, cutter_.stick_out_mm);
+  const double d = cutter_.cutting_diameter_mm, shank = cutter_.shank_diameter_mm;
+  if (works_along_axis(cutter_) || cutter_.cutter_class == CutterClass::kFacemill || sum_.axial) return;
+  if (!(flutes > 0.0) || !(shank > 0.0)) return;
+  const double e = cutter_.substrate == model::Substrate::kHss ? mechanics::kHssYoungsModulusNMm2
+                                                               : mechanics::kCarbideYoungsModulusNMm2;
+  const auto inertia = [](double x) { return std::numbers::pi * std::pow(x, 4) / 64.0; };
+  const double l3 = std::pow(cutter_.stick_out_mm, 3), f3 = std::pow(flutes, 3);
+  const double per_n =
+      (f3 / inertia(mechanics::kFluteEquivalentDiameterRatio * d) + (l3 - f3) / inertia(shank)) / (3.0 * e);
+  const double tangential = 2000.0 * torque_nm / d;
+  const double force = tangential * std::hypot(1.0, mechanics::kRadialToTangentialRatio);
+  if (force * per_n <= kMeasured * kMostBentMm) return;
+  out_.error(21, "CHK-DEFLECTION", {step_.order + 1, step_.id, sum_.where},
+             "a mean force of " + plain(force) + " N (worn edge, feed override) bends the tip by " +
+                 mm(force * per_n) + "; at most " + mm(kMostBentMm),
+             force * per_n);
 }
 
 }  // namespace capstan::verify

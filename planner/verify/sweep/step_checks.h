@@ -33,6 +33,9 @@ class StepChecks {
   [[nodiscard]] double feed_per_tooth(const Move& m) const;
   void chip(const Move& m, double thickest_mm, double fz, geometry::Vec2 where);
   void axial_feed(double fz);
+  void deflection(double torque_nm);
+  void planned_section();
+  [[nodiscard]] double override_most() const;
   void tapping(const Move& m);
   [[nodiscard]] bool hole_tool() const;
   [[nodiscard]] bool in_hole(const Move& m) const;
@@ -57,6 +60,7 @@ class StepChecks {
     bool axial = false;
     long where = -1;
   } sum_;
+  Account left_;  ///< the same for a diameter's way: against what the step was planned to take
 };
 
 /// Largest feed per tooth, or per revolution for tools that work along their axis, mm, with where it is from.
