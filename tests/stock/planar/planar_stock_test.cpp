@@ -137,5 +137,65 @@ TEST(PlanarStock, BadNumbersAreRefusedAndFarAwayMovesAreNothing) {
   EXPECT_FALSE(s.cut(geometry::flat_profile(8.0, 20.0), p));
 }
 
+Trail arc_trail(double from_rad, double turn_rad, double z_from, double z_to, double radius = 5.0) {
+  const Vec2 centre{30.0, 30.0};
+  const auto on = [&](double t) { return centre + 8.0 * Vec2{std::cos(t), std::sin(t)}; };
+  Trail t;
+  t.a = on(from_rad);
+  t.b = on(from_rad + turn_rad);
+  t.za = z_from;
+  t.zb = z_to;
+  t.radius_mm = radius;
+  t.arc = true;
+  t.centre = centre;
+  t.turn_rad = turn_rad;
+  t.settle();
+  return t;
+}
+
+Trail straight_trail(Vec2 a, Vec2 b, double z_from, double z_to, double radius = 5.0) {
+  Trail t;
+  t.a = a;
+  t.b = b;
+  t.za = z_from;
+  t.zb = z_to;
+  t.radius_mm = radius;
+  t.settle();
+  return t;
+}
+
+TEST(TrailCovers, TheTurnAboveTheWayBackAndTheHoleInsideAndNothingThatSticksOut) {
+  const double quarter = 0.5 * std::numbers::pi;
+  const Trail turn = arc_trail(0.3, quarter, -1.0, -1.25);
+  EXPECT_TRUE(arc_trail(0.3, quarter, -2.0, -2.25).covers(turn));
+  EXPECT_TRUE(arc_trail(0.3 + quarter, -quarter, -2.0, -2.25).covers(turn));
+  EXPECT_TRUE(arc_trail(0.3, quarter, -1.25, -1.25).covers(turn));
+  EXPECT_FALSE(arc_trail(0.3, quarter, -1.2, -1.3).covers(turn));        // its floor begins higher
+  EXPECT_FALSE(arc_trail(0.4, quarter, -2.0, -2.25).covers(turn));       // turned on
+  EXPECT_FALSE(arc_trail(0.3, quarter, -2.0, -2.25, 4.9).covers(turn));  // smaller
+  EXPECT_FALSE(straight_trail(turn.a, turn.b, -2.0, -2.0).covers(turn));
+
+  const Trail way = straight_trail({10, 10}, {30, 20}, -0.0, -1.0);
+  EXPECT_TRUE(straight_trail({30, 20}, {10, 10}, -1.0, -2.0).covers(way));
+  EXPECT_FALSE(straight_trail({30, 20}, {10.1, 10}, -1.0, -2.0).covers(way));
+  EXPECT_TRUE(straight_trail({10, 10}, {10, 10}, -3.0, -3.0, 5.0)
+                  .covers(straight_trail({10.9, 10}, {10.9, 10}, -1.0, -1.0, 4.1)));
+  EXPECT_FALSE(straight_trail({10, 10}, {10, 10}, -3.0, -3.0, 5.0)
+                   .covers(straight_trail({11, 10}, {11, 10}, -1.0, -1.0, 4.1)));
+}
+
+TEST(PlanarStockHelix, LeavesTheSameWithTheTurnsAboveItsLastOnesForgotten) {
+  // A bore of four turns: a tile's trails are those of the last turn or two, and the bottom is where it was.
+  auto s = PlanarStock::from_box({{0, 0, -20}, {60, 60, 0}});
+  const double quarter = 0.5 * std::numbers::pi;
+  for (int k = 0; k < 16; ++k) s.take(arc_trail(k * quarter, quarter, -0.5 * k, -0.5 * (k + 1)));
+  for (int k = 0; k < 4; ++k) s.take(arc_trail(k * quarter, quarter, -8.0, -8.0));
+  PlanarStock::Nearby near;
+  s.gather({25, 25}, {50, 35}, near);
+  EXPECT_EQ(near.trails.size(), 4U);
+  // A ring from 3 to 13 mm, 8 deep.
+  EXPECT_NEAR(60.0 * 60.0 * 20.0 - s.volume(1e-7), 8.0 * std::numbers::pi * (13.0 * 13.0 - 9.0), 0.1);
+}
+
 }  // namespace
 }  // namespace capstan::stock
