@@ -104,7 +104,6 @@ std::string keep_able(Work& w, const model::ProposedStep& step, model::Selection
   optimise::Options options;
   options.solver = w.inputs.solver;
   options.backends = w.inputs.backends;
-  if (options.solver == optimise::Solver::kNlopt) options.backends.ipopt = nullptr;  // no time for it here
   options.starts = 1;
   std::vector<model::Candidate> able;
   std::string why;

@@ -3,6 +3,7 @@
 
 #include "casebase/casebase.h"
 #include "planner/base/number.h"
+#include "planner/mechanics/stability.h"
 #include "planner/pipeline/steps.h"
 #include "planner/toolpath/hole/hole_paths.h"
 #include "tooling/select/select.h"
@@ -52,6 +53,30 @@ double tolerance_of(const Work& w, const StepWork& step, const model::FeatureSha
     }
   }
   return 0.0;
+}
+
+/// What is asked of the surfaces that a finishing step leaves; a step that leaves material is asked nothing.
+///
+/// Where the wall's own error can be told, it is what the tolerance is shared with, and the tip's bending
+/// keeps to what runs quietly: most of it is along the wall, or while no tooth is at it.
+void hold_quality(const Work& w, const StepWork& step, const toolpath::PathJob& job,
+                  optimise::CutQuestion& q) {
+  const Model& m = w.plan.model;
+  const bool floor = job.allowance_bottom_mm > 0.0;
+  const bool wall = job.allowance_side_mm > 0.0;
+  const bool finishes = m.holds<model::PlaneFinishMilling>(step.operation) ||
+                        m.holds<model::SideFinishMilling>(step.operation) ||
+                        m.holds<model::BottomAndSideFinishMilling>(step.operation) ||
+                        m.holds<model::FreeformFinishMilling>(step.operation);
+  const auto asked = w.qualities.find(step.feature);
+  if (finishes && !(floor && wall) && asked != w.qualities.end())
+    q.surface_ra_um = asked->second.ra_um.value_or(0.0);
+  const bool upright = step.cutter.cutter_class == model::CutterClass::kEndmill ||
+                       step.cutter.cutter_class == model::CutterClass::kBullnoseEndmill;
+  if (q.kind != CutKind::kFinish || wall || !upright || m.holds<model::FreeformFinishMilling>(step.operation))
+    return;
+  q.wall_error_limit_mm = q.deflection_limit_mm;
+  q.deflection_limit_mm = std::max(q.deflection_limit_mm, mechanics::kQuietDeflectionMm);
 }
 
 /// The widest cut that the feature offers: a slot's width, a pocket's narrower side.
@@ -230,6 +255,7 @@ optimise::CutQuestion question_of(const Work& w, const StepWork& step, const mod
                     step.cutter.cutter_class == model::CutterClass::kCountersink;
   // A broken edge: as wide as it is deep.
   if (cone && q.kind == CutKind::kFinish && q.ap_mm) q.width_mm = std::max(0.05, *q.ap_mm);
+  hold_quality(w, step, job, q);
   q.override_locked = override_locked(w, step);
   if (!step.open_technology) {
     const auto given = given_technology(m, step.operation, step.cutter);

@@ -62,6 +62,12 @@ std::string rpm_text(double rpm) {
   return out + " rpm";
 }
 
+/// Whether a limit is one that somebody states: plans of other programs may write a huge number, or infinity.
+bool is_stated(double limit) {
+  constexpr double kNobodyStates = 1e12;
+  return std::isfinite(limit) && std::abs(limit) < kNobodyStates;
+}
+
 std::string seconds_saved(double saves_s) {
   return saves_s < 0.05 ? std::string("less than 0.1 s") : duration(saves_s);
 }
@@ -70,6 +76,7 @@ std::string seconds_saved(double saves_s) {
 void limits(const model::StepResult* result, const std::string& indent, std::string& out) {
   if (result == nullptr) return;
   for (const auto& c : result->active) {
+    if (!is_stated(c.limit)) continue;
     out += indent + "limited by " + plain_name(c.name);
     if (c.at_rpm > 0.0) out += " at " + rpm_text(c.at_rpm);
     out += ": " + trimmed(c.value, kDecimals) + " of " + trimmed(c.limit, kDecimals) +
@@ -94,7 +101,8 @@ void along_the_path(const model::StepResult& result, std::string& out) {
   for (const auto& h : result.held_by) {
     const double percent = 100.0 * h.share;
     std::string limit;
-    if (h.limit > 0.0) limit = trimmed(h.limit, kDecimals) + (h.unit.empty() ? "" : " " + h.unit);
+    if (h.limit > 0.0 && is_stated(h.limit))
+      limit = trimmed(h.limit, kDecimals) + (h.unit.empty() ? "" : " " + h.unit);
     rows.push_back({(percent < 0.1 ? "less than 0.1" : trimmed(percent, 1)) + " % of the time",
                     "held by " + plain_name(h.name), limit,
                     h.saves_s > 0.0 ? "10 % more would save " + seconds_saved(h.saves_s) : ""});
@@ -388,7 +396,7 @@ Result<std::string> explain(const Plan& plan, std::string_view step) {
     const auto& loads = v->result->loads;
     const bool cuts = !v->result->cutter_id.empty() && v->result->path && v->result->cutting_s > 0.0;
     if (cuts && v->result->active.empty() && loads.torque_nm == 0.0 && loads.peak_force_n == 0.0)
-      out += "\nno loads and limits here: a plan keeps them in its JSON, Part 21 files do not\n";
+      out += "\nno loads and limits here: the file was written before it could keep them, or the step is as given\n";
   }
   for (const StepPart& part : v->parts) part_text(plan, *v, part, out);
   return out;

@@ -186,6 +186,7 @@ std::vector<Held> held_by(const CutQuestion& q, const Solved& s, const CutAnswer
                                     [&](const LimitOfCut& k) { return l.name == k.name; });
       auto i = static_cast<std::size_t>(at - kLimitsOfCut.begin());
       if (l.name == "spindle_power" && short_of_torque(q, a.n_rpm)) i = 1;
+      if (!m[i].stated()) continue;
       c.name = kLimitsOfCut[i].name;
       c.unit = kLimitsOfCut[i].unit;
       c.value = m[i].value;
@@ -347,9 +348,11 @@ Result<Level> best_level(const CutQuestion& q, const Options& options, Job& job)
   for (int levels = fewest; static_cast<int>(tried.size()) < kMostTries;
        levels = std::max(levels + 1, static_cast<int>(1.3 * levels))) {
     if (levels > kMostLevels || (best && depth / levels < kThinnestMm)) break;
-    // Thinner levels only lower what could be removed at most.
+    // Thinner levels only lower what could be removed at most; but a deep slot is cut slower.
     const Search search(q, depth / levels);
-    if (best && best->answer.feasible && objective_without_edges(q, search.fastest()) >= least) break;
+    const bool slower = q.slot && depth / levels > kFullFeedSlotRatio * q.cutter.cutting_diameter_mm;
+    if (best && best->answer.feasible && !slower && objective_without_edges(q, search.fastest()) >= least)
+      break;
     const auto better_one = improves(levels);
     if (!better_one) return tl::unexpected(better_one.error());
     tried.insert(levels);

@@ -97,11 +97,16 @@ double deepest_level(const CutQuestion& q) {
                     ? q.cutter.maximum_depth_of_cut_mm * ease_of(q, "cutting_length")
                     : d;
   double level = most;
-  // A rough level no deeper than the diameter (a slot: half of it); default, unsourced.
-  if (q.kind == CutKind::kRough) level = std::min(level, q.slot ? 0.5 * d : d);
+  if (q.kind == CutKind::kRough) level = std::min(level, mechanics::kDeepestSlotRatio * d);
   if (q.ap_most_mm > 0.0) level = std::min(level, q.ap_most_mm);
   level = std::min(level * ease_of(q, "level_depth"), slender_depth(q) * ease_of(q, "stable_depth"));
   return std::min(most, level);
+}
+
+double deep_slot_share(double ap, double d) {
+  if (!(ap > 0.0) || !(d > 0.0)) return 1.0;
+  const double deep = (ap / d - kFullFeedSlotRatio) / (mechanics::kDeepestSlotRatio - kFullFeedSlotRatio);
+  return 1.0 - (1.0 - kDeepestSlotShare) * std::clamp(deep, 0.0, 1.0);
 }
 
 Measures measures(const CutQuestion& q, const model::StepLoads& l, double ap, double n, double feed) {
@@ -117,7 +122,10 @@ Measures measures(const CutQuestion& q, const model::StepLoads& l, double ap, do
   if (mills) {
     m[2] = {l.deflection_mm, deflection_limit(q)};
     // A catalogue's feed is along the feed: with a lead angle its chip is thinner from the start.
-    if (largest_fz(q) > 0.0) m[3] = {l.chip_thickness_mm, largest_fz(q) * std::cos(q.cutter.lead_angle_rad)};
+    const double slot =
+        q.kind == CutKind::kRough && q.slot ? deep_slot_share(ap, q.cutter.cutting_diameter_mm) : 1.0;
+    if (largest_fz(q) > 0.0)
+      m[3] = {l.chip_thickness_mm, slot * largest_fz(q) * std::cos(q.cutter.lead_angle_rad)};
     if (q.wall_error_limit_mm > 0.0) m[4] = {std::abs(l.wall_error_mm), q.wall_error_limit_mm};
     if (q.surface_ra_um > 0.0)
       m[5] = {1000.0 * kRoughnessOverGeometry * mechanics::kArcRaOverRz * l.surface_rz_mm, q.surface_ra_um};

@@ -90,7 +90,18 @@ struct Range {
 /// for what the rule does not speak of (finishing, given depths, drills).
 [[nodiscard]] double slender_depth(const CutQuestion& q);
 
-/// Depth of a level at most.
+/// Depth of a level at most. A rough one: mechanics::kDeepestSlotRatio diameters, sourced there for slots and
+/// taken for wider cuts, too, whose ways begin and end in slots.
 [[nodiscard]] double deepest_level(const CutQuestion& q);
+
+/// Depth of a slot, in diameters, up to which speed and feed are those of the table, and what remains of each
+/// at mechanics::kDeepestSlotRatio; between the two linear (derived).
+/// Source    Dormer Pramet, milling catalogue 2021-22, p. 114, correction factors: 0.5 D at full speed and
+///           feed, 1.5 D at half.
+inline constexpr double kFullFeedSlotRatio = 0.5;
+inline constexpr double kDeepestSlotShare = 0.5;
+
+/// Share of the table's speed, and of its feed, in a slot of this depth; 1 where nothing is known.
+[[nodiscard]] double deep_slot_share(double ap_mm, double diameter_mm);
 
 }  // namespace capstan::optimise

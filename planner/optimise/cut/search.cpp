@@ -47,7 +47,9 @@ void Search::add_speed() {
     n_fixed_ = *q_.n_rpm;
     return;
   }
-  const double table = q_.vc_start_m_min / speed_of(1.0) * ease_of(q_, kSpeed);
+  const double slot =
+      q_.kind == CutKind::kRough && q_.slot ? deep_slot_share(ap_, q_.cutter.cutting_diameter_mm) : 1.0;
+  const double table = slot * q_.vc_start_m_min / speed_of(1.0) * ease_of(q_, kSpeed);
   Range rpm = speeds(q_);
   rpm.lo /= ease_of(q_, "spindle_speed_least");
   rpm.hi *= ease_of(q_, "spindle_speed_most");

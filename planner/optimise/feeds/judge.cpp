@@ -73,7 +73,17 @@ Cuts cuts_of(const CutSample& sample, const model::Cutter& cutter) {
     Cut c = exit > entry ? Cut{.ap_mm = ap, .entry_rad = entry, .exit_rad = exit}
                          : trimmed_arc(ap, ae, s, diameter);
     c.csa_mm2 = area;
+    const double strip = width_of(c.entry_rad, c.exit_rad, diameter);
+    if (area >= kWhole * ap * strip) {
+      out.cut[out.n++] = c;
+      return out;
+    }
+    // As deep, a band along the edge; as wide, a layer.
+    Cut layer = c;
+    layer.ap_mm = area / strip;
+    c.band_mm = area / ap;
     out.cut[out.n++] = c;
+    out.cut[out.n++] = layer;
     return out;
   }
   if (s.csa_mm2 > 0.0 && s.csa_mm2 < kWhole * ap * ae) {
@@ -116,6 +126,12 @@ Judge::Judge(const FeedQuestion& question, double n_rpm)
   floor_ = kLeastFeedShare * nominal;
 }
 
+double Judge::slot_share(const Cut& cut) const {
+  constexpr double kWholeArc = 0.95 * pi;  // as wide as 0.994 D
+  const bool slot = q_.kind == CutKind::kRough && cut.exit_rad - cut.entry_rad >= kWholeArc;
+  return slot ? deep_slot_share(cut.ap_mm, q_.cutter.cutting_diameter_mm) : 1.0;
+}
+
 double Judge::surface_um(double fz) const {
   const double wall = mechanics::wall_rz_mm(fz, q_.cutter.cutting_diameter_mm);
   const double corner = q_.cutter.corner_radius_mm;
@@ -127,7 +143,7 @@ std::optional<double> Judge::wall_mm(const mechanics::Section& section, double f
   double worst = 0.0;
   constexpr double kReaches = 1e-9;
   mechanics::Section to_wall = section;
-  to_wall.csa_mm2 = 0.0;
+  to_wall.csa_mm2 = to_wall.band_mm = 0.0;
   // A corner or ball that is not in with its full radius touches the wall with what is in.
   const double top =
       mechanics::effective_diameter_mm(section.ap_mm, tooth_.cutting_diameter_mm, tooth_.corner_radius_mm);
@@ -149,8 +165,10 @@ std::optional<double> Judge::wall_mm(const mechanics::Section& section, double f
 
 std::optional<State> Judge::at(const Cut& cut, double feed) const {
   const double fz = feed / (n_ * tooth_.teeth) * cut.gain;
-  const mechanics::Section section{
-      .ap_mm = cut.ap_mm, .arc = {cut.entry_rad, cut.exit_rad}, .csa_mm2 = cut.csa_mm2};
+  const mechanics::Section section{.ap_mm = cut.ap_mm,
+                                   .arc = {cut.entry_rad, cut.exit_rad},
+                                   .csa_mm2 = cut.csa_mm2,
+                                   .band_mm = cut.band_mm};
   const auto l = mechanics::section_loads(section, tooth_, law_, up_ * fz, n_);
   if (!l) return std::nullopt;
   State s;
@@ -161,7 +179,7 @@ std::optional<State> Judge::at(const Cut& cut, double feed) const {
             force * compliance_,
             l->torque_nm * margin_,
             l->power_w * margin_,
-            planned_chip_mm(section, tooth_, law_, up_ * fz, up_, n_, l->h_max_mm),
+            planned_chip_mm(section, tooth_, law_, up_ * fz, up_, n_, l->h_max_mm) / slot_share(cut),
             surface_um(fz),
             0.0};
   if (!beam_.segments.empty()) {

@@ -27,6 +27,7 @@ using Column = std::array<double, kLimits>;  ///< loads or limits, in the order 
 struct Cut {
   double ap_mm = 0.0, entry_rad = 0.0, exit_rad = 0.0, gain = 1.0;
   double csa_mm2 = 0.0;  ///< measured area; 0: depth times width
+  double band_mm = 0.0;  ///< as mechanics::Section's
 };
 
 /// One or two: a section that is no rectangle (a wall and a floor at once) counts as two of its area, as deep
@@ -64,6 +65,8 @@ class Judge {
 
  private:
   [[nodiscard]] double surface_um(double fz_mm) const;
+  /// What remains of the largest chip in a deep slot.
+  [[nodiscard]] double slot_share(const Cut& cut) const;
   [[nodiscard]] std::optional<double> wall_mm(const mechanics::Section& section, double fz_mm) const;
 
   const CutQuestion& q_;

@@ -46,8 +46,6 @@ struct Cuts::Known {
 Cuts::Cuts(Work& w) : w_(w), known_(std::make_unique<Known>()) {
   options_.solver = w.inputs.solver;
   options_.backends = w.inputs.backends;
-  // Ipopt has no bound that weak spindles do not reach: it serves who asks for it.
-  if (options_.solver == optimise::Solver::kNlopt) options_.backends.ipopt = nullptr;
   options_.starts = 2;
   options_.relative_tolerance = 1e-7;
 }
