@@ -14,16 +14,13 @@ struct Totals {
   double volume[kLanes] = {}, x[kLanes] = {}, y[kLanes] = {};
   /// Extremes of contact over narrow bins of X: as wide as the cells of a row are apart in X, so that the
   /// cells of a block go to neighbouring bins at once. Bins count from -R, from +R where X falls along rows.
-  /// Two sets, taken in turns: a block need not wait for what its neighbour has just written beside it.
-  float low[2][kFine], high[2][kFine];
+  float low[kFine], high[kFine];
   int blocks = 0;
 
   explicit Totals(int bins) {
     for (int b = 0; b < bins; b += kLanes) {
-      for (int set = 0; set < 2; ++set) {
-        Float(1e30F).put(low[set] + b);
-        Float(-1e30F).put(high[set] + b);
-      }
+      Float(1e30F).put(low + b);
+      Float(-1e30F).put(high + b);
     }
   }
   /// Single precision adds up a limited number of cells only.
@@ -37,19 +34,15 @@ struct Totals {
     v = vx = vz = 0.0F;
   }
   /// Narrow bins become those of the section.
-  void gather(int bins, float per_bin, bool falling, Sums& out) {
+  void gather(int bins, float per_bin, bool falling, Sums& out) const {
     const float each = 1.0F / per_bin;
-    for (int b = 0; b < bins; b += kLanes) {
-      smaller(Float::at(low[0] + b), Float::at(low[1] + b)).put(low[0] + b);
-      greater(Float::at(high[0] + b), Float::at(high[1] + b)).put(high[0] + b);
-    }
     int i = 0;
     for (int nth = 0; nth < kBins; ++nth) {
       const int end = nth < kBins - 1 ? static_cast<int>(static_cast<float>(nth + 1) * each) : bins;
       float l = 1e30F, h = -1e30F;
       for (; i < end && i < bins; ++i) {
-        l = low[0][i] < l ? low[0][i] : l;
-        h = high[0][i] > h ? high[0][i] : h;
+        l = low[i] < l ? low[i] : l;
+        h = high[i] > h ? high[i] : h;
       }
       const int b = falling ? kBins - 1 - nth : nth;
       out.low[b] = l;
@@ -364,8 +357,8 @@ CAPSTAN_INLINE void add(const Constants& c, Float across, const Chips& chips, To
     lowest.put(bottom);
     highest.put(top);
     for (int k = 0; k < kLanes; ++k) {
-      float& low = totals.low[0][bin[k]];
-      float& high = totals.high[0][bin[k]];
+      float& low = totals.low[bin[k]];
+      float& high = totals.high[bin[k]];
       low = bottom[k] < low ? bottom[k] : low;
       high = top[k] > high ? top[k] : high;
     }
@@ -373,9 +366,8 @@ CAPSTAN_INLINE void add(const Constants& c, Float across, const Chips& chips, To
     const float place = (across.p[0][0] * c.bin_sign + c.bin_shift) * c.bin_scale;
     const int nth = place > 0.0F ? static_cast<int>(place) : 0;
     const int bin = nth < c.bins - kLanes ? nth : c.bins - kLanes;
-    const int set = totals.blocks % 2;
-    float* const low = totals.low[set] + bin;
-    float* const high = totals.high[set] + bin;
+    float* const low = totals.low + bin;
+    float* const high = totals.high + bin;
     smaller(lowest, Float::at(low)).put(low);
     greater(highest, Float::at(high)).put(high);
   }
