@@ -81,6 +81,7 @@ Section side_section(double ap_mm, double ae_mm, const Tooth& tooth, CutDirectio
     s.arc = {0.0, std::numbers::pi};
     return s;
   }
+  s.band_mm = width;
   // The pass before stands ae away: the two corners meet half way, the flanks a whole step.
   const double outer = std::min(widest / d, 1.0);
   const double inner =

@@ -47,11 +47,18 @@ double largest_sine(double from, double to) {
   return std::max(std::sin(from), std::sin(to));
 }
 
-void add(Pieces& all, Piece p, const ImmersionArc& arc, double full_radius) {
+void add(Pieces& all, Piece p, const ImmersionArc& arc, double band, double full_radius) {
   if (!(p.depth > 0.0) || !(p.radius > 0.0)) return;
   p.from = arc.entry_rad;
   p.to = arc.exit_rad;
-  if (p.radius < full_radius) {
+  if (band > 0.0) {
+    const bool left = arc.entry_rad + arc.exit_rad < kPi;
+    const double wide = 2.0 * p.radius;
+    const ImmersionArc own =
+        immersion_arc(std::min(band, wide), wide, left ? CutDirection::kUp : CutDirection::kDown);
+    p.from = own.entry_rad;
+    p.to = own.exit_rad;
+  } else if (p.radius < full_radius) {
     const double k = full_radius / p.radius;
     p.from = std::acos(std::clamp(k * std::cos(arc.entry_rad), -1.0, 1.0));
     p.to = std::acos(std::clamp(k * std::cos(arc.exit_rad), -1.0, 1.0));
@@ -71,7 +78,7 @@ constexpr std::array<double, kCorner> kNode = {-0.8611363115940526, -0.339981043
 constexpr std::array<double, kCorner> kWeight = {0.3478548451374538, 0.6521451548625461, 0.6521451548625461,
                                                  0.3478548451374538};
 
-Pieces pieces_of(const Section& s, const ImmersionArc& arc, double ap, const Tooth& tooth) {
+Pieces pieces_of(const Section& s, const ImmersionArc& arc, double ap, const Tooth& tooth, double band) {
   Pieces out;
   const double full = 0.5 * tooth.cutting_diameter_mm;
   const double corner = std::min(tooth.corner_radius_mm, full);
@@ -94,7 +101,7 @@ Pieces pieces_of(const Section& s, const ImmersionArc& arc, double ap, const Too
       p.lag_low = lag_per_mm * (z - low);
       z += p.depth;
       p.lag_high = lag_per_mm * (z - low);
-      add(out, p, arc, full);
+      add(out, p, arc, band, full);
     }
   }
   const double flank_low = std::max(low, corner);
@@ -108,7 +115,7 @@ Pieces pieces_of(const Section& s, const ImmersionArc& arc, double ap, const Too
     p.radius = full + (0.5 * (flank_low + high) - corner) * std::tan(lean);
     p.lag_low = lag_per_mm * (flank_low - low);
     p.lag_high = lag_per_mm * (high - low);
-    add(out, p, arc, full);
+    add(out, p, arc, band, full);
   }
   return out;
 }
@@ -360,7 +367,7 @@ Contact contact_of(const Section& s, double d) {
 /// radius, and meets less than its area where it reaches a part: there the strip is widened, first towards
 /// the axis, until the edge sweeps the area that is known to be removed.
 Pieces met_by(const Section& s, const Contact& c, const Tooth& tooth) {
-  Pieces all = pieces_of(s, c.arc, c.ap, tooth);
+  Pieces all = pieces_of(s, c.arc, c.ap, tooth, s.band_mm);
   const double full = 0.5 * tooth.cutting_diameter_mm;
   const double corner = std::min(tooth.corner_radius_mm, full);
   if (!(corner > 0.0)) return all;
@@ -373,14 +380,15 @@ Pieces met_by(const Section& s, const Contact& c, const Tooth& tooth) {
   // Ends of the strip across the feed, positive to the left.
   double left = std::clamp(full * std::cos(c.arc.entry_rad), -reach, reach);
   double right = std::clamp(full * std::cos(c.arc.exit_rad), -reach, reach);
-  const auto between = [&](double l, double r) {
-    return pieces_of(s, {std::acos(std::min(l / full, 1.0)), std::acos(std::max(r / full, -1.0))}, c.ap,
-                     tooth);
+  double band = s.band_mm;
+  const auto between = [&] {
+    const ImmersionArc arc{std::acos(std::min(left / full, 1.0)), std::acos(std::max(right / full, -1.0))};
+    return pieces_of(s, band > 0.0 ? c.arc : arc, c.ap, tooth, band);
   };
   const auto move = [&](double& end, double most) {
     const double from = end;
     end = most;
-    all = between(left, right);
+    all = between();
     if (all.area < wanted) return false;
     double enough = 1.0;
     double less = 0.0;
@@ -388,13 +396,17 @@ Pieces met_by(const Section& s, const Contact& c, const Tooth& tooth) {
     for (int i = 0; i < kHalvings; ++i) {
       const double t = 0.5 * (less + enough);
       end = from + t * (most - from);
-      Pieces p = between(left, right);
+      Pieces p = between();
       (p.area >= wanted ? enough : less) = t;
       if (p.area >= wanted) all = p;
     }
     end = from + enough * (most - from);
     return true;
   };
+  if (band > 0.0) {
+    move(band, 2.0 * reach);
+    return all;
+  }
   const bool leans_left = left + right >= 0.0;
   if (!move(leans_left ? right : left, leans_left ? -reach : reach))
     move(leans_left ? left : right, leans_left ? reach : -reach);
@@ -420,9 +432,9 @@ Status check_section(const Section& s, const Tooth& t, const ForceLaw& law, doub
                                 {"teeth", static_cast<double>(t.teeth)}});
       !ok)
     return ok;
-  for (const Named& v :
-       {Named{"ap_mm", s.ap_mm}, Named{"csa_mm2", s.csa_mm2}, Named{"from_tip_mm", s.from_tip_mm},
-        Named{"corner_radius_mm", t.corner_radius_mm}, Named{"runout_mm", t.runout_mm}})
+  for (const Named& v : {Named{"ap_mm", s.ap_mm}, Named{"csa_mm2", s.csa_mm2},
+                         Named{"from_tip_mm", s.from_tip_mm}, Named{"band_mm", s.band_mm},
+                         Named{"corner_radius_mm", t.corner_radius_mm}, Named{"runout_mm", t.runout_mm}})
     if (auto ok = check_range(v, 0.0, kMost); !ok) return ok;
   if (auto ok = check_range({"helix_rad", std::abs(t.helix_rad)}, 0.0, kSteepestHelixRad); !ok) return ok;
   if (auto ok = check_range({"lead_angle_rad", t.lead_angle_rad + t.taper_angle_rad}, 0.0, kFlattestLeadRad);

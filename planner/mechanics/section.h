@@ -21,6 +21,9 @@ struct Section {
   ImmersionArc arc = {};     ///< at the cutter's full radius; a plunge: 0 .. 2 pi
   double csa_mm2 = 0.0;      ///< removed volume per length of path; 0: depth times the width of the arc
   double from_tip_mm = 0.0;  ///< height of the contact's lower end above the tip
+  /// > 0: at each height the material is this wide, from the edge's own radius there inwards, on the side to
+  /// which the arc leans; as a pass leaves it that an equal one has passed this far away. 0: the arc's strip.
+  double band_mm = 0.0;
 };
 
 /// What cuts, at which feed and speed.
@@ -73,8 +76,8 @@ inline constexpr double kIrregular = 0.05;
 /// summed over teeth and along the edge, which lags by 2 z tan(helix) / D. Below the full radius (corner,
 /// ball) the arc is the part of the given strip that this radius reaches; above it (lead, taper) the given
 /// arc. Where corner or ball reach less of the strip than csa says, the strip is widened, towards the axis
-/// first, until the edge sweeps that area; so is a strip that they do not reach at all (without csa: to depth
-/// times width).
+/// first, until the edge sweeps that area (a band likewise); so is a strip that they do not reach at all
+/// (without csa: to depth times width).
 ///
 /// Power     of a section with an area is never below the law's force at the whole feed times that area:
 ///           Ktc csa v_f, or kc1.1 fz^-mc csa v_f.

@@ -76,13 +76,16 @@ Page& Book::page(const Cut& cut, double n_rpm) {
   const long area =
       cut.csa_mm2 > 0.0 ? static_cast<long>(std::ceil(std::log(cut.csa_mm2) / kDepthStep - 1e-9)) : kNoArea;
   const long gain = static_cast<long>(std::ceil(std::log(std::max(cut.gain, 1.0)) / kGainStep - 1e-9));
-  const Key key{n_rpm, depth, sweep_class, entry_class, area, gain};
+  const long band =
+      cut.band_mm > 0.0 ? static_cast<long>(std::ceil(std::log(cut.band_mm) / kDepthStep - 1e-9)) : kNoArea;
+  const Key key{n_rpm, depth, sweep_class, entry_class, area, gain, band};
   if (last_ != nullptr && key == last_key_) return *last_;
   auto it = pages_.find(key);
   if (it == pages_.end()) {
     Page p;
     p.cut.ap_mm = std::exp(kDepthStep * static_cast<double>(depth));
     if (area != kNoArea) p.cut.csa_mm2 = std::exp(kDepthStep * static_cast<double>(area));
+    if (band != kNoArea) p.cut.band_mm = std::exp(kDepthStep * static_cast<double>(band));
     p.gain = std::exp(kGainStep * static_cast<double>(gain));
     p.cut.entry_rad = std::min(static_cast<double>(entry_class) * entry_step, cut.entry_rad);
     p.cut.exit_rad = std::min(p.cut.entry_rad + swept, std::max(pi, cut.exit_rad));

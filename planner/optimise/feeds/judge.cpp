@@ -171,6 +171,14 @@ std::optional<State> Judge::at(const Cut& cut, double feed) const {
                                    .band_mm = cut.band_mm};
   const auto l = mechanics::section_loads(section, tooth_, law_, up_ * fz, n_);
   if (!l) return std::nullopt;
+  double chip = planned_chip_mm(section, tooth_, law_, up_ * fz, up_, n_, l->h_max_mm);
+  if (cut.band_mm > 0.0) {
+    // How the area lies in the strip is not known: the chip is that of the front, wherever the arc has it.
+    const mechanics::Section strip{.ap_mm = section.ap_mm, .arc = section.arc};
+    const auto whole = mechanics::section_loads(strip, tooth_, law_, up_ * fz, n_);
+    if (!whole) return std::nullopt;
+    chip = std::max(chip, planned_chip_mm(strip, tooth_, law_, up_ * fz, up_, n_, whole->h_max_mm));
+  }
   State s;
   s.raw = *l;
   const double force = l->peak_force_n * margin_;
@@ -179,7 +187,7 @@ std::optional<State> Judge::at(const Cut& cut, double feed) const {
             force * compliance_,
             l->torque_nm * margin_,
             l->power_w * margin_,
-            planned_chip_mm(section, tooth_, law_, up_ * fz, up_, n_, l->h_max_mm) / slot_share(cut),
+            chip / slot_share(cut),
             surface_um(fz),
             0.0};
   if (!beam_.segments.empty()) {
