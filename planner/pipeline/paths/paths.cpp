@@ -230,6 +230,15 @@ class PathMaker {
     r.active = active_of(made.answer);
     if (auto m = measured(w_, step, *path, stocks_)) {
       fq.samples = samples_of(*m);
+      // One pass over a surface, not levels: as deep and as wide as what roughing left there.
+      if (w_.plan.model.holds<model::FreeformFinishMilling>(step.operation)) {
+        for (const optimise::CutSample& sample : fq.samples) {
+          if (sample.plunge) continue;
+          const double ae = std::min(sample.ae_mm, step.cutter.cutting_diameter_mm);
+          r.axial_depth_mm = std::max(r.axial_depth_mm, sample.ap_mm);
+          r.radial_depth_mm = std::max(r.radial_depth_mm, ae);
+        }
+      }
       optimise::split_moves(fq, *path, &m->sections);
       r.sections = std::make_shared<const model::SectionSeries>(std::move(m->sections));
     }
