@@ -154,9 +154,9 @@ const Case kCases[] = {
      [] {
        return roughed({4, 8, 12, 14.5}, along_wall(15), 4, 3200);
      }},
-    {"AThinCutAtAThirdMore", "CHK-FEED-TOOL",
+    {"AThinCutAtATenthMore", "CHK-FEED-TOOL",
      [] {
-       return roughed({4, 8, 12, 14.5}, along_wall(15), 4, 2200);
+       return roughed({4, 8, 12, 14.5}, along_wall(15), 4, 1820);
      }},
     {"AFullWidthCutAtItsFeedIsRight", "",
      [] {
@@ -176,6 +176,8 @@ const Case kCases[] = {
      }},
     {"ASliverInTheMiddleAtTheChipsFeedIsRight", "", [] { return with_rib(0.3, 700); }},
     {"ASliverInTheMiddleAtTwiceIt", "CHK-FEED-TOOL", [] { return with_rib(0.3, 1440); }},
+    {"ASliverBetweenTwoRowsOfCellsAtTheChipsFeedIsRight", "", [] { return with_rib(0.1, 700); }},
+    {"ASliverBetweenTwoRowsOfCellsAtTwiceIt", "CHK-FEED-TOOL", [] { return with_rib(0.1, 1440); }},
     {"AFinishingPassThatFindsItsAllowanceIsRight", "",
      [] {
        PlanMaker k = roughed({4, 8, 12, 14.7}, along_wall(15), 0, 0);

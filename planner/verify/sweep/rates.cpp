@@ -123,6 +123,17 @@ void StepChecks::axial_feed(double fz) {
              feed);
 }
 
+// A feed that no square cut would bear is right where the cut is thin: whether it is, cells may be too far
+// apart to show.
+void StepChecks::chips(const Move& m, const Bite& bite, double fz) {
+  chip(m, bite.chip_mm, fz, bite.chip_at);
+  const double most = feed_limit(cutter_).mm * (1.0 + kWritten);
+  if (works_along_axis(cutter_) || fz <= most || bite.chip_mm > most || looks_ <= 0) return;
+  if (std::min(m.from.z, m.to.z) >= grid_.top()) return;
+  const Bite closer = past_.look(grid_, m, profile_, fz, looks_);
+  chip(m, closer.chip_mm, fz, closer.chip_at);
+}
+
 void StepChecks::chip(const Move& m, double thickest_mm, double fz, Vec2 where) {
   const FeedLimit limit = feed_limit(cutter_);
   if (limit.per_revolution || thickest_mm <= limit.mm * (1.0 + kWritten)) return;

@@ -83,18 +83,20 @@ bool cuts_to_centre(const model::Cutter& c) {
 
 }  // namespace
 
-StepChecks::StepChecks(const model::Plan& plan, const StepMoves& step, Grid& grid, Target& target,
+StepChecks::StepChecks(const model::Plan& plan, const StepMoves& step, Grid& grid, Target& target, Past& past,
                        Findings& findings)
     : plan_(plan),
       step_(step),
       cutter_(*step.cutter),
       grid_(grid),
       target_(target),
+      past_(past),
       out_(findings),
       profile_(model::profile_of(*step.cutter)),
       body_(body_of(*step.cutter)),
       radius_(profile_.radius_mm),
-      tip_mm_(model::tip_length(*step.cutter)) {
+      tip_mm_(model::tip_length(*step.cutter)),
+      kept_profile_(std::make_shared<const geometry::CutterProfile>(profile_)) {
   constexpr double kThicker = 0.02;  // mm: what is no thicker follows where the cutter has been
   std::erase_if(body_, [&](const BodyPart& p) {
     return p.what == BodyPart::What::kCutter || p.radius_mm <= radius_ + kThicker;
@@ -168,7 +170,8 @@ void StepChecks::feed(const Move& m) {
   const double allowed = target_.allowed();
   const double fz = feed_per_tooth(m);
   const Bite bite = cut(grid_, m, profile_, judge_gouge_ ? allowed : 1e300, &target_, fz);
-  chip(m, bite.chip_mm, fz, bite.chip_at);
+  chips(m, bite, fz);
+  past_.add(m, kept_profile_);
   if (judge_gouge_) gouge(m, bite);
   spindle(m, bite);
   reach(m);

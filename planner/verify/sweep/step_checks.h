@@ -1,11 +1,13 @@
 #pragma once
 
+#include <memory>
 #include <string>
 
 #include "planner/model/plan.h"
 #include "planner/verify/findings.h"
 #include "planner/verify/moves.h"
 #include "planner/verify/sweep/grid.h"
+#include "planner/verify/sweep/past.h"
 #include "planner/verify/sweep/target.h"
 #include "planner/verify/sweep/tool_body.h"
 
@@ -14,7 +16,8 @@ namespace capstan::verify {
 /// The checks of one step's moves while they cut.
 class StepChecks {
  public:
-  StepChecks(const model::Plan& plan, const StepMoves& step, Grid& grid, Target& target, Findings& findings);
+  StepChecks(const model::Plan& plan, const StepMoves& step, Grid& grid, Target& target, Past& past,
+             Findings& findings);
   void run();
 
  private:
@@ -31,6 +34,7 @@ class StepChecks {
   void settle();
   void power(double volume, double minutes, double chip_mm);
   [[nodiscard]] double feed_per_tooth(const Move& m) const;
+  void chips(const Move& m, const Bite& bite, double fz);
   void chip(const Move& m, double thickest_mm, double fz, geometry::Vec2 where);
   void axial_feed(double fz);
   void deflection(double torque_nm);
@@ -46,10 +50,13 @@ class StepChecks {
   const model::Cutter& cutter_;
   Grid& grid_;
   Target& target_;
+  Past& past_;
   Findings& out_;
   geometry::CutterProfile profile_;
   std::vector<BodyPart> body_;  ///< shank and holder, thicker than what cuts below them
   double radius_, tip_mm_;
+  std::shared_ptr<const geometry::CutterProfile> kept_profile_;
+  int looks_ = 8;  ///< closer looks at chips that are left for this step; default, unsourced
   bool judge_gouge_ = true;
   double helix_turned_ = 0.0;  ///< rad, of a descending spiral so far
 

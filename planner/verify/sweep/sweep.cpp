@@ -20,9 +20,11 @@ constexpr double kUsualCells = 250e3;  // default, unsourced: a compromise of ti
 struct Scene {
   Target target;
   Grid grid;
+  Past past;
   Scene(const model::Plan& plan, const PartShapes& part, std::size_t setup, double cell)
       : target(plan, part, setup), grid(xy(target.stock().lo), xy(target.stock().hi), cell, kMaximumCells) {
     target.fill(grid);
+    past.begin(grid);
   }
 };
 
@@ -75,8 +77,10 @@ void check_removal(const model::Plan& plan, const std::vector<StepMoves>& steps,
     }
     if (scene != last) {
       for (const auto& s : scenes) {
-        if (s.get() != scene) carry(scene->grid, frame, s->grid, s->target.frame());
+        if (s.get() == scene) continue;
+        carry(scene->grid, frame, s->grid, s->target.frame());
       }
+      if (scenes.size() > 1) scene->past.begin(scene->grid);
       last = scene;
     }
     if (step.setup != held && step.setup < plan.setups.size()) {
@@ -84,7 +88,7 @@ void check_removal(const model::Plan& plan, const std::vector<StepMoves>& steps,
       grip.emplace(plan.setups[held].holding, scene->grid, step, findings);
     }
     if (!sound(step.cutter)) continue;
-    StepChecks(plan, step, scene->grid, scene->target, findings).run();
+    StepChecks(plan, step, scene->grid, scene->target, scene->past, findings).run();
     scene->grid.find_top();
     if (grip && step.setup == held) grip->after(step, scene->grid, findings);
   }

@@ -1,0 +1,93 @@
+#include "planner/verify/sweep/past.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace capstan::verify {
+
+using geometry::CutterProfile;
+using geometry::Vec2;
+
+namespace {
+
+constexpr double kPoints = 40e3;  ///< of one look, at most; default, unsourced: a compromise of time
+constexpr double kCloser = 8.0;   ///< than the set-up's cells, at most
+constexpr double kWorthwhile = 1.4;
+
+}  // namespace
+
+void Past::begin(const Grid& grid) {
+  stock_ = grid.stock;
+  base_ = grid.base;
+  cuts_.clear();
+}
+
+void Past::add(const Move& m, std::shared_ptr<const CutterProfile> cutter) {
+  geometry::Box3 box = box_of(m);
+  cuts_.push_back({m, std::move(cutter), box});
+}
+
+Grid Past::before(const Grid& grid, Vec2 lo, Vec2 hi, double cell) const {
+  Grid local(lo, hi, cell, static_cast<long>(2.0 * kPoints));
+  local.floor = grid.floor;
+  for (int iy = 0; iy < local.ny(); ++iy) {
+    for (int ix = 0; ix < local.nx(); ++ix) {
+      const Vec2 p = local.centre(ix, iy);
+      const auto [x0, x1] = grid.columns(p.x - 1.01 * grid.cell(), p.x + 1.01 * grid.cell());
+      const auto [y0, y1] = grid.rows(p.y - 1.01 * grid.cell(), p.y + 1.01 * grid.cell());
+      double low = x1 - x0 >= 2 && y1 - y0 >= 2 ? 1e300 : Grid::kNothing;  // not beside the piece
+      double base = Grid::kNothing;
+      for (int jy = y0; jy < y1; ++jy) {
+        for (int jx = x0; jx < x1; ++jx) {
+          low = std::min(low, stock_[grid.index(jx, jy)]);
+          base = std::max(base, base_[grid.index(jx, jy)]);
+        }
+      }
+      local.stock[local.index(ix, iy)] = low > base ? low : Grid::kNothing;
+      local.base[local.index(ix, iy)] = base;
+    }
+  }
+  local.find_top();
+  for (const Cut& c : cuts_) {
+    const double r = c.cutter->radius_mm;
+    if (c.box.lo.x - r > hi.x || c.box.hi.x + r < lo.x || c.box.lo.y - r > hi.y || c.box.hi.y + r < lo.y)
+      continue;
+    (void)cut(local, c.move, *c.cutter, 1e300, nullptr);
+  }
+  return local;
+}
+
+Bite Past::look(const Grid& grid, const Move& m, const CutterProfile& cutter, double advance_mm,
+                int& pieces) const {
+  Bite worst;
+  if (stock_.size() != grid.stock.size()) return worst;
+  const double r = cutter.radius_mm;
+  const int n = is_arc(m.kind) ? 1 : std::max(1, static_cast<int>(std::ceil(length_of(m) / (4.0 * r))));
+  const geometry::Vec3 start = m.from;
+  for (int i = 0; i < n && pieces > 0; ++i) {
+    Move part = m;
+    if (n > 1) {
+      part.from = point_of(m, static_cast<double>(i) / n);
+      part.to = point_of(m, static_cast<double>(i + 1) / n);
+    }
+    const geometry::Box3 box = box_of(part);
+    const Vec2 lo{box.lo.x - r, box.lo.y - r};
+    const Vec2 hi{box.hi.x + r, box.hi.y + r};
+    const double cell = std::max(grid.cell() / kCloser, std::sqrt((hi.x - lo.x) * (hi.y - lo.y) / kPoints));
+    if (cell * kWorthwhile > grid.cell()) continue;
+    --pieces;
+    Grid local = before(grid, lo, hi, cell);
+    if (i > 0) {
+      Move earlier = m;
+      earlier.from = start;
+      earlier.to = part.from;
+      (void)cut(local, earlier, cutter, 1e300, nullptr);
+    }
+    const Bite bite = cut(local, part, cutter, 1e300, nullptr, advance_mm);
+    if (bite.chip_mm > worst.chip_mm) worst = bite;
+  }
+  return worst;
+}
+
+}  // namespace capstan::verify
