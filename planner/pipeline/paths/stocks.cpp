@@ -33,10 +33,8 @@ stock::HeightMap& Stocks::of(std::size_t setup) {
     const bool upright = std::abs(w_.setups[setup].workpiece.z.z) > 1.0 - 1e-9;
     const auto& round = w_.plan.stock.cylinder_radius_mm;
     map = round && upright ? stock::from_cylinder(box, *round, cell) : stock::from_box(box, cell);
-    if (!w_.policy.only_loaded_cutters) {
-      exact_[setup] = round && upright ? stock::PlanarStock::from_cylinder(box, *round)
-                                       : stock::PlanarStock::from_box(box);
-    }
+    exact_[setup] =
+        round && upright ? stock::PlanarStock::from_cylinder(box, *round) : stock::PlanarStock::from_box(box);
   }
   if (setup != last_) {
     // Another clamping: what the others took away is gone here, too.

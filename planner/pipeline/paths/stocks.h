@@ -24,7 +24,7 @@ class Stocks {
 
   /// Sections along a step's path; takes what is cut from the stock. Flat cutters are measured by geometry,
   /// as long as all that was cut in the set-up can be held so and the map's volume of each step bears it out;
-  /// other cutters, and all when late binding asks (it has 200 ms), on the height map.
+  /// other cutters on the height map. At the machine, too: sections that a file states are held against them.
   /// Fails  as engagement::measure; then nothing was cut.
   [[nodiscard]] Result<engagement::Measurement> measure(std::size_t setup, const model::CutterPath& path,
                                                         const model::Cutter& cutter);
