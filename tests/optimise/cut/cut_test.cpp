@@ -354,13 +354,34 @@ TEST_F(Cut, LevelsOfSlenderCuttersAreShallow) {
   q.deflection_limit_mm = 10.0;  // the rule alone
   q.material.kc11_n_mm2 = 300.0;
   q.cutter.stick_out_mm = 40.0;
-  EXPECT_EQ(answered(q).levels, 2);  // four diameters: no deeper than the diameter, as ever
+  EXPECT_EQ(answered(q).levels, 1);  // four diameters: 12 mm are within 1.5 D
   q.cutter.stick_out_mm = 80.0;      // 1.5 D / 2^3 = 1.875 mm
   const CutAnswer a = answered(q);
   EXPECT_LE(a.ap_mm, 1.875);
   EXPECT_GE(a.levels, 7);
   q.ap_mm = 6.0;  // given: the rule of thumb does not overrule it
   EXPECT_TRUE(answered(q).feasible);
+}
+
+TEST_F(Cut, DeepSlotsAreCutWithTheirShareOfSpeedAndFeed) {
+  EXPECT_EQ(deep_slot_share(5.0, 10.0), 1.0);
+  EXPECT_DOUBLE_EQ(deep_slot_share(10.0, 10.0), 0.75);
+  EXPECT_DOUBLE_EQ(deep_slot_share(15.0, 10.0), 0.5);
+  CutQuestion q = questions::roughing();
+  q.slot = true;
+  q.width_mm = 10.0;
+  q.deflection_limit_mm = 10.0;  // speed and chip alone
+  q.material.kc11_n_mm2 = 300.0;
+  for (const double depth : {5.0, 10.0, 15.0}) {
+    q.ap_mm = q.depth_mm = depth;
+    const CutAnswer a = answered(q);
+    const double share = deep_slot_share(depth, 10.0);
+    ASSERT_TRUE(a.feasible);
+    EXPECT_LE(a.vc_m_min, share * q.vc_start_m_min * (1.0 + 1e-9));
+    EXPECT_GE(a.vc_m_min, 0.98 * share * q.vc_start_m_min);
+    EXPECT_LE(a.fz_mm, share * q.fz_start_mm * (1.0 + 1e-6));
+    EXPECT_GE(a.fz_mm, 0.98 * share * q.fz_start_mm);
+  }
 }
 
 TEST_F(Cut, KeepsOutOfTheLobesThatTheModesTell) {

@@ -167,6 +167,17 @@ TEST(Feeds, OfSectionsOutsideTheFormulasAreTheLeast) {
   EXPECT_NEAR(a.schedule.feed_mm_min[1], kLeastFeedShare * 800.0, 0.1);
 }
 
+TEST(Feeds, AreNeverSaidToBeHeldByALimitThatNobodyStates) {
+  FeedQuestion q = question();
+  q.cut.material.kc11_n_mm2 = std::nan("");  // no load can be told
+  const CutterPath p = straight();
+  cut_along(q, p, 1, 5.0, 5.0);
+  const auto a = feeds(q, p);
+  ASSERT_FALSE(a.held_by.empty());
+  EXPECT_EQ(a.held_by.front().name, "least_feed");
+  for (const auto& h : a.held_by) EXPECT_LT(h.limit, 1e6) << h.name;
+}
+
 TEST(Feeds, OfHeavierCutsThanTheLeastFeedBearsSaySo) {
   FeedQuestion q = question();
   q.cut.peak_force_limit_n = 1.0;
