@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "planner/exchange/exchange.h"
 #include "tests/app/plans.h"
 
@@ -59,6 +61,21 @@ TEST(Explain, LimitsAreToldWithTheirSpeedAndTheSecondsTheyCost) {
               HasSubstr("62 % of the time  held by peak force         500 N  10 % more would save 2.5 s"));
   EXPECT_THAT(*text, HasSubstr("38 % of the time  held by axis acceleration"));
   EXPECT_THAT(*text, HasSubstr("100, -40, 12 N"));
+}
+
+TEST(Explain, ALimitThatNobodyStatesIsNotTold) {
+  auto plan = testing::planned_plate();
+  auto& step = plan.steps.front();
+  step.active.push_back({"peak_force", 100.0, std::numeric_limits<double>::infinity(), "N", 0.0});
+  step.active.push_back({"wall_error", 0.01, 1e12, "mm", 0.0});
+  step.held_by = {{"least_feed", 1e12, "mm/min", 1.0, 0.0}};
+  const auto text = explain(plan, "DRILL IT");
+  ASSERT_TRUE(text);
+  EXPECT_THAT(*text, HasSubstr("limited by spindle torque"));
+  EXPECT_THAT(*text, Not(HasSubstr("limited by peak force")));
+  EXPECT_THAT(*text, Not(HasSubstr("limited by wall error")));
+  EXPECT_THAT(*text, HasSubstr("held by least feed"));
+  EXPECT_THAT(*text, Not(HasSubstr("1000000000000")));
 }
 
 TEST(Explain, AStepIsFoundByItsNumberToo) {
