@@ -1,4 +1,6 @@
+#include <map>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "planner/app/command/session.h"
@@ -6,6 +8,7 @@
 #include "planner/app/files/load.h"
 #include "planner/base/file.h"
 #include "planner/exchange/conformance/check.h"
+#include "planner/exchange/iso14649/curves.h"
 #include "planner/p21/parse.h"
 #include "planner/pipeline/pipeline.h"
 #include "planner/verify/verify.h"
@@ -56,13 +59,45 @@ class Check {
     return any;
   }
 
-  /// An ISO 14649 file says what is done and not, in full, how: it is executed as given, what is open closed
-  /// as `plan` would.
+  using Stated = std::map<model::AnyRef, exchange::StepPath>;
+
+  static Stated stated_paths(const model::Plan& plan) {
+    Stated out;
+    Job quiet;  // executing says again what is wrong with a path
+    for (const auto step : plan.model.all_below(model::TypeId::kMachiningWorkingstep)) {
+      auto path = exchange::path_of_step(plan, model::Ref<model::Executable>(step), {}, quiet);
+      if (path && path->path.size() > 0) out.emplace(step, *std::move(path));
+    }
+    return out;
+  }
+
+  /// A step whose path was computed anew all the same is not judged by what the file says of it.
+  void tell_recomputed(const Stated& stated, const model::Plan& bound) {
+    for (const auto& step : bound.steps) {
+      const auto it = stated.find(step.step);
+      if (it == stated.end() || step.path == nullptr) continue;
+      const auto& said = it->second.schedule.feed_mm_min;
+      bool same = it->second.path == *step.path;
+      for (std::size_t i = 0; same && step.schedule && i < said.size(); ++i)
+        same = !(said[i] > 0.0) || said[i] == step.schedule->feed_mm_min[i];
+      if (same) continue;
+      s_.job.warn("APP-RECOMPUTED", "step '" + model::step_id(bound, step) +
+                                        "': its path or feeds were computed anew and are not those of the "
+                                        "file; the findings are about the new ones");
+    }
+  }
+
+  /// A file that says what is done and not, in full, how: what is open is closed as `plan` would, what it
+  /// says is executed as given, whoever computed it: the ledger does not let anything be computed again.
   Result<model::Plan> executed(model::Plan plan) {
     const auto inputs = gather(s_.options.inputs, plan, s_.job);
     if (!inputs) return tl::unexpected(inputs.error());
+    plan.ledger = model::Ledger{};
+    const auto stated = stated_paths(plan);
     auto bound = pipeline::bind(std::move(plan), *inputs, pipeline::Policy{}, s_.job);
-    if (bound) unplanned_ += bound->unplanned.size();
+    if (!bound) return bound;
+    unplanned_ += bound->unplanned.size();
+    tell_recomputed(stated, *bound);
     return bound;
   }
 

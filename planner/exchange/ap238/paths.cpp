@@ -10,6 +10,7 @@
 
 #include "planner/base/number.h"
 #include "planner/exchange/ap238/path_sections.h"
+#include "planner/exchange/ap238/schedules.h"
 #include "planner/exchange/ap238/via.h"
 #include "planner/exchange/iso14649/curves.h"
 #include "planner/exchange/iso14649/section_points.h"
@@ -310,12 +311,15 @@ class Splitter {
     const auto* general = m_.get<model::MillingTechnology>(general_);
     if (!schedule_ || general == nullptr) return model::Ref<model::Technology>(general_);
     const double spindle = -speed(first) + 0.0;
-    const bool moves = feed(first) > 0.0;
-    if (general->spindle == spindle && moves && general->feedrate && *general->feedrate > 0.0) {
-      return model::Ref<model::Technology>(general_);
+    double most = 0.0, least = feed(first);
+    for (std::size_t i = first; i <= last; ++i) {
+      most = std::max(most, feed(i));
+      least = std::min(least, feed(i));
     }
-    double most = 0.0;
-    for (std::size_t i = first; i <= last; ++i) most = std::max(most, feed(i));
+    // Multiples that a reader would not take for such are told of the run's greatest feed instead.
+    const double base = general->feedrate.value_or(0.0);
+    const bool near = least > 0.0 && least >= kLeastRatio * base && most <= kMostRatio * base;
+    if (general->spindle == spindle && near) return model::Ref<model::Technology>(general_);
     const auto key = std::tuple(most, spindle);
     const auto known = technologies_.find(key);
     if (known != technologies_.end()) return known->second;
@@ -377,6 +381,34 @@ model::Ref<model::Axis2Placement3d> copied(model::Model& m, const Placement& p) 
 
 }  // namespace
 
+namespace {
+
+bool cuts(const model::SectionSeries& s) {
+  return std::any_of(s.csa_mm2.begin(), s.csa_mm2.end(), [](double a) { return a > 0.0; });
+}
+
+/// Curves that a file brought stay as they are, and have no points for sections that were measured since.
+void tell_sections_not_written(const model::Plan& plan, std::vector<std::string>& losses) {
+  const auto& m = plan.model;
+  std::size_t count = 0;
+  for (const auto& s : plan.steps) {
+    if (!s.sections || !cuts(*s.sections)) continue;
+    const auto* list = m.get<model::ToolpathList>(toolpath_list_of(m, s.step));
+    const bool stated = list != nullptr &&
+                        std::any_of(list->its_list.items.begin(), list->its_list.items.end(), [&](AnyRef t) {
+                          const auto* trajectory = m.get<model::Trajectory>(t);
+                          return trajectory != nullptr && trajectory->cross_section_area_parameters.set();
+                        });
+    if (!stated) ++count;
+  }
+  if (count != 0) {
+    losses.push_back("the cross sections of " + std::to_string(count) +
+                     " steps with curves as given are not written: the curves stay as they are");
+  }
+}
+
+}  // namespace
+
 Status write_paths(model::Plan& plan, std::vector<std::string>& losses) {
   adopt_paths(plan);
   auto& m = plan.model;
@@ -402,6 +434,7 @@ Status write_paths(model::Plan& plan, std::vector<std::string>& losses) {
     }
     m.at<model::ToolpathList>(list).its_list.items = std::move(next);
   }
+  tell_sections_not_written(plan, losses);
   return {};
 }
 

@@ -17,8 +17,6 @@ using model::AnyRef;
 namespace {
 
 constexpr double kSameParameter = 1e-9;
-// Feeds a plan varies by along one path (default, unsourced): beyond, the numbers are something else.
-constexpr double kLeastRatio = 0.01, kMostRatio = 4.0;
 constexpr double kMetrePerSecond = 60000.0;  // mm/min
 
 tl::unexpected<Diagnostic> bad(const model::Model& m, AnyRef at, std::string code, std::string what) {
@@ -61,6 +59,8 @@ std::vector<Reading> readings_of(const std::vector<double>& values, double feed)
     out.push_back({1.0 / feed, "millimetres per minute"});
   }
   std::erase_if(out, [lo = *least, hi = *most](const Reading& r) {
+    // Just 1 at most: ratios of the greatest feed, down to whatever the heaviest cut leaves.
+    if (r.unit == 1.0 && hi == 1.0) return false;
     return !(r.unit * lo >= kLeastRatio && r.unit * hi <= kMostRatio);
   });
   return out;

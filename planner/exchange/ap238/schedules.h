@@ -23,6 +23,10 @@ struct MoveParameters {
   [[nodiscard]] bool known() const { return last > first; }
 };
 
+/// Feeds a plan varies by along one path (default, unsourced): beyond, the numbers are something else, unless
+/// the greatest is just 1.
+inline constexpr double kLeastRatio = 0.01, kMostRatio = 4.0;
+
 /// What each move's feed is times the technology's, from a speed curve: the least along the move. The values
 /// are multiples of that feed (what else they could be, metres per second or millimetres per minute, is told
 /// from their size; where two of these are plausible, a warning EXC-SPEED-PROFILE says which is taken).

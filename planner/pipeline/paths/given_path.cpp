@@ -45,13 +45,28 @@ std::vector<optimise::CutSample> samples_for(Work& w, const StepWork& step, cons
                                              const std::optional<engagement::Measurement>& found) {
   const double d = step.cutter.cutting_diameter_mm;
   if (stated.size() == 0) return found ? samples_of(*found) : std::vector<optimise::CutSample>{};
+  if (const auto why = impossible(stated, path, d, step.cutter.maximum_depth_of_cut_mm)) {
+    w.job.warn("PIP-SECTIONS", "step '" + name_of(w, step) + "': the file's cross sections cannot be, " +
+                                   *why + "; " + (found ? "the measured ones are used" : "none are used"));
+    return found ? samples_of(*found) : std::vector<optimise::CutSample>{};
+  }
   auto said = samples_of(stated, path, d);
   if (!found) return said;
+  const auto extents = extents_contradict(stated, found->sections, d);
   auto both = compared(said, samples_of(*found), d);
   if (both.contradictions > 0) {
     w.job.warn("PIP-SECTIONS", "step '" + name_of(w, step) + "': the file's cross sections contradict the " +
                                    "measured ones at " + std::to_string(both.contradictions) +
                                    " places, most at " + both.worst + "; the larger ones are used");
+  }
+  if (extents) {
+    w.job.warn("PIP-SECTIONS", "step '" + name_of(w, step) + "': the file's cross sections contradict the " +
+                                   "measured ones, " + *extents + "; the measured ones count, too");
+    const auto ours = samples_of(*found);
+    both.samples.insert(both.samples.end(), ours.begin(), ours.end());
+    std::stable_sort(both.samples.begin(), both.samples.end(), [](const auto& a, const auto& b) {
+      return std::pair(a.move, a.at_mm) < std::pair(b.move, b.at_mm);
+    });
   }
   return std::move(both.samples);
 }

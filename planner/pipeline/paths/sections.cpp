@@ -1,12 +1,13 @@
 #include "planner/pipeline/paths/sections.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <iterator>
 #include <numbers>
 #include <tuple>
-
-#include "planner/base/number.h"
+#include <utility>
 
 namespace capstan::pipeline {
 namespace {
@@ -54,10 +55,96 @@ double last_of(const std::vector<CutSample>& s, std::uint32_t move) {
 }
 
 double tolerance(const CutSample& s, double other_mm2, double d_mm) {
-  return std::max(kSectionsTolerance * std::max(s.csa_mm2, other_mm2), kSectionsFloor * s.ap_mm * d_mm);
+  // Of a ring that a plunge cuts, a map knows the rim to half a cell, which is a thirtieth of the diameter.
+  const double floor = s.plunge ? kRingFloor * d_mm * d_mm : kSectionsFloor * s.ap_mm * d_mm;
+  return std::max(kSectionsTolerance * std::max(s.csa_mm2, other_mm2), floor);
+}
+
+/// At most six digits, whatever a file says.
+std::string six(double v) {
+  if (!std::isfinite(v)) return "no finite number";
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.6g", v);
+  return text.data();
+}
+
+/// How much longer the cutter's far edge travels than its centre.
+double edge_over_centre(const model::CutterPath& p, std::size_t i, double r_mm) {
+  if (p.kind[i] != model::MoveKind::kArcCw && p.kind[i] != model::MoveKind::kArcCcw) return 1.0;
+  const double arc = std::hypot(p.x[i] - p.cx[i], p.y[i] - p.cy[i]);
+  return 1.0 + r_mm / std::max(arc, 1e-6);
+}
+
+/// Mean depth and width of what is removed; those of slivers weigh nothing.
+std::pair<double, double> mean_extents(const model::SectionSeries& s) {
+  double ad = 0.0, rd = 0.0, all = 0.0;
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    ad += s.removed_mm3[i] * s.ad_max_mm[i];
+    rd += s.removed_mm3[i] * s.rd_max_mm[i];
+    all += s.removed_mm3[i];
+  }
+  return all > 0.0 ? std::pair(ad / all, rd / all) : std::pair(0.0, 0.0);
 }
 
 }  // namespace
+
+std::optional<std::string> impossible(const model::SectionSeries& s, const model::CutterPath& path,
+                                      double d_mm, double cutting_length_mm) {
+  constexpr double kRounding = 1.02, kFloorMm = 0.02;  // of what is printed and measured; default, unsourced
+  const double r = 0.5 * d_mm;
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    const std::uint32_t move = s.move[i];
+    const auto bad = [&](const char* name, double v, const std::string& bound) {
+      return "move " + std::to_string(move) + ", " + six(s.at_mm[i]) + " mm along it: " + name + " of " +
+             six(v) + ", " + bound;
+    };
+    const double ad = s.ad_max_mm[i], rd = s.rd_max_mm[i], csa = s.csa_mm2[i];
+    const std::pair<const char*, double> sizes[] = {{"ADmax", ad}, {"RDmax", rd}, {"CSA", csa}};
+    for (const auto& [name, v] : sizes) {
+      if (!std::isfinite(v) || v < 0.0) return bad(name, v, "which must not be negative");
+    }
+    const std::pair<const char*, double> offsets[] = {{"Xmaxofs", s.x_max_ofs_mm[i]},
+                                                      {"Ymaxofs", s.y_max_ofs_mm[i]},
+                                                      {"XCGofs", s.x_cg_ofs_mm[i]},
+                                                      {"YCGofs", s.y_cg_ofs_mm[i]}};
+    for (const auto& [name, v] : offsets) {
+      if (!std::isfinite(v)) return bad(name, v, "where a length is asked for");
+      if (name[0] == 'X' && d_mm > 0.0 && std::abs(v) > kRounding * r + kFloorMm)
+        return bad(name, v, "outside of the cutter of " + six(d_mm) + " mm");
+    }
+    if (!(d_mm > 0.0) || move >= path.size()) continue;
+    if (rd > kRounding * d_mm + kFloorMm)
+      return bad("RDmax", rd, "wider than the cutter of " + six(d_mm) + " mm");
+    const bool plunge = straight_along_axis(path, move);
+    if (plunge) {
+      if (csa > kRounding * std::numbers::pi * r * r) return bad("CSA", csa, "more than the cutter's disc");
+      continue;
+    }
+    const double longer = kRounding * edge_over_centre(path, move, r);
+    const bool level = move > 0 && path.z[move] == path.z[move - 1];
+    if (level && longer == kRounding && csa > longer * ad * rd + kFloorMm * d_mm)
+      return bad("CSA", csa, "more than ADmax times RDmax");
+    if (!(cutting_length_mm > 0.0)) continue;
+    if (level && ad > kRounding * cutting_length_mm + kFloorMm)
+      return bad("ADmax", ad, "more than the cutting length of " + six(cutting_length_mm) + " mm");
+    if (level && csa > longer * d_mm * cutting_length_mm)
+      return bad("CSA", csa, "more than the cutter's diameter times its cutting length");
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> extents_contradict(const model::SectionSeries& stated,
+                                              const model::SectionSeries& measured, double d_mm) {
+  const auto [ad, rd] = mean_extents(stated);
+  const auto [our_ad, our_rd] = mean_extents(measured);
+  if (!(ad > 0.0 && our_ad > 0.0)) return std::nullopt;  // compared by area
+  const auto apart = [&](double a, double b) {
+    return std::abs(a - b) > kSectionsTolerance * std::max(a, b) + kExtentsFloor * d_mm;
+  };
+  if (!apart(ad, our_ad) && !apart(rd, our_rd)) return std::nullopt;
+  return "on the mean " + six(ad) + " mm deep and " + six(rd) + " mm wide stated, " + six(our_ad) +
+         " mm deep and " + six(our_rd) + " mm wide measured";
+}
 
 std::vector<CutSample> samples_of(const engagement::Measurement& m) {
   std::vector<CutSample> out;
@@ -118,8 +205,8 @@ SectionsCompared compared(const std::vector<CutSample>& stated, const std::vecto
     if (std::abs(said - found) <= worst) return;
     worst = std::abs(said - found);
     out.worst_move = at.move;
-    out.worst = "move " + std::to_string(at.move) + ", " + trimmed(at.at_mm, 2) +
-                " mm along it: " + trimmed(said, 3) + " mm2 stated, " + trimmed(found, 3) + " mm2 measured";
+    out.worst = "move " + std::to_string(at.move) + ", " + six(at.at_mm) + " mm along it: " + six(said) +
+                " mm2 stated, " + six(found) + " mm2 measured";
   };
   // Where a cut begins and ends is known to a step of either series.
   const double reach = 0.1 * d_mm;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,6 +31,20 @@ namespace capstan::pipeline {
                                                           const model::CutterPath& path,
                                                           double cutting_diameter_mm);
 
+/// What no section can be, in words, with the first place of it; nothing when all are possible: each of the
+/// seven numbers finite, none of ADmax, RDmax and CSA below 0, ADmax within the cutting length, RDmax within
+/// the diameter, the offsets within the cutter, and the area within what the cutter meets there: the disc
+/// when it moves along its axis, the profile otherwise, and in level straight moves ADmax x RDmax. On arcs
+/// the edge goes farther than the centre by the cutter's radius over the arc's.
+[[nodiscard]] std::optional<std::string> impossible(const model::SectionSeries& series,
+                                                    const model::CutterPath& path, double cutting_diameter_mm,
+                                                    double cutting_length_mm);
+
+/// Both means of depth and width, weighed by what is removed, where they are apart; nothing where they agree.
+[[nodiscard]] std::optional<std::string> extents_contradict(const model::SectionSeries& stated,
+                                                            const model::SectionSeries& measured,
+                                                            double cutting_diameter_mm);
+
 /// What a file says of a path's sections, held against what was measured.
 struct SectionsCompared {
   std::vector<optimise::CutSample> samples;  ///< the file's; measured ones where those are larger
@@ -42,6 +57,9 @@ struct SectionsCompared {
 /// measuring on a coarse map may be off; default, unsourced.
 inline constexpr double kSectionsTolerance = 0.15;
 inline constexpr double kSectionsFloor = 0.03;
+inline constexpr double kRingFloor = std::numbers::pi / 60.0;  ///< of the diameter squared; derived
+/// Of the diameter, for mean depth and width. Default, unsourced.
+inline constexpr double kExtentsFloor = 0.1;
 
 [[nodiscard]] SectionsCompared compared(const std::vector<optimise::CutSample>& stated,
                                         const std::vector<optimise::CutSample>& measured,
