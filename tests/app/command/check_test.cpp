@@ -1,0 +1,97 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <sstream>
+#include <string>
+
+#include "tests/support/corpus.h"
+
+// Files of our own that somebody edited since: `check` judges what they say, not what we would plan.
+
+namespace capstan::app {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+class CheckedAsWritten : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    run("plan '" CAPSTAN_SOURCE_DIR "/examples/two_setups.p21' -o p.stpnc");
+    std::ifstream in(folder_ / "p.stpnc", std::ios::binary);
+    std::ostringstream text;
+    text << in.rdbuf();
+    text_ = text.str();
+    ASSERT_FALSE(text_.empty()) << said_;
+  }
+  int run(const std::string& arguments) {
+    const std::string line =
+        "cd '" + folder_.string() + "' && '" CAPSTAN_COMMAND "' " + arguments + " >out 2>&1";
+    const int status = std::system(line.c_str());
+    std::ifstream in(folder_ / "out", std::ios::binary);
+    std::ostringstream text;
+    text << in.rdbuf();
+    said_ = text.str();
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  int checked(const std::string& text) {
+    std::ofstream(folder_ / "edited.stpnc", std::ios::binary) << text;
+    return run("check edited.stpnc");
+  }
+
+  ::capstan::testing::ScratchFolder scratch_;
+  fs::path folder_ = scratch_.path();
+  std::string said_, text_;
+};
+
+TEST_F(CheckedAsWritten, NothingIsFoundInTheFileAsItWasPlanned) { EXPECT_EQ(checked(text_), 0) << said_; }
+
+TEST_F(CheckedAsWritten, TripledFeedsAreFound) {
+  static const std::regex kFeed(R"((REPRESENTATION_ITEM\('feed speed',NUMERIC_MEASURE\()([0-9.E+-]+))");
+  std::string tripled;
+  std::size_t n = 0;
+  auto from = text_.cbegin();
+  for (std::sregex_iterator it(text_.begin(), text_.end(), kFeed), end; it != end; ++it, ++n) {
+    tripled.append(from, (*it)[2].first);
+    std::ostringstream number;
+    number << std::fixed << 3.0 * std::stod((*it)[2].str());
+    tripled += number.str();
+    from = (*it)[2].second;
+  }
+  tripled.append(from, text_.cend());
+  ASSERT_GT(n, 0U);
+  EXPECT_EQ(checked(tripled), 1) << said_;
+  EXPECT_THAT(said_, HasSubstr("CHK-FEED"));
+}
+
+TEST_F(CheckedAsWritten, APointMovedBelowWhatItCutsIsFound) {
+  // The first point of a path at cutting depth, 10 mm lower.
+  static const std::regex kPoint(R"((=CARTESIAN_POINT\('',\([0-9.E+-]+,[0-9.E+-]+,)(-[0-9.E+-]+)(\)\);))");
+  static const std::regex kCurve(R"(=POLYLINE\('',\((#[0-9,#]+)\)\);)");
+  bool found = false;
+  for (std::sregex_iterator c(text_.begin(), text_.end(), kCurve), end; c != end && !found; ++c) {
+    std::istringstream ids((*c)[1].str());
+    for (std::string id; std::getline(ids, id, ',') && !found;) {
+      const auto at = text_.find("\n" + id + "=CARTESIAN_POINT('',(");
+      if (at == std::string::npos) continue;
+      const auto line_end = text_.find('\n', at + 1);
+      const std::string line = text_.substr(at, line_end - at);
+      std::smatch m;
+      if (!std::regex_search(line, m, kPoint)) continue;
+      std::ostringstream z;
+      z << std::fixed << std::stod(m[2].str()) - 10.0;
+      text_.replace(at + static_cast<std::size_t>(m.position(2)), m[2].str().size(), z.str());
+      found = true;
+    }
+  }
+  ASSERT_TRUE(found);
+  EXPECT_NE(checked(text_), 0) << said_;
+}
+
+}  // namespace
+}  // namespace capstan::app
