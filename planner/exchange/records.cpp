@@ -34,6 +34,35 @@ void describe_sources(RecordFields& f, Sources& sources) {
   f.end();
 }
 
+void describe(RecordFields& f, model::MechanisticSet& s) {
+  f.text("substrate", s.substrate);
+  f.group();
+  f.real("Ktc", Unit::kPressure, s.ktc_n_mm2);
+  f.real("Kte [N/mm]", Unit::kNone, s.kte_n_mm);
+  f.real("Krc", Unit::kPressure, s.krc_n_mm2);
+  f.real("Kre [N/mm]", Unit::kNone, s.kre_n_mm);
+  f.real("Kac", Unit::kPressure, s.kac_n_mm2);
+  f.real("Kae [N/mm]", Unit::kNone, s.kae_n_mm);
+  f.real("uncertainty", Unit::kRatio, s.uncertainty);
+  f.end();
+  f.text("source", s.source);
+}
+
+void describe(RecordFields& f, model::ToolLifeLaw& l) {
+  f.text("substrate", l.substrate);
+  f.group();
+  f.real("cutting speed [m/min]", Unit::kNone, l.v0_m_min);
+  f.real("life [min]", Unit::kNone, l.life_min);
+  f.real("chip thickness", Unit::kLength, l.h0_mm);
+  f.real("depth", Unit::kLength, l.a0_mm);
+  f.real("n", Unit::kNone, l.n);
+  f.real("p", Unit::kNone, l.p);
+  f.real("q", Unit::kNone, l.q);
+  f.real("scatter", Unit::kNone, l.scatter);
+  f.end();
+  f.text("source", l.source);
+}
+
 void describe(RecordFields& f, model::WorkMaterial& m) {
   f.text("id", m.id);
   f.text("iso group", m.iso_group);
@@ -54,6 +83,19 @@ void describe(RecordFields& f, model::WorkMaterial& m) {
   f.end();
   describe_sources(f, m.sources);
   if (f.more()) f.real("hardness [HB]", Unit::kNone, m.hardness_hb);
+  if (!f.more()) return;
+  m.mechanistic.resize(f.list("mechanistic set", m.mechanistic.size()));
+  for (std::size_t i = 0; i < m.mechanistic.size(); ++i) {
+    f.element(i);
+    describe(f, m.mechanistic[i]);
+  }
+  f.end();
+  m.life.resize(f.list("life law", m.life.size()));
+  for (std::size_t i = 0; i < m.life.size(); ++i) {
+    f.element(i);
+    describe(f, m.life[i]);
+  }
+  f.end();
 }
 
 void describe(RecordFields& f, model::Stock& s) {
