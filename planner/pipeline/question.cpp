@@ -105,20 +105,6 @@ double engaged(TypeId operation, const model::Cutter& c, std::optional<double> d
   return c.tip_diameter_mm + 2.0 * *depth_mm * std::tan(0.5 * c.point_angle_rad);
 }
 
-/// The upright shank that bends as far as a shank with a thinner neck does: both as cantilevers in line,
-///
-///     1 / I = (l^3 / I_n + (L^3 - l^3) / I_s) / L^3        I ~ d^4
-///
-/// Source  as mechanics' tip_compliance_mm_n; derived.
-double equal_shank(const model::Cutter& c) {
-  const double stick = c.stick_out_mm;
-  const double neck = c.neck_diameter_mm;
-  if (!(neck > 0.0 && neck < c.shank_diameter_mm && stick > 0.0)) return c.shank_diameter_mm;
-  const double part =
-      std::pow(std::clamp(c.neck_length_mm > 0.0 ? c.neck_length_mm / stick : 1.0, 0.0, 1.0), 3.0);
-  return std::pow(part / std::pow(neck, 4.0) + (1.0 - part) / std::pow(c.shank_diameter_mm, 4.0), -0.25);
-}
-
 AnyRef technology_of(const Work& w, const StepWork& step) {
   const auto* op = w.plan.model.get<model::MachiningOperation>(step.operation);
   return op != nullptr ? AnyRef(op->its_technology) : AnyRef{};
@@ -154,7 +140,6 @@ void under_an_overhang(optimise::CutQuestion& q, const model::Cutter& c) {
   q.depth_mm = *q.ap_mm;
   q.ae_mm = q.width_mm = c.cutting_diameter_mm;
   q.fz_start_mm *= kFeedShare;
-  q.cutter.shank_diameter_mm = equal_shank(c);
 }
 
 }  // namespace

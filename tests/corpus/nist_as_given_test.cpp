@@ -377,6 +377,7 @@ TEST_F(CorpusNistAsGiven, IsToldExactlyWhatIsBadMachiningInIt) {
   const std::vector<std::string> bad = {"17 CHK-POWER WS FINISH PLANAR FACE1",
                                         "17 CHK-TORQUE WS FINISH PLANAR FACE1",
                                         "18 CHK-FEED-TOOL WS FINISH PLANAR FACE1",
+                                        "21 CHK-DEFLECTION WS FINISH PLANAR FACE1",
                                         "17 CHK-POWER WS DRILL HOLE1",
                                         "17 CHK-TORQUE WS DRILL HOLE1",
                                         "18 CHK-FEED-TOOL WS DRILL HOLE1",
@@ -387,6 +388,7 @@ TEST_F(CorpusNistAsGiven, IsToldExactlyWhatIsBadMachiningInIt) {
                                         "17 CHK-POWER WS ROUGH POCKET1",
                                         "17 CHK-TORQUE WS ROUGH POCKET1",
                                         "18 CHK-FEED-TOOL WS ROUGH POCKET1",
+                                        "21 CHK-DEFLECTION WS ROUGH POCKET1",
                                         "18 CHK-FEED-TOOL WS FINISH POCKET1"};
   // The plan says, too, what machine such cuts would need.
   std::vector<std::string> bad_plan = {"17 CHK-MACHINE-POWER ", "17 CHK-MACHINE-TORQUE "};

@@ -17,6 +17,7 @@ constexpr double kSweepStep = 0.01;
 /// most in random sections. More than that is added.
 constexpr double kCornerGrid = 1.01;
 constexpr double kGainStep = 0.1;
+constexpr double kFrontStep = 1.0 / 128.0;
 constexpr long kNoArea = std::numeric_limits<long>::min();
 constexpr int kPoints = 7;  // feeds at which a class is judged, from above the ceiling down
 
@@ -78,7 +79,8 @@ Page& Book::page(const Cut& cut, double n_rpm) {
   const long gain = static_cast<long>(std::ceil(std::log(std::max(cut.gain, 1.0)) / kGainStep - 1e-9));
   const long band =
       cut.band_mm > 0.0 ? static_cast<long>(std::ceil(std::log(cut.band_mm) / kDepthStep - 1e-9)) : kNoArea;
-  const Key key{n_rpm, depth, sweep_class, entry_class, area, gain, band};
+  const long front = static_cast<long>(std::ceil(cut.front_sin / kFrontStep - 1e-9));
+  const Key key{n_rpm, depth, sweep_class, entry_class, area, gain, band, front};
   if (last_ != nullptr && key == last_key_) return *last_;
   auto it = pages_.find(key);
   if (it == pages_.end()) {
@@ -87,6 +89,7 @@ Page& Book::page(const Cut& cut, double n_rpm) {
     if (area != kNoArea) p.cut.csa_mm2 = std::exp(kDepthStep * static_cast<double>(area));
     if (band != kNoArea) p.cut.band_mm = std::exp(kDepthStep * static_cast<double>(band));
     p.gain = std::exp(kGainStep * static_cast<double>(gain));
+    p.cut.front_sin = std::min(1.0, kFrontStep * static_cast<double>(front));
     p.cut.entry_rad = std::min(static_cast<double>(entry_class) * entry_step, cut.entry_rad);
     p.cut.exit_rad = std::min(p.cut.entry_rad + swept, std::max(pi, cut.exit_rad));
     fill(p, judge(n_rpm));

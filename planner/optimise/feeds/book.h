@@ -43,7 +43,7 @@ class Book {
 
  private:
   // speed, depth, sweep, entry, area, gain, band
-  using Key = std::tuple<double, long, long, long, long, long, long>;
+  using Key = std::tuple<double, long, long, long, long, long, long, long>;
   /// Judges the page's cut at feeds of the edge up to those of the ceiling with its gain.
   void fill(Page& page, const Judge& judge) const;
 
@@ -51,7 +51,7 @@ class Book {
   std::map<double, Judge> judges_;
   std::map<Key, Page> pages_;
   std::map<double, Page> plunges_;
-  Key last_key_{-1.0, 0, 0, 0, 0, 0, 0};
+  Key last_key_{-1.0, 0, 0, 0, 0, 0, 0, 0};
   Page* last_ = nullptr;
 };
 

@@ -33,6 +33,15 @@ Cut trimmed_arc(double ap, double width, const CutSample& s, double diameter) {
   return up ? Cut{.ap_mm = ap, .exit_rad = phi} : Cut{.ap_mm = ap, .entry_rad = pi - phi, .exit_rad = pi};
 }
 
+/// Of the thickest chip that a measured arc can have.
+double front_of(const CutSample& s) {
+  const double entry = std::clamp(s.entry_rad, 0.0, pi);
+  const double exit = std::clamp(s.exit_rad, 0.0, pi);
+  if (!(exit > entry)) return 0.0;
+  if (entry <= 0.5 * pi && exit >= 0.5 * pi) return 1.0;
+  return std::max(std::sin(entry), std::sin(exit));
+}
+
 /// The rectangle of a depth and a width at the section's place: the arc that was measured where it is about
 /// as wide, else one of that width. What the arc lacks is speed of the edge.
 Cut rectangle(double ap, double ae, const CutSample& s, double diameter) {
@@ -47,6 +56,8 @@ Cut rectangle(double ap, double ae, const CutSample& s, double diameter) {
               : trimmed_arc(ap, ae, s, diameter);
   const double width = width_of(c.entry_rad, c.exit_rad, diameter);
   if (width > 0.0) c.gain = std::max(1.0, ae / width);
+  // Inside of a corner the edge's way is longer: that is in the gain.
+  c.front_sin = front_of(s);
   return c;
 }
 
@@ -179,6 +190,9 @@ std::optional<State> Judge::at(const Cut& cut, double feed) const {
     if (!whole) return std::nullopt;
     chip = std::max(chip, planned_chip_mm(strip, tooth_, law_, up_ * fz, up_, n_, whole->h_max_mm));
   }
+  // The area of a section that is no rectangle may lie anywhere in its arc: a rib stands in front.
+  chip =
+      std::max(chip, fz * cut.front_sin * std::cos(tooth_.lead_angle_rad) * std::cos(tooth_.taper_angle_rad));
   State s;
   s.raw = *l;
   const double force = l->peak_force_n * margin_;

@@ -28,6 +28,9 @@ struct Cut {
   double ap_mm = 0.0, entry_rad = 0.0, exit_rad = 0.0, gain = 1.0;
   double csa_mm2 = 0.0;  ///< measured area; 0: depth times width
   double band_mm = 0.0;  ///< as mechanics::Section's
+  /// Sine of the measured arc where it is nearest to the front: wherever in it the area lies, no chip is
+  /// thicker than this part of the feed per tooth. 0: the cut's own arc tells.
+  double front_sin = 0.0;
 };
 
 /// One or two: a section that is no rectangle (a wall and a floor at once) counts as two of its area, as deep

@@ -12,10 +12,13 @@ using model::CutterClass;
 
 namespace {
 
-constexpr double kMeasured = 1.1;    ///< by which a rate measured on cells may be too large
-constexpr double kTouchMm3 = 1e-6;   ///< less than this is not a cut
-constexpr double kDeeper = 1.5;      ///< depth over that planned, at most; default, unsourced
-constexpr double kWider = 8.0;       ///< mean section over that planned, at most; default, unsourced
+constexpr double kMeasured = 1.1;   ///< by which a rate measured on cells may be too large
+constexpr double kTouchMm3 = 1e-6;  ///< less than this is not a cut
+constexpr double kDeeper = 1.5;     ///< depth over that planned, at most; default, unsourced
+constexpr double kWider = 8.0;      ///< mean section over that planned, at most; default, unsourced
+/// Of the diameter squared: smaller sections are nothing for a cutter, however little was planned; default,
+/// unsourced.
+constexpr double kFeltShare = 0.01;
 constexpr double kMostBentMm = 0.2;  ///< of the tip, under the mean force alone; default, unsourced
 constexpr double kWritten = 0.005;   ///< by which feed and speed may be off through their decimals
 
@@ -70,14 +73,16 @@ void StepChecks::planned_section() {
   const double section = a.volume_mm3 / a.edge_mm;
   const Findings::Where where{step_.order + 1, step_.id, a.where};
   if (a.depth_mm > kDeeper * depth + 2.0 * grid_.cell()) {
-    out_.error(20, "CHK-DEPTH-LEFT", where,
-               mm(a.depth_mm) + " are cut; the step was planned for a depth of " + mm(depth), a.depth_mm);
+    out_.warn(20, "CHK-DEPTH-LEFT", where,
+              mm(a.depth_mm) + " are cut; the step was planned for a depth of " + mm(depth), a.depth_mm);
   }
-  if (section > kWider * depth * width) {
-    out_.error(20, "CHK-WIDTH-LEFT", where,
-               "over " + mm(a.edge_mm) + " a section of " + plain(section) +
-                   " mm2 is cut; the step was planned for " + mm(depth) + " x " + mm(width),
-               section);
+  // A section that is nothing for the cutter is not worth a word, however little was planned.
+  const double felt = kFeltShare * cutter_.cutting_diameter_mm * cutter_.cutting_diameter_mm;
+  if (section > std::max(kWider * depth * width, felt)) {
+    out_.warn(20, "CHK-WIDTH-LEFT", where,
+              "over " + mm(a.edge_mm) + " a section of " + plain(section) +
+                  " mm2 is cut; the step was planned for " + mm(depth) + " x " + mm(width),
+              section);
   }
 }
 
