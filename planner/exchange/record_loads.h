@@ -1,0 +1,13 @@
+#pragma once
+
+#include "planner/exchange/records.h"
+#include "planner/model/plan.h"
+
+/// What a step does to tool and machine and what holds it, described once for writing and for reading.
+namespace capstan::exchange {
+
+void describe(RecordFields& f, model::StepLoads& l);
+void describe(RecordFields& f, model::ActiveConstraint& c);
+void describe(RecordFields& f, model::LimitAlongPath& l);
+
+}  // namespace capstan::exchange
