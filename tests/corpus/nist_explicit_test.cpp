@@ -87,14 +87,16 @@ TEST(CorpusNistExplicit, IsToldExactlyWhatIsBadMachiningInIt) {
     for (const char* w : what) bad.push_back(std::string(w) + " " + step);
   };
   for (const char* pass : {"A", "B"}) {
-    add("WS FINISH PLANAR FACE1 " + std::string(pass), {"17 CHK-POWER", "17 CHK-TORQUE", "18 CHK-FEED-TOOL"});
+    add("WS FINISH PLANAR FACE1 " + std::string(pass),
+        {"17 CHK-POWER", "17 CHK-TORQUE", "18 CHK-FEED-TOOL", "21 CHK-DEFLECTION"});
   }
   add("WS DRILL HOLE1", {"17 CHK-POWER", "17 CHK-TORQUE", "18 CHK-FEED-TOOL"});
   add("WS REAM HOLE1", {"15 CHK-SPINDLE-STOPPED", "17 CHK-POWER", "17 CHK-TORQUE", "18 CHK-FEED-TOOL"});
   // Each level of the pocket is entered by a helix as steep as 10 degrees.
   for (const char* level : {"A", "B", "C", "D", "D~2"}) {
     add("WS ROUGH POCKET1 " + std::string(level),
-        {"14 CHK-RAMP", "17 CHK-POWER", "17 CHK-TORQUE", "18 CHK-FEED-TOOL"});
+        {"14 CHK-RAMP", "17 CHK-POWER", "17 CHK-TORQUE", "17 CHK-POWER-OVERRIDE", "17 CHK-TORQUE-OVERRIDE",
+         "18 CHK-FEED-TOOL", "21 CHK-DEFLECTION"});
   }
   // Finishing goes through what roughing left, 0.5 mm on the floor: only its last helix enters material.
   for (const char level : std::string("ABCDEFGHIJKLMN")) {
