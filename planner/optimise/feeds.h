@@ -21,6 +21,7 @@ struct CutSample {
   double step_mm = 0.0;  ///< length it stands for
   double entry_rad = 0.0, exit_rad = 0.0;
   double csa_mm2 = 0.0;
+  double top_mm = 0.0;  ///< highest contact above the tip; 0: not known, the depth counts from the tip
 };
 
 /// Feed of a plunge and of a ramp as a fraction of the step's feed, at most, for cutters that may do it.

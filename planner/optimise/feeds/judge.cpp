@@ -80,10 +80,14 @@ Cuts cuts_of(const CutSample& sample, const model::Cutter& cutter) {
     const double entry = std::clamp(s.entry_rad, 0.0, pi);
     const double exit = std::clamp(s.exit_rad, 0.0, pi);
     const double area = s.csa_mm2 > 0.0 ? s.csa_mm2 : ap * ae;
+    // Above the tip the edge stands steeper, and its chip is thicker.
+    const double up = std::min(std::max(ap, s.top_mm), corner);
+    const double kappa_sin = std::sqrt(up * (2.0 * corner - up)) / corner;
     // An arc that was not measured is made of the width.
     Cut c = exit > entry ? Cut{.ap_mm = ap, .entry_rad = entry, .exit_rad = exit}
                          : trimmed_arc(ap, ae, s, diameter);
     c.csa_mm2 = area;
+    c.front_sin = front_of(s) * kappa_sin;
     const double strip = width_of(c.entry_rad, c.exit_rad, diameter);
     if (area >= kWhole * ap * strip) {
       out.cut[out.n++] = c;

@@ -152,15 +152,23 @@ std::vector<CutSample> samples_of(const engagement::Measurement& m) {
   out.reserve(s.size());
   for (std::size_t i = 0; i < s.size(); ++i) {
     const engagement::Engagement& e = m.engagement[i];
+    double entry = e.entry_rad, exit = e.exit_rad;
+    // A sample's arc is that of its step's end: within the step the arc of its beginning is met, too.
+    const bool follows = i > 0 && s.move[i - 1] == s.move[i] && m.engagement[i - 1].removed_mm3 > 0.0;
+    if (follows && !e.plunge && e.removed_mm3 > 0.0) {
+      entry = std::min(entry, m.engagement[i - 1].entry_rad);
+      exit = std::max(exit, m.engagement[i - 1].exit_rad);
+    }
     add({.move = s.move[i],
          .ap_mm = e.ap_mm,
          .ae_mm = e.ae_mm,
          .plunge = e.plunge,
          .at_mm = s.at_mm[i],
          .step_mm = e.step_mm,
-         .entry_rad = e.entry_rad,
-         .exit_rad = e.exit_rad,
-         .csa_mm2 = e.csa_mm2},
+         .entry_rad = entry,
+         .exit_rad = exit,
+         .csa_mm2 = e.csa_mm2,
+         .top_mm = s.y_max_ofs_mm[i] + 0.5 * s.ad_max_mm[i]},
         out);
   }
   return out;
