@@ -269,7 +269,8 @@ Comparison compare_times(const Plate& plate, const TimeStudy& study) {
     const Spread s = spread_of(errors, kWanted);
     if (out.headline.empty()) {
       out.headline = std::to_string(s.within) + " of " + std::to_string(s.n) +
-                     " tested times of tools in motion within 10 %, median error " +
+                     " tested times of tools in motion within 10 % (part 7, whose feeds are not known, is "
+                     "told apart), median error " +
                      fixed(100.0 * s.median, 1) + " %";
     }
     summary.rows.push_back({name, std::to_string(s.n), std::to_string(s.within),
