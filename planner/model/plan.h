@@ -75,6 +75,7 @@ struct StepResult {
   StepLoads loads;
   std::vector<ActiveConstraint> active;
   std::vector<LimitAlongPath> held_by;  ///< of the feed schedule, largest share first
+  std::vector<ActiveConstraint> exceeded = {};  ///< limits that no feed keeps somewhere along the path
 };
 
 /// One clamping of the workpiece.
@@ -85,9 +86,11 @@ struct SetupResult {
   Workholding holding = {};
 };
 
+/// A feature that is not made as asked.
 struct Unplanned {
   AnyRef feature;
   std::string reason;
+  std::vector<std::string> needed_by = {};  ///< names of features that rest on it: they cannot be cut either
 };
 
 /// A default that nobody asked for by name, or an input with its identity.
