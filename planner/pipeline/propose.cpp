@@ -6,6 +6,7 @@
 
 #include "planner/base/number.h"
 #include "planner/model/walk.h"
+#include "planner/pipeline/members.h"
 #include "planner/pipeline/share.h"
 #include "planner/pipeline/steps.h"
 #include "tooling/nouns/nouns.h"
@@ -186,6 +187,7 @@ class Proposer {
     }
     const auto proposals = rules::propose_members(w_.inputs.rules, shapes, context);
     const auto order = rules::member_order(shapes);
+    const auto within = rules::made_within(shapes);
     std::vector<std::vector<std::size_t>> made(shapes.size());  // indices of steps by shape
     std::vector<std::size_t> representative(shapes.size());
     for (std::size_t i = 0; i < shapes.size(); ++i) {
@@ -201,13 +203,18 @@ class Proposer {
         for (const std::size_t s : made[representative[i]]) w_.steps[s].shapes.push_back(shapes[i]);
         continue;
       }
+      if (within[i] != i) {
+        w_.job.note("PIP-WITHIN", "feature '" + shapes[i].name + "': nothing is left to cut, for '" +
+                                      shapes[within[i]].name + "' takes all of it away");
+        continue;
+      }
       made[i] = shape(f, shapes[i], proposals[i]);
       if (core && !made[i].empty()) w_.steps[made[i].front()].after.push_back(core->last_step);
     }
     for (const auto& [first, second] : order) {
       if (representative[first] != first || representative[second] != second) continue;
       if (made[first].empty() || made[second].empty()) continue;
-      w_.steps[made[second].front()].after.push_back(made[first].back());
+      members_in_order(w_, made[first], made[second]);
     }
   }
 
@@ -455,6 +462,7 @@ Status propose_missing(Work& w) {
   const std::vector<AnyRef> features = wanted(w);
   std::vector<std::pair<AnyRef, std::vector<FeatureShape>>> shaped;
   if (w.policy.reopen >= Reopen::kOperations) {
+    warn_of_lost_threads(w);
     for (const AnyRef f : features)
       w.plan.model.get<model::ManufacturingFeature>(f)->its_operations.items.clear();
   }
