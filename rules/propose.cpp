@@ -320,7 +320,8 @@ std::vector<std::size_t> made_within(std::span<const FeatureShape> shapes) {
     const double off = other.nominal_mm - own.nominal_mm;
     if (off > kCoaxial) return true;
     if (!other.given) return !own.given;
-    return !own.given || (other.upper_mm + off <= own.upper_mm + 1e-9 && other.lower_mm + off >= own.lower_mm - 1e-9);
+    return !own.given ||
+           (other.upper_mm + off <= own.upper_mm + 1e-9 && other.lower_mm + off >= own.lower_mm - 1e-9);
   };
   for (const auto& [axis, members] : by_axis(shapes)) {
     for (const std::size_t i : members) {
@@ -328,8 +329,10 @@ std::vector<std::size_t> made_within(std::span<const FeatureShape> shapes) {
       if (!upright(s)) continue;
       for (const std::size_t k : members) {
         const FeatureShape& other = shapes[k];
-        if (k == i || !upright(other) || other.diameter.nominal_mm < s.diameter.nominal_mm - kCoaxial) continue;
-        const bool covers = top_of(other) >= top_of(s) - kCoaxial && bottom_of(other) <= bottom_of(s) + kCoaxial;
+        if (k == i || !upright(other) || other.diameter.nominal_mm < s.diameter.nominal_mm - kCoaxial)
+          continue;
+        const bool covers =
+            top_of(other) >= top_of(s) - kCoaxial && bottom_of(other) <= bottom_of(s) + kCoaxial;
         if (!covers || !asks_no_less(other.diameter, s.diameter)) continue;
         const bool alike_too = s.diameter.nominal_mm >= other.diameter.nominal_mm - kCoaxial &&
                                std::abs(bottom_of(other) - bottom_of(s)) < kCoaxial;

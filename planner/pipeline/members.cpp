@@ -6,7 +6,8 @@
 
 namespace capstan::pipeline {
 
-void members_in_order(Work& w, const std::vector<std::size_t>& first, const std::vector<std::size_t>& second) {
+void members_in_order(Work& w, const std::vector<std::size_t>& first,
+                      const std::vector<std::size_t>& second) {
   const model::Model& m = w.plan.model;
   const auto sizes = [&](std::size_t step) {
     const AnyRef op = w.steps[step].operation;

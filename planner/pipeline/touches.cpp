@@ -183,9 +183,9 @@ Touches level(const Work& w, const FeatureShape& s, Left left, double ball) {
   return {{out}, {}};
 }
 
-/// The flank of a cone, at the middle of its height, along x and y. A ball of radius b that touches the flank there
-/// has its middle at r + (h - d / 2) tan a - b / cos a from the axis, when that is h = d / 2 - b sin a deep; r is the
-/// cone's radius at its top, d its depth, a half its angle.
+/// The flank of a cone, at the middle of its height, along x and y. A ball of radius b that touches the flank
+/// there has its middle at r + (h - d / 2) tan a - b / cos a from the axis, when that is h = d / 2 - b sin a
+/// deep; r is the cone's radius at its top, d its depth, a half its angle.
 Touches flank(const Work& w, const FeatureShape& s, Left left, double ball) {
   const double lean = 0.5 * (s.diameter.nominal_mm - s.bottom_diameter_mm) / s.depth_mm;
   const double sine = lean / std::hypot(1.0, lean), cosine = 1.0 / std::hypot(1.0, lean);

@@ -36,8 +36,9 @@ Made countersink(const Making& m) {
   const auto& s0 = m.shape;
   const bool at_top = m.known.facts.symbol("taper") == "countersink";
   if (at_top && has_shoulder(m)) {
-    return no("a countersink of " + mm(s0.diameter.nominal_mm) + " cuts the shoulder away that stays between " +
-              mm(s0.bottom_diameter_mm) + " at the cone's foot and the hole of " + mm(m.hole_mm));
+    return no("a countersink of " + mm(s0.diameter.nominal_mm) +
+              " cuts the shoulder away that stays between " + mm(s0.bottom_diameter_mm) +
+              " at the cone's foot and the hole of " + mm(m.hole_mm));
   }
   const double half = at_top ? half_angle(s0) : 0.5 * std::numbers::pi - s0.bottom_angle_rad;
   const double d = s0.diameter.nominal_mm;
@@ -79,7 +80,8 @@ Made countersink_mill(const Making& m) {
   s.start_diameter_mm = m.hole_mm;
   s.allowance_side_mm = m.number("allowance_side_mm");
   if (s.allowance_side_mm >= width)
-    return no("an allowance of " + mm(s.allowance_side_mm) + " leaves nothing of a cone " + mm(width) + " wide");
+    return no("an allowance of " + mm(s.allowance_side_mm) + " leaves nothing of a cone " + mm(width) +
+              " wide");
   s.tool.classes = {CutterClass::kChamferMill, CutterClass::kCountersink};
   s.tool.point_angle_rad = 2.0 * half_angle(s0);
   s.tool.diameter_min_mm = 2.0 * width;

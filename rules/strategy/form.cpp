@@ -137,9 +137,10 @@ Made probe_feature(const Making& m) {
 // A size measured in the machine between the last two cuts.
 Made measure(const Making& m) {
   Made made = probe_feature(m);
-  made->why.text = "its size is measured before the last cut, which is then set to what is missing: a boring tool on "
-                   "its slide, a depth or a cone by the tool's length, a width by planning the last step again with "
-                   "the diameter that the cutter cuts";
+  made->why.text =
+      "its size is measured before the last cut, which is then set to what is missing: a boring tool on "
+      "its slide, a depth or a cone by the tool's length, a width by planning the last step again with "
+      "the diameter that the cutter cuts";
   return made;
 }
 

@@ -193,10 +193,11 @@ Made gun_drill(const Making& m) {
   return s;
 }
 
-constexpr double kLeastPilot = 0.5;  // of the largest; default, unsourced
+constexpr double kLeastPilot = 0.5;       // of the largest; default, unsourced
+constexpr double kLeastNextPilot = 0.75;  // the same, of a pilot that opens another; default, unsourced
 
-// A hole that a cutter opens: a drill well below it, as large as there is. After another pilot: wider than that
-// one may be, and as near to its own largest as the spindle turns.
+// A hole that a cutter opens: a drill well below it, as large as there is. After another pilot: wider than
+// that one may be.
 Made pilot(const Making& m) {
   const double d = lower_limit(m);
   const double hi = std::min(m.number("of_diameter") * d, m.number("largest_mm"));
@@ -205,10 +206,9 @@ Made pilot(const Making& m) {
   s.tool.classes = {CutterClass::kTwistDrill};
   double lo = kLeastPilot * hi;
   if (m.hole_mm > 0.0) {
-    lo = std::max(lo, m.hole_mm / kLeastPilot + 1.0);  // what is known of a pilot is its least diameter
+    // What is known of the pilot before is its least diameter.
+    lo = std::max(kLeastNextPilot * hi, m.hole_mm / kLeastPilot + 1.0);
     if (!(lo < hi)) return no("between the pilot before and " + mm(hi) + " there is no room for another");
-    s.tool.diameter_exact_mm = hi;
-    s.tool.diameter_tolerance_mm = hi - lo;
   }
   s.tool.diameter_min_mm = lo;
   s.tool.diameter_max_mm = hi;

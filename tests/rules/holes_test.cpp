@@ -104,7 +104,8 @@ TEST(Hole, OfIt6IsBoredInTwoCutsAndMeasuredBetweenThem) {
                                         TypeId::kWorkpieceProbing, TypeId::kBoring));
   EXPECT_NEAR(chain[2].tool.diameter_exact_mm, 20.0065 - 0.1, 1e-9);
   EXPECT_NEAR(chain[4].tool.diameter_exact_mm, 20.0065, 1e-9);
-  EXPECT_NEAR(chain[4].start_diameter_mm, 20.0065 - 0.1, 1e-9) << "what is measured is what the first cut left";
+  EXPECT_NEAR(chain[4].start_diameter_mm, 20.0065 - 0.1, 1e-9)
+      << "what is measured is what the first cut left";
   EXPECT_THAT(chain[4].why.text, HasSubstr("finer than IT6 takes honing or grinding"));
   EXPECT_THAT(propose(shipped(), toleranced(hole(20, 30), 0.0, 0.009), iron()).cannot,
               HasSubstr("honing or grinding"));
@@ -181,7 +182,9 @@ TEST(MadeWithin, NamesTheHoleThatTakesAnotherAwayWhateverTheirOrder) {
   FeatureShape beside = length;
   beside.frame.origin.x = 20.0;
   EXPECT_THAT(made_within(std::vector{core, beside}), ElementsAre(0, 1));
-  EXPECT_THAT(made_within(std::vector{hole(8.3, 10, HoleBottom::kFlat), toleranced(hole(8.3, 15.5, HoleBottom::kFlat), 0, 0.1)}), ElementsAre(1, 1));
+  EXPECT_THAT(made_within(std::vector{hole(8.3, 10, HoleBottom::kFlat),
+                                      toleranced(hole(8.3, 15.5, HoleBottom::kFlat), 0, 0.1)}),
+              ElementsAre(1, 1));
   EXPECT_THAT(made_within(std::vector{core, toleranced(hole(8.3, 30), 0.0, 0.1)}), ElementsAre(0, 1));
 }
 

@@ -100,7 +100,8 @@ Result<GeneratedPath> along_edge(const PathJob& task, double tip_below_mm, Job& 
   if ((s.open && !outside) || s.area.empty())
     return refuse("TPA-UNSUPPORTED",
                   "only the upper edges of closed pockets, holes and outside contours have paths yet");
-  const auto tip = s.kind == model::ShapeKind::kEdgeRound ? tip_of_round(task) : tip_of_cone(task, tip_below_mm);
+  const auto tip =
+      s.kind == model::ShapeKind::kEdgeRound ? tip_of_round(task) : tip_of_cone(task, tip_below_mm);
   if (!tip) return tl::unexpected(tip.error());
   auto w = work_area(task);
   if (!w) return tl::unexpected(w.error());
@@ -151,8 +152,8 @@ Result<GeneratedPath> broken_edge_path(const PathJob& task, Job& job) {
   return edge_path(edge, job);
 }
 
-// The wall of the hole below is the edge's: the cutter's cone runs along it, its tip below the cone's foot where
-// the hole lets it, on the foot where a shoulder stays.
+// The wall of the hole below is the edge's: the cutter's cone runs along it, its tip below the cone's foot
+// where the hole lets it, on the foot where a shoulder stays.
 Result<GeneratedPath> cone_of_hole_path(const PathJob& task, Job& job) {
   PathJob edge = task;
   auto& s = edge.shape;
