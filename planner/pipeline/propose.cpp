@@ -7,6 +7,7 @@
 #include "planner/base/number.h"
 #include "planner/model/walk.h"
 #include "planner/pipeline/choose.h"
+#include "planner/pipeline/members.h"
 #include "planner/pipeline/steps.h"
 #include "tooling/nouns/nouns.h"
 #include "tooling/select/select.h"
@@ -95,6 +96,7 @@ class Proposer {
     }
     const auto proposals = rules::propose_members(w_.inputs.rules, shapes, context);
     const auto order = rules::member_order(shapes);
+    const auto within = rules::made_within(shapes);
     std::vector<std::vector<std::size_t>> made(shapes.size());  // indices of steps by shape
     std::vector<std::size_t> representative(shapes.size());
     for (std::size_t i = 0; i < shapes.size(); ++i) {
@@ -108,6 +110,11 @@ class Proposer {
       // Like members are made in one step each of their chain, one after the other.
       if (representative[i] != i) {
         for (const std::size_t s : made[representative[i]]) w_.steps[s].shapes.push_back(shapes[i]);
+        continue;
+      }
+      if (within[i] != i) {
+        w_.job.note("PIP-WITHIN", "feature '" + shapes[i].name + "': nothing is left to cut, for '" +
+                                      shapes[within[i]].name + "' takes all of it away");
         continue;
       }
       made[i] = shape(f, shapes[i], proposals[i]);
@@ -124,25 +131,11 @@ class Proposer {
     for (const auto& [first, second] : order) {
       if (representative[first] != first || representative[second] != second) continue;
       if (made[first].empty() || made[second].empty()) continue;
-      w_.steps[made[second].front()].after.push_back(opening(made[first]));
+      members_in_order(w_, made[first], made[second]);
     }
   }
 
  private:
-  /// The step that makes the way in for what is coaxial: the last that removes the bulk. What sizes the
-  /// narrower hole (reaming, boring, a thread) may wait until the wider one is made.
-  [[nodiscard]] std::size_t opening(const std::vector<std::size_t>& chain) const {
-    std::size_t out = chain.front();
-    bool found = false;
-    for (const std::size_t i : chain) {
-      const int rank = craft_rank(w_.steps[i].operation.type);
-      if (rank != kDrills && rank != kRoughs && rank != kFinishes) continue;
-      out = i;
-      found = true;
-    }
-    return found ? out : chain.back();
-  }
-
   /// Whether an earlier try left this feature out; said again in this one.
   bool left_out(AnyRef f, const FeatureShape& first) {
     const LeftOut* out = w_.tries.left_out(f);
@@ -423,6 +416,7 @@ Status propose_missing(Work& w) {
   const std::vector<AnyRef> features = wanted(w);
   std::vector<std::pair<AnyRef, std::vector<FeatureShape>>> shaped;
   if (w.policy.reopen >= Reopen::kOperations) {
+    warn_of_lost_threads(w);
     for (const AnyRef f : features)
       w.plan.model.get<model::ManufacturingFeature>(f)->its_operations.items.clear();
   }
