@@ -52,6 +52,16 @@ Result<LateOutcome> bind(model::Plan plan, pipeline::Inputs inputs, const LatePo
   const auto check_start = Clock::now();
   out.findings = pipeline::findings_of(*fallback, job);
   const auto checking = Clock::now() - check_start;
+  if (first_error(out.findings) != nullptr) {
+    // What the check condemns is made anew, while half of the time is left.
+    job.evaluation_budget = policy.fallback_budget;
+    auto anew = pipeline::bind_checked(asked, inputs, policy_of(), job, start + policy.deadline / 2);
+    job.evaluation_budget = budget;
+    if (anew && anew->replanned > 0 && anew->plan.unplanned.empty()) {
+      out.findings = pipeline::findings_of(*anew, job);
+      fallback = std::move(anew->plan);
+    }
+  }
   if (const auto* f = first_error(out.findings)) {
     return fail({.code = "LATE-UNSAFE",
                  .message = "the plan does not pass the check: " + f->message,
