@@ -132,7 +132,8 @@ Chosen choose(Work& w, const model::Proposal& p, const FeatureShape& shape,
     Chosen out;
     std::vector<std::string> used = w.used_cutters;
     std::string why_not;
-    for (const auto& step : chain) {
+    while (why_not.empty() && out.tools.size() < chain.size()) {
+      const model::ProposedStep step = as_opened(chain, out.tools.size(), out.tools);
       tooling::Preferences wanted = preferences_of(w, step, shape);
       wanted.used = used;
       auto s = tooling::select(step.tool, library, w.plan.material, w.plan.machine, wanted);
@@ -375,7 +376,7 @@ class Proposer {
       step.shapes = {s};
       step.proposed = true;
       step.open_technology = true;
-      step.proposal = (*chosen.chain)[i];
+      step.proposal = as_opened(*chosen.chain, i, chosen.tools);
       step.proposal.feature = f;
       if (step.proposal.operation == TypeId::kWorkpieceProbing) {
         probing = probing_at(*chosen.chain, i, chosen.tools[i]);
