@@ -8,12 +8,7 @@ namespace capstan::pipeline {
 
 void members_in_order(Work& w, const std::vector<std::size_t>& first,
                       const std::vector<std::size_t>& second) {
-  const model::Model& m = w.plan.model;
-  const auto sizes = [&](std::size_t step) {
-    const AnyRef op = w.steps[step].operation;
-    return m.holds<model::BoringOperation>(op) || m.holds<model::Tapping>(op) ||
-           m.holds<model::ThreadDrilling>(op);
-  };
+  const auto sizes = [&](std::size_t step) { return craft_rank(w.steps[step].operation.type) == kSizes; };
   const auto sized = std::find_if(first.begin(), first.end(), sizes);
   const auto sized_too = std::find_if(second.begin(), second.end(), sizes);
   const bool opened = sized != first.end() && sized != first.begin() && sized_too != second.begin();
