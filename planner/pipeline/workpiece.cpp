@@ -13,35 +13,6 @@ namespace {
 using geometry::Box3;
 using geometry::Vec3;
 
-Box3 box_between(Vec3 a, Vec3 b) {
-  Box3 out;
-  out.add(a);
-  out.add(b);
-  return out;
-}
-
-/// The box of a block or a cylinder, workpiece coordinates.
-std::optional<Box3> box_of(const model::Model& m, AnyRef geometry) {
-  if (const auto* b = m.get<model::Block>(geometry)) {
-    const auto frame = model::placement_or_identity(m, b->position);
-    if (!frame || !b->x || !b->y || !b->z) return std::nullopt;
-    if (!(*b->x > 0.0 && *b->y > 0.0 && *b->z > 0.0)) return std::nullopt;
-    return transformed(box_between({0, 0, 0}, {*b->x, *b->y, *b->z}), *frame);
-  }
-  if (const auto* c = m.get<model::RightCircularCylinder>(geometry)) {
-    const auto* at = m.get<model::Axis1Placement>(c->position);
-    if (at == nullptr || !c->height || !c->radius) return std::nullopt;
-    const auto origin = model::point(m, at->location);
-    if (!origin) return std::nullopt;
-    const auto axis = model::direction(m, at->axis);
-    const auto frame = geometry::make_placement(*origin, axis ? *axis : Vec3{0, 0, 1});
-    if (!frame) return std::nullopt;
-    const double r = *c->radius;
-    return transformed(box_between({-r, -r, 0}, {r, r, *c->height}), *frame);
-  }
-  return std::nullopt;
-}
-
 const model::Workpiece* first_workpiece(const model::Plan& plan) {
   const auto* project = plan.model.get<model::Project>(plan.project);
   if (project != nullptr) {
@@ -53,6 +24,36 @@ const model::Workpiece* first_workpiece(const model::Plan& plan) {
   return all.empty() ? nullptr : plan.model.get<model::Workpiece>(all.front());
 }
 
+/// What stands over an outside contour of a raw piece that nobody states, mm: something must be there to be
+/// milled. Default, unsourced.
+constexpr double kOverOutsides = 5.0;
+
+/// What an outside asks of the raw piece: to stand over its contour, to its depth.
+void add_outside(const model::FeatureShape& s, Box3& out) {
+  geometry::Region within;
+  for (const auto& i : s.islands) within = geometry::unite(within, i.area);
+  geometry::Box2 b = geometry::bounds(geometry::offset_sharp(within, kOverOutsides));
+  if (within.empty()) {
+    if (s.spine.size() < 2) return;
+    // Beside an open line, on the right of it.
+    for (std::size_t i = 0; i + 1 < s.spine.size(); ++i) {
+      const geometry::Vec2 d = (1.0 / norm(s.spine[i + 1] - s.spine[i])) * (s.spine[i + 1] - s.spine[i]);
+      for (const std::size_t k : {i, i + 1}) {
+        const geometry::Vec2 over = s.spine[k] + kOverOutsides * geometry::Vec2{d.y, -d.x};
+        for (const geometry::Vec2 p : {s.spine[k], over}) {
+          b.lo = {std::min(b.lo.x, p.x), std::min(b.lo.y, p.y)};
+          b.hi = {std::max(b.hi.x, p.x), std::max(b.hi.y, p.y)};
+        }
+      }
+    }
+  }
+  for (const double z : {0.0, -s.depth_mm}) {
+    for (const double x : {b.lo.x, b.hi.x}) {
+      for (const double y : {b.lo.y, b.hi.y}) out.add(s.frame.to_parent({x, y, z}));
+    }
+  }
+}
+
 /// The box that the features' own extents span: what must be there at least.
 Box3 box_of_features(const Work& w) {
   Box3 out;
@@ -60,6 +61,7 @@ Box3 box_of_features(const Work& w) {
     const auto shapes = model::shapes_of(w.plan.model, Ref<model::ManufacturingFeature>(f));
     if (!shapes) continue;
     for (const auto& s : *shapes) {
+      if (s.kind == model::ShapeKind::kOutside) add_outside(s, out);
       if (s.area.empty() || s.kind == model::ShapeKind::kStep || s.kind == model::ShapeKind::kOutside)
         continue;
       const auto b = geometry::bounds(s.area);
@@ -93,7 +95,7 @@ void resolve_stock(Work& w, const model::Workpiece* piece) {
     if (const auto* raw = w.plan.model.get<model::Workpiece>(piece->its_rawpiece)) {
       if (raw->its_bounding_geometry.set()) shape = raw->its_bounding_geometry;
     }
-    if (const auto box = box_of(w.plan.model, shape)) {
+    if (const auto box = model::raw_box(w.plan.model, shape)) {
       stock.box = *box;
       stock.source = "given: " + std::string(model::noun_type(shape.type).keyword) + " of the workpiece";
       if (const auto* c = w.plan.model.get<model::RightCircularCylinder>(shape))
