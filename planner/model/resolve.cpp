@@ -95,37 +95,6 @@ Result<ResolvedLength> length(const Model& model, Ref<TolerancedLengthMeasure> m
   return out;
 }
 
-std::optional<geometry::Box3> raw_box(const Model& m, AnyRef geometry) {
-  geometry::Placement frame;
-  geometry::Vec3 lo, hi;
-  if (const auto* b = m.get<Block>(geometry)) {
-    const auto at = placement_or_identity(m, b->position);
-    if (!at || !b->x || !b->y || !b->z || !(*b->x > 0.0 && *b->y > 0.0 && *b->z > 0.0)) return std::nullopt;
-    frame = *at;
-    hi = {*b->x, *b->y, *b->z};
-  } else if (const auto* c = m.get<RightCircularCylinder>(geometry)) {
-    const auto* along = m.get<Axis1Placement>(c->position);
-    if (along == nullptr || !c->height || !c->radius) return std::nullopt;
-    const auto origin = point(m, along->location);
-    if (!origin) return std::nullopt;
-    const auto axis = direction(m, along->axis);
-    const auto at = geometry::make_placement(*origin, axis ? *axis : geometry::Vec3{0, 0, 1});
-    if (!at) return std::nullopt;
-    frame = *at;
-    lo = {-*c->radius, -*c->radius, 0.0};
-    hi = {*c->radius, *c->radius, *c->height};
-  } else {
-    return std::nullopt;
-  }
-  geometry::Box3 out;
-  for (const double x : {lo.x, hi.x}) {
-    for (const double y : {lo.y, hi.y}) {
-      for (const double z : {lo.z, hi.z}) out.add(frame.to_parent({x, y, z}));
-    }
-  }
-  return out;
-}
-
 Result<ResolvedDepth> depth_of(const Model& model, AnyRef feature) {
   AnyRef at;
   if (const auto* f = model.get<MachiningFeature>(feature)) at = f->depth;

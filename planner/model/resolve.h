@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <string>
 
 #include "planner/base/result.h"
@@ -36,9 +35,6 @@ struct ResolvedLength : Toleranced {
 /// Fails  MDL-MISSING when unset or without theoretical_size; as `stated` for a tolerance that cannot be
 /// read.
 [[nodiscard]] Result<ResolvedLength> length(const Model& model, Ref<TolerancedLengthMeasure> m);
-
-/// The box of a block or of a cylinder, in the coordinates it is stated in; nothing for other geometry.
-[[nodiscard]] std::optional<geometry::Box3> raw_box(const Model& model, AnyRef geometry);
 
 /// How deep a feature goes.
 struct ResolvedDepth {

@@ -150,6 +150,8 @@ void under_an_overhang(optimise::CutQuestion& q, const toolpath::PathJob& job) {
   const double beside = d - 2.0 * (u->mouth_mm - *job.left_on_side_mm);
   q.slot = false;
   q.ae_mm = q.width_mm = std::clamp(beside, toolpath::side_step(job, d), d);
+  // Where the head moves aside, a last thin pass makes the walls: the others may bend it as roughing may.
+  if (u->widest_mm - job.allowance_side_mm - 0.5 * d > toolpath::kLastSide) q.deflection_limit_mm = 0.0;
 }
 
 }  // namespace

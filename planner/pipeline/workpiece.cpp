@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "planner/base/number.h"
-#include "planner/model/resolve.h"
+#include "planner/model/raw_piece.h"
 #include "planner/pipeline/work.h"
 #include "tooling/catalogue/material.h"
 
@@ -12,17 +12,6 @@ namespace {
 
 using geometry::Box3;
 using geometry::Vec3;
-
-const model::Workpiece* first_workpiece(const model::Plan& plan) {
-  const auto* project = plan.model.get<model::Project>(plan.project);
-  if (project != nullptr) {
-    for (std::size_t i = 0; i < project->its_workpieces.size(); ++i) {
-      if (const auto* w = plan.model.get<model::Workpiece>(project->its_workpieces[i])) return w;
-    }
-  }
-  const auto all = plan.model.all(model::TypeId::kWorkpiece);
-  return all.empty() ? nullptr : plan.model.get<model::Workpiece>(all.front());
-}
 
 /// What stands over an outside contour of a raw piece that nobody states, mm: something must be there to be
 /// milled. Default, unsourced.
@@ -91,11 +80,8 @@ void resolve_stock(Work& w, const model::Workpiece* piece) {
     return;
   }
   if (piece != nullptr) {
-    AnyRef shape = piece->its_bounding_geometry;
-    if (const auto* raw = w.plan.model.get<model::Workpiece>(piece->its_rawpiece)) {
-      if (raw->its_bounding_geometry.set()) shape = raw->its_bounding_geometry;
-    }
-    if (const auto box = model::raw_box(w.plan.model, shape)) {
+    const AnyRef shape = model::raw_solid(w.plan.model, *piece);
+    if (const auto box = model::box_of(w.plan.model, shape)) {
       stock.box = *box;
       stock.source = "given: " + std::string(model::noun_type(shape.type).keyword) + " of the workpiece";
       if (const auto* c = w.plan.model.get<model::RightCircularCylinder>(shape))
@@ -135,7 +121,7 @@ Box3 transformed(const Box3& box, const geometry::Placement& to) {
 }
 
 Status resolve_workpiece(Work& w) {
-  const model::Workpiece* piece = first_workpiece(w.plan);
+  const model::Workpiece* piece = model::workpiece_of(w.plan.model, w.plan.project);
   std::vector<std::string> names;
   if (w.inputs.material_name) {
     names.push_back(*w.inputs.material_name);

@@ -4,6 +4,7 @@
 
 #include "planner/base/number.h"
 #include "planner/model/nouns/workpiece.h"
+#include "planner/model/raw_piece.h"
 #include "planner/model/resolve.h"
 #include "planner/model/shape/build.h"
 
@@ -87,21 +88,21 @@ std::optional<geometry::Box3> stated_raw(const Model& m, AnyRef self) {
   const auto* feature = m.get<ManufacturingFeature>(self);
   const Workpiece* piece = feature == nullptr ? nullptr : m.get<Workpiece>(feature->its_workpiece);
   if (piece == nullptr) return std::nullopt;
-  if (const auto* raw = m.get<Workpiece>(piece->its_rawpiece)) {
-    if (auto box = raw_box(m, raw->its_bounding_geometry)) return box;
-  }
-  return raw_box(m, piece->its_bounding_geometry);
+  return box_of(m, raw_solid(m, *piece));
 }
 
-/// The box that the other features span: what every raw piece holds.
-std::optional<geometry::Box3> box_of_others(const Model& m, AnyRef self) {
+/// The box that the other features span: what every raw piece holds. What compounds and patterns hold is left
+/// out: where it stands may itself rest on the piece.
+std::optional<geometry::Box3> box_of_others(const Model& m) {
   geometry::Box3 out;
   for (const AnyRef f : m.all_below(TypeId::kMachiningFeature)) {
-    if (f == self || m.holds<ProfileFeature>(f) || m.holds<Step>(f) || m.holds<Boss>(f)) continue;
-    const auto shapes = any(m, f, 0);
+    const bool area =
+        m.holds<PlanarFace>(f) || m.holds<Pocket>(f) || m.holds<Slot>(f) || m.holds<RoundHole>(f);
+    if (!area || !holders(m, f).empty()) continue;
+    const auto shapes = shapes_of(m, Ref<ManufacturingFeature>(f));
     if (!shapes) continue;
     for (const FeatureShape& s : *shapes) {
-      if (s.area.empty() || s.kind == ShapeKind::kOutside || s.kind == ShapeKind::kStep) continue;
+      if (s.area.empty()) continue;
       const Box2 b = geometry::bounds(s.area);
       for (const Vec2 c : {b.lo, Vec2{b.hi.x, b.lo.y}, b.hi, Vec2{b.lo.x, b.hi.y}})
         out.add(s.frame.to_parent({c.x, c.y, 0.0}));
@@ -140,7 +141,7 @@ Status beside_a_line(const Model& m, AnyRef self, const std::vector<Vec2>& line,
   if (line.size() < 2 || norm(line.back() - line.front()) < 1e-6)
     return unsupported(m, self, "its open profile has no length");
   const auto raw = stated_raw(m, self);
-  const auto others = box_of_others(m, self);
+  const auto others = box_of_others(m);
   if (!raw && !others) {
     return unsupported(m, self,
                        "an outside profile that is not closed says its side by the raw piece, and none is "

@@ -248,9 +248,11 @@ Result<GeneratedPath> undercut_path(const PathJob& task, const Undercut& u, Slot
   std::vector<double> sides;
   if (aside > 1e-6) {
     const double step = side_step(task, head->diameter_mm);
-    const int n = std::max(1, static_cast<int>(std::ceil(aside / step - 1e-9)));
+    const double rough = std::max(0.0, aside - kLastSide);
+    const int n = static_cast<int>(std::ceil(rough / step - 1e-9));
     if (n > kMostPasses) return refuse(task, "TPA-NO-FIT", "the cutter is much too small for the slot");
-    for (int i = 1; i <= n; ++i) sides.push_back(aside * i / n);
+    for (int i = 1; i <= n; ++i) sides.push_back(rough * i / n);
+    sides.push_back(aside);
   }
   const double bottom = w->bottom_z_mm + task.allowance_bottom_mm;
   std::vector<double> heights;

@@ -23,6 +23,8 @@ struct Undercut {
 /// The same job for the upright slot as wide as the mouth, which is milled first.
 [[nodiscard]] PathJob neck_of(const PathJob& task, const Undercut& u);
 
+/// What the last pass of the head takes from the walls where it moves aside, mm. Default, unsourced.
+inline constexpr double kLastSide = 0.2;
 /// By how much a pass of the head goes further aside than the one before, mm.
 [[nodiscard]] double side_step(const PathJob& task, double diameter_mm);
 
