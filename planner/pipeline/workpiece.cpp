@@ -72,11 +72,41 @@ std::string words(const Box3& b) {
          trimmed(b.lo.x, 3) + ", " + trimmed(b.lo.y, 3) + ", " + trimmed(b.lo.z, 3) + ")";
 }
 
+/// An open outside profile says its side by the raw piece: one named by --stock is stated for it where the
+/// file states none.
+void state_raw_piece(Work& w, const Box3& box) {
+  model::Model& m = w.plan.model;
+  for (const AnyRef f : m.all_below(model::TypeId::kGeneralOutsideProfile)) {
+    const auto* outside = m.get<model::GeneralOutsideProfile>(f);
+    const auto owner = outside->its_workpiece;
+    const auto* piece = m.get<model::Workpiece>(owner);
+    if (!m.holds<model::OpenProfile>(outside->feature_boundary) || piece == nullptr ||
+        model::raw_solid(m, *piece).set())
+      continue;
+    model::CartesianPoint corner;
+    corner.coordinates = {{box.lo.x, box.lo.y, box.lo.z}, true};
+    model::Axis2Placement3d at;
+    at.location = m.add(corner);
+    model::Block block;
+    block.name = "RAW PIECE";
+    block.position = m.add(at);
+    block.x = box.size().x;
+    block.y = box.size().y;
+    block.z = box.size().z;
+    model::Workpiece raw;
+    raw.its_id = "RAW PIECE";
+    raw.its_bounding_geometry = m.add(block);
+    const auto made = m.add(raw);
+    m.get<model::Workpiece>(owner)->its_rawpiece = made;
+  }
+}
+
 void resolve_stock(Work& w, const model::Workpiece* piece) {
   model::Stock& stock = w.plan.stock;
   if (w.inputs.stock) {
     stock.box = *w.inputs.stock;
     stock.source = "given: --stock";
+    state_raw_piece(w, stock.box);
     return;
   }
   if (piece != nullptr) {

@@ -173,18 +173,25 @@ Result<std::vector<Vec2>> tee_section(const Model& m, const TeeProfile& t, doubl
                             trimmed(s.depth_mm + high, 3) + " mm deep");
     s.depth_mm += high;
   }
-  // Edges broken by a tenth, and corners of that size, are what tee cutters leave anyway.
-  std::string small;
-  for (const auto& [name, value] : {std::pair("radius", t.radius), std::pair("first_offset", t.first_offset),
-                                    std::pair("second_offset", t.second_offset)}) {
-    const auto size = value.set() ? length(m, value) : Result<ResolvedLength>(ResolvedLength{});
-    if (!size) return missing(m, s.feature, std::string("swept_shape's ") + name, size.error());
-    if (size->nominal_mm > kSame)
-      small += (small.empty() ? "" : ", ") + std::string(name) + " " + trimmed(size->nominal_mm, 3) + " mm";
+  if (t.radius.set()) {
+    const auto r = length(m, t.radius);
+    if (!r) return missing(m, s.feature, "swept_shape's radius", r.error());
+    if (r->nominal_mm > kSame)
+      s.assumptions.push_back("its tee profile's radius of " + trimmed(r->nominal_mm, 3) +
+                              " mm stays as the corners of the cutter leave it");
   }
-  if (!small.empty())
-    s.assumptions.push_back("the corners and edges that its tee profile states (" + small +
-                            ") stay as the cutter leaves them");
+  // The offsets say again how far the bar stands out of the neck on either side.
+  const double out = 0.5 * (bar->nominal_mm - w->nominal_mm);
+  for (const auto& [name, ref] :
+       {std::pair("first_offset", t.first_offset), std::pair("second_offset", t.second_offset)}) {
+    if (!ref.set()) continue;
+    const auto offset = length(m, ref);
+    if (!offset) return missing(m, s.feature, std::string("swept_shape's ") + name, offset.error());
+    if (std::abs(offset->nominal_mm - out) > 0.01)
+      s.assumptions.push_back(std::string("its tee profile's ") + name + " of " +
+                              trimmed(offset->nominal_mm, 3) + " mm is not what its widths give (" +
+                              trimmed(out, 3) + " mm): the widths hold, the bar lies in the middle");
+  }
   return std::vector<Vec2>{{0.0, 0.5 * bar->nominal_mm},
                            {high, 0.5 * bar->nominal_mm},
                            {high, 0.5 * w->nominal_mm},
