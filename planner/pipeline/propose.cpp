@@ -330,7 +330,7 @@ class Proposer {
       step.chain = chosen.key;
       step.in_chain = i;
       step.open_technology = true;
-      step.proposal = (*chosen.chain)[i];
+      step.proposal = as_opened(*chosen.chain, i, chosen.tools);
       step.proposal.feature = f;
       if (step.proposal.operation == TypeId::kWorkpieceProbing) {
         probing = probing_at(*chosen.chain, i, chosen.tools[i]);
