@@ -24,9 +24,6 @@ namespace {
 
 using model::Model;
 
-constexpr double kTolerableExcess =
-    0.1;  // of a limit, somewhere on a path: sections are known to a cell's width
-
 /// What one try at a step came to.
 struct Made {
   toolpath::GeneratedPath path;
@@ -218,7 +215,7 @@ class PathMaker {
     fq.cut = made.question;
     fq.n_rpm = given.rpm.value_or(made.answer.n_rpm);
     fq.feed_mm_min = given.feed_mm_min.value_or(made.answer.feed_mm_min);
-    fq.adapt = step.open_technology || feed_was_planned(step);
+    fq.adapt = step.open_technology || feed_was_planned(w_, step);
     fq.constant = w_.inputs.constant_feeds;
     fq.feed_factor = std::move(made.path.feed_factor);
     fq.speed_factor = std::move(made.path.speed_factor);
@@ -243,13 +240,7 @@ class PathMaker {
       r.sections = std::make_shared<const model::SectionSeries>(std::move(m->sections));
     }
     const auto feeds = optimise::feeds(fq, *path);
-    if (step.open_technology && feeds.worst_excess > kTolerableExcess) {
-      w_.job.warn("PIP-EXCESS",
-                  "step '" + name_of(w_, step) + "': somewhere along the path a limit is exceeded by " +
-                      (std::isfinite(feeds.worst_excess) ? trimmed(100.0 * feeds.worst_excess, 1) + " %"
-                                                         : std::string("what no formula tells")) +
-                      " even at the least feed");
-    }
+    if (fq.adapt) keep_excess(w_, step, feeds, r);
     r.schedule = std::make_shared<const model::FeedSchedule>(feeds.schedule);
     r.loads = feeds.peak;
     if (!(r.loads.tool_life_min > 0.0)) r.loads.tool_life_min = made.answer.life_min;
@@ -260,15 +251,6 @@ class PathMaker {
     record_path(w_, step, path, deviation.why);
     keep(w_, step, std::move(r), fq);
     return {};
-  }
-
-  /// Whether the feed is one that planning bound before: then it is the most, and each move has its own.
-  bool feed_was_planned(const StepWork& step) const {
-    const auto* op = w_.plan.model.get<model::MachiningOperation>(step.operation);
-    if (op == nullptr || !op->its_technology.set()) return false;
-    const auto* d = w_.plan.ledger.find(op->its_technology, "feedrate");
-    return d != nullptr && !d->pinned && d->binder != model::Binder::kGiven &&
-           d->binder != model::Binder::kOperator;
   }
 
   // A given path is moves at feed; without a compensation chuck that breaks the tap, so the thread is planned
