@@ -92,14 +92,14 @@ Result<model::Plan> part_of(std::string bytes, const std::string& name, Job& job
   return exchange::read_bytes(std::move(bytes), name, exchange::ReadOptions{}, job);
 }
 
-Result<model::Plan> planned(std::string part, const std::string& name, const PlanOptions& o, Job& job) {
+Result<pipeline::Checked> planned(std::string part, const std::string& name, const PlanOptions& o, Job& job) {
   const auto policy = policy_of(o);
   if (!policy) return tl::unexpected(policy.error());
   auto read = part_of(std::move(part), name, job);
-  if (!read) return read;
+  if (!read) return tl::unexpected(read.error());
   const auto inputs = inputs_of(o, job);
   if (!inputs) return tl::unexpected(inputs.error());
-  return pipeline::bind(*std::move(read), *inputs, *policy, job);
+  return pipeline::bind_checked(*read, *inputs, *policy, job);
 }
 
 void forms(const model::Plan& plan, PlanOutput& out, Job& job) {
@@ -123,9 +123,10 @@ void forms(const model::Plan& plan, PlanOutput& out, Job& job) {
   }
 }
 
-/// Checks the plan and its program. One that is condemned is taken back, or written again with its stops and
-/// checked as it then is.
-void checked(const model::Plan& plan, bool allow_findings, PlanOutput& out, Job& job) {
+/// Checks the program, with what is known of the plan. One that is condemned is taken back, or written again
+/// with its stops and checked as it then is.
+void checked(const pipeline::Checked& bound, bool allow_findings, PlanOutput& out, Job& job) {
+  const model::Plan& plan = bound.plan;
   const auto add = [&](const std::vector<model::Finding>& findings, const std::string& of) {
     for (const auto& f : findings) {
       const std::string step = f.step.empty() ? std::string() : "step '" + f.step + "': ";
@@ -136,7 +137,7 @@ void checked(const model::Plan& plan, bool allow_findings, PlanOutput& out, Job&
     return verify::check_program({"program", out.linuxcnc, out.tool_table}, &plan, plan.machine, plan.cutters,
                                  job);
   };
-  auto all = verify::check_plan(plan, job);
+  auto all = bound.findings;
   add(all, "");
   std::vector<model::Finding> program;
   if (!out.linuxcnc.empty()) program = of_program();
@@ -164,11 +165,11 @@ PlanOutput plan_bytes(std::string part, const std::string& name, const PlanOptio
   const auto plan = planned(std::move(part), name, options, job);
   if (plan) {
     out.planned = true;
-    out.steps = plan->steps.size();
-    out.unplanned = plan->unplanned.size();
-    forms(*plan, out, job);
+    out.steps = plan->plan.steps.size();
+    out.unplanned = plan->plan.unplanned.size();
+    forms(plan->plan, out, job);
     checked(*plan, options.allow_findings, out, job);
-    if (const auto t = motion::time_of(*plan)) out.time_s = t->total_s();
+    if (const auto t = motion::time_of(plan->plan)) out.time_s = t->total_s();
   } else {
     job.report(plan.error());
   }

@@ -56,6 +56,8 @@ struct Island {
 struct FeatureShape {
   AnyRef feature;  ///< the noun it came from (a member of a pattern: its base feature)
   int member = 0;  ///< number within a pattern or compound, from 0
+  /// Of a compound or pattern: the element (or base) that this is, the elements of that one, and so on.
+  std::vector<AnyRef> made_of;
   ShapeKind kind = ShapeKind::kFace;
   std::string name;  ///< its_id, with "[n]" for members
   geometry::Placement frame;
@@ -95,6 +97,10 @@ struct FeatureShape {
 };
 
 /// The shapes of a feature: one for a simple one, several for compounds, patterns, counterbored holes.
+/// Elements of a compound stand relative to it, the base of a pattern relative to the pattern, in turn; asked
+/// for alone they stand where their compound or pattern puts them, in each that lists them. Where that would
+/// be outside the piece, and workpiece coordinates would not, these are read, and `assumptions` says so
+/// (shape/containers.cpp).
 /// Fails  SHP-… when the noun lacks what a shape needs (no depth, no profile), naming the attribute.
 [[nodiscard]] Result<std::vector<FeatureShape>> shapes_of(const Model& model,
                                                           Ref<ManufacturingFeature> feature);

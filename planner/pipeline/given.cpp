@@ -327,11 +327,47 @@ std::vector<model::FeatureShape> members_meant(std::vector<model::FeatureShape> 
   return shapes;
 }
 
+/// An operation is for the elements of a compound, or the base of a pattern, that list it; listed by none of
+/// them, for all. The workingstep names the compound, its elements name their operations.
+std::vector<model::FeatureShape> elements_meant(const model::Model& m,
+                                                std::vector<model::FeatureShape> shapes, AnyRef operation) {
+  const auto lists = [&](AnyRef element) {
+    const auto* f = m.get<model::ManufacturingFeature>(element);
+    if (f == nullptr) return false;
+    const auto& items = f->its_operations.items;
+    return std::any_of(items.begin(), items.end(), [&](AnyRef o) { return o == operation; });
+  };
+  std::vector<model::FeatureShape> out;
+  for (const model::FeatureShape& s : shapes) {
+    if (std::any_of(s.made_of.begin(), s.made_of.end(), lists)) out.push_back(s);
+  }
+  return out.empty() ? shapes : out;
+}
+
+/// How the shapes of given steps were read, where that was assumed: once for each feature.
+void say_assumptions(Work& w) {
+  std::set<std::pair<AnyRef, std::string>> said;
+  for (const StepWork& step : w.steps) {
+    for (const model::FeatureShape& s : step.shapes) {
+      for (const std::string& a : s.assumptions) {
+        if (!said.insert({step.feature, a}).second) continue;
+        w.job.report({.code = "PIP-ASSUMED",
+                      .severity = Severity::kWarning,
+                      .message = "feature '" + s.name + "': " + a,
+                      .file = w.plan.file_name,
+                      .line = w.plan.model.origin(step.feature).line,
+                      .instance = w.plan.model.origin(step.feature).instance});
+      }
+    }
+  }
+}
+
 }  // namespace
 
 Status list_given(Work& w) {
   report_outside(w);
   for (const AnyRef f : w.plan.model.all_below(TypeId::kPlanarFace)) {
+    if (w.tries.left_out(f) != nullptr) continue;  // it stays
     if (auto s = model::shapes_of(w.plan.model, Ref<model::ManufacturingFeature>(f))) {
       w.faces.insert(w.faces.end(), s->begin(), s->end());
     }
@@ -366,7 +402,8 @@ Status list_given(Work& w) {
       auto shapes = model::shapes_of(w.plan.model, Ref<model::ManufacturingFeature>(step.feature));
       if (shapes) {
         const std::string name = w.plan.model.get<model::Executable>(step.step)->its_id.value_or("");
-        step.shapes = members_meant(rules::from_the_top(*std::move(shapes)), name);
+        step.shapes = members_meant(
+            elements_meant(w.plan.model, rules::from_the_top(*std::move(shapes)), step.operation), name);
       }
       // An operation with its own path needs no shape; others say later why they cannot be done.
     }
@@ -380,6 +417,7 @@ Status list_given(Work& w) {
     kept.push_back(std::move(step));
   }
   w.steps = std::move(kept);
+  say_assumptions(w);
   return {};
 }
 

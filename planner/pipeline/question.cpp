@@ -240,6 +240,13 @@ optimise::CutQuestion question_of(const Work& w, const StepWork& step, const mod
                     step.cutter.cutter_class == model::CutterClass::kCountersink;
   // A broken edge: as wide as it is deep.
   if (cone && q.kind == CutKind::kFinish && q.ap_mm) q.width_mm = std::max(0.05, *q.ap_mm);
+  // A hole's cone, in one cut: as deep and as wide as it is.
+  const double narrowing = job.shape.diameter.nominal_mm - job.shape.bottom_diameter_mm;
+  if (cone && q.kind == CutKind::kFinish && !q.ap_mm && job.shape.kind == ShapeKind::kHole &&
+      narrowing > 0.0) {
+    q.ap_mm = q.depth_mm = job.shape.depth_mm;
+    q.width_mm = 0.5 * narrowing;
+  }
   hold_quality(w, step, job, q);
   q.override_locked = override_locked(w, step);
   if (!step.open_technology) {

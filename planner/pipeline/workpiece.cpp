@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "planner/base/number.h"
-#include "planner/model/resolve.h"
+#include "planner/model/raw_piece.h"
 #include "planner/pipeline/work.h"
 #include "tooling/catalogue/material.h"
 
@@ -12,46 +12,6 @@ namespace {
 
 using geometry::Box3;
 using geometry::Vec3;
-
-Box3 box_between(Vec3 a, Vec3 b) {
-  Box3 out;
-  out.add(a);
-  out.add(b);
-  return out;
-}
-
-/// The box of a block or a cylinder, workpiece coordinates.
-std::optional<Box3> box_of(const model::Model& m, AnyRef geometry) {
-  if (const auto* b = m.get<model::Block>(geometry)) {
-    const auto frame = model::placement_or_identity(m, b->position);
-    if (!frame || !b->x || !b->y || !b->z) return std::nullopt;
-    if (!(*b->x > 0.0 && *b->y > 0.0 && *b->z > 0.0)) return std::nullopt;
-    return transformed(box_between({0, 0, 0}, {*b->x, *b->y, *b->z}), *frame);
-  }
-  if (const auto* c = m.get<model::RightCircularCylinder>(geometry)) {
-    const auto* at = m.get<model::Axis1Placement>(c->position);
-    if (at == nullptr || !c->height || !c->radius) return std::nullopt;
-    const auto origin = model::point(m, at->location);
-    if (!origin) return std::nullopt;
-    const auto axis = model::direction(m, at->axis);
-    const auto frame = geometry::make_placement(*origin, axis ? *axis : Vec3{0, 0, 1});
-    if (!frame) return std::nullopt;
-    const double r = *c->radius;
-    return transformed(box_between({-r, -r, 0}, {r, r, *c->height}), *frame);
-  }
-  return std::nullopt;
-}
-
-const model::Workpiece* first_workpiece(const model::Plan& plan) {
-  const auto* project = plan.model.get<model::Project>(plan.project);
-  if (project != nullptr) {
-    for (std::size_t i = 0; i < project->its_workpieces.size(); ++i) {
-      if (const auto* w = plan.model.get<model::Workpiece>(project->its_workpieces[i])) return w;
-    }
-  }
-  const auto all = plan.model.all(model::TypeId::kWorkpiece);
-  return all.empty() ? nullptr : plan.model.get<model::Workpiece>(all.front());
-}
 
 /// What a property says: "hardness = 200 HB".
 std::string property_text(const model::Model& m, const std::string& of, AnyRef parameter) {
@@ -155,11 +115,8 @@ void resolve_stock(Work& w, const model::Workpiece* piece) {
     return;
   }
   if (piece != nullptr) {
-    AnyRef shape = piece->its_bounding_geometry;
-    if (const auto* raw = w.plan.model.get<model::Workpiece>(piece->its_rawpiece)) {
-      if (raw->its_bounding_geometry.set()) shape = raw->its_bounding_geometry;
-    }
-    if (const auto box = box_of(w.plan.model, shape)) {
+    const AnyRef shape = model::raw_solid(w.plan.model, *piece);
+    if (const auto box = model::box_of(w.plan.model, shape)) {
       stock.box = *box;
       stock.source = "given: " + std::string(model::noun_type(shape.type).keyword) + " of the workpiece";
       if (const auto* c = w.plan.model.get<model::RightCircularCylinder>(shape))
@@ -199,7 +156,7 @@ Box3 transformed(const Box3& box, const geometry::Placement& to) {
 }
 
 Status resolve_workpiece(Work& w) {
-  const model::Workpiece* piece = first_workpiece(w.plan);
+  const model::Workpiece* piece = model::workpiece_of(w.plan.model, w.plan.project);
   if (auto ok = resolve_material(w, piece); !ok) return ok;
   w.plan.machine = w.inputs.machine;
   w.plan.provenance = w.inputs.provenance;

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <chrono>
+#include <optional>
 #include <utility>
 
 #include "casebase/casebase.h"
@@ -125,9 +126,9 @@ int run_plan(Session& s) {
   policy.bind = s.options.bind;
   Task task;
   if (const int code = prepared(s, policy, task); code != kDone) return code;
-  const auto plan = pipeline::bind(std::move(task.part), task.inputs, policy, s.job);
-  if (!plan) return s.end(plan.error(), kImpossible);
-  return finish(s, *plan, std::move(task.outputs));
+  const auto bound = pipeline::bind_checked(task.part, task.inputs, policy, s.job);
+  if (!bound) return s.end(bound.error(), kImpossible);
+  return finish(s, bound->plan, std::move(task.outputs), bound->findings);
 }
 
 int run_bind(Session& s) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "planner/exchange/ap238/frames.h"
+#include "planner/exchange/ap238/locations.h"
 #include "planner/model/resolve.h"
 #include "planner/model/walk.h"
 
@@ -416,6 +417,7 @@ std::map<AnyRef, std::vector<AnyRef>> by_workingstep(const model::Plan& plan) {
 void to_ap238(model::Plan& plan, std::vector<std::string>& losses) {
   Model& m = plan.model;
   const auto operations = by_workingstep(plan);
+  const Locations locations(m);
   sides(m, true);
   std::map<AnyRef, AnyRef> placed;
   for (const AnyRef at : m.all_below(TypeId::kManufacturingFeature)) {
@@ -439,11 +441,13 @@ void to_ap238(model::Plan& plan, std::vector<std::string>& losses) {
     if (const auto* f = m.get<model::Two5dManufacturingFeature>(at))
       place_components(m, at, f->feature_placement, placed);
   }
+  locations.follow(m);
 }
 
 void to_model(Reader& reader) {
   Model& m = reader.plan().model;
   const auto features = m.all_below(TypeId::kManufacturingFeature);
+  const Locations locations(m);
   sides(m, false);
   for (const AnyRef at : features) {
     const auto* f = m.get<model::Two5dManufacturingFeature>(at);
@@ -467,6 +471,7 @@ void to_model(Reader& reader) {
     }
     if (m.holds<model::Slot>(at) || m.holds<model::Step>(at)) sweep_to_model(reader, at);
   }
+  locations.follow(m);
   const auto operations = by_workingstep(reader.plan());
   for (const AnyRef at : features) {
     const auto known = operations.find(at);

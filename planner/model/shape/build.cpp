@@ -19,8 +19,6 @@ using geometry::Vec3;
 
 namespace {
 
-constexpr int kNesting = 8;  // compounds of patterns of compounds
-
 std::string label(const Model& m, AnyRef feature) {
   const auto* f = m.get<ManufacturingFeature>(feature);
   std::string name(noun_type(feature.type).keyword);
@@ -244,9 +242,9 @@ Status add_islands(const Model& m, const RefList<Boss>& bosses, FeatureShape& in
   return {};
 }
 
-Result<Shapes> any(const Model& m, AnyRef feature, int depth) {
-  if (depth > kNesting) return unsupported(m, feature, "is nested too deeply, or in itself");
-  if (!feature.set()) return fail("SHP-MISSING", "a feature is missing");
+namespace {
+
+Result<Shapes> plain(const Model& m, AnyRef feature) {
   if (const auto* f = m.get<PlanarFace>(feature)) return face(m, feature, *f);
   if (const auto* f = m.get<Pocket>(feature)) return pocket(m, feature, *f);
   if (const auto* f = m.get<Slot>(feature)) return slot(m, feature, *f);
@@ -256,10 +254,6 @@ Result<Shapes> any(const Model& m, AnyRef feature, int depth) {
   if (const auto* f = m.get<Boss>(feature)) return boss(m, feature, *f);
   if (const auto* f = m.get<SphericalCap>(feature)) return spherical_cap(m, feature, *f);
   if (const auto* f = m.get<RoundedEnd>(feature)) return rounded_end(m, feature, *f);
-  if (const auto* f = m.get<Thread>(feature)) return thread(m, feature, *f, depth);
-  if (const auto* f = m.get<TransitionFeature>(feature)) return transition(m, feature, *f, depth);
-  if (const auto* f = m.get<CompoundFeature>(feature)) return compound(m, feature, *f, depth);
-  if (const auto* f = m.get<ReplicateFeature>(feature)) return replicate(m, feature, *f, depth);
   auto s = base(m, feature, false);
   if (!s) return tl::unexpected(s.error());
   if (m.holds<ToolpathFeature>(feature)) {
@@ -278,6 +272,22 @@ Result<Shapes> any(const Model& m, AnyRef feature, int depth) {
   return unsupported(m, feature, "is a kind of feature that is not understood");
 }
 
+}  // namespace
+
+Result<Shapes> any(const Model& m, AnyRef feature, const Within& in) {
+  if (in.depth > kNesting) return unsupported(m, feature, "is nested too deeply, or in itself");
+  if (!feature.set()) return fail("SHP-MISSING", "a feature is missing");
+  if (const auto* f = m.get<Thread>(feature)) return thread(m, feature, *f, in);
+  if (const auto* f = m.get<TransitionFeature>(feature)) return transition(m, feature, *f, in);
+  if (const auto* f = m.get<CompoundFeature>(feature)) return compound(m, feature, *f, in);
+  if (const auto* f = m.get<ReplicateFeature>(feature)) return replicate(m, feature, *f, in);
+  auto out = plain(m, feature);
+  if (out && in.container.set()) {
+    for (FeatureShape& s : *out) s.frame = compose(in.frame, s.frame);
+  }
+  return out;
+}
+
 }  // namespace shape
 
 std::string_view to_text(ShapeKind k) {
@@ -288,7 +298,8 @@ std::string_view to_text(ShapeKind k) {
 }
 
 Result<std::vector<FeatureShape>> shapes_of(const Model& model, Ref<ManufacturingFeature> feature) {
-  auto out = shape::any(model, feature, 0);
+  shape::Piece piece(model);
+  auto out = shape::standing(model, feature, shape::Within{{}, {}, 0, false, &piece});
   if (!out) return out;
   for (std::size_t i = 0; i < out->size(); ++i) {
     (*out)[i].member = static_cast<int>(i);

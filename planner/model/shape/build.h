@@ -16,7 +16,43 @@ inline constexpr double kOpenReach = 100.0;
 /// Chord tolerance of areas, mm.
 inline constexpr double kAreaTolerance = 0.001;
 
+/// Compounds of patterns of compounds.
+inline constexpr int kNesting = 8;
+
 using Shapes = std::vector<FeatureShape>;
+
+/// The middle of the shape's area at that height of its frame, workpiece coordinates.
+geometry::Vec3 middle(const FeatureShape& s, double z);
+
+/// The compounds and patterns that list a feature; the pockets, faces and steps that a boss stands in.
+std::vector<AnyRef> holders(const Model& m, AnyRef feature);
+
+/// The piece that a file speaks of, worked out when it is first asked for.
+class Piece {
+ public:
+  explicit Piece(const Model& m) : m_(m) {}
+  /// Whether what stands there would have its middle in the piece; anything does where no piece is known.
+  [[nodiscard]] bool meets(const FeatureShape& s, bool top_too);
+  /// Whether the piece holds its whole area.
+  [[nodiscard]] bool holds(const FeatureShape& s);
+  [[nodiscard]] bool has(geometry::Vec3 p);
+
+ private:
+  void find();
+  const Model& m_;
+  geometry::Box3 box_;
+  bool stated_ = false, known_ = false;
+};
+
+/// The coordinates that a feature is stated in: those of the workpiece, or of the compound or pattern that
+/// holds it.
+struct Within {
+  geometry::Placement frame;     ///< of these coordinates, in workpiece coordinates
+  AnyRef container;              ///< unset: the workpiece
+  int depth = 0;                 ///< of nesting
+  bool by_the_standard = false;  ///< nothing further in is read as workpiece coordinates
+  Piece* piece = nullptr;        ///< never null while shapes are built
+};
 
 /// Frame, name, depth: what every machining feature has. `kind` is left to the caller.
 Result<FeatureShape> base(const Model& m, AnyRef feature, bool needs_depth);
@@ -42,13 +78,17 @@ Result<Shapes> outside(const Model& m, AnyRef self, const ProfileFeature& f);
 Result<Shapes> boss(const Model& m, AnyRef self, const Boss& f);
 Result<Shapes> spherical_cap(const Model& m, AnyRef self, const SphericalCap& f);
 Result<Shapes> rounded_end(const Model& m, AnyRef self, const RoundedEnd& f);
-Result<Shapes> thread(const Model& m, AnyRef self, const Thread& f, int depth);
-Result<Shapes> transition(const Model& m, AnyRef self, const TransitionFeature& f, int depth);
-Result<Shapes> compound(const Model& m, AnyRef self, const CompoundFeature& f, int depth);
-Result<Shapes> replicate(const Model& m, AnyRef self, const ReplicateFeature& f, int depth);
+Result<Shapes> thread(const Model& m, AnyRef self, const Thread& f, const Within& in);
+Result<Shapes> transition(const Model& m, AnyRef self, const TransitionFeature& f, const Within& in);
+Result<Shapes> compound(const Model& m, AnyRef self, const CompoundFeature& f, const Within& in);
+Result<Shapes> replicate(const Model& m, AnyRef self, const ReplicateFeature& f, const Within& in);
 
-/// Dispatch, with the nesting bounded: a file may hold a compound of itself.
-Result<Shapes> any(const Model& m, AnyRef feature, int depth);
+/// Dispatch, with the nesting bounded: a file may hold a compound of itself. Workpiece coordinates.
+Result<Shapes> any(const Model& m, AnyRef feature, const Within& in);
+/// As above for a feature wherever its compounds and patterns put it: once for each that lists it.
+Result<Shapes> standing(const Model& m, AnyRef feature, const Within& in);
+/// What a thread or an edge is on: where both are listed together, in the same coordinates.
+Result<Shapes> referred(const Model& m, AnyRef feature, const Within& in);
 
 tl::unexpected<Diagnostic> missing(const Model& m, AnyRef feature, const std::string& attribute);
 /// As above; but what stands there and cannot be read (`why`) is said itself.

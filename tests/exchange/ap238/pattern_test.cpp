@@ -1,3 +1,4 @@
+#include "planner/model/shape.h"
 #include "tests/exchange/ap238/feature_support.h"
 
 namespace capstan::exchange::ap238 {
@@ -118,8 +119,9 @@ TEST(CompoundFeature, OfAnyFeaturesKeepsTheirOrder) {
   }
   b.m.add(std::move(f));
   const Shapes s(b.plan);
-  EXPECT_TRUE(s.has("(CHARACTERIZED_OBJECT('',$)COMPOUND_FEATURE()FEATURE_DEFINITION()INSTANCED_FEATURE()"
-                    "SHAPE_ASPECT('C',$,#,.T.));"));
+  EXPECT_TRUE(
+      s.has("(CHARACTERIZED_OBJECT('',$)COMPOUND_FEATURE()FEATURE_DEFINITION()INSTANCED_FEATURE()"
+            "SHAPE_ASPECT('C',$,#,.T.));"));
   EXPECT_TRUE(s.has("COMPOSITE_SHAPE_ASPECT('compound feature in solid',$,#,.F.);"));
   EXPECT_EQ(lost_on_the_way(b.plan), "");
 }
@@ -143,6 +145,59 @@ TEST(CompositeHoles, AreToldApartByDescription) {
                            "ASPECT('K',$,#,.T.));"));
     EXPECT_EQ(lost_on_the_way(b.plan), "");
   }
+}
+
+/// Where the members of the only feature of that kind stand.
+std::string members(const model::Plan& plan, model::TypeId type) {
+  std::string out;
+  const auto all = plan.model.all(type);
+  EXPECT_EQ(all.size(), 1u);
+  const auto shapes = model::shapes_of(plan.model, Ref<model::ManufacturingFeature>(all.front()));
+  EXPECT_TRUE(shapes) << (shapes ? "" : shapes.error().message);
+  for (const auto& s : shapes ? *shapes : std::vector<model::FeatureShape>{}) {
+    char text[96];
+    std::snprintf(text, sizeof text, "%.6g,%.6g,%.6g ", s.frame.origin.x + 0.0, s.frame.origin.y + 0.0,
+                  s.frame.origin.z + 0.0);
+    out += text;
+  }
+  return out;
+}
+
+TEST(CompoundFeature, ItsElementsAreRelativeToItInBothForms) {
+  PatternBench b;
+  auto f = b.basic<model::CompoundFeature>("C");
+  f.feature_placement = b.placement(100, 50, 0);
+  const auto h = b.hole("H", 8);
+  b.m.at<model::RoundHole>(h).feature_placement = b.placement(10, 0, 0);
+  f.elements.given = true;
+  f.elements.items = {h};
+  b.m.add(std::move(f));
+  EXPECT_EQ(members(b.plan, model::TypeId::kCompoundFeature), "110,50,0 ");
+  const auto back = read_text(written(b.plan).bytes);
+  EXPECT_EQ(members(back, model::TypeId::kCompoundFeature), "110,50,0 ");
+}
+
+// AP238 places a slot at its profile's origin, the model on top: the locations of a pattern of slots follow.
+TEST(GeneralPattern, OfSlotsStandsWhereItStoodWhenItComesBack) {
+  PatternBench b;
+  auto slot = b.basic<model::Slot>("S");
+  slot.feature_placement = b.placement(0, 0, 0);
+  slot.course_of_travel = b.as<model::TravelPath>(b.line(60, 0, 1, 0));
+  model::SquareUProfile u;
+  u.width = b.length(10);
+  u.first_radius = b.length(0);
+  u.second_radius = b.length(0);
+  slot.swept_shape = b.as<model::OpenProfile>(b.m.add(std::move(u)));
+  slot.end_conditions.given = true;
+  auto f = b.basic<model::GeneralPattern>("G");
+  f.feature_placement = b.placement(100, 50, 0);
+  f.replicate_base_feature = b.as<model::Two5dManufacturingFeature>(b.m.add(std::move(slot)));
+  f.replicate_locations.given = true;
+  f.replicate_locations.items.push_back(b.placement(30, 0, 0));
+  b.m.add(std::move(f));
+  EXPECT_EQ(members(b.plan, model::TypeId::kGeneralPattern), "100,50,0 130,50,0 ");
+  const auto back = read_text(written(b.plan).bytes);
+  EXPECT_EQ(members(back, model::TypeId::kGeneralPattern), "100,50,0 130,50,0 ");
 }
 
 }  // namespace

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <optional>
+
+#include "planner/geometry/vec.h"
+#include "planner/model/model.h"
+#include "planner/model/nouns/forward.h"
+
+namespace capstan::model {
+
+/// The workpiece that the project makes; the first of the file where the project names none; null: there is
+/// none.
+[[nodiscard]] const Workpiece* workpiece_of(const Model& model, Ref<Project> project);
+
+/// The box of a block or a cylinder, workpiece coordinates; nothing for what is neither or has no size.
+[[nodiscard]] std::optional<geometry::Box3> box_of(const Model& model, AnyRef solid);
+
+/// What states the raw piece: the bounding geometry of the piece's raw piece, else its own.
+[[nodiscard]] AnyRef raw_solid(const Model& model, const Workpiece& piece);
+
+}  // namespace capstan::model
