@@ -16,7 +16,7 @@ std::string Outcome::text() const {
   std::string out;
   for (const PlanMessage& m : plan.findings) out += "finding, " + m.severity + ": " + m.text + "\n";
   for (const PlanMessage& m : plan.diagnostics) {
-    if (m.severity == "error") out += "said: " + m.text + "\n";
+    if (m.severity != "note") out += "said, " + m.severity + ": " + m.text + "\n";
   }
   out += std::to_string(plan.steps) + " steps, " + std::to_string(plan.unplanned) + " features unplanned\n";
   return out + (written() ? verdict.text() : "no program\n");

@@ -23,13 +23,15 @@ struct Comparison {
   std::vector<Amount> left;              ///< material that must be gone, by place
 };
 
-/// Compares each point of the stock with the target. A point further than `tolerance_mm` within what must stay
-/// that is gone is a gouge; one further than `tolerance_mm` within what must be gone that is there is left over.
+/// Compares each point of the stock with the target. A point further than `tolerance_mm` within what must
+/// stay that is gone is a gouge; one further than `tolerance_mm` within what must be gone that is there is
+/// left over.
 [[nodiscard]] Comparison compare(const Stock& stock, const Target& target, double tolerance_mm);
 
 /// What is wrong with a program; nothing when it makes the target.
 struct Verdict {
   std::vector<std::string> gouges, left, idle, rapids, rubs, faults;
+  std::vector<Point> left_at;  ///< the worst place of each of `left`
   double seconds = 0.0;
   std::size_t steps = 0;
   [[nodiscard]] bool agrees() const;
