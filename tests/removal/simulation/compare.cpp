@@ -148,7 +148,8 @@ Verdict simulate(const Motions& motions, const std::map<int, CutterBody>& cutter
   return v;
 }
 
-Verdict simulate(const Emitted& emitted, const Box& block, const Target& target, const Grid& grid) {
+Verdict simulate(const Emitted& emitted, const Box& block, const Target& target, const Grid& grid,
+                 Stock* remains) {
   Verdict none;
   std::string fault;
   const std::map<int, Frame> frames = frames_of(emitted.iso14649, fault);
@@ -163,7 +164,8 @@ Verdict simulate(const Emitted& emitted, const Box& block, const Target& target,
     }
   }
   if (!none.faults.empty()) return none;
-  return simulate(read_motions(emitted.program, emitted.tool_table), cutters, frames, block, target, grid);
+  return simulate(read_motions(emitted.program, emitted.tool_table), cutters, frames, block, target, grid,
+                  remains);
 }
 
 }  // namespace capstan::testing::removal

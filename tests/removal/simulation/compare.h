@@ -49,11 +49,11 @@ struct Grid {
 };
 
 /// Runs a program on a block and holds what is left against the target. The frames of set-ups come from the
-/// placement of the workpiece in each, as written into the ISO 14649 file.
+/// placement of the workpiece in each, as written into the ISO 14649 file. `remains`, when given, receives
+/// the stock.
 [[nodiscard]] Verdict simulate(const Emitted& emitted, const Box& block, const Target& target,
-                               const Grid& grid);
-/// As above, for motions read before; `cutters` by tool number, `frames` by set-up from 1. `remains`, when
-/// given, receives the stock.
+                               const Grid& grid, Stock* remains = nullptr);
+/// As above, for motions read before; `cutters` by tool number, `frames` by set-up from 1.
 [[nodiscard]] Verdict simulate(const Motions& motions, const std::map<int, CutterBody>& cutters,
                                const std::map<int, Frame>& frames, const Box& block, const Target& target,
                                const Grid& grid, Stock* remains = nullptr);
