@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "planner/base/number.h"
 #include "planner/model/nouns/geometric_item.h"
 #include "planner/model/resolve.h"
 
@@ -16,7 +17,9 @@ using geometry::Vec3;
 using Points = std::vector<Vec3>;
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
-constexpr int kNesting = 32;  // composites of trimmed curves of ...: deeper is refused
+constexpr double kSameAngle = 1e-9;  // rad
+constexpr double kGap = 0.01;        // mm that the pieces of a composite may be apart; default, unsourced
+constexpr int kNesting = 32;         // composites of trimmed curves of ...: deeper is refused
 constexpr std::size_t kMaxPoints = 2'000'000;
 
 tl::unexpected<Diagnostic> refuse(const Model& m, AnyRef curve, const std::string& why) {
@@ -25,39 +28,66 @@ tl::unexpected<Diagnostic> refuse(const Model& m, AnyRef curve, const std::strin
                .instance = curve.set() ? m.origin(curve).instance : 0});
 }
 
-/// An ellipse (or circle) with its frame: point(t) for t in rad.
-struct Round {
+/// A conic with its frame: point(t) by the parameter of ISO 10303-42, angles in rad.
+struct ConicAt {
+  enum class Kind : std::uint8_t { kRound, kParabola, kHyperbola };
+  Kind kind = Kind::kRound;
   geometry::Placement frame;
-  double a = 0.0, b = 0.0;
-  [[nodiscard]] Vec3 point(double t) const {
-    return frame.to_parent({a * std::cos(t), b * std::sin(t), 0.0});
+  double a = 0.0, b = 0.0;  ///< semi-axes; of a parabola the focal distance, twice
+  [[nodiscard]] bool closed() const { return kind == Kind::kRound; }
+  [[nodiscard]] Vec3 local(double t) const {
+    if (kind == Kind::kParabola) return {a * t * t, 2.0 * a * t, 0.0};
+    if (kind == Kind::kHyperbola) return {a * std::cosh(t), b * std::sinh(t), 0.0};
+    return {a * std::cos(t), b * std::sin(t), 0.0};
   }
+  [[nodiscard]] Vec3 point(double t) const { return frame.to_parent(local(t)); }
   [[nodiscard]] double parameter(Vec3 p) const {
     const Vec3 q = frame.to_local(p);
+    if (kind == Kind::kParabola) return 0.5 * q.y / a;
+    if (kind == Kind::kHyperbola) return std::asinh(q.y / b);
     return std::atan2(q.y / b, q.x / a);
   }
 };
 
-std::optional<Round> round_of(const Model& m, AnyRef curve) {
-  if (const auto* c = m.get<Circle>(curve)) {
-    const auto frame = placement(m, c->position);
-    if (frame && c->radius && *c->radius > 0.0) return Round{*frame, *c->radius, *c->radius};
-  }
-  if (const auto* e = m.get<Ellipse>(curve)) {
-    const auto frame = placement(m, e->position);
-    if (frame && e->semi_axis_1 && e->semi_axis_2 && *e->semi_axis_1 > 0.0 && *e->semi_axis_2 > 0.0) {
-      return Round{*frame, *e->semi_axis_1, *e->semi_axis_2};
-    }
-  }
+std::optional<ConicAt> conic_of(const Model& m, AnyRef curve) {
+  const auto* placed = m.get<Conic>(curve);
+  if (placed == nullptr) return std::nullopt;
+  const auto frame = placement(m, placed->position);
+  const auto positive = [](const Real& v) { return v && *v > 0.0; };
+  if (!frame) return std::nullopt;
+  if (const auto* c = m.get<Circle>(curve); c != nullptr && positive(c->radius))
+    return ConicAt{ConicAt::Kind::kRound, *frame, *c->radius, *c->radius};
+  if (const auto* e = m.get<Ellipse>(curve);
+      e != nullptr && positive(e->semi_axis_1) && positive(e->semi_axis_2))
+    return ConicAt{ConicAt::Kind::kRound, *frame, *e->semi_axis_1, *e->semi_axis_2};
+  if (const auto* c = m.get<Parabola>(curve); c != nullptr && positive(c->focal_dist))
+    return ConicAt{ConicAt::Kind::kParabola, *frame, *c->focal_dist, *c->focal_dist};
+  if (const auto* h = m.get<Hyperbola>(curve);
+      h != nullptr && positive(h->semi_axis) && positive(h->semi_imag_axis))
+    return ConicAt{ConicAt::Kind::kHyperbola, *frame, *h->semi_axis, *h->semi_imag_axis};
   return std::nullopt;
 }
 
-Points sample(const Round& r, double t0, double t1, double tolerance_mm) {
-  const double radius = std::max(r.a, r.b);
-  const double step = 2.0 * std::acos(1.0 - std::min(tolerance_mm / radius, 0.5));
-  const int n = std::max(2, static_cast<int>(std::ceil(std::abs(t1 - t0) / step)));
+/// Chords that stray no further than the tolerance. Of a round one by the sagitta of its greatest radius of
+/// parameter, r (1 - cos(step / 2)); of the others by their second derivative, step^2 |c''| / 8.
+std::size_t chords(const ConicAt& c, double t0, double t1, double tolerance_mm) {
+  double step = 2.0 * std::acos(1.0 - std::min(tolerance_mm / std::max(c.a, c.b), 0.5));
+  if (c.kind == ConicAt::Kind::kParabola) step = std::sqrt(8.0 * tolerance_mm / (2.0 * c.a));
+  if (c.kind == ConicAt::Kind::kHyperbola) {
+    const double t = std::max(std::abs(t0), std::abs(t1));  // its second derivative is itself
+    step = std::sqrt(8.0 * tolerance_mm / std::hypot(c.a * std::cosh(t), c.b * std::sinh(t)));
+  }
+  const double n = std::max(2.0, std::ceil(std::abs(t1 - t0) / step));
+  return n < static_cast<double>(kMaxPoints) ? static_cast<std::size_t>(n) : 0;
+}
+
+Result<Points> sample(const Model& m, AnyRef self, const ConicAt& c, double t0, double t1,
+                      double tolerance_mm) {
+  const std::size_t n = chords(c, t0, t1, tolerance_mm);
+  if (n == 0) return refuse(m, self, "has too many points");
   Points out;
-  for (int i = 0; i <= n; ++i) out.push_back(r.point(t0 + (t1 - t0) * i / n));
+  for (std::size_t i = 0; i <= n; ++i)
+    out.push_back(c.point(t0 + (t1 - t0) * static_cast<double>(i) / static_cast<double>(n)));
   return out;
 }
 
@@ -91,7 +121,7 @@ Trim trim_of(const Model& m, const SelectList& list) {
   return t;
 }
 
-Result<Points> trimmed(const Model& m, AnyRef self, const TrimmedCurve& c, double tolerance_mm) {
+Result<Points> between(const Model& m, AnyRef self, const TrimmedCurve& c, double tolerance_mm) {
   const Trim a = trim_of(m, c.trim_1);
   const Trim b = trim_of(m, c.trim_2);
   if (const auto* line = m.get<Line>(c.basis_curve)) {
@@ -109,22 +139,29 @@ Result<Points> trimmed(const Model& m, AnyRef self, const TrimmedCurve& c, doubl
     if (!p || !q) return refuse(m, self, "is trimmed by nothing that can be found on its line");
     return Points{*p, *q};
   }
-  if (const auto round = round_of(m, c.basis_curve)) {
+  if (const auto conic = conic_of(m, c.basis_curve)) {
+    const bool by_parameter = c.master_representation == TrimmingPreference::kParameter;
     const auto at = [&](const Trim& t) -> std::optional<double> {
-      if (t.point) return round->parameter(*t.point);
-      return t.parameter;  // rad, as the exchange converted it
+      if (t.point && !(by_parameter && t.parameter)) return conic->parameter(*t.point);
+      if (!t.parameter) return std::nullopt;
+      return conic->closed() ? *t.parameter * kTurn / 360.0 : *t.parameter;  // angles are in degrees here
     };
     const auto t0 = at(a);
     auto t1 = at(b);
-    if (!t0 || !t1) return refuse(m, self, "is trimmed by nothing that can be found on its arc");
-    if (c.sense_agreement.value_or(true)) {
-      while (*t1 <= *t0 + 1e-12) *t1 += kTurn;
-    } else {
-      while (*t1 >= *t0 - 1e-12) *t1 -= kTurn;
+    if (!t0 || !t1) return refuse(m, self, "is trimmed by nothing that can be found on its conic");
+    if (!std::isfinite(*t0) || !std::isfinite(*t1)) return refuse(m, self, "is trimmed at infinity");
+    // An open conic runs from the one to the other whatever its sense says. A closed one goes on across 0, by
+    // up to a full turn, which is what ends that coincide mean.
+    if (conic->closed()) {
+      const bool along = c.sense_agreement.value_or(true);
+      double turn = std::fmod(along ? *t1 - *t0 : *t0 - *t1, kTurn);
+      if (turn < 0.0) turn += kTurn;
+      if (turn < kSameAngle || turn > kTurn - kSameAngle) turn = kTurn;
+      t1 = along ? *t0 + turn : *t0 - turn;
     }
-    return sample(*round, *t0, *t1, tolerance_mm);
+    return sample(m, self, *conic, *t0, *t1, tolerance_mm);
   }
-  return refuse(m, self, "is a trimmed curve on a basis that is neither line, circle nor ellipse");
+  return refuse(m, self, "is a trimmed curve on a basis that is neither line nor conic");
 }
 
 std::optional<std::vector<double>> knots_of(const Model& m, AnyRef curve, const BSplineCurve& s, int degree,
@@ -213,6 +250,8 @@ Result<Points> composite(const Model& m, const CompositeCurve& c, double toleran
     auto part = points(m, segment != nullptr ? AnyRef(segment->parent_curve) : item, tolerance_mm, depth + 1);
     if (!part) return part;
     if (segment != nullptr && !segment->same_sense.value_or(true)) std::reverse(part->begin(), part->end());
+    const double gap = out.empty() || part->empty() ? 0.0 : norm(out.back() - part->front());
+    if (gap > kGap) return refuse(m, item, "has a gap of " + trimmed(gap, 3) + " mm before it");
     const bool joined = !out.empty() && !part->empty() && norm(out.back() - part->front()) < 1e-6;
     out.insert(out.end(), part->begin() + (joined ? 1 : 0), part->end());
   }
@@ -226,13 +265,13 @@ Result<Points> points(const Model& m, AnyRef curve, double tolerance_mm, int dep
   if (const auto* p = m.get<Polyline>(curve)) {
     out = polyline(m, curve, *p);
   } else if (const auto* t = m.get<TrimmedCurve>(curve)) {
-    out = trimmed(m, curve, *t, tolerance_mm);
+    out = between(m, curve, *t, tolerance_mm);
   } else if (const auto* c = m.get<CompositeCurve>(curve)) {
     out = composite(m, *c, tolerance_mm, depth);
   } else if (const auto* s = m.get<BSplineCurve>(curve)) {
     out = spline(m, curve, *s, tolerance_mm);
-  } else if (const auto round = round_of(m, curve)) {
-    out = sample(*round, 0.0, kTurn, tolerance_mm);
+  } else if (const auto conic = conic_of(m, curve); conic && conic->closed()) {
+    out = sample(m, curve, *conic, 0.0, kTurn, tolerance_mm);
   }
   if (out && out->size() > kMaxPoints) return refuse(m, curve, "has too many points");
   return out;

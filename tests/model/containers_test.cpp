@@ -191,9 +191,20 @@ TEST(Containers, AreReadAsWorkpieceCoordinatesOnlyWhereTheStandardsReadingLeaves
 TEST(Containers, WhereBothReadingsArePossibleTheStandardsIsTaken) {
   Bench k;
   k.raw(260, 180, 50);
+  const auto c = k.compound(k.at(60, 40, 0), {k.hole(50, 40, 8, 10)});
+  EXPECT_EQ(k.places(c), "110,80,0");
+  EXPECT_TRUE(k.shapes(c).front().assumptions.empty());
+}
+
+TEST(Containers, WhereBothArePossibleAndAnElementRepeatsThePlacementItIsSaid) {
+  Bench k;
+  k.raw(260, 180, 50);
   const auto c = k.compound(k.at(60, 40, 0), {k.hole(60, 40, 8, 10)});
   EXPECT_EQ(k.places(c), "120,80,0");
-  EXPECT_TRUE(k.shapes(c).front().assumptions.empty());
+  ASSERT_EQ(k.shapes(c).front().assumptions.size(), 1u);
+  EXPECT_EQ(k.shapes(c).front().assumptions[0],
+            "its elements repeat its placement; read relative to it, as the standard has it, at X120 Y80; in "
+            "workpiece coordinates that would be X60 Y40");
 }
 
 TEST(Containers, WhereNeitherReadingIsPossibleTheStandardsIsTaken) {

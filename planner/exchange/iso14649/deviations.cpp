@@ -82,7 +82,37 @@ bool is_radians(double v) {
   return std::abs(v) <= 2.0 * std::numbers::pi && round_in_radians && !round_as_written;
 }
 
+/// Parameters that trim circles and ellipses are angles, in degrees in the model as in the standard. A
+/// curve's two are in one unit: one that is in radians without doubt tells the other.
+void check_trims(Reading& r) {
+  for (const AnyRef at : r.object_of) {
+    auto* c = r.plan.model.get<model::TrimmedCurve>(at);
+    if (c == nullptr) continue;
+    if (!r.plan.model.holds<model::Circle>(c->basis_curve) &&
+        !r.plan.model.holds<model::Ellipse>(c->basis_curve))
+      continue;
+    bool sure = false, fits = true;
+    for (const auto* list : {&c->trim_1, &c->trim_2}) {
+      for (const auto& v : list->items) {
+        sure = sure || (v.real && is_radians(*v.real));
+        fits = fits && (!v.real || std::abs(*v.real) <= 2.0 * std::numbers::pi);
+      }
+    }
+    if (!sure || !fits) continue;
+    for (const char* name : {"trim_1", "trim_2"}) {
+      for (auto& v : (name[5] == '1' ? c->trim_1 : c->trim_2).items) {
+        if (!v.real) continue;
+        v.real = *v.real / kDegree;
+        note(r, at, name, true, "EXC-UNIT-ANGLE",
+             in_file(r, at, name) + " is taken as radians, that is " + show(*v.real) +
+                 " degrees: read as degrees the arc's ends would be no round numbers");
+      }
+    }
+  }
+}
+
 void check_angles(Reading& r) {
+  check_trims(r);
   const auto all = angles(r);
   const bool any =
       std::any_of(all.begin(), all.end(), [](const AngleAt& a) { return is_radians(a.degrees); });

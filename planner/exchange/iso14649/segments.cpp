@@ -7,6 +7,7 @@
 
 #include "planner/base/number.h"
 #include "planner/exchange/ap238/via.h"
+#include "planner/model/curve_points.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/resolve.h"
 
@@ -49,6 +50,7 @@ class Walker {
     if (const auto* c = m_.get<model::TrimmedCurve>(at)) return trimmed(at, *c);
     if (m_.holds<model::BSplineCurve>(at)) return spline(at, 0.0, 0.0, true);
     if (const auto* c = m_.get<model::Circle>(at)) return circle(at, *c);
+    if (m_.holds<model::Ellipse>(at)) return sampled(at);
     return bad(m_, at,
                std::string(at.set() ? model::noun_type(at.type).keyword : "nothing") +
                    " is no curve that a tool can follow");
@@ -116,10 +118,12 @@ class Walker {
     std::vector<Segment> out;
     for (const AnyRef item : c.segments.items) {
       const auto* s = m_.get<model::CompositeCurveSegment>(item);
-      if (s == nullptr) return bad(m_, at, "a COMPOSITE_CURVE has a segment that is none");
-      auto part = curve(s->parent_curve, depth + 1);
+      // Files name curves themselves where segments are due.
+      if (s == nullptr && !m_.holds<model::BoundedCurve>(item))
+        return bad(m_, at, "a COMPOSITE_CURVE has a segment that is none");
+      auto part = curve(s != nullptr ? AnyRef(s->parent_curve) : item, depth + 1);
       if (!part) return part;
-      if (!s->same_sense.value_or(true)) reverse(*part);
+      if (s != nullptr && !s->same_sense.value_or(true)) reverse(*part);
       follow_on(out, *part);
       if (!out.empty() && norm(part->front().from - out.back().to) > o_.gap_mm) {
         return bad(m_, item,
@@ -185,7 +189,16 @@ class Walker {
     if (m_.holds<model::BSplineCurve>(c.basis_curve) && a->parameter && b->parameter) {
       return spline(c.basis_curve, *a->parameter, *b->parameter, false);
     }
+    if (m_.holds<model::Conic>(c.basis_curve)) return sampled(at);
     return bad(m_, at, "a TRIMMED_CURVE of this kind cannot be followed");
+  }
+
+  // Conics that no control follows: chords.
+  Result<std::vector<Segment>> sampled(AnyRef at) {
+    auto points = model::curve_points(m_, at, o_.chord_tolerance_mm);
+    if (!points) return fail(points.error());
+    if (points->size() > o_.max_moves) return bad(m_, at, "a curve has too many pieces");
+    return lines(*points);
   }
 
   Result<std::vector<Segment>> on_line(AnyRef at, const model::Line& line, Trim& a, Trim& b, bool along) {

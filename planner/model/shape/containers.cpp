@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "planner/base/number.h"
 #include "planner/model/nouns/geometric_item.h"
 #include "planner/model/nouns/support.h"
 #include "planner/model/resolve.h"
@@ -59,10 +60,8 @@ bool omitted(const Model& m, const RefList<T>& list, std::int64_t a) {
 }
 
 std::string place(const Vec3& p) {
-  char text[96];
-  std::snprintf(text, sizeof text, std::abs(p.z) < kSamePlace ? "X%.6g Y%.6g" : "X%.6g Y%.6g Z%.6g",
-                p.x + 0.0, p.y + 0.0, p.z + 0.0);
-  return text;
+  const std::string out = "X" + trimmed(p.x, 2) + " Y" + trimmed(p.y, 2);
+  return std::abs(p.z) < kSamePlace ? out : out + " Z" + trimmed(p.z, 2);
 }
 
 /// Threads and edges stand where the feature does that they are on.
@@ -122,7 +121,18 @@ Result<Decided> decided(const Model& m, AnyRef self, const Within& in, Build&& b
   });
   const auto beyond = std::find_if(first->shapes.begin(), first->shapes.end(),
                                    [&](const FeatureShape& s) { return !in.piece->meets(s, repeats); });
-  if (beyond == first->shapes.end()) return plain;
+  if (beyond == first->shapes.end()) {
+    if (!repeats) return plain;
+    const auto other = build({within(Placement{}, true), frame, nullptr});
+    if (!other || !inside(*other, within(Placement{}, true))) return plain;
+    const std::string text =
+        std::string("its ") + (m.holds<CompoundFeature>(self) ? "elements repeat" : "base repeats") +
+        " its placement; read relative to it, as the standard has it, at " +
+        place(middle(first->shapes.front(), 0.0)) + "; in workpiece coordinates that would be " +
+        place(middle(other->shapes.front(), 0.0));
+    for (FeatureShape& s : plain.shapes) s.assumptions.push_back(text);
+    return plain;
+  }
   const Placement workpiece{};
   std::vector<Reading> readings{{within(frame, false), frame, nullptr}};
   if (!same(frame, workpiece)) {
