@@ -36,6 +36,11 @@ struct ShopFiles {
 /// Gives what was re-opened, one sentence each, in the order of the plan.
 [[nodiscard]] Result<std::vector<std::string>> match_loaded(model::Plan& plan, Inputs& inputs, Job& job);
 
+/// The cutter of the magazine (Cutter::loaded, a pocket) that is this one by class and every size that both
+/// know, whatever it is called; the lowest pocket of several, null when none is.
+[[nodiscard]] const model::Cutter* loaded_like(const std::vector<model::Cutter>& library,
+                                               const model::Cutter& wanted);
+
 enum class Format : std::uint8_t { kIso14649, kJson, kLinuxCnc, kToolTable, kAp238 };
 
 /// The plan in a format; what the format cannot hold is noted to the job.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "planner/base/number.h"
+#include "planner/model/condemned.h"
 #include "planner/pipeline/grouped.h"
 #include "planner/pipeline/holding.h"
 #include "planner/pipeline/paths/cuts.h"
@@ -26,9 +27,6 @@ namespace capstan::pipeline {
 namespace {
 
 using model::Model;
-
-constexpr double kTolerableExcess =
-    0.1;  // of a limit, somewhere on a path: sections are known to a cell's width
 
 /// What one try at a step came to.
 struct Made {
@@ -197,10 +195,7 @@ class PathMaker {
     const std::string thinner = t.made.thicker.empty()
                                     ? std::string()
                                     : ", also where it cuts " + trimmed(t.made.answer.ap_mm, 3) + " mm deep";
-    return "somewhere along the path a limit is exceeded by " +
-           (std::isfinite(t.feeds.worst_excess) ? trimmed(100.0 * t.feeds.worst_excess, 1) + " %"
-                                                : std::string("what no formula tells")) +
-           " even at the least feed" + thinner;
+    return model::text_of(t.feeds.worst) + ", even at the least feed" + thinner;
   }
 
   /// A try with one of the candidates: thinner, where a limit is exceeded along its path, up to kMostThinner
@@ -345,7 +340,7 @@ class PathMaker {
     fq.cut = made.question;
     fq.n_rpm = given.rpm.value_or(sense * made.answer.n_rpm);
     fq.feed_mm_min = given.feed_mm_min.value_or(made.answer.feed_mm_min);
-    fq.adapt = step.open_technology || feed_was_planned(step);
+    fq.adapt = step.open_technology || feed_was_planned(w_, step);
     fq.constant = w_.inputs.constant_feeds;
     fq.feed_factor = std::move(made.path.feed_factor);
     fq.speed_factor = std::move(made.path.speed_factor);
@@ -388,8 +383,7 @@ class PathMaker {
     progress_.done(step);
     const auto& feeds = tried.feeds;
     model::StepResult& r = tried.result;
-    if (exceeds(step, tried))
-      w_.job.warn("PIP-EXCESS", "step '" + name_of(w_, step) + "': " + excess_text(tried));
+    if (tried.asked.adapt) keep_excess(w_, step, feeds, r);
     r.schedule = std::make_shared<const model::FeedSchedule>(feeds.schedule);
     r.loads = feeds.peak;
     if (!(r.loads.tool_life_min > 0.0)) r.loads.tool_life_min = made.answer.life_min;
@@ -414,15 +408,6 @@ class PathMaker {
     auto* d = w_.plan.ledger.find(step.operation, what);
     if (d == nullptr) return;
     for (const model::Rejected& r : made.thicker) d->rejected.push_back(r);
-  }
-
-  /// Whether the feed is one that planning bound before: then it is the most, and each move has its own.
-  bool feed_was_planned(const StepWork& step) const {
-    const auto* op = w_.plan.model.get<model::MachiningOperation>(step.operation);
-    if (op == nullptr || !op->its_technology.set()) return false;
-    const auto* d = w_.plan.ledger.find(op->its_technology, "feedrate");
-    return d != nullptr && !d->pinned && d->binder != model::Binder::kGiven &&
-           d->binder != model::Binder::kOperator;
   }
 
   // A given path is moves at feed; without a compensation chuck that breaks the tap, so the thread is planned
