@@ -150,9 +150,9 @@ class Proposer {
       const auto* other = w_.plan.model.get<model::ManufacturingFeature>(on);
       names += (names.empty() ? "'" : ", '") + (other == nullptr ? "" : other->its_id.value_or("")) + "'";
     }
-    unplanned(
-        w_, f, whole,
-        "it rests on " + names + ", which " + (out->rests_on.size() > 1 ? "are" : "is") + " not planned");
+    unplanned(w_, f, whole,
+              "it rests on " + names + ", which " + (out->rests_on.size() > 1 ? "are" : "is") +
+                  " not planned" + (out->why_rests.empty() ? "" : ": ") + out->why_rests);
     return true;
   }
 

@@ -121,7 +121,12 @@ Status leave_what_rests(Work& w) {
   for (const RestsOn& r : all) {
     if (!resting.contains(r.after) || !(roots.contains(r.before) || resting.contains(r.before))) continue;
     if (!planned.contains(r.after)) continue;
-    w.tries.rests(r.after, r.before);
+    // Of the root, where it rests on one through others.
+    const auto is_why = [&](const model::Unplanned& u) {
+      return u.feature == r.before || resting_on(all, {u.feature}).contains(r.before);
+    };
+    const auto why = std::find_if(w.plan.unplanned.begin(), w.plan.unplanned.end(), is_why);
+    w.tries.rests(r.after, r.before, why == w.plan.unplanned.end() ? std::string() : why->reason);
     w.again = true;
   }
   return {};

@@ -29,8 +29,10 @@ void Tries::leave_out(model::AnyRef feature, const std::string& why) {
   if (std::find(reasons.begin(), reasons.end(), why) == reasons.end()) reasons.push_back(why);
 }
 
-void Tries::rests(model::AnyRef feature, model::AnyRef on) {
-  auto& all = left_out_[feature].rests_on;
+void Tries::rests(model::AnyRef feature, model::AnyRef on, const std::string& why) {
+  LeftOut& out = left_out_[feature];
+  if (out.why_rests.empty()) out.why_rests = why;
+  auto& all = out.rests_on;
   if (std::find(all.begin(), all.end(), on) == all.end()) all.push_back(on);
 }
 

@@ -29,6 +29,7 @@ struct Member {
 /// A feature that is not planned.
 struct LeftOut {
   std::vector<std::string> reasons;     ///< of its own: why each of its members cannot be made
+  std::string why_rests;                ///< why the first of those is not planned
   std::vector<model::AnyRef> rests_on;  ///< features that are not planned and that this one needs
 };
 
@@ -60,7 +61,7 @@ class Tries {
   /// The step's cuts are to be thinner, once more.
   void cut_thinner(const Member& m, const std::string& chain, std::size_t step, const std::string& why);
   void leave_out(model::AnyRef feature, const std::string& why);
-  void rests(model::AnyRef feature, model::AnyRef on);
+  void rests(model::AnyRef feature, model::AnyRef on, const std::string& why);
 
   [[nodiscard]] const std::string* chain_banned(const Member& m, const std::string& chain) const;
   [[nodiscard]] const std::string* cutter_banned(const Member& m, const std::string& chain, std::size_t step,

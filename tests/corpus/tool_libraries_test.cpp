@@ -40,14 +40,15 @@ void expect_a_sound_plan_or_a_list(const std::string& part, const std::string& t
   ASSERT_TRUE(plan) << to_text(plan.error());
   pipeline::Policy policy;
   policy.reopen = Reopen::kAll;
-  const auto bound = pipeline::bind(*std::move(plan), *shop, policy, job);
-  ASSERT_TRUE(bound) << to_text(bound.error());
+  const auto checked = pipeline::bind_checked(*plan, *shop, policy, job);
+  ASSERT_TRUE(checked) << to_text(checked.error());
+  const model::Plan* bound = &checked->plan;
   EXPECT_TRUE(!bound->steps.empty() || !bound->unplanned.empty());
   for (const auto& u : bound->unplanned) {
     EXPECT_TRUE(u.reason.find(" would") != std::string::npos || u.reason.find(':') != std::string::npos)
         << u.reason;
   }
-  for (const auto& f : pipeline::findings_of(*bound, job)) {
+  for (const auto& f : pipeline::findings_of(*checked, job)) {
     EXPECT_NE(f.severity, Severity::kError) << f.code << ": " << f.message;
   }
   for (const auto& s : bound->steps) {

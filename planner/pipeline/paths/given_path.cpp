@@ -101,7 +101,7 @@ Result<model::FeedSchedule> chosen(Work& w, StepWork& step, const model::CutterP
   out.result.axial_depth_mm = answer->ap_mm;
   out.result.radial_depth_mm = answer->ae_mm;
   out.result.active = active_of(*answer);
-  const auto feeds = optimise::feeds(out.feeds, path);
+  const auto feeds = feeds_along(out.feeds, path);
   out.result.loads = feeds.peak;
   if (!(out.result.loads.tool_life_min > 0.0)) out.result.loads.tool_life_min = answer->life_min;
   out.result.held_by = feeds.held_by;
@@ -178,11 +178,12 @@ Result<std::optional<GivenPath>> given_path(Work& w, StepWork& step, Stocks& sto
   ask_as_stated(given->schedule, fq);
   if (asks && fq.n_rpm != 0.0 && fq.feed_mm_min > 0.0) {
     fq.cut.feed_mm_min = fq.feed_mm_min;
-    const auto feeds = optimise::feeds(fq, *path);
+    // A path and feed that planning made before are judged as then; what a file gives is its maker's.
+    const bool planned = feed_was_planned(w, step);
+    const auto feeds = planned ? feeds_along(fq, *path) : optimise::feeds(fq, *path);
     out.result.loads = feeds.peak;
     out.result.held_by = feeds.held_by;
-    // A path and feed that planning made before are judged as then; what a file gives is its maker's.
-    if (feed_was_planned(w, step)) keep_excess(w, step, feeds, out.result);
+    if (planned) keep_excess(w, step, feeds, out.result);
   }
   out.result.schedule = std::make_shared<const model::FeedSchedule>(std::move(given->schedule));
   return out;

@@ -102,10 +102,22 @@ class PathMaker {
     }
     if (lost == nullptr && !resting_.contains(step.feature)) return false;
     no_path(w_, step,
-            "it needs " + (lost != nullptr ? "step '" + *lost + "'" : std::string("a feature")) +
-                " before it, which has no path");
+            lost != nullptr ? "it needs step '" + *lost + "' before it, which has no path"
+                            : "it needs " + needed_by(step) + " before it, which is not planned");
     lose(step);
     return true;
+  }
+
+  /// The features that this step's rests on and that failed, by name.
+  std::string needed_by(const StepWork& step) const {
+    const auto all = what_rests(w_);
+    std::string out;
+    for (const AnyRef f : failed_) {
+      if (!resting_on(all, {f}).contains(step.feature)) continue;
+      const auto* named = w_.plan.model.get<model::ManufacturingFeature>(f);
+      out += (out.empty() ? "'" : ", '") + (named == nullptr ? "" : named->its_id.value_or("")) + "'";
+    }
+    return out;
   }
 
   static std::vector<Member> members(const StepWork& step) {
@@ -365,10 +377,7 @@ class PathMaker {
       optimise::split_moves(fq, *out.path, &m->sections);
       r.sections = std::make_shared<const model::SectionSeries>(std::move(m->sections));
     }
-    out.feeds = optimise::feeds(fq, *out.path);
-    // A ramp that seems to exceed a limit may only be one that is told as a side cut.
-    if (exceeds(step, out) && end_cuts_as_slots(fq.samples, *out.path, step.cutter.cutting_diameter_mm))
-      out.feeds = optimise::feeds(fq, *out.path);
+    out.feeds = fq.adapt ? feeds_along(fq, *out.path) : optimise::feeds(fq, *out.path);
     out.made = std::move(made);
     return out;
   }
@@ -399,11 +408,13 @@ class PathMaker {
   /// Depths that exceeded a limit along the path: an alternative that was tried, and why not.
   void tell_thicker(const StepWork& step, const Made& made) {
     if (made.thicker.empty()) return;
-    if (made.thicker.size() > 1 || !step.proposed ||
-        w_.tries.thinner(step.member, step.chain, step.in_chain) == nullptr)
+    // What the check asked for is told by `bind_checked`.
+    const bool asked = step.proposed && w_.tries.thinner(step.member, step.chain, step.in_chain) != nullptr;
+    if (made.thicker.size() > 1 || !asked) {
       w_.job.note("PIP-ANEW", "step '" + name_of(w_, step) + "': planned anew " + sizes(made.answer) +
                                   " instead of " + made.thicker.front().what + ", because " +
                                   made.thicker.front().why);
+    }
     const char* what = made.depth_open ? "axial_cutting_depth" : "radial_cutting_depth";
     auto* d = w_.plan.ledger.find(step.operation, what);
     if (d == nullptr) return;

@@ -21,6 +21,10 @@ namespace capstan::pipeline {
 [[nodiscard]] bool feed_was_planned(const Work& w, const StepWork& step);
 /// How far a limit may be exceeded somewhere on a path: sections are known to a cell's width.
 inline constexpr double kTolerableExcess = 0.1;
+/// Feeds along a path. Where a limit seems to be exceeded by more than kTolerableExcess, ramps that were told
+/// as side cuts are told as slots (end_cuts_as_slots), and the feeds are asked for again.
+[[nodiscard]] optimise::FeedAnswer feeds_along(optimise::FeedQuestion& question,
+                                               const model::CutterPath& path);
 /// Keeps the limit that feeds exceed by more than kTolerableExcess, and warns PIP-EXCESS.
 void keep_excess(Work& w, const StepWork& step, const optimise::FeedAnswer& feeds, model::StepResult& result);
 /// Puts the step into the plan, with its time and the seconds that its limits cost. Says PIP-SLOW of hours.
