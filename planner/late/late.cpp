@@ -88,6 +88,19 @@ Result<LateOutcome> bind(model::Plan plan, pipeline::Inputs inputs, const LatePo
   out.findings = pipeline::findings_of(*fallback, job);
   const auto checking = job.now() - check_start;
   out.condemned = model::condemned(*fallback, out.findings);
+  if (!out.condemned.empty()) {
+    // What the check condemns is made anew, while half of the time is left.
+    std::optional<TimePoint> half;
+    if (policy.deadline) half = began + *policy.deadline / 2;
+    job.evaluation_budget = policy.fallback_budget;
+    auto anew = pipeline::bind_checked(asked, inputs, policy_of(), job, half);
+    job.evaluation_budget = budget;
+    if (anew && anew->replanned > 0 && nothing_open(anew->plan) && only_loaded(anew->plan, magazine)) {
+      fallback = std::move(anew->plan);
+      out.findings = pipeline::findings_of(*fallback, job);
+      out.condemned = model::condemned(*fallback, out.findings);
+    }
+  }
   if (!out.condemned.empty() && !policy.allow_findings) {
     return fail(
         {.code = "LATE-UNSAFE",

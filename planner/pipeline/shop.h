@@ -26,6 +26,8 @@ struct ShopFiles {
 
 /// What the checker says of a plan, and of the LinuxCNC program it makes.
 [[nodiscard]] std::vector<model::Finding> findings_of(const model::Plan& plan, Job& job);
+/// The same, where the plan is checked already.
+[[nodiscard]] std::vector<model::Finding> findings_of(const Checked& checked, Job& job);
 
 /// Holds the tools of a plan against what is in the magazine (`inputs.library`, Cutter::pocket > 0).
 ///
