@@ -80,11 +80,13 @@ class PathMaker {
     rank_by_time(step);
     const std::size_t tries = std::max<std::size_t>(1, step.candidates.size());
     GroupedReasons why_not;
+    bool gone = step.proposed;  // whichever cutter: nothing stands there to be cut
     for (std::size_t i = 0; i < tries; ++i) {
       const model::Candidate* candidate = i < step.candidates.size() ? &step.candidates[i] : nullptr;
       if (candidate != nullptr) step.cutter = candidate->cutter;
       auto made = attempt(step, candidate);
       if (!made) {
+        gone = gone && made.error().code == "TPA-DEPTH";
         why_not.add(step.cutter.id, made.error().message);
         step.rejected_tools.push_back({step.cutter.id, made.error().message});
         continue;
@@ -92,8 +94,53 @@ class PathMaker {
       if (i > 0) take_cutter(step, *candidate);
       return finish(step, *std::move(made));
     }
+    if (gone && leave_out(w_, step, shapes_made_by(step), why_not.text())) return {};
     no_path(w_, step, why_not.text());
     return {};
+  }
+
+  /// The last step with a path, in the same set-up, in whose area this one's lies: what it would cut is gone
+  /// with that.
+  [[nodiscard]] Ref<model::Executable> shapes_made_by(const StepWork& step) const {
+    Ref<model::Executable> out;
+    for (const model::StepResult& kept : w_.plan.steps) {
+      const auto it = std::find_if(w_.steps.begin(), w_.steps.end(),
+                                   [&](const StepWork& s) { return s.step == kept.step; });
+      if (it == w_.steps.end() || it->setup != step.setup || it->shapes.empty() || step.shapes.empty())
+        continue;
+      const auto& a = it->shapes.front();
+      const auto& b = step.shapes.front();
+      const auto box = transformed(box_over(a.area), compose(inverse(b.frame), a.frame));
+      const auto own = geometry::bounds(b.area);
+      if (box.lo.x <= own.hi.x && box.hi.x >= own.lo.x && box.lo.y <= own.hi.y && box.hi.y >= own.lo.y)
+        out = kept.step;
+    }
+    return out;
+  }
+  static geometry::Box3 box_over(const geometry::Region& area) {
+    const auto b = geometry::bounds(area);
+    geometry::Box3 out;
+    out.add({b.lo.x, b.lo.y, 0.0});
+    out.add({b.hi.x, b.hi.y, 0.0});
+    return out;
+  }
+
+  /// Whether a step that rules proposed takes nothing off what stands: a mark in air, roughing of what
+  /// another feature's steps took away. A finishing pass after a step that was kept takes what bending left.
+  [[nodiscard]] bool in_air(const StepWork& step, double removed_mm3) const {
+    constexpr double kNothingMm3 = 0.01;  // default, unsourced: what a map's cells cannot tell from nothing
+    const Model& m = w_.plan.model;
+    if (!step.proposed || removed_mm3 > kNothingMm3 || engagement::head_height(step.cutter)) return false;
+    if (m.holds<model::CenterDrilling>(step.operation)) return true;
+    const bool rough = m.holds<model::PlaneRoughMilling>(step.operation) ||
+                       m.holds<model::SideRoughMilling>(step.operation) ||
+                       m.holds<model::BottomAndSideRoughMilling>(step.operation);
+    if (rough) return true;
+    if (!m.holds<model::Two5dMillingOperation>(step.operation)) return false;
+    return std::none_of(w_.plan.steps.begin(), w_.plan.steps.end(), [&](const model::StepResult& s) {
+      const auto* ws = m.get<model::MachiningWorkingstep>(s.step);
+      return ws != nullptr && ws->its_feature == step.feature;
+    });
   }
 
   /// Roughing: of the cutters that fit, the one that takes the volume away soonest, tool change included.
@@ -211,6 +258,12 @@ class PathMaker {
   }
 
   Status finish(StepWork& step, Made made) {
+    auto path = std::make_shared<model::CutterPath>(std::move(made.path.path));
+    auto sections = measured(w_, step, *path, stocks_);
+    if (sections && in_air(step, sections->removed_mm3) &&
+        leave_out(w_, step, shapes_made_by(step), "it meets no material")) {
+      return {};
+    }
     record_cut(w_, step, made.answer, made.depth_open, made.width_open, made.precedent);
     progress_.done(step);
     const auto given = given_technology(w_.plan.model, step.operation, step.cutter);
@@ -223,12 +276,11 @@ class PathMaker {
     fq.feed_factor = std::move(made.path.feed_factor);
     fq.speed_factor = std::move(made.path.speed_factor);
     fq.dwell_s = std::move(made.path.dwell_s);
-    auto path = std::make_shared<model::CutterPath>(std::move(made.path.path));
     model::StepResult r = result_of(w_, step);
     r.axial_depth_mm = made.answer.ap_mm;
     r.radial_depth_mm = made.answer.ae_mm;
     r.active = active_of(made.answer);
-    if (auto m = measured(w_, step, *path, stocks_)) {
+    if (auto& m = sections) {
       fq.samples = samples_of(*m);
       // One pass over a surface, not levels: as deep and as wide as what roughing left there.
       if (w_.plan.model.holds<model::FreeformFinishMilling>(step.operation)) {

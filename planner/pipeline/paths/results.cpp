@@ -75,6 +75,26 @@ std::string name_of(const Work& w, const StepWork& step) {
   return e != nullptr ? e->its_id.value_or("") : "";
 }
 
+bool leave_out(Work& w, const StepWork& step, Ref<model::Executable> made_by, const std::string& why) {
+  model::Model& m = w.plan.model;
+  const auto same = [&](const StepWork& s) { return s.feature == step.feature && s.step != step.step; };
+  const bool others = std::any_of(w.steps.begin(), w.steps.end(), same);
+  auto* maker = m.get<model::MachiningWorkingstep>(made_by);
+  if (maker == nullptr && !others) return false;
+  if (maker != nullptr && AnyRef(maker->its_feature) != step.feature) {
+    auto& made = maker->final_features;
+    if (std::find(made.items.begin(), made.items.end(), step.feature) == made.items.end())
+      made.push_back(Ref<model::ManufacturingFeature>(step.feature));
+  }
+  for (const AnyRef p : m.all(model::TypeId::kWorkplan))
+    std::erase(m.get<model::Workplan>(p)->its_elements.items, AnyRef(step.step));
+  if (auto* f = m.get<model::MachiningFeature>(step.feature))
+    std::erase(f->its_operations.items, step.operation);
+  w.job.note("PIP-GONE",
+             "step '" + name_of(w, step) + "' is left out: what it would cut is gone already; " + why);
+  return true;
+}
+
 void no_path(Work& w, const StepWork& step, const std::string& why) {
   w.plan.unplanned.push_back({step.feature, "step '" + name_of(w, step) + "': " + why});
   w.job.report({.code = "PIP-NO-PATH",
