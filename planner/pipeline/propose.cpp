@@ -92,7 +92,8 @@ class Proposer {
       for (const std::string& a : s.assumptions) {
         if (said_.insert({f, a}).second) w_.job.warn("PIP-ASSUMED", "feature '" + s.name + "': " + a);
       }
-      if (s.kind == model::ShapeKind::kFreeform) context.surface_radius_mm = 0.0;
+      if (s.kind == model::ShapeKind::kFreeform && w_.plan.target_mesh)
+        context.surface_radius_mm = surface_radius(*w_.plan.target_mesh);
     }
     const auto proposals = rules::propose_members(w_.inputs.rules, shapes, context);
     const auto order = rules::member_order(shapes);
