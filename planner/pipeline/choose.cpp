@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "planner/pipeline/members.h"
 #include "planner/pipeline/share.h"
 #include "planner/pipeline/steps.h"
 #include "tooling/select/select.h"
@@ -66,7 +67,7 @@ Chosen choose(Work& w, const model::Proposal& p, const FeatureShape& shape, cons
     std::string why_not;
     if (const std::string* why = w.tries.chain_banned(member, out.key)) why_not = *why;
     for (std::size_t i = 0; why_not.empty() && i < chain.size(); ++i) {
-      const auto& step = chain[i];
+      const model::ProposedStep step = as_opened(chain, i, out.tools);
       tooling::Preferences wanted = preferences_of(w, step, shape);
       wanted.used = used;
       auto s = tooling::select(step.tool, library, w.plan.material, w.plan.machine, wanted);

@@ -188,11 +188,13 @@ double hole_above(const Model& m, AnyRef feature, const model::FeatureShape& s) 
   return out;
 }
 
-/// The widest hole that goes on below the foot of a cone, of the same feature or as the proposal knows it.
+/// The widest narrower hole that goes on below a cone's foot or a shoulder, of the same feature or as the proposal
+/// of a cone knows it.
 double hole_below(const Model& m, const StepWork& step, const model::FeatureShape& s) {
   constexpr double kSame = 1e-4;  // mm
-  if (s.kind != model::ShapeKind::kHole || s.bottom_diameter_mm >= s.diameter.nominal_mm - kSame) return 0.0;
-  double out = step.proposed ? step.proposal.start_diameter_mm : 0.0;
+  const bool cone = s.bottom_diameter_mm < s.diameter.nominal_mm - kSame;
+  if (s.kind != model::ShapeKind::kHole || (s.through && !cone)) return 0.0;
+  double out = cone && step.proposed ? step.proposal.start_diameter_mm : 0.0;
   const auto all = model::shapes_of(m, Ref<model::ManufacturingFeature>(step.feature));
   if (!all) return out;
   for (const model::FeatureShape& other : *all) {

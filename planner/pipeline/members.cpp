@@ -17,6 +17,17 @@ void members_in_order(Work& w, const std::vector<std::size_t>& first,
   if (opened) w.steps[*sized].after.push_back(*std::prev(sized_too));
 }
 
+model::ProposedStep as_opened(const std::vector<model::ProposedStep>& chain, std::size_t at,
+                              const std::vector<model::Selection>& chosen) {
+  model::ProposedStep step = chain[at];
+  if (at == 0 || !(step.start_diameter_mm > 0.0) || chosen[at - 1].ranked.empty()) return step;
+  const model::ProposedStep& before = chain[at - 1];
+  const model::Cutter& drill = chosen[at - 1].ranked.front().cutter;
+  if (drill.cutter_class == model::CutterClass::kTwistDrill && before.tool.diameter_exact_mm <= 0.0)
+    step.start_diameter_mm = std::max(step.start_diameter_mm, drill.cutting_diameter_mm);
+  return step;
+}
+
 void warn_of_lost_threads(Work& w) {
   const model::Model& m = w.plan.model;
   for (const AnyRef r : m.all_below(model::TypeId::kRoundHole)) {

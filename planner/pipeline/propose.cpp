@@ -286,7 +286,9 @@ class Proposer {
   }
 
   std::vector<std::size_t> shape(AnyRef f, const FeatureShape& given, const model::Proposal& p) {
-    if (const std::string why = swallowed(given); !why.empty() || !p.cannot.empty()) {
+    std::string why = swallowed(given);
+    if (why.empty()) why = crosses_a_wall(w_, given);
+    if (!why.empty() || !p.cannot.empty()) {
       fail_member(f, given, why.empty() ? p.cannot : why);
       return {};
     }
@@ -328,7 +330,7 @@ class Proposer {
       step.chain = chosen.key;
       step.in_chain = i;
       step.open_technology = true;
-      step.proposal = (*chosen.chain)[i];
+      step.proposal = as_opened(*chosen.chain, i, chosen.tools);
       step.proposal.feature = f;
       if (step.proposal.operation == TypeId::kWorkpieceProbing) {
         probing = probing_at(*chosen.chain, i, chosen.tools[i]);

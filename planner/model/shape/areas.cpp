@@ -118,6 +118,7 @@ Result<Shapes> pocket(const Model& m, AnyRef self, const Pocket& f) {
     mouth = *line;
     for (std::size_t i = 1; i + 1 < mouth.size(); ++i) loop.push_back(mouth[i]);
   }
+  if (const auto at = crosses_itself(loop)) return crossed(m, self, "boundary", *at);
   const bool clockwise = geometry::signed_area(loop) < 0.0;
   if (clockwise) std::reverse(loop.begin(), loop.end());
   s->area = geometry::clean({loop});
