@@ -43,7 +43,7 @@ TEST_F(CorpusExample2Mills, AreAllPlannedButTheGrooveInTheBoreAndWithoutFindings
   const auto reasons = reasons_unplanned(session().plan);
   EXPECT_LE(reasons.size(), 3U);
   EXPECT_TRUE(std::any_of(reasons.begin(), reasons.end(), [](const std::string& r) {
-    return r.find("a groove in the wall of a bore, 3.5 mm wide, its floor on a radius of 22 mm") !=
+    return r.find("a groove in the wall of a bore, 3.5 mm wide, its floor on a radius of 44 mm") !=
            std::string::npos;
   })) << ::testing::PrintToString(reasons);
   EXPECT_THAT(findings_of_plan(session()), ::testing::IsEmpty()) << all_findings(session());
