@@ -20,5 +20,6 @@ namespace capstan::testing::removal {
 [[nodiscard]] Part chamfered_edges();
 [[nodiscard]] Part holes_near_walls();
 [[nodiscard]] Part turned_over();
+[[nodiscard]] Part tight_holes();
 
 }  // namespace capstan::testing::removal

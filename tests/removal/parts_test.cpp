@@ -41,6 +41,7 @@ CAPSTAN_MADE(FollowsAContourDrawnClockwise, arcs_across_zero(true))
 CAPSTAN_MADE(ChamfersTheEdgesOfAPocketAndAHole, chamfered_edges())
 CAPSTAN_MADE(DrillsBesideWallsWithoutTouchingThem, holes_near_walls())
 CAPSTAN_MADE(CutsAPieceFromBothSides, turned_over())
+CAPSTAN_MADE(CutsTolerancedConesSeatsAndCoresListedInAnyOrder, tight_holes())
 
 }  // namespace
 }  // namespace capstan::testing::removal
