@@ -13,6 +13,102 @@ namespace {
 using geometry::Box3;
 using geometry::Vec3;
 
+/// What stands over an outside contour of a raw piece that nobody states, mm: something must be there to be
+/// milled. Default, unsourced.
+constexpr double kOverOutsides = 5.0;
+
+/// What an outside asks of the raw piece: to stand over its contour, to its depth.
+void add_outside(const model::FeatureShape& s, Box3& out) {
+  geometry::Region within;
+  for (const auto& i : s.islands) within = geometry::unite(within, i.area);
+  geometry::Box2 b = geometry::bounds(geometry::offset_sharp(within, kOverOutsides));
+  if (within.empty()) {
+    if (s.spine.size() < 2) return;
+    // Beside an open line, on the right of it.
+    for (std::size_t i = 0; i + 1 < s.spine.size(); ++i) {
+      const geometry::Vec2 d = (1.0 / norm(s.spine[i + 1] - s.spine[i])) * (s.spine[i + 1] - s.spine[i]);
+      for (const std::size_t k : {i, i + 1}) {
+        const geometry::Vec2 over = s.spine[k] + kOverOutsides * geometry::Vec2{d.y, -d.x};
+        for (const geometry::Vec2 p : {s.spine[k], over}) {
+          b.lo = {std::min(b.lo.x, p.x), std::min(b.lo.y, p.y)};
+          b.hi = {std::max(b.hi.x, p.x), std::max(b.hi.y, p.y)};
+        }
+      }
+    }
+  }
+  for (const double z : {0.0, -s.depth_mm}) {
+    for (const double x : {b.lo.x, b.hi.x}) {
+      for (const double y : {b.lo.y, b.hi.y}) out.add(s.frame.to_parent({x, y, z}));
+    }
+  }
+}
+
+/// What a property says: "hardness = 200 HB".
+std::string property_text(const model::Model& m, const std::string& of, AnyRef parameter) {
+  std::string name = of;
+  if (const auto* p = m.get<model::PropertyParameter>(parameter)) {
+    const std::string own = p->parameter_name.value_or("");
+    if (!own.empty() && own != of) name += (name.empty() ? "" : " ") + own;
+  }
+  if (const auto* n = m.get<model::NumericParameter>(parameter)) {
+    const std::string unit = n->its_parameter_unit.value_or("");
+    return name + " = " + (n->its_parameter_value ? trimmed(*n->its_parameter_value, 4) : std::string("?")) +
+           (unit.empty() ? "" : " " + unit);
+  }
+  const auto* d = m.get<model::DescriptiveParameter>(parameter);
+  return name + " = " + (d == nullptr ? std::string("?") : d->descriptive_string.value_or("?"));
+}
+
+/// Cutting data are the material's card; what the file says beside its name changes nothing, and is said.
+void say_unused_properties(Work& w, const model::Material& material, const AnyRef& at) {
+  const model::Model& m = w.plan.model;
+  const auto say = [&](const std::string& text) {
+    w.job.report({.code = "PIP-MATERIAL-PROPERTY",
+                  .severity = Severity::kWarning,
+                  .message = "the part states " + text + " for its material; planning does not use it",
+                  .file = w.plan.file_name,
+                  .instance = m.origin(at).instance,
+                  .hint = "forces and speeds are those of '" + w.plan.material.id +
+                          "'; name a harder material with --material where that is too little"});
+  };
+  for (std::size_t i = 0; i < material.material_property.size(); ++i)
+    say(property_text(m, "", material.material_property[i]));
+  for (std::size_t i = 0; i < material.its_properties.size(); ++i) {
+    const auto* p = m.get<model::MaterialProperty>(material.its_properties[i]);
+    if (p == nullptr) continue;
+    const std::string name = p->name.value_or("a property");
+    if (p->its_parameters.size() == 0) say(name);
+    for (std::size_t k = 0; k < p->its_parameters.size(); ++k)
+      say(property_text(m, name, p->its_parameters[k]));
+  }
+}
+
+/// The material by the caller's name, else the part's; by default only where neither names one.
+Status resolve_material(Work& w, const model::Workpiece* piece) {
+  std::vector<std::string> names;
+  const AnyRef at = piece == nullptr ? AnyRef{} : AnyRef(piece->its_material);
+  const auto* stated = w.plan.model.get<model::Material>(at);
+  if (w.inputs.material_name) {
+    names.push_back(*w.inputs.material_name);
+  } else if (stated != nullptr) {
+    names.push_back(stated->standard_identifier.value_or(""));
+    names.push_back(stated->material_identifier.value_or(""));
+  }
+  auto material = tooling::find_material(names, w.inputs.materials, w.job);
+  if (!material) {
+    Diagnostic d = material.error();
+    if (!w.inputs.material_name) {
+      d.file = w.plan.file_name;
+      d.instance = w.plan.model.origin(at).instance;
+      d.hint = "name one with --material; " + d.hint;
+    }
+    return fail(std::move(d));
+  }
+  w.plan.material = *std::move(material);
+  if (stated != nullptr) say_unused_properties(w, *stated, at);
+  return {};
+}
+
 /// The box that the features' own extents span: what must be there at least.
 Box3 box_of_features(const Work& w) {
   Box3 out;
@@ -20,6 +116,7 @@ Box3 box_of_features(const Work& w) {
     const auto shapes = model::shapes_of(w.plan.model, Ref<model::ManufacturingFeature>(f));
     if (!shapes) continue;
     for (const auto& s : *shapes) {
+      if (s.kind == model::ShapeKind::kOutside) add_outside(s, out);
       if (s.area.empty() || s.kind == model::ShapeKind::kStep || s.kind == model::ShapeKind::kOutside)
         continue;
       const auto b = geometry::bounds(s.area);
@@ -41,11 +138,41 @@ std::string words(const Box3& b) {
          trimmed(b.lo.x, 3) + ", " + trimmed(b.lo.y, 3) + ", " + trimmed(b.lo.z, 3) + ")";
 }
 
+/// An open outside profile says its side by the raw piece: one named by --stock is stated for it where the
+/// file states none.
+void state_raw_piece(Work& w, const Box3& box) {
+  model::Model& m = w.plan.model;
+  for (const AnyRef f : m.all_below(model::TypeId::kGeneralOutsideProfile)) {
+    const auto* outside = m.get<model::GeneralOutsideProfile>(f);
+    const auto owner = outside->its_workpiece;
+    const auto* piece = m.get<model::Workpiece>(owner);
+    if (!m.holds<model::OpenProfile>(outside->feature_boundary) || piece == nullptr ||
+        model::raw_solid(m, *piece).set())
+      continue;
+    model::CartesianPoint corner;
+    corner.coordinates = {{box.lo.x, box.lo.y, box.lo.z}, true};
+    model::Axis2Placement3d at;
+    at.location = m.add(corner);
+    model::Block block;
+    block.name = "RAW PIECE";
+    block.position = m.add(at);
+    block.x = box.size().x;
+    block.y = box.size().y;
+    block.z = box.size().z;
+    model::Workpiece raw;
+    raw.its_id = "RAW PIECE";
+    raw.its_bounding_geometry = m.add(block);
+    const auto made = m.add(raw);
+    m.get<model::Workpiece>(owner)->its_rawpiece = made;
+  }
+}
+
 void resolve_stock(Work& w, const model::Workpiece* piece) {
   model::Stock& stock = w.plan.stock;
   if (w.inputs.stock) {
     stock.box = *w.inputs.stock;
     stock.source = "given: --stock";
+    state_raw_piece(w, stock.box);
     return;
   }
   if (piece != nullptr) {
@@ -91,18 +218,7 @@ Box3 transformed(const Box3& box, const geometry::Placement& to) {
 
 Status resolve_workpiece(Work& w) {
   const model::Workpiece* piece = model::workpiece_of(w.plan.model, w.plan.project);
-  std::vector<std::string> names;
-  if (w.inputs.material_name) {
-    names.push_back(*w.inputs.material_name);
-  } else if (piece != nullptr) {
-    if (const auto* material = w.plan.model.get<model::Material>(piece->its_material)) {
-      names.push_back(material->standard_identifier.value_or(""));
-      names.push_back(material->material_identifier.value_or(""));
-    }
-  }
-  auto material = tooling::find_material(names, w.inputs.materials, w.job);
-  if (!material) return tl::unexpected(material.error());
-  w.plan.material = *std::move(material);
+  if (auto ok = resolve_material(w, piece); !ok) return ok;
   w.plan.machine = w.inputs.machine;
   w.plan.provenance = w.inputs.provenance;
   resolve_stock(w, piece);

@@ -16,7 +16,8 @@
 // not hold are not looked at.
 //
 // On a freeform surface the distance is measured square to it: from the top of what stands to the nearest of
-// the columns that the finished part fills.
+// the columns that the finished part fills. It may be the tolerance, and what the finishing step states as
+// the height of its ridges and of its chords.
 
 namespace capstan::verify {
 
@@ -47,6 +48,19 @@ bool mills(const model::Cutter& c) {
       return false;
     default:
       return true;
+  }
+}
+
+bool undercuts(const model::Cutter& c) {
+  switch (c.cutter_class) {
+    case model::CutterClass::kTSlotMill:
+    case model::CutterClass::kDovetailMill:
+    case model::CutterClass::kBackCounterbore:
+    case model::CutterClass::kBackCountersink:
+    case model::CutterClass::kSideMill:
+      return true;
+    default:
+      return false;
   }
 }
 
@@ -123,6 +137,16 @@ std::vector<Asked> asked_of(const model::Plan& plan) {
       }
       it->side_mm = std::min(it->side_mm, side);
       it->bottom_mm = std::min(it->bottom_mm, bottom);
+      it->undercut = it->undercut || undercuts(*cutter);
+      if (const auto* o = plan.model.get<model::FreeformOperation>(ws->its_operation)) {
+        double stated = 0.0;
+        const auto* strategy = plan.model.get<model::FreeformStrategy>(o->its_machining_strategy);
+        if (strategy != nullptr) {
+          if (const auto* t = plan.model.get<model::Tolerances>(strategy->its_milling_tolerances))
+            stated = t->scallop_height.value_or(0.0) + t->chordal_tolerance.value_or(0.0);
+        }
+        it->ridges_mm = std::min(it->ridges_mm, stated);
+      }
       if (!mills(*cutter)) continue;
       const bool ball = cutter->cutter_class == model::CutterClass::kBallEndmill;
       const double corner = ball ? 0.5 * cutter->cutting_diameter_mm : cutter->corner_radius_mm;
@@ -133,6 +157,7 @@ std::vector<Asked> asked_of(const model::Plan& plan) {
   for (Asked& a : out) {
     if (a.side_mm >= kNone) a.side_mm = 0.0;
     if (a.bottom_mm >= kNone) a.bottom_mm = 0.0;
+    if (a.ridges_mm >= kNone) a.ridges_mm = 0.0;
     if (a.radius_mm >= kNone) a.radius_mm = a.corner_mm = 0.0;
   }
   return out;
@@ -184,6 +209,8 @@ void Target::left_of(const Cavity& c, const Grid& grid, const Asked& a, bool car
       const std::size_t i = grid.index(ix, iy);
       const double stands = grid.stock[i];
       if (stands <= Grid::kNothing / 2 || (!c.open_bottom && stands <= above - s.depth_mm + limit)) continue;
+      // Over what a head has cut from below stands what it passed under.
+      if (a.undercut && stands > above + limit) continue;
       const Vec2 p = grid.centre(ix, iy);
       const auto own = floor(p);
       if (!own || stands - std::max(*own, grid.base[i]) <= limit) continue;
@@ -219,7 +246,7 @@ void Target::left_of(const Cavity& c, const Grid& grid, const Asked& a, bool car
 void Target::left_on_mesh(const Grid& grid, const Asked& a, Findings& out) const {
   const PartShapes::Entry* e = part_.find(a.feature);
   if (e == nullptr || e->shapes.empty() || e->shapes.front().kind != ShapeKind::kFreeform) return;
-  const double limit = allowed() + a.bottom_mm;
+  const double limit = allowed() + a.bottom_mm + a.ridges_mm;
   const double slack = 0.71 * grid.cell();  // a column may stand anywhere in its cell
   double worst = 0.0, top = 0.0;
   std::size_t cells = 0, all = 0;
