@@ -35,6 +35,7 @@ CAPSTAN_MADE(FollowsAnArcFrom270DegreesToZero, arcs_across_zero(false))
 CAPSTAN_MADE(FollowsAContourDrawnClockwise, arcs_across_zero(true))
 CAPSTAN_MADE(ChamfersTheEdgesOfAPocketAndAHole, chamfered_edges())
 CAPSTAN_MADE(CutsAPieceFromBothSides, turned_over())
+CAPSTAN_MADE(CutsTolerancedConesSeatsAndCoresListedInAnyOrder, tight_holes())
 
 }  // namespace
 }  // namespace capstan::testing::removal
