@@ -34,6 +34,7 @@ struct Made {
   optimise::CutAnswer answer;
   bool depth_open = false, width_open = false;
   std::optional<model::Reason> precedent;  ///< the case that speed and feed started from
+  std::string let_go;                      ///< of stated speed and feed, and why; empty: nothing
 };
 
 void append(toolpath::GeneratedPath& to, const toolpath::GeneratedPath& from) {
@@ -158,7 +159,7 @@ class PathMaker {
       if (first) {
         out.question = question_of(w_, step, candidate, job);
         if (step.open_technology) out.precedent = start_from_case(w_, step, shape, out.question);
-        auto answer = cuts_.answer(out.question);
+        auto answer = cuts_.answer(step, out.question, out.let_go);
         if (!answer) return tl::unexpected(answer.error());
         out.answer = *std::move(answer);
         out.depth_open = !out.question.ap_mm.has_value();
@@ -211,6 +212,8 @@ class PathMaker {
   }
 
   Status finish(StepWork& step, Made made) {
+    let_go(w_, step, made.let_go);
+    turn_with_the_cutter(w_, step);
     record_cut(w_, step, made.answer, made.depth_open, made.width_open, made.precedent);
     progress_.done(step);
     const auto given = given_technology(w_.plan.model, step.operation, step.cutter);
@@ -285,6 +288,7 @@ class PathMaker {
 
   /// A path that the file brings is cut as it is; its feed may be open.
   Status explicit_path(StepWork& step) {
+    turn_with_the_cutter(w_, step);
     auto made = given_path(w_, step, stocks_, progress_, cuts_);
     if (!made) {
       no_path(w_, step, made.error().message);
