@@ -140,7 +140,8 @@ tl::expected<std::vector<ProposedStep>, std::string> make_chain(const Situation&
     s.tool.words = words_of(s.tool);
     s.priority = static_cast<int>(alternative);
     if (!out.empty()) s.after.push_back(out.size() - 1);
-    if (at.shape.kind == ShapeKind::kHole && row == &at.row) hole = hole_after(s, at.shape);
+    const bool cuts = s.operation != model::TypeId::kWorkpieceProbing;
+    if (at.shape.kind == ShapeKind::kHole && row == &at.row && cuts) hole = hole_after(s, at.shape);
     if (row == &at.row) last = out.size();
     out.push_back(std::move(s));
   }
@@ -304,6 +305,42 @@ std::vector<Proposal> propose_members(const RuleBase& base, std::span<const Feat
       if (same_context(i - back, i) && alike(shapes[i - back], shapes[i])) same = i - back;
     }
     out.push_back(same != i ? out[same] : propose(base, shapes[i], contexts[i]));
+  }
+  return out;
+}
+
+std::vector<std::size_t> made_within(std::span<const FeatureShape> shapes) {
+  std::vector<std::size_t> out(shapes.size());
+  for (std::size_t i = 0; i < shapes.size(); ++i) out[i] = i;
+  const auto upright = [](const FeatureShape& s) {
+    return s.kind == ShapeKind::kHole && std::abs(s.bottom_diameter_mm - s.diameter.nominal_mm) < kCoaxial;
+  };
+  // Its limits lie within the other's: whatever makes the other makes this one.
+  const auto asks_no_less = [](const model::Toleranced& other, const model::Toleranced& own) {
+    const double off = other.nominal_mm - own.nominal_mm;
+    if (off > kCoaxial) return true;
+    if (!other.given) return !own.given;
+    return !own.given ||
+           (other.upper_mm + off <= own.upper_mm + 1e-9 && other.lower_mm + off >= own.lower_mm - 1e-9);
+  };
+  for (const auto& [axis, members] : by_axis(shapes)) {
+    for (const std::size_t i : members) {
+      const FeatureShape& s = shapes[i];
+      if (!upright(s)) continue;
+      for (const std::size_t k : members) {
+        const FeatureShape& other = shapes[k];
+        if (k == i || !upright(other) || other.diameter.nominal_mm < s.diameter.nominal_mm - kCoaxial)
+          continue;
+        const bool covers =
+            top_of(other) >= top_of(s) - kCoaxial && bottom_of(other) <= bottom_of(s) + kCoaxial;
+        if (!covers || !asks_no_less(other.diameter, s.diameter)) continue;
+        const bool alike_too = s.diameter.nominal_mm >= other.diameter.nominal_mm - kCoaxial &&
+                               std::abs(bottom_of(other) - bottom_of(s)) < kCoaxial;
+        if (alike_too && (s.bottom != other.bottom || i < k)) continue;
+        out[i] = k;
+        break;
+      }
+    }
   }
   return out;
 }

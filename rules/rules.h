@@ -74,6 +74,10 @@ struct Context {
                                                            std::span<const model::FeatureShape> shapes,
                                                            const Context& context);
 
+/// Of shapes of one feature: for each the coaxial hole that takes all of it away and asks no less of its size
+/// (itself, when there is none); of two alike the first.
+[[nodiscard]] std::vector<std::size_t> made_within(std::span<const model::FeatureShape> shapes);
+
 /// Of shapes of one feature, which must be finished before which begins (first, second): of coaxial holes the
 /// narrower first (it is the pilot of the wider), holes before the thread in them.
 [[nodiscard]] std::vector<std::pair<std::size_t, std::size_t>> member_order(

@@ -88,14 +88,14 @@ Result<model::Plan> part_of(std::string bytes, const std::string& name, Job& job
   return exchange::read_bytes(std::move(bytes), name, exchange::ReadOptions{}, job);
 }
 
-Result<model::Plan> planned(std::string part, const std::string& name, const PlanOptions& o, Job& job) {
+Result<pipeline::Checked> planned(std::string part, const std::string& name, const PlanOptions& o, Job& job) {
   const auto policy = policy_of(o);
   if (!policy) return tl::unexpected(policy.error());
   auto read = part_of(std::move(part), name, job);
-  if (!read) return read;
+  if (!read) return tl::unexpected(read.error());
   const auto inputs = inputs_of(o, job);
   if (!inputs) return tl::unexpected(inputs.error());
-  return pipeline::bind(*std::move(read), *inputs, *policy, job);
+  return pipeline::bind_checked(*read, *inputs, *policy, job);
 }
 
 void forms(const model::Plan& plan, PlanOutput& out, Job& job) {
@@ -119,14 +119,15 @@ void forms(const model::Plan& plan, PlanOutput& out, Job& job) {
   }
 }
 
-void checked(const model::Plan& plan, PlanOutput& out, Job& job) {
+void checked(const pipeline::Checked& bound, PlanOutput& out, Job& job) {
+  const model::Plan& plan = bound.plan;
   const auto add = [&](const std::vector<model::Finding>& findings, const std::string& of) {
     for (const auto& f : findings) {
       const std::string step = f.step.empty() ? std::string() : "step '" + f.step + "': ";
       out.findings.push_back({to_text(f.severity), f.code, of + step + f.message});
     }
   };
-  add(verify::check_plan(plan, job), "");
+  add(bound.findings, "");
   if (!out.linuxcnc.empty())
     add(verify::check_program({"program", out.linuxcnc, out.tool_table}, &plan, plan.machine, plan.cutters,
                               job),
@@ -142,11 +143,11 @@ PlanOutput plan_bytes(std::string part, const std::string& name, const PlanOptio
   const auto plan = planned(std::move(part), name, options, job);
   if (plan) {
     out.planned = true;
-    out.steps = plan->steps.size();
-    out.unplanned = plan->unplanned.size();
-    forms(*plan, out, job);
+    out.steps = plan->plan.steps.size();
+    out.unplanned = plan->plan.unplanned.size();
+    forms(plan->plan, out, job);
     checked(*plan, out, job);
-    if (const auto t = motion::time_of(*plan)) out.time_s = t->total_s();
+    if (const auto t = motion::time_of(plan->plan)) out.time_s = t->total_s();
   } else {
     job.report(plan.error());
   }

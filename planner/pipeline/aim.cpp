@@ -117,8 +117,12 @@ void aim_at_the_middle(FeatureShape& s) {
       break;
     case ShapeKind::kStep:
       break;
+    case ShapeKind::kHole:
+      if (s.bottom != model::HoleBottom::kFlat || s.bottom_diameter_mm < s.diameter.nominal_mm - kSame)
+        return;  // diameters are aimed by their own paths, and the depth of a cone follows from them
+      break;
     default:
-      return;  // holes are aimed by their own paths; a face's depth is no size of the part
+      return;  // a face's depth is no size of the part
   }
   if (s.depth_tolerance.given && !s.through)
     s.depth_mm += s.depth_tolerance.middle() - s.depth_tolerance.nominal_mm;

@@ -1,8 +1,10 @@
 #include <algorithm>
+#include <optional>
 #include <set>
 #include <utility>
 
 #include "planner/output/step_ids.h"
+#include "planner/pipeline/checked.h"
 #include "planner/pipeline/machine_needs.h"
 #include "planner/pipeline/profit.h"
 #include "planner/pipeline/work.h"
@@ -76,6 +78,15 @@ void name_steps(Work& w) {
   }
 }
 
+/// Which chain and cutter made each proposed step, so that what a check says of it can be traced back.
+void list_made(Work& w) {
+  w.tries.made.clear();
+  for (const StepWork& s : w.steps) {
+    if (!s.proposed) continue;
+    w.tries.made[s.step] = {s.member, s.chain, s.in_chain, s.cutter.id, s.proposal.name};
+  }
+}
+
 /// Leaves open what the policy does not want bound: feeds and paths always, tools too when only operations
 /// are wanted. A plan written like this is closed by a later bind.
 void leave_open(Work& w) {
@@ -99,52 +110,82 @@ void leave_open(Work& w) {
   }
 }
 
-Result<model::Plan> bind_once(model::Plan plan, const Inputs& inputs, const Policy& policy,
-                              double earning_per_min, Job& job) {
+/// One try. Nothing when something failed: `tries` has learned what, and the plan is to be made again.
+Result<std::optional<model::Plan>> bind_once(model::Plan plan, const Inputs& inputs, const Policy& policy,
+                                             double earning_per_min, Tries& tries, Job& job) {
   plan.steps.clear();
   std::vector<std::pair<Ref<model::Setup>, model::Workholding>> held;
   for (const auto& s : plan.setups) held.emplace_back(s.setup, s.holding);
   plan.setups.clear();
   std::vector<model::Cutter> recorded = std::exchange(plan.cutters, {});
   plan.unplanned.clear();
-  Work w{std::move(plan), inputs, policy, job, {}, {}, {}, {}, std::move(recorded)};
+  Work w{std::move(plan), inputs, policy, job, tries, {}, {}, {}, {}, std::move(recorded)};
   w.held = std::move(held);
   w.earning_per_min = earning_per_min;
   using Stage = Status (*)(Work&);
   std::vector<Stage> stages = {resolve_workpiece, list_given, take_requirements};
   if (policy.bind >= Bind::kStrategy)
-    stages.insert(stages.end(),
-                  {propose_missing, select_open_tools, order_steps, hold_workpieces, raise_security_planes});
+    stages.insert(stages.end(), {propose_missing, select_open_tools, leave_what_rests, order_steps,
+                                 hold_workpieces, raise_security_planes});
   if (policy.bind == Bind::kAll) stages.insert(stages.end(), {carry_tools, make_paths, join_paths});
   for (const Stage stage : stages) {
     if (auto ok = stage(w); !ok) return tl::unexpected(ok.error());
+    if (w.again) return std::optional<model::Plan>{};
   }
   if (policy.bind == Bind::kAll || policy.bind == Bind::kTools) collect_cutters(w);
   if (policy.bind == Bind::kAll || policy.bind == Bind::kTools) tell_loading(w);
   if (policy.bind == Bind::kAll) state_machine_needs(w);
   if (policy.bind != Bind::kAll && policy.bind != Bind::kNone) leave_open(w);
   if (auto ok = collect_setups(w); !ok) return tl::unexpected(ok.error());
+  name_what_rests(w);
   name_steps(w);
+  list_made(w);
   return std::move(w.plan);
+}
+
+/// Tries until nothing fails. Each try that does not end bans a chain, or leaves a feature out, for good:
+/// there are no more of them than chains and features. What is said is that of the last.
+Result<model::Plan> bind_settled(const model::Plan& plan, const Inputs& inputs, const Policy& policy,
+                                 double earning_per_min, Tries& tries, Job& job) {
+  tries.cuts.reset();  // another earning, other answers
+  auto before = job.take_diagnostics();
+  for (;;) {
+    auto out = bind_once(plan, inputs, policy, earning_per_min, tries, job);
+    const bool again = out && !out->has_value();
+    auto said = job.take_diagnostics();
+    if (again) continue;
+    for (auto& d : before) job.report(std::move(d));
+    for (auto& d : said) job.report(std::move(d));
+    if (!out) return tl::unexpected(out.error());
+    return **std::move(out);
+  }
 }
 
 }  // namespace
 
-Result<model::Plan> bind(model::Plan plan, const Inputs& inputs, const Policy& policy, Job& job) {
-  if (inputs.objective != Objective::kProfit) return bind_once(std::move(plan), inputs, policy, 0.0, job);
+Result<model::Plan> bind_within(const model::Plan& plan, const Inputs& inputs, const Policy& policy,
+                                Tries& tries, Job& job) {
+  if (inputs.objective != Objective::kProfit) return bind_settled(plan, inputs, policy, 0.0, tries, job);
   if (!inputs.revenue) {
     return fail({.code = "PIP-REVENUE",
                  .message = "most profit needs to be told what a piece brings",
                  .expected = "its price less its material, in the currency of the machine's cost per hour"});
   }
   // What is left open has no time, and so no profit: planned for least cost.
-  if (policy.bind != Bind::kAll) return bind_once(std::move(plan), inputs, policy, 0.0, job);
+  if (policy.bind != Bind::kAll) return bind_settled(plan, inputs, policy, 0.0, tries, job);
   return most_profit(
       *inputs.revenue,
       [&](double earning_per_min, Job& trial) {
-        return bind_once(plan, inputs, policy, earning_per_min, trial);
+        return bind_settled(plan, inputs, policy, earning_per_min, tries, trial);
       },
       job);
+}
+
+Result<model::Plan> bind(model::Plan plan, const Inputs& inputs, const Policy& policy, Job& job) {
+  Tries tries;
+  auto out = bind_within(plan, inputs, policy, tries, job);
+  if (out) tell_tries(tries, job);
+  return out;
 }
 
 }  // namespace capstan::pipeline

@@ -397,6 +397,7 @@ void say_assumptions(Work& w) {
 Status list_given(Work& w) {
   report_outside(w);
   for (const AnyRef f : w.plan.model.all_below(TypeId::kPlanarFace)) {
+    if (w.tries.left_out(f) != nullptr) continue;  // it stays
     if (auto s = model::shapes_of(w.plan.model, Ref<model::ManufacturingFeature>(f))) {
       w.faces.insert(w.faces.end(), s->begin(), s->end());
     }

@@ -188,6 +188,27 @@ double hole_above(const Model& m, AnyRef feature, const model::FeatureShape& s) 
   return out;
 }
 
+/// The widest narrower hole that goes on below a cone's foot or a shoulder, of the same feature or as the proposal
+/// of a cone knows it.
+double hole_below(const Model& m, const StepWork& step, const model::FeatureShape& s) {
+  constexpr double kSame = 1e-4;  // mm
+  const bool cone = s.bottom_diameter_mm < s.diameter.nominal_mm - kSame;
+  if (s.kind != model::ShapeKind::kHole || (s.through && !cone)) return 0.0;
+  double out = cone && step.proposed ? step.proposal.start_diameter_mm : 0.0;
+  const auto all = model::shapes_of(m, Ref<model::ManufacturingFeature>(step.feature));
+  if (!all) return out;
+  for (const model::FeatureShape& other : *all) {
+    if (other.kind != model::ShapeKind::kHole) continue;
+    const auto rel = compose(inverse(s.frame), other.frame);
+    const bool coaxial = std::hypot(rel.origin.x, rel.origin.y) < kSame && rel.z.z > 1.0 - kSame;
+    const bool goes_on =
+        rel.origin.z > -s.depth_mm - kSame && rel.origin.z - other.depth_mm < -s.depth_mm - kSame;
+    if (coaxial && goes_on && other.diameter.nominal_mm < s.diameter.nominal_mm - kSame)
+      out = std::max(out, other.diameter.nominal_mm);
+  }
+  return out;
+}
+
 }  // namespace
 
 toolpath::PathJob job_of(const Work& w, const StepWork& step, const model::FeatureShape& shape) {
@@ -213,6 +234,7 @@ toolpath::PathJob job_of(const Work& w, const StepWork& step, const model::Featu
       std::min(setup.security_z_mm, top + (op != nullptr ? op->retract_plane.value_or(5.0) : 5.0));
   job.stock = geometry::rectangle(geometry::xy(setup.stock.lo), geometry::xy(setup.stock.hi));
   job.hole_above_mm = hole_above(m, step.feature, shape);
+  job.hole_below_mm = hole_below(m, step, shape);
   if (shape.through) job.break_through_mm = 1.0;  // below what is through; default, unsourced
   return job;
 }

@@ -62,6 +62,52 @@ void warn_of_parted(Work& w) {
   }
 }
 
+/// Whether `to` comes after `from` already.
+bool follows(const std::vector<std::set<std::size_t>>& next, std::size_t from, std::size_t to) {
+  std::set<std::size_t> seen;
+  std::vector<std::size_t> pending{from};
+  while (!pending.empty()) {
+    const std::size_t at = pending.back();
+    pending.pop_back();
+    if (at == to) return true;
+    if (!seen.insert(at).second) continue;
+    pending.insert(pending.end(), next[at].begin(), next[at].end());
+  }
+  return false;
+}
+
+/// Members of one feature that are cut from the same side, all marked before all are drilled, and so on: a
+/// wider hole is milled before the narrower one in it is reamed. Where a chain or the order of coaxial holes
+/// wants it otherwise, that counts.
+void add_craft(const Work& w, const std::vector<std::size_t>& steps, const std::vector<sequence::Item>& items,
+               std::vector<std::pair<std::size_t, std::size_t>>& given) {
+  constexpr std::size_t kMost = 64;  // steps of one feature; each pair is looked at
+  std::map<AnyRef, std::vector<std::size_t>> by_feature;
+  for (std::size_t i = 0; i < items.size(); ++i) by_feature[w.steps[steps[i]].feature].push_back(i);
+  std::vector<std::set<std::size_t>> next(items.size());
+  for (const auto& [a, b] : given) next[a].insert(b);
+  for (const auto& [feature, own] : by_feature) {
+    if (own.size() > kMost) continue;
+    for (const std::size_t a : own) {
+      for (const std::size_t b : own) {
+        if (items[a].feature == items[b].feature && items[a].in_chain < items[b].in_chain) next[a].insert(b);
+      }
+    }
+    for (const std::size_t a : own) {
+      for (const std::size_t b : own) {
+        const StepWork& sa = w.steps[steps[a]];
+        const StepWork& sb = w.steps[steps[b]];
+        const int ra = craft_rank(items[a].operation), rb = craft_rank(items[b].operation);
+        if (items[a].feature == items[b].feature || ra == 0 || rb <= ra) continue;
+        if (norm(sa.shapes.front().frame.z - sb.shapes.front().frame.z) > sequence::kSameDirection) continue;
+        if (next[a].contains(b) || follows(next, b, a)) continue;
+        next[a].insert(b);
+        given.emplace_back(a, b);
+      }
+    }
+  }
+}
+
 /// Steps of a file keep the file's order and come first; what rules proposed follows, ordered.
 Result<sequence::Order> order_of(Work& w, const std::vector<std::size_t>& proposed) {
   std::vector<model::FeatureShape> shapes;
@@ -94,6 +140,7 @@ Result<sequence::Order> order_of(Work& w, const std::vector<std::size_t>& propos
       if (item_of.contains(before)) options.given.emplace_back(item_of[before], item_of[i]);
     }
   }
+  add_craft(w, proposed, items, options.given);
   options.wishes = wishes_of(w, shapes_of);
   for (const SetupWork& s : w.setups)
     options.directions.push_back(s.workpiece.direction_to_local({0.0, 0.0, 1.0}));
@@ -181,6 +228,35 @@ void drop_empty_setups(Work& w) {
 }
 
 }  // namespace
+
+int craft_rank(model::TypeId operation) {
+  using model::TypeId;
+  switch (operation) {
+    case TypeId::kCenterDrilling:
+      return kMarks;
+    case TypeId::kDrilling:
+    case TypeId::kMultistepDrilling:
+      return kDrills;
+    case TypeId::kPlaneRoughMilling:
+    case TypeId::kSideRoughMilling:
+    case TypeId::kBottomAndSideRoughMilling:
+    case TypeId::kFreeformRoughMilling:
+      return kRoughs;
+    case TypeId::kPlaneFinishMilling:
+    case TypeId::kSideFinishMilling:
+    case TypeId::kBottomAndSideFinishMilling:
+    case TypeId::kFreeformFinishMilling:
+      return kFinishes;
+    case TypeId::kBoring:
+    case TypeId::kReaming:
+    case TypeId::kBackBoring:
+    case TypeId::kTapping:
+    case TypeId::kThreadDrilling:
+      return kSizes;
+    default:
+      return 0;
+  }
+}
 
 Status order_steps(Work& w) {
   drop_empty_setups(w);

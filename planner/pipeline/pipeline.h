@@ -66,7 +66,10 @@ struct Policy {
 /// order chooses depths, makes the path, measures it against the stock and schedules feed and speed.
 ///
 /// What the file binds is kept; a change that safety forces is reported. A feature that cannot be planned is
-/// in Plan::unplanned with its reason; that is an outcome, not an error.
+/// in Plan::unplanned with its reason; that is an outcome, not an error. It is whole or not at all: when a
+/// step that rules proposed finds no cutter, no path or no cut within the limits, its chain is given up and
+/// the plan is made again with the next one (each chain once), at last without the feature. What rests on a
+/// feature that is not planned is not planned either; Unplanned::needed_by names it.
 /// Objective::kProfit makes (revenue - cost) / time largest: the plan is made for least cost first, then
 /// again with what a minute earned in it, until that stays within a thousandth or kMostPlannings are made;
 /// the best of them is kept (W. Dinkelbach, Management Science 13 (1967) 492-498). A piece that loses money
@@ -76,5 +79,25 @@ struct Policy {
 ///              PIP-REVENUE for profit without a revenue.
 [[nodiscard]] Result<model::Plan> bind(model::Plan plan, const Inputs& inputs, const Policy& policy,
                                        Job& job);
+
+/// How often a plan that the check condemns is made anew, at most.
+inline constexpr int kMostReplannings = 5;
+
+/// A plan, and what the check says of it; it is the last word.
+struct Checked {
+  model::Plan plan;
+  std::vector<model::Finding> findings;  ///< of the plan; those of a program are the caller's to ask for
+  int replanned = 0;                     ///< which of the tries this is; 0: the first
+};
+
+/// `bind`, then the check (verify/check_plan). Where it finds an error at a step that rules proposed, what
+/// the step was made with is banned (cutter, chain, at last the feature) and the plan is made anew, at most
+/// kMostReplannings times; the plan with the fewest errors is given. What was made anew, and why, is noted
+/// (PIP-ANEW) and stands in the ledger among the rejected alternatives. A plan without errors costs one
+/// check. A plan whose decisions are not all bound is not checked.
+///
+/// Determinism  as `bind`, unless the job is stopped: then what is there so far is given, with its findings.
+[[nodiscard]] Result<Checked> bind_checked(const model::Plan& plan, const Inputs& inputs,
+                                           const Policy& policy, Job& job);
 
 }  // namespace capstan::pipeline

@@ -6,7 +6,8 @@
 
 #include "planner/base/number.h"
 #include "planner/model/walk.h"
-#include "planner/pipeline/share.h"
+#include "planner/pipeline/choose.h"
+#include "planner/pipeline/members.h"
 #include "planner/pipeline/steps.h"
 #include "tooling/nouns/nouns.h"
 #include "tooling/select/select.h"
@@ -23,40 +24,24 @@ using model::TypeId;
 
 constexpr double kSameAxis = 1e-6;  // sine below which two tool axes are the same
 
-/// Features that are parts of others (elements of compounds, bases of patterns, bosses, threaded holes that a
-/// compound lists) are made with those.
-std::set<AnyRef> parts_of_others(const Model& m) {
-  std::set<AnyRef> out;
-  for (const AnyRef r : m.all_below(TypeId::kManufacturingFeature)) {
-    const auto add = [&](AnyRef part) {
-      if (part.set()) out.insert(part);
-    };
-    if (const auto* c = m.get<model::CompoundFeature>(r)) {
-      for (const AnyRef e : c->elements.items) add(e);
-    }
-    if (const auto* p = m.get<model::ReplicateFeature>(r)) add(p->replicate_base_feature);
-    if (const auto* p = m.get<model::Pocket>(r)) {
-      for (const AnyRef b : p->its_boss.items) add(b);
-    }
-    if (const auto* f = m.get<model::PlanarFace>(r)) {
-      for (const AnyRef b : f->its_boss.items) add(b);
-    }
-    if (const auto* s = m.get<model::Step>(r)) {
-      for (const AnyRef b : s->its_boss.items) add(b);
-    }
-  }
-  return out;
-}
-
 /// Features the file wants made, in the order of the file.
 std::vector<AnyRef> wanted(const Work& w) {
   const Model& m = w.plan.model;
   const std::set<AnyRef> parts = parts_of_others(m);
   std::set<AnyRef> done;
   for (const StepWork& s : w.steps) done.insert(s.feature);
+  // A compound whose elements have their own steps is made by these.
+  const auto by_elements = [&](AnyRef r) {
+    const auto* c = m.get<model::CompoundFeature>(r);
+    return c != nullptr && !c->elements.empty() &&
+           std::all_of(c->elements.items.begin(), c->elements.items.end(),
+                       [&](AnyRef e) { return done.contains(e); });
+  };
   std::vector<AnyRef> out;
   for (const AnyRef r : m.all_below(TypeId::kManufacturingFeature)) {
-    if (!parts.contains(r) && !done.contains(r) && !m.holds<model::ToolpathFeature>(r)) out.push_back(r);
+    if (parts.contains(r) || done.contains(r) || by_elements(r) || m.holds<model::ToolpathFeature>(r))
+      continue;
+    out.push_back(r);
   }
   std::stable_sort(out.begin(), out.end(),
                    [&](AnyRef a, AnyRef b) { return m.origin(a).instance < m.origin(b).instance; });
@@ -90,75 +75,8 @@ std::size_t setup_for(Work& w, const FeatureShape& s) {
   return w.setups.size() - 1;
 }
 
-struct Chosen {
-  const std::vector<model::ProposedStep>* chain = nullptr;
-  std::vector<model::Selection> tools;
-};
-
-/// Drops drills, reamers and taps that the spindle cannot turn at any useful feed; says why when none is
-/// left.
-std::string keep_able(Work& w, const model::ProposedStep& step, model::Selection& s) {
-  if (!model::is_a(step.operation, TypeId::kDrillingTypeOperation) ||
-      model::is_a(step.operation, TypeId::kThreadDrilling))
-    return {};
-  optimise::Options options;
-  options.solver = w.inputs.solver;
-  options.backends = w.inputs.backends;
-  options.starts = 1;
-  std::vector<model::Candidate> able;
-  std::string why;
-  for (const model::Candidate& c : s.ranked) {
-    const auto answer = optimise::cut(hole_question(w, step, c), options, w.job);
-    if (answer && answer->feasible) {
-      able.push_back(c);
-      continue;
-    }
-    const std::string limit = !answer                    ? answer.error().message
-                              : answer->violated.empty() ? ""
-                                                         : answer->violated.front();
-    s.rejected.push_back({c.cutter.id, "no useful feed keeps the limits: " + limit});
-    if (why.empty()) why = step.name + ": " + c.cutter.id + ": no useful feed keeps the limits: " + limit;
-  }
-  if (able.empty()) return why;
-  s.ranked = std::move(able);
-  return {};
-}
-
-/// The first chain whose every step finds a cutter; why the others do not.
-Chosen choose(Work& w, const model::Proposal& p, const FeatureShape& shape,
-              const std::vector<model::Cutter>& library, std::vector<model::Rejected>& rejected) {
-  for (const auto& chain : p.chains) {
-    Chosen out;
-    std::vector<std::string> used = w.used_cutters;
-    std::string why_not;
-    for (const auto& step : chain) {
-      tooling::Preferences wanted = preferences_of(w, step, shape);
-      wanted.used = used;
-      auto s = tooling::select(step.tool, library, w.plan.material, w.plan.machine, wanted);
-      if (step.operation == TypeId::kWorkpieceProbing) {  // can be measured by other means
-        out.tools.push_back(std::move(s));
-        continue;
-      }
-      if (s.ranked.empty()) {
-        why_not = step.name + ": no cutter fits; " + s.would_fit + " would";
-        break;
-      }
-      why_not = keep_able(w, step, s);
-      if (!why_not.empty()) break;
-      used.push_back(s.ranked.front().cutter.id);
-      out.tools.push_back(std::move(s));
-    }
-    if (why_not.empty()) {
-      out.chain = &chain;
-      return out;
-    }
-    rejected.push_back({chain.empty() ? "chain" : chain.front().why.id, why_not});
-  }
-  return {};
-}
-
-void unplanned(Work& w, const FeatureShape& s, const std::string& reason) {
-  w.plan.unplanned.push_back({s.feature, reason});
+void unplanned(Work& w, AnyRef feature, const FeatureShape& s, const std::string& reason) {
+  w.plan.unplanned.push_back({feature, reason});
   w.job.report({.code = "PIP-UNPLANNED",
                 .severity = Severity::kWarning,
                 .message = "feature '" + s.name + "' (" +
@@ -174,6 +92,7 @@ class Proposer {
   explicit Proposer(Work& w) : w_(w), library_(usable(w)) {}
 
   void feature(AnyRef f, const std::vector<FeatureShape>& shapes) {
+    if (left_out(f, shapes.front())) return;
     rules::Context context = context_of(w_, f, shapes);
     const std::optional<Core> core = core_of(shapes);
     if (core) context.core_diameter_mm = core->diameter_mm;
@@ -186,6 +105,7 @@ class Proposer {
     }
     const auto proposals = rules::propose_members(w_.inputs.rules, shapes, context);
     const auto order = rules::member_order(shapes);
+    const auto within = rules::made_within(shapes);
     std::vector<std::vector<std::size_t>> made(shapes.size());  // indices of steps by shape
     std::vector<std::size_t> representative(shapes.size());
     for (std::size_t i = 0; i < shapes.size(); ++i) {
@@ -201,17 +121,59 @@ class Proposer {
         for (const std::size_t s : made[representative[i]]) w_.steps[s].shapes.push_back(shapes[i]);
         continue;
       }
+      if (within[i] != i) {
+        w_.job.note("PIP-WITHIN", "feature '" + shapes[i].name + "': nothing is left to cut, for '" +
+                                      shapes[within[i]].name + "' takes all of it away");
+        continue;
+      }
       made[i] = shape(f, shapes[i], proposals[i]);
       if (core && !made[i].empty()) w_.steps[made[i].front()].after.push_back(core->last_step);
+    }
+    // Part of a feature is not made: what is made of it stands or falls with the rest.
+    if (const auto why = failed_.find(f); why != failed_.end()) {
+      const bool some = std::any_of(made.begin(), made.end(), [](const auto& m) { return !m.empty(); });
+      for (const std::string& reason : why->second) w_.tries.leave_out(f, reason);
+      // A face that stays makes all below it deeper: what was proposed reckoned without it.
+      const bool face = shapes.front().kind == model::ShapeKind::kFace;
+      w_.again = w_.again || some || face;
     }
     for (const auto& [first, second] : order) {
       if (representative[first] != first || representative[second] != second) continue;
       if (made[first].empty() || made[second].empty()) continue;
-      w_.steps[made[second].front()].after.push_back(made[first].back());
+      members_in_order(w_, made[first], made[second]);
     }
   }
 
  private:
+  /// Whether an earlier try left this feature out; said again in this one.
+  bool left_out(AnyRef f, const FeatureShape& first) {
+    const LeftOut* out = w_.tries.left_out(f);
+    if (out == nullptr) return false;
+    const auto* named = w_.plan.model.get<model::ManufacturingFeature>(f);
+    FeatureShape whole = first;
+    if (named != nullptr && named->its_id) whole.name = *named->its_id;
+    for (const std::string& why : out->reasons) unplanned(w_, f, whole, why);
+    if (!out->reasons.empty()) return true;
+    std::string names;
+    for (const AnyRef on : out->rests_on) {
+      const auto* other = w_.plan.model.get<model::ManufacturingFeature>(on);
+      names += (names.empty() ? "'" : ", '") + (other == nullptr ? "" : other->its_id.value_or("")) + "'";
+    }
+    unplanned(
+        w_, f, whole,
+        "it rests on " + names + ", which " + (out->rests_on.size() > 1 ? "are" : "is") + " not planned");
+    return true;
+  }
+
+  /// Why this member cannot be made; with its name where the feature has others.
+  void fail_member(AnyRef f, const FeatureShape& s, const std::string& reason) {
+    const auto* named = w_.plan.model.get<model::ManufacturingFeature>(f);
+    const bool whole = named == nullptr || named->its_id.value_or("") == s.name;
+    const std::string text = whole ? reason : "'" + s.name + "': " + reason;
+    failed_[f].push_back(text);
+    unplanned(w_, f, s, text);
+  }
+
   /// A narrower hole of another feature that an earlier step makes right through where these holes are.
   struct Core {
     double diameter_mm = 0.0;
@@ -334,7 +296,7 @@ class Proposer {
 
   std::vector<std::size_t> shape(AnyRef f, const FeatureShape& given, const model::Proposal& p) {
     if (const std::string why = swallowed(given); !why.empty() || !p.cannot.empty()) {
-      unplanned(w_, given, why.empty() ? p.cannot : why);
+      fail_member(f, given, why.empty() ? p.cannot : why);
       return {};
     }
     for (const model::Rejected& r : p.rejected) {
@@ -343,13 +305,17 @@ class Proposer {
     }
     const FeatureShape s = reachable_side(f, given);
     std::vector<model::Rejected> rejected = p.rejected;
-    const Chosen chosen = choose(w_, p, s, library_, rejected);
+    const Member member{f, s.feature, s.member};
+    const Chosen chosen = choose(w_, p, s, member, library_, rejected);
     if (chosen.chain == nullptr) {
-      std::string reason = "no cutter in the library fits";
+      const bool tried = std::any_of(p.chains.begin(), p.chains.end(), [&](const auto& chain) {
+        return w_.tries.chain_banned(member, Tries::key_of(chain)) != nullptr;
+      });
+      std::string reason = tried ? "no way to make it works" : "no cutter in the library fits";
       for (const auto& r : rejected) {
         if (reason.find("; " + r.why) == std::string::npos) reason += "; " + r.why;  // chains share reasons
       }
-      unplanned(w_, given, reason);
+      fail_member(f, given, reason);
       return {};
     }
     for (std::size_t i = 0; i < p.chains.size(); ++i) {
@@ -367,8 +333,11 @@ class Proposer {
       step.setup = setup;
       step.shapes = {s};
       step.proposed = true;
+      step.member = member;
+      step.chain = chosen.key;
+      step.in_chain = i;
       step.open_technology = true;
-      step.proposal = (*chosen.chain)[i];
+      step.proposal = as_opened(*chosen.chain, i, chosen.tools);
       step.proposal.feature = f;
       if (step.proposal.operation == TypeId::kWorkpieceProbing) {
         probing = probing_at(*chosen.chain, i, chosen.tools[i]);
@@ -410,6 +379,7 @@ class Proposer {
   Work& w_;
   std::vector<model::Cutter> library_;
   std::set<std::pair<AnyRef, std::string>> said_;
+  std::map<AnyRef, std::vector<std::string>> failed_;  ///< why members cannot be made, by feature
 };
 
 }  // namespace
@@ -455,6 +425,7 @@ Status propose_missing(Work& w) {
   const std::vector<AnyRef> features = wanted(w);
   std::vector<std::pair<AnyRef, std::vector<FeatureShape>>> shaped;
   if (w.policy.reopen >= Reopen::kOperations) {
+    warn_of_lost_threads(w);
     for (const AnyRef f : features)
       w.plan.model.get<model::ManufacturingFeature>(f)->its_operations.items.clear();
   }
@@ -467,7 +438,7 @@ Status propose_missing(Work& w) {
       FeatureShape nameless;
       nameless.feature = f;
       nameless.name = w.plan.model.get<model::ManufacturingFeature>(f)->its_id.value_or("");
-      unplanned(w, nameless, shapes.error().message);
+      unplanned(w, f, nameless, shapes.error().message);
       continue;
     }
     if (!shapes->empty()) proposer.feature(f, rules::from_the_top(*shapes));

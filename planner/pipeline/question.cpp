@@ -7,6 +7,7 @@
 #include "planner/model/raw_piece.h"
 #include "planner/pipeline/steps.h"
 #include "planner/toolpath/hole/hole_paths.h"
+#include "planner/toolpath/region/undercut.h"
 #include "tooling/select/select.h"
 
 // The question that the optimiser is asked for a step, from nouns and geometry.
@@ -131,16 +132,27 @@ bool feed_by_planning(const Work& w, const StepWork& step) {
   return false;
 }
 
-/// Cuts under an overhang are not measured along the path: asked for as a slot of the head's full height and
-/// diameter, with half the start feed, for the chips cannot leave upwards. The half is a default, unsourced.
-void under_an_overhang(optimise::CutQuestion& q, const model::Cutter& c) {
+/// Cuts under an overhang are not measured along the path: asked for with the head's full height and half the
+/// start feed, for the chips cannot leave upwards (the half is a default, unsourced). Where the mouth was
+/// milled before, what is cut beside it: both edges of the head at once in the middle, less when it moves
+/// aside. Else a slot of the head's diameter.
+void under_an_overhang(optimise::CutQuestion& q, const toolpath::PathJob& job) {
   constexpr double kFeedShare = 0.5;
+  const model::Cutter& c = job.cutter;
+  const double d = c.cutting_diameter_mm;
   q.kind = CutKind::kRough;
   q.slot = true;
   q.ap_mm = c.cutting_width_mm > 0.0 ? c.cutting_width_mm : c.maximum_depth_of_cut_mm;
   q.depth_mm = *q.ap_mm;
-  q.ae_mm = q.width_mm = c.cutting_diameter_mm;
+  q.ae_mm = q.width_mm = d;
   q.fz_start_mm *= kFeedShare;
+  const auto u = toolpath::undercut_of(job.shape);
+  if (!u || u->flank_rad > 0.0 || !job.left_on_side_mm) return;
+  const double beside = d - 2.0 * (u->mouth_mm - *job.left_on_side_mm);
+  q.slot = false;
+  q.ae_mm = q.width_mm = std::clamp(beside, toolpath::side_step(job, d), d);
+  // Where the head moves aside, a last thin pass makes the walls: the others may bend it as roughing may.
+  if (u->widest_mm - job.allowance_side_mm - 0.5 * d > toolpath::kLastSide) q.deflection_limit_mm = 0.0;
 }
 
 }  // namespace
@@ -230,7 +242,7 @@ optimise::CutQuestion question_of(const Work& w, const StepWork& step, const mod
   if (step.cutter.cutter_class == model::CutterClass::kTSlotMill ||
       step.cutter.cutter_class == model::CutterClass::kDovetailMill ||
       step.cutter.cutter_class == model::CutterClass::kBackCountersink)
-    under_an_overhang(q, job.cutter);
+    under_an_overhang(q, job);
   if (q.slot && job.shape.kind == model::ShapeKind::kHole && toolpath::cuts_from_below(job)) {
     const auto most = toolpath::back_cut(job);
     q.slot = false;
@@ -241,6 +253,13 @@ optimise::CutQuestion question_of(const Work& w, const StepWork& step, const mod
                     step.cutter.cutter_class == model::CutterClass::kCountersink;
   // A broken edge: as wide as it is deep.
   if (cone && q.kind == CutKind::kFinish && q.ap_mm) q.width_mm = std::max(0.05, *q.ap_mm);
+  // A hole's cone, in one cut: as deep and as wide as it is.
+  const double narrowing = job.shape.diameter.nominal_mm - job.shape.bottom_diameter_mm;
+  if (cone && q.kind == CutKind::kFinish && !q.ap_mm && job.shape.kind == ShapeKind::kHole &&
+      narrowing > 0.0) {
+    q.ap_mm = q.depth_mm = job.shape.depth_mm;
+    q.width_mm = 0.5 * narrowing;
+  }
   hold_quality(w, step, job, q);
   q.override_locked = override_locked(w, step);
   const auto given = given_technology(m, step.operation, step.cutter);

@@ -183,10 +183,37 @@ Touches level(const Work& w, const FeatureShape& s, Left left, double ball) {
   return {{out}, {}};
 }
 
+/// The flank of a cone, at the middle of its height, along x and y. A ball of radius b that touches the flank
+/// there has its middle at r + (h - d / 2) tan a - b / cos a from the axis, when that is h = d / 2 - b sin a
+/// deep; r is the cone's radius at its top, d its depth, a half its angle.
+Touches flank(const Work& w, const FeatureShape& s, Left left, double ball) {
+  const double lean = 0.5 * (s.diameter.nominal_mm - s.bottom_diameter_mm) / s.depth_mm;
+  const double sine = lean / std::hypot(1.0, lean), cosine = 1.0 / std::hypot(1.0, lean);
+  const double z = -0.5 * s.depth_mm + ball * sine;
+  const double end = 0.5 * s.diameter.middle() + z * lean - ball / cosine - left.side_mm;
+  if (end < kRoom || !within(w.plan.stock.box, s.frame.to_parent({0.0, 0.0, -0.5 * s.depth_mm})))
+    return {{}, "a ball of " + trimmed(2.0 * ball, 3) + " mm does not touch the flank of its cone freely"};
+  Touches out;
+  for (const auto& [d, side] : {std::pair(Vec2{1.0, 0.0}, "+x"), std::pair(Vec2{-1.0, 0.0}, "-x"),
+                                std::pair(Vec2{0.0, 1.0}, "+y"), std::pair(Vec2{0.0, -1.0}, "-y")}) {
+    Touch t;
+    t.start = s.frame.to_parent({0.0, 0.0, z});
+    t.direction = s.frame.direction_to_parent({d.x, d.y, 0.0});
+    t.reference = s.frame.z;
+    t.distance_mm = end;
+    t.side = side;
+    out.touches.push_back(t);
+  }
+  return out;
+}
+
 }  // namespace
 
 Touches touches_of(const Work& w, const FeatureShape& s, Left left, double ball) {
   if (s.kind == ShapeKind::kFace) return level(w, s, left, ball);
+  if (s.kind == ShapeKind::kHole && s.bottom_diameter_mm > 0.0 &&
+      s.bottom_diameter_mm < s.diameter.nominal_mm - 1e-6)
+    return flank(w, s, left, ball);
   if (std::abs(s.slope_rad) > 1e-6 || !s.slot_profile.empty()) return {{}, "its walls are not upright"};
   Asked a{w, s, left, ball, removed(s), {}, {}, true};
   const double off = left.side_mm + ball - kSlack;

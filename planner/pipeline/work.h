@@ -2,6 +2,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "planner/model/requirements.h"
 #include "planner/model/shape.h"
 #include "planner/pipeline/pipeline.h"
+#include "planner/pipeline/tries.h"
 
 // What the stages hand to each other; only planner/pipeline/*.cpp include this.
 
@@ -47,6 +49,9 @@ struct StepWork {
   std::vector<model::FeatureShape> shapes;  ///< workpiece coordinates; more than one for patterns
   model::Cutter cutter;
   bool proposed = false;                     ///< made by rules in this run
+  Member member = {};                        ///< when proposed: what its chain is for,
+  std::string chain = {};                    ///< which chain that is (Tries::key_of),
+  std::size_t in_chain = 0;                  ///< and its place in it
   model::ProposedStep proposal;              ///< when proposed
   std::vector<model::Candidate> candidates;  ///< when the cutter was selected in this run, best first
   std::vector<model::Rejected> rejected_tools;
@@ -63,6 +68,7 @@ struct Work {
   const Inputs& inputs;
   const Policy& policy;
   Job& job;
+  Tries& tries;
   std::vector<SetupWork> setups;
   std::vector<StepWork> steps;  ///< in order of execution once sequenced
   std::vector<model::FeatureShape>
@@ -76,6 +82,7 @@ struct Work {
       {};                                        ///< as the plan said when it was read
   std::vector<model::FeatureShape> shapes = {};  ///< of all features, workpiece coordinates
   double earning_per_min = 0.0;                  ///< Objective::kProfit: what a minute earns above its cost
+  bool again = false;  ///< something failed and `tries` says what: the plan is to be made again
 };
 
 // The stages, in the order bind() runs them.
@@ -83,6 +90,7 @@ Status resolve_workpiece(Work& w);      ///< material and raw piece
 Status list_given(Work& w);             ///< set-ups and workingsteps of the file, what is re-opened marked
 Status take_requirements(Work& w);      ///< general tolerance, what is asked of each feature
 Status propose_missing(Work& w);        ///< rules and tooling for features that have no bound operations
+Status leave_what_rests(Work& w);       ///< what rests on features that are not planned is not planned either
 Status select_open_tools(Work& w);      ///< cutters for given operations
 Status order_steps(Work& w);            ///< set-ups, order, pockets
 Status hold_workpieces(Work& w);        ///< fixtures and clamps of each set-up, where that is wanted
@@ -94,6 +102,22 @@ Status join_paths(Work& w);             ///< given paths are reached from the se
 void report_outside(Work& w);  ///< features that the raw piece does not hold
 
 // Shared pieces.
+
+/// Features that are parts of others (elements of compounds, bases of patterns, bosses): made with those.
+[[nodiscard]] std::set<AnyRef> parts_of_others(const model::Model& m);
+
+/// `after` cannot be cut rightly while `before` still stands.
+struct RestsOn {
+  AnyRef before, after;
+};
+/// By geometry, as the order of steps has it: what begins within or at the floor of a feature, a thread in
+/// its hole, an edge, and what lies in a face; but a plain hole only needs its drill to be long enough to
+/// start above the face. Both are features as workingsteps name them.
+[[nodiscard]] std::vector<RestsOn> what_rests(const Work& w);
+/// Those that rest on one of `roots`, directly or through others.
+[[nodiscard]] std::set<AnyRef> resting_on(const std::vector<RestsOn>& all, const std::set<AnyRef>& roots);
+/// Names, at each feature that is not planned, those that rest on it.
+void name_what_rests(Work& w);
 
 /// How much raw material stands above a feature when its steps begin, mm: faces are cut first.
 [[nodiscard]] double stock_above(const Work& w, const model::FeatureShape& shape);
@@ -108,6 +132,11 @@ struct Thickness {
                                         const std::vector<model::FeatureShape>& shapes);
 /// The cutters that may be used: the library, or what of it is loaded.
 [[nodiscard]] std::vector<model::Cutter> usable(const Work& w);
+
+/// The order of the craft among the steps of one feature: marks, drills, roughs, finishes, sizes holes; 0:
+/// none of these.
+[[nodiscard]] int craft_rank(model::TypeId operation);
+inline constexpr int kMarks = 1, kDrills = 2, kRoughs = 3, kFinishes = 4, kSizes = 5;
 
 /// Whether two shapes ask for the same steps and cutters: members of a pattern.
 [[nodiscard]] bool alike(const model::FeatureShape& a, const model::FeatureShape& b);

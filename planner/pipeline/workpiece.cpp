@@ -13,6 +13,36 @@ namespace {
 using geometry::Box3;
 using geometry::Vec3;
 
+/// What stands over an outside contour of a raw piece that nobody states, mm: something must be there to be
+/// milled. Default, unsourced.
+constexpr double kOverOutsides = 5.0;
+
+/// What an outside asks of the raw piece: to stand over its contour, to its depth.
+void add_outside(const model::FeatureShape& s, Box3& out) {
+  geometry::Region within;
+  for (const auto& i : s.islands) within = geometry::unite(within, i.area);
+  geometry::Box2 b = geometry::bounds(geometry::offset_sharp(within, kOverOutsides));
+  if (within.empty()) {
+    if (s.spine.size() < 2) return;
+    // Beside an open line, on the right of it.
+    for (std::size_t i = 0; i + 1 < s.spine.size(); ++i) {
+      const geometry::Vec2 d = (1.0 / norm(s.spine[i + 1] - s.spine[i])) * (s.spine[i + 1] - s.spine[i]);
+      for (const std::size_t k : {i, i + 1}) {
+        const geometry::Vec2 over = s.spine[k] + kOverOutsides * geometry::Vec2{d.y, -d.x};
+        for (const geometry::Vec2 p : {s.spine[k], over}) {
+          b.lo = {std::min(b.lo.x, p.x), std::min(b.lo.y, p.y)};
+          b.hi = {std::max(b.hi.x, p.x), std::max(b.hi.y, p.y)};
+        }
+      }
+    }
+  }
+  for (const double z : {0.0, -s.depth_mm}) {
+    for (const double x : {b.lo.x, b.hi.x}) {
+      for (const double y : {b.lo.y, b.hi.y}) out.add(s.frame.to_parent({x, y, z}));
+    }
+  }
+}
+
 /// The box that the features' own extents span: what must be there at least.
 Box3 box_of_features(const Work& w) {
   Box3 out;
@@ -20,6 +50,7 @@ Box3 box_of_features(const Work& w) {
     const auto shapes = model::shapes_of(w.plan.model, Ref<model::ManufacturingFeature>(f));
     if (!shapes) continue;
     for (const auto& s : *shapes) {
+      if (s.kind == model::ShapeKind::kOutside) add_outside(s, out);
       if (s.area.empty() || s.kind == model::ShapeKind::kStep || s.kind == model::ShapeKind::kOutside)
         continue;
       const auto b = geometry::bounds(s.area);
@@ -41,11 +72,41 @@ std::string words(const Box3& b) {
          trimmed(b.lo.x, 3) + ", " + trimmed(b.lo.y, 3) + ", " + trimmed(b.lo.z, 3) + ")";
 }
 
+/// An open outside profile says its side by the raw piece: one named by --stock is stated for it where the
+/// file states none.
+void state_raw_piece(Work& w, const Box3& box) {
+  model::Model& m = w.plan.model;
+  for (const AnyRef f : m.all_below(model::TypeId::kGeneralOutsideProfile)) {
+    const auto* outside = m.get<model::GeneralOutsideProfile>(f);
+    const auto owner = outside->its_workpiece;
+    const auto* piece = m.get<model::Workpiece>(owner);
+    if (!m.holds<model::OpenProfile>(outside->feature_boundary) || piece == nullptr ||
+        model::raw_solid(m, *piece).set())
+      continue;
+    model::CartesianPoint corner;
+    corner.coordinates = {{box.lo.x, box.lo.y, box.lo.z}, true};
+    model::Axis2Placement3d at;
+    at.location = m.add(corner);
+    model::Block block;
+    block.name = "RAW PIECE";
+    block.position = m.add(at);
+    block.x = box.size().x;
+    block.y = box.size().y;
+    block.z = box.size().z;
+    model::Workpiece raw;
+    raw.its_id = "RAW PIECE";
+    raw.its_bounding_geometry = m.add(block);
+    const auto made = m.add(raw);
+    m.get<model::Workpiece>(owner)->its_rawpiece = made;
+  }
+}
+
 void resolve_stock(Work& w, const model::Workpiece* piece) {
   model::Stock& stock = w.plan.stock;
   if (w.inputs.stock) {
     stock.box = *w.inputs.stock;
     stock.source = "given: --stock";
+    state_raw_piece(w, stock.box);
     return;
   }
   if (piece != nullptr) {

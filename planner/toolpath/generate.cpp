@@ -15,10 +15,23 @@ using model::TypeId;
 
 namespace {
 
+bool is_cone(const model::Cutter& c) {
+  return c.cutter_class == CutterClass::kChamferMill || c.cutter_class == CutterClass::kCountersink;
+}
+
+/// The cone of a hole, milled along its wall.
+bool mills_cone(const PathJob& task) {
+  const auto& s = task.shape;
+  if (!is_cone(task.cutter) || task.operation != TypeId::kSideFinishMilling || s.kind != ShapeKind::kHole ||
+      !(s.bottom_diameter_mm > 0.0) || !(s.bottom_diameter_mm < s.diameter.nominal_mm - 1e-6))
+    return false;
+  const double lean = 0.5 * (s.diameter.nominal_mm - s.bottom_diameter_mm) / s.depth_mm;
+  return std::abs(std::tan(0.5 * task.cutter.point_angle_rad) - lean) < 1e-3;
+}
+
 /// A cone along the side of a feature that is no chamfer.
 bool breaks_edge(const PathJob& task) {
-  const bool cone = task.cutter.cutter_class == CutterClass::kChamferMill ||
-                    task.cutter.cutter_class == CutterClass::kCountersink;
+  const bool cone = is_cone(task.cutter) && !mills_cone(task);
   const bool edged = task.shape.kind == ShapeKind::kPocket || task.shape.kind == ShapeKind::kHole ||
                      task.shape.kind == ShapeKind::kOutside;
   return cone && edged && task.operation == TypeId::kSideFinishMilling;
@@ -66,6 +79,7 @@ Result<GeneratedPath> hole_milling(const PathJob& task, Job& job) {
 
 Result<GeneratedPath> milling(const PathJob& task, Job& job) {
   if (task.cutter.cutter_class == CutterClass::kThreadMill) return thread_mill_path(task, job);
+  if (mills_cone(task)) return cone_of_hole_path(task, job);
   if (breaks_edge(task)) return broken_edge_path(task, job);
   switch (task.shape.kind) {
     case ShapeKind::kFace:

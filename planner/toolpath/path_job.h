@@ -100,6 +100,8 @@ struct PathJob {
   std::optional<double> cutting_depth_mm;      ///< drilling: of the full diameter (centre drill: of the tip)
   std::optional<double> previous_diameter_mm;  ///< hole already there
   double hole_above_mm = 0.0;  ///< of what is wider below: the narrow hole it is reached by; 0: none
+  double hole_below_mm =
+      0.0;  ///< of a cone or a shoulder: the narrower hole that goes on below it; 0: none
   std::optional<Peck> peck;
   std::optional<DrillPhases> phases;
   std::optional<double> feed_on_retract;  ///< fraction of the feed; nothing: as usual for the operation

@@ -6,7 +6,7 @@
 namespace capstan::verify {
 
 std::string_view property_text(int number) {
-  static constexpr std::array<std::pair<int, std::string_view>, 34> kTexts = {{
+  static constexpr std::array<std::pair<int, std::string_view>, 36> kTexts = {{
       {1, "All numbers are finite."},
       {2, "One length unit, stated once and never switched."},
       {3, "The work offset is explicit and defined."},
@@ -44,6 +44,10 @@ std::string_view property_text(int number) {
       {32, "A clean end: retracted, spindle off, end mark."},
       {33, "The emitted text parses back to the plan's numbers."},
       {34, "Every feature is planned, or reported unplanned with the reason."},
+      {35, "Every step with a cutter cuts, or follows a finished surface."},
+      {36,
+       "Of a planned feature nothing stays beyond its tolerance and the allowance that its last step "
+       "states."},
       {0, ""},
   }};
   for (const auto& [n, text] : kTexts) {

@@ -11,8 +11,8 @@ namespace capstan::rules {
 const Action* find_action(std::string_view name) {
   static const std::vector<Action> kActions = [] {
     std::vector<Action> all = hole_actions();
-    for (auto&& family :
-         {area_actions(), form_actions(), section_actions(), undercut_actions(), back_actions()})
+    for (auto&& family : {cone_actions(), area_actions(), form_actions(), section_actions(),
+                          undercut_actions(), back_actions()})
       all.insert(all.end(), family.begin(), family.end());
     return all;
   }();

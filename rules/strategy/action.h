@@ -44,6 +44,7 @@ struct Action {
 
 /// The actions of each family, for `find_action`.
 [[nodiscard]] std::vector<Action> hole_actions();
+[[nodiscard]] std::vector<Action> cone_actions();
 [[nodiscard]] std::vector<Action> area_actions();
 [[nodiscard]] std::vector<Action> form_actions();
 [[nodiscard]] std::vector<Action> section_actions();

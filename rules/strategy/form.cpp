@@ -134,6 +134,16 @@ Made probe_feature(const Making& m) {
   return s;
 }
 
+// A size measured in the machine between the last two cuts.
+Made measure(const Making& m) {
+  Made made = probe_feature(m);
+  made->why.text =
+      "its size is measured before the last cut, which is then set to what is missing: a boring tool on "
+      "its slide, a depth or a cone by the tool's length, a width by planning the last step again with "
+      "the diameter that the cutter cuts";
+  return made;
+}
+
 Made freeform_rough(const Making& m) {
   ProposedStep s;
   s.depth_mm = m.shape.depth_mm;
@@ -181,6 +191,10 @@ std::vector<Action> form_actions() {
        TypeId::kWorkpieceProbing,
        {{"of_depth", 0.5, "how deep the probe goes, by the feature's depth"}},
        probe_feature},
+      {"measure",
+       TypeId::kWorkpieceProbing,
+       {{"of_depth", 0.5, "how deep it is measured, by the feature's depth"}},
+       measure},
       {"freeform_rough",
        TypeId::kFreeformRoughMilling,
        {{"allowance_mm", 0.5, "left on the surface"}},

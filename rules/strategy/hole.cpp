@@ -5,7 +5,7 @@
 #include "planner/base/number.h"
 #include "rules/strategy/action.h"
 
-// Holes: centre, drill, ream, bore, mill, counterbore, countersink.
+// Holes: centre, drill, ream, bore, mill, counterbore. Cones stand in cone.cpp.
 
 namespace capstan::rules {
 namespace {
@@ -193,20 +193,30 @@ Made gun_drill(const Making& m) {
   return s;
 }
 
-// A hole that a cutter opens: a drill well below it, as large as there is.
+constexpr double kLeastPilot = 0.5;       // of the largest; default, unsourced
+constexpr double kLeastNextPilot = 0.75;  // the same, of a pilot that opens another; default, unsourced
+
+// A hole that a cutter opens: a drill well below it, as large as there is. After another pilot: wider than
+// that one may be.
 Made pilot(const Making& m) {
   const double d = lower_limit(m);
   const double hi = std::min(m.number("of_diameter") * d, m.number("largest_mm"));
   ProposedStep s = begin(m, drill_depth(m, hi));
   if (!(s.depth_mm > 0.0)) return no("the tip of a pilot drill is longer than the hole is deep");
   s.tool.classes = {CutterClass::kTwistDrill};
-  s.tool.diameter_min_mm = 0.5 * hi;
+  double lo = kLeastPilot * hi;
+  if (m.hole_mm > 0.0) {
+    // What is known of the pilot before is its least diameter.
+    lo = std::max(kLeastNextPilot * hi, m.hole_mm / kLeastPilot + 1.0);
+    if (!(lo < hi)) return no("between the pilot before and " + mm(hi) + " there is no room for another");
+  }
+  s.tool.diameter_min_mm = lo;
   s.tool.diameter_max_mm = hi;
   s.tool.depth_of_cut_mm = s.depth_mm + kDrillTip * hi + m.context.stock_above_mm;
   s.tool.reach_mm += kDrillTip * hi;
   s.tool.centre_cutting = true;
   std::string text;
-  const auto peck = pecked(m, s.depth_mm / (0.5 * hi), text);
+  const auto peck = pecked(m, s.depth_mm / lo, text);
   if (!peck) return tl::unexpected(peck.error());
   s.peck = *peck;
   if (s.peck) s.operation = TypeId::kMultistepDrilling;
@@ -243,7 +253,9 @@ Made ream(const Making& m) {
 Made bore(const Making& m) {
   ProposedStep s = begin(m, to_the_end(m));
   s.tool.classes = {CutterClass::kBoringTool};
-  s.tool.diameter_exact_mm = m.known.diameter.middle();
+  s.tool.diameter_exact_mm = m.known.diameter.middle() - m.number("under_mm");
+  if (!(s.tool.diameter_exact_mm > m.hole_mm))
+    return no("nothing is left to bore in a hole of " + mm(m.hole_mm));
   return s;
 }
 
@@ -321,33 +333,6 @@ Made counterbore(const Making& m) {
   return s;
 }
 
-// The cone at the top of a hole, or at its bottom.
-Made countersink(const Making& m) {
-  const auto& s0 = m.shape;
-  const bool at_top = m.known.facts.symbol("taper") == "countersink";
-  const double half = at_top ? std::atan(0.5 * (s0.diameter.nominal_mm - s0.bottom_diameter_mm) / s0.depth_mm)
-                             : 0.5 * std::numbers::pi - s0.bottom_angle_rad;
-  const double d = s0.diameter.nominal_mm;
-  const double apex = 0.5 * d / std::tan(half);  // of the sharp cone, below where it is d wide
-  // Countersinks are flat at the tip: how deep one goes follows from the cutter chosen (depth 0). At the
-  // bottom of a hole only a pointed tool makes the cone.
-  ProposedStep s = begin(m, at_top ? apex : s0.depth_mm + apex);
-  s.tool.classes = {CutterClass::kCountersink, CutterClass::kChamferMill};
-  if (!at_top) s.tool.classes = {CutterClass::kSpotDrill};
-  s.tool.point_angle_rad = 2.0 * half;
-  if (at_top) {
-    s.tool.diameter_min_mm = d;
-    s.start_diameter_mm = s0.bottom_diameter_mm;
-  } else {
-    s.tool.diameter_max_mm = lower_limit(m);
-    s.tool.diameter_min_mm = 0.9 * d;
-  }
-  s.tool.depth_of_cut_mm = at_top ? s0.depth_mm : 0.0;
-  if (at_top) s.depth_mm = 0.0;
-  s.dwell_s = m.number("dwell_s");
-  return s;
-}
-
 }  // namespace
 
 std::vector<Action> hole_actions() {
@@ -384,7 +369,7 @@ std::vector<Action> hole_actions() {
         leave},
        pilot},
       {"ream", TypeId::kReaming, {{"past_mm", 2.0, "through holes: beyond the bottom, for the lead"}}, ream},
-      {"bore", TypeId::kBoring, {past}, bore},
+      {"bore", TypeId::kBoring, {past, under}, bore},
       {"mill_rough",
        TypeId::kBottomAndSideRoughMilling,
        {{"of_diameter", 0.6, "largest end mill by diameter"},
@@ -397,7 +382,6 @@ std::vector<Action> hole_actions() {
        mill_finish},
       {"ball_bottom", TypeId::kDrilling, {dwell}, ball_bottom},
       {"counterbore", TypeId::kCounterSinking, {dwell}, counterbore},
-      {"countersink", TypeId::kCounterSinking, {dwell}, countersink},
   };
 }
 

@@ -76,7 +76,7 @@ Made form(const Making& m, CutterClass c, bool leaning) {
   s.strategy = StrategyKind::kCenterMilling;
   s.why.text =
       "enters and leaves at its depth by the open end; cuts under the overhang are not measured, the feed is "
-      "that of a full slot at half the start value";
+      "that of what stands beside the mouth, at half the start value";
   return s;
 }
 

@@ -16,7 +16,8 @@ struct Piece {
   Inputs inputs;
   Policy policy;
   Job job;
-  Work w{{}, inputs, policy, job, {}, {}, {}, {}, {}};
+  Tries tries;
+  Work w{{}, inputs, policy, job, tries, {}, {}, {}, {}, {}};
   Piece() { w.plan.stock.box = {{0, 0, -20}, {100, 100, 0}}; }
 
   const FeatureShape& add(ShapeKind kind, Vec3 top, double x, double y, double depth,

@@ -97,7 +97,8 @@ TEST(Hole, WithATighterToleranceGetsAnotherChainAndCitesItsRow) {
   EXPECT_EQ(row(it7), "hole.ream.it7");
   EXPECT_THAT(first(it7), ElementsAre(TypeId::kCenterDrilling, TypeId::kDrilling, TypeId::kReaming));
   EXPECT_THAT(kinds(it7.chains[1]), ElementsAre(TypeId::kCenterDrilling, TypeId::kDrilling, TypeId::kBoring));
-  EXPECT_THAT(proposed(h(s, 6)).cannot, HasSubstr("[hole.grind]"));
+  EXPECT_EQ(row(proposed(h(s, 6))), "hole.fine");
+  EXPECT_THAT(proposed(h(s, 5)).cannot, HasSubstr("[hole.grind]"));
 }
 
 TEST(Hole, OutsideTheH7ZoneIsBoredToTheMiddleOfItsTolerance) {
@@ -318,6 +319,8 @@ TEST(Pocket, GetsFewerOrMorePassesByGrade) {
   s.width.upper_mm = standard_tolerance_mm(8, 40.0);
   EXPECT_EQ(proposed(s).chains.at(0).size(), 3U);
   s.width.upper_mm = standard_tolerance_mm(6, 40.0);
+  EXPECT_EQ(proposed(s).chains.at(0).size(), 4U) << "measured before the last pass";
+  s.width.upper_mm = standard_tolerance_mm(5, 40.0);
   EXPECT_THAT(proposed(s).cannot, HasSubstr("[pocket.grind]"));
 }
 

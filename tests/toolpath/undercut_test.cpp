@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -51,7 +52,18 @@ Region passed(const GeneratedPath& g, double z, double radius) {
     const Vec2 a = xy(g.path.point(i - 1));
     const Vec2 b = xy(g.path.point(i));
     if (norm(b - a) < 1e-9) continue;
-    out = geometry::unite(out, geometry::stroke({a, b}, radius, true));
+    std::vector<Vec2> line = {a};
+    const MoveKind kind = g.path.kind[i];
+    if (kind == MoveKind::kArcCw || kind == MoveKind::kArcCcw) {
+      const Vec2 c{g.path.cx[i], g.path.cy[i]};
+      double sweep = std::atan2(cross(a - c, b - c), dot(a - c, b - c));
+      if (kind == MoveKind::kArcCcw && sweep <= 0.0) sweep += 2.0 * kPi;
+      if (kind == MoveKind::kArcCw && sweep >= 0.0) sweep -= 2.0 * kPi;
+      geometry::append_arc(line, c, a, sweep, 0.001);
+    } else {
+      line.push_back(b);
+    }
+    out = geometry::unite(out, geometry::stroke(line, radius, true));
   }
   return out;
 }
@@ -111,6 +123,44 @@ TEST(UndercutPath, LeavesAClosedEndTheWayItCame) {
   bool back = false;
   for (const auto role : g->path.role) back = back || role == MoveRole::kRetract;
   EXPECT_TRUE(back);
+}
+
+TEST(UndercutPath, GoesRoundAClosedEndWithASmallerHead) {
+  PathJob t = tee(false);
+  t_cutter(t, 18.0, 8.0, 8.0);
+  t.shape.spine = {{60, 0}, {20, 0}};
+  t.shape.area = geometry::unite(geometry::stroke(t.shape.spine, 7.0, false), geometry::disc({20, 0}, 7.0));
+  t.shape.reach = geometry::unite(t.shape.area, geometry::stroke({{60, 0}, {160, 0}}, 7.0, false));
+  Job job;
+  const auto g = generate(t, job);
+  ASSERT_TRUE(g) << g.error().message;
+  EXPECT_THAT(job.diagnostics(), testing::IsEmpty()) << "nothing stays at the end";
+  // The wide part: 23 mm and round at the end, to 11.5 mm beyond it.
+  const Region wide =
+      geometry::unite(geometry::stroke({{20, 0}, {200, 0}}, 11.5, false), geometry::disc({20, 0}, 11.5));
+  EXPECT_LE(gouge_mm(*g, wide, 9.0, -1e-6), 0.003);
+  EXPECT_LE(gouge_mm(*g, t.shape.reach, 4.0, -1e-6), 0.0) << "the neck stays in the mouth";
+  const Region floor = geometry::intersect(wide, geometry::rectangle({-50, -20}, {60, 20}));
+  for (const double z : g->levels_z_mm)
+    EXPECT_LT(geometry::area(geometry::subtract(floor, passed(*g, z, 9.002))), 0.05) << z;
+}
+
+TEST(UndercutPath, TakesTheWallsInAThinLastPassWhereTheHeadMovesAside) {
+  PathJob t = tee(true);
+  t_cutter(t, 18.0, 8.0, 8.0);
+  Job job;
+  const auto g = generate(t, job);
+  ASSERT_TRUE(g) << g.error().message;
+  std::vector<double> aside;
+  for (std::size_t i = 0; i < g->path.size(); ++i) {
+    const double y = std::abs(g->path.y[i]);
+    if (std::none_of(aside.begin(), aside.end(), [y](double v) { return std::abs(v - y) < 1e-9; }))
+      aside.push_back(y);
+  }
+  std::sort(aside.begin(), aside.end());
+  ASSERT_GE(aside.size(), 3U);
+  EXPECT_NEAR(aside.back(), 2.5, 1e-9) << "(23 - 18) / 2";
+  EXPECT_NEAR(aside[aside.size() - 2], 2.3, 1e-9) << "0.2 mm less";
 }
 
 TEST(UndercutPath, RefusesWhatWouldTouchAndSaysWhy) {

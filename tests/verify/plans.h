@@ -220,8 +220,9 @@ inline PlanMaker good_plan() {
   return k;
 }
 
-/// A reamer in the hole that the drill made; `rpm_out` while it is withdrawn.
+/// A reamer in the hole that the drill made 0.2 mm narrower; `rpm_out` while it is withdrawn.
 inline void with_reamer(PlanMaker& k, double rpm_out) {
+  k.plan.cutters[1].cutting_diameter_mm = 7.8;
   model::Cutter c = drill();
   c.id = "r8";
   c.cutter_class = model::CutterClass::kReamer;

@@ -24,6 +24,9 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kPitchSlackMm = 1e-3;
 constexpr double kAngleSlackRad = 0.5 * kPi / 180.0;
+/// Drawings show the point of a twist drill, 118 degrees, as 120; what it leaves of a cone is 1.2 % of its
+/// diameter. The next point of a catalogue, 130 degrees, is another. Default, unsourced.
+constexpr double kPointSlackRad = 2.0 * kPi / 180.0;
 /// The spindle's slowest turn may exceed the preset's cutting speed by this much and no more.
 constexpr double kFastestOverPreset = 1.25;  // default, unsourced
 /// The least cut that is worth a tool: a mill's depth and width, a drill's share of its start feed. Defaults,
@@ -268,7 +271,8 @@ std::optional<std::string> wrong_shape(const Cutter& c, const ToolRequirement& r
     return "corner radius " + mm(c.corner_radius_mm) + " is not " + mm(r.corner_radius_exact_mm);
   if (r.corner_radius_limited && c.corner_radius_mm > r.corner_radius_max_mm + kSizeSlackMm)
     return "corner radius " + mm(c.corner_radius_mm) + " is above " + mm(r.corner_radius_max_mm);
-  if (r.point_angle_rad > 0.0 && std::abs(c.point_angle_rad - r.point_angle_rad) > kAngleSlackRad)
+  const double slack = c.cutter_class == CutterClass::kTwistDrill ? kPointSlackRad : kAngleSlackRad;
+  if (r.point_angle_rad > 0.0 && std::abs(c.point_angle_rad - r.point_angle_rad) > slack + 1e-9)
     return "point angle " + degrees(c.point_angle_rad) + " is not " + degrees(r.point_angle_rad);
   // A dovetail's flanks lean inwards by its lead angle.
   const double taper = c.cutter_class == CutterClass::kDovetailMill ? c.lead_angle_rad : c.taper_angle_rad;

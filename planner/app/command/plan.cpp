@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "casebase/casebase.h"
@@ -20,8 +21,10 @@
 namespace capstan::app {
 namespace {
 
-/// Findings of the plan, and of each program made from it; told to the job. Gives their number.
-std::size_t verified(const model::Plan& plan, const std::vector<Output>& outputs, Job& job) {
+/// Findings of the plan, which may be known already, and of each program made from it; told to the job. Gives
+/// their number.
+std::size_t verified(const model::Plan& plan, const std::optional<std::vector<model::Finding>>& known,
+                     const std::vector<Output>& outputs, Job& job) {
   std::size_t n = 0;
   const auto tell = [&](const std::vector<model::Finding>& findings, const std::string& file, bool program) {
     for (const auto& f : findings) {
@@ -29,7 +32,7 @@ std::size_t verified(const model::Plan& plan, const std::vector<Output>& outputs
       if (f.severity != Severity::kNote) ++n;
     }
   };
-  tell(verify::check_plan(plan, job), plan.file_name, false);
+  tell(known ? *known : verify::check_plan(plan, job), plan.file_name, false);
   std::string table;
   for (const Output& o : outputs) {
     if (o.kind == OutputKind::kToolTable) table = o.bytes;
@@ -66,7 +69,8 @@ std::string written_text(const std::vector<Output>& outputs) {
 }
 
 /// Makes outputs, checks them, writes them: what plan and bind have in common at their end.
-int finish(Session& s, const model::Plan& plan, std::vector<Output> outputs) {
+int finish(Session& s, const model::Plan& plan, std::vector<Output> outputs,
+           const std::optional<std::vector<model::Finding>>& known = std::nullopt) {
   if (plan.steps.empty() && !plan.unplanned.empty()) {
     s.summary = "nothing can be planned, nothing is written";
     return s.end({.code = "APP-IMPOSSIBLE",
@@ -78,7 +82,7 @@ int finish(Session& s, const model::Plan& plan, std::vector<Output> outputs) {
   if (auto ok = make(plan, outputs, s.job); !ok) return s.end(ok.error(), kImpossible);
   // What is left open has no path yet, so there is nothing to prove.
   const bool open = s.options.bind != pipeline::Bind::kAll;
-  const std::size_t findings = open ? 0 : verified(plan, outputs, s.job);
+  const std::size_t findings = open ? 0 : verified(plan, known, outputs, s.job);
   s.summary = summary_of(plan, findings);
   const bool clean = findings == 0 && plan.unplanned.empty();
   if (s.options.strict && !clean) {
@@ -199,9 +203,9 @@ int run_plan(Session& s) {
   policy.bind = s.options.bind;
   Task task;
   if (const int code = prepared(s, policy, task); code != kDone) return code;
-  const auto plan = pipeline::bind(std::move(task.part), task.inputs, policy, s.job);
-  if (!plan) return s.end(plan.error(), kImpossible);
-  return finish(s, *plan, std::move(task.outputs));
+  const auto bound = pipeline::bind_checked(task.part, task.inputs, policy, s.job);
+  if (!bound) return s.end(bound.error(), kImpossible);
+  return finish(s, bound->plan, std::move(task.outputs), bound->findings);
 }
 
 int run_bind(Session& s) {

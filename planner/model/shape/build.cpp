@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "planner/base/number.h"
 #include "planner/model/curve_points.h"
 #include "planner/model/nouns/geometric_item.h"
 #include "planner/model/nouns/support.h"
@@ -41,6 +42,8 @@ Loop moved(const geometry::Placement& frame, const Loop& loop) {
   return out;
 }
 
+}  // namespace
+
 geometry::Region moved(const geometry::Placement& frame, const geometry::Region& r) {
   std::vector<Loop> loops;
   for (const Loop& loop : r.loops) loops.push_back(moved(frame, loop));
@@ -51,7 +54,36 @@ geometry::Region moved(const geometry::Placement& frame, const geometry::Region&
   return geometry::clean(loops);
 }
 
-}  // namespace
+std::optional<Vec2> crosses_itself(const Loop& loop) {
+  constexpr double kLobe = 1e-3;  // mm2: a smaller one is the ends of two curves that meet a little late
+  const std::size_t n = loop.size();
+  struct Piece {
+    double lo = 0.0, hi = 0.0;  // in x
+    std::size_t i = 0;
+  };
+  std::vector<Piece> pieces;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double a = loop[i].x, b = loop[(i + 1) % n].x;
+    pieces.push_back({std::min(a, b), std::max(a, b), i});
+  }
+  std::sort(pieces.begin(), pieces.end(),
+            [](const Piece& a, const Piece& b) { return std::pair(a.lo, a.i) < std::pair(b.lo, b.i); });
+  for (std::size_t p = 0; p < n; ++p) {
+    for (std::size_t q = p + 1; q < n && pieces[q].lo <= pieces[p].hi; ++q) {
+      const std::size_t i = std::min(pieces[p].i, pieces[q].i), j = std::max(pieces[p].i, pieces[q].i);
+      const Vec2 a = loop[i], b = loop[(i + 1) % n], c = loop[j], d = loop[(j + 1) % n];
+      const double s1 = cross(b - a, c - a), s2 = cross(b - a, d - a);
+      const double s3 = cross(d - c, a - c), s4 = cross(d - c, b - c);
+      if (!(s1 * s2 < 0.0 && s3 * s4 < 0.0)) continue;
+      const Vec2 at = a + (s3 / (s3 - s4)) * (b - a);
+      Loop lobe = {at};
+      for (std::size_t k = i + 1; k <= j; ++k) lobe.push_back(loop[k]);
+      const double one = geometry::signed_area(lobe);
+      if (std::abs(one) > kLobe && std::abs(geometry::signed_area(loop) - one) > kLobe) return at;
+    }
+  }
+  return std::nullopt;
+}
 
 tl::unexpected<Diagnostic> missing(const Model& m, AnyRef feature, const std::string& attribute) {
   return fail({.code = "SHP-MISSING",
@@ -73,6 +105,12 @@ tl::unexpected<Diagnostic> unsupported(const Model& m, AnyRef feature, const std
   return fail({.code = "SHP-UNSUPPORTED",
                .message = label(m, feature) + ": " + what,
                .instance = m.origin(feature).instance});
+}
+
+tl::unexpected<Diagnostic> crossed(const Model& m, AnyRef feature, const std::string& what, Vec2 at) {
+  return unsupported(m, feature,
+                     "its " + what + " crosses itself at (" + trimmed(at.x, 3) + ", " + trimmed(at.y, 3) +
+                         ") of the feature's frame, so that it bounds no single area");
 }
 
 Result<FeatureShape> base(const Model& m, AnyRef feature, bool needs_depth) {
@@ -163,6 +201,7 @@ Result<geometry::Region> closed_area(const Model& m, Ref<ClosedProfile> profile,
     if (loop.size() > 1 && norm(loop.front() - loop.back()) < 1e-6) loop.pop_back();
     if (loop.size() < 3)
       return unsupported(m, into.feature, "its closed profile has fewer than three points");
+    if (const auto at = crosses_itself(loop)) return crossed(m, into.feature, "closed profile", *at);
     if (geometry::signed_area(loop) < 0.0) std::reverse(loop.begin(), loop.end());
     return geometry::clean({loop});
   }
@@ -301,6 +340,7 @@ Result<std::vector<FeatureShape>> shapes_of(const Model& model, Ref<Manufacturin
   shape::Piece piece(model);
   auto out = shape::standing(model, feature, shape::Within{{}, {}, 0, false, &piece});
   if (!out) return out;
+  shape::spare_bosses(model, feature, *out);
   for (std::size_t i = 0; i < out->size(); ++i) {
     (*out)[i].member = static_cast<int>(i);
     if (out->size() > 1) (*out)[i].name += "[" + std::to_string(i + 1) + "]";

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -66,6 +67,13 @@ Result<std::vector<geometry::Vec2>> travel_line(const Model& m, Ref<TravelPath> 
 /// The bosses of a pocket or face as islands.
 Status add_islands(const Model& m, const RefList<Boss>& bosses, FeatureShape& into);
 
+/// Takes out of a feature what bosses of their own leave standing in it.
+void spare_bosses(const Model& m, AnyRef feature, Shapes& shapes);
+/// An area in another frame; its loops turn round when seen from below.
+geometry::Region moved(const geometry::Placement& frame, const geometry::Region& r);
+/// Where a closed outline crosses itself, so that it bounds no single area; touching itself is no crossing.
+std::optional<geometry::Vec2> crosses_itself(const geometry::Loop& loop);
+
 /// The frame of a profile within its feature; a profile placed exactly where its feature is repeats it.
 Result<geometry::Placement> profile_frame(const Model& m, const Profile& profile, FeatureShape& into);
 
@@ -94,6 +102,9 @@ tl::unexpected<Diagnostic> missing(const Model& m, AnyRef feature, const std::st
 /// As above; but what stands there and cannot be read (`why`) is said itself.
 tl::unexpected<Diagnostic> missing(const Model& m, AnyRef feature, const std::string& attribute,
                                    Diagnostic why);
+/// As `unsupported`: an outline that crosses itself.
+tl::unexpected<Diagnostic> crossed(const Model& m, AnyRef feature, const std::string& what,
+                                   geometry::Vec2 at);
 tl::unexpected<Diagnostic> unsupported(const Model& m, AnyRef feature, const std::string& what);
 
 }  // namespace capstan::model::shape

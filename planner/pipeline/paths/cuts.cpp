@@ -40,18 +40,18 @@ QuestionKey key_of(const optimise::CutQuestion& q) {
 
 }  // namespace
 
-struct Cuts::Known {
+struct CutsKnown {
   std::map<QuestionKey, optimise::CutAnswer> answers;
 };
 
-Cuts::Cuts(Work& w) : w_(w), known_(std::make_unique<Known>()) {
+Cuts::Cuts(Work& w) : w_(w) {
+  if (!w.tries.cuts) w.tries.cuts = std::make_shared<CutsKnown>();
+  known_ = w.tries.cuts;
   options_.solver = w.inputs.solver;
   options_.backends = w.inputs.backends;
   options_.starts = 2;
   options_.relative_tolerance = 1e-7;
 }
-
-Cuts::~Cuts() = default;
 
 Result<optimise::CutAnswer> Cuts::answer(const optimise::CutQuestion& q) {
   const auto key = key_of(q);

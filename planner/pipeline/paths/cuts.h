@@ -6,14 +6,14 @@
 #include "planner/optimise/cut.h"
 #include "planner/pipeline/work.h"
 
-// The optimiser, asked once for each question; only planner/pipeline/*.cpp include this.
+// The optimiser, asked once for each question, in all tries at a plan; only planner/pipeline/*.cpp include
+// this.
 
 namespace capstan::pipeline {
 
 class Cuts {
  public:
   explicit Cuts(Work& w);
-  ~Cuts();
   Cuts(const Cuts&) = delete;
   Cuts& operator=(const Cuts&) = delete;
   [[nodiscard]] Result<optimise::CutAnswer> answer(const optimise::CutQuestion& q);
@@ -23,10 +23,9 @@ class Cuts {
                                                    std::string& let_go);
 
  private:
-  struct Known;
   Work& w_;
   optimise::Options options_;
-  std::unique_ptr<Known> known_;
+  std::shared_ptr<CutsKnown> known_;
 };
 
 }  // namespace capstan::pipeline

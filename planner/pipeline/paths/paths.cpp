@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -35,7 +37,24 @@ struct Made {
   bool depth_open = false, width_open = false;
   std::optional<model::Reason> precedent;  ///< the case that speed and feed started from
   std::string let_go;                      ///< of stated speed and feed, and why; empty: nothing
+  std::vector<model::Rejected> thicker;    ///< depths or widths that exceeded a limit along the path
 };
+
+/// The same, measured against the stock, with its feeds.
+struct Tried {
+  Made made;
+  std::shared_ptr<model::CutterPath> path;
+  model::StepResult result;
+  optimise::FeedQuestion asked;
+  optimise::FeedAnswer feeds;
+};
+
+/// Thinner cuts that are tried with one cutter where a limit is exceeded along its path.
+constexpr int kMostThinner = 3;
+/// A thinner cut aims below the limit by this, for sections along the path are not proportional to it.
+constexpr double kThinnerAim = 0.9;      // default, unsourced
+constexpr double kThinnerUnknown = 0.5;  // where no formula tells the excess; default, unsourced
+constexpr double kThinnest = 0.02;       // of the cut that keeps the limits off the path; default, unsourced
 
 void append(toolpath::GeneratedPath& to, const toolpath::GeneratedPath& from) {
   auto& p = to.path;
@@ -64,37 +83,170 @@ class PathMaker {
       w_.job.progress("paths", static_cast<double>(done++) / static_cast<double>(w_.steps.size()));
       if (w_.job.stop_requested())
         return fail("PIP-STOPPED", "planning was stopped before every step had its path");
+      if (given_up(step)) continue;
       if (auto ok = make(step); !ok) return ok;
     }
     return {};
   }
 
  private:
+  /// Whether what this step needs has failed: then it is not made either. A proposed one waits for the next
+  /// try at its feature; of one of the file the reason is said.
+  bool given_up(const StepWork& step) {
+    if (step.proposed) return failed_.contains(step.feature) || resting_.contains(step.feature);
+    if (lost_.empty() || !w_.plan.model.holds<model::MachiningOperation>(step.operation)) return false;
+    // A path that the file brings is kept; that of a tap is never cut as moves.
+    if (has_given_path(w_, step) && !w_.plan.model.holds<model::Tapping>(step.operation)) return false;
+    const std::string* lost = nullptr;
+    for (const Member& m : members(step)) {
+      if (const auto at = lost_.find(m); at != lost_.end()) lost = &at->second;
+    }
+    if (lost == nullptr && !resting_.contains(step.feature)) return false;
+    no_path(w_, step,
+            "it needs " + (lost != nullptr ? "step '" + *lost + "'" : std::string("a feature")) +
+                " before it, which has no path");
+    lose(step);
+    return true;
+  }
+
+  static std::vector<Member> members(const StepWork& step) {
+    std::vector<Member> out;
+    for (const auto& s : step.shapes) out.push_back({step.feature, s.feature, s.member});
+    if (out.empty()) out.push_back({step.feature, {}, 0});
+    return out;
+  }
+
+  /// What this step of the file would have left is not there for those after it.
+  void lose(const StepWork& step) {
+    if (!step.feature.set() || !leaves_what_others_need(step)) return;
+    for (const Member& m : members(step)) lost_.emplace(m, name_of(w_, step));
+    failed_.insert(step.feature);
+    resting_ = resting_on(what_rests(w_), failed_);
+  }
+
+  /// A step that cannot be made. If rules proposed it, its chain is given up, and with it for now what rests
+  /// on its feature; the plan is made again with the next chain. A step of the file is reported.
+  void give_up(const StepWork& step, const std::string& why) {
+    if (!step.proposed) {
+      no_path(w_, step, why);
+      lose(step);
+      return;
+    }
+    const std::string text = "step '" + name_of(w_, step) + "' has no path: " + why;
+    w_.tries.ban_chain(step.member, step.chain, text);
+    w_.tries.said.push_back(text + "; its feature is planned anew");
+    w_.again = true;
+    failed_.insert(step.feature);
+    resting_ = resting_on(what_rests(w_), failed_);
+  }
+
+  /// A mark for the drill, a finished wall or a broken edge is missed by no other step of its feature.
+  bool leaves_what_others_need(const StepWork& step) const {
+    const Model& m = w_.plan.model;
+    return !m.holds<model::CenterDrilling>(step.operation) &&
+           !m.holds<model::CounterSinking>(step.operation) &&
+           !m.holds<model::SideFinishMilling>(step.operation) &&
+           !m.holds<model::BottomAndSideFinishMilling>(step.operation) &&
+           !m.holds<model::PlaneFinishMilling>(step.operation) &&
+           !m.holds<model::FreeformFinishMilling>(step.operation) && !m.holds<model::Tapping>(step.operation);
+  }
+
   Status make(StepWork& step) {
     if (has_given_path(w_, step) && !rigid_tap(step)) return explicit_path(step);
     if (!w_.plan.model.holds<model::MachiningOperation>(step.operation)) return {};
     if (step.shapes.empty()) {
-      no_path(w_, step, "the shape of its feature is not known");
+      give_up(step, "the shape of its feature is not known");
       return {};
     }
-    if (step.cutter.cutting_diameter_mm <= 0.0) return {};  // no cutter was found; said already
+    if (step.cutter.cutting_diameter_mm <= 0.0) {  // no cutter was found; said already
+      lose(step);
+      return {};
+    }
     rank_by_time(step);
     const std::size_t tries = std::max<std::size_t>(1, step.candidates.size());
     GroupedReasons why_not;
+    std::optional<std::pair<std::size_t, double>> least;  // of those that exceed a limit: which, by how much
     for (std::size_t i = 0; i < tries; ++i) {
-      const model::Candidate* candidate = i < step.candidates.size() ? &step.candidates[i] : nullptr;
-      if (candidate != nullptr) step.cutter = candidate->cutter;
-      auto made = attempt(step, candidate);
-      if (!made) {
-        why_not.add(step.cutter.id, made.error().message);
-        step.rejected_tools.push_back({step.cutter.id, made.error().message});
-        continue;
+      const auto before = stocks_.before(step.setup);
+      auto tried = with_cutter(step, i);
+      if (tried && !exceeds(step, *tried)) return accept(step, *std::move(tried), i);
+      const std::string why = tried ? excess_text(*tried) : tried.error().message;
+      if (tried) {
+        if (!least || tried->feeds.worst_excess < least->second) least = {i, tried->feeds.worst_excess};
+        stocks_.put_back(step.setup, before);
       }
-      if (i > 0) take_cutter(step, *candidate);
-      return finish(step, *std::move(made));
+      why_not.add(step.cutter.id, why);
+      step.rejected_tools.push_back({step.cutter.id, why});
     }
-    no_path(w_, step, why_not.text());
+    // What the file asks for is cut as gently as it can be; the plan then says which limit is exceeded.
+    if (least && !step.proposed) {
+      auto tried = with_cutter(step, least->first);
+      if (tried) return accept(step, *std::move(tried), least->first);
+    }
+    give_up(step,
+            why_not.text() + (least ? "; a smaller or shorter cutter or a stronger spindle would do" : ""));
     return {};
+  }
+
+  [[nodiscard]] static bool exceeds(const StepWork& step, const Tried& t) {
+    return step.open_technology && t.feeds.worst_excess > kTolerableExcess;
+  }
+
+  static std::string excess_text(const Tried& t) {
+    const std::string thinner = t.made.thicker.empty()
+                                    ? std::string()
+                                    : ", also where it cuts " + trimmed(t.made.answer.ap_mm, 3) + " mm deep";
+    return "somewhere along the path a limit is exceeded by " +
+           (std::isfinite(t.feeds.worst_excess) ? trimmed(100.0 * t.feeds.worst_excess, 1) + " %"
+                                                : std::string("what no formula tells")) +
+           " even at the least feed" + thinner;
+  }
+
+  /// A try with one of the candidates: thinner, where a limit is exceeded along its path, up to kMostThinner
+  /// times; the gentlest when none keeps the limits. What it cuts is gone from the stock.
+  Result<Tried> with_cutter(StepWork& step, std::size_t i) {
+    const model::Candidate* candidate = i < step.candidates.size() ? &step.candidates[i] : nullptr;
+    if (candidate != nullptr) step.cutter = candidate->cutter;
+    const auto before = stocks_.before(step.setup);
+    std::vector<model::Rejected> thicker;
+    std::optional<double> gentlest;  // share of the first try
+    double of_gentlest = 0.0, share = 1.0;
+    for (int round = 0; round <= kMostThinner; ++round) {
+      auto said = w_.job.take_diagnostics();  // before this try; what a try says that is not kept is not told
+      const auto told = [&](bool kept) {
+        auto now = w_.job.take_diagnostics();
+        for (auto& d : said) w_.job.report(std::move(d));
+        if (!kept) return;
+        for (auto& d : now) w_.job.report(std::move(d));
+      };
+      auto made = attempt(step, candidate, share);
+      if (!made) told(!gentlest);
+      if (!made && !gentlest) return tl::unexpected(made.error());
+      if (!made) break;
+      const bool thinner = made->depth_open || made->width_open;
+      made->thicker = thicker;
+      Tried tried = cut(step, *std::move(made));
+      const double excess = tried.feeds.worst_excess;
+      const bool kept = !exceeds(step, tried) || !thinner;
+      told(kept);
+      if (kept) return tried;
+      if (!gentlest || excess < of_gentlest) {
+        gentlest = share;
+        of_gentlest = excess;
+      }
+      thicker.push_back({sizes(tried.made.answer), excess_text(tried)});
+      stocks_.put_back(step.setup, before);
+      share *= std::isfinite(excess) ? kThinnerAim / (1.0 + excess) : kThinnerUnknown;
+      if (share < kThinnest) break;
+    }
+    auto made = attempt(step, candidate, *gentlest);
+    if (!made) return tl::unexpected(made.error());
+    made->thicker = std::move(thicker);
+    return cut(step, *std::move(made));
+  }
+
+  static std::string sizes(const optimise::CutAnswer& a) {
+    return trimmed(a.ap_mm, 3) + " mm deep, " + trimmed(a.ae_mm, 3) + " mm wide";
   }
 
   /// Roughing: of the cutters that fit, the one that takes the volume away soonest, tool change included.
@@ -150,7 +302,7 @@ class PathMaker {
                         {{step.step, "its_operation"}}, step.rejected_tools);
   }
 
-  Result<Made> attempt(const StepWork& step, const model::Candidate* candidate) {
+  Result<Made> attempt(const StepWork& step, const model::Candidate* candidate, double share) {
     Made out;
     bool first = true;
     for (const auto& shape : step.shapes) {
@@ -173,6 +325,9 @@ class PathMaker {
           for (const auto& v : out.answer.violated) limits += (limits.empty() ? "" : ", ") + v;
           return fail("PIP-INFEASIBLE", "no cut keeps every limit: " + limits);
         }
+        if (share < 1.0) {
+          if (auto ok = make_thinner(out, share); !ok) return tl::unexpected(ok.error());
+        }
       }
       if (out.depth_open) job.axial_depth_mm = out.answer.ap_mm;
       if (out.width_open && out.answer.ae_mm > 0.0) job.radial_depth_mm = out.answer.ae_mm;
@@ -193,6 +348,22 @@ class PathMaker {
     return out;
   }
 
+  /// The cut again at a share of its depth, or of its width where the depth is not open.
+  Status make_thinner(Made& out, double share) {
+    auto q = out.question;
+    if (out.depth_open) {
+      q.ap_most_mm = share * out.answer.ap_mm;
+    } else {
+      q.ae_mm = share * out.answer.ae_mm;
+    }
+    auto answer = cuts_.answer(q);
+    if (!answer) return tl::unexpected(answer.error());
+    if (!answer->feasible) return fail("PIP-INFEASIBLE", "no thinner cut keeps every limit");
+    out.question = q;
+    out.answer = *std::move(answer);
+    return {};
+  }
+
   /// A given depth at which no feed keeps the limits is cut in thinner levels; said, never silent.
   Status lower_depth(const StepWork& step, Made& out) {
     auto q = out.question;
@@ -211,27 +382,30 @@ class PathMaker {
     return {};
   }
 
-  Status finish(StepWork& step, Made made) {
-    let_go(w_, step, made.let_go);
-    turn_with_the_cutter(w_, step);
-    record_cut(w_, step, made.answer, made.depth_open, made.width_open, made.precedent);
-    progress_.done(step);
-    const auto given = given_technology(w_.plan.model, step.operation, step.cutter);
-    optimise::FeedQuestion fq;
+  /// Measures a try against the stock, which is cut by it, and schedules its feeds.
+  Tried cut(const StepWork& step, Made made) {
+    Tried out;
+    if (!step.open_technology) turn_with_the_cutter(w_, step);
+    const auto given = step.open_technology ? GivenTechnology{}
+                                            : given_technology(w_.plan.model, step.operation, step.cutter);
+    const double sense = step.open_technology && step.cutter.hand == model::Hand::kLeft ? -1.0 : 1.0;
+    optimise::FeedQuestion& fq = out.asked;
     fq.cut = made.question;
-    fq.n_rpm = given.rpm.value_or(made.answer.n_rpm);
+    fq.n_rpm = given.rpm.value_or(sense * made.answer.n_rpm);
     fq.feed_mm_min = given.feed_mm_min.value_or(made.answer.feed_mm_min);
-    fq.adapt = step.open_technology || feed_was_planned(step);
+    const bool kept = step.keep_feed && made.let_go.empty();
+    fq.adapt = (step.open_technology && !kept) || feed_was_planned(step);
     fq.constant = w_.inputs.constant_feeds;
     fq.feed_factor = std::move(made.path.feed_factor);
     fq.speed_factor = std::move(made.path.speed_factor);
     fq.dwell_s = std::move(made.path.dwell_s);
-    auto path = std::make_shared<model::CutterPath>(std::move(made.path.path));
-    model::StepResult r = result_of(w_, step);
+    out.path = std::make_shared<model::CutterPath>(std::move(made.path.path));
+    model::StepResult& r = out.result;
+    r = result_of(w_, step);
     r.axial_depth_mm = made.answer.ap_mm;
     r.radial_depth_mm = made.answer.ae_mm;
     r.active = active_of(made.answer);
-    if (auto m = measured(w_, step, *path, stocks_)) {
+    if (auto m = measured(w_, step, *out.path, stocks_)) {
       fq.samples = samples_of(*m);
       // One pass over a surface, not levels: as deep and as wide as what roughing left there.
       if (w_.plan.model.holds<model::FreeformFinishMilling>(step.operation)) {
@@ -242,27 +416,49 @@ class PathMaker {
           r.radial_depth_mm = std::max(r.radial_depth_mm, ae);
         }
       }
-      optimise::split_moves(fq, *path, &m->sections);
+      optimise::split_moves(fq, *out.path, &m->sections);
       r.sections = std::make_shared<const model::SectionSeries>(std::move(m->sections));
     }
-    const auto feeds = optimise::feeds(fq, *path);
-    if (step.open_technology && feeds.worst_excess > kTolerableExcess) {
-      w_.job.warn("PIP-EXCESS",
-                  "step '" + name_of(w_, step) + "': somewhere along the path a limit is exceeded by " +
-                      (std::isfinite(feeds.worst_excess) ? trimmed(100.0 * feeds.worst_excess, 1) + " %"
-                                                         : std::string("what no formula tells")) +
-                      " even at the least feed");
-    }
+    out.feeds = optimise::feeds(fq, *out.path);
+    out.made = std::move(made);
+    return out;
+  }
+
+  /// Takes a try: into nouns, ledger and plan.
+  Status accept(StepWork& step, Tried tried, std::size_t candidate) {
+    if (candidate > 0 && candidate < step.candidates.size()) take_cutter(step, step.candidates[candidate]);
+    const Made& made = tried.made;
+    let_go(w_, step, made.let_go);
+    turn_with_the_cutter(w_, step);
+    record_cut(w_, step, made.answer, made.depth_open, made.width_open, made.precedent);
+    tell_thicker(step, made);
+    progress_.done(step);
+    const auto& feeds = tried.feeds;
+    model::StepResult& r = tried.result;
+    if (exceeds(step, tried))
+      w_.job.warn("PIP-EXCESS", "step '" + name_of(w_, step) + "': " + excess_text(tried));
     r.schedule = std::make_shared<const model::FeedSchedule>(feeds.schedule);
     r.loads = feeds.peak;
     if (!(r.loads.tool_life_min > 0.0)) r.loads.tool_life_min = made.answer.life_min;
     r.held_by = feeds.held_by;
-    r.path = path;
+    r.path = tried.path;
     const Deviation deviation = deviation_of(w_, step, job_of(w_, step, step.shapes.front()));
     r.path_deviation_mm = r.contour_tolerance_mm = deviation.mm;
-    record_path(w_, step, path, deviation.why);
-    keep(w_, step, std::move(r), fq);
+    record_path(w_, step, tried.path, deviation.why);
+    keep(w_, step, std::move(r), tried.asked);
     return {};
+  }
+
+  /// Depths that exceeded a limit along the path: an alternative that was tried, and why not.
+  void tell_thicker(const StepWork& step, const Made& made) {
+    if (made.thicker.empty()) return;
+    w_.job.note("PIP-ANEW", "step '" + name_of(w_, step) + "': planned anew " + sizes(made.answer) +
+                                " instead of " + made.thicker.front().what + ", because " +
+                                made.thicker.front().why);
+    const char* what = made.depth_open ? "axial_cutting_depth" : "radial_cutting_depth";
+    auto* d = w_.plan.ledger.find(step.operation, what);
+    if (d == nullptr) return;
+    for (const model::Rejected& r : made.thicker) d->rejected.push_back(r);
   }
 
   /// Whether the feed is one that planning bound before: then it is the most, and each move has its own.
@@ -291,7 +487,7 @@ class PathMaker {
     turn_with_the_cutter(w_, step);
     auto made = given_path(w_, step, stocks_, progress_, cuts_);
     if (!made) {
-      no_path(w_, step, made.error().message);
+      give_up(step, made.error().message);
     } else if (*made) {
       keep(w_, step, std::move((*made)->result), (*made)->feeds);
     }
@@ -302,6 +498,10 @@ class PathMaker {
   Stocks stocks_;
   Progress progress_;
   Cuts cuts_;
+  std::set<AnyRef> failed_;   ///< features with a step that failed in this try
+  std::set<AnyRef> resting_;  ///< features that rest on those
+  std::map<Member, std::string>
+      lost_;  ///< what steps of the file would have made that have no path: the first
 };
 
 }  // namespace

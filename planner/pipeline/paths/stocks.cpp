@@ -49,6 +49,16 @@ stock::HeightMap& Stocks::of(std::size_t setup) {
   return *map;
 }
 
+Stocks::Before Stocks::before(std::size_t setup) {
+  (void)of(setup);
+  return {maps_[setup], exact_[setup]};
+}
+
+void Stocks::put_back(std::size_t setup, const Before& before) {
+  maps_[setup] = before.map;
+  exact_[setup] = before.exact;
+}
+
 Result<engagement::Measurement> Stocks::measure(std::size_t setup, const model::CutterPath& path,
                                                 const model::Cutter& cutter) {
   auto& map = of(setup);

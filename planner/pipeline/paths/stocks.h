@@ -22,6 +22,14 @@ class Stocks {
   /// What still stands in a set-up; in another one than before, less what the others took away since.
   [[nodiscard]] stock::HeightMap& of(std::size_t setup);
 
+  /// What stands in a set-up, to be put back when a cut is tried that is not kept.
+  struct Before {
+    std::optional<stock::HeightMap> map;
+    std::optional<stock::PlanarStock> exact;
+  };
+  [[nodiscard]] Before before(std::size_t setup);
+  void put_back(std::size_t setup, const Before& before);
+
   /// Sections along a step's path; takes what is cut from the stock. Flat cutters are measured by geometry,
   /// as long as all that was cut in the set-up can be held so and the map's volume of each step bears it out;
   /// other cutters on the height map. At the machine, too: sections that a file states are held against them.

@@ -31,11 +31,12 @@ void half_turn(PathWriter& w, Vec2 c, double r, bool to_right, double z, bool cw
   w.arc({c.x + (to_right ? r : -r), c.y, z}, c, cw, why);
 }
 
-/// Whether the middle of the cutter, which cuts badly or not at all, goes down in the hole that is there.
+/// Whether the middle of the cutter, which cuts badly or not at all, goes down in the hole that is there: all the
+/// way through, or one that goes on below a shoulder.
 bool middle_in_air(const PathJob& task) {
   constexpr double kMiddle = 0.3;  // of the radius; default, unsourced
-  return task.shape.through && helix_radius(task) + kMiddle * 0.5 * task.cutter.cutting_diameter_mm <=
-                                   0.5 * task.previous_diameter_mm.value_or(0.0);
+  const double reached = helix_radius(task) + kMiddle * 0.5 * task.cutter.cutting_diameter_mm;
+  return reached <= 0.5 * (task.shape.through ? task.previous_diameter_mm.value_or(0.0) : task.hole_below_mm);
 }
 
 }  // namespace

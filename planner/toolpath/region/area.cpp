@@ -31,10 +31,13 @@ Vec2 pass_direction(const PathJob& task, const Region& area) {
 
 namespace {
 
-/// Says what no cutter of this size reaches: corners, narrow places. mm2.
+/// Says what no cutter of this size reaches of the floor: corners, narrow places. mm2. Islands are no floor.
 double unreachable(const WorkArea& w, const Region& centres, double reach_mm) {
-  return geometry::area(
-      geometry::subtract(geometry::intersect(w.area, w.reach), geometry::offset(centres, reach_mm)));
+  Region floor = geometry::intersect(w.area, w.reach);
+  for (const auto& i : w.islands) {
+    if (i.top_z_mm > w.bottom_z_mm + 1e-6) floor = geometry::subtract(floor, i.area);
+  }
+  return geometry::area(geometry::subtract(floor, geometry::offset(centres, reach_mm)));
 }
 
 /// Whether contours run from the outside in: rotation and cut mode together say so.

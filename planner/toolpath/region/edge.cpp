@@ -58,7 +58,7 @@ struct TipAt {
   double radius_mm = 0.0, below_mm = 0.0;
 };
 
-Result<TipAt> tip_of_cone(const PathJob& task) {
+Result<TipAt> tip_of_cone(const PathJob& task, double below_mm) {
   const auto& s = task.shape;
   const auto refuse = [&](const char* code, const std::string& what) {
     return fail({.code = code, .message = s.name + ": " + what, .path = s.name});
@@ -67,12 +67,12 @@ Result<TipAt> tip_of_cone(const PathJob& task) {
   const double half = 0.5 * task.cutter.point_angle_rad;
   if (std::abs(std::tan(half) - 1.0 / std::tan(s.chamfer_angle_rad)) > 1e-3 || !(half > 0.0))
     return refuse("TPA-TOOL", "the cutter's point angle does not make the chamfer's angle");
-  const double radius = 0.5 * task.cutter.tip_diameter_mm + kTipBelow * std::tan(half);
+  const double radius = 0.5 * task.cutter.tip_diameter_mm + below_mm * std::tan(half);
   const double needed = radius + s.chamfer_width_mm;
   if (2.0 * needed > task.cutter.cutting_diameter_mm + 1e-9)
     return refuse("TPA-NO-FIT", "the chamfer is wider than the cutter's cone; a cutter of " +
                                     trimmed(2.0 * needed, 2) + " mm would do");
-  return TipAt{radius, s.depth_mm + kTipBelow};
+  return TipAt{radius, s.depth_mm + below_mm};
 }
 
 Result<TipAt> tip_of_round(const PathJob& task) {
@@ -90,9 +90,8 @@ Result<TipAt> tip_of_round(const PathJob& task) {
   return TipAt{0.5 * c.tip_diameter_mm, s.round_radius_mm};
 }
 
-}  // namespace
-
-Result<GeneratedPath> edge_path(const PathJob& task, Job& job) {
+/// `tip_below_mm` of the chamfer or cone.
+Result<GeneratedPath> along_edge(const PathJob& task, double tip_below_mm, Job& job) {
   const auto& s = task.shape;
   const auto refuse = [&](const char* code, const std::string& what) {
     return fail({.code = code, .message = s.name + ": " + what, .path = s.name});
@@ -101,7 +100,8 @@ Result<GeneratedPath> edge_path(const PathJob& task, Job& job) {
   if ((s.open && !outside) || s.area.empty())
     return refuse("TPA-UNSUPPORTED",
                   "only the upper edges of closed pockets, holes and outside contours have paths yet");
-  const auto tip = s.kind == model::ShapeKind::kEdgeRound ? tip_of_round(task) : tip_of_cone(task);
+  const auto tip =
+      s.kind == model::ShapeKind::kEdgeRound ? tip_of_round(task) : tip_of_cone(task, tip_below_mm);
   if (!tip) return tl::unexpected(tip.error());
   auto w = work_area(task);
   if (!w) return tl::unexpected(w.error());
@@ -129,6 +129,10 @@ Result<GeneratedPath> edge_path(const PathJob& task, Job& job) {
   return out;
 }
 
+}  // namespace
+
+Result<GeneratedPath> edge_path(const PathJob& task, Job& job) { return along_edge(task, kTipBelow, job); }
+
 Result<GeneratedPath> broken_edge_path(const PathJob& task, Job& job) {
   PathJob edge = task;
   auto& s = edge.shape;
@@ -146,6 +150,31 @@ Result<GeneratedPath> broken_edge_path(const PathJob& task, Job& job) {
   s.through = false;
   edge.axial_depth_mm = 0.0;
   return edge_path(edge, job);
+}
+
+// The wall of the hole below is the edge's: the cutter's cone runs along it, its tip below the cone's foot
+// where the hole lets it, on the foot where a shoulder stays.
+Result<GeneratedPath> cone_of_hole_path(const PathJob& task, Job& job) {
+  PathJob edge = task;
+  auto& s = edge.shape;
+  constexpr double kSame = 1e-3;  // mm: a foot as wide as the hole below
+  const double lean = 0.5 * (s.diameter.nominal_mm - s.bottom_diameter_mm) / s.depth_mm;
+  const double foot = 0.5 * s.bottom_diameter_mm;
+  s.chamfer_width_mm = 0.5 * s.diameter.middle() - task.allowance_side_mm - foot;
+  if (!(s.chamfer_width_mm > 0.0)) {
+    return fail({.code = "TPA-DEPTH",
+                 .message = s.name + ": an allowance of " + trimmed(task.allowance_side_mm, 3) +
+                            " mm leaves nothing of the cone to cut",
+                 .path = s.name});
+  }
+  s.depth_mm = s.chamfer_width_mm / lean;
+  s.chamfer_angle_rad = std::atan(1.0 / lean);
+  s.kind = model::ShapeKind::kChamfer;
+  s.area = s.reach = geometry::disc({0.0, 0.0}, foot);
+  s.through = false;
+  edge.allowance_side_mm = edge.allowance_bottom_mm = 0.0;
+  const bool free_below = task.hole_below_mm >= s.bottom_diameter_mm - kSame;
+  return along_edge(edge, free_below ? kTipBelow : 0.0, job);
 }
 
 }  // namespace capstan::toolpath

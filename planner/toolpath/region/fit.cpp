@@ -62,6 +62,22 @@ std::vector<Vec2> simplified_line(const std::vector<Vec2>& in, double tolerance)
   return out;
 }
 
+/// Shorter than this a move says nothing that a control resolves, mm: programs have three decimals, and the
+/// places of two points are rounded apart from each other.
+constexpr double kShortestMove = 0.002;
+
+/// Without vertices that lie this near the one before; the ends stay.
+std::vector<Vec2> without_specks(const std::vector<Vec2>& in) {
+  if (in.size() < 3) return in;
+  std::vector<Vec2> out = {in.front()};
+  for (std::size_t i = 1; i + 1 < in.size(); ++i) {
+    if (norm(in[i] - out.back()) >= kShortestMove) out.push_back(in[i]);
+  }
+  while (out.size() > 1 && norm(in.back() - out.back()) < kShortestMove) out.pop_back();
+  out.push_back(in.back());
+  return out;
+}
+
 struct Circle {
   Vec2 centre;
   double radius = 0.0;
@@ -183,12 +199,12 @@ Track track_of(const Loop& loop, double tolerance_mm) {
   }
   std::vector<Vec2> line(loop.begin() + static_cast<std::ptrdiff_t>(begin), loop.end());
   line.insert(line.end(), loop.begin(), loop.begin() + static_cast<std::ptrdiff_t>(begin) + 1);
-  return fitted(simplified_line(line, 1e-5), tolerance_mm, true);
+  return fitted(without_specks(simplified_line(line, 1e-5)), tolerance_mm, true);
 }
 
 Track track_of_line(const std::vector<Vec2>& line, double tolerance_mm) {
   if (line.empty()) return {};
-  return fitted(simplified_line(line, 1e-5), tolerance_mm, false);
+  return fitted(without_specks(simplified_line(line, 1e-5)), tolerance_mm, false);
 }
 
 }  // namespace capstan::toolpath

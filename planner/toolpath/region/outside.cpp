@@ -95,6 +95,126 @@ Status cut_around(const Around& a, LevelCutter& c, double z, double from,
   return {};
 }
 
+/// The side of an open line that is taken away, and the line run out over its ends, set-up XY.
+struct OpenSide {
+  Region removed;
+  std::vector<Vec2> line;
+};
+
+double distance_to(const std::vector<Vec2>& line, Vec2 p) {
+  double best = 1e300;
+  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+    const Vec2 d = line[i + 1] - line[i];
+    const double t = std::clamp(dot(p - line[i], d) / dot(d, d), 0.0, 1.0);
+    best = std::min(best, norm(p - (line[i] + t * d)));
+  }
+  return best;
+}
+
+/// The track at a distance from an open line: the boundary of what is taken away moved inwards, less what
+/// does not belong to the line; what is taken away lies on its left. Nothing where the distance leaves
+/// nothing.
+std::vector<Vec2> line_at(const OpenSide& side, double d) {
+  constexpr double kBeside = 0.01;  // mm, of chords
+  std::vector<Vec2> best;
+  for (const auto& loop : inset(side.removed, d, kWallChord).loops) {
+    const std::size_t n = loop.size();
+    const auto belongs = [&](std::size_t i) {
+      return distance_to(side.line, 0.5 * (loop[i] + loop[(i + 1) % n])) < d + kBeside;
+    };
+    std::size_t first = 0;
+    while (first < n && belongs(first)) ++first;
+    if (first == n) continue;
+    std::vector<Vec2> chain;
+    for (std::size_t k = 1; k <= n; ++k) {
+      const std::size_t i = (first + k) % n;
+      if (!belongs(i)) {
+        if (chain.size() > best.size()) best = chain;
+        chain.clear();
+        continue;
+      }
+      if (chain.empty()) chain.push_back(loop[i]);
+      chain.push_back(loop[(i + 1) % n]);
+    }
+  }
+  return best;
+}
+
+/// The line cut back at its first end to where the cutter just stands free of the material, beside `end`.
+Status run_in(const Around& a, const Inside& material, std::vector<Vec2>& line, Vec2 end, double room) {
+  const Vec2 out = (1.0 / norm(line[0] - line[1])) * (line[0] - line[1]);
+  const double length = norm(line[0] - line[1]);
+  double at = std::clamp(dot(end - line[1], out), 0.0, length);
+  while (!material.clear_of(line[1] + at * out, room)) {
+    if (at >= length) {
+      return fail(
+          {.code = "TPA-ENTRY",
+           .message = a.task.shape.name +
+                      ": the cutter does not stand free of the raw piece beyond the end of its contour",
+           .path = a.task.shape.name});
+    }
+    at = std::min(at + 0.5 * a.radius, length);
+  }
+  line[0] = line[1] + at * out;
+  return {};
+}
+
+// Along an open line: from the air before the raw piece to the air behind it, pass beside pass towards the
+// wall, every pass in the sense that the cut mode asks for.
+Result<GeneratedPath> along_open_line(const Around& a, PathWriter& writer, const std::vector<double>& heights,
+                                      double step, bool shell) {
+  constexpr double kFreeAir = 1.0;  // mm between the cutter and the raw piece before a pass
+  const PathJob& task = a.task;
+  constexpr double kFar = 1e5;  // mm: beyond every raw piece
+  const auto& f = task.feature_in_setup;
+  const auto in_plan = [&](Vec2 p) { return xy(f.to_parent({p.x, p.y, 0.0})); };
+  OpenSide side{in_setup(task.shape.reach, f), {}};
+  for (const Vec2 p : task.shape.spine) side.line.push_back(in_plan(p));
+  const std::size_t n = side.line.size();
+  const Vec2 before = side.line[0] - side.line[1], behind = side.line[n - 1] - side.line[n - 2];
+  side.line.front() = side.line.front() + (kFar / norm(before)) * before;
+  side.line.back() = side.line.back() + (kFar / norm(behind)) * behind;
+  const Region raw = geometry::intersect(a.w.material, side.removed);
+  std::vector<double> distances = {a.radius + task.allowance_side_mm};
+  while (!shell && distances.size() < 1000) {
+    const Region beyond = inset(side.removed, distances.back() + a.radius, kInnerChord);
+    if (geometry::area(geometry::intersect(raw, beyond)) < 1e-3) break;
+    distances.push_back(distances.back() + step);
+  }
+  std::reverse(distances.begin(), distances.end());
+  const Inside material(a.w.material);
+  std::vector<Track> passes;
+  for (const double d : distances) {
+    // What is taken away lies on the right of the spine: on the left of its boundary.
+    std::vector<Vec2> line = line_at(side, d);
+    if (line.size() < 2) continue;
+    std::reverse(line.begin(), line.end());
+    if (auto ok = run_in(a, material, line, in_plan(task.shape.spine.front()), a.radius + kFreeAir); !ok)
+      return tl::unexpected(ok.error());
+    std::reverse(line.begin(), line.end());
+    if (auto ok = run_in(a, material, line, in_plan(task.shape.spine.back()), a.radius + kFreeAir); !ok)
+      return tl::unexpected(ok.error());
+    Track t = track_of_line(line);
+    // As it stands the wall is on its right.
+    passes.push_back(walls_on_right(task) ? t : reversed(t));
+  }
+  if (passes.empty()) {
+    return fail({.code = "TPA-NO-FIT",
+                 .message = task.shape.name + ": no pass of the cutter " + task.cutter.id + " fits beside it",
+                 .path = task.shape.name});
+  }
+  for (const double z : heights) {
+    for (const Track& t : passes) {
+      writer.over(t.start);
+      writer.descend(z, z);
+      writer.follow(t, z, MoveRole::kCut);
+    }
+  }
+  GeneratedPath out = writer.finish();
+  out.levels_z_mm = heights;
+  return out;
+}
+
 }  // namespace
 
 Result<GeneratedPath> outside_path(const PathJob& task, Job& job) {
@@ -102,12 +222,19 @@ Result<GeneratedPath> outside_path(const PathJob& task, Job& job) {
   if (!w) return tl::unexpected(w.error());
   Around a{.task = task, .w = *w, .kept = {}, .radius = 0.5 * task.cutter.cutting_diameter_mm};
   for (const auto& i : a.w.islands) a.kept = geometry::unite(a.kept, i.area);
-  if (a.kept.empty()) {
+  const bool along = a.kept.empty() && task.shape.spine.size() > 1;
+  if (a.kept.empty() && !along) {
     return fail({.code = "TPA-UNSUPPORTED",
                  .message = task.shape.name + " does not say what stays inside its contour",
                  .path = task.shape.name});
   }
   a.w.islands.clear();
+  if (task.stock.empty() && along) {
+    return fail({.code = "TPA-STOCK",
+                 .message = task.shape.name +
+                            ": how far an open contour is run on is known only with the raw outline",
+                 .path = task.shape.name});
+  }
   if (task.stock.empty()) a.w.material = a.w.area = geometry::offset_sharp(a.kept, a.radius);
   PathWriter writer(task);
   LevelCutter c(task, a.w, writer, job);
@@ -124,6 +251,7 @@ Result<GeneratedPath> outside_path(const PathJob& task, Job& job) {
          .message = task.shape.name + " has nothing to cut below " + trimmed(task.start_z_mm, 3) + " mm",
          .path = task.shape.name});
   }
+  if (along) return along_open_line(a, writer, heights, step, shell);
   double from = task.start_z_mm;
   for (const double z : heights) {
     // A sloped flank leans inwards going up.

@@ -18,6 +18,8 @@ namespace capstan::toolpath {
 [[nodiscard]] Result<GeneratedPath> edge_path(const PathJob& task, Job& job);
 /// The bevel of a cone along a feature's own upper edge, as deep as `axial_depth_mm`.
 [[nodiscard]] Result<GeneratedPath> broken_edge_path(const PathJob& task, Job& job);
+/// The cone at the top of a hole, by a cone of its angle along the wall of the hole below it.
+[[nodiscard]] Result<GeneratedPath> cone_of_hole_path(const PathJob& task, Job& job);
 
 /// Whether the operation is one that finishes.
 [[nodiscard]] bool is_finish(model::TypeId operation);

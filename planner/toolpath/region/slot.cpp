@@ -97,7 +97,7 @@ Result<GeneratedPath> slot_path(const PathJob& task, Job& job) {
                    .message = s.name + ": a cutter wider than the slot's mouth needs an open end to enter by",
                    .path = s.name});
     }
-    return undercut_path(task, *u, run_of(task, *w), job);
+    return undercut_path(task, *u, run_of(task, *w));
   }
   if (form) {
     if (auto ok = check_form(task); !ok) {

@@ -78,7 +78,89 @@ std::vector<Vec2> beside(const std::vector<Vec2>& line, double by) {
   return out;
 }
 
+/// Begins at, or goes on to, the start of a pass at its height.
+void go_to(PathWriter& writer, Vec2 p, double z) {
+  if (writer.begun()) {
+    writer.line({p.x, p.y, z}, MoveRole::kLink);
+    return;
+  }
+  writer.over(p);
+  writer.descend(z, z);
+}
+
+/// Open at both ends: to and fro, the middle first, then aside by turns.
+Status cut_through(const PathJob& task, const std::vector<Vec2>& course, const std::vector<double>& sides,
+                   const std::vector<double>& heights, PathWriter& writer) {
+  std::vector<double> offsets = {0.0};
+  for (const double s : sides) {
+    offsets.push_back(s);
+    offsets.push_back(-s);
+  }
+  bool back = false;  // the cutter stands at the far end
+  for (const double z : heights) {
+    for (const double side : offsets) {
+      const auto line = side == 0.0 ? course : beside(course, side);
+      if (line.empty()) return refuse(task, "TPA-UNSUPPORTED", "its course turns back on itself");
+      Track there = track_of_line(line);
+      if (back) there = reversed(there);
+      go_to(writer, there.start, z);
+      writer.follow(there, z, MoveRole::kCut);
+      back = !back;
+    }
+  }
+  return {};
+}
+
+/// Closed at the far end: in along the middle and back, then in along the right side, round the end and out
+/// along the left one, so that the walls are always on the right. Where the head's front meets the closed end
+/// it cuts with all of its width instead of two edges: slower by as much.
+Status cut_to_the_end(const PathJob& task, const Undercut& u, const WorkArea& w,
+                      const std::vector<Vec2>& course, const std::vector<double>& sides,
+                      const std::vector<double>& heights, PathWriter& writer) {
+  const Vec2 end = course.back();
+  const Vec2 along = end - course[course.size() - 2];
+  const Vec2 beyond = end + (0.9 * u.mouth_mm / norm(along)) * along;
+  const bool round = Inside(w.reach).contains(beyond);
+  const Track middle = track_of_line(course);
+  const double d = task.cutter.cutting_diameter_mm;
+  const bool slower = d > 2.0 * u.mouth_mm && task.left_on_side_mm.has_value();
+  const double front = std::min(length_of(middle), std::max(0.0, 0.5 * d - u.mouth_mm) + 1.0);
+  std::vector<Track> loops;
+  for (const double s : sides) {
+    const auto right = beside(course, -s), left = beside(course, s);
+    if (right.empty() || left.empty())
+      return refuse(task, "TPA-UNSUPPORTED", "its course turns back on itself");
+    Track t = track_of_line(right);
+    t.segments.push_back({left.back(), end, round ? Bend::kCcw : Bend::kStraight});
+    const Track out = reversed(track_of_line(left));
+    t.segments.insert(t.segments.end(), out.segments.begin(), out.segments.end());
+    loops.push_back(walls_on_right(task) ? t : reversed(t));
+  }
+  for (const double z : heights) {
+    go_to(writer, middle.start, z);
+    if (slower) {
+      writer.follow(part_of(middle, 0.0, length_of(middle) - front), z, MoveRole::kCut);
+      writer.factors((d - 2.0 * u.mouth_mm) / d, 1.0);
+      writer.follow(part_of(middle, length_of(middle) - front, length_of(middle)), z, MoveRole::kCut);
+      writer.factors(1.0, 1.0);
+    } else {
+      writer.follow(middle, z, MoveRole::kCut);
+    }
+    writer.follow(reversed(middle), z, MoveRole::kRetract);
+    for (const Track& t : loops) {
+      go_to(writer, t.start, z);
+      writer.follow(t, z, MoveRole::kCut);
+    }
+  }
+  return {};
+}
+
 }  // namespace
+
+double side_step(const PathJob& task, double diameter_mm) {
+  const double most = kSidePart * diameter_mm;
+  return task.radial_depth_mm > 0.0 ? std::min(task.radial_depth_mm, most) : most;
+}
 
 std::optional<Undercut> undercut_of(const model::FeatureShape& s) {
   const auto& q = s.slot_profile;
@@ -119,7 +201,7 @@ PathJob neck_of(const PathJob& task, const Undercut& u) {
   return neck;
 }
 
-Result<GeneratedPath> undercut_path(const PathJob& task, const Undercut& u, SlotRun run, Job& job) {
+Result<GeneratedPath> undercut_path(const PathJob& task, const Undercut& u, SlotRun run) {
   const auto& s = task.shape;
   const auto w = work_area(task);
   if (!w) return tl::unexpected(w.error());
@@ -163,23 +245,14 @@ Result<GeneratedPath> undercut_path(const PathJob& task, const Undercut& u, Slot
     }
   }
   const bool both = run.open_first && run.open_last;
-  if (!both && aside > kSameSize)
-    job.warn("TPA-REST",
-             "its closed end stays " + trimmed(aside, 3) +
-                 " mm narrower beside the cutter's round: a cutter of " + trimmed(2.0 * u.widest_mm, 3) +
-                 " mm would finish it",
-             s.name);
-  std::vector<double> sides = {0.0};
+  std::vector<double> sides;
   if (aside > 1e-6) {
-    const double step = task.radial_depth_mm > 0.0
-                            ? std::min(task.radial_depth_mm, kSidePart * head->diameter_mm)
-                            : kSidePart * head->diameter_mm;
-    const int n = std::max(1, static_cast<int>(std::ceil(aside / step - 1e-9)));
+    const double step = side_step(task, head->diameter_mm);
+    const double rough = std::max(0.0, aside - kLastSide);
+    const int n = static_cast<int>(std::ceil(rough / step - 1e-9));
     if (n > kMostPasses) return refuse(task, "TPA-NO-FIT", "the cutter is much too small for the slot");
-    for (int i = 1; i <= n; ++i) {
-      sides.push_back(aside * i / n);
-      sides.push_back(-aside * i / n);
-    }
+    for (int i = 1; i <= n; ++i) sides.push_back(rough * i / n);
+    sides.push_back(aside);
   }
   const double bottom = w->bottom_z_mm + task.allowance_bottom_mm;
   std::vector<double> heights;
@@ -187,28 +260,10 @@ Result<GeneratedPath> undercut_path(const PathJob& task, const Undercut& u, Slot
   const int n = spare > kSameSize ? static_cast<int>(std::ceil(spare / head->height_mm - 1e-9)) : 0;
   for (int i = 0; i <= n; ++i) heights.push_back(bottom + (n > 0 ? std::max(spare, 0.0) * (n - i) / n : 0.0));
   PathWriter writer(task);
-  bool begun = false;
-  bool back = false;  // the cutter stands at the far end
-  for (const double z : heights) {
-    for (const double side : sides) {
-      const auto line = std::abs(side) < 1e-12 ? run.line : beside(run.line, side);
-      if (line.empty()) return refuse(task, "TPA-UNSUPPORTED", "its course turns back on itself");
-      Track there = track_of_line(line);
-      if (back) there = reversed(there);
-      if (!begun) {
-        writer.over(there.start);
-        writer.descend(z, z);
-        begun = true;
-      } else {
-        writer.line({there.start.x, there.start.y, z}, MoveRole::kLink);
-      }
-      writer.follow(there, z, MoveRole::kCut);
-      if (both) {
-        back = !back;
-      } else {
-        writer.follow(reversed(there), z, MoveRole::kRetract);
-      }
-    }
+  if (both) {
+    if (auto ok = cut_through(task, run.line, sides, heights, writer); !ok) return tl::unexpected(ok.error());
+  } else if (auto ok = cut_to_the_end(task, u, *w, run.line, sides, heights, writer); !ok) {
+    return tl::unexpected(ok.error());
   }
   GeneratedPath out = writer.finish();
   out.levels_z_mm = heights;

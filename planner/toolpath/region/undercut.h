@@ -23,6 +23,11 @@ struct Undercut {
 /// The same job for the upright slot as wide as the mouth, which is milled first.
 [[nodiscard]] PathJob neck_of(const PathJob& task, const Undercut& u);
 
+/// What the last pass of the head takes from the walls where it moves aside, mm. Default, unsourced.
+inline constexpr double kLastSide = 0.2;
+/// By how much a pass of the head goes further aside than the one before, mm.
+[[nodiscard]] double side_step(const PathJob& task, double diameter_mm);
+
 /// The course of a slot, set-up frame.
 struct SlotRun {
   std::vector<geometry::Vec2> line;
@@ -31,13 +36,13 @@ struct SlotRun {
 
 /// Through the mouth that is milled already, under its overhang: along the middle, then aside in steps to
 /// both walls, from above to the floor where the head is lower than the slot's wide part. Enters and leaves
-/// at its height beyond open ends only, and never rises in the slot.
+/// at its height beyond open ends only, and never rises in the slot. To a closed end the steps go in along
+/// one wall, round the end and out along the other.
 ///
 /// Needs   head diameter at most the slot's; neck narrower than the mouth by what the cutter moves aside and
 ///         0.1 mm on each side; for a T-slot a head no higher than the wide part, for a dovetail flanks of
 ///         the slot's angle and at least as high.
 /// Fails   TPA-NO-FIT, TPA-TOOL, TPA-ENTRY as `generate`.
-[[nodiscard]] Result<GeneratedPath> undercut_path(const PathJob& task, const Undercut& u, SlotRun run,
-                                                  Job& job);
+[[nodiscard]] Result<GeneratedPath> undercut_path(const PathJob& task, const Undercut& u, SlotRun run);
 
 }  // namespace capstan::toolpath

@@ -177,7 +177,7 @@ void check_order(const model::Plan& plan, Findings& findings) {
 
 void check_coverage(const model::Plan& plan, Findings& findings) {
   const model::Model& m = plan.model;
-  std::set<AnyRef> covered, parts, said;
+  std::set<AnyRef> covered, said;
   for (const auto& u : plan.unplanned) {
     said.insert(u.feature);
     if (u.reason.empty())
@@ -190,17 +190,7 @@ void check_coverage(const model::Plan& plan, Findings& findings) {
     for (const auto& f : ws->final_features.items) covered.insert(f);
   }
   // What is only a piece of another feature is planned with it.
-  for (const auto f : m.all_below(TypeId::kManufacturingFeature)) {
-    if (const auto* p = m.get<model::Pocket>(f))
-      parts.insert(p->its_boss.items.begin(), p->its_boss.items.end());
-    if (const auto* p = m.get<model::PlanarFace>(f))
-      parts.insert(p->its_boss.items.begin(), p->its_boss.items.end());
-    if (const auto* p = m.get<model::Step>(f))
-      parts.insert(p->its_boss.items.begin(), p->its_boss.items.end());
-    if (const auto* p = m.get<model::CompoundFeature>(f))
-      parts.insert(p->elements.items.begin(), p->elements.items.end());
-    if (const auto* p = m.get<model::ReplicateFeature>(f)) parts.insert(p->replicate_base_feature);
-  }
+  const std::set<AnyRef> parts = pieces_of_others(m);
   for (const auto f : m.all_below(TypeId::kManufacturingFeature)) {
     if (covered.contains(f) || said.contains(f) || parts.contains(f)) continue;
     if (const auto* c = m.get<model::CompoundFeature>(f)) {

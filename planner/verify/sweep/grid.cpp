@@ -58,6 +58,20 @@ double Grid::highest(Vec2 at, double radius_mm) const {
   return best;
 }
 
+bool Grid::stands(Vec2 at, double radius_mm, double lo_mm, double hi_mm) const {
+  const auto [y0, y1] = rows(at.y - radius_mm, at.y + radius_mm);
+  for (int iy = y0; iy < y1; ++iy) {
+    const double dy = centre(0, iy).y - at.y;
+    const double half = std::sqrt(std::max(0.0, radius_mm * radius_mm - dy * dy));
+    const auto [x0, x1] = columns(at.x - half, at.x + half);
+    for (int ix = x0; ix < x1; ++ix) {
+      const std::size_t i = index(ix, iy);
+      if (stock[i] > lo_mm && base[i] < hi_mm) return true;
+    }
+  }
+  return false;
+}
+
 double Grid::normal_depth(Vec2 at, double z_mm) const {
   const auto [x0, x1] = columns(at.x - 0.5 * cell_, at.x + 0.5 * cell_);
   const auto [y0, y1] = rows(at.y - 0.5 * cell_, at.y + 0.5 * cell_);
@@ -104,6 +118,7 @@ struct Knife {
   double core, rim;
   const Outline& outline;
   double advance;
+  double head = 0.0;
   int judged = 0;
 
   /// The chip at a centre that stands `above` the tip and of which no more than `deep` is taken.
@@ -132,7 +147,7 @@ struct Knife {
   void at(int ix, int iy, double tip_z, double z, double from_axis) {
     const std::size_t i = grid.index(ix, iy);
     double& s = grid.stock[i];
-    if (z >= s) return;
+    if (z >= s || (head > 0.0 && s > tip_z + head)) return;
     const double floor = grid.base[i];
     if (s > Grid::kNothing / 2) {
       bite.volume_mm3 += (s - std::max(z, floor)) * grid.cell() * grid.cell();
@@ -293,13 +308,13 @@ void cut_level_arc(Knife& k, const Outline& o, const Move& m) {
 }  // namespace
 
 Bite cut(Grid& grid, const Move& m, const CutterProfile& cutter, double allowed_mm, const GougeJudge* judge,
-         double advance_mm) {
+         double advance_mm, double head_mm) {
   Bite bite;
   if (m.kind == model::MoveKind::kDwell) return bite;
   if (std::min(m.from.z, m.to.z) >= grid.top()) return bite;
   grid.begin_move();
   const Outline o(cutter);
-  Knife k{grid, allowed_mm, judge, bite, 0.3 * o.radius, o.radius - 2.0 * kChordMm, o, advance_mm};
+  Knife k{grid, allowed_mm, judge, bite, 0.3 * o.radius, o.radius - 2.0 * kChordMm, o, advance_mm, head_mm};
   if (!is_arc(m.kind)) {
     cut_line(k, o, m.from, m.to);
   } else if (std::abs(m.from.z - m.to.z) < 1e-9) {

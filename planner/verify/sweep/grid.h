@@ -50,6 +50,8 @@ class Grid {
 
   /// Highest stock under a disc, cell centres counted; kNothing when none.
   [[nodiscard]] double highest(geometry::Vec2 at, double radius_mm) const;
+  /// Whether material stands under a disc anywhere between two heights.
+  [[nodiscard]] bool stands(geometry::Vec2 at, double radius_mm, double lo_mm, double hi_mm) const;
   /// How far below the part's surface a height is, measured square to the surface; 0 beside an edge of it.
   [[nodiscard]] double normal_depth(geometry::Vec2 at, double z_mm) const;
   [[nodiscard]] double top() const { return top_; }  ///< no stock is higher; may be too high
@@ -94,8 +96,11 @@ class GougeJudge {
 /// Chips: a centre that the front of the cutter meets has met it at one place of its surface, whose normal n
 /// and the direction of travel v are known exactly. `advance_mm`, what a tooth advances, times n v is the
 /// chip there; no thicker than the material is deep. 0: chips are not measured.
+///
+/// `head_mm` > 0: the cutter has nothing that cuts above that height. What stands higher than the head's top
+/// is an overhang, which heights do not hold: it stays.
 Bite cut(Grid& grid, const Move& m, const geometry::CutterProfile& cutter, double allowed_mm,
-         const GougeJudge* judge, double advance_mm = 0.0);
+         const GougeJudge* judge, double advance_mm = 0.0, double head_mm = 0.0);
 
 /// How deep a rapid would dip into what stands there, > 0: it does, also when axes do not arrive together:
 /// the box that the two ends span, swept by the cutter. `at` says where.

@@ -20,6 +20,13 @@ class Past {
   /// Nothing where points would lie hardly closer. `pieces`: how many more may be looked at; counted down.
   [[nodiscard]] Bite look(const Grid& grid, const Move& m, const geometry::CutterProfile& cutter,
                           double advance_mm, int& pieces) const;
+  /// How many cuts there are: a place to look back to.
+  [[nodiscard]] std::size_t mark() const { return cuts_.size(); }
+  /// Whether these moves take anything off what stood at that mark, on points as close as those of `look`;
+  /// `cell_mm` becomes the distance of the widest. Stock of the beginning counts where any cell around a
+  /// point has it.
+  [[nodiscard]] bool takes(const Grid& grid, const std::vector<Move>& moves,
+                           const geometry::CutterProfile& cutter, std::size_t mark, double& cell_mm) const;
 
  private:
   struct Cut {
@@ -27,7 +34,9 @@ class Past {
     std::shared_ptr<const geometry::CutterProfile> cutter;
     geometry::Box3 box;
   };
-  [[nodiscard]] Grid before(const Grid& grid, geometry::Vec2 lo, geometry::Vec2 hi, double cell) const;
+  enum class Begun { kWhereAllHaveIt, kWhereAnyHasIt };
+  [[nodiscard]] Grid before(const Grid& grid, geometry::Vec2 lo, geometry::Vec2 hi, double cell,
+                            std::size_t mark, Begun begun) const;
   std::vector<double> stock_, base_;
   std::vector<Cut> cuts_;
 };

@@ -96,7 +96,8 @@ StepChecks::StepChecks(const model::Plan& plan, const StepMoves& step, Grid& gri
       body_(body_of(*step.cutter)),
       radius_(profile_.radius_mm),
       tip_mm_(model::tip_length(*step.cutter)),
-      kept_profile_(std::make_shared<const geometry::CutterProfile>(profile_)) {
+      kept_profile_(std::make_shared<const geometry::CutterProfile>(profile_)),
+      mark_(past.mark()) {
   constexpr double kThicker = 0.02;  // mm: what is no thicker follows where the cutter has been
   std::erase_if(body_, [&](const BodyPart& p) {
     return p.what == BodyPart::What::kCutter || p.radius_mm <= radius_ + kThicker;
@@ -161,7 +162,8 @@ void StepChecks::rapid(const Move& m) {
 
 void StepChecks::feed(const Move& m) {
   if (under_overhangs(cutter_)) {
-    // Heights hold no overhang: what the head cuts is not taken from them.
+    // Heights hold no overhang: what the head cuts below one is not taken from them.
+    head(m);
     spindle(m, {});
     reach(m);
     neck(m);
@@ -170,6 +172,7 @@ void StepChecks::feed(const Move& m) {
   const double allowed = target_.allowed();
   const double fz = feed_per_tooth(m);
   const Bite bite = cut(grid_, m, profile_, judge_gouge_ ? allowed : 1e300, &target_, fz);
+  cut_mm3_ += bite.volume_mm3;
   chips(m, bite, fz);
   past_.add(m, kept_profile_);
   if (judge_gouge_) gouge(m, bite);

@@ -19,12 +19,19 @@ class StepChecks {
   StepChecks(const model::Plan& plan, const StepMoves& step, Grid& grid, Target& target, Past& past,
              Findings& findings);
   void run();
+  /// Whether it cut anything: known after `run`.
+  [[nodiscard]] bool cuts() const { return cut_mm3_ > 0.0 || met_; }
+  /// After `run`: a step that cuts nothing is a finding, unless it finishes what `begun` says was cut before
+  /// and follows its surface.
+  void nothing(bool begun);
 
  private:
   void rapid(const Move& m);
   void feed(const Move& m);
   void gouge(const Move& m, const Bite& bite);
   void neck(const Move& m);
+  void head(const Move& m);
+  [[nodiscard]] bool follows_finished();
   void contact(const Move& m, const Bite& bite);
   void reach(const Move& m);
   void body(const Move& m);
@@ -59,6 +66,9 @@ class StepChecks {
   int looks_ = 8;  ///< closer looks at chips that are left for this step; default, unsourced
   bool judge_gouge_ = true;
   double helix_turned_ = 0.0;  ///< rad, of a descending spiral so far
+  double cut_mm3_ = 0.0;       ///< by the step so far
+  bool met_ = false;           ///< a head that heights do not follow was in material
+  std::size_t mark_;           ///< in `past_`, before the step
 
   // Moves taken together until they are long enough to be measured on the grid.
   struct Account {

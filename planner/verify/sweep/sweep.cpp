@@ -4,7 +4,9 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <set>
 
+#include "planner/model/nouns/all.h"
 #include "planner/verify/sweep/carry.h"
 #include "planner/verify/sweep/fixtures.h"
 #include "planner/verify/sweep/grip.h"
@@ -44,6 +46,23 @@ bool sound(const model::Cutter* c) {
   return c != nullptr && std::isfinite(c->cutting_diameter_mm) && c->cutting_diameter_mm > 0.0;
 }
 
+/// Each feature in the set-up of its last step, with what the others took away.
+void check_left(const model::Plan& plan, const std::vector<std::unique_ptr<Scene>>& scenes,
+                Findings& findings) {
+  const std::vector<Asked> asked = asked_of(plan);
+  for (const auto& scene : scenes) {
+    std::vector<Asked> here;
+    for (const Asked& a : asked) {
+      if (workpiece_in(plan, a.setup) == scene->target.frame()) here.push_back(a);
+    }
+    if (here.empty()) continue;
+    for (const auto& s : scenes) {
+      if (s != scene) carry(scene->grid, scene->target.frame(), s->grid, s->target.frame());
+    }
+    scene->target.left(scene->grid, here, scenes.size() > 1, findings);
+  }
+}
+
 }  // namespace
 
 void check_removal(const model::Plan& plan, const std::vector<StepMoves>& steps, Findings& findings,
@@ -62,6 +81,7 @@ void check_removal(const model::Plan& plan, const std::vector<StepMoves>& steps,
   Scene* last = nullptr;
   std::optional<Grip> grip;
   std::size_t held = static_cast<std::size_t>(-1);
+  std::set<model::AnyRef> begun;  // features of which something was cut
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const StepMoves& step = steps[i];
     job.progress("check", static_cast<double>(i) / static_cast<double>(steps.size()));
@@ -88,10 +108,16 @@ void check_removal(const model::Plan& plan, const std::vector<StepMoves>& steps,
       grip.emplace(plan.setups[held].holding, scene->grid, step, findings);
     }
     if (!sound(step.cutter)) continue;
-    StepChecks(plan, step, scene->grid, scene->target, scene->past, findings).run();
+    StepChecks checks(plan, step, scene->grid, scene->target, scene->past, findings);
+    checks.run();
+    const auto* ws = plan.model.get<model::MachiningWorkingstep>(
+        step.planned != nullptr ? step.planned->step : model::Ref<model::Executable>{});
+    checks.nothing(ws != nullptr && begun.contains(ws->its_feature));
+    if (ws != nullptr && checks.cuts()) begun.insert(ws->its_feature);
     scene->grid.find_top();
     if (grip && step.setup == held) grip->after(step, scene->grid, findings);
   }
+  check_left(plan, scenes, findings);
 }
 
 }  // namespace capstan::verify

@@ -95,6 +95,7 @@ Target::Target(const model::Plan& plan, const PartShapes& part, std::size_t setu
   if (plan.stock.cylinder_radius_mm && std::abs(frame_.z.z) > kUpright)
     round_ = *plan.stock.cylinder_radius_mm;
   for (const auto& e : part.entries) {
+    if (e.piece) continue;
     for (const auto& s : e.shapes) add(s);
   }
   add_broken_edges();
@@ -106,7 +107,7 @@ Target::Target(const model::Plan& plan, const PartShapes& part, std::size_t setu
   levels_.erase(std::unique(levels_.begin(), levels_.end()), levels_.end());
 }
 
-void Target::add(const FeatureShape& s) {
+void Target::add(const FeatureShape& s, bool bevel) {
   const Placement at = compose(frame_, s.frame);
   if (std::abs(at.z.z) < kUpright) return;
   const bool below = at.z.z < 0.0;
@@ -114,6 +115,7 @@ void Target::add(const FeatureShape& s) {
   if (!representable(s)) return;
   Cavity c;
   c.shape = &s;
+  c.bevel = bevel;
   c.frame = at;
   c.area = moved(widest(s), at);
   c.box = geometry::bounds(c.area);
@@ -164,7 +166,7 @@ void Target::add_broken_edges() {
       bevel.chamfer_angle_rad = 0.5 * (std::numbers::pi - c->point_angle_rad);
       bevel.depth_mm = depth;
       bevel.chamfer_width_mm = depth / std::tan(bevel.chamfer_angle_rad);
-      add(bevel);
+      add(bevel, true);
     }
   }
 }

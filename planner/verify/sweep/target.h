@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "planner/geometry/region.h"
 #include "planner/model/plan.h"
 #include "planner/model/shape.h"
+#include "planner/verify/findings.h"
 #include "planner/verify/sweep/grid.h"
 
 namespace capstan::verify {
@@ -22,6 +24,8 @@ struct PartShapes {
     model::AnyRef feature;
     std::vector<model::FeatureShape> shapes;
     std::string fault;  ///< why there are none
+    bool piece =
+        false;  ///< a boss, element or base that another feature holds, and no step is for: made with that
   };
   std::vector<Entry> entries;
   double tolerance_mm = 0.02;
@@ -30,6 +34,21 @@ struct PartShapes {
   [[nodiscard]] const Entry* find(model::AnyRef feature) const;
 };
 [[nodiscard]] PartShapes shapes_of_part(const model::Plan& plan);
+/// Features that are pieces of others: bosses, elements of compounds, bases of patterns.
+[[nodiscard]] std::set<model::AnyRef> pieces_of_others(const model::Model& m);
+
+/// A feature that a plan makes, and what its steps say that they leave.
+struct Asked {
+  model::AnyRef feature;
+  Findings::Where where = {};                   ///< its last step
+  std::size_t setup = 0;                        ///< of its last step
+  double side_mm = 1e300, bottom_mm = 1e300;    ///< least allowances stated
+  double radius_mm = 1e300, corner_mm = 1e300;  ///< of its narrowest mill; of that mill's corner
+  double ridges_mm = 1e300;                     ///< freeform: least height of ridges and chords stated
+  bool undercut = false;                        ///< one of its tools cuts under what stands
+};
+/// Features with steps, but those that are unplanned in part.
+[[nodiscard]] std::vector<Asked> asked_of(const model::Plan& plan);
 
 /// Where the workpiece lies in a set-up's frame.
 [[nodiscard]] geometry::Placement workpiece_in(const model::Plan& plan, std::size_t setup);
@@ -52,6 +71,8 @@ class Target : public GougeJudge {
   double wall_gouge(const Move& m, double radius_mm, double height_mm, geometry::Vec2& at);
   /// Whether the feature's removal can be judged here; else why not.
   [[nodiscard]] std::string undecided(model::AnyRef feature) const;
+  /// Says what of these features still stands. `carried`: cells have been cut in another set-up, too.
+  void left(const Grid& grid, const std::vector<Asked>& asked, bool carried, Findings& out) const;
   [[nodiscard]] double allowed() const { return part_.tolerance_mm + kChordMm; }
   [[nodiscard]] const geometry::Box3& stock() const { return stock_; }
   [[nodiscard]] const geometry::Placement& frame() const { return frame_; }
@@ -66,6 +87,7 @@ class Target : public GougeJudge {
     double floor_mm = 0.0;                                     ///< lowest legal height, set-up
     double deeper_mm = 0.0;    ///< by which the depth's tolerance allows more than the nominal
     bool open_bottom = false;  ///< anything below is legal, too
+    bool bevel = false;        ///< of an edge that the plan breaks: no feature
   };
   struct Walls {
     geometry::Region region;  ///< where the part stands above the height
@@ -81,7 +103,9 @@ class Target : public GougeJudge {
     [[nodiscard]] bool stands(geometry::Vec2 p) const;
   };
 
-  void add(const model::FeatureShape& s);
+  void add(const model::FeatureShape& s, bool bevel = false);
+  void left_of(const Cavity& c, const Grid& grid, const Asked& a, bool carried, Findings& out) const;
+  void left_on_mesh(const Grid& grid, const Asked& a, Findings& out) const;
   void add_broken_edges();
   [[nodiscard]] double floor_of(const Cavity& c, geometry::Vec2 p) const;
   [[nodiscard]] double height(geometry::Vec2 p) const;

@@ -1,0 +1,148 @@
+#include "planner/pipeline/checked.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <tuple>
+#include <utility>
+
+#include "planner/base/number.h"
+#include "planner/verify/verify.h"
+
+// Plan, check, and plan anew what the check condemns. The check is independent: it is told nothing of the
+// tries, and its findings on the plan that is kept are handed on as they are. An error at a proposed step
+// bans what the step was made with, gently first: its cutter, twice; then its chain; last its feature is left
+// out, and with it what rests on it. An order that is broken is no matter of the cutter: there the chain goes
+// at once. Of all tries the one with the fewest errors is kept, then the one that leaves the fewest features
+// out, then the first. Steps that the file brings stay as they are.
+
+namespace capstan::pipeline {
+namespace {
+
+using model::AnyRef;
+using model::Finding;
+
+constexpr int kMostCutters = 2;                          // of one step, before its chain is given up
+constexpr int kBeforeLeavingOut = kMostReplannings - 2;  // tries after which features are left out
+
+struct Offence {
+  MadeStep step;
+  const Finding* finding = nullptr;
+};
+
+bool is_error(const Finding& f) { return f.severity == Severity::kError; }
+
+std::size_t errors_of(const model::Plan& plan, const std::vector<Finding>& findings) {
+  auto n = static_cast<std::size_t>(std::count_if(findings.begin(), findings.end(), is_error));
+  for (const auto& s : plan.steps) n += s.exceeded.empty() ? 0U : 1U;
+  return n;
+}
+
+/// The first error of each proposed step.
+std::vector<Offence> offences_of(const model::Plan& plan, const std::vector<Finding>& findings,
+                                 const Tries& tries) {
+  std::map<std::string, AnyRef> step_of;
+  for (const auto& s : plan.steps) step_of.emplace(model::step_id(plan, s), s.step);
+  std::vector<Offence> out;
+  std::set<AnyRef> seen;
+  for (const Finding& f : findings) {
+    if (!is_error(f) || f.step.empty()) continue;
+    const auto step = step_of.find(f.step);
+    if (step == step_of.end()) continue;
+    const auto made = tries.made.find(step->second);
+    if (made != tries.made.end() && seen.insert(step->second).second) out.push_back({made->second, &f});
+  }
+  return out;
+}
+
+class Judge {
+ public:
+  explicit Judge(Tries& tries) : tries_(tries) {}
+
+  /// Bans what these were made with; gives what was banned, to be told once it is known what came instead.
+  std::vector<std::pair<MadeStep, std::string>> condemn(const std::vector<Offence>& offences, int tried) {
+    std::vector<std::pair<MadeStep, std::string>> out;
+    for (const Offence& o : offences) {
+      const std::string found = "the check found " + o.finding->code + ": " + o.finding->message;
+      const MadeStep& s = o.step;
+      const bool of_order = o.finding->property == 28;
+      int& hits = hits_[{s.member, s.chain, s.in_chain}];
+      if (tried >= kBeforeLeavingOut) {
+        tries_.leave_out(s.member.feature, "step '" + s.name + "' with " + s.cutter + ": " + found);
+      } else if (of_order || hits >= kMostCutters) {
+        tries_.ban_chain(s.member, s.chain, "step '" + s.name + "': " + found);
+      } else {
+        tries_.ban_cutter(s.member, s.chain, s.in_chain, s.cutter, found);
+      }
+      ++hits;
+      out.emplace_back(s, found);
+    }
+    return out;
+  }
+
+ private:
+  Tries& tries_;
+  std::map<std::tuple<Member, std::string, std::size_t>, int> hits_;
+};
+
+/// "step 'X': planned anew with em6 instead of em10, because the check found …"
+std::string told(const Tries& tries, const MadeStep& before, const std::string& why) {
+  const MadeStep* now = nullptr;
+  for (const auto& [ref, made] : tries.made) {
+    if (made.member == before.member && made.name == before.name) now = &made;
+  }
+  const bool out = tries.left_out(before.member.feature) != nullptr;
+  const std::string what = out ? "its feature is left out"
+                           : now != nullptr && now->cutter != before.cutter
+                               ? "planned anew with " + now->cutter + " instead of " + before.cutter
+                               : "planned anew in another way";
+  return "step '" + before.name + "': " + what + ", because " + why;
+}
+
+}  // namespace
+
+void tell_tries(const Tries& tries, Job& job) {
+  for (const std::string& s : tries.said) job.note("PIP-ANEW", s);
+}
+
+Result<Checked> bind_checked(const model::Plan& plan, const Inputs& inputs, const Policy& policy, Job& job) {
+  Tries tries;
+  auto first = bind_within(plan, inputs, policy, tries, job);
+  if (!first) return tl::unexpected(first.error());
+  Checked best;
+  best.plan = *std::move(first);
+  if (policy.bind == Bind::kAll) best.findings = verify::check_plan(best.plan, job);
+  std::vector<std::string> said = tries.said;
+  auto diagnostics = job.take_diagnostics();
+  std::size_t least = errors_of(best.plan, best.findings);
+  Judge judge(tries);
+  std::vector<Offence> offences = offences_of(best.plan, best.findings, tries);
+  std::vector<Finding> findings;  // of the last try, which `offences` point into
+  for (int tried = 0; tried < kMostReplannings && least > 0 && !offences.empty(); ++tried) {
+    if (policy.bind != Bind::kAll || job.stop_requested()) break;
+    const auto condemned = judge.condemn(offences, tried);
+    auto again = bind_within(plan, inputs, policy, tries, job);
+    if (!again) {
+      (void)job.take_diagnostics();
+      break;
+    }
+    for (const auto& [step, why] : condemned) tries.said.push_back(told(tries, step, why));
+    findings = verify::check_plan(*again, job);
+    offences = offences_of(*again, findings, tries);
+    auto now = job.take_diagnostics();
+    const std::size_t errors = errors_of(*again, findings);
+    const bool better =
+        errors < least || (errors == least && again->unplanned.size() < best.plan.unplanned.size());
+    if (!better) continue;
+    least = errors;
+    best = {*std::move(again), findings, tried + 1};
+    said = tries.said;
+    diagnostics = std::move(now);
+  }
+  for (auto& d : diagnostics) job.report(std::move(d));
+  tries.said = std::move(said);
+  tell_tries(tries, job);
+  return best;
+}
+
+}  // namespace capstan::pipeline

@@ -1,0 +1,97 @@
+#include "planner/pipeline/choose.h"
+
+#include <utility>
+
+#include "planner/pipeline/members.h"
+#include "planner/pipeline/share.h"
+#include "planner/pipeline/steps.h"
+#include "tooling/select/select.h"
+
+namespace capstan::pipeline {
+namespace {
+
+using model::FeatureShape;
+using model::TypeId;
+
+/// Drops drills, reamers and taps that the spindle cannot turn at any useful feed; says why when none is
+/// left.
+std::string keep_able(Work& w, const model::ProposedStep& step, model::Selection& s) {
+  if (!model::is_a(step.operation, TypeId::kDrillingTypeOperation) ||
+      model::is_a(step.operation, TypeId::kThreadDrilling))
+    return {};
+  optimise::Options options;
+  options.solver = w.inputs.solver;
+  options.backends = w.inputs.backends;
+  options.starts = 1;
+  std::vector<model::Candidate> able;
+  std::string why;
+  for (const model::Candidate& c : s.ranked) {
+    const auto answer = optimise::cut(hole_question(w, step, c), options, w.job);
+    if (answer && answer->feasible) {
+      able.push_back(c);
+      continue;
+    }
+    const std::string limit = !answer                    ? answer.error().message
+                              : answer->violated.empty() ? ""
+                                                         : answer->violated.front();
+    s.rejected.push_back({c.cutter.id, "no useful feed keeps the limits: " + limit});
+    if (why.empty()) why = step.name + ": " + c.cutter.id + ": no useful feed keeps the limits: " + limit;
+  }
+  if (able.empty()) return why;
+  s.ranked = std::move(able);
+  return {};
+}
+
+/// Drops cutters that were tried in vain; what would fit is then said with that reason.
+std::string keep_untried(const Work& w, const Member& member, const std::string& chain, std::size_t at,
+                         model::Selection& s) {
+  std::string last;
+  std::erase_if(s.ranked, [&](const model::Candidate& c) {
+    const std::string* why = w.tries.cutter_banned(member, chain, at, c.cutter.id);
+    if (why == nullptr) return false;
+    s.rejected.push_back({c.cutter.id, *why});
+    last = c.cutter.id + ": " + *why;
+    return true;
+  });
+  return s.ranked.empty() ? last : std::string();
+}
+
+}  // namespace
+
+Chosen choose(Work& w, const model::Proposal& p, const FeatureShape& shape, const Member& member,
+              const std::vector<model::Cutter>& library, std::vector<model::Rejected>& rejected) {
+  for (const auto& chain : p.chains) {
+    Chosen out;
+    out.key = Tries::key_of(chain);
+    std::vector<std::string> used = w.used_cutters;
+    std::string why_not;
+    if (const std::string* why = w.tries.chain_banned(member, out.key)) why_not = *why;
+    for (std::size_t i = 0; why_not.empty() && i < chain.size(); ++i) {
+      const model::ProposedStep step = as_opened(chain, i, out.tools);
+      tooling::Preferences wanted = preferences_of(w, step, shape);
+      wanted.used = used;
+      auto s = tooling::select(step.tool, library, w.plan.material, w.plan.machine, wanted);
+      if (step.operation == TypeId::kWorkpieceProbing) {  // can be measured by other means
+        out.tools.push_back(std::move(s));
+        continue;
+      }
+      if (s.ranked.empty()) {
+        why_not = step.name + ": no cutter fits; " + s.would_fit + " would";
+        break;
+      }
+      why_not = keep_untried(w, member, out.key, i, s);
+      if (why_not.empty()) why_not = keep_able(w, step, s);
+      if (!why_not.empty()) break;
+      used.push_back(s.ranked.front().cutter.id);
+      out.tools.push_back(std::move(s));
+    }
+    if (why_not.empty()) {
+      out.chain = &chain;
+      return out;
+    }
+    rejected.push_back({chain.empty() ? "chain" : chain.front().why.id, why_not});
+  }
+  return {};
+}
+
+}  // namespace capstan::pipeline

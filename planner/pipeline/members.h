@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "planner/model/proposal.h"
+#include "planner/pipeline/work.h"
+
+namespace capstan::pipeline {
+
+/// Of two holes on one axis, as indices of their steps, the first the narrower: it is opened first, and both
+/// before either is reamed or bored, for nothing is roughed around a hole that has its size, and no edge is
+/// cut on it. A thread comes when its hole has it.
+void members_in_order(Work& w, const std::vector<std::size_t>& first, const std::vector<std::size_t>& second);
+
+/// Step `at` of a chain with the hole that the drill chosen before it leaves, where its requirement left open which.
+[[nodiscard]] model::ProposedStep as_opened(const std::vector<model::ProposedStep>& chain, std::size_t at,
+                                            const std::vector<model::Selection>& chosen);
+
+/// Says which holes have an operation that makes a thread although no feature states one: re-opened, they
+/// stay plain.
+void warn_of_lost_threads(Work& w);
+
+}  // namespace capstan::pipeline

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "tests/removal/planned.h"
+
+namespace capstan::testing::removal {
+
+// The parts that are planned and simulated, by what is on them.
+[[nodiscard]] Part island_pocket();
+[[nodiscard]] Part boss_beside_pocket();
+[[nodiscard]] Part open_pocket();
+[[nodiscard]] Part plain_slots();
+[[nodiscard]] Part undercut_slots();
+[[nodiscard]] Part short_step();
+[[nodiscard]] Part single_holes();
+[[nodiscard]] Part compound_holes();
+[[nodiscard]] Part threaded_hole();
+[[nodiscard]] Part hole_patterns();
+[[nodiscard]] Part outside_contour();
+[[nodiscard]] Part arcs_across_zero(bool clockwise);
+[[nodiscard]] Part chamfered_edges();
+[[nodiscard]] Part holes_near_walls();
+[[nodiscard]] Part turned_over();
+
+}  // namespace capstan::testing::removal

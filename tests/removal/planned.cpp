@@ -1,0 +1,44 @@
+#include "tests/removal/planned.h"
+
+#include <cstdlib>
+
+#include "planner/base/file.h"
+
+namespace capstan::testing::removal {
+
+Box block(double length_x, double width_y, double height, double raw) {
+  return {{0.0, 0.0, -height}, {length_x, width_y, raw}};
+}
+
+Depth body(const Box& b) { return box(b.lo, {b.hi.x, b.hi.y, std::min(b.hi.z, 0.0)}); }
+
+std::string Outcome::text() const {
+  std::string out;
+  for (const PlanMessage& m : plan.findings) out += "finding, " + m.severity + ": " + m.text + "\n";
+  for (const PlanMessage& m : plan.diagnostics) {
+    if (m.severity == "error") out += "said: " + m.text + "\n";
+  }
+  out += std::to_string(plan.steps) + " steps, " + std::to_string(plan.unplanned) + " features unplanned\n";
+  return out + (written() ? verdict.text() : "no program\n");
+}
+
+Outcome plan_and_simulate(const Part& part) {
+  Outcome out;
+  const char* keep = std::getenv("CAPSTAN_REMOVAL_KEEP");
+  const auto write = [&](const char* ending, const std::string& text) {
+    if (keep != nullptr) (void)write_file(std::string(keep) + "/" + part.name + ending, text);
+  };
+  write(".p21", part.text);
+  out.plan = plan_bytes(part.text, part.name + ".p21", part.options);
+  write(".ngc", out.plan.linuxcnc);
+  write(".tbl", out.plan.tool_table);
+  write(".json", out.plan.json);
+  write(".planned.p21", out.plan.iso14649);
+  if (!out.written()) return out;
+  out.verdict = simulate({out.plan.linuxcnc, out.plan.tool_table, out.plan.json, out.plan.iso14649},
+                         part.block, part.target, part.grid);
+  write(".txt", out.text());
+  return out;
+}
+
+}  // namespace capstan::testing::removal

@@ -1,0 +1,97 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "planner/toolpath/path_job.h"
+#include "planner/toolpath/region/track.h"
+#include "tests/toolpath/path_helpers.h"
+
+namespace capstan::toolpath {
+namespace {
+
+using geometry::Region;
+using geometry::Vec2;
+using model::MoveRole;
+
+/// Beside the line y = 0 from x = 0 to 100, below it; the raw piece reaches from x = -8 to 120 and 6 mm below
+/// it.
+PathJob beside(double diameter) {
+  PathJob t = area_job(geometry::rectangle({-100, -100}, {200, 0}), 30.0, diameter);
+  t.shape.kind = model::ShapeKind::kOutside;
+  t.shape.open = true;
+  t.shape.spine = {{0, 0}, {100, 0}};
+  t.shape.reach = geometry::rectangle({-200, -200}, {300, 0});
+  t.stock = geometry::rectangle({-8, -6}, {120, 60});
+  t.operation = model::TypeId::kSideRoughMilling;
+  t.axial_depth_mm = 10.0;
+  t.radial_depth_mm = 4.0;
+  return t;
+}
+
+TEST(OpenOutsidePath, RunsFromAirToAirAlongTheWholeRawPiece) {
+  const PathJob t = beside(20.0);
+  Job job;
+  const auto g = generate(t, job);
+  ASSERT_TRUE(g) << g.error().message;
+  EXPECT_THAT(rule_breaks(t, *g), testing::IsEmpty());
+  EXPECT_LE(gouge_mm(*g, t.shape.reach, 10.0, -1e-6), 0.003) << "nothing above the line is touched";
+  HeightMap map({-40, -40}, {160, 70}, 0.5, 0.0);
+  map.only(t.stock);
+  EXPECT_THAT(map.run(*g, t.cutter).faults, testing::IsEmpty());
+  EXPECT_NEAR(map.highest(geometry::rectangle({-7.5, -5.5}, {119.5, -0.5})), -30.0, 1e-4);
+  EXPECT_NEAR(map.lowest_outside(geometry::rectangle({-200, -200}, {300, 0.0})), 0.0, 1e-4);
+}
+
+TEST(OpenOutsidePath, ClimbsWithTheWallOnItsRight) {
+  for (const bool climb : {true, false}) {
+    PathJob t = beside(20.0);
+    t.climb = climb;
+    Job job;
+    const auto g = generate(t, job);
+    ASSERT_TRUE(g) << g.error().message;
+    for (std::size_t i = 1; i < g->path.size(); ++i) {
+      if (g->path.role[i] != MoveRole::kCut) continue;
+      // The wall lies above: on the right of who goes to smaller x.
+      EXPECT_EQ(g->path.x[i] < g->path.x[i - 1], climb);
+    }
+  }
+}
+
+TEST(OpenOutsidePath, GoesRoundACornerOfItsLine) {
+  PathJob t = beside(16.0);
+  // Along y = 0, then up x = 100: taken away on the right.
+  t.shape.spine = {{0, 0}, {100, 0}, {100, 50}};
+  const Region kept = geometry::rectangle({-500, 0}, {100, 500});
+  t.shape.area = geometry::subtract(geometry::rectangle({-100, -100}, {200, 150}), kept);
+  t.shape.reach = geometry::subtract(geometry::rectangle({-200, -200}, {300, 250}), kept);
+  t.stock = geometry::rectangle({0, -5}, {106, 60});
+  Job job;
+  const auto g = generate(t, job);
+  ASSERT_TRUE(g) << g.error().message;
+  EXPECT_LE(gouge_mm(*g, t.shape.reach, 8.0, -1e-6), 0.003);
+  HeightMap map({-40, -40}, {160, 110}, 0.5, 0.0);
+  map.only(t.stock);
+  EXPECT_THAT(map.run(*g, t.cutter).faults, testing::IsEmpty());
+  EXPECT_NEAR(map.highest(geometry::rectangle({0.5, -4.5}, {105.5, -0.5})), -30.0, 1e-4);
+  EXPECT_NEAR(map.highest(geometry::rectangle({100.5, -4.5}, {105.5, 59.5})), -30.0, 1e-4);
+}
+
+TEST(Tracks, HaveNoMoveThatAControlDoesNotResolve) {
+  // A corner of a tenth of a micrometre, in chords: what insets leave of a fillet as wide as the cutter.
+  geometry::Loop loop = {{0, 0}, {40, 0}};
+  geometry::append_arc(loop, {40, 0.0006}, {40, 0}, 1.5707963, 1e-6);
+  loop.push_back({40.0006, 30});
+  loop.push_back({0, 30});
+  const Track t = track_of(loop);
+  Vec2 at = t.start;
+  for (const Segment& s : t.segments) {
+    EXPECT_GE(length_of(at, s), 0.002);
+    at = s.to;
+  }
+  EXPECT_EQ(t.segments.size(), 4U);
+}
+
+}  // namespace
+}  // namespace capstan::toolpath

@@ -1,0 +1,174 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "planner/verify/verify.h"
+#include "tests/verify/plans.h"
+
+// Steps that cut nothing (35) and what stays of planned features (36), on the small plan that is right.
+
+namespace capstan::verify {
+namespace {
+
+using model::MoveRole;
+using testing::PlanMaker;
+
+std::string told(const std::vector<model::Finding>& findings) {
+  std::string out;
+  for (const auto& f : findings) out += f.code + " [" + f.step + "] " + f.message + "\n";
+  return out;
+}
+
+std::vector<model::Finding> check(const model::Plan& plan) {
+  Job job;
+  return check_plan(plan, job);
+}
+
+const model::Finding* found(const std::vector<model::Finding>& all, const std::string& code,
+                            const std::string& step) {
+  const auto it = std::find_if(all.begin(), all.end(), [&](const auto& f) {
+    return f.code == code && f.step == step && f.severity == Severity::kError;
+  });
+  return it == all.end() ? nullptr : &*it;
+}
+
+model::Cutter spot_drill() {
+  model::Cutter c = testing::drill();
+  c.id = "spot6";
+  c.cutter_class = model::CutterClass::kSpotDrill;
+  c.cutting_diameter_mm = 6;
+  c.point_angle_rad = 0.5 * std::numbers::pi;
+  c.pocket = 4;
+  return c;
+}
+
+model::CutterPath down_to(double x, double y, double z) {
+  model::CutterPath p;
+  p.start({x, y, 10});
+  p.rapid({x, y, 2});
+  p.line({x, y, z}, MoveRole::kDrill);
+  p.rapid({x, y, 10}, MoveRole::kRetract);
+  return p;
+}
+
+TEST(CutsNothing, ASpotDrillAfterTheHoleItMarksIsFound) {
+  PlanMaker k = testing::good_plan();
+  k.plan.cutters.push_back(spot_drill());
+  const auto* drilled = k.plan.model.get<model::MachiningWorkingstep>(k.plan.steps[1].step);
+  // A point of 90 degrees, 3 mm deep, in a hole of 8: all air.
+  k.step<model::CenterDrilling>("late spot", drilled->its_feature, "spot6", down_to(15, 15, -3), 100, 1500);
+  const auto findings = check(k.plan);
+  EXPECT_NE(found(findings, "CHK-CUTS-NOTHING", "late spot"), nullptr) << told(findings);
+}
+
+TEST(CutsNothing, RoughingOfWhatIsGoneAlreadyIsFound) {
+  PlanMaker k = testing::good_plan();
+  const auto* milled = k.plan.model.get<model::MachiningWorkingstep>(k.plan.steps[0].step);
+  k.step<model::BottomAndSideRoughMilling>("again", milled->its_feature, "em10", testing::pocket_path(), 600,
+                                           3000);
+  const auto findings = check(k.plan);
+  EXPECT_NE(found(findings, "CHK-CUTS-NOTHING", "again"), nullptr) << told(findings);
+}
+
+TEST(CutsNothing, AFinishingPassAlongTheFinishedSurfaceIsNoFault) {
+  PlanMaker k = testing::good_plan();
+  const auto* milled = k.plan.model.get<model::MachiningWorkingstep>(k.plan.steps[0].step);
+  k.step<model::BottomAndSideFinishMilling>("spring", milled->its_feature, "em10", testing::pocket_path(),
+                                            600, 3000);
+  const auto findings = check(k.plan);
+  EXPECT_EQ(found(findings, "CHK-CUTS-NOTHING", "spring"), nullptr) << told(findings);
+}
+
+TEST(CutsNothing, AFinishingPassInAirIsFound) {
+  PlanMaker k = testing::good_plan();
+  const auto* milled = k.plan.model.get<model::MachiningWorkingstep>(k.plan.steps[0].step);
+  model::CutterPath p = testing::pocket_path();
+  // Five millimetres above the floor and within 9 of the middle: 15 mm off the walls.
+  for (double& z : p.z) z = z == -10.0 ? -5.0 : z;
+  for (auto* v : {&p.x, &p.y}) {
+    for (double& x : *v) x = 50 + 0.25 * (x - 50);
+  }
+  k.step<model::BottomAndSideFinishMilling>("in air", milled->its_feature, "em10", p, 600, 3000);
+  const auto findings = check(k.plan);
+  EXPECT_NE(found(findings, "CHK-CUTS-NOTHING", "in air"), nullptr) << told(findings);
+}
+
+TEST(CutsNothing, AReamersRingThinnerThanACellIsACut) {
+  PlanMaker k = testing::good_plan();
+  testing::with_reamer(k, 300);
+  // A ring of 0.02 mm on the radius; cells are 0.2 mm wide.
+  k.plan.cutters[1].cutting_diameter_mm = 7.96;
+  const auto findings = check(k.plan);
+  EXPECT_TRUE(findings.empty()) << told(findings);
+}
+
+TEST(Left, APocketHalfAMillimetreTooShallowIsFoundWithPlaceAndAmount) {
+  PlanMaker k = testing::good_plan();
+  testing::edit_path(k.plan, 0, [](auto& p) {
+    for (double& z : p.z) z = z == -10.0 ? -9.5 : z;
+  });
+  const auto findings = check(k.plan);
+  const auto* f = found(findings, "CHK-LEFT", "pocket");
+  ASSERT_NE(f, nullptr) << told(findings);
+  EXPECT_NE(f->message.find("0.5 mm of P"), std::string::npos) << f->message;
+}
+
+TEST(Left, AWallHalfAMillimetreTooThickIsFound) {
+  PlanMaker k = testing::good_plan();
+  testing::edit_path(k.plan, 0, [](auto& p) {
+    for (double& x : p.x) x = x == 65.0 ? 64.5 : x;
+  });
+  const auto findings = check(k.plan);
+  EXPECT_NE(found(findings, "CHK-LEFT", "pocket"), nullptr) << told(findings);
+}
+
+TEST(Left, WhatTheStepStatesAsAllowanceIsNoFault) {
+  PlanMaker k = testing::good_plan();
+  testing::edit_path(k.plan, 0, [](auto& p) {
+    for (double& z : p.z) z = z == -10.0 ? -9.5 : z;
+  });
+  const auto* ws = k.plan.model.get<model::MachiningWorkingstep>(k.plan.steps[0].step);
+  k.plan.model.get<model::BottomAndSideRoughMilling>(ws->its_operation)->allowance_bottom = 0.5;
+  const auto findings = check(k.plan);
+  EXPECT_TRUE(findings.empty()) << told(findings);
+}
+
+TEST(Left, AHoleThatEndsAboveItsDepthIsFound) {
+  PlanMaker k = testing::good_plan();
+  testing::edit_path(k.plan, 1, [](auto& p) { p.z[2] += 1.0; });
+  const auto findings = check(k.plan);
+  EXPECT_NE(found(findings, "CHK-LEFT", "drill"), nullptr) << told(findings);
+}
+
+TEST(Left, ACornerTooTightForTheCutterIsFoundAndASharpOneIsNot) {
+  // Radius 5 stated, cut with 8: the corner keeps (8 - 5) (sqrt 2 - 1) = 1.24 mm across. None stated: as the
+  // tool has it.
+  for (const bool stated : {true, false}) {
+    PlanMaker k = testing::good_plan();
+    k.plan.cutters[0].cutting_diameter_mm = 16;
+    k.plan.cutters[0].shank_diameter_mm = 16;
+    testing::edit_path(k.plan, 0, [](auto& p) {
+      for (auto* v : {&p.x, &p.y}) {
+        for (double& x : *v) x = 50 + 12.0 / 15.0 * (x - 50);
+      }
+    });
+    const auto* ws = k.plan.model.get<model::MachiningWorkingstep>(k.plan.steps[0].step);
+    if (!stated) k.plan.model.get<model::ClosedPocket>(ws->its_feature)->orthogonal_radius = {};
+    const auto findings = check(k.plan);
+    EXPECT_EQ(found(findings, "CHK-LEFT", "pocket") != nullptr, stated) << told(findings);
+  }
+}
+
+TEST(Left, AnUnplannedFeatureIsLeftOut) {
+  PlanMaker k = testing::good_plan();
+  testing::edit_path(k.plan, 0, [](auto& p) {
+    for (double& z : p.z) z = z == -10.0 ? -9.5 : z;
+  });
+  const auto* ws = k.plan.model.get<model::MachiningWorkingstep>(k.plan.steps[0].step);
+  k.plan.unplanned.push_back({ws->its_feature, "its finishing is not planned"});
+  const auto findings = check(k.plan);
+  EXPECT_EQ(found(findings, "CHK-LEFT", "pocket"), nullptr) << told(findings);
+}
+
+}  // namespace
+}  // namespace capstan::verify
