@@ -30,9 +30,18 @@ std::vector<AnyRef> wanted(const Work& w) {
   const std::set<AnyRef> parts = parts_of_others(m);
   std::set<AnyRef> done;
   for (const StepWork& s : w.steps) done.insert(s.feature);
+  // A compound whose elements have their own steps is made by these.
+  const auto by_elements = [&](AnyRef r) {
+    const auto* c = m.get<model::CompoundFeature>(r);
+    return c != nullptr && !c->elements.empty() &&
+           std::all_of(c->elements.items.begin(), c->elements.items.end(),
+                       [&](AnyRef e) { return done.contains(e); });
+  };
   std::vector<AnyRef> out;
   for (const AnyRef r : m.all_below(TypeId::kManufacturingFeature)) {
-    if (!parts.contains(r) && !done.contains(r) && !m.holds<model::ToolpathFeature>(r)) out.push_back(r);
+    if (parts.contains(r) || done.contains(r) || by_elements(r) || m.holds<model::ToolpathFeature>(r))
+      continue;
+    out.push_back(r);
   }
   std::stable_sort(out.begin(), out.end(),
                    [&](AnyRef a, AnyRef b) { return m.origin(a).instance < m.origin(b).instance; });

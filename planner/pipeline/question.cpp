@@ -4,6 +4,7 @@
 #include "casebase/casebase.h"
 #include "planner/base/number.h"
 #include "planner/mechanics/stability.h"
+#include "planner/model/raw_piece.h"
 #include "planner/pipeline/steps.h"
 #include "planner/toolpath/hole/hole_paths.h"
 #include "planner/toolpath/region/undercut.h"
@@ -50,7 +51,7 @@ double tolerance_of(const Work& w, const StepWork& step, const model::FeatureSha
   if (width > 0.0) return width;
   if (const auto* f = w.plan.model.get<model::ManufacturingFeature>(step.feature)) {
     if (const auto* piece = w.plan.model.get<model::Workpiece>(f->its_workpiece)) {
-      return 2.0 * piece->global_tolerance.value_or(0.0);
+      return 2.0 * model::global_tolerance_of(*piece).value_or(0.0);
     }
   }
   return 0.0;
@@ -261,11 +262,18 @@ optimise::CutQuestion question_of(const Work& w, const StepWork& step, const mod
   }
   hold_quality(w, step, job, q);
   q.override_locked = override_locked(w, step);
+  const auto given = given_technology(m, step.operation, step.cutter);
+  if ((!step.open_technology || step.keep_speed) && given.rpm) q.n_rpm = std::abs(*given.rpm);
   if (!step.open_technology) {
-    const auto given = given_technology(m, step.operation, step.cutter);
-    if (given.rpm) q.n_rpm = std::abs(*given.rpm);
     q.feed_mm_min = given.feed_mm_min;
     q.feed_by_planning = feed_by_planning(w, step);
+  } else if (step.keep_feed) {
+    const auto* t = m.get<model::MillingTechnology>(technology_of(w, step));
+    if (t->feedrate && *t->feedrate > 0.0) {
+      q.feed_mm_min = t->feedrate;
+    } else {
+      q.fz_mm = t->feedrate_per_tooth;
+    }
   }
   return q;
 }

@@ -39,6 +39,12 @@ struct GivenTechnology {
 [[nodiscard]] GivenTechnology given_technology(const model::Model& m, AnyRef operation,
                                                const model::Cutter& cutter);
 
+/// A stated speed whose direction is not the cutter's is turned round, for this operation only; it is said.
+void turn_with_the_cutter(Work& w, const StepWork& step);
+
+/// What was stated and could not stay goes, with a word; nothing where the word is empty.
+void let_go(Work& w, StepWork& step, const std::string& word);
+
 /// The question for depth, width, speed and feed of a step.
 [[nodiscard]] optimise::CutQuestion question_of(const Work& w, const StepWork& step,
                                                 const model::Candidate* candidate,

@@ -36,6 +36,7 @@ struct Made {
   optimise::CutAnswer answer;
   bool depth_open = false, width_open = false;
   std::optional<model::Reason> precedent;  ///< the case that speed and feed started from
+  std::string let_go;                      ///< of stated speed and feed, and why; empty: nothing
   std::vector<model::Rejected> thicker;    ///< depths or widths that exceeded a limit along the path
 };
 
@@ -264,7 +265,7 @@ class PathMaker {
       if (first) {
         out.question = question_of(w_, step, candidate, job);
         if (step.open_technology) out.precedent = start_from_case(w_, step, shape, out.question);
-        auto answer = cuts_.answer(out.question);
+        auto answer = cuts_.answer(step, out.question, out.let_go);
         if (!answer) return tl::unexpected(answer.error());
         out.answer = *std::move(answer);
         out.depth_open = !out.question.ap_mm.has_value();
@@ -338,6 +339,7 @@ class PathMaker {
   /// Measures a try against the stock, which is cut by it, and schedules its feeds.
   Tried cut(const StepWork& step, Made made) {
     Tried out;
+    if (!step.open_technology) turn_with_the_cutter(w_, step);
     const auto given = step.open_technology ? GivenTechnology{}
                                             : given_technology(w_.plan.model, step.operation, step.cutter);
     const double sense = step.open_technology && step.cutter.hand == model::Hand::kLeft ? -1.0 : 1.0;
@@ -345,7 +347,8 @@ class PathMaker {
     fq.cut = made.question;
     fq.n_rpm = given.rpm.value_or(sense * made.answer.n_rpm);
     fq.feed_mm_min = given.feed_mm_min.value_or(made.answer.feed_mm_min);
-    fq.adapt = step.open_technology || feed_was_planned(w_, step);
+    const bool kept = step.keep_feed && made.let_go.empty();
+    fq.adapt = (step.open_technology && !kept) || feed_was_planned(w_, step);
     fq.constant = w_.inputs.constant_feeds;
     fq.feed_factor = std::move(made.path.feed_factor);
     fq.speed_factor = std::move(made.path.speed_factor);
@@ -387,6 +390,8 @@ class PathMaker {
     if (candidate > 0 && candidate < step.candidates.size())
       take_cutter(w_, step, step.candidates[candidate]);
     const Made& made = tried.made;
+    let_go(w_, step, made.let_go);
+    turn_with_the_cutter(w_, step);
     record_cut(w_, step, made.answer, made.depth_open, made.width_open, made.precedent);
     tell_thicker(step, made);
     progress_.done(step);
@@ -433,6 +438,7 @@ class PathMaker {
 
   /// A path that the file brings is cut as it is; its feed may be open.
   Status explicit_path(StepWork& step) {
+    turn_with_the_cutter(w_, step);
     auto made = given_path(w_, step, stocks_, progress_, cuts_);
     if (!made) {
       give_up(step, made.error().message);
