@@ -59,14 +59,13 @@ Result<model::Plan> read_bytes(std::string bytes, const std::string& name, const
     if (has_schema(*file, kIso14649Schemas)) return read_iso14649(*file, job);
     if (has_schema(*file, kAp238Schemas)) return read_ap238(*file, job);
     const auto schemas = file->schemas();
-    return fail(
-        {.code = "EXC-UNSUPPORTED",
-         .message = "the file's schema " + (schemas.empty() ? std::string("(none)") : schemas.front()) +
-                    " cannot be read as a plan",
-         .file = name,
-         .expected =
-             "MACHINING_SCHEMA, MILLING_SCHEMA, COMBINED_SCHEMA (ISO 14649), INTEGRATED_CNC_SCHEMA or "
-             "MODEL_BASED_INTEGRATED_MANUFACTURING_SCHEMA (ISO 10303-238)"});
+    return fail({.code = "EXC-UNSUPPORTED",
+                 .message = "the file's schema " +
+                            (schemas.empty() ? std::string("(none)") : schemas.front()) +
+                            " cannot be read as a plan",
+                 .file = name,
+                 .expected = "MACHINING_SCHEMA, MILLING_SCHEMA, COMBINED_SCHEMA (ISO 14649), INTEGRATED_CNC_SCHEMA or "
+                             "MODEL_BASED_INTEGRATED_MANUFACTURING_SCHEMA (ISO 10303-238)"});
   }
   if (looks_like_stl(bytes)) {
     auto mesh = read_stl(bytes, name, job);

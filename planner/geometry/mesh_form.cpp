@@ -123,6 +123,7 @@ MeshForm form_of(const Mesh& mesh) {
   const std::vector<std::uint32_t> same = welded(mesh);
   Edges edges;
   double volume = 0.0, above = 0.0, below = 0.0;  // of triangles seen from above, and from below
+  bool upright = false;
   const Box3 box = bounds(mesh);
   for (const Triangle& t : mesh.triangles) {
     const Triangle w{same[t[0]], same[t[1]], same[t[2]]};
@@ -131,7 +132,9 @@ MeshForm form_of(const Mesh& mesh) {
     const Vec3 a = mesh.vertices[w[0]] - box.lo, b = mesh.vertices[w[1]] - box.lo,
                c = mesh.vertices[w[2]] - box.lo;
     volume += dot(a, cross(b, c)) / 6.0;
-    const double shadow = 0.5 * cross(b - a, c - a).z;
+    const Vec3 n = cross(b - a, c - a);
+    const double shadow = 0.5 * n.z;
+    upright = upright || std::abs(n.z) <= 1e-9 * norm(n);
     (shadow > 0.0 ? above : below) += std::abs(shadow);
   }
   for (const auto& [e, u] : edges) {
@@ -160,7 +163,9 @@ MeshForm form_of(const Mesh& mesh) {
     if (sign < 0.0) std::reverse(xy_loop.begin(), xy_loop.end());
     outer.push_back(std::move(xy_loop));
   }
-  if (one_side && hole == nullptr && out.turned_edges == 0) {
+  // A floor with walls round it, seen from beneath, is a solid without its top, and no sheet.
+  const bool lies = sign > 0.0 || !upright;
+  if (one_side && lies && hole == nullptr && out.turned_edges == 0) {
     out.outline = clean(outer);
     const double covered = std::max(above, below);
     if (std::abs(area(out.outline) - covered) <= 1e-4 * covered) {

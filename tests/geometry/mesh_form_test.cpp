@@ -45,6 +45,15 @@ TEST(MeshForm, ABoxIsASolidAndLackingAnyTriangleItIsNot) {
   }
 }
 
+TEST(MeshForm, ABoxWithoutItsTopIsNoSheetAndWithoutItsBottomIsOne) {
+  Mesh open_above = box();
+  open_above.triangles.erase(open_above.triangles.begin() + 2, open_above.triangles.begin() + 4);
+  EXPECT_EQ(form_of(open_above).kind, Kind::kBroken);
+  Mesh open_below = box();
+  open_below.triangles.erase(open_below.triangles.begin(), open_below.triangles.begin() + 2);
+  EXPECT_EQ(form_of(open_below).kind, Kind::kSheet);
+}
+
 TEST(MeshForm, CornersWithinTheWeldAreOneAndThoseBeyondAreNot) {
   for (const double apart : {0.5 * kWeldMm, 3.0 * kWeldMm}) {
     Mesh m = box();
