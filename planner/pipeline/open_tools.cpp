@@ -2,6 +2,7 @@
 #include <cmath>
 #include <optional>
 
+#include "planner/model/nouns/all.h"
 #include "planner/model/walk.h"
 #include "planner/pipeline/share.h"
 #include "planner/pipeline/steps.h"
