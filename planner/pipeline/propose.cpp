@@ -350,6 +350,9 @@ class Proposer {
       step.candidates = chosen.tools[i].ranked;
       step.rejected_tools = chosen.tools[i].rejected;
       step.cutter = step.candidates.front().cutter;
+      if (step.cutter.cutter_class == model::CutterClass::kTwistDrill &&
+          step.proposal.tool.point_angle_rad > 0.0)
+        step.proposal.depth_mm = depth_over_cone(s, step.cutter);
       for (std::size_t k = 1; k < step.candidates.size() && k < 4; ++k) {
         step.rejected_tools.push_back(
             {step.candidates[k].cutter.id, "fits, ranked lower: " + step.candidates[k].why.text});

@@ -98,8 +98,8 @@ struct Outline {
   [[nodiscard]] double height(double d) const {
     return d <= flat ? 0.0 : profile.height(std::min(d, radius));
   }
-  /// Within this the cutter has no edge unless it cuts to its centre. Of a cone that is its tip's: its flank cuts.
-  /// The share is a default, unsourced.
+  /// Within this the cutter has no edge unless it cuts to its centre. Of a cone that is its tip's: its flank
+  /// cuts. The share is a default, unsourced.
   [[nodiscard]] double middle() const {
     constexpr double kMiddle = 0.3;
     const auto& p = profile.pieces;
