@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <set>
 #include <tuple>
 
 #include "planner/base/number.h"
 #include "planner/model/nouns/all.h"
+#include "planner/model/raw_piece.h"
 #include "planner/model/walk.h"
 
 namespace capstan::exchange {
@@ -18,7 +20,6 @@ using model::TypeId;
 namespace {
 
 constexpr std::uint64_t kMaxSteps = 1'000'000;  // default, unsourced: executions of one workplan
-constexpr double kLargeToleranceMm = 5.0;       // default, unsourced: no workpiece is that rough
 
 struct Check {
   const model::Model& m;
@@ -199,8 +200,24 @@ bool is_size(std::string_view name) {
          name == "cutting_edge_length" || name == "expected_tool_life" || name == "dwell" || name == "pitch";
 }
 
+/// Lengths that only say how far straight paths go: a negative one leaves its feature without a shape, which
+/// is said there (model::length), and the rest of the file is read.
+std::set<AnyRef> only_distances(const Check& r) {
+  std::set<AnyRef> out, others;
+  for (const AnyRef at : r.objects) {
+    const auto* path = r.m.get<model::LinearPath>(at);
+    model::for_each_reference(r.m, at, [&](AnyRef to) {
+      if (to.type != TypeId::kTolerancedLengthMeasure) return;
+      (path != nullptr && AnyRef(path->distance) == to ? out : others).insert(to);
+    });
+  }
+  std::erase_if(out, [&](AnyRef at) { return others.contains(at); });
+  return out;
+}
+
 void check_sizes(Check& r) {
   const auto& m = r.m;
+  std::optional<std::set<AnyRef>> distances;
   for (const AnyRef at : r.objects) {
     if (at.type == TypeId::kKeptInstance) continue;
     const bool solid = at.type == TypeId::kBlock || at.type == TypeId::kCircle || at.type == TypeId::kHelix;
@@ -209,6 +226,15 @@ void check_sizes(Check& r) {
       const auto& v = model::value_of<model::Real>(a, m.object(at));
       const bool axis = at.type == TypeId::kBlock && a.name.size() == 1;
       if (!v || (!is_size(a.name) && !axis)) continue;
+      if (*v < 0.0 && at.type == TypeId::kTolerancedLengthMeasure) {
+        if (!distances) distances = only_distances(r);
+        if (distances->contains(at)) {
+          warn(r, at, "EXC-SIZE",
+               attribute_name(at, a.name) + " is " + shortest(*v) +
+                   ", not how far a path goes; what needs it has no shape");
+          continue;
+        }
+      }
       if (*v < 0.0 || (*v == 0.0 && solid)) {
         fault(r, at, attribute_name(at, a.name) + " is " + shortest(*v) + ", not a size", "EXC-SIZE");
       }
@@ -216,9 +242,10 @@ void check_sizes(Check& r) {
   }
   for (const AnyRef at : m.all(TypeId::kWorkpiece)) {
     const auto& t = m.at<model::Workpiece>(at).global_tolerance;
-    if (t && *t > kLargeToleranceMm) {
+    if (t && *t > model::kLargestGlobalTolerance) {
       warn(r, at, "EXC-TOLERANCE",
-           "WORKPIECE.global_tolerance is " + shortest(*t) + " mm; kept, and hardly meant");
+           "WORKPIECE.global_tolerance is " + shortest(*t) +
+               " mm; kept, and hardly meant: checks and allowances do without it");
     }
   }
 }

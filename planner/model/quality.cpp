@@ -9,6 +9,7 @@
 #include "planner/base/number.h"
 #include "planner/model/fit/stated.h"
 #include "planner/model/nouns/all.h"
+#include "planner/model/raw_piece.h"
 #include "planner/model/requirements.h"
 
 namespace capstan::model {
@@ -416,10 +417,11 @@ Result<std::optional<GeneralTolerance>> general_tolerance_of(const Model& m, Ref
       return std::optional<GeneralTolerance>(*std::move(read));
     }
   }
-  if (!piece->global_tolerance || !(*piece->global_tolerance > 0.0)) return std::nullopt;
+  const auto stated = global_tolerance_of(*piece);
+  if (!stated) return std::nullopt;
   GeneralTolerance out;
-  out.size_mm = *piece->global_tolerance;
-  out.text = "+-" + trimmed(*piece->global_tolerance, 6);
+  out.size_mm = *stated;
+  out.text = "+-" + trimmed(*stated, 6);
   return std::optional<GeneralTolerance>(std::move(out));
 }
 

@@ -32,6 +32,12 @@ const Workpiece* workpiece_of(const Model& model, Ref<Project> project) {
   return all.empty() ? nullptr : model.get<Workpiece>(all.front());
 }
 
+std::optional<double> global_tolerance_of(const Workpiece& piece) {
+  const auto& t = piece.global_tolerance;
+  if (!t || !(*t > 0.0 && *t <= kLargestGlobalTolerance)) return std::nullopt;
+  return t;
+}
+
 std::optional<Box3> box_of(const Model& m, AnyRef solid) {
   if (const auto* b = m.get<Block>(solid)) {
     const auto frame = placement_or_identity(m, b->position);

@@ -12,6 +12,13 @@ namespace capstan::model {
 /// none.
 [[nodiscard]] const Workpiece* workpiece_of(const Model& model, Ref<Project> project);
 
+/// Above this a stated general tolerance is hardly meant: no workpiece is that rough. mm; default, unsourced.
+inline constexpr double kLargestGlobalTolerance = 5.0;
+
+/// The part's general tolerance, +- mm; nothing where none is stated, or one that is hardly meant: that
+/// widens no check and no allowance.
+[[nodiscard]] std::optional<double> global_tolerance_of(const Workpiece& piece);
+
 /// The box of a block or a cylinder, workpiece coordinates; nothing for what is neither or has no size.
 [[nodiscard]] std::optional<geometry::Box3> box_of(const Model& model, AnyRef solid);
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <optional>
 
+#include "planner/base/number.h"
 #include "planner/model/fit/stated.h"
 #include "planner/model/nouns/feature.h"
 #include "planner/model/nouns/geometric_item.h"
@@ -81,6 +82,10 @@ Result<ResolvedLength> length(const Model& model, Ref<TolerancedLengthMeasure> m
   const auto* noun = model.get<TolerancedLengthMeasure>(m);
   if (noun == nullptr) return missing(model, m, "a length is missing");
   if (!noun->theoretical_size) return missing(model, m, "a length has no theoretical_size");
+  if (*noun->theoretical_size < 0.0) {
+    return placed<ResolvedLength>(
+        model, m, fail("MDL-LENGTH", "a length of " + trimmed(*noun->theoretical_size, 4) + " mm is none"));
+  }
   ResolvedLength out;
   out.nominal_mm = *noun->theoretical_size;
   Result<std::optional<Deviations>> d;

@@ -32,8 +32,8 @@ struct ResolvedLength : Toleranced {
 };
 
 /// The length and its tolerance, which always has a width; what either kind of tolerance means: fit/stated.h.
-/// Fails  MDL-MISSING when unset or without theoretical_size; as `stated` for a tolerance that cannot be
-/// read.
+/// Fails  MDL-MISSING when unset or without theoretical_size; MDL-LENGTH below 0; as `stated` for a tolerance
+/// that cannot be read.
 [[nodiscard]] Result<ResolvedLength> length(const Model& model, Ref<TolerancedLengthMeasure> m);
 
 /// How deep a feature goes.

@@ -99,10 +99,8 @@ void leave_open(Work& w) {
         t->feedrate.reset();
         t->spindle.reset();
       }
-      if (technology.set()) {
-        w.plan.ledger.reopen({technology, "feedrate"});
-        w.plan.ledger.reopen({technology, "spindle"});
-      }
+      if (technology.set() && !s.keep_feed) w.plan.ledger.reopen({technology, "feedrate"});
+      if (technology.set() && !s.keep_speed) w.plan.ledger.reopen({technology, "spindle"});
     }
     if (w.policy.bind == Bind::kStrategy && s.proposed) {
       const auto wanted = tooling::nouns_from_requirement(w.plan.model, s.proposal.tool);

@@ -256,6 +256,36 @@ void mark_open(Work& w, StepWork& step) {
                                                        ledger.is_open(op->its_technology, "spindle")));
   if (pinned(op->its_technology, "feedrate") && pinned(op->its_technology, "spindle"))
     step.open_technology = false;
+  // Of a technology that is open in part, what somebody stated stays: what planning chose goes with the rest.
+  const auto stays = [&](bool absent, const char* attribute, const char* other) {
+    if (!step.open_technology || absent) return false;
+    if (pinned(op->its_technology, attribute) || pinned(op->its_technology, other)) return true;
+    if (reopens(w, Reopen::kTechnology)) return false;
+    for (const char* name : {attribute, other}) {
+      const auto* d = ledger.find(op->its_technology, name);
+      if (d == nullptr) continue;
+      if (d->state != model::DecisionState::kBound) return false;
+      if (d->binder != model::Binder::kGiven && d->binder != model::Binder::kOperator) return false;
+    }
+    return true;
+  };
+  step.keep_speed = stays(no_speed, "spindle", "cutspeed");
+  step.keep_feed = stays(no_feed, "feedrate", "feedrate_per_tooth");
+}
+
+/// A tool cannot be withdrawn at no feed: such a value is taken as not stated, for this operation only.
+void overrule_retract(Work& w, const StepWork& step) {
+  auto* op = w.plan.model.get<model::DrillingTypeOperation>(step.operation);
+  if (op == nullptr || !op->feed_on_retract || *op->feed_on_retract > 0.0) return;
+  const std::string value = trimmed(*op->feed_on_retract, 4);
+  op->feed_on_retract.reset();
+  w.job.report({.code = "PIP-CHANGED",
+                .severity = Severity::kWarning,
+                .message = "operation '" + op->its_id.value_or("") + "': feed_on_retract is " + value +
+                           ", at which the tool never leaves its hole; taken as not stated",
+                .file = w.plan.file_name,
+                .line = w.plan.model.origin(step.operation).line,
+                .instance = w.plan.model.origin(step.operation).instance});
 }
 
 /// A reamer that stops in its hole marks the wall: given so, it is kept only while everything given is kept.
@@ -413,6 +443,7 @@ Status list_given(Work& w) {
     }
     mark_open(w, step);
     overrule_stop(w, step);
+    overrule_retract(w, step);
     overrule_coolant(w, step);
     kept.push_back(std::move(step));
   }

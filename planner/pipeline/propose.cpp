@@ -30,9 +30,18 @@ std::vector<AnyRef> wanted(const Work& w) {
   const std::set<AnyRef> parts = parts_of_others(m);
   std::set<AnyRef> done;
   for (const StepWork& s : w.steps) done.insert(s.feature);
+  // A compound whose elements have their own steps is made by these.
+  const auto by_elements = [&](AnyRef r) {
+    const auto* c = m.get<model::CompoundFeature>(r);
+    return c != nullptr && !c->elements.empty() &&
+           std::all_of(c->elements.items.begin(), c->elements.items.end(),
+                       [&](AnyRef e) { return done.contains(e); });
+  };
   std::vector<AnyRef> out;
   for (const AnyRef r : m.all_below(TypeId::kManufacturingFeature)) {
-    if (!parts.contains(r) && !done.contains(r) && !m.holds<model::ToolpathFeature>(r)) out.push_back(r);
+    if (parts.contains(r) || done.contains(r) || by_elements(r) || m.holds<model::ToolpathFeature>(r))
+      continue;
+    out.push_back(r);
   }
   std::stable_sort(out.begin(), out.end(),
                    [&](AnyRef a, AnyRef b) { return m.origin(a).instance < m.origin(b).instance; });
@@ -92,7 +101,8 @@ class Proposer {
       for (const std::string& a : s.assumptions) {
         if (said_.insert({f, a}).second) w_.job.warn("PIP-ASSUMED", "feature '" + s.name + "': " + a);
       }
-      if (s.kind == model::ShapeKind::kFreeform) context.surface_radius_mm = 0.0;
+      if (s.kind == model::ShapeKind::kFreeform && w_.plan.target_mesh)
+        context.surface_radius_mm = surface_radius(*w_.plan.target_mesh);
     }
     const auto proposals = rules::propose_members(w_.inputs.rules, shapes, context);
     const auto order = rules::member_order(shapes);
@@ -340,6 +350,9 @@ class Proposer {
       step.candidates = chosen.tools[i].ranked;
       step.rejected_tools = chosen.tools[i].rejected;
       step.cutter = step.candidates.front().cutter;
+      if (step.cutter.cutter_class == model::CutterClass::kTwistDrill &&
+          step.proposal.tool.point_angle_rad > 0.0)
+        step.proposal.depth_mm = depth_over_cone(s, step.cutter);
       for (std::size_t k = 1; k < step.candidates.size() && k < 4; ++k) {
         step.rejected_tools.push_back(
             {step.candidates[k].cutter.id, "fits, ranked lower: " + step.candidates[k].why.text});

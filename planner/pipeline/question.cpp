@@ -4,6 +4,7 @@
 #include "casebase/casebase.h"
 #include "planner/base/number.h"
 #include "planner/mechanics/stability.h"
+#include "planner/model/raw_piece.h"
 #include "planner/pipeline/steps.h"
 #include "planner/toolpath/hole/hole_paths.h"
 #include "planner/toolpath/region/undercut.h"
@@ -50,7 +51,7 @@ double tolerance_of(const Work& w, const StepWork& step, const model::FeatureSha
   if (width > 0.0) return width;
   if (const auto* f = w.plan.model.get<model::ManufacturingFeature>(step.feature)) {
     if (const auto* piece = w.plan.model.get<model::Workpiece>(f->its_workpiece)) {
-      return 2.0 * piece->global_tolerance.value_or(0.0);
+      return 2.0 * model::global_tolerance_of(*piece).value_or(0.0);
     }
   }
   return 0.0;
@@ -147,9 +148,9 @@ void under_an_overhang(optimise::CutQuestion& q, const toolpath::PathJob& job) {
   q.fz_start_mm *= kFeedShare;
   const auto u = toolpath::undercut_of(job.shape);
   if (!u || u->flank_rad > 0.0 || !job.left_on_side_mm) return;
-  const double beside = d - 2.0 * (u->mouth_mm - *job.left_on_side_mm);
+  const double edge = 0.5 * d - (u->mouth_mm - *job.left_on_side_mm);
   q.slot = false;
-  q.ae_mm = q.width_mm = std::clamp(beside, toolpath::side_step(job, d), d);
+  q.ae_mm = q.width_mm = std::clamp(edge, toolpath::side_step(job, d), d);
   // Where the head moves aside, a last thin pass makes the walls: the others may bend it as roughing may.
   if (u->widest_mm - job.allowance_side_mm - 0.5 * d > toolpath::kLastSide) q.deflection_limit_mm = 0.0;
 }
@@ -261,11 +262,18 @@ optimise::CutQuestion question_of(const Work& w, const StepWork& step, const mod
   }
   hold_quality(w, step, job, q);
   q.override_locked = override_locked(w, step);
+  const auto given = given_technology(m, step.operation, step.cutter);
+  if ((!step.open_technology || step.keep_speed) && given.rpm) q.n_rpm = std::abs(*given.rpm);
   if (!step.open_technology) {
-    const auto given = given_technology(m, step.operation, step.cutter);
-    if (given.rpm) q.n_rpm = std::abs(*given.rpm);
     q.feed_mm_min = given.feed_mm_min;
     q.feed_by_planning = feed_by_planning(w, step);
+  } else if (step.keep_feed) {
+    const auto* t = m.get<model::MillingTechnology>(technology_of(w, step));
+    if (t->feedrate && *t->feedrate > 0.0) {
+      q.feed_mm_min = t->feedrate;
+    } else {
+      q.fz_mm = t->feedrate_per_tooth;
+    }
   }
   return q;
 }

@@ -53,6 +53,10 @@ Ref<model::MillingTechnology> own_technology(Model& m, AnyRef operation) {
   return made;
 }
 
+/// ISO 14649 signs the spindle: negative is clockwise seen from the spindle towards the work, which a
+/// right-hand cutter wants.
+double noun_sense(const model::Cutter& c) { return c.hand == model::Hand::kLeft ? 1.0 : -1.0; }
+
 }  // namespace
 
 GivenTechnology given_technology(const Model& m, AnyRef operation, const model::Cutter& cutter) {
@@ -60,12 +64,10 @@ GivenTechnology given_technology(const Model& m, AnyRef operation, const model::
   const auto* op = m.get<model::MachiningOperation>(operation);
   const auto* t = op != nullptr ? m.get<model::MillingTechnology>(op->its_technology) : nullptr;
   if (t == nullptr) return out;
-  // ISO 14649 signs the spindle: negative is clockwise seen from the spindle towards the work.
   if (t->spindle) {
     out.rpm = -*t->spindle;
   } else if (t->cutspeed && cutter.cutting_diameter_mm > 0.0) {
-    const double sense = cutter.hand == model::Hand::kLeft ? -1.0 : 1.0;
-    out.rpm = sense * *t->cutspeed / (std::numbers::pi * cutter.cutting_diameter_mm);
+    out.rpm = -noun_sense(cutter) * *t->cutspeed / (std::numbers::pi * cutter.cutting_diameter_mm);
   }
   if (t->feedrate) {
     out.feed_mm_min = t->feedrate;
@@ -73,6 +75,42 @@ GivenTechnology given_technology(const Model& m, AnyRef operation, const model::
     out.feed_mm_min = *t->feedrate_per_tooth * std::max(1, cutter.teeth) * std::abs(*out.rpm);
   }
   return out;
+}
+
+void let_go(Work& w, StepWork& step, const std::string& word) {
+  if (word.empty()) return;
+  step.keep_speed = step.keep_feed = false;
+  const auto* e = w.plan.model.get<model::Executable>(step.step);
+  w.job.warn("PIP-CHANGED", "step '" + (e != nullptr ? e->its_id.value_or("") : "") + "': " + word);
+}
+
+void turn_with_the_cutter(Work& w, const StepWork& step) {
+  Model& m = w.plan.model;
+  const auto* op = m.get<model::MachiningOperation>(step.operation);
+  const auto* t = op != nullptr ? m.get<model::MillingTechnology>(op->its_technology) : nullptr;
+  if (t == nullptr || !t->spindle || !(step.cutter.cutting_diameter_mm > 0.0)) return;
+  const double sense = noun_sense(step.cutter);
+  if (*t->spindle * sense >= 0.0) return;
+  const double rpm = std::abs(*t->spindle);
+  const std::string name = op->its_id.value_or("");
+  const model::Origin at = m.origin(op->its_technology);
+  const auto made = own_technology(m, step.operation);
+  m.get<model::MillingTechnology>(made)->spindle = sense * rpm;
+  const bool right = sense < 0.0;
+  const std::string text =
+      "the spindle would turn " + std::string(right ? "counter-clockwise" : "clockwise") +
+      " (ISO 14649: " + (right ? "positive" : "negative") + "), but " + step.cutter.id + " cuts " +
+      (right ? "right" : "left") + "-hand; it turns " + (right ? "clockwise" : "counter-clockwise") +
+      " at the same " + trimmed(rpm, 3) + " 1/min";
+  w.job.report({.code = "PIP-CHANGED",
+                .severity = Severity::kWarning,
+                .message = "operation '" + name + "': " + text,
+                .file = w.plan.file_name,
+                .line = at.line,
+                .instance = at.instance});
+  w.plan.ledger.bind(
+      made, "spindle", Binder::kRule,
+      {"safety.spindle_direction", text, "the cutter's hand_of_cut; safety: an edge cuts forwards"});
 }
 
 bool has_given_path(const Work& w, const StepWork& step) {
@@ -131,11 +169,14 @@ void record_cut(Work& w, StepWork& step, const optimise::CutAnswer& a, bool dept
   if (!step.open_technology) return;
   const auto made = own_technology(m, step.operation);
   auto* t = m.get<model::MillingTechnology>(made);
-  const double sense = step.cutter.hand == model::Hand::kLeft ? 1.0 : -1.0;
-  t->spindle = sense * a.n_rpm;
-  t->cutspeed.reset();
-  t->feedrate = a.feed_mm_min;
-  t->feedrate_per_tooth.reset();
+  if (!step.keep_speed) {
+    t->spindle = noun_sense(step.cutter) * a.n_rpm;
+    t->cutspeed.reset();
+  }
+  if (!step.keep_feed) {
+    t->feedrate = a.feed_mm_min;
+    t->feedrate_per_tooth.reset();
+  }
   if (m.holds<model::Tapping>(step.operation)) {
     // Feed and speed of a tap belong together: no override may part them.
     t->synchronize_spindle_with_feed = true;
@@ -143,10 +184,11 @@ void record_cut(Work& w, StepWork& step, const optimise::CutAnswer& a, bool dept
     t->inhibit_spindle_override = true;
   }
   const DecisionKey depth{step.operation, "axial_cutting_depth"};
-  bind(made, "spindle", {tool, depth});
-  bind(made, "feedrate", {tool, depth, {made, "spindle"}});
+  if (!step.keep_speed) bind(made, "spindle", {tool, depth});
+  if (!step.keep_feed) bind(made, "feedrate", {tool, depth, {made, "spindle"}});
   if (!precedent) return;
   for (const char* attribute : {"spindle", "feedrate"}) {
+    if (attribute[0] == 's' ? step.keep_speed : step.keep_feed) continue;
     model::Reason from = *precedent;
     from.text += "; " + why.text;
     auto* d = ledger.find(made, attribute);

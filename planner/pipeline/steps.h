@@ -39,6 +39,12 @@ struct GivenTechnology {
 [[nodiscard]] GivenTechnology given_technology(const model::Model& m, AnyRef operation,
                                                const model::Cutter& cutter);
 
+/// A stated speed whose direction is not the cutter's is turned round, for this operation only; it is said.
+void turn_with_the_cutter(Work& w, const StepWork& step);
+
+/// What was stated and could not stay goes, with a word; nothing where the word is empty.
+void let_go(Work& w, StepWork& step, const std::string& word);
+
 /// The question for depth, width, speed and feed of a step.
 [[nodiscard]] optimise::CutQuestion question_of(const Work& w, const StepWork& step,
                                                 const model::Candidate* candidate,
@@ -48,6 +54,9 @@ struct GivenTechnology {
 [[nodiscard]] optimise::CutQuestion hole_question(const Work& w, const model::ProposedStep& step,
                                                   const model::Candidate& candidate);
 
+/// The radius of the largest ball that finishes a surface from above, mm: by its concave creases and curves;
+/// 0: it has none. Corners sharper than 20 degrees keep any ball's radius and do not count.
+[[nodiscard]] double surface_radius(const geometry::Mesh& mesh);
 /// Gives a freeform feature the extent of the plan's mesh; leaves others alone.
 void shape_from_mesh(const Work& w, const StepWork& step, toolpath::PathJob& job);
 /// The path of a freeform operation over the plan's mesh.

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "planner/base/number.h"
+#include "planner/model/raw_piece.h"
 #include "planner/model/walk.h"
 #include "planner/pipeline/work.h"
 
@@ -194,7 +195,7 @@ rules::Context context_of(const Work& w, AnyRef feature, const std::vector<Featu
   c.general = w.general;
   if (const auto* named = w.plan.model.get<model::ManufacturingFeature>(feature)) {
     if (const auto* piece = w.plan.model.get<model::Workpiece>(named->its_workpiece))
-      c.global_tolerance_mm = piece->global_tolerance;
+      c.global_tolerance_mm = model::global_tolerance_of(*piece);
   }
   if (const auto it = w.qualities.find(feature); it != w.qualities.end()) c.quality = it->second;
   if (w.general) take_general(*w.general, shapes.front(), c.quality);

@@ -56,6 +56,8 @@ struct StepWork {
   std::vector<model::Candidate> candidates;  ///< when the cutter was selected in this run, best first
   std::vector<model::Rejected> rejected_tools;
   bool open_technology = false;  ///< feed or speed to be chosen
+  bool keep_speed = false;       ///< of an open technology: the stated speed stays, the feed is chosen for it
+  bool keep_feed = false;        ///< the other way round
   bool open_tool = false;
   std::vector<std::size_t> after;       ///< indices into Work::steps that must come before; chain order
   std::optional<Probing> probing = {};  ///< measured right before this step, if it can be
@@ -97,6 +99,8 @@ Status raise_security_planes(Work& w);  ///< above the material and every featur
 Status make_paths(Work& w);             ///< depths, paths, sections, feeds, step by step
 Status join_paths(Work& w);             ///< given paths are reached from the security plane, and left to it
 
+/// The box of the finished part: what of the raw piece lies beyond it is nobody's. Workpiece coordinates.
+[[nodiscard]] geometry::Box3 part_box(const Work& w);
 void report_outside(Work& w);  ///< features that the raw piece does not hold
 
 // Shared pieces.

@@ -88,6 +88,31 @@ const std::vector<Item>& items() {
        [] {
          return plate({{10, "MACHINING_WORKINGSTEP('WS',#62,#44,#20,$)"}});
        }},
+      // Its hole has no shape then, and is not planned; the rest of the file is read.
+      {"WrongReferenceTypeInAFeaturesShape", Verdict::kWarn, "EXC-REFERENCE",
+       [] {
+         return plate({{17, "ROUND_HOLE('HOLE',#4,(#20),#81,#64,#58,$,#45)"}});
+       }},
+      {"WrongReferenceTypeInADescription", Verdict::kWarn, "EXC-REFERENCE",
+       [] {
+         return plate({{4, "WORKPIECE('PIECE',#45,0.01,$,$,$,())"}});
+       }},
+      // Without a placement the hole would stand at the origin.
+      {"WrongReferenceTypeForAPlacement", Verdict::kRefuse, "EXC-REFERENCE",
+       [] {
+         return plate({{17, "ROUND_HOLE('HOLE',#4,(#20),#64,#64,#58,$,#26)"}});
+       }},
+      // Without its taper the hole would be another.
+      {"WrongReferenceTypeForAnOptionalPartOfAShape", Verdict::kRefuse, "EXC-REFERENCE",
+       [] {
+         return plate({{17, "ROUND_HOLE('HOLE',#4,(#20),#81,#64,#58,#45,#26)"}});
+       }},
+      {"NegativeLengthOfAPath", Verdict::kWarn, "EXC-SIZE",
+       [] {
+         return plate({},
+                      "#500=SLOT('S',#4,(),#81,#64,#501,$,());\n#501=LINEAR_PATH($,#502,#96);\n"
+                      "#502=TOLERANCED_LENGTH_MEASURE(-50.,$);\n");
+       }},
       {"WrongReferenceTypeThatNothingNeeds", Verdict::kWarn, "EXC-REFERENCE",
        [] { return plate({}, "#500=PLANE('X',#44);\n"); }},
       {"DanglingReferenceInAMandatoryPlace", Verdict::kRefuse, "EXC-REFERENCE",

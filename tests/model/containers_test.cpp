@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "planner/model/raw_piece.h"
 #include "tests/model/maker.h"
 
 // Where the elements of compounds and patterns stand; every coordinate is worked out by hand.
@@ -323,6 +324,34 @@ TEST(Containers, NestedPatternsThatWouldBeMillionsOfCopiesAreRefused) {
     inner = k.m.add(p);
   }
   EXPECT_FALSE(shapes_of(k.m, Ref<ManufacturingFeature>(inner)));
+}
+
+// A drill of 120 degrees leaves a flank of 30 degrees against the plane, half of its point has 60.
+TEST(ConicalBottom, IsThePointOfADrillHoweverItsAngleIsStated) {
+  const double degree = std::numbers::pi / 180.0;
+  const std::pair<double, double> flank_of[] = {{30, 30}, {60, 30}, {120, 30}, {70, 20}, {140, 20},
+                                                {20, 20}, {45, 45}, {90, 45},  {59, 31}, {118, 31}};
+  for (const auto& [stated, flank] : flank_of) {
+    Bench k;
+    const auto hole = k.hole(0, 0, 10, 10);
+    ConicalHoleBottom c;
+    c.tip_angle = stated * degree;
+    k.m.get<RoundHole>(hole)->bottom_condition = k.m.add(c);
+    const auto s = k.only(hole);
+    EXPECT_NEAR(s.bottom_angle_rad / degree, flank, 1e-9) << stated;
+    EXPECT_EQ(s.assumptions.empty(), stated >= 90) << stated;
+  }
+}
+
+TEST(GlobalTolerance, ThatIsHardlyMeantIsNotUsed) {
+  Workpiece w;
+  EXPECT_FALSE(global_tolerance_of(w));
+  w.global_tolerance = 0.1;
+  EXPECT_EQ(global_tolerance_of(w), 0.1);
+  w.global_tolerance = 50.0;
+  EXPECT_FALSE(global_tolerance_of(w));
+  w.global_tolerance = 0.0;
+  EXPECT_FALSE(global_tolerance_of(w));
 }
 
 }  // namespace

@@ -83,13 +83,41 @@ TEST(Compounds, AnOperationIsDoneForTheElementsThatListIt) {
 #103=MILLING_CUTTING_TOOL('DRILL 8',#104,(#105),60.,$,$);
 #104=TWIST_DRILL(#108,2,.RIGHT.,.F.,$);
 #105=CUTTING_COMPONENT(50.,$,$,$,$);
-#106=MILLING_TECHNOLOGY(0.003,.TCP.,-20.,$,$,.F.,.F.,.F.,$);
+#106=MILLING_TECHNOLOGY(0.003,.TCP.,$,-20.,$,.F.,.F.,.F.,$);
 #107=MILLING_MACHINE_FUNCTIONS(.F.,$,$,.F.,$,(),.T.,$,$,());
 #108=MILLING_TOOL_DIMENSION(8.,20.,$,50.,$,$,$);
 ENDSEC;
 END-ISO)");
   const Planned p = planned(text);
   EXPECT_EQ(cut_at(p.plan, "PAIRS", -8.0), "40,30 40,60");
+}
+
+TEST(Compounds, WhoseElementsHaveTheirOwnStepsAreNotMadeAgain) {
+  std::string text = part();
+  const auto put = [&](const std::string& from, const std::string& to) {
+    const auto at = text.find(from);
+    ASSERT_NE(at, std::string::npos) << from;
+    text.replace(at, from.size(), to);
+  };
+  put("(),$,#8,$);", "(#101,#111),$,#8,$);");
+  put("ENDSEC;\nEND-ISO", R"(#101=MACHINING_WORKINGSTEP('ONE',#31,#64,#102,$);
+#111=MACHINING_WORKINGSTEP('TWO',#31,#65,#102,$);
+#102=DRILLING($,$,'DRILL',20.,$,#103,#106,#107,$,10.,0.,$,$,$);
+#103=MILLING_CUTTING_TOOL('DRILL 8',#104,(#105),60.,$,$);
+#104=TWIST_DRILL(#108,2,.RIGHT.,.F.,$);
+#105=CUTTING_COMPONENT(50.,$,$,$,$);
+#106=MILLING_TECHNOLOGY(0.003,.TCP.,$,-20.,$,.F.,.F.,.F.,$);
+#107=MILLING_MACHINE_FUNCTIONS(.F.,$,$,.F.,$,(),.T.,$,$,());
+#108=MILLING_TOOL_DIMENSION(8.,70.,$,50.,$,$,$);
+ENDSEC;
+END-ISO)");
+  // Without the pattern: the compound alone, at the origin of the pattern's.
+  put("#69=GENERAL_PATTERN('PAIRS',#4,(),#61,#66,(#68,#28));", "");
+  put("COMPOUND_FEATURE('PAIR',#4,(),#28", "COMPOUND_FEATURE('PAIR',#4,(),#61");
+  const Planned p = planned(text);
+  EXPECT_EQ(cut_at(p.plan, "ONE", -8.0), "20,30");
+  EXPECT_EQ(cut_at(p.plan, "TWO", -8.0), "40,30");
+  EXPECT_EQ(cut_at(p.plan, "PAIR", -8.0), "");
 }
 
 TEST(Compounds, AReadingThatWasAssumedIsSaid) {

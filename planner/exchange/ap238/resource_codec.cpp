@@ -220,7 +220,7 @@ bool read_unit(Reader& reader, const Row&, AnyRef at, const Attribute& a,
     if (left == 0) {
       reader.about(t.node, {.code = "EXC-VALUE",
                             .message = "a unit consists of " + std::to_string(kMostParts) + " parts or more",
-                            .expected = "expected a unit of few parts"});
+                            .expected = "a unit of few parts"});
       return true;
     }
     assign(reader, at, a, model::Text(std::move(name)));

@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "planner/exchange/text.h"
 #include "planner/exchange/iso14649/units.h"
+#include "planner/exchange/text.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/walk.h"
 
@@ -105,7 +105,7 @@ class Conversion {
     if (shown.size() > 60) shown = shown.substr(0, 57) + "...";
     r_.doubt(object_, {.code = "EXC-VALUE",
                        .message = name() + " cannot be " + shown,
-                       .expected = "expected " + std::move(expected)});
+                       .expected = std::move(expected)});
   }
 
   // A measure may wear its type: LENGTH_MEASURE(1.5).
@@ -173,6 +173,21 @@ class Conversion {
                        [&](TypeId t) { return model::is_a(target.type, t); });
   }
 
+  // Where a reference to the wrong kind of entity does not keep the file from being read: what the attribute
+  // says is missing then, and whoever needs it says so by name (a hole without its bottom, a slot without its
+  // profile have no shape, and are not planned), or it only describes. Everywhere else its absence would mean
+  // something (no placement, no boss, another step): there it is an error.
+  [[nodiscard]] bool missing_is_told() const {
+    if (a_.name == "its_material") return true;
+    static constexpr std::array<std::string_view, 6> kOfShapes = {
+        "bottom_condition", "depth", "diameter", "feature_boundary", "open_boundary", "swept_shape"};
+    if (object_.type != TypeId::kKeptInstance && !model::is_a(object_.type, TypeId::kManufacturingFeature))
+      return false;
+    // A pocket whose bottom is not stated is taken for one with a plane bottom.
+    if (a_.name == "bottom_condition" && !model::is_a(object_.type, TypeId::kRoundHole)) return false;
+    return std::find(kOfShapes.begin(), kOfShapes.end(), a_.name) != kOfShapes.end();
+  }
+
   // Deviations of real files that lose nothing: kept, with a warning.
   std::optional<AnyRef> tolerated(AnyRef target) {
     if (a_.name == "depth" && target.type == TypeId::kTolerancedLengthMeasure) {
@@ -208,11 +223,15 @@ class Conversion {
     }
     if (fits(target)) return target;
     if (const auto other = tolerated(target)) return other;
-    std::string expected = "expected";
-    for (const TypeId t : a_.targets) expected += " " + std::string(model::noun_type(t).keyword);
+    std::string expected;
+    for (const TypeId t : a_.targets)
+      expected += (expected.empty() ? "" : " or ") + std::string(model::noun_type(t).keyword);
+    const bool told = missing_is_told();
     r_.doubt(object_, {.code = "EXC-REFERENCE",
+                       .severity = told ? Severity::kWarning : Severity::kError,
                        .message = name() + " points to #" + std::to_string(v.reference()) + ", a " +
-                                  std::string(model::noun_type(target.type).keyword),
+                                  std::string(model::noun_type(target.type).keyword) +
+                                  (told ? "; taken as missing" : ""),
                        .expected = expected});
     return std::nullopt;
   }

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "planner/base/number.h"
 #include "planner/model/nouns/geometric_item.h"
 #include "planner/model/nouns/support.h"
 #include "planner/model/resolve.h"
@@ -51,16 +52,25 @@ Result<Shapes> hole(const Model& m, AnyRef self, const RoundHole& f) {
     s->through = true;
   } else if (const auto* c = m.get<ConicalHoleBottom>(f.bottom_condition)) {
     s->bottom = HoleBottom::kConical;
-    // tip_angle is the full angle of the tip; files that give the flank's angle against the plane (20 degrees
-    // for a 140 degree point) are told by its being below 45 degrees.
+    // tip_angle is the full angle of the tip. Files also give the flank's angle against the plane (20 degrees
+    // for a 140 degree point; example 2 of ISO 14649-11: 30 for 120) or half of the point's (70 for 140).
+    // Points of drills have 90 to 150 degrees: what lies at or below 45 is a flank's, up to 75 half of a
+    // point.
     const double tip = c->tip_angle.value_or(0.0);
     if (!(tip > 0.0 && tip < std::numbers::pi))
       return unsupported(m, self, "its conical bottom has no tip_angle between 0 and 180 degrees");
-    const bool flank = tip < std::numbers::pi / 4.0;
-    s->bottom_angle_rad = flank ? tip : 0.5 * (std::numbers::pi - tip);
-    if (flank)
+    constexpr double kHair = 1e-6;
+    const double degrees = tip * 180.0 / std::numbers::pi;
+    const bool flank = degrees <= 45.0 + kHair;
+    const bool half = !flank && degrees <= 75.0 + kHair;
+    s->bottom_angle_rad = flank ? tip : half ? 0.5 * std::numbers::pi - tip : 0.5 * (std::numbers::pi - tip);
+    if (flank || half) {
+      const std::string point = trimmed(180.0 - 2.0 * s->bottom_angle_rad * 180.0 / std::numbers::pi, 2);
       s->assumptions.push_back(
-          "tip_angle below 45 degrees is read as the flank's angle against the bottom plane");
+          "its tip_angle of " + trimmed(degrees, 2) + " degrees is read as " +
+          (flank ? "the flank's angle against the bottom plane" : "half of the point's") + ": a point of " +
+          point + " degrees");
+    }
   } else if (const auto* r = m.get<SphericalHoleBottom>(f.bottom_condition)) {
     s->bottom = HoleBottom::kSpherical;
     const auto radius = length(m, r->radius);

@@ -1,4 +1,5 @@
 #include "planner/pipeline/paths/cuts.h"
+#include "planner/base/number.h"
 
 #include <string>
 #include <tuple>
@@ -58,6 +59,28 @@ Result<optimise::CutAnswer> Cuts::answer(const optimise::CutQuestion& q) {
   auto a = optimise::cut(q, options_, w_.job);
   if (a) known_->answers.emplace(key, *a);
   return a;
+}
+
+Result<optimise::CutAnswer> Cuts::answer(const StepWork& step, optimise::CutQuestion& q,
+                                         std::string& let_go) {
+  auto out = answer(q);
+  if (!out || out->feasible || !step.open_technology || !(step.keep_speed || step.keep_feed)) return out;
+  optimise::CutQuestion free = q;
+  free.n_rpm.reset();
+  free.feed_mm_min.reset();
+  free.fz_mm.reset();
+  auto other = answer(free);
+  if (!other || !other->feasible) return out;
+  let_go = "the stated ";
+  if (step.keep_speed && q.n_rpm) let_go += "speed of " + trimmed(*q.n_rpm, 3) + " 1/min";
+  if (step.keep_speed && step.keep_feed) let_go += " and ";
+  if (step.keep_feed && q.feed_mm_min) let_go += "feed of " + trimmed(*q.feed_mm_min, 3) + " mm/min";
+  if (step.keep_feed && q.fz_mm) let_go += "feed of " + trimmed(*q.fz_mm, 4) + " mm per tooth";
+  let_go += " breaks " + (out->violated.empty() ? std::string("a limit") : out->violated.front()) +
+            "; chosen anew, " + trimmed(other->n_rpm, 1) + " 1/min and " + trimmed(other->feed_mm_min, 1) +
+            " mm/min";
+  q = free;
+  return other;
 }
 
 }  // namespace capstan::pipeline

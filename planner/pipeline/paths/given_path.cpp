@@ -81,12 +81,33 @@ void ask_as_stated(const model::FeedSchedule& s, optimise::FeedQuestion& q) {
     q.feed_factor.push_back(s.feed_mm_min[i] / q.feed_mm_min);
 }
 
+/// Toolpaths have technologies of their own: where these turn against the cutter, they are turned round. A
+/// tap turns back by intent.
+void turn_round(Work& w, const StepWork& step, model::FeedSchedule& s) {
+  if (!(step.cutter.cutting_diameter_mm > 0.0) || step.cutter.cutter_class == model::CutterClass::kTap)
+    return;
+  const double sense = step.cutter.hand == model::Hand::kLeft ? -1.0 : 1.0;
+  std::size_t turned = 0;
+  for (double& rpm : s.spindle_rpm) {
+    if (rpm * sense >= 0.0) continue;
+    rpm = -rpm;
+    ++turned;
+  }
+  if (turned == 0) return;
+  w.job.warn("PIP-CHANGED", "step '" + name_of(w, step) + "': in " + std::to_string(turned) +
+                                " moves of its toolpaths the spindle would turn against " + step.cutter.id +
+                                ", which cuts " + (sense > 0.0 ? "right" : "left") + "-hand; it turns " +
+                                (sense > 0.0 ? "clockwise" : "counter-clockwise"));
+}
+
 /// Speed and feed that the file leaves open. Nothing when no cut keeps the limits.
 Result<model::FeedSchedule> chosen(Work& w, StepWork& step, const model::CutterPath& path,
                                    const model::FeedSchedule& stated, GivenPath& out, Cuts& cuts) {
-  const auto& q = out.feeds.cut;
-  auto answer = cuts.answer(q);
+  auto& q = out.feeds.cut;
+  std::string freed;
+  auto answer = cuts.answer(step, q, freed);
   if (!answer) return tl::unexpected(answer.error());
+  let_go(w, step, freed);
   if (!answer->feasible) {
     std::string limits;
     for (const auto& v : answer->violated) limits += (limits.empty() ? "" : ", ") + v;
@@ -149,6 +170,7 @@ Result<std::optional<GivenPath>> given_path(Work& w, StepWork& step, Stocks& sto
   if (given->path.size() == 0) return std::optional<GivenPath>{};
   if (const auto touch = touch_of(given->path, step.cutter, w.setups[step.setup].holding))
     return fail("PIP-HOLDING", "the given path is not kept: " + touch->text);
+  turn_round(w, step, given->schedule);
   GivenPath out;
   out.result = result_of(w, step);
   auto& fq = out.feeds;

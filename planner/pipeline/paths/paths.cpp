@@ -14,6 +14,7 @@
 #include "planner/pipeline/holding.h"
 #include "planner/pipeline/paths/cuts.h"
 #include "planner/pipeline/paths/given_path.h"
+#include "planner/pipeline/paths/gone.h"
 #include "planner/pipeline/paths/progress.h"
 #include "planner/pipeline/paths/ranking.h"
 #include "planner/pipeline/paths/results.h"
@@ -35,6 +36,7 @@ struct Made {
   optimise::CutAnswer answer;
   bool depth_open = false, width_open = false;
   std::optional<model::Reason> precedent;  ///< the case that speed and feed started from
+  std::string let_go;                      ///< of stated speed and feed, and why; empty: nothing
   std::vector<model::Rejected> thicker;    ///< depths or widths that exceeded a limit along the path
 };
 
@@ -45,6 +47,7 @@ struct Tried {
   model::StepResult result;
   optimise::FeedQuestion asked;
   optimise::FeedAnswer feeds;
+  std::optional<double> removed_mm3;  ///< unset where nothing was measured
 };
 
 /// Thinner cuts that are tried with one cutter where a limit is exceeded along its path.
@@ -176,11 +179,13 @@ class PathMaker {
     rank_by_time(w_, step, stocks_, progress_, cuts_);
     const std::size_t tries = std::max<std::size_t>(1, step.candidates.size());
     GroupedReasons why_not;
+    bool gone = step.proposed;                            // whichever cutter: nothing stands there to be cut
     std::optional<std::pair<std::size_t, double>> least;  // of those that exceed a limit: which, by how much
     for (std::size_t i = 0; i < tries; ++i) {
       const auto before = stocks_.before(step.setup);
       auto tried = with_cutter(step, i);
       if (tried && !exceeds(step, *tried)) return accept(step, *std::move(tried), i);
+      gone = gone && !tried && tried.error().code == "TPA-DEPTH";
       const std::string why = tried ? excess_text(*tried) : tried.error().message;
       if (tried) {
         if (!least || tried->feeds.worst_excess < least->second) least = {i, tried->feeds.worst_excess};
@@ -194,6 +199,7 @@ class PathMaker {
       auto tried = with_cutter(step, least->first);
       if (tried) return accept(step, *std::move(tried), least->first);
     }
+    if (gone && leave_out(w_, step, why_not.text())) return {};
     give_up(step,
             why_not.text() + (least ? "; a smaller or shorter cutter or a stronger spindle would do" : ""));
     return {};
@@ -271,7 +277,7 @@ class PathMaker {
       if (first) {
         out.question = question_of(w_, step, candidate, job);
         if (step.open_technology) out.precedent = start_from_case(w_, step, shape, out.question);
-        auto answer = cuts_.answer(out.question);
+        auto answer = cuts_.answer(step, out.question, out.let_go);
         if (!answer) return tl::unexpected(answer.error());
         out.answer = *std::move(answer);
         out.depth_open = !out.question.ap_mm.has_value();
@@ -345,6 +351,7 @@ class PathMaker {
   /// Measures a try against the stock, which is cut by it, and schedules its feeds.
   Tried cut(const StepWork& step, Made made) {
     Tried out;
+    if (!step.open_technology) turn_with_the_cutter(w_, step);
     const auto given = step.open_technology ? GivenTechnology{}
                                             : given_technology(w_.plan.model, step.operation, step.cutter);
     const double sense = step.open_technology && step.cutter.hand == model::Hand::kLeft ? -1.0 : 1.0;
@@ -352,7 +359,8 @@ class PathMaker {
     fq.cut = made.question;
     fq.n_rpm = given.rpm.value_or(sense * made.answer.n_rpm);
     fq.feed_mm_min = given.feed_mm_min.value_or(made.answer.feed_mm_min);
-    fq.adapt = step.open_technology || feed_was_planned(w_, step);
+    const bool kept = step.keep_feed && made.let_go.empty();
+    fq.adapt = (step.open_technology && !kept) || feed_was_planned(w_, step);
     fq.constant = w_.inputs.constant_feeds;
     fq.feed_factor = std::move(made.path.feed_factor);
     fq.speed_factor = std::move(made.path.speed_factor);
@@ -364,6 +372,7 @@ class PathMaker {
     r.radial_depth_mm = made.answer.ae_mm;
     r.active = active_of(made.answer);
     if (auto m = measured(w_, step, *out.path, stocks_)) {
+      out.removed_mm3 = m->removed_mm3;
       fq.samples = samples_of(*m);
       // One pass over a surface, not levels: as deep and as wide as what roughing left there.
       if (w_.plan.model.holds<model::FreeformFinishMilling>(step.operation)) {
@@ -384,9 +393,14 @@ class PathMaker {
 
   /// Takes a try: into nouns, ledger and plan.
   Status accept(StepWork& step, Tried tried, std::size_t candidate) {
+    if (tried.removed_mm3 && in_air(w_, step, *tried.removed_mm3) &&
+        leave_out(w_, step, "it meets no material"))
+      return {};
     if (candidate > 0 && candidate < step.candidates.size())
       take_cutter(w_, step, step.candidates[candidate]);
     const Made& made = tried.made;
+    let_go(w_, step, made.let_go);
+    turn_with_the_cutter(w_, step);
     record_cut(w_, step, made.answer, made.depth_open, made.width_open, made.precedent);
     tell_thicker(step, made);
     progress_.done(step);
@@ -435,6 +449,7 @@ class PathMaker {
 
   /// A path that the file brings is cut as it is; its feed may be open.
   Status explicit_path(StepWork& step) {
+    turn_with_the_cutter(w_, step);
     auto made = given_path(w_, step, stocks_, progress_, cuts_);
     if (!made) {
       give_up(step, made.error().message);

@@ -3,6 +3,7 @@
 
 #include "planner/base/number.h"
 #include "planner/model/nouns/all.h"
+#include "planner/model/raw_piece.h"
 #include "planner/model/resolve.h"
 #include "planner/verify/sweep/target.h"
 
@@ -121,8 +122,8 @@ PartShapes shapes_of_part(const model::Plan& plan) {
   out.tolerance_mm = kDefaultToleranceMm;
   out.tolerance_source = "default";
   const model::Workpiece* piece = workpiece_of(plan);
-  if (piece != nullptr && piece->global_tolerance && *piece->global_tolerance > 0.0) {
-    out.tolerance_mm = std::clamp(*piece->global_tolerance, 0.001, 0.5);
+  if (const auto stated = piece != nullptr ? model::global_tolerance_of(*piece) : std::nullopt) {
+    out.tolerance_mm = std::clamp(*stated, 0.001, 0.5);
     out.tolerance_source = "global_tolerance";
   }
   // Raw material beyond the part may be cut freely: what belongs to the part is its own bounding box, where
