@@ -36,7 +36,10 @@ int main(int argc, char **argv) {
   capstan_late_code code = capstan_late_status(session);
   if (code == CAPSTAN_LATE_OK) code = capstan_late_bind(session, plan, size, (unsigned)strtoul(argv[4], NULL, 10));
   fputs(capstan_late_message(session), stderr);
-  if (code == CAPSTAN_LATE_OK) {
+  if (code == CAPSTAN_LATE_LATE) {
+    /* The plan is there, but nobody waits for it any more: this control stands still and asks the operator. */
+    fprintf(stderr, "bound too late: stay retracted and stopped (code %d)\n", (int)code);
+  } else if (code == CAPSTAN_LATE_OK) {
     const char *program = capstan_late_output(session, CAPSTAN_LATE_LINUXCNC, NULL);
     fprintf(stderr, "machining takes %.1f s\n", capstan_late_machining_seconds(session));
     if (program != NULL) fputs(program, stdout);

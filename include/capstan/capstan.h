@@ -25,6 +25,8 @@ struct PlanOptions {
   double stock_allowance_mm = -1.0;  ///< at least 0: the raw piece is the part grown by this
   double revenue = 0.0;  ///< what a piece brings less its material, in the currency of the machine's rate
   unsigned threads = 1;  ///< results do not depend on it
+  bool allow_findings =
+      false;  ///< a program although the check condemns it; it stops before what is condemned
 };
 
 /// A thing said about the input or the plan, as the command prints it.
@@ -40,13 +42,16 @@ struct PlanOutput {
   std::string json;           ///< all of the plan
   std::string iso14649;       ///< as Part 21
   std::string ap238;          ///< ISO 10303-238, as Part 21
-  std::string linuxcnc;       ///< the program
+  std::string linuxcnc;       ///< the program; empty when the check condemns it
   std::string tool_table;     ///< LinuxCNC's .tbl of the program
   std::size_t steps = 0;      ///< workingsteps planned
   std::size_t unplanned = 0;  ///< features that are not; each has an error among `diagnostics`
   double time_s = 0.0;        ///< of the whole program
   std::vector<PlanMessage> diagnostics;
   std::vector<PlanMessage> findings;  ///< of checking the plan and the program; a plan to be run has none
+  /// Why there is no program (with `allow_findings`: why it stops): errors of the check, limits that are
+  /// exceeded, features that are not planned and that others rest on.
+  std::vector<PlanMessage> condemned;
 };
 
 /// Plans a part: an ISO 14649 or AP238 file, a plan as JSON, or an STL mesh, told by content. `name` is what

@@ -4,6 +4,9 @@
  * came of it is fetched as text. Nothing is thrown, nothing is printed, no thread outlives a call.
  *
  * Call it with the tool retracted and the spindle stopped; on any code but CAPSTAN_LATE_OK retract and stop.
+ * CAPSTAN_LATE_LATE means: the plan is checked and can be fetched, but the deadline had passed when it was
+ * there. A control that went on at its deadline must not take it: the piece may no longer be as the plan has
+ * it. A control that waits, retracted and stopped, may take it after the operator (or its own logic) agrees.
  * A session serves one thread at a time; several sessions may be used at once. */
 #ifndef CAPSTAN_LATE_H
 #define CAPSTAN_LATE_H
@@ -23,6 +26,7 @@ typedef enum capstan_late_code {
   CAPSTAN_LATE_USAGE = 2,      /* a null or empty argument */
   CAPSTAN_LATE_UNREADABLE = 3, /* machine, tools or plan cannot be read */
   CAPSTAN_LATE_IMPOSSIBLE = 4, /* nothing that may be cut: not bound, or not safe */
+  CAPSTAN_LATE_LATE = 5,       /* a checked plan is there, and came after the deadline: see above */
   CAPSTAN_LATE_FAULT = 70      /* a fault of the library itself */
 } capstan_late_code;
 
@@ -34,28 +38,29 @@ typedef enum capstan_late_format {
   CAPSTAN_LATE_AP238 = 4
 } capstan_late_format;
 
-/* Opens a session. `machine`: a machine file, or the id of a shipped machine; `tools`: a tool table or library of
- * what is in the magazine. The session is made in any case (free it with capstan_late_close); its code says
- * whether it can be used. Gives NULL only when there is no memory. */
-CAPSTAN_LATE_API capstan_late *capstan_late_open(const char *machine, const char *tools);
+/* Opens a session. `machine`: a machine file, or the id of a shipped machine; `tools`: a tool table or
+ * library of what is in the magazine. The session is made in any case (free it with capstan_late_close); its
+ * code says whether it can be used. Gives NULL only when there is no memory. */
+CAPSTAN_LATE_API capstan_late* capstan_late_open(const char* machine, const char* tools);
 
-/* Binds a plan (ISO 14649, AP238 or JSON, `size` bytes) before `deadline_ms` have passed. */
-CAPSTAN_LATE_API capstan_late_code capstan_late_bind(capstan_late *session, const char *plan, size_t size,
+/* Binds a plan (ISO 14649, AP238 or JSON, `size` bytes) before `deadline_ms` have passed since the call. Past
+ * that the code is CAPSTAN_LATE_LATE, never CAPSTAN_LATE_OK. No plan uses a tool that is not in the table. */
+CAPSTAN_LATE_API capstan_late_code capstan_late_bind(capstan_late* session, const char* plan, size_t size,
                                                      unsigned deadline_ms);
 
-/* The bound plan in a format, or NULL when there is none. It is valid until the next bind or close; `size` may be
- * NULL, the text ends with a zero byte. */
-CAPSTAN_LATE_API const char *capstan_late_output(capstan_late *session, capstan_late_format format,
-                                                 size_t *size);
+/* The bound plan in a format, or NULL when there is none. It is valid until the next bind or close; `size`
+ * may be NULL, the text ends with a zero byte. */
+CAPSTAN_LATE_API const char* capstan_late_output(capstan_late* session, capstan_late_format format,
+                                                 size_t* size);
 
 /* Code and diagnostics (lines of text) of the last call. Never NULL. */
-CAPSTAN_LATE_API capstan_late_code capstan_late_status(const capstan_late *session);
-CAPSTAN_LATE_API const char *capstan_late_message(const capstan_late *session);
+CAPSTAN_LATE_API capstan_late_code capstan_late_status(const capstan_late* session);
+CAPSTAN_LATE_API const char* capstan_late_message(const capstan_late* session);
 
 /* Machining time of the bound plan in seconds, 0 when there is none. */
-CAPSTAN_LATE_API double capstan_late_machining_seconds(const capstan_late *session);
+CAPSTAN_LATE_API double capstan_late_machining_seconds(const capstan_late* session);
 
-CAPSTAN_LATE_API void capstan_late_close(capstan_late *session);
+CAPSTAN_LATE_API void capstan_late_close(capstan_late* session);
 
 #ifdef __cplusplus
 }

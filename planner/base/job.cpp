@@ -39,7 +39,7 @@ std::size_t Job::count(Severity s) const {
 
 bool Job::stop_requested() const {
   if (stop_.load(std::memory_order_relaxed)) return true;
-  return deadline_ && std::chrono::steady_clock::now() >= *deadline_;
+  return deadline_ && now() >= *deadline_;
 }
 
 void parallel_for(const Job& job, std::size_t n, const std::function<void(std::size_t)>& body) {

@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "planner/base/result.h"
@@ -45,6 +46,13 @@ class Job {
   /// A guard in wall time (monotonic clock). Decisions must not depend on it: budgets do that.
   void set_deadline(std::chrono::steady_clock::time_point t) { deadline_ = t; }
   [[nodiscard]] std::optional<std::chrono::steady_clock::time_point> deadline() const { return deadline_; }
+  /// What tells the time for the deadline; nothing: the monotonic clock. A test may bring its own.
+  using Clock = std::function<std::chrono::steady_clock::time_point()>;
+  void set_clock(Clock clock) { clock_ = std::move(clock); }
+  [[nodiscard]] const Clock& clock() const { return clock_; }
+  [[nodiscard]] std::chrono::steady_clock::time_point now() const {
+    return clock_ ? clock_() : std::chrono::steady_clock::now();
+  }
   [[nodiscard]] bool stop_requested() const;
 
   /// Objective evaluations an optimiser may spend on one problem: deterministic, unlike time.
@@ -58,6 +66,7 @@ class Job {
   Progress progress_;
   std::atomic<bool> stop_{false};
   std::optional<std::chrono::steady_clock::time_point> deadline_;
+  Clock clock_;
 };
 
 /// Calls body(i) for i in [0, n) on up to job.threads threads. The body writes only to its own slot i,

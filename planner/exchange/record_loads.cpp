@@ -57,4 +57,20 @@ void describe(RecordFields& f, model::LimitAlongPath& l) {
   f.end();
 }
 
+void describe(RecordFields& f, model::ExceededLimit& l) {
+  f.group();
+  f.text("name", l.name);
+  f.real("value", Unit::kNone, l.value);
+  f.real("limit", Unit::kNone, l.limit);
+  f.text("unit", l.unit);
+  bool placed = l.at_mm.has_value();
+  f.truth("placed", placed);
+  geometry::Vec3 at = l.at_mm.value_or(geometry::Vec3{});
+  f.real("at x", Unit::kLength, at.x);
+  f.real("at y", Unit::kLength, at.y);
+  f.real("at z", Unit::kLength, at.z);
+  l.at_mm = placed ? std::optional(at) : std::nullopt;
+  f.end();
+}
+
 }  // namespace capstan::exchange

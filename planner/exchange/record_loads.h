@@ -9,5 +9,6 @@ namespace capstan::exchange {
 void describe(RecordFields& f, model::StepLoads& l);
 void describe(RecordFields& f, model::ActiveConstraint& c);
 void describe(RecordFields& f, model::LimitAlongPath& l);
+void describe(RecordFields& f, model::ExceededLimit& l);
 
 }  // namespace capstan::exchange

@@ -304,12 +304,23 @@ std::string describe(RecordFields& f, model::StepResult& s) {
   describe(f, s.loads);
   describe_all(f, "limits reached", s.active);
   describe_all(f, "limits along the path", s.held_by);
+  if (!f.more()) return address;
+  describe_all(f, "limits exceeded", s.exceeded);
   return address;
 }
 
 std::string describe(RecordFields& f, model::Unplanned& u) {
   std::string address = f.object("feature", u.feature);
   f.text("reason", u.reason);
+  if (!f.more()) return address;
+  u.needed_by.resize(f.list("needed by", u.needed_by.size()));
+  for (std::size_t i = 0; i < u.needed_by.size(); ++i) {
+    f.element(i);
+    f.group();
+    f.text("feature", u.needed_by[i]);
+    f.end();
+  }
+  f.end();
   return address;
 }
 

@@ -5,6 +5,7 @@
 #include "capstan/capstan.h"
 #include "planner/base/file.h"
 #include "planner/exchange/exchange.h"
+#include "planner/model/condemned.h"
 #include "planner/motion/time.h"
 #include "planner/output/json/json.h"
 #include "planner/output/linuxcnc/linuxcnc.h"
@@ -20,6 +21,9 @@ namespace {
 
 constexpr const char* kDefault = "built-in default";
 
+PlanMessage message_of(const model::Plan& plan, const model::Condemnation& c) {
+  return {to_text(Severity::kError), c.code, model::text_of(plan, c)};
+}
 PlanMessage message(const Diagnostic& d) { return {to_text(d.severity), d.code, to_text(d)}; }
 
 template <class T>
@@ -119,7 +123,9 @@ void forms(const model::Plan& plan, PlanOutput& out, Job& job) {
   }
 }
 
-void checked(const pipeline::Checked& bound, PlanOutput& out, Job& job) {
+/// Checks the program, with what is known of the plan. One that is condemned is taken back, or written again
+/// with its stops and checked as it then is.
+void checked(const pipeline::Checked& bound, bool allow_findings, PlanOutput& out, Job& job) {
   const model::Plan& plan = bound.plan;
   const auto add = [&](const std::vector<model::Finding>& findings, const std::string& of) {
     for (const auto& f : findings) {
@@ -127,11 +133,27 @@ void checked(const pipeline::Checked& bound, PlanOutput& out, Job& job) {
       out.findings.push_back({to_text(f.severity), f.code, of + step + f.message});
     }
   };
-  add(bound.findings, "");
-  if (!out.linuxcnc.empty())
-    add(verify::check_program({"program", out.linuxcnc, out.tool_table}, &plan, plan.machine, plan.cutters,
-                              job),
-        "program: ");
+  const auto of_program = [&] {
+    return verify::check_program({"program", out.linuxcnc, out.tool_table}, &plan, plan.machine, plan.cutters,
+                                 job);
+  };
+  auto all = bound.findings;
+  add(all, "");
+  std::vector<model::Finding> program;
+  if (!out.linuxcnc.empty()) program = of_program();
+  all.insert(all.end(), program.begin(), program.end());
+  const auto condemned = model::condemned(plan, all);
+  for (const auto& c : condemned) out.condemned.push_back(message_of(plan, c));
+  if (!condemned.empty() && allow_findings && !out.linuxcnc.empty()) {
+    Job silent;  // the writer's warnings are told already
+    auto text = output::write_linuxcnc(plan, silent, condemned);
+    out.linuxcnc = text ? *std::move(text) : std::string();
+    if (!out.linuxcnc.empty()) program = of_program();
+  } else if (!condemned.empty()) {
+    out.linuxcnc.clear();
+    out.tool_table.clear();
+  }
+  add(program, "program: ");
 }
 
 }  // namespace
@@ -146,7 +168,7 @@ PlanOutput plan_bytes(std::string part, const std::string& name, const PlanOptio
     out.steps = plan->plan.steps.size();
     out.unplanned = plan->plan.unplanned.size();
     forms(plan->plan, out, job);
-    checked(*plan, out, job);
+    checked(*plan, options.allow_findings, out, job);
     if (const auto t = motion::time_of(plan->plan)) out.time_s = t->total_s();
   } else {
     job.report(plan.error());

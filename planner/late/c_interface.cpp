@@ -1,4 +1,5 @@
 #include <array>
+#include <chrono>
 #include <exception>
 #include <new>
 #include <optional>
@@ -69,6 +70,7 @@ capstan_late* capstan_late_open(const char* machine, const char* tools) {
 
 capstan_late_code capstan_late_bind(capstan_late* s, const char* plan, size_t size, unsigned deadline_ms) {
   if (s == nullptr) return CAPSTAN_LATE_USAGE;
+  const auto began = std::chrono::steady_clock::now();
   return guarded(*s, [&] {
     s->outcome.reset();
     s->outputs = {};
@@ -84,6 +86,7 @@ capstan_late_code capstan_late_bind(capstan_late* s, const char* plan, size_t si
     }
     capstan::late::LatePolicy policy;
     policy.deadline = std::chrono::milliseconds(deadline_ms);
+    policy.began = began;
     auto bound = capstan::late::bind(*std::move(read), *s->inputs, policy, job);
     say(*s, job);
     if (!bound) {
@@ -91,8 +94,9 @@ capstan_late_code capstan_late_bind(capstan_late* s, const char* plan, size_t si
                  capstan::to_text(bound.error()));
     }
     for (const auto& line : bound->reopened) s->message += "note: " + line + "\n";
+    const bool late = bound->late;
     s->outcome = *std::move(bound);
-    return end(*s, CAPSTAN_LATE_OK);
+    return end(*s, late ? CAPSTAN_LATE_LATE : CAPSTAN_LATE_OK);
   });
 }
 

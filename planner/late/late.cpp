@@ -5,21 +5,19 @@
 
 #include "planner/pipeline/shop.h"
 
+// A fallback first, whatever it takes; then an improvement on the rest of the time. Each answer passes the
+// same three questions: is anything open, is every cutter in the magazine, does the check condemn it.
+
 namespace capstan::late {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using TimePoint = std::chrono::steady_clock::time_point;
+using Duration = std::chrono::steady_clock::duration;
 
 double machining_s(const model::Plan& plan) {
   double t = 0.0;
   for (const auto& s : plan.steps) t += s.cutting_s + s.rapid_s;
   return t;
-}
-
-const model::Finding* first_error(const std::vector<model::Finding>& findings) {
-  const auto it = std::find_if(findings.begin(), findings.end(),
-                               [](const auto& f) { return f.severity == Severity::kError; });
-  return it == findings.end() ? nullptr : &*it;
 }
 
 pipeline::Policy policy_of() {
@@ -28,11 +26,52 @@ pipeline::Policy policy_of() {
   return p;
 }
 
+std::string ms(Duration d) {
+  return std::to_string(std::chrono::duration_cast<std::chrono::milliseconds>(d).count()) + " ms";
+}
+
+/// No answer may use a cutter that is not in the table, however it came into the plan.
+Status only_loaded(const model::Plan& plan, const std::vector<model::Cutter>& magazine) {
+  for (const model::StepResult& step : plan.steps) {
+    const model::Cutter* cutter = model::find_cutter(plan, step.cutter_id);
+    const model::Cutter* there = cutter == nullptr ? nullptr : pipeline::loaded_like(magazine, *cutter);
+    if (there != nullptr && there->pocket == cutter->pocket) continue;
+    std::string why = "is not in the tool table";
+    if (there != nullptr)
+      why = "is T" + std::to_string(there->pocket) + " in the tool table and T" +
+            std::to_string(cutter->pocket) + " in the plan";
+    return fail(
+        {.code = "LATE-TOOL",
+         .message = "the tool '" + step.cutter_id + "' of step '" + model::step_id(plan, step) + "' " + why,
+         .file = plan.file_name,
+         .path = model::step_id(plan, step),
+         .hint = "load it, or plan the step anew without its toolpath"});
+  }
+  return {};
+}
+
+Status nothing_open(const model::Plan& plan) {
+  if (plan.unplanned.empty()) return {};
+  return fail({.code = "LATE-OPEN",
+               .message = "something stays open: " + plan.unplanned.front().reason,
+               .file = plan.file_name,
+               .hint = "load what is missing, or plan anew"});
+}
+
 }  // namespace
 
 Result<LateOutcome> bind(model::Plan plan, pipeline::Inputs inputs, const LatePolicy& policy, Job& job) {
-  const auto start = Clock::now();
+  const TimePoint began = policy.began.value_or(job.now());
   LateOutcome out;
+  const auto told_late = [&] {
+    const Duration passed = job.now() - began;
+    out.late = policy.deadline && passed > *policy.deadline;
+    if (out.late)
+      job.warn("LATE-DEADLINE",
+               "the deadline of " + ms(*policy.deadline) + " is past: a checked plan took " + ms(passed));
+    return std::move(out);
+  };
+  const std::vector<model::Cutter> magazine = inputs.library;
   auto reopened = pipeline::match_loaded(plan, inputs, job);
   if (!reopened) return tl::unexpected(reopened.error());
   out.reopened = *std::move(reopened);
@@ -43,52 +82,61 @@ Result<LateOutcome> bind(model::Plan plan, pipeline::Inputs inputs, const LatePo
   auto fallback = pipeline::bind(std::move(plan), inputs, policy_of(), job);
   job.evaluation_budget = budget;
   if (!fallback) return tl::unexpected(fallback.error());
-  if (!fallback->unplanned.empty()) {
-    return fail({.code = "LATE-OPEN",
-                 .message = "something stays open: " + fallback->unplanned.front().reason,
-                 .file = fallback->file_name,
-                 .hint = "load what is missing, or plan anew"});
-  }
-  const auto check_start = Clock::now();
+  if (auto ok = nothing_open(*fallback); !ok) return tl::unexpected(ok.error());
+  if (auto ok = only_loaded(*fallback, magazine); !ok) return tl::unexpected(ok.error());
+  const auto check_start = job.now();
   out.findings = pipeline::findings_of(*fallback, job);
-  const auto checking = Clock::now() - check_start;
-  if (const auto* f = first_error(out.findings)) {
-    return fail({.code = "LATE-UNSAFE",
-                 .message = "the plan does not pass the check: " + f->message,
-                 .file = fallback->file_name,
-                 .path = f->step,
-                 .hint = "retract and stop; nothing may be cut from this plan"});
+  const auto checking = job.now() - check_start;
+  out.condemned = model::condemned(*fallback, out.findings);
+  if (!out.condemned.empty()) {
+    // What the check condemns is made anew, while half of the time is left.
+    std::optional<TimePoint> half;
+    if (policy.deadline) half = began + *policy.deadline / 2;
+    job.evaluation_budget = policy.fallback_budget;
+    auto anew = pipeline::bind_checked(asked, inputs, policy_of(), job, half);
+    job.evaluation_budget = budget;
+    if (anew && anew->replanned > 0 && nothing_open(anew->plan) && only_loaded(anew->plan, magazine)) {
+      fallback = std::move(anew->plan);
+      out.findings = pipeline::findings_of(*fallback, job);
+      out.condemned = model::condemned(*fallback, out.findings);
+    }
+  }
+  if (!out.condemned.empty() && !policy.allow_findings) {
+    return fail(
+        {.code = "LATE-UNSAFE",
+         .message = "the plan does not pass the check: " + model::text_of(*fallback, out.condemned.front()),
+         .file = fallback->file_name,
+         .path = out.condemned.front().step,
+         .hint = "retract and stop; nothing may be cut from this plan"});
   }
   out.plan = *std::move(fallback);
   out.fallback_s = out.machining_s = machining_s(out.plan);
 
   // The improvement: only in the time left, with twice the time of one check in reserve.
-  const auto passed = Clock::now() - start;
-  if (passed > policy.deadline) {
-    const auto ms = [](Clock::duration d) {
-      return std::to_string(std::chrono::duration_cast<std::chrono::milliseconds>(d).count());
-    };
-    job.warn("LATE-DEADLINE", "the deadline of " + ms(policy.deadline) + " ms is past: a checked plan took " +
-                                  ms(passed) + " ms; it is given all the same");
-  }
-  const auto until = start + policy.deadline - 2 * checking;
-  if (policy.budget <= policy.fallback_budget || Clock::now() >= until) return out;
+  std::optional<TimePoint> until;
+  if (policy.deadline) until = began + *policy.deadline - 2 * checking;
+  if (policy.budget <= policy.fallback_budget || (until && job.now() >= *until)) return told_late();
   Job trial;
   trial.threads = job.threads;
   trial.evaluation_budget = policy.budget;
-  trial.set_deadline(until);
+  trial.set_clock(job.clock());
+  trial.set_progress([&](std::string_view stage, double fraction) { job.progress(stage, fraction); });
+  if (until) trial.set_deadline(*until);
   auto better = pipeline::bind(asked, inputs, policy_of(), trial);
-  if (!better || !better->unplanned.empty()) return out;
+  if (!better || !nothing_open(*better) || !only_loaded(*better, magazine)) return told_late();
   const double t = machining_s(*better);
-  if (!(t < out.fallback_s)) return out;
+  const bool faster = t < out.fallback_s || !out.condemned.empty();
+  if (!faster) return told_late();
   auto findings = pipeline::findings_of(*better, trial);
-  if (first_error(findings) != nullptr || Clock::now() > start + policy.deadline) return out;
+  if (!model::condemned(*better, findings).empty()) return told_late();
+  if (policy.deadline && job.now() > began + *policy.deadline) return told_late();
   for (auto& d : trial.take_diagnostics()) job.report(std::move(d));
   out.plan = *std::move(better);
   out.findings = std::move(findings);
+  out.condemned.clear();
   out.improved = true;
   out.machining_s = t;
-  return out;
+  return told_late();
 }
 
 }  // namespace capstan::late

@@ -46,6 +46,15 @@ struct LimitAlongPath {
   friend bool operator==(const LimitAlongPath&, const LimitAlongPath&) = default;
 };
 
+/// A limit that a planned step does not keep, where it is worst.
+struct ExceededLimit {
+  std::string name;                 ///< as ActiveConstraint's
+  double value = 0.0, limit = 0.0;  ///< both 0: the load is outside what any formula tells
+  std::string unit;
+  std::optional<geometry::Vec3> at_mm;  ///< in the set-up's frame
+  friend bool operator==(const ExceededLimit&, const ExceededLimit&) = default;
+};
+
 /// Peak loads of a step, the spread of the coefficients and a worn edge included.
 struct StepLoads {
   double peak_force_n = 0.0, torque_nm = 0.0, power_w = 0.0, deflection_mm = 0.0, chip_thickness_mm = 0.0;
@@ -74,8 +83,8 @@ struct StepResult {
   double cutting_s = 0.0, rapid_s = 0.0;
   StepLoads loads;
   std::vector<ActiveConstraint> active;
-  std::vector<LimitAlongPath> held_by;  ///< of the feed schedule, largest share first
-  std::vector<ActiveConstraint> exceeded = {};  ///< limits that no feed keeps somewhere along the path
+  std::vector<LimitAlongPath> held_by;       ///< of the feed schedule, largest share first
+  std::vector<ExceededLimit> exceeded = {};  ///< limits that no feed keeps somewhere along the path
 };
 
 /// One clamping of the workpiece.

@@ -136,4 +136,13 @@ struct CutAnswer {
 /// numbers.
 [[nodiscard]] double worst_excess(const CutQuestion& q, const model::StepLoads& loads, double n_rpm);
 
+/// The limit of worst_excess by name, with its numbers; "load" without numbers where it is infinite.
+struct WorstLoad {
+  double excess = -1.0;
+  std::string name;
+  double value = 0.0, limit = 0.0;
+  std::string unit;
+};
+[[nodiscard]] WorstLoad worst_load(const CutQuestion& q, const model::StepLoads& loads, double n_rpm);
+
 }  // namespace capstan::optimise

@@ -5,6 +5,7 @@
 
 #include "planner/base/job.h"
 #include "planner/model/cutter_path.h"
+#include "planner/model/plan.h"
 #include "planner/optimise/cut.h"
 
 namespace capstan::optimise {
@@ -60,6 +61,7 @@ struct FeedAnswer {
   std::vector<std::string> slowed;             ///< names of the limits that hold the path below its feed
   std::vector<model::LimitAlongPath> held_by;  ///< which limits hold the feed, largest share first
   double worst_excess = -1.0;                  ///< > 0: some sample exceeds a limit even at the least feed
+  model::ExceededLimit worst;  ///< which limit that is, and where; unset while nothing exceeds
 };
 
 /// Feed for each move from the sections measured along it: the largest that keeps peak force, tip deflection,

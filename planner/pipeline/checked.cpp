@@ -1,8 +1,11 @@
 #include "planner/pipeline/checked.h"
 
 #include <algorithm>
+#include <chrono>
 #include <map>
+#include <optional>
 #include <set>
+#include <string_view>
 #include <tuple>
 #include <utility>
 
@@ -22,6 +25,7 @@ namespace {
 using model::AnyRef;
 using model::Finding;
 
+constexpr int kMostThinner = 2;                          // cuts of one step, before its cutter is given up
 constexpr int kMostCutters = 2;                          // of one step, before its chain is given up
 constexpr int kBeforeLeavingOut = kMostReplannings - 2;  // tries after which features are left out
 
@@ -38,6 +42,18 @@ std::size_t errors_of(const model::Plan& plan, const std::vector<Finding>& findi
   return n;
 }
 
+/// What a plan needs of the spindle in all, its heaviest step needs.
+std::string heaviest(const model::Plan& plan, const Finding& f) {
+  const bool torque = f.code == "CHK-MACHINE-TORQUE";
+  if (!torque && f.code != "CHK-MACHINE-POWER") return {};
+  const model::StepResult* most = nullptr;
+  const auto load = [&](const model::StepResult& s) { return torque ? s.loads.torque_nm : s.loads.power_w; };
+  for (const auto& s : plan.steps) {
+    if (most == nullptr || load(s) > load(*most)) most = &s;
+  }
+  return most == nullptr ? std::string() : model::step_id(plan, *most);
+}
+
 /// The first error of each proposed step.
 std::vector<Offence> offences_of(const model::Plan& plan, const std::vector<Finding>& findings,
                                  const Tries& tries) {
@@ -46,8 +62,8 @@ std::vector<Offence> offences_of(const model::Plan& plan, const std::vector<Find
   std::vector<Offence> out;
   std::set<AnyRef> seen;
   for (const Finding& f : findings) {
-    if (!is_error(f) || f.step.empty()) continue;
-    const auto step = step_of.find(f.step);
+    if (!is_error(f)) continue;
+    const auto step = f.step.empty() ? step_of.find(heaviest(plan, f)) : step_of.find(f.step);
     if (step == step_of.end()) continue;
     const auto made = tries.made.find(step->second);
     if (made != tries.made.end() && seen.insert(step->second).second) out.push_back({made->second, &f});
@@ -67,6 +83,15 @@ class Judge {
       const MadeStep& s = o.step;
       const bool of_order = o.finding->property == 28;
       int& hits = hits_[{s.member, s.chain, s.in_chain}];
+      // Torque, power, bending: a thinner cut of the same cutter.
+      const bool of_load =
+          o.finding->property == 17 || o.finding->property == 20 || o.finding->property == 21;
+      if (of_load && tried < kBeforeLeavingOut &&
+          thinned_[{s.member, s.chain, s.in_chain}]++ < kMostThinner) {
+        tries_.cut_thinner(s.member, s.chain, s.in_chain, found);
+        out.emplace_back(s, found);
+        continue;
+      }
       if (tried >= kBeforeLeavingOut) {
         tries_.leave_out(s.member.feature, "step '" + s.name + "' with " + s.cutter + ": " + found);
       } else if (of_order || hits >= kMostCutters) {
@@ -82,7 +107,7 @@ class Judge {
 
  private:
   Tries& tries_;
-  std::map<std::tuple<Member, std::string, std::size_t>, int> hits_;
+  std::map<std::tuple<Member, std::string, std::size_t>, int> hits_, thinned_;
 };
 
 /// "step 'X': planned anew with em6 instead of em10, because the check found …"
@@ -92,10 +117,14 @@ std::string told(const Tries& tries, const MadeStep& before, const std::string& 
     if (made.member == before.member && made.name == before.name) now = &made;
   }
   const bool out = tries.left_out(before.member.feature) != nullptr;
-  const std::string what = out ? "its feature is left out"
-                           : now != nullptr && now->cutter != before.cutter
-                               ? "planned anew with " + now->cutter + " instead of " + before.cutter
-                               : "planned anew in another way";
+  std::string what = "planned anew in another way";
+  if (out) {
+    what = "its feature is left out";
+  } else if (now != nullptr && now->cutter != before.cutter) {
+    what = "planned anew with " + now->cutter + " instead of " + before.cutter;
+  } else if (now != nullptr && now->chain == before.chain) {
+    what = "planned anew with thinner cuts";
+  }
   return "step '" + before.name + "': " + what + ", because " + why;
 }
 
@@ -105,7 +134,8 @@ void tell_tries(const Tries& tries, Job& job) {
   for (const std::string& s : tries.said) job.note("PIP-ANEW", s);
 }
 
-Result<Checked> bind_checked(const model::Plan& plan, const Inputs& inputs, const Policy& policy, Job& job) {
+Result<Checked> bind_checked(const model::Plan& plan, const Inputs& inputs, const Policy& policy, Job& job,
+                             std::optional<std::chrono::steady_clock::time_point> until) {
   Tries tries;
   auto first = bind_within(plan, inputs, policy, tries, job);
   if (!first) return tl::unexpected(first.error());
@@ -121,15 +151,22 @@ Result<Checked> bind_checked(const model::Plan& plan, const Inputs& inputs, cons
   for (int tried = 0; tried < kMostReplannings && least > 0 && !offences.empty(); ++tried) {
     if (policy.bind != Bind::kAll || job.stop_requested()) break;
     const auto condemned = judge.condemn(offences, tried);
-    auto again = bind_within(plan, inputs, policy, tries, job);
-    if (!again) {
-      (void)job.take_diagnostics();
-      break;
-    }
+    Job trial;
+    trial.threads = job.threads;
+    trial.evaluation_budget = job.evaluation_budget;
+    if (job.deadline()) until = until ? std::min(*until, *job.deadline()) : *job.deadline();
+    if (until) trial.set_deadline(*until);
+    trial.set_progress([&](std::string_view stage, double f) {
+      job.progress(stage, f);
+      if (job.stop_requested()) trial.request_stop();
+    });
+    if (trial.stop_requested()) break;
+    auto again = bind_within(plan, inputs, policy, tries, trial);
+    if (!again) break;
     for (const auto& [step, why] : condemned) tries.said.push_back(told(tries, step, why));
-    findings = verify::check_plan(*again, job);
+    findings = verify::check_plan(*again, trial);
     offences = offences_of(*again, findings, tries);
-    auto now = job.take_diagnostics();
+    auto now = trial.take_diagnostics();
     const std::size_t errors = errors_of(*again, findings);
     const bool better =
         errors < least || (errors == least && again->unplanned.size() < best.plan.unplanned.size());

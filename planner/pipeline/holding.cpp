@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "planner/base/file.h"
+#include "planner/base/nearest_names.h"
 #include "planner/base/number.h"
 #include "tooling/holding/holding.h"
 
@@ -368,6 +369,8 @@ Status hold_workpieces(Work& w) {
                                       text.error().message + "); what holds the piece is not planned");
         return {};
       }
+      if (!text && only_a_name(how))
+        return fail(unknown_name("fixture", how, ids_of(*fixtures), tooling::kListFixtures));
       if (!text) {
         auto error = text.error();
         error.hint = "workholding is auto, none, the id of a fixture, or a file";

@@ -33,6 +33,8 @@ bool same_tool(const Cutter& a, const Cutter& b) {
          near_if_known(a.tip_diameter_mm, b.tip_diameter_mm, kSameDiameter);
 }
 
+}  // namespace
+
 const Cutter* loaded_like(const std::vector<Cutter>& library, const Cutter& wanted) {
   const Cutter* found = nullptr;
   for (const Cutter& c : library) {
@@ -41,8 +43,6 @@ const Cutter* loaded_like(const std::vector<Cutter>& library, const Cutter& want
   }
   return found;
 }
-
-}  // namespace
 
 Result<std::vector<std::string>> match_loaded(model::Plan& plan, Inputs& inputs, Job& job) {
   std::vector<std::string> reopened;

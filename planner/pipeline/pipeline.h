@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -96,8 +97,10 @@ struct Checked {
 /// (PIP-ANEW) and stands in the ledger among the rejected alternatives. A plan without errors costs one
 /// check. A plan whose decisions are not all bound is not checked.
 ///
-/// Determinism  as `bind`, unless the job is stopped: then what is there so far is given, with its findings.
-[[nodiscard]] Result<Checked> bind_checked(const model::Plan& plan, const Inputs& inputs,
-                                           const Policy& policy, Job& job);
+/// Determinism  as `bind`, unless the job is stopped or `until` is past: then nothing more is made anew, and
+///              what is there so far is given, with its findings.
+[[nodiscard]] Result<Checked> bind_checked(
+    const model::Plan& plan, const Inputs& inputs, const Policy& policy, Job& job,
+    std::optional<std::chrono::steady_clock::time_point> until = std::nullopt);
 
 }  // namespace capstan::pipeline

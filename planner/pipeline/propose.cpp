@@ -295,7 +295,9 @@ class Proposer {
   }
 
   std::vector<std::size_t> shape(AnyRef f, const FeatureShape& given, const model::Proposal& p) {
-    if (const std::string why = swallowed(given); !why.empty() || !p.cannot.empty()) {
+    std::string why = swallowed(given);
+    if (why.empty()) why = crosses_a_wall(w_, given);
+    if (!why.empty() || !p.cannot.empty()) {
       fail_member(f, given, why.empty() ? p.cannot : why);
       return {};
     }

@@ -53,7 +53,12 @@ Result<model::Plan> read_plan(std::string bytes, const std::string& name, Job& j
 }
 
 std::vector<model::Finding> findings_of(const model::Plan& plan, Job& job) {
-  auto out = verify::check_plan(plan, job);
+  return findings_of(Checked{plan, verify::check_plan(plan, job)}, job);
+}
+
+std::vector<model::Finding> findings_of(const Checked& checked, Job& job) {
+  const model::Plan& plan = checked.plan;
+  std::vector<model::Finding> out = checked.findings;
   if (plan.steps.empty()) return out;
   const auto program = output::write_linuxcnc(plan, job);
   if (!program) {

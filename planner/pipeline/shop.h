@@ -26,6 +26,8 @@ struct ShopFiles {
 
 /// What the checker says of a plan, and of the LinuxCNC program it makes.
 [[nodiscard]] std::vector<model::Finding> findings_of(const model::Plan& plan, Job& job);
+/// The same, where the plan is checked already.
+[[nodiscard]] std::vector<model::Finding> findings_of(const Checked& checked, Job& job);
 
 /// Holds the tools of a plan against what is in the magazine (`inputs.library`, Cutter::pocket > 0).
 ///
@@ -33,6 +35,11 @@ struct ShopFiles {
 /// length from the table; one that is not is re-opened, and with it, by the ledger, what depends on it.
 /// Gives what was re-opened, one sentence each, in the order of the plan.
 [[nodiscard]] Result<std::vector<std::string>> match_loaded(model::Plan& plan, Inputs& inputs, Job& job);
+
+/// The cutter of the magazine (Cutter::loaded, a pocket) that is this one by class and every size that both
+/// know, whatever it is called; the lowest pocket of several, null when none is.
+[[nodiscard]] const model::Cutter* loaded_like(const std::vector<model::Cutter>& library,
+                                               const model::Cutter& wanted);
 
 enum class Format : std::uint8_t { kIso14649, kJson, kLinuxCnc, kToolTable, kAp238 };
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/base/number.h"
 #include "planner/model/raw_piece.h"
 #include "planner/model/walk.h"
 #include "planner/pipeline/work.h"
@@ -162,6 +163,30 @@ Thickness thickness_beside(const Work& w, const FeatureShape& s) {
   }
   if (below > kSame) out.floor_mm = below;
   return out;
+}
+
+std::string crosses_a_wall(const Work& w, const FeatureShape& face) {
+  constexpr double kSomeArea = 1.0;  // mm2: less is rounding of outlines
+  if (face.kind != ShapeKind::kFace || w.shapes.size() > kMostShapes) return {};
+  const auto to = inverse(face.frame);
+  const geometry::Region own = taken(face);
+  for (const FeatureShape& other : w.shapes) {
+    // The contour of an outside is the part itself: steps and faces on it are part of its drawing.
+    if (other.feature == face.feature || other.islands.empty() || other.kind == ShapeKind::kOutside) continue;
+    const auto rel = compose(to, other.frame);
+    if (std::abs(rel.z.z - 1.0) > kSame) continue;
+    for (const model::Island& island : other.islands) {
+      const double top = rel.origin.z + island.top_z_mm;
+      if (top <= -face.depth_mm + kSame || rel.origin.z - other.depth_mm >= -kSame) continue;
+      const auto boss = moved(island.area, rel);
+      const double inside = geometry::area(geometry::intersect(own, boss));
+      const double whole = geometry::area(boss);
+      if (inside <= kSomeArea || inside >= whole - kSomeArea) continue;
+      return "it crosses a boss in '" + other.name + "', which stands " + trimmed(top + face.depth_mm, 3) +
+             " mm above the face's floor; end the face at the boss, or lower the boss to it";
+    }
+  }
+  return {};
 }
 
 rules::Context context_of(const Work& w, AnyRef feature, const std::vector<FeatureShape>& shapes) {

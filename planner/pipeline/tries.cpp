@@ -18,6 +18,12 @@ void Tries::ban_cutter(const Member& m, const std::string& chain, std::size_t st
   cutters_.emplace(std::tuple(m, chain, step, cutter), why);
 }
 
+void Tries::cut_thinner(const Member& m, const std::string& chain, std::size_t step, const std::string& why) {
+  Thinner& t = thinner_[std::tuple(m, chain, step)];
+  ++t.times;
+  t.why = why;
+}
+
 void Tries::leave_out(model::AnyRef feature, const std::string& why) {
   auto& reasons = left_out_[feature].reasons;
   if (std::find(reasons.begin(), reasons.end(), why) == reasons.end()) reasons.push_back(why);
@@ -37,6 +43,11 @@ const std::string* Tries::cutter_banned(const Member& m, const std::string& chai
                                         const std::string& cutter) const {
   const auto at = cutters_.find(std::tuple(m, chain, step, cutter));
   return at == cutters_.end() ? nullptr : &at->second;
+}
+
+const Thinner* Tries::thinner(const Member& m, const std::string& chain, std::size_t step) const {
+  const auto at = thinner_.find(std::tuple(m, chain, step));
+  return at == thinner_.end() ? nullptr : &at->second;
 }
 
 const LeftOut* Tries::left_out(model::AnyRef feature) const {

@@ -32,6 +32,12 @@ struct LeftOut {
   std::vector<model::AnyRef> rests_on;  ///< features that are not planned and that this one needs
 };
 
+/// How often a step's cuts were found too large, and why last.
+struct Thinner {
+  int times = 0;
+  std::string why;
+};
+
 /// Where a proposed step comes from.
 struct MadeStep {
   Member member;
@@ -51,12 +57,15 @@ class Tries {
   void ban_chain(const Member& m, const std::string& chain, const std::string& why);
   void ban_cutter(const Member& m, const std::string& chain, std::size_t step, const std::string& cutter,
                   const std::string& why);
+  /// The step's cuts are to be thinner, once more.
+  void cut_thinner(const Member& m, const std::string& chain, std::size_t step, const std::string& why);
   void leave_out(model::AnyRef feature, const std::string& why);
   void rests(model::AnyRef feature, model::AnyRef on);
 
   [[nodiscard]] const std::string* chain_banned(const Member& m, const std::string& chain) const;
   [[nodiscard]] const std::string* cutter_banned(const Member& m, const std::string& chain, std::size_t step,
                                                  const std::string& cutter) const;
+  [[nodiscard]] const Thinner* thinner(const Member& m, const std::string& chain, std::size_t step) const;
   [[nodiscard]] const LeftOut* left_out(model::AnyRef feature) const;
   [[nodiscard]] const std::map<model::AnyRef, LeftOut>& all_left_out() const { return left_out_; }
 
@@ -70,6 +79,7 @@ class Tries {
  private:
   std::map<std::pair<Member, std::string>, std::string> chains_;
   std::map<std::tuple<Member, std::string, std::size_t, std::string>, std::string> cutters_;
+  std::map<std::tuple<Member, std::string, std::size_t>, Thinner> thinner_;
   std::map<model::AnyRef, LeftOut> left_out_;
 };
 

@@ -133,6 +133,10 @@ struct Thickness {
 /// The cutters that may be used: the library, or what of it is loaded.
 [[nodiscard]] std::vector<model::Cutter> usable(const Work& w);
 
+/// Why a face cannot be cut as it is drawn: it crosses a boss that another feature leaves standing above the
+/// face's floor. Empty when it can.
+[[nodiscard]] std::string crosses_a_wall(const Work& w, const model::FeatureShape& face);
+
 /// The order of the craft among the steps of one feature: marks, drills, roughs, finishes, sizes holes; 0:
 /// none of these.
 [[nodiscard]] int craft_rank(model::TypeId operation);

@@ -43,6 +43,72 @@ void add_outside(const model::FeatureShape& s, Box3& out) {
   }
 }
 
+/// What a property says: "hardness = 200 HB".
+std::string property_text(const model::Model& m, const std::string& of, AnyRef parameter) {
+  std::string name = of;
+  if (const auto* p = m.get<model::PropertyParameter>(parameter)) {
+    const std::string own = p->parameter_name.value_or("");
+    if (!own.empty() && own != of) name += (name.empty() ? "" : " ") + own;
+  }
+  if (const auto* n = m.get<model::NumericParameter>(parameter)) {
+    const std::string unit = n->its_parameter_unit.value_or("");
+    return name + " = " + (n->its_parameter_value ? trimmed(*n->its_parameter_value, 4) : std::string("?")) +
+           (unit.empty() ? "" : " " + unit);
+  }
+  const auto* d = m.get<model::DescriptiveParameter>(parameter);
+  return name + " = " + (d == nullptr ? std::string("?") : d->descriptive_string.value_or("?"));
+}
+
+/// Cutting data are the material's card; what the file says beside its name changes nothing, and is said.
+void say_unused_properties(Work& w, const model::Material& material, const AnyRef& at) {
+  const model::Model& m = w.plan.model;
+  const auto say = [&](const std::string& text) {
+    w.job.report({.code = "PIP-MATERIAL-PROPERTY",
+                  .severity = Severity::kWarning,
+                  .message = "the part states " + text + " for its material; planning does not use it",
+                  .file = w.plan.file_name,
+                  .instance = m.origin(at).instance,
+                  .hint = "forces and speeds are those of '" + w.plan.material.id +
+                          "'; name a harder material with --material where that is too little"});
+  };
+  for (std::size_t i = 0; i < material.material_property.size(); ++i)
+    say(property_text(m, "", material.material_property[i]));
+  for (std::size_t i = 0; i < material.its_properties.size(); ++i) {
+    const auto* p = m.get<model::MaterialProperty>(material.its_properties[i]);
+    if (p == nullptr) continue;
+    const std::string name = p->name.value_or("a property");
+    if (p->its_parameters.size() == 0) say(name);
+    for (std::size_t k = 0; k < p->its_parameters.size(); ++k)
+      say(property_text(m, name, p->its_parameters[k]));
+  }
+}
+
+/// The material by the caller's name, else the part's; by default only where neither names one.
+Status resolve_material(Work& w, const model::Workpiece* piece) {
+  std::vector<std::string> names;
+  const AnyRef at = piece == nullptr ? AnyRef{} : AnyRef(piece->its_material);
+  const auto* stated = w.plan.model.get<model::Material>(at);
+  if (w.inputs.material_name) {
+    names.push_back(*w.inputs.material_name);
+  } else if (stated != nullptr) {
+    names.push_back(stated->standard_identifier.value_or(""));
+    names.push_back(stated->material_identifier.value_or(""));
+  }
+  auto material = tooling::find_material(names, w.inputs.materials, w.job);
+  if (!material) {
+    Diagnostic d = material.error();
+    if (!w.inputs.material_name) {
+      d.file = w.plan.file_name;
+      d.instance = w.plan.model.origin(at).instance;
+      d.hint = "name one with --material; " + d.hint;
+    }
+    return fail(std::move(d));
+  }
+  w.plan.material = *std::move(material);
+  if (stated != nullptr) say_unused_properties(w, *stated, at);
+  return {};
+}
+
 /// The box that the features' own extents span: what must be there at least.
 Box3 box_of_features(const Work& w) {
   Box3 out;
@@ -152,18 +218,7 @@ Box3 transformed(const Box3& box, const geometry::Placement& to) {
 
 Status resolve_workpiece(Work& w) {
   const model::Workpiece* piece = model::workpiece_of(w.plan.model, w.plan.project);
-  std::vector<std::string> names;
-  if (w.inputs.material_name) {
-    names.push_back(*w.inputs.material_name);
-  } else if (piece != nullptr) {
-    if (const auto* material = w.plan.model.get<model::Material>(piece->its_material)) {
-      names.push_back(material->standard_identifier.value_or(""));
-      names.push_back(material->material_identifier.value_or(""));
-    }
-  }
-  auto material = tooling::find_material(names, w.inputs.materials, w.job);
-  if (!material) return tl::unexpected(material.error());
-  w.plan.material = *std::move(material);
+  if (auto ok = resolve_material(w, piece); !ok) return ok;
   w.plan.machine = w.inputs.machine;
   w.plan.provenance = w.inputs.provenance;
   resolve_stock(w, piece);

@@ -90,6 +90,24 @@ TEST(Records, WhoBoundWhatSurvivesTheFile) {
   EXPECT_EQ(written->bytes, twice->bytes);
 }
 
+TEST(Records, WhatCondemnsAPlanSurvivesEitherFile) {
+  model::Plan plan = bound_plan();
+  plan.steps[0].exceeded = {{"spindle_torque", 1.1125, 0.4775, "Nm", geometry::Vec3{12.5, 30.0, -3.0}},
+                            {"peak_force", 7.0, 5.0, "N", std::nullopt}};
+  plan.unplanned.push_back({plan.model.all(TypeId::kRoundHole)[0], "no drill", {"TAPPED", "it's CSK"}});
+  Job job;
+  for (const bool ap238 : {false, true}) {
+    const auto written = ap238 ? write_ap238(plan, job) : write_iso14649(plan, job);
+    ASSERT_TRUE(written) << to_text(written.error());
+    const auto again = read_text(written->bytes, job);
+    ASSERT_TRUE(again) << to_text(again.error());
+    ASSERT_EQ(again->steps.size(), 1U) << ap238;
+    EXPECT_EQ(again->steps[0].exceeded, plan.steps[0].exceeded) << ap238;
+    ASSERT_EQ(again->unplanned.size(), 1U) << ap238;
+    EXPECT_EQ(again->unplanned[0].needed_by, plan.unplanned[0].needed_by) << ap238;
+  }
+}
+
 TEST(Records, EditedValueIsGivenAgain) {
   const auto plan = bound_plan();
   Job job;

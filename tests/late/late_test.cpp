@@ -68,12 +68,105 @@ TEST(Late, RefusesWhenSomethingStaysOpen) {
   EXPECT_EQ(bound.error().code, "LATE-OPEN");
 }
 
-TEST(Late, GivesTheFallbackWhenTheDeadlineIsPast) {
+TEST(Late, GivesTheFallbackWhenTheDeadlineIsPastAndSaysThatItIsLate) {
   Job job;
   const auto bound = bind(plate(), shop(kMagazine), {.deadline = std::chrono::milliseconds(0)}, job);
   ASSERT_TRUE(bound) << to_text(bound.error());
+  EXPECT_TRUE(bound->late);
   EXPECT_FALSE(bound->improved);
   EXPECT_EQ(bound->machining_s, bound->fallback_s);
+}
+
+/// A clock that stands still but for what a test adds when the n-th check begins (each plan is checked as
+/// a plan, then as a program), or at its end.
+class StagedClock {
+ public:
+  explicit StagedClock(Job& job) {
+    job.set_clock([this] { return now_; });
+    job.set_progress([this](std::string_view stage, double fraction) {
+      if (stage != "check") return;
+      if (fraction == 0.0) ++checks_;
+      if (checks_ == jump_at_ && fraction >= jump_from_) now_ = std::max(now_, jump_to_);
+    });
+  }
+  /// From that fraction of the n-th check on, the time is `after` the beginning.
+  void jump(int check, double fraction, std::chrono::milliseconds after) {
+    jump_at_ = check;
+    jump_from_ = fraction;
+    jump_to_ = now_ + after;
+  }
+  [[nodiscard]] int checks() const { return checks_; }
+
+ private:
+  std::chrono::steady_clock::time_point now_{std::chrono::hours(1)}, jump_to_ = now_;
+  int checks_ = 0, jump_at_ = -1;
+  double jump_from_ = 0.0;
+};
+
+/// Of a fallback on hardly any evaluations there is something to improve.
+LatePolicy hasty() { return {.deadline = std::chrono::milliseconds(1000), .fallback_budget = 1}; }
+
+TEST(Late, TakesAnImprovementThatIsCheckedInTime) {
+  Job job;
+  const StagedClock clock(job);
+  const auto bound = bind(plate(), shop(kMagazine), hasty(), job);
+  ASSERT_TRUE(bound) << to_text(bound.error());
+  EXPECT_TRUE(bound->improved);
+  EXPECT_FALSE(bound->late);
+  EXPECT_LT(bound->machining_s, bound->fallback_s);
+  EXPECT_EQ(clock.checks(), 4);  // two plans, each with its program
+}
+
+TEST(Late, RefusesAnImprovementWhoseCheckWasStopped) {
+  Job job;
+  StagedClock clock(job);
+  // The third check is the improvement's: the reserve of time is used up in its midst, the deadline is not.
+  clock.jump(3, 0.5, std::chrono::milliseconds(1000));
+  const auto bound = bind(plate(), shop(kMagazine), hasty(), job);
+  ASSERT_TRUE(bound) << to_text(bound.error());
+  EXPECT_FALSE(bound->improved);
+  EXPECT_FALSE(bound->late);  // not past the deadline: the check alone refuses it
+  EXPECT_EQ(bound->machining_s, bound->fallback_s);
+  EXPECT_GE(clock.checks(), 3);
+  EXPECT_TRUE(bound->condemned.empty());
+}
+
+TEST(Late, IsLateWhenTheImprovementOverranTheDeadline) {
+  Job job;
+  StagedClock clock(job);
+  clock.jump(4, 1.0, std::chrono::milliseconds(1001));
+  const auto bound = bind(plate(), shop(kMagazine), hasty(), job);
+  ASSERT_TRUE(bound) << to_text(bound.error());
+  EXPECT_TRUE(bound->late);
+  EXPECT_FALSE(bound->improved);
+}
+
+TEST(Late, APlanThatHoldsThePathOfAToolThatIsNotLoadedIsRefused) {
+  // Planned whole with the magazine, then brought to a machine on which T7 is missing.
+  Job job;
+  const auto whole = bind(plate(), shop(kMagazine), {.deadline = std::nullopt}, job);
+  ASSERT_TRUE(whole) << to_text(whole.error());
+  const model::Plan* planned = &whole->plan;
+  const auto mill = std::find_if(planned->cutters.begin(), planned->cutters.end(),
+                                 [](const auto& c) { return c.pocket == 7; });
+  ASSERT_NE(mill, planned->cutters.end());
+  for (const auto format : {pipeline::Format::kAp238, pipeline::Format::kJson}) {
+    const auto text = pipeline::write_plan(*planned, format, job);
+    ASSERT_TRUE(text);
+    auto brought = pipeline::read_plan(*text, "plate", job);
+    ASSERT_TRUE(brought) << to_text(brought.error());
+    pipeline::Inputs in = shop(kMagazine);
+    std::erase_if(in.library, [](const auto& c) { return c.pocket == 7; });
+    Job said;
+    const std::string form = format == pipeline::Format::kJson ? "JSON" : "AP238";
+    const auto bound = bind(*std::move(brought), std::move(in), {.deadline = std::nullopt}, said);
+    ASSERT_FALSE(bound) << form;
+    EXPECT_EQ(bound.error().code, "LATE-TOOL") << form << ": " << to_text(bound.error());
+    EXPECT_NE(bound.error().message.find("'" + mill->id + "' of step '" + bound.error().path + "'"),
+              std::string::npos)
+        << bound.error().message;
+    EXPECT_FALSE(bound.error().path.empty());
+  }
 }
 
 TEST(Late, ReopensAToolThatIsNotInTheMagazine) {
@@ -136,6 +229,19 @@ TEST(Late, FeedsOfAGivenPathComeFromTheSectionsThatItsFileStates) {
   EXPECT_FALSE(warned(1.0));
   EXPECT_TRUE(warned(0.3));
   EXPECT_TRUE(warned(3.0));
+}
+
+TEST(LateInterface, PastTheDeadlineTheCodeIsLateAndThePlanIsThere) {
+  capstan_late* s = capstan_late_open("generic_vmc", kMagazine.c_str());
+  ASSERT_EQ(capstan_late_status(s), CAPSTAN_LATE_OK) << capstan_late_message(s);
+  const std::string text = testing::slurp(kPlate);
+  EXPECT_EQ(capstan_late_bind(s, text.data(), text.size(), 0), CAPSTAN_LATE_LATE) << capstan_late_message(s);
+  EXPECT_EQ(capstan_late_status(s), CAPSTAN_LATE_LATE);
+  EXPECT_NE(std::string(capstan_late_message(s)).find("the deadline of 0 ms is past"), std::string::npos);
+  EXPECT_NE(capstan_late_output(s, CAPSTAN_LATE_LINUXCNC, nullptr), nullptr);
+  EXPECT_EQ(capstan_late_bind(s, text.data(), text.size(), 3600000), CAPSTAN_LATE_OK)
+      << capstan_late_message(s);
+  capstan_late_close(s);
 }
 
 TEST(LateInterface, SaysWhatIsWrongAndNeverThrows) {

@@ -101,5 +101,24 @@ TEST(Context, TakesGeneralFlatnessOfAFaceThatStatesNone) {
   EXPECT_EQ(context_of(p.w, {}, {p.w.shapes[0]}).quality.form_mm, 0.1) << "up to 100 mm";
 }
 
+TEST(Face, ThatCrossesABossOfAnotherFeatureIsRefused) {
+  Piece piece;
+  piece.add(ShapeKind::kPocket, {50, 50, 0}, 80, 80, 10);
+  // A boss 20 x 20 in the middle of the pocket, as high as the raw piece.
+  piece.w.shapes.back().islands.push_back({geometry::rectangle({-10, -10}, {10, 10}), 0.0});
+  piece.w.shapes.back().feature = {model::TypeId::kClosedPocket, 0};
+  FeatureShape face;
+  face.feature = {model::TypeId::kPlanarFace, 0};
+  face.kind = ShapeKind::kFace;
+  face.depth_mm = 4.0;
+  face.area = geometry::rectangle({0, 0}, {100, 50});  // through the middle of the boss
+  const std::string why = crosses_a_wall(piece.w, face);
+  EXPECT_NE(why.find("4 mm above the face's floor"), std::string::npos) << why;
+  face.area = geometry::rectangle({0, 0}, {100, 40});  // up to the boss
+  EXPECT_EQ(crosses_a_wall(piece.w, face), "");
+  face.area = geometry::rectangle({0, 0}, {100, 100});  // over all of it: the boss is faced
+  EXPECT_EQ(crosses_a_wall(piece.w, face), "");
+}
+
 }  // namespace
 }  // namespace capstan::pipeline

@@ -88,8 +88,8 @@ Drawing::Id Drawing::arc(Point centre, double radius, double from_deg, double to
 Drawing::Id Drawing::composite(const std::vector<std::pair<Id, bool>>& segments, bool) {
   std::vector<Id> ids;
   for (const auto& [curve, same] : segments)
-    ids.push_back(
-        write(std::string("COMPOSITE_CURVE_SEGMENT(.CONTINUOUS.,") + (same ? ".T.," : ".F.,") + ref(curve) + ")"));
+    ids.push_back(write(std::string("COMPOSITE_CURVE_SEGMENT(.CONTINUOUS.,") + (same ? ".T.," : ".F.,") +
+                        ref(curve) + ")"));
   return write("COMPOSITE_CURVE(''," + list_of(ids) + ",.F.)");
 }
 
@@ -184,9 +184,9 @@ Drawing::Id Drawing::step(const std::string& name, Id at, double below, double d
 
 Drawing::Id Drawing::hole(const std::string& name, Id at, double below, double diameter, Id bottom, Id taper,
                           double tolerance) {
-  return hole(name, at, below, length(diameter, tolerance), bottom, taper);
+  return hole_of(name, at, below, length(diameter, tolerance), bottom, taper);
 }
-Drawing::Id Drawing::hole(const std::string& name, Id at, double below, Id diameter, Id bottom, Id taper) {
+Drawing::Id Drawing::hole_of(const std::string& name, Id at, double below, Id diameter, Id bottom, Id taper) {
   const Id floor = depth(below);
   return write("ROUND_HOLE" + head(name, at) + "," + ref(floor) + "," + ref(diameter) + "," + ref(taper) +
                "," + ref(bottom) + ")");

@@ -8,8 +8,8 @@
 
 namespace capstan::testing::removal {
 
-/// Writes a part as an ISO 14649 file: features and tolerances, nothing else. Coordinates are the workpiece's,
-/// z upwards. Every function gives the number of the instance that it wrote.
+/// Writes a part as an ISO 14649 file: features and tolerances, nothing else. Coordinates are the
+/// workpiece's, z upwards. Every function gives the number of the instance that it wrote.
 class Drawing {
  public:
   using Id = int;
@@ -57,7 +57,8 @@ class Drawing {
           const std::vector<Id>& bosses = {});
   Id hole(const std::string& name, Id placement, double depth, double diameter, Id bottom, Id taper = 0,
           double tolerance = 0.1);
-  Id hole(const std::string& name, Id placement, double depth, Id diameter, Id bottom, Id taper = 0);
+  /// As above, its diameter an instance.
+  Id hole_of(const std::string& name, Id placement, double depth, Id diameter, Id bottom, Id taper = 0);
   Id through_bottom();
   Id flat_bottom();
   Id conical_bottom(double tip_angle_deg);

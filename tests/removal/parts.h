@@ -21,4 +21,7 @@ namespace capstan::testing::removal {
 [[nodiscard]] Part holes_near_walls();
 [[nodiscard]] Part turned_over();
 
+/// The target of ISO 14649-11's example 2, of a raw piece.
+[[nodiscard]] Target example2(const Box& raw);
+
 }  // namespace capstan::testing::removal

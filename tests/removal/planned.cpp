@@ -16,11 +16,29 @@ std::string Outcome::text() const {
   std::string out;
   for (const PlanMessage& m : plan.findings) out += "finding, " + m.severity + ": " + m.text + "\n";
   for (const PlanMessage& m : plan.diagnostics) {
-    if (m.severity == "error") out += "said: " + m.text + "\n";
+    if (m.severity != "note") out += "said, " + m.severity + ": " + m.text + "\n";
   }
   out += std::to_string(plan.steps) + " steps, " + std::to_string(plan.unplanned) + " features unplanned\n";
   return out + (written() ? verdict.text() : "no program\n");
 }
+
+namespace {
+
+// Seen from above, as a grey picture: the higher the lighter.
+std::string heights(const Stock& stock) {
+  const auto& n = stock.count();
+  std::string out = "P5 " + std::to_string(n[0]) + " " + std::to_string(n[1]) + " 255\n";
+  for (int y = n[1] - 1; y >= 0; --y) {
+    for (int x = 0; x < n[0]; ++x) {
+      int z = n[2] - 1;
+      while (z >= 0 && !stock.present(x, y, z)) --z;
+      out += static_cast<char>(255 * (z + 1) / n[2]);
+    }
+  }
+  return out;
+}
+
+}  // namespace
 
 Outcome plan_and_simulate(const Part& part) {
   Outcome out;
@@ -35,8 +53,10 @@ Outcome plan_and_simulate(const Part& part) {
   write(".json", out.plan.json);
   write(".planned.p21", out.plan.iso14649);
   if (!out.written()) return out;
+  Stock remains(part.block, part.grid.cell_mm, part.grid.cell_z_mm);
   out.verdict = simulate({out.plan.linuxcnc, out.plan.tool_table, out.plan.json, out.plan.iso14649},
-                         part.block, part.target, part.grid);
+                         part.block, part.target, part.grid, &remains);
+  if (keep != nullptr) write(".pgm", heights(remains));
   write(".txt", out.text());
   return out;
 }

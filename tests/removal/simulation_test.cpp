@@ -4,7 +4,8 @@
 #include "tests/removal/simulation/compare.h"
 #include "tests/support/rs274.h"
 
-// The simulation is held against programs written by hand, right and wrong, so that its silence means something.
+// The simulation is held against programs written by hand, right and wrong, so that its silence means
+// something.
 
 namespace capstan::testing::removal {
 namespace {
@@ -13,8 +14,8 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-// A block of 40 x 30 x 12 mm with a slot 10 mm wide, 4 mm deep along x at y = 10, a pocket of 12 x 12 mm, corners
-// R3, 5 mm deep about (30, 23), and a drilled hole of 6 mm through at (8, 23).
+// A block of 40 x 30 x 12 mm with a slot 10 mm wide, 4 mm deep along x at y = 10, a pocket of 12 x 12 mm,
+// corners R3, 5 mm deep about (30, 23), and a drilled hole of 6 mm through at (8, 23).
 const Box kBlock{{0, 0, -12}, {40, 30, 0}};
 constexpr const char* kTable = "T1 P1 Z+60 D+10\nT2 P2 Z+70 D+6\nT3 P3 Z+80.5 D+6\n";
 constexpr const char* kHead = "G21 G17 G90 G94 G40 G49 G80\nG53 G0 Z250\n";
@@ -42,8 +43,8 @@ std::string step(int n, int tool) {
 }
 const std::string kSlot = step(1, 1) + "G0 X-7 Y10\nG0 Z5\nG0 Z-4\nG1 X47 F500\nG0 Z5\n";
 std::string pocket(const std::string& depth, const std::string& right = "33") {
-  return step(2, 2) + "G0 X30 Y23\nG0 Z2\nG1 Z-" + depth + " F100\nG1 X27 Y20 F300\nG1 X" + right + "\nG1 Y26\n" +
-         "G1 X27\nG1 Y20\nG0 Z5\n";
+  return step(2, 2) + "G0 X30 Y23\nG0 Z2\nG1 Z-" + depth + " F100\nG1 X27 Y20 F300\nG1 X" + right +
+         "\nG1 Y26\n" + "G1 X27\nG1 Y20\nG0 Z5\n";
 }
 std::string hole(const std::string& x) {
   return step(3, 3) + "G0 X" + x + " Y23\nG0 Z2\nG1 Z-15 F100\nG0 Z5\n";
@@ -123,8 +124,7 @@ TEST(RemovalSimulation, FindsAShankInMaterial) {
   auto t = tools();
   t.erase(2);  // two millimetres of edges on a shank as wide: the pocket is cut with the shank
   t.emplace(2, CutterBody({{0, 3}, {2, 3}}, {{2, 3.4}, {22, 3.4}}));
-  const Motions motions =
-      read_motions(std::string(kHead) + kSlot + pocket("5") + hole("8") + "M2\n", kTable);
+  const Motions motions = read_motions(std::string(kHead) + kSlot + pocket("5") + hole("8") + "M2\n", kTable);
   const Verdict v = simulate(motions, t, {{1, Frame{}}}, kBlock, target(), {0.3, 0.1, 0.1});
   EXPECT_THAT(v.rubs, SizeIs(1)) << v.text();
   EXPECT_THAT(v.gouges, SizeIs(1)) << v.text();
@@ -177,7 +177,8 @@ TEST(RemovalSimulation, CutsFromTheOtherSideAfterTurningThePieceOver) {
 
 TEST(RemovalSimulation, ReadsAWholeCircleAndAHelix) {
   CAPSTAN_NEEDS_RS274();
-  // A hole of 14 mm, 3 mm deep about (20, 20): a helix of radius 4 by the 6 mm mill, then a turn on the floor.
+  // A hole of 14 mm, 3 mm deep about (20, 20): a helix of radius 4 by the 6 mm mill, then a turn on the
+  // floor.
   const std::string text = step(1, 2) +
                            "G0 X24 Y20\nG0 Z1\nG1 Z0 F100\nG3 X24 Y20 Z-1.5 I-4 J0\nG3 X24 Y20 Z-3 I-4 J0\n"
                            "G3 X24 Y20 I-4 J0\nG1 X20 Y20\nG1 X21\nG3 X21 Y20 I-1 J0\nG0 Z5\n";

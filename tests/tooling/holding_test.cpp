@@ -83,7 +83,7 @@ TEST(Holding, AStrapClampLiesOnThePieceWithItsBoltBesideIt) {
 TEST(Holding, EachFaultHasOneErrorThatNamesIt) {
   const std::string clamped = "  - {setup: 1, fixture: plate_400x300, clamps: [{clamp: strap_clamp_m8, ";
   const std::vector<std::array<std::string, 3>> cases = {
-      {"  - {setup: 1, fixture: vice_7}\n", "HOLD-UNKNOWN", "vice_7"},
+      {"  - {setup: 1, fixture: vice_7}\n", "NAME-UNKNOWN", "vice_7"},
       {"  - {setup: 1, fixture: strap_clamp_m8}\n", "HOLD-KIND", "needs a plate"},
       {"  - {setup: 1, fixture: plate_400x300, clamps: [{clamp: vise_100, at: [0, 0], from: -x}]}\n",
        "HOLD-KIND", "no clamp"},

@@ -271,6 +271,22 @@ const Fault kFaults[] = {
 INSTANTIATE_TEST_SUITE_P(Plan, PlantedFault, ::testing::ValuesIn(kFaults),
                          [](const auto& i) { return std::string(i.param.name); });
 
+TEST(CheckPlan, AStoppedCheckIsAnError) {
+  const PlanMaker k = testing::good_plan();
+  Job job;
+  job.request_stop();
+  const auto findings = check_plan(k.plan, job);
+  const auto stopped =
+      std::find_if(findings.begin(), findings.end(), [](const auto& f) { return f.code == "CHK-STOPPED"; });
+  ASSERT_NE(stopped, findings.end());
+  EXPECT_EQ(stopped->severity, Severity::kError);
+  EXPECT_NE(stopped->message.find("before step 1 of 2"), std::string::npos) << stopped->message;
+  const std::string text = testing::program_of(k.plan);
+  const auto of_text = check_program({"p.ngc", text, {}}, &k.plan, k.plan.machine, k.plan.cutters, job);
+  EXPECT_TRUE(
+      std::any_of(of_text.begin(), of_text.end(), [](const auto& f) { return f.code == "CHK-STOPPED"; }));
+}
+
 TEST(CheckPlan, AnUnplannedFeatureWithItsReasonIsNoFinding) {
   PlanMaker k = testing::good_plan();
   k.plan.unplanned.push_back({k.hole("H2", 85, 85, 8, 20), "no drill of 8 mm"});

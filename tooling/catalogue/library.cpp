@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "planner/base/file.h"
+#include "planner/base/nearest_names.h"
 #include "tooling/catalogue/check.h"
 #include "tooling/catalogue/complete.h"
 #include "tooling/catalogue/generic.h"
@@ -235,6 +236,11 @@ Result<std::vector<Cutter>> load_library(const std::string& path, Job& job, cons
   std::error_code error;
   if (!std::filesystem::is_directory(path, error)) {
     const auto text = read_file(path, kLibraryBytesCap);
+    if (!text && only_a_name(path)) {
+      Diagnostic d = unknown_name("tool library", path, {"generic"}, "capstan tools list");
+      d.hint = "a file or folder of tools, or 'generic', which `capstan tools list` shows";
+      return fail(std::move(d));
+    }
     if (!text) return fail(text.error());
     return read_library(*text, path, job, options);
   }

@@ -17,12 +17,14 @@ struct LibraryOptions {
 };
 
 /// A tool library from a file or folder, its kind told by content: our own list (YAML or JSON,
-/// tooling/data/README.md), or any format of `tooling/formats` that can be read. "generic" is the shipped one.
+/// tooling/data/README.md), or any format of `tooling/formats` that can be read. "generic" is the shipped
+/// one.
 ///
 /// Fields that the file leaves out are completed from the generic series (see complete.h), each with its
 /// source. Entries that cannot be used (no diameter, a kind that planning does not know) are left out, with a
 /// warning that says which and why.
-/// Fails  FILE-*, LIBRARY-KIND, DATA-*, TOOL-VALUE, TOOL-ID, TOOL-NUMBER, TBL-SYNTAX, with file and place, and
+/// Fails  NAME-UNKNOWN for a text without folder and ending that is no file; FILE-*, LIBRARY-KIND, DATA-*,
+/// TOOL-VALUE, TOOL-ID, TOOL-NUMBER, TBL-SYNTAX, with file and place, and
 ///        as the formats; every fault is reported to the job, the last is the result's.
 [[nodiscard]] Result<std::vector<model::Cutter>> load_library(const std::string& path, Job& job,
                                                               const LibraryOptions& options = {});

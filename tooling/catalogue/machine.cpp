@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "planner/base/file.h"
+#include "planner/base/nearest_names.h"
 #include "planner/base/number.h"
 #include "tooling/catalogue/data.h"
 #include "tooling/catalogue/tree.h"
@@ -444,6 +445,7 @@ Result<Machine> load_plain(const std::string& path, Job& job) {
   }
   auto text = read_file(path, kDataFileCap);
   if (!text) {
+    if (only_a_name(path)) return fail(unknown_name("machine", path, shipped, "capstan machines list"));
     Diagnostic d = text.error();
     std::string names;
     for (const std::string& s : shipped) names += (names.empty() ? "" : ", ") + s;

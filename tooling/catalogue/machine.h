@@ -17,7 +17,8 @@ inline constexpr std::string_view kDefaultMachine = "generic_vmc";
 
 /// A machine by the path of its file, or a shipped one by id. YAML (tooling/data/machines/README.md) or a
 /// LinuxCNC .ini, told apart by content. "name:gear" puts it into that gear; otherwise its first is in use.
-/// Fails  FILE-*, MACHINE-GEAR, and as `read_machine`.
+/// Fails  NAME-UNKNOWN for a text without folder and ending that is neither a file nor an id; FILE-*,
+///        MACHINE-GEAR, and as `read_machine`.
 [[nodiscard]] Result<model::Machine> load_machine(const std::string& path, Job& job);
 
 /// Fails  DATA-* for the form (unknown keys are errors; every number needs a source), MACHINE-RANGE (min

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "planner/base/nearest_names.h"
 #include "planner/base/number.h"
 #include "planner/model/cutter.h"
 #include "tooling/catalogue/data.h"
@@ -14,6 +15,7 @@ namespace {
 using model::WorkMaterial;
 
 constexpr const char* kFile = "materials.yaml";
+constexpr const char* kListMaterials = "capstan materials list";
 /// Shorter names must match as a whole: "O1" must not claim "O1-tool".
 constexpr std::size_t kLeastPrefix = 4;
 
@@ -24,7 +26,7 @@ struct Family {
 struct Table {
   std::vector<WorkMaterial> materials;
   std::vector<Family> families;
-  Family unknown;
+  Family unnamed;
 };
 
 /// Upper case, letters and digits only: "EN AW-6061" and "ENAW6061" are one name.
@@ -204,7 +206,7 @@ Result<Table> read_table(std::string_view text, const std::string& file, Job& jo
       out.materials.push_back(read_material(top.below("materials", row), uncertainty, uncertainty_source));
   if (const Node* rows = top.child("families", false))
     for (const Node& row : rows->items) out.families.push_back(read_family(top.below("families", row)));
-  if (const Node* row = top.child("unknown", false)) out.unknown = read_family(top.below("unknown", *row));
+  if (const Node* row = top.child("unnamed", false)) out.unnamed = read_family(top.below("unnamed", *row));
   top.finish();
   for (std::size_t i = 0; i < out.materials.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
@@ -289,12 +291,6 @@ const WorkMaterial& hardest(const std::vector<WorkMaterial>& materials) {
                            [](const auto& a, const auto& b) { return a.kc11_n_mm2 < b.kc11_n_mm2; });
 }
 
-std::string joined(const std::vector<std::string>& texts) {
-  std::string out;
-  for (const std::string& t : texts) out += (out.empty() ? "'" : ", '") + t + "'";
-  return out.empty() ? "no material name" : out;
-}
-
 }  // namespace
 
 Result<std::vector<WorkMaterial>> read_materials(std::string_view text, const std::string& file, Job& job) {
@@ -306,6 +302,15 @@ Result<std::vector<WorkMaterial>> read_materials(std::string_view text, const st
 Result<std::vector<WorkMaterial>> shipped_materials() {
   Job job;
   return read_materials(shipped_text(kFile), kFile, job);
+}
+
+std::vector<std::string> names_of(const std::vector<WorkMaterial>& materials) {
+  std::vector<std::string> out;
+  for (const WorkMaterial& m : materials) {
+    out.push_back(m.id);
+    out.insert(out.end(), m.names.begin(), m.names.end());
+  }
+  return out;
 }
 
 Result<WorkMaterial> find_material(const std::vector<std::string>& texts,
@@ -336,11 +341,15 @@ Result<WorkMaterial> find_material(const std::vector<std::string>& texts,
     job.warn("MATERIAL-FAMILY", "the material '" + text + "' names only a family; taken as " + m->id);
     return chosen(*m, {}, "'" + text + "': " + best->source);
   }
-  const WorkMaterial* m = by_id(materials, table->unknown.material);
+  const auto named =
+      std::find_if(texts.begin(), texts.end(), [](const auto& t) { return !plain(t).empty(); });
+  if (named != texts.end())
+    return fail(unknown_name("material", *named, names_of(materials), kListMaterials));
+  const WorkMaterial* m = by_id(materials, table->unnamed.material);
   if (m == nullptr) m = &hardest(materials);
-  job.warn("MATERIAL-UNKNOWN", "the material is not known (" + joined(texts) + "); taken as " + m->id +
-                                   ", name one to plan for it");
-  return chosen(*m, {}, table->unknown.source);
+  job.warn("MATERIAL-DEFAULT", "no material is named; planned for " + m->id +
+                                   " by default (the largest cutting force): name one with --material");
+  return chosen(*m, {}, table->unnamed.source);
 }
 
 Result<WorkMaterial> find_material(const std::string& text, const std::vector<WorkMaterial>& materials,

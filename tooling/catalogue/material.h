@@ -11,26 +11,32 @@
 namespace capstan::tooling {
 
 /// The material table that comes with the planner (tooling/data/materials.yaml), in file order.
-/// Every number and every name has a source in WorkMaterial::sources ("kc11_n_mm2", "name ST-50", ...). Measured
-/// sets that hold for some alloys only have them there, too ("set 0 for 6061"); find_material picks by them.
+/// Every number and every name has a source in WorkMaterial::sources ("kc11_n_mm2", "name ST-50", ...).
+/// Measured sets that hold for some alloys only have them there, too ("set 0 for 6061"); find_material picks
+/// by them.
 [[nodiscard]] Result<std::vector<model::WorkMaterial>> shipped_materials();
 
 /// As above from a text of the same form.
-/// Fails  DATA-*, MATERIAL-RANGE for a value no material has, MATERIAL-SUBSTRATE; each fault is reported to the job first.
+/// Fails  DATA-*, MATERIAL-RANGE for a value no material has, MATERIAL-SUBSTRATE; each fault is reported to
+/// the job first.
 [[nodiscard]] Result<std::vector<model::WorkMaterial>> read_materials(std::string_view text,
                                                                       const std::string& file, Job& job);
 
 /// The material that a file means by these texts, most telling first (standard_identifier before
 /// material_identifier): an id or a name, letter case and punctuation aside; a name followed by a temper or
-/// quality ("EN AW-6061-T6"); else a family's word ("STEEL"), which stands for its hardest card; else the
-/// shipped table's `unknown`. The last two warn MATERIAL-FAMILY, MATERIAL-UNKNOWN.
+/// quality ("EN AW-6061-T6"); else a family's word ("STEEL"), which stands for its hardest card (warns
+/// MATERIAL-FAMILY). When no text says anything, the shipped table's `unnamed` (warns MATERIAL-DEFAULT).
 /// WorkMaterial::sources then has "chosen": why it was taken; its measured sets are those of the alloy named.
-/// Fails  MATERIAL-NONE when `materials` is empty.
+/// Fails  NAME-UNKNOWN for a name that nobody knows: it is never guessed. MATERIAL-NONE when `materials` is
+///        empty.
 [[nodiscard]] Result<model::WorkMaterial> find_material(const std::vector<std::string>& texts,
                                                         const std::vector<model::WorkMaterial>& materials,
                                                         Job& job);
 [[nodiscard]] Result<model::WorkMaterial> find_material(const std::string& text,
                                                         const std::vector<model::WorkMaterial>& materials,
                                                         Job& job);
+
+/// Every id and name, in the table's order.
+[[nodiscard]] std::vector<std::string> names_of(const std::vector<model::WorkMaterial>& materials);
 
 }  // namespace capstan::tooling

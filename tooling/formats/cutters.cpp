@@ -115,12 +115,9 @@ class Presets {
     Job quiet;
     const auto found = find_material(name, materials_, quiet);
     if (!found) return at->second;
-    bool family = false, unknown = false;
-    for (const Diagnostic& d : quiet.diagnostics()) {
-      family = family || d.code == "MATERIAL-FAMILY";
-      unknown = unknown || d.code == "MATERIAL-UNKNOWN";
-    }
-    if (!unknown) at->second = family ? found->iso_group : found->id;
+    bool family = false;
+    for (const Diagnostic& d : quiet.diagnostics()) family = family || d.code == "MATERIAL-FAMILY";
+    at->second = family ? found->iso_group : found->id;
     return at->second;
   }
 

@@ -77,10 +77,13 @@ inline constexpr double kUsualGrip = 2.0 / 3.0;  ///< of the piece's height, at 
 ///          clamps: [{clamp: strap_clamp_m8, at: [0, 20], from: -x}]}
 ///     fixtures: [...]          # as in tooling/data/fixtures.yaml; optional
 ///
-/// Fails  FILE-*, DATA-* for the form, HOLD-UNKNOWN for a fixture that neither the file nor the library has,
+/// Fails  FILE-*, DATA-* for the form, NAME-UNKNOWN for a fixture that neither the file nor the library has,
 ///        HOLD-KIND for a clamp used as a vise or a vise as a clamp, HOLD-TWICE for a set-up given twice.
 [[nodiscard]] Result<HoldingFile> read_holding(std::string_view text, const std::string& file, Job& job);
 
+/// The command that lists the shipped fixtures.
+inline constexpr std::string_view kListFixtures = "capstan fixtures list";
+[[nodiscard]] std::vector<std::string> ids_of(const std::vector<Fixture>& fixtures);
 [[nodiscard]] const Fixture* find_fixture(const std::vector<Fixture>& fixtures, std::string_view id);
 
 /// Puts fixture and clamps around the piece.

@@ -4,6 +4,7 @@
 #include <set>
 #include <utility>
 
+#include "planner/base/nearest_names.h"
 #include "planner/base/number.h"
 #include "tooling/catalogue/data.h"
 #include "tooling/catalogue/tree.h"
@@ -121,6 +122,12 @@ std::vector<Fixture> fixtures_of(Fields& top, bool required) {
   return out;
 }
 
+/// A name that neither this file nor the library has.
+void no_fixture(Fields& f, const char* key, const std::string& name, const std::vector<Fixture>& fixtures) {
+  const Diagnostic d = unknown_name(key, name, ids_of(fixtures), kListFixtures);
+  f.fault(d.code, d.message, key, f.line_of(key), "a fixture of this file or of the library; " + d.hint);
+}
+
 ClampWish clamp_of(Fields f, std::size_t number, const std::vector<Fixture>& fixtures) {
   ClampWish out;
   out.line = f.line();
@@ -134,8 +141,7 @@ ClampWish clamp_of(Fields f, std::size_t number, const std::vector<Fixture>& fix
   f.finish();
   const Fixture* known = find_fixture(fixtures, out.clamp);
   if (known == nullptr && !out.clamp.empty()) {
-    f.fault("HOLD-UNKNOWN", "there is no clamp '" + out.clamp + "'", "clamp", f.line_of("clamp"),
-            "a fixture of this file or of the library");
+    no_fixture(f, "clamp", out.clamp, fixtures);
   } else if (known != nullptr && !clamps(known->kind)) {
     f.fault("HOLD-KIND", "'" + out.clamp + "' is no clamp", "clamp", f.line_of("clamp"));
   }
@@ -161,8 +167,7 @@ HoldingWish wish_of(Fields f, const std::vector<Fixture>& fixtures) {
   }
   const Fixture* known = find_fixture(fixtures, out.fixture);
   if (known == nullptr && !out.fixture.empty()) {
-    f.fault("HOLD-UNKNOWN", "there is no fixture '" + out.fixture + "'", "fixture", f.line_of("fixture"),
-            "a fixture of this file or of the library");
+    no_fixture(f, "fixture", out.fixture, fixtures);
   } else if (known != nullptr && clamps(known->kind)) {
     f.fault("HOLD-KIND", "'" + out.fixture + "' is a clamp: it needs a plate or a vise under it", "fixture",
             f.line_of("fixture"));
@@ -210,6 +215,12 @@ geometry::Vec2 direction_of(Side s) {
       return {0.0, 1.0};
   }
   return {};
+}
+
+std::vector<std::string> ids_of(const std::vector<Fixture>& fixtures) {
+  std::vector<std::string> out;
+  for (const Fixture& f : fixtures) out.push_back(f.id);
+  return out;
 }
 
 const Fixture* find_fixture(const std::vector<Fixture>& fixtures, std::string_view id) {

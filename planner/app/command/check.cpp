@@ -9,6 +9,7 @@
 #include "planner/base/file.h"
 #include "planner/exchange/conformance/check.h"
 #include "planner/exchange/iso14649/curves.h"
+#include "planner/model/condemned.h"
 #include "planner/p21/parse.h"
 #include "planner/pipeline/pipeline.h"
 #include "planner/verify/verify.h"
@@ -153,9 +154,23 @@ class Check {
         plan->machine = *std::move(machine);
       }
       add(verify::check_plan(*plan, s_.job), in.path, false);
+      add(beside_the_check(*plan), in.path, false);
       plans_.push_back(*std::move(plan));
     }
     return std::nullopt;
+  }
+
+  /// What condemns the plan by its own record, as findings.
+  static std::vector<model::Finding> beside_the_check(const model::Plan& plan) {
+    std::vector<model::Finding> out;
+    for (auto& c : model::condemned(plan, {})) {
+      model::Finding f;
+      f.code = std::move(c.code);
+      f.step = std::move(c.step);
+      f.message = std::move(c.text);
+      out.push_back(std::move(f));
+    }
+    return out;
   }
 
   std::optional<Diagnostic> shop() {

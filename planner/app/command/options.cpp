@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <sstream>
+#include <tuple>
 
 #include "planner/app/command/run.h"
 #include "planner/base/number.h"
@@ -141,15 +142,23 @@ class CommandLine {
         ->check(CLI::IsMember(names(kBind)));
     sub->add_option("--reopen", raw_.reopen, "what to plan anew although the file has it")
         ->check(CLI::IsMember(names(kReopen)));
-    sub->add_flag("--strict", out_.strict, "write nothing when there are findings");
+    findings(sub);
     outputs(sub, true);
+  }
+  /// What is written in spite of findings: by default all but a program that the check condemns.
+  void findings(CLI::App* sub) {
+    auto* strict = sub->add_flag("--strict", out_.strict, "write nothing when there are findings");
+    sub->add_flag("--allow-findings", out_.allow_findings,
+                  "write the program (.ngc, .tbl) although the check condemns it: its header and markers say "
+                  "why, and it stops (M0) before each condemned step")
+        ->excludes(strict);
   }
   void bind() {
     auto* sub = command(app_, "bind", "close at the machine what a plan left open", Command::kBind);
     file(sub, "plan", "plan with open decisions");
     inputs(sub);
-    sub->add_option("--deadline", raw_.deadline, "e.g. 200ms or 2s");
-    sub->add_flag("--strict", out_.strict, "write nothing when there are findings");
+    sub->add_option("--deadline", raw_.deadline, "e.g. 200ms or 2s; a plan that comes later ends with 5");
+    findings(sub);
     outputs(sub, true);
   }
   void check() {
@@ -189,6 +198,15 @@ class CommandLine {
     one->add_option("--tools", raw_.tools, "tool library: a file, or `generic`");
     one->add_option("id", out_.words, "the cutter's id")->required();
     tool_files(*tools);
+    for (const auto& [name, help, c] :
+         {std::tuple("materials", "the work materials that are known", Command::kMaterialsList),
+          std::tuple("machines", "the built-in machines", Command::kMachinesList),
+          std::tuple("fixtures", "the built-in fixtures and clamps", Command::kFixturesList)}) {
+      auto* known = app_.add_subcommand(name, help);
+      known->require_subcommand(1);
+      auto* all = command(*known, "list", "a line each", c);
+      all->add_option("filter", out_.words, "only those whose line contains this");
+    }
     auto* rules = app_.add_subcommand("rules", "the rule tables");
     rules->require_subcommand(1);
     for (auto* sub :

@@ -39,6 +39,9 @@ enum class Command : std::uint8_t {
   kToolsImport,
   kToolsExport,
   kToolsConvert,
+  kMaterialsList,
+  kMachinesList,
+  kFixturesList,
   kRulesCheck,
   kRulesList,
   kCasesAdd,
@@ -70,14 +73,15 @@ struct Options {
   pipeline::Reopen reopen = pipeline::Reopen::kNothing;
   pipeline::Bind bind = pipeline::Bind::kAll;
   std::optional<std::chrono::milliseconds> deadline;
-  bool strict = false;            ///< plan: outputs only when there is no finding
+  bool strict = false;            ///< plan, bind: outputs only when there is no finding
+  bool allow_findings = false;    ///< plan, bind: a program even when the check condemns it
   bool json = false;              ///< check: findings as JSON on standard output
   bool schema = false;            ///< check: what reading found is a finding, too
   bool json_diagnostics = false;  ///< one JSON object per line on standard error
   unsigned threads = 1;
   std::vector<std::string> words;  ///< tools: a filter, an id
   ToolsOptions tools;
-  CaseQuestion question;           ///< cases nearest; the base is in `inputs.cases`
+  CaseQuestion question;  ///< cases nearest; the base is in `inputs.cases`
 };
 
 /// The options, or what to print and the exit code to end with (help, version: 0; wrong usage: 2).

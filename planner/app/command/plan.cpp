@@ -1,98 +1,24 @@
 #include <algorithm>
-#include <cmath>
+#include <chrono>
 #include <optional>
 #include <utility>
 
 #include "casebase/casebase.h"
+#include "planner/app/command/finish.h"
 #include "planner/app/command/session.h"
 #include "planner/app/files/inputs.h"
 #include "planner/app/files/load.h"
 #include "planner/app/files/outputs.h"
-#include "planner/app/show/values.h"
 #include "planner/base/file.h"
+#include "planner/base/nearest_names.h"
 #include "planner/base/number.h"
 #include "planner/late/late.h"
-#include "planner/motion/time.h"
 #include "planner/pipeline/pipeline.h"
-#include "planner/verify/verify.h"
 #include "rules/engine/check.h"
 #include "tooling/holding/holding.h"
 
 namespace capstan::app {
 namespace {
-
-/// Findings of the plan, which may be known already, and of each program made from it; told to the job. Gives
-/// their number.
-std::size_t verified(const model::Plan& plan, const std::optional<std::vector<model::Finding>>& known,
-                     const std::vector<Output>& outputs, Job& job) {
-  std::size_t n = 0;
-  const auto tell = [&](const std::vector<model::Finding>& findings, const std::string& file, bool program) {
-    for (const auto& f : findings) {
-      job.report(as_diagnostic(f, file, program));
-      if (f.severity != Severity::kNote) ++n;
-    }
-  };
-  tell(known ? *known : verify::check_plan(plan, job), plan.file_name, false);
-  std::string table;
-  for (const Output& o : outputs) {
-    if (o.kind == OutputKind::kToolTable) table = o.bytes;
-  }
-  for (const Output& o : outputs) {
-    if (o.kind != OutputKind::kLinuxCnc) continue;
-    tell(verify::check_program({o.path, o.bytes, table}, &plan, plan.machine, plan.cutters, job), o.path,
-         true);
-  }
-  return n;
-}
-
-std::string summary_of(const model::Plan& plan, std::size_t findings) {
-  std::string out = "planned " + counted(plan.steps.size(), "step", "steps") + " in " +
-                    counted(plan.setups.size(), "set-up", "set-ups") + " with " +
-                    counted(plan.cutters.size(), "tool", "tools");
-  if (const auto t = motion::time_of(plan)) out += ", " + duration(t->total_s());
-  const auto loaded = static_cast<std::size_t>(
-      std::count_if(plan.cutters.begin(), plan.cutters.end(), [](const auto& c) { return c.loaded; }));
-  // Where none is in the magazine, nothing is known of it.
-  if (loaded > 0 && loaded < plan.cutters.size())
-    out += ", " + std::to_string(plan.cutters.size() - loaded) + " of them to load";
-  if (!plan.unplanned.empty())
-    out += "; " + counted(plan.unplanned.size(), "feature", "features") + " not planned";
-  return out + "; " + counted(findings, "finding", "findings");
-}
-
-std::string written_text(const std::vector<Output>& outputs) {
-  std::string out;
-  for (const Output& o : outputs) {
-    if (o.path != "-") out += (out.empty() ? "; wrote " : ", ") + o.path + losses_text(o);
-  }
-  return out;
-}
-
-/// Makes outputs, checks them, writes them: what plan and bind have in common at their end.
-int finish(Session& s, const model::Plan& plan, std::vector<Output> outputs,
-           const std::optional<std::vector<model::Finding>>& known = std::nullopt) {
-  if (plan.steps.empty() && !plan.unplanned.empty()) {
-    s.summary = "nothing can be planned, nothing is written";
-    return s.end({.code = "APP-IMPOSSIBLE",
-                  .message = "none of " + counted(plan.unplanned.size(), "feature", "features") +
-                             " can be planned with these tools on this machine",
-                  .file = plan.file_name},
-                 kImpossible);
-  }
-  if (auto ok = make(plan, outputs, s.job); !ok) return s.end(ok.error(), kImpossible);
-  // What is left open has no path yet, so there is nothing to prove.
-  const bool open = s.options.bind != pipeline::Bind::kAll;
-  const std::size_t findings = open ? 0 : verified(plan, known, outputs, s.job);
-  s.summary = summary_of(plan, findings);
-  const bool clean = findings == 0 && plan.unplanned.empty();
-  if (s.options.strict && !clean) {
-    s.summary += "; nothing written (--strict)";
-    return kFindings;
-  }
-  if (auto ok = write_all(outputs); !ok) return s.end(ok.error(), kImpossible);
-  s.summary += written_text(outputs);
-  return clean ? kDone : kFindings;
-}
 
 /// What a shop's own tables lack or say twice: planning goes on, for the rows that do decide are sound.
 void judge_rules(const rules::RuleBase& base, Job& job) {
@@ -140,6 +66,8 @@ std::optional<Diagnostic> holding_wrong(const std::string& how, Job& job) {
   auto fixtures = tooling::shipped_fixtures(job);
   if (!fixtures || tooling::find_fixture(*fixtures, how) != nullptr) return std::nullopt;
   auto text = read_file(how);
+  if (!text && only_a_name(how))
+    return unknown_name("fixture", how, tooling::ids_of(*fixtures), tooling::kListFixtures);
   if (!text) {
     text.error().hint = "workholding is auto, none, the id of a fixture, or a file";
     return text.error();
@@ -151,11 +79,6 @@ std::optional<Diagnostic> holding_wrong(const std::string& how, Job& job) {
     if (!(d == file.error())) job.report(d);
   }
   return file.error();
-}
-
-bool makes_program(const std::vector<Output>& outputs) {
-  return std::any_of(outputs.begin(), outputs.end(),
-                     [](const Output& o) { return o.kind == OutputKind::kLinuxCnc; });
 }
 
 /// What both are given: outputs that can be, a part, inputs. Gives an exit code when something is missing.
@@ -209,6 +132,7 @@ int run_plan(Session& s) {
 }
 
 int run_bind(Session& s) {
+  const auto began = s.job.now();
   Task task;
   if (const int code = prepared(s, {}, task); code != kDone) return code;
   // A catalogue says nothing of what is loaded.
@@ -222,11 +146,16 @@ int run_bind(Session& s) {
         kUsage);
   }
   late::LatePolicy policy;
-  if (s.options.deadline) policy.deadline = *s.options.deadline;
+  policy.deadline = s.options.deadline;
+  policy.began = began;
+  policy.allow_findings = s.options.allow_findings;
   const auto outcome = late::bind(std::move(task.part), std::move(task.inputs), policy, s.job);
   if (!outcome) return s.end(outcome.error(), kImpossible);
   for (const std::string& what : outcome->reopened) s.job.note("LATE-REOPENED", what, "");
-  return finish(s, outcome->plan, std::move(task.outputs));
+  const int code = finish(s, outcome->plan, std::move(task.outputs));
+  if (!outcome->late || code > kFindings) return code;
+  s.summary += "; too late: the deadline was past when the plan was there";
+  return kLate;
 }
 
 }  // namespace capstan::app

@@ -35,6 +35,10 @@ int dispatch(Session& s) {
     case Command::kToolsExport:
     case Command::kToolsConvert:
       return run_tools_convert(s);
+    case Command::kMaterialsList:
+    case Command::kMachinesList:
+    case Command::kFixturesList:
+      return run_known(s);
     case Command::kRulesCheck:
     case Command::kRulesList:
       return run_rules(s);

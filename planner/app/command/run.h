@@ -9,6 +9,7 @@ enum ExitCode : int {
   kUsage = 2,       ///< wrong usage, or something that is not supported yet
   kUnreadable = 3,  ///< an input cannot be read
   kImpossible = 4,  ///< no tool, no machine can; or an output cannot be made or written
+  kLate = 5,        ///< bind: done, but after the deadline
   kOurFault = 70,   ///< a fault of the program itself
 };
 

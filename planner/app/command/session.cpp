@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "planner/base/nearest_names.h"
 #include "planner/base/number.h"
 
 namespace capstan::app {
@@ -75,7 +76,7 @@ int Session::end(const Diagnostic& d, int code) {
     fault.severity = Severity::kError;
     job.report(std::move(fault));
   }
-  return code;
+  return d.code == kUnknownName || d.code == "MACHINE-GEAR" ? static_cast<int>(kUsage) : code;
 }
 
 void print_diagnostics(Session& s, int code) {
@@ -84,10 +85,12 @@ void print_diagnostics(Session& s, int code) {
     const std::string line = s.options.json_diagnostics ? diagnostic_json(d) : one_line(to_text(d));
     std::fprintf(stderr, "%s\n", line.c_str());
   }
-  const bool shows = s.options.command != Command::kExplain && s.options.command != Command::kInspect &&
-                     s.options.command != Command::kDiff && s.options.command != Command::kToolsList &&
-                     s.options.command != Command::kToolsShow &&
-                     s.options.command != Command::kCasesNearest && s.options.command != Command::kRulesList;
+  const bool shows =
+      s.options.command != Command::kExplain && s.options.command != Command::kInspect &&
+      s.options.command != Command::kDiff && s.options.command != Command::kToolsList &&
+      s.options.command != Command::kToolsShow && s.options.command != Command::kMaterialsList &&
+      s.options.command != Command::kMachinesList && s.options.command != Command::kFixturesList &&
+      s.options.command != Command::kCasesNearest && s.options.command != Command::kRulesList;
   if (!shows && code <= kFindings) return;  // what was asked for stands on standard output
   const std::string line = summary_line(s, code);
   if (s.options.json_diagnostics) {

@@ -18,7 +18,8 @@ struct Session {
   Job job;
   std::string summary;  ///< what was done, for the one line at the end
 
-  /// Tells a fault that ends the command, and gives the exit code it means.
+  /// Tells a fault that ends the command, and gives the exit code it means: that of wrong usage for a name
+  /// that nobody knows, whatever it was named in.
   int end(const Diagnostic& d, int code);
 };
 
@@ -52,6 +53,7 @@ int run_diff(Session& s);
 int run_convert(Session& s);
 int run_tools(Session& s);
 int run_tools_convert(Session& s);
+int run_known(Session& s);
 int run_rules(Session& s);
 int run_cases_add(Session& s);
 int run_cases_nearest(Session& s);

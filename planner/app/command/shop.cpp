@@ -3,9 +3,13 @@
 
 #include "planner/app/command/session.h"
 #include "planner/app/show/values.h"
+#include "planner/base/nearest_names.h"
 #include "planner/base/number.h"
 #include "rules/rules.h"
 #include "tooling/catalogue/library.h"
+#include "tooling/catalogue/machine.h"
+#include "tooling/catalogue/material.h"
+#include "tooling/holding/holding.h"
 
 // The tool library and the rule tables.
 
@@ -72,6 +76,28 @@ std::string cutter_page(const model::Cutter& c) {
   return out;
 }
 
+/// A line per name that a part or --material may use, behind the card it stands for.
+Rows materials_known(const std::vector<model::WorkMaterial>& materials) {
+  Rows rows;
+  for (const auto& m : materials) {
+    std::string names;
+    for (const std::string& name : m.names) names += (names.empty() ? "" : ", ") + name;
+    rows.push_back({m.id, "ISO 513 " + m.iso_group, "kc1.1 " + n(m.kc11_n_mm2) + " N/mm2", names});
+  }
+  return rows;
+}
+
+std::vector<std::string> machine_known(const model::Machine& m, const std::string& id) {
+  std::string travel;
+  for (const auto& a : m.axes) travel += (travel.empty() ? "" : " x ") + n(a.travel_max_mm - a.travel_min_mm);
+  double power = 0.0;
+  for (const auto& p : m.spindle.curve) power = std::max(power, p.power_w);
+  std::string gears;
+  for (const auto& g : m.spindle.gears)
+    gears += (gears.empty() ? "gears " : ", ") + std::string(g.id.empty() ? "?" : id + ":" + g.id);
+  return {id, travel + " mm", "to " + n(m.spindle.rpm_max) + " 1/min", n(power) + " W", gears};
+}
+
 std::string conclusion_of(const rules::Row& row) {
   if (!row.cannot.empty()) return "cannot: " + row.cannot;
   std::string out;
@@ -90,8 +116,8 @@ std::string rules_text(const rules::RuleBase& base) {
     for (const auto& row : t.rows) {
       const std::string when = rules::to_text(row.when, t.facts);
       out += "  " + row.id + " (priority " + std::to_string(row.priority) + ", " + row.file + ":" +
-             std::to_string(row.line) + ")\n    when    " + (when.empty() ? "always" : when) + "\n    then    " +
-             conclusion_of(row) + "\n";
+             std::to_string(row.line) + ")\n    when    " + (when.empty() ? "always" : when) +
+             "\n    then    " + conclusion_of(row) + "\n";
       if (!row.text.empty()) out += "    because " + row.text + "\n";
       if (!row.source.empty()) out += "    source  " + row.source + "\n";
     }
@@ -109,10 +135,34 @@ int run_tools(Session& s) {
   for (const auto& c : *library) {
     if (c.id == word) return print(cutter_page(c)) ? kDone : kImpossible;
   }
-  return s.end({.code = "APP-TOOL",
-                .message = "the library has no cutter '" + word + "'",
-                .hint = "capstan tools list shows what there is"},
-               kUsage);
+  std::vector<std::string> ids;
+  for (const auto& c : *library) ids.push_back(c.id);
+  return s.end(unknown_name("cutter", word, ids, "capstan tools list"), kUsage);
+}
+
+int run_known(Session& s) {
+  Rows rows;
+  if (s.options.command == Command::kMaterialsList) {
+    const auto materials = tooling::shipped_materials();
+    if (!materials) return s.end(materials.error(), kUnreadable);
+    rows = materials_known(*materials);
+  } else if (s.options.command == Command::kMachinesList) {
+    for (const std::string& id : tooling::shipped_machines()) {
+      const auto m = tooling::load_machine(id, s.job);
+      if (!m) return s.end(m.error(), kUnreadable);
+      rows.push_back(machine_known(*m, id));
+    }
+  } else {
+    const auto fixtures = tooling::shipped_fixtures(s.job);
+    if (!fixtures) return s.end(fixtures.error(), kUnreadable);
+    for (const auto& f : *fixtures) rows.push_back({f.id, f.description});
+  }
+  const std::string word = s.options.words.empty() ? "" : s.options.words.front();
+  std::erase_if(rows, [&](const auto& row) {
+    return std::none_of(row.begin(), row.end(),
+                        [&](const auto& cell) { return cell.find(word) != std::string::npos; });
+  });
+  return print(table(rows, "")) ? kDone : kImpossible;
 }
 
 int run_rules(Session& s) {

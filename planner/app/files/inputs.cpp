@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "planner/base/nearest_names.h"
 #include "planner/base/number.h"
 #include "planner/optimise/solver/ipopt_backend.h"
 #include "rules/rules.h"
@@ -94,17 +95,18 @@ Status machine_of(const InputOptions& o, const model::Plan& plan, pipeline::Inpu
     return {};
   }
   const bool named = !o.machine && known;
+  if (!o.machine && !named && !plan.machine.id.empty()) {
+    Diagnostic d = unknown_name("machine", plan.machine.id, shipped, "capstan machines list");
+    d.file = plan.file_name;
+    d.hint = "the plan was made for it and does not hold its data: name one with --machine; " + d.hint;
+    return fail(std::move(d));
+  }
   auto machine = tooling::load_machine(o.machine ? *o.machine
                                        : named   ? plan.machine.id
                                                  : std::string(tooling::kDefaultMachine),
                                        job);
   if (!machine) return tl::unexpected(machine.error());
   in.machine = *std::move(machine);
-  const bool lost = !o.machine && !named && !plan.machine.id.empty();
-  if (lost)
-    job.warn("APP-MACHINE", "the plan was made for machine '" + plan.machine.id +
-                                "', whose data it does not hold; the built-in " + in.machine.id +
-                                " is taken");
   if (named && before != nullptr) {
     in.provenance.push_back(*before);
   } else {

@@ -164,6 +164,21 @@ std::string losses_text(const Output& o) {
          ", see the notes)";
 }
 
+Aside left_there(const std::string& path) {
+  std::error_code ignored;
+  return {fs::exists(path, ignored) ? Aside::kStays : Aside::kNothingThere, {}};
+}
+
+Aside set_aside(const std::string& path) {
+  if (left_there(path).outcome == Aside::kNothingThere) return {};
+  const std::string to = path + ".before";
+  std::error_code ec;
+  // Only a file goes: another thing of that name (a device, a pipe) is not ours.
+  if (!fs::is_regular_file(path, ec)) return {Aside::kStays, {}};
+  fs::rename(path, to, ec);
+  return ec ? Aside{Aside::kStays, {}} : Aside{Aside::kRenamed, to};
+}
+
 Status write_all(const std::vector<Output>& outputs) {
   Temporaries files;
   for (const Output& o : outputs) {

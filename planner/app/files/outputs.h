@@ -33,6 +33,17 @@ struct Output {
 /// " (without 3 things)", or nothing when the file holds all of the plan.
 [[nodiscard]] std::string losses_text(const Output& output);
 
+/// What became of a file from before, under a name that is not written now.
+struct Aside {
+  enum Outcome : std::uint8_t { kNothingThere, kRenamed, kStays };
+  Outcome outcome = kNothingThere;
+  std::string renamed_to;
+};
+/// Renames it to its name and ".before"; a file of that name goes. It stays where it cannot be renamed.
+[[nodiscard]] Aside set_aside(const std::string& path);
+/// Leaves it.
+[[nodiscard]] Aside left_there(const std::string& path);
+
 /// Writes all files or none: each to a temporary beside its target first, then all are renamed. Only a rename
 /// that fails after another succeeded (another program took the folder away) leaves a part; the fault says
 /// so.

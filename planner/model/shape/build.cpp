@@ -10,6 +10,7 @@
 #include "planner/model/nouns/geometric_item.h"
 #include "planner/model/nouns/support.h"
 #include "planner/model/resolve.h"
+#include "planner/model/standing.h"
 
 namespace capstan::model {
 namespace shape {
@@ -57,17 +58,17 @@ geometry::Region moved(const geometry::Placement& frame, const geometry::Region&
 std::optional<Vec2> crosses_itself(const Loop& loop) {
   constexpr double kLobe = 1e-3;  // mm2: a smaller one is the ends of two curves that meet a little late
   const std::size_t n = loop.size();
-  struct Piece {
+  struct Stretch {
     double lo = 0.0, hi = 0.0;  // in x
     std::size_t i = 0;
   };
-  std::vector<Piece> pieces;
+  std::vector<Stretch> pieces;
   for (std::size_t i = 0; i < n; ++i) {
     const double a = loop[i].x, b = loop[(i + 1) % n].x;
     pieces.push_back({std::min(a, b), std::max(a, b), i});
   }
   std::sort(pieces.begin(), pieces.end(),
-            [](const Piece& a, const Piece& b) { return std::pair(a.lo, a.i) < std::pair(b.lo, b.i); });
+            [](const Stretch& a, const Stretch& b) { return std::pair(a.lo, a.i) < std::pair(b.lo, b.i); });
   for (std::size_t p = 0; p < n; ++p) {
     for (std::size_t q = p + 1; q < n && pieces[q].lo <= pieces[p].hi; ++q) {
       const std::size_t i = std::min(pieces[p].i, pieces[q].i), j = std::max(pieces[p].i, pieces[q].i);
@@ -346,6 +347,14 @@ Result<std::vector<FeatureShape>> shapes_of(const Model& model, Ref<Manufacturin
     if (out->size() > 1) (*out)[i].name += "[" + std::to_string(i + 1) + "]";
   }
   return out;
+}
+
+Result<geometry::Placement> coordinates_of(const Model& model, AnyRef feature) {
+  if (!feature.set()) return geometry::Placement{};
+  shape::Piece piece(model);
+  const auto in = shape::stated_in(model, feature, shape::Within{{}, {}, 0, false, &piece});
+  if (!in) return tl::unexpected(in.error());
+  return in->frame;
 }
 
 }  // namespace capstan::model

@@ -145,15 +145,21 @@ Measures measures(const CutQuestion& q, const model::StepLoads& l, double ap, do
   return m;
 }
 
-double worst_excess(const CutQuestion& q, const model::StepLoads& loads, double n_rpm) {
+WorstLoad worst_load(const CutQuestion& q, const model::StepLoads& loads, double n_rpm) {
   const Measures m = measures(q, loads, 0.0, n_rpm, 0.0);
-  double worst = -1.0;
+  WorstLoad worst;
   for (std::size_t i = 0; i < m.size(); ++i) {
     if (!kLimitsOfCut[i].of_loads) continue;
     const double excess = m[i].excess();
-    worst = std::isnan(excess) ? std::numeric_limits<double>::infinity() : std::max(worst, excess);
+    if (std::isnan(excess)) return {std::numeric_limits<double>::infinity(), "load", 0.0, 0.0, ""};
+    if (excess > worst.excess)
+      worst = {excess, kLimitsOfCut[i].name, m[i].value, m[i].limit, kLimitsOfCut[i].unit};
   }
   return worst;
+}
+
+double worst_excess(const CutQuestion& q, const model::StepLoads& loads, double n_rpm) {
+  return worst_load(q, loads, n_rpm).excess;
 }
 
 }  // namespace capstan::optimise

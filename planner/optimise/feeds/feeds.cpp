@@ -81,8 +81,67 @@ void keep_peak(model::StepLoads& peak, const State& s, const Judge& judge, const
   peak.force_margin = margin;
 }
 
+/// The limit that a load exceeds most.
+model::ExceededLimit worst_limit(const Column& load, const Column& limit) {
+  std::size_t worst = 0;
+  double most = -1.0;
+  for (std::size_t k = 0; k < kLimits; ++k) {
+    const double r = load[k] / limit[k];
+    if (!(r > most)) continue;
+    most = r;
+    worst = k;
+  }
+  return {.name = kLimitNames[worst],
+          .value = load[worst],
+          .limit = limit[worst],
+          .unit = kLimitUnits[worst],
+          .at_mm = std::nullopt};
+}
+
+/// Keeps the largest excess, what it is of, and the page it stands on. No load known: more than any.
+class Worst {
+ public:
+  explicit Worst(FeedAnswer& a) : a_(a) {}
+  void of(const std::optional<State>& s, const Column& limits, const Page* page, double plunge_rpm = 0.0) {
+    const double excess = s ? ratio(s->load, limits) - 1.0 : std::numeric_limits<double>::infinity();
+    if (!(excess > a_.worst_excess)) return;
+    a_.worst_excess = excess;
+    page_ = page;
+    plunge_rpm_ = plunge_rpm;
+    if (excess > 0.0)
+      a_.worst = s ? worst_limit(s->load, limits) : model::ExceededLimit{"load", 0.0, 0.0, "", std::nullopt};
+  }
+
+  /// Where the path first meets what is worst.
+  void place(const FeedQuestion& q, const CutterPath& path, Book& book) {
+    if (!(a_.worst_excess > 0.0)) return;
+    const auto& feeds = a_.schedule.feed_mm_min;
+    for (const CutSample& s : q.samples) {
+      if (s.move >= feeds.size() || s.move >= path.size() || !(feeds[s.move] > 0.0)) continue;
+      bool here = s.plunge && page_ == nullptr && s.ap_mm > 0.0 && rpm_on(q, s.move) == plunge_rpm_;
+      const Cuts cuts = cuts_of(s, q.cut.cutter);
+      for (std::size_t c = 0; c < cuts.n && !s.plunge && page_ != nullptr; ++c) {
+        const Page& page = book.page(cuts.cut[c], rpm_on(q, s.move));
+        here = here || (&page == page_ && feeds[s.move] * cuts.cut[c].gain >= page.most_scheduled);
+      }
+      if (!here) continue;
+      const double length = model::move_length(path, s.move);
+      a_.worst.at_mm =
+          model::point_on_move(path, s.move, length > 0.0 ? std::min(1.0, s.at_mm / length) : 1.0);
+      return;
+    }
+  }
+
+ private:
+  FeedAnswer& a_;
+  const Page* page_ = nullptr;  // null: a plunge
+  double plunge_rpm_ = 0.0;
+};
+
 /// Loads of every class of section at the largest feed it is cut with.
-void measure_peaks(const FeedQuestion& q, const model::FeedSchedule& schedule, Book& book, FeedAnswer& a) {
+void measure_peaks(const FeedQuestion& q, const CutterPath& path, Book& book, FeedAnswer& a) {
+  const model::FeedSchedule& schedule = a.schedule;
+  Worst worst(a);
   double removal = 0.0;
   std::map<double, double> plunging;  // largest feed by speed
   for (const CutSample& s : q.samples) {
@@ -103,22 +162,26 @@ void measure_peaks(const FeedQuestion& q, const model::FeedSchedule& schedule, B
   book.each([&](const Judge& judge, const Page& page) {
     if (!(page.most_scheduled > 0.0)) return;
     const auto s = judge.at(page.cut, page.most_scheduled);
-    if (!s) {
-      a.worst_excess = std::numeric_limits<double>::infinity();
-      return;
-    }
-    keep_peak(a.peak, *s, judge, q.cut.cutter);
-    a.worst_excess = std::max(a.worst_excess, ratio(s->load, judge.limits()) - 1.0);
+    if (s) keep_peak(a.peak, *s, judge, q.cut.cutter);
+    worst.of(s, judge.limits(), &page);
   });
   for (const auto& [n, feed] : plunging) {
     if (!(feed > 0.0)) continue;
     const Judge& judge = book.judge(n);
     const auto s = judge.plunging(feed);
     if (s) keep_peak(a.peak, *s, judge, q.cut.cutter);
-    const double excess = s ? ratio(s->load, judge.limits()) - 1.0 : std::numeric_limits<double>::infinity();
-    a.worst_excess = std::max(a.worst_excess, excess);
+    worst.of(s, judge.limits(), nullptr, n);
   }
+  worst.place(q, path, book);
   a.peak.mrr_mm3_min = removal;
+}
+
+/// The end of the first move at feed that goes down: where a drill is in its hole.
+std::optional<geometry::Vec3> deepest(const CutterPath& path) {
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    if (path.kind[i] == MoveKind::kLine && path.z[i] < path.z[i - 1]) return path.point(i);
+  }
+  return std::nullopt;
 }
 
 /// Feeds that are given, and those of drills, reamers and taps.
@@ -172,10 +235,12 @@ FeedAnswer feeds(const FeedQuestion& q, const CutterPath& path) {
     a.schedule = schedule_with(q, path, std::move(f.feed_mm_min));
   }
   if (sideways) {
-    measure_peaks(q, a.schedule, book, a);
+    measure_peaks(q, path, book, a);
   } else if (const auto l = loads_of(q.cut, 0.0, 0.0, std::abs(q.n_rpm), q.feed_mm_min)) {
     a.peak = *l;
-    a.worst_excess = worst_excess(q.cut, *l, std::abs(q.n_rpm));
+    const WorstLoad worst = worst_load(q.cut, *l, std::abs(q.n_rpm));
+    a.worst_excess = worst.excess;
+    if (worst.excess > 0.0) a.worst = {worst.name, worst.value, worst.limit, worst.unit, deepest(path)};
   }
   return a;
 }

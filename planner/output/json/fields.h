@@ -186,6 +186,10 @@ void fields(V& v, Is<model::ActiveConstraint> auto& x) {
   v("shadow_price", x.shadow_price), v("saves_s", x.saves_s), v("at_rpm", x.at_rpm);
 }
 template <class V>
+void fields(V& v, Is<model::ExceededLimit> auto& x) {
+  v("name", x.name), v("value", x.value), v("limit", x.limit), v("unit", x.unit), v("at_mm", x.at_mm);
+}
+template <class V>
 void fields(V& v, Is<model::StepResult> auto& x) {
   v("step", x.step), v("setup", x.setup), v("cutter_id", x.cutter_id), v("axial_depth_mm", x.axial_depth_mm);
   v("radial_depth_mm", x.radial_depth_mm), v("vc_m_min", x.vc_m_min), v("fz_mm", x.fz_mm);
@@ -193,11 +197,11 @@ void fields(V& v, Is<model::StepResult> auto& x) {
   v("path", x.path), v("sections", x.sections), v("schedule", x.schedule), v("cutting_s", x.cutting_s);
   v("rapid_s", x.rapid_s), v("loads", x.loads), v("active", x.active), v("through", x.through);
   v("path_deviation_mm", x.path_deviation_mm), v("contour_tolerance_mm", x.contour_tolerance_mm);
-  v("held_by", x.held_by);
+  v("held_by", x.held_by), v("exceeded", x.exceeded);
 }
 template <class V>
 void fields(V& v, Is<model::Unplanned> auto& x) {
-  v("feature", x.feature), v("reason", x.reason);
+  v("feature", x.feature), v("reason", x.reason), v("needed_by", x.needed_by);
 }
 template <class V>
 void fields(V& v, Is<model::Provenance> auto& x) {

@@ -34,8 +34,11 @@ constexpr double kPitchAgreement = 0.01;
 
 class Writer {
  public:
-  explicit Writer(const Plan& plan)
-      : plan_(plan), program_(plan.machine.control), probings_(probings_before(plan)) {}
+  Writer(const Plan& plan, const std::vector<model::Condemnation>& condemned)
+      : plan_(plan),
+        condemned_(condemned),
+        program_(plan.machine.control),
+        probings_(probings_before(plan)) {}
 
   Result<std::string> run() {
     header();
@@ -102,12 +105,47 @@ class Writer {
                        " diameter=" + program_.number(c->cutting_diameter_mm) + " id=\"" +
                        marker_text(c->id) + "\" " + std::string(model::to_text(c->cutter_class)));
     }
+    warnings();
     if (!plan_.steps.empty()) clamped(plan_.steps.front().setup);
     program_.blank();
     program_.line("G21 G17 G90 G94 G40 G49 G80");
     tolerance(0.0);
     retract();
     stop();
+  }
+
+  // What the check found, for whoever loads the program in spite of it.
+  void warnings() {
+    if (condemned_.empty()) return;
+    const std::size_t n = condemned_.size();
+    program_.comment("CONDEMNED: the check refuses this program for " +
+                     (n == 1 ? "the reason below" : "the " + std::to_string(n) + " reasons below") +
+                     "; it was asked for all the same, and stops before each condemned step");
+    for (const auto& c : condemned_) program_.comment("CONDEMNED: " + model::text_of(plan_, c));
+  }
+
+  // The reasons to stop before a step; those of the whole plan stop before its first.
+  [[nodiscard]] std::vector<const model::Condemnation*> reasons(const StepResult& step, std::size_t n) const {
+    std::vector<const model::Condemnation*> out;
+    if (condemned_.empty()) return out;
+    const std::string id = model::step_id(plan_, step);
+    for (const auto& c : condemned_) {
+      if (c.step.empty() ? n == 0 : c.step == id) out.push_back(&c);
+    }
+    return out;
+  }
+
+  void stop_for(const std::vector<const model::Condemnation*>& why, std::size_t n) {
+    for (const auto* c : why) program_.comment("CONDEMNED: " + c->text);
+    const std::string before = "condemned step " + std::to_string(n + 1) + ": ";
+    const std::string after = why.size() == 1 ? "; continue at your own risk"
+                                              : "; and " + std::to_string(why.size() - 1) +
+                                                    " more, see the program; continue at your own risk";
+    constexpr std::size_t kLongest = 200;
+    program_.line("(MSG, " + before +
+                  plain_text(why.front()->text).substr(0, kLongest - before.size() - after.size()) + after +
+                  ")");
+    program_.line("M0");
   }
 
   // What the operator must know before a set-up begins: where zero is, what holds the piece, and where.
@@ -169,13 +207,16 @@ class Writer {
     const bool new_tool = cutter.pocket != tool_;
     const bool first = tool_ == 0;
     const bool new_setup = !first && step.setup != setup_;
+    const auto why = reasons(step, n);
     program_.blank();
-    if ((new_tool || new_setup) && !first) {
+    if ((new_tool || new_setup || !why.empty()) && !first) {
       retract();
       stop();
     }
-    program_.line("(CAPSTAN STEP id=\"" + marker_text(id) + "\" n=" + std::to_string(n + 1) + " tool=" +
-                  std::to_string(cutter.pocket) + " setup=" + std::to_string(step.setup + 1) + ")");
+    program_.line("(CAPSTAN STEP id=\"" + marker_text(id) + "\" n=" + std::to_string(n + 1) +
+                  " tool=" + std::to_string(cutter.pocket) + " setup=" + std::to_string(step.setup + 1) +
+                  (why.empty() ? std::string() : " condemned=\"" + marker_text(why.front()->code) + "\"") +
+                  ")");
     if (new_setup) {
       clamped(step.setup);
       program_.line("(MSG, " +
@@ -184,6 +225,7 @@ class Writer {
                     ")");
       program_.line("M0");
     }
+    if (!why.empty()) stop_for(why, n);
     program_.line("G21 G17 G90 G94 G40 G80");
     tolerance(step.contour_tolerance_mm);
     program_.line(setup.work_offset);
@@ -195,7 +237,7 @@ class Writer {
     program_.line("G43 H" + t);
     tool_ = cutter.pocket;
     setup_ = step.setup;
-    approach(step, setup, new_tool || new_setup || measured_);
+    approach(step, setup, new_tool || new_setup || measured_ || !why.empty());
   }
 
   // To the start of the path, from the top of the machine or from the security plane.
@@ -323,6 +365,7 @@ class Writer {
   }
 
   const Plan& plan_;
+  const std::vector<model::Condemnation>& condemned_;
   Program program_;
   std::map<model::AnyRef, std::vector<model::AnyRef>> probings_;  // by the step they precede
   bool measured_ = false;
@@ -334,7 +377,8 @@ class Writer {
 
 }  // namespace
 
-Result<std::string> write_linuxcnc(const Plan& plan, Job& job) {
+Result<std::string> write_linuxcnc(const Plan& plan, Job& job,
+                                   const std::vector<model::Condemnation>& condemned) {
   if (plan.machine.control.dialect != "linuxcnc") {
     return fail({.code = "OUT-DIALECT",
                  .message = "the machine '" + plan.machine.id + "' has a control of dialect '" +
@@ -343,7 +387,7 @@ Result<std::string> write_linuxcnc(const Plan& plan, Job& job) {
                  .hint = "write .json or .p21 instead"});
   }
   if (auto ok = writable(plan, job); !ok) return tl::unexpected(ok.error());
-  return Writer(plan).run();
+  return Writer(plan, condemned).run();
 }
 
 std::string write_tool_table(const Plan& plan) {

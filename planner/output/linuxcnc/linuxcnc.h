@@ -5,6 +5,7 @@
 
 #include "planner/base/job.h"
 #include "planner/base/result.h"
+#include "planner/model/condemned.h"
 #include "planner/model/plan.h"
 
 namespace capstan::output {
@@ -39,7 +40,12 @@ namespace capstan::output {
 /// Warns   OUT-TOOL-LENGTH for a cutter whose functional length is not known.
 /// Source  LinuxCNC 2.9 manual, G-code reference and "RS274/NGC"; dwell after a start of the spindle:
 ///         Spindle::spin_up_s.
-[[nodiscard]] Result<std::string> write_linuxcnc(const model::Plan& plan, Job& job);
+/// `condemned` (model::condemned): the reasons why the program must not be run. The header lists them; the
+/// marker of each condemned step says `condemned="CODE"`, and behind it the program stops: retracted, spindle
+/// and coolant off, a message, `M0`. Reasons of the whole plan stop it before its first step. Whether such a
+/// program is written at all is the caller's to decide.
+[[nodiscard]] Result<std::string> write_linuxcnc(const model::Plan& plan, Job& job,
+                                                 const std::vector<model::Condemnation>& condemned = {});
 
 /// The tool table (.tbl) of the program: `T1 P1 Z+50.000000 D+18.000000 ;description`, by tool number.
 /// Units  mm (LINEAR_UNITS = mm of the machine's ini file); Z is the functional length, D the diameter.

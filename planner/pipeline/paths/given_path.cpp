@@ -126,6 +126,7 @@ Result<model::FeedSchedule> chosen(Work& w, StepWork& step, const model::CutterP
   out.result.loads = feeds.peak;
   if (!(out.result.loads.tool_life_min > 0.0)) out.result.loads.tool_life_min = answer->life_min;
   out.result.held_by = feeds.held_by;
+  keep_excess(w, step, feeds, out.result);
   return feeds.schedule;
 }
 
@@ -202,6 +203,8 @@ Result<std::optional<GivenPath>> given_path(Work& w, StepWork& step, Stocks& sto
     const auto feeds = optimise::feeds(fq, *path);
     out.result.loads = feeds.peak;
     out.result.held_by = feeds.held_by;
+    // A path and feed that planning made before are judged as then; what a file gives is its maker's.
+    if (feed_was_planned(w, step)) keep_excess(w, step, feeds, out.result);
   }
   out.result.schedule = std::make_shared<const model::FeedSchedule>(std::move(given->schedule));
   return out;

@@ -9,11 +9,13 @@
 #include <vector>
 
 #include "planner/base/number.h"
+#include "planner/model/condemned.h"
 #include "planner/pipeline/grouped.h"
 #include "planner/pipeline/holding.h"
 #include "planner/pipeline/paths/cuts.h"
 #include "planner/pipeline/paths/given_path.h"
 #include "planner/pipeline/paths/progress.h"
+#include "planner/pipeline/paths/ranking.h"
 #include "planner/pipeline/paths/results.h"
 #include "planner/pipeline/paths/sections.h"
 #include "planner/pipeline/paths/stocks.h"
@@ -25,9 +27,6 @@ namespace capstan::pipeline {
 namespace {
 
 using model::Model;
-
-constexpr double kTolerableExcess =
-    0.1;  // of a limit, somewhere on a path: sections are known to a cell's width
 
 /// What one try at a step came to.
 struct Made {
@@ -54,6 +53,7 @@ constexpr int kMostThinner = 3;
 /// A thinner cut aims below the limit by this, for sections along the path are not proportional to it.
 constexpr double kThinnerAim = 0.9;      // default, unsourced
 constexpr double kThinnerUnknown = 0.5;  // where no formula tells the excess; default, unsourced
+constexpr double kThinnerAnew = 0.7;     // each time that the check condemned the cut; default, unsourced
 constexpr double kThinnest = 0.02;       // of the cut that keeps the limits off the path; default, unsourced
 
 void append(toolpath::GeneratedPath& to, const toolpath::GeneratedPath& from) {
@@ -162,7 +162,7 @@ class PathMaker {
       lose(step);
       return {};
     }
-    rank_by_time(step);
+    rank_by_time(w_, step, stocks_, progress_, cuts_);
     const std::size_t tries = std::max<std::size_t>(1, step.candidates.size());
     GroupedReasons why_not;
     std::optional<std::pair<std::size_t, double>> least;  // of those that exceed a limit: which, by how much
@@ -196,10 +196,7 @@ class PathMaker {
     const std::string thinner = t.made.thicker.empty()
                                     ? std::string()
                                     : ", also where it cuts " + trimmed(t.made.answer.ap_mm, 3) + " mm deep";
-    return "somewhere along the path a limit is exceeded by " +
-           (std::isfinite(t.feeds.worst_excess) ? trimmed(100.0 * t.feeds.worst_excess, 1) + " %"
-                                                : std::string("what no formula tells")) +
-           " even at the least feed" + thinner;
+    return model::text_of(t.feeds.worst) + ", even at the least feed" + thinner;
   }
 
   /// A try with one of the candidates: thinner, where a limit is exceeded along its path, up to kMostThinner
@@ -211,6 +208,11 @@ class PathMaker {
     std::vector<model::Rejected> thicker;
     std::optional<double> gentlest;  // share of the first try
     double of_gentlest = 0.0, share = 1.0;
+    if (const Thinner* t =
+            step.proposed ? w_.tries.thinner(step.member, step.chain, step.in_chain) : nullptr) {
+      share = std::pow(kThinnerAnew, t->times);
+      thicker.push_back({"a cut " + trimmed(1.0 / share, 2) + " times as large", t->why});
+    }
     for (int round = 0; round <= kMostThinner; ++round) {
       auto said = w_.job.take_diagnostics();  // before this try; what a try says that is not kept is not told
       const auto told = [&](bool kept) {
@@ -247,59 +249,6 @@ class PathMaker {
 
   static std::string sizes(const optimise::CutAnswer& a) {
     return trimmed(a.ap_mm, 3) + " mm deep, " + trimmed(a.ae_mm, 3) + " mm wide";
-  }
-
-  /// Roughing: of the cutters that fit, the one that takes the volume away soonest, tool change included.
-  void rank_by_time(StepWork& step) {
-    if (step.candidates.size() < 2 || step.shapes.empty()) return;
-    const Model& m = w_.plan.model;
-    if (!m.holds<model::PlaneMilling>(step.operation) && !m.holds<model::SideRoughMilling>(step.operation) &&
-        !m.holds<model::BottomAndSideRoughMilling>(step.operation)) {
-      return;
-    }
-    const std::string first = step.candidates.front().cutter.id;
-    constexpr std::size_t kCompared = 5;
-    const std::size_t n = std::min(kCompared, step.candidates.size());
-    std::vector<std::pair<double, std::size_t>> times;
-    for (std::size_t i = 0; i < n; ++i) {
-      StepWork trial = step;
-      trial.cutter = step.candidates[i].cutter;
-      auto job = job_of(w_, trial, step.shapes.front());
-      progress_.prepare(trial, stocks_.of(trial.setup), job);
-      const auto q = question_of(w_, trial, &step.candidates[i], job);
-      const auto a = cuts_.answer(q);
-      double t = 1e12 * static_cast<double>(i + 1);
-      if (a && a->feasible) {
-        const double volume = geometry::area(job.shape.area) * q.depth_mm;
-        t = volume / (a->ap_mm * a->ae_mm * a->feed_mm_min) * 60.0;
-        const bool used = std::find(w_.used_cutters.begin(), w_.used_cutters.end(), trial.cutter.id) !=
-                          w_.used_cutters.end();
-        if (!used) t += w_.plan.machine.tool_change_s;
-      }
-      times.emplace_back(t, i);
-    }
-    const double of_first = times.front().first;
-    std::stable_sort(times.begin(), times.end());
-    std::vector<model::Candidate> sorted;
-    for (const auto& [t, i] : times) sorted.push_back(step.candidates[i]);
-    for (std::size_t i = n; i < step.candidates.size(); ++i) sorted.push_back(step.candidates[i]);
-    step.candidates = std::move(sorted);
-    if (step.candidates.front().cutter.id == first) return;
-    step.cutter = step.candidates.front().cutter;
-    step.rejected_tools.push_back(
-        {first,
-         "fits, but takes " +
-             (of_first < 1e11 ? trimmed(of_first, 1) + " s" : std::string("too long, or breaks a limit,")) +
-             " against " + trimmed(times.front().first, 1) + " s of " + step.cutter.id});
-    take_cutter(step, step.candidates.front());
-  }
-
-  /// A cutter further down the list does what the first could not.
-  void take_cutter(StepWork& step, const model::Candidate& c) {
-    std::erase_if(step.rejected_tools, [&](const auto& r) { return r.what == c.cutter.id; });
-    w_.plan.model.get<model::MachiningOperation>(step.operation)->its_tool = tool_noun(w_, c.cutter);
-    w_.plan.ledger.bind(step.operation, "its_tool", model::Binder::kToolSelection, c.why,
-                        {{step.step, "its_operation"}}, step.rejected_tools);
   }
 
   Result<Made> attempt(const StepWork& step, const model::Candidate* candidate, double share) {
@@ -394,7 +343,7 @@ class PathMaker {
     fq.n_rpm = given.rpm.value_or(sense * made.answer.n_rpm);
     fq.feed_mm_min = given.feed_mm_min.value_or(made.answer.feed_mm_min);
     const bool kept = step.keep_feed && made.let_go.empty();
-    fq.adapt = (step.open_technology && !kept) || feed_was_planned(step);
+    fq.adapt = (step.open_technology && !kept) || feed_was_planned(w_, step);
     fq.constant = w_.inputs.constant_feeds;
     fq.feed_factor = std::move(made.path.feed_factor);
     fq.speed_factor = std::move(made.path.speed_factor);
@@ -420,13 +369,17 @@ class PathMaker {
       r.sections = std::make_shared<const model::SectionSeries>(std::move(m->sections));
     }
     out.feeds = optimise::feeds(fq, *out.path);
+    // A ramp that seems to exceed a limit may only be one that is told as a side cut.
+    if (exceeds(step, out) && end_cuts_as_slots(fq.samples, *out.path, step.cutter.cutting_diameter_mm))
+      out.feeds = optimise::feeds(fq, *out.path);
     out.made = std::move(made);
     return out;
   }
 
   /// Takes a try: into nouns, ledger and plan.
   Status accept(StepWork& step, Tried tried, std::size_t candidate) {
-    if (candidate > 0 && candidate < step.candidates.size()) take_cutter(step, step.candidates[candidate]);
+    if (candidate > 0 && candidate < step.candidates.size())
+      take_cutter(w_, step, step.candidates[candidate]);
     const Made& made = tried.made;
     let_go(w_, step, made.let_go);
     turn_with_the_cutter(w_, step);
@@ -435,8 +388,7 @@ class PathMaker {
     progress_.done(step);
     const auto& feeds = tried.feeds;
     model::StepResult& r = tried.result;
-    if (exceeds(step, tried))
-      w_.job.warn("PIP-EXCESS", "step '" + name_of(w_, step) + "': " + excess_text(tried));
+    if (tried.asked.adapt) keep_excess(w_, step, feeds, r);
     r.schedule = std::make_shared<const model::FeedSchedule>(feeds.schedule);
     r.loads = feeds.peak;
     if (!(r.loads.tool_life_min > 0.0)) r.loads.tool_life_min = made.answer.life_min;
@@ -452,22 +404,15 @@ class PathMaker {
   /// Depths that exceeded a limit along the path: an alternative that was tried, and why not.
   void tell_thicker(const StepWork& step, const Made& made) {
     if (made.thicker.empty()) return;
-    w_.job.note("PIP-ANEW", "step '" + name_of(w_, step) + "': planned anew " + sizes(made.answer) +
-                                " instead of " + made.thicker.front().what + ", because " +
-                                made.thicker.front().why);
+    if (made.thicker.size() > 1 || !step.proposed ||
+        w_.tries.thinner(step.member, step.chain, step.in_chain) == nullptr)
+      w_.job.note("PIP-ANEW", "step '" + name_of(w_, step) + "': planned anew " + sizes(made.answer) +
+                                  " instead of " + made.thicker.front().what + ", because " +
+                                  made.thicker.front().why);
     const char* what = made.depth_open ? "axial_cutting_depth" : "radial_cutting_depth";
     auto* d = w_.plan.ledger.find(step.operation, what);
     if (d == nullptr) return;
     for (const model::Rejected& r : made.thicker) d->rejected.push_back(r);
-  }
-
-  /// Whether the feed is one that planning bound before: then it is the most, and each move has its own.
-  bool feed_was_planned(const StepWork& step) const {
-    const auto* op = w_.plan.model.get<model::MachiningOperation>(step.operation);
-    if (op == nullptr || !op->its_technology.set()) return false;
-    const auto* d = w_.plan.ledger.find(op->its_technology, "feedrate");
-    return d != nullptr && !d->pinned && d->binder != model::Binder::kGiven &&
-           d->binder != model::Binder::kOperator;
   }
 
   // A given path is moves at feed; without a compensation chuck that breaks the tap, so the thread is planned

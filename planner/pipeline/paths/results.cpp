@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "planner/base/number.h"
+#include "planner/model/condemned.h"
 #include "planner/motion/time.h"
 
 namespace capstan::pipeline {
@@ -52,6 +53,21 @@ void keep(Work& w, const StepWork& step, model::StepResult r, const optimise::Fe
     w.job.warn(t.error().code, "step '" + name_of(w, step) + "' has no time: " + t.error().message);
   }
   w.plan.steps.push_back(std::move(r));
+}
+
+bool feed_was_planned(const Work& w, const StepWork& step) {
+  const auto* op = w.plan.model.get<model::MachiningOperation>(step.operation);
+  if (op == nullptr || !op->its_technology.set()) return false;
+  const auto* d = w.plan.ledger.find(op->its_technology, "feedrate");
+  return d != nullptr && !d->pinned && d->binder != model::Binder::kGiven &&
+         d->binder != model::Binder::kOperator;
+}
+
+void keep_excess(Work& w, const StepWork& step, const optimise::FeedAnswer& feeds, model::StepResult& r) {
+  if (!(feeds.worst_excess > kTolerableExcess)) return;
+  r.exceeded.push_back(feeds.worst);
+  w.job.warn("PIP-EXCESS", "step '" + name_of(w, step) + "': " + model::text_of(feeds.worst) +
+                               ", even at the least feed; use a smaller tool or depth");
 }
 
 model::StepResult result_of(const Work& w, const StepWork& step) {

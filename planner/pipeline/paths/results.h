@@ -17,6 +17,12 @@ namespace capstan::pipeline {
 /// The limits of an answer; `saves_s` is the part of the cutting time that a tenth more of each saves, until
 /// `keep` knows that time.
 [[nodiscard]] std::vector<model::ActiveConstraint> active_of(const optimise::CutAnswer& answer);
+/// Whether the feed is one that planning bound before: then it is the most, and each move has its own.
+[[nodiscard]] bool feed_was_planned(const Work& w, const StepWork& step);
+/// How far a limit may be exceeded somewhere on a path: sections are known to a cell's width.
+inline constexpr double kTolerableExcess = 0.1;
+/// Keeps the limit that feeds exceed by more than kTolerableExcess, and warns PIP-EXCESS.
+void keep_excess(Work& w, const StepWork& step, const optimise::FeedAnswer& feeds, model::StepResult& result);
 /// Puts the step into the plan, with its time and the seconds that its limits cost. Says PIP-SLOW of hours.
 void keep(Work& w, const StepWork& step, model::StepResult result, const optimise::FeedQuestion& asked);
 /// The step stays without a path: said, and kept as unplanned.

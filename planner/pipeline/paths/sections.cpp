@@ -88,6 +88,26 @@ std::pair<double, double> mean_extents(const model::SectionSeries& s) {
 
 }  // namespace
 
+bool end_cuts_as_slots(std::vector<CutSample>& samples, const model::CutterPath& path,
+                       double cutting_diameter_mm) {
+  bool any = false;
+  const double r = 0.5 * cutting_diameter_mm;
+  for (CutSample& s : samples) {
+    const std::size_t i = s.move;
+    if (s.plunge || !(s.ap_mm > 0.0) || i == 0 || i >= path.size() || !(path.z[i] < path.z[i - 1])) continue;
+    double most = cutting_diameter_mm;
+    if (path.kind[i] != model::MoveKind::kLine) {
+      const double rho = std::hypot(path.x[i] - path.cx[i], path.y[i] - path.cy[i]);
+      if (rho > 0.0) most = std::max(most, (rho + r) * (rho + r) / (2.0 * rho));
+    }
+    if (!(s.ae_mm > most) || !(s.csa_mm2 > most * s.ap_mm)) continue;
+    s.ap_mm = s.csa_mm2 / most;
+    s.ae_mm = most;
+    any = true;
+  }
+  return any;
+}
+
 std::optional<std::string> impossible(const model::SectionSeries& s, const model::CutterPath& path,
                                       double d_mm, double cutting_length_mm) {
   constexpr double kRounding = 1.02, kFloorMm = 0.02;  // of what is printed and measured; default, unsourced

@@ -19,6 +19,15 @@ namespace capstan::pipeline {
 /// as deep, and as wide.
 [[nodiscard]] std::vector<optimise::CutSample> samples_of(const engagement::Measurement& measured);
 
+/// A cutter that goes down on a slope cuts with its end, too: over its depth of contact it removes more than
+/// any width of it could, which as a side cut would be a chip many times the feed per tooth. Such sections
+/// are told as the slot that removes the same: as wide as the cutter can sweep (more on an arc of radius rho:
+/// the outer edge goes farther), and so much deeper. Gives whether there are any.
+///
+///     ae <= max(D, (rho + R)^2 / (2 rho)),   ap = area / ae        derived: the same volume per length
+bool end_cuts_as_slots(std::vector<optimise::CutSample>& samples, const model::CutterPath& path,
+                       double cutting_diameter_mm);
+
 /// Of the seven numbers alone, no simulation: depth ADmax, width RDmax, and the arc of contact from the width
 /// about Xmaxofs on the cutter's diameter,
 ///

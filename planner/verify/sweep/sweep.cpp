@@ -85,7 +85,12 @@ void check_removal(const model::Plan& plan, const std::vector<StepMoves>& steps,
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const StepMoves& step = steps[i];
     job.progress("check", static_cast<double>(i) / static_cast<double>(steps.size()));
-    if (job.stop_requested()) return;
+    if (job.stop_requested()) {
+      findings.error(11, "CHK-STOPPED", {Findings::kWhole, "", -1},
+                     "the check was stopped before step " + std::to_string(i + 1) + " of " +
+                         std::to_string(steps.size()) + ": nothing is proven of it and of what follows");
+      return;
+    }
     const geometry::Placement frame = workpiece_in(plan, step.setup);
     Scene* scene = nullptr;
     for (const auto& s : scenes) {

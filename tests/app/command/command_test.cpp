@@ -343,6 +343,72 @@ TEST_F(CommandTest, AMissingMachineIsAnUnreadableInput) {
   EXPECT_EQ(files(), std::vector<std::string>{"plate.p21"});
 }
 
+TEST_F(CommandTest, AnUnknownNameIsRefusedWithTheNearestOnesAndHowToListThem) {
+  put("plate.p21", testing::drilled_plate());
+  const auto refused = [&](const std::string& arguments, const std::string& said, const std::string& list) {
+    const Ran r = run(arguments);
+    EXPECT_EQ(r.code, 2) << arguments << "\n" << r.err;
+    EXPECT_THAT(r.err, HasSubstr(said)) << arguments;
+    EXPECT_THAT(r.err, HasSubstr("`" + list + "`")) << arguments;
+    EXPECT_EQ(files(), std::vector<std::string>{"plate.p21"});
+  };
+  const std::string plan = "plan plate.p21 -o a.json ";
+  refused(plan + "--material steeel", "unknown material 'steeel'. Did you mean 'mild_steel'",
+          "capstan materials list");
+  refused(plan + "--machine smal_router", "unknown machine 'smal_router'. Did you mean 'small_router'?",
+          "capstan machines list");
+  refused(plan + "--workholding vice_125", "unknown fixture 'vice_125'. Did you mean 'vise_125'",
+          "capstan fixtures list");
+  refused(plan + "--tools genric", "unknown tool library 'genric'. Did you mean 'generic'?",
+          "capstan tools list");
+  refused("tools show generic/reamer_h7/88", "unknown cutter 'generic/reamer_h7/88'. Did you mean '",
+          "capstan tools list");
+  refused("check plate.p21 --machine smal_router", "unknown machine", "capstan machines list");
+}
+
+TEST_F(CommandTest, AnUnknownMaterialOfThePartIsRefusedAndAnUnnamedOneIsPlannedByDefault) {
+  std::string text = testing::drilled_plate();
+  const std::string stated = "MATERIAL('EN AW-6061','ALUMINIUM',())";
+  const auto with = [&](const std::string& other) {
+    std::string t = text;
+    return t.replace(t.find(stated), stated.size(), other);
+  };
+  put("plate.p21", with("MATERIAL('UNOBTAINIUM','U',())"));
+  const Ran unknown = run("plan plate.p21 -o a.json");
+  EXPECT_EQ(unknown.code, 2);
+  EXPECT_THAT(unknown.err, HasSubstr("#6 unknown material 'UNOBTAINIUM'"));
+  EXPECT_THAT(unknown.err, HasSubstr("name one with --material"));
+  EXPECT_THAT(run("plan plate.p21 --material C45 -o a.json").err, Not(HasSubstr("unknown material")));
+  put("plate.p21", with("MATERIAL('','',())"));
+  EXPECT_THAT(run("plan plate.p21 -o a.json").err,
+              HasSubstr("no material is named; planned for tool_steel by default"));
+}
+
+TEST_F(CommandTest, AStatedPropertyOfTheMaterialThatIsNotUsedIsSaid) {
+  std::string text = testing::drilled_plate();
+  const std::string stated = "#6=MATERIAL('EN AW-6061','ALUMINIUM',());";
+  text.replace(text.find(stated), stated.size(),
+               "#6=MATERIAL('FC200','CAST IRON',(#301,#302));\n"
+               "#301=NUMERIC_PARAMETER('hardness',200.,'HB');\n#302=DESCRIPTIVE_PARAMETER('grade','A');");
+  put("plate.p21", text);
+  const Ran r = run("plan plate.p21 -o a.json");
+  EXPECT_THAT(r.err,
+              HasSubstr("the part states hardness = 200 HB for its material; planning does not use it"));
+  EXPECT_THAT(r.err, HasSubstr("the part states grade = A for its material"));
+  EXPECT_THAT(r.err, HasSubstr("grey_cast_iron"));
+  EXPECT_THAT(run("explain a.json").out, HasSubstr("grey_cast_iron"));
+}
+
+TEST_F(CommandTest, WhatIsKnownIsListed) {
+  const Ran materials = run("materials list");
+  EXPECT_EQ(materials.code, 0);
+  EXPECT_THAT(materials.out, HasSubstr("FC200"));
+  EXPECT_THAT(materials.out, HasSubstr("wrought_aluminium"));
+  EXPECT_THAT(run("materials list FCD").out, Not(HasSubstr("wrought_aluminium")));
+  EXPECT_THAT(run("machines list").out, HasSubstr("small_router"));
+  EXPECT_THAT(run("fixtures list").out, HasSubstr("vise_125"));
+}
+
 TEST_F(CommandTest, AMissingCaseBaseIsNotMadeByAsking) {
   const Ran r =
       run("cases nearest none.db --operation DRILLING --material C45 --tool hss/twist_drill --diameter 8");

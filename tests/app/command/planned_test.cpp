@@ -10,6 +10,7 @@
 #include <string>
 
 #include "tests/support/corpus.h"
+#include "tests/support/rs274.h"
 
 // Plans of the examples with one thing changed, as users change them, end to end.
 
@@ -56,6 +57,64 @@ TEST_F(Planned, AHoleDeeperThanItsEndMillsFlutesIsMilledInTurnsThatTheyReach) {
   part("two_setups.p21", {{"#70=TOLERANCED_LENGTH_MEASURE(6.6,#25);",
                            "#70=TOLERANCED_LENGTH_MEASURE(16.5,#225);\n#225=PLUS_MINUS_VALUE(0.043,0.,4);"}});
   EXPECT_EQ(run("plan p.p21 -o p.json -o p.ngc"), 0) << said_;
+}
+
+TEST_F(Planned, NoProgramIsWrittenOfAPlanThatExceedsALimit) {
+  part("bracket.p21", {});
+  std::ofstream(folder_ / "x.ngc") << "(a program from before)\n";
+  std::ofstream(folder_ / "x.tbl") << "T1 P1 Z+1 D+1 ;from before\n";
+  EXPECT_EQ(run("plan p.p21 --machine small_router -o x.ngc -o x.tbl -o x.json -o x.p21 -o x.stpnc"), 1)
+      << said_;
+  EXPECT_THAT(said_, ::testing::ContainsRegex(
+                         "program not written: step [0-9]+ .*: spindle torque [0-9.]+ of [0-9.]+ Nm at "
+                         "X[-0-9.]+ Y[-0-9.]+; use a smaller tool or depth"));
+  EXPECT_THAT(said_,
+              ::testing::ContainsRegex("capstan: planned .*; program not written: step .*; wrote x.json"));
+  EXPECT_THAT(said_, HasSubstr("renamed to x.ngc.before"));
+  EXPECT_THAT(said_, HasSubstr("x.tbl is from before, not of this plan"));
+  EXPECT_FALSE(fs::exists(folder_ / "x.ngc"));
+  EXPECT_EQ(slurp(folder_ / "x.ngc.before"), "(a program from before)\n");
+  EXPECT_EQ(slurp(folder_ / "x.tbl"), "T1 P1 Z+1 D+1 ;from before\n");
+  // The plan says so itself, in each of its forms.
+  for (const char* form : {"x.json", "x.p21", "x.stpnc"}) {
+    EXPECT_EQ(run(std::string("plan ") + form + " --machine small_router -o y.ngc"), 1) << form << said_;
+    EXPECT_THAT(said_, HasSubstr("program not written")) << form;
+    EXPECT_FALSE(fs::exists(folder_ / "y.ngc")) << form;
+  }
+  EXPECT_EQ(run("check x.json"), 1);
+  EXPECT_THAT(said_, HasSubstr("PIP-EXCESS"));
+}
+
+TEST_F(Planned, AllowFindingsWritesTheProgramWithAStopBeforeEachCondemnedStep) {
+  part("bracket.p21", {});
+  EXPECT_EQ(run("plan p.p21 --machine small_router --allow-findings -o x.ngc -o x.tbl -o x.json"), 1)
+      << said_;
+  EXPECT_THAT(said_, HasSubstr("the program stops before what is condemned: step "));
+  const std::string program = slurp(folder_ / "x.ngc");
+  EXPECT_THAT(program, HasSubstr("(CONDEMNED: the check refuses this program"));
+  EXPECT_THAT(program, HasSubstr("condemned=\"PIP-EXCESS\")\n"));
+  const auto marker = program.find("condemned=\"PIP-EXCESS\")");
+  EXPECT_LT(program.find("\nM0\n", marker), program.find("G43", marker));
+  // The check of such a program does not blame its stops.
+  (void)run("check x.json x.ngc x.tbl");
+  EXPECT_THAT(said_, Not(HasSubstr("x.ngc:"))) << said_;
+  if (::capstan::testing::rs274_available()) {
+    const auto ran = ::capstan::testing::run_rs274(slurp(folder_ / "x.tbl"), program);
+    EXPECT_EQ(ran.status, 0) << ran.output;
+    EXPECT_FALSE(ran.only({"PROGRAM_STOP"}).empty());
+  }
+  EXPECT_EQ(run("plan p.p21 --allow-findings --strict -o x.ngc"), 2) << said_;
+}
+
+TEST_F(Planned, BindPastItsDeadlineEndsWithFive) {
+  const std::string source = CAPSTAN_SOURCE_DIR;
+  const std::string bind = "bind '" + source + "/examples/plate_bound.p21' --tools '" + source +
+                           "/tests/late/magazine.tbl' -o x.ngc -o x.json";
+  EXPECT_EQ(run(bind + " --deadline 1ms"), 5) << said_;
+  EXPECT_THAT(said_, HasSubstr("too late: the deadline was past"));
+  EXPECT_TRUE(fs::exists(folder_ / "x.ngc"));  // checked, but late
+  EXPECT_EQ(run(bind + " --deadline 600s"), 0) << said_;
+  EXPECT_EQ(run(bind), 0) << said_;  // nobody waits
 }
 
 TEST_F(Planned, AWideFittedHoleIsRoughedWithinTheRampOfItsCutter) {

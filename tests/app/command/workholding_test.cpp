@@ -96,8 +96,8 @@ TEST_F(Workholding, FaultsOfTheFileAreToldOnceEach) {
     std::ofstream(folder_ / "h.yaml") << "capstan_workholding: 1\nunit: mm\nsetups:\n  - " << setup << "\n";
     return run(plan_with("h.yaml"));
   };
-  EXPECT_NE(with("{setup: 1, fixture: grandfathers_vise}"), 0);
-  EXPECT_THAT(said_, HasSubstr("HOLD-UNKNOWN"));
+  EXPECT_EQ(with("{setup: 1, fixture: grandfathers_vise}"), 2);
+  EXPECT_THAT(said_, HasSubstr("unknown fixture 'grandfathers_vise'"));
   EXPECT_NE(with("{setup: 7, fixture: vise_125}"), 0);
   EXPECT_THAT(said_, HasSubstr("there is no set-up '7'"));
   EXPECT_NE(run(plan_with("no_such_file.yaml")), 0);

@@ -188,6 +188,26 @@ TEST(Feeds, OfHeavierCutsThanTheLeastFeedBearsSaySo) {
   EXPECT_NEAR(a.schedule.feed_mm_min[1], kLeastFeedShare * 800.0, 0.1);
 }
 
+TEST(Feeds, NameTheLimitThatIsExceededMostWithItsNumbersAndPlace) {
+  FeedQuestion q = question();
+  q.cut.peak_force_limit_n = 1.0;
+  CutterPath p;
+  p.start({0, 0, 0});
+  p.line({100, 0, 0}, MoveRole::kCut);
+  p.line({100, 50, 0}, MoveRole::kCut);
+  // Shallow along the first move, deep from 10 mm on the second: its first millimetre there is worst.
+  cut_along(q, p, 1, 0.5, 1.0);
+  cut_along(q, p, 2, 8.0, 8.0, 10.0);
+  const auto a = feeds(q, p);
+  EXPECT_EQ(a.worst.name, "peak_force");
+  EXPECT_EQ(a.worst.unit, "N");
+  EXPECT_EQ(a.worst.limit, 1.0);
+  EXPECT_NEAR(a.worst.value / a.worst.limit - 1.0, a.worst_excess, 1e-12);
+  ASSERT_TRUE(a.worst.at_mm);
+  EXPECT_NEAR(a.worst.at_mm->x, 100.0, 1e-9);
+  EXPECT_NEAR(a.worst.at_mm->y, 11.0, 1e-9);
+}
+
 TEST(Feeds, StayWithinWhatOneAxisDoesEvenWhereTwoShareTheWay) {
   FeedQuestion q = question();
   for (auto& axis : q.cut.machine.axes) axis.feed_max_mm_min = 700.0;

@@ -99,7 +99,7 @@ TEST(PlanJson, KnowsEveryFieldOfThePlansStructs) {
   EXPECT_EQ(sizeof(model::Cutter), 640U);
   EXPECT_EQ(sizeof(model::Machine), 664U);
   EXPECT_EQ(sizeof(model::WorkMaterial), 216U);
-  EXPECT_EQ(sizeof(model::StepResult), 360U);
+  EXPECT_EQ(sizeof(model::StepResult), 384U);
   EXPECT_EQ(sizeof(model::SetupResult), 240U);
   EXPECT_EQ(sizeof(model::Decision), 96U);
   EXPECT_EQ(sizeof(Plan) - sizeof(model::Model) - sizeof(model::Ledger), 1288U);

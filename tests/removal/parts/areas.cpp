@@ -23,7 +23,8 @@ Part island_pocket() {
   return {"island_pocket", d.text(), b, t};
 }
 
-// 60 x 40 mm: 5 mm are faced off around a boss of 14 x 20 mm, R3; beside it a pocket of 22 x 20 mm, 6 mm deep.
+// 60 x 40 mm: 5 mm are faced off around a boss of 14 x 20 mm, R3; beside it a pocket of 22 x 20 mm, 6 mm
+// deep.
 Part boss_beside_pocket() {
   const Box b = block(60, 40, 14, 5);
   Drawing d("BOSS BESIDE POCKET", b);
@@ -63,8 +64,8 @@ Part open_pocket() {
   return {"open_pocket", d.text(), b, t};
 }
 
-// 50 x 40 mm: the right side is taken down by 6 mm over x = 38 to 50, but from y = 8 to 32 only. Its inner corners
-// are drawn sharp: up to R6 may stay in them.
+// 50 x 40 mm: the right side is taken down by 6 mm over x = 38 to 50, but from y = 8 to 32 only. Its inner
+// corners are drawn sharp: up to R6 may stay in them.
 Part short_step() {
   const Box b = block(50, 40, 14);
   Drawing d("SHORT STEP", b);
@@ -92,8 +93,8 @@ Part outside_contour() {
   return {"outside_contour", d.text(), b, t};
 }
 
-// 50 x 40 mm: a pocket drawn as a composite curve, 30 x 22 mm with corners R5, 5 mm deep; its arc at the lower right
-// runs from 270 to 0 degrees, or clockwise from 0 to 270.
+// 50 x 40 mm: a pocket drawn as a composite curve, 30 x 22 mm with corners R5, 5 mm deep; its arc at the
+// lower right runs from 270 to 0 degrees, or clockwise from 0 to 270.
 Part arcs_across_zero(bool clockwise) {
   const Box b = block(50, 40, 12);
   Drawing d(clockwise ? "ARCS CLOCKWISE" : "ARCS ACROSS ZERO", b);
@@ -119,8 +120,8 @@ Part arcs_across_zero(bool clockwise) {
   return {clockwise ? "arcs_clockwise" : "arcs_across_zero", d.text(), b, t};
 }
 
-// 50 x 40 mm: a pocket of 26 x 20 mm, R5, 6 mm deep, and a hole of 8 mm through; the edges of both are chamfered by
-// 1 mm at 45 degrees.
+// 50 x 40 mm: a pocket of 26 x 20 mm, R5, 6 mm deep, and a hole of 8 mm through; the edges of both are
+// chamfered by 1 mm at 45 degrees.
 Part chamfered_edges() {
   const Box b = block(50, 40, 12);
   Drawing d("CHAMFERED EDGES", b);

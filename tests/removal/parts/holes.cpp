@@ -18,8 +18,8 @@ Depth drilled(double x, double y, double diameter, double z0, double angle_deg, 
 
 }  // namespace
 
-// 56 x 20 mm: a drilled hole of 6 mm, full to 8 mm; a flat one of 10 mm, 6 mm deep; one of 8 mm that ends in a half
-// sphere 9 mm deep; one of 5 mm through.
+// 56 x 20 mm: a drilled hole of 6 mm, full to 8 mm; a flat one of 10 mm, 6 mm deep; one of 8 mm that ends in
+// a half sphere 9 mm deep; one of 5 mm through.
 Part single_holes() {
   const Box b = block(56, 20, 16);
   Drawing d("SINGLE HOLES", b);
@@ -35,8 +35,9 @@ Part single_holes() {
   return {"single_holes", d.text(), b, t};
 }
 
-// 50 x 36 mm: compounds placed away from the origin, their elements relative to them. A counterbored hole (11 mm, 6 mm
-// deep, on 6.6 mm through), a countersunk one (9 mm to 5 mm at 90 degrees on 5 mm through), and a stepped one.
+// 50 x 36 mm: compounds placed away from the origin, their elements relative to them. A counterbored hole (11
+// mm, 6 mm deep, on 6.6 mm through), a countersunk one (9 mm to 5 mm at 90 degrees on 5 mm through), and a
+// stepped one.
 Part compound_holes() {
   const Box b = block(50, 36, 16);
   Drawing d("COMPOUND HOLES", b);
@@ -67,27 +68,29 @@ Part threaded_hole() {
   const Box b = block(24, 24, 24);
   Drawing d("THREADED HOLE", b);
   const auto at = d.placement({12, 12, 0});
-  const auto core = d.hole("CORE", at, 17, d.length(5, 0.15, 0.05), d.conical_bottom(118));
+  const auto core = d.hole_of("CORE", at, 17, d.length(5, 0.15, 0.05), d.conical_bottom(118));
   d.thread("M6", at, 12, core, 6, 1);
   Target t(body(b));
   // The flanks lie anywhere between core and 6 mm; a tap runs on by its chamfer.
-  t.cut(drilled(12, 12, 5, -17, 118), either({drilled(12, 12, 5.1, -17, 118), cylinder(12, 12, 3.05, -16, kOver)}));
+  t.cut(drilled(12, 12, 5, -17, 118),
+        either({drilled(12, 12, 5.1, -17, 118), cylinder(12, 12, 3.05, -16, kOver)}));
   return {"threaded_hole", d.text(), b, t};
 }
 
-// 60 x 40 mm: four holes of 4 mm on a circle of 20 mm about (15, 20); 3 x 2 holes of 3 mm, 6 and 8 mm apart, from
-// (32, 6); and a counterbored hole, 8 mm wide and 3 mm deep on 4.5 mm through, at (34, 32), copied to the right by 16 mm.
+// 60 x 40 mm: four holes of 4 mm on a circle of 20 mm about (15, 20); 3 x 2 holes of 3 mm, 6 and 8 mm apart,
+// from (32, 6); and a counterbored hole, 8 mm wide and 3 mm deep on 4.5 mm through, at (34, 32), copied to
+// the right by 16 mm.
 Part hole_patterns() {
   const Box b = block(60, 40, 10);
   Drawing d("HOLE PATTERNS", b);
   const auto through = d.through_bottom();
-  const auto on_circle = d.hole("ON CIRCLE", d.placement({25, 20, 0}), 10, 4, through);
+  const auto on_circle = d.hole("ON CIRCLE", d.placement({10, 0, 0}), 10, 4, through);
   d.circular_pattern("CIRCLE", d.placement({15, 20, 0}), on_circle, 90, 4, 20);
-  const auto in_row = d.hole("IN ROW", d.placement({32, 6, 0}), 10, 3, through);
-  d.rectangular_pattern("ROWS", d.placement({0, 0, 0}), in_row, 6, {1, 0, 0}, 3, 2, 8, {0, 1, 0});
+  const auto in_row = d.hole("IN ROW", d.placement({0, 0, 0}), 10, 3, through);
+  d.rectangular_pattern("ROWS", d.placement({32, 6, 0}), in_row, 6, {1, 0, 0}, 3, 2, 8, {0, 1, 0});
   const auto bore = d.hole("BORE", d.placement({0, 0, 0}), 3, 8, d.flat_bottom());
   const auto core = d.hole("CORE", d.placement({0, 0, -3}), 7, 4.5, through);
-  const auto screw = d.compound("SCREW", d.placement({34, 32, 0}), {bore, core}, "COUNTERBORE_HOLE");
+  const auto screw = d.compound("SCREW", d.placement({0, 0, 0}), {bore, core}, "COUNTERBORE_HOLE");
   d.general_pattern("SCREWS", d.placement({34, 32, 0}), screw, {d.placement({16, 0, 0})});
   Target t(body(b));
   for (const auto& [x, y] : {std::pair{25.0, 20.0}, {15.0, 30.0}, {5.0, 20.0}, {15.0, 10.0}})
@@ -102,8 +105,8 @@ Part hole_patterns() {
   return {"hole_patterns", d.text(), b, t};
 }
 
-// 60 x 40 mm: a pocket of 30 x 24 mm, R4, 10 mm deep; in its floor, 4 mm from a wall, a hole of 5 mm, 8 mm deep; on the
-// land 4 mm beside the pocket another one.
+// 60 x 40 mm: a pocket of 30 x 24 mm, R4, 10 mm deep; in its floor, 4 mm from a wall, a hole of 5 mm, 8 mm
+// deep; on the land 4 mm beside the pocket another one.
 Part holes_near_walls() {
   const Box b = block(60, 40, 26);
   Drawing d("HOLES NEAR WALLS", b);

@@ -6,9 +6,8 @@
 namespace capstan::testing::removal {
 namespace {
 
-constexpr std::size_t kSpeck = 1;     // points: one alone lies within what rounding of the text explains
-constexpr double kApart = 3.0;        // mm: left-over further apart is told apart
-constexpr std::size_t kTold = 6;      // places told one by one
+constexpr std::size_t kSpeck = 1;  // points: one alone lies within what rounding of the text explains
+constexpr double kApart = 3.0;     // mm: left-over further apart is told apart
 
 void add(Amount& a, const Point& p, double beyond, double volume) {
   if (a.points == 0) a.around = {p, p};
@@ -44,7 +43,8 @@ std::string told(const Amount& a) {
 
 }  // namespace
 
-// Along a column the depth changes by no more than the way, so that a point deep inside speaks for those near it.
+// Along a column the depth changes by no more than the way, so that a point deep inside speaks for those near
+// it.
 Comparison compare(const Stock& stock, const Target& target, double tolerance) {
   Comparison out;
   const auto& n = stock.count();
@@ -70,7 +70,8 @@ Comparison compare(const Stock& stock, const Target& target, double tolerance) {
             add(out.gouges[stock.remover(x, y, k)], q, target.stays(q), volume);
             continue;
           }
-          auto at = std::find_if(out.left.begin(), out.left.end(), [&](const Amount& a) { return near(a, q); });
+          auto at =
+              std::find_if(out.left.begin(), out.left.end(), [&](const Amount& a) { return near(a, q); });
           if (at == out.left.end()) at = out.left.insert(out.left.end(), Amount{});
           add(*at, q, target.goes(q), volume);
         }
@@ -100,8 +101,8 @@ std::string Verdict::text() const {
 }
 
 Verdict simulate(const Motions& motions, const std::map<int, CutterBody>& cutters,
-                 const std::map<int, Frame>& frames, const Box& block, const Target& target,
-                 const Grid& grid, Stock* remains) {
+                 const std::map<int, Frame>& frames, const Box& block, const Target& target, const Grid& grid,
+                 Stock* remains) {
   const auto begin = std::chrono::steady_clock::now();
   Verdict v;
   if (motions.status != 0) v.faults.push_back("rs274 gives status " + std::to_string(motions.status));
@@ -137,22 +138,18 @@ Verdict simulate(const Motions& motions, const std::map<int, CutterBody>& cutter
   for (const auto& [step, amount] : c.gouges) {
     if (amount.points > kSpeck) v.gouges.push_back("'" + motions.steps[step].id + "' " + told(amount));
   }
-  std::size_t more = 0;
   for (const Amount& a : c.left) {
     if (a.points <= kSpeck) continue;
-    if (v.left.size() < kTold) {
-      v.left.push_back(told(a));
-    } else {
-      ++more;
-    }
+    v.left.push_back(told(a));
+    v.left_at.push_back(a.worst);
   }
-  if (more > 0) v.left.push_back(std::to_string(more) + " more places");
   if (remains != nullptr) *remains = std::move(stock);
   v.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return v;
 }
 
-Verdict simulate(const Emitted& emitted, const Box& block, const Target& target, const Grid& grid) {
+Verdict simulate(const Emitted& emitted, const Box& block, const Target& target, const Grid& grid,
+                 Stock* remains) {
   Verdict none;
   std::string fault;
   const std::map<int, Frame> frames = frames_of(emitted.iso14649, fault);
@@ -167,7 +164,8 @@ Verdict simulate(const Emitted& emitted, const Box& block, const Target& target,
     }
   }
   if (!none.faults.empty()) return none;
-  return simulate(read_motions(emitted.program, emitted.tool_table), cutters, frames, block, target, grid);
+  return simulate(read_motions(emitted.program, emitted.tool_table), cutters, frames, block, target, grid,
+                  remains);
 }
 
 }  // namespace capstan::testing::removal

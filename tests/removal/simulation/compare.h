@@ -23,13 +23,15 @@ struct Comparison {
   std::vector<Amount> left;              ///< material that must be gone, by place
 };
 
-/// Compares each point of the stock with the target. A point further than `tolerance_mm` within what must stay
-/// that is gone is a gouge; one further than `tolerance_mm` within what must be gone that is there is left over.
+/// Compares each point of the stock with the target. A point further than `tolerance_mm` within what must
+/// stay that is gone is a gouge; one further than `tolerance_mm` within what must be gone that is there is
+/// left over.
 [[nodiscard]] Comparison compare(const Stock& stock, const Target& target, double tolerance_mm);
 
 /// What is wrong with a program; nothing when it makes the target.
 struct Verdict {
   std::vector<std::string> gouges, left, idle, rapids, rubs, faults;
+  std::vector<Point> left_at;  ///< the worst place of each of `left`
   double seconds = 0.0;
   std::size_t steps = 0;
   [[nodiscard]] bool agrees() const;
@@ -47,11 +49,11 @@ struct Grid {
 };
 
 /// Runs a program on a block and holds what is left against the target. The frames of set-ups come from the
-/// placement of the workpiece in each, as written into the ISO 14649 file.
+/// placement of the workpiece in each, as written into the ISO 14649 file. `remains`, when given, receives
+/// the stock.
 [[nodiscard]] Verdict simulate(const Emitted& emitted, const Box& block, const Target& target,
-                               const Grid& grid);
-/// As above, for motions read before; `cutters` by tool number, `frames` by set-up from 1. `remains`, when
-/// given, receives the stock.
+                               const Grid& grid, Stock* remains = nullptr);
+/// As above, for motions read before; `cutters` by tool number, `frames` by set-up from 1.
 [[nodiscard]] Verdict simulate(const Motions& motions, const std::map<int, CutterBody>& cutters,
                                const std::map<int, Frame>& frames, const Box& block, const Target& target,
                                const Grid& grid, Stock* remains = nullptr);

@@ -154,7 +154,9 @@ std::optional<CutterBody> body_of(const CutterText& t) {
   } else if (k == "t_slot_mill" || k == "side_mill" || k == "back_counterbore") {
     o = {{0.0, r}, {width, r}};
   } else if (k == "dovetail_mill") {
-    o = {{0.0, r}, {width, r - width * std::tan(t["taper_angle_rad"])}};
+    // The half angle of its flanks is stated as a lead angle.
+    const double lean = t["lead_angle_rad"] > 0.0 ? t["lead_angle_rad"] : t["taper_angle_rad"];
+    o = {{0.0, r}, {width, r - width * std::tan(lean)}};
   } else if (k == "back_countersink") {
     o = {{0.0, r}, {half > 0.0 ? (r - tip) / std::tan(half) : width, tip}};
   } else if (k == "corner_rounding_mill") {

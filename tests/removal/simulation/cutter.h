@@ -19,7 +19,7 @@ class CutterBody {
   CutterBody() = default;
   /// Outlines as (height, radius) by rising height: the part with edges, and what follows it without any.
   CutterBody(std::vector<std::pair<double, double>> edges, std::vector<std::pair<double, double>> shank);
-  [[nodiscard]] double radius() const { return radius_; }        ///< of the edges
+  [[nodiscard]] double radius() const { return radius_; }  ///< of the edges
   [[nodiscard]] double shank_radius() const { return shank_radius_; }
   [[nodiscard]] Span edges_at(double r) const;  ///< where it cuts
   [[nodiscard]] Span shank_at(double r) const;  ///< where it would rub

@@ -105,7 +105,8 @@ std::map<int, Frame> frames_of(const std::string& iso14649, std::string& fault) 
     }
     Frame f;
     const int of[3] = {wx, wy, wz};
-    for (int k = 0; k < 3; ++k) f.axis[static_cast<std::size_t>(std::abs(of[k]) - 1)] = of[k] > 0 ? k + 1 : -(k + 1);
+    for (int k = 0; k < 3; ++k)
+      f.axis[static_cast<std::size_t>(std::abs(of[k]) - 1)] = of[k] > 0 ? k + 1 : -(k + 1);
     f.origin = {-part(o, wx), -part(o, wy), -part(o, wz)};
     out[number] = f;
   }

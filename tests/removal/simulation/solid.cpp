@@ -9,8 +9,7 @@ namespace {
 double to_segment(double x, double y, std::pair<double, double> a, std::pair<double, double> b) {
   const double dx = b.first - a.first, dy = b.second - a.second;
   const double l2 = dx * dx + dy * dy;
-  const double t =
-      l2 > 0.0 ? std::clamp(((x - a.first) * dx + (y - a.second) * dy) / l2, 0.0, 1.0) : 0.0;
+  const double t = l2 > 0.0 ? std::clamp(((x - a.first) * dx + (y - a.second) * dy) / l2, 0.0, 1.0) : 0.0;
   return std::hypot(x - a.first - t * dx, y - a.second - t * dy);
 }
 
@@ -105,9 +104,7 @@ Depth cone(double x, double y, double z0, double r0, double z1, double r1) {
 }
 
 Depth sphere(Point centre, double radius) {
-  return [=](const Point& p) {
-    return radius - std::hypot(p.x - centre.x, p.y - centre.y, p.z - centre.z);
-  };
+  return [=](const Point& p) { return radius - std::hypot(p.x - centre.x, p.y - centre.y, p.z - centre.z); };
 }
 
 Depth both(Depth a, Depth b) {

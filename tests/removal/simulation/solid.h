@@ -8,7 +8,8 @@
 namespace capstan::testing::removal {
 
 /// How deep a point lies inside a shape: positive inside, negative outside, never changing by more than the
-/// distance between two points. Exact inside convex shapes; outside near edges it is too small, never too large.
+/// distance between two points. Exact inside convex shapes; outside near edges it is too small, never too
+/// large.
 using Depth = std::function<double(const Point&)>;
 /// The same in a plane.
 using Depth2 = std::function<double(double, double)>;
@@ -26,8 +27,8 @@ using Depth2 = std::function<double(double, double)>;
 [[nodiscard]] Depth box(Point lo, Point hi);
 /// A plane shape from z0 to z1.
 [[nodiscard]] Depth prism(Depth2 base, double z0, double z1);
-/// A section in (across, z) that runs along `from`..`to` on a line in the plane at z = 0; across is to the left
-/// of the way. Both ends cut square.
+/// A section in (across, z) that runs along `from`..`to` on a line in the plane at z = 0; across is to the
+/// left of the way. Both ends cut square.
 [[nodiscard]] Depth along(Point from, Point to, Depth2 section);
 /// (r, z) turned about the upright line through x, y.
 [[nodiscard]] Depth turned(double x, double y, Depth2 section);

@@ -25,10 +25,9 @@ struct Stock::Piece {
   const Motion* motion;
   const CutterBody* body;
   StepRemoval* record;
+  const Frame* frame;
   Point a, b;  ///< set-up coordinates; heights between them are all swept
   double z_lo, z_hi;
-  std::array<int, 3> axis;        ///< workpiece axis of each of the set-up's, from 0
-  std::array<double, 3> first, d;  ///< along the set-up's axes: that of lattice index 0, and the step
 };
 
 Stock::Stock(Box block, double cell, double cell_z) : lo_(block.lo), cell_{cell, cell, cell_z} {
@@ -38,25 +37,22 @@ Stock::Stock(Box block, double cell, double cell_z) : lo_(block.lo), cell_{cell,
     n_[u] = std::max(1, static_cast<int>(std::lround(size / cell_[u])));
     cell_[u] = size / n_[u];
   }
-  by_.assign(static_cast<std::size_t>(n_[0]) * static_cast<std::size_t>(n_[1]) *
-                 static_cast<std::size_t>(n_[2]),
-             kPresent);
+  by_.assign(
+      static_cast<std::size_t>(n_[0]) * static_cast<std::size_t>(n_[1]) * static_cast<std::size_t>(n_[2]),
+      kPresent);
 }
 
+// Rows and columns are shifted against each other by golden sections, so that no wall or floor, however it
+// lies, falls between all of them.
 Point Stock::at(int x, int y, int z) const {
-  return {lo_.x + (x + 0.5) * cell_[0], lo_.y + (y + 0.5) * cell_[1], lo_.z + (z + 0.5) * cell_[2]};
+  constexpr double kGolden = 0.6180339887498949, kSilver = 0.41421356237309515, kThird = 0.7548776662466927;
+  const auto part = [](double v) { return v - std::floor(v); };
+  return {lo_.x + (x + part(0.5 + y * kGolden)) * cell_[0], lo_.y + (y + part(0.5 + x * kSilver)) * cell_[1],
+          lo_.z + (z + part(0.5 + x * kThird + y * kGolden * kThird)) * cell_[2]};
 }
 
 void Stock::sweep(const Motion& m, const CutterBody& body, const Frame& frame, StepRemoval& record) {
-  Piece p{&m, &body, &record, m.from, m.to, 0.0, 0.0, {}, {}, {}};
-  for (std::size_t k = 0; k < 3; ++k) {
-    const int w = std::abs(frame.axis[k]) - 1;
-    const double sign = frame.axis[k] > 0 ? 1.0 : -1.0;
-    p.axis[k] = w;
-    p.first[k] = sign * (component(lo_, w) + 0.5 * cell_[static_cast<std::size_t>(w)] -
-                         component(frame.origin, w));
-    p.d[k] = sign * cell_[static_cast<std::size_t>(w)];
-  }
+  Piece p{&m, &body, &record, &frame, m.from, m.to, 0.0, 0.0};
   const auto piece = [&](const Point& a, const Point& b) {
     p.a = a;
     p.b = b;
@@ -69,9 +65,8 @@ void Stock::sweep(const Motion& m, const CutterBody& body, const Frame& frame, S
     const double a0 = std::atan2(m.from.y - m.centre_y, m.from.x - m.centre_x);
     const double most = 2.0 * std::acos(std::max(0.0, 1.0 - kChordError / std::max(r, kChordError)));
     const double height = std::abs(m.to.z - m.from.z);
-    const int count = std::max(
-        {1, static_cast<int>(std::ceil(std::abs(m.sweep_rad) / std::max(most, 1e-3))),
-         static_cast<int>(std::ceil(height / kSlope))});
+    const int count = std::max({1, static_cast<int>(std::ceil(std::abs(m.sweep_rad) / std::max(most, 1e-3))),
+                                static_cast<int>(std::ceil(height / kSlope))});
     Point before = m.from;
     for (int i = 1; i <= count; ++i) {
       const double t = static_cast<double>(i) / count;
@@ -99,62 +94,79 @@ void Stock::sweep(const Motion& m, const CutterBody& body, const Frame& frame, S
 }
 
 void Stock::capsule(const Piece& p) {
-  // The lattice's top and bottom along the tool.
-  const auto wz = static_cast<std::size_t>(p.axis[2]);
-  const double end = p.first[2] + p.d[2] * (n_[wz] - 1);
-  if (p.z_lo > std::max(p.first[2], end) + cell_[wz]) return;
   const double less = p.motion->rapid ? kClear : 0.0;
-  const double shank_less = kClear;
-  const double reach = std::max(p.body->radius() - less, p.body->shank_radius() - shank_less);
-  std::array<int, 2> lo{}, hi{};
-  for (std::size_t k = 0; k < 2; ++k) {
-    const double a = component(p.a, static_cast<int>(k)), b = component(p.b, static_cast<int>(k));
-    double from = (std::min(a, b) - reach - p.first[k]) / p.d[k];
-    double to = (std::max(a, b) + reach - p.first[k]) / p.d[k];
-    if (from > to) std::swap(from, to);
-    const int count = n_[static_cast<std::size_t>(p.axis[k])];
-    if (to < 0.0 || from > count - 1) return;
-    lo[k] = static_cast<int>(std::ceil(std::max(from, 0.0)));
-    hi[k] = static_cast<int>(std::floor(std::min(to, count - 1.0)));
+  const double reach = std::max(p.body->radius() - less, p.body->shank_radius() - kClear);
+  // The box of what is swept, in lattice indices; along the tool everything above the tip.
+  const std::array<double, 3> lo{std::min(p.a.x, p.b.x) - reach, std::min(p.a.y, p.b.y) - reach, p.z_lo};
+  const std::array<double, 3> hi{std::max(p.a.x, p.b.x) + reach, std::max(p.a.y, p.b.y) + reach, kFarAbove};
+  std::array<int, 3> from{}, to{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const int w = std::abs(p.frame->axis[k]) - 1;
+    const auto u = static_cast<std::size_t>(w);
+    const double sign = p.frame->axis[k] > 0 ? 1.0 : -1.0;
+    const double base = component(p.frame->origin, w) - component(lo_, w);
+    const double a = (base + sign * lo[k]) / cell_[u], b = (base + sign * hi[k]) / cell_[u];
+    if (std::max(a, b) < 0.0 || std::min(a, b) > n_[u]) return;
+    // An index covers one cell, and its point lies anywhere in it.
+    from[u] = static_cast<int>(std::clamp(std::floor(std::min(a, b)), 0.0, n_[u] - 1.0));
+    to[u] = static_cast<int>(std::clamp(std::floor(std::max(a, b)), 0.0, n_[u] - 1.0));
   }
-  for (int j = lo[1]; j <= hi[1]; ++j) {
-    const double y = p.first[1] + j * p.d[1];
-    for (int i = lo[0]; i <= hi[0]; ++i) {
-      const double r = distance(p.first[0] + i * p.d[0], y, p.a, p.b);
-      const CutterBody::Span edges = p.body->edges_at(r + less);
-      if (!edges.empty()) cut(p, {i, j}, p.z_lo + edges.lo + less, p.z_hi + edges.hi, false);
-      const CutterBody::Span shank = p.body->shank_at(r + shank_less);
-      if (!shank.empty()) cut(p, {i, j}, p.z_lo + shank.lo + shank_less, p.z_hi + shank.hi, true);
+  for (int y = from[1]; y <= to[1]; ++y) {
+    for (int x = from[0]; x <= to[0]; ++x) {
+      if (std::abs(p.frame->axis[2]) == 3) {
+        column(p, x, y, less);
+      } else {
+        for (int z = from[2]; z <= to[2]; ++z) single(p, x, y, z, less);
+      }
     }
   }
 }
 
-void Stock::cut(const Piece& p, const std::array<int, 2>& column, double lo, double hi, bool shank) {
-  const auto wz = static_cast<std::size_t>(p.axis[2]);
-  double from = (lo - p.first[2]) / p.d[2], to = (hi - p.first[2]) / p.d[2];
-  if (from > to) std::swap(from, to);
-  const int k0 = static_cast<int>(std::ceil(std::max(from, 0.0)));
-  const int k1 = static_cast<int>(std::floor(std::min(to, n_[wz] - 1.0)));
-  if (k1 < k0) return;
-  std::array<int, 3> at{};
-  at[static_cast<std::size_t>(p.axis[0])] = column[0];
-  at[static_cast<std::size_t>(p.axis[1])] = column[1];
-  at[wz] = k0;
-  const std::size_t stride = wz == 2   ? 1
-                             : wz == 0 ? static_cast<std::size_t>(n_[2])
-                                       : static_cast<std::size_t>(n_[2]) * static_cast<std::size_t>(n_[0]);
-  std::size_t where = index(at[0], at[1], at[2]);
-  for (int k = k0; k <= k1; ++k, where += stride) {
-    if (by_[where] != kPresent) continue;
-    by_[where] = static_cast<std::uint16_t>(p.motion->step);
-    StepRemoval& r = *p.record;
-    ++r.points;
-    if (!shank && !p.motion->rapid) continue;
-    at[wz] = k;
-    const Point place = this->at(at[0], at[1], at[2]);
-    if (p.motion->rapid && r.by_rapid++ == 0) r.rapid_at = place;
-    if (shank && r.by_shank++ == 0) r.shank_at = place;
-  }
+Point Stock::in(const Frame& f, const Point& w) const {
+  const Point d{w.x - f.origin.x, w.y - f.origin.y, w.z - f.origin.z};
+  const auto along = [&](std::size_t k) {
+    return (f.axis[k] > 0 ? 1.0 : -1.0) * component(d, std::abs(f.axis[k]) - 1);
+  };
+  return {along(0), along(1), along(2)};
+}
+
+// Points one above the other, along the tool.
+void Stock::column(const Piece& p, int x, int y, double less) {
+  const Point foot = in(*p.frame, at(x, y, 0));
+  const double r = distance(foot.x, foot.y, p.a, p.b);
+  const double step = p.frame->axis[2] > 0 ? cell_[2] : -cell_[2];
+  const auto span = [&](double lo, double hi, bool shank) {
+    double a = (lo - foot.z) / step, b = (hi - foot.z) / step;
+    if (a > b) std::swap(a, b);
+    const int k0 = static_cast<int>(std::ceil(std::max(a, 0.0)));
+    const int k1 = static_cast<int>(std::floor(std::min(b, n_[2] - 1.0)));
+    for (int k = k0; k <= k1; ++k) take(p, x, y, k, shank);
+  };
+  const CutterBody::Span edges = p.body->edges_at(r + less);
+  if (!edges.empty()) span(p.z_lo + edges.lo + less, p.z_hi + edges.hi, false);
+  const CutterBody::Span shank = p.body->shank_at(r + kClear);
+  if (!shank.empty()) span(p.z_lo + shank.lo + kClear, p.z_hi + shank.hi, true);
+}
+
+void Stock::single(const Piece& p, int x, int y, int z, double less) {
+  if (!present(x, y, z)) return;
+  const Point q = in(*p.frame, at(x, y, z));
+  const double r = distance(q.x, q.y, p.a, p.b);
+  const CutterBody::Span edges = p.body->edges_at(r + less);
+  if (!edges.empty() && q.z >= p.z_lo + edges.lo + less && q.z <= p.z_hi + edges.hi)
+    return take(p, x, y, z, false);
+  const CutterBody::Span shank = p.body->shank_at(r + kClear);
+  if (!shank.empty() && q.z >= p.z_lo + shank.lo + kClear && q.z <= p.z_hi + shank.hi) take(p, x, y, z, true);
+}
+
+void Stock::take(const Piece& p, int x, int y, int z, bool shank) {
+  const std::size_t where = index(x, y, z);
+  if (by_[where] != kPresent) return;
+  by_[where] = static_cast<std::uint16_t>(p.motion->step);
+  StepRemoval& r = *p.record;
+  ++r.points;
+  if (p.motion->rapid && r.by_rapid++ == 0) r.rapid_at = at(x, y, z);
+  if (shank && r.by_shank++ == 0) r.shank_at = at(x, y, z);
 }
 
 }  // namespace capstan::testing::removal

@@ -14,17 +14,18 @@ namespace capstan::testing::removal {
 
 /// Where a set-up's coordinates lie in those of the workpiece: each axis runs along one of the workpiece's.
 struct Frame {
-  Point origin;                     ///< of the set-up, workpiece coordinates
-  std::array<int, 3> axis{1, 2, 3};  ///< set-up's x, y, z along 1 x, 2 y, 3 z of the workpiece; negative: against
+  Point origin;  ///< of the set-up, workpiece coordinates
+  std::array<int, 3> axis{1, 2,
+                          3};  ///< set-up's x, y, z along 1 x, 2 y, 3 z of the workpiece; negative: against
 };
 
 /// What one step did.
 struct StepRemoval {
-  std::size_t points = 0;       ///< removed by edges and shank
-  std::size_t by_rapid = 0;     ///< of these, in rapid motion
-  std::size_t by_shank = 0;     ///< of these, by what has no edges
-  Point rapid_at, shank_at;     ///< one of each
-  std::string fault;            ///< why it could not be simulated
+  std::size_t points = 0;    ///< removed by edges and shank
+  std::size_t by_rapid = 0;  ///< of these, in rapid motion
+  std::size_t by_shank = 0;  ///< of these, by what has no edges
+  Point rapid_at, shank_at;  ///< one of each
+  std::string fault;         ///< why it could not be simulated
 };
 
 /// The material as a lattice of points in workpiece coordinates, each there or not. A point goes when the
@@ -51,7 +52,10 @@ class Stock {
   static constexpr std::uint16_t kPresent = 0xFFFF;
   struct Piece;
   void capsule(const Piece& p);
-  void cut(const Piece& p, const std::array<int, 2>& column, double lo, double hi, bool shank);
+  void column(const Piece& p, int x, int y, double less);
+  void single(const Piece& p, int x, int y, int z, double less);
+  void take(const Piece& p, int x, int y, int z, bool shank);
+  [[nodiscard]] Point in(const Frame& frame, const Point& work) const;
   [[nodiscard]] std::size_t index(int x, int y, int z) const {
     return (static_cast<std::size_t>(y) * static_cast<std::size_t>(n_[0]) + static_cast<std::size_t>(x)) *
                static_cast<std::size_t>(n_[2]) +

@@ -32,9 +32,18 @@ TEST(ShippedMachines, FillTheOtherOfPowerAndTorque) {
 
 TEST(LoadMachine, NamesTheShippedOnesWhenThereIsNoSuchFile) {
   Job job;
-  const auto m = load_machine("no_such_machine", job);
+  const auto m = load_machine("no_such_machine.yaml", job);
   ASSERT_FALSE(m);
   EXPECT_NE(m.error().hint.find("generic_vmc"), std::string::npos);
+}
+
+TEST(LoadMachine, RefusesAnUnknownNameWithTheNearestOnes) {
+  Job job;
+  const auto m = load_machine("smal_router", job);
+  ASSERT_FALSE(m);
+  EXPECT_EQ(m.error().code, "NAME-UNKNOWN");
+  EXPECT_EQ(m.error().message, "unknown machine 'smal_router'. Did you mean 'small_router'?");
+  EXPECT_NE(m.error().hint.find("capstan machines list"), std::string::npos);
 }
 
 struct Slip {

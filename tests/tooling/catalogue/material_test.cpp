@@ -55,18 +55,45 @@ TEST(FindMaterial, TakesTheHardestOfAFamilyAndWarns) {
   EXPECT_EQ(job.diagnostics()[0].code, "MATERIAL-FAMILY");
 }
 
-TEST(FindMaterial, TakesTheHardestOfAllForAnUnknownNameAndWarns) {
+TEST(FindMaterial, RefusesAnUnknownNameWithTheNearestOnes) {
   Job job;
-  const auto m = find_material("unobtainium", table(), job).value();
-  for (const auto& other : table()) EXPECT_LE(other.kc11_n_mm2, m.kc11_n_mm2);
-  ASSERT_EQ(job.diagnostics().size(), 1u);
-  EXPECT_EQ(job.diagnostics()[0].code, "MATERIAL-UNKNOWN");
+  const auto m = find_material("steeel", table(), job);
+  ASSERT_FALSE(m);
+  EXPECT_EQ(m.error().code, "NAME-UNKNOWN");
+  EXPECT_NE(m.error().message.find("unknown material 'steeel'. Did you mean 'mild_steel'"), std::string::npos)
+      << m.error().message;
+  EXPECT_NE(m.error().hint.find("capstan materials list"), std::string::npos);
+  EXPECT_FALSE(find_material("unobtainium", table(), job));
+}
+
+TEST(FindMaterial, TakesTheHardestOfAllWhereNothingNamesOneAndSaysThatItIsADefault) {
+  for (const std::vector<std::string>& nothing : {std::vector<std::string>{}, {"", " "}}) {
+    Job job;
+    const auto m = find_material(nothing, table(), job).value();
+    for (const auto& other : table()) EXPECT_LE(other.kc11_n_mm2, m.kc11_n_mm2);
+    ASSERT_EQ(job.diagnostics().size(), 1u);
+    EXPECT_EQ(job.diagnostics()[0].code, "MATERIAL-DEFAULT");
+  }
 }
 
 TEST(FindMaterial, DoesNotCutANumberInTwo) {
   Job job;
-  EXPECT_EQ(id_of({"ST-500"}, job), "tool_steel");  // not ST-50
-  EXPECT_EQ(job.count(Severity::kWarning), 1u);
+  EXPECT_FALSE(find_material("ST-500", table(), job));  // not ST-50
+}
+
+TEST(FindMaterial, KnowsCastIronsByTheirJapaneseNamesAndWhy) {
+  Job job;
+  // JIS G 5501: FC and the tensile strength; EN 1561 has the same iron as EN-GJL and that strength.
+  for (const char* pair : {"200", "250"}) {
+    const auto jis = find_material(std::string("FC") + pair, table(), job).value();
+    EXPECT_EQ(jis.id, find_material(std::string("EN-GJL-") + pair, table(), job).value().id);
+    EXPECT_NE(jis.sources.back().second.find("JIS G 5501"), std::string::npos) << jis.sources.back().second;
+  }
+  // JIS G 5502: FCD and the tensile strength; EN 1563 has the same iron as EN-GJS and that strength.
+  const auto nodular = find_material("FCD450", table(), job).value();
+  EXPECT_EQ(nodular.id, find_material("EN-GJS-450", table(), job).value().id);
+  EXPECT_NE(nodular.sources.back().second.find("JIS G 5502"), std::string::npos);
+  EXPECT_EQ(job.count(Severity::kWarning), 0u);
 }
 
 TEST(ShippedMaterials, NameASourceForEveryNumberAndEveryName) {

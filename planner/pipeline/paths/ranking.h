@@ -1,0 +1,18 @@
+#pragma once
+
+#include "planner/pipeline/paths/cuts.h"
+#include "planner/pipeline/paths/progress.h"
+#include "planner/pipeline/paths/stocks.h"
+#include "planner/pipeline/work.h"
+
+// Which of a step's cutters comes first; only planner/pipeline/*.cpp include this.
+
+namespace capstan::pipeline {
+
+/// Roughing: of the cutters that fit, the one that takes the volume away soonest, tool change included.
+void rank_by_time(Work& w, StepWork& step, Stocks& stocks, const Progress& progress, Cuts& cuts);
+
+/// A cutter further down the list does what the first could not: into the nouns and the ledger.
+void take_cutter(Work& w, StepWork& step, const model::Candidate& c);
+
+}  // namespace capstan::pipeline

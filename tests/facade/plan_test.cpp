@@ -1,0 +1,46 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "capstan/capstan.h"
+
+// The library as other programs use it.
+
+namespace capstan {
+namespace {
+
+using ::testing::HasSubstr;
+
+const std::string kBracket = std::string(CAPSTAN_SOURCE_DIR) + "/examples/bracket.p21";
+
+TEST(Facade, GivesNoProgramThatTheCheckCondemnsUnlessAsked) {
+  PlanOptions options;
+  options.machine = "small_router";
+  const PlanOutput held = plan_file(kBracket, options);
+  ASSERT_TRUE(held.planned);
+  EXPECT_FALSE(held.json.empty());
+  EXPECT_FALSE(held.iso14649.empty());
+  EXPECT_TRUE(held.linuxcnc.empty());
+  EXPECT_TRUE(held.tool_table.empty());
+  ASSERT_FALSE(held.condemned.empty());
+  EXPECT_EQ(held.condemned[0].severity, "error");
+  EXPECT_THAT(held.condemned[0].text, HasSubstr("spindle torque"));
+  options.allow_findings = true;
+  const PlanOutput all_the_same = plan_file(kBracket, options);
+  EXPECT_THAT(all_the_same.linuxcnc, HasSubstr("condemned=\""));
+  EXPECT_THAT(all_the_same.linuxcnc, HasSubstr("\nM0\n"));
+  EXPECT_FALSE(all_the_same.tool_table.empty());
+  EXPECT_EQ(all_the_same.condemned.size(), held.condemned.size());
+}
+
+TEST(Facade, RefusesAnUnknownMaterialWithTheNearestNames) {
+  PlanOptions options;
+  options.material = "steeel";
+  const PlanOutput out = plan_file(kBracket, options);
+  EXPECT_FALSE(out.planned);
+  ASSERT_FALSE(out.diagnostics.empty());
+  EXPECT_EQ(out.diagnostics.back().code, "NAME-UNKNOWN");
+  EXPECT_THAT(out.diagnostics.back().text, HasSubstr("mild steel"));
+}
+
+}  // namespace
+}  // namespace capstan
