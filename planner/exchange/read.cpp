@@ -70,6 +70,7 @@ Result<model::Plan> read_bytes(std::string bytes, const std::string& name, const
   if (looks_like_stl(bytes)) {
     auto mesh = read_stl(bytes, name, job);
     if (!mesh) return fail(mesh.error());
+    if (auto ok = judge_mesh(*mesh, name, job); !ok) return fail(ok.error());
     return plan_of_mesh(std::move(*mesh), name);
   }
   return fail({.code = "EXC-UNKNOWN-FORMAT",

@@ -154,6 +154,7 @@ Result<Checked> bind_checked(const model::Plan& plan, const Inputs& inputs, cons
     Job trial;
     trial.threads = job.threads;
     trial.evaluation_budget = job.evaluation_budget;
+    trial.set_clock(job.clock());
     if (job.deadline()) until = until ? std::min(*until, *job.deadline()) : *job.deadline();
     if (until) trial.set_deadline(*until);
     trial.set_progress([&](std::string_view stage, double f) {

@@ -1,5 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <numbers>
+#include <utility>
 
 #include "planner/pipeline/steps.h"
 #include "planner/toolpath/freeform/freeform.h"
@@ -13,7 +16,51 @@ constexpr double kScallopMm = 0.01;        // where the file states no scallop h
 constexpr double kChordMm = 0.01;          // where the file states no chordal tolerance; default, unsourced
 constexpr double kRoughAllowanceMm = 0.5;  // left by roughing when no rule says otherwise; default, unsourced
 
+constexpr double kCreaseMm =
+    0.02;  // a ball may leave in a crease: what the check lets stand; default, unsourced
+constexpr double kSharpRad = 20.0 / 180.0 * std::numbers::pi;  // sharper corners keep any ball's radius
+constexpr double kFlatRad = 0.5 / 180.0 * std::numbers::pi;    // less is the rounding of coordinates
+constexpr double kLeastMm =
+    1.0;  // radius: below, planning takes smaller cutters than shops use; default, unsourced
+
 }  // namespace
+
+// In a crease of angle d between two facets a ball of radius R leaves R (1 / cos(d / 2) - 1). Where facets
+// are so narrow that the ball does not touch both beside their crease, they draw a curve, and its radius is
+// their width over d.
+double surface_radius(const geometry::Mesh& mesh) {
+  using geometry::Vec3;
+  struct Side {
+    Vec3 normal, apex;
+  };
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<Side>> edges;
+  for (const auto& t : mesh.triangles) {
+    const Vec3 a = mesh.vertices[t[0]], b = mesh.vertices[t[1]], c = mesh.vertices[t[2]];
+    Vec3 n = cross(b - a, c - a);
+    if (std::abs(n.z) < 1e-9 * norm(n)) continue;  // upright: no ball from above finishes it by its facets
+    n = (n.z > 0.0 ? 1.0 : -1.0) / norm(n) * n;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t p = t[k], q = t[(k + 1) % 3];
+      edges[{std::min(p, q), std::max(p, q)}].push_back({n, mesh.vertices[t[(k + 2) % 3]]});
+    }
+  }
+  double out = 0.0;
+  for (const auto& [e, sides] : edges) {
+    if (sides.size() != 2) continue;
+    const Vec3 a = mesh.vertices[e.first];
+    const Vec3 along = mesh.vertices[e.second] - a;
+    const double length = norm(along);
+    if (!(length > 0.0) || dot(sides[0].normal, sides[1].apex - a) <= 0.0) continue;  // not concave
+    const double angle = std::acos(std::clamp(dot(sides[0].normal, sides[1].normal), -1.0, 1.0));
+    if (angle < kFlatRad || angle > kSharpRad) continue;
+    const double of_crease = kCreaseMm / (1.0 / std::cos(0.5 * angle) - 1.0);
+    const double width =
+        std::min(norm(cross(sides[0].apex - a, along)), norm(cross(sides[1].apex - a, along))) / length;
+    const double limit = std::max(kLeastMm, std::min(of_crease, std::max(kLeastMm, width / angle)));
+    out = out > 0.0 ? std::min(out, limit) : limit;
+  }
+  return out;
+}
 
 geometry::Mesh mesh_in_setup(const Work& w, std::size_t setup) {
   geometry::Mesh out = *w.plan.target_mesh;

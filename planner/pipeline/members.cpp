@@ -1,6 +1,7 @@
 #include "planner/pipeline/members.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "planner/model/nouns/all.h"
 
@@ -26,6 +27,14 @@ model::ProposedStep as_opened(const std::vector<model::ProposedStep>& chain, std
   if (drill.cutter_class == model::CutterClass::kTwistDrill && before.tool.diameter_exact_mm <= 0.0)
     step.start_diameter_mm = std::max(step.start_diameter_mm, drill.cutting_diameter_mm);
   return step;
+}
+
+double depth_over_cone(const model::FeatureShape& hole, const model::Cutter& drill) {
+  const double steep = std::tan(hole.bottom_angle_rad);
+  const double apex = hole.depth_mm + 0.5 * hole.diameter.nominal_mm * steep;
+  const double tip = model::tip_length(drill);
+  const double at_corner = apex - 0.5 * drill.cutting_diameter_mm * steep;
+  return std::min(apex - tip, at_corner);
 }
 
 void warn_of_lost_threads(Work& w) {

@@ -12,9 +12,15 @@ namespace capstan::pipeline {
 /// cut on it. A thread comes when its hole has it.
 void members_in_order(Work& w, const std::vector<std::size_t>& first, const std::vector<std::size_t>& second);
 
-/// Step `at` of a chain with the hole that the drill chosen before it leaves, where its requirement left open which.
+/// Step `at` of a chain with the hole that the drill chosen before it leaves, where its requirement left open
+/// which.
 [[nodiscard]] model::ProposedStep as_opened(const std::vector<model::ProposedStep>& chain, std::size_t at,
                                             const std::vector<model::Selection>& chosen);
+
+/// How deep a drill goes with its full diameter, so that it takes all of a conical bottom that it can: its
+/// tip no deeper than the cone's, its corner no deeper than the cone there. A narrower drill goes deeper than
+/// the hole's wall.
+[[nodiscard]] double depth_over_cone(const model::FeatureShape& hole, const model::Cutter& drill);
 
 /// Says which holes have an operation that makes a thread although no feature states one: re-opened, they
 /// stay plain.

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <optional>
 
+#include "planner/model/nouns/all.h"
 #include "planner/model/walk.h"
 #include "planner/pipeline/share.h"
 #include "planner/pipeline/steps.h"
@@ -224,8 +225,10 @@ Status select_open_tools(Work& w) {
       continue;
     }
     w.job.report(cutter.error());
-    w.plan.unplanned.push_back(
-        {step.feature, "operation '" + op->its_id.value_or("") + "': " + cutter.error().message});
+    const auto* executable = w.plan.model.get<model::Executable>(step.step);
+    const std::string name = executable != nullptr ? executable->its_id.value_or("") : std::string();
+    w.plan.unplanned.push_back({step.feature, "step '" + name + "', operation '" + op->its_id.value_or("") +
+                                                  "': " + cutter.error().message});
   }
   share_tools(w);
   return {};

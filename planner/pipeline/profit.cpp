@@ -41,6 +41,7 @@ Result<model::Plan> most_profit(double revenue,
     Job trial;
     trial.threads = job.threads;
     trial.evaluation_budget = job.evaluation_budget;
+    trial.set_clock(job.clock());
     if (job.deadline()) trial.set_deadline(*job.deadline());
     trial.set_progress([&](std::string_view stage, double f) { job.progress(stage, f); });
     auto planned = plan_for(earning, trial);

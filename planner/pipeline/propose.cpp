@@ -101,7 +101,8 @@ class Proposer {
       for (const std::string& a : s.assumptions) {
         if (said_.insert({f, a}).second) w_.job.warn("PIP-ASSUMED", "feature '" + s.name + "': " + a);
       }
-      if (s.kind == model::ShapeKind::kFreeform) context.surface_radius_mm = 0.0;
+      if (s.kind == model::ShapeKind::kFreeform && w_.plan.target_mesh)
+        context.surface_radius_mm = surface_radius(*w_.plan.target_mesh);
     }
     const auto proposals = rules::propose_members(w_.inputs.rules, shapes, context);
     const auto order = rules::member_order(shapes);
@@ -349,6 +350,9 @@ class Proposer {
       step.candidates = chosen.tools[i].ranked;
       step.rejected_tools = chosen.tools[i].rejected;
       step.cutter = step.candidates.front().cutter;
+      if (step.cutter.cutter_class == model::CutterClass::kTwistDrill &&
+          step.proposal.tool.point_angle_rad > 0.0)
+        step.proposal.depth_mm = depth_over_cone(s, step.cutter);
       for (std::size_t k = 1; k < step.candidates.size() && k < 4; ++k) {
         step.rejected_tools.push_back(
             {step.candidates[k].cutter.id, "fits, ranked lower: " + step.candidates[k].why.text});

@@ -54,6 +54,9 @@ void let_go(Work& w, StepWork& step, const std::string& word);
 [[nodiscard]] optimise::CutQuestion hole_question(const Work& w, const model::ProposedStep& step,
                                                   const model::Candidate& candidate);
 
+/// The radius of the largest ball that finishes a surface from above, mm: by its concave creases and curves;
+/// 0: it has none. Corners sharper than 20 degrees keep any ball's radius and do not count.
+[[nodiscard]] double surface_radius(const geometry::Mesh& mesh);
 /// Gives a freeform feature the extent of the plan's mesh; leaves others alone.
 void shape_from_mesh(const Work& w, const StepWork& step, toolpath::PathJob& job);
 /// The path of a freeform operation over the plan's mesh.

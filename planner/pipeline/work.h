@@ -99,6 +99,8 @@ Status raise_security_planes(Work& w);  ///< above the material and every featur
 Status make_paths(Work& w);             ///< depths, paths, sections, feeds, step by step
 Status join_paths(Work& w);             ///< given paths are reached from the security plane, and left to it
 
+/// The box of the finished part: what of the raw piece lies beyond it is nobody's. Workpiece coordinates.
+[[nodiscard]] geometry::Box3 part_box(const Work& w);
 void report_outside(Work& w);  ///< features that the raw piece does not hold
 
 // Shared pieces.

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "planner/base/number.h"
+#include "planner/geometry/mesh_form.h"
 #include "planner/model/raw_piece.h"
 #include "planner/pipeline/work.h"
 #include "tooling/catalogue/material.h"
@@ -204,6 +205,25 @@ void resolve_stock(Work& w, const model::Workpiece* piece) {
   }
 }
 
+/// Outside a sheet's outline nothing says what is to be made, and a cutter on its border would cut there.
+Status sheet_covers_raw_piece(const Work& w) {
+  if (!w.plan.target_mesh) return {};
+  const geometry::MeshForm form = geometry::form_of(*w.plan.target_mesh);
+  if (form.kind != geometry::MeshForm::Kind::kSheet) return {};
+  const Box3& raw = w.plan.stock.box;
+  const double bare =
+      geometry::area(geometry::subtract(geometry::rectangle(xy(raw.lo), xy(raw.hi)), form.outline));
+  constexpr double kTraceMm2 = 0.01;  // of outlines rounded to single precision
+  if (bare <= kTraceMm2) return {};
+  return fail(
+      {.code = "PIP-SHEET",
+       .message = "the surface is a sheet, and " + trimmed(bare, 2) +
+                  " mm2 of the raw piece lie outside its outline: what is to stand there is not known",
+       .file = w.plan.file_name,
+       .expected = "a sheet over the whole raw piece (" + words(raw) + "), or a closed solid",
+       .hint = "extend the surface, close it to a solid, or give a smaller raw piece with --stock box:"});
+}
+
 }  // namespace
 
 Box3 transformed(const Box3& box, const geometry::Placement& to) {
@@ -214,6 +234,20 @@ Box3 transformed(const Box3& box, const geometry::Placement& to) {
     }
   }
   return out;
+}
+
+Box3 part_box(const Work& w) {
+  Box3 out = w.plan.stock.box;
+  const model::Workpiece* piece = model::workpiece_of(w.plan.model, w.plan.project);
+  const auto own = piece != nullptr ? model::box_of(w.plan.model, piece->its_bounding_geometry) : std::nullopt;
+  const double grown = w.inputs.stock_allowance_mm.value_or(0.0);
+  if (own && piece->its_rawpiece.set()) {
+    out = *own;
+  } else if (grown > 0.0) {
+    out.lo = out.lo + Vec3{grown, grown, grown};
+    out.hi = out.hi - Vec3{grown, grown, grown};
+  }
+  return out.empty() ? w.plan.stock.box : out;
 }
 
 Status resolve_workpiece(Work& w) {
@@ -230,6 +264,7 @@ Status resolve_workpiece(Work& w) {
          .file = w.plan.file_name,
          .hint = "give the workpiece a bounding geometry, or name one with --stock"});
   }
+  if (auto ok = sheet_covers_raw_piece(w); !ok) return ok;
   const Vec3 size = w.plan.stock.box.size();
   const double largest = std::max({size.x, size.y, size.z});
   if (!(largest <= kLargestPiece)) {

@@ -6,7 +6,7 @@
 namespace capstan::verify {
 
 std::string_view property_text(int number) {
-  static constexpr std::array<std::pair<int, std::string_view>, 36> kTexts = {{
+  static constexpr std::array<std::pair<int, std::string_view>, 37> kTexts = {{
       {1, "All numbers are finite."},
       {2, "One length unit, stated once and never switched."},
       {3, "The work offset is explicit and defined."},
@@ -48,6 +48,7 @@ std::string_view property_text(int number) {
       {36,
        "Of a planned feature nothing stays beyond its tolerance and the allowance that its last step "
        "states."},
+      {37, "Planned features lie within the raw piece, and drilled holes do not run into each other."},
       {0, ""},
   }};
   for (const auto& [n, text] : kTexts) {

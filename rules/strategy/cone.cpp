@@ -77,7 +77,8 @@ Made countersink_mill(const Making& m) {
   const double width = 0.5 * (s0.diameter.nominal_mm - s0.bottom_diameter_mm);
   ProposedStep s;
   s.depth_mm = s0.depth_mm;
-  s.start_diameter_mm = m.context.core_diameter_mm;  // below the cone: room for the tip, or a shoulder under it
+  s.start_diameter_mm =
+      m.context.core_diameter_mm;  // below the cone: room for the tip, or a shoulder under it
   s.allowance_side_mm = m.number("allowance_side_mm");
   if (s.allowance_side_mm >= width)
     return no("an allowance of " + mm(s.allowance_side_mm) + " leaves nothing of a cone " + mm(width) +

@@ -1,5 +1,7 @@
 #include "planner/exchange/cad/stl.h"
 
+#include "planner/exchange/exchange.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -112,6 +114,19 @@ TEST(Stl, BinaryMeshCutShortIsNotMistakenForAMesh) {
   Job job;
   const std::string s = binary();
   EXPECT_FALSE(read_bytes(s.substr(0, s.size() - 1), "x.stl", ReadOptions{}, job));
+}
+
+TEST(Stl, AMeshWithAnOpeningIsRefusedWithItsPlaceWhereAPlanIsReadOfIt) {
+  std::string text = ascii();
+  Job job;
+  EXPECT_TRUE(read_bytes(text, "part.stl", {}, job));
+  const auto at = text.rfind(" facet normal");
+  text.erase(at, text.find("endsolid") - at);
+  const auto plan = read_bytes(text, "part.stl", {}, job);
+  ASSERT_FALSE(plan);
+  EXPECT_EQ(plan.error().code, "STL-OPEN");
+  EXPECT_NE(plan.error().message.find("1 x 2 x 3 mm, from (0, 0, 0)"), std::string::npos)
+      << plan.error().message;
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "planner/model/nouns/all.h"
 #include "planner/pipeline/paths/sections.h"
@@ -160,6 +161,30 @@ TEST(Whole, WhatLiesInAFaceThatIsNotPlannedIsLeftOutButAHoleIsDrilledFromTheRawS
   EXPECT_FALSE(has_steps(plan, "POCKET"));
   EXPECT_TRUE(has_steps(plan, "DOWEL HOLE 1"));
   expect_whole_or_not_at_all(plan);
+}
+
+TEST(Whole, ACounterboreIsMilledBeforeTheHoleInItIsReamed) {
+  // The cap screw hole's through hole as a fit, 8 H7: marked, drilled, and reamed when the counterbore is
+  // made.
+  std::string text = testing::slurp(kBracket);
+  const std::string was = "#140=TOLERANCED_LENGTH_MEASURE(6.6,#55);";
+  ASSERT_NE(text.find(was), std::string::npos);
+  text.replace(text.find(was), was.size(), "#140=TOLERANCED_LENGTH_MEASURE(8.,#95);");
+  Job job;
+  const model::Plan plan = bind(read_plan(text, "fit.p21", job).value(), shop(), {}, job).value();
+  std::vector<model::TypeId> operations;
+  for (const auto& s : plan.steps) {
+    const auto* ws = plan.model.get<model::MachiningWorkingstep>(s.step);
+    if (ws != nullptr && name_of(plan, ws->its_feature) == "CAP SCREW HOLE")
+      operations.push_back(ws->its_operation.type);
+  }
+  ASSERT_GE(operations.size(), 4U);
+  EXPECT_EQ(operations.back(), model::TypeId::kReaming);
+  const bool mills = std::any_of(operations.begin(), operations.end(), [](model::TypeId t) {
+    return model::is_a(t, model::TypeId::kMillingTypeOperation);
+  });
+  EXPECT_TRUE(mills);
+  for (const auto& f : verify::check_plan(plan, job)) EXPECT_NE(f.severity, Severity::kError) << f.message;
 }
 
 TEST(Anew, ASmallRouterKeepsItsTorqueWithThinnerCuts) {

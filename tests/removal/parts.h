@@ -20,6 +20,7 @@ namespace capstan::testing::removal {
 [[nodiscard]] Part chamfered_edges();
 [[nodiscard]] Part holes_near_walls();
 [[nodiscard]] Part turned_over();
+[[nodiscard]] Part tight_holes();
 
 /// The target of ISO 14649-11's example 2, of a raw piece.
 [[nodiscard]] Target example2(const Box& raw);

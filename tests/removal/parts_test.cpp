@@ -31,8 +31,11 @@ CAPSTAN_MADE(MakesEveryKindOfHoleBottom, single_holes())
 CAPSTAN_MADE(CutsAThreadInItsCore, threaded_hole())
 CAPSTAN_MADE(CopiesHolesAlongEveryPattern, hole_patterns())
 CAPSTAN_MADE(LeavesWhatAnOutsideContourEncloses, outside_contour())
+CAPSTAN_MADE(FollowsAnArcFrom270DegreesToZero, arcs_across_zero(false))
+CAPSTAN_MADE(FollowsAContourDrawnClockwise, arcs_across_zero(true))
 CAPSTAN_MADE(ChamfersTheEdgesOfAPocketAndAHole, chamfered_edges())
 CAPSTAN_MADE(CutsAPieceFromBothSides, turned_over())
+CAPSTAN_MADE(CutsTolerancedConesSeatsAndCoresListedInAnyOrder, tight_holes())
 
 }  // namespace
 }  // namespace capstan::testing::removal

@@ -14,9 +14,9 @@ constexpr double kDeg = std::numbers::pi / 180.0;
 class Maker {
  public:
   explicit Maker(unsigned seed) : random_(seed) {
-    fields_ = 1 + whole(0, 1);
-    const double strips = chance(0.35) ? 18.0 : 0.0;
-    raw_ = chance(0.4) ? 1.0 : 0.0;
+    fields_ = chance(0.4) ? 2 : 1;
+    const double strips = chance(0.3) ? 18.0 : 0.0;
+    raw_ = chance(0.25) ? 1.0 : 0.0;
     height_ = whole(12, 20);
     block_ = block(fields_ * kField + strips, kField, height_, raw_);
     name_ = "RANDOM " + std::to_string(seed);
@@ -41,6 +41,8 @@ class Maker {
         "", "", "", "tormach_1100mx", "linuxcnc_axis_mm", "small_router"};
     RandomPart out{{"random_" + std::to_string(seed), drawing_.text(), block_, target_}, std::move(spaces_)};
     out.part.options.machine = kMachines[static_cast<std::size_t>(whole(0, 5))];
+    // A shop with a handful of cutters: most features cannot be made, and that must be said.
+    if (chance(0.1)) out.part.options.tools = CAPSTAN_SOURCE_DIR "/examples/reference_pocket_tools.yaml";
     if (chance(0.2)) out.part.options.feeds = "constant";
     if (chance(0.2)) out.part.options.objective = "cost";
     return out;

@@ -78,19 +78,22 @@ TEST(OpenOutsidePath, GoesRoundACornerOfItsLine) {
   EXPECT_NEAR(map.highest(geometry::rectangle({100.5, -4.5}, {105.5, 59.5})), -30.0, 1e-4);
 }
 
-TEST(Tracks, HaveNoMoveThatAControlDoesNotResolve) {
-  // A corner of a tenth of a micrometre, in chords: what insets leave of a fillet as wide as the cutter.
+TEST(Tracks, HaveNoArcThatAControlDoesNotResolve) {
+  // A corner of six tenths of a micrometre, in chords: what insets leave of a fillet as wide as the cutter.
   geometry::Loop loop = {{0, 0}, {40, 0}};
-  geometry::append_arc(loop, {40, 0.0006}, {40, 0}, 1.5707963, 1e-6);
+  geometry::append_arc(loop, {40, 0.0006}, {40, 0}, 1.5707963, 1e-5);
   loop.push_back({40.0006, 30});
   loop.push_back({0, 30});
   const Track t = track_of(loop);
-  Vec2 at = t.start;
-  for (const Segment& s : t.segments) {
-    EXPECT_GE(length_of(at, s), 0.002);
-    at = s.to;
-  }
-  EXPECT_EQ(t.segments.size(), 4U);
+  for (const Segment& s : t.segments) EXPECT_EQ(s.bend, Bend::kStraight);
+  // One of a hundredth of a millimetre stays.
+  loop = {{0, 0}, {40, 0}};
+  geometry::append_arc(loop, {40, 0.01}, {40, 0}, 1.5707963, 1e-5);
+  loop.push_back({40.01, 30});
+  loop.push_back({0, 30});
+  const Track arc = track_of(loop);
+  EXPECT_TRUE(std::any_of(arc.segments.begin(), arc.segments.end(),
+                          [](const Segment& s) { return s.bend == Bend::kCcw; }));
 }
 
 }  // namespace

@@ -350,5 +350,50 @@ TEST(EdgePath, BreaksTheEdgesOfPocketsHolesAndOutsideContours) {
   EXPECT_EQ(generate(boss, job).error().code, "TPA-DEPTH");
 }
 
+TEST(ConeOfAHole, IsMilledAlongTheWallBelowItWithItsTipOnAShoulderWhereThereIsOne) {
+  // 26 to 25 mm over 0.5 mm: 90 degrees.
+  PathJob t = area_job(geometry::disc({0, 0}, 13.0), 0.5, 12.0);
+  t.shape.kind = model::ShapeKind::kHole;
+  t.shape.diameter.nominal_mm = 26.0;
+  t.shape.bottom_diameter_mm = 25.0;
+  t.shape.bottom = model::HoleBottom::kFlat;
+  t.operation = model::TypeId::kSideFinishMilling;
+  t.cutter = endmill(12.0);
+  t.cutter.cutter_class = CutterClass::kChamferMill;
+  t.cutter.point_angle_rad = 0.5 * kPi;
+  t.cutter.tip_diameter_mm = 2.0;
+  const auto widest = [](const GeneratedPath& g) {
+    double out = 0.0;
+    for (std::size_t i = 0; i < g.path.size(); ++i) out = std::max(out, std::hypot(g.path.x[i], g.path.y[i]));
+    return out;
+  };
+  Job job;
+  // Over a hole of 25 mm the tip goes 0.5 mm below the foot, where the cone is 1 + 0.5 mm wide.
+  t.hole_below_mm = 25.0;
+  const auto over_hole = generate(t, job);
+  ASSERT_TRUE(over_hole) << over_hole.error().message;
+  EXPECT_NEAR(over_hole->levels_z_mm.front(), -1.0, 1e-12);
+  EXPECT_NEAR(widest(*over_hole), 12.5 - 1.5, 0.002);
+  // 0.1 mm is left on the cone: all of it 0.1 mm higher.
+  t.allowance_side_mm = 0.1;
+  const auto rough = generate(t, job);
+  ASSERT_TRUE(rough) << rough.error().message;
+  EXPECT_NEAR(rough->levels_z_mm.front(), -0.9, 1e-12);
+  EXPECT_NEAR(widest(*rough), 12.5 - 1.5, 0.002);
+  // Around a hole of 20 mm a shoulder stays at the foot: the tip's edge runs on it.
+  t.allowance_side_mm = 0.0;
+  t.hole_below_mm = 20.0;
+  const auto on_shoulder = generate(t, job);
+  ASSERT_TRUE(on_shoulder) << on_shoulder.error().message;
+  EXPECT_NEAR(on_shoulder->levels_z_mm.front(), -0.5, 1e-12);
+  EXPECT_NEAR(widest(*on_shoulder), 12.5 - 1.0, 0.002);
+  // The middle of a toleranced diameter: 26 +0.2 is cut 26.1 wide, 0.05 mm deeper.
+  t.shape.diameter.upper_mm = 0.2;
+  t.shape.diameter.given = true;
+  const auto aimed = generate(t, job);
+  ASSERT_TRUE(aimed) << aimed.error().message;
+  EXPECT_NEAR(aimed->levels_z_mm.front(), -0.55, 1e-12);
+}
+
 }  // namespace
 }  // namespace capstan::toolpath

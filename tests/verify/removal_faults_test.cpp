@@ -170,5 +170,58 @@ TEST(Left, AnUnplannedFeatureIsLeftOut) {
   EXPECT_EQ(found(findings, "CHK-LEFT", "pocket"), nullptr) << told(findings);
 }
 
+TEST(Within, AHoleThatEndsBelowTheRawPieceIsFoundAndOneThatEndsAtItsUndersideIsNot) {
+  for (const double depth : {50.0, 55.0}) {  // the raw piece is 50 mm high
+    PlanMaker k = testing::good_plan();
+    const auto* ws = k.plan.model.get<model::MachiningWorkingstep>(k.plan.steps[1].step);
+    k.plan.model.get<model::RoundHole>(ws->its_feature)->depth = k.depth(depth);
+    const auto findings = check(k.plan);
+    EXPECT_EQ(found(findings, "CHK-OUTSIDE", "drill") != nullptr, depth > 50.0) << told(findings);
+  }
+}
+
+TEST(Within, AFeatureBesideTheRawPieceIsFound) {
+  PlanMaker k = testing::good_plan();
+  const auto* ws = k.plan.model.get<model::MachiningWorkingstep>(k.plan.steps[1].step);
+  k.plan.model.get<model::RoundHole>(ws->its_feature)->feature_placement = k.at(150, 15, 0);
+  const auto findings = check(k.plan);
+  EXPECT_NE(found(findings, "CHK-OUTSIDE", "drill"), nullptr) << told(findings);
+}
+
+TEST(Within, AHoleDrilledIntoAnothersWallIsFoundAndOneBesideItIsNot) {
+  for (const double apart : {6.0, 9.0}) {  // both of 8 mm
+    PlanMaker k = testing::good_plan();
+    model::CutterPath p = down_to(15 + apart, 15, -20 - testing::point_length());
+    k.step<model::Drilling>("next", k.hole("H2", 15 + apart, 15, 8, 20), "d8", p, 225, 1500);
+    const auto findings = check(k.plan);
+    EXPECT_EQ(found(findings, "CHK-OVERLAP", "next") != nullptr, apart < 8.0) << told(findings);
+  }
+}
+
+TEST(Stands, ABossThatIsAFeatureOfItsOwnIsAGougeWhenAFaceIsCutThroughIt) {
+  for (const bool boss : {true, false}) {
+    PlanMaker k = testing::empty_plan();
+    model::CutterPath p;
+    p.start({-10, 50, 10});
+    p.rapid({-10, 50, -2});
+    p.line({110, 50, -2}, MoveRole::kCut);
+    p.rapid({110, 50, 10}, MoveRole::kRetract);
+    k.step<model::PlaneFinishMilling>("face", k.face("F", 2), "em10", p, 600, 3000);
+    if (boss) {
+      model::RectangularClosedProfile r;
+      r.profile_length = k.length(20);
+      r.profile_width = k.length(20);
+      model::Boss b;
+      b.its_id = "B";
+      b.feature_placement = k.at(50, 50, 0);
+      b.depth = k.depth(2);
+      b.its_boundary = k.plan.model.add(r);
+      k.plan.unplanned.push_back({k.plan.model.add(b), "not asked here"});
+    }
+    const auto findings = check(k.plan);
+    EXPECT_EQ(found(findings, "CHK-GOUGE", "face") != nullptr, boss) << told(findings);
+  }
+}
+
 }  // namespace
 }  // namespace capstan::verify

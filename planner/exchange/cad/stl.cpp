@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "planner/base/number.h"
+#include "planner/geometry/mesh_form.h"
 #include "planner/model/nouns/all.h"
 
 namespace capstan::exchange {
@@ -181,6 +182,35 @@ bool looks_like_stl(std::string_view s) {
 
 Result<Mesh> read_stl(std::string_view s, const std::string& name, Job& job) {
   return is_binary(s) ? read_binary(s, name, job) : read_ascii(s, name, job);
+}
+
+Status judge_mesh(const Mesh& mesh, const std::string& name, Job& job) {
+  using Kind = geometry::MeshForm::Kind;
+  const geometry::MeshForm form = geometry::form_of(mesh);
+  if (form.kind == Kind::kBroken) {
+    return fail({.code = "STL-OPEN",
+                 .message = "the mesh is neither closed nor a sheet: " + form.fault,
+                 .file = name,
+                 .expected = "every edge between two triangles (corners within " +
+                             trimmed(geometry::kWeldMm, 4) +
+                             " mm are one), or a surface open at its outer border only",
+                 .hint = "close it in the program that wrote it; what stands under an opening is not known"});
+  }
+  const auto warn = [&](const char* code, std::string text) {
+    job.report({.code = code, .severity = Severity::kWarning, .message = std::move(text), .file = name});
+  };
+  if (form.kind == Kind::kSheet)
+    warn("STL-SHEET", "the mesh is a sheet, not a solid: what lies outside its outline stays as it is");
+  if (form.crowded_edges > 0)
+    warn("STL-CROWDED", std::to_string(form.crowded_edges) + " edges are shared by more than two triangles");
+  if (form.turned_edges > 0)
+    warn("STL-TURNED",
+         std::to_string(form.turned_edges) +
+             " edges lie between triangles that face opposite ways; the surface is taken as it lies");
+  if (form.inside_out)
+    warn("STL-INSIDE-OUT",
+         "the triangles of the mesh face inwards; it is read as the solid that they enclose");
+  return {};
 }
 
 model::Plan plan_of_mesh(Mesh mesh, const std::string& name) {

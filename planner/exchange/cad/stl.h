@@ -21,6 +21,13 @@ namespace capstan::exchange {
 /// Cost   linear; a binary triangle is 50 bytes.
 [[nodiscard]] Result<geometry::Mesh> read_stl(std::string_view bytes, const std::string& name, Job& job);
 
+/// Whether a mesh says what is to be made: a closed solid, or a sheet with one height over each place of its
+/// outline. Corners within geometry::kWeldMm are one. What is left of its edges: STL-SHEET, STL-CROWDED,
+/// STL-TURNED and STL-INSIDE-OUT are warnings, for heights do not depend on them.
+///
+/// Fails  STL-OPEN  with the first opening: what is to stand beneath it, nobody knows.
+[[nodiscard]] Status judge_mesh(const geometry::Mesh& mesh, const std::string& name, Job& job);
+
 /// A plan whose part is the mesh: a project with one workpiece, an empty workplan and one region.
 [[nodiscard]] model::Plan plan_of_mesh(geometry::Mesh mesh, const std::string& name);
 

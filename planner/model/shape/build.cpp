@@ -58,20 +58,20 @@ geometry::Region moved(const geometry::Placement& frame, const geometry::Region&
 std::optional<Vec2> crosses_itself(const Loop& loop) {
   constexpr double kLobe = 1e-3;  // mm2: a smaller one is the ends of two curves that meet a little late
   const std::size_t n = loop.size();
-  struct Stretch {
+  struct Side {
     double lo = 0.0, hi = 0.0;  // in x
     std::size_t i = 0;
   };
-  std::vector<Stretch> pieces;
+  std::vector<Side> sides;
   for (std::size_t i = 0; i < n; ++i) {
     const double a = loop[i].x, b = loop[(i + 1) % n].x;
-    pieces.push_back({std::min(a, b), std::max(a, b), i});
+    sides.push_back({std::min(a, b), std::max(a, b), i});
   }
-  std::sort(pieces.begin(), pieces.end(),
-            [](const Stretch& a, const Stretch& b) { return std::pair(a.lo, a.i) < std::pair(b.lo, b.i); });
+  std::sort(sides.begin(), sides.end(),
+            [](const Side& a, const Side& b) { return std::pair(a.lo, a.i) < std::pair(b.lo, b.i); });
   for (std::size_t p = 0; p < n; ++p) {
-    for (std::size_t q = p + 1; q < n && pieces[q].lo <= pieces[p].hi; ++q) {
-      const std::size_t i = std::min(pieces[p].i, pieces[q].i), j = std::max(pieces[p].i, pieces[q].i);
+    for (std::size_t q = p + 1; q < n && sides[q].lo <= sides[p].hi; ++q) {
+      const std::size_t i = std::min(sides[p].i, sides[q].i), j = std::max(sides[p].i, sides[q].i);
       const Vec2 a = loop[i], b = loop[(i + 1) % n], c = loop[j], d = loop[(j + 1) % n];
       const double s1 = cross(b - a, c - a), s2 = cross(b - a, d - a);
       const double s3 = cross(d - c, a - c), s4 = cross(d - c, b - c);

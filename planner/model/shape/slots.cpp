@@ -245,6 +245,28 @@ Result<std::vector<Vec2>> section_of(const Model& m, Ref<OpenProfile> profile, d
   return unsupported(m, s.feature, "its swept shape is not a square, rounded, vee, tee or general profile");
 }
 
+/// A profile that stands upright, its width along the feature's axis, runs round in a wall: no slot that is
+/// milled from above.
+Status lies_down(const Model& m, const Slot& f, const FeatureShape& s) {
+  constexpr double kUpright = 0.99;
+  const auto* profile = m.get<SquareUProfile>(f.swept_shape);
+  const auto* round = m.get<CircularPath>(f.course_of_travel);
+  if (profile == nullptr || round == nullptr || !profile->placement.set()) return {};
+  const auto frame = placement(m, profile->placement);
+  if (!frame || std::abs(frame->x.z) < kUpright) return {};
+  const auto width = length(m, profile->width);
+  const auto radius = length(m, round->radius);
+  const std::string size =
+      (width ? trimmed(width->nominal_mm, 3) + " mm wide, " : std::string()) +
+      (radius ? "its floor on a radius of " + trimmed(radius->nominal_mm, 3) + " mm" : "");
+  return unsupported(
+      m, s.feature,
+      "its profile stands upright on a circular course: a groove in the wall of a bore, " + size +
+          "; it needs a disc-shaped T-slot or grooving cutter no wider than the groove, let down in "
+          "the bore and fed round at the groove's height, which is not planned: give the path, or "
+          "turn it");
+}
+
 }  // namespace
 
 Result<Shapes> slot(const Model& m, AnyRef self, const Slot& f) {
@@ -255,6 +277,7 @@ Result<Shapes> slot(const Model& m, AnyRef self, const Slot& f) {
   if (!line) return tl::unexpected(line.error());
   if (line->size() < 2) return unsupported(m, self, "its course of travel has no length");
   s->spine = *line;
+  if (auto ok = lies_down(m, f, *s); !ok) return tl::unexpected(ok.error());
   const auto* course = m.get<TravelPath>(f.course_of_travel);
   const auto course_frame = placement_or_identity(m, course->placement);
   if (!course_frame) return tl::unexpected(course_frame.error());

@@ -14,6 +14,7 @@
 #include "planner/pipeline/holding.h"
 #include "planner/pipeline/paths/cuts.h"
 #include "planner/pipeline/paths/given_path.h"
+#include "planner/pipeline/paths/gone.h"
 #include "planner/pipeline/paths/progress.h"
 #include "planner/pipeline/paths/ranking.h"
 #include "planner/pipeline/paths/results.h"
@@ -46,6 +47,7 @@ struct Tried {
   model::StepResult result;
   optimise::FeedQuestion asked;
   optimise::FeedAnswer feeds;
+  std::optional<double> removed_mm3;  ///< unset where nothing was measured
 };
 
 /// Thinner cuts that are tried with one cutter where a limit is exceeded along its path.
@@ -165,11 +167,13 @@ class PathMaker {
     rank_by_time(w_, step, stocks_, progress_, cuts_);
     const std::size_t tries = std::max<std::size_t>(1, step.candidates.size());
     GroupedReasons why_not;
+    bool gone = step.proposed;                            // whichever cutter: nothing stands there to be cut
     std::optional<std::pair<std::size_t, double>> least;  // of those that exceed a limit: which, by how much
     for (std::size_t i = 0; i < tries; ++i) {
       const auto before = stocks_.before(step.setup);
       auto tried = with_cutter(step, i);
       if (tried && !exceeds(step, *tried)) return accept(step, *std::move(tried), i);
+      gone = gone && !tried && tried.error().code == "TPA-DEPTH";
       const std::string why = tried ? excess_text(*tried) : tried.error().message;
       if (tried) {
         if (!least || tried->feeds.worst_excess < least->second) least = {i, tried->feeds.worst_excess};
@@ -183,6 +187,7 @@ class PathMaker {
       auto tried = with_cutter(step, least->first);
       if (tried) return accept(step, *std::move(tried), least->first);
     }
+    if (gone && leave_out(w_, step, why_not.text())) return {};
     give_up(step,
             why_not.text() + (least ? "; a smaller or shorter cutter or a stronger spindle would do" : ""));
     return {};
@@ -355,6 +360,7 @@ class PathMaker {
     r.radial_depth_mm = made.answer.ae_mm;
     r.active = active_of(made.answer);
     if (auto m = measured(w_, step, *out.path, stocks_)) {
+      out.removed_mm3 = m->removed_mm3;
       fq.samples = samples_of(*m);
       // One pass over a surface, not levels: as deep and as wide as what roughing left there.
       if (w_.plan.model.holds<model::FreeformFinishMilling>(step.operation)) {
@@ -378,6 +384,9 @@ class PathMaker {
 
   /// Takes a try: into nouns, ledger and plan.
   Status accept(StepWork& step, Tried tried, std::size_t candidate) {
+    if (tried.removed_mm3 && in_air(w_, step, *tried.removed_mm3) &&
+        leave_out(w_, step, "it meets no material"))
+      return {};
     if (candidate > 0 && candidate < step.candidates.size())
       take_cutter(w_, step, step.candidates[candidate]);
     const Made& made = tried.made;

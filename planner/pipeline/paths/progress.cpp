@@ -8,6 +8,8 @@ namespace {
 
 using model::ShapeKind;
 
+constexpr double kWithinMm = 1e-4;  ///< less than any path's last digits; default, unsourced
+
 bool is_end_mill(const model::Cutter& c) {
   return c.cutter_class == model::CutterClass::kEndmill ||
          c.cutter_class == model::CutterClass::kBullnoseEndmill;
@@ -15,6 +17,32 @@ bool is_end_mill(const model::Cutter& c) {
 
 bool opens_outwards(const model::FeatureShape& s) {
   return s.kind == ShapeKind::kStep || s.kind == ShapeKind::kOutside;
+}
+
+/// A feature with open sides may be left through them, but only where the part has nothing in the way: what
+/// stays beside it at its depth is the part's box less its own area and those of the features that are cut as
+/// deep there.
+geometry::Region stays_beside(const Work& w, const model::FeatureShape& s) {
+  constexpr double kSame = 1e-6;
+  const auto to = inverse(s.frame);
+  const geometry::Box3 part = transformed(part_box(w), to);
+  geometry::Region out =
+      geometry::subtract(geometry::rectangle(geometry::xy(part.lo), geometry::xy(part.hi)), s.area);
+  if (out.empty()) return out;
+  for (const model::FeatureShape& other : w.shapes) {
+    const auto rel = compose(to, other.frame);
+    if ((other.feature == s.feature && other.member == s.member) || rel.z.z < 1.0 - kSame ||
+        other.area.empty())
+      continue;
+    if (rel.origin.z - other.depth_mm > -s.depth_mm + kSame) continue;
+    geometry::Region cut = other.area;
+    for (const auto& island : other.islands) cut = geometry::subtract(cut, island.area);
+    for (auto& loop : cut.loops) {
+      for (auto& q : loop) q = geometry::xy(rel.to_parent({q.x, q.y, 0.0}));
+    }
+    out = geometry::subtract(out, cut);
+  }
+  return out;
 }
 
 }  // namespace
@@ -44,6 +72,13 @@ void Progress::prepare(const StepWork& step, const stock::HeightMap& map, toolpa
     const auto outline = transformed(setup.stock, inverse(job.feature_in_setup));
     const auto raw = geometry::rectangle(geometry::xy(outline.lo), geometry::xy(outline.hi));
     job.shape.area = geometry::intersect(job.shape.area, raw);
+  }
+  if (job.shape.open && (job.shape.kind == ShapeKind::kStep || job.shape.kind == ShapeKind::kSlot ||
+                         job.shape.kind == ShapeKind::kPocket)) {
+    // A little within its own sides, so that the walls of the feature stay those of its own reach.
+    const geometry::Region beside =
+        geometry::offset(stays_beside(w_, job.shape), -kWithinMm, 0.1 * kWithinMm);
+    if (!beside.empty()) job.shape.reach = geometry::subtract(job.shape.reach, beside);
   }
   const double top = job.feature_in_setup.origin.z;
   const double bottom = top - job.shape.depth_mm;

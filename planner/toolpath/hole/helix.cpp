@@ -31,8 +31,8 @@ void half_turn(PathWriter& w, Vec2 c, double r, bool to_right, double z, bool cw
   w.arc({c.x + (to_right ? r : -r), c.y, z}, c, cw, why);
 }
 
-/// Whether the middle of the cutter, which cuts badly or not at all, goes down in the hole that is there: all the
-/// way through, or one that goes on below a shoulder.
+/// Whether the middle of the cutter, which cuts badly or not at all, goes down in the hole that is there: all
+/// the way through, or one that goes on below a shoulder.
 bool middle_in_air(const PathJob& task) {
   constexpr double kMiddle = 0.3;  // of the radius; default, unsourced
   const double reached = helix_radius(task) + kMiddle * 0.5 * task.cutter.cutting_diameter_mm;

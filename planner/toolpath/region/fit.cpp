@@ -62,21 +62,9 @@ std::vector<Vec2> simplified_line(const std::vector<Vec2>& in, double tolerance)
   return out;
 }
 
-/// Shorter than this a move says nothing that a control resolves, mm: programs have three decimals, and the
-/// places of two points are rounded apart from each other.
-constexpr double kShortestMove = 0.002;
-
-/// Without vertices that lie this near the one before; the ends stay.
-std::vector<Vec2> without_specks(const std::vector<Vec2>& in) {
-  if (in.size() < 3) return in;
-  std::vector<Vec2> out = {in.front()};
-  for (std::size_t i = 1; i + 1 < in.size(); ++i) {
-    if (norm(in[i] - out.back()) >= kShortestMove) out.push_back(in[i]);
-  }
-  while (out.size() > 1 && norm(in.back() - out.back()) < kShortestMove) out.pop_back();
-  out.push_back(in.back());
-  return out;
-}
+/// An arc of a smaller radius, or whose ends are nearer, is a line to a control, mm: programs have three
+/// decimals, and rounded apart its ends and its centre say anything.
+constexpr double kSmallestArc = 0.002;
 
 struct Circle {
   Vec2 centre;
@@ -152,6 +140,11 @@ Track fitted(const std::vector<Vec2>& p, double tolerance, bool closed) {
       continue;
     }
     const Circle c = *arc_through(p, i, j, tolerance);
+    if (c.radius < kSmallestArc || norm(p[j] - p[i]) < kSmallestArc) {
+      out.segments.push_back({.to = p[j], .centre = {}, .bend = Bend::kStraight});
+      i = j;
+      continue;
+    }
     // The centre is moved onto the bisector of the two ends, so that both radii agree exactly.
     const Vec2 middle = 0.5 * (p[i] + p[j]);
     const Vec2 chord = p[j] - p[i];
@@ -199,12 +192,12 @@ Track track_of(const Loop& loop, double tolerance_mm) {
   }
   std::vector<Vec2> line(loop.begin() + static_cast<std::ptrdiff_t>(begin), loop.end());
   line.insert(line.end(), loop.begin(), loop.begin() + static_cast<std::ptrdiff_t>(begin) + 1);
-  return fitted(without_specks(simplified_line(line, 1e-5)), tolerance_mm, true);
+  return fitted(simplified_line(line, 1e-5), tolerance_mm, true);
 }
 
 Track track_of_line(const std::vector<Vec2>& line, double tolerance_mm) {
   if (line.empty()) return {};
-  return fitted(without_specks(simplified_line(line, 1e-5)), tolerance_mm, false);
+  return fitted(simplified_line(line, 1e-5), tolerance_mm, false);
 }
 
 }  // namespace capstan::toolpath

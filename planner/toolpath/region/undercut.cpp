@@ -20,6 +20,9 @@ constexpr double kFreeAir = 0.2;      ///< mm between a cutter in air and the ma
 constexpr double kSidePart = 0.1;     ///< of the diameter: most that a pass takes further; default, unsourced
 constexpr double kSameAngle = 0.002;  ///< rad
 constexpr int kMostPasses = 200;
+/// In the middle both edges of the head cut beside the mouth: half the feed, so that they take what one
+/// takes.
+constexpr double kBothEdges = 0.5;
 
 /// The cutter's head: what cuts under the mouth.
 struct Head {
@@ -96,9 +99,11 @@ Status cut_through(const PathJob& task, const std::vector<Vec2>& course, const s
     offsets.push_back(s);
     offsets.push_back(-s);
   }
+  const bool edges = task.left_on_side_mm.has_value();
   bool back = false;  // the cutter stands at the far end
   for (const double z : heights) {
     for (const double side : offsets) {
+      writer.factors(side == 0.0 && edges ? kBothEdges : 1.0, 1.0);
       const auto line = side == 0.0 ? course : beside(course, side);
       if (line.empty()) return refuse(task, "TPA-UNSUPPORTED", "its course turns back on itself");
       Track there = track_of_line(line);
@@ -123,7 +128,7 @@ Status cut_to_the_end(const PathJob& task, const Undercut& u, const WorkArea& w,
   const bool round = Inside(w.reach).contains(beyond);
   const Track middle = track_of_line(course);
   const double d = task.cutter.cutting_diameter_mm;
-  const bool slower = d > 2.0 * u.mouth_mm && task.left_on_side_mm.has_value();
+  const double edge = 0.5 * d - u.mouth_mm;
   const double front = std::min(length_of(middle), std::max(0.0, 0.5 * d - u.mouth_mm) + 1.0);
   std::vector<Track> loops;
   for (const double s : sides) {
@@ -138,9 +143,10 @@ Status cut_to_the_end(const PathJob& task, const Undercut& u, const WorkArea& w,
   }
   for (const double z : heights) {
     go_to(writer, middle.start, z);
-    if (slower) {
+    if (edge > 0.0 && task.left_on_side_mm) {
+      writer.factors(kBothEdges, 1.0);
       writer.follow(part_of(middle, 0.0, length_of(middle) - front), z, MoveRole::kCut);
-      writer.factors((d - 2.0 * u.mouth_mm) / d, 1.0);
+      writer.factors(std::max(edge, side_step(task, d)) / d, 1.0);
       writer.follow(part_of(middle, length_of(middle) - front, length_of(middle)), z, MoveRole::kCut);
       writer.factors(1.0, 1.0);
     } else {

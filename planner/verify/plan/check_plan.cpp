@@ -15,6 +15,7 @@ std::vector<model::Finding> check_plan(const model::Plan& plan, Job& job) {
   check_holding(plan, findings);
   check_order(plan, findings);
   check_coverage(plan, findings);
+  check_within(plan, findings);
   check_removal(plan, steps, findings, job);
   job.progress("check", 1.0);
   return findings.take();

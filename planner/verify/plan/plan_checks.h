@@ -66,6 +66,9 @@ void check_order(const model::Plan& plan, Findings& findings);
 /// Every feature planned, or said not to be: 34.
 void check_coverage(const model::Plan& plan, Findings& findings);
 
+/// Planned features within the raw piece; holes that a drill makes apart from others: 37.
+void check_within(const model::Plan& plan, Findings& findings);
+
 /// Two radii of an arc differ by no more than coordinates rounded to three decimals explain:
 /// each of start, end and centre by 0.0005 sqrt(2), derived.
 inline constexpr double kRadiusGapMm = 0.0022;

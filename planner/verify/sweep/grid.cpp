@@ -98,6 +98,14 @@ struct Outline {
   [[nodiscard]] double height(double d) const {
     return d <= flat ? 0.0 : profile.height(std::min(d, radius));
   }
+  /// Within this the cutter has no edge unless it cuts to its centre. Of a cone that is its tip's: its flank
+  /// cuts. The share is a default, unsourced.
+  [[nodiscard]] double middle() const {
+    constexpr double kMiddle = 0.3;
+    const auto& p = profile.pieces;
+    const bool cone = flat > 0.0 && p.size() > 1 && p[1].radius_mm == 0.0 && p[1].slope > 0.0;
+    return kMiddle * (cone ? flat : radius);
+  }
   const CutterProfile& profile;
   double radius, flat = 0.0;
 };
@@ -314,7 +322,7 @@ Bite cut(Grid& grid, const Move& m, const CutterProfile& cutter, double allowed_
   if (std::min(m.from.z, m.to.z) >= grid.top()) return bite;
   grid.begin_move();
   const Outline o(cutter);
-  Knife k{grid, allowed_mm, judge, bite, 0.3 * o.radius, o.radius - 2.0 * kChordMm, o, advance_mm, head_mm};
+  Knife k{grid, allowed_mm, judge, bite, o.middle(), o.radius - 2.0 * kChordMm, o, advance_mm, head_mm};
   if (!is_arc(m.kind)) {
     cut_line(k, o, m.from, m.to);
   } else if (std::abs(m.from.z - m.to.z) < 1e-9) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "planner/geometry/mesh_form.h"
 #include "planner/model/nouns/all.h"
 #include "planner/verify/findings.h"
 
@@ -92,6 +93,8 @@ Target::Target(const model::Plan& plan, const PartShapes& part, std::size_t setu
       frame_(workpiece_in(plan, setup)),
       stock_(placed(plan.stock.box, frame_)),
       part_box_(placed(part.part, frame_)) {
+  if (plan.target_mesh)
+    sheet_ = geometry::form_of(*plan.target_mesh).kind == geometry::MeshForm::Kind::kSheet;
   if (plan.stock.cylinder_radius_mm && std::abs(frame_.z.z) > kUpright)
     round_ = *plan.stock.cylinder_radius_mm;
   for (const auto& e : part.entries) {
@@ -209,7 +212,8 @@ void Target::fill(Grid& grid) {
       const bool there = !round_ || norm(p - 0.5 * (xy(stock_.lo) + xy(stock_.hi))) <= *round_;
       grid.stock[grid.index(ix, iy)] = there ? stock_.hi.z : Grid::kNothing;
       grid.base[grid.index(ix, iy)] = stock_.lo.z;
-      grid.part[grid.index(ix, iy)] = outside(p) || plan_.target_mesh ? Grid::kNothing : part_box_.hi.z;
+      const bool nothing = outside(p) || (plan_.target_mesh && !sheet_);
+      grid.part[grid.index(ix, iy)] = nothing ? Grid::kNothing : part_box_.hi.z;
     }
   }
   if (plan_.target_mesh) fill_mesh(grid);
@@ -228,6 +232,7 @@ void Target::fill(Grid& grid) {
 
 void Target::fill_mesh(Grid& grid) const {
   const geometry::Mesh& mesh = *plan_.target_mesh;
+  std::vector<double> high(grid.part.size(), Grid::kNothing);
   for (const auto& t : mesh.triangles) {
     const Vec3 a = frame_.to_parent(mesh.vertices[t[0]]);
     const Vec3 b = frame_.to_parent(mesh.vertices[t[1]]);
@@ -243,10 +248,13 @@ void Target::fill_mesh(Grid& grid) const {
         const double v = cross(xy(c) - p, xy(a) - p) / twice;
         const double w = 1.0 - u - v;
         if (u < -1e-12 || v < -1e-12 || w < -1e-12) continue;
-        double& z = grid.part[grid.index(ix, iy)];
+        double& z = high[grid.index(ix, iy)];
         z = std::max(z, u * a.z + v * b.z + w * c.z);
       }
     }
+  }
+  for (std::size_t i = 0; i < high.size(); ++i) {
+    if (high[i] > Grid::kNothing || !sheet_) grid.part[i] = high[i];
   }
 }
 

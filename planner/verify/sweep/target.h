@@ -118,7 +118,8 @@ class Target : public GougeJudge {
   const PartShapes& part_;
   geometry::Placement frame_;
   geometry::Box3 stock_, part_box_;
-  std::optional<double> round_;             ///< radius of a bar along the tool axis
+  bool sheet_ = false;           ///< a mesh that says nothing of what lies outside its outline: that stays
+  std::optional<double> round_;  ///< radius of a bar along the tool axis
   std::deque<model::FeatureShape> bevels_;  ///< of edges that the plan breaks
   std::vector<Cavity> cavities_;
   std::vector<double> levels_;

@@ -105,45 +105,6 @@ TEST(LinuxCnc, RestatesTheStateAtAStepWithTheSameToolAndLinksOverTheSecurityPlan
   EXPECT_EQ(text.find("M6", second), std::string::npos);
 }
 
-TEST(LinuxCnc, ACondemnedStepSaysSoInHeaderAndMarkerAndIsStoppedBefore) {
-  Plan plan = empty_plan();
-  add_step(plan, "a", "em18", contour());
-  add_step(plan, "b", "em18", contour());
-  add_step(plan, "c", "em18", contour());
-  Job job;
-  const auto text = write_linuxcnc(plan, job, {{"b", "CHK-GOUGE", "gouges (by 2 mm)"}});
-  ASSERT_TRUE(text) << to_text(text.error());
-  EXPECT_LT(position(*text, "(CONDEMNED: step 2 b: gouges [by 2 mm])\n"), position(*text, "G21"));
-  EXPECT_THAT(*text, HasSubstr("G53 G0 Z0\nM5\nM9\n"
-                               "(CAPSTAN STEP id=\"b\" n=2 tool=1 setup=1 condemned=\"CHK-GOUGE\")\n"
-                               "(CONDEMNED: gouges [by 2 mm])\n"
-                               "(MSG, condemned step 2: gouges [by 2 mm]; continue at your own risk)\n"
-                               "M0\n"
-                               "G21 G17 G90 G94 G40 G80\n"));
-  EXPECT_THAT(*text, HasSubstr("(CAPSTAN STEP id=\"a\" n=1 tool=1 setup=1)\nG21"));
-  EXPECT_THAT(*text, HasSubstr("(CAPSTAN STEP id=\"c\" n=3 tool=1 setup=1)\nG21"));
-  // What condemns the whole plan stops it before its first step.
-  const auto whole = write_linuxcnc(plan, job, {{"", "CHK-ORDER", "order"}});
-  ASSERT_TRUE(whole);
-  EXPECT_THAT(*whole, HasSubstr("n=1 tool=1 setup=1 condemned=\"CHK-ORDER\")\n(CONDEMNED: order)\n(MSG, "));
-  EXPECT_EQ(whole->find("M0\n", position(*whole, "M0\n") + 1), std::string::npos);
-}
-
-TEST(LinuxCnc, TheInterpreterTakesAProgramWithCondemnedSteps) {
-  CAPSTAN_NEEDS_RS274();
-  Plan plan = empty_plan();
-  add_step(plan, "a", "em18", contour());
-  add_step(plan, "b", "em18", contour());
-  Job job;
-  const std::string long_text(500, 'x');
-  const auto text = write_linuxcnc(
-      plan, job, {{"a", "CHK-A", long_text}, {"b", "CHK-B", "(#<_x>; %"}, {"b", "CHK-C", long_text}});
-  ASSERT_TRUE(text) << to_text(text.error());
-  const Rs274Run ran = testing::run_rs274(write_tool_table(plan), *text);
-  EXPECT_EQ(ran.status, 0) << ran.output;
-  EXPECT_EQ(ran.only({"PROGRAM_STOP"}).size(), 2u) << ran.output;
-}
-
 TEST(LinuxCnc, StopsForTheOperatorBetweenSetUps) {
   Plan plan = empty_plan();
   plan.setups.push_back({.setup = {}, .work_offset = "G55", .security_z_mm = 30.0});

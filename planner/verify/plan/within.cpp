@@ -1,0 +1,96 @@
+#include <algorithm>
+#include <cmath>
+
+#include "planner/model/nouns/all.h"
+#include "planner/verify/plan/plan_checks.h"
+#include "planner/verify/sweep/target.h"
+
+// Planned features against the raw piece, and holes against each other.
+
+namespace capstan::verify {
+namespace {
+
+using model::FeatureShape;
+using model::ShapeKind;
+
+constexpr double kBeyondMm = 0.01;  ///< of a feature's extent beyond the raw piece; default, unsourced
+
+std::string where(geometry::Vec3 p) { return "(" + plain(p.x) + ", " + plain(p.y) + ", " + plain(p.z) + ")"; }
+
+/// Why a feature cannot be made of this raw piece; empty when it can.
+std::string not_within(const FeatureShape& s, const geometry::Box3& stock) {
+  if (s.area.empty() || s.kind == ShapeKind::kStep || s.kind == ShapeKind::kOutside) return {};
+  const auto b = geometry::bounds(s.area);
+  const geometry::Box3 raw = placed(stock, inverse(s.frame));
+  if (b.lo.x > raw.hi.x || b.hi.x < raw.lo.x || b.lo.y > raw.hi.y || b.hi.y < raw.lo.y ||
+      -s.depth_mm > raw.hi.z || raw.lo.z > 0.0) {
+    return "lies wholly outside the raw piece";
+  }
+  const double deeper = raw.lo.z + s.depth_mm;
+  if (!s.through && deeper > kBeyondMm) return "ends " + mm(deeper) + " below the underside of the raw piece";
+  return {};
+}
+
+bool drilled(model::CutterClass c) {
+  using model::CutterClass;
+  return c == CutterClass::kTwistDrill || c == CutterClass::kGunDrill || c == CutterClass::kReamer ||
+         c == CutterClass::kTap;
+}
+
+/// Whether two holes with one axis direction cut into each other's wall.
+bool overlap(const FeatureShape& a, const FeatureShape& b) {
+  if (std::abs(std::abs(dot(a.frame.z, b.frame.z)) - 1.0) > 1e-9) return false;
+  const geometry::Vec3 local = a.frame.to_local(b.frame.origin);
+  const double apart = std::hypot(local.x, local.y);
+  const double ra = 0.5 * a.diameter.nominal_mm, rb = 0.5 * b.diameter.nominal_mm;
+  if (apart >= ra + rb - kBeyondMm || apart <= std::abs(ra - rb) + kBeyondMm) return false;
+  const double end = local.z - b.depth_mm * dot(a.frame.z, b.frame.z);
+  return std::max(local.z, end) > -a.depth_mm + kBeyondMm && std::min(local.z, end) < -kBeyondMm;
+}
+
+}  // namespace
+
+void check_within(const model::Plan& plan, Findings& findings) {
+  if (plan.stock.box.empty()) return;
+  const PartShapes part = shapes_of_part(plan);
+  struct Hole {
+    const FeatureShape* shape;
+    const Asked* asked;
+  };
+  std::vector<Hole> holes;
+  const std::vector<Asked> asked = asked_of(plan);
+  for (const Asked& a : asked) {
+    const PartShapes::Entry* e = part.find(a.feature);
+    if (e == nullptr) continue;
+    for (const FeatureShape& s : e->shapes) {
+      if (const std::string why = not_within(s, plan.stock.box); !why.empty()) {
+        findings.error(37, "CHK-OUTSIDE", a.where,
+                       "feature " + s.name + ", placed at " + where(s.frame.origin) + " of the workpiece, " +
+                           why + " (" + where(plan.stock.box.lo) + " to " + where(plan.stock.box.hi) + ")");
+      }
+      if (s.kind == ShapeKind::kHole || s.kind == ShapeKind::kThread) holes.push_back({&s, &a});
+    }
+  }
+  for (std::size_t i = 0; i < holes.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      if (!overlap(*holes[i].shape, *holes[k].shape)) continue;
+      // The one made last meets the other's wall on one side only.
+      const Hole& last = holes[i].asked->where.order >= holes[k].asked->where.order ? holes[i] : holes[k];
+      const Hole& first = &last == &holes[i] ? holes[k] : holes[i];
+      const bool drills = std::any_of(plan.steps.begin(), plan.steps.end(), [&](const model::StepResult& s) {
+        const auto* ws = plan.model.get<model::MachiningWorkingstep>(s.step);
+        const model::Cutter* c = model::find_cutter(plan, s.cutter_id);
+        return ws != nullptr && c != nullptr && ws->its_feature == last.asked->feature &&
+               drilled(c->cutter_class);
+      });
+      if (!drills) continue;
+      findings.error(37, "CHK-OVERLAP", last.asked->where,
+                     "hole " + last.shape->name + " at " + where(last.shape->frame.origin) +
+                         " runs into the wall of " + first.shape->name + " at " +
+                         where(first.shape->frame.origin) +
+                         ": a drill is pushed aside there; mill one of them, or move it");
+    }
+  }
+}
+
+}  // namespace capstan::verify

@@ -1,0 +1,33 @@
+#include "tests/removal/parts.h"
+
+namespace capstan::testing::removal {
+
+// 60 x 40 mm of grey iron: a seat of 16 +0.025 mm, 8 mm deep, around 10 +0.025 mm through, its edge a cone of
+// 17 to 16 mm; and a core of 8.3 +0.025 mm, full to 20 mm above a cone of 120 degrees, with a thread's length
+// of the same diameter, its edge a cone of 11 to 10 mm on a shoulder. Elements in no order.
+Part tight_holes() {
+  const Box b = block(60, 40, 30);
+  Drawing d("TIGHT HOLES", b);
+  d.material("EN-GJL-200");
+  const auto origin = d.placement({0, 0, 0});
+  const auto fine = [&](double nominal) { return d.length(nominal, 0.025, 0.0); };
+  const auto cone_of_seat = d.hole("CONE", origin, 0.5, fine(17), d.flat_bottom(), d.angle_taper(45));
+  const auto bore = d.hole("BORE", origin, 30, fine(10), d.through_bottom());
+  const auto seat = d.hole("SEAT", origin, 8, fine(16), d.flat_bottom());
+  d.compound("SEATED", d.placement({16, 20, 0}), {cone_of_seat, seat, bore});
+  const auto length = d.hole("LENGTH", origin, 12, fine(8.3), d.flat_bottom());
+  const auto cone_of_core = d.hole("CONE", origin, 0.5, fine(11), d.flat_bottom(), d.angle_taper(45));
+  const auto core = d.hole("CORE", origin, 20, fine(8.3), d.conical_bottom(120));
+  d.compound("CORED", d.placement({42, 20, 0}), {length, cone_of_core, core});
+  Target t(body(b));
+  t.cut(cylinder(16, 20, 8, -8, 2));
+  t.cut(cylinder(16, 20, 5, -32, 2));
+  t.cut(cone(16, 20, -0.5, 8, 0.2, 8.7));
+  t.cut(cone(42, 20, -0.5, 5, 0.2, 5.7));
+  t.cut(cylinder(42, 20, 4.15, -20, 2));
+  // 120 degrees: 4.15 / tan 60 below the full diameter.
+  t.cut(cone(42, 20, -20 - 2.39600, 0, -19.99, 4.15 + 0.01 * 1.73205));
+  return {"tight_holes", d.text(), b, t};
+}
+
+}  // namespace capstan::testing::removal
