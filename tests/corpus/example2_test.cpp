@@ -103,6 +103,8 @@ TEST(CorpusExample2, AsPrintedIsReadAndEachWrongReferenceIsReported) {
   std::vector<std::string> faults;
   for (const auto& d : r.said) {
     if (d.code != "EXC-REFERENCE" && d.code != "EXC-SIZE") continue;
+    // Told by other words: a length for a depth, a curve for a segment.
+    if (d.message.find("; taken as the depth") != std::string::npos) continue;
     if (d.message.find("points straight at") != std::string::npos) continue;
     EXPECT_EQ(d.severity, Severity::kWarning);
     faults.push_back(std::to_string(d.line) + " #" + std::to_string(d.instance) + " " + d.message +
@@ -143,7 +145,7 @@ TEST(CorpusExample2, AsPrintedOnlyWhatNeedsAWrongReferenceHasNoShape) {
   EXPECT_THAT(without,
               ::testing::UnorderedElementsAre("COMPOUND_FEATURE_HOLE2", "COMPOUND_FEATURE_HOLE3",
                                               "HOLE2 TAPERED", "PATTERN_HOLE4", "COMPOUND_FEATURE_HOLE4",
-                                              "HOLE4 CONICAL BOTTOM", "HOLE4 TAPERED", "SIDE1"));
+                                              "HOLE4 CONICAL BOTTOM", "HOLE4 TAPERED"));
 }
 
 TEST(CorpusExample2, ItsPocketAndBossHaveRoundCorners) {

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "planner/model/raw_piece.h"
+#include "planner/model/standing.h"
 #include "tests/model/maker.h"
 
 // Where the elements of compounds and patterns stand; every coordinate is worked out by hand.
@@ -85,6 +86,16 @@ TEST(Compound, AnElementAskedForAloneStandsWhereItsCompoundPutsIt) {
   k.compound(k.at(100, 50, 0), {hole});
   EXPECT_EQ(k.places(hole), "120,50,0");
   EXPECT_EQ(k.shapes(hole).front().feature, AnyRef(hole));
+}
+
+TEST(Compound, ItsFrameIsThatOfItsElementsCoordinates) {
+  Bench k;
+  const auto hole = k.hole(20, 0, 8, 10);
+  const auto c = k.compound(k.at(100, 50, 0), {hole});
+  const auto frame = coordinates_of(k.m, hole);
+  ASSERT_TRUE(frame);
+  EXPECT_LT(norm(frame->origin - Vec3{100, 50, 0}), kSame);
+  EXPECT_EQ(*coordinates_of(k.m, c), geometry::Placement{});
 }
 
 TEST(Compound, AnElementListedTwiceStandsInBoth) {

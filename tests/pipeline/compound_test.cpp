@@ -120,6 +120,33 @@ END-ISO)");
   EXPECT_EQ(cut_at(p.plan, "PAIR", -8.0), "");
 }
 
+// A toolpath's coordinates are the feature's own, and its element's where the compound puts it.
+TEST(Compounds, AGivenPathOfAnElementRunsWhereTheElementStands) {
+  std::string text = part();
+  const auto put = [&](const std::string& from, const std::string& to) {
+    const auto at = text.find(from);
+    ASSERT_NE(at, std::string::npos) << from;
+    text.replace(at, from.size(), to);
+  };
+  put("(),$,#8,$);", "(#101),$,#8,$);");
+  put("ENDSEC;\nEND-ISO", R"(#101=MACHINING_WORKINGSTEP('GIVEN',#31,#53,#102,$);
+#102=DRILLING(#110,$,'DRILL',20.,$,#103,#106,#107,$,10.,0.,$,$,$);
+#103=MILLING_CUTTING_TOOL('DRILL 8',#104,(#105),60.,$,$);
+#104=TWIST_DRILL(#108,2,.RIGHT.,.F.,$);
+#105=CUTTING_COMPONENT(50.,$,$,$,$);
+#106=MILLING_TECHNOLOGY(0.003,.TCP.,$,-20.,$,.F.,.F.,.F.,$);
+#107=MILLING_MACHINE_FUNCTIONS(.F.,$,$,.F.,$,(),.T.,$,$,());
+#108=MILLING_TOOL_DIMENSION(8.,70.,$,50.,$,$,$);
+#110=TOOLPATH_LIST((#111));
+#111=CUTTER_LOCATION_TRAJECTORY(.T.,.CONTACT.,$,$,$,$,#112,$,$);
+#112=POLYLINE('',(#113,#114));
+#113=CARTESIAN_POINT('',(0.,0.,20.));
+#114=CARTESIAN_POINT('',(0.,0.,-9.));
+ENDSEC;
+END-ISO)");
+  EXPECT_EQ(cut_at(planned(text).plan, "GIVEN", -8.0), "100,50");
+}
+
 TEST(Compounds, AReadingThatWasAssumedIsSaid) {
   std::string text = part();
   const std::string relative = "ON CIRCLE',(15.,0.,0.)", absolute = "ON CIRCLE',(175.,60.,0.)";

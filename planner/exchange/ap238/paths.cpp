@@ -342,9 +342,10 @@ class Splitter {
   std::map<std::tuple<double, double>, model::Ref<model::Technology>> technologies_;
 };
 
-AnyRef feature_placement(const model::Model& m, AnyRef step) {
+Result<Placement> feature_frame(const model::Model& m, AnyRef step) {
   const auto* w = m.get<model::MachiningWorkingstep>(step);
-  return w == nullptr ? AnyRef{} : toolpath_placement(m, w->its_feature);
+  if (w == nullptr) return Placement{};
+  return toolpath_frame(m, w->its_feature);
 }
 
 bool has_curves(const model::Model& m, AnyRef step) {
@@ -442,8 +443,7 @@ void state_frames(model::Plan& plan) {
   auto& m = plan.model;
   for (const AnyRef step : m.all(model::TypeId::kMachiningWorkingstep)) {
     if (m.at<model::Workingstep>(step).toolpath_orientation || !has_curves(m, step)) continue;
-    const auto at =
-        model::placement_or_identity(m, model::Ref<model::Axis2Placement3d>(feature_placement(m, step)));
+    const auto at = feature_frame(m, step);
     if (!at || same_place(*at, Placement{})) continue;
     const auto stated = copied(m, *at);
     m.at<model::Workingstep>(step).toolpath_orientation = stated;
@@ -458,8 +458,7 @@ void drop_stated_frames(model::Plan& plan) {
     auto& w = m.at<model::MachiningWorkingstep>(step);
     if (!w.toolpath_orientation) continue;
     const auto stated = model::placement_or_identity(m, w.toolpath_orientation);
-    const auto own =
-        model::placement_or_identity(m, model::Ref<model::Axis2Placement3d>(feature_placement(m, step)));
+    const auto own = feature_frame(m, step);
     if (stated && own && same_place(*stated, *own)) w.toolpath_orientation = {};
   }
 }

@@ -10,6 +10,7 @@
 #include "planner/exchange/iso14649/segments.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/resolve.h"
+#include "planner/model/standing.h"
 #include "planner/model/walk.h"
 
 namespace capstan::exchange {
@@ -446,14 +447,19 @@ class StepBuilder {
 
 }  // namespace
 
-AnyRef toolpath_placement(const model::Model& m, AnyRef feature) {
-  if (const auto* f = m.get<model::Two5dManufacturingFeature>(feature)) return f->feature_placement;
-  if (const auto* f = m.get<model::Region>(feature)) return f->feature_placement;
+Result<Placement> toolpath_frame(const model::Model& m, AnyRef feature) {
   // A chamfer or an edge round stands where the feature stands whose edge it is.
-  if (const auto* f = m.get<model::TransitionFeature>(feature)) {
-    if (const auto* first = m.get<model::MachiningFeature>(f->first_feature)) return first->feature_placement;
-  }
-  return {};
+  AnyRef stands = feature;
+  if (const auto* f = m.get<model::TransitionFeature>(feature)) stands = f->first_feature;
+  AnyRef at;
+  if (const auto* f = m.get<model::Two5dManufacturingFeature>(stands)) at = f->feature_placement;
+  if (const auto* f = m.get<model::Region>(stands)) at = f->feature_placement;
+  auto own = model::placement_or_identity(m, model::Ref<model::Axis2Placement3d>(at));
+  if (!own) return own;
+  // An element stands where its compound or pattern puts it.
+  const auto outer = model::coordinates_of(m, stands);
+  if (!outer) return fail(outer.error());
+  return *outer == Placement{} ? *own : geometry::compose(*outer, *own);
 }
 
 Result<Placement> frame_of_step(const model::Plan& plan, model::Ref<model::Executable> step) {
@@ -464,7 +470,7 @@ Result<Placement> frame_of_step(const model::Plan& plan, model::Ref<model::Execu
   const AnyRef feature = feature_of(m, step);
   const auto* workingstep = m.get<model::Workingstep>(step);
   const AnyRef own = workingstep != nullptr ? AnyRef(workingstep->toolpath_orientation) : AnyRef{};
-  auto local = read(own.set() ? own : toolpath_placement(m, feature));
+  auto local = own.set() ? read(own) : toolpath_frame(m, feature);
   if (!local) return fail(local.error());
   const Around where = around(plan, step);
   for (auto at = where.orientations.rbegin(); at != where.orientations.rend(); ++at) {

@@ -33,8 +33,10 @@ struct CurveOptions {
 [[nodiscard]] Result<geometry::Placement> frame_of_step(const model::Plan& plan,
                                                         model::Ref<model::Executable> step);
 
-/// The placement in which a feature's toolpaths stand where nothing else says so; unset when it has none.
-[[nodiscard]] model::AnyRef toolpath_placement(const model::Model& m, model::AnyRef feature);
+/// The frame in which a feature's toolpaths stand where nothing else says so, workpiece coordinates: its own
+/// placement, where its compound or pattern puts that; the workpiece's own where it has none.
+/// Fails  as `placement` and `coordinates_of`.
+[[nodiscard]] Result<geometry::Placement> toolpath_frame(const model::Model& m, model::AnyRef feature);
 
 /// One toolpath as moves. Arcs about the set-up's z stay arcs, a helix too (turn by turn); other curves are
 /// sampled. A trimmed LINE runs from trim_1 to trim_2 whatever its sense says (published files contradict

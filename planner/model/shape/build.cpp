@@ -10,6 +10,7 @@
 #include "planner/model/nouns/geometric_item.h"
 #include "planner/model/nouns/support.h"
 #include "planner/model/resolve.h"
+#include "planner/model/standing.h"
 
 namespace capstan::model {
 namespace shape {
@@ -346,6 +347,14 @@ Result<std::vector<FeatureShape>> shapes_of(const Model& model, Ref<Manufacturin
     if (out->size() > 1) (*out)[i].name += "[" + std::to_string(i + 1) + "]";
   }
   return out;
+}
+
+Result<geometry::Placement> coordinates_of(const Model& model, AnyRef feature) {
+  if (!feature.set()) return geometry::Placement{};
+  shape::Piece piece(model);
+  const auto in = shape::stated_in(model, feature, shape::Within{{}, {}, 0, false, &piece});
+  if (!in) return tl::unexpected(in.error());
+  return in->frame;
 }
 
 }  // namespace capstan::model

@@ -95,6 +95,8 @@ Result<Shapes> replicate(const Model& m, AnyRef self, const ReplicateFeature& f,
 Result<Shapes> any(const Model& m, AnyRef feature, const Within& in);
 /// As above for a feature wherever its compounds and patterns put it: once for each that lists it.
 Result<Shapes> standing(const Model& m, AnyRef feature, const Within& in);
+/// The coordinates in which it is stated, in the first place where it is listed.
+Result<Within> stated_in(const Model& m, AnyRef feature, const Within& in);
 /// What a thread or an edge is on: where both are listed together, in the same coordinates.
 Result<Shapes> referred(const Model& m, AnyRef feature, const Within& in);
 

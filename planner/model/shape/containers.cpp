@@ -408,6 +408,12 @@ Result<Shapes> standing(const Model& m, AnyRef feature, const Within& in) {
   return out;
 }
 
+Result<Within> stated_in(const Model& m, AnyRef feature, const Within& in) {
+  auto places = coordinates(m, feature, in, in.depth);
+  if (!places) return tl::unexpected(places.error());
+  return places->front();
+}
+
 Result<Shapes> referred(const Model& m, AnyRef feature, const Within& in) {
   Within next = in;
   ++next.depth;
