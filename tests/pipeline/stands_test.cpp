@@ -16,7 +16,7 @@ model::Plan planned(const std::string& file) {
   Job job;
   auto in = load_shop({}, job);
   EXPECT_TRUE(in) << (in ? "" : in.error().message);
-  const std::string path = std::string(CAPSTAN_SOURCE_DIR) + "/tests/pipeline/parts/" + file;
+  const std::string path = CAPSTAN_SOURCE_DIR "/tests/pipeline/parts/" + file;
   auto plan = read_plan(testing::slurp(path), file, job);
   EXPECT_TRUE(plan) << (plan ? "" : to_text(plan.error()));
   if (!in || !plan) return {};
