@@ -83,7 +83,9 @@ void list_made(Work& w) {
   w.tries.made.clear();
   for (const StepWork& s : w.steps) {
     if (!s.proposed) continue;
-    w.tries.made[s.step] = {s.member, s.chain, s.in_chain, s.cutter.id, s.proposal.name};
+    w.tries.made[s.step] = {s.member,        s.chain,
+                            s.in_chain,      s.cutter.id,
+                            s.proposal.name, w.plan.model.holds<model::FreeformFinishMilling>(s.operation)};
   }
 }
 

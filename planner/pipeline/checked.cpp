@@ -86,7 +86,7 @@ class Judge {
       // Torque, power, bending: a thinner cut of the same cutter.
       const bool of_load =
           o.finding->property == 17 || o.finding->property == 20 || o.finding->property == 21;
-      if (of_load && tried < kBeforeLeavingOut &&
+      if (of_load && !s.as_found && tried < kBeforeLeavingOut &&
           thinned_[{s.member, s.chain, s.in_chain}]++ < kMostThinner) {
         tries_.cut_thinner(s.member, s.chain, s.in_chain, found);
         out.emplace_back(s, found);

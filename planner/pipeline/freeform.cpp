@@ -15,6 +15,7 @@ namespace {
 constexpr double kScallopMm = 0.01;        // where the file states no scallop height; default, unsourced
 constexpr double kChordMm = 0.01;          // where the file states no chordal tolerance; default, unsourced
 constexpr double kRoughAllowanceMm = 0.5;  // left by roughing when no rule says otherwise; default, unsourced
+constexpr double kSemiAllowanceMm = 0.2;   // left by a semi-finish, likewise; default, unsourced
 
 constexpr double kCreaseMm =
     0.02;  // a ball may leave in a crease: what the check lets stand; default, unsourced
@@ -23,7 +24,33 @@ constexpr double kFlatRad = 0.5 / 180.0 * std::numbers::pi;    // less is the ro
 constexpr double kLeastMm =
     1.0;  // radius: below, planning takes smaller cutters than shops use; default, unsourced
 
+/// Height of the ridges that a freeform operation may leave.
+double scallop_of(const model::Model& m, model::AnyRef operation) {
+  const auto* op = m.get<model::FreeformOperation>(operation);
+  const auto* s = op != nullptr ? m.get<model::FreeformStrategy>(op->its_machining_strategy) : nullptr;
+  const auto* t = s != nullptr ? m.get<model::Tolerances>(s->its_milling_tolerances) : nullptr;
+  return t != nullptr ? t->scallop_height.value_or(kScallopMm) : kScallopMm;
+}
+
 }  // namespace
+
+// The nouns of a freeform operation have no place for it: of one that was read, that it is not the last says
+// so. A finish is a semi-finish when a finer one of the same feature follows.
+double freeform_allowance(const Work& w, const StepWork& step) {
+  const model::Model& m = w.plan.model;
+  if (!m.holds<model::FreeformOperation>(step.operation)) return 0.0;
+  if (step.proposed) return step.proposal.allowance_side_mm;
+  if (m.holds<model::FreeformRoughMilling>(step.operation)) return kRoughAllowanceMm;
+  const double own = scallop_of(m, step.operation);
+  bool after = false;
+  for (const StepWork& s : w.steps) {
+    if (after && s.feature == step.feature && m.holds<model::FreeformFinishMilling>(s.operation) &&
+        scallop_of(m, s.operation) < own)
+      return kSemiAllowanceMm;
+    after = after || s.step == step.step;
+  }
+  return 0.0;
+}
 
 // In a crease of angle d between two facets a ball of radius R leaves R (1 / cos(d / 2) - 1). Where facets
 // are so narrow that the ball does not touch both beside their crease, they draw a curve, and its radius is
@@ -103,8 +130,8 @@ Result<toolpath::GeneratedPath> freeform_path(Work& w, const StepWork& step, con
     if (s->stepover) f.stepover_mm = *s->stepover;
     f.to_and_fro = s->pathmode.value_or(model::PathmodeType::kZigzag) == model::PathmodeType::kZigzag;
   }
+  f.allowance_mm = freeform_allowance(w, step);
   if (rough) {
-    f.allowance_mm = step.proposed ? step.proposal.allowance_side_mm : kRoughAllowanceMm;
     f.axial_depth_mm = cut.ap_mm;
     f.stepover_mm = std::min(cut.ae_mm, step.cutter.cutting_diameter_mm);
   }

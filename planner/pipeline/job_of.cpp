@@ -188,8 +188,8 @@ double hole_above(const Model& m, AnyRef feature, const model::FeatureShape& s) 
   return out;
 }
 
-/// The widest narrower hole that goes on below a cone's foot or a shoulder, of the same feature or as the proposal
-/// of a cone knows it.
+/// The widest narrower hole that goes on below a cone's foot or a shoulder, of the same feature or as the
+/// proposal of a cone knows it.
 double hole_below(const Model& m, const StepWork& step, const model::FeatureShape& s) {
   constexpr double kSame = 1e-4;  // mm
   const bool cone = s.bottom_diameter_mm < s.diameter.nominal_mm - kSame;
@@ -221,6 +221,8 @@ toolpath::PathJob job_of(const Work& w, const StepWork& step, const model::Featu
   job.cutter = with_neck(w, step.cutter);
   take_milling(m, step.operation, job);
   take_drilling(m, step.operation, job);
+  if (m.holds<model::FreeformFinishMilling>(step.operation))
+    job.allowance_side_mm = job.allowance_bottom_mm = freeform_allowance(w, step);
   // What was chosen for a tool that has been re-opened is open again, whatever stands in the noun.
   if (w.plan.ledger.is_open(step.operation, "axial_cutting_depth")) job.axial_depth_mm = 0.0;
   if (w.plan.ledger.is_open(step.operation, "radial_cutting_depth")) job.radial_depth_mm = 0.0;

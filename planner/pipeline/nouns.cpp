@@ -116,11 +116,15 @@ void fill_milling(Model& m, AnyRef op, const model::ProposedStep& step) {
   }
 }
 
-/// Parallel passes at the usual tolerances; defaults, unsourced.
+/// Parallel passes at the usual tolerances; of a step that leaves material each at a quarter of that.
+/// Defaults, unsourced.
 Ref<model::FreeformStrategy> passes(Model& m, const model::ProposedStep& step) {
   model::Tolerances t;
-  t.chordal_tolerance = 0.01;
-  t.scallop_height = 0.01;
+  constexpr double kFine = 0.01, kShareOfLeft = 0.25;
+  const bool semi = model::is_a(step.operation, model::TypeId::kFreeformFinishMilling);
+  const double within = semi ? std::max(kFine, kShareOfLeft * step.allowance_side_mm) : kFine;
+  t.chordal_tolerance = within;
+  t.scallop_height = within;
   model::Direction across;
   across.name = "";
   across.direction_ratios = {{0.0, 1.0, 0.0}, true};

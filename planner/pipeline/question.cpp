@@ -220,6 +220,9 @@ optimise::CutQuestion question_of(const Work& w, const StepWork& step, const mod
     const double zone = tolerance_of(w, step, job.shape);
     q.deflection_limit_mm =
         zone > 0.0 ? std::max(kLeastDeflection, kDeflectionShare * zone) : kFinishDeflection;
+    // A semi-finish of a surface: what it leaves takes up what bends.
+    if (m.holds<model::FreeformFinishMilling>(step.operation) && job.allowance_bottom_mm > 0.0)
+      q.deflection_limit_mm = std::max(q.deflection_limit_mm, kDeflectionShare * job.allowance_bottom_mm);
     if (step.cutter.cutter_class == model::CutterClass::kThreadMill) {
       // Depth of an ISO metric thread's flank, 0.6134 p (ISO 68-1).
       q.width_mm = 0.6134 * job.shape.thread_pitch_mm;

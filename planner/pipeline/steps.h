@@ -60,6 +60,8 @@ void let_go(Work& w, StepWork& step, const std::string& word);
 /// Gives a freeform feature the extent of the plan's mesh; leaves others alone.
 void shape_from_mesh(const Work& w, const StepWork& step, toolpath::PathJob& job);
 /// The path of a freeform operation over the plan's mesh.
+/// What a freeform step leaves on its surface, square to it; 0 for other steps.
+[[nodiscard]] double freeform_allowance(const Work& w, const StepWork& step);
 [[nodiscard]] Result<toolpath::GeneratedPath> freeform_path(Work& w, const StepWork& step,
                                                             const toolpath::PathJob& job,
                                                             const optimise::CutAnswer& cut,

@@ -45,6 +45,7 @@ struct MadeStep {
   std::string chain;
   std::size_t in_chain = 0;
   std::string cutter, name;
+  bool as_found = false;  ///< cuts as deep as what was left: a thinner cut cannot be asked for
 };
 
 /// Choices that were tried and did not work, with the reason. Proposing passes them over and puts the reason

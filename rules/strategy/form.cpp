@@ -155,19 +155,22 @@ Made freeform_rough(const Making& m) {
   return s;
 }
 
+// With an allowance it only evens out what roughing left: a ball wider than the creases will do.
 Made freeform_finish(const Making& m) {
   ProposedStep s;
   s.depth_mm = m.shape.depth_mm;
+  s.allowance_side_mm = s.allowance_bottom_mm = m.number("allowance_mm");
   s.tool.classes = {CutterClass::kBallEndmill};
   double limit = 2.0 * m.context.surface_radius_mm;
   if (m.shape.bottom_radius_mm > 0.0) limit = 2.0 * m.shape.bottom_radius_mm;
   if (m.shape.corner_radius_mm > 0.0)
     limit = limit > 0.0 ? std::min(limit, 2.0 * m.shape.corner_radius_mm) : 2.0 * m.shape.corner_radius_mm;
-  s.tool.diameter_max_mm = limit;
+  const bool last = !(s.allowance_side_mm > 0.0);
+  if (last) s.tool.diameter_max_mm = limit;
   s.tool.centre_cutting = true;
   s.tool.reach_mm = m.shape.depth_mm + m.context.stock_above_mm + kReachClearanceMm;
   s.strategy = StrategyKind::kBidirectional;
-  if (!(limit > 0.0))
+  if (last && !(limit > 0.0))
     s.why.text = "the smallest concave radius is not known: narrower places keep the ball's radius";
   return s;
 }
@@ -199,7 +202,10 @@ std::vector<Action> form_actions() {
        TypeId::kFreeformRoughMilling,
        {{"allowance_mm", 0.5, "left on the surface"}},
        freeform_rough},
-      {"freeform_finish", TypeId::kFreeformFinishMilling, {}, freeform_finish},
+      {"freeform_finish",
+       TypeId::kFreeformFinishMilling,
+       {{"allowance_mm", 0.0, "left on the surface; above 0 a semi-finish"}},
+       freeform_finish},
   };
 }
 

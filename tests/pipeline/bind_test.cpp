@@ -196,10 +196,39 @@ TEST(Bind, FinishesASurfaceWithinItsTolerance) {
   Inputs in = shop();
   in.material_name = "EN AW-6061";
   const model::Plan plan = bound(part("surface.stl"), in);
-  ASSERT_EQ(plan.steps.size(), 2U);
+  EXPECT_TRUE(plan.unplanned.empty());
+  ASSERT_EQ(plan.steps.size(), 3U) << "roughed, evened out, finished";
   Job job;
   for (const auto& f : findings_of(plan, job))
     EXPECT_EQ(f.severity, Severity::kNote) << f.code << " " << f.message;
+}
+
+// Roughing leaves terraces, and a finishing ball that meets them cuts a slot of their height, millimetres
+// deep. Evened out before, it meets square to the surface 0.2 mm, ridges and chords of 0.05 mm each, and what
+// a ball of 20 mm leaves in a crease of 20 degrees (sharper ones are corners), 10 mm (1 / cos 10 deg - 1) =
+// 0.15 mm. The widest cut of that depth h = 0.45 mm is the first pass along the border, half a segment of the
+// ball: 2/3 h sqrt(2 R h) = 0.9 mm2 for 20 mm.
+TEST(Bind, FinishesASurfaceThroughThinStock) {
+  Inputs in = shop();
+  in.material_name = "EN AW-6061";
+  const model::Plan plan = bound(part("surface.stl"), in);
+  ASSERT_EQ(plan.steps.size(), 3U);
+  const auto& s = *plan.steps.back().sections;
+  ASSERT_FALSE(s.csa_mm2.empty());
+  EXPECT_LT(*std::max_element(s.csa_mm2.begin(), s.csa_mm2.end()), 1.0);
+}
+
+// A pass over a surface is as deep as what was left there: asking for a thinner one only repeats it.
+TEST(Bind, TriesEachBallOnASurfaceOnce) {
+  Inputs in = shop();
+  in.material_name = "tool_steel";
+  std::erase_if(in.library, [](const model::Cutter& c) {
+    return c.cutter_class == model::CutterClass::kBallEndmill &&
+           (c.cutting_diameter_mm > 6.0 || c.cutting_diameter_mm < 6.0);
+  });
+  const model::Plan plan = bound(part("surface.stl"), in);
+  for (const auto& u : plan.unplanned)
+    EXPECT_EQ(u.reason.find("also where it cuts"), std::string::npos) << u.reason;
 }
 
 TEST(Bind, StopsWhenItIsAsked) {

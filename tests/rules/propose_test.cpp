@@ -464,16 +464,23 @@ TEST(Unsupported, AlwaysGivesAReason) {
   EXPECT_FALSE(proposed(hole(20000, 1)).cannot.empty()) << "outside the domain";
 }
 
-TEST(Surfaces, AreRoughedAndFinishedByABall) {
+TEST(Surfaces, AreRoughedEvenedOutAndFinishedByABallThatFitsTheirCreases) {
   FeatureShape s = pocket(0.0);
-  for (const ShapeKind kind : {ShapeKind::kFreeform, ShapeKind::kSphericalCap}) {
-    s.kind = kind;
-    EXPECT_THAT(first(proposed(s)),
-                ElementsAre(TypeId::kFreeformRoughMilling, TypeId::kFreeformFinishMilling));
-  }
   Context c = steel();
   c.surface_radius_mm = 4.0;
-  EXPECT_DOUBLE_EQ(proposed(s, c).chains.at(0).at(1).tool.diameter_max_mm, 8.0);
+  for (const ShapeKind kind : {ShapeKind::kFreeform, ShapeKind::kSphericalCap}) {
+    s.kind = kind;
+    const auto p = proposed(s, c);
+    EXPECT_THAT(first(p), ElementsAre(TypeId::kFreeformRoughMilling, TypeId::kFreeformFinishMilling,
+                                      TypeId::kFreeformFinishMilling));
+    const auto& semi = p.chains.at(0).at(1);
+    EXPECT_DOUBLE_EQ(semi.allowance_side_mm, 0.2);  // of the row
+    EXPECT_DOUBLE_EQ(semi.tool.diameter_max_mm, 0.0) << "it leaves material: any ball will do";
+    const auto& last = p.chains.at(0).at(2);
+    EXPECT_DOUBLE_EQ(last.allowance_side_mm, 0.0);
+    EXPECT_DOUBLE_EQ(last.tool.diameter_max_mm, 8.0);
+    EXPECT_EQ(p.chains.at(1).size(), 2U) << "where no ball bears the terraces, finished at once";
+  }
 }
 
 TEST(Coolant, FollowsTheMaterialAndTheMachine) {

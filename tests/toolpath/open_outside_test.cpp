@@ -96,5 +96,49 @@ TEST(Tracks, HaveNoArcThatAControlDoesNotResolve) {
                           [](const Segment& s) { return s.bend == Bend::kCcw; }));
 }
 
+/// Round a block of 30 x 30 that stays, 10 deep, roughed to 0.3 beside it and 0.2 over the floor.
+PathJob round_a_block(double diameter) {
+  const Region raw = geometry::rectangle({0, 0}, {100, 80});
+  PathJob t = area_job(raw, 10.0, diameter);
+  t.shape.kind = model::ShapeKind::kOutside;
+  t.shape.open = true;
+  t.shape.islands.push_back({geometry::rectangle({20, 20}, {50, 50}), 0.0});
+  t.shape.reach = geometry::rectangle({-100, -100}, {200, 180});
+  t.stock = raw;
+  t.operation = model::TypeId::kBottomAndSideFinishMilling;
+  t.axial_depth_mm = 10.0;
+  t.left_on_side_mm = 0.3;
+  t.left_on_bottom_mm = 0.2;
+  return t;
+}
+
+TEST(OutsidePath, FinishesTheWholeFloorThatRoughingLeft) {
+  const PathJob t = round_a_block(16.0);
+  Job job;
+  const auto g = generate(t, job);
+  ASSERT_TRUE(g) << g.error().message;
+  EXPECT_THAT(rule_breaks(t, *g), testing::IsEmpty());
+  HeightMap map({-40, -40}, {140, 120}, 0.5, -9.8);
+  map.only(t.stock);
+  map.set_top(geometry::rectangle({19.7, 19.7}, {50.3, 50.3}), 0.0);
+  EXPECT_THAT(map.run(*g, t.cutter).faults, testing::IsEmpty());
+  const Region floor = geometry::subtract(geometry::rectangle({0.5, 0.5}, {99.5, 79.5}),
+                                          geometry::rectangle({19.5, 19.5}, {50.5, 50.5}));
+  EXPECT_NEAR(map.highest(floor), -10.0, 1e-4);
+  EXPECT_NEAR(map.highest(geometry::rectangle({20.5, 20.5}, {49.5, 49.5})), 0.0, 1e-4);
+  const Region kept = geometry::rectangle({20, 20}, {50, 50});
+  EXPECT_LE(gouge_mm(*g, geometry::subtract(t.shape.reach, kept), 8.0, -1e-6), 0.003);
+}
+
+TEST(OutsidePath, GoesOnceRoundTheWallWhereNothingIsLeftOnTheFloor) {
+  PathJob t = round_a_block(16.0);
+  Job job;
+  const auto whole = generate(t, job);
+  t.left_on_bottom_mm = 0.0;
+  const auto wall = generate(t, job);
+  ASSERT_TRUE(whole && wall);
+  EXPECT_LT(wall->path.size(), whole->path.size());
+}
+
 }  // namespace
 }  // namespace capstan::toolpath

@@ -13,6 +13,9 @@ using model::MoveRole;
 
 namespace {
 
+constexpr double kNoAreaMm2 = 1e-3;  // less is rounding of contours
+constexpr double kNoFloorMm = 1e-6;
+
 /// Once round each outer contour of `kept` at a distance, the kept side where walls belong.
 std::vector<Track> rings_around(const Region& grown, const Region& kept, bool natural) {
   std::vector<Track> out;
@@ -38,15 +41,20 @@ Region grown_by(const Around& a, double d) {
   return g;
 }
 
-/// Distances of the rings from what stays, the outermost first.
-std::vector<double> ring_distances(const Around& a, double step, bool shell) {
-  const double first = a.radius + a.task.allowance_side_mm;
+/// Whether a ring at this distance leaves some of the raw piece beyond its outer edge.
+bool beyond(const Around& a, double distance) {
+  return geometry::area(geometry::subtract(a.task.stock,
+                                           inset(a.kept, -(distance + a.radius), kInnerChord))) >= kNoAreaMm2;
+}
+
+/// Distances of the rings from what stays, the outermost first, the innermost `from_wall` off it.
+std::vector<double> ring_distances(const Around& a, double step, bool shell, double from_wall) {
+  const double first = a.radius + from_wall;
   std::vector<double> out = {first};
   if (shell || a.task.stock.empty()) return out;
   for (double d = first; out.size() < 1000; d += step) {
     // Covered so far: a radius beyond the ring.
-    if (geometry::area(geometry::subtract(a.task.stock, inset(a.kept, -(d + a.radius), kInnerChord))) < 1e-3)
-      break;
+    if (!beyond(a, d)) break;
     out.push_back(d + step);
   }
   std::reverse(out.begin(), out.end());
@@ -259,8 +267,19 @@ Result<GeneratedPath> outside_path(const PathJob& task, Job& job) {
     const double lean = std::max(0.0, z - a.w.bottom_z_mm) * std::tan(a.w.slope_rad);
     if (lean > 0.0) at.kept = inset(a.kept, lean, kWallChord);
     if (at.kept.empty()) at.kept = a.kept;
-    if (auto ok = cut_around(at, c, z, from, ring_distances(at, step, shell), shell); !ok)
-      return tl::unexpected(ok.error());
+    // A finish takes what stands on the floor first, clear of what stands on the wall.
+    const double on_floor = task.left_on_bottom_mm.value_or(0.0) - task.allowance_bottom_mm;
+    const double on_wall = std::max(task.allowance_side_mm, task.left_on_side_mm.value_or(0.0));
+    if (shell && z == heights.back() && on_floor > kNoFloorMm &&
+        task.operation != model::TypeId::kSideFinishMilling && !task.stock.empty() &&
+        beyond(at, task.allowance_side_mm + a.radius)) {
+      if (auto ok = cut_around(at, c, z, std::min(from, z + on_floor),
+                               ring_distances(at, step, false, on_wall), false);
+          !ok)
+        return tl::unexpected(ok.error());
+    }
+    const auto distances = ring_distances(at, step, shell, task.allowance_side_mm);
+    if (auto ok = cut_around(at, c, z, from, distances, shell); !ok) return tl::unexpected(ok.error());
     from = z;
   }
   GeneratedPath out = writer.finish();
