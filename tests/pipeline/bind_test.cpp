@@ -218,19 +218,6 @@ TEST(Bind, FinishesASurfaceThroughThinStock) {
   EXPECT_LT(*std::max_element(s.csa_mm2.begin(), s.csa_mm2.end()), 1.0);
 }
 
-// A pass over a surface is as deep as what was left there: asking for a thinner one only repeats it.
-TEST(Bind, TriesEachBallOnASurfaceOnce) {
-  Inputs in = shop();
-  in.material_name = "tool_steel";
-  std::erase_if(in.library, [](const model::Cutter& c) {
-    return c.cutter_class == model::CutterClass::kBallEndmill &&
-           (c.cutting_diameter_mm > 6.0 || c.cutting_diameter_mm < 6.0);
-  });
-  const model::Plan plan = bound(part("surface.stl"), in);
-  for (const auto& u : plan.unplanned)
-    EXPECT_EQ(u.reason.find("also where it cuts"), std::string::npos) << u.reason;
-}
-
 TEST(Bind, StopsWhenItIsAsked) {
   Job job;
   job.request_stop();
