@@ -39,7 +39,7 @@ TEST(Facade, RefusesAnUnknownMaterialWithTheNearestNames) {
   EXPECT_FALSE(out.planned);
   ASSERT_FALSE(out.diagnostics.empty());
   EXPECT_EQ(out.diagnostics.back().code, "NAME-UNKNOWN");
-  EXPECT_THAT(out.diagnostics.back().text, HasSubstr("mild steel"));
+  EXPECT_THAT(out.diagnostics.back().text, HasSubstr("mild_steel"));
 }
 
 }  // namespace

@@ -40,9 +40,8 @@ void each_place_below(const model::Plan& plan, double z, F f) {
     const model::Cutter* c = model::find_cutter(plan, s.cutter_id);
     if (c == nullptr || !s.path) continue;
     for (std::size_t i = 1; i < s.path->size(); ++i) {
-      const auto a = s.path->point(i - 1), b = s.path->point(i);
       for (int k = 0; k <= 100; ++k) {
-        const auto p = a + 0.01 * k * (b - a);
+        const auto p = model::point_on_move(*s.path, i, 0.01 * k);
         if (p.z < z) f(model::step_id(plan, s), p, 0.5 * c->cutting_diameter_mm);
       }
     }
@@ -70,9 +69,11 @@ TEST(Stands, AStepThatEndsWithinTheBlockIsNotCutBeyondItsEndAndASlotIsOpenedInto
   const model::Plan plan = planned("open_ends.p21");
   expect_sound(plan);
   each_place_below(plan, -0.01, [&](const std::string& step, geometry::Vec3 p, double radius) {
-    // The step runs from x = 50 out of the block; in front of it the block stands.
-    if (!step.starts_with("STEP") || p.x + radius < 0.0 || p.y + radius < 0.0) return;
-    if (p.x - radius < 50.0 - 0.06) ADD_FAILURE() << step << " at " << p.x << ", " << p.y << ", " << p.z;
+    // The step runs from x = 50 out of the block; in front of it the block stands, from x = 0 and y = 0 on.
+    if (!step.starts_with("STEP")) return;
+    const double dx = std::max({0.0, p.x - 50.0, -p.x}), dy = std::max(0.0, -p.y);
+    if (std::hypot(dx, dy) < radius - 0.06)
+      ADD_FAILURE() << step << " at " << p.x << ", " << p.y << ", " << p.z;
   });
 }
 

@@ -19,14 +19,14 @@ geometry::Box3 box_over(const geometry::Region& area) {
   return out;
 }
 
-/// The last step with a path, in the same set-up, in whose area this one's lies: what it would cut is gone
+/// The last step with a path, in whichever set-up, in whose area this one's lies: what it would cut is gone
 /// with that.
 Ref<model::Executable> made_by(const Work& w, const StepWork& step) {
   Ref<model::Executable> out;
   for (const model::StepResult& kept : w.plan.steps) {
     const auto it =
         std::find_if(w.steps.begin(), w.steps.end(), [&](const StepWork& s) { return s.step == kept.step; });
-    if (it == w.steps.end() || it->setup != step.setup || it->shapes.empty() || step.shapes.empty()) continue;
+    if (it == w.steps.end() || it->shapes.empty() || step.shapes.empty()) continue;
     const auto& a = it->shapes.front();
     const auto& b = step.shapes.front();
     const auto box = transformed(box_over(a.area), compose(inverse(b.frame), a.frame));
@@ -43,7 +43,9 @@ bool in_air(const Work& w, const StepWork& step, double removed_mm3) {
   constexpr double kNothingMm3 = 0.01;  // default, unsourced: what a map's cells cannot tell from nothing
   const model::Model& m = w.plan.model;
   if (!step.proposed || removed_mm3 > kNothingMm3 || engagement::head_height(step.cutter)) return false;
-  if (m.holds<model::CenterDrilling>(step.operation)) return true;
+  if (m.holds<model::CenterDrilling>(step.operation) || m.holds<model::Drilling>(step.operation) ||
+      m.holds<model::MultistepDrilling>(step.operation))
+    return true;
   const bool rough = m.holds<model::PlaneRoughMilling>(step.operation) ||
                      m.holds<model::SideRoughMilling>(step.operation) ||
                      m.holds<model::BottomAndSideRoughMilling>(step.operation);

@@ -13,7 +13,7 @@ namespace capstan::pipeline {
 [[nodiscard]] bool in_air(const Work& w, const StepWork& step, double removed_mm3);
 
 /// A proposed step with nothing to cut is taken out of the workplan and of its feature; said as a note. Its
-/// feature is then made by the last kept step of the same set-up over its area (final_features). False, and
+/// feature is then made by the last kept step over its area (final_features). False, and
 /// nothing done, when neither that nor another step of the feature is there.
 [[nodiscard]] bool leave_out(Work& w, const StepWork& step, const std::string& why);
 
