@@ -35,6 +35,10 @@ struct Context {
   /// Threads: depth of that hole below the thread's top; 0: the shape's own. With core_above: how far it goes
   /// down below this one's top.
   double core_depth_mm = 0.0;
+  /// Holes: from the axis to the nearest wall that stands above the mouth; unset: none is near.
+  std::optional<double> clear_radius_mm;
+  /// Steps that end at walls on both sides: how far these are apart; 0: they do not.
+  double between_ends_mm = 0.0;
   double core_height_mm = 0.0;     ///< with core_above: how high above this one's top it begins
   bool outer_thread = false;       ///< threads: on a shaft
   double surface_radius_mm = 0.0;  ///< freeform: smallest concave radius; 0 not known

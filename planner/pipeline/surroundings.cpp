@@ -165,6 +165,53 @@ Thickness thickness_beside(const Work& w, const FeatureShape& s) {
   return out;
 }
 
+std::optional<double> clear_beside(const Work& w, const FeatureShape& s) {
+  constexpr double kFarMm = 50.0;     // no spot drill is as wide as this from its axis
+  constexpr double kAwayMm = 1000.0;  // where a face has no walls
+  if (s.kind != ShapeKind::kHole || w.shapes.size() > kMostShapes) return std::nullopt;
+  const auto to = inverse(s.frame);
+  geometry::Region free;
+  for (const FeatureShape& other : w.shapes) {
+    if (other.area.empty() || dot(other.frame.z, s.frame.z) < 1.0 - kSame) continue;
+    const bool wide = other.kind == ShapeKind::kFace || other.kind == ShapeKind::kOutside;
+    const bool walled = other.kind == ShapeKind::kStep || has_walls(other.kind);
+    if (!wide && !walled) continue;
+    if (other.kind == ShapeKind::kHole && other.diameter.nominal_mm <= s.diameter.nominal_mm) continue;
+    const Seen seen = see(other, to);
+    if (seen.top <= kSame || seen.bottom > kSame) continue;
+    if (!wide && gap({{0, 0}, {0, 0}}, seen.box) > kFarMm) continue;
+    const auto rel = compose(to, other.frame);
+    geometry::Region open = wide ? geometry::rectangle({-kAwayMm, -kAwayMm}, {kAwayMm, kAwayMm})
+                                 : moved(other.reach.empty() ? other.area : other.reach, rel);
+    for (const model::Island& island : other.islands) {
+      if (rel.origin.z + island.top_z_mm > kSame) open = geometry::subtract(open, moved(island.area, rel));
+    }
+    free = free.empty() ? open : geometry::unite(free, open);
+  }
+  if (free.empty() || !geometry::contains(free, {0, 0})) return std::nullopt;
+  const double clear = geometry::distance_to_boundary(free, {0, 0});
+  return clear < kFarMm ? std::optional(clear) : std::nullopt;
+}
+
+namespace {
+
+/// How far the walls are apart at which a step ends on both sides; 0: it runs out on one.
+double between_ends(const Work& w, const FeatureShape& s) {
+  constexpr double kBeyond = 0.5;  // mm
+  if (s.kind != ShapeKind::kStep || s.spine.size() < 2 || w.shapes.size() > kMostShapes) return 0.0;
+  const double length = norm(s.spine.back() - s.spine.front());
+  if (length < kSame) return 0.0;
+  const Vec2 d = (kBeyond / length) * (s.spine.back() - s.spine.front());
+  const Vec2 in{d.y, -d.x};  // the step lies on the right of its line
+  const geometry::Region beside = stays_beside(w, s);
+  for (const Vec2 p : {s.spine.front() - d + in, s.spine.back() + d + in}) {
+    if (!geometry::contains(beside, p)) return 0.0;
+  }
+  return length;
+}
+
+}  // namespace
+
 std::string crosses_a_wall(const Work& w, const FeatureShape& face) {
   constexpr double kSomeArea = 1.0;  // mm2: less is rounding of outlines
   if (face.kind != ShapeKind::kFace || w.shapes.size() > kMostShapes) return {};
@@ -213,6 +260,10 @@ rules::Context context_of(const Work& w, AnyRef feature, const std::vector<Featu
   }
   c.wall_thickness_mm = wall;
   c.floor_thickness_mm = floor;
+  c.between_ends_mm = between_ends(w, shapes.front());
+  for (const FeatureShape& s : shapes) {
+    if (const auto clear = clear_beside(w, s)) least(c.clear_radius_mm, *clear);
+  }
   return c;
 }
 

@@ -129,6 +129,13 @@ struct Thickness {
   std::optional<double> wall_mm, floor_mm;
 };
 [[nodiscard]] Thickness thickness_beside(const Work& w, const model::FeatureShape& shape);
+/// From a hole's axis to the nearest wall that stands above its mouth when what is around is cut, mm; unset:
+/// none is near. Tools wider than the hole must pass there.
+[[nodiscard]] std::optional<double> clear_beside(const Work& w, const model::FeatureShape& hole);
+/// A feature with open sides may be left through them, but only where the part has nothing in the way: what
+/// stays beside it at its depth is the part's box less its own area and those of the features that are cut as
+/// deep there.
+[[nodiscard]] geometry::Region stays_beside(const Work& w, const model::FeatureShape& shape);
 /// What surrounds a feature, for the rules: thinnest wall and floor of its shapes.
 [[nodiscard]] rules::Context context_of(const Work& w, AnyRef feature,
                                         const std::vector<model::FeatureShape>& shapes);

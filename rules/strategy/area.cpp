@@ -44,6 +44,10 @@ Limit corner_cutter(const Making& m, double allowance) {
   return {};
 }
 
+/// The widest cutter of a step by the distance of the walls at its ends: their corners keep its radius.
+/// Default, unsourced.
+constexpr double kOfEnds = 0.5;
+
 // The widest cutter for the walls that stay `allowance` away, and what decides it.
 Limit widest_cutter(const Making& m, double of_passage, double allowance, bool corners = true) {
   const auto& s = m.shape;
@@ -61,6 +65,9 @@ Limit widest_cutter(const Making& m, double of_passage, double allowance, bool c
   if (bounded && s.kind != ShapeKind::kStep)
     narrow(of_passage * (passage - 2.0 * allowance),
            "the narrowest passage of " + mm(passage) + " limits the cutter");
+  if (s.kind == ShapeKind::kStep && m.context.between_ends_mm > 0.0)
+    narrow(kOfEnds * m.context.between_ends_mm,
+           "walls " + mm(m.context.between_ends_mm) + " apart at the step's ends limit the cutter");
   const Limit corner = corner_cutter(m, allowance);
   if (!corners) {
     out.text += (out.text.empty() ? "" : "; ") + std::string("corners are left to a smaller cutter");

@@ -224,7 +224,11 @@ Made pilot(const Making& m) {
   return s;
 }
 
-// A mark for the drill: narrower than the hole, so that nothing of it stays.
+/// Room between a spot drill's body and a wall that stands beside the hole, mm. Default, unsourced.
+constexpr double kBesideWallMm = 0.25;
+
+// A mark for the drill: narrower than the hole, so that nothing of it stays. The body above the mark is
+// wider: it must stay clear of walls beside the hole.
 Made centre(const Making& m) {
   const double d = lower_limit(m);
   const double depth = std::clamp(m.number("of_diameter") * d, 0.0, m.number("deepest_mm"));
@@ -233,6 +237,14 @@ Made centre(const Making& m) {
   s.tool.depth_of_cut_mm = depth;
   s.tool.centre_cutting = true;
   s.start_diameter_mm = 0.0;
+  if (m.context.clear_radius_mm) {
+    const double clear = *m.context.clear_radius_mm;
+    const double widest = 2.0 * (clear - kBesideWallMm);
+    if (!(widest > 0.0))
+      return no("a wall stands " + mm(clear) + " from the hole's axis: no spot drill passes beside it");
+    s.tool.diameter_max_mm = widest;
+    s.why.text = "a wall stands " + mm(clear) + " from the axis: a body of " + mm(widest) + " at most passes";
+  }
   return s;
 }
 

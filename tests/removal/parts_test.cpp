@@ -35,6 +35,11 @@ CAPSTAN_MADE(FollowsAnArcFrom270DegreesToZero, arcs_across_zero(false))
 CAPSTAN_MADE(FollowsAContourDrawnClockwise, arcs_across_zero(true))
 CAPSTAN_MADE(ChamfersTheEdgesOfAPocketAndAHole, chamfered_edges())
 CAPSTAN_MADE(CutsAPieceFromBothSides, turned_over())
+CAPSTAN_MADE(CutsAStepShorterThanTheBlock, short_step())
+CAPSTAN_MADE(PlacesTheHolesOfACompound, compound_holes())
+CAPSTAN_MADE(UndercutsTeeSlotsAndDovetails, undercut_slots())
+CAPSTAN_MADE(KeepsTheBossBesideAPocket, boss_beside_pocket())
+CAPSTAN_MADE(DrillsBesideWallsWithoutGougingThem, holes_near_walls())
 CAPSTAN_MADE(CutsTolerancedConesSeatsAndCoresListedInAnyOrder, tight_holes())
 
 }  // namespace

@@ -61,6 +61,23 @@ FeatureShape area(ShapeKind kind, double depth = 10.0, double corner = 8.0) {
   return s;
 }
 
+TEST(SpotDrill, PassesBesideAWallThatStandsAboveTheHole) {
+  Context c = steel();
+  EXPECT_EQ(propose(shipped(), hole(5, 8), c).chains[0][0].tool.diameter_max_mm, 0.0);
+  c.clear_radius_mm = 4.0;
+  // 2 x (4 - 0.25) mm.
+  EXPECT_NEAR(propose(shipped(), hole(5, 8), c).chains[0][0].tool.diameter_max_mm, 7.5, 1e-9);
+}
+
+TEST(Step, BetweenWallsTakesACutterOfHalfTheirDistance) {
+  Context c = steel();
+  FeatureShape s = area(ShapeKind::kStep, 6.0, 0.0);
+  s.open = true;
+  EXPECT_EQ(propose(shipped(), s, c).chains[0][0].tool.diameter_max_mm, 0.0);
+  c.between_ends_mm = 24.0;
+  EXPECT_NEAR(propose(shipped(), s, c).chains[0][0].tool.diameter_max_mm, 12.0, 1e-9);
+}
+
 TEST(DeepHole, IsPeckedThenGunDrilledThenRefused) {
   Context c = steel();
   EXPECT_THAT(actions(hole(10, 25), c), ElementsAre("centre", "drill"));

@@ -112,6 +112,26 @@ TEST(FacePath, LeavesABossOnTheFaceStanding) {
   }
 }
 
+TEST(FacePath, ClearsTheStripBetweenABossAndTheEdge) {
+  // 5 mm on the left and 10 mm in front of the boss: less than the cutter's radius, which overhangs the edge.
+  for (const auto s : {StrategyKind::kBidirectional, StrategyKind::kUnidirectional}) {
+    PathJob t = face_job(geometry::rectangle({0, 0}, {60, 40}), 5.0, 50.0);
+    t.strategy = s;
+    t.radial_depth_mm = 35.0;
+    t.shape.islands.push_back({geometry::rounded_rectangle({5, 10}, {19, 30}, 3.0), 0.0});
+    t.shape.reach = geometry::subtract(t.shape.reach, t.shape.islands[0].area);
+    Job job;
+    const auto g = generate(t, job);
+    ASSERT_TRUE(g) << g.error().message;
+    HeightMap map({-80, -80}, {140, 120}, 0.5, 0.0);
+    map.only(t.shape.area);
+    map.set_top(t.shape.islands[0].area, 0.0);
+    EXPECT_THAT(map.run(*g, t.cutter).faults, testing::IsEmpty());
+    EXPECT_NEAR(map.highest(geometry::rectangle({0.5, 0.5}, {59.5, 9.0})), -5.0, 1e-4);
+    EXPECT_NEAR(map.highest(geometry::rectangle({0.5, 0.5}, {4.0, 39.5})), -5.0, 1e-4);
+  }
+}
+
 TEST(FacePath, StartsOutsideOfRawMaterialThatStandsOut) {
   PathJob t = face_job(geometry::rectangle({0, 0}, {100, 80}), 2.0, 16.0);
   t.stock = geometry::rectangle({-12, -12}, {112, 92});

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/toolpath/link/path_writer.h"
 #include "planner/toolpath/path_job.h"
 #include "planner/toolpath/region/track.h"
 #include "tests/toolpath/path_helpers.h"
@@ -138,6 +139,24 @@ TEST(OutsidePath, GoesOnceRoundTheWallWhereNothingIsLeftOnTheFloor) {
   const auto wall = generate(t, job);
   ASSERT_TRUE(whole && wall);
   EXPECT_LT(wall->path.size(), whole->path.size());
+}
+
+TEST(PathWriter, MakesNoArcWhoseEndsAControlDoesNotTellApart) {
+  PathWriter writer(beside(16.0));
+  writer.over({10, 0});
+  // Six tenths of a micrometre of a circle of 10 mm: a line. The other way round all of it but that: two
+  // arcs.
+  const double a = 6e-5;
+  const geometry::Vec3 next{10.0 * std::cos(a), 10.0 * std::sin(a), writer.at().z};
+  writer.arc(next, {0, 0}, false, MoveRole::kCut);
+  writer.arc({10, 0, next.z}, {0, 0}, false, MoveRole::kCut);
+  const auto g = writer.finish();
+  std::vector<model::MoveKind> cuts;
+  for (std::size_t i = 1; i < g.path.size(); ++i) {
+    if (g.path.kind[i] != model::MoveKind::kRapid) cuts.push_back(g.path.kind[i]);
+  }
+  using enum model::MoveKind;
+  EXPECT_THAT(cuts, testing::ElementsAre(kLine, kArcCcw, kArcCcw));
 }
 
 }  // namespace

@@ -19,9 +19,8 @@ bool opens_outwards(const model::FeatureShape& s) {
   return s.kind == ShapeKind::kStep || s.kind == ShapeKind::kOutside;
 }
 
-/// A feature with open sides may be left through them, but only where the part has nothing in the way: what
-/// stays beside it at its depth is the part's box less its own area and those of the features that are cut as
-/// deep there.
+}  // namespace
+
 geometry::Region stays_beside(const Work& w, const model::FeatureShape& s) {
   constexpr double kSame = 1e-6;
   const auto to = inverse(s.frame);
@@ -44,8 +43,6 @@ geometry::Region stays_beside(const Work& w, const model::FeatureShape& s) {
   }
   return out;
 }
-
-}  // namespace
 
 /// The earlier step that reached all of the area but corners and narrow places, if this one has a smaller
 /// cutter and leaves the same: then there is no more to do than the rest.

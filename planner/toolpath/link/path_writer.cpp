@@ -53,7 +53,21 @@ void PathWriter::line(Vec3 to, MoveRole why) {
   fill();
 }
 
+/// An arc whose ends a control does not tell apart is a full turn to it, or nothing: short of half a turn it
+/// becomes a line, beyond that two arcs. Ends that agree exactly mean a full turn.
 void PathWriter::arc(Vec3 to, Vec2 centre, bool clockwise, MoveRole why) {
+  const Vec2 from = xy(at());
+  const double chord = norm(xy(to) - from);
+  if (chord > kNothing && chord < kSmallestArc) {
+    const double turn = cross(from - centre, xy(to) - centre);
+    if ((turn < 0.0) == clockwise) {
+      line(to, why);
+      return;
+    }
+    const Vec2 over = 2.0 * centre - from;
+    out_.path.arc({over.x, over.y, 0.5 * (at().z + to.z)}, centre, clockwise, why);
+    fill();
+  }
   out_.path.arc(to, centre, clockwise, why);
   fill();
 }

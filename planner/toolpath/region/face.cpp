@@ -17,6 +17,7 @@ namespace {
 /// How far a pass runs past the edge of the face, as a part of the cutter's radius: the cutter stands half a
 /// radius clear of it. Default, unsourced; as NIST's interpreter of ISO 14649 does.
 constexpr double kOverrun = 1.5;
+constexpr double kSomeArea = 0.1;  // mm2: less is chords of arcs
 
 geometry::Loop oriented(geometry::Loop loop) {
   if (geometry::signed_area(loop) < 0.0) std::reverse(loop.begin(), loop.end());
@@ -68,6 +69,12 @@ class Face {
     }
     r = geometry::unite(r, w_.avoid);
     return r.empty() ? r : inset(r, -(radius_ + more), kWallChord);
+  }
+
+  /// How much of the face a cutter clears whose centre may be in `centres` without `but`, mm2.
+  [[nodiscard]] double reached(const Region& centres, const Region& but) const {
+    const Region c = but.empty() ? centres : geometry::subtract(centres, but);
+    return geometry::area(geometry::intersect(geometry::offset(c, radius_), w_.area));
   }
 
   /// Extent along the passes of what lies within a cutter's radius of the line at v.
@@ -182,10 +189,11 @@ class Face {
     const double far = 1e4;
     const geometry::Loop band = {first - far * e_, first + far * e_, first + far * e_ + across * n_,
                                  first - far * e_ + across * n_};
-    level.centres =
-        geometry::subtract(geometry::intersect(geometry::offset_sharp(w_.area, kOverrun * radius_),
-                                               geometry::clean({oriented(band)})),
-                           keep_off);
+    const Region out = geometry::offset_sharp(w_.area, kOverrun * radius_);
+    level.centres = geometry::subtract(geometry::intersect(out, geometry::clean({oriented(band)})), keep_off);
+    // Between what stands and the edge there may be room for a part of the cutter only: passes further out.
+    if (reached(out, keep_off) > reached(level.centres, {}) + kSomeArea)
+      level.centres = geometry::subtract(out, keep_off);
     level.inside = Inside(inset(level.centres, -kInsideSlack, 0.25 * kInsideSlack));
     level.air.clear();
     for (const auto& loop : level.centres.loops) {

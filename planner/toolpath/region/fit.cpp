@@ -62,10 +62,6 @@ std::vector<Vec2> simplified_line(const std::vector<Vec2>& in, double tolerance)
   return out;
 }
 
-/// An arc of a smaller radius, or whose ends are nearer, is a line to a control, mm: programs have three
-/// decimals, and rounded apart its ends and its centre say anything.
-constexpr double kSmallestArc = 0.002;
-
 struct Circle {
   Vec2 centre;
   double radius = 0.0;

@@ -26,6 +26,10 @@ struct Track {
   [[nodiscard]] geometry::Vec2 end() const { return segments.empty() ? start : segments.back().to; }
 };
 
+/// An arc of a smaller radius, or whose ends are nearer, is a line to a control, mm: programs have three
+/// decimals, and rounded apart its ends and its centre say anything.
+inline constexpr double kSmallestArc = 0.002;
+
 /// Vertices of an offset polygon may lie this far from the arc that replaces them, and the arc twice
 /// as far from their chords, mm.
 inline constexpr double kFitTolerance = 0.001;

@@ -65,7 +65,7 @@ Part open_pocket() {
 }
 
 // 50 x 40 mm: the right side is taken down by 6 mm over x = 38 to 50, but from y = 8 to 32 only. Its inner
-// corners are drawn sharp: up to R6 may stay in them.
+// corners are drawn sharp: up to R6 may stay in them, a quarter of the length.
 Part short_step() {
   const Box b = block(50, 40, 14);
   Drawing d("SHORT STEP", b);
