@@ -429,7 +429,7 @@ Status list_given(Work& w) {
   std::vector<StepWork> kept;
   for (StepWork& step : w.steps) {
     if (step.feature.set() && w.plan.model.holds<model::ManufacturingFeature>(step.feature)) {
-      auto shapes = model::shapes_of(w.plan.model, Ref<model::ManufacturingFeature>(step.feature));
+      auto shapes = shapes_in_piece(w, step.feature);
       if (shapes) {
         const std::string name = w.plan.model.get<model::Executable>(step.step)->its_id.value_or("");
         step.shapes = members_meant(

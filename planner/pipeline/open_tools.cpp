@@ -20,7 +20,7 @@ using model::FeatureShape;
 /// kind.
 std::optional<model::ToolRequirement> asked_by_rules(Work& w, const StepWork& step) {
   if (step.shapes.empty()) return std::nullopt;
-  const auto all = model::shapes_of(w.plan.model, Ref<model::ManufacturingFeature>(step.feature));
+  const auto all = shapes_in_piece(w, step.feature);
   if (!all) return std::nullopt;
   const auto shapes = rules::from_the_top(*all);
   const rules::Context context = context_of(w, step.feature, shapes);

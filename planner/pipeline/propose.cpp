@@ -439,7 +439,7 @@ Status propose_missing(Work& w) {
   std::size_t done = 0;
   for (const AnyRef f : features) {
     w.job.progress("propose", static_cast<double>(done++) / static_cast<double>(features.size()));
-    const auto shapes = model::shapes_of(w.plan.model, Ref<model::ManufacturingFeature>(f));
+    const auto shapes = shapes_in_piece(w, f);
     if (!shapes) {
       FeatureShape nameless;
       nameless.feature = f;

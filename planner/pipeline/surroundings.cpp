@@ -312,8 +312,7 @@ Status take_requirements(Work& w) {
   const model::Attribution attribution(m);
   for (const AnyRef f : m.all_below(model::TypeId::kManufacturingFeature)) {
     w.qualities[f] = attribution.quality(f);
-    if (auto s = model::shapes_of(m, Ref<model::ManufacturingFeature>(f)))
-      w.shapes.insert(w.shapes.end(), s->begin(), s->end());
+    if (auto s = shapes_in_piece(w, f)) w.shapes.insert(w.shapes.end(), s->begin(), s->end());
   }
   w.ties = model::ties_of(m, attribution);
   std::string lost;

@@ -101,6 +101,8 @@ Status join_paths(Work& w);             ///< given paths are reached from the se
 
 /// The box of the finished part: what of the raw piece lies beyond it is nobody's. Workpiece coordinates.
 [[nodiscard]] geometry::Box3 part_box(const Work& w);
+/// The shapes of a feature in this raw piece: a hole right through reaches the underside.
+[[nodiscard]] Result<std::vector<model::FeatureShape>> shapes_in_piece(const Work& w, AnyRef feature);
 void report_outside(Work& w);  ///< features that the raw piece does not hold
 
 // Shared pieces.

@@ -137,6 +137,8 @@ TEST(CorpusExample2, AsPrintedOnlyWhatNeedsAWrongReferenceHasNoShape) {
   EXPECT_THAT(why_not(r.plan, "COMPOUND_FEATURE_HOLE3"), ::testing::HasSubstr("has no bottom_condition"));
   // #377 and #379 have one direction for axis and reference direction: no frame.
   EXPECT_THAT(why_not(r.plan, "PATTERN_HOLE4"), ::testing::HasSubstr("parallel"));
+  // A groove in the wall of a bore is none of the slots that are planned.
+  EXPECT_THAT(why_not(r.plan, "SIDE-SLOT1"), ::testing::HasSubstr("a groove in the wall of a bore"));
   std::set<std::string> without;
   for (const auto at : r.plan.model.all_below(model::TypeId::kManufacturingFeature)) {
     if (!model::shapes_of(r.plan.model, model::Ref<model::ManufacturingFeature>(at)))
@@ -145,7 +147,7 @@ TEST(CorpusExample2, AsPrintedOnlyWhatNeedsAWrongReferenceHasNoShape) {
   EXPECT_THAT(without,
               ::testing::UnorderedElementsAre("COMPOUND_FEATURE_HOLE2", "COMPOUND_FEATURE_HOLE3",
                                               "HOLE2 TAPERED", "PATTERN_HOLE4", "COMPOUND_FEATURE_HOLE4",
-                                              "HOLE4 CONICAL BOTTOM", "HOLE4 TAPERED"));
+                                              "HOLE4 CONICAL BOTTOM", "HOLE4 TAPERED", "SIDE-SLOT1"));
 }
 
 TEST(CorpusExample2, ItsPocketAndBossHaveRoundCorners) {

@@ -69,6 +69,23 @@ TEST(Compounds, AreCutWhereTheirPlacementsPutThem) {
     EXPECT_EQ(f.severity, Severity::kNote) << f.code << " " << f.message;
 }
 
+TEST(ThroughHoles, ThatEndInsideThePieceAreCutDownToItsUnderside) {
+  std::string text = part();
+  const std::string bottom = "#49=CONICAL_HOLE_BOTTOM(140.,$);";
+  ASSERT_NE(text.find(bottom), std::string::npos);
+  text.replace(text.find(bottom), bottom.size(), "#49=THROUGH_BOTTOM_CONDITION();");
+  // 10 mm deep as stated, in a plate of 30 mm: the finished part is not thinner there.
+  const Planned p = planned(text);
+  for (const auto& u : p.plan.unplanned) ADD_FAILURE() << u.reason;
+  EXPECT_EQ(cut_at(p.plan, "PAIRS", -30.0), "20,30 20,60 40,30 40,60");
+  std::string said;
+  for (const auto& d : p.said) said += d.message + "\n";
+  EXPECT_NE(said.find("ends 20 mm above the underside of the piece"), std::string::npos) << said;
+  Job job;
+  for (const auto& f : findings_of(p.plan, job))
+    EXPECT_EQ(f.severity, Severity::kNote) << f.code << " " << f.message;
+}
+
 TEST(Compounds, AnOperationIsDoneForTheElementsThatListIt) {
   std::string text = part();
   const auto put = [&](const std::string& from, const std::string& to) {
