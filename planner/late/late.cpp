@@ -88,10 +88,10 @@ Result<LateOutcome> bind(model::Plan plan, pipeline::Inputs inputs, const LatePo
   out.findings = pipeline::findings_of(*fallback, job);
   const auto checking = job.now() - check_start;
   out.condemned = model::condemned(*fallback, out.findings);
-  if (!out.condemned.empty()) {
+  std::optional<TimePoint> half;
+  if (policy.deadline) half = began + *policy.deadline / 2;
+  if (!out.condemned.empty() && (!half || job.now() < *half)) {
     // What the check condemns is made anew, while half of the time is left.
-    std::optional<TimePoint> half;
-    if (policy.deadline) half = began + *policy.deadline / 2;
     job.evaluation_budget = policy.fallback_budget;
     auto anew = pipeline::bind_checked(asked, inputs, policy_of(), job, half);
     job.evaluation_budget = budget;

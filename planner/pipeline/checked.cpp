@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "planner/base/number.h"
+#include "planner/model/condemned.h"
 #include "planner/verify/verify.h"
 
 // Plan, check, and plan anew what the check condemns. The check is independent: it is told nothing of the
@@ -37,9 +38,7 @@ struct Offence {
 bool is_error(const Finding& f) { return f.severity == Severity::kError; }
 
 std::size_t errors_of(const model::Plan& plan, const std::vector<Finding>& findings) {
-  auto n = static_cast<std::size_t>(std::count_if(findings.begin(), findings.end(), is_error));
-  for (const auto& s : plan.steps) n += s.exceeded.empty() ? 0U : 1U;
-  return n;
+  return model::condemned(plan, findings).size();
 }
 
 /// What a plan needs of the spindle in all, its heaviest step needs.
@@ -166,6 +165,7 @@ Result<Checked> bind_checked(const model::Plan& plan, const Inputs& inputs, cons
     if (!again) break;
     for (const auto& [step, why] : condemned) tries.said.push_back(told(tries, step, why));
     findings = verify::check_plan(*again, trial);
+    if (trial.stop_requested()) break;  // not checked to its end: no better than what is there
     offences = offences_of(*again, findings, tries);
     auto now = trial.take_diagnostics();
     const std::size_t errors = errors_of(*again, findings);

@@ -16,6 +16,9 @@
 
 namespace capstan::toolpath {
 
+/// The code of a refusal because nothing stands above the bottom of the step.
+inline constexpr const char* kNothingToCut = "TPA-NOTHING";
+
 /// How a cutter gets into the material, when somebody has said so (ISO 14649-11, approach_retract_strategy).
 struct Approach {
   enum class Kind : std::uint8_t {
@@ -100,8 +103,7 @@ struct PathJob {
   std::optional<double> cutting_depth_mm;      ///< drilling: of the full diameter (centre drill: of the tip)
   std::optional<double> previous_diameter_mm;  ///< hole already there
   double hole_above_mm = 0.0;  ///< of what is wider below: the narrow hole it is reached by; 0: none
-  double hole_below_mm =
-      0.0;  ///< of a cone or a shoulder: the narrower hole that goes on below it; 0: none
+  double hole_below_mm = 0.0;  ///< of a cone or a shoulder: the narrower hole that goes on below it; 0: none
   std::optional<Peck> peck;
   std::optional<DrillPhases> phases;
   std::optional<double> feed_on_retract;  ///< fraction of the feed; nothing: as usual for the operation
@@ -130,6 +132,7 @@ struct GeneratedPath {
 /// Fails   TPA-FRAME    the feature is tilted against the tool axis
 ///         TPA-NO-FIT   the cutter does not fit anywhere (it says which would)
 ///         TPA-ENTRY    no legal way into the material for this cutter
+///         TPA-NOTHING  what it would cut is gone already: its bottom is not below the material
 ///         TPA-DEPTH    no depth, or deeper than the cutter reaches
 ///         TPA-TOOL     this cutter cannot do this operation
 ///         TPA-NO-REST  the wider cutter left nothing

@@ -142,6 +142,12 @@ void withhold(Session& s, const model::Plan& plan, const std::vector<model::Cond
 
 }  // namespace
 
+void put_programs_aside(const std::vector<Output>& outputs, Job& job) {
+  for (const Output& o : outputs) {
+    if (of_program(o)) put_aside(o, job);
+  }
+}
+
 bool makes_program(const std::vector<Output>& outputs) {
   return std::any_of(outputs.begin(), outputs.end(), is_program);
 }
@@ -149,28 +155,33 @@ bool makes_program(const std::vector<Output>& outputs) {
 int finish(Session& s, const model::Plan& plan, std::vector<Output> outputs, const KnownFindings& known) {
   if (plan.steps.empty() && !plan.unplanned.empty()) {
     s.summary = "nothing can be planned, nothing is written";
+    put_programs_aside(outputs, s.job);
     return s.end({.code = "APP-IMPOSSIBLE",
                   .message = "none of " + counted(plan.unplanned.size(), "feature", "features") +
                              " can be planned with these tools on this machine",
                   .file = plan.file_name},
                  kImpossible);
   }
-  if (auto ok = make(plan, outputs, s.job); !ok) return s.end(ok.error(), kImpossible);
+  if (auto ok = make(plan, outputs, s.job); !ok) {
+    put_programs_aside(outputs, s.job);
+    return s.end(ok.error(), kImpossible);
+  }
   // What is left open has no path yet, so there is nothing to prove.
   const bool open = s.options.bind != pipeline::Bind::kAll;
   Verdict verdict;
   if (!open) {
     auto judgement = judged(s, plan, known, outputs);
-    if (!judgement) return s.end(judgement.error(), kImpossible);
+    if (!judgement) {
+      put_programs_aside(outputs, s.job);
+      return s.end(judgement.error(), kImpossible);
+    }
     verdict = *std::move(judgement);
   }
   s.summary = summary_of(plan, verdict.findings);
   const bool condemned = !verdict.condemned.empty();
   const bool clean = verdict.findings == 0 && plan.unplanned.empty() && !condemned;
   if (s.options.strict && !clean) {
-    for (const Output& o : outputs) {
-      if (of_program(o)) put_aside(o, s.job);
-    }
+    put_programs_aside(outputs, s.job);
     s.summary += "; nothing written (--strict)";
     return kFindings;
   }

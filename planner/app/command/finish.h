@@ -19,6 +19,9 @@ using KnownFindings = std::optional<std::vector<model::Finding>>;
 [[nodiscard]] int finish(Session& s, const model::Plan& plan, std::vector<Output> outputs,
                          const KnownFindings& known = std::nullopt);
 
+/// Puts programs from before aside whose names were asked for, where none is written now.
+void put_programs_aside(const std::vector<Output>& outputs, Job& job);
+
 /// Whether a program is asked for.
 [[nodiscard]] bool makes_program(const std::vector<Output>& outputs);
 

@@ -171,8 +171,11 @@ Aside left_there(const std::string& path) {
 
 Aside set_aside(const std::string& path) {
   if (left_there(path).outcome == Aside::kNothingThere) return {};
-  const std::string to = path + ".before";
   std::error_code ec;
+  // What was put aside earlier stays: it may be the last good one.
+  std::string to = path + ".before";
+  for (int n = 2; fs::exists(to, ec) && n < 1000; ++n) to = path + ".before." + std::to_string(n);
+  if (fs::exists(to, ec)) return {Aside::kStays, {}};
   // Only a file goes: another thing of that name (a device, a pipe) is not ours.
   if (!fs::is_regular_file(path, ec)) return {Aside::kStays, {}};
   fs::rename(path, to, ec);

@@ -185,7 +185,7 @@ class PathMaker {
       const auto before = stocks_.before(step.setup);
       auto tried = with_cutter(step, i);
       if (tried && !exceeds(step, *tried)) return accept(step, *std::move(tried), i);
-      gone = gone && !tried && tried.error().code == "TPA-DEPTH";
+      gone = gone && !tried && tried.error().code == toolpath::kNothingToCut;
       const std::string why = tried ? excess_text(*tried) : tried.error().message;
       if (tried) {
         if (!least || tried->feeds.worst_excess < least->second) least = {i, tried->feeds.worst_excess};
@@ -408,7 +408,7 @@ class PathMaker {
     progress_.done(step);
     const auto& feeds = tried.feeds;
     model::StepResult& r = tried.result;
-    if (tried.asked.adapt) keep_excess(w_, step, feeds, r);
+    if (tried.asked.adapt || step.open_technology) keep_excess(w_, step, feeds, r);
     r.schedule = std::make_shared<const model::FeedSchedule>(feeds.schedule);
     r.loads = feeds.peak;
     if (!(r.loads.tool_life_min > 0.0)) r.loads.tool_life_min = made.answer.life_min;

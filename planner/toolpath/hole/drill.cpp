@@ -130,7 +130,7 @@ Result<GeneratedPath> drill_path(const PathJob& task, Job& job) {
   const auto z = bottom_z(task);
   if (!z) return tl::unexpected(z.error());
   if (*z >= task.start_z_mm - 1e-9)
-    return refuse(task, "TPA-DEPTH",
+    return refuse(task, kNothingToCut,
                   "there is nothing to drill below " + trimmed(task.start_z_mm, 3) + " mm");
   if (task.peck && !(task.peck->first_mm > 0.0 && task.peck->step_mm > 0.0 && task.peck->retract_mm >= 0.0))
     return refuse(task, "TPA-DEPTH", "the steps of step drilling must be above 0");

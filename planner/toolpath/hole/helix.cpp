@@ -68,7 +68,7 @@ Result<GeneratedPath> helix_path(const PathJob& task, Job&) {
   if (task.shape.through) end -= task.break_through_mm + task.cutter.corner_radius_mm;
   const double gap = std::min(1.0, task.clearance_mm);
   const double top = task.start_z_mm + gap;
-  if (end >= task.start_z_mm) return refuse(task, "TPA-DEPTH", "there is nothing to cut");
+  if (end >= task.start_z_mm) return refuse(task, kNothingToCut, "there is nothing to cut");
   double angle = task.cutter.maximum_ramp_angle_rad;
   if (angle > 0.0) angle = std::min(angle, kUsualRamp);
   if (task.approach.kind == Approach::Kind::kHelix && task.approach.angle_rad > 0.0)

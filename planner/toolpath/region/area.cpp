@@ -141,7 +141,7 @@ Result<GeneratedPath> area_path(const PathJob& task, Job& job) {
   const auto heights =
       levels(*w, task.start_z_mm, end, single ? 0.0 : task.axial_depth_mm, task.allowance_bottom_mm);
   if (heights.empty()) {
-    return fail({.code = "TPA-DEPTH",
+    return fail({.code = kNothingToCut,
                  .message = task.shape.name + " has nothing to cut between " + trimmed(task.start_z_mm, 3) +
                             " and " + trimmed(end, 3) + " mm",
                  .path = task.shape.name});

@@ -45,7 +45,7 @@ class Face {
     const auto heights =
         levels(w_, task_.start_z_mm, end, single ? 0.0 : task_.axial_depth_mm, task_.allowance_bottom_mm);
     if (heights.empty()) {
-      return fail({.code = "TPA-DEPTH",
+      return fail({.code = kNothingToCut,
                    .message = task_.shape.name + " has nothing to cut between " +
                               trimmed(task_.start_z_mm, 3) + " and " + trimmed(end, 3) + " mm",
                    .path = task_.shape.name});

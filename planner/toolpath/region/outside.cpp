@@ -255,7 +255,7 @@ Result<GeneratedPath> outside_path(const PathJob& task, Job& job) {
   const auto heights = levels(a.w, task.start_z_mm, end, single ? 0.0 : task.axial_depth_mm, 0.0);
   if (heights.empty()) {
     return fail(
-        {.code = "TPA-DEPTH",
+        {.code = kNothingToCut,
          .message = task.shape.name + " has nothing to cut below " + trimmed(task.start_z_mm, 3) + " mm",
          .path = task.shape.name});
   }

@@ -135,7 +135,7 @@ Result<GeneratedPath> slot_path(const PathJob& task, Job& job) {
   const auto heights =
       levels(*w, task.start_z_mm, end, single ? 0.0 : task.axial_depth_mm, task.allowance_bottom_mm);
   if (heights.empty()) {
-    return fail({.code = "TPA-DEPTH",
+    return fail({.code = kNothingToCut,
                  .message = s.name + " has nothing to cut below " + trimmed(task.start_z_mm, 3) + " mm",
                  .path = s.name});
   }

@@ -390,7 +390,7 @@ Result<GeneratedPath> sunk_path(const PathJob& task, Job&) {
   double z = o.z - task.shape.depth_mm + task.allowance_bottom_mm;
   if (task.shape.through) z -= task.break_through_mm + task.cutter.corner_radius_mm;
   if (z >= task.start_z_mm - 1e-9) {
-    return fail({.code = "TPA-DEPTH",
+    return fail({.code = kNothingToCut,
                  .message = task.shape.name + ": there is nothing to cut below " +
                             trimmed(task.start_z_mm, 3) + " mm",
                  .path = task.shape.name});

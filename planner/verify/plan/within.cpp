@@ -19,11 +19,13 @@ std::string where(geometry::Vec3 p) { return "(" + plain(p.x) + ", " + plain(p.y
 
 /// Why a feature cannot be made of this raw piece; empty when it can.
 std::string not_within(const FeatureShape& s, const geometry::Box3& stock) {
-  if (s.area.empty() || s.kind == ShapeKind::kStep || s.kind == ShapeKind::kOutside) return {};
+  if (s.area.empty()) return {};
   const auto b = geometry::bounds(s.area);
   const geometry::Box3 raw = placed(stock, inverse(s.frame));
-  if (b.lo.x > raw.hi.x || b.hi.x < raw.lo.x || b.lo.y > raw.hi.y || b.hi.y < raw.lo.y ||
-      -s.depth_mm > raw.hi.z || raw.lo.z > 0.0) {
+  // Steps and outsides are drawn out over the edges of the piece.
+  const bool over_edges = s.kind == ShapeKind::kStep || s.kind == ShapeKind::kOutside;
+  if (!over_edges && (b.lo.x > raw.hi.x || b.hi.x < raw.lo.x || b.lo.y > raw.hi.y || b.hi.y < raw.lo.y ||
+                      -s.depth_mm > raw.hi.z || raw.lo.z > 0.0)) {
     return "lies wholly outside the raw piece";
   }
   const double deeper = raw.lo.z + s.depth_mm;

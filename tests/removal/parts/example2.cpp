@@ -16,11 +16,15 @@ void drill_tip(Target& t, double x, double y, double diameter, double z) {
   t.cut(cone(x, y, z - blunt, 0, z + 0.01, r), cone(x, y, z - sharp, 0, z + 0.01, r));
 }
 
-// Chamfered by 0.5 mm at its top.
+// With a cone of 45 degrees at its top, 0.5 mm deep, whose foot is `foot` wide.
+void seated(Target& t, double x, double y, double diameter, double foot, double top, double below) {
+  t.cut(cylinder(x, y, 0.5 * diameter, top - below, kOver));
+  t.cut(cone(x, y, top - 0.5, 0.5 * foot, top + 0.1, 0.5 * foot + 0.6));
+}
+
+// The same where the foot is as wide as the hole: a chamfer.
 void blind(Target& t, double x, double y, double diameter, double top, double below) {
-  const double r = 0.5 * diameter;
-  t.cut(cylinder(x, y, r, top - below, kOver));
-  t.cut(cone(x, y, top - 0.5, r, top + 0.1, r + 0.6));
+  seated(t, x, y, diameter, diameter, top, below);
 }
 
 }  // namespace
@@ -51,7 +55,7 @@ Target example2(const Box& raw) {
   for (const double y : {120.0, 60.0}) {
     blind(t, 130, y, 10, 0, 15);  // hole 4
     drill_tip(t, 130, y, 10, -15);
-    blind(t, 190, y, 8.3, 0, 25);  // hole 5, of an M10
+    seated(t, 190, y, 8.3, 10, 0, 25);  // hole 5: the core of an M10, its cone from 11 to 10 mm
     drill_tip(t, 190, y, 8.3, -25);
   }
   for (const double y : {110.0, 70.0}) {
