@@ -209,7 +209,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Case{"PlateAll", "meduag_peca_defesa.p21", Reopen::kAll},
                       Case{"FlatHoleAsGiven", "meduag_furo.p21", Reopen::kNothing},
                       Case{"HoleAsGiven", "ufsc_FuroBaseEsferica.p21", Reopen::kNothing},
-                      Case{"HoleAll", "ufsc_FuroBaseEsferica.p21", Reopen::kAll},
+                      Case{"HoleAll", "meduag_furo.p21", Reopen::kAll},
                       Case{"ConicalHoleAsGiven", "ufsc_FuroConico.p21", Reopen::kNothing},
                       Case{"PocketAsGiven", "ufsc_Cavidade.p21", Reopen::kNothing},
                       Case{"SlotAsGiven", "ufsc_Ranhura.p21", Reopen::kNothing},

@@ -147,7 +147,7 @@ INSTANTIATE_TEST_SUITE_P(Files, CorpusRoundTrip,
                                            Case{"Example1Technology", "nist_ex1.stp", Reopen::kTechnology},
                                            Case{"ExplicitAsGiven", "nist_ex1E.stp", Reopen::kNothing},
                                            Case{"PlateAll", "meduag_peca_defesa.p21", Reopen::kAll},
-                                           Case{"HoleAll", "ufsc_FuroBaseEsferica.p21", Reopen::kAll}),
+                                           Case{"HoleAll", "meduag_furo.p21", Reopen::kAll}),
                          [](const auto& given) { return std::string(given.param.name); });
 
 /// Replaces the feed of a technology's instance in the text by `factor` times it.

@@ -59,8 +59,20 @@ bool in_air(const Work& w, const StepWork& step, double removed_mm3) {
 
 bool leave_out(Work& w, const StepWork& step, const std::string& why) {
   model::Model& m = w.plan.model;
-  const auto same = [&](const StepWork& s) { return s.feature == step.feature && s.step != step.step; };
-  const bool others = std::any_of(w.steps.begin(), w.steps.end(), same);
+  // Steps of the feature that are kept, or still to come: without any, and made by no other's, it is not
+  // made.
+  const auto kept = [&](const StepWork& s) {
+    return std::any_of(w.plan.steps.begin(), w.plan.steps.end(),
+                       [&](const model::StepResult& r) { return r.step == s.step; });
+  };
+  bool later = false, others = false;
+  for (const StepWork& s : w.steps) {
+    if (s.step == step.step) {
+      later = true;
+    } else if (s.feature == step.feature) {
+      others = others || later || kept(s);
+    }
+  }
   auto* maker = m.get<model::MachiningWorkingstep>(made_by(w, step));
   if (maker == nullptr && !others) return false;
   if (maker != nullptr && AnyRef(maker->its_feature) != step.feature) {

@@ -14,6 +14,12 @@ using model::StrategyKind;
 
 namespace {
 
+/// How far apart passes may be: no farther than the flat end is wide, or a corner radius leaves ridges
+/// between them. A ball leaves them in any case: a tenth of its diameter then, default, unsourced.
+double flat_of(const model::Cutter& c) {
+  return std::max(c.cutting_diameter_mm - 2.0 * c.corner_radius_mm, 0.1 * c.cutting_diameter_mm);
+}
+
 /// How far a pass runs past the edge of the face, as a part of the cutter's radius: the cutter stands half a
 /// radius clear of it. Default, unsourced; as NIST's interpreter of ISO 14649 does.
 constexpr double kOverrun = 1.5;
@@ -116,7 +122,7 @@ class Face {
         hi = std::max(hi, dot(p, n_));
       }
     }
-    const double step = std::min(stepover_of(task_), 1.98 * radius_);
+    const double step = std::min({stepover_of(task_), 1.98 * radius_, flat_of(task_.cutter)});
     // The first pass overhangs the edge by what passes overlap, so that it is as wide as the others.
     const double first = std::min(lo + step - radius_, 0.5 * (lo + hi));
     std::vector<Stroke> out;
@@ -216,7 +222,7 @@ class Face {
     open.open = true;
     LevelCutter c(task_, open, writer_, job_);
     Level level(task_, open, z, from, task_.allowance_side_mm);
-    const double step = std::min(c.step_mm, 0.99 * radius_);
+    const double step = std::min({c.step_mm, 0.99 * radius_, flat_of(task_.cutter)});
     const double inside = step - radius_;
     const Region keep_off = obstacles(z, task_.allowance_side_mm);
     const Region ring =
