@@ -434,7 +434,8 @@ TEST(Probing, StopsTheProgramBeforeTheLastStepWhereThePositionAsksForIt) {
     EXPECT_NEAR(t.distance, 4.0 - ball, 1e-9);
     EXPECT_NEAR(t.x, 20.0, 1e-9);
     EXPECT_NEAR(t.y, 20.0, 1e-9);
-    EXPECT_NEAR(t.z, -5.0, 1e-9) << "half way down";
+    // Stated 10 mm deep and right through, in a piece of 20 mm: it is cut to the underside.
+    EXPECT_NEAR(t.z, -10.0, 1e-9) << "half way down";
   }
   Job job;
   const auto program = write_plan(p.plan, Format::kLinuxCnc, job);
