@@ -42,7 +42,9 @@ Status check_tools(const model::Plan& plan, Job& job) {
     if (!fits(c.functional_length_mm) || !fits(c.cutting_diameter_mm)) {
       return bad("OUT-NUMBER", "length or diameter of cutter " + c.id + " is not a size", c.id);
     }
-    if (c.functional_length_mm <= 0.0) {
+    if (const std::string fault = model::offset_fault(c); !fault.empty()) {
+      job.warn("OUT-TOOL-LENGTH", fault + "; measure the tool before the program runs", c.id);
+    } else if (c.functional_length_mm <= 0.0) {
       job.warn(
           "OUT-TOOL-LENGTH",
           "T" + std::to_string(c.pocket) + " has no known length; measure it and enter it in the tool table",
