@@ -433,6 +433,21 @@ TEST(Measuring, ASizeIsCorrectedAtTheToolAndNotAtTheWorkOffset) {
   EXPECT_THAT(milled, Not(HasSubstr("correct the work offset")));
 }
 
+TEST(ToolTable, HoldsNoToolOfAStepThatIsLeftOut) {
+  // A flat hole in the middle of a pocket of the same depth: what its steps would cut is gone.
+  const Planned p =
+      bound(read("#61=TOLERANCED_LENGTH_MEASURE(8.,$);\n#63=ROUND_HOLE('H1',#4,(),#50,#56,#61,$,#57000);\n"
+                 "#57000=FLAT_HOLE_BOTTOM();\n#64=TOLERANCED_LENGTH_MEASURE(40.,$);\n"
+                 "#62=CIRCULAR_CLOSED_PROFILE($,#64);\n"
+                 "#66=CLOSED_POCKET('P',#4,(),#50,#56,(),$,#57,$,$,#62);\n"));
+  ASSERT_THAT(p.said, HasSubstr("PIP-GONE"));
+  for (const auto& c : p.plan.cutters) {
+    EXPECT_TRUE(std::any_of(p.plan.steps.begin(), p.plan.steps.end(), [&](const auto& s) {
+      return s.cutter_id == c.id;
+    })) << c.id;
+  }
+}
+
 TEST(Requirements, OfAZoneOfZeroAreSaid) {
   model::Plan plan = read(kTwoHoles);
   tie(plan.model, feature(plan, "H2"), feature(plan, "H1"), 0.0);
