@@ -83,15 +83,14 @@ Result<LateOutcome> bind(model::Plan plan, pipeline::Inputs inputs, const LatePo
   // half of the time is left.
   std::optional<TimePoint> half;
   if (policy.deadline) half = began + *policy.deadline / 2;
-  const auto acceptable = [&](const model::Plan& made) {
-    return nothing_open(made).has_value() && only_loaded(made, magazine).has_value();
+  const auto acceptable = [&](const model::Plan& made) -> Status {
+    if (auto ok = nothing_open(made); !ok) return ok;
+    return only_loaded(made, magazine);
   };
   const std::uint32_t budget = std::exchange(job.evaluation_budget, policy.fallback_budget);
   auto fallback = pipeline::bind_checked(plan, inputs, policy_of(), job, {half, acceptable});
   job.evaluation_budget = budget;
   if (!fallback) return tl::unexpected(fallback.error());
-  if (auto ok = nothing_open(fallback->plan); !ok) return tl::unexpected(ok.error());
-  if (auto ok = only_loaded(fallback->plan, magazine); !ok) return tl::unexpected(ok.error());
   const auto check_start = job.now();
   out.findings = pipeline::findings_of(*fallback, job);
   const auto checking = fallback->checking + (job.now() - check_start);
@@ -119,7 +118,7 @@ Result<LateOutcome> bind(model::Plan plan, pipeline::Inputs inputs, const LatePo
   trial.set_progress([&](std::string_view stage, double fraction) { job.progress(stage, fraction); });
   if (until) trial.set_deadline(*until);
   auto better = pipeline::bind(std::move(plan), inputs, policy_of(), trial);
-  if (!better || !nothing_open(*better) || !only_loaded(*better, magazine)) return told_late();
+  if (!better || !acceptable(*better)) return told_late();
   const double t = machining_s(*better);
   const bool faster = t < out.fallback_s || !out.condemned.empty();
   if (!faster) return told_late();

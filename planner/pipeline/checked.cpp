@@ -148,6 +148,9 @@ Result<Checked> bind_checked(const model::Plan& plan, const Inputs& inputs, cons
   Tries tries;
   auto first = bind_within(plan, inputs, policy, tries, job);
   if (!first) return tl::unexpected(first.error());
+  if (anew.acceptable) {
+    if (auto ok = anew.acceptable(*first); !ok) return tl::unexpected(ok.error());
+  }
   Checked best =
       policy.bind == Bind::kAll ? checked(*std::move(first), job) : Checked{*std::move(first), {}, 0, {}};
   std::vector<std::string> said = tries.said;

@@ -96,10 +96,11 @@ struct Checked {
 /// A plan and what the check says of it.
 [[nodiscard]] Checked checked(model::Plan plan, Job& job);
 
-/// Until when plans are made anew, and which of them may take the first one's place (nothing: any).
+/// Until when plans are made anew, and which plans may be given at all (nothing: any): what it says of the
+/// first one ends `bind_checked`, of a later one only that one is passed over.
 struct Anew {
   std::optional<std::chrono::steady_clock::time_point> until = std::nullopt;
-  std::function<bool(const model::Plan&)> acceptable = {};
+  std::function<Status(const model::Plan&)> acceptable = {};
 };
 
 /// `bind`, then the check (verify/check_plan). Where it finds an error at a step that rules proposed, what

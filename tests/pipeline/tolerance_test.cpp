@@ -140,6 +140,17 @@ TEST(GeneralTolerance, ThatIsNotUnderstoodIsOneError) {
   EXPECT_EQ(out.error().code, "MDL-GENERAL");
 }
 
+TEST(GeneralTolerance, WiderThanTheCheckJudgesByIsSaid) {
+  std::string text = part_text("");
+  const std::string stated = "('PART',#6,0.1,";
+  text.replace(text.find(stated), stated.size(), "('PART',#6,5.,");
+  Job job;
+  ASSERT_TRUE(read_plan(text, "part.p21", job));
+  std::string said;
+  for (const auto& d : job.diagnostics()) said += to_text(d) + "\n";
+  EXPECT_THAT(said, HasSubstr("WORKPIECE.global_tolerance is 5 mm; kept, but the check judges by 0.5 mm"));
+}
+
 TEST(GeneralTolerance, DecidesTheChainOfWhatStatesNone) {
   const std::string plain =
       "#61=TOLERANCED_LENGTH_MEASURE(20.,$);\n#63=ROUND_HOLE('H',#4,(),#50,#56,#61,$,#58);\n";

@@ -52,10 +52,13 @@ void TableLines::give(const MachineEntry& entry, double mm_per_unit, model::Cutt
   }
   model::take_table_line(c, line);
   if (const std::string fault = model::offset_fault(c); !fault.empty()) {
+    constexpr std::size_t kShown = 20;
+    if (++doubted_ > kShown) return;
+    const std::string more = doubted_ == kShown ? "; more like it are not listed" : "";
     job.report({.code = "TOOL-OFFSET",
                 .severity = Severity::kWarning,
                 .message = fault + "; the length of " + trimmed(c.functional_length_mm, 4) +
-                           " mm that planning uses is assumed",
+                           " mm that planning uses is assumed" + more,
                 .file = l_.source,
                 .path = c.id,
                 .hint = "measure it; that offsets count from a reference tool is told by a negative one, or "

@@ -23,6 +23,7 @@ class TableLines {
   const ToolLibrary& l_;
   int zeros_ = 0;  ///< lines of tools whose Z is 0, or not there
   bool against_reference_ = false, told_ = false;
+  std::size_t doubted_ = 0;  ///< tools whose Z is no length, said so far
 };
 
 }  // namespace capstan::tooling
