@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "planner/geometry/profile.h"
+#include "planner/model/model.h"
 #include "planner/model/shape.h"
 
 namespace capstan::model {
@@ -30,6 +31,9 @@ inline constexpr double kBeyondPieceMm = 0.01;
 /// empty when it does not.
 [[nodiscard]] std::string point_runs_through(const FeatureShape& hole, const PieceForm& raw);
 
+/// Whether a feature takes this point of the workpiece away: a face all that stands above its floor.
+[[nodiscard]] bool takes(const FeatureShape& s, geometry::Vec3 p);
+
 /// Part of the piece that stands above a feature's top and that none of the features takes away.
 struct Buried {
   geometry::Vec3 at;  ///< the highest place that was found, workpiece coordinates
@@ -41,5 +45,11 @@ struct Buried {
 [[nodiscard]] std::optional<Buried> buried(const FeatureShape& s, const std::vector<FeatureShape>& features,
                                            const PieceForm& part);
 [[nodiscard]] std::string to_text(const Buried& b);
+
+/// An inside corner that no mill makes, in words; empty when there is none: a slot whose end is square, as an
+/// open one is drawn, where solid stands beyond it and no corner radius is stated (`features` as above), or a
+/// pocket that states a corner radius of 0.
+[[nodiscard]] std::string square_corner(const Model& m, const FeatureShape& s,
+                                        const std::vector<FeatureShape>& features, const PieceForm& part);
 
 }  // namespace capstan::model

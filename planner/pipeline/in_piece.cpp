@@ -30,9 +30,11 @@ std::string not_in_piece(const Work& w, const FeatureShape& s) {
   if (const std::string through = model::point_runs_through(s, raw_piece(w)); !through.empty())
     return through;
   const model::PieceForm part{part_box(w), w.plan.stock.cylinder_radius_mm};
-  if (!model::buried(s, {}, part)) return {};
-  const auto lid = model::buried(s, whole_features(w), part);
-  return lid ? "solid stands above it: " + model::to_text(*lid) : std::string();
+  const std::vector<FeatureShape> all = whole_features(w);
+  if (model::buried(s, {}, part)) {
+    if (const auto lid = model::buried(s, all, part)) return "solid stands above it: " + model::to_text(*lid);
+  }
+  return model::square_corner(w.plan.model, s, all, part);
 }
 
 model::Proposal without_drills_at_edges(const Work& w, const FeatureShape& hole, const model::Proposal& p) {

@@ -5,6 +5,8 @@
 #include <numbers>
 
 #include "planner/base/number.h"
+#include "planner/model/nouns/feature.h"
+#include "planner/model/resolve.h"
 
 // Features against the piece that they are cut from.
 //
@@ -56,6 +58,8 @@ bool in_piece(Vec3 p, const PieceForm& piece) {
   return std::hypot(p.x - middle.x, p.y - middle.y) <= *piece.round_mm;
 }
 
+}  // namespace
+
 bool takes(const FeatureShape& s, Vec3 p) {
   if (s.area.empty()) return false;
   const Vec3 q = s.frame.to_local(p);
@@ -63,8 +67,6 @@ bool takes(const FeatureShape& s, Vec3 p) {
   const auto floor = floor_at(s, {q.x, q.y});
   return floor && (q.z >= *floor - kLidMm || (s.through && *floor <= -s.depth_mm + kLidMm));
 }
-
-}  // namespace
 
 double beyond_sides(const FeatureShape& s, const PieceForm& raw) {
   if (!is_hole(s) || raw.box.empty() || tilted(s)) return 0.0;
@@ -160,6 +162,45 @@ std::string to_text(const Buried& b) {
          trimmed(b.volume_mm3, 0) +
          " mm3), and no feature takes them away; place its top on the surface, or add the feature that opens "
          "it";
+}
+
+std::string square_corner(const Model& m, const FeatureShape& s, const std::vector<FeatureShape>& features,
+                          const PieceForm& part) {
+  constexpr const char* kWhatToDo =
+      "; state the radius that may stay, or have the corners broached or eroded";
+  const AnyRef noun = s.made_of.empty() ? s.feature : s.made_of.back();
+  if (const auto* p = m.get<Pocket>(noun)) {
+    if (!p->orthogonal_radius.set() || s.corner_radius_mm > kLidMm) return {};
+    return std::string("it states inside corners of radius 0, and a mill leaves them round") + kWhatToDo;
+  }
+  if (s.kind != ShapeKind::kSlot || s.spine.size() < 2) return {};
+  if (part.box.empty() || norm(s.spine.front() - s.spine.back()) < 1e-6) return {};
+  const double half = 0.5 * s.width.nominal_mm - kAsideMm;
+  for (const bool first : {true, false}) {
+    const std::size_t n = s.spine.size();
+    const Vec2 end = first ? s.spine.front() : s.spine.back();
+    const Vec2 before = first ? s.spine[1] : s.spine[n - 2];
+    const Vec2 out = (1.0 / norm(end - before)) * (end - before);
+    const Vec2 beyond = end + kAsideMm * out;
+    if (geometry::contains(s.area, beyond)) continue;  // rounded
+    const bool open = geometry::contains(s.reach, beyond);
+    if (!open && s.corner_radius_mm > kLidMm) continue;
+    for (const double side : {-half, 0.0, half}) {
+      const Vec2 q{beyond.x - side * out.y, beyond.y + side * out.x};
+      const Vec3 p = s.frame.to_parent({q.x, q.y, -0.5 * s.depth_mm});
+      const bool solid =
+          in_piece(p, part) &&
+          std::none_of(features.begin(), features.end(), [&](const FeatureShape& o) { return takes(o, p); });
+      if (!solid) continue;
+      const Vec3 at = s.frame.to_parent({end.x, end.y, 0.0});
+      return std::string(open ? "its open end" : "its flat end") + " at (" + trimmed(at.x, 2) + ", " +
+             trimmed(at.y, 2) + ", " + trimmed(at.z, 2) +
+             ") is square, solid stands beyond it, and a mill leaves its corners round: end it with a "
+             "radius" +
+             (open ? ", let it run out of the piece" : "") + kWhatToDo;
+    }
+  }
+  return {};
 }
 
 }  // namespace capstan::model
