@@ -21,6 +21,13 @@ namespace capstan::testing::removal {
 [[nodiscard]] Part holes_near_walls();
 [[nodiscard]] Part turned_over();
 [[nodiscard]] Part tight_holes();
+[[nodiscard]] Part hole_over_an_edge();
+[[nodiscard]] Part pocket_over_an_edge();
+[[nodiscard]] Part lone_boss(bool round);
+[[nodiscard]] Part pocket_in_a_pocket();
+[[nodiscard]] Part flat_ended_slot();
+[[nodiscard]] Part pattern_that_meets_itself();
+[[nodiscard]] Part hole_into_a_cross_bore();
 
 /// The target of ISO 14649-11's example 2, of a raw piece.
 [[nodiscard]] Target example2(const Box& raw);

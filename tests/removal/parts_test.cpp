@@ -41,6 +41,14 @@ CAPSTAN_MADE(UndercutsTeeSlotsAndDovetails, undercut_slots())
 CAPSTAN_MADE(KeepsTheBossBesideAPocket, boss_beside_pocket())
 CAPSTAN_MADE(DrillsBesideWallsWithoutGougingThem, holes_near_walls())
 CAPSTAN_MADE(CutsTolerancedConesSeatsAndCoresListedInAnyOrder, tight_holes())
+CAPSTAN_MADE(MillsAWideHoleThatRunsOverAnEdge, hole_over_an_edge())
+CAPSTAN_MADE(EntersAndCutsAPocketThatRunsOverAnEdge, pocket_over_an_edge())
+CAPSTAN_MADE(ClearsThePieceAroundALoneRoundBoss, lone_boss(true))
+CAPSTAN_MADE(ClearsThePieceAroundALoneSquareBoss, lone_boss(false))
+CAPSTAN_MADE(OpensAPocketBeforeTheOneInItsFloor, pocket_in_a_pocket())
+CAPSTAN_MADE(KeepsTheStatedCornersAtTheFlatEndsOfASlot, flat_ended_slot())
+CAPSTAN_MADE(EndsAHoleThatOpensIntoACrossBoreThere, hole_into_a_cross_bore())
+CAPSTAN_MADE(CutsEachPlaceOfAPatternThatMeetsItselfOnce, pattern_that_meets_itself())
 
 }  // namespace
 }  // namespace capstan::testing::removal
