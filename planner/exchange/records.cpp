@@ -38,6 +38,7 @@ void describe_sources(RecordFields& f, Sources& sources) {
 }
 
 void describe(RecordFields& f, model::MechanisticSet& s) {
+  f.group();
   f.text("substrate", s.substrate);
   f.group();
   f.real("Ktc", Unit::kPressure, s.ktc_n_mm2);
@@ -49,9 +50,11 @@ void describe(RecordFields& f, model::MechanisticSet& s) {
   f.real("uncertainty", Unit::kRatio, s.uncertainty);
   f.end();
   f.text("source", s.source);
+  f.end();
 }
 
 void describe(RecordFields& f, model::ToolLifeLaw& l) {
+  f.group();
   f.text("substrate", l.substrate);
   f.group();
   f.real("cutting speed [m/min]", Unit::kNone, l.v0_m_min);
@@ -64,6 +67,7 @@ void describe(RecordFields& f, model::ToolLifeLaw& l) {
   f.real("scatter", Unit::kNone, l.scatter);
   f.end();
   f.text("source", l.source);
+  f.end();
 }
 
 void describe(RecordFields& f, model::WorkMaterial& m) {
