@@ -29,4 +29,8 @@ inline constexpr double kWidestJudged = 0.5, kFinestJudged = 0.001;
 /// What states the raw piece: the bounding geometry of the piece's raw piece, else its own.
 [[nodiscard]] AnyRef raw_solid(const Model& model, const Workpiece& piece);
 
+/// The box of the raw piece that the file states for a feature's own workpiece, else for the one that the
+/// first project makes; nothing where none is stated, or it is neither a block nor a cylinder.
+[[nodiscard]] std::optional<geometry::Box3> stated_raw(const Model& model, AnyRef feature = {});
+
 }  // namespace capstan::model

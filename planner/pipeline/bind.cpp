@@ -123,7 +123,7 @@ void leave_open(Work& w) {
 /// One try. Nothing when something failed: `tries` has learned what, and the plan is to be made again.
 Result<std::optional<model::Plan>> bind_once(model::Plan plan, const Inputs& inputs, const Policy& policy,
                                              double earning_per_min, Tries& tries, Job& job) {
-  plan.steps.clear();
+  std::vector<model::StepResult> recorded_steps = std::exchange(plan.steps, {});
   std::vector<std::pair<Ref<model::Setup>, model::Workholding>> held;
   for (const auto& s : plan.setups) held.emplace_back(s.setup, s.holding);
   plan.setups.clear();
@@ -131,6 +131,7 @@ Result<std::optional<model::Plan>> bind_once(model::Plan plan, const Inputs& inp
   plan.unplanned.clear();
   Work w{std::move(plan), inputs, policy, job, tries, {}, {}, {}, {}, std::move(recorded)};
   w.held = std::move(held);
+  w.recorded_steps = std::move(recorded_steps);
   w.earning_per_min = earning_per_min;
   using Stage = Status (*)(Work&);
   std::vector<Stage> stages = {resolve_workpiece, list_given, take_requirements};

@@ -7,6 +7,12 @@ namespace capstan::testing::removal {
 // The parts that are planned and simulated, by what is on them.
 [[nodiscard]] Part island_pocket();
 [[nodiscard]] Part boss_beside_pocket();
+[[nodiscard]] Part bosses_in_a_pattern();
+[[nodiscard]] Part boss_in_a_compound();
+[[nodiscard]] Part leaning_boss();
+[[nodiscard]] Part boss_without_height();
+[[nodiscard]] Part boss_beside_what_lists_it();
+[[nodiscard]] Part boss_without_contour(bool listed);
 [[nodiscard]] Part open_pocket();
 [[nodiscard]] Part plain_slots();
 [[nodiscard]] Part undercut_slots();

@@ -442,6 +442,8 @@ class PathMaker {
   bool rigid_tap(const StepWork& step) {
     const auto* tapping = w_.plan.model.get<model::Tapping>(step.operation);
     if (tapping == nullptr || tapping->compensation_chuck.value_or(false)) return false;
+    const auto* made = w_.plan.ledger.find(step.operation, "its_toolpath");
+    if (made != nullptr && made->binder == model::Binder::kRule) return true;  // that cycle, written as moves
     w_.job.warn("PIP-CHANGED",
                 "step '" + name_of(w_, step) +
                     "': the given toolpath of the tap is moves without synchronisation; planned as rigid "
