@@ -169,6 +169,32 @@ void describe_body(RecordFields& f, model::Cutter& c) {
   f.end();
 }
 
+/// At most one line, as files of earlier versions have none.
+void describe_table_line(RecordFields& f, std::optional<model::ToolTableLine>& line) {
+  const std::size_t n = f.list("tool table line", line ? 1 : 0);
+  if (n > 1) throw MalformedRecord{};
+  if (n == 0) {
+    line.reset();
+  } else {
+    if (!line) line.emplace();
+    f.element(0);
+    f.group();
+    f.truth("against a reference", line->against_reference);
+    f.truth("untouched", line->untouched);
+    line->words.resize(f.list("word", line->words.size()));
+    for (std::size_t i = 0; i < line->words.size(); ++i) {
+      f.element(i);
+      f.group();
+      f.text("letter", line->words[i].letter);
+      f.real("value", Unit::kNone, line->words[i].value);
+      f.end();
+    }
+    f.end();
+    f.end();
+  }
+  f.end();
+}
+
 void describe(RecordFields& f, model::Cutter& c) {
   f.text("id", c.id);
   f.text("description", c.description);
@@ -217,6 +243,7 @@ void describe(RecordFields& f, model::Cutter& c) {
   f.end();
   describe_sources(f, c.sources);
   if (f.more()) describe_body(f, c);
+  if (f.more()) describe_table_line(f, c.table_line);
 }
 
 void describe(RecordFields& f, std::vector<model::FixtureSolid>& solids) {

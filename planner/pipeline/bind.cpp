@@ -14,11 +14,19 @@
 namespace capstan::pipeline {
 namespace {
 
+/// The steps that the plan executes, where it has paths: one that was left out needs no tool, nor what was to
+/// be measured before it.
+bool executed(const Work& w, const StepWork& s) {
+  if (w.policy.bind != Bind::kAll || w.plan.model.holds<model::WorkpieceProbing>(s.step)) return true;
+  return std::any_of(w.plan.steps.begin(), w.plan.steps.end(),
+                     [&](const model::StepResult& r) { return r.step == s.step; });
+}
+
 /// The cutters that steps use, each once, with their tool numbers; nouns say the same.
 void collect_cutters(Work& w) {
   std::set<std::string> seen;
   for (const StepWork& s : w.steps) {
-    if (!(s.cutter.cutting_diameter_mm > 0.0)) continue;
+    if (!(s.cutter.cutting_diameter_mm > 0.0) || !executed(w, s)) continue;
     if (seen.insert(s.cutter.id).second) {
       w.plan.cutters.push_back(s.cutter);
       continue;

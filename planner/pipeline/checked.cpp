@@ -136,14 +136,26 @@ void tell_tries(const Tries& tries, Job& job) {
   for (const std::string& s : tries.said) job.note("PIP-ANEW", s);
 }
 
+Checked checked(model::Plan plan, Job& job) {
+  Checked out;
+  const auto began = job.now();
+  out.findings = verify::check_plan(plan, job);
+  out.plan = std::move(plan);
+  out.checking = job.now() - began;
+  return out;
+}
+
 Result<Checked> bind_checked(const model::Plan& plan, const Inputs& inputs, const Policy& policy, Job& job,
-                             std::optional<std::chrono::steady_clock::time_point> until) {
+                             const Anew& anew) {
+  auto until = anew.until;
   Tries tries;
   auto first = bind_within(plan, inputs, policy, tries, job);
   if (!first) return tl::unexpected(first.error());
-  Checked best;
-  best.plan = *std::move(first);
-  if (policy.bind == Bind::kAll) best.findings = verify::check_plan(best.plan, job);
+  if (anew.acceptable) {
+    if (auto ok = anew.acceptable(*first); !ok) return tl::unexpected(ok.error());
+  }
+  Checked best =
+      policy.bind == Bind::kAll ? checked(*std::move(first), job) : Checked{*std::move(first), {}, 0, {}};
   std::vector<std::string> said = tries.said;
   auto diagnostics = job.take_diagnostics();
   std::size_t least = errors_of(best.plan, best.findings);
@@ -167,16 +179,18 @@ Result<Checked> bind_checked(const model::Plan& plan, const Inputs& inputs, cons
     auto again = bind_within(plan, inputs, policy, tries, trial);
     if (!again) break;
     for (const auto& [step, why] : condemned) tries.said.push_back(told(tries, step, why));
-    findings = verify::check_plan(*again, trial);
+    Checked now_checked = checked(*std::move(again), trial);
+    findings = now_checked.findings;
     if (trial.stop_requested()) break;  // not checked to its end: no better than what is there
-    offences = offences_of(*again, findings, tries);
+    offences = offences_of(now_checked.plan, findings, tries);
     auto now = trial.take_diagnostics();
-    const std::size_t errors = errors_of(*again, findings);
+    const std::size_t errors = errors_of(now_checked.plan, findings);
     const bool better =
-        errors < least || (errors == least && again->unplanned.size() < best.plan.unplanned.size());
-    if (!better) continue;
+        errors < least || (errors == least && now_checked.plan.unplanned.size() < best.plan.unplanned.size());
+    if (!better || (anew.acceptable && !anew.acceptable(now_checked.plan))) continue;
     least = errors;
-    best = {*std::move(again), findings, tried + 1};
+    best = std::move(now_checked);
+    best.replanned = tried + 1;
     said = tries.said;
     diagnostics = std::move(now);
   }

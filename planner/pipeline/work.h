@@ -169,7 +169,8 @@ inline constexpr int kMarks = 1, kDrills = 2, kRoughs = 3, kFinishes = 4, kSizes
 /// Measured is the datum that the position refers to, where that is a hole, a pocket or an outside made
 /// before in the same set-up, else the feature itself: of a hole, a pocket or an outside opposite walls in x
 /// and in y, of a slot across, of a face its level. Where no start is known to be free and no wall known to
-/// be there, nothing is proposed and PIP-PROBE says why.
+/// be there, nothing is proposed: a chain that leans on the measurement for its size is banned (by hand where
+/// the probe's ball does not come); for a position PIP-PROBE says why.
 void add_probings(Work& w);
 /// The noun of a cutter, made once per plan.
 [[nodiscard]] Ref<model::MachiningTool> tool_noun(Work& w, const model::Cutter& cutter);

@@ -6,6 +6,7 @@
 #include <new>
 #include <utility>
 
+#include "planner/app/command/finish.h"
 #include "planner/app/command/options.h"
 #include "planner/app/command/session.h"
 
@@ -64,6 +65,13 @@ int guarded(Session& s) {
   }
 }
 
+/// Whoever plans again and gets nothing must not find a program from before under the name that was promised.
+void leave_nothing_stale(Session& s, int code) {
+  const bool plans = s.options.command == Command::kPlan || s.options.command == Command::kBind;
+  if (!plans || code <= kFindings || code == kLate) return;
+  if (const auto outputs = outputs_of(s.options.outputs)) put_programs_aside(*outputs, s.job);
+}
+
 }  // namespace
 
 int run(int argc, const char* const* argv) {
@@ -76,6 +84,7 @@ int run(int argc, const char* const* argv) {
   }
   Session session(*std::move(parsed.options));
   const int code = guarded(session);
+  leave_nothing_stale(session, code);
   print_diagnostics(session, code);
   return code;
 }
