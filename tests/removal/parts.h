@@ -35,6 +35,14 @@ namespace capstan::testing::removal {
 [[nodiscard]] Part pattern_that_meets_itself();
 [[nodiscard]] Part hole_into_a_cross_bore();
 
+// Parts that once took minutes of planning.
+[[nodiscard]] Part tight_flat_hole();
+[[nodiscard]] Part overlapping_flat_holes();
+[[nodiscard]] Part pocket_deeper_than_its_piece();
+[[nodiscard]] Part tilted_slot();
+[[nodiscard]] Part hole_over_the_side();
+[[nodiscard]] Part open_pocket_beside_boss();
+
 /// The target of ISO 14649-11's example 2, of a raw piece.
 [[nodiscard]] Target example2(const Box& raw);
 
