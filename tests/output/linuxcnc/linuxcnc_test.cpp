@@ -154,7 +154,7 @@ TEST(LinuxCnc, SaysHowAPieceThatIsTurnedLiesAndWhereZeroIsOnIt) {
   // lower left corner of what lies there.
   Plan plan = empty_plan();
   auto& m = plan.model;
-  const auto direction = [&](Vec3 v) {
+  const auto direction = [&](geometry::Vec3 v) {
     model::Direction d;
     d.direction_ratios = {{v.x, v.y, v.z}, true};
     return m.add(d);
