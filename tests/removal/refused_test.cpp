@@ -150,6 +150,22 @@ TEST(RefusedParts, AnOutlineThatCrossesItselfIsRefusedAtTheCrossing) {
   expect_refused(s, "crosses itself at (0, 0)");
 }
 
+TEST(RefusedParts, APocketInTheFloorOfOneThatIsNotPlannedIsNeitherAndNoProgramIsWritten) {
+  Sheet s;
+  s.d.closed_pocket("WIDE", s.d.placement({25, 30, 0}), 12, s.d.rectangle(40, 40),
+                    0.2);  // no mill is so thin
+  s.d.closed_pocket("IN FLOOR", s.d.placement({25, 30, -12}), 4, s.d.rectangle(20, 20), 4);
+  s.d.hole("APART", s.d.placement({54, 30, 0}), 20, 5, s.d.through_bottom());
+  const PlanOutput o = s.planned();
+  expect_unplanned(o, 2, "it rests on 'WIDE', which is not planned");
+  EXPECT_GT(o.steps, 0U) << told(o);
+  EXPECT_TRUE(o.linuxcnc.empty());
+  EXPECT_TRUE(std::any_of(o.condemned.begin(), o.condemned.end(), [](const PlanMessage& m) {
+    return m.code == "PIP-NEEDED" &&
+           m.text.find("feature 'WIDE' is not planned, and 'IN FLOOR' rests on it") != std::string::npos;
+  })) << told(o);
+}
+
 TEST(ThroughHoles, OneThatEndsInThePieceIsCutToItsUndersideUnlessAnotherFeatureOpensBelow) {
   for (const bool bore : {false, true}) {
     Sheet s;

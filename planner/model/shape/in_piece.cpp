@@ -120,7 +120,13 @@ std::optional<Buried> buried(const FeatureShape& s, const std::vector<FeatureSha
       return std::nullopt;
   }
   if (s.area.empty() || part.box.empty() || tilted(s)) return std::nullopt;
-  const Box3 box = seen_from(part.box, s.frame);
+  Box3 box = seen_from(part.box, s.frame);
+  // Beside an outside nothing of the part is higher than its faces: what stands there is raw piece only.
+  for (const FeatureShape& o : features) {
+    if (s.kind != ShapeKind::kOutside || o.kind != ShapeKind::kFace || dot(o.frame.z, s.frame.z) < kUpright)
+      continue;
+    box.hi.z = std::min(box.hi.z, s.frame.to_local(o.frame.origin).z - o.depth_mm);
+  }
   if (box.hi.z <= kLidMm) return std::nullopt;
   auto b = geometry::bounds(s.area);
   b.lo = {std::max(b.lo.x, box.lo.x), std::max(b.lo.y, box.lo.y)};
