@@ -44,7 +44,10 @@ typedef enum capstan_late_format {
 CAPSTAN_LATE_API capstan_late* capstan_late_open(const char* machine, const char* tools);
 
 /* Binds a plan (ISO 14649, AP238 or JSON, `size` bytes) before `deadline_ms` have passed since the call. Past
- * that the code is CAPSTAN_LATE_LATE, never CAPSTAN_LATE_OK. No plan uses a tool that is not in the table. */
+ * that the code is CAPSTAN_LATE_LATE, never CAPSTAN_LATE_OK. No plan uses a tool that is not in the table, or
+ * whose length the table does not tell (LATE-TOOL, code 4). What the table says of a tool comes out again in
+ * CAPSTAN_LATE_TOOL_TABLE number for number; offsets that count from a reference tool are told by a negative
+ * one, or by `length_offsets: reference` under the machine's control. */
 CAPSTAN_LATE_API capstan_late_code capstan_late_bind(capstan_late* session, const char* plan, size_t size,
                                                      unsigned deadline_ms);
 

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <system_error>
 #include <utility>
 
 namespace capstan {
@@ -27,7 +28,6 @@ class Descriptor {
     if (fd_ >= 0) ::close(fd_);
   }
   [[nodiscard]] int get() const { return fd_; }
-  int release() { return std::exchange(fd_, -1); }
 
  private:
   int fd_;
@@ -68,27 +68,91 @@ Result<std::string> read_file(const std::string& path, std::size_t cap) {
   }
 }
 
-Status write_file(const std::string& path, std::string_view bytes) {
-  const std::string temporary = path + ".capstan-" + std::to_string(::getpid()) + ".tmp";
-  Descriptor fd(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
-  if (fd.get() < 0) return io_fault("FILE-WRITE", path, "cannot be written");
-  const auto give_up = [&](const char* what) -> Status {
-    auto fault = io_fault("FILE-WRITE", path, what);
-    ::unlink(temporary.c_str());
-    return fault;
-  };
+std::string resolved(const std::string& path) {
+  std::error_code ec;
+  const auto real = std::filesystem::weakly_canonical(path, ec);
+  return ec ? path : real.string();
+}
+
+Result<StagedFile> StagedFile::make(const std::string& path, std::string_view bytes) {
+  StagedFile out;
+  out.path_ = path;
+  out.target_ = resolved(path);
+  std::error_code ec;
+  const auto at = std::filesystem::status(out.target_, ec);
+  if (std::filesystem::is_symlink(std::filesystem::symlink_status(out.target_, ec)))
+    return fail({.code = "FILE-WRITE", .message = "is a link to a file that is not there", .file = path});
+  if (std::filesystem::is_directory(at))
+    return fail({.code = "FILE-WRITE", .message = "is a folder", .file = path, .expected = "a file"});
+  if (std::filesystem::exists(at) && !std::filesystem::is_regular_file(at))
+    return fail(
+        {.code = "FILE-WRITE", .message = "is a pipe or a device", .file = path, .expected = "a file"});
+  const auto parent = std::filesystem::path(out.target_).parent_path();
+  const std::string folder = parent.empty() ? "." : parent.string();
+  out.fd_ = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
+  if (out.fd_ < 0 && (errno == EOPNOTSUPP || errno == EISDIR || errno == EINVAL)) {
+    out.temporary_ = out.temporary_name();
+    out.fd_ = ::open(out.temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    if (out.fd_ < 0) out.temporary_.clear();
+  }
+  if (out.fd_ < 0) return io_fault("FILE-WRITE", path, "cannot be written");
   while (!bytes.empty()) {
-    const ssize_t put = ::write(fd.get(), bytes.data(), bytes.size());
+    const ssize_t put = ::write(out.fd_, bytes.data(), bytes.size());
     if (put < 0) {
       if (errno == EINTR) continue;
-      return give_up("cannot be written");
+      return io_fault("FILE-WRITE", path, "cannot be written");
     }
     bytes.remove_prefix(static_cast<std::size_t>(put));
   }
-  if (::fsync(fd.get()) != 0) return give_up("cannot be brought to disk");
-  if (::close(fd.release()) != 0) return give_up("cannot be closed");
-  if (std::rename(temporary.c_str(), path.c_str()) != 0) return give_up("cannot be put in place");
+  return out;
+}
+
+std::string StagedFile::temporary_name() const {
+  return target_ + ".capstan-" + std::to_string(::getpid()) + ".tmp";
+}
+
+StagedFile::StagedFile(StagedFile&& other) noexcept { *this = std::move(other); }
+
+StagedFile& StagedFile::operator=(StagedFile&& other) noexcept {
+  std::swap(path_, other.path_);
+  std::swap(target_, other.target_);
+  std::swap(temporary_, other.temporary_);
+  std::swap(fd_, other.fd_);
+  return *this;
+}
+
+StagedFile::~StagedFile() {
+  if (fd_ >= 0) ::close(fd_);
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+}
+
+Status StagedFile::put() {
+  if (::fsync(fd_) != 0) return io_fault("FILE-WRITE", path_, "cannot be brought to disk");
+  if (temporary_.empty()) {
+    // Only a link can give a nameless file its name, and a link replaces nothing: hence the rename after it.
+    const std::string name = temporary_name();
+    const std::string open = "/proc/self/fd/" + std::to_string(fd_);
+    ::unlink(name.c_str());
+    if (::linkat(AT_FDCWD, open.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) != 0)
+      return io_fault("FILE-WRITE", path_, "cannot be given its name");
+    temporary_ = name;
+  }
+  if (std::rename(temporary_.c_str(), target_.c_str()) != 0)
+    return io_fault("FILE-WRITE", path_, "cannot be put in place");
+  temporary_.clear();
+  if (::close(std::exchange(fd_, -1)) != 0) return io_fault("FILE-WRITE", path_, "cannot be closed");
   return {};
+}
+
+Status writable(const std::string& path) {
+  const auto staged = StagedFile::make(path, {});
+  return staged ? Status() : Status(tl::unexpected(staged.error()));
+}
+
+Status write_file(const std::string& path, std::string_view bytes) {
+  auto staged = StagedFile::make(path, bytes);
+  if (!staged) return tl::unexpected(staged.error());
+  return staged->put();
 }
 
 std::uint64_t fnv1a(std::string_view bytes, std::uint64_t seed) {

@@ -246,6 +246,10 @@ void check_sizes(Check& r) {
       warn(r, at, "EXC-TOLERANCE",
            "WORKPIECE.global_tolerance is " + shortest(*t) +
                " mm; kept, and hardly meant: checks and allowances do without it");
+    } else if (t && *t > model::kWidestJudged) {
+      warn(r, at, "EXC-TOLERANCE",
+           "WORKPIECE.global_tolerance is " + shortest(*t) + " mm; kept, but the check judges by " +
+               shortest(model::kWidestJudged) + " mm, the widest that it knows");
     }
   }
 }

@@ -4,6 +4,7 @@
 
 #include "planner/base/file.h"
 #include "planner/exchange/record_loads.h"
+#include "planner/exchange/record_material.h"
 #include "planner/exchange/report.h"
 #include "planner/model/nouns/all.h"
 
@@ -14,91 +15,14 @@ using model::Unit;
 
 namespace {
 
-// --- one description of each kind, for writing and for reading; of loads: record_loads.h ---
+// --- one description of each kind, for writing and for reading; of loads: record_loads.h; of the material:
+// record_material.h ---
 
 using exchange::describe;
 
 void describe(RecordFields& f, model::Machine& m) {
   f.text("id", m.id);
   f.text("description", m.description);
-}
-
-using Sources = std::vector<std::pair<std::string, std::string>>;
-
-void describe_sources(RecordFields& f, Sources& sources) {
-  sources.resize(f.list("source", sources.size()));
-  for (std::size_t i = 0; i < sources.size(); ++i) {
-    f.element(i);
-    f.group();
-    f.text("of", sources[i].first);
-    f.text("is", sources[i].second);
-    f.end();
-  }
-  f.end();
-}
-
-void describe(RecordFields& f, model::MechanisticSet& s) {
-  f.text("substrate", s.substrate);
-  f.group();
-  f.real("Ktc", Unit::kPressure, s.ktc_n_mm2);
-  f.real("Kte [N/mm]", Unit::kNone, s.kte_n_mm);
-  f.real("Krc", Unit::kPressure, s.krc_n_mm2);
-  f.real("Kre [N/mm]", Unit::kNone, s.kre_n_mm);
-  f.real("Kac", Unit::kPressure, s.kac_n_mm2);
-  f.real("Kae [N/mm]", Unit::kNone, s.kae_n_mm);
-  f.real("uncertainty", Unit::kRatio, s.uncertainty);
-  f.end();
-  f.text("source", s.source);
-}
-
-void describe(RecordFields& f, model::ToolLifeLaw& l) {
-  f.text("substrate", l.substrate);
-  f.group();
-  f.real("cutting speed [m/min]", Unit::kNone, l.v0_m_min);
-  f.real("life [min]", Unit::kNone, l.life_min);
-  f.real("chip thickness", Unit::kLength, l.h0_mm);
-  f.real("depth", Unit::kLength, l.a0_mm);
-  f.real("n", Unit::kNone, l.n);
-  f.real("p", Unit::kNone, l.p);
-  f.real("q", Unit::kNone, l.q);
-  f.real("scatter", Unit::kNone, l.scatter);
-  f.end();
-  f.text("source", l.source);
-}
-
-void describe(RecordFields& f, model::WorkMaterial& m) {
-  f.text("id", m.id);
-  f.text("iso group", m.iso_group);
-  f.group();
-  f.real("kc1.1", Unit::kPressure, m.kc11_n_mm2);
-  f.real("mc", Unit::kRatio, m.mc);
-  f.real("cutting speed of HSS [m/min]", Unit::kNone, m.vc_hss_m_min);
-  f.real("cutting speed of carbide [m/min]", Unit::kNone, m.vc_carbide_m_min);
-  f.real("tensile strength", Unit::kPressure, m.tensile_strength_n_mm2);
-  f.real("uncertainty of kc", Unit::kRatio, m.kc_uncertainty);
-  f.end();
-  if (!f.more()) return;
-  m.names.resize(f.list("name", m.names.size()));
-  for (std::size_t i = 0; i < m.names.size(); ++i) {
-    f.element(i);
-    f.text("", m.names[i]);
-  }
-  f.end();
-  describe_sources(f, m.sources);
-  if (f.more()) f.real("hardness [HB]", Unit::kNone, m.hardness_hb);
-  if (!f.more()) return;
-  m.mechanistic.resize(f.list("mechanistic set", m.mechanistic.size()));
-  for (std::size_t i = 0; i < m.mechanistic.size(); ++i) {
-    f.element(i);
-    describe(f, m.mechanistic[i]);
-  }
-  f.end();
-  m.life.resize(f.list("life law", m.life.size()));
-  for (std::size_t i = 0; i < m.life.size(); ++i) {
-    f.element(i);
-    describe(f, m.life[i]);
-  }
-  f.end();
 }
 
 void describe(RecordFields& f, model::Stock& s) {
@@ -169,6 +93,32 @@ void describe_body(RecordFields& f, model::Cutter& c) {
   f.end();
 }
 
+/// At most one line, as files of earlier versions have none.
+void describe_table_line(RecordFields& f, std::optional<model::ToolTableLine>& line) {
+  const std::size_t n = f.list("tool table line", line ? 1 : 0);
+  if (n > 1) throw MalformedRecord{};
+  if (n == 0) {
+    line.reset();
+  } else {
+    if (!line) line.emplace();
+    f.element(0);
+    f.group();
+    f.truth("against a reference", line->against_reference);
+    f.truth("untouched", line->untouched);
+    line->words.resize(f.list("word", line->words.size()));
+    for (std::size_t i = 0; i < line->words.size(); ++i) {
+      f.element(i);
+      f.group();
+      f.text("letter", line->words[i].letter);
+      f.real("value", Unit::kNone, line->words[i].value);
+      f.end();
+    }
+    f.end();
+    f.end();
+  }
+  f.end();
+}
+
 void describe(RecordFields& f, model::Cutter& c) {
   f.text("id", c.id);
   f.text("description", c.description);
@@ -217,6 +167,7 @@ void describe(RecordFields& f, model::Cutter& c) {
   f.end();
   describe_sources(f, c.sources);
   if (f.more()) describe_body(f, c);
+  if (f.more()) describe_table_line(f, c.table_line);
 }
 
 void describe(RecordFields& f, std::vector<model::FixtureSolid>& solids) {

@@ -70,7 +70,9 @@ Result<pipeline::Inputs> inputs_of(const PlanOptions& o, Job& job) {
       tooling::load_machine(named("machine", o.machine, std::string(tooling::kDefaultMachine)), job);
   if (!machine) return tl::unexpected(machine.error());
   in.machine = *std::move(machine);
-  auto library = tooling::load_library(named("tools", o.tools, "generic"), job);
+  auto library = tooling::load_library(
+      named("tools", o.tools, "generic"), job,
+      {.mm_per_unit = {}, .offsets_against_reference = in.machine.control.offsets_against_reference});
   if (!library) return tl::unexpected(library.error());
   in.library = *std::move(library);
   auto materials = tooling::shipped_materials();

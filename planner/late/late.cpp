@@ -35,9 +35,12 @@ Status only_loaded(const model::Plan& plan, const std::vector<model::Cutter>& ma
   for (const model::StepResult& step : plan.steps) {
     const model::Cutter* cutter = model::find_cutter(plan, step.cutter_id);
     const model::Cutter* there = cutter == nullptr ? nullptr : pipeline::loaded_like(magazine, *cutter);
-    if (there != nullptr && there->pocket == cutter->pocket) continue;
+    const std::string unmeasured = cutter == nullptr ? "" : model::offset_fault(*cutter);
+    if (there != nullptr && there->pocket == cutter->pocket && unmeasured.empty()) continue;
     std::string why = "is not in the tool table";
-    if (there != nullptr)
+    if (!unmeasured.empty())
+      why = "has no length that can be used: " + unmeasured;
+    else if (there != nullptr)
       why = "is T" + std::to_string(there->pocket) + " in the tool table and T" +
             std::to_string(cutter->pocket) + " in the plan";
     return fail(
@@ -75,41 +78,33 @@ Result<LateOutcome> bind(model::Plan plan, pipeline::Inputs inputs, const LatePo
   auto reopened = pipeline::match_loaded(plan, inputs, job);
   if (!reopened) return tl::unexpected(reopened.error());
   out.reopened = *std::move(reopened);
-  const model::Plan asked = plan;
 
-  // The fallback: everything, on a small budget, and checked.
-  const std::uint32_t budget = std::exchange(job.evaluation_budget, policy.fallback_budget);
-  auto fallback = pipeline::bind(std::move(plan), inputs, policy_of(), job);
-  job.evaluation_budget = budget;
-  if (!fallback) return tl::unexpected(fallback.error());
-  if (auto ok = nothing_open(*fallback); !ok) return tl::unexpected(ok.error());
-  if (auto ok = only_loaded(*fallback, magazine); !ok) return tl::unexpected(ok.error());
-  const auto check_start = job.now();
-  out.findings = pipeline::findings_of(*fallback, job);
-  const auto checking = job.now() - check_start;
-  out.condemned = model::condemned(*fallback, out.findings);
+  // The fallback: everything, on a small budget, and checked. What the check condemns is made anew, while
+  // half of the time is left.
   std::optional<TimePoint> half;
   if (policy.deadline) half = began + *policy.deadline / 2;
-  if (!out.condemned.empty() && (!half || job.now() < *half)) {
-    // What the check condemns is made anew, while half of the time is left.
-    job.evaluation_budget = policy.fallback_budget;
-    auto anew = pipeline::bind_checked(asked, inputs, policy_of(), job, half);
-    job.evaluation_budget = budget;
-    if (anew && anew->replanned > 0 && nothing_open(anew->plan) && only_loaded(anew->plan, magazine)) {
-      fallback = std::move(anew->plan);
-      out.findings = pipeline::findings_of(*fallback, job);
-      out.condemned = model::condemned(*fallback, out.findings);
-    }
-  }
+  const auto acceptable = [&](const model::Plan& made) -> Status {
+    if (auto ok = nothing_open(made); !ok) return ok;
+    return only_loaded(made, magazine);
+  };
+  const std::uint32_t budget = std::exchange(job.evaluation_budget, policy.fallback_budget);
+  auto fallback = pipeline::bind_checked(plan, inputs, policy_of(), job, {half, acceptable});
+  job.evaluation_budget = budget;
+  if (!fallback) return tl::unexpected(fallback.error());
+  const auto check_start = job.now();
+  out.findings = pipeline::findings_of(*fallback, job);
+  const auto checking = fallback->checking + (job.now() - check_start);
+  out.condemned = model::condemned(fallback->plan, out.findings);
   if (!out.condemned.empty() && !policy.allow_findings) {
-    return fail(
-        {.code = "LATE-UNSAFE",
-         .message = "the plan does not pass the check: " + model::text_of(*fallback, out.condemned.front()),
-         .file = fallback->file_name,
-         .path = out.condemned.front().step,
-         .hint = "retract and stop; nothing may be cut from this plan"});
+    return fail({.code = "LATE-UNSAFE",
+                 .message = "the plan does not pass the check: " +
+                            model::text_of(fallback->plan, out.condemned.front()),
+                 .file = fallback->plan.file_name,
+                 .path = out.condemned.front().step,
+                 .hint = "retract and stop; nothing may be cut from this plan"});
   }
-  out.plan = *std::move(fallback);
+  out.of_plan = std::move(fallback->findings);
+  out.plan = std::move(fallback->plan);
   out.fallback_s = out.machining_s = machining_s(out.plan);
 
   // The improvement: only in the time left, with twice the time of one check in reserve.
@@ -122,16 +117,18 @@ Result<LateOutcome> bind(model::Plan plan, pipeline::Inputs inputs, const LatePo
   trial.set_clock(job.clock());
   trial.set_progress([&](std::string_view stage, double fraction) { job.progress(stage, fraction); });
   if (until) trial.set_deadline(*until);
-  auto better = pipeline::bind(asked, inputs, policy_of(), trial);
-  if (!better || !nothing_open(*better) || !only_loaded(*better, magazine)) return told_late();
+  auto better = pipeline::bind(std::move(plan), inputs, policy_of(), trial);
+  if (!better || !acceptable(*better)) return told_late();
   const double t = machining_s(*better);
   const bool faster = t < out.fallback_s || !out.condemned.empty();
   if (!faster) return told_late();
-  auto findings = pipeline::findings_of(*better, trial);
-  if (!model::condemned(*better, findings).empty()) return told_late();
+  pipeline::Checked checked = pipeline::checked(*std::move(better), trial);
+  auto findings = pipeline::findings_of(checked, trial);
+  if (!model::condemned(checked.plan, findings).empty()) return told_late();
   if (policy.deadline && job.now() > began + *policy.deadline) return told_late();
   for (auto& d : trial.take_diagnostics()) job.report(std::move(d));
-  out.plan = *std::move(better);
+  out.plan = std::move(checked.plan);
+  out.of_plan = std::move(checked.findings);
   out.findings = std::move(findings);
   out.condemned.clear();
   out.improved = true;

@@ -32,6 +32,7 @@ struct LateOutcome {
   model::Plan plan;
   std::vector<std::string> reopened;           ///< what the machine's state re-opened, one sentence each
   std::vector<model::Finding> findings;        ///< notes and warnings; no errors
+  std::vector<model::Finding> of_plan;         ///< those of them that are of the plan, not of its program
   std::vector<model::Condemnation> condemned;  ///< empty, unless the policy allows findings
   bool improved = false;                       ///< false: the fallback
   bool late = false;                           ///< the deadline was past when the plan was there

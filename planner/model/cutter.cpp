@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "planner/base/number.h"
+
 namespace capstan::model {
 namespace {
 
@@ -88,5 +90,42 @@ geometry::CutterProfile profile_of(const Cutter& c) {
 }
 
 double tip_length(const Cutter& c) { return profile_of(c).height(0.5 * c.cutting_diameter_mm); }
+
+std::optional<double> table_word(const Cutter& c, std::string_view letter) {
+  if (!c.table_line) return std::nullopt;
+  for (const ToolTableWord& w : c.table_line->words) {
+    if (w.letter == letter) return w.value;
+  }
+  return std::nullopt;
+}
+
+double length_offset_mm(const Cutter& c) { return table_word(c, "Z").value_or(c.functional_length_mm); }
+
+void take_table_line(Cutter& c, const ToolTableLine& line) {
+  c.table_line = line;
+  if (line.against_reference || !offset_fault(c).empty()) return;
+  c.functional_length_mm = *table_word(c, "Z");
+  c.stick_out_mm = std::min(c.stick_out_mm, c.functional_length_mm);
+  c.usable_length_mm = std::min(c.usable_length_mm, c.stick_out_mm);
+  std::erase_if(c.sources, [](const auto& s) { return s.first == "functional_length_mm"; });
+  c.sources.emplace_back("functional_length_mm", "stated: the tool table's Z");
+}
+
+std::string offset_fault(const Cutter& c) {
+  if (!c.table_line) return {};
+  const double z = table_word(c, "Z").value_or(0.0);
+  const std::string t = "T" + std::to_string(c.pocket) + " has Z" + trimmed(z, 4) + " in the tool table: ";
+  if (c.table_line->against_reference) {
+    if (!c.table_line->untouched) return {};
+    return t + "so has another tool, and only the reference itself has 0; one of them is not measured";
+  }
+  if (z == 0.0) return t + "it is not measured";
+  if (z < 0.0) return t + "no tool has a negative length from the gage line";
+  if (z < c.maximum_depth_of_cut_mm) {
+    return t + "no length from the gage line, for its flutes alone are " +
+           trimmed(c.maximum_depth_of_cut_mm, 4) + " mm long";
+  }
+  return {};
+}
 
 }  // namespace capstan::model

@@ -70,6 +70,20 @@ struct SisterTool {
   friend bool operator==(const SisterTool&, const SisterTool&) = default;
 };
 
+/// A word of the machine's tool table: "Z" and 115.0, "P" and 3. Lengths in mm, the rest as it stands there.
+struct ToolTableWord {
+  std::string letter;
+  double value = 0.0;
+  friend bool operator==(const ToolTableWord&, const ToolTableWord&) = default;
+};
+/// What the machine's tool table says of a tool. It is measured, so it comes out again as it went in.
+struct ToolTableLine {
+  std::vector<ToolTableWord> words;  ///< P, axes, D, I, J, Q; T is the cutter's pocket
+  bool against_reference = false;  ///< its offsets count from a reference tool or gauge: they are no lengths
+  bool untouched = false;          ///< several tools have this Z of 0, so that one of them is not measured
+  friend bool operator==(const ToolTableLine&, const ToolTableLine&) = default;
+};
+
 /// A cutter in its holder: what is put into the spindle. mm, rad. Field names in words; ISO 13399 symbol
 /// behind.
 struct Cutter {
@@ -121,6 +135,7 @@ struct Cutter {
   double life_used_min = 0.0;     ///< of `life_min`
   double runout_mm = 0.0;         ///< of the teeth in the spindle, radial, total indicated; 0 unknown
   std::vector<SisterTool> sisters;
+  std::optional<ToolTableLine> table_line;  ///< of the machine's tool table; nothing: it has none
   bool operator==(const Cutter&) const = default;
 };
 
@@ -128,5 +143,17 @@ struct Cutter {
 [[nodiscard]] geometry::CutterProfile profile_of(const Cutter& c);
 /// Height of the conical or rounded tip: how far the tip runs ahead of the full diameter, mm.
 [[nodiscard]] double tip_length(const Cutter& c);
+
+/// A word of its line in the machine's tool table.
+[[nodiscard]] std::optional<double> table_word(const Cutter& c, std::string_view letter);
+/// What G43 adds for the tool: the table's Z where a table says one, else its length. mm.
+[[nodiscard]] double length_offset_mm(const Cutter& c);
+/// The tool is as long as the table says, and stands out of its holder no farther than that. An offset that
+/// counts from a reference, or that no such tool can have as its length, changes no length.
+void take_table_line(Cutter& c, const ToolTableLine& line);
+/// Why the tool cannot run at the machine with what its tool table says of its length; empty: it can. A
+/// length from the gage line is above zero and not shorter than the flutes; an offset from a reference is any
+/// number, and 0 for the reference alone.
+[[nodiscard]] std::string offset_fault(const Cutter& c);
 
 }  // namespace capstan::model

@@ -52,6 +52,8 @@ struct Control {
   int feed_decimals = 1;
   double path_tolerance_mm = 0.01;  ///< G64 P
   double block_time_s = 0.0;        ///< least time per block
+  /// The Z of its tool table count from a reference tool or gauge, not from the gage line; nothing: not said.
+  std::optional<bool> offsets_against_reference = std::nullopt;
   friend bool operator==(const Control&, const Control&) = default;
 };
 

@@ -65,4 +65,14 @@ AnyRef raw_solid(const Model& model, const Workpiece& piece) {
   return piece.its_bounding_geometry;
 }
 
+std::optional<Box3> stated_raw(const Model& m, AnyRef feature) {
+  const auto* f = m.get<ManufacturingFeature>(feature);
+  const Workpiece* piece = f == nullptr ? nullptr : m.get<Workpiece>(f->its_workpiece);
+  if (piece == nullptr) {
+    const auto projects = m.all(TypeId::kProject);
+    piece = workpiece_of(m, projects.empty() ? Ref<Project>{} : Ref<Project>(projects.front()));
+  }
+  return piece == nullptr ? std::nullopt : box_of(m, raw_solid(m, *piece));
+}
+
 }  // namespace capstan::model

@@ -15,6 +15,10 @@ namespace capstan::model {
 /// Above this a stated general tolerance is hardly meant: no workpiece is that rough. mm; default, unsourced.
 inline constexpr double kLargestGlobalTolerance = 5.0;
 
+/// The widest, and the finest, that a general tolerance lets a surface be from where it should be: beyond the
+/// first a check finds nothing any more, below the second no cell is fine enough. mm; default, unsourced.
+inline constexpr double kWidestJudged = 0.5, kFinestJudged = 0.001;
+
 /// The part's general tolerance, +- mm; nothing where none is stated, or one that is hardly meant: that
 /// widens no check and no allowance.
 [[nodiscard]] std::optional<double> global_tolerance_of(const Workpiece& piece);
@@ -24,5 +28,9 @@ inline constexpr double kLargestGlobalTolerance = 5.0;
 
 /// What states the raw piece: the bounding geometry of the piece's raw piece, else its own.
 [[nodiscard]] AnyRef raw_solid(const Model& model, const Workpiece& piece);
+
+/// The box of the raw piece that the file states for a feature's own workpiece, else for the one that the
+/// first project makes; nothing where none is stated, or it is neither a block nor a cylinder.
+[[nodiscard]] std::optional<geometry::Box3> stated_raw(const Model& model, AnyRef feature = {});
 
 }  // namespace capstan::model

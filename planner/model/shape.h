@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -104,6 +105,10 @@ struct FeatureShape {
 /// Fails  SHP-… when the noun lacks what a shape needs (no depth, no profile), naming the attribute.
 [[nodiscard]] Result<std::vector<FeatureShape>> shapes_of(const Model& model,
                                                           Ref<ManufacturingFeature> feature);
+
+/// Features that are parts of others: elements of compounds, bases of patterns, bosses of pockets, faces and
+/// steps.
+[[nodiscard]] std::set<AnyRef> parts_of_others(const Model& model);
 
 /// Height of the finished surface of this one feature above p, frame coordinates: -depth on the bottom,
 /// higher on sloped or rounded walls, 0 or nothing outside: nothing means that the feature leaves p alone.

@@ -14,11 +14,19 @@
 namespace capstan::pipeline {
 namespace {
 
+/// The steps that the plan executes, where it has paths: one that was left out needs no tool, nor what was to
+/// be measured before it.
+bool executed(const Work& w, const StepWork& s) {
+  if (w.policy.bind != Bind::kAll || w.plan.model.holds<model::WorkpieceProbing>(s.step)) return true;
+  return std::any_of(w.plan.steps.begin(), w.plan.steps.end(),
+                     [&](const model::StepResult& r) { return r.step == s.step; });
+}
+
 /// The cutters that steps use, each once, with their tool numbers; nouns say the same.
 void collect_cutters(Work& w) {
   std::set<std::string> seen;
   for (const StepWork& s : w.steps) {
-    if (!(s.cutter.cutting_diameter_mm > 0.0)) continue;
+    if (!(s.cutter.cutting_diameter_mm > 0.0) || !executed(w, s)) continue;
     if (seen.insert(s.cutter.id).second) {
       w.plan.cutters.push_back(s.cutter);
       continue;
@@ -115,7 +123,7 @@ void leave_open(Work& w) {
 /// One try. Nothing when something failed: `tries` has learned what, and the plan is to be made again.
 Result<std::optional<model::Plan>> bind_once(model::Plan plan, const Inputs& inputs, const Policy& policy,
                                              double earning_per_min, Tries& tries, Job& job) {
-  plan.steps.clear();
+  std::vector<model::StepResult> recorded_steps = std::exchange(plan.steps, {});
   std::vector<std::pair<Ref<model::Setup>, model::Workholding>> held;
   for (const auto& s : plan.setups) held.emplace_back(s.setup, s.holding);
   plan.setups.clear();
@@ -123,6 +131,7 @@ Result<std::optional<model::Plan>> bind_once(model::Plan plan, const Inputs& inp
   plan.unplanned.clear();
   Work w{std::move(plan), inputs, policy, job, tries, {}, {}, {}, {}, std::move(recorded)};
   w.held = std::move(held);
+  w.recorded_steps = std::move(recorded_steps);
   w.earning_per_min = earning_per_min;
   using Stage = Status (*)(Work&);
   std::vector<Stage> stages = {resolve_workpiece, list_given, take_requirements};

@@ -17,8 +17,9 @@
 // tries, and its findings on the plan that is kept are handed on as they are. An error at a proposed step
 // bans what the step was made with, gently first: its cutter, twice; then its chain; last its feature is left
 // out, and with it what rests on it. An order that is broken is no matter of the cutter: there the chain goes
-// at once. Of all tries the one with the fewest errors is kept, then the one that leaves the fewest features
-// out, then the first. Steps that the file brings stay as they are.
+// at once, and what lies outside the raw piece is left out at once. Of all tries the one with the fewest
+// errors is kept, then the one that leaves the fewest features out, then the first. Steps that the file
+// brings stay as they are.
 
 namespace capstan::pipeline {
 namespace {
@@ -81,6 +82,8 @@ class Judge {
       const std::string found = "the check found " + o.finding->code + ": " + o.finding->message;
       const MadeStep& s = o.step;
       const bool of_order = o.finding->property == 28;
+      // What lies outside the raw piece does so with every cutter and chain.
+      const bool of_drawing = o.finding->code == "CHK-OUTSIDE";
       int& hits = hits_[{s.member, s.chain, s.in_chain}];
       // Torque, power, bending: a thinner cut of the same cutter.
       const bool of_load =
@@ -91,7 +94,7 @@ class Judge {
         out.emplace_back(s, found);
         continue;
       }
-      if (tried >= kBeforeLeavingOut) {
+      if (tried >= kBeforeLeavingOut || of_drawing) {
         tries_.leave_out(s.member.feature, "step '" + s.name + "' with " + s.cutter + ": " + found);
       } else if (of_order || hits >= kMostCutters) {
         tries_.ban_chain(s.member, s.chain, "step '" + s.name + "': " + found);
@@ -133,14 +136,26 @@ void tell_tries(const Tries& tries, Job& job) {
   for (const std::string& s : tries.said) job.note("PIP-ANEW", s);
 }
 
+Checked checked(model::Plan plan, Job& job) {
+  Checked out;
+  const auto began = job.now();
+  out.findings = verify::check_plan(plan, job);
+  out.plan = std::move(plan);
+  out.checking = job.now() - began;
+  return out;
+}
+
 Result<Checked> bind_checked(const model::Plan& plan, const Inputs& inputs, const Policy& policy, Job& job,
-                             std::optional<std::chrono::steady_clock::time_point> until) {
+                             const Anew& anew) {
+  auto until = anew.until;
   Tries tries;
   auto first = bind_within(plan, inputs, policy, tries, job);
   if (!first) return tl::unexpected(first.error());
-  Checked best;
-  best.plan = *std::move(first);
-  if (policy.bind == Bind::kAll) best.findings = verify::check_plan(best.plan, job);
+  if (anew.acceptable) {
+    if (auto ok = anew.acceptable(*first); !ok) return tl::unexpected(ok.error());
+  }
+  Checked best =
+      policy.bind == Bind::kAll ? checked(*std::move(first), job) : Checked{*std::move(first), {}, 0, {}};
   std::vector<std::string> said = tries.said;
   auto diagnostics = job.take_diagnostics();
   std::size_t least = errors_of(best.plan, best.findings);
@@ -164,16 +179,18 @@ Result<Checked> bind_checked(const model::Plan& plan, const Inputs& inputs, cons
     auto again = bind_within(plan, inputs, policy, tries, trial);
     if (!again) break;
     for (const auto& [step, why] : condemned) tries.said.push_back(told(tries, step, why));
-    findings = verify::check_plan(*again, trial);
+    Checked now_checked = checked(*std::move(again), trial);
+    findings = now_checked.findings;
     if (trial.stop_requested()) break;  // not checked to its end: no better than what is there
-    offences = offences_of(*again, findings, tries);
+    offences = offences_of(now_checked.plan, findings, tries);
     auto now = trial.take_diagnostics();
-    const std::size_t errors = errors_of(*again, findings);
+    const std::size_t errors = errors_of(now_checked.plan, findings);
     const bool better =
-        errors < least || (errors == least && again->unplanned.size() < best.plan.unplanned.size());
-    if (!better) continue;
+        errors < least || (errors == least && now_checked.plan.unplanned.size() < best.plan.unplanned.size());
+    if (!better || (anew.acceptable && !anew.acceptable(now_checked.plan))) continue;
     least = errors;
-    best = {*std::move(again), findings, tried + 1};
+    best = std::move(now_checked);
+    best.replanned = tried + 1;
     said = tries.said;
     diagnostics = std::move(now);
   }

@@ -5,7 +5,7 @@
 
 #include "planner/base/file.h"
 #include "planner/base/nearest_names.h"
-#include "planner/base/number.h"
+#include "planner/model/lie.h"
 #include "tooling/holding/holding.h"
 
 // Which fixture holds each set-up, where, and what the operator is told about it.
@@ -22,8 +22,6 @@ using tooling::HoldingWish;
 using tooling::Side;
 
 constexpr const char* kMark = "Workholding: ";  // begins the instruction that this stage writes
-
-std::string n(double v) { return trimmed(v, 3); }
 
 /// What stands of the raw piece when a set-up begins: faces that earlier ones cut off whole are gone.
 Box3 remaining(const Work& w, std::size_t setup) {
@@ -49,33 +47,11 @@ Box3 remaining(const Work& w, std::size_t setup) {
   return box;
 }
 
-/// "+Z" of the workpiece for a direction of the set-up; numbers when it lies between.
-std::string axis_text(const geometry::Placement& workpiece, Vec3 d) {
-  const Vec3 v = workpiece.direction_to_local(d);
-  constexpr double kNear = 1.0 - 1e-6;
-  for (const auto& [value, name] : {std::pair{v.x, 'X'}, {v.y, 'Y'}, {v.z, 'Z'}}) {
-    if (value > kNear) return std::string("+") + name;
-    if (value < -kNear) return std::string("-") + name;
-  }
-  return "(" + n(v.x) + ", " + n(v.y) + ", " + n(v.z) + ")";
-}
-
-std::string turn_text(const geometry::Placement& before, const geometry::Placement& now) {
-  const auto change = compose(now, inverse(before));
-  constexpr double kNear = 1.0 - 1e-6;
-  if (change.z.z > kNear && change.x.x > kNear) return "not turned";
-  if (change.z.z > kNear) return "turned about Z";
-  if (change.z.z < -kNear && change.x.x > kNear) return "turned over about X";
-  if (change.z.z < -kNear && change.y.y > kNear) return "turned over about Y";
-  if (change.z.z < -kNear) return "turned over";
-  return "turned on its side";
-}
-
 /// The whole instruction for the operator.
 std::string instruction(const Work& w, std::size_t i) {
   const SetupWork& s = w.setups[i];
   std::string out =
-      kMark + s.holding.description + ". Workpiece's " + axis_text(s.workpiece, {0, 0, 1}) + " up";
+      kMark + s.holding.description + ". Workpiece's " + model::axis_text(s.workpiece, {0, 0, 1}) + " up";
   for (const auto& solid : s.holding.solids) {
     if (solid.id != "vise.fixed_jaw") continue;
     const auto area = geometry::Region{{solid.outline}};
@@ -86,9 +62,10 @@ std::string instruction(const Work& w, std::size_t i) {
     if (b.hi.y <= from.y) d = {0, -1, 0};
     if (b.lo.x >= from.x) d = {1, 0, 0};
     if (b.hi.x <= from.x) d = {-1, 0, 0};
-    out += ", its " + axis_text(s.workpiece, d) + " face against the fixed jaw";
+    out += ", its " + model::axis_text(s.workpiece, d) + " face against the fixed jaw";
   }
-  if (i > 0) out += "; " + turn_text(w.setups[i - 1].workpiece, s.workpiece) + " after the set-up before";
+  if (i > 0)
+    out += "; " + model::turn_text(w.setups[i - 1].workpiece, s.workpiece) + " after the set-up before";
   return out + ". Work offset: " + s.holding.pickup_text + ".";
 }
 

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "planner/model/resolve.h"
+#include "planner/pipeline/members.h"
 #include "planner/pipeline/steps.h"
 
 // What the nouns of an operation say, as the values that the path is made from.
@@ -221,6 +222,8 @@ toolpath::PathJob job_of(const Work& w, const StepWork& step, const model::Featu
   job.cutter = with_neck(w, step.cutter);
   take_milling(m, step.operation, job);
   take_drilling(m, step.operation, job);
+  // The noun's is that of the cutter that the step had: another may be tried.
+  if (const auto depth = depth_with_its_cutter(step)) job.cutting_depth_mm = depth;
   if (m.holds<model::FreeformFinishMilling>(step.operation))
     job.allowance_side_mm = job.allowance_bottom_mm = freeform_allowance(w, step);
   // What was chosen for a tool that has been re-opened is open again, whatever stands in the noun.

@@ -38,10 +38,20 @@ bool same_tool(const Cutter& a, const Cutter& b) {
 const Cutter* loaded_like(const std::vector<Cutter>& library, const Cutter& wanted) {
   const Cutter* found = nullptr;
   for (const Cutter& c : library) {
-    if (!c.loaded || c.pocket <= 0) continue;
-    if (same_tool(c, wanted) && (found == nullptr || c.pocket < found->pocket)) found = &c;
+    if (!c.loaded || c.pocket <= 0 || !same_tool(c, wanted)) continue;
+    // One that is measured first, then the lower number.
+    const auto rank = [](const Cutter& x) { return std::pair(!model::offset_fault(x).empty(), x.pocket); };
+    if (found == nullptr || rank(c) < rank(*found)) found = &c;
   }
   return found;
+}
+
+void take_length(const Cutter& loaded, Cutter& into) {
+  if (loaded.table_line) return model::take_table_line(into, *loaded.table_line);
+  if (!(loaded.functional_length_mm > 0.0)) return;
+  into.functional_length_mm = loaded.functional_length_mm;
+  into.stick_out_mm = std::min(into.stick_out_mm, into.functional_length_mm);
+  into.usable_length_mm = std::min(into.usable_length_mm, into.stick_out_mm);
 }
 
 Result<std::vector<std::string>> match_loaded(model::Plan& plan, Inputs& inputs, Job& job) {
@@ -63,7 +73,16 @@ Result<std::vector<std::string>> match_loaded(model::Plan& plan, Inputs& inputs,
       Cutter c = *wanted;
       c.pocket = there->pocket;
       c.loaded = true;
-      if (there->functional_length_mm > 0.0) c.functional_length_mm = there->functional_length_mm;
+      take_length(*there, c);
+      if (std::string fault = model::offset_fault(c); !fault.empty()) {
+        return fail({.code = "LATE-TOOL",
+                     .message = "the tool '" + c.id + "' of operation '" + op->its_id.value_or("") +
+                                "' has no length that can be used: " + fault,
+                     .file = plan.file_name,
+                     .path = c.id,
+                     .hint = "measure it and enter its length; where offsets count from a reference tool, "
+                             "say length_offsets: reference under the machine's control"});
+      }
       merged.push_back(std::move(c));
       continue;
     }
@@ -76,7 +95,12 @@ Result<std::vector<std::string>> match_loaded(model::Plan& plan, Inputs& inputs,
   for (const Cutter& c : inputs.library) {
     bool taken = false;
     for (const Cutter& m : merged) taken = taken || (c.pocket > 0 && m.pocket == c.pocket);
-    if (!taken) merged.push_back(c);
+    if (taken) continue;
+    if (const std::string fault = model::offset_fault(c); c.loaded && !fault.empty()) {
+      job.note("LATE-TOOL", "'" + c.id + "' is not used: " + fault);
+      continue;
+    }
+    merged.push_back(c);
   }
   inputs.library = std::move(merged);
   return reopened;

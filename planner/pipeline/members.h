@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "planner/model/proposal.h"
@@ -21,6 +22,14 @@ void members_in_order(Work& w, const std::vector<std::size_t>& first, const std:
 /// tip no deeper than the cone's, its corner no deeper than the cone there. A narrower drill goes deeper than
 /// the hole's wall.
 [[nodiscard]] double depth_over_cone(const model::FeatureShape& hole, const model::Cutter& drill);
+
+/// The cutting depth of a proposed step that drills over a conical bottom, with the cutter that it has now;
+/// nothing for all others: theirs does not hang on the point of the drill.
+[[nodiscard]] std::optional<double> depth_with_its_cutter(const StepWork& step);
+
+/// After a proposed step has been given another cutter: its depth, and the hole that the step after it in the
+/// chain finds, are those of that cutter.
+void fit_to_cutter(Work& w, StepWork& step);
 
 /// Says which holes have an operation that makes a thread although no feature states one: re-opened, they
 /// stay plain.

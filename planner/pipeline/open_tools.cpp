@@ -5,6 +5,7 @@
 #include "planner/model/nouns/all.h"
 #include "planner/model/walk.h"
 #include "planner/pipeline/share.h"
+#include "planner/pipeline/shop.h"
 #include "planner/pipeline/steps.h"
 #include "tooling/nouns/nouns.h"
 #include "tooling/select/select.h"
@@ -117,7 +118,7 @@ void take_from_magazine(const Work& w, model::Cutter& cutter) {
   for (const auto& c : w.inputs.library) {
     if (c.pocket <= 0 || c.id != cutter.id) continue;
     cutter.pocket = c.pocket;
-    if (c.functional_length_mm > 0.0) cutter.functional_length_mm = c.functional_length_mm;
+    take_length(c, cutter);
     return;
   }
 }

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -89,6 +90,17 @@ struct Checked {
   model::Plan plan;
   std::vector<model::Finding> findings;  ///< of the plan; those of a program are the caller's to ask for
   int replanned = 0;                     ///< which of the tries this is; 0: the first
+  std::chrono::steady_clock::duration checking{};  ///< what checking it took
+};
+
+/// A plan and what the check says of it.
+[[nodiscard]] Checked checked(model::Plan plan, Job& job);
+
+/// Until when plans are made anew, and which plans may be given at all (nothing: any): what it says of the
+/// first one ends `bind_checked`, of a later one only that one is passed over.
+struct Anew {
+  std::optional<std::chrono::steady_clock::time_point> until = std::nullopt;
+  std::function<Status(const model::Plan&)> acceptable = {};
 };
 
 /// `bind`, then the check (verify/check_plan). Where it finds an error at a step that rules proposed, what
@@ -97,10 +109,10 @@ struct Checked {
 /// (PIP-ANEW) and stands in the ledger among the rejected alternatives. A plan without errors costs one
 /// check. A plan whose decisions are not all bound is not checked.
 ///
-/// Determinism  as `bind`, unless the job is stopped or `until` is past: then nothing more is made anew, and
+/// Determinism  as `bind`, unless the job is stopped or `Anew::until` is past: then nothing more is made
+/// anew, and
 ///              what is there so far is given, with its findings.
-[[nodiscard]] Result<Checked> bind_checked(
-    const model::Plan& plan, const Inputs& inputs, const Policy& policy, Job& job,
-    std::optional<std::chrono::steady_clock::time_point> until = std::nullopt);
+[[nodiscard]] Result<Checked> bind_checked(const model::Plan& plan, const Inputs& inputs,
+                                           const Policy& policy, Job& job, const Anew& anew = {});
 
 }  // namespace capstan::pipeline

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "planner/base/number.h"
+#include "planner/model/measured.h"
 #include "planner/pipeline/touches.h"
 #include "planner/pipeline/work.h"
 #include "tooling/nouns/nouns.h"
@@ -73,11 +74,22 @@ std::optional<Measured> datum_of(const Work& w, std::size_t at, double ball) {
   return std::nullopt;
 }
 
-Measured measured_before(const Work& w, std::size_t at) {
+/// Whether the chain leans on what is measured: its own row wants it between two cuts, for the size. Else a
+/// demand of position wants it.
+bool for_size(const Probing& p) {
+  const std::string& row = p.chain[p.at].why.id;
+  return std::any_of(p.chain.begin(), p.chain.end(), [&](const model::ProposedStep& s) {
+    return s.operation != model::TypeId::kWorkpieceProbing && s.why.id == row;
+  });
+}
+
+Measured measured_before(const Work& w, std::size_t at, const std::optional<model::Candidate>& probe) {
   const StepWork& step = w.steps[at];
   const Probing& p = *step.probing;
-  const double ball = p.probe ? 0.5 * p.probe->cutter.cutting_diameter_mm : 0.0;
-  if (auto datum = datum_of(w, at, ball)) return *std::move(datum);
+  const double ball = probe ? 0.5 * probe->cutter.cutting_diameter_mm : 0.0;
+  if (!for_size(p)) {
+    if (auto datum = datum_of(w, at, ball)) return *std::move(datum);
+  }
   const FeatureShape& s = step.shapes.front();
   Measured out{
       touches_of(w, s, left_at(p.chain, p.at, s), ball), "'" + s.name + "' as it is cut so far", {}, {}};
@@ -129,7 +141,8 @@ Ref<model::Executable> touch_noun(Work& w, const StepWork& next, const Measured&
     expected.implicit_tolerance = m.add(t);
   }
   model::NcVariable result;
-  result.its_name = "probed_" + std::to_string(m.all(model::TypeId::kWorkpieceProbing).size() + 1);
+  result.its_name = std::string(for_size(wanted) ? model::kMeasuredSize : model::kProbedPlace) +
+                    std::to_string(m.all(model::TypeId::kWorkpieceProbing).size() + 1);
 
   model::WorkpieceProbing p;
   p.its_id = step.name + " " + touch.side;
@@ -161,18 +174,31 @@ Ref<model::Executable> touch_noun(Work& w, const StepWork& next, const Measured&
 void add_probings(Work& w) {
   std::vector<StepWork> out;
   for (std::size_t i = 0; i < w.steps.size(); ++i) {
-    const StepWork& next = w.steps[i];
-    if (next.probing) {
-      const model::ProposedStep& wanted = next.probing->chain[next.probing->at];
-      const Measured what = measured_before(w, i);
-      if (what.found.touches.empty()) {
+    if (w.steps[i].probing) {
+      StepWork& next = w.steps[i];
+      Probing& probing = *next.probing;
+      const model::ProposedStep& wanted = probing.chain[probing.at];
+      Measured what = measured_before(w, i, probing.probe);
+      std::string not_by_probe = "machine or library has no touch probe";
+      if (what.found.touches.empty() && probing.probe && for_size(probing)) {
+        // Where its ball does not come, a gauge may.
+        not_by_probe = what.found.why_not;
+        what = measured_before(w, i, std::nullopt);
+        if (!what.found.touches.empty()) probing.probe.reset();
+      }
+      if (what.found.touches.empty() && for_size(probing)) {
+        // A last cut that nothing sets holds no more than the cut before it: such a chain is none.
+        w.tries.ban_chain(next.member, next.chain,
+                          "'" + wanted.name + "' cannot be made (" + what.found.why_not +
+                              "), and without it the last cut does not hold what is asked");
+        w.again = true;
+      } else if (what.found.touches.empty()) {
         w.job.warn("PIP-PROBE", "'" + wanted.name + "' is not proposed: " + what.found.why_not +
                                     "; the steps are kept, and do not hold by themselves what is asked: " +
                                     wanted.why.text + " [" + wanted.why.id + "]");
-      } else if (!next.probing->probe) {
-        w.job.warn("PIP-PROBE", "'" + wanted.name +
-                                    "': machine or library has no touch probe; the program stops, and it is "
-                                    "measured by other means");
+      } else if (!probing.probe) {
+        w.job.warn("PIP-PROBE", "'" + wanted.name + "': " + not_by_probe +
+                                    "; the program stops, and it is measured by other means");
       }
       for (std::size_t k = 0; k < what.found.touches.size(); ++k) {
         StepWork step;
@@ -182,12 +208,12 @@ void add_probings(Work& w) {
         step.proposed = true;
         step.proposal = wanted;
         step.proposal.feature = next.feature;
-        if (next.probing->probe) step.cutter = next.probing->probe->cutter;
+        if (probing.probe) step.cutter = probing.probe->cutter;
         step.step = touch_noun(w, next, what, k);
         out.push_back(std::move(step));
       }
     }
-    out.push_back(next);
+    out.push_back(w.steps[i]);
   }
   w.steps = std::move(out);
 }

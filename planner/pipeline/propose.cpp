@@ -27,7 +27,7 @@ constexpr double kSameAxis = 1e-6;  // sine below which two tool axes are the sa
 /// Features the file wants made, in the order of the file.
 std::vector<AnyRef> wanted(const Work& w) {
   const Model& m = w.plan.model;
-  const std::set<AnyRef> parts = parts_of_others(m);
+  const std::set<AnyRef> parts = model::parts_of_others(m);
   std::set<AnyRef> done;
   for (const StepWork& s : w.steps) done.insert(s.feature);
   // A compound whose elements have their own steps is made by these.
@@ -356,9 +356,8 @@ class Proposer {
       step.candidates = chosen.tools[i].ranked;
       step.rejected_tools = chosen.tools[i].rejected;
       step.cutter = step.candidates.front().cutter;
-      if (step.cutter.cutter_class == model::CutterClass::kTwistDrill &&
-          step.proposal.tool.point_angle_rad > 0.0)
-        step.proposal.depth_mm = depth_over_cone(s, step.cutter);
+      step.start_in_chain_mm = (*chosen.chain)[i].start_diameter_mm;
+      if (const auto depth = depth_with_its_cutter(step)) step.proposal.depth_mm = *depth;
       for (std::size_t k = 1; k < step.candidates.size() && k < 4; ++k) {
         step.rejected_tools.push_back(
             {step.candidates[k].cutter.id, "fits, ranked lower: " + step.candidates[k].why.text});

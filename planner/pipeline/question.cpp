@@ -148,9 +148,8 @@ void under_an_overhang(optimise::CutQuestion& q, const toolpath::PathJob& job) {
   q.fz_start_mm *= kFeedShare;
   const auto u = toolpath::undercut_of(job.shape);
   if (!u || u->flank_rad > 0.0 || !job.left_on_side_mm) return;
-  const double edge = 0.5 * d - (u->mouth_mm - *job.left_on_side_mm);
   q.slot = false;
-  q.ae_mm = q.width_mm = std::clamp(edge, toolpath::side_step(job, d), d);
+  q.ae_mm = q.width_mm = toolpath::undercut_width_mm(job, *u);
   // Where the head moves aside, a last thin pass makes the walls: the others may bend it as roughing may.
   if (u->widest_mm - job.allowance_side_mm - 0.5 * d > toolpath::kLastSide) q.deflection_limit_mm = 0.0;
 }

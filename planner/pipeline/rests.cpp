@@ -25,7 +25,7 @@ struct Shaped {
 
 Shaped shaped(const Model& m) {
   Shaped out;
-  const std::set<AnyRef> parts = parts_of_others(m);
+  const std::set<AnyRef> parts = model::parts_of_others(m);
   for (const AnyRef f : m.all_below(model::TypeId::kManufacturingFeature)) {
     if (parts.contains(f) || m.holds<model::ToolpathFeature>(f)) continue;
     auto shapes = model::shapes_of(m, Ref<model::ManufacturingFeature>(f));
@@ -57,29 +57,6 @@ std::set<AnyRef> unplanned_of(const Work& w) {
 }
 
 }  // namespace
-
-std::set<AnyRef> parts_of_others(const Model& m) {
-  std::set<AnyRef> out;
-  for (const AnyRef r : m.all_below(model::TypeId::kManufacturingFeature)) {
-    const auto add = [&](AnyRef part) {
-      if (part.set()) out.insert(part);
-    };
-    if (const auto* c = m.get<model::CompoundFeature>(r)) {
-      for (const AnyRef e : c->elements.items) add(e);
-    }
-    if (const auto* p = m.get<model::ReplicateFeature>(r)) add(p->replicate_base_feature);
-    if (const auto* p = m.get<model::Pocket>(r)) {
-      for (const AnyRef b : p->its_boss.items) add(b);
-    }
-    if (const auto* f = m.get<model::PlanarFace>(r)) {
-      for (const AnyRef b : f->its_boss.items) add(b);
-    }
-    if (const auto* s = m.get<model::Step>(r)) {
-      for (const AnyRef b : s->its_boss.items) add(b);
-    }
-  }
-  return out;
-}
 
 std::vector<RestsOn> what_rests(const Work& w) {
   const Shaped all = shaped(w.plan.model);

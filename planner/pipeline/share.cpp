@@ -5,6 +5,7 @@
 #include <set>
 
 #include "planner/base/number.h"
+#include "planner/pipeline/members.h"
 
 // The second look at the tools, when every step has one: fewer of them.
 
@@ -141,6 +142,7 @@ class Sharer {
                 s.candidates.begin() + static_cast<std::ptrdiff_t>(t.candidate) + 1);
     const Candidate& now = s.candidates.front();
     s.cutter = now.cutter;
+    fit_to_cutter(w_, s);
     const std::string why = "gives way to " + now.cutter.id +
                             ", which the plan uses already: that costs about " +
                             trimmed(std::max(0.0, loss_s), 1) + " s of cutting and saves " +

@@ -23,7 +23,12 @@ Result<Inputs> load_shop(const ShopFiles& files, Job& job) {
   if (!m) return tl::unexpected(m.error());
   in.machine = *std::move(m);
   in.provenance.push_back({"machine", in.machine.id, files.machine.empty() ? kBuiltIn : files.machine});
-  auto library = files.tools.empty() ? tooling::generic_library() : tooling::load_library(files.tools, job);
+  auto library = files.tools.empty()
+                     ? tooling::generic_library()
+                     : tooling::load_library(
+                           files.tools, job,
+                           {.mm_per_unit = {},
+                            .offsets_against_reference = in.machine.control.offsets_against_reference});
   if (!library) return tl::unexpected(library.error());
   in.library = *std::move(library);
   in.provenance.push_back({"tools", files.tools.empty() ? "generic library, not purchasable" : files.tools,
@@ -53,7 +58,7 @@ Result<model::Plan> read_plan(std::string bytes, const std::string& name, Job& j
 }
 
 std::vector<model::Finding> findings_of(const model::Plan& plan, Job& job) {
-  return findings_of(Checked{plan, verify::check_plan(plan, job)}, job);
+  return findings_of(checked(plan, job), job);
 }
 
 std::vector<model::Finding> findings_of(const Checked& checked, Job& job) {

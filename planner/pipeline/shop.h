@@ -34,12 +34,18 @@ struct ShopFiles {
 /// A tool that is there (same class and diameter, or the same id) keeps its decisions and takes pocket and
 /// length from the table; one that is not is re-opened, and with it, by the ledger, what depends on it.
 /// Gives what was re-opened, one sentence each, in the order of the plan.
+/// Fails  LATE-TOOL for a tool of the plan that is there and whose length the table does not tell
+///        (model::offset_fault). A loaded tool like that which the plan does not name is not used.
 [[nodiscard]] Result<std::vector<std::string>> match_loaded(model::Plan& plan, Inputs& inputs, Job& job);
 
 /// The cutter of the magazine (Cutter::loaded, a pocket) that is this one by class and every size that both
-/// know, whatever it is called; the lowest pocket of several, null when none is.
+/// know, whatever it is called; a measured one, and the lowest pocket, of several, null when none is.
 [[nodiscard]] const model::Cutter* loaded_like(const std::vector<model::Cutter>& library,
                                                const model::Cutter& wanted);
+
+/// The tool is as long as it is in the magazine, and stands out no farther; the line of the machine's tool
+/// table goes with it.
+void take_length(const model::Cutter& loaded, model::Cutter& into);
 
 enum class Format : std::uint8_t { kIso14649, kJson, kLinuxCnc, kToolTable, kAp238 };
 

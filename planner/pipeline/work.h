@@ -53,6 +53,7 @@ struct StepWork {
   std::string chain = {};                    ///< which chain that is (Tries::key_of),
   std::size_t in_chain = 0;                  ///< and its place in it
   model::ProposedStep proposal;              ///< when proposed
+  double start_in_chain_mm = 0.0;            ///< of its proposal, before the drill ahead of it was known
   std::vector<model::Candidate> candidates;  ///< when the cutter was selected in this run, best first
   std::vector<model::Rejected> rejected_tools;
   bool open_technology = false;  ///< feed or speed to be chosen
@@ -82,6 +83,7 @@ struct Work {
       {};                                        ///< as the plan said when it was read
   std::vector<model::FeatureShape> shapes = {};  ///< of all features, workpiece coordinates
   double earning_per_min = 0.0;                  ///< Objective::kProfit: what a minute earns above its cost
+  std::vector<model::StepResult> recorded_steps = {};  ///< as the plan said when it was read
   bool again = false;  ///< something failed and `tries` says what: the plan is to be made again
 };
 
@@ -107,8 +109,6 @@ void report_outside(Work& w);  ///< features that the raw piece does not hold
 
 // Shared pieces.
 
-/// Features that are parts of others (elements of compounds, bases of patterns, bosses): made with those.
-[[nodiscard]] std::set<AnyRef> parts_of_others(const model::Model& m);
 
 /// `after` cannot be cut rightly while `before` still stands.
 struct RestsOn {
@@ -176,7 +176,8 @@ inline constexpr int kMarks = 1, kDrills = 2, kRoughs = 3, kFinishes = 4, kSizes
 /// Measured is the datum that the position refers to, where that is a hole, a pocket or an outside made
 /// before in the same set-up, else the feature itself: of a hole, a pocket or an outside opposite walls in x
 /// and in y, of a slot across, of a face its level. Where no start is known to be free and no wall known to
-/// be there, nothing is proposed and PIP-PROBE says why.
+/// be there, nothing is proposed: a chain that leans on the measurement for its size is banned (by hand where
+/// the probe's ball does not come); for a position PIP-PROBE says why.
 void add_probings(Work& w);
 /// The noun of a cutter, made once per plan.
 [[nodiscard]] Ref<model::MachiningTool> tool_noun(Work& w, const model::Cutter& cutter);

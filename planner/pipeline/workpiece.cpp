@@ -96,7 +96,9 @@ Status resolve_material(Work& w, const model::Workpiece* piece) {
     names.push_back(stated->standard_identifier.value_or(""));
     names.push_back(stated->material_identifier.value_or(""));
   }
-  auto material = tooling::find_material(names, w.inputs.materials, w.job);
+  auto material = tooling::find_material(
+      names, w.inputs.materials, w.job,
+      w.inputs.material_name ? tooling::Families::kRefused : tooling::Families::kTaken);
   if (!material) {
     Diagnostic d = material.error();
     if (!w.inputs.material_name) {

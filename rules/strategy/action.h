@@ -45,6 +45,14 @@ struct Action {
 /// The actions of each family, for `find_action`.
 [[nodiscard]] std::vector<Action> hole_actions();
 [[nodiscard]] std::vector<Action> cone_actions();
+
+/// What a cone cuts along an edge or the wall of a hole.
+struct Bevel {
+  double depth_mm = 0.0, width_mm = 0.0;  ///< along the axis; across it
+  double angle_rad = 0.0;                 ///< full angle of the cone
+};
+/// A pass with a chamfer mill or a countersink of that angle, its flank on the bevel.
+[[nodiscard]] model::ProposedStep along_a_cone(const Making& m, const Bevel& bevel);
 [[nodiscard]] std::vector<Action> area_actions();
 [[nodiscard]] std::vector<Action> form_actions();
 [[nodiscard]] std::vector<Action> section_actions();

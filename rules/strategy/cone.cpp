@@ -75,24 +75,30 @@ Made countersink_mill(const Making& m) {
               mm(m.hole_mm) + ", which is to be milled before");
   }
   const double width = 0.5 * (s0.diameter.nominal_mm - s0.bottom_diameter_mm);
-  ProposedStep s;
-  s.depth_mm = s0.depth_mm;
+  ProposedStep s =
+      along_a_cone(m, {.depth_mm = s0.depth_mm, .width_mm = width, .angle_rad = 2.0 * half_angle(s0)});
   s.start_diameter_mm =
       m.context.core_diameter_mm;  // below the cone: room for the tip, or a shoulder under it
   s.allowance_side_mm = m.number("allowance_side_mm");
   if (s.allowance_side_mm >= width)
     return no("an allowance of " + mm(s.allowance_side_mm) + " leaves nothing of a cone " + mm(width) +
               " wide");
-  s.tool.classes = {CutterClass::kChamferMill, CutterClass::kCountersink};
-  s.tool.point_angle_rad = 2.0 * half_angle(s0);
-  s.tool.diameter_min_mm = 2.0 * width;
-  s.tool.depth_of_cut_mm = s0.depth_mm;
-  s.tool.reach_mm = s0.depth_mm + m.context.stock_above_mm + kReachClearanceMm;
-  s.strategy = StrategyKind::kContourParallel;
   return s;
 }
 
 }  // namespace
+
+ProposedStep along_a_cone(const Making& m, const Bevel& bevel) {
+  ProposedStep s;
+  s.depth_mm = bevel.depth_mm;
+  s.tool.classes = {CutterClass::kChamferMill, CutterClass::kCountersink};
+  s.tool.point_angle_rad = bevel.angle_rad;
+  s.tool.diameter_min_mm = 2.0 * bevel.width_mm;
+  s.tool.depth_of_cut_mm = bevel.depth_mm;
+  s.tool.reach_mm = bevel.depth_mm + m.context.stock_above_mm + kReachClearanceMm;
+  s.strategy = StrategyKind::kContourParallel;
+  return s;
+}
 
 std::vector<Action> cone_actions() {
   return {

@@ -75,15 +75,9 @@ Made chamfer(const Making& m) {
   const double angle =
       m.shape.chamfer_angle_rad;  // against the plane: the cone's half angle is its complement
   const double depth = m.shape.chamfer_width_mm * std::tan(angle);
-  ProposedStep s;
-  s.depth_mm = depth;
-  s.tool.classes = {CutterClass::kChamferMill, CutterClass::kCountersink};
-  s.tool.point_angle_rad = std::numbers::pi - 2.0 * angle;
-  s.tool.diameter_min_mm = 2.0 * m.shape.chamfer_width_mm;
-  s.tool.depth_of_cut_mm = depth;
-  s.tool.reach_mm = depth + m.context.stock_above_mm + kReachClearanceMm;
-  s.strategy = StrategyKind::kContourParallel;
-  return s;
+  return along_a_cone(
+      m,
+      {.depth_mm = depth, .width_mm = m.shape.chamfer_width_mm, .angle_rad = std::numbers::pi - 2.0 * angle});
 }
 
 // Along the edge, with a mill whose concave quarter round has the edge's radius.
@@ -111,14 +105,8 @@ Made break_edge(const Making& m) {
     return no("only the edges of closed pockets, holes and outside contours are broken");
   if (std::abs(s0.slope_rad) > 1e-6) return no("edges over leaning walls are not broken");
   if (c >= s0.depth_mm) return no("the feature is no deeper than the chamfer of its edge");
-  ProposedStep s;
-  s.depth_mm = s.axial_depth_mm = c;
-  s.tool.classes = {CutterClass::kChamferMill, CutterClass::kCountersink};
-  s.tool.point_angle_rad = 0.5 * std::numbers::pi;
-  s.tool.diameter_min_mm = 2.0 * c;
-  s.tool.depth_of_cut_mm = c;
-  s.tool.reach_mm = c + m.context.stock_above_mm + kReachClearanceMm;
-  s.strategy = StrategyKind::kContourParallel;
+  ProposedStep s = along_a_cone(m, {.depth_mm = c, .width_mm = c, .angle_rad = 0.5 * std::numbers::pi});
+  s.axial_depth_mm = c;
   s.why.text = "edges are broken by " + mm(c);
   return s;
 }

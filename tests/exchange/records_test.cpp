@@ -189,9 +189,16 @@ TEST(Losses, WhatIso14649CannotHoldIsSaid) {
   const auto written = write_iso14649(plan, job);
   ASSERT_TRUE(written);
   EXPECT_THAT(written->losses,
-              Contains(HasSubstr("MILLING_CUTTING_TOOL.its_usage has no place in ISO 14649")));
+              Contains(HasSubstr("MILLING_CUTTING_TOOL.its_usage, kept in the header only, has no place")));
   EXPECT_THAT(written->losses, Contains(HasSubstr("enabled, kept in the header only,")));
-  EXPECT_THAT(written->bytes, ::testing::Not(HasSubstr("TOOL_USAGE")));
+  EXPECT_THAT(written->bytes.substr(written->bytes.find("\nDATA;")), ::testing::Not(HasSubstr("TOOL_USAGE")));
+  const auto back = read_bytes(written->bytes, "test.stp", ReadOptions{}, job);
+  ASSERT_TRUE(back) << to_text(back.error());
+  const auto usages = back->model.all(TypeId::kToolUsage);
+  ASSERT_EQ(usages.size(), 1U);
+  EXPECT_EQ(back->model.at<model::ToolUsage>(usages[0]).its_id, "T3");
+  const auto again = back->model.all(TypeId::kMillingCuttingTool)[0];
+  EXPECT_EQ(model::AnyRef(back->model.at<model::MachiningTool>(again).its_usage), usages[0]);
 }
 
 TEST(Units, FileNumberReadsBackToWhatWasWritten) {

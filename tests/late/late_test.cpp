@@ -3,10 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
+#include <sstream>
 #include <string>
 
 #include "capstan/capstan_late.h"
 #include "planner/model/nouns/all.h"
+#include "planner/output/linuxcnc/linuxcnc.h"
 #include "planner/pipeline/shop.h"
 #include "tests/support/corpus.h"
 
@@ -22,6 +25,27 @@ pipeline::Inputs shop(const std::string& tools) {
   auto in = pipeline::load_shop({.machine = {}, .tools = tools, .rules = {}, .material = {}}, job);
   EXPECT_TRUE(in) << (in ? "" : to_text(in.error()));
   return in ? *std::move(in) : pipeline::Inputs{};
+}
+
+/// A shop whose tool table has this text.
+pipeline::Inputs shop_of(const std::string& table, const std::string& machine = {}) {
+  const std::string path = ::testing::TempDir() + "late_table.tbl";
+  std::ofstream(path) << table;
+  Job job;
+  auto in = pipeline::load_shop({.machine = machine, .tools = path, .rules = {}, .material = {}}, job);
+  EXPECT_TRUE(in) << (in ? "" : to_text(in.error()));
+  return in ? *std::move(in) : pipeline::Inputs{};
+}
+
+/// The generic machine, whose table counts from a reference.
+std::string reference_machine() {
+  std::string text =
+      testing::slurp(std::string(CAPSTAN_SOURCE_DIR) + "/tooling/data/machines/generic_vmc.yaml");
+  const std::string at = "control: {";
+  text.insert(text.find(at) + at.size(), "length_offsets: reference, ");
+  const std::string path = ::testing::TempDir() + "late_reference.yaml";
+  std::ofstream(path) << text;
+  return path;
 }
 
 model::Plan plate() {
@@ -59,6 +83,105 @@ TEST(Late, TakesTheLengthOfAToolFromTheTable) {
                                  [](const auto& c) { return c.pocket == 7; });
   ASSERT_NE(mill, bound->plan.cutters.end());
   EXPECT_EQ(mill->functional_length_mm, 115.0);  // the file says 75, the table what was measured
+}
+
+/// The plate and its magazine, with one line of the table as a shop has it.
+pipeline::Inputs shop_with(const std::string& line, const std::string& machine = {}) {
+  std::string text;
+  std::istringstream lines(testing::slurp(kMagazine));
+  const std::string number = line.substr(0, line.find(' '));
+  for (std::string one; std::getline(lines, one);)
+    text += (one.starts_with(number + " ") ? line : one) + "\n";
+  return shop_of(text, machine);
+}
+
+/// The line of a tool in the table that the plan is given with.
+std::string line_of(const model::Plan& plan, int tool) {
+  std::istringstream lines(output::write_tool_table(plan));
+  for (std::string one; std::getline(lines, one);)
+    if (one.starts_with("T" + std::to_string(tool) + " ")) return one.substr(0, one.find(" ;"));
+  return {};
+}
+
+const model::Cutter* cutter_of(const model::Plan& plan, int tool) {
+  for (const auto& c : plan.cutters)
+    if (c.pocket == tool) return &c;
+  return nullptr;
+}
+
+TEST(Late, TheToolTableComesOutNumberForNumber) {
+  // The mill in carousel place 3, shorter than the 75 mm of the file, with a side offset and a worn diameter.
+  Job job;
+  const std::string line = "T7 P3 X+0.010000 Z+61.2345678 D+11.999500";
+  const auto bound =
+      bind(plate(), shop_with(line + " ;12 mm carbide end mill, 4 flutes"), {.deadline = std::nullopt}, job);
+  ASSERT_TRUE(bound) << to_text(bound.error()) << "\n" << texts(job);
+  EXPECT_EQ(line_of(bound->plan, 7), line);
+  EXPECT_EQ(line_of(bound->plan, 4), "T4 P4 Z+140.000000 D+9.800000");
+}
+
+TEST(Late, AToolStandsOutNoFartherThanTheTableSaysThatItIsLong) {
+  Job job;
+  const auto bound = bind(plate(), shop_with("T7 P7 Z+61 D+12 ;12 mm carbide end mill, 4 flutes"),
+                          {.deadline = std::nullopt}, job);
+  ASSERT_TRUE(bound) << to_text(bound.error()) << "\n" << texts(job);
+  const auto* mill = cutter_of(bound->plan, 7);
+  ASSERT_NE(mill, nullptr);
+  EXPECT_EQ(mill->functional_length_mm, 61.0);
+  EXPECT_LE(mill->stick_out_mm, 61.0);
+  EXPECT_LE(mill->usable_length_mm, mill->stick_out_mm);
+}
+
+TEST(Late, AToolWhoseLengthTheTableDoesNotTellIsRefused) {
+  // 12 mm mills have flutes of some 26 mm: no length from the gage line is 20 mm.
+  for (const std::string z : {"Z+20", "Z0", ""}) {
+    Job job;
+    const auto bound = bind(plate(), shop_with("T7 P7 " + z + " D+12 ;12 mm carbide end mill, 4 flutes"),
+                            {.deadline = std::nullopt}, job);
+    ASSERT_FALSE(bound) << z;
+    EXPECT_EQ(bound.error().code, "LATE-TOOL") << to_text(bound.error());
+    EXPECT_NE(bound.error().message.find("T7 has Z"), std::string::npos) << bound.error().message;
+    EXPECT_NE(bound.error().hint.find("measure"), std::string::npos);
+  }
+}
+
+TEST(Late, OffsetsAgainstAReferenceToolAreNoLengthsAndComeOutAgain) {
+  // T3 is shorter than the reference, so no Z of this table is a length.
+  Job job;
+  const auto bound = bind(plate(),
+                          shop_of("T2 P2 Z+0 D+10 ;10 mm carbide spot drill, 90 deg\n"
+                                  "T3 P3 Z-12.5 D+9 ;9 mm carbide twist drill, 140 deg\n"
+                                  "T4 P4 Z+14.25 D+9.8 ;9.8 mm carbide twist drill, 140 deg\n"
+                                  "T5 P5 Z+15 D+10 ;10 mm hss reamer H7\n"
+                                  "T7 P7 Z+2.5 D+12 ;12 mm carbide end mill, 4 flutes\n"
+                                  "T8 P8 Z+1.5 D+8 ;8 mm carbide end mill, 4 flutes\n"),
+                          {.deadline = std::nullopt}, job);
+  ASSERT_TRUE(bound) << to_text(bound.error()) << "\n" << texts(job);
+  EXPECT_EQ(line_of(bound->plan, 7), "T7 P7 Z+2.500000 D+12.000000");
+  EXPECT_EQ(cutter_of(bound->plan, 7)->functional_length_mm, 75.0);  // the file's, for the table tells none
+  const auto program = pipeline::write_plan(bound->plan, pipeline::Format::kLinuxCnc, job);
+  ASSERT_TRUE(program);
+  EXPECT_NE(program->find("T7: its length offset counts from a reference"), std::string::npos);
+}
+
+TEST(Late, AMachineMaySayThatItsOffsetsCountFromAReference) {
+  // All above zero, as of a shop whose reference is the shortest: the machine's description tells.
+  pipeline::Inputs in = shop_with("T7 P7 Z+20 D+12 ;12 mm carbide end mill, 4 flutes", reference_machine());
+  Job job;
+  const auto bound = bind(plate(), std::move(in), {.deadline = std::nullopt}, job);
+  ASSERT_TRUE(bound) << to_text(bound.error()) << "\n" << texts(job);
+  EXPECT_EQ(line_of(bound->plan, 7), "T7 P7 Z+20.000000 D+12.000000");
+}
+
+TEST(Late, OfAReferenceTableOnlyOneToolMayHaveZero) {
+  Job job;
+  const auto bound = bind(plate(),
+                          shop_of("T2 P2 Z+0 D+10 ;10 mm carbide spot drill, 90 deg\n"
+                                  "T3 P3 Z-12.5 D+9 ;9 mm carbide twist drill, 140 deg\n"
+                                  "T7 P7 Z+0 D+12 ;12 mm carbide end mill, 4 flutes\n"),
+                          {.deadline = std::nullopt}, job);
+  ASSERT_FALSE(bound);
+  EXPECT_EQ(bound.error().code, "LATE-TOOL") << to_text(bound.error());
 }
 
 TEST(Late, RefusesWhenSomethingStaysOpen) {

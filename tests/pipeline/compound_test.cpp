@@ -19,6 +19,24 @@ std::string part() {
   return testing::slurp(folder + "/tests/pipeline/parts/compounds.p21");
 }
 
+/// Replaces the first of what must be there.
+void put(std::string& text, const std::string& from, const std::string& to) {
+  const auto at = text.find(from);
+  ASSERT_NE(at, std::string::npos) << from;
+  text.replace(at, from.size(), to);
+}
+
+/// A drill of 8 mm as #103, with the angle of its dimension, with technology (#106) and functions (#107).
+std::string drill_8(int angle_deg) {
+  return R"(#103=MILLING_CUTTING_TOOL('DRILL 8',#104,(#105),60.,$,$);
+#104=TWIST_DRILL(#108,2,.RIGHT.,.F.,$);
+#105=CUTTING_COMPONENT(50.,$,$,$,$);
+#106=MILLING_TECHNOLOGY(0.003,.TCP.,$,-20.,$,.F.,.F.,.F.,$);
+#107=MILLING_MACHINE_FUNCTIONS(.F.,$,$,.F.,$,(),.T.,$,$,());
+#108=MILLING_TOOL_DIMENSION(8.,)" +
+         std::to_string(angle_deg) + ".,$,50.,$,$,$);\n";
+}
+
 struct Planned {
   model::Plan plan;
   std::vector<Diagnostic> said;
@@ -88,22 +106,11 @@ TEST(ThroughHoles, ThatEndInsideThePieceAreCutDownToItsUnderside) {
 
 TEST(Compounds, AnOperationIsDoneForTheElementsThatListIt) {
   std::string text = part();
-  const auto put = [&](const std::string& from, const std::string& to) {
-    const auto at = text.find(from);
-    ASSERT_NE(at, std::string::npos) << from;
-    text.replace(at, from.size(), to);
-  };
-  put("(),$,#8,$);", "(#101),$,#8,$);");
-  put("'SECOND',#4,(),#63", "'SECOND',#4,(#102),#63");
-  put("ENDSEC;\nEND-ISO", R"(#101=MACHINING_WORKINGSTEP('PAIRS',#31,#69,#102,$);
+  put(text, "(),$,#8,$);", "(#101),$,#8,$);");
+  put(text, "'SECOND',#4,(),#63", "'SECOND',#4,(#102),#63");
+  put(text, "ENDSEC;\nEND-ISO", R"(#101=MACHINING_WORKINGSTEP('PAIRS',#31,#69,#102,$);
 #102=DRILLING($,$,'DRILL',20.,$,#103,#106,#107,$,10.,0.,$,$,$);
-#103=MILLING_CUTTING_TOOL('DRILL 8',#104,(#105),60.,$,$);
-#104=TWIST_DRILL(#108,2,.RIGHT.,.F.,$);
-#105=CUTTING_COMPONENT(50.,$,$,$,$);
-#106=MILLING_TECHNOLOGY(0.003,.TCP.,$,-20.,$,.F.,.F.,.F.,$);
-#107=MILLING_MACHINE_FUNCTIONS(.F.,$,$,.F.,$,(),.T.,$,$,());
-#108=MILLING_TOOL_DIMENSION(8.,20.,$,50.,$,$,$);
-ENDSEC;
+)" + drill_8(20) + R"(ENDSEC;
 END-ISO)");
   const Planned p = planned(text);
   EXPECT_EQ(cut_at(p.plan, "PAIRS", -8.0), "40,30 40,60");
@@ -111,26 +118,15 @@ END-ISO)");
 
 TEST(Compounds, WhoseElementsHaveTheirOwnStepsAreNotMadeAgain) {
   std::string text = part();
-  const auto put = [&](const std::string& from, const std::string& to) {
-    const auto at = text.find(from);
-    ASSERT_NE(at, std::string::npos) << from;
-    text.replace(at, from.size(), to);
-  };
-  put("(),$,#8,$);", "(#101,#111),$,#8,$);");
-  put("ENDSEC;\nEND-ISO", R"(#101=MACHINING_WORKINGSTEP('ONE',#31,#64,#102,$);
+  put(text, "(),$,#8,$);", "(#101,#111),$,#8,$);");
+  put(text, "ENDSEC;\nEND-ISO", R"(#101=MACHINING_WORKINGSTEP('ONE',#31,#64,#102,$);
 #111=MACHINING_WORKINGSTEP('TWO',#31,#65,#102,$);
 #102=DRILLING($,$,'DRILL',20.,$,#103,#106,#107,$,10.,0.,$,$,$);
-#103=MILLING_CUTTING_TOOL('DRILL 8',#104,(#105),60.,$,$);
-#104=TWIST_DRILL(#108,2,.RIGHT.,.F.,$);
-#105=CUTTING_COMPONENT(50.,$,$,$,$);
-#106=MILLING_TECHNOLOGY(0.003,.TCP.,$,-20.,$,.F.,.F.,.F.,$);
-#107=MILLING_MACHINE_FUNCTIONS(.F.,$,$,.F.,$,(),.T.,$,$,());
-#108=MILLING_TOOL_DIMENSION(8.,70.,$,50.,$,$,$);
-ENDSEC;
+)" + drill_8(70) + R"(ENDSEC;
 END-ISO)");
   // Without the pattern: the compound alone, at the origin of the pattern's.
-  put("#69=GENERAL_PATTERN('PAIRS',#4,(),#61,#66,(#68,#28));", "");
-  put("COMPOUND_FEATURE('PAIR',#4,(),#28", "COMPOUND_FEATURE('PAIR',#4,(),#61");
+  put(text, "#69=GENERAL_PATTERN('PAIRS',#4,(),#61,#66,(#68,#28));", "");
+  put(text, "COMPOUND_FEATURE('PAIR',#4,(),#28", "COMPOUND_FEATURE('PAIR',#4,(),#61");
   const Planned p = planned(text);
   EXPECT_EQ(cut_at(p.plan, "ONE", -8.0), "20,30");
   EXPECT_EQ(cut_at(p.plan, "TWO", -8.0), "40,30");
@@ -140,21 +136,10 @@ END-ISO)");
 // A toolpath's coordinates are the feature's own, and its element's where the compound puts it.
 TEST(Compounds, AGivenPathOfAnElementRunsWhereTheElementStands) {
   std::string text = part();
-  const auto put = [&](const std::string& from, const std::string& to) {
-    const auto at = text.find(from);
-    ASSERT_NE(at, std::string::npos) << from;
-    text.replace(at, from.size(), to);
-  };
-  put("(),$,#8,$);", "(#101),$,#8,$);");
-  put("ENDSEC;\nEND-ISO", R"(#101=MACHINING_WORKINGSTEP('GIVEN',#31,#53,#102,$);
+  put(text, "(),$,#8,$);", "(#101),$,#8,$);");
+  put(text, "ENDSEC;\nEND-ISO", R"(#101=MACHINING_WORKINGSTEP('GIVEN',#31,#53,#102,$);
 #102=DRILLING(#110,$,'DRILL',20.,$,#103,#106,#107,$,10.,0.,$,$,$);
-#103=MILLING_CUTTING_TOOL('DRILL 8',#104,(#105),60.,$,$);
-#104=TWIST_DRILL(#108,2,.RIGHT.,.F.,$);
-#105=CUTTING_COMPONENT(50.,$,$,$,$);
-#106=MILLING_TECHNOLOGY(0.003,.TCP.,$,-20.,$,.F.,.F.,.F.,$);
-#107=MILLING_MACHINE_FUNCTIONS(.F.,$,$,.F.,$,(),.T.,$,$,());
-#108=MILLING_TOOL_DIMENSION(8.,70.,$,50.,$,$,$);
-#110=TOOLPATH_LIST((#111));
+)" + drill_8(70) + R"(#110=TOOLPATH_LIST((#111));
 #111=CUTTER_LOCATION_TRAJECTORY(.T.,.CONTACT.,$,$,$,$,#112,$,$);
 #112=POLYLINE('',(#113,#114));
 #113=CARTESIAN_POINT('',(0.,0.,20.));

@@ -140,6 +140,17 @@ TEST(GeneralTolerance, ThatIsNotUnderstoodIsOneError) {
   EXPECT_EQ(out.error().code, "MDL-GENERAL");
 }
 
+TEST(GeneralTolerance, WiderThanTheCheckJudgesByIsSaid) {
+  std::string text = part_text("");
+  const std::string stated = "('PART',#6,0.1,";
+  text.replace(text.find(stated), stated.size(), "('PART',#6,5.,");
+  Job job;
+  ASSERT_TRUE(read_plan(text, "part.p21", job));
+  std::string said;
+  for (const auto& d : job.diagnostics()) said += to_text(d) + "\n";
+  EXPECT_THAT(said, HasSubstr("WORKPIECE.global_tolerance is 5 mm; kept, but the check judges by 0.5 mm"));
+}
+
 TEST(GeneralTolerance, DecidesTheChainOfWhatStatesNone) {
   const std::string plain =
       "#61=TOLERANCED_LENGTH_MEASURE(20.,$);\n#63=ROUND_HOLE('H',#4,(),#50,#56,#61,$,#58);\n";
@@ -393,6 +404,59 @@ TEST(Probing, IsNotProposedWhereTheWallIsCutAway) {
       "H1");
   EXPECT_TRUE(touches(p.plan).empty());
   EXPECT_THAT(p.said, HasSubstr("'H1 probe_feature' is not proposed: along x and y there are no two walls"));
+}
+
+TEST(Measuring, AChainThatLeansOnItIsNotUsedWhereNothingCanBeMeasured) {
+  // IT6 of 8 mm is 9 um; the hole's wall is cut away by a pocket at every height.
+  const Planned p =
+      bound(read("#60=PLUS_MINUS_VALUE(0.009,0.,4);\n#61=TOLERANCED_LENGTH_MEASURE(8.,#60);\n"
+                 "#63=ROUND_HOLE('H1',#4,(),#50,#56,#61,$,#57000);\n#57000=FLAT_HOLE_BOTTOM();\n"
+                 "#64=TOLERANCED_LENGTH_MEASURE(40.,$);\n#62=CIRCULAR_CLOSED_PROFILE($,#64);\n"
+                 "#66=CLOSED_POCKET('P',#4,(),#50,#56,(),$,#57,$,$,#62);\n"));
+  EXPECT_TRUE(touches(p.plan).empty());
+  ASSERT_EQ(p.plan.unplanned.size(), 1U) << p.said;
+  EXPECT_THAT(
+      p.plan.unplanned.front().reason,
+      HasSubstr("'H1 measure' cannot be made (along x and y there are no two walls facing each other"));
+  EXPECT_THAT(p.said, Not(HasSubstr("is not proposed")));
+}
+
+TEST(Measuring, ASizeIsCorrectedAtTheToolAndNotAtTheWorkOffset) {
+  // IT6 of 20 mm is 13 um: a bored hole, and a milled pocket.
+  const auto program_of = [](const std::string& features) {
+    const Planned p = bound(
+        read("#60=PLUS_MINUS_VALUE(0.013,0.,4);\n#61=TOLERANCED_LENGTH_MEASURE(20.,#60);\n" + features));
+    EXPECT_TRUE(p.plan.unplanned.empty()) << p.said;
+    Job job;
+    const auto text = write_plan(p.plan, Format::kLinuxCnc, job);
+    EXPECT_TRUE(text) << p.said;
+    return text ? *text : std::string();
+  };
+  const std::string bored = program_of("#63=ROUND_HOLE('H1',#4,(),#50,#56,#61,$,#58);\n");
+  EXPECT_THAT(bored, ::testing::ContainsRegex("\\(MSG, .*H1 measure.*, set the radius of T[0-9]+ by the "
+                                              "difference, then continue\\)"));
+  EXPECT_THAT(bored, Not(HasSubstr("correct the work offset")));
+  const std::string milled = program_of(
+      "#62=CIRCULAR_CLOSED_PROFILE($,#61);\n#63=CLOSED_POCKET('P',#4,(),#50,#53,(),$,#57,$,$,#62);\n");
+  EXPECT_THAT(milled, ::testing::ContainsRegex("\\(MSG, .*P measure.*, correct the radius of T[0-9]+ by the "
+                                               "difference, then continue\\)"));
+  EXPECT_THAT(milled, HasSubstr("no G41 acts here"));
+  EXPECT_THAT(milled, Not(HasSubstr("correct the work offset")));
+}
+
+TEST(ToolTable, HoldsNoToolOfAStepThatIsLeftOut) {
+  // A flat hole in the middle of a pocket of the same depth: what its steps would cut is gone.
+  const Planned p =
+      bound(read("#61=TOLERANCED_LENGTH_MEASURE(8.,$);\n#63=ROUND_HOLE('H1',#4,(),#50,#56,#61,$,#57000);\n"
+                 "#57000=FLAT_HOLE_BOTTOM();\n#64=TOLERANCED_LENGTH_MEASURE(40.,$);\n"
+                 "#62=CIRCULAR_CLOSED_PROFILE($,#64);\n"
+                 "#66=CLOSED_POCKET('P',#4,(),#50,#56,(),$,#57,$,$,#62);\n"));
+  ASSERT_THAT(p.said, HasSubstr("PIP-GONE"));
+  for (const auto& c : p.plan.cutters) {
+    EXPECT_TRUE(std::any_of(p.plan.steps.begin(), p.plan.steps.end(), [&](const auto& s) {
+      return s.cutter_id == c.id;
+    })) << c.id;
+  }
 }
 
 TEST(Requirements, OfAZoneOfZeroAreSaid) {

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <set>
 #include <string>
 
@@ -151,6 +153,65 @@ TEST(Tools, AreFewerWhereAChangeCostsMoreThanTheSlowerTool) {
   EXPECT_LE(few.cutters.size(), many.cutters.size());
   EXPECT_TRUE(few.unplanned.empty());
   for (const auto& f : findings_of(few, job)) EXPECT_NE(f.severity, Severity::kError) << f.message;
+}
+
+// Two holes of 8 mm: one right through 50 mm, which only the long drill of 118 degrees reaches; one 20 mm
+// deep over a bottom of 140 degrees, for which the short drill of 140 degrees is the better one.
+Inputs two_drills() {
+  Inputs in = shop();
+  const auto is = [](const model::Cutter& c, double diameter) {
+    return c.cutter_class == model::CutterClass::kTwistDrill &&
+           std::abs(c.cutting_diameter_mm - diameter) < 1e-9;
+  };
+  model::Cutter pattern;
+  for (const auto& c : in.library) {
+    if (is(c, 8.0) && c.id.find("hss") != std::string::npos) pattern = c;
+  }
+  std::erase_if(in.library, [](const auto& c) {
+    return c.cutter_class != model::CutterClass::kSpotDrill &&
+           c.cutter_class != model::CutterClass::kCenterDrill;
+  });
+  model::Cutter deep = pattern, blunt = pattern;
+  deep.id = "deep/118";
+  deep.point_angle_rad = 118.0 * std::numbers::pi / 180.0;
+  blunt.id = "blunt/120";
+  blunt.point_angle_rad = 120.0 * std::numbers::pi / 180.0;
+  for (model::Cutter* c : {&deep, &blunt}) {
+    c->maximum_depth_of_cut_mm = c == &deep ? 70.0 : 30.0;  // of flutes
+    c->usable_length_mm = c->maximum_depth_of_cut_mm + 5.0;
+    c->stick_out_mm = c->usable_length_mm + 5.0;  // less of it: the stiffer, and the first choice
+    c->functional_length_mm = c->stick_out_mm + 60.0;
+  }
+  in.library.insert(in.library.end(), {deep, blunt});
+  return in;
+}
+
+TEST(Tools, ADrillThatGivesWayLeavesTheDepthToThePointOfTheOther) {
+  Inputs in = two_drills();
+  const std::string file = CAPSTAN_SOURCE_DIR "/tests/pipeline/parts/two_points.p21";
+  for (const double change_s : {0.0, 600.0}) {
+    in.machine.tool_change_s = in.machine.spindle.spin_up_s = change_s;
+    Job job;
+    auto read = read_plan(testing::slurp(file), "two_points.p21", job);
+    ASSERT_TRUE(read);
+    const auto plan = bind(*read, in, {}, job);
+    ASSERT_TRUE(plan) << to_text(plan.error());
+    bool found = false;
+    for (const auto& s : plan->steps) {
+      const auto* ws = plan->model.get<model::MachiningWorkingstep>(s.step);
+      if (ws == nullptr || ws->its_id.value_or("").find("BLIND") == std::string::npos) continue;
+      const auto* op = plan->model.get<model::DrillingTypeOperation>(ws->its_operation);
+      if (op == nullptr || plan->model.holds<model::CenterDrilling>(ws->its_operation)) continue;
+      found = true;
+      EXPECT_EQ(s.cutter_id, change_s > 0.0 ? "deep/118" : "blunt/120");
+      // The bottom's apex lies 4 tan 30 = 2.3094 below 20 mm; the tip of the sharper drill is
+      // 4 tan 31 = 2.4034 long, and must not lie deeper.
+      EXPECT_NEAR(op->cutting_depth.value_or(0.0), change_s > 0.0 ? 20.0 + 2.3094 - 2.4034 : 20.0, 1e-4);
+      EXPECT_NEAR(*std::min_element(s.path->z.begin(), s.path->z.end()), -20.0 - 2.3094, 1e-3);
+    }
+    EXPECT_TRUE(found) << "planned: " << plan->steps.size();
+    for (const auto& f : findings_of(*plan, job)) EXPECT_NE(f.severity, Severity::kError) << f.message;
+  }
 }
 
 }  // namespace

@@ -7,6 +7,12 @@ namespace capstan::testing::removal {
 // The parts that are planned and simulated, by what is on them.
 [[nodiscard]] Part island_pocket();
 [[nodiscard]] Part boss_beside_pocket();
+[[nodiscard]] Part bosses_in_a_pattern();
+[[nodiscard]] Part boss_in_a_compound();
+[[nodiscard]] Part leaning_boss();
+[[nodiscard]] Part boss_without_height();
+[[nodiscard]] Part boss_beside_what_lists_it();
+[[nodiscard]] Part boss_without_contour(bool listed);
 [[nodiscard]] Part open_pocket();
 [[nodiscard]] Part plain_slots();
 [[nodiscard]] Part undercut_slots();
@@ -28,6 +34,14 @@ namespace capstan::testing::removal {
 [[nodiscard]] Part flat_ended_slot();
 [[nodiscard]] Part pattern_that_meets_itself();
 [[nodiscard]] Part hole_into_a_cross_bore();
+
+// Parts that once took minutes of planning.
+[[nodiscard]] Part tight_flat_hole();
+[[nodiscard]] Part overlapping_flat_holes();
+[[nodiscard]] Part pocket_deeper_than_its_piece();
+[[nodiscard]] Part tilted_slot();
+[[nodiscard]] Part hole_over_the_side();
+[[nodiscard]] Part open_pocket_beside_boss();
 
 /// The target of ISO 14649-11's example 2, of a raw piece.
 [[nodiscard]] Target example2(const Box& raw);

@@ -39,6 +39,8 @@ CAPSTAN_MADE(CutsAStepShorterThanTheBlock, short_step())
 CAPSTAN_MADE(PlacesTheHolesOfACompound, compound_holes())
 CAPSTAN_MADE(UndercutsTeeSlotsAndDovetails, undercut_slots())
 CAPSTAN_MADE(KeepsTheBossBesideAPocket, boss_beside_pocket())
+CAPSTAN_MADE(KeepsEachBossOfAPatternFromTheOthersSteps, bosses_in_a_pattern())
+CAPSTAN_MADE(KeepsABossWhereItsCompoundPutsIt, boss_in_a_compound())
 CAPSTAN_MADE(DrillsBesideWallsWithoutGougingThem, holes_near_walls())
 CAPSTAN_MADE(CutsTolerancedConesSeatsAndCoresListedInAnyOrder, tight_holes())
 CAPSTAN_MADE(MillsAWideHoleThatRunsOverAnEdge, hole_over_an_edge())
@@ -49,6 +51,34 @@ CAPSTAN_MADE(OpensAPocketBeforeTheOneInItsFloor, pocket_in_a_pocket())
 CAPSTAN_MADE(KeepsTheStatedCornersAtTheFlatEndsOfASlot, flat_ended_slot())
 CAPSTAN_MADE(EndsAHoleThatOpensIntoACrossBoreThere, hole_into_a_cross_bore())
 CAPSTAN_MADE(CutsEachPlaceOfAPatternThatMeetsItselfOnce, pattern_that_meets_itself())
+
+// What is planned comes out as it must; what cannot be is named with its reason.
+void expect_left_out(const Part& part, std::size_t unplanned, const std::string& why) {
+  const Outcome o = plan_and_simulate(part);
+  ASSERT_TRUE(o.written()) << part.name << ":\n" << o.text();
+  EXPECT_EQ(o.plan.unplanned, unplanned) << o.text();
+  EXPECT_NE(o.text().find(why), std::string::npos) << o.text();
+  EXPECT_TRUE(o.verdict.agrees()) << part.name << ":\n" << o.text();
+}
+
+TEST(RemovalOfParts, KeepsClearOfALeaningBossByItsFoot) {
+  CAPSTAN_NEEDS_RS274();
+  expect_left_out(leaning_boss(), 1, "BOSS 'CONE': its walls lean by 10 degrees");
+}
+TEST(RemovalOfParts, KeepsClearOfABossWhoseHeightIsNotKnown) {
+  CAPSTAN_NEEDS_RS274();
+  expect_left_out(boss_without_height(), 1,
+                  "feature 'ISLAND' (BOSS) is not planned: the feature has no depth");
+}
+TEST(RemovalOfParts, LeavesOutAPocketThatListsABossBesideIt) {
+  CAPSTAN_NEEDS_RS274();
+  expect_left_out(boss_beside_what_lists_it(), 1, "lists BOSS 'ISLAND', which lies outside it");
+}
+TEST(RemovalOfParts, LeavesOutWhatMayCutABossThatCannotBeRead) {
+  CAPSTAN_NEEDS_RS274();
+  expect_left_out(boss_without_contour(true), 2, "BOSS 'ISLAND' has no closed profile");
+  expect_left_out(boss_without_contour(false), 3, "BOSS 'ISLAND' has no closed profile");
+}
 
 }  // namespace
 }  // namespace capstan::testing::removal

@@ -3,6 +3,7 @@
 #include "rules/facts/facts.h"
 #include "rules/facts/it_grade.h"
 #include "rules/rules.h"
+#include "tests/rules/shop.h"
 
 // Which chain each kind of feature gets in which situation: one line per row of experience.
 
@@ -16,18 +17,6 @@ using model::ShapeKind;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-const RuleBase& shipped() {
-  static const RuleBase kBase = [] {
-    Job job;
-    return load_rules("", job).value();
-  }();
-  return kBase;
-}
-Context steel() {
-  Context c;
-  c.material.iso_group = "P";
-  return c;
-}
 // The first chain's actions in order; the reason when there is none.
 std::vector<std::string> actions(const FeatureShape& s, const Context& c) {
   const Proposal p = propose(shipped(), s, c);

@@ -3,6 +3,7 @@
 #include "rules/facts/facts.h"
 #include "rules/facts/it_grade.h"
 #include "rules/rules.h"
+#include "tests/rules/shop.h"
 
 // Proofs by `check` against what happens when features are drawn at random.
 
@@ -15,14 +16,6 @@ using model::ShapeKind;
 using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-const RuleBase& shipped() {
-  static const RuleBase kBase = [] {
-    Job job;
-    return load_rules("", job).value();
-  }();
-  return kBase;
-}
 
 std::vector<std::string> findings(const RuleBase& base) {
   std::vector<std::string> out;

@@ -4,6 +4,7 @@
 
 #include "rules/facts/it_grade.h"
 #include "rules/rules.h"
+#include "tests/rules/shop.h"
 
 namespace capstan::rules {
 namespace {
@@ -16,18 +17,6 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 
-const RuleBase& shipped() {
-  static const RuleBase kBase = [] {
-    Job job;
-    return load_rules("", job).value();
-  }();
-  return kBase;
-}
-Context steel() {
-  Context c;
-  c.material.iso_group = "P";
-  return c;
-}
 // A through hole of 12 mm, 20 mm deep, with an H tolerance of that grade; 0: none stated.
 FeatureShape hole(int grade, double d = 12.0) {
   FeatureShape s;

@@ -5,12 +5,15 @@
 
 #include "rules/facts/it_grade.h"
 #include "rules/rules.h"
+#include "tests/rules/shop.h"
 
 // Holes whose sizes, bottoms and neighbours ask for more than a drill and a reamer.
 
 namespace capstan::rules {
 namespace {
 
+using drawn::hole;
+using drawn::toleranced;
 using model::FeatureShape;
 using model::HoleBottom;
 using model::Proposal;
@@ -20,46 +23,11 @@ using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-const RuleBase& shipped() {
-  static const RuleBase kBase = [] {
-    Job job;
-    return load_rules("", job).value();
-  }();
-  return kBase;
-}
-Context iron(double core_mm = 0.0) {
-  Context c;
-  c.material.iso_group = "K";
-  c.core_diameter_mm = core_mm;
-  return c;
-}
-FeatureShape hole(double d, double depth, HoleBottom bottom = HoleBottom::kThrough) {
-  FeatureShape s;
-  s.kind = ShapeKind::kHole;
-  s.name = "H";
-  s.diameter.nominal_mm = s.bottom_diameter_mm = d;
-  s.depth_mm = depth;
-  s.bottom = bottom;
-  s.through = bottom == HoleBottom::kThrough;
-  s.area = s.reach = geometry::disc({0, 0}, 0.5 * d);
-  return s;
-}
-FeatureShape toleranced(FeatureShape s, double lower, double upper) {
-  s.diameter.lower_mm = lower;
-  s.diameter.upper_mm = upper;
-  s.diameter.given = true;
-  return s;
-}
 /// 0.5 mm at 45 degrees around a hole.
 FeatureShape edge(double d) {
   FeatureShape s = hole(d, 0.5, HoleBottom::kFlat);
   s.bottom_diameter_mm = d - 1.0;
   return s;
-}
-std::vector<TypeId> kinds(const std::vector<model::ProposedStep>& chain) {
-  std::vector<TypeId> out;
-  for (const auto& step : chain) out.push_back(step.operation);
-  return out;
 }
 std::vector<std::vector<TypeId>> all(const Proposal& p) {
   std::vector<std::vector<TypeId>> out;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "rules/rules.h"
+#include "tests/rules/shop.h"
 
 // Pockets, slots, steps and outsides whose size is finer than a mill holds by itself.
 
@@ -12,20 +13,6 @@ using model::FeatureShape;
 using model::ShapeKind;
 using model::TypeId;
 using testing::HasSubstr;
-
-const RuleBase& shipped() {
-  static const RuleBase kBase = [] {
-    Job job;
-    return load_rules("", job).value();
-  }();
-  return kBase;
-}
-
-Context iron() {
-  Context c;
-  c.material.iso_group = "K";
-  return c;
-}
 
 /// 40 mm wide, 10 deep, corners R8, its width within a zone about the nominal.
 FeatureShape mill(ShapeKind kind, double zone) {

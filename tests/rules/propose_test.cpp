@@ -2,10 +2,13 @@
 
 #include "rules/facts/it_grade.h"
 #include "rules/rules.h"
+#include "tests/rules/shop.h"
 
 namespace capstan::rules {
 namespace {
 
+using drawn::hole;
+using drawn::toleranced;
 using model::CutterClass;
 using model::FeatureShape;
 using model::HoleBottom;
@@ -17,18 +20,6 @@ using testing::HasSubstr;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 
-const RuleBase& shipped() {
-  static const RuleBase kBase = [] {
-    Job job;
-    return load_rules("", job).value();
-  }();
-  return kBase;
-}
-Context steel() {
-  Context c;
-  c.material.iso_group = "P";
-  return c;
-}
 Proposal proposed(const FeatureShape& s, const Context& c = steel()) {
   Proposal p = propose(shipped(), s, c);
   EXPECT_NE(p.chains.empty(), p.cannot.empty()) << "chains or a reason, never neither or both: " << p.cannot;
@@ -43,33 +34,11 @@ Proposal proposed(const FeatureShape& s, const Context& c = steel()) {
   }
   return p;
 }
-std::vector<TypeId> kinds(const std::vector<model::ProposedStep>& chain) {
-  std::vector<TypeId> out;
-  for (const auto& step : chain) out.push_back(step.operation);
-  return out;
-}
 std::vector<TypeId> first(const Proposal& p) {
   return p.chains.empty() ? std::vector<TypeId>{} : kinds(p.chains[0]);
 }
 std::string row(const Proposal& p) { return p.chains.empty() ? p.cannot : p.chains[0][0].why.id; }
 
-FeatureShape hole(double d, double depth, HoleBottom bottom = HoleBottom::kThrough) {
-  FeatureShape s;
-  s.kind = ShapeKind::kHole;
-  s.name = "H";
-  s.diameter.nominal_mm = s.bottom_diameter_mm = d;
-  s.depth_mm = depth;
-  s.bottom = bottom;
-  s.through = bottom == HoleBottom::kThrough;
-  s.area = s.reach = geometry::disc({0, 0}, 0.5 * d);
-  return s;
-}
-FeatureShape toleranced(FeatureShape s, double lower, double upper) {
-  s.diameter.lower_mm = lower;
-  s.diameter.upper_mm = upper;
-  s.diameter.given = true;
-  return s;
-}
 FeatureShape h(FeatureShape s, int grade) {
   return toleranced(s, 0.0, standard_tolerance_mm(grade, s.diameter.nominal_mm));
 }

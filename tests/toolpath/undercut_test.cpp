@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "planner/toolpath/path_job.h"
@@ -161,6 +162,29 @@ TEST(UndercutPath, TakesTheWallsInAThinLastPassWhereTheHeadMovesAside) {
   ASSERT_GE(aside.size(), 3U);
   EXPECT_NEAR(aside.back(), 2.5, 1e-9) << "(23 - 18) / 2";
   EXPECT_NEAR(aside[aside.size() - 2], 2.3, 1e-9) << "0.2 mm less";
+}
+
+TEST(UndercutPath, GivesThinPassesTheChipOfAWholeOneAndTheWayBackAQuickerFeed) {
+  PathJob t = tee(false);
+  t_cutter(t, 18.0, 8.0, 8.0);
+  t.left_on_side_mm = 0.0;  // the mouth of 14 mm is milled: 2 mm beside it, 1.8 at a tenth of the head
+  Job job;
+  const auto g = generate(t, job);
+  ASSERT_TRUE(g) << g.error().message;
+  std::map<double, double> aside;  // feed along the walls, by how far aside
+  double back = 0.0;
+  for (std::size_t i = 1; i < g->path.size(); ++i) {
+    const bool along = std::abs(g->path.y[i] - g->path.y[i - 1]) < 1e-9 &&
+                       std::abs(g->path.x[i] - g->path.x[i - 1]) > 5.0 && g->path.z[i] < 0.0;
+    if (along && g->path.role[i] == MoveRole::kRetract) back = g->feed_factor[i];
+    if (along && g->path.role[i] == MoveRole::kCut) aside[std::abs(g->path.y[i])] = g->feed_factor[i];
+  }
+  EXPECT_GT(back, 1.0);
+  // Two passes of 1.15 mm and one of 0.2, asked for 2 mm: sqrt(2 (18 - 2)) = sqrt(1.15 (18 - 1.15)) 1.2850.
+  ASSERT_EQ(aside.size(), 4U);
+  EXPECT_NEAR((++aside.begin())->second, 1.2850, 1e-3)
+      << "the thickest chip, and with it the force, is the same";
+  EXPECT_NEAR(aside.rbegin()->second, std::sqrt(32.0 / (0.2 * 17.8)), 1e-3);
 }
 
 TEST(UndercutPath, RefusesWhatWouldTouchAndSaysWhy) {

@@ -228,7 +228,7 @@ Result<std::vector<Cutter>> read_library(std::string_view text, const std::strin
   const auto imported = import_bytes(text, file, o, job);
   if (!imported) return fail(imported.error());
   LossReport report;
-  return cutters_of(imported->library, report, job);
+  return cutters_of(imported->library, report, job, options.offsets_against_reference);
 }
 
 Result<std::vector<Cutter>> load_library(const std::string& path, Job& job, const LibraryOptions& options) {
@@ -249,7 +249,7 @@ Result<std::vector<Cutter>> load_library(const std::string& path, Job& job, cons
   const auto imported = import_library(path, o, job);
   if (!imported) return fail(imported.error());
   LossReport report;
-  return cutters_of(imported->library, report, job);
+  return cutters_of(imported->library, report, job, options.offsets_against_reference);
 }
 
 }  // namespace capstan::tooling

@@ -14,6 +14,9 @@ namespace capstan::tooling {
 struct LibraryOptions {
   /// Of a LinuxCNC tool table, which does not say: 1 or 25.4. Unset: millimetres, with a note.
   std::optional<double> mm_per_unit;
+  /// Whether the Z of a machine's tool table count from a reference tool or gauge (Control). Unset: they do
+  /// when one of them is negative.
+  std::optional<bool> offsets_against_reference;
 };
 
 /// A tool library from a file or folder, its kind told by content: our own list (YAML or JSON,

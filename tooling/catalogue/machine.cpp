@@ -360,6 +360,13 @@ void read_control(Fields& top, Machine& m) {
       f.fault("MACHINE-RANGE", std::string(key) + " is " + std::to_string(value), key, f.line_of(key),
               "0 to 9");
   }
+  if (f.has("length_offsets")) {
+    const std::string from = f.text("length_offsets");
+    if (from != "gage_line" && from != "reference")
+      f.fault("DATA-UNKNOWN", "length offsets count from '" + from + "'", "length_offsets",
+              f.line_of("length_offsets"), "gage_line or reference");
+    m.control.offsets_against_reference = from == "reference";
+  }
   not_negative(f, "path_tolerance_mm", m.control.path_tolerance_mm);
   not_negative(f, "block_time_s", m.control.block_time_s);
   keep_sources(f, m);

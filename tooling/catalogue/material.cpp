@@ -216,6 +216,26 @@ Result<Table> read_table(std::string_view text, const std::string& file, Job& jo
   return out;
 }
 
+/// A family's word where a material has to be named: with the names that have the word, else the nearest.
+Diagnostic only_a_family(const std::string& text, const Family& family,
+                         const std::vector<WorkMaterial>& materials) {
+  constexpr std::size_t kShown = 6;
+  std::string names;
+  std::size_t shown = 0;
+  for (const WorkMaterial& m : materials) {
+    const bool of_it = m.id == family.material ||
+                       std::any_of(family.words.begin(), family.words.end(), [&](const std::string& word) {
+                         return plain(m.id).find(word) != std::string::npos;
+                       });
+    if (!of_it || shown == kShown) continue;
+    names += (shown++ == 0 ? "'" : ", '") + m.id + "'";
+  }
+  Diagnostic d = unknown_name("material", text, names_of(materials), kListMaterials);
+  d.message = "'" + text + "' names a family of materials, not a material";
+  d.expected = names;
+  return d;
+}
+
 const WorkMaterial* by_id(const std::vector<WorkMaterial>& materials, const std::string& id) {
   for (const WorkMaterial& m : materials)
     if (m.id == id) return &m;
@@ -314,7 +334,7 @@ std::vector<std::string> names_of(const std::vector<WorkMaterial>& materials) {
 }
 
 Result<WorkMaterial> find_material(const std::vector<std::string>& texts,
-                                   const std::vector<WorkMaterial>& materials, Job& job) {
+                                   const std::vector<WorkMaterial>& materials, Job& job, Families families) {
   if (materials.empty()) return fail("MATERIAL-NONE", "the material table is empty");
   using Search = Match (*)(const std::string&, const std::vector<WorkMaterial>&);
   for (const Search search : std::array<Search, 2>{exact, longest_prefix}) {
@@ -338,7 +358,10 @@ Result<WorkMaterial> find_material(const std::vector<std::string>& texts,
     if (best == nullptr) continue;
     const WorkMaterial* m = by_id(materials, best->material);
     if (m == nullptr) continue;
-    job.warn("MATERIAL-FAMILY", "the material '" + text + "' names only a family; taken as " + m->id);
+    if (families == Families::kRefused) return fail(only_a_family(text, *best, materials));
+    job.warn("MATERIAL-FAMILY", "the material '" + text + "' names only a family; forces and speeds are " +
+                                    "calculated for " + m->id + ", " + best->source +
+                                    "; name the material with --material");
     return chosen(*m, {}, "'" + text + "': " + best->source);
   }
   const auto named =

@@ -29,9 +29,11 @@ namespace capstan::tooling {
 /// WorkMaterial::sources then has "chosen": why it was taken; its measured sets are those of the alloy named.
 /// Fails  NAME-UNKNOWN for a name that nobody knows: it is never guessed. MATERIAL-NONE when `materials` is
 ///        empty.
+///        With `kRefused` it fails so for a family's word, too: who can choose a name is asked to.
+enum class Families : bool { kTaken, kRefused };
 [[nodiscard]] Result<model::WorkMaterial> find_material(const std::vector<std::string>& texts,
                                                         const std::vector<model::WorkMaterial>& materials,
-                                                        Job& job);
+                                                        Job& job, Families families = Families::kTaken);
 [[nodiscard]] Result<model::WorkMaterial> find_material(const std::string& text,
                                                         const std::vector<model::WorkMaterial>& materials,
                                                         Job& job);

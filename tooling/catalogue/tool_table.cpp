@@ -112,7 +112,7 @@ Result<std::vector<Cutter>> read_tool_table(std::string_view text, const std::st
   const auto read = linuxcnc_format().read(text, file, o, job);
   if (!read) return fail(read.error());
   LossReport report;
-  return cutters_of(read->library, report, job);
+  return cutters_of(read->library, report, job, options.offsets_against_reference);
 }
 
 }  // namespace capstan::tooling

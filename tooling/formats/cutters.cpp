@@ -9,6 +9,7 @@
 #include "tooling/catalogue/material.h"
 #include "tooling/formats/format.h"
 #include "tooling/formats/linuxcnc/linuxcnc.h"
+#include "tooling/formats/table_line.h"
 #include "tooling/formats/values.h"
 #include "tooling/select/limits.h"
 
@@ -136,7 +137,8 @@ struct Together {
 
 class Maker {
  public:
-  Maker(const ToolLibrary& library, LossReport& report, Job& job) : l_(library), report_(report), job_(job) {}
+  Maker(const ToolLibrary& library, LossReport& report, Job& job, std::optional<bool> against_reference)
+      : l_(library), report_(report), job_(job), lines_(library, against_reference) {}
 
   Result<std::vector<Cutter>> all() {
     const auto& generic = shared_generic_library();
@@ -239,7 +241,7 @@ class Maker {
     complete(c, generic);
     pointed(item, c);
     if (own_presets) widen_feeds(c);
-    if (t.entry != nullptr) table_length(*t.entry, item.inches ? kMmPerInch : 1.0, c);
+    if (t.entry != nullptr) lines_.give(*t.entry, item.inches ? kMmPerInch : 1.0, c, job_);
     for (std::size_t k = before; k < c.sources.size(); ++k)
       report_.derived.push_back({c.id, c.sources[k].first, c.sources[k].second});
     if (const auto faults = faults_of(c); !faults.empty()) {
@@ -417,17 +419,6 @@ class Maker {
     }
   }
 
-  /// An offset may be measured from anywhere; it is the length only when a tool of that length is possible.
-  static void table_length(const MachineEntry& e, double mm_per_unit, Cutter& c) {
-    const std::string* source = source_of(c, "functional_length_mm");
-    if (source != nullptr && source->starts_with("stated")) return;
-    for (const auto& [axis, value] : e.offsets) {
-      if (axis != 'Z' || value * mm_per_unit <= c.stick_out_mm) continue;
-      c.functional_length_mm = value * mm_per_unit;
-      set_source(c, "functional_length_mm", "stated: the tool table's Z");
-    }
-  }
-
   void left_out(const std::string& who, const std::string& why) {
     report_.dropped.push_back({who, "", "not used for planning: " + why});
     left_.emplace_back(who, why);
@@ -456,6 +447,7 @@ class Maker {
   std::map<std::string, const MachineEntry*> entries_;
   std::map<std::string, std::vector<const ToolInstance*>> instances_;
   std::vector<std::pair<std::string, std::string>> left_;
+  TableLines lines_;
 };
 
 /// "stated: x" -> its state and x.
@@ -525,8 +517,9 @@ CatalogueItem item_of(const Cutter& c) {
 
 }  // namespace
 
-Result<std::vector<Cutter>> cutters_of(const ToolLibrary& library, LossReport& report, Job& job) {
-  return Maker(library, report, job).all();
+Result<std::vector<Cutter>> cutters_of(const ToolLibrary& library, LossReport& report, Job& job,
+                                       std::optional<bool> offsets_against_reference) {
+  return Maker(library, report, job, offsets_against_reference).all();
 }
 
 ToolLibrary library_of(const std::vector<Cutter>& cutters, std::string name) {
@@ -574,6 +567,15 @@ ToolLibrary library_of(const std::vector<Cutter>& cutters, std::string name) {
       e.carousel = c.carousel;
       e.assembly = c.id;
       e.comment = c.description;
+      if (c.table_line) {
+        for (const model::ToolTableWord& w : c.table_line->words) {
+          if (w.letter == "P") {
+            e.pocket = static_cast<int>(w.value);
+          } else if (w.letter.size() == 1) {
+            e.offsets.emplace_back(w.letter.front(), w.value);
+          }
+        }
+      }
       out.entries.push_back(std::move(e));
     }
   }

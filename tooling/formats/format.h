@@ -54,8 +54,9 @@ struct Format {
 /// As planning uses it: assemblies first, then items without one; each value with its source, what is missing
 /// completed as in `complete.h`. Items of no known class are left out; `report` says so.
 /// Fails  what `check_cutters` finds.
-[[nodiscard]] Result<std::vector<model::Cutter>> cutters_of(const ToolLibrary& library, LossReport& report,
-                                                            Job& job);
+[[nodiscard]] Result<std::vector<model::Cutter>> cutters_of(
+    const ToolLibrary& library, LossReport& report, Job& job,
+    std::optional<bool> offsets_against_reference = std::nullopt);
 /// The other way: a cutter's fields as records, nothing invented.
 [[nodiscard]] ToolLibrary library_of(const std::vector<model::Cutter>& cutters, std::string name);
 

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "planner/base/number.h"
 #include "tooling/catalogue/complete.h"
 #include "tooling/catalogue/library.h"
@@ -50,10 +52,15 @@ constexpr Field kFields[] = {
     {"price", &Cutter::price, '1', "price"},
 };
 
-/// A default of ours is found again when the list is read, and may be a better one then.
+/// What reading and `complete` fill in is found again when the list is read, and may be a better one then. A
+/// value that the library itself holds by default (as the generic series do) is its own, and is written.
 bool by_default(const Cutter& c, std::string_view field) {
-  const std::string* s = source_of(c, field);
-  return s != nullptr && s->starts_with("default");
+  constexpr std::string_view kFilledIn[] = {"default: as ", "default: not stated", "default: 3 degrees",
+                                            "default: the slower one"};
+  return std::any_of(c.sources.begin(), c.sources.end(), [&](const auto& s) {
+    return s.first == field && std::any_of(std::begin(kFilledIn), std::end(kFilledIn),
+                                           [&](std::string_view how) { return s.second.starts_with(how); });
+  });
 }
 
 std::string tool_text(const Cutter& c, double mm_per_unit) {

@@ -222,6 +222,10 @@ void each_field(A& a, T& x) {
     a(x.height_mm), a(x.lower_diameter_mm), a(x.upper_diameter_mm);
   } else if constexpr (std::is_same_v<T, model::SisterTool>) {
     a(x.id), a(x.pocket), a(x.life_left_min);
+  } else if constexpr (std::is_same_v<T, model::ToolTableWord>) {
+    a(x.letter), a(x.value);
+  } else if constexpr (std::is_same_v<T, model::ToolTableLine>) {
+    a(x.words), a(x.against_reference), a(x.untouched);
   } else if constexpr (std::is_same_v<T, model::Cutter>) {
     a(x.id), a(x.description), a(x.cutter_class), a(x.substrate), a(x.cutting_diameter_mm);
     a(x.corner_radius_mm), a(x.point_angle_rad), a(x.tip_diameter_mm), a(x.maximum_depth_of_cut_mm);
@@ -233,7 +237,7 @@ void each_field(A& a, T& x) {
     a(x.neck_length_mm), a(x.taper_angle_rad), a(x.cutting_width_mm), a(x.thread_size_mm);
     a(x.thread_form), a(x.lead_threads), a(x.lead_length_mm), a(x.holder_id), a(x.holder);
     a(x.library_reference), a(x.library_source), a(x.product_id), a(x.carousel), a(x.stated_in_inches);
-    a(x.loaded), a(x.in_stock), a(x.life_used_min), a(x.sisters);
+    a(x.loaded), a(x.in_stock), a(x.life_used_min), a(x.sisters), a(x.runout_mm), a(x.table_line);
   } else if constexpr (std::is_same_v<T, Property>) {
     a(x.symbol), a(x.number), a(x.text), a(x.unit), a(x.state), a(x.source);
   } else if constexpr (std::is_same_v<T, Preset>) {

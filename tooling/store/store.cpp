@@ -20,7 +20,7 @@ namespace {
 using model::Cutter;
 
 constexpr int kApplicationId = 0x43415054;  // "CAPT"
-constexpr int kSchemaVersion = 1;
+constexpr int kSchemaVersion = 2;
 constexpr int kMostRowBytes = 4 << 20;
 constexpr double kSlackMm = 1e-6;
 

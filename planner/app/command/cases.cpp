@@ -61,7 +61,7 @@ int run_cases_nearest(Session& s) {
   const auto materials = tooling::shipped_materials();
   if (!materials) return s.end(materials.error(), kUnreadable);
   const CaseQuestion& q = s.options.question;
-  const auto material = tooling::find_material(q.material, *materials, s.job);
+  const auto material = tooling::find_material({q.material}, *materials, s.job, tooling::Families::kRefused);
   if (!material) return s.end(material.error(), kUsage);
   const auto question =
       casebase::question_of(q.operation, casebase::material_group_of(*material), q.tool_class,

@@ -155,26 +155,19 @@ bool makes_program(const std::vector<Output>& outputs) {
 int finish(Session& s, const model::Plan& plan, std::vector<Output> outputs, const KnownFindings& known) {
   if (plan.steps.empty() && !plan.unplanned.empty()) {
     s.summary = "nothing can be planned, nothing is written";
-    put_programs_aside(outputs, s.job);
     return s.end({.code = "APP-IMPOSSIBLE",
                   .message = "none of " + counted(plan.unplanned.size(), "feature", "features") +
                              " can be planned with these tools on this machine",
                   .file = plan.file_name},
                  kImpossible);
   }
-  if (auto ok = make(plan, outputs, s.job); !ok) {
-    put_programs_aside(outputs, s.job);
-    return s.end(ok.error(), kImpossible);
-  }
+  if (auto ok = make(plan, outputs, s.job); !ok) return s.end(ok.error(), kImpossible);
   // What is left open has no path yet, so there is nothing to prove.
   const bool open = s.options.bind != pipeline::Bind::kAll;
   Verdict verdict;
   if (!open) {
     auto judgement = judged(s, plan, known, outputs);
-    if (!judgement) {
-      put_programs_aside(outputs, s.job);
-      return s.end(judgement.error(), kImpossible);
-    }
+    if (!judgement) return s.end(judgement.error(), kImpossible);
     verdict = *std::move(judgement);
   }
   s.summary = summary_of(plan, verdict.findings);

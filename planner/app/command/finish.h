@@ -19,7 +19,8 @@ using KnownFindings = std::optional<std::vector<model::Finding>>;
 [[nodiscard]] int finish(Session& s, const model::Plan& plan, std::vector<Output> outputs,
                          const KnownFindings& known = std::nullopt);
 
-/// Puts programs from before aside whose names were asked for, where none is written now.
+/// Puts programs from before aside whose names were asked for, where none is written now: whatever ended the
+/// run, once its command line was understood.
 void put_programs_aside(const std::vector<Output>& outputs, Job& job);
 
 /// Whether a program is asked for.

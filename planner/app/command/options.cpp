@@ -3,12 +3,14 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <sstream>
 #include <tuple>
 
 #include "planner/app/command/run.h"
 #include "planner/base/number.h"
+#include "planner/model/fit/general.h"
 
 // The one file that knows CLI11.
 
@@ -106,6 +108,10 @@ class CommandLine {
     // One value each, so that a positional may follow.
     o->expected(1)->take_all();
     if (required) o->required();
+    force(sub);
+  }
+  void force(CLI::App* sub) {
+    sub->add_flag("--force", out_.force, "let an output replace a file that this call reads");
   }
   void inputs(CLI::App* sub) {
     sub->add_option("--machine", raw_.machine, "machine: a file, or the id of a built-in one");
@@ -231,6 +237,7 @@ class CommandLine {
                                 "a file to write, its format told by its ending; may be repeated");
       o->expected(1)->take_all();
       if (sub != import) o->required();
+      force(sub);
       sub->add_option("--format", out_.tools.format, "the output's format by name");
       sub->add_option("--column-map", out_.tools.column_map, "what the columns of a table hold: a saved map");
       sub->add_option("--unit", out_.tools.unit, "mm or inch, where a file does not say")
@@ -269,16 +276,32 @@ class CommandLine {
   static void pick(const std::map<std::string, T>& of, const std::string& text, T& into) {
     if (const auto at = of.find(text); at != of.end()) into = at->second;
   }
-  /// Options whose value was given, and is empty: not the same as left out.
-  [[nodiscard]] std::string empty_value() const {
-    for (const CLI::App* sub : app_.get_subcommands()) {
-      for (const char* name : {"--general-tolerance", "--workholding", "--edges", "--revenue"}) {
-        const CLI::Option* o = sub->get_option_no_throw(name);
-        if (o != nullptr && o->count() > 0 && o->results().front().empty())
-          return std::string(name) + ": the value is empty; leave the option out instead";
-      }
+  /// An option or file whose value was given, and is empty: not the same as left out.
+  [[nodiscard]] static std::string empty_value(const CLI::App& of) {
+    for (const CLI::Option* o : of.get_options()) {
+      if (o->count() == 0) continue;
+      const auto& values = o->results();
+      if (std::any_of(values.begin(), values.end(), [](const std::string& v) { return v.empty(); }))
+        return o->get_name() + ": the value is empty; leave the option out instead";
+    }
+    for (const CLI::App* sub : of.get_subcommands()) {
+      if (std::string wrong = empty_value(*sub); !wrong.empty()) return wrong;
     }
     return {};
+  }
+  /// What is wrong with --general-tolerance, or nothing.
+  [[nodiscard]] std::string general_tolerance_wrong() const {
+    if (raw_.general_tolerance.empty()) return {};
+    if (raw_.general_tolerance.find(',') != std::string::npos)
+      return "--general-tolerance: '" + raw_.general_tolerance +
+             "' has a comma; decimals are written with a point";
+    const auto read = model::parse_general(raw_.general_tolerance);
+    return read ? "" : "--general-tolerance: " + read.error().message + "; expected " + read.error().expected;
+  }
+  [[nodiscard]] std::string rules_wrong() const {
+    std::error_code error;
+    if (raw_.rules.empty() || std::filesystem::is_directory(raw_.rules, error)) return {};
+    return "--rules: '" + raw_.rules + "' is no folder";
   }
   /// What is wrong with --edges, or nothing. How wide an edge the tables break is theirs to say.
   std::string edges() {
@@ -311,12 +334,11 @@ class CommandLine {
   /// What is wrong, or nothing.
   std::string understand() {
     if (!raw_.file.empty()) out_.files = {raw_.file};
-    if (std::string wrong = empty_value(); !wrong.empty()) return wrong;
+    if (std::string wrong = empty_value(app_); !wrong.empty()) return wrong;
     if (std::string wrong = edges(); !wrong.empty()) return wrong;
     if (std::string wrong = revenue(); !wrong.empty()) return wrong;
-    if (raw_.general_tolerance.find(',') != std::string::npos)
-      return "--general-tolerance: '" + raw_.general_tolerance +
-             "' has a comma; decimals are written with a point";
+    if (std::string wrong = general_tolerance_wrong(); !wrong.empty()) return wrong;
+    if (std::string wrong = rules_wrong(); !wrong.empty()) return wrong;
     auto& in = out_.inputs;
     in.machine = given(raw_.machine);
     in.tools = given(raw_.tools);

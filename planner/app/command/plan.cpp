@@ -127,10 +127,7 @@ int run_plan(Session& s) {
   Task task;
   if (const int code = prepared(s, policy, task); code != kDone) return code;
   const auto bound = pipeline::bind_checked(task.part, task.inputs, policy, s.job);
-  if (!bound) {
-    put_programs_aside(task.outputs, s.job);
-    return s.end(bound.error(), kImpossible);
-  }
+  if (!bound) return s.end(bound.error(), kImpossible);
   return finish(s, bound->plan, std::move(task.outputs), bound->findings);
 }
 
@@ -153,12 +150,9 @@ int run_bind(Session& s) {
   policy.began = began;
   policy.allow_findings = s.options.allow_findings;
   const auto outcome = late::bind(std::move(task.part), std::move(task.inputs), policy, s.job);
-  if (!outcome) {
-    put_programs_aside(task.outputs, s.job);
-    return s.end(outcome.error(), kImpossible);
-  }
+  if (!outcome) return s.end(outcome.error(), kImpossible);
   for (const std::string& what : outcome->reopened) s.job.note("LATE-REOPENED", what, "");
-  const int code = finish(s, outcome->plan, std::move(task.outputs));
+  const int code = finish(s, outcome->plan, std::move(task.outputs), outcome->of_plan);
   // Checking the program and writing it take their time, too.
   const bool late = outcome->late || (policy.deadline && s.job.now() - began > *policy.deadline);
   if (!late || code > kFindings) return code;

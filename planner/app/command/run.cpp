@@ -6,8 +6,10 @@
 #include <new>
 #include <utility>
 
+#include "planner/app/command/finish.h"
 #include "planner/app/command/options.h"
 #include "planner/app/command/session.h"
+#include "planner/app/files/outputs.h"
 
 namespace capstan::app {
 namespace {
@@ -50,10 +52,30 @@ int dispatch(Session& s) {
   return kUsage;
 }
 
+/// What a call reads: an output of the same name would take it away.
+std::vector<std::string> read_by(const Options& o) {
+  std::vector<std::string> out = o.files;
+  const InputOptions& in = o.inputs;
+  for (const auto& path : {in.machine, in.tools, in.material, in.rules, in.cases, in.workholding}) {
+    if (path) out.push_back(*path);
+  }
+  if (!o.tools.column_map.empty()) out.push_back(o.tools.column_map);
+  return out;
+}
+
+/// A fault of the outputs' paths ends the call before any work.
+int begun(Session& s) {
+  std::vector<std::string> outputs = s.options.outputs;
+  if (!s.options.tools.save_map.empty()) outputs.push_back(s.options.tools.save_map);
+  if (auto ok = can_be_written(outputs, read_by(s.options), s.options.force); !ok)
+    return s.end(ok.error(), kUsage);
+  return dispatch(s);
+}
+
 /// The only place that catches: everything below tells its outcome by value.
 int guarded(Session& s) {
   try {
-    return dispatch(s);
+    return begun(s);
   } catch (const std::bad_alloc&) {
     return s.end({.code = "APP-MEMORY", .message = "the memory does not suffice"}, kOurFault);
   } catch (const std::exception& e) {
@@ -62,6 +84,13 @@ int guarded(Session& s) {
                   .hint = "please report it, with the input"},
                  kOurFault);
   }
+}
+
+/// Whoever plans again and gets nothing must not find a program from before under the name that was promised.
+void leave_nothing_stale(Session& s, int code) {
+  const bool plans = s.options.command == Command::kPlan || s.options.command == Command::kBind;
+  if (!plans || code <= kFindings || code == kLate) return;
+  if (const auto outputs = outputs_of(s.options.outputs)) put_programs_aside(*outputs, s.job);
 }
 
 }  // namespace
@@ -76,6 +105,7 @@ int run(int argc, const char* const* argv) {
   }
   Session session(*std::move(parsed.options));
   const int code = guarded(session);
+  leave_nothing_stale(session, code);
   print_diagnostics(session, code);
   return code;
 }

@@ -76,7 +76,8 @@ int Session::end(const Diagnostic& d, int code) {
     fault.severity = Severity::kError;
     job.report(std::move(fault));
   }
-  return d.code == kUnknownName || d.code == "MACHINE-GEAR" ? static_cast<int>(kUsage) : code;
+  const bool usage = d.code == kUnknownName || d.code == "MACHINE-GEAR" || d.code == "FILE-WRITE";
+  return usage ? static_cast<int>(kUsage) : code;
 }
 
 void print_diagnostics(Session& s, int code) {

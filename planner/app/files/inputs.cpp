@@ -123,7 +123,9 @@ Result<pipeline::Inputs> gather(const InputOptions& o, const model::Plan& plan, 
   pipeline::Inputs in;
   if (auto ok = machine_of(o, plan, in, job); !ok) return tl::unexpected(ok.error());
 
-  auto library = tooling::load_library(o.tools.value_or("generic"), job);
+  auto library = tooling::load_library(
+      o.tools.value_or("generic"), job,
+      {.mm_per_unit = {}, .offsets_against_reference = in.machine.control.offsets_against_reference});
   if (!library) return tl::unexpected(library.error());
   in.library = *std::move(library);
   in.provenance.push_back(

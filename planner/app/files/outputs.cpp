@@ -1,7 +1,5 @@
 #include "planner/app/files/outputs.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -34,54 +32,6 @@ std::string lower(std::string s) {
                  [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
   return s;
 }
-
-tl::unexpected<Diagnostic> cannot_write(const std::string& path, std::string why) {
-  return fail({.code = "FILE-WRITE", .message = std::move(why), .file = path});
-}
-
-/// Temporaries that go away unless they were renamed.
-class Temporaries {
- public:
-  Temporaries() = default;
-  Temporaries(const Temporaries&) = delete;
-  Temporaries& operator=(const Temporaries&) = delete;
-  ~Temporaries() {
-    std::error_code ignored;
-    for (const auto& [from, to] : files_) fs::remove(from, ignored);
-  }
-
-  Status add(const Output& o) {
-    std::error_code ec;
-    if (fs::is_directory(o.path, ec)) return cannot_write(o.path, "is a folder");
-    std::string temporary = o.path + ".capstan-" + std::to_string(::getpid());
-    auto ok = write_file(temporary, o.bytes);
-    if (!ok) {
-      Diagnostic d = ok.error();
-      d.file = o.path;
-      return fail(std::move(d));
-    }
-    files_.emplace_back(std::move(temporary), o.path);
-    return {};
-  }
-
-  Status rename_all() {
-    std::string done;
-    while (!files_.empty()) {
-      std::error_code ec;
-      fs::rename(files_.front().first, files_.front().second, ec);
-      if (ec) {
-        return cannot_write(files_.front().second, "cannot be put in its place: " + ec.message() +
-                                                       (done.empty() ? "" : "; already in place: " + done));
-      }
-      done += (done.empty() ? "" : ", ") + files_.front().second;
-      files_.erase(files_.begin());
-    }
-    return {};
-  }
-
- private:
-  std::vector<std::pair<std::string, std::string>> files_;
-};
 
 /// What a writer said about no file in particular is about this one.
 void name_file(Job& job, const std::string& path) {
@@ -117,12 +67,9 @@ Result<Output> output_of(const std::string& path) {
 
 Result<std::vector<Output>> outputs_of(const std::vector<std::string>& paths) {
   std::vector<Output> out;
-  std::set<std::string> seen;
   for (const std::string& path : paths) {
     auto one = output_of(path);
     if (!one) return tl::unexpected(one.error());
-    if (!seen.insert(fs::path(path).lexically_normal().string()).second)
-      return fail({.code = "OUT-TWICE", .message = "is to be written twice", .file = path});
     out.push_back(*std::move(one));
   }
   return out;
@@ -182,17 +129,48 @@ Aside set_aside(const std::string& path) {
   return ec ? Aside{Aside::kStays, {}} : Aside{Aside::kRenamed, to};
 }
 
+Status can_be_written(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs,
+                      bool force) {
+  std::set<std::string> seen;
+  for (const std::string& path : outputs) {
+    const std::string target = path == "-" ? path : resolved(path);
+    if (!seen.insert(target).second)
+      return fail({.code = "OUT-TWICE", .message = "is to be written twice", .file = path});
+    if (path == "-") continue;
+    for (const std::string& in : inputs) {
+      std::error_code ec;
+      if (force || (resolved(in) != target && !fs::equivalent(in, target, ec))) continue;
+      return fail({.code = "OUT-INPUT",
+                   .message = "is read by this call, too (as " + in + "), and would be lost",
+                   .file = path,
+                   .hint = "name another file, or --force to replace it"});
+    }
+    if (auto ok = writable(path); !ok) return ok;
+  }
+  return {};
+}
+
 Status write_all(const std::vector<Output>& outputs) {
-  Temporaries files;
+  std::vector<StagedFile> files;
   for (const Output& o : outputs) {
     if (o.path == "-") continue;
-    if (auto ok = files.add(o); !ok) return ok;
+    auto staged = StagedFile::make(o.path, o.bytes);
+    if (!staged) return tl::unexpected(staged.error());
+    files.push_back(*std::move(staged));
   }
-  if (auto ok = files.rename_all(); !ok) return ok;
+  std::string done;
+  for (StagedFile& f : files) {
+    if (auto ok = f.put(); !ok) {
+      if (!done.empty()) ok.error().message += "; already in place: " + done;
+      return ok;
+    }
+    done += (done.empty() ? "" : ", ") + f.path();
+  }
   for (const Output& o : outputs) {
     if (o.path != "-") continue;
     const bool put = std::fwrite(o.bytes.data(), 1, o.bytes.size(), stdout) == o.bytes.size();
-    if (!put || std::fflush(stdout) != 0) return cannot_write("-", "standard output cannot be written");
+    if (!put || std::fflush(stdout) != 0)
+      return fail({.code = "FILE-WRITE", .message = "standard output cannot be written", .file = "-"});
   }
   return {};
 }

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <limits>
 
+#include "planner/exchange/iso14649/beyond.h"
 #include "planner/exchange/iso14649/convert.h"
 #include "planner/exchange/iso14649/dialect.h"
 #include "planner/exchange/iso14649/reading.h"
@@ -20,12 +21,14 @@ void place(Diagnostic& d, const p21::Instance& i) {
 }
 
 // Kept: unknown keywords, complex instances, and kinds that only other standards instantiate.
-AnyRef make_object(Reading& r, const p21::Instance& i) {
+AnyRef make_object(Reading& r, const p21::Instance& i, const std::map<std::uint64_t, TypeId>& kinds) {
   AnyRef at;
   if (!i.is_complex() && !i.user_defined()) {
     if (const auto kind = kind_of(i.keyword())) {
       if (kind->draft) r.draft.insert(std::string(i.keyword()));
-      at = r.plan.model.add_object(kind->type);
+      const auto said = kinds.find(i.id());
+      const bool narrower = said != kinds.end() && model::is_a(said->second, kind->type);
+      at = r.plan.model.add_object(narrower ? said->second : kind->type);
     }
   }
   if (!at.set()) at = r.plan.model.add_object(TypeId::kKeptInstance);
@@ -95,7 +98,8 @@ p21::Value Reading::parameter(AnyRef object, std::string_view attribute) const {
 
 void read_objects(Reading& r) {
   r.object_of.reserve(r.file.size());
-  for (const p21::Instance i : r.file) r.object_of.push_back(make_object(r, i));
+  const auto kinds = kinds_beyond(r.file);
+  for (const p21::Instance i : r.file) r.object_of.push_back(make_object(r, i, kinds));
   for (const p21::Instance i : r.file) {
     const AnyRef at = r.object_of[i.index()];
     if (at.type == TypeId::kKeptInstance) {
@@ -104,6 +108,7 @@ void read_objects(Reading& r) {
       fill(r, i, at);
     }
   }
+  read_beyond(r);
 }
 
 }  // namespace capstan::exchange

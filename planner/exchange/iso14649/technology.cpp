@@ -29,6 +29,7 @@ struct Use {
   double diameter_mm = 0.0;  // 0: unknown, or tools of several diameters
   std::int64_t teeth = 0;
   bool drilling = false;
+  bool tapping = false;  // one turn is one pitch, whatever the diameter
   model::Enumerated<model::Hand> hand;
 };
 
@@ -57,6 +58,7 @@ std::vector<Use> uses(const Reading& r) {
       use.drilling =
           m.holds<model::DrillingTypeOperation>(at) ||
           (body != nullptr && m.holds<model::Drill>(m.get<model::CuttingTool>(op.its_tool)->its_tool_body));
+      use.tapping = m.holds<model::Tapping>(at);
       if (body != nullptr) {
         use.teeth = body->number_of_teeth.value_or(0);
         use.hand = body->hand_of_cut;
@@ -187,7 +189,7 @@ void check_feed(Reading& r, const Use& use) {
          in_file(r, use.technology, "feedrate") + " moves nothing; taken as open");
     return;
   }
-  if (!t.spindle || *t.spindle == 0.0 || use.diameter_mm == 0.0) return;
+  if (!t.spindle || *t.spindle == 0.0 || use.diameter_mm == 0.0 || use.tapping) return;
   const double per_rev = *t.feedrate / std::abs(*t.spindle);
   const auto teeth = static_cast<double>(std::max<std::int64_t>(1, use.teeth));
   const double f = use.drilling ? per_rev : per_rev / teeth;

@@ -5,6 +5,7 @@
 
 #include "planner/base/number.h"
 #include "planner/exchange/exchange.h"
+#include "planner/exchange/iso14649/beyond.h"
 #include "planner/exchange/iso14649/dialect.h"
 #include "planner/exchange/iso14649/records.h"
 #include "planner/exchange/iso14649/trajectories.h"
@@ -58,8 +59,9 @@ class FileWriter {
   std::string run() {
     collect();
     number();
+    keep_beyond();
     std::string out = "ISO-10303-21;\nHEADER;\n" + header();
-    out += write_records(plan_, m_, [this](AnyRef at) { return number_of(at); });
+    out += beyond_ + write_records(plan_, m_, [this](AnyRef at) { return number_of(at); });
     out += "ENDSEC;\n" + sections_text(plan_, [this](AnyRef r) { return reference(r); }) + "DATA;\n";
     for (const auto& [n, at] : by_number_) instance(n, at, out);
     out += "ENDSEC;\nEND-ISO-10303-21;\n";
@@ -83,16 +85,67 @@ class FileWriter {
       seen[t].resize(m_.count(static_cast<TypeId>(t)));
       number_[t].resize(seen[t].size());
     }
-    while (!pending.empty()) {
-      const AnyRef at = pending.back();
-      pending.pop_back();
-      if (!at.set() || seen[static_cast<std::size_t>(at.type)][at.index]) continue;
-      seen[static_cast<std::size_t>(at.type)][at.index] = true;
-      if (is_foreign(at)) continue;
-      order_.push_back(at);
-      std::vector<AnyRef> next;
-      references(at, [&](AnyRef to) { next.push_back(to); });
-      pending.insert(pending.end(), next.rbegin(), next.rend());
+    const auto follow = [&](bool beyond) {
+      while (!pending.empty()) {
+        const AnyRef at = pending.back();
+        pending.pop_back();
+        if (!at.set() || seen[static_cast<std::size_t>(at.type)][at.index]) continue;
+        seen[static_cast<std::size_t>(at.type)][at.index] = true;
+        if (is_foreign(at)) continue;
+        const bool hidden =
+            beyond && !model::noun_type(at.type).in_iso14649 && written_type(at.type) == at.type;
+        (hidden ? hidden_ : order_).push_back(at);
+        std::vector<AnyRef> next;
+        if (hidden) {
+          model::for_each_reference(m_, at, [&](AnyRef to) { next.push_back(to); });
+        } else {
+          references(at, [&](AnyRef to) { next.push_back(to); });
+        }
+        pending.insert(pending.end(), next.rbegin(), next.rend());
+      }
+    };
+    follow(false);
+    // Then what only those attributes reach that the schema does not have, and so on from there.
+    for (std::size_t done = 0; done < beyond_at_.size();) {
+      for (; done < beyond_at_.size(); ++done) {
+        const auto& [at, a] = beyond_at_[done];
+        const void* data = m_.object(at);
+        if (a->storage == Storage::kRef) pending.push_back(model::value_of<AnyRef>(*a, data));
+        if (a->storage == Storage::kSelect)
+          pending.push_back(model::value_of<model::SelectValue>(*a, data).ref);
+        if (a->storage != Storage::kRefList) continue;
+        const auto& items = model::value_of<model::AnyRefList>(*a, data).items;
+        pending.insert(pending.end(), items.rbegin(), items.rend());
+      }
+      follow(true);
+    }
+  }
+
+  [[nodiscard]] std::string name_of(AnyRef at) const {
+    if (const std::uint64_t n = number_of(at); n != 0) return "#" + std::to_string(n);
+    const auto it = std::find(hidden_.begin(), hidden_.end(), at);
+    return it == hidden_.end() ? std::string() : "&" + std::to_string(it - hidden_.begin() + 1);
+  }
+
+  // What the schema cannot hold, into the header; what has no form there either is lost.
+  void keep_beyond() {
+    const NameOf name = [this](AnyRef at) { return name_of(at); };
+    for (const auto& [n, at] : by_number_) {
+      if (written_type(at.type) == at.type) continue;
+      beyond_ += "!CAPSTAN_TYPE('#" + std::to_string(n) + "','" +
+                 std::string(model::noun_type(at.type).keyword) + "');\n";
+    }
+    for (std::size_t i = 0; i < hidden_.size(); ++i) {
+      const auto& type = model::noun_type(hidden_[i].type);
+      beyond_ += "!CAPSTAN_OBJECT('&" + std::to_string(i + 1) + "','" + std::string(type.keyword) + "');\n";
+      for (const Attribute& a : type.attributes) {
+        if (model::has_value(a, m_.object(hidden_[i]))) beyond_at_.emplace_back(hidden_[i], &a);
+      }
+    }
+    for (const auto& [at, a] : beyond_at_) {
+      const bool kept = can_be_kept(m_, at, *a, name);
+      if (kept) beyond_ += write_value(m_, at, *a, name);
+      lost(at, *a, kept);
     }
   }
 
@@ -119,7 +172,7 @@ class FileWriter {
       ++left_out_[std::string(model::noun_type(at.type).keyword) + " (written as FREEFORM_OPERATION)"];
     for (const Attribute& a : model::noun_type(at.type).attributes) {
       if (!a.in_iso14649) {
-        if (model::has_value(a, data)) lost(at, a);
+        if (model::has_value(a, data)) beyond_at_.emplace_back(at, &a);
         continue;
       }
       const auto one = [&](AnyRef r) {
@@ -141,10 +194,11 @@ class FileWriter {
     }
   }
 
-  void lost(AnyRef at, const Attribute& a) {
+  void lost(AnyRef at, const Attribute& a, bool kept) {
     if (a.name == "persistent_id") return;  // in the header, and only for people and Capstan
+    if (number_of(at) == 0) return;         // told of what holds it
     const std::string what = std::string(model::noun_type(at.type).keyword) + "." + std::string(a.name);
-    ++left_out_[a.name == "enabled" ? what + ", kept in the header only," : what];
+    ++left_out_[kept || a.name == "enabled" ? what + ", kept in the header only," : what];
   }
 
   std::uint64_t& slot(AnyRef at) { return number_[static_cast<std::size_t>(at.type)][at.index]; }
@@ -205,9 +259,9 @@ class FileWriter {
       lines.push_back(line);
       line.clear();
     }
-    return "FILE_DESCRIPTION(" + texts(lines) + ",'" + implementation_level(plan_) + "');\nFILE_NAME(" + quoted(base_name()) + "," +
-           quoted(plan_.header_time_stamp) + "," + texts(plan_.header_authors) + "," +
-           texts(plan_.header_organizations) + ",'Capstan','Capstan','');\n" +
+    return "FILE_DESCRIPTION(" + texts(lines) + ",'" + implementation_level(plan_) + "');\nFILE_NAME(" +
+           quoted(base_name()) + "," + quoted(plan_.header_time_stamp) + "," + texts(plan_.header_authors) +
+           "," + texts(plan_.header_organizations) + ",'Capstan','Capstan','');\n" +
            "FILE_SCHEMA(('MACHINING_SCHEMA','MILLING_SCHEMA'));\n";
   }
   [[nodiscard]] std::string base_name() const {
@@ -341,6 +395,9 @@ class FileWriter {
   const model::Model& m_;
   std::vector<std::string>& losses_;
   std::vector<AnyRef> order_;
+  std::vector<AnyRef> hidden_;  // that only attributes reach which the schema does not have
+  std::vector<std::pair<AnyRef, const Attribute*>> beyond_at_;
+  std::string beyond_;                                                // their header entities
   std::array<std::vector<std::uint64_t>, model::kTypeCount> number_;  // 0: not written
   std::map<std::uint64_t, AnyRef> by_number_;
   std::map<std::string, std::size_t> left_out_;

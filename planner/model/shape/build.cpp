@@ -19,14 +19,14 @@ using geometry::Loop;
 using geometry::Vec2;
 using geometry::Vec3;
 
-namespace {
-
 std::string label(const Model& m, AnyRef feature) {
   const auto* f = m.get<ManufacturingFeature>(feature);
   std::string name(noun_type(feature.type).keyword);
   if (f != nullptr && f->its_id && !f->its_id->empty()) name += " '" + *f->its_id + "'";
   return name;
 }
+
+namespace {
 
 std::vector<Vec2> in_plane(const geometry::Placement& frame, const std::vector<Vec3>& points) {
   std::vector<Vec2> out;
@@ -265,23 +265,6 @@ Result<std::vector<Vec2>> travel_line(const Model& m, Ref<TravelPath> path, Feat
   return unsupported(m, into.feature, "its course of travel is of a kind that is not understood");
 }
 
-Status add_islands(const Model& m, const RefList<Boss>& bosses, FeatureShape& into) {
-  for (std::size_t i = 0; i < bosses.size(); ++i) {
-    const auto* b = m.get<Boss>(bosses[i]);
-    if (b == nullptr) continue;
-    auto shape = base(m, bosses[i], true);
-    if (!shape) return tl::unexpected(shape.error());
-    const auto area = closed_area(m, b->its_boundary, *shape);
-    if (!area) return tl::unexpected(area.error());
-    // From the boss's frame (workpiece) into the feature's: axes must agree, or it is not a 2.5D island.
-    const geometry::Placement rel = compose(inverse(into.frame), shape->frame);
-    if (std::abs(rel.z.z - 1.0) > 1e-6)
-      return unsupported(m, bosses[i], "its axis is not that of the feature it stands in");
-    into.islands.push_back({moved(rel, *area), rel.origin.z});
-  }
-  return {};
-}
-
 namespace {
 
 Result<Shapes> plain(const Model& m, AnyRef feature) {
@@ -339,9 +322,10 @@ std::string_view to_text(ShapeKind k) {
 
 Result<std::vector<FeatureShape>> shapes_of(const Model& model, Ref<ManufacturingFeature> feature) {
   shape::Piece piece(model);
-  auto out = shape::standing(model, feature, shape::Within{{}, {}, 0, false, &piece});
+  const shape::Within workpiece{{}, {}, 0, false, &piece};
+  auto out = shape::standing(model, feature, workpiece);
   if (!out) return out;
-  shape::spare_bosses(model, feature, *out);
+  if (auto ok = shape::spare_bosses(model, feature, workpiece, *out); !ok) return tl::unexpected(ok.error());
   for (std::size_t i = 0; i < out->size(); ++i) {
     (*out)[i].member = static_cast<int>(i);
     if (out->size() > 1) (*out)[i].name += "[" + std::to_string(i + 1) + "]";

@@ -25,6 +25,8 @@ using Shapes = std::vector<FeatureShape>;
 /// The middle of the shape's area at that height of its frame, workpiece coordinates.
 geometry::Vec3 middle(const FeatureShape& s, double z);
 
+/// The bosses that a pocket, face or step lists; null: another kind of feature.
+const RefList<Boss>* bosses_of(const Model& m, AnyRef feature);
 /// The compounds and patterns that list a feature; the pockets, faces and steps that a boss stands in.
 std::vector<AnyRef> holders(const Model& m, AnyRef feature);
 
@@ -55,6 +57,8 @@ struct Within {
   Piece* piece = nullptr;        ///< never null while shapes are built
 };
 
+/// Its kind and name, as messages call it.
+std::string label(const Model& m, AnyRef feature);
 /// Frame, name, depth: what every machining feature has. `kind` is left to the caller.
 Result<FeatureShape> base(const Model& m, AnyRef feature, bool needs_depth);
 
@@ -64,11 +68,15 @@ Result<geometry::Region> closed_area(const Model& m, Ref<ClosedProfile> profile,
 Result<std::vector<geometry::Vec2>> open_line(const Model& m, Ref<OpenProfile> profile);
 /// The path of travel in the feature's frame.
 Result<std::vector<geometry::Vec2>> travel_line(const Model& m, Ref<TravelPath> path, FeatureShape& into);
-/// The bosses of a pocket or face as islands.
+/// The bosses of a pocket or face as islands. Fails for one that is not in it, and for one that leans.
 Status add_islands(const Model& m, const RefList<Boss>& bosses, FeatureShape& into);
 
-/// Takes out of a feature what bosses of their own leave standing in it.
-void spare_bosses(const Model& m, AnyRef feature, Shapes& shapes);
+/// Takes out of a feature what bosses of their own leave standing in it, wherever compounds and patterns put
+/// them. Fails  SHP-BOSS where a boss may stand in it of which not even the contour is known.
+Status spare_bosses(const Model& m, AnyRef feature, const Within& in, Shapes& shapes);
+/// Whether its walls are not upright; why it is not planned then.
+bool leans(const Boss& boss);
+tl::unexpected<Diagnostic> leaning(const Model& m, AnyRef boss);
 /// An area in another frame; its loops turn round when seen from below.
 geometry::Region moved(const geometry::Placement& frame, const geometry::Region& r);
 /// Where a closed outline crosses itself, so that it bounds no single area; touching itself is no crossing.

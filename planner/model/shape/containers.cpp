@@ -435,6 +435,13 @@ Result<std::vector<Within>> coordinates(const Model& m, AnyRef feature, const Wi
 
 }  // namespace
 
+const RefList<Boss>* bosses_of(const Model& m, AnyRef feature) {
+  if (const auto* f = m.get<Pocket>(feature)) return &f->its_boss;
+  if (const auto* f = m.get<PlanarFace>(feature)) return &f->its_boss;
+  if (const auto* f = m.get<Step>(feature)) return &f->its_boss;
+  return nullptr;
+}
+
 std::vector<AnyRef> holders(const Model& m, AnyRef feature) {
   std::vector<AnyRef> out;
   const auto lists = [&](const auto& items) {
@@ -448,9 +455,7 @@ std::vector<AnyRef> holders(const Model& m, AnyRef feature) {
   }
   if (!m.holds<Boss>(feature)) return out;
   for (const AnyRef r : m.all_below(TypeId::kMachiningFeature)) {
-    if (const auto* p = m.get<Pocket>(r); p != nullptr && lists(p->its_boss.items)) out.push_back(r);
-    if (const auto* p = m.get<PlanarFace>(r); p != nullptr && lists(p->its_boss.items)) out.push_back(r);
-    if (const auto* p = m.get<Step>(r); p != nullptr && lists(p->its_boss.items)) out.push_back(r);
+    if (const auto* bosses = bosses_of(m, r); bosses != nullptr && lists(bosses->items)) out.push_back(r);
   }
   return out;
 }
@@ -498,3 +503,19 @@ Result<Shapes> referred(const Model& m, AnyRef feature, const Within& in) {
 }
 
 }  // namespace capstan::model::shape
+
+namespace capstan::model {
+
+std::set<AnyRef> parts_of_others(const Model& m) {
+  std::set<AnyRef> out;
+  for (const AnyRef f : m.all_below(TypeId::kManufacturingFeature)) {
+    if (const auto* bosses = shape::bosses_of(m, f)) out.insert(bosses->items.begin(), bosses->items.end());
+    if (const auto* c = m.get<CompoundFeature>(f))
+      out.insert(c->elements.items.begin(), c->elements.items.end());
+    if (const auto* p = m.get<ReplicateFeature>(f)) out.insert(p->replicate_base_feature);
+  }
+  out.erase(AnyRef{});
+  return out;
+}
+
+}  // namespace capstan::model

@@ -3,7 +3,6 @@
 #include <optional>
 
 #include "planner/base/number.h"
-#include "planner/model/nouns/workpiece.h"
 #include "planner/model/raw_piece.h"
 #include "planner/model/resolve.h"
 #include "planner/model/shape/build.h"
@@ -83,23 +82,16 @@ Box2 bounds_of(const std::vector<Vec2>& line) {
   return out;
 }
 
-/// The raw piece as the file states it for the feature's workpiece.
-std::optional<geometry::Box3> stated_raw(const Model& m, AnyRef self) {
-  const auto* feature = m.get<ManufacturingFeature>(self);
-  const Workpiece* piece = feature == nullptr ? nullptr : m.get<Workpiece>(feature->its_workpiece);
-  if (piece == nullptr) return std::nullopt;
-  return box_of(m, raw_solid(m, *piece));
-}
-
 /// The box that the other features span: what every raw piece holds. What compounds and patterns hold is left
 /// out: where it stands may itself rest on the piece.
 std::optional<geometry::Box3> box_of_others(const Model& m) {
   geometry::Box3 out;
+  Piece piece(m);
   for (const AnyRef f : m.all_below(TypeId::kMachiningFeature)) {
     const bool area =
         m.holds<PlanarFace>(f) || m.holds<Pocket>(f) || m.holds<Slot>(f) || m.holds<RoundHole>(f);
     if (!area || !holders(m, f).empty()) continue;
-    const auto shapes = shapes_of(m, Ref<ManufacturingFeature>(f));
+    const auto shapes = any(m, f, Within{{}, {}, 0, false, &piece});
     if (!shapes) continue;
     for (const FeatureShape& s : *shapes) {
       if (s.area.empty()) continue;
@@ -213,9 +205,9 @@ Result<Shapes> outside(const Model& m, AnyRef self, const ProfileFeature& f) {
 Result<Shapes> boss(const Model& m, AnyRef self, const Boss& f) {
   auto s = base(m, self, true);
   if (!s) return tl::unexpected(s.error());
+  if (leans(f)) return leaning(m, self);
   s->kind = ShapeKind::kOutside;
   s->open = true;
-  s->slope_rad = f.slope.value_or(0.0);
   auto inner = closed_area(m, f.its_boundary, *s);
   if (!inner) return tl::unexpected(inner.error());
   s->islands.push_back({*inner, 0.0});

@@ -29,15 +29,10 @@ Vec3 middle(const FeatureShape& s, double z) {
 void Piece::find() {
   if (known_) return;
   known_ = true;
-  const auto projects = m_.all(TypeId::kProject);
-  const Workpiece* piece =
-      workpiece_of(m_, projects.empty() ? Ref<Project>{} : Ref<Project>(projects.front()));
-  if (piece != nullptr) {
-    if (const auto box = box_of(m_, raw_solid(m_, *piece))) {
-      box_ = *box;
-      stated_ = true;
-      return;
-    }
+  if (const auto raw = stated_raw(m_)) {
+    box_ = *raw;
+    stated_ = true;
+    return;
   }
   // What the plain features span; steps and outside profiles may be drawn far beyond the piece.
   for (const AnyRef f : m_.all_below(TypeId::kTwo5dManufacturingFeature)) {

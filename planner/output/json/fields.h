@@ -64,6 +64,7 @@ template <class V>
 void fields(V& v, Is<model::Control> auto& x) {
   v("dialect", x.dialect), v("decimals", x.decimals), v("feed_decimals", x.feed_decimals);
   v("path_tolerance_mm", x.path_tolerance_mm), v("block_time_s", x.block_time_s);
+  v("offsets_against_reference", x.offsets_against_reference);
 }
 template <class V>
 void fields(V& v, Is<model::Machine> auto& x) {
@@ -128,7 +129,15 @@ void fields(V& v, Is<model::Cutter> auto& x) {
   v("library_reference", x.library_reference), v("library_source", x.library_source);
   v("product_id", x.product_id), v("carousel", x.carousel), v("stated_in_inches", x.stated_in_inches);
   v("loaded", x.loaded), v("in_stock", x.in_stock), v("life_used_min", x.life_used_min);
-  v("sisters", x.sisters), v("runout_mm", x.runout_mm);
+  v("sisters", x.sisters), v("runout_mm", x.runout_mm), v("table_line", x.table_line);
+}
+template <class V>
+void fields(V& v, Is<model::ToolTableWord> auto& x) {
+  v("letter", x.letter), v("value", x.value);
+}
+template <class V>
+void fields(V& v, Is<model::ToolTableLine> auto& x) {
+  v("words", x.words), v("against_reference", x.against_reference), v("untouched", x.untouched);
 }
 template <class V>
 void fields(V& v, Is<model::HolderSegment> auto& x) {

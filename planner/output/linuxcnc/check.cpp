@@ -42,7 +42,13 @@ Status check_tools(const model::Plan& plan, Job& job) {
     if (!fits(c.functional_length_mm) || !fits(c.cutting_diameter_mm)) {
       return bad("OUT-NUMBER", "length or diameter of cutter " + c.id + " is not a size", c.id);
     }
-    if (c.functional_length_mm <= 0.0) {
+    const auto& line = c.table_line;
+    if (line &&
+        std::any_of(line->words.begin(), line->words.end(), [](const auto& w) { return !fits(w.value); }))
+      return bad("OUT-NUMBER", "a word of the tool table's line of cutter " + c.id + " is no size", c.id);
+    if (const std::string fault = model::offset_fault(c); !fault.empty()) {
+      job.warn("OUT-TOOL-LENGTH", fault + "; measure the tool before the program runs", c.id);
+    } else if (c.functional_length_mm <= 0.0) {
       job.warn(
           "OUT-TOOL-LENGTH",
           "T" + std::to_string(c.pocket) + " has no known length; measure it and enter it in the tool table",

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "planner/base/number.h"
+#include "planner/model/lie.h"
 #include "planner/model/nouns/workpiece.h"
 #include "planner/output/linuxcnc/arcs.h"
 #include "planner/output/linuxcnc/check.h"
@@ -76,7 +78,9 @@ class Writer {
     }
     const std::size_t n = due->second.size();
     const std::string what = n == 1 ? first : std::to_string(n) + " touches as listed: " + first + ", ...";
-    const std::string after = ", correct the work offset, then continue";
+    const Remedy remedy = remedy_of(plan_, due->second, before);
+    if (!remedy.comment.empty()) program_.comment(remedy.comment);
+    const std::string after = ", " + remedy.message + ", then continue";
     program_.line("(MSG, " + plain_text(what).substr(0, 200 - after.size()) + after + ")");
     program_.line("M0");
     return true;
@@ -101,12 +105,21 @@ class Writer {
     for (const Cutter* c : by_pocket()) {
       const std::string t = std::to_string(c->pocket);
       program_.comment("CAPSTAN TOOL T" + t + " H" + t +
-                       " length=" + program_.number(c->functional_length_mm) +
+                       " length=" + program_.number(model::length_offset_mm(*c)) +
                        " diameter=" + program_.number(c->cutting_diameter_mm) + " id=\"" +
                        marker_text(c->id) + "\" " + std::string(model::to_text(c->cutter_class)));
     }
+    for (const Cutter* c : by_pocket()) {
+      if (const std::string fault = model::offset_fault(*c); !fault.empty()) {
+        program_.comment("NOT MEASURED: " + fault + "; measure the tool before this program runs");
+      } else if (c->table_line && c->table_line->against_reference) {
+        program_.comment("T" + std::to_string(c->pocket) +
+                         ": its length offset counts from a reference; its length is not known, " +
+                         program_.number(c->functional_length_mm) + " mm is assumed");
+      }
+    }
     warnings();
-    if (!plan_.steps.empty()) clamped(plan_.steps.front().setup);
+    if (!plan_.steps.empty()) clamped(plan_.steps.front().setup, std::nullopt);
     program_.blank();
     program_.line("G21 G17 G90 G94 G40 G49 G80");
     tolerance(0.0);
@@ -149,12 +162,13 @@ class Writer {
   }
 
   // What the operator must know before a set-up begins: where zero is, what holds the piece, and where.
-  void clamped(std::size_t n) {
+  void clamped(std::size_t n, std::optional<std::size_t> before) {
     const model::SetupResult& setup = plan_.setups[n];
     const model::Workholding& h = setup.holding;
     const std::string name = "set-up " + std::to_string(n + 1) + ": ";
-    program_.comment(name + "zero " + setup.work_offset + ": " +
-                     (h.pickup_text.empty() ? "the origin of the set-up in the part file" : h.pickup_text));
+    lies(n, before, name);
+    if (!h.pickup_text.empty())
+      program_.comment(name + "pick up " + setup.work_offset + ": " + h.pickup_text);
     if (h.solids.empty()) {
       program_.comment(name + "what holds the piece is not planned: fixtures and clamps are not checked");
       return;
@@ -173,6 +187,51 @@ class Writer {
       program_.comment(name + s.id + ": X " + range(box.lo.x, box.hi.x) + ", Y " + range(box.lo.y, box.hi.y) +
                        ", Z " + range(box.lo.z, box.hi.z) + " mm" + (s.presses ? "" : ", does not press"));
     }
+  }
+
+  // How the piece lies and where zero is on it, in words and numbers.
+  void lies(std::size_t n, std::optional<std::size_t> before, const std::string& name) {
+    const auto here = model::placed_in(plan_, n);
+    if (before)
+      program_.comment(name + "the workpiece is " + model::turn_text(model::placed_in(plan_, *before), here) +
+                       " after set-up " + std::to_string(*before + 1));
+    program_.comment(name + "the workpiece's " + model::axis_text(here, {0, 0, 1}) + " up, its " +
+                     model::axis_text(here, {1, 0, 0}) + " to the right, its " +
+                     model::axis_text(here, {0, 1, 0}) + " to the back");
+    const std::string at = zero(n);
+    const Vec3 own = here.to_local({0, 0, 0});
+    const std::string in_part = "the point X" + program_.number(own.x) + " Y" + program_.number(own.y) + " Z" +
+                                program_.number(own.z) + " of the part's drawing";
+    program_.comment(
+        name + "zero " + plan_.setups[n].work_offset +
+        (at.empty() ? ": " + in_part : " on the raw piece as it lies: " + at + "; that is " + in_part));
+    if (at.empty()) return;
+    geometry::Box3 raw;
+    raw.add(here.to_parent(plan_.stock.box.lo));
+    raw.add(here.to_parent(plan_.stock.box.hi));
+    program_.comment(name + "the raw piece reaches from X" + program_.number(raw.lo.x) + " Y" +
+                     program_.number(raw.lo.y) + " Z" + program_.number(raw.lo.z) + " to X" +
+                     program_.number(raw.hi.x) + " Y" + program_.number(raw.hi.y) + " Z" +
+                     program_.number(raw.hi.z) +
+                     (before ? "; a side that was cut before stands back by what was cut" : ""));
+  }
+
+  [[nodiscard]] std::string zero(std::size_t n) const {
+    return model::zero_text(plan_.stock.box, model::placed_in(plan_, n), plan_.machine.control.decimals);
+  }
+
+  // What to do between two set-ups, in a message that a line of the control can hold.
+  [[nodiscard]] std::string to_clamp(std::size_t n, std::size_t before) const {
+    constexpr std::size_t kLongest = 230;
+    const auto here = model::placed_in(plan_, n);
+    const std::string offset = plan_.setups[n].work_offset, at = zero(n);
+    const std::string first = "set-up " + std::to_string(n + 1) + ": clamp the workpiece anew, " +
+                              model::turn_text(model::placed_in(plan_, before), here) + ", its " +
+                              model::axis_text(here, {0, 0, 1}) + " up; set " + offset;
+    const std::string last = ", then continue";
+    const std::string where = at.empty() ? " as the program says" : ": " + at;
+    const bool fits = first.size() + where.size() + last.size() <= kLongest;
+    return first + (fits ? where : " as the program says") + last;
   }
 
   [[nodiscard]] std::vector<const Cutter*> by_pocket() const {
@@ -218,11 +277,8 @@ class Writer {
                   (why.empty() ? std::string() : " condemned=\"" + marker_text(why.front()->code) + "\"") +
                   ")");
     if (new_setup) {
-      clamped(step.setup);
-      program_.line("(MSG, " +
-                    plain_text("set-up " + std::to_string(step.setup + 1) +
-                               ": clamp the workpiece anew, set " + setup.work_offset + ", then continue") +
-                    ")");
+      clamped(step.setup, setup_);
+      program_.line("(MSG, " + plain_text(to_clamp(step.setup, setup_)) + ")");
       program_.line("M0");
     }
     if (!why.empty()) stop_for(why, n);
@@ -388,27 +444,6 @@ Result<std::string> write_linuxcnc(const Plan& plan, Job& job,
   }
   if (auto ok = writable(plan, job); !ok) return tl::unexpected(ok.error());
   return Writer(plan, condemned).run();
-}
-
-std::string write_tool_table(const Plan& plan) {
-  std::vector<const Cutter*> loaded;
-  for (const Cutter& c : plan.cutters) {
-    if (c.pocket > 0) loaded.push_back(&c);
-  }
-  std::sort(loaded.begin(), loaded.end(),
-            [](const Cutter* a, const Cutter* b) { return a->pocket < b->pocket; });
-  std::string out;
-  for (const Cutter* c : loaded) {
-    const auto signed_number = [](double v) {
-      const std::string text = fixed(v, 6);
-      return text.front() == '-' ? text : "+" + text;
-    };
-    const std::string t = std::to_string(c->pocket);
-    out += "T" + t + " P" + t + " Z" + signed_number(c->functional_length_mm) + " D" +
-           signed_number(c->cutting_diameter_mm) + " ;" +
-           plain_text(c->description.empty() ? c->id : c->description).substr(0, 120) + "\n";
-  }
-  return out;
 }
 
 }  // namespace capstan::output

@@ -32,7 +32,8 @@ namespace capstan::output {
 ///         and coolant off, `M0` with a message that says what to measure, what is expected, and its
 ///         tolerance. No move of a probe is written, whether the machine has one or not: its approach is not
 ///         planned and so not checked against the piece and what holds it; the operator measures by hand or
-///         with a routine of the machine's own, and corrects the cutter or the work offset.
+///         with a routine of the machine's own. The message says what to correct: the work offset by a
+///         place; by a size the radius or the length of the next step's tool.
 /// Start   a path's first point is reached by rapid from straight above it; a path's maker vouches for that.
 /// Needs   each step bound: a path, a cutter with a pocket, a set-up.
 /// Fails   OUT-EMPTY, OUT-OPEN (no path), OUT-TOOL, OUT-SETUP, OUT-SCHEDULE, OUT-NUMBER (not finite or out of
@@ -48,7 +49,10 @@ namespace capstan::output {
                                                  const std::vector<model::Condemnation>& condemned = {});
 
 /// The tool table (.tbl) of the program: `T1 P1 Z+50.000000 D+18.000000 ;description`, by tool number.
-/// Units  mm (LINEAR_UNITS = mm of the machine's ini file); Z is the functional length, D the diameter.
+/// Units  mm (LINEAR_UNITS = mm of the machine's ini file).
+/// A tool that came from the machine's tool table has its words of it again, number for number: pocket,
+/// offsets of all axes, diameter (but for a boring tool, which is set anew). Of another, Z is the functional
+/// length, D the diameter, P the tool number.
 [[nodiscard]] std::string write_tool_table(const model::Plan& plan);
 
 /// Text that can stand in a comment, between quotes: what is not plain ASCII, and " % ( ) ; are

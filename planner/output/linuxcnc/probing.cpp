@@ -1,9 +1,13 @@
 #include "planner/output/linuxcnc/probing.h"
 
+#include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "planner/base/number.h"
 #include "planner/model/fit/stated.h"
+#include "planner/model/lie.h"
+#include "planner/model/measured.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/resolve.h"
 
@@ -66,6 +70,40 @@ std::vector<std::string> probing_text(const model::Plan& plan, AnyRef probing) {
                                    : "with " + probe->its_id.value_or("a touch probe") + ", T" + position);
   }
   return out;
+}
+
+Remedy remedy_of(const model::Plan& plan, const std::vector<AnyRef>& probings, AnyRef before) {
+  const model::Model& m = plan.model;
+  const auto next = std::find_if(plan.steps.begin(), plan.steps.end(),
+                                 [&](const model::StepResult& s) { return s.step == before; });
+  const model::Cutter* cutter =
+      next == plan.steps.end() ? nullptr : model::find_cutter(plan, next->cutter_id);
+  bool size = false, upright = false;
+  for (const AnyRef r : probings) {
+    const auto& p = m.at<model::WorkpieceProbing>(r);
+    const auto* value = m.get<model::NcVariable>(p.measured_offset);
+    if (value == nullptr || !value->its_name.value_or("").starts_with(model::kMeasuredSize)) continue;
+    size = true;
+    const auto along = model::direction(m, p.direction);
+    if (!along || next == plan.steps.end()) continue;
+    constexpr double kAlong = 0.999;  // cosine
+    const auto z = model::placed_in(plan, next->setup).direction_to_parent(*along).z;
+    upright = upright || std::abs(z) > kAlong;
+  }
+  if (!size || cutter == nullptr) return {"correct the work offset", {}};
+  const std::string t = "T" + std::to_string(cutter->pocket);
+  if (cutter->cutter_class == model::CutterClass::kBoringTool)
+    return {"set the radius of " + t + " by the difference",
+            t + ": a touch later than expected means that the wall is out by the difference; set the boring "
+                "tool's slide by it, not the work offset"};
+  if (upright)
+    return {"correct the length offset of " + t + " by the difference",
+            t + ": the size is a depth; its length offset is corrected, not the work offset"};
+  return {
+      "correct the radius of " + t + " by the difference",
+      t + ": each touch differs by what the cutter's radius is off: correct its radius [wear], not the work "
+          "offset. Paths are of the cutter's centre and no G41 acts here, so that the last step is planned "
+          "again with that radius"};
 }
 
 }  // namespace capstan::output

@@ -79,9 +79,11 @@ bool in_air(const Work& w, const StepWork& step, double removed_mm3) {
                      m.holds<model::BottomAndSideRoughMilling>(step.operation);
   if (rough) return true;
   if (!m.holds<model::Two5dMillingOperation>(step.operation)) return false;
-  return std::none_of(w.plan.steps.begin(), w.plan.steps.end(), [&](const model::StepResult& s) {
-    const auto* ws = m.get<model::MachiningWorkingstep>(s.step);
-    return ws != nullptr && ws->its_feature == step.feature;
+  // A finish stays after other steps of what it finishes: of the same element, where there are several.
+  return std::none_of(w.steps.begin(), w.steps.end(), [&](const StepWork& other) {
+    const auto is_other = [&](const model::StepResult& r) { return r.step == other.step; };
+    return other.feature == step.feature && (!other.proposed || other.member == step.member) &&
+           std::any_of(w.plan.steps.begin(), w.plan.steps.end(), is_other);
   });
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "planner/base/number.h"
+#include "planner/pipeline/members.h"
 #include "planner/pipeline/steps.h"
 
 namespace capstan::pipeline {
@@ -15,6 +16,7 @@ using model::Model;
 void take_cutter(Work& w, StepWork& step, const model::Candidate& c) {
   std::erase_if(step.rejected_tools, [&](const auto& r) { return r.what == c.cutter.id; });
   w.plan.model.get<model::MachiningOperation>(step.operation)->its_tool = tool_noun(w, c.cutter);
+  fit_to_cutter(w, step);
   w.plan.ledger.bind(step.operation, "its_tool", model::Binder::kToolSelection, c.why,
                      {{step.step, "its_operation"}}, step.rejected_tools);
 }

@@ -27,6 +27,21 @@ void tell_slow(Work& w, const StepWork& step, const model::StepResult& r) {
                              "; a larger or shorter cutter would be quicker");
 }
 
+/// What the plan said of a step whose cutter, speed and feed are what they were: which limits these reached
+/// was found when they were chosen, and is not asked again.
+const model::StepResult* unchanged(const Work& w, const StepWork& step, const model::StepResult& r) {
+  constexpr double kSame = 1e-6;  // of the value: what a file's units round
+  if (step.open_technology) return nullptr;
+  for (const model::StepResult& was : w.recorded_steps) {
+    if (was.step != r.step) continue;
+    const auto same = [](double a, double b) { return std::abs(a - b) <= kSame * std::abs(a); };
+    const bool as_before = was.cutter_id == r.cutter_id && same(was.spindle_rpm, r.spindle_rpm) &&
+                           same(was.feed_mm_min, r.feed_mm_min);
+    return as_before ? &was : nullptr;
+  }
+  return nullptr;
+}
+
 }  // namespace
 
 std::vector<model::ActiveConstraint> active_of(const optimise::CutAnswer& answer) {
@@ -53,6 +68,7 @@ void keep(Work& w, const StepWork& step, model::StepResult r, const optimise::Fe
     for (auto& a : r.active) a.saves_s = 0.0;
     w.job.warn(t.error().code, "step '" + name_of(w, step) + "' has no time: " + t.error().message);
   }
+  if (const auto* was = r.active.empty() ? unchanged(w, step, r) : nullptr) r.active = was->active;
   w.plan.steps.push_back(std::move(r));
 }
 

@@ -19,7 +19,10 @@ namespace capstan::pipeline {
 [[nodiscard]] std::vector<model::ActiveConstraint> active_of(const optimise::CutAnswer& answer);
 /// Whether the feed is one that planning bound before: then it is the most, and each move has its own.
 [[nodiscard]] bool feed_was_planned(const Work& w, const StepWork& step);
-/// How far a limit may be exceeded somewhere on a path: sections are known to a cell's width.
+/// By which share of itself a limit may be exceeded at one place of a path before the step counts as
+/// exceeding it. Sections come from cells (the height map's are a twentieth of the cutter wide and more), so
+/// that a width or depth of cut, and with it force, torque and power, is uncertain by about so much. Default,
+/// unsourced. What is above it is kept as StepResult::exceeded, and model::condemned condemns the step.
 inline constexpr double kTolerableExcess = 0.1;
 /// Feeds along a path. Where a limit seems to be exceeded by more than kTolerableExcess, ramps that were told
 /// as side cuts are told as slots (end_cuts_as_slots), and the feeds are asked for again.

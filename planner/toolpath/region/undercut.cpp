@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "planner/base/number.h"
 #include "planner/toolpath/region/patterns.h"
@@ -23,6 +24,13 @@ constexpr int kMostPasses = 200;
 /// In the middle both edges of the head cut beside the mouth: half the feed, so that they take what one
 /// takes.
 constexpr double kBothEdges = 0.5;
+
+/// Back through what it has just cut a head goes faster: it meets no material, but chips that could not leave
+/// upwards. Default, unsourced.
+constexpr double kBackFree = 4.0;
+/// Most by which a thin pass of the head is quicker than one that goes a whole step aside; default,
+/// unsourced.
+constexpr double kMostQuicker = 3.0;
 
 /// The cutter's head: what cuts under the mouth.
 struct Head {
@@ -81,6 +89,29 @@ std::vector<Vec2> beside(const std::vector<Vec2>& line, double by) {
   return out;
 }
 
+/// The thickest chip of a pass that takes a width from a wall, by the feed of a tooth: 2 sqrt(a (d - a)) / d
+/// for a width a below half the diameter d.
+double thickest_chip(const PathJob& task, double taken_mm) {
+  const double d = task.cutter.cutting_diameter_mm;
+  const double a = std::clamp(taken_mm, 1e-3, 0.5 * d);
+  return 2.0 * std::sqrt(a * (d - a)) / d;
+}
+
+/// By how much a pass may be quicker than one that takes the question's width (undercut_width_mm), so that
+/// its teeth take the same thickest chip, and with it the same force.
+double quicker(const PathJob& task, const Undercut& u, double taken_mm) {
+  if (!task.left_on_side_mm) return 1.0;  // the question was a slot of the whole diameter
+  return std::clamp(thickest_chip(task, undercut_width_mm(task, u)) / thickest_chip(task, taken_mm), 1.0,
+                    kMostQuicker);
+}
+
+/// How much further aside each pass goes than the one before.
+std::vector<double> taken_by(const std::vector<double>& sides) {
+  std::vector<double> out;
+  for (std::size_t i = 0; i < sides.size(); ++i) out.push_back(sides[i] - (i > 0 ? sides[i - 1] : 0.0));
+  return out;
+}
+
 /// Begins at, or goes on to, the start of a pass at its height.
 void go_to(PathWriter& writer, Vec2 p, double z) {
   if (writer.begun()) {
@@ -92,18 +123,20 @@ void go_to(PathWriter& writer, Vec2 p, double z) {
 }
 
 /// Open at both ends: to and fro, the middle first, then aside by turns.
-Status cut_through(const PathJob& task, const std::vector<Vec2>& course, const std::vector<double>& sides,
-                   const std::vector<double>& heights, PathWriter& writer) {
-  std::vector<double> offsets = {0.0};
-  for (const double s : sides) {
-    offsets.push_back(s);
-    offsets.push_back(-s);
+Status cut_through(const PathJob& task, const Undercut& u, const std::vector<Vec2>& course,
+                   const std::vector<double>& sides, const std::vector<double>& heights, PathWriter& writer) {
+  const std::vector<double> taken = taken_by(sides);
+  std::vector<std::pair<double, double>> passes = {{0.0, kBothEdges}};  // aside; share of the feed
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    const double share = quicker(task, u, taken[i]);
+    passes.emplace_back(sides[i], share);
+    passes.emplace_back(-sides[i], share);
   }
   const bool edges = task.left_on_side_mm.has_value();
   bool back = false;  // the cutter stands at the far end
   for (const double z : heights) {
-    for (const double side : offsets) {
-      writer.factors(side == 0.0 && edges ? kBothEdges : 1.0, 1.0);
+    for (const auto& [side, share] : passes) {
+      writer.factors(edges ? share : 1.0, 1.0);
       const auto line = side == 0.0 ? course : beside(course, side);
       if (line.empty()) return refuse(task, "TPA-UNSUPPORTED", "its course turns back on itself");
       Track there = track_of_line(line);
@@ -115,6 +148,11 @@ Status cut_through(const PathJob& task, const std::vector<Vec2>& course, const s
   }
   return {};
 }
+
+/// A pass aside to a closed end: along one wall, round the end, along the other.
+struct Loop {
+  Track in, end, out;
+};
 
 /// Closed at the far end: in along the middle and back, then in along the right side, round the end and out
 /// along the left one, so that the walls are always on the right. Where the head's front meets the closed end
@@ -130,16 +168,17 @@ Status cut_to_the_end(const PathJob& task, const Undercut& u, const WorkArea& w,
   const double d = task.cutter.cutting_diameter_mm;
   const double edge = 0.5 * d - u.mouth_mm;
   const double front = std::min(length_of(middle), std::max(0.0, 0.5 * d - u.mouth_mm) + 1.0);
-  std::vector<Track> loops;
+  const std::vector<double> taken = taken_by(sides);
+  std::vector<Loop> loops;
   for (const double s : sides) {
     const auto right = beside(course, -s), left = beside(course, s);
     if (right.empty() || left.empty())
       return refuse(task, "TPA-UNSUPPORTED", "its course turns back on itself");
-    Track t = track_of_line(right);
-    t.segments.push_back({left.back(), end, round ? Bend::kCcw : Bend::kStraight});
-    const Track out = reversed(track_of_line(left));
-    t.segments.insert(t.segments.end(), out.segments.begin(), out.segments.end());
-    loops.push_back(walls_on_right(task) ? t : reversed(t));
+    Loop loop{track_of_line(right), {}, reversed(track_of_line(left))};
+    loop.end.start = right.back();
+    loop.end.segments.push_back({left.back(), end, round ? Bend::kCcw : Bend::kStraight});
+    if (!walls_on_right(task)) loop = {reversed(loop.out), reversed(loop.end), reversed(loop.in)};
+    loops.push_back(std::move(loop));
   }
   for (const double z : heights) {
     go_to(writer, middle.start, z);
@@ -152,11 +191,20 @@ Status cut_to_the_end(const PathJob& task, const Undercut& u, const WorkArea& w,
     } else {
       writer.follow(middle, z, MoveRole::kCut);
     }
+    writer.factors(kBackFree, 1.0);
     writer.follow(reversed(middle), z, MoveRole::kRetract);
-    for (const Track& t : loops) {
-      go_to(writer, t.start, z);
-      writer.follow(t, z, MoveRole::kCut);
+    for (std::size_t i = 0; i < loops.size(); ++i) {
+      const double along_walls = quicker(task, u, taken[i]);
+      writer.factors(along_walls, 1.0);
+      go_to(writer, loops[i].in.start, z);
+      writer.follow(loops[i].in, z, MoveRole::kCut);
+      // Round the end its front is in the material, where the chip is as thick as the feed.
+      writer.factors(std::min(1.0, thickest_chip(task, undercut_width_mm(task, u))), 1.0);
+      writer.follow(loops[i].end, z, MoveRole::kCut);
+      writer.factors(along_walls, 1.0);
+      writer.follow(loops[i].out, z, MoveRole::kCut);
     }
+    writer.factors(1.0, 1.0);
   }
   return {};
 }
@@ -166,6 +214,12 @@ Status cut_to_the_end(const PathJob& task, const Undercut& u, const WorkArea& w,
 double side_step(const PathJob& task, double diameter_mm) {
   const double most = kSidePart * diameter_mm;
   return task.radial_depth_mm > 0.0 ? std::min(task.radial_depth_mm, most) : most;
+}
+
+double undercut_width_mm(const PathJob& task, const Undercut& u) {
+  const double d = task.cutter.cutting_diameter_mm;
+  if (u.flank_rad > 0.0 || !task.left_on_side_mm) return d;
+  return std::clamp(0.5 * d - (u.mouth_mm - *task.left_on_side_mm), side_step(task, d), d);
 }
 
 std::optional<Undercut> undercut_of(const model::FeatureShape& s) {
@@ -267,7 +321,8 @@ Result<GeneratedPath> undercut_path(const PathJob& task, const Undercut& u, Slot
   for (int i = 0; i <= n; ++i) heights.push_back(bottom + (n > 0 ? std::max(spare, 0.0) * (n - i) / n : 0.0));
   PathWriter writer(task);
   if (both) {
-    if (auto ok = cut_through(task, run.line, sides, heights, writer); !ok) return tl::unexpected(ok.error());
+    if (auto ok = cut_through(task, u, run.line, sides, heights, writer); !ok)
+      return tl::unexpected(ok.error());
   } else if (auto ok = cut_to_the_end(task, u, *w, run.line, sides, heights, writer); !ok) {
     return tl::unexpected(ok.error());
   }

@@ -28,6 +28,10 @@ inline constexpr double kLastSide = 0.2;
 /// By how much a pass of the head goes further aside than the one before, mm.
 [[nodiscard]] double side_step(const PathJob& task, double diameter_mm);
 
+/// What one edge of the head cuts at most, across: beside the mouth that was milled before, or as far as it
+/// moves aside in one pass; its diameter where no mouth was milled.
+[[nodiscard]] double undercut_width_mm(const PathJob& task, const Undercut& u);
+
 /// The course of a slot, set-up frame.
 struct SlotRun {
   std::vector<geometry::Vec2> line;

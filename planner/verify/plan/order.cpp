@@ -190,7 +190,7 @@ void check_coverage(const model::Plan& plan, Findings& findings) {
     for (const auto& f : ws->final_features.items) covered.insert(f);
   }
   // What is only a piece of another feature is planned with it.
-  const std::set<AnyRef> parts = pieces_of_others(m);
+  const std::set<AnyRef> parts = model::parts_of_others(m);
   for (const auto f : m.all_below(TypeId::kManufacturingFeature)) {
     if (covered.contains(f) || said.contains(f) || parts.contains(f)) continue;
     if (const auto* c = m.get<model::CompoundFeature>(f)) {

@@ -50,7 +50,7 @@ void check_header_tools(const ProgramCase& c, const ToolTable& table, Findings& 
       break;
     }
     if (const model::Cutter* t = c.cutter(h.tool); t != nullptr) {
-      if (t->functional_length_mm > 0.0) length.library = t->functional_length_mm;
+      if (const double z = model::length_offset_mm(*t); t->table_line || z != 0.0) length.library = z;
       if (t->cutting_diameter_mm > 0.0) diameter.library = t->cutting_diameter_mm;
     }
     check_size(length, h, findings);

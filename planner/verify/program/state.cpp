@@ -215,15 +215,15 @@ void check_tool_table(const ProgramCase& c, const ToolTable& table, Findings& fi
     if (t == nullptr) continue;
     const std::string name = "T" + std::to_string(e.tool);
     const Findings::Where at{0, "", -1};
-    if (e.has_length && t->functional_length_mm > 0.0 &&
-        std::abs(e.length_mm - t->functional_length_mm) > 0.01) {
-      const double ratio = e.length_mm / t->functional_length_mm;
+    const double offset = model::length_offset_mm(*t);
+    if (e.has_length && (t->table_line || offset != 0.0) && std::abs(e.length_mm - offset) > 0.01) {
+      const double ratio = e.length_mm / offset;
       const bool inch = std::abs(ratio - 25.4) < 0.1 || std::abs(ratio * 25.4 - 1.0) < 0.005;
       findings.error(6, "CHK-TABLE-LENGTH", at,
                      name + " has a length offset of " + plain(e.length_mm) + " in the tool table (line " +
-                         std::to_string(e.line) + "); the tool is " + mm(t->functional_length_mm) + " long" +
+                         std::to_string(e.line) + "); the tool's is " + mm(offset) +
                          (inch ? ": the unit is another one" : ""),
-                     std::abs(e.length_mm - t->functional_length_mm));
+                     std::abs(e.length_mm - offset));
     }
     if (e.has_diameter && std::abs(e.diameter_mm - t->cutting_diameter_mm) > 0.01) {
       findings.error(6, "CHK-TABLE-DIAMETER", at,

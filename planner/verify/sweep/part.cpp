@@ -88,24 +88,9 @@ const PartShapes::Entry* PartShapes::find(model::AnyRef feature) const {
   return nullptr;
 }
 
-std::set<model::AnyRef> pieces_of_others(const model::Model& m) {
-  std::set<model::AnyRef> out;
-  for (const auto f : m.all_below(model::TypeId::kManufacturingFeature)) {
-    if (const auto* p = m.get<model::Pocket>(f))
-      out.insert(p->its_boss.items.begin(), p->its_boss.items.end());
-    if (const auto* p = m.get<model::PlanarFace>(f))
-      out.insert(p->its_boss.items.begin(), p->its_boss.items.end());
-    if (const auto* p = m.get<model::Step>(f)) out.insert(p->its_boss.items.begin(), p->its_boss.items.end());
-    if (const auto* p = m.get<model::CompoundFeature>(f))
-      out.insert(p->elements.items.begin(), p->elements.items.end());
-    if (const auto* p = m.get<model::ReplicateFeature>(f)) out.insert(p->replicate_base_feature);
-  }
-  return out;
-}
-
 PartShapes shapes_of_part(const model::Plan& plan) {
   PartShapes out;
-  std::set<model::AnyRef> pieces = pieces_of_others(plan.model);
+  std::set<model::AnyRef> pieces = model::parts_of_others(plan.model);
   for (const auto& s : plan.steps) {
     const auto* ws = plan.model.get<model::MachiningWorkingstep>(s.step);
     if (ws != nullptr) pieces.erase(ws->its_feature);
@@ -123,7 +108,7 @@ PartShapes shapes_of_part(const model::Plan& plan) {
   out.tolerance_source = "default";
   const model::Workpiece* piece = workpiece_of(plan);
   if (const auto stated = piece != nullptr ? model::global_tolerance_of(*piece) : std::nullopt) {
-    out.tolerance_mm = std::clamp(*stated, 0.001, 0.5);
+    out.tolerance_mm = std::clamp(*stated, model::kFinestJudged, model::kWidestJudged);
     out.tolerance_source = "global_tolerance";
   }
   // Raw material beyond the part may be cut freely: what belongs to the part is its own bounding box, where

@@ -34,8 +34,6 @@ struct PartShapes {
   [[nodiscard]] const Entry* find(model::AnyRef feature) const;
 };
 [[nodiscard]] PartShapes shapes_of_part(const model::Plan& plan);
-/// Features that are pieces of others: bosses, elements of compounds, bases of patterns.
-[[nodiscard]] std::set<model::AnyRef> pieces_of_others(const model::Model& m);
 
 /// A feature that a plan makes, and what its steps say that they leave.
 struct Asked {

@@ -61,7 +61,7 @@ TEST_F(Workholding, APartIsTurnedOverAndItsProgramKeepsClearOfJawsAndClamps) {
   const std::string text = slurp("p.p21");
   EXPECT_THAT(text, HasSubstr("SETUP_INSTRUCTION"));
   EXPECT_THAT(text, HasSubstr("face against the fixed jaw"));
-  EXPECT_THAT(text, HasSubstr("-Z up; turned over about X"));
+  EXPECT_THAT(text, HasSubstr("-Z up; turned over, 180 deg about its X axis"));
   EXPECT_EQ(run("check p.json p.ngc"), 0) << said_;
   // The same paths between a jaw that somebody made higher afterwards: seen by the check alone.
   std::string moved = plan;

@@ -113,8 +113,11 @@ TEST(LinuxCnc, StopsForTheOperatorBetweenSetUps) {
   const std::string text = program_of(plan);
   const auto second = position(text, "id=\"b\"");
   EXPECT_EQ(text.substr(position(text, "(CAPSTAN STEP id=\"b\"") - 16, 16), "G53 G0 Z0\nM5\nM9\n");
-  const auto stop =
-      position(text, "(MSG, set-up 2: clamp the workpiece anew, set G55, then continue)\nM0\n", second);
+  const auto stop = position(
+      text,
+      "(MSG, set-up 2: clamp the workpiece anew, not turned, its +Z up; set G55: X0 at its left side, "
+      "Y0 at its front, Z0 at its top, then continue)\nM0\n",
+      second);
   EXPECT_LT(stop, position(text, "\nG55\n", second));
   EXPECT_LT(position(text, "\nG55\n", second), position(text, "G0 X-12", second));
 }
@@ -130,17 +133,61 @@ TEST(LinuxCnc, SaysAtEachSetUpWhereZeroIsAndWhatHoldsThePiece) {
   add_step(plan, "a", "em18", contour());
   add_step(plan, "b", "em18", contour()).setup = 1;
   const std::string text = program_of(plan);
-  const auto first = position(text, "(set-up 1: zero G54: the origin of the set-up in the part file)\n");
+  const auto first = position(text,
+                              "(set-up 1: zero G54 on the raw piece as it lies: X0 at its left side, "
+                              "Y0 at its front, Z0 at its top; that is the point X0 Y0 Z0 of the part's "
+                              "drawing)\n");
   EXPECT_LT(first, position(text, "(set-up 1: what holds the piece is not planned"));
   EXPECT_LT(first, position(text, "(CAPSTAN STEP id=\"a\""));
   const auto zero =
-      position(text, "(set-up 2: zero G55: lower left corner of the raw piece, Z at its top)\n");
+      position(text, "(set-up 2: pick up G55: lower left corner of the raw piece, Z at its top)\n");
   EXPECT_LT(position(text, "(CAPSTAN STEP id=\"b\""), zero);
   EXPECT_LT(zero, position(text, "(MSG, set-up 2"));
   EXPECT_NE(text.find("(set-up 2: held by plate with strap clamps [M12])\n"), std::string::npos);
   EXPECT_NE(text.find("(set-up 2: clamp 1: X -10 to 15, Y 20 to 45, Z 0 to 18.5 mm)\n"), std::string::npos);
   for (std::size_t at = 0, end = 0; (end = text.find('\n', at)) != std::string::npos; at = end + 1)
     EXPECT_LE(end - at, 255U);
+}
+
+TEST(LinuxCnc, SaysHowAPieceThatIsTurnedLiesAndWhereZeroIsOnIt) {
+  // 100 x 80 x 20 mm, its top at Z0; turned over about its X axis: its -Z up, its -Y to the back, zero at the
+  // lower left corner of what lies there.
+  Plan plan = empty_plan();
+  auto& m = plan.model;
+  const auto direction = [&](Vec3 v) {
+    model::Direction d;
+    d.direction_ratios = {{v.x, v.y, v.z}, true};
+    return m.add(d);
+  };
+  model::CartesianPoint at;
+  at.coordinates = {{0, 80, 0}, true};
+  model::Axis2Placement3d lies;
+  lies.location = m.add(at);
+  lies.axis = direction({0, 0, -1});
+  lies.ref_direction = direction({1, 0, 0});
+  model::WorkpieceSetup piece;
+  piece.its_origin = m.add(lies);
+  model::Setup setup;
+  setup.its_workpiece_setup.push_back(m.add(piece));
+  plan.setups.push_back({.setup = m.add(setup), .work_offset = "G55", .security_z_mm = 30.0});
+  add_step(plan, "a", "em18", contour());
+  add_step(plan, "b", "em18", contour()).setup = 1;
+  const std::string text = program_of(plan);
+  for (const char* line :
+       {"(set-up 2: the workpiece is turned over, 180 deg about its X axis after set-up 1)\n",
+        "(set-up 2: the workpiece's -Z up, its +X to the right, its -Y to the back)\n",
+        "(set-up 2: zero G55 on the raw piece as it lies: X0 at its left side, Y0 at its front, Z0 at its "
+        "underside; that is the point X0 Y80 Z0 of the part's drawing)\n",
+        "(set-up 2: the raw piece reaches from X0 Y0 Z0 to X100 Y80 Z20; a side that was cut before stands "
+        "back "
+        "by what was cut)\n",
+        "(MSG, set-up 2: clamp the workpiece anew, turned over, 180 deg about its X axis, its -Z up; set "
+        "G55: X0 "
+        "at its left side, Y0 at its front, Z0 at its underside, then continue)\nM0\n"}) {
+    EXPECT_NE(text.find(line), std::string::npos) << line << "\n" << text.substr(0, 4000);
+  }
+  for (std::size_t from = 0, end = 0; (end = text.find('\n', from)) != std::string::npos; from = end + 1)
+    EXPECT_LE(end - from, 255U);
 }
 
 TEST(LinuxCnc, SaysWhatABoringToolIsSetToBeforeItIsChanged) {

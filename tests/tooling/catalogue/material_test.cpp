@@ -55,6 +55,17 @@ TEST(FindMaterial, TakesTheHardestOfAFamilyAndWarns) {
   EXPECT_EQ(job.diagnostics()[0].code, "MATERIAL-FAMILY");
 }
 
+TEST(FindMaterial, RefusesAFamilyWhereAMaterialIsToBeNamed) {
+  Job job;
+  const auto m = find_material({"STEEL"}, table(), job, Families::kRefused);
+  ASSERT_FALSE(m);
+  EXPECT_EQ(m.error().code, "NAME-UNKNOWN");
+  EXPECT_EQ(m.error().message, "'STEEL' names a family of materials, not a material");
+  for (const char* name : {"'mild_steel'", "'low_alloy_steel'", "'tool_steel'"})
+    EXPECT_NE(m.error().expected.find(name), std::string::npos) << m.error().expected;
+  EXPECT_TRUE(find_material({"mild steel"}, table(), job, Families::kRefused));
+}
+
 TEST(FindMaterial, RefusesAnUnknownNameWithTheNearestOnes) {
   Job job;
   const auto m = find_material("steeel", table(), job);

@@ -190,7 +190,7 @@ TEST(ToolStore, RefusesWhatSomebodyElsePutIn) {
             "TOOLSTORE-SCHEMA");
   EXPECT_EQ(code_of(altered("CREATE TABLE other(x)")), "TOOLSTORE-SCHEMA");
   EXPECT_EQ(code_of(altered("DROP TABLE capstan_index")), "TOOLSTORE-SCHEMA");
-  EXPECT_EQ(code_of(altered("PRAGMA user_version = 2")), "TOOLSTORE-SCHEMA");
+  EXPECT_EQ(code_of(altered("PRAGMA user_version = 3")), "TOOLSTORE-SCHEMA");
   EXPECT_EQ(code_of(altered("PRAGMA application_id = 1")), "TOOLSTORE-SCHEMA");
   EXPECT_EQ(code_of(altered("UPDATE capstan_index SET diameter = 6 WHERE place = 3")), "TOOLSTORE-DAMAGED");
   EXPECT_EQ(code_of(altered("DELETE FROM capstan_index WHERE place = 3")), "TOOLSTORE-DAMAGED");
