@@ -87,6 +87,12 @@ TEST(RefusedParts, AMilledHoleBelowSolidIsNotDugDownTo) {
   expect_refused(s, "up to 8 mm of the piece stand above its top");
 }
 
+TEST(RefusedParts, AWideHoleThroughBelowSolidIsNotDugDownToWithoutANarrowerOneAboveIt) {
+  Sheet s;
+  s.d.hole("H", s.d.placement({30, 30, -8}), 12, 10, s.d.through_bottom());
+  expect_refused(s, "up to 8 mm of the piece stand above its top");
+}
+
 TEST(RefusedParts, APocketThatAnotherOpensInPartIsNotDugDownTo) {
   Sheet s;
   s.d.closed_pocket("WIDE", s.d.placement({25, 30, 0}), 6, s.d.rectangle(30, 30), 4);

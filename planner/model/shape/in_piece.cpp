@@ -139,6 +139,12 @@ std::optional<Buried> buried(const FeatureShape& s, const std::vector<FeatureSha
     return in_piece(p, part) &&
            std::none_of(features.begin(), features.end(), [&](const FeatureShape& o) { return takes(o, p); });
   };
+  // A far end: wide below a narrower hole on its axis and open at the underside, it is cut from below.
+  if (is_hole(s) && (s.through || -s.depth_mm <= box.lo.z + kLidMm)) {
+    bool open = !features.empty();
+    for (int k = 0; k < kUp && open; ++k) open = !lid(0.0, 0.0, kLidMm + (k + 0.5) * high);
+    if (open) return std::nullopt;
+  }
   std::optional<Buried> out;
   for (int iy = 0; iy < kAcross; ++iy) {
     for (int ix = 0; ix < kAcross; ++ix) {
