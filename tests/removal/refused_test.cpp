@@ -87,6 +87,12 @@ TEST(RefusedParts, AMilledHoleBelowSolidIsNotDugDownTo) {
   expect_refused(s, "up to 8 mm of the piece stand above its top");
 }
 
+TEST(RefusedParts, AWideHoleThroughBelowSolidIsNotDugDownToWithoutANarrowerOneAboveIt) {
+  Sheet s;
+  s.d.hole("H", s.d.placement({30, 30, -8}), 12, 10, s.d.through_bottom());
+  expect_refused(s, "up to 8 mm of the piece stand above its top");
+}
+
 TEST(RefusedParts, APocketThatAnotherOpensInPartIsNotDugDownTo) {
   Sheet s;
   s.d.closed_pocket("WIDE", s.d.placement({25, 30, 0}), 6, s.d.rectangle(30, 30), 4);
@@ -148,6 +154,22 @@ TEST(RefusedParts, AnOutlineThatCrossesItselfIsRefusedAtTheCrossing) {
   const auto outline = s.d.polyline({{-10, -10, 0}, {10, 10, 0}, {10, -10, 0}, {-10, 10, 0}, {-10, -10, 0}});
   s.d.closed_pocket("P", s.d.placement({30, 30, 0}), 5, s.d.closed(outline), 0);
   expect_refused(s, "crosses itself at (0, 0)");
+}
+
+TEST(RefusedParts, APocketInTheFloorOfOneThatIsNotPlannedIsNeitherAndNoProgramIsWritten) {
+  Sheet s;
+  s.d.closed_pocket("WIDE", s.d.placement({25, 30, 0}), 12, s.d.rectangle(40, 40),
+                    0.2);  // no mill is so thin
+  s.d.closed_pocket("IN FLOOR", s.d.placement({25, 30, -12}), 4, s.d.rectangle(20, 20), 4);
+  s.d.hole("APART", s.d.placement({54, 30, 0}), 20, 5, s.d.through_bottom());
+  const PlanOutput o = s.planned();
+  expect_unplanned(o, 2, "it rests on 'WIDE', which is not planned");
+  EXPECT_GT(o.steps, 0U) << told(o);
+  EXPECT_TRUE(o.linuxcnc.empty());
+  EXPECT_TRUE(std::any_of(o.condemned.begin(), o.condemned.end(), [](const PlanMessage& m) {
+    return m.code == "PIP-NEEDED" &&
+           m.text.find("feature 'WIDE' is not planned, and 'IN FLOOR' rests on it") != std::string::npos;
+  })) << told(o);
 }
 
 TEST(ThroughHoles, OneThatEndsInThePieceIsCutToItsUndersideUnlessAnotherFeatureOpensBelow) {

@@ -120,7 +120,13 @@ std::optional<Buried> buried(const FeatureShape& s, const std::vector<FeatureSha
       return std::nullopt;
   }
   if (s.area.empty() || part.box.empty() || tilted(s)) return std::nullopt;
-  const Box3 box = seen_from(part.box, s.frame);
+  Box3 box = seen_from(part.box, s.frame);
+  // Beside an outside nothing of the part is higher than its faces: what stands there is raw piece only.
+  for (const FeatureShape& o : features) {
+    if (s.kind != ShapeKind::kOutside || o.kind != ShapeKind::kFace || dot(o.frame.z, s.frame.z) < kUpright)
+      continue;
+    box.hi.z = std::min(box.hi.z, s.frame.to_local(o.frame.origin).z - o.depth_mm);
+  }
   if (box.hi.z <= kLidMm) return std::nullopt;
   auto b = geometry::bounds(s.area);
   b.lo = {std::max(b.lo.x, box.lo.x), std::max(b.lo.y, box.lo.y)};
@@ -133,6 +139,12 @@ std::optional<Buried> buried(const FeatureShape& s, const std::vector<FeatureSha
     return in_piece(p, part) &&
            std::none_of(features.begin(), features.end(), [&](const FeatureShape& o) { return takes(o, p); });
   };
+  // A far end: wide below a narrower hole on its axis and open at the underside, it is cut from below.
+  if (is_hole(s) && (s.through || -s.depth_mm <= box.lo.z + kLidMm)) {
+    bool open = !features.empty();
+    for (int k = 0; k < kUp && open; ++k) open = !lid(0.0, 0.0, kLidMm + (k + 0.5) * high);
+    if (open) return std::nullopt;
+  }
   std::optional<Buried> out;
   for (int iy = 0; iy < kAcross; ++iy) {
     for (int ix = 0; ix < kAcross; ++ix) {

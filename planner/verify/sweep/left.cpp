@@ -264,7 +264,8 @@ void Target::left_of(const Cavity& c, const Grid& grid, const Asked& a, bool car
       const Vec2 p = grid.centre(ix, iy);
       const auto own = floor(p);
       if (!own || stands - std::max(*own, grid.base[i]) <= limit) continue;
-      if (s.through && stands <= above - s.depth_mm + limit && opens_below(s, p, stands)) continue;
+      if (s.through && stands <= above - s.depth_mm + limit && opens_below(s, p, above - s.depth_mm))
+        continue;
       const auto wide = around(p, ring);
       if (!wide) continue;
       const double left = stands - std::max({*own, *wide, grid.base[i]});

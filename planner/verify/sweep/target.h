@@ -103,7 +103,7 @@ class Target : public GougeJudge {
 
   void add(const model::FeatureShape& s, bool bevel = false);
   void left_of(const Cavity& c, const Grid& grid, const Asked& a, bool carried, Findings& out) const;
-  /// Whether another feature takes away what lies right below a point, set-up frame.
+  /// Whether another feature takes away what lies right below a point at the end of this one, set-up frame.
   [[nodiscard]] bool opens_below(const model::FeatureShape& s, geometry::Vec2 p, double z) const;
   void left_on_mesh(const Grid& grid, const Asked& a, Findings& out) const;
   void add_broken_edges();
