@@ -44,6 +44,14 @@ if(TARGET capstan)
   install(TARGETS capstan RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()
 
+# What `cmake --install` needs, and no test: `./dev demo` builds this.
+add_custom_target(capstan_installed)
+foreach(target IN LISTS capstan_exported ITEMS capstan)
+  if(TARGET ${target})
+    add_dependencies(capstan_installed ${target})
+  endif()
+endforeach()
+
 # The folders keep their places relative to each other, so one root serves a checkout and an installation.
 foreach(folder IN ITEMS rules tooling)
   if(IS_DIRECTORY ${CMAKE_SOURCE_DIR}/${folder}/data)

@@ -17,8 +17,9 @@
 // tries, and its findings on the plan that is kept are handed on as they are. An error at a proposed step
 // bans what the step was made with, gently first: its cutter, twice; then its chain; last its feature is left
 // out, and with it what rests on it. An order that is broken is no matter of the cutter: there the chain goes
-// at once. Of all tries the one with the fewest errors is kept, then the one that leaves the fewest features
-// out, then the first. Steps that the file brings stay as they are.
+// at once, and what lies outside the raw piece is left out at once. Of all tries the one with the fewest
+// errors is kept, then the one that leaves the fewest features out, then the first. Steps that the file
+// brings stay as they are.
 
 namespace capstan::pipeline {
 namespace {
@@ -81,6 +82,8 @@ class Judge {
       const std::string found = "the check found " + o.finding->code + ": " + o.finding->message;
       const MadeStep& s = o.step;
       const bool of_order = o.finding->property == 28;
+      // What lies outside the raw piece does so with every cutter and chain.
+      const bool of_drawing = o.finding->code == "CHK-OUTSIDE";
       int& hits = hits_[{s.member, s.chain, s.in_chain}];
       // Torque, power, bending: a thinner cut of the same cutter.
       const bool of_load =
@@ -91,7 +94,7 @@ class Judge {
         out.emplace_back(s, found);
         continue;
       }
-      if (tried >= kBeforeLeavingOut) {
+      if (tried >= kBeforeLeavingOut || of_drawing) {
         tries_.leave_out(s.member.feature, "step '" + s.name + "' with " + s.cutter + ": " + found);
       } else if (of_order || hits >= kMostCutters) {
         tries_.ban_chain(s.member, s.chain, "step '" + s.name + "': " + found);

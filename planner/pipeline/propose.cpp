@@ -295,11 +295,17 @@ class Proposer {
     return turned;
   }
 
-  std::vector<std::size_t> shape(AnyRef f, const FeatureShape& given, const model::Proposal& p) {
+  std::vector<std::size_t> shape(AnyRef f, const FeatureShape& given, const model::Proposal& proposed) {
     std::string why = swallowed(given);
     if (why.empty()) why = crosses_a_wall(w_, given);
-    if (!why.empty() || !p.cannot.empty()) {
-      fail_member(f, given, why.empty() ? p.cannot : why);
+    if (why.empty()) why = not_in_piece(w_, given);
+    if (!why.empty() || !proposed.cannot.empty()) {
+      fail_member(f, given, why.empty() ? proposed.cannot : why);
+      return {};
+    }
+    const model::Proposal p = without_drills_at_edges(w_, given, proposed);
+    if (p.chains.empty() && !proposed.chains.empty()) {
+      fail_member(f, given, p.rejected.back().why);
       return {};
     }
     for (const model::Rejected& r : p.rejected) {

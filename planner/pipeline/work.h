@@ -148,6 +148,13 @@ struct Thickness {
 /// face's floor. Empty when it can.
 [[nodiscard]] std::string crosses_a_wall(const Work& w, const model::FeatureShape& face);
 
+/// Why a feature cannot be cut from this raw piece: solid stands above its top, or its drill's point comes
+/// out on the other side. Empty when it can.
+[[nodiscard]] std::string not_in_piece(const Work& w, const model::FeatureShape& shape);
+/// A hole at an edge of the raw piece is milled, or not made: its chains that drill are rejected.
+[[nodiscard]] model::Proposal without_drills_at_edges(const Work& w, const model::FeatureShape& hole,
+                                                      const model::Proposal& p);
+
 /// The order of the craft among the steps of one feature: marks, drills, roughs, finishes, sizes holes; 0:
 /// none of these.
 [[nodiscard]] int craft_rank(model::TypeId operation);

@@ -4,6 +4,7 @@
 
 #include "planner/base/number.h"
 #include "planner/geometry/mesh_form.h"
+#include "planner/model/in_piece.h"
 #include "planner/model/raw_piece.h"
 #include "planner/pipeline/work.h"
 #include "tooling/catalogue/material.h"
@@ -241,7 +242,8 @@ Box3 transformed(const Box3& box, const geometry::Placement& to) {
 Box3 part_box(const Work& w) {
   Box3 out = w.plan.stock.box;
   const model::Workpiece* piece = model::workpiece_of(w.plan.model, w.plan.project);
-  const auto own = piece != nullptr ? model::box_of(w.plan.model, piece->its_bounding_geometry) : std::nullopt;
+  const auto own =
+      piece != nullptr ? model::box_of(w.plan.model, piece->its_bounding_geometry) : std::nullopt;
   const double grown = w.inputs.stock_allowance_mm.value_or(0.0);
   if (own && piece->its_rawpiece.set()) {
     out = *own;
@@ -280,7 +282,7 @@ Status resolve_workpiece(Work& w) {
 }
 
 void report_outside(Work& w) {
-  constexpr double kBeyond = 0.01;  // mm
+  constexpr double kBeyond = model::kBeyondPieceMm;
   for (const AnyRef f : w.plan.model.all_below(model::TypeId::kMachiningFeature)) {
     const auto shapes = model::shapes_of(w.plan.model, Ref<model::ManufacturingFeature>(f));
     if (!shapes) continue;

@@ -48,7 +48,9 @@ std::string_view property_text(int number) {
       {36,
        "Of a planned feature nothing stays beyond its tolerance and the allowance that its last step "
        "states."},
-      {37, "Planned features lie within the raw piece, and drilled holes do not run into each other."},
+      {37,
+       "Planned features lie within the raw piece and open to above, and drilled holes run into neither "
+       "its sides nor each other."},
       {0, ""},
   }};
   for (const auto& [n, text] : kTexts) {

@@ -146,8 +146,8 @@ Drawing::Id Drawing::slot(const std::string& name, Id at, double below, Id path,
   const auto end = [&](const std::string& kind) {
     if (kind == "open") return write("OPEN_SLOT_END_TYPE()");
     if (kind == "radiused") return write("RADIUSED_SLOT_END_TYPE()");
-    const Id sharp = length(0.0);
-    return write("FLAT_SLOT_END_TYPE(" + ref(sharp) + "," + ref(sharp) + ")");
+    const Id corner = length(kind.size() > 4 ? std::stod(kind.substr(4)) : 0.0);
+    return write("FLAT_SLOT_END_TYPE(" + ref(corner) + "," + ref(corner) + ")");
   };
   const Id bottom = depth(below), a = end(first), b = end(last);
   return write("SLOT" + head(name, at) + "," + ref(bottom) + "," + ref(path) + "," + ref(profile) + "," +

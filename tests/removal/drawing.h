@@ -45,7 +45,7 @@ class Drawing {
   Id closed_pocket(const std::string& name, Id placement, double depth, Id closed_profile, double corner,
                    const std::vector<Id>& bosses = {}, double floor_radius = 0.0, bool through = false);
   Id open_pocket(const std::string& name, Id placement, double depth, Id open_profile, double corner);
-  /// Along `direction` from its placement; ends "open", "radiused" or "flat".
+  /// Along `direction` from its placement; ends "open", "radiused", "flat" or "flat 2" (corners of R2).
   Id slot(const std::string& name, Id placement, double depth, Id path, Id profile, const std::string& first,
           const std::string& last);
   Id linear_path(double distance, Point direction);

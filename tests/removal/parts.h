@@ -27,6 +27,21 @@ namespace capstan::testing::removal {
 [[nodiscard]] Part holes_near_walls();
 [[nodiscard]] Part turned_over();
 [[nodiscard]] Part tight_holes();
+[[nodiscard]] Part hole_over_an_edge();
+[[nodiscard]] Part pocket_over_an_edge();
+[[nodiscard]] Part lone_boss(bool round);
+[[nodiscard]] Part pocket_in_a_pocket();
+[[nodiscard]] Part flat_ended_slot();
+[[nodiscard]] Part pattern_that_meets_itself();
+[[nodiscard]] Part hole_into_a_cross_bore();
+
+// Parts that once took minutes of planning.
+[[nodiscard]] Part tight_flat_hole();
+[[nodiscard]] Part overlapping_flat_holes();
+[[nodiscard]] Part pocket_deeper_than_its_piece();
+[[nodiscard]] Part tilted_slot();
+[[nodiscard]] Part hole_over_the_side();
+[[nodiscard]] Part open_pocket_beside_boss();
 
 /// The target of ISO 14649-11's example 2, of a raw piece.
 [[nodiscard]] Target example2(const Box& raw);

@@ -43,6 +43,14 @@ CAPSTAN_MADE(KeepsEachBossOfAPatternFromTheOthersSteps, bosses_in_a_pattern())
 CAPSTAN_MADE(KeepsABossWhereItsCompoundPutsIt, boss_in_a_compound())
 CAPSTAN_MADE(DrillsBesideWallsWithoutGougingThem, holes_near_walls())
 CAPSTAN_MADE(CutsTolerancedConesSeatsAndCoresListedInAnyOrder, tight_holes())
+CAPSTAN_MADE(MillsAWideHoleThatRunsOverAnEdge, hole_over_an_edge())
+CAPSTAN_MADE(EntersAndCutsAPocketThatRunsOverAnEdge, pocket_over_an_edge())
+CAPSTAN_MADE(ClearsThePieceAroundALoneRoundBoss, lone_boss(true))
+CAPSTAN_MADE(ClearsThePieceAroundALoneSquareBoss, lone_boss(false))
+CAPSTAN_MADE(OpensAPocketBeforeTheOneInItsFloor, pocket_in_a_pocket())
+CAPSTAN_MADE(KeepsTheStatedCornersAtTheFlatEndsOfASlot, flat_ended_slot())
+CAPSTAN_MADE(EndsAHoleThatOpensIntoACrossBoreThere, hole_into_a_cross_bore())
+CAPSTAN_MADE(CutsEachPlaceOfAPatternThatMeetsItselfOnce, pattern_that_meets_itself())
 
 // What is planned comes out as it must; what cannot be is named with its reason.
 void expect_left_out(const Part& part, std::size_t unplanned, const std::string& why) {

@@ -368,10 +368,7 @@ TEST(CheckPlan, ASunkHelixThatLeavesACoreIsFound) {
 }
 
 TEST(PropertyText, SaysEachPropertyThatIsChecked) {
-  for (const int n : {1,  2,  3,  4,  5,  6,  7,  8,  9,  10, 11, 12, 13, 14, 15, 16, 17,
-                      18, 20, 21, 22, 23, 24, 25, 26, 27, 28, 29, 30, 31, 32, 33, 34})
-    EXPECT_FALSE(property_text(n).empty()) << n;
-  EXPECT_TRUE(property_text(19).empty());
+  for (int n = 1; n <= 37; ++n) EXPECT_EQ(property_text(n).empty(), n == 19) << n;
 }
 
 }  // namespace

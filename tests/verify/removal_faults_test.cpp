@@ -159,6 +159,109 @@ TEST(Left, ACornerTooTightForTheCutterIsFoundAndASharpOneIsNot) {
   }
 }
 
+TEST(Left, NothingStaysInCornersForWhichTheFileStatesARadiusOfZero) {
+  // The mill of 10 leaves 5 (sqrt 2 - 1) = 2.07 mm across each.
+  PlanMaker k = testing::good_plan();
+  const auto* ws = k.plan.model.get<model::MachiningWorkingstep>(k.plan.steps[0].step);
+  k.plan.model.get<model::ClosedPocket>(ws->its_feature)->orthogonal_radius = k.length(0);
+  const auto findings = check(k.plan);
+  EXPECT_NE(found(findings, "CHK-LEFT", "pocket"), nullptr) << told(findings);
+}
+
+TEST(Left, WhatAMillTooWideForAPocketLeavesInItsCornersIsFound) {
+  // No radius stated: 0.35 of 40 mm may stay, a mill of 32 leaves 16. Its way leaves the rest as the one of
+  // 10 does.
+  for (const double wide : {26.0, 32.0}) {
+    PlanMaker k = testing::good_plan();
+    k.plan.cutters[0].cutting_diameter_mm = wide;
+    k.plan.cutters[0].shank_diameter_mm = wide;
+    testing::edit_path(k.plan, 0, [&](auto& p) {
+      for (auto* v : {&p.x, &p.y}) {
+        for (double& x : *v) x = 50 + (20.0 - 0.5 * wide) / 15.0 * (x - 50);
+      }
+    });
+    const auto* ws = k.plan.model.get<model::MachiningWorkingstep>(k.plan.steps[0].step);
+    k.plan.model.get<model::ClosedPocket>(ws->its_feature)->orthogonal_radius = {};
+    const auto findings = check(k.plan);
+    EXPECT_EQ(found(findings, "CHK-LEFT", "pocket") != nullptr, wide > 28.0) << told(findings);
+  }
+}
+
+/// A slot of 10 mm along x from 40 to 70 at y = 75, 5 mm deep, cut by the mill of 10 between its centres.
+PlanMaker slotted(bool square_ends) {
+  PlanMaker k = testing::good_plan();
+  model::SquareUProfile u;
+  u.width = k.length(10);
+  model::Direction along;
+  along.direction_ratios = {{1.0, 0.0, 0.0}, true};
+  model::LinearPath course;
+  course.distance = k.length(square_ends ? 40 : 30);
+  course.its_direction = k.plan.model.add(along);
+  model::Slot slot;
+  slot.its_id = "S";
+  slot.feature_placement = k.at(square_ends ? 35 : 40, 80, 0);
+  slot.depth = k.depth(5);
+  slot.swept_shape = k.plan.model.add(u);
+  slot.course_of_travel = k.plan.model.add(course);
+  for (int i = 0; i < 2; ++i) {
+    if (square_ends) {
+      slot.end_conditions.push_back(k.plan.model.add(model::OpenSlotEndType{}));
+    } else {
+      slot.end_conditions.push_back(k.plan.model.add(model::RadiusedSlotEndType{}));
+    }
+  }
+  model::CutterPath p;
+  p.start({40, 80, 10});
+  p.rapid({40, 80, 2});
+  p.line({40, 80, -5}, MoveRole::kPlunge);
+  p.line({70, 80, -5}, MoveRole::kCut);
+  p.rapid({70, 80, 10}, MoveRole::kRetract);
+  k.step<model::BottomAndSideFinishMilling>("slot", k.plan.model.add(slot), "em10", p, 600, 3000);
+  return k;
+}
+
+TEST(Left, SquareEndsOfASlotInTheBlockThatAMillLeavesRoundAreFound) {
+  for (const bool square : {true, false}) {
+    const auto findings = check(slotted(square).plan);
+    EXPECT_EQ(found(findings, "CHK-LEFT", "slot") != nullptr, square) << told(findings);
+  }
+}
+
+TEST(Left, AHoleRightThroughThatOpensIntoACrossBoreIsDoneThere) {
+  for (const bool bore : {true, false}) {
+    PlanMaker k = testing::good_plan();
+    const auto* ws = k.plan.model.get<model::MachiningWorkingstep>(k.plan.steps[1].step);
+    k.plan.model.get<model::RoundHole>(ws->its_feature)->bottom_condition =
+        k.plan.model.add(model::ThroughBottomCondition{});
+    if (bore) {  // 30 mm wide about z = -30: over the hole's 8 mm it reaches up to -30 + sqrt(15^2 - 4^2)
+      model::Direction along;
+      along.direction_ratios = {{-1.0, 0.0, 0.0}, true};
+      model::Axis2Placement3d at;
+      at.location = k.point(0, 15, -30);
+      at.axis = k.plan.model.add(along);
+      model::Direction up;
+      up.direction_ratios = {{0.0, 0.0, 1.0}, true};
+      at.ref_direction = k.plan.model.add(up);
+      const auto cross = k.hole("CROSS", 0, 0, 30, 100);
+      k.plan.model.get<model::RoundHole>(cross)->feature_placement = k.plan.model.add(at);
+      k.plan.unplanned.push_back({cross, "a later set-up's"});
+    }
+    const auto findings = check(k.plan);
+    EXPECT_EQ(found(findings, "CHK-LEFT", "drill") == nullptr, bore) << told(findings);
+  }
+}
+
+TEST(Left, WhatNoCellTellsIsNoted) {
+  PlanMaker k = testing::good_plan();
+  const auto* ws = k.plan.model.get<model::MachiningWorkingstep>(k.plan.steps[0].step);
+  k.plan.model.get<model::ClosedPocket>(ws->its_feature)->slope = 0.1;
+  const auto findings = check(k.plan);
+  EXPECT_TRUE(std::any_of(findings.begin(), findings.end(), [](const auto& f) {
+    return f.code == "CHK-NOT-JUDGED" && f.severity == Severity::kNote &&
+           f.message.find("of P, its leaning walls") != std::string::npos;
+  })) << told(findings);
+}
+
 TEST(Left, AnUnplannedFeatureIsLeftOut) {
   PlanMaker k = testing::good_plan();
   testing::edit_path(k.plan, 0, [](auto& p) {
@@ -174,7 +277,9 @@ TEST(Within, AHoleThatEndsBelowTheRawPieceIsFoundAndOneThatEndsAtItsUndersideIsN
   for (const double depth : {50.0, 55.0}) {  // the raw piece is 50 mm high
     PlanMaker k = testing::good_plan();
     const auto* ws = k.plan.model.get<model::MachiningWorkingstep>(k.plan.steps[1].step);
-    k.plan.model.get<model::RoundHole>(ws->its_feature)->depth = k.depth(depth);
+    auto* hole = k.plan.model.get<model::RoundHole>(ws->its_feature);
+    hole->depth = k.depth(depth);
+    hole->bottom_condition = k.plan.model.add(model::FlatHoleBottom{});
     const auto findings = check(k.plan);
     EXPECT_EQ(found(findings, "CHK-OUTSIDE", "drill") != nullptr, depth > 50.0) << told(findings);
   }
@@ -186,6 +291,37 @@ TEST(Within, AFeatureBesideTheRawPieceIsFound) {
   k.plan.model.get<model::RoundHole>(ws->its_feature)->feature_placement = k.at(150, 15, 0);
   const auto findings = check(k.plan);
   EXPECT_NE(found(findings, "CHK-OUTSIDE", "drill"), nullptr) << told(findings);
+}
+
+TEST(Within, AHoleDrilledAtTheEdgeIsFoundAndOneInsideIsNot) {
+  for (const double x : {-2.0, 2.0, 4.0}) {  // 8 mm wide
+    PlanMaker k = testing::good_plan();
+    const auto* ws = k.plan.model.get<model::MachiningWorkingstep>(k.plan.steps[1].step);
+    k.plan.model.get<model::RoundHole>(ws->its_feature)->feature_placement = k.at(x, 15, 0);
+    const auto findings = check(k.plan);
+    EXPECT_EQ(found(findings, "CHK-EDGE", "drill") != nullptr, x < 4.0) << told(findings);
+  }
+}
+
+TEST(Within, APocketBelowSolidIsFoundAndOneThatAFaceOpensIsNot) {
+  for (const bool faced : {false, true}) {
+    PlanMaker k = testing::good_plan();
+    const auto* ws = k.plan.model.get<model::MachiningWorkingstep>(k.plan.steps[0].step);
+    k.plan.model.get<model::ClosedPocket>(ws->its_feature)->feature_placement = k.at(50, 50, -3);
+    if (faced) k.face("F", 3);
+    const auto findings = check(k.plan);
+    EXPECT_EQ(found(findings, "CHK-BURIED", "pocket") != nullptr, !faced) << told(findings);
+  }
+}
+
+TEST(Within, ADrillsPointThatComesOutBelowIsFound) {
+  for (const double depth : {47.0, 48.0}) {  // 4 / tan 59 = 2.403 mm of 50
+    PlanMaker k = testing::good_plan();
+    const auto* ws = k.plan.model.get<model::MachiningWorkingstep>(k.plan.steps[1].step);
+    k.plan.model.get<model::RoundHole>(ws->its_feature)->depth = k.depth(depth);
+    const auto findings = check(k.plan);
+    EXPECT_EQ(found(findings, "CHK-OUTSIDE", "drill") != nullptr, depth > 47.5) << told(findings);
+  }
 }
 
 TEST(Within, AHoleDrilledIntoAnothersWallIsFoundAndOneBesideItIsNot) {

@@ -108,6 +108,10 @@ class CommandLine {
     // One value each, so that a positional may follow.
     o->expected(1)->take_all();
     if (required) o->required();
+    force(sub);
+  }
+  void force(CLI::App* sub) {
+    sub->add_flag("--force", out_.force, "let an output replace a file that this call reads");
   }
   void inputs(CLI::App* sub) {
     sub->add_option("--machine", raw_.machine, "machine: a file, or the id of a built-in one");
@@ -233,6 +237,7 @@ class CommandLine {
                                 "a file to write, its format told by its ending; may be repeated");
       o->expected(1)->take_all();
       if (sub != import) o->required();
+      force(sub);
       sub->add_option("--format", out_.tools.format, "the output's format by name");
       sub->add_option("--column-map", out_.tools.column_map, "what the columns of a table hold: a saved map");
       sub->add_option("--unit", out_.tools.unit, "mm or inch, where a file does not say")

@@ -75,6 +75,7 @@ struct Options {
   std::optional<std::chrono::milliseconds> deadline;
   bool strict = false;            ///< plan, bind: outputs only when there is no finding
   bool allow_findings = false;    ///< plan, bind: a program even when the check condemns it
+  bool force = false;             ///< an output may be an input, too
   bool json = false;              ///< check: findings as JSON on standard output
   bool schema = false;            ///< check: what reading found is a finding, too
   bool json_diagnostics = false;  ///< one JSON object per line on standard error

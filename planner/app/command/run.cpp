@@ -9,6 +9,7 @@
 #include "planner/app/command/finish.h"
 #include "planner/app/command/options.h"
 #include "planner/app/command/session.h"
+#include "planner/app/files/outputs.h"
 
 namespace capstan::app {
 namespace {
@@ -51,10 +52,30 @@ int dispatch(Session& s) {
   return kUsage;
 }
 
+/// What a call reads: an output of the same name would take it away.
+std::vector<std::string> read_by(const Options& o) {
+  std::vector<std::string> out = o.files;
+  const InputOptions& in = o.inputs;
+  for (const auto& path : {in.machine, in.tools, in.material, in.rules, in.cases, in.workholding}) {
+    if (path) out.push_back(*path);
+  }
+  if (!o.tools.column_map.empty()) out.push_back(o.tools.column_map);
+  return out;
+}
+
+/// A fault of the outputs' paths ends the call before any work.
+int begun(Session& s) {
+  std::vector<std::string> outputs = s.options.outputs;
+  if (!s.options.tools.save_map.empty()) outputs.push_back(s.options.tools.save_map);
+  if (auto ok = can_be_written(outputs, read_by(s.options), s.options.force); !ok)
+    return s.end(ok.error(), kUsage);
+  return dispatch(s);
+}
+
 /// The only place that catches: everything below tells its outcome by value.
 int guarded(Session& s) {
   try {
-    return dispatch(s);
+    return begun(s);
   } catch (const std::bad_alloc&) {
     return s.end({.code = "APP-MEMORY", .message = "the memory does not suffice"}, kOurFault);
   } catch (const std::exception& e) {

@@ -87,6 +87,9 @@ class Tools {
       json += (json.ends_with('[') ? "" : ", ") + std::string("{\"file\": ") + json_quoted(path) +
               ", \"report\": " + report_json(report) + "}";
     }
+    for (StagedFile& f : staged_) {
+      if (auto ok = f.put(); !ok) return s_.end(ok.error(), kImpossible);
+    }
     json += "]}\n";
     if (o.json && !print(json)) return kImpossible;
     return kDone;
@@ -159,13 +162,20 @@ class Tools {
     const std::string& path = s_.options.tools.save_map;
     for (const auto& [key, text] : library.kept) {
       if (key != "csv:map") continue;
-      if (auto ok = write_file(path, text); !ok) return s_.end(ok.error(), kImpossible);
-      return kDone;
+      return stage(path, text);
     }
     return s_.end({.code = "APP-USAGE",
                    .message = "only tables have columns; " + from_ + " is none",
                    .hint = "leave --save-map out"},
                   kUsage);
+  }
+
+  /// All files of a call are put in place together at its end.
+  int stage(const std::string& path, const std::string& bytes) {
+    auto file = StagedFile::make(path, bytes);
+    if (!file) return s_.end(file.error(), kImpossible);
+    staged_.push_back(*std::move(file));
+    return kDone;
   }
 
   int write(const tooling::ToolLibrary& library, const std::string& path, LossReport& report) {
@@ -189,7 +199,7 @@ class Tools {
     if (s_.options.command != Command::kToolsExport) how.column_map.clear();
     auto out = format->write(library, how, s_.job);
     if (!out) return s_.end(out.error(), kImpossible);
-    if (auto ok = write_file(path, out->bytes); !ok) return s_.end(ok.error(), kImpossible);
+    if (const int code = stage(path, out->bytes); code != kDone) return code;
     told("written", path, out->report);
     s_.summary += "; wrote " + path + ": " + sums(out->report);
     report = std::move(out->report);
@@ -199,6 +209,7 @@ class Tools {
   Session& s_;
   FormatOptions formats_;
   std::string from_;
+  std::vector<StagedFile> staged_;
 };
 
 }  // namespace

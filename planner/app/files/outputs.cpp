@@ -67,12 +67,9 @@ Result<Output> output_of(const std::string& path) {
 
 Result<std::vector<Output>> outputs_of(const std::vector<std::string>& paths) {
   std::vector<Output> out;
-  std::set<std::string> seen;
   for (const std::string& path : paths) {
     auto one = output_of(path);
     if (!one) return tl::unexpected(one.error());
-    if (!seen.insert(path == "-" ? path : resolved(path)).second)
-      return fail({.code = "OUT-TWICE", .message = "is to be written twice", .file = path});
     out.push_back(*std::move(one));
   }
   return out;
@@ -134,9 +131,12 @@ Aside set_aside(const std::string& path) {
 
 Status can_be_written(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs,
                       bool force) {
+  std::set<std::string> seen;
   for (const std::string& path : outputs) {
+    const std::string target = path == "-" ? path : resolved(path);
+    if (!seen.insert(target).second)
+      return fail({.code = "OUT-TWICE", .message = "is to be written twice", .file = path});
     if (path == "-") continue;
-    const std::string target = resolved(path);
     for (const std::string& in : inputs) {
       std::error_code ec;
       if (force || (resolved(in) != target && !fs::equivalent(in, target, ec))) continue;

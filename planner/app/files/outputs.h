@@ -23,7 +23,7 @@ struct Output {
 /// Told by the ending alone, so that it fails before any work.
 /// Fails  OUT-KIND: an ending that is not supported (yet), or none.
 [[nodiscard]] Result<Output> output_of(const std::string& path);
-/// All of them; the same file twice is a fault (OUT-TWICE).
+/// All of them.
 [[nodiscard]] Result<std::vector<Output>> outputs_of(const std::vector<std::string>& paths);
 
 /// Fills `bytes` and `losses`. What ISO 14649 or AP238 cannot hold is told as notes (EXC-LOSS).
@@ -44,9 +44,9 @@ struct Aside {
 /// Leaves it.
 [[nodiscard]] Aside left_there(const std::string& path);
 
-/// Judges the outputs' paths before any work: none is an input of the same call, unless forced, and each can
-/// be written.
-/// Fails  OUT-INPUT, FILE-WRITE.
+/// Judges the outputs' paths before any work: none is named twice, none is an input of the same call, unless
+/// forced, and each can be written.
+/// Fails  OUT-TWICE, OUT-INPUT, FILE-WRITE.
 [[nodiscard]] Status can_be_written(const std::vector<std::string>& outputs,
                                     const std::vector<std::string>& inputs, bool force);
 

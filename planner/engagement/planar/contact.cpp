@@ -22,7 +22,9 @@ constexpr std::array<double, 4> kWeights{0.3626837833783620, 0.3137066458778873,
 constexpr double kShare = 1e-5;    // of a plunge's advance times radius squared
 constexpr double kOfFront = 1e-3;  // on a ramp: of the section ahead of it
 constexpr int kUnderTip = 2;       // the same on a ramp, whose floor beneath is strips anyway
-constexpr int kDeepest = 10;       // halvings of the lines' panels
+constexpr double kUniform =
+    1e-9;                     // of the radius squared: panels of a whole disc differ by less, by rounding
+constexpr int kDeepest = 10;  // halvings of the lines' panels
 
 /// Amounts over a disc, from what f finds on the lines x across it, by panels that are halved until `allowed`
 /// is kept: x = R sin t, so that a whole disc comes out exactly. f(x, c) adds to c per length of x.
@@ -37,6 +39,9 @@ class Disc {
     refined(-kQuarter, kQuarter, panel(-kQuarter, kQuarter), 0, out);
     return out;
   }
+  /// Whether the first halving told more than rounding: then edges lie within the disc, and what comes out is
+  /// as good as the panels, no better.
+  [[nodiscard]] bool edged() const { return edged_; }
 
  private:
   Contact panel(double t0, double t1) {
@@ -57,7 +62,9 @@ class Disc {
     const double middle = 0.5 * (t0 + t1);
     const Contact left = panel(t0, middle);
     const Contact right = panel(middle, t1);
-    if (depth >= deepest_ || std::abs(left.amount + right.amount - whole.amount) <= allowed_) {
+    const double apart = std::abs(left.amount + right.amount - whole.amount);
+    edged_ = edged_ || (depth == 0 && apart > kUniform * radius_ * radius_);
+    if (depth >= deepest_ || apart <= allowed_) {
       for (const Contact& c : {left, right}) {
         out.add(c, 1.0);
         out.extend(c);
@@ -71,11 +78,12 @@ class Disc {
   double radius_, allowed_;
   int deepest_;
   F& f_;
+  bool edged_ = false;
 };
 
 template <class F>
-Contact over_disc(double radius, double allowed, F&& f, int deepest = kDeepest) {
-  return Disc<F>(radius, allowed, deepest, f).all();
+Contact over_disc(double radius, double allowed, F&& f) {
+  return Disc<F>(radius, allowed, kDeepest, f).all();
 }
 
 /// Joins pieces that touch, so that strips of one contact are not taken for slivers.
@@ -146,26 +154,29 @@ Contact Prober::on_the_way(Vec2 at, Vec2 unit_heading, double z_mm, double fall)
 
 void Prober::under_tip(Vec2 at, Vec2 ahead, double z_mm, double fall, Contact& c) {
   const double radius = profile_.radius_mm;
+  // A helix in a hole that is there, a ramp over what is cut: nothing stands under the tip, no line needed.
+  if (stock_.cleared(near_, at, radius, z_mm + stock::kTouch)) return;
   const Vec2 along{ahead.y, -ahead.x};
-  const Contact under = over_disc(
-      radius, std::max(kShare * radius * radius, kOfFront * c.amount / fall),
-      [&](double x, Contact& line) {
-        const double half = std::sqrt(std::max(0.0, (radius - x) * (radius + x)));
-        const Probe across = Probe::straight(at + x * along, ahead, -half, half);
-        stock_.heights(across, near_, z_mm + stock::kTouch, heights_, z_mm + 3.0 * stock::kTouch);
-        double length = 0.0;
-        for (const Heights::Piece& p : heights_.pieces()) {
-          if (p.z_mm > z_mm + 2.0 * stock::kTouch) length += p.x1 - p.x0;
-        }
-        if (length < kSliver) return;
-        line.amount = length;
-        line.moment_x = length * x;
-        // The lines stop short of the edge by less than their own distance.
-        const double to_edge = std::abs(x) > 0.99 * radius ? std::copysign(radius, x) : x;
-        line.left = line.right = to_edge;
-        line.low = line.high = 0.0;
-      },
-      kUnderTip);
+  const auto on_line = [&](double x, Contact& line) {
+    const double half = std::sqrt(std::max(0.0, (radius - x) * (radius + x)));
+    const Probe across = Probe::straight(at + x * along, ahead, -half, half);
+    stock_.heights(across, near_, z_mm + stock::kTouch, heights_, z_mm + 3.0 * stock::kTouch);
+    double length = 0.0;
+    for (const Heights::Piece& p : heights_.pieces()) {
+      if (p.z_mm > z_mm + 2.0 * stock::kTouch) length += p.x1 - p.x0;
+    }
+    if (length < kSliver) return;
+    line.amount = length;
+    line.moment_x = length * x;
+    // The lines stop short of the edge by less than their own distance.
+    const double to_edge = std::abs(x) > 0.99 * radius ? std::copysign(radius, x) : x;
+    line.left = line.right = to_edge;
+    line.low = line.high = 0.0;
+  };
+  Disc disc(radius, std::max(kShare * radius * radius, kOfFront * c.amount / fall), kUnderTip, on_line);
+  const Contact under = disc.all();
+  // Edges under the tip come out no better than floors in strips do: no halving of the way makes them even.
+  c.in_strips = c.in_strips || disc.edged();
   c.add(under, fall);
   c.extend(under);  // what is cut below leaves no gap
 }

@@ -15,7 +15,7 @@ struct Contact {
   double left = 1e300, right = -1e300;       ///< of contacts that are no slivers
   double low = 1e300, high = -1e300;         ///< of the tallest of them
   double highest = 0.0;                      ///< of any, above the tip
-  bool in_strips = false;                    ///< floors read in strips had their share in it
+  bool in_strips = false;                    ///< floors read in strips had their share in it, or edges under a ramp
   double gap_rad = 0.0;                      ///< angle between left and right at which nothing is touched
   void extend(const Contact& o);             ///< the extremes of both
   void add(const Contact& o, double times);  ///< amounts alone

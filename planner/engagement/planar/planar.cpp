@@ -24,6 +24,9 @@ constexpr int kDeepest = 14;         // halvings of a step
 constexpr double kInStrips =
     1e-3;  // the same two where floors in strips are cut, which no halving makes even
 constexpr int kDeepestInStrips = 2;
+// Halvings of one step in all: a jump costs kDeepest of them, and a step as long as a 20th of the radius
+// crosses a few edges at most. What changes everywhere is noise, which no halving makes even.
+constexpr int kMostHalvings = 1024;
 constexpr double kFromTheEnd = 1e-5;  // of the radius: ends of moves are seen from just inside
 constexpr double kMostSteps = 1e7;
 
@@ -220,10 +223,11 @@ class Measurer {
   }
 
   /// Simpson's rule, halved where the contact changes; into the amounts of `sum`.
-  void integrate(double s0, const Contact& a, double s1, const Contact& b, Contact& sum, int depth = 0) {
+  void integrate(double s0, const Contact& a, double s1, const Contact& b, Contact& sum) {
     const Contact m = look(0.5 * (s0 + s1));
     sum.extend(m);
-    halves(s0, a, m, s1, b, sum, depth);
+    halvings_ = 0;
+    halves(s0, a, m, s1, b, sum, 0);
   }
 
   void halves(double s0, const Contact& a, const Contact& m, double s1, const Contact& b, Contact& sum,
@@ -248,7 +252,8 @@ class Measurer {
         (a.amount + 4.0 * left.amount + 2.0 * m.amount + 4.0 * right.amount + b.amount) / 12.0;
     // A part of a step may be less exact than the whole by as much as it is shorter.
     const double scale = static_cast<double>(1U << static_cast<unsigned>(depth));
-    if (depth >= (strips ? kDeepestInStrips : kDeepest) || std::abs(fine - coarse) <= allowed * scale) {
+    if (depth >= (strips ? kDeepestInStrips : kDeepest) || ++halvings_ > kMostHalvings ||
+        std::abs(fine - coarse) <= allowed * scale) {
       // Richardson: the error of the halves is a fifteenth of their difference.
       sum.add(a, h / 12.0);
       sum.add(left, 4.0 * h / 12.0);
@@ -315,6 +320,7 @@ class Measurer {
   const geometry::CutterProfile* outline_ = nullptr;
   const Way* way_ = nullptr;
   double fall_ = 0.0;
+  int halvings_ = 0;  ///< of the step at hand
   bool cuts_ = false;
   Vec2 heading_{0.0, 1.0};
   Measurement out_;

@@ -50,6 +50,16 @@ Placement shifted(Placement p, Vec3 by) {
   return p;
 }
 
+/// A number that a pattern leaves out or moves, and that none of its members has.
+Status numbered(const Model& m, AnyRef pattern, AnyRef by, const char* what, std::optional<std::int64_t> at,
+                std::int64_t most) {
+  if (at && *at >= 1 && *at <= most) return {};
+  return unsupported(m, pattern,
+                     "its " + std::string(noun_type(by.type).keyword) + " #" +
+                         std::to_string(m.origin(by).instance) + " names " + what + " " +
+                         (at ? std::to_string(*at) : "$") + ", and there are 1 to " + std::to_string(most));
+}
+
 template <class T>
 bool omitted(const Model& m, const RefList<T>& list, std::int64_t a) {
   for (std::size_t i = 0; i < list.size(); ++i) {
@@ -187,6 +197,16 @@ Result<std::vector<Placement>> members(const Model& m, AnyRef self, const Circul
                                        const Placement& about, const Placement& base) {
   const std::int64_t n = c.number_of_feature.value_or(0);
   if (n < 1 || n > kMaxCopies) return unsupported(m, self, "number_of_feature is not between 1 and 100,000");
+  for (const AnyRef by : c.missing_base_feature.items) {
+    const auto* o = m.get<CircularOmit>(by);
+    if (auto ok = numbered(m, self, by, "member", o != nullptr ? o->index : std::nullopt, n); !ok)
+      return tl::unexpected(ok.error());
+  }
+  for (const AnyRef by : c.relocated_base_feature.items) {
+    const auto* o = m.get<CircularOffset>(by);
+    if (auto ok = numbered(m, self, by, "member", o != nullptr ? o->index : std::nullopt, n); !ok)
+      return tl::unexpected(ok.error());
+  }
   std::vector<Placement> out;
   for (std::int64_t i = 0; i < n; ++i) {
     if (omitted(m, c.missing_base_feature, i + 1)) continue;
@@ -210,6 +230,17 @@ Result<std::vector<Placement>> members(const Model& m, AnyRef self, const Rectan
   const std::int64_t columns = r.number_of_columns.value_or(0);
   if (rows < 1 || columns < 1 || rows > kMaxCopies || columns > kMaxCopies / rows)
     return unsupported(m, self, "its rows and columns are not between 1 and 100,000 copies");
+  const auto in_rows = [&](AnyRef by, const auto* o) -> Status {
+    if (auto ok = numbered(m, self, by, "row", o != nullptr ? o->row_index : std::nullopt, rows); !ok)
+      return ok;
+    return numbered(m, self, by, "column", o != nullptr ? o->column_index : std::nullopt, columns);
+  };
+  for (const AnyRef by : r.missing_base_feature.items) {
+    if (auto ok = in_rows(by, m.get<RectangularOmit>(by)); !ok) return tl::unexpected(ok.error());
+  }
+  for (const AnyRef by : r.relocated_base_feature.items) {
+    if (auto ok = in_rows(by, m.get<RectangularOffset>(by)); !ok) return tl::unexpected(ok.error());
+  }
   Vec3 row_step;
   if (rows > 1) {
     const auto row_spacing = length(m, r.row_spacing);
@@ -241,6 +272,19 @@ Result<std::vector<Placement>> members(const Model& m, AnyRef self, const Rectan
   return out;
 }
 
+/// Whether all of a feature is round about its axis, so that turning it about that makes no other.
+bool all_round(const Shapes& shapes, const Placement& base) {
+  return std::all_of(shapes.begin(), shapes.end(), [&](const FeatureShape& s) {
+    const Vec3 off = base.to_local(s.frame.origin);
+    return (s.kind == ShapeKind::kHole || s.kind == ShapeKind::kThread) &&
+           std::hypot(off.x, off.y) < kSamePlace;
+  });
+}
+
+bool same_member(const Placement& a, const Placement& b, bool round) {
+  return round ? norm(a.origin - b.origin) < kSamePlace && norm(a.z - b.z) < kSamePlace : same(a, b);
+}
+
 /// The base where it is, and one more at each location that is not taken. A location is the base's frame, as
 /// the pattern sees it.
 Result<std::vector<Placement>> members(const Model& m, const GeneralPattern& g, const Placement& about,
@@ -250,13 +294,45 @@ Result<std::vector<Placement>> members(const Model& m, const GeneralPattern& g, 
     const auto at = placement(m, g.replicate_locations[i]);
     if (!at) return tl::unexpected(at.error());
     const Placement there = compose(about, *at);
-    const bool taken = std::any_of(out.begin(), out.end(), [&](const Placement& p) {
-      return round ? norm(p.origin - there.origin) < kSamePlace && norm(p.z - there.z) < kSamePlace
-                   : same(p, there);
-    });
+    const bool taken =
+        std::any_of(out.begin(), out.end(), [&](const Placement& p) { return same_member(p, there, round); });
     if (!taken) out.push_back(there);
   }
   return out;
+}
+
+/// Members that stand where others do go: they would be cut in air. All at one place is a slip of the pen.
+Status each_once(const Model& m, AnyRef self, std::vector<Placement>& frames, bool round,
+                 std::string& assumed) {
+  // Sorted by a sum in which few places are as near to each other as one place is to itself.
+  std::vector<std::pair<double, std::size_t>> order;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const Vec3& p = frames[i].origin;
+    order.emplace_back(p.x + 1.618 * p.y + 2.718 * p.z, i);
+  }
+  std::sort(order.begin(), order.end());
+  std::vector<bool> again(frames.size());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    for (std::size_t k = i; k-- > 0 && order[i].first - order[k].first < 6.0 * kSamePlace;) {
+      const auto [a, b] = std::minmax(order[i].second, order[k].second);
+      again[b] = again[b] || same_member(frames[a], frames[b], round);
+    }
+  }
+  std::vector<Placement> out;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    if (!again[i]) out.push_back(frames[i]);
+  }
+  const std::size_t n = frames.size();
+  if (out.size() == n) return {};
+  if (out.size() == 1)
+    return unsupported(
+        m, self,
+        "all of its " + std::to_string(n) + " members stand at one place; look at its angle or spacing");
+  const std::string text = std::to_string(n - out.size()) + " of its " + std::to_string(n) +
+                           " members stand where others do; each place is cut once";
+  assumed += (assumed.empty() ? "" : "; ") + text;
+  frames = std::move(out);
+  return {};
 }
 
 /// How the base of a circular pattern is moved out to the circle that the pattern states.
@@ -307,16 +383,13 @@ Result<Decided> decide(const Model& m, AnyRef self, const ReplicateFeature& f, c
     } else if (const auto* p = m.get<RectangularPattern>(self)) {
       frames = members(m, self, *p, about, base);
     } else if (const auto* g = m.get<GeneralPattern>(self)) {
-      const bool round = std::all_of(basis->begin(), basis->end(), [&](const FeatureShape& s) {
-        const Vec3 off = base.to_local(s.frame.origin);
-        return (s.kind == ShapeKind::kHole || s.kind == ShapeKind::kThread) &&
-               std::hypot(off.x, off.y) < kSamePlace;
-      });
-      frames = members(m, *g, r.locations, base, round);
+      frames = members(m, *g, r.locations, base, all_round(*basis, base));
     }
     if (!frames) return tl::unexpected(frames.error());
     if (frames->size() > kMaxCopies / basis->size())
       return unsupported(m, self, "would be more than 100,000 copies");
+    if (auto ok = each_once(m, self, *frames, all_round(*basis, base), assumed); !ok)
+      return tl::unexpected(ok.error());
     for (const Placement& frame : *frames) {
       Shapes copy = *basis;
       const bool moved = !same(frame, stands);

@@ -267,6 +267,20 @@ Status lies_down(const Model& m, const Slot& f, const FeatureShape& s) {
           "turn it");
 }
 
+/// A flat end states the radii of its corners: the smaller one is what a mill in the slot may have. What it
+/// does not state is sharp.
+Result<double> corner_of(const Model& m, const FlatSlotEndType& end, AnyRef feature) {
+  double out = 1e300;
+  for (const auto& radius : {end.corner_radius1, end.corner_radius2}) {
+    if (!radius.set()) return 0.0;
+    const auto r = length(m, radius);
+    if (!r) return missing(m, feature, "corner radius of its flat end", r.error());
+    if (r->nominal_mm < 0.0) return unsupported(m, feature, "its flat end has a corner of negative radius");
+    out = std::min(out, r->nominal_mm);
+  }
+  return out;
+}
+
 }  // namespace
 
 Result<Shapes> slot(const Model& m, AnyRef self, const Slot& f) {
@@ -289,6 +303,7 @@ Result<Shapes> slot(const Model& m, AnyRef self, const Slot& f) {
   s->area = geometry::stroke(*line, half, false, kAreaTolerance);
   s->reach = s->area;
   if (geometry::norm(line->front() - line->back()) < 1e-6) return Shapes{*s};  // a closed course has no ends
+  std::optional<double> corner;
   const auto end = [&](std::size_t i) -> const void* { return i < f.end_conditions.size() ? &f : nullptr; };
   for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) {
     const std::size_t n = line->size();
@@ -308,8 +323,13 @@ Result<Shapes> slot(const Model& m, AnyRef self, const Slot& f) {
       s->area = geometry::unite(s->area, geometry::disc(at, half, kAreaTolerance));
       s->reach = geometry::unite(s->reach, geometry::disc(at, half, kAreaTolerance));
       if (end(i) == nullptr) s->assumptions.push_back("an end condition is missing; taken as radiused");
+    } else if (const auto* flat = m.get<FlatSlotEndType>(f.end_conditions[i])) {
+      const auto r = corner_of(m, *flat, self);
+      if (!r) return tl::unexpected(r.error());
+      corner = corner ? std::min(*corner, *r) : *r;
     }
   }
+  s->corner_radius_mm = corner.value_or(0.0);
   return Shapes{*s};
 }
 

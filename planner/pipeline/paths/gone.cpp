@@ -1,6 +1,7 @@
 #include "planner/pipeline/paths/gone.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "planner/engagement/engagement.h"
 #include "planner/pipeline/paths/results.h"
@@ -11,28 +12,55 @@
 namespace capstan::pipeline {
 namespace {
 
-geometry::Box3 box_over(const geometry::Region& area) {
-  const auto b = geometry::bounds(area);
-  geometry::Box3 out;
-  out.add({b.lo.x, b.lo.y, 0.0});
-  out.add({b.hi.x, b.hi.y, 0.0});
+constexpr double kSameMm = 0.02;      // of outlines and heights; default, unsourced
+constexpr double kRemnantMm2 = 0.01;  // slivers of outlines; default, unsourced
+constexpr double kAligned = 1.0 - 1e-9;
+
+geometry::Region moved(const geometry::Region& r, const geometry::Placement& at) {
+  geometry::Region out;
+  for (const geometry::Loop& loop : r.loops) {
+    geometry::Loop q;
+    for (const geometry::Vec2 p : loop) q.push_back(geometry::xy(at.to_parent({p.x, p.y, 0.0})));
+    if (at.z.z < 0.0) std::reverse(q.begin(), q.end());
+    out.loops.push_back(std::move(q));
+  }
   return out;
 }
 
-/// The last step with a path, in whichever set-up, in whose area this one's lies: what it would cut is gone
-/// with that.
+/// Where a feature takes all of another's height away, in that one's frame; nothing where it ends above.
+geometry::Region gone_with(const model::FeatureShape& a, const model::FeatureShape& b) {
+  const auto rel = compose(inverse(b.frame), a.frame);
+  if (std::abs(rel.z.z) < kAligned) return {};
+  const double end = rel.origin.z - a.depth_mm * rel.z.z;
+  const double top = a.kind == model::ShapeKind::kFace ? 1e300 : std::max(rel.origin.z, end);
+  const double bottom = std::min(rel.origin.z, end);
+  if (bottom > -b.depth_mm + kSameMm || top < -kSameMm) return {};
+  geometry::Region out = a.area;
+  for (const auto& island : a.islands) out = geometry::subtract(out, island.area);
+  return moved(out, rel);
+}
+
+/// The last of the steps with a path, in whichever set-up, in whose areas together this one's lies: what it
+/// would cut is gone with these. Nothing when some of it lies beyond them.
 Ref<model::Executable> made_by(const Work& w, const StepWork& step) {
   Ref<model::Executable> out;
-  for (const model::StepResult& kept : w.plan.steps) {
-    const auto it =
-        std::find_if(w.steps.begin(), w.steps.end(), [&](const StepWork& s) { return s.step == kept.step; });
-    if (it == w.steps.end() || it->shapes.empty() || step.shapes.empty()) continue;
-    const auto& a = it->shapes.front();
-    const auto& b = step.shapes.front();
-    const auto box = transformed(box_over(a.area), compose(inverse(b.frame), a.frame));
-    const auto own = geometry::bounds(b.area);
-    if (box.lo.x <= own.hi.x && box.hi.x >= own.lo.x && box.lo.y <= own.hi.y && box.hi.y >= own.lo.y)
-      out = kept.step;
+  for (const model::FeatureShape& b : step.shapes) {
+    const geometry::Box3 raw = transformed(w.plan.stock.box, inverse(b.frame));
+    geometry::Region left = geometry::intersect(
+        geometry::offset(b.area, -kSameMm), geometry::rectangle(geometry::xy(raw.lo), geometry::xy(raw.hi)));
+    for (const auto& island : b.islands) left = geometry::subtract(left, island.area);
+    for (const model::StepResult& kept : w.plan.steps) {
+      const auto it = std::find_if(w.steps.begin(), w.steps.end(),
+                                   [&](const StepWork& s) { return s.step == kept.step; });
+      if (it == w.steps.end()) continue;
+      for (const model::FeatureShape& a : it->shapes) {
+        const geometry::Region gone = gone_with(a, b);
+        if (gone.empty() || geometry::intersect(left, gone).empty()) continue;
+        left = geometry::subtract(left, gone);
+        out = kept.step;
+      }
+    }
+    if (geometry::area(left) > kRemnantMm2) return {};
   }
   return out;
 }

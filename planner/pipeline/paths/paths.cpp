@@ -217,13 +217,16 @@ class PathMaker {
   }
 
   /// A try with one of the candidates: thinner, where a limit is exceeded along its path, up to kMostThinner
-  /// times; the gentlest when none keeps the limits. What it cuts is gone from the stock.
+  /// times; the gentlest when none keeps the limits. What it cuts is gone from the stock, but for a proposed
+  /// step's that keeps no limits.
   Result<Tried> with_cutter(StepWork& step, std::size_t i) {
     const model::Candidate* candidate = i < step.candidates.size() ? &step.candidates[i] : nullptr;
     if (candidate != nullptr) step.cutter = candidate->cutter;
     const auto before = stocks_.before(step.setup);
     std::vector<model::Rejected> thicker;
     std::optional<double> gentlest;  // share of the first try
+    std::optional<Tried> came_of_it;
+    std::vector<Diagnostic> said_of_it;
     double of_gentlest = 0.0, share = 1.0;
     if (const Thinner* t =
             step.proposed ? w_.tries.thinner(step.member, step.chain, step.in_chain) : nullptr) {
@@ -235,8 +238,10 @@ class PathMaker {
       const auto told = [&](bool kept) {
         auto now = w_.job.take_diagnostics();
         for (auto& d : said) w_.job.report(std::move(d));
-        if (!kept) return;
+        if (!kept) return now;
         for (auto& d : now) w_.job.report(std::move(d));
+        now.clear();
+        return now;
       };
       auto made = attempt(step, candidate, share);
       if (!made) told(!gentlest);
@@ -249,16 +254,23 @@ class PathMaker {
       Tried tried = cut(step, *std::move(made));
       const double excess = tried.feeds.worst_excess;
       const bool kept = !exceeds(step, tried) || !thinner;
-      told(kept);
+      auto unsaid = told(kept);
       if (kept) return tried;
+      thicker.push_back({sizes(tried.made.answer), excess_text(tried)});
       if (!gentlest || excess < of_gentlest) {
         gentlest = share;
         of_gentlest = excess;
+        came_of_it = std::move(tried);
+        said_of_it = std::move(unsaid);
       }
-      thicker.push_back({sizes(tried.made.answer), excess_text(tried)});
       stocks_.put_back(step.setup, before);
       share *= std::isfinite(excess) ? kThinnerAim / (1.0 + excess) : kThinnerUnknown;
       if (share < kThinnest) break;
+    }
+    if (step.proposed) {  // exceeds a limit and is not taken: nothing is cut, what is known of it will do
+      came_of_it->made.thicker = std::move(thicker);
+      for (auto& d : said_of_it) w_.job.report(std::move(d));
+      return *std::move(came_of_it);
     }
     auto made = attempt(step, candidate, *gentlest);
     if (!made) return tl::unexpected(made.error());

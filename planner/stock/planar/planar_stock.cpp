@@ -169,6 +169,7 @@ void PlanarStock::place(std::uint32_t id, Vec2 lo, Vec2 hi) {
 }
 
 void PlanarStock::thin(Tile& tile, Vec2 middle) {
+  constexpr int kQuarterings = 3;
   std::vector<std::uint32_t> others;
   for (std::size_t i = 0; i < tile.trails.size();) {  // oldest first
     const Trail& t = trails_[tile.trails[i]];
@@ -176,7 +177,7 @@ void PlanarStock::thin(Tile& tile, Vec2 middle) {
     for (std::size_t k = 0; k < tile.trails.size(); ++k) {
       if (k != i && trails_[tile.trails[k]].highest_mm <= t.lowest_mm) others.push_back(tile.trails[k]);
     }
-    if (!others.empty() && covered(t, others, middle, 0.5 * tile_mm_, 0)) {
+    if (!others.empty() && covered(t, others, middle, 0.5 * tile_mm_, kQuarterings)) {
       tile.trails.erase(tile.trails.begin() + static_cast<std::ptrdiff_t>(i));
     } else {
       ++i;
@@ -189,8 +190,7 @@ void PlanarStock::thin(Tile& tile, Vec2 middle) {
 // when its middle does so by half its diagonal. What stays open after a few quarterings counts as not
 // covered.
 bool PlanarStock::covered(const Trail& trail, const std::vector<std::uint32_t>& others, Vec2 middle,
-                          double half_mm, int depth) const {
-  constexpr int kQuarterings = 3;
+                          double half_mm, int quarterings) const {
   const double corner = half_mm * std::numbers::sqrt2;
   const double own = trail.distance(middle);
   if (own - corner >= trail.radius_mm) return true;
@@ -204,11 +204,11 @@ bool PlanarStock::covered(const Trail& trail, const std::vector<std::uint32_t>& 
     inside = inside || d <= o.radius_mm;
     near.push_back(id);
   }
-  if (near.empty() || depth >= kQuarterings || (!inside && own <= trail.radius_mm)) return false;
+  if (near.empty() || quarterings == 0 || (!inside && own <= trail.radius_mm)) return false;
   const double q = 0.5 * half_mm;
   for (const double dx : {-q, q}) {
     for (const double dy : {-q, q}) {
-      if (!covered(trail, near, middle + Vec2{dx, dy}, q, depth + 1)) return false;
+      if (!covered(trail, near, middle + Vec2{dx, dy}, q, quarterings - 1)) return false;
     }
   }
   return true;
@@ -333,6 +333,21 @@ bool PlanarStock::even(const Nearby& near, double from_mm, double to_mm) const {
   if (!apart(box_.lo.z, box_.lo.z) || !apart(box_.hi.z, box_.hi.z)) return false;
   return std::all_of(near.trails.begin(), near.trails.end(),
                      [&](std::uint32_t id) { return apart(trails_[id].lowest_mm, trails_[id].highest_mm); });
+}
+
+bool PlanarStock::cleared(const Nearby& near, Vec2 centre, double radius_mm, double z_mm) const {
+  constexpr int kQuarterings = 4;  // to squares of an eighth of the radius
+  std::vector<std::uint32_t> deep;
+  for (const std::uint32_t id : near.trails) {
+    const Trail& t = trails_[id];
+    if (t.highest_mm <= z_mm && t.distance(centre) < t.radius_mm + radius_mm) deep.push_back(id);
+  }
+  if (deep.empty()) return false;
+  Trail disc;
+  disc.a = disc.b = centre;
+  disc.radius_mm = radius_mm;
+  disc.settle();
+  return covered(disc, deep, centre, radius_mm, kQuarterings);
 }
 
 void PlanarStock::heights(const Probe& probe, Nearby& near, double above_mm, Heights& out,

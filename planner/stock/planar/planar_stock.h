@@ -64,6 +64,9 @@ class PlanarStock {
   void gather(geometry::Vec2 lo, geometry::Vec2 hi, Nearby& out) const;
   /// Whether what stands there is the same at all heights between: no floor begins or ends in between.
   [[nodiscard]] bool even(const Nearby& near, double from_mm, double to_mm) const;
+  /// Whether trails whose floors lie at or below z took all of a disc; false where squares of an eighth
+  /// of its radius do not tell. `near` was gathered around it.
+  [[nodiscard]] bool cleared(const Nearby& near, geometry::Vec2 centre, double radius_mm, double z_mm) const;
   /// What stands along the probe; `near` was gathered around it. Below `above_mm` nothing is told apart,
   /// nor is it above `most_mm`: it is said to be so high.
   void heights(const Probe& probe, Nearby& near, double above_mm, Heights& out, double most_mm = 1e300) const;
@@ -89,7 +92,7 @@ class PlanarStock {
   void place(std::uint32_t id, geometry::Vec2 lo, geometry::Vec2 hi);
   void thin(Tile& tile, geometry::Vec2 middle);
   bool covered(const Trail& trail, const std::vector<std::uint32_t>& others, geometry::Vec2 middle,
-               double half_mm, int depth) const;
+               double half_mm, int quarterings) const;
 
   geometry::Box3 box_;
   double bar_radius_mm_ = 0.0;  ///< 0: a block

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/model/in_piece.h"
 #include "planner/model/nouns/all.h"
 #include "planner/verify/plan/plan_checks.h"
 #include "planner/verify/sweep/target.h"
@@ -10,10 +11,11 @@
 namespace capstan::verify {
 namespace {
 
+using model::AnyRef;
 using model::FeatureShape;
 using model::ShapeKind;
 
-constexpr double kBeyondMm = 0.01;  ///< of a feature's extent beyond the raw piece; default, unsourced
+constexpr double kBeyondMm = model::kBeyondPieceMm;
 
 std::string where(geometry::Vec3 p) { return "(" + plain(p.x) + ", " + plain(p.y) + ", " + plain(p.z) + ")"; }
 
@@ -61,6 +63,19 @@ void check_within(const model::Plan& plan, Findings& findings) {
   };
   std::vector<Hole> holes;
   const std::vector<Asked> asked = asked_of(plan);
+  const model::PieceForm raw{plan.stock.box, plan.stock.cylinder_radius_mm};
+  const model::PieceForm whole{part.part, plan.stock.cylinder_radius_mm};
+  std::vector<FeatureShape> all;
+  for (const auto& e : part.entries) {
+    if (!e.piece) all.insert(all.end(), e.shapes.begin(), e.shapes.end());
+  }
+  const auto drills = [&](AnyRef feature) {
+    return std::any_of(plan.steps.begin(), plan.steps.end(), [&](const model::StepResult& s) {
+      const auto* ws = plan.model.get<model::MachiningWorkingstep>(s.step);
+      const model::Cutter* c = model::find_cutter(plan, s.cutter_id);
+      return ws != nullptr && c != nullptr && ws->its_feature == feature && drilled(c->cutter_class);
+    });
+  };
   for (const Asked& a : asked) {
     const PartShapes::Entry* e = part.find(a.feature);
     if (e == nullptr) continue;
@@ -69,6 +84,20 @@ void check_within(const model::Plan& plan, Findings& findings) {
         findings.error(37, "CHK-OUTSIDE", a.where,
                        "feature " + s.name + ", placed at " + where(s.frame.origin) + " of the workpiece, " +
                            why + " (" + where(plan.stock.box.lo) + " to " + where(plan.stock.box.hi) + ")");
+      }
+      const std::string at =
+          "feature " + s.name + ", placed at " + where(s.frame.origin) + " of the workpiece";
+      if (drills(a.feature)) {
+        if (const std::string why = model::cuts_an_edge(s, raw); !why.empty())
+          findings.error(37, "CHK-EDGE", a.where, at + ", is drilled, but " + why + "; mill it, or move it");
+        if (const std::string why = model::point_runs_through(s, raw); !why.empty())
+          findings.error(37, "CHK-OUTSIDE", a.where, at + ": " + why);
+      }
+      if (!plan.target_mesh && model::buried(s, {}, whole)) {
+        if (const auto lid = model::buried(s, all, whole))
+          findings.error(37, "CHK-BURIED", a.where,
+                         at + ", is cut through what stands above it: " + model::to_text(*lid),
+                         lid->above_mm);
       }
       if (s.kind == ShapeKind::kHole || s.kind == ShapeKind::kThread) holes.push_back({&s, &a});
     }
@@ -79,13 +108,7 @@ void check_within(const model::Plan& plan, Findings& findings) {
       // The one made last meets the other's wall on one side only.
       const Hole& last = holes[i].asked->where.order >= holes[k].asked->where.order ? holes[i] : holes[k];
       const Hole& first = &last == &holes[i] ? holes[k] : holes[i];
-      const bool drills = std::any_of(plan.steps.begin(), plan.steps.end(), [&](const model::StepResult& s) {
-        const auto* ws = plan.model.get<model::MachiningWorkingstep>(s.step);
-        const model::Cutter* c = model::find_cutter(plan, s.cutter_id);
-        return ws != nullptr && c != nullptr && ws->its_feature == last.asked->feature &&
-               drilled(c->cutter_class);
-      });
-      if (!drills) continue;
+      if (!drills(last.asked->feature)) continue;
       findings.error(37, "CHK-OVERLAP", last.asked->where,
                      "hole " + last.shape->name + " at " + where(last.shape->frame.origin) +
                          " runs into the wall of " + first.shape->name + " at " +

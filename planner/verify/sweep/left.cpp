@@ -3,6 +3,7 @@
 #include <numbers>
 #include <set>
 
+#include "planner/model/in_piece.h"
 #include "planner/model/nouns/all.h"
 #include "planner/verify/sweep/target.h"
 
@@ -10,10 +11,12 @@
 // feature's own floor: its nominal height, the depth's tolerance and what the finest step states as allowance
 // added. A cell counts where the floor is as high, or there is none, at no point of a ring around it: the
 // ring's radius is a cell, the tolerances and the side allowance, so that walls and slopes are judged within
-// a cell. Corners that the feature draws sharp keep the radius of the narrowest mill of its steps, and the
-// foot of a wall without a stated fillet that of the tool's corner; a stated radius is what may stay there,
-// no more. Points of drills count below a conical bottom's depth only; crests of threads and what heights do
-// not hold are not looked at.
+// a cell. What may stay in corners is what the file allows: a stated radius; where a pocket or step states
+// none, the radius of the narrowest mill of its steps, and at the foot of a wall that of the tool's corner,
+// both within bounds; nothing in the square ends of slots, nor where a radius of 0 is stated. Points of
+// drills count below a conical bottom's depth only. A through hole that ends within another feature is done
+// there. Crests of threads and what heights do not hold are not looked at, nor what is narrower than two
+// cells: a note says so.
 //
 // On a freeform surface the distance is measured square to it: from the top of what stands to the nearest of
 // the columns that the finished part fills. It may be the tolerance, and what the finishing step states as
@@ -31,6 +34,12 @@ namespace {
 constexpr int kRing = 8;
 constexpr double kSharpRad = 20.0 / 180.0 * std::numbers::pi;  ///< arcs are drawn by smaller turns
 constexpr double kNone = 1e300;
+/// What may stay in corners for which the file states no radius, of the outline's narrower side. Default,
+/// unsourced: a mill wider than 0.7 of what it cuts leaves no corner to speak of.
+constexpr double kUnstatedShare = 0.35;
+/// At the foot of an upright wall: the usual largest corner of a milling insert (ISO 1832, 08), mm.
+constexpr double kUnstatedFootMm = 0.8;
+constexpr double kBelowMm = 0.05;  ///< a hole's end, to see what it opens into; default, unsourced
 
 std::string place(Vec2 p, double z) { return "(" + plain(p.x) + ", " + plain(p.y) + ", " + plain(z) + ")"; }
 
@@ -84,6 +93,38 @@ std::optional<double> own_floor(const FeatureShape& s, Vec2 q) {
   if (!z) return std::nullopt;
   const bool hole = s.kind == ShapeKind::kHole || s.kind == ShapeKind::kThread;
   return hole ? std::max(*z, -s.depth_mm) : *z;
+}
+
+double narrow_side(const Region& area) {
+  const auto b = geometry::bounds(area);
+  return std::min(b.hi.x - b.lo.x, b.hi.y - b.lo.y);
+}
+
+/// The radius that the file lets stay in a feature's inside corners; `mill`: that of its narrowest mill.
+double corner_allowed(const model::Model& m, const FeatureShape& s, double mill) {
+  if (s.corner_radius_mm > 0.0) return s.corner_radius_mm;
+  if (s.kind == ShapeKind::kSlot) return 0.0;
+  const auto* p = m.get<model::Pocket>(s.made_of.empty() ? s.feature : s.made_of.back());
+  if (p != nullptr && p->orthogonal_radius.set()) return 0.0;
+  return std::min(mill, kUnstatedShare * narrow_side(s.area));
+}
+
+/// The same for the foot of its walls; `corner`: that of the mill.
+double foot_allowed(const FeatureShape& s, double corner) {
+  if (s.bottom_radius_mm > 0.0)
+    return s.open || s.kind == ShapeKind::kSlot ? s.bottom_radius_mm : 0.0;  // else its floor tells it
+  return std::min(corner, s.slope_rad > 0.0 ? kUnstatedShare * narrow_side(s.area) : kUnstatedFootMm);
+}
+
+/// What of a feature no height tells, or no cell.
+std::string not_judged(const FeatureShape& s, const Asked& a, double ring) {
+  if (s.kind == ShapeKind::kThread) return "the flanks of its thread";
+  if (s.kind == ShapeKind::kHole && s.diameter.nominal_mm - s.bottom_diameter_mm > 1e-6)
+    return "the cone of its wall";
+  if (a.undercut) return "what lies under an overhang";
+  if (s.kind != ShapeKind::kChamfer && geometry::offset(s.area, -ring, 0.01).empty())
+    return "all of it, which is narrower than two cells (" + mm(2.0 * ring) + " with its tolerances),";
+  return s.slope_rad > 0.0 ? "its leaning walls" : "";
 }
 
 /// Where a mill of this radius leaves the sharp corners of an area, and nowhere else.
@@ -172,14 +213,23 @@ void Target::left(const Grid& grid, const std::vector<Asked>& asked, bool carrie
   }
 }
 
+bool Target::opens_below(const FeatureShape& s, Vec2 p, double z) const {
+  const geometry::Vec3 at = frame_.to_local({p.x, p.y, z - kBelowMm});
+  return std::any_of(part_.entries.begin(), part_.entries.end(), [&](const PartShapes::Entry& e) {
+    return !e.piece && e.feature != s.feature &&
+           std::any_of(e.shapes.begin(), e.shapes.end(), [&](const auto& o) { return model::takes(o, at); });
+  });
+}
+
 void Target::left_of(const Cavity& c, const Grid& grid, const Asked& a, bool carried, Findings& out) const {
   const FeatureShape& s = *c.shape;
   const double above = c.frame.origin.z;
   const double limit = allowed() + shallower(s) + a.bottom_mm;
   const double ring = (carried ? 1.5 : 1.0) * grid.cell() + allowed() + narrower(s) + a.side_mm;
-  const double fillet = s.bottom_radius_mm > 0.0 && (s.open || s.kind == ShapeKind::kSlot)
-                            ? s.bottom_radius_mm
-                            : (s.bottom_radius_mm > 0.0 ? 0.0 : a.corner_mm);
+  const double fillet = foot_allowed(s, a.corner_mm);
+  if (const std::string what = not_judged(s, a, ring); !what.empty())
+    out.note(36, "CHK-NOT-JUDGED", a.where,
+             "of " + s.name + ", " + what + " is not looked at for what stays");
   const bool below = c.frame.z.z < 0.0;
   const auto floor = [&](Vec2 p) -> std::optional<double> {
     const geometry::Vec3 local = c.frame.to_local({p.x, p.y, 0.0});
@@ -214,13 +264,14 @@ void Target::left_of(const Cavity& c, const Grid& grid, const Asked& a, bool car
       const Vec2 p = grid.centre(ix, iy);
       const auto own = floor(p);
       if (!own || stands - std::max(*own, grid.base[i]) <= limit) continue;
+      if (s.through && stands <= above - s.depth_mm + limit && opens_below(s, p, stands)) continue;
       const auto wide = around(p, ring);
       if (!wide) continue;
       const double left = stands - std::max({*own, *wide, grid.base[i]});
       if (left <= limit) continue;
       if (fillet > 0.0 && left <= fillet + limit && !around(p, ring + fillet)) continue;
       if (!corners) {
-        const double r = s.corner_radius_mm > 0.0 ? s.corner_radius_mm : a.radius_mm;
+        const double r = corner_allowed(plan_.model, s, a.radius_mm);
         Region own_area = s.area;
         for (const auto& island : s.islands) own_area = geometry::subtract(own_area, island.area);
         const bool milled = r > 0.0 && s.kind != ShapeKind::kHole && s.kind != ShapeKind::kThread;

@@ -103,6 +103,8 @@ class Target : public GougeJudge {
 
   void add(const model::FeatureShape& s, bool bevel = false);
   void left_of(const Cavity& c, const Grid& grid, const Asked& a, bool carried, Findings& out) const;
+  /// Whether another feature takes away what lies right below a point, set-up frame.
+  [[nodiscard]] bool opens_below(const model::FeatureShape& s, geometry::Vec2 p, double z) const;
   void left_on_mesh(const Grid& grid, const Asked& a, Findings& out) const;
   void add_broken_edges();
   [[nodiscard]] double floor_of(const Cavity& c, geometry::Vec2 p) const;

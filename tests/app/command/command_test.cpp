@@ -9,6 +9,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "tests/app/command/command.h"
 #include "tests/app/plans.h"
 #include "tests/support/corpus.h"
 
@@ -20,47 +21,6 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-struct Ran {
-  int code = -1;
-  std::string out, err;
-};
-
-std::string slurp(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
-
-class CommandTest : public ::testing::Test {
- protected:
-  /// `arguments` as a shell takes them.
-  [[nodiscard]] Ran run(const std::string& arguments) const {
-    const fs::path out = folder_ / "stdout.txt";
-    const fs::path err = folder_ / "stderr.txt";
-    const std::string line = "cd '" + folder_.string() + "' && '" CAPSTAN_COMMAND "' " + arguments + " >'" +
-                             out.string() + "' 2>'" + err.string() + "'";
-    const int status = std::system(line.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, slurp(out), slurp(err)};
-  }
-  void put(const std::string& name, const std::string& bytes) const {
-    std::ofstream(folder_ / name, std::ios::binary) << bytes;
-  }
-  /// Files of the folder but for the two streams.
-  [[nodiscard]] std::vector<std::string> files() const {
-    std::vector<std::string> out;
-    for (const auto& e : fs::directory_iterator(folder_)) {
-      const std::string name = e.path().filename().string();
-      if (name != "stdout.txt" && name != "stderr.txt") out.push_back(name);
-    }
-    std::sort(out.begin(), out.end());
-    return out;
-  }
-
-  ::capstan::testing::ScratchFolder scratch_;
-  fs::path folder_ = scratch_.path();
-};
 
 TEST_F(CommandTest, HelpAndVersionGoToStandardOutput) {
   const Ran help = run("--help");

@@ -288,6 +288,25 @@ TEST(PlanarHelix, VolumeIsThatOfTheBoreOnceItsBottomIsCleared) {
   EXPECT_NEAR(80.0 * 60.0 * 20.0 - stock.volume(1e-7), expected, 2e-5 * expected);
 }
 
+// Under the tip stands a ring whose edges lie within the disc: read in lines, it is never even, so that
+// halving the way until it is would take hours.
+TEST(PlanarHelix, ARingAroundADrilledHoleIsMeasuredWithoutHalvingNoise) {
+  auto stock = PlanarStock::from_box(kBlock);
+  CutterPath drilled;
+  drilled.start({40.0, 30.0, 5.0});
+  drilled.line({40.0, 30.0, -6.0}, MoveRole::kDrill);
+  ASSERT_TRUE(measure(drilled, cutter(CutterClass::kEndmill, 9.0), stock));
+  CutterPath p;
+  p.start({41.0, 30.0, 0.0});
+  for (int k = 1; k <= 8; ++k) p.arc({41.0, 30.0, -0.5 * k}, {40.0, 30.0}, false, MoveRole::kRamp);
+  p.arc({41.0, 30.0, -4.0}, {40.0, 30.0}, false, MoveRole::kCut);
+  const auto m = measure(p, cutter(CutterClass::kEndmill, 10.0), stock);
+  ASSERT_TRUE(m);
+  // Between 9 and 12 mm across, 4 mm deep.
+  const double expected = kPi * (36.0 - 20.25) * 4.0;
+  EXPECT_NEAR(m->removed_mm3, expected, 3e-3 * expected);
+}
+
 TEST(PlanarDrill, HoleIsConeAndCylinderAndPecksTakeNothingTwice) {
   const double tip = 5.0 / std::tan(59.0 * kPi / 180.0);
   const double area = kPi * 25.0;

@@ -84,8 +84,10 @@ class Reader {
     const auto& n = c.numbers;
     if (c.name == "COMMENT") {
       comment(c.text);
-    } else if (c.name == "CHANGE_TOOL" && !n.empty()) {
-      tool_ = static_cast<int>(n[0]);
+    } else if (c.name == "SELECT_TOOL" && !n.empty()) {
+      selected_ = static_cast<int>(n[0]);
+    } else if (c.name == "CHANGE_TOOL") {  // its number is the place in the table, not the tool's
+      tool_ = selected_;
     } else if (c.name == "USE_TOOL_LENGTH_OFFSET" && n.size() >= 3) {
       offset_ = n[2];
     } else if ((c.name == "STRAIGHT_TRAVERSE" || c.name == "STRAIGHT_FEED") && n.size() >= 3) {
@@ -163,7 +165,7 @@ class Reader {
   Motions out_;
   std::map<int, double> lengths_;
   Point at_{0.0, 0.0, kFarAbove};
-  int tool_ = 0, setup_ = 1;
+  int selected_ = 0, tool_ = 0, setup_ = 1;
   double offset_ = 0.0;
   bool machine_move_ = false, ended_ = false;
   std::optional<double> far_z_;

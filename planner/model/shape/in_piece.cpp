@@ -1,0 +1,206 @@
+#include "planner/model/in_piece.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "planner/base/number.h"
+#include "planner/model/nouns/feature.h"
+#include "planner/model/resolve.h"
+
+// Features against the piece that they are cut from.
+//
+// What is buried is found by points: over the feature's area, at heights between its top and the top of the
+// piece, a point is open when it lies outside the piece or within what some feature takes away; a face takes
+// away all that stands above it. A point counts as buried when its neighbours, a hair aside, are so too: what
+// stays in corners, where two outlines meet, is no lid.
+
+namespace capstan::model {
+namespace {
+
+using geometry::Box3;
+using geometry::Vec2;
+using geometry::Vec3;
+
+constexpr double kUpright = 1.0 - 1e-9;
+constexpr int kAcross = 32;       // points along a side of the feature's box; default, unsourced
+constexpr int kUp = 6;            // heights; default, unsourced
+constexpr double kAsideMm = 0.2;  // neighbours; default, unsourced
+constexpr double kLidMm = 0.02;   // thinner lids are rounding of a file; default, unsourced
+
+Box3 seen_from(const Box3& box, const geometry::Placement& frame) {
+  Box3 out;
+  for (const double x : {box.lo.x, box.hi.x}) {
+    for (const double y : {box.lo.y, box.hi.y}) {
+      for (const double z : {box.lo.z, box.hi.z}) out.add(frame.to_local({x, y, z}));
+    }
+  }
+  return out;
+}
+
+bool tilted(const FeatureShape& s) {
+  return std::max({std::abs(s.frame.z.x), std::abs(s.frame.z.y), std::abs(s.frame.z.z)}) < kUpright;
+}
+
+bool is_hole(const FeatureShape& s) { return s.kind == ShapeKind::kHole || s.kind == ShapeKind::kThread; }
+
+double radius_of(const FeatureShape& s) {
+  if (s.kind == ShapeKind::kThread) return 0.5 * std::max(s.thread_major_mm, s.diameter.nominal_mm);
+  return 0.5 * std::min(s.diameter.nominal_mm, s.bottom_diameter_mm);
+}
+
+bool in_piece(Vec3 p, const PieceForm& piece) {
+  if (p.x < piece.box.lo.x || p.x > piece.box.hi.x || p.y < piece.box.lo.y || p.y > piece.box.hi.y ||
+      p.z < piece.box.lo.z || p.z > piece.box.hi.z)
+    return false;
+  if (!piece.round_mm) return true;
+  const Vec3 middle = 0.5 * (piece.box.lo + piece.box.hi);
+  return std::hypot(p.x - middle.x, p.y - middle.y) <= *piece.round_mm;
+}
+
+}  // namespace
+
+bool takes(const FeatureShape& s, Vec3 p) {
+  if (s.area.empty()) return false;
+  const Vec3 q = s.frame.to_local(p);
+  if (s.kind != ShapeKind::kFace && q.z > kLidMm) return false;
+  const auto floor = floor_at(s, {q.x, q.y});
+  return floor && (q.z >= *floor - kLidMm || (s.through && *floor <= -s.depth_mm + kLidMm));
+}
+
+double beyond_sides(const FeatureShape& s, const PieceForm& raw) {
+  if (!is_hole(s) || raw.box.empty() || tilted(s)) return 0.0;
+  const double r = radius_of(s);
+  const Box3 box = seen_from(raw.box, s.frame);
+  double out = std::max({r + box.lo.x, r - box.hi.x, r + box.lo.y, r - box.hi.y});
+  if (raw.round_mm && std::abs(s.frame.z.z) >= kUpright) {
+    const Vec3 middle = 0.5 * (raw.box.lo + raw.box.hi);
+    out = std::max(out,
+                   std::hypot(s.frame.origin.x - middle.x, s.frame.origin.y - middle.y) + r - *raw.round_mm);
+  }
+  return out > kBeyondPieceMm ? out : 0.0;
+}
+
+std::string cuts_an_edge(const FeatureShape& s, const PieceForm& raw) {
+  const double beyond = beyond_sides(s, raw);
+  if (!(beyond > 0.0)) return {};
+  const double r = radius_of(s);
+  return (beyond > r ? "its axis lies " + trimmed(beyond - r, 3) + " mm outside the raw piece"
+                     : "its circle of " + trimmed(2.0 * r, 3) + " mm runs " + trimmed(beyond, 3) +
+                           " mm out over the edge of the raw piece") +
+         ": a drill is pushed aside there and breaks";
+}
+
+std::string point_runs_through(const FeatureShape& s, const PieceForm& raw) {
+  if (s.kind != ShapeKind::kHole || s.bottom != HoleBottom::kConical || s.through || raw.box.empty() ||
+      tilted(s))
+    return {};
+  const double under = -seen_from(raw.box, s.frame).lo.z;
+  const double tip = 0.5 * s.bottom_diameter_mm * std::tan(s.bottom_angle_rad);
+  const double by = s.depth_mm + tip - under;
+  if (by <= kBeyondPieceMm || s.depth_mm > under + kBeyondPieceMm) return {};
+  const double full = 180.0 - 2.0 * s.bottom_angle_rad * 180.0 / std::numbers::pi;
+  return "the point of its drill (" + trimmed(full, 1) + " degrees, " + trimmed(tip, 3) +
+         " mm long, below a depth of " + trimmed(s.depth_mm, 3) +
+         " mm) runs through the underside of the raw piece by " + trimmed(by, 3) +
+         " mm; give the hole a flat bottom, make it " + trimmed(by, 3) + " mm less deep, or through";
+}
+
+std::optional<Buried> buried(const FeatureShape& s, const std::vector<FeatureShape>& features,
+                             const PieceForm& part) {
+  switch (s.kind) {
+    case ShapeKind::kPocket:
+    case ShapeKind::kSlot:
+    case ShapeKind::kStep:
+    case ShapeKind::kHole:
+    case ShapeKind::kThread:
+    case ShapeKind::kOutside:
+      break;
+    default:
+      return std::nullopt;
+  }
+  if (s.area.empty() || part.box.empty() || tilted(s)) return std::nullopt;
+  const Box3 box = seen_from(part.box, s.frame);
+  if (box.hi.z <= kLidMm) return std::nullopt;
+  auto b = geometry::bounds(s.area);
+  b.lo = {std::max(b.lo.x, box.lo.x), std::max(b.lo.y, box.lo.y)};
+  b.hi = {std::min(b.hi.x, box.hi.x), std::min(b.hi.y, box.hi.y)};
+  if (!(b.lo.x < b.hi.x && b.lo.y < b.hi.y)) return std::nullopt;
+  const Vec2 cell = (1.0 / kAcross) * (b.hi - b.lo);
+  const double high = (box.hi.z - kLidMm) / kUp;
+  const auto lid = [&](double x, double y, double z) {
+    const Vec3 p = s.frame.to_parent({x, y, z});
+    return in_piece(p, part) &&
+           std::none_of(features.begin(), features.end(), [&](const FeatureShape& o) { return takes(o, p); });
+  };
+  std::optional<Buried> out;
+  for (int iy = 0; iy < kAcross; ++iy) {
+    for (int ix = 0; ix < kAcross; ++ix) {
+      const Vec2 p{b.lo.x + (ix + 0.5) * cell.x, b.lo.y + (iy + 0.5) * cell.y};
+      const auto own = floor_at(s, p);
+      if (!own || *own > -kLidMm) continue;
+      for (int k = 0; k < kUp; ++k) {
+        const double z = kLidMm + (k + 0.5) * high;
+        if (!lid(p.x, p.y, z)) continue;
+        const bool corner = !lid(p.x + kAsideMm, p.y, z) || !lid(p.x - kAsideMm, p.y, z) ||
+                            !lid(p.x, p.y + kAsideMm, z) || !lid(p.x, p.y - kAsideMm, z);
+        if (corner) continue;
+        if (!out) out = Buried{};
+        out->volume_mm3 += cell.x * cell.y * high;
+        if (z + 0.5 * high <= out->above_mm) continue;
+        out->above_mm = z + 0.5 * high;
+        out->at = s.frame.to_parent({p.x, p.y, out->above_mm});
+      }
+    }
+  }
+  return out;
+}
+
+std::string to_text(const Buried& b) {
+  return "up to " + trimmed(b.above_mm, 3) + " mm of the piece stand above its top, at (" +
+         trimmed(b.at.x, 2) + ", " + trimmed(b.at.y, 2) + ", " + trimmed(b.at.z, 2) + ") (about " +
+         trimmed(b.volume_mm3, 0) +
+         " mm3), and no feature takes them away; place its top on the surface, or add the feature that opens "
+         "it";
+}
+
+std::string square_corner(const Model& m, const FeatureShape& s, const std::vector<FeatureShape>& features,
+                          const PieceForm& part) {
+  constexpr const char* kWhatToDo =
+      "; state the radius that may stay, or have the corners broached or eroded";
+  const AnyRef noun = s.made_of.empty() ? s.feature : s.made_of.back();
+  if (const auto* p = m.get<Pocket>(noun)) {
+    if (!p->orthogonal_radius.set() || s.corner_radius_mm > kLidMm) return {};
+    return std::string("it states inside corners of radius 0, and a mill leaves them round") + kWhatToDo;
+  }
+  if (s.kind != ShapeKind::kSlot || s.spine.size() < 2) return {};
+  if (part.box.empty() || norm(s.spine.front() - s.spine.back()) < 1e-6) return {};
+  const double half = 0.5 * s.width.nominal_mm - kAsideMm;
+  for (const bool first : {true, false}) {
+    const std::size_t n = s.spine.size();
+    const Vec2 end = first ? s.spine.front() : s.spine.back();
+    const Vec2 before = first ? s.spine[1] : s.spine[n - 2];
+    const Vec2 out = (1.0 / norm(end - before)) * (end - before);
+    const Vec2 beyond = end + kAsideMm * out;
+    if (geometry::contains(s.area, beyond)) continue;  // rounded
+    const bool open = geometry::contains(s.reach, beyond);
+    if (!open && s.corner_radius_mm > kLidMm) continue;
+    for (const double side : {-half, 0.0, half}) {
+      const Vec2 q{beyond.x - side * out.y, beyond.y + side * out.x};
+      const Vec3 p = s.frame.to_parent({q.x, q.y, -0.5 * s.depth_mm});
+      const bool solid =
+          in_piece(p, part) &&
+          std::none_of(features.begin(), features.end(), [&](const FeatureShape& o) { return takes(o, p); });
+      if (!solid) continue;
+      const Vec3 at = s.frame.to_parent({end.x, end.y, 0.0});
+      return std::string(open ? "its open end" : "its flat end") + " at (" + trimmed(at.x, 2) + ", " +
+             trimmed(at.y, 2) + ", " + trimmed(at.z, 2) +
+             ") is square, solid stands beyond it, and a mill leaves its corners round: end it with a "
+             "radius" +
+             (open ? ", let it run out of the piece" : "") + kWhatToDo;
+    }
+  }
+  return {};
+}
+
+}  // namespace capstan::model

@@ -1,0 +1,166 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/removal/parts.h"
+
+// Features that no machinist would cut as they are drawn: not planned, with the reason, and no program for
+// them.
+
+namespace capstan::testing::removal {
+namespace {
+
+struct Sheet {
+  Box block = removal::block(60, 60, 20);
+  Drawing d{"SHEET", block};
+  [[nodiscard]] PlanOutput planned() const { return plan_bytes(d.text(), "sheet.p21"); }
+};
+
+std::string told(const PlanOutput& o) {
+  std::string out;
+  for (const auto& m : o.diagnostics) out += m.severity + " " + m.code + " " + m.text + "\n";
+  for (const auto& m : o.findings) out += "finding " + m.severity + " " + m.code + " " + m.text + "\n";
+  return out;
+}
+
+void expect_unplanned(const PlanOutput& o, std::size_t features, const std::string& why) {
+  EXPECT_EQ(o.unplanned, features) << told(o);
+  EXPECT_TRUE(std::any_of(o.diagnostics.begin(), o.diagnostics.end(), [&](const PlanMessage& m) {
+    return m.code == "PIP-UNPLANNED" && m.text.find(why) != std::string::npos;
+  })) << told(o);
+}
+
+void expect_refused(const Sheet& s, const std::string& why) {
+  const PlanOutput o = s.planned();
+  expect_unplanned(o, 1, why);
+  EXPECT_EQ(o.steps, 0U) << told(o);
+}
+
+TEST(RefusedParts, AHoleWhoseAxisLiesOutsideTheRawPieceIsNotDrilled) {
+  Sheet s;
+  s.d.hole("H", s.d.placement({62, 30, 0}), 20, 8, s.d.through_bottom());
+  expect_refused(s, "its axis lies 2 mm outside the raw piece");
+}
+
+TEST(RefusedParts, AHoleWhoseCircleCutsTheEdgeIsNotDrilled) {
+  Sheet s;
+  s.d.hole("H", s.d.placement({58, 30, 0}), 8, 8, s.d.conical_bottom(118));
+  expect_refused(s, "its circle of 8 mm runs 2 mm out over the edge of the raw piece");
+}
+
+TEST(RefusedParts, AHoleThatTouchesTheEdgeFromWithinIsDrilled) {
+  Sheet s;
+  s.d.hole("H", s.d.placement({56, 30, 0}), 8, 8, s.d.conical_bottom(118));
+  EXPECT_EQ(s.planned().unplanned, 0U);
+}
+
+TEST(RefusedParts, AThreadAtTheEdgeIsNotTapped) {
+  Sheet s;
+  const auto at = s.d.placement({59, 30, 0});
+  const auto core = s.d.hole_of("CORE", at, 17, s.d.length(5, 0.15, 0.05), s.d.conical_bottom(118));
+  s.d.thread("M6", at, 12, core, 6, 1);
+  expect_unplanned(s.planned(), 2, "its circle of 6 mm runs 2 mm out");
+}
+
+TEST(RefusedParts, APocketBelowSolidIsNotDugDownTo) {
+  Sheet s;
+  s.d.closed_pocket("P", s.d.placement({30, 30, -8}), 6, s.d.rectangle(30, 20), 4);
+  expect_refused(s, "up to 8 mm of the piece stand above its top");
+}
+
+TEST(RefusedParts, ASlotBelowSolidIsNotDugDownTo) {
+  Sheet s;
+  s.d.slot("S", s.d.placement({30, 0, -8}), 5, s.d.linear_path(60, {0, 1, 0}), s.d.square_u(8), "open",
+           "open");
+  expect_refused(s, "up to 8 mm of the piece stand above its top");
+}
+
+TEST(RefusedParts, AStepBelowSolidIsNotDugDownTo) {
+  Sheet s;
+  s.d.step("S", s.d.placement({40, 0, -8}), 6, 60, {0, 1, 0});
+  expect_refused(s, "up to 8 mm of the piece stand above its top");
+}
+
+TEST(RefusedParts, AMilledHoleBelowSolidIsNotDugDownTo) {
+  Sheet s;
+  s.d.hole("H", s.d.placement({30, 30, -8}), 6, 8, s.d.flat_bottom());
+  expect_refused(s, "up to 8 mm of the piece stand above its top");
+}
+
+TEST(RefusedParts, APocketThatAnotherOpensInPartIsNotDugDownTo) {
+  Sheet s;
+  s.d.closed_pocket("WIDE", s.d.placement({25, 30, 0}), 6, s.d.rectangle(30, 30), 4);
+  s.d.closed_pocket("P", s.d.placement({35, 30, -6}), 6, s.d.rectangle(30, 20), 4);
+  const PlanOutput o = s.planned();
+  expect_unplanned(o, 1, "up to 6 mm of the piece stand above its top");
+  EXPECT_GT(o.steps, 0U) << told(o);
+}
+
+TEST(RefusedParts, ASlotWhoseOpenEndLiesInTheBlockIsNotCutRound) {
+  Sheet s;
+  s.d.slot("S", s.d.placement({30, 15, 0}), 5, s.d.linear_path(60, {0, 1, 0}), s.d.square_u(8), "open",
+           "open");
+  expect_refused(s, "its open end at (30, 15, 0) is square, solid stands beyond it");
+}
+
+TEST(RefusedParts, ASlotWithSquareEndsIsNotCutRound) {
+  Sheet s;
+  s.d.slot("S", s.d.placement({30, 15, 0}), 5, s.d.linear_path(30, {0, 1, 0}), s.d.square_u(8), "flat",
+           "flat");
+  expect_refused(s, "its flat end at (30, 15, 0) is square, solid stands beyond it");
+}
+
+TEST(RefusedParts, ASlotThatOpensIntoAPocketIsCut) {
+  Sheet s;
+  s.d.closed_pocket("P", s.d.placement({30, 45, 0}), 6, s.d.rectangle(30, 20), 4);
+  s.d.slot("S", s.d.placement({30, 0, 0}), 5, s.d.linear_path(40, {0, 1, 0}), s.d.square_u(8), "open",
+           "open");
+  const PlanOutput o = s.planned();
+  EXPECT_EQ(o.unplanned, 0U) << told(o);
+}
+
+TEST(RefusedParts, MembersOfAPatternAllAtOnePlaceAreRefused) {
+  Sheet s;
+  const auto h = s.d.hole("H", s.d.placement({10, 0, 0}), 20, 5, s.d.through_bottom());
+  s.d.circular_pattern("C", s.d.placement({30, 30, 0}), h, 0, 4, 20);
+  expect_refused(s, "all of its 4 members stand at one place");
+}
+
+TEST(RefusedParts, ANumberLeftOutThatNoMemberHasIsRefused) {
+  Sheet s;
+  const auto h = s.d.hole("H", s.d.placement({10, 0, 0}), 20, 5, s.d.through_bottom());
+  s.d.circular_pattern("C", s.d.placement({30, 30, 0}), h, 90, 4, 20, {7});
+  expect_refused(s, "names member 7, and there are 1 to 4");
+}
+
+TEST(RefusedParts, APointThatWouldComeOutBelowIsToldWithItsLength) {
+  Sheet s;
+  s.d.hole("H", s.d.placement({30, 30, 0}), 19, 10, s.d.conical_bottom(118));
+  // 5 / tan 59 = 3.004 mm; 19 + 3.004 - 20.
+  expect_refused(
+      s,
+      "the point of its drill (118 degrees, 3.004 mm long, below a depth of 19 mm) runs through the "
+      "underside of the raw piece by 2.004 mm");
+}
+
+TEST(RefusedParts, AnOutlineThatCrossesItselfIsRefusedAtTheCrossing) {
+  Sheet s;
+  const auto outline = s.d.polyline({{-10, -10, 0}, {10, 10, 0}, {10, -10, 0}, {-10, 10, 0}, {-10, -10, 0}});
+  s.d.closed_pocket("P", s.d.placement({30, 30, 0}), 5, s.d.closed(outline), 0);
+  expect_refused(s, "crosses itself at (0, 0)");
+}
+
+TEST(ThroughHoles, OneThatEndsInThePieceIsCutToItsUndersideUnlessAnotherFeatureOpensBelow) {
+  for (const bool bore : {false, true}) {
+    Sheet s;
+    s.d.hole("H", s.d.placement({30, 30, 0}), 10, 6, s.d.through_bottom());
+    // 10 mm wide, along x: over the hole it reaches from z = -12 + sqrt(5^2 - 3^2) = -8 down to -16 at least.
+    if (bore)
+      s.d.hole("BORE", s.d.placement({0, 30, -12}, {-1, 0, 0}, {0, 0, 1}), 60, 10, s.d.through_bottom());
+    const PlanOutput o = s.planned();
+    EXPECT_EQ(told(o).find("it is cut down to the underside") == std::string::npos, bore) << told(o);
+  }
+}
+
+}  // namespace
+}  // namespace capstan::testing::removal
