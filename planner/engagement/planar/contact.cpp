@@ -42,6 +42,8 @@ class Disc {
   /// Whether the first halving told more than rounding: then edges lie within the disc, and what comes out is
   /// as good as the panels, no better.
   [[nodiscard]] bool edged() const { return edged_; }
+  /// By how much the last panels told more than those before them.
+  [[nodiscard]] double unsure() const { return unsure_; }
 
  private:
   Contact panel(double t0, double t1) {
@@ -65,6 +67,7 @@ class Disc {
     const double apart = std::abs(left.amount + right.amount - whole.amount);
     edged_ = edged_ || (depth == 0 && apart > kUniform * radius_ * radius_);
     if (depth >= deepest_ || apart <= allowed_) {
+      unsure_ += apart;
       for (const Contact& c : {left, right}) {
         out.add(c, 1.0);
         out.extend(c);
@@ -79,6 +82,7 @@ class Disc {
   int deepest_;
   F& f_;
   bool edged_ = false;
+  double unsure_ = 0.0;
 };
 
 template <class F>
@@ -177,6 +181,7 @@ void Prober::under_tip(Vec2 at, Vec2 ahead, double z_mm, double fall, Contact& c
   const Contact under = disc.all();
   // Edges under the tip come out no better than floors in strips do: no halving of the way makes them even.
   c.in_strips = c.in_strips || disc.edged();
+  if (disc.edged()) c.unsure = fall * disc.unsure();
   c.add(under, fall);
   c.extend(under);  // what is cut below leaves no gap
 }

@@ -10,14 +10,15 @@ namespace capstan::engagement {
 /// Frame  X across the feed, negative to the left; Y along the axis from the tip.
 /// Units  mm, and mm2 (mm3 of a plunge) for the amounts.
 struct Contact {
-  double amount = 0.0;                       ///< area of the section; of a plunge the volume above the tip
-  double moment_x = 0.0, moment_y = 0.0;     ///< amount times centre of gravity
-  double left = 1e300, right = -1e300;       ///< of contacts that are no slivers
-  double low = 1e300, high = -1e300;         ///< of the tallest of them
-  double highest = 0.0;                      ///< of any, above the tip
-  bool in_strips = false;                    ///< floors read in strips had their share in it, or edges under a ramp
-  double gap_rad = 0.0;                      ///< angle between left and right at which nothing is touched
-  void extend(const Contact& o);             ///< the extremes of both
+  double amount = 0.0;                    ///< area of the section; of a plunge the volume above the tip
+  double moment_x = 0.0, moment_y = 0.0;  ///< amount times centre of gravity
+  double left = 1e300, right = -1e300;    ///< of contacts that are no slivers
+  double low = 1e300, high = -1e300;      ///< of the tallest of them
+  double highest = 0.0;                   ///< of any, above the tip
+  bool in_strips = false;         ///< floors read in strips had their share in it, or edges under a ramp
+  double unsure = 0.0;            ///< of the amount: what lines under a ramp's tip do not tell
+  double gap_rad = 0.0;           ///< angle between left and right at which nothing is touched
+  void extend(const Contact& o);  ///< the extremes of both
   void add(const Contact& o, double times);  ///< amounts alone
   [[nodiscard]] bool seen() const { return right > left; }
 };

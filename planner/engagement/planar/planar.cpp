@@ -234,8 +234,10 @@ class Measurer {
               int depth) {
     const double h = s1 - s0;
     const bool strips = a.in_strips || m.in_strips || b.in_strips;
-    const double allowed = (strips ? kInStrips : kTolerance) * 2.0 * profile_.radius_mm *
-                           std::max({a.highest, m.highest, b.highest});
+    // No halving of the way tells what the lines across it do not.
+    const double allowed = std::max((strips ? kInStrips : kTolerance) * 2.0 * profile_.radius_mm *
+                                        std::max({a.highest, m.highest, b.highest}),
+                                    std::max({a.unsure, m.unsure, b.unsure}));
     const auto simpson = [&] {
       sum.add(a, h / 6.0);
       sum.add(m, 4.0 * h / 6.0);
