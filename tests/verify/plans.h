@@ -269,7 +269,7 @@ inline std::string program_of(const model::Plan& plan) {
     out += "(CAPSTAN STEP id=\"" + model::step_id(plan, s) + "\" n=" + std::to_string(i + 1) + ")\n";
     out += "G21 G17 G90 G94 G40 G80\nG64 P0.01\nG54\n";
     const std::string t = std::to_string(cutter->pocket);
-    if (cutter->pocket != loaded) out += "M5\nG53 G0 Z0\nT" + t + " M6\n";
+    if (cutter->pocket != loaded) out += "M9\nM5\nG53 G0 Z0\nT" + t + " M6\n";
     loaded = cutter->pocket;
     out += "G43 H" + t + "\nS" + n4(s.schedule->spindle_rpm[1]) + " M3\n";
     out += "G0 X" + n4(p.x[0]) + " Y" + n4(p.y[0]) + "\nM8\nG0 Z" + n4(p.z[0]) + "\n";

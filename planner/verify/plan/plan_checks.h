@@ -14,6 +14,9 @@ namespace capstan::verify {
 /// The moves of every step with a path whose numbers are finite; what is not becomes a finding (1).
 [[nodiscard]] std::vector<StepMoves> moves_of(const model::Plan& plan, Findings& findings);
 
+/// Values of machine, tools, material, raw piece and steps against what they can be at all: 1.
+void check_ranges(const model::Plan& plan, Findings& findings);
+
 /// Units, offsets, tools, changes, ends: 3, 4, 5, 6, 7, 32.
 void check_tools(const model::Plan& plan, const std::vector<StepMoves>& steps, Findings& findings);
 

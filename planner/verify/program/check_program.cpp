@@ -4,12 +4,14 @@
 #include "planner/verify/verify.h"
 
 namespace capstan::verify {
-std::vector<model::Finding> check_program(const ProgramText& text, const model::Plan* plan,
-                                          const model::Machine& machine,
-                                          const std::vector<model::Cutter>& cutters, Job& job) {
-  Findings findings;
-  const Program program = read_program(text.text);
-  const ProgramCase c = make_case(program, plan, machine, cutters);
+namespace {
+
+/// What the text says and does, the removal of stock left out. Gives the moves by step.
+std::vector<StepMoves> judge_text(const Program& program, const ProgramText& text, const model::Plan* plan,
+                                  const model::Machine& machine, const std::vector<model::Cutter>& cutters,
+                                  Findings& findings) {
+  ProgramCase c = make_case(program, plan, machine, cutters);
+  c.has_table = !text.tool_table.empty();
   for (const ReaderFault& f : program.faults) {
     std::size_t order = 1;
     std::string id;
@@ -17,7 +19,8 @@ std::vector<model::Finding> check_program(const ProgramText& text, const model::
       order = m + 2;
       id = program.markers[m].id;
     }
-    if (f.undecided) {
+    // A program of this plan has nothing in it that cannot be followed.
+    if (f.undecided && plan == nullptr) {
       findings.warn(f.property, f.code, {order, id, f.line}, f.message);
     } else {
       findings.error(f.property, f.code, {order, id, f.line}, f.message);
@@ -45,8 +48,33 @@ std::vector<model::Finding> check_program(const ProgramText& text, const model::
   check_life(steps, findings);
   if (plan != nullptr) {
     compare(c, findings);
-    check_removal(*plan, steps, findings, job);
+    check_between(c, findings);
   }
+  return steps;
+}
+
+}  // namespace
+
+std::vector<model::Finding> check_program_text(const ProgramText& text, const model::Plan* plan,
+                                               const model::Machine& machine,
+                                               const std::vector<model::Cutter>& cutters) {
+  Findings findings;
+  const Program program = read_program(text.text);
+  const bool none = plan == nullptr && cutters.empty() && text.tool_table.empty();
+  (void)judge_text(program, text, plan, machine, none ? tools_of_header(program) : cutters, findings);
+  return findings.take();
+}
+
+std::vector<model::Finding> check_program(const ProgramText& text, const model::Plan* plan,
+                                          const model::Machine& machine,
+                                          const std::vector<model::Cutter>& cutters, Job& job) {
+  Findings findings;
+  const Program program = read_program(text.text);
+  // Moves refer to the cutters.
+  const bool none = plan == nullptr && cutters.empty() && text.tool_table.empty();
+  const std::vector<model::Cutter> tools = none ? tools_of_header(program) : cutters;
+  const std::vector<StepMoves> steps = judge_text(program, text, plan, machine, tools, findings);
+  if (plan != nullptr) check_removal(*plan, steps, findings, job);
   job.progress("check", 1.0);
   return findings.take();
 }

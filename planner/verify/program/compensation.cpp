@@ -121,9 +121,16 @@ void check_program_coolant(const ProgramCase& c, Findings& findings) {
     if (s.flood && !b.flood) missing("flood coolant", "M8");
     if (s.mist && !b.mist) missing("mist", "M7");
     if (s.through && !b.mist && !b.flood) missing("coolant through the spindle", "M7 or M8");
-    if (!s.flood && !s.mist && !s.through && (b.flood || b.mist) && said.insert({b.marker, "dry"}).second)
-      findings.warn(29, "CHK-COOLANT-DRY", c.where(b),
-                    "the step is planned dry; the program cuts with coolant on");
+    if (s.through) continue;
+    if (!s.flood && !s.mist && (b.flood || b.mist) && said.insert({b.marker, "dry"}).second) {
+      findings.error(29, "CHK-COOLANT-DRY", c.where(b),
+                     "the step is planned dry; the program cuts with coolant on");
+    } else if (((b.flood && !s.flood) || (b.mist && !s.mist)) && said.insert({b.marker, "other"}).second) {
+      findings.error(29, "CHK-COOLANT-OTHER", c.where(b),
+                     std::string("the program cuts with ") +
+                         (b.flood && !s.flood ? "flood coolant (M8)" : "mist (M7)") +
+                         " on; the step is planned without");
+    }
   }
 }
 

@@ -18,7 +18,13 @@ constexpr int kMostPecks = 100000;
 }  // namespace
 
 void Interpreter::to(geometry::Vec3 p, MoveKind kind, bool synchronised) {
-  if (p == at_) return;
+  if (p == at_ || cycle_blocks_ > kCycleBlockCap) return;
+  if (++cycle_blocks_ > kCycleBlockCap) {
+    fault(26, "CHK-TOO-LARGE",
+          "the cycles up to here are more than " + std::to_string(kCycleBlockCap) +
+              " moves; what follows of them is not read: write fewer repeats (L) or larger pecks (Q)");
+    return;
+  }
   Block b = block();
   b.from_cycle = true;
   b.synchronised = synchronised;
@@ -36,7 +42,7 @@ void Interpreter::one_hole(int mode, double x, double y, double z, double r, dou
   to({x, y, r}, MoveKind::kRapid);
   if (mode == 830 || mode == 730) {
     double bottom = r;
-    for (int n = 0; bottom > z && n < kMostPecks; ++n) {
+    for (int n = 0; bottom > z && n < kMostPecks && cycle_blocks_ <= kCycleBlockCap; ++n) {
       bottom = std::max(z, bottom - q);
       to({x, y, bottom}, MoveKind::kLine);
       if (bottom <= z) break;
@@ -95,7 +101,7 @@ void Interpreter::cycle(const Said& s) {
     return;
   }
   const double repeats = s.is('L') ? std::clamp(s.of('L'), 0.0, 1000.0) : 1.0;
-  for (int i = 0; i < static_cast<int>(repeats); ++i)
+  for (int i = 0; i < static_cast<int>(repeats) && cycle_blocks_ <= kCycleBlockCap; ++i)
     one_hole(mode, x, y, cycle_z_, cycle_r_, cycle_q_, cycle_p_, cycle_clear_);
 }
 

@@ -71,7 +71,8 @@ void Interpreter::marker(const std::string& text) {
   const auto whole_number = [&](const char* name) {
     return std::strtol(field(text, name).c_str(), nullptr, 10);
   };
-  out_.markers.push_back({field(text, "id"), whole_number("n"), line_, whole_number("setup")});
+  out_.markers.push_back({field(text, "id"), whole_number("n"), line_, whole_number("setup"),
+                          whole_number("tool"), !field(text, "condemned").empty()});
   marker_ = static_cast<int>(out_.markers.size()) - 1;
   stated_ = 0;
 }
@@ -85,8 +86,8 @@ void Interpreter::comment(const std::string& text) {
   } else if (begins(text, "CAPSTAN TOOL T") && out_.tools.size() < kMostInHeader) {
     const long t = std::strtol(text.c_str() + text.find("TOOL T") + 6, nullptr, 10);
     if (t <= 0 || t >= 1000000000) return;
-    out_.tools.push_back(
-        {static_cast<int>(t), number(field(text, "length")), number(field(text, "diameter")), line_});
+    out_.tools.push_back({static_cast<int>(t), number(field(text, "length")), number(field(text, "diameter")),
+                          line_, field(text, "id"), text.substr(text.rfind(' ') + 1)});
   } else if (out_.stock.empty() && begins(text, "stock: ")) {
     out_.stock = text.substr(text.find("stock: ") + 7, 100);
   }

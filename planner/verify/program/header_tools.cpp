@@ -58,6 +58,20 @@ void check_header_tools(const ProgramCase& c, const ToolTable& table, Findings& 
   }
 }
 
+std::vector<model::Cutter> tools_of_header(const Program& program) {
+  std::vector<model::Cutter> out;
+  for (const HeaderTool& h : program.tools) {
+    model::Cutter c;
+    c.id = h.id;
+    c.pocket = h.tool;
+    c.cutter_class = model::cutter_class_from_text(h.kind).value_or(c.cutter_class);
+    c.functional_length_mm = h.length_mm.value_or(0.0);
+    c.cutting_diameter_mm = h.diameter_mm.value_or(0.0);
+    out.push_back(std::move(c));
+  }
+  return out;
+}
+
 void check_abilities(const ProgramCase& c, Findings& findings) {
   const model::Machine& m = c.machine;
   std::set<int> seen;

@@ -19,6 +19,12 @@ constexpr bool is_motion(int g) {
 }
 constexpr bool is_cycle(int g) { return g == 730 || (g >= 810 && g <= 890); }
 
+/// M codes that LinuxCNC has and this reader does not follow, times ten.
+constexpr bool is_other_m(int m) {
+  return m % 10 == 0 && (m == 190 || (m >= 500 && m <= 530) || (m >= 610 && m <= 680) ||
+                         (m >= 700 && m <= 730) || m == 980 || m == 990 || (m >= 1000 && m <= 1990));
+}
+
 /// A tool or offset number; out of range becomes one that no table has.
 int whole(double v) { return v >= 0.0 && v < 1e9 ? static_cast<int>(v) : 1000000000; }
 
@@ -40,7 +46,7 @@ bool Interpreter::gather(const Line& l, Said& s) {
     if (w.letter == 'G' || w.letter == 'M') {
       const double tenths = std::round(w.value * 10.0);
       if (!(tenths >= 0.0 && tenths < 10000.0) || std::abs(w.value * 10.0 - tenths) > 1e-6) {
-        fault(33, "CHK-UNVERIFIABLE", std::string(1, w.letter) + plain(w.value) + " is not a code", true);
+        fault(33, "CHK-CODE", std::string(1, w.letter) + plain(w.value) + " is not a code");
         return false;
       }
       const bool g = w.letter == 'G';
@@ -73,36 +79,48 @@ Block Interpreter::block() const {
   b.radius_offset = radius_;
   b.radius_left = left_;
   b.work_offset = offset_;
-  b.retracted = retracted_;
+  b.machine_z = machine_z_;
+  b.unmoved = !moved_;
+  b.spindle_starts = starts_;
+  b.started_s = started_s_;
+  b.moved_since = moved_since_;
   b.cycle_active = is_cycle(motion_);
   b.mist = mist_;
   b.flood = flood_;
   b.stated = stated_;
   b.units_stated = units_stated_;
   b.tolerance_mm = tolerance_;
+  b.naive_mm = naive_;
+  b.exact_stop = exact_stop_;
   return b;
 }
 
 void Interpreter::put(Block b) {
-  moved_ = true;
+  moved_ = moved_since_ = true;
   at_ = b.to;
   for (int i = 0; i < 3; ++i) known_[i] = b.known_to[i];
-  if (b.words[2] || b.from.z != b.to.z) retracted_ = b.in_machine;
+  if (b.words[2] || b.from.z != b.to.z) {
+    machine_z_.reset();
+    if (b.in_machine) machine_z_ = b.to.z;
+  }
+  b.machine_z = machine_z_;
   out_.blocks.push_back(std::move(b));
 }
 
 void Interpreter::length_code(int g, const Said& s) {
-  known_[2] = false;  // the tip's height is another one now
+  const int before = length_;
   if (g == 490) {
     length_ = -1;
   } else if (g == 430) {
     length_ = s.is('H') ? whole(s.of('H')) : tool_;
+    if (length_ == 0) length_ = -1;  // H0 is no offset
     stated_ |= kStatedLength;
   } else {
     length_ = 0;
     stated_ |= kStatedLength;
     fault(5, "CHK-DYNAMIC-LENGTH", "G43.1 sets a length offset that no tool table proves", true);
   }
+  if (length_ != before || length_ == 0) known_[2] = false;  // the tip's height is another one now
 }
 
 void Interpreter::state_code(int g, const Said& s) {
@@ -158,10 +176,13 @@ void Interpreter::state_code(int g, const Said& s) {
       break;
     case 610:
     case 611:
-      tolerance_ = 0.0;
+      tolerance_ = naive_ = 0.0;
+      exact_stop_ = g == 611;
       break;
     case 640:  // without P as fast as it likes
       tolerance_ = s.is('P') ? s.of('P') * units() : kNoTolerance;
+      naive_ = s.is('Q') ? s.of('Q') * units() : tolerance_;
+      exact_stop_ = false;
       break;
     case 530:
     case 40:
@@ -195,7 +216,9 @@ void Interpreter::state_code(int g, const Said& s) {
       return_to_r_ = true;
       break;
     default:
-      if (!is_motion(g)) fault(33, "CHK-UNVERIFIABLE", code_text('G', g) + " is not followed", true);
+      if (!is_motion(g))
+        fault(33, "CHK-CODE",
+              code_text('G', g) + " is not followed: what it moves, shifts or sets is not known");
   }
 }
 
@@ -222,18 +245,15 @@ void Interpreter::machine_codes(const Said& s) {
         Block b = block();
         b.kind = Block::Kind::kToolChange;
         if (next_tool_ < 0) fault(4, "CHK-TOOL", "M6 without a T word");
+        if (tool_ != std::max(0, next_tool_)) known_[2] = false;  // nobody knows where this one's tip is
         b.tool = tool_ = std::max(0, next_tool_);
         out_.blocks.push_back(b);
         spindle_ = 0;  // LinuxCNC stops the spindle for a change
         break;
       }
       case 30:
-        spindle_ = 1;
-        stated_ |= kStatedSpindle;
-        break;
       case 40:
-        spindle_ = -1;
-        stated_ |= kStatedSpindle;
+        start(s.m[i] == 30 ? 1 : -1);
         break;
       case 50:
         spindle_ = 0;
@@ -247,115 +267,32 @@ void Interpreter::machine_codes(const Said& s) {
       case 90:
         mist_ = flood_ = false;
         break;
-      case 0:
       case 10:
       case 480:
       case 490:
+        out_.odd.emplace_back(line_, code_text('M', s.m[i]));
+        break;
+      case 0:
       case 600:
       case 20:
       case 300:
         break;
       default:
-        fault(33, "CHK-UNVERIFIABLE", code_text('M', s.m[i]) + " is not followed", true);
+        fault(33, is_other_m(s.m[i]) ? "CHK-UNVERIFIABLE" : "CHK-CODE",
+              code_text('M', s.m[i]) + (is_other_m(s.m[i]) ? " is not followed" : " is none of LinuxCNC's"),
+              is_other_m(s.m[i]));
     }
   }
 }
 
-void Interpreter::target(const Said& s, Block& b, bool machine_coordinates) {
-  b.in_machine = machine_coordinates;
-  double* to[3] = {&b.to.x, &b.to.y, &b.to.z};
-  for (int i = 0; i < 3; ++i) {
-    const char c = static_cast<char>('X' + i);
-    b.words[i] = s.is(c);
-    if (!s.is(c)) continue;
-    const double v = s.of(c) * units();
-    if (machine_coordinates) {
-      *to[i] = v;
-      b.known_to[i] = false;
-    } else if (absolute_) {
-      *to[i] = v;
-      b.known_to[i] = true;
-    } else {
-      *to[i] += v;
-    }
+void Interpreter::start(int way) {
+  if (spindle_ != way) {
+    ++starts_;
+    started_s_ = 0.0;
+    moved_since_ = false;
   }
-}
-
-void Interpreter::straight(const Said& s, int mode, bool machine_coordinates) {
-  Block b = block();
-  target(s, b, machine_coordinates);
-  if (!b.words[0] && !b.words[1] && !b.words[2]) return;
-  b.move = mode == 0 ? MoveKind::kRapid : MoveKind::kLine;
-  if (mode != 0 && feed_mode_ == 93 && feed_ > 0.0) b.feed_mm_min = feed_ * norm(b.to - b.from);
-  put(b);
-  if (machine_coordinates) {
-    // Where that is in the work's coordinates is not known: the height is taken as clear of everything.
-    double* at[3] = {&at_.x, &at_.y, &at_.z};
-    const double before[3] = {b.from.x, b.from.y, b.from.z};
-    for (int i = 0; i < 3; ++i) {
-      if (b.words[i]) *at[i] = before[i];
-    }
-  }
-}
-
-void Interpreter::arc(const Said& s, bool clockwise) {
-  Block b = block();
-  target(s, b, false);
-  b.move = clockwise ? MoveKind::kArcCw : MoveKind::kArcCcw;
-  if (!plane_xy_) return;
-  if (!known_[0] || !known_[1]) {
-    fault(23, "CHK-ARC", "an arc starts where the position is not known");
-    return;
-  }
-  if (s.is('R')) {
-    const double r = s.of('R') * units();
-    const geometry::Vec2 chord = xy(b.to) - xy(b.from);
-    const double half = 0.5 * norm(chord);
-    if (half < 1e-9) {
-      fault(24, "CHK-ARC-ZERO", "an arc by radius ends where it starts");
-      return;
-    }
-    if (std::abs(r) < half - 1e-3 * units()) {
-      fault(23, "CHK-ARC",
-            "the radius of " + mm(std::abs(r)) + " does not span its chord of " + mm(2.0 * half));
-      return;
-    }
-    const double height = std::sqrt(std::max(0.0, r * r - half * half));
-    const double side = (r > 0.0) == clockwise ? -1.0 : 1.0;
-    const geometry::Vec2 left = (0.5 / half) * geometry::Vec2{-chord.y, chord.x};
-    b.centre = xy(b.from) + 0.5 * chord + (side * height) * left;
-  } else {
-    if (!s.is('I') && !s.is('J')) {
-      fault(23, "CHK-ARC", "an arc without I, J or R");
-      return;
-    }
-    const double i = s.of('I') * units();
-    const double j = s.of('J') * units();
-    b.centre = absolute_arcs_ ? geometry::Vec2{i, j} : xy(b.from) + geometry::Vec2{i, j};
-  }
-  b.radius_start = norm(xy(b.from) - b.centre);
-  b.radius_end = norm(xy(b.to) - b.centre);
-  put(b);
-}
-
-void Interpreter::tap(const Said& s) {
-  Block b = block();
-  target(s, b, false);
-  b.move = MoveKind::kLine;
-  b.synchronised = true;
-  b.pitch_mm = s.of('K') * units();
-  b.feed_mm_min = b.pitch_mm * std::abs(speed());
-  if (!(b.pitch_mm > 0.0)) fault(26, "CHK-CYCLE", "G33.1 without a pitch above zero");
-  const Block down = b;
-  put(b);
-  std::swap(b.from, b.to);
-  b.spindle_rpm = -b.spindle_rpm;
-  b.words[2] = true;
-  for (int i = 0; i < 3; ++i) {
-    b.known_from[i] = down.known_to[i];
-    b.known_to[i] = down.known_from[i];
-  }
-  put(b);
+  spindle_ = way;
+  stated_ |= kStatedSpindle;
 }
 
 void Interpreter::dwell(double seconds) {
@@ -364,6 +301,7 @@ void Interpreter::dwell(double seconds) {
   b.move = MoveKind::kDwell;
   b.dwell_s = seconds;
   out_.blocks.push_back(b);
+  started_s_ += seconds;
 }
 
 void Interpreter::motion(const Said& s, bool machine_coordinates) {
@@ -403,8 +341,28 @@ void Interpreter::motion(const Said& s, bool machine_coordinates) {
   }
 }
 
+/// A line of % opens a program where nothing stands before it, and ends it otherwise.
+void Interpreter::percent(const Line& l) {
+  if (!l.percent) return;
+  if (!any_line_) {
+    percent_ = true;
+  } else if (!percent_) {
+    fault(32, "CHK-END", "a % here, in a program that does not begin with one, is refused by LinuxCNC");
+  } else {
+    percent_end_ = true;
+  }
+}
+
 void Interpreter::line(const Line& l, long number) {
   line_ = number;
+  if (percent_end_) {
+    if (!l.words.empty() && !out_.ended) {
+      fault(32, "CHK-END", "the control ends at the % before this line; what follows is not run");
+    }
+    return;
+  }
+  percent(l);
+  any_line_ = any_line_ || l.percent || !l.words.empty() || !l.comments.empty() || !l.fault.empty();
   for (const std::string& c : l.comments) comment(c);
   if (!l.fault.empty()) {
     const int property = l.not_finite ? 1 : 33;
@@ -420,6 +378,7 @@ void Interpreter::line(const Line& l, long number) {
   }
   Said s;
   if (!gather(l, s)) return;
+  block_rules(l, s);
   state_codes(s);
   machine_codes(s);
   bool g53 = false, dwells = false;
@@ -437,7 +396,12 @@ void Interpreter::line(const Line& l, long number) {
   }
   for (int i = 0; i < s.m_count; ++i) {
     // M1 stops only where the operator has said so.
-    if (s.m[i] == 0 || s.m[i] == 600) out_.stops.push_back(block());
+    if (s.m[i] == 0 || s.m[i] == 600) {
+      Block b = block();
+      b.kind = Block::Kind::kStop;
+      out_.stops.push_back(b);
+      out_.blocks.push_back(b);
+    }
     if (s.m[i] != 20 && s.m[i] != 300) continue;
     Block b = block();
     b.kind = Block::Kind::kEnd;
@@ -469,7 +433,8 @@ Program read_program(std::string_view text) {
     ++number;
     if (one.size() > kLineCap) {
       line = {};
-      line.fault = "the line has more than 4096 characters";
+      line.fault = "the line has " + std::to_string(one.size()) + " characters; LinuxCNC reads " +
+                   std::to_string(kLineCap) + " at most";
     } else {
       split_line(one, line);
     }

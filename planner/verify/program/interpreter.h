@@ -27,6 +27,12 @@ class Interpreter {
   };
 
   bool gather(const Line& l, Said& s);
+  /// What LinuxCNC refuses in a block, or reads otherwise than this reader does: block_rules.cpp.
+  void block_rules(const Line& l, const Said& s);
+  void word_rules(const Said& s);
+  void code_rules(const Said& s);
+  void percent(const Line& l);
+  void start(int way);
   void comment(const std::string& text);
   void marker(const std::string& text);
   void fault(int property, std::string code, std::string message, bool undecided = false);
@@ -60,13 +66,19 @@ class Interpreter {
   int spindle_ = 0;  ///< 1 M3, -1 M4
   int motion_ = -1;  ///< modal motion code times ten
   int tool_ = 0, next_tool_ = -1, length_ = -1, radius_ = -1, offset_ = 0;
-  bool retracted_ = true;
+  std::optional<double> machine_z_;
+  int starts_ = 0;
+  double started_s_ = 0.0;
+  bool moved_since_ = false;
+  bool any_line_ = false, percent_ = false, percent_end_ = false;
+  std::size_t cycle_blocks_ = 0;
   bool mist_ = false, flood_ = false, left_ = false;
   bool return_to_r_ = false;
   bool cycle_known_ = false;
   double cycle_r_ = 0.0, cycle_z_ = 0.0, cycle_q_ = 0.0, cycle_p_ = 0.0, cycle_clear_ = 0.0;
   bool has_q_ = false;
-  double tolerance_ = kNoTolerance;
+  double tolerance_ = kNoTolerance, naive_ = kNoTolerance;
+  bool exact_stop_ = false;
   unsigned stated_ = 0;
 };
 

@@ -113,9 +113,10 @@ class SetupChecks {
   }
 
   /// Why nobody should reach into the machine in this stop; empty: he may.
-  [[nodiscard]] static std::string unsafe(const Block& s, const Wanted& w) {
+  [[nodiscard]] std::string unsafe(const Block& s, const Wanted& w) const {
     if (s.spindle_rpm != 0.0) return "with the spindle on (" + plain(s.spindle_rpm) + " rpm)";
-    const bool high = s.retracted || (w.security_mm && s.known_to[2] && s.to.z >= *w.security_mm - 1e-6);
+    const bool high =
+        at_top(s, c_.machine) || (w.security_mm && s.known_to[2] && s.to.z >= *w.security_mm - 1e-6);
     if (!high)
       return s.known_to[2] ? "at z = " + plain(s.to.z) + ", not retracted" : std::string("not retracted");
     if (s.mist || s.flood) return "with the coolant on";

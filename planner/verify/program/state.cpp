@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "planner/verify/program/program_checks.h"
@@ -39,6 +40,15 @@ ProgramCase make_case(const Program& program, const model::Plan* plan, const mod
   return out;
 }
 
+double top_of(const model::Machine& machine) {
+  const model::LinearAxis& z = machine.axes[2];
+  return z.travel_max_mm > z.travel_min_mm ? z.travel_max_mm : 0.0;
+}
+
+bool at_top(const Block& b, const model::Machine& machine) {
+  return b.machine_z && *b.machine_z >= top_of(machine) - 1e-6;
+}
+
 namespace {
 
 constexpr unsigned kNeededAtStart = kStatedUnits | kStatedPlane | kStatedDistance | kStatedFeedMode |
@@ -74,10 +84,13 @@ class StateChecks {
     }
   }
   void run() {
+    if (c_.plan == nullptr) order();
     for (const Block& b : c_.program.blocks) {
       if (b.kind == Block::Kind::kToolChange) tool_change(b);
       if (b.kind == Block::Kind::kMove) move(b);
       if (b.kind == Block::Kind::kEnd) end(b);
+      was_at_top_ = at_top(b, c_.machine);
+      machine_z_ = b.machine_z;
     }
     if (!c_.program.ended) {
       out_.error(32, "CHK-END", {c_.program.markers.size() + 2, "", c_.program.lines},
@@ -90,11 +103,19 @@ class StateChecks {
     if (b.spindle_rpm != 0.0)
       out_.error(7, "CHK-TOOL-CHANGE", c_.where(b),
                  "M6 while the spindle turns at " + plain(b.spindle_rpm) + " rpm");
-    const bool high = b.retracted || (security_ < 1e299 && b.known_to[2] && b.to.z >= security_ - 1e-6);
-    if (!high)
-      out_.error(7, "CHK-TOOL-CHANGE", c_.where(b), "M6 at z = " + plain(b.to.z) + ", not retracted");
+    // The next tool may be longer: only the top of the machine clears whatever it is.
+    if (!at_top(b, c_.machine) && (c_.plan != nullptr || !b.unmoved))
+      out_.error(7, "CHK-TOOL-CHANGE", c_.where(b),
+                 (b.known_to[2] ? "M6 at z = " + plain(b.to.z) : std::string("M6 at an unknown height")) +
+                     ", not retracted: G53 G0 Z" + plain(top_of(c_.machine)) + " comes before it");
     if (b.cycle_active) out_.error(26, "CHK-CYCLE", c_.where(b), "M6 while a cycle is active");
-    if (b.tool > 0 && c_.cutter(b.tool) == nullptr)
+    if (b.tool > 0 && c_.cutters.empty() && !c_.has_table && c_.plan == nullptr) {
+      if (said_.insert({105, 0}).second)
+        out_.error(
+            4, "CHK-TABLE-MISSING", c_.where(b),
+            "T" + std::to_string(b.tool) +
+                " is loaded, and no tool table is at hand: name it beside the program (check PROGRAM TABLE)");
+    } else if (b.tool > 0 && c_.cutter(b.tool) == nullptr)
       out_.error(4, "CHK-TOOL", c_.where(b), "T" + std::to_string(b.tool) + " is not in the tool library");
     if (c_.machine.magazine_pockets > 1 && b.tool > c_.machine.magazine_pockets) {
       out_.error(4, "CHK-TOOL", c_.where(b),
@@ -125,12 +146,65 @@ class StateChecks {
     const bool cutting = feeds && !b.in_machine;
     if (cutting && !b.known_from[2] && !b.words[2] && said_.insert({27, b.line}).second)
       out_.error(27, "CHK-POSITION", c_.where(b), "a feed move starts where the height is not known");
+    height(b);
+    if (c_.plan == nullptr) tool_of_marker(b);
     restart(b);
     if (c_.plan == nullptr && cutting && b.spindle_rpm == 0.0)
       out_.warn(15, "CHK-SPINDLE-STOPPED", c_.where(b),
                 "a feed move with the spindle stopped; without the plan it cannot be told whether it cuts");
     direction(b, cutting);
     tap(b);
+  }
+
+  /// A height that is not known is not clear of anything, the top of the machine is.
+  void height(const Block& b) {
+    const bool across = b.words[0] || b.words[1];
+    if (!b.in_machine) {
+      if (b.move != MoveKind::kRapid || !across || b.known_from[2] || was_at_top_) return;
+      if (said_.insert({9, b.line}).second)
+        out_.error(
+            9, "CHK-HEIGHT", c_.where(b),
+            "a rapid across where the height of the tool is not known; it is retracted first, G53 G0 Z" +
+                plain(top_of(c_.machine)));
+      return;
+    }
+    if (across && (b.words[2] || !was_at_top_))
+      out_.error(9, "CHK-MACHINE-MOVE", c_.where(b),
+                 "a move across in machine coordinates (G53) below the top of Z, " +
+                     plain(top_of(c_.machine)) + ": what it passes is not known");
+    if (!b.words[2] || b.to.z >= top_of(c_.machine) - 1e-6) return;
+    const std::string text = "G53 moves Z to " + plain(b.to.z) + " in machine coordinates, below the top, " +
+                             plain(top_of(c_.machine));
+    // Own programs go to the top and nowhere else; others may have another height in mind.
+    if (!c_.program.markers.empty() || (machine_z_ && b.to.z < *machine_z_ - 1e-6)) {
+      out_.error(10, "CHK-MACHINE-MOVE", c_.where(b), text + ": whether that is clear is not known");
+    } else {
+      out_.warn(10, "CHK-MACHINE-MOVE", c_.where(b), text + ": it does not count as retracted");
+    }
+  }
+
+  /// The program's own word for what is loaded.
+  void tool_of_marker(const Block& b) {
+    if (b.marker < 0 || b.in_machine) return;
+    const long wanted = c_.program.markers[static_cast<std::size_t>(b.marker)].tool;
+    if (wanted <= 0 || wanted == b.tool || !said_.insert({104, b.marker}).second) return;
+    out_.error(
+        4, "CHK-MARKER-TOOL", c_.where(b),
+        "T" + std::to_string(b.tool) + " is loaded; the step's marker says T" + std::to_string(wanted));
+  }
+
+  /// The steps' own numbers: 1, 2, 3, ...
+  void order() {
+    long last = 0;
+    for (const StepMarker& m : c_.program.markers) {
+      const long expected = last + 1;
+      last = m.n;
+      if (m.n == expected) continue;
+      out_.error(28, "CHK-MARKER-ORDER", {1, m.id, m.line},
+                 "the marker of step '" + m.id + "' has n=" + std::to_string(m.n) + " where n=" +
+                     std::to_string(expected) + " comes: steps are missing, doubled or in another order");
+      return;
+    }
   }
 
   /// Without the plan nobody has said that a left-hand cutter is meant.
@@ -173,7 +247,8 @@ class StateChecks {
     if (b.spindle_rpm != 0.0)
       out_.error(32, "CHK-END", at,
                  "the program ends with the spindle on (" + plain(b.spindle_rpm) + " rpm)");
-    const bool high = b.retracted || (security_ < 1e299 && b.known_to[2] && b.to.z >= security_ - 1e-6);
+    const bool high =
+        at_top(b, c_.machine) || (security_ < 1e299 && b.known_to[2] && b.to.z >= security_ - 1e-6);
     if (!high)
       out_.error(32, "CHK-END-LOW", at, "the program ends at z = " + plain(b.to.z) + ", not retracted");
     if (b.cycle_active) out_.error(26, "CHK-CYCLE", at, "a cycle is still active at the end");
@@ -185,6 +260,8 @@ class StateChecks {
   Findings& out_;
   double security_ = 1e300;
   int checked_ = -2;
+  bool was_at_top_ = false;
+  std::optional<double> machine_z_;
   std::set<std::pair<int, long>> said_;
 };
 
@@ -209,6 +286,35 @@ void check_tool_table(const ProgramCase& c, const ToolTable& table, Findings& fi
       findings.error(
           5, "CHK-TABLE-TWICE", whole,
           "T" + std::to_string(t) + " stands " + std::to_string(count) + " times in the tool table");
+  }
+  std::map<int, const ToolTableEntry*> pockets;
+  for (const ToolTableEntry& e : table.entries) {
+    const std::string name = "T" + std::to_string(e.tool) + " (line " + std::to_string(e.line) + ")";
+    const bool loaded = used.contains(e.tool);
+    if (e.has_pocket && e.pocket > 0) {
+      const auto [other, fresh] = pockets.emplace(e.pocket, &e);
+      if (!fresh && other->second->tool != e.tool)
+        findings.error(5, "CHK-TABLE-POCKET", whole,
+                       name + " and T" + std::to_string(other->second->tool) + " have the pocket P" +
+                           std::to_string(e.pocket) + "; LinuxCNC keeps one of them");
+    }
+    if (loaded && !e.has_length)
+      findings.error(6, "CHK-TABLE-LENGTH", whole,
+                     name + " has no length (Z) in the tool table: its offset is none");
+    if (!e.others.empty())
+      findings.error(6, "CHK-TABLE-OFFSET", whole,
+                     name + " has " + e.others + " in the tool table: G43 shifts the work by it");
+    const model::Cutter* t = c.cutter(e.tool);
+    if (c.plan == nullptr || t == nullptr) continue;
+    if (!e.has_diameter)
+      findings.error(
+          6, "CHK-TABLE-DIAMETER", whole,
+          name + " has no diameter (D) in the tool table; the plan's is " + mm(t->cutting_diameter_mm));
+    if (!e.has_pocket || e.pocket != t->pocket)
+      findings.error(4, "CHK-TABLE-POCKET", whole,
+                     name + " has " +
+                         (e.has_pocket ? "the pocket P" + std::to_string(e.pocket) : "no pocket") +
+                         " in the tool table; the plan has P" + std::to_string(t->pocket));
   }
   for (const ToolTableEntry& e : table.entries) {
     const model::Cutter* t = c.cutter(e.tool);

@@ -29,6 +29,10 @@ bool strip(std::string_view text, std::string& code, Line& out) {
     if (c == '(') {
       const std::size_t end = text.find(')', i);
       if (end == std::string_view::npos) return false;
+      if (text.substr(i + 1, end - i - 1).find('(') != std::string_view::npos) {
+        out.fault = "a comment in a comment";
+        return true;
+      }
       out.comments.emplace_back(text.substr(i + 1, end - i - 1));
       i = end;
       continue;
@@ -50,9 +54,11 @@ void split_line(std::string_view text, Line& out) {
     out.fault = "a comment is not closed";
     return;
   }
+  if (!out.fault.empty()) return;
   std::string_view rest = code;
   if (!rest.empty() && rest.front() == '%') {
     out.percent = true;
+    if (rest.size() > 1) out.fault = "text after %";
     return;
   }
   if (!rest.empty() && rest.front() == '/') {
