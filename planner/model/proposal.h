@@ -28,6 +28,7 @@ struct ToolRequirement {
   double cutting_width_min_mm = 0.0, cutting_width_max_mm = 0.0;  ///< side mills, heads of T-slot cutters
   double neck_diameter_max_mm = 0.0;  ///< what must pass above the head, over `reach_mm`
   double neck_step_min_mm = 0.0;     ///< head less neck, on the diameter, over `reach_mm`: undercuts in holes
+  double tip_diameter_max_mm = 0.0;  ///< flat at the tip at most: what stands below a cone stays
   double flute_length_min_mm = 0.0;  ///< walls cut in one depth: flutes at least
   bool coolant_through = false;
   bool left_hand = false;   ///< taps of left-hand threads

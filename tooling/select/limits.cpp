@@ -287,6 +287,8 @@ std::optional<std::string> wrong_shape(const Cutter& c, const ToolRequirement& r
   if (auto why = wrong_thread(c, r)) return why;
   if (auto why = wrong_hand(c, r)) return why;
   if (auto why = wrong_neck(c, r)) return why;
+  if (r.tip_diameter_max_mm > 0.0 && c.tip_diameter_mm > r.tip_diameter_max_mm + kSizeSlackMm)
+    return "tip of " + mm(c.tip_diameter_mm) + " is above " + mm(r.tip_diameter_max_mm);
   if (r.centre_cutting && !c.centre_cutting && c.maximum_ramp_angle_rad <= 0.0)
     return std::string("it neither cuts to centre nor ramps");
   if (r.coolant_through && !c.coolant_through) return std::string("no coolant comes through it");

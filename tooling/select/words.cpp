@@ -104,6 +104,7 @@ std::string words_of(const ToolRequirement& r) {
                                         mm(r.neck_step_min_mm) + " below its head)"
                                   : "a neck " + mm(r.neck_step_min_mm) + " below its head");
   }
+  if (r.tip_diameter_max_mm > 0.0) add("a tip of at most " + mm(r.tip_diameter_max_mm));
   if (const double flutes = flutes_wanted(r); flutes > 0.0) add(mm(flutes) + " flutes");
   if (r.reach_mm > 0.0) add(mm(r.reach_mm) + " reach");
   if (r.centre_cutting) with += ", cutting to centre or ramping";

@@ -47,6 +47,13 @@ Result<double> bottom_z(const PathJob& task) {
     if (!(half > 0.0) || !(width > 0.0))
       return refuse(task, "TPA-TOOL",
                     "countersinking needs a conical cutter with a tip narrower than the sink");
+    constexpr double kFootMm =
+        0.01;  // a tip so much wider than the cone's foot cuts no step; default, unsourced
+    if (s.bottom_diameter_mm > 0.0 && task.cutter.tip_diameter_mm > s.bottom_diameter_mm + kFootMm)
+      return refuse(task, "TPA-NO-FIT",
+                    "the cutter's flat tip of " + trimmed(task.cutter.tip_diameter_mm, 3) +
+                        " mm would stand on the cone's foot of " + trimmed(s.bottom_diameter_mm, 3) +
+                        " mm and leave a ring; take a countersink with a narrower tip, or a chamfer mill");
     if (s.diameter.middle() > task.cutter.cutting_diameter_mm + 1e-6)
       return refuse(task, "TPA-NO-FIT", "the countersink is wider than its cutter");
     return top - 0.5 * width / std::tan(half);

@@ -136,4 +136,19 @@ Part turned_over() {
   return p;
 }
 
+// 24 x 24 mm, 17 deep: a core of 3 mm whose edge is a cone of 5 mm. Of countersinks of 90 degrees only those
+// up to 12.4 mm have a flat tip that goes into the core.
+Part small_countersink() {
+  const Box b = block(24, 24, 17);
+  Drawing d("SMALL COUNTERSINK", b);
+  const auto origin = d.placement({0, 0, 0});
+  const auto core = d.hole("CORE", origin, 17, 3, d.through_bottom());
+  const auto sink = d.hole("SINK", origin, 1, 5, d.through_bottom(), d.angle_taper(45));
+  d.compound("SUNK", d.placement({12, 12, 0}), {core, sink}, "COUNTERSUNK_HOLE");
+  Target t(body(b));
+  t.cut(cylinder(12, 12, 1.45, -19, 2), cylinder(12, 12, 1.55, -19, 2));
+  t.cut(cone(12, 12, -1, 1.5, 0.2, 2.7));
+  return {"small_countersink", d.text(), b, t};
+}
+
 }  // namespace capstan::testing::removal
