@@ -69,8 +69,17 @@ Result<std::string> read_file(const std::string& path, std::size_t cap) {
 }
 
 std::string resolved(const std::string& path) {
+  namespace fs = std::filesystem;
+  constexpr int kMostLinks = 40;  // as Linux follows
   std::error_code ec;
-  const auto real = std::filesystem::weakly_canonical(path, ec);
+  fs::path at = path;
+  // weakly_canonical leaves a link to nothing as it is.
+  for (int i = 0; i < kMostLinks && fs::is_symlink(fs::symlink_status(at, ec)) && !fs::exists(at, ec); ++i) {
+    const fs::path to = fs::read_symlink(at, ec);
+    if (ec) break;
+    at = to.is_absolute() ? to : at.parent_path() / to;
+  }
+  const fs::path real = fs::weakly_canonical(at, ec);
   return ec ? path : real.string();
 }
 
@@ -81,7 +90,7 @@ Result<StagedFile> StagedFile::make(const std::string& path, std::string_view by
   std::error_code ec;
   const auto at = std::filesystem::status(out.target_, ec);
   if (std::filesystem::is_symlink(std::filesystem::symlink_status(out.target_, ec)))
-    return fail({.code = "FILE-WRITE", .message = "is a link to a file that is not there", .file = path});
+    return fail({.code = "FILE-WRITE", .message = "is a link that leads to itself", .file = path});
   if (std::filesystem::is_directory(at))
     return fail({.code = "FILE-WRITE", .message = "is a folder", .file = path, .expected = "a file"});
   if (std::filesystem::exists(at) && !std::filesystem::is_regular_file(at))
@@ -89,8 +98,10 @@ Result<StagedFile> StagedFile::make(const std::string& path, std::string_view by
         {.code = "FILE-WRITE", .message = "is a pipe or a device", .file = path, .expected = "a file"});
   const auto parent = std::filesystem::path(out.target_).parent_path();
   const std::string folder = parent.empty() ? "." : parent.string();
-  out.fd_ = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
-  if (out.fd_ < 0 && (errno == EOPNOTSUPP || errno == EISDIR || errno == EINVAL)) {
+  // A nameless file gets its name through /proc.
+  const bool nameless = std::filesystem::exists("/proc/self/fd", ec);
+  if (nameless) out.fd_ = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
+  if (out.fd_ < 0 && (!nameless || errno == EOPNOTSUPP || errno == EISDIR || errno == EINVAL)) {
     out.temporary_ = out.temporary_name();
     out.fd_ = ::open(out.temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
     if (out.fd_ < 0) out.temporary_.clear();
@@ -104,6 +115,7 @@ Result<StagedFile> StagedFile::make(const std::string& path, std::string_view by
     }
     bytes.remove_prefix(static_cast<std::size_t>(put));
   }
+  if (::fsync(out.fd_) != 0) return io_fault("FILE-WRITE", path, "cannot be brought to disk");
   return out;
 }
 
@@ -127,7 +139,6 @@ StagedFile::~StagedFile() {
 }
 
 Status StagedFile::put() {
-  if (::fsync(fd_) != 0) return io_fault("FILE-WRITE", path_, "cannot be brought to disk");
   if (temporary_.empty()) {
     // Only a link can give a nameless file its name, and a link replaces nothing: hence the rename after it.
     const std::string name = temporary_name();

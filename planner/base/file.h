@@ -20,7 +20,7 @@ inline constexpr std::size_t kDefaultFileCap = std::size_t{2} << 30;  ///< 2 GiB
 class StagedFile {
  public:
   /// Fails  FILE-WRITE: the folder is missing or cannot be written, the disk is full, or the path leads to a
-  /// folder, a pipe, a device, or a link to nothing.
+  /// folder, a pipe, a device, or a link to itself.
   [[nodiscard]] static Result<StagedFile> make(const std::string& path, std::string_view bytes);
   StagedFile(StagedFile&& other) noexcept;
   StagedFile& operator=(StagedFile&& other) noexcept;

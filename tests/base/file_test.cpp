@@ -69,10 +69,17 @@ TEST_F(File, ThatALinkLeadsToIsReplacedAndNotTheLink) {
   EXPECT_EQ(text("real"), "after");
 }
 
-TEST_F(File, IsNotWrittenInPlaceOfAPipeAFolderOrALinkToNothing) {
+TEST_F(File, ThatALinkLeadsToNeedNotBeThereYet) {
+  fs::create_symlink("real", at("link"));
+  ASSERT_TRUE(write_file(at("link"), "new"));
+  EXPECT_TRUE(fs::is_symlink(at("link")));
+  EXPECT_EQ(text("real"), "new");
+}
+
+TEST_F(File, IsNotWrittenInPlaceOfAPipeAFolderOrALinkToItself) {
   ASSERT_EQ(::mkfifo(at("pipe").c_str(), 0600), 0);
   fs::create_directory(at("folder"));
-  fs::create_symlink("nowhere", at("link"));
+  fs::create_symlink("link", at("link"));
   for (const char* name : {"pipe", "folder", "link"}) {
     const auto ok = write_file(at(name), "x");
     ASSERT_FALSE(ok) << name;

@@ -90,7 +90,14 @@ int guarded(Session& s) {
 void leave_nothing_stale(Session& s, int code) {
   const bool plans = s.options.command == Command::kPlan || s.options.command == Command::kBind;
   if (!plans || code <= kFindings || code == kLate) return;
-  if (const auto outputs = outputs_of(s.options.outputs)) put_programs_aside(*outputs, s.job);
+  for (const Diagnostic& d : s.job.diagnostics()) {
+    // Names that are wrong promise nothing; what was put in place is of this call.
+    if (d.code == "OUT-INPUT" || d.code == "OUT-TWICE" || d.code == "FILE-PARTLY") return;
+  }
+  for (const std::string& path : s.options.outputs) {
+    // One name that is wrong does not make the others' programs true.
+    if (auto one = output_of(path)) put_programs_aside({*std::move(one)}, s.job);
+  }
 }
 
 }  // namespace

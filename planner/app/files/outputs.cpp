@@ -120,12 +120,14 @@ Aside set_aside(const std::string& path) {
   if (left_there(path).outcome == Aside::kNothingThere) return {};
   std::error_code ec;
   // What was put aside earlier stays: it may be the last good one.
-  std::string to = path + ".before";
-  for (int n = 2; fs::exists(to, ec) && n < 1000; ++n) to = path + ".before." + std::to_string(n);
+  // What a link leads to is the program that runs, not the link.
+  const std::string file = resolved(path);
+  std::string to = file + ".before";
+  for (int n = 2; fs::exists(to, ec) && n < 1000; ++n) to = file + ".before." + std::to_string(n);
   if (fs::exists(to, ec)) return {Aside::kStays, {}};
   // Only a file goes: another thing of that name (a device, a pipe) is not ours.
-  if (!fs::is_regular_file(path, ec)) return {Aside::kStays, {}};
-  fs::rename(path, to, ec);
+  if (!fs::is_regular_file(file, ec)) return {Aside::kStays, {}};
+  fs::rename(file, to, ec);
   return ec ? Aside{Aside::kStays, {}} : Aside{Aside::kRenamed, to};
 }
 
@@ -161,7 +163,10 @@ Status write_all(const std::vector<Output>& outputs) {
   std::string done;
   for (StagedFile& f : files) {
     if (auto ok = f.put(); !ok) {
-      if (!done.empty()) ok.error().message += "; already in place: " + done;
+      if (!done.empty()) {
+        ok.error().code = "FILE-PARTLY";
+        ok.error().message += "; already in place: " + done;
+      }
       return ok;
     }
     done += (done.empty() ? "" : ", ") + f.path();

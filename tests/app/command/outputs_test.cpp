@@ -43,6 +43,28 @@ TEST_F(Outputs, ThatAreInputsAreReplacedWhenForced) {
   EXPECT_EQ(files(), Names{"plate.p21"});
 }
 
+TEST_F(Outputs, RefusedForTheirNamesLeaveWhatIsThereAlone) {
+  put("part.ngc", plate_);
+  EXPECT_EQ(run("plan part.ngc -o part.ngc").code, 2);
+  EXPECT_EQ(slurp(folder_ / "part.ngc"), plate_);
+  EXPECT_EQ(files(), (Names{"part.ngc", "plate.p21"}));
+}
+
+TEST_F(Outputs, FromBeforeGoAsideAlsoWhereAnotherNameIsWrong) {
+  put("a.ngc", "old");
+  EXPECT_EQ(run("plan plate.p21 -o a.ngc -o b.xyz").code, 2);
+  EXPECT_EQ(files(), (Names{"a.ngc.before", "plate.p21"}));
+}
+
+TEST_F(Outputs, FromBeforeThatALinkLeadsToGoAsideAndTheLinkStays) {
+  put("real.ngc", "old");
+  fs::create_symlink("real.ngc", folder_ / "now.ngc");
+  EXPECT_EQ(run("plan plate.p21 --machine nowhere.yaml -o now.ngc").code, 3);
+  EXPECT_EQ(files(), (Names{"now.ngc", "plate.p21", "real.ngc.before"}));
+  EXPECT_LE(run("plan plate.p21 -o now.ngc").code, 1);
+  EXPECT_EQ(files(), (Names{"now.ngc", "plate.p21", "real.ngc", "real.ngc.before"}));
+}
+
 TEST_F(Outputs, OfOnePathAreRefusedAlsoByAnotherName) {
   fs::create_symlink("a.json", folder_ / "b.json");
   for (const char* pair : {"-o a.json -o a.json", "-o a.json -o ./a.json"}) {
