@@ -16,12 +16,14 @@ namespace {
 
 constexpr const char* kInterpreter = "/usr/bin/rs274";
 
-// "   12 N..... NAME(arguments)"
+// "   12 N..... NAME(arguments)"; where the block has a number, "   12 N10    NAME(arguments)"
 void parse_call(const std::string& line, std::vector<CanonCall>& out) {
-  const auto n = line.find("N.....");
+  const auto n = line.find_first_not_of(" 0123456789");
   const auto open = line.find('(');
   const auto close = line.rfind(')');
-  if (n == std::string::npos || open == std::string::npos || close == std::string::npos) return;
+  if (n == std::string::npos || line[n] != 'N' || open == std::string::npos || close == std::string::npos ||
+      open < n + 7)
+    return;
   CanonCall call;
   call.name = line.substr(n + 7, open - n - 7);
   call.text = line.substr(open + 1, close - open - 1);

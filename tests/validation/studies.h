@@ -30,6 +30,9 @@ namespace capstan::validation {
 /// Measured sections of skewed paths against closed forms, by size of cell.
 [[nodiscard]] Comparison sections();
 
+/// Edits of emitted programs and what the check finds of them: `tests/mutation`.
+[[nodiscard]] Comparison edits();
+
 /// Cycle times on LinuxCNC's simulated machine, as `capstan_cycle_times` recorded them in a file.
 [[nodiscard]] Comparison cycle_times(const std::string& file);
 

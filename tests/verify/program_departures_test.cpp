@@ -135,6 +135,7 @@ const Departure kDepartures[] = {
     {"AnOptionalStop", "G1 X65 Y65 Z-10 F600\n", "G1 X65 Y65 Z-10 F600\nM1\n"},
     {"OverridesLocked", "G64 P0.01", "G64 P0.01\nM49"},
     {"ABlockThatMayBeSkipped", "G1 X65 Y65 Z-10 F600\n", "/G1 X65 Y65 Z-10 F600\n"},
+    {"AFeedModeThatForgetsTheFeed", "G1 X65 Y65 Z-10 F600\n", "G94\nG1 X65 Y65 Z-10\n", true},
     {"AShiftOfTheWork", "G64 P0.01", "G64 P0.01\nG92 X5", true},
     {"AReferencePoint", "G1 X65 Y65 Z-10 F600\n", "G1 X65 Y65 Z-10 F600\nG28\n", true},
     {"NoLengthOffsetByH0", "G43 H2", "G43 H0", true},

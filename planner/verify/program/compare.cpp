@@ -6,11 +6,9 @@
 
 namespace capstan::verify {
 
-using model::MoveKind;
-
 namespace {
 
-/// Corners are rounded by what the step says, else by what the machine does.
+/// Corners, those of rapids too, are rounded by what the step says, else by what the machine does.
 void check_tolerance(const ProgramCase& c, const model::StepResult& step,
                      const std::vector<const Block*>& text, const Findings::Where& at, Findings& findings) {
   const model::Control& control = c.machine.control;
@@ -19,7 +17,7 @@ void check_tolerance(const ProgramCase& c, const model::StepResult& step,
   const double exact = own > 0.0 && step.contour_tolerance_mm > 0.0 ? step.contour_tolerance_mm : own;
   const double wanted = std::max(0.0, rounded(exact, control.decimals));
   for (const Block* b : text) {
-    if (b->kind != Block::Kind::kMove || b->move == MoveKind::kRapid || b->in_machine) continue;
+    if (b->kind != Block::Kind::kMove || b->in_machine) continue;
     const double p = b->tolerance_mm, q = b->naive_mm;
     const auto agrees = [&](double v) { return std::abs(v - wanted) <= 0.51 * unit; };
     if (agrees(p) && agrees(q) && !b->exact_stop) continue;
@@ -27,7 +25,7 @@ void check_tolerance(const ProgramCase& c, const model::StepResult& step,
     if (p <= 0.0) stated = b->exact_stop ? "exact stops (G61.1)" : "the exact path (G61)";
     if (agrees(p) && !agrees(q)) stated = "points left out that lie within " + mm(q) + " (G64 Q)";
     findings.error(33, "CHK-TEXT-TOLERANCE", {at.order, at.step, b->line},
-                   "the text cuts with " + stated + "; the step has " +
+                   "the text moves with " + stated + "; the step has " +
                        (wanted > 0.0 ? mm(wanted) : std::string("the exact path (G61)")));
     return;
   }

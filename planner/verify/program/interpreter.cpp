@@ -205,6 +205,8 @@ void Interpreter::state_code(int g, const Said& s) {
     case 940:
     case 950:
       feed_mode_ = g / 10;
+      feed_ = 0.0;  // LinuxCNC forgets F at each of them, the mode that is on included
+      stated_ &= ~static_cast<unsigned>(kStatedFeed);
       stated_ |= kStatedFeedMode;
       break;
     case 970:

@@ -1,0 +1,122 @@
+#include "tests/mutation/emitted.h"
+
+#include <stdexcept>
+#include <utility>
+
+#include "planner/output/linuxcnc/linuxcnc.h"
+#include "planner/pipeline/shop.h"
+#include "tests/support/corpus.h"
+#include "tests/verify/plans.h"
+
+namespace capstan::mutation {
+namespace {
+
+using model::MoveRole;
+namespace plans = verify::testing;
+
+Emitted written(std::string name, model::Plan plan) {
+  // What a table's comment says is all that a check by the table alone knows of a tool's kind.
+  for (model::Cutter& c : plan.cutters) {
+    if (c.description.empty())
+      c.description =
+          trimmed(c.cutting_diameter_mm, 2) + " mm " + std::string(model::to_text(c.cutter_class));
+  }
+  Job job;
+  auto text = output::write_linuxcnc(plan, job);
+  if (!text) throw std::runtime_error(name + ": " + to_text(text.error()));
+  std::string table = output::write_tool_table(plan);
+  return {std::move(name), std::move(plan), *std::move(text), std::move(table)};
+}
+
+void extend(model::Plan& plan, std::size_t step, std::size_t moves, double feed, double rpm, double dwell_s) {
+  plans::edit_schedule(plan, step, [&](auto& s) {
+    for (std::size_t i = 0; i < moves; ++i) {
+      s.feed_mm_min.push_back(feed);
+      s.spindle_rpm.push_back(rpm);
+      s.dwell_s.push_back(dwell_s);
+    }
+  });
+}
+
+model::Plan pocket_and_hole() {
+  auto k = plans::good_plan();
+  plans::with_reamer(k, 300.0);
+  k.plan.machine.spindle.spin_up_s = 2.0;
+  plans::edit_path(k.plan, 0, [](auto& p) {
+    p.arc({35, 55, 10}, {35, 45}, false, MoveRole::kLink);
+    p.arc({45, 45, 6}, {35, 45}, true, MoveRole::kLink);
+    p.dwell();
+    p.arc({45, 45, 4}, {40, 45}, false, MoveRole::kLink);
+    p.rapid({45, 45, 10}, MoveRole::kRetract);
+  });
+  extend(k.plan, 0, 5, 600, 3000, 0.5);
+  return k.plan;
+}
+
+model::Plan two_setups() {
+  auto k = plans::good_plan();
+  k.plan.machine.spindle.spin_up_s = 1.5;
+  k.plan.setups.push_back(k.plan.setups[0]);
+  k.plan.setups[1].work_offset = "G55";
+  k.plan.steps[1].setup = 1;
+  return k.plan;
+}
+
+model::Plan tapped() {
+  auto k = plans::empty_plan();
+  k.plan.machine.spindle.spin_up_s = 1.0;
+  k.plan.machine.abilities.rigid_tapping = true;
+  k.step<model::Drilling>("drill", k.hole("H", 15, 15, 8, 20), "d8", plans::drill_path(), 225, 1500);
+  model::Cutter t = plans::drill();
+  t.id = "m10";
+  t.cutter_class = model::CutterClass::kTap;
+  t.thread_pitch_mm = 1.5;
+  t.cutting_diameter_mm = 10.0;
+  t.description = "tap M10x1.5";
+  t.pocket = 3;
+  k.plan.cutters.push_back(t);
+  model::CutterPath p;
+  p.start({15, 15, 10});
+  p.rapid({15, 15, 5});
+  p.line({15, 15, -12}, MoveRole::kTap);
+  p.line({15, 15, 5}, MoveRole::kTap);
+  p.rapid({15, 15, 10}, MoveRole::kRetract);
+  const auto* drilled = k.plan.model.get<model::MachiningWorkingstep>(k.plan.steps[0].step);
+  k.step<model::Tapping>("tap", drilled->its_feature, "m10", p, 750, 500);
+  return k.plan;
+}
+
+model::Plan plate() {
+  Job job;
+  const auto shop = pipeline::load_shop({}, job);
+  const std::string path = std::string(CAPSTAN_SOURCE_DIR) + "/examples/plate_bound.p21";
+  auto plan = pipeline::read_plan(testing::slurp(path), path, job);
+  if (!shop || !plan) throw std::runtime_error("the plate is not read");
+  auto bound = pipeline::bind(*std::move(plan), *shop, {}, job);
+  if (!bound) throw std::runtime_error(to_text(bound.error()));
+  return *std::move(bound);
+}
+
+}  // namespace
+
+const std::vector<Emitted>& emitted() {
+  static const std::vector<Emitted> kAll = [] {
+    std::vector<Emitted> out;
+    out.push_back(written("pocket and reamed hole", pocket_and_hole()));
+    out.push_back(written("two set-ups", two_setups()));
+    out.push_back(written("tapped hole", tapped()));
+    return out;
+  }();
+  return kAll;
+}
+
+const std::vector<Emitted>& emitted_and_planned() {
+  static const std::vector<Emitted> kAll = [] {
+    std::vector<Emitted> out = emitted();
+    out.push_back(written("plate", plate()));
+    return out;
+  }();
+  return kAll;
+}
+
+}  // namespace capstan::mutation

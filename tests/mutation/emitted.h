@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "planner/model/plan.h"
+
+namespace capstan::mutation {
+
+/// A plan, and the program and tool table that were written of it.
+struct Emitted {
+  std::string name;
+  model::Plan plan;
+  std::string text, table;
+};
+
+/// Of plans made by hand: a pocket, a drilled and reamed hole, arcs, a helix, waits; two set-ups; a tapped
+/// hole.
+[[nodiscard]] const std::vector<Emitted>& emitted();
+/// These, and the plate of examples/plate_bound.p21 as the pipeline plans it.
+[[nodiscard]] const std::vector<Emitted>& emitted_and_planned();
+
+}  // namespace capstan::mutation
