@@ -72,7 +72,9 @@ std::string resolved(const std::string& path) {
   namespace fs = std::filesystem;
   constexpr int kMostLinks = 40;  // as Linux follows
   std::error_code ec;
-  fs::path at = path;
+  // Relative and absent, weakly_canonical would leave it relative.
+  fs::path at = fs::absolute(path, ec);
+  if (ec) return path;
   // weakly_canonical leaves a link to nothing as it is.
   for (int i = 0; i < kMostLinks && fs::is_symlink(fs::symlink_status(at, ec)) && !fs::exists(at, ec); ++i) {
     const fs::path to = fs::read_symlink(at, ec);

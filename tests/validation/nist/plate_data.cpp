@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <optional>
 #include <string_view>
 
 #include "planner/base/file.h"
@@ -101,12 +102,14 @@ std::map<int, TraceTime> trace_times(std::string_view text) {
 // Moves before the first known position are left out: the way from the tool changer is not in the program.
 std::vector<ToolRun> runs_of(const verify::Program& program) {
   std::vector<ToolRun> out;
+  std::optional<double> height;
   for (const verify::Block& b : program.blocks) {
     if (b.kind == verify::Block::Kind::kToolChange) out.push_back({.tool = b.tool});
-    if (b.kind != verify::Block::Kind::kMove || out.empty() || !b.known_to[0] || !b.known_to[1] ||
-        !b.known_to[2]) {
-      continue;
-    }
+    if (b.kind != verify::Block::Kind::kMove || out.empty() || !b.known_to[0] || !b.known_to[1]) continue;
+    // The checker takes no height for known after a change of tools; this machine's axis stays where it was.
+    if (b.known_to[2]) height = b.to.z;
+    if (!height) continue;
+    const geometry::Vec3 to{b.to.x, b.to.y, *height};
     ToolRun& run = out.back();
     const auto timed = [&] {
       run.schedule.feed_mm_min.push_back(b.feed_mm_min);
@@ -114,21 +117,21 @@ std::vector<ToolRun> runs_of(const verify::Program& program) {
       run.schedule.dwell_s.push_back(0.0);
     };
     if (run.path.size() == 0) {
-      run.path.start(b.to);
+      run.path.start(to);
       timed();
       continue;
     }
     using model::MoveKind;
     switch (b.move) {
       case MoveKind::kRapid:
-        run.path.rapid(b.to);
+        run.path.rapid(to);
         break;
       case MoveKind::kLine:
-        run.path.line(b.to, model::MoveRole::kCut);
+        run.path.line(to, model::MoveRole::kCut);
         break;
       case MoveKind::kArcCw:
       case MoveKind::kArcCcw:
-        run.path.arc(b.to, b.centre, b.move == MoveKind::kArcCw, model::MoveRole::kCut);
+        run.path.arc(to, b.centre, b.move == MoveKind::kArcCw, model::MoveRole::kCut);
         break;
       case MoveKind::kDwell:
         continue;
