@@ -110,9 +110,9 @@ const model::Cutter* cutter_of(const model::Plan& plan, int tool) {
 }
 
 TEST(Late, TheToolTableComesOutNumberForNumber) {
-  // The mill in carousel place 3, shorter than the 75 mm of the file, with a side offset and a worn diameter.
+  // The mill in carousel place 17, shorter than the 75 mm of the file, with a worn diameter.
   Job job;
-  const std::string line = "T7 P3 X+0.010000 Z+61.2345678 D+11.999500";
+  const std::string line = "T7 P17 Z+61.2345678 D+11.999500";
   const auto bound =
       bind(plate(), shop_with(line + " ;12 mm carbide end mill, 4 flutes"), {.deadline = std::nullopt}, job);
   ASSERT_TRUE(bound) << to_text(bound.error()) << "\n" << texts(job);
@@ -162,6 +162,17 @@ TEST(Late, OffsetsAgainstAReferenceToolAreNoLengthsAndComeOutAgain) {
   const auto program = pipeline::write_plan(bound->plan, pipeline::Format::kLinuxCnc, job);
   ASSERT_TRUE(program);
   EXPECT_NE(program->find("T7: its length offset counts from a reference"), std::string::npos);
+}
+
+TEST(Late, OneNegativeOffsetAmongLengthsIsNoLengthAndNoReference) {
+  // A sign mistyped: were it an offset from a reference, T8 would stand out 96 mm more than T7.
+  Job job;
+  const auto bound = bind(plate(),
+                          shop_of("T7 P7 Z-5 D+12 ;12 mm carbide end mill, 4 flutes\n"
+                                  "T8 P8 Z+91 D+8 ;8 mm carbide end mill, 4 flutes\n"),
+                          {.deadline = std::nullopt}, job);
+  ASSERT_FALSE(bound);
+  EXPECT_EQ(bound.error().code, "LATE-TOOL") << to_text(bound.error());
 }
 
 TEST(Late, AMachineMaySayThatItsOffsetsCountFromAReference) {

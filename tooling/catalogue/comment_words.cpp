@@ -198,10 +198,12 @@ double pitch_of(const std::string& text, CutterClass c, double diameter_mm) {
   return inch_pitch(text, c, diameter_mm);
 }
 
-/// "R1.5", "CR 0.5", "radius 1 mm".
+/// "R1.5", "CR 0.5", "radius 1 mm", "corner 0.1 mm" as the program's own tables say.
 double radius_of(const std::string& text, double diameter_mm, double mm_per_unit) {
   const auto fits = [&](double r) { return r > 0.0 && r <= 0.5 * diameter_mm + 1e-9; };
-  if (const double r = after_word(text, "radius", mm_per_unit); fits(r)) return r;
+  for (const char* word : {"radius", "corner"}) {
+    if (const double r = after_word(text, word, mm_per_unit); fits(r)) return r;
+  }
   for (std::size_t i = 0; i < text.size(); ++i) {
     if (text[i] != 'r' ||
         (i > 0 && letter(text[i - 1]) && !(text[i - 1] == 'c' && (i < 2 || !letter(text[i - 2])))))

@@ -8,9 +8,10 @@
 #include "tooling/catalogue/complete.h"
 
 // A length offset is measured from wherever the shop measures: mostly from the gage line, where it is the
-// tool's length; or against a reference tool, and then it is any number. A length is never negative, so one
-// negative Z tells that no Z of its table is a length. Where all are positive, the machine's description may
-// say it (control, length_offsets).
+// tool's length; or against a reference tool, and then it is any number. A length is never negative: a table
+// whose Z are all negative, or of both signs with the 0 of the reference tool among them, counts from a
+// reference. One negative Z among lengths is rather a sign that was mistyped. Of other tables the machine's
+// description may say it (control, length_offsets).
 
 namespace capstan::tooling {
 namespace {
@@ -25,13 +26,14 @@ double offset_of(const MachineEntry& e, char letter) {
 }  // namespace
 
 TableLines::TableLines(const ToolLibrary& library, std::optional<bool> against_reference) : l_(library) {
-  bool negative = false;
+  bool negative = false, positive = false;
   for (const MachineEntry& e : l_.entries) {
     const double z = offset_of(e, 'Z');
     negative = negative || z < 0.0;
+    positive = positive || z > 0.0;
     zeros_ += z == 0.0 && offset_of(e, 'D') > 0.0 ? 1 : 0;
   }
-  against_reference_ = against_reference.value_or(negative);
+  against_reference_ = against_reference.value_or(negative && (zeros_ > 0 || !positive));
 }
 
 void TableLines::give(const MachineEntry& entry, double mm_per_unit, model::Cutter& c, Job& job) {
@@ -61,8 +63,8 @@ void TableLines::give(const MachineEntry& entry, double mm_per_unit, model::Cutt
                            " mm that planning uses is assumed" + more,
                 .file = l_.source,
                 .path = c.id,
-                .hint = "measure it; that offsets count from a reference tool is told by a negative one, or "
-                        "by length_offsets: reference under the machine's control"});
+                .hint = "measure it; where offsets count from a reference tool, say length_offsets: reference "
+                        "under the machine's control"});
   } else if (against_reference_ && !told_) {
     told_ = true;
     job.report({.code = "TOOL-OFFSET",

@@ -281,7 +281,9 @@ class CommandLine {
     for (const CLI::Option* o : of.get_options()) {
       if (o->count() == 0) continue;
       const auto& values = o->results();
-      if (std::any_of(values.begin(), values.end(), [](const std::string& v) { return v.empty(); }))
+      if (std::any_of(values.begin(), values.end(), [](const std::string& v) {
+            return v.find_first_not_of(" \t\n\r") == std::string::npos;  // blanks name nothing
+          }))
         return o->get_name() + ": the value is empty; leave the option out instead";
     }
     for (const CLI::App* sub : of.get_subcommands()) {

@@ -121,7 +121,7 @@ Aside set_aside(const std::string& path) {
   std::error_code ec;
   // What was put aside earlier stays: it may be the last good one.
   // What a link leads to is the program that runs, not the link.
-  const std::string file = resolved(path);
+  const std::string file = fs::is_symlink(fs::symlink_status(path, ec)) ? resolved(path) : path;
   std::string to = file + ".before";
   for (int n = 2; fs::exists(to, ec) && n < 1000; ++n) to = file + ".before." + std::to_string(n);
   if (fs::exists(to, ec)) return {Aside::kStays, {}};

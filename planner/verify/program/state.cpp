@@ -310,11 +310,13 @@ void check_tool_table(const ProgramCase& c, const ToolTable& table, Findings& fi
       findings.error(
           6, "CHK-TABLE-DIAMETER", whole,
           name + " has no diameter (D) in the tool table; the plan's is " + mm(t->cutting_diameter_mm));
-    if (!e.has_pocket || e.pocket != t->pocket)
+    // The carousel's place is the table's to say; where it said none, the number of the tool is taken.
+    const int place = static_cast<int>(model::table_word(*t, "P").value_or(t->pocket));
+    if (!e.has_pocket || e.pocket != place)
       findings.error(4, "CHK-TABLE-POCKET", whole,
                      name + " has " +
                          (e.has_pocket ? "the pocket P" + std::to_string(e.pocket) : "no pocket") +
-                         " in the tool table; the plan has P" + std::to_string(t->pocket));
+                         " in the tool table; the plan has P" + std::to_string(place));
   }
   for (const ToolTableEntry& e : table.entries) {
     const model::Cutter* t = c.cutter(e.tool);

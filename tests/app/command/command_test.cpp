@@ -139,6 +139,7 @@ TEST_F(CommandTest, AnEmptyValueIsNotTheSameAsNone) {
     EXPECT_EQ(r.code, 2) << option;
     EXPECT_THAT(r.err, HasSubstr(std::string(option) + ": the value is empty")) << option;
   }
+  EXPECT_EQ(run("plan plate.p21 -o a.json --material '  '").code, 2);
   EXPECT_EQ(run("plan '' -o a.json").code, 2);
   EXPECT_EQ(run("bind plate.p21 --tools '' -o a.json").code, 2);
   EXPECT_EQ(run("bind plate.p21 --deadline '' -o a.json").code, 2);

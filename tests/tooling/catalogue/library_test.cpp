@@ -121,7 +121,7 @@ TEST(ToolTable, UsesWhatItUnderstandsAndSaysWhatNot) {
   EXPECT_DOUBLE_EQ(mill.functional_length_mm, 80.5);
   EXPECT_TRUE(source_of(mill, "cutter_class")->starts_with("derived"));
   EXPECT_DOUBLE_EQ(tools->at(1).thread_pitch_mm, 1.0);
-  EXPECT_EQ(job.count(Severity::kWarning), 2u);  // T2: no class; T3: no diameter
+  EXPECT_EQ(job.count(Severity::kWarning), 3u);  // T2: no class; T3: no diameter; T4: no length
   EXPECT_EQ(job.count(Severity::kNote), 1u);     // the unit
 }
 
@@ -131,7 +131,8 @@ TEST(ToolTable, ReadsInches) {
   inch.mm_per_unit = 25.4;
   const auto tools = read_library("T1 P1 D0.25 ;endmill\n", "tool.tbl", job, inch).value();
   EXPECT_DOUBLE_EQ(tools[0].cutting_diameter_mm, 6.35);
-  EXPECT_TRUE(job.diagnostics().empty());
+  ASSERT_EQ(job.diagnostics().size(), 1u);
+  EXPECT_EQ(job.diagnostics()[0].code, "TOOL-OFFSET");  // it tells no length
 }
 
 TEST(ToolTable, RefusesNonsenseByLine) {

@@ -89,6 +89,9 @@ TEST(Unsaid, AnglesAndRadiiComeFromWordsOrTheToolIsLeftOut) {
   EXPECT_EQ(c[0].tip_diameter_mm, 0.0);
   EXPECT_EQ(c[1].corner_radius_mm, 1.5);
   EXPECT_NEAR(c[2].point_angle_rad, 90 * kDeg, 1e-12);
+  c = of_table("T1 P1 D8 ;generic 8 mm carbide bull-nose end mill, 4 flutes, corner 0.1 mm\n", job);
+  ASSERT_EQ(c.size(), 1u) << told(job);
+  EXPECT_EQ(c[0].corner_radius_mm, 0.1);
   for (const char* line : {"T1 P1 D6 ;6 mm bull nose", "T1 P1 D10 ;v-bit", "T1 P1 D10 ;countersink",
                            "T1 P1 D10 ;45 deg chamfer mill", "T1 P1 D6 ;tapered end mill"}) {
     Job quiet;
