@@ -27,9 +27,10 @@ inline constexpr double kBeyondPieceMm = 0.01;
 /// That, in words; empty when it lies within.
 [[nodiscard]] std::string cuts_an_edge(const FeatureShape& hole, const PieceForm& raw);
 
-/// By how much the point below a drilled hole's depth runs through the underside of the raw piece, in words;
-/// empty when it does not.
-[[nodiscard]] std::string point_runs_through(const FeatureShape& hole, const PieceForm& raw);
+/// By how much the point below a drilled hole's depth runs through the underside of the raw piece, or of the
+/// finished part where that is higher, in words; empty when it does not.
+[[nodiscard]] std::string point_runs_through(const FeatureShape& hole, const PieceForm& raw,
+                                             const PieceForm& part);
 
 /// Whether a feature takes this point of the workpiece away: a face all that stands above its floor.
 [[nodiscard]] bool takes(const FeatureShape& s, geometry::Vec3 p);

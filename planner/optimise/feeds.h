@@ -47,7 +47,7 @@ struct FeedQuestion {
   double n_rpm = 0.0;  ///< of the step; positive clockwise, negative counter-clockwise
   double feed_mm_min =
       0.0;                ///< of the step: plunges and ramps are fractions of it, finishing never exceeds it
-  bool adapt = true;      ///< false: a given feed is executed as given
+  bool adapt = true;      ///< false: a given feed is executed as given; factors above 1 do not count
   bool constant = false;  ///< one feed for all cutting moves: the largest that every section bears
   std::vector<double> feed_factor, speed_factor, dwell_s;  ///< of the path's moves
   std::vector<CutSample> samples;                          ///< in order of moves

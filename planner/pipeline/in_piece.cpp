@@ -27,9 +27,9 @@ std::vector<FeatureShape> whole_features(const Work& w) {
 
 std::string not_in_piece(const Work& w, const FeatureShape& s) {
   if (w.plan.target_mesh) return {};
-  if (const std::string through = model::point_runs_through(s, raw_piece(w)); !through.empty())
-    return through;
   const model::PieceForm part{part_box(w), w.plan.stock.cylinder_radius_mm};
+  if (const std::string through = model::point_runs_through(s, raw_piece(w), part); !through.empty())
+    return through;
   const std::vector<FeatureShape> all = whole_features(w);
   if (model::buried(s, {}, part)) {
     if (const auto lid = model::buried(s, all, part)) return "solid stands above it: " + model::to_text(*lid);

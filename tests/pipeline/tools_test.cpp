@@ -156,7 +156,7 @@ TEST(Tools, AreFewerWhereAChangeCostsMoreThanTheSlowerTool) {
 }
 
 // Two holes of 8 mm: one right through 50 mm, which only the long drill of 118 degrees reaches; one 20 mm
-// deep over a bottom of 140 degrees, for which the short drill of 140 degrees is the better one.
+// deep over a bottom of 120 degrees, for which the short drill of 120 degrees is the better one.
 Inputs two_drills() {
   Inputs in = shop();
   const auto is = [](const model::Cutter& c, double diameter) {

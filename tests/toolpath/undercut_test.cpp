@@ -183,8 +183,31 @@ TEST(UndercutPath, GivesThinPassesTheChipOfAWholeOneAndTheWayBackAQuickerFeed) {
   // Two passes of 1.15 mm and one of 0.2, asked for 2 mm: sqrt(2 (18 - 2)) = sqrt(1.15 (18 - 1.15)) 1.2850.
   ASSERT_EQ(aside.size(), 4U);
   EXPECT_NEAR((++aside.begin())->second, 1.2850, 1e-3)
-      << "the thickest chip, and with it the force, is the same";
+      << "the thickest chip, and with it the force of one tooth, is the same";
   EXPECT_NEAR(aside.rbegin()->second, std::sqrt(32.0 / (0.2 * 17.8)), 1e-3);
+}
+
+TEST(UndercutPath, RoundAClosedEndIsSlowerByTheTeethThatCutAtOnce) {
+  for (const int teeth : {1, 6}) {
+    PathJob t = tee(false);
+    t_cutter(t, 18.0, 8.0, 8.0);
+    t.cutter.teeth = teeth;
+    t.left_on_side_mm = 0.0;  // one edge was asked for 2 mm, as above
+    Job job;
+    const auto g = generate(t, job);
+    ASSERT_TRUE(g) << g.error().message;
+    // Thickest chip of the question: 2 sqrt(2 (18 - 2)) / 18 = 0.6285 of the feed. It has less than one of
+    // six teeth in its arc of acos(1 - 4 / 18) = 39 degrees; the front half has three.
+    const double expected = 2.0 * std::sqrt(32.0) / 18.0 / (teeth == 6 ? 3.0 : 1.0);
+    int ends = 0;
+    for (std::size_t i = 1; i < g->path.size(); ++i) {
+      const bool across = g->path.y[i] * g->path.y[i - 1] < 0.0 && g->path.z[i] < 0.0;
+      if (!across || g->path.role[i] != MoveRole::kCut) continue;
+      EXPECT_NEAR(g->feed_factor[i], expected, 1e-6);
+      ++ends;
+    }
+    EXPECT_GT(ends, 0);
+  }
 }
 
 TEST(UndercutPath, RefusesWhatWouldTouchAndSaysWhy) {

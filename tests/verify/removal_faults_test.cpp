@@ -227,13 +227,15 @@ TEST(Left, SquareEndsOfASlotInTheBlockThatAMillLeavesRoundAreFound) {
   }
 }
 
-TEST(Left, AHoleRightThroughThatOpensIntoACrossBoreIsDoneThere) {
-  for (const bool bore : {true, false}) {
+TEST(Left, AHoleRightThroughThatOpensIntoACrossBoreIsDoneThereIfThePlanMakesTheBore) {
+  enum Bore { kPlanned, kUnplanned, kNone };
+  for (const Bore bore : {kPlanned, kUnplanned, kNone}) {
     PlanMaker k = testing::good_plan();
     const auto* ws = k.plan.model.get<model::MachiningWorkingstep>(k.plan.steps[1].step);
     k.plan.model.get<model::RoundHole>(ws->its_feature)->bottom_condition =
         k.plan.model.add(model::ThroughBottomCondition{});
-    if (bore) {  // 30 mm wide about z = -30: over the hole's 8 mm it reaches up to -30 + sqrt(15^2 - 4^2)
+    if (bore !=
+        kNone) {  // 30 mm wide about z = -30: over the hole's 8 mm it reaches up to -30 + sqrt(15^2 - 4^2)
       model::Direction along;
       along.direction_ratios = {{-1.0, 0.0, 0.0}, true};
       model::Axis2Placement3d at;
@@ -244,10 +246,14 @@ TEST(Left, AHoleRightThroughThatOpensIntoACrossBoreIsDoneThere) {
       at.ref_direction = k.plan.model.add(up);
       const auto cross = k.hole("CROSS", 0, 0, 30, 100);
       k.plan.model.get<model::RoundHole>(cross)->feature_placement = k.plan.model.add(at);
-      k.plan.unplanned.push_back({cross, "a later set-up's"});
+      model::CutterPath p;  // what it cuts is not looked at here
+      p.start({0, 0, 10});
+      p.line({5, 0, 10}, MoveRole::kCut);
+      k.step<model::Drilling>("bore", cross, "d8", p, 225, 1500);
+      if (bore == kUnplanned) k.plan.unplanned.push_back({cross, "no drill is long enough"});
     }
     const auto findings = check(k.plan);
-    EXPECT_EQ(found(findings, "CHK-LEFT", "drill") == nullptr, bore) << told(findings);
+    EXPECT_EQ(found(findings, "CHK-LEFT", "drill") == nullptr, bore == kPlanned) << told(findings);
   }
 }
 
@@ -260,6 +266,26 @@ TEST(Left, WhatNoCellTellsIsNoted) {
     return f.code == "CHK-NOT-JUDGED" && f.severity == Severity::kNote &&
            f.message.find("of P, its leaning walls") != std::string::npos;
   })) << told(findings);
+}
+
+TEST(Left, AllThatNoCellTellsOfAFeatureIsNoted) {
+  for (const double diameter : {8.0, 0.3}) {
+    PlanMaker k = testing::good_plan();
+    const auto* ws = k.plan.model.get<model::MachiningWorkingstep>(k.plan.steps[1].step);
+    auto* hole = k.plan.model.get<model::RoundHole>(ws->its_feature);
+    hole->diameter = k.length(diameter);
+    model::DiameterTaper taper;  // a cone, as that of a countersink
+    taper.final_diameter = k.length(0.5 * diameter);
+    hole->change_in_diameter = k.plan.model.add(taper);
+    std::string note;
+    for (const auto& f : check(k.plan)) {
+      if (f.code == "CHK-NOT-JUDGED" && f.step == "drill") note = f.message;
+    }
+    EXPECT_EQ(note.find("all of it") != std::string::npos, diameter < 1.0) << note;
+    EXPECT_EQ(note.find("the cone of its wall: what stays there is not looked at") != std::string::npos,
+              diameter > 1.0)
+        << note;
+  }
 }
 
 TEST(Left, AnUnplannedFeatureIsLeftOut) {
@@ -314,6 +340,37 @@ TEST(Within, APocketBelowSolidIsFoundAndOneThatAFaceOpensIsNot) {
   }
 }
 
+TEST(Within, AnOutsideBelowSolidIsFoundAlthoughADeepFaceLiesElsewhere) {
+  const auto face = [](PlanMaker& k, const char* id, double at, double size, double depth) {
+    const auto f = k.face(id, depth);
+    model::RectangularClosedProfile r;
+    r.profile_length = k.length(size);
+    r.profile_width = k.length(size);
+    auto* noun = k.plan.model.get<model::PlanarFace>(f);
+    noun->feature_placement = k.at(at, at, 0);
+    noun->face_boundary = k.plan.model.add(r);
+  };
+  for (const bool top : {false, true}) {
+    PlanMaker k = testing::empty_plan();
+    model::RectangularClosedProfile r;
+    r.profile_length = k.length(60);
+    r.profile_width = k.length(60);
+    model::Boss b;
+    b.its_id = "B";
+    b.feature_placement = k.at(50, 50, -10);  // 10 mm below the top of the piece
+    b.depth = k.depth(10);
+    b.its_boundary = k.plan.model.add(r);
+    model::CutterPath p;
+    p.start({0, 0, 10});
+    p.line({5, 0, 10}, MoveRole::kCut);
+    k.step<model::BottomAndSideRoughMilling>("outside", k.plan.model.add(b), "em10", p, 600, 3000);
+    face(k, "DEEP", 10, 20, 30);          // in a corner of the piece, 30 deep
+    if (top) face(k, "TOP", 50, 60, 10);  // what the outside leaves is no higher than its top
+    const auto findings = check(k.plan);
+    EXPECT_EQ(found(findings, "CHK-BURIED", "outside") == nullptr, top) << told(findings);
+  }
+}
+
 TEST(Within, ADrillsPointThatComesOutBelowIsFound) {
   for (const double depth : {47.0, 48.0}) {  // 4 / tan 59 = 2.403 mm of 50
     PlanMaker k = testing::good_plan();
@@ -321,6 +378,23 @@ TEST(Within, ADrillsPointThatComesOutBelowIsFound) {
     k.plan.model.get<model::RoundHole>(ws->its_feature)->depth = k.depth(depth);
     const auto findings = check(k.plan);
     EXPECT_EQ(found(findings, "CHK-OUTSIDE", "drill") != nullptr, depth > 47.5) << told(findings);
+  }
+}
+
+TEST(Within, ADrillsPointThatComesOutBelowTheFinishedPartIsFoundAlthoughTheRawPieceIsThicker) {
+  for (const double height : {23.0, 22.0}) {  // 20 + 4 / tan 59 = 22.403 mm of 50, later faced from below
+    PlanMaker k = testing::good_plan();
+    model::Block block;
+    block.position = k.at(0, 0, -height);
+    block.x = block.y = 100.0;
+    block.z = height;
+    const auto piece = k.plan.model.all(model::TypeId::kWorkpiece).front();
+    k.plan.model.get<model::Workpiece>(piece)->its_bounding_geometry = k.plan.model.add(block);
+    const auto findings = check(k.plan);
+    const auto* f = found(findings, "CHK-OUTSIDE", "drill");
+    ASSERT_EQ(f != nullptr, height < 22.4) << told(findings);
+    if (f == nullptr) continue;
+    EXPECT_NE(f->message.find("underside of the finished part by 0.403 mm"), std::string::npos) << f->message;
   }
 }
 

@@ -17,9 +17,12 @@ namespace capstan::engagement {
 /// Frame     path and stock in the set-up's.
 /// Units     mm.
 /// Accuracy  level cuts of flat cutters: 1e-6 of D times ap; ramps and helices, and level cuts into floors
-///           that those or points of drills left: 1e-3 of it, from their floors in strips; ramps over edges of
-///           what stands under the tip: 3e-3 of the volume, from lines across it; plunges into material that
-///           is cut already: 1e-3 of the cutter's area times the advance.
+///           that those or points of drills left: 1e-3 of it, from their floors in strips; ramps over edges
+///           of what stands under the tip: 3e-3 of the volume, from lines across it; plunges into material
+///           that is cut already: 1e-3 of the cutter's area times the advance. Peak CSA and width of ramps
+///           round a ring: 1e-3 of those that unbounded halving gives (tested; measured: 5e-4 at most). On
+///           the rings that were tried no bound on halvings is reached; where one is, the section is what the
+///           last halving tells.
 /// Cost      by what lies near the cutter; see planner/engagement/README.md.
 /// Fails     ENG-PROFILE, ENG-NUMBER, ENG-UNDERCUT as there; ENG-NOT-PLANAR for a cutter that is not flat
 ///           below and does more than plunge, for one with a head (engagement.h), and on a stock that was

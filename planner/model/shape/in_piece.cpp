@@ -13,7 +13,8 @@
 // What is buried is found by points: over the feature's area, at heights between its top and the top of the
 // piece, a point is open when it lies outside the piece or within what some feature takes away; a face takes
 // away all that stands above it. A point counts as buried when its neighbours, a hair aside, are so too: what
-// stays in corners, where two outlines meet, is no lid.
+// stays in corners, where two outlines meet, is no lid. Over an outside a point is open, too, when it is
+// higher than the faces of the nearest place that the outside leaves standing.
 
 namespace capstan::model {
 namespace {
@@ -58,6 +59,35 @@ bool in_piece(Vec3 p, const PieceForm& piece) {
   return std::hypot(p.x - middle.x, p.y - middle.y) <= *piece.round_mm;
 }
 
+/// A place that an outside leaves standing, and how high the part is there by its faces.
+struct Standing {
+  Vec2 at;
+  double top_mm = 0.0;
+};
+
+/// How high the faces over a place of the outside's frame let the part be there.
+double face_over(const FeatureShape& s, const std::vector<FeatureShape>& features, Vec2 p, double most) {
+  double top = most;
+  for (const FeatureShape& o : features) {
+    if (o.kind != ShapeKind::kFace || dot(o.frame.z, s.frame.z) < kUpright) continue;
+    const Vec3 q = o.frame.to_local(s.frame.to_parent({p.x, p.y, 0.0}));
+    if (geometry::contains(o.area, {q.x, q.y}))
+      top = std::min(top, s.frame.to_local(o.frame.origin).z - o.depth_mm);
+  }
+  return top;
+}
+
+/// Beside an outside nothing of the part is higher than what stands next to it: above that is raw piece only.
+double top_beside(const std::vector<Standing>& standing, Vec2 p, double cell, double most) {
+  double nearest = 1e300;
+  for (const Standing& k : standing) nearest = std::min(nearest, norm(k.at - p));
+  double top = most;
+  for (const Standing& k : standing) {
+    if (norm(k.at - p) <= nearest + cell) top = std::min(top, k.top_mm);
+  }
+  return top;
+}
+
 }  // namespace
 
 bool takes(const FeatureShape& s, Vec3 p) {
@@ -91,18 +121,21 @@ std::string cuts_an_edge(const FeatureShape& s, const PieceForm& raw) {
          ": a drill is pushed aside there and breaks";
 }
 
-std::string point_runs_through(const FeatureShape& s, const PieceForm& raw) {
+std::string point_runs_through(const FeatureShape& s, const PieceForm& raw, const PieceForm& part) {
   if (s.kind != ShapeKind::kHole || s.bottom != HoleBottom::kConical || s.through || raw.box.empty() ||
       tilted(s))
     return {};
-  const double under = -seen_from(raw.box, s.frame).lo.z;
+  const double raw_under = -seen_from(raw.box, s.frame).lo.z;
+  const double part_under = part.box.empty() ? raw_under : -seen_from(part.box, s.frame).lo.z;
+  const double under = std::min(raw_under, part_under);
+  const bool finished = part_under < raw_under - kBeyondPieceMm;
   const double tip = 0.5 * s.bottom_diameter_mm * std::tan(s.bottom_angle_rad);
   const double by = s.depth_mm + tip - under;
   if (by <= kBeyondPieceMm || s.depth_mm > under + kBeyondPieceMm) return {};
   const double full = 180.0 - 2.0 * s.bottom_angle_rad * 180.0 / std::numbers::pi;
   return "the point of its drill (" + trimmed(full, 1) + " degrees, " + trimmed(tip, 3) +
-         " mm long, below a depth of " + trimmed(s.depth_mm, 3) +
-         " mm) runs through the underside of the raw piece by " + trimmed(by, 3) +
+         " mm long, below a depth of " + trimmed(s.depth_mm, 3) + " mm) runs through the underside of the " +
+         (finished ? "finished part" : "raw piece") + " by " + trimmed(by, 3) +
          " mm; give the hole a flat bottom, make it " + trimmed(by, 3) + " mm less deep, or through";
 }
 
@@ -121,19 +154,24 @@ std::optional<Buried> buried(const FeatureShape& s, const std::vector<FeatureSha
   }
   if (s.area.empty() || part.box.empty() || tilted(s)) return std::nullopt;
   Box3 box = seen_from(part.box, s.frame);
-  // Beside an outside nothing of the part is higher than its faces: what stands there is raw piece only.
-  for (const FeatureShape& o : features) {
-    if (s.kind != ShapeKind::kOutside || o.kind != ShapeKind::kFace || dot(o.frame.z, s.frame.z) < kUpright)
-      continue;
-    box.hi.z = std::min(box.hi.z, s.frame.to_local(o.frame.origin).z - o.depth_mm);
-  }
   if (box.hi.z <= kLidMm) return std::nullopt;
   auto b = geometry::bounds(s.area);
   b.lo = {std::max(b.lo.x, box.lo.x), std::max(b.lo.y, box.lo.y)};
   b.hi = {std::min(b.hi.x, box.hi.x), std::min(b.hi.y, box.hi.y)};
   if (!(b.lo.x < b.hi.x && b.lo.y < b.hi.y)) return std::nullopt;
   const Vec2 cell = (1.0 / kAcross) * (b.hi - b.lo);
-  const double high = (box.hi.z - kLidMm) / kUp;
+  const auto place = [&](int ix, int iy) {
+    return Vec2{b.lo.x + (ix + 0.5) * cell.x, b.lo.y + (iy + 0.5) * cell.y};
+  };
+  const auto taken = [&](Vec2 p) {
+    const auto own = floor_at(s, p);
+    return own && *own <= -kLidMm;
+  };
+  std::vector<Standing> standing;
+  for (int i = 0; s.kind == ShapeKind::kOutside && i < kAcross * kAcross; ++i) {
+    const Vec2 p = place(i % kAcross, i / kAcross);
+    if (!taken(p)) standing.push_back({p, face_over(s, features, p, box.hi.z)});
+  }
   const auto lid = [&](double x, double y, double z) {
     const Vec3 p = s.frame.to_parent({x, y, z});
     return in_piece(p, part) &&
@@ -142,15 +180,17 @@ std::optional<Buried> buried(const FeatureShape& s, const std::vector<FeatureSha
   // A far end: wide below a narrower hole on its axis and open at the underside, it is cut from below.
   if (is_hole(s) && (s.through || -s.depth_mm <= box.lo.z + kLidMm)) {
     bool open = !features.empty();
+    const double high = (box.hi.z - kLidMm) / kUp;
     for (int k = 0; k < kUp && open; ++k) open = !lid(0.0, 0.0, kLidMm + (k + 0.5) * high);
     if (open) return std::nullopt;
   }
   std::optional<Buried> out;
   for (int iy = 0; iy < kAcross; ++iy) {
     for (int ix = 0; ix < kAcross; ++ix) {
-      const Vec2 p{b.lo.x + (ix + 0.5) * cell.x, b.lo.y + (iy + 0.5) * cell.y};
-      const auto own = floor_at(s, p);
-      if (!own || *own > -kLidMm) continue;
+      const Vec2 p = place(ix, iy);
+      if (!taken(p)) continue;
+      const double high = (top_beside(standing, p, norm(cell), box.hi.z) - kLidMm) / kUp;
+      if (high <= 0.0) continue;
       for (int k = 0; k < kUp; ++k) {
         const double z = kLidMm + (k + 0.5) * high;
         if (!lid(p.x, p.y, z)) continue;

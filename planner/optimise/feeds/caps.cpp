@@ -168,7 +168,9 @@ std::vector<Cap> caps_of(const FeedQuestion& q, const model::CutterPath& path, B
       out[i] = milled(q, book, path, i, given, m);
       continue;
     }
-    out[i] = open_cap(given * q.feed_mm_min);
+    // A path may ask for less of a given feed, never for more: that is the file's to say.
+    const double share = sideways && !q.adapt ? std::min(given, 1.0) : given;
+    out[i] = open_cap(share * q.feed_mm_min);
     if (q.adapt && in_air_by_role(path.role[i]) && !m.cuts && air_feed(q) > out[i].feed_mm_min) {
       out[i] = open_cap(air_feed(q));
       out[i].by = Holder::kAir;

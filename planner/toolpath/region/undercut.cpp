@@ -97,8 +97,16 @@ double thickest_chip(const PathJob& task, double taken_mm) {
   return 2.0 * std::sqrt(a * (d - a)) / d;
 }
 
+/// How many teeth are engaged at once, on the mean, in a cut that takes a width; one at least.
+double teeth_in(const PathJob& task, double taken_mm) {
+  const double d = task.cutter.cutting_diameter_mm;
+  const double arc = std::acos(std::clamp(1.0 - 2.0 * taken_mm / d, -1.0, 1.0));
+  return std::max(1.0, task.cutter.teeth * arc / (2.0 * std::numbers::pi));
+}
+
 /// By how much a pass may be quicker than one that takes the question's width (undercut_width_mm), so that
-/// its teeth take the same thickest chip, and with it the same force.
+/// each tooth takes the same thickest chip, and with it the same force. That is the force of one tooth: as
+/// such a pass is the narrower one, no more teeth are engaged at once.
 double quicker(const PathJob& task, const Undercut& u, double taken_mm) {
   if (!task.left_on_side_mm) return 1.0;  // the question was a slot of the whole diameter
   return std::clamp(thickest_chip(task, undercut_width_mm(task, u)) / thickest_chip(task, taken_mm), 1.0,
@@ -198,8 +206,11 @@ Status cut_to_the_end(const PathJob& task, const Undercut& u, const WorkArea& w,
       writer.factors(along_walls, 1.0);
       go_to(writer, loops[i].in.start, z);
       writer.follow(loops[i].in, z, MoveRole::kCut);
-      // Round the end its front is in the material, where the chip is as thick as the feed.
-      writer.factors(std::min(1.0, thickest_chip(task, undercut_width_mm(task, u))), 1.0);
+      // Round the end its front is in the material, where the chip is as thick as the feed, and all teeth of
+      // the front half cut at once.
+      const double asked = undercut_width_mm(task, u);
+      const double more = teeth_in(task, d) / teeth_in(task, asked);
+      writer.factors(std::min(1.0, thickest_chip(task, asked)) / std::max(1.0, more), 1.0);
       writer.follow(loops[i].end, z, MoveRole::kCut);
       writer.factors(along_walls, 1.0);
       writer.follow(loops[i].out, z, MoveRole::kCut);

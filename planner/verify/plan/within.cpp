@@ -3,6 +3,7 @@
 
 #include "planner/model/in_piece.h"
 #include "planner/model/nouns/all.h"
+#include "planner/model/raw_piece.h"
 #include "planner/verify/plan/plan_checks.h"
 #include "planner/verify/sweep/target.h"
 
@@ -65,6 +66,10 @@ void check_within(const model::Plan& plan, Findings& findings) {
   const std::vector<Asked> asked = asked_of(plan);
   const model::PieceForm raw{plan.stock.box, plan.stock.cylinder_radius_mm};
   const model::PieceForm whole{part.part, plan.stock.cylinder_radius_mm};
+  // The features alone do not tell how thick the part is below a hole.
+  const model::Workpiece* piece = model::workpiece_of(plan.model, plan.project);
+  const bool stated = piece != nullptr && piece->its_bounding_geometry.set() && !plan.target_mesh;
+  const model::PieceForm finished = stated ? whole : raw;
   std::vector<FeatureShape> all;
   for (const auto& e : part.entries) {
     if (!e.piece) all.insert(all.end(), e.shapes.begin(), e.shapes.end());
@@ -90,7 +95,7 @@ void check_within(const model::Plan& plan, Findings& findings) {
       if (drills(a.feature)) {
         if (const std::string why = model::cuts_an_edge(s, raw); !why.empty())
           findings.error(37, "CHK-EDGE", a.where, at + ", is drilled, but " + why + "; mill it, or move it");
-        if (const std::string why = model::point_runs_through(s, raw); !why.empty())
+        if (const std::string why = model::point_runs_through(s, raw, finished); !why.empty())
           findings.error(37, "CHK-OUTSIDE", a.where, at + ": " + why);
       }
       if (!plan.target_mesh && model::buried(s, {}, whole)) {

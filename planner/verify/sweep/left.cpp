@@ -14,9 +14,9 @@
 // a cell. What may stay in corners is what the file allows: a stated radius; where a pocket or step states
 // none, the radius of the narrowest mill of its steps, and at the foot of a wall that of the tool's corner,
 // both within bounds; nothing in the square ends of slots, nor where a radius of 0 is stated. Points of
-// drills count below a conical bottom's depth only. A through hole that ends within another feature is done
-// there. Crests of threads and what heights do not hold are not looked at, nor what is narrower than two
-// cells: a note says so.
+// drills count below a conical bottom's depth only. A through hole that ends within another feature that
+// the plan makes is done there. Crests of threads and what heights do not hold are not looked at, nor what is
+// narrower than two cells: a note says so.
 //
 // On a freeform surface the distance is measured square to it: from the top of what stands to the nearest of
 // the columns that the finished part fills. It may be the tolerance, and what the finishing step states as
@@ -118,13 +118,18 @@ double foot_allowed(const FeatureShape& s, double corner) {
 
 /// What of a feature no height tells, or no cell.
 std::string not_judged(const FeatureShape& s, const Asked& a, double ring) {
-  if (s.kind == ShapeKind::kThread) return "the flanks of its thread";
-  if (s.kind == ShapeKind::kHole && s.diameter.nominal_mm - s.bottom_diameter_mm > 1e-6)
-    return "the cone of its wall";
-  if (a.undercut) return "what lies under an overhang";
   if (s.kind != ShapeKind::kChamfer && geometry::offset(s.area, -ring, 0.01).empty())
-    return "all of it, which is narrower than two cells (" + mm(2.0 * ring) + " with its tolerances),";
-  return s.slope_rad > 0.0 ? "its leaning walls" : "";
+    return "all of it, which is narrower than two cells (" + mm(2.0 * ring) + " with its tolerances)";
+  const bool cone = s.kind == ShapeKind::kHole && s.diameter.nominal_mm - s.bottom_diameter_mm > 1e-6;
+  std::string out;
+  const auto say = [&](bool so, const char* what) {
+    if (so) out += (out.empty() ? "" : "; ") + std::string(what);
+  };
+  say(s.kind == ShapeKind::kThread, "the flanks of its thread");
+  say(cone, "the cone of its wall");
+  say(a.undercut, "what lies under an overhang");
+  say(s.slope_rad > 0.0 && !cone, "its leaning walls");
+  return out;
 }
 
 /// Where a mill of this radius leaves the sharp corners of an area, and nowhere else.
@@ -204,24 +209,27 @@ std::vector<Asked> asked_of(const model::Plan& plan) {
   return out;
 }
 
-void Target::left(const Grid& grid, const std::vector<Asked>& asked, bool carried, Findings& out) const {
-  for (const Asked& a : asked) {
+void Target::left(const Grid& grid, const std::vector<Asked>& here, const std::vector<Asked>& asked,
+                  bool carried, Findings& out) const {
+  for (const Asked& a : here) {
     if (plan_.target_mesh) left_on_mesh(grid, a, out);
     for (const Cavity& c : cavities_) {
-      if (c.shape->feature == a.feature && !c.bevel) left_of(c, grid, a, carried, out);
+      if (c.shape->feature == a.feature && !c.bevel) left_of(c, grid, a, asked, carried, out);
     }
   }
 }
 
-bool Target::opens_below(const FeatureShape& s, Vec2 p, double z) const {
+bool Target::opens_below(const FeatureShape& s, const std::vector<Asked>& asked, Vec2 p, double z) const {
   const geometry::Vec3 at = frame_.to_local({p.x, p.y, z - kBelowMm});
   return std::any_of(part_.entries.begin(), part_.entries.end(), [&](const PartShapes::Entry& e) {
-    return !e.piece && e.feature != s.feature &&
+    const auto same = [&](const Asked& a) { return a.feature == e.feature; };
+    return !e.piece && e.feature != s.feature && std::any_of(asked.begin(), asked.end(), same) &&
            std::any_of(e.shapes.begin(), e.shapes.end(), [&](const auto& o) { return model::takes(o, at); });
   });
 }
 
-void Target::left_of(const Cavity& c, const Grid& grid, const Asked& a, bool carried, Findings& out) const {
+void Target::left_of(const Cavity& c, const Grid& grid, const Asked& a, const std::vector<Asked>& asked,
+                     bool carried, Findings& out) const {
   const FeatureShape& s = *c.shape;
   const double above = c.frame.origin.z;
   const double limit = allowed() + shallower(s) + a.bottom_mm;
@@ -229,7 +237,7 @@ void Target::left_of(const Cavity& c, const Grid& grid, const Asked& a, bool car
   const double fillet = foot_allowed(s, a.corner_mm);
   if (const std::string what = not_judged(s, a, ring); !what.empty())
     out.note(36, "CHK-NOT-JUDGED", a.where,
-             "of " + s.name + ", " + what + " is not looked at for what stays");
+             "of " + s.name + ", " + what + ": what stays there is not looked at");
   const bool below = c.frame.z.z < 0.0;
   const auto floor = [&](Vec2 p) -> std::optional<double> {
     const geometry::Vec3 local = c.frame.to_local({p.x, p.y, 0.0});
@@ -264,7 +272,7 @@ void Target::left_of(const Cavity& c, const Grid& grid, const Asked& a, bool car
       const Vec2 p = grid.centre(ix, iy);
       const auto own = floor(p);
       if (!own || stands - std::max(*own, grid.base[i]) <= limit) continue;
-      if (s.through && stands <= above - s.depth_mm + limit && opens_below(s, p, above - s.depth_mm))
+      if (s.through && stands <= above - s.depth_mm + limit && opens_below(s, asked, p, above - s.depth_mm))
         continue;
       const auto wide = around(p, ring);
       if (!wide) continue;

@@ -59,7 +59,7 @@ void check_left(const model::Plan& plan, const std::vector<std::unique_ptr<Scene
     for (const auto& s : scenes) {
       if (s != scene) carry(scene->grid, scene->target.frame(), s->grid, s->target.frame());
     }
-    scene->target.left(scene->grid, here, scenes.size() > 1, findings);
+    scene->target.left(scene->grid, here, asked, scenes.size() > 1, findings);
   }
 }
 

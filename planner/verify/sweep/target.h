@@ -69,8 +69,10 @@ class Target : public GougeJudge {
   double wall_gouge(const Move& m, double radius_mm, double height_mm, geometry::Vec2& at);
   /// Whether the feature's removal can be judged here; else why not.
   [[nodiscard]] std::string undecided(model::AnyRef feature) const;
-  /// Says what of these features still stands. `carried`: cells have been cut in another set-up, too.
-  void left(const Grid& grid, const std::vector<Asked>& asked, bool carried, Findings& out) const;
+  /// Says what of the features `here` still stands; `asked`: all that the plan makes. `carried`: cells have
+  /// been cut in another set-up, too.
+  void left(const Grid& grid, const std::vector<Asked>& here, const std::vector<Asked>& asked, bool carried,
+            Findings& out) const;
   [[nodiscard]] double allowed() const { return part_.tolerance_mm + kChordMm; }
   [[nodiscard]] const geometry::Box3& stock() const { return stock_; }
   [[nodiscard]] const geometry::Placement& frame() const { return frame_; }
@@ -102,9 +104,12 @@ class Target : public GougeJudge {
   };
 
   void add(const model::FeatureShape& s, bool bevel = false);
-  void left_of(const Cavity& c, const Grid& grid, const Asked& a, bool carried, Findings& out) const;
-  /// Whether another feature takes away what lies right below a point at the end of this one, set-up frame.
-  [[nodiscard]] bool opens_below(const model::FeatureShape& s, geometry::Vec2 p, double z) const;
+  void left_of(const Cavity& c, const Grid& grid, const Asked& a, const std::vector<Asked>& asked,
+               bool carried, Findings& out) const;
+  /// Whether another feature that is made takes away what lies right below a point at the end of this one,
+  /// set-up frame.
+  [[nodiscard]] bool opens_below(const model::FeatureShape& s, const std::vector<Asked>& asked,
+                                 geometry::Vec2 p, double z) const;
   void left_on_mesh(const Grid& grid, const Asked& a, Findings& out) const;
   void add_broken_edges();
   [[nodiscard]] double floor_of(const Cavity& c, geometry::Vec2 p) const;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <random>
 
@@ -305,6 +306,53 @@ TEST(PlanarHelix, ARingAroundADrilledHoleIsMeasuredWithoutHalvingNoise) {
   // Between 9 and 12 mm across, 4 mm deep.
   const double expected = kPi * (36.0 - 20.25) * 4.0;
   EXPECT_NEAR(m->removed_mm3, expected, 3e-3 * expected);
+}
+
+// Halvings of the way and of the lines under a ramp are bounded. `unbounded` is the greatest section of the
+// same path by this very code with lines and way halved nine times, as far as 1e-6 of the front asks for it,
+// edges or not: minutes each. Steps an eighth as long have eight times as many halvings over the same way.
+TEST(PlanarHelix, ThePeakSectionOfARingIsThatOfAnUnboundedMeasurementToAThousandth) {
+  constexpr double kStep = 0.25;  // a fortieth of the diameter
+  struct Ring {
+    double offset, unbounded;
+  };
+  for (const auto& [offset, unbounded] : {Ring{1.0, 3.925026}, Ring{0.8, 4.163765}, Ring{1.7, 3.619487}}) {
+    CutterPath drilled;
+    drilled.start({40.0, 30.0, 5.0});
+    drilled.line({40.0, 30.0, -6.0}, MoveRole::kDrill);
+    CutterPath p;
+    const double x = 40.0 + offset;
+    p.start({x, 30.0, 0.0});
+    for (int k = 1; k <= 8; ++k) p.arc({x, 30.0, -0.5 * k}, {40.0, 30.0}, false, MoveRole::kRamp);
+    p.arc({x, 30.0, -4.0}, {40.0, 30.0}, false, MoveRole::kCut);
+    struct Peak {
+      double csa = 0.0, width = 0.0;
+    };
+    const auto peak_of = [&](double step) {
+      Peak out;
+      auto stock = PlanarStock::from_box(kBlock);
+      EXPECT_TRUE(measure(drilled, cutter(CutterClass::kEndmill, 9.0), stock));
+      const auto m = measure(p, cutter(CutterClass::kEndmill, 10.0), stock, {.step_mm = step});
+      EXPECT_TRUE(m);
+      std::map<std::pair<std::uint32_t, long>, std::pair<double, double>> at;  // volume, length
+      for (std::size_t i = 0; m && i < m->sections.size(); ++i) {
+        const auto& e = m->engagement[i];
+        out.width = std::max(out.width, e.ae_mm);
+        const double middle = m->sections.at_mm[i] - 0.5 * e.step_mm;
+        auto& [volume, length] = at[{m->sections.move[i], static_cast<long>(middle / kStep)}];
+        volume += e.removed_mm3;
+        length += e.step_mm;
+      }
+      for (const auto& [where, cut] : at) {
+        if (cut.second > 0.5 * kStep) out.csa = std::max(out.csa, cut.first / cut.second);
+      }
+      return out;
+    };
+    const Peak plain = peak_of(kStep), fine = peak_of(kStep / 8.0);
+    EXPECT_NEAR(plain.csa, unbounded, 1e-3 * unbounded) << offset;
+    EXPECT_NEAR(plain.csa, fine.csa, 1e-3 * unbounded) << offset;
+    EXPECT_NEAR(plain.width, fine.width, 1e-3 * fine.width) << offset;
+  }
 }
 
 TEST(PlanarDrill, HoleIsConeAndCylinderAndPecksTakeNothingTwice) {

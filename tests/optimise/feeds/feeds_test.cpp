@@ -105,6 +105,17 @@ TEST(Feeds, OfAGivenFeedAreExecutedAsGiven) {
   EXPECT_GT(a.worst_excess, 0.0);
 }
 
+TEST(Feeds, OfAGivenFeedAreNeverRaisedByThePath) {
+  FeedQuestion q = question();
+  q.adapt = false;
+  q.feed_mm_min = 500.0;
+  const CutterPath p = straight();
+  for (const double factor : {4.0, 1.0, 0.25}) {  // the way back of a T-slot cutter asks for four times
+    q.feed_factor.assign(p.size(), factor);
+    EXPECT_EQ(feeds(q, p).schedule.feed_mm_min[1], std::min(factor, 1.0) * 500.0);
+  }
+}
+
 TEST(Feeds, OfPlungesAndRampsAreFractionsAtMost) {
   FeedQuestion q = question();
   CutterPath p;
