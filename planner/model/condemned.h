@@ -18,11 +18,10 @@ struct Condemnation {
 /// Why no program may be written of this plan; empty: it may. Condemned are
 ///
 ///     a finding of severity error                     its step, or the whole plan
-///     a limit that a step exceeds                     StepResult::exceeded: by more than 10 % somewhere on
-///     its
-///                                                     path (pipeline's kTolerableExcess; default, unsourced:
-///                                                     sections are known to a cell's width). Up to that a
-///                                                     step is not condemned; the check has its own bounds
+///     a limit that a step exceeds                     StepResult::exceeded: by more than the
+///                                                     pipeline's kTolerableExcess somewhere on its path. Up
+///                                                     to that a step is not condemned; the check has its own
+///                                                     bounds
 ///     a feature that is not planned, and needed       the steps of the features in Unplanned::needed_by,
 ///                                                     or the whole plan when none of them has a step
 ///

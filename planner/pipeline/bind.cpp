@@ -132,6 +132,8 @@ Result<std::optional<model::Plan>> bind_once(model::Plan plan, const Inputs& inp
   Work w{std::move(plan), inputs, policy, job, tries, {}, {}, {}, {}, std::move(recorded)};
   w.held = std::move(held);
   w.recorded_steps = std::move(recorded_steps);
+  w.recorded_machine = w.plan.machine;
+  w.recorded_material = w.plan.material;
   w.earning_per_min = earning_per_min;
   using Stage = Status (*)(Work&);
   std::vector<Stage> stages = {resolve_workpiece, list_given, take_requirements};

@@ -5,7 +5,7 @@
 
 #include "planner/base/file.h"
 #include "planner/base/nearest_names.h"
-#include "planner/model/lie.h"
+#include "planner/model/setup_position.h"
 #include "tooling/holding/holding.h"
 
 // Which fixture holds each set-up, where, and what the operator is told about it.

@@ -110,8 +110,7 @@ struct Anew {
 /// check. A plan whose decisions are not all bound is not checked.
 ///
 /// Determinism  as `bind`, unless the job is stopped or `Anew::until` is past: then nothing more is made
-/// anew, and
-///              what is there so far is given, with its findings.
+///              anew, and what is there so far is given, with its findings.
 [[nodiscard]] Result<Checked> bind_checked(const model::Plan& plan, const Inputs& inputs,
                                            const Policy& policy, Job& job, const Anew& anew = {});
 

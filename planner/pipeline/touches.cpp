@@ -211,7 +211,8 @@ Touches flank(const Work& w, const FeatureShape& s, Left left, double ball) {
 
 Touches touches_of(const Work& w, const FeatureShape& s, Left left, double ball) {
   // Of a step the floor is touched where it is still to be cut: its one wall faces none.
-  if (s.kind == ShapeKind::kFace || (s.kind == ShapeKind::kStep && left.bottom_mm > 0.0)) return level(w, s, left, ball);
+  if (s.kind == ShapeKind::kFace || (s.kind == ShapeKind::kStep && left.bottom_mm > 0.0))
+    return level(w, s, left, ball);
   if (s.kind == ShapeKind::kHole && s.bottom_diameter_mm > 0.0 &&
       s.bottom_diameter_mm < s.diameter.nominal_mm - 1e-6)
     return flank(w, s, left, ball);

@@ -83,7 +83,9 @@ struct Work {
       {};                                        ///< as the plan said when it was read
   std::vector<model::FeatureShape> shapes = {};  ///< of all features, workpiece coordinates
   double earning_per_min = 0.0;                  ///< Objective::kProfit: what a minute earns above its cost
-  std::vector<model::StepResult> recorded_steps = {};  ///< as the plan said when it was read
+  std::vector<model::StepResult> recorded_steps = {};  ///< as the plan said when it was read,
+  model::Machine recorded_machine = {};                ///< and for which machine
+  model::WorkMaterial recorded_material = {};          ///< and material that was
   bool again = false;  ///< something failed and `tries` says what: the plan is to be made again
 };
 
@@ -108,7 +110,6 @@ Status join_paths(Work& w);             ///< given paths are reached from the se
 void report_outside(Work& w);  ///< features that the raw piece does not hold
 
 // Shared pieces.
-
 
 /// `after` cannot be cut rightly while `before` still stands.
 struct RestsOn {

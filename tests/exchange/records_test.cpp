@@ -65,6 +65,48 @@ model::Plan bound_plan() {
   return *plan;
 }
 
+// A program that keeps the header and numbers the instances anew must not put one tap's pitch on another.
+TEST(Records, ValuesInTheHeaderAreNotTakenByRenumberedInstances) {
+  auto plan = bound_plan();
+  const auto add = [&](const char* id, double pitch) {
+    const auto tap = plan.model.add<model::Tap>();
+    plan.model.at<model::Tap>(tap).thread_pitch = pitch;
+    const auto tool = plan.model.add<model::MillingCuttingTool>();
+    plan.model.at<model::MillingCuttingTool>(tool).its_id = id;
+    plan.model.at<model::MillingCuttingTool>(tool).its_tool_body = tap;
+    plan.kept.push_back(tool);
+  };
+  add("M6", 1.0);
+  add("M6 fine", 0.75);
+  Job job;
+  const auto written = write_iso14649(plan, job);
+  ASSERT_TRUE(written);
+  std::string text = written->bytes;
+  // The tools change places: each number is now that of the other's tool, and of the other's body.
+  const auto place = [&](const std::string& id) { return text.find("'" + id + "'", text.find("DATA;")); };
+  const auto one = place("M6"), other = place("M6 fine");
+  ASSERT_NE(one, std::string::npos);
+  ASSERT_NE(other, std::string::npos);
+  ASSERT_LT(one, other);
+  text.replace(other, 9, "'M6'");
+  text.replace(one, 4, "'M6 fine'");
+
+  const auto kept = read_text(written->bytes, job);
+  ASSERT_TRUE(kept);
+  for (const auto tap : kept->model.all(TypeId::kTap))
+    EXPECT_TRUE(kept->model.get<model::Tap>(tap)->thread_pitch.has_value());
+  Job after;
+  const auto again = read_text(text, after);
+  ASSERT_TRUE(again);
+  ASSERT_EQ(again->model.all(TypeId::kTap).size(), 2U);
+  for (const auto tap : again->model.all(TypeId::kTap))
+    EXPECT_FALSE(again->model.get<model::Tap>(tap)->thread_pitch.has_value());
+  for (const auto tap : again->model.all(TypeId::kTap)) {
+    const std::string number = std::to_string(again->model.origin(tap).instance);
+    EXPECT_THAT(codes(after), Contains("warning EXC-EDITED #" + number));
+  }
+}
+
 TEST(Records, WhoBoundWhatSurvivesTheFile) {
   const auto plan = bound_plan();
   Job job;

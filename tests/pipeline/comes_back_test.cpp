@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 
 #include "planner/model/nouns/all.h"
@@ -128,6 +129,26 @@ TEST(WrittenPlan, HoldsInItsHeaderWhatTheSchemaCannotHold) {
   const auto* needs = back->model.get<model::MachineParameters>(main->its_minimum_machine_params);
   ASSERT_NE(needs, nullptr);
   EXPECT_GT(needs->spindle_speed.value_or(0.0), 0.0);
+}
+
+// What a step's speed and feed reached on one machine says nothing of another.
+TEST(WrittenPlan, TakesNoLimitsFromThePlanOfAnotherMachine) {
+  Job job;
+  auto read = read_plan(testing::slurp(kExamples + "bracket.p21"), "bracket.p21", job);
+  ASSERT_TRUE(read);
+  const auto plan = bind(*std::move(read), shop(), {}, job);
+  ASSERT_TRUE(plan);
+  ASSERT_TRUE(
+      std::any_of(plan->steps.begin(), plan->steps.end(), [](const auto& s) { return !s.active.empty(); }));
+  Inputs other = shop();
+  other.machine.id = "another";
+  const auto same = bind(*plan, shop(), {}, job);
+  const auto moved = bind(*plan, other, {}, job);
+  ASSERT_TRUE(same && moved);
+  ASSERT_EQ(same->steps.size(), plan->steps.size());
+  for (std::size_t i = 0; i < plan->steps.size(); ++i)
+    EXPECT_EQ(limits(same->steps[i]), limits(plan->steps[i])) << i;
+  for (const auto& s : moved->steps) EXPECT_TRUE(s.active.empty()) << model::step_id(*moved, s);
 }
 
 }  // namespace

@@ -243,7 +243,7 @@ bool has_cone(CutterClass c) {
 }  // namespace
 
 CommentSizes sizes_of_words(std::string_view words, CutterClass c, double diameter_mm, double mm_per_unit) {
-  constexpr std::size_t kLongest = 4096;
+  constexpr std::size_t kLongest = 4096;  // default, unsourced: far above any comment
   const std::string text = lower(words.substr(0, kLongest));
   CommentSizes out;
   if (c == CutterClass::kTap || c == CutterClass::kThreadMill) out.pitch_mm = pitch_of(text, c, diameter_mm);

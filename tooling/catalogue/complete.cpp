@@ -32,7 +32,7 @@ const Cutter* nearest(const Cutter& c, const std::vector<Cutter>& generic) {
 
 class Filler {
  public:
-  Filler(Cutter& c, const Cutter& g) : c_(c), source_("default: as " + g.id) {}
+  Filler(Cutter& c, const Cutter& g) : c_(c), source_(std::string(kAsGeneric) + g.id) {}
   void take(double& field, double value, const char* name) {
     if (field != 0.0 || value == 0.0) return;
     field = value;
@@ -136,8 +136,8 @@ void complete(Cutter& c, const std::vector<Cutter>& generic) {
                     c.cutter_class == CutterClass::kBallEndmill;
   if (mill && !c.centre_cutting && c.maximum_ramp_angle_rad == 0.0) {
     c.maximum_ramp_angle_rad = kCautiousRampRad;
-    f.note("centre_cutting", "default: not stated, held not to cut to the centre");
-    f.note("maximum_ramp_angle_rad", "default: 3 degrees, unsourced");
+    f.note("centre_cutting", std::string(kNotStated) + ", held not to cut to the centre");
+    f.note("maximum_ramp_angle_rad", std::string(kRampUnstated));
   }
 }
 

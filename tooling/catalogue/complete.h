@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string_view>
 #include <vector>
 
 #include "planner/model/cutter.h"
@@ -17,6 +18,13 @@ void complete(model::Cutter& c, const std::vector<model::Cutter>& generic);
 /// Whether a preset is not the cutter's own but taken from the generic cutter nearest to it: it counts only
 /// where no own preset is for the material.
 [[nodiscard]] bool borrowed(const model::CuttingPreset& p);
+
+/// How `sources` begins of a field that reading or `complete` fills in (a generic cutter's id follows
+/// kAsGeneric). The own format writes no such field.
+inline constexpr std::string_view kAsGeneric = "default: as ";
+inline constexpr std::string_view kNotStated = "default: not stated";  ///< what is taken then may follow
+inline constexpr std::string_view kRampUnstated = "default: 3 degrees, unsourced";
+inline constexpr std::string_view kSubstrateUnstated = "default: the slower one";
 
 inline constexpr double kCautiousRampRad = 3.0 * 3.14159265358979323846 / 180.0;  ///< default, unsourced
 

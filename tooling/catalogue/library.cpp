@@ -90,7 +90,7 @@ void read_names(Fields& f, Cutter& c) {
     f.fault("DATA-UNKNOWN", "'" + substrate + "' is no substrate", "substrate", f.line_of("substrate"),
             "hss or carbide");
   c.substrate = s.value_or(model::Substrate::kHss);
-  c.sources.emplace_back("substrate", f.has("substrate") ? "stated" : "default: the slower one");
+  c.sources.emplace_back("substrate", f.has("substrate") ? std::string_view("stated") : kSubstrateUnstated);
   const std::string hand = f.text_or("hand", "right");
   if (hand != "right" && hand != "left")
     f.fault("DATA-UNKNOWN", "'" + hand + "' is no hand", "hand", f.line_of("hand"), "right or left");

@@ -219,7 +219,7 @@ Result<Table> read_table(std::string_view text, const std::string& file, Job& jo
 /// A family's word where a material has to be named: with the names that have the word, else the nearest.
 Diagnostic only_a_family(const std::string& text, const Family& family,
                          const std::vector<WorkMaterial>& materials) {
-  constexpr std::size_t kShown = 6;
+  constexpr std::size_t kShown = 6;  // default, unsourced
   std::string names;
   std::size_t shown = 0;
   for (const WorkMaterial& m : materials) {

@@ -22,6 +22,9 @@ namespace capstan::tooling {
 [[nodiscard]] Result<std::vector<model::WorkMaterial>> read_materials(std::string_view text,
                                                                       const std::string& file, Job& job);
 
+/// Whether a family's word ("STEEL") may stand for a material.
+enum class Families : bool { kTaken, kRefused };
+
 /// The material that a file means by these texts, most telling first (standard_identifier before
 /// material_identifier): an id or a name, letter case and punctuation aside; a name followed by a temper or
 /// quality ("EN AW-6061-T6"); else a family's word ("STEEL"), which stands for its hardest card (warns
@@ -30,7 +33,6 @@ namespace capstan::tooling {
 /// Fails  NAME-UNKNOWN for a name that nobody knows: it is never guessed. MATERIAL-NONE when `materials` is
 ///        empty.
 ///        With `kRefused` it fails so for a family's word, too: who can choose a name is asked to.
-enum class Families : bool { kTaken, kRefused };
 [[nodiscard]] Result<model::WorkMaterial> find_material(const std::vector<std::string>& texts,
                                                         const std::vector<model::WorkMaterial>& materials,
                                                         Job& job, Families families = Families::kTaken);

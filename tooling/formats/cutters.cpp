@@ -320,7 +320,7 @@ class Maker {
     const auto text = [&item](std::string_view symbol) -> const Property* {
       return find(item.properties, symbol);
     };
-    std::string substrate = "default: the slower one";
+    std::string substrate(kSubstrateUnstated);
     c.substrate = model::Substrate::kHss;
     for (const char* symbol : {"SUBSTRATE", "BMC"}) {
       const Property* p = text(symbol);
@@ -425,7 +425,7 @@ class Maker {
   }
   /// One line for people; the report has them all.
   void say() {
-    constexpr std::size_t kShown = 20;
+    constexpr std::size_t kShown = 20;  // default, unsourced: what a person still reads
     for (std::size_t k = 0; k < left_.size() && k < kShown; ++k)
       job_.report({.code = "TOOL-LEFT-OUT",
                    .severity = Severity::kWarning,

@@ -55,8 +55,7 @@ constexpr Field kFields[] = {
 /// What reading and `complete` fill in is found again when the list is read, and may be a better one then. A
 /// value that the library itself holds by default (as the generic series do) is its own, and is written.
 bool by_default(const Cutter& c, std::string_view field) {
-  constexpr std::string_view kFilledIn[] = {"default: as ", "default: not stated", "default: 3 degrees",
-                                            "default: the slower one"};
+  constexpr std::string_view kFilledIn[] = {kAsGeneric, kNotStated, kRampUnstated, kSubstrateUnstated};
   return std::any_of(c.sources.begin(), c.sources.end(), [&](const auto& s) {
     return s.first == field && std::any_of(std::begin(kFilledIn), std::end(kFilledIn),
                                            [&](std::string_view how) { return s.second.starts_with(how); });

@@ -54,7 +54,7 @@ void TableLines::give(const MachineEntry& entry, double mm_per_unit, model::Cutt
   }
   model::take_table_line(c, line);
   if (const std::string fault = model::offset_fault(c); !fault.empty()) {
-    constexpr std::size_t kShown = 20;
+    constexpr std::size_t kShown = 20;  // default, unsourced: what a person still reads
     if (++doubted_ > kShown) return;
     const std::string more = doubted_ == kShown ? "; more like it are not listed" : "";
     job.report({.code = "TOOL-OFFSET",

@@ -286,7 +286,7 @@ class Reader {
   }
   void read_material() {
     c_.substrate = model::Substrate::kHss;
-    std::string source = "default: not stated, the slower one";
+    std::string source = std::string(kNotStated) + ", the slower one";
     if (!p_.tool->its_cutting_edge.empty()) {
       const auto* edge = m_.get<model::CuttingComponent>(p_.tool->its_cutting_edge.items[0]);
       const auto* mat = edge == nullptr ? nullptr : m_.get<model::Material>(edge->its_material);
@@ -405,7 +405,7 @@ Result<Cutter> probe_from(const Model& m, const model::TouchProbe& probe,
 
 double point_angle_from(double tool_top_angle_rad, CutterClass c, std::string& reading) {
   if (!(tool_top_angle_rad > 0.0)) {
-    reading = "default: not stated";
+    reading = kNotStated;
     return 0.0;
   }
   constexpr double kNearDeg = 1.0;

@@ -266,11 +266,11 @@ Status ToolStore::Impl::check_schema() const {
   const auto version = integer("PRAGMA user_version");
   if (!version) return fail(version.error());
   if (*version != kSchemaVersion)
-    return refuse(
-        "TOOLSTORE-SCHEMA",
-        "the tool store is of version " + std::to_string(*version) + ", this program knows " +
-            std::to_string(kSchemaVersion),
-        *version > kSchemaVersion ? "use the newer program that made it" : "import the library again");
+    return refuse("TOOLSTORE-SCHEMA",
+                  "the tool store is of version " + std::to_string(*version) + ", this program knows " +
+                      std::to_string(kSchemaVersion),
+                  *version > kSchemaVersion ? "use the newer program that made it"
+                                            : "import the library again: capstan tools import ...");
   auto s = prepare("SELECT type, name, sql FROM sqlite_schema ORDER BY name");
   if (!s) return fail(s.error());
   std::size_t found = 0;

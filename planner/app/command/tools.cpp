@@ -132,7 +132,7 @@ class Tools {
 
   /// The lines of a report on standard error: all with --report, else what is dropped, alike ones together.
   void told(const char* what, const std::string& file, const LossReport& r) {
-    constexpr std::size_t kShown = 20;
+    constexpr std::size_t kShown = 20;  // default, unsourced: what a person still reads
     const auto note = [&](const char* code, const std::string& text) {
       s_.job.report({.code = code, .severity = Severity::kNote, .message = text, .file = file});
     };

@@ -22,8 +22,8 @@ constexpr std::array<double, 4> kWeights{0.3626837833783620, 0.3137066458778873,
 constexpr double kShare = 1e-5;    // of a plunge's advance times radius squared
 constexpr double kOfFront = 1e-3;  // on a ramp: of the section ahead of it
 constexpr int kUnderTip = 2;       // the same on a ramp, whose floor beneath is strips anyway
-constexpr double kUniform =
-    1e-9;                     // of the radius squared: panels of a whole disc differ by less, by rounding
+// Of the radius squared: panels of a whole disc differ by less, by rounding. Default, unsourced.
+constexpr double kUniform = 1e-9;
 constexpr int kDeepest = 10;  // halvings of the lines' panels
 
 /// Amounts over a disc, from what f finds on the lines x across it, by panels that are halved until `allowed`

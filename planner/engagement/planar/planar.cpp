@@ -26,6 +26,7 @@ constexpr double kInStrips =
 constexpr int kDeepestInStrips = 2;
 // Halvings of one step in all: a jump costs kDeepest of them, and a step as long as a 20th of the radius
 // crosses a few edges at most. What changes everywhere is noise, which no halving makes even.
+// Default, unsourced.
 constexpr int kMostHalvings = 1024;
 constexpr double kFromTheEnd = 1e-5;  // of the radius: ends of moves are seen from just inside
 constexpr double kMostSteps = 1e7;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "planner/base/file.h"
 #include "planner/base/number.h"
 #include "planner/exchange/records.h"
 #include "planner/model/walk.h"
@@ -112,6 +113,90 @@ std::uint64_t number_in(std::string_view name, char sign) {
   return out;
 }
 
+/// What a parameter says, spelled in one way.
+std::string spelled(const Value& v) {
+  switch (v.kind()) {
+    case Kind::kReal:
+      return part21_real(v.as_real());
+    case Kind::kString:
+      return quoted(v.as_text());
+    case Kind::kEnumeration:
+      return "." + std::string(v.enumeration()) + ".";
+    case Kind::kReference:
+      return "#" + std::to_string(v.reference());
+    case Kind::kInteger:
+      return std::to_string(v.as_integer());
+    case Kind::kList:
+    case Kind::kTyped: {
+      std::string out = v.is(Kind::kTyped) ? std::string(v.keyword()) + "(" : "(";
+      for (std::size_t i = 0; i < v.size(); ++i) out += (i == 0 ? "" : ",") + spelled(v[i]);
+      return out + ")";
+    }
+    case Kind::kOmitted:
+    case Kind::kDerived:
+    case Kind::kBinary:
+      return std::string(v.lexeme());
+  }
+  return {};
+}
+
+/// The instances that an entity names, each with whether it still says what it said.
+struct Named {
+  std::uint64_t number = 0;
+  bool same = false;
+};
+std::vector<std::pair<std::uint64_t, std::string>> listed_in(const Value& v) {
+  std::vector<std::pair<std::uint64_t, std::string>> out;
+  const Value all = list_of(v);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const Value one = list_of(all[i]);
+    if (one.size() != 2) throw MalformedRecord{};
+    out.emplace_back(number_in(text_of(one[0]), '#'), text_of(one[1]));
+  }
+  return out;
+}
+
+using Hashes = std::map<std::uint64_t, std::string>;
+
+std::vector<Named> named_in(const Hashes& now, const Value& v) {
+  std::vector<Named> out;
+  for (const auto& [number, hash] : listed_in(v)) {
+    const auto at = now.find(number);
+    out.push_back({number, at != now.end() && at->second == hash});
+  }
+  return out;
+}
+
+/// The instances of `numbers` that a parameter refers to.
+void refers_to(const Value& v, const std::set<std::uint64_t>& numbers, std::set<std::uint64_t>& out) {
+  if (v.is(Kind::kReference) && numbers.contains(v.reference())) out.insert(v.reference());
+  for (std::size_t i = 0; i < v.size(); ++i) refers_to(v[i], numbers, out);
+}
+
+void add_texts(const Value& v, std::string& out) {
+  if (v.is(Kind::kString)) out += quoted(v.as_text());
+  for (std::size_t i = 0; i < v.size(); ++i) add_texts(v[i], out);
+}
+
+/// Whether all still say what they said; warns of the first that does not.
+bool unchanged(Reading& r, const p21::Instance& entity, const std::vector<Named>& all,
+               const std::string& what) {
+  const auto other = std::find_if(all.begin(), all.end(), [](const Named& n) { return !n.same; });
+  if (other == all.end()) return true;
+  const auto instance = r.file.find(other->number);
+  const std::string is =
+      instance ? "is now another " + std::string(instance->is_complex() ? "instance" : instance->keyword())
+               : "is gone";
+  r.reporter.report({.code = "EXC-EDITED",
+                     .severity = Severity::kWarning,
+                     .message = "the header keeps " + what + ", but #" + std::to_string(other->number) + " " +
+                                is + ": it was edited or renumbered since; the header's " +
+                                std::string(entity.keyword()) + " is ignored, state it anew",
+                     .line = entity.line(),
+                     .instance = other->number});
+  return false;
+}
+
 template <class Do>
 void each(const p21::File& file, std::string_view keyword, const Do& act) {
   for (std::size_t i = 0; i < file.header_count(); ++i) {
@@ -120,13 +205,35 @@ void each(const p21::File& file, std::string_view keyword, const Do& act) {
   }
 }
 
+void report_malformed(Reading& r, const p21::Instance& e) {
+  r.reporter.report({.code = "EXC-RECORD",
+                     .severity = Severity::kWarning,
+                     .message = "the header's " + std::string(e.keyword()) + " is malformed; ignored",
+                     .line = e.line()});
+}
+
+/// What the instances that the header's entities of a kind name say now.
+Hashes hashes_now(const p21::File& file, std::string_view keyword, std::size_t place) {
+  std::set<std::uint64_t> numbers;
+  each(file, keyword, [&](const p21::Instance& e) {
+    try {
+      const Value p = list_of(e.parameters());
+      if (p.size() != place + 1) return;
+      for (const auto& [number, hash] : listed_in(p[place])) numbers.insert(number);
+    } catch (const MalformedRecord&) {
+      return;  // said where it is read
+    }
+  });
+  return hashes_of(file, numbers);
+}
+
 class Beyond {
  public:
-  explicit Beyond(Reading& r) : r_(r) {}
+  explicit Beyond(Reading& r) : r_(r), now_(hashes_now(r.file, kValue, 3)) {}
 
   void run() {
     each(r_.file, kObject, [&](const p21::Instance& e) { guarded(e, [&](const Value& p) { object(p); }); });
-    each(r_.file, kValue, [&](const p21::Instance& e) { guarded(e, [&](const Value& p) { value(p); }); });
+    each(r_.file, kValue, [&](const p21::Instance& e) { guarded(e, [&](const Value& p) { value(e, p); }); });
   }
 
  private:
@@ -135,10 +242,7 @@ class Beyond {
     try {
       act(list_of(e.parameters()));
     } catch (const MalformedRecord&) {
-      r_.reporter.report({.code = "EXC-RECORD",
-                          .severity = Severity::kWarning,
-                          .message = "the header's " + std::string(e.keyword()) + " is malformed; ignored",
-                          .line = e.line()});
+      report_malformed(r_, e);
     }
   }
 
@@ -153,7 +257,13 @@ class Beyond {
   [[nodiscard]] AnyRef named(const Value& v) const {
     const std::string name = text_of(v);
     if (name.empty()) throw MalformedRecord{};
-    if (name.front() == '#') return r_.find(number_in(name, '#'));
+    if (name.front() == '#') {
+      const std::uint64_t n = number_in(name, '#');
+      const bool hashed =
+          std::any_of(vouched_.begin(), vouched_.end(), [&](const Named& i) { return i.number == n; });
+      if (!hashed) throw MalformedRecord{};
+      return r_.find(n);
+    }
     const std::uint64_t n = number_in(name, '&');
     return n >= 1 && n <= objects_.size() ? objects_[n - 1] : AnyRef{};
   }
@@ -166,10 +276,12 @@ class Beyond {
     return at;
   }
 
-  void value(const Value& p) {
-    if (p.size() != 3) throw MalformedRecord{};
+  void value(const p21::Instance& e, const Value& p) {
+    if (p.size() != 4) throw MalformedRecord{};
+    vouched_ = named_in(now_, p[3]);
     const AnyRef at = named(p[0]);
     if (!at.set()) return;  // gone: so is what it said
+    if (!unchanged(r_, e, vouched_, text_of(p[1]) + " of " + text_of(p[0]))) return;
     const Attribute* a = model::find_attribute(at.type, text_of(p[1]));
     const bool object = text_of(p[0]).front() == '&';
     if (a == nullptr || (a->in_iso14649 && !object)) throw MalformedRecord{};
@@ -241,7 +353,9 @@ class Beyond {
   }
 
   Reading& r_;
+  Hashes now_;
   std::vector<AnyRef> objects_;
+  std::vector<Named> vouched_;  // of the value being read
 };
 
 }  // namespace
@@ -253,19 +367,55 @@ bool can_be_kept(const model::Model& m, AnyRef at, const Attribute& a, const Nam
 
 std::string write_value(const model::Model& m, AnyRef at, const Attribute& a, const NameOf& name_of) {
   return std::string(kValue) + "(" + quoted(name_of(at)) + "," + quoted(a.name) + "," +
-         value_text(a, m.object(at), name_of).value_or("$") + ");\n";
+         value_text(a, m.object(at), name_of).value_or("$");
 }
 
-std::map<std::uint64_t, TypeId> kinds_beyond(const p21::File& file) {
+std::map<std::uint64_t, std::string> hashes_of(const p21::File& file,
+                                               const std::set<std::uint64_t>& numbers) {
+  std::map<std::uint64_t, std::string> out;
+  if (numbers.empty()) return out;
+  std::map<std::uint64_t, std::vector<std::string>> named_by;
+  for (const p21::Instance i : file) {
+    std::set<std::uint64_t> to;
+    for (std::size_t k = 0; k < i.part_count(); ++k) refers_to(i.part(k).parameters, numbers, to);
+    if (to.empty()) continue;
+    std::string names;
+    for (std::size_t k = 0; k < i.part_count(); ++k) {
+      names += i.part(k).keyword;
+      add_texts(i.part(k).parameters, names);
+    }
+    for (const std::uint64_t n : to) named_by[n].push_back(names);
+  }
+  for (const std::uint64_t n : numbers) {
+    const auto instance = file.find(n);
+    if (!instance) continue;
+    std::string text;
+    for (std::size_t k = 0; k < instance->part_count(); ++k)
+      text += std::string(instance->part(k).keyword) + spelled(instance->part(k).parameters);
+    auto& names = named_by[n];
+    std::sort(names.begin(), names.end());
+    for (const std::string& name : names) text += " " + name;
+    out[n] = hex64(fnv1a(text));
+  }
+  return out;
+}
+
+std::map<std::uint64_t, TypeId> kinds_beyond(Reading& r) {
   std::map<std::uint64_t, TypeId> out;
-  each(file, kType, [&](const p21::Instance& e) {
+  const Hashes now = hashes_now(r.file, kType, 2);
+  each(r.file, kType, [&](const p21::Instance& e) {
     try {
       const Value p = list_of(e.parameters());
-      if (p.size() != 2) return;
+      if (p.size() != 3) throw MalformedRecord{};
+      const std::uint64_t number = number_in(text_of(p[0]), '#');
       const auto type = model::find_noun(text_of(p[1]));
-      if (type && !model::noun_type(*type).abstract) out[number_in(text_of(p[0]), '#')] = *type;
+      const auto all = named_in(now, p[2]);
+      const bool hashed = all.size() == 1 && all.front().number == number;
+      if (!hashed || !type || model::noun_type(*type).abstract) throw MalformedRecord{};
+      if (!r.file.find(number)) return;  // gone: so is what it said
+      if (unchanged(r, e, all, "that " + text_of(p[0]) + " is a " + text_of(p[1]))) out[number] = *type;
     } catch (const MalformedRecord&) {
-      return;  // the instance is what its keyword says
+      report_malformed(r, e);
     }
   });
   return out;

@@ -98,7 +98,7 @@ p21::Value Reading::parameter(AnyRef object, std::string_view attribute) const {
 
 void read_objects(Reading& r) {
   r.object_of.reserve(r.file.size());
-  const auto kinds = kinds_beyond(r.file);
+  const auto kinds = kinds_beyond(r);
   for (const p21::Instance i : r.file) r.object_of.push_back(make_object(r, i, kinds));
   for (const p21::Instance i : r.file) {
     const AnyRef at = r.object_of[i.index()];

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <set>
 #include <vector>
 
 #include "planner/base/number.h"
@@ -13,6 +14,7 @@
 #include "planner/exchange/sections.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/walk.h"
+#include "planner/p21/parse.h"
 #include "planner/p21/print.h"
 
 namespace capstan::exchange {
@@ -56,10 +58,10 @@ class FileWriter {
   FileWriter(const model::Plan& plan, std::vector<std::string>& losses)
       : plan_(plan), m_(plan.model), losses_(losses) {}
 
-  std::string run() {
+  Result<std::string> run() {
     collect();
     number();
-    keep_beyond();
+    if (auto kept = keep_beyond(); !kept) return tl::unexpected(kept.error());
     std::string out = "ISO-10303-21;\nHEADER;\n" + header();
     out += beyond_ + write_records(plan_, m_, [this](AnyRef at) { return number_of(at); });
     out += "ENDSEC;\n" + sections_text(plan_, [this](AnyRef r) { return reference(r); }) + "DATA;\n";
@@ -127,13 +129,25 @@ class FileWriter {
     return it == hidden_.end() ? std::string() : "&" + std::to_string(it - hidden_.begin() + 1);
   }
 
+  /// A header entity but for its end, and the numbers of the instances that it names.
+  struct BeyondEntity {
+    std::string text;
+    std::set<std::uint64_t> named;
+  };
+
   // What the schema cannot hold, into the header; what has no form there either is lost.
-  void keep_beyond() {
-    const NameOf name = [this](AnyRef at) { return name_of(at); };
+  Status keep_beyond() {
+    std::vector<BeyondEntity> entities;
+    std::set<std::uint64_t> named;
+    const NameOf name = [&](AnyRef at) {
+      if (const std::uint64_t n = number_of(at); n != 0) named.insert(n);
+      return name_of(at);
+    };
     for (const auto& [n, at] : by_number_) {
       if (written_type(at.type) == at.type) continue;
-      beyond_ += "!CAPSTAN_TYPE('#" + std::to_string(n) + "','" +
-                 std::string(model::noun_type(at.type).keyword) + "');\n";
+      entities.push_back({"!CAPSTAN_TYPE('#" + std::to_string(n) + "','" +
+                              std::string(model::noun_type(at.type).keyword) + "'",
+                          {n}});
     }
     for (std::size_t i = 0; i < hidden_.size(); ++i) {
       const auto& type = model::noun_type(hidden_[i].type);
@@ -144,9 +158,39 @@ class FileWriter {
     }
     for (const auto& [at, a] : beyond_at_) {
       const bool kept = can_be_kept(m_, at, *a, name);
-      if (kept) beyond_ += write_value(m_, at, *a, name);
+      named.clear();
+      if (kept) {
+        std::string text = write_value(m_, at, *a, name);
+        entities.push_back({std::move(text), named});
+      }
       lost(at, *a, kept);
     }
+    return write_beyond(entities);
+  }
+
+  // Hashes are of instances as they are read back.
+  Status write_beyond(const std::vector<BeyondEntity>& entities) {
+    if (entities.empty()) return {};
+    std::string text = "ISO-10303-21;\nHEADER;\n" + header() + "ENDSEC;\nDATA;\n";
+    std::set<std::uint64_t> named;
+    for (const auto& e : entities) named.insert(e.named.begin(), e.named.end());
+    for (const auto& [n, at] : by_number_) {
+      bool wanted = named.contains(n);
+      model::for_each_reference(m_, at, [&](AnyRef to) { wanted = wanted || named.contains(number_of(to)); });
+      if (wanted) instance(n, at, text);
+    }
+    Job quiet;
+    const auto file = p21::parse(text + "ENDSEC;\nEND-ISO-10303-21;\n", "", {}, quiet);
+    if (!file) return fail(file.error());
+    const auto hashes = hashes_of(*file, named);
+    for (const auto& e : entities) {
+      beyond_ += e.text + ",(";
+      for (const std::uint64_t n : e.named) {
+        beyond_ += (n == *e.named.begin() ? "('#" : ",('#") + std::to_string(n) + "','" + hashes.at(n) + "')";
+      }
+      beyond_ += "));\n";
+    }
+    return {};
   }
 
   // Kept instances of AP238, and what only stands for parts of its mapping.
@@ -427,7 +471,9 @@ Result<Written> write_iso14649(const model::Plan& plan, Job& job) {
   model::Plan copy = plan;
   if (auto done = write_curves(copy, out.losses); !done) return fail(done.error());
   round_units(copy.model);
-  out.bytes = FileWriter(copy, out.losses).run();
+  auto text = FileWriter(copy, out.losses).run();
+  if (!text) return tl::unexpected(text.error());
+  out.bytes = *std::move(text);
   say_what_the_plan_loses(plan, out.losses);
   std::sort(out.losses.begin(), out.losses.end());
   out.losses.erase(std::unique(out.losses.begin(), out.losses.end()), out.losses.end());

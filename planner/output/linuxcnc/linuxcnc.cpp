@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "planner/base/number.h"
-#include "planner/model/lie.h"
 #include "planner/model/nouns/workpiece.h"
+#include "planner/model/setup_position.h"
 #include "planner/output/linuxcnc/arcs.h"
 #include "planner/output/linuxcnc/check.h"
 #include "planner/output/linuxcnc/comment.h"
@@ -154,7 +154,7 @@ class Writer {
     const std::string after = why.size() == 1 ? "; continue at your own risk"
                                               : "; and " + std::to_string(why.size() - 1) +
                                                     " more, see the program; continue at your own risk";
-    constexpr std::size_t kLongest = 200;
+    constexpr std::size_t kLongest = 200;  // of a line's 255 characters; default, unsourced
     program_.line("(MSG, " + before +
                   plain_text(why.front()->text).substr(0, kLongest - before.size() - after.size()) + after +
                   ")");
@@ -200,8 +200,8 @@ class Writer {
                      model::axis_text(here, {0, 1, 0}) + " to the back");
     const std::string at = zero(n);
     const Vec3 own = here.to_local({0, 0, 0});
-    const std::string in_part = "the point X" + program_.number(own.x) + " Y" + program_.number(own.y) + " Z" +
-                                program_.number(own.z) + " of the part's drawing";
+    const std::string in_part = "the point X" + program_.number(own.x) + " Y" + program_.number(own.y) +
+                                " Z" + program_.number(own.z) + " of the part's drawing";
     program_.comment(
         name + "zero " + plan_.setups[n].work_offset +
         (at.empty() ? ": " + in_part : " on the raw piece as it lies: " + at + "; that is " + in_part));
@@ -222,7 +222,7 @@ class Writer {
 
   // What to do between two set-ups, in a message that a line of the control can hold.
   [[nodiscard]] std::string to_clamp(std::size_t n, std::size_t before) const {
-    constexpr std::size_t kLongest = 230;
+    constexpr std::size_t kLongest = 230;  // of a line's 255 characters; default, unsourced
     const auto here = model::placed_in(plan_, n);
     const std::string offset = plan_.setups[n].work_offset, at = zero(n);
     const std::string first = "set-up " + std::to_string(n + 1) + ": clamp the workpiece anew, " +

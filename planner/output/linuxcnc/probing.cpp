@@ -6,10 +6,10 @@
 
 #include "planner/base/number.h"
 #include "planner/model/fit/stated.h"
-#include "planner/model/lie.h"
 #include "planner/model/measured.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/resolve.h"
+#include "planner/model/setup_position.h"
 
 namespace capstan::output {
 

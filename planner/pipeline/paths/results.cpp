@@ -27,16 +27,33 @@ void tell_slow(Work& w, const StepWork& step, const model::StepResult& r) {
                              "; a larger or shorter cutter would be quicker");
 }
 
-/// What the plan said of a step whose cutter, speed and feed are what they were: which limits these reached
-/// was found when they were chosen, and is not asked again.
+/// Whether forces and bending find the same in both.
+bool as_large(const model::Cutter& a, const model::Cutter& b) {
+  return a.cutter_class == b.cutter_class && a.substrate == b.substrate && a.teeth == b.teeth &&
+         a.cutting_diameter_mm == b.cutting_diameter_mm && a.corner_radius_mm == b.corner_radius_mm &&
+         a.stick_out_mm == b.stick_out_mm && a.shank_diameter_mm == b.shank_diameter_mm &&
+         a.helix_rad == b.helix_rad;
+}
+
+/// What the plan said of a step for which all that its limits rest on is as it was: machine, material,
+/// cutter, speed, feed, depth and path. Which limits these reached was found when these were chosen, and is
+/// not asked again. A plan that was read knows its machine by name, and its paths by what they take.
 const model::StepResult* unchanged(const Work& w, const StepWork& step, const model::StepResult& r) {
-  constexpr double kSame = 1e-6;  // of the value: what a file's units round
-  if (step.open_technology) return nullptr;
+  constexpr double kSame = 1e-6;   // of the value, what a file's units round; default, unsourced
+  constexpr double kSameS = 0.01;  // a left-handed helix is written as points; default, unsourced
+  if (step.open_technology || w.recorded_machine.id != w.plan.machine.id ||
+      w.recorded_material != w.plan.material)
+    return nullptr;
+  const auto cutter = std::find_if(w.recorded.begin(), w.recorded.end(),
+                                   [&](const model::Cutter& c) { return c.id == r.cutter_id; });
+  if (cutter == w.recorded.end() || !as_large(*cutter, step.cutter)) return nullptr;
   for (const model::StepResult& was : w.recorded_steps) {
     if (was.step != r.step) continue;
     const auto same = [](double a, double b) { return std::abs(a - b) <= kSame * std::abs(a); };
-    const bool as_before = was.cutter_id == r.cutter_id && same(was.spindle_rpm, r.spindle_rpm) &&
-                           same(was.feed_mm_min, r.feed_mm_min);
+    const bool as_before =
+        was.cutter_id == r.cutter_id && same(was.spindle_rpm, r.spindle_rpm) &&
+        same(was.feed_mm_min, r.feed_mm_min) && same(was.axial_depth_mm, r.axial_depth_mm) &&
+        same(was.radial_depth_mm, r.radial_depth_mm) && std::abs(was.cutting_s - r.cutting_s) <= kSameS;
     return as_before ? &was : nullptr;
   }
   return nullptr;

@@ -169,7 +169,7 @@ void PlanarStock::place(std::uint32_t id, Vec2 lo, Vec2 hi) {
 }
 
 void PlanarStock::thin(Tile& tile, Vec2 middle) {
-  constexpr int kQuarterings = 3;
+  constexpr int kQuarterings = 3;  // to squares of an eighth of the tile; default, unsourced
   std::vector<std::uint32_t> others;
   for (std::size_t i = 0; i < tile.trails.size();) {  // oldest first
     const Trail& t = trails_[tile.trails[i]];
@@ -336,7 +336,7 @@ bool PlanarStock::even(const Nearby& near, double from_mm, double to_mm) const {
 }
 
 bool PlanarStock::cleared(const Nearby& near, Vec2 centre, double radius_mm, double z_mm) const {
-  constexpr int kQuarterings = 4;  // to squares of an eighth of the radius
+  constexpr int kQuarterings = 4;  // to squares of an eighth of the radius; default, unsourced
   std::vector<std::uint32_t> deep;
   for (const std::uint32_t id : near.trails) {
     const Trail& t = trails_[id];

@@ -308,7 +308,7 @@ rows:
                         "diameter_mm in [0, 0.1) [RULE-DEAD-ROW]"));
 }
 
-TEST_F(CommandTest, RulesOfAShopThatCannotBeReadEndWithThree) {
+TEST_F(CommandTest, RulesOfAShopThatAreMissingEndWithTwoAndUnreadableOnesWithThree) {
   EXPECT_EQ(run("rules check --rules nowhere").code, 2);
   fs::create_directory(folder_ / "shop");
   put("shop/shop.yaml", "table: hole\nrows:\n  - {id: a, source: s, chains: [[laser]]}\n");

@@ -150,7 +150,7 @@ TEST_F(ToolsCommand, WhatCannotBeReadEndsWithThreeAndWritesNothing) {
   EXPECT_FALSE(there("a.csv"));
 }
 
-TEST_F(ToolsCommand, AnOutputThatCannotBeWrittenEndsWithFour) {
+TEST_F(ToolsCommand, AnOutputThatCannotBeWrittenIsFoundFirstAndEndsWithTwo) {
   EXPECT_EQ(run("convert own.yaml -o absent/a.csv"), 2);
   EXPECT_THAT(err_, HasSubstr("FILE-WRITE"));
   EXPECT_EQ(run("export --tools own.yaml -o absent/a.csv"), 2);

@@ -183,6 +183,12 @@ TEST(ToolStore, ASingleFlippedBitNeverChangesWhatIsRead) {
   EXPECT_GT(refused, 300);
 }
 
+TEST(ToolStore, OfAnEarlierVersionSaysHowToImportItAgain) {
+  const auto store = ToolStore::from_bytes(altered("PRAGMA user_version = 1"), "old.sqlite");
+  ASSERT_FALSE(store);
+  EXPECT_NE(to_text(store.error()).find("capstan tools import"), std::string::npos) << to_text(store.error());
+}
+
 TEST(ToolStore, RefusesWhatSomebodyElsePutIn) {
   EXPECT_EQ(code_of(bytes()), "ok");
   EXPECT_EQ(code_of(altered("CREATE VIEW v AS SELECT 1")), "TOOLSTORE-SCHEMA");

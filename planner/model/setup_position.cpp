@@ -1,4 +1,4 @@
-#include "planner/model/lie.h"
+#include "planner/model/setup_position.h"
 
 #include <algorithm>
 #include <array>

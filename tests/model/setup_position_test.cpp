@@ -1,4 +1,4 @@
-#include "planner/model/lie.h"
+#include "planner/model/setup_position.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@ geometry::Placement lying(Vec3 axis, Vec3 ref, Vec3 origin = {}) {
   return *geometry::make_placement(origin, axis, ref);
 }
 
-TEST(Lie, ATurnIsToldByTheWorkpiecesOwnAxisAndAngle) {
+TEST(SetupPosition, ATurnIsToldByTheWorkpiecesOwnAxisAndAngle) {
   const geometry::Placement flat;
   EXPECT_EQ(turn_text(flat, flat), "not turned");
   EXPECT_EQ(turn_text(flat, lying({0, 0, -1}, {1, 0, 0})), "turned over, 180 deg about its X axis");
@@ -28,7 +28,7 @@ TEST(Lie, ATurnIsToldByTheWorkpiecesOwnAxisAndAngle) {
             "turned over, 180 deg about its X axis");
 }
 
-TEST(Lie, ZeroIsToldBySidesOfTheRawPieceAsItLies) {
+TEST(SetupPosition, ZeroIsToldBySidesOfTheRawPieceAsItLies) {
   geometry::Box3 raw;
   raw.add({-5, -5, -30});
   raw.add({105, 65, 2});
