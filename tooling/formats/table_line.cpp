@@ -60,7 +60,7 @@ void TableLines::give(const MachineEntry& entry, double mm_per_unit, model::Cutt
                 .message = fault + "; the length of " + trimmed(c.functional_length_mm, 4) +
                            " mm that planning uses is assumed" + more,
                 .file = l_.source,
-                .path = c.id,
+                .path = c.id == "T" + std::to_string(c.pocket) ? "" : c.id,  // the text names it so
                 .hint = "measure it; that offsets count from a reference tool is told by a negative one, or "
                         "by length_offsets: reference under the machine's control"});
   } else if (against_reference_ && !told_) {
