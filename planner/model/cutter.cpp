@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "planner/base/number.h"
+#include "planner/model/measured_length.h"
 
 namespace capstan::model {
 namespace {
@@ -57,6 +58,15 @@ bool has_cone(const Cutter& c) {
   }
 }
 
+/// Whether somebody said the value; one for all fields stands under "*".
+bool is_stated(const Cutter& c, std::string_view field) {
+  for (const std::string_view of : {field, std::string_view("*")}) {
+    for (const auto& [name, source] : c.sources)
+      if (name == of) return source.starts_with("stated");
+  }
+  return false;
+}
+
 }  // namespace
 
 std::string_view to_text(CutterClass c) { return kClasses.at(static_cast<std::size_t>(c)); }
@@ -104,11 +114,29 @@ double length_offset_mm(const Cutter& c) { return table_word(c, "Z").value_or(c.
 void take_table_line(Cutter& c, const ToolTableLine& line) {
   c.table_line = line;
   if (line.against_reference || !offset_fault(c).empty()) return;
-  c.functional_length_mm = *table_word(c, "Z");
-  c.stick_out_mm = std::min(c.stick_out_mm, c.functional_length_mm);
+  take_measured_length(c, *table_word(c, "Z"), "stated: the tool table's Z");
+}
+
+void take_measured_length(Cutter& c, double length_mm, const std::string& source) {
+  constexpr double kTraceMm = 0.001;
+  const double shorter = c.functional_length_mm - length_mm, before = c.stick_out_mm;
+  const auto forget = [&](std::string_view field) {
+    std::erase_if(c.sources, [&](const auto& s) { return s.first == field; });
+  };
+  if (before > 0.0 && shorter > 0.0 && !is_stated(c, "stick_out_mm")) {
+    c.stick_out_mm = std::max(before - shorter, kTraceMm);
+    forget("stick_out_mm");
+    c.sources.emplace_back("stick_out_mm", "derived: the tool is " + trimmed(length_mm, 4) +
+                                               " mm long where " + trimmed(c.functional_length_mm, 4) +
+                                               " was assumed, and its holder is not shorter for that");
+  }
+  c.functional_length_mm = length_mm;
+  c.stick_out_mm = std::min(c.stick_out_mm, length_mm);
+  if (before > 0.0 && !is_stated(c, "maximum_depth_of_cut_mm"))
+    c.maximum_depth_of_cut_mm = std::min(c.maximum_depth_of_cut_mm, c.stick_out_mm);
   c.usable_length_mm = std::min(c.usable_length_mm, c.stick_out_mm);
-  std::erase_if(c.sources, [](const auto& s) { return s.first == "functional_length_mm"; });
-  c.sources.emplace_back("functional_length_mm", "stated: the tool table's Z");
+  forget("functional_length_mm");
+  c.sources.emplace_back("functional_length_mm", source);
 }
 
 std::string offset_fault(const Cutter& c) {

@@ -3,6 +3,7 @@
 #include <set>
 
 #include "planner/base/number.h"
+#include "planner/model/measured_length.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/walk.h"
 #include "planner/pipeline/shop.h"
@@ -49,9 +50,8 @@ const Cutter* loaded_like(const std::vector<Cutter>& library, const Cutter& want
 void take_length(const Cutter& loaded, Cutter& into) {
   if (loaded.table_line) return model::take_table_line(into, *loaded.table_line);
   if (!(loaded.functional_length_mm > 0.0)) return;
-  into.functional_length_mm = loaded.functional_length_mm;
-  into.stick_out_mm = std::min(into.stick_out_mm, into.functional_length_mm);
-  into.usable_length_mm = std::min(into.usable_length_mm, into.stick_out_mm);
+  if (loaded.functional_length_mm == into.functional_length_mm) return;
+  model::take_measured_length(into, loaded.functional_length_mm, "derived: as long as the loaded tool");
 }
 
 Result<std::vector<std::string>> match_loaded(model::Plan& plan, Inputs& inputs, Job& job) {
@@ -97,7 +97,8 @@ Result<std::vector<std::string>> match_loaded(model::Plan& plan, Inputs& inputs,
     for (const Cutter& m : merged) taken = taken || (c.pocket > 0 && m.pocket == c.pocket);
     if (taken) continue;
     if (const std::string fault = model::offset_fault(c); c.loaded && !fault.empty()) {
-      job.note("LATE-TOOL", "'" + c.id + "' is not used: " + fault);
+      const bool named = c.id == "T" + std::to_string(c.pocket);  // by the text itself
+      job.note("LATE-TOOL", (named ? "not used: " : "'" + c.id + "' is not used: ") + fault);
       continue;
     }
     merged.push_back(c);

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <optional>
 
+#include "planner/base/number.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/walk.h"
 #include "planner/pipeline/share.h"
@@ -123,6 +124,17 @@ void take_from_magazine(const Work& w, model::Cutter& cutter) {
   }
 }
 
+/// Why a tool that is loaded shorter than was assumed cannot cut: its holder would take in its flutes.
+std::optional<std::string> too_short_as_loaded(const model::Cutter& c, double assumed_mm) {
+  if (!(c.stick_out_mm < assumed_mm) || c.stick_out_mm >= c.maximum_depth_of_cut_mm) return std::nullopt;
+  return "the tool '" + c.id + "' (T" + std::to_string(c.pocket) + ") is " +
+         trimmed(c.functional_length_mm, 4) + " mm long as it is loaded, so that " +
+         trimmed(c.stick_out_mm, 4) + " mm of it stand out where " + trimmed(assumed_mm, 4) +
+         " were assumed: less than its flutes of " + trimmed(c.maximum_depth_of_cut_mm, 4) +
+         " mm, so that it does not reach; load it in a shorter holder whose stick-out is stated, or a longer "
+         "tool";
+}
+
 /// Picks the cutter of one open operation; false when none fits.
 bool select_one(Work& w, StepWork& step, const std::vector<model::Cutter>& library) {
   const std::string name = w.plan.model.at<model::MachiningOperation>(step.operation).its_id.value_or("");
@@ -221,7 +233,15 @@ Status select_open_tools(Work& w) {
       const bool recorded = take_recorded(w, step, step.cutter);
       tell_apart(given, step.cutter);
       if (!recorded) stand_out(w, step);
+      const double assumed = step.cutter.stick_out_mm;
       take_from_magazine(w, step.cutter);
+      if (auto why = too_short_as_loaded(step.cutter, assumed)) {
+        const auto* executable = w.plan.model.get<model::Executable>(step.step);
+        w.plan.unplanned.push_back(
+            {step.feature,
+             "step '" + (executable == nullptr ? "" : executable->its_id.value_or("")) + "': " + *why});
+        continue;
+      }
       w.used_cutters.push_back(step.cutter.id);
       continue;
     }

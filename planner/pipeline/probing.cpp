@@ -3,6 +3,7 @@
 
 #include "planner/base/number.h"
 #include "planner/model/measured.h"
+#include "planner/pipeline/steps.h"
 #include "planner/pipeline/touches.h"
 #include "planner/pipeline/work.h"
 #include "tooling/nouns/nouns.h"
@@ -83,6 +84,23 @@ bool for_size(const Probing& p) {
   });
 }
 
+/// How far one of two walls that face each other may be from the middle of the tolerance: a quarter of its
+/// width, for the size changes at both. Of a length and a width the closer one.
+std::optional<double> wall_slack(const FeatureShape& s) {
+  std::optional<double> out;
+  const auto closer = [&](const model::Toleranced& t) {
+    if (t.given) out = std::min(out.value_or(t.width()), t.width());
+  };
+  if (s.kind == ShapeKind::kHole) {
+    closer(s.diameter);
+  } else if (s.kind == ShapeKind::kPocket || s.kind == ShapeKind::kSlot || s.kind == ShapeKind::kOutside) {
+    closer(s.width);
+    closer(s.length);
+  }
+  if (out) *out *= 0.25;
+  return out;
+}
+
 Measured measured_before(const Work& w, std::size_t at, const std::optional<model::Candidate>& probe) {
   const StepWork& step = w.steps[at];
   const Probing& p = *step.probing;
@@ -90,9 +108,15 @@ Measured measured_before(const Work& w, std::size_t at, const std::optional<mode
   if (!for_size(p)) {
     if (auto datum = datum_of(w, at, ball)) return *std::move(datum);
   }
-  const FeatureShape& s = step.shapes.front();
+  // Where the walls are when each step is cut to the middle of the tolerance, as the paths are.
+  FeatureShape s = step.shapes.front();
+  aim_at_the_middle(s);
   Measured out{
       touches_of(w, s, left_at(p.chain, p.at, s), ball), "'" + s.name + "' as it is cut so far", {}, {}};
+  if (const auto off = for_size(p) ? wall_slack(s) : std::nullopt) {
+    out.lower_mm = -*off;
+    out.upper_mm = *off;
+  }
   if (step.shapes.size() > 1) out.of += ", the first of " + std::to_string(step.shapes.size());
   return out;
 }

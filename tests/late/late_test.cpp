@@ -112,7 +112,7 @@ const model::Cutter* cutter_of(const model::Plan& plan, int tool) {
 TEST(Late, TheToolTableComesOutNumberForNumber) {
   // The mill in carousel place 17, shorter than the 75 mm of the file, with a worn diameter.
   Job job;
-  const std::string line = "T7 P17 Z+61.2345678 D+11.999500";
+  const std::string line = "T7 P17 Z+65.2345678 D+11.999500";
   const auto bound =
       bind(plate(), shop_with(line + " ;12 mm carbide end mill, 4 flutes"), {.deadline = std::nullopt}, job);
   ASSERT_TRUE(bound) << to_text(bound.error()) << "\n" << texts(job);
@@ -120,16 +120,32 @@ TEST(Late, TheToolTableComesOutNumberForNumber) {
   EXPECT_EQ(line_of(bound->plan, 4), "T4 P4 Z+140.000000 D+9.800000");
 }
 
-TEST(Late, AToolStandsOutNoFartherThanTheTableSaysThatItIsLong) {
+TEST(Late, AnAssumedStickOutLosesWhatTheToolIsShorterThanAssumed) {
+  // The file's mill is 75 mm long over its holder, and its flutes of 26 mm want 1.5 * 26 = 39 mm out of it.
+  // At 65 mm the same holder leaves 39 - (75 - 65) = 29 mm; at 115 mm nobody knows that more stands out.
+  for (const auto& [z, out] : {std::pair("65", 29.0), std::pair("115", 39.0)}) {
+    Job job;
+    const auto bound =
+        bind(plate(), shop_with("T7 P7 Z+" + std::string(z) + " D+12 ;12 mm carbide end mill, 4 flutes"),
+             {.deadline = std::nullopt}, job);
+    ASSERT_TRUE(bound) << to_text(bound.error()) << "\n" << texts(job);
+    const auto* mill = cutter_of(bound->plan, 7);
+    ASSERT_NE(mill, nullptr);
+    EXPECT_EQ(mill->functional_length_mm, std::stod(z));
+    EXPECT_NEAR(mill->stick_out_mm, out, 1e-9) << z;
+    EXPECT_LE(mill->usable_length_mm, mill->stick_out_mm);
+  }
+}
+
+TEST(Late, AToolWhoseHolderWouldTakeInItsFlutesIsRefused) {
+  // 39 - (75 - 61) = 25 mm stand out, the flutes are 26 mm long.
   Job job;
   const auto bound = bind(plate(), shop_with("T7 P7 Z+61 D+12 ;12 mm carbide end mill, 4 flutes"),
                           {.deadline = std::nullopt}, job);
-  ASSERT_TRUE(bound) << to_text(bound.error()) << "\n" << texts(job);
-  const auto* mill = cutter_of(bound->plan, 7);
-  ASSERT_NE(mill, nullptr);
-  EXPECT_EQ(mill->functional_length_mm, 61.0);
-  EXPECT_LE(mill->stick_out_mm, 61.0);
-  EXPECT_LE(mill->usable_length_mm, mill->stick_out_mm);
+  ASSERT_FALSE(bound);
+  EXPECT_NE(bound.error().message.find("61 mm long as it is loaded, so that 25 mm of it stand out"),
+            std::string::npos)
+      << to_text(bound.error());
 }
 
 TEST(Late, AToolWhoseLengthTheTableDoesNotTellIsRefused) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <regex>
 #include <string>
 
 #include "planner/model/nouns/all.h"
@@ -421,7 +422,7 @@ TEST(Measuring, AChainThatLeansOnItIsNotUsedWhereNothingCanBeMeasured) {
   EXPECT_THAT(p.said, Not(HasSubstr("is not proposed")));
 }
 
-TEST(Measuring, ASizeIsCorrectedAtTheToolAndNotAtTheWorkOffset) {
+TEST(Measuring, AMilledSizeThatIsOffStopsTheProgramForNoRadiusActsInIt) {
   // IT6 of 20 mm is 13 um: a milled pocket.
   const auto program_of = [](const std::string& features) {
     const Planned p = bound(
@@ -434,10 +435,19 @@ TEST(Measuring, ASizeIsCorrectedAtTheToolAndNotAtTheWorkOffset) {
   };
   const std::string milled = program_of(
       "#62=CIRCULAR_CLOSED_PROFILE($,#61);\n#63=CLOSED_POCKET('P',#4,(),#50,#53,(),$,#57,$,$,#62);\n");
-  EXPECT_THAT(milled, ::testing::ContainsRegex("\\(MSG, .*P measure.*, correct the radius of T[0-9]+ by the "
-                                               "difference, then continue\\)"));
+  // 0.05 mm stay on each wall, so that 19.9 to 19.913 are right here; the outline's chords are within 2 um.
+  std::smatch m;
+  ASSERT_TRUE(std::regex_search(
+      milled, m,
+      std::regex(
+          R"(\(MSG, .*P measure.*, continue only when x is ([0-9.]+) to ([0-9.]+) and y is [0-9.]+ to )"
+          R"([0-9.]+ mm; else stop here and plan again with the radius of T[0-9]+ as measured\))")))
+      << milled;
+  EXPECT_NEAR(std::stod(m[1]), 19.9, 0.002);
+  EXPECT_NEAR(std::stod(m[2]), 19.913, 0.002);
   EXPECT_THAT(milled, HasSubstr("no G41 acts here"));
   EXPECT_THAT(milled, Not(HasSubstr("correct the work offset")));
+  EXPECT_THAT(milled, Not(HasSubstr("correct the radius")));
 }
 
 TEST(ToolTable, HoldsNoToolOfAStepThatIsLeftOut) {

@@ -95,6 +95,12 @@ const Fault kFaults[] = {
     {"LengthInAnotherUnit", 6, "", [](PlanMaker& k) { k.plan.cutters[0].functional_length_mm *= 25.4; }},
     {"ToolChangeBelowTheSecurityPlane", 7, "pocket",
      [](PlanMaker& k) { testing::edit_path(k.plan, 0, [](auto& p) { p.z.back() = 3; }); }},
+    {"LengthNotMeasured", 6, "drill",
+     [](PlanMaker& k) {
+       model::ToolTableLine line;
+       line.words = {{"Z", 0.0}};
+       k.plan.cutters[1].table_line = line;
+     }},
     {"PathStartsLow", 8, "drill",
      [](PlanMaker& k) { testing::edit_path(k.plan, 1, [](auto& p) { p.z[0] = 4; }); }},
     {"RapidThroughMaterial", 9, "pocket",

@@ -62,9 +62,10 @@ void TableLines::give(const MachineEntry& entry, double mm_per_unit, model::Cutt
                 .message = fault + "; the length of " + trimmed(c.functional_length_mm, 4) +
                            " mm that planning uses is assumed" + more,
                 .file = l_.source,
-                .path = c.id,
-                .hint = "measure it; where offsets count from a reference tool, say length_offsets: reference "
-                        "under the machine's control"});
+                .path = c.id == "T" + std::to_string(c.pocket) ? "" : c.id,  // the text names it so
+                .hint =
+                    "measure it; where offsets count from a reference tool, say length_offsets: reference "
+                    "under the machine's control"});
   } else if (against_reference_ && !told_) {
     told_ = true;
     job.report({.code = "TOOL-OFFSET",

@@ -10,6 +10,7 @@
 #include "planner/mechanics/immersion.h"
 #include "planner/mechanics/kienzle.h"
 #include "planner/mechanics/spindle.h"
+#include "tooling/catalogue/complete.h"
 
 namespace capstan::tooling {
 
@@ -298,6 +299,9 @@ std::optional<std::string> wrong_shape(const Cutter& c, const ToolRequirement& r
 std::optional<std::string> too_short(const Cutter& c, const ToolRequirement& r) {
   if (r.reach_mm > reach_of(c) + kSizeSlackMm) {
     std::string why = "reach " + mm(reach_of(c)) + " is below " + mm(r.reach_mm);
+    const std::string* out = source_of(c, "stick_out_mm");
+    if (c.table_line && out != nullptr && !out->starts_with("stated"))
+      why += " (its stick-out of " + mm(c.stick_out_mm) + " is not stated, but " + *out + ")";
     const bool thin_enough = c.shank_diameter_mm > 0.0 && c.shank_diameter_mm <= c.cutting_diameter_mm;
     if (thin_enough && !c.holder.empty() && !feeds_along_axis(c.cutter_class))
       why += ", and its holder (" +

@@ -116,6 +116,7 @@ struct Fit {
   std::size_t rank;
   Estimate estimate;
   double score;
+  bool unmeasured;  ///< its tool table gives it no length: it cannot run as it is
 };
 struct Near {
   const Cutter* cutter;
@@ -164,7 +165,8 @@ Selection select(const ToolRequirement& requirement, const std::vector<Cutter>& 
     if (why)
       near.push_back({&c, std::move(*why)});
     else
-      fits.push_back({&c, start, rank, estimate(c, r, start, material, machine, preferences), 0.0});
+      fits.push_back({&c, start, rank, estimate(c, r, start, material, machine, preferences), 0.0,
+                      !model::offset_fault(c).empty()});
   }
   double largest = 0.0;
   for (const Fit& f : fits) largest = std::max(largest, f.cutter->cutting_diameter_mm);
@@ -174,6 +176,7 @@ Selection select(const ToolRequirement& requirement, const std::vector<Cutter>& 
   for (Fit& f : fits)
     f.score = score_of(*f.cutter, f.rank, r, f.estimate, machine, largest, preferences, magazine_known);
   std::sort(fits.begin(), fits.end(), [](const Fit& a, const Fit& b) {
+    if (a.unmeasured != b.unmeasured) return b.unmeasured;
     return a.score != b.score ? a.score < b.score : a.cutter->id < b.cutter->id;
   });
   for (std::size_t i = 0; i < std::min(fits.size(), preferences.most); ++i) {

@@ -47,7 +47,8 @@ Status check_tools(const model::Plan& plan, Job& job) {
         std::any_of(line->words.begin(), line->words.end(), [](const auto& w) { return !fits(w.value); }))
       return bad("OUT-NUMBER", "a word of the tool table's line of cutter " + c.id + " is no size", c.id);
     if (const std::string fault = model::offset_fault(c); !fault.empty()) {
-      job.warn("OUT-TOOL-LENGTH", fault + "; measure the tool before the program runs", c.id);
+      const bool named = c.id == "T" + std::to_string(c.pocket);  // by the text itself
+      job.warn("OUT-TOOL-LENGTH", fault + "; measure the tool before the program runs", named ? "" : c.id);
     } else if (c.functional_length_mm <= 0.0) {
       job.warn(
           "OUT-TOOL-LENGTH",

@@ -79,9 +79,12 @@ class Writer {
     const std::size_t n = due->second.size();
     const std::string what = n == 1 ? first : std::to_string(n) + " touches as listed: " + first + ", ...";
     const Remedy remedy = remedy_of(plan_, due->second, before);
-    if (!remedy.comment.empty()) program_.comment(remedy.comment);
-    const std::string after = ", " + remedy.message + ", then continue";
-    program_.line("(MSG, " + plain_text(what).substr(0, 200 - after.size()) + after + ")");
+    for (const std::string& line : remedy.comments) program_.comment(line);
+    // What is to be done stands whole, what is measured as far as there is room.
+    constexpr std::size_t kRoom = 220;
+    const std::string after = ", " + remedy.message;
+    const std::size_t room = kRoom - std::min(kRoom, after.size());
+    program_.line("(MSG, " + plain_text(what).substr(0, room) + after + ")");
     program_.line("M0");
     return true;
   }

@@ -72,38 +72,120 @@ std::vector<std::string> probing_text(const model::Plan& plan, AnyRef probing) {
   return out;
 }
 
+namespace {
+
+/// What a size measured is mended by: the tool's setting, its length, or its radius, which only a new plan
+/// knows.
+enum class Mend : std::uint8_t { kPlace, kLength, kSlide, kRadius };
+
+/// One touch: where the wall is expected along its way, and how far it may be off.
+struct Contact {
+  geometry::Vec3 at, along;
+  double lower_mm = 0.0, upper_mm = 0.0;
+  bool limited = false;
+  std::string side;  ///< "x" of the feature's frame
+};
+
+std::optional<Contact> contact_of(const model::Model& m, const model::WorkpieceProbing& p) {
+  const auto start = model::placement(m, p.start_position);
+  const auto along = model::direction(m, p.direction);
+  const auto* expected = m.get<model::TolerancedLengthMeasure>(p.expected_value);
+  if (!start || !along || expected == nullptr || !expected->theoretical_size) return std::nullopt;
+  const auto* probe = m.get<model::TouchProbe>(p.its_probe);
+  const double ball = probe == nullptr ? 0.0 : probe->ball_radius.value_or(0.0);
+  Contact c;
+  c.at = start->origin + (*expected->theoretical_size + ball) * *along;
+  c.along = *along;
+  if (const auto* t = m.get<model::PlusMinusValue>(expected->implicit_tolerance)) {
+    if (const auto limits = model::stated(*t); limits && *limits) {
+      c.lower_mm = (*limits)->lower_mm;
+      c.upper_mm = (*limits)->upper_mm;
+      c.limited = true;
+    }
+  }
+  // "P measure +x"
+  const std::string name = p.its_id.value_or("");
+  c.side = name.empty() ? "the size" : name.substr(name.size() - 1);
+  return c;
+}
+
+/// The sizes that are right at this stage, of touches that face each other: "x 19.9 to 19.913". Inside, a
+/// touch that comes later makes the size larger; on an outside smaller.
+std::string right_sizes(const std::vector<Contact>& touches) {
+  std::string out;
+  for (std::size_t i = 0; i + 1 < touches.size(); ++i) {
+    const Contact &a = touches[i], &b = touches[i + 1];
+    if (dot(a.along, b.along) > -0.999) continue;
+    const double apart = dot(a.at - b.at, a.along), size = std::abs(apart);
+    const double lower = a.lower_mm + b.lower_mm, upper = a.upper_mm + b.upper_mm;
+    out += (out.empty() ? "" : " and ") + a.side + " is ";
+    if (a.limited && b.limited)
+      out += trimmed(size + (apart > 0.0 ? lower : -upper), 4) + " to " +
+             trimmed(size + (apart > 0.0 ? upper : -lower), 4);
+    else
+      out += trimmed(size, 4);
+    ++i;
+  }
+  return out;
+}
+
+}  // namespace
+
 Remedy remedy_of(const model::Plan& plan, const std::vector<AnyRef>& probings, AnyRef before) {
   const model::Model& m = plan.model;
   const auto next = std::find_if(plan.steps.begin(), plan.steps.end(),
                                  [&](const model::StepResult& s) { return s.step == before; });
   const model::Cutter* cutter =
       next == plan.steps.end() ? nullptr : model::find_cutter(plan, next->cutter_id);
-  bool size = false, upright = false;
+  std::set<Mend> mends;
+  std::vector<Contact> walls;
   for (const AnyRef r : probings) {
     const auto& p = m.at<model::WorkpieceProbing>(r);
     const auto* value = m.get<model::NcVariable>(p.measured_offset);
-    if (value == nullptr || !value->its_name.value_or("").starts_with(model::kMeasuredSize)) continue;
-    size = true;
-    const auto along = model::direction(m, p.direction);
-    if (!along || next == plan.steps.end()) continue;
+    const bool size = value != nullptr && value->its_name.value_or("").starts_with(model::kMeasuredSize);
+    if (!size || cutter == nullptr) {
+      mends.insert(Mend::kPlace);
+      continue;
+    }
     constexpr double kAlong = 0.999;  // cosine
-    const auto z = model::placed_in(plan, next->setup).direction_to_parent(*along).z;
-    upright = upright || std::abs(z) > kAlong;
+    const auto along = model::direction(m, p.direction);
+    const double z = along ? model::placed_in(plan, next->setup).direction_to_parent(*along).z : 0.0;
+    if (std::abs(z) > kAlong) {
+      mends.insert(Mend::kLength);
+    } else if (cutter->cutter_class == model::CutterClass::kBoringTool) {
+      mends.insert(Mend::kSlide);
+    } else {
+      mends.insert(Mend::kRadius);
+      if (auto c = contact_of(m, p)) walls.push_back(*std::move(c));
+    }
   }
-  if (!size || cutter == nullptr) return {"correct the work offset", {}};
-  const std::string t = "T" + std::to_string(cutter->pocket);
-  if (cutter->cutter_class == model::CutterClass::kBoringTool)
-    return {"set the radius of " + t + " by the difference",
-            t + ": a touch later than expected means that the wall is out by the difference; set the boring "
-                "tool's slide by it, not the work offset"};
-  if (upright)
-    return {"correct the length offset of " + t + " by the difference",
-            t + ": the size is a depth; its length offset is corrected, not the work offset"};
-  return {
-      "correct the radius of " + t + " by the difference",
-      t + ": each touch differs by what the cutter's radius is off: correct its radius [wear], not the work "
-          "offset. Paths are of the cutter's centre and no G41 acts here, so that the last step is planned "
-          "again with that radius"};
+  const std::string t = cutter == nullptr ? "" : "T" + std::to_string(cutter->pocket);
+  Remedy out;
+  const auto add = [&](const std::string& message, const std::string& comment) {
+    out.message += (out.message.empty() ? "" : "; ") + message;
+    if (!comment.empty()) out.comments.push_back(comment);
+  };
+  if (mends.contains(Mend::kPlace))
+    add("correct the work offset" + std::string(mends.size() > 1 ? " for the place" : ""), {});
+  if (mends.contains(Mend::kLength))
+    add("correct the length offset of " + t + " by the difference",
+        t + ": the size is a depth; its length offset is corrected, not the work offset, and acts with the "
+            "G43 "
+            "of the next step");
+  if (mends.contains(Mend::kSlide))
+    add("set the radius of " + t + " by the difference",
+        t + ": a touch later than expected means that the wall is out by the difference; set the boring "
+            "tool's slide by it, not the work offset");
+  if (!mends.contains(Mend::kRadius)) {
+    out.message += ", then continue";
+    return out;
+  }
+  const std::string sizes = right_sizes(walls);
+  add("continue only when " + (sizes.empty() ? "each touch is as listed" : sizes + " mm") +
+          "; else stop here and plan again with the radius of " + t + " as measured",
+      t + ": a size that is off here stays off by as much. Paths are of the cutter's centre and no G41 acts "
+          "here: another radius in the tool table changes nothing in this program, nor does the work offset");
+  return out;
 }
 
 }  // namespace capstan::output

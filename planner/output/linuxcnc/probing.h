@@ -15,11 +15,12 @@ namespace capstan::output {
 /// What is measured, in lines for a person: the first says all that must be known. mm.
 [[nodiscard]] std::vector<std::string> probing_text(const model::Plan& plan, model::AnyRef probing);
 
-/// What the operator corrects by what was measured: the work offset for a place; for a size what the tool of
-/// the step after it is set by.
+/// What the operator does by what was measured, and when the program may go on: for a place the work offset
+/// is corrected, for a depth the tool's length, a boring tool's slide is set. A mill's radius acts in the
+/// plan only, so that a size that it left wrong asks for a new plan, and the sizes that are right are named.
 struct Remedy {
-  std::string message;  ///< "set T5 to what is missing": for a message
-  std::string comment;  ///< how, where that needs saying
+  std::string message;                ///< "correct the work offset, then continue": for a message
+  std::vector<std::string> comments;  ///< how, where that needs saying
 };
 [[nodiscard]] Remedy remedy_of(const model::Plan& plan, const std::vector<model::AnyRef>& probings,
                                model::AnyRef before);

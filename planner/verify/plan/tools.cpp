@@ -72,6 +72,10 @@ void check_tools(const model::Plan& plan, const std::vector<StepMoves>& steps, F
     if (s.cutter == nullptr)
       findings.error(4, "CHK-TOOL", at,
                      "its tool \"" + s.planned->cutter_id + "\" is not among the plan's tools");
+    else if (const std::string fault = model::offset_fault(*s.cutter); !fault.empty())
+      findings.error(6, "CHK-TOOL-OFFSET", at,
+                     fault + ", and G43 H" + std::to_string(s.cutter->pocket) +
+                         " would take that for its length: measure it and enter its length");
     if (s.setup >= plan.setups.size()) {
       findings.error(3, "CHK-WORK-OFFSET", at, "its set-up is not among the plan's");
       continue;

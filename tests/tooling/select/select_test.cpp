@@ -46,6 +46,23 @@ TEST(Select, TakesTheDrillOfTheSizeWanted) {
   EXPECT_TRUE(s.would_fit.empty());
 }
 
+TEST(Select, ComesToAToolWithoutALengthLast) {
+  // Two drills alike; the table of the first by name has a Z of 0.
+  ToolRequirement r;
+  r.classes = {CutterClass::kTwistDrill};
+  r.diameter_exact_mm = 6.8;
+  r.reach_mm = 20;
+  Cutter measured = choose(r).ranked.at(0).cutter, unmeasured = measured;
+  unmeasured.id = "a";
+  measured.id = "b";
+  model::ToolTableLine line;
+  line.words = {{"Z", 0.0}};
+  unmeasured.table_line = line;
+  const auto s = select(r, {unmeasured, measured}, material("mild_steel"), machine(), {});
+  ASSERT_EQ(s.ranked.size(), 2U);
+  EXPECT_EQ(s.ranked[0].cutter.id, "b");
+}
+
 TEST(Select, TakesTheLargestEndMillThatTheCornersAllow) {
   ToolRequirement r;
   r.classes = {CutterClass::kEndmill};
