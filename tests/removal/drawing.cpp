@@ -149,7 +149,9 @@ Drawing::Id Drawing::slot(const std::string& name, Id at, double below, Id path,
     if (kind.starts_with("woodruff"))
       return write("WOODRUFF_SLOT_END_TYPE(" + ref(length(std::stod(kind.substr(8)))) + ")");
     const Id corner = length(kind.size() > 4 ? std::stod(kind.substr(4)) : 0.0);
-    return write("FLAT_SLOT_END_TYPE(" + ref(corner) + "," + ref(corner) + ")");
+    const auto stroke = kind.find('/');
+    const Id other = stroke == std::string::npos ? corner : length(std::stod(kind.substr(stroke + 1)));
+    return write("FLAT_SLOT_END_TYPE(" + ref(corner) + "," + ref(other) + ")");
   };
   const Id bottom = depth(below), a = end(first), b = end(last);
   return write("SLOT" + head(name, at) + "," + ref(bottom) + "," + ref(path) + "," + ref(profile) + "," +

@@ -123,6 +123,13 @@ TEST(RefusedParts, AFlatEndWhoseCornersDoNotFitTheSlotIsRefused) {
   expect_refused(s, "a slot 8 mm wide has room for 4 mm");
 }
 
+TEST(RefusedParts, AFlatEndWithTwoUnequalCornersIsRefused) {
+  Sheet s;
+  s.d.slot("S", s.d.placement({30, 15, 0}), 5, s.d.linear_path(30, {0, 1, 0}), s.d.square_u(16), "flat 7/2",
+           "radiused");
+  expect_refused(s, "its flat end at (30, 15, 0) states corners of radius 7 and 2 mm");
+}
+
 TEST(RefusedParts, AWoodruffEndInThePieceIsRefusedAndOneOutsideItIsNot) {
   Sheet inside;
   inside.d.slot("S", inside.d.placement({30, 15, 0}), 5, inside.d.linear_path(30, {0, 1, 0}),
