@@ -146,8 +146,12 @@ Drawing::Id Drawing::slot(const std::string& name, Id at, double below, Id path,
   const auto end = [&](const std::string& kind) {
     if (kind == "open") return write("OPEN_SLOT_END_TYPE()");
     if (kind == "radiused") return write("RADIUSED_SLOT_END_TYPE()");
+    if (kind.starts_with("woodruff"))
+      return write("WOODRUFF_SLOT_END_TYPE(" + ref(length(std::stod(kind.substr(8)))) + ")");
     const Id corner = length(kind.size() > 4 ? std::stod(kind.substr(4)) : 0.0);
-    return write("FLAT_SLOT_END_TYPE(" + ref(corner) + "," + ref(corner) + ")");
+    const auto stroke = kind.find('/');
+    const Id other = stroke == std::string::npos ? corner : length(std::stod(kind.substr(stroke + 1)));
+    return write("FLAT_SLOT_END_TYPE(" + ref(corner) + "," + ref(other) + ")");
   };
   const Id bottom = depth(below), a = end(first), b = end(last);
   return write("SLOT" + head(name, at) + "," + ref(bottom) + "," + ref(path) + "," + ref(profile) + "," +

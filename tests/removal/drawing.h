@@ -45,7 +45,8 @@ class Drawing {
   Id closed_pocket(const std::string& name, Id placement, double depth, Id closed_profile, double corner,
                    const std::vector<Id>& bosses = {}, double floor_radius = 0.0, bool through = false);
   Id open_pocket(const std::string& name, Id placement, double depth, Id open_profile, double corner);
-  /// Along `direction` from its placement; ends "open", "radiused", "flat" or "flat 2" (corners of R2).
+  /// Along `direction` from its placement; ends "open", "radiused", "flat", "flat 2" (corners of R2),
+  /// "flat 2/4" (of R2 and R4) or "woodruff 10" (R10).
   Id slot(const std::string& name, Id placement, double depth, Id path, Id profile, const std::string& first,
           const std::string& last);
   Id linear_path(double distance, Point direction);

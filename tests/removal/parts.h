@@ -33,6 +33,7 @@ namespace capstan::testing::removal {
 [[nodiscard]] Part lone_boss(bool round);
 [[nodiscard]] Part pocket_in_a_pocket();
 [[nodiscard]] Part flat_ended_slot();
+[[nodiscard]] Part unequal_flat_ends();
 [[nodiscard]] Part pattern_that_meets_itself();
 [[nodiscard]] Part hole_into_a_cross_bore();
 

@@ -50,6 +50,7 @@ CAPSTAN_MADE(ClearsThePieceAroundALoneRoundBoss, lone_boss(true))
 CAPSTAN_MADE(ClearsThePieceAroundALoneSquareBoss, lone_boss(false))
 CAPSTAN_MADE(OpensAPocketBeforeTheOneInItsFloor, pocket_in_a_pocket())
 CAPSTAN_MADE(KeepsTheStatedCornersAtTheFlatEndsOfASlot, flat_ended_slot())
+CAPSTAN_MADE(RoundsEachFlatEndOfASlotByItsOwnRadius, unequal_flat_ends())
 CAPSTAN_MADE(EndsAHoleThatOpensIntoACrossBoreThere, hole_into_a_cross_bore())
 CAPSTAN_MADE(CutsEachPlaceOfAPatternThatMeetsItselfOnce, pattern_that_meets_itself())
 

@@ -116,6 +116,65 @@ TEST(RefusedParts, ASlotWithSquareEndsIsNotCutRound) {
   expect_refused(s, "its flat end at (30, 15, 0) is square, solid stands beyond it");
 }
 
+TEST(RefusedParts, AFlatEndWhoseCornersDoNotFitTheSlotIsRefused) {
+  Sheet s;
+  s.d.slot("S", s.d.placement({30, 15, 0}), 5, s.d.linear_path(30, {0, 1, 0}), s.d.square_u(8), "flat 5",
+           "flat 2");
+  expect_refused(s, "a slot 8 mm wide has room for 4 mm");
+}
+
+TEST(RefusedParts, AFlatEndWithTwoUnequalCornersIsRefused) {
+  Sheet s;
+  s.d.slot("S", s.d.placement({30, 15, 0}), 5, s.d.linear_path(30, {0, 1, 0}), s.d.square_u(16), "flat 7/2",
+           "radiused");
+  expect_refused(s, "its flat end at (30, 15, 0) states corners of radius 7 and 2 mm");
+}
+
+TEST(RefusedParts, AWoodruffEndInThePieceIsRefusedAndOneOutsideItIsNot) {
+  Sheet inside;
+  inside.d.slot("S", inside.d.placement({30, 15, 0}), 5, inside.d.linear_path(30, {0, 1, 0}),
+                inside.d.square_u(8), "woodruff 10", "radiused");
+  expect_refused(inside, "its woodruff end at (30, 15, 0) rises to the top along a circle of radius 10 mm");
+  // The circle meets the top sqrt(10^2 - 5^2) = 8.66 mm from the course's end.
+  Sheet outside;
+  outside.d.slot("S", outside.d.placement({30, -9, 0}), 5, outside.d.linear_path(78, {0, 1, 0}),
+                 outside.d.square_u(8), "woodruff 10", "woodruff 10");
+  EXPECT_EQ(outside.planned().unplanned, 0U) << told(outside.planned());
+}
+
+/// A pocket of 20 x 20 mm with an arm to the right: 10 mm long, `mouth` wide where it leaves, `tip` at its
+/// end.
+void pocket_with_arm(Sheet& s, double mouth, double tip, double corner) {
+  const double m = 0.5 * mouth, t = 0.5 * tip;
+  const auto outline = s.d.polyline({{-15, -10, 0},
+                                     {5, -10, 0},
+                                     {5, -m, 0},
+                                     {15, -t, 0},
+                                     {15, t, 0},
+                                     {5, m, 0},
+                                     {5, 10, 0},
+                                     {-15, 10, 0},
+                                     {-15, -10, 0}});
+  s.d.closed_pocket("P", s.d.placement({30, 30, 0}), 5, s.d.closed(outline), corner);
+}
+
+TEST(RefusedParts, APassageNarrowerThanTwiceTheStatedCornerRadiusIsNotLeftSolid) {
+  Sheet straight, tapering;
+  pocket_with_arm(straight, 3.2, 3.2, 4);
+  expect_refused(straight, "its corner radius of 4 mm does not fit the passage of 3.2 mm");
+  pocket_with_arm(tapering, 12, 3, 4);
+  expect_refused(tapering, "its corner radius of 4 mm does not fit the passage of");
+}
+
+TEST(RefusedParts, APassageAsWideAsTwiceTheStatedCornerRadiusIsCut) {
+  for (const double wide : {8.0, 10.0}) {
+    Sheet s;
+    pocket_with_arm(s, wide, wide, 4);
+    const PlanOutput o = s.planned();
+    EXPECT_EQ(o.unplanned, 0U) << told(o);
+  }
+}
+
 TEST(RefusedParts, ASlotThatOpensIntoAPocketIsCut) {
   Sheet s;
   s.d.closed_pocket("P", s.d.placement({30, 45, 0}), 6, s.d.rectangle(30, 20), 4);

@@ -96,9 +96,11 @@ Result<Shapes> pocket(const Model& m, AnyRef self, const Pocket& f) {
     auto area = closed_area(m, c->feature_boundary, *s);
     if (!area) return tl::unexpected(area.error());
     s->area = *std::move(area);
-    // A stated corner radius rounds the concave corners of any boundary: opening by it.
+    // A stated corner radius rounds the inside corners of any boundary.
     if (s->corner_radius_mm > 0.0 && !m.holds<RectangularClosedProfile>(c->feature_boundary)) {
-      s->area = geometry::offset(geometry::offset(s->area, -s->corner_radius_mm), s->corner_radius_mm);
+      auto rounded = rounded_corners(m, self, s->area, s->corner_radius_mm);
+      if (!rounded) return tl::unexpected(rounded.error());
+      s->area = *std::move(rounded);
     }
     if (auto ok = add_islands(m, f.its_boss, *s); !ok) return tl::unexpected(ok.error());
     s->reach = without_islands(*s, s->area);

@@ -85,6 +85,17 @@ std::optional<geometry::Vec2> crosses_itself(const geometry::Loop& loop);
 /// The frame of a profile within its feature; a profile placed exactly where its feature is repeats it.
 Result<geometry::Placement> profile_frame(const Model& m, const Profile& profile, FeatureShape& into);
 
+/// A drawn area with its inside corners rounded by a stated radius. Fails where that would fill more than
+/// corners: a passage that is narrower than twice the radius.
+Result<geometry::Region> rounded_corners(const Model& m, AnyRef feature, const geometry::Region& drawn,
+                                         double radius_mm);
+/// The radii that a flat end of a slot states for its two corners, mm; 0: sharp, or not stated.
+struct FlatCorners {
+  double first = 0.0, second = 0.0;
+  [[nodiscard]] bool same() const { return first - second < 1e-6 && second - first < 1e-6; }
+};
+Result<FlatCorners> corners_of(const Model& m, const FlatSlotEndType& end, AnyRef feature);
+
 Result<Shapes> face(const Model& m, AnyRef self, const PlanarFace& f);
 Result<Shapes> pocket(const Model& m, AnyRef self, const Pocket& f);
 Result<Shapes> slot(const Model& m, AnyRef self, const Slot& f);

@@ -7,6 +7,7 @@
 #include "planner/base/number.h"
 #include "planner/model/nouns/feature.h"
 #include "planner/model/resolve.h"
+#include "planner/model/shape/build.h"
 
 // Features against the piece that they are cut from.
 //
@@ -216,6 +217,38 @@ std::string to_text(const Buried& b) {
          "it";
 }
 
+namespace {
+
+/// A woodruff end rises to the top along the circle of a disc-shaped cutter, within what its radius and the
+/// depth give on either side of the course's end; it is of no matter where that is air.
+std::string woodruff_end(const Model& m, const FeatureShape& s, const WoodruffSlotEndType& end, Vec2 at,
+                         Vec2 out, const PieceForm& part) {
+  const auto radius = length(m, end.radius);
+  const double r = radius ? radius->nominal_mm : 0.0;
+  const double d = s.depth_mm;
+  const double rise = r > d ? std::sqrt(d * (2.0 * r - d)) : r;
+  const double far = std::max(rise, 0.5 * s.width.nominal_mm);
+  bool solid = part.box.empty();
+  for (int i = 0; i <= kAcross && !solid; ++i) {
+    const double along = far * (2.0 * i / kAcross - 1.0);
+    for (const double side : {-0.5, 0.0, 0.5}) {
+      const double across = side * s.width.nominal_mm;
+      const Vec3 p = s.frame.to_parent(
+          {at.x + along * out.x - across * out.y, at.y + along * out.y + across * out.x, -kLidMm});
+      solid = solid || in_piece(p, part);
+    }
+  }
+  if (!solid) return {};
+  const Vec3 p = s.frame.to_parent({at.x, at.y, 0.0});
+  const std::string size = radius ? "of radius " + trimmed(r, 3) + " mm" : "whose radius is not stated";
+  return "its woodruff end at (" + trimmed(p.x, 2) + ", " + trimmed(p.y, 2) + ", " + trimmed(p.z, 2) +
+         ") rises to the top along a circle " + size +
+         ": a woodruff cutter or side mill of that radius makes it, its axis across the slot, which is not "
+         "planned; give the path, or end the slot with a radius";
+}
+
+}  // namespace
+
 std::string square_corner(const Model& m, const FeatureShape& s, const std::vector<FeatureShape>& features,
                           const PieceForm& part) {
   constexpr const char* kWhatToDo =
@@ -226,25 +259,44 @@ std::string square_corner(const Model& m, const FeatureShape& s, const std::vect
     return std::string("it states inside corners of radius 0, and a mill leaves them round") + kWhatToDo;
   }
   if (s.kind != ShapeKind::kSlot || s.spine.size() < 2) return {};
-  if (part.box.empty() || norm(s.spine.front() - s.spine.back()) < 1e-6) return {};
+  if (norm(s.spine.front() - s.spine.back()) < 1e-6) return {};
   const double half = 0.5 * s.width.nominal_mm - kAsideMm;
+  const auto* slot = m.get<Slot>(noun);
+  const auto solid = [&](Vec2 q) {
+    const Vec3 p = s.frame.to_parent({q.x, q.y, -0.5 * s.depth_mm});
+    return in_piece(p, part) &&
+           std::none_of(features.begin(), features.end(), [&](const FeatureShape& o) { return takes(o, p); });
+  };
   for (const bool first : {true, false}) {
     const std::size_t n = s.spine.size();
     const Vec2 end = first ? s.spine.front() : s.spine.back();
     const Vec2 before = first ? s.spine[1] : s.spine[n - 2];
     const Vec2 out = (1.0 / norm(end - before)) * (end - before);
+    const std::size_t number = first ? 0 : 1;
+    const bool stated = slot != nullptr && number < slot->end_conditions.size();
+    const auto* round = stated ? m.get<WoodruffSlotEndType>(slot->end_conditions[number]) : nullptr;
+    if (round != nullptr) {
+      auto why = woodruff_end(m, s, *round, end, out, part);
+      if (!why.empty()) return why;
+      continue;
+    }
+    if (part.box.empty()) continue;
     const Vec2 beyond = end + kAsideMm * out;
     if (geometry::contains(s.area, beyond)) continue;  // rounded
     const bool open = geometry::contains(s.reach, beyond);
-    if (!open && s.corner_radius_mm > kLidMm) continue;
+    const auto* flat = stated ? m.get<FlatSlotEndType>(slot->end_conditions[number]) : nullptr;
+    const auto corners = flat != nullptr ? shape::corners_of(m, *flat, noun) : shape::FlatCorners{};
+    if (corners && corners->same() && corners->first > kLidMm) continue;
     for (const double side : {-half, 0.0, half}) {
-      const Vec2 q{beyond.x - side * out.y, beyond.y + side * out.x};
-      const Vec3 p = s.frame.to_parent({q.x, q.y, -0.5 * s.depth_mm});
-      const bool solid =
-          in_piece(p, part) &&
-          std::none_of(features.begin(), features.end(), [&](const FeatureShape& o) { return takes(o, p); });
-      if (!solid) continue;
+      if (!solid({beyond.x - side * out.y, beyond.y + side * out.x})) continue;
       const Vec3 at = s.frame.to_parent({end.x, end.y, 0.0});
+      if (corners && !corners->same()) {
+        return "its flat end at (" + trimmed(at.x, 2) + ", " + trimmed(at.y, 2) + ", " + trimmed(at.z, 2) +
+               ") states corners of radius " + trimmed(corners->first, 3) + " and " +
+               trimmed(corners->second, 3) +
+               " mm, and nothing says which stands on which side: draw the slot as a pocket, or state one "
+               "radius";
+      }
       return std::string(open ? "its open end" : "its flat end") + " at (" + trimmed(at.x, 2) + ", " +
              trimmed(at.y, 2) + ", " + trimmed(at.z, 2) +
              ") is square, solid stands beyond it, and a mill leaves its corners round: end it with a "

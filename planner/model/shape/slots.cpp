@@ -267,21 +267,44 @@ Status lies_down(const Model& m, const Slot& f, const FeatureShape& s) {
           "turn it");
 }
 
-/// A flat end states the radii of its corners: the smaller one is what a mill in the slot may have. What it
-/// does not state is sharp.
-Result<double> corner_of(const Model& m, const FlatSlotEndType& end, AnyRef feature) {
-  double out = 1e300;
-  for (const auto& radius : {end.corner_radius1, end.corner_radius2}) {
-    if (!radius.set()) return 0.0;
-    const auto r = length(m, radius);
-    if (!r) return missing(m, feature, "corner radius of its flat end", r.error());
-    if (r->nominal_mm < 0.0) return unsupported(m, feature, "its flat end has a corner of negative radius");
-    out = std::min(out, r->nominal_mm);
+/// What stays in the two corners of a flat end: outside the mill of this radius that touches the end and a
+/// side of the slot.
+Result<geometry::Region> rounding(const Model& m, const FeatureShape& s, Vec2 at, Vec2 out, double radius) {
+  const double half = 0.5 * s.width.nominal_mm;
+  if (radius > half + 1e-6) {
+    return unsupported(m, s.feature,
+                       "its flat end states corners of radius " + trimmed(radius, 3) + " mm, and a slot " +
+                           trimmed(2.0 * half, 3) + " mm wide has room for " + trimmed(half, 3) +
+                           " mm: state that, or end it with a radius");
   }
-  return out;
+  // A mill as wide as the slot would leave nothing of it but a line.
+  const double r = std::min(radius, half - 5.0 * kAreaTolerance);
+  // A straight slot is looked at as if it went on: the other end has corners of its own.
+  const auto line = s.spine.size() == 2 ? std::vector<Vec2>{at - (3.0 * radius + half) * out, at} : s.spine;
+  const auto drawn = geometry::stroke(line, half, false, kAreaTolerance);
+  const auto left = geometry::subtract(drawn, geometry::offset(geometry::offset(drawn, -r), r));
+  geometry::Region corners;
+  for (const double side : {-half, half}) {
+    const Vec2 corner{at.x - side * out.y, at.y + side * out.x};
+    corners = geometry::unite(corners, geometry::disc(corner, 1.1 * radius, kAreaTolerance));
+  }
+  return geometry::intersect(left, corners);
 }
 
 }  // namespace
+
+Result<FlatCorners> corners_of(const Model& m, const FlatSlotEndType& end, AnyRef feature) {
+  double out[2] = {0.0, 0.0};
+  for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) {
+    const auto radius = i == 0 ? end.corner_radius1 : end.corner_radius2;
+    if (!radius.set()) continue;
+    const auto r = length(m, radius);
+    if (!r) return missing(m, feature, "corner radius of its flat end", r.error());
+    if (r->nominal_mm < 0.0) return unsupported(m, feature, "its flat end has a corner of negative radius");
+    out[i] = r->nominal_mm;
+  }
+  return FlatCorners{out[0], out[1]};
+}
 
 Result<Shapes> slot(const Model& m, AnyRef self, const Slot& f) {
   auto s = base(m, self, true);
@@ -303,7 +326,9 @@ Result<Shapes> slot(const Model& m, AnyRef self, const Slot& f) {
   s->area = geometry::stroke(*line, half, false, kAreaTolerance);
   s->reach = s->area;
   if (geometry::norm(line->front() - line->back()) < 1e-6) return Shapes{*s};  // a closed course has no ends
-  std::optional<double> corner;
+  double corner = 0.0;    // the smallest that is stated: it limits the mill
+  double rounded = 0.0;   // along the course
+  geometry::Region left;  // in the corners of flat ends
   const auto end = [&](std::size_t i) -> const void* { return i < f.end_conditions.size() ? &f : nullptr; };
   for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) {
     const std::size_t n = line->size();
@@ -324,12 +349,30 @@ Result<Shapes> slot(const Model& m, AnyRef self, const Slot& f) {
       s->reach = geometry::unite(s->reach, geometry::disc(at, half, kAreaTolerance));
       if (end(i) == nullptr) s->assumptions.push_back("an end condition is missing; taken as radiused");
     } else if (const auto* flat = m.get<FlatSlotEndType>(f.end_conditions[i])) {
-      const auto r = corner_of(m, *flat, self);
+      const auto r = corners_of(m, *flat, self);
       if (!r) return tl::unexpected(r.error());
-      corner = corner ? std::min(*corner, *r) : *r;
+      // Two unequal ones: which stands on which side nothing says; `square_corner` refuses them where they
+      // matter.
+      if (!(r->same() && r->first > 0.0)) continue;
+      const auto stays = rounding(m, *s, at, out, r->first);
+      if (!stays) return tl::unexpected(stays.error());
+      left = geometry::unite(left, *stays);
+      rounded += r->first;
+      corner = corner > 0.0 ? std::min(corner, r->first) : r->first;
     }
   }
-  s->corner_radius_mm = corner.value_or(0.0);
+  double travel = 0.0;
+  for (std::size_t i = 1; i < line->size(); ++i) travel += norm((*line)[i] - (*line)[i - 1]);
+  if (rounded > travel + 1e-6) {
+    return unsupported(m, self,
+                       "the corners of its flat ends take " + trimmed(rounded, 3) +
+                           " mm of its course, which is " + trimmed(travel, 3) + " mm long");
+  }
+  if (!left.empty()) {
+    s->area = geometry::subtract(s->area, left);
+    s->reach = geometry::subtract(s->reach, left);
+  }
+  s->corner_radius_mm = corner;
   return Shapes{*s};
 }
 

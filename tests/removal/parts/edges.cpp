@@ -67,6 +67,18 @@ Part flat_ended_slot() {
   return {"flat_ended_slot", d.text(), b, t};
 }
 
+// 60 x 40 mm: a slot of 16 mm, 40 mm long, 5 mm deep, with flat ends: corners of R7 at its first, of R4 at
+// its last.
+Part unequal_flat_ends() {
+  const Box b = block(60, 40, 14);
+  Drawing d("UNEQUAL FLAT ENDS", b);
+  d.slot("SLOT", d.placement({10, 20, 0}), 5, d.linear_path(40, {1, 0, 0}), d.square_u(16), "flat 7",
+         "flat 4");
+  Target t(body(b));
+  t.cut(prism(both(rounded_rectangle(10, 12, 80, 28, 7), rounded_rectangle(-20, 12, 50, 28, 4)), -5, kOver));
+  return {"unequal_flat_ends", d.text(), b, t};
+}
+
 // 50 x 40 mm: eight holes of 4 mm, 60 degrees apart on a circle of 24 mm: the last two stand where the first
 // two do.
 Part pattern_that_meets_itself() {
