@@ -68,6 +68,9 @@ Limit widest_cutter(const Making& m, double of_passage, double allowance, bool c
   if (s.kind == ShapeKind::kStep && m.context.between_ends_mm > 0.0)
     narrow(kOfEnds * m.context.between_ends_mm,
            "walls " + mm(m.context.between_ends_mm) + " apart at the step's ends limit the cutter");
+  if (m.context.sharp_corner_mm > 0.0 && (s.kind == ShapeKind::kStep || s.kind == ShapeKind::kOutside))
+    narrow(2.0 * m.context.sharp_corner_mm, "inner corners are drawn sharp: a radius of " +
+                                                mm(m.context.sharp_corner_mm) + " may stay at most");
   const Limit corner = corner_cutter(m, allowance);
   if (!corners) {
     out.text += (out.text.empty() ? "" : "; ") + std::string("corners are left to a smaller cutter");
