@@ -183,8 +183,8 @@ std::vector<SharpCorner> sharp_corners(const FeatureShape& s, const std::vector<
   if (s.area.empty() || part.box.empty() || s.slope_rad > 0.0 || tilted(s)) return out;
   geometry::Region area = s.area;
   for (const Island& i : s.islands) area = geometry::subtract(area, i.area);
-  const auto solid = [&](Vec2 q) {
-    const Vec3 p = s.frame.to_parent({q.x, q.y, -0.5 * s.depth_mm});
+  const auto solid = [&](Vec2 q, double of_depth) {
+    const Vec3 p = s.frame.to_parent({q.x, q.y, -of_depth * s.depth_mm});
     return in_piece(p, part) &&
            std::none_of(features.begin(), features.end(), [&](const FeatureShape& o) { return takes(o, p); });
   };
@@ -201,7 +201,8 @@ std::vector<SharpCorner> sharp_corners(const FeatureShape& s, const std::vector<
       const Vec2 beside = b - back * in + kAsideMm * Vec2{in.y, -in.x};
       const Vec2 after = b + ahead * on + kAsideMm * Vec2{on.y, -on.x};
       const Vec2 beyond = b + (kAsideMm / norm(in - on)) * (in - on);
-      if (!solid(beside) || !solid(after) || !solid(beyond)) continue;
+      const auto at = [&](double h) { return solid(beside, h) && solid(after, h) && solid(beyond, h); };
+      if (!at(0.05) && !at(0.5) && !at(0.95)) continue;
       const bool open = s.kind == ShapeKind::kPocket &&
                         (geometry::contains(s.reach, beside) || geometry::contains(s.reach, after));
       out.push_back({s.frame.to_parent({b.x, b.y, 0.0}), open});
