@@ -47,9 +47,24 @@ struct Buried {
                                            const PieceForm& part);
 [[nodiscard]] std::string to_text(const Buried& b);
 
+/// An inside corner of a feature's walls, drawn by a turn of 20 degrees or more, with solid all round it.
+struct SharpCorner {
+  geometry::Vec3 at;  ///< at the feature's top, workpiece coordinates
+  bool open = false;  ///< at the open side of a pocket, beyond which solid stands
+};
+/// `features` and `part` as above; upright walls only.
+[[nodiscard]] std::vector<SharpCorner> sharp_corners(const FeatureShape& s,
+                                                     const std::vector<FeatureShape>& features,
+                                                     const PieceForm& part);
+
+/// The largest radius that may stay in the inside corners of a step or an outside, which can state none, mm:
+/// 3 mm, and where that is deeper than a mill reaches in one hand, a sixth of the depth, which is a mill
+/// three diameters deep. Default, unsourced.
+[[nodiscard]] double unstated_corner_mm(const FeatureShape& s);
+
 /// An inside corner that no mill makes, in words; empty when there is none: a slot whose end is square, as an
-/// open one is drawn, where solid stands beyond it and no corner radius is stated (`features` as above), or a
-/// pocket that states a corner radius of 0.
+/// open one is drawn, where solid stands beyond it and no corner radius is stated (`features` as above), a
+/// pocket whose open side lies within solid, or one that states a corner radius of 0.
 [[nodiscard]] std::string square_corner(const Model& m, const FeatureShape& s,
                                         const std::vector<FeatureShape>& features, const PieceForm& part);
 

@@ -148,6 +148,7 @@ Result<std::optional<model::Plan>> bind_once(model::Plan plan, const Inputs& inp
   if (policy.bind == Bind::kAll || policy.bind == Bind::kTools) collect_cutters(w);
   if (policy.bind == Bind::kAll || policy.bind == Bind::kTools) tell_loading(w);
   if (policy.bind == Bind::kAll) state_machine_needs(w);
+  if (policy.bind == Bind::kAll) tell_corners(w);
   if (policy.bind != Bind::kAll && policy.bind != Bind::kNone) leave_open(w);
   if (auto ok = collect_setups(w); !ok) return tl::unexpected(ok.error());
   name_what_rests(w);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "planner/base/number.h"
 #include "planner/pipeline/work.h"
 
 // Features that the raw piece does not let be made as they are drawn.
@@ -11,6 +12,9 @@ namespace {
 
 using model::FeatureShape;
 using model::ShapeKind;
+
+constexpr double kNoRadius = 1e300;
+constexpr std::ptrdiff_t kMostNamed = 4;  // corners that a message names
 
 model::PieceForm raw_piece(const Work& w) { return {w.plan.stock.box, w.plan.stock.cylinder_radius_mm}; }
 
@@ -35,6 +39,54 @@ std::string not_in_piece(const Work& w, const FeatureShape& s) {
     if (const auto lid = model::buried(s, all, part)) return "solid stands above it: " + model::to_text(*lid);
   }
   return model::square_corner(w.plan.model, s, all, part);
+}
+
+double sharp_corner_of(const Work& w, const FeatureShape& s) {
+  if (w.plan.target_mesh || (s.kind != ShapeKind::kStep && s.kind != ShapeKind::kOutside)) return 0.0;
+  const model::PieceForm part{part_box(w), w.plan.stock.cylinder_radius_mm};
+  return model::sharp_corners(s, whole_features(w), part).empty() ? 0.0 : model::unstated_corner_mm(s);
+}
+
+void tell_corners(Work& w) {
+  if (w.plan.target_mesh) return;
+  const model::PieceForm part{part_box(w), w.plan.stock.cylinder_radius_mm};
+  const std::vector<FeatureShape> all = whole_features(w);
+  for (const FeatureShape& s : all) {
+    const bool open = s.kind == ShapeKind::kPocket && s.open && !(s.corner_radius_mm > 0.0);
+    if (!open && s.kind != ShapeKind::kStep && s.kind != ShapeKind::kOutside) continue;
+    double radius = kNoRadius;
+    for (const model::StepResult& made : w.plan.steps) {
+      const auto* ws = w.plan.model.get<model::MachiningWorkingstep>(made.step);
+      const model::Cutter* c = nullptr;
+      for (const StepWork& step : w.steps) {
+        const bool of_it = !step.shapes.empty() && step.shapes.front().feature == s.feature &&
+                           step.shapes.front().member == s.member;
+        if (step.step == made.step && of_it) c = &step.cutter;
+      }
+      if (ws == nullptr || c == nullptr) continue;
+      if (!w.plan.model.holds<model::MillingTypeOperation>(ws->its_operation)) continue;
+      radius = std::min(radius, 0.5 * c->cutting_diameter_mm);
+    }
+    if (radius >= kNoRadius) continue;
+    const auto corners = model::sharp_corners(s, all, part);
+    if (corners.empty()) continue;
+    std::string where;
+    for (const model::SharpCorner& c : corners) {
+      if (&c - corners.data() == kMostNamed) {
+        where += ", and " + std::to_string(corners.size() - kMostNamed) + " more";
+        break;
+      }
+      where += (where.empty() ? "" : ", ") + std::string("(") + trimmed(c.at.x, 2) + ", " +
+               trimmed(c.at.y, 2) + ", " + trimmed(c.at.z, 2) + ")";
+    }
+    w.job.warn("PIP-CORNER",
+               "feature '" + s.name +
+                   "': " + (corners.size() == 1 ? "its inner corner at " : "its inner corners at ") + where +
+                   (corners.size() == 1 ? " is" : " are") + " drawn sharp, and a radius of " +
+                   trimmed(radius, 3) +
+                   " mm, that of the narrowest mill, stays; it needs broaching or erosion if it "
+                   "must be sharp");
+  }
 }
 
 model::Proposal without_drills_at_edges(const Work& w, const FeatureShape& hole, const model::Proposal& p) {

@@ -261,6 +261,7 @@ rules::Context context_of(const Work& w, AnyRef feature, const std::vector<Featu
   c.wall_thickness_mm = wall;
   c.floor_thickness_mm = floor;
   c.between_ends_mm = between_ends(w, shapes.front());
+  c.sharp_corner_mm = sharp_corner_of(w, shapes.front());
   for (const FeatureShape& s : shapes) {
     if (const auto clear = clear_beside(w, s)) least(c.clear_radius_mm, *clear);
   }

@@ -152,6 +152,11 @@ struct Thickness {
 /// Why a feature cannot be cut from this raw piece: solid stands above its top, or its drill's point comes
 /// out on the other side. Empty when it can.
 [[nodiscard]] std::string not_in_piece(const Work& w, const model::FeatureShape& shape);
+/// The radius that may stay in the inner corners of a step or an outside that are drawn sharp; 0: it has
+/// none.
+[[nodiscard]] double sharp_corner_of(const Work& w, const model::FeatureShape& shape);
+/// Says which radius stays where corners are drawn sharp and no radius is stated.
+void tell_corners(Work& w);
 /// A hole at an edge of the raw piece is milled, or not made: its chains that drill are rejected.
 [[nodiscard]] model::Proposal without_drills_at_edges(const Work& w, const model::FeatureShape& hole,
                                                       const model::Proposal& p);

@@ -48,8 +48,13 @@ Limit corner_cutter(const Making& m, double allowance) {
 /// Default, unsourced.
 constexpr double kOfEnds = 0.5;
 
+/// A roughing cutter by the one that finishes sharp inner corners after it: in a right angle stand 0.41 of
+/// the finishing cutter's radius, and its round along the walls takes that. Default, unsourced.
+constexpr double kBeforeSharp = 2.0;
+
 // The widest cutter for the walls that stay `allowance` away, and what decides it.
-Limit widest_cutter(const Making& m, double of_passage, double allowance, bool corners = true) {
+Limit widest_cutter(const Making& m, double of_passage, double allowance, bool corners = true,
+                    double of_sharp = 1.0) {
   const auto& s = m.shape;
   double limit = std::numeric_limits<double>::infinity();
   Limit out;
@@ -68,6 +73,10 @@ Limit widest_cutter(const Making& m, double of_passage, double allowance, bool c
   if (s.kind == ShapeKind::kStep && m.context.between_ends_mm > 0.0)
     narrow(kOfEnds * m.context.between_ends_mm,
            "walls " + mm(m.context.between_ends_mm) + " apart at the step's ends limit the cutter");
+  if (m.context.sharp_corner_mm > 0.0 && (s.kind == ShapeKind::kStep || s.kind == ShapeKind::kOutside))
+    narrow(2.0 * of_sharp * m.context.sharp_corner_mm,
+           "inner corners are drawn sharp: a radius of " + mm(of_sharp * m.context.sharp_corner_mm) +
+               (of_sharp > 1.0 ? " may stay until the finish" : " may stay at most"));
   const Limit corner = corner_cutter(m, allowance);
   if (!corners) {
     out.text += (out.text.empty() ? "" : "; ") + std::string("corners are left to a smaller cutter");
@@ -108,7 +117,9 @@ Made rough(const Making& m) {
   s.allowance_side_mm = std::max(m.number("allowance_side_mm"), for_fillet(m));
   s.allowance_bottom_mm = m.shape.through ? 0.0 : std::max(m.number("allowance_bottom_mm"), for_fillet(m));
   s.tool.classes = {CutterClass::kEndmill, CutterClass::kBullnoseEndmill};
-  Limit limit = widest_cutter(m, m.number("of_passage"), s.allowance_side_mm);
+  const bool finish_follows = m.number("allowance_side_mm") > 0.0;
+  Limit limit = widest_cutter(m, m.number("of_passage"), s.allowance_side_mm, true,
+                              finish_follows ? kBeforeSharp : 1.0);
   if (m.number("corners") == 0.0) {
     const auto wide = before_rest(m, m.number("of_passage"), s.allowance_side_mm, s.tool);
     if (!wide) return no(wide.error());

@@ -48,6 +48,45 @@ TEST(RefusedParts, AHoleWhoseCircleCutsTheEdgeIsNotDrilled) {
   expect_refused(s, "its circle of 8 mm runs 2 mm out over the edge of the raw piece");
 }
 
+TEST(RefusedParts, AnOpenPocketWhoseOpenSideLiesWithinThePieceIsNotCut) {
+  Sheet s;
+  const auto walls = s.d.polyline({{0, -10, 0}, {20, -10, 0}, {20, 10, 0}, {0, 10, 0}});
+  s.d.open_pocket("A", s.d.placement({20, 30, 0}), 8, s.d.open(walls), 4);
+  expect_refused(s, "its open side ends at (20, 20, 0) within the piece");
+}
+
+TEST(SharpCorners, AnOutsidesInnerCornerKeepsThreeMillimetresAndThePlanSaysSo) {
+  Sheet s;
+  const auto l =
+      s.d.polyline({{0, 0, 0}, {50, 0, 0}, {50, 20, 0}, {20, 20, 0}, {20, 50, 0}, {0, 50, 0}, {0, 0, 0}});
+  s.d.outside("O", s.d.placement({5, 5, 0}), 10, s.d.closed(l));
+  const PlanOutput o = s.planned();
+  EXPECT_EQ(o.unplanned, 0U) << told(o);
+  // 3 mm, for a sixth of 10 mm is less; nowhere else does solid stand all round a corner.
+  EXPECT_NE(told(o).find("its inner corner at (25, 25, 0) is drawn sharp, and a radius of 3 mm"),
+            std::string::npos)
+      << told(o);
+  for (const auto& f : o.findings) EXPECT_NE(f.severity, "error") << f.text;
+}
+
+TEST(SharpCorners, AStepsEndsWithinTheBlockKeepThreeMillimetresAndThePlanSaysSo) {
+  Sheet s;
+  s.d.step("A", s.d.placement({30, 10, 0}), 3, 40, {0, 1, 0});
+  const PlanOutput o = s.planned();
+  EXPECT_EQ(o.unplanned, 0U) << told(o);
+  EXPECT_NE(
+      told(o).find("its inner corners at (30, 10, 0), (30, 50, 0) are drawn sharp, and a radius of 3 mm"),
+      std::string::npos)
+      << told(o);
+  for (const auto& f : o.findings) EXPECT_NE(f.severity, "error") << f.text;
+}
+
+TEST(SharpCorners, AStepAcrossTheWholeBlockHasNone) {
+  Sheet s;
+  s.d.step("A", s.d.placement({30, 0, 0}), 3, 60, {0, 1, 0});
+  EXPECT_EQ(told(s.planned()).find("PIP-CORNER"), std::string::npos);
+}
+
 TEST(RefusedParts, AHoleThatTouchesTheEdgeFromWithinIsDrilled) {
   Sheet s;
   s.d.hole("H", s.d.placement({56, 30, 0}), 8, 8, s.d.conical_bottom(118));

@@ -227,6 +227,71 @@ TEST(Left, SquareEndsOfASlotInTheBlockThatAMillLeavesRoundAreFound) {
   }
 }
 
+/// Lines along x, close enough that nothing stays between them, then along the walls of 40 mm at x = 70; open
+/// to the right.
+model::CutterPath between_walls(double radius, double z) {
+  model::CutterPath p;
+  p.start({120, 30 + radius, 10});
+  p.rapid({120, 30 + radius, z});
+  for (double y = 30 + radius; y < 70 - radius; y += radius) {
+    p.line({120, y, z}, MoveRole::kCut);
+    p.line({70 + radius, y, z}, MoveRole::kCut);
+    p.line({120, y, z}, MoveRole::kCut);
+  }
+  p.line({120, 30 + radius, z}, MoveRole::kCut);
+  p.line({70 + radius, 30 + radius, z}, MoveRole::kCut);
+  p.line({70 + radius, 70 - radius, z}, MoveRole::kCut);
+  p.line({120, 70 - radius, z}, MoveRole::kCut);
+  p.rapid({120, 70 - radius, 10}, MoveRole::kRetract);
+  return p;
+}
+
+TEST(Left, WhatAWideMillLeavesInAStepsSharpCornersIsFound) {
+  // 3 mm may stay, for a sixth of 5 mm is less; a mill of 20 leaves 10 (sqrt 2 - 1) = 4.1 mm across.
+  for (const double wide : {6.0, 20.0}) {
+    PlanMaker k = testing::empty_plan();
+    k.plan.cutters[0].cutting_diameter_mm = k.plan.cutters[0].shank_diameter_mm = wide;
+    model::Direction along;
+    along.direction_ratios = {{0.0, 1.0, 0.0}, true};
+    model::LinearPath course;
+    course.distance = k.length(40);
+    course.its_direction = k.plan.model.add(along);
+    model::Step step;
+    step.its_id = "S";
+    step.feature_placement = k.at(70, 30, 0);
+    step.depth = k.depth(5);
+    step.open_boundary = k.plan.model.add(course);
+    k.step<model::BottomAndSideFinishMilling>("step", k.plan.model.add(step), "em10",
+                                              between_walls(0.5 * wide, -5), 600, 3000);
+    const auto findings = check(k.plan);
+    EXPECT_EQ(found(findings, "CHK-LEFT", "step") != nullptr, wide > 6.0) << told(findings);
+  }
+}
+
+TEST(Left, WhatAMillLeavesAtAnOpenSideWithinTheBlockIsFound) {
+  // Radius 6 is stated for the walls: it may stay at x = 70, not where the pocket opens at x = 90.
+  for (const double opens : {100.0, 90.0}) {
+    PlanMaker k = testing::empty_plan();
+    model::Polyline walls;
+    for (const auto& [x, y] : {std::pair{opens, 70.0}, {70.0, 70.0}, {70.0, 30.0}, {opens, 30.0}})
+      walls.points.push_back(k.point(x - 70, y - 50, 0));
+    model::GeneralProfile profile;
+    profile.its_profile = k.plan.model.add(walls);
+    model::OpenPocket pocket;
+    pocket.its_id = "P";
+    pocket.feature_placement = k.at(70, 50, 0);
+    pocket.depth = k.depth(5);
+    pocket.bottom_condition = k.plan.model.add(model::PlanarPocketBottomCondition{});
+    pocket.orthogonal_radius = k.length(6);
+    pocket.open_boundary = k.plan.model.add(profile);
+    model::CutterPath p = between_walls(5, -5);
+    for (double& x : p.x) x = x == 120 ? (opens < 100 ? opens - 5 : x) : x;
+    k.step<model::BottomAndSideFinishMilling>("pocket", k.plan.model.add(pocket), "em10", p, 600, 3000);
+    const auto findings = check(k.plan);
+    EXPECT_EQ(found(findings, "CHK-LEFT", "pocket") != nullptr, opens < 100) << told(findings);
+  }
+}
+
 TEST(Left, AHoleRightThroughThatOpensIntoACrossBoreIsDoneThereIfThePlanMakesTheBore) {
   enum Bore { kPlanned, kUnplanned, kNone };
   for (const Bore bore : {kPlanned, kUnplanned, kNone}) {

@@ -28,7 +28,8 @@ constexpr double kUpright = 1.0 - 1e-9;
 constexpr int kAcross = 32;       // points along a side of the feature's box; default, unsourced
 constexpr int kUp = 6;            // heights; default, unsourced
 constexpr double kAsideMm = 0.2;  // neighbours; default, unsourced
-constexpr double kLidMm = 0.02;   // thinner lids are rounding of a file; default, unsourced
+constexpr double kSharpRad = 20.0 / 180.0 * std::numbers::pi;  // arcs are drawn by smaller turns
+constexpr double kLidMm = 0.02;  // thinner lids are rounding of a file; default, unsourced
 
 Box3 seen_from(const Box3& box, const geometry::Placement& frame) {
   Box3 out;
@@ -249,12 +250,60 @@ std::string woodruff_end(const Model& m, const FeatureShape& s, const WoodruffSl
 
 }  // namespace
 
+std::vector<SharpCorner> sharp_corners(const FeatureShape& s, const std::vector<FeatureShape>& features,
+                                       const PieceForm& part) {
+  std::vector<SharpCorner> out;
+  if (s.area.empty() || part.box.empty() || s.slope_rad > 0.0 || tilted(s)) return out;
+  geometry::Region area = s.area;
+  for (const Island& i : s.islands) area = geometry::subtract(area, i.area);
+  const auto solid = [&](Vec2 q, double of_depth) {
+    const Vec3 p = s.frame.to_parent({q.x, q.y, -of_depth * s.depth_mm});
+    return in_piece(p, part) &&
+           std::none_of(features.begin(), features.end(), [&](const FeatureShape& o) { return takes(o, p); });
+  };
+  for (const geometry::Loop& loop : area.loops) {
+    const std::size_t n = loop.size();
+    for (std::size_t i = 0; i < n; ++i) {
+      const Vec2 a = loop[(i + n - 1) % n], b = loop[i], c = loop[(i + 1) % n];
+      if (norm(b - a) < 1e-6 || norm(c - b) < 1e-6) continue;
+      const Vec2 in = (1.0 / norm(b - a)) * (b - a), on = (1.0 / norm(c - b)) * (c - b);
+      if (std::atan2(cross(in, on), dot(in, on)) < kSharpRad) continue;
+      // What is taken away lies on the left of the loop.
+      const double back = std::min(kAsideMm, 0.5 * norm(b - a)),
+                   ahead = std::min(kAsideMm, 0.5 * norm(c - b));
+      const Vec2 beside = b - back * in + kAsideMm * Vec2{in.y, -in.x};
+      const Vec2 after = b + ahead * on + kAsideMm * Vec2{on.y, -on.x};
+      const Vec2 beyond = b + (kAsideMm / norm(in - on)) * (in - on);
+      const auto at = [&](double h) { return solid(beside, h) && solid(after, h) && solid(beyond, h); };
+      if (!at(0.05) && !at(0.5) && !at(0.95)) continue;
+      const bool open = s.kind == ShapeKind::kPocket &&
+                        (geometry::contains(s.reach, beside) || geometry::contains(s.reach, after));
+      out.push_back({s.frame.to_parent({b.x, b.y, 0.0}), open});
+    }
+  }
+  return out;
+}
+
+double unstated_corner_mm(const FeatureShape& s) {
+  constexpr double kLeastMm = 3.0, kOfDepth = 1.0 / 6.0;
+  return std::max(kLeastMm, kOfDepth * s.depth_mm);
+}
+
 std::string square_corner(const Model& m, const FeatureShape& s, const std::vector<FeatureShape>& features,
                           const PieceForm& part) {
   constexpr const char* kWhatToDo =
       "; state the radius that may stay, or have the corners broached or eroded";
   const AnyRef noun = s.made_of.empty() ? s.feature : s.made_of.back();
   if (const auto* p = m.get<Pocket>(noun)) {
+    for (const SharpCorner& c : s.open ? sharp_corners(s, features, part) : std::vector<SharpCorner>()) {
+      if (!c.open) continue;
+      return "its open side ends at (" + trimmed(c.at.x, 2) + ", " + trimmed(c.at.y, 2) + ", " +
+             trimmed(c.at.z, 2) +
+             ") within the piece, solid stands beyond it, and a mill leaves its corners round: let it run "
+             "out "
+             "of the piece, or draw a closed pocket" +
+             kWhatToDo;
+    }
     if (!p->orthogonal_radius.set() || s.corner_radius_mm > kLidMm) return {};
     return std::string("it states inside corners of radius 0, and a mill leaves them round") + kWhatToDo;
   }

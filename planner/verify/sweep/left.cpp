@@ -11,12 +11,12 @@
 // feature's own floor: its nominal height, the depth's tolerance and what the finest step states as allowance
 // added. A cell counts where the floor is as high, or there is none, at no point of a ring around it: the
 // ring's radius is a cell, the tolerances and the side allowance, so that walls and slopes are judged within
-// a cell. What may stay in corners is what the file allows: a stated radius; where a pocket or step states
-// none, the radius of the narrowest mill of its steps, and at the foot of a wall that of the tool's corner,
-// both within bounds; nothing in the square ends of slots, nor where a radius of 0 is stated. Points of
-// drills count below a conical bottom's depth only. A through hole that ends within another feature that
-// the plan makes is done there. Crests of threads and what heights do not hold are not looked at, nor what is
-// narrower than two cells: a note says so.
+// a cell. What may stay in corners is what the file allows: a stated radius; where none is stated, the
+// radius of the narrowest mill of its steps, and at the foot of a wall that of the tool's corner, both within
+// bounds (steps and outsides: model::unstated_corner_mm); nothing in the square ends of slots, at the open
+// side of a pocket, nor where a radius of 0 is stated. Points of drills count below a conical bottom's depth
+// only. A through hole that ends within another feature that the plan makes is done there. Crests of threads
+// and what heights do not hold are not looked at, nor what is narrower than two cells: a note says so.
 //
 // On a freeform surface the distance is measured square to it: from the top of what stands to the nearest of
 // the columns that the finished part fills. It may be the tolerance, and what the finishing step states as
@@ -106,6 +106,8 @@ double corner_allowed(const model::Model& m, const FeatureShape& s, double mill)
   if (s.kind == ShapeKind::kSlot) return 0.0;
   const auto* p = m.get<model::Pocket>(s.made_of.empty() ? s.feature : s.made_of.back());
   if (p != nullptr && p->orthogonal_radius.set()) return 0.0;
+  if (s.kind == ShapeKind::kStep || s.kind == ShapeKind::kOutside)
+    return std::min(mill, model::unstated_corner_mm(s));
   return std::min(mill, kUnstatedShare * narrow_side(s.area));
 }
 
@@ -132,8 +134,9 @@ std::string not_judged(const FeatureShape& s, const Asked& a, double ring) {
   return out;
 }
 
-/// Where a mill of this radius leaves the sharp corners of an area, and nowhere else.
-Region in_sharp_corners(const Region& area, double radius, double more) {
+/// Where a mill of this radius leaves the sharp corners of an area, and nowhere else. Corners at the open
+/// side of a pocket keep nothing: the mill runs out there. `open`: the pocket's reach, else empty.
+Region in_sharp_corners(const Region& area, const Region& open, double radius, double more) {
   Region discs;
   for (const auto& loop : area.loops) {
     const std::size_t n = loop.size();
@@ -141,6 +144,11 @@ Region in_sharp_corners(const Region& area, double radius, double more) {
       const Vec2 a = loop[(i + n - 1) % n], b = loop[i], c = loop[(i + 1) % n];
       const double turn = std::atan2(cross(b - a, c - b), dot(b - a, c - b));
       if (turn < kSharpRad) continue;
+      const auto opens = [&](Vec2 from, Vec2 to) {
+        const Vec2 d = to - from, p = 0.5 * (from + to);
+        return norm(d) > 1e-6 && geometry::contains(open, p + (kBelowMm / norm(d)) * Vec2{d.y, -d.x});
+      };
+      if (!open.empty() && (opens(a, b) || opens(b, c))) continue;
       const double half = 0.5 * (std::numbers::pi - turn);
       const double reach = radius / std::max(std::tan(half), 1e-3) + more;
       discs = geometry::unite(discs, geometry::disc(b, reach, 0.01));
@@ -284,7 +292,8 @@ void Target::left_of(const Cavity& c, const Grid& grid, const Asked& a, const st
         Region own_area = s.area;
         for (const auto& island : s.islands) own_area = geometry::subtract(own_area, island.area);
         const bool milled = r > 0.0 && s.kind != ShapeKind::kHole && s.kind != ShapeKind::kThread;
-        corners = milled ? in_sharp_corners(own_area, r + a.side_mm, ring) : Region{};
+        const Region open = s.kind == ShapeKind::kPocket && s.open ? s.reach : Region{};
+        corners = milled ? in_sharp_corners(own_area, open, r + a.side_mm, ring) : Region{};
       }
       const geometry::Vec3 local = c.frame.to_local({p.x, p.y, 0.0});
       if (!corners->empty() && geometry::contains(*corners, {local.x, local.y})) continue;
