@@ -21,7 +21,9 @@ constexpr unsigned kSoakedAtOnce =
 // be measured. The floor leaves room for a draw with more of these, not for a kind of feature that is
 // refused.
 constexpr double kLeastShare = 0.85;
-constexpr std::size_t kEnough = 25;  // features, before a share of them says anything
+// Features, before a share of them says anything: the 30 seeds are always the same, a soak's are not. Of 28 a
+// share of 82 % is met once in 25 draws.
+constexpr std::size_t kEnough = 25, kEnoughSoaked = 100;
 
 Share& made_so_far() {
   static Share share;
@@ -66,7 +68,7 @@ TEST(RemovalPropertyOfSeeds, ProgramsMakeTheirPartsAndMostFeaturesArePlanned) {
   std::printf("with the ordinary machine and the whole library: %zu of %zu features planned, %.0f %%\n",
               s.planned, s.drawn, 100.0 * share);
   RecordProperty("planned_percent", static_cast<int>(100.0 * share));
-  if (s.drawn >= kEnough) {
+  if (s.drawn >= (soak ? kEnoughSoaked : kEnough)) {
     EXPECT_GE(share, kLeastShare);
   }
 }

@@ -170,8 +170,13 @@ std::optional<Buried> buried(const FeatureShape& s, const std::vector<FeatureSha
     return own && *own <= -kLidMm;
   };
   std::vector<Standing> standing;
+  // An outside that is a strip along a side has all that it leaves standing beside it: hence a margin around.
+  const double margin = 2.0 * std::max(cell.x, cell.y);
+  const Vec2 from{std::max(b.lo.x - margin, box.lo.x), std::max(b.lo.y - margin, box.lo.y)};
+  const Vec2 to{std::min(b.hi.x + margin, box.hi.x), std::min(b.hi.y + margin, box.hi.y)};
   for (int i = 0; s.kind == ShapeKind::kOutside && i < kAcross * kAcross; ++i) {
-    const Vec2 p = place(i % kAcross, i / kAcross);
+    const double u = (i % kAcross + 0.5) / kAcross, v = (i / kAcross + 0.5) / kAcross;
+    const Vec2 p{from.x + u * (to.x - from.x), from.y + v * (to.y - from.y)};
     if (!taken(p)) standing.push_back({p, face_over(s, features, p, box.hi.z)});
   }
   const auto lid = [&](double x, double y, double z) {
