@@ -101,6 +101,15 @@ TEST(FacePath, CutsWholeFacesOfAnyOutlineFromOutside) {
   }
 }
 
+TEST(FacePath, BringsTheFlatEndOfABullNoseToTheLastEdge) {
+  // Flat for 3 of its 10 mm; 80 mm are no whole number of passes.
+  PathJob t = face_job(geometry::rectangle({0, 0}, {60, 80}), 1.0, 10.0);
+  t.cutter.cutter_class = model::CutterClass::kBullnoseEndmill;
+  t.cutter.corner_radius_mm = 3.5;
+  t.radial_depth_mm = 6.5;
+  expect_sound(t, "face_bull");
+}
+
 TEST(FacePath, LeavesABossOnTheFaceStanding) {
   for (const auto s : {StrategyKind::kBidirectional, StrategyKind::kContourParallel}) {
     PathJob t = face_job(geometry::rectangle({0, 0}, {100, 80}), 4.0, 16.0);

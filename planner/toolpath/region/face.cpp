@@ -136,7 +136,8 @@ class Face {
         out.push_back({(a - over) * e_ + v * n_, (b + over) * e_ + v * n_});
         free_start(material, out.back());
       }
-      if (v + radius_ >= hi - 1e-6) break;
+      // The flat end reaches the edge: what a corner radius leaves there is no ridge between passes only.
+      if (v + 0.5 * flat_of(task_.cutter) >= hi - 1e-6) break;
     }
     return out;
   }
