@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "tests/removal/made.h"
 #include "tests/removal/parts.h"
 #include "tests/support/rs274.h"
 
@@ -9,50 +10,35 @@
 namespace capstan::testing::removal {
 namespace {
 
-void expect_made(const Part& part) {
-  const Outcome o = plan_and_simulate(part);
-  ASSERT_TRUE(o.written()) << part.name << ":\n" << o.text();
-  EXPECT_EQ(o.plan.unplanned, 0U);
-  EXPECT_TRUE(o.verdict.agrees()) << part.name << ":\n" << o.text();
-  for (const PlanMessage& f : o.plan.findings) EXPECT_NE(f.severity, "error") << f.text;
-  EXPECT_GT(o.verdict.steps, 0U);
-}
-
-#define CAPSTAN_MADE(Claim, part) \
-  TEST(RemovalOfParts, Claim) {   \
-    CAPSTAN_NEEDS_RS274();        \
-    expect_made(part);            \
-  }
-
-CAPSTAN_MADE(FacesAroundAndKeepsTheIslandOfAPocket, island_pocket())
-CAPSTAN_MADE(CutsAPocketThatOpensAtASide, open_pocket())
-CAPSTAN_MADE(CutsSquareRoundVeeAndClosedSlots, plain_slots())
-CAPSTAN_MADE(MakesEveryKindOfHoleBottom, single_holes())
-CAPSTAN_MADE(CutsAThreadInItsCore, threaded_hole())
-CAPSTAN_MADE(CopiesHolesAlongEveryPattern, hole_patterns())
-CAPSTAN_MADE(LeavesWhatAnOutsideContourEncloses, outside_contour())
-CAPSTAN_MADE(FollowsAnArcFrom270DegreesToZero, arcs_across_zero(false))
-CAPSTAN_MADE(FollowsAContourDrawnClockwise, arcs_across_zero(true))
-CAPSTAN_MADE(ChamfersTheEdgesOfAPocketAndAHole, chamfered_edges())
-CAPSTAN_MADE(CutsAPieceFromBothSides, turned_over())
-CAPSTAN_MADE(CutsAStepShorterThanTheBlock, short_step())
-CAPSTAN_MADE(PlacesTheHolesOfACompound, compound_holes())
-CAPSTAN_MADE(UndercutsTeeSlotsAndDovetails, undercut_slots())
-CAPSTAN_MADE(KeepsTheBossBesideAPocket, boss_beside_pocket())
-CAPSTAN_MADE(KeepsEachBossOfAPatternFromTheOthersSteps, bosses_in_a_pattern())
-CAPSTAN_MADE(KeepsABossWhereItsCompoundPutsIt, boss_in_a_compound())
-CAPSTAN_MADE(DrillsBesideWallsWithoutGougingThem, holes_near_walls())
-CAPSTAN_MADE(CutsTolerancedConesSeatsAndCoresListedInAnyOrder, tight_holes())
-CAPSTAN_MADE(SinksAConeWithATipThatGoesIntoItsCore, small_countersink())
-CAPSTAN_MADE(MillsAWideHoleThatRunsOverAnEdge, hole_over_an_edge())
-CAPSTAN_MADE(EntersAndCutsAPocketThatRunsOverAnEdge, pocket_over_an_edge())
-CAPSTAN_MADE(ClearsThePieceAroundALoneRoundBoss, lone_boss(true))
-CAPSTAN_MADE(ClearsThePieceAroundALoneSquareBoss, lone_boss(false))
-CAPSTAN_MADE(OpensAPocketBeforeTheOneInItsFloor, pocket_in_a_pocket())
-CAPSTAN_MADE(KeepsTheStatedCornersAtTheFlatEndsOfASlot, flat_ended_slot())
-CAPSTAN_MADE(RoundsEachFlatEndOfASlotByItsOwnRadius, unequal_flat_ends())
-CAPSTAN_MADE(EndsAHoleThatOpensIntoACrossBoreThere, hole_into_a_cross_bore())
-CAPSTAN_MADE(CutsEachPlaceOfAPatternThatMeetsItselfOnce, pattern_that_meets_itself())
+CAPSTAN_MADE(RemovalOfParts, FacesAroundAndKeepsTheIslandOfAPocket, island_pocket())
+CAPSTAN_MADE(RemovalOfParts, CutsAPocketThatOpensAtASide, open_pocket())
+CAPSTAN_MADE(RemovalOfParts, CutsSquareRoundVeeAndClosedSlots, plain_slots())
+CAPSTAN_MADE(RemovalOfParts, MakesEveryKindOfHoleBottom, single_holes())
+CAPSTAN_MADE(RemovalOfParts, CutsAThreadInItsCore, threaded_hole())
+CAPSTAN_MADE(RemovalOfParts, CopiesHolesAlongEveryPattern, hole_patterns())
+CAPSTAN_MADE(RemovalOfParts, LeavesWhatAnOutsideContourEncloses, outside_contour())
+CAPSTAN_MADE(RemovalOfParts, FollowsAnArcFrom270DegreesToZero, arcs_across_zero(false))
+CAPSTAN_MADE(RemovalOfParts, FollowsAContourDrawnClockwise, arcs_across_zero(true))
+CAPSTAN_MADE(RemovalOfParts, ChamfersTheEdgesOfAPocketAndAHole, chamfered_edges())
+CAPSTAN_MADE(RemovalOfParts, CutsAPieceFromBothSides, turned_over())
+CAPSTAN_MADE(RemovalOfParts, CutsAStepShorterThanTheBlock, short_step())
+CAPSTAN_MADE(RemovalOfParts, PlacesTheHolesOfACompound, compound_holes())
+CAPSTAN_MADE(RemovalOfParts, UndercutsTeeSlotsAndDovetails, undercut_slots())
+CAPSTAN_MADE(RemovalOfParts, KeepsTheBossBesideAPocket, boss_beside_pocket())
+CAPSTAN_MADE(RemovalOfParts, KeepsEachBossOfAPatternFromTheOthersSteps, bosses_in_a_pattern())
+CAPSTAN_MADE(RemovalOfParts, KeepsABossWhereItsCompoundPutsIt, boss_in_a_compound())
+CAPSTAN_MADE(RemovalOfParts, DrillsBesideWallsWithoutGougingThem, holes_near_walls())
+CAPSTAN_MADE(RemovalOfParts, CutsTolerancedConesSeatsAndCoresListedInAnyOrder, tight_holes())
+CAPSTAN_MADE(RemovalOfParts, SinksAConeWithATipThatGoesIntoItsCore, small_countersink())
+CAPSTAN_MADE(RemovalOfParts, MillsAWideHoleThatRunsOverAnEdge, hole_over_an_edge())
+CAPSTAN_MADE(RemovalOfParts, EntersAndCutsAPocketThatRunsOverAnEdge, pocket_over_an_edge())
+CAPSTAN_MADE(RemovalOfParts, ClearsThePieceAroundALoneRoundBoss, lone_boss(true))
+CAPSTAN_MADE(RemovalOfParts, ClearsThePieceAroundALoneSquareBoss, lone_boss(false))
+CAPSTAN_MADE(RemovalOfParts, OpensAPocketBeforeTheOneInItsFloor, pocket_in_a_pocket())
+CAPSTAN_MADE(RemovalOfParts, KeepsTheStatedCornersAtTheFlatEndsOfASlot, flat_ended_slot())
+CAPSTAN_MADE(RemovalOfParts, RoundsEachFlatEndOfASlotByItsOwnRadius, unequal_flat_ends())
+CAPSTAN_MADE(RemovalOfParts, EndsAHoleThatOpensIntoACrossBoreThere, hole_into_a_cross_bore())
+CAPSTAN_MADE(RemovalOfParts, CutsEachPlaceOfAPatternThatMeetsItselfOnce, pattern_that_meets_itself())
 
 // What is planned comes out as it must; what cannot be is named with its reason.
 void expect_left_out(const Part& part, std::size_t unplanned, const std::string& why) {

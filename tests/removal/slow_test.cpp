@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "tests/removal/made.h"
 #include "tests/removal/parts.h"
 #include "tests/support/rs274.h"
 
@@ -10,23 +11,10 @@
 namespace capstan::testing::removal {
 namespace {
 
-void expect_made(const Part& part) {
-  const Outcome o = plan_and_simulate(part);
-  ASSERT_TRUE(o.written()) << part.name << ":\n" << o.text();
-  EXPECT_EQ(o.plan.unplanned, 0U) << o.text();
-  EXPECT_TRUE(o.verdict.agrees()) << part.name << ":\n" << o.text();
-}
-
-#define CAPSTAN_MADE(Claim, part)   \
-  TEST(RemovalOfSlowParts, Claim) { \
-    CAPSTAN_NEEDS_RS274();          \
-    expect_made(part);              \
-  }
-
-CAPSTAN_MADE(MillsAndBoresABlindFlatHoleToItsTolerance, tight_flat_hole())
-CAPSTAN_MADE(MillsTwoFlatHolesThatOverlap, overlapping_flat_holes())
-CAPSTAN_MADE(CutsASlotAskewToTheTiles, tilted_slot())
-CAPSTAN_MADE(CutsAnOpenPocketBesideABoss, open_pocket_beside_boss())
+CAPSTAN_MADE(RemovalOfSlowParts, MillsAndBoresABlindFlatHoleToItsTolerance, tight_flat_hole())
+CAPSTAN_MADE(RemovalOfSlowParts, MillsTwoFlatHolesThatOverlap, overlapping_flat_holes())
+CAPSTAN_MADE(RemovalOfSlowParts, CutsASlotAskewToTheTiles, tilted_slot())
+CAPSTAN_MADE(RemovalOfSlowParts, CutsAnOpenPocketBesideABoss, open_pocket_beside_boss())
 
 TEST(RemovalOfSlowParts, AHoleWhoseAxisLiesOutsideIsMadeOrRefused) {
   CAPSTAN_NEEDS_RS274();

@@ -9,6 +9,7 @@
 #include <sstream>
 #include <string>
 
+#include "tests/app/command/command.h"
 #include "tests/support/corpus.h"
 #include "tests/support/rs274.h"
 
@@ -20,13 +21,6 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-std::string slurp(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
 
 class Planned : public ::testing::Test {
  protected:

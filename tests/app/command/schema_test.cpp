@@ -1,12 +1,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <cstdlib>
-#include <fstream>
 #include <string>
 
-#include "tests/support/corpus.h"
+#include "tests/app/command/command.h"
 
 // `capstan check --schema`, run as a user runs it.
 
@@ -16,29 +13,16 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-struct Ran {
-  int code = -1;
-  std::string out, err;
-};
-
-class SchemaTest : public ::testing::Test {
+class SchemaTest : public CommandTest {
  protected:
   [[nodiscard]] Ran check(const std::string& schema, const std::string& data,
                           const std::string& options = "") const {
-    std::ofstream(folder_.file("file.stpnc"), std::ios::binary)
-        << "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION((''),'2;1');\nFILE_NAME('','',(''),(''),'','','');"
-           "\nFILE_SCHEMA(('"
-        << schema << "'));\nENDSEC;\nDATA;\n"
-        << data << "ENDSEC;\nEND-ISO-10303-21;\n";
-    const std::string out = folder_.file("out"), err = folder_.file("err");
-    const std::string line = "cd '" + folder_.path() + "' && '" CAPSTAN_COMMAND "' check --schema " +
-                             options + " file.stpnc >'" + out + "' 2>'" + err + "'";
-    const int status = std::system(line.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, capstan::testing::slurp(out),
-            capstan::testing::slurp(err)};
+    put("file.stpnc",
+        "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION((''),'2;1');\nFILE_NAME('','',(''),(''),'','','');"
+        "\nFILE_SCHEMA(('" +
+            schema + "'));\nENDSEC;\nDATA;\n" + data + "ENDSEC;\nEND-ISO-10303-21;\n");
+    return run("check --schema " + options + " file.stpnc");
   }
-
-  capstan::testing::ScratchFolder folder_;
 };
 
 constexpr const char* kAp238 = "MODEL_BASED_INTEGRATED_MANUFACTURING_SCHEMA";
