@@ -18,40 +18,31 @@ constexpr std::ptrdiff_t kMostNamed = 4;  // corners that a message names
 
 model::PieceForm raw_piece(const Work& w) { return {w.plan.stock.box, w.plan.stock.cylinder_radius_mm}; }
 
-/// All features, each once: elements and bosses count with what holds them.
-std::vector<FeatureShape> whole_features(const Work& w) {
-  const std::set<AnyRef> parts = parts_of_others(w.plan.model);
-  std::vector<FeatureShape> out;
-  std::copy_if(w.shapes.begin(), w.shapes.end(), std::back_inserter(out),
-               [&](const FeatureShape& s) { return !parts.contains(s.feature); });
-  return out;
-}
+model::PieceForm part_form(const Work& w) { return {part_box(w), w.plan.stock.cylinder_radius_mm}; }
 
 }  // namespace
 
 std::string not_in_piece(const Work& w, const FeatureShape& s) {
   if (w.plan.target_mesh) return {};
-  const model::PieceForm part{part_box(w), w.plan.stock.cylinder_radius_mm};
+  const model::PieceForm part = part_form(w);
   if (const std::string through = model::point_runs_through(s, raw_piece(w), part); !through.empty())
     return through;
-  const std::vector<FeatureShape> all = whole_features(w);
   if (model::buried(s, {}, part)) {
-    if (const auto lid = model::buried(s, all, part)) return "solid stands above it: " + model::to_text(*lid);
+    if (const auto lid = model::buried(s, w.whole_shapes, part))
+      return "solid stands above it: " + model::to_text(*lid);
   }
-  return model::square_corner(w.plan.model, s, all, part);
+  return model::square_corner(w.plan.model, s, w.whole_shapes, part);
 }
 
 double sharp_corner_of(const Work& w, const FeatureShape& s) {
   if (w.plan.target_mesh || (s.kind != ShapeKind::kStep && s.kind != ShapeKind::kOutside)) return 0.0;
-  const model::PieceForm part{part_box(w), w.plan.stock.cylinder_radius_mm};
-  return model::sharp_corners(s, whole_features(w), part).empty() ? 0.0 : model::unstated_corner_mm(s);
+  return model::sharp_corners(s, w.whole_shapes, part_form(w)).empty() ? 0.0 : model::unstated_corner_mm(s);
 }
 
 void tell_corners(Work& w) {
   if (w.plan.target_mesh) return;
-  const model::PieceForm part{part_box(w), w.plan.stock.cylinder_radius_mm};
-  const std::vector<FeatureShape> all = whole_features(w);
-  for (const FeatureShape& s : all) {
+  const model::PieceForm part = part_form(w);
+  for (const FeatureShape& s : w.whole_shapes) {
     const bool open = s.kind == ShapeKind::kPocket && s.open && !(s.corner_radius_mm > 0.0);
     if (!open && s.kind != ShapeKind::kStep && s.kind != ShapeKind::kOutside) continue;
     double radius = kNoRadius;
@@ -68,7 +59,7 @@ void tell_corners(Work& w) {
       radius = std::min(radius, 0.5 * c->cutting_diameter_mm);
     }
     if (radius >= kNoRadius) continue;
-    const auto corners = model::sharp_corners(s, all, part);
+    const auto corners = model::sharp_corners(s, w.whole_shapes, part);
     if (corners.empty()) continue;
     std::string where;
     for (const model::SharpCorner& c : corners) {

@@ -56,17 +56,6 @@ geometry::Region taken(const FeatureShape& s) {
   return out;
 }
 
-geometry::Region moved(const geometry::Region& r, const geometry::Placement& at) {
-  geometry::Region out;
-  for (const Loop& loop : r.loops) {
-    Loop q;
-    for (const Vec2 p : loop) q.push_back(geometry::xy(at.to_parent({p.x, p.y, 0.0})));
-    if (at.z.z < 0.0) std::reverse(q.begin(), q.end());
-    out.loops.push_back(std::move(q));
-  }
-  return out;
-}
-
 std::size_t points_of(const geometry::Region& r) {
   std::size_t n = 0;
   for (const Loop& loop : r.loops) n += loop.size();
@@ -135,6 +124,17 @@ void take_general(const model::GeneralTolerance& g, const FeatureShape& s, model
 }
 
 }  // namespace
+
+geometry::Region moved(const geometry::Region& r, const geometry::Placement& at) {
+  geometry::Region out;
+  for (const Loop& loop : r.loops) {
+    Loop q;
+    for (const Vec2 p : loop) q.push_back(geometry::xy(at.to_parent({p.x, p.y, 0.0})));
+    if (at.z.z < 0.0) std::reverse(q.begin(), q.end());
+    out.loops.push_back(std::move(q));
+  }
+  return out;
+}
 
 Thickness thickness_beside(const Work& w, const FeatureShape& s) {
   Thickness out;
@@ -315,6 +315,9 @@ Status take_requirements(Work& w) {
     w.qualities[f] = attribution.quality(f);
     if (auto s = shapes_in_piece(w, f)) w.shapes.insert(w.shapes.end(), s->begin(), s->end());
   }
+  const std::set<AnyRef> parts = model::parts_of_others(m);
+  std::copy_if(w.shapes.begin(), w.shapes.end(), std::back_inserter(w.whole_shapes),
+               [&](const FeatureShape& s) { return !parts.contains(s.feature); });
   w.ties = model::ties_of(m, attribution);
   std::string lost;
   for (const auto& l : attribution.lost()) lost += (lost.empty() ? "" : "; ") + l.text;

@@ -82,7 +82,9 @@ struct Work {
   std::vector<std::pair<Ref<model::Setup>, model::Workholding>> held =
       {};                                        ///< as the plan said when it was read
   std::vector<model::FeatureShape> shapes = {};  ///< of all features, workpiece coordinates
-  double earning_per_min = 0.0;                  ///< Objective::kProfit: what a minute earns above its cost
+  std::vector<model::FeatureShape> whole_shapes =
+      {};                        ///< of these each once: elements and bosses count with what holds them
+  double earning_per_min = 0.0;  ///< Objective::kProfit: what a minute earns above its cost
   std::vector<model::StepResult> recorded_steps = {};  ///< as the plan said when it was read,
   model::Machine recorded_machine = {};                ///< and for which machine
   model::WorkMaterial recorded_material = {};          ///< and material that was
@@ -139,6 +141,9 @@ struct Thickness {
 /// stays beside it at its depth is the part's box less its own area and those of the features that are cut as
 /// deep there.
 [[nodiscard]] geometry::Region stays_beside(const Work& w, const model::FeatureShape& shape);
+/// An area in the frame of another height, seen from above; turned over, its loops run the other way round.
+[[nodiscard]] geometry::Region moved(const geometry::Region& r, const geometry::Placement& at);
+
 /// What surrounds a feature, for the rules: thinnest wall and floor of its shapes.
 [[nodiscard]] rules::Context context_of(const Work& w, AnyRef feature,
                                         const std::vector<model::FeatureShape>& shapes);

@@ -6,6 +6,7 @@
 #include "planner/engagement/engagement.h"
 #include "planner/pipeline/paths/results.h"
 #include "planner/pipeline/steps.h"
+#include "planner/pipeline/work.h"
 
 // What other features' steps took away already is not cut again: the step is left out, not its feature.
 
@@ -15,17 +16,6 @@ namespace {
 constexpr double kSameMm = 0.02;      // of outlines and heights; default, unsourced
 constexpr double kRemnantMm2 = 0.01;  // slivers of outlines; default, unsourced
 constexpr double kAligned = 1.0 - 1e-9;
-
-geometry::Region moved(const geometry::Region& r, const geometry::Placement& at) {
-  geometry::Region out;
-  for (const geometry::Loop& loop : r.loops) {
-    geometry::Loop q;
-    for (const geometry::Vec2 p : loop) q.push_back(geometry::xy(at.to_parent({p.x, p.y, 0.0})));
-    if (at.z.z < 0.0) std::reverse(q.begin(), q.end());
-    out.loops.push_back(std::move(q));
-  }
-  return out;
-}
 
 /// Where a feature takes all of another's height away, in that one's frame; nothing where it ends above.
 geometry::Region gone_with(const model::FeatureShape& a, const model::FeatureShape& b) {
