@@ -4,6 +4,7 @@
 
 #include "planner/base/file.h"
 #include "planner/exchange/record_loads.h"
+#include "planner/exchange/record_machine.h"
 #include "planner/exchange/record_material.h"
 #include "planner/exchange/report.h"
 #include "planner/model/nouns/all.h"
@@ -358,6 +359,7 @@ class Writing {
 
   void facts() {
     if (!plan_.machine.id.empty()) record("MACHINE", {}, plan_.machine);
+    machine_data();
     if (!plan_.material.id.empty()) record("MATERIAL", {}, plan_.material);
     if (!plan_.stock.box.empty()) record("STOCK", {}, plan_.stock);
     for (const auto& c : plan_.cutters) record("CUTTER", {}, c);
@@ -371,6 +373,14 @@ class Writing {
       if (here(u.feature)) record("UNPLANNED", u.feature, u);
     }
     for (const auto& p : plan_.provenance) record("PROVENANCE", {}, p);
+  }
+
+  void machine_data() {
+    model::Machine all = plan_.machine, named;
+    named.id = all.id;
+    named.description = all.description;
+    if (all == named) return;
+    sink_.record("MACHINE_DATA", {}, [&](RecordFields& f) { describe(f, MachineData{all}); });
   }
 
   void executables() {
@@ -418,11 +428,13 @@ class Writing {
 
 class Restoring {
  public:
-  Restoring(std::string_view label, RecordFields& fields, model::Plan& plan, const SayOfRecord& say)
-      : label_(label), f_(fields), plan_(plan), say_(say) {}
+  Restoring(std::string_view label, RecordFields& fields, model::Plan& plan, bool sealed,
+            const SayOfRecord& say)
+      : label_(label), f_(fields), plan_(plan), sealed_(sealed), say_(say) {}
 
   bool run(std::string_view kind) {
     if (kind == "MACHINE") return describe(f_, plan_.machine), true;
+    if (kind == "MACHINE_DATA") return machine_data();
     if (kind == "MATERIAL") return describe(f_, plan_.material), true;
     if (kind == "STOCK") return describe(f_, plan_.stock), true;
     if (kind == "CUTTER") return append(plan_.cutters);
@@ -442,6 +454,14 @@ class Restoring {
     T fact;
     describe(f_, fact);
     list.push_back(std::move(fact));
+    return true;
+  }
+
+  /// Whole or not at all: half a machine has limits of nothing.
+  bool machine_data() {
+    model::Machine m = plan_.machine;
+    describe(f_, MachineData{m});
+    plan_.machine = std::move(m);
     return true;
   }
 
@@ -492,7 +512,7 @@ class Restoring {
     if (b.attribute.empty()) throw MalformedRecord{};
     if (!here(b.at, address)) return true;
     const std::uint64_t now = model::hash_attribute(plan_.model, b.at, b.attribute);
-    if (hex64(now) != b.hash) {
+    if (!sealed_ && hex64(now) != b.hash) {
       say_(Severity::kNote, "EXC-EDITED",
            address + (address.empty() ? "" : " ") + attribute_name(b.at, b.attribute) +
                " was edited since it was bound by " + std::string(to_text(b.decision.binder)) +
@@ -509,6 +529,7 @@ class Restoring {
   std::string_view label_;
   RecordFields& f_;
   model::Plan& plan_;
+  bool sealed_;
   const SayOfRecord& say_;
 };
 
@@ -519,8 +540,8 @@ void write_plan_records(const model::Plan& plan, const model::Model& written, co
 }
 
 bool restore_record(std::string_view kind, std::string_view label, RecordFields& fields, model::Plan& plan,
-                    const SayOfRecord& say) {
-  return Restoring(label, fields, plan, say).run(kind);
+                    bool sealed, const SayOfRecord& say) {
+  return Restoring(label, fields, plan, sealed, say).run(kind);
 }
 
 }  // namespace capstan::exchange

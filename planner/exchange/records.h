@@ -63,9 +63,10 @@ using SayOfRecord = std::function<void(Severity, std::string code, std::string m
 
 /// Puts what a record says back into the plan; false for an unknown kind. A decision whose value was edited
 /// since is dropped (and thereby *given*), with the note EXC-EDITED; a record of an object that is gone is
-/// dropped with the note EXC-RECORD. `label` is what the record is called when something is said of it.
+/// dropped with the note EXC-RECORD. `label` is what the record is called when something is said of it. Of a
+/// sealed file (sealed.h), which nobody edited, values are not compared: what a unit rounds is no edit.
 /// Fails   throws MalformedRecord.
 bool restore_record(std::string_view kind, std::string_view label, RecordFields& fields, model::Plan& plan,
-                    const SayOfRecord& say);
+                    bool sealed, const SayOfRecord& say);
 
 }  // namespace capstan::exchange

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>
@@ -30,6 +31,18 @@ class ModelDifference {
     drain();
   }
   [[nodiscard]] const std::vector<std::string>& found() const { return found_; }
+  /// What stands in the other model in the place of an object; unset: nothing, or nothing leads to it.
+  [[nodiscard]] model::AnyRef corresponding(model::AnyRef a) const {
+    const auto it = seen_.find(a);
+    return it == seen_.end() ? model::AnyRef{} : it->second;
+  }
+  [[nodiscard]] model::AnyRef corresponding_back(model::AnyRef b) const {
+    const auto it = std::find_if(seen_.begin(), seen_.end(), [&](const auto& p) { return p.second == b; });
+    return it == seen_.end() ? model::AnyRef{} : it->first;
+  }
+  [[nodiscard]] bool corresponds(model::AnyRef a, model::AnyRef b) const {
+    return !a.set() ? !b.set() : corresponding(a) == b;
+  }
   [[nodiscard]] std::string text() const {
     std::string out;
     for (std::size_t i = 0; i < found_.size() && i < 20; ++i) out += found_[i] + "\n";

@@ -7,6 +7,7 @@
 #include "planner/exchange/ap238/via.h"
 #include "planner/exchange/exchange.h"
 #include "planner/exchange/opening.h"
+#include "planner/exchange/sealed.h"
 #include "planner/exchange/sections.h"
 #include "planner/model/nouns/all.h"
 #include "planner/p21/parse.h"
@@ -49,7 +50,9 @@ Result<model::Plan> read_ap238(const p21::File& file, Job& job) {
   settle_doubts(plan.model, doubts, reached, reporter);
   if (reporter.errors() == 0) {
     open_what_is_left_out(plan, reached, reporter);
-    records.restore();
+    const bool sealed = seal_holds(file, reporter);
+    records.restore(sealed);
+    if (sealed) restore_paths(file, plan, reporter);
   }
   reporter.finish();
   if (reporter.errors() != 0) {

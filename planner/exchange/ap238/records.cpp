@@ -194,7 +194,7 @@ class ItemFields final : public NamedFields {
 
 bool is_kind(std::string_view kind) {
   static constexpr std::string_view kKinds[] = {"MACHINE", "MATERIAL",  "STOCK",      "CUTTER",   "SETUP",
-                                                "STEP",    "UNPLANNED", "PROVENANCE", "IDENTITY", "BINDING"};
+                                                "STEP",    "UNPLANNED", "PROVENANCE", "IDENTITY", "BINDING",  "MACHINE_DATA"};
   return std::find(std::begin(kKinds), std::end(kKinds), kind) != std::end(kKinds);
 }
 
@@ -243,7 +243,7 @@ Records::Records(Reader& reader) : reader_(reader) {
                    [](const auto& a, const auto& b) { return a.number < b.number; });
 }
 
-void Records::restore() {
+void Records::restore(bool sealed) {
   if (found_.empty()) return;
   model::Plan& plan = reader_.plan();
   const Graph& g = reader_.graph();
@@ -258,7 +258,7 @@ void Records::restore() {
     const AnyRef executable = on == kNoNode ? AnyRef{} : reader_.noun_at(on, model::TypeId::kExecutable);
     try {
       ItemFields fields(reader_, addresses, executable, record.items);
-      restore_record(record.kind, label, fields, plan, say);
+      restore_record(record.kind, label, fields, plan, sealed, say);
     } catch (const MalformedRecord&) {
       say(Severity::kWarning, "EXC-RECORD", "'" + label + "' is malformed; ignored");
     }

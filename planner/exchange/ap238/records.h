@@ -19,7 +19,8 @@ class Records {
  public:
   explicit Records(Reader& reader);
   /// Puts them into the plan, after everything else was read.
-  void restore();
+  /// Of a sealed file (sealed.h), no value is taken for edited.
+  void restore(bool sealed);
 
  private:
   struct Found {

@@ -5,6 +5,7 @@
 #include "planner/exchange/ap238/placement.h"
 #include "planner/exchange/ap238/writer.h"
 #include "planner/exchange/exchange.h"
+#include "planner/exchange/sealed.h"
 #include "planner/exchange/sections.h"
 #include "planner/p21/print.h"
 
@@ -33,8 +34,7 @@ std::string header(const model::Plan& plan) {
   return "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION(" + texts(lines) + ",'" + implementation_level(plan) +
          "');\nFILE_NAME(" + quoted(name) + "," + quoted(plan.header_time_stamp) + "," +
          texts(plan.header_authors) + "," + texts(plan.header_organizations) +
-         ",'Capstan','Capstan','');\nFILE_SCHEMA(('MODEL_BASED_INTEGRATED_MANUFACTURING_SCHEMA'));\nENDSEC;"
-         "\n";
+         ",'Capstan','Capstan','');\nFILE_SCHEMA(('MODEL_BASED_INTEGRATED_MANUFACTURING_SCHEMA'));\n";
 }
 
 }  // namespace
@@ -48,8 +48,11 @@ Result<Written> write_ap238(const model::Plan& plan, Job& job) {
   ap238::to_ap238(copy, out.losses);
   ap238::Writer writer(copy, ap238::Mapping::instance(), out.losses);
   const std::string data = writer.run();
-  out.bytes = header(copy) + sections_text(copy, [&](model::AnyRef r) { return writer.reference_text(r); }) +
-              "DATA;\n" + data + "ENDSEC;\nEND-ISO-10303-21;\n";
+  const auto name = [&](model::AnyRef r) { return writer.reference_text(r); };
+  auto sealed = with_seal(header(copy) + exact_paths(plan, copy.model, name) + "ENDSEC;\n" +
+                          sections_text(copy, name) + "DATA;\n" + data + "ENDSEC;\nEND-ISO-10303-21;\n");
+  if (!sealed) return tl::unexpected(sealed.error());
+  out.bytes = *std::move(sealed);
   std::sort(out.losses.begin(), out.losses.end());
   for (const std::string& loss : out.losses) job.note("EXC-LOSS", loss);
   return out;

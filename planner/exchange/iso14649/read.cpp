@@ -4,6 +4,7 @@
 #include "planner/exchange/iso14649/deviations.h"
 #include "planner/exchange/iso14649/reading.h"
 #include "planner/exchange/iso14649/records.h"
+#include "planner/exchange/sealed.h"
 #include "planner/exchange/sections.h"
 #include "planner/exchange/opening.h"
 #include "planner/model/nouns/all.h"
@@ -70,6 +71,7 @@ Result<model::Plan> read_iso14649(const p21::File& file, Job& job) {
   Reporter reporter(job, file.name());
   Reading reading{
       .file = file, .plan = plan, .reporter = reporter, .object_of = {}, .draft = {}, .doubts = {}};
+  reading.sealed = seal_holds(file, reporter);
   read_header(file, plan);
   read_objects(reading);
   note_dialect(reading);
@@ -82,9 +84,10 @@ Result<model::Plan> read_iso14649(const p21::File& file, Job& job) {
     keep_the_rest(reading, reached);
     keep_sections(
         file, model::KeptSchema::kIso14649, [&](std::uint64_t id) { return reading.find(id); }, plan, reporter);
-    find_deviations(reading);
+    if (!reading.sealed) find_deviations(reading);  // what is odd in a plan, its ledger says
     open_what_is_left_out(plan, reached, reporter);
     read_records(reading);
+    if (reading.sealed) restore_paths(file, plan, reporter);
   }
   reporter.finish();
   if (reporter.errors() != 0) {

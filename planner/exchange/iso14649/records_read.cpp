@@ -3,6 +3,7 @@
 #include "planner/exchange/iso14649/beyond.h"
 #include "planner/exchange/iso14649/records.h"
 #include "planner/exchange/records.h"
+#include "planner/exchange/sealed.h"
 
 namespace capstan::exchange {
 
@@ -126,13 +127,13 @@ class Records {
     try {
       const std::string_view keyword = e.keyword();
       if (keyword == "!CAPSTAN_REASON") return reason(list_of(e.parameters()));
-      if (is_beyond(keyword)) return;  // read with the objects
+      if (is_beyond(keyword) || is_of_seal(keyword)) return;  // read before, and after
       HeaderFields fields(e.parameters(), r_, reasons_);
       const SayOfRecord say_of = [&](Severity s, std::string code, std::string message) {
         say(e, s, std::move(code), std::move(message));
       };
       if (keyword.substr(0, kOurs.size()) == kOurs &&
-          restore_record(keyword.substr(kOurs.size()), keyword, fields, r_.plan, say_of)) {
+          restore_record(keyword.substr(kOurs.size()), keyword, fields, r_.plan, r_.sealed, say_of)) {
         return;
       }
       say(e, Severity::kWarning, "EXC-KEPT",

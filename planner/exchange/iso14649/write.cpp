@@ -11,6 +11,7 @@
 #include "planner/exchange/iso14649/records.h"
 #include "planner/exchange/iso14649/trajectories.h"
 #include "planner/exchange/iso14649/units.h"
+#include "planner/exchange/sealed.h"
 #include "planner/exchange/sections.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/walk.h"
@@ -55,8 +56,9 @@ TypeId written_type(TypeId t) {
 
 class FileWriter {
  public:
-  FileWriter(const model::Plan& plan, std::vector<std::string>& losses)
-      : plan_(plan), m_(plan.model), losses_(losses) {}
+  /// `original` is the plan whose copy with curves is written.
+  FileWriter(const model::Plan& original, const model::Plan& plan, std::vector<std::string>& losses)
+      : original_(original), plan_(plan), m_(plan.model), losses_(losses) {}
 
   Result<std::string> run() {
     collect();
@@ -64,6 +66,7 @@ class FileWriter {
     if (auto kept = keep_beyond(); !kept) return tl::unexpected(kept.error());
     std::string out = "ISO-10303-21;\nHEADER;\n" + header();
     out += beyond_ + write_records(plan_, m_, [this](AnyRef at) { return number_of(at); });
+    out += exact_paths(original_, m_, [this](AnyRef at) { return name_of(at); });
     out += "ENDSEC;\n" + sections_text(plan_, [this](AnyRef r) { return reference(r); }) + "DATA;\n";
     for (const auto& [n, at] : by_number_) instance(n, at, out);
     out += "ENDSEC;\nEND-ISO-10303-21;\n";
@@ -435,7 +438,7 @@ class FileWriter {
     }
   }
 
-  const model::Plan& plan_;
+  const model::Plan &original_, &plan_;
   const model::Model& m_;
   std::vector<std::string>& losses_;
   std::vector<AnyRef> order_;
@@ -471,9 +474,11 @@ Result<Written> write_iso14649(const model::Plan& plan, Job& job) {
   model::Plan copy = plan;
   if (auto done = write_curves(copy, out.losses); !done) return fail(done.error());
   round_units(copy.model);
-  auto text = FileWriter(copy, out.losses).run();
+  auto text = FileWriter(plan, copy, out.losses).run();
   if (!text) return tl::unexpected(text.error());
-  out.bytes = *std::move(text);
+  auto sealed = with_seal(*std::move(text));
+  if (!sealed) return tl::unexpected(sealed.error());
+  out.bytes = *std::move(sealed);
   say_what_the_plan_loses(plan, out.losses);
   std::sort(out.losses.begin(), out.losses.end());
   out.losses.erase(std::unique(out.losses.begin(), out.losses.end()), out.losses.end());
