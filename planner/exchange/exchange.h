@@ -14,6 +14,9 @@ namespace capstan::exchange {
 
 struct ReadOptions {
   p21::Limits limits;  ///< what a file may cost
+  /// One wrong reference keeps the whole file from being read. Otherwise that attribute is unset, which is an
+  /// error in the job, and what needs it is not planned (planner/model/unreadable.h).
+  bool strict = true;
 };
 
 /// Reads a part or a plan, told by its content and not by its name: ISO 14649 or ISO 10303-238 (Part 21), or
@@ -34,9 +37,10 @@ struct ReadOptions {
 /// Open      `$` in its_tool, its_technology, its_operation, and a technology without feed or speed, is
 ///           open in the plan's ledger.
 /// Fails     with one summary, after each fault went to `job`: EXC-REFERENCE, EXC-PARAMETERS, EXC-VALUE,
-///           EXC-CYCLE, EXC-GEOMETRY. Faults of what the project does not reach are warnings.
+///           EXC-CYCLE, EXC-GEOMETRY. Faults of what the project does not reach are warnings. `strict` as in
+///           ReadOptions.
 /// Source    ISO 14649-10, -11, -111 at the published and at the 2001 draft level.
-[[nodiscard]] Result<model::Plan> read_iso14649(const p21::File& file, Job& job);
+[[nodiscard]] Result<model::Plan> read_iso14649(const p21::File& file, Job& job, bool strict = true);
 
 /// What was written, and what could not be.
 struct Written {
@@ -53,7 +57,7 @@ struct Written {
 ///
 /// Numbers   are converted from the file's units, which may differ from one to the next.
 /// Fails     with one summary, after each fault went to `job`.
-[[nodiscard]] Result<model::Plan> read_ap238(const p21::File& file, Job& job);
+[[nodiscard]] Result<model::Plan> read_ap238(const p21::File& file, Job& job, bool strict = true);
 
 /// Writes the plan as ISO 10303-238, edition 3 with what edition 4 adds where the plan has it.
 [[nodiscard]] Result<Written> write_ap238(const model::Plan& plan, Job& job);

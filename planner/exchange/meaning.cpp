@@ -10,6 +10,7 @@
 #include "planner/base/number.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/raw_piece.h"
+#include "planner/model/unreadable.h"
 #include "planner/model/walk.h"
 
 namespace capstan::exchange {
@@ -328,6 +329,11 @@ void Marks::set_from(const model::Model& m, AnyRef root) {
   }
 }
 
+Marks needed_of(const model::Model& m, Marks reached) {
+  for (const AnyRef f : m.all_below(TypeId::kManufacturingFeature)) reached.set_from(m, f);
+  return reached;
+}
+
 std::vector<AnyRef> objects_in_file_order(const model::Model& m) {
   std::vector<AnyRef> out;
   for (std::size_t t = 1; t < model::kTypeCount; ++t) {
@@ -353,16 +359,46 @@ void check_meaning(const model::Model& m, std::vector<Doubt>& doubts) {
   check_sets(r);
 }
 
-void settle_doubts(const model::Model& m, std::vector<Doubt>& doubts, const Marks& reached,
+namespace {
+
+/// A file with more wrong references than this is none that anybody wrote by hand: it is refused.
+constexpr std::size_t kMostUnset = 100;  // default, unsourced
+
+/// Whether a plan can be made around the fault: it takes from some features or steps, or from the list of
+/// what is carried out.
+bool belongs_to_some(const model::Plan& plan, const Doubt& doubt) {
+  if (doubt.attribute.empty()) return false;
+  if (plan.model.holds<model::ProgramStructure>(doubt.object)) return doubt.attribute == "its_elements";
+  const auto touched = model::touched_by(plan.model, doubt.object);
+  return !touched.features.empty() || !touched.steps.empty();
+}
+
+}  // namespace
+
+void settle_doubts(model::Plan& plan, std::vector<Doubt>& doubts, const Marks& reached, bool strict,
                    Reporter& reporter) {
+  const model::Model& m = plan.model;
   std::stable_sort(doubts.begin(), doubts.end(), [&](const auto& a, const auto& b) {
     return m.origin(a.object).instance < m.origin(b.object).instance;
   });
+  std::size_t unset = 0;
   for (auto& doubt : doubts) {
     if (!reached.has(doubt.object)) {
       if (doubt.diagnostic.severity == Severity::kError)
         doubt.diagnostic.hint = "what does not fit is left out; the project does not need it";
       doubt.diagnostic.severity = Severity::kWarning;
+    } else if (!strict && unset < kMostUnset && belongs_to_some(plan, doubt)) {
+      ++unset;
+      Diagnostic d = std::move(doubt.diagnostic);
+      d.severity = Severity::kError;
+      d.instance = m.origin(doubt.object).instance;
+      d.line = m.origin(doubt.object).line;
+      model::set_unreadable(plan, doubt.object, doubt.attribute,
+                            "line " + std::to_string(d.line) + ", #" + std::to_string(d.instance) + ": " +
+                                d.message + (d.expected.empty() ? "" : "; expected " + d.expected));
+      d.hint = "what needs it is not planned";
+      reporter.tell(std::move(d));
+      continue;
     }
     reporter.about(m, doubt.object, std::move(doubt.diagnostic));
   }

@@ -5,7 +5,7 @@
 
 #include "planner/base/result.h"
 #include "planner/exchange/report.h"
-#include "planner/model/model.h"
+#include "planner/model/plan.h"
 
 // What a schema cannot say of a value alone, the same for every format: circles, endless workplans,
 // B-splines, directions, sizes, empty sets; and which of it matters.
@@ -16,6 +16,9 @@ namespace capstan::exchange {
 struct Doubt {
   model::AnyRef object;
   Diagnostic diagnostic;
+  /// Of a fault that leaves one attribute unset, its name: what needs the object is not planned
+  /// (unreadable.h).
+  std::string attribute = {};
 };
 
 /// Objects of a model, as a set.
@@ -35,6 +38,9 @@ class Marks {
 /// Every object that came from the file, in the file's order.
 [[nodiscard]] std::vector<model::AnyRef> objects_in_file_order(const model::Model& m);
 
+/// What the project reaches, and every feature: planned, too, where no workingstep of the file makes it.
+[[nodiscard]] Marks needed_of(const model::Model& m, Marks reached);
+
 /// Circles of references, workplans that expand without end, B-splines that do not add up, directions
 /// without length, sizes below zero, empty sets.
 ///
@@ -42,8 +48,9 @@ class Marks {
 void check_meaning(const model::Model& m, std::vector<Doubt>& doubts);
 
 /// Reports the doubts in the order of instances: as they are where `reached` has the object, as warnings
-/// elsewhere.
-void settle_doubts(const model::Model& m, std::vector<Doubt>& doubts, const Marks& reached,
+/// elsewhere. Unless `strict`, one that leaves an attribute unset which only some features or workingsteps
+/// need is an error that does not keep the file from being read: the plan's ledger says what is not known.
+void settle_doubts(model::Plan& plan, std::vector<Doubt>& doubts, const Marks& reached, bool strict,
                    Reporter& reporter);
 
 }  // namespace capstan::exchange

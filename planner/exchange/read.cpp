@@ -56,16 +56,17 @@ Result<model::Plan> read_bytes(std::string bytes, const std::string& name, const
   if (body(bytes).substr(0, 12) == "ISO-10303-21") {
     const auto file = p21::parse(std::move(bytes), name, options.limits, job);
     if (!file) return fail(file.error());
-    if (has_schema(*file, kIso14649Schemas)) return read_iso14649(*file, job);
-    if (has_schema(*file, kAp238Schemas)) return read_ap238(*file, job);
+    if (has_schema(*file, kIso14649Schemas)) return read_iso14649(*file, job, options.strict);
+    if (has_schema(*file, kAp238Schemas)) return read_ap238(*file, job, options.strict);
     const auto schemas = file->schemas();
-    return fail({.code = "EXC-UNSUPPORTED",
-                 .message = "the file's schema " +
-                            (schemas.empty() ? std::string("(none)") : schemas.front()) +
-                            " cannot be read as a plan",
-                 .file = name,
-                 .expected = "MACHINING_SCHEMA, MILLING_SCHEMA, COMBINED_SCHEMA (ISO 14649), INTEGRATED_CNC_SCHEMA or "
-                             "MODEL_BASED_INTEGRATED_MANUFACTURING_SCHEMA (ISO 10303-238)"});
+    return fail(
+        {.code = "EXC-UNSUPPORTED",
+         .message = "the file's schema " + (schemas.empty() ? std::string("(none)") : schemas.front()) +
+                    " cannot be read as a plan",
+         .file = name,
+         .expected =
+             "MACHINING_SCHEMA, MILLING_SCHEMA, COMBINED_SCHEMA (ISO 14649), INTEGRATED_CNC_SCHEMA or "
+             "MODEL_BASED_INTEGRATED_MANUFACTURING_SCHEMA (ISO 10303-238)"});
   }
   if (looks_like_stl(bytes)) {
     auto mesh = read_stl(bytes, name, job);

@@ -169,6 +169,12 @@ void describe(RecordFields& f, model::Cutter& c) {
   describe_sources(f, c.sources);
   if (f.more()) describe_body(f, c);
   if (f.more()) describe_table_line(f, c.table_line);
+  if (f.more()) {
+    bool neutral = c.hand == model::Hand::kNeutral;
+    f.truth("neutral hand", neutral);
+    if (neutral) c.hand = model::Hand::kNeutral;
+    f.real("run-out", Unit::kLength, c.runout_mm);
+  }
 }
 
 void describe(RecordFields& f, std::vector<model::FixtureSolid>& solids) {

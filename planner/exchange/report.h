@@ -18,11 +18,15 @@ class Reporter {
   Reporter(Job& job, std::string file) : job_(job), file_(std::move(file)) {}
 
   void report(Diagnostic d) {
-    d.file = file_;
     if (d.severity == Severity::kError) {
       ++errors_;
       if (first_error_.empty()) first_error_ = d.message;
     }
+    tell(std::move(d));
+  }
+  /// As `report`; an error does not count: the file is read all the same.
+  void tell(Diagnostic d) {
+    d.file = file_;
     auto& n = count_[d.code];
     if (++n > kPerCode) return;
     job_.report(std::move(d));

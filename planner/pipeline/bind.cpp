@@ -3,6 +3,7 @@
 #include <set>
 #include <utility>
 
+#include "planner/model/unreadable.h"
 #include "planner/output/step_ids.h"
 #include "planner/pipeline/checked.h"
 #include "planner/pipeline/machine_needs.h"
@@ -120,6 +121,22 @@ void leave_open(Work& w) {
   }
 }
 
+/// By feature and workingstep: what its file states wrongly.
+std::map<AnyRef, std::string> unreadable_of(const model::Plan& plan,
+                                            const std::vector<model::Unreadable>& all) {
+  std::map<AnyRef, std::string> out;
+  for (const auto& u : all) {
+    const auto touched = model::touched_by(plan.model, u.key.object);
+    for (const AnyRef f : touched.features) out.emplace(f, u.why);
+    for (const AnyRef s : touched.steps) out.emplace(s, u.why);
+    // Without its operation a step would be taken for one that rules may choose.
+    const auto* ws = plan.model.get<model::MachiningWorkingstep>(u.key.object);
+    if (ws != nullptr && u.key.attribute == "its_operation" && ws->its_feature.set())
+      out.emplace(ws->its_feature, u.why);
+  }
+  return out;
+}
+
 /// One try. Nothing when something failed: `tries` has learned what, and the plan is to be made again.
 Result<std::optional<model::Plan>> bind_once(model::Plan plan, const Inputs& inputs, const Policy& policy,
                                              double earning_per_min, Tries& tries, Job& job) {
@@ -129,7 +146,10 @@ Result<std::optional<model::Plan>> bind_once(model::Plan plan, const Inputs& inp
   plan.setups.clear();
   std::vector<model::Cutter> recorded = std::exchange(plan.cutters, {});
   plan.unplanned.clear();
+  const auto wrong = model::unreadable(plan);
+  auto not_made = unreadable_of(plan, wrong);
   Work w{std::move(plan), inputs, policy, job, tries, {}, {}, {}, {}, std::move(recorded)};
+  w.unreadable = std::move(not_made);
   w.held = std::move(held);
   w.recorded_steps = std::move(recorded_steps);
   w.recorded_machine = w.plan.machine;
@@ -154,6 +174,8 @@ Result<std::optional<model::Plan>> bind_once(model::Plan plan, const Inputs& inp
   name_what_rests(w);
   name_steps(w);
   list_made(w);
+  // What was chosen in the place of what is not known does not make it known.
+  for (const auto& u : wrong) model::set_unreadable(w.plan, u.key.object, u.key.attribute, u.why);
   return std::move(w.plan);
 }
 

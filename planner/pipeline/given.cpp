@@ -98,6 +98,10 @@ class Walker {
       }
       work.feature = ws->its_feature;
       work.operation = ws->its_operation;
+      for (const AnyRef of : {at.executable, AnyRef(ws->its_feature)}) {
+        const auto wrong = of.set() ? w_.unreadable.find(of) : w_.unreadable.end();
+        if (wrong != w_.unreadable.end() && work.unreadable.empty()) work.unreadable = wrong->second;
+      }
     }
     w_.steps.push_back(std::move(work));
   }

@@ -444,11 +444,17 @@ Status propose_missing(Work& w) {
   std::size_t done = 0;
   for (const AnyRef f : features) {
     w.job.progress("propose", static_cast<double>(done++) / static_cast<double>(features.size()));
+    FeatureShape nameless;
+    nameless.feature = f;
+    nameless.name = w.plan.model.get<model::ManufacturingFeature>(f)->its_id.value_or("");
+    // What is not known might be a boss: nothing of it is cut.
+    if (const auto wrong = w.unreadable.find(f); wrong != w.unreadable.end()) {
+      unplanned(w, f, nameless, wrong->second);
+      if (w.tries.left_out(f) == nullptr) w.tries.leave_out(f, wrong->second);
+      continue;
+    }
     const auto shapes = shapes_in_piece(w, f);
     if (!shapes) {
-      FeatureShape nameless;
-      nameless.feature = f;
-      nameless.name = w.plan.model.get<model::ManufacturingFeature>(f)->its_id.value_or("");
       unplanned(w, f, nameless, shapes.error().message);
       continue;
     }

@@ -54,7 +54,9 @@ Result<model::Plan> read_plan(std::string bytes, const std::string& name, Job& j
   const auto first = bytes.find_first_not_of(" \t\r\n");
   if (first != std::string::npos && bytes[first] == '{')
     return output::read_json(std::move(bytes), name, job);
-  return exchange::read_bytes(std::move(bytes), name, {}, job);
+  exchange::ReadOptions options;
+  options.strict = false;
+  return exchange::read_bytes(std::move(bytes), name, options, job);
 }
 
 std::vector<model::Finding> findings_of(const model::Plan& plan, Job& job) {

@@ -61,6 +61,7 @@ struct StepWork {
   bool keep_feed = false;        ///< the other way round
   bool open_tool = false;
   std::vector<std::size_t> after;       ///< indices into Work::steps that must come before; chain order
+  std::string unreadable = {};          ///< what its file states wrongly of it or its feature: not made
   std::optional<Probing> probing = {};  ///< measured right before this step, if it can be
 };
 
@@ -83,8 +84,9 @@ struct Work {
       {};                                        ///< as the plan said when it was read
   std::vector<model::FeatureShape> shapes = {};  ///< of all features, workpiece coordinates
   std::vector<model::FeatureShape> whole_shapes =
-      {};                        ///< of these each once: elements and bosses count with what holds them
-  double earning_per_min = 0.0;  ///< Objective::kProfit: what a minute earns above its cost
+      {};  ///< of these each once: elements and bosses count with what holds them
+  std::map<AnyRef, std::string> unreadable = {};  ///< features and steps whose file states something wrongly
+  double earning_per_min = 0.0;                   ///< Objective::kProfit: what a minute earns above its cost
   std::vector<model::StepResult> recorded_steps = {};  ///< as the plan said when it was read,
   model::Machine recorded_machine = {};                ///< and for which machine
   model::WorkMaterial recorded_material = {};          ///< and material that was

@@ -69,6 +69,41 @@ TEST_F(CorpusExample2AsGiven, EachOfThe35WorkingstepsIsExecutedOrSaidWhyNot) {
   EXPECT_EQ(steps, 35);
 }
 
+// As printed, with its wrong references: what needs one of them is not made, and says so.
+TEST(CorpusExample2AsPrinted, EachOfThe35WorkingstepsIsExecutedOrSaidWhyNot) {
+  CAPSTAN_CORPUS_FILE(path, "iso14649/fdis_ex2.p21");
+  const Session made = planned(path, Reopen::kNothing);
+  const auto& plan = made.plan;
+  const auto wrong = std::count_if(made.read.begin(), made.read.end(), [](const Diagnostic& d) {
+    return d.code == "EXC-REFERENCE" && d.severity == Severity::kError && d.line == 113 &&
+           d.instance == 110 && d.expected == "HOLE_BOTTOM_CONDITION";
+  });
+  EXPECT_EQ(wrong, 1) << "the one that a shape needs; three more name a material only";
+  std::set<std::string> executed;
+  for (const auto& s : plan.steps) {
+    if (s.path && s.path->size() > 1) executed.insert(model::step_id(plan, s));
+  }
+  const auto steps = plan.model.all(model::TypeId::kMachiningWorkingstep);
+  EXPECT_EQ(steps.size(), 35u);
+  std::size_t made_count = 0;
+  for (const model::AnyRef ref : steps) {
+    const std::string id = plan.model.get<model::MachiningWorkingstep>(ref)->its_id.value_or("");
+    const bool is_made = executed.contains(id);
+    made_count += is_made ? 1 : 0;
+    const bool told = std::any_of(
+        plan.unplanned.begin(), plan.unplanned.end(),
+        [&](const model::Unplanned& u) { return u.reason.find("step '" + id + "'") != std::string::npos; });
+    EXPECT_NE(is_made, told) << id;
+  }
+  EXPECT_GE(made_count, 20u) << "most of the part does not need what is wrong";
+  for (const char* hole : {"DRILLING HOLE2", "DRILLING HOLE3"}) {
+    EXPECT_TRUE(std::any_of(plan.unplanned.begin(), plan.unplanned.end(), [&](const model::Unplanned& u) {
+      return u.reason.find(hole) != std::string::npos && u.reason.find("#110") != std::string::npos &&
+             u.reason.find("ROUND_HOLE.bottom_condition points to #216") != std::string::npos;
+    })) << hole;
+  }
+}
+
 // Hole 1 goes through 50 mm; its last tool, a spade drill of 40 mm whose point has a flank of 20 degrees, is
 // let down 45 mm: at the radius of 20 it cuts to 45 - 20 tan 20 = 37.7 mm, and 12.3 mm stay. The file's own
 // values.

@@ -97,5 +97,29 @@ INSTANTIATE_TEST_SUITE_P(WrittenPlan, EachForm,
                            return name;
                          });
 
+// The whole corpus in the soak, what takes a few seconds otherwise.
+TEST(CorpusEachFormOfRandomFiles, ReadsBackAsThePlanThatWasWritten) {
+  const std::string corpus = testing::corpus_folder();
+  if (corpus.empty()) GTEST_SKIP() << "corpus is absent";
+  std::vector<std::string> files;
+  if (std::getenv("CAPSTAN_SOAK") != nullptr) {
+    for (const char* folder : {"/iso14649", "/ap238", "/cad"}) {
+      for (const auto& e : std::filesystem::directory_iterator(corpus + folder)) {
+        if (e.is_regular_file()) files.push_back(e.path().string());
+      }
+    }
+    std::sort(files.begin(), files.end());
+  } else {
+    for (const char* file : {"/iso14649/meduag_furo.p21", "/iso14649/ufsc_FuroConico.p21",
+                             "/iso14649/ufsc_RanhuraPerfilVee.p21", "/iso14649/nist_tiny.stp"})
+      files.push_back(corpus + file);
+  }
+  for (const std::string& file : files) {
+    expect_back(file, Bind::kAll, true);
+    expect_back(file, Bind::kStrategy, false);
+    expect_back(file, Bind::kTools, false);
+  }
+}
+
 }  // namespace
 }  // namespace capstan::pipeline

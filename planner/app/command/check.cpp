@@ -10,6 +10,7 @@
 #include "planner/exchange/conformance/check.h"
 #include "planner/exchange/iso14649/curves.h"
 #include "planner/model/condemned.h"
+#include "planner/model/unreadable.h"
 #include "planner/p21/parse.h"
 #include "planner/pipeline/pipeline.h"
 #include "planner/verify/verify.h"
@@ -93,7 +94,9 @@ class Check {
   Result<model::Plan> executed(model::Plan plan) {
     const auto inputs = gather(s_.options.inputs, plan, s_.job);
     if (!inputs) return tl::unexpected(inputs.error());
+    const auto unreadable = model::unreadable(plan);
     plan.ledger = model::Ledger{};
+    for (const auto& u : unreadable) model::set_unreadable(plan, u.key.object, u.key.attribute, u.why);
     const auto stated = stated_paths(plan);
     auto bound = pipeline::bind(std::move(plan), *inputs, pipeline::Policy{}, s_.job);
     if (!bound) return bound;

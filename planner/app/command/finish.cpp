@@ -6,6 +6,7 @@
 
 #include "planner/app/show/values.h"
 #include "planner/model/condemned.h"
+#include "planner/model/unreadable.h"
 #include "planner/motion/time.h"
 #include "planner/output/linuxcnc/linuxcnc.h"
 #include "planner/verify/verify.h"
@@ -172,7 +173,8 @@ int finish(Session& s, const model::Plan& plan, std::vector<Output> outputs, con
   }
   s.summary = summary_of(plan, verdict.findings);
   const bool condemned = !verdict.condemned.empty();
-  const bool clean = verdict.findings == 0 && plan.unplanned.empty() && !condemned;
+  const bool clean =
+      verdict.findings == 0 && plan.unplanned.empty() && !condemned && model::unreadable(plan).empty();
   if (s.options.strict && !clean) {
     put_programs_aside(outputs, s.job);
     s.summary += "; nothing written (--strict)";

@@ -97,7 +97,7 @@ int prepared(Session& s, const pipeline::Policy& policy, Task& task) {
                   .hint = "leave --bind out, or write .p21 or .json"},
                  kUsage);
   }
-  auto part = load_plan(s.options.files[0], s.job);
+  auto part = load_plan(s.options.files[0], s.job, s.options.strict);
   if (!part) return s.end(part.error(), kUnreadable);
   task.part = *std::move(part);
   auto inputs = gather(s.options.inputs, task.part, s.job);

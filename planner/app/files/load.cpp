@@ -53,18 +53,20 @@ Content content_of(std::string_view bytes) {
   return Content::kProgram;
 }
 
-Result<model::Plan> plan_of_bytes(std::string bytes, const std::string& path, Job& job) {
+Result<model::Plan> plan_of_bytes(std::string bytes, const std::string& path, Job& job, bool strict) {
   if (content_of(bytes) == Content::kPlanJson) {
     if (bytes.starts_with(kMark)) bytes.erase(0, kMark.size());
     return output::read_json(std::move(bytes), path, job);
   }
-  return exchange::read_bytes(std::move(bytes), path, exchange::ReadOptions{}, job);
+  exchange::ReadOptions options;
+  options.strict = strict;
+  return exchange::read_bytes(std::move(bytes), path, options, job);
 }
 
-Result<model::Plan> load_plan(const std::string& path, Job& job) {
+Result<model::Plan> load_plan(const std::string& path, Job& job, bool strict) {
   auto bytes = read_file(path);
   if (!bytes) return tl::unexpected(bytes.error());
-  return plan_of_bytes(*std::move(bytes), path, job);
+  return plan_of_bytes(*std::move(bytes), path, job, strict);
 }
 
 }  // namespace capstan::app

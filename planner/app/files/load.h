@@ -16,7 +16,8 @@ enum class Content : std::uint8_t { kPlanJson, kPart, kProgram, kToolTable };
 
 /// A part or a plan from a file, told by its content.
 /// Fails  FILE-READ, and as output::read_json and exchange::read; faults went to the job before.
-[[nodiscard]] Result<model::Plan> load_plan(const std::string& path, Job& job);
-[[nodiscard]] Result<model::Plan> plan_of_bytes(std::string bytes, const std::string& path, Job& job);
+[[nodiscard]] Result<model::Plan> load_plan(const std::string& path, Job& job, bool strict = false);
+[[nodiscard]] Result<model::Plan> plan_of_bytes(std::string bytes, const std::string& path, Job& job,
+                                                bool strict = false);
 
 }  // namespace capstan::app

@@ -44,7 +44,8 @@ void doubt_placements(const model::Model& m, std::vector<Doubt>& doubts) {
                       {.code = "EXC-REFERENCE",
                        .message = attribute_name(feature, "feature_placement") +
                                   " cannot be read: where the feature lies is not known",
-                       .hint = "give it an AXIS2_PLACEMENT_3D named 'orientation'"}});
+                       .hint = "give it an AXIS2_PLACEMENT_3D named 'orientation'"},
+                      "feature_placement"});
   }
 }
 

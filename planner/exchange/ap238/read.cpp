@@ -14,13 +14,13 @@
 
 namespace capstan::exchange {
 
-Result<model::Plan> read_ap238(const p21::File& file, Job& job) {
+Result<model::Plan> read_ap238(const p21::File& file, Job& job, bool strict) {
   model::Plan plan;
   read_header(file, plan);
   Reporter reporter(job, file.name());
   p21::check_references(file, job);
   const ap238::Graph graph(file, express::Dictionary::ap238());
-  ap238::Reader reader(graph, ap238::Mapping::instance(), plan, reporter);
+  ap238::Reader reader(graph, ap238::Mapping::instance(), plan, strict, reporter);
   ap238::Records records(reader);
   reader.run();
   for (const auto& [at, uncertainty_mm] : reader.uncertainties_mm()) {
@@ -47,7 +47,7 @@ Result<model::Plan> read_ap238(const p21::File& file, Job& job) {
   ap238::doubt_placements(plan.model, doubts);
   Marks reached(plan.model);
   if (plan.project) reached.set_from(plan.model, plan.project);
-  settle_doubts(plan.model, doubts, reached, reporter);
+  settle_doubts(plan, doubts, needed_of(plan.model, reached), strict, reporter);
   if (reporter.errors() == 0) {
     open_what_is_left_out(plan, reached, reporter);
     const bool sealed = seal_holds(file, reporter);

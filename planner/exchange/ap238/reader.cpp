@@ -42,12 +42,13 @@ bool spelled(const Value& v, const std::string& text) {
 
 }  // namespace
 
-Reader::Reader(const Graph& graph, const Mapping& mapping, model::Plan& plan, Reporter& reporter)
+Reader::Reader(const Graph& graph, const Mapping& mapping, model::Plan& plan, bool strict, Reporter& reporter)
     : g_(graph),
       map_(mapping),
       plan_(plan),
       reporter_(reporter),
       units_(graph),
+      strict_(strict),
       owner_(graph.size()),
       claimed_(graph.size(), false),
       object_(graph.size(), false),
@@ -321,7 +322,7 @@ void Reader::settle() {
                                           [&](const Doubt& d) { return reached.has(d.object); });
   needed.assign(std::make_move_iterator(doubts_.begin()), std::make_move_iterator(rest));
   doubts_.erase(doubts_.begin(), rest);
-  settle_doubts(plan_.model, needed, reached, reporter_);
+  settle_doubts(plan_, needed, reached, strict_, reporter_);
 }
 
 void Reader::fill(AnyRef at, Node n) {

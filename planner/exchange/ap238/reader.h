@@ -36,7 +36,7 @@ struct Terminal {
 /// Reads a graph into a model by the rows of the mapping. One per file.
 class Reader {
  public:
-  Reader(const Graph& graph, const Mapping& mapping, model::Plan& plan, Reporter& reporter);
+  Reader(const Graph& graph, const Mapping& mapping, model::Plan& plan, bool strict, Reporter& reporter);
 
   /// Everything: the project and what it leads to, other application objects, the rest verbatim.
   void run();
@@ -131,6 +131,7 @@ class Reader {
   model::Plan& plan_;
   Reporter& reporter_;
   Units units_;
+  bool strict_;
   Scale default_scale_;
 
   std::vector<Role> owner_;    ///< by node: whose mapping it belongs to

@@ -7,6 +7,7 @@
 #include "planner/exchange/iso14649/units.h"
 #include "planner/exchange/text.h"
 #include "planner/model/nouns/all.h"
+#include "planner/model/stand_in.h"
 #include "planner/model/walk.h"
 
 namespace capstan::exchange {
@@ -103,9 +104,14 @@ class Conversion {
   void wrong(const Value& v, std::string expected) {
     std::string shown = spelling(v);
     if (shown.size() > 60) shown = shown.substr(0, 57) + "...";
-    r_.doubt(object_, {.code = "EXC-VALUE",
-                       .message = name() + " cannot be " + shown,
-                       .expected = std::move(expected)});
+    r_.doubt(
+        object_,
+        {.code = "EXC-VALUE", .message = name() + " cannot be " + shown, .expected = std::move(expected)},
+        refers() ? a_.name : std::string_view{});
+  }
+
+  [[nodiscard]] bool refers() const {
+    return a_.storage == Storage::kRef || a_.storage == Storage::kRefList || a_.storage == Storage::kRefTable;
   }
 
   // A measure may wear its type: LENGTH_MEASURE(1.5).
@@ -190,7 +196,7 @@ class Conversion {
 
   // Deviations of real files that lose nothing: kept, with a warning.
   std::optional<AnyRef> tolerated(AnyRef target) {
-    if (a_.name == "depth" && target.type == TypeId::kTolerancedLengthMeasure) {
+    if (model::may_stand_in(a_, target.type)) {
       warn("EXC-REFERENCE",
            name() + " is a TOLERANCED_LENGTH_MEASURE; taken as the depth below the feature's top");
       return target;
@@ -215,10 +221,12 @@ class Conversion {
     }
     const AnyRef target = r_.find(v.reference());
     if (!target.set()) {
-      r_.doubt(object_, {.code = "EXC-REFERENCE",
-                         .severity = a_.required ? Severity::kError : Severity::kWarning,
-                         .message = name() + " points to #" + std::to_string(v.reference()) +
-                                    ", which the file does not hold; left unset"});
+      r_.doubt(object_,
+               {.code = "EXC-REFERENCE",
+                .severity = a_.required ? Severity::kError : Severity::kWarning,
+                .message = name() + " points to #" + std::to_string(v.reference()) +
+                           ", which the file does not hold; left unset"},
+               a_.name);
       return std::nullopt;
     }
     if (fits(target)) return target;
@@ -227,12 +235,14 @@ class Conversion {
     for (const TypeId t : a_.targets)
       expected += (expected.empty() ? "" : " or ") + std::string(model::noun_type(t).keyword);
     const bool told = missing_is_told();
-    r_.doubt(object_, {.code = "EXC-REFERENCE",
-                       .severity = told ? Severity::kWarning : Severity::kError,
-                       .message = name() + " points to #" + std::to_string(v.reference()) + ", a " +
-                                  std::string(model::noun_type(target.type).keyword) +
-                                  (told ? "; taken as missing" : ""),
-                       .expected = expected});
+    r_.doubt(
+        object_,
+        {.code = "EXC-REFERENCE",
+         .severity = told ? Severity::kWarning : Severity::kError,
+         .message = name() + " points to #" + std::to_string(v.reference()) + ", a " +
+                    std::string(model::noun_type(target.type).keyword) + (told ? "; taken as missing" : ""),
+         .expected = expected},
+        a_.name == "its_material" ? std::string_view{} : a_.name);
     return std::nullopt;
   }
 

@@ -301,7 +301,9 @@ class StepBuilder {
     const auto* trajectory = m_.get<model::Trajectory>(at);
     if (trajectory != nullptr && trajectory->path && !curve_of(m_, at).set()) {
       if (auto joined = join(*trajectory->path, at); !joined) return joined;
-      return settle(at, *t);
+      if (auto done = settle(at, *t); !done) return done;
+      take_schedule(trajectory->path);
+      return {};
     }
     auto followed = follow(plan_, at, frame, o_, job_);
     if (!followed) return fail(followed.error());
@@ -346,6 +348,22 @@ class StepBuilder {
     append(path.kind, part.kind);
     append(path.role, part.role);
     return {};
+  }
+
+  // The path just joined may have feeds and speeds of its own, move by move.
+  void take_schedule(const model::PathHandle& path) {
+    for (const auto& result : plan_.steps) {
+      if (result.path != path || !result.schedule) continue;
+      const auto copy = [n = path->size()](const std::vector<double>& from, std::vector<double>& to) {
+        if (from.size() != n || n == 0 || to.size() < n) return;
+        // Its first point has no move, and may be where the one before ended.
+        std::copy(from.begin() + 1, from.end(), to.end() - static_cast<std::ptrdiff_t>(n - 1));
+      };
+      copy(result.schedule->feed_mm_min, out_.schedule.feed_mm_min);
+      copy(result.schedule->spindle_rpm, out_.schedule.spindle_rpm);
+      copy(result.schedule->dwell_s, out_.schedule.dwell_s);
+      return;
+    }
   }
 
   // Feed and speed of the moves added since.

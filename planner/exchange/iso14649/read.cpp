@@ -4,9 +4,9 @@
 #include "planner/exchange/iso14649/deviations.h"
 #include "planner/exchange/iso14649/reading.h"
 #include "planner/exchange/iso14649/records.h"
+#include "planner/exchange/opening.h"
 #include "planner/exchange/sealed.h"
 #include "planner/exchange/sections.h"
-#include "planner/exchange/opening.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/walk.h"
 
@@ -66,7 +66,7 @@ void note_dialect(Reading& r) {
 
 }  // namespace
 
-Result<model::Plan> read_iso14649(const p21::File& file, Job& job) {
+Result<model::Plan> read_iso14649(const p21::File& file, Job& job, bool strict) {
   model::Plan plan;
   Reporter reporter(job, file.name());
   Reading reading{
@@ -74,16 +74,17 @@ Result<model::Plan> read_iso14649(const p21::File& file, Job& job) {
   reading.sealed = seal_holds(file, reporter);
   read_header(file, plan);
   read_objects(reading);
-  note_dialect(reading);
+  if (!reading.sealed) note_dialect(reading);  // Capstan's own way of writing
   find_project(reading);
   check_meaning(plan.model, reading.doubts);
   Marks reached(plan.model);
   if (plan.project) reached.set_from(plan.model, plan.project);
-  settle_doubts(plan.model, reading.doubts, reached, reporter);
+  settle_doubts(plan, reading.doubts, needed_of(plan.model, reached), strict, reporter);
   if (reporter.errors() == 0) {
     keep_the_rest(reading, reached);
     keep_sections(
-        file, model::KeptSchema::kIso14649, [&](std::uint64_t id) { return reading.find(id); }, plan, reporter);
+        file, model::KeptSchema::kIso14649, [&](std::uint64_t id) { return reading.find(id); }, plan,
+        reporter);
     if (!reading.sealed) find_deviations(reading);  // what is odd in a plan, its ledger says
     open_what_is_left_out(plan, reached, reporter);
     read_records(reading);

@@ -28,7 +28,10 @@ struct Reading {
     const auto instance = file.find(id);
     return instance ? object_of[instance->index()] : model::AnyRef{};
   }
-  void doubt(model::AnyRef object, Diagnostic d) { doubts.push_back({object, std::move(d)}); }
+  /// `attribute`: as Doubt's.
+  void doubt(model::AnyRef object, Diagnostic d, std::string_view attribute = {}) {
+    doubts.push_back({object, std::move(d), std::string(attribute)});
+  }
   /// The parameter an attribute was read from; omitted when the object did not come from the file.
   [[nodiscard]] p21::Value parameter(model::AnyRef object, std::string_view attribute) const;
 };

@@ -6,6 +6,7 @@
 
 #include "planner/model/nouns/executable.h"
 #include "planner/model/nouns/workpiece.h"
+#include "planner/model/stand_in.h"
 #include "planner/model/walk.h"
 #include "planner/output/json/fields.h"
 #include "planner/output/json/ids.h"
@@ -272,6 +273,7 @@ class Reader {
   void target(const Tree& t, AnyRef& x, const Attribute& a, const Place& at) const {
     reference(t, x, at);
     if (!x.set() || a.targets.empty() || x.type == TypeId::kKeptInstance) return;
+    if (model::may_stand_in(a, x.type)) return;
     const bool fits =
         std::any_of(a.targets.begin(), a.targets.end(), [&](TypeId k) { return model::is_a(x.type, k); });
     if (!fits) fault(at, "the id of a " + kind_name(a.targets.front()));

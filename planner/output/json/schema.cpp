@@ -4,6 +4,7 @@
 
 #include "planner/model/nouns/executable.h"
 #include "planner/model/nouns/workpiece.h"
+#include "planner/model/stand_in.h"
 #include "planner/output/json/fields.h"
 #include "planner/output/json/ids.h"
 #include "planner/output/json/json.h"
@@ -262,6 +263,14 @@ class SchemaWriter {
     out_.close();
   }
 
+  static std::vector<TypeId> kinds_for(const Attribute& a) {
+    std::vector<TypeId> out(a.targets.begin(), a.targets.end());
+    for (std::size_t t = 1; t < model::kTypeCount && !out.empty(); ++t) {
+      if (model::may_stand_in(a, static_cast<TypeId>(t))) out.push_back(static_cast<TypeId>(t));
+    }
+    return out;
+  }
+
   // A definition per set of kinds that references may point to; kept instances may stand anywhere.
   std::string reference_to(std::span<const TypeId> targets) {
     std::string name = "reference_to";
@@ -287,7 +296,7 @@ class SchemaWriter {
     out_.key("properties");
     out_.open('{', false);
     out_.key("ref");
-    reference(reference_to(a.targets));
+    reference(reference_to(kinds_for(a)));
     out_.key("type");
     type("string");
     out_.key("real");
@@ -307,7 +316,7 @@ class SchemaWriter {
   }
 
   void attribute(const Attribute& a) {
-    const auto ref = [&] { reference(reference_to(a.targets)); };
+    const auto ref = [&] { reference(reference_to(kinds_for(a))); };
     switch (a.storage) {
       case Storage::kReal:
         return number(a, "number");

@@ -166,6 +166,10 @@ class PathMaker {
   }
 
   Status make(StepWork& step) {
+    if (!step.unreadable.empty()) {
+      give_up(step, step.unreadable);
+      return {};
+    }
     if (has_given_path(w_, step) && !rigid_tap(step)) return explicit_path(step);
     if (!w_.plan.model.holds<model::MachiningOperation>(step.operation)) return {};
     if (step.shapes.empty()) {
