@@ -329,11 +329,6 @@ void Marks::set_from(const model::Model& m, AnyRef root) {
   }
 }
 
-Marks needed_of(const model::Model& m, Marks reached) {
-  for (const AnyRef f : m.all_below(TypeId::kManufacturingFeature)) reached.set_from(m, f);
-  return reached;
-}
-
 std::vector<AnyRef> objects_in_file_order(const model::Model& m) {
   std::vector<AnyRef> out;
   for (std::size_t t = 1; t < model::kTypeCount; ++t) {
@@ -381,9 +376,17 @@ void settle_doubts(model::Plan& plan, std::vector<Doubt>& doubts, const Marks& r
   std::stable_sort(doubts.begin(), doubts.end(), [&](const auto& a, const auto& b) {
     return m.origin(a.object).instance < m.origin(b.object).instance;
   });
+  // Features are planned, too, where no workingstep of the file makes them: an attribute of theirs counts.
+  Marks of_features = reached;
+  for (const AnyRef f : m.all_below(TypeId::kManufacturingFeature)) {
+    if (plan.project) of_features.set_from(m, f);
+  }
+  const auto matters = [&](const Doubt& d) {
+    return reached.has(d.object) || (!d.attribute.empty() && of_features.has(d.object));
+  };
   std::size_t unset = 0;
   for (auto& doubt : doubts) {
-    if (!reached.has(doubt.object)) {
+    if (!matters(doubt)) {
       if (doubt.diagnostic.severity == Severity::kError)
         doubt.diagnostic.hint = "what does not fit is left out; the project does not need it";
       doubt.diagnostic.severity = Severity::kWarning;

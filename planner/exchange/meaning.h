@@ -38,9 +38,6 @@ class Marks {
 /// Every object that came from the file, in the file's order.
 [[nodiscard]] std::vector<model::AnyRef> objects_in_file_order(const model::Model& m);
 
-/// What the project reaches, and every feature: planned, too, where no workingstep of the file makes it.
-[[nodiscard]] Marks needed_of(const model::Model& m, Marks reached);
-
 /// Circles of references, workplans that expand without end, B-splines that do not add up, directions
 /// without length, sizes below zero, empty sets.
 ///

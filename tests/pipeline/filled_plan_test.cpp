@@ -71,7 +71,6 @@ model::Plan filled(model::Plan plan, unsigned seed) {
   noise("", plan.material);
   noise("", plan.stock.source);
   noise("", plan.stock.cylinder_radius_mm);
-  for (auto& c : plan.cutters) noise("", c);
   for (auto& s : plan.setups) {
     noise("", s.work_offset);
     noise("", s.security_z_mm);

@@ -47,7 +47,7 @@ Result<model::Plan> read_ap238(const p21::File& file, Job& job, bool strict) {
   ap238::doubt_placements(plan.model, doubts);
   Marks reached(plan.model);
   if (plan.project) reached.set_from(plan.model, plan.project);
-  settle_doubts(plan, doubts, needed_of(plan.model, reached), strict, reporter);
+  settle_doubts(plan, doubts, reached, strict, reporter);
   if (reporter.errors() == 0) {
     open_what_is_left_out(plan, reached, reporter);
     const bool sealed = seal_holds(file, reporter);

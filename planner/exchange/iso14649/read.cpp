@@ -79,7 +79,7 @@ Result<model::Plan> read_iso14649(const p21::File& file, Job& job, bool strict) 
   check_meaning(plan.model, reading.doubts);
   Marks reached(plan.model);
   if (plan.project) reached.set_from(plan.model, plan.project);
-  settle_doubts(plan, reading.doubts, needed_of(plan.model, reached), strict, reporter);
+  settle_doubts(plan, reading.doubts, reached, strict, reporter);
   if (reporter.errors() == 0) {
     keep_the_rest(reading, reached);
     keep_sections(
