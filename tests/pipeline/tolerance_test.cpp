@@ -435,7 +435,7 @@ TEST(Measuring, AMilledSizeThatIsOffStopsTheProgramForNoRadiusActsInIt) {
   };
   const std::string milled = program_of(
       "#62=CIRCULAR_CLOSED_PROFILE($,#61);\n#63=CLOSED_POCKET('P',#4,(),#50,#53,(),$,#57,$,$,#62);\n");
-  // 0.05 mm stay on each wall, so that 19.9 to 19.913 are right here; the outline's chords are within 2 um.
+  // 0.05 mm stay on each wall, so that 19.9 to 19.913 are right here.
   std::smatch m;
   ASSERT_TRUE(std::regex_search(
       milled, m,
@@ -443,11 +443,46 @@ TEST(Measuring, AMilledSizeThatIsOffStopsTheProgramForNoRadiusActsInIt) {
           R"(\(MSG, .*P measure.*, continue only when x is ([0-9.]+) to ([0-9.]+) and y is [0-9.]+ to )"
           R"([0-9.]+ mm; else stop here and plan again with the radius of T[0-9]+ as measured\))")))
       << milled;
-  EXPECT_NEAR(std::stod(m[1]), 19.9, 0.002);
-  EXPECT_NEAR(std::stod(m[2]), 19.913, 0.002);
+  EXPECT_NEAR(std::stod(m[1]), 19.9, 1e-4);
+  EXPECT_NEAR(std::stod(m[2]), 19.913, 1e-4);
   EXPECT_THAT(milled, HasSubstr("no G41 acts here"));
   EXPECT_THAT(milled, Not(HasSubstr("correct the work offset")));
   EXPECT_THAT(milled, Not(HasSubstr("correct the radius")));
+}
+
+/// How far from the middle of the piece each touch expects the wall, less what is still to be cut: of a round
+/// feature the same on all sides.
+std::vector<double> radii(const Planned& p) {
+  std::vector<double> out;
+  for (const Made& t : touches(p.plan)) {
+    const double end = (t.x - 50.0) * t.dx + (t.y - 50.0) * t.dy + t.distance;
+    out.push_back(end > 0.0 ? end + probe_radius(p.plan) : -(end + probe_radius(p.plan)));
+  }
+  return out;
+}
+
+TEST(Measuring, TheWallOfARoundFeatureIsExpectedOnItsCircleAndNotOnAChord) {
+  // Chords of 1 um beside a circle of radius r span 2 acos(1 - 0.001 / r): 223 of them make a pocket of 20
+  // mm, 385 an outside of 60 mm. Both are odd, so that a chord's middle lies where -x meets the outline.
+  const std::string circle =
+      "#80=CARTESIAN_POINT('',(0.,0.,0.));\n#81=AXIS2_PLACEMENT_3D('',#80,#21,#22);\n"
+      "#82=CIRCLE('',#81,10.);\n#62=GENERAL_CLOSED_PROFILE($,#83);\n"
+      "#83=TRIMMED_CURVE('',#82,(PARAMETER_VALUE(0.)),(PARAMETER_VALUE(360.)),.T.,.PARAMETER.);\n";
+  const std::string pocket = "#63=CLOSED_POCKET('P',#4,(),#50,#53,(),$,#57,$,$,#62);\n";
+  for (const auto& [features, id, radius] :
+       {std::tuple("#61=TOLERANCED_LENGTH_MEASURE(20.,$);\n#62=CIRCULAR_CLOSED_PROFILE($,#61);\n" + pocket,
+                   "P", 10.0),
+        std::tuple(circle + pocket, "P", 10.0),
+        std::tuple(std::string("#61=TOLERANCED_LENGTH_MEASURE(60.,$);\n#62=CIRCULAR_CLOSED_PROFILE($,#61);\n"
+                               "#63=GENERAL_OUTSIDE_PROFILE('P',#4,(),#50,#56,$,#62);\n"),
+                   "P", 30.0)}) {
+    const Planned p = placed(features, id);
+    const auto expected = radii(p);
+    ASSERT_EQ(expected.size(), 4U) << p.said;
+    // What the last step takes off is a round number of hundredths.
+    const double left = std::round(100.0 * std::abs(radius - expected.front())) / 100.0;
+    for (const double r : expected) EXPECT_NEAR(std::abs(r - radius), left, 2e-5) << features;
+  }
 }
 
 TEST(ToolTable, HoldsNoToolOfAStepThatIsLeftOut) {
