@@ -395,8 +395,9 @@ TEST(Probing, OfAFaceIsItsLevel) {
   EXPECT_LT(made[0].z - made[0].distance - probe_radius(p.plan), -4.0);
 }
 
-TEST(Probing, IsNotProposedWhereTheWallIsCutAway) {
-  // A pocket over the whole width of another hole's wall: the hole's wall is not there at any height.
+TEST(Probing, AFeatureWhosePlaceNobodyCanMeasureIsNotPlanned) {
+  // A pocket over the whole width of another hole's wall: the hole's wall is not there at any height, so that
+  // nothing tells whether the hole is within its 0.02 mm.
   const Planned p = placed(
       "#61=TOLERANCED_LENGTH_MEASURE(8.,$);\n#63=ROUND_HOLE('H1',#4,(),#50,#56,#61,$,#57000);\n"
       "#57000=FLAT_HOLE_BOTTOM();\n#64=TOLERANCED_LENGTH_MEASURE(40.,$);\n"
@@ -404,7 +405,11 @@ TEST(Probing, IsNotProposedWhereTheWallIsCutAway) {
       "#66=CLOSED_POCKET('P',#4,(),#50,#56,(),$,#57,$,$,#62);\n",
       "H1");
   EXPECT_TRUE(touches(p.plan).empty());
-  EXPECT_THAT(p.said, HasSubstr("'H1 probe_feature' is not proposed: along x and y there are no two walls"));
+  ASSERT_EQ(p.plan.unplanned.size(), 1U) << p.said;
+  EXPECT_EQ(p.plan.unplanned.front().feature, feature(p.plan, "H1"));
+  EXPECT_THAT(p.plan.unplanned.front().reason,
+              HasSubstr("'H1 probe_feature' cannot be made (along x and y there are no two walls"));
+  EXPECT_THAT(p.plan.unplanned.front().reason, HasSubstr("nothing holds what is asked"));
 }
 
 TEST(Measuring, AChainThatLeansOnItIsNotUsedWhereNothingCanBeMeasured) {
