@@ -299,6 +299,7 @@ class Proposer {
     std::string why = swallowed(given);
     if (why.empty()) why = crosses_a_wall(w_, given);
     if (why.empty()) why = not_in_piece(w_, given);
+    if (why.empty()) why = lies_within_another(w_, given);
     if (!why.empty() || !proposed.cannot.empty()) {
       fail_member(f, given, why.empty() ? proposed.cannot : why);
       return {};

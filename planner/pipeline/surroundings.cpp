@@ -326,6 +326,7 @@ Status take_requirements(Work& w) {
                                       lost + "; kept in the plan, and not planned for");
   }
   warn_of_zero_zones(w, attribution);
+  tell_twins(w);
   return {};
 }
 

@@ -157,9 +157,14 @@ struct Thickness {
 /// Why a feature cannot be cut from this raw piece: solid stands above its top, or its drill's point comes
 /// out on the other side. Empty when it can.
 [[nodiscard]] std::string not_in_piece(const Work& w, const model::FeatureShape& shape);
-/// The radius that may stay in the inner corners of a step or an outside that are drawn sharp; 0: it has
-/// none.
+/// The radius that may stay in the inner corners of a step, an outside or a closed pocket that are drawn
+/// sharp and state none; 0: it has none.
 [[nodiscard]] double sharp_corner_of(const Work& w, const model::FeatureShape& shape);
+/// Why a hole cannot be told from another feature's: it lies wholly within that, or differs from it at the
+/// same place. Empty when it can.
+[[nodiscard]] std::string lies_within_another(const Work& w, const model::FeatureShape& shape);
+/// Says which features are the same at the same place: they are made once.
+void tell_twins(Work& w);
 /// Says which radius stays where corners are drawn sharp and no radius is stated.
 void tell_corners(Work& w);
 /// A hole at an edge of the raw piece is milled, or not made: its chains that drill are rejected.

@@ -73,7 +73,8 @@ Limit widest_cutter(const Making& m, double of_passage, double allowance, bool c
   if (s.kind == ShapeKind::kStep && m.context.between_ends_mm > 0.0)
     narrow(kOfEnds * m.context.between_ends_mm,
            "walls " + mm(m.context.between_ends_mm) + " apart at the step's ends limit the cutter");
-  if (m.context.sharp_corner_mm > 0.0 && (s.kind == ShapeKind::kStep || s.kind == ShapeKind::kOutside))
+  if (m.context.sharp_corner_mm > 0.0 &&
+      (s.kind == ShapeKind::kStep || s.kind == ShapeKind::kOutside || s.kind == ShapeKind::kPocket))
     narrow(2.0 * of_sharp * m.context.sharp_corner_mm,
            "inner corners are drawn sharp: a radius of " + mm(of_sharp * m.context.sharp_corner_mm) +
                (of_sharp > 1.0 ? " may stay until the finish" : " may stay at most"));

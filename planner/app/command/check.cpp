@@ -193,7 +193,9 @@ class Check {
       if (!library) return library.error();
       shop_.cutters = *std::move(library);
     } else if (!has_plan && !shop_.tool_table.empty()) {
-      auto table = tooling::read_tool_table(shop_.tool_table, "tool table", s_.job);
+      auto table = tooling::read_tool_table(
+          shop_.tool_table, "tool table", s_.job,
+          {.mm_per_unit = {}, .offsets_against_reference = shop_.machine.control.offsets_against_reference});
       if (!table) return table.error();
       shop_.cutters = *std::move(table);
     }
