@@ -39,8 +39,8 @@ struct Context {
   std::optional<double> clear_radius_mm;
   /// Steps that end at walls on both sides: how far these are apart; 0: they do not.
   double between_ends_mm = 0.0;
-  /// Steps and outsides with inner corners that are drawn sharp: the largest radius that may stay there; 0:
-  /// they have none.
+  /// Steps, outsides and faces with inner corners that are drawn sharp: the largest radius that may stay
+  /// there; 0: they have none.
   double sharp_corner_mm = 0.0;
   double core_height_mm = 0.0;     ///< with core_above: how high above this one's top it begins
   bool outer_thread = false;       ///< threads: on a shaft

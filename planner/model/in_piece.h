@@ -57,8 +57,11 @@ struct SharpCorner {
                                                      const std::vector<FeatureShape>& features,
                                                      const PieceForm& part);
 
-/// The largest radius that may stay in the inside corners of a step or an outside, which can state none, mm:
-/// 3 mm, and where that is deeper than a mill reaches in one hand, a sixth of the depth, which is a mill
+/// Whether solid stands beside a face above its floor, so that its reach ends there.
+[[nodiscard]] bool stops_at_walls(const FeatureShape& face);
+
+/// The largest radius that may stay in the inside corners of what can state none (steps, outsides, faces),
+/// mm: 3 mm, and where that is deeper than a mill reaches in one hand, a sixth of the depth, which is a mill
 /// three diameters deep. Default, unsourced.
 [[nodiscard]] double unstated_corner_mm(const FeatureShape& s);
 

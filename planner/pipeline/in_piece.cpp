@@ -16,6 +16,10 @@ using model::ShapeKind;
 constexpr double kNoRadius = 1e300;
 constexpr std::ptrdiff_t kMostNamed = 4;  // corners that a message names
 
+bool states_no_corner(const FeatureShape& s) {
+  return s.kind == ShapeKind::kStep || s.kind == ShapeKind::kOutside || model::stops_at_walls(s);
+}
+
 model::PieceForm raw_piece(const Work& w) { return {w.plan.stock.box, w.plan.stock.cylinder_radius_mm}; }
 
 model::PieceForm part_form(const Work& w) { return {part_box(w), w.plan.stock.cylinder_radius_mm}; }
@@ -35,7 +39,7 @@ std::string not_in_piece(const Work& w, const FeatureShape& s) {
 }
 
 double sharp_corner_of(const Work& w, const FeatureShape& s) {
-  if (w.plan.target_mesh || (s.kind != ShapeKind::kStep && s.kind != ShapeKind::kOutside)) return 0.0;
+  if (w.plan.target_mesh || !states_no_corner(s)) return 0.0;
   return model::sharp_corners(s, w.whole_shapes, part_form(w)).empty() ? 0.0 : model::unstated_corner_mm(s);
 }
 
@@ -44,7 +48,7 @@ void tell_corners(Work& w) {
   const model::PieceForm part = part_form(w);
   for (const FeatureShape& s : w.whole_shapes) {
     const bool open = s.kind == ShapeKind::kPocket && s.open && !(s.corner_radius_mm > 0.0);
-    if (!open && s.kind != ShapeKind::kStep && s.kind != ShapeKind::kOutside) continue;
+    if (!open && !states_no_corner(s)) continue;
     double radius = kNoRadius;
     for (const model::StepResult& made : w.plan.steps) {
       const auto* ws = w.plan.model.get<model::MachiningWorkingstep>(made.step);

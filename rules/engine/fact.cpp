@@ -49,6 +49,7 @@ const std::vector<FactType>& fact_types() {
       symbols("core", {"none", "hole", "above"},
               "whether a smaller coaxial hole goes on below the bottom, or is the only way in from above"),
       symbols("access", {"closed", "open"}, "whether a cutter can enter from the side"),
+      symbols("sides", {"free", "wall"}, "of a face: free all round, or solid stands beside it"),
       symbols("wall", {"upright", "drafted"}, "walls along the tool axis, or sloped"),
       symbols("floor", {"open", "closed"}, "whether the bottom is a surface of the part"),
       symbols("floor_edge", {"sharp", "rounded"}, "edge between wall and bottom"),

@@ -17,6 +17,8 @@ namespace capstan::testing::removal {
 [[nodiscard]] Part plain_slots();
 [[nodiscard]] Part undercut_slots();
 [[nodiscard]] Part short_step();
+/// The face stops at walls as high as it is deep on one, two or three of its sides.
+[[nodiscard]] Part face_beside_walls(int walls, double height);
 [[nodiscard]] Part single_holes();
 [[nodiscard]] Part compound_holes();
 [[nodiscard]] Part threaded_hole();
