@@ -64,6 +64,10 @@ const std::vector<FactType>& fact_types() {
       number("chamfer_angle_deg", 0.0, 90.0, "chamfer against the plane of its edge"),
       number("round_radius_mm", 0.0, 10000.0, "radius of an edge round"),
       number("surface_radius_mm", 0.0, 100000.0, "smallest concave radius of a surface; 0 unknown"),
+      symbols(
+          "surface_form", {"curved", "walls", "prismatic"},
+          "of a surface: no upright walls within the raw piece, curved with such walls, or walls and level "
+          "floors only"),
       symbols("shape",
               {"hole", "countersink", "face", "pocket", "slot", "step", "outside", "chamfer", "edge_round",
                "thread", "spherical_cap", "rounded_end", "freeform", "toolpath"},

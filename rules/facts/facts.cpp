@@ -273,6 +273,7 @@ FeatureFacts facts_of(const FeatureShape& s, const Context& c) {
     case ShapeKind::kRoundedEnd:
     case ShapeKind::kFreeform:
       f.set("surface_radius_mm", c.surface_radius_mm);
+      f.set("surface_form", !c.surface_walls ? "curved" : c.surface_curved ? "walls" : "prismatic");
       break;
     case ShapeKind::kToolpath:
       break;

@@ -39,6 +39,11 @@ namespace capstan::testing::removal {
 [[nodiscard]] Part pattern_that_meets_itself();
 [[nodiscard]] Part hole_into_a_cross_bore();
 
+// Closed meshes in a larger block.
+[[nodiscard]] Part mesh_box();
+[[nodiscard]] Part mesh_step();
+[[nodiscard]] Part mesh_pocket();
+
 // Parts that once took minutes of planning.
 [[nodiscard]] Part tight_flat_hole();
 [[nodiscard]] Part overlapping_flat_holes();

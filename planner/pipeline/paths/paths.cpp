@@ -248,8 +248,9 @@ class PathMaker {
       if (!made && !gentlest) return tl::unexpected(made.error());
       if (!made) break;
       // A pass over a surface is as deep as what was left there, whatever was asked for.
-      const bool thinner = (made->depth_open || made->width_open) &&
-                           !w_.plan.model.holds<model::FreeformFinishMilling>(step.operation);
+      const bool thinner =
+          (made->depth_open || made->width_open) &&
+          (!w_.plan.model.holds<model::FreeformFinishMilling>(step.operation) || cuts_levels(w_, step));
       made->thicker = thicker;
       Tried tried = cut(step, *std::move(made));
       const double excess = tried.feeds.worst_excess;
