@@ -30,6 +30,7 @@ namespace capstan::testing::removal {
 [[nodiscard]] Part turned_over();
 [[nodiscard]] Part tight_holes();
 [[nodiscard]] Part small_countersink();
+[[nodiscard]] Part fine_holes();
 [[nodiscard]] Part hole_over_an_edge();
 [[nodiscard]] Part pocket_over_an_edge();
 [[nodiscard]] Part lone_boss(bool round);

@@ -31,6 +31,7 @@ CAPSTAN_MADE(RemovalOfParts, StopsAFaceBetweenThreeHighWalls, face_beside_walls(
 CAPSTAN_MADE(RemovalOfParts, CutsAClosedMeshOfABoxOutOfABlock, mesh_box())
 CAPSTAN_MADE(RemovalOfParts, CutsAClosedMeshOfAStepOutOfABlock, mesh_step())
 CAPSTAN_MADE(RemovalOfParts, CutsAClosedMeshWithAPocketOutOfABlock, mesh_pocket())
+CAPSTAN_MADE(RemovalOfParts, BoresHolesOfIT6InTwoCutsEachOfWhichCuts, fine_holes())
 CAPSTAN_MADE(RemovalOfParts, PlacesTheHolesOfACompound, compound_holes())
 CAPSTAN_MADE(RemovalOfParts, UndercutsTeeSlotsAndDovetails, undercut_slots())
 CAPSTAN_MADE(RemovalOfParts, KeepsTheBossBesideAPocket, boss_beside_pocket())
