@@ -62,9 +62,12 @@ struct SharpCorner {
                                                      const std::vector<FeatureShape>& features,
                                                      const PieceForm& part);
 
-/// The largest radius that may stay in the inside corners of a step or an outside, which can state none, and
-/// of a pocket that states none, mm: 3 mm, and where that is deeper than a mill reaches in one hand, a sixth
-/// of the depth, which is a mill three diameters deep. Default, unsourced.
+/// Whether solid stands beside a face above its floor, so that its reach ends there.
+[[nodiscard]] bool stops_at_walls(const FeatureShape& face);
+
+/// The largest radius that may stay in the inside corners of what can state none (steps, outsides, faces),
+/// and of a pocket that states none, mm: 3 mm, and where that is deeper than a mill reaches in one hand, a
+/// sixth of the depth, which is a mill three diameters deep. Default, unsourced.
 [[nodiscard]] double unstated_corner_mm(const FeatureShape& s);
 
 /// An inside corner that no mill makes, in words; empty when there is none: a slot whose end is square, as an

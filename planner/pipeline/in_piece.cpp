@@ -21,8 +21,9 @@ model::PieceForm raw_piece(const Work& w) { return {w.plan.stock.box, w.plan.sto
 
 model::PieceForm part_form(const Work& w) { return {part_box(w), w.plan.stock.cylinder_radius_mm}; }
 
-/// A closed pocket for whose inside corners the file states no radius.
+/// What can state no radius of its inside corners, and a closed pocket for which the file states none.
 bool states_no_corner(const Work& w, const FeatureShape& s) {
+  if (s.kind == ShapeKind::kStep || s.kind == ShapeKind::kOutside || model::stops_at_walls(s)) return true;
   if (s.kind != ShapeKind::kPocket || s.open || s.corner_radius_mm > 0.0) return false;
   const auto* p = w.plan.model.get<model::Pocket>(s.made_of.empty() ? s.feature : s.made_of.back());
   return p != nullptr && !p->orthogonal_radius.set();
@@ -46,8 +47,7 @@ std::string not_in_piece(const Work& w, const FeatureShape& s) {
 }
 
 double sharp_corner_of(const Work& w, const FeatureShape& s) {
-  const bool unstated = s.kind == ShapeKind::kStep || s.kind == ShapeKind::kOutside || states_no_corner(w, s);
-  if (w.plan.target_mesh || !unstated) return 0.0;
+  if (w.plan.target_mesh || !states_no_corner(w, s)) return 0.0;
   return model::sharp_corners(s, w.whole_shapes, part_form(w)).empty() ? 0.0 : model::unstated_corner_mm(s);
 }
 
@@ -56,8 +56,7 @@ void tell_corners(Work& w) {
   const model::PieceForm part = part_form(w);
   for (const FeatureShape& s : w.whole_shapes) {
     const bool open = s.kind == ShapeKind::kPocket && s.open && !(s.corner_radius_mm > 0.0);
-    if (!open && s.kind != ShapeKind::kStep && s.kind != ShapeKind::kOutside && !states_no_corner(w, s))
-      continue;
+    if (!open && !states_no_corner(w, s)) continue;
     double radius = kNoRadius;
     for (const model::StepResult& made : w.plan.steps) {
       const auto* ws = w.plan.model.get<model::MachiningWorkingstep>(made.step);

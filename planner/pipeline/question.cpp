@@ -221,6 +221,9 @@ optimise::CutQuestion question_of(const Work& w, const StepWork& step, const mod
     const double zone = tolerance_of(w, step, job.shape);
     q.deflection_limit_mm =
         zone > 0.0 ? std::max(kLeastDeflection, kDeflectionShare * zone) : kFinishDeflection;
+    // What a semi-finish leaves on the walls takes up what bends: the tolerance is the next step's.
+    if (job.allowance_side_mm > 0.0)
+      q.deflection_limit_mm = std::max(q.deflection_limit_mm, kDeflectionShare * job.allowance_side_mm);
     // A semi-finish of a surface: what it leaves takes up what bends.
     if (m.holds<model::FreeformFinishMilling>(step.operation) && job.allowance_bottom_mm > 0.0)
       q.deflection_limit_mm = std::max(q.deflection_limit_mm, kDeflectionShare * job.allowance_bottom_mm);

@@ -137,6 +137,9 @@ struct Thickness {
 /// From a hole's axis to the nearest wall that stands above its mouth when what is around is cut, mm; unset:
 /// none is near. Tools wider than the hole must pass there.
 [[nodiscard]] std::optional<double> clear_beside(const Work& w, const model::FeatureShape& hole);
+/// A face is left over its sides, but not where the part stands beside it above its floor: there its reach
+/// ends. Walls are known once the requirements are taken; before, nothing is changed.
+void stop_at_walls(const Work& w, model::FeatureShape& face);
 /// A feature with open sides may be left through them, but only where the part has nothing in the way: what
 /// stays beside it at its depth is the part's box less its own area and those of the features that are cut as
 /// deep there.

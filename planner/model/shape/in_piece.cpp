@@ -307,6 +307,15 @@ std::vector<SharpCorner> sharp_corners(const FeatureShape& s, const std::vector<
   return out;
 }
 
+bool stops_at_walls(const FeatureShape& face) {
+  constexpr double kBesideMm = 0.2,
+                   kSomeArea = 0.01;  // mm2: less is rounding of outlines; default, unsourced
+  if (face.kind != ShapeKind::kFace || face.area.empty() || face.reach.empty()) return false;
+  geometry::Region free = face.reach;
+  for (const Island& i : face.islands) free = geometry::unite(free, i.area);
+  return geometry::area(geometry::subtract(geometry::offset_sharp(face.area, kBesideMm), free)) > kSomeArea;
+}
+
 double unstated_corner_mm(const FeatureShape& s) {
   constexpr double kLeastMm = 3.0, kOfDepth = 1.0 / 6.0;
   return std::max(kLeastMm, kOfDepth * s.depth_mm);

@@ -107,7 +107,7 @@ double corner_allowed(const model::Model& m, const FeatureShape& s, double mill)
   if (s.kind == ShapeKind::kSlot) return 0.0;
   const auto* p = m.get<model::Pocket>(s.made_of.empty() ? s.feature : s.made_of.back());
   if (p != nullptr && p->orthogonal_radius.set()) return 0.0;
-  if (s.kind == ShapeKind::kStep || s.kind == ShapeKind::kOutside ||
+  if (s.kind == ShapeKind::kStep || s.kind == ShapeKind::kOutside || s.kind == ShapeKind::kFace ||
       (s.kind == ShapeKind::kPocket && !s.open))
     return std::min(mill, model::unstated_corner_mm(s));
   return std::min(mill, kUnstatedShare * narrow_side(s.area));
