@@ -57,6 +57,31 @@ Ref<model::MillingTechnology> own_technology(Model& m, AnyRef operation) {
 /// right-hand cutter wants.
 double noun_sense(const model::Cutter& c) { return c.hand == model::Hand::kLeft ? 1.0 : -1.0; }
 
+/// What stands before the cut of a step is chosen: its tool, what its chain says of its sizes, and what the
+/// steps before it on its feature leave on walls and floor. Only what is in the ledger can be depended on.
+std::vector<DecisionKey> decided_before(const Work& w, const StepWork& step) {
+  std::vector<DecisionKey> out = {{step.operation, "its_tool"}};
+  const auto add = [&](AnyRef operation, const char* attribute) {
+    if (operation.set() && w.plan.ledger.find(operation, attribute) != nullptr)
+      out.push_back({operation, attribute});
+  };
+  for (const char* name : {"allowance_side", "allowance_bottom", "cutting_depth", "previous_diameter"})
+    add(step.operation, name);
+  for (const StepWork& s : w.steps) {
+    if (s.step == step.step) break;
+    if (!step.feature.set() || s.feature != step.feature) continue;
+    for (const char* name : {"allowance_side", "allowance_bottom"}) add(s.operation, name);
+  }
+  return out;
+}
+
+/// Where the width of a cut stands: in the operation, or as the overlap of its strategy.
+DecisionKey width_key(const Model& m, AnyRef operation) {
+  const auto* o = m.get<model::PlaneMilling>(operation);
+  return o != nullptr ? DecisionKey{o->its_machining_strategy, "overlap"}
+                      : DecisionKey{operation, "radial_cutting_depth"};
+}
+
 }  // namespace
 
 GivenTechnology given_technology(const Model& m, AnyRef operation, const model::Cutter& cutter) {
@@ -127,7 +152,15 @@ void record_cut(Work& w, StepWork& step, const optimise::CutAnswer& a, bool dept
                 const std::optional<model::Reason>& precedent) {
   Model& m = w.plan.model;
   model::Ledger& ledger = w.plan.ledger;
-  const DecisionKey tool{step.operation, "its_tool"};
+  const std::vector<DecisionKey> before = decided_before(w, step);
+  const auto with = [&](std::initializer_list<DecisionKey> more) {
+    std::vector<DecisionKey> out = before;
+    for (const DecisionKey& k : more) {
+      if (ledger.find(k.object, k.attribute) != nullptr) out.push_back(k);
+    }
+    return out;
+  };
+  const DecisionKey depth{step.operation, "axial_cutting_depth"};
   const std::string first = a.active.empty() ? "search" : a.active.front().name;
   const model::Reason why{"limit." + first, words(a), kMechanics};
   const auto bind = [&](AnyRef object, const char* attribute, std::vector<DecisionKey> on) {
@@ -145,7 +178,7 @@ void record_cut(Work& w, StepWork& step, const optimise::CutAnswer& a, bool dept
     } else {
       has = false;
     }
-    if (has) bind(step.operation, "axial_cutting_depth", {tool});
+    if (has) bind(step.operation, "axial_cutting_depth", with({}));
   }
   if (width_open) {
     bool has = true;
@@ -156,13 +189,13 @@ void record_cut(Work& w, StepWork& step, const optimise::CutAnswer& a, bool dept
     } else {
       has = false;
     }
-    if (has) bind(step.operation, "radial_cutting_depth", {tool});
+    if (has) bind(step.operation, "radial_cutting_depth", with({depth}));
     if (const auto* o = m.get<model::PlaneMilling>(step.operation)) {
       const AnyRef strategy = o->its_machining_strategy;
       if (auto* t = m.get<model::Two5dMillingStrategy>(strategy);
           t != nullptr && step.cutter.cutting_diameter_mm > 0.0) {
         t->overlap = std::max(0.0, 1.0 - a.ae_mm / step.cutter.cutting_diameter_mm);
-        bind(strategy, "overlap", {tool});
+        bind(strategy, "overlap", with({depth}));
       }
     }
   }
@@ -183,9 +216,13 @@ void record_cut(Work& w, StepWork& step, const optimise::CutAnswer& a, bool dept
     t->inhibit_feedrate_override = true;
     t->inhibit_spindle_override = true;
   }
-  const DecisionKey depth{step.operation, "axial_cutting_depth"};
-  if (!step.keep_speed) bind(made, "spindle", {tool, depth});
-  if (!step.keep_feed) bind(made, "feedrate", {tool, depth, {made, "spindle"}});
+  const std::vector<DecisionKey> sizes = with({depth, width_key(m, step.operation)});
+  if (!step.keep_speed) bind(made, "spindle", sizes);
+  if (!step.keep_feed) {
+    std::vector<DecisionKey> on = sizes;
+    on.push_back({made, "spindle"});
+    bind(made, "feedrate", std::move(on));
+  }
   if (!precedent) return;
   for (const char* attribute : {"spindle", "feedrate"}) {
     if (attribute[0] == 's' ? step.keep_speed : step.keep_feed) continue;
@@ -207,12 +244,18 @@ void record_path(Work& w, const StepWork& step, const std::shared_ptr<const mode
   model::ToolpathList list;
   list.its_list.push_back(m.add(t));
   m.get<model::MachiningOperation>(step.operation)->its_toolpath = m.add(list);
+  std::vector<DecisionKey> on = decided_before(w, step);
+  for (const DecisionKey& k :
+       {DecisionKey{step.operation, "its_machining_strategy"},
+        DecisionKey{step.operation, "axial_cutting_depth"}, width_key(m, step.operation)}) {
+    if (w.plan.ledger.find(k.object, k.attribute) != nullptr) on.push_back(k);
+  }
   w.plan.ledger.bind(
       step.operation, "its_toolpath", Binder::kRule,
       {"path.generated",
        "computed from feature, cutter, depths and strategy" + (deviation.empty() ? "" : "; " + deviation),
        "planner/toolpath"},
-      {{step.operation, "its_tool"}, {step.operation, "axial_cutting_depth"}});
+      std::move(on));
 }
 
 }  // namespace capstan::pipeline

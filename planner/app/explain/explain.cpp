@@ -120,7 +120,7 @@ void told(const Plan& plan, const model::StepResult* result, const Decision* d, 
   out += indent + binder_text(plan, d);
   if (d != nullptr && !d->lexeme.empty()) out += ", as written: " + d->lexeme;
   out += "\n";
-  if (d == nullptr) return;
+  if (d == nullptr || d->state == model::DecisionState::kOpen) return;  // why it was so no longer holds
   const auto& why = plan.ledger.reason(d->reason);
   if (why.id != "given") out += indent + "because " + reason_text(why) + "\n";
   if (d->binder == model::Binder::kOptimiser) limits(result, indent, out);

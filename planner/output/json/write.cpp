@@ -339,7 +339,10 @@ class Writer {
     put(plan_.ledger.reasons());
     out_.key("decisions");
     out_.open('[', true);
-    for (const auto& [key, decision] : plan_.ledger.entries()) {
+    for (const auto& [key, known] : plan_.ledger.entries()) {
+      // What the value is as it is written, so that a reader sees whether somebody changed it since.
+      model::Decision decision = known;
+      decision.value_hash = model::hash_attribute(plan_.model, key.object, key.attribute);
       out_.open('{', false);
       FieldWriter each{*this};
       fields(each, key);
