@@ -67,8 +67,9 @@ std::vector<Edited> take_edits(const Model& model, Ledger& ledger) {
     for (const DecisionKey& k : chosen && !e.was_open ? upstream(before, e.key) : std::set<DecisionKey>{}) {
       Decision* d = ledger.find(k.object, k.attribute);
       if (d == nullptr || d->reason != was.reason || keys.contains(k)) continue;
-      d->reason = ledger.reason(
-          {"kept", "as it was planned, before " + e.key.attribute + " was edited", "the plan that was read"});
+      d->reason =
+          ledger.reason({std::string(kKept), "as it was planned, before " + e.key.attribute + " was edited",
+                         "the plan that was read"});
     }
   }
   for (Edited& e : out) {

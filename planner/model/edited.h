@@ -12,6 +12,9 @@ namespace capstan::model {
 
 class Model;
 
+/// The reason's id of a value that stays although what it was chosen together with was edited.
+inline constexpr std::string_view kKept = "kept";
+
 /// A value that somebody changed in a written plan since it was decided.
 struct Edited {
   DecisionKey key;

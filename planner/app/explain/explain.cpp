@@ -7,6 +7,7 @@
 #include "planner/app/explain/step_view.h"
 #include "planner/app/show/values.h"
 #include "planner/base/number.h"
+#include "planner/model/edited.h"
 #include "planner/model/walk.h"
 #include "planner/motion/time.h"
 
@@ -123,7 +124,7 @@ void told(const Plan& plan, const model::StepResult* result, const Decision* d, 
   if (d == nullptr || d->state == model::DecisionState::kOpen) return;  // why it was so no longer holds
   const auto& why = plan.ledger.reason(d->reason);
   if (why.id != "given") out += indent + "because " + reason_text(why) + "\n";
-  if (d->binder == model::Binder::kOptimiser) limits(result, indent, out);
+  if (d->binder == model::Binder::kOptimiser && why.id != model::kKept) limits(result, indent, out);
   rejected(*d, indent, out);
 }
 
@@ -396,7 +397,9 @@ Result<std::string> explain(const Plan& plan, std::string_view step) {
     const auto& loads = v->result->loads;
     const bool cuts = !v->result->cutter_id.empty() && v->result->path && v->result->cutting_s > 0.0;
     if (cuts && v->result->active.empty() && loads.torque_nm == 0.0 && loads.peak_force_n == 0.0)
-      out += "\nno loads and limits here: the file was written before it could keep them, or the step is as given\n";
+      out +=
+          "\nno loads and limits here: the file was written before it could keep them, or the step is as "
+          "given\n";
   }
   for (const StepPart& part : v->parts) part_text(plan, *v, part, out);
   return out;
