@@ -36,8 +36,24 @@ std::string words(const optimise::CutAnswer& a) {
   return out;
 }
 
+/// Who decided the values of one technology, for another that holds the same; what the file states is given.
+void take_over_decisions(Work& w, AnyRef from, AnyRef to) {
+  model::Ledger& ledger = w.plan.ledger;
+  for (const char* name : {"spindle", "cutspeed", "feedrate", "feedrate_per_tooth"}) {
+    const auto* a = model::find_attribute(from.type, name);
+    if (a == nullptr || !model::has_value(*a, w.plan.model.object(from))) continue;
+    const model::Decision* known = ledger.find(from, name);
+    model::Decision d = known == nullptr ? model::Decision{} : *known;
+    for (DecisionKey& k : d.depends_on) {
+      if (k.object == from) k.object = to;
+    }
+    ledger.set({to, name}, std::move(d));
+  }
+}
+
 /// The technology of the operation, its own: one that came with the file may serve other operations too.
-Ref<model::MillingTechnology> own_technology(Model& m, AnyRef operation) {
+Ref<model::MillingTechnology> own_technology(Work& w, AnyRef operation) {
+  Model& m = w.plan.model;
   auto* op = m.get<model::MachiningOperation>(operation);
   const AnyRef now = op->its_technology;
   if (m.holds<model::MillingTechnology>(now) && m.origin(now).instance == 0)
@@ -50,6 +66,7 @@ Ref<model::MillingTechnology> own_technology(Model& m, AnyRef operation) {
   if (!t.inhibit_spindle_override) t.inhibit_spindle_override = false;
   const auto made = m.add(t);
   m.get<model::MachiningOperation>(operation)->its_technology = made;
+  if (m.holds<model::MillingTechnology>(now)) take_over_decisions(w, now, made);
   return made;
 }
 
@@ -119,7 +136,7 @@ void turn_with_the_cutter(Work& w, const StepWork& step) {
   const double rpm = std::abs(*t->spindle);
   const std::string name = op->its_id.value_or("");
   const model::Origin at = m.origin(op->its_technology);
-  const auto made = own_technology(m, step.operation);
+  const auto made = own_technology(w, step.operation);
   m.get<model::MillingTechnology>(made)->spindle = sense * rpm;
   const bool right = sense < 0.0;
   const std::string text =
@@ -200,7 +217,7 @@ void record_cut(Work& w, StepWork& step, const optimise::CutAnswer& a, bool dept
     }
   }
   if (!step.open_technology) return;
-  const auto made = own_technology(m, step.operation);
+  const auto made = own_technology(w, step.operation);
   auto* t = m.get<model::MillingTechnology>(made);
   if (!step.keep_speed) {
     t->spindle = noun_sense(step.cutter) * a.n_rpm;
