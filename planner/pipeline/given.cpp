@@ -456,6 +456,8 @@ Status list_given(Work& w) {
         const std::string name = w.plan.model.get<model::Executable>(step.step)->its_id.value_or("");
         step.shapes = members_meant(
             elements_meant(w.plan.model, rules::from_the_top(*std::move(shapes)), step.operation), name);
+      } else {
+        step.no_shape = shapes.error().message;
       }
       // An operation with its own path needs no shape; others say later why they cannot be done.
     }

@@ -105,7 +105,7 @@ class Check {
     const auto stated = stated_paths(plan);
     auto bound = pipeline::bind(std::move(plan), *inputs, pipeline::Policy{}, s_.job);
     if (!bound) return bound;
-    unplanned_ += bound->unplanned.size();
+    unplanned_ += unplanned_features(*bound);
     tell_recomputed(stated, *bound);
     return bound;
   }

@@ -277,6 +277,12 @@ void provenance(const Plan& plan, std::string& out) {
   out += table(rows);
 }
 
+double by_steps(const Plan& plan) {
+  double s = 0.0;
+  for (const model::StepResult& r : plan.steps) s += r.cutting_s + r.rapid_s;
+  return s;
+}
+
 void overview_head(const Plan& plan, std::string& out) {
   out +=
       "Plan of " + (plan.project.set() ? label(plan.model, plan.project) : std::string("no project")) + "\n";
@@ -294,10 +300,9 @@ void overview_head(const Plan& plan, std::string& out) {
   }
   if (!plan.stock.box.empty()) line("stock   ", box_text(plan.stock.box) + " (" + plan.stock.source + ")");
   if (const auto t = motion::time_of(plan); t && !plan.steps.empty() && t->total_s() > 0.0) {
-    line("time    ", duration(t->total_s()) + ": cutting " + duration(t->cutting_s) + ", rapids and links " +
-                         duration(t->rapid_s + t->link_s) + ", " + std::to_string(t->tool_changes) +
-                         " tool changes " + duration(t->tool_change_s) + ", spindle and dwell " +
-                         duration(t->spin_up_s + t->dwell_s));
+    line("time    ", motion::text_of(*t));
+  } else if (const double s = by_steps(plan); s > 0.0) {
+    line("time    ", duration(s) + " by the steps alone: without paths what lies between them is not known");
   }
 }
 
@@ -320,7 +325,13 @@ void step_table(const Plan& plan, const std::vector<StepView>& views, std::strin
                     speed_text(r.spindle_rpm), r.feed_mm_min > 0.0 ? trimmed(r.feed_mm_min, 0) : "-",
                     duration(r.cutting_s + r.rapid_s)});
   }
-  if (rows.size() > 1) out += "\nSteps, in order\n" + table(rows);
+  if (rows.size() > 1) {
+    out += "\nSteps, in order\n" + table(rows);
+    const auto t = motion::time_of(plan);
+    if (t && t->total_s() > 0.0)
+      out += "  the steps together " + duration(t->at_feed_s() + t->rapid_s) +
+             "; with what lies between them " + duration(t->total_s()) + "\n";
+  }
   Rows waiting;
   for (const StepView& v : views) {
     if (v.result == nullptr && !plan.model.holds<model::WorkpieceProbing>(v.step))
