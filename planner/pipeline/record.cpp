@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "planner/base/number.h"
+#include "planner/mechanics/force_law.h"
 #include "planner/model/walk.h"
 #include "planner/pipeline/steps.h"
 
@@ -15,9 +16,12 @@ using model::Binder;
 using model::DecisionKey;
 using model::Model;
 
-const char* const kMechanics =
-    "Kienzle forces with the material's kc1.1 and mc, tool bending as a stepped beam, the machine's spindle "
-    "curve";
+/// Where the numbers of a cut come from: first of all whose coefficients gave its forces.
+std::string mechanics_of(const Work& w, const StepWork& step) {
+  const bool milled = mechanics::is_milled(step.operation.type, step.cutter);
+  return "forces by " + mechanics::force_source(w.plan.material, step.cutter.substrate, milled) +
+         ", tool bending as a stepped beam, the machine's spindle curve";
+}
 
 std::string percent(double fraction) { return trimmed(100.0 * fraction, 2) + " %"; }
 
@@ -179,7 +183,7 @@ void record_cut(Work& w, StepWork& step, const optimise::CutAnswer& a, bool dept
   };
   const DecisionKey depth{step.operation, "axial_cutting_depth"};
   const std::string first = a.active.empty() ? "search" : a.active.front().name;
-  const model::Reason why{"limit." + first, words(a), kMechanics};
+  const model::Reason why{"limit." + first, words(a), mechanics_of(w, step)};
   const auto bind = [&](AnyRef object, const char* attribute, std::vector<DecisionKey> on) {
     ledger.bind(object, attribute, Binder::kOptimiser, why, std::move(on));
   };

@@ -7,6 +7,7 @@
 #include "planner/app/explain/step_view.h"
 #include "planner/app/show/values.h"
 #include "planner/base/number.h"
+#include "planner/mechanics/force_law.h"
 #include "planner/model/edited.h"
 #include "planner/model/walk.h"
 #include "planner/motion/time.h"
@@ -195,6 +196,11 @@ std::vector<Computed> computed_of(const Plan& plan, const StepView& v) {
   forces("mean_forces", r->loads.mean_force,
          "along the feed, to its left, away from the work: largest means");
   forces("peak_forces", r->loads.peak_force, "the same, largest at any moment");
+  const auto* cutting = model::find_cutter(plan, r->cutter_id);
+  if (cutting != nullptr && v.operation.set() && r->loads.force_margin > 0.0)
+    out.push_back({"forces", "by coefficients",
+                   mechanics::force_source(plan.material, cutting->substrate,
+                                           mechanics::is_milled(v.operation.type, *cutting))});
   add("force_margin", r->loads.force_margin, "",
       "factor in these loads on a sharp edge's with mean coefficients: their spread, and wear");
   add("wall_error", r->loads.wall_error_mm, " mm", "that bending leaves on the wall; above 0: material");
@@ -241,6 +247,15 @@ std::string value_of_part(const Plan& plan, const StepPart& part, const model::A
   return value_text(plan.model, a, plan.model.object(part.object), kDecimals);
 }
 
+/// Who chose a value without a record that no file states: whoever chose the object it came with; of a
+/// technology everything but speed and feed, and what locks them, is what planning writes for want of a wish.
+std::string nobody_else(const Plan& plan, const StepPart& part, const model::Attribute& a) {
+  if (part.role != "its_technology") return "comes with it";
+  const bool locks = a.storage == model::Storage::kBoolean &&
+                     model::value_of<model::Boolean>(a, plan.model.object(part.object)).value_or(false);
+  return locks ? "comes with it" : "default of the planner, unsourced";
+}
+
 /// The attributes of one part. What is given and says no more than that stays on its line.
 void part_text(const Plan& plan, const StepView& v, const StepPart& part, std::string& out) {
   std::string lines;
@@ -251,7 +266,7 @@ void part_text(const Plan& plan, const StepView& v, const StepPart& part, std::s
     if (d == nullptr) {
       // Nothing was recorded: from the file, or made with an object that a decision chose as a whole.
       const bool from_file = plan.model.origin(part.object).instance != 0;
-      lines += from_file ? "  (in the file)\n" : "  (comes with it)\n";
+      lines += from_file ? "  (in the file)\n" : "  (" + nobody_else(plan, part, a) + ")\n";
       continue;
     }
     lines += "\n";

@@ -12,12 +12,13 @@ namespace {
 
 using QuestionKey =
     std::tuple<int, double, double, double, double, double, double, double, double, double, double, double,
-               double, double, double, bool, bool, bool, double, double, double, double>;
+               double, double, double, double, bool, bool, bool, double, double, double, double>;
 
 QuestionKey key_of(const optimise::CutQuestion& q) {
   constexpr double kUnset = -1.0;
   return {static_cast<int>(q.kind),
           q.vc_start_m_min,
+          q.vc_table_m_min,
           q.fz_start_mm,
           q.depth_mm,
           q.width_mm,
