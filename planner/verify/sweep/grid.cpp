@@ -116,6 +116,16 @@ constexpr double kChordMm = 0.002;
 /// A point nearer to the rim than this at the start of a move is met by the move, not by what was before.
 constexpr double kMetMm = 1e-6;
 
+/// Takes cells down, and that is all.
+struct Plane {
+  Grid& grid;
+  static constexpr bool kMeasures = false;
+  void at(int ix, int iy, double, double z, double) {
+    const std::size_t i = grid.index(ix, iy);
+    if (z < grid.stock[i]) grid.stock[i] = z <= grid.base[i] ? Grid::kNothing : z;
+  }
+};
+
 /// Takes cells down and keeps the account. What only the outermost rim takes may be what the pieces of a
 /// helix left before: no depth of cut.
 struct Knife {
@@ -128,6 +138,7 @@ struct Knife {
   double advance;
   double head = 0.0;
   int judged = 0;
+  static constexpr bool kMeasures = true;
 
   /// The chip at a centre that stands `above` the tip and of which no more than `deep` is taken.
   /// `meets(rho)`: cosine between the way and the direction from the axis to the centre, both level, as a
@@ -212,7 +223,8 @@ double lowest(const Outline& o, double z0, double dz, double t_foot, double d, d
   return std::min(fa, fb);
 }
 
-void cut_line(Knife& k, const Outline& o, Vec3 a, Vec3 b) {
+template <class Edge>
+void cut_line(Edge& k, const Outline& o, Vec3 a, Vec3 b) {
   const Vec2 d = xy(b) - xy(a);
   const double length = norm(d);
   const double r = o.radius;
@@ -245,19 +257,21 @@ void cut_line(Knife& k, const Outline& o, Vec3 a, Vec3 b) {
       // No lower than the cutter would be at its nearest, at the lower end.
       const double bound = zmin + o.height(near);
       if (stands <= bound) continue;
-      if (length > 1e-9) {
-        const double along = foot * length;
-        const double off2 = std::max(0.0, dot(p - xy(a), p - xy(a)) - along * along);
-        // Where the rim of the full radius meets the centre: the tip's height there.
-        const double met = along - std::sqrt(std::max(0.0, r * r - off2));
-        const double tip = a.z + std::clamp(met / length, 0.0, 1.0) * (b.z - a.z);
-        const double under = std::max(bound, k.grid.base[k.grid.index(ix, iy)]);
-        k.chip(ix, iy, stands - tip, stands - under, [&](double rho) {
-          if (off2 >= rho * rho) return -1.0;
-          const double ahead = std::sqrt(rho * rho - off2);
-          const double begins = along - ahead;
-          return begins < -kMetMm || begins > length ? -1.0 : ahead / rho;
-        });
+      if constexpr (Edge::kMeasures) {
+        if (length > 1e-9) {
+          const double along = foot * length;
+          const double off2 = std::max(0.0, dot(p - xy(a), p - xy(a)) - along * along);
+          // Where the rim of the full radius meets the centre: the tip's height there.
+          const double met = along - std::sqrt(std::max(0.0, r * r - off2));
+          const double tip = a.z + std::clamp(met / length, 0.0, 1.0) * (b.z - a.z);
+          const double under = std::max(bound, k.grid.base[k.grid.index(ix, iy)]);
+          k.chip(ix, iy, stands - tip, stands - under, [&](double rho) {
+            if (off2 >= rho * rho) return -1.0;
+            const double ahead = std::sqrt(rho * rho - off2);
+            const double begins = along - ahead;
+            return begins < -kMetMm || begins > length ? -1.0 : ahead / rho;
+          });
+        }
       }
       if (level) {
         k.at(ix, iy, zmin, bound, near);
@@ -270,7 +284,8 @@ void cut_line(Knife& k, const Outline& o, Vec3 a, Vec3 b) {
   }
 }
 
-void cut_level_arc(Knife& k, const Outline& o, const Move& m) {
+template <class Edge>
+void cut_level_arc(Edge& k, const Outline& o, const Move& m) {
   const double ra = 0.5 * (norm(xy(m.from) - m.centre) + norm(xy(m.to) - m.centre));
   const double r = o.radius;
   const double sweep = sweep_of(m);
@@ -291,22 +306,24 @@ void cut_level_arc(Knife& k, const Outline& o, const Move& m) {
       if (ahead < 0.0) ahead += kTurn;
       const double near = ahead <= sweep ? radial : std::min(norm(p - xy(m.from)), norm(p - xy(m.to)));
       if (near > r) continue;
-      const std::size_t cell = k.grid.index(ix, iy);
-      const double stands = k.grid.stock[cell];
-      if (stands > m.to.z + o.height(near)) {
-        const double away = norm(q);
-        k.chip(ix, iy, stands - m.to.z, stands - std::max(m.to.z + o.height(near), k.grid.base[cell]),
-               [&](double rho) {
-                 // The triangle of the arc's centre, the axis and the point: the axis is `early` before it.
-                 if (away < 1e-9 || ra < 1e-9) return -1.0;
-                 const double c = (away * away + ra * ra - rho * rho) / (2.0 * away * ra);
-                 if (c >= 1.0 || c <= -1.0) return -1.0;
-                 const double early = std::acos(c);
-                 const double met = ahead - early;
-                 if (met < -kMetMm / ra || met > sweep) return -1.0;
-                 // Way and direction to the point at that time: away sin(early) / rho.
-                 return std::min(1.0, away * std::sin(early) / rho);
-               });
+      if constexpr (Edge::kMeasures) {
+        const std::size_t cell = k.grid.index(ix, iy);
+        const double stands = k.grid.stock[cell];
+        if (stands > m.to.z + o.height(near)) {
+          const double away = norm(q);
+          k.chip(ix, iy, stands - m.to.z, stands - std::max(m.to.z + o.height(near), k.grid.base[cell]),
+                 [&](double rho) {
+                   // The triangle of the arc's centre, the axis and the point: the axis is `early` before it.
+                   if (away < 1e-9 || ra < 1e-9) return -1.0;
+                   const double c = (away * away + ra * ra - rho * rho) / (2.0 * away * ra);
+                   if (c >= 1.0 || c <= -1.0) return -1.0;
+                   const double early = std::acos(c);
+                   const double met = ahead - early;
+                   if (met < -kMetMm / ra || met > sweep) return -1.0;
+                   // Way and direction to the point at that time: away sin(early) / rho.
+                   return std::min(1.0, away * std::sin(early) / rho);
+                 });
+        }
       }
       k.at(ix, iy, m.to.z, m.to.z + o.height(near), near);
     }
@@ -337,6 +354,22 @@ Bite cut(Grid& grid, const Move& m, const CutterProfile& cutter, double allowed_
     }
   }
   return bite;
+}
+
+void lower(Grid& grid, const Move& m, const CutterProfile& cutter) {
+  if (m.kind == model::MoveKind::kDwell || std::min(m.from.z, m.to.z) >= grid.top()) return;
+  const Outline o(cutter);
+  Plane k{grid};
+  if (!is_arc(m.kind)) return cut_line(k, o, m.from, m.to);
+  if (std::abs(m.from.z - m.to.z) < 1e-9) return cut_level_arc(k, o, m);
+  // The lowest piece first: most cells below the others are then lower than they.
+  const int n = pieces_of(m, kChordMm);
+  const bool falls = m.to.z < m.from.z;
+  for (int i = 0; i < n; ++i) {
+    const int piece = falls ? n - 1 - i : i;
+    cut_line(k, o, piece == 0 ? m.from : point_of(m, static_cast<double>(piece) / n),
+             point_of(m, static_cast<double>(piece + 1) / n));
+  }
 }
 
 double rapid_collision(const Grid& grid, const Move& m, const CutterProfile& cutter, double clearance_mm,
