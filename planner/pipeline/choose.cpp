@@ -115,9 +115,48 @@ Chosen choose(Work& w, const model::Proposal& p, const FeatureShape& shape, cons
       out.chain = &chain;
       return out;
     }
-    rejected.push_back({chain.empty() ? "chain" : chain.front().why.id, why_not});
+    rejected.push_back({chain_text(chain, shape), why_not});
   }
   return {};
+}
+
+std::string chain_text(const std::vector<model::ProposedStep>& chain, const FeatureShape& shape) {
+  if (chain.empty()) return "chain";
+  std::string out;
+  for (const model::ProposedStep& step : chain) {
+    const bool prefixed = step.name.starts_with(shape.name + " ");
+    out += (out.empty() ? "" : " + ") + (prefixed ? step.name.substr(shape.name.size() + 1) : step.name);
+  }
+  return out + " [" + chain.front().why.id + "]";
+}
+
+std::vector<model::Rejected> alternatives(Work& w, const model::Proposal& p, const FeatureShape& shape,
+                                          const Chosen& chosen, const std::vector<model::Cutter>& library) {
+  const auto seconds = [](const std::vector<model::Selection>& tools) {
+    double out = 0.0;
+    for (const model::Selection& s : tools) out += s.ranked.empty() ? 0.0 : s.ranked.front().estimated_s;
+    return out;
+  };
+  std::vector<model::Rejected> out;
+  const std::string taken = trimmed(seconds(chosen.tools), 1) + " s";
+  for (const auto& chain : p.chains) {
+    if (&chain <= chosen.chain || chain.empty()) continue;
+    std::vector<model::Selection> tools;
+    std::string why;
+    for (std::size_t i = 0; why.empty() && i < chain.size(); ++i) {
+      const model::ProposedStep step = as_opened(chain, i, tools);
+      tooling::Preferences wanted = preferences_of(w, step, shape);
+      wanted.used = w.used_cutters;
+      tools.push_back(tooling::select(step.tool, library, w.plan.material, w.plan.machine, wanted));
+      if (step.operation != TypeId::kWorkpieceProbing && tools.back().ranked.empty())
+        why = step.name + ": no cutter fits; " + tools.back().would_fit + " would";
+    }
+    if (why.empty())
+      why = "about " + trimmed(seconds(tools), 1) + " s of cutting, the chain taken about " + taken +
+            "; the rules prefer the chain taken";
+    out.push_back({chain_text(chain, shape), std::move(why)});
+  }
+  return out;
 }
 
 }  // namespace capstan::pipeline

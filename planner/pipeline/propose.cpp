@@ -333,11 +333,7 @@ class Proposer {
       fail_member(f, given, reason);
       return {};
     }
-    for (std::size_t i = 0; i < p.chains.size(); ++i) {
-      if (&p.chains[i] > chosen.chain && !p.chains[i].empty()) {
-        rejected.push_back({p.chains[i].front().why.id, "an alternative; the rules prefer the chain taken"});
-      }
-    }
+    for (model::Rejected& r : alternatives(w_, p, s, chosen, library_)) rejected.push_back(std::move(r));
     std::vector<std::size_t> made;
     std::vector<std::optional<std::size_t>> made_of;  // by step of the chain
     std::optional<Probing> probing;

@@ -188,11 +188,12 @@ optimise::CutQuestion question_of(const Work& w, const StepWork& step, const mod
           : w.inputs.objective == Objective::kCost ? optimise::Aim::kCost
                                                    : optimise::Aim::kProfit;
   q.earning_per_min = w.earning_per_min;
+  const auto start = tooling::start_values(step.cutter, w.plan.material, w.plan.machine);
+  q.vc_table_m_min = start.wanted_vc_m_min;
   if (candidate != nullptr) {
     q.vc_start_m_min = candidate->vc_m_min;
     q.fz_start_mm = candidate->fz_mm;
   } else {
-    const auto start = tooling::start_values(step.cutter, w.plan.material, w.plan.machine);
     q.vc_start_m_min = start.vc_m_min;
     q.fz_start_mm = start.fz_mm;
   }

@@ -47,6 +47,7 @@ struct StepWork {
   AnyRef operation;  ///< unset for a rapid movement
   std::size_t setup = 0;
   std::vector<model::FeatureShape> shapes;  ///< workpiece coordinates; more than one for patterns
+  std::string no_shape;                     ///< why there are none
   model::Cutter cutter;
   bool proposed = false;                     ///< made by rules in this run
   Member member = {};                        ///< when proposed: what its chain is for,

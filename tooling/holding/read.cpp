@@ -250,10 +250,11 @@ Result<HoldingFile> read_holding(std::string_view text, const std::string& file,
   if (const std::string unit = top.text("unit"); unit != "mm" && !unit.empty())
     top.fault("DATA-UNIT", "the unit '" + unit + "' is not known", "unit", top.line_of("unit"), "mm");
   out.fixtures = fixtures_of(top, false);
+  const bool own = !out.fixtures.empty();
   for (Fixture& f : *shipped) {
     if (find_fixture(out.fixtures, f.id) == nullptr) out.fixtures.push_back(std::move(f));
   }
-  if (const Node* list = top.child("setups", true)) {
+  if (const Node* list = top.child("setups", !own)) {
     std::set<std::string> seen;
     for (std::size_t i = 0; i < list->items.size(); ++i) {
       out.setups.push_back(

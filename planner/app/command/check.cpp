@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <string>
@@ -60,6 +61,13 @@ class Check {
     return any;
   }
 
+  /// How many values were said to be edited so far.
+  [[nodiscard]] std::size_t edited() const {
+    const auto& all = s_.job.diagnostics();
+    return static_cast<std::size_t>(
+        std::count_if(all.begin(), all.end(), [](const Diagnostic& d) { return d.code == "EXC-EDITED"; }));
+  }
+
   using Stated = std::map<model::AnyRef, exchange::StepPath>;
 
   static Stated stated_paths(const model::Plan& plan) {
@@ -97,7 +105,7 @@ class Check {
     const auto stated = stated_paths(plan);
     auto bound = pipeline::bind(std::move(plan), *inputs, pipeline::Policy{}, s_.job);
     if (!bound) return bound;
-    unplanned_ += bound->unplanned.size();
+    unplanned_ += unplanned_features(*bound);
     tell_recomputed(stated, *bound);
     return bound;
   }
@@ -139,11 +147,13 @@ class Check {
         continue;
       }
       const std::size_t before = s_.job.diagnostics().size();
+      const std::size_t edits = edited();
       auto plan = plan_of_bytes(std::move(in.bytes), in.path, s_.job);
       if (!plan) return plan.error();
       if (s_.options.schema) schema_ += s_.job.diagnostics().size() - before;
       ++checked_;
-      if (!has_paths(*plan)) {
+      // What was computed before somebody edited a value says nothing of the plan as it is now.
+      if (!has_paths(*plan) || edited() > edits) {
         plan = executed(*std::move(plan));
         if (!plan) return plan.error();
       }

@@ -99,7 +99,7 @@ void Reader::fill_geometry(AnyRef at, Node n, const Scale& scale) {
       doubts_.push_back({at,
                          {.code = "EXC-VALUE",
                           .message = attribute_name(at, a.name) + " cannot be " + spelling(v).substr(0, 60),
-                          .expected = std::string("expected ") + expected}});
+                          .expected = expected}});
     };
     // A list with a fault is left out whole: one element less would move those behind it.
     const auto faulty = [&, before = doubts_.size()] { return doubts_.size() != before; };

@@ -113,6 +113,7 @@ class Records {
         if (e.user_defined() && (e.keyword() == "!CAPSTAN_REASON") == reasons) entity(e);
       }
     }
+    settle_edits(r_.plan, r_.reporter);
   }
 
  private:

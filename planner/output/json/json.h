@@ -20,7 +20,8 @@ inline constexpr int kPlanJsonVersion = 1;
 ///   steps       in the order of execution, with tool, times, loads, and the peak of the cross section
 ///   ("peak",
 ///               "id" and the top's "summary" are derived, and ignored on reading)
-///   decisions   who bound what and why ("reasons"), what it depends on, what was rejected
+///   decisions   who bound what and why ("reasons"), what it depends on, what was rejected; "value_hash" is of
+///               the value as it was written: one that is unlike it was edited (model/edited.h)
 ///   paths, schedules, sections   columns, shared by reference ("path:1")
 ///
 /// Units  the model's: mm, rad, mm/min, 1/min, s, N/mm2; ratios as fractions of one. The schema names each.
@@ -29,7 +30,7 @@ inline constexpr int kPlanJsonVersion = 1;
 /// Cost   linear.
 [[nodiscard]] std::string write_json(const model::Plan& plan);
 
-/// Reads what `write_json` wrote.
+/// Reads what `write_json` wrote. Notes EXC-EDITED of values that somebody changed since.
 ///
 /// Fails  JSON-SIZE past `cap` bytes, JSON-DEPTH past 32 levels, JSON-SYNTAX with the line, JSON-VERSION,
 ///        JSON-VALUE naming the place (/objects/round_hole/3/depth) and what was expected there.

@@ -4,6 +4,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "planner/model/edited.h"
 #include "planner/model/nouns/executable.h"
 #include "planner/model/nouns/workpiece.h"
 #include "planner/model/walk.h"
@@ -187,11 +188,9 @@ class Reader {
   }
 
   static void hash(const Tree& t, std::uint64_t& x, const Place& at) {
-    const std::string& text = string(t, at);
-    const auto [end, ec] = std::from_chars(text.data(), text.data() + text.size(), x, 16);
-    if (text.size() != 16 || ec != std::errc() || end != text.data() + text.size()) {
-      fault(at, "sixteen hexadecimal digits");
-    }
+    const auto read = model::hash_from_text(string(t, at));
+    if (!read) fault(at, "sixteen hexadecimal digits");
+    x = *read;
   }
 
   template <class T>
@@ -491,7 +490,6 @@ std::uint64_t line_of(std::string_view text, std::size_t byte) {
 }  // namespace json
 
 Result<model::Plan> read_json(std::string bytes, std::string file_name, Job& job, std::size_t cap) {
-  (void)job;
   const auto refuse = [&](const char* code, std::string message, std::uint64_t line = 0) {
     return fail(Diagnostic{.code = code, .message = std::move(message), .file = file_name, .line = line});
   };
@@ -515,7 +513,14 @@ Result<model::Plan> read_json(std::string bytes, std::string file_name, Job& job
     return refuse("JSON-VERSION", "the plan is of another version than " + std::to_string(kPlanJsonVersion));
   }
   try {
-    return json::Reader().run(tree);
+    model::Plan plan = json::Reader().run(tree);
+    for (const model::Edited& e : model::take_edits(plan.model, plan.ledger)) {
+      job.report({.code = "EXC-EDITED",
+                  .severity = Severity::kNote,
+                  .message = e.key.attribute + " of " + json::object_id(e.key.object) + " " + text_of(e),
+                  .file = file_name});
+    }
+    return plan;
   } catch (const json::Fault& f) {
     Diagnostic d{
         .code = "JSON-VALUE", .message = "the plan's JSON is not as its schema says", .file = file_name};

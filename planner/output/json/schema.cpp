@@ -33,7 +33,9 @@ class SchemaWriter {
     out_.open('{', true);
     version();
     out_.key("summary");
-    free_object("derived: what the steps add up to");
+    free_object(
+        "derived: what the steps add up to (cutting_s with dwells, rapid_s), what lies between them, and the "
+        "total");
     const model::Plan plan;
     FieldSchemas top{*this};
     fields(top, plan);

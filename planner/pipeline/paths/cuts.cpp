@@ -1,21 +1,24 @@
 #include "planner/pipeline/paths/cuts.h"
-#include "planner/base/number.h"
 
 #include <string>
 #include <tuple>
+#include <utility>
+#include <vector>
+
+#include "planner/base/number.h"
 
 namespace capstan::pipeline {
 namespace {
 
 using QuestionKey =
-    std::tuple<std::string, int, double, double, double, double, double, double, double, double, double,
-               double, double, double, double, double, bool, bool, bool, double, double, double, double>;
+    std::tuple<int, double, double, double, double, double, double, double, double, double, double, double,
+               double, double, double, double, bool, bool, bool, double, double, double, double>;
 
 QuestionKey key_of(const optimise::CutQuestion& q) {
   constexpr double kUnset = -1.0;
-  return {q.cutter.id,
-          static_cast<int>(q.kind),
+  return {static_cast<int>(q.kind),
           q.vc_start_m_min,
+          q.vc_table_m_min,
           q.fz_start_mm,
           q.depth_mm,
           q.width_mm,
@@ -40,8 +43,9 @@ QuestionKey key_of(const optimise::CutQuestion& q) {
 
 }  // namespace
 
+/// By cutter, whole: one name may stand out differently in two steps.
 struct CutsKnown {
-  std::map<QuestionKey, optimise::CutAnswer> answers;
+  std::map<QuestionKey, std::vector<std::pair<model::Cutter, optimise::CutAnswer>>> answers;
 };
 
 Cuts::Cuts(Work& w) : w_(w) {
@@ -54,10 +58,12 @@ Cuts::Cuts(Work& w) : w_(w) {
 }
 
 Result<optimise::CutAnswer> Cuts::answer(const optimise::CutQuestion& q) {
-  const auto key = key_of(q);
-  if (const auto it = known_->answers.find(key); it != known_->answers.end()) return it->second;
+  auto& known = known_->answers[key_of(q)];
+  for (const auto& [cutter, answer] : known) {
+    if (cutter == q.cutter) return answer;
+  }
   auto a = optimise::cut(q, options_, w_.job);
-  if (a) known_->answers.emplace(key, *a);
+  if (a) known.emplace_back(q.cutter, *a);
   return a;
 }
 

@@ -154,7 +154,8 @@ class PathMaker {
     if (has_given_path(w_, step) && !rigid_tap(step)) return explicit_path(step);
     if (!w_.plan.model.holds<model::MachiningOperation>(step.operation)) return {};
     if (step.shapes.empty()) {
-      give_up(step, "the shape of its feature is not known");
+      give_up(step,
+              "the shape of its feature is not known" + (step.no_shape.empty() ? "" : ": " + step.no_shape));
       return {};
     }
     if (step.cutter.cutting_diameter_mm <= 0.0) {  // no cutter was found; said already

@@ -189,8 +189,7 @@ void StepChecks::power(double volume, double minutes, double chip_mm) {
   const double kc = specific_force(chip_mm);
   const double power_w = kc * volume / minutes / 60000.0;  // N/mm2 mm3/min = N mm/min = 1/60000 W
   const double torque_nm = power_w / (sum_.rpm * 2.0 * std::numbers::pi / 60.0);
-  const double efficiency =
-      spindle.efficiency > 0.0 ? spindle.efficiency : mechanics::kDefaultSpindleEfficiency;
+  const double efficiency = mechanics::spindle_efficiency(spindle.efficiency);
   const model::SpindlePoint limit = spindle_at(spindle, sum_.rpm);
   const Findings::Where where{step_.order + 1, step_.id, sum_.where};
   const std::string how =
