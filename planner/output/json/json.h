@@ -23,13 +23,15 @@ inline constexpr int kPlanJsonVersion = 1;
 ///   decisions   who bound what and why ("reasons"), what it depends on, what was rejected
 ///   paths, schedules, sections   columns, shared by reference ("path:1")
 ///
+///   seals       a hash of each part, by which the reader tells what was edited since
+///
 /// Units  the model's: mm, rad, mm/min, 1/min, s, N/mm2; ratios as fractions of one. The schema names each.
 /// Text   bytes that are not UTF-8 are written as characters of a private plane, and come back as they were.
 /// Needs  finite numbers. Throws std::logic_error otherwise.
 /// Cost   linear.
 [[nodiscard]] std::string write_json(const model::Plan& plan);
 
-/// Reads what `write_json` wrote.
+/// Reads what `write_json` wrote. Warns JSON-EDITED, naming the parts that were edited since.
 ///
 /// Fails  JSON-SIZE past `cap` bytes, JSON-DEPTH past 32 levels, JSON-SYNTAX with the line, JSON-VERSION,
 ///        JSON-VALUE naming the place (/objects/round_hole/3/depth) and what was expected there.

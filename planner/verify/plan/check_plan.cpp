@@ -8,6 +8,7 @@ std::vector<model::Finding> check_plan(const model::Plan& plan, Job& job) {
   Findings findings;
   const std::vector<StepMoves> steps = moves_of(plan, findings);
   check_ranges(plan, findings);
+  check_twice(plan, findings);
   check_tools(plan, steps, findings);
   check_limits(plan, steps, findings);
   check_coolant(plan, steps, findings);
