@@ -481,7 +481,7 @@ class Reader {
     }
     const auto differs = [](const Tree& t, const char* name, double v) {
       const auto it = t.find(name);
-      return it != t.end() && (!it->is_number() || it->get<double>() != v);
+      return it == t.end() || !it->is_number() || it->get<double>() != v;
     };
     if (const auto it = tree.find("summary"); it != tree.end() && it->is_object()) {
       if (differs(*it, "steps", static_cast<double>(plan_.steps.size())) ||
