@@ -85,7 +85,7 @@ inline constexpr Range kLeadThreads{1e-3, 100.0, true};
 
 // --- steps, set-ups, fixtures ---
 /// Anything beyond is no position on a machine.
-inline constexpr Range kPositionMm{-1e6, 1e6};
+inline constexpr Range kPositionMm{-1e5, 1e5};
 inline constexpr Range kRawPieceMm{0.001, 100'000.0};
 inline constexpr Range kDepthMm{0.0, 10'000.0};
 inline constexpr Range kCuttingSpeedMMin{0.0, 10'000.0};

@@ -220,7 +220,14 @@ Made other_words(const std::string& file, Random& r) {
   Tree tree = Tree::parse(file);
   int left = 5;
   for (const char* part : {"machine", "cutters", "setups", "reasons", "provenance", "material"}) {
-    if (tree.contains(part)) reword(tree[part], r, left);
+    if (!tree.contains(part)) continue;
+    // The first reason is a name.
+    const std::size_t from = std::string(part) == "reasons" ? 1 : 0;
+    if (tree[part].is_array()) {
+      for (std::size_t i = from; i < tree[part].size(); ++i) reword(tree[part][i], r, left);
+    } else {
+      reword(tree[part], r, left);
+    }
   }
   tree["header_description"] = "edited by hand";
   return tree.dump();

@@ -1,6 +1,7 @@
 #include "tests/mutation/plans/plan_study.h"
 
 #include <algorithm>
+#include <set>
 #include <stdexcept>
 
 #include "planner/exchange/exchange.h"
@@ -15,25 +16,37 @@
 namespace capstan::mutation {
 namespace {
 
-/// What a check says: nothing, or what first.
+using Words = std::set<std::string>;
+
+/// What a check says.
 struct Said {
   bool refused = false;
-  std::string reader, check;
-  [[nodiscard]] const std::string& first() const { return reader.empty() ? check : reader; }
+  Words reader, check;
+  /// The first word that was not said of the file as it was written.
+  [[nodiscard]] std::string news(const Said& before) const {
+    for (const auto& [now, then] : {std::pair{&reader, &before.reader}, std::pair{&check, &before.check}}) {
+      for (const std::string& w : *now) {
+        if (!then->contains(w)) return w;
+      }
+    }
+    return {};
+  }
 };
 
-std::string first(const Job& job, const std::string& apart_from = {}) {
+Words words(const Job& job) {
+  Words out;
   for (const Diagnostic& d : job.diagnostics()) {
-    if (d.severity != Severity::kNote && d.message != apart_from) return d.code + " " + d.message;
+    if (d.severity != Severity::kNote) out.insert(d.code + " " + d.message);
   }
-  return {};
+  return out;
 }
 
-std::string first(const std::vector<model::Finding>& findings) {
+Words words(const std::vector<model::Finding>& findings) {
+  Words out;
   for (const auto& f : findings) {
-    if (f.severity != Severity::kNote) return f.code + " " + f.message;
+    if (f.severity != Severity::kNote) out.insert(f.code + " " + f.message);
   }
-  return {};
+  return out;
 }
 
 /// As `capstan check PLAN`. `values`: whether to check what the reader has found edited already.
@@ -43,15 +56,14 @@ Said check_json(const std::string& text, bool values, std::optional<model::Plan>
   auto plan = output::read_json(text, "plan.json", job);
   if (!plan) {
     out.refused = true;
-    out.reader = plan.error().code + " " + plan.error().path + " " + plan.error().expected;
+    out.reader.insert(plan.error().code + " " + plan.error().path + " " + plan.error().expected);
     return out;
   }
-  out.reader = first(job);
+  out.reader = words(job);
   if (out.reader.empty() || values) {
     Job quiet;
-    out.check = first(verify::check_plan(*plan, quiet));
-    const auto condemned = model::condemned(*plan, {});
-    if (out.check.empty() && !condemned.empty()) out.check = condemned.front().text;
+    out.check = words(verify::check_plan(*plan, quiet));
+    for (const auto& c : model::condemned(*plan, {})) out.check.insert(c.text);
   }
   if (read != nullptr) *read = *std::move(plan);
   return out;
@@ -64,21 +76,21 @@ Said check_part21(const std::string& text, bool benign) {
   auto plan = exchange::read_bytes(text, "plan.p21", {}, job);
   if (!plan) {
     out.refused = true;
-    out.reader = plan.error().code + " " + plan.error().message;
+    out.reader.insert(plan.error().code + " " + plan.error().message);
     return out;
   }
-  out.reader = first(job);
-  if (!benign || !out.reader.empty()) return out;
+  out.reader = words(job);
+  if (!benign) return out;
   Job shop_job;
   static const auto shop = pipeline::load_shop({}, shop_job);
   if (!shop) throw std::runtime_error("no shop");
   plan->ledger = model::Ledger{};
   auto bound = pipeline::bind(*std::move(plan), *shop, {}, job);
   if (!bound) {
-    out.check = bound.error().message;
+    out.check.insert(bound.error().message);
     return out;
   }
-  out.check = first(verify::check_plan(*bound, job));
+  out.check = words(verify::check_plan(*bound, job));
   return out;
 }
 
@@ -100,8 +112,7 @@ class Study {
 
   std::vector<PlanRow> run() {
     const auto& all = o_.planned ? emitted_and_planned() : emitted();
-    for (const Emitted& e : all)
-      json_baselines_.push_back(check_json(output::write_json(e.plan), true).first());
+    for (const Emitted& e : all) json_baselines_.push_back(check_json(output::write_json(e.plan), true));
     std::size_t k = 0;
     for (const PlanClass& c : json_classes()) {
       PlanRow row{.name = c.name, .kind = c.kind};
@@ -113,7 +124,7 @@ class Study {
     const auto written =
         exchange::write_iso14649(o_.planned ? all.back().plan : with_project(all.front().plan), job);
     if (!written) throw std::runtime_error("the plan is not written");
-    part21_baseline_ = check_part21(written->bytes, true).first();
+    part21_baseline_ = check_part21(written->bytes, true);
     for (const PlanClass& c : part21_classes()) {
       PlanRow row{.name = c.name, .kind = c.kind};
       part21(c, written->bytes, seed_of(k, 0), row);
@@ -130,7 +141,7 @@ class Study {
     return Random(seed * 1000003U + of);
   }
 
-  void json(const PlanClass& c, const Emitted& e, const std::string& before, std::uint64_t of, PlanRow& row) {
+  void json(const PlanClass& c, const Emitted& e, const Said& before, std::uint64_t of, PlanRow& row) {
     const std::string text = output::write_json(e.plan);
     for (int i = 0; i < o_.edits; ++i) {
       std::uint64_t seed = 0;
@@ -141,11 +152,11 @@ class Study {
       const Said said = check_json(*edit, o_.by_values || c.kind == Kind::kBenign, &plan);
       count(c, e.name, seed, said, before, row);
       if (!o_.by_values || c.kind == Kind::kBenign) continue;
-      const bool by_values = said.refused || (!said.check.empty() && said.check != before);
+      const bool by_values = said.refused || !Said{false, {}, said.check}.news(before).empty();
       row.found_by_values += by_values;
       if (by_values || !plan) continue;
       row.found_with_program +=
-          !first(verify::check_program_text({e.name, e.text, e.table}, &*plan, plan->machine, plan->cutters))
+          !words(verify::check_program_text({e.name, e.text, e.table}, &*plan, plan->machine, plan->cutters))
                .empty();
     }
   }
@@ -162,16 +173,16 @@ class Study {
   }
 
   static void count(const PlanClass& c, const std::string& name, std::uint64_t seed, const Said& said,
-                    const std::string& before, PlanRow& row) {
+                    const Said& before, PlanRow& row) {
     // What the plan's own file is told of says nothing of an edit.
-    const bool any = said.refused || said.first() != before;
+    const bool any = said.refused || !said.news(before).empty();
     ++row.edits;
     row.refused += said.refused;
     row.found += any;
     const std::string told = c.name + ", " + name + ", seed " + std::to_string(seed) + ": ";
     if (c.kind == Kind::kBenign && any) {
       ++row.blamed;
-      row.told.push_back(told + said.first());
+      row.told.push_back(told + said.news(before));
     }
     if (c.kind != Kind::kBenign && !any) {
       ++row.missed;
@@ -181,8 +192,8 @@ class Study {
 
   const PlanOptions& o_;
   std::vector<PlanRow> rows_;
-  std::vector<std::string> json_baselines_;  // what is said of the files as they were written
-  std::string part21_baseline_;
+  std::vector<Said> json_baselines_;  // what is said of the files as they were written
+  Said part21_baseline_;
 };
 
 }  // namespace
