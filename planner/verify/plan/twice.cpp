@@ -67,7 +67,8 @@ class Twice {
   void body(const model::MillingCuttingTool& tool, const model::Cutter& c) {
     if (tool.its_id && *tool.its_id != c.id)
       differs("its tool is '" + c.id + "' in the step, and '" + *tool.its_id + "' in its operation");
-    if (tool.overall_assembly_length)
+    // A table that was loaded since has measured it.
+    if (tool.overall_assembly_length && !c.table_line)
       same("the tool's length", c.functional_length_mm, "mm in its operation", *tool.overall_assembly_length);
     const auto* usage = plan_.model.get<model::ToolUsage>(tool.its_usage);
     if (usage != nullptr && usage->its_position && *usage->its_position != std::to_string(c.pocket))
