@@ -463,6 +463,20 @@ TEST(Within, ADrillsPointThatComesOutBelowTheFinishedPartIsFoundAlthoughTheRawPi
   }
 }
 
+TEST(Within, AFloorInWhatIsCutOffBelowTheFinishedPartIsFound) {
+  for (const double height : {10.0, 9.0}) {  // the pocket is 10 mm deep, the raw piece 50 mm high
+    PlanMaker k = testing::good_plan();
+    model::Block block;
+    block.position = k.at(0, 0, -height);
+    block.x = block.y = 100.0;
+    block.z = height;
+    const auto piece = k.plan.model.all(model::TypeId::kWorkpiece).front();
+    k.plan.model.get<model::Workpiece>(piece)->its_bounding_geometry = k.plan.model.add(block);
+    const auto findings = check(k.plan);
+    EXPECT_EQ(found(findings, "CHK-OUTSIDE", "pocket") != nullptr, height < 9.5) << told(findings);
+  }
+}
+
 TEST(Within, AHoleDrilledIntoAnothersWallIsFoundAndOneBesideItIsNot) {
   for (const double apart : {6.0, 9.0}) {  // both of 8 mm
     PlanMaker k = testing::good_plan();
