@@ -217,6 +217,22 @@ TEST(CheckProgram, ALengthShorterThanTheToolsFlutesIsFound) {
   EXPECT_EQ(unmeasured("T1 P1 Z+20 D+10\nT2 P2 Z+130 D+8\n"), std::vector<std::string>{"T1"});
 }
 
+TEST(CheckProgram, ALengthShorterThanAnyHoldersFlangeIsFoundWhereASpindleHasATaper) {
+  // Flutes of 3 mm would fit into 5 mm, and do in a collet of the spindle's own.
+  for (const auto& [taper, faults] : {std::pair("BT40", 1), std::pair("ER20", 0), std::pair("none", 0)}) {
+    model::Plan plan = testing::good_plan().plan;
+    plan.machine.spindle.taper = taper;
+    plan.cutters.front().maximum_depth_of_cut_mm = 3.0;
+    plan.cutters.front().functional_length_mm = 0.0;
+    const auto findings = check(testing::program_of(plan), plan, false, "T1 P1 Z+5 D+10\nT2 P2 Z+130 D+8\n");
+    EXPECT_EQ(std::count_if(findings.begin(), findings.end(),
+                            [](const auto& f) { return f.code == "CHK-TOOL-OFFSET"; }),
+              faults)
+        << taper << "\n"
+        << told(findings);
+  }
+}
+
 TEST(CheckProgram, OfOffsetsThatCountFromAReferenceZeroIsTheReferencesAlone) {
   using Tools = std::vector<std::string>;
   // Negative ones with a 0 among them, or none above 0: they count from a reference.

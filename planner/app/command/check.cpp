@@ -214,14 +214,14 @@ class Check {
       if (!o.machine && programs())
         s_.job.note("APP-DEFAULT", "no machine is named; programs are checked for the built-in " + wanted);
     }
+    const tooling::LibraryOptions counts{
+        .mm_per_unit = {}, .offsets_against_reference = shop_.machine.control.offsets_against_reference};
     if (o.tools) {
-      auto library = tooling::load_library(*o.tools, s_.job);
+      auto library = tooling::load_library(*o.tools, s_.job, counts);
       if (!library) return library.error();
       shop_.cutters = *std::move(library);
     } else if (!has_plan && !shop_.tool_table.empty()) {
-      auto table = tooling::read_tool_table(
-          shop_.tool_table, "tool table", s_.job,
-          {.mm_per_unit = {}, .offsets_against_reference = shop_.machine.control.offsets_against_reference});
+      auto table = tooling::read_tool_table(shop_.tool_table, "tool table", s_.job, counts);
       if (!table) return table.error();
       shop_.cutters = *std::move(table);
     }

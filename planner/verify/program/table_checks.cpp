@@ -13,14 +13,31 @@
 namespace capstan::verify {
 namespace {
 
-/// A holder's flange stands between the gage line and all that it holds: no tool in a taper is shorter. HSK
-/// 25 has the thinnest, 10 mm (ISO 12164-1); BT 30 to 50 have more than twice that.
+/// A holder's flange stands between the gage line and all that it holds: no tool in a taper is shorter than
+/// the thinnest. Default, unsourced.
 constexpr double kThinnestFlangeMm = 10.0;
 
 /// Tools are held in a taper's holder; a spindle with a collet of its own has none.
 bool has_taper(const model::Machine& m) {
   const std::string& t = m.spindle.taper;
   return !t.empty() && t != "none" && !t.starts_with("ER");
+}
+
+void tell_lengths(const std::string& faults, const std::string& acting, Findings& findings) {
+  if (faults.empty()) return;
+  findings.error(
+      6, "CHK-TOOL-OFFSET", {0, "", -1},
+      faults + "; " + acting +
+          " would take that for a length: measure the tool and enter its length; where offsets "
+          "count from a reference tool, say length_offsets: reference under the machine's control");
+}
+
+std::set<int> tools_in_use(const ProgramCase& c) {
+  std::set<int> out;
+  for (const Block& b : c.program.blocks) {
+    if (b.kind == Block::Kind::kToolChange && b.tool > 0) out.insert(b.tool);
+  }
+  return out;
 }
 
 /// Lengths that the tools in use cannot have.
@@ -50,24 +67,28 @@ void check_lengths(const ProgramCase& c, const ToolTable& table, const std::set<
     faults += (faults.empty() ? "" : "; ") + fault;
     acting += (acting.empty() ? "G43 H" : ", H") + std::to_string(e.tool);
   }
-  if (faults.empty()) return;
-  findings.error(
-      6, "CHK-TOOL-OFFSET", {0, "", -1},
-      faults + "; " + acting +
-          " would take that for a length: measure the tool and enter its length; where offsets "
-          "count from a reference tool, say length_offsets: reference under the machine's control");
+  tell_lengths(faults, acting, findings);
 }
 
 }  // namespace
+
+void check_table_lines(const ProgramCase& c, Findings& findings) {
+  std::string faults, acting;
+  for (const int t : tools_in_use(c)) {
+    const model::Cutter* tool = c.cutter(t);
+    const std::string fault = tool != nullptr ? model::offset_fault(*tool) : std::string();
+    if (fault.empty()) continue;
+    faults += (faults.empty() ? "" : "; ") + fault;
+    acting += (acting.empty() ? "G43 H" : ", H") + std::to_string(t);
+  }
+  tell_lengths(faults, acting, findings);
+}
 
 void check_tool_table(const ProgramCase& c, const ToolTable& table, Findings& findings) {
   const Findings::Where whole{0, "", -1};
   for (const std::string& f : table.faults)
     findings.error(6, "CHK-TABLE", whole, "the tool table is not understood: " + f);
-  std::set<int> used;
-  for (const Block& b : c.program.blocks) {
-    if (b.kind == Block::Kind::kToolChange && b.tool > 0) used.insert(b.tool);
-  }
+  const std::set<int> used = tools_in_use(c);
   for (const int t : used) {
     const auto count =
         std::count_if(table.entries.begin(), table.entries.end(), [&](const auto& e) { return e.tool == t; });

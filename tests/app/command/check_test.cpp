@@ -111,6 +111,9 @@ TEST_F(CheckedAsWritten, AToolLengthOfZeroIsFoundThoughProgramAndTableAgree) {
   EXPECT_NE(run("check zero.ngc zero.tbl"), 0);
   EXPECT_THAT(said_, HasSubstr("error: T1 has Z0 in the tool table: it is not measured"));
   EXPECT_THAT(said_, HasSubstr("[CHK-TOOL-OFFSET]"));
+  // Named as the library it is the same table.
+  EXPECT_NE(run("check zero.ngc --tools zero.tbl"), 0);
+  EXPECT_THAT(said_, HasSubstr("error: T1 has Z0 in the tool table: it is not measured"));
 }
 
 }  // namespace
