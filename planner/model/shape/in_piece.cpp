@@ -310,7 +310,7 @@ std::vector<SharpCorner> sharp_corners(const FeatureShape& s, const std::vector<
 bool stops_at_walls(const FeatureShape& face) {
   constexpr double kBesideMm = 0.2,
                    kSomeArea = 0.01;  // mm2: less is rounding of outlines; default, unsourced
-  if (face.kind != ShapeKind::kFace || face.area.empty() || face.reach.empty()) return false;
+  if (face.kind != ShapeKind::kFace || !face.open || face.area.empty() || face.reach.empty()) return false;
   geometry::Region free = face.reach;
   for (const Island& i : face.islands) free = geometry::unite(free, i.area);
   return geometry::area(geometry::subtract(geometry::offset_sharp(face.area, kBesideMm), free)) > kSomeArea;
