@@ -190,37 +190,55 @@ struct Knife {
   }
 };
 
-/// Lowest height of the cutter over a point while it runs along a line; `d` is the distance of the point
-/// from the line, `t` where its foot lies, `length` the line's in XY. Convex in t.
-double lowest(const Outline& o, double z0, double dz, double t_foot, double d, double length) {
-  const double reach = std::sqrt(std::max(0.0, o.radius * o.radius - d * d)) / length;
-  double lo = std::clamp(t_foot - reach, 0.0, 1.0);
-  double hi = std::clamp(t_foot + reach, 0.0, 1.0);
-  const auto f = [&](double t) {
-    const double along = (t - t_foot) * length;
-    return z0 + t * dz + o.height(std::sqrt(d * d + along * along));
-  };
-  if (o.flat >= o.radius) return std::min(f(lo), f(hi));
+/// Where along the way, `v` >= 0 mm past the point and downhill, a piece of the outline is lowest over a
+/// point `d` beside the way: the zero of  -fall + dh/dv,  h(sqrt(d^2 + v^2)) the piece's height. Cones and
+/// spheres have it in closed form; a torus is searched between `lo` and `hi`.
+double lowest_of(const geometry::ProfilePiece& p, const Outline& o, double fall, double d, double lo,
+                 double hi) {
+  if (p.radius_mm <= 0.0) return p.slope > fall ? fall * d / std::sqrt(p.slope * p.slope - fall * fall) : hi;
+  if (p.rc_mm == 0.0)
+    return fall * std::sqrt(std::max(0.0, p.radius_mm * p.radius_mm - d * d) / (1.0 + fall * fall));
   // Golden section: 16 steps leave 1/2000 of the piece, an error of its square over the radius.
   constexpr double kGolden = 0.6180339887498949;
+  const auto f = [&](double v) { return o.height(std::sqrt(d * d + v * v)) - fall * v; };
   double a = hi - kGolden * (hi - lo), b = lo + kGolden * (hi - lo);
   double fa = f(a), fb = f(b);
   for (int i = 0; i < 16; ++i) {
     if (fa < fb) {
-      hi = b;
-      b = a;
+      hi = std::exchange(b, a);
       fb = fa;
       a = hi - kGolden * (hi - lo);
       fa = f(a);
     } else {
-      lo = a;
-      a = b;
+      lo = std::exchange(a, b);
       fa = fb;
       b = lo + kGolden * (hi - lo);
       fb = f(b);
     }
   }
-  return std::min(fa, fb);
+  return fa < fb ? a : b;
+}
+
+/// Lowest height of the cutter over a point while it runs along a line; `d` is the distance of the point
+/// from the line, `foot` where its foot lies along it, `length` the line's in XY.
+double lowest(const Outline& o, double z0, double dz, double foot, double d, double length) {
+  const double reach = std::sqrt(std::max(0.0, o.radius * o.radius - d * d));
+  const double from = std::clamp(foot - reach, 0.0, length), to = std::clamp(foot + reach, 0.0, length);
+  const double fall = std::abs(dz) / length;
+  // Downhill from the foot: before it the surface over the point only sinks.
+  const double begin = dz < 0.0 ? from - foot : foot - to, end = dz < 0.0 ? to - foot : foot - from;
+  const double z_foot = z0 + foot / length * dz;
+  const auto f = [&](double v) { return z_foot - fall * v + o.height(std::sqrt(d * d + v * v)); };
+  double best = f(end);
+  if (end <= 0.0) return best;
+  const double first = std::max(begin, 0.0);
+  for (const geometry::ProfilePiece& p : o.profile.pieces) {
+    const double lo = std::max(first, std::sqrt(std::max(0.0, p.r0_mm * p.r0_mm - d * d)));
+    const double hi = std::min(end, std::sqrt(std::max(0.0, p.r1_mm * p.r1_mm - d * d)));
+    if (p.r1_mm < d || lo > hi) continue;
+    best = std::min(best, f(std::clamp(lowest_of(p, o, fall, d, lo, hi), lo, hi)));
+  }
+  return best;
 }
 
 template <class Edge>
@@ -277,8 +295,8 @@ void cut_line(Edge& k, const Outline& o, Vec3 a, Vec3 b) {
         k.at(ix, iy, zmin, bound, near);
         continue;
       }
-      const double off = norm(p - (xy(a) + foot * d));
-      const double z = lowest(o, a.z, b.z - a.z, foot, off, length);
+      const Vec2 aside = p - (xy(a) + foot * d);
+      const double z = lowest(o, a.z, b.z - a.z, foot * length, std::sqrt(dot(aside, aside)), length);
       k.at(ix, iy, a.z + t * (b.z - a.z), z, near);
     }
   }
