@@ -93,7 +93,8 @@ std::vector<Edited> take_edits(const Model& model, Ledger& ledger) {
     now.pinned = was.pinned;
     now.binder = was.pinned ? Binder::kOperator : Binder::kGiven;
     if (!has_value_now(model, e.key)) now.state = DecisionState::kOpen;
-    const std::string by = e.was_open ? "it was left open" : "it was bound by " + binder_words(e.was);
+    const std::string by =
+        e.was_open ? "it was left open" : "planning chose it (" + binder_words(e.was) + ")";
     now.reason = ledger.reason({"given.edited", "edited in the file since " + by, "the file"});
     now.value_hash = hash_attribute(model, e.key.object, e.key.attribute);
     ledger.set(e.key, std::move(now));
