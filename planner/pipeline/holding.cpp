@@ -6,6 +6,7 @@
 #include "planner/base/file.h"
 #include "planner/base/nearest_names.h"
 #include "planner/model/setup_position.h"
+#include "tooling/catalogue/tree.h"
 #include "tooling/holding/holding.h"
 
 // Which fixture holds each set-up, where, and what the operator is told about it.
@@ -349,7 +350,7 @@ Status hold_workpieces(Work& w) {
     } else if (known != nullptr) {
       return fail("HOLD-KIND", "'" + how + "' is a clamp: it needs a plate or a vise under it");
     } else {
-      const auto text = read_file(how);
+      const auto text = read_file(how, tooling::kDataFileCap);
       if (!text && !asked_now) {
         w.job.warn("PIP-HOLDING", "the plan was held by '" + how + "', which cannot be read now (" +
                                       text.error().message + "); what holds the piece is not planned");

@@ -263,11 +263,14 @@ std::string lower_text(std::string_view text) {
   return out;
 }
 
-std::string unique_id(std::string id, std::vector<std::string>& taken) {
-  const auto at = [&](const std::string& s) { return std::lower_bound(taken.begin(), taken.end(), s); };
+std::string unique_id(const std::string& id, UniqueIds& ids) {
   std::string out = id;
-  for (int n = 2; at(out) != taken.end() && *at(out) == out; ++n) out = id + " (" + std::to_string(n) + ")";
-  taken.insert(at(out), out);
+  if (!ids.taken.insert(out).second) {
+    int& n = ids.next.try_emplace(id, 2).first->second;
+    do {
+      out = id + " (" + std::to_string(n++) + ")";
+    } while (!ids.taken.insert(out).second);
+  }
   return out;
 }
 

@@ -11,7 +11,8 @@ bool soaks() { return std::getenv("CAPSTAN_SOAK") != nullptr; }
 
 /// Other seeds in each repetition of `./dev soak`.
 std::uint64_t next_seed() {
-  static std::uint64_t seed = 1;
+  const char* first = std::getenv("CAPSTAN_SEED");
+  static std::uint64_t seed = first != nullptr ? std::strtoull(first, nullptr, 10) : 1;
   const std::uint64_t now = seed;
   seed += 1000;
   return now;

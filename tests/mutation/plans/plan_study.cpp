@@ -149,10 +149,13 @@ class Study {
       const auto edit = c.make(text, r);
       if (!edit || *edit == text) continue;
       std::optional<model::Plan> plan;
-      const Said said = check_json(*edit, o_.by_values || c.kind == Kind::kBenign, &plan);
-      count(c, e.name, seed, said, before, row);
+      const auto said = guarded(c, e.name, seed, row, [&] {
+        return check_json(*edit, o_.by_values || c.kind == Kind::kBenign, &plan);
+      });
+      if (!said) continue;
+      count(c, e.name, seed, *said, before, row);
       if (!o_.by_values || c.kind == Kind::kBenign) continue;
-      const bool by_values = said.refused || !Said{false, {}, said.check}.news(before).empty();
+      const bool by_values = said->refused || !Said{false, {}, said->check}.news(before).empty();
       row.found_by_values += by_values;
       if (by_values || !plan) continue;
       row.found_with_program +=
@@ -168,7 +171,23 @@ class Study {
       Random r = random(of, i, seed);
       const auto edit = c.make(text, r);
       if (!edit || *edit == text) continue;
-      count(c, "Part 21", seed, check_part21(*edit, c.kind == Kind::kBenign), part21_baseline_, row);
+      const auto said =
+          guarded(c, "Part 21", seed, row, [&] { return check_part21(*edit, c.kind == Kind::kBenign); });
+      if (said) count(c, "Part 21", seed, *said, part21_baseline_, row);
+    }
+  }
+
+  /// Whatever the edit, there is an answer.
+  template <class Check>
+  static std::optional<Said> guarded(const PlanClass& c, const std::string& name, std::uint64_t seed,
+                                     PlanRow& row, const Check& check) {
+    try {
+      return check();
+    } catch (const std::exception& e) {
+      ++row.edits;
+      ++row.missed;
+      row.told.push_back(c.name + ", " + name + ", seed " + std::to_string(seed) + ": threw " + e.what());
+      return std::nullopt;
     }
   }
 
