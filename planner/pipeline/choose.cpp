@@ -1,5 +1,7 @@
 #include "planner/pipeline/choose.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "planner/base/number.h"
@@ -57,6 +59,28 @@ std::string keep_untried(const Work& w, const Member& member, const std::string&
   return s.ranked.empty() ? last : std::string();
 }
 
+/// A boring tool on a slide is one tool for each size that it is set to: what a plan sets to two sizes has
+/// two numbers in the tool table. The first keeps the library's name, the next have their size behind it.
+void tell_apart(const Work& w, const std::vector<model::Selection>& before, model::Selection& s) {
+  constexpr double kSameMm = 1e-6;
+  constexpr char kSize = '@';
+  for (model::Candidate& c : s.ranked) {
+    if (!(c.cutter.adjustable_to_mm > 0.0)) continue;
+    const std::string id = c.cutter.id;
+    const auto look_at = [&](const model::Cutter& other) {
+      if (other.id.substr(0, other.id.find(kSize)) != id) return false;
+      const bool same = std::abs(other.cutting_diameter_mm - c.cutter.cutting_diameter_mm) < kSameMm;
+      c.cutter.id = same ? other.id : id + kSize + trimmed(c.cutter.cutting_diameter_mm, 4);
+      return same;
+    };
+    const bool taken = std::any_of(w.steps.begin(), w.steps.end(),
+                                   [&](const StepWork& step) { return look_at(step.cutter); });
+    for (std::size_t i = 0; i < before.size() && !taken; ++i) {
+      if (!before[i].ranked.empty() && look_at(before[i].ranked.front().cutter)) break;
+    }
+  }
+}
+
 }  // namespace
 
 Chosen choose(Work& w, const model::Proposal& p, const FeatureShape& shape, const Member& member,
@@ -80,6 +104,7 @@ Chosen choose(Work& w, const model::Proposal& p, const FeatureShape& shape, cons
         why_not = step.name + ": no cutter fits; " + s.would_fit + " would";
         break;
       }
+      tell_apart(w, out.tools, s);
       why_not = keep_untried(w, member, out.key, i, s);
       if (why_not.empty()) why_not = keep_able(w, step, s);
       if (!why_not.empty()) break;

@@ -5,14 +5,15 @@
 #include <cmath>
 
 #include "planner/base/number.h"
+#include "planner/model/ranges.h"
 
 namespace capstan::tooling {
 namespace {
 
-/// Above any milling tool; a value beyond it is a wrong unit or a slip. As in `faults_of`.
-constexpr double kLongestMm = 2000.0;
-constexpr double kMostTeeth = 60.0;
-constexpr double kMostRpm = 1e6;
+/// As in `faults_of`.
+constexpr double kLongestMm = model::range::kToolLengthMm.most;
+constexpr double kMostTeeth = model::range::kTeeth.most;
+constexpr double kMostRpm = model::range::kToolSpeedRpm.most;
 
 constexpr SymbolFact length(std::string_view symbol, std::string_view words) {
   return {symbol, Quantity::kLength, 0.0, kLongestMm, words};

@@ -354,8 +354,11 @@ const Cutter* named(const Model& m, const Parts& p, const std::vector<Cutter>& l
   const auto* product = m.get<model::Workpiece>(usage->its_product);
   for (const auto* text : {&usage->its_library_reference, product != nullptr ? &product->its_id : nullptr}) {
     if (text == nullptr || !*text) continue;
+    // A boring tool that a plan sets to several sizes has each behind its name.
+    const std::string_view plain = std::string_view(**text).substr(0, (*text)->find('@'));
     for (const Cutter& c : library)
-      if (c.id == **text || (!c.library_reference.empty() && c.library_reference == **text) ||
+      if (c.id == **text || (c.adjustable_to_mm > 0.0 && c.id == plain) ||
+          (!c.library_reference.empty() && c.library_reference == **text) ||
           (product != nullptr && text == &product->its_id && c.product_id == **text))
         return &c;
   }

@@ -151,6 +151,7 @@ class Check {
       auto plan = plan_of_bytes(std::move(in.bytes), in.path, s_.job);
       if (!plan) return plan.error();
       if (s_.options.schema) schema_ += s_.job.diagnostics().size() - before;
+      count_edits(before, in.path);
       ++checked_;
       // What was computed before somebody edited a value says nothing of the plan as it is now.
       if (!has_paths(*plan) || edited() > edits) {
@@ -168,6 +169,21 @@ class Check {
       plans_.push_back(*std::move(plan));
     }
     return std::nullopt;
+  }
+
+  /// A file that somebody edited after it was written is found, for what was computed of the old values
+  /// stands in it. Its reader has said so already.
+  void count_edits(std::size_t before, const std::string& file) {
+    const auto& all = s_.job.diagnostics();
+    for (std::size_t i = before; i < all.size(); ++i) {
+      if (!all[i].code.ends_with("-EDITED") || all[i].severity == Severity::kNote) continue;
+      model::Finding f;
+      f.code = all[i].code;
+      f.severity = all[i].severity;
+      f.message = all[i].message;
+      ++count_;
+      findings_.push_back({file, std::move(f)});
+    }
   }
 
   /// What condemns the plan by its own record, as findings.
@@ -203,7 +219,9 @@ class Check {
       if (!library) return library.error();
       shop_.cutters = *std::move(library);
     } else if (!has_plan && !shop_.tool_table.empty()) {
-      auto table = tooling::read_tool_table(shop_.tool_table, "tool table", s_.job);
+      auto table = tooling::read_tool_table(
+          shop_.tool_table, "tool table", s_.job,
+          {.mm_per_unit = {}, .offsets_against_reference = shop_.machine.control.offsets_against_reference});
       if (!table) return table.error();
       shop_.cutters = *std::move(table);
     }

@@ -4,8 +4,9 @@
 #include "planner/exchange/iso14649/deviations.h"
 #include "planner/exchange/iso14649/reading.h"
 #include "planner/exchange/iso14649/records.h"
-#include "planner/exchange/sections.h"
+#include "planner/exchange/iso14649/seal.h"
 #include "planner/exchange/opening.h"
+#include "planner/exchange/sections.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/walk.h"
 
@@ -81,10 +82,12 @@ Result<model::Plan> read_iso14649(const p21::File& file, Job& job) {
   if (reporter.errors() == 0) {
     keep_the_rest(reading, reached);
     keep_sections(
-        file, model::KeptSchema::kIso14649, [&](std::uint64_t id) { return reading.find(id); }, plan, reporter);
+        file, model::KeptSchema::kIso14649, [&](std::uint64_t id) { return reading.find(id); }, plan,
+        reporter);
     find_deviations(reading);
     open_what_is_left_out(plan, reached, reporter);
     read_records(reading);
+    compare_seals(reading);
   }
   reporter.finish();
   if (reporter.errors() != 0) {

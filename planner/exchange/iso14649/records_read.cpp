@@ -2,6 +2,7 @@
 
 #include "planner/exchange/iso14649/beyond.h"
 #include "planner/exchange/iso14649/records.h"
+#include "planner/exchange/iso14649/seal.h"
 #include "planner/exchange/records.h"
 
 namespace capstan::exchange {
@@ -127,7 +128,7 @@ class Records {
     try {
       const std::string_view keyword = e.keyword();
       if (keyword == "!CAPSTAN_REASON") return reason(list_of(e.parameters()));
-      if (is_beyond(keyword)) return;  // read with the objects
+      if (is_beyond(keyword) || is_seal(keyword)) return;  // read with the objects
       HeaderFields fields(e.parameters(), r_, reasons_);
       const SayOfRecord say_of = [&](Severity s, std::string code, std::string message) {
         say(e, s, std::move(code), std::move(message));

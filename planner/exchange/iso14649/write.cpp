@@ -9,6 +9,7 @@
 #include "planner/exchange/iso14649/beyond.h"
 #include "planner/exchange/iso14649/dialect.h"
 #include "planner/exchange/iso14649/records.h"
+#include "planner/exchange/iso14649/seal.h"
 #include "planner/exchange/iso14649/trajectories.h"
 #include "planner/exchange/iso14649/units.h"
 #include "planner/exchange/sections.h"
@@ -64,9 +65,14 @@ class FileWriter {
     if (auto kept = keep_beyond(); !kept) return tl::unexpected(kept.error());
     std::string out = "ISO-10303-21;\nHEADER;\n" + header();
     out += beyond_ + write_records(plan_, m_, [this](AnyRef at) { return number_of(at); });
+    const std::size_t seals_at = out.size();
     out += "ENDSEC;\n" + sections_text(plan_, [this](AnyRef r) { return reference(r); }) + "DATA;\n";
     for (const auto& [n, at] : by_number_) instance(n, at, out);
     out += "ENDSEC;\nEND-ISO-10303-21;\n";
+    Job quiet;
+    const auto file = p21::parse(out, "", {}, quiet);
+    if (!file) return fail(file.error());
+    out.insert(seals_at, seals_of(*file));
     for (const auto& [what, n] : left_out_) {
       losses_.push_back(what + " has no place in ISO 14649 (" + std::to_string(n) + " left out)");
     }

@@ -4,6 +4,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "planner/base/file.h"
 #include "planner/model/edited.h"
 #include "planner/model/nouns/executable.h"
 #include "planner/model/nouns/workpiece.h"
@@ -12,6 +13,8 @@
 #include "planner/output/json/ids.h"
 #include "planner/output/json/json.h"
 #include "planner/output/json/printer.h"
+#include "planner/output/json/seal.h"
+#include "planner/output/step_ids.h"
 
 namespace capstan::output {
 namespace json {
@@ -65,8 +68,13 @@ class Reader {
       get(*it, *mesh, {&top, "target_mesh"});
       plan_.target_mesh = std::move(mesh);
     }
+    compare_seals(child(tree, "seals", top), {&top, "seals"});
+    compare_derived(tree);
     return std::move(plan_);
   }
+
+  /// What somebody edited since the file was written, part by part.
+  [[nodiscard]] const std::vector<std::string>& edited() const { return edited_; }
 
  private:
   struct FieldReader {
@@ -118,7 +126,7 @@ class Reader {
     const Plan empty;
     fields(known, empty);
     for (const char* name : {"capstan_plan", "summary", "objects", "reasons", "decisions", "paths",
-                             "schedules", "sections", "target_mesh"}) {
+                             "schedules", "sections", "target_mesh", "seals"}) {
       known.names.emplace_back(name);
     }
     only(tree, known.names, at);
@@ -454,7 +462,53 @@ class Reader {
     }
   }
 
+  void compare_seals(const Tree& seals, const Place& at) {
+    need_object(seals, at);
+    std::map<std::string, std::uint64_t> then;
+    for (const auto& item : seals.items())
+      hash(item.value(), then[unquoted_bytes(item.key())], {&at, item.key()});
+    edited_ = edited_parts(plan_, std::move(then));
+  }
+
+  /// What a file says for readers that only look, against what it follows from.
+  void compare_derived(const Tree& tree) {
+    double cutting = 0.0;
+    double rapid = 0.0;
+    for (const auto& s : plan_.steps) {
+      cutting += s.cutting_s;
+      rapid += s.rapid_s;
+    }
+    const auto differs = [](const Tree& t, const char* name, double v) {
+      const auto it = t.find(name);
+      return it == t.end() || !it->is_number() || it->get<double>() != v;
+    };
+    if (const auto it = tree.find("summary"); it != tree.end() && it->is_object()) {
+      if (differs(*it, "steps", static_cast<double>(plan_.steps.size())) ||
+          differs(*it, "cutting_s", cutting) || differs(*it, "rapid_s", rapid))
+        edited_.emplace_back("the summary");
+    }
+    const std::vector<std::string> ids = step_ids(plan_);
+    const Tree& steps = *tree.find("steps");
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+      const auto id = steps[i].find("id");
+      if (id != steps[i].end() &&
+          (!id->is_string() || unquoted_bytes(id->get_ref<const std::string&>()) != ids[i]))
+        edited_.push_back("the id of step '" + ids[i] + "'");
+      const auto peak = steps[i].find("peak");
+      const auto& sections = plan_.steps[i].sections;
+      if (peak == steps[i].end() || !peak->is_object() || !sections) continue;
+      const auto most = [](const std::vector<double>& column) {
+        return column.empty() ? 0.0 : *std::max_element(column.begin(), column.end());
+      };
+      if (differs(*peak, "csa_mm2", most(sections->csa_mm2)) ||
+          differs(*peak, "ad_max_mm", most(sections->ad_max_mm)) ||
+          differs(*peak, "rd_max_mm", most(sections->rd_max_mm)))
+        edited_.push_back("the peak of step '" + ids[i] + "'");
+    }
+  }
+
   Plan plan_;
+  std::vector<std::string> edited_;
   std::vector<std::shared_ptr<const model::CutterPath>> paths_;
   std::vector<std::shared_ptr<const model::FeedSchedule>> schedules_;
   std::vector<std::shared_ptr<const model::SectionSeries>> sections_;
@@ -513,13 +567,15 @@ Result<model::Plan> read_json(std::string bytes, std::string file_name, Job& job
     return refuse("JSON-VERSION", "the plan is of another version than " + std::to_string(kPlanJsonVersion));
   }
   try {
-    model::Plan plan = json::Reader().run(tree);
+    json::Reader reader;
+    model::Plan plan = reader.run(tree);
     for (const model::Edited& e : model::take_edits(plan.model, plan.ledger)) {
       job.report({.code = "EXC-EDITED",
                   .severity = Severity::kNote,
                   .message = e.key.attribute + " of " + json::object_id(e.key.object) + " " + text_of(e),
                   .file = file_name});
     }
+    if (!reader.edited().empty()) job.report(json::was_edited(reader.edited(), file_name));
     return plan;
   } catch (const json::Fault& f) {
     Diagnostic d{

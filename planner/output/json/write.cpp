@@ -10,6 +10,7 @@
 #include "planner/output/json/ids.h"
 #include "planner/output/json/json.h"
 #include "planner/output/json/printer.h"
+#include "planner/output/json/seal.h"
 #include "planner/output/step_ids.h"
 
 namespace capstan::output {
@@ -65,6 +66,7 @@ class Writer {
       out_.key("target_mesh");
       put(*plan_.target_mesh);
     }
+    seals();
     out_.close();
     return out_.take();
   }
@@ -85,6 +87,16 @@ class Writer {
       writer.put(x);
     }
   };
+
+  void seals() {
+    out_.key("seals");
+    out_.open('{', true);
+    for (const auto& [name, hash] : seals_of(plan_)) {
+      out_.key(name);
+      out_.text(hex64(hash));
+    }
+    out_.close();
+  }
 
   // Derived, for readers that only look: what the steps add up to.
   void summary() {

@@ -89,4 +89,38 @@ Result<optimise::CutAnswer> Cuts::answer(const StepWork& step, optimise::CutQues
   return other;
 }
 
+std::optional<model::StepLoads> hold_under_overhang(const optimise::CutQuestion& q,
+                                                    const optimise::CutAnswer& a, toolpath::PathJob& job) {
+  if (q.slot || !job.left_on_side_mm) return a.loads;  // asked as a slot of the whole head
+  constexpr double kLeast = 0.02;                      // of the feed; default, unsourced
+  constexpr int kHalvings = 12;                        // to a thousandth of the feed
+  const auto at = [&](double width, double edges, double share) {
+    auto l = optimise::loads_of(q, a.ap_mm, width, a.n_rpm, share * a.feed_mm_min);
+    if (l) {
+      l->torque_nm *= edges;
+      l->power_w *= edges;
+      l->mrr_mm3_min *= edges;
+    }
+    return l;
+  };
+  const auto most = [&](double width, double edges, double share) {
+    const auto holds = [&](double x) {
+      const auto l = at(width, edges, x);
+      return l && optimise::worst_excess(q, *l, a.n_rpm) <= 0.0;
+    };
+    if (holds(share)) return share;
+    double lo = kLeast, hi = share;
+    for (int i = 0; i < kHalvings; ++i) {
+      const double x = 0.5 * (lo + hi);
+      (holds(x) ? lo : hi) = x;
+    }
+    return lo;
+  };
+  // At no angle do the forces of both edges together exceed those of one at its worst (checked for heads of
+  // 16 to 40 mm with 6 and 8 teeth, edges a twentieth to a fifth of the diameter wide).
+  job.both_edges_share = most(a.ae_mm, 2.0, 1.0);
+  job.front_share = most(q.cutter.cutting_diameter_mm, 1.0, job.front_share);
+  return at(a.ae_mm, 2.0, job.both_edges_share);
+}
+
 }  // namespace capstan::pipeline
