@@ -39,12 +39,16 @@ struct Context {
   std::optional<double> clear_radius_mm;
   /// Steps that end at walls on both sides: how far these are apart; 0: they do not.
   double between_ends_mm = 0.0;
-  /// Steps and outsides with inner corners that are drawn sharp: the largest radius that may stay there; 0:
-  /// they have none.
+  /// Steps, outsides and faces with inner corners that are drawn sharp: the largest radius that may stay
+  /// there; 0: they have none.
   double sharp_corner_mm = 0.0;
   double core_height_mm = 0.0;     ///< with core_above: how high above this one's top it begins
   bool outer_thread = false;       ///< threads: on a shaft
   double surface_radius_mm = 0.0;  ///< freeform: smallest concave radius; 0 not known
+  /// Freeform: whether walls of it stand upright within the raw piece, whether anything but walls and level
+  /// floors is on it, and the least radius of the walls' inside corners; 0: none, or sharp.
+  bool surface_walls = false, surface_curved = true;
+  double surface_corner_mm = 0.0;
   bool has_coolant = true;
   model::Quality quality;  ///< surface texture and geometric tolerances of the feature
   model::MachineAbilities abilities;

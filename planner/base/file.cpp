@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -42,6 +43,10 @@ Result<std::string> read_file(const std::string& path, std::size_t cap) {
   if (::fstat(fd.get(), &info) != 0) return io_fault("FILE-READ", path, "cannot be examined");
   if (S_ISDIR(info.st_mode))
     return fail({.code = "FILE-READ", .message = "is a folder", .file = path, .expected = "a file"});
+  // A pipe or a device may never end; what is piped in is a program, a part or a plan.
+  constexpr std::size_t kStreamCap = std::size_t{64} << 20;
+  const bool stream = !S_ISREG(info.st_mode);
+  if (stream) cap = std::min(cap, kStreamCap);
   std::string bytes;
   constexpr std::size_t kChunk = std::size_t{1} << 20;
   if (info.st_size > 0 && static_cast<std::size_t>(info.st_size) <= cap) {
@@ -60,9 +65,11 @@ Result<std::string> read_file(const std::string& path, std::size_t cap) {
     }
     bytes.resize(at + static_cast<std::size_t>(got));
     if (bytes.size() > cap) {
-      return fail({.code = "FILE-TOO-LARGE",
-                   .message = "is larger than the limit of " + std::to_string(cap) + " bytes",
-                   .file = path});
+      return fail(
+          {.code = "FILE-TOO-LARGE",
+           .message = std::string(stream ? "is no regular file, and gives more than " : "is larger than ") +
+                      "the limit of " + std::to_string(cap) + " bytes",
+           .file = path});
     }
     if (got == 0) return bytes;
   }

@@ -7,6 +7,7 @@
 #include "planner/exchange/record_machine.h"
 #include "planner/exchange/record_material.h"
 #include "planner/exchange/report.h"
+#include "planner/model/edited.h"
 #include "planner/model/nouns/all.h"
 
 namespace capstan::exchange {
@@ -517,15 +518,9 @@ class Restoring {
     const std::string address = describe(f_, b);
     if (b.attribute.empty()) throw MalformedRecord{};
     if (!here(b.at, address)) return true;
-    const std::uint64_t now = model::hash_attribute(plan_.model, b.at, b.attribute);
-    if (!sealed_ && hex64(now) != b.hash) {
-      say_(Severity::kNote, "EXC-EDITED",
-           address + (address.empty() ? "" : " ") + attribute_name(b.at, b.attribute) +
-               " was edited since it was bound by " + std::string(to_text(b.decision.binder)) +
-               "; it counts as given");
-      return true;
-    }
-    b.decision.value_hash = now;
+    const auto hash = model::hash_from_text(b.hash);
+    if (!hash) throw MalformedRecord{};
+    b.decision.value_hash = sealed_ ? model::hash_attribute(plan_.model, b.at, b.attribute) : *hash;
     b.decision.reason = plan_.ledger.reason(b.reason);
     std::erase_if(b.decision.depends_on, [](const auto& k) { return !k.object.set(); });
     plan_.ledger.set({b.at, b.attribute}, std::move(b.decision));
@@ -548,6 +543,15 @@ void write_plan_records(const model::Plan& plan, const model::Model& written, co
 bool restore_record(std::string_view kind, std::string_view label, RecordFields& fields, model::Plan& plan,
                     bool sealed, const SayOfRecord& say) {
   return Restoring(label, fields, plan, sealed, say).run(kind);
+}
+
+void settle_edits(model::Plan& plan, Reporter& reporter) {
+  for (const model::Edited& e : model::take_edits(plan.model, plan.ledger)) {
+    reporter.about(plan.model, e.key.object,
+                   {.code = "EXC-EDITED",
+                    .severity = Severity::kNote,
+                    .message = attribute_name(e.key.object, e.key.attribute) + " " + text_of(e)});
+  }
 }
 
 }  // namespace capstan::exchange

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "planner/base/result.h"
+#include "planner/exchange/report.h"
 #include "planner/model/plan.h"
 
 // What a plan knows beside its nouns (who bound what, identities, machine, material, cutters, stock, set-ups,
@@ -61,12 +62,15 @@ void write_plan_records(const model::Plan& plan, const model::Model& written, co
 /// Says something about the record being read.
 using SayOfRecord = std::function<void(Severity, std::string code, std::string message)>;
 
-/// Puts what a record says back into the plan; false for an unknown kind. A decision whose value was edited
-/// since is dropped (and thereby *given*), with the note EXC-EDITED; a record of an object that is gone is
-/// dropped with the note EXC-RECORD. `label` is what the record is called when something is said of it. Of a
-/// sealed file (sealed.h), which nobody edited, values are not compared: what a unit rounds is no edit.
+/// Puts what a record says back into the plan; false for an unknown kind. A record of an object that is gone
+/// is dropped with the note EXC-RECORD. `label` is what the record is called when something is said of it. Of
+/// a sealed file (seal.h), which nobody edited, values are not compared: what a unit rounds is no edit.
 /// Fails   throws MalformedRecord.
 bool restore_record(std::string_view kind, std::string_view label, RecordFields& fields, model::Plan& plan,
                     bool sealed, const SayOfRecord& say);
+
+/// When all records are read: values that were edited since (model/edited.h) count as given, with the note
+/// EXC-EDITED.
+void settle_edits(model::Plan& plan, Reporter& reporter);
 
 }  // namespace capstan::exchange

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 
 namespace capstan::geometry {
 namespace {
@@ -145,13 +146,42 @@ double area(const Region& a) {
   return sum;
 }
 
+namespace {
+
+enum class Side { kOutside, kInside, kOn };
+
+/// Even-odd by a ray towards +x, on the grid (Hormann and Agathos, "The point in polygon problem for
+/// arbitrary polygons", 2001): the ray crosses an edge that changes the side of its height and has the point
+/// on its left when it goes up. Only the corners of edges that reach that height are put on the grid.
+Side side_of(const Loop& loop, Vec2 p) {
+  if (loop.size() < 3) return Side::kOutside;
+  const auto px = to_grid(p.x), py = to_grid(p.y);
+  const double over = p.y + 2.0 * kRegionGrid, under = p.y - 2.0 * kRegionGrid;
+  bool inside = false;
+  Vec2 from = loop.back();
+  for (const Vec2 to : loop) {
+    const Vec2 a = std::exchange(from, to);
+    if ((a.y > over && to.y > over) || (a.y < under && to.y < under)) continue;
+    const auto ax = to_grid(a.x), ay = to_grid(a.y), bx = to_grid(to.x), by = to_grid(to.y);
+    if (bx == px && by == py) return Side::kOn;
+    if (ay == py && by == py && (ax < px) != (bx < px)) return Side::kOn;  // along the ray
+    if ((ay < py) == (by < py)) continue;
+    const double cross = static_cast<double>(ax - px) * static_cast<double>(by - py) -
+                         static_cast<double>(bx - px) * static_cast<double>(ay - py);
+    if (cross == 0.0) return Side::kOn;
+    if ((cross > 0.0) == (by > ay)) inside = !inside;
+  }
+  return inside ? Side::kInside : Side::kOutside;
+}
+
+}  // namespace
+
 bool contains(const Region& a, Vec2 p) {
   int winding = 0;
-  const IntPoint point(to_grid(p.x), to_grid(p.y));
   for (const Loop& loop : a.loops) {
-    const int inside = ClipperLib::PointInPolygon(point, to_path(loop));
-    if (inside == -1) return true;
-    if (inside == 1) winding += signed_area(loop) > 0.0 ? 1 : -1;
+    const Side side = side_of(loop, p);
+    if (side == Side::kOn) return true;
+    if (side == Side::kInside) winding += signed_area(loop) > 0.0 ? 1 : -1;
   }
   return winding > 0;
 }

@@ -21,6 +21,26 @@ ForceMargin force_margin(const model::WorkMaterial& material, model::Substrate s
   return {.spread = set->uncertainty > 0.0 ? 1.0 + set->uncertainty : kForceUncertaintyFactor};
 }
 
+bool is_milled(model::TypeId operation, const model::Cutter& cutter) {
+  if (!model::is_a(operation, model::TypeId::kDrillingTypeOperation)) return true;
+  const bool mills = cutter.cutter_class == model::CutterClass::kEndmill ||
+                     cutter.cutter_class == model::CutterClass::kBullnoseEndmill;
+  return mills && model::is_a(operation, model::TypeId::kThreadDrilling);
+}
+
+std::string force_source(const model::WorkMaterial& material, model::Substrate substrate, bool milled) {
+  const model::MechanisticSet* set = milled ? measured_set(material, substrate) : nullptr;
+  if (set != nullptr) {
+    return "measured coefficients of " + material.id + " for " + std::string(model::to_text(substrate)) +
+           (set->source.empty() ? std::string() : " (" + set->source + ")");
+  }
+  std::string source;
+  for (const auto& [field, from] : material.sources) {
+    if (field == "kc11_n_mm2") source = " (" + from + ")";
+  }
+  return "Kienzle's kc1.1 and mc of " + material.id + source;
+}
+
 ForceLaw force_law(const model::WorkMaterial& material, model::Substrate substrate) {
   ForceLaw law{.kienzle = {material.kc11_n_mm2, material.mc}};
   if (const model::MechanisticSet* set = measured_set(material, substrate))

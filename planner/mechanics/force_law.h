@@ -1,9 +1,12 @@
 #pragma once
 
+#include <string>
+
 #include "planner/mechanics/constants.h"
 #include "planner/mechanics/section.h"
 #include "planner/model/cutter.h"
 #include "planner/model/material.h"
+#include "planner/model/type_id.h"
 
 /// From the nouns of the model to the values of this room: which law of force holds for a material, how far
 /// it may be wrong, and what of a cutter cuts.
@@ -19,6 +22,14 @@ struct ForceMargin {
 /// The measured set that is used: the first for the tool's substrate; null when there is none.
 [[nodiscard]] const model::MechanisticSet* measured_set(const model::WorkMaterial& material,
                                                         model::Substrate substrate);
+
+/// Whether the law of milling holds for a cut: all but drilling, reaming and tapping; a thread or a hole may
+/// be milled.
+[[nodiscard]] bool is_milled(model::TypeId operation, const model::Cutter& cutter);
+/// Which coefficients gave the forces of a cut, with their source: the measured set that `force_law` takes,
+/// or Kienzle's law.
+[[nodiscard]] std::string force_source(const model::WorkMaterial& material, model::Substrate substrate,
+                                       bool milled);
 
 /// The measured set where there is one for this substrate, else Kienzle's law; uncertainty_factor is the
 /// margin's spread. The Kienzle values are there either way.

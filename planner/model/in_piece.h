@@ -32,6 +32,11 @@ inline constexpr double kBeyondPieceMm = 0.01;
 [[nodiscard]] std::string point_runs_through(const FeatureShape& hole, const PieceForm& raw,
                                              const PieceForm& part);
 
+/// Why a blind hole, pocket or slot has no floor in the finished part: it ends below that one's underside, in
+/// what is cut off there, though not below the raw piece's; in words, empty when it has one.
+[[nodiscard]] std::string floor_below_part(const FeatureShape& s, const PieceForm& raw,
+                                           const PieceForm& part);
+
 /// Whether a feature takes this point of the workpiece away: a face all that stands above its floor.
 [[nodiscard]] bool takes(const FeatureShape& s, geometry::Vec3 p);
 
@@ -57,15 +62,20 @@ struct SharpCorner {
                                                      const std::vector<FeatureShape>& features,
                                                      const PieceForm& part);
 
-/// The largest radius that may stay in the inside corners of a step or an outside, which can state none, mm:
-/// 3 mm, and where that is deeper than a mill reaches in one hand, a sixth of the depth, which is a mill
-/// three diameters deep. Default, unsourced.
+/// Whether solid stands beside a face above its floor, so that its reach ends there.
+[[nodiscard]] bool stops_at_walls(const FeatureShape& face);
+
+/// The largest radius that may stay in the inside corners of what can state none (steps, outsides, faces),
+/// and of a pocket that states none, mm: 3 mm, and where that is deeper than a mill reaches in one hand, a
+/// sixth of the depth, which is a mill three diameters deep. Default, unsourced.
 [[nodiscard]] double unstated_corner_mm(const FeatureShape& s);
 
 /// An inside corner that no mill makes, in words; empty when there is none: a slot whose end is square, as an
 /// open one is drawn, where solid stands beyond it and no corner radius is stated (`features` as above), a
-/// pocket whose open side lies within solid, or one that states a corner radius of 0.
+/// pocket whose open side lies within solid, or one that states a corner radius of 0. `stated_only`: where
+/// only what the nouns say of an end counts, for what stands there is told by another than the features.
 [[nodiscard]] std::string square_corner(const Model& m, const FeatureShape& s,
-                                        const std::vector<FeatureShape>& features, const PieceForm& part);
+                                        const std::vector<FeatureShape>& features, const PieceForm& part,
+                                        bool stated_only = false);
 
 }  // namespace capstan::model

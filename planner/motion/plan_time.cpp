@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/base/number.h"
 #include "planner/motion/time.h"
 
 namespace capstan::motion {
@@ -34,6 +35,20 @@ model::FeedSchedule schedule_of(const StepResult& step) {
   const std::size_t n = step.path ? step.path->size() : 0;
   return {std::vector<double>(n, step.feed_mm_min), std::vector<double>(n, step.spindle_rpm),
           std::vector<double>(n, 0.0)};
+}
+
+std::string duration_text(double seconds) {
+  const double s = rounded(seconds, 1);
+  if (!(s >= 60.0)) return trimmed(s, 1) + " s";
+  const double minutes = std::floor(s / 60.0);
+  return trimmed(minutes, 0) + " min " + trimmed(s - 60.0 * minutes, 1) + " s";
+}
+
+std::string text_of(const PlanTime& t) {
+  return duration_text(t.total_s()) + ": cutting " + duration_text(t.at_feed_s()) + ", rapids " +
+         duration_text(t.rapid_s) + ", between steps " + duration_text(t.link_s) + ", " +
+         std::to_string(t.tool_changes) + (t.tool_changes == 1 ? " tool change " : " tool changes ") +
+         duration_text(t.tool_change_s) + ", spindle " + duration_text(t.spin_up_s);
 }
 
 Result<PlanTime> time_of(const Plan& plan) {

@@ -42,6 +42,7 @@ struct CutQuestion {
   model::WorkMaterial material;
   model::Machine machine;
   double vc_start_m_min = 0.0;       ///< from catalogue or table: also the most that is taken
+  double vc_table_m_min = 0.0;       ///< what the table says where spindle or cutter turn too slowly for it
   double fz_start_mm = 0.0;          ///< the same; chip thickness stays at or below it
   double depth_mm = 0.0;             ///< to remove along the axis, in all
   double width_mm = 0.0;             ///< to remove across the feed, at most: the slot's width, the allowance

@@ -3,6 +3,7 @@
 #include <set>
 #include <utility>
 
+#include "planner/model/positions.h"
 #include "planner/model/unreadable.h"
 #include "planner/output/step_ids.h"
 #include "planner/pipeline/checked.h"
@@ -218,6 +219,11 @@ Result<model::Plan> bind_within(const model::Plan& plan, const Inputs& inputs, c
 }
 
 Result<model::Plan> bind(model::Plan plan, const Inputs& inputs, const Policy& policy, Job& job) {
+  if (const std::string beyond = model::beyond_range(plan); !beyond.empty())
+    return fail({.code = "PIP-RANGE",
+                 .message = beyond + ": no geometry can be computed with it",
+                 .file = plan.file_name,
+                 .hint = "correct it in the file; lengths are in mm unless it says otherwise"});
   Tries tries;
   auto out = bind_within(plan, inputs, policy, tries, job);
   if (out) tell_tries(tries, job);

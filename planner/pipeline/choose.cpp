@@ -1,7 +1,10 @@
 #include "planner/pipeline/choose.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
+#include "planner/base/number.h"
 #include "planner/pipeline/members.h"
 #include "planner/pipeline/share.h"
 #include "planner/pipeline/steps.h"
@@ -56,6 +59,28 @@ std::string keep_untried(const Work& w, const Member& member, const std::string&
   return s.ranked.empty() ? last : std::string();
 }
 
+/// A boring tool on a slide is one tool for each size that it is set to: what a plan sets to two sizes has
+/// two numbers in the tool table. The first keeps the library's name, the next have their size behind it.
+void tell_apart(const Work& w, const std::vector<model::Selection>& before, model::Selection& s) {
+  constexpr double kSameMm = 1e-6;
+  constexpr char kSize = '@';
+  for (model::Candidate& c : s.ranked) {
+    if (!(c.cutter.adjustable_to_mm > 0.0)) continue;
+    const std::string id = c.cutter.id;
+    const auto look_at = [&](const model::Cutter& other) {
+      if (other.id.substr(0, other.id.find(kSize)) != id) return false;
+      const bool same = std::abs(other.cutting_diameter_mm - c.cutter.cutting_diameter_mm) < kSameMm;
+      c.cutter.id = same ? other.id : id + kSize + trimmed(c.cutter.cutting_diameter_mm, 4);
+      return same;
+    };
+    const bool taken = std::any_of(w.steps.begin(), w.steps.end(),
+                                   [&](const StepWork& step) { return look_at(step.cutter); });
+    for (std::size_t i = 0; i < before.size() && !taken; ++i) {
+      if (!before[i].ranked.empty() && look_at(before[i].ranked.front().cutter)) break;
+    }
+  }
+}
+
 }  // namespace
 
 Chosen choose(Work& w, const model::Proposal& p, const FeatureShape& shape, const Member& member,
@@ -79,6 +104,7 @@ Chosen choose(Work& w, const model::Proposal& p, const FeatureShape& shape, cons
         why_not = step.name + ": no cutter fits; " + s.would_fit + " would";
         break;
       }
+      tell_apart(w, out.tools, s);
       why_not = keep_untried(w, member, out.key, i, s);
       if (why_not.empty()) why_not = keep_able(w, step, s);
       if (!why_not.empty()) break;
@@ -89,9 +115,48 @@ Chosen choose(Work& w, const model::Proposal& p, const FeatureShape& shape, cons
       out.chain = &chain;
       return out;
     }
-    rejected.push_back({chain.empty() ? "chain" : chain.front().why.id, why_not});
+    rejected.push_back({chain_text(chain, shape), why_not});
   }
   return {};
+}
+
+std::string chain_text(const std::vector<model::ProposedStep>& chain, const FeatureShape& shape) {
+  if (chain.empty()) return "chain";
+  std::string out;
+  for (const model::ProposedStep& step : chain) {
+    const bool prefixed = step.name.starts_with(shape.name + " ");
+    out += (out.empty() ? "" : " + ") + (prefixed ? step.name.substr(shape.name.size() + 1) : step.name);
+  }
+  return out + " [" + chain.front().why.id + "]";
+}
+
+std::vector<model::Rejected> alternatives(Work& w, const model::Proposal& p, const FeatureShape& shape,
+                                          const Chosen& chosen, const std::vector<model::Cutter>& library) {
+  const auto seconds = [](const std::vector<model::Selection>& tools) {
+    double out = 0.0;
+    for (const model::Selection& s : tools) out += s.ranked.empty() ? 0.0 : s.ranked.front().estimated_s;
+    return out;
+  };
+  std::vector<model::Rejected> out;
+  const std::string taken = trimmed(seconds(chosen.tools), 1) + " s";
+  for (const auto& chain : p.chains) {
+    if (&chain <= chosen.chain || chain.empty()) continue;
+    std::vector<model::Selection> tools;
+    std::string why;
+    for (std::size_t i = 0; why.empty() && i < chain.size(); ++i) {
+      const model::ProposedStep step = as_opened(chain, i, tools);
+      tooling::Preferences wanted = preferences_of(w, step, shape);
+      wanted.used = w.used_cutters;
+      tools.push_back(tooling::select(step.tool, library, w.plan.material, w.plan.machine, wanted));
+      if (step.operation != TypeId::kWorkpieceProbing && tools.back().ranked.empty())
+        why = step.name + ": no cutter fits; " + tools.back().would_fit + " would";
+    }
+    if (why.empty())
+      why = "about " + trimmed(seconds(tools), 1) + " s of cutting, the chain taken about " + taken +
+            "; the rules prefer the chain taken";
+    out.push_back({chain_text(chain, shape), std::move(why)});
+  }
+  return out;
 }
 
 }  // namespace capstan::pipeline

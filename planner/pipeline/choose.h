@@ -20,4 +20,14 @@ struct Chosen {
                             const Member& member, const std::vector<model::Cutter>& library,
                             std::vector<model::Rejected>& rejected);
 
+/// A chain by its steps: "centre + drill + ream [hole.ream.it7]".
+[[nodiscard]] std::string chain_text(const std::vector<model::ProposedStep>& chain,
+                                     const model::FeatureShape& shape);
+/// What the chains after the chosen one would take, by the estimate that also ranks cutters, against the
+/// chosen one.
+[[nodiscard]] std::vector<model::Rejected> alternatives(Work& w, const model::Proposal& p,
+                                                        const model::FeatureShape& shape,
+                                                        const Chosen& chosen,
+                                                        const std::vector<model::Cutter>& library);
+
 }  // namespace capstan::pipeline

@@ -1,9 +1,12 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <numbers>
 #include <utility>
 
+#include "planner/geometry/mesh_form.h"
 #include "planner/pipeline/steps.h"
 #include "planner/toolpath/freeform/freeform.h"
 
@@ -17,6 +20,7 @@ constexpr double kChordMm = 0.01;          // where the file states no chordal t
 constexpr double kRoughAllowanceMm = 0.5;  // left by roughing when no rule says otherwise; default, unsourced
 constexpr double kSemiAllowanceMm = 0.2;   // left by a semi-finish, likewise; default, unsourced
 
+constexpr double kLevelStep = 0.5;  // of the diameter, over a level floor; default, unsourced
 constexpr double kCreaseMm =
     0.02;  // a ball may leave in a crease: what the check lets stand; default, unsourced
 constexpr double kSharpRad = 20.0 / 180.0 * std::numbers::pi;  // sharper corners keep any ball's radius
@@ -89,6 +93,65 @@ double surface_radius(const geometry::Mesh& mesh) {
   return out;
 }
 
+SurfaceForm surface_form(const geometry::Mesh& mesh, const geometry::Box3& raw) {
+  using geometry::Vec3;
+  constexpr double kUpright = 1e-3, kLevel = 1.0 - 1e-6;  // of unit normals
+  constexpr double kSameMm = 0.02;                        // of coordinates; default, unsourced
+  SurfaceForm out;
+  if (geometry::form_of(mesh).kind != geometry::MeshForm::Kind::kSolid) return out;
+  const bool inside_out = geometry::form_of(mesh).inside_out;
+  const auto on_side = [&](const std::array<Vec3, 3>& t) {
+    const auto all = [&](auto coordinate, double at) {
+      return std::all_of(t.begin(), t.end(), [&](Vec3 v) { return std::abs(coordinate(v) - at) < kSameMm; });
+    };
+    const auto x = [](Vec3 v) { return v.x; };
+    const auto y = [](Vec3 v) { return v.y; };
+    return all(x, raw.lo.x) || all(x, raw.hi.x) || all(y, raw.lo.y) || all(y, raw.hi.y);
+  };
+  struct Side {
+    Vec3 normal, apex;
+  };
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<Side>> edges;  // of upright facets
+  for (const auto& t : mesh.triangles) {
+    const std::array<Vec3, 3> p{mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
+    Vec3 n = cross(p[1] - p[0], p[2] - p[0]);
+    if (!(norm(n) > 0.0)) continue;
+    n = (inside_out ? -1.0 : 1.0) / norm(n) * n;
+    if (std::abs(n.z) < kUpright) {
+      if (on_side(p)) continue;
+      out.walls = true;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t a = t[k], b = t[(k + 1) % 3];
+        edges[{std::min(a, b), std::max(a, b)}].push_back({n, p[(k + 2) % 3]});
+      }
+    } else if (n.z > kLevel) {
+      out.floors_mm.push_back(p[0].z);
+    } else if (n.z > 0.0) {
+      out.curved = true;
+    }
+  }
+  std::sort(out.floors_mm.begin(), out.floors_mm.end(), std::greater<>());
+  const auto same = [](double a, double b) { return std::abs(a - b) < 1e-4; };
+  out.floors_mm.erase(std::unique(out.floors_mm.begin(), out.floors_mm.end(), same), out.floors_mm.end());
+  for (const auto& [e, sides] : edges) {
+    if (sides.size() != 2) continue;
+    const Vec3 a = mesh.vertices[e.first];
+    const Vec3 along = mesh.vertices[e.second] - a;
+    if (!(norm(along) > 0.0) || dot(sides[0].normal, sides[1].apex - a) <= 0.0) continue;  // not concave
+    const double angle = std::acos(std::clamp(dot(sides[0].normal, sides[1].normal), -1.0, 1.0));
+    if (angle < kFlatRad || angle > kSharpRad) continue;
+    const double width =
+        std::min(norm(cross(sides[0].apex - a, along)), norm(cross(sides[1].apex - a, along))) / norm(along);
+    out.corner_mm = out.corner_mm > 0.0 ? std::min(out.corner_mm, width / angle) : width / angle;
+  }
+  return out;
+}
+
+bool cuts_levels(const Work& w, const StepWork& step) {
+  return w.plan.model.holds<model::FreeformFinishMilling>(step.operation) &&
+         step.cutter.cutter_class == model::CutterClass::kEndmill;
+}
+
 geometry::Mesh mesh_in_setup(const Work& w, std::size_t setup) {
   geometry::Mesh out = *w.plan.target_mesh;
   for (geometry::Vec3& v : out.vertices) v = w.setups[setup].workpiece.to_parent(v);
@@ -135,7 +198,24 @@ Result<toolpath::GeneratedPath> freeform_path(Work& w, const StepWork& step, con
     f.axial_depth_mm = cut.ap_mm;
     f.stepover_mm = std::min(cut.ae_mm, step.cutter.cutting_diameter_mm);
   }
-  auto made = rough ? toolpath::freeform::rough(f, w.job) : toolpath::freeform::finish(f, w.job);
+  const geometry::Box3& raw = w.setups[step.setup].stock;
+  const SurfaceForm form = surface_form(mesh, raw);
+  const bool levels = cuts_levels(w, step);
+  if (form.walls && (rough || levels)) {
+    // Around the solid all goes, down to the underside; the cutter comes from beside the raw piece.
+    constexpr double kBesideMm = 1.0;
+    f.area = geometry::offset_sharp(geometry::rectangle(geometry::xy(raw.lo), geometry::xy(raw.hi)),
+                                    0.5 * step.cutter.cutting_diameter_mm + kBesideMm);
+    f.beside_is_free = true;
+    f.bottom_z_mm = std::min(f.bottom_z_mm, raw.lo.z);
+    f.floors_z_mm = form.floors_mm;
+  }
+  if (levels) {
+    f.axial_depth_mm = cut.ap_mm;
+    f.stepover_mm = kLevelStep * step.cutter.cutting_diameter_mm;
+    f.left_mm = kRoughAllowanceMm;
+  }
+  auto made = rough || levels ? toolpath::freeform::rough(f, w.job) : toolpath::freeform::finish(f, w.job);
   if (!made) return tl::unexpected(made.error());
   toolpath::GeneratedPath out;
   out.path = std::move(made->path);

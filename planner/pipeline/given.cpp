@@ -231,6 +231,27 @@ void raise_security_plane(Work& w, std::size_t index) {
   }
 }
 
+/// Depths and widths that are open are chosen anew: what stands there was chosen for something else.
+void drop_open_depths(Work& w, const StepWork& step) {
+  model::Model& m = w.plan.model;
+  const model::Ledger& ledger = w.plan.ledger;
+  const auto drop = [&](AnyRef object, const char* attribute, model::Real& value) {
+    if (ledger.is_open(object, attribute)) value.reset();
+  };
+  const auto both = [&](auto* o) {
+    if (o == nullptr) return;
+    drop(step.operation, "axial_cutting_depth", o->axial_cutting_depth);
+    if constexpr (requires { o->radial_cutting_depth; })
+      drop(step.operation, "radial_cutting_depth", o->radial_cutting_depth);
+  };
+  both(m.get<model::PlaneMilling>(step.operation));
+  both(m.get<model::SideMilling>(step.operation));
+  both(m.get<model::BottomAndSideMilling>(step.operation));
+  const auto* o = m.get<model::Two5dMillingOperation>(step.operation);
+  const AnyRef strategy = o == nullptr ? AnyRef{} : AnyRef(o->its_machining_strategy);
+  if (auto* s = m.get<model::Two5dMillingStrategy>(strategy)) drop(strategy, "overlap", s->overlap);
+}
+
 void mark_open(Work& w, StepWork& step) {
   const model::Model& m = w.plan.model;
   const auto* op = m.get<model::MachiningOperation>(step.operation);
@@ -250,6 +271,7 @@ void mark_open(Work& w, StepWork& step) {
       step.open_tool = false;
     // What was chosen for the tool that goes, goes with it.
     if (step.open_tool) ledger.reopen({step.operation, "its_tool"});
+    drop_open_depths(w, step);
   }
   const auto* tech = m.get<model::MillingTechnology>(op->its_technology);
   const bool no_feed = tech == nullptr || (!tech->feedrate && !tech->feedrate_per_tooth) ||
@@ -438,6 +460,8 @@ Status list_given(Work& w) {
         const std::string name = w.plan.model.get<model::Executable>(step.step)->its_id.value_or("");
         step.shapes = members_meant(
             elements_meant(w.plan.model, rules::from_the_top(*std::move(shapes)), step.operation), name);
+      } else {
+        step.no_shape = shapes.error().message;
       }
       // An operation with its own path needs no shape; others say later why they cannot be done.
     }

@@ -6,6 +6,7 @@
 #include "planner/base/file.h"
 #include "planner/base/nearest_names.h"
 #include "planner/model/setup_position.h"
+#include "tooling/catalogue/tree.h"
 #include "tooling/holding/holding.h"
 
 // Which fixture holds each set-up, where, and what the operator is told about it.
@@ -78,13 +79,14 @@ class Chooser {
   }
 
   std::optional<Workholding> run() {
-    for (const char* id : {"vise_125", "vise_160", "vise_100"}) {
-      if (auto h = vise(id)) return h;
+    // The list's order is that of preference. Soft jaws are cut to a piece: somebody has to ask for them.
+    for (const Fixture& f : fixtures_) {
+      if (f.kind != tooling::FixtureKind::kVise) continue;
+      if (auto h = vise(f.id)) return h;
     }
-    for (const char* plate : {"plate_400x300", "plate_600x500"}) {
-      for (const char* clamp : {"strap_clamp_m8", "toe_clamp_m10"}) {
-        if (auto h = clamped(plate, clamp)) return h;
-      }
+    for (const Fixture& f : fixtures_) {
+      if (f.kind != tooling::FixtureKind::kPlate) continue;
+      if (auto h = clamped(f.id)) return h;
     }
     return std::nullopt;
   }
@@ -104,6 +106,15 @@ class Chooser {
         wish.parallel = p;
         if (auto h = tried(wish)) return h;
       }
+    }
+    return std::nullopt;
+  }
+
+  /// With the first kind of clamp that does.
+  std::optional<Workholding> clamped(const std::string& plate) {
+    for (const Fixture& f : fixtures_) {
+      if (f.kind != tooling::FixtureKind::kStrapClamp && f.kind != tooling::FixtureKind::kToeClamp) continue;
+      if (auto h = clamped(plate, f.id)) return h;
     }
     return std::nullopt;
   }
@@ -290,8 +301,7 @@ Status chosen(Work& w, const std::vector<Fixture>& fixtures, const std::string& 
     } else {
       const Fixture& f = *find_fixture(fixtures, id);
       if (f.kind == tooling::FixtureKind::kPlate) {
-        h = chooser.clamped(id, "strap_clamp_m8");
-        if (!h) h = chooser.clamped(id, "toe_clamp_m10");
+        h = chooser.clamped(id);
       } else {
         h = chooser.vise(id);
       }
@@ -340,7 +350,7 @@ Status hold_workpieces(Work& w) {
     } else if (known != nullptr) {
       return fail("HOLD-KIND", "'" + how + "' is a clamp: it needs a plate or a vise under it");
     } else {
-      const auto text = read_file(how);
+      const auto text = read_file(how, tooling::kDataFileCap);
       if (!text && !asked_now) {
         w.job.warn("PIP-HOLDING", "the plan was held by '" + how + "', which cannot be read now (" +
                                       text.error().message + "); what holds the piece is not planned");
@@ -355,7 +365,8 @@ Status hold_workpieces(Work& w) {
       }
       auto file = tooling::read_holding(*text, how, w.job);
       if (!file) return tl::unexpected(file.error());
-      done = by_file(w, *file);
+      // A file that lists what the shop has, and no set-ups, leaves the choice: its own fixtures come first.
+      done = file->setups.empty() ? chosen(w, file->fixtures, "auto") : by_file(w, *file);
     }
     if (!done) return done;
   }

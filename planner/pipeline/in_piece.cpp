@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "planner/base/number.h"
+#include "planner/model/nouns/feature.h"
 #include "planner/pipeline/work.h"
 
 // Features that the raw piece does not let be made as they are drawn.
@@ -20,13 +21,24 @@ model::PieceForm raw_piece(const Work& w) { return {w.plan.stock.box, w.plan.sto
 
 model::PieceForm part_form(const Work& w) { return {part_box(w), w.plan.stock.cylinder_radius_mm}; }
 
+/// What can state no radius of its inside corners, and a closed pocket for which the file states none.
+bool states_no_corner(const Work& w, const FeatureShape& s) {
+  if (s.kind == ShapeKind::kStep || s.kind == ShapeKind::kOutside || model::stops_at_walls(s)) return true;
+  if (s.kind != ShapeKind::kPocket || s.open || s.corner_radius_mm > 0.0) return false;
+  const auto* p = w.plan.model.get<model::Pocket>(s.made_of.empty() ? s.feature : s.made_of.back());
+  return p != nullptr && !p->orthogonal_radius.set();
+}
+
 }  // namespace
 
 std::string not_in_piece(const Work& w, const FeatureShape& s) {
-  if (w.plan.target_mesh) return {};
   const model::PieceForm part = part_form(w);
+  // Of a part that is given as a mesh the features are not all; what the nouns say of their ends holds there,
+  // too.
+  if (w.plan.target_mesh) return model::square_corner(w.plan.model, s, w.whole_shapes, part, true);
   if (const std::string through = model::point_runs_through(s, raw_piece(w), part); !through.empty())
     return through;
+  if (const std::string floor = model::floor_below_part(s, raw_piece(w), part); !floor.empty()) return floor;
   if (model::buried(s, {}, part)) {
     if (const auto lid = model::buried(s, w.whole_shapes, part))
       return "solid stands above it: " + model::to_text(*lid);
@@ -35,7 +47,7 @@ std::string not_in_piece(const Work& w, const FeatureShape& s) {
 }
 
 double sharp_corner_of(const Work& w, const FeatureShape& s) {
-  if (w.plan.target_mesh || (s.kind != ShapeKind::kStep && s.kind != ShapeKind::kOutside)) return 0.0;
+  if (w.plan.target_mesh || !states_no_corner(w, s)) return 0.0;
   return model::sharp_corners(s, w.whole_shapes, part_form(w)).empty() ? 0.0 : model::unstated_corner_mm(s);
 }
 
@@ -44,7 +56,7 @@ void tell_corners(Work& w) {
   const model::PieceForm part = part_form(w);
   for (const FeatureShape& s : w.whole_shapes) {
     const bool open = s.kind == ShapeKind::kPocket && s.open && !(s.corner_radius_mm > 0.0);
-    if (!open && s.kind != ShapeKind::kStep && s.kind != ShapeKind::kOutside) continue;
+    if (!open && !states_no_corner(w, s)) continue;
     double radius = kNoRadius;
     for (const model::StepResult& made : w.plan.steps) {
       const auto* ws = w.plan.model.get<model::MachiningWorkingstep>(made.step);

@@ -51,8 +51,7 @@ void add_path(Needs& n, const model::StepResult& s) {
 
 Needs needs_of(const model::Plan& plan) {
   Needs n;
-  const double given = plan.machine.spindle.efficiency;
-  const double e = given > 0.0 && given <= 1.0 ? given : mechanics::kDefaultSpindleEfficiency;
+  const double e = mechanics::spindle_efficiency(plan.machine.spindle.efficiency);
   for (const model::StepResult& s : plan.steps) {
     if (s.path) add_path(n, s);
     if (s.schedule) {

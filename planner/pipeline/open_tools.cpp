@@ -215,6 +215,18 @@ bool take_recorded(const Work& w, const StepWork& step, model::Cutter& cutter) {
   return true;
 }
 
+/// A tool stands out by one length all through a plan: as far as the deepest of its steps needs. The steps
+/// before and after that bend as much.
+void stand_out_alike(Work& w) {
+  for (StepWork& s : w.steps) {
+    for (const StepWork& other : w.steps) {
+      if (s.proposed || other.proposed || other.cutter.id != s.cutter.id) continue;
+      s.cutter.stick_out_mm = std::max(s.cutter.stick_out_mm, other.cutter.stick_out_mm);
+      s.cutter.usable_length_mm = std::max(s.cutter.usable_length_mm, other.cutter.usable_length_mm);
+    }
+  }
+}
+
 }  // namespace
 
 Status select_open_tools(Work& w) {
@@ -251,6 +263,7 @@ Status select_open_tools(Work& w) {
     w.plan.unplanned.push_back({step.feature, "step '" + name + "', operation '" + op->its_id.value_or("") +
                                                   "': " + cutter.error().message});
   }
+  stand_out_alike(w);
   share_tools(w);
   return {};
 }

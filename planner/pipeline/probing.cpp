@@ -204,22 +204,25 @@ void add_probings(Work& w) {
       const model::ProposedStep& wanted = probing.chain[probing.at];
       Measured what = measured_before(w, i, probing.probe);
       std::string not_by_probe = "machine or library has no touch probe";
-      if (what.found.touches.empty() && probing.probe && for_size(probing)) {
+      if (what.found.touches.empty() && probing.probe) {
         // Where its ball does not come, a gauge may.
         not_by_probe = what.found.why_not;
         what = measured_before(w, i, std::nullopt);
         if (!what.found.touches.empty()) probing.probe.reset();
       }
-      if (what.found.touches.empty() && for_size(probing)) {
-        // A last cut that nothing sets holds no more than the cut before it: such a chain is none.
-        w.tries.ban_chain(next.member, next.chain,
-                          "'" + wanted.name + "' cannot be made (" + what.found.why_not +
-                              "), and without it the last cut does not hold what is asked");
+      if (what.found.touches.empty()) {
+        // A last cut that nothing sets holds no more than the cut before it, and a place that nobody measures
+        // is where the machine happens to put it: such a chain is none.
+        w.tries.ban_chain(
+            next.member, next.chain,
+            "'" + wanted.name + "' cannot be made (" + what.found.why_not + "), and without it " +
+                (for_size(probing)
+                     ? std::string("the last cut does not hold what is asked")
+                     : "nothing holds what is asked: " + wanted.why.text + " [" + wanted.why.id +
+                           "]; give the tolerance a datum or a wall that a probe reaches, or "
+                           "measure the piece on another machine and take the tolerance out "
+                           "of this plan"));
         w.again = true;
-      } else if (what.found.touches.empty()) {
-        w.job.warn("PIP-PROBE", "'" + wanted.name + "' is not proposed: " + what.found.why_not +
-                                    "; the steps are kept, and do not hold by themselves what is asked: " +
-                                    wanted.why.text + " [" + wanted.why.id + "]");
       } else if (!probing.probe) {
         w.job.warn("PIP-PROBE", "'" + wanted.name + "': " + not_by_probe +
                                     "; the program stops, and it is measured by other means");

@@ -101,8 +101,13 @@ class Proposer {
       for (const std::string& a : s.assumptions) {
         if (said_.insert({f, a}).second) w_.job.warn("PIP-ASSUMED", "feature '" + s.name + "': " + a);
       }
-      if (s.kind == model::ShapeKind::kFreeform && w_.plan.target_mesh)
+      if (s.kind == model::ShapeKind::kFreeform && w_.plan.target_mesh) {
         context.surface_radius_mm = surface_radius(*w_.plan.target_mesh);
+        const SurfaceForm form = surface_form(*w_.plan.target_mesh, w_.plan.stock.box);
+        context.surface_walls = form.walls;
+        context.surface_curved = form.curved;
+        context.surface_corner_mm = form.corner_mm;
+      }
     }
     const auto proposals = rules::propose_members(w_.inputs.rules, shapes, context);
     const auto order = rules::member_order(shapes);
@@ -299,6 +304,7 @@ class Proposer {
     std::string why = swallowed(given);
     if (why.empty()) why = crosses_a_wall(w_, given);
     if (why.empty()) why = not_in_piece(w_, given);
+    if (why.empty()) why = lies_within_another(w_, given);
     if (!why.empty() || !proposed.cannot.empty()) {
       fail_member(f, given, why.empty() ? proposed.cannot : why);
       return {};
@@ -327,11 +333,7 @@ class Proposer {
       fail_member(f, given, reason);
       return {};
     }
-    for (std::size_t i = 0; i < p.chains.size(); ++i) {
-      if (&p.chains[i] > chosen.chain && !p.chains[i].empty()) {
-        rejected.push_back({p.chains[i].front().why.id, "an alternative; the rules prefer the chain taken"});
-      }
-    }
+    for (model::Rejected& r : alternatives(w_, p, s, chosen, library_)) rejected.push_back(std::move(r));
     std::vector<std::size_t> made;
     std::vector<std::optional<std::size_t>> made_of;  // by step of the chain
     std::optional<Probing> probing;

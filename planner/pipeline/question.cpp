@@ -26,6 +26,8 @@ constexpr double kFinishDeflection = 0.02;  // mm, where no tolerance is stated;
 constexpr double kLeastDeflection = 0.004;  // mm; below, the model's own error rules
 /// Height of the terraces that roughing of a surface leaves, in diameters, at most. Default, unsourced.
 constexpr double kTerraceShare = 0.25;
+/// A slot no wider than its cutter by this is cut at its full width. Default, unsourced.
+constexpr double kAsWide = 1.02;
 
 CutKind kind_of(const Model& m, AnyRef op, const model::Cutter& c) {
   if (m.holds<model::Tapping>(op)) return CutKind::kTap;
@@ -186,18 +188,19 @@ optimise::CutQuestion question_of(const Work& w, const StepWork& step, const mod
           : w.inputs.objective == Objective::kCost ? optimise::Aim::kCost
                                                    : optimise::Aim::kProfit;
   q.earning_per_min = w.earning_per_min;
+  const auto start = tooling::start_values(step.cutter, w.plan.material, w.plan.machine);
+  q.vc_table_m_min = start.wanted_vc_m_min;
   if (candidate != nullptr) {
     q.vc_start_m_min = candidate->vc_m_min;
     q.fz_start_mm = candidate->fz_mm;
   } else {
-    const auto start = tooling::start_values(step.cutter, w.plan.material, w.plan.machine);
     q.vc_start_m_min = start.vc_m_min;
     q.fz_start_mm = start.fz_mm;
   }
   const double bottom = job.feature_in_setup.origin.z - job.shape.depth_mm + job.allowance_bottom_mm;
   q.depth_mm = std::max(0.0, job.start_z_mm - bottom);
   q.width_mm = width_of(job.shape);
-  q.slot = narrow(job.shape) && q.width_mm > 0.0 && q.width_mm <= 1.02 * step.cutter.cutting_diameter_mm;
+  q.slot = narrow(job.shape) && q.width_mm > 0.0 && q.width_mm <= kAsWide * step.cutter.cutting_diameter_mm;
   q.pre_hole_mm = job.previous_diameter_mm.value_or(0.0);
   q.engaged_diameter_mm = engaged(step.operation.type, step.cutter, job.cutting_depth_mm);
   const double d = step.cutter.cutting_diameter_mm;
@@ -219,6 +222,9 @@ optimise::CutQuestion question_of(const Work& w, const StepWork& step, const mod
     const double zone = tolerance_of(w, step, job.shape);
     q.deflection_limit_mm =
         zone > 0.0 ? std::max(kLeastDeflection, kDeflectionShare * zone) : kFinishDeflection;
+    // What a semi-finish leaves on the walls takes up what bends: the tolerance is the next step's.
+    if (job.allowance_side_mm > 0.0)
+      q.deflection_limit_mm = std::max(q.deflection_limit_mm, kDeflectionShare * job.allowance_side_mm);
     // A semi-finish of a surface: what it leaves takes up what bends.
     if (m.holds<model::FreeformFinishMilling>(step.operation) && job.allowance_bottom_mm > 0.0)
       q.deflection_limit_mm = std::max(q.deflection_limit_mm, kDeflectionShare * job.allowance_bottom_mm);
@@ -227,6 +233,13 @@ optimise::CutQuestion question_of(const Work& w, const StepWork& step, const mod
       q.width_mm = 0.6134 * job.shape.thread_pitch_mm;
       q.ap_mm = std::min(step.cutter.maximum_depth_of_cut_mm, job.shape.thread_pitch_mm);
     }
+  }
+  // A round slot into the solid, by a ball as wide as it is: no finishing cut, but what bends it tells.
+  if (q.kind == CutKind::kFinish && job.shape.kind == ShapeKind::kSlot && !job.left_on_side_mm &&
+      step.cutter.cutter_class == model::CutterClass::kBallEndmill && width_of(job.shape) <= kAsWide * d) {
+    q.kind = CutKind::kRough;
+    q.slot = true;
+    q.ae_mm = q.width_mm = d;
   }
   const bool floor_only =
       job.multiple_passes.has_value() && !*job.multiple_passes && job.left_on_bottom_mm.value_or(0.0) > 0.0;

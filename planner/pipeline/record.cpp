@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "planner/base/number.h"
+#include "planner/mechanics/force_law.h"
 #include "planner/model/walk.h"
 #include "planner/pipeline/steps.h"
 
@@ -15,9 +16,12 @@ using model::Binder;
 using model::DecisionKey;
 using model::Model;
 
-const char* const kMechanics =
-    "Kienzle forces with the material's kc1.1 and mc, tool bending as a stepped beam, the machine's spindle "
-    "curve";
+/// Where the numbers of a cut come from: first of all whose coefficients gave its forces.
+std::string mechanics_of(const Work& w, const StepWork& step) {
+  const bool milled = mechanics::is_milled(step.operation.type, step.cutter);
+  return "forces by " + mechanics::force_source(w.plan.material, step.cutter.substrate, milled) +
+         ", tool bending as a stepped beam, the machine's spindle curve";
+}
 
 std::string percent(double fraction) { return trimmed(100.0 * fraction, 2) + " %"; }
 
@@ -36,8 +40,24 @@ std::string words(const optimise::CutAnswer& a) {
   return out;
 }
 
+/// Who decided the values of one technology, for another that holds the same; what the file states is given.
+void take_over_decisions(Work& w, AnyRef from, AnyRef to) {
+  model::Ledger& ledger = w.plan.ledger;
+  for (const char* name : {"spindle", "cutspeed", "feedrate", "feedrate_per_tooth"}) {
+    const auto* a = model::find_attribute(from.type, name);
+    if (a == nullptr || !model::has_value(*a, w.plan.model.object(from))) continue;
+    const model::Decision* known = ledger.find(from, name);
+    model::Decision d = known == nullptr ? model::Decision{} : *known;
+    for (DecisionKey& k : d.depends_on) {
+      if (k.object == from) k.object = to;
+    }
+    ledger.set({to, name}, std::move(d));
+  }
+}
+
 /// The technology of the operation, its own: one that came with the file may serve other operations too.
-Ref<model::MillingTechnology> own_technology(Model& m, AnyRef operation) {
+Ref<model::MillingTechnology> own_technology(Work& w, AnyRef operation) {
+  Model& m = w.plan.model;
   auto* op = m.get<model::MachiningOperation>(operation);
   const AnyRef now = op->its_technology;
   if (m.holds<model::MillingTechnology>(now) && m.origin(now).instance == 0)
@@ -50,12 +70,38 @@ Ref<model::MillingTechnology> own_technology(Model& m, AnyRef operation) {
   if (!t.inhibit_spindle_override) t.inhibit_spindle_override = false;
   const auto made = m.add(t);
   m.get<model::MachiningOperation>(operation)->its_technology = made;
+  if (m.holds<model::MillingTechnology>(now)) take_over_decisions(w, now, made);
   return made;
 }
 
 /// ISO 14649 signs the spindle: negative is clockwise seen from the spindle towards the work, which a
 /// right-hand cutter wants.
 double noun_sense(const model::Cutter& c) { return c.hand == model::Hand::kLeft ? 1.0 : -1.0; }
+
+/// What stands before the cut of a step is chosen: its tool, what its chain says of its sizes, and what the
+/// steps before it on its feature leave on walls and floor. Only what is in the ledger can be depended on.
+std::vector<DecisionKey> decided_before(const Work& w, const StepWork& step) {
+  std::vector<DecisionKey> out = {{step.operation, "its_tool"}};
+  const auto add = [&](AnyRef operation, const char* attribute) {
+    if (operation.set() && w.plan.ledger.find(operation, attribute) != nullptr)
+      out.push_back({operation, attribute});
+  };
+  for (const char* name : {"allowance_side", "allowance_bottom", "cutting_depth", "previous_diameter"})
+    add(step.operation, name);
+  for (const StepWork& s : w.steps) {
+    if (s.step == step.step) break;
+    if (!step.feature.set() || s.feature != step.feature) continue;
+    for (const char* name : {"allowance_side", "allowance_bottom"}) add(s.operation, name);
+  }
+  return out;
+}
+
+/// Where the width of a cut stands: in the operation, or as the overlap of its strategy.
+DecisionKey width_key(const Model& m, AnyRef operation) {
+  const auto* o = m.get<model::PlaneMilling>(operation);
+  return o != nullptr ? DecisionKey{o->its_machining_strategy, "overlap"}
+                      : DecisionKey{operation, "radial_cutting_depth"};
+}
 
 }  // namespace
 
@@ -94,7 +140,7 @@ void turn_with_the_cutter(Work& w, const StepWork& step) {
   const double rpm = std::abs(*t->spindle);
   const std::string name = op->its_id.value_or("");
   const model::Origin at = m.origin(op->its_technology);
-  const auto made = own_technology(m, step.operation);
+  const auto made = own_technology(w, step.operation);
   m.get<model::MillingTechnology>(made)->spindle = sense * rpm;
   const bool right = sense < 0.0;
   const std::string text =
@@ -127,9 +173,17 @@ void record_cut(Work& w, StepWork& step, const optimise::CutAnswer& a, bool dept
                 const std::optional<model::Reason>& precedent) {
   Model& m = w.plan.model;
   model::Ledger& ledger = w.plan.ledger;
-  const DecisionKey tool{step.operation, "its_tool"};
+  const std::vector<DecisionKey> before = decided_before(w, step);
+  const auto with = [&](std::initializer_list<DecisionKey> more) {
+    std::vector<DecisionKey> out = before;
+    for (const DecisionKey& k : more) {
+      if (ledger.find(k.object, k.attribute) != nullptr) out.push_back(k);
+    }
+    return out;
+  };
+  const DecisionKey depth{step.operation, "axial_cutting_depth"};
   const std::string first = a.active.empty() ? "search" : a.active.front().name;
-  const model::Reason why{"limit." + first, words(a), kMechanics};
+  const model::Reason why{"limit." + first, words(a), mechanics_of(w, step)};
   const auto bind = [&](AnyRef object, const char* attribute, std::vector<DecisionKey> on) {
     ledger.bind(object, attribute, Binder::kOptimiser, why, std::move(on));
   };
@@ -145,7 +199,7 @@ void record_cut(Work& w, StepWork& step, const optimise::CutAnswer& a, bool dept
     } else {
       has = false;
     }
-    if (has) bind(step.operation, "axial_cutting_depth", {tool});
+    if (has) bind(step.operation, "axial_cutting_depth", with({}));
   }
   if (width_open) {
     bool has = true;
@@ -156,18 +210,18 @@ void record_cut(Work& w, StepWork& step, const optimise::CutAnswer& a, bool dept
     } else {
       has = false;
     }
-    if (has) bind(step.operation, "radial_cutting_depth", {tool});
+    if (has) bind(step.operation, "radial_cutting_depth", with({depth}));
     if (const auto* o = m.get<model::PlaneMilling>(step.operation)) {
       const AnyRef strategy = o->its_machining_strategy;
       if (auto* t = m.get<model::Two5dMillingStrategy>(strategy);
           t != nullptr && step.cutter.cutting_diameter_mm > 0.0) {
         t->overlap = std::max(0.0, 1.0 - a.ae_mm / step.cutter.cutting_diameter_mm);
-        bind(strategy, "overlap", {tool});
+        bind(strategy, "overlap", with({depth}));
       }
     }
   }
   if (!step.open_technology) return;
-  const auto made = own_technology(m, step.operation);
+  const auto made = own_technology(w, step.operation);
   auto* t = m.get<model::MillingTechnology>(made);
   if (!step.keep_speed) {
     t->spindle = noun_sense(step.cutter) * a.n_rpm;
@@ -183,9 +237,13 @@ void record_cut(Work& w, StepWork& step, const optimise::CutAnswer& a, bool dept
     t->inhibit_feedrate_override = true;
     t->inhibit_spindle_override = true;
   }
-  const DecisionKey depth{step.operation, "axial_cutting_depth"};
-  if (!step.keep_speed) bind(made, "spindle", {tool, depth});
-  if (!step.keep_feed) bind(made, "feedrate", {tool, depth, {made, "spindle"}});
+  const std::vector<DecisionKey> sizes = with({depth, width_key(m, step.operation)});
+  if (!step.keep_speed) bind(made, "spindle", sizes);
+  if (!step.keep_feed) {
+    std::vector<DecisionKey> on = sizes;
+    on.push_back({made, "spindle"});
+    bind(made, "feedrate", std::move(on));
+  }
   if (!precedent) return;
   for (const char* attribute : {"spindle", "feedrate"}) {
     if (attribute[0] == 's' ? step.keep_speed : step.keep_feed) continue;
@@ -207,12 +265,18 @@ void record_path(Work& w, const StepWork& step, const std::shared_ptr<const mode
   model::ToolpathList list;
   list.its_list.push_back(m.add(t));
   m.get<model::MachiningOperation>(step.operation)->its_toolpath = m.add(list);
+  std::vector<DecisionKey> on = decided_before(w, step);
+  for (const DecisionKey& k :
+       {DecisionKey{step.operation, "its_machining_strategy"},
+        DecisionKey{step.operation, "axial_cutting_depth"}, width_key(m, step.operation)}) {
+    if (w.plan.ledger.find(k.object, k.attribute) != nullptr) on.push_back(k);
+  }
   w.plan.ledger.bind(
       step.operation, "its_toolpath", Binder::kRule,
       {"path.generated",
        "computed from feature, cutter, depths and strategy" + (deviation.empty() ? "" : "; " + deviation),
        "planner/toolpath"},
-      {{step.operation, "its_tool"}, {step.operation, "axial_cutting_depth"}});
+      std::move(on));
 }
 
 }  // namespace capstan::pipeline

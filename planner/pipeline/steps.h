@@ -57,6 +57,17 @@ void let_go(Work& w, StepWork& step, const std::string& word);
 /// The radius of the largest ball that finishes a surface from above, mm: by its concave creases and curves;
 /// 0: it has none. Corners sharper than 20 degrees keep any ball's radius and do not count.
 [[nodiscard]] double surface_radius(const geometry::Mesh& mesh);
+/// What of a mesh is walls and level floors, seen along z. A sheet has none, and walls on the sides of the
+/// raw piece are there already.
+struct SurfaceForm {
+  bool walls = false;             ///< upright ones, of a closed solid
+  bool curved = false;            ///< anything else that is seen from above
+  std::vector<double> floors_mm;  ///< heights of level parts, from above
+  double corner_mm = 0.0;         ///< least radius of the walls' inside corners; 0: none, or sharp
+};
+[[nodiscard]] SurfaceForm surface_form(const geometry::Mesh& mesh, const geometry::Box3& raw);
+/// Whether a step finishes walls and level floors of a surface by an end mill.
+[[nodiscard]] bool cuts_levels(const Work& w, const StepWork& step);
 /// Gives a freeform feature the extent of the plan's mesh; leaves others alone.
 void shape_from_mesh(const Work& w, const StepWork& step, toolpath::PathJob& job);
 /// The path of a freeform operation over the plan's mesh.

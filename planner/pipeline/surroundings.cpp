@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "planner/base/number.h"
+#include "planner/model/in_piece.h"
 #include "planner/model/raw_piece.h"
 #include "planner/model/walk.h"
 #include "planner/pipeline/work.h"
@@ -181,8 +182,9 @@ std::optional<double> clear_beside(const Work& w, const FeatureShape& s) {
     if (seen.top <= kSame || seen.bottom > kSame) continue;
     if (!wide && gap({{0, 0}, {0, 0}}, seen.box) > kFarMm) continue;
     const auto rel = compose(to, other.frame);
-    geometry::Region open = wide ? geometry::rectangle({-kAwayMm, -kAwayMm}, {kAwayMm, kAwayMm})
-                                 : moved(other.reach.empty() ? other.area : other.reach, rel);
+    const bool all_round = wide && !model::stops_at_walls(other);
+    geometry::Region open = all_round ? geometry::rectangle({-kAwayMm, -kAwayMm}, {kAwayMm, kAwayMm})
+                                      : moved(other.reach.empty() ? other.area : other.reach, rel);
     for (const model::Island& island : other.islands) {
       if (rel.origin.z + island.top_z_mm > kSame) open = geometry::subtract(open, moved(island.area, rel));
     }
@@ -311,10 +313,13 @@ Status take_requirements(Work& w) {
     }
   }
   const model::Attribution attribution(m);
+  std::vector<FeatureShape> all;
   for (const AnyRef f : m.all_below(model::TypeId::kManufacturingFeature)) {
     w.qualities[f] = attribution.quality(f);
-    if (auto s = shapes_in_piece(w, f)) w.shapes.insert(w.shapes.end(), s->begin(), s->end());
+    if (auto s = shapes_in_piece(w, f)) all.insert(all.end(), s->begin(), s->end());
   }
+  w.shapes = std::move(all);
+  for (FeatureShape& s : w.shapes) stop_at_walls(w, s);
   const std::set<AnyRef> parts = model::parts_of_others(m);
   std::copy_if(w.shapes.begin(), w.shapes.end(), std::back_inserter(w.whole_shapes),
                [&](const FeatureShape& s) { return !parts.contains(s.feature); });
@@ -326,6 +331,7 @@ Status take_requirements(Work& w) {
                                       lost + "; kept in the plan, and not planned for");
   }
   warn_of_zero_zones(w, attribution);
+  tell_twins(w);
   return {};
 }
 

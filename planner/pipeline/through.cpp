@@ -45,6 +45,7 @@ Result<std::vector<FeatureShape>> shapes_in_piece(const Work& w, AnyRef feature)
   if (!shapes) return shapes;
   const Box3 part = part_box(w);
   for (FeatureShape& s : *shapes) {
+    stop_at_walls(w, s);
     if (s.kind != model::ShapeKind::kHole || !s.through || s.bottom_diameter_mm != s.diameter.nominal_mm)
       continue;
     const auto& z = s.frame.z;

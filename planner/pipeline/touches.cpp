@@ -32,6 +32,36 @@ struct Hit {
   double t = 0.0;
   bool facing = false;
 };
+
+/// Where the ray meets the circle that an edge is a chord of, when its neighbours are chords of the same one:
+/// a wall that is measured to micrometres is not where the chord is, up to one of them nearer.
+std::optional<Hit> on_circle(const Loop& loop, std::size_t edge, Vec2 from, Vec2 along, double t) {
+  constexpr double kChord = 1.5e-3;  // mm: no outline's chord is farther from its circle
+  constexpr double kSame = 5e-5;     // mm: of two sagittas; vertices lie on a grid of 1e-6
+  const std::size_t n = loop.size();
+  if (n < 4) return std::nullopt;
+  const Vec2 a = loop[edge], b = loop[(edge + 1) % n];
+  const double length = norm(b - a);
+  const Vec2 u = (1.0 / length) * (b - a), v{-u.y, u.x}, middle = 0.5 * (a + b);
+  // Circle through a, b and q: its middle is h along v from the chord's.
+  const auto height = [&](Vec2 q) -> std::optional<double> {
+    const double x = dot(q - middle, u), y = dot(q - middle, v);
+    if (std::abs(y) < 1e-9) return std::nullopt;
+    return (x * x + y * y - 0.25 * length * length) / (2.0 * y);
+  };
+  const auto before = height(loop[(edge + n - 1) % n]), after = height(loop[(edge + 2) % n]);
+  if (!before || !after || (*before > 0.0) != (*after > 0.0)) return std::nullopt;
+  const auto sagitta = [&](double h) { return std::hypot(h, 0.5 * length) - std::abs(h); };
+  if (sagitta(*before) > kChord || std::abs(sagitta(*before) - sagitta(*after)) > kSame) return std::nullopt;
+  const double h = 0.5 * (*before + *after), radius = std::hypot(h, 0.5 * length);
+  const Vec2 centre = middle + h * v, w = from - centre;
+  const double p = dot(w, along), under = p * p - dot(w, w) + radius * radius;
+  if (under < 0.0) return std::nullopt;
+  const double root = std::sqrt(under);
+  const double at = std::abs(-p + root - t) < std::abs(-p - root - t) ? -p + root : -p - root;
+  return Hit{at, std::abs(dot(w + at * along, along)) / radius > kFacing};
+}
+
 std::vector<Hit> hits(const Region& area, Vec2 from, Vec2 along) {
   std::vector<Hit> out;
   for (const Loop& loop : area.loops) {
@@ -40,7 +70,8 @@ std::vector<Hit> hits(const Region& area, Vec2 from, Vec2 along) {
       const double n = norm(e), over = cross(along, e);
       if (n < 1e-9 || std::abs(over) < 1e-9 * n) continue;
       const double t = cross(a - from, e) / over, k = cross(a - from, along) / over;
-      if (t > 0.0 && k >= -1e-9 && k <= 1.0 + 1e-9) out.push_back({t, std::abs(over) / n > kFacing});
+      if (!(t > 0.0 && k >= -1e-9 && k <= 1.0 + 1e-9)) continue;
+      out.push_back(on_circle(loop, i, from, along, t).value_or(Hit{t, std::abs(over) / n > kFacing}));
     }
   }
   std::sort(out.begin(), out.end(), [](const Hit& a, const Hit& b) { return a.t < b.t; });

@@ -47,6 +47,7 @@ struct StepWork {
   AnyRef operation;  ///< unset for a rapid movement
   std::size_t setup = 0;
   std::vector<model::FeatureShape> shapes;  ///< workpiece coordinates; more than one for patterns
+  std::string no_shape;                     ///< why there are none
   model::Cutter cutter;
   bool proposed = false;                     ///< made by rules in this run
   Member member = {};                        ///< when proposed: what its chain is for,
@@ -139,6 +140,9 @@ struct Thickness {
 /// From a hole's axis to the nearest wall that stands above its mouth when what is around is cut, mm; unset:
 /// none is near. Tools wider than the hole must pass there.
 [[nodiscard]] std::optional<double> clear_beside(const Work& w, const model::FeatureShape& hole);
+/// A face is left over its sides, but not where the part stands beside it above its floor: there its reach
+/// ends. Walls are known once the requirements are taken; before, nothing is changed.
+void stop_at_walls(const Work& w, model::FeatureShape& face);
 /// A feature with open sides may be left through them, but only where the part has nothing in the way: what
 /// stays beside it at its depth is the part's box less its own area and those of the features that are cut as
 /// deep there.
@@ -159,9 +163,14 @@ struct Thickness {
 /// Why a feature cannot be cut from this raw piece: solid stands above its top, or its drill's point comes
 /// out on the other side. Empty when it can.
 [[nodiscard]] std::string not_in_piece(const Work& w, const model::FeatureShape& shape);
-/// The radius that may stay in the inner corners of a step or an outside that are drawn sharp; 0: it has
-/// none.
+/// The radius that may stay in the inner corners of a step, an outside or a closed pocket that are drawn
+/// sharp and state none; 0: it has none.
 [[nodiscard]] double sharp_corner_of(const Work& w, const model::FeatureShape& shape);
+/// Why a hole cannot be told from another feature's: it lies wholly within that, or differs from it at the
+/// same place. Empty when it can.
+[[nodiscard]] std::string lies_within_another(const Work& w, const model::FeatureShape& shape);
+/// Says which features are the same at the same place: they are made once.
+void tell_twins(Work& w);
 /// Says which radius stays where corners are drawn sharp and no radius is stated.
 void tell_corners(Work& w);
 /// A hole at an edge of the raw piece is milled, or not made: its chains that drill are rejected.

@@ -2,6 +2,7 @@
 #include <string>
 
 #include "planner/base/number.h"
+#include "planner/model/in_piece.h"
 #include "planner/toolpath/hole/hole_paths.h"
 #include "planner/toolpath/path_job.h"
 #include "planner/toolpath/region/region_paths.h"
@@ -83,7 +84,7 @@ Result<GeneratedPath> milling(const PathJob& task, Job& job) {
   if (breaks_edge(task)) return broken_edge_path(task, job);
   switch (task.shape.kind) {
     case ShapeKind::kFace:
-      return face_path(task, job);
+      return model::stops_at_walls(task.shape) ? area_path(task, job) : face_path(task, job);
     case ShapeKind::kPocket:
       return area_path(task, job);
     case ShapeKind::kStep:

@@ -111,6 +111,10 @@ struct PathJob {
   bool spindle_stop_at_bottom = false;    ///< boring, reaming
   double break_through_mm = 0.0;          ///< below the bottom of what is through
 
+  /// Under an overhang, by the feed of one edge beside the mouth: where both edges of the head cut in the
+  /// middle, and where the whole front does, at most.
+  double both_edges_share = 0.5, front_share = 1.0;
+
   geometry::Region avoid;  ///< set-up frame: other walls, clamps; at every depth
   geometry::Region stock;  ///< set-up frame: outline of the raw material; empty: where the feature is
 };

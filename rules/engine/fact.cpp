@@ -49,6 +49,7 @@ const std::vector<FactType>& fact_types() {
       symbols("core", {"none", "hole", "above"},
               "whether a smaller coaxial hole goes on below the bottom, or is the only way in from above"),
       symbols("access", {"closed", "open"}, "whether a cutter can enter from the side"),
+      symbols("sides", {"free", "wall"}, "of a face: free all round, or solid stands beside it"),
       symbols("wall", {"upright", "drafted"}, "walls along the tool axis, or sloped"),
       symbols("floor", {"open", "closed"}, "whether the bottom is a surface of the part"),
       symbols("floor_edge", {"sharp", "rounded"}, "edge between wall and bottom"),
@@ -63,6 +64,10 @@ const std::vector<FactType>& fact_types() {
       number("chamfer_angle_deg", 0.0, 90.0, "chamfer against the plane of its edge"),
       number("round_radius_mm", 0.0, 10000.0, "radius of an edge round"),
       number("surface_radius_mm", 0.0, 100000.0, "smallest concave radius of a surface; 0 unknown"),
+      symbols(
+          "surface_form", {"curved", "walls", "prismatic"},
+          "of a surface: no upright walls within the raw piece, curved with such walls, or walls and level "
+          "floors only"),
       symbols("shape",
               {"hole", "countersink", "face", "pocket", "slot", "step", "outside", "chamfer", "edge_round",
                "thread", "spherical_cap", "rounded_end", "freeform", "toolpath"},

@@ -356,7 +356,8 @@ Result<RuleBase> load_rules(const std::string& extra_directory, Job& job) {
   if (files->empty())
     job.warn("RULE-NONE", "no *.yaml in " + extra_directory + ": the shipped rules stand alone");
   for (const std::string& file : *files) {
-    auto text = read_file(file);
+    constexpr std::size_t kTableCap = std::size_t{64} << 20;
+    auto text = read_file(file, kTableCap);
     if (!text) return fail(text.error());
     if (auto s = add_text(*base, file, *text, false); !s) return fail(s.error());
   }

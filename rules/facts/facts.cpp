@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "planner/base/number.h"
+#include "planner/model/in_piece.h"
 #include "rules/facts/it_grade.h"
 
 namespace capstan::rules {
@@ -200,6 +201,7 @@ void area_facts(const FeatureShape& s, const Context& c, FeatureFacts& out) {
   // A face's depth is a removal, not a size: only its texture, flatness and position bring a grade.
   out.facts.set("it_grade", s.kind == ShapeKind::kFace ? 18 : tightest_grade(s, c, out));
   out.facts.set("access", s.open ? "open" : "closed");
+  if (s.kind == ShapeKind::kFace) out.facts.set("sides", model::stops_at_walls(s) ? "wall" : "free");
   out.facts.set("wall", std::abs(s.slope_rad) > 1e-6 ? "drafted" : "upright");
   out.facts.set("floor", s.through ? "open" : "closed");
   out.facts.set("floor_edge", s.bottom_radius_mm > 0.0 ? "rounded" : "sharp");
@@ -271,6 +273,7 @@ FeatureFacts facts_of(const FeatureShape& s, const Context& c) {
     case ShapeKind::kRoundedEnd:
     case ShapeKind::kFreeform:
       f.set("surface_radius_mm", c.surface_radius_mm);
+      f.set("surface_form", !c.surface_walls ? "curved" : c.surface_curved ? "walls" : "prismatic");
       break;
     case ShapeKind::kToolpath:
       break;

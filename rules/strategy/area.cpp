@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "planner/base/number.h"
+#include "planner/model/in_piece.h"
 #include "rules/strategy/action.h"
 
 // Faces, pockets, square slots, steps and outsides: an area, walls, a floor.
@@ -65,15 +66,15 @@ Limit widest_cutter(const Making& m, double of_passage, double allowance, bool c
     }
   };
   const double passage = m.known.passage.narrowest_mm;
-  const bool bounded =
-      !s.open || !s.islands.empty() || s.kind == ShapeKind::kSlot || s.kind == ShapeKind::kPocket;
+  const bool bounded = !s.open || !s.islands.empty() || s.kind == ShapeKind::kSlot ||
+                       s.kind == ShapeKind::kPocket || model::stops_at_walls(s);
   if (bounded && s.kind != ShapeKind::kStep)
     narrow(of_passage * (passage - 2.0 * allowance),
            "the narrowest passage of " + mm(passage) + " limits the cutter");
   if (s.kind == ShapeKind::kStep && m.context.between_ends_mm > 0.0)
     narrow(kOfEnds * m.context.between_ends_mm,
            "walls " + mm(m.context.between_ends_mm) + " apart at the step's ends limit the cutter");
-  if (m.context.sharp_corner_mm > 0.0 && (s.kind == ShapeKind::kStep || s.kind == ShapeKind::kOutside))
+  if (m.context.sharp_corner_mm > 0.0)
     narrow(2.0 * of_sharp * m.context.sharp_corner_mm,
            "inner corners are drawn sharp: a radius of " + mm(of_sharp * m.context.sharp_corner_mm) +
                (of_sharp > 1.0 ? " may stay until the finish" : " may stay at most"));
@@ -131,8 +132,9 @@ Made rough(const Making& m) {
   s.tool.corner_radius_limited = true;
   s.tool.corner_radius_max_mm =
       s.allowance_bottom_mm;  // a corner no larger leaves no more than the allowance
-  s.strategy =
-      m.shape.kind == ShapeKind::kStep ? StrategyKind::kBidirectional : StrategyKind::kContourParallel;
+  s.strategy = m.shape.kind == ShapeKind::kStep || m.shape.kind == ShapeKind::kFace
+                   ? StrategyKind::kBidirectional
+                   : StrategyKind::kContourParallel;
   s.why.text = limit.text;
   return s;
 }

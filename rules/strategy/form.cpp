@@ -140,6 +140,28 @@ Made freeform_rough(const Making& m) {
   s.tool.reach_mm = m.shape.depth_mm + m.context.stock_above_mm + kReachClearanceMm;
   s.tool.centre_cutting = !m.shape.open;
   s.strategy = StrategyKind::kContourParallel;
+  const double corner = m.context.surface_walls ? m.context.surface_corner_mm : 0.0;
+  if (corner > 0.0) {
+    // A wall moved inwards by the allowance has corners that much tighter.
+    s.tool.diameter_max_mm = 2.0 * std::max(corner - s.allowance_side_mm, 0.5 * corner);
+    s.why.text = "inside corners of radius " + trimmed(corner, 3) + " mm limit the cutter";
+  }
+  return s;
+}
+
+// Walls and level floors, by an end mill that the walls' inside corners let in.
+Made freeform_levels(const Making& m) {
+  constexpr double kOfCorner = 0.9;  // so that it runs round the corner; default, unsourced
+  ProposedStep s;
+  s.depth_mm = m.shape.depth_mm;
+  s.tool.classes = {CutterClass::kEndmill};
+  s.tool.diameter_max_mm = 2.0 * kOfCorner * m.context.surface_corner_mm;
+  s.tool.corner_radius_limited = true;
+  s.tool.reach_mm = m.shape.depth_mm + m.context.stock_above_mm + kReachClearanceMm;
+  s.strategy = StrategyKind::kContourParallel;
+  if (m.context.surface_corner_mm > 0.0)
+    s.why.text =
+        "inside corners of radius " + trimmed(m.context.surface_corner_mm, 3) + " mm limit the cutter";
   return s;
 }
 
@@ -190,6 +212,7 @@ std::vector<Action> form_actions() {
        TypeId::kFreeformRoughMilling,
        {{"allowance_mm", 0.5, "left on the surface"}},
        freeform_rough},
+      {"freeform_levels", TypeId::kFreeformFinishMilling, {}, freeform_levels},
       {"freeform_finish",
        TypeId::kFreeformFinishMilling,
        {{"allowance_mm", 0.0, "left on the surface; above 0 a semi-finish"}},

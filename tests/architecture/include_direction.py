@@ -26,7 +26,7 @@ ALLOWED = {
     "geometry": "base",
     "model": "base geometry",
     "p21": NOUNS, "mechanics": NOUNS, "motion": NOUNS, "stock": NOUNS,
-    "rules": NOUNS, "casebase": NOUNS, "output": NOUNS,
+    "rules": NOUNS, "casebase": NOUNS, "output": NOUNS + " motion",
     "exchange": NOUNS + " p21",
     "tooling": NOUNS + " p21 mechanics",
     "sequence": NOUNS + " motion",

@@ -162,7 +162,10 @@ TEST(Records, EditedValueIsGivenAgain) {
   const auto again = read_text(bytes, second);
   ASSERT_TRUE(again);
   const auto technology = again->model.all(TypeId::kMillingTechnology)[0];
-  EXPECT_EQ(again->ledger.find(technology, "spindle"), nullptr);
+  const auto* typed = again->ledger.find(technology, "spindle");
+  ASSERT_NE(typed, nullptr);
+  EXPECT_EQ(typed->binder, model::Binder::kGiven);
+  EXPECT_EQ(typed->state, model::DecisionState::kBound);
   ASSERT_NE(again->ledger.find(technology, "feedrate"), nullptr);  // untouched, still the optimiser's
   EXPECT_THAT(testing::lines(second),
               Contains(HasSubstr("#45 MILLING_TECHNOLOGY.spindle was edited since it was bound by rule")));

@@ -46,6 +46,42 @@ TEST(Region, PiecesKeepTheirHoles) {
   EXPECT_TRUE(contains(two, {1, 1}));
 }
 
+// A star of 24 corners with a hole, held against the sign of the distance along rays computed in doubles: the
+// sum of the angles under which a point sees the edges is a whole turn inside and nothing outside.
+TEST(Region, ContainsWhatItsEdgesTurnAround) {
+  Loop star;
+  for (int i = 0; i < 24; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / 24, r = i % 2 == 0 ? 20.0 : 9.0;
+    star.push_back({r * std::cos(angle), r * std::sin(angle)});
+  }
+  const Region a = subtract(Region{{star}}, rectangle({-3, -2}, {3, 2}));
+  int inside = 0;
+  for (double x = -21.0; x <= 21.0; x += 0.37) {
+    for (double y = -21.0; y <= 21.0; y += 0.41) {
+      const Vec2 p{x, y};
+      if (distance_to_boundary(a, p) < 1e-3) continue;
+      double turned = 0.0;
+      for (const Loop& loop : a.loops) {
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+          const Vec2 u = loop[i] - p, v = loop[(i + 1) % loop.size()] - p;
+          turned += std::atan2(u.x * v.y - u.y * v.x, dot(u, v));
+        }
+      }
+      EXPECT_EQ(contains(a, p), turned > std::numbers::pi) << x << ", " << y;
+      inside += contains(a, p) ? 1 : 0;
+    }
+  }
+  EXPECT_GT(inside, 1000);
+}
+
+TEST(Region, ContainsItsEdgesAndCorners) {
+  const Region a = subtract(rectangle({0, 0}, {10, 6}), rectangle({2, 2}, {4, 4}));
+  for (const Vec2 p : {Vec2{0, 0}, {10, 6}, {5, 0}, {5, 6}, {0, 3}, {10, 3}, {2, 3}, {3, 2}, {4, 4}})
+    EXPECT_TRUE(contains(a, p)) << p.x << ", " << p.y;
+  for (const Vec2 p : {Vec2{-1, 0}, {11, 6}, {-1, 2}, {12, 2}, {3, 3}, {5, -1e-3}, {5, 6.001}})
+    EXPECT_FALSE(contains(a, p)) << p.x << ", " << p.y;
+}
+
 TEST(Placement, ToLocalUndoesToParent) {
   const auto p = make_placement({1, 2, 3}, {1, 1, 1}, {0, 1, 0.2});
   ASSERT_TRUE(p);

@@ -48,6 +48,27 @@ void expect_sound(const model::Plan& plan) {
     EXPECT_EQ(f.severity, Severity::kNote) << f.code << " " << f.message;
 }
 
+TEST(FormFeatures, KeepTheTorqueOfBothEdgesUnderAnOverhang) {
+  const auto torque_on = [](const Inputs& in) {
+    const model::Plan plan = planned("/tests/pipeline/parts/form_features.p21", in);
+    const auto* form = step(plan, "T-SLOT t_slot_finish");
+    EXPECT_NE(form, nullptr);
+    return form != nullptr ? form->loads.torque_nm : 0.0;
+  };
+  Inputs in = shop();
+  const double both = torque_on(in);
+  ASSERT_GT(both, 0.0) << "the load of the heaviest pass is told";
+  // One edge takes half of that: a spindle of 0.8 bears it, and not both at the same feed.
+  double most = 0.0;
+  for (const auto& p : in.machine.spindle.curve) most = std::max(most, p.torque_nm);
+  const double scale = 0.8 * both / (most * in.machine.spindle.efficiency);
+  for (auto& p : in.machine.spindle.curve) {
+    p.power_w *= scale;
+    p.torque_nm *= scale;
+  }
+  EXPECT_LE(torque_on(in), 0.8 * both * (1.0 + 1e-6));
+}
+
 TEST(FormFeatures, ArePlannedWholeAndCheckedWithoutFindings) {
   const model::Plan plan = planned("/tests/pipeline/parts/form_features.p21", shop());
   expect_sound(plan);

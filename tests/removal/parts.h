@@ -17,6 +17,8 @@ namespace capstan::testing::removal {
 [[nodiscard]] Part plain_slots();
 [[nodiscard]] Part undercut_slots();
 [[nodiscard]] Part short_step();
+/// The face stops at walls as high as it is deep on one, two or three of its sides.
+[[nodiscard]] Part face_beside_walls(int walls, double height);
 [[nodiscard]] Part single_holes();
 [[nodiscard]] Part compound_holes();
 [[nodiscard]] Part threaded_hole();
@@ -28,6 +30,7 @@ namespace capstan::testing::removal {
 [[nodiscard]] Part turned_over();
 [[nodiscard]] Part tight_holes();
 [[nodiscard]] Part small_countersink();
+[[nodiscard]] Part fine_holes();
 [[nodiscard]] Part hole_over_an_edge();
 [[nodiscard]] Part pocket_over_an_edge();
 [[nodiscard]] Part lone_boss(bool round);
@@ -36,6 +39,11 @@ namespace capstan::testing::removal {
 [[nodiscard]] Part unequal_flat_ends();
 [[nodiscard]] Part pattern_that_meets_itself();
 [[nodiscard]] Part hole_into_a_cross_bore();
+
+// Closed meshes in a larger block.
+[[nodiscard]] Part mesh_box();
+[[nodiscard]] Part mesh_step();
+[[nodiscard]] Part mesh_pocket();
 
 // Parts that once took minutes of planning.
 [[nodiscard]] Part tight_flat_hole();

@@ -247,6 +247,192 @@ TEST(RefusedParts, APointThatWouldComeOutBelowIsToldWithItsLength) {
       "underside of the raw piece by 2.004 mm");
 }
 
+/// The same with a finished part of 15 mm in the raw piece of 20: 5 mm are cut off below.
+PlanOutput planned_thinner(Sheet& s) {
+  const auto part =
+      s.d.write("BLOCK('PART',#" + std::to_string(s.d.placement({0, 0, -15})) + ",60.,60.,15.)");
+  std::string text = s.d.text();
+  const std::string from = ",#6,0.1,#5,$,$,());";
+  text.replace(text.find(from), from.size(), ",#6,0.1,#5,$,#" + std::to_string(part) + ",());");
+  return plan_bytes(text, "sheet.p21");
+}
+
+TEST(RefusedParts, AFloorThatIsCutOffWithTheUndersideOfTheRawPieceIsRefused) {
+  const std::string why = "its floor, 17 mm deep, lies 2 mm below the underside of the finished part";
+  Sheet hole, pocket, slot;
+  hole.d.hole("H", hole.d.placement({30, 30, 0}), 17, 8, hole.d.flat_bottom());
+  pocket.d.closed_pocket("P", pocket.d.placement({30, 30, 0}), 17, pocket.d.rectangle(40, 40), 6);
+  slot.d.slot("S", slot.d.placement({30, 15, 0}), 17, slot.d.linear_path(30, {0, 1, 0}), slot.d.square_u(16),
+              "radiused", "radiused");
+  for (Sheet* s : {&hole, &pocket, &slot}) {
+    const PlanOutput o = planned_thinner(*s);
+    expect_unplanned(o, 1, why);
+    EXPECT_EQ(o.steps, 0U) << told(o);
+  }
+  Sheet ends_in_it;
+  ends_in_it.d.hole("H", ends_in_it.d.placement({30, 30, 0}), 12, 8, ends_in_it.d.flat_bottom());
+  EXPECT_EQ(planned_thinner(ends_in_it).unplanned, 0U);
+}
+
+TEST(TwoAtOnePlace, EqualHolesAreMadeOnceAndBothAreNamed) {
+  Sheet s;
+  s.d.hole("A", s.d.placement({30, 30, 0}), 8, 10, s.d.flat_bottom());
+  s.d.hole("B", s.d.placement({30, 30, 0}), 8, 10, s.d.flat_bottom());
+  const PlanOutput o = s.planned();
+  EXPECT_EQ(o.unplanned, 0U) << told(o);
+  EXPECT_NE(told(o).find("warning: features 'A' and 'B' are the same at the same place, (30, 30, 0)"),
+            std::string::npos)
+      << told(o);
+}
+
+TEST(TwoAtOnePlace, EqualPocketsAreMadeOnceAndBothAreNamed) {
+  Sheet s;
+  s.d.closed_pocket("A", s.d.placement({30, 30, 0}), 6, s.d.rectangle(30, 20), 4);
+  s.d.closed_pocket("B", s.d.placement({30, 30, 0}), 6, s.d.rectangle(30, 20), 4);
+  EXPECT_NE(told(s.planned()).find("warning: features 'A' and 'B' are the same"), std::string::npos);
+}
+
+TEST(TwoAtOnePlace, AHoleThatLiesWhollyWithinAnotherIsRefused) {
+  // On its axis, and 2 mm beside it: 8 - 5 mm would be left between the walls.
+  for (const double aside : {0.0, 2.0}) {
+    Sheet s;
+    s.d.hole("A", s.d.placement({30 + aside, 30, 0}), 5, 10, s.d.flat_bottom());
+    s.d.hole("B", s.d.placement({30, 30, 0}), 8, 16, s.d.flat_bottom());
+    expect_unplanned(s.planned(), 1, "'A', 10 mm wide and 5 mm deep");
+  }
+}
+
+TEST(TwoAtOnePlace, HolesOfOneSizeWithTwoTolerancesContradictEachOther) {
+  Sheet s;
+  s.d.hole("A", s.d.placement({30, 30, 0}), 8, 10, s.d.flat_bottom(), 0, 0.1);
+  s.d.hole("B", s.d.placement({30, 30, 0}), 8, 10, s.d.flat_bottom(), 0, 0.3);
+  const PlanOutput o = s.planned();
+  EXPECT_GE(o.unplanned, 1U) << told(o);
+  EXPECT_NE(told(o).find("nothing says which of them is meant"), std::string::npos) << told(o);
+}
+
+TEST(TwoAtOnePlace, ANarrowerHoleThatGoesDeeperIsACounterbore) {
+  Sheet s;
+  s.d.hole("A", s.d.placement({30, 30, 0}), 12, 8, s.d.flat_bottom());
+  s.d.hole("B", s.d.placement({30, 30, 0}), 5, 14, s.d.flat_bottom());
+  const PlanOutput o = s.planned();
+  EXPECT_EQ(o.unplanned, 0U) << told(o);
+  EXPECT_EQ(told(o).find("PIP-TWICE"), std::string::npos) << told(o);
+}
+
+TEST(RefusedParts, AFaceThatCutsIntoABossFromBesideItIsRefused) {
+  // The boss stands up from z = -8 at (10, 30), 12 mm wide: from x = 4 on. The face looks along -x; 6 mm deep
+  // it goes to x = 6, 2 mm into the boss; 3 mm deep it ends 1 mm beside it.
+  for (const bool into : {true, false}) {
+    Sheet s;
+    s.d.boss("B", s.d.placement({10, 30, 0}), 8, s.d.circle(12));
+    const auto at = s.d.placement({0, 30, -10}, {-1, 0, 0}, {0, 1, 0});
+    const auto deep = s.d.depth(into ? 6 : 3);
+    const auto area = s.d.rectangle(60, 20);
+    s.d.write("PLANAR_FACE('F',#4,(),#" + std::to_string(at) + ",#" + std::to_string(deep) + ",$,$,#" +
+              std::to_string(area) + ",())");
+    const PlanOutput o = s.planned();
+    EXPECT_EQ(told(o).find("cuts into BOSS 'B'") != std::string::npos, into) << told(o);
+  }
+}
+
+TEST(RoundSlots, OneAsWideAsItsBallIsPlannedForItsFullWidth) {
+  Sheet s;
+  s.d.slot("S", s.d.placement({10, 30, 0}), 6, s.d.linear_path(40, {1, 0, 0}), s.d.rounded_u(10), "radiused",
+           "radiused");
+  const PlanOutput o = s.planned();
+  EXPECT_EQ(o.unplanned, 0U) << told(o);
+  EXPECT_FALSE(o.linuxcnc.empty()) << told(o);
+  EXPECT_EQ(told(o).find("CHK-WIDTH-LEFT"), std::string::npos) << told(o);
+}
+
+TEST(SharpCorners, AClosedPocketThatStatesNoRadiusKeepsThreeMillimetresAndThePlanSaysSo) {
+  Sheet s;
+  s.d.closed_pocket("P", s.d.placement({30, 30, 0}), 8, s.d.rectangle(40, 30), 0);
+  const PlanOutput o = s.planned();
+  EXPECT_EQ(o.unplanned, 0U) << told(o);
+  // At a corner 40 / 2 and 30 / 2 mm from the middle; 3 mm, for a sixth of 8 mm is less.
+  for (const char* part : {"'P': its inner corners at ", "(10, 15, 0)", "(50, 45, 0)",
+                           "drawn sharp, and a radius of 3 mm, that of the narrowest mill, stays"})
+    EXPECT_NE(told(o).find(part), std::string::npos) << part << "\n" << told(o);
+  for (const auto& f : o.findings) EXPECT_NE(f.severity, "error") << f.text;
+}
+
+/// The sheet with a rough and a finish step of the file's own for its one feature, both with this mill.
+std::string with_given_mill(Sheet& s, const std::string& feature, double diameter) {
+  const auto n = [](int id) { return "#" + std::to_string(id); };
+  const std::string d = std::to_string(diameter);
+  const auto size = s.d.write("MILLING_TOOL_DIMENSION(" + d + ",$,$,45.,$,$,$)");
+  const auto mill = s.d.write("ENDMILL(" + n(size) + ",3,.RIGHT.,.F.,$)");
+  const auto edge = s.d.write("CUTTING_COMPONENT(60.,$,$,$,$)");
+  const auto tool = s.d.write("MILLING_CUTTING_TOOL('GIVEN'," + n(mill) + ",(" + n(edge) + "),120.,$,$)");
+  const auto how = s.d.write("MILLING_TECHNOLOGY(0.01,.TCP.,$,-50.,$,.F.,.F.,.F.,$)");
+  const auto with = s.d.write("MILLING_MACHINE_FUNCTIONS(.T.,$,$,.F.,$,(),.F.,$,$,())");
+  std::string steps, operations;
+  for (const bool rough : {true, false}) {
+    const auto op =
+        s.d.write(std::string(rough ? "BOTTOM_AND_SIDE_ROUGH_MILLING" : "BOTTOM_AND_SIDE_FINISH_MILLING") +
+                  "($,$,'" + (rough ? "ROUGH" : "FINISH") + "',5.,$," + n(tool) + "," + n(how) + "," +
+                  n(with) + ",$,$,$,$,2.," + (rough ? "5.,0.3,0.2)" : "$,0.,0.)"));
+    operations += (operations.empty() ? "" : ",") + n(op);
+    const auto ws = s.d.write(std::string("MACHINING_WORKINGSTEP('") + (rough ? "ROUGH" : "FINISH") +
+                              "',#31,#FEATURE," + n(op) + ",$)");
+    steps += (steps.empty() ? "" : ",") + n(ws);
+  }
+  std::string text = s.d.text();
+  const auto put = [&](const std::string& from, const std::string& to) {
+    for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
+      text.replace(at, from.size(), to);
+  };
+  put("'" + feature + "',#4,()", "'" + feature + "',#4,(" + operations + ")");
+  const auto at = text.rfind('#', text.find("('" + feature + "'"));
+  put("#FEATURE", text.substr(at, text.find('=', at) - at));
+  put("'MAIN WORKPLAN',()", "'MAIN WORKPLAN',(" + steps + ")");
+  return text;
+}
+
+/// Kept as the file gives it, and found: what a mill of 20 mm leaves in corners that may keep 3 mm.
+void expect_left_by(const std::string& text, const std::string& feature) {
+  const PlanOutput o = plan_bytes(text, "given.p21");
+  EXPECT_EQ(o.steps, 2U) << told(o);
+  EXPECT_NE(o.json.find("GIVEN"), std::string::npos);
+  EXPECT_TRUE(std::any_of(o.findings.begin(), o.findings.end(), [&](const PlanMessage& f) {
+    return f.severity == "error" && f.code == "CHK-LEFT" && f.text.find(feature) != std::string::npos;
+  })) << told(o);
+  EXPECT_TRUE(o.linuxcnc.empty()) << "the check condemns it";
+}
+
+Drawing::Id corner_of_an_l(Sheet& s) {
+  return s.d.closed(
+      s.d.polyline({{0, 0, 0}, {50, 0, 0}, {50, 20, 0}, {20, 20, 0}, {20, 50, 0}, {0, 50, 0}, {0, 0, 0}}));
+}
+
+TEST(GivenMills, OneTooWideForAnOutsidesInnerCornerIsFoundAndNoProgramIsWritten) {
+  Sheet s;
+  s.d.outside("O", s.d.placement({5, 5, 0}), 10, corner_of_an_l(s));
+  expect_left_by(with_given_mill(s, "O", 20), "O");
+}
+
+TEST(GivenMills, OneTooWideForAStepsInnerCornersIsFoundAndNoProgramIsWritten) {
+  Sheet s;
+  s.d.step("A", s.d.placement({30, 10, 0}), 6, 40, {0, 1, 0});
+  expect_left_by(with_given_mill(s, "A", 20), "A");
+}
+
+TEST(GivenMills, OneTooWideForAPocketsCornersIsFoundAndNoProgramIsWritten) {
+  Sheet s;
+  s.d.closed_pocket("P", s.d.placement({30, 30, 0}), 8, s.d.rectangle(40, 30), 0);
+  expect_left_by(with_given_mill(s, "P", 20), "P");
+}
+
+TEST(GivenMills, OneThatFitsTheCornersLeavesNothingInThem) {
+  Sheet s;
+  s.d.outside("O", s.d.placement({5, 5, 0}), 10, corner_of_an_l(s));
+  const PlanOutput o = plan_bytes(with_given_mill(s, "O", 6), "given.p21");
+  EXPECT_EQ(o.steps, 2U) << told(o);
+  for (const auto& f : o.findings) EXPECT_NE(f.code, "CHK-LEFT") << f.text;
+}
+
 TEST(RefusedParts, AnOutlineThatCrossesItselfIsRefusedAtTheCrossing) {
   Sheet s;
   const auto outline = s.d.polyline({{-10, -10, 0}, {10, 10, 0}, {10, -10, 0}, {-10, 10, 0}, {-10, -10, 0}});

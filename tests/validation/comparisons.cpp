@@ -39,7 +39,8 @@ Comparison summary(const std::vector<Comparison>& all) {
       {"lobes", "7. Stability lobes"},
       {"sections", "8. Cross sections"},
       {"cycle-times", "9. Cycle times on a simulated machine"},
-      {"edits", "10. Edited programs"}};
+      {"edits", "10. Edited programs"},
+      {"plan-edits", "11. Edited plans"}};
   Comparison out{.name = "summary"};
   Table rows{{"comparison", "figure"}, {}};
   for (const auto& [name, title] : titles) {
@@ -68,6 +69,7 @@ std::vector<Comparison> all_comparisons(const std::string& corpus) {
   out.push_back(sections());
   out.push_back(cycle_times(CAPSTAN_SOURCE_DIR "/docs/validation/cycle_times.csv"));
   out.push_back(edits());
+  out.push_back(plan_edits());
   out.push_back(summary(out));
   return out;
 }

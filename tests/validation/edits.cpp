@@ -1,5 +1,8 @@
+#include <algorithm>
 #include <string>
+#include <vector>
 
+#include "tests/mutation/plans/plan_study.h"
 #include "tests/mutation/study.h"
 #include "tests/support/rs274.h"
 #include "tests/validation/studies.h"
@@ -61,6 +64,69 @@ Comparison edits() {
                  " classes: dangerous ones missed " + whole(sum.dangerous_missed) +
                  ", other changes missed " + whole(sum.different_missed) + ", benign ones blamed " +
                  whole(sum.benign_blamed);
+  return out;
+}
+
+namespace {
+
+/// Rows of one part ("JSON, machine"), or of one edit ("times ten"), summed up.
+class Sums {
+ public:
+  explicit Sums(const char* title) : title_(title) {}
+  void add(const std::string& name, const mutation::PlanRow& r) {
+    auto it = std::find_if(rows_.begin(), rows_.end(), [&](const auto& s) { return s.name == name; });
+    if (it == rows_.end()) it = rows_.insert(rows_.end(), {.name = name});
+    it->edits += r.edits;
+    it->refused += r.refused;
+    it->found += r.found;
+    it->found_by_values += r.found_by_values;
+    it->found_with_program += r.found_with_program;
+    it->missed += r.missed;
+    it->blamed += r.blamed;
+  }
+  [[nodiscard]] std::string text() const {
+    Table t{{title_, "edits", "refused on reading", "found", "missed", "benign blamed"}, {}};
+    for (const auto& r : rows_)
+      t.rows.push_back(
+          {r.name, whole(r.edits), whole(r.refused), whole(r.found), whole(r.missed), whole(r.blamed)});
+    return markdown(t);
+  }
+
+ private:
+  const char* title_;
+  std::vector<mutation::PlanRow> rows_;
+};
+
+}  // namespace
+
+Comparison plan_edits() {
+  Comparison out{.name = "plan-edits"};
+  mutation::PlanOptions options;
+  options.edits = 2;
+  options.planned = false;
+  options.by_values = true;
+  Sums parts("part"), kinds("edit");
+  mutation::PlanRow sum, json;
+  int classes = 0;
+  for (const auto& r : mutation::study_plans(options)) {
+    ++classes;
+    const std::size_t colon = r.name.find(": ");
+    parts.add(r.name.substr(0, colon), r);
+    kinds.add(r.name.substr(colon + 2), r);
+    for (auto* s : {&sum, &json}) {
+      if (s == &json && (r.name.rfind("JSON", 0) != 0 || r.kind == Kind::kBenign)) continue;
+      s->edits += r.edits;
+      s->found_by_values += r.found_by_values;
+      s->found_with_program += r.found_with_program;
+      s->missed += r.missed;
+      s->blamed += r.blamed;
+    }
+  }
+  out.text = parts.text() + "\n" + kinds.text() + "\nOf " + whole(json.edits) + " edits of values in JSON " +
+             whole(json.found_by_values) + " are found without the hashes of the parts, and " +
+             whole(json.found_with_program) + " of the others with the program that was written before.\n";
+  out.headline = whole(sum.edits) + " edits in " + whole(classes) + " classes: missed " + whole(sum.missed) +
+                 ", benign ones blamed " + whole(sum.blamed);
   return out;
 }
 

@@ -33,6 +33,9 @@ namespace capstan::validation {
 /// Edits of emitted programs and what the check finds of them: `tests/mutation`.
 [[nodiscard]] Comparison edits();
 
+/// Edits of plans' files and what the check finds of them: `tests/mutation/plans`.
+[[nodiscard]] Comparison plan_edits();
+
 /// Cycle times on LinuxCNC's simulated machine, as `capstan_cycle_times` recorded them in a file.
 [[nodiscard]] Comparison cycle_times(const std::string& file);
 

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 #include "planner/verify/verify.h"
@@ -68,11 +69,11 @@ PlanMaker roughed(const std::vector<double>& halves, model::CutterPath path, std
 }
 
 /// From the middle into the wall at y = 50 - h, along it at move 4, and away.
-model::CutterPath along_wall(double h) {
+model::CutterPath along_wall(double h, double from = 45) {
   model::CutterPath p;
-  p.start({45, 45, 10});
-  p.rapid({45, 45, 2});
-  p.line({45, 45, -5}, MoveRole::kPlunge);
+  p.start({45, from, 10});
+  p.rapid({45, from, 2});
+  p.line({45, from, -5}, MoveRole::kPlunge);
   p.line({45, 50 - h, -5}, MoveRole::kCut);
   p.line({58, 50 - h, -5}, MoveRole::kCut);
   p.line({55, 45, -5}, MoveRole::kCut);
@@ -203,6 +204,48 @@ const Case kCases[] = {
        return k;
      }},
 };
+
+/// A finishing pass of 0.3 mm, 5 mm deep, for which the plan states this force, meets 7 mm: the rings at 8
+/// leave walls at 13, the pass makes them 20.
+std::vector<model::Finding> widely(double stated_n, bool as_program) {
+  PlanMaker k = roughed({4, 8}, along_wall(15), 0, 0);
+  planned(k, 5, 0.3);
+  k.plan.steps[1].loads.peak_force_n = stated_n;
+  auto out = check(k.plan, as_program);
+  std::erase_if(out, [](const auto& f) { return f.code != "CHK-WIDTH-LEFT" || f.step != "second"; });
+  return out;
+}
+
+TEST(WidthLeft, IsAnErrorWhereThePlanStatesLessForceThanIsMet) {
+  // 35 mm2 fed at 600 mm/min are 21000 mm3/min; 10 mm at 3000 1/min run at 94248 mm/min. At kc of 1000 N/mm2
+  // or more, which the chip of 0.05 mm asks for in the material of these plans with a worn edge, the mean
+  // force is 223 N or more, and with its radial share 260 N.
+  const model::WorkMaterial w = testing::empty_plan().plan.material;
+  ASSERT_GT(w.kc11_n_mm2 * std::pow(0.05, -w.mc) * 1.3, 1000.0);
+  for (const bool as_program : {false, true}) {
+    const auto little = widely(200.0, as_program);
+    ASSERT_EQ(little.size(), 1U) << told(little);
+    EXPECT_EQ(little[0].severity, Severity::kError) << told(little);
+    EXPECT_NE(little[0].message.find("200 N: its limits were not held there"), std::string::npos);
+    const auto enough = widely(5000.0, as_program);
+    ASSERT_EQ(enough.size(), 1U) << told(enough);
+    EXPECT_EQ(enough[0].severity, Severity::kWarning) << told(enough);
+  }
+}
+
+TEST(WidthLeft, OfAStripThinnerThanACellIsNoMoreThanTheStrip) {
+  // Cells of 0.2 mm have their centres at odd tenths. Rings at 14.69 leave a wall at 30.31; a pass at 14.905
+  // takes 0.215 mm off it, in which the centres at 30.3 and 30.1 lie: on cells 0.4 mm. Planned for 0.04 mm,
+  // it meets a little over five times that, ten by the cells. The way there is longer than the cutter is
+  // wide, and so told apart.
+  PlanMaker k = roughed({4, 8, 12, 14.69}, along_wall(14.905, 46), 0, 0);
+  planned(k, 5, 0.04);
+  k.plan.steps[1].loads.peak_force_n = 1.0;
+  for (const bool as_program : {false, true}) {
+    const auto findings = check(k.plan, as_program);
+    EXPECT_FALSE(found(findings, "CHK-WIDTH-LEFT", "second")) << told(findings);
+  }
+}
 
 class Chips : public ::testing::TestWithParam<std::tuple<Case, bool>> {};
 

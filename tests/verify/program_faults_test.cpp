@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <optional>
 
 #include "planner/verify/verify.h"
 #include "tests/verify/plans.h"
@@ -187,6 +188,62 @@ TEST(CheckProgram, AToolTableThatDoesNotFitTheToolsIsFound) {
         << f.to << "\n"
         << told(findings);
   }
+}
+
+/// What a check of a program and a table alone finds in the lengths of the table's tools.
+std::vector<std::string> unmeasured(const std::string& table, std::optional<bool> reference = {}) {
+  model::Plan plan = testing::good_plan().plan;
+  plan.machine.control.offsets_against_reference = reference;
+  for (auto& c : plan.cutters) c.functional_length_mm = 0.0;  // nobody else knows them
+  std::vector<std::string> out;
+  for (const auto& f : check(testing::program_of(plan), plan, false, table)) {
+    if (f.code != "CHK-TOOL-OFFSET" || f.severity != Severity::kError || f.property != 6) continue;
+    for (std::size_t at = 0; (at = f.message.find(" has Z", at)) != std::string::npos; ++at)
+      out.push_back(f.message.substr(at - 2, 2));
+  }
+  return out;
+}
+
+TEST(CheckProgram, ALengthOfZeroInTheTableIsFoundWhateverTheHeaderSays) {
+  using Tools = std::vector<std::string>;
+  EXPECT_EQ(unmeasured("T1 P1 Z+0 D+10\nT2 P2 Z+130 D+8\n"), Tools{"T1"});
+  EXPECT_EQ(unmeasured("T1 P1 Z+0 D+10\nT2 P2 Z+0 D+8\n"), (Tools{"T1", "T2"}));
+  EXPECT_EQ(unmeasured("T1 P1 Z+100 D+10\nT2 P2 Z+130 D+8\n"), Tools{});
+}
+
+TEST(CheckProgram, ALengthShorterThanTheToolsFlutesIsFound) {
+  // The flutes of T1 are 22 mm long: 20 mm from the gage line would end inside them.
+  ASSERT_EQ(testing::good_plan().plan.cutters.front().maximum_depth_of_cut_mm, 22.0);
+  EXPECT_EQ(unmeasured("T1 P1 Z+20 D+10\nT2 P2 Z+130 D+8\n"), std::vector<std::string>{"T1"});
+}
+
+TEST(CheckProgram, ALengthShorterThanAnyHoldersFlangeIsFoundWhereASpindleHasATaper) {
+  // Flutes of 3 mm would fit into 5 mm, and do in a collet of the spindle's own.
+  for (const auto& [taper, faults] : {std::pair("BT40", 1), std::pair("ER20", 0), std::pair("none", 0)}) {
+    model::Plan plan = testing::good_plan().plan;
+    plan.machine.spindle.taper = taper;
+    plan.cutters.front().maximum_depth_of_cut_mm = 3.0;
+    plan.cutters.front().functional_length_mm = 0.0;
+    const auto findings = check(testing::program_of(plan), plan, false, "T1 P1 Z+5 D+10\nT2 P2 Z+130 D+8\n");
+    EXPECT_EQ(std::count_if(findings.begin(), findings.end(),
+                            [](const auto& f) { return f.code == "CHK-TOOL-OFFSET"; }),
+              faults)
+        << taper << "\n"
+        << told(findings);
+  }
+}
+
+TEST(CheckProgram, OfOffsetsThatCountFromAReferenceZeroIsTheReferencesAlone) {
+  using Tools = std::vector<std::string>;
+  // Negative ones with a 0 among them, or none above 0: they count from a reference.
+  EXPECT_EQ(unmeasured("T1 P1 Z+0 D+10\nT2 P2 Z-12.5 D+8\n"), Tools{});
+  EXPECT_EQ(unmeasured("T1 P1 Z-40 D+10\nT2 P2 Z-12.5 D+8\n"), Tools{});
+  EXPECT_EQ(unmeasured("T1 P1 Z+0 D+10\nT2 P2 Z-12.5 D+8\nT3 P3 Z+0 D+6\n"), Tools{"T1"});
+  // One negative length is rather a sign that was mistyped.
+  EXPECT_EQ(unmeasured("T1 P1 Z+100 D+10\nT2 P2 Z-130 D+8\n"), Tools{"T2"});
+  // The machine's description may say it either way.
+  EXPECT_EQ(unmeasured("T1 P1 Z+0 D+10\nT2 P2 Z+12.5 D+8\n", true), Tools{});
+  EXPECT_EQ(unmeasured("T1 P1 Z+0 D+10\nT2 P2 Z-12.5 D+8\n", false), (Tools{"T1", "T2"}));
 }
 
 TEST(CheckProgram, ALengthInInchesIsCalledThat) {

@@ -141,15 +141,16 @@ TEST(Left, AHoleThatEndsAboveItsDepthIsFound) {
 }
 
 TEST(Left, ACornerTooTightForTheCutterIsFoundAndASharpOneIsNot) {
-  // Radius 5 stated, cut with 8: the corner keeps (8 - 5) (sqrt 2 - 1) = 1.24 mm across. None stated: as the
-  // tool has it.
+  // Radius 5 stated, cut with 8: the corner keeps (8 - 5) (sqrt 2 - 1) = 1.24 mm across. None stated, cut
+  // with 3: as the tool has it.
   for (const bool stated : {true, false}) {
     PlanMaker k = testing::good_plan();
-    k.plan.cutters[0].cutting_diameter_mm = 16;
-    k.plan.cutters[0].shank_diameter_mm = 16;
-    testing::edit_path(k.plan, 0, [](auto& p) {
+    const double wide = stated ? 16.0 : 6.0;
+    k.plan.cutters[0].cutting_diameter_mm = wide;
+    k.plan.cutters[0].shank_diameter_mm = wide;
+    testing::edit_path(k.plan, 0, [&](auto& p) {
       for (auto* v : {&p.x, &p.y}) {
-        for (double& x : *v) x = 50 + 12.0 / 15.0 * (x - 50);
+        for (double& x : *v) x = 50 + (20.0 - 0.5 * wide) / 15.0 * (x - 50);
       }
     });
     const auto* ws = k.plan.model.get<model::MachiningWorkingstep>(k.plan.steps[0].step);
@@ -169,9 +170,9 @@ TEST(Left, NothingStaysInCornersForWhichTheFileStatesARadiusOfZero) {
 }
 
 TEST(Left, WhatAMillTooWideForAPocketLeavesInItsCornersIsFound) {
-  // No radius stated: 0.35 of 40 mm may stay, a mill of 32 leaves 16. Its way leaves the rest as the one of
-  // 10 does.
-  for (const double wide : {26.0, 32.0}) {
+  // No radius stated: 3 mm may stay, for a sixth of its depth of 10 mm is less; a mill of 10 leaves 5. Its
+  // way leaves the rest as the one of 6 does.
+  for (const double wide : {6.0, 10.0}) {
     PlanMaker k = testing::good_plan();
     k.plan.cutters[0].cutting_diameter_mm = wide;
     k.plan.cutters[0].shank_diameter_mm = wide;
@@ -183,7 +184,7 @@ TEST(Left, WhatAMillTooWideForAPocketLeavesInItsCornersIsFound) {
     const auto* ws = k.plan.model.get<model::MachiningWorkingstep>(k.plan.steps[0].step);
     k.plan.model.get<model::ClosedPocket>(ws->its_feature)->orthogonal_radius = {};
     const auto findings = check(k.plan);
-    EXPECT_EQ(found(findings, "CHK-LEFT", "pocket") != nullptr, wide > 28.0) << told(findings);
+    EXPECT_EQ(found(findings, "CHK-LEFT", "pocket") != nullptr, wide > 8.0) << told(findings);
   }
 }
 
@@ -460,6 +461,20 @@ TEST(Within, ADrillsPointThatComesOutBelowTheFinishedPartIsFoundAlthoughTheRawPi
     ASSERT_EQ(f != nullptr, height < 22.4) << told(findings);
     if (f == nullptr) continue;
     EXPECT_NE(f->message.find("underside of the finished part by 0.403 mm"), std::string::npos) << f->message;
+  }
+}
+
+TEST(Within, AFloorInWhatIsCutOffBelowTheFinishedPartIsFound) {
+  for (const double height : {10.0, 9.0}) {  // the pocket is 10 mm deep, the raw piece 50 mm high
+    PlanMaker k = testing::good_plan();
+    model::Block block;
+    block.position = k.at(0, 0, -height);
+    block.x = block.y = 100.0;
+    block.z = height;
+    const auto piece = k.plan.model.all(model::TypeId::kWorkpiece).front();
+    k.plan.model.get<model::Workpiece>(piece)->its_bounding_geometry = k.plan.model.add(block);
+    const auto findings = check(k.plan);
+    EXPECT_EQ(found(findings, "CHK-OUTSIDE", "pocket") != nullptr, height < 9.5) << told(findings);
   }
 }
 

@@ -4,16 +4,11 @@
 #include <vector>
 
 #include "planner/base/result.h"
-#include "planner/model/cutter.h"
+#include "planner/model/cutter_faults.h"
 
 namespace capstan::tooling {
 
-/// What is wrong with one cutter, each as a sentence with its numbers; empty when nothing is.
-///
-/// Lengths and counts finite and not negative, diameter above zero, corner radius at most D/2, flutes not
-/// longer than the tool sticks out, the stick-out not longer than gage line to tip, teeth 1 to 60, angles in
-/// range, a pitch for taps.
-[[nodiscard]] std::vector<std::string> faults_of(const model::Cutter& c);
+using model::faults_of;
 /// A size that exists but is more likely of another unit; empty: none.
 [[nodiscard]] std::string unlikely_of(const model::Cutter& c);
 

@@ -9,6 +9,7 @@
 #include "planner/base/file.h"
 #include "planner/base/nearest_names.h"
 #include "planner/base/number.h"
+#include "planner/model/ranges.h"
 #include "tooling/catalogue/data.h"
 #include "tooling/catalogue/tree.h"
 
@@ -18,11 +19,12 @@ namespace {
 using model::LinearAxis;
 using model::Machine;
 using model::SpindlePoint;
+namespace range = model::range;
 
 constexpr std::array<const char*, 3> kAxes = {"X", "Y", "Z"};
 /// A milling spindle that never turns faster than this is a slip of unit: 600 rev/s is 36,000 1/min.
 constexpr double kSlowestTopSpeedRpm = 600.0;
-constexpr double kFastestSpeedRpm = 500000.0;
+constexpr double kFastestSpeedRpm = range::kSpindleRpm.most;
 constexpr double kRevPerSecond = 60.0;
 
 double watts(double torque_nm, double rpm) { return torque_nm * 2.0 * std::numbers::pi * rpm / 60.0; }
@@ -42,26 +44,30 @@ void keep_sources(Fields& f, Machine& m) {
   f.finish();
 }
 
-void positive(Fields& f, std::string_view key, double value) {
-  if (value > 0.0) return;
-  f.fault(key.starts_with("acceleration") ? "MACHINE-ACCELERATION" : "MACHINE-RANGE",
-          std::string(key) + " is " + trimmed(value, 6), key, f.line_of(key), "a number above zero");
-}
-void not_negative(Fields& f, std::string_view key, double value) {
-  if (value >= 0.0) return;
-  f.fault("MACHINE-RANGE", std::string(key) + " is negative: " + trimmed(value, 6), key, f.line_of(key));
+void within(Fields& f, std::string_view key, double value, const model::Range& range,
+            const char* expected = nullptr) {
+  if (range.holds(value)) return;
+  f.fault(
+      key.starts_with("acceleration") ? "MACHINE-ACCELERATION" : "MACHINE-RANGE",
+      std::string(key) + (value < 0.0 && range.least >= 0.0 ? " is negative: " : " is ") + trimmed(value, 6),
+      key, f.line_of(key), expected != nullptr ? expected : to_text(range));
 }
 
 void check_axis(Fields& f, const LinearAxis& a) {
+  within(f, "travel_min_mm", a.travel_min_mm, range::kAxisPositionMm);
+  within(f, "travel_max_mm", a.travel_max_mm, range::kAxisPositionMm);
   if (a.travel_min_mm >= a.travel_max_mm)
     f.fault("MACHINE-RANGE",
             "travel_min_mm (" + trimmed(a.travel_min_mm, 4) + ") is not below travel_max_mm (" +
                 trimmed(a.travel_max_mm, 4) + ")",
             "travel_min_mm", f.line_of("travel_min_mm"));
-  positive(f, "rapid_mm_min", a.rapid_mm_min);
-  positive(f, "feed_max_mm_min", a.feed_max_mm_min);
-  positive(f, "acceleration_mm_s2", a.acceleration_mm_s2);
-  if (a.jerk_mm_s3) positive(f, "jerk_mm_s3", *a.jerk_mm_s3);
+  else if (!range::kTravelMm.holds(a.travel_max_mm - a.travel_min_mm))
+    f.fault("MACHINE-RANGE", "the axis travels " + shortest(a.travel_max_mm - a.travel_min_mm) + " mm",
+            "travel_max_mm", f.line_of("travel_max_mm"), to_text(range::kTravelMm));
+  within(f, "rapid_mm_min", a.rapid_mm_min, range::kAxisSpeedMmMin);
+  within(f, "feed_max_mm_min", a.feed_max_mm_min, range::kAxisSpeedMmMin);
+  within(f, "acceleration_mm_s2", a.acceleration_mm_s2, range::kAccelerationMmS2);
+  if (a.jerk_mm_s3) within(f, "jerk_mm_s3", *a.jerk_mm_s3, range::kJerkMmS3);
 }
 
 LinearAxis read_axis(Fields f, const std::string& name, Machine& m) {
@@ -106,9 +112,9 @@ SpindlePoint read_point(Fields f, Machine& m) {
   const auto power = f.optional_number("power_w"), torque = f.optional_number("torque_nm");
   if (!power && !torque)
     f.fault("DATA-MISSING", "a point of the curve needs power_w or torque_nm", "power_w", f.line());
-  if (f.fault_count() == before) positive(f, "rpm", p.rpm);
-  if (power) not_negative(f, "power_w", *power);
-  if (torque) not_negative(f, "torque_nm", *torque);
+  if (f.fault_count() == before) within(f, "rpm", p.rpm, range::kCurveRpm);
+  if (power) within(f, "power_w", *power, range::kPowerW);
+  if (torque) within(f, "torque_nm", *torque, range::kTorqueNm);
   if (f.fault_count() == before) {
     p.power_w = power ? *power : watts(*torque, p.rpm);
     p.torque_nm = torque ? *torque : *power / watts(1.0, p.rpm);
@@ -151,7 +157,7 @@ void check_curve(Fields& f, const model::SpindleGear& s) {
 
 /// `slow`: a gear may end where no whole spindle would.
 void check_speeds(Fields& f, const model::SpindleGear& s, bool slow) {
-  not_negative(f, "rpm_min", s.rpm_min);
+  within(f, "rpm_min", s.rpm_min, range::kSpindleRpm);
   if (s.rpm_min > s.rpm_max)
     f.fault("MACHINE-RANGE",
             "rpm_min (" + trimmed(s.rpm_min, 4) + ") is above rpm_max (" + trimmed(s.rpm_max, 4) + ")",
@@ -223,10 +229,8 @@ void read_spindle(Fields& top, Machine& m) {
   s.efficiency = f.number("efficiency");
   s.spin_up_s = f.number("spin_up_s");
   if (f.fault_count() == before) {
-    not_negative(f, "spin_up_s", s.spin_up_s);
-    if (s.efficiency <= 0.0 || s.efficiency > 1.0)
-      f.fault("MACHINE-RANGE", "efficiency is " + trimmed(s.efficiency, 4), "efficiency",
-              f.line_of("efficiency"), "above 0, at most 1");
+    within(f, "spin_up_s", s.spin_up_s, range::kSpinUpS);
+    within(f, "efficiency", s.efficiency, range::kEfficiency);
   }
   if (f.has("gears")) {
     if (const Node* list = f.child("gears", true)) read_gears(f, *list, m);
@@ -267,16 +271,14 @@ void read_abilities(Fields& top, Machine& m) {
   a.feed_override_max = f.number_or("feed_override_max", a.feed_override_max);
   a.magazine_mass_max_kg = f.number_or("magazine_mass_max_kg", a.magazine_mass_max_kg);
   if (f.fault_count() == before) {
-    for (const auto& [key, value] :
-         {std::pair{"positioning_accuracy_mm", a.positioning_accuracy_mm},
-          std::pair{"table_length_mm", a.table_length_mm}, std::pair{"table_width_mm", a.table_width_mm},
-          std::pair{"through_pressure_bar", a.through_pressure_bar},
-          std::pair{"magazine_mass_max_kg", a.magazine_mass_max_kg}})
-      not_negative(f, key, value);
-    if (a.feed_override_max < 1.0 || a.feed_override_max > 3.0)
-      f.fault("MACHINE-RANGE", "feed_override_max is " + trimmed(a.feed_override_max, 4), "feed_override_max",
-              f.line_of("feed_override_max"), "1 to 3, as a factor: 1.2 is 120 %");
-    if (a.control_axes < 3 || a.control_axes > 16 || a.simultaneous_axes < 1 ||
+    within(f, "positioning_accuracy_mm", a.positioning_accuracy_mm, range::kAccuracyMm);
+    within(f, "table_length_mm", a.table_length_mm, range::kTableMm);
+    within(f, "table_width_mm", a.table_width_mm, range::kTableMm);
+    within(f, "through_pressure_bar", a.through_pressure_bar, range::kPressureBar);
+    within(f, "magazine_mass_max_kg", a.magazine_mass_max_kg, range::kMassKg);
+    within(f, "feed_override_max", a.feed_override_max, range::kFeedOverride,
+           "1 to 3, as a factor: 1.2 is 120 %");
+    if (!range::kAxes.holds(a.control_axes) || a.simultaneous_axes < 1 ||
         a.simultaneous_axes > a.control_axes)
       f.fault("MACHINE-RANGE",
               std::to_string(a.simultaneous_axes) + " axes at once of " + std::to_string(a.control_axes),
@@ -298,17 +300,15 @@ void read_modes(Fields& top, Machine& m) {
     mode.frequency_hz = f.number("frequency_hz");
     mode.damping_ratio = f.number("damping_ratio");
     mode.stiffness_n_mm = f.number("stiffness_n_mm");
-    const auto within = [&](const char* key, double value, double low, double high, const char* expected) {
-      if (value >= low && value <= high) return;
-      f.fault("MACHINE-RANGE", std::string(key) + " is " + trimmed(value, 6), key, f.line_of(key), expected);
-    };
     if (f.fault_count() == before) {
       if (mode.direction != "x" && mode.direction != "y")
         f.fault("MACHINE-RANGE", "the direction is '" + mode.direction + "'", "direction",
                 f.line_of("direction"), "x or y, of the machine");
-      within("frequency_hz", mode.frequency_hz, 5.0, 20000.0, "5 to 20,000 Hz");
-      within("damping_ratio", mode.damping_ratio, 1e-4, 0.5, "0.0001 to 0.5, as a fraction of the critical");
-      within("stiffness_n_mm", mode.stiffness_n_mm, 10.0, 1e7, "10 to 10,000,000 N/mm (1 N/um is 1000 N/mm)");
+      within(f, "frequency_hz", mode.frequency_hz, range::kModeHz, "5 to 20,000 Hz");
+      within(f, "damping_ratio", mode.damping_ratio, range::kDamping,
+             "0.0001 to 0.5, as a fraction of the critical");
+      within(f, "stiffness_n_mm", mode.stiffness_n_mm, range::kStiffnessNMm,
+             "10 to 10,000,000 N/mm (1 N/um is 1000 N/mm)");
     }
     keep_sources(f, m);
     m.modes.push_back(std::move(mode));
@@ -326,10 +326,10 @@ void read_magazine(Fields& top, Machine& m) {
   m.tool_length_max_mm = f.number("tool_length_max_mm");
   m.tool_change_s = f.number("tool_change_s");
   if (f.fault_count() == before) {
-    not_negative(f, "pockets", m.magazine_pockets);
-    positive(f, "tool_diameter_max_mm", m.tool_diameter_max_mm);
-    positive(f, "tool_length_max_mm", m.tool_length_max_mm);
-    not_negative(f, "tool_change_s", m.tool_change_s);
+    within(f, "pockets", m.magazine_pockets, range::kPockets);
+    within(f, "tool_diameter_max_mm", m.tool_diameter_max_mm, range::kMagazineMm);
+    within(f, "tool_length_max_mm", m.tool_length_max_mm, range::kMagazineMm);
+    within(f, "tool_change_s", m.tool_change_s, range::kToolChangeS);
   }
   keep_sources(f, m);
 }
@@ -354,12 +354,8 @@ void read_control(Fields& top, Machine& m) {
       static_cast<int>(f.optional_integer("feed_decimals").value_or(m.control.feed_decimals));
   m.control.path_tolerance_mm = f.number("path_tolerance_mm");
   m.control.block_time_s = f.number("block_time_s");
-  for (const auto& [key, value] :
-       {std::pair{"decimals", m.control.decimals}, std::pair{"feed_decimals", m.control.feed_decimals}}) {
-    if (value < 0 || value > 9)
-      f.fault("MACHINE-RANGE", std::string(key) + " is " + std::to_string(value), key, f.line_of(key),
-              "0 to 9");
-  }
+  within(f, "decimals", m.control.decimals, range::kDecimals);
+  within(f, "feed_decimals", m.control.feed_decimals, range::kDecimals);
   if (f.has("length_offsets")) {
     const std::string from = f.text("length_offsets");
     if (from != "gage_line" && from != "reference")
@@ -367,8 +363,8 @@ void read_control(Fields& top, Machine& m) {
               f.line_of("length_offsets"), "gage_line or reference");
     m.control.offsets_against_reference = from == "reference";
   }
-  not_negative(f, "path_tolerance_mm", m.control.path_tolerance_mm);
-  not_negative(f, "block_time_s", m.control.block_time_s);
+  within(f, "path_tolerance_mm", m.control.path_tolerance_mm, range::kPathToleranceMm);
+  within(f, "block_time_s", m.control.block_time_s, range::kBlockTimeS);
   keep_sources(f, m);
 }
 
@@ -398,7 +394,7 @@ Result<Machine> read_machine(std::string_view text, const std::string& file, Job
   m.id = top.text("id");
   m.description = top.text_or("description", m.id);
   m.cost_per_hour = top.number("cost_per_hour");
-  if (top.has("cost_per_hour")) not_negative(top, "cost_per_hour", m.cost_per_hour);
+  if (top.has("cost_per_hour")) within(top, "cost_per_hour", m.cost_per_hour, range::kCost);
   for (const auto& [path, source] : top.sources()) {
     if (path != "cost_per_hour") continue;
     if (source.empty()) top.fault("DATA-SOURCE", "no source is stated", path, top.line_of(path));

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "planner/base/number.h"
+#include "planner/model/ranges.h"
 #include "tooling/catalogue/machine.h"
 
 namespace capstan::tooling {
@@ -100,9 +101,17 @@ void read_axis(Reader& r, std::size_t i, double mm_per_unit, Machine& m) {
     a.feed_max_mm_min = std::min(a.feed_max_mm_min, *limit * mm_per_unit * 60.0);
   if (a.travel_min_mm >= a.travel_max_mm)
     r.refuse("MACHINE-RANGE", "MIN_LIMIT is not below MAX_LIMIT", section, "MIN_LIMIT", 0);
-  if (a.rapid_mm_min <= 0.0) r.refuse("MACHINE-RANGE", "it is not above zero", section, "MAX_VELOCITY", 0);
-  if (a.acceleration_mm_s2 <= 0.0)
-    r.refuse("MACHINE-ACCELERATION", "it is not above zero", section, "MAX_ACCELERATION", 0);
+  const auto within = [&](double v, const model::Range& range, const char* code, const char* key,
+                          const char* unit) {
+    if (!range.holds(v))
+      r.refuse(code, "it is " + shortest(v) + unit + "; it can be " + to_text(range), section, key, 0);
+  };
+  within(a.travel_min_mm, model::range::kAxisPositionMm, "MACHINE-RANGE", "MIN_LIMIT", " mm");
+  within(a.travel_max_mm, model::range::kAxisPositionMm, "MACHINE-RANGE", "MAX_LIMIT", " mm");
+  within(a.rapid_mm_min, model::range::kAxisSpeedMmMin, "MACHINE-RANGE", "MAX_VELOCITY", " mm/min");
+  within(a.feed_max_mm_min, model::range::kAxisSpeedMmMin, "MACHINE-RANGE", "MAX_VELOCITY", " mm/min");
+  within(a.acceleration_mm_s2, model::range::kAccelerationMmS2, "MACHINE-ACCELERATION", "MAX_ACCELERATION",
+         " mm/s2");
   for (const char* field :
        {"travel_min_mm", "travel_max_mm", "rapid_mm_min", "feed_max_mm_min", "acceleration_mm_s2"})
     m.sources.emplace_back("axes." + name + "." + field, "stated: " + r.file + " [" + section + "]");

@@ -6,6 +6,7 @@
 #include "planner/base/nearest_names.h"
 #include "planner/base/number.h"
 #include "planner/model/cutter.h"
+#include "planner/model/ranges.h"
 #include "tooling/catalogue/data.h"
 #include "tooling/catalogue/tree.h"
 
@@ -13,6 +14,7 @@ namespace capstan::tooling {
 namespace {
 
 using model::WorkMaterial;
+namespace range = model::range;
 
 constexpr const char* kFile = "materials.yaml";
 constexpr const char* kListMaterials = "capstan materials list";
@@ -39,10 +41,10 @@ std::string plain(std::string_view text) {
   return out;
 }
 
-void check(double value, double low, double high, std::string_view key, Fields& f) {
-  if (value >= low && value <= high) return;
+void check(double value, const model::Range& range, std::string_view key, Fields& f) {
+  if (range.holds(value)) return;
   f.fault("MATERIAL-RANGE", trimmed(value, 6) + " is no value of a material", key, f.line_of(key),
-          trimmed(low, 3) + " to " + trimmed(high, 3));
+          to_text(range));
 }
 
 std::vector<std::string> words_of(const Node& n) {
@@ -98,13 +100,13 @@ void read_sets(Fields& f, WorkMaterial& m) {
     set.source = r.source();
     if (set.source.empty()) r.fault("DATA-SOURCE", "no source is stated", "mechanistic", r.line());
     if (r.fault_count() == before) {
-      check(set.ktc_n_mm2, 50, 10000, "ktc_n_mm2", r);
-      check(set.krc_n_mm2, 0, 10000, "krc_n_mm2", r);
-      check(set.kac_n_mm2, 0, 10000, "kac_n_mm2", r);
-      check(set.kte_n_mm, 0, 200, "kte_n_mm", r);
-      check(set.kre_n_mm, 0, 200, "kre_n_mm", r);
-      check(set.kae_n_mm, 0, 200, "kae_n_mm", r);
-      check(set.uncertainty, 0, 5, "uncertainty", r);
+      check(set.ktc_n_mm2, range::kKtcNMm2, "ktc_n_mm2", r);
+      check(set.krc_n_mm2, range::kKrcNMm2, "krc_n_mm2", r);
+      check(set.kac_n_mm2, range::kKrcNMm2, "kac_n_mm2", r);
+      check(set.kte_n_mm, range::kEdgeNMm, "kte_n_mm", r);
+      check(set.kre_n_mm, range::kEdgeNMm, "kre_n_mm", r);
+      check(set.kae_n_mm, range::kEdgeNMm, "kae_n_mm", r);
+      check(set.uncertainty, range::kSetUncertainty, "uncertainty", r);
     }
     if (const Node* alloys = r.child("for", false))
       for (const std::string& name : words_of(*alloys))
@@ -133,14 +135,14 @@ void read_life(Fields& f, WorkMaterial& m) {
     law.source = r.source();
     if (law.source.empty()) r.fault("DATA-SOURCE", "no source is stated", "life", r.line());
     if (r.fault_count() == before) {
-      check(law.v0_m_min, 1, 3000, "v0_m_min", r);
-      check(law.life_min, 0.1, 10000, "life_min", r);
-      check(law.n, 0.02, 1.0, "n", r);
-      check(law.scatter, 0, 2, "scatter", r);
-      check(law.p, 0, 20, "p", r);
-      check(law.q, 0, 20, "q", r);
-      if (law.p > 0.0) check(law.h0_mm, 0.001, 5, "h0_mm", r);
-      if (law.q > 0.0) check(law.a0_mm, 0.01, 200, "a0_mm", r);
+      check(law.v0_m_min, range::kLifeSpeedMMin, "v0_m_min", r);
+      check(law.life_min, range::kLifeMin, "life_min", r);
+      check(law.n, range::kTaylorN, "n", r);
+      check(law.scatter, range::kLifeScatter, "scatter", r);
+      check(law.p, range::kTaylorPq, "p", r);
+      check(law.q, range::kTaylorPq, "q", r);
+      if (law.p > 0.0) check(law.h0_mm, range::kLifeChipMm, "h0_mm", r);
+      if (law.q > 0.0) check(law.a0_mm, range::kLifeDepthMm, "a0_mm", r);
     }
     m.life.push_back(std::move(law));
     r.finish();
@@ -164,13 +166,13 @@ WorkMaterial read_material(Fields f, double uncertainty, const std::string& unce
     if (key != "id" && key != "iso_group") m.sources.emplace_back(key, source);
   }
   if (!f.has("kc_uncertainty")) m.sources.emplace_back("kc_uncertainty", uncertainty_source);
-  // What real materials span, with room: public tables have held coefficients a hundred times too large.
-  check(m.kc11_n_mm2, 100, 8000, "kc11_n_mm2", f);
-  check(m.mc, 0, 0.6, "mc", f);
-  check(m.vc_hss_m_min, 0, 500, "vc_hss_m_min", f);
-  check(m.vc_carbide_m_min, 1, 3000, "vc_carbide_m_min", f);
-  check(m.kc_uncertainty, 0, 1, "kc_uncertainty", f);
-  check(m.hardness_hb, 0, 800, "hardness_hb", f);
+  check(m.kc11_n_mm2, range::kKc11NMm2, "kc11_n_mm2", f);
+  check(m.mc, range::kMc, "mc", f);
+  check(m.vc_hss_m_min, range::kVcHssMMin, "vc_hss_m_min", f);
+  check(m.vc_carbide_m_min, range::kVcCarbideMMin, "vc_carbide_m_min", f);
+  check(m.kc_uncertainty, range::kKcUncertainty, "kc_uncertainty", f);
+  check(m.tensile_strength_n_mm2, range::kStrengthNMm2, "tensile_strength_n_mm2", f);
+  check(m.hardness_hb, range::kHardnessHb, "hardness_hb", f);
   if (m.iso_group.size() != 1 || std::string_view("PMKNSH").find(m.iso_group) == std::string_view::npos)
     f.fault("MATERIAL-GROUP", "'" + m.iso_group + "' is no group of ISO 513", "iso_group",
             f.line_of("iso_group"), "P, M, K, N, S or H");

@@ -3,15 +3,11 @@
 #include <algorithm>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "planner/base/number.h"
+#include "planner/model/table_offsets.h"
 #include "tooling/catalogue/complete.h"
-
-// A length offset is measured from wherever the shop measures: mostly from the gage line, where it is the
-// tool's length; or against a reference tool, and then it is any number. A length is never negative: a table
-// whose Z are all negative, or of both signs with the 0 of the reference tool among them, counts from a
-// reference. One negative Z among lengths is rather a sign that was mistyped. Of other tables the machine's
-// description may say it (control, length_offsets).
 
 namespace capstan::tooling {
 namespace {
@@ -26,14 +22,11 @@ double offset_of(const MachineEntry& e, char letter) {
 }  // namespace
 
 TableLines::TableLines(const ToolLibrary& library, std::optional<bool> against_reference) : l_(library) {
-  bool negative = false, positive = false;
-  for (const MachineEntry& e : l_.entries) {
-    const double z = offset_of(e, 'Z');
-    negative = negative || z < 0.0;
-    positive = positive || z > 0.0;
-    zeros_ += z == 0.0 && offset_of(e, 'D') > 0.0 ? 1 : 0;
-  }
-  against_reference_ = against_reference.value_or(negative && (zeros_ > 0 || !positive));
+  std::vector<model::TableOffset> offsets;
+  for (const MachineEntry& e : l_.entries) offsets.push_back({offset_of(e, 'Z'), offset_of(e, 'D')});
+  const auto reading = model::reading_of(offsets, against_reference);
+  against_reference_ = reading.against_reference;
+  zeros_ = reading.zeros;
 }
 
 void TableLines::give(const MachineEntry& entry, double mm_per_unit, model::Cutter& c, Job& job) {

@@ -5,14 +5,15 @@
 #include <cmath>
 
 #include "planner/base/number.h"
+#include "planner/model/ranges.h"
 
 namespace capstan::tooling {
 namespace {
 
-/// Above any milling tool; a value beyond it is a wrong unit or a slip. As in `faults_of`.
-constexpr double kLongestMm = 2000.0;
-constexpr double kMostTeeth = 60.0;
-constexpr double kMostRpm = 1e6;
+/// As in `faults_of`.
+constexpr double kLongestMm = model::range::kToolLengthMm.most;
+constexpr double kMostTeeth = model::range::kTeeth.most;
+constexpr double kMostRpm = model::range::kToolSpeedRpm.most;
 
 constexpr SymbolFact length(std::string_view symbol, std::string_view words) {
   return {symbol, Quantity::kLength, 0.0, kLongestMm, words};
@@ -262,11 +263,14 @@ std::string lower_text(std::string_view text) {
   return out;
 }
 
-std::string unique_id(std::string id, std::vector<std::string>& taken) {
-  const auto at = [&](const std::string& s) { return std::lower_bound(taken.begin(), taken.end(), s); };
+std::string unique_id(const std::string& id, UniqueIds& ids) {
   std::string out = id;
-  for (int n = 2; at(out) != taken.end() && *at(out) == out; ++n) out = id + " (" + std::to_string(n) + ")";
-  taken.insert(at(out), out);
+  if (!ids.taken.insert(out).second) {
+    int& n = ids.next.try_emplace(id, 2).first->second;
+    do {
+      out = id + " (" + std::to_string(n++) + ")";
+    } while (!ids.taken.insert(out).second);
+  }
   return out;
 }
 

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <numbers>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 
@@ -63,6 +65,12 @@ struct Place {
 /// A number of ours in a unit: the shortest text that reads back to it.
 [[nodiscard]] std::string spelled(double ours, double factor);
 
+/// Ids that are taken, and where to go on counting for one that is met again.
+struct UniqueIds {
+  std::set<std::string> taken;
+  std::map<std::string, int> next;
+};
+
 /// "tool 3 'description'": how readers name an entry to people.
 [[nodiscard]] std::string tool_words(std::size_t index, std::string_view description);
 /// Without blanks at either end.
@@ -70,7 +78,7 @@ struct Place {
 /// ASCII letters in lower case.
 [[nodiscard]] std::string lower_text(std::string_view text);
 /// The id, or the id with " (2)", " (3)" ... behind, so that none of `taken` is met; adds it there.
-[[nodiscard]] std::string unique_id(std::string id, std::vector<std::string>& taken);
+[[nodiscard]] std::string unique_id(const std::string& id, UniqueIds& taken);
 
 /// The value stated for a path ("geometry.JET") in a list of kept texts, or null.
 [[nodiscard]] const std::string* find_kept(const std::vector<std::pair<std::string, std::string>>& kept,

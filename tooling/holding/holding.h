@@ -77,6 +77,8 @@ inline constexpr double kUsualGrip = 2.0 / 3.0;  ///< of the piece's height, at 
 ///          clamps: [{clamp: strap_clamp_m8, at: [0, 20], from: -x}]}
 ///     fixtures: [...]          # as in tooling/data/fixtures.yaml; optional
 ///
+/// A file with fixtures may leave out the set-ups: they are held as `auto` does, its own fixtures first.
+///
 /// Fails  FILE-*, DATA-* for the form, NAME-UNKNOWN for a fixture that neither the file nor the library has,
 ///        HOLD-KIND for a clamp used as a vise or a vise as a clamp, HOLD-TWICE for a set-up given twice.
 [[nodiscard]] Result<HoldingFile> read_holding(std::string_view text, const std::string& file, Job& job);

@@ -6,6 +6,7 @@
 
 #include "planner/base/nearest_names.h"
 #include "planner/base/number.h"
+#include "planner/model/ranges.h"
 #include "tooling/catalogue/data.h"
 #include "tooling/catalogue/tree.h"
 #include "tooling/holding/holding.h"
@@ -21,7 +22,7 @@ constexpr std::array<std::pair<std::string_view, FixtureKind>, 5> kKinds = {
      {"toe_clamp", FixtureKind::kToeClamp}}};
 constexpr std::array<std::pair<std::string_view, Side>, 4> kSides = {
     {{"-x", Side::kMinusX}, {"+x", Side::kPlusX}, {"-y", Side::kMinusY}, {"+y", Side::kPlusY}}};
-constexpr double kLargest = 10'000.0;  // mm: more is a mistake of units
+constexpr double kLargest = model::range::kFixtureMm.most;
 
 bool clamps(FixtureKind k) { return k == FixtureKind::kStrapClamp || k == FixtureKind::kToeClamp; }
 
@@ -44,7 +45,7 @@ std::optional<geometry::Vec2> pair_of(Fields& f, std::string_view key, const Nod
 double positive(Fields& f, std::string_view key) {
   const std::size_t before = f.fault_count();
   const double v = f.number(key);
-  if (f.fault_count() == before && !(v > 0.0 && v <= kLargest))
+  if (f.fault_count() == before && !model::range::kFixtureMm.holds(v))
     f.fault("DATA-RANGE", std::string(key) + " is " + trimmed(v, 6), key, f.line_of(key),
             "a length above zero, at most 10000 mm");
   return v;
@@ -100,9 +101,9 @@ Fixture fixture_of(Fields f) {
   }
   const std::size_t before = f.fault_count();
   out.holding_force_n = f.number_or("holding_force_n", 0.0);
-  if (f.fault_count() == before && !(out.holding_force_n >= 0.0 && std::isfinite(out.holding_force_n)))
+  if (f.fault_count() == before && !model::range::kHoldingForceN.holds(out.holding_force_n))
     f.fault("DATA-RANGE", "holding_force_n is " + trimmed(out.holding_force_n, 4), "holding_force_n",
-            f.line_of("holding_force_n"), "a force of zero, for not known, or more");
+            f.line_of("holding_force_n"), "a force; 0 for not known");
   f.finish();
   out.source = f.source().empty() ? "not stated" : f.source();
   return out;
@@ -135,6 +136,9 @@ ClampWish clamp_of(Fields f, std::size_t number, const std::vector<Fixture>& fix
   out.name = f.text_or("name", "clamp " + std::to_string(number));
   out.from = side_of(f, "from", f.text("from"));
   out.bottom = f.optional_number("bottom");
+  if (out.bottom && std::abs(*out.bottom) > kLargest)
+    f.fault("DATA-RANGE", "bottom is " + trimmed(*out.bottom, 4), "bottom", f.line_of("bottom"),
+            "10000 mm either way at most");
   if (const Node* at = f.child("at", true)) {
     if (const auto p = pair_of(f, "at", *at)) out.at = *p;
   }
@@ -155,9 +159,12 @@ HoldingWish wish_of(Fields f, const std::vector<Fixture>& fixtures) {
   out.fixture = f.text("fixture");
   if (f.has("fixed_jaw")) out.fixed_jaw = side_of(f, "fixed_jaw", f.text("fixed_jaw"));
   out.offset_mm = f.number_or("offset", 0.0);
+  if (std::abs(out.offset_mm) > kLargest)
+    f.fault("DATA-RANGE", "offset is " + trimmed(out.offset_mm, 4), "offset", f.line_of("offset"),
+            "10000 mm either way at most");
   const std::size_t before = f.fault_count();
   out.clearance_mm = f.number_or("clearance", out.clearance_mm);
-  if (f.fault_count() == before && !(out.clearance_mm >= 0.1 && out.clearance_mm <= 100.0))
+  if (f.fault_count() == before && !model::range::kClearanceMm.holds(out.clearance_mm))
     f.fault("DATA-RANGE", "clearance is " + trimmed(out.clearance_mm, 4), "clearance", f.line_of("clearance"),
             "0.1 to 100 mm");
   if (const Node* p = f.child("parallel", false)) {
@@ -250,10 +257,11 @@ Result<HoldingFile> read_holding(std::string_view text, const std::string& file,
   if (const std::string unit = top.text("unit"); unit != "mm" && !unit.empty())
     top.fault("DATA-UNIT", "the unit '" + unit + "' is not known", "unit", top.line_of("unit"), "mm");
   out.fixtures = fixtures_of(top, false);
+  const bool own = !out.fixtures.empty();
   for (Fixture& f : *shipped) {
     if (find_fixture(out.fixtures, f.id) == nullptr) out.fixtures.push_back(std::move(f));
   }
-  if (const Node* list = top.child("setups", true)) {
+  if (const Node* list = top.child("setups", !own)) {
     std::set<std::string> seen;
     for (std::size_t i = 0; i < list->items.size(); ++i) {
       out.setups.push_back(

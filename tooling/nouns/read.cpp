@@ -354,8 +354,11 @@ const Cutter* named(const Model& m, const Parts& p, const std::vector<Cutter>& l
   const auto* product = m.get<model::Workpiece>(usage->its_product);
   for (const auto* text : {&usage->its_library_reference, product != nullptr ? &product->its_id : nullptr}) {
     if (text == nullptr || !*text) continue;
+    // A boring tool that a plan sets to several sizes has each behind its name.
+    const std::string_view plain = std::string_view(**text).substr(0, (*text)->find('@'));
     for (const Cutter& c : library)
-      if (c.id == **text || (!c.library_reference.empty() && c.library_reference == **text) ||
+      if (c.id == **text || (c.adjustable_to_mm > 0.0 && c.id == plain) ||
+          (!c.library_reference.empty() && c.library_reference == **text) ||
           (product != nullptr && text == &product->its_id && c.product_id == **text))
         return &c;
   }
@@ -438,7 +441,8 @@ Result<Cutter> cutter_from_nouns(const Model& m, Ref<MachiningTool> tool, Job& j
   if (const auto* probe = m.get<model::TouchProbe>(tool)) return probe_from(m, *probe, library);
   const auto p = parts_of(m, tool);
   if (!p) return fail(p.error());
-  if (const Cutter* known = named(m, *p, library)) {
+  const Cutter* known = named(m, *p, library);
+  if (known != nullptr) {
     if (same_size(*p, *known)) {
       Cutter c = *known;
       c.cutting_diameter_mm = *p->dimension->diameter;
@@ -458,6 +462,10 @@ Result<Cutter> cutter_from_nouns(const Model& m, Ref<MachiningTool> tool, Job& j
   if (const auto* usage = m.get<model::ToolUsage>(p->tool->its_usage)) {
     read_usage(m, *usage, c);
   }
+  // The library's words are of another size.
+  if (known != nullptr && c.description == known->description)
+    c.description = trimmed(c.cutting_diameter_mm, 3) + " mm " + std::string(model::to_text(c.cutter_class)) +
+                    ", as the file states it";
   if (c.cutting_diameter_mm > 0.0) {
     const auto& generic = shared_generic_library();
     if (!generic) return fail(generic.error());

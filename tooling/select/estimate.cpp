@@ -42,7 +42,7 @@ std::optional<Capacity> capacity(const Machine& m, double rpm) {
   if (!curve) return std::nullopt;
   const auto at = curve->at(std::clamp(rpm, curve->min_rpm(), curve->max_rpm()));
   if (!at) return std::nullopt;
-  const double e = m.spindle.efficiency > 0.0 ? m.spindle.efficiency : mechanics::kDefaultSpindleEfficiency;
+  const double e = mechanics::spindle_efficiency(m.spindle.efficiency);
   return Capacity{at->power_w * e, at->torque_nm * e};
 }
 

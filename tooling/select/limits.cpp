@@ -86,10 +86,7 @@ std::optional<std::string> wrong_neck(const Cutter& c, const ToolRequirement& r)
   return std::nullopt;
 }
 
-double efficiency(const Machine& m) {
-  const double e = m.spindle.efficiency;
-  return e > 0.0 && e <= 1.0 ? e : mechanics::kDefaultSpindleEfficiency;
-}
+double efficiency(const Machine& m) { return mechanics::spindle_efficiency(m.spindle.efficiency); }
 
 /// The largest torque at or below a speed; nothing where the machine states no curve.
 std::optional<double> largest_torque_nm(const Machine& m, double rpm) {

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <string>
@@ -61,6 +62,13 @@ class Check {
     return any;
   }
 
+  /// How many values were said to be edited so far.
+  [[nodiscard]] std::size_t edited() const {
+    const auto& all = s_.job.diagnostics();
+    return static_cast<std::size_t>(
+        std::count_if(all.begin(), all.end(), [](const Diagnostic& d) { return d.code == "EXC-EDITED"; }));
+  }
+
   using Stated = std::map<model::AnyRef, exchange::StepPath>;
 
   static Stated stated_paths(const model::Plan& plan) {
@@ -100,7 +108,7 @@ class Check {
     const auto stated = stated_paths(plan);
     auto bound = pipeline::bind(std::move(plan), *inputs, pipeline::Policy{}, s_.job);
     if (!bound) return bound;
-    unplanned_ += bound->unplanned.size();
+    unplanned_ += unplanned_features(*bound);
     tell_recomputed(stated, *bound);
     return bound;
   }
@@ -142,11 +150,14 @@ class Check {
         continue;
       }
       const std::size_t before = s_.job.diagnostics().size();
+      const std::size_t edits = edited();
       auto plan = plan_of_bytes(std::move(in.bytes), in.path, s_.job);
       if (!plan) return plan.error();
       if (s_.options.schema) schema_ += s_.job.diagnostics().size() - before;
+      count_edits(before, in.path);
       ++checked_;
-      if (!has_paths(*plan)) {
+      // What was computed before somebody edited a value says nothing of the plan as it is now.
+      if (!has_paths(*plan) || edited() > edits) {
         plan = executed(*std::move(plan));
         if (!plan) return plan.error();
       }
@@ -161,6 +172,21 @@ class Check {
       plans_.push_back(*std::move(plan));
     }
     return std::nullopt;
+  }
+
+  /// A file that somebody edited after it was written is found, for what was computed of the old values
+  /// stands in it. Its reader has said so already.
+  void count_edits(std::size_t before, const std::string& file) {
+    const auto& all = s_.job.diagnostics();
+    for (std::size_t i = before; i < all.size(); ++i) {
+      if (!all[i].code.ends_with("-EDITED") || all[i].severity == Severity::kNote) continue;
+      model::Finding f;
+      f.code = all[i].code;
+      f.severity = all[i].severity;
+      f.message = all[i].message;
+      ++count_;
+      findings_.push_back({file, std::move(f)});
+    }
   }
 
   /// What condemns the plan by its own record, as findings.
@@ -191,12 +217,14 @@ class Check {
       if (!o.machine && programs())
         s_.job.note("APP-DEFAULT", "no machine is named; programs are checked for the built-in " + wanted);
     }
+    const tooling::LibraryOptions counts{
+        .mm_per_unit = {}, .offsets_against_reference = shop_.machine.control.offsets_against_reference};
     if (o.tools) {
-      auto library = tooling::load_library(*o.tools, s_.job);
+      auto library = tooling::load_library(*o.tools, s_.job, counts);
       if (!library) return library.error();
       shop_.cutters = *std::move(library);
     } else if (!has_plan && !shop_.tool_table.empty()) {
-      auto table = tooling::read_tool_table(shop_.tool_table, "tool table", s_.job);
+      auto table = tooling::read_tool_table(shop_.tool_table, "tool table", s_.job, counts);
       if (!table) return table.error();
       shop_.cutters = *std::move(table);
     }

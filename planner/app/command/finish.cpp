@@ -85,8 +85,7 @@ std::string summary_of(const model::Plan& plan, std::size_t findings) {
   // Where none is in the magazine, nothing is known of it.
   if (loaded > 0 && loaded < plan.cutters.size())
     out += ", " + std::to_string(plan.cutters.size() - loaded) + " of them to load";
-  if (!plan.unplanned.empty())
-    out += "; " + counted(plan.unplanned.size(), "feature", "features") + " not planned";
+  if (!plan.unplanned.empty()) out += "; " + unplanned_text(plan);
   return out + "; " + counted(findings, "finding", "findings");
 }
 
@@ -157,7 +156,7 @@ int finish(Session& s, const model::Plan& plan, std::vector<Output> outputs, con
   if (plan.steps.empty() && !plan.unplanned.empty()) {
     s.summary = "nothing can be planned, nothing is written";
     return s.end({.code = "APP-IMPOSSIBLE",
-                  .message = "none of " + counted(plan.unplanned.size(), "feature", "features") +
+                  .message = "none of " + counted(unplanned_features(plan), "feature", "features") +
                              " can be planned with these tools on this machine",
                   .file = plan.file_name},
                  kImpossible);

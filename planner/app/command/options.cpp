@@ -103,8 +103,9 @@ class CommandLine {
   void outputs(CLI::App* sub, bool required) {
     auto* o =
         sub->add_option("-o,--output", out_.outputs,
-                        "a file to write, its kind told by its ending (.p21 .stp .json .ngc .tbl), or - "
-                        "for JSON on standard output; may be repeated");
+                        "a file to write, its kind told by its ending: ISO 14649 .p21 .stp, AP238 .stpnc "
+                        ".238, plan .json, program .ngc, tool table .tbl; or - for JSON on standard output; "
+                        "may be repeated");
     // One value each, so that a positional may follow.
     o->expected(1)->take_all();
     if (required) o->required();
@@ -132,8 +133,10 @@ class CommandLine {
     sub->add_option("--rules", raw_.rules, "a folder of rule tables to add to the built-in ones");
     sub->add_option("--cases", raw_.cases, "a case base to begin from");
     sub->add_option("--solver", raw_.solver, "nlopt or ipopt")->check(CLI::IsMember(names(kSolver)));
-    sub->add_option("--workholding", raw_.workholding,
-                    "how the piece is held: an id or file of fixtures, auto, or none");
+    sub->add_option(
+        "--workholding", raw_.workholding,
+        "how the piece is held: an id or file of fixtures, auto (the first of the shop's that does), "
+        "or none");
     sub->add_option("--general-tolerance", raw_.general_tolerance,
                     "for sizes without one: \"ISO 2768-m\", \"ISO 22081 0.2\" or \"+-0.1\"");
     sub->add_option("--batch", out_.inputs.batch, "pieces to be made")->check(CLI::Range(1, 1000000));
@@ -142,7 +145,7 @@ class CommandLine {
 
   void plan() {
     auto* sub = command(app_, "plan", "plan a part: operations, tools, paths, feeds", Command::kPlan);
-    file(sub, "part", "ISO 14649 file, plan JSON, or STL mesh");
+    file(sub, "part", "ISO 14649 or AP238 file (.p21 .stp .stpnc .238), plan JSON, or STL mesh");
     inputs(sub);
     sub->add_option("--bind", raw_.bind, "how far decisions are closed: none, strategy, tools or all")
         ->check(CLI::IsMember(names(kBind)));

@@ -15,6 +15,7 @@
 #include "planner/late/late.h"
 #include "planner/pipeline/pipeline.h"
 #include "rules/engine/check.h"
+#include "tooling/catalogue/tree.h"
 #include "tooling/holding/holding.h"
 
 namespace capstan::app {
@@ -65,7 +66,7 @@ std::optional<Diagnostic> holding_wrong(const std::string& how, Job& job) {
   if (how == "auto" || how == "none") return std::nullopt;
   auto fixtures = tooling::shipped_fixtures(job);
   if (!fixtures || tooling::find_fixture(*fixtures, how) != nullptr) return std::nullopt;
-  auto text = read_file(how);
+  auto text = read_file(how, tooling::kDataFileCap);
   if (!text && only_a_name(how))
     return unknown_name("fixture", how, tooling::ids_of(*fixtures), tooling::kListFixtures);
   if (!text) {

@@ -4,8 +4,10 @@
 
 #include <chrono>
 #include <cstdio>
+#include <set>
 #include <utility>
 
+#include "planner/app/command/told_once.h"
 #include "planner/base/nearest_names.h"
 #include "planner/base/number.h"
 
@@ -82,9 +84,11 @@ int Session::end(const Diagnostic& d, int code) {
 
 void print_diagnostics(Session& s, int code) {
   if (bar().visible) std::fputs("\r\033[K", stderr);
-  for (const Diagnostic& d : s.job.diagnostics()) {
-    const std::string line = s.options.json_diagnostics ? diagnostic_json(d) : one_line(to_text(d));
-    std::fprintf(stderr, "%s\n", line.c_str());
+  if (s.options.json_diagnostics) {
+    for (const Diagnostic& d : s.job.diagnostics()) std::fprintf(stderr, "%s\n", diagnostic_json(d).c_str());
+  } else {
+    for (const Diagnostic& d : told_once(s.job.diagnostics()))
+      std::fprintf(stderr, "%s\n", one_line(to_text(d)).c_str());
   }
   const bool shows =
       s.options.command != Command::kExplain && s.options.command != Command::kInspect &&
@@ -113,6 +117,16 @@ Diagnostic as_diagnostic(const model::Finding& f, const std::string& file, bool 
   if (!program && f.move >= 0)
     d.path = "move " + std::to_string(f.move) + (d.path.empty() ? "" : " of " + d.path);
   return d;
+}
+
+std::size_t unplanned_features(const model::Plan& plan) {
+  std::set<model::AnyRef> out;
+  for (const model::Unplanned& u : plan.unplanned) out.insert(u.feature);
+  return out.size();
+}
+
+std::string unplanned_text(const model::Plan& plan) {
+  return counted(unplanned_features(plan), "feature", "features") + " not planned";
 }
 
 std::string counted(std::size_t n, const std::string& one, const std::string& many) {

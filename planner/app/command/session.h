@@ -40,6 +40,9 @@ struct Told {
 [[nodiscard]] std::string findings_json(const std::vector<Told>& findings);
 /// One diagnostic as a JSON object in a line.
 [[nodiscard]] std::string diagnostic_json(const Diagnostic& d);
+/// How many features have something of them not planned, each once; "2 features not planned".
+[[nodiscard]] std::size_t unplanned_features(const model::Plan& plan);
+[[nodiscard]] std::string unplanned_text(const model::Plan& plan);
 /// "3 findings", "1 finding", "no finding"
 [[nodiscard]] std::string counted(std::size_t n, const std::string& one, const std::string& many);
 

@@ -464,7 +464,8 @@ Difference diff(const Plan& before, const Plan& after) {
     const auto x = total(before, by_path);
     const auto y = total(after, by_path);
     if (x && y)
-      report.tail("Time in all: " + duration(*x) + " -> " + duration(*y) + " (" + signed_time(*y - *x) + ")");
+      report.tail(std::string(by_path ? "Time in all: " : "Time of the steps, without what lies between: ") +
+                  duration(*x) + " -> " + duration(*y) + " (" + signed_time(*y - *x) + ")");
   }
   return std::move(report).done();
 }

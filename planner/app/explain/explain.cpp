@@ -7,6 +7,8 @@
 #include "planner/app/explain/step_view.h"
 #include "planner/app/show/values.h"
 #include "planner/base/number.h"
+#include "planner/mechanics/force_law.h"
+#include "planner/model/edited.h"
 #include "planner/model/walk.h"
 #include "planner/motion/time.h"
 
@@ -120,10 +122,10 @@ void told(const Plan& plan, const model::StepResult* result, const Decision* d, 
   out += indent + binder_text(plan, d);
   if (d != nullptr && !d->lexeme.empty()) out += ", as written: " + d->lexeme;
   out += "\n";
-  if (d == nullptr) return;
+  if (d == nullptr || d->state == model::DecisionState::kOpen) return;  // why it was so no longer holds
   const auto& why = plan.ledger.reason(d->reason);
   if (why.id != "given") out += indent + "because " + reason_text(why) + "\n";
-  if (d->binder == model::Binder::kOptimiser) limits(result, indent, out);
+  if (d->binder == model::Binder::kOptimiser && why.id != model::kKept) limits(result, indent, out);
   rejected(*d, indent, out);
 }
 
@@ -194,6 +196,11 @@ std::vector<Computed> computed_of(const Plan& plan, const StepView& v) {
   forces("mean_forces", r->loads.mean_force,
          "along the feed, to its left, away from the work: largest means");
   forces("peak_forces", r->loads.peak_force, "the same, largest at any moment");
+  const auto* cutting = model::find_cutter(plan, r->cutter_id);
+  if (cutting != nullptr && v.operation.set() && r->loads.force_margin > 0.0)
+    out.push_back({"forces", "by coefficients",
+                   mechanics::force_source(plan.material, cutting->substrate,
+                                           mechanics::is_milled(v.operation.type, *cutting))});
   add("force_margin", r->loads.force_margin, "",
       "factor in these loads on a sharp edge's with mean coefficients: their spread, and wear");
   add("wall_error", r->loads.wall_error_mm, " mm", "that bending leaves on the wall; above 0: material");
@@ -240,6 +247,15 @@ std::string value_of_part(const Plan& plan, const StepPart& part, const model::A
   return value_text(plan.model, a, plan.model.object(part.object), kDecimals);
 }
 
+/// Who chose a value without a record that no file states: whoever chose the object it came with; of a
+/// technology everything but speed and feed, and what locks them, is what planning writes for want of a wish.
+std::string nobody_else(const Plan& plan, const StepPart& part, const model::Attribute& a) {
+  if (part.role != "its_technology") return "comes with it";
+  const bool locks = a.storage == model::Storage::kBoolean &&
+                     model::value_of<model::Boolean>(a, plan.model.object(part.object)).value_or(false);
+  return locks ? "comes with it" : "default of the planner, unsourced";
+}
+
 /// The attributes of one part. What is given and says no more than that stays on its line.
 void part_text(const Plan& plan, const StepView& v, const StepPart& part, std::string& out) {
   std::string lines;
@@ -250,7 +266,7 @@ void part_text(const Plan& plan, const StepView& v, const StepPart& part, std::s
     if (d == nullptr) {
       // Nothing was recorded: from the file, or made with an object that a decision chose as a whole.
       const bool from_file = plan.model.origin(part.object).instance != 0;
-      lines += from_file ? "  (in the file)\n" : "  (comes with it)\n";
+      lines += from_file ? "  (in the file)\n" : "  (" + nobody_else(plan, part, a) + ")\n";
       continue;
     }
     lines += "\n";
@@ -276,6 +292,12 @@ void provenance(const Plan& plan, std::string& out) {
   out += table(rows);
 }
 
+double by_steps(const Plan& plan) {
+  double s = 0.0;
+  for (const model::StepResult& r : plan.steps) s += r.cutting_s + r.rapid_s;
+  return s;
+}
+
 void overview_head(const Plan& plan, std::string& out) {
   out +=
       "Plan of " + (plan.project.set() ? label(plan.model, plan.project) : std::string("no project")) + "\n";
@@ -293,10 +315,9 @@ void overview_head(const Plan& plan, std::string& out) {
   }
   if (!plan.stock.box.empty()) line("stock   ", box_text(plan.stock.box) + " (" + plan.stock.source + ")");
   if (const auto t = motion::time_of(plan); t && !plan.steps.empty() && t->total_s() > 0.0) {
-    line("time    ", duration(t->total_s()) + ": cutting " + duration(t->cutting_s) + ", rapids and links " +
-                         duration(t->rapid_s + t->link_s) + ", " + std::to_string(t->tool_changes) +
-                         " tool changes " + duration(t->tool_change_s) + ", spindle and dwell " +
-                         duration(t->spin_up_s + t->dwell_s));
+    line("time    ", motion::text_of(*t));
+  } else if (const double s = by_steps(plan); s > 0.0) {
+    line("time    ", duration(s) + " by the steps alone: without paths what lies between them is not known");
   }
 }
 
@@ -319,7 +340,13 @@ void step_table(const Plan& plan, const std::vector<StepView>& views, std::strin
                     speed_text(r.spindle_rpm), r.feed_mm_min > 0.0 ? trimmed(r.feed_mm_min, 0) : "-",
                     duration(r.cutting_s + r.rapid_s)});
   }
-  if (rows.size() > 1) out += "\nSteps, in order\n" + table(rows);
+  if (rows.size() > 1) {
+    out += "\nSteps, in order\n" + table(rows);
+    const auto t = motion::time_of(plan);
+    if (t && t->total_s() > 0.0)
+      out += "  the steps together " + duration(t->at_feed_s() + t->rapid_s) +
+             "; with what lies between them " + duration(t->total_s()) + "\n";
+  }
   Rows waiting;
   for (const StepView& v : views) {
     if (v.result == nullptr && !plan.model.holds<model::WorkpieceProbing>(v.step))
@@ -396,7 +423,9 @@ Result<std::string> explain(const Plan& plan, std::string_view step) {
     const auto& loads = v->result->loads;
     const bool cuts = !v->result->cutter_id.empty() && v->result->path && v->result->cutting_s > 0.0;
     if (cuts && v->result->active.empty() && loads.torque_nm == 0.0 && loads.peak_force_n == 0.0)
-      out += "\nno loads and limits here: the file was written before it could keep them, or the step is as given\n";
+      out +=
+          "\nno loads and limits here: the file was written before it could keep them, or the step is as "
+          "given\n";
   }
   for (const StepPart& part : v->parts) part_text(plan, *v, part, out);
   return out;

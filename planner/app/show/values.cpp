@@ -7,6 +7,7 @@
 #include "planner/base/number.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/walk.h"
+#include "planner/motion/time.h"
 
 namespace capstan::app {
 
@@ -135,12 +136,7 @@ std::string value_text(const Model& m, const Attribute& a, const void* object, i
   return {};
 }
 
-std::string duration(double seconds) {
-  const double s = rounded(seconds, 1);
-  if (!(s >= 60.0)) return trimmed(s, 1) + " s";
-  const double minutes = std::floor(s / 60.0);
-  return trimmed(minutes, 0) + " min " + trimmed(s - 60.0 * minutes, 1) + " s";
-}
+std::string duration(double seconds) { return motion::duration_text(seconds); }
 
 std::string box_text(const geometry::Box3& box) {
   if (box.empty()) return "not known";

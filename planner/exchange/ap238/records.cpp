@@ -263,6 +263,7 @@ void Records::restore(bool sealed) {
       say(Severity::kWarning, "EXC-RECORD", "'" + label + "' is malformed; ignored");
     }
   }
+  settle_edits(plan, reader_.reporter());
 }
 
 void write_records(Writer& w) {

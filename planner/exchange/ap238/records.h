@@ -19,7 +19,7 @@ class Records {
  public:
   explicit Records(Reader& reader);
   /// Puts them into the plan, after everything else was read.
-  /// Of a sealed file (sealed.h), no value is taken for edited.
+  /// Of a sealed file (seal.h), no value is taken for edited.
   void restore(bool sealed);
 
  private:

@@ -4,8 +4,9 @@
 #include "planner/exchange/ap238/paths.h"
 #include "planner/exchange/ap238/placement.h"
 #include "planner/exchange/ap238/writer.h"
+#include "planner/exchange/exact_paths.h"
 #include "planner/exchange/exchange.h"
-#include "planner/exchange/sealed.h"
+#include "planner/exchange/seal.h"
 #include "planner/exchange/sections.h"
 #include "planner/p21/print.h"
 

@@ -10,6 +10,7 @@
 #include "planner/base/number.h"
 #include "planner/geometry/mesh_form.h"
 #include "planner/model/nouns/all.h"
+#include "planner/model/ranges.h"
 
 namespace capstan::exchange {
 
@@ -33,7 +34,9 @@ bool is_binary(std::string_view s) {
 class Builder {
  public:
   bool corner(Vec3 p) {
-    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) return false;
+    for (const double v : {p.x, p.y, p.z}) {
+      if (!model::range::kPositionMm.holds(v)) return false;
+    }
     const auto next = static_cast<std::uint32_t>(mesh_.vertices.size());
     // + 0.0 makes one corner of 0 and -0.
     const auto [it, fresh] = index_.emplace(std::tuple(p.x + 0.0, p.y + 0.0, p.z + 0.0), next);
@@ -83,7 +86,7 @@ Result<Mesh> read_binary(std::string_view s, const std::string& name, Job& job) 
       const auto f = [&](std::size_t c) { return double{std::bit_cast<float>(u32(s, at + 12 * k + 4 * c))}; };
       if (!out.corner({f(0), f(1), f(2)})) {
         return fail({.code = "STL-NUMBER",
-                     .message = "triangle " + std::to_string(i + 1) + " has a coordinate that is no number",
+                     .message = "triangle " + std::to_string(i + 1) + " has a coordinate that is no number, or beyond 100 m",
                      .file = name});
       }
     }
@@ -149,7 +152,7 @@ Result<Mesh> read_ascii(std::string_view s, const std::string& name, Job& job) {
         x = *v;
       }
       if (!out.corner({c[0], c[1], c[2]})) {
-        return fail({.code = "STL-NUMBER", .message = "not finite", .file = name, .line = words.line()});
+        return fail({.code = "STL-NUMBER", .message = "not finite, or beyond 100 m", .file = name, .line = words.line()});
       }
     } else if (same_word(w, "endloop") || same_word(w, "endfacet")) {
       if (!out.between_triangles()) {

@@ -113,33 +113,6 @@ std::uint64_t number_in(std::string_view name, char sign) {
   return out;
 }
 
-/// What a parameter says, spelled in one way.
-std::string spelled(const Value& v) {
-  switch (v.kind()) {
-    case Kind::kReal:
-      return part21_real(v.as_real());
-    case Kind::kString:
-      return quoted(v.as_text());
-    case Kind::kEnumeration:
-      return "." + std::string(v.enumeration()) + ".";
-    case Kind::kReference:
-      return "#" + std::to_string(v.reference());
-    case Kind::kInteger:
-      return std::to_string(v.as_integer());
-    case Kind::kList:
-    case Kind::kTyped: {
-      std::string out = v.is(Kind::kTyped) ? std::string(v.keyword()) + "(" : "(";
-      for (std::size_t i = 0; i < v.size(); ++i) out += (i == 0 ? "" : ",") + spelled(v[i]);
-      return out + ")";
-    }
-    case Kind::kOmitted:
-    case Kind::kDerived:
-    case Kind::kBinary:
-      return std::string(v.lexeme());
-  }
-  return {};
-}
-
 /// The instances that an entity names, each with whether it still says what it said.
 struct Named {
   std::uint64_t number = 0;
@@ -359,6 +332,32 @@ class Beyond {
 };
 
 }  // namespace
+
+std::string spelled(const Value& v) {
+  switch (v.kind()) {
+    case Kind::kReal:
+      return part21_real(v.as_real());
+    case Kind::kString:
+      return quoted(v.as_text());
+    case Kind::kEnumeration:
+      return "." + std::string(v.enumeration()) + ".";
+    case Kind::kReference:
+      return "#" + std::to_string(v.reference());
+    case Kind::kInteger:
+      return std::to_string(v.as_integer());
+    case Kind::kList:
+    case Kind::kTyped: {
+      std::string out = v.is(Kind::kTyped) ? std::string(v.keyword()) + "(" : "(";
+      for (std::size_t i = 0; i < v.size(); ++i) out += (i == 0 ? "" : ",") + spelled(v[i]);
+      return out + ")";
+    }
+    case Kind::kOmitted:
+    case Kind::kDerived:
+    case Kind::kBinary:
+      return std::string(v.lexeme());
+  }
+  return {};
+}
 
 bool can_be_kept(const model::Model& m, AnyRef at, const Attribute& a, const NameOf& name_of) {
   if (a.name == "persistent_id" || a.name == "enabled") return false;  // records say these

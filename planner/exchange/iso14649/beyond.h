@@ -34,6 +34,9 @@ using NameOf = std::function<std::string(model::AnyRef)>;
 [[nodiscard]] std::map<std::uint64_t, std::string> hashes_of(const p21::File& file,
                                                              const std::set<std::uint64_t>& numbers);
 
+/// What a parameter says, spelled in one way.
+[[nodiscard]] std::string spelled(const p21::Value& v);
+
 /// Whether the attribute, which has a value, is written by `write_value`: not what has a record of its own,
 /// nor what would hold nothing but references to what the file does not hold.
 [[nodiscard]] bool can_be_kept(const model::Model& m, model::AnyRef at, const model::Attribute& a,

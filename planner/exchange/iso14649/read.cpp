@@ -1,11 +1,12 @@
 #include <algorithm>
 
+#include "planner/exchange/exact_paths.h"
 #include "planner/exchange/exchange.h"
 #include "planner/exchange/iso14649/deviations.h"
 #include "planner/exchange/iso14649/reading.h"
 #include "planner/exchange/iso14649/records.h"
 #include "planner/exchange/opening.h"
-#include "planner/exchange/sealed.h"
+#include "planner/exchange/seal.h"
 #include "planner/exchange/sections.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/walk.h"

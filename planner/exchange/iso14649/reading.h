@@ -22,7 +22,7 @@ struct Reading {
   std::set<std::string> draft;           ///< what showed that the file is at the draft level
 
   std::vector<Doubt> doubts;
-  bool sealed = false;  ///< nobody edited the file since Capstan wrote it (sealed.h)
+  bool sealed = false;  ///< nobody edited the file since Capstan wrote it (seal.h)
 
   [[nodiscard]] model::AnyRef find(std::uint64_t id) const {
     const auto instance = file.find(id);

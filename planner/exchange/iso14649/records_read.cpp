@@ -1,9 +1,10 @@
 #include <charconv>
 
+#include "planner/exchange/exact_paths.h"
 #include "planner/exchange/iso14649/beyond.h"
 #include "planner/exchange/iso14649/records.h"
 #include "planner/exchange/records.h"
-#include "planner/exchange/sealed.h"
+#include "planner/exchange/seal.h"
 
 namespace capstan::exchange {
 
@@ -114,6 +115,7 @@ class Records {
         if (e.user_defined() && (e.keyword() == "!CAPSTAN_REASON") == reasons) entity(e);
       }
     }
+    settle_edits(r_.plan, r_.reporter);
   }
 
  private:
@@ -127,7 +129,7 @@ class Records {
     try {
       const std::string_view keyword = e.keyword();
       if (keyword == "!CAPSTAN_REASON") return reason(list_of(e.parameters()));
-      if (is_beyond(keyword) || is_of_seal(keyword)) return;  // read before, and after
+      if (is_beyond(keyword) || is_of_paths(keyword) || is_seal(keyword)) return;  // read before, and after
       HeaderFields fields(e.parameters(), r_, reasons_);
       const SayOfRecord say_of = [&](Severity s, std::string code, std::string message) {
         say(e, s, std::move(code), std::move(message));

@@ -198,8 +198,9 @@ void check_feed(Reading& r, const Use& use) {
   if (std::abs(f) <= limit) return;
   note(r, use.technology, "feedrate", false, "EXC-FEED",
        in_file(r, use.technology, "feedrate") + " m/s is " + show(*t.feedrate) + " mm/min, or " +
-           trimmed(f, 3) + " mm per " + (use.drilling ? "revolution" : "tooth") + " at " +
-           show(std::abs(*t.spindle)) + " 1/min with a diameter of " + trimmed(use.diameter_mm, 3) +
+           (std::isfinite(f) ? trimmed(f, 3) : std::string("more than any number of")) + " mm per " +
+           (use.drilling ? "revolution" : "tooth") + " at " + show(std::abs(*t.spindle)) +
+           " 1/min with a diameter of " + trimmed(use.diameter_mm, 3) +
            " mm; kept as it is, and hardly meant");
 }
 

@@ -5,13 +5,14 @@
 #include <vector>
 
 #include "planner/base/number.h"
+#include "planner/exchange/exact_paths.h"
 #include "planner/exchange/exchange.h"
 #include "planner/exchange/iso14649/beyond.h"
 #include "planner/exchange/iso14649/dialect.h"
 #include "planner/exchange/iso14649/records.h"
 #include "planner/exchange/iso14649/trajectories.h"
 #include "planner/exchange/iso14649/units.h"
-#include "planner/exchange/sealed.h"
+#include "planner/exchange/seal.h"
 #include "planner/exchange/sections.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/walk.h"

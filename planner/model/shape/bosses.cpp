@@ -153,6 +153,23 @@ void spare(FeatureShape& s, const Standing& boss, const geometry::Placement& at,
   }
 }
 
+/// Whether a shape would cut into a boss that stands across its axis. Seen from there the boss is no area
+/// with a top: it is told by the box around it, which in a right angle is what it looks like from the side.
+bool cuts_across(const FeatureShape& s, const Standing& boss, const geometry::Placement& at) {
+  const geometry::Placement rel = compose(inverse(s.frame), at);
+  if (std::abs(std::abs(rel.z.z) - 1.0) <= kLower) return false;
+  const auto b = geometry::bounds(boss.widest);
+  geometry::Box3 box;
+  for (const double x : {b.lo.x, b.hi.x}) {
+    for (const double y : {b.lo.y, b.hi.y}) {
+      for (const double z : {0.0, -boss.height_mm}) box.add(rel.to_parent({x, y, z}));
+    }
+  }
+  if (box.hi.z <= -s.depth_mm + kLower) return false;
+  if (s.kind != ShapeKind::kFace && box.lo.z >= -kLower) return false;
+  return stands_in(s, geometry::rectangle(geometry::xy(box.lo), geometry::xy(box.hi)));
+}
+
 /// Whether it is known, whatever the contour, that the boss ends below what is cut.
 bool lies_below(const Model& m, AnyRef boss, const FeatureShape& s) {
   for (const AnyRef by : bringers(m, boss)) {
@@ -191,7 +208,19 @@ Status spare_bosses(const Model& m, AnyRef feature, const Within& in, Shapes& sh
                      .hint = "mend the boss, or take it out of the file"});
       }
       for (const geometry::Placement& there : *at) {
-        if (!its_own(m, s, by, *as_stated, there)) spare(s, *as_stated, there, label(m, b));
+        if (its_own(m, s, by, *as_stated, there)) continue;
+        if (cuts_across(s, *as_stated, there)) {
+          return fail(
+              {.code = "SHP-BOSS",
+               .message = label(m, feature) + " cuts into " + label(m, b) + ", which stands at (" +
+                          trimmed(there.origin.x, 3) + ", " + trimmed(there.origin.y, 3) + ", " +
+                          trimmed(there.origin.z, 3) +
+                          ") across its axis: what is cut around a boss from beside it is not planned",
+               .instance = m.origin(b).instance,
+               .hint = "cut it from the boss's own side, draw it so that it ends beside the boss, or "
+                       "take the boss out of the file if it is meant to go"});
+        }
+        spare(s, *as_stated, there, label(m, b));
       }
     }
   }

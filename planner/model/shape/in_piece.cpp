@@ -141,6 +141,24 @@ std::string point_runs_through(const FeatureShape& s, const PieceForm& raw, cons
          " mm; give the hole a flat bottom, make it " + trimmed(by, 3) + " mm less deep, or through";
 }
 
+std::string floor_below_part(const FeatureShape& s, const PieceForm& raw, const PieceForm& part) {
+  const bool blind = s.kind == ShapeKind::kHole || s.kind == ShapeKind::kPocket || s.kind == ShapeKind::kSlot;
+  if (!blind || s.through || s.area.empty() || raw.box.empty() || part.box.empty() || tilted(s)) return {};
+  const Box3 finished = seen_from(part.box, s.frame);
+  const double raw_under = -seen_from(raw.box, s.frame).lo.z, part_under = -finished.lo.z;
+  const double by = s.depth_mm - part_under;
+  if (part_under >= raw_under - kBeyondPieceMm || by <= kBeyondPieceMm ||
+      s.depth_mm > raw_under + kBeyondPieceMm)
+    return {};
+  // What lies beside the part is cut off with all of its floor.
+  const auto b = geometry::bounds(s.area);
+  if (b.hi.x < finished.lo.x || b.lo.x > finished.hi.x || b.hi.y < finished.lo.y || b.lo.y > finished.hi.y)
+    return {};
+  return "its floor, " + trimmed(s.depth_mm, 3) + " mm deep, lies " + trimmed(by, 3) +
+         " mm below the underside of the finished part, in what is cut off there: make it through, make it " +
+         trimmed(by, 3) + " mm less deep, or state the finished part's true size";
+}
+
 std::optional<Buried> buried(const FeatureShape& s, const std::vector<FeatureShape>& features,
                              const PieceForm& part) {
   switch (s.kind) {
@@ -289,17 +307,27 @@ std::vector<SharpCorner> sharp_corners(const FeatureShape& s, const std::vector<
   return out;
 }
 
+bool stops_at_walls(const FeatureShape& face) {
+  constexpr double kBesideMm = 0.2,
+                   kSomeArea = 0.01;  // mm2: less is rounding of outlines; default, unsourced
+  if (face.kind != ShapeKind::kFace || !face.open || face.area.empty() || face.reach.empty()) return false;
+  geometry::Region free = face.reach;
+  for (const Island& i : face.islands) free = geometry::unite(free, i.area);
+  return geometry::area(geometry::subtract(geometry::offset_sharp(face.area, kBesideMm), free)) > kSomeArea;
+}
+
 double unstated_corner_mm(const FeatureShape& s) {
   constexpr double kLeastMm = 3.0, kOfDepth = 1.0 / 6.0;
   return std::max(kLeastMm, kOfDepth * s.depth_mm);
 }
 
 std::string square_corner(const Model& m, const FeatureShape& s, const std::vector<FeatureShape>& features,
-                          const PieceForm& part) {
+                          const PieceForm& part, bool stated_only) {
   constexpr const char* kWhatToDo =
       "; state the radius that may stay, or have the corners broached or eroded";
   const AnyRef noun = s.made_of.empty() ? s.feature : s.made_of.back();
   if (const auto* p = m.get<Pocket>(noun)) {
+    if (stated_only) return {};
     for (const SharpCorner& c : s.open ? sharp_corners(s, features, part) : std::vector<SharpCorner>()) {
       if (!c.open) continue;
       return "its open side ends at (" + trimmed(c.at.x, 2) + ", " + trimmed(c.at.y, 2) + ", " +
@@ -351,6 +379,7 @@ std::string square_corner(const Model& m, const FeatureShape& s, const std::vect
                " mm, and nothing says which stands on which side: draw the slot as a pocket, or state one "
                "radius";
       }
+      if (stated_only) break;
       return std::string(open ? "its open end" : "its flat end") + " at (" + trimmed(at.x, 2) + ", " +
              trimmed(at.y, 2) + ", " + trimmed(at.z, 2) +
              ") is square, solid stands beyond it, and a mill leaves its corners round: end it with a "

@@ -11,8 +11,7 @@ namespace capstan::optimise {
 namespace {
 
 double efficiency(const CutQuestion& q) {
-  const double e = q.machine.spindle.efficiency;
-  return e > 0.0 && e < 1.0 ? e : mechanics::kDefaultSpindleEfficiency;
+  return mechanics::spindle_efficiency(q.machine.spindle.efficiency);
 }
 
 /// The smaller of two axes' feeds, or the Z axis's; an axis that states none does not limit.

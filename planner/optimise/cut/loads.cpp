@@ -34,11 +34,22 @@ std::optional<double> wall_error(const CutQuestion& q, const mechanics::Section&
   return error->largest_mm();
 }
 
+/// How far the tip gives way by force. Where the force acts is not asked of other cutters: at the tip, the
+/// safe side. A T-slot cutter's head always cuts with all of its height, and the force acts half way up.
+std::optional<double> compliance_of(const CutQuestion& q, double ap_mm) {
+  if (q.cutter.cutter_class != model::CutterClass::kTSlotMill) {
+    const auto tip = mechanics::tip_compliance_mm_n(q.cutter);
+    return tip ? std::optional(*tip) : std::nullopt;
+  }
+  const auto beam = mechanics::beam_of(q.cutter);
+  return beam ? std::optional(mechanics::bending_mm_n(*beam, 0.5 * ap_mm, 0.0)) : std::nullopt;
+}
+
 /// A straight side cut, up or down milling, whichever is worse: the path may have both. `fz_mm` is with the
 /// feed turned up.
 std::optional<model::StepLoads> milling(const CutQuestion& q, double ap_mm, double ae_mm, double n_rpm,
                                         double fz_mm) {
-  const auto compliance = mechanics::tip_compliance_mm_n(q.cutter);
+  const auto compliance = compliance_of(q, ap_mm);
   if (!compliance || !(ae_mm > 0.0) || !(ap_mm > 0.0)) return std::nullopt;
   const mechanics::Tooth tooth = mechanics::tooth_of(q.cutter);
   const mechanics::ForceLaw law = mechanics::force_law(q.material, q.cutter.substrate);

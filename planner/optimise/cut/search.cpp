@@ -12,6 +12,7 @@ namespace {
 using std::numbers::pi;
 
 constexpr const char* kSpeed = "cutting_speed";
+constexpr const char* kCutterSpeed = "cutter_speed_most";
 constexpr const char* kFeed = "feed_per_tooth";
 constexpr const char* kWidth = "radial_cutting_depth";
 
@@ -49,11 +50,16 @@ void Search::add_speed() {
   }
   const double slot =
       q_.kind == CutKind::kRough && q_.slot ? deep_slot_share(ap_, q_.cutter.cutting_diameter_mm) : 1.0;
-  const double table = slot * q_.vc_start_m_min / speed_of(1.0) * ease_of(q_, kSpeed);
   Range rpm = speeds(q_);
   rpm.lo /= ease_of(q_, "spindle_speed_least");
-  rpm.hi *= ease_of(q_, "spindle_speed_most");
-  speed_by_spindle_ = rpm.hi > 0.0 && rpm.hi < table;
+  const double eased = ease_of(q_, "spindle_speed_most") * ease_of(q_, kCutterSpeed);
+  rpm.hi *= eased;
+  // A start value that was lowered to what spindle or cutter turn is what they turn: more of that is more
+  // speed, up to what the table says.
+  const double start = eased > 1.0 ? std::max(q_.vc_start_m_min, q_.vc_table_m_min) : q_.vc_start_m_min;
+  const double table = slot * start / speed_of(1.0) * ease_of(q_, kSpeed);
+  constexpr double kSame = 1e-9;
+  speed_by_spindle_ = rpm.hi > 0.0 && rpm.hi <= table * (1.0 + kSame);
   const double most = std::max(speed_by_spindle_ ? rpm.hi : table, rpm.lo);
   add(kSpeed, "m/min", speed_of(std::max(rpm.lo, kSlowest * most)), speed_of(most));
 }
@@ -215,7 +221,10 @@ std::optional<Search::Bound> Search::bound(const std::string& variable, bool upp
   if (it == variables_.end()) return std::nullopt;
   if (at != (upper ? it->upper : it->lower)) return std::nullopt;  // between two pieces
   if (variable == kSpeed) {
-    if (upper && speed_by_spindle_) return Bound{"spindle_speed_most", "1/min", at / speed_of(1.0)};
+    const double cutter = q_.cutter.maximum_speed_rpm;
+    const bool by_cutter = cutter > 0.0 && cutter < q_.machine.spindle.rpm_max;
+    if (upper && speed_by_spindle_)
+      return Bound{by_cutter ? kCutterSpeed : "spindle_speed_most", "1/min", at / speed_of(1.0)};
     if (upper) return Bound{kSpeed, "m/min", at};
     if (at <= speed_of(speeds(q_).lo) * (1.0 + 1e-9))
       return Bound{"spindle_speed_least", "1/min", at / speed_of(1.0)};

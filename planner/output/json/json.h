@@ -20,8 +20,11 @@ inline constexpr int kPlanJsonVersion = 1;
 ///   steps       in the order of execution, with tool, times, loads, and the peak of the cross section
 ///   ("peak",
 ///               "id" and the top's "summary" are derived, and ignored on reading)
-///   decisions   who bound what and why ("reasons"), what it depends on, what was rejected
+///   decisions   who bound what and why ("reasons"), what it depends on, what was rejected; "value_hash" is of
+///               the value as it was written: one that is unlike it was edited (model/edited.h)
 ///   paths, schedules, sections   columns, shared by reference ("path:1")
+///
+///   seals       a hash of each part, by which the reader tells what was edited since
 ///
 /// Units  the model's: mm, rad, mm/min, 1/min, s, N/mm2; ratios as fractions of one. The schema names each.
 /// Text   bytes that are not UTF-8 are written as characters of a private plane, and come back as they were.
@@ -29,7 +32,8 @@ inline constexpr int kPlanJsonVersion = 1;
 /// Cost   linear.
 [[nodiscard]] std::string write_json(const model::Plan& plan);
 
-/// Reads what `write_json` wrote.
+/// Reads what `write_json` wrote. Notes EXC-EDITED of decided values that somebody changed since, and warns
+/// JSON-EDITED, naming the parts that were edited.
 ///
 /// Fails  JSON-SIZE past `cap` bytes, JSON-DEPTH past 32 levels, JSON-SYNTAX with the line, JSON-VERSION,
 ///        JSON-VALUE naming the place (/objects/round_hole/3/depth) and what was expected there.

@@ -4,6 +4,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "planner/base/file.h"
+#include "planner/model/edited.h"
 #include "planner/model/nouns/executable.h"
 #include "planner/model/nouns/workpiece.h"
 #include "planner/model/stand_in.h"
@@ -12,6 +14,8 @@
 #include "planner/output/json/ids.h"
 #include "planner/output/json/json.h"
 #include "planner/output/json/printer.h"
+#include "planner/output/json/seal.h"
+#include "planner/output/step_ids.h"
 
 namespace capstan::output {
 namespace json {
@@ -65,8 +69,13 @@ class Reader {
       get(*it, *mesh, {&top, "target_mesh"});
       plan_.target_mesh = std::move(mesh);
     }
+    compare_seals(child(tree, "seals", top), {&top, "seals"});
+    compare_derived(tree);
     return std::move(plan_);
   }
+
+  /// What somebody edited since the file was written, part by part.
+  [[nodiscard]] const std::vector<std::string>& edited() const { return edited_; }
 
  private:
   struct FieldReader {
@@ -118,7 +127,7 @@ class Reader {
     const Plan empty;
     fields(known, empty);
     for (const char* name : {"capstan_plan", "summary", "objects", "reasons", "decisions", "paths",
-                             "schedules", "sections", "target_mesh"}) {
+                             "schedules", "sections", "target_mesh", "seals"}) {
       known.names.emplace_back(name);
     }
     only(tree, known.names, at);
@@ -188,11 +197,9 @@ class Reader {
   }
 
   static void hash(const Tree& t, std::uint64_t& x, const Place& at) {
-    const std::string& text = string(t, at);
-    const auto [end, ec] = std::from_chars(text.data(), text.data() + text.size(), x, 16);
-    if (text.size() != 16 || ec != std::errc() || end != text.data() + text.size()) {
-      fault(at, "sixteen hexadecimal digits");
-    }
+    const auto read = model::hash_from_text(string(t, at));
+    if (!read) fault(at, "sixteen hexadecimal digits");
+    x = *read;
   }
 
   template <class T>
@@ -457,7 +464,53 @@ class Reader {
     }
   }
 
+  void compare_seals(const Tree& seals, const Place& at) {
+    need_object(seals, at);
+    std::map<std::string, std::uint64_t> then;
+    for (const auto& item : seals.items())
+      hash(item.value(), then[unquoted_bytes(item.key())], {&at, item.key()});
+    edited_ = edited_parts(plan_, std::move(then));
+  }
+
+  /// What a file says for readers that only look, against what it follows from.
+  void compare_derived(const Tree& tree) {
+    double cutting = 0.0;
+    double rapid = 0.0;
+    for (const auto& s : plan_.steps) {
+      cutting += s.cutting_s;
+      rapid += s.rapid_s;
+    }
+    const auto differs = [](const Tree& t, const char* name, double v) {
+      const auto it = t.find(name);
+      return it == t.end() || !it->is_number() || it->get<double>() != v;
+    };
+    if (const auto it = tree.find("summary"); it != tree.end() && it->is_object()) {
+      if (differs(*it, "steps", static_cast<double>(plan_.steps.size())) ||
+          differs(*it, "cutting_s", cutting) || differs(*it, "rapid_s", rapid))
+        edited_.emplace_back("the summary");
+    }
+    const std::vector<std::string> ids = step_ids(plan_);
+    const Tree& steps = *tree.find("steps");
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+      const auto id = steps[i].find("id");
+      if (id != steps[i].end() &&
+          (!id->is_string() || unquoted_bytes(id->get_ref<const std::string&>()) != ids[i]))
+        edited_.push_back("the id of step '" + ids[i] + "'");
+      const auto peak = steps[i].find("peak");
+      const auto& sections = plan_.steps[i].sections;
+      if (peak == steps[i].end() || !peak->is_object() || !sections) continue;
+      const auto most = [](const std::vector<double>& column) {
+        return column.empty() ? 0.0 : *std::max_element(column.begin(), column.end());
+      };
+      if (differs(*peak, "csa_mm2", most(sections->csa_mm2)) ||
+          differs(*peak, "ad_max_mm", most(sections->ad_max_mm)) ||
+          differs(*peak, "rd_max_mm", most(sections->rd_max_mm)))
+        edited_.push_back("the peak of step '" + ids[i] + "'");
+    }
+  }
+
   Plan plan_;
+  std::vector<std::string> edited_;
   std::vector<std::shared_ptr<const model::CutterPath>> paths_;
   std::vector<std::shared_ptr<const model::FeedSchedule>> schedules_;
   std::vector<std::shared_ptr<const model::SectionSeries>> sections_;
@@ -493,7 +546,6 @@ std::uint64_t line_of(std::string_view text, std::size_t byte) {
 }  // namespace json
 
 Result<model::Plan> read_json(std::string bytes, std::string file_name, Job& job, std::size_t cap) {
-  (void)job;
   const auto refuse = [&](const char* code, std::string message, std::uint64_t line = 0) {
     return fail(Diagnostic{.code = code, .message = std::move(message), .file = file_name, .line = line});
   };
@@ -517,7 +569,16 @@ Result<model::Plan> read_json(std::string bytes, std::string file_name, Job& job
     return refuse("JSON-VERSION", "the plan is of another version than " + std::to_string(kPlanJsonVersion));
   }
   try {
-    return json::Reader().run(tree);
+    json::Reader reader;
+    model::Plan plan = reader.run(tree);
+    for (const model::Edited& e : model::take_edits(plan.model, plan.ledger)) {
+      job.report({.code = "EXC-EDITED",
+                  .severity = Severity::kNote,
+                  .message = e.key.attribute + " of " + json::object_id(e.key.object) + " " + text_of(e),
+                  .file = file_name});
+    }
+    if (!reader.edited().empty()) job.report(json::was_edited(reader.edited(), file_name));
+    return plan;
   } catch (const json::Fault& f) {
     Diagnostic d{
         .code = "JSON-VALUE", .message = "the plan's JSON is not as its schema says", .file = file_name};

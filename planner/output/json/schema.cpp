@@ -34,7 +34,9 @@ class SchemaWriter {
     out_.open('{', true);
     version();
     out_.key("summary");
-    free_object("derived: what the steps add up to");
+    free_object(
+        "derived: what the steps add up to (cutting_s with dwells, rapid_s), what lies between them, and the "
+        "total");
     const model::Plan plan;
     FieldSchemas top{*this};
     fields(top, plan);
@@ -46,12 +48,14 @@ class SchemaWriter {
     list("sections", [this] { of(model::SectionSeries{}); });
     out_.key("target_mesh");
     of(geometry::Mesh{});
+    out_.key("seals");
+    free_object("a hash of each part, so that a reader knows what was edited since");
     out_.close();
     Names names;
     fields(names, plan);
     names.required.insert(names.required.begin(), "capstan_plan");
     names.required.insert(names.required.end(),
-                          {"objects", "reasons", "decisions", "paths", "schedules", "sections"});
+                          {"objects", "reasons", "decisions", "paths", "schedules", "sections", "seals"});
     required(names.required);
     definitions();
     out_.close();

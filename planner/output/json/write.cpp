@@ -1,13 +1,16 @@
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <stdexcept>
 
 #include "planner/base/file.h"
 #include "planner/model/walk.h"
+#include "planner/motion/time.h"
 #include "planner/output/json/fields.h"
 #include "planner/output/json/ids.h"
 #include "planner/output/json/json.h"
 #include "planner/output/json/printer.h"
+#include "planner/output/json/seal.h"
 #include "planner/output/step_ids.h"
 
 namespace capstan::output {
@@ -63,6 +66,7 @@ class Writer {
       out_.key("target_mesh");
       put(*plan_.target_mesh);
     }
+    seals();
     out_.close();
     return out_.take();
   }
@@ -84,6 +88,16 @@ class Writer {
     }
   };
 
+  void seals() {
+    out_.key("seals");
+    out_.open('{', true);
+    for (const auto& [name, hash] : seals_of(plan_)) {
+      out_.key(name);
+      out_.text(hex64(hash));
+    }
+    out_.close();
+  }
+
   // Derived, for readers that only look: what the steps add up to.
   void summary() {
     double cutting = 0.0;
@@ -96,10 +110,21 @@ class Writer {
     out_.open('{', false);
     out_.key("steps");
     out_.natural(plan_.steps.size());
-    out_.key("cutting_s");
-    out_.number(cutting);
-    out_.key("rapid_s");
-    out_.number(rapid);
+    const auto part = [&](const char* name, double seconds) {
+      out_.key(name);
+      out_.number(seconds);
+    };
+    part("cutting_s", cutting);
+    part("rapid_s", rapid);
+    // What lies between the steps, by their paths; without these nobody knows.
+    if (const auto t = motion::time_of(plan_); t && t->total_s() > 0.0 && std::isfinite(t->total_s())) {
+      part("link_s", t->link_s);
+      out_.key("tool_changes");
+      out_.integer(t->tool_changes);
+      part("tool_change_s", t->tool_change_s);
+      part("spindle_s", t->spin_up_s);
+      part("total_s", t->total_s());
+    }
     const auto loaded = [](const model::Cutter& c) { return c.loaded; };
     if (std::any_of(plan_.cutters.begin(), plan_.cutters.end(), loaded)) {
       out_.key("to_load");
@@ -339,7 +364,10 @@ class Writer {
     put(plan_.ledger.reasons());
     out_.key("decisions");
     out_.open('[', true);
-    for (const auto& [key, decision] : plan_.ledger.entries()) {
+    for (const auto& [key, known] : plan_.ledger.entries()) {
+      // What the value is as it is written, so that a reader sees whether somebody changed it since.
+      model::Decision decision = known;
+      decision.value_hash = model::hash_attribute(plan_.model, key.object, key.attribute);
       out_.open('{', false);
       FieldWriter each{*this};
       fields(each, key);

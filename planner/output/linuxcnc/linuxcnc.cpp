@@ -9,6 +9,7 @@
 #include "planner/base/number.h"
 #include "planner/model/nouns/workpiece.h"
 #include "planner/model/setup_position.h"
+#include "planner/motion/time.h"
 #include "planner/output/linuxcnc/arcs.h"
 #include "planner/output/linuxcnc/check.h"
 #include "planner/output/linuxcnc/comment.h"
@@ -96,6 +97,8 @@ class Writer {
     if (!plan_.file_name.empty()) program_.comment("file: " + plan_.file_name);
     program_.comment("machine: " + plan_.machine.id);
     program_.comment("material: " + plan_.material.id);
+    if (const auto t = motion::time_of(plan_); t && t->total_s() > 0.0)
+      program_.comment("time: " + motion::text_of(*t));
     if (!plan_.stock.box.empty()) {
       const Vec3 s = plan_.stock.box.size();
       program_.comment("stock: " + program_.number(s.x) + " x " + program_.number(s.y) + " x " +

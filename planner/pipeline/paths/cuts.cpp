@@ -1,21 +1,24 @@
 #include "planner/pipeline/paths/cuts.h"
-#include "planner/base/number.h"
 
 #include <string>
 #include <tuple>
+#include <utility>
+#include <vector>
+
+#include "planner/base/number.h"
 
 namespace capstan::pipeline {
 namespace {
 
 using QuestionKey =
-    std::tuple<std::string, int, double, double, double, double, double, double, double, double, double,
-               double, double, double, double, double, bool, bool, bool, double, double, double, double>;
+    std::tuple<int, double, double, double, double, double, double, double, double, double, double, double,
+               double, double, double, double, bool, bool, bool, double, double, double, double>;
 
 QuestionKey key_of(const optimise::CutQuestion& q) {
   constexpr double kUnset = -1.0;
-  return {q.cutter.id,
-          static_cast<int>(q.kind),
+  return {static_cast<int>(q.kind),
           q.vc_start_m_min,
+          q.vc_table_m_min,
           q.fz_start_mm,
           q.depth_mm,
           q.width_mm,
@@ -40,8 +43,9 @@ QuestionKey key_of(const optimise::CutQuestion& q) {
 
 }  // namespace
 
+/// By cutter, whole: one name may stand out differently in two steps.
 struct CutsKnown {
-  std::map<QuestionKey, optimise::CutAnswer> answers;
+  std::map<QuestionKey, std::vector<std::pair<model::Cutter, optimise::CutAnswer>>> answers;
 };
 
 Cuts::Cuts(Work& w) : w_(w) {
@@ -54,10 +58,12 @@ Cuts::Cuts(Work& w) : w_(w) {
 }
 
 Result<optimise::CutAnswer> Cuts::answer(const optimise::CutQuestion& q) {
-  const auto key = key_of(q);
-  if (const auto it = known_->answers.find(key); it != known_->answers.end()) return it->second;
+  auto& known = known_->answers[key_of(q)];
+  for (const auto& [cutter, answer] : known) {
+    if (cutter == q.cutter) return answer;
+  }
   auto a = optimise::cut(q, options_, w_.job);
-  if (a) known_->answers.emplace(key, *a);
+  if (a) known.emplace_back(q.cutter, *a);
   return a;
 }
 
@@ -81,6 +87,40 @@ Result<optimise::CutAnswer> Cuts::answer(const StepWork& step, optimise::CutQues
             " mm/min";
   q = free;
   return other;
+}
+
+std::optional<model::StepLoads> hold_under_overhang(const optimise::CutQuestion& q,
+                                                    const optimise::CutAnswer& a, toolpath::PathJob& job) {
+  if (q.slot || !job.left_on_side_mm) return a.loads;  // asked as a slot of the whole head
+  constexpr double kLeast = 0.02;                      // of the feed; default, unsourced
+  constexpr int kHalvings = 12;                        // to a thousandth of the feed
+  const auto at = [&](double width, double edges, double share) {
+    auto l = optimise::loads_of(q, a.ap_mm, width, a.n_rpm, share * a.feed_mm_min);
+    if (l) {
+      l->torque_nm *= edges;
+      l->power_w *= edges;
+      l->mrr_mm3_min *= edges;
+    }
+    return l;
+  };
+  const auto most = [&](double width, double edges, double share) {
+    const auto holds = [&](double x) {
+      const auto l = at(width, edges, x);
+      return l && optimise::worst_excess(q, *l, a.n_rpm) <= 0.0;
+    };
+    if (holds(share)) return share;
+    double lo = kLeast, hi = share;
+    for (int i = 0; i < kHalvings; ++i) {
+      const double x = 0.5 * (lo + hi);
+      (holds(x) ? lo : hi) = x;
+    }
+    return lo;
+  };
+  // At no angle do the forces of both edges together exceed those of one at its worst (checked for heads of
+  // 16 to 40 mm with 6 and 8 teeth, edges a twentieth to a fifth of the diameter wide).
+  job.both_edges_share = most(a.ae_mm, 2.0, 1.0);
+  job.front_share = most(q.cutter.cutting_diameter_mm, 1.0, job.front_share);
+  return at(a.ae_mm, 2.0, job.both_edges_share);
 }
 
 }  // namespace capstan::pipeline

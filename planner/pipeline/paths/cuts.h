@@ -2,9 +2,11 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 
 #include "planner/optimise/cut.h"
 #include "planner/pipeline/work.h"
+#include "planner/toolpath/path_job.h"
 
 // The optimiser, asked once for each question, in all tries at a plan; only planner/pipeline/*.cpp include
 // this.
@@ -27,5 +29,13 @@ class Cuts {
   optimise::Options options_;
   std::shared_ptr<CutsKnown> known_;
 };
+
+/// Cuts under an overhang are not measured: bounds the feed of the passes in which more than one edge of the
+/// head cuts (PathJob::both_edges_share, front_share) by the loads of what they cut, so that torque and power
+/// hold there, too. Of both edges at once these add up, while the forces across, which bend the neck, stand
+/// against each other; the whole front is a slot. Gives the loads of the middle pass.
+[[nodiscard]] std::optional<model::StepLoads> hold_under_overhang(const optimise::CutQuestion& q,
+                                                                  const optimise::CutAnswer& answer,
+                                                                  toolpath::PathJob& job);
 
 }  // namespace capstan::pipeline

@@ -21,6 +21,7 @@
 #include "planner/pipeline/paths/sections.h"
 #include "planner/pipeline/paths/stocks.h"
 #include "planner/pipeline/steps.h"
+#include "planner/toolpath/region/undercut.h"
 
 // Step by step in order: depths, path, sections, feeds, with the stock carried on.
 
@@ -37,6 +38,7 @@ struct Made {
   bool depth_open = false, width_open = false;
   std::optional<model::Reason> precedent;  ///< the case that speed and feed started from
   std::string let_go;                      ///< of stated speed and feed, and why; empty: nothing
+  std::optional<model::StepLoads> under;   ///< of the heaviest pass under an overhang, which is not measured
   std::vector<model::Rejected> thicker;    ///< depths or widths that exceeded a limit along the path
 };
 
@@ -57,23 +59,6 @@ constexpr double kThinnerAim = 0.9;      // default, unsourced
 constexpr double kThinnerUnknown = 0.5;  // where no formula tells the excess; default, unsourced
 constexpr double kThinnerAnew = 0.7;     // each time that the check condemned the cut; default, unsourced
 constexpr double kThinnest = 0.02;       // of the cut that keeps the limits off the path; default, unsourced
-
-void append(toolpath::GeneratedPath& to, const toolpath::GeneratedPath& from) {
-  auto& p = to.path;
-  const auto& q = from.path;
-  for (std::size_t i = 0; i < q.size(); ++i) {
-    p.x.push_back(q.x[i]);
-    p.y.push_back(q.y[i]);
-    p.z.push_back(q.z[i]);
-    p.cx.push_back(q.cx[i]);
-    p.cy.push_back(q.cy[i]);
-    p.kind.push_back(i == 0 ? model::MoveKind::kRapid : q.kind[i]);
-    p.role.push_back(i == 0 ? model::MoveRole::kLink : q.role[i]);
-    to.feed_factor.push_back(from.feed_factor[i]);
-    to.speed_factor.push_back(from.speed_factor[i]);
-    to.dwell_s.push_back(from.dwell_s[i]);
-  }
-}
 
 class PathMaker {
  public:
@@ -173,7 +158,8 @@ class PathMaker {
     if (has_given_path(w_, step) && !rigid_tap(step)) return explicit_path(step);
     if (!w_.plan.model.holds<model::MachiningOperation>(step.operation)) return {};
     if (step.shapes.empty()) {
-      give_up(step, "the shape of its feature is not known");
+      give_up(step,
+              "the shape of its feature is not known" + (step.no_shape.empty() ? "" : ": " + step.no_shape));
       return {};
     }
     if (step.cutter.cutting_diameter_mm <= 0.0) {  // no cutter was found; said already
@@ -181,6 +167,7 @@ class PathMaker {
       return {};
     }
     rank_by_time(w_, step, stocks_, progress_, cuts_);
+    rank_by_path(w_, step, [&](std::size_t i) { return seconds_with(step, i); });
     const std::size_t tries = std::max<std::size_t>(1, step.candidates.size());
     GroupedReasons why_not;
     bool gone = step.proposed;                            // whichever cutter: nothing stands there to be cut
@@ -220,6 +207,20 @@ class PathMaker {
     return model::text_of(t.feeds.worst) + ", even at the least feed" + thinner;
   }
 
+  /// How long a candidate's path takes, if it keeps the limits; nothing is kept or said of it.
+  std::optional<double> seconds_with(StepWork& step, std::size_t i) {
+    auto said = w_.job.take_diagnostics();
+    const auto before = stocks_.before(step.setup);
+    const model::Cutter cutter = step.cutter;
+    const auto tried = with_cutter(step, i);
+    step.cutter = cutter;
+    stocks_.put_back(step.setup, before);
+    (void)w_.job.take_diagnostics();
+    for (auto& d : said) w_.job.report(std::move(d));
+    if (!tried || exceeds(step, *tried)) return std::nullopt;
+    return seconds_of(w_, *tried->path, tried->feeds.schedule);
+  }
+
   /// A try with one of the candidates: thinner, where a limit is exceeded along its path, up to kMostThinner
   /// times; the gentlest when none keeps the limits. What it cuts is gone from the stock, but for a proposed
   /// step's that keeps no limits.
@@ -252,8 +253,9 @@ class PathMaker {
       if (!made && !gentlest) return tl::unexpected(made.error());
       if (!made) break;
       // A pass over a surface is as deep as what was left there, whatever was asked for.
-      const bool thinner = (made->depth_open || made->width_open) &&
-                           !w_.plan.model.holds<model::FreeformFinishMilling>(step.operation);
+      const bool thinner =
+          (made->depth_open || made->width_open) &&
+          (!w_.plan.model.holds<model::FreeformFinishMilling>(step.operation) || cuts_levels(w_, step));
       made->thicker = thicker;
       Tried tried = cut(step, *std::move(made));
       const double excess = tried.feeds.worst_excess;
@@ -316,6 +318,8 @@ class PathMaker {
       if (out.depth_open) job.axial_depth_mm = out.answer.ap_mm;
       if (out.width_open && out.answer.ae_mm > 0.0) job.radial_depth_mm = out.answer.ae_mm;
       if (out.question.ae_mm) job.radial_depth_mm = *out.question.ae_mm;
+      if (toolpath::undercuts(step.cutter) && step.open_technology)
+        out.under = hold_under_overhang(out.question, out.answer, job);
       const bool freeform = w_.plan.model.holds<model::FreeformOperation>(step.operation);
       auto path = kept_clear(w_, step, job, [&](const toolpath::PathJob& j) {
         return freeform ? freeform_path(w_, step, j, out.answer, stocks_.of(step.setup))
@@ -426,7 +430,7 @@ class PathMaker {
     model::StepResult& r = tried.result;
     if (tried.asked.adapt || step.open_technology) keep_excess(w_, step, feeds, r);
     r.schedule = std::make_shared<const model::FeedSchedule>(feeds.schedule);
-    r.loads = feeds.peak;
+    r.loads = made.under && !tried.removed_mm3 ? *made.under : feeds.peak;
     if (!(r.loads.tool_life_min > 0.0)) r.loads.tool_life_min = made.answer.life_min;
     r.held_by = feeds.held_by;
     r.path = tried.path;

@@ -44,6 +44,19 @@ geometry::Region stays_beside(const Work& w, const model::FeatureShape& s) {
   return out;
 }
 
+void stop_at_walls(const Work& w, model::FeatureShape& s) {
+  // Thinner walls are the rounding of a drawing, and less than what a part's tolerances allow. Default,
+  // unsourced.
+  constexpr double kThinMm = 0.1;
+  constexpr double kSame = 1e-6;
+  if (s.kind != ShapeKind::kFace || s.area.empty() || w.shapes.empty() || w.plan.target_mesh) return;
+  if (transformed(part_box(w), inverse(s.frame)).hi.z <= -s.depth_mm + kSame) return;
+  for (const geometry::Region& piece : geometry::pieces(stays_beside(w, s))) {
+    if (geometry::offset(piece, -0.5 * kThinMm).empty()) continue;
+    s.reach = geometry::subtract(s.reach, piece);
+  }
+}
+
 /// The earlier step that reached all of the area but corners and narrow places, if this one has a smaller
 /// cutter and leaves the same: then there is no more to do than the rest.
 std::optional<toolpath::Cleared> Progress::cleared_by(const std::vector<Milled>& before,
@@ -65,6 +78,7 @@ void Progress::prepare(const StepWork& step, const stock::HeightMap& map, toolpa
   const SetupWork& setup = w_.setups[step.setup];
   shape_from_mesh(w_, step, job);
   aim_at_the_middle(job.shape);
+  stop_at_walls(w_, job.shape);
   if (opens_outwards(job.shape)) {
     const auto outline = transformed(setup.stock, inverse(job.feature_in_setup));
     const auto raw = geometry::rectangle(geometry::xy(outline.lo), geometry::xy(outline.hi));

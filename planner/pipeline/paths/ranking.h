@@ -1,5 +1,8 @@
 #pragma once
 
+#include <functional>
+#include <optional>
+
 #include "planner/pipeline/paths/cuts.h"
 #include "planner/pipeline/paths/progress.h"
 #include "planner/pipeline/paths/stocks.h"
@@ -11,6 +14,11 @@ namespace capstan::pipeline {
 
 /// Roughing: of the cutters that fit, the one that takes the volume away soonest, tool change included.
 void rank_by_time(Work& w, StepWork& step, Stocks& stocks, const Progress& progress, Cuts& cuts);
+
+/// Cuts under an overhang, where the whole depth of a head and the passes that it needs say more than the
+/// volume: the cutter whose path takes the least time, tool change included. `seconds` tells that of a
+/// candidate; nothing where it has no path within the limits.
+void rank_by_path(Work& w, StepWork& step, const std::function<std::optional<double>(std::size_t)>& seconds);
 
 /// A cutter further down the list does what the first could not: into the nouns and the ledger.
 void take_cutter(Work& w, StepWork& step, const model::Candidate& c);

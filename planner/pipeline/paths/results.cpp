@@ -128,6 +128,29 @@ model::StepResult result_of(const Work& w, const StepWork& step) {
   return r;
 }
 
+void append(toolpath::GeneratedPath& to, const toolpath::GeneratedPath& from) {
+  auto& p = to.path;
+  const auto& q = from.path;
+  for (std::size_t i = 0; i < q.size(); ++i) {
+    p.x.push_back(q.x[i]);
+    p.y.push_back(q.y[i]);
+    p.z.push_back(q.z[i]);
+    p.cx.push_back(q.cx[i]);
+    p.cy.push_back(q.cy[i]);
+    p.kind.push_back(i == 0 ? model::MoveKind::kRapid : q.kind[i]);
+    p.role.push_back(i == 0 ? model::MoveRole::kLink : q.role[i]);
+    to.feed_factor.push_back(from.feed_factor[i]);
+    to.speed_factor.push_back(from.speed_factor[i]);
+    to.dwell_s.push_back(from.dwell_s[i]);
+  }
+}
+
+std::optional<double> seconds_of(const Work& w, const model::CutterPath& path,
+                                 const model::FeedSchedule& schedule) {
+  const auto t = motion::time_of(path, schedule, w.plan.machine);
+  return t ? std::optional(t->cutting_s + t->dwell_s + t->rapid_s) : std::nullopt;
+}
+
 std::string name_of(const Work& w, const StepWork& step) {
   const auto* e = w.plan.model.get<model::Executable>(step.step);
   return e != nullptr ? e->its_id.value_or("") : "";

@@ -1,15 +1,22 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "planner/optimise/feeds.h"
 #include "planner/pipeline/work.h"
+#include "planner/toolpath/path_job.h"
 
 // What a step came to; only planner/pipeline/*.cpp include this.
 
 namespace capstan::pipeline {
 
+/// Goes on with another path after this one, over the security plane.
+void append(toolpath::GeneratedPath& to, const toolpath::GeneratedPath& from);
+/// How long a path takes on the plan's machine; nothing when it cannot be told.
+[[nodiscard]] std::optional<double> seconds_of(const Work& w, const model::CutterPath& path,
+                                               const model::FeedSchedule& schedule);
 /// The name that messages call a step by.
 [[nodiscard]] std::string name_of(const Work& w, const StepWork& step);
 /// What is known of a step before it has a path.

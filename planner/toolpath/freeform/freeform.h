@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "planner/base/job.h"
@@ -36,6 +37,12 @@ struct FreeformJob {
   double stepover_mm = 0.0;     ///< between passes; finish: 0 takes it from scallop_mm
   double scallop_mm = 0.0;      ///< finish: height of the ridges between passes
   bool to_and_fro = true;       ///< finish: else all passes in one direction
+  /// Rough: heights of the level floors of a surface with walls; the cut goes down to each of them, too, and
+  /// follows the borders of levels to a quarter of the margin.
+  std::vector<double> floors_z_mm;
+  /// Rough: the last cut of walls and floors, of which about this is left: walls are cut along before what
+  /// lies within them.
+  std::optional<double> left_mm;
 };
 
 struct FreeformPath {

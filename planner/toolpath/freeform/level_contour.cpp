@@ -6,9 +6,12 @@
 #include <map>
 #include <utility>
 
+#include "planner/toolpath/freeform/surface_line.h"
+
 namespace capstan::toolpath::freeform {
 
 using geometry::Vec2;
+using geometry::Vec3;
 
 namespace {
 
@@ -115,6 +118,52 @@ std::vector<std::vector<Vec2>> level_contour(const DropGrid& grid, double level,
     }
     out.push_back(std::move(line));
   }
+  return out;
+}
+
+namespace {
+
+constexpr int kMostHalvings = 8;
+
+struct Refiner {
+  double within_mm;
+  const std::function<bool(Vec2)>& is_free;
+  const std::function<Vec2(Vec2, Vec2)>& border;
+  std::vector<Vec3>& out;
+
+  void between(Vec2 a, Vec2 b, int halvings) const {
+    const double length = norm(b - a);
+    if (length > within_mm && halvings < kMostHalvings) {
+      const Vec2 d = b - a;
+      const Vec2 right = (0.5 + 1e-3) * Vec2{d.y, -d.x};
+      const Vec2 m = 0.5 * (a + b);
+      // The border lies to the right of a chord through free ground, to its left where that is blocked.
+      const bool free = is_free(m);
+      const Vec2 far = free ? m + right : m - right;
+      if (is_free(far) != free) {
+        const Vec2 p = free ? border(m, far) : border(far, m);
+        if (norm(p - m) > within_mm) {
+          between(a, p, halvings + 1);
+          between(p, b, halvings + 1);
+          return;
+        }
+      }
+    }
+    out.push_back({b.x, b.y, 0.0});
+  }
+};
+
+}  // namespace
+
+std::vector<Vec2> refined(const std::vector<Vec2>& line, double within_mm,
+                          const std::function<bool(Vec2)>& is_free,
+                          const std::function<Vec2(Vec2, Vec2)>& border) {
+  if (line.empty()) return {};
+  std::vector<Vec3> fine = {{line.front().x, line.front().y, 0.0}};
+  const Refiner refiner{within_mm, is_free, border, fine};
+  for (std::size_t i = 1; i < line.size(); ++i) refiner.between(line[i - 1], line[i], 0);
+  std::vector<Vec2> out;
+  for (const Vec3& p : thinned(fine, 0.1 * within_mm)) out.push_back(xy(p));
   return out;
 }
 

@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <numbers>
 #include <optional>
 #include <string>
 
@@ -60,13 +62,11 @@ class Rougher {
       for (const double z : p.z) lowest = std::min(lowest, z);
     }
     if (lowest >= task_.top_z_mm) return fail("FRF-EMPTY", "nothing above the surface is left to rough");
-    const int levels =
-        std::max(1, static_cast<int>(std::ceil((task_.top_z_mm - lowest) / task_.axial_depth_mm - 1e-9)));
-    for (int k = 1; k <= levels; ++k) {
-      job_.progress("freeform rough", static_cast<double>(k - 1) / levels);
+    const std::vector<double> levels = heights(lowest);
+    for (std::size_t k = 0; k < levels.size(); ++k) {
+      job_.progress("freeform rough", static_cast<double>(k) / static_cast<double>(levels.size()));
       if (job_.stop_requested()) return stopped();
-      const double z = k == levels ? lowest : task_.top_z_mm - k * task_.axial_depth_mm;
-      level(z);
+      level(levels[k]);
     }
     if (skipped_ > 0) {
       job_.warn("FRF-REST", std::to_string(skipped_) + " passes, " + trimmed(skipped_mm_, 1) +
@@ -82,6 +82,38 @@ class Rougher {
  private:
   static tl::unexpected<Diagnostic> stopped() {
     return fail("FRF-STOPPED", "the rough path was stopped before it was whole");
+  }
+
+  /// Of the tip, from above. Where floors are known, the levels between two are equal.
+  [[nodiscard]] std::vector<double> heights(double lowest) {
+    std::vector<double> out;
+    const double most = task_.axial_depth_mm;
+    if (task_.floors_z_mm.empty()) {
+      const int n = std::max(1, static_cast<int>(std::ceil((task_.top_z_mm - lowest) / most - 1e-9)));
+      for (int k = 1; k < n; ++k) out.push_back(task_.top_z_mm - k * most);
+      out.push_back(lowest);
+      return out;
+    }
+    constexpr double kAbove = 1e-6;  // mm: a level just at a floor is not below it
+    std::vector<double> stops = {lowest};
+    for (const double floor : task_.floors_z_mm) {
+      const double z = floor + task_.allowance_mm + margin_ + kAbove;
+      if (z < lowest + kAbove || z > task_.top_z_mm - kNothing) continue;
+      stops.push_back(z);
+      floors_.push_back(z);
+      // Walls first, down to what is left on the floor.
+      if (task_.left_mm && z + *task_.left_mm < task_.top_z_mm) stops.push_back(z + *task_.left_mm);
+    }
+    std::sort(stops.begin(), stops.end(), std::greater<>());
+    double from = task_.top_z_mm;
+    for (const double to : stops) {
+      if (from - to < kNothing) continue;
+      const int n = std::max(1, static_cast<int>(std::ceil((from - to) / most - 1e-9)));
+      for (int k = 1; k < n; ++k) out.push_back(from - (from - to) * k / n);
+      out.push_back(to);
+      from = to;
+    }
+    return out;
   }
 
   /// Solid material under the area where nobody said what stands there.
@@ -195,6 +227,30 @@ class Rougher {
   }
 
   void level(double z) {
+    const bool on_floor = std::find(floors_.begin(), floors_.end(), z) != floors_.end();
+    const bool walls_first = task_.left_mm && !on_floor;
+    bool any = walls_first && along_borders(z);
+    any |= within(z);
+    if (!walls_first) any |= along_borders(z);
+    ends_.clear();
+    if (any) out_.levels_z_mm.push_back(z);
+  }
+
+  bool along_borders(double z) {
+    bool any = false;
+    const auto to_border = [&](Vec2 f, Vec2 b) { return border(f, b, z); };
+    for (auto line : level_contour(grid_, z, to_border)) {
+      if (!task_.floors_z_mm.empty()) {  // walls: what is left out round their corners meets deeper levels
+        std::uint32_t hint = 0;
+        line = refined(
+            line, 0.25 * margin_, [&](Vec2 p) { return reach_down(p, hint) <= z; }, to_border);
+      }
+      any |= go_along(line, z);
+    }
+    return any;
+  }
+
+  bool within(double z) {
     std::vector<Pass> todo;
     for (std::size_t i = 0; i < hatch_.stripes.size(); ++i) {
       for (const Pass& p : passes(i, z)) todo.push_back(p);
@@ -211,11 +267,7 @@ class Rougher {
       any |= cut_pass(todo[i], z, next.has_value());
       next = neighbour(todo, done, i, z);
     }
-    for (const auto& line : level_contour(grid_, z, [&](Vec2 f, Vec2 b) { return border(f, b, z); })) {
-      any |= go_along(line, z);
-    }
-    ends_.clear();
-    if (any) out_.levels_z_mm.push_back(z);
+    return any;
   }
 
   /// Once along a border, to take what the passes left before it. Comes from the end of a pass of this level;
@@ -251,11 +303,27 @@ class Rougher {
       if (norm(e - p) > 2.0 * cutter_.radius() || (from && norm(e - p) >= norm(*from - p))) continue;
       if (is_free(e, p, z, 0.5)) from = e;  // the cutter stood there at this level
     }
+    if (!from && task_.left_mm) from = air_near(p, z);
     if (!from) return false;
     come_down({from->x, from->y, z}, stock::max_height(rest_, *from, cutter_.radius()));
     down_ = true;
     line({p.x, p.y, z}, MoveRole::kCut);
     return true;
+  }
+
+  /// The nearest place, as far as a diameter away, where the cutter stands in air with a free way to p.
+  [[nodiscard]] std::optional<Vec2> air_near(Vec2 p, double z) const {
+    constexpr int kRings = 16, kAround = 24;
+    std::uint32_t hint = 0;
+    for (int k = 1; k <= kRings; ++k) {
+      const double r = 2.0 * cutter_.radius() * k / kRings;
+      for (int i = 0; i < kAround; ++i) {
+        const double a = 2.0 * std::numbers::pi * i / kAround;
+        const Vec2 q = p + Vec2{r * std::cos(a), r * std::sin(a)};
+        if (reach_down(q, hint) <= z && in_air(q, z) && is_free(q, p, z, 0.5)) return q;
+      }
+    }
+    return std::nullopt;
   }
 
   /// A pass on the next line that can be reached from here without lifting.
@@ -386,6 +454,7 @@ class Rougher {
   Job& job_;
   geometry::CutterProfile profile_;
   stock::HeightMap rest_;
+  std::vector<double> floors_;  ///< levels that end on a floor
   double margin_ = 0.0, spacing_ = 0.0, floor_ = 0.0;
   std::vector<Probes> probes_;
   DropGrid grid_;

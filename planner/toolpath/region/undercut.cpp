@@ -21,10 +21,6 @@ constexpr double kFreeAir = 0.2;      ///< mm between a cutter in air and the ma
 constexpr double kSidePart = 0.1;     ///< of the diameter: most that a pass takes further; default, unsourced
 constexpr double kSameAngle = 0.002;  ///< rad
 constexpr int kMostPasses = 200;
-/// In the middle both edges of the head cut beside the mouth: half the feed, so that they take what one
-/// takes.
-constexpr double kBothEdges = 0.5;
-
 /// Back through what it has just cut a head goes faster: it meets no material, but chips that could not leave
 /// upwards. Default, unsourced.
 constexpr double kBackFree = 4.0;
@@ -134,7 +130,7 @@ void go_to(PathWriter& writer, Vec2 p, double z) {
 Status cut_through(const PathJob& task, const Undercut& u, const std::vector<Vec2>& course,
                    const std::vector<double>& sides, const std::vector<double>& heights, PathWriter& writer) {
   const std::vector<double> taken = taken_by(sides);
-  std::vector<std::pair<double, double>> passes = {{0.0, kBothEdges}};  // aside; share of the feed
+  std::vector<std::pair<double, double>> passes = {{0.0, task.both_edges_share}};  // aside; share of the feed
   for (std::size_t i = 0; i < sides.size(); ++i) {
     const double share = quicker(task, u, taken[i]);
     passes.emplace_back(sides[i], share);
@@ -191,9 +187,9 @@ Status cut_to_the_end(const PathJob& task, const Undercut& u, const WorkArea& w,
   for (const double z : heights) {
     go_to(writer, middle.start, z);
     if (edge > 0.0 && task.left_on_side_mm) {
-      writer.factors(kBothEdges, 1.0);
+      writer.factors(task.both_edges_share, 1.0);
       writer.follow(part_of(middle, 0.0, length_of(middle) - front), z, MoveRole::kCut);
-      writer.factors(std::max(edge, side_step(task, d)) / d, 1.0);
+      writer.factors(std::min(task.front_share, std::max(edge, side_step(task, d)) / d), 1.0);
       writer.follow(part_of(middle, length_of(middle) - front, length_of(middle)), z, MoveRole::kCut);
       writer.factors(1.0, 1.0);
     } else {
@@ -210,7 +206,7 @@ Status cut_to_the_end(const PathJob& task, const Undercut& u, const WorkArea& w,
       // the front half cut at once.
       const double asked = undercut_width_mm(task, u);
       const double more = teeth_in(task, d) / teeth_in(task, asked);
-      writer.factors(std::min(1.0, thickest_chip(task, asked)) / std::max(1.0, more), 1.0);
+      writer.factors(std::min(task.front_share, thickest_chip(task, asked) / std::max(1.0, more)), 1.0);
       writer.follow(loops[i].end, z, MoveRole::kCut);
       writer.factors(along_walls, 1.0);
       writer.follow(loops[i].out, z, MoveRole::kCut);

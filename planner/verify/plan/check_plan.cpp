@@ -1,3 +1,4 @@
+#include "planner/model/positions.h"
 #include "planner/verify/plan/plan_checks.h"
 #include "planner/verify/sweep/sweep.h"
 #include "planner/verify/verify.h"
@@ -8,6 +9,14 @@ std::vector<model::Finding> check_plan(const model::Plan& plan, Job& job) {
   Findings findings;
   const std::vector<StepMoves> steps = moves_of(plan, findings);
   check_ranges(plan, findings);
+  check_twice(plan, findings);
+  if (const std::string beyond = model::beyond_range(plan); !beyond.empty()) {
+    findings.error(1, "CHK-RANGE", {Findings::kWhole, "", -1},
+                   beyond +
+                       ": no geometry can be computed with it, and nothing else is checked: correct it in "
+                       "the plan's file");
+    return findings.take();
+  }
   check_tools(plan, steps, findings);
   check_limits(plan, steps, findings);
   check_coolant(plan, steps, findings);

@@ -17,6 +17,9 @@ namespace capstan::verify {
 /// Values of machine, tools, material, raw piece and steps against what they can be at all: 1.
 void check_ranges(const model::Plan& plan, Findings& findings);
 
+/// Facts that stand twice in a plan, against each other: 1.
+void check_twice(const model::Plan& plan, Findings& findings);
+
 /// Units, offsets, tools, changes, ends: 3, 4, 5, 6, 7, 32.
 void check_tools(const model::Plan& plan, const std::vector<StepMoves>& steps, Findings& findings);
 

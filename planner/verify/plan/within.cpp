@@ -92,6 +92,8 @@ void check_within(const model::Plan& plan, Findings& findings) {
       }
       const std::string at =
           "feature " + s.name + ", placed at " + where(s.frame.origin) + " of the workpiece";
+      if (const std::string why = model::floor_below_part(s, raw, finished); !why.empty())
+        findings.error(37, "CHK-OUTSIDE", a.where, at + ": " + why);
       if (drills(a.feature)) {
         if (const std::string why = model::cuts_an_edge(s, raw); !why.empty())
           findings.error(37, "CHK-EDGE", a.where, at + ", is drilled, but " + why + "; mill it, or move it");

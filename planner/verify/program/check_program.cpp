@@ -34,6 +34,8 @@ std::vector<StepMoves> judge_text(const Program& program, const ProgramText& tex
   if (!text.tool_table.empty()) {
     table = read_tool_table(text.tool_table);
     check_tool_table(c, table, findings);
+  } else {
+    check_table_lines(c, findings);
   }
   check_header_tools(c, table, findings);
   check_abilities(c, findings);

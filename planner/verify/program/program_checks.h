@@ -42,6 +42,8 @@ void check_compensation(const ProgramCase& c, Findings& findings);
 void check_program_coolant(const ProgramCase& c, Findings& findings);
 /// The tool table against the cutters: 4, 5, 6.
 void check_tool_table(const ProgramCase& c, const ToolTable& table, Findings& findings);
+/// Where no table is at hand: what a library took from one: 6.
+void check_table_lines(const ProgramCase& c, Findings& findings);
 /// The tools as the program's header has them, against table (may be empty) and cutters: 6.
 void check_header_tools(const ProgramCase& c, const ToolTable& table, Findings& findings);
 /// The tools that the program's header names, for a check with neither plan, table nor library.

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <set>
 
 #include "planner/verify/program/program_checks.h"
@@ -268,78 +267,6 @@ class StateChecks {
 }  // namespace
 
 void check_state(const ProgramCase& c, Findings& findings) { StateChecks(c, findings).run(); }
-
-void check_tool_table(const ProgramCase& c, const ToolTable& table, Findings& findings) {
-  const Findings::Where whole{0, "", -1};
-  for (const std::string& f : table.faults)
-    findings.error(6, "CHK-TABLE", whole, "the tool table is not understood: " + f);
-  std::set<int> used;
-  for (const Block& b : c.program.blocks) {
-    if (b.kind == Block::Kind::kToolChange && b.tool > 0) used.insert(b.tool);
-  }
-  for (const int t : used) {
-    const auto count =
-        std::count_if(table.entries.begin(), table.entries.end(), [&](const auto& e) { return e.tool == t; });
-    if (count == 0)
-      findings.error(4, "CHK-TABLE-TOOL", whole, "T" + std::to_string(t) + " is not in the tool table");
-    if (count > 1)
-      findings.error(
-          5, "CHK-TABLE-TWICE", whole,
-          "T" + std::to_string(t) + " stands " + std::to_string(count) + " times in the tool table");
-  }
-  std::map<int, const ToolTableEntry*> pockets;
-  for (const ToolTableEntry& e : table.entries) {
-    const std::string name = "T" + std::to_string(e.tool) + " (line " + std::to_string(e.line) + ")";
-    const bool loaded = used.contains(e.tool);
-    if (e.has_pocket && e.pocket > 0) {
-      const auto [other, fresh] = pockets.emplace(e.pocket, &e);
-      if (!fresh && other->second->tool != e.tool)
-        findings.error(5, "CHK-TABLE-POCKET", whole,
-                       name + " and T" + std::to_string(other->second->tool) + " have the pocket P" +
-                           std::to_string(e.pocket) + "; LinuxCNC keeps one of them");
-    }
-    if (loaded && !e.has_length)
-      findings.error(6, "CHK-TABLE-LENGTH", whole,
-                     name + " has no length (Z) in the tool table: its offset is none");
-    if (!e.others.empty())
-      findings.error(6, "CHK-TABLE-OFFSET", whole,
-                     name + " has " + e.others + " in the tool table: G43 shifts the work by it");
-    const model::Cutter* t = c.cutter(e.tool);
-    if (c.plan == nullptr || t == nullptr) continue;
-    if (!e.has_diameter)
-      findings.error(
-          6, "CHK-TABLE-DIAMETER", whole,
-          name + " has no diameter (D) in the tool table; the plan's is " + mm(t->cutting_diameter_mm));
-    // The carousel's place is the table's to say; where it said none, the number of the tool is taken.
-    const int place = static_cast<int>(model::table_word(*t, "P").value_or(t->pocket));
-    if (!e.has_pocket || e.pocket != place)
-      findings.error(4, "CHK-TABLE-POCKET", whole,
-                     name + " has " +
-                         (e.has_pocket ? "the pocket P" + std::to_string(e.pocket) : "no pocket") +
-                         " in the tool table; the plan has P" + std::to_string(place));
-  }
-  for (const ToolTableEntry& e : table.entries) {
-    const model::Cutter* t = c.cutter(e.tool);
-    if (t == nullptr) continue;
-    const std::string name = "T" + std::to_string(e.tool);
-    const Findings::Where at{0, "", -1};
-    const double offset = model::length_offset_mm(*t);
-    if (e.has_length && (t->table_line || offset != 0.0) && std::abs(e.length_mm - offset) > 0.01) {
-      const double ratio = e.length_mm / offset;
-      const bool inch = std::abs(ratio - 25.4) < 0.1 || std::abs(ratio * 25.4 - 1.0) < 0.005;
-      findings.error(6, "CHK-TABLE-LENGTH", at,
-                     name + " has a length offset of " + plain(e.length_mm) + " in the tool table (line " +
-                         std::to_string(e.line) + "); the tool's is " + mm(offset) +
-                         (inch ? ": the unit is another one" : ""),
-                     std::abs(e.length_mm - offset));
-    }
-    if (e.has_diameter && std::abs(e.diameter_mm - t->cutting_diameter_mm) > 0.01) {
-      findings.error(6, "CHK-TABLE-DIAMETER", at,
-                     name + " has a diameter of " + plain(e.diameter_mm) + " in the tool table (line " +
-                         std::to_string(e.line) + "); the tool's is " + mm(t->cutting_diameter_mm));
-    }
-  }
-}
 
 void check_machine_moves(const ProgramCase& c, Findings& findings) {
   geometry::Box3 box;

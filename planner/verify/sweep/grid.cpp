@@ -116,6 +116,16 @@ constexpr double kChordMm = 0.002;
 /// A point nearer to the rim than this at the start of a move is met by the move, not by what was before.
 constexpr double kMetMm = 1e-6;
 
+/// Takes cells down, and that is all.
+struct Plane {
+  Grid& grid;
+  static constexpr bool kMeasures = false;
+  void at(int ix, int iy, double, double z, double) {
+    const std::size_t i = grid.index(ix, iy);
+    if (z < grid.stock[i]) grid.stock[i] = z <= grid.base[i] ? Grid::kNothing : z;
+  }
+};
+
 /// Takes cells down and keeps the account. What only the outermost rim takes may be what the pieces of a
 /// helix left before: no depth of cut.
 struct Knife {
@@ -128,6 +138,7 @@ struct Knife {
   double advance;
   double head = 0.0;
   int judged = 0;
+  static constexpr bool kMeasures = true;
 
   /// The chip at a centre that stands `above` the tip and of which no more than `deep` is taken.
   /// `meets(rho)`: cosine between the way and the direction from the axis to the centre, both level, as a
@@ -179,40 +190,59 @@ struct Knife {
   }
 };
 
-/// Lowest height of the cutter over a point while it runs along a line; `d` is the distance of the point
-/// from the line, `t` where its foot lies, `length` the line's in XY. Convex in t.
-double lowest(const Outline& o, double z0, double dz, double t_foot, double d, double length) {
-  const double reach = std::sqrt(std::max(0.0, o.radius * o.radius - d * d)) / length;
-  double lo = std::clamp(t_foot - reach, 0.0, 1.0);
-  double hi = std::clamp(t_foot + reach, 0.0, 1.0);
-  const auto f = [&](double t) {
-    const double along = (t - t_foot) * length;
-    return z0 + t * dz + o.height(std::sqrt(d * d + along * along));
-  };
-  if (o.flat >= o.radius) return std::min(f(lo), f(hi));
+/// Where along the way, `v` >= 0 mm past the point and downhill, a piece of the outline is lowest over a
+/// point `d` beside the way: the zero of  -fall + dh/dv,  h(sqrt(d^2 + v^2)) the piece's height. Cones and
+/// spheres have it in closed form; a torus is searched between `lo` and `hi`.
+double lowest_of(const geometry::ProfilePiece& p, const Outline& o, double fall, double d, double lo,
+                 double hi) {
+  if (p.radius_mm <= 0.0) return p.slope > fall ? fall * d / std::sqrt(p.slope * p.slope - fall * fall) : hi;
+  if (p.rc_mm == 0.0)
+    return fall * std::sqrt(std::max(0.0, p.radius_mm * p.radius_mm - d * d) / (1.0 + fall * fall));
   // Golden section: 16 steps leave 1/2000 of the piece, an error of its square over the radius.
   constexpr double kGolden = 0.6180339887498949;
+  const auto f = [&](double v) { return o.height(std::sqrt(d * d + v * v)) - fall * v; };
   double a = hi - kGolden * (hi - lo), b = lo + kGolden * (hi - lo);
   double fa = f(a), fb = f(b);
   for (int i = 0; i < 16; ++i) {
     if (fa < fb) {
-      hi = b;
-      b = a;
+      hi = std::exchange(b, a);
       fb = fa;
       a = hi - kGolden * (hi - lo);
       fa = f(a);
     } else {
-      lo = a;
-      a = b;
+      lo = std::exchange(a, b);
       fa = fb;
       b = lo + kGolden * (hi - lo);
       fb = f(b);
     }
   }
-  return std::min(fa, fb);
+  return fa < fb ? a : b;
 }
 
-void cut_line(Knife& k, const Outline& o, Vec3 a, Vec3 b) {
+/// Lowest height of the cutter over a point while it runs along a line; `d` is the distance of the point
+/// from the line, `foot` where its foot lies along it, `length` the line's in XY.
+double lowest(const Outline& o, double z0, double dz, double foot, double d, double length) {
+  const double reach = std::sqrt(std::max(0.0, o.radius * o.radius - d * d));
+  const double from = std::clamp(foot - reach, 0.0, length), to = std::clamp(foot + reach, 0.0, length);
+  const double fall = std::abs(dz) / length;
+  // Downhill from the foot: before it the surface over the point only sinks.
+  const double begin = dz < 0.0 ? from - foot : foot - to, end = dz < 0.0 ? to - foot : foot - from;
+  const double z_foot = z0 + foot / length * dz;
+  const auto f = [&](double v) { return z_foot - fall * v + o.height(std::sqrt(d * d + v * v)); };
+  double best = f(end);
+  if (end <= 0.0) return best;
+  const double first = std::max(begin, 0.0);
+  for (const geometry::ProfilePiece& p : o.profile.pieces) {
+    const double lo = std::max(first, std::sqrt(std::max(0.0, p.r0_mm * p.r0_mm - d * d)));
+    const double hi = std::min(end, std::sqrt(std::max(0.0, p.r1_mm * p.r1_mm - d * d)));
+    if (p.r1_mm < d || lo > hi) continue;
+    best = std::min(best, f(std::clamp(lowest_of(p, o, fall, d, lo, hi), lo, hi)));
+  }
+  return best;
+}
+
+template <class Edge>
+void cut_line(Edge& k, const Outline& o, Vec3 a, Vec3 b) {
   const Vec2 d = xy(b) - xy(a);
   const double length = norm(d);
   const double r = o.radius;
@@ -245,32 +275,35 @@ void cut_line(Knife& k, const Outline& o, Vec3 a, Vec3 b) {
       // No lower than the cutter would be at its nearest, at the lower end.
       const double bound = zmin + o.height(near);
       if (stands <= bound) continue;
-      if (length > 1e-9) {
-        const double along = foot * length;
-        const double off2 = std::max(0.0, dot(p - xy(a), p - xy(a)) - along * along);
-        // Where the rim of the full radius meets the centre: the tip's height there.
-        const double met = along - std::sqrt(std::max(0.0, r * r - off2));
-        const double tip = a.z + std::clamp(met / length, 0.0, 1.0) * (b.z - a.z);
-        const double under = std::max(bound, k.grid.base[k.grid.index(ix, iy)]);
-        k.chip(ix, iy, stands - tip, stands - under, [&](double rho) {
-          if (off2 >= rho * rho) return -1.0;
-          const double ahead = std::sqrt(rho * rho - off2);
-          const double begins = along - ahead;
-          return begins < -kMetMm || begins > length ? -1.0 : ahead / rho;
-        });
+      if constexpr (Edge::kMeasures) {
+        if (length > 1e-9) {
+          const double along = foot * length;
+          const double off2 = std::max(0.0, dot(p - xy(a), p - xy(a)) - along * along);
+          // Where the rim of the full radius meets the centre: the tip's height there.
+          const double met = along - std::sqrt(std::max(0.0, r * r - off2));
+          const double tip = a.z + std::clamp(met / length, 0.0, 1.0) * (b.z - a.z);
+          const double under = std::max(bound, k.grid.base[k.grid.index(ix, iy)]);
+          k.chip(ix, iy, stands - tip, stands - under, [&](double rho) {
+            if (off2 >= rho * rho) return -1.0;
+            const double ahead = std::sqrt(rho * rho - off2);
+            const double begins = along - ahead;
+            return begins < -kMetMm || begins > length ? -1.0 : ahead / rho;
+          });
+        }
       }
       if (level) {
         k.at(ix, iy, zmin, bound, near);
         continue;
       }
-      const double off = norm(p - (xy(a) + foot * d));
-      const double z = lowest(o, a.z, b.z - a.z, foot, off, length);
+      const Vec2 aside = p - (xy(a) + foot * d);
+      const double z = lowest(o, a.z, b.z - a.z, foot * length, std::sqrt(dot(aside, aside)), length);
       k.at(ix, iy, a.z + t * (b.z - a.z), z, near);
     }
   }
 }
 
-void cut_level_arc(Knife& k, const Outline& o, const Move& m) {
+template <class Edge>
+void cut_level_arc(Edge& k, const Outline& o, const Move& m) {
   const double ra = 0.5 * (norm(xy(m.from) - m.centre) + norm(xy(m.to) - m.centre));
   const double r = o.radius;
   const double sweep = sweep_of(m);
@@ -291,22 +324,24 @@ void cut_level_arc(Knife& k, const Outline& o, const Move& m) {
       if (ahead < 0.0) ahead += kTurn;
       const double near = ahead <= sweep ? radial : std::min(norm(p - xy(m.from)), norm(p - xy(m.to)));
       if (near > r) continue;
-      const std::size_t cell = k.grid.index(ix, iy);
-      const double stands = k.grid.stock[cell];
-      if (stands > m.to.z + o.height(near)) {
-        const double away = norm(q);
-        k.chip(ix, iy, stands - m.to.z, stands - std::max(m.to.z + o.height(near), k.grid.base[cell]),
-               [&](double rho) {
-                 // The triangle of the arc's centre, the axis and the point: the axis is `early` before it.
-                 if (away < 1e-9 || ra < 1e-9) return -1.0;
-                 const double c = (away * away + ra * ra - rho * rho) / (2.0 * away * ra);
-                 if (c >= 1.0 || c <= -1.0) return -1.0;
-                 const double early = std::acos(c);
-                 const double met = ahead - early;
-                 if (met < -kMetMm / ra || met > sweep) return -1.0;
-                 // Way and direction to the point at that time: away sin(early) / rho.
-                 return std::min(1.0, away * std::sin(early) / rho);
-               });
+      if constexpr (Edge::kMeasures) {
+        const std::size_t cell = k.grid.index(ix, iy);
+        const double stands = k.grid.stock[cell];
+        if (stands > m.to.z + o.height(near)) {
+          const double away = norm(q);
+          k.chip(ix, iy, stands - m.to.z, stands - std::max(m.to.z + o.height(near), k.grid.base[cell]),
+                 [&](double rho) {
+                   // The triangle of the arc's centre, the axis and the point: the axis is `early` before it.
+                   if (away < 1e-9 || ra < 1e-9) return -1.0;
+                   const double c = (away * away + ra * ra - rho * rho) / (2.0 * away * ra);
+                   if (c >= 1.0 || c <= -1.0) return -1.0;
+                   const double early = std::acos(c);
+                   const double met = ahead - early;
+                   if (met < -kMetMm / ra || met > sweep) return -1.0;
+                   // Way and direction to the point at that time: away sin(early) / rho.
+                   return std::min(1.0, away * std::sin(early) / rho);
+                 });
+        }
       }
       k.at(ix, iy, m.to.z, m.to.z + o.height(near), near);
     }
@@ -337,6 +372,22 @@ Bite cut(Grid& grid, const Move& m, const CutterProfile& cutter, double allowed_
     }
   }
   return bite;
+}
+
+void lower(Grid& grid, const Move& m, const CutterProfile& cutter) {
+  if (m.kind == model::MoveKind::kDwell || std::min(m.from.z, m.to.z) >= grid.top()) return;
+  const Outline o(cutter);
+  Plane k{grid};
+  if (!is_arc(m.kind)) return cut_line(k, o, m.from, m.to);
+  if (std::abs(m.from.z - m.to.z) < 1e-9) return cut_level_arc(k, o, m);
+  // The lowest piece first: most cells below the others are then lower than they.
+  const int n = pieces_of(m, kChordMm);
+  const bool falls = m.to.z < m.from.z;
+  for (int i = 0; i < n; ++i) {
+    const int piece = falls ? n - 1 - i : i;
+    cut_line(k, o, piece == 0 ? m.from : point_of(m, static_cast<double>(piece) / n),
+             point_of(m, static_cast<double>(piece + 1) / n));
+  }
 }
 
 double rapid_collision(const Grid& grid, const Move& m, const CutterProfile& cutter, double clearance_mm,

@@ -102,6 +102,10 @@ class GougeJudge {
 Bite cut(Grid& grid, const Move& m, const geometry::CutterProfile& cutter, double allowed_mm,
          const GougeJudge* judge, double advance_mm = 0.0, double head_mm = 0.0);
 
+/// Takes the heights down as `cut` does, and measures nothing. Heights after several moves do not depend on
+/// their order; the lowest first is the fastest.
+void lower(Grid& grid, const Move& m, const geometry::CutterProfile& cutter);
+
 /// How deep a rapid would dip into what stands there, > 0: it does, also when axes do not arrive together:
 /// the box that the two ends span, swept by the cutter. `at` says where.
 [[nodiscard]] double rapid_collision(const Grid& grid, const Move& m, const geometry::CutterProfile& cutter,

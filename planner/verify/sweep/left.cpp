@@ -13,10 +13,11 @@
 // ring's radius is a cell, the tolerances and the side allowance, so that walls and slopes are judged within
 // a cell. What may stay in corners is what the file allows: a stated radius; where none is stated, the
 // radius of the narrowest mill of its steps, and at the foot of a wall that of the tool's corner, both within
-// bounds (steps and outsides: model::unstated_corner_mm); nothing in the square ends of slots, at the open
-// side of a pocket, nor where a radius of 0 is stated. Points of drills count below a conical bottom's depth
-// only. A through hole that ends within another feature that the plan makes is done there. Crests of threads
-// and what heights do not hold are not looked at, nor what is narrower than two cells: a note says so.
+// bounds (steps, outsides, closed pockets: model::unstated_corner_mm); nothing in the square ends of slots,
+// at the open side of a pocket, nor where a radius of 0 is stated. Points of drills count below a conical
+// bottom's depth only. A through hole that ends within another feature that the plan makes is done there.
+// Crests of threads and what heights do not hold are not looked at, nor what is narrower than two cells: a
+// note says so.
 //
 // On a freeform surface the distance is measured square to it: from the top of what stands to the nearest of
 // the columns that the finished part fills. It may be the tolerance, and what the finishing step states as
@@ -106,7 +107,8 @@ double corner_allowed(const model::Model& m, const FeatureShape& s, double mill)
   if (s.kind == ShapeKind::kSlot) return 0.0;
   const auto* p = m.get<model::Pocket>(s.made_of.empty() ? s.feature : s.made_of.back());
   if (p != nullptr && p->orthogonal_radius.set()) return 0.0;
-  if (s.kind == ShapeKind::kStep || s.kind == ShapeKind::kOutside)
+  if (s.kind == ShapeKind::kStep || s.kind == ShapeKind::kOutside || s.kind == ShapeKind::kFace ||
+      (s.kind == ShapeKind::kPocket && !s.open))
     return std::min(mill, model::unstated_corner_mm(s));
   return std::min(mill, kUnstatedShare * narrow_side(s.area));
 }

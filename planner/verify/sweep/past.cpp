@@ -52,13 +52,17 @@ Grid Past::before(const Grid& grid, Vec2 lo, Vec2 hi, double cell, std::size_t m
     }
   }
   local.find_top();
+  std::vector<const Cut*> met;
   for (std::size_t i = 0; i < mark; ++i) {
     const Cut& c = cuts_[i];
     const double r = c.cutter->radius_mm;
     if (c.box.lo.x - r > hi.x || c.box.hi.x + r < lo.x || c.box.lo.y - r > hi.y || c.box.hi.y + r < lo.y)
       continue;
-    (void)cut(local, c.move, *c.cutter, 1e300, nullptr);
+    met.push_back(&c);
   }
+  std::stable_sort(met.begin(), met.end(),
+                   [](const Cut* a, const Cut* b) { return a->box.lo.z < b->box.lo.z; });
+  for (const Cut* c : met) lower(local, c->move, *c->cutter);
   return local;
 }
 
@@ -86,7 +90,7 @@ Bite Past::look(const Grid& grid, const Move& m, const CutterProfile& cutter, do
       Move earlier = m;
       earlier.from = start;
       earlier.to = part.from;
-      (void)cut(local, earlier, cutter, 1e300, nullptr);
+      lower(local, earlier, cutter);
     }
     const Bite bite = cut(local, part, cutter, 1e300, nullptr, advance_mm);
     if (bite.chip_mm > worst.chip_mm) worst = bite;

@@ -59,31 +59,48 @@ void StepChecks::account(const Move& m, const Bite& bite) {
   if (left_.edge_mm == 0.0) left_.where = m.where;
   left_.edge_mm += edge_length(m, radius_);
   left_.volume_mm3 += bite.volume_mm3;
+  left_.length_mm += length;
+  left_.minutes += length / m.feed_mm_min;
+  left_.rpm = rpm;
   left_.depth_mm = std::max(left_.depth_mm, bite.thickest_mm);
   if (left_.edge_mm > 2.0 * radius_) planned_section();
 }
 
-// What roughing left falls to finishing, whose cut was chosen for less.
+// What roughing left falls to finishing, whose cut was chosen for less. Along a row of cells a thin strip
+// counts as the whole row, so that a section is known but for a cell's width. Where the feed was chosen for
+// what is met there, the plan's own loads tell of it; where the mean force is larger than any that the plan
+// states, nobody held the limits against this cut, whichever it keeps by luck.
 void StepChecks::planned_section() {
   const Account a = left_;
   left_ = {};
   if (step_.planned == nullptr || works_along_axis(cutter_)) return;
   const double depth = step_.planned->axial_depth_mm, width = step_.planned->radial_depth_mm;
   if (!(depth > 0.0) || !(width > 0.0)) return;
-  const double section = a.volume_mm3 / a.edge_mm;
-  const Findings::Where where{step_.order + 1, step_.id, a.where};
-  if (a.depth_mm > kDeeper * depth + 2.0 * grid_.cell()) {
-    out_.warn(20, "CHK-DEPTH-LEFT", where,
-              mm(a.depth_mm) + " are cut; the step was planned for a depth of " + mm(depth), a.depth_mm);
-  }
+  const double section = a.volume_mm3 / a.edge_mm, sure = section - grid_.cell() * a.depth_mm;
   // A section that is nothing for the cutter is not worth a word, however little was planned.
   const double felt = kFeltShare * cutter_.cutting_diameter_mm * cutter_.cutting_diameter_mm;
-  if (section > std::max(kWider * depth * width, felt)) {
-    out_.warn(20, "CHK-WIDTH-LEFT", where,
-              "over " + mm(a.edge_mm) + " a section of " + plain(section) +
-                  " mm2 is cut; the step was planned for " + mm(depth) + " x " + mm(width),
-              section);
-  }
+  const bool deep = a.depth_mm > kDeeper * depth + 2.0 * grid_.cell();
+  const bool wide = section > std::max(kWider * depth * width, felt) && sure > kWider * depth * width;
+  if (!deep && !wide) return;
+  const double stated = step_.planned->loads.peak_force_n, met = mean_force(a);
+  const bool unheld = stated > 0.0 && met > kMeasured * stated;
+  const Findings::Where where{step_.order + 1, step_.id, a.where};
+  const auto tell = [&](const char* code, std::string text, double amount) {
+    if (!unheld) return out_.warn(20, code, where, std::move(text), amount);
+    out_.error(20, code, where,
+               text + "; that asks for a mean force of " + plain(met) +
+                   " N (worn edge), more than the largest that the plan states for the step, " +
+                   plain(stated) + " N: its limits were not held there; rough it first",
+               amount);
+  };
+  if (deep)
+    tell("CHK-DEPTH-LEFT", mm(a.depth_mm) + " are cut; the step was planned for a depth of " + mm(depth),
+         a.depth_mm);
+  if (wide)
+    tell("CHK-WIDTH-LEFT",
+         "over " + mm(a.edge_mm) + " a section of " + plain(section) +
+             " mm2 is cut; the step was planned for " + mm(depth) + " x " + mm(width),
+         section);
 }
 
 double StepChecks::override_most() const {
@@ -92,22 +109,37 @@ double StepChecks::override_most() const {
   return std::max(1.0, plan_.machine.abilities.feed_override_max);
 }
 
+double StepChecks::chip_of(const Account& a) const {
+  const double d = std::max(1e-6, cutter_.cutting_diameter_mm);
+  const double fz = a.length_mm / a.minutes / (a.rpm * std::max(1, cutter_.teeth));
+  if (a.axial || !(a.depth_mm > 0.0))
+    return fz * std::sin(0.5 * (cutter_.point_angle_rad > 0.0 ? cutter_.point_angle_rad : std::numbers::pi));
+  // The mean section and the depth give the width; width and feed give the chip (chord geometry).
+  const double width = std::clamp(a.volume_mm3 / a.edge_mm / a.depth_mm, 0.01 * d, d);
+  return 2.0 * fz * width / (d * std::acos(1.0 - 2.0 * width / d));
+}
+
+/// Of a worn edge, N/mm2.
+double StepChecks::specific_force(double chip_mm) const {
+  const double h =
+      std::clamp(chip_mm, mechanics::kKienzleMinChipThicknessMm, mechanics::kKienzleMaxChipThicknessMm);
+  const double kc = plan_.material.kc11_n_mm2 * std::pow(h, -plan_.material.mc) * mechanics::kWearForceFactor;
+  return cutter_.cutter_class == CutterClass::kReamer ? kc * mechanics::kReamingFrictionFactor : kc;
+}
+
+/// The mean tangential force and its radial share, N; 0 unknown.
+double StepChecks::mean_force(const Account& a) const {
+  const double speed_mm_min = std::numbers::pi * cutter_.cutting_diameter_mm * a.rpm;
+  if (!(speed_mm_min > 0.0) || !(a.minutes > 0.0) || !(plan_.material.kc11_n_mm2 > 0.0)) return 0.0;
+  return specific_force(chip_of(a)) * a.volume_mm3 / a.minutes / speed_mm_min *
+         std::hypot(1.0, mechanics::kRadialToTangentialRatio);
+}
+
 void StepChecks::settle() {
   if (sum_.length_mm > std::max(0.5, 3.0 * grid_.cell()) && sum_.rpm > 0.0) {
-    const int teeth = std::max(1, cutter_.teeth);
-    const double d = std::max(1e-6, cutter_.cutting_diameter_mm);
-    const double fz = sum_.feed_mm_min / (sum_.rpm * teeth);
-    double width = d;
-    double chip_mm =
-        fz * std::sin(0.5 * (cutter_.point_angle_rad > 0.0 ? cutter_.point_angle_rad : std::numbers::pi));
-    if (!sum_.axial && sum_.depth_mm > 0.0) {
-      // The mean section and the depth give the width; width and feed give the chip (chord geometry).
-      width = std::clamp(sum_.volume_mm3 / sum_.edge_mm / sum_.depth_mm, 0.01 * d, d);
-      const double phi = std::acos(1.0 - 2.0 * width / d);
-      chip_mm = 2.0 * fz * width / (d * phi);
-    }
-    if (sum_.axial || works_along_axis(cutter_)) axial_feed(fz);
-    power(sum_.volume_mm3, sum_.minutes, chip_mm);
+    if (sum_.axial || works_along_axis(cutter_))
+      axial_feed(sum_.feed_mm_min / (sum_.rpm * std::max(1, cutter_.teeth)));
+    power(sum_.volume_mm3, sum_.minutes, chip_of(sum_));
   }
   sum_ = {};
 }
@@ -154,14 +186,10 @@ void StepChecks::power(double volume, double minutes, double chip_mm) {
   const model::WorkMaterial& w = plan_.material;
   const model::Spindle& spindle = plan_.machine.spindle;
   if (!(w.kc11_n_mm2 > 0.0) || spindle.curve.empty() || !(minutes > 0.0)) return;
-  const double h =
-      std::clamp(chip_mm, mechanics::kKienzleMinChipThicknessMm, mechanics::kKienzleMaxChipThicknessMm);
-  double kc = w.kc11_n_mm2 * std::pow(h, -w.mc) * mechanics::kWearForceFactor;
-  if (cutter_.cutter_class == CutterClass::kReamer) kc *= mechanics::kReamingFrictionFactor;
+  const double kc = specific_force(chip_mm);
   const double power_w = kc * volume / minutes / 60000.0;  // N/mm2 mm3/min = N mm/min = 1/60000 W
   const double torque_nm = power_w / (sum_.rpm * 2.0 * std::numbers::pi / 60.0);
-  const double efficiency =
-      spindle.efficiency > 0.0 ? spindle.efficiency : mechanics::kDefaultSpindleEfficiency;
+  const double efficiency = mechanics::spindle_efficiency(spindle.efficiency);
   const model::SpindlePoint limit = spindle_at(spindle, sum_.rpm);
   const Findings::Where where{step_.order + 1, step_.id, sum_.where};
   const std::string how =

@@ -405,7 +405,8 @@ void StepChecks::tapping(const Move& m) {
   const double torque =
       mechanics::kTappingTorqueFactor * pitch * pitch * cutter_.cutting_diameter_mm * kc / 8000.0;
   const model::SpindlePoint limit = spindle_at(plan_.machine.spindle, n);
-  if (limit.torque_nm > 0.0 && torque > limit.torque_nm * plan_.machine.spindle.efficiency) {
+  if (limit.torque_nm > 0.0 &&
+      torque > limit.torque_nm * mechanics::spindle_efficiency(plan_.machine.spindle.efficiency)) {
     out_.error(17, "CHK-TORQUE", at(m),
                "tapping asks for " + plain(torque) + " Nm; the spindle gives " + plain(limit.torque_nm) +
                    " Nm at " + plain(n) + " rpm",

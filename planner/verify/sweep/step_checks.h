@@ -45,6 +45,10 @@ class StepChecks {
   void chip(const Move& m, double thickest_mm, double fz, geometry::Vec2 where);
   void axial_feed(double fz);
   void deflection(double torque_nm);
+  struct Account;
+  [[nodiscard]] double chip_of(const Account& a) const;
+  [[nodiscard]] double specific_force(double chip_mm) const;
+  [[nodiscard]] double mean_force(const Account& a) const;
   void planned_section();
   [[nodiscard]] double override_most() const;
   void tapping(const Move& m);

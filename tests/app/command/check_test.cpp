@@ -93,5 +93,28 @@ TEST_F(CheckedAsWritten, APointMovedBelowWhatItCutsIsFound) {
   EXPECT_NE(checked(text_), 0) << said_;
 }
 
+TEST_F(CheckedAsWritten, AToolLengthOfZeroIsFoundThoughProgramAndTableAgree) {
+  // As a shop has it that measured no tool: the program was posted with that table, and says 0, too.
+  ASSERT_EQ(run("plan '" CAPSTAN_SOURCE_DIR "/examples/two_setups.p21' -o p.ngc -o p.tbl"), 0) << said_;
+  const auto slurped = [&](const char* name) {
+    std::ifstream in(folder_ / name, std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(in), {});
+  };
+  const std::string table =
+      std::regex_replace(slurped("p.tbl"), std::regex(R"(( Z)[+][0-9.]+)"), "$1+0.000000");
+  const std::string program =
+      std::regex_replace(slurped("p.ngc"), std::regex(R"((CAPSTAN TOOL T.* length=)[0-9.]+)"), "$010");
+  std::ofstream(folder_ / "zero.tbl", std::ios::binary) << table;
+  std::ofstream(folder_ / "zero.ngc", std::ios::binary) << program;
+  ASSERT_NE(table.find("Z+0.000000"), std::string::npos);
+  ASSERT_NE(program.find("length=0 "), std::string::npos);
+  EXPECT_NE(run("check zero.ngc zero.tbl"), 0);
+  EXPECT_THAT(said_, HasSubstr("error: T1 has Z0 in the tool table: it is not measured"));
+  EXPECT_THAT(said_, HasSubstr("[CHK-TOOL-OFFSET]"));
+  // Named as the library it is the same table.
+  EXPECT_NE(run("check zero.ngc --tools zero.tbl"), 0);
+  EXPECT_THAT(said_, HasSubstr("error: T1 has Z0 in the tool table: it is not measured"));
+}
+
 }  // namespace
 }  // namespace capstan::app

@@ -48,8 +48,11 @@ class Planned : public ::testing::Test {
 };
 
 TEST_F(Planned, AHoleDeeperThanItsEndMillsFlutesIsMilledInTurnsThatTheyReach) {
-  part("two_setups.p21", {{"#70=TOLERANCED_LENGTH_MEASURE(6.6,#25);",
-                           "#70=TOLERANCED_LENGTH_MEASURE(16.5,#225);\n#225=PLUS_MINUS_VALUE(0.043,0.,4);"}});
+  part("two_setups.p21",
+       {{"#70=TOLERANCED_LENGTH_MEASURE(6.6,#25);",
+         "#70=TOLERANCED_LENGTH_MEASURE(16.5,#225);\n#225=PLUS_MINUS_VALUE(0.043,0.,4);"},
+        // Its counterbore from below is wider than it still.
+        {"#95=TOLERANCED_LENGTH_MEASURE(11.,#25);", "#95=TOLERANCED_LENGTH_MEASURE(20.,#25);"}});
   EXPECT_EQ(run("plan p.p21 -o p.json -o p.ngc"), 0) << said_;
 }
 

@@ -104,5 +104,27 @@ TEST_F(Workholding, FaultsOfTheFileAreToldOnceEach) {
   EXPECT_THAT(said_, HasSubstr("no_such_file.yaml"));
 }
 
+TEST_F(Workholding, AutoTakesWhatTheShopsOwnFileLists) {
+  // Only fixtures, no set-ups: the choice is left, and the shop's own vise comes before the shipped ones.
+  std::ofstream(folder_ / "shop.yaml") << R"(capstan_workholding: 1
+unit: mm
+fixtures:
+  - id: our_vise
+    kind: vise
+    description: the vise on our table
+    width: 130
+    thickness: 25
+    height: 40
+    opening: 160
+    length: 360
+    bed: 75
+    holding_force_n: 20000
+    parallels: [[8, 10], [8, 14], [8, 18], [8, 22], [8, 26], [8, 30]]
+)";
+  ASSERT_EQ(run(plan_with("shop.yaml")), 0) << said_;
+  EXPECT_THAT(slurp("p.json"), HasSubstr("\"our_vise\""));
+  EXPECT_THAT(slurp("p.json"), Not(HasSubstr("\"vise_125\"")));
+}
+
 }  // namespace
 }  // namespace capstan::app

@@ -75,6 +75,21 @@ Part short_step() {
   return {"short_step", d.text(), b, t};
 }
 
+// 60 x 40 mm: a face of 30 mm along x beside one wall (at x = 30), two (at y = 30, too) or three (at x = 10,
+// too). Its inner corners are drawn sharp: up to R3 may stay in them, or a sixth of the depth.
+Part face_beside_walls(int walls, double height) {
+  const Box b = block(60, 40, 12, height);
+  Drawing d("FACE BESIDE WALLS " + std::to_string(walls), b);
+  const double x0 = walls == 3 ? 10.0 : 0.0, x1 = x0 + 30.0, y1 = walls == 1 ? 40.0 : 30.0;
+  d.face("FACE", x0, 0, x1 - x0, y1, height, height);
+  Target t(box(b.lo, b.hi));
+  const double r = walls == 1 ? 0.0 : std::max(3.0, height / 6.0);
+  const double left = walls == 3 ? x0 : -40.0, back = walls == 1 ? 80.0 : y1;
+  t.cut(prism(rounded_rectangle(left, -40, x1, back, r), 0, height + kOver),
+        prism(rectangle(left, -40, x1, back), 0, height + kOver));
+  return {"face_beside_walls", d.text(), b, t};
+}
+
 // 50 x 40 mm: around a contour of 40 x 30 mm, R5, everything is taken away, 5 mm deep.
 Part outside_contour() {
   const Box b = block(50, 40, 14);

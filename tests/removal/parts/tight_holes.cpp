@@ -30,4 +30,18 @@ Part tight_holes() {
   return {"tight_holes", d.text(), b, t};
 }
 
+// 80 x 40 mm, 20 mm thick: holes of 20 and 22 +0.013 mm (IT6), through, and of 16 +0.011 mm, flat, 12 deep.
+Part fine_holes() {
+  const Box b = block(80, 40, 20);
+  Drawing d("FINE HOLES", b);
+  d.hole_of("A", d.placement({16, 20, 0}), 20, d.length(20, 0.013, 0.0), d.through_bottom());
+  d.hole_of("B", d.placement({42, 20, 0}), 20, d.length(22, 0.013, 0.0), d.through_bottom());
+  d.hole_of("C", d.placement({66, 20, 0}), 12, d.length(16, 0.011, 0.0), d.flat_bottom());
+  Target t(body(b));
+  t.cut(cylinder(16, 20, 10, -22, 2));
+  t.cut(cylinder(42, 20, 11, -22, 2));
+  t.cut(cylinder(66, 20, 8, -12, 2));
+  return {"fine_holes", d.text(), b, t};
+}
+
 }  // namespace capstan::testing::removal

@@ -455,7 +455,7 @@ class Reader {
   const Row* row_ = nullptr;
   Imported out_;
   std::map<std::string, Open> open_;
-  std::vector<std::string> ids_, holder_ids_;
+  UniqueIds ids_, holder_ids_;
   std::map<int, std::uint64_t> numbers_;
   std::vector<Diagnostic> faults_;
 };

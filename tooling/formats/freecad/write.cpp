@@ -188,7 +188,7 @@ std::vector<FreecadFile> lists_of(const ToolLibrary& library, const std::map<std
 std::vector<FreecadFile> freecad_files(const ToolLibrary& library, LossReport& report) {
   std::vector<FreecadFile> out;
   std::map<std::string, std::string> bits;
-  std::vector<std::string> taken;
+  UniqueIds taken;
   for (const CatalogueItem& item : library.items) {
     auto text = BitWriter(item, report).write();
     if (!text) continue;

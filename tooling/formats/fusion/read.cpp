@@ -294,7 +294,7 @@ class Reader {
   Job& job_;
   Imported* out_ = nullptr;
   std::string words_;
-  std::vector<std::string> ids_, holder_ids_;
+  UniqueIds ids_, holder_ids_;
   std::map<int, std::string> numbers_;
   std::vector<Diagnostic> faults_;
 };

@@ -347,7 +347,7 @@ class Writer {
   LossReport& report_;
   Xml x_;
   std::vector<Asset> assets_;
-  std::vector<std::string> ids_;
+  UniqueIds ids_;
   std::set<const CatalogueItem*> told_;
 };
 

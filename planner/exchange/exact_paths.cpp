@@ -1,4 +1,4 @@
-#include "planner/exchange/sealed.h"
+#include "planner/exchange/exact_paths.h"
 
 #include <algorithm>
 #include <array>
@@ -30,7 +30,7 @@ namespace {
 
 constexpr std::string_view kPath = "!CAPSTAN_PATH", kSchedule = "!CAPSTAN_SCHEDULE",
                            kSections = "!CAPSTAN_SECTIONS", kStepPath = "!CAPSTAN_STEP_PATH",
-                           kToolpath = "!CAPSTAN_TOOLPATH", kSeal = "!CAPSTAN_SEAL", kOurs = "!CAPSTAN_";
+                           kToolpath = "!CAPSTAN_TOOLPATH";
 
 constexpr std::array<std::vector<double> CutterPath::*, 5> kPathColumns = {
     &CutterPath::x, &CutterPath::y, &CutterPath::z, &CutterPath::cx, &CutterPath::cy};
@@ -42,86 +42,6 @@ constexpr std::array<std::vector<double> model::SectionSeries::*, 9> kSectionCol
     &model::SectionSeries::y_max_ofs_mm, &model::SectionSeries::csa_mm2,
     &model::SectionSeries::x_cg_ofs_mm,  &model::SectionSeries::y_cg_ofs_mm,
     &model::SectionSeries::removed_mm3};
-
-// --- the seal ---
-
-/// 64-bit FNV-1a, as fnv1a of base/file.h, of what is never put together as one text.
-class Hash {
- public:
-  void bytes(std::string_view s) {
-    for (const char c : s) {
-      h_ ^= static_cast<unsigned char>(c);
-      h_ *= 0x100000001B3U;
-    }
-  }
-  void number(std::uint64_t v) {
-    for (int i = 0; i < 8; ++i) {
-      h_ ^= v >> (8 * i) & 0xFFU;
-      h_ *= 0x100000001B3U;
-    }
-  }
-  void value(const Value& v) {
-    number(static_cast<std::uint64_t>(v.kind()));
-    switch (v.kind()) {
-      case Kind::kReal:
-        number(std::bit_cast<std::uint64_t>(v.as_real() + 0.0));
-        break;
-      case Kind::kInteger:
-        number(static_cast<std::uint64_t>(v.as_integer()));
-        break;
-      case Kind::kString: {
-        const auto text = v.as_text(buffer_);
-        number(text.size());
-        bytes(text);
-        break;
-      }
-      case Kind::kReference:
-        number(v.reference());
-        break;
-      case Kind::kTyped:
-        bytes(v.keyword());
-        [[fallthrough]];
-      case Kind::kList:
-        number(v.size());
-        for (std::size_t i = 0; i < v.size(); ++i) value(v[i]);
-        break;
-      case Kind::kEnumeration:
-        bytes(v.enumeration());
-        break;
-      case Kind::kOmitted:
-      case Kind::kDerived:
-      case Kind::kBinary:
-        bytes(v.lexeme());
-        break;
-    }
-  }
-  void instance(const p21::Instance& i) {
-    for (std::size_t k = 0; k < i.part_count(); ++k) {
-      const p21::Record part = i.part(k);
-      bytes(part.keyword);
-      value(part.parameters);
-    }
-  }
-  [[nodiscard]] std::string text() const { return hex64(h_); }
-
- private:
-  std::uint64_t h_ = 0xCBF29CE484222325U;
-  std::string buffer_;
-};
-
-std::string hash_of(const p21::File& file) {
-  Hash h;
-  for (std::size_t i = 0; i < file.header_count(); ++i) {
-    const p21::Instance e = file.header(i);
-    if (e.keyword().starts_with(kOurs) && e.keyword() != kSeal) h.instance(e);
-  }
-  for (const p21::Instance i : file) {
-    h.number(i.id());
-    h.instance(i);
-  }
-  for (const auto& section : file.verbatim_sections()) h.bytes(section.text);
-  return h.text();
-}
 
 // --- writing ---
 
@@ -525,29 +445,6 @@ std::string exact_paths(const model::Plan& plan, const model::Model& written, co
   return Writing(plan, written, name_of).run();
 }
 
-Result<std::string> with_seal(std::string file) {
-  Job quiet;
-  const auto parsed = p21::parse(std::string(file), "", {}, quiet);
-  if (!parsed) return fail(parsed.error());
-  const auto end = file.find("\nENDSEC;");  // of the header: texts hold no line feed
-  file.insert(end + 1, std::string(kSeal) + "('" + hash_of(*parsed) + "');\n");
-  return file;
-}
-
-bool seal_holds(const p21::File& file, Reporter& reporter) {
-  const auto seal = file.header(kSeal);
-  if (!seal) return false;
-  const Value p = seal->parameters();
-  if (p.size() == 1 && p[0].is(Kind::kString) && p[0].as_text() == hash_of(file)) return true;
-  reporter.report({.code = "EXC-EDITED",
-                   .severity = Severity::kNote,
-                   .message =
-                       "the file was edited since Capstan wrote it: paths, feeds and cross sections are "
-                       "what its toolpaths say",
-                   .line = seal->line()});
-  return false;
-}
-
 void restore_paths(const p21::File& file, model::Plan& plan, Reporter& reporter) {
   model::Plan whole = plan;
   try {
@@ -560,9 +457,8 @@ void restore_paths(const p21::File& file, model::Plan& plan, Reporter& reporter)
   }
 }
 
-bool is_of_seal(std::string_view keyword) {
-  static constexpr std::array<std::string_view, 6> kAll = {kPath,     kSchedule, kSections,
-                                                           kStepPath, kToolpath, kSeal};
+bool is_of_paths(std::string_view keyword) {
+  static constexpr std::array<std::string_view, 5> kAll = {kPath, kSchedule, kSections, kStepPath, kToolpath};
   return std::find(kAll.begin(), kAll.end(), keyword) != kAll.end();
 }
 

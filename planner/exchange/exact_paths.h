@@ -9,20 +9,17 @@
 #include "planner/p21/file.h"
 
 // What a plan computed and no schema holds as it is (a path move by move with what each is for, feed and
-// speed of each move, cross sections), kept exactly in the header of a Part 21 file of either standard, and
-// the seal that says whether anybody edited the file since:
+// speed of each move, cross sections), kept exactly in the header of a Part 21 file of either standard:
 //
 //     !CAPSTAN_PATH(1,(x,...),(y,...),(z,...),(cx,...),(cy,...),'kinds','roles')
 //     !CAPSTAN_SCHEDULE(1,(feed,...),(speed,...),(dwell,...))
 //     !CAPSTAN_SECTIONS(1,(move,...),(at,...),...)              eight columns more
 //     !CAPSTAN_STEP_PATH('#10',path,schedule,sections)          numbers from 1; 0: none
 //     !CAPSTAN_TOOLPATH('#10',first,count,path,'its_id'|$,.T.|.F.|$,'its_type'|$,'#tech'|'','its_speed')
-//     !CAPSTAN_SEAL('hash')
 //
 // `$` in a column is the value before it. TOOLPATH names the toolpaths of a step that stand for one path: how
-// many, from which. The seal is a hash of all instances and of the header entities of Capstan, numbers by
-// value. Where it holds, the plan is read as it was written; where it does not, paths, feeds and sections are
-// what the toolpaths say, and these entities are ignored.
+// many, from which. Where the seal (seal.h) holds, the plan is read as it was written; where it does not,
+// paths, feeds and sections are what the toolpaths say, and these entities are ignored.
 
 namespace capstan::exchange {
 
@@ -34,17 +31,11 @@ using FileName = std::function<std::string(model::AnyRef)>;
 [[nodiscard]] std::string exact_paths(const model::Plan& plan, const model::Model& written,
                                       const FileName& name_of);
 
-/// A whole file with its seal, the last entity of its header. Fails  P21-… when the file cannot be read.
-[[nodiscard]] Result<std::string> with_seal(std::string file);
-
-/// Whether the file has a seal that holds. One that does not is said, EXC-EDITED.
-[[nodiscard]] bool seal_holds(const p21::File& file, Reporter& reporter);
-
 /// Puts the paths back into a plan whose steps and toolpaths have been read. Only of a file whose seal holds.
 /// What is malformed is left, with the warning EXC-RECORD.
 void restore_paths(const p21::File& file, model::Plan& plan, Reporter& reporter);
 
 /// Whether a header entity is one of these.
-[[nodiscard]] bool is_of_seal(std::string_view keyword);
+[[nodiscard]] bool is_of_paths(std::string_view keyword);
 
 }  // namespace capstan::exchange

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "planner/base/result.h"
+#include "planner/model/plan.h"
+
+namespace capstan::output::json {
+
+/// A hash of each part of a plan ("the machine", "tool 'END MILL 12'", "step 'POCKET'", "objects of kind
+/// plane"), written beside it, so that a reader knows what somebody edited in between: what was computed of
+/// the old value is no longer true. No secret: it finds slips, not forgery.
+///
+/// Counts      numbers by value, choices, references, ids.
+/// Does not    words for people (descriptions, sources, reasons' texts, labels), where an object stood in its
+///             file.
+/// Cost        linear.
+[[nodiscard]] std::map<std::string, std::uint64_t> seals_of(const model::Plan& plan);
+
+/// The parts of a plan whose hashes are not `then` any more, those that are gone, those that are new.
+[[nodiscard]] std::vector<std::string> edited_parts(const model::Plan& plan,
+                                                    std::map<std::string, std::uint64_t> then);
+/// The warning JSON-EDITED about them.
+[[nodiscard]] Diagnostic was_edited(const std::vector<std::string>& parts, const std::string& file);
+
+}  // namespace capstan::output::json

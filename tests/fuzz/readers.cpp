@@ -1,0 +1,189 @@
+#include "tests/fuzz/readers.h"
+
+#include <cstdio>
+#include <cstdlib>
+
+#include "casebase/casebase.h"
+#include "planner/exchange/exchange.h"
+#include "planner/output/json/json.h"
+#include "planner/verify/program/program_checks.h"
+#include "planner/verify/verify.h"
+#include "rules/engine/table.h"
+#include "tooling/catalogue/library.h"
+#include "tooling/catalogue/machine.h"
+#include "tooling/catalogue/material.h"
+#include "tooling/formats/all.h"
+#include "tooling/formats/import.h"
+#include "tooling/holding/holding.h"
+
+namespace capstan::fuzz {
+namespace {
+
+void must(bool good, const char* what) {
+  if (good) return;
+  std::fputs(what, stderr);
+  std::abort();
+}
+
+/// A refusal says something.
+template <class R>
+const R& said(const R& result) {
+  must(result.has_value() || (!result.error().code.empty() && !result.error().message.empty()),
+       "refused without a word\n");
+  return result;
+}
+
+/// What was read is checked, and written as it was read.
+void plan_json(std::string bytes) {
+  Job job;
+  const auto plan = output::read_json(std::move(bytes), "input", job, std::size_t{16} << 20);
+  if (!said(plan)) return;
+  const std::string once = output::write_json(*plan);
+  Job again;
+  const auto back = output::read_json(once, "written", again);
+  must(back.has_value(), "what was written does not read\n");
+  must(again.diagnostics().empty(), "what was written is said to be edited\n");
+  must(output::write_json(*back) == once, "writing is not a fixed point\n");
+}
+/// Plans small enough to be checked at once.
+void plan_check(std::string bytes) {
+  Job job;
+  const auto plan = output::read_json(std::move(bytes), "input", job, std::size_t{1} << 20);
+  if (said(plan)) (void)verify::check_plan(*plan, job);
+}
+void iso14649(std::string bytes) {
+  Job job;
+  (void)said(exchange::read_bytes(std::move(bytes), "input.p21", {}, job));
+}
+void stl(std::string bytes) {
+  Job job;
+  (void)said(exchange::read_bytes(std::move(bytes), "input.stl", {}, job));
+}
+void machine(std::string bytes) {
+  Job job;
+  (void)said(tooling::read_machine(bytes, "input.yaml", job));
+}
+void machine_ini(std::string bytes) {
+  Job job;
+  (void)said(tooling::read_linuxcnc_ini(bytes, "input.ini", job));
+}
+void materials(std::string bytes) {
+  Job job;
+  (void)said(tooling::read_materials(bytes, "input.yaml", job));
+}
+void workholding(std::string bytes) {
+  Job job;
+  const auto file = tooling::read_holding(bytes, "input.yaml", job);
+  if (!said(file)) return;
+  for (const auto& wish : file->setups)
+    (void)said(tooling::place(wish, {{0, 0, -20}, {80, 60, 0}}, file->fixtures));
+}
+void rules(std::string bytes) { (void)said(rules::rules_from_texts({{"input.yaml", std::move(bytes)}})); }
+void cases(std::string bytes) { (void)said(casebase::from_csv(bytes, "input.csv")); }
+void tool_list(std::string bytes) {
+  Job job;
+  (void)said(tooling::read_own_list(bytes, "input.yaml", job));
+}
+void tool_table(std::string bytes) {
+  Job job;
+  (void)said(tooling::read_tool_table(bytes, "input.tbl", job));
+}
+
+/// By the format's own reader, and as planning uses it.
+void format(const tooling::Format& f, const std::string& bytes) {
+  Job job;
+  const auto read = f.read(bytes, "input", {}, job);
+  if (!said(read)) return;
+  tooling::LossReport report;
+  (void)said(tooling::cutters_of(read->library, report, job));
+}
+void tools_fusion(std::string bytes) { format(tooling::fusion_json_format(), bytes); }
+void tools_fusion_zip(std::string bytes) { format(tooling::fusion_format(), bytes); }
+void tools_csv(std::string bytes) { format(tooling::csv_format(), bytes); }
+void tools_linuxcnc(std::string bytes) { format(tooling::linuxcnc_format(), bytes); }
+void tools_freecad(std::string bytes) { format(tooling::freecad_format(), bytes); }
+void tools_iso13399(std::string bytes) { format(tooling::iso13399_format(), bytes); }
+void tools_gtc(std::string bytes) { format(tooling::gtc_format(), bytes); }
+void tools_din4000(std::string bytes) { format(tooling::din4000_format(), bytes); }
+void tools_family(std::string bytes) { format(tooling::family_format(), bytes); }
+void tools_hypermill(std::string bytes) { format(tooling::hypermill_format(), bytes); }
+void tools_solidcam(std::string bytes) { format(tooling::solidcam_format(), bytes); }
+void tools_own(std::string bytes) { format(tooling::own_format(), bytes); }
+void tools_any(std::string bytes) {
+  Job job;
+  (void)said(tooling::import_bytes(bytes, "input", {}, job));
+}
+
+const model::Machine& generic() {
+  static const model::Machine m = [] {
+    Job job;
+    return *tooling::load_machine(std::string(tooling::kDefaultMachine), job);
+  }();
+  return m;
+}
+void program(std::string bytes) {
+  (void)verify::check_program_text({"input.ngc", std::move(bytes), "T1 P1 Z+80 D+10 ;endmill\n"}, nullptr,
+                                   generic(), {});
+}
+void program_table(std::string bytes) {
+  (void)verify::check_program_text(
+      {"input.ngc", "T1 M6\nG43 H1\nS1000 M3\nG0 X0 Y0 Z5\nM30\n", std::move(bytes)}, nullptr, generic(), {});
+}
+
+}  // namespace
+
+const std::vector<Reader>& readers() {
+  static const std::vector<Reader> kAll = {
+      {"plan_json", plan_json, {}},
+      {"plan_check", plan_check, {}},
+      {"iso14649",
+       iso14649,
+       {"examples/plate_bound.p21", "examples/reference_pocket.p21", "examples/two_setups.p21"}},
+      {"stl", stl, {}},
+      {"machine",
+       machine,
+       {"tooling/data/machines/generic_vmc.yaml", "tooling/data/machines/tormach_1100mx.yaml",
+        "examples/reference_pocket_machine.yaml"}},
+      {"machine_ini", machine_ini, {}},
+      {"materials", materials, {"tooling/data/materials.yaml"}},
+      {"workholding",
+       workholding,
+       {"examples/two_setups_holding.yaml", "examples/two_setups_clamp_in_way.yaml"}},
+      {"rules",
+       rules,
+       {"rules/data/slot.yaml", "rules/data/thread.yaml", "rules/data/coolant.yaml",
+        "rules/data/edges.yaml"}},
+      {"cases", cases, {}},
+      {"tool_list", tool_list, {"examples/reference_pocket_tools.yaml"}},
+      {"tool_table", tool_table, {}},
+      {"tools_fusion", tools_fusion, {}},
+      {"tools_fusion_zip", tools_fusion_zip, {"corpus/tools/fusion/Makera_Drill_Bits.tools"}},
+      {"tools_csv", tools_csv, {}},
+      {"tools_linuxcnc", tools_linuxcnc, {}},
+      {"tools_freecad",
+       tools_freecad,
+       {"corpus/tools/freecad/Bit/375-16_Tap.fctb", "corpus/tools/freecad/Bit/6mm_Bullnose.fctb"}},
+      {"tools_iso13399", tools_iso13399, {"corpus/tools/iso13399/iso13399.p21"}},
+      {"tools_gtc", tools_gtc, {}},
+      {"tools_din4000",
+       tools_din4000,
+       {"corpus/tools/din4000/H8502180.xml", "corpus/tools/iso13399/din4000-82.csv"}},
+      {"tools_family", tools_family, {}},
+      {"tools_hypermill", tools_hypermill, {"corpus/tools/din4000/15506610.xml"}},
+      {"tools_solidcam", tools_solidcam, {"corpus/tools/iso13399/solidcam.xml"}},
+      {"tools_own", tools_own, {"examples/reference_pocket_tools.yaml"}},
+      {"tools_any", tools_any, {}},
+      {"program", program, {}},
+      {"program_table", program_table, {}},
+  };
+  return kAll;
+}
+
+const Reader* find_reader(std::string_view name) {
+  for (const Reader& r : readers()) {
+    if (r.name == name) return &r;
+  }
+  return nullptr;
+}
+
+}  // namespace capstan::fuzz
