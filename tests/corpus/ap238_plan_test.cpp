@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <regex>
 
 #include "planner/exchange/conformance/check.h"
 #include "planner/exchange/exchange.h"
@@ -98,7 +99,10 @@ TEST_P(Ap238Plan, HoldsEveryPathAndSchedule) {
   CAPSTAN_PLAN_FILE();
   const Session& first = planned_once(path(), GetParam().reopen);
   Job job;
-  auto again = exchange::read_bytes(as_ap238(first.plan), "plan.stpnc", {}, job);
+  // Without its seal the file's toolpaths count, which is what other readers have.
+  auto again =
+      exchange::read_bytes(std::regex_replace(as_ap238(first.plan), std::regex("!CAPSTAN_SEAL[^\n]*\n"), ""),
+                           "plan.stpnc", {}, job);
   ASSERT_TRUE(again) << to_text(again.error());
   std::map<std::string, std::vector<model::AnyRef>> by_id;
   for (const auto at : again->model.all_below(model::TypeId::kWorkingstep)) {

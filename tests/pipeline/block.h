@@ -38,7 +38,8 @@ inline std::string part_text(const std::string& features) {
          "#51=CARTESIAN_POINT('',(0.,0.,-5.));\n#52=AXIS2_PLACEMENT_3D('',#51,#21,#22);\n#53=PLANE('',#52);\n"
          "#54=CARTESIAN_POINT('',(0.,0.,-10.));\n#55=AXIS2_PLACEMENT_3D('',#54,#21,#22);\n#56=PLANE('',#55);"
          "\n"
-         "#57=PLANAR_POCKET_BOTTOM_CONDITION();\n#58=THROUGH_BOTTOM_CONDITION();\n" +
+         "#57=PLANAR_POCKET_BOTTOM_CONDITION();\n#58=THROUGH_BOTTOM_CONDITION();\n#59=THROUGH_POCKET_BOTTOM_"
+         "CONDITION();\n" +
          features + "ENDSEC;\nEND-ISO-10303-21;\n";
 }
 

@@ -69,6 +69,11 @@ model::Plan filled(model::Plan plan, unsigned seed) {
   Noise noise(seed);
   noise("", plan.machine);
   noise("", plan.material);
+  for (auto& c : plan.cutters) {
+    const std::string id = c.id;
+    noise("", c);
+    c.id = id;
+  }
   noise("", plan.stock.source);
   noise("", plan.stock.cylinder_radius_mm);
   for (auto& s : plan.setups) {

@@ -57,7 +57,7 @@ Planned placed(const std::string& features, const std::string& id) {
 }
 
 TEST(Probing, TouchesOppositeWallsOfAPocketInXAndY) {
-  for (const char* bottom : {"#57", "#58"}) {  // its floor is never touched, and need not be there
+  for (const char* bottom : {"#57", "#59"}) {  // its floor is never touched, and need not be there
     const Planned p = placed(
         "#61=TOLERANCED_LENGTH_MEASURE(40.,$);\n#64=TOLERANCED_LENGTH_MEASURE(60.,$);\n"
         "#66=TOLERANCED_LENGTH_MEASURE(8.,$);\n"

@@ -155,8 +155,7 @@ void write_general(Writer& writer, const Row& row, AnyRef owner, const Attribute
 }
 
 bool read_property_name(Reader& reader, AnyRef at, const Attribute& a) {
-  assign_to(reader, at, a,
-            model::Text(reader.graph().text(reader.root_of(at), "property_definition.name")));
+  assign_to(reader, at, a, model::Text(reader.graph().text(reader.root_of(at), "property_definition.name")));
   return true;
 }
 
@@ -188,8 +187,7 @@ bool is_requirement(const Graph& g, Node n) {
   static constexpr const char* kKinds[] = {"GEOMETRIC_TOLERANCE",  "DIMENSIONAL_SIZE",
                                            "DIMENSIONAL_LOCATION", "DATUM",
                                            "DATUM_TARGET",         "SHAPE_ASPECT"};
-  if (g.is(n, "PROPERTY_DEFINITION"))
-    return g.text(n, "property_definition.name") == "surface_condition";
+  if (g.is(n, "PROPERTY_DEFINITION")) return g.text(n, "property_definition.name") == "surface_condition";
   if (g.is(n, "DIMENSIONAL_SIZE") && is_of_a_parameter(g, n)) return false;
   if (g.is(n, "INSTANCED_FEATURE") || g.is(n, "DATUM_FEATURE")) return false;
   return std::any_of(std::begin(kKinds), std::end(kKinds), [&](const char* k) { return g.is(n, k); });

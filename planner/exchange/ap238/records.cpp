@@ -30,7 +30,7 @@ std::string upper(std::string_view s) {
   return out;
 }
 
-/// Fields by name: "depends on[2]", "rejected[1].why" in lists, counted from 1.
+/// Fields by name: "depends on[2]", "rejected[1].why", "solid[1].corner[2].x" in lists, counted from 1.
 class NamedFields : public RecordFields {
  public:
   void group() override { levels_.emplace_back(); }
@@ -91,7 +91,7 @@ class PropertyFields final : public NamedFields {
     text("reason source", v.source);
   }
   std::size_t list(std::string_view name, std::size_t n) override {
-    levels_.push_back({std::string(name), ""});
+    levels_.push_back({full(name), ""});
     return n;
   }
 
@@ -163,8 +163,8 @@ class ItemFields final : public NamedFields {
     text("reason source", v.source);
   }
   std::size_t list(std::string_view name, std::size_t) override {
-    levels_.push_back({std::string(name), ""});
-    const std::string begin = std::string(name) + "[";
+    levels_.push_back({full(name), ""});
+    const std::string begin = levels_.back().list + "[";
     std::size_t n = 0;
     for (auto it = items_.lower_bound(begin); it != items_.end() && it->first.rfind(begin, 0) == 0; ++it) {
       std::size_t k = 0;
@@ -193,8 +193,9 @@ class ItemFields final : public NamedFields {
 };
 
 bool is_kind(std::string_view kind) {
-  static constexpr std::string_view kKinds[] = {"MACHINE", "MATERIAL",  "STOCK",      "CUTTER",   "SETUP",
-                                                "STEP",    "UNPLANNED", "PROVENANCE", "IDENTITY", "BINDING",  "MACHINE_DATA"};
+  static constexpr std::string_view kKinds[] = {"MACHINE",  "MATERIAL", "STOCK",       "CUTTER",
+                                                "SETUP",    "STEP",     "UNPLANNED",   "PROVENANCE",
+                                                "IDENTITY", "BINDING",  "MACHINE_DATA"};
   return std::find(std::begin(kKinds), std::end(kKinds), kind) != std::end(kKinds);
 }
 

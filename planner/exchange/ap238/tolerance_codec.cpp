@@ -344,8 +344,7 @@ std::vector<Node> members_of_group(Reader& reader, const Row& row, AnyRef owner,
   std::uint32_t k = kFirstOwnOrdinal + 100;
   mark_one(reader, row, owner, n, k++);
   for (const Node user : g.users(n)) {
-    if (!g.is(user, "SHAPE_ASPECT_RELATIONSHIP") || g.referred(user, "relating_shape_aspect") != n)
-      continue;
+    if (!g.is(user, "SHAPE_ASPECT_RELATIONSHIP") || g.referred(user, "relating_shape_aspect") != n) continue;
     const Node member = g.referred(user, "related_shape_aspect");
     if (member == kNoNode) continue;
     mark_one(reader, row, owner, user, k++);

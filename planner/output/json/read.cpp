@@ -15,6 +15,7 @@
 #include "planner/output/json/json.h"
 #include "planner/output/json/printer.h"
 #include "planner/output/json/seal.h"
+#include "planner/output/json/summary.h"
 #include "planner/output/step_ids.h"
 
 namespace capstan::output {
@@ -474,19 +475,17 @@ class Reader {
 
   /// What a file says for readers that only look, against what it follows from.
   void compare_derived(const Tree& tree) {
-    double cutting = 0.0;
-    double rapid = 0.0;
-    for (const auto& s : plan_.steps) {
-      cutting += s.cutting_s;
-      rapid += s.rapid_s;
-    }
     const auto differs = [](const Tree& t, const char* name, double v) {
       const auto it = t.find(name);
       return it == t.end() || !it->is_number() || it->get<double>() != v;
     };
     if (const auto it = tree.find("summary"); it != tree.end() && it->is_object()) {
-      if (differs(*it, "steps", static_cast<double>(plan_.steps.size())) ||
-          differs(*it, "cutting_s", cutting) || differs(*it, "rapid_s", rapid))
+      const auto expected = summary_of(plan_);
+      const bool other = std::any_of(expected.begin(), expected.end(), [&](const auto& part) {
+        return differs(*it, part.first.c_str(), part.second);
+      });
+      const auto waiting = it->find("to_load");
+      if (other || (waiting != it->end() && *waiting != Tree(to_load(plan_))))
         edited_.emplace_back("the summary");
     }
     const std::vector<std::string> ids = step_ids(plan_);

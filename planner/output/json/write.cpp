@@ -11,6 +11,7 @@
 #include "planner/output/json/json.h"
 #include "planner/output/json/printer.h"
 #include "planner/output/json/seal.h"
+#include "planner/output/json/summary.h"
 #include "planner/output/step_ids.h"
 
 namespace capstan::output {
@@ -100,38 +101,20 @@ class Writer {
 
   // Derived, for readers that only look: what the steps add up to.
   void summary() {
-    double cutting = 0.0;
-    double rapid = 0.0;
-    for (const auto& s : plan_.steps) {
-      cutting += s.cutting_s;
-      rapid += s.rapid_s;
-    }
     out_.key("summary");
     out_.open('{', false);
-    out_.key("steps");
-    out_.natural(plan_.steps.size());
-    const auto part = [&](const char* name, double seconds) {
+    for (const auto& [name, value] : summary_of(plan_)) {
       out_.key(name);
-      out_.number(seconds);
-    };
-    part("cutting_s", cutting);
-    part("rapid_s", rapid);
-    // What lies between the steps, by their paths; without these nobody knows.
-    if (const auto t = motion::time_of(plan_); t && t->total_s() > 0.0 && std::isfinite(t->total_s())) {
-      part("link_s", t->link_s);
-      out_.key("tool_changes");
-      out_.integer(t->tool_changes);
-      part("tool_change_s", t->tool_change_s);
-      part("spindle_s", t->spin_up_s);
-      part("total_s", t->total_s());
+      // Counts are whole, times are not.
+      if (name.ends_with("_s"))
+        out_.number(value);
+      else
+        out_.natural(static_cast<std::uint64_t>(value));
     }
-    const auto loaded = [](const model::Cutter& c) { return c.loaded; };
-    if (std::any_of(plan_.cutters.begin(), plan_.cutters.end(), loaded)) {
+    if (const auto waiting = to_load(plan_); !waiting.empty() || has_magazine(plan_)) {
       out_.key("to_load");
       out_.open('[', false);
-      for (const model::Cutter& c : plan_.cutters) {
-        if (!c.loaded) out_.text(c.id);
-      }
+      for (const std::string& id : waiting) out_.text(id);
       out_.close();
     }
     out_.close();
