@@ -151,7 +151,7 @@ void describe(RecordFields& f, model::Cutter& c) {
   f.whole("pocket", c.pocket);
   f.truth("centre cutting", c.centre_cutting);
   f.truth("coolant through", c.coolant_through);
-  bool left = c.hand == model::Hand::kLeft;
+  bool left = c.hand == model::Hand::kLeft, neutral = c.hand == model::Hand::kNeutral;
   f.truth("left hand", left);
   c.hand = left ? model::Hand::kLeft : model::Hand::kRight;
   if (!f.more()) return;
@@ -171,7 +171,6 @@ void describe(RecordFields& f, model::Cutter& c) {
   if (f.more()) describe_body(f, c);
   if (f.more()) describe_table_line(f, c.table_line);
   if (f.more()) {
-    bool neutral = c.hand == model::Hand::kNeutral;
     f.truth("neutral hand", neutral);
     if (neutral) c.hand = model::Hand::kNeutral;
     f.real("run-out", Unit::kLength, c.runout_mm);

@@ -109,7 +109,7 @@ INSTANTIATE_TEST_SUITE_P(WrittenPlan, EachForm,
                            return name;
                          });
 
-// The whole corpus in the soak, what takes a few seconds otherwise.
+// File by file of the whole corpus in the soak, what takes a few seconds otherwise.
 TEST(CorpusEachFormOfRandomFiles, ReadsBackAsThePlanThatWasWritten) {
   const std::string corpus = testing::corpus_folder();
   if (corpus.empty()) GTEST_SKIP() << "corpus is absent";
@@ -121,6 +121,10 @@ TEST(CorpusEachFormOfRandomFiles, ReadsBackAsThePlanThatWasWritten) {
       }
     }
     std::sort(files.begin(), files.end());
+    // One at each of the 50 repetitions.
+    if (files.empty()) GTEST_SKIP() << "corpus is empty";
+    const auto turn = static_cast<std::size_t>(::testing::UnitTest::GetInstance()->random_seed());
+    files = {files[turn % files.size()]};
   } else {
     for (const char* file : {"/iso14649/meduag_furo.p21", "/iso14649/ufsc_FuroConico.p21",
                              "/iso14649/ufsc_RanhuraPerfilVee.p21", "/iso14649/nist_tiny.stp"})

@@ -249,6 +249,7 @@ TEST(Face, IsRoughedFromHalfAMillimetre) {
   FeatureShape s = pocket(0.0);
   s.kind = ShapeKind::kFace;
   s.open = true;
+  s.reach = geometry::offset_sharp(s.area, 100.0);  // nothing stands beside it
   s.depth_mm = 0.49;
   EXPECT_THAT(first(proposed(s)), ElementsAre(TypeId::kPlaneFinishMilling));
   s.depth_mm = 0.5;
