@@ -390,6 +390,8 @@ void settle_doubts(model::Plan& plan, std::vector<Doubt>& doubts, const Marks& r
       if (doubt.diagnostic.severity == Severity::kError)
         doubt.diagnostic.hint = "what does not fit is left out; the project does not need it";
       doubt.diagnostic.severity = Severity::kWarning;
+    } else if (strict && belongs_to_some(plan, doubt)) {
+      doubt.diagnostic.severity = Severity::kError;
     } else if (!strict && unset < kMostUnset && belongs_to_some(plan, doubt)) {
       ++unset;
       Diagnostic d = std::move(doubt.diagnostic);

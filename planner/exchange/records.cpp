@@ -9,6 +9,7 @@
 #include "planner/exchange/report.h"
 #include "planner/model/edited.h"
 #include "planner/model/nouns/all.h"
+#include "planner/model/unreadable.h"
 
 namespace capstan::exchange {
 
@@ -517,6 +518,10 @@ class Restoring {
     const std::string address = describe(f_, b);
     if (b.attribute.empty()) throw MalformedRecord{};
     if (!here(b.at, address)) return true;
+    // What could not be read stays so, whoever bound it before.
+    if (const model::Decision* d = plan_.ledger.find(b.at, b.attribute);
+        d != nullptr && plan_.ledger.reason(d->reason).id == model::kUnreadable)
+      return true;
     const auto hash = model::hash_from_text(b.hash);
     if (!hash) throw MalformedRecord{};
     b.decision.value_hash = sealed_ ? model::hash_attribute(plan_.model, b.at, b.attribute) : *hash;

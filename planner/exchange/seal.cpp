@@ -37,6 +37,9 @@ std::map<std::string, Seal> sealed(const p21::File& file) {
   for (std::size_t i = 0; i < file.header_count(); ++i) {
     const p21::Instance e = file.header(i);
     if (is_sealed(e)) add(e.keyword(), spelled(e.parameters()));
+    // Of a reason its number and its id, which decide; not its words.
+    if (e.keyword() == "!CAPSTAN_REASON" && e.parameters().size() > 1)
+      add(e.keyword(), spelled(e.parameters()[0]) + "," + spelled(e.parameters()[1]));
   }
   for (const p21::Instance e : file) {
     std::string text = "#" + std::to_string(e.id());

@@ -112,6 +112,10 @@ SurfaceForm surface_form(const geometry::Mesh& mesh, const geometry::Box3& raw) 
     Vec3 normal, apex;
   };
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<Side>> edges;  // of upright facets
+  constexpr double kSameFloorMm = 1e-3;
+  constexpr double kLeastFloorMm2 = 3.0;               // the disc of a mill of 2 mm; default, unsourced
+  constexpr std::size_t kMostFloors = 64;              // default, unsourced
+  std::map<double, std::pair<double, double>> floors;  // area and height, by the cell of kSameFloorMm
   for (const auto& t : mesh.triangles) {
     const std::array<Vec3, 3> p{mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
     Vec3 n = cross(p[1] - p[0], p[2] - p[0]);
@@ -125,14 +129,26 @@ SurfaceForm surface_form(const geometry::Mesh& mesh, const geometry::Box3& raw) 
         edges[{std::min(a, b), std::max(a, b)}].push_back({n, p[(k + 2) % 3]});
       }
     } else if (n.z > kLevel) {
-      out.floors_mm.push_back(p[0].z);
+      auto& [area, height] =
+          floors.emplace(std::round(p[0].z / kSameFloorMm), std::pair(0.0, p[0].z)).first->second;
+      area += 0.5 * norm(cross(p[1] - p[0], p[2] - p[0]));
+      height = std::max(height, p[0].z);
     } else if (n.z > 0.0) {
       out.curved = true;
     }
   }
+  // A floor is worth levels of its own where an end mill has room on it; the largest ones, so that a relief
+  // of many heights is not cut level by level: a ball makes the others.
+  std::vector<std::pair<double, double>> by_area;
+  for (const auto& [cell, floor] : floors) by_area.push_back(floor);
+  std::sort(by_area.begin(), by_area.end(), std::greater<>());
+  for (const auto& [area, height] : by_area) {
+    if (area >= kLeastFloorMm2 && out.floors_mm.size() < kMostFloors)
+      out.floors_mm.push_back(height);
+    else
+      out.curved = true;
+  }
   std::sort(out.floors_mm.begin(), out.floors_mm.end(), std::greater<>());
-  const auto same = [](double a, double b) { return std::abs(a - b) < 1e-4; };
-  out.floors_mm.erase(std::unique(out.floors_mm.begin(), out.floors_mm.end(), same), out.floors_mm.end());
   for (const auto& [e, sides] : edges) {
     if (sides.size() != 2) continue;
     const Vec3 a = mesh.vertices[e.first];

@@ -88,8 +88,8 @@ const std::vector<Item>& items() {
        [] {
          return plate({{10, "MACHINING_WORKINGSTEP('WS',#62,#44,#20,$)"}});
        }},
-      // Its hole has no shape then, and is not planned; the rest of the file is read.
-      {"WrongReferenceTypeInAFeaturesShape", Verdict::kWarn, "EXC-REFERENCE",
+      // Strictly the file is not read; otherwise the hole is not planned (WrongReference.* of the pipeline).
+      {"WrongReferenceTypeInAFeaturesShape", Verdict::kRefuse, "EXC-REFERENCE",
        [] {
          return plate({{17, "ROUND_HOLE('HOLE',#4,(#20),#81,#64,#58,$,#45)"}});
        }},

@@ -19,7 +19,7 @@ inline constexpr int kPlanJsonVersion = 1;
 ///               that have a value; "@instance", "@line" say where it stood in its file.
 ///   steps       in the order of execution, with tool, times, loads, and the peak of the cross section
 ///   ("peak",
-///               "id" and the top's "summary" are derived, and ignored on reading)
+///               "id" and the top's "summary" are derived; on reading they are only compared)
 ///   decisions   who bound what and why ("reasons"), what it depends on, what was rejected; "value_hash" is of
 ///               the value as it was written: one that is unlike it was edited (model/edited.h)
 ///   paths, schedules, sections   columns, shared by reference ("path:1")

@@ -70,6 +70,12 @@ class Sealer {
     put("what is kept", plan_.kept);
     if (plan_.target_mesh) put("the target mesh", *plan_.target_mesh);
     for (std::size_t t = 1; t < model::kTypeCount; ++t) objects(static_cast<TypeId>(t));
+    // Their ids decide, in this order; their words do not.
+    for (const model::Reason& r : plan_.ledger.reasons()) {
+      Hash h;
+      h.text(r.id);
+      add("the reasons", h);
+    }
     for (const auto& [key, decision] : plan_.ledger.entries()) {
       Hash h;
       of(h, key);

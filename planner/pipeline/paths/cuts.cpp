@@ -89,8 +89,8 @@ Result<optimise::CutAnswer> Cuts::answer(const StepWork& step, optimise::CutQues
   return other;
 }
 
-std::optional<model::StepLoads> hold_under_overhang(const optimise::CutQuestion& q,
-                                                    const optimise::CutAnswer& a, toolpath::PathJob& job) {
+Result<model::StepLoads> hold_under_overhang(const optimise::CutQuestion& q, const optimise::CutAnswer& a,
+                                             toolpath::PathJob& job) {
   if (q.slot || !job.left_on_side_mm) return a.loads;  // asked as a slot of the whole head
   constexpr double kLeast = 0.02;                      // of the feed; default, unsourced
   constexpr int kHalvings = 12;                        // to a thousandth of the feed
@@ -103,12 +103,21 @@ std::optional<model::StepLoads> hold_under_overhang(const optimise::CutQuestion&
     }
     return l;
   };
-  const auto most = [&](double width, double edges, double share) {
+  const auto most = [&](double width, double edges, double share) -> Result<double> {
     const auto holds = [&](double x) {
       const auto l = at(width, edges, x);
       return l && optimise::worst_excess(q, *l, a.n_rpm) <= 0.0;
     };
     if (holds(share)) return share;
+    if (!holds(kLeast)) {
+      const auto l = at(width, edges, kLeast);
+      if (!l) return fail("PIP-INFEASIBLE", "under the overhang the loads of the head cannot be computed");
+      const auto worst = optimise::worst_load(q, *l, a.n_rpm);
+      return fail("PIP-INFEASIBLE", "under the overhang, over a width of " + trimmed(width, 2) + " mm, " +
+                                        worst.name + " is " + trimmed(worst.value, 3) + " of " +
+                                        trimmed(worst.limit, 3) + " " + worst.unit +
+                                        " even at a fiftieth of the feed; use a smaller or a lower head");
+    }
     double lo = kLeast, hi = share;
     for (int i = 0; i < kHalvings; ++i) {
       const double x = 0.5 * (lo + hi);
@@ -118,9 +127,15 @@ std::optional<model::StepLoads> hold_under_overhang(const optimise::CutQuestion&
   };
   // At no angle do the forces of both edges together exceed those of one at its worst (checked for heads of
   // 16 to 40 mm with 6 and 8 teeth, edges a twentieth to a fifth of the diameter wide).
-  job.both_edges_share = most(a.ae_mm, 2.0, 1.0);
-  job.front_share = most(q.cutter.cutting_diameter_mm, 1.0, job.front_share);
-  return at(a.ae_mm, 2.0, job.both_edges_share);
+  const auto both = most(a.ae_mm, 2.0, 1.0);
+  if (!both) return tl::unexpected(both.error());
+  const auto front = most(q.cutter.cutting_diameter_mm, 1.0, job.front_share);
+  if (!front) return tl::unexpected(front.error());
+  job.both_edges_share = *both;
+  job.front_share = *front;
+  const auto middle = at(a.ae_mm, 2.0, job.both_edges_share);
+  if (!middle) return fail("PIP-INFEASIBLE", "under the overhang the loads of the head cannot be computed");
+  return *middle;
 }
 
 }  // namespace capstan::pipeline

@@ -34,8 +34,9 @@ class Cuts {
 /// head cuts (PathJob::both_edges_share, front_share) by the loads of what they cut, so that torque and power
 /// hold there, too. Of both edges at once these add up, while the forces across, which bend the neck, stand
 /// against each other; the whole front is a slot. Gives the loads of the middle pass.
-[[nodiscard]] std::optional<model::StepLoads> hold_under_overhang(const optimise::CutQuestion& q,
-                                                                  const optimise::CutAnswer& answer,
-                                                                  toolpath::PathJob& job);
+/// Fails  PIP-INFEASIBLE where no feed holds the limits.
+[[nodiscard]] Result<model::StepLoads> hold_under_overhang(const optimise::CutQuestion& q,
+                                                           const optimise::CutAnswer& answer,
+                                                           toolpath::PathJob& job);
 
 }  // namespace capstan::pipeline

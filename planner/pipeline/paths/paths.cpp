@@ -38,7 +38,7 @@ struct Made {
   bool depth_open = false, width_open = false;
   std::optional<model::Reason> precedent;  ///< the case that speed and feed started from
   std::string let_go;                      ///< of stated speed and feed, and why; empty: nothing
-  std::optional<model::StepLoads> under;   ///< of the heaviest pass under an overhang, which is not measured
+  std::optional<model::StepLoads> under;   ///< of the middle pass under an overhang, which is not measured
   std::vector<model::Rejected> thicker;    ///< depths or widths that exceeded a limit along the path
 };
 
@@ -318,8 +318,11 @@ class PathMaker {
       if (out.depth_open) job.axial_depth_mm = out.answer.ap_mm;
       if (out.width_open && out.answer.ae_mm > 0.0) job.radial_depth_mm = out.answer.ae_mm;
       if (out.question.ae_mm) job.radial_depth_mm = *out.question.ae_mm;
-      if (toolpath::undercuts(step.cutter) && step.open_technology)
-        out.under = hold_under_overhang(out.question, out.answer, job);
+      if (toolpath::undercuts(step.cutter) && step.open_technology) {
+        auto loads = hold_under_overhang(out.question, out.answer, job);
+        if (!loads) return tl::unexpected(loads.error());
+        out.under = *loads;
+      }
       const bool freeform = w_.plan.model.holds<model::FreeformOperation>(step.operation);
       auto path = kept_clear(w_, step, job, [&](const toolpath::PathJob& j) {
         return freeform ? freeform_path(w_, step, j, out.answer, stocks_.of(step.setup))

@@ -94,8 +94,8 @@ class Twice {
 
 /// Power is torque times speed.
 void check_curve(const model::Plan& plan, const std::vector<model::SpindlePoint>& curve, Findings& out) {
-  // Data sheets round both: a part in a hundred.
-  constexpr double kRounded = 0.01;
+  // Data sheets round both; a slip of a digit or of a unit is more. Default, unsourced.
+  constexpr double kRounded = 0.05;
   for (const model::SpindlePoint& p : curve) {
     if (!std::isfinite(p.rpm) || !(p.torque_nm > 0.0) || !(p.power_w > 0.0)) continue;
     const double power = p.torque_nm * 2.0 * std::numbers::pi * p.rpm / 60.0;
