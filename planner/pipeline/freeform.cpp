@@ -98,8 +98,9 @@ SurfaceForm surface_form(const geometry::Mesh& mesh, const geometry::Box3& raw) 
   constexpr double kUpright = 1e-3, kLevel = 1.0 - 1e-6;  // of unit normals
   constexpr double kSameMm = 0.02;                        // of coordinates; default, unsourced
   SurfaceForm out;
-  if (geometry::form_of(mesh).kind != geometry::MeshForm::Kind::kSolid) return out;
-  const bool inside_out = geometry::form_of(mesh).inside_out;
+  const geometry::MeshForm form = geometry::form_of(mesh);
+  if (form.kind != geometry::MeshForm::Kind::kSolid) return out;
+  const bool inside_out = form.inside_out;
   const auto on_side = [&](const std::array<Vec3, 3>& t) {
     const auto all = [&](auto coordinate, double at) {
       return std::all_of(t.begin(), t.end(), [&](Vec3 v) { return std::abs(coordinate(v) - at) < kSameMm; });

@@ -317,6 +317,7 @@ void Target::left_of(const Cavity& c, const Grid& grid, const Asked& a, const st
 void Target::left_on_mesh(const Grid& grid, const Asked& a, Findings& out) const {
   const PartShapes::Entry* e = part_.find(a.feature);
   if (e == nullptr || e->shapes.empty() || e->shapes.front().kind != ShapeKind::kFreeform) return;
+  below_mesh(a, out);
   const double limit = allowed() + a.bottom_mm + a.ridges_mm;
   const double slack = 0.71 * grid.cell();  // a column may stand anywhere in its cell
   double worst = 0.0, top = 0.0;

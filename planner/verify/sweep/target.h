@@ -111,6 +111,8 @@ class Target : public GougeJudge {
   [[nodiscard]] bool opens_below(const model::FeatureShape& s, const std::vector<Asked>& asked,
                                  geometry::Vec2 p, double z) const;
   void left_on_mesh(const Grid& grid, const Asked& a, Findings& out) const;
+  /// Warns of surfaces of the mesh that face down above its underside.
+  void below_mesh(const Asked& a, Findings& out) const;
   void add_broken_edges();
   [[nodiscard]] double floor_of(const Cavity& c, geometry::Vec2 p) const;
   [[nodiscard]] double height(geometry::Vec2 p) const;
