@@ -53,7 +53,8 @@ TEST_F(CorpusExample2Mills, TheTeeSlotTakesHalfAnHourAtMost) {
   CAPSTAN_EXAMPLE2();
   const auto* form = step("TEE_SLOT1", "t_slot_finish");
   ASSERT_NE(form, nullptr);
-  // 25 mm of head in a slot 32 wide, 20 high, 50 long: two heights of seven passes, 3.5 mm aside on each side.
+  // 25 mm of head in a slot 32 wide, 20 high, 50 long: two heights of seven passes, 3.5 mm aside on each
+  // side.
   EXPECT_NEAR(cutter(*form).cutting_diameter_mm, 25.0, 1e-9);
   EXPECT_LT(form->cutting_s, 30.0 * 60.0);
   EXPECT_GT(form->loads.torque_nm, 0.0);

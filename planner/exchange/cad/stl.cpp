@@ -86,7 +86,8 @@ Result<Mesh> read_binary(std::string_view s, const std::string& name, Job& job) 
       const auto f = [&](std::size_t c) { return double{std::bit_cast<float>(u32(s, at + 12 * k + 4 * c))}; };
       if (!out.corner({f(0), f(1), f(2)})) {
         return fail({.code = "STL-NUMBER",
-                     .message = "triangle " + std::to_string(i + 1) + " has a coordinate that is no number, or beyond 100 m",
+                     .message = "triangle " + std::to_string(i + 1) +
+                                " has a coordinate that is no number, or beyond 100 m",
                      .file = name});
       }
     }
@@ -152,7 +153,10 @@ Result<Mesh> read_ascii(std::string_view s, const std::string& name, Job& job) {
         x = *v;
       }
       if (!out.corner({c[0], c[1], c[2]})) {
-        return fail({.code = "STL-NUMBER", .message = "not finite, or beyond 100 m", .file = name, .line = words.line()});
+        return fail({.code = "STL-NUMBER",
+                     .message = "not finite, or beyond 100 m",
+                     .file = name,
+                     .line = words.line()});
       }
     } else if (same_word(w, "endloop") || same_word(w, "endfacet")) {
       if (!out.between_triangles()) {

@@ -20,8 +20,8 @@ inline constexpr int kPlanJsonVersion = 1;
 ///   steps       in the order of execution, with tool, times, loads, and the peak of the cross section
 ///   ("peak",
 ///               "id" and the top's "summary" are derived; on reading they are only compared)
-///   decisions   who bound what and why ("reasons"), what it depends on, what was rejected; "value_hash" is of
-///               the value as it was written: one that is unlike it was edited (model/edited.h)
+///   decisions   who bound what and why ("reasons"), what it depends on, what was rejected; "value_hash" is
+///               of the value as it was written: one that is unlike it was edited (model/edited.h)
 ///   paths, schedules, sections   columns, shared by reference ("path:1")
 ///
 ///   seals       a hash of each part, by which the reader tells what was edited since

@@ -149,7 +149,8 @@ TEST(Explain, AnEditedValueIsGiven) {
   written->bytes.replace(at, feed.size(), "MILLING_TECHNOLOGY(0.004,");
   const auto text = explain(testing::read_text(written->bytes), "DRILL IT");
   ASSERT_TRUE(text);
-  EXPECT_THAT(*text, HasSubstr("feedrate = 240 mm/min\n      given in the file\n      because edited in the file"));
+  EXPECT_THAT(*text,
+              HasSubstr("feedrate = 240 mm/min\n      given in the file\n      because edited in the file"));
   EXPECT_THAT(*text, Not(HasSubstr("bound by optimiser")));
 }
 

@@ -58,7 +58,8 @@ inline std::vector<std::string> shapes(const std::string& text) {
   return out;
 }
 
-/// What differs after writing and reading, and what was written and is not read; empty when nothing. Names of geometry may (roles fix some).
+/// What differs after writing and reading, and what was written and is not read; empty when nothing. Names of
+/// geometry may (roles fix some).
 inline std::string lost_on_the_way(const model::Plan& plan) {
   std::vector<std::string> said;
   const model::Plan back = read_text(written(plan).bytes, &said);
