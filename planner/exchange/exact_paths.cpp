@@ -10,13 +10,11 @@
 #include <optional>
 #include <vector>
 
-#include "planner/base/file.h"
 #include "planner/base/number.h"
 #include "planner/exchange/iso14649/trajectories.h"
 #include "planner/exchange/records.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/walk.h"
-#include "planner/p21/parse.h"
 #include "planner/p21/print.h"
 
 namespace capstan::exchange {

@@ -361,10 +361,11 @@ constexpr std::size_t kMostUnset = 100;  // default, unsourced
 
 /// Whether a plan can be made around the fault: it takes from some features or steps, or from the list of
 /// what is carried out.
-bool belongs_to_some(const model::Plan& plan, const Doubt& doubt) {
+bool belongs_to_some(const model::Plan& plan, std::optional<model::Leads>& leads, const Doubt& doubt) {
   if (doubt.attribute.empty()) return false;
   if (plan.model.holds<model::ProgramStructure>(doubt.object)) return doubt.attribute == "its_elements";
-  const auto touched = model::touched_by(plan.model, doubt.object);
+  if (!leads) leads.emplace(plan.model);
+  const auto touched = leads->touched_by(doubt.object);
   return !touched.features.empty() || !touched.steps.empty();
 }
 
@@ -373,6 +374,7 @@ bool belongs_to_some(const model::Plan& plan, const Doubt& doubt) {
 void settle_doubts(model::Plan& plan, std::vector<Doubt>& doubts, const Marks& reached, bool strict,
                    Reporter& reporter) {
   const model::Model& m = plan.model;
+  std::optional<model::Leads> leads;
   std::stable_sort(doubts.begin(), doubts.end(), [&](const auto& a, const auto& b) {
     return m.origin(a.object).instance < m.origin(b.object).instance;
   });
@@ -390,9 +392,9 @@ void settle_doubts(model::Plan& plan, std::vector<Doubt>& doubts, const Marks& r
       if (doubt.diagnostic.severity == Severity::kError)
         doubt.diagnostic.hint = "what does not fit is left out; the project does not need it";
       doubt.diagnostic.severity = Severity::kWarning;
-    } else if (strict && belongs_to_some(plan, doubt)) {
+    } else if (strict && belongs_to_some(plan, leads, doubt)) {
       doubt.diagnostic.severity = Severity::kError;
-    } else if (!strict && unset < kMostUnset && belongs_to_some(plan, doubt)) {
+    } else if (!strict && unset < kMostUnset && belongs_to_some(plan, leads, doubt)) {
       ++unset;
       Diagnostic d = std::move(doubt.diagnostic);
       d.severity = Severity::kError;

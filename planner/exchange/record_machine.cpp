@@ -8,11 +8,6 @@ using model::Unit;
 
 namespace {
 
-// Carriers that name fields flatten lists within lists: the inner ones wear the number of the outer element.
-std::string numbered(std::string_view name, std::size_t i) {
-  return std::string(name) + " " + std::to_string(i + 1);
-}
-
 void describe(RecordFields& f, std::string_view name, std::vector<model::SpindlePoint>& curve) {
   curve.resize(f.list(name, curve.size()));
   for (std::size_t i = 0; i < curve.size(); ++i) {
@@ -55,8 +50,8 @@ void describe(RecordFields& f, model::Spindle& s) {
     f.text("id", g.id);
     f.real("least speed [1/min]", Unit::kNone, g.rpm_min);
     f.real("greatest speed [1/min]", Unit::kNone, g.rpm_max);
-    describe(f, numbered("curve of gear", i), g.curve);
-    describe(f, numbered("S6 curve of gear", i), g.curve_s6);
+    describe(f, "curve", g.curve);
+    describe(f, "S6 curve", g.curve_s6);
     f.end();
   }
   f.end();

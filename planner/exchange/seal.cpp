@@ -8,6 +8,7 @@
 #include "planner/base/file.h"
 #include "planner/base/number.h"
 #include "planner/exchange/iso14649/beyond.h"
+#include "planner/model/edited.h"
 #include "planner/p21/parse.h"
 
 namespace capstan::exchange {
@@ -68,7 +69,8 @@ Result<std::string> with_seal(std::string file) {
 bool is_seal(std::string_view keyword) { return keyword == kSeal; }
 
 bool seal_holds(const p21::File& file, Reporter& reporter) {
-  std::map<std::string, std::pair<std::int64_t, std::string>> then;
+  using Seals = std::map<std::string, std::pair<std::int64_t, std::string>>;  // count and hash by keyword
+  Seals then;
   for (std::size_t i = 0; i < file.header_count(); ++i) {
     const p21::Instance e = file.header(i);
     if (e.keyword() != kSeal) continue;
@@ -84,27 +86,12 @@ bool seal_holds(const p21::File& file, Reporter& reporter) {
     then[p[0].as_text()] = {p[1].as_integer(), p[2].as_text()};
   }
   if (then.empty()) return false;  // of another system, or an earlier version
-  std::vector<std::string> edited;
-  for (const auto& [keyword, s] : sealed(file)) {
-    const auto it = then.find(keyword);
-    if (it == then.end()) {
-      edited.push_back(keyword + " (new)");
-      continue;
-    }
-    if (it->second != std::pair(static_cast<std::int64_t>(s.count), hex64(s.sum))) edited.push_back(keyword);
-    then.erase(it);
-  }
-  for (const auto& [keyword, s] : then) edited.push_back(keyword + " (gone)");
+  Seals now;
+  for (const auto& [keyword, s] : sealed(file))
+    now[keyword] = {static_cast<std::int64_t>(s.count), hex64(s.sum)};
+  const std::vector<std::string> edited = model::edited_parts(now, std::move(then));
   if (edited.empty()) return true;
-  constexpr std::size_t kNamed = 6;
-  std::string names;
-  for (std::size_t i = 0; i < std::min(edited.size(), kNamed); ++i) names += (i == 0 ? "" : ", ") + edited[i];
-  if (edited.size() > kNamed) names += " and " + std::to_string(edited.size() - kNamed) + " more";
-  reporter.report({.code = "EXC-EDITED",
-                   .severity = Severity::kWarning,
-                   .message = "the file was edited after it was written: " + names +
-                              "; what was computed of the old values was not computed again",
-                   .hint = "plan it again"});
+  reporter.report(model::parts_edited("EXC-EDITED", edited));
   return false;
 }
 

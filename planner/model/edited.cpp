@@ -121,4 +121,16 @@ std::optional<std::uint64_t> hash_from_text(std::string_view text) {
   return out;
 }
 
+Diagnostic parts_edited(std::string code, const std::vector<std::string>& parts) {
+  constexpr std::size_t kNamed = 6;
+  std::string names;
+  for (std::size_t i = 0; i < std::min(parts.size(), kNamed); ++i) names += (i == 0 ? "" : ", ") + parts[i];
+  if (parts.size() > kNamed) names += " and " + std::to_string(parts.size() - kNamed) + " more";
+  return {.code = std::move(code),
+          .severity = Severity::kWarning,
+          .message = "the file was edited after it was written: " + names +
+                     "; what was computed of the old values was not computed again",
+          .hint = "plan it again"};
+}
+
 }  // namespace capstan::model

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "planner/base/result.h"
 #include "planner/model/decision.h"
 
 namespace capstan::model {
@@ -32,6 +34,27 @@ struct Edited {
 
 /// "was edited since it was bound by optimiser; it counts as given, and 2 values chosen from it are open".
 [[nodiscard]] std::string text_of(const Edited& e);
+
+/// Of a written plan's parts, by name with the hash of each: those that are not as `then` any more, those
+/// that are "(new)", those that are "(gone)".
+template <class Seal>
+[[nodiscard]] std::vector<std::string> edited_parts(const std::map<std::string, Seal>& now,
+                                                    std::map<std::string, Seal> then) {
+  std::vector<std::string> out;
+  for (const auto& [name, seal] : now) {
+    const auto it = then.find(name);
+    if (it == then.end()) {
+      out.push_back(name + " (new)");
+      continue;
+    }
+    if (it->second != seal) out.push_back(name);
+    then.erase(it);
+  }
+  for (const auto& [name, seal] : then) out.push_back(name + " (gone)");
+  return out;
+}
+/// The warning about them, by the code of its reader.
+[[nodiscard]] Diagnostic parts_edited(std::string code, const std::vector<std::string>& parts);
 
 /// What `hex64` wrote; nothing for any other text.
 [[nodiscard]] std::optional<std::uint64_t> hash_from_text(std::string_view text);

@@ -37,9 +37,18 @@ void references_of(const Attribute& a, const void* data, const Visit& visit) {
   }
 }
 
+/// What of a feature is placed by it.
+void placed_by(const Model& m, AnyRef feature, std::vector<AnyRef>& out) {
+  if (const auto* c = m.get<CompoundFeature>(feature)) {
+    for (const AnyRef e : c->elements.items) out.push_back(e);
+  }
+  if (const auto* r = m.get<ReplicateFeature>(feature)) out.push_back(r->replicate_base_feature);
+}
+
+}  // namespace
+
 /// Who refers to whom by which attribute, the other way round.
-class Referrers {
- public:
+struct Leads::Referrers {
   struct By {
     AnyRef object;
     std::string_view attribute;
@@ -80,16 +89,6 @@ class Referrers {
   std::map<AnyRef, std::vector<By>> of_;
 };
 
-/// What of a feature is placed by it.
-void placed_by(const Model& m, AnyRef feature, std::vector<AnyRef>& out) {
-  if (const auto* c = m.get<CompoundFeature>(feature)) {
-    for (const AnyRef e : c->elements.items) out.push_back(e);
-  }
-  if (const auto* r = m.get<ReplicateFeature>(feature)) out.push_back(r->replicate_base_feature);
-}
-
-}  // namespace
-
 std::vector<Unreadable> unreadable(const Plan& plan) {
   std::vector<Unreadable> out;
   for (const auto& [key, decision] : plan.ledger.entries()) {
@@ -109,24 +108,26 @@ void set_unreadable(Plan& plan, AnyRef object, std::string attribute, std::strin
   plan.ledger.set({object, std::move(attribute)}, std::move(d));
 }
 
-Touched touched_by(const Model& m, AnyRef object) {
+Leads::Leads(const Model& m) : m_(m), all_(std::make_unique<Referrers>(m)) {}
+Leads::~Leads() = default;
+
+Touched Leads::touched_by(AnyRef object) const {
   Touched out;
-  const Referrers all(m);
   const auto add = [&](const std::set<AnyRef>& leading, TypeId kind, std::vector<AnyRef>& to) {
     for (const AnyRef at : leading) {
       if (is_a(at.type, kind)) to.push_back(at);
     }
   };
-  add(all.leading_to(object, {"its_operations", "its_workpiece"}), TypeId::kManufacturingFeature,
+  add(all_->leading_to(object, {"its_operations", "its_workpiece"}), TypeId::kManufacturingFeature,
       out.features);
-  add(all.leading_to(object, {"its_feature", "its_operations", "its_workpiece"}),
+  add(all_->leading_to(object, {"its_feature", "its_operations", "its_workpiece"}),
       TypeId::kMachiningWorkingstep, out.steps);
   // An operation that no workingstep carries out: its feature's.
   if (out.features.empty() && out.steps.empty())
-    add(all.leading_to(object, {"its_workpiece"}), TypeId::kManufacturingFeature, out.features);
+    add(all_->leading_to(object, {"its_workpiece"}), TypeId::kManufacturingFeature, out.features);
   for (std::size_t i = 0; i < out.features.size(); ++i) {
     std::vector<AnyRef> placed;
-    placed_by(m, out.features[i], placed);
+    placed_by(m_, out.features[i], placed);
     for (const AnyRef f : placed) {
       if (f.set() && std::find(out.features.begin(), out.features.end(), f) == out.features.end())
         out.features.push_back(f);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,7 +28,18 @@ struct Touched {
                                  ///< a pattern
   std::vector<AnyRef> steps;     ///< workingsteps that lead to it otherwise than by their feature
 };
-/// Both empty: the object belongs to the whole plan, to nothing of it, or to a workplan.
-[[nodiscard]] Touched touched_by(const Model& m, AnyRef object);
+/// Who leads to whom in a model, gathered once: as long as the model stays, and stays as it is.
+class Leads {
+ public:
+  explicit Leads(const Model& m);
+  ~Leads();
+  /// Both empty: the object belongs to the whole plan, to nothing of it, or to a workplan.
+  [[nodiscard]] Touched touched_by(AnyRef object) const;
+
+ private:
+  struct Referrers;
+  const Model& m_;
+  std::unique_ptr<const Referrers> all_;
+};
 
 }  // namespace capstan::model

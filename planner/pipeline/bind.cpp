@@ -126,8 +126,10 @@ void leave_open(Work& w) {
 std::map<AnyRef, std::string> unreadable_of(const model::Plan& plan,
                                             const std::vector<model::Unreadable>& all) {
   std::map<AnyRef, std::string> out;
+  if (all.empty()) return out;
+  const model::Leads leads(plan.model);
   for (const auto& u : all) {
-    const auto touched = model::touched_by(plan.model, u.key.object);
+    const auto touched = leads.touched_by(u.key.object);
     for (const AnyRef f : touched.features) out.emplace(f, u.why);
     for (const AnyRef s : touched.steps) out.emplace(s, u.why);
     // Without its operation a step would be taken for one that rules may choose.

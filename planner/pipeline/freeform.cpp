@@ -100,7 +100,6 @@ SurfaceForm surface_form(const geometry::Mesh& mesh, const geometry::Box3& raw) 
   SurfaceForm out;
   const geometry::MeshForm form = geometry::form_of(mesh);
   if (form.kind != geometry::MeshForm::Kind::kSolid) return out;
-  const bool inside_out = form.inside_out;
   const auto on_side = [&](const std::array<Vec3, 3>& t) {
     const auto all = [&](auto coordinate, double at) {
       return std::all_of(t.begin(), t.end(), [&](Vec3 v) { return std::abs(coordinate(v) - at) < kSameMm; });
@@ -121,7 +120,7 @@ SurfaceForm surface_form(const geometry::Mesh& mesh, const geometry::Box3& raw) 
     const std::array<Vec3, 3> p{mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
     Vec3 n = cross(p[1] - p[0], p[2] - p[0]);
     if (!(norm(n) > 0.0)) continue;
-    n = (inside_out ? -1.0 : 1.0) / norm(n) * n;
+    n = (form.inside_out ? -1.0 : 1.0) / norm(n) * n;
     if (std::abs(n.z) < kUpright) {
       if (on_side(p)) continue;
       out.walls = true;
@@ -216,9 +215,9 @@ Result<toolpath::GeneratedPath> freeform_path(Work& w, const StepWork& step, con
     f.stepover_mm = std::min(cut.ae_mm, step.cutter.cutting_diameter_mm);
   }
   const geometry::Box3& raw = w.setups[step.setup].stock;
-  const SurfaceForm form = surface_form(mesh, raw);
   const bool levels = cuts_levels(w, step);
-  if (form.walls && (rough || levels)) {
+  const SurfaceForm form = rough || levels ? surface_form(mesh, raw) : SurfaceForm{};
+  if (form.walls) {
     // Around the solid all goes, down to the underside; the cutter comes from beside the raw piece.
     constexpr double kBesideMm = 1.0;
     f.area = geometry::offset_sharp(geometry::rectangle(geometry::xy(raw.lo), geometry::xy(raw.hi)),

@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <map>
-#include <regex>
 
 #include "planner/exchange/conformance/check.h"
 #include "planner/exchange/exchange.h"
 #include "planner/exchange/iso14649/curves.h"
 #include "planner/p21/parse.h"
 #include "tests/corpus/session.h"
+#include "tests/support/seal.h"
 
 // Plans as AP238 files: complete, and carried out as they were planned.
 
@@ -100,9 +100,7 @@ TEST_P(Ap238Plan, HoldsEveryPathAndSchedule) {
   const Session& first = planned_once(path(), GetParam().reopen);
   Job job;
   // Without its seal the file's toolpaths count, which is what other readers have.
-  auto again =
-      exchange::read_bytes(std::regex_replace(as_ap238(first.plan), std::regex("!CAPSTAN_SEAL[^\n]*\n"), ""),
-                           "plan.stpnc", {}, job);
+  auto again = exchange::read_bytes(testing::without_seal(as_ap238(first.plan)), "plan.stpnc", {}, job);
   ASSERT_TRUE(again) << to_text(again.error());
   std::map<std::string, std::vector<model::AnyRef>> by_id;
   for (const auto at : again->model.all_below(model::TypeId::kWorkingstep)) {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <fstream>
-#include <regex>
 #include <sstream>
 #include <string>
 
@@ -13,6 +12,7 @@
 #include "planner/output/linuxcnc/linuxcnc.h"
 #include "planner/pipeline/shop.h"
 #include "tests/support/corpus.h"
+#include "tests/support/seal.h"
 
 namespace capstan::late {
 namespace {
@@ -338,8 +338,7 @@ TEST(Late, FeedsOfAGivenPathComeFromTheSectionsThatItsFileStates) {
   ASSERT_TRUE(planned) << to_text(planned.error());
   const auto text = pipeline::write_plan(*planned, pipeline::Format::kAp238, job);
   ASSERT_TRUE(text);
-  // Another system's file has no seal, so that its toolpaths count.
-  const std::string unsealed = std::regex_replace(*text, std::regex("!CAPSTAN_SEAL[^\n]*\n"), "");
+  const std::string unsealed = testing::without_seal(*text);
   const auto opened = [&](double factor) {
     Job quiet;
     auto plan = *pipeline::read_plan(unsealed, "plate.stpnc", quiet);

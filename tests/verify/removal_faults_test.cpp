@@ -447,15 +447,21 @@ TEST(Within, ADrillsPointThatComesOutBelowIsFound) {
   }
 }
 
+/// The good plan of a part that is to be that high, of its raw piece of 50 mm.
+PlanMaker finished_to(double height) {
+  PlanMaker k = testing::good_plan();
+  model::Block block;
+  block.position = k.at(0, 0, -height);
+  block.x = block.y = 100.0;
+  block.z = height;
+  const auto piece = k.plan.model.all(model::TypeId::kWorkpiece).front();
+  k.plan.model.get<model::Workpiece>(piece)->its_bounding_geometry = k.plan.model.add(block);
+  return k;
+}
+
 TEST(Within, ADrillsPointThatComesOutBelowTheFinishedPartIsFoundAlthoughTheRawPieceIsThicker) {
   for (const double height : {23.0, 22.0}) {  // 20 + 4 / tan 59 = 22.403 mm of 50, later faced from below
-    PlanMaker k = testing::good_plan();
-    model::Block block;
-    block.position = k.at(0, 0, -height);
-    block.x = block.y = 100.0;
-    block.z = height;
-    const auto piece = k.plan.model.all(model::TypeId::kWorkpiece).front();
-    k.plan.model.get<model::Workpiece>(piece)->its_bounding_geometry = k.plan.model.add(block);
+    PlanMaker k = finished_to(height);
     const auto findings = check(k.plan);
     const auto* f = found(findings, "CHK-OUTSIDE", "drill");
     ASSERT_EQ(f != nullptr, height < 22.4) << told(findings);
@@ -466,13 +472,7 @@ TEST(Within, ADrillsPointThatComesOutBelowTheFinishedPartIsFoundAlthoughTheRawPi
 
 TEST(Within, AFloorInWhatIsCutOffBelowTheFinishedPartIsFound) {
   for (const double height : {10.0, 9.0}) {  // the pocket is 10 mm deep, the raw piece 50 mm high
-    PlanMaker k = testing::good_plan();
-    model::Block block;
-    block.position = k.at(0, 0, -height);
-    block.x = block.y = 100.0;
-    block.z = height;
-    const auto piece = k.plan.model.all(model::TypeId::kWorkpiece).front();
-    k.plan.model.get<model::Workpiece>(piece)->its_bounding_geometry = k.plan.model.add(block);
+    PlanMaker k = finished_to(height);
     const auto findings = check(k.plan);
     EXPECT_EQ(found(findings, "CHK-OUTSIDE", "pocket") != nullptr, height < 9.5) << told(findings);
   }

@@ -470,7 +470,7 @@ class Reader {
     std::map<std::string, std::uint64_t> then;
     for (const auto& item : seals.items())
       hash(item.value(), then[unquoted_bytes(item.key())], {&at, item.key()});
-    edited_ = edited_parts(plan_, std::move(then));
+    edited_ = model::edited_parts(seals_of(plan_), std::move(then));
   }
 
   /// What a file says for readers that only look, against what it follows from.
@@ -576,7 +576,11 @@ Result<model::Plan> read_json(std::string bytes, std::string file_name, Job& job
                   .message = e.key.attribute + " of " + json::object_id(e.key.object) + " " + text_of(e),
                   .file = file_name});
     }
-    if (!reader.edited().empty()) job.report(json::was_edited(reader.edited(), file_name));
+    if (!reader.edited().empty()) {
+      Diagnostic d = model::parts_edited("JSON-EDITED", reader.edited());
+      d.file = file_name;
+      job.report(std::move(d));
+    }
     return plan;
   } catch (const json::Fault& f) {
     Diagnostic d{

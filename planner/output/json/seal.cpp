@@ -225,32 +225,4 @@ class Sealer {
 
 std::map<std::string, std::uint64_t> seals_of(const model::Plan& plan) { return Sealer(plan).run(); }
 
-std::vector<std::string> edited_parts(const model::Plan& plan, std::map<std::string, std::uint64_t> then) {
-  std::vector<std::string> out;
-  for (const auto& [name, now] : seals_of(plan)) {
-    const auto it = then.find(name);
-    if (it == then.end()) {
-      out.push_back(name + " (new)");
-      continue;
-    }
-    if (it->second != now) out.push_back(name);
-    then.erase(it);
-  }
-  for (const auto& [name, hash] : then) out.push_back(name + " (gone)");
-  return out;
-}
-
-Diagnostic was_edited(const std::vector<std::string>& parts, const std::string& file) {
-  constexpr std::size_t kNamed = 6;
-  std::string names;
-  for (std::size_t i = 0; i < std::min(parts.size(), kNamed); ++i) names += (i == 0 ? "" : ", ") + parts[i];
-  if (parts.size() > kNamed) names += " and " + std::to_string(parts.size() - kNamed) + " more";
-  return {.code = "JSON-EDITED",
-          .severity = Severity::kWarning,
-          .message = "the file was edited after it was written: " + names +
-                     "; what was computed of the old values was not computed again",
-          .file = file,
-          .hint = "plan it again"};
-}
-
 }  // namespace capstan::output::json

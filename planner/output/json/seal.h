@@ -3,9 +3,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
-#include <vector>
 
-#include "planner/base/result.h"
 #include "planner/model/plan.h"
 
 namespace capstan::output::json {
@@ -19,11 +17,5 @@ namespace capstan::output::json {
 ///             file.
 /// Cost        linear.
 [[nodiscard]] std::map<std::string, std::uint64_t> seals_of(const model::Plan& plan);
-
-/// The parts of a plan whose hashes are not `then` any more, those that are gone, those that are new.
-[[nodiscard]] std::vector<std::string> edited_parts(const model::Plan& plan,
-                                                    std::map<std::string, std::uint64_t> then);
-/// The warning JSON-EDITED about them.
-[[nodiscard]] Diagnostic was_edited(const std::vector<std::string>& parts, const std::string& file);
 
 }  // namespace capstan::output::json

@@ -111,10 +111,10 @@ class Writer {
       else
         out_.natural(static_cast<std::uint64_t>(value));
     }
-    if (const auto waiting = to_load(plan_); !waiting.empty() || has_magazine(plan_)) {
+    if (has_magazine(plan_)) {
       out_.key("to_load");
       out_.open('[', false);
-      for (const std::string& id : waiting) out_.text(id);
+      for (const std::string& id : to_load(plan_)) out_.text(id);
       out_.close();
     }
     out_.close();

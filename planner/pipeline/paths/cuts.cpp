@@ -94,14 +94,13 @@ Result<model::StepLoads> hold_under_overhang(const optimise::CutQuestion& q, con
   if (q.slot || !job.left_on_side_mm) return a.loads;  // asked as a slot of the whole head
   constexpr double kLeast = 0.02;                      // of the feed; default, unsourced
   constexpr int kHalvings = 12;                        // to a thousandth of the feed
-  const auto at = [&](double width, double edges, double share) {
+  const auto at = [&](double width, double edges, double share) -> Result<model::StepLoads> {
     auto l = optimise::loads_of(q, a.ap_mm, width, a.n_rpm, share * a.feed_mm_min);
-    if (l) {
-      l->torque_nm *= edges;
-      l->power_w *= edges;
-      l->mrr_mm3_min *= edges;
-    }
-    return l;
+    if (!l) return fail("PIP-INFEASIBLE", "under the overhang the loads of the head cannot be computed");
+    l->torque_nm *= edges;
+    l->power_w *= edges;
+    l->mrr_mm3_min *= edges;
+    return *l;
   };
   const auto most = [&](double width, double edges, double share) -> Result<double> {
     const auto holds = [&](double x) {
@@ -111,7 +110,7 @@ Result<model::StepLoads> hold_under_overhang(const optimise::CutQuestion& q, con
     if (holds(share)) return share;
     if (!holds(kLeast)) {
       const auto l = at(width, edges, kLeast);
-      if (!l) return fail("PIP-INFEASIBLE", "under the overhang the loads of the head cannot be computed");
+      if (!l) return tl::unexpected(l.error());
       const auto worst = optimise::worst_load(q, *l, a.n_rpm);
       return fail("PIP-INFEASIBLE", "under the overhang, over a width of " + trimmed(width, 2) + " mm, " +
                                         worst.name + " is " + trimmed(worst.value, 3) + " of " +
@@ -133,9 +132,7 @@ Result<model::StepLoads> hold_under_overhang(const optimise::CutQuestion& q, con
   if (!front) return tl::unexpected(front.error());
   job.both_edges_share = *both;
   job.front_share = *front;
-  const auto middle = at(a.ae_mm, 2.0, job.both_edges_share);
-  if (!middle) return fail("PIP-INFEASIBLE", "under the overhang the loads of the head cannot be computed");
-  return *middle;
+  return at(a.ae_mm, 2.0, job.both_edges_share);
 }
 
 }  // namespace capstan::pipeline

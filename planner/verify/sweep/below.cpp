@@ -1,5 +1,5 @@
 #include <algorithm>
-#include <cmath>
+#include <vector>
 
 #include "planner/verify/sweep/target.h"
 
@@ -17,27 +17,24 @@ void Target::below_mesh(const Asked& a, Findings& out) const {
   constexpr double kLeastMm2 = 0.1;      // less is dirt of the mesh; default, unsourced
   const geometry::Mesh& mesh = *plan_.target_mesh;
   if (sheet_ || mesh.triangles.empty()) return;
-  double volume = 0.0, low = 1e300;
-  for (const auto& t : mesh.triangles) {
-    const Vec3 p[] = {frame_.to_parent(mesh.vertices[t[0]]), frame_.to_parent(mesh.vertices[t[1]]),
-                      frame_.to_parent(mesh.vertices[t[2]])};
-    volume += dot(p[0], cross(p[1], p[2]));
-    for (const Vec3& v : p) low = std::min(low, v.z);
+  std::vector<Vec3> at;
+  geometry::Box3 box;
+  for (const Vec3& v : mesh.vertices) {
+    at.push_back(frame_.to_parent(v));
+    box.add(at.back());
   }
-  const double outwards = volume < 0.0 ? -1.0 : 1.0;
   double area = 0.0, widest = 0.0;
   Vec3 where;
   for (const auto& t : mesh.triangles) {
-    const Vec3 p[] = {frame_.to_parent(mesh.vertices[t[0]]), frame_.to_parent(mesh.vertices[t[1]]),
-                      frame_.to_parent(mesh.vertices[t[2]])};
-    const Vec3 n = outwards * cross(p[1] - p[0], p[2] - p[0]);
+    const Vec3 &a0 = at[t[0]], &a1 = at[t[1]], &a2 = at[t[2]];
+    const Vec3 n = (inside_out_ ? -1.0 : 1.0) * cross(a1 - a0, a2 - a0);
     const double size = norm(n);
     if (!(size > 0.0) || n.z > -kLevel * size) continue;
-    if (std::max({p[0].z, p[1].z, p[2].z}) < low + kUndersideMm) continue;
+    if (std::max({a0.z, a1.z, a2.z}) < box.lo.z + kUndersideMm) continue;
     area += 0.5 * -n.z;  // seen from below
     if (size <= widest) continue;
     widest = size;
-    where = (1.0 / 3.0) * (p[0] + p[1] + p[2]);
+    where = (1.0 / 3.0) * (a0 + a1 + a2);
   }
   if (area < kLeastMm2) return;
   out.warn(36, "CHK-LEFT-BELOW", a.where,

@@ -93,8 +93,11 @@ Target::Target(const model::Plan& plan, const PartShapes& part, std::size_t setu
       frame_(workpiece_in(plan, setup)),
       stock_(placed(plan.stock.box, frame_)),
       part_box_(placed(part.part, frame_)) {
-  if (plan.target_mesh)
-    sheet_ = geometry::form_of(*plan.target_mesh).kind == geometry::MeshForm::Kind::kSheet;
+  if (plan.target_mesh) {
+    const geometry::MeshForm form = geometry::form_of(*plan.target_mesh);
+    sheet_ = form.kind == geometry::MeshForm::Kind::kSheet;
+    inside_out_ = form.inside_out;
+  }
   if (plan.stock.cylinder_radius_mm && std::abs(frame_.z.z) > kUpright)
     round_ = *plan.stock.cylinder_radius_mm;
   for (const auto& e : part.entries) {

@@ -126,6 +126,7 @@ class Target : public GougeJudge {
   geometry::Placement frame_;
   geometry::Box3 stock_, part_box_;
   bool sheet_ = false;           ///< a mesh that says nothing of what lies outside its outline: that stays
+  bool inside_out_ = false;      ///< a closed mesh whose triangles face inwards
   std::optional<double> round_;  ///< radius of a bar along the tool axis
   std::deque<model::FeatureShape> bevels_;  ///< of edges that the plan breaks
   std::vector<Cavity> cavities_;
