@@ -72,7 +72,7 @@ std::vector<std::string> seeds_of(const Reader& r) {
   for (const std::string& s : r.seeds) {
     // Of the corpus beside the checkout, where it is there.
     if (s.rfind("corpus/", 0) != 0) {
-      files.push_back(std::string(CAPSTAN_SOURCE_DIR) + "/" + s);
+      files.push_back(CAPSTAN_SOURCE_DIR "/" + s);
     } else if (!testing::corpus_folder().empty()) {
       files.push_back(testing::corpus_folder() + s.substr(6));
     }
