@@ -7,8 +7,8 @@
 #include "casebase/casebase.h"
 #include "casebase/fields.h"
 #include "casebase/sha256.h"
-#include "planner/base/file.h"
-#include "planner/base/number.h"
+#include "planner/ground/base/file.h"
+#include "planner/ground/base/number.h"
 
 namespace capstan::casebase {
 namespace {

@@ -8,14 +8,14 @@
 #include <string_view>
 #include <vector>
 
-#include "planner/base/job.h"
-#include "planner/base/result.h"
-#include "planner/model/cutter.h"
-#include "planner/model/machine.h"
-#include "planner/model/material.h"
-#include "planner/model/plan.h"
-#include "planner/model/proposal.h"
-#include "planner/model/shape.h"
+#include "planner/ground/base/job.h"
+#include "planner/ground/base/result.h"
+#include "planner/model/features/shape.h"
+#include "planner/model/plan/cutter.h"
+#include "planner/model/plan/machine.h"
+#include "planner/model/plan/material.h"
+#include "planner/model/plan/plan.h"
+#include "planner/model/plan/proposal.h"
 
 /// What was cut once, found again when something near to it is asked.
 namespace capstan::casebase {

@@ -7,7 +7,7 @@
 #include "casebase/casebase.h"
 #include "casebase/fields.h"
 #include "casebase/store.h"
-#include "planner/base/number.h"
+#include "planner/ground/base/number.h"
 
 namespace capstan::casebase {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-#include "planner/base/number.h"
+#include "planner/ground/base/number.h"
 
 namespace capstan::casebase {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "casebase/fields.h"
 #include "casebase/store.h"
-#include "planner/base/file.h"
+#include "planner/ground/base/file.h"
 
 namespace capstan::casebase {
 namespace {

@@ -41,10 +41,10 @@ endfunction()
 
 # capstan_test(<room> [DEPENDS room...] [LIBS lib...])
 #
-# One test program of tests/<room>/**/*_test.cpp.
+# One test program of the *_test.cpp of the caller's folder and below it.
 function(capstan_test room)
   cmake_parse_arguments(ARG "" "" "DEPENDS;LIBS" ${ARGN})
-  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/tests/${room}/*_test.cpp)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/*_test.cpp)
   if(NOT sources)
     return()
   endif()

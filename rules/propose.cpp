@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-#include "planner/base/number.h"
+#include "planner/ground/base/number.h"
 #include "rules/facts/demand.h"
 #include "rules/rules.h"
 #include "rules/strategy/action.h"

@@ -7,12 +7,12 @@
 #include <utility>
 #include <vector>
 
-#include "planner/model/fit/general.h"
-#include "planner/model/machine.h"
-#include "planner/model/material.h"
-#include "planner/model/proposal.h"
-#include "planner/model/quality.h"
-#include "planner/model/shape.h"
+#include "planner/model/features/fit/general.h"
+#include "planner/model/features/quality.h"
+#include "planner/model/features/shape.h"
+#include "planner/model/plan/machine.h"
+#include "planner/model/plan/material.h"
+#include "planner/model/plan/proposal.h"
 #include "rules/engine/check.h"
 #include "rules/engine/table.h"
 

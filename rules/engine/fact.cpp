@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "planner/base/number.h"
+#include "planner/ground/base/number.h"
 
 namespace capstan::rules {
 namespace {

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <span>
 
-#include "planner/base/file.h"
-#include "planner/base/number.h"
+#include "planner/ground/base/file.h"
+#include "planner/ground/base/number.h"
 #include "rules/engine/table.h"
 #include "rules/strategy/action.h"
 

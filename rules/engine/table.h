@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "planner/base/job.h"
-#include "planner/base/result.h"
+#include "planner/ground/base/job.h"
+#include "planner/ground/base/result.h"
 #include "rules/engine/box.h"
 #include "rules/engine/fact.h"
 

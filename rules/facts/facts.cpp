@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "planner/base/number.h"
-#include "planner/model/in_piece.h"
+#include "planner/ground/base/number.h"
+#include "planner/model/features/in_piece.h"
 #include "rules/facts/it_grade.h"
 
 namespace capstan::rules {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "planner/model/shape.h"
+#include "planner/model/features/shape.h"
 #include "rules/engine/fact.h"
 #include "rules/facts/passage.h"
 #include "rules/rules.h"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "planner/model/fit/grade.h"
+#include "planner/model/features/fit/grade.h"
 
 namespace capstan::rules {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "planner/geometry/region.h"
+#include "planner/ground/geometry/region.h"
 
 namespace capstan::rules {
 

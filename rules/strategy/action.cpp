@@ -4,7 +4,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "planner/base/number.h"
+#include "planner/ground/base/number.h"
 
 namespace capstan::rules {
 

@@ -5,7 +5,7 @@
 #include <tl/expected.hpp>
 #include <vector>
 
-#include "planner/model/proposal.h"
+#include "planner/model/plan/proposal.h"
 #include "rules/facts/facts.h"
 
 namespace capstan::rules {

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <limits>
 
-#include "planner/base/number.h"
-#include "planner/model/in_piece.h"
+#include "planner/ground/base/number.h"
+#include "planner/model/features/in_piece.h"
 #include "rules/strategy/action.h"
 
 // Faces, pockets, square slots, steps and outsides: an area, walls, a floor.

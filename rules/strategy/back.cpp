@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "planner/base/number.h"
+#include "planner/ground/base/number.h"
 #include "rules/strategy/action.h"
 
 // What is wider below a narrower hole: milled from above by a head on a neck that goes down through it.

@@ -1,7 +1,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "planner/base/number.h"
+#include "planner/ground/base/number.h"
 #include "rules/strategy/action.h"
 
 // Cones of holes: by a countersink straight down, or by a chamfer mill on a circle. Where the cone's foot is

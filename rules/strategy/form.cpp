@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "planner/base/number.h"
+#include "planner/ground/base/number.h"
 #include "rules/strategy/action.h"
 
 // Threads, chamfers and surfaces.

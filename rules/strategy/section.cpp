@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/base/number.h"
+#include "planner/ground/base/number.h"
 #include "rules/strategy/action.h"
 
 // Slots that are not square and holes that taper, by cutters that have not their form.

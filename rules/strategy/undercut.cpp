@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/base/number.h"
+#include "planner/ground/base/number.h"
 #include "rules/strategy/action.h"
 
 // Slots under an overhang: an upright slot through the mouth first, then a form cutter along the course.

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Fails on any include against the order of the rooms, naming file and line.
+"""Fails on any include against the order of the rooms and on any circle of files, naming file and line.
 
     include_direction.py [ROOT]
 
@@ -11,31 +11,41 @@ import os
 import re
 import sys
 
-# Folder -> room.
+# Floor -> its rooms. A floor is a folder of planner/.
+FLOORS = {
+    "ground": "base geometry",
+    "model": "nouns features plan",
+    "files": "p21 exchange json",
+    "physics": "mechanics motion stock engagement",
+    "making": "sequence toolpath optimise",
+    "proof": "verify",
+    "door": "pipeline late facade app",
+}
+
+# Folder -> room. planner/controls is a floor of one room.
 FOLDERS = {
-    **{f"planner/{name}": name for name in (
-        "base geometry model p21 mechanics motion stock exchange sequence toolpath engagement optimise "
-        "output verify pipeline late facade app").split()},
+    **{f"planner/{floor}/{name}": name for floor, rooms in FLOORS.items() for name in rooms.split()},
+    "planner/controls": "controls",
     "rules": "rules", "casebase": "casebase", "tooling": "tooling", "include/capstan": "public",
 }
 
 # Room -> what it may include besides itself.
-NOUNS = "base geometry model"
+MODEL = "base geometry nouns features plan"
 ALLOWED = {
     "base": "",
     "geometry": "base",
-    "model": "base geometry",
-    "p21": NOUNS, "mechanics": NOUNS, "motion": NOUNS, "stock": NOUNS,
-    "rules": NOUNS, "casebase": NOUNS, "output": NOUNS + " motion",
-    "exchange": NOUNS + " p21",
-    "tooling": NOUNS + " p21 mechanics",
-    "sequence": NOUNS + " motion",
-    "toolpath": NOUNS + " stock",
-    "engagement": NOUNS + " stock",
-    "optimise": NOUNS + " mechanics motion",
-    "verify": NOUNS + " p21 exchange mechanics",
+    "nouns": "base geometry", "features": "base geometry nouns", "plan": "base geometry nouns features",
+    "p21": "base", "exchange": MODEL + " p21", "json": MODEL + " motion",
+    "mechanics": MODEL, "motion": MODEL, "stock": MODEL, "engagement": MODEL + " stock",
+    "rules": MODEL, "casebase": MODEL,
+    "tooling": MODEL + " p21 mechanics",
+    "sequence": MODEL + " motion",
+    "toolpath": MODEL + " stock",
+    "optimise": MODEL + " mechanics motion",
+    "controls": MODEL + " motion",
+    "verify": MODEL + " p21 exchange mechanics",
     "pipeline": " ".join(r for r in FOLDERS.values() if r not in ("pipeline", "late", "facade", "app", "public")),
-    "late": NOUNS + " pipeline public",
+    "late": MODEL + " pipeline public",
     "facade": " ".join(r for r in FOLDERS.values() if r != "app"),
     "app": " ".join(FOLDERS.values()),
     "public": "",
@@ -121,10 +131,32 @@ def fault_of_include(root, path, name, quoted):
     return None, None
 
 
+def circle(includes):
+    """The files of one circle of includes, first named again at the end; None where there is none."""
+    done, way = set(), []
+
+    def visit(path):
+        if path in way:
+            return way[way.index(path):] + [path]
+        if path in done:
+            return None
+        way.append(path)
+        for name in includes.get(path, ()):
+            found = visit(name)
+            if found:
+                return found
+        way.pop()
+        done.add(path)
+        return None
+
+    return next((found for found in map(visit, sorted(includes)) if found), None)
+
+
 def faults(root):
     """All faults, as (path, line, text), in the order of the files."""
     found = []
     users = {}
+    includes = {}
     for path in sources(root):
         if room_of(path) is None:
             found.append((path, 1, "lies in no room of the table"))
@@ -136,6 +168,7 @@ def faults(root):
                 match = INCLUDE.match(line)
                 if not match:
                     continue
+                includes.setdefault(path, []).append(match[1] or match[2])
                 fault, library = fault_of_include(root, path, match[1] or match[2], match[1] is not None)
                 if fault:
                     found.append((path, number, fault))
@@ -146,6 +179,9 @@ def faults(root):
         if limit is not None and len(places) > limit:
             for path, number in list(places.items()):
                 found.append((path, number, f"{library} is included by {len(places)} files, {limit} is allowed"))
+    round_trip = circle(includes)
+    if round_trip:
+        found.append((round_trip[0], 1, "files include each other in a circle: " + " -> ".join(round_trip)))
     return found
 
 

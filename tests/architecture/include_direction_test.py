@@ -11,18 +11,18 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import include_direction  # noqa: E402
 
 CLEAN = {
-    "planner/base/result.h": "#include <string>\n",
-    "planner/model/tool.h": '#include "planner/base/result.h"\n',
-    "planner/mechanics/constants.h": "",
-    "planner/mechanics/force.h": '#include "planner/model/tool.h"\n',
-    "planner/pipeline/plan.h": '#include "tooling/select/select.h"\n',
-    "tooling/select/select.h": '#include "planner/mechanics/force.h"\n',
-    "planner/optimise/solver/nlopt.cpp": "#include <nlopt.hpp>\n",
-    "planner/verify/load.cpp": '#include "planner/mechanics/constants.h"\n',
-    "planner/facade/facade.cpp": '#include "capstan/capstan.h"\n#include "planner/pipeline/plan.h"\n',
+    "planner/ground/base/result.h": "#include <string>\n",
+    "planner/model/plan/tool.h": '#include "planner/ground/base/result.h"\n',
+    "planner/physics/mechanics/constants.h": "",
+    "planner/physics/mechanics/force.h": '#include "planner/model/plan/tool.h"\n',
+    "planner/door/pipeline/plan.h": '#include "tooling/select/select.h"\n',
+    "tooling/select/select.h": '#include "planner/physics/mechanics/force.h"\n',
+    "planner/making/optimise/solver/nlopt.cpp": "#include <nlopt.hpp>\n",
+    "planner/proof/verify/load.cpp": '#include "planner/physics/mechanics/constants.h"\n',
+    "planner/door/facade/facade.cpp": '#include "capstan/capstan.h"\n#include "planner/door/pipeline/plan.h"\n',
     "include/capstan/capstan.h": "#include <cstdint>\n#include <string>\n// like tl::expected\n",
     "include/capstan/capstan_late.h": "#include <stdint.h>\n",
-    "tests/base/any_test.cpp": '#include "planner/app/anything.h"\n',
+    "tests/ground/base/any_test.cpp": '#include "planner/door/app/anything.h"\n',
 }
 
 
@@ -41,29 +41,33 @@ class IncludeDirection(unittest.TestCase):
 
     def test_names_each_planted_include(self):
         for path, text, line in [
-            ("planner/base/up.cpp", '#include <string>\n#include "planner/model/tool.h"\n', 2),
-            ("planner/model/up.h", '#include "planner/mechanics/force.h"\n', 1),
-            ("planner/mechanics/side.h", '\n\n  #  include "tooling/select/select.h"  // why\n', 3),
-            ("rules/engine/up.cpp", '#include "planner/pipeline/plan.h"\n', 1),
-            ("planner/verify/sweep.cpp", '#include "planner/mechanics/force.h"\n', 1),
-            ("planner/late/session.h", '#include "planner/model/tool.h"\n#include "tooling/select/select.h"\n', 2),
-            ("planner/pipeline/up.cpp", '#include "planner/facade/facade.cpp"\n', 1),
-            ("planner/base/near.cpp", '#include "result.h"\n', 1),
-            ("planner/base/gone.cpp", '#include "planner/base/gone.h"\n', 1),
-            ("planner/base/json.h", "#include <nlohmann/json.hpp>\n", 1),
+            ("planner/ground/base/up.cpp", '#include <string>\n#include "planner/model/plan/tool.h"\n', 2),
+            ("planner/model/plan/up.h", '#include "planner/physics/mechanics/force.h"\n', 1),
+            ("planner/physics/mechanics/side.h", '\n\n  #  include "tooling/select/select.h"  // why\n', 3),
+            ("rules/engine/up.cpp", '#include "planner/door/pipeline/plan.h"\n', 1),
+            ("planner/proof/verify/sweep.cpp", '#include "planner/physics/mechanics/force.h"\n', 1),
+            ("planner/door/late/session.h", '#include "planner/model/plan/tool.h"\n#include "tooling/select/select.h"\n', 2),
+            ("planner/door/pipeline/up.cpp", '#include "planner/door/facade/facade.cpp"\n', 1),
+            ("planner/ground/base/near.cpp", '#include "result.h"\n', 1),
+            ("planner/ground/base/gone.cpp", '#include "planner/ground/base/gone.h"\n', 1),
+            ("planner/ground/base/json.h", "#include <nlohmann/json.hpp>\n", 1),
             ("planner/attic/old.h", "\n", 1),
             ("include/capstan/more.h", "#include <Eigen/Dense>\n", 1),
             ("include/capstan/more.h", "#include <fmt/core.h>\n", 1),
-            ("include/capstan/more.h", '#include "planner/base/result.h"\n', 1),
+            ("include/capstan/more.h", '#include "planner/ground/base/result.h"\n', 1),
             ("include/capstan/more.h", "#include <string>\nvoid f(const YAML::Node& node);\n", 2),
         ]:
             with self.subTest(path=path, text=text):
                 self.assertEqual(self.faults_with({path: text}), [(path, line)])
 
+    def test_names_files_that_include_each_other_in_a_circle(self):
+        planted = {f"planner/ground/base/{a}.h": f'#include "planner/ground/base/{b}.h"\n' for a, b in ("ab", "bc", "ca")}
+        self.assertEqual(self.faults_with(planted), [("planner/ground/base/a.h", 1)])
+
     def test_names_every_user_of_a_library_with_two_fences(self):
         self.assertEqual(
-            self.faults_with({"planner/app/second.cpp": "\n#include <nlopt.h>\n"}),
-            [("planner/app/second.cpp", 2), ("planner/optimise/solver/nlopt.cpp", 1)])
+            self.faults_with({"planner/door/app/second.cpp": "\n#include <nlopt.h>\n"}),
+            [("planner/door/app/second.cpp", 2), ("planner/making/optimise/solver/nlopt.cpp", 1)])
 
 
 if __name__ == "__main__":

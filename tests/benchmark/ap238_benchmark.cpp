@@ -8,10 +8,10 @@
 #include <set>
 #include <stdexcept>
 
-#include "planner/base/file.h"
-#include "planner/exchange/exchange.h"
+#include "planner/files/exchange/exchange.h"
+#include "planner/files/p21/parse.h"
+#include "planner/ground/base/file.h"
 #include "planner/model/nouns/all.h"
-#include "planner/p21/parse.h"
 #include "tests/support/corpus.h"
 
 // AP238 files of 25, 50 and 100 MB, from bytes in memory to the model: one full of toolpaths, one full of

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "planner/engagement/engagement.h"
+#include "planner/physics/engagement/engagement.h"
 
 namespace {
 

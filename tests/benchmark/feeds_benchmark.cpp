@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "tests/optimise/feeds/examples.h"
+#include "tests/making/optimise/feeds/examples.h"
 
 namespace capstan::optimise {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "planner/toolpath/freeform/drop_cutter.h"
+#include "planner/making/toolpath/freeform/drop_cutter.h"
 
 namespace {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "planner/mechanics/beam.h"
-#include "planner/mechanics/section.h"
+#include "planner/physics/mechanics/beam.h"
+#include "planner/physics/mechanics/section.h"
 
 namespace capstan::mechanics {
 namespace {

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <random>
 
-#include "planner/motion/time.h"
+#include "planner/physics/motion/time.h"
 
 namespace capstan::motion {
 namespace {

@@ -9,9 +9,9 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "planner/base/file.h"
-#include "planner/p21/parse.h"
-#include "planner/p21/print.h"
+#include "planner/files/p21/parse.h"
+#include "planner/files/p21/print.h"
+#include "planner/ground/base/file.h"
 #include "tests/support/amplify.h"
 #include "tests/support/corpus.h"
 

@@ -5,11 +5,11 @@
 #include <set>
 #include <string>
 
+#include "planner/door/pipeline/pipeline.h"
+#include "planner/door/pipeline/shop.h"
+#include "planner/model/features/resolve.h"
 #include "planner/model/nouns/all.h"
-#include "planner/model/resolve.h"
-#include "planner/pipeline/pipeline.h"
-#include "planner/pipeline/shop.h"
-#include "planner/verify/verify.h"
+#include "planner/proof/verify/verify.h"
 #include "tests/support/plate.h"
 
 // How planning grows with a part: read, plan and write a program, by the number of features.

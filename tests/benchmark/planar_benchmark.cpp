@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <numbers>
 
-#include "planner/engagement/planar/planar.h"
+#include "planner/physics/engagement/planar/planar.h"
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "planner/base/file.h"
+#include "planner/ground/base/file.h"
 #include "tooling/catalogue/generic.h"
 #include "tooling/catalogue/machine.h"
 #include "tooling/catalogue/material.h"

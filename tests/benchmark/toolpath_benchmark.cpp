@@ -3,9 +3,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "planner/toolpath/path_job.h"
-#include "planner/toolpath/region/rings.h"
-#include "planner/toolpath/region/work_area.h"
+#include "planner/making/toolpath/path_job.h"
+#include "planner/making/toolpath/region/rings.h"
+#include "planner/making/toolpath/region/work_area.h"
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "planner/p21/parse.h"
+#include "planner/files/p21/parse.h"
 
 namespace capstan::corpus {
 

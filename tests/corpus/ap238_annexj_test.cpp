@@ -6,10 +6,10 @@
 #include <map>
 #include <set>
 
-#include "planner/base/number.h"
-#include "planner/exchange/exchange.h"
+#include "planner/files/exchange/exchange.h"
+#include "planner/ground/base/number.h"
 #include "planner/model/nouns/all.h"
-#include "planner/model/walk.h"
+#include "planner/model/nouns/arena/walk.h"
 #include "tests/corpus/annexj.h"
 #include "tests/support/corpus.h"
 

@@ -4,7 +4,7 @@
 #include <random>
 #include <set>
 
-#include "planner/exchange/exchange.h"
+#include "planner/files/exchange/exchange.h"
 #include "planner/model/nouns/all.h"
 #include "tests/support/model_difference.h"
 

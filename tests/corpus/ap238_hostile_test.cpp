@@ -3,7 +3,7 @@
 
 #include <ctime>
 
-#include "planner/exchange/exchange.h"
+#include "planner/files/exchange/exchange.h"
 #include "planner/model/nouns/all.h"
 #include "tests/support/corpus.h"
 

@@ -4,10 +4,10 @@
 #include <map>
 #include <regex>
 
-#include "planner/exchange/ap238/addresses.h"
-#include "planner/exchange/exchange.h"
+#include "planner/files/exchange/ap238/addresses.h"
+#include "planner/files/exchange/exchange.h"
 #include "planner/model/nouns/all.h"
-#include "planner/model/walk.h"
+#include "planner/model/nouns/arena/walk.h"
 #include "tests/corpus/session.h"
 
 // Who bound what, and why, in plans that went through AP238.

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <map>
 
-#include "planner/exchange/conformance/check.h"
-#include "planner/exchange/exchange.h"
-#include "planner/exchange/iso14649/curves.h"
-#include "planner/p21/parse.h"
+#include "planner/files/exchange/conformance/check.h"
+#include "planner/files/exchange/exchange.h"
+#include "planner/files/exchange/iso14649/curves.h"
+#include "planner/files/p21/parse.h"
 #include "tests/corpus/session.h"
 #include "tests/support/seal.h"
 

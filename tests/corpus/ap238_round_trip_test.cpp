@@ -4,10 +4,10 @@
 #include <map>
 #include <set>
 
-#include "planner/exchange/exchange.h"
-#include "planner/exchange/text.h"
+#include "planner/files/exchange/exchange.h"
+#include "planner/files/exchange/text.h"
+#include "planner/files/p21/parse.h"
 #include "planner/model/nouns/all.h"
-#include "planner/p21/parse.h"
 #include "tests/support/corpus.h"
 #include "tests/support/model_difference.h"
 

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <set>
 
-#include "planner/base/file.h"
-#include "planner/base/number.h"
-#include "planner/exchange/exchange.h"
+#include "planner/files/exchange/exchange.h"
+#include "planner/ground/base/file.h"
+#include "planner/ground/base/number.h"
+#include "planner/model/features/shape.h"
 #include "planner/model/nouns/all.h"
-#include "planner/model/shape.h"
 #include "tests/support/corpus.h"
 
 // Example 2 of ISO 14649-11 as printed, its faults included, and with some of them mended: what is read.

@@ -4,8 +4,8 @@
 #include <map>
 #include <regex>
 
-#include "planner/base/number.h"
-#include "planner/model/walk.h"
+#include "planner/ground/base/number.h"
+#include "planner/model/nouns/arena/walk.h"
 #include "tests/corpus/session.h"
 
 // What a plan remembers of itself in a file: who bound what, and why.

@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "planner/door/pipeline/pipeline.h"
+#include "planner/door/pipeline/shop.h"
 #include "planner/model/nouns/all.h"
-#include "planner/model/plan.h"
-#include "planner/pipeline/pipeline.h"
-#include "planner/pipeline/shop.h"
-#include "planner/verify/verify.h"
+#include "planner/model/plan/plan.h"
+#include "planner/proof/verify/verify.h"
 #include "tests/support/canon.h"
 #include "tests/support/corpus.h"
 #include "tests/support/rs274.h"

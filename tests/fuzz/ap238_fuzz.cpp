@@ -4,8 +4,8 @@
 #include <cstdlib>
 #include <string>
 
-#include "planner/exchange/exchange.h"
-#include "planner/p21/parse.h"
+#include "planner/files/exchange/exchange.h"
+#include "planner/files/p21/parse.h"
 
 namespace {
 

@@ -4,8 +4,8 @@
 #include <cstdlib>
 #include <string>
 
-#include "planner/p21/parse.h"
-#include "planner/p21/print.h"
+#include "planner/files/p21/parse.h"
+#include "planner/files/p21/print.h"
 
 namespace {
 

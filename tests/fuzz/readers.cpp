@@ -4,10 +4,10 @@
 #include <cstdlib>
 
 #include "casebase/casebase.h"
-#include "planner/exchange/exchange.h"
-#include "planner/output/json/json.h"
-#include "planner/verify/program/program_checks.h"
-#include "planner/verify/verify.h"
+#include "planner/files/exchange/exchange.h"
+#include "planner/files/json/json.h"
+#include "planner/proof/verify/program/program_checks.h"
+#include "planner/proof/verify/verify.h"
 #include "rules/engine/table.h"
 #include "tooling/catalogue/library.h"
 #include "tooling/catalogue/machine.h"
@@ -36,19 +36,19 @@ const R& said(const R& result) {
 /// What was read is checked, and written as it was read.
 void plan_json(std::string bytes) {
   Job job;
-  const auto plan = output::read_json(std::move(bytes), "input", job, std::size_t{16} << 20);
+  const auto plan = json::read_json(std::move(bytes), "input", job, std::size_t{16} << 20);
   if (!said(plan)) return;
-  const std::string once = output::write_json(*plan);
+  const std::string once = json::write_json(*plan);
   Job again;
-  const auto back = output::read_json(once, "written", again);
+  const auto back = json::read_json(once, "written", again);
   must(back.has_value(), "what was written does not read\n");
   must(again.diagnostics().empty(), "what was written is said to be edited\n");
-  must(output::write_json(*back) == once, "writing is not a fixed point\n");
+  must(json::write_json(*back) == once, "writing is not a fixed point\n");
 }
 /// Plans small enough to be checked at once.
 void plan_check(std::string bytes) {
   Job job;
-  const auto plan = output::read_json(std::move(bytes), "input", job, std::size_t{1} << 20);
+  const auto plan = json::read_json(std::move(bytes), "input", job, std::size_t{1} << 20);
   if (said(plan)) (void)verify::check_plan(*plan, job);
 }
 void iso14649(std::string bytes) {

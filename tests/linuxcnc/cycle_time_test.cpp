@@ -5,8 +5,8 @@
 #include <iostream>
 #include <sstream>
 
-#include "planner/base/job.h"
-#include "planner/base/number.h"
+#include "planner/ground/base/job.h"
+#include "planner/ground/base/number.h"
 #include "tests/linuxcnc/planned.h"
 #include "tests/linuxcnc/simulator.h"
 #include "tests/linuxcnc/times.h"

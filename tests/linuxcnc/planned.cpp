@@ -4,8 +4,8 @@
 
 #include <cstdlib>
 
-#include "planner/base/job.h"
-#include "planner/output/json/json.h"
+#include "planner/files/json/json.h"
+#include "planner/ground/base/job.h"
 #include "tests/support/corpus.h"
 
 namespace capstan::linuxcnc {
@@ -24,7 +24,7 @@ Planned plan(const std::vector<std::string>& arguments) {
     return out;
   }
   Job job;
-  auto read = output::read_json(testing::slurp(folder.file("out.json")), "out.json", job);
+  auto read = json::read_json(testing::slurp(folder.file("out.json")), "out.json", job);
   if (!read) {
     out.failed = to_text(read.error());
     return out;

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <sstream>
 
-#include "planner/base/number.h"
-#include "planner/motion/time.h"
+#include "planner/ground/base/number.h"
+#include "planner/physics/motion/time.h"
 
 namespace capstan::linuxcnc {
 namespace {

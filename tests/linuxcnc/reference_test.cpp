@@ -5,7 +5,7 @@
 #include <cmath>
 #include <iostream>
 
-#include "planner/base/number.h"
+#include "planner/ground/base/number.h"
 
 namespace capstan::linuxcnc {
 namespace {

@@ -5,8 +5,8 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "planner/base/file.h"
-#include "planner/base/number.h"
+#include "planner/ground/base/file.h"
+#include "planner/ground/base/number.h"
 #include "tests/support/corpus.h"
 
 namespace capstan::linuxcnc {

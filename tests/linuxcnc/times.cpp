@@ -5,8 +5,8 @@
 #include <set>
 #include <sstream>
 
-#include "planner/base/number.h"
-#include "planner/motion/time.h"
+#include "planner/ground/base/number.h"
+#include "planner/physics/motion/time.h"
 
 namespace capstan::linuxcnc {
 namespace {

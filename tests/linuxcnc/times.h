@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "planner/base/result.h"
-#include "planner/model/plan.h"
+#include "planner/ground/base/result.h"
+#include "planner/model/plan/plan.h"
 #include "tests/linuxcnc/simulator.h"
 
 namespace capstan::linuxcnc {

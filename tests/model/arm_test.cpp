@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "planner/model/curve_points.h"
+#include "planner/model/features/curve_points.h"
 #include "planner/model/nouns/all.h"
-#include "planner/model/walk.h"
+#include "planner/model/nouns/arena/walk.h"
 
 namespace capstan::model {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "planner/model/curve_points.h"
+#include "planner/model/features/curve_points.h"
 #include "tests/model/maker.h"
 
 // Trimmed conics: every sampled point lies on the curve, the samples run from trim 1 to trim 2 in the sense,

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "planner/model/raw_piece.h"
-#include "planner/model/standing.h"
+#include "planner/model/features/raw_piece.h"
+#include "planner/model/nouns/arena/standing.h"
 #include "tests/model/maker.h"
 
 // Where the elements of compounds and patterns stand; every coordinate is worked out by hand.

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "planner/model/features/shape.h"
 #include "planner/model/nouns/all.h"
-#include "planner/model/shape.h"
 
 namespace capstan::model {
 

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "planner/geometry/region.h"
+#include "planner/ground/geometry/region.h"
 #include "tests/model/maker.h"
 
 // Outside profiles that are not closed: which side of them is taken away.

@@ -1,10 +1,10 @@
-#include "planner/model/quality.h"
+#include "planner/model/features/quality.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "planner/model/features/requirements.h"
 #include "planner/model/nouns/all.h"
-#include "planner/model/requirements.h"
 
 namespace capstan::model {
 namespace {

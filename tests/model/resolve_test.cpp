@@ -1,4 +1,4 @@
-#include "planner/model/resolve.h"
+#include "planner/model/features/resolve.h"
 
 #include <gtest/gtest.h>
 

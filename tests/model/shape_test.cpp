@@ -1,4 +1,4 @@
-#include "planner/model/shape.h"
+#include "planner/model/features/shape.h"
 
 #include <gtest/gtest.h>
 

@@ -3,10 +3,10 @@
 #include <stdexcept>
 #include <utility>
 
-#include "planner/output/linuxcnc/linuxcnc.h"
-#include "planner/pipeline/shop.h"
+#include "planner/controls/linuxcnc/linuxcnc.h"
+#include "planner/door/pipeline/shop.h"
+#include "tests/proof/verify/plans.h"
 #include "tests/support/corpus.h"
-#include "tests/verify/plans.h"
 
 namespace capstan::mutation {
 namespace {
@@ -22,9 +22,9 @@ Emitted written(std::string name, model::Plan plan) {
           trimmed(c.cutting_diameter_mm, 2) + " mm " + std::string(model::to_text(c.cutter_class));
   }
   Job job;
-  auto text = output::write_linuxcnc(plan, job);
+  auto text = controls::write_linuxcnc(plan, job);
   if (!text) throw std::runtime_error(name + ": " + to_text(text.error()));
-  std::string table = output::write_tool_table(plan);
+  std::string table = controls::write_tool_table(plan);
   return {std::move(name), std::move(plan), *std::move(text), std::move(table)};
 }
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "planner/model/plan.h"
+#include "planner/model/plan/plan.h"
 
 namespace capstan::mutation {
 

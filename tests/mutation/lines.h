@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "planner/base/number.h"
+#include "planner/ground/base/number.h"
 #include "tests/mutation/classes.h"
 
 // What the classes are made of: lines of a program, their words, and the edit of one picked by the seed. A

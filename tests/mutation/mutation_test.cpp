@@ -2,7 +2,7 @@
 
 #include <cstdlib>
 
-#include "planner/verify/verify.h"
+#include "planner/proof/verify/verify.h"
 
 #include "tests/mutation/study.h"
 #include "tests/support/rs274.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-#include "planner/verify/program/program_checks.h"
+#include "planner/proof/verify/program/program_checks.h"
 #include "tests/support/rs274.h"
 #include "tooling/catalogue/library.h"
 

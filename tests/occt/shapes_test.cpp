@@ -3,11 +3,11 @@
 #include <cstdio>
 #include <string>
 
-#include "planner/base/file.h"
-#include "planner/exchange/exchange.h"
+#include "planner/door/pipeline/pipeline.h"
+#include "planner/door/pipeline/shop.h"
+#include "planner/files/exchange/exchange.h"
+#include "planner/ground/base/file.h"
 #include "planner/model/nouns/all.h"
-#include "planner/pipeline/pipeline.h"
-#include "planner/pipeline/shop.h"
 #include "tests/support/corpus.h"
 
 namespace capstan::exchange {

@@ -3,8 +3,8 @@
 
 #include <chrono>
 
-#include "planner/base/file.h"
-#include "planner/exchange/exchange.h"
+#include "planner/files/exchange/exchange.h"
+#include "planner/ground/base/file.h"
 #include "tests/support/corpus.h"
 #include "tooling/catalogue/machine.h"
 #include "tooling/formats/all.h"

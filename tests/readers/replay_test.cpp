@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "planner/base/file.h"
+#include "planner/ground/base/file.h"
 #include "tests/casebase/sample.h"
 #include "tests/fuzz/readers.h"
 #include "tests/support/corpus.h"

@@ -2,7 +2,7 @@
 
 #include <cstdlib>
 
-#include "planner/base/file.h"
+#include "planner/ground/base/file.h"
 
 namespace capstan::testing::removal {
 

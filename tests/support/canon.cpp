@@ -5,7 +5,7 @@
 #include <numbers>
 #include <sstream>
 
-#include "planner/base/number.h"
+#include "planner/ground/base/number.h"
 
 namespace capstan::testing {
 namespace {

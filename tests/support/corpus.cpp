@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "planner/base/file.h"
+#include "planner/ground/base/file.h"
 
 namespace capstan::testing {
 

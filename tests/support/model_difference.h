@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "planner/model/nouns/all.h"
-#include "planner/model/plan.h"
-#include "planner/model/walk.h"
+#include "planner/model/nouns/arena/walk.h"
+#include "planner/model/plan/plan.h"
 
 namespace capstan::testing {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "planner/model/nouns/all.h"
-#include "planner/model/plan.h"
+#include "planner/model/plan/plan.h"
 #include "tests/support/model_difference.h"
 
 namespace capstan::testing {

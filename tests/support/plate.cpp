@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "planner/base/number.h"
+#include "planner/ground/base/number.h"
 
 namespace capstan::testing {
 namespace {

@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <sstream>
 
-#include "planner/base/file.h"
-#include "planner/base/number.h"
+#include "planner/ground/base/file.h"
+#include "planner/ground/base/number.h"
 #include "tests/support/corpus.h"
 
 namespace capstan::testing {

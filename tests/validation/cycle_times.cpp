@@ -1,8 +1,8 @@
 #include <map>
 #include <vector>
 
-#include "planner/base/file.h"
-#include "planner/base/number.h"
+#include "planner/ground/base/file.h"
+#include "planner/ground/base/number.h"
 #include "tests/validation/studies.h"
 
 namespace capstan::validation {

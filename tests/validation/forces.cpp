@@ -3,11 +3,11 @@
 #include <numbers>
 #include <vector>
 
-#include "planner/base/number.h"
-#include "planner/mechanics/constants.h"
-#include "planner/mechanics/force.h"
-#include "planner/mechanics/kienzle.h"
-#include "planner/mechanics/section.h"
+#include "planner/ground/base/number.h"
+#include "planner/physics/mechanics/constants.h"
+#include "planner/physics/mechanics/force.h"
+#include "planner/physics/mechanics/kienzle.h"
+#include "planner/physics/mechanics/section.h"
 #include "tests/validation/studies.h"
 
 namespace capstan::validation {

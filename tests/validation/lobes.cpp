@@ -2,8 +2,8 @@
 #include <numbers>
 #include <vector>
 
-#include "planner/base/number.h"
-#include "planner/mechanics/stability.h"
+#include "planner/ground/base/number.h"
+#include "planner/physics/mechanics/stability.h"
 #include "tests/validation/studies.h"
 
 namespace capstan::validation {

@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <string>
 
-#include "planner/base/file.h"
+#include "planner/ground/base/file.h"
 #include "tests/support/corpus.h"
 #include "tests/validation/comparisons.h"
 

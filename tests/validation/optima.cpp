@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/base/number.h"
-#include "planner/optimise/solver/ipopt_backend.h"
-#include "planner/optimise/solver/solver.h"
-#include "tests/optimise/examples.h"
+#include "planner/ground/base/number.h"
+#include "planner/making/optimise/solver/ipopt_backend.h"
+#include "planner/making/optimise/solver/solver.h"
+#include "tests/making/optimise/examples.h"
 #include "tests/validation/studies.h"
 
 namespace capstan::validation {

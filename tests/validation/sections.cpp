@@ -2,9 +2,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "planner/base/number.h"
-#include "planner/engagement/engagement.h"
-#include "planner/engagement/planar/planar.h"
+#include "planner/ground/base/number.h"
+#include "planner/physics/engagement/engagement.h"
+#include "planner/physics/engagement/planar/planar.h"
 #include "tests/validation/studies.h"
 
 namespace capstan::validation {

@@ -3,7 +3,7 @@
 #include <map>
 #include <utility>
 
-#include "planner/base/number.h"
+#include "planner/ground/base/number.h"
 
 namespace capstan::tooling {
 namespace {

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "planner/base/result.h"
-#include "planner/model/cutter_faults.h"
+#include "planner/ground/base/result.h"
+#include "planner/model/plan/cutter_faults.h"
 
 namespace capstan::tooling {
 

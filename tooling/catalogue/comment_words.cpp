@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "planner/base/number.h"
+#include "planner/ground/base/number.h"
 #include "tooling/catalogue/generic.h"
 #include "tooling/formats/linuxcnc/linuxcnc.h"
 

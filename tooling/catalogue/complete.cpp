@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "planner/base/number.h"
+#include "planner/ground/base/number.h"
 
 namespace capstan::tooling {
 namespace {

@@ -3,7 +3,7 @@
 #include <string_view>
 #include <vector>
 
-#include "planner/model/cutter.h"
+#include "planner/model/plan/cutter.h"
 
 namespace capstan::tooling {
 

@@ -2,7 +2,7 @@
 
 #include <cstdlib>
 
-#include "planner/base/file.h"
+#include "planner/ground/base/file.h"
 #include "tooling/catalogue/tree.h"
 
 namespace capstan::tooling {

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <optional>
 
-#include "planner/base/number.h"
+#include "planner/ground/base/number.h"
 #include "tooling/catalogue/check.h"
 #include "tooling/catalogue/data.h"
 #include "tooling/catalogue/material.h"

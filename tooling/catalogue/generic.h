@@ -4,10 +4,10 @@
 #include <string_view>
 #include <vector>
 
-#include "planner/base/job.h"
-#include "planner/base/result.h"
-#include "planner/model/cutter.h"
-#include "planner/model/material.h"
+#include "planner/ground/base/job.h"
+#include "planner/ground/base/result.h"
+#include "planner/model/plan/cutter.h"
+#include "planner/model/plan/material.h"
 
 namespace capstan::tooling {
 

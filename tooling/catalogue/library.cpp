@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <numbers>
 
-#include "planner/base/file.h"
-#include "planner/base/nearest_names.h"
+#include "planner/ground/base/file.h"
+#include "planner/ground/base/nearest_names.h"
 #include "tooling/catalogue/check.h"
 #include "tooling/catalogue/complete.h"
 #include "tooling/catalogue/generic.h"

@@ -6,10 +6,10 @@
 #include <filesystem>
 #include <numbers>
 
-#include "planner/base/file.h"
-#include "planner/base/nearest_names.h"
-#include "planner/base/number.h"
-#include "planner/model/ranges.h"
+#include "planner/ground/base/file.h"
+#include "planner/ground/base/nearest_names.h"
+#include "planner/ground/base/number.h"
+#include "planner/model/plan/ranges.h"
 #include "tooling/catalogue/data.h"
 #include "tooling/catalogue/tree.h"
 

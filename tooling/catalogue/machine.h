@@ -4,9 +4,9 @@
 #include <string_view>
 #include <vector>
 
-#include "planner/base/job.h"
-#include "planner/base/result.h"
-#include "planner/model/machine.h"
+#include "planner/ground/base/job.h"
+#include "planner/ground/base/result.h"
+#include "planner/model/plan/machine.h"
 
 namespace capstan::tooling {
 

@@ -3,8 +3,8 @@
 #include <map>
 #include <optional>
 
-#include "planner/base/number.h"
-#include "planner/model/ranges.h"
+#include "planner/ground/base/number.h"
+#include "planner/model/plan/ranges.h"
 #include "tooling/catalogue/machine.h"
 
 namespace capstan::tooling {

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 
-#include "planner/base/nearest_names.h"
-#include "planner/base/number.h"
-#include "planner/model/cutter.h"
-#include "planner/model/ranges.h"
+#include "planner/ground/base/nearest_names.h"
+#include "planner/ground/base/number.h"
+#include "planner/model/plan/cutter.h"
+#include "planner/model/plan/ranges.h"
 #include "tooling/catalogue/data.h"
 #include "tooling/catalogue/tree.h"
 

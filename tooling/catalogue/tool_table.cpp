@@ -3,7 +3,7 @@
 #include <cctype>
 #include <cmath>
 
-#include "planner/base/number.h"
+#include "planner/ground/base/number.h"
 #include "tooling/catalogue/library.h"
 #include "tooling/formats/all.h"
 #include "tooling/formats/linuxcnc/linuxcnc.h"

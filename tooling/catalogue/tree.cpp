@@ -8,7 +8,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "planner/base/number.h"
+#include "planner/ground/base/number.h"
 
 namespace capstan::tooling {
 namespace {

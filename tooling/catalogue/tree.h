@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "planner/base/job.h"
-#include "planner/base/result.h"
+#include "planner/ground/base/job.h"
+#include "planner/ground/base/result.h"
 
 namespace capstan::tooling {
 

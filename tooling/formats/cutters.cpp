@@ -2,7 +2,7 @@
 #include <array>
 #include <map>
 
-#include "planner/base/number.h"
+#include "planner/ground/base/number.h"
 #include "tooling/catalogue/check.h"
 #include "tooling/catalogue/complete.h"
 #include "tooling/catalogue/generic.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "planner/base/file.h"
+#include "planner/ground/base/file.h"
 #include "tooling/catalogue/tree.h"
 #include "tooling/formats/all.h"
 #include "tooling/formats/import.h"

@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "planner/base/number.h"
+#include "planner/ground/base/number.h"
 #include "tooling/catalogue/complete.h"
 #include "tooling/catalogue/library.h"
 #include "tooling/formats/all.h"

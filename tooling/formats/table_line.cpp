@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "planner/base/number.h"
-#include "planner/model/table_offsets.h"
+#include "planner/ground/base/number.h"
+#include "planner/model/plan/table_offsets.h"
 #include "tooling/catalogue/complete.h"
 
 namespace capstan::tooling {

@@ -2,8 +2,8 @@
 
 #include <optional>
 
-#include "planner/base/job.h"
-#include "planner/model/cutter.h"
+#include "planner/ground/base/job.h"
+#include "planner/model/plan/cutter.h"
 #include "tooling/records/records.h"
 
 namespace capstan::tooling {

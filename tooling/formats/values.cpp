@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "planner/base/number.h"
-#include "planner/model/ranges.h"
+#include "planner/ground/base/number.h"
+#include "planner/model/plan/ranges.h"
 
 namespace capstan::tooling {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "planner/base/result.h"
+#include "planner/ground/base/result.h"
 #include "tooling/records/records.h"
 
 /// @file What the readers and writers of tool libraries share: symbols, units, numbers as they are spelled.

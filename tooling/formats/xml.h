@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "planner/base/result.h"
+#include "planner/ground/base/result.h"
 
 namespace capstan::tooling {
 

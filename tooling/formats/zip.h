@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "planner/base/result.h"
+#include "planner/ground/base/result.h"
 
 namespace capstan::tooling {
 

@@ -6,10 +6,10 @@
 #include <string_view>
 #include <vector>
 
-#include "planner/base/job.h"
-#include "planner/base/result.h"
-#include "planner/geometry/vec.h"
-#include "planner/model/workholding.h"
+#include "planner/ground/base/job.h"
+#include "planner/ground/base/result.h"
+#include "planner/ground/geometry/vec.h"
+#include "planner/model/plan/workholding.h"
 
 namespace capstan::tooling {
 

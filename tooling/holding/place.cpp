@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/base/number.h"
+#include "planner/ground/base/number.h"
 #include "tooling/holding/holding.h"
 
 namespace capstan::tooling {

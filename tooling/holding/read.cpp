@@ -4,9 +4,9 @@
 #include <set>
 #include <utility>
 
-#include "planner/base/nearest_names.h"
-#include "planner/base/number.h"
-#include "planner/model/ranges.h"
+#include "planner/ground/base/nearest_names.h"
+#include "planner/ground/base/number.h"
+#include "planner/model/plan/ranges.h"
 #include "tooling/catalogue/data.h"
 #include "tooling/catalogue/tree.h"
 #include "tooling/holding/holding.h"

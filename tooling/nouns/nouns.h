@@ -3,12 +3,12 @@
 #include <string>
 #include <vector>
 
-#include "planner/base/job.h"
-#include "planner/base/result.h"
-#include "planner/model/cutter.h"
-#include "planner/model/model.h"
+#include "planner/ground/base/job.h"
+#include "planner/ground/base/result.h"
+#include "planner/model/nouns/arena/model.h"
 #include "planner/model/nouns/forward.h"
-#include "planner/model/proposal.h"
+#include "planner/model/plan/cutter.h"
+#include "planner/model/plan/proposal.h"
 
 namespace capstan::tooling {
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <span>
 
-#include "planner/base/number.h"
+#include "planner/ground/base/number.h"
 #include "planner/model/nouns/geometric_item.h"
 #include "planner/model/nouns/tool.h"
 #include "planner/model/nouns/workpiece.h"

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "planner/base/result.h"
+#include "planner/ground/base/result.h"
 #include "tooling/records/records.h"
 
 namespace capstan::tooling {

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "planner/model/cutter.h"
+#include "planner/model/plan/cutter.h"
 
 /// @file The four records of a shop's tools, as catalogues and tool rooms keep them: what can be bought
 /// (item), the piece on the shelf (instance), how it is put together (assembly), where it sits (machine

@@ -2,12 +2,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "planner/mechanics/constants.h"
-#include "planner/mechanics/deflection.h"
-#include "planner/mechanics/drilling.h"
-#include "planner/mechanics/immersion.h"
-#include "planner/mechanics/kienzle.h"
-#include "planner/mechanics/spindle.h"
+#include "planner/physics/mechanics/constants.h"
+#include "planner/physics/mechanics/deflection.h"
+#include "planner/physics/mechanics/drilling.h"
+#include "planner/physics/mechanics/immersion.h"
+#include "planner/physics/mechanics/kienzle.h"
+#include "planner/physics/mechanics/spindle.h"
 #include "tooling/select/limits.h"
 
 // What a step would take with a cutter: rough, the same for all candidates, without any optimiser.

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "planner/base/number.h"
-#include "planner/mechanics/constants.h"
-#include "planner/mechanics/drilling.h"
-#include "planner/mechanics/immersion.h"
-#include "planner/mechanics/kienzle.h"
-#include "planner/mechanics/spindle.h"
+#include "planner/ground/base/number.h"
+#include "planner/physics/mechanics/constants.h"
+#include "planner/physics/mechanics/drilling.h"
+#include "planner/physics/mechanics/immersion.h"
+#include "planner/physics/mechanics/kienzle.h"
+#include "planner/physics/mechanics/spindle.h"
 #include "tooling/catalogue/complete.h"
 
 namespace capstan::tooling {

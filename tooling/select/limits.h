@@ -3,10 +3,10 @@
 #include <optional>
 #include <string>
 
-#include "planner/model/cutter.h"
-#include "planner/model/machine.h"
-#include "planner/model/material.h"
-#include "planner/model/proposal.h"
+#include "planner/model/plan/cutter.h"
+#include "planner/model/plan/machine.h"
+#include "planner/model/plan/material.h"
+#include "planner/model/plan/proposal.h"
 #include "tooling/select/select.h"
 
 // What a cutter must hold to, and what it would take; only tooling/select/*.cpp include this.

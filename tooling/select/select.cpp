@@ -7,7 +7,7 @@
 #include <optional>
 #include <set>
 
-#include "planner/base/number.h"
+#include "planner/ground/base/number.h"
 #include "tooling/select/limits.h"
 
 namespace capstan::tooling {

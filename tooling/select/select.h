@@ -3,11 +3,11 @@
 #include <string>
 #include <vector>
 
-#include "planner/model/cutter.h"
-#include "planner/model/decision.h"
-#include "planner/model/machine.h"
-#include "planner/model/material.h"
-#include "planner/model/proposal.h"
+#include "planner/model/plan/cutter.h"
+#include "planner/model/plan/decision.h"
+#include "planner/model/plan/machine.h"
+#include "planner/model/plan/material.h"
+#include "planner/model/plan/proposal.h"
 
 namespace capstan::tooling {
 

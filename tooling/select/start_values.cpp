@@ -3,7 +3,7 @@
 #include <limits>
 #include <numbers>
 
-#include "planner/base/number.h"
+#include "planner/ground/base/number.h"
 #include "tooling/catalogue/complete.h"
 #include "tooling/select/limits.h"
 #include "tooling/select/select.h"

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "planner/base/number.h"
+#include "planner/ground/base/number.h"
 #include "tooling/select/limits.h"
 #include "tooling/select/select.h"
 

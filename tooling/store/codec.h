@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "planner/model/cutter.h"
+#include "planner/model/plan/cutter.h"
 #include "tooling/records/records.h"
 
 // Records as bytes: little-endian numbers, texts and lists with their length in front. Only store.cpp

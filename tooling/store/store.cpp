@@ -8,8 +8,8 @@
 #include <limits>
 #include <map>
 
-#include "planner/base/file.h"
-#include "planner/base/number.h"
+#include "planner/ground/base/file.h"
+#include "planner/ground/base/number.h"
 #include "tooling/catalogue/check.h"
 #include "tooling/select/select.h"
 #include "tooling/store/codec.h"

@@ -6,10 +6,10 @@
 #include <string_view>
 #include <vector>
 
-#include "planner/base/job.h"
-#include "planner/base/result.h"
-#include "planner/model/cutter.h"
-#include "planner/model/proposal.h"
+#include "planner/ground/base/job.h"
+#include "planner/ground/base/result.h"
+#include "planner/model/plan/cutter.h"
+#include "planner/model/plan/proposal.h"
 #include "tooling/records/records.h"
 
 /// @file A tool library in one SQLite file: the four records as they were imported, and the cutters that

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "planner/model/attribute.h"
+#include "planner/model/nouns/arena/attribute.h"
 #include "planner/model/nouns/enumerations.h"
 #include "planner/model/nouns/forward.h"
 

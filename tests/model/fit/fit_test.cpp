@@ -1,11 +1,11 @@
-#include "planner/model/fit/fit.h"
+#include "planner/model/features/fit/fit.h"
 
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
 
-#include "planner/model/fit/deviation.h"
+#include "planner/model/features/fit/deviation.h"
 
 namespace capstan::model {
 namespace {

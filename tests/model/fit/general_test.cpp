@@ -1,4 +1,4 @@
-#include "planner/model/fit/general.h"
+#include "planner/model/features/fit/general.h"
 
 #include <gtest/gtest.h>
 

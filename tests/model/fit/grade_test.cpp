@@ -1,4 +1,4 @@
-#include "planner/model/fit/grade.h"
+#include "planner/model/features/fit/grade.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
-#include "planner/model/fit/stated.h"
+#include "planner/model/features/fit/stated.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "planner/model/fit/deviation.h"
+#include "planner/model/features/fit/deviation.h"
 #include "planner/model/nouns/support.h"
 
 namespace capstan::model {

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "planner/base/number.h"
+#include "planner/ground/base/number.h"
 #include "tests/mutation/plans/plan_classes.h"
 
 // Edits of a plan's JSON: a tree is read, one leaf of a part changed, and printed again.

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <map>
 
-#include "planner/base/number.h"
+#include "planner/ground/base/number.h"
 #include "tests/mutation/lines.h"
 #include "tests/mutation/plans/plan_classes.h"
 

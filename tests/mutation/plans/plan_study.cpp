@@ -4,13 +4,13 @@
 #include <set>
 #include <stdexcept>
 
-#include "planner/exchange/exchange.h"
-#include "planner/model/condemned.h"
+#include "planner/door/pipeline/shop.h"
+#include "planner/files/exchange/exchange.h"
+#include "planner/files/json/json.h"
 #include "planner/model/nouns/all.h"
-#include "planner/output/json/json.h"
-#include "planner/pipeline/shop.h"
-#include "planner/verify/program/program_checks.h"
-#include "planner/verify/verify.h"
+#include "planner/model/plan/condemned.h"
+#include "planner/proof/verify/program/program_checks.h"
+#include "planner/proof/verify/verify.h"
 #include "tests/mutation/emitted.h"
 
 namespace capstan::mutation {
@@ -53,7 +53,7 @@ Words words(const std::vector<model::Finding>& findings) {
 Said check_json(const std::string& text, bool values, std::optional<model::Plan>* read = nullptr) {
   Said out;
   Job job;
-  auto plan = output::read_json(text, "plan.json", job);
+  auto plan = json::read_json(text, "plan.json", job);
   if (!plan) {
     out.refused = true;
     out.reader.insert(plan.error().code + " " + plan.error().path + " " + plan.error().expected);
@@ -112,7 +112,7 @@ class Study {
 
   std::vector<PlanRow> run() {
     const auto& all = o_.planned ? emitted_and_planned() : emitted();
-    for (const Emitted& e : all) json_baselines_.push_back(check_json(output::write_json(e.plan), true));
+    for (const Emitted& e : all) json_baselines_.push_back(check_json(json::write_json(e.plan), true));
     std::size_t k = 0;
     for (const PlanClass& c : json_classes()) {
       PlanRow row{.name = c.name, .kind = c.kind};
@@ -142,7 +142,7 @@ class Study {
   }
 
   void json(const PlanClass& c, const Emitted& e, const Said& before, std::uint64_t of, PlanRow& row) {
-    const std::string text = output::write_json(e.plan);
+    const std::string text = json::write_json(e.plan);
     for (int i = 0; i < o_.edits; ++i) {
       std::uint64_t seed = 0;
       Random r = random(of, i, seed);

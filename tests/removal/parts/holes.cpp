@@ -1,7 +1,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "planner/base/file.h"
+#include "planner/ground/base/file.h"
 #include "tests/removal/parts.h"
 
 namespace capstan::testing::removal {

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <numbers>
 
-#include "planner/base/file.h"
-#include "planner/base/number.h"
+#include "planner/ground/base/file.h"
+#include "planner/ground/base/number.h"
 #include "tests/support/corpus.h"
 #include "tooling/catalogue/check.h"
 #include "tooling/catalogue/library.h"

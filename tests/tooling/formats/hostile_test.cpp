@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "planner/base/job.h"
+#include "planner/ground/base/job.h"
 #include "tooling/catalogue/library.h"
 #include "tooling/formats/import.h"
 

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <random>
 
-#include "planner/base/number.h"
+#include "planner/ground/base/number.h"
 #include "tests/support/corpus.h"
 #include "tooling/formats/all.h"
 #include "tooling/formats/import.h"

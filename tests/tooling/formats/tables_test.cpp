@@ -4,7 +4,7 @@
 #include <numbers>
 #include <random>
 
-#include "planner/base/number.h"
+#include "planner/ground/base/number.h"
 #include "tests/support/corpus.h"
 #include "tooling/catalogue/generic.h"
 #include "tooling/catalogue/library.h"

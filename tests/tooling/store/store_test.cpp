@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <random>
 
-#include "planner/base/file.h"
+#include "planner/ground/base/file.h"
 #include "tooling/catalogue/generic.h"
 #include "tooling/catalogue/library.h"
 #include "tooling/catalogue/machine.h"

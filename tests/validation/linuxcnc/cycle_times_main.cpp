@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "planner/base/file.h"
-#include "planner/base/number.h"
+#include "planner/ground/base/file.h"
+#include "planner/ground/base/number.h"
 #include "tests/linuxcnc/reference.h"
 
 namespace {

@@ -7,9 +7,9 @@
 #include <optional>
 #include <string_view>
 
-#include "planner/base/file.h"
-#include "planner/base/number.h"
-#include "planner/verify/program/reader.h"
+#include "planner/ground/base/file.h"
+#include "planner/ground/base/number.h"
+#include "planner/proof/verify/program/reader.h"
 
 namespace capstan::validation::nist {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "planner/base/result.h"
-#include "planner/model/cutter_path.h"
+#include "planner/ground/base/result.h"
+#include "planner/model/plan/cutter_path.h"
 
 /// What is known of the plates of the NIST smart-manufacturing test bed, read from its files.
 namespace capstan::validation::nist {

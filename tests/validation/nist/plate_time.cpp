@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/base/number.h"
-#include "planner/motion/time.h"
-#include "planner/optimise/solver/solver.h"
+#include "planner/ground/base/number.h"
+#include "planner/making/optimise/solver/solver.h"
+#include "planner/physics/motion/time.h"
 
 namespace capstan::validation::nist {
 model::Machine machine_of(const Plate& plate, const MachineFit& fit) {

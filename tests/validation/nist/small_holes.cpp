@@ -3,11 +3,11 @@
 #include <numbers>
 #include <vector>
 
-#include "planner/base/number.h"
-#include "planner/mechanics/beam.h"
-#include "planner/mechanics/constants.h"
-#include "planner/mechanics/stability.h"
-#include "planner/motion/time.h"
+#include "planner/ground/base/number.h"
+#include "planner/physics/mechanics/beam.h"
+#include "planner/physics/mechanics/constants.h"
+#include "planner/physics/mechanics/stability.h"
+#include "planner/physics/motion/time.h"
 #include "tests/validation/studies.h"
 
 namespace capstan::validation {

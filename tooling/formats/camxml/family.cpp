@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "planner/base/number.h"
+#include "planner/ground/base/number.h"
 #include "tooling/catalogue/library.h"
 #include "tooling/formats/all.h"
 #include "tooling/formats/item/item.h"

@@ -1,7 +1,7 @@
 #include <array>
 #include <utility>
 
-#include "planner/base/number.h"
+#include "planner/ground/base/number.h"
 #include "tooling/formats/all.h"
 #include "tooling/formats/camxml/parameters.h"
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "planner/base/number.h"
+#include "planner/ground/base/number.h"
 
 namespace capstan::tooling::camxml {
 

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "planner/base/job.h"
-#include "planner/base/result.h"
+#include "planner/ground/base/job.h"
+#include "planner/ground/base/result.h"
 
 namespace capstan::tooling::csv {
 

@@ -2,7 +2,7 @@
 
 #include <map>
 
-#include "planner/base/number.h"
+#include "planner/ground/base/number.h"
 #include "tooling/formats/all.h"
 #include "tooling/formats/csv/table.h"
 #include "tooling/formats/values.h"

@@ -3,7 +3,7 @@
 #include <map>
 #include <utility>
 
-#include "planner/base/number.h"
+#include "planner/ground/base/number.h"
 #include "tooling/catalogue/library.h"
 #include "tooling/catalogue/tree.h"
 #include "tooling/formats/csv/csv.h"

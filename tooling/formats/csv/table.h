@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "planner/base/result.h"
+#include "planner/ground/base/result.h"
 
 namespace capstan::tooling::csv {
 

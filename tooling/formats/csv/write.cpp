@@ -2,7 +2,7 @@
 #include <map>
 #include <set>
 
-#include "planner/base/number.h"
+#include "planner/ground/base/number.h"
 #include "tooling/formats/csv/csv.h"
 #include "tooling/formats/csv/table.h"
 #include "tooling/formats/fusion/keys.h"

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string_view>
 
-#include "planner/model/cutter.h"
+#include "planner/model/plan/cutter.h"
 
 namespace capstan::tooling::din4000 {
 

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "planner/base/number.h"
+#include "planner/ground/base/number.h"
 #include "tooling/formats/din4000/codes.h"
 #include "tooling/formats/din4000/din4000.h"
 

@@ -5,8 +5,8 @@
 #include <numbers>
 #include <set>
 
-#include "planner/base/file.h"
-#include "planner/base/number.h"
+#include "planner/ground/base/file.h"
+#include "planner/ground/base/number.h"
 #include "tooling/formats/all.h"
 #include "tooling/formats/freecad/freecad.h"
 #include "tooling/formats/freecad/shapes.h"

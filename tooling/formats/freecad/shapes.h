@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "planner/model/cutter.h"
+#include "planner/model/plan/cutter.h"
 
 namespace capstan::tooling::freecad {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string_view>
 
-#include "planner/model/cutter.h"
+#include "planner/model/plan/cutter.h"
 #include "tooling/formats/format.h"
 #include "tooling/formats/json.h"
 

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <map>
 
-#include "planner/base/number.h"
+#include "planner/ground/base/number.h"
 #include "tooling/catalogue/tree.h"
 #include "tooling/formats/fusion/keys.h"
 #include "tooling/formats/values.h"

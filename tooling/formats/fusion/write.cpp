@@ -1,6 +1,6 @@
 #include <map>
 
-#include "planner/base/number.h"
+#include "planner/ground/base/number.h"
 #include "tooling/formats/all.h"
 #include "tooling/formats/fusion/keys.h"
 #include "tooling/formats/values.h"

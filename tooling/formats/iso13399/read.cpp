@@ -2,7 +2,7 @@
 #include <map>
 #include <set>
 
-#include "planner/p21/parse.h"
+#include "planner/files/p21/parse.h"
 #include "tooling/catalogue/library.h"
 #include "tooling/formats/all.h"
 #include "tooling/formats/iso13399/iso13399.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/base/number.h"
+#include "planner/ground/base/number.h"
 #include "tooling/formats/item/symbols.h"
 
 namespace capstan::tooling {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "planner/base/job.h"
+#include "planner/ground/base/job.h"
 #include "tooling/formats/format.h"
 #include "tooling/formats/values.h"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "planner/base/number.h"
+#include "planner/ground/base/number.h"
 #include "tooling/catalogue/library.h"
 #include "tooling/catalogue/tree.h"
 #include "tooling/formats/all.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "planner/model/cutter.h"
+#include "planner/model/plan/cutter.h"
 
 /// @file LinuxCNC's tool table: one line per tool, `T1 P1 X0 Z+80.5 D6 ;6 mm end mill`. Source: LinuxCNC user
 /// manual, "Tool table". PathPilot's is of the same form. The table states no unit; it is that of the

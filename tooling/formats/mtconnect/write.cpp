@@ -3,7 +3,7 @@
 #include <map>
 #include <set>
 
-#include "planner/base/number.h"
+#include "planner/ground/base/number.h"
 #include "tooling/formats/all.h"
 #include "tooling/formats/item/item.h"
 #include "tooling/formats/mtconnect/mtconnect.h"

@@ -1,3 +1,0 @@
-#include "planner/app/command/run.h"
-
-int main(int argc, char** argv) { return capstan::app::run(argc, argv); }

@@ -1,0 +1,77 @@
+#include "planner/controls/linuxcnc/comment.h"
+
+#include <algorithm>
+
+#include "planner/controls/linuxcnc/linuxcnc.h"
+#include "planner/ground/base/file.h"
+#include "planner/ground/base/number.h"
+
+namespace capstan::controls {
+namespace {
+
+constexpr std::size_t kLongestComment = 240;  // LinuxCNC's LINELEN is 255
+constexpr std::size_t kLongestMarker = 160;
+constexpr std::string_view kHex = "0123456789ABCDEF";
+
+int hex_digit(char c) {
+  const auto at = kHex.find(c);
+  return at == std::string_view::npos ? -1 : static_cast<int>(at);
+}
+
+}  // namespace
+
+std::string plain_text(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    const auto u = static_cast<unsigned char>(c);
+    if ((u & 0xC0U) == 0x80U) continue;  // continues a character of UTF-8
+    if (c == '(') {
+      out += '[';
+    } else if (c == ')') {
+      out += ']';
+    } else if (c == '\n' || c == '\r' || c == '\t') {
+      out += ' ';
+    } else {
+      out += u < 0x20 || u > 0x7E ? '?' : c;
+    }
+  }
+  return out;
+}
+
+std::string comment_line(std::string_view text) {
+  return "(" + plain_text(text).substr(0, kLongestComment) + ")\n";
+}
+
+std::string marker_text(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    const auto u = static_cast<unsigned char>(c);
+    if (u <= 0x20 || u > 0x7E || std::string_view("\"%();").find(c) != std::string_view::npos) {
+      out += '%';
+      out += kHex[u >> 4U];
+      out += kHex[u & 15U];
+    } else {
+      out += c;
+    }
+  }
+  // An id too long for a line is told by its hash.
+  if (out.size() > kLongestMarker) out = "fnv1a:" + hex64(fnv1a(text));
+  return out;
+}
+
+std::string from_marker_text(std::string_view text) {
+  std::string out;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool escape =
+        text[i] == '%' && i + 2 < text.size() && hex_digit(text[i + 1]) >= 0 && hex_digit(text[i + 2]) >= 0;
+    if (escape) {
+      out += static_cast<char>(hex_digit(text[i + 1]) * 16 + hex_digit(text[i + 2]));
+      i += 2;
+    } else {
+      out += text[i];
+    }
+  }
+  return out;
+}
+
+}  // namespace capstan::controls

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "planner/ground/geometry/vec.h"
+#include "planner/model/plan/machine.h"
+
+namespace capstan::controls {
+
+/// The text of a program as it grows, and what the control knows at its end: position, feed.
+/// Units  mm, mm/min, 1/min, s. Positions are those of the work offset, rounded as they are written.
+class Program {
+ public:
+  explicit Program(const model::Control& control) : control_(control) {}
+
+  void line(std::string_view text);
+  void comment(std::string_view text);
+  void blank() { text_ += '\n'; }
+
+  /// Forgets position and feed, so that the next words are all written.
+  void forget();
+  [[nodiscard]] geometry::Vec3 round(geometry::Vec3 p) const;
+  [[nodiscard]] std::string number(double v) const;
+  [[nodiscard]] std::string feed(double v) const;
+
+  /// `G0` or `G1 ... F`, with the words that change; nothing when none does.
+  void rapid(geometry::Vec3 to);
+  void cut(geometry::Vec3 to, double feed_mm_min);
+  /// Words are always written, changed or not.
+  void rapid_xy(geometry::Vec3 to);
+  void rapid_z(double z);
+  void arc(geometry::Vec3 to, double i, double j, bool clockwise, double feed_mm_min);
+  /// A word by word line whose motion ends at `to`.
+  void moved(std::string_view text, geometry::Vec3 to);
+
+  /// The last known position; nothing after `forget` or a move in machine coordinates.
+  [[nodiscard]] std::optional<geometry::Vec3> at() const;
+  void lost_z() { z_.reset(); }
+  [[nodiscard]] std::string take() { return std::move(text_); }
+
+ private:
+  [[nodiscard]] std::string changed(geometry::Vec3 to) const;
+  void arrive(geometry::Vec3 to);
+  [[nodiscard]] std::string feed_word(double feed_mm_min);
+
+  const model::Control& control_;
+  std::string text_;
+  std::optional<double> x_, y_, z_;
+  std::string feed_;
+};
+
+}  // namespace capstan::controls

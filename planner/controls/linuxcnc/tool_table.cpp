@@ -1,0 +1,54 @@
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "planner/controls/linuxcnc/comment.h"
+#include "planner/controls/linuxcnc/linuxcnc.h"
+#include "planner/ground/base/number.h"
+
+namespace capstan::controls {
+namespace {
+
+/// Six decimals, and more only where the number needs them: what a table said comes out again.
+std::string table_number(double v) {
+  std::string text = fixed(v, 6);
+  if (const auto back = parse_double(text); !back || *back != v) text = shortest(v);
+  return text.front() == '-' ? text : "+" + text;
+}
+
+/// What the machine's table says of it, but for a diameter that it has been set to since.
+std::string table_words(const model::Cutter& c) {
+  constexpr double kSameDiameter = 0.001;  // mm, as a tool of the magazine is told
+  std::string out;
+  for (const std::string_view letter : {"X", "Y", "Z", "A", "B", "C", "U", "V", "W", "D", "I", "J", "Q"}) {
+    auto v = model::table_word(c, letter);
+    if (letter == "Z" && !v && !c.table_line) v = c.functional_length_mm;
+    if (letter == "D" && (!v || std::abs(*v - c.cutting_diameter_mm) > kSameDiameter))
+      v = c.cutting_diameter_mm;
+    if (v) out += " " + std::string(letter) + (letter == "Q" ? trimmed(*v, 0) : table_number(*v));
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string write_tool_table(const model::Plan& plan) {
+  std::vector<const model::Cutter*> loaded;
+  for (const model::Cutter& c : plan.cutters) {
+    if (c.pocket > 0) loaded.push_back(&c);
+  }
+  std::sort(loaded.begin(), loaded.end(),
+            [](const model::Cutter* a, const model::Cutter* b) { return a->pocket < b->pocket; });
+  std::string out;
+  for (const model::Cutter* c : loaded) {
+    const auto pocket = model::table_word(*c, "P");
+    const std::string t = std::to_string(c->pocket);
+    out += "T" + t + " P" + (pocket ? trimmed(*pocket, 0) : t) + table_words(*c) + " ;" +
+           plain_text(c->description.empty() ? c->id : c->description).substr(0, 120) + "\n";
+  }
+  return out;
+}
+
+}  // namespace capstan::controls

@@ -1,0 +1,94 @@
+#include <utility>
+
+#include "casebase/casebase.h"
+#include "planner/door/app/command/session.h"
+#include "planner/door/app/files/load.h"
+#include "planner/door/app/show/values.h"
+#include "planner/ground/base/file.h"
+#include "planner/ground/base/number.h"
+#include "tooling/catalogue/machine.h"
+#include "tooling/catalogue/material.h"
+
+namespace capstan::app {
+namespace {
+
+std::string n(double v) { return v != 0.0 ? trimmed(v, 4) : std::string("-"); }
+
+/// The cases of a CSV file, or of a plan's steps; a step that is none is told and left out.
+Result<std::vector<casebase::Case>> cases_of(const std::string& path, Job& job) {
+  auto bytes = read_file(path);
+  if (!bytes) return tl::unexpected(bytes.error());
+  const Content content = content_of(*bytes);
+  if (content != Content::kPlanJson && content != Content::kPart) return casebase::from_csv(*bytes, path);
+  const auto plan = plan_of_bytes(*std::move(bytes), path, job);
+  if (!plan) return tl::unexpected(plan.error());
+  std::vector<casebase::Case> out;
+  for (const auto& step : plan->steps) {
+    auto one = casebase::case_of(*plan, step);
+    if (one) {
+      out.push_back(*std::move(one));
+    } else {
+      Diagnostic d = one.error();
+      d.severity = Severity::kNote;
+      job.report(std::move(d));
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+int run_cases_add(Session& s) {
+  std::vector<casebase::Case> cases;
+  for (const std::string& path : s.options.files) {
+    auto more = cases_of(path, s.job);
+    if (!more) return s.end(more.error(), kUnreadable);
+    cases.insert(cases.end(), more->begin(), more->end());
+  }
+  auto base = casebase::CaseBase::open_or_create(*s.options.inputs.cases, s.job);
+  if (!base) return s.end(base.error(), kUnreadable);
+  const std::size_t before = base->size();
+  if (auto ok = base->add(cases); !ok) return s.end(ok.error(), kImpossible);
+  s.summary = "read " + counted(cases.size(), "case", "cases") + ", " +
+              std::to_string(base->size() - before) + " of them new; the base holds " +
+              counted(base->size(), "case", "cases");
+  return kDone;
+}
+
+int run_cases_nearest(Session& s) {
+  const auto base = casebase::CaseBase::open(*s.options.inputs.cases, s.job);
+  if (!base) return s.end(base.error(), kUnreadable);
+  const auto materials = tooling::shipped_materials();
+  if (!materials) return s.end(materials.error(), kUnreadable);
+  const CaseQuestion& q = s.options.question;
+  const auto material = tooling::find_material({q.material}, *materials, s.job, tooling::Families::kRefused);
+  if (!material) return s.end(material.error(), kUsage);
+  const auto question =
+      casebase::question_of(q.operation, casebase::material_group_of(*material), q.tool_class,
+                            s.options.inputs.machine.value_or(std::string(tooling::kDefaultMachine)),
+                            {.diameter_mm = q.diameter_mm,
+                             .depth_mm = q.depth_mm,
+                             .width_mm = q.width_mm,
+                             .tolerance_mm = q.tolerance_mm});
+  const auto near = base->nearest(question, q.count);
+  if (!near) return s.end(near.error(), kUsage);
+  std::vector<std::vector<std::string>> rows = {{"case", "distance", "D", "depth", "width", "tolerance",
+                                                 "vc m/min", "fz mm", "verdict", "provenance", "source"}};
+  for (const auto& [c, distance] : *near) {
+    rows.push_back({c.id.substr(0, 12), trimmed(distance, 4), n(c.asked.diameter_mm), n(c.asked.depth_mm),
+                    n(c.asked.width_mm), n(c.asked.tolerance_mm), n(c.vc_m_min), n(c.fz_mm), c.verdict,
+                    c.provenance, c.source});
+  }
+  std::string out = near->empty() ? "no case shares these categories\n" : table(rows, "");
+  const auto answer = base->ask(question);
+  if (answer.precedent) {
+    const auto& p = *answer.precedent;
+    out += "precedent: case " + p.case_id.substr(0, 12) + ", " + p.provenance + ", one of " +
+           std::to_string(p.neighbours) + "; vc " + n(p.vc_m_min) + " m/min, fz " + n(p.fz_mm) + " mm\n";
+  } else {
+    out += "no precedent: " + answer.why + "\n";
+  }
+  return print(out) ? kDone : kImpossible;
+}
+
+}  // namespace capstan::app

@@ -1,0 +1,275 @@
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "planner/door/app/command/session.h"
+#include "planner/door/app/files/inputs.h"
+#include "planner/door/app/files/load.h"
+#include "planner/door/pipeline/pipeline.h"
+#include "planner/files/exchange/conformance/check.h"
+#include "planner/files/exchange/iso14649/curves.h"
+#include "planner/files/p21/parse.h"
+#include "planner/ground/base/file.h"
+#include "planner/model/plan/condemned.h"
+#include "planner/model/plan/unreadable.h"
+#include "planner/proof/verify/verify.h"
+#include "tooling/catalogue/library.h"
+#include "tooling/catalogue/machine.h"
+
+namespace capstan::app {
+namespace {
+
+struct Input {
+  std::string path, bytes;
+  Content content = Content::kProgram;
+};
+
+/// What programs are checked against.
+struct Shop {
+  model::Machine machine;
+  std::vector<model::Cutter> cutters;
+  std::string tool_table;
+};
+
+class Check {
+ public:
+  explicit Check(Session& s) : s_(s) {}
+
+  int run() {
+    if (const auto d = read()) return s_.end(*d, kUnreadable);
+    if (const auto d = shop()) return s_.end(*d, kUnreadable);
+    for (const Input& in : inputs_) {
+      if (in.content != Content::kProgram) continue;
+      ++checked_;
+      const model::Plan* plan = plans_.empty() ? nullptr : &plans_.front();
+      add(verify::check_program({in.path, in.bytes, shop_.tool_table}, plan, shop_.machine, shop_.cutters,
+                                s_.job),
+          in.path, true);
+    }
+    return end();
+  }
+
+ private:
+  /// Whether there is something to check at all: planned steps with their paths.
+  static bool has_paths(const model::Plan& plan) {
+    bool any = false;
+    for (const auto& step : plan.steps) {
+      if (step.path == nullptr) return false;
+      any = true;
+    }
+    return any;
+  }
+
+  /// How many values were said to be edited so far.
+  [[nodiscard]] std::size_t edited() const {
+    const auto& all = s_.job.diagnostics();
+    return static_cast<std::size_t>(
+        std::count_if(all.begin(), all.end(), [](const Diagnostic& d) { return d.code == "EXC-EDITED"; }));
+  }
+
+  using Stated = std::map<model::AnyRef, exchange::StepPath>;
+
+  static Stated stated_paths(const model::Plan& plan) {
+    Stated out;
+    Job quiet;  // executing says again what is wrong with a path
+    for (const auto step : plan.model.all_below(model::TypeId::kMachiningWorkingstep)) {
+      auto path = exchange::path_of_step(plan, model::Ref<model::Executable>(step), {}, quiet);
+      if (path && path->path.size() > 0) out.emplace(step, *std::move(path));
+    }
+    return out;
+  }
+
+  /// A step whose path was computed anew all the same is not judged by what the file says of it.
+  void tell_recomputed(const Stated& stated, const model::Plan& bound) {
+    for (const auto& step : bound.steps) {
+      const auto it = stated.find(step.step);
+      if (it == stated.end() || step.path == nullptr) continue;
+      const auto& said = it->second.schedule.feed_mm_min;
+      bool same = it->second.path == *step.path;
+      for (std::size_t i = 0; same && step.schedule && i < said.size(); ++i)
+        same = !(said[i] > 0.0) || said[i] == step.schedule->feed_mm_min[i];
+      if (same) continue;
+      s_.job.warn("APP-RECOMPUTED", "step '" + model::step_id(bound, step) +
+                                        "': its path or feeds were computed anew and are not those of the "
+                                        "file; the findings are about the new ones");
+    }
+  }
+
+  /// A file that says what is done and not, in full, how: what is open is closed as `plan` would, what it
+  /// says is executed as given, whoever computed it: the ledger does not let anything be computed again.
+  Result<model::Plan> executed(model::Plan plan) {
+    const auto inputs = gather(s_.options.inputs, plan, s_.job);
+    if (!inputs) return tl::unexpected(inputs.error());
+    const auto unreadable = model::unreadable(plan);
+    plan.ledger = model::Ledger{};
+    for (const auto& u : unreadable) model::set_unreadable(plan, u.key.object, u.key.attribute, u.why);
+    const auto stated = stated_paths(plan);
+    auto bound = pipeline::bind(std::move(plan), *inputs, pipeline::Policy{}, s_.job);
+    if (!bound) return bound;
+    unplanned_ += unplanned_features(*bound);
+    tell_recomputed(stated, *bound);
+    return bound;
+  }
+
+  /// An AP238 file with --schema: compared with the EXPRESS dictionary instance by instance, not executed.
+  std::optional<Diagnostic> compare_with_schema(Input& in) {
+    const auto file = p21::parse(std::move(in.bytes), in.path, {}, s_.job);
+    if (!file) return file.error();
+    const std::size_t before = s_.job.diagnostics().size();
+    schema_ += exchange::check_schema(*file, s_.job);
+    ++checked_;
+    if (!s_.options.json) return std::nullopt;
+    const auto& all = s_.job.diagnostics();
+    for (std::size_t i = before; i < all.size(); ++i) {
+      const std::string instance = all[i].instance == 0 ? "" : "#" + std::to_string(all[i].instance) + " ";
+      const std::string path = all[i].path.empty() ? "" : all[i].path + ": ";
+      const std::string expected = all[i].expected.empty() ? "" : "; expected " + all[i].expected;
+      model::Finding f;
+      f.code = all[i].code;
+      f.severity = all[i].severity;
+      f.message = instance + path + all[i].message + expected;
+      findings_.push_back({in.path, std::move(f)});
+    }
+    return std::nullopt;
+  }
+
+  std::optional<Diagnostic> read() {
+    for (const std::string& path : s_.options.files) {
+      auto bytes = read_file(path);
+      if (!bytes) return bytes.error();
+      const Content content = content_of(*bytes);
+      inputs_.push_back({path, *std::move(bytes), content});
+      if (content == Content::kToolTable) shop_.tool_table = inputs_.back().bytes;
+    }
+    for (Input& in : inputs_) {
+      if (in.content != Content::kPlanJson && in.content != Content::kPart) continue;
+      if (s_.options.schema && exchange::declares_ap238(in.bytes)) {
+        if (const auto d = compare_with_schema(in)) return d;
+        continue;
+      }
+      const std::size_t before = s_.job.diagnostics().size();
+      const std::size_t edits = edited();
+      auto plan = plan_of_bytes(std::move(in.bytes), in.path, s_.job);
+      if (!plan) return plan.error();
+      if (s_.options.schema) schema_ += s_.job.diagnostics().size() - before;
+      count_edits(before, in.path);
+      ++checked_;
+      // What was computed before somebody edited a value says nothing of the plan as it is now.
+      if (!has_paths(*plan) || edited() > edits) {
+        plan = executed(*std::move(plan));
+        if (!plan) return plan.error();
+      }
+      // A plan made for one machine may be asked of another.
+      if (const auto& named = s_.options.inputs.machine) {
+        auto machine = tooling::load_machine(*named, s_.job);
+        if (!machine) return machine.error();
+        plan->machine = *std::move(machine);
+      }
+      add(verify::check_plan(*plan, s_.job), in.path, false);
+      add(beside_the_check(*plan), in.path, false);
+      plans_.push_back(*std::move(plan));
+    }
+    return std::nullopt;
+  }
+
+  /// A file that somebody edited after it was written is found, for what was computed of the old values
+  /// stands in it. Its reader has said so already.
+  void count_edits(std::size_t before, const std::string& file) {
+    const auto& all = s_.job.diagnostics();
+    for (std::size_t i = before; i < all.size(); ++i) {
+      if (!all[i].code.ends_with("-EDITED") || all[i].severity == Severity::kNote) continue;
+      model::Finding f;
+      f.code = all[i].code;
+      f.severity = all[i].severity;
+      f.message = all[i].message;
+      ++count_;
+      findings_.push_back({file, std::move(f)});
+    }
+  }
+
+  /// What condemns the plan by its own record, as findings.
+  static std::vector<model::Finding> beside_the_check(const model::Plan& plan) {
+    std::vector<model::Finding> out;
+    for (auto& c : model::condemned(plan, {})) {
+      model::Finding f;
+      f.code = std::move(c.code);
+      f.step = std::move(c.step);
+      f.message = std::move(c.text);
+      out.push_back(std::move(f));
+    }
+    return out;
+  }
+
+  std::optional<Diagnostic> shop() {
+    const auto& o = s_.options.inputs;
+    const bool has_plan = !plans_.empty();
+    if (has_plan) {
+      shop_.machine = plans_.front().machine;
+      shop_.cutters = plans_.front().cutters;
+    }
+    if (o.machine || !has_data(shop_.machine)) {
+      std::string wanted = o.machine.value_or(std::string(tooling::kDefaultMachine));
+      auto machine = tooling::load_machine(wanted, s_.job);
+      if (!machine) return machine.error();
+      shop_.machine = *std::move(machine);
+      if (!o.machine && programs())
+        s_.job.note("APP-DEFAULT", "no machine is named; programs are checked for the built-in " + wanted);
+    }
+    const tooling::LibraryOptions counts{
+        .mm_per_unit = {}, .offsets_against_reference = shop_.machine.control.offsets_against_reference};
+    if (o.tools) {
+      auto library = tooling::load_library(*o.tools, s_.job, counts);
+      if (!library) return library.error();
+      shop_.cutters = *std::move(library);
+    } else if (!has_plan && !shop_.tool_table.empty()) {
+      auto table = tooling::read_tool_table(shop_.tool_table, "tool table", s_.job, counts);
+      if (!table) return table.error();
+      shop_.cutters = *std::move(table);
+    }
+    return std::nullopt;
+  }
+
+  [[nodiscard]] bool programs() const {
+    for (const Input& in : inputs_) {
+      if (in.content == Content::kProgram) return true;
+    }
+    return false;
+  }
+
+  void add(const std::vector<model::Finding>& findings, const std::string& file, bool program) {
+    for (const auto& f : findings) {
+      if (!s_.options.json) s_.job.report(as_diagnostic(f, file, program));
+      if (f.severity != Severity::kNote) ++count_;
+      findings_.push_back({file, f, program});
+    }
+  }
+
+  int end() {
+    if (checked_ == 0)
+      return s_.end(
+          {.code = "APP-NOTHING", .message = "there is neither a plan nor a program among the files"},
+          kUsage);
+    if (s_.options.json && !print(findings_json(findings_)))
+      return s_.end({.code = "FILE-WRITE", .message = "standard output is closed"}, kImpossible);
+    s_.summary =
+        "checked " + counted(checked_, "file", "files") + ": " + counted(count_, "finding", "findings");
+    if (schema_ != 0) s_.summary += ", " + counted(schema_, "deviation", "deviations") + " from the schema";
+    if (unplanned_ != 0) s_.summary += ", " + counted(unplanned_, "feature", "features") + " not planned";
+    return count_ == 0 && schema_ == 0 && unplanned_ == 0 ? kDone : kFindings;
+  }
+
+  Session& s_;
+  std::vector<Input> inputs_;
+  std::vector<model::Plan> plans_;
+  Shop shop_;
+  std::vector<Told> findings_;
+  std::size_t count_ = 0, schema_ = 0, checked_ = 0, unplanned_ = 0;
+};
+
+}  // namespace
+
+int run_check(Session& s) { return Check(s).run(); }
+
+}  // namespace capstan::app

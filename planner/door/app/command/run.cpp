@@ -1,0 +1,120 @@
+#include "planner/door/app/command/run.h"
+
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <utility>
+
+#include "planner/door/app/command/finish.h"
+#include "planner/door/app/command/options.h"
+#include "planner/door/app/command/session.h"
+#include "planner/door/app/files/outputs.h"
+
+namespace capstan::app {
+namespace {
+
+int dispatch(Session& s) {
+  switch (s.options.command) {
+    case Command::kPlan:
+      return run_plan(s);
+    case Command::kBind:
+      return run_bind(s);
+    case Command::kCheck:
+      return run_check(s);
+    case Command::kExplain:
+      return run_explain(s);
+    case Command::kInspect:
+      return run_inspect(s);
+    case Command::kDiff:
+      return run_diff(s);
+    case Command::kConvert:
+      return run_convert(s);
+    case Command::kToolsList:
+    case Command::kToolsShow:
+      return run_tools(s);
+    case Command::kToolsImport:
+    case Command::kToolsExport:
+    case Command::kToolsConvert:
+      return run_tools_convert(s);
+    case Command::kMaterialsList:
+    case Command::kMachinesList:
+    case Command::kFixturesList:
+      return run_known(s);
+    case Command::kRulesCheck:
+    case Command::kRulesList:
+      return run_rules(s);
+    case Command::kCasesAdd:
+      return run_cases_add(s);
+    case Command::kCasesNearest:
+      return run_cases_nearest(s);
+  }
+  return kUsage;
+}
+
+/// What a call reads: an output of the same name would take it away.
+std::vector<std::string> read_by(const Options& o) {
+  std::vector<std::string> out = o.files;
+  const InputOptions& in = o.inputs;
+  for (const auto& path : {in.machine, in.tools, in.material, in.rules, in.cases, in.workholding}) {
+    if (path) out.push_back(*path);
+  }
+  if (!o.tools.column_map.empty()) out.push_back(o.tools.column_map);
+  return out;
+}
+
+/// A fault of the outputs' paths ends the call before any work.
+int begun(Session& s) {
+  std::vector<std::string> outputs = s.options.outputs;
+  if (!s.options.tools.save_map.empty()) outputs.push_back(s.options.tools.save_map);
+  if (auto ok = can_be_written(outputs, read_by(s.options), s.options.force); !ok)
+    return s.end(ok.error(), kUsage);
+  return dispatch(s);
+}
+
+/// The only place that catches: everything below tells its outcome by value.
+int guarded(Session& s) {
+  try {
+    return begun(s);
+  } catch (const std::bad_alloc&) {
+    return s.end({.code = "APP-MEMORY", .message = "the memory does not suffice"}, kOurFault);
+  } catch (const std::exception& e) {
+    return s.end({.code = "APP-FAULT",
+                  .message = std::string("a fault of the program itself: ") + e.what(),
+                  .hint = "please report it, with the input"},
+                 kOurFault);
+  }
+}
+
+/// Whoever plans again and gets nothing must not find a program from before under the name that was promised.
+void leave_nothing_stale(Session& s, int code) {
+  const bool plans = s.options.command == Command::kPlan || s.options.command == Command::kBind;
+  if (!plans || code <= kFindings || code == kLate) return;
+  for (const Diagnostic& d : s.job.diagnostics()) {
+    // Names that are wrong promise nothing; what was put in place is of this call.
+    if (d.code == "OUT-INPUT" || d.code == "OUT-TWICE" || d.code == "FILE-PARTLY") return;
+  }
+  for (const std::string& path : s.options.outputs) {
+    // One name that is wrong does not make the others' programs true.
+    if (auto one = output_of(path)) put_programs_aside({*std::move(one)}, s.job);
+  }
+}
+
+}  // namespace
+
+int run(int argc, const char* const* argv) {
+  // A reader that closes its end early is no reason to be killed silently.
+  std::signal(SIGPIPE, SIG_IGN);
+  Parsed parsed = parse_command_line(argc, argv);
+  if (!parsed.options) {
+    std::fputs(parsed.ending.text.c_str(), parsed.ending.code == kDone ? stdout : stderr);
+    return parsed.ending.code;
+  }
+  Session session(*std::move(parsed.options));
+  const int code = guarded(session);
+  leave_nothing_stale(session, code);
+  print_diagnostics(session, code);
+  return code;
+}
+
+}  // namespace capstan::app

@@ -1,0 +1,137 @@
+#include "planner/door/app/command/session.h"
+
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdio>
+#include <set>
+#include <utility>
+
+#include "planner/door/app/command/told_once.h"
+#include "planner/ground/base/nearest_names.h"
+#include "planner/ground/base/number.h"
+
+namespace capstan::app {
+namespace {
+
+/// A bar on a terminal, once work has taken more than a second; nothing in a pipe.
+class Bar {
+ public:
+  void show(std::string_view stage, double fraction) {
+    const auto now = std::chrono::steady_clock::now();
+    if (now - begun_ < std::chrono::seconds(1) || now - shown_ < std::chrono::milliseconds(100)) return;
+    shown_ = now;
+    constexpr int kWidth = 30;
+    const double f = fraction < 0.0 ? 0.0 : fraction > 1.0 ? 1.0 : fraction;
+    const auto full = static_cast<std::size_t>(f * kWidth);
+    const std::string bar = std::string(full, '#') + std::string(kWidth - full, '.');
+    std::fprintf(stderr, "\r%-20.*s [%s] %3d %%", static_cast<int>(stage.size()), stage.data(), bar.c_str(),
+                 static_cast<int>(100.0 * f));
+    std::fflush(stderr);
+    visible = true;
+  }
+  bool visible = false;
+
+ private:
+  std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
+  std::chrono::steady_clock::time_point shown_;
+};
+
+Bar& bar() {
+  static Bar one;
+  return one;
+}
+
+std::string one_line(std::string text) {
+  for (char& c : text) {
+    if (c == '\n' || c == '\r') c = ' ';
+  }
+  return text;
+}
+
+std::string summary_line(const Session& s, int code) {
+  std::string out = "capstan: ";
+  if (!s.summary.empty()) {
+    out += s.summary;
+  } else {
+    out += code == kDone ? "done" : code == kFindings ? "done, with findings" : "nothing done";
+  }
+  const auto errors = s.job.count(Severity::kError);
+  const auto warnings = s.job.count(Severity::kWarning);
+  out += "; " + counted(errors, "error", "errors") + ", " + counted(warnings, "warning", "warnings");
+  return out;
+}
+
+}  // namespace
+
+Session::Session(Options o) : options(std::move(o)) {
+  job.threads = options.threads;
+  if (::isatty(STDERR_FILENO) != 0 && !options.json_diagnostics)
+    job.set_progress([](std::string_view stage, double fraction) { bar().show(stage, fraction); });
+}
+
+int Session::end(const Diagnostic& d, int code) {
+  // Readers report each fault before they fail with a summary; that summary may be one of them.
+  const auto& told = job.diagnostics();
+  if (told.empty() || !(told.back() == d)) {
+    Diagnostic fault = d;
+    fault.severity = Severity::kError;
+    job.report(std::move(fault));
+  }
+  const bool usage = d.code == kUnknownName || d.code == "MACHINE-GEAR" || d.code == "FILE-WRITE";
+  return usage ? static_cast<int>(kUsage) : code;
+}
+
+void print_diagnostics(Session& s, int code) {
+  if (bar().visible) std::fputs("\r\033[K", stderr);
+  if (s.options.json_diagnostics) {
+    for (const Diagnostic& d : s.job.diagnostics()) std::fprintf(stderr, "%s\n", diagnostic_json(d).c_str());
+  } else {
+    for (const Diagnostic& d : told_once(s.job.diagnostics()))
+      std::fprintf(stderr, "%s\n", one_line(to_text(d)).c_str());
+  }
+  const bool shows =
+      s.options.command != Command::kExplain && s.options.command != Command::kInspect &&
+      s.options.command != Command::kDiff && s.options.command != Command::kToolsList &&
+      s.options.command != Command::kToolsShow && s.options.command != Command::kMaterialsList &&
+      s.options.command != Command::kMachinesList && s.options.command != Command::kFixturesList &&
+      s.options.command != Command::kCasesNearest && s.options.command != Command::kRulesList;
+  if (!shows && code <= kFindings) return;  // what was asked for stands on standard output
+  const std::string line = summary_line(s, code);
+  if (s.options.json_diagnostics) {
+    std::fprintf(stderr, "%s\n",
+                 diagnostic_json({.code = "SUMMARY", .severity = Severity::kNote, .message = line}).c_str());
+  } else {
+    std::fprintf(stderr, "%s\n", line.c_str());
+  }
+}
+
+bool print(const std::string& text) {
+  return std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
+}
+
+Diagnostic as_diagnostic(const model::Finding& f, const std::string& file, bool program) {
+  Diagnostic d{.code = f.code, .severity = f.severity, .message = f.message, .file = file};
+  if (program && f.move > 0) d.line = static_cast<std::uint64_t>(f.move);
+  if (!f.step.empty()) d.path = "step '" + f.step + "'";
+  if (!program && f.move >= 0)
+    d.path = "move " + std::to_string(f.move) + (d.path.empty() ? "" : " of " + d.path);
+  return d;
+}
+
+std::size_t unplanned_features(const model::Plan& plan) {
+  std::set<model::AnyRef> out;
+  for (const model::Unplanned& u : plan.unplanned) out.insert(u.feature);
+  return out.size();
+}
+
+std::string unplanned_text(const model::Plan& plan) {
+  return counted(unplanned_features(plan), "feature", "features") + " not planned";
+}
+
+std::string counted(std::size_t n, const std::string& one, const std::string& many) {
+  if (n == 0) return "no " + one;
+  return std::to_string(n) + " " + (n == 1 ? one : many);
+}
+
+}  // namespace capstan::app

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "planner/door/app/command/options.h"
+#include "planner/door/app/command/run.h"
+#include "planner/ground/base/job.h"
+#include "planner/ground/base/result.h"
+#include "planner/model/plan/plan.h"
+
+namespace capstan::app {
+
+/// What a command works in: its options, the job, and what it says at its end.
+struct Session {
+  explicit Session(Options o);
+  Options options;
+  Job job;
+  std::string summary;  ///< what was done, for the one line at the end
+
+  /// Tells a fault that ends the command, and gives the exit code it means: that of wrong usage for a name
+  /// that nobody knows, whatever it was named in.
+  int end(const Diagnostic& d, int code);
+};
+
+/// Prints what the job was told and the summary line on standard error, as `--diagnostics` asks.
+void print_diagnostics(Session& session, int code);
+/// Text for people or programs on standard output. False when it cannot be written (a closed pipe).
+bool print(const std::string& text);
+
+/// A finding as a diagnostic of the plan or program it is about.
+[[nodiscard]] Diagnostic as_diagnostic(const model::Finding& f, const std::string& file, bool program);
+/// A finding, and the file it is about.
+struct Told {
+  std::string file;
+  model::Finding finding;
+  bool program = false;  ///< then the finding's place is a line, else a move of its step
+};
+/// Findings as a JSON document; its places are `line` in a program, `move` in a plan.
+[[nodiscard]] std::string findings_json(const std::vector<Told>& findings);
+/// One diagnostic as a JSON object in a line.
+[[nodiscard]] std::string diagnostic_json(const Diagnostic& d);
+/// How many features have something of them not planned, each once; "2 features not planned".
+[[nodiscard]] std::size_t unplanned_features(const model::Plan& plan);
+[[nodiscard]] std::string unplanned_text(const model::Plan& plan);
+/// "3 findings", "1 finding", "no finding"
+[[nodiscard]] std::string counted(std::size_t n, const std::string& one, const std::string& many);
+
+// The commands. Each gives the exit code.
+int run_plan(Session& s);
+int run_bind(Session& s);
+int run_check(Session& s);
+int run_explain(Session& s);
+int run_inspect(Session& s);
+int run_diff(Session& s);
+int run_convert(Session& s);
+int run_tools(Session& s);
+int run_tools_convert(Session& s);
+int run_known(Session& s);
+int run_rules(Session& s);
+int run_cases_add(Session& s);
+int run_cases_nearest(Session& s);
+
+}  // namespace capstan::app

@@ -1,0 +1,82 @@
+#include "planner/door/app/command/session.h"
+#include "planner/door/app/diff/diff.h"
+#include "planner/door/app/explain/explain.h"
+#include "planner/door/app/files/load.h"
+#include "planner/door/app/files/outputs.h"
+#include "planner/door/app/show/inspect.h"
+
+// Commands that read, and say or write what they read.
+
+namespace capstan::app {
+namespace {
+
+/// What is asked for is on standard output; notes about the file would only be noise beside it.
+void drop_notes(Job& job) {
+  for (Diagnostic& d : job.take_diagnostics()) {
+    if (d.severity == Severity::kError) job.report(std::move(d));
+  }
+}
+
+int said(Session& s, const Result<std::string>& text) {
+  if (!text) return s.end(text.error(), kUsage);
+  return print(*text) ? kDone
+                      : s.end({.code = "FILE-WRITE", .message = "standard output is closed"}, kImpossible);
+}
+
+}  // namespace
+
+int run_explain(Session& s) {
+  const auto plan = load_plan(s.options.files[0], s.job);
+  if (!plan) return s.end(plan.error(), kUnreadable);
+  drop_notes(s.job);
+  if (s.options.step.empty()) return said(s, explain(*plan));
+  if (s.options.attribute.empty()) return said(s, explain(*plan, s.options.step));
+  return said(s, explain(*plan, s.options.step, s.options.attribute));
+}
+
+int run_inspect(Session& s) {
+  const auto plan = load_plan(s.options.files[0], s.job);
+  if (!plan) return s.end(plan.error(), kUnreadable);
+  if (!s.options.step.empty()) {
+    drop_notes(s.job);
+    return said(s, inspect(*plan, s.options.step));
+  }
+  // The summary shows what reading said.
+  const auto told = s.job.take_diagnostics();
+  return said(s, inspect(*plan, told));
+}
+
+int run_diff(Session& s) {
+  const auto before = load_plan(s.options.files[0], s.job);
+  if (!before) return s.end(before.error(), kUnreadable);
+  const auto after = load_plan(s.options.files[1], s.job);
+  if (!after) return s.end(after.error(), kUnreadable);
+  drop_notes(s.job);
+  const Difference d = diff(*before, *after);
+  const int code = said(s, d.text);
+  return code == kDone && !d.same ? kFindings : code;
+}
+
+int run_convert(Session& s) {
+  auto outputs = outputs_of(s.options.outputs);
+  if (!outputs) return s.end(outputs.error(), kUsage);
+  for (const Output& o : *outputs) {
+    if (o.kind == OutputKind::kLinuxCnc || o.kind == OutputKind::kToolTable)
+      return s.end({.code = "OUT-KIND",
+                    .message = "a program is planned, not converted",
+                    .file = o.path,
+                    .hint = "capstan plan PART -o " + o.path},
+                   kUsage);
+  }
+  const auto plan = load_plan(s.options.files[0], s.job);
+  if (!plan) return s.end(plan.error(), plan.error().code == "EXC-UNSUPPORTED" ? kUsage : kUnreadable);
+  if (auto ok = make(*plan, *outputs, s.job); !ok) return s.end(ok.error(), kImpossible);
+  if (auto ok = write_all(*outputs); !ok) return s.end(ok.error(), kImpossible);
+  s.summary = "converted " + s.options.files[0];
+  for (const Output& o : *outputs) {
+    if (o.path != "-") s.summary += (&o == outputs->data() ? " to " : ", ") + o.path + losses_text(o);
+  }
+  return kDone;
+}
+
+}  // namespace capstan::app

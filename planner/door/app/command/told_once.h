@@ -1,0 +1,14 @@
+#pragma once
+
+#include <vector>
+
+#include "planner/ground/base/result.h"
+
+namespace capstan::app {
+
+/// Diagnostics for a person: what is said of several operations, steps or features in the same words is said
+/// once, where it was said first, with how many there are and their names; what is said again word for word,
+/// with how often.
+[[nodiscard]] std::vector<Diagnostic> told_once(const std::vector<Diagnostic>& all);
+
+}  // namespace capstan::app

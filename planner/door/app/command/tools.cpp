@@ -1,0 +1,219 @@
+#include <cstdio>
+#include <map>
+
+#include "planner/door/app/command/session.h"
+#include "planner/ground/base/file.h"
+#include "tooling/catalogue/generic.h"
+#include "tooling/catalogue/library.h"
+#include "tooling/formats/import.h"
+#include "tooling/formats/json.h"
+
+// Tool libraries from one format to another, with what is lost on the way.
+
+namespace capstan::app {
+namespace {
+
+using tooling::Format;
+using tooling::FormatOptions;
+using tooling::json_quoted;
+using tooling::LossReport;
+
+std::string line_text(const LossReport::Line& l) {
+  std::string out = l.tool;
+  if (!l.field.empty()) out += (out.empty() ? "" : ", ") + l.field;
+  return out + (out.empty() ? "" : ": ") + l.what;
+}
+
+std::string lines_json(const std::vector<LossReport::Line>& lines) {
+  std::string out = "[";
+  for (const auto& l : lines) {
+    out += (out.size() > 1 ? ",\n    " : "\n    ") + std::string("{\"tool\": ") + json_quoted(l.tool) +
+           ", \"field\": " + json_quoted(l.field) + ", \"what\": " + json_quoted(l.what) + "}";
+  }
+  return out + (lines.empty() ? "]" : "\n  ]");
+}
+
+std::string report_json(const LossReport& r) {
+  return "{\n  \"tools\": " + std::to_string(r.tools) + ",\n  \"derived\": " + lines_json(r.derived) +
+         ",\n  \"dropped\": " + lines_json(r.dropped) + "\n}";
+}
+
+/// What happened to many tools in the same way is said once: "18 tools, LU: the shoulder's length".
+std::vector<std::string> grouped(const std::vector<LossReport::Line>& lines) {
+  std::vector<std::pair<std::string, std::vector<const LossReport::Line*>>> groups;
+  std::map<std::string, std::size_t> at;
+  for (const auto& l : lines) {
+    const std::string key = l.field + '\n' + l.what;
+    const auto [it, fresh] = at.emplace(key, groups.size());
+    if (fresh) groups.push_back({key, {}});
+    groups[it->second].second.push_back(&l);
+  }
+  std::vector<std::string> out;
+  for (const auto& [key, of] : groups) {
+    if (of.size() == 1) {
+      out.push_back(line_text(*of.front()));
+      continue;
+    }
+    LossReport::Line all = *of.front();
+    all.tool = counted(of.size(), "tool", "tools");
+    out.push_back(line_text(all));
+  }
+  return out;
+}
+
+class Tools {
+ public:
+  explicit Tools(Session& s) : s_(s) {}
+
+  int run() {
+    const auto& o = s_.options;
+    if (const int code = options(); code != kDone) return code;
+    auto in = read();
+    if (!in) return s_.end(in.error(), kUnreadable);
+    told("read", from_, in->report);
+    s_.summary =
+        "read " + counted(in->report.tools, "tool", "tools") + " from " + from_ + ": " + sums(in->report);
+    if (!o.tools.save_map.empty()) {
+      if (const int code = save_map(in->library); code != kDone) return code;
+    }
+    std::string json = "{\"read\": " + report_json(in->report);
+    if (o.outputs.empty()) {
+      if (const int code = usable(in->library); code != kDone) return code;
+    }
+    json += ", \"written\": [";
+    for (const std::string& path : o.outputs) {
+      LossReport report;
+      if (const int code = write(in->library, path, report); code != kDone) return code;
+      json += (json.ends_with('[') ? "" : ", ") + std::string("{\"file\": ") + json_quoted(path) +
+              ", \"report\": " + report_json(report) + "}";
+    }
+    for (StagedFile& f : staged_) {
+      if (auto ok = f.put(); !ok) return s_.end(ok.error(), kImpossible);
+    }
+    json += "]}\n";
+    if (o.json && !print(json)) return kImpossible;
+    return kDone;
+  }
+
+ private:
+  static std::string sums(const LossReport& r) {
+    return counted(r.derived.size(), "value", "values") + " derived, " + std::to_string(r.dropped.size()) +
+           " dropped";
+  }
+
+  int options() {
+    const auto& t = s_.options.tools;
+    if (t.unit == "mm") formats_.mm_per_unit = 1.0;
+    if (t.unit == "inch") formats_.mm_per_unit = 25.4;
+    if (t.column_map.empty()) return kDone;
+    auto text = read_file(t.column_map, std::size_t{16} << 20);
+    if (!text) return s_.end(text.error(), kUnreadable);
+    formats_.column_map = *std::move(text);
+    return kDone;
+  }
+
+  Result<tooling::Imported> read() {
+    const auto& o = s_.options;
+    FormatOptions how = formats_;
+    if (o.command == Command::kToolsExport) {
+      from_ = o.inputs.tools.value_or("generic");
+      how.column_map.clear();  // it is for what is written
+    } else {
+      from_ = o.files.front();
+    }
+    if (from_ != "generic") return tooling::import_library(from_, how, s_.job);
+    const auto cutters = tooling::generic_library();
+    if (!cutters) return fail(cutters.error());
+    tooling::Imported out;
+    out.library = tooling::library_of(*cutters, "generic");
+    out.report.tools = cutters->size();
+    return out;
+  }
+
+  /// The lines of a report on standard error: all with --report, else what is dropped, alike ones together.
+  void told(const char* what, const std::string& file, const LossReport& r) {
+    constexpr std::size_t kShown = 20;  // default, unsourced: what a person still reads
+    const auto note = [&](const char* code, const std::string& text) {
+      s_.job.report({.code = code, .severity = Severity::kNote, .message = text, .file = file});
+    };
+    if (s_.options.tools.report) {
+      for (const auto& l : r.derived) note("TOOLS-DERIVED", std::string(what) + ", derived: " + line_text(l));
+      for (const auto& l : r.dropped) note("TOOLS-DROPPED", std::string(what) + ", dropped: " + line_text(l));
+      return;
+    }
+    const auto lines = grouped(r.dropped);
+    for (std::size_t k = 0; k < lines.size() && k < kShown; ++k)
+      note("TOOLS-DROPPED", std::string(what) + ", dropped: " + lines[k]);
+    if (lines.size() > kShown)
+      note("TOOLS-DROPPED", std::to_string(lines.size() - kShown) + " more; --report shows all");
+  }
+
+  /// What planning would have of it.
+  int usable(const tooling::ToolLibrary& library) {
+    LossReport report;
+    const auto cutters = tooling::cutters_of(library, report, s_.job);
+    if (!cutters) return s_.end(cutters.error(), kUnreadable);
+    if (s_.options.tools.report) told("for planning", from_, report);
+    s_.summary += "; planning can use " + std::to_string(cutters->size());
+    return kDone;
+  }
+
+  int save_map(const tooling::ToolLibrary& library) {
+    const std::string& path = s_.options.tools.save_map;
+    for (const auto& [key, text] : library.kept) {
+      if (key != "csv:map") continue;
+      return stage(path, text);
+    }
+    return s_.end({.code = "APP-USAGE",
+                   .message = "only tables have columns; " + from_ + " is none",
+                   .hint = "leave --save-map out"},
+                  kUsage);
+  }
+
+  /// All files of a call are put in place together at its end.
+  int stage(const std::string& path, const std::string& bytes) {
+    auto file = StagedFile::make(path, bytes);
+    if (!file) return s_.end(file.error(), kImpossible);
+    staged_.push_back(*std::move(file));
+    return kDone;
+  }
+
+  int write(const tooling::ToolLibrary& library, const std::string& path, LossReport& report) {
+    const std::string& wanted = s_.options.tools.format;
+    const Format* format = wanted.empty() ? tooling::format_of_ending(path) : tooling::find_format(wanted);
+    if (format == nullptr || format->write == nullptr) {
+      std::string known;
+      for (const Format& f : tooling::formats()) {
+        if (f.write == nullptr) continue;
+        known +=
+            (known.empty() ? "" : ", ") + std::string(f.name) + " (" + std::string(f.endings.front()) + ")";
+      }
+      return s_.end({.code = "APP-FORMAT",
+                     .message = wanted.empty() ? "the ending tells no format of tool libraries"
+                                               : "'" + wanted + "' is no format that can be written",
+                     .file = path,
+                     .expected = known},
+                    kUsage);
+    }
+    FormatOptions how = formats_;
+    if (s_.options.command != Command::kToolsExport) how.column_map.clear();
+    auto out = format->write(library, how, s_.job);
+    if (!out) return s_.end(out.error(), kImpossible);
+    if (const int code = stage(path, out->bytes); code != kDone) return code;
+    told("written", path, out->report);
+    s_.summary += "; wrote " + path + ": " + sums(out->report);
+    report = std::move(out->report);
+    return kDone;
+  }
+
+  Session& s_;
+  FormatOptions formats_;
+  std::string from_;
+  std::vector<StagedFile> staged_;
+};
+
+}  // namespace
+
+int run_tools_convert(Session& s) { return Tools(s).run(); }
+
+}  // namespace capstan::app

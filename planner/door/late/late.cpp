@@ -1,0 +1,139 @@
+#include "planner/door/late/late.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "planner/door/pipeline/shop.h"
+
+// A fallback first, whatever it takes; then an improvement on the rest of the time. Each answer passes the
+// same three questions: is anything open, is every cutter in the magazine, does the check condemn it.
+
+namespace capstan::late {
+namespace {
+
+using TimePoint = std::chrono::steady_clock::time_point;
+using Duration = std::chrono::steady_clock::duration;
+
+double machining_s(const model::Plan& plan) {
+  double t = 0.0;
+  for (const auto& s : plan.steps) t += s.cutting_s + s.rapid_s;
+  return t;
+}
+
+pipeline::Policy policy_of() {
+  pipeline::Policy p;
+  p.only_loaded_cutters = true;
+  return p;
+}
+
+std::string ms(Duration d) {
+  return std::to_string(std::chrono::duration_cast<std::chrono::milliseconds>(d).count()) + " ms";
+}
+
+/// No answer may use a cutter that is not in the table, however it came into the plan.
+Status only_loaded(const model::Plan& plan, const std::vector<model::Cutter>& magazine) {
+  for (const model::StepResult& step : plan.steps) {
+    const model::Cutter* cutter = model::find_cutter(plan, step.cutter_id);
+    const model::Cutter* there = cutter == nullptr ? nullptr : pipeline::loaded_like(magazine, *cutter);
+    const std::string unmeasured = cutter == nullptr ? "" : model::offset_fault(*cutter);
+    if (there != nullptr && there->pocket == cutter->pocket && unmeasured.empty()) continue;
+    std::string why = "is not in the tool table";
+    if (!unmeasured.empty())
+      why = "has no length that can be used: " + unmeasured;
+    else if (there != nullptr)
+      why = "is T" + std::to_string(there->pocket) + " in the tool table and T" +
+            std::to_string(cutter->pocket) + " in the plan";
+    return fail(
+        {.code = "LATE-TOOL",
+         .message = "the tool '" + step.cutter_id + "' of step '" + model::step_id(plan, step) + "' " + why,
+         .file = plan.file_name,
+         .path = model::step_id(plan, step),
+         .hint = "load it, or plan the step anew without its toolpath"});
+  }
+  return {};
+}
+
+Status nothing_open(const model::Plan& plan) {
+  if (plan.unplanned.empty()) return {};
+  return fail({.code = "LATE-OPEN",
+               .message = "something stays open: " + plan.unplanned.front().reason,
+               .file = plan.file_name,
+               .hint = "load what is missing, or plan anew"});
+}
+
+}  // namespace
+
+Result<LateOutcome> bind(model::Plan plan, pipeline::Inputs inputs, const LatePolicy& policy, Job& job) {
+  const TimePoint began = policy.began.value_or(job.now());
+  LateOutcome out;
+  const auto told_late = [&] {
+    const Duration passed = job.now() - began;
+    out.late = policy.deadline && passed > *policy.deadline;
+    if (out.late)
+      job.warn("LATE-DEADLINE",
+               "the deadline of " + ms(*policy.deadline) + " is past: a checked plan took " + ms(passed));
+    return std::move(out);
+  };
+  const std::vector<model::Cutter> magazine = inputs.library;
+  auto reopened = pipeline::match_loaded(plan, inputs, job);
+  if (!reopened) return tl::unexpected(reopened.error());
+  out.reopened = *std::move(reopened);
+
+  // The fallback: everything, on a small budget, and checked. What the check condemns is made anew, while
+  // half of the time is left.
+  std::optional<TimePoint> half;
+  if (policy.deadline) half = began + *policy.deadline / 2;
+  const auto acceptable = [&](const model::Plan& made) -> Status {
+    if (auto ok = nothing_open(made); !ok) return ok;
+    return only_loaded(made, magazine);
+  };
+  const std::uint32_t budget = std::exchange(job.evaluation_budget, policy.fallback_budget);
+  auto fallback = pipeline::bind_checked(plan, inputs, policy_of(), job, {half, acceptable});
+  job.evaluation_budget = budget;
+  if (!fallback) return tl::unexpected(fallback.error());
+  const auto check_start = job.now();
+  out.findings = pipeline::findings_of(*fallback, job);
+  const auto checking = fallback->checking + (job.now() - check_start);
+  out.condemned = model::condemned(fallback->plan, out.findings);
+  if (!out.condemned.empty() && !policy.allow_findings) {
+    return fail({.code = "LATE-UNSAFE",
+                 .message = "the plan does not pass the check: " +
+                            model::text_of(fallback->plan, out.condemned.front()),
+                 .file = fallback->plan.file_name,
+                 .path = out.condemned.front().step,
+                 .hint = "retract and stop; nothing may be cut from this plan"});
+  }
+  out.of_plan = std::move(fallback->findings);
+  out.plan = std::move(fallback->plan);
+  out.fallback_s = out.machining_s = machining_s(out.plan);
+
+  // The improvement: only in the time left, with twice the time of one check in reserve.
+  std::optional<TimePoint> until;
+  if (policy.deadline) until = began + *policy.deadline - 2 * checking;
+  if (policy.budget <= policy.fallback_budget || (until && job.now() >= *until)) return told_late();
+  Job trial;
+  trial.threads = job.threads;
+  trial.evaluation_budget = policy.budget;
+  trial.set_clock(job.clock());
+  trial.set_progress([&](std::string_view stage, double fraction) { job.progress(stage, fraction); });
+  if (until) trial.set_deadline(*until);
+  auto better = pipeline::bind(std::move(plan), inputs, policy_of(), trial);
+  if (!better || !acceptable(*better)) return told_late();
+  const double t = machining_s(*better);
+  const bool faster = t < out.fallback_s || !out.condemned.empty();
+  if (!faster) return told_late();
+  pipeline::Checked checked = pipeline::checked(*std::move(better), trial);
+  auto findings = pipeline::findings_of(checked, trial);
+  if (!model::condemned(checked.plan, findings).empty()) return told_late();
+  if (policy.deadline && job.now() > began + *policy.deadline) return told_late();
+  for (auto& d : trial.take_diagnostics()) job.report(std::move(d));
+  out.plan = std::move(checked.plan);
+  out.of_plan = std::move(checked.findings);
+  out.findings = std::move(findings);
+  out.condemned.clear();
+  out.improved = true;
+  out.machining_s = t;
+  return told_late();
+}
+
+}  // namespace capstan::late

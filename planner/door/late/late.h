@@ -1,0 +1,56 @@
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "planner/door/pipeline/pipeline.h"
+#include "planner/ground/base/job.h"
+#include "planner/ground/base/result.h"
+#include "planner/model/plan/condemned.h"
+#include "planner/model/plan/plan.h"
+
+namespace capstan::late {
+
+/// What late binding may do, and until when.
+struct LatePolicy {
+  /// Counted from `began`. Nothing: nobody waits, and the improvement takes the time it takes.
+  std::optional<std::chrono::milliseconds> deadline = std::chrono::milliseconds(200);
+  /// When the caller began to wait; nothing: with the call of `bind`.
+  std::optional<std::chrono::steady_clock::time_point> began = std::nullopt;
+  /// Objective evaluations for the fallback, per problem: few, so that it is there early whatever comes.
+  std::uint32_t fallback_budget = 60;
+  /// For the improvement, per problem. Both plans are repeatable; the clock decides which of them is given.
+  std::uint32_t budget = 2000;
+  /// Give also a plan that the check condemns; `LateOutcome::condemned` then says why. Never in a control.
+  bool allow_findings = false;
+};
+
+/// What came of it. Only a plan that nothing condemns is ever given, unless the policy allows it.
+struct LateOutcome {
+  model::Plan plan;
+  std::vector<std::string> reopened;           ///< what the machine's state re-opened, one sentence each
+  std::vector<model::Finding> findings;        ///< notes and warnings; no errors
+  std::vector<model::Finding> of_plan;         ///< those of them that are of the plan, not of its program
+  std::vector<model::Condemnation> condemned;  ///< empty, unless the policy allows findings
+  bool improved = false;                       ///< false: the fallback
+  bool late = false;                           ///< the deadline was past when the plan was there
+  double fallback_s = 0.0, machining_s = 0.0;  ///< machining time of the fallback, and of what is given
+};
+
+/// Closes at the machine what a plan leaves open, with the tools that are in the magazine
+/// (`inputs.library`, Cutter::pocket > 0): first a verified fallback on a small budget, then, while the
+/// deadline allows, an improvement, which is taken only when it is verified and faster.
+///
+/// Time    the clock is the job's (Job::now). The deadline guards the improvement; time that verifying took
+///         once is kept in reserve, and a check that the deadline stops is no check: the improvement is
+///         dropped. The fallback is always finished. What is there after the deadline is given with `late`.
+/// Progress  the improvement's stages are told to the job, too.
+/// Fails   LATE-UNSAFE when the fallback is condemned (retract and stop), LATE-OPEN when something stays open
+///         (no loaded cutter fits), LATE-TOOL when a step uses a cutter that is not in the magazine, PIP-...
+///         when nothing can be planned.
+[[nodiscard]] Result<LateOutcome> bind(model::Plan plan, pipeline::Inputs inputs, const LatePolicy& policy,
+                                       Job& job);
+
+}  // namespace capstan::late

@@ -1,0 +1,203 @@
+#include "planner/door/pipeline/checked.h"
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+#include <optional>
+#include <set>
+#include <string_view>
+#include <tuple>
+#include <utility>
+
+#include "planner/ground/base/number.h"
+#include "planner/model/plan/condemned.h"
+#include "planner/proof/verify/verify.h"
+
+// Plan, check, and plan anew what the check condemns. The check is independent: it is told nothing of the
+// tries, and its findings on the plan that is kept are handed on as they are. An error at a proposed step
+// bans what the step was made with, gently first: its cutter, twice; then its chain; last its feature is left
+// out, and with it what rests on it. An order that is broken is no matter of the cutter: there the chain goes
+// at once, and what lies outside the raw piece is left out at once. Of all tries the one with the fewest
+// errors is kept, then the one that leaves the fewest features out, then the first. Steps that the file
+// brings stay as they are.
+
+namespace capstan::pipeline {
+namespace {
+
+using model::AnyRef;
+using model::Finding;
+
+constexpr int kMostThinner = 2;                          // cuts of one step, before its cutter is given up
+constexpr int kMostCutters = 2;                          // of one step, before its chain is given up
+constexpr int kBeforeLeavingOut = kMostReplannings - 2;  // tries after which features are left out
+
+struct Offence {
+  MadeStep step;
+  const Finding* finding = nullptr;
+};
+
+bool is_error(const Finding& f) { return f.severity == Severity::kError; }
+
+std::size_t errors_of(const model::Plan& plan, const std::vector<Finding>& findings) {
+  return model::condemned(plan, findings).size();
+}
+
+/// What a plan needs of the spindle in all, its heaviest step needs.
+std::string heaviest(const model::Plan& plan, const Finding& f) {
+  const bool torque = f.code == "CHK-MACHINE-TORQUE";
+  if (!torque && f.code != "CHK-MACHINE-POWER") return {};
+  const model::StepResult* most = nullptr;
+  const auto load = [&](const model::StepResult& s) { return torque ? s.loads.torque_nm : s.loads.power_w; };
+  for (const auto& s : plan.steps) {
+    if (most == nullptr || load(s) > load(*most)) most = &s;
+  }
+  return most == nullptr ? std::string() : model::step_id(plan, *most);
+}
+
+/// The first error of each proposed step.
+std::vector<Offence> offences_of(const model::Plan& plan, const std::vector<Finding>& findings,
+                                 const Tries& tries) {
+  std::map<std::string, AnyRef> step_of;
+  for (const auto& s : plan.steps) step_of.emplace(model::step_id(plan, s), s.step);
+  std::vector<Offence> out;
+  std::set<AnyRef> seen;
+  for (const Finding& f : findings) {
+    if (!is_error(f)) continue;
+    const auto step = f.step.empty() ? step_of.find(heaviest(plan, f)) : step_of.find(f.step);
+    if (step == step_of.end()) continue;
+    const auto made = tries.made.find(step->second);
+    if (made != tries.made.end() && seen.insert(step->second).second) out.push_back({made->second, &f});
+  }
+  return out;
+}
+
+class Judge {
+ public:
+  explicit Judge(Tries& tries) : tries_(tries) {}
+
+  /// Bans what these were made with; gives what was banned, to be told once it is known what came instead.
+  std::vector<std::pair<MadeStep, std::string>> condemn(const std::vector<Offence>& offences, int tried) {
+    std::vector<std::pair<MadeStep, std::string>> out;
+    for (const Offence& o : offences) {
+      const std::string found = "the check found " + o.finding->code + ": " + o.finding->message;
+      const MadeStep& s = o.step;
+      const bool of_order = o.finding->property == 28;
+      // What lies outside the raw piece does so with every cutter and chain.
+      const bool of_drawing = o.finding->code == "CHK-OUTSIDE";
+      int& hits = hits_[{s.member, s.chain, s.in_chain}];
+      // Torque, power, bending: a thinner cut of the same cutter.
+      const bool of_load =
+          o.finding->property == 17 || o.finding->property == 20 || o.finding->property == 21;
+      if (of_load && !s.as_found && tried < kBeforeLeavingOut &&
+          thinned_[{s.member, s.chain, s.in_chain}]++ < kMostThinner) {
+        tries_.cut_thinner(s.member, s.chain, s.in_chain, found);
+        out.emplace_back(s, found);
+        continue;
+      }
+      if (tried >= kBeforeLeavingOut || of_drawing) {
+        tries_.leave_out(s.member.feature, "step '" + s.name + "' with " + s.cutter + ": " + found);
+      } else if (of_order || hits >= kMostCutters) {
+        tries_.ban_chain(s.member, s.chain, "step '" + s.name + "': " + found);
+      } else {
+        tries_.ban_cutter(s.member, s.chain, s.in_chain, s.cutter, found);
+      }
+      ++hits;
+      out.emplace_back(s, found);
+    }
+    return out;
+  }
+
+ private:
+  Tries& tries_;
+  std::map<std::tuple<Member, std::string, std::size_t>, int> hits_, thinned_;
+};
+
+/// "step 'X': planned anew with em6 instead of em10, because the check found …"
+std::string told(const Tries& tries, const MadeStep& before, const std::string& why) {
+  const MadeStep* now = nullptr;
+  for (const auto& [ref, made] : tries.made) {
+    if (made.member == before.member && made.name == before.name) now = &made;
+  }
+  const bool out = tries.left_out(before.member.feature) != nullptr;
+  std::string what = "planned anew in another way";
+  if (out) {
+    what = "its feature is left out";
+  } else if (now != nullptr && now->cutter != before.cutter) {
+    what = "planned anew with " + now->cutter + " instead of " + before.cutter;
+  } else if (now != nullptr && now->chain == before.chain) {
+    what = "planned anew with thinner cuts";
+  }
+  return "step '" + before.name + "': " + what + ", because " + why;
+}
+
+}  // namespace
+
+void tell_tries(const Tries& tries, Job& job) {
+  for (const std::string& s : tries.said) job.note("PIP-ANEW", s);
+}
+
+Checked checked(model::Plan plan, Job& job) {
+  Checked out;
+  const auto began = job.now();
+  out.findings = verify::check_plan(plan, job);
+  out.plan = std::move(plan);
+  out.checking = job.now() - began;
+  return out;
+}
+
+Result<Checked> bind_checked(const model::Plan& plan, const Inputs& inputs, const Policy& policy, Job& job,
+                             const Anew& anew) {
+  auto until = anew.until;
+  Tries tries;
+  auto first = bind_within(plan, inputs, policy, tries, job);
+  if (!first) return tl::unexpected(first.error());
+  if (anew.acceptable) {
+    if (auto ok = anew.acceptable(*first); !ok) return tl::unexpected(ok.error());
+  }
+  Checked best =
+      policy.bind == Bind::kAll ? checked(*std::move(first), job) : Checked{*std::move(first), {}, 0, {}};
+  std::vector<std::string> said = tries.said;
+  auto diagnostics = job.take_diagnostics();
+  std::size_t least = errors_of(best.plan, best.findings);
+  Judge judge(tries);
+  std::vector<Offence> offences = offences_of(best.plan, best.findings, tries);
+  std::vector<Finding> findings;  // of the last try, which `offences` point into
+  for (int tried = 0; tried < kMostReplannings && least > 0 && !offences.empty(); ++tried) {
+    if (policy.bind != Bind::kAll || job.stop_requested()) break;
+    const auto condemned = judge.condemn(offences, tried);
+    Job trial;
+    trial.threads = job.threads;
+    trial.evaluation_budget = job.evaluation_budget;
+    trial.set_clock(job.clock());
+    if (job.deadline()) until = until ? std::min(*until, *job.deadline()) : *job.deadline();
+    if (until) trial.set_deadline(*until);
+    trial.set_progress([&](std::string_view stage, double f) {
+      job.progress(stage, f);
+      if (job.stop_requested()) trial.request_stop();
+    });
+    if (trial.stop_requested()) break;
+    auto again = bind_within(plan, inputs, policy, tries, trial);
+    if (!again) break;
+    for (const auto& [step, why] : condemned) tries.said.push_back(told(tries, step, why));
+    Checked now_checked = checked(*std::move(again), trial);
+    findings = now_checked.findings;
+    if (trial.stop_requested()) break;  // not checked to its end: no better than what is there
+    offences = offences_of(now_checked.plan, findings, tries);
+    auto now = trial.take_diagnostics();
+    const std::size_t errors = errors_of(now_checked.plan, findings);
+    const bool better =
+        errors < least || (errors == least && now_checked.plan.unplanned.size() < best.plan.unplanned.size());
+    if (!better || (anew.acceptable && !anew.acceptable(now_checked.plan))) continue;
+    least = errors;
+    best = std::move(now_checked);
+    best.replanned = tried + 1;
+    said = tries.said;
+    diagnostics = std::move(now);
+  }
+  for (auto& d : diagnostics) job.report(std::move(d));
+  tries.said = std::move(said);
+  tell_tries(tries, job);
+  return best;
+}
+
+}  // namespace capstan::pipeline

@@ -1,0 +1,110 @@
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "planner/door/pipeline/shop.h"
+#include "planner/ground/base/number.h"
+#include "planner/model/nouns/all.h"
+#include "planner/model/nouns/arena/walk.h"
+#include "planner/model/plan/measured_length.h"
+#include "tooling/nouns/nouns.h"
+
+// What is in the magazine against what the plan wants.
+
+namespace capstan::pipeline {
+namespace {
+
+using model::AnyRef;
+using model::Cutter;
+
+constexpr double kSameAngle = 0.01;      // rad, about half a degree
+constexpr double kSameDiameter = 0.001;  // mm; a tool table's diameter is measured to a micrometre at best
+
+/// A name says nothing: every size that both know has to agree, and what a thread is has to be known.
+bool same_tool(const Cutter& a, const Cutter& b) {
+  const auto near = [](double x, double y, double by) { return std::abs(x - y) <= by; };
+  const auto near_if_known = [&](double x, double y, double by) {
+    return x == 0.0 || y == 0.0 || near(x, y, by);
+  };
+  return a.cutter_class == b.cutter_class && a.hand == b.hand &&
+         near(a.cutting_diameter_mm, b.cutting_diameter_mm, kSameDiameter) &&
+         near(a.corner_radius_mm, b.corner_radius_mm, kSameDiameter) &&
+         near(a.thread_pitch_mm, b.thread_pitch_mm, 1e-6) &&
+         near_if_known(a.point_angle_rad, b.point_angle_rad, kSameAngle) &&
+         near_if_known(a.tip_diameter_mm, b.tip_diameter_mm, kSameDiameter);
+}
+
+}  // namespace
+
+const Cutter* loaded_like(const std::vector<Cutter>& library, const Cutter& wanted) {
+  const Cutter* found = nullptr;
+  for (const Cutter& c : library) {
+    if (!c.loaded || c.pocket <= 0 || !same_tool(c, wanted)) continue;
+    // One that is measured first, then the lower number.
+    const auto rank = [](const Cutter& x) { return std::pair(!model::offset_fault(x).empty(), x.pocket); };
+    if (found == nullptr || rank(c) < rank(*found)) found = &c;
+  }
+  return found;
+}
+
+void take_length(const Cutter& loaded, Cutter& into) {
+  if (loaded.table_line) return model::take_table_line(into, *loaded.table_line);
+  if (!(loaded.functional_length_mm > 0.0)) return;
+  if (loaded.functional_length_mm == into.functional_length_mm) return;
+  model::take_measured_length(into, loaded.functional_length_mm, "derived: as long as the loaded tool");
+}
+
+Result<std::vector<std::string>> match_loaded(model::Plan& plan, Inputs& inputs, Job& job) {
+  std::vector<std::string> reopened;
+  std::vector<Cutter> merged;
+  std::set<std::string> seen;
+  const std::vector<AnyRef> roots = {plan.project};
+  for (const AnyRef r : model::reachable(plan.model, roots)) {
+    const auto* op = plan.model.get<model::MachiningOperation>(r);
+    if (op == nullptr || !plan.model.holds<model::MachiningTool>(op->its_tool)) continue;
+    if (tooling::is_requirement(plan.model, op->its_tool)) continue;
+    const auto wanted = tooling::cutter_from_nouns(plan.model, op->its_tool, job, plan.cutters);
+    if (!wanted) return tl::unexpected(wanted.error());
+    if (const Cutter* there = loaded_like(inputs.library, *wanted)) {
+      if (!seen.insert(wanted->id).second) continue;
+      const auto same_pocket = [&](const Cutter& m) { return m.pocket == there->pocket; };
+      if (std::any_of(merged.begin(), merged.end(), same_pocket))
+        continue;  // the same tool under another name
+      Cutter c = *wanted;
+      c.pocket = there->pocket;
+      c.loaded = true;
+      take_length(*there, c);
+      if (std::string fault = model::offset_fault(c); !fault.empty()) {
+        return fail({.code = "LATE-TOOL",
+                     .message = "the tool '" + c.id + "' of operation '" + op->its_id.value_or("") +
+                                "' has no length that can be used: " + fault,
+                     .file = plan.file_name,
+                     .path = c.id,
+                     .hint = "measure it and enter its length; where offsets count from a reference tool, "
+                             "say length_offsets: reference under the machine's control"});
+      }
+      merged.push_back(std::move(c));
+      continue;
+    }
+    plan.ledger.reopen({r, "its_tool"});
+    reopened.push_back("operation '" + op->its_id.value_or("") + "': tool '" + wanted->id + "' (" +
+                       std::string(model::to_text(wanted->cutter_class)) + " " +
+                       trimmed(wanted->cutting_diameter_mm, 3) + " mm) is not in the magazine; re-opened");
+  }
+  // Loaded cutters that the plan did not name stay as the table describes them; a name counts once.
+  for (const Cutter& c : inputs.library) {
+    bool taken = false;
+    for (const Cutter& m : merged) taken = taken || (c.pocket > 0 && m.pocket == c.pocket);
+    if (taken) continue;
+    if (const std::string fault = model::offset_fault(c); c.loaded && !fault.empty()) {
+      const bool named = c.id == "T" + std::to_string(c.pocket);  // by the text itself
+      job.note("LATE-TOOL", (named ? "not used: " : "'" + c.id + "' is not used: ") + fault);
+      continue;
+    }
+    merged.push_back(c);
+  }
+  inputs.library = std::move(merged);
+  return reopened;
+}
+
+}  // namespace capstan::pipeline

@@ -1,0 +1,291 @@
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "planner/door/pipeline/work.h"
+#include "planner/making/sequence/order.h"
+
+// The order of proposed steps, and the workplan that says it.
+
+namespace capstan::pipeline {
+namespace {
+
+using model::Model;
+
+constexpr std::size_t kMostWishes = 20000;  // each is held against those before it
+
+std::string named(const Model& m, AnyRef feature) {
+  const auto* f = m.get<model::ManufacturingFeature>(feature);
+  return "'" + (f == nullptr ? std::string() : f->its_id.value_or("")) + "'";
+}
+
+/// Datum features first: between all shapes of the one and of the other.
+std::vector<sequence::Wish> wishes_of(const Work& w,
+                                      const std::map<AnyRef, std::set<std::size_t>>& shapes_of) {
+  std::vector<sequence::Wish> out;
+  for (const model::Tie& tie : w.ties) {
+    const auto first = shapes_of.find(tie.first);
+    const auto second = shapes_of.find(tie.second);
+    if (tie.letter.empty() || first == shapes_of.end() || second == shapes_of.end()) continue;
+    const std::string text = "datum " + tie.letter + " (" + named(w.plan.model, tie.first) +
+                             ") first, before " + named(w.plan.model, tie.second) + ": " + tie.text;
+    for (const std::size_t a : first->second) {
+      for (const std::size_t b : second->second) {
+        if (out.size() < kMostWishes) out.push_back({a, b, text});
+      }
+    }
+  }
+  return out;
+}
+
+/// Features that a tolerance ties together and that are not made in one set-up: said, for the tolerance then
+/// holds only as well as the clamping repeats.
+void warn_of_parted(Work& w) {
+  std::map<AnyRef, std::set<std::size_t>> setups;
+  for (const StepWork& s : w.steps) {
+    if (s.feature.set()) setups[s.feature].insert(s.setup);
+    for (const auto& shape : s.shapes) setups[shape.feature].insert(s.setup);
+  }
+  std::set<std::string> said;
+  for (const model::Tie& tie : w.ties) {
+    const auto a = setups.find(tie.first);
+    const auto b = setups.find(tie.second);
+    if (a == setups.end() || b == setups.end()) continue;
+    std::set<std::size_t> both = a->second;
+    both.insert(b->second.begin(), b->second.end());
+    if (both.size() < 2) continue;
+    const std::string datum = tie.letter.empty() ? "" : " (datum " + tie.letter + ")";
+    const std::string text = named(w.plan.model, tie.second) + " and " + named(w.plan.model, tie.first) +
+                             datum + " are not cut in one set-up, for no direction reaches both; '" +
+                             tie.text + "' between them holds only as well as the part is located again";
+    if (said.insert(text).second) w.job.warn("PIP-TIED", text);
+  }
+}
+
+/// Whether `to` comes after `from` already.
+bool follows(const std::vector<std::set<std::size_t>>& next, std::size_t from, std::size_t to) {
+  std::set<std::size_t> seen;
+  std::vector<std::size_t> pending{from};
+  while (!pending.empty()) {
+    const std::size_t at = pending.back();
+    pending.pop_back();
+    if (at == to) return true;
+    if (!seen.insert(at).second) continue;
+    pending.insert(pending.end(), next[at].begin(), next[at].end());
+  }
+  return false;
+}
+
+/// Members of one feature that are cut from the same side, all marked before all are drilled, and so on: a
+/// wider hole is milled before the narrower one in it is reamed. Where a chain or the order of coaxial holes
+/// wants it otherwise, that counts.
+void add_craft(const Work& w, const std::vector<std::size_t>& steps, const std::vector<sequence::Item>& items,
+               std::vector<std::pair<std::size_t, std::size_t>>& given) {
+  constexpr std::size_t kMost = 64;  // steps of one feature; each pair is looked at
+  std::map<AnyRef, std::vector<std::size_t>> by_feature;
+  for (std::size_t i = 0; i < items.size(); ++i) by_feature[w.steps[steps[i]].feature].push_back(i);
+  std::vector<std::set<std::size_t>> next(items.size());
+  for (const auto& [a, b] : given) next[a].insert(b);
+  for (const auto& [feature, own] : by_feature) {
+    if (own.size() > kMost) continue;
+    for (const std::size_t a : own) {
+      for (const std::size_t b : own) {
+        if (items[a].feature == items[b].feature && items[a].in_chain < items[b].in_chain) next[a].insert(b);
+      }
+    }
+    for (const std::size_t a : own) {
+      for (const std::size_t b : own) {
+        const StepWork& sa = w.steps[steps[a]];
+        const StepWork& sb = w.steps[steps[b]];
+        const int ra = craft_rank(items[a].operation), rb = craft_rank(items[b].operation);
+        if (items[a].feature == items[b].feature || ra == 0 || rb <= ra) continue;
+        if (norm(sa.shapes.front().frame.z - sb.shapes.front().frame.z) > sequence::kSameDirection) continue;
+        if (next[a].contains(b) || follows(next, b, a)) continue;
+        next[a].insert(b);
+        given.emplace_back(a, b);
+      }
+    }
+  }
+}
+
+/// Steps of a file keep the file's order and come first; what rules proposed follows, ordered.
+Result<sequence::Order> order_of(Work& w, const std::vector<std::size_t>& proposed) {
+  std::vector<model::FeatureShape> shapes;
+  std::vector<sequence::Item> items;
+  std::map<std::size_t, std::size_t> item_of;  // step -> item
+  std::map<AnyRef, int> chain;
+  std::map<AnyRef, std::set<std::size_t>> shapes_of;
+  sequence::Options options;
+  for (const std::size_t i : proposed) {
+    const StepWork& s = w.steps[i];
+    sequence::Item item;
+    // One shape of a pattern stands for all of it: they are made one after the other.
+    item.feature = shapes.size();
+    for (std::size_t k = 0; k < shapes.size(); ++k) {
+      if (shapes[k].feature == s.shapes.front().feature && shapes[k].member == s.shapes.front().member)
+        item.feature = k;
+    }
+    if (item.feature == shapes.size()) shapes.push_back(s.shapes.front());
+    shapes_of[s.feature].insert(item.feature);
+    shapes_of[s.shapes.front().feature].insert(item.feature);
+    item.in_chain = chain[s.feature]++;
+    item.name = s.proposal.name;
+    item.cutter_id = s.cutter.id;
+    item.operation = s.operation.type;
+    item_of[i] = items.size();
+    items.push_back(std::move(item));
+  }
+  for (const std::size_t i : proposed) {
+    for (const std::size_t before : w.steps[i].after) {
+      if (item_of.contains(before)) options.given.emplace_back(item_of[before], item_of[i]);
+    }
+  }
+  add_craft(w, proposed, items, options.given);
+  options.wishes = wishes_of(w, shapes_of);
+  for (const SetupWork& s : w.setups)
+    options.directions.push_back(s.workpiece.direction_to_local({0.0, 0.0, 1.0}));
+  return sequence::order(shapes, items, options, w.job);
+}
+
+Ref<model::Workplan> plan_of(Model& m, const std::string& id, Ref<model::Setup> setup) {
+  model::Workplan p;
+  p.its_id = id;
+  p.its_setup = setup;
+  p.its_elements.given = true;
+  return m.add(p);
+}
+
+/// The main workplan: what it held before (unless operations were re-opened), then the new steps by set-up.
+void rebuild_workplan(Work& w, bool keep) {
+  Model& m = w.plan.model;
+  auto* project = m.get<model::Project>(w.plan.project);
+  if (project == nullptr) {
+    model::Project p;
+    p.its_id = "project";
+    p.its_workpieces.given = true;
+    for (const AnyRef piece : m.all(model::TypeId::kWorkpiece))
+      p.its_workpieces.push_back(Ref<model::Workpiece>(piece));
+    w.plan.project = m.add(p);
+    project = m.get<model::Project>(w.plan.project);
+  }
+  const auto* old = m.get<model::Workplan>(project->main_workplan);
+  const std::string id = old != nullptr ? old->its_id.value_or("main workplan") : "main workplan";
+  const bool one_setup = w.setups.size() == 1;
+  Ref<model::Workplan> main;
+  if (keep && old != nullptr) {
+    main = project->main_workplan;
+  } else {
+    main = plan_of(m, id, one_setup ? w.setups.front().setup : Ref<model::Setup>{});
+    m.get<model::Project>(w.plan.project)->main_workplan = main;
+  }
+  Ref<model::Workplan> into = main;
+  std::size_t last = w.setups.size();
+  const bool nest = !one_setup || (keep && old != nullptr && !m.at<model::Workplan>(main).its_setup.set());
+  for (const StepWork& s : w.steps) {
+    if (!s.proposed) continue;
+    if (nest && s.setup != last) {
+      into = plan_of(m, "set-up " + std::to_string(s.setup + 1), w.setups[s.setup].setup);
+      m.at<model::Workplan>(main).its_elements.push_back(into);
+      last = s.setup;
+    }
+    m.at<model::Workplan>(into).its_elements.push_back(s.step);
+    if (const auto* setup = m.get<model::Setup>(w.setups[s.setup].setup)) {
+      const auto plane = setup->its_secplane;
+      if (auto* ws = m.get<model::Workingstep>(s.step)) ws->its_secplane = plane;
+    }
+  }
+}
+
+std::string words(const sequence::Order& order) {
+  std::string out = std::to_string(order.precedences.size()) + " precedences kept, " +
+                    std::to_string(order.tool_changes) + " tool changes";
+  std::size_t said = 0;
+  std::set<std::string> texts;
+  for (const bool datums : {true, false}) {
+    for (const auto& p : order.precedences) {
+      if (p.cause == sequence::Cause::kChain || p.text.empty()) continue;
+      if ((p.cause == sequence::Cause::kDatum) != datums || !texts.insert(p.text).second) continue;
+      out += "; " + p.text;
+      if (++said == 12) return out;
+    }
+  }
+  return out;
+}
+
+/// Set-ups without a step are not clamped.
+void drop_empty_setups(Work& w) {
+  std::vector<std::size_t> renumbered(w.setups.size(), 0);
+  std::vector<SetupWork> used;
+  for (std::size_t i = 0; i < w.setups.size(); ++i) {
+    const bool has = std::any_of(w.steps.begin(), w.steps.end(), [i](const auto& s) { return s.setup == i; });
+    if (!has && w.setups.size() > 1) continue;
+    renumbered[i] = used.size();
+    used.push_back(w.setups[i]);
+  }
+  if (used.empty()) return;
+  for (StepWork& s : w.steps) s.setup = renumbered[s.setup];
+  w.setups = std::move(used);
+}
+
+}  // namespace
+
+int craft_rank(model::TypeId operation) {
+  using model::TypeId;
+  switch (operation) {
+    case TypeId::kCenterDrilling:
+      return kMarks;
+    case TypeId::kDrilling:
+    case TypeId::kMultistepDrilling:
+      return kDrills;
+    case TypeId::kPlaneRoughMilling:
+    case TypeId::kSideRoughMilling:
+    case TypeId::kBottomAndSideRoughMilling:
+    case TypeId::kFreeformRoughMilling:
+      return kRoughs;
+    case TypeId::kPlaneFinishMilling:
+    case TypeId::kSideFinishMilling:
+    case TypeId::kBottomAndSideFinishMilling:
+    case TypeId::kFreeformFinishMilling:
+      return kFinishes;
+    case TypeId::kBoring:
+    case TypeId::kReaming:
+    case TypeId::kBackBoring:
+    case TypeId::kTapping:
+    case TypeId::kThreadDrilling:
+      return kSizes;
+    default:
+      return 0;
+  }
+}
+
+Status order_steps(Work& w) {
+  drop_empty_setups(w);
+  std::vector<std::size_t> given;
+  std::vector<std::size_t> proposed;
+  for (std::size_t i = 0; i < w.steps.size(); ++i) (w.steps[i].proposed ? proposed : given).push_back(i);
+  if (proposed.empty()) {
+    warn_of_parted(w);
+    return {};
+  }
+  const auto order = order_of(w, proposed);
+  if (!order) return tl::unexpected(order.error());
+  if (!order->cannot.empty()) return fail("PIP-ORDER", "no order of the steps exists: " + order->cannot);
+  std::vector<StepWork> sorted;
+  for (const std::size_t i : given) sorted.push_back(std::move(w.steps[i]));
+  for (const auto& setup : order->setups) {
+    for (const std::size_t item : setup.steps) sorted.push_back(std::move(w.steps[proposed[item]]));
+  }
+  w.steps = std::move(sorted);
+  add_probings(w);
+  for (const auto& d : order->dropped)
+    w.job.note("PIP-ORDER", "an order that was found gives way to one that must hold: " + d.text);
+  warn_of_parted(w);
+  rebuild_workplan(w, !given.empty());
+  const auto* project = w.plan.model.get<model::Project>(w.plan.project);
+  w.plan.ledger.bind(project->main_workplan, "its_elements", model::Binder::kRule,
+                     {"sequence.order", words(*order),
+                      "precedences by geometry and chain; few tool changes (planner/making/sequence)"});
+  return {};
+}
+
+}  // namespace capstan::pipeline

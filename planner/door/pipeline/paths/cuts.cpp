@@ -1,0 +1,138 @@
+#include "planner/door/pipeline/paths/cuts.h"
+
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "planner/ground/base/number.h"
+
+namespace capstan::pipeline {
+namespace {
+
+using QuestionKey =
+    std::tuple<int, double, double, double, double, double, double, double, double, double, double, double,
+               double, double, double, double, bool, bool, bool, double, double, double, double>;
+
+QuestionKey key_of(const optimise::CutQuestion& q) {
+  constexpr double kUnset = -1.0;
+  return {static_cast<int>(q.kind),
+          q.vc_start_m_min,
+          q.vc_table_m_min,
+          q.fz_start_mm,
+          q.depth_mm,
+          q.width_mm,
+          q.pre_hole_mm,
+          q.deflection_limit_mm,
+          q.ap_mm.value_or(kUnset),
+          q.ae_mm.value_or(kUnset),
+          q.n_rpm.value_or(kUnset),
+          q.feed_mm_min.value_or(kUnset),
+          q.fz_mm.value_or(kUnset),
+          q.engaged_diameter_mm,
+          q.ap_most_mm,
+          q.least_feed_ratio,
+          q.slot,
+          q.override_locked,
+          q.feed_by_planning,
+          q.surface_ra_um,
+          q.wall_error_limit_mm,
+          q.peak_force_limit_n,
+          q.least_chip_mm};
+}
+
+}  // namespace
+
+/// By cutter, whole: one name may stand out differently in two steps.
+struct CutsKnown {
+  std::map<QuestionKey, std::vector<std::pair<model::Cutter, optimise::CutAnswer>>> answers;
+};
+
+Cuts::Cuts(Work& w) : w_(w) {
+  if (!w.tries.cuts) w.tries.cuts = std::make_shared<CutsKnown>();
+  known_ = w.tries.cuts;
+  options_.solver = w.inputs.solver;
+  options_.backends = w.inputs.backends;
+  options_.starts = 2;
+  options_.relative_tolerance = 1e-7;
+}
+
+Result<optimise::CutAnswer> Cuts::answer(const optimise::CutQuestion& q) {
+  auto& known = known_->answers[key_of(q)];
+  for (const auto& [cutter, answer] : known) {
+    if (cutter == q.cutter) return answer;
+  }
+  auto a = optimise::cut(q, options_, w_.job);
+  if (a) known.emplace_back(q.cutter, *a);
+  return a;
+}
+
+Result<optimise::CutAnswer> Cuts::answer(const StepWork& step, optimise::CutQuestion& q,
+                                         std::string& let_go) {
+  auto out = answer(q);
+  if (!out || out->feasible || !step.open_technology || !(step.keep_speed || step.keep_feed)) return out;
+  optimise::CutQuestion free = q;
+  free.n_rpm.reset();
+  free.feed_mm_min.reset();
+  free.fz_mm.reset();
+  auto other = answer(free);
+  if (!other || !other->feasible) return out;
+  let_go = "the stated ";
+  if (step.keep_speed && q.n_rpm) let_go += "speed of " + trimmed(*q.n_rpm, 3) + " 1/min";
+  if (step.keep_speed && step.keep_feed) let_go += " and ";
+  if (step.keep_feed && q.feed_mm_min) let_go += "feed of " + trimmed(*q.feed_mm_min, 3) + " mm/min";
+  if (step.keep_feed && q.fz_mm) let_go += "feed of " + trimmed(*q.fz_mm, 4) + " mm per tooth";
+  let_go += " breaks " + (out->violated.empty() ? std::string("a limit") : out->violated.front()) +
+            "; chosen anew, " + trimmed(other->n_rpm, 1) + " 1/min and " + trimmed(other->feed_mm_min, 1) +
+            " mm/min";
+  q = free;
+  return other;
+}
+
+Result<model::StepLoads> hold_under_overhang(const optimise::CutQuestion& q, const optimise::CutAnswer& a,
+                                             toolpath::PathJob& job) {
+  if (q.slot || !job.left_on_side_mm) return a.loads;  // asked as a slot of the whole head
+  constexpr double kLeast = 0.02;                      // of the feed; default, unsourced
+  constexpr int kHalvings = 12;                        // to a thousandth of the feed
+  const auto at = [&](double width, double edges, double share) -> Result<model::StepLoads> {
+    auto l = optimise::loads_of(q, a.ap_mm, width, a.n_rpm, share * a.feed_mm_min);
+    if (!l) return fail("PIP-INFEASIBLE", "under the overhang the loads of the head cannot be computed");
+    l->torque_nm *= edges;
+    l->power_w *= edges;
+    l->mrr_mm3_min *= edges;
+    return *l;
+  };
+  const auto most = [&](double width, double edges, double share) -> Result<double> {
+    const auto holds = [&](double x) {
+      const auto l = at(width, edges, x);
+      return l && optimise::worst_excess(q, *l, a.n_rpm) <= 0.0;
+    };
+    if (holds(share)) return share;
+    if (!holds(kLeast)) {
+      const auto l = at(width, edges, kLeast);
+      if (!l) return tl::unexpected(l.error());
+      const auto worst = optimise::worst_load(q, *l, a.n_rpm);
+      return fail("PIP-INFEASIBLE", "under the overhang, over a width of " + trimmed(width, 2) + " mm, " +
+                                        worst.name + " is " + trimmed(worst.value, 3) + " of " +
+                                        trimmed(worst.limit, 3) + " " + worst.unit +
+                                        " even at a fiftieth of the feed; use a smaller or a lower head");
+    }
+    double lo = kLeast, hi = share;
+    for (int i = 0; i < kHalvings; ++i) {
+      const double x = 0.5 * (lo + hi);
+      (holds(x) ? lo : hi) = x;
+    }
+    return lo;
+  };
+  // At no angle do the forces of both edges together exceed those of one at its worst (checked for heads of
+  // 16 to 40 mm with 6 and 8 teeth, edges a twentieth to a fifth of the diameter wide).
+  const auto both = most(a.ae_mm, 2.0, 1.0);
+  if (!both) return tl::unexpected(both.error());
+  const auto front = most(q.cutter.cutting_diameter_mm, 1.0, job.front_share);
+  if (!front) return tl::unexpected(front.error());
+  job.both_edges_share = *both;
+  job.front_share = *front;
+  return at(a.ae_mm, 2.0, job.both_edges_share);
+}
+
+}  // namespace capstan::pipeline

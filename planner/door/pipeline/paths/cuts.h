@@ -1,0 +1,42 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+
+#include "planner/door/pipeline/work.h"
+#include "planner/making/optimise/cut.h"
+#include "planner/making/toolpath/path_job.h"
+
+// The optimiser, asked once for each question, in all tries at a plan; only planner/door/pipeline/*.cpp
+// include this.
+
+namespace capstan::pipeline {
+
+class Cuts {
+ public:
+  explicit Cuts(Work& w);
+  Cuts(const Cuts&) = delete;
+  Cuts& operator=(const Cuts&) = delete;
+  [[nodiscard]] Result<optimise::CutAnswer> answer(const optimise::CutQuestion& q);
+  /// As above; where a stated speed or feed that stays (StepWork::keep_speed) allows no cut within the limits
+  /// and one of its own would, it is let go of, in `q` too, and `let_go` says what and why.
+  [[nodiscard]] Result<optimise::CutAnswer> answer(const StepWork& step, optimise::CutQuestion& q,
+                                                   std::string& let_go);
+
+ private:
+  Work& w_;
+  optimise::Options options_;
+  std::shared_ptr<CutsKnown> known_;
+};
+
+/// Cuts under an overhang are not measured: bounds the feed of the passes in which more than one edge of the
+/// head cuts (PathJob::both_edges_share, front_share) by the loads of what they cut, so that torque and power
+/// hold there, too. Of both edges at once these add up, while the forces across, which bend the neck, stand
+/// against each other; the whole front is a slot. Gives the loads of the middle pass.
+/// Fails  PIP-INFEASIBLE where no feed holds the limits.
+[[nodiscard]] Result<model::StepLoads> hold_under_overhang(const optimise::CutQuestion& q,
+                                                           const optimise::CutAnswer& answer,
+                                                           toolpath::PathJob& job);
+
+}  // namespace capstan::pipeline

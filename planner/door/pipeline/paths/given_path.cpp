@@ -1,0 +1,214 @@
+#include "planner/door/pipeline/paths/given_path.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "planner/door/pipeline/holding.h"
+#include "planner/door/pipeline/paths/results.h"
+#include "planner/door/pipeline/paths/sections.h"
+#include "planner/files/exchange/iso14649/curves.h"
+#include "planner/ground/base/number.h"
+
+namespace capstan::pipeline {
+namespace {
+
+/// Speed and feed are asked for the heaviest cut on the path; elsewhere the schedule says what is borne.
+void ask_for_heaviest(const std::vector<optimise::CutSample>& samples, optimise::CutQuestion& q) {
+  double most = 0.0;
+  for (const auto& s : samples) {
+    if (s.plunge || s.ap_mm * s.ae_mm <= most) continue;
+    most = s.ap_mm * s.ae_mm;
+    q.ap_mm = q.depth_mm = s.ap_mm;
+    q.ae_mm = q.width_mm = std::min(s.ae_mm, q.cutter.cutting_diameter_mm);
+  }
+}
+
+optimise::CutQuestion question_for(const Work& w, const StepWork& step, const Progress& progress,
+                                   const stock::HeightMap& map) {
+  toolpath::PathJob job;
+  if (!step.shapes.empty()) {
+    job = job_of(w, step, step.shapes.front());
+    progress.prepare(step, map, job);
+  }
+  job.cutter = step.cutter;
+  auto q = question_of(w, step, nullptr, job);
+  if (mills(q)) q.slot = false;
+  return q;
+}
+
+/// The file's sections, where it has any; else the measured ones.
+std::vector<optimise::CutSample> samples_for(Work& w, const StepWork& step, const model::CutterPath& path,
+                                             const model::SectionSeries& stated,
+                                             const std::optional<engagement::Measurement>& found) {
+  const double d = step.cutter.cutting_diameter_mm;
+  if (stated.size() == 0) return found ? samples_of(*found) : std::vector<optimise::CutSample>{};
+  if (const auto why = impossible(stated, path, d, step.cutter.maximum_depth_of_cut_mm)) {
+    w.job.warn("PIP-SECTIONS", "step '" + name_of(w, step) + "': the file's cross sections cannot be, " +
+                                   *why + "; " + (found ? "the measured ones are used" : "none are used"));
+    return found ? samples_of(*found) : std::vector<optimise::CutSample>{};
+  }
+  auto said = samples_of(stated, path, d);
+  if (!found) return said;
+  const auto extents = extents_contradict(stated, found->sections, d);
+  auto both = compared(said, samples_of(*found), d);
+  if (both.contradictions > 0) {
+    w.job.warn("PIP-SECTIONS", "step '" + name_of(w, step) + "': the file's cross sections contradict the " +
+                                   "measured ones at " + std::to_string(both.contradictions) +
+                                   " places, most at " + both.worst + "; the larger ones are used");
+  }
+  if (extents) {
+    w.job.warn("PIP-SECTIONS", "step '" + name_of(w, step) + "': the file's cross sections contradict the " +
+                                   "measured ones, " + *extents + "; the measured ones count, too");
+    const auto ours = samples_of(*found);
+    both.samples.insert(both.samples.end(), ours.begin(), ours.end());
+    std::stable_sort(both.samples.begin(), both.samples.end(), [](const auto& a, const auto& b) {
+      return std::pair(a.move, a.at_mm) < std::pair(b.move, b.at_mm);
+    });
+  }
+  return std::move(both.samples);
+}
+
+/// The schedule that the toolpaths state, as factors of its greatest feed and speed.
+void ask_as_stated(const model::FeedSchedule& s, optimise::FeedQuestion& q) {
+  for (std::size_t i = 0; i < s.feed_mm_min.size(); ++i) {
+    q.feed_mm_min = std::max(q.feed_mm_min, s.feed_mm_min[i]);
+    if (std::abs(s.spindle_rpm[i]) > std::abs(q.n_rpm)) q.n_rpm = s.spindle_rpm[i];
+  }
+  for (std::size_t i = 0; q.feed_mm_min > 0.0 && i < s.feed_mm_min.size(); ++i)
+    q.feed_factor.push_back(s.feed_mm_min[i] / q.feed_mm_min);
+}
+
+/// Toolpaths have technologies of their own: where these turn against the cutter, they are turned round. A
+/// tap turns back by intent.
+void turn_round(Work& w, const StepWork& step, model::FeedSchedule& s) {
+  if (!(step.cutter.cutting_diameter_mm > 0.0) || step.cutter.cutter_class == model::CutterClass::kTap)
+    return;
+  const double sense = step.cutter.hand == model::Hand::kLeft ? -1.0 : 1.0;
+  std::size_t turned = 0;
+  for (double& rpm : s.spindle_rpm) {
+    if (rpm * sense >= 0.0) continue;
+    rpm = -rpm;
+    ++turned;
+  }
+  if (turned == 0) return;
+  w.job.warn("PIP-CHANGED", "step '" + name_of(w, step) + "': in " + std::to_string(turned) +
+                                " moves of its toolpaths the spindle would turn against " + step.cutter.id +
+                                ", which cuts " + (sense > 0.0 ? "right" : "left") + "-hand; it turns " +
+                                (sense > 0.0 ? "clockwise" : "counter-clockwise"));
+}
+
+/// Speed and feed that the file leaves open. Nothing when no cut keeps the limits.
+Result<model::FeedSchedule> chosen(Work& w, StepWork& step, const model::CutterPath& path,
+                                   const model::FeedSchedule& stated, GivenPath& out, Cuts& cuts) {
+  auto& q = out.feeds.cut;
+  std::string freed;
+  auto answer = cuts.answer(step, q, freed);
+  if (!answer) return tl::unexpected(answer.error());
+  let_go(w, step, freed);
+  if (!answer->feasible) {
+    std::string limits;
+    for (const auto& v : answer->violated) limits += (limits.empty() ? "" : ", ") + v;
+    return fail("PIP-INFEASIBLE", "no feed keeps every limit on the given path: " + limits);
+  }
+  record_cut(w, step, *answer, false, false, std::nullopt);
+  out.feeds.n_rpm = (step.cutter.hand == model::Hand::kLeft ? -1.0 : 1.0) * answer->n_rpm;
+  out.feeds.feed_mm_min = answer->feed_mm_min;
+  out.feeds.adapt = true;
+  out.feeds.constant = w.inputs.constant_feeds;
+  out.feeds.dwell_s = stated.dwell_s;
+  out.result.axial_depth_mm = answer->ap_mm;
+  out.result.radial_depth_mm = answer->ae_mm;
+  out.result.active = active_of(*answer);
+  const auto feeds = feeds_along(out.feeds, path);
+  out.result.loads = feeds.peak;
+  if (!(out.result.loads.tool_life_min > 0.0)) out.result.loads.tool_life_min = answer->life_min;
+  out.result.held_by = feeds.held_by;
+  keep_excess(w, step, feeds, out.result);
+  return feeds.schedule;
+}
+
+/// Toolpaths state ratios of feeds that were chosen now: the path stands in their place.
+void state_path(Work& w, const StepWork& step, const std::shared_ptr<const model::CutterPath>& path) {
+  auto* op = w.plan.model.get<model::MachiningOperation>(step.operation);
+  if (op == nullptr) return;
+  model::CutterLocationTrajectory t;
+  t.its_priority = true;
+  t.its_type = model::ToolpathType::kTrajectoryPath;
+  t.path = path;
+  model::ToolpathList list;
+  list.its_list.push_back(w.plan.model.add(std::move(t)));
+  const auto made = w.plan.model.add(std::move(list));
+  w.plan.model.get<model::MachiningOperation>(step.operation)->its_toolpath = made;
+}
+
+}  // namespace
+
+std::optional<engagement::Measurement> measured(Work& w, const StepWork& step, const model::CutterPath& path,
+                                                Stocks& stocks) {
+  auto m = stocks.measure(step.setup, path, step.cutter);
+  if (!m) {
+    w.job.warn(m.error().code, "step '" + name_of(w, step) + "' is not measured: " + m.error().message);
+    return std::nullopt;
+  }
+  if (m->rapid_removed_mm3 > 1e-3) {
+    w.job.warn("PIP-RAPID", "step '" + name_of(w, step) + "': rapid moves touch " +
+                                trimmed(m->rapid_removed_mm3, 3) + " mm3 of material");
+  }
+  return *std::move(m);
+}
+
+Result<std::optional<GivenPath>> given_path(Work& w, StepWork& step, Stocks& stocks, const Progress& progress,
+                                            Cuts& cuts) {
+  auto given = exchange::path_of_step(w.plan, step.step, {}, w.job);
+  if (!given) {
+    w.job.report(given.error());
+    return tl::unexpected(given.error());
+  }
+  if (given->path.size() == 0) return std::optional<GivenPath>{};
+  if (const auto touch = near_move_of(given->path, step.cutter, w.setups[step.setup].holding))
+    return fail("PIP-HOLDING", "the given path is not kept: " + touch->text);
+  turn_round(w, step, given->schedule);
+  GivenPath out;
+  out.result = result_of(w, step);
+  auto& fq = out.feeds;
+  fq.adapt = false;
+  const bool cuts_here = step.cutter.cutting_diameter_mm > 0.0;
+  const bool asks = cuts_here && w.plan.model.holds<model::MachiningOperation>(step.operation);
+  if (asks) fq.cut = question_for(w, step, progress, stocks.of(step.setup));
+  auto path = std::make_shared<const model::CutterPath>(std::move(given->path));
+  if (cuts_here) {
+    auto found = measured(w, step, *path, stocks);
+    fq.samples = samples_for(w, step, *path, given->sections, found);
+    if (found) {
+      out.result.sections = std::make_shared<const model::SectionSeries>(std::move(found->sections));
+    } else if (given->sections.size() > 0) {
+      out.result.sections = std::make_shared<const model::SectionSeries>(std::move(given->sections));
+    }
+  }
+  if (asks && mills(fq.cut)) ask_for_heaviest(fq.samples, fq.cut);
+  out.result.path = path;
+  if (asks && step.open_technology) {
+    auto schedule = chosen(w, step, *path, given->schedule, out, cuts);
+    if (!schedule) return tl::unexpected(schedule.error());
+    out.result.schedule = std::make_shared<const model::FeedSchedule>(*std::move(schedule));
+    state_path(w, step, path);
+    return out;
+  }
+  ask_as_stated(given->schedule, fq);
+  if (asks && fq.n_rpm != 0.0 && fq.feed_mm_min > 0.0) {
+    fq.cut.feed_mm_min = fq.feed_mm_min;
+    // A path and feed that planning made before are judged as then; what a file gives is its maker's.
+    const bool planned = feed_was_planned(w, step);
+    const auto feeds = planned ? feeds_along(fq, *path) : optimise::feeds(fq, *path);
+    out.result.loads = feeds.peak;
+    out.result.held_by = feeds.held_by;
+    if (planned) keep_excess(w, step, feeds, out.result);
+  }
+  out.result.schedule = std::make_shared<const model::FeedSchedule>(std::move(given->schedule));
+  return out;
+}
+
+}  // namespace capstan::pipeline

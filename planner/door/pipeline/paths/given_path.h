@@ -1,0 +1,36 @@
+#pragma once
+
+#include <optional>
+
+#include "planner/door/pipeline/paths/cuts.h"
+#include "planner/door/pipeline/paths/progress.h"
+
+// Steps that bring their path; only planner/door/pipeline/*.cpp include this.
+
+namespace capstan::pipeline {
+
+struct GivenPath {
+  model::StepResult result;
+  optimise::FeedQuestion feeds;
+};
+
+/// The step with the path, feeds and cross sections that its toolpaths say.
+///
+/// Sections that the file states are what loads, and feeds where these are open, are computed from; no
+/// simulation is needed for it. Where the path can be measured, both are compared: PIP-SECTIONS names a
+/// contradiction, and where ours is the larger, ours is used. Without stated sections the measured ones are.
+/// Empty   when the toolpaths hold no move.
+/// Fails   when they cannot be followed, or come near what holds the piece; for the caller to tell.
+[[nodiscard]] Result<std::optional<GivenPath>> given_path(Work& w, StepWork& step, Stocks& stocks,
+                                                          const Progress& progress, Cuts& cuts);
+
+/// Measures a path and takes what it cuts from the stock. Says why not, and PIP-RAPID of rapids that cut.
+[[nodiscard]] std::optional<engagement::Measurement> measured(Work& w, const StepWork& step,
+                                                              const model::CutterPath& path, Stocks& stocks);
+
+/// Whether the step mills: then feeds follow the sections.
+[[nodiscard]] inline bool mills(const optimise::CutQuestion& q) {
+  return q.kind == optimise::CutKind::kRough || q.kind == optimise::CutKind::kFinish;
+}
+
+}  // namespace capstan::pipeline

@@ -1,0 +1,112 @@
+#include "planner/door/pipeline/paths/gone.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "planner/door/pipeline/paths/results.h"
+#include "planner/door/pipeline/steps.h"
+#include "planner/door/pipeline/work.h"
+#include "planner/physics/engagement/engagement.h"
+
+// What other features' steps took away already is not cut again: the step is left out, not its feature.
+
+namespace capstan::pipeline {
+namespace {
+
+constexpr double kSameMm = 0.02;      // of outlines and heights; default, unsourced
+constexpr double kRemnantMm2 = 0.01;  // slivers of outlines; default, unsourced
+constexpr double kAligned = 1.0 - 1e-9;
+
+/// Where a feature takes all of another's height away, in that one's frame; nothing where it ends above.
+geometry::Region gone_with(const model::FeatureShape& a, const model::FeatureShape& b) {
+  const auto rel = compose(inverse(b.frame), a.frame);
+  if (std::abs(rel.z.z) < kAligned) return {};
+  const double end = rel.origin.z - a.depth_mm * rel.z.z;
+  const double top = a.kind == model::ShapeKind::kFace ? 1e300 : std::max(rel.origin.z, end);
+  const double bottom = std::min(rel.origin.z, end);
+  if (bottom > -b.depth_mm + kSameMm || top < -kSameMm) return {};
+  geometry::Region out = a.area;
+  for (const auto& island : a.islands) out = geometry::subtract(out, island.area);
+  return moved(out, rel);
+}
+
+/// The last of the steps with a path, in whichever set-up, in whose areas together this one's lies: what it
+/// would cut is gone with these. Nothing when some of it lies beyond them.
+Ref<model::Executable> made_by(const Work& w, const StepWork& step) {
+  Ref<model::Executable> out;
+  for (const model::FeatureShape& b : step.shapes) {
+    const geometry::Box3 raw = transformed(w.plan.stock.box, inverse(b.frame));
+    geometry::Region left = geometry::intersect(
+        geometry::offset(b.area, -kSameMm), geometry::rectangle(geometry::xy(raw.lo), geometry::xy(raw.hi)));
+    for (const auto& island : b.islands) left = geometry::subtract(left, island.area);
+    for (const model::StepResult& kept : w.plan.steps) {
+      const auto it = std::find_if(w.steps.begin(), w.steps.end(),
+                                   [&](const StepWork& s) { return s.step == kept.step; });
+      if (it == w.steps.end()) continue;
+      for (const model::FeatureShape& a : it->shapes) {
+        const geometry::Region gone = gone_with(a, b);
+        if (gone.empty() || geometry::intersect(left, gone).empty()) continue;
+        left = geometry::subtract(left, gone);
+        out = kept.step;
+      }
+    }
+    if (geometry::area(left) > kRemnantMm2) return {};
+  }
+  return out;
+}
+
+}  // namespace
+
+bool in_air(const Work& w, const StepWork& step, double removed_mm3) {
+  constexpr double kNothingMm3 = 0.01;  // default, unsourced: what a map's cells cannot tell from nothing
+  const model::Model& m = w.plan.model;
+  if (!step.proposed || removed_mm3 > kNothingMm3 || engagement::head_height(step.cutter)) return false;
+  if (m.holds<model::CenterDrilling>(step.operation) || m.holds<model::Drilling>(step.operation) ||
+      m.holds<model::MultistepDrilling>(step.operation))
+    return true;
+  const bool rough = m.holds<model::PlaneRoughMilling>(step.operation) ||
+                     m.holds<model::SideRoughMilling>(step.operation) ||
+                     m.holds<model::BottomAndSideRoughMilling>(step.operation);
+  if (rough) return true;
+  if (!m.holds<model::Two5dMillingOperation>(step.operation)) return false;
+  // A finish stays after other steps of what it finishes: of the same element, where there are several.
+  return std::none_of(w.steps.begin(), w.steps.end(), [&](const StepWork& other) {
+    const auto is_other = [&](const model::StepResult& r) { return r.step == other.step; };
+    return other.feature == step.feature && (!other.proposed || other.member == step.member) &&
+           std::any_of(w.plan.steps.begin(), w.plan.steps.end(), is_other);
+  });
+}
+
+bool leave_out(Work& w, const StepWork& step, const std::string& why) {
+  model::Model& m = w.plan.model;
+  // Steps of the feature that are kept, or still to come: without any, and made by no other's, it is not
+  // made.
+  const auto kept = [&](const StepWork& s) {
+    return std::any_of(w.plan.steps.begin(), w.plan.steps.end(),
+                       [&](const model::StepResult& r) { return r.step == s.step; });
+  };
+  bool later = false, others = false;
+  for (const StepWork& s : w.steps) {
+    if (s.step == step.step) {
+      later = true;
+    } else if (s.feature == step.feature) {
+      others = others || later || kept(s);
+    }
+  }
+  auto* maker = m.get<model::MachiningWorkingstep>(made_by(w, step));
+  if (maker == nullptr && !others) return false;
+  if (maker != nullptr && AnyRef(maker->its_feature) != step.feature) {
+    auto& made = maker->final_features;
+    if (std::find(made.items.begin(), made.items.end(), step.feature) == made.items.end())
+      made.push_back(Ref<model::ManufacturingFeature>(step.feature));
+  }
+  for (const AnyRef p : m.all(model::TypeId::kWorkplan))
+    std::erase(m.get<model::Workplan>(p)->its_elements.items, AnyRef(step.step));
+  if (auto* f = m.get<model::MachiningFeature>(step.feature))
+    std::erase(f->its_operations.items, step.operation);
+  w.job.note("PIP-GONE",
+             "step '" + name_of(w, step) + "' is left out: what it would cut is gone already; " + why);
+  return true;
+}
+
+}  // namespace capstan::pipeline

@@ -1,0 +1,151 @@
+#include "planner/door/pipeline/paths/progress.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace capstan::pipeline {
+namespace {
+
+using model::ShapeKind;
+
+constexpr double kWithinMm = 1e-4;  ///< less than any path's last digits; default, unsourced
+
+bool is_end_mill(const model::Cutter& c) {
+  return c.cutter_class == model::CutterClass::kEndmill ||
+         c.cutter_class == model::CutterClass::kBullnoseEndmill;
+}
+
+bool opens_outwards(const model::FeatureShape& s) {
+  return s.kind == ShapeKind::kStep || s.kind == ShapeKind::kOutside;
+}
+
+}  // namespace
+
+geometry::Region stays_beside(const Work& w, const model::FeatureShape& s) {
+  constexpr double kSame = 1e-6;
+  const auto to = inverse(s.frame);
+  const geometry::Box3 part = transformed(part_box(w), to);
+  geometry::Region out =
+      geometry::subtract(geometry::rectangle(geometry::xy(part.lo), geometry::xy(part.hi)), s.area);
+  if (out.empty()) return out;
+  for (const model::FeatureShape& other : w.shapes) {
+    const auto rel = compose(to, other.frame);
+    if ((other.feature == s.feature && other.member == s.member) || rel.z.z < 1.0 - kSame ||
+        other.area.empty())
+      continue;
+    if (rel.origin.z - other.depth_mm > -s.depth_mm + kSame) continue;
+    geometry::Region cut = other.area;
+    for (const auto& island : other.islands) cut = geometry::subtract(cut, island.area);
+    for (auto& loop : cut.loops) {
+      for (auto& q : loop) q = geometry::xy(rel.to_parent({q.x, q.y, 0.0}));
+    }
+    out = geometry::subtract(out, cut);
+  }
+  return out;
+}
+
+void stop_at_walls(const Work& w, model::FeatureShape& s) {
+  // Thinner walls are the rounding of a drawing, and less than what a part's tolerances allow. Default,
+  // unsourced.
+  constexpr double kThinMm = 0.1;
+  constexpr double kSame = 1e-6;
+  if (s.kind != ShapeKind::kFace || s.area.empty() || w.shapes.empty() || w.plan.target_mesh) return;
+  if (transformed(part_box(w), inverse(s.frame)).hi.z <= -s.depth_mm + kSame) return;
+  for (const geometry::Region& piece : geometry::pieces(stays_beside(w, s))) {
+    if (geometry::offset(piece, -0.5 * kThinMm).empty()) continue;
+    s.reach = geometry::subtract(s.reach, piece);
+  }
+}
+
+/// The earlier step that reached all of the area but corners and narrow places, if this one has a smaller
+/// cutter and leaves the same: then there is no more to do than the rest.
+std::optional<toolpath::Cleared> Progress::cleared_by(const std::vector<Milled>& before,
+                                                      const toolpath::PathJob& job) {
+  constexpr double kSame = 1e-6;
+  std::optional<toolpath::Cleared> out;
+  for (const Milled& b : before) {
+    if (b.operation != job.operation || std::abs(b.side_mm - job.allowance_side_mm) > kSame ||
+        b.bottom_mm > job.allowance_bottom_mm + kSame ||
+        b.diameter_mm < job.cutter.cutting_diameter_mm + kSame)
+      continue;
+    if (!out || b.diameter_mm < out->diameter_mm)
+      out = toolpath::Cleared{b.diameter_mm, b.corner_radius_mm, b.side_mm};
+  }
+  return out;
+}
+
+void Progress::prepare(const StepWork& step, const stock::HeightMap& map, toolpath::PathJob& job) const {
+  const SetupWork& setup = w_.setups[step.setup];
+  shape_from_mesh(w_, step, job);
+  aim_at_the_middle(job.shape);
+  stop_at_walls(w_, job.shape);
+  if (opens_outwards(job.shape)) {
+    const auto outline = transformed(setup.stock, inverse(job.feature_in_setup));
+    const auto raw = geometry::rectangle(geometry::xy(outline.lo), geometry::xy(outline.hi));
+    job.shape.area = geometry::intersect(job.shape.area, raw);
+  }
+  if (job.shape.open && (job.shape.kind == ShapeKind::kStep || job.shape.kind == ShapeKind::kSlot ||
+                         job.shape.kind == ShapeKind::kPocket)) {
+    // A little within its own sides, so that the walls of the feature stay those of its own reach.
+    const geometry::Region beside =
+        geometry::offset(stays_beside(w_, job.shape), -kWithinMm, 0.1 * kWithinMm);
+    if (!beside.empty()) job.shape.reach = geometry::subtract(job.shape.reach, beside);
+  }
+  const double top = job.feature_in_setup.origin.z;
+  const double bottom = top - job.shape.depth_mm;
+  const double material = top_over(map, job);
+  // Nothing there at all: the file's own top is as good as any (and the path runs in air).
+  job.start_z_mm = material > bottom ? material : top;
+  if (job.shape.kind == ShapeKind::kHole || job.shape.kind == ShapeKind::kThread ||
+      job.shape.kind == ShapeKind::kChamfer) {
+    job.start_z_mm = std::max(job.start_z_mm, top);
+  }
+  const auto hole = holes_.find({step.feature, job.shape.member});
+  if (hole != holes_.end() && !job.previous_diameter_mm) job.previous_diameter_mm = hole->second;
+  const auto it = left_.find({step.feature, job.shape.member});
+  if (it != left_.end()) {
+    job.left_on_side_mm = it->second.side_mm;
+    job.left_on_bottom_mm = it->second.bottom_mm;
+  }
+  take_rest(step, job);
+}
+
+/// Whether the step cuts what an earlier one left, and whether a later one will do so after it. A step that
+/// rules proposed says so itself; of one that was read, its nouns tell.
+void Progress::take_rest(const StepWork& step, toolpath::PathJob& job) const {
+  const bool area = job.shape.kind == ShapeKind::kPocket || job.shape.kind == ShapeKind::kSlot;
+  if (!area || !is_end_mill(job.cutter)) return;
+  if (step.proposed) {
+    const auto after = [&](const StepWork& s) {
+      return s.feature == step.feature && s.proposal.rest_of_diameter_mm > 0.0 &&
+             s.operation.type == step.operation.type;
+    };
+    job.rest_follows =
+        step.proposal.rest_of_diameter_mm == 0.0 && std::any_of(w_.steps.begin(), w_.steps.end(), after);
+    if (step.proposal.rest_of_diameter_mm == 0.0) return;
+  }
+  const auto it = milled_.find({step.feature, job.shape.member});
+  if (it != milled_.end()) job.cleared_by = cleared_by(it->second, job);
+}
+
+void Progress::done(const StepWork& step) {
+  for (const auto& shape : step.shapes) {
+    const auto job = job_of(w_, step, shape);
+    if (w_.plan.model.holds<model::Two5dMillingOperation>(step.operation)) {
+      left_[{step.feature, shape.member}] = {job.allowance_side_mm, job.allowance_bottom_mm};
+      if (is_end_mill(step.cutter)) {
+        milled_[{step.feature, shape.member}].push_back({job.operation, step.cutter.cutting_diameter_mm,
+                                                         step.cutter.corner_radius_mm, job.allowance_side_mm,
+                                                         job.allowance_bottom_mm});
+      }
+    }
+    const bool bores = w_.plan.model.holds<model::DrillingTypeOperation>(step.operation) &&
+                       !w_.plan.model.holds<model::CenterDrilling>(step.operation) &&
+                       !w_.plan.model.holds<model::CounterSinking>(step.operation);
+    // A pilot or a mark that ends far above the bottom is no hole for the next tool to go through.
+    const bool deep = job.cutting_depth_mm.value_or(shape.depth_mm) >= 0.5 * shape.depth_mm;
+    if (bores && deep) holes_[{step.feature, shape.member}] = step.cutter.cutting_diameter_mm;
+  }
+}
+
+}  // namespace capstan::pipeline

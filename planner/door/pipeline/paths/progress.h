@@ -1,0 +1,44 @@
+#pragma once
+
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "planner/door/pipeline/paths/stocks.h"
+#include "planner/door/pipeline/steps.h"
+
+// What earlier steps left for later ones; only planner/door/pipeline/*.cpp include this.
+
+namespace capstan::pipeline {
+
+class Progress {
+ public:
+  explicit Progress(const Work& w) : w_(w) {}
+
+  /// Fills in where the job's material begins, and what earlier steps left on walls and floor.
+  void prepare(const StepWork& step, const stock::HeightMap& map, toolpath::PathJob& job) const;
+  /// The step is done, with the cutter it has.
+  void done(const StepWork& step);
+
+ private:
+  /// What is still left on a feature's walls and floor after the steps so far.
+  struct Left {
+    double side_mm = 0.0, bottom_mm = 0.0;
+  };
+  /// A milling step done, for those after it that cut only what it could not reach.
+  struct Milled {
+    model::TypeId operation = model::TypeId::kNone;
+    double diameter_mm = 0.0, corner_radius_mm = 0.0, side_mm = 0.0, bottom_mm = 0.0;
+  };
+  [[nodiscard]] static std::optional<toolpath::Cleared> cleared_by(const std::vector<Milled>& before,
+                                                                   const toolpath::PathJob& job);
+  void take_rest(const StepWork& step, toolpath::PathJob& job) const;
+
+  using Key = std::pair<AnyRef, int>;  ///< feature and member of its pattern
+  const Work& w_;
+  std::map<Key, Left> left_;
+  std::map<Key, std::vector<Milled>> milled_;
+  std::map<Key, double> holes_;  ///< diameter made so far, mm
+};
+
+}  // namespace capstan::pipeline

@@ -1,0 +1,96 @@
+#include "planner/door/pipeline/paths/ranking.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "planner/door/pipeline/members.h"
+#include "planner/door/pipeline/steps.h"
+#include "planner/ground/base/number.h"
+#include "planner/making/toolpath/region/undercut.h"
+
+namespace capstan::pipeline {
+
+using model::Model;
+
+void take_cutter(Work& w, StepWork& step, const model::Candidate& c) {
+  std::erase_if(step.rejected_tools, [&](const auto& r) { return r.what == c.cutter.id; });
+  w.plan.model.get<model::MachiningOperation>(step.operation)->its_tool = tool_noun(w, c.cutter);
+  fit_to_cutter(w, step);
+  w.plan.ledger.bind(step.operation, "its_tool", model::Binder::kToolSelection, c.why,
+                     {{step.step, "its_operation"}}, step.rejected_tools);
+}
+
+namespace {
+
+constexpr std::size_t kCompared = 5;
+constexpr double kNever = 1e12;  // s: no path, or none within the limits
+
+bool used(const Work& w, const model::Cutter& c) {
+  return std::find(w.used_cutters.begin(), w.used_cutters.end(), c.id) != w.used_cutters.end();
+}
+
+/// The candidates that were compared by their times, then the others.
+void in_order(Work& w, StepWork& step, std::vector<std::pair<double, std::size_t>> times) {
+  const std::string first = step.candidates.front().cutter.id;
+  const std::size_t n = times.size();
+  const double of_first = times.front().first;
+  std::stable_sort(times.begin(), times.end());
+  std::vector<model::Candidate> sorted;
+  for (const auto& [t, i] : times) sorted.push_back(step.candidates[i]);
+  for (std::size_t i = n; i < step.candidates.size(); ++i) sorted.push_back(step.candidates[i]);
+  step.candidates = std::move(sorted);
+  if (step.candidates.front().cutter.id == first) return;
+  step.cutter = step.candidates.front().cutter;
+  step.rejected_tools.push_back(
+      {first,
+       "fits, but takes " +
+           (of_first < kNever ? trimmed(of_first, 1) + " s" : std::string("too long, or breaks a limit,")) +
+           " against " + trimmed(times.front().first, 1) + " s of " + step.cutter.id});
+  take_cutter(w, step, step.candidates.front());
+}
+
+}  // namespace
+
+void rank_by_time(Work& w, StepWork& step, Stocks& stocks, const Progress& progress, Cuts& cuts) {
+  if (step.candidates.size() < 2 || step.shapes.empty()) return;
+  const Model& m = w.plan.model;
+  if (!m.holds<model::PlaneMilling>(step.operation) && !m.holds<model::SideRoughMilling>(step.operation) &&
+      !m.holds<model::BottomAndSideRoughMilling>(step.operation)) {
+    return;
+  }
+  const std::size_t n = std::min(kCompared, step.candidates.size());
+  std::vector<std::pair<double, std::size_t>> times;
+  for (std::size_t i = 0; i < n; ++i) {
+    StepWork trial = step;
+    trial.cutter = step.candidates[i].cutter;
+    auto job = job_of(w, trial, step.shapes.front());
+    progress.prepare(trial, stocks.of(trial.setup), job);
+    const auto q = question_of(w, trial, &step.candidates[i], job);
+    const auto a = cuts.answer(q);
+    double t = kNever * static_cast<double>(i + 1);
+    if (a && a->feasible) {
+      const double volume = geometry::area(job.shape.area) * q.depth_mm;
+      t = volume / (a->ap_mm * a->ae_mm * a->feed_mm_min) * 60.0;
+      if (!used(w, trial.cutter)) t += w.plan.machine.tool_change_s;
+    }
+    times.emplace_back(t, i);
+  }
+  in_order(w, step, std::move(times));
+}
+
+void rank_by_path(Work& w, StepWork& step, const std::function<std::optional<double>(std::size_t)>& seconds) {
+  if (step.candidates.size() < 2 || step.shapes.empty() ||
+      !toolpath::undercuts(step.candidates.front().cutter))
+    return;
+  std::vector<std::pair<double, std::size_t>> times;
+  for (std::size_t i = 0; i < std::min(kCompared, step.candidates.size()); ++i) {
+    const double change = used(w, step.candidates[i].cutter) ? 0.0 : w.plan.machine.tool_change_s;
+    const auto t = seconds(i);
+    times.emplace_back(t ? *t + change : kNever * static_cast<double>(i + 1), i);
+  }
+  in_order(w, step, std::move(times));
+}
+
+}  // namespace capstan::pipeline

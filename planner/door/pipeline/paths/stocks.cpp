@@ -1,0 +1,114 @@
+#include "planner/door/pipeline/paths/stocks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "planner/physics/engagement/planar/planar.h"
+#include "planner/physics/stock/sweep.h"
+#include "planner/physics/stock/turned.h"
+
+namespace capstan::pipeline {
+namespace {
+
+constexpr double kCellsPerDiameter = 30.0;  // of the stock map, for the smallest cutter of the set-up
+constexpr double kMaximumCells = 600e3;     // keeps a set-up's map near 7 MB
+constexpr double kContradiction = 0.1;  // of a step's volume, between map and geometry; default, unsourced
+constexpr double kTraceMm3 = 1.0;       // the same of next to nothing
+
+}  // namespace
+
+stock::HeightMap& Stocks::of(std::size_t setup) {
+  auto& map = maps_[setup];
+  if (!map) {
+    double smallest = 1e300;
+    for (const StepWork& s : w_.steps) {
+      if (s.setup == setup && s.cutter.cutting_diameter_mm > 0.0) {
+        smallest = std::min(smallest, s.cutter.cutting_diameter_mm);
+      }
+    }
+    if (smallest > 1e200) smallest = 10.0;
+    const auto& box = w_.setups[setup].stock;
+    const double cell = stock::cell_for(smallest, box, kCellsPerDiameter, kMaximumCells);
+    const bool upright = std::abs(w_.setups[setup].workpiece.z.z) > 1.0 - 1e-9;
+    const auto& round = w_.plan.stock.cylinder_radius_mm;
+    map = round && upright ? stock::from_cylinder(box, *round, cell) : stock::from_box(box, cell);
+    exact_[setup] =
+        round && upright ? stock::PlanarStock::from_cylinder(box, *round) : stock::PlanarStock::from_box(box);
+  }
+  if (setup != last_) {
+    // Another clamping: what the others took away is gone here, too.
+    last_ = setup;
+    const double before = stock::volume(*map);
+    for (std::size_t i = 0; i < maps_.size(); ++i) {
+      if (i != setup && maps_[i])
+        stock::take_over(*map, w_.setups[setup].workpiece, *maps_[i], w_.setups[i].workpiece);
+    }
+    if (exact_[setup] && stock::volume(*map) != before) exact_[setup]->lose("cut in another clamping");
+  }
+  return *map;
+}
+
+Stocks::Before Stocks::before(std::size_t setup) {
+  (void)of(setup);
+  return {maps_[setup], exact_[setup]};
+}
+
+void Stocks::put_back(std::size_t setup, const Before& before) {
+  maps_[setup] = before.map;
+  exact_[setup] = before.exact;
+}
+
+Result<engagement::Measurement> Stocks::measure(std::size_t setup, const model::CutterPath& path,
+                                                const model::Cutter& cutter) {
+  auto& map = of(setup);
+  auto& exact = exact_[setup];
+  if (!exact || !exact->lost().empty()) return engagement::measure(path, cutter, map);
+  const auto profile = model::profile_of(cutter);
+  if (engagement::head_height(cutter) || !stock::is_flat(profile)) {
+    auto cells = engagement::measure(path, cutter, map);
+    if (!cells) return cells;
+    if (engagement::head_height(cutter)) {
+      exact->lose("cut by a cutter that is thinner behind its head");
+    } else if (auto held = exact->cut(profile, path); !held) {
+      exact->lose(held.error().message);
+    }
+    return cells;
+  }
+  const engagement::Options options{.step_mm = std::max(profile.radius_mm / 20.0, 2.0 * map.cell_mm)};
+  auto measured = engagement::measure(path, cutter, *exact, options);
+  if (!measured) {
+    if (exact->lost().empty()) exact->lose(measured.error().message);
+    return engagement::measure(path, cutter, map);
+  }
+  // Two accounts of one cut: where they contradict each other the map's is kept.
+  stock::HeightMap after = map;
+  const double cells_mm3 = stock::cut(after, profile, path);
+  const double exact_mm3 = measured->removed_mm3 + measured->rapid_removed_mm3;
+  if (std::abs(cells_mm3 - exact_mm3) > kContradiction * std::max(cells_mm3, exact_mm3) + kTraceMm3) {
+    exact->lose("it contradicts the height map");
+    return engagement::measure(path, cutter, map);
+  }
+  map = std::move(after);
+  return measured;
+}
+
+double top_over(const stock::HeightMap& map, const toolpath::PathJob& job) {
+  geometry::Box3 box;
+  const auto b = geometry::bounds(job.shape.area);
+  for (const geometry::Vec2 c :
+       {b.lo, geometry::Vec2{b.hi.x, b.lo.y}, b.hi, geometry::Vec2{b.lo.x, b.hi.y}}) {
+    box.add(job.feature_in_setup.to_parent({c.x, c.y, 0.0}));
+  }
+  const int x0 = std::max(0, static_cast<int>(std::floor((box.lo.x - map.origin.x) / map.cell_mm)));
+  const int x1 = std::min(map.nx - 1, static_cast<int>(std::floor((box.hi.x - map.origin.x) / map.cell_mm)));
+  const int y0 = std::max(0, static_cast<int>(std::floor((box.lo.y - map.origin.y) / map.cell_mm)));
+  const int y1 = std::min(map.ny - 1, static_cast<int>(std::floor((box.hi.y - map.origin.y) / map.cell_mm)));
+  float top = 0.0F;
+  for (int y = y0; y <= y1; ++y) {
+    for (int x = x0; x <= x1; ++x) top = std::max(top, map.at(x, y).top_mm);
+  }
+  return map.origin.z + static_cast<double>(top);
+}
+
+}  // namespace capstan::pipeline

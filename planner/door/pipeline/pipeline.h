@@ -1,0 +1,117 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "planner/ground/base/job.h"
+#include "planner/ground/base/result.h"
+#include "planner/making/optimise/solver/solver.h"
+#include "planner/model/plan/cutter.h"
+#include "planner/model/plan/machine.h"
+#include "planner/model/plan/material.h"
+#include "planner/model/plan/plan.h"
+#include "rules/rules.h"
+
+namespace capstan::casebase {
+class CaseBase;
+}
+
+namespace capstan::pipeline {
+
+/// What is re-opened before planning, although the file binds it. Each includes those below it.
+enum class Reopen : std::uint8_t { kNothing, kTechnology, kTools, kOperations, kAll };
+
+/// How far decisions are bound. What is left open is written open, for the machine to close.
+enum class Bind : std::uint8_t { kNone, kStrategy, kTools, kAll };
+
+enum class Objective : std::uint8_t { kTime, kCost, kProfit };
+
+/// What the shop and the caller bring. All by value: planning changes none of it.
+struct Inputs {
+  model::Machine machine;
+  std::vector<model::Cutter> library;
+  std::vector<model::WorkMaterial> materials;
+  rules::RuleBase rules;
+  std::shared_ptr<const casebase::CaseBase> cases;  ///< may be null: no precedents
+  std::optional<std::string> material_name;         ///< overrides the file's
+  std::optional<geometry::Box3> stock;              ///< overrides the file's, workpiece coordinates, mm
+  std::optional<double> stock_allowance_mm;         ///< stock: the finished part grown by this
+  optimise::Solver solver = optimise::Solver::kNlopt;
+  optimise::Backends backends;
+  Objective objective = Objective::kTime;
+  /// Objective::kProfit: what a piece brings less its material, in the currency of Machine::cost_per_hour.
+  std::optional<double> revenue;
+  bool constant_feeds = false;    ///< one feed for all of a step's path: the largest that every section bears
+  std::string general_tolerance;  ///< "ISO 2768-m", "ISO 22081 0.2", "+-0.1"; empty: the file's, or none
+  std::string workholding;     ///< ids or a file, see tooling/holding; "auto"; empty or "none": not planned
+  int batch = 1;               ///< pieces
+  double edge_break_mm = 0.0;  ///< edges that the part leaves sharp are chamfered by this; 0: left
+  std::vector<model::Provenance> provenance;  ///< what was named, what is a default
+};
+
+/// Plannings for most profit, the first for least cost among them; two or three usually do.
+inline constexpr int kMostPlannings = 5;
+
+struct Policy {
+  Reopen reopen = Reopen::kNothing;
+  Bind bind = Bind::kAll;
+  /// Late binding: only cutters that are in the magazine (Cutter::pocket > 0) may be used.
+  bool only_loaded_cutters = false;
+};
+
+/// Closes what is open in a plan: proposes operations, picks cutters, orders the steps, and for each step in
+/// order chooses depths, makes the path, measures it against the stock and schedules feed and speed.
+///
+/// What the file binds is kept; a change that safety forces is reported. A feature that cannot be planned is
+/// in Plan::unplanned with its reason; that is an outcome, not an error. It is whole or not at all: when a
+/// step that rules proposed finds no cutter, no path or no cut within the limits, its chain is given up and
+/// the plan is made again with the next one (each chain once), at last without the feature. What rests on a
+/// feature that is not planned is not planned either; Unplanned::needed_by names it.
+/// Objective::kProfit makes (revenue - cost) / time largest: the plan is made for least cost first, then
+/// again with what a minute earned in it, until that stays within a thousandth or kMostPlannings are made;
+/// the best of them is kept (W. Dinkelbach, Management Science 13 (1967) 492-498). A piece that loses money
+/// even at least cost is planned so, and PIP-LOSS says it. Determinism  same inputs, any number of threads:
+/// same plan. Fails        PIP-… when nothing can be planned at all: no workpiece, no machine, a set-up that
+/// is none;
+///              PIP-REVENUE for profit without a revenue.
+[[nodiscard]] Result<model::Plan> bind(model::Plan plan, const Inputs& inputs, const Policy& policy,
+                                       Job& job);
+
+/// How often a plan that the check condemns is made anew, at most.
+inline constexpr int kMostReplannings = 5;
+
+/// A plan, and what the check says of it; it is the last word.
+struct Checked {
+  model::Plan plan;
+  std::vector<model::Finding> findings;  ///< of the plan; those of a program are the caller's to ask for
+  int replanned = 0;                     ///< which of the tries this is; 0: the first
+  std::chrono::steady_clock::duration checking{};  ///< what checking it took
+};
+
+/// A plan and what the check says of it.
+[[nodiscard]] Checked checked(model::Plan plan, Job& job);
+
+/// Until when plans are made anew, and which plans may be given at all (nothing: any): what it says of the
+/// first one ends `bind_checked`, of a later one only that one is passed over.
+struct Anew {
+  std::optional<std::chrono::steady_clock::time_point> until = std::nullopt;
+  std::function<Status(const model::Plan&)> acceptable = {};
+};
+
+/// `bind`, then the check (verify/check_plan). Where it finds an error at a step that rules proposed, what
+/// the step was made with is banned (cutter, chain, at last the feature) and the plan is made anew, at most
+/// kMostReplannings times; the plan with the fewest errors is given. What was made anew, and why, is noted
+/// (PIP-ANEW) and stands in the ledger among the rejected alternatives. A plan without errors costs one
+/// check. A plan whose decisions are not all bound is not checked.
+///
+/// Determinism  as `bind`, unless the job is stopped or `Anew::until` is past: then nothing more is made
+///              anew, and what is there so far is given, with its findings.
+[[nodiscard]] Result<Checked> bind_checked(const model::Plan& plan, const Inputs& inputs,
+                                           const Policy& policy, Job& job, const Anew& anew = {});
+
+}  // namespace capstan::pipeline

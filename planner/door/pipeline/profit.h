@@ -1,0 +1,27 @@
+#pragma once
+
+#include <functional>
+
+#include "planner/door/pipeline/pipeline.h"
+
+// What a plan costs and earns; only planner/door/pipeline/*.cpp include this.
+
+namespace capstan::pipeline {
+
+/// Time of the whole program, and what it costs: the machine by the minute, edges by their share of a life.
+///
+///     cost = r t + sum over steps (t_cut / T) (price + r times the change)    r: Machine::cost_per_hour / 60
+///
+/// Steps whose edge life is not known cost no edges. One rate is assumed where the machine states none, as in
+/// optimise/cut.h. Source  as there: textbook machining economics.
+struct Economy {
+  double time_min = 0.0, cost = 0.0;
+};
+[[nodiscard]] Economy economy_of(const model::Plan& plan);
+
+/// Plans for what a minute earns, as `bind` says. `plan_for` plans once, with the job it is given; the
+/// diagnostics of the plan that is kept go to `job`.
+[[nodiscard]] Result<model::Plan> most_profit(
+    double revenue, const std::function<Result<model::Plan>(double, Job&)>& plan_for, Job& job);
+
+}  // namespace capstan::pipeline

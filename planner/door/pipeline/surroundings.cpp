@@ -1,0 +1,338 @@
+#include <algorithm>
+#include <cmath>
+
+#include "planner/door/pipeline/work.h"
+#include "planner/ground/base/number.h"
+#include "planner/model/features/in_piece.h"
+#include "planner/model/features/raw_piece.h"
+#include "planner/model/nouns/arena/walk.h"
+
+// What surrounds a feature: what is asked of it, what stays beside and below it, what the shop says.
+
+namespace capstan::pipeline {
+namespace {
+
+using geometry::Box2;
+using geometry::Loop;
+using geometry::Vec2;
+using model::FeatureShape;
+using model::Model;
+using model::ShapeKind;
+
+constexpr double kSame = 1e-6;                 // mm, and of directions
+constexpr std::size_t kMostShapes = 2000;      // beyond, thicknesses are left unknown: pairs are compared
+constexpr std::size_t kMostPoints = 400;       // of an outline that distances are measured from
+constexpr std::size_t kMostMeasured = 200000;  // points against segments, of one pair of outlines
+
+/// Heights that a feature takes away, and the box of its area, in another feature's frame.
+struct Seen {
+  double top = 0.0, bottom = 0.0;
+  Box2 box;
+};
+
+Seen see(const FeatureShape& other, const geometry::Placement& to) {
+  const auto rel = compose(to, other.frame);
+  const double a = rel.origin.z;
+  const double b = (rel.origin - other.depth_mm * rel.z).z;
+  Seen out{std::max(a, b), std::min(a, b), {}};
+  const Box2 own = geometry::bounds(other.area);
+  for (const Vec2 c : {own.lo, Vec2{own.hi.x, own.lo.y}, own.hi, Vec2{own.lo.x, own.hi.y}}) {
+    const auto p = rel.to_parent({c.x, c.y, 0.0});
+    out.box.lo = {std::min(out.box.lo.x, p.x), std::min(out.box.lo.y, p.y)};
+    out.box.hi = {std::max(out.box.hi.x, p.x), std::max(out.box.hi.y, p.y)};
+  }
+  return out;
+}
+
+double gap(const Box2& a, const Box2& b) {
+  const double x = std::max({0.0, a.lo.x - b.hi.x, b.lo.x - a.hi.x});
+  const double y = std::max({0.0, a.lo.y - b.hi.y, b.lo.y - a.hi.y});
+  return std::hypot(x, y);
+}
+
+/// What a feature takes away at its bottom: of an outside, all but the contour that stays.
+geometry::Region taken(const FeatureShape& s) {
+  geometry::Region out = s.area;
+  for (const auto& i : s.islands) out = geometry::subtract(out, i.area);
+  return out;
+}
+
+std::size_t points_of(const geometry::Region& r) {
+  std::size_t n = 0;
+  for (const Loop& loop : r.loops) n += loop.size();
+  return n;
+}
+
+/// The smallest distance between two areas; 0 when they meet, nothing when they are too fine to measure.
+std::optional<double> between(const geometry::Region& a, const geometry::Region& b) {
+  if (points_of(a) * points_of(b) > kMostMeasured) return std::nullopt;
+  double out = 1e300;
+  for (const auto& [from, to] : {std::pair(&a, &b), std::pair(&b, &a)}) {
+    for (const Loop& loop : from->loops) {
+      for (const Vec2 p : loop) {
+        if (geometry::contains(*to, p)) return 0.0;
+        out = std::min(out, geometry::distance_to_boundary(*to, p));
+      }
+    }
+  }
+  return out;
+}
+
+void least(std::optional<double>& to, double v) {
+  if (v > kSame) to = to ? std::min(*to, v) : v;
+}
+
+/// From the outline straight out to the sides of the raw piece: what stays there. Sides that the area reaches
+/// are open: where its outline runs out over one there is no wall, however near its corners come to it.
+void to_raw_sides(const FeatureShape& s, const geometry::Box3& raw, std::optional<double>& wall) {
+  const std::size_t stride = points_of(s.area) / kMostPoints + 1;
+  const Box2 box = geometry::bounds(s.area);
+  const bool right = raw.hi.x - box.hi.x > kSame;
+  const bool left = box.lo.x - raw.lo.x > kSame;
+  const bool back = raw.hi.y - box.hi.y > kSame;
+  const bool front = box.lo.y - raw.lo.y > kSame;
+  for (const Loop& loop : s.area.loops) {
+    for (std::size_t i = 0; i < loop.size(); i += stride) {
+      const Vec2 a = loop[i];
+      const Vec2 b = loop[(i + 1) % loop.size()];
+      const double n = norm(b - a);
+      if (n < kSame) continue;
+      const Vec2 out{(b.y - a.y) / n, (a.x - b.x) / n};
+      const Vec2 p = 0.5 * (a + b);
+      double t = 1e300;
+      if (right && out.x > kSame) t = std::min(t, (raw.hi.x - p.x) / out.x);
+      if (left && out.x < -kSame) t = std::min(t, (raw.lo.x - p.x) / out.x);
+      if (back && out.y > kSame) t = std::min(t, (raw.hi.y - p.y) / out.y);
+      if (front && out.y < -kSame) t = std::min(t, (raw.lo.y - p.y) / out.y);
+      if (t < 1e299) least(wall, t);
+    }
+  }
+}
+
+bool has_walls(ShapeKind k) {
+  return k == ShapeKind::kPocket || k == ShapeKind::kSlot || k == ShapeKind::kHole;
+}
+
+/// Form and orientation that the general tolerance asks where the feature states none: over its longest and
+/// its shorter extent.
+void take_general(const model::GeneralTolerance& g, const FeatureShape& s, model::Quality& q) {
+  if (s.area.empty()) return;
+  const Box2 box = geometry::bounds(s.area);
+  const double x = box.hi.x - box.lo.x, y = box.hi.y - box.lo.y;
+  if (!q.form_mm && s.kind == ShapeKind::kFace) q.form_mm = model::general_flatness(g, std::max(x, y));
+  if (!q.orientation_mm && has_walls(s.kind))
+    q.orientation_mm = model::general_perpendicularity(g, std::max(s.depth_mm, 1.0));
+}
+
+}  // namespace
+
+geometry::Region moved(const geometry::Region& r, const geometry::Placement& at) {
+  geometry::Region out;
+  for (const Loop& loop : r.loops) {
+    Loop q;
+    for (const Vec2 p : loop) q.push_back(geometry::xy(at.to_parent({p.x, p.y, 0.0})));
+    if (at.z.z < 0.0) std::reverse(q.begin(), q.end());
+    out.loops.push_back(std::move(q));
+  }
+  return out;
+}
+
+Thickness thickness_beside(const Work& w, const FeatureShape& s) {
+  Thickness out;
+  if (s.area.empty() || w.shapes.size() > kMostShapes || s.kind == ShapeKind::kFreeform) return out;
+  const auto to = inverse(s.frame);
+  const geometry::Box3 raw = transformed(w.plan.stock.box, to);
+  const geometry::Region own = taken(s);
+  const Box2 box = geometry::bounds(own);
+  if (has_walls(s.kind)) to_raw_sides(s, raw, out.wall_mm);
+  double below = s.through ? 0.0 : -s.depth_mm - raw.lo.z;
+  for (const FeatureShape& other : w.shapes) {
+    if (other.feature == s.feature && other.member == s.member) continue;
+    if (other.area.empty() || std::abs(std::abs(dot(other.frame.z, s.frame.z)) - 1.0) > kSame) continue;
+    const Seen seen = see(other, to);
+    const bool same_side = dot(other.frame.z, s.frame.z) > 0.0;
+    const bool beside = seen.bottom < -kSame && seen.top > -s.depth_mm + kSame;
+    const bool under = !same_side && !s.through && seen.top < -s.depth_mm - kSame && !other.through;
+    const double apart = gap(box, seen.box);
+    if (under && apart <= 0.0) {
+      const auto area = moved(taken(other), compose(to, other.frame));
+      if (!geometry::intersect(own, area).empty()) below = std::min(below, -s.depth_mm - seen.top);
+    }
+    if (!beside || other.kind == ShapeKind::kFace || other.kind == ShapeKind::kThread) continue;
+    if (out.wall_mm && apart >= *out.wall_mm) continue;
+    if (const auto d = between(own, moved(taken(other), compose(to, other.frame)))) least(out.wall_mm, *d);
+  }
+  if (below > kSame) out.floor_mm = below;
+  return out;
+}
+
+std::optional<double> clear_beside(const Work& w, const FeatureShape& s) {
+  constexpr double kFarMm = 50.0;     // no spot drill is as wide as this from its axis
+  constexpr double kAwayMm = 1000.0;  // where a face has no walls
+  if (s.kind != ShapeKind::kHole || w.shapes.size() > kMostShapes) return std::nullopt;
+  const auto to = inverse(s.frame);
+  geometry::Region free;
+  for (const FeatureShape& other : w.shapes) {
+    if (other.area.empty() || dot(other.frame.z, s.frame.z) < 1.0 - kSame) continue;
+    const bool wide = other.kind == ShapeKind::kFace || other.kind == ShapeKind::kOutside;
+    const bool walled = other.kind == ShapeKind::kStep || has_walls(other.kind);
+    if (!wide && !walled) continue;
+    if (other.kind == ShapeKind::kHole && other.diameter.nominal_mm <= s.diameter.nominal_mm) continue;
+    const Seen seen = see(other, to);
+    if (seen.top <= kSame || seen.bottom > kSame) continue;
+    if (!wide && gap({{0, 0}, {0, 0}}, seen.box) > kFarMm) continue;
+    const auto rel = compose(to, other.frame);
+    const bool all_round = wide && !model::stops_at_walls(other);
+    geometry::Region open = all_round ? geometry::rectangle({-kAwayMm, -kAwayMm}, {kAwayMm, kAwayMm})
+                                      : moved(other.reach.empty() ? other.area : other.reach, rel);
+    for (const model::Island& island : other.islands) {
+      if (rel.origin.z + island.top_z_mm > kSame) open = geometry::subtract(open, moved(island.area, rel));
+    }
+    free = free.empty() ? open : geometry::unite(free, open);
+  }
+  if (free.empty() || !geometry::contains(free, {0, 0})) return std::nullopt;
+  const double clear = geometry::distance_to_boundary(free, {0, 0});
+  return clear < kFarMm ? std::optional(clear) : std::nullopt;
+}
+
+namespace {
+
+/// How far the walls are apart at which a step ends on both sides; 0: it runs out on one.
+double between_ends(const Work& w, const FeatureShape& s) {
+  constexpr double kBeyond = 0.5;  // mm
+  if (s.kind != ShapeKind::kStep || s.spine.size() < 2 || w.shapes.size() > kMostShapes) return 0.0;
+  const double length = norm(s.spine.back() - s.spine.front());
+  if (length < kSame) return 0.0;
+  const Vec2 d = (kBeyond / length) * (s.spine.back() - s.spine.front());
+  const Vec2 in{d.y, -d.x};  // the step lies on the right of its line
+  const geometry::Region beside = stays_beside(w, s);
+  for (const Vec2 p : {s.spine.front() - d + in, s.spine.back() + d + in}) {
+    if (!geometry::contains(beside, p)) return 0.0;
+  }
+  return length;
+}
+
+}  // namespace
+
+std::string crosses_a_wall(const Work& w, const FeatureShape& face) {
+  constexpr double kSomeArea = 1.0;  // mm2: less is rounding of outlines
+  if (face.kind != ShapeKind::kFace || w.shapes.size() > kMostShapes) return {};
+  const auto to = inverse(face.frame);
+  const geometry::Region own = taken(face);
+  for (const FeatureShape& other : w.shapes) {
+    // The contour of an outside is the part itself: steps and faces on it are part of its drawing.
+    if (other.feature == face.feature || other.islands.empty() || other.kind == ShapeKind::kOutside) continue;
+    const auto rel = compose(to, other.frame);
+    if (std::abs(rel.z.z - 1.0) > kSame) continue;
+    for (const model::Island& island : other.islands) {
+      const double top = rel.origin.z + island.top_z_mm;
+      if (top <= -face.depth_mm + kSame || rel.origin.z - other.depth_mm >= -kSame) continue;
+      const auto boss = moved(island.area, rel);
+      const double inside = geometry::area(geometry::intersect(own, boss));
+      const double whole = geometry::area(boss);
+      if (inside <= kSomeArea || inside >= whole - kSomeArea) continue;
+      return "it crosses a boss in '" + other.name + "', which stands " + trimmed(top + face.depth_mm, 3) +
+             " mm above the face's floor; end the face at the boss, or lower the boss to it";
+    }
+  }
+  return {};
+}
+
+rules::Context context_of(const Work& w, AnyRef feature, const std::vector<FeatureShape>& shapes) {
+  rules::Context c;
+  c.material = w.plan.material;
+  c.general = w.general;
+  if (const auto* named = w.plan.model.get<model::ManufacturingFeature>(feature)) {
+    if (const auto* piece = w.plan.model.get<model::Workpiece>(named->its_workpiece))
+      c.global_tolerance_mm = model::global_tolerance_of(*piece);
+  }
+  if (const auto it = w.qualities.find(feature); it != w.qualities.end()) c.quality = it->second;
+  if (w.general) take_general(*w.general, shapes.front(), c.quality);
+  c.stock_above_mm = stock_above(w, shapes.front());
+  c.has_coolant = w.plan.machine.has_flood || w.plan.machine.has_mist;
+  c.has_through_coolant = w.plan.machine.has_through;
+  c.abilities = w.plan.machine.abilities;
+  c.batch = std::max(1, w.inputs.batch);
+  c.edge_break_mm = std::max(0.0, w.inputs.edge_break_mm);
+  std::optional<double> wall, floor;
+  for (const FeatureShape& s : shapes) {
+    const Thickness t = thickness_beside(w, s);
+    if (t.wall_mm) least(wall, *t.wall_mm);
+    if (t.floor_mm) least(floor, *t.floor_mm);
+  }
+  c.wall_thickness_mm = wall;
+  c.floor_thickness_mm = floor;
+  c.between_ends_mm = between_ends(w, shapes.front());
+  c.sharp_corner_mm = sharp_corner_of(w, shapes.front());
+  for (const FeatureShape& s : shapes) {
+    if (const auto clear = clear_beside(w, s)) least(c.clear_radius_mm, *clear);
+  }
+  return c;
+}
+
+namespace {
+
+/// Zones of no width (0 at maximum material): what the size leaves. Which that is, only the finished size
+/// says.
+void warn_of_zero_zones(const Work& w, const model::Attribution& attribution) {
+  const Model& m = w.plan.model;
+  for (const AnyRef r : m.all_below(model::TypeId::kGeometricTolerance)) {
+    const auto& value = m.at<model::GeometricTolerance>(r).tolerance_value;
+    if (value && *value > 0.0) continue;
+    std::string of;
+    for (const AnyRef f : attribution.features(r)) {
+      const auto* feature = m.get<model::ManufacturingFeature>(f);
+      if (feature != nullptr) of += (of.empty() ? " of '" : ", '") + feature->its_id.value_or("") + "'";
+    }
+    w.job.warn("PIP-REQUIREMENT",
+               std::string(model::noun_type(r.type).keyword) + of +
+                   (value ? " has a zone of 0, the whole of which the size leaves" : " states no value") +
+                   "; kept in the plan, and not planned for: hold it by the size");
+  }
+}
+
+}  // namespace
+
+Status take_requirements(Work& w) {
+  const Model& m = w.plan.model;
+  if (!w.inputs.general_tolerance.empty()) {
+    auto g = model::parse_general(w.inputs.general_tolerance);
+    if (!g) return tl::unexpected(g.error());
+    w.general = *std::move(g);
+    w.plan.provenance.push_back({"general tolerance", w.general->text, "named by the user"});
+  } else {
+    for (const AnyRef piece : m.all(model::TypeId::kWorkpiece)) {
+      auto g = model::general_tolerance_of(m, Ref<model::Workpiece>(piece));
+      if (!g) {
+        w.job.warn(g.error().code, g.error().message + "; taken as not stated");
+      } else if (*g) {
+        w.general = **g;
+        w.plan.provenance.push_back({"general tolerance", w.general->text, "the file"});
+        break;
+      }
+    }
+  }
+  const model::Attribution attribution(m);
+  std::vector<FeatureShape> all;
+  for (const AnyRef f : m.all_below(model::TypeId::kManufacturingFeature)) {
+    w.qualities[f] = attribution.quality(f);
+    if (auto s = shapes_in_piece(w, f)) all.insert(all.end(), s->begin(), s->end());
+  }
+  w.shapes = std::move(all);
+  for (FeatureShape& s : w.shapes) stop_at_walls(w, s);
+  const std::set<AnyRef> parts = model::parts_of_others(m);
+  std::copy_if(w.shapes.begin(), w.shapes.end(), std::back_inserter(w.whole_shapes),
+               [&](const FeatureShape& s) { return !parts.contains(s.feature); });
+  w.ties = model::ties_of(m, attribution);
+  std::string lost;
+  for (const auto& l : attribution.lost()) lost += (lost.empty() ? "" : "; ") + l.text;
+  if (!lost.empty()) {
+    w.job.warn("PIP-REQUIREMENT", "no feature answers for what is asked of faces or elements of the part: " +
+                                      lost + "; kept in the plan, and not planned for");
+  }
+  warn_of_zero_zones(w, attribution);
+  tell_twins(w);
+  return {};
+}
+
+}  // namespace capstan::pipeline

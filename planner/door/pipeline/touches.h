@@ -1,0 +1,41 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "planner/door/pipeline/work.h"
+#include "planner/ground/geometry/vec.h"
+
+// Where a touch probe starts and which way it moves; only planner/door/pipeline/*.cpp include this.
+
+namespace capstan::pipeline {
+
+/// One measuring move.
+///
+/// Frame  workpiece; `start` is the middle of the ball. Units  mm.
+struct Touch {
+  geometry::Vec3 start, direction, reference;  ///< directions are units; reference is across direction
+  double distance_mm = 0.0;                    ///< until the ball touches what should be there
+  std::string side;                            ///< "+x" of the feature's frame
+};
+
+/// What is measured, or why it cannot be.
+struct Touches {
+  std::vector<Touch> touches;
+  std::string why_not;  ///< set when there are none
+};
+
+/// What later steps will still take off the walls and the floor, mm.
+struct Left {
+  double side_mm = 0.0, bottom_mm = 0.0;
+};
+
+/// The touches that tell where a feature is, when it is cut but for `left`.
+///
+/// Upright walls that face each other: holes, pockets and outsides in x and y, slots and open pockets at
+/// least across; faces: their level. Each start has room for the ball: within what the feature removes, for
+/// an outside also beside the raw piece; each wall is there, not cut away by another feature.
+[[nodiscard]] Touches touches_of(const Work& w, const model::FeatureShape& shape, Left left,
+                                 double ball_radius_mm);
+
+}  // namespace capstan::pipeline

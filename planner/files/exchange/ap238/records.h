@@ -1,0 +1,39 @@
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "planner/files/exchange/ap238/reader.h"
+#include "planner/files/exchange/ap238/writer.h"
+#include "planner/files/exchange/records.h"
+
+// What a plan knows beside its nouns (planner/files/exchange/records.h) as process properties:
+// MACHINING_PROCESS_PROPERTY 'capstan binding', 'capstan cutter', … on the executable concerned, on the main
+// workplan what concerns the whole plan. A property's representation has an item for each field, named as the
+// field; objects are called by their address (addresses.h), never by number.
+
+namespace capstan::exchange::ap238 {
+
+/// The records of a file. Made before the reader runs: their instances are no part of the mapping then.
+class Records {
+ public:
+  explicit Records(Reader& reader);
+  /// Puts them into the plan, after everything else was read.
+  /// Of a sealed file (seal.h), no value is taken for edited.
+  void restore(bool sealed);
+
+ private:
+  struct Found {
+    std::string kind;
+    double number = 0.0;  ///< order within the kind
+    Node property;
+    std::vector<Node> items;
+  };
+  Reader& reader_;
+  std::vector<Found> found_;
+};
+
+/// Adds the records of the plan, once all its objects have instances.
+void write_records(Writer& writer);
+
+}  // namespace capstan::exchange::ap238

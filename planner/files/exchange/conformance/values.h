@@ -1,0 +1,14 @@
+#pragma once
+
+#include "planner/files/exchange/conformance/faults.h"
+#include "planner/files/exchange/conformance/population.h"
+
+namespace capstan::exchange::conformance {
+
+/// Compares the parameters of every instance with the slots of its layout.
+void check_values(const Population& population, Faults& faults);
+
+/// What should stand where the type is due, in words: "a LENGTH_MEASURE (real)", "a list of 2 to 3 reals".
+[[nodiscard]] std::string describe(const express::Type& type);
+
+}  // namespace capstan::exchange::conformance

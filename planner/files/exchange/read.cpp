@@ -1,0 +1,83 @@
+#include <algorithm>
+#include <array>
+#include <span>
+
+#include "planner/files/exchange/cad/stl.h"
+#include "planner/files/exchange/exchange.h"
+#include "planner/ground/base/file.h"
+
+namespace capstan::exchange {
+namespace {
+
+constexpr std::array<std::string_view, 4> kIso14649Schemas = {"MACHINING_SCHEMA", "MILLING_SCHEMA",
+                                                              "COMBINED_SCHEMA", "ISO14649"};
+
+// The text behind white space, a byte order mark and comments.
+std::string_view body(std::string_view s) {
+  if (s.substr(0, 3) == "\xEF\xBB\xBF") s.remove_prefix(3);
+  while (!s.empty()) {
+    const auto i = s.find_first_not_of(" \t\r\n");
+    if (i == std::string_view::npos) return {};
+    s.remove_prefix(i);
+    if (s.substr(0, 2) != "/*") break;
+    const auto end = s.find("*/", 2);
+    if (end == std::string_view::npos) return s;
+    s.remove_prefix(end + 2);
+  }
+  return s;
+}
+
+constexpr std::array<std::string_view, 2> kAp238Schemas = {"INTEGRATED_CNC_SCHEMA",
+                                                           "MODEL_BASED_INTEGRATED_MANUFACTURING_SCHEMA"};
+
+bool has_schema(const p21::File& file, std::span<const std::string_view> names) {
+  for (const std::string& schema : file.schemas()) {
+    std::string upper;
+    for (const char c : schema) upper += static_cast<char>(c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c);
+    for (const auto name : names) {
+      if (upper.rfind(name, 0) == 0) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+Result<model::Plan> read(const std::string& path, Job& job) { return read(path, ReadOptions{}, job); }
+
+Result<model::Plan> read(const std::string& path, const ReadOptions& options, Job& job) {
+  auto bytes = read_file(path, options.limits.bytes);
+  if (!bytes) return fail(bytes.error());
+  return read_bytes(std::move(*bytes), path, options, job);
+}
+
+Result<model::Plan> read_bytes(std::string bytes, const std::string& name, const ReadOptions& options,
+                               Job& job) {
+  if (body(bytes).substr(0, 12) == "ISO-10303-21") {
+    const auto file = p21::parse(std::move(bytes), name, options.limits, job);
+    if (!file) return fail(file.error());
+    if (has_schema(*file, kIso14649Schemas)) return read_iso14649(*file, job, options.strict);
+    if (has_schema(*file, kAp238Schemas)) return read_ap238(*file, job, options.strict);
+    const auto schemas = file->schemas();
+    return fail(
+        {.code = "EXC-UNSUPPORTED",
+         .message = "the file's schema " + (schemas.empty() ? std::string("(none)") : schemas.front()) +
+                    " cannot be read as a plan",
+         .file = name,
+         .expected =
+             "MACHINING_SCHEMA, MILLING_SCHEMA, COMBINED_SCHEMA (ISO 14649), INTEGRATED_CNC_SCHEMA or "
+             "MODEL_BASED_INTEGRATED_MANUFACTURING_SCHEMA (ISO 10303-238)"});
+  }
+  if (looks_like_stl(bytes)) {
+    auto mesh = read_stl(bytes, name, job);
+    if (!mesh) return fail(mesh.error());
+    if (auto ok = judge_mesh(*mesh, name, job); !ok) return fail(ok.error());
+    return plan_of_mesh(std::move(*mesh), name);
+  }
+  return fail({.code = "EXC-UNKNOWN-FORMAT",
+               .message = "the file is neither a Part 21 plan nor an STL mesh",
+               .file = name,
+               .hint = "ISO 14649 begins with ISO-10303-21;"});
+}
+
+}  // namespace capstan::exchange

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "planner/files/exchange/report.h"
+#include "planner/files/p21/file.h"
+#include "planner/ground/base/result.h"
+
+namespace capstan::exchange {
+
+/// A whole Part 21 file with its seal, the last entities of its header: what it says, kind by kind of entity,
+/// as hashes:
+///
+///     !CAPSTAN_SEAL('MILLING_TECHNOLOGY',5,'hash')    all entities of a keyword, in the header or the data
+///
+/// By it a reader knows what was edited since, also where no record speaks of it. Numbers count by value;
+/// spacing, comments and the order of entities do not. Words for people (reasons, provenance, the standard's
+/// own header) are not sealed. Fails  P21-... when the file cannot be read.
+[[nodiscard]] Result<std::string> with_seal(std::string file);
+/// Whether the file has a seal that holds. Where it does not, warns EXC-EDITED, naming the kinds whose
+/// entities were edited since.
+[[nodiscard]] bool seal_holds(const p21::File& file, Reporter& reporter);
+[[nodiscard]] bool is_seal(std::string_view keyword);
+
+}  // namespace capstan::exchange

@@ -1,0 +1,326 @@
+#pragma once
+
+#include <array>
+#include <concepts>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "planner/model/plan/plan.h"
+
+/// @file The fields of the plan's plain structs, named once: the writer, the reader, the schema (and the test
+/// that fills everything) visit them through these. Names wear their units. Optional members may be absent.
+
+namespace capstan::json::json {
+
+template <class T, class U>
+concept Is = std::same_as<std::remove_const_t<T>, U>;
+
+template <class V>
+void fields(V& v, Is<geometry::Vec3> auto& x) {
+  v("x", x.x), v("y", x.y), v("z", x.z);
+}
+template <class V>
+void fields(V& v, Is<geometry::Box3> auto& x) {
+  v("lo", x.lo), v("hi", x.hi);
+}
+template <class V>
+void fields(V& v, Is<std::pair<std::string, std::string>> auto& x) {
+  v("of", x.first), v("source", x.second);
+}
+template <class V>
+void fields(V& v, Is<model::LinearAxis> auto& x) {
+  v("name", x.name), v("travel_min_mm", x.travel_min_mm), v("travel_max_mm", x.travel_max_mm);
+  v("rapid_mm_min", x.rapid_mm_min), v("feed_max_mm_min", x.feed_max_mm_min);
+  v("acceleration_mm_s2", x.acceleration_mm_s2), v("jerk_mm_s3", x.jerk_mm_s3);
+}
+template <class V>
+void fields(V& v, Is<model::SpindlePoint> auto& x) {
+  v("rpm", x.rpm), v("power_w", x.power_w), v("torque_nm", x.torque_nm);
+}
+template <class V>
+void fields(V& v, Is<model::Spindle> auto& x) {
+  v("rpm_min", x.rpm_min), v("rpm_max", x.rpm_max), v("curve", x.curve), v("taper", x.taper);
+  v("efficiency", x.efficiency), v("spin_up_s", x.spin_up_s), v("gears", x.gears);
+}
+template <class V>
+void fields(V& v, Is<model::SpindleGear> auto& x) {
+  v("id", x.id), v("rpm_min", x.rpm_min), v("rpm_max", x.rpm_max), v("curve", x.curve);
+  v("curve_s6", x.curve_s6);
+}
+template <class V>
+void fields(V& v, Is<model::MachineAbilities> auto& x) {
+  v("control_axes", x.control_axes), v("simultaneous_axes", x.simultaneous_axes);
+  v("positioning_accuracy_mm", x.positioning_accuracy_mm), v("table_indexing", x.table_indexing);
+  v("table_length_mm", x.table_length_mm), v("table_width_mm", x.table_width_mm);
+  v("rigid_tapping", x.rigid_tapping), v("probe", x.probe), v("through_pressure_bar", x.through_pressure_bar);
+  v("feed_override_max", x.feed_override_max), v("magazine_mass_max_kg", x.magazine_mass_max_kg);
+}
+template <class V>
+void fields(V& v, Is<model::Control> auto& x) {
+  v("dialect", x.dialect), v("decimals", x.decimals), v("feed_decimals", x.feed_decimals);
+  v("path_tolerance_mm", x.path_tolerance_mm), v("block_time_s", x.block_time_s);
+  v("offsets_against_reference", x.offsets_against_reference);
+}
+template <class V>
+void fields(V& v, Is<model::Machine> auto& x) {
+  v("id", x.id), v("description", x.description), v("axes", x.axes), v("spindle", x.spindle);
+  v("magazine_pockets", x.magazine_pockets), v("tool_diameter_max_mm", x.tool_diameter_max_mm);
+  v("tool_length_max_mm", x.tool_length_max_mm), v("tool_change_s", x.tool_change_s);
+  v("has_flood", x.has_flood), v("has_mist", x.has_mist), v("has_through", x.has_through);
+  v("cost_per_hour", x.cost_per_hour), v("control", x.control), v("sources", x.sources);
+  v("abilities", x.abilities), v("modes", x.modes);
+}
+template <class V>
+void fields(V& v, Is<model::MechanisticSet> auto& x) {
+  v("substrate", x.substrate), v("ktc_n_mm2", x.ktc_n_mm2), v("kte_n_mm", x.kte_n_mm);
+  v("krc_n_mm2", x.krc_n_mm2), v("kre_n_mm", x.kre_n_mm), v("kac_n_mm2", x.kac_n_mm2);
+  v("kae_n_mm", x.kae_n_mm), v("uncertainty", x.uncertainty), v("source", x.source);
+}
+template <class V>
+void fields(V& v, Is<model::ToolLifeLaw> auto& x) {
+  v("substrate", x.substrate), v("v0_m_min", x.v0_m_min), v("life_min", x.life_min), v("h0_mm", x.h0_mm);
+  v("a0_mm", x.a0_mm), v("n", x.n), v("p", x.p), v("q", x.q), v("scatter", x.scatter);
+  v("source", x.source);
+}
+template <class V>
+void fields(V& v, Is<model::ToolPointMode> auto& x) {
+  v("cutter_id", x.cutter_id), v("direction", x.direction), v("frequency_hz", x.frequency_hz);
+  v("damping_ratio", x.damping_ratio), v("stiffness_n_mm", x.stiffness_n_mm);
+}
+template <class V>
+void fields(V& v, Is<model::WorkMaterial> auto& x) {
+  v("id", x.id), v("iso_group", x.iso_group), v("names", x.names), v("kc11_n_mm2", x.kc11_n_mm2);
+  v("mc", x.mc), v("vc_hss_m_min", x.vc_hss_m_min), v("vc_carbide_m_min", x.vc_carbide_m_min);
+  v("tensile_strength_n_mm2", x.tensile_strength_n_mm2), v("kc_uncertainty", x.kc_uncertainty);
+  v("hardness_hb", x.hardness_hb);
+  v("mechanistic", x.mechanistic), v("life", x.life);
+  v("sources", x.sources);
+}
+template <class V>
+void fields(V& v, Is<model::CuttingPreset> auto& x) {
+  v("material_group", x.material_group), v("vc_m_min", x.vc_m_min), v("fz_mm", x.fz_mm),
+      v("source", x.source);
+}
+template <class V>
+void fields(V& v, Is<model::Cutter> auto& x) {
+  v("id", x.id), v("description", x.description), v("cutter_class", x.cutter_class),
+      v("substrate", x.substrate);
+  v("cutting_diameter_mm", x.cutting_diameter_mm), v("corner_radius_mm", x.corner_radius_mm);
+  v("point_angle_rad", x.point_angle_rad), v("tip_diameter_mm", x.tip_diameter_mm);
+  v("maximum_depth_of_cut_mm", x.maximum_depth_of_cut_mm), v("usable_length_mm", x.usable_length_mm);
+  v("stick_out_mm", x.stick_out_mm), v("functional_length_mm", x.functional_length_mm);
+  v("shank_diameter_mm", x.shank_diameter_mm), v("holder_diameter_mm", x.holder_diameter_mm);
+  v("teeth", x.teeth), v("helix_rad", x.helix_rad), v("lead_angle_rad", x.lead_angle_rad);
+  v("thread_pitch_mm", x.thread_pitch_mm), v("centre_cutting", x.centre_cutting);
+  v("maximum_ramp_angle_rad", x.maximum_ramp_angle_rad), v("hand", x.hand);
+  v("coolant_through", x.coolant_through), v("maximum_speed_rpm", x.maximum_speed_rpm);
+  v("life_min", x.life_min), v("price", x.price), v("fz_min_mm", x.fz_min_mm), v("fz_max_mm", x.fz_max_mm);
+  v("presets", x.presets), v("sources", x.sources), v("pocket", x.pocket);
+  v("adjustable_to_mm", x.adjustable_to_mm), v("overall_length_mm", x.overall_length_mm);
+  v("neck_diameter_mm", x.neck_diameter_mm), v("neck_length_mm", x.neck_length_mm);
+  v("taper_angle_rad", x.taper_angle_rad), v("cutting_width_mm", x.cutting_width_mm);
+  v("thread_size_mm", x.thread_size_mm), v("thread_form", x.thread_form), v("lead_threads", x.lead_threads);
+  v("lead_length_mm", x.lead_length_mm), v("holder_id", x.holder_id), v("holder", x.holder);
+  v("library_reference", x.library_reference), v("library_source", x.library_source);
+  v("product_id", x.product_id), v("carousel", x.carousel), v("stated_in_inches", x.stated_in_inches);
+  v("loaded", x.loaded), v("in_stock", x.in_stock), v("life_used_min", x.life_used_min);
+  v("sisters", x.sisters), v("runout_mm", x.runout_mm), v("table_line", x.table_line);
+}
+template <class V>
+void fields(V& v, Is<model::ToolTableWord> auto& x) {
+  v("letter", x.letter), v("value", x.value);
+}
+template <class V>
+void fields(V& v, Is<model::ToolTableLine> auto& x) {
+  v("words", x.words), v("against_reference", x.against_reference), v("untouched", x.untouched);
+}
+template <class V>
+void fields(V& v, Is<model::HolderSegment> auto& x) {
+  v("height_mm", x.height_mm), v("lower_diameter_mm", x.lower_diameter_mm);
+  v("upper_diameter_mm", x.upper_diameter_mm);
+}
+template <class V>
+void fields(V& v, Is<model::SisterTool> auto& x) {
+  v("id", x.id), v("pocket", x.pocket), v("life_left_min", x.life_left_min);
+}
+template <class V>
+void fields(V& v, Is<model::Stock> auto& x) {
+  v("box", x.box), v("source", x.source), v("cylinder_radius_mm", x.cylinder_radius_mm);
+}
+template <class V>
+void fields(V& v, Is<model::SetupResult> auto& x) {
+  v("setup", x.setup), v("work_offset", x.work_offset), v("security_z_mm", x.security_z_mm);
+  v("holding", x.holding);
+}
+template <class V>
+void fields(V& v, Is<model::FixtureSolid> auto& x) {
+  v("id", x.id), v("kind", x.kind), v("outline", x.outline), v("bottom_mm", x.bottom_mm),
+      v("top_mm", x.top_mm);
+  v("presses", x.presses);
+}
+template <class V>
+void fields(V& v, Is<model::Workholding> auto& x) {
+  v("id", x.id), v("description", x.description), v("source", x.source), v("solids", x.solids);
+  v("pickup", x.pickup), v("pickup_text", x.pickup_text), v("clearance_mm", x.clearance_mm);
+  v("holding_force_n", x.holding_force_n);
+}
+template <class V>
+void fields(V& v, Is<geometry::Vec2> auto& x) {
+  v("x", x.x), v("y", x.y);
+}
+template <class V>
+void fields(V& v, Is<model::AxisForces> auto& x) {
+  v("x_n", x.x_n), v("y_n", x.y_n), v("z_n", x.z_n);
+}
+template <class V>
+void fields(V& v, Is<model::LimitAlongPath> auto& x) {
+  v("name", x.name), v("limit", x.limit), v("unit", x.unit), v("share", x.share), v("saves_s", x.saves_s);
+}
+template <class V>
+void fields(V& v, Is<model::StepLoads> auto& x) {
+  v("peak_force_n", x.peak_force_n), v("torque_nm", x.torque_nm), v("power_w", x.power_w);
+  v("deflection_mm", x.deflection_mm), v("chip_thickness_mm", x.chip_thickness_mm);
+  v("mrr_mm3_min", x.mrr_mm3_min), v("mean_axis_force", x.mean_force), v("peak_axis_force", x.peak_force);
+  v("wall_error_mm", x.wall_error_mm), v("surface_rz_mm", x.surface_rz_mm);
+  v("tool_life_min", x.tool_life_min), v("force_margin", x.force_margin);
+}
+template <class V>
+void fields(V& v, Is<model::ActiveConstraint> auto& x) {
+  v("name", x.name), v("value", x.value), v("limit", x.limit), v("unit", x.unit);
+  v("shadow_price", x.shadow_price), v("saves_s", x.saves_s), v("at_rpm", x.at_rpm);
+}
+template <class V>
+void fields(V& v, Is<model::ExceededLimit> auto& x) {
+  v("name", x.name), v("value", x.value), v("limit", x.limit), v("unit", x.unit), v("at_mm", x.at_mm);
+}
+template <class V>
+void fields(V& v, Is<model::StepResult> auto& x) {
+  v("step", x.step), v("setup", x.setup), v("cutter_id", x.cutter_id), v("axial_depth_mm", x.axial_depth_mm);
+  v("radial_depth_mm", x.radial_depth_mm), v("vc_m_min", x.vc_m_min), v("fz_mm", x.fz_mm);
+  v("spindle_rpm", x.spindle_rpm), v("feed_mm_min", x.feed_mm_min), v("flood", x.flood), v("mist", x.mist);
+  v("path", x.path), v("sections", x.sections), v("schedule", x.schedule), v("cutting_s", x.cutting_s);
+  v("rapid_s", x.rapid_s), v("loads", x.loads), v("active", x.active), v("through", x.through);
+  v("path_deviation_mm", x.path_deviation_mm), v("contour_tolerance_mm", x.contour_tolerance_mm);
+  v("held_by", x.held_by), v("exceeded", x.exceeded);
+}
+template <class V>
+void fields(V& v, Is<model::Unplanned> auto& x) {
+  v("feature", x.feature), v("reason", x.reason), v("needed_by", x.needed_by);
+}
+template <class V>
+void fields(V& v, Is<model::Provenance> auto& x) {
+  v("what", x.what), v("value", x.value), v("source", x.source);
+}
+template <class V>
+void fields(V& v, Is<model::Reason> auto& x) {
+  v("id", x.id), v("text", x.text), v("source", x.source);
+}
+template <class V>
+void fields(V& v, Is<model::DecisionKey> auto& x) {
+  v("object", x.object), v("attribute", x.attribute);
+}
+template <class V>
+void fields(V& v, Is<model::Rejected> auto& x) {
+  v("what", x.what), v("why", x.why);
+}
+template <class V>
+void fields(V& v, Is<model::Decision> auto& x) {
+  v("state", x.state), v("binder", x.binder), v("pinned", x.pinned), v("reason", x.reason),
+      v("lexeme", x.lexeme);
+  v("value_hash", x.value_hash), v("depends_on", x.depends_on), v("rejected", x.rejected);
+}
+template <class V>
+void fields(V& v, Is<model::FeedSchedule> auto& x) {
+  v("feed_mm_min", x.feed_mm_min), v("spindle_rpm", x.spindle_rpm), v("dwell_s", x.dwell_s);
+}
+template <class V>
+void fields(V& v, Is<model::SectionSeries> auto& x) {
+  v("move", x.move), v("at_mm", x.at_mm), v("ad_max_mm", x.ad_max_mm), v("rd_max_mm", x.rd_max_mm);
+  v("x_max_ofs_mm", x.x_max_ofs_mm), v("y_max_ofs_mm", x.y_max_ofs_mm), v("csa_mm2", x.csa_mm2);
+  v("x_cg_ofs_mm", x.x_cg_ofs_mm), v("y_cg_ofs_mm", x.y_cg_ofs_mm), v("removed_mm3", x.removed_mm3);
+}
+template <class V>
+void fields(V& v, Is<model::CutterPath> auto& x) {
+  v("x", x.x), v("y", x.y), v("z", x.z), v("cx", x.cx), v("cy", x.cy), v("kind", x.kind), v("role", x.role);
+}
+template <class V>
+void fields(V& v, Is<geometry::Mesh> auto& x) {
+  v("vertices", x.vertices), v("triangles", x.triangles);
+}
+/// What of the plan is neither an object, nor the ledger, nor shared columns.
+template <class V>
+void fields(V& v, Is<model::Plan> auto& x) {
+  v("project", x.project), v("file_name", x.file_name), v("header_description", x.header_description);
+  v("header_time_stamp", x.header_time_stamp), v("header_authors", x.header_authors);
+  v("header_organizations", x.header_organizations), v("machine", x.machine), v("material", x.material);
+  v("stock", x.stock), v("cutters", x.cutters), v("setups", x.setups), v("steps", x.steps);
+  v("unplanned", x.unplanned), v("provenance", x.provenance), v("kept", x.kept);
+}
+
+/// The field that is written as sixteen hexadecimal digits.
+inline constexpr std::string_view kHashField = "value_hash";
+
+/// The spellings of an enumeration, in order of its codes.
+template <class E>
+[[nodiscard]] std::vector<std::string_view> spellings() {
+  std::vector<std::string_view> out;
+  if constexpr (std::is_same_v<E, model::CutterClass>) {
+    for (int i = 0; i <= static_cast<int>(model::kLastCutterClass); ++i) {
+      out.push_back(model::to_text(static_cast<model::CutterClass>(i)));
+    }
+  } else if constexpr (std::is_same_v<E, model::Substrate>) {
+    out = {model::to_text(model::Substrate::kHss), model::to_text(model::Substrate::kCarbide)};
+  } else if constexpr (std::is_same_v<E, model::Hand>) {
+    out = {"left", "right", "neutral"};
+  } else if constexpr (std::is_same_v<E, model::DecisionState>) {
+    out = {"open", "bound"};
+  } else {
+    static_assert(std::is_same_v<E, model::Binder>);
+    for (int i = 0; i <= static_cast<int>(model::Binder::kDefault); ++i) {
+      out.push_back(model::to_text(static_cast<model::Binder>(i)));
+    }
+  }
+  return out;
+}
+
+/// Tells structs with `fields` from other types.
+struct NoVisit {
+  template <class T>
+  void operator()(const char*, const T&) {}
+};
+template <class T>
+concept Described = requires(NoVisit& v, T& x) {
+  fields(v, x);
+};
+
+template <class T>
+inline constexpr bool kIsOptional = false;
+template <class T>
+inline constexpr bool kIsOptional<std::optional<T>> = true;
+template <class T>
+inline constexpr bool kIsVector = false;
+template <class T>
+inline constexpr bool kIsVector<std::vector<T>> = true;
+template <class T>
+inline constexpr bool kIsArray = false;
+template <class T, std::size_t N>
+inline constexpr bool kIsArray<std::array<T, N>> = true;
+template <class T>
+inline constexpr bool kIsShared = false;
+template <class T>
+inline constexpr bool kIsShared<std::shared_ptr<const T>> = true;
+
+/// What shared columns are called.
+template <class T>
+[[nodiscard]] constexpr std::string_view shared_name() {
+  if constexpr (std::is_same_v<T, model::CutterPath>) return "path";
+  if constexpr (std::is_same_v<T, model::SectionSeries>) return "sections";
+  return "schedule";
+}
+
+}  // namespace capstan::json::json

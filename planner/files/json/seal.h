@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include "planner/model/plan/plan.h"
+
+namespace capstan::json::json {
+
+/// A hash of each part of a plan ("the machine", "tool 'END MILL 12'", "step 'POCKET'", "objects of kind
+/// plane"), written beside it, so that a reader knows what somebody edited in between: what was computed of
+/// the old value is no longer true. No secret: it finds slips, not forgery.
+///
+/// Counts      numbers by value, choices, references, ids.
+/// Does not    words for people (descriptions, sources, reasons' texts, labels), where an object stood in its
+///             file.
+/// Cost        linear.
+[[nodiscard]] std::map<std::string, std::uint64_t> seals_of(const model::Plan& plan);
+
+}  // namespace capstan::json::json

@@ -1,0 +1,35 @@
+#include "planner/ground/base/result.h"
+
+namespace capstan {
+
+const char* to_text(Severity s) {
+  switch (s) {
+    case Severity::kNote:
+      return "note";
+    case Severity::kWarning:
+      return "warning";
+    case Severity::kError:
+      return "error";
+  }
+  return "error";
+}
+
+std::string to_text(const Diagnostic& d) {
+  std::string out;
+  if (!d.file.empty()) {
+    out += d.file;
+    if (d.line != 0) out += ":" + std::to_string(d.line);
+    out += ": ";
+  }
+  out += to_text(d.severity);
+  out += ": ";
+  if (d.instance != 0) out += "#" + std::to_string(d.instance) + " ";
+  if (!d.path.empty()) out += d.path + ": ";
+  out += d.message;
+  if (!d.expected.empty()) out += "; expected " + d.expected;
+  if (!d.hint.empty()) out += "; " + d.hint;
+  if (!d.code.empty()) out += " [" + d.code + "]";
+  return out;
+}
+
+}  // namespace capstan

@@ -1,0 +1,254 @@
+#include "planner/ground/geometry/region.h"
+
+#include <algorithm>
+#include <clipper.hpp>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <utility>
+
+namespace capstan::geometry {
+namespace {
+
+using ClipperLib::ClipType;
+using ClipperLib::IntPoint;
+using ClipperLib::Paths;
+
+constexpr double kScale = 1.0 / kRegionGrid;
+
+ClipperLib::cInt to_grid(double v) {
+  if (!(std::abs(v) <= kRegionLimit)) throw std::logic_error("a region's coordinate is out of range");
+  return std::llround(v * kScale);
+}
+
+ClipperLib::Path to_path(const Loop& loop) {
+  ClipperLib::Path path;
+  path.reserve(loop.size());
+  for (const Vec2 p : loop) path.emplace_back(to_grid(p.x), to_grid(p.y));
+  return path;
+}
+
+Paths to_paths(const std::vector<Loop>& loops) {
+  Paths paths;
+  paths.reserve(loops.size());
+  for (const Loop& loop : loops) paths.push_back(to_path(loop));
+  return paths;
+}
+
+Vec2 from_grid(const IntPoint& p) {
+  return {static_cast<double>(p.X) * kRegionGrid, static_cast<double>(p.Y) * kRegionGrid};
+}
+
+// The starting point of a loop is its lowest, then leftmost: same area, same bytes.
+Loop from_path(const ClipperLib::Path& path) {
+  Loop loop;
+  loop.reserve(path.size());
+  for (const IntPoint& p : path) loop.push_back(from_grid(p));
+  const auto first = std::min_element(loop.begin(), loop.end(),
+                                      [](Vec2 a, Vec2 b) { return a.y != b.y ? a.y < b.y : a.x < b.x; });
+  std::rotate(loop.begin(), first, loop.end());
+  return loop;
+}
+
+Region from_paths(const Paths& paths) {
+  Region out;
+  for (const auto& path : paths) {
+    if (path.size() >= 3) out.loops.push_back(from_path(path));
+  }
+  std::sort(out.loops.begin(), out.loops.end(), [](const Loop& a, const Loop& b) {
+    if (a.front().y != b.front().y) return a.front().y < b.front().y;
+    if (a.front().x != b.front().x) return a.front().x < b.front().x;
+    return a.size() < b.size();
+  });
+  return out;
+}
+
+Region combine(ClipType type, const std::vector<Loop>& a, const std::vector<Loop>& b) {
+  ClipperLib::Clipper clipper;
+  clipper.AddPaths(to_paths(a), ClipperLib::ptSubject, true);
+  clipper.AddPaths(to_paths(b), ClipperLib::ptClip, true);
+  Paths solution;
+  clipper.Execute(type, solution, ClipperLib::pftNonZero, ClipperLib::pftNonZero);
+  return from_paths(solution);
+}
+
+Region offset_paths(const Paths& paths, double delta_mm, ClipperLib::JoinType join, ClipperLib::EndType end,
+                    double arc_tolerance_mm) {
+  ClipperLib::ClipperOffset clipper(2.0, arc_tolerance_mm * kScale);
+  clipper.AddPaths(paths, join, end);
+  Paths solution;
+  clipper.Execute(solution, delta_mm * kScale);
+  return from_paths(solution);
+}
+
+int arc_steps(double radius_mm, double sweep_rad, double tolerance_mm) {
+  if (radius_mm <= tolerance_mm) return std::max(1, static_cast<int>(std::ceil(std::abs(sweep_rad))));
+  const double step = 2.0 * std::acos(1.0 - tolerance_mm / radius_mm);
+  return std::max(1, static_cast<int>(std::ceil(std::abs(sweep_rad) / step)));
+}
+
+}  // namespace
+
+Region clean(const std::vector<Loop>& loops) { return combine(ClipperLib::ctUnion, loops, {}); }
+Region unite(const Region& a, const Region& b) { return combine(ClipperLib::ctUnion, a.loops, b.loops); }
+Region intersect(const Region& a, const Region& b) {
+  return combine(ClipperLib::ctIntersection, a.loops, b.loops);
+}
+Region subtract(const Region& a, const Region& b) {
+  return combine(ClipperLib::ctDifference, a.loops, b.loops);
+}
+
+Region offset(const Region& a, double delta_mm, double arc_tolerance_mm) {
+  if (delta_mm == 0.0 || a.empty()) return a;
+  // Clipper's chords of a rounded corner lie up to the tolerance inside the circle of radius |delta|, that
+  // is, too near to the old boundary: offset by that much more, so that no point comes nearer than |delta|.
+  const double away = std::copysign(std::abs(delta_mm) + arc_tolerance_mm, delta_mm);
+  return offset_paths(to_paths(a.loops), away, ClipperLib::jtRound, ClipperLib::etClosedPolygon,
+                      arc_tolerance_mm);
+}
+
+Region offset_sharp(const Region& a, double delta_mm) {
+  if (delta_mm == 0.0 || a.empty()) return a;
+  return offset_paths(to_paths(a.loops), delta_mm, ClipperLib::jtMiter, ClipperLib::etClosedPolygon, 0.001);
+}
+
+std::vector<Region> pieces(const Region& a) {
+  std::vector<Region> out;
+  for (const Loop& loop : a.loops) {
+    if (signed_area(loop) > 0.0) out.push_back({{loop}});
+  }
+  std::stable_sort(out.begin(), out.end(), [](const Region& x, const Region& y) {
+    return signed_area(x.loops.front()) > signed_area(y.loops.front());
+  });
+  // A hole belongs to the smallest outer loop that contains it.
+  for (const Loop& hole : a.loops) {
+    if (signed_area(hole) > 0.0) continue;
+    for (auto it = out.rbegin(); it != out.rend(); ++it) {
+      const Region outer{{it->loops.front()}};
+      if (contains(outer, hole.front())) {
+        it->loops.push_back(hole);
+        break;
+      }
+    }
+  }
+  return out;
+}
+
+double signed_area(const Loop& loop) {
+  double twice = 0.0;
+  for (std::size_t i = 0, n = loop.size(); i < n; ++i) twice += cross(loop[i], loop[(i + 1) % n]);
+  return 0.5 * twice;
+}
+
+double area(const Region& a) {
+  double sum = 0.0;
+  for (const Loop& loop : a.loops) sum += signed_area(loop);
+  return sum;
+}
+
+namespace {
+
+enum class Side { kOutside, kInside, kOn };
+
+/// Even-odd by a ray towards +x, on the grid (Hormann and Agathos, "The point in polygon problem for
+/// arbitrary polygons", 2001): the ray crosses an edge that changes the side of its height and has the point
+/// on its left when it goes up. Only the corners of edges that reach that height are put on the grid.
+Side side_of(const Loop& loop, Vec2 p) {
+  if (loop.size() < 3) return Side::kOutside;
+  const auto px = to_grid(p.x), py = to_grid(p.y);
+  const double over = p.y + 2.0 * kRegionGrid, under = p.y - 2.0 * kRegionGrid;
+  bool inside = false;
+  Vec2 from = loop.back();
+  for (const Vec2 to : loop) {
+    const Vec2 a = std::exchange(from, to);
+    if ((a.y > over && to.y > over) || (a.y < under && to.y < under)) continue;
+    const auto ax = to_grid(a.x), ay = to_grid(a.y), bx = to_grid(to.x), by = to_grid(to.y);
+    if (bx == px && by == py) return Side::kOn;
+    if (ay == py && by == py && (ax < px) != (bx < px)) return Side::kOn;  // along the ray
+    if ((ay < py) == (by < py)) continue;
+    const double cross = static_cast<double>(ax - px) * static_cast<double>(by - py) -
+                         static_cast<double>(bx - px) * static_cast<double>(ay - py);
+    if (cross == 0.0) return Side::kOn;
+    if ((cross > 0.0) == (by > ay)) inside = !inside;
+  }
+  return inside ? Side::kInside : Side::kOutside;
+}
+
+}  // namespace
+
+bool contains(const Region& a, Vec2 p) {
+  int winding = 0;
+  for (const Loop& loop : a.loops) {
+    const Side side = side_of(loop, p);
+    if (side == Side::kOn) return true;
+    if (side == Side::kInside) winding += signed_area(loop) > 0.0 ? 1 : -1;
+  }
+  return winding > 0;
+}
+
+double distance_to_boundary(const Region& a, Vec2 p) {
+  double best = 1e300;
+  for (const Loop& loop : a.loops) {
+    for (std::size_t i = 0, n = loop.size(); i < n; ++i) {
+      const Vec2 s = loop[i];
+      const Vec2 d = loop[(i + 1) % n] - s;
+      const double length2 = dot(d, d);
+      const double t = length2 > 0.0 ? std::clamp(dot(p - s, d) / length2, 0.0, 1.0) : 0.0;
+      best = std::min(best, norm(p - (s + t * d)));
+    }
+  }
+  return best;
+}
+
+Box2 bounds(const Region& a) {
+  Box2 box;
+  for (const Loop& loop : a.loops) {
+    for (const Vec2 p : loop) {
+      box.lo = {std::min(box.lo.x, p.x), std::min(box.lo.y, p.y)};
+      box.hi = {std::max(box.hi.x, p.x), std::max(box.hi.y, p.y)};
+    }
+  }
+  return box;
+}
+
+Region rectangle(Vec2 lo, Vec2 hi) { return {{{lo, {hi.x, lo.y}, hi, {lo.x, hi.y}}}}; }
+
+void append_arc(Loop& out, Vec2 centre, Vec2 start, double sweep_rad, double tolerance_mm) {
+  const Vec2 r = start - centre;
+  const double radius = norm(r);
+  const double a0 = std::atan2(r.y, r.x);
+  const int steps = arc_steps(radius, sweep_rad, tolerance_mm);
+  for (int i = 1; i <= steps; ++i) {
+    const double a = a0 + sweep_rad * i / steps;
+    out.push_back({centre.x + radius * std::cos(a), centre.y + radius * std::sin(a)});
+  }
+}
+
+Region rounded_rectangle(Vec2 lo, Vec2 hi, double corner_radius_mm, double tolerance_mm) {
+  const double r = std::min({corner_radius_mm, 0.5 * (hi.x - lo.x), 0.5 * (hi.y - lo.y)});
+  if (!(r > 0.0)) return rectangle(lo, hi);
+  constexpr double kQuarter = std::numbers::pi / 2.0;
+  Loop loop;
+  const auto corner = [&](Vec2 centre, Vec2 start) {
+    loop.push_back(start);
+    append_arc(loop, centre, start, kQuarter, tolerance_mm);
+  };
+  corner({hi.x - r, lo.y + r}, {hi.x - r, lo.y});
+  corner({hi.x - r, hi.y - r}, {hi.x, hi.y - r});
+  corner({lo.x + r, hi.y - r}, {lo.x + r, hi.y});
+  corner({lo.x + r, lo.y + r}, {lo.x, lo.y + r});
+  return clean({loop});
+}
+
+Region disc(Vec2 centre, double radius_mm, double tolerance_mm) {
+  Loop loop;
+  append_arc(loop, centre, {centre.x + radius_mm, centre.y}, 2.0 * std::numbers::pi, tolerance_mm);
+  return {{loop}};
+}
+
+Region stroke(const std::vector<Vec2>& line, double half_width_mm, bool round_ends, double arc_tolerance_mm) {
+  return offset_paths({to_path(line)}, half_width_mm, ClipperLib::jtRound,
+                      round_ends ? ClipperLib::etOpenRound : ClipperLib::etOpenButt, arc_tolerance_mm);
+}
+
+}  // namespace capstan::geometry

@@ -1,0 +1,164 @@
+#include "planner/making/optimise/cut/limits.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "planner/physics/mechanics/constants.h"
+#include "planner/physics/mechanics/stability.h"
+#include "planner/physics/mechanics/surface.h"
+
+namespace capstan::optimise {
+namespace {
+
+double efficiency(const CutQuestion& q) {
+  return mechanics::spindle_efficiency(q.machine.spindle.efficiency);
+}
+
+/// The smaller of two axes' feeds, or the Z axis's; an axis that states none does not limit.
+double axis_feed(const CutQuestion& q) {
+  const auto& a = q.machine.axes;
+  if (!is_milling(q.kind)) return a[2].feed_max_mm_min;
+  return std::min(a[0].feed_max_mm_min, a[1].feed_max_mm_min);
+}
+
+double deflection_limit(const CutQuestion& q) {
+  return q.deflection_limit_mm > 0.0 ? q.deflection_limit_mm : kRoughDeflectionMm;
+}
+
+}  // namespace
+
+Range speeds(const CutQuestion& q) {
+  Range r{std::max(1.0, q.machine.spindle.rpm_min), q.machine.spindle.rpm_max};
+  if (q.cutter.maximum_speed_rpm > 0.0) r.hi = std::min(r.hi, q.cutter.maximum_speed_rpm);
+  return r;
+}
+
+std::optional<mechanics::SpindleCurve> curve_of(const CutQuestion& q) {
+  if (q.machine.spindle.curve.empty()) return std::nullopt;
+  std::vector<mechanics::SpindlePoint> points;
+  points.reserve(q.machine.spindle.curve.size());
+  for (const auto& p : q.machine.spindle.curve) points.push_back({p.rpm, p.power_w, p.torque_nm});
+  auto curve = mechanics::SpindleCurve::make(std::move(points));
+  if (!curve) return std::nullopt;
+  return *std::move(curve);
+}
+
+double largest_fz(const CutQuestion& q) {
+  double fz = q.fz_start_mm;
+  // The start value is what is planned for; the cutter's largest must hold with the override, too.
+  if (q.cutter.fz_max_mm > 0.0) fz = std::min(fz, q.cutter.fz_max_mm / feed_override(q));
+  return fz;
+}
+
+double least_fz(const CutQuestion& q) {
+  if (q.kind == CutKind::kTap || !(q.cutter.fz_min_mm > 0.0)) return 0.0;
+  return q.cutter.fz_min_mm;
+}
+
+bool least_fz_stated(const CutQuestion& q) {
+  const auto& s = q.cutter.sources;
+  const auto it = std::find_if(s.begin(), s.end(), [](const auto& p) { return p.first == "fz_min_mm"; });
+  return it == s.end() || it->second.starts_with("stated");
+}
+
+bool short_of_torque(const CutQuestion& q, double n_rpm) {
+  constexpr double kNearlyAll = 0.98;
+  const auto curve = curve_of(q);
+  if (!curve) return false;
+  double most = 0.0;
+  for (const auto& p : curve->points()) {
+    if (const auto c = curve->at(p.rpm)) most = std::max(most, c->power_w);
+  }
+  const auto c = curve->at(std::clamp(n_rpm, curve->min_rpm(), curve->max_rpm()));
+  // Beyond the speed of most power the power falls again, and it is power that is short.
+  if (!c || c->power_w >= kNearlyAll * most) return false;
+  return std::any_of(curve->points().begin(), curve->points().end(), [&](const auto& p) {
+    const auto at = curve->at(p.rpm);
+    return at && p.rpm > n_rpm && at->power_w > c->power_w;
+  });
+}
+
+double ease_of(const CutQuestion& q, std::string_view limit) {
+  return q.eased.name == limit ? q.eased.factor : 1.0;
+}
+
+double slender_depth(const CutQuestion& q) {
+  const model::Cutter& c = q.cutter;
+  const bool speaks = q.kind == CutKind::kRough && !q.ap_mm && c.stick_out_mm > 0.0 &&
+                      mechanics::modes_for(q.machine, c.id).empty();
+  const double depth = speaks ? mechanics::slender_depth_mm(c.cutting_diameter_mm, c.stick_out_mm) : 0.0;
+  return depth > 0.0 ? depth : std::numeric_limits<double>::infinity();
+}
+
+double deepest_level(const CutQuestion& q) {
+  const double d = q.cutter.cutting_diameter_mm;
+  double most = q.cutter.maximum_depth_of_cut_mm > 0.0
+                    ? q.cutter.maximum_depth_of_cut_mm * ease_of(q, "cutting_length")
+                    : d;
+  double level = most;
+  if (q.kind == CutKind::kRough) level = std::min(level, mechanics::kDeepestSlotRatio * d);
+  if (q.ap_most_mm > 0.0) level = std::min(level, q.ap_most_mm);
+  level = std::min(level * ease_of(q, "level_depth"), slender_depth(q) * ease_of(q, "stable_depth"));
+  return std::min(most, level);
+}
+
+double deep_slot_share(double ap, double d) {
+  if (!(ap > 0.0) || !(d > 0.0)) return 1.0;
+  const double deep = (ap / d - kFullFeedSlotRatio) / (mechanics::kDeepestSlotRatio - kFullFeedSlotRatio);
+  return 1.0 - (1.0 - kDeepestSlotShare) * std::clamp(deep, 0.0, 1.0);
+}
+
+Measures measures(const CutQuestion& q, const model::StepLoads& l, double ap, double n, double feed) {
+  const bool mills = is_milling(q.kind);
+  const Range rpm = speeds(q);
+  Measures m;
+  if (const auto curve = curve_of(q)) {
+    if (const auto c = curve->at(std::clamp(n, curve->min_rpm(), curve->max_rpm()))) {
+      m[0] = {l.power_w, c->power_w * efficiency(q)};
+      m[1] = {l.torque_nm, c->torque_nm * efficiency(q)};
+    }
+  }
+  if (mills) {
+    m[2] = {l.deflection_mm, deflection_limit(q)};
+    // A catalogue's feed is along the feed: with a lead angle its chip is thinner from the start.
+    const double slot =
+        q.kind == CutKind::kRough && q.slot ? deep_slot_share(ap, q.cutter.cutting_diameter_mm) : 1.0;
+    if (largest_fz(q) > 0.0)
+      m[3] = {l.chip_thickness_mm, slot * largest_fz(q) * std::cos(q.cutter.lead_angle_rad)};
+    if (q.wall_error_limit_mm > 0.0) m[4] = {std::abs(l.wall_error_mm), q.wall_error_limit_mm};
+    if (q.surface_ra_um > 0.0)
+      m[5] = {1000.0 * kRoughnessOverGeometry * mechanics::kArcRaOverRz * l.surface_rz_mm, q.surface_ra_um};
+  }
+  if (q.peak_force_limit_n > 0.0) m[6] = {l.peak_force_n, q.peak_force_limit_n};
+  if (mills && q.least_chip_mm > 0.0) m[7] = {q.least_chip_mm, l.chip_thickness_mm};
+  m[8] = {rpm.lo, n};
+  if (rpm.hi > 0.0) m[9] = {n, rpm.hi};
+  if (axis_feed(q) > 0.0) m[10] = {feed, axis_feed(q)};
+  if (mills && q.cutter.maximum_depth_of_cut_mm > 0.0) m[11] = {ap, q.cutter.maximum_depth_of_cut_mm};
+  if (mills && q.ap_most_mm > 0.0) m[12] = {ap, q.ap_most_mm};
+  m[13] = {ap, slender_depth(q)};
+  for (std::size_t i = 0; i < m.size(); ++i) m[i].limit *= ease_of(q, kLimitsOfCut[i].name);
+  // More power is more torque at the same speed, and the other way round.
+  m[0].limit *= ease_of(q, kLimitsOfCut[1].name);
+  m[1].limit *= ease_of(q, kLimitsOfCut[0].name);
+  return m;
+}
+
+WorstLoad worst_load(const CutQuestion& q, const model::StepLoads& loads, double n_rpm) {
+  const Measures m = measures(q, loads, 0.0, n_rpm, 0.0);
+  WorstLoad worst;
+  for (std::size_t i = 0; i < m.size(); ++i) {
+    if (!kLimitsOfCut[i].of_loads) continue;
+    const double excess = m[i].excess();
+    if (std::isnan(excess)) return {std::numeric_limits<double>::infinity(), "load", 0.0, 0.0, ""};
+    if (excess > worst.excess)
+      worst = {excess, kLimitsOfCut[i].name, m[i].value, m[i].limit, kLimitsOfCut[i].unit};
+  }
+  return worst;
+}
+
+double worst_excess(const CutQuestion& q, const model::StepLoads& loads, double n_rpm) {
+  return worst_load(q, loads, n_rpm).excess;
+}
+
+}  // namespace capstan::optimise

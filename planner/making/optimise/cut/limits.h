@@ -1,0 +1,107 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <string_view>
+
+#include "planner/making/optimise/cut.h"
+#include "planner/physics/mechanics/section.h"
+#include "planner/physics/mechanics/spindle.h"
+
+/// The limits of a cut: what they are called, and how near to each a cut comes. Of this room.
+namespace capstan::optimise {
+
+struct LimitOfCut {
+  const char* name;
+  const char* unit;
+  bool of_loads;  ///< follows from StepLoads and the speed alone
+  bool at_rpm;    ///< holds at one speed of the spindle
+};
+
+inline constexpr std::array<LimitOfCut, 14> kLimitsOfCut = {{{"spindle_power", "W", true, true},
+                                                             {"spindle_torque", "Nm", true, true},
+                                                             {"tool_deflection", "mm", true, false},
+                                                             {"chip_thickness", "mm", true, false},
+                                                             {"wall_error", "mm", true, false},
+                                                             {"surface_roughness", "um", true, false},
+                                                             {"peak_force", "N", true, false},
+                                                             {"chip_thickness_least", "mm", false, false},
+                                                             {"spindle_speed_least", "1/min", false, false},
+                                                             {"spindle_speed_most", "1/min", false, false},
+                                                             {"axis_feed", "mm/min", false, false},
+                                                             {"cutting_length", "mm", false, false},
+                                                             {"level_depth", "mm", false, false},
+                                                             {"stable_depth", "mm", false, false}}};
+
+/// A value and what it must not exceed; a limit that nobody states is infinite.
+struct Measure {
+  double value = 0.0;
+  double limit = std::numeric_limits<double>::infinity();
+  [[nodiscard]] bool stated() const { return limit < std::numeric_limits<double>::infinity(); }
+  /// value / limit - 1
+  [[nodiscard]] double excess() const { return stated() ? value / limit - 1.0 : -1.0; }
+};
+
+/// In the order of kLimitsOfCut. A least value stands as (least, value): the least must not exceed it.
+using Measures = std::array<Measure, kLimitsOfCut.size()>;
+[[nodiscard]] Measures measures(const CutQuestion& q, const model::StepLoads& loads, double ap_mm,
+                                double n_rpm, double feed_mm_min);
+
+[[nodiscard]] inline bool is_milling(CutKind k) { return k == CutKind::kRough || k == CutKind::kFinish; }
+[[nodiscard]] inline int teeth_of(const CutQuestion& q) { return q.cutter.teeth > 0 ? q.cutter.teeth : 1; }
+
+/// As the model's nouns have them: the force along the axis counts away from the work there, and towards it
+/// in mechanics; a left-hand cutter is the mirror image of the one that mechanics computes.
+[[nodiscard]] model::AxisForces axis_forces(const mechanics::ForceVector& f, double margin,
+                                            const model::Cutter& cutter);
+
+/// The thickest chip at the planned feed, from what is known with the feed turned up: what runout adds does
+/// not grow with the feed.
+[[nodiscard]] double planned_chip_mm(const mechanics::Section& section, const mechanics::Tooth& tooth,
+                                     const mechanics::ForceLaw& law, double turned_up_fz_mm, double up,
+                                     double n_rpm, double turned_up_chip_mm);
+
+struct Range {
+  double lo = 0.0, hi = 0.0;
+};
+/// Speeds of machine and cutter, 1/min.
+[[nodiscard]] Range speeds(const CutQuestion& q);
+
+/// The machine's curve, or nothing when it states none that is one.
+[[nodiscard]] std::optional<mechanics::SpindleCurve> curve_of(const CutQuestion& q);
+
+/// The chip thickness that is planned for, at most.
+[[nodiscard]] double largest_fz(const CutQuestion& q);
+/// The feed per tooth that the cutter asks for at least; 0: none stated.
+[[nodiscard]] double least_fz(const CutQuestion& q);
+/// Whether the least feed is the maker's own word, and not derived or a default.
+[[nodiscard]] bool least_fz_stated(const CutQuestion& q);
+
+/// Whether a spindle that gives no more at this speed is short of torque rather than of power: below the
+/// lowest speed at which it has (nearly) all its power.
+[[nodiscard]] bool short_of_torque(const CutQuestion& q, double n_rpm);
+
+/// `factor` of CutQuestion::eased for this limit.
+[[nodiscard]] double ease_of(const CutQuestion& q, std::string_view limit);
+
+/// Depth that a chosen rough level may have where no modes are known, by the cutter's slenderness; infinite
+/// for what the rule does not speak of (finishing, given depths, drills).
+[[nodiscard]] double slender_depth(const CutQuestion& q);
+
+/// Depth of a level at most. A rough one: mechanics::kDeepestSlotRatio diameters, sourced there for slots and
+/// taken for wider cuts, too, whose ways begin and end in slots.
+[[nodiscard]] double deepest_level(const CutQuestion& q);
+
+/// Depth of a slot, in diameters, up to which speed and feed are those of the table, and what remains of each
+/// at mechanics::kDeepestSlotRatio; between the two linear (derived).
+/// Source    Dormer Pramet, milling catalogue 2021-22, p. 114, correction factors: 0.5 D at full speed and
+///           feed, 1.5 D at half.
+inline constexpr double kFullFeedSlotRatio = 0.5;
+inline constexpr double kDeepestSlotShare = 0.5;
+
+/// Share of the table's speed, and of its feed, in a slot of this depth; 1 where nothing is known.
+[[nodiscard]] double deep_slot_share(double ap_mm, double diameter_mm);
+
+}  // namespace capstan::optimise

@@ -1,0 +1,152 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "planner/making/optimise/cut/limits.h"
+#include "planner/physics/mechanics/beam.h"
+#include "planner/physics/mechanics/constants.h"
+#include "planner/physics/mechanics/drilling.h"
+#include "planner/physics/mechanics/force_law.h"
+#include "planner/physics/mechanics/loads.h"
+#include "planner/physics/mechanics/section.h"
+#include "planner/physics/mechanics/surface.h"
+
+namespace capstan::optimise {
+namespace {
+
+using std::numbers::pi;
+
+/// Feed marks on the wall, and on the floor where a corner radius leaves some; at the planned feed.
+double surface_rz(const CutQuestion& q, double fz_mm) {
+  const double wall = mechanics::wall_rz_mm(fz_mm, q.cutter.cutting_diameter_mm);
+  const double corner = q.cutter.corner_radius_mm;
+  return corner > 0.0 ? std::max(wall, mechanics::floor_rz_mm(fz_mm, corner)) : wall;
+}
+
+/// How far bending pushes the wall that this arc leaves; nothing when it cannot be said.
+std::optional<double> wall_error(const CutQuestion& q, const mechanics::Section& section,
+                                 const mechanics::Tooth& tooth, const mechanics::ForceLaw& law, double fz_mm,
+                                 mechanics::WallSide side) {
+  const auto beam = mechanics::beam_of(q.cutter);
+  if (!beam) return std::nullopt;
+  const auto error = mechanics::wall_error(section, tooth, law, fz_mm, side, *beam);
+  if (!error) return std::nullopt;
+  return error->largest_mm();
+}
+
+/// How far the tip gives way by force. Where the force acts is not asked of other cutters: at the tip, the
+/// safe side. A T-slot cutter's head always cuts with all of its height, and the force acts half way up.
+std::optional<double> compliance_of(const CutQuestion& q, double ap_mm) {
+  if (q.cutter.cutter_class != model::CutterClass::kTSlotMill) {
+    const auto tip = mechanics::tip_compliance_mm_n(q.cutter);
+    return tip ? std::optional(*tip) : std::nullopt;
+  }
+  const auto beam = mechanics::beam_of(q.cutter);
+  return beam ? std::optional(mechanics::bending_mm_n(*beam, 0.5 * ap_mm, 0.0)) : std::nullopt;
+}
+
+/// A straight side cut, up or down milling, whichever is worse: the path may have both. `fz_mm` is with the
+/// feed turned up.
+std::optional<model::StepLoads> milling(const CutQuestion& q, double ap_mm, double ae_mm, double n_rpm,
+                                        double fz_mm) {
+  const auto compliance = compliance_of(q, ap_mm);
+  if (!compliance || !(ae_mm > 0.0) || !(ap_mm > 0.0)) return std::nullopt;
+  const mechanics::Tooth tooth = mechanics::tooth_of(q.cutter);
+  const mechanics::ForceLaw law = mechanics::force_law(q.material, q.cutter.substrate);
+  const double margin = mechanics::force_margin(q.material, q.cutter.substrate).factor();
+  const double up = feed_override(q);
+  model::StepLoads out;
+  for (const auto direction : {mechanics::CutDirection::kUp, mechanics::CutDirection::kDown}) {
+    const mechanics::Section section = mechanics::side_section(ap_mm, ae_mm, tooth, direction);
+    const auto l = mechanics::section_loads(section, tooth, law, fz_mm, n_rpm);
+    if (!l) return std::nullopt;
+    if (l->peak_force_n * margin > out.peak_force_n) {
+      out.peak_force_n = l->peak_force_n * margin;
+      out.mean_force = axis_forces(l->mean, margin, q.cutter);
+      out.peak_force = axis_forces(l->peak, margin, q.cutter);
+    }
+    out.torque_nm = std::max(out.torque_nm, l->torque_nm * margin);
+    out.power_w = std::max(out.power_w, l->power_w * margin);
+    out.chip_thickness_mm =
+        std::max(out.chip_thickness_mm, planned_chip_mm(section, tooth, law, fz_mm, up, n_rpm, l->h_max_mm));
+    if (q.wall_error_limit_mm > 0.0) {
+      const bool is_up = direction == mechanics::CutDirection::kUp;
+      // The wall stands at the full radius, where the flank makes it.
+      const mechanics::Section flank{
+          .ap_mm = ap_mm, .arc = mechanics::immersion_arc(ae_mm, tooth.cutting_diameter_mm, direction)};
+      const auto error = wall_error(q, flank, tooth, law, fz_mm,
+                                    is_up ? mechanics::WallSide::kLeft : mechanics::WallSide::kRight);
+      if (!error) return std::nullopt;
+      if (std::abs(*error * margin) > std::abs(out.wall_error_mm)) out.wall_error_mm = *error * margin;
+    }
+  }
+  out.force_margin = margin;
+  out.deflection_mm = out.peak_force_n * *compliance;
+  out.mrr_mm3_min = ap_mm * ae_mm * fz_mm / up * tooth.teeth * n_rpm;
+  out.surface_rz_mm = surface_rz(q, fz_mm / up);
+  return out;
+}
+
+}  // namespace
+
+model::AxisForces axis_forces(const mechanics::ForceVector& f, double margin, const model::Cutter& cutter) {
+  const double left = cutter.hand == model::Hand::kLeft ? -1.0 : 1.0;
+  return {f.fx_n * margin, left * f.fy_n * margin, -f.fz_n * margin};
+}
+
+double planned_chip_mm(const mechanics::Section& section, const mechanics::Tooth& tooth,
+                       const mechanics::ForceLaw& law, double turned_up_fz_mm, double up, double n_rpm,
+                       double turned_up_chip_mm) {
+  if (!(tooth.runout_mm > 0.0) || up == 1.0) return turned_up_chip_mm / up;
+  const auto l = mechanics::section_loads(section, tooth, law, turned_up_fz_mm / up, n_rpm);
+  return l ? l->h_max_mm : turned_up_chip_mm;
+}
+
+double feed_override(const CutQuestion& q) {
+  if (q.override_locked || q.kind == CutKind::kTap) return 1.0;
+  if (q.feed_mm_min && !q.feed_by_planning) return 1.0;
+  return std::max(1.0, q.machine.abilities.feed_override_max);
+}
+
+std::optional<model::StepLoads> loads_of(const CutQuestion& q, double ap_mm, double ae_mm, double n_rpm,
+                                         double feed_mm_min) {
+  const double up = feed_override(q);
+  const double fz = up * feed_mm_min / (n_rpm * teeth_of(q));
+  if (is_milling(q.kind)) return milling(q, ap_mm, std::min(ae_mm, q.cutter.cutting_diameter_mm), n_rpm, fz);
+  const mechanics::WorkMaterial work{q.material.kc11_n_mm2, q.material.mc};
+  const double margin = mechanics::kienzle_margin(q.material).factor();
+  model::StepLoads out;
+  out.force_margin = margin;
+  if (q.kind == CutKind::kTap) {
+    mechanics::TappingCut c;
+    c.nominal_diameter_mm = q.cutter.cutting_diameter_mm;
+    c.pitch_mm = q.cutter.thread_pitch_mm;
+    c.core_hole_diameter_mm = q.pre_hole_mm > 0.0 ? q.pre_hole_mm : c.nominal_diameter_mm - c.pitch_mm;
+    c.n_rpm = n_rpm;
+    const auto l = mechanics::tapping_loads(c, work);
+    if (!l) return std::nullopt;
+    out.torque_nm = l->torque_nm * margin;
+    out.power_w = l->power_w * margin;
+    out.chip_thickness_mm = l->chip_thickness_mm;
+    return out;
+  }
+  mechanics::DrillingCut c;
+  c.diameter_mm = q.cutter.cutting_diameter_mm;
+  c.feed_mm_per_rev = up * feed_mm_min / n_rpm;
+  c.n_rpm = n_rpm;
+  c.teeth = teeth_of(q);
+  c.point_angle_rad = q.cutter.point_angle_rad > 0.0 ? q.cutter.point_angle_rad : pi;
+  if (q.engaged_diameter_mm > 0.0) c.diameter_mm = std::min(c.diameter_mm, q.engaged_diameter_mm);
+  c.pre_hole_diameter_mm = q.pre_hole_mm < c.diameter_mm ? q.pre_hole_mm : 0.0;
+  const auto l =
+      q.kind == CutKind::kReam ? mechanics::reaming_loads(c, work) : mechanics::drilling_loads(c, work);
+  if (!l) return std::nullopt;
+  out.peak_force_n = l->thrust_n * margin;
+  out.torque_nm = l->torque_nm * margin;
+  out.power_w = l->power_w * margin;
+  out.chip_thickness_mm = l->chip_thickness_mm / up;
+  out.mrr_mm3_min = l->removal_mm3_min / up;
+  return out;
+}
+
+}  // namespace capstan::optimise

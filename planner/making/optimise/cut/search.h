@@ -1,0 +1,63 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "planner/making/optimise/cut/cost.h"
+#include "planner/making/optimise/cut/limits.h"
+#include "planner/making/optimise/problem/problem.h"
+
+namespace capstan::optimise {
+
+/// The cut at one depth as a problem: cutting speed, feed per tooth and width are variables unless given.
+/// The question must outlive it.
+class Search {
+ public:
+  Search(const CutQuestion& q, double ap_mm);
+
+  [[nodiscard]] bool fixed() const { return variables_.empty(); }
+  [[nodiscard]] const std::vector<Variable>& variables() const { return variables_; }
+  [[nodiscard]] CutPoint at(std::span<const double> x) const;
+
+  /// Parts of the box between the corners of the model: the points of the spindle's curve, and the widths
+  /// where the chip stops growing and where the effective diameter ends. One: there are none.
+  [[nodiscard]] std::vector<std::vector<Variable>> pieces() const;
+
+  /// Where a piece asks for least: lowest feed, narrowest width, at either end of its speeds. Loads rise with
+  /// feed and width, and the spindle's torque has no corner inside a piece, so if neither point keeps the
+  /// limits of loads, no point does.
+  [[nodiscard]] std::vector<CutPoint> gentlest(const std::vector<Variable>& piece) const;
+
+  /// No cut of this depth removes more per time than this one would, limits of loads aside: the fastest
+  /// speed, the widest cut, the largest feed that bound and chip leave there.
+  [[nodiscard]] CutPoint fastest() const;
+
+  /// Minimise the logarithm of the objective over a part of the box, from `start` where one is known. A
+  /// multiplier then is a fraction of the objective.
+  [[nodiscard]] Problem problem(std::vector<Variable> box, const std::optional<CutPoint>& start = {}) const;
+
+  /// What a bound of a variable is called as a limit; nothing when it is only a border of the search.
+  struct Bound {
+    std::string name, unit;
+    double value = 0.0;  ///< in that unit
+  };
+  [[nodiscard]] std::optional<Bound> bound(const std::string& variable, bool upper, double at) const;
+
+ private:
+  void add_speed();
+  void add_feed();
+  void add_width();
+  void add(const char* name, const char* unit, double lo, double hi);
+  [[nodiscard]] std::vector<double> corners(const Variable& v) const;
+  [[nodiscard]] double speed_of(double n_rpm) const;
+
+  const CutQuestion& q_;
+  double ap_;
+  std::optional<CutPoint> given_;
+  std::optional<double> n_fixed_, feed_fixed_, fz_fixed_, ae_fixed_;
+  bool speed_by_spindle_ = false;  ///< the upper end of the speed is the spindle's, not the table's
+  std::vector<Variable> variables_;
+};
+
+}  // namespace capstan::optimise

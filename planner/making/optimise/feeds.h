@@ -1,0 +1,105 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "planner/ground/base/job.h"
+#include "planner/making/optimise/cut.h"
+#include "planner/model/plan/cutter_path.h"
+#include "planner/model/plan/plan.h"
+
+namespace capstan::optimise {
+
+/// How the cutter is engaged somewhere along a move; what feeds are chosen from.
+///
+/// Frame  angles as in mechanics/immersion.h: 0 at the left of the feed, pi at its right, in the sense of
+///        rotation.
+struct CutSample {
+  std::uint32_t move = 0;
+  double ap_mm = 0.0, ae_mm = 0.0;
+  bool plunge = false;
+  double at_mm = 0.0;    ///< where on the move the sample's step ends
+  double step_mm = 0.0;  ///< length it stands for
+  double entry_rad = 0.0, exit_rad = 0.0;
+  double csa_mm2 = 0.0;
+  double top_mm = 0.0;  ///< highest contact above the tip; 0: not known, the depth counts from the tip
+};
+
+/// Feed of a plunge and of a ramp as a fraction of the step's feed, at most, for cutters that may do it.
+/// Default, unsourced (handbooks give a third to a half).
+inline constexpr double kPlungeFraction = 0.3;
+inline constexpr double kRampFraction = 0.5;
+/// Feed of moves through air that may not be rapids (close above material): at least this, mm/min, as far as
+/// the axes go. Default, unsourced.
+inline constexpr double kAirFeedMmMin = 3000.0;
+/// Thin cuts and air on the way of a cut go no faster than this times the feed of the largest chip: by chip
+/// thinning that chip is then kept up to a width of 0.029 D, so a sliver that the section missed does no
+/// harm. The same bound as in `cut`. Default, unsourced.
+inline constexpr double kMostThinning = 3.0;
+/// Below this share of the step's feed nothing is scheduled: an edge rubs there. Default, unsourced.
+inline constexpr double kLeastFeedShare = 0.04;
+/// Neighbouring moves whose feeds lie within this ratio share the lower one. Default, unsourced: it costs
+/// about half of it in time and keeps F words and its_speed curves few.
+inline constexpr double kGroupRatio = 0.03;
+
+struct FeedQuestion {
+  CutQuestion cut;     ///< limits, cutter, material, machine
+  double n_rpm = 0.0;  ///< of the step; positive clockwise, negative counter-clockwise
+  double feed_mm_min =
+      0.0;                ///< of the step: plunges and ramps are fractions of it, finishing never exceeds it
+  bool adapt = true;      ///< false: a given feed is executed as given; factors above 1 do not count
+  bool constant = false;  ///< one feed for all cutting moves: the largest that every section bears
+  std::vector<double> feed_factor, speed_factor, dwell_s;  ///< of the path's moves
+  std::vector<CutSample> samples;                          ///< in order of moves
+  double group_ratio = kGroupRatio;
+  bool explain = true;  ///< fill `held_by`: costs about ten more schedules
+};
+
+struct FeedAnswer {
+  model::FeedSchedule schedule;
+  model::StepLoads peak;                       ///< over all samples at the scheduled feed
+  std::vector<std::string> slowed;             ///< names of the limits that hold the path below its feed
+  std::vector<model::LimitAlongPath> held_by;  ///< which limits hold the feed, largest share first
+  double worst_excess = -1.0;                  ///< > 0: some sample exceeds a limit even at the least feed
+  model::ExceededLimit worst;  ///< which limit that is, and where; unset while nothing exceeds
+};
+
+/// Feed for each move from the sections measured along it: the largest that keeps peak force, tip deflection,
+/// torque, power, chip thickness and feed mark within their limits at every sample, uncertainty, wear and the
+/// operator's override included. Thin cuts go faster than the step's feed (not in finishing, unless a
+/// surface is asked for and bounds them), heavy ones slower. Then:
+///
+///     v_i^2 <= v_(i+1)^2 + 2 a L_i
+///
+/// so that each move can be braked within itself to the feed of the next: a control that looks one block
+/// ahead, as LinuxCNC does for F, arrives at a heavy section slow enough. Last, neighbours within
+/// `group_ratio` share the lower feed, and no run of moves asks for more than its fastest move reaches.
+///
+/// Plunges and ramps: fractions of the step's feed at most; below them what torque and power of drilling
+/// into the solid (plunge) or the side cut measured (ramp) allow.
+///
+/// Shape         the schedule has one entry per move of `path`.
+/// Determinism   same question, same answer; sections are compared on a grid, rounded to the heavier side.
+/// Source        sections: mechanics/section.h; the braking bound: derived.
+[[nodiscard]] FeedAnswer feeds(const FeedQuestion& question, const model::CutterPath& path);
+
+/// Cuts moves at feed, lines and arcs, where the feed that their sections bear changes, so that a heavy
+/// corner at the end of a long move does not slow all of it: a feed is one per move. The way itself stays as
+/// it is. Pieces are no shorter than a fifth of the diameter, and only made where they save time.
+///
+/// Needs   samples and sections of this very path, `at_mm` from the start of each move, steps of samples that
+///         do not overlap (but the second rectangle of one step). `sections` may be null.
+/// Shape   samples, sections and factors are renumbered with the moves; a dwell stays at the end of the last
+///         piece.
+void split_moves(FeedQuestion& question, model::CutterPath& path, model::SectionSeries* sections);
+
+/// The largest feed at one sample, mm/min, computed directly; what `feeds` keeps on a grid. For checks.
+/// 0: no feed keeps the limits, or the section is outside the formulas' range.
+[[nodiscard]] double largest_feed(const FeedQuestion& question, const CutSample& sample);
+
+/// Relative excess over the limits of a sample at a feed, computed directly: the largest of load / limit - 1;
+/// negative when all hold; nothing when the section is outside the formulas' range.
+[[nodiscard]] std::optional<double> excess_at(const FeedQuestion& question, const CutSample& sample,
+                                              double feed_mm_min);
+
+}  // namespace capstan::optimise

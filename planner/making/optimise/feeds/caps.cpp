@@ -1,0 +1,182 @@
+#include "planner/making/optimise/feeds/caps.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace capstan::optimise::feed {
+namespace {
+
+using model::MoveKind;
+using model::MoveRole;
+
+constexpr double kAnyFeed = std::numeric_limits<double>::infinity();
+
+/// What the samples of one move bear together.
+struct OnMove {
+  bool cuts = false;  ///< sideways somewhere
+  bool plunges = false;
+  bool known = true;  ///< all of its sections lie within the formulas' range
+  Column at_limit{};
+  std::array<double, kLimits> more{};
+};
+
+OnMove on_move(const FeedQuestion& q, Book& book, std::size_t move, std::size_t& next) {
+  OnMove out;
+  out.at_limit.fill(kAnyFeed);
+  out.more.fill(kAnyFeed);
+  const double n = rpm_on(q, move);
+  for (; next < q.samples.size() && q.samples[next].move <= move; ++next) {
+    const CutSample& s = q.samples[next];
+    if (s.move != move || !(s.ap_mm > 0.0)) continue;
+    if (s.plunge) {
+      out.plunges = true;
+      continue;
+    }
+    out.cuts = true;
+    const Bears b = bears(book, s, q.cut.cutter, n);
+    out.known = out.known && b.known;
+    for (std::size_t k = 0; k < kLimits; ++k) {
+      out.at_limit[k] = std::min(out.at_limit[k], b.at_limit[k]);
+      double with_more = b.at_more[k];
+      for (std::size_t j = 0; j < kLimits; ++j) {
+        if (j != k) with_more = std::min(with_more, b.at_limit[j]);
+      }
+      out.more[k] = std::min(out.more[k], with_more);
+    }
+  }
+  return out;
+}
+
+void bound(Cap& cap, double feed, Holder by) {
+  for (double& m : cap.more) m = std::min(m, feed);
+  if (feed >= cap.feed_mm_min) return;
+  cap.feed_mm_min = feed;
+  cap.by = by;
+}
+
+/// The planned feed or the bound of thinning, as the path asks for it.
+Cap open_cap(double feed) {
+  Cap cap;
+  cap.feed_mm_min = feed;
+  cap.more.fill(feed);
+  cap.more[static_cast<std::size_t>(Holder::kStepFeed)] = kMoreOfALimit * feed;
+  return cap;
+}
+
+/// A share of a feed, of none that is bounded too.
+double part(double share, double feed) { return std::isfinite(feed) ? share * feed : feed; }
+
+void bound_by_sections(Cap& cap, const OnMove& m, const Judge& judge, double share) {
+  const double ceiling = cap.feed_mm_min;
+  for (std::size_t k = 0; k < kLimits; ++k) {
+    const double feed = std::max(part(share, m.at_limit[k]), std::min(judge.floor_mm_min(), ceiling));
+    if (feed < cap.feed_mm_min) {
+      cap.feed_mm_min = feed;
+      // Where no load can be computed every limit counts as reached, those that nobody states, too.
+      cap.by = stated(judge.limits()[k]) && m.known ? static_cast<Holder>(k) : Holder::kUnknown;
+    }
+  }
+  const auto step = static_cast<std::size_t>(Holder::kStepFeed);
+  for (std::size_t k = 0; k < kLimits; ++k)
+    cap.more[k] = std::clamp(part(share, m.more[k]), cap.feed_mm_min, std::max(ceiling, cap.feed_mm_min));
+  double of_sections = kAnyFeed;
+  for (const double f : m.at_limit) of_sections = std::min(of_sections, part(share, f));
+  cap.more[step] = std::max(cap.feed_mm_min, std::min(cap.more[step], of_sections));
+}
+
+bool in_air_by_role(MoveRole r) { return r == MoveRole::kApproach || r == MoveRole::kLink; }
+
+double air_feed(const FeedQuestion& q) {
+  const auto& axes = q.cut.machine.axes;
+  const double most = std::min({axes[0].feed_max_mm_min, axes[1].feed_max_mm_min, axes[2].feed_max_mm_min});
+  return std::min(most, kAirFeedMmMin);
+}
+
+/// Straight down, where no sample could say so.
+bool unmeasured_plunge(const FeedQuestion& q, const model::CutterPath& p, std::size_t i) {
+  return q.samples.empty() && !in_air_by_role(p.role[i]) && p.kind[i] == MoveKind::kLine &&
+         p.x[i] == p.x[i - 1] && p.y[i] == p.y[i - 1] && p.z[i] < p.z[i - 1];
+}
+
+/// A move of a milling step whose feed is free.
+Cap milled(const FeedQuestion& q, Book& book, const model::CutterPath& path, std::size_t i, double given,
+           const OnMove& m) {
+  const MoveRole role = path.role[i];
+  const Judge& judge = book.judge(rpm_on(q, i));
+  // Without any section nothing is known of the cut: then never faster than planned.
+  const bool measured = !q.samples.empty() && !m.plunges;
+  Cap cap = open_cap(given * (measured ? judge.ceiling_mm_min() : q.feed_mm_min));
+  if (m.cuts) bound_by_sections(cap, m, judge, std::min(1.0, given));
+  // By its direction where samples tell it: a given trajectory may call a plunge a cut.
+  if (role == MoveRole::kPlunge || m.plunges || unmeasured_plunge(q, path, i)) {
+    bound(cap, kPlungeFraction * given * q.feed_mm_min, Holder::kEndCut);
+    bound(cap, book.plunge(rpm_on(q, i)).feed_mm_min, Holder::kEndCut);
+  } else if (role == MoveRole::kRamp) {
+    bound(cap, kRampFraction * given * q.feed_mm_min, Holder::kEndCut);
+  } else if (in_air_by_role(role) && !m.cuts && !m.plunges) {
+    const double feed = std::max(given * q.feed_mm_min, air_feed(q));
+    cap = open_cap(feed);
+    cap.more.fill(feed);
+    cap.by = Holder::kAir;
+  }
+  return cap;
+}
+
+}  // namespace
+
+bool cuts_sideways(CutKind kind) { return kind == CutKind::kRough || kind == CutKind::kFinish; }
+
+double rpm_on(const FeedQuestion& q, std::size_t move) {
+  return std::abs(move < q.speed_factor.size() ? q.n_rpm * q.speed_factor[move] : q.n_rpm);
+}
+
+Bears bears(Book& book, const CutSample& sample, const model::Cutter& cutter, double n_rpm) {
+  Bears out;
+  out.feed_mm_min = kAnyFeed;
+  out.at_limit.fill(kAnyFeed);
+  out.at_more.fill(kAnyFeed);
+  const Cuts cuts = cuts_of(sample, cutter);
+  for (std::size_t c = 0; c < cuts.n; ++c) {
+    const Page& page = book.page(cuts.cut[c], n_rpm);
+    const double per_gain = 1.0 / cuts.cut[c].gain;
+    out.known = out.known && page.known;
+    out.feed_mm_min = std::min(out.feed_mm_min, page.feed_mm_min * per_gain);
+    for (std::size_t k = 0; k < kLimits; ++k) {
+      out.at_limit[k] = std::min(out.at_limit[k], page.at_limit[k] * per_gain);
+      out.at_more[k] = std::min(out.at_more[k], page.at_more[k] * per_gain);
+    }
+  }
+  return out;
+}
+
+std::vector<Cap> caps_of(const FeedQuestion& q, const model::CutterPath& path, Book& book) {
+  std::vector<Cap> out(path.size());
+  const bool sideways = cuts_sideways(q.cut.kind);
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const double given = i < q.feed_factor.size() ? q.feed_factor[i] : 1.0;
+    OnMove m;
+    if (sideways && q.adapt) {
+      m = on_move(q, book, i, next);
+    } else {
+      for (; next < q.samples.size() && q.samples[next].move <= i; ++next)
+        m.cuts = m.cuts || (q.samples[next].move == i && q.samples[next].ap_mm > 0.0);
+    }
+    if (i == 0 || path.kind[i] == MoveKind::kRapid || path.kind[i] == MoveKind::kDwell) continue;
+    if (sideways && q.adapt) {
+      out[i] = milled(q, book, path, i, given, m);
+      continue;
+    }
+    // A path may ask for less of a given feed, never for more: that is the file's to say.
+    const double share = sideways && !q.adapt ? std::min(given, 1.0) : given;
+    out[i] = open_cap(share * q.feed_mm_min);
+    if (q.adapt && in_air_by_role(path.role[i]) && !m.cuts && air_feed(q) > out[i].feed_mm_min) {
+      out[i] = open_cap(air_feed(q));
+      out[i].by = Holder::kAir;
+    }
+  }
+  return out;
+}
+
+}  // namespace capstan::optimise::feed

@@ -1,0 +1,268 @@
+#include "planner/making/optimise/feeds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include "planner/making/optimise/cut/limits.h"
+#include "planner/making/optimise/feeds/followed.h"
+#include "planner/physics/mechanics/surface.h"
+
+namespace capstan::optimise {
+namespace {
+
+using namespace feed;
+using model::CutterPath;
+using model::MoveKind;
+using model::MoveRole;
+
+/// Plunges and ramps keep their own feed, where it is lower.
+bool ends_in(MoveRole r) { return r == MoveRole::kPlunge || r == MoveRole::kRamp; }
+
+/// The largest feed that every section of the cut bears, to 1e-6: by the grid first, directly where it
+/// matters.
+double constant_feed(const FeedQuestion& q, const CutterPath& path, Book& book) {
+  double best = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const double given = i < q.feed_factor.size() ? std::max(q.feed_factor[i], 0.0) : 1.0;
+    if (path.role[i] == MoveRole::kCut && given > 0.0)
+      best = std::max(best, q.samples.empty() ? q.feed_mm_min : book.judge(rpm_on(q, i)).ceiling_mm_min());
+  }
+  if (!(best > 0.0)) best = q.feed_mm_min;
+  if (!cuts_sideways(q.cut.kind) || !q.adapt) return best;
+  std::vector<std::pair<double, std::size_t>> order;
+  for (std::size_t k = 0; k < q.samples.size(); ++k) {
+    const CutSample& s = q.samples[k];
+    if (s.plunge || !(s.ap_mm > 0.0) || s.move >= path.size() || ends_in(path.role[s.move])) continue;
+    const double n = rpm_on(q, s.move);
+    const double on_grid = bears(book, s, q.cut.cutter, n).feed_mm_min;
+    if (on_grid < best) order.emplace_back(on_grid, k);
+  }
+  std::sort(order.begin(), order.end());
+  for (const auto& [on_grid, k] : order) {
+    if (on_grid >= best) break;
+    const CutSample& s = q.samples[k];
+    const Judge& judge = book.judge(rpm_on(q, s.move));
+    const Cuts cuts = cuts_of(s, q.cut.cutter);
+    for (std::size_t c = 0; c < cuts.n; ++c) {
+      const auto at_best = judge.at(cuts.cut[c], best);
+      if (at_best && ratio(at_best->load, judge.limits()) <= 1.0) continue;
+      best = std::max(judge.largest(cuts.cut[c], best), judge.floor_mm_min());
+    }
+  }
+  return best;
+}
+
+void keep_largest(double& a, double b) {
+  if (std::abs(b) > std::abs(a)) a = b;
+}
+
+void keep_peak(model::StepLoads& peak, const State& s, const Judge& judge, const model::Cutter& cutter) {
+  const auto load = [&](Limit l) { return s.load[static_cast<std::size_t>(l)]; };
+  peak.peak_force_n = std::max(peak.peak_force_n, load(Limit::kForce));
+  peak.deflection_mm = std::max(peak.deflection_mm, load(Limit::kDeflection));
+  peak.torque_nm = std::max(peak.torque_nm, load(Limit::kTorque));
+  peak.power_w = std::max(peak.power_w, load(Limit::kPower));
+  peak.chip_thickness_mm = std::max(peak.chip_thickness_mm, load(Limit::kChip));
+  // From the Ra that `cut` compares back to the height of the marks.
+  const double rz = load(Limit::kSurface) / (1000.0 * kRoughnessOverGeometry * mechanics::kArcRaOverRz);
+  peak.surface_rz_mm = std::max(peak.surface_rz_mm, rz);
+  peak.wall_error_mm = std::max(peak.wall_error_mm, load(Limit::kWallError));
+  const double margin = judge.margin();
+  const auto keep = [](model::AxisForces& a, const model::AxisForces& b) {
+    keep_largest(a.x_n, b.x_n);
+    keep_largest(a.y_n, b.y_n);
+    keep_largest(a.z_n, b.z_n);
+  };
+  keep(peak.mean_force, axis_forces(s.raw.mean, margin, cutter));
+  keep(peak.peak_force, axis_forces(s.raw.peak, margin, cutter));
+  peak.force_margin = margin;
+}
+
+/// The limit that a load exceeds most.
+model::ExceededLimit worst_limit(const Column& load, const Column& limit) {
+  std::size_t worst = 0;
+  double most = -1.0;
+  for (std::size_t k = 0; k < kLimits; ++k) {
+    const double r = load[k] / limit[k];
+    if (!(r > most)) continue;
+    most = r;
+    worst = k;
+  }
+  return {.name = kLimitNames[worst],
+          .value = load[worst],
+          .limit = limit[worst],
+          .unit = kLimitUnits[worst],
+          .at_mm = std::nullopt};
+}
+
+/// Keeps the largest excess, what it is of, and the page it stands on. No load known: more than any.
+class Worst {
+ public:
+  explicit Worst(FeedAnswer& a) : a_(a) {}
+  void of(const std::optional<State>& s, const Column& limits, const Page* page, double plunge_rpm = 0.0) {
+    const double excess = s ? ratio(s->load, limits) - 1.0 : std::numeric_limits<double>::infinity();
+    if (!(excess > a_.worst_excess)) return;
+    a_.worst_excess = excess;
+    page_ = page;
+    plunge_rpm_ = plunge_rpm;
+    if (excess > 0.0)
+      a_.worst = s ? worst_limit(s->load, limits) : model::ExceededLimit{"load", 0.0, 0.0, "", std::nullopt};
+  }
+
+  /// Where the path first meets what is worst.
+  void place(const FeedQuestion& q, const CutterPath& path, Book& book) {
+    if (!(a_.worst_excess > 0.0)) return;
+    const auto& feeds = a_.schedule.feed_mm_min;
+    for (const CutSample& s : q.samples) {
+      if (s.move >= feeds.size() || s.move >= path.size() || !(feeds[s.move] > 0.0)) continue;
+      bool here = s.plunge && page_ == nullptr && s.ap_mm > 0.0 && rpm_on(q, s.move) == plunge_rpm_;
+      const Cuts cuts = cuts_of(s, q.cut.cutter);
+      for (std::size_t c = 0; c < cuts.n && !s.plunge && page_ != nullptr; ++c) {
+        const Page& page = book.page(cuts.cut[c], rpm_on(q, s.move));
+        here = here || (&page == page_ && feeds[s.move] * cuts.cut[c].gain >= page.most_scheduled);
+      }
+      if (!here) continue;
+      const double length = model::move_length(path, s.move);
+      a_.worst.at_mm =
+          model::point_on_move(path, s.move, length > 0.0 ? std::min(1.0, s.at_mm / length) : 1.0);
+      return;
+    }
+  }
+
+ private:
+  FeedAnswer& a_;
+  const Page* page_ = nullptr;  // null: a plunge
+  double plunge_rpm_ = 0.0;
+};
+
+/// Loads of every class of section at the largest feed it is cut with.
+void measure_peaks(const FeedQuestion& q, const CutterPath& path, Book& book, FeedAnswer& a) {
+  const model::FeedSchedule& schedule = a.schedule;
+  Worst worst(a);
+  double removal = 0.0;
+  std::map<double, double> plunging;  // largest feed by speed
+  for (const CutSample& s : q.samples) {
+    if (s.move >= schedule.feed_mm_min.size()) continue;
+    const double feed = schedule.feed_mm_min[s.move];
+    if (s.plunge) {
+      double& most = plunging[rpm_on(q, s.move)];
+      if (s.ap_mm > 0.0) most = std::max(most, feed);
+      continue;
+    }
+    const Cuts cuts = cuts_of(s, q.cut.cutter);
+    for (std::size_t c = 0; c < cuts.n && feed > 0.0; ++c) {
+      Page& page = book.page(cuts.cut[c], rpm_on(q, s.move));
+      page.most_scheduled = std::max(page.most_scheduled, feed * cuts.cut[c].gain);
+      removal = std::max(removal, feed * (s.csa_mm2 > 0.0 ? s.csa_mm2 : s.ap_mm * s.ae_mm));
+    }
+  }
+  book.each([&](const Judge& judge, const Page& page) {
+    if (!(page.most_scheduled > 0.0)) return;
+    const auto s = judge.at(page.cut, page.most_scheduled);
+    if (s) keep_peak(a.peak, *s, judge, q.cut.cutter);
+    worst.of(s, judge.limits(), &page);
+  });
+  for (const auto& [n, feed] : plunging) {
+    if (!(feed > 0.0)) continue;
+    const Judge& judge = book.judge(n);
+    const auto s = judge.plunging(feed);
+    if (s) keep_peak(a.peak, *s, judge, q.cut.cutter);
+    worst.of(s, judge.limits(), nullptr, n);
+  }
+  worst.place(q, path, book);
+  a.peak.mrr_mm3_min = removal;
+}
+
+/// The end of the first move at feed that goes down: where a drill is in its hole.
+std::optional<geometry::Vec3> deepest(const CutterPath& path) {
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    if (path.kind[i] == MoveKind::kLine && path.z[i] < path.z[i - 1]) return path.point(i);
+  }
+  return std::nullopt;
+}
+
+/// Feeds that are given, and those of drills, reamers and taps.
+void as_planned(const FeedQuestion& q, const CutterPath& path, const std::vector<Cap>& caps, FeedAnswer& a) {
+  std::vector<double> feed(path.size(), 0.0);
+  const auto reach = motion::reach_along(path, q.cut.machine);
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    feed[i] = caps[i].feed_mm_min;
+    if (!q.adapt || q.cut.kind == CutKind::kTap || path.kind[i] == MoveKind::kRapid ||
+        path.kind[i] == MoveKind::kDwell)
+      continue;
+    if (reach && (*reach)[i].length_mm > 0.0) feed[i] = std::min(feed[i], (*reach)[i].most_mm_min);
+    feed[i] = std::max(std::floor(feed[i] * 10.0 + 1e-6) / 10.0, 0.1);
+  }
+  if (!feed.empty()) feed[0] = q.feed_mm_min;
+  a.schedule = schedule_with(q, path, std::move(feed));
+}
+
+}  // namespace
+
+FeedAnswer feeds(const FeedQuestion& q, const CutterPath& path) {
+  FeedAnswer a;
+  Book book(q);
+  const std::vector<Cap> caps = caps_of(q, path, book);
+  const bool sideways = cuts_sideways(q.cut.kind);
+  if (!q.adapt || !sideways) {
+    as_planned(q, path, caps, a);
+  } else {
+    std::vector<double> most(path.size(), 0.0);
+    std::vector<Holder> by(path.size(), Holder::kStepFeed);
+    const double one = q.constant ? constant_feed(q, path, book) : 0.0;
+    for (std::size_t i = 1; i < path.size(); ++i) {
+      most[i] = caps[i].feed_mm_min;
+      by[i] = caps[i].by;
+      if (!q.constant || by[i] == Holder::kAir) continue;
+      const double given = i < q.feed_factor.size() ? q.feed_factor[i] : 1.0;
+      const bool own = ends_in(path.role[i]) || by[i] == Holder::kEndCut;
+      const double all = std::min(1.0, given) * one;
+      most[i] = own ? std::min(most[i], all) : all;
+    }
+    Followed f = followed(q, path, std::move(most), std::move(by), q.cut.machine);
+    if (q.explain && !q.constant) a.held_by = held_by(q, path, caps, book, f);
+    for (std::size_t k = 0; k < kLimits; ++k) {
+      for (std::size_t i = 1; i < path.size(); ++i) {
+        if (static_cast<std::size_t>(caps[i].by) != k || caps[i].feed_mm_min >= q.feed_mm_min) continue;
+        a.slowed.emplace_back(kLimitNames[k]);
+        break;
+      }
+    }
+    if (!f.feed_mm_min.empty()) f.feed_mm_min[0] = q.feed_mm_min;
+    a.schedule = schedule_with(q, path, std::move(f.feed_mm_min));
+  }
+  if (sideways) {
+    measure_peaks(q, path, book, a);
+  } else if (const auto l = loads_of(q.cut, 0.0, 0.0, std::abs(q.n_rpm), q.feed_mm_min)) {
+    a.peak = *l;
+    const WorstLoad worst = worst_load(q.cut, *l, std::abs(q.n_rpm));
+    a.worst_excess = worst.excess;
+    if (worst.excess > 0.0) a.worst = {worst.name, worst.value, worst.limit, worst.unit, deepest(path)};
+  }
+  return a;
+}
+
+double largest_feed(const FeedQuestion& q, const CutSample& s) {
+  const Judge judge(q, rpm_on(q, s.move));
+  const Cuts cuts = cuts_of(s, q.cut.cutter);
+  double best = judge.ceiling_mm_min();
+  for (std::size_t c = 0; c < cuts.n; ++c) best = std::min(best, judge.largest(cuts.cut[c], best));
+  return best;
+}
+
+std::optional<double> excess_at(const FeedQuestion& q, const CutSample& s, double feed_mm_min) {
+  const Judge judge(q, rpm_on(q, s.move));
+  const Cuts cuts = cuts_of(s, q.cut.cutter);
+  double worst = -1.0;
+  for (std::size_t c = 0; c < cuts.n; ++c) {
+    const auto state = judge.at(cuts.cut[c], feed_mm_min);
+    if (!state) return std::nullopt;
+    worst = std::max(worst, ratio(state->load, judge.limits()) - 1.0);
+  }
+  return worst;
+}
+
+}  // namespace capstan::optimise

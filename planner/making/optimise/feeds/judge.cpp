@@ -1,0 +1,256 @@
+#include "planner/making/optimise/feeds/judge.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "planner/making/optimise/cut/limits.h"
+#include "planner/physics/mechanics/constants.h"
+#include "planner/physics/mechanics/drilling.h"
+#include "planner/physics/mechanics/force_law.h"
+#include "planner/physics/mechanics/surface.h"
+
+namespace capstan::optimise::feed {
+namespace {
+
+using std::numbers::pi;
+
+constexpr double kNoLimit = std::numeric_limits<double>::infinity();  // of what nobody states
+constexpr double kWhole = 0.95;  // share of depth times width from which a section is a rectangle
+
+/// Width of an arc across the feed.
+double width_of(double entry, double exit, double diameter) {
+  return 0.5 * diameter * (std::cos(entry) - std::cos(exit));
+}
+
+/// An arc of this width within a measured one, at the side where the measured one ends in the wall.
+Cut trimmed_arc(double ap, double width, const CutSample& s, double diameter) {
+  const double w = std::clamp(width, 0.0, diameter);
+  const double phi = std::acos(std::clamp(1.0 - 2.0 * w / diameter, -1.0, 1.0));
+  const bool up = s.entry_rad < pi - s.exit_rad - 1e-9;
+  return up ? Cut{.ap_mm = ap, .exit_rad = phi} : Cut{.ap_mm = ap, .entry_rad = pi - phi, .exit_rad = pi};
+}
+
+/// Of the thickest chip that a measured arc can have.
+double front_of(const CutSample& s) {
+  const double entry = std::clamp(s.entry_rad, 0.0, pi);
+  const double exit = std::clamp(s.exit_rad, 0.0, pi);
+  if (!(exit > entry)) return 0.0;
+  if (entry <= 0.5 * pi && exit >= 0.5 * pi) return 1.0;
+  return std::max(std::sin(entry), std::sin(exit));
+}
+
+/// The rectangle of a depth and a width at the section's place: the arc that was measured where it is about
+/// as wide, else one of that width. What the arc lacks is speed of the edge.
+Cut rectangle(double ap, double ae, const CutSample& s, double diameter) {
+  const double entry = std::clamp(s.entry_rad, 0.0, pi);
+  const double exit = std::clamp(s.exit_rad, entry, pi);
+  const double measured = width_of(entry, exit, diameter);
+  // Inside of a corner the edge removes more than the arc's width; much more is an arc not measured.
+  constexpr double kTooWide = 0.98;
+  constexpr double kTooNarrow = 1.4;
+  Cut c = measured > 0.0 && ae >= kTooWide * measured && ae <= kTooNarrow * measured
+              ? Cut{.ap_mm = ap, .entry_rad = entry, .exit_rad = exit}
+              : trimmed_arc(ap, ae, s, diameter);
+  const double width = width_of(c.entry_rad, c.exit_rad, diameter);
+  if (width > 0.0) c.gain = std::max(1.0, ae / width);
+  // Inside of a corner the edge's way is longer: that is in the gain.
+  c.front_sin = front_of(s);
+  return c;
+}
+
+}  // namespace
+
+Cuts cuts_of(const CutSample& sample, const model::Cutter& cutter) {
+  Cuts out;
+  CutSample s = sample;
+  const double diameter = cutter.cutting_diameter_mm;
+  const double ap = s.ap_mm;
+  const double ae = s.ae_mm;
+  if (!(ap > 0.0) || !(ae > 0.0) || !(diameter > 0.0) || !std::isfinite(ap * ae)) return out;
+  // Sections are measured for a clockwise tooth; one that turns the other way meets the right side first.
+  if (cutter.hand == model::Hand::kLeft) {
+    s.entry_rad = pi - sample.exit_rad;
+    s.exit_rad = pi - sample.entry_rad;
+  }
+  const double corner = mechanics::tooth_of(cutter).corner_radius_mm;
+  if (corner > 0.0) {
+    const double entry = std::clamp(s.entry_rad, 0.0, pi);
+    const double exit = std::clamp(s.exit_rad, 0.0, pi);
+    const double area = s.csa_mm2 > 0.0 ? s.csa_mm2 : ap * ae;
+    // Above the tip the edge stands steeper, and its chip is thicker.
+    const double up = std::min(std::max(ap, s.top_mm), corner);
+    const double kappa_sin = std::sqrt(up * (2.0 * corner - up)) / corner;
+    // An arc that was not measured is made of the width.
+    Cut c = exit > entry ? Cut{.ap_mm = ap, .entry_rad = entry, .exit_rad = exit}
+                         : trimmed_arc(ap, ae, s, diameter);
+    c.csa_mm2 = area;
+    c.front_sin = front_of(s) * kappa_sin;
+    const double strip = width_of(c.entry_rad, c.exit_rad, diameter);
+    if (area >= kWhole * ap * strip) {
+      out.cut[out.n++] = c;
+      return out;
+    }
+    // As deep, a band along the edge; as wide, a layer.
+    Cut layer = c;
+    layer.ap_mm = area / strip;
+    c.band_mm = area / ap;
+    out.cut[out.n++] = c;
+    out.cut[out.n++] = layer;
+    return out;
+  }
+  if (s.csa_mm2 > 0.0 && s.csa_mm2 < kWhole * ap * ae) {
+    out.cut[out.n++] = rectangle(ap, s.csa_mm2 / ap, s, diameter);
+    out.cut[out.n++] = rectangle(s.csa_mm2 / ae, ae, s, diameter);
+    return out;
+  }
+  out.cut[out.n++] = rectangle(ap, std::max(ae, s.csa_mm2 / ap), s, diameter);
+  return out;
+}
+
+double ratio(const Column& load, const Column& limit) {
+  double worst = 0.0;
+  for (std::size_t i = 0; i < kLimits; ++i) worst = std::max(worst, load[i] / limit[i]);
+  return worst;
+}
+
+bool stated(double limit) { return limit < kNoLimit; }
+
+Judge::Judge(const FeedQuestion& question, double n_rpm)
+    : q_(question.cut),
+      n_(std::abs(n_rpm)),
+      tooth_(mechanics::tooth_of(question.cut.cutter)),
+      law_(mechanics::force_law(question.cut.material, question.cut.cutter.substrate)) {
+  up_ = feed_override(q_);
+  margin_ = mechanics::force_margin(q_.material, q_.cutter.substrate).factor();
+  if (const auto c = mechanics::tip_compliance_mm_n(q_.cutter)) compliance_ = *c;
+  if (q_.wall_error_limit_mm > 0.0) {
+    if (auto beam = mechanics::beam_of(q_.cutter)) beam_ = *std::move(beam);
+  }
+  // Limits are those of `cut`: power, torque, deflection, chip, wall, surface, force.
+  const Measures m = measures(q_, {}, 0.0, n_, 0.0);
+  constexpr std::array<std::size_t, kLimits> kOfCut = {6, 2, 1, 0, 3, 5, 4};
+  for (std::size_t i = 0; i < kLimits; ++i) limits_[i] = std::min(m[kOfCut[i]].limit, kNoLimit);
+  const double chip = limits_[static_cast<std::size_t>(Limit::kChip)];
+  const double nominal = question.feed_mm_min;
+  // Finishing goes faster than planned only where a surface that is asked for bounds it.
+  const bool faster = chip < kNoLimit && (q_.kind == CutKind::kRough || q_.surface_ra_um > 0.0);
+  ceiling_ = faster ? std::max(nominal, kMostThinning * chip * tooth_.teeth * n_) : nominal;
+  floor_ = kLeastFeedShare * nominal;
+}
+
+double Judge::slot_share(const Cut& cut) const {
+  constexpr double kWholeArc = 0.95 * pi;  // as wide as 0.994 D
+  const bool slot = q_.kind == CutKind::kRough && cut.exit_rad - cut.entry_rad >= kWholeArc;
+  return slot ? deep_slot_share(cut.ap_mm, q_.cutter.cutting_diameter_mm) : 1.0;
+}
+
+double Judge::surface_um(double fz) const {
+  const double wall = mechanics::wall_rz_mm(fz, q_.cutter.cutting_diameter_mm);
+  const double corner = q_.cutter.corner_radius_mm;
+  const double rz = corner > 0.0 ? std::max(wall, mechanics::floor_rz_mm(fz, corner)) : wall;
+  return 1000.0 * kRoughnessOverGeometry * mechanics::kArcRaOverRz * rz;
+}
+
+std::optional<double> Judge::wall_mm(const mechanics::Section& section, double fz) const {
+  double worst = 0.0;
+  constexpr double kReaches = 1e-9;
+  mechanics::Section to_wall = section;
+  to_wall.csa_mm2 = to_wall.band_mm = 0.0;
+  // A corner or ball that is not in with its full radius touches the wall with what is in.
+  const double top =
+      mechanics::effective_diameter_mm(section.ap_mm, tooth_.cutting_diameter_mm, tooth_.corner_radius_mm);
+  const double at_wall = std::acos(std::min(1.0, top / tooth_.cutting_diameter_mm)) + kReaches;
+  if (tooth_.corner_radius_mm > 0.0) {
+    if (section.arc.entry_rad <= at_wall) to_wall.arc.entry_rad = 0.0;
+    if (section.arc.exit_rad >= pi - at_wall) to_wall.arc.exit_rad = pi;
+  }
+  const auto side = [&](mechanics::WallSide w) {
+    const auto e = mechanics::wall_error(to_wall, tooth_, law_, fz, w, beam_);
+    if (!e) return false;
+    worst = std::max(worst, std::abs(e->largest_mm()));
+    return true;
+  };
+  if (to_wall.arc.entry_rad <= kReaches && !side(mechanics::WallSide::kLeft)) return std::nullopt;
+  if (to_wall.arc.exit_rad >= pi - kReaches && !side(mechanics::WallSide::kRight)) return std::nullopt;
+  return worst;
+}
+
+std::optional<State> Judge::at(const Cut& cut, double feed) const {
+  const double fz = feed / (n_ * tooth_.teeth) * cut.gain;
+  const mechanics::Section section{.ap_mm = cut.ap_mm,
+                                   .arc = {cut.entry_rad, cut.exit_rad},
+                                   .csa_mm2 = cut.csa_mm2,
+                                   .band_mm = cut.band_mm};
+  const auto l = mechanics::section_loads(section, tooth_, law_, up_ * fz, n_);
+  if (!l) return std::nullopt;
+  double chip = planned_chip_mm(section, tooth_, law_, up_ * fz, up_, n_, l->h_max_mm);
+  if (cut.band_mm > 0.0) {
+    // How the area lies in the strip is not known: the chip is that of the front, wherever the arc has it.
+    const mechanics::Section strip{.ap_mm = section.ap_mm, .arc = section.arc};
+    const auto whole = mechanics::section_loads(strip, tooth_, law_, up_ * fz, n_);
+    if (!whole) return std::nullopt;
+    chip = std::max(chip, planned_chip_mm(strip, tooth_, law_, up_ * fz, up_, n_, whole->h_max_mm));
+  }
+  // The area of a section that is no rectangle may lie anywhere in its arc: a rib stands in front.
+  chip =
+      std::max(chip, fz * cut.front_sin * std::cos(tooth_.lead_angle_rad) * std::cos(tooth_.taper_angle_rad));
+  State s;
+  s.raw = *l;
+  const double force = l->peak_force_n * margin_;
+  // Chip and surface as planned, as in `cut`; what breaks something also with the override.
+  s.load = {force,
+            force * compliance_,
+            l->torque_nm * margin_,
+            l->power_w * margin_,
+            chip / slot_share(cut),
+            surface_um(fz),
+            0.0};
+  if (!beam_.segments.empty()) {
+    const auto wall = wall_mm(section, up_ * fz);
+    if (!wall) return std::nullopt;
+    s.load[static_cast<std::size_t>(Limit::kWallError)] = *wall * margin_;
+  }
+  for (const double v : s.load) {
+    if (!std::isfinite(v)) return std::nullopt;
+  }
+  return s;
+}
+
+std::optional<State> Judge::plunging(double feed) const {
+  mechanics::DrillingCut c;
+  c.diameter_mm = q_.cutter.cutting_diameter_mm;
+  c.feed_mm_per_rev = up_ * feed / n_;
+  c.n_rpm = n_;
+  c.teeth = tooth_.teeth;
+  c.point_angle_rad = pi;
+  const auto l = mechanics::drilling_loads(c, law_.kienzle);
+  if (!l) return std::nullopt;
+  const double margin = mechanics::kienzle_margin(q_.material).factor();
+  State s;
+  s.load[static_cast<std::size_t>(Limit::kTorque)] = l->torque_nm * margin;
+  s.load[static_cast<std::size_t>(Limit::kPower)] = l->power_w * margin;
+  s.load[static_cast<std::size_t>(Limit::kChip)] = l->chip_thickness_mm / up_;
+  return s;
+}
+
+double Judge::largest(const Cut& cut, double most) const {
+  const auto ok = [&](double feed) {
+    const auto s = at(cut, feed);
+    return s && ratio(s->load, limits_) <= 1.0;
+  };
+  if (!(most > 0.0) || ok(most)) return most;
+  double lo = floor_;
+  double hi = most;
+  if (!(lo < hi) || !ok(lo)) return 0.0;
+  constexpr double kNear = 1e-7;
+  for (int i = 0; i < 60 && hi > lo * (1.0 + kNear); ++i) {
+    const double mid = std::sqrt(lo * hi);
+    (ok(mid) ? lo : hi) = mid;
+  }
+  return lo;
+}
+
+}  // namespace capstan::optimise::feed

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+
+#include "planner/making/optimise/feeds.h"
+#include "planner/physics/mechanics/beam.h"
+#include "planner/physics/mechanics/section.h"
+
+/// What one section bears: loads against limits at a feed. No cache here, no path.
+namespace capstan::optimise::feed {
+
+enum class Limit : std::uint8_t { kForce, kDeflection, kTorque, kPower, kChip, kSurface, kWallError };
+inline constexpr std::size_t kLimits = 7;
+/// As in CutAnswer::active.
+inline constexpr std::array<const char*, kLimits> kLimitNames = {
+    "peak_force",     "tool_deflection",   "spindle_torque", "spindle_power",
+    "chip_thickness", "surface_roughness", "wall_error"};
+inline constexpr std::array<const char*, kLimits> kLimitUnits = {"N", "mm", "Nm", "W", "mm", "um", "mm"};
+
+using Column = std::array<double, kLimits>;  ///< loads or limits, in the order of Limit
+
+/// One rectangle of material in front of the cutter.
+///
+/// gain  the edge's feed over the centre's: more than 1 where the path turns about the inside of a corner.
+struct Cut {
+  double ap_mm = 0.0, entry_rad = 0.0, exit_rad = 0.0, gain = 1.0;
+  double csa_mm2 = 0.0;  ///< measured area; 0: depth times width
+  double band_mm = 0.0;  ///< as mechanics::Section's
+  /// Sine of the measured arc where it is nearest to the front: wherever in it the area lies, no chip is
+  /// thicker than this part of the feed per tooth. 0: the cut's own arc tells.
+  double front_sin = 0.0;
+};
+
+/// One or two: a section that is no rectangle (a wall and a floor at once) counts as two of its area, as deep
+/// and as wide. Of a cutter with a corner radius or a ball it is one, as measured: at its rim there is no
+/// edge. Of a left-hand cutter angles are mirrored: in mechanics they count in the sense of rotation.
+struct Cuts {
+  std::array<Cut, 2> cut;
+  std::size_t n = 0;
+};
+[[nodiscard]] Cuts cuts_of(const CutSample& sample, const model::Cutter& cutter);
+
+/// Loads of a cut, margins and override included, and the forces by axis.
+struct State {
+  Column load{};
+  mechanics::SectionLoads raw;
+};
+
+class Judge {
+ public:
+  Judge(const FeedQuestion& q, double n_rpm);
+
+  /// Loads at a feed of the cutter's centre; nothing outside the formulas' range.
+  [[nodiscard]] std::optional<State> at(const Cut& cut, double feed_mm_min) const;
+  /// Motor torque and power of plunging into the solid; the other columns are 0.
+  [[nodiscard]] std::optional<State> plunging(double feed_mm_min) const;
+
+  [[nodiscard]] const Column& limits() const { return limits_; }
+  /// The most that any section is asked to bear, and the least that is scheduled, mm/min.
+  [[nodiscard]] double ceiling_mm_min() const { return ceiling_; }
+  [[nodiscard]] double floor_mm_min() const { return floor_; }
+  [[nodiscard]] double margin() const { return margin_; }
+  [[nodiscard]] double rpm() const { return n_; }
+  /// Largest feed that keeps every limit, at most `most`; 0 when none down to the floor does.
+  [[nodiscard]] double largest(const Cut& cut, double most_mm_min) const;
+
+ private:
+  [[nodiscard]] double surface_um(double fz_mm) const;
+  /// What remains of the largest chip in a deep slot.
+  [[nodiscard]] double slot_share(const Cut& cut) const;
+  [[nodiscard]] std::optional<double> wall_mm(const mechanics::Section& section, double fz_mm) const;
+
+  const CutQuestion& q_;
+  double n_ = 0.0, up_ = 1.0, margin_ = 1.0, compliance_ = 0.0;
+  double ceiling_ = 0.0, floor_ = 0.0;
+  mechanics::Tooth tooth_;
+  mechanics::ForceLaw law_;
+  mechanics::ToolBeam beam_;  ///< empty unless a wall's error is limited
+  Column limits_{};
+};
+
+/// The largest of load / limit.
+[[nodiscard]] double ratio(const Column& load, const Column& limit);
+
+/// Whether somebody states this limit; one that nobody states is larger than any load, and never told.
+[[nodiscard]] bool stated(double limit);
+
+}  // namespace capstan::optimise::feed

@@ -1,0 +1,215 @@
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "planner/making/optimise/feeds/caps.h"
+
+// Where moves are cut so that each piece may have its own feed.
+
+namespace capstan::optimise {
+namespace {
+
+using namespace feed;
+using model::CutterPath;
+using model::MoveKind;
+
+/// No piece is shorter than this part of the diameter. Default, unsourced.
+constexpr double kLeastPiece = 0.2;
+/// A cut has to save this much, s: it costs a block of program. Default, unsourced.
+constexpr double kWorthS = 0.005;
+
+/// A stretch of a move and what it bears.
+struct Piece {
+  double end_mm = 0.0, length_mm = 0.0, feed = 0.0;
+};
+
+double lost_s(const Piece& a, const Piece& b) {
+  const double low = std::min(a.feed, b.feed);
+  return 60.0 * (a.length_mm * (1.0 / low - 1.0 / a.feed) + b.length_mm * (1.0 / low - 1.0 / b.feed));
+}
+
+void merge(std::vector<Piece>& p, std::size_t into) {
+  p[into] = {p[into + 1].end_mm, p[into].length_mm + p[into + 1].length_mm,
+             std::min(p[into].feed, p[into + 1].feed)};
+  p.erase(p.begin() + static_cast<std::ptrdiff_t>(into) + 1);
+}
+
+/// Joins what is too short to stand alone, then what is not worth a block.
+void join(std::vector<Piece>& p, double least_mm) {
+  while (p.size() > 1) {
+    std::size_t shortest = 0;
+    for (std::size_t i = 1; i < p.size(); ++i) {
+      if (p[i].length_mm < p[shortest].length_mm) shortest = i;
+    }
+    if (p[shortest].length_mm >= least_mm) break;
+    const bool left = shortest + 1 == p.size() || (shortest > 0 && lost_s(p[shortest - 1], p[shortest]) <=
+                                                                       lost_s(p[shortest], p[shortest + 1]));
+    merge(p, left ? shortest - 1 : shortest);
+  }
+  while (p.size() > 1) {
+    std::size_t cheapest = 0;
+    for (std::size_t i = 1; i + 1 < p.size(); ++i) {
+      if (lost_s(p[i], p[i + 1]) < lost_s(p[cheapest], p[cheapest + 1])) cheapest = i;
+    }
+    if (lost_s(p[cheapest], p[cheapest + 1]) >= kWorthS) break;
+    merge(p, cheapest);
+  }
+}
+
+/// Stretches of one move, by what its samples bear; what no sample stands for bears the ceiling.
+class Pieces {
+ public:
+  Pieces(const FeedQuestion& q, Book& book) : q_(q), book_(book) {}
+
+  std::vector<Piece> of(std::size_t move, std::size_t first, std::size_t last, double length,
+                        double least_mm) {
+    const double n = rpm_on(q_, move);
+    const double least = book_.judge(n).floor_mm_min();
+    const double top = book_.judge(n).ceiling_mm_min();
+    std::vector<Piece> out;
+    double from = 0.0;
+    for (std::size_t k = first; k < last; ++k) {
+      const CutSample& s = q_.samples[k];
+      const double end = std::min(s.at_mm, length);
+      const double begin = std::max(from, std::min(end, s.at_mm - s.step_mm));
+      const double feed = s.ap_mm > 0.0 && !s.plunge
+                              ? std::clamp(bears(book_, s, q_.cut.cutter, n).feed_mm_min, least, top)
+                              : top;
+      if (begin > from + kRounding) add(out, begin, from, top);
+      if (end > begin + kRounding) {
+        add(out, end, std::max(begin, from), feed);
+      } else if (!out.empty()) {
+        out.back().feed = std::min(out.back().feed, feed);  // a second rectangle of the same step
+      }
+      from = std::max(from, end);
+    }
+    if (length > from + kRounding) add(out, length, from, top);
+    if (!out.empty()) out.back().end_mm = length;
+    return binned(out, least_mm, length);
+  }
+
+ private:
+  static constexpr double kRounding = 1e-9;
+
+  /// Joined from the left until none is much shorter than a piece may be: a bound on what is left to do.
+  static std::vector<Piece> binned(const std::vector<Piece>& p, double least_mm, double length) {
+    constexpr std::size_t kFew = 64;
+    if (p.size() <= kFew) return p;
+    const double bin = std::max(0.125 * least_mm, length / 2000.0);
+    std::vector<Piece> out;
+    for (const Piece& x : p) {
+      if (!out.empty() && out.back().length_mm < bin) {
+        out.back() = {x.end_mm, out.back().length_mm + x.length_mm, std::min(out.back().feed, x.feed)};
+      } else {
+        out.push_back(x);
+      }
+    }
+    return out;
+  }
+
+  /// Neighbours that bear nearly the same are one piece from the start.
+  void add(std::vector<Piece>& out, double end, double begin, double feed) const {
+    constexpr double kAlike = 1.02;
+    if (!out.empty() && out.back().feed <= kAlike * feed && feed <= kAlike * out.back().feed) {
+      out.back() = {end, out.back().length_mm + end - begin, std::min(out.back().feed, feed)};
+      return;
+    }
+    out.push_back({end, end - begin, feed});
+  }
+
+  const FeedQuestion& q_;
+  Book& book_;
+};
+
+void push(CutterPath& out, const CutterPath& path, std::size_t i, geometry::Vec3 p) {
+  out.x.push_back(p.x);
+  out.y.push_back(p.y);
+  out.z.push_back(p.z);
+  out.cx.push_back(path.cx[i]);
+  out.cy.push_back(path.cy[i]);
+  out.kind.push_back(path.kind[i]);
+  out.role.push_back(path.role[i]);
+}
+
+template <class T>
+void repeat(std::vector<T>& to, const std::vector<T>& from, std::size_t i, std::size_t times) {
+  if (i < from.size()) to.insert(to.end(), times, from[i]);
+}
+
+/// Renumbers a move's part of a series of positions; `move` and `at` are its columns.
+template <class Move, class At>
+void renumber(std::size_t first, std::size_t last, const std::vector<Piece>& pieces, std::size_t base,
+              Move move, At at) {
+  constexpr double kRounding = 1e-9;
+  std::size_t piece = 0;
+  double from = 0.0;
+  for (std::size_t k = first; k < last; ++k) {
+    while (piece + 1 < pieces.size() && at(k) > pieces[piece].end_mm + kRounding)
+      from = pieces[piece++].end_mm;
+    move(k) = static_cast<std::uint32_t>(base + piece);
+    at(k) -= from;
+  }
+}
+
+bool may_be_cut(const FeedQuestion& q, const CutterPath& path, std::size_t i) {
+  using model::MoveRole;
+  return q.adapt && cuts_sideways(q.cut.kind) && i > 0 && path.kind[i] != MoveKind::kRapid &&
+         path.kind[i] != MoveKind::kDwell && path.role[i] != MoveRole::kPlunge;
+}
+
+}  // namespace
+
+void split_moves(FeedQuestion& q, CutterPath& path, model::SectionSeries* s) {
+  const double least = kLeastPiece * q.cut.cutter.cutting_diameter_mm;
+  Book book(q);
+  Pieces pieces_of(q, book);
+  CutterPath out;
+  std::vector<double> feed;
+  std::vector<double> speed;
+  std::vector<double> dwell;
+  std::vector<CutSample> samples = q.samples;  // the pieces are still asked of the old ones
+  std::size_t next = 0;
+  std::size_t next_section = 0;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    while (next < samples.size() && q.samples[next].move < i) ++next;
+    const std::size_t first = next;
+    while (next < samples.size() && q.samples[next].move == i) ++next;
+    const double length = i > 0 ? model::move_length(path, i) : 0.0;
+    std::vector<Piece> pieces;
+    if (may_be_cut(q, path, i) && first < next && length > least) {
+      pieces = pieces_of.of(i, first, next, length, least);
+      join(pieces, least);
+    }
+    if (pieces.empty()) pieces.push_back({length, length, 0.0});
+    renumber(
+        first, next, pieces, out.size(), [&](std::size_t k) -> std::uint32_t& { return samples[k].move; },
+        [&](std::size_t k) -> double& { return samples[k].at_mm; });
+    if (s != nullptr) {
+      while (next_section < s->size() && s->move[next_section] < i) ++next_section;
+      const std::size_t from = next_section;
+      while (next_section < s->size() && s->move[next_section] == i) ++next_section;
+      renumber(
+          from, next_section, pieces, out.size(), [&](std::size_t k) -> std::uint32_t& { return s->move[k]; },
+          [&](std::size_t k) -> double& { return s->at_mm[k]; });
+    }
+    for (std::size_t k = 0; k + 1 < pieces.size(); ++k)
+      push(out, path, i, model::point_on_move(path, i, pieces[k].end_mm / length));
+    push(out, path, i, path.point(i));
+    repeat(feed, q.feed_factor, i, pieces.size());
+    repeat(speed, q.speed_factor, i, pieces.size());
+    if (i < q.dwell_s.size()) {
+      dwell.insert(dwell.end(), pieces.size() - 1, 0.0);
+      dwell.push_back(q.dwell_s[i]);
+    }
+  }
+  path = std::move(out);
+  q.samples = std::move(samples);
+  q.feed_factor = std::move(feed);
+  q.speed_factor = std::move(speed);
+  q.dwell_s = std::move(dwell);
+}
+
+}  // namespace capstan::optimise

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "planner/ground/base/result.h"
+#include "planner/making/optimise/solver/evaluator.h"
+
+/// What a solver library has to do for us. Callers use solver.h.
+namespace capstan::optimise {
+
+enum class Algorithm : std::uint8_t {
+  kSlsqp,        ///< sequential quadratic programming: first choice, smooth problems
+  kAuglagLbfgs,  ///< augmented Lagrangian over L-BFGS: slower, surer
+  kCobyla,       ///< without slopes
+  kIsres,        ///< evolution strategy, thousands of points: a referee for tests
+};
+
+/// One run from one start, in the unit box of the evaluator.
+struct Attempt {
+  Algorithm algorithm = Algorithm::kSlsqp;
+  std::vector<double> start;
+  double relative_tolerance = 1e-10;
+  std::uint32_t max_evaluations = 0;
+};
+
+/// Runs and gives the point it ended at; feasibility and optimality are judged by the caller.
+///
+/// Must      evaluate only inside the box; stop when evaluator.exhausted(); never let an exception of its
+///           library out; rethrow, after its library has returned, what the evaluator threw.
+using Backend = Result<std::vector<double>> (*)(Evaluator& evaluator, const Attempt& attempt);
+
+/// NLopt 2.7, or OPT-BACKEND-ABSENT when built without it.
+[[nodiscard]] Result<std::vector<double>> solve_with_nlopt(Evaluator& evaluator, const Attempt& attempt);
+
+}  // namespace capstan::optimise

@@ -1,0 +1,275 @@
+#include "planner/making/toolpath/freeform/drop_cutter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "planner/making/toolpath/freeform/drop_tree.h"
+
+namespace capstan::toolpath::freeform {
+namespace {
+
+using geometry::Vec2;
+using geometry::Vec3;
+
+/// Along an edge at distance w from the axis, rising with `slope` >= 0: how far ahead of the foot the
+/// cutter's outline has that slope.
+double touch_ahead(const Toroid& t, double w, double slope) {
+  const double r = t.ball_mm;
+  if (slope <= 0.0) return std::sqrt(std::max(0.0, t.disc_mm * t.disc_mm - w * w));
+  const double limit2 = t.radius() * t.radius() - w * w;
+  if (limit2 <= 0.0) return 0.0;
+  if (r <= 0.0) return std::sqrt(limit2);
+  if (t.disc_mm <= 0.0) return slope * std::sqrt(std::max(0.0, (r - w) * (r + w)) / (1.0 + slope * slope));
+  // f(u) = (d - disc) u - slope d sqrt(ball^2 - (d - disc)^2), d = sqrt(w^2 + u^2): one sign change on [lo,
+  // hi]. Newton's step where it stays inside, else the middle.
+  double lo = std::sqrt(std::max(0.0, t.disc_mm * t.disc_mm - w * w));
+  double hi = std::sqrt(limit2);
+  double u = 0.5 * (lo + hi);
+  for (int k = 0; k < 100; ++k) {
+    const double d = std::sqrt(w * w + u * u);
+    const double off = d - t.disc_mm;
+    const double root = std::sqrt(std::max(1e-300, (r - off) * (r + off)));
+    const double f = off * u - slope * d * root;
+    (f < 0.0 ? lo : hi) = u;
+    const double grow = u / d;  // dd/du
+    const double slant = grow * u + off - slope * grow * (root - d * off / root);
+    double next = u - f / slant;
+    if (!(next > lo && next < hi)) next = 0.5 * (lo + hi);
+    const double step = std::abs(next - u);
+    u = next;
+    if (step < 1e-13 * hi || hi - lo < 1e-13 * hi) break;
+  }
+  return u;
+}
+
+/// Height of the outline where `distance` may exceed the radius by rounding.
+double height_within(const Toroid& t, double distance) {
+  const double off = std::min(distance - t.disc_mm, t.ball_mm);
+  if (off <= 0.0) return 0.0;
+  return t.ball_mm - std::sqrt((t.ball_mm - off) * (t.ball_mm + off));
+}
+
+}  // namespace
+
+double Toroid::height(double r) const {
+  return r > radius() ? std::numeric_limits<double>::infinity() : height_within(*this, r);
+}
+
+std::optional<Toroid> toroid_of(const geometry::CutterProfile& profile) {
+  Toroid out{.disc_mm = profile.radius_mm, .ball_mm = 0.0};
+  double r = 0.0;
+  for (const geometry::ProfilePiece& p : profile.pieces) {
+    if (p.radius_mm > 0.0) {
+      if (&p != &profile.pieces.back() || std::abs(p.rc_mm - r) > 1e-9) return std::nullopt;
+      out = {.disc_mm = p.rc_mm, .ball_mm = p.radius_mm};
+    } else if (p.slope != 0.0 || p.z0_mm != 0.0) {
+      return std::nullopt;
+    }
+    r = p.r1_mm;
+  }
+  if (!(profile.radius_mm > 0.0) || profile.pieces.empty()) return std::nullopt;
+  return out;
+}
+
+void DropCutter::leaf(const Leaf& l, const Toroid& t, double x, double y, double& best) const {
+  for (std::uint32_t i = l.facet0; i < l.facet1; ++i) {
+    const Facet& f = facets_[i];
+    const double reach = t.ball_mm * f.nxy + t.disc_mm;
+    const Vec2 p{x - reach * f.lean.x, y - reach * f.lean.y};
+    // A point on a shared side belongs to both.
+    const auto right_of = [&](Vec2 a, Vec2 b) {
+      const Vec2 side = b - a;
+      return cross(side, p - a) < -1e-13 * (std::abs(side.x) + std::abs(side.y));
+    };
+    if (right_of(f.a, f.b) || right_of(f.b, f.c) || right_of(f.c, f.a)) continue;
+    const double z = std::min(f.top, f.z + dot(f.slope, p - f.a));
+    best = std::max(best, z + t.ball_mm * f.nz - t.ball_mm);
+  }
+  const double radius = t.radius();
+  const double radius2 = radius * radius;
+  for (std::uint32_t i = l.vertex0; i < l.vertex1; ++i) {
+    const Vec3& v = vertices_[i];
+    if (v.z <= best) continue;
+    const double d2 = (v.x - x) * (v.x - x) + (v.y - y) * (v.y - y);
+    if (d2 <= radius2) best = std::max(best, v.z - height_within(t, std::sqrt(d2)));
+  }
+  for (std::uint32_t i = l.edge0; i < l.edge1; ++i) {
+    const Edge& e = edges_[i];
+    const Vec2 rel{x - e.a.x, y - e.a.y};
+    const double w = cross(e.unit, rel);
+    const double half2 = radius2 - w * w;
+    if (half2 < 0.0) continue;
+    const double along = dot(e.unit, rel);
+    const double half = std::sqrt(half2);
+    const double lo = std::max(-along, -half);
+    const double hi = std::min(e.length - along, half);
+    if (lo > hi) continue;
+    // No contact is higher than the edge's highest point within reach with the outline's least height there.
+    const double aside = std::abs(w);
+    const double nearest = std::sqrt(w * w + std::pow(std::max({lo, -hi, 0.0}), 2));
+    const double top = e.z + e.slope * (along + (e.slope >= 0.0 ? hi : lo));
+    if (top <= best || top - height_within(t, nearest) <= best) continue;
+    const double ahead = touch_ahead(t, aside, std::abs(e.slope));
+    const double u = std::clamp(e.slope >= 0.0 ? ahead : -ahead, lo, hi);
+    best = std::max(best, e.z + e.slope * (along + u) - height_within(t, std::sqrt(w * w + u * u)));
+  }
+}
+
+double DropCutter::search(const Toroid& t, double x, double y, std::uint32_t& hint) const {
+  double best = kNoContact;
+  if (nodes_.empty()) return best;
+  const double radius = t.radius();
+  const auto bound = [&](const Node& n) {
+    const double dx = std::max({n.xlo - x, 0.0, x - n.xhi});
+    const double dy = std::max({n.ylo - y, 0.0, y - n.yhi});
+    const double d2 = dx * dx + dy * dy;
+    if (d2 > radius * radius) return kNoContact;
+    return d2 <= t.disc_mm * t.disc_mm ? n.top : n.top - height_within(t, std::sqrt(d2));
+  };
+  leaf(leaves_[hint], t, x, y, best);
+  struct Entry {
+    std::uint32_t node;
+    double bound;
+  };
+  std::array<Entry, 128> stack;  // the tree is balanced: its depth is the logarithm of its leaves
+  std::size_t n = 0;
+  stack[n++] = {0, bound(nodes_[0])};
+  while (n > 0) {
+    const Entry top = stack[--n];
+    if (!(top.bound > best)) continue;
+    const Node& node = nodes_[top.node];
+    if (node.left == node.right) {
+      if (node.left == hint) continue;
+      const double before = best;
+      leaf(leaves_[node.left], t, x, y, best);
+      if (best > before) hint = node.left;
+      continue;
+    }
+    Entry near{node.left, bound(nodes_[node.left])};
+    Entry far{node.right, bound(nodes_[node.right])};
+    if (far.bound > near.bound) std::swap(near, far);
+    if (far.bound > best) stack[n++] = far;
+    if (near.bound > best) stack[n++] = near;
+  }
+  return best;
+}
+
+double DropCutter::drop(const Toroid& cutter, double x, double y, double allowance_mm) const {
+  std::uint32_t hint = 0;
+  return drop(cutter, x, y, allowance_mm, hint);
+}
+
+double DropCutter::drop(const Toroid& cutter, double x, double y, double allowance_mm,
+                        std::uint32_t& hint) const {
+  const Toroid grown{.disc_mm = cutter.disc_mm, .ball_mm = cutter.ball_mm + allowance_mm};
+  return search(grown, x, y, hint) + allowance_mm;
+}
+
+std::vector<double> DropCutter::drop(const Toroid& cutter, const std::vector<Vec2>& points,
+                                     double allowance_mm, const Job& job) const {
+  std::vector<double> out(points.size());
+  const Toroid grown{.disc_mm = cutter.disc_mm, .ball_mm = cutter.ball_mm + allowance_mm};
+  constexpr std::size_t kChunk = 1024;
+  parallel_for(job, (points.size() + kChunk - 1) / kChunk, [&](std::size_t chunk) {
+    std::uint32_t hint = 0;
+    const std::size_t end = std::min(points.size(), (chunk + 1) * kChunk);
+    for (std::size_t i = chunk * kChunk; i < end; ++i) {
+      out[i] = search(grown, points[i].x, points[i].y, hint) + allowance_mm;
+    }
+  });
+  return out;
+}
+
+// --- making the tree
+// ----------------------------------------------------------------------------------------
+
+class DropCutter::Builder {
+ public:
+  Builder(DropCutter& out, const geometry::Mesh& mesh)
+      : out_(out), mesh_(weld(mesh)), tree_(build_tree(mesh_)) {}
+
+  void run() {
+    out_.bounds_ = geometry::bounds(mesh_);
+    if (mesh_.triangles.empty()) return;
+    const std::vector<bool> hidden = valley_edges(mesh_, tree_.edges);
+    std::vector<bool> edge_done(tree_.edges.size());
+    std::vector<bool> vertex_done(mesh_.vertices.size());
+    for (const LeafRange& range : tree_.leaves) {
+      Leaf l;
+      l.facet0 = size(out_.facets_);
+      l.edge0 = size(out_.edges_);
+      l.vertex0 = size(out_.vertices_);
+      for (std::uint32_t k = range.first; k < range.last; ++k) {
+        const std::uint32_t t = tree_.order[k];
+        facet(t);
+        for (int side = 0; side < 3; ++side) {
+          const std::uint32_t v = mesh_.triangles[t][static_cast<std::size_t>(side)];
+          if (!vertex_done[v]) out_.vertices_.push_back(mesh_.vertices[v]);
+          vertex_done[v] = true;
+          const std::uint32_t e = tree_.edge_of[t][static_cast<std::size_t>(side)];
+          if (!edge_done[e] && !hidden[e]) edge(tree_.edges[e]);
+          edge_done[e] = true;
+        }
+      }
+      l.facet1 = size(out_.facets_);
+      l.edge1 = size(out_.edges_);
+      l.vertex1 = size(out_.vertices_);
+      out_.leaves_.push_back(l);
+    }
+    for (const TreeNode& n : tree_.nodes) {
+      out_.nodes_.push_back({n.box.lo.x, n.box.lo.y, n.box.hi.x, n.box.hi.y, n.box.hi.z, n.left, n.right});
+    }
+  }
+
+ private:
+  template <class T>
+  static std::uint32_t size(const std::vector<T>& v) {
+    return static_cast<std::uint32_t>(v.size());
+  }
+
+  void facet(std::uint32_t t) {
+    const auto& corner = mesh_.triangles[t];
+    const Vec3 a = mesh_.vertices[corner[0]];
+    Vec3 b = mesh_.vertices[corner[1]];
+    Vec3 c = mesh_.vertices[corner[2]];
+    Vec3 n = cross(b - a, c - a);
+    if (n.z < 0.0) {
+      std::swap(b, c);
+      n = -1.0 * n;
+    }
+    const double length = norm(n);
+    // What is as steep as this is seen as its edges: between them it is nowhere higher.
+    if (!(length > 0.0) || n.z < 1e-9 * length) return;
+    n = (1.0 / length) * n;
+    Facet f{.a = xy(a),
+            .b = xy(b),
+            .c = xy(c),
+            .z = a.z,
+            .top = std::max({a.z, b.z, c.z}),
+            .slope = {-n.x / n.z, -n.y / n.z},
+            .lean = {},
+            .nxy = std::hypot(n.x, n.y),
+            .nz = n.z};
+    if (f.nxy > 0.0) f.lean = {n.x / f.nxy, n.y / f.nxy};
+    out_.facets_.push_back(f);
+  }
+
+  void edge(const MeshEdge& e) {
+    const Vec3 a = mesh_.vertices[e.a];
+    const Vec3 b = mesh_.vertices[e.b];
+    const Vec2 d = xy(b) - xy(a);
+    const double length = norm(d);
+    if (length < 1e-12) return;  // upright: its upper end says it all
+    out_.edges_.push_back(
+        {.a = xy(a), .unit = (1.0 / length) * d, .z = a.z, .length = length, .slope = (b.z - a.z) / length});
+  }
+
+  DropCutter& out_;
+  geometry::Mesh mesh_;
+  Tree tree_;
+};
+
+DropCutter::DropCutter(const geometry::Mesh& mesh) { Builder(*this, mesh).run(); }
+
+}  // namespace capstan::toolpath::freeform

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "planner/ground/base/job.h"
+#include "planner/ground/base/result.h"
+#include "planner/ground/geometry/mesh.h"
+#include "planner/ground/geometry/profile.h"
+#include "planner/ground/geometry/vec.h"
+
+namespace capstan::toolpath::freeform {
+
+/// A flat, ball or bull-nosed cutter: a disc of radius `disc_mm`, grown by a ball of radius `ball_mm`.
+struct Toroid {
+  double disc_mm = 0.0;
+  double ball_mm = 0.0;
+  [[nodiscard]] double radius() const { return disc_mm + ball_mm; }
+  /// Height of the outline above the tip at distance r from the axis; +inf outside.
+  [[nodiscard]] double height(double r) const;
+};
+
+/// The toroid a profile describes; nothing for cones and other outlines.
+[[nodiscard]] std::optional<Toroid> toroid_of(const geometry::CutterProfile& profile);
+
+/// Lets a cutter down on a mesh, along z, until it touches: facets, edges and vertices in closed form (the
+/// edge of a bull-nosed cutter by bisection to the last bits). The mesh may have holes, folds, duplicates and
+/// triangles of any orientation; triangles of no area count with their edges.
+///
+/// Units  mm. Frame: the mesh's.
+/// Needs  finite vertices and triangles that name existing vertices (else std::logic_error).
+/// Source derived: tangency of a rotating convex outline with plane, line and point.
+class DropCutter {
+ public:
+  static constexpr double kNoContact = -std::numeric_limits<double>::infinity();
+
+  explicit DropCutter(const geometry::Mesh& mesh);
+
+  /// Lowest height of the tip on the axis (x, y) at which a cutter, grown all round by `allowance_mm`, is
+  /// clear of the mesh, so that the cutter keeps that distance; kNoContact beside the mesh.
+  /// Needs  allowance >= 0.
+  [[nodiscard]] double drop(const Toroid& cutter, double x, double y, double allowance_mm = 0.0) const;
+
+  /// As above; `hint` (0 at first) carries the last contact along, which saves time where points are near
+  /// each other and changes nothing else.
+  [[nodiscard]] double drop(const Toroid& cutter, double x, double y, double allowance_mm,
+                            std::uint32_t& hint) const;
+
+  /// As above for many points; points near each other should follow each other (rows in turn, to and fro).
+  /// Uses job.threads; the result does not depend on it.
+  [[nodiscard]] std::vector<double> drop(const Toroid& cutter, const std::vector<geometry::Vec2>& points,
+                                         double allowance_mm, const Job& job) const;
+
+  [[nodiscard]] const geometry::Box3& bounds() const { return bounds_; }
+  [[nodiscard]] std::size_t triangles() const { return facets_.size(); }
+
+ private:
+  struct Facet {
+    geometry::Vec2 a, b, c;     ///< counter-clockwise from above
+    double z = 0.0, top = 0.0;  ///< height at a; highest corner
+    geometry::Vec2 slope;       ///< dz/dx, dz/dy
+    geometry::Vec2 lean;        ///< unit vector of the normal's horizontal part, or zero
+    double nxy = 0.0, nz = 0.0;
+  };
+  struct Edge {
+    geometry::Vec2 a, unit;
+    double z = 0.0, length = 0.0, slope = 0.0;
+  };
+  struct Node {
+    double xlo = 0.0, ylo = 0.0, xhi = 0.0, yhi = 0.0, top = 0.0;
+    std::uint32_t left = 0, right = 0;  ///< children; equal: a leaf, and its number
+  };
+  struct Leaf {
+    std::uint32_t facet0 = 0, facet1 = 0, edge0 = 0, edge1 = 0, vertex0 = 0, vertex1 = 0;
+  };
+  class Builder;
+
+  void leaf(const Leaf& l, const Toroid& t, double x, double y, double& best) const;
+  [[nodiscard]] double search(const Toroid& t, double x, double y, std::uint32_t& hint) const;
+
+  std::vector<Facet> facets_;
+  std::vector<Edge> edges_;
+  std::vector<geometry::Vec3> vertices_;
+  std::vector<Node> nodes_;
+  std::vector<Leaf> leaves_;
+  geometry::Box3 bounds_;
+};
+
+}  // namespace capstan::toolpath::freeform

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "planner/ground/base/job.h"
+#include "planner/ground/base/result.h"
+#include "planner/ground/geometry/mesh.h"
+#include "planner/ground/geometry/region.h"
+#include "planner/model/plan/cutter.h"
+#include "planner/model/plan/cutter_path.h"
+#include "planner/physics/stock/height_map.h"
+
+namespace capstan::toolpath::freeform {
+
+/// What a freeform path is made from.
+///
+/// Frame  everything in the set-up's, z along the tool axis.
+/// Units  mm, rad.
+struct FreeformJob {
+  const geometry::Mesh* surface = nullptr;  ///< the finished surface; kept by the caller
+  model::Cutter cutter;                     ///< flat, ball or bull nosed
+  /// Where the cutter's axis may go; empty: the rectangle around the mesh.
+  geometry::Region area;
+  /// Whether there is nothing to spare where the cutter, let down, meets no triangle: it may then go down to
+  /// bottom_z there. Else it stays away.
+  bool beside_is_free = false;
+  const stock::HeightMap* stock = nullptr;  ///< what stands now; null: solid up to top_z under the area
+  double top_z_mm = 0.0;                    ///< of the material
+  double bottom_z_mm = -1e300;              ///< the tip goes no lower
+  double security_z_mm = 0.0;               ///< rapids in XY happen here
+  double clearance_mm = 2.0;                ///< between material and what moves fast above it
+  double allowance_mm = 0.0;                ///< left on the surface, along its normal
+  double tolerance_mm = 0.01;   ///< largest distance of the cut from surface + allowance, outwards
+  double feed_angle_rad = 0.0;  ///< of the passes, against x
+  double axial_depth_mm = 0.0;  ///< rough: at most, per level
+  double stepover_mm = 0.0;     ///< between passes; finish: 0 takes it from scallop_mm
+  double scallop_mm = 0.0;      ///< finish: height of the ridges between passes
+  bool to_and_fro = true;       ///< finish: else all passes in one direction
+  /// Rough: heights of the level floors of a surface with walls; the cut goes down to each of them, too, and
+  /// follows the borders of levels to a quarter of the margin.
+  std::vector<double> floors_z_mm;
+  /// Rough: the last cut of walls and floors, of which about this is left: walls are cut along before what
+  /// lies within them.
+  std::optional<double> left_mm;
+};
+
+struct FreeformPath {
+  model::CutterPath path;
+  std::vector<double> levels_z_mm;  ///< rough: heights of the tip that were cut, from above
+  double stepover_mm = 0.0;         ///< as used
+};
+
+/// Distance between two passes of a ball of radius R that leaves ridges of height h on a plane:
+/// 2 sqrt(h (2 R - h)). Across a slope of angle t the ridges are higher (the passes lie 1/cos t further
+/// apart). Source  derived: two equal circles.
+[[nodiscard]] double scallop_stepover(double ball_radius_mm, double scallop_mm);
+
+/// freeform_rough_milling: levels, axial_depth apart, from above; in each, straight passes over what is free
+/// of surface + allowance and still holds material. Between material and the cutter's way in: from the side
+/// in air, else a ramp along the first pass within the cutter's ramp angle, else straight down where the
+/// cutter cuts to its centre.
+///
+/// No gouge   every point of a cut is covered by places where the cutter, grown by the allowance and a
+/// margin,
+///            was let down on the mesh.
+/// Needs      axial_depth, stepover > 0, stepover at most the diameter.
+/// Fails      FRF-CUTTER   not flat, ball or bull nosed
+///            FRF-VALUE    a number that cannot be
+///            FRF-EMPTY    nothing to cut in the area
+///            FRF-STOPPED  the job was stopped
+/// Warns      FRF-REST     places that the cutter can reach but not enter
+/// After the passes of a level the cutter goes once along the border of what is free there (climbing, for a
+/// clockwise spindle), so that walls keep the allowance and not half a stepover more.
+[[nodiscard]] Result<FreeformPath> rough(const FreeformJob& task, Job& job);
+
+/// freeform_finish_milling: parallel passes that follow the surface. Points as far apart as the tolerance
+/// allows; the cut lies between surface + allowance and tolerance above it, never below. Neighbouring passes
+/// are joined along the surface, others over the security plane.
+///
+/// Needs  a ball or bull nosed cutter; stepover or scallop > 0.
+/// Fails  as rough.
+/// Warns  FRF-SCALLOP  how much of the surface slopes so much across the passes that ridges exceed scallop_mm
+[[nodiscard]] Result<FreeformPath> finish(const FreeformJob& task, Job& job);
+
+}  // namespace capstan::toolpath::freeform

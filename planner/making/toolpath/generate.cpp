@@ -1,0 +1,181 @@
+#include <cmath>
+#include <string>
+
+#include "planner/ground/base/number.h"
+#include "planner/making/toolpath/hole/hole_paths.h"
+#include "planner/making/toolpath/path_job.h"
+#include "planner/making/toolpath/region/region_paths.h"
+#include "planner/making/toolpath/section/section_path.h"
+#include "planner/model/features/in_piece.h"
+
+namespace capstan::toolpath {
+
+using model::CutterClass;
+using model::ShapeKind;
+using model::TypeId;
+
+namespace {
+
+bool is_cone(const model::Cutter& c) {
+  return c.cutter_class == CutterClass::kChamferMill || c.cutter_class == CutterClass::kCountersink;
+}
+
+/// The cone of a hole, milled along its wall.
+bool mills_cone(const PathJob& task) {
+  const auto& s = task.shape;
+  if (!is_cone(task.cutter) || task.operation != TypeId::kSideFinishMilling || s.kind != ShapeKind::kHole ||
+      !(s.bottom_diameter_mm > 0.0) || !(s.bottom_diameter_mm < s.diameter.nominal_mm - 1e-6))
+    return false;
+  const double lean = 0.5 * (s.diameter.nominal_mm - s.bottom_diameter_mm) / s.depth_mm;
+  return std::abs(std::tan(0.5 * task.cutter.point_angle_rad) - lean) < 1e-3;
+}
+
+/// A cone along the side of a feature that is no chamfer.
+bool breaks_edge(const PathJob& task) {
+  const bool cone = is_cone(task.cutter) && !mills_cone(task);
+  const bool edged = task.shape.kind == ShapeKind::kPocket || task.shape.kind == ShapeKind::kHole ||
+                     task.shape.kind == ShapeKind::kOutside;
+  return cone && edged && task.operation == TypeId::kSideFinishMilling;
+}
+
+Status check(const PathJob& task) {
+  const auto bad = [&](const std::string& what) {
+    return fail({.code = "TPA-INPUT", .message = task.shape.name + ": " + what, .path = task.shape.name});
+  };
+  if (!(task.cutter.cutting_diameter_mm > 0.0)) return bad("the cutter has no diameter");
+  for (const double v : {task.axial_depth_mm, task.radial_depth_mm, task.allowance_side_mm,
+                         task.allowance_bottom_mm, task.clearance_mm, task.cutter.corner_radius_mm}) {
+    if (!std::isfinite(v) || v < 0.0)
+      return bad("a depth, allowance or clearance is negative or not a number");
+  }
+  for (const double v : {task.start_z_mm, task.security_z_mm, task.retract_z_mm, task.shape.depth_mm}) {
+    if (!std::isfinite(v)) return bad("a height is not a number");
+  }
+  if (task.cutter.corner_radius_mm > 0.5 * task.cutter.cutting_diameter_mm + 1e-9)
+    return bad("the cutter's corner radius is larger than its radius");
+  if (task.feature_in_setup.z.z < 1.0 - 1e-9) {
+    return fail({.code = "TPA-FRAME",
+                 .message = "the feature " + task.shape.name + " is tilted against the tool axis",
+                 .path = task.shape.name,
+                 .hint = "machine it in a set-up whose z axis is the feature's"});
+  }
+  return {};
+}
+
+Result<GeneratedPath> hole_milling(const PathJob& task, Job& job) {
+  if (cuts_from_below(task)) return back_path(task, job);
+  PathJob hole = task;
+  if (task.cutting_depth_mm) hole.shape.depth_mm = *task.cutting_depth_mm;
+  // What an earlier step left is a hole already there.
+  if (!task.previous_diameter_mm && task.left_on_side_mm)
+    hole.previous_diameter_mm = task.shape.diameter.middle() - 2.0 * *task.left_on_side_mm;
+  if (task.shape.bottom_diameter_mm > 0.0 &&
+      task.shape.bottom_diameter_mm < task.shape.diameter.nominal_mm - 1e-6 && mills_sections(task.cutter))
+    return tapered_hole_path(hole, job);
+  if (is_hole_cutter(hole)) return sunk_path(hole, job);
+  if (helix_suits(hole)) return helix_path(hole, job);
+  hole.shape.area = hole.shape.reach = geometry::disc({0.0, 0.0}, 0.5 * task.shape.diameter.middle());
+  return area_path(hole, job);
+}
+
+Result<GeneratedPath> milling(const PathJob& task, Job& job) {
+  if (task.cutter.cutter_class == CutterClass::kThreadMill) return thread_mill_path(task, job);
+  if (mills_cone(task)) return cone_of_hole_path(task, job);
+  if (breaks_edge(task)) return broken_edge_path(task, job);
+  switch (task.shape.kind) {
+    case ShapeKind::kFace:
+      return model::stops_at_walls(task.shape) ? area_path(task, job) : face_path(task, job);
+    case ShapeKind::kPocket:
+      return area_path(task, job);
+    case ShapeKind::kStep:
+      if (task.stock.empty()) {
+        return fail(
+            {.code = "TPA-STOCK",
+             .message = task.shape.name + ": how far a step reaches is known only with the raw outline",
+             .path = task.shape.name});
+      }
+      return area_path(task, job);
+    case ShapeKind::kSlot:
+      return slot_path(task, job);
+    case ShapeKind::kHole:
+      return hole_milling(task, job);
+    case ShapeKind::kOutside:
+      return outside_path(task, job);
+    case ShapeKind::kChamfer:
+    case ShapeKind::kEdgeRound:
+      return edge_path(task, job);
+    default:
+      return fail({.code = "TPA-UNSUPPORTED",
+                   .message = task.shape.name + ": a " + std::string(to_text(task.shape.kind)) +
+                              " has no 2.5D path yet",
+                   .path = task.shape.name});
+  }
+}
+
+/// A boring tool or reamer is known by its diameter alone: the taper of its flanks is not.
+void warn_of_taper(const PathJob& task, Job& job) {
+  const auto& s = task.shape;
+  const bool tapered = s.kind == ShapeKind::kHole && s.bottom_diameter_mm > 0.0 &&
+                       s.bottom_diameter_mm < s.diameter.nominal_mm - 1e-6;
+  if (!tapered || (task.operation != TypeId::kReaming && task.operation != TypeId::kBoring)) return;
+  const double depth = task.cutting_depth_mm.value_or(s.depth_mm);
+  job.warn("TPA-REST",
+           "its wall tapers from " + trimmed(s.diameter.nominal_mm, 3) + " to " +
+               trimmed(s.bottom_diameter_mm, 3) + " mm over " + trimmed(s.depth_mm, 3) + " mm; " +
+               task.cutter.id + " is taken as upright, " + trimmed(task.cutter.cutting_diameter_mm, 3) +
+               " mm wide, and goes " + trimmed(depth, 3) +
+               " mm deep as given: that the taper is finished is not shown",
+           s.name);
+}
+
+Result<GeneratedPath> dispatch(const PathJob& task, Job& job) {
+  switch (task.operation) {
+    case TypeId::kDrilling:
+    case TypeId::kCenterDrilling:
+    case TypeId::kCounterSinking:
+    case TypeId::kMultistepDrilling:
+    case TypeId::kBoring:
+    case TypeId::kReaming:
+    case TypeId::kBackBoring:
+      warn_of_taper(task, job);
+      return drill_path(task, job);
+    case TypeId::kTapping:
+      return tap_path(task, job);
+    case TypeId::kThreadDrilling:
+      return thread_mill_path(task, job);
+    case TypeId::kPlaneRoughMilling:
+    case TypeId::kPlaneFinishMilling:
+    case TypeId::kSideRoughMilling:
+    case TypeId::kSideFinishMilling:
+    case TypeId::kBottomAndSideRoughMilling:
+    case TypeId::kBottomAndSideFinishMilling:
+      return milling(task, job);
+    default:
+      return fail({.code = "TPA-UNSUPPORTED",
+                   .message = task.shape.name + ": this operation has no 2.5D path",
+                   .path = task.shape.name});
+  }
+}
+
+}  // namespace
+
+Result<GeneratedPath> generate(const PathJob& task, Job& job) {
+  if (auto ok = check(task); !ok) return tl::unexpected(ok.error());
+  const double down = breaks_edge(task) ? task.axial_depth_mm : task.shape.depth_mm;
+  const double depth = task.start_z_mm - (task.feature_in_setup.origin.z - down);
+  if (task.cutter.usable_length_mm > 0.0 && depth > task.cutter.usable_length_mm + 1e-9) {
+    job.warn("TPA-REACH",
+             "the cutter " + task.cutter.id + " reaches " + trimmed(task.cutter.usable_length_mm, 2) +
+                 " mm, the work is " + trimmed(depth, 2) + " mm deep",
+             task.shape.name);
+  }
+  auto out = dispatch(task, job);
+  if (out && out->path.size() < 2) {
+    return fail({.code = "TPA-NO-FIT",
+                 .message = "the path of " + task.shape.name + " is empty",
+                 .path = task.shape.name});
+  }
+  return out;
+}
+
+}  // namespace capstan::toolpath

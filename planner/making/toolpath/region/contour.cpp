@@ -1,0 +1,348 @@
+#include <algorithm>
+#include <cmath>
+
+#include "planner/making/toolpath/region/patterns.h"
+
+namespace capstan::toolpath {
+
+using geometry::Region;
+using geometry::Vec2;
+using model::MoveRole;
+
+namespace {
+
+Vec2 left_of(Vec2 d) { return {-d.y, d.x}; }
+
+/// Tracks of a ring's loops, in the sense that the job asks for.
+std::vector<Track> tracks_of(const Region& piece, bool natural, bool wall) {
+  std::vector<Track> out;
+  for (const auto& loop : piece.loops) {
+    Track t = track_of(loop, wall ? kFitTolerance : kInnerChord);
+    out.push_back(natural ? std::move(t) : reversed(t));
+  }
+  return out;
+}
+
+struct Lead {
+  Track track;  ///< turned to where the arc meets it
+  Vec2 from, to, centre;
+  double radius = 0.0;
+  bool clockwise = false;
+};
+
+bool arc_inside(const Level& level, Vec2 centre, Vec2 a, Vec2 b) {
+  // A quarter turn, by chords that stay within a hundredth of its radius.
+  Vec2 last = a;
+  for (int i = 1; i <= 6; ++i) {
+    const double t = i / 6.0;
+    const Vec2 chord = (1.0 - t) * (a - centre) + t * (b - centre);
+    const Vec2 p = centre + (norm(a - centre) / norm(chord)) * chord;
+    if (!level.inside.contains(last, p)) return false;
+    last = p;
+  }
+  return true;
+}
+
+bool lead_at(const Level& level, const Track& track, const Spot& spot, double radius, bool natural,
+             Lead& out) {
+  out.track = begun_at(track, spot);
+  if (out.track.segments.empty()) return false;
+  const Vec2 t = direction_at(out.track.start, out.track.segments.front(), 0.0);
+  const Vec2 n = natural ? left_of(t) : -1.0 * left_of(t);  // away from the wall
+  out.centre = out.track.start + radius * n;
+  out.from = out.centre - radius * t;
+  out.to = out.centre + radius * t;
+  out.radius = radius;
+  out.clockwise = !natural;
+  return arc_inside(level, out.centre, out.from, out.track.start) &&
+         arc_inside(level, out.centre, out.track.start, out.to);
+}
+
+/// What the places of the outer ring that are nearest to one point of the inner ring say: stripes as wide as
+/// a pass can cut, or a corner whose sides they keep to; else a limb of the area has ended between the rings.
+struct Corner {
+  double allowed = 0.0;   ///< width of stripe that is cut in any case
+  double wedge = 0.0;     ///< from the inner corner to the outer one, if both are plain corners
+  double farthest = 0.0;  ///< seen
+  [[nodiscard]] bool simple() const {
+    return farthest <= allowed || std::abs(farthest - wedge) <= 0.03 * wedge;
+  }
+};
+
+/// Distance between the corners of two rings where the inner one has a corner of this angle.
+double wedge_at(const Track& a, const Spot& spot, double ring_step) {
+  const std::size_t n = a.segments.size();
+  const auto begin = [&](std::size_t k) { return k == 0 ? a.start : a.segments[k - 1].to; };
+  std::size_t in = spot.segment;
+  std::size_t out = spot.segment;
+  if (norm(spot.point - begin(spot.segment)) < 1e-6)
+    in = (spot.segment + n - 1) % n;
+  else if (norm(spot.point - a.segments[spot.segment].to) < 1e-6)
+    out = (spot.segment + 1) % n;
+  const Vec2 d0 = direction_at(begin(in), a.segments[in], in == out ? spot.t : 1.0);
+  const Vec2 d1 = direction_at(begin(out), a.segments[out], in == out ? spot.t : 0.0);
+  const double half_turn = 0.5 * std::atan2(std::abs(cross(d0, d1)), dot(d0, d1));
+  return ring_step / std::max(std::cos(half_turn), 1e-6);
+}
+
+/// Round the track once while sliding from one to the other; empty when that would leave the centres or
+/// spread the passes too far.
+std::vector<Vec2> melted(const LevelCutter& c, const Level& level, const Track& a, const Track& b,
+                         double ring_step) {
+  constexpr double kChord = 0.004;
+  constexpr std::size_t kMostWork = 20'000'000;  // places times segments; beyond, rings do
+  const auto corners = points_of(b, kChord);
+  std::vector<Vec2> outer;
+  for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
+    const Vec2 d = corners[i + 1] - corners[i];
+    const int n = std::max(1, static_cast<int>(std::ceil(norm(d) / (0.25 * c.radius_mm))));
+    for (int k = 0; k < n; ++k) outer.push_back(corners[i] + (static_cast<double>(k) / n) * d);
+  }
+  outer.push_back(b.start);
+  if (a.segments.empty() || outer.size() * a.segments.size() > kMostWork) return {};
+  double length = 0.0;
+  for (std::size_t i = 1; i < outer.size(); ++i) length += norm(outer[i] - outer[i - 1]);
+  if (!(length > 0.0)) return {};
+  std::vector<Vec2> out = {a.start};
+  double s = 0.0;
+  Vec2 before = a.start;
+  Corner corner{
+      .allowed = 1.9 * c.radius_mm, .wedge = wedge_at(a, nearest(a, a.start), ring_step), .farthest = 0.0};
+  for (std::size_t i = 1; i < outer.size(); ++i) {
+    const double step = norm(outer[i] - outer[i - 1]);
+    s += step;
+    const Spot spot = nearest(a, outer[i]);
+    const Vec2 p = spot.point;
+    // A jump means that the ring is no simple copy of its neighbour.
+    if (norm(p - before) > 2.0 * step + 0.5 * c.step_mm) return {};
+    if (norm(p - before) > 1e-9) {
+      if (!corner.simple()) return {};
+      corner = Corner{.allowed = 1.9 * c.radius_mm, .wedge = wedge_at(a, spot, ring_step), .farthest = 0.0};
+    }
+    corner.farthest = std::max(corner.farthest, spot.distance_mm);
+    before = p;
+    const double u = i + 1 == outer.size() ? 1.0 : s / length;
+    const Vec2 x = (1.0 - u) * p + u * outer[i];
+    if (!level.inside.contains(out.back(), x)) return {};
+    out.push_back(x);
+  }
+  if (!corner.simple()) return {};
+  return out;
+}
+
+class Contours {
+ public:
+  Contours(LevelCutter& cutter, const Level& level, const ContourOptions& options)
+      : c_(cutter), level_(level), o_(options), natural_(walls_on_right(cutter.task) != options.outside_in) {
+    if (o_.outside_in) o_.lead_arcs = false;
+  }
+
+  Status run() {
+    if (o_.wall_only) return walls();
+    // Beyond the radius stripes would stay between rings; a corner radius narrows what a ring leaves flat.
+    const double flat = c_.radius_mm - c_.task.cutter.corner_radius_mm;
+    double step = std::min(c_.step_mm, 0.99 * c_.radius_mm);
+    if (flat > 0.1 * c_.radius_mm) step = std::min(step, flat);
+    if (step < c_.step_mm - 1e-9) {
+      c_.warn("TPA-CHANGED", "the stepover of the rings is reduced so that nothing stays between them");
+    }
+    step_ = step;
+    all_ = rings(level_.centres, step);
+    std::vector<std::size_t> order = inside_out(all_);
+    if (o_.outside_in) std::reverse(order.begin(), order.end());
+    done_.assign(all_.size(), {});
+    for (const std::size_t i : order) {
+      if (auto ok = ring(i); !ok) return ok;
+    }
+    flush();
+    return {};
+  }
+
+ private:
+  Status walls() {
+    for (const Region& piece : geometry::pieces(level_.centres)) {
+      for (Track& t : tracks_of(piece, natural_, true)) {
+        if (o_.lead_arcs && cut_with_leads(c_, level_, t)) continue;
+        // Too narrow for arcs: down the wall's own track, as into the solid.
+        Level solid = level_;
+        solid.from_mm = level_.above_mm;
+        auto in = c_.enter(solid, t, nullptr);
+        if (!in) return tl::unexpected(in.error());
+        c_.writer.follow(*in, level_.z_mm, MoveRole::kCut);
+      }
+    }
+    return {};
+  }
+
+  /// What has been arrived at but not yet gone round.
+  void flush() {
+    if (pending_.segments.empty()) return;
+    c_.writer.follow(pending_, level_.z_mm, MoveRole::kCut);
+    pending_ = {};
+  }
+
+  [[nodiscard]] bool beside(std::size_t i) const {
+    if (last_ == kNone) return false;
+    return o_.outside_in ? all_[i].parent == last_ && i != last_ : all_[last_].parent == i && i != last_;
+  }
+
+  Status ring(std::size_t i) {
+    const bool wall = all_[i].depth == 0;
+    std::vector<Track> tracks = tracks_of(all_[i].piece, natural_, wall);
+    if (o_.spiral && !o_.outside_in && beside(i) && tracks.size() == 1 && all_[i].children.size() == 1 &&
+        done_[last_].size() == 1 && spiral_onto(tracks.front())) {
+      done_[i] = {pending_};
+      last_ = i;
+      if (wall) flush();
+      return {};
+    }
+    flush();
+    const auto& neighbours = o_.outside_in ? std::vector<std::size_t>{all_[i].parent} : all_[i].children;
+    bool entered = false;
+    while (!tracks.empty()) {
+      const std::size_t k = nearest_track(tracks);
+      const Track t = tracks[k];
+      tracks.erase(tracks.begin() + static_cast<std::ptrdiff_t>(k));
+      if (auto ok = one(i, t, neighbours, entered, wall); !ok) return ok;
+      entered = true;
+    }
+    last_ = i;
+    return {};
+  }
+
+  bool spiral_onto(const Track& track) {
+    const Vec2 here = xy(c_.writer.at());
+    const Track to = begun_at(track, nearest(track, here));
+    const auto line = melted(c_, level_, done_[last_].front(), to, step_);
+    if (line.empty() || norm(line.front() - here) > 1e-6) return false;
+    pending_ = {};
+    c_.writer.follow(track_of_line(line, 0.0005), level_.z_mm, MoveRole::kCut);
+    pending_ = to;
+    return true;
+  }
+
+  [[nodiscard]] std::size_t nearest_track(const std::vector<Track>& tracks) const {
+    if (!c_.writer.begun()) return 0;
+    std::size_t best = 0;
+    double least = 1e300;
+    for (std::size_t k = 0; k < tracks.size(); ++k) {
+      const double d = nearest(tracks[k], xy(c_.writer.at())).distance_mm;
+      if (d < least - 1e-9) {
+        least = d;
+        best = k;
+      }
+    }
+    return best;
+  }
+
+  void cut(std::size_t i, const Track& t) {
+    c_.writer.follow(t, level_.z_mm, MoveRole::kCut);
+    done_[i].push_back(t);
+  }
+
+  /// One loop of a ring: from where the cutter is, from a neighbour that is cut already, or into the solid.
+  Status one(std::size_t i, const Track& t, const std::vector<std::size_t>& neighbours, bool entered,
+             bool wall) {
+    if (wall && o_.lead_arcs && (entered || !neighbours.empty()) && !all_[i].children.empty() &&
+        cut_with_leads(c_, level_, t)) {
+      done_[i].push_back(t);
+      return {};
+    }
+    if (entered || beside(i)) {
+      const Spot spot = nearest(t, xy(c_.writer.at()));
+      if (c_.cut_to(level_, spot.point)) {
+        cut(i, begun_at(t, spot));
+        return {};
+      }
+    }
+    for (const std::size_t n : neighbours) {
+      if (n == i) continue;
+      for (const Track& d : done_[n]) {
+        // A few places of the neighbour, the nearest first.
+        const Spot near = nearest(d, t.start);
+        for (const Vec2 p : {near.point, d.start, at_length(d, 0.5 * length_of(d)).point}) {
+          const Spot spot = nearest(t, p);
+          if (!level_.inside.contains(p, spot.point)) continue;
+          c_.go_cleared(level_, p);
+          if (!c_.cut_to(level_, spot.point)) continue;
+          cut(i, begun_at(t, spot));
+          return {};
+        }
+      }
+    }
+    const bool leaf = all_[i].children.empty() && !o_.outside_in;
+    auto in = c_.enter(level_, t, leaf ? &all_[i].piece : nullptr);
+    if (!in) return tl::unexpected(in.error());
+    cut(i, *in);
+    return {};
+  }
+
+  LevelCutter& c_;
+  const Level& level_;
+  ContourOptions o_;
+  bool natural_;
+  double step_ = 0.0;
+  std::vector<Ring> all_;
+  std::vector<std::vector<Track>> done_;
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+  std::size_t last_ = kNone;
+  Track pending_;
+};
+
+}  // namespace
+
+bool walls_on_right(const PathJob& task) {
+  // A right-hand cutter climbs with the wall on its right.
+  return task.climb != (task.cutter.hand == model::Hand::kLeft);
+}
+
+bool cut_with_leads(LevelCutter& cutter, const Level& level, Track track) {
+  const bool natural = walls_on_right(cutter.task);
+  const bool here_known = cutter.writer.begun();
+  std::vector<Spot> spots;
+  if (here_known) spots.push_back(nearest(track, xy(cutter.writer.at())));
+  Vec2 from = track.start;
+  std::vector<std::pair<double, Spot>> by_length;
+  for (std::size_t i = 0; i < track.segments.size(); ++i) {
+    const Segment& s = track.segments[i];
+    by_length.push_back({length_of(from, s),
+                         Spot{.segment = i, .t = 0.5, .point = point_at(from, s, 0.5), .distance_mm = 0}});
+    from = s.to;
+  }
+  std::stable_sort(by_length.begin(), by_length.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first + 1e-6; });
+  if (by_length.size() > 12) by_length.resize(12);
+  for (const auto& [l, s] : by_length) spots.push_back(s);
+  double wish = 0.5 * cutter.radius_mm;
+  if (cutter.task.approach.kind == Approach::Kind::kTangent && cutter.task.approach.radius_mm > 0.0)
+    wish = cutter.task.approach.radius_mm;
+  for (const double part : {1.0, 0.5, 0.2}) {
+    for (const Spot& s : spots) {
+      Lead lead;
+      if (!lead_at(level, track, s, part * wish, natural, lead)) continue;
+      if (level.cleared && !level.cleared->contains(lead.from)) continue;
+      const bool straight = here_known && std::abs(cutter.writer.at().z - level.z_mm) < 1e-9 &&
+                            norm(xy(cutter.writer.at()) - lead.from) <= 4.0 * cutter.radius_mm &&
+                            level.inside.contains(xy(cutter.writer.at()), lead.from);
+      if (straight) {
+        cutter.writer.line({lead.from.x, lead.from.y, level.z_mm}, MoveRole::kCut);
+      } else if (level.from_mm <= level.z_mm + 1e-9) {
+        cutter.go_cleared(level, lead.from);
+      } else {
+        continue;  // nothing says that the place is free down to here
+      }
+      const Vec2 p = lead.track.start;
+      cutter.writer.arc({p.x, p.y, level.z_mm}, lead.centre, lead.clockwise, MoveRole::kCut);
+      cutter.writer.follow(lead.track, level.z_mm, MoveRole::kCut);
+      cutter.writer.arc({lead.to.x, lead.to.y, level.z_mm}, lead.centre, lead.clockwise, MoveRole::kCut);
+      return true;
+    }
+  }
+  return false;
+}
+
+Status cut_contours(LevelCutter& cutter, const Level& level, const ContourOptions& options) {
+  return Contours(cutter, level, options).run();
+}
+
+}  // namespace capstan::toolpath

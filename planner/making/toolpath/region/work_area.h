@@ -1,0 +1,42 @@
+#pragma once
+
+#include <vector>
+
+#include "planner/ground/base/result.h"
+#include "planner/making/toolpath/path_job.h"
+
+namespace capstan::toolpath {
+
+/// A 2.5D feature in the set-up's frame, with what a cutter must respect at each height.
+struct WorkArea {
+  geometry::Region area;   ///< to be removed at the bottom
+  geometry::Region reach;  ///< where a cutter may be, islands and `avoid` not yet taken out
+  std::vector<model::Island> islands;
+  geometry::Region avoid;
+  geometry::Region material;  ///< outline of what stands there before; a cutter outside it is in air
+  double top_z_mm = 0.0, bottom_z_mm = 0.0;  ///< of the feature; bottom without allowance
+  double slope_rad = 0.0, bottom_radius_mm = 0.0;
+  bool open = false;
+};
+
+/// Fails  TPA-FRAME when the feature's axis is not the tool's.
+[[nodiscard]] Result<WorkArea> work_area(const PathJob& task);
+[[nodiscard]] geometry::Region in_setup(const geometry::Region& r, const geometry::Placement& frame);
+
+/// Shrunk by exactly d (grown when negative), simplified; the wall ring when d is radius and allowance.
+/// Straight walls lie at exactly d; chords of arcs come nearer by kWallChord at most, and the arcs fitted to
+/// them by less.
+[[nodiscard]] geometry::Region inset(const geometry::Region& r, double d_mm, double chord_mm);
+inline constexpr double kWallChord = 0.0005;  ///< mm
+inline constexpr double kInnerChord = 0.003;  ///< mm, of rings that touch no wall
+
+/// Where the cutter's centre may be when its tip is at z and walls keep an allowance.
+[[nodiscard]] geometry::Region centres_at(const WorkArea& w, const model::Cutter& cutter, double tip_z_mm,
+                                          double allowance_mm, double allowance_bottom_mm);
+
+/// Heights of the tip, from above: equal steps of at most `step` between start and end, with every island's
+/// top (plus the bottom allowance) among them. step 0: at once.
+[[nodiscard]] std::vector<double> levels(const WorkArea& w, double start_z_mm, double end_z_mm,
+                                         double step_mm, double allowance_bottom_mm);
+
+}  // namespace capstan::toolpath

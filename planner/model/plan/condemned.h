@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "planner/model/plan/plan.h"
+
+namespace capstan::model {
+
+/// One reason why a program made from a plan must not be run.
+struct Condemnation {
+  std::string step;  ///< persistent id, as step_id; empty: the whole plan
+  std::string code;  ///< of the finding, "PIP-EXCESS", "PIP-NEEDED"
+  std::string text;  ///< what is wrong, with the numbers, and what to do
+  friend bool operator==(const Condemnation&, const Condemnation&) = default;
+};
+
+/// Why no program may be written of this plan; empty: it may. Condemned are
+///
+///     a finding of severity error                     its step, or the whole plan
+///     a limit that a step exceeds                     StepResult::exceeded: by more than the
+///                                                     pipeline's kTolerableExcess somewhere on its path. Up
+///                                                     to that a step is not condemned; the check has its own
+///                                                     bounds
+///     a feature that is not planned, and needed       the steps of the features in Unplanned::needed_by,
+///                                                     or the whole plan when none of them has a step
+///
+/// Each reason stands once, in the order of the plan's steps, reasons of the whole plan first. Every door
+/// that hands out a program asks this and nothing else.
+[[nodiscard]] std::vector<Condemnation> condemned(const Plan& plan, const std::vector<Finding>& findings);
+
+/// "spindle torque 1.11 of 0.48 Nm at X12.4 Y30.1".
+[[nodiscard]] std::string text_of(const ExceededLimit& limit);
+/// "step 5 SLOT: spindle torque 1.11 of 0.48 Nm at X12.4 Y30.1; use a smaller tool or depth".
+[[nodiscard]] std::string text_of(const Plan& plan, const Condemnation& reason);
+
+}  // namespace capstan::model

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "planner/ground/base/result.h"
+
+/// How far a tool bends under a force at its tip.
+namespace capstan::mechanics {
+
+/// A tool as a cantilever of two steps: shank (from the holder), then flutes (to the tip).
+///
+///     holder |========== shank d_s ==========|~~~~ flutes, 0.8 D ~~~~| <- F
+///            |<---------------- stickout L ------------------------->|
+///                                            |<----- l_f ----------->|
+struct ToolStiffness {
+  double stickout_mm = 0.0;
+  double shank_diameter_mm = 0.0;
+  double flute_length_mm = 0.0;  ///< more than the stick-out: fluted to the holder
+  double cutting_diameter_mm = 0.0;
+  double youngs_modulus_n_mm2 = 0.0;
+};
+
+/// Compliance at the tip, mm/N:
+///
+///     delta / F = l_f^3 / (3 E I_f) + (L^3 - l_f^3) / (3 E I_s)       I = pi d^4 / 64
+///
+/// with d = kFluteEquivalentDiameterRatio D in the flutes. The holder and spindle are rigid here: real
+/// tips move more. The force is taken at the tip, which is the worst place.
+/// Needs     at least one of the lengths positive; 0 < flute_length.
+/// Uncertainty  20 % by the flutes' equivalent diameter (0.8 D within 5 %, fourth power); the rigid holder
+/// makes
+///           it a lower bound. beam.h has necks, holders and their compliance.
+/// Fails     MECH-DOMAIN.
+/// Source    Euler-Bernoulli beam, integral of x^2 / (E I) from the tip; derived.
+[[nodiscard]] Result<double> tip_compliance_mm_n(const ToolStiffness& tool);
+
+/// N/mm at the tip.
+[[nodiscard]] Result<double> tip_stiffness_n_mm(const ToolStiffness& tool);
+
+/// Largest bending stress under a force at the tip, N/mm2: at the holder or where the flutes begin,
+/// sigma = 32 F x / (pi d^3). No allowable stress is given with it: none was found in a citable source.
+[[nodiscard]] Result<double> bending_stress_n_mm2(const ToolStiffness& tool, double force_n);
+
+}  // namespace capstan::mechanics

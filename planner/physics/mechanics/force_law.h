@@ -1,0 +1,50 @@
+#pragma once
+
+#include <string>
+
+#include "planner/model/nouns/arena/type_id.h"
+#include "planner/model/plan/cutter.h"
+#include "planner/model/plan/material.h"
+#include "planner/physics/mechanics/constants.h"
+#include "planner/physics/mechanics/section.h"
+
+/// From the nouns of the model to the values of this room: which law of force holds for a material, how far
+/// it may be wrong, and what of a cutter cuts.
+namespace capstan::mechanics {
+
+/// By how much the force in a real cut may exceed the computed one.
+struct ForceMargin {
+  double spread = 1.0;             ///< of the coefficients
+  double wear = kWearForceFactor;  ///< of a worn edge against a sharp one
+  [[nodiscard]] double factor() const { return spread * wear; }
+};
+
+/// The measured set that is used: the first for the tool's substrate; null when there is none.
+[[nodiscard]] const model::MechanisticSet* measured_set(const model::WorkMaterial& material,
+                                                        model::Substrate substrate);
+
+/// Whether the law of milling holds for a cut: all but drilling, reaming and tapping; a thread or a hole may
+/// be milled.
+[[nodiscard]] bool is_milled(model::TypeId operation, const model::Cutter& cutter);
+/// Which coefficients gave the forces of a cut, with their source: the measured set that `force_law` takes,
+/// or Kienzle's law.
+[[nodiscard]] std::string force_source(const model::WorkMaterial& material, model::Substrate substrate,
+                                       bool milled);
+
+/// The measured set where there is one for this substrate, else Kienzle's law; uncertainty_factor is the
+/// margin's spread. The Kienzle values are there either way.
+[[nodiscard]] ForceLaw force_law(const model::WorkMaterial& material, model::Substrate substrate);
+
+/// Spread: 1 + the set's own uncertainty, kForceUncertaintyFactor for a set that states none; with Kienzle's
+/// law the larger of kForceUncertaintyFactor and 1 + kc_uncertainty. Wear: kWearForceFactor.
+///
+/// Source    constants.h; the uncertainties of sets are told with them (tooling/data/materials.yaml).
+[[nodiscard]] ForceMargin force_margin(const model::WorkMaterial& material, model::Substrate substrate);
+
+/// The same for Kienzle's law alone: drilling, reaming, tapping, and whoever cannot use a measured set.
+[[nodiscard]] ForceMargin kienzle_margin(const model::WorkMaterial& material);
+
+/// What of a cutter cuts when it mills: a ball's corner radius is half its diameter, no tooth is one.
+[[nodiscard]] Tooth tooth_of(const model::Cutter& cutter);
+
+}  // namespace capstan::mechanics

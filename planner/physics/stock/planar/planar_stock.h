@@ -1,0 +1,113 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "planner/ground/base/result.h"
+#include "planner/ground/geometry/profile.h"
+#include "planner/ground/geometry/vec.h"
+#include "planner/model/plan/cutter_path.h"
+#include "planner/physics/stock/planar/probe.h"
+#include "planner/physics/stock/planar/trail.h"
+
+namespace capstan::stock {
+
+/// The in-process workpiece of one set-up as what it is, not as cells: an upright block or bar less the
+/// trails that cutters left, each with its own floor. A layer of it is the block's outline without the bands
+/// and discs of the trails that reach so deep; lines and circles stay lines and circles, so that a level
+/// cut's boundary is exact but for rounding of doubles.
+///
+/// Trails lie in a grid of tiles; one that covers a tile makes what was there before it superfluous, so
+/// that cutting and asking cost what is near, not what was ever cut.
+///
+/// Held exactly    level moves of flat cutters (straight and round), flat plunges.
+/// Held in strips  ramps and helices of flat cutters, points of drills, level moves of other outlines: their
+///                 floors are read in strips (trail.h).
+/// Not held        sloping moves of outlines that are not flat, undercuts.
+///
+/// Frame  the set-up's, z away from the work.
+/// Units  mm.
+class PlanarStock {
+ public:
+  /// `tile_mm` 0: a 48th of the longer side, at least 1 mm.
+  [[nodiscard]] static PlanarStock from_box(const geometry::Box3& box, double tile_mm = 0.0);
+  /// A bar along z through the box's centre.
+  [[nodiscard]] static PlanarStock from_cylinder(const geometry::Box3& box, double radius_mm,
+                                                 double tile_mm = 0.0);
+
+  /// Why this is no longer what stands there; empty while it is.
+  [[nodiscard]] const std::string& lost() const { return lost_; }
+  void lose(std::string why) { lost_ = std::move(why); }
+
+  /// Empty when every move of the path can be held (moves through air always can), else why not.
+  [[nodiscard]] std::string cannot_hold(const geometry::CutterProfile& profile,
+                                        const model::CutterPath& path) const;
+  /// Cuts the whole path, rapids included.
+  /// Fails  STK-NOT-PLANAR: it cannot be held; the stock is then lost.
+  Status cut(const geometry::CutterProfile& profile, const model::CutterPath& path);
+  /// Takes one trail away. `outline` of the trail must come from `keep`.
+  void take(Trail trail);
+  /// A copy of the profile that lives as long as this stock and its copies; null for a flat one.
+  [[nodiscard]] const geometry::CutterProfile* keep(const geometry::CutterProfile& profile);
+
+  /// Trails that may matter near a place; kept by the caller so that asking allocates nothing.
+  struct Nearby {
+    std::vector<std::uint32_t> trails;  ///< deepest floor first
+    std::vector<std::uint32_t> first;   ///< what shaped the last answer; likely to shape the next
+    std::vector<std::uint32_t> helped;
+    std::vector<std::uint32_t> seen;
+    std::uint32_t round = 0;
+    bool in_strips = false;  ///< the last answer came from floors that are read in strips, in part
+  };
+  void gather(geometry::Vec2 lo, geometry::Vec2 hi, Nearby& out) const;
+  /// Whether what stands there is the same at all heights between: no floor begins or ends in between.
+  [[nodiscard]] bool even(const Nearby& near, double from_mm, double to_mm) const;
+  /// Whether trails whose floors lie at or below z took all of a disc; false where squares of an eighth
+  /// of its radius do not tell. `near` was gathered around it.
+  [[nodiscard]] bool cleared(const Nearby& near, geometry::Vec2 centre, double radius_mm, double z_mm) const;
+  /// What stands along the probe; `near` was gathered around it. Below `above_mm` nothing is told apart,
+  /// nor is it above `most_mm`: it is said to be so high.
+  void heights(const Probe& probe, Nearby& near, double above_mm, Heights& out, double most_mm = 1e300) const;
+
+  /// Not below the highest material over a rectangle; the floor where there is none.
+  [[nodiscard]] double highest(geometry::Vec2 lo, geometry::Vec2 hi) const;
+  [[nodiscard]] double height_at(geometry::Vec2 p) const;
+  /// mm3, integrated over lines along x to about `relative` of the raw piece, apart from any cutting.
+  [[nodiscard]] double volume(double relative = 1e-8) const;
+
+  [[nodiscard]] const geometry::Box3& box() const { return box_; }
+  [[nodiscard]] std::size_t trail_count() const { return trails_.size(); }
+
+ private:
+  struct Tile {
+    std::vector<std::uint32_t> trails;
+    double highest_mm = 0.0;
+    std::size_t thin_at = kThinAt;  ///< as many trails are looked through for superfluous ones
+  };
+  static constexpr std::size_t kThinAt = 8;
+  PlanarStock() = default;
+  void tiles_of(geometry::Vec2 lo, geometry::Vec2 hi, int& x0, int& x1, int& y0, int& y1) const;
+  void place(std::uint32_t id, geometry::Vec2 lo, geometry::Vec2 hi);
+  void thin(Tile& tile, geometry::Vec2 middle);
+  bool covered(const Trail& trail, const std::vector<std::uint32_t>& others, geometry::Vec2 middle,
+               double half_mm, int quarterings) const;
+
+  geometry::Box3 box_;
+  double bar_radius_mm_ = 0.0;  ///< 0: a block
+  double tile_mm_ = 1.0;
+  int nx_ = 0, ny_ = 0;
+  std::vector<Tile> tiles_;
+  std::vector<Trail> trails_;
+  std::vector<std::shared_ptr<const geometry::CutterProfile>> outlines_;
+  std::string lost_;
+};
+
+[[nodiscard]] bool is_flat(const geometry::CutterProfile& profile);
+
+/// Move i as trails of a cutter (arcs in pieces of at most a quarter turn), from first to last.
+[[nodiscard]] std::vector<Trail> trails_of(const model::CutterPath& path, std::size_t i, double radius_mm,
+                                           const geometry::CutterProfile* outline);
+
+}  // namespace capstan::stock

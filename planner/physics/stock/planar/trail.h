@@ -1,0 +1,58 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "planner/ground/geometry/profile.h"
+#include "planner/ground/geometry/vec.h"
+#include "planner/physics/stock/planar/probe.h"
+
+namespace capstan::stock {
+
+/// What a cutter took along one piece of a move: everything within its radius of the axis' track, down to a
+/// floor. Straight tracks of any length (a point for a plunge), round ones of at most a quarter turn or so.
+///
+/// Units  mm.
+struct Trail {
+  geometry::Vec2 a, b;
+  double za = 0.0, zb = 0.0;  ///< of the tip at a and b
+  double radius_mm = 0.0;
+  bool arc = false;
+  geometry::Vec2 centre;  ///< of the arc
+  double turn_rad = 0.0;  ///< of the arc, positive counter-clockwise, |turn| < pi
+  /// What is not flat below: only on level tracks, and at a point. Not owned; null: flat.
+  const geometry::CutterProfile* outline = nullptr;
+
+  double lowest_mm = 0.0, highest_mm = 0.0;  ///< of its floor
+  double path_radius_mm = 0.0, length_mm = 0.0;
+  geometry::Vec2 along;  ///< straight: unit direction; arc: unit direction from the centre to a
+  geometry::Vec2 last;   ///< arc: unit direction from the centre to b
+
+  /// Fills what follows from the first block.
+  void settle();
+  [[nodiscard]] bool level() const { return outline == nullptr && za == zb; }
+  /// Distance from p to the track.
+  [[nodiscard]] double distance(geometry::Vec2 p) const {
+    if (arc) return distance_to_arc(p);
+    const geometry::Vec2 w = p - a;
+    const double u = std::clamp(dot(w, along), 0.0, length_mm);
+    const geometry::Vec2 d = w - u * along;
+    return std::sqrt(dot(d, d));
+  }
+  [[nodiscard]] double distance_to_arc(geometry::Vec2 p) const;
+  /// Whether nothing is left of the other, seen from their tracks alone: holes inside of holes, turns of a
+  /// helix above each other, ways there and back. False where it is not that plain.
+  [[nodiscard]] bool covers(const Trail& other) const;
+  /// Height of the floor at a place within the radius.
+  [[nodiscard]] double floor_at(geometry::Vec2 p) const;
+  /// Lowers what stands along the probe; what lies below `above_mm` does not matter and may be said to be
+  /// there. Whether it lowered anything.
+  /// Accuracy  level floors: exact but for rounding; others in strips of at most a 16th of what they cover,
+  ///           each at the height of its middle.
+  bool lower(const Probe& probe, double above_mm, Heights& heights) const;
+};
+
+/// Distances closer than this are the same, mm.
+inline constexpr double kTouch = 1e-9;
+
+}  // namespace capstan::stock

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "planner/model/plan/plan.h"
+
+namespace capstan::verify {
+
+/// Gathers what is wrong and folds what repeats: of all findings of one step with one code the worst stays,
+/// with the number of the others.
+class Findings {
+ public:
+  /// `badness` ranks equal findings; larger is worse. `order` sorts steps; kWhole for the plan.
+  struct Where {
+    std::size_t order = 0;
+    std::string step;
+    long move = -1;
+  };
+  static constexpr std::size_t kWhole = 0;
+
+  void error(int property, std::string code, Where where, std::string message, double badness = 0.0);
+  void warn(int property, std::string code, Where where, std::string message, double badness = 0.0);
+  void note(int property, std::string code, Where where, std::string message);
+
+  [[nodiscard]] std::vector<model::Finding> take();
+
+ private:
+  struct Item {
+    std::size_t order;
+    double badness;
+    std::size_t count;
+    model::Finding finding;
+  };
+  void add(Severity severity, int property, std::string code, Where where, std::string message,
+           double badness);
+  std::vector<Item> items_;
+};
+
+/// "12.5 mm" and the like, three decimals at most.
+[[nodiscard]] std::string mm(double v);
+[[nodiscard]] std::string plain(double v);
+
+}  // namespace capstan::verify

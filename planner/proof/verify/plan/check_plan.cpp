@@ -1,0 +1,34 @@
+#include "planner/model/plan/positions.h"
+#include "planner/proof/verify/plan/plan_checks.h"
+#include "planner/proof/verify/sweep/sweep.h"
+#include "planner/proof/verify/verify.h"
+
+namespace capstan::verify {
+
+std::vector<model::Finding> check_plan(const model::Plan& plan, Job& job) {
+  Findings findings;
+  const std::vector<StepMoves> steps = moves_of(plan, findings);
+  check_ranges(plan, findings);
+  check_twice(plan, findings);
+  if (const std::string beyond = model::beyond_range(plan); !beyond.empty()) {
+    findings.error(1, "CHK-RANGE", {Findings::kWhole, "", -1},
+                   beyond +
+                       ": no geometry can be computed with it, and nothing else is checked: correct it in "
+                       "the plan's file");
+    return findings.take();
+  }
+  check_tools(plan, steps, findings);
+  check_limits(plan, steps, findings);
+  check_coolant(plan, steps, findings);
+  check_life(steps, findings);
+  check_machine(plan, findings);
+  check_holding(plan, findings);
+  check_order(plan, findings);
+  check_coverage(plan, findings);
+  check_within(plan, findings);
+  check_removal(plan, steps, findings, job);
+  job.progress("check", 1.0);
+  return findings.take();
+}
+
+}  // namespace capstan::verify

@@ -1,0 +1,212 @@
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "planner/ground/geometry/region.h"
+#include "planner/model/nouns/all.h"
+#include "planner/proof/verify/plan/plan_checks.h"
+#include "planner/proof/verify/sweep/target.h"
+
+namespace capstan::verify {
+
+using geometry::Region;
+using geometry::Vec2;
+using model::AnyRef;
+using model::ShapeKind;
+using model::TypeId;
+
+namespace {
+
+/// Operations of one feature in the order of the craft: a lower one never follows a higher one.
+int rank_of(TypeId operation) {
+  switch (operation) {
+    case TypeId::kCenterDrilling:
+      return 1;
+    case TypeId::kDrilling:
+    case TypeId::kMultistepDrilling:
+      return 2;
+    case TypeId::kPlaneRoughMilling:
+    case TypeId::kSideRoughMilling:
+    case TypeId::kBottomAndSideRoughMilling:
+    case TypeId::kFreeformRoughMilling:
+      return 3;
+    case TypeId::kPlaneFinishMilling:
+    case TypeId::kSideFinishMilling:
+    case TypeId::kBottomAndSideFinishMilling:
+    case TypeId::kFreeformFinishMilling:
+      return 4;
+    case TypeId::kBoring:
+    case TypeId::kReaming:
+    case TypeId::kBackBoring:
+    case TypeId::kTapping:
+    case TypeId::kThreadDrilling:
+      return 5;
+    default:
+      return 0;
+  }
+}
+
+std::string name_of(TypeId t) { return std::string(model::noun_type(t).keyword); }
+
+/// A thread and the hole that it is cut into are one thing to the order.
+AnyRef group_of(const model::Model& m, AnyRef feature) {
+  if (const auto* t = m.get<model::Thread>(feature)) {
+    if (!t->applied_shape.empty()) return t->applied_shape.items.front();
+  }
+  return feature;
+}
+
+struct Entry {
+  std::size_t order = 0;
+  std::string id;
+  AnyRef feature, operation;
+  std::size_t setup = 0;
+};
+
+std::vector<Entry> entries_of(const model::Plan& plan) {
+  std::vector<Entry> out;
+  for (std::size_t i = 0; i < plan.steps.size(); ++i) {
+    const auto* ws = plan.model.get<model::MachiningWorkingstep>(plan.steps[i].step);
+    if (ws == nullptr || !plan.steps[i].path) continue;
+    out.push_back(
+        {i, model::step_id(plan, plan.steps[i]), ws->its_feature, ws->its_operation, plan.steps[i].setup});
+  }
+  return out;
+}
+
+/// A cone along the side of a feature breaks its edge: it comes when the feature is done.
+bool breaks_edges(const model::Plan& plan, const Entry& e) {
+  const model::Cutter* c = model::find_cutter(plan, plan.steps[e.order].cutter_id);
+  return e.operation.type == TypeId::kSideFinishMilling && c != nullptr &&
+         (c->cutter_class == model::CutterClass::kChamferMill ||
+          c->cutter_class == model::CutterClass::kCountersink);
+}
+
+void check_ranks(const model::Plan& plan, const std::vector<Entry>& entries, Findings& findings) {
+  std::map<AnyRef, const Entry*> highest;
+  for (const Entry& e : entries) {
+    const int rank = rank_of(e.operation.type);
+    if (rank == 0 || breaks_edges(plan, e)) continue;
+    const Entry*& before = highest[group_of(plan.model, e.feature)];
+    if (before != nullptr && rank < rank_of(before->operation.type)) {
+      findings.error(28, "CHK-ORDER", {e.order + 1, e.id, -1},
+                     name_of(e.operation.type) + " comes after " + name_of(before->operation.type) + " (" +
+                         before->id + ") on the same feature");
+      continue;
+    }
+    before = &e;
+  }
+}
+
+/// A feature's outline in the set-up, with the heights of its top and its bottom.
+struct Footprint {
+  bool good = false, face = false;
+  Region area;
+  geometry::Box2 box;
+  double top = 0.0, bottom = 0.0;
+};
+
+Footprint footprint(const PartShapes& part, const geometry::Placement& workpiece, AnyRef feature) {
+  Footprint out;
+  const auto* e = part.find(feature);
+  if (e == nullptr || e->shapes.empty()) return out;
+  std::vector<geometry::Loop> loops;
+  out.top = -1e300;
+  out.bottom = 1e300;
+  for (const auto& s : e->shapes) {
+    const geometry::Placement at = compose(workpiece, s.frame);
+    if (at.z.z < 1.0 - 1e-9) return {};
+    Region area = s.area;
+    if (area.empty() && s.diameter.nominal_mm > 0.0)
+      area = geometry::disc({0.0, 0.0}, 0.5 * s.diameter.nominal_mm);
+    for (const auto& loop : area.loops) {
+      geometry::Loop moved;
+      for (const Vec2 p : loop) moved.push_back(xy(at.to_parent({p.x, p.y, 0.0})));
+      loops.push_back(std::move(moved));
+    }
+    out.face = s.kind == ShapeKind::kFace;
+    out.top = std::max(out.top, at.origin.z);
+    out.bottom = std::min(out.bottom, at.origin.z - s.depth_mm);
+  }
+  out.area = geometry::clean(loops);
+  out.box = geometry::bounds(out.area);
+  out.good = !out.area.empty();
+  return out;
+}
+
+bool overlap(const Footprint& a, const Footprint& b) {
+  if (a.box.lo.x >= b.box.hi.x || b.box.lo.x >= a.box.hi.x || a.box.lo.y >= b.box.hi.y ||
+      b.box.lo.y >= a.box.hi.y)
+    return false;
+  return geometry::area(geometry::intersect(a.area, b.area)) > 1e-3 * geometry::area(b.area);
+}
+
+void check_faces(const model::Plan& plan, const std::vector<Entry>& entries, Findings& findings) {
+  const PartShapes part = shapes_of_part(plan);
+  struct First {
+    const Entry* entry;
+    Footprint print;
+  };
+  std::vector<First> firsts;
+  std::set<std::pair<std::size_t, AnyRef>> seen;
+  for (const Entry& e : entries) {
+    if (!seen.emplace(e.setup, e.feature).second) continue;
+    firsts.push_back({&e, footprint(part, workpiece_in(plan, e.setup), e.feature)});
+  }
+  for (std::size_t f = 0; f < firsts.size(); ++f) {
+    const Footprint& face = firsts[f].print;
+    if (!face.good || !face.face) continue;
+    for (std::size_t g = 0; g < f; ++g) {
+      const Footprint& other = firsts[g].print;
+      if (!other.good || firsts[g].entry->setup != firsts[f].entry->setup) continue;
+      // In the face lies what goes on below it.
+      if (other.bottom >= face.bottom - 1e-6 || !overlap(face, other)) continue;
+      findings.error(28, "CHK-FACE-FIRST", {firsts[f].entry->order + 1, firsts[f].entry->id, -1},
+                     "the face is begun after " + firsts[g].entry->id + ", whose feature lies in it");
+    }
+  }
+}
+
+}  // namespace
+
+void check_order(const model::Plan& plan, Findings& findings) {
+  const std::vector<Entry> entries = entries_of(plan);
+  check_ranks(plan, entries, findings);
+  check_faces(plan, entries, findings);
+}
+
+void check_coverage(const model::Plan& plan, Findings& findings) {
+  const model::Model& m = plan.model;
+  std::set<AnyRef> covered, said;
+  for (const auto& u : plan.unplanned) {
+    said.insert(u.feature);
+    if (u.reason.empty())
+      findings.error(34, "CHK-UNPLANNED", {0, "", -1}, "a feature is unplanned without a reason");
+  }
+  for (const auto& s : plan.steps) {
+    const auto* ws = m.get<model::MachiningWorkingstep>(s.step);
+    if (ws == nullptr || !s.path || s.path->size() < 2) continue;
+    covered.insert(ws->its_feature);
+    for (const auto& f : ws->final_features.items) covered.insert(f);
+  }
+  // What is only a piece of another feature is planned with it.
+  const std::set<AnyRef> parts = model::parts_of_others(m);
+  for (const auto f : m.all_below(TypeId::kManufacturingFeature)) {
+    if (covered.contains(f) || said.contains(f) || parts.contains(f)) continue;
+    if (const auto* c = m.get<model::CompoundFeature>(f)) {
+      // A compound whose elements have their own steps is planned by them.
+      const auto& elements = c->elements.items;
+      if (!elements.empty() && std::all_of(elements.begin(), elements.end(), [&](AnyRef e) {
+            return covered.contains(e) || said.contains(e);
+          })) {
+        continue;
+      }
+    }
+    const auto* feature = m.get<model::ManufacturingFeature>(f);
+    findings.error(34, "CHK-UNPLANNED", {0, "", -1},
+                   "feature " + feature->its_id.value_or("") + " (" + name_of(f.type) +
+                       ") has no step with a path, and nothing says why");
+  }
+}
+
+}  // namespace capstan::verify

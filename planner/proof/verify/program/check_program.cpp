@@ -1,0 +1,84 @@
+#include "planner/proof/verify/plan/plan_checks.h"
+#include "planner/proof/verify/program/program_checks.h"
+#include "planner/proof/verify/sweep/sweep.h"
+#include "planner/proof/verify/verify.h"
+
+namespace capstan::verify {
+namespace {
+
+/// What the text says and does, the removal of stock left out. Gives the moves by step.
+std::vector<StepMoves> judge_text(const Program& program, const ProgramText& text, const model::Plan* plan,
+                                  const model::Machine& machine, const std::vector<model::Cutter>& cutters,
+                                  Findings& findings) {
+  ProgramCase c = make_case(program, plan, machine, cutters);
+  c.has_table = !text.tool_table.empty();
+  for (const ReaderFault& f : program.faults) {
+    std::size_t order = 1;
+    std::string id;
+    for (std::size_t m = 0; m < program.markers.size() && program.markers[m].line <= f.line; ++m) {
+      order = m + 2;
+      id = program.markers[m].id;
+    }
+    // A program of this plan has nothing in it that cannot be followed.
+    if (f.undecided && plan == nullptr) {
+      findings.warn(f.property, f.code, {order, id, f.line}, f.message);
+    } else {
+      findings.error(f.property, f.code, {order, id, f.line}, f.message);
+    }
+  }
+  check_state(c, findings);
+  check_compensation(c, findings);
+  check_program_coolant(c, findings);
+  check_setups(c, findings);
+  ToolTable table;
+  if (!text.tool_table.empty()) {
+    table = read_tool_table(text.tool_table);
+    check_tool_table(c, table, findings);
+  } else {
+    check_table_lines(c, findings);
+  }
+  check_header_tools(c, table, findings);
+  check_abilities(c, findings);
+  say_unjudged(c, findings);
+  check_machine_moves(c, findings);
+  const std::vector<StepMoves> steps = moves_of(c);
+  Extents extents(machine);
+  for (const StepMoves& s : steps) {
+    check_moves(s, machine, kRadiusGapMm, findings);
+    extents.add(s, findings);
+  }
+  check_life(steps, findings);
+  if (plan != nullptr) {
+    compare(c, findings);
+    check_between(c, findings);
+  }
+  return steps;
+}
+
+}  // namespace
+
+std::vector<model::Finding> check_program_text(const ProgramText& text, const model::Plan* plan,
+                                               const model::Machine& machine,
+                                               const std::vector<model::Cutter>& cutters) {
+  Findings findings;
+  const Program program = read_program(text.text);
+  const bool none = plan == nullptr && cutters.empty() && text.tool_table.empty();
+  (void)judge_text(program, text, plan, machine, none ? tools_of_header(program) : cutters, findings);
+  return findings.take();
+}
+
+std::vector<model::Finding> check_program(const ProgramText& text, const model::Plan* plan,
+                                          const model::Machine& machine,
+                                          const std::vector<model::Cutter>& cutters, Job& job) {
+  Findings findings;
+  const Program program = read_program(text.text);
+  // Moves refer to the cutters.
+  const bool none = plan == nullptr && cutters.empty() && text.tool_table.empty();
+  const std::vector<model::Cutter> tools = none ? tools_of_header(program) : cutters;
+  const std::vector<StepMoves> steps = judge_text(program, text, plan, machine, tools, findings);
+  if (plan != nullptr) check_removal(*plan, steps, findings, job);
+  job.progress("check", 1.0);
+  return findings.take();
+}
+
+}  // namespace capstan::verify

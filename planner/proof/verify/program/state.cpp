@@ -1,0 +1,290 @@
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "planner/proof/verify/program/program_checks.h"
+
+namespace capstan::verify {
+
+using model::MoveKind;
+
+const model::Cutter* ProgramCase::cutter(int tool) const {
+  for (const auto& c : cutters) {
+    if (c.pocket == tool) return &c;
+  }
+  return nullptr;
+}
+
+Findings::Where ProgramCase::where(const Block& b) const {
+  if (b.marker < 0) return {1, "", b.line};
+  const auto m = static_cast<std::size_t>(b.marker);
+  return {m + 2, program.markers[m].id, b.line};
+}
+
+ProgramCase make_case(const Program& program, const model::Plan* plan, const model::Machine& machine,
+                      const std::vector<model::Cutter>& cutters) {
+  ProgramCase out{program, plan, machine, cutters, std::vector<long>(program.markers.size(), -1)};
+  if (plan == nullptr) return out;
+  std::size_t next = 0;
+  for (std::size_t m = 0; m < program.markers.size(); ++m) {
+    // In the plan's order as a rule: begin to look where the last one was found.
+    for (std::size_t k = 0; k < plan->steps.size(); ++k) {
+      const std::size_t i = (next + k) % plan->steps.size();
+      if (model::step_id(*plan, plan->steps[i]) != program.markers[m].id) continue;
+      out.step_of_marker[m] = static_cast<long>(i);
+      next = i + 1;
+      break;
+    }
+  }
+  return out;
+}
+
+double top_of(const model::Machine& machine) {
+  const model::LinearAxis& z = machine.axes[2];
+  return z.travel_max_mm > z.travel_min_mm ? z.travel_max_mm : 0.0;
+}
+
+bool at_top(const Block& b, const model::Machine& machine) {
+  return b.machine_z && *b.machine_z >= top_of(machine) - 1e-6;
+}
+
+namespace {
+
+constexpr unsigned kNeededAtStart = kStatedUnits | kStatedPlane | kStatedDistance | kStatedFeedMode |
+                                    kStatedRadius | kStatedCycle | kStatedOffset | kStatedLength |
+                                    kStatedSpindle | kStatedSpeed;
+
+std::string missing_text(unsigned missing) {
+  static constexpr std::pair<unsigned, const char*> kNames[] = {{kStatedUnits, "unit (G20/G21)"},
+                                                                {kStatedPlane, "plane (G17)"},
+                                                                {kStatedDistance, "distance mode (G90/G91)"},
+                                                                {kStatedFeedMode, "feed mode (G93/G94/G95)"},
+                                                                {kStatedRadius, "G40"},
+                                                                {kStatedCycle, "G80"},
+                                                                {kStatedOffset, "work offset"},
+                                                                {kStatedLength, "length offset (G43)"},
+                                                                {kStatedSpindle, "M3 or M4"},
+                                                                {kStatedSpeed, "S"},
+                                                                {kStatedFeed, "F"}};
+  std::string out;
+  for (const auto& [bit, name] : kNames) {
+    if ((missing & bit) == 0U) continue;
+    out += (out.empty() ? "" : ", ") + std::string(name);
+  }
+  return out;
+}
+
+class StateChecks {
+ public:
+  StateChecks(const ProgramCase& c, Findings& findings) : c_(c), out_(findings) {
+    if (c.plan != nullptr && !c.plan->setups.empty()) {
+      security_ = 1e300;
+      for (const auto& s : c.plan->setups) security_ = std::min(security_, s.security_z_mm);
+    }
+  }
+  void run() {
+    if (c_.plan == nullptr) order();
+    for (const Block& b : c_.program.blocks) {
+      if (b.kind == Block::Kind::kToolChange) tool_change(b);
+      if (b.kind == Block::Kind::kMove) move(b);
+      if (b.kind == Block::Kind::kEnd) end(b);
+      was_at_top_ = at_top(b, c_.machine);
+      machine_z_ = b.machine_z;
+    }
+    if (!c_.program.ended) {
+      out_.error(32, "CHK-END", {c_.program.markers.size() + 2, "", c_.program.lines},
+                 "the program has no end mark (M2 or M30)");
+    }
+  }
+
+ private:
+  void tool_change(const Block& b) {
+    if (b.spindle_rpm != 0.0)
+      out_.error(7, "CHK-TOOL-CHANGE", c_.where(b),
+                 "M6 while the spindle turns at " + plain(b.spindle_rpm) + " rpm");
+    // The next tool may be longer: only the top of the machine clears whatever it is.
+    if (!at_top(b, c_.machine) && (c_.plan != nullptr || !b.unmoved))
+      out_.error(7, "CHK-TOOL-CHANGE", c_.where(b),
+                 (b.known_to[2] ? "M6 at z = " + plain(b.to.z) : std::string("M6 at an unknown height")) +
+                     ", not retracted: G53 G0 Z" + plain(top_of(c_.machine)) + " comes before it");
+    if (b.cycle_active) out_.error(26, "CHK-CYCLE", c_.where(b), "M6 while a cycle is active");
+    if (b.tool > 0 && c_.cutters.empty() && !c_.has_table && c_.plan == nullptr) {
+      if (said_.insert({105, 0}).second)
+        out_.error(
+            4, "CHK-TABLE-MISSING", c_.where(b),
+            "T" + std::to_string(b.tool) +
+                " is loaded, and no tool table is at hand: name it beside the program (check PROGRAM TABLE)");
+    } else if (b.tool > 0 && c_.cutter(b.tool) == nullptr)
+      out_.error(4, "CHK-TOOL", c_.where(b), "T" + std::to_string(b.tool) + " is not in the tool library");
+    if (c_.machine.magazine_pockets > 1 && b.tool > c_.machine.magazine_pockets) {
+      out_.error(4, "CHK-TOOL", c_.where(b),
+                 "T" + std::to_string(b.tool) + "; the magazine has " +
+                     std::to_string(c_.machine.magazine_pockets) + " pockets");
+    }
+  }
+
+  void move(const Block& b) {
+    const bool feeds = b.move != MoveKind::kRapid;
+    const bool named_z = b.words[2] && !b.in_machine;
+    if (!b.in_machine && b.work_offset == 0 && said_.insert({3, b.marker}).second)
+      out_.error(3, "CHK-WORK-OFFSET", c_.where(b), "a move before a work offset (G54 to G59.3) was stated");
+    if (b.tool == 0 && feeds && said_.insert({4, b.marker}).second)
+      out_.error(4, "CHK-TOOL", c_.where(b), "a feed move without a loaded tool");
+    if (b.length_offset > 0 && b.length_offset != b.tool && said_.insert({5, b.line}).second)
+      out_.error(
+          5, "CHK-TOOL-NUMBER", c_.where(b),
+          "H" + std::to_string(b.length_offset) + " is active with T" + std::to_string(b.tool) + " loaded");
+    if (b.radius_offset >= 0 && b.radius_offset != b.tool && said_.insert({5, b.line}).second)
+      out_.error(
+          5, "CHK-TOOL-NUMBER", c_.where(b),
+          "D" + std::to_string(b.radius_offset) + " is active with T" + std::to_string(b.tool) + " loaded");
+    const bool low = security_ < 1e299 ? b.to.z < security_ - 1e-6 : true;
+    if (b.length_offset < 0 && low && (named_z || feeds) && said_.insert({8, b.marker}).second)
+      out_.error(8, "CHK-LENGTH-OFFSET", c_.where(b),
+                 "the tool goes to z = " + plain(b.to.z) + " without a length offset");
+    const bool cutting = feeds && !b.in_machine;
+    if (cutting && !b.known_from[2] && !b.words[2] && said_.insert({27, b.line}).second)
+      out_.error(27, "CHK-POSITION", c_.where(b), "a feed move starts where the height is not known");
+    height(b);
+    if (c_.plan == nullptr) tool_of_marker(b);
+    restart(b);
+    if (c_.plan == nullptr && cutting && b.spindle_rpm == 0.0)
+      out_.warn(15, "CHK-SPINDLE-STOPPED", c_.where(b),
+                "a feed move with the spindle stopped; without the plan it cannot be told whether it cuts");
+    direction(b, cutting);
+    tap(b);
+  }
+
+  /// A height that is not known is not clear of anything, the top of the machine is.
+  void height(const Block& b) {
+    const bool across = b.words[0] || b.words[1];
+    if (!b.in_machine) {
+      if (b.move != MoveKind::kRapid || !across || b.known_from[2] || was_at_top_) return;
+      if (said_.insert({9, b.line}).second)
+        out_.error(
+            9, "CHK-HEIGHT", c_.where(b),
+            "a rapid across where the height of the tool is not known; it is retracted first, G53 G0 Z" +
+                plain(top_of(c_.machine)));
+      return;
+    }
+    if (across && (b.words[2] || !was_at_top_))
+      out_.error(9, "CHK-MACHINE-MOVE", c_.where(b),
+                 "a move across in machine coordinates (G53) below the top of Z, " +
+                     plain(top_of(c_.machine)) + ": what it passes is not known");
+    if (!b.words[2] || b.to.z >= top_of(c_.machine) - 1e-6) return;
+    const std::string text = "G53 moves Z to " + plain(b.to.z) + " in machine coordinates, below the top, " +
+                             plain(top_of(c_.machine));
+    // Own programs go to the top and nowhere else; others may have another height in mind.
+    if (!c_.program.markers.empty() || (machine_z_ && b.to.z < *machine_z_ - 1e-6)) {
+      out_.error(10, "CHK-MACHINE-MOVE", c_.where(b), text + ": whether that is clear is not known");
+    } else {
+      out_.warn(10, "CHK-MACHINE-MOVE", c_.where(b), text + ": it does not count as retracted");
+    }
+  }
+
+  /// The program's own word for what is loaded.
+  void tool_of_marker(const Block& b) {
+    if (b.marker < 0 || b.in_machine) return;
+    const long wanted = c_.program.markers[static_cast<std::size_t>(b.marker)].tool;
+    if (wanted <= 0 || wanted == b.tool || !said_.insert({104, b.marker}).second) return;
+    out_.error(
+        4, "CHK-MARKER-TOOL", c_.where(b),
+        "T" + std::to_string(b.tool) + " is loaded; the step's marker says T" + std::to_string(wanted));
+  }
+
+  /// The steps' own numbers: 1, 2, 3, ...
+  void order() {
+    long last = 0;
+    for (const StepMarker& m : c_.program.markers) {
+      const long expected = last + 1;
+      last = m.n;
+      if (m.n == expected) continue;
+      out_.error(28, "CHK-MARKER-ORDER", {1, m.id, m.line},
+                 "the marker of step '" + m.id + "' has n=" + std::to_string(m.n) + " where n=" +
+                     std::to_string(expected) + " comes: steps are missing, doubled or in another order");
+      return;
+    }
+  }
+
+  /// Without the plan nobody has said that a left-hand cutter is meant.
+  void direction(const Block& b, bool cutting) {
+    if (c_.plan != nullptr || !cutting || b.synchronised || b.spindle_rpm >= 0.0) return;
+    if (!said_.insert({15, b.marker}).second) return;
+    const model::Cutter* t = c_.cutter(b.tool);
+    if (t != nullptr && t->hand == model::Hand::kLeft) return;
+    out_.error(
+        15, "CHK-SPINDLE-REVERSED", c_.where(b),
+        "a feed move with the spindle turning counter-clockwise (M4): that breaks a right-hand cutter");
+  }
+
+  void tap(const Block& b) {
+    const model::Cutter* t = c_.cutter(b.tool);
+    if (!b.synchronised || t == nullptr || !(t->thread_pitch_mm > 0.0) || b.from_cycle) return;
+    if (std::abs(b.pitch_mm - t->thread_pitch_mm) > 1e-3)
+      out_.error(18, "CHK-TAP-FEED", c_.where(b),
+                 "G33.1 with a pitch of " + mm(b.pitch_mm) + "; the tap's is " + mm(t->thread_pitch_mm));
+  }
+
+  void restart(const Block& b) {
+    // The start-up line before the first marker may retract; each step states everything itself.
+    if (b.in_machine || (b.marker < 0 && !c_.program.markers.empty())) return;
+    const bool feeds = b.move != MoveKind::kRapid;
+    if (!feeds || b.marker == checked_) return;
+    checked_ = b.marker;
+    unsigned needed = kNeededAtStart;
+    if (!b.synchronised) needed |= kStatedFeed;
+    const unsigned missing = needed & ~b.stated;
+    if (missing != 0U) {
+      out_.error(27, "CHK-RESTART", c_.where(b),
+                 "not stated between the step's start and its first feed move: " + missing_text(missing));
+    }
+  }
+
+  void end(const Block& b) {
+    Findings::Where at = c_.where(b);
+    at.order = c_.program.markers.size() + 2;
+    if (b.spindle_rpm != 0.0)
+      out_.error(32, "CHK-END", at,
+                 "the program ends with the spindle on (" + plain(b.spindle_rpm) + " rpm)");
+    const bool high =
+        at_top(b, c_.machine) || (security_ < 1e299 && b.known_to[2] && b.to.z >= security_ - 1e-6);
+    if (!high)
+      out_.error(32, "CHK-END-LOW", at, "the program ends at z = " + plain(b.to.z) + ", not retracted");
+    if (b.cycle_active) out_.error(26, "CHK-CYCLE", at, "a cycle is still active at the end");
+    if (b.radius_offset >= 0)
+      out_.error(32, "CHK-END-RADIUS", at, "radius compensation is still active at the end");
+  }
+
+  const ProgramCase& c_;
+  Findings& out_;
+  double security_ = 1e300;
+  int checked_ = -2;
+  bool was_at_top_ = false;
+  std::optional<double> machine_z_;
+  std::set<std::pair<int, long>> said_;
+};
+
+}  // namespace
+
+void check_state(const ProgramCase& c, Findings& findings) { StateChecks(c, findings).run(); }
+
+void check_machine_moves(const ProgramCase& c, Findings& findings) {
+  geometry::Box3 box;
+  for (const Block& b : c.program.blocks) {
+    if (b.kind != Block::Kind::kMove) continue;
+    const double to[3] = {b.to.x, b.to.y, b.to.z};
+    if (b.in_machine) {
+      for (std::size_t a = 0; a < 3; ++a) {
+        const model::LinearAxis& axis = c.machine.axes[a];
+        if (!b.words[a] || !(axis.travel_max_mm > axis.travel_min_mm)) continue;
+        if (to[a] < axis.travel_min_mm - 1e-6 || to[a] > axis.travel_max_mm + 1e-6) {
+          findings.error(22, "CHK-TRAVEL", c.where(b),
+                         "machine coordinate " + axis.name + " " + plain(to[a]) + " is outside the travel, " +
+                             plain(axis.travel_min_mm) + " to " + plain(axis.travel_max_mm));
+        }
+      }
+    }
+  }
+}
+
+}  // namespace capstan::verify

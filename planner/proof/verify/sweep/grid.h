@@ -1,0 +1,114 @@
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "planner/ground/geometry/profile.h"
+#include "planner/ground/geometry/vec.h"
+#include "planner/proof/verify/moves.h"
+
+namespace capstan::verify {
+
+/// Heights at the centres of square cells, seen along the tool axis: the raw piece as it is now, and the
+/// finished part. A point sample, not an average: what holds at a centre holds there exactly.
+///
+/// Frame  the set-up's. Units  mm.
+class Grid {
+ public:
+  /// At most `maximum_cells` cells over the area [lo, hi].
+  Grid(geometry::Vec2 lo, geometry::Vec2 hi, double cell_mm, long maximum_cells);
+
+  [[nodiscard]] int nx() const { return nx_; }
+  [[nodiscard]] int ny() const { return ny_; }
+  [[nodiscard]] double cell() const { return cell_; }
+  [[nodiscard]] geometry::Vec2 centre(int ix, int iy) const {
+    return {lo_.x + (ix + 0.5) * cell_, lo_.y + (iy + 0.5) * cell_};
+  }
+  [[nodiscard]] std::size_t index(int ix, int iy) const {
+    return static_cast<std::size_t>(iy) * static_cast<std::size_t>(nx_) + static_cast<std::size_t>(ix);
+  }
+  /// Cells whose centres lie in [a, b]: first and last + 1, clipped.
+  [[nodiscard]] std::pair<int, int> columns(double a, double b) const;
+  [[nodiscard]] std::pair<int, int> rows(double a, double b) const;
+
+  std::vector<double> stock;  ///< in-process height; kNothing: no material
+  std::vector<double> part;   ///< finished height; kNothing: nothing stays here
+  std::vector<double> base;   ///< underside of the stock: above `floor` where it was cut from the other side
+  static constexpr double kNothing = -1e9;
+  double floor = kNothing;  ///< underside of the raw piece
+
+  /// Height of a cell before the current move touched it; `height` is recorded at the first touch.
+  double before_move(std::size_t cell, double height) {
+    if (touched_[cell] != move_) {
+      touched_[cell] = move_;
+      before_[cell] = height;
+    }
+    return before_[cell];
+  }
+  void begin_move() { ++move_; }
+
+  /// Highest stock under a disc, cell centres counted; kNothing when none.
+  [[nodiscard]] double highest(geometry::Vec2 at, double radius_mm) const;
+  /// Whether material stands under a disc anywhere between two heights.
+  [[nodiscard]] bool stands(geometry::Vec2 at, double radius_mm, double lo_mm, double hi_mm) const;
+  /// How far below the part's surface a height is, measured square to the surface; 0 beside an edge of it.
+  [[nodiscard]] double normal_depth(geometry::Vec2 at, double z_mm) const;
+  [[nodiscard]] double top() const { return top_; }  ///< no stock is higher; may be too high
+  void find_top();
+
+ private:
+  geometry::Vec2 lo_;
+  double cell_ = 0.0;
+  int nx_ = 0, ny_ = 0;
+  double top_ = kNothing;
+  std::vector<double> before_;
+  std::vector<std::uint32_t> touched_;
+  std::uint32_t move_ = 0;
+};
+
+/// What one move took away.
+struct Bite {
+  double volume_mm3 = 0.0;
+  double contact_mm = 0.0;   ///< highest material taken above the tip
+  double thickest_mm = 0.0;  ///< most taken off a cell
+  double core_mm = 0.0;      ///< most taken off a cell within 0.3 radii of the axis's track
+  double gouge_mm = 0.0;     ///< deepest below the finished part, beyond the tolerance
+  geometry::Vec2 gouge_at;
+  std::size_t cells = 0;
+  double chip_mm = 0.0;  ///< thickest chip that the front of the cutter took off a cell's centre
+  double chip_most_mm =
+      0.0;  ///< the same where material may end up to a cell nearer to the middle of the way
+  geometry::Vec2 chip_at;
+};
+
+/// Whether a point that lies `depth_mm` below the finished surface at height z is a gouge, or within the
+/// tolerance of a wall.
+class GougeJudge {
+ public:
+  virtual ~GougeJudge() = default;
+  [[nodiscard]] virtual bool guilty(geometry::Vec2 at, double z_mm) const = 0;
+};
+
+/// Cuts with the move and says what it took. `allowed_mm`: depth below the part that is within tolerance.
+/// Exact at cell centres for straight moves and level arcs; helices by chords of 2 um.
+///
+/// Chips: a centre that the front of the cutter meets has met it at one place of its surface, whose normal n
+/// and the direction of travel v are known exactly. `advance_mm`, what a tooth advances, times n v is the
+/// chip there; no thicker than the material is deep. 0: chips are not measured.
+///
+/// `head_mm` > 0: the cutter has nothing that cuts above that height. What stands higher than the head's top
+/// is an overhang, which heights do not hold: it stays.
+Bite cut(Grid& grid, const Move& m, const geometry::CutterProfile& cutter, double allowed_mm,
+         const GougeJudge* judge, double advance_mm = 0.0, double head_mm = 0.0);
+
+/// Takes the heights down as `cut` does, and measures nothing. Heights after several moves do not depend on
+/// their order; the lowest first is the fastest.
+void lower(Grid& grid, const Move& m, const geometry::CutterProfile& cutter);
+
+/// How deep a rapid would dip into what stands there, > 0: it does, also when axes do not arrive together:
+/// the box that the two ends span, swept by the cutter. `at` says where.
+[[nodiscard]] double rapid_collision(const Grid& grid, const Move& m, const geometry::CutterProfile& cutter,
+                                     double clearance_mm, geometry::Vec2& at);
+
+}  // namespace capstan::verify

@@ -1,0 +1,238 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "planner/physics/mechanics/constants.h"
+#include "planner/proof/verify/sweep/step_checks.h"
+
+namespace capstan::verify {
+
+using geometry::Vec2;
+using model::CutterClass;
+
+namespace {
+
+constexpr double kMeasured = 1.1;   ///< by which a rate measured on cells may be too large
+constexpr double kTouchMm3 = 1e-6;  ///< less than this is not a cut
+constexpr double kDeeper = 1.5;     ///< depth over that planned, at most; default, unsourced
+constexpr double kWider = 8.0;      ///< mean section over that planned, at most; default, unsourced
+/// Of the diameter squared: smaller sections are nothing for a cutter, however little was planned; default,
+/// unsourced.
+constexpr double kFeltShare = 0.01;
+constexpr double kMostBentMm = 0.2;  ///< of the tip, under the mean force alone; default, unsourced
+constexpr double kWritten = 0.005;   ///< by which feed and speed may be off through their decimals
+
+/// How far the outermost point of the edge goes: on an arc farther than the centre. A volume divided by it is
+/// the least width that can have been cut, whichever side of the arc it lies on.
+double edge_length(const Move& m, double radius_mm) {
+  const double arc = is_arc(m.kind) ? norm(xy(m.to) - m.centre) : 0.0;
+  return length_of(m) * (arc > 1e-6 ? (arc + radius_mm) / arc : 1.0);
+}
+
+}  // namespace
+
+void StepChecks::account(const Move& m, const Bite& bite) {
+  const double length = length_of(m);
+  const double rpm = std::abs(m.spindle_rpm);
+  const bool axial = norm(xy(m.to) - xy(m.from)) < 1e-6 && !is_arc(m.kind);
+  if (sum_.length_mm > 0.0 && (std::abs(sum_.feed_mm_min - m.feed_mm_min) > 0.01 * sum_.feed_mm_min ||
+                               sum_.rpm != rpm || sum_.axial != axial)) {
+    settle();
+  }
+  if (!(length > 0.0) || !(m.feed_mm_min > 0.0)) return;
+  if (bite.volume_mm3 <= kTouchMm3) {
+    settle();
+    left_ = {};
+    return;
+  }
+  if (sum_.length_mm == 0.0) sum_.where = m.where;
+  sum_.length_mm += length;
+  sum_.edge_mm += edge_length(m, radius_);
+  sum_.volume_mm3 += bite.volume_mm3;
+  sum_.minutes += length / m.feed_mm_min;
+  sum_.depth_mm = std::max(sum_.depth_mm, bite.thickest_mm);
+  sum_.feed_mm_min = m.feed_mm_min;
+  sum_.rpm = rpm;
+  sum_.axial = axial;
+  if (sum_.length_mm > std::max(2.0, 0.5 * radius_)) settle();
+  if (axial) return;
+  if (left_.edge_mm == 0.0) left_.where = m.where;
+  left_.edge_mm += edge_length(m, radius_);
+  left_.volume_mm3 += bite.volume_mm3;
+  left_.length_mm += length;
+  left_.minutes += length / m.feed_mm_min;
+  left_.rpm = rpm;
+  left_.depth_mm = std::max(left_.depth_mm, bite.thickest_mm);
+  if (left_.edge_mm > 2.0 * radius_) planned_section();
+}
+
+// What roughing left falls to finishing, whose cut was chosen for less. Along a row of cells a thin strip
+// counts as the whole row, so that a section is known but for a cell's width. Where the feed was chosen for
+// what is met there, the plan's own loads tell of it; where the mean force is larger than any that the plan
+// states, nobody held the limits against this cut, whichever it keeps by luck.
+void StepChecks::planned_section() {
+  const Account a = left_;
+  left_ = {};
+  if (step_.planned == nullptr || works_along_axis(cutter_)) return;
+  const double depth = step_.planned->axial_depth_mm, width = step_.planned->radial_depth_mm;
+  if (!(depth > 0.0) || !(width > 0.0)) return;
+  const double section = a.volume_mm3 / a.edge_mm, sure = section - grid_.cell() * a.depth_mm;
+  // A section that is nothing for the cutter is not worth a word, however little was planned.
+  const double felt = kFeltShare * cutter_.cutting_diameter_mm * cutter_.cutting_diameter_mm;
+  const bool deep = a.depth_mm > kDeeper * depth + 2.0 * grid_.cell();
+  const bool wide = section > std::max(kWider * depth * width, felt) && sure > kWider * depth * width;
+  if (!deep && !wide) return;
+  const double stated = step_.planned->loads.peak_force_n, met = mean_force(a);
+  const bool unheld = stated > 0.0 && met > kMeasured * stated;
+  const Findings::Where where{step_.order + 1, step_.id, a.where};
+  const auto tell = [&](const char* code, std::string text, double amount) {
+    if (!unheld) return out_.warn(20, code, where, std::move(text), amount);
+    out_.error(20, code, where,
+               text + "; that asks for a mean force of " + plain(met) +
+                   " N (worn edge), more than the largest that the plan states for the step, " +
+                   plain(stated) + " N: its limits were not held there; rough it first",
+               amount);
+  };
+  if (deep)
+    tell("CHK-DEPTH-LEFT", mm(a.depth_mm) + " are cut; the step was planned for a depth of " + mm(depth),
+         a.depth_mm);
+  if (wide)
+    tell("CHK-WIDTH-LEFT",
+         "over " + mm(a.edge_mm) + " a section of " + plain(section) +
+             " mm2 is cut; the step was planned for " + mm(depth) + " x " + mm(width),
+         section);
+}
+
+double StepChecks::override_most() const {
+  if (cutter_.cutter_class == CutterClass::kTap || cutter_.cutter_class == CutterClass::kThreadMill)
+    return 1.0;
+  return std::max(1.0, plan_.machine.abilities.feed_override_max);
+}
+
+double StepChecks::chip_of(const Account& a) const {
+  const double d = std::max(1e-6, cutter_.cutting_diameter_mm);
+  const double fz = a.length_mm / a.minutes / (a.rpm * std::max(1, cutter_.teeth));
+  if (a.axial || !(a.depth_mm > 0.0))
+    return fz * std::sin(0.5 * (cutter_.point_angle_rad > 0.0 ? cutter_.point_angle_rad : std::numbers::pi));
+  // The mean section and the depth give the width; width and feed give the chip (chord geometry).
+  const double width = std::clamp(a.volume_mm3 / a.edge_mm / a.depth_mm, 0.01 * d, d);
+  return 2.0 * fz * width / (d * std::acos(1.0 - 2.0 * width / d));
+}
+
+/// Of a worn edge, N/mm2.
+double StepChecks::specific_force(double chip_mm) const {
+  const double h =
+      std::clamp(chip_mm, mechanics::kKienzleMinChipThicknessMm, mechanics::kKienzleMaxChipThicknessMm);
+  const double kc = plan_.material.kc11_n_mm2 * std::pow(h, -plan_.material.mc) * mechanics::kWearForceFactor;
+  return cutter_.cutter_class == CutterClass::kReamer ? kc * mechanics::kReamingFrictionFactor : kc;
+}
+
+/// The mean tangential force and its radial share, N; 0 unknown.
+double StepChecks::mean_force(const Account& a) const {
+  const double speed_mm_min = std::numbers::pi * cutter_.cutting_diameter_mm * a.rpm;
+  if (!(speed_mm_min > 0.0) || !(a.minutes > 0.0) || !(plan_.material.kc11_n_mm2 > 0.0)) return 0.0;
+  return specific_force(chip_of(a)) * a.volume_mm3 / a.minutes / speed_mm_min *
+         std::hypot(1.0, mechanics::kRadialToTangentialRatio);
+}
+
+void StepChecks::settle() {
+  if (sum_.length_mm > std::max(0.5, 3.0 * grid_.cell()) && sum_.rpm > 0.0) {
+    if (sum_.axial || works_along_axis(cutter_))
+      axial_feed(sum_.feed_mm_min / (sum_.rpm * std::max(1, cutter_.teeth)));
+    power(sum_.volume_mm3, sum_.minutes, chip_of(sum_));
+  }
+  sum_ = {};
+}
+
+double StepChecks::feed_per_tooth(const Move& m) const {
+  const double n = std::abs(m.spindle_rpm);
+  return n > 0.0 ? m.feed_mm_min / (n * std::max(1, cutter_.teeth)) : 0.0;
+}
+
+void StepChecks::axial_feed(double fz) {
+  const FeedLimit limit = feed_limit(cutter_);
+  const double feed = limit.per_revolution ? fz * std::max(1, cutter_.teeth) : fz;
+  if (feed <= limit.mm * (1.0 + kWritten)) return;
+  out_.error(18, "CHK-FEED-TOOL", {step_.order + 1, step_.id, sum_.where},
+             "a feed of " + mm(feed) + (limit.per_revolution ? " per revolution" : " per tooth") +
+                 " along the axis; at most " + mm(limit.mm) + " (" + limit.source + ", diameter " +
+                 mm(cutter_.cutting_diameter_mm) + ")",
+             feed);
+}
+
+// A feed that no square cut would bear is right where the cut is thin: whether it is, cells may be too far
+// apart to show.
+void StepChecks::chips(const Move& m, const Bite& bite, double fz) {
+  chip(m, bite.chip_mm, fz, bite.chip_at);
+  const double most = feed_limit(cutter_).mm * (1.0 + kWritten);
+  if (bite.chip_mm > most) looks_ = 0;  // the step has its finding: no closer look changes that
+  if (works_along_axis(cutter_) || fz <= most || looks_ <= 0) return;
+  if (std::min(m.from.z, m.to.z) >= grid_.top()) return;
+  const Bite closer = past_.look(grid_, m, profile_, fz, looks_);
+  chip(m, closer.chip_mm, fz, closer.chip_at);
+}
+
+void StepChecks::chip(const Move& m, double thickest_mm, double fz, Vec2 where) {
+  const FeedLimit limit = feed_limit(cutter_);
+  if (limit.per_revolution || thickest_mm <= limit.mm * (1.0 + kWritten)) return;
+  out_.error(18, "CHK-FEED-TOOL", at(m),
+             "chips of up to " + mm(thickest_mm) + " at (" + plain(where.x) + ", " + plain(where.y) +
+                 ") (feed per tooth " + mm(fz) + "); at most " + mm(limit.mm) + " (" + limit.source +
+                 ", diameter " + mm(cutter_.cutting_diameter_mm) + ")",
+             thickest_mm);
+}
+
+void StepChecks::power(double volume, double minutes, double chip_mm) {
+  const model::WorkMaterial& w = plan_.material;
+  const model::Spindle& spindle = plan_.machine.spindle;
+  if (!(w.kc11_n_mm2 > 0.0) || spindle.curve.empty() || !(minutes > 0.0)) return;
+  const double kc = specific_force(chip_mm);
+  const double power_w = kc * volume / minutes / 60000.0;  // N/mm2 mm3/min = N mm/min = 1/60000 W
+  const double torque_nm = power_w / (sum_.rpm * 2.0 * std::numbers::pi / 60.0);
+  const double efficiency = mechanics::spindle_efficiency(spindle.efficiency);
+  const model::SpindlePoint limit = spindle_at(spindle, sum_.rpm);
+  const Findings::Where where{step_.order + 1, step_.id, sum_.where};
+  const std::string how =
+      ": " + plain(volume / minutes) + " mm3/min at kc = " + plain(kc) + " N/mm2, worn edge";
+  // Written feeds must hold; the operator's override is told apart. h^-mc makes force grow slower than feed.
+  const double up = std::pow(override_most(), 1.0 - w.mc);
+  const auto judge = [&](const char* code, const char* unit, double asked, double gives) {
+    if (!(gives > 0.0)) return;
+    const double most = gives * efficiency;
+    if (up * asked <= kMeasured * most) return;
+    const bool written = asked > kMeasured * most;
+    const std::string text = std::string("cutting asks for ") + plain(written ? asked : up * asked) + unit +
+                             " of " + plain(most) + unit + " at " + plain(sum_.rpm) + " rpm" + how +
+                             (written ? "" : ", the operator's feed override at its most");
+    if (written)
+      out_.error(17, code, where, text, asked);
+    else
+      out_.warn(17, code + std::string("-OVERRIDE"), where, text, asked);
+  };
+  judge("CHK-POWER", " W", power_w, limit.power_w);
+  judge("CHK-TORQUE", " Nm", torque_nm, limit.torque_nm);
+  deflection(up * torque_nm);
+}
+
+// Least bending: the mean tangential force and its radial share at the tip, the neck as thick as the shank.
+void StepChecks::deflection(double torque_nm) {
+  const double flutes = std::min(cutter_.maximum_depth_of_cut_mm, cutter_.stick_out_mm);
+  const double d = cutter_.cutting_diameter_mm, shank = cutter_.shank_diameter_mm;
+  if (works_along_axis(cutter_) || cutter_.cutter_class == CutterClass::kFacemill || sum_.axial) return;
+  if (!(flutes > 0.0) || !(shank > 0.0)) return;
+  const double e = cutter_.substrate == model::Substrate::kHss ? mechanics::kHssYoungsModulusNMm2
+                                                               : mechanics::kCarbideYoungsModulusNMm2;
+  const auto inertia = [](double x) { return std::numbers::pi * std::pow(x, 4) / 64.0; };
+  const double l3 = std::pow(cutter_.stick_out_mm, 3), f3 = std::pow(flutes, 3);
+  const double per_n =
+      (f3 / inertia(mechanics::kFluteEquivalentDiameterRatio * d) + (l3 - f3) / inertia(shank)) / (3.0 * e);
+  const double tangential = 2000.0 * torque_nm / d;
+  const double force = tangential * std::hypot(1.0, mechanics::kRadialToTangentialRatio);
+  if (force * per_n <= kMeasured * kMostBentMm) return;
+  out_.error(21, "CHK-DEFLECTION", {step_.order + 1, step_.id, sum_.where},
+             "a mean force of " + plain(force) + " N (worn edge, feed override) bends the tip by " +
+                 mm(force * per_n) + "; at most " + mm(kMostBentMm),
+             force * per_n);
+}
+
+}  // namespace capstan::verify

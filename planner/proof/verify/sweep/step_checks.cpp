@@ -1,0 +1,417 @@
+#include "planner/proof/verify/sweep/step_checks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "planner/model/nouns/all.h"
+#include "planner/physics/mechanics/constants.h"
+
+namespace capstan::verify {
+
+using geometry::Vec2;
+using model::CutterClass;
+using model::MoveKind;
+using model::MoveRole;
+
+namespace {
+
+constexpr double kRapidClearanceMm = 1e-3;  ///< least gap under a rapid; more than a program's last decimal
+constexpr double kTouchMm3 = 1e-6;          ///< less than this is not a cut
+constexpr double kSlackMm = 0.02;           ///< of lengths measured on heights
+
+std::string here(Vec2 p) { return "(" + plain(p.x) + ", " + plain(p.y) + ")"; }
+
+bool is_mill(const model::Cutter& c) {
+  return !works_along_axis(c) && c.cutter_class != CutterClass::kThreadMill;
+}
+bool undercuts(const model::Cutter& c) {
+  return c.cutter_class == CutterClass::kTSlotMill || c.cutter_class == CutterClass::kDovetailMill ||
+         c.cutter_class == CutterClass::kBackCounterbore || c.cutter_class == CutterClass::kBackCountersink ||
+         c.cutter_class == CutterClass::kSideMill;
+}
+/// T-slot and dovetail cutters: run along a slot whose mouth is open already.
+bool under_overhangs(const model::Cutter& c) {
+  return c.cutter_class == CutterClass::kTSlotMill || c.cutter_class == CutterClass::kDovetailMill ||
+         c.cutter_class == CutterClass::kBackCountersink;
+}
+
+/// How far the head, its tip at p, is in the walls of the feature's upright holes, mm; 0 where there are
+/// none. A back countersink's cone ends at its neck, at the head's top.
+double into_hole_walls(const std::vector<model::FeatureShape>& shapes, const geometry::Placement& frame,
+                       const model::Cutter& c, double head_mm, const geometry::Vec3& p) {
+  constexpr int kSlices = 8;
+  const double r = 0.5 * c.cutting_diameter_mm;
+  const bool cone = c.cutter_class == CutterClass::kBackCountersink && c.point_angle_rad > 0.0;
+  const double lean = cone ? std::tan(0.5 * c.point_angle_rad) : 0.0;
+  const double widest_mm = cone ? head_mm - (r - 0.5 * c.neck_diameter_mm) / lean : head_mm;
+  double worst = 0.0;
+  for (int i = 0; i <= kSlices; ++i) {
+    // Just inside the ends: a head that touches a shoulder does not cut it.
+    const double t = std::clamp(head_mm * i / kSlices, 1e-3, head_mm - 1e-3);
+    const double own = t > widest_mm ? r - (t - widest_mm) * lean : r;
+    double low = 1e300, high = -1e300, room = -1e300;
+    for (const model::FeatureShape& s : shapes) {
+      if (s.kind != model::ShapeKind::kHole) continue;
+      const geometry::Placement at = compose(frame, s.frame);
+      if (at.z.z < 1.0 - 1e-9) continue;
+      const double down = at.origin.z - (p.z + t);
+      low = std::min(low, at.origin.z - s.depth_mm);
+      high = std::max(high, at.origin.z);
+      if (down < -1e-6 || down > s.depth_mm + 1e-6) continue;
+      const double wide = s.diameter.nominal_mm +
+                          (s.bottom_diameter_mm - s.diameter.nominal_mm) * down / std::max(s.depth_mm, 1e-9);
+      const double more = s.diameter.given ? std::max(0.0, s.diameter.upper_mm) : 0.0;
+      room = std::max(room, 0.5 * (wide + more) - norm(xy(p) - xy(at.origin)));
+    }
+    // Above the uppermost and below the lowest hole other material is judged by its heights.
+    if (low > high || p.z + t > high || p.z + t < low) continue;
+    worst = std::max(worst, own - room);
+  }
+  return worst;
+}
+bool cuts_to_centre(const model::Cutter& c) {
+  switch (c.cutter_class) {
+    case CutterClass::kTwistDrill:
+    case CutterClass::kCenterDrill:
+    case CutterClass::kSpotDrill:
+      return true;
+    default:
+      return c.centre_cutting;
+  }
+}
+
+}  // namespace
+
+StepChecks::StepChecks(const model::Plan& plan, const StepMoves& step, Grid& grid, Target& target, Past& past,
+                       Findings& findings)
+    : plan_(plan),
+      step_(step),
+      cutter_(*step.cutter),
+      grid_(grid),
+      target_(target),
+      past_(past),
+      out_(findings),
+      profile_(model::profile_of(*step.cutter)),
+      body_(body_of(*step.cutter)),
+      radius_(profile_.radius_mm),
+      tip_mm_(model::tip_length(*step.cutter)),
+      kept_profile_(std::make_shared<const geometry::CutterProfile>(profile_)),
+      mark_(past.mark()) {
+  constexpr double kThicker = 0.02;  // mm: what is no thicker follows where the cutter has been
+  std::erase_if(body_, [&](const BodyPart& p) {
+    return p.what == BodyPart::What::kCutter || p.radius_mm <= radius_ + kThicker;
+  });
+  const model::Executable* e =
+      step.planned != nullptr ? plan.model.get<model::Executable>(step.planned->step) : nullptr;
+  const auto* ws = e != nullptr ? plan.model.get<model::MachiningWorkingstep>(step.planned->step) : nullptr;
+  std::string why;
+  if (undercuts(cutter_)) {
+    why = "an undercut is not held as heights";
+  } else if (ws != nullptr) {
+    why = target.undecided(ws->its_feature);
+  }
+  if (!why.empty()) {
+    judge_gouge_ = false;
+    out_.note(11, "CHK-GOUGE-UNDECIDED", {step.order + 1, step.id, -1}, "not judged for gouges: " + why);
+  }
+}
+
+bool StepChecks::hole_tool() const { return works_along_axis(cutter_); }
+
+bool StepChecks::in_hole(const Move& m) const {
+  const double low = std::min(m.from.z, m.to.z);
+  return low < grid_.top() && grid_.highest(xy(m.from), radius_ + 2.0 * grid_.cell()) > low + 0.1;
+}
+
+void StepChecks::run() {
+  for (const Move& m : step_.moves) {
+    if (m.kind == MoveKind::kRapid) {
+      settle();
+      rapid(m);
+    } else if (m.kind != MoveKind::kDwell) {
+      feed(m);
+    }
+  }
+  settle();
+}
+
+void StepChecks::rapid(const Move& m) {
+  helix_turned_ = 0.0;
+  body(m);
+  Vec2 where;
+  const double dip = rapid_collision(grid_, m, profile_, kRapidClearanceMm, where);
+  if (dip > 0.0) {
+    const bool falls = m.to.z < m.from.z - 1e-9 && norm(xy(m.to) - xy(m.from)) < 1e-9;
+    const double into = std::max(0.0, dip - kRapidClearanceMm);
+    out_.error(falls ? 10 : 9, falls ? "CHK-RAPID-DOWN" : "CHK-RAPID", at(m),
+               (falls ? "a rapid goes down to z = " + plain(m.to.z)
+                      : "a rapid at z = " + plain(std::min(m.from.z, m.to.z)) +
+                            ", axes taken as not arriving together,") +
+                   (into > 0.0 ? " runs " + mm(into) + " into material at " : " touches material at ") +
+                   here(where) + " (cells of " + mm(grid_.cell()) + ")",
+               dip);
+  }
+  if (m.spindle_rpm == 0.0 && hole_tool() && cutter_.cutter_class != CutterClass::kBoringTool && in_hole(m) &&
+      m.to.z > m.from.z) {
+    out_.error(15, "CHK-SPINDLE-STOPPED", at(m),
+               "the tool is withdrawn from z = " + plain(m.from.z) + " with the spindle stopped",
+               m.to.z - m.from.z);
+  }
+}
+
+void StepChecks::feed(const Move& m) {
+  if (under_overhangs(cutter_)) {
+    // Heights hold no overhang: what the head cuts below one is not taken from them.
+    head(m);
+    spindle(m, {});
+    reach(m);
+    neck(m);
+    return;
+  }
+  const double allowed = target_.allowed();
+  const double fz = feed_per_tooth(m);
+  const Bite bite = cut(grid_, m, profile_, judge_gouge_ ? allowed : 1e300, &target_, fz);
+  cut_mm3_ += bite.volume_mm3;
+  chips(m, bite, fz);
+  past_.add(m, kept_profile_);
+  if (judge_gouge_) gouge(m, bite);
+  spindle(m, bite);
+  reach(m);
+  body(m);
+  if (bite.volume_mm3 > kTouchMm3) {
+    contact(m, bite);
+    entry(m, bite);
+  }
+  if (cutter_.cutter_class == CutterClass::kTap) {
+    tapping(m);
+    return;
+  }
+  account(m, bite);
+}
+
+// Above its head such a cutter has nothing that cuts: the mouth must be open for the neck, and there must be
+// nothing under the head where it goes down.
+void StepChecks::neck(const Move& m) {
+  const double head =
+      cutter_.cutting_width_mm > 0.0 ? cutter_.cutting_width_mm : cutter_.maximum_depth_of_cut_mm;
+  double radius = 0.5 * cutter_.neck_diameter_mm;
+  if (radius <= 0.0 && cutter_.cutter_class == CutterClass::kDovetailMill)
+    radius = radius_ - head * std::tan(cutter_.lead_angle_rad);
+  if (step_.planned != nullptr) {
+    const auto* ws = plan_.model.get<model::MachiningWorkingstep>(step_.planned->step);
+    const auto shapes = ws != nullptr
+                            ? model::shapes_of(plan_.model, ws->its_feature)
+                            : Result<std::vector<model::FeatureShape>>(std::vector<model::FeatureShape>{});
+    const bool holes = shapes && !shapes->empty() &&
+                       std::all_of(shapes->begin(), shapes->end(),
+                                   [](const auto& s) { return s.kind == model::ShapeKind::kHole; });
+    const int pieces = holes ? std::max(4, static_cast<int>(std::ceil(length_of(m)))) : -1;
+    for (int i = 0; i <= pieces; ++i) {
+      const geometry::Vec3 p = point_of(m, static_cast<double>(i) / pieces);
+      const double into =
+          into_hole_walls(*shapes, workpiece_in(plan_, step_.planned->setup), cutter_, head, p);
+      if (into <= kSlackMm) continue;
+      out_.error(11, "CHK-HEAD", at(m),
+                 "the tool's head runs " + mm(into) + " into a hole's wall at " + here(xy(p)), into);
+      return;
+    }
+  }
+  const double slack = 1.5 * grid_.cell();
+  if (radius <= slack) return;  // not known, or too thin to be judged on these cells
+  const double length = length_of(m);
+  const int n = std::max(1, static_cast<int>(std::ceil(length / std::max(grid_.cell(), 0.5 * radius))));
+  const bool falls = m.to.z < m.from.z - 1e-9;
+  for (int i = 0; i <= n; ++i) {
+    const geometry::Vec3 p = point_of(m, static_cast<double>(i) / n);
+    const double beside = grid_.highest(xy(p), radius - slack) - (p.z + head);
+    const double below = falls ? grid_.highest(xy(p), radius_ - slack) - p.z : 0.0;
+    if (beside > kSlackMm || below > kSlackMm) {
+      const bool first = beside > kSlackMm;
+      out_.error(11, first ? "CHK-NECK" : "CHK-HEAD", at(m),
+                 std::string(first ? "the tool's neck" : "the tool goes down and its head") + " runs " +
+                     mm(first ? beside : below) + " into material at " + here(xy(p)) + " (cells of " +
+                     mm(grid_.cell()) + ")",
+                 first ? beside : below);
+      return;
+    }
+  }
+}
+
+void StepChecks::gouge(const Move& m, const Bite& bite) {
+  if (bite.gouge_mm > 0.0) {
+    // The point of a drill below a flat bottom is what drilling does to one: said, but apart.
+    const bool point = tip_mm_ > 0.0 && hole_tool() && bite.gouge_mm <= tip_mm_ + target_.allowed() &&
+                       norm(bite.gouge_at - xy(m.to)) <= 1.5 * grid_.cell();
+    const std::string text = mm(bite.gouge_mm) + " below the finished surface at " + here(bite.gouge_at) +
+                             "; allowed " + mm(target_.allowed()) + " (cells of " + mm(grid_.cell()) + ")";
+    if (point) {
+      out_.warn(11, "CHK-GOUGE-POINT", at(m), "the tool's point ends " + text, bite.gouge_mm);
+    } else {
+      out_.error(11, "CHK-GOUGE", at(m), "the cutter goes " + text, bite.gouge_mm);
+    }
+  }
+  Vec2 where;
+  double worst = target_.wall_gouge(m, radius_, profile_.height(radius_), where);
+  const double flat = profile_.pieces.empty() ? 0.0 : profile_.pieces.front().r1_mm;
+  if (profile_.pieces.size() > 1 && profile_.pieces.front().radius_mm == 0.0 &&
+      profile_.pieces.front().slope == 0.0 && flat > target_.allowed()) {
+    Vec2 other;
+    const double below = target_.wall_gouge(m, flat, 0.0, other);
+    if (below > worst) {
+      worst = below;
+      where = other;
+    }
+  }
+  if (worst > 0.0) {
+    out_.error(11, "CHK-GOUGE-WALL", at(m),
+               "the cutter at " + here(where) + " enters a finished wall by " + mm(worst) + "; allowed " +
+                   mm(target_.allowed()),
+               worst);
+  }
+}
+
+void StepChecks::contact(const Move& m, const Bite& bite) {
+  const double flutes = cutter_.maximum_depth_of_cut_mm;
+  if (flutes <= 0.0) return;
+  if (bite.contact_mm > flutes + kSlackMm) {
+    out_.error(
+        13, "CHK-FLUTE", at(m),
+        "material is cut " + mm(bite.contact_mm) + " above the tip; the flutes are " + mm(flutes) + " long",
+        bite.contact_mm);
+  }
+  if (is_mill(cutter_) && bite.thickest_mm > flutes + kSlackMm) {
+    out_.error(20, "CHK-DEPTH", at(m),
+               "depth of cut " + mm(bite.thickest_mm) + "; the tool's largest is " + mm(flutes),
+               bite.thickest_mm);
+  }
+}
+
+void StepChecks::reach(const Move& m) {
+  const double low = std::min(m.from.z, m.to.z);
+  const double length = cutter_.stick_out_mm;
+  if (length <= 0.0 || grid_.top() - low <= length + kSlackMm) return;
+  const double holder = std::max(0.5 * cutter_.holder_diameter_mm, radius_ + 2.0 * grid_.cell());
+  const double high = std::max(grid_.highest(xy(m.from), holder), grid_.highest(xy(m.to), holder));
+  if (high - low > length + kSlackMm) {
+    out_.error(
+        13, "CHK-REACH", at(m),
+        "the tip is " + mm(high - low) + " below the material beside the tool; it sticks out " + mm(length),
+        high - low);
+  }
+}
+
+/// Shank and holder against what stands beside the tool: discs along the move that cover their bands.
+void StepChecks::body(const Move& m) {
+  const double low = std::min(m.from.z, m.to.z);
+  for (const BodyPart& p : body_) {
+    if (low + p.from_mm >= grid_.top() - kSlackMm) continue;
+    const double spacing = std::max(grid_.cell(), 0.25 * p.radius_mm);
+    const int n = std::clamp(static_cast<int>(std::ceil(length_of(m) / spacing)), 1, 4000);
+    const double half = 0.5 * length_of(m) / n;
+    const double r = std::hypot(p.radius_mm - kSlackMm, half);
+    for (int i = 0; i < n; ++i) {
+      const geometry::Vec3 at_point = point_of(m, (i + 0.5) / n);
+      const double z =
+          std::min(point_of(m, static_cast<double>(i) / n).z, point_of(m, static_cast<double>(i + 1) / n).z);
+      if (z + p.from_mm >= grid_.top() - kSlackMm) continue;
+      const double into = grid_.highest(xy(at_point), r) - (z + p.from_mm);
+      if (into <= kSlackMm) continue;
+      const bool holder = p.what == BodyPart::What::kHolder;
+      out_.error(12, holder ? "CHK-HOLDER" : "CHK-SHANK", at(m),
+                 std::string(to_text(p.what)) + " (diameter " + mm(2.0 * p.radius_mm) + ", from " +
+                     mm(p.from_mm) + " above the tip) runs " + mm(into) + " into material beside " +
+                     here(xy(at_point)) + " with the tip at z = " + plain(z),
+                 into);
+    }
+  }
+}
+
+void StepChecks::entry(const Move& m, const Bite& bite) {
+  const double dz = m.to.z - m.from.z;
+  if (dz >= -1e-9) {
+    helix_turned_ = 0.0;
+    return;
+  }
+  const double along = is_arc(m.kind) ? norm(xy(m.to) - m.centre) * sweep_of(m) : norm(xy(m.to) - xy(m.from));
+  const double angle = std::atan2(-dz, along);
+  const bool core = bite.core_mm > 0.05;
+  if (along < 1e-6 || angle > 1.5533) {  // steeper than 89 degrees
+    if (core && !cuts_to_centre(cutter_)) {
+      out_.error(14, "CHK-PLUNGE", at(m),
+                 "the tool does not cut to its centre, but plunges " + mm(-dz) + " into solid material", -dz);
+    }
+    return;
+  }
+  // Following a surface down with a ball, or down a thread, is not an entry; a mill whose end cuts is.
+  const bool ramp = m.role_known && m.role == MoveRole::kRamp;
+  const bool shaped = cutter_.cutter_class == CutterClass::kBallEndmill || plan_.target_mesh != nullptr;
+  if (!core || cutter_.cutter_class == CutterClass::kThreadMill || (shaped && !ramp)) return;
+  const double most = cutter_.maximum_ramp_angle_rad;
+  const double degrees = 180.0 / std::numbers::pi;
+  if (angle > most + 1e-4) {
+    out_.error(14, "CHK-RAMP", at(m),
+               "a ramp of " + plain(angle * degrees) + " degrees; the tool may " +
+                   (most > 0.0 ? "ramp at " + plain(most * degrees) + " degrees at most" : "not ramp"),
+               angle);
+  }
+  if (!is_arc(m.kind)) return;
+  helix_turned_ += sweep_of(m);
+  const double helix = norm(xy(m.to) - m.centre);
+  if (helix_turned_ > 2.0 * std::numbers::pi - 1e-6 && helix > radius_ + 1e-6) {
+    out_.error(14, "CHK-HELIX", at(m),
+               "a helix of diameter " + mm(2.0 * helix) + " leaves a core; the cutter's diameter is " +
+                   mm(2.0 * radius_),
+               helix);
+  }
+}
+
+void StepChecks::spindle(const Move& m, const Bite& bite) {
+  const bool touches = bite.volume_mm3 > kTouchMm3;
+  if (m.spindle_rpm == 0.0) {
+    if (touches || (hole_tool() && cutter_.cutter_class != CutterClass::kBoringTool && in_hole(m))) {
+      out_.error(15, "CHK-SPINDLE-STOPPED", at(m),
+                 touches ? "the tool cuts " + plain(bite.volume_mm3) + " mm3 with the spindle stopped"
+                         : "the tool moves in its hole with the spindle stopped",
+                 bite.volume_mm3);
+    }
+    return;
+  }
+  const bool right = cutter_.hand != model::Hand::kLeft;
+  const bool backs_out = cutter_.cutter_class == CutterClass::kTap && m.to.z > m.from.z;
+  if (touches && !backs_out && (m.spindle_rpm > 0.0) != right) {
+    out_.error(15, "CHK-SPINDLE-DIRECTION", at(m),
+               std::string("the spindle turns ") + (right ? "counter-clockwise" : "clockwise") + " for a " +
+                   (right ? "right" : "left") + "-hand tool");
+  }
+}
+
+void StepChecks::tapping(const Move& m) {
+  const double pitch = cutter_.thread_pitch_mm;
+  const double n = std::abs(m.spindle_rpm);
+  if (!(pitch > 0.0) || !in_hole(m) || n == 0.0) return;
+  if (std::abs(m.feed_mm_min - pitch * n) > 0.01 * pitch * n) {
+    out_.error(18, "CHK-TAP-FEED", at(m),
+               "a feed of " + plain(m.feed_mm_min) + " mm/min is not the pitch of " + mm(pitch) + " at " +
+                   plain(n) + " rpm",
+               std::abs(m.feed_mm_min - pitch * n));
+  }
+  // The largest tap torque: K p^2 D kc / 8000, kc at a chip as thick as the pitch divided by eight teeth.
+  const model::WorkMaterial& w = plan_.material;
+  if (!(w.kc11_n_mm2 > 0.0) || m.to.z > m.from.z) return;
+  const double h =
+      std::clamp(pitch / 8.0, mechanics::kKienzleMinChipThicknessMm, mechanics::kKienzleMaxChipThicknessMm);
+  const double kc = w.kc11_n_mm2 * std::pow(h, -w.mc);
+  const double torque =
+      mechanics::kTappingTorqueFactor * pitch * pitch * cutter_.cutting_diameter_mm * kc / 8000.0;
+  const model::SpindlePoint limit = spindle_at(plan_.machine.spindle, n);
+  if (limit.torque_nm > 0.0 &&
+      torque > limit.torque_nm * mechanics::spindle_efficiency(plan_.machine.spindle.efficiency)) {
+    out_.error(17, "CHK-TORQUE", at(m),
+               "tapping asks for " + plain(torque) + " Nm; the spindle gives " + plain(limit.torque_nm) +
+                   " Nm at " + plain(n) + " rpm",
+               torque);
+  }
+}
+
+}  // namespace capstan::verify

@@ -1,0 +1,99 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "planner/model/plan/plan.h"
+#include "planner/proof/verify/findings.h"
+#include "planner/proof/verify/moves.h"
+#include "planner/proof/verify/sweep/grid.h"
+#include "planner/proof/verify/sweep/past.h"
+#include "planner/proof/verify/sweep/target.h"
+#include "planner/proof/verify/sweep/tool_body.h"
+
+namespace capstan::verify {
+
+/// The checks of one step's moves while they cut.
+class StepChecks {
+ public:
+  StepChecks(const model::Plan& plan, const StepMoves& step, Grid& grid, Target& target, Past& past,
+             Findings& findings);
+  void run();
+  /// Whether it cut anything: known after `run`.
+  [[nodiscard]] bool cuts() const { return cut_mm3_ > 0.0 || met_; }
+  /// After `run`: a step that cuts nothing is a finding, unless it finishes what `begun` says was cut before
+  /// and follows its surface.
+  void nothing(bool begun);
+
+ private:
+  void rapid(const Move& m);
+  void feed(const Move& m);
+  void gouge(const Move& m, const Bite& bite);
+  void neck(const Move& m);
+  void head(const Move& m);
+  [[nodiscard]] bool follows_finished();
+  void contact(const Move& m, const Bite& bite);
+  void reach(const Move& m);
+  void body(const Move& m);
+  void entry(const Move& m, const Bite& bite);
+  void spindle(const Move& m, const Bite& bite);
+  void account(const Move& m, const Bite& bite);
+  void settle();
+  void power(double volume, double minutes, double chip_mm);
+  [[nodiscard]] double feed_per_tooth(const Move& m) const;
+  void chips(const Move& m, const Bite& bite, double fz);
+  void chip(const Move& m, double thickest_mm, double fz, geometry::Vec2 where);
+  void axial_feed(double fz);
+  void deflection(double torque_nm);
+  struct Account;
+  [[nodiscard]] double chip_of(const Account& a) const;
+  [[nodiscard]] double specific_force(double chip_mm) const;
+  [[nodiscard]] double mean_force(const Account& a) const;
+  void planned_section();
+  [[nodiscard]] double override_most() const;
+  void tapping(const Move& m);
+  [[nodiscard]] bool hole_tool() const;
+  [[nodiscard]] bool in_hole(const Move& m) const;
+  [[nodiscard]] Findings::Where at(const Move& m) const { return {step_.order + 1, step_.id, m.where}; }
+
+  const model::Plan& plan_;
+  const StepMoves& step_;
+  const model::Cutter& cutter_;
+  Grid& grid_;
+  Target& target_;
+  Past& past_;
+  Findings& out_;
+  geometry::CutterProfile profile_;
+  std::vector<BodyPart> body_;  ///< shank and holder, thicker than what cuts below them
+  double radius_, tip_mm_;
+  std::shared_ptr<const geometry::CutterProfile> kept_profile_;
+  int looks_ = 8;  ///< closer looks at chips that are left for this step; default, unsourced
+  bool judge_gouge_ = true;
+  double helix_turned_ = 0.0;  ///< rad, of a descending spiral so far
+  double cut_mm3_ = 0.0;       ///< by the step so far
+  bool met_ = false;           ///< a head that heights do not follow was in material
+  std::size_t mark_;           ///< in `past_`, before the step
+
+  // Moves taken together until they are long enough to be measured on the grid.
+  struct Account {
+    double length_mm = 0.0, edge_mm = 0.0, volume_mm3 = 0.0, minutes = 0.0, depth_mm = 0.0;
+    double feed_mm_min = 0.0, rpm = 0.0;
+    bool axial = false;
+    long where = -1;
+  } sum_;
+  Account left_;  ///< the same for a diameter's way: against what the step was planned to take
+};
+
+/// Largest feed per tooth, or per revolution for tools that work along their axis, mm, with where it is from.
+struct FeedLimit {
+  double mm = 0.0;
+  bool per_revolution = false;
+  std::string source;
+};
+[[nodiscard]] FeedLimit feed_limit(const model::Cutter& c);
+[[nodiscard]] bool works_along_axis(const model::Cutter& c);
+/// Motor power and torque for continuous running at a speed, between the curve's points; power linear
+/// where torque is not stated.
+[[nodiscard]] model::SpindlePoint spindle_at(const model::Spindle& s, double rpm);
+
+}  // namespace capstan::verify

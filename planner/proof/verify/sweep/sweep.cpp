@@ -1,0 +1,128 @@
+#include "planner/proof/verify/sweep/sweep.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <set>
+
+#include "planner/model/nouns/all.h"
+#include "planner/proof/verify/sweep/carry.h"
+#include "planner/proof/verify/sweep/fixtures.h"
+#include "planner/proof/verify/sweep/grip.h"
+#include "planner/proof/verify/sweep/step_checks.h"
+#include "planner/proof/verify/verify.h"
+
+namespace capstan::verify {
+namespace {
+
+constexpr double kUsualCells = 250e3;  // default, unsourced: a compromise of time and resolution
+
+/// One set-up's heights and finished part.
+struct Scene {
+  Target target;
+  Grid grid;
+  Past past;
+  Scene(const model::Plan& plan, const PartShapes& part, std::size_t setup, double cell)
+      : target(plan, part, setup), grid(xy(target.stock().lo), xy(target.stock().hi), cell, kMaximumCells) {
+    target.fill(grid);
+    past.begin(grid);
+  }
+};
+
+double cell_of(const model::Plan& plan) {
+  const geometry::Vec3 size = plan.stock.box.size();
+  // Whatever side lies below: the largest face of the box.
+  const double area = std::max({size.x * size.y, size.y * size.z, size.x * size.z});
+  double smallest = 1e300;
+  for (const auto& c : plan.cutters) {
+    if (c.cutting_diameter_mm > 0.0) smallest = std::min(smallest, c.cutting_diameter_mm);
+  }
+  return std::max({0.02, std::sqrt(area / static_cast<double>(kMaximumCells)),
+                   std::min(std::sqrt(area / kUsualCells), smallest / 8.0)});
+}
+
+bool sound(const model::Cutter* c) {
+  return c != nullptr && std::isfinite(c->cutting_diameter_mm) && c->cutting_diameter_mm > 0.0;
+}
+
+/// Each feature in the set-up of its last step, with what the others took away.
+void check_left(const model::Plan& plan, const std::vector<std::unique_ptr<Scene>>& scenes,
+                Findings& findings) {
+  const std::vector<Asked> asked = asked_of(plan);
+  for (const auto& scene : scenes) {
+    std::vector<Asked> here;
+    for (const Asked& a : asked) {
+      if (workpiece_in(plan, a.setup) == scene->target.frame()) here.push_back(a);
+    }
+    if (here.empty()) continue;
+    for (const auto& s : scenes) {
+      if (s != scene) carry(scene->grid, scene->target.frame(), s->grid, s->target.frame());
+    }
+    scene->target.left(scene->grid, here, asked, scenes.size() > 1, findings);
+  }
+}
+
+}  // namespace
+
+void check_removal(const model::Plan& plan, const std::vector<StepMoves>& steps, Findings& findings,
+                   Job& job) {
+  check_bodies(plan, steps, findings);
+  check_fixtures(plan, steps, findings);
+  if (plan.stock.box.empty()) {
+    findings.warn(11, "CHK-NO-STOCK", {0, "", -1},
+                  "there is no raw piece, so that removal cannot be checked");
+    return;
+  }
+  const PartShapes part = shapes_of_part(plan);
+  const double cell = cell_of(plan);
+  // Set-ups that hold the piece alike go on with the same stock; others begin with what is left.
+  std::vector<std::unique_ptr<Scene>> scenes;
+  Scene* last = nullptr;
+  std::optional<Grip> grip;
+  std::size_t held = static_cast<std::size_t>(-1);
+  std::set<model::AnyRef> begun;  // features of which something was cut
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const StepMoves& step = steps[i];
+    job.progress("check", static_cast<double>(i) / static_cast<double>(steps.size()));
+    if (job.stop_requested()) {
+      findings.error(11, "CHK-STOPPED", {Findings::kWhole, "", -1},
+                     "the check was stopped before step " + std::to_string(i + 1) + " of " +
+                         std::to_string(steps.size()) + ": nothing is proven of it and of what follows");
+      return;
+    }
+    const geometry::Placement frame = workpiece_in(plan, step.setup);
+    Scene* scene = nullptr;
+    for (const auto& s : scenes) {
+      if (s->target.frame() == frame) scene = s.get();
+    }
+    if (scene == nullptr) {
+      scenes.push_back(std::make_unique<Scene>(plan, part, step.setup, cell));
+      scene = scenes.back().get();
+    }
+    if (scene != last) {
+      for (const auto& s : scenes) {
+        if (s.get() == scene) continue;
+        carry(scene->grid, frame, s->grid, s->target.frame());
+      }
+      if (scenes.size() > 1) scene->past.begin(scene->grid);
+      last = scene;
+    }
+    if (step.setup != held && step.setup < plan.setups.size()) {
+      held = step.setup;
+      grip.emplace(plan.setups[held].holding, scene->grid, step, findings);
+    }
+    if (!sound(step.cutter)) continue;
+    StepChecks checks(plan, step, scene->grid, scene->target, scene->past, findings);
+    checks.run();
+    const auto* ws = plan.model.get<model::MachiningWorkingstep>(
+        step.planned != nullptr ? step.planned->step : model::Ref<model::Executable>{});
+    checks.nothing(ws != nullptr && begun.contains(ws->its_feature));
+    if (ws != nullptr && checks.cuts()) begun.insert(ws->its_feature);
+    scene->grid.find_top();
+    if (grip && step.setup == held) grip->after(step, scene->grid, findings);
+  }
+  check_left(plan, scenes, findings);
+}
+
+}  // namespace capstan::verify

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <vector>
+
+#include "planner/ground/base/job.h"
+#include "planner/model/plan/plan.h"
+#include "planner/proof/verify/findings.h"
+#include "planner/proof/verify/moves.h"
+
+namespace capstan::verify {
+
+/// Cuts the raw piece with every move, in order, and says what must not happen: rapids through material (9,
+/// 10), gouges (11), contact beyond the flutes (13), plunges and ramps (14), a stopped spindle in the
+/// material (15), torque and power (17), chips (18), depth and width (20), holders in the way (12), fixtures
+/// touched and the piece let go (31), steps that cut nothing (35), what stays of planned features (36).
+/// Set-ups begin with what others left.
+///
+/// Cost  linear in the area that the cutter sweeps, in cells.
+void check_removal(const model::Plan& plan, const std::vector<StepMoves>& steps, Findings& findings,
+                   Job& job);
+
+}  // namespace capstan::verify

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "planner/ground/base/job.h"
+#include "planner/model/plan/cutter.h"
+#include "planner/model/plan/machine.h"
+#include "planner/model/plan/plan.h"
+
+namespace capstan::verify {
+
+/// A program as it was written, or as somebody else wrote it.
+struct ProgramText {
+  std::string file_name;   ///< as the user named it
+  std::string text;        ///< RS274/NGC as LinuxCNC reads it
+  std::string tool_table;  ///< LinuxCNC's .tbl; may be empty: then nothing is said about it
+};
+
+/// What is wrong with a plan. Reads what the plan holds, computes everything else itself: stock, removal,
+/// force bound, order. Findings come by step in the order of execution, then property, then move; equal
+/// ones of a step are folded into the worst with their number.
+///
+/// Frame      each step's path in its set-up's frame.
+/// Accuracy   walls of features: exact, within the tolerance and 1e-3 mm; floors and stock: a height map of
+///            at most kMaximumCells cells, whose cell size is stated in the finding where it matters.
+/// Cost       linear in the path's length in cells; no more than kMaximumCells heights per set-up.
+[[nodiscard]] std::vector<model::Finding> check_plan(const model::Plan& plan, Job& job);
+
+/// What is wrong with a program, alone or against the plan that it was written from. Steps are told by the
+/// markers `(CAPSTAN STEP id="..." n=...)`; `Finding::move` is the line, counted from 1.
+[[nodiscard]] std::vector<model::Finding> check_program(const ProgramText& program, const model::Plan* plan,
+                                                        const model::Machine& machine,
+                                                        const std::vector<model::Cutter>& cutters, Job& job);
+
+/// What each property asks, one sentence; empty for a number that is not checked.
+[[nodiscard]] std::string_view property_text(int number);
+
+/// Largest height map of one set-up.
+inline constexpr long kMaximumCells = 1000000;
+
+}  // namespace capstan::verify

@@ -1,6 +1,0 @@
-capstan_test(app DEPENDS base geometry model p21 exchange motion output app)
-if(TARGET app_test)
-  # The command is tested as it is run: as a program.
-  add_dependencies(app_test capstan)
-  target_compile_definitions(app_test PRIVATE CAPSTAN_COMMAND="$<TARGET_FILE:capstan>")
-endif()

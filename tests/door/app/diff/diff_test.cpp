@@ -1,0 +1,89 @@
+#include "planner/door/app/diff/diff.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/door/app/plans.h"
+
+namespace capstan::app {
+namespace {
+
+using ::testing::HasSubstr;
+
+TEST(Diff, APlanIsTheSameAsItself) {
+  const auto d = diff(testing::planned_plate(), testing::planned_plate());
+  EXPECT_TRUE(d.same) << d.text;
+}
+
+TEST(Diff, TellsAChangedValueWithWhoChoseItAndWhy) {
+  const auto before = testing::planned_plate();
+  auto after = testing::planned_plate();
+  const auto technology = after.model.all(model::TypeId::kMillingTechnology).front();
+  after.model.get<model::MillingTechnology>(technology)->feedrate = 240.0;
+  after.ledger.bind(technology, "feedrate", model::Binder::kCase, {"case.12", "as in case 12", "case base"});
+  after.steps[0].feed_mm_min = 240.0;
+  after.steps[0].cutting_s = 7.5;  // 30 mm at 240 mm/min
+  const auto d = diff(before, after);
+  EXPECT_FALSE(d.same);
+  EXPECT_THAT(d.text,
+              HasSubstr("its_operation/its_technology/feedrate: 300 mm/min -> 240 mm/min (bound by case: as "
+                        "in case 12; was bound by optimiser)"));
+  EXPECT_THAT(d.text, HasSubstr("feed: 300 mm/min -> 240 mm/min"));
+  EXPECT_THAT(d.text, HasSubstr("time: +1.5 s"));
+}
+
+TEST(Diff, TellsAddedAndRemovedSteps) {
+  const auto before = testing::planned_plate();
+  auto after = testing::planned_plate();
+  model::MachiningWorkingstep ws;
+  ws.its_id = "REAM IT";
+  after.steps.push_back(after.steps[0]);
+  after.steps[1].step = after.model.add(ws);
+  const auto more = diff(before, after);
+  EXPECT_THAT(more.text, HasSubstr("+ 'REAM IT'"));
+  const auto fewer = diff(after, before);
+  EXPECT_THAT(fewer.text, HasSubstr("- 'REAM IT'"));
+  EXPECT_THAT(fewer.text, HasSubstr("-6 s"));
+}
+
+TEST(Diff, TellsAnotherOrder) {
+  auto before = testing::planned_plate();
+  model::MachiningWorkingstep ws;
+  ws.its_id = "REAM IT";
+  before.steps.push_back(before.steps[0]);
+  before.steps[1].step = before.model.add(ws);
+  auto after = before;
+  std::swap(after.steps[0], after.steps[1]);
+  const auto d = diff(before, after);
+  EXPECT_FALSE(d.same);
+  EXPECT_THAT(d.text, HasSubstr("order: 'DRILL IT' 1 -> 2, 'REAM IT' 2 -> 1"));
+}
+
+TEST(Diff, TellsOtherToolsMachinesAndFeatures) {
+  const auto before = testing::planned_plate();
+  auto after = testing::planned_plate();
+  after.machine.id = "other_vmc";
+  after.cutters[0].id = "own/10";
+  after.steps[0].cutter_id = "own/10";
+  auto* hole = after.model.get<model::TolerancedLengthMeasure>(
+      after.model.get<model::RoundHole>(after.model.all(model::TypeId::kRoundHole).front())->diameter);
+  hole->theoretical_size = 10.5;
+  const auto d = diff(before, after);
+  EXPECT_THAT(d.text, HasSubstr("machine: generic_vmc -> other_vmc"));
+  EXPECT_THAT(d.text, HasSubstr("- T3 generic/drill/10"));
+  EXPECT_THAT(d.text, HasSubstr("+ T3 own/10"));
+  EXPECT_THAT(d.text, HasSubstr("ROUND_HOLE 'HOLE': diameter/theoretical_size: 10 mm -> 10.5 mm"));
+}
+
+TEST(Diff, SurvivesTheFile) {
+  Job job;
+  const auto plan = testing::planned_plate();
+  const auto written = exchange::write_iso14649(plan, job);
+  ASSERT_TRUE(written);
+  auto again = testing::read_text(written->bytes);
+  const auto d = diff(again, testing::read_text(written->bytes));
+  EXPECT_TRUE(d.same) << d.text;
+}
+
+}  // namespace
+}  // namespace capstan::app

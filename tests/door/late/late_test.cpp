@@ -1,0 +1,417 @@
+#include "planner/door/late/late.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include "capstan/capstan_late.h"
+#include "planner/controls/linuxcnc/linuxcnc.h"
+#include "planner/door/pipeline/shop.h"
+#include "planner/model/nouns/all.h"
+#include "tests/support/corpus.h"
+#include "tests/support/seal.h"
+
+namespace capstan::late {
+namespace {
+
+const std::string kPlate = std::string(CAPSTAN_SOURCE_DIR) + "/examples/plate_bound.p21";
+const std::string kMagazine = std::string(CAPSTAN_SOURCE_DIR) + "/tests/door/late/magazine.tbl";
+const std::string kOneTool = std::string(CAPSTAN_SOURCE_DIR) + "/tests/door/late/one_tool.tbl";
+
+pipeline::Inputs shop(const std::string& tools) {
+  Job job;
+  auto in = pipeline::load_shop({.machine = {}, .tools = tools, .rules = {}, .material = {}}, job);
+  EXPECT_TRUE(in) << (in ? "" : to_text(in.error()));
+  return in ? *std::move(in) : pipeline::Inputs{};
+}
+
+/// A shop whose tool table has this text.
+pipeline::Inputs shop_of(const std::string& table, const std::string& machine = {}) {
+  const std::string path = ::testing::TempDir() + "late_table.tbl";
+  std::ofstream(path) << table;
+  Job job;
+  auto in = pipeline::load_shop({.machine = machine, .tools = path, .rules = {}, .material = {}}, job);
+  EXPECT_TRUE(in) << (in ? "" : to_text(in.error()));
+  return in ? *std::move(in) : pipeline::Inputs{};
+}
+
+/// The generic machine, whose table counts from a reference.
+std::string reference_machine() {
+  std::string text =
+      testing::slurp(std::string(CAPSTAN_SOURCE_DIR) + "/tooling/data/machines/generic_vmc.yaml");
+  const std::string at = "control: {";
+  text.insert(text.find(at) + at.size(), "length_offsets: reference, ");
+  const std::string path = ::testing::TempDir() + "late_reference.yaml";
+  std::ofstream(path) << text;
+  return path;
+}
+
+model::Plan plate() {
+  Job job;
+  auto plan = pipeline::read_plan(testing::slurp(kPlate), kPlate, job);
+  EXPECT_TRUE(plan) << (plan ? "" : to_text(plan.error()));
+  return plan ? *std::move(plan) : model::Plan{};
+}
+
+std::string texts(Job& job) {
+  std::string out;
+  for (const auto& d : job.diagnostics()) out += to_text(d) + "\n";
+  return out;
+}
+
+TEST(Late, BindsWithWhatTheMagazineHoldsAndNothingElse) {
+  Job job;
+  const auto bound = bind(plate(), shop(kMagazine), {.deadline = std::chrono::seconds(20)}, job);
+  ASSERT_TRUE(bound) << to_text(bound.error()) << "\n" << texts(job);
+  EXPECT_TRUE(bound->plan.unplanned.empty());
+  ASSERT_FALSE(bound->plan.steps.empty());
+  for (const auto& c : bound->plan.cutters) {
+    const bool loaded =
+        c.pocket == 2 || c.pocket == 3 || c.pocket == 4 || c.pocket == 5 || c.pocket == 7 || c.pocket == 8;
+    EXPECT_TRUE(loaded) << c.id << " in pocket " << c.pocket;
+  }
+  for (const auto& f : bound->findings) EXPECT_NE(f.severity, Severity::kError) << f.message;
+}
+
+TEST(Late, TakesTheLengthOfAToolFromTheTable) {
+  Job job;
+  const auto bound = bind(plate(), shop(kMagazine), {.deadline = std::chrono::seconds(20)}, job);
+  ASSERT_TRUE(bound) << to_text(bound.error());
+  const auto mill = std::find_if(bound->plan.cutters.begin(), bound->plan.cutters.end(),
+                                 [](const auto& c) { return c.pocket == 7; });
+  ASSERT_NE(mill, bound->plan.cutters.end());
+  EXPECT_EQ(mill->functional_length_mm, 115.0);  // the file says 75, the table what was measured
+}
+
+/// The plate and its magazine, with one line of the table as a shop has it.
+pipeline::Inputs shop_with(const std::string& line, const std::string& machine = {}) {
+  std::string text;
+  std::istringstream lines(testing::slurp(kMagazine));
+  const std::string number = line.substr(0, line.find(' '));
+  for (std::string one; std::getline(lines, one);)
+    text += (one.starts_with(number + " ") ? line : one) + "\n";
+  return shop_of(text, machine);
+}
+
+/// The line of a tool in the table that the plan is given with.
+std::string line_of(const model::Plan& plan, int tool) {
+  std::istringstream lines(controls::write_tool_table(plan));
+  for (std::string one; std::getline(lines, one);)
+    if (one.starts_with("T" + std::to_string(tool) + " ")) return one.substr(0, one.find(" ;"));
+  return {};
+}
+
+const model::Cutter* cutter_of(const model::Plan& plan, int tool) {
+  for (const auto& c : plan.cutters)
+    if (c.pocket == tool) return &c;
+  return nullptr;
+}
+
+TEST(Late, TheToolTableComesOutNumberForNumber) {
+  // The mill in carousel place 17, shorter than the 75 mm of the file, with a worn diameter.
+  Job job;
+  const std::string line = "T7 P17 Z+65.2345678 D+11.999500";
+  const auto bound =
+      bind(plate(), shop_with(line + " ;12 mm carbide end mill, 4 flutes"), {.deadline = std::nullopt}, job);
+  ASSERT_TRUE(bound) << to_text(bound.error()) << "\n" << texts(job);
+  EXPECT_EQ(line_of(bound->plan, 7), line);
+  EXPECT_EQ(line_of(bound->plan, 4), "T4 P4 Z+140.000000 D+9.800000");
+}
+
+TEST(Late, AnAssumedStickOutLosesWhatTheToolIsShorterThanAssumed) {
+  // The file's mill is 75 mm long over its holder, and its flutes of 26 mm want 1.5 * 26 = 39 mm out of it.
+  // At 65 mm the same holder leaves 39 - (75 - 65) = 29 mm; at 115 mm nobody knows that more stands out.
+  for (const auto& [z, out] : {std::pair("65", 29.0), std::pair("115", 39.0)}) {
+    Job job;
+    const auto bound =
+        bind(plate(), shop_with("T7 P7 Z+" + std::string(z) + " D+12 ;12 mm carbide end mill, 4 flutes"),
+             {.deadline = std::nullopt}, job);
+    ASSERT_TRUE(bound) << to_text(bound.error()) << "\n" << texts(job);
+    const auto* mill = cutter_of(bound->plan, 7);
+    ASSERT_NE(mill, nullptr);
+    EXPECT_EQ(mill->functional_length_mm, std::stod(z));
+    EXPECT_NEAR(mill->stick_out_mm, out, 1e-9) << z;
+    EXPECT_LE(mill->usable_length_mm, mill->stick_out_mm);
+  }
+}
+
+TEST(Late, AToolWhoseHolderWouldTakeInItsFlutesIsRefused) {
+  // 39 - (75 - 61) = 25 mm stand out, the flutes are 26 mm long.
+  Job job;
+  const auto bound = bind(plate(), shop_with("T7 P7 Z+61 D+12 ;12 mm carbide end mill, 4 flutes"),
+                          {.deadline = std::nullopt}, job);
+  ASSERT_FALSE(bound);
+  EXPECT_NE(bound.error().message.find("61 mm long as it is loaded, so that 25 mm of it stand out"),
+            std::string::npos)
+      << to_text(bound.error());
+}
+
+TEST(Late, AToolWhoseLengthTheTableDoesNotTellIsRefused) {
+  // 12 mm mills have flutes of some 26 mm: no length from the gage line is 20 mm.
+  for (const std::string z : {"Z+20", "Z0", ""}) {
+    Job job;
+    const auto bound = bind(plate(), shop_with("T7 P7 " + z + " D+12 ;12 mm carbide end mill, 4 flutes"),
+                            {.deadline = std::nullopt}, job);
+    ASSERT_FALSE(bound) << z;
+    EXPECT_EQ(bound.error().code, "LATE-TOOL") << to_text(bound.error());
+    EXPECT_NE(bound.error().message.find("T7 has Z"), std::string::npos) << bound.error().message;
+    EXPECT_NE(bound.error().hint.find("measure"), std::string::npos);
+  }
+}
+
+TEST(Late, OffsetsAgainstAReferenceToolAreNoLengthsAndComeOutAgain) {
+  // T3 is shorter than the reference, so no Z of this table is a length.
+  Job job;
+  const auto bound = bind(plate(),
+                          shop_of("T2 P2 Z+0 D+10 ;10 mm carbide spot drill, 90 deg\n"
+                                  "T3 P3 Z-12.5 D+9 ;9 mm carbide twist drill, 140 deg\n"
+                                  "T4 P4 Z+14.25 D+9.8 ;9.8 mm carbide twist drill, 140 deg\n"
+                                  "T5 P5 Z+15 D+10 ;10 mm hss reamer H7\n"
+                                  "T7 P7 Z+2.5 D+12 ;12 mm carbide end mill, 4 flutes\n"
+                                  "T8 P8 Z+1.5 D+8 ;8 mm carbide end mill, 4 flutes\n"),
+                          {.deadline = std::nullopt}, job);
+  ASSERT_TRUE(bound) << to_text(bound.error()) << "\n" << texts(job);
+  EXPECT_EQ(line_of(bound->plan, 7), "T7 P7 Z+2.500000 D+12.000000");
+  EXPECT_EQ(cutter_of(bound->plan, 7)->functional_length_mm, 75.0);  // the file's, for the table tells none
+  const auto program = pipeline::write_plan(bound->plan, pipeline::Format::kLinuxCnc, job);
+  ASSERT_TRUE(program);
+  EXPECT_NE(program->find("T7: its length offset counts from a reference"), std::string::npos);
+}
+
+TEST(Late, OneNegativeOffsetAmongLengthsIsNoLengthAndNoReference) {
+  // A sign mistyped: were it an offset from a reference, T8 would stand out 96 mm more than T7.
+  Job job;
+  const auto bound = bind(plate(),
+                          shop_of("T7 P7 Z-5 D+12 ;12 mm carbide end mill, 4 flutes\n"
+                                  "T8 P8 Z+91 D+8 ;8 mm carbide end mill, 4 flutes\n"),
+                          {.deadline = std::nullopt}, job);
+  ASSERT_FALSE(bound);
+  EXPECT_EQ(bound.error().code, "LATE-TOOL") << to_text(bound.error());
+}
+
+TEST(Late, AMachineMaySayThatItsOffsetsCountFromAReference) {
+  // All above zero, as of a shop whose reference is the shortest: the machine's description tells.
+  pipeline::Inputs in = shop_with("T7 P7 Z+20 D+12 ;12 mm carbide end mill, 4 flutes", reference_machine());
+  Job job;
+  const auto bound = bind(plate(), std::move(in), {.deadline = std::nullopt}, job);
+  ASSERT_TRUE(bound) << to_text(bound.error()) << "\n" << texts(job);
+  EXPECT_EQ(line_of(bound->plan, 7), "T7 P7 Z+20.000000 D+12.000000");
+}
+
+TEST(Late, OfAReferenceTableOnlyOneToolMayHaveZero) {
+  Job job;
+  const auto bound = bind(plate(),
+                          shop_of("T2 P2 Z+0 D+10 ;10 mm carbide spot drill, 90 deg\n"
+                                  "T3 P3 Z-12.5 D+9 ;9 mm carbide twist drill, 140 deg\n"
+                                  "T7 P7 Z+0 D+12 ;12 mm carbide end mill, 4 flutes\n"),
+                          {.deadline = std::nullopt}, job);
+  ASSERT_FALSE(bound);
+  EXPECT_EQ(bound.error().code, "LATE-TOOL") << to_text(bound.error());
+}
+
+TEST(Late, RefusesWhenSomethingStaysOpen) {
+  Job job;
+  const auto bound = bind(plate(), shop(kOneTool), {.deadline = std::chrono::seconds(20)}, job);
+  ASSERT_FALSE(bound);
+  EXPECT_EQ(bound.error().code, "LATE-OPEN");
+}
+
+TEST(Late, GivesTheFallbackWhenTheDeadlineIsPastAndSaysThatItIsLate) {
+  Job job;
+  const auto bound = bind(plate(), shop(kMagazine), {.deadline = std::chrono::milliseconds(0)}, job);
+  ASSERT_TRUE(bound) << to_text(bound.error());
+  EXPECT_TRUE(bound->late);
+  EXPECT_FALSE(bound->improved);
+  EXPECT_EQ(bound->machining_s, bound->fallback_s);
+}
+
+/// A clock that stands still but for what a test adds when the n-th check begins (each plan is checked as
+/// a plan, then as a program), or at its end.
+class StagedClock {
+ public:
+  explicit StagedClock(Job& job) {
+    job.set_clock([this] { return now_; });
+    job.set_progress([this](std::string_view stage, double fraction) {
+      if (stage != "check") return;
+      if (fraction == 0.0) ++checks_;
+      if (checks_ == jump_at_ && fraction >= jump_from_) now_ = std::max(now_, jump_to_);
+    });
+  }
+  /// From that fraction of the n-th check on, the time is `after` the beginning.
+  void jump(int check, double fraction, std::chrono::milliseconds after) {
+    jump_at_ = check;
+    jump_from_ = fraction;
+    jump_to_ = now_ + after;
+  }
+  [[nodiscard]] int checks() const { return checks_; }
+
+ private:
+  std::chrono::steady_clock::time_point now_{std::chrono::hours(1)}, jump_to_ = now_;
+  int checks_ = 0, jump_at_ = -1;
+  double jump_from_ = 0.0;
+};
+
+/// Of a fallback on hardly any evaluations there is something to improve.
+LatePolicy hasty() { return {.deadline = std::chrono::milliseconds(1000), .fallback_budget = 1}; }
+
+TEST(Late, TakesAnImprovementThatIsCheckedInTime) {
+  Job job;
+  const StagedClock clock(job);
+  const auto bound = bind(plate(), shop(kMagazine), hasty(), job);
+  ASSERT_TRUE(bound) << to_text(bound.error());
+  EXPECT_TRUE(bound->improved);
+  EXPECT_FALSE(bound->late);
+  EXPECT_LT(bound->machining_s, bound->fallback_s);
+  EXPECT_EQ(clock.checks(), 4);  // two plans, each with its program
+}
+
+TEST(Late, RefusesAnImprovementWhoseCheckWasStopped) {
+  Job job;
+  StagedClock clock(job);
+  // The third check is the improvement's: the reserve of time is used up in its midst, the deadline is not.
+  clock.jump(3, 0.5, std::chrono::milliseconds(1000));
+  const auto bound = bind(plate(), shop(kMagazine), hasty(), job);
+  ASSERT_TRUE(bound) << to_text(bound.error());
+  EXPECT_FALSE(bound->improved);
+  EXPECT_FALSE(bound->late);  // not past the deadline: the check alone refuses it
+  EXPECT_EQ(bound->machining_s, bound->fallback_s);
+  EXPECT_GE(clock.checks(), 3);
+  EXPECT_TRUE(bound->condemned.empty());
+}
+
+TEST(Late, IsLateWhenTheImprovementOverranTheDeadline) {
+  Job job;
+  StagedClock clock(job);
+  clock.jump(4, 1.0, std::chrono::milliseconds(1001));
+  const auto bound = bind(plate(), shop(kMagazine), hasty(), job);
+  ASSERT_TRUE(bound) << to_text(bound.error());
+  EXPECT_TRUE(bound->late);
+  EXPECT_FALSE(bound->improved);
+}
+
+TEST(Late, APlanThatHoldsThePathOfAToolThatIsNotLoadedIsRefused) {
+  // Planned whole with the magazine, then brought to a machine on which T7 is missing.
+  Job job;
+  const auto whole = bind(plate(), shop(kMagazine), {.deadline = std::nullopt}, job);
+  ASSERT_TRUE(whole) << to_text(whole.error());
+  const model::Plan* planned = &whole->plan;
+  const auto mill = std::find_if(planned->cutters.begin(), planned->cutters.end(),
+                                 [](const auto& c) { return c.pocket == 7; });
+  ASSERT_NE(mill, planned->cutters.end());
+  for (const auto format : {pipeline::Format::kAp238, pipeline::Format::kJson}) {
+    const auto text = pipeline::write_plan(*planned, format, job);
+    ASSERT_TRUE(text);
+    auto brought = pipeline::read_plan(*text, "plate", job);
+    ASSERT_TRUE(brought) << to_text(brought.error());
+    pipeline::Inputs in = shop(kMagazine);
+    std::erase_if(in.library, [](const auto& c) { return c.pocket == 7; });
+    Job said;
+    const std::string form = format == pipeline::Format::kJson ? "JSON" : "AP238";
+    const auto bound = bind(*std::move(brought), std::move(in), {.deadline = std::nullopt}, said);
+    ASSERT_FALSE(bound) << form;
+    EXPECT_EQ(bound.error().code, "LATE-TOOL") << form << ": " << to_text(bound.error());
+    EXPECT_NE(bound.error().message.find("'" + mill->id + "' of step '" + bound.error().path + "'"),
+              std::string::npos)
+        << bound.error().message;
+    EXPECT_FALSE(bound.error().path.empty());
+  }
+}
+
+TEST(Late, ReopensAToolThatIsNotInTheMagazine) {
+  model::Plan plan = plate();
+  pipeline::Inputs in = shop(kMagazine);
+  std::erase_if(in.library, [](const auto& c) { return c.pocket == 7; });
+  Job job;
+  const auto reopened = pipeline::match_loaded(plan, in, job);
+  ASSERT_TRUE(reopened);
+  ASSERT_FALSE(reopened->empty());
+  EXPECT_NE(reopened->front().find("END MILL 12"), std::string::npos) << reopened->front();
+}
+
+TEST(Late, FeedsOfAGivenPathComeFromTheSectionsThatItsFileStates) {
+  // The plan as another system would bring it: path and sections given, speed and feed open.
+  Job job;
+  const auto planned = pipeline::bind(plate(), shop(kMagazine), {}, job);
+  ASSERT_TRUE(planned) << to_text(planned.error());
+  const auto text = pipeline::write_plan(*planned, pipeline::Format::kAp238, job);
+  ASSERT_TRUE(text);
+  const std::string unsealed = testing::without_seal(*text);
+  const auto opened = [&](double factor) {
+    Job quiet;
+    auto plan = *pipeline::read_plan(unsealed, "plate.stpnc", quiet);
+    auto& m = plan.model;
+    for (const auto at : m.all(model::TypeId::kMillingTechnology)) {
+      m.at<model::MillingTechnology>(at).feedrate.reset();
+      m.at<model::MillingTechnology>(at).spindle.reset();
+    }
+    plan.ledger = model::Ledger{};
+    for (const auto at : m.all(model::TypeId::kCutterLocationTrajectory)) {
+      const auto* line = m.get<model::Polyline>(m.at<model::Trajectory>(at).cross_section_area_parameters);
+      if (line == nullptr) continue;
+      for (const auto p : line->points.items) {
+        auto& c = m.at<model::CartesianPoint>(p).coordinates.items;
+        if (c.size() == 7) c[4] *= factor;
+      }
+    }
+    return plan;
+  };
+  const auto warned = [&](double factor) {
+    Job said;
+    pipeline::Policy policy;
+    policy.only_loaded_cutters = true;
+    const auto bound = pipeline::bind(opened(factor), shop(kMagazine), policy, said);
+    EXPECT_TRUE(bound) << (bound ? "" : to_text(bound.error()));
+    if (bound) {
+      for (const auto& s : bound->steps) {
+        if (!(s.cutting_s > 0.0)) continue;
+        EXPECT_GT(s.feed_mm_min, 0.0) << model::step_id(*bound, s);
+        EXPECT_NE(s.spindle_rpm, 0.0);
+      }
+    }
+    const auto all = texts(said);
+    const auto at = all.find("PIP-SECTIONS");
+    if (factor == 1.0) {
+      EXPECT_EQ(at, std::string::npos) << all;
+    }
+    return at != std::string::npos;
+  };
+  EXPECT_FALSE(warned(1.0));
+  EXPECT_TRUE(warned(0.3));
+  EXPECT_TRUE(warned(3.0));
+}
+
+TEST(LateInterface, PastTheDeadlineTheCodeIsLateAndThePlanIsThere) {
+  capstan_late* s = capstan_late_open("generic_vmc", kMagazine.c_str());
+  ASSERT_EQ(capstan_late_status(s), CAPSTAN_LATE_OK) << capstan_late_message(s);
+  const std::string text = testing::slurp(kPlate);
+  EXPECT_EQ(capstan_late_bind(s, text.data(), text.size(), 0), CAPSTAN_LATE_LATE) << capstan_late_message(s);
+  EXPECT_EQ(capstan_late_status(s), CAPSTAN_LATE_LATE);
+  EXPECT_NE(std::string(capstan_late_message(s)).find("the deadline of 0 ms is past"), std::string::npos);
+  EXPECT_NE(capstan_late_output(s, CAPSTAN_LATE_LINUXCNC, nullptr), nullptr);
+  EXPECT_EQ(capstan_late_bind(s, text.data(), text.size(), 3600000), CAPSTAN_LATE_OK)
+      << capstan_late_message(s);
+  capstan_late_close(s);
+}
+
+TEST(LateInterface, SaysWhatIsWrongAndNeverThrows) {
+  EXPECT_EQ(capstan_late_bind(nullptr, "x", 1, 10), CAPSTAN_LATE_USAGE);
+  EXPECT_EQ(capstan_late_output(nullptr, CAPSTAN_LATE_JSON, nullptr), nullptr);
+  capstan_late* broken = capstan_late_open("no such machine", kMagazine.c_str());
+  ASSERT_NE(broken, nullptr);
+  EXPECT_EQ(capstan_late_status(broken), CAPSTAN_LATE_UNREADABLE);
+  EXPECT_NE(std::string(capstan_late_message(broken)).find("no such machine"), std::string::npos);
+  EXPECT_EQ(capstan_late_bind(broken, "x", 1, 10), CAPSTAN_LATE_USAGE);
+  capstan_late_close(broken);
+  capstan_late* open = capstan_late_open("generic_vmc", kMagazine.c_str());
+  EXPECT_EQ(capstan_late_status(open), CAPSTAN_LATE_OK) << capstan_late_message(open);
+  EXPECT_EQ(capstan_late_bind(open, "not a plan", 10, 10), CAPSTAN_LATE_UNREADABLE);
+  EXPECT_EQ(capstan_late_output(open, CAPSTAN_LATE_JSON, nullptr), nullptr);
+  capstan_late_close(open);
+  capstan_late_close(nullptr);
+}
+
+}  // namespace
+}  // namespace capstan::late

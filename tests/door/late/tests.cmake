@@ -1,0 +1,20 @@
+capstan_test(late DEPENDS late)
+
+# The example for C, as a control's maker would build it: one header, one library.
+add_executable(late_bind ${CMAKE_SOURCE_DIR}/examples/late_bind.c)
+target_link_libraries(late_bind PRIVATE capstan::late_shared)
+add_test(NAME LateInterface.TheExampleForCPrintsAProgram
+  COMMAND late_bind ${CMAKE_SOURCE_DIR}/examples/plate_bound.p21 generic_vmc
+          ${CMAKE_SOURCE_DIR}/tests/door/late/magazine.tbl 600000)
+set_tests_properties(LateInterface.TheExampleForCPrintsAProgram PROPERTIES PASS_REGULAR_EXPRESSION "\nM2")
+add_test(NAME LateInterface.TheExampleForCGivesNoProgramPastTheDeadline
+  COMMAND late_bind ${CMAKE_SOURCE_DIR}/examples/plate_bound.p21 generic_vmc
+          ${CMAKE_SOURCE_DIR}/tests/door/late/magazine.tbl 0)
+set_tests_properties(LateInterface.TheExampleForCGivesNoProgramPastTheDeadline PROPERTIES
+  PASS_REGULAR_EXPRESSION "bound too late: stay retracted and stopped \\(code 5\\)"
+  FAIL_REGULAR_EXPRESSION "\nM2")
+add_test(NAME LateInterface.TheExampleForCStopsWithoutTools
+  COMMAND late_bind ${CMAKE_SOURCE_DIR}/examples/plate_bound.p21 generic_vmc
+          ${CMAKE_SOURCE_DIR}/tests/door/late/one_tool.tbl 5000)
+set_tests_properties(LateInterface.TheExampleForCStopsWithoutTools PROPERTIES
+  PASS_REGULAR_EXPRESSION "not bound: retract and stop \\(code 4\\)")

@@ -1,0 +1,295 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "planner/door/pipeline/paths/sections.h"
+#include "planner/door/pipeline/shop.h"
+#include "planner/model/nouns/all.h"
+#include "planner/proof/verify/verify.h"
+#include "tests/support/corpus.h"
+#include "tooling/catalogue/machine.h"
+
+// Features are made whole or not at all, and what the check condemns is made anew.
+
+namespace capstan::pipeline {
+namespace {
+
+using model::CutterClass;
+
+const std::string kBracket = std::string(CAPSTAN_SOURCE_DIR) + "/examples/bracket.p21";
+
+Inputs shop() {
+  static const Inputs kShop = [] {
+    Job job;
+    return load_shop({}, job).value();
+  }();
+  return kShop;
+}
+
+model::Plan part() {
+  Job job;
+  return read_plan(testing::slurp(kBracket), "bracket.p21", job).value();
+}
+
+model::Plan bound(const Inputs& in, Job& job) { return bind(part(), in, {}, job).value(); }
+
+std::string name_of(const model::Plan& plan, model::AnyRef feature) {
+  const auto* f = plan.model.get<model::ManufacturingFeature>(feature);
+  return f == nullptr ? "" : f->its_id.value_or("");
+}
+
+const model::Unplanned* unplanned(const model::Plan& plan, const std::string& name) {
+  for (const auto& u : plan.unplanned) {
+    if (name_of(plan, u.feature) == name) return &u;
+  }
+  return nullptr;
+}
+
+const model::StepResult* step(const model::Plan& plan, const std::string& name) {
+  for (const auto& s : plan.steps) {
+    if (model::step_id(plan, s) == name) return &s;
+  }
+  return nullptr;
+}
+
+bool has_steps(const model::Plan& plan, const std::string& feature) {
+  return std::any_of(plan.steps.begin(), plan.steps.end(), [&](const auto& s) {
+    const auto* ws = plan.model.get<model::MachiningWorkingstep>(s.step);
+    return ws != nullptr && name_of(plan, ws->its_feature) == feature;
+  });
+}
+
+/// Neither result, nor workplan, nor feature holds a step of what is not planned.
+void expect_whole_or_not_at_all(const model::Plan& plan) {
+  std::set<model::AnyRef> out;
+  for (const auto& u : plan.unplanned) {
+    out.insert(u.feature);
+    EXPECT_TRUE(plan.model.at<model::ManufacturingFeature>(u.feature).its_operations.items.empty())
+        << name_of(plan, u.feature);
+  }
+  const auto of_step = [&](model::AnyRef s) {
+    const auto* ws = plan.model.get<model::MachiningWorkingstep>(s);
+    return ws == nullptr ? model::AnyRef{} : model::AnyRef(ws->its_feature);
+  };
+  for (const auto& s : plan.steps) EXPECT_FALSE(out.contains(of_step(s.step))) << model::step_id(plan, s);
+  for (const auto w : plan.model.all(model::TypeId::kWorkplan)) {
+    for (const auto e : plan.model.at<model::Workplan>(model::Ref<model::Workplan>(w)).its_elements.items)
+      EXPECT_FALSE(out.contains(of_step(e)));
+  }
+}
+
+std::size_t errors(const std::vector<model::Finding>& findings) {
+  return static_cast<std::size_t>(std::count_if(
+      findings.begin(), findings.end(), [](const auto& f) { return f.severity == Severity::kError; }));
+}
+
+Inputs without_the_core_drill() {
+  Inputs in = shop();
+  std::erase_if(in.library, [](const model::Cutter& c) {
+    return c.cutter_class == CutterClass::kTwistDrill && c.cutting_diameter_mm > 4.8 &&
+           c.cutting_diameter_mm < 5.2;
+  });
+  return in;
+}
+
+TEST(Whole, AThreadIsNotTappedWhenItsCoreHoleIsNotPlanned) {
+  Job job;
+  const model::Plan plan = bound(without_the_core_drill(), job);
+  const auto* core = unplanned(plan, "M6 CORE");
+  const auto* thread = unplanned(plan, "M6");
+  ASSERT_TRUE(core != nullptr && thread != nullptr);
+  EXPECT_EQ(core->needed_by, std::vector<std::string>{"M6"});
+  EXPECT_NE(thread->reason.find("rests on 'M6 CORE'"), std::string::npos) << thread->reason;
+  EXPECT_FALSE(has_steps(plan, "M6"));
+  EXPECT_TRUE(has_steps(plan, "POCKET"));
+  expect_whole_or_not_at_all(plan);
+}
+
+TEST(Whole, ATapOfTheFileIsNotCutWhenTheDrillBeforeItHasNoCutter) {
+  Job job;
+  const auto open = bind(part(), shop(), {.reopen = Reopen::kNothing, .bind = Bind::kStrategy}, job);
+  const auto text = write_plan(open.value(), Format::kIso14649, job);
+  auto read = read_plan(text.value(), "open.p21", job);
+  const auto plan = bind(read.value(), without_the_core_drill(), {}, job);
+  ASSERT_TRUE(plan);
+  EXPECT_FALSE(has_steps(*plan, "M6"));
+  const auto* thread = unplanned(*plan, "M6");
+  ASSERT_NE(thread, nullptr);
+  EXPECT_NE(thread->reason.find("needs"), std::string::npos) << thread->reason;
+}
+
+TEST(Whole, AFeatureIsNotFinishedWhenItsRoughingHasNoPath) {
+  Inputs in = shop();
+  for (auto& point : in.machine.spindle.curve) {
+    point.power_w *= 0.004;
+    point.torque_nm *= 0.004;
+  }
+  Job job;
+  const auto plan = bind(part(), in, {}, job);
+  ASSERT_TRUE(plan);
+  EXPECT_FALSE(plan->unplanned.empty());
+  expect_whole_or_not_at_all(*plan);
+  for (const auto& d : job.diagnostics()) EXPECT_NE(d.code, "PIP-NO-PATH") << d.message;
+}
+
+TEST(Whole, WhatLiesInAFaceThatIsNotPlannedIsLeftOutButAHoleIsDrilledFromTheRawSurface) {
+  const std::filesystem::path dir = std::filesystem::path(::testing::TempDir()) / "no_face_rows";
+  std::filesystem::create_directories(dir);
+  std::ofstream(dir / "face.yaml") << "table: face\nrows:\n  - id: shop.no_face\n    priority: 0\n"
+                                      "    when: {}\n    cannot: \"no faces here\"\n    source: \"test\"\n";
+  Inputs in = shop();
+  Job job;
+  auto rules = rules::load_rules(dir.string(), job);
+  ASSERT_TRUE(rules) << rules.error().message;
+  in.rules = *std::move(rules);
+  const model::Plan plan = bound(in, job);
+  const model::Unplanned* face = nullptr;
+  for (const auto& u : plan.unplanned) {
+    if (plan.model.holds<model::PlanarFace>(u.feature)) face = &u;
+  }
+  ASSERT_NE(face, nullptr);
+  const auto needs = [&](const char* name) {
+    return std::find(face->needed_by.begin(), face->needed_by.end(), name) != face->needed_by.end();
+  };
+  EXPECT_TRUE(needs("POCKET"));
+  EXPECT_FALSE(needs("DOWEL HOLE 1"));
+  EXPECT_FALSE(has_steps(plan, "POCKET"));
+  EXPECT_TRUE(has_steps(plan, "DOWEL HOLE 1"));
+  expect_whole_or_not_at_all(plan);
+}
+
+TEST(Whole, ACounterboreIsMilledBeforeTheHoleInItIsReamed) {
+  // The cap screw hole's through hole as a fit, 8 H7: marked, drilled, and reamed when the counterbore is
+  // made.
+  std::string text = testing::slurp(kBracket);
+  const std::string was = "#140=TOLERANCED_LENGTH_MEASURE(6.6,#55);";
+  ASSERT_NE(text.find(was), std::string::npos);
+  text.replace(text.find(was), was.size(), "#140=TOLERANCED_LENGTH_MEASURE(8.,#95);");
+  Job job;
+  const model::Plan plan = bind(read_plan(text, "fit.p21", job).value(), shop(), {}, job).value();
+  std::vector<model::TypeId> operations;
+  for (const auto& s : plan.steps) {
+    const auto* ws = plan.model.get<model::MachiningWorkingstep>(s.step);
+    if (ws != nullptr && name_of(plan, ws->its_feature) == "CAP SCREW HOLE")
+      operations.push_back(ws->its_operation.type);
+  }
+  ASSERT_GE(operations.size(), 4U);
+  EXPECT_EQ(operations.back(), model::TypeId::kReaming);
+  const bool mills = std::any_of(operations.begin(), operations.end(), [](model::TypeId t) {
+    return model::is_a(t, model::TypeId::kMillingTypeOperation);
+  });
+  EXPECT_TRUE(mills);
+  for (const auto& f : verify::check_plan(plan, job)) EXPECT_NE(f.severity, Severity::kError) << f.message;
+}
+
+TEST(Anew, ASmallRouterKeepsItsTorqueWithThinnerCuts) {
+  Inputs in = shop();
+  Job job;
+  in.machine = tooling::load_machine("small_router", job).value();
+  const auto checked = bind_checked(part(), in, {}, job);
+  ASSERT_TRUE(checked);
+  EXPECT_EQ(errors(checked->findings), 0U) << checked->findings.front().message;
+  for (const auto& d : job.diagnostics()) EXPECT_NE(d.code, "PIP-EXCESS") << d.message;
+  for (const auto& s : checked->plan.steps)
+    EXPECT_TRUE(s.exceeded.empty()) << model::step_id(checked->plan, s);
+  // 1500 W at 24000 1/min: 0.597 Nm at most, and no thread but by a plan that keeps it.
+  for (const auto& s : checked->plan.steps)
+    EXPECT_LE(s.loads.torque_nm, 0.597) << model::step_id(checked->plan, s);
+  EXPECT_TRUE(has_steps(checked->plan, "SLOT"));
+}
+
+/// The cutter's holder is as wide as a plate and begins 5 mm above its tip: planning without workholding does
+/// not look at holders, the check does.
+void widen(model::Cutter& c) {
+  c.stick_out_mm = 5.0;
+  c.holder.clear();
+  c.holder_diameter_mm = 120.0;
+}
+
+TEST(Anew, TheNextCutterMakesWhatTheCheckCondemned) {
+  Job job;
+  const model::Plan plain = bound(shop(), job);
+  const std::string was = step(plain, "POCKET area_rough")->cutter_id;
+  Inputs in = shop();
+  for (auto& c : in.library) {
+    if (c.id == was) widen(c);
+  }
+  Job condemned;
+  ASSERT_GT(errors(verify::check_plan(bound(in, condemned), condemned)), 0U);
+  Job told;
+  const auto checked = bind_checked(part(), in, {}, told);
+  ASSERT_TRUE(checked);
+  EXPECT_EQ(errors(checked->findings), 0U);
+  EXPECT_GT(checked->replanned, 0);
+  EXPECT_LE(checked->replanned, kMostReplannings);
+  EXPECT_TRUE(checked->plan.unplanned.empty());
+  const auto* now = step(checked->plan, "POCKET area_rough");
+  ASSERT_NE(now, nullptr);
+  EXPECT_NE(now->cutter_id, was);
+  const bool noted = std::any_of(told.diagnostics().begin(), told.diagnostics().end(), [&](const auto& d) {
+    return d.code == "PIP-ANEW" && d.message.find("POCKET area_rough") != std::string::npos &&
+           d.message.find(was) != std::string::npos && d.message.find("the check found") != std::string::npos;
+  });
+  EXPECT_TRUE(noted);
+  // explain tells it: the cutter stands among the rejected alternatives with what the check found.
+  const auto& ws = checked->plan.model.at<model::MachiningWorkingstep>(now->step);
+  const auto* d = checked->plan.ledger.find(ws.its_operation, "its_tool");
+  ASSERT_NE(d, nullptr);
+  EXPECT_TRUE(std::any_of(d->rejected.begin(), d->rejected.end(), [&](const auto& r) {
+    return r.what == was && r.why.find("the check found") != std::string::npos;
+  }));
+}
+
+TEST(Anew, WhatNoCutterMakesWithoutAnErrorIsLeftOutAfterABoundedNumberOfTries) {
+  Inputs in = shop();
+  for (auto& c : in.library) {
+    if (c.cutter_class == CutterClass::kEndmill || c.cutter_class == CutterClass::kBullnoseEndmill) widen(c);
+  }
+  Job job;
+  const auto checked = bind_checked(part(), in, {}, job);
+  ASSERT_TRUE(checked);
+  EXPECT_EQ(errors(checked->findings), 0U);
+  EXPECT_LE(checked->replanned, kMostReplannings);
+  const auto* pocket = unplanned(checked->plan, "POCKET");
+  ASSERT_NE(pocket, nullptr);
+  EXPECT_NE(pocket->reason.find("the check found"), std::string::npos) << pocket->reason;
+  expect_whole_or_not_at_all(checked->plan);
+}
+
+TEST(Anew, ACleanPlanIsTheFirstOne) {
+  Job job;
+  const auto checked = bind_checked(part(), shop(), {}, job);
+  ASSERT_TRUE(checked);
+  EXPECT_EQ(checked->replanned, 0);
+  EXPECT_EQ(errors(checked->findings), 0U);
+  for (const auto& d : job.diagnostics()) EXPECT_NE(d.code, "PIP-ANEW") << d.message;
+}
+
+TEST(Sections, ARampsEndCutIsToldAsASlotOfTheSameArea) {
+  // 25 mm cutter, 1 mm down over 20 mm: the end removes pi 12.5^2 / 20 = 24.54 mm2 per mm of way.
+  model::CutterPath path;
+  path.start({0, 0, 0});
+  path.line({20, 0, -1}, model::MoveRole::kRamp);
+  path.line({40, 0, -1}, model::MoveRole::kCut);
+  optimise::CutSample ramp;
+  ramp.move = 1;
+  ramp.ap_mm = 0.03;
+  ramp.csa_mm2 = 24.54;
+  ramp.ae_mm = ramp.csa_mm2 / ramp.ap_mm;
+  optimise::CutSample level = ramp;
+  level.move = 2;
+  std::vector<optimise::CutSample> samples{ramp, level};
+  EXPECT_TRUE(end_cuts_as_slots(samples, path, 25.0));
+  EXPECT_EQ(samples[0].ae_mm, 25.0);
+  EXPECT_NEAR(samples[0].ap_mm, 24.54 / 25.0, 1e-12);
+  EXPECT_EQ(samples[0].csa_mm2, 24.54);
+  EXPECT_EQ(samples[1].ae_mm, level.ae_mm) << "a level move has no end cut";
+}
+
+}  // namespace
+}  // namespace capstan::pipeline

@@ -1,0 +1,82 @@
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wconversion"
+#pragma GCC diagnostic ignored "-Wshadow"
+#pragma GCC diagnostic ignored "-Wpedantic"
+#include <valijson/adapters/nlohmann_json_adapter.hpp>
+#include <valijson/schema.hpp>
+#include <valijson/schema_parser.hpp>
+#include <valijson/validation_results.hpp>
+#include <valijson/validator.hpp>
+#pragma GCC diagnostic pop
+
+#include "planner/files/json/json.h"
+#include "planner/ground/base/file.h"
+#include "tests/files/json/filler.h"
+#include "tests/support/corpus.h"
+#include "tests/support/empty_plan.h"
+
+namespace capstan::json {
+namespace {
+
+class PlanSchema : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    document_ = nlohmann::json::parse(json_schema());
+    valijson::SchemaParser parser(valijson::SchemaParser::kDraft7);
+    parser.populateSchema(valijson::adapters::NlohmannJsonAdapter(document_), schema_);
+  }
+  std::string faults(const std::string& plan) {
+    const nlohmann::json tree = nlohmann::json::parse(plan);
+    valijson::Validator validator;
+    valijson::ValidationResults results;
+    std::string out;
+    if (validator.validate(schema_, valijson::adapters::NlohmannJsonAdapter(tree), &results)) return out;
+    valijson::ValidationResults::Error error;
+    while (results.popError(error)) {
+      for (const std::string& place : error.context) out += place;
+      out += ": " + error.description + "\n";
+    }
+    return out.empty() ? "invalid" : out;
+  }
+  nlohmann::json document_;
+  valijson::Schema schema_;
+};
+
+TEST_F(PlanSchema, HoldsForWrittenPlans) {
+  EXPECT_EQ(faults(write_json(testing::empty_plan())), "");
+  EXPECT_EQ(faults(write_json(json::Filler(7, 1.0).plan(1))), "");
+  EXPECT_EQ(faults(write_json(json::Filler(8, 0.5).plan(2))), "");
+}
+
+TEST_F(PlanSchema, DoesNotHoldForOtherDocuments) {
+  const std::string good = write_json(testing::empty_plan());
+  const auto with = [&](const std::string& what, const std::string& by) {
+    std::string text = good;
+    const auto at = text.find(what);
+    EXPECT_NE(at, std::string::npos);
+    return faults(text.replace(at, what.size(), by));
+  };
+  EXPECT_NE(with("\"teeth\":0", "\"teeth\":\"0\""), "");
+  EXPECT_NE(with("\"teeth\":0", "\"tooth\":0"), "");
+  EXPECT_NE(with("\"endmill\"", "\"end mill\""), "");
+  EXPECT_NE(with("\"capstan_plan\":1", "\"capstan_plan\":2"), "");
+  EXPECT_NE(with("\"project:1\"", "\"plane:1\""), "");
+  EXPECT_NE(faults("{}"), "");
+}
+
+// Run with CAPSTAN_UPDATE=1 in the environment after the model has changed.
+TEST(PlanSchemaFile, IsCurrent) {
+  const std::string path = std::string(CAPSTAN_SOURCE_DIR) + "/docs/plan.schema.json";
+  if (std::getenv("CAPSTAN_UPDATE") != nullptr) {
+    ASSERT_TRUE(write_file(path, json_schema()));
+  }
+  EXPECT_TRUE(testing::slurp(path) == json_schema())
+      << "run output_test with CAPSTAN_UPDATE=1 to renew " << path;
+}
+
+}  // namespace
+}  // namespace capstan::json

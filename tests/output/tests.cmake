@@ -1,1 +1,0 @@
-capstan_test(output DEPENDS output)

@@ -1,0 +1,217 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "planner/proof/verify/verify.h"
+#include "tests/proof/verify/plans.h"
+
+namespace capstan::verify {
+namespace {
+
+using testing::PlanMaker;
+using testing::replaced;
+
+std::string told(const std::vector<model::Finding>& findings) {
+  std::string out;
+  for (const auto& f : findings)
+    out += std::to_string(f.property) + " " + f.code + " [" + f.step + " " + std::to_string(f.move) + "] " +
+           f.message + "\n";
+  return out;
+}
+
+const model::Finding* find(const std::vector<model::Finding>& findings, const std::string& code) {
+  const auto at =
+      std::find_if(findings.begin(), findings.end(), [&](const auto& f) { return f.code == code; });
+  return at == findings.end() ? nullptr : &*at;
+}
+
+std::vector<model::Finding> check(const std::string& text, const model::Plan& plan, bool with_plan,
+                                  const std::string& table = {}) {
+  Job job;
+  return check_program({"part.ngc", text, table}, with_plan ? &plan : nullptr, plan.machine, plan.cutters,
+                       job);
+}
+
+long line_of(const std::string& text, std::size_t at) {
+  return 1 + std::count(text.begin(), text.begin() + static_cast<long>(at), '\n');
+}
+
+/// The pocket in G54, then the drilling in a second set-up in G55.
+model::Plan two_setups() {
+  PlanMaker k = testing::good_plan();
+  k.plan.setups.push_back(k.plan.setups[0]);
+  k.plan.setups[1].work_offset = "G55";
+  k.plan.steps[1].setup = 1;
+  return k.plan;
+}
+
+/// Its program, with the header and the stop as they are written.
+std::string text_of_two() {
+  std::string text = testing::program_of(two_setups());
+  text = replaced(text, "(a part)\n",
+                  "(stock: 100 x 100 x 50 mm)\n(CAPSTAN SETUP n=1 offset=G54 security=10)\n"
+                  "(CAPSTAN SETUP n=2 offset=G55 security=10)\n"
+                  "(CAPSTAN TOOL T1 H1 length=100 diameter=10 id=\"em10\" endmill)\n"
+                  "(CAPSTAN TOOL T2 H2 length=130 diameter=8 id=\"d8\" twist_drill)\n");
+  text = replaced(text, "n=1)", "n=1 tool=1 setup=1)");
+  const auto second = text.find("n=2)");
+  std::string tail = replaced(text.substr(second), "n=2)\n", "n=2 tool=2 setup=2)\nM5\nM9\nG53 G0 Z0\nM0\n");
+  return text.substr(0, second) + replaced(tail, "G54", "G55");
+}
+
+TEST(CheckProgramSetups, ASoundProgramOfTwoSetUpsHasNoFinding) {
+  const auto with = check(text_of_two(), two_setups(), true, testing::tool_table_of(two_setups()));
+  EXPECT_TRUE(with.empty()) << told(with);
+  const auto alone = check(text_of_two(), two_setups(), false, testing::tool_table_of(two_setups()));
+  ASSERT_EQ(alone.size(), 1U) << told(alone);
+  EXPECT_EQ(alone[0].code, "CHK-NOT-JUDGED");
+}
+
+TEST(CheckProgramSetups, AnotherWorkOffsetThanTheSetUpsIsNamedWithStepLineAndBothOffsets) {
+  const std::string text = replaced(text_of_two(), "\nG55\n", "\nG54\n");
+  const std::size_t first = text.find("G0 X15 Y15");
+  ASSERT_NE(first, std::string::npos);
+  for (const bool with_plan : {true, false}) {
+    const auto findings = check(text, two_setups(), with_plan);
+    const auto* f = find(findings, "CHK-TEXT-OFFSET");
+    ASSERT_NE(f, nullptr) << told(findings);
+    EXPECT_EQ(f->property, 3);
+    EXPECT_EQ(f->severity, Severity::kError);
+    EXPECT_EQ(f->step, "drill");
+    EXPECT_EQ(f->move, line_of(text, first));
+    EXPECT_NE(f->message.find("G54"), std::string::npos) << f->message;
+    EXPECT_NE(f->message.find("G55"), std::string::npos) << f->message;
+  }
+}
+
+TEST(CheckProgramSetups, AHeaderOrMarkerOfAnotherSetUpThanThePlansIsFound) {
+  const std::string text = text_of_two();
+  const auto header = check(replaced(text, "n=2 offset=G55", "n=2 offset=G56"), two_setups(), true);
+  EXPECT_NE(find(header, "CHK-HEADER-OFFSET"), nullptr) << told(header);
+  const auto marker = check(replaced(text, "tool=2 setup=2", "tool=2 setup=1"), two_setups(), true);
+  EXPECT_NE(find(marker, "CHK-TEXT-SETUP"), nullptr) << told(marker);
+}
+
+TEST(CheckProgramSetups, AChangeOfSetUpNeedsAStopWithSpindleAndCoolantOffAndTheToolAway) {
+  const std::string stop = "M5\nM9\nG53 G0 Z0\nM0\n";
+  for (const char* wrong : {"M5\nM9\nG53 G0 Z0\n", "M5\nM9\nG53 G0 Z0\nM1\n", "M9\nG53 G0 Z0\nM0\n",
+                            "M5\nM9\nG0 Z2\nM0\n", "M5\nG53 G0 Z0\nM0\n"}) {
+    const std::string text = replaced(text_of_two(), stop, wrong);
+    ASSERT_FALSE(text.empty());
+    for (const bool with_plan : {true, false}) {
+      const auto findings = check(text, two_setups(), with_plan);
+      const auto* f = find(findings, "CHK-SETUP-STOP");
+      ASSERT_NE(f, nullptr) << wrong << told(findings);
+      EXPECT_EQ(f->property, 31);
+      EXPECT_EQ(f->severity, Severity::kError);
+      EXPECT_EQ(f->step, "drill");
+    }
+  }
+}
+
+TEST(CheckProgramSetups, AStopWithinASetUpDoesNotStandForTheChange) {
+  std::string text = replaced(text_of_two(), "G53 G0 Z0\nM0\n", "G53 G0 Z0\n");
+  text = replaced(text, "G43 H1\n", "G43 H1\nM0\n");
+  const auto findings = check(text, two_setups(), false);
+  EXPECT_NE(find(findings, "CHK-SETUP-STOP"), nullptr) << told(findings);
+}
+
+TEST(CheckProgramSetups, WhatIsNotJudgedWithoutThePlanIsNoted) {
+  const auto findings = check(text_of_two(), two_setups(), false);
+  const auto* f = find(findings, "CHK-NOT-JUDGED");
+  ASSERT_NE(f, nullptr);
+  EXPECT_EQ(f->severity, Severity::kNote);
+  EXPECT_NE(f->message.find("100 x 100 x 50"), std::string::npos) << f->message;
+  EXPECT_EQ(find(check(text_of_two(), two_setups(), true), "CHK-NOT-JUDGED"), nullptr);
+}
+
+TEST(CheckProgramHeader, AToolTableOfOtherSizesThanTheHeadersIsFoundWithoutAPlan) {
+  model::Plan plan = two_setups();
+  const std::string table = testing::tool_table_of(plan);
+  plan.cutters.clear();
+  const std::pair<const char*, const char*> lengths{"Z+100.000000", "Z+52.000000"};
+  const std::pair<const char*, const char*> diameters{"D+10.000000", "D+12.000000"};
+  for (const auto& [was, is] : {lengths, diameters}) {
+    const std::string wrong = replaced(table, was, is);
+    ASSERT_FALSE(wrong.empty());
+    const auto findings = check(text_of_two(), plan, false, wrong);
+    const auto* f = find(findings, is[0] == 'Z' ? "CHK-HEADER-LENGTH" : "CHK-HEADER-DIAMETER");
+    ASSERT_NE(f, nullptr) << told(findings);
+    EXPECT_EQ(f->property, 6);
+    EXPECT_EQ(f->severity, Severity::kError);
+  }
+}
+
+TEST(CheckProgramHeader, ALibraryOfOtherSizesThanTheHeadersIsFound) {
+  model::Plan plan = two_setups();
+  plan.cutters[0].cutting_diameter_mm = 12;
+  const auto findings = check(text_of_two(), plan, false);
+  const auto* f = find(findings, "CHK-HEADER-DIAMETER");
+  ASSERT_NE(f, nullptr) << told(findings);
+  EXPECT_NE(f->message.find("12 mm"), std::string::npos) << f->message;
+}
+
+TEST(CheckProgramHeader, ToolsThatTheMachineDoesNotTakeAreFound) {
+  model::Plan plan = two_setups();
+  plan.cutters.clear();
+  plan.machine.tool_diameter_max_mm = 9;
+  plan.machine.tool_length_max_mm = 120;
+  const auto findings = check(text_of_two(), plan, false);
+  const auto* wide = find(findings, "CHK-MACHINE-TOOL");
+  const auto* tall = find(findings, "CHK-TOOL-LENGTH");
+  ASSERT_NE(wide, nullptr) << told(findings);
+  ASSERT_NE(tall, nullptr) << told(findings);
+  EXPECT_EQ(wide->step, "pocket");
+  EXPECT_EQ(tall->step, "drill");
+}
+
+TEST(CheckProgramHeader, TappingInStepNeedsAMachineThatCan) {
+  model::Plan plan = testing::good_plan().plan;
+  const std::string text =
+      replaced(testing::program_of(plan), "G1 X15 Y15 Z-22.4034 F225", "G33.1 Z-20 K1.25");
+  ASSERT_FALSE(text.empty());
+  EXPECT_EQ(find(check(text, plan, false), "CHK-MACHINE-TAPPING"), nullptr);
+  plan.machine.abilities.rigid_tapping = false;
+  const auto* f = find(check(text, plan, false), "CHK-MACHINE-TAPPING");
+  ASSERT_NE(f, nullptr);
+}
+
+TEST(CheckMachine, PlannedTappingAndWideToolsNeedAMachineForThem) {
+  PlanMaker k = testing::good_plan();
+  testing::edit_path(k.plan, 1, [](auto& p) { p.role[2] = model::MoveRole::kTap; });
+  k.plan.machine.abilities.rigid_tapping = false;
+  k.plan.machine.tool_diameter_max_mm = 9;
+  Job job;
+  const auto findings = check_plan(k.plan, job);
+  const auto* taps = find(findings, "CHK-MACHINE-TAPPING");
+  const auto* wide = find(findings, "CHK-MACHINE-TOOL");
+  ASSERT_NE(taps, nullptr) << told(findings);
+  ASSERT_NE(wide, nullptr) << told(findings);
+  EXPECT_EQ(taps->step, "drill");
+  EXPECT_EQ(wide->step, "pocket");
+}
+
+TEST(CheckMachine, AnAccuracyCoarserThanTheTightestToleranceIsAWarning) {
+  PlanMaker k = testing::good_plan();
+  const auto* ws = k.plan.model.get<model::MachiningWorkingstep>(k.plan.steps[0].step);
+  const auto* pocket = k.plan.model.get<model::ClosedPocket>(ws->its_feature);
+  const auto* outline = k.plan.model.get<model::RectangularClosedProfile>(pocket->feature_boundary);
+  model::PlusMinusValue t;
+  t.upper_limit = 0.004;
+  t.lower_limit = 0.004;  // 0.008 wide
+  k.plan.model.get<model::TolerancedLengthMeasure>(outline->profile_length)->implicit_tolerance =
+      k.plan.model.add(t);
+  Job job;
+  for (const auto& [accuracy, told_so] : {std::pair{0.005, false}, {0.01, true}}) {
+    k.plan.machine.abilities.positioning_accuracy_mm = accuracy;
+    const auto findings = check_plan(k.plan, job);
+    const auto* f = find(findings, "CHK-MACHINE-TOLERANCE");
+    ASSERT_EQ(f != nullptr, told_so) << told(findings);
+    if (f != nullptr) {
+      EXPECT_EQ(f->severity, Severity::kWarning);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace capstan::verify
