@@ -91,6 +91,7 @@ struct Work {
   std::vector<model::StepResult> recorded_steps = {};  ///< as the plan said when it was read,
   model::Machine recorded_machine = {};                ///< and for which machine
   model::WorkMaterial recorded_material = {};          ///< and material that was
+  std::set<AnyRef> left_out = {};                      ///< steps that were proposed and cut nothing
   bool again = false;  ///< something failed and `tries` says what: the plan is to be made again
 };
 

@@ -104,6 +104,7 @@ bool leave_out(Work& w, const StepWork& step, const std::string& why) {
     std::erase(m.get<model::Workplan>(p)->its_elements.items, AnyRef(step.step));
   if (auto* f = m.get<model::MachiningFeature>(step.feature))
     std::erase(f->its_operations.items, step.operation);
+  w.left_out.insert(step.step);
   w.job.note("PIP-GONE",
              "step '" + name_of(w, step) + "' is left out: what it would cut is gone already; " + why);
   return true;

@@ -13,23 +13,45 @@ namespace {
 
 constexpr double kCellsPerDiameter = 30.0;  // of the stock map, for the smallest cutter of the set-up
 constexpr double kMaximumCells = 600e3;     // keeps a set-up's map near 7 MB
+constexpr int kMostOtherCells = 2;      // times that cutters may change with the cells; default, unsourced
 constexpr double kContradiction = 0.1;  // of a step's volume, between map and geometry; default, unsourced
 constexpr double kTraceMm3 = 1.0;       // the same of next to nothing
 
 }  // namespace
 
+double Stocks::smallest(std::size_t setup) const {
+  double mm = 1e300;
+  for (const StepWork& s : w_.steps) {
+    if (s.setup == setup && s.cutter.cutting_diameter_mm > 0.0 && !w_.left_out.contains(s.step))
+      mm = std::min(mm, s.cutter.cutting_diameter_mm);
+  }
+  return mm > 1e200 ? 10.0 : mm;
+}
+
+double Stocks::cell(std::size_t setup, double smallest_mm) const {
+  return stock::cell_for(smallest_mm, w_.setups[setup].stock, kCellsPerDiameter, kMaximumCells);
+}
+
+bool Stocks::other_cells_asked_for(Tries& tries) const {
+  bool other = false;
+  for (std::size_t i = 0; i < maps_.size(); ++i) {
+    const double mm = smallest(i);
+    if (!maps_[i] || cell(i, mm) == cell(i, smallest_[i])) continue;
+    Smallest& known = tries.smallest[i];
+    if (known.times++ >= kMostOtherCells) continue;
+    known.mm = mm;
+    other = true;
+  }
+  return other;
+}
+
 stock::HeightMap& Stocks::of(std::size_t setup) {
   auto& map = maps_[setup];
   if (!map) {
-    double smallest = 1e300;
-    for (const StepWork& s : w_.steps) {
-      if (s.setup == setup && s.cutter.cutting_diameter_mm > 0.0) {
-        smallest = std::min(smallest, s.cutter.cutting_diameter_mm);
-      }
-    }
-    if (smallest > 1e200) smallest = 10.0;
+    const auto known = w_.tries.smallest.find(setup);
+    smallest_[setup] = known != w_.tries.smallest.end() ? known->second.mm : smallest(setup);
     const auto& box = w_.setups[setup].stock;
-    const double cell = stock::cell_for(smallest, box, kCellsPerDiameter, kMaximumCells);
+    const double cell = this->cell(setup, smallest_[setup]);
     const bool upright = std::abs(w_.setups[setup].workpiece.z.z) > 1.0 - 1e-9;
     const auto& round = w_.plan.stock.cylinder_radius_mm;
     map = round && upright ? stock::from_cylinder(box, *round, cell) : stock::from_box(box, cell);
