@@ -121,6 +121,19 @@ std::optional<std::uint64_t> hash_from_text(std::string_view text) {
   return out;
 }
 
+EditTold edit_told_by(const Diagnostic& d) {
+  if (d.code == kDisagreesCode) return EditTold::kDisagrees;
+  if (d.code != kEditedCode && d.code != kEditedJsonCode) return EditTold::kNothing;
+  return d.severity == Severity::kNote ? EditTold::kValue : EditTold::kPart;
+}
+
+Diagnostic steps_disagree(const std::string& how) {
+  return {.code = std::string(kDisagreesCode),
+          .severity = Severity::kWarning,
+          .message = how + "; the workplan counts",
+          .hint = "plan it again"};
+}
+
 Diagnostic parts_edited(std::string code, const std::vector<std::string>& parts) {
   constexpr std::size_t kNamed = 6;
   std::string names;
