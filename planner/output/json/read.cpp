@@ -579,16 +579,11 @@ Result<model::Plan> read_json(std::string bytes, std::string file_name, Job& job
                   .file = file_name});
     }
     if (!reader.edited().empty()) {
-      Diagnostic d = model::parts_edited(std::string(model::kEditedJsonCode), reader.edited());
-      d.file = file_name;
-      job.report(std::move(d));
+      job.report(model::parts_edited(std::string(model::kEditedJsonCode), reader.edited(), file_name));
       model::refuse_edited(plan, json::listed_among(reader.edited()), "the plan's JSON");
     }
-    if (const std::string how = model::follow_workplan(plan); !how.empty()) {
-      Diagnostic d = model::steps_disagree(how);
-      d.file = file_name;
-      job.report(std::move(d));
-    }
+    if (const std::string how = model::follow_workplan(plan); !how.empty())
+      job.report(model::steps_disagree(how, file_name));
     return plan;
   } catch (const json::Fault& f) {
     Diagnostic d{
