@@ -13,6 +13,7 @@
 #include "planner/base/nearest_names.h"
 #include "planner/base/number.h"
 #include "planner/late/late.h"
+#include "planner/model/contradicted.h"
 #include "planner/pipeline/pipeline.h"
 #include "rules/engine/check.h"
 #include "tooling/catalogue/tree.h"
@@ -101,6 +102,8 @@ int prepared(Session& s, const pipeline::Policy& policy, Task& task) {
   auto part = load_plan(s.options.files[0], s.job, s.options.strict);
   if (!part) return s.end(part.error(), kUnreadable);
   task.part = *std::move(part);
+  model::named_by_caller(task.part, s.options.inputs.material.has_value(),
+                         !s.options.inputs.stock_text.empty());
   auto inputs = gather(s.options.inputs, task.part, s.job);
   if (!inputs) return s.end(inputs.error(), kUnreadable);
   task.inputs = *std::move(inputs);

@@ -5,11 +5,13 @@
 #include <nlohmann/json.hpp>
 
 #include "planner/base/file.h"
+#include "planner/model/contradicted.h"
 #include "planner/model/edited.h"
 #include "planner/model/nouns/executable.h"
 #include "planner/model/nouns/workpiece.h"
 #include "planner/model/stand_in.h"
 #include "planner/model/walk.h"
+#include "planner/model/workplan_order.h"
 #include "planner/output/json/fields.h"
 #include "planner/output/json/ids.h"
 #include "planner/output/json/json.h"
@@ -571,16 +573,17 @@ Result<model::Plan> read_json(std::string bytes, std::string file_name, Job& job
     json::Reader reader;
     model::Plan plan = reader.run(tree);
     for (const model::Edited& e : model::take_edits(plan.model, plan.ledger)) {
-      job.report({.code = "EXC-EDITED",
+      job.report({.code = std::string(model::kEditedCode),
                   .severity = Severity::kNote,
                   .message = e.key.attribute + " of " + json::object_id(e.key.object) + " " + text_of(e),
                   .file = file_name});
     }
     if (!reader.edited().empty()) {
-      Diagnostic d = model::parts_edited("JSON-EDITED", reader.edited());
-      d.file = file_name;
-      job.report(std::move(d));
+      job.report(model::parts_edited(std::string(model::kEditedJsonCode), reader.edited(), file_name));
+      model::refuse_edited(plan, json::listed_among(reader.edited()), "the plan's JSON");
     }
+    if (const std::string how = model::follow_workplan(plan); !how.empty())
+      job.report(model::steps_disagree(how, file_name));
     return plan;
   } catch (const json::Fault& f) {
     Diagnostic d{
