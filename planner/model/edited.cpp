@@ -142,10 +142,11 @@ Diagnostic parts_edited(std::string code, const std::vector<std::string>& parts,
   if (parts.size() > kNamed) names += " and " + std::to_string(parts.size() - kNamed) + " more";
   return {.code = std::move(code),
           .severity = Severity::kWarning,
-          .message = "the file was edited after it was written: " + names +
-                     "; what was computed of the old values was not computed again",
+          .message = "the file was edited after it was written: " + names,
           .file = std::move(file),
-          .hint = "plan it again"};
+          .hint =
+              "`capstan plan` chooses anew what was chosen from the old values; `check` and `explain` "
+              "take all of it as it stands"};
 }
 
 }  // namespace capstan::model

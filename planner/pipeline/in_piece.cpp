@@ -4,7 +4,7 @@
 
 #include "planner/base/number.h"
 #include "planner/model/nouns/feature.h"
-#include "planner/pipeline/work.h"
+#include "planner/pipeline/steps.h"
 
 // Features that the raw piece does not let be made as they are drawn.
 
@@ -52,7 +52,7 @@ double sharp_corner_of(const Work& w, const FeatureShape& s) {
 }
 
 void tell_corners(Work& w) {
-  if (w.plan.target_mesh) return;
+  if (w.plan.target_mesh) return tell_mesh_corners(w);
   const model::PieceForm part = part_form(w);
   for (const FeatureShape& s : w.whole_shapes) {
     const bool open = s.kind == ShapeKind::kPocket && s.open && !(s.corner_radius_mm > 0.0);

@@ -107,6 +107,10 @@ class Proposer {
         context.surface_walls = form.walls;
         context.surface_curved = form.curved;
         context.surface_corner_mm = form.corner_mm;
+        context.surface_sharp_mm = sharp_corner_of(form);
+        // Of what is curved, too, a ball finishes the places that no mill enters.
+        if (form.walls && !form.curved)
+          context.surface_passage_mm = passage_between(*w_.plan.target_mesh, form, w_.plan.stock.box);
       }
     }
     const auto proposals = rules::propose_members(w_.inputs.rules, shapes, context);

@@ -170,6 +170,8 @@ void stop_at_walls(const Work& w, model::FeatureShape& face);
 /// Why a hole cannot be told from another feature's: it lies wholly within that, or differs from it at the
 /// same place. Empty when it can.
 [[nodiscard]] std::string lies_within_another(const Work& w, const model::FeatureShape& shape);
+/// Whether two features' shapes are one removal, drawn twice; as they are drawn, however they are cut.
+[[nodiscard]] bool same_removal(const Work& w, const model::FeatureShape& a, const model::FeatureShape& b);
 /// Says which features are the same at the same place: they are made once.
 void tell_twins(Work& w);
 /// Says which radius stays where corners are drawn sharp and no radius is stated.
