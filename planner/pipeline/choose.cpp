@@ -113,7 +113,7 @@ Chosen choose(Work& w, const model::Proposal& p, const FeatureShape& shape, cons
       why_not = keep_untried(w, member, out.key, i, s);
       if (why_not.empty()) why_not = keep_able(w, step, s);
       if (!why_not.empty()) break;
-      used.push_back(s.ranked.front().cutter.id);
+      tooling::use(used, s.ranked.front().cutter.id);
       out.tools.push_back(std::move(s));
     }
     if (why_not.empty()) {

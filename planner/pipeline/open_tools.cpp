@@ -173,7 +173,7 @@ bool select_one(Work& w, StepWork& step, const std::vector<model::Cutter>& libra
   step.candidates = s.ranked;
   step.cutter = s.ranked.front().cutter;
   step.rejected_tools = s.rejected;
-  w.used_cutters.push_back(step.cutter.id);
+  tooling::use(w.used_cutters, step.cutter.id);
   const auto tool = tool_noun(w, step.cutter);
   w.plan.model.get<model::MachiningOperation>(step.operation)->its_tool = tool;
   w.plan.ledger.bind(step.operation, "its_tool", model::Binder::kToolSelection, s.ranked.front().why,
@@ -298,7 +298,7 @@ Status select_open_tools(Work& w) {
       step.cutter = *std::move(cutter);
       if (take_recorded(w, step, step.cutter)) recorded.insert(&step);
       given.push_back(&step);
-      w.used_cutters.push_back(step.cutter.id);
+      tooling::use(w.used_cutters, step.cutter.id);
       continue;
     }
     w.job.report(cutter.error());

@@ -376,7 +376,7 @@ class Proposer {
       }
       step.probing = std::exchange(probing, std::nullopt);
       made_of.push_back(w_.steps.size());
-      w_.used_cutters.push_back(step.cutter.id);
+      tooling::use(w_.used_cutters, step.cutter.id);
       made.push_back(w_.steps.size());
       w_.steps.push_back(std::move(step));
     }
@@ -388,7 +388,7 @@ class Proposer {
     Probing out{chain, i, {}};
     if (w_.plan.machine.abilities.probe && !tools.ranked.empty()) {
       out.probe = tools.ranked.front();
-      w_.used_cutters.push_back(out.probe->cutter.id);
+      tooling::use(w_.used_cutters, out.probe->cutter.id);
     }
     return out;
   }

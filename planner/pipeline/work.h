@@ -76,7 +76,7 @@ struct Work {
   std::vector<StepWork> steps;  ///< in order of execution once sequenced
   std::vector<model::FeatureShape>
       faces;  ///< planar faces of the part: cut first, so that less stands above the rest
-  std::vector<std::string> used_cutters;  ///< ids, so that a further tool change is not asked for lightly
+  std::vector<std::string> used_cutters;  ///< ids, each once: a further tool change is not asked for lightly
   std::vector<model::Cutter> recorded;    ///< what the plan said of its cutters when it was read
   std::optional<model::GeneralTolerance> general = {};  ///< of what states none: the user's, else the file's
   std::map<AnyRef, model::Quality> qualities = {};      ///< by feature

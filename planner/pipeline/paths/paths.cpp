@@ -152,6 +152,7 @@ class PathMaker {
   }
 
   Status make(StepWork& step) {
+    stocks_.keep(step.setup);
     if (!step.unreadable.empty()) {
       give_up(step, step.unreadable);
       return {};

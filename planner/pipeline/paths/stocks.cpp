@@ -73,20 +73,33 @@ stock::HeightMap& Stocks::of(std::size_t setup) {
 
 Stocks::Before Stocks::before(std::size_t setup) {
   (void)of(setup);
-  return {maps_[setup], exact_[setup]};
+  return {patches_[setup].size(), exact_[setup]->mark()};
 }
 
 void Stocks::put_back(std::size_t setup, const Before& before) {
-  maps_[setup] = before.map;
-  exact_[setup] = before.exact;
+  auto& patches = patches_[setup];
+  while (patches.size() > before.patches) {
+    stock::put_back(*maps_[setup], patches.back());
+    patches.pop_back();
+  }
+  exact_[setup]->put_back(before.exact);
+}
+
+void Stocks::keep(std::size_t setup) {
+  patches_[setup].clear();
+  if (exact_[setup]) exact_[setup]->forget();
 }
 
 Result<engagement::Measurement> Stocks::measure(std::size_t setup, const model::CutterPath& path,
                                                 const model::Cutter& cutter) {
   auto& map = of(setup);
   auto& exact = exact_[setup];
-  if (!exact || !exact->lost().empty()) return engagement::measure(path, cutter, map);
   const auto profile = model::profile_of(cutter);
+  const auto around = model::bounds(path);
+  const geometry::Vec2 reach{profile.radius_mm, profile.radius_mm};
+  patches_[setup].push_back(stock::patch_of(map, geometry::Vec2{around.lo.x, around.lo.y} - reach,
+                                            geometry::Vec2{around.hi.x, around.hi.y} + reach));
+  if (!exact || !exact->lost().empty()) return engagement::measure(path, cutter, map);
   if (engagement::head_height(cutter) || !stock::is_flat(profile)) {
     auto cells = engagement::measure(path, cutter, map);
     if (!cells) return cells;
@@ -104,14 +117,13 @@ Result<engagement::Measurement> Stocks::measure(std::size_t setup, const model::
     return engagement::measure(path, cutter, map);
   }
   // Two accounts of one cut: where they contradict each other the map's is kept.
-  stock::HeightMap after = map;
-  const double cells_mm3 = stock::cut(after, profile, path);
+  const double cells_mm3 = stock::cut(map, profile, path);
   const double exact_mm3 = measured->removed_mm3 + measured->rapid_removed_mm3;
   if (std::abs(cells_mm3 - exact_mm3) > kContradiction * std::max(cells_mm3, exact_mm3) + kTraceMm3) {
     exact->lose("it contradicts the height map");
+    stock::put_back(map, patches_[setup].back());
     return engagement::measure(path, cutter, map);
   }
-  map = std::move(after);
   return measured;
 }
 
