@@ -52,6 +52,8 @@ struct Context {
   /// Of walls and level floors only: the largest cutter that passes everywhere, and the largest radius that
   /// may stay in the walls' sharp inside corners; 0: nothing limits it, it has none.
   double surface_passage_mm = 0.0, surface_sharp_mm = 0.0;
+  /// How far walls go down from the top of the surface, to the underside of the raw piece; 0: it has none.
+  double surface_height_mm = 0.0;
   bool has_coolant = true;
   model::Quality quality;  ///< surface texture and geometric tolerances of the feature
   model::MachineAbilities abilities;

@@ -108,6 +108,8 @@ class Proposer {
         context.surface_curved = form.curved;
         context.surface_corner_mm = form.corner_mm;
         context.surface_sharp_mm = sharp_corner_of(form);
+        if (form.walls)
+          context.surface_height_mm = geometry::bounds(*w_.plan.target_mesh).hi.z - w_.plan.stock.box.lo.z;
         // Of what is curved, too, a ball finishes the places that no mill enters.
         if (form.walls && !form.curved)
           context.surface_passage_mm = passage_between(*w_.plan.target_mesh, form, w_.plan.stock.box);

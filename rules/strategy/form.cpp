@@ -158,12 +158,18 @@ void fit_between_walls(const Making& m, double of_passage, double of_corner, dou
            "the narrowest passage between walls, " + trimmed(passage, 3) + " mm wide, limits the cutter");
 }
 
+// Beside a wall the cutter is free of it to its top; what the raw piece has above that is cut before.
+double reach_on(const Making& m) {
+  const double walls = m.context.surface_height_mm;
+  return (walls > 0.0 ? walls : m.shape.depth_mm + m.context.stock_above_mm) + kReachClearanceMm;
+}
+
 Made freeform_rough(const Making& m) {
   ProposedStep s;
   s.depth_mm = m.shape.depth_mm;
   s.allowance_side_mm = s.allowance_bottom_mm = m.number("allowance_mm");
   s.tool.classes = {CutterClass::kBullnoseEndmill, CutterClass::kEndmill, CutterClass::kBallEndmill};
-  s.tool.reach_mm = m.shape.depth_mm + m.context.stock_above_mm + kReachClearanceMm;
+  s.tool.reach_mm = reach_on(m);
   s.tool.centre_cutting = !m.shape.open;
   s.strategy = StrategyKind::kContourParallel;
   fit_between_walls(m, 0.8, 1.0, 2.0, s);  // default, unsourced: as areas are roughed
@@ -177,7 +183,7 @@ Made freeform_levels(const Making& m) {
   s.depth_mm = m.shape.depth_mm;
   s.tool.classes = {CutterClass::kEndmill};
   s.tool.corner_radius_limited = true;
-  s.tool.reach_mm = m.shape.depth_mm + m.context.stock_above_mm + kReachClearanceMm;
+  s.tool.reach_mm = reach_on(m);
   s.strategy = StrategyKind::kContourParallel;
   fit_between_walls(m, 0.95, kOfCorner, kOfCorner, s);  // default, unsourced: as areas are finished
   return s;

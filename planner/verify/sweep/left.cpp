@@ -19,7 +19,8 @@
 // Crests of threads and what heights do not hold are not looked at, nor what is narrower than two cells: a
 // note says so.
 //
-// In the sharp inside corners of a mesh, which can state no radius, may stay what may stay in those of a step.
+// In the sharp inside corners of a mesh, which can state no radius, may stay what may stay in those of a
+// step.
 //
 // On a freeform surface the distance is measured square to it: from the top of what stands to the nearest of
 // the columns that the finished part fills. It may be the tolerance, and what the finishing step states as
