@@ -49,6 +49,11 @@ struct Context {
   /// floors is on it, and the least radius of the walls' inside corners; 0: none, or sharp.
   bool surface_walls = false, surface_curved = true;
   double surface_corner_mm = 0.0;
+  /// Of walls and level floors only: the largest cutter that passes everywhere, and the largest radius that
+  /// may stay in the walls' sharp inside corners; 0: nothing limits it, it has none.
+  double surface_passage_mm = 0.0, surface_sharp_mm = 0.0;
+  /// How far walls go down from the top of the surface, to the underside of the raw piece; 0: it has none.
+  double surface_height_mm = 0.0;
   bool has_coolant = true;
   model::Quality quality;  ///< surface texture and geometric tolerances of the feature
   model::MachineAbilities abilities;

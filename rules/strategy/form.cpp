@@ -132,20 +132,47 @@ Made measure(const Making& m) {
   return made;
 }
 
+// Never wider than a passage between walls lets in, nor than their inside corners do. Of sharp corners the
+// last cutter's radius stays, and one twice as wide may come before it.
+void fit_between_walls(const Making& m, double of_passage, double of_corner, double of_sharp,
+                       ProposedStep& s) {
+  if (!m.context.surface_walls) return;
+  const auto narrow = [&](double diameter, std::string why) {
+    if (s.tool.diameter_max_mm > 0.0 && s.tool.diameter_max_mm <= diameter) return;
+    s.tool.diameter_max_mm = diameter;
+    s.why.text = std::move(why);
+  };
+  const double left = s.allowance_side_mm;
+  // A wall moved inwards by the allowance has corners that much tighter.
+  const double corner = m.context.surface_corner_mm;
+  if (corner > 0.0)
+    narrow(2.0 * std::max(of_corner * corner - left, 0.5 * corner),
+           "inside corners of radius " + trimmed(corner, 3) + " mm limit the cutter");
+  const double sharp = of_sharp * m.context.surface_sharp_mm;
+  if (sharp > 0.0)
+    narrow(2.0 * sharp, "inside corners are drawn sharp: a radius of " + trimmed(sharp, 3) + " mm may stay " +
+                            (of_sharp > 1.0 ? "until the finish" : "at most"));
+  const double passage = m.context.surface_passage_mm;
+  if (passage > 0.0)
+    narrow(of_passage * std::max(passage - 2.0 * left, 0.5 * passage),
+           "the narrowest passage between walls, " + trimmed(passage, 3) + " mm wide, limits the cutter");
+}
+
+// Beside a wall the cutter is free of it to its top; what the raw piece has above that is cut before.
+double reach_on(const Making& m) {
+  const double walls = m.context.surface_height_mm;
+  return (walls > 0.0 ? walls : m.shape.depth_mm + m.context.stock_above_mm) + kReachClearanceMm;
+}
+
 Made freeform_rough(const Making& m) {
   ProposedStep s;
   s.depth_mm = m.shape.depth_mm;
   s.allowance_side_mm = s.allowance_bottom_mm = m.number("allowance_mm");
   s.tool.classes = {CutterClass::kBullnoseEndmill, CutterClass::kEndmill, CutterClass::kBallEndmill};
-  s.tool.reach_mm = m.shape.depth_mm + m.context.stock_above_mm + kReachClearanceMm;
+  s.tool.reach_mm = reach_on(m);
   s.tool.centre_cutting = !m.shape.open;
   s.strategy = StrategyKind::kContourParallel;
-  const double corner = m.context.surface_walls ? m.context.surface_corner_mm : 0.0;
-  if (corner > 0.0) {
-    // A wall moved inwards by the allowance has corners that much tighter.
-    s.tool.diameter_max_mm = 2.0 * std::max(corner - s.allowance_side_mm, 0.5 * corner);
-    s.why.text = "inside corners of radius " + trimmed(corner, 3) + " mm limit the cutter";
-  }
+  fit_between_walls(m, 0.8, 1.0, 2.0, s);  // default, unsourced: as areas are roughed
   return s;
 }
 
@@ -155,13 +182,10 @@ Made freeform_levels(const Making& m) {
   ProposedStep s;
   s.depth_mm = m.shape.depth_mm;
   s.tool.classes = {CutterClass::kEndmill};
-  s.tool.diameter_max_mm = 2.0 * kOfCorner * m.context.surface_corner_mm;
   s.tool.corner_radius_limited = true;
-  s.tool.reach_mm = m.shape.depth_mm + m.context.stock_above_mm + kReachClearanceMm;
+  s.tool.reach_mm = reach_on(m);
   s.strategy = StrategyKind::kContourParallel;
-  if (m.context.surface_corner_mm > 0.0)
-    s.why.text =
-        "inside corners of radius " + trimmed(m.context.surface_corner_mm, 3) + " mm limit the cutter";
+  fit_between_walls(m, 0.95, kOfCorner, kOfCorner, s);  // default, unsourced: as areas are finished
   return s;
 }
 

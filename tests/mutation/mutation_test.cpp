@@ -12,9 +12,10 @@ namespace {
 
 bool soaks() { return std::getenv("CAPSTAN_SOAK") != nullptr; }
 
-/// Other seeds in each repetition of `./dev soak`.
+/// Other seeds in each repetition of `./dev soak`, and in each of its parts.
 std::uint64_t next_seed() {
-  static std::uint64_t seed = 1;
+  static std::uint64_t seed =
+      1 + 4000 * static_cast<std::uint64_t>(::testing::UnitTest::GetInstance()->random_seed());
   const std::uint64_t now = seed;
   seed += 1000;
   return now;

@@ -91,7 +91,7 @@ std::size_t inputs() {
 
 TEST(ReadersOfSeeds, TakeAnyBytesWithAnAnswerInTime) {
   const char* only = std::getenv("CAPSTAN_FUZZ_READER");
-  static std::uint64_t seed = 0;
+  static auto seed = static_cast<std::uint64_t>(::testing::UnitTest::GetInstance()->random_seed());
   ++seed;
   std::size_t all = 0;
   for (const Reader& r : readers()) {

@@ -19,6 +19,9 @@ namespace capstan::testing::removal {
 [[nodiscard]] Part short_step();
 /// The face stops at walls as high as it is deep on one, two or three of its sides.
 [[nodiscard]] Part face_beside_walls(int walls, double height);
+[[nodiscard]] Part face_with_boss_beside_wall();
+[[nodiscard]] Part face_at_the_edge_and_narrow_face();
+[[nodiscard]] Part deeper_face_over_a_shallow_one();
 [[nodiscard]] Part single_holes();
 [[nodiscard]] Part compound_holes();
 [[nodiscard]] Part threaded_hole();
@@ -44,6 +47,7 @@ namespace capstan::testing::removal {
 [[nodiscard]] Part mesh_box();
 [[nodiscard]] Part mesh_step();
 [[nodiscard]] Part mesh_pocket();
+[[nodiscard]] Part mesh_square_pocket();
 
 // Parts that once took minutes of planning.
 [[nodiscard]] Part tight_flat_hole();

@@ -28,6 +28,11 @@ CAPSTAN_MADE(RemovalOfParts, StopsAFaceAtAHighWallBesideIt, face_beside_walls(1,
 CAPSTAN_MADE(RemovalOfParts, StopsAFaceAtTwoWalls, face_beside_walls(2, 5))
 CAPSTAN_MADE(RemovalOfParts, StopsAFaceBetweenThreeWalls, face_beside_walls(3, 5))
 CAPSTAN_MADE(RemovalOfParts, StopsAFaceBetweenThreeHighWalls, face_beside_walls(3, 20))
+CAPSTAN_MADE(RemovalOfParts, StopsAFaceThatListsABossAtTheWallBesideIt, face_with_boss_beside_wall())
+CAPSTAN_MADE(RemovalOfParts, CutsAFaceAtTheEdgeWhateverNarrowOneLiesBehindTheWall,
+             face_at_the_edge_and_narrow_face())
+CAPSTAN_MADE(RemovalOfParts, CutsTheShallowerOfTwoFacesThatOverlapFirst, deeper_face_over_a_shallow_one())
+CAPSTAN_MADE(RemovalOfParts, CutsANarrowPocketOfAMeshWithAMillThatPassesIt, mesh_square_pocket())
 CAPSTAN_MADE(RemovalOfParts, CutsAClosedMeshOfABoxOutOfABlock, mesh_box())
 CAPSTAN_MADE(RemovalOfParts, CutsAClosedMeshOfAStepOutOfABlock, mesh_step())
 CAPSTAN_MADE(RemovalOfParts, CutsAClosedMeshWithAPocketOutOfABlock, mesh_pocket())

@@ -1,6 +1,8 @@
 #include "tests/removal/planned.h"
 
 #include <cstdlib>
+#include <sstream>
+#include <utility>
 
 #include "planner/ground/base/file.h"
 
@@ -38,6 +40,16 @@ std::string heights(const Stock& stock) {
   return out;
 }
 
+/// The program without its comments: they name the file.
+std::string words_of(const std::string& program) {
+  std::istringstream lines(program);
+  std::string out;
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with('(')) out += line + "\n";
+  }
+  return out;
+}
+
 }  // namespace
 
 Outcome plan_and_simulate(const Part& part) {
@@ -58,6 +70,23 @@ Outcome plan_and_simulate(const Part& part) {
                          part.block, part.target, part.grid, &remains);
   if (keep != nullptr) write(".pgm", heights(remains));
   write(".txt", out.text());
+  return out;
+}
+
+std::string lost_in_a_form(const Part& part, const PlanOutput& plan) {
+  if (plan.linuxcnc.empty()) return {};
+  std::string out;
+  const std::pair<const char*, const std::string*> forms[] = {
+      {"plan.json", &plan.json}, {"plan.p21", &plan.iso14649}, {"plan.stpnc", &plan.ap238}};
+  for (const auto& [name, text] : forms) {
+    const PlanOutput again = plan_bytes(*text, name, part.options);
+    if (words_of(again.linuxcnc) == words_of(plan.linuxcnc)) continue;
+    out += std::string(name) + " gives another program";
+    for (const PlanMessage& m : again.diagnostics) {
+      if (m.severity != "note") out += "; " + m.severity + ": " + m.text;
+    }
+    out += "\n";
+  }
   return out;
 }
 

@@ -35,4 +35,7 @@ struct Outcome {
 /// are left there.
 [[nodiscard]] Outcome plan_and_simulate(const Part& part);
 
+/// What the forms of a plan say when they are read: the same program each. Empty where they do.
+[[nodiscard]] std::string lost_in_a_form(const Part& part, const PlanOutput& plan);
+
 }  // namespace capstan::testing::removal

@@ -2,7 +2,6 @@
 
 #include <cstdio>
 #include <cstdlib>
-#include <sstream>
 
 #include "tests/removal/random_part.h"
 #include "tests/support/rs274.h"
@@ -31,34 +30,6 @@ Share& made_so_far() {
   return share;
 }
 
-/// The program without its comments: they name the file.
-std::string words_of(const std::string& program) {
-  std::istringstream lines(program);
-  std::string out;
-  for (std::string line; std::getline(lines, line);) {
-    if (!line.starts_with('(')) out += line + "\n";
-  }
-  return out;
-}
-
-/// What the forms of a plan say when they are read: the same program each. Empty where they do.
-std::string lost_in_a_form(const RandomPart& random, const Outcome& o) {
-  if (!o.written()) return {};
-  std::string out;
-  const std::pair<const char*, const std::string*> forms[] = {
-      {"plan.json", &o.plan.json}, {"plan.p21", &o.plan.iso14649}, {"plan.stpnc", &o.plan.ap238}};
-  for (const auto& [name, text] : forms) {
-    const PlanOutput again = plan_bytes(*text, name, random.part.options);
-    if (words_of(again.linuxcnc) == words_of(o.plan.linuxcnc)) continue;
-    out += std::string(name) + " gives another program";
-    for (const PlanMessage& m : again.diagnostics) {
-      if (m.severity != "note") out += "; " + m.severity + ": " + m.text;
-    }
-    out += "\n";
-  }
-  return out;
-}
-
 void holds(unsigned seed, bool tell) {
   const RandomPart random = random_part(seed);
   const Outcome o = plan_and_simulate(random.part);
@@ -66,8 +37,9 @@ void holds(unsigned seed, bool tell) {
   EXPECT_TRUE(broken.empty()) << "seed " << seed << ", machine '" << random.part.options.machine
                               << "', tools '" << random.part.options.tools << "':\n"
                               << broken << o.text();
-  EXPECT_EQ(lost_in_a_form(random, o), "") << "seed " << seed << ", machine '" << random.part.options.machine
-                                           << "', tools '" << random.part.options.tools << "'";
+  EXPECT_EQ(lost_in_a_form(random.part, o.plan), "")
+      << "seed " << seed << ", machine '" << random.part.options.machine << "', tools '"
+      << random.part.options.tools << "'";
   const Share share = planned_share(random, o);
   if (random.whole_shop) {
     made_so_far().planned += share.planned;

@@ -1,8 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
-#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -289,6 +287,25 @@ TEST(TwoAtOnePlace, EqualHolesAreMadeOnceAndBothAreNamed) {
       << told(o);
 }
 
+TEST(TwoAtOnePlace, AHoleThatACompoundHoldsTooIsMadeOnceAndNotCalledUnplanned) {
+  Sheet s;
+  const auto core = s.d.hole("CORE", s.d.placement({0, 0, -6}), 14, 6.6, s.d.through_bottom());
+  const auto head = s.d.hole("HEAD", s.d.placement({0, 0, 0}), 6, 11, s.d.flat_bottom());
+  s.d.compound("CB", s.d.placement({30, 30, 0}), {core, head}, "COUNTERBORE_HOLE");
+  s.d.hole("H", s.d.placement({30, 30, -6}), 14, 6.6, s.d.through_bottom());
+  const PlanOutput o = s.planned();
+  EXPECT_EQ(o.unplanned, 0U) << told(o);
+  EXPECT_NE(told(o).find("PIP-TWICE"), std::string::npos) << told(o);
+}
+
+TEST(RefusedParts, AFaceTooNarrowForAnyMillNamesItsWidthAndTheMillItWants) {
+  Sheet s;
+  s.d.face("SLIT", 30, 0, 1, 60, 0, 5);
+  const PlanOutput o = s.planned();
+  expect_unplanned(o, 1, "no cutter fits; an end mill");
+  EXPECT_NE(told(o).find("the narrowest passage of "), std::string::npos) << told(o);
+}
+
 TEST(TwoAtOnePlace, EqualPocketsAreMadeOnceAndBothAreNamed) {
   Sheet s;
   s.d.closed_pocket("A", s.d.placement({30, 30, 0}), 6, s.d.rectangle(30, 20), 4);
@@ -470,55 +487,6 @@ TEST(ThroughHoles, OneThatEndsInThePieceIsCutToItsUndersideUnlessAnotherFeatureO
     const PlanOutput o = s.planned();
     EXPECT_EQ(told(o).find("it is cut down to the underside") == std::string::npos, bore) << told(o);
   }
-}
-
-// An STL of an outline in XZ, extruded along Y from 0 to 20; `caps` are its triangles by corner.
-std::string extruded(const std::vector<std::pair<double, double>>& outline,
-                     const std::vector<std::array<std::size_t, 3>>& caps) {
-  std::ostringstream out;
-  out << "solid s\n";
-  const auto facet = [&](const std::array<std::array<double, 3>, 3>& t) {
-    out << "facet normal 0 0 0\nouter loop\n";
-    for (const auto& v : t) out << "vertex " << v[0] << ' ' << v[1] << ' ' << v[2] << '\n';
-    out << "endloop\nendfacet\n";
-  };
-  const auto at = [&](std::size_t i, double y) {
-    return std::array<double, 3>{outline[i].first, y, outline[i].second};
-  };
-  for (std::size_t i = 0; i < outline.size(); ++i) {
-    const std::size_t k = (i + 1) % outline.size();
-    facet({at(i, 0), at(k, 0), at(k, 20)});
-    facet({at(i, 0), at(k, 20), at(i, 20)});
-  }
-  for (const auto& c : caps) {
-    facet({at(c[0], 0), at(c[2], 0), at(c[1], 0)});
-    facet({at(c[0], 20), at(c[1], 20), at(c[2], 20)});
-  }
-  out << "endsolid s\n";
-  return out.str();
-}
-
-std::vector<std::string> left_below(const std::string& stl) {
-  PlanOptions options;
-  options.material = "EN AW-6061";
-  options.stock_allowance_mm = 2.0;
-  std::vector<std::string> out;
-  const PlanOutput plan = plan_bytes(stl, "s.stl", options);
-  EXPECT_TRUE(plan.planned);
-  for (const PlanMessage& m : plan.findings) {
-    if (m.code == "CHK-LEFT-BELOW") out.push_back(m.text);
-  }
-  return out;
-}
-
-// A cap of 26 mm over a stem of 10 mm, 20 mm long: twice 8 x 20 mm2 of it face down.
-TEST(MeshFromAbove, WhatStandsUnderAnUndercutIsSaidWithItsAreaAndABoxHasNone) {
-  const auto tee =
-      left_below(extruded({{10, 0}, {10, 6}, {2, 6}, {2, 10}, {28, 10}, {28, 6}, {20, 6}, {20, 0}},
-                          {{0, 7, 1}, {7, 6, 1}, {3, 2, 1}, {3, 1, 6}, {3, 6, 5}, {3, 5, 4}}));
-  ASSERT_FALSE(tee.empty());  // of the plan and of its program
-  EXPECT_NE(tee.front().find("under 320 mm2 of the part that face down"), std::string::npos) << tee.front();
-  EXPECT_EQ(left_below(extruded({{0, 0}, {0, 10}, {30, 10}, {30, 0}}, {{0, 3, 2}, {0, 2, 1}})).size(), 0U);
 }
 
 }  // namespace

@@ -190,13 +190,9 @@ std::optional<std::string> not_in_magazine(const Cutter& c, const Machine& m, co
     return std::find(p.used.begin(), p.used.end(), id) != p.used.end();
   };
   // One pocket is the spindle itself, and tools are changed by hand.
-  if (pockets > 1 && !used(c.id)) {
-    std::vector<std::string> ids = p.used;
-    std::sort(ids.begin(), ids.end());
-    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
-    if (ids.size() >= pockets)
-      return "the plan uses " + std::to_string(ids.size()) + " tools, and the magazine has " +
-             std::to_string(pockets) + " pockets";
+  if (pockets > 1 && p.used.size() >= pockets && !used(c.id)) {
+    return "the plan uses " + std::to_string(p.used.size()) + " tools, and the magazine has " +
+           std::to_string(pockets) + " pockets";
   }
   return std::nullopt;
 }

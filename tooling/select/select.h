@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -37,8 +38,9 @@ inline constexpr double kLoadingS = 180.0;
 
 /// What the plan around a step says, and what the step removes. Zero: not known.
 struct Preferences {
-  std::vector<std::string> used;   ///< ids of cutters that the plan uses already: no further tool change
-  std::size_t most = 12;           ///< candidates given
+  std::vector<std::string>
+      used;               ///< ids of cutters that the plan uses already, each once: no further tool change
+  std::size_t most = 12;  ///< candidates given
   std::size_t most_rejected = 12;  ///< near misses given one by one; the others are summed up
   double volume_mm3 = 0.0;         ///< milling: what is to be removed
   double depth_mm = 0.0;           ///< along the axis, in all
@@ -47,6 +49,11 @@ struct Preferences {
   int places = 1;                  ///< members of a pattern made with it
   int batch = 1;                   ///< pieces that loading is shared by
 };
+
+/// Adds an id to those in use, once: a plan of thousands of steps uses some ten cutters.
+inline void use(std::vector<std::string>& used, const std::string& id) {
+  if (std::find(used.begin(), used.end(), id) == used.end()) used.push_back(id);
+}
 
 /// The cutters of the library that meet the requirement on that machine, best first.
 ///

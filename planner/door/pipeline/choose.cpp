@@ -81,6 +81,11 @@ void tell_apart(const Work& w, const std::vector<model::Selection>& before, mode
   }
 }
 
+std::string none_fits(const model::ProposedStep& step, const model::Selection& tools) {
+  return step.name + ": no cutter fits; " + tools.would_fit + " would" +
+         (step.why.text.empty() ? std::string() : " (" + step.why.text + ")");
+}
+
 }  // namespace
 
 Chosen choose(Work& w, const model::Proposal& p, const FeatureShape& shape, const Member& member,
@@ -101,14 +106,14 @@ Chosen choose(Work& w, const model::Proposal& p, const FeatureShape& shape, cons
         continue;
       }
       if (s.ranked.empty()) {
-        why_not = step.name + ": no cutter fits; " + s.would_fit + " would";
+        why_not = none_fits(step, s);
         break;
       }
       tell_apart(w, out.tools, s);
       why_not = keep_untried(w, member, out.key, i, s);
       if (why_not.empty()) why_not = keep_able(w, step, s);
       if (!why_not.empty()) break;
-      used.push_back(s.ranked.front().cutter.id);
+      tooling::use(used, s.ranked.front().cutter.id);
       out.tools.push_back(std::move(s));
     }
     if (why_not.empty()) {
@@ -149,7 +154,7 @@ std::vector<model::Rejected> alternatives(Work& w, const model::Proposal& p, con
       wanted.used = w.used_cutters;
       tools.push_back(tooling::select(step.tool, library, w.plan.material, w.plan.machine, wanted));
       if (step.operation != TypeId::kWorkpieceProbing && tools.back().ranked.empty())
-        why = step.name + ": no cutter fits; " + tools.back().would_fit + " would";
+        why = none_fits(step, tools.back());
     }
     if (why.empty())
       why = "about " + trimmed(seconds(tools), 1) + " s of cutting, the chain taken about " + taken +

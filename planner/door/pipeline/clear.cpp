@@ -235,7 +235,9 @@ Result<toolpath::GeneratedPath> kept_clear(
     auto higher = make(other);
     if (higher && !near_move_of(higher->path, step.cutter, h)) return higher;
   }
-  const double low = job.feature_in_setup.origin.z - job.shape.depth_mm - job.break_through_mm;
+  double low = job.feature_in_setup.origin.z - job.shape.depth_mm - job.break_through_mm;
+  // Around a solid all goes, down to the underside of the raw piece.
+  if (job.shape.kind == model::ShapeKind::kFreeform) low = std::min(low, w.setups[step.setup].stock.lo.z);
   other.avoid = geometry::unite(job.avoid, keep_out(h, low));
   const Region cut = geometry::intersect(in_setup(job.shape.area, job.feature_in_setup), job.stock);
   std::string why;

@@ -149,6 +149,7 @@ SurfaceForm surface_form(const geometry::Mesh& mesh, const geometry::Box3& raw) 
       out.curved = true;
   }
   std::sort(out.floors_mm.begin(), out.floors_mm.end(), std::greater<>());
+  if (out.walls) out.sharp = geometry::sharp_corners(mesh, form.inside_out);
   for (const auto& [e, sides] : edges) {
     if (sides.size() != 2) continue;
     const Vec3 a = mesh.vertices[e.first];
@@ -198,6 +199,7 @@ Result<toolpath::GeneratedPath> freeform_path(Work& w, const StepWork& step, con
   f.bottom_z_mm = geometry::bounds(mesh).lo.z;
   f.security_z_mm = job.security_z_mm;
   f.clearance_mm = job.clearance_mm;
+  f.avoid = job.avoid;
   f.tolerance_mm = kChordMm;
   f.scallop_mm = kScallopMm;
   const auto* op = w.plan.model.get<model::FreeformOperation>(step.operation);

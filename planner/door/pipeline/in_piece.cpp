@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "planner/door/pipeline/work.h"
+#include "planner/door/pipeline/steps.h"
 #include "planner/ground/base/number.h"
 #include "planner/model/nouns/feature.h"
 
@@ -52,7 +52,7 @@ double sharp_corner_of(const Work& w, const FeatureShape& s) {
 }
 
 void tell_corners(Work& w) {
-  if (w.plan.target_mesh) return;
+  if (w.plan.target_mesh) return tell_mesh_corners(w);
   const model::PieceForm part = part_form(w);
   for (const FeatureShape& s : w.whole_shapes) {
     const bool open = s.kind == ShapeKind::kPocket && s.open && !(s.corner_radius_mm > 0.0);

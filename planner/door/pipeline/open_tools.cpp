@@ -1,6 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
+#include <set>
+#include <tuple>
 
 #include "planner/door/pipeline/share.h"
 #include "planner/door/pipeline/shop.h"
@@ -170,7 +173,7 @@ bool select_one(Work& w, StepWork& step, const std::vector<model::Cutter>& libra
   step.candidates = s.ranked;
   step.cutter = s.ranked.front().cutter;
   step.rejected_tools = s.rejected;
-  w.used_cutters.push_back(step.cutter.id);
+  tooling::use(w.used_cutters, step.cutter.id);
   const auto tool = tool_noun(w, step.cutter);
   w.plan.model.get<model::MachiningOperation>(step.operation)->its_tool = tool;
   w.plan.ledger.bind(step.operation, "its_tool", model::Binder::kToolSelection, s.ranked.front().why,
@@ -178,17 +181,62 @@ bool select_one(Work& w, StepWork& step, const std::vector<model::Cutter>& libra
   return true;
 }
 
-/// Files name tools as they like, or not at all: different ones of one name get a name each.
-void tell_apart(std::vector<model::Cutter>& given, model::Cutter& cutter) {
-  const std::string name = cutter.id;
-  for (int n = 2;; ++n) {
-    const auto same =
-        std::find_if(given.begin(), given.end(), [&](const auto& c) { return c.id == cutter.id; });
-    if (same == given.end()) break;
-    if (*same == cutter) return;
-    cutter.id = name + "~" + std::to_string(n);
+/// Whether two given ones of a name are one tool; how far it stands out is said for both (stand_out_alike).
+bool same_given(const model::Cutter& a, const model::Cutter& b) {
+  model::Cutter other = b;
+  other.stick_out_mm = a.stick_out_mm;
+  other.usable_length_mm = a.usable_length_mm;
+  other.sources = a.sources;
+  return a == other;
+}
+/// The same of a given one and one of the library, of which nouns hold less.
+bool same_chosen(const model::Cutter& a, const model::Cutter& b) {
+  constexpr double kSame = 1e-6;  // mm, rad: what units round
+  const auto near = [](double x, double y) { return std::abs(x - y) <= kSame; };
+  return a.cutter_class == b.cutter_class && a.teeth == b.teeth && a.hand == b.hand &&
+         near(a.cutting_diameter_mm, b.cutting_diameter_mm) && near(a.corner_radius_mm, b.corner_radius_mm);
+}
+
+/// Files name tools as they like, or not at all: different ones of one name get a name each. Which one keeps
+/// the name does not depend on the order of the steps: what planning chose from the library, then the
+/// smaller.
+void tell_apart(Work& w, const std::vector<StepWork*>& given) {
+  std::map<std::string, std::vector<model::Cutter>> named;
+  std::set<std::string> taken, chosen;
+  for (const StepWork& s : w.steps) {
+    if (s.cutter.id.empty()) continue;
+    taken.insert(s.cutter.id);
+    if (std::find(given.begin(), given.end(), &s) != given.end()) continue;
+    named[s.cutter.id] = {s.cutter};
+    chosen.insert(s.cutter.id);
   }
-  given.push_back(cutter);
+  const auto find = [&](const model::Cutter& c) {
+    const auto& all = named[c.id];
+    const auto first = all.begin() + (chosen.contains(c.id) ? 1 : 0);
+    if (first != all.begin() && same_chosen(all.front(), c)) return std::size_t{0};
+    return static_cast<std::size_t>(
+        std::find_if(first, all.end(), [&](const auto& o) { return same_given(o, c); }) - all.begin());
+  };
+  std::vector<const StepWork*> sorted(given.begin(), given.end());
+  const auto size = [](const StepWork* s) {
+    const model::Cutter& c = s->cutter;
+    return std::tuple(c.cutting_diameter_mm, c.functional_length_mm, c.maximum_depth_of_cut_mm,
+                      c.corner_radius_mm, c.point_angle_rad, c.teeth, c.cutter_class);
+  };
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [&](const StepWork* a, const StepWork* b) { return size(a) < size(b); });
+  for (const StepWork* s : sorted) {
+    if (find(s->cutter) == named[s->cutter.id].size()) named[s->cutter.id].push_back(s->cutter);
+  }
+  std::map<std::string, std::vector<std::string>> names;
+  for (const auto& [name, all] : named) {
+    auto& own = names[name] = {name};
+    for (int n = 2; own.size() < all.size(); ++n) {
+      const std::string other = name + "~" + std::to_string(n);
+      if (taken.insert(other).second) own.push_back(other);
+    }
+  }
+  for (StepWork* s : given) s->cutter.id = names[s->cutter.id][find(s->cutter)];
 }
 
 /// A cutter that planning chose before is the one the plan recorded: nouns hold less of it. Where they have
@@ -215,12 +263,17 @@ bool take_recorded(const Work& w, const StepWork& step, model::Cutter& cutter) {
   return true;
 }
 
+std::string id_of(const Work& w, const StepWork& step) {
+  const auto* executable = w.plan.model.get<model::Executable>(step.step);
+  return executable == nullptr ? std::string() : executable->its_id.value_or("");
+}
+
 /// A tool stands out by one length all through a plan: as far as the deepest of its steps needs. The steps
 /// before and after that bend as much.
 void stand_out_alike(Work& w) {
   for (StepWork& s : w.steps) {
     for (const StepWork& other : w.steps) {
-      if (s.proposed || other.proposed || other.cutter.id != s.cutter.id) continue;
+      if (s.cutter.id.empty() || other.cutter.id != s.cutter.id) continue;
       s.cutter.stick_out_mm = std::max(s.cutter.stick_out_mm, other.cutter.stick_out_mm);
       s.cutter.usable_length_mm = std::max(s.cutter.usable_length_mm, other.cutter.usable_length_mm);
     }
@@ -231,7 +284,8 @@ void stand_out_alike(Work& w) {
 
 Status select_open_tools(Work& w) {
   const std::vector<model::Cutter> library = usable(w);
-  std::vector<model::Cutter> given;
+  std::vector<StepWork*> given;
+  std::set<const StepWork*> recorded;
   for (StepWork& step : w.steps) {
     if (step.proposed || !step.operation.set()) continue;
     const auto* op = w.plan.model.get<model::MachiningOperation>(step.operation);
@@ -242,29 +296,26 @@ Status select_open_tools(Work& w) {
     auto cutter = tooling::cutter_from_nouns(w.plan.model, op->its_tool, w.job, w.inputs.library);
     if (cutter) {
       step.cutter = *std::move(cutter);
-      const bool recorded = take_recorded(w, step, step.cutter);
-      tell_apart(given, step.cutter);
-      if (!recorded) stand_out(w, step);
-      const double assumed = step.cutter.stick_out_mm;
-      take_from_magazine(w, step.cutter);
-      if (auto why = too_short_as_loaded(step.cutter, assumed)) {
-        const auto* executable = w.plan.model.get<model::Executable>(step.step);
-        w.plan.unplanned.push_back(
-            {step.feature,
-             "step '" + (executable == nullptr ? "" : executable->its_id.value_or("")) + "': " + *why});
-        continue;
-      }
-      w.used_cutters.push_back(step.cutter.id);
+      if (take_recorded(w, step, step.cutter)) recorded.insert(&step);
+      given.push_back(&step);
+      tooling::use(w.used_cutters, step.cutter.id);
       continue;
     }
     w.job.report(cutter.error());
-    const auto* executable = w.plan.model.get<model::Executable>(step.step);
-    const std::string name = executable != nullptr ? executable->its_id.value_or("") : std::string();
-    w.plan.unplanned.push_back({step.feature, "step '" + name + "', operation '" + op->its_id.value_or("") +
-                                                  "': " + cutter.error().message});
+    w.plan.unplanned.push_back({step.feature, "step '" + id_of(w, step) + "', operation '" +
+                                                  op->its_id.value_or("") + "': " + cutter.error().message});
   }
-  stand_out_alike(w);
+  tell_apart(w, given);
+  for (StepWork* step : given) {
+    if (!recorded.contains(step)) stand_out(w, *step);
+    const double assumed = step->cutter.stick_out_mm;
+    take_from_magazine(w, step->cutter);
+    if (auto why = too_short_as_loaded(step->cutter, assumed)) {
+      w.plan.unplanned.push_back({step->feature, "step '" + id_of(w, *step) + "': " + *why});
+    }
+  }
   share_tools(w);
+  stand_out_alike(w);
   return {};
 }
 

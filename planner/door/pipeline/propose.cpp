@@ -107,6 +107,12 @@ class Proposer {
         context.surface_walls = form.walls;
         context.surface_curved = form.curved;
         context.surface_corner_mm = form.corner_mm;
+        context.surface_sharp_mm = sharp_corner_of(form);
+        if (form.walls)
+          context.surface_height_mm = geometry::bounds(*w_.plan.target_mesh).hi.z - w_.plan.stock.box.lo.z;
+        // Of what is curved, too, a ball finishes the places that no mill enters.
+        if (form.walls && !form.curved)
+          context.surface_passage_mm = passage_between(*w_.plan.target_mesh, form, w_.plan.stock.box);
       }
     }
     const auto proposals = rules::propose_members(w_.inputs.rules, shapes, context);
@@ -372,7 +378,7 @@ class Proposer {
       }
       step.probing = std::exchange(probing, std::nullopt);
       made_of.push_back(w_.steps.size());
-      w_.used_cutters.push_back(step.cutter.id);
+      tooling::use(w_.used_cutters, step.cutter.id);
       made.push_back(w_.steps.size());
       w_.steps.push_back(std::move(step));
     }
@@ -384,7 +390,7 @@ class Proposer {
     Probing out{chain, i, {}};
     if (w_.plan.machine.abilities.probe && !tools.ranked.empty()) {
       out.probe = tools.ranked.front();
-      w_.used_cutters.push_back(out.probe->cutter.id);
+      tooling::use(w_.used_cutters, out.probe->cutter.id);
     }
     return out;
   }

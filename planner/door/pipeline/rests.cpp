@@ -17,6 +17,8 @@ using model::Model;
 using model::ShapeKind;
 using sequence::Cause;
 
+constexpr double kSameMm = 1e-6;
+
 /// Features of their own, each shape with the feature that workingsteps name.
 struct Shaped {
   std::vector<FeatureShape> shapes;
@@ -41,6 +43,10 @@ Shaped shaped(const Model& m) {
 /// A drill starts on the raw surface as well as on the face, as long as it reaches: its path and its length
 /// are chosen for what stands there. Where the hole ends depends on the face nowhere.
 bool needs(const FeatureShape& before, const FeatureShape& after, Cause cause) {
+  const bool faces = before.kind == ShapeKind::kFace && after.kind == ShapeKind::kFace;
+  // From one height down the deeper of two takes all that the other does.
+  if (faces && std::abs(dot(before.frame.z, after.frame.origin - before.frame.origin)) < kSameMm)
+    return false;
   if (cause == Cause::kFaceFirst && before.kind == ShapeKind::kFace) return after.kind != ShapeKind::kHole;
   return cause != Cause::kDatum;
 }

@@ -6,6 +6,7 @@
 
 #include "planner/door/pipeline/members.h"
 #include "planner/ground/base/number.h"
+#include "tooling/select/select.h"
 
 // The second look at the tools, when every step has one: fewer of them.
 
@@ -70,7 +71,7 @@ class Sharer {
     // What gave way is not used any more.
     w_.used_cutters.clear();
     for (const StepWork& s : w_.steps) {
-      if (!s.cutter.id.empty()) w_.used_cutters.push_back(s.cutter.id);
+      if (!s.cutter.id.empty()) tooling::use(w_.used_cutters, s.cutter.id);
     }
   }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "planner/door/pipeline/work.h"
+#include "planner/ground/geometry/mesh_corners.h"
 #include "planner/making/optimise/cut.h"
 #include "planner/making/optimise/feeds.h"
 #include "planner/making/toolpath/path_job.h"
@@ -60,11 +61,20 @@ void let_go(Work& w, StepWork& step, const std::string& word);
 /// What of a mesh is walls and level floors, seen along z. A sheet has none, and walls on the sides of the
 /// raw piece are there already.
 struct SurfaceForm {
-  bool walls = false;             ///< upright ones, of a closed solid
-  bool curved = false;            ///< anything else that is seen from above
-  std::vector<double> floors_mm;  ///< heights of level parts, from above
-  double corner_mm = 0.0;         ///< least radius of the walls' inside corners; 0: none, or sharp
+  bool walls = false;                       ///< upright ones, of a closed solid
+  bool curved = false;                      ///< anything else that is seen from above
+  std::vector<double> floors_mm;            ///< heights of level parts, from above
+  double corner_mm = 0.0;                   ///< least radius of the walls' inside corners; 0: none, or sharp
+  std::vector<geometry::MeshCorner> sharp;  ///< inside corners that no mill makes
 };
+/// The radius that may stay in the sharp ones, mm; 0: there is none.
+[[nodiscard]] double sharp_corner_of(const SurfaceForm& form);
+/// Says which corners of a mesh keep the radius of the narrowest mill.
+void tell_mesh_corners(Work& w);
+/// The largest cutter that passes between all walls, over each level floor and around the solid; 0: nothing
+/// limits it.
+[[nodiscard]] double passage_between(const geometry::Mesh& mesh, const SurfaceForm& form,
+                                     const geometry::Box3& raw);
 [[nodiscard]] SurfaceForm surface_form(const geometry::Mesh& mesh, const geometry::Box3& raw);
 /// Whether a step finishes walls and level floors of a surface by an end mill.
 [[nodiscard]] bool cuts_levels(const Work& w, const StepWork& step);

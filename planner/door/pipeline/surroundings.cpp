@@ -319,10 +319,11 @@ Status take_requirements(Work& w) {
     if (auto s = shapes_in_piece(w, f)) all.insert(all.end(), s->begin(), s->end());
   }
   w.shapes = std::move(all);
-  for (FeatureShape& s : w.shapes) stop_at_walls(w, s);
   const std::set<AnyRef> parts = model::parts_of_others(m);
   std::copy_if(w.shapes.begin(), w.shapes.end(), std::back_inserter(w.whole_shapes),
                [&](const FeatureShape& s) { return !parts.contains(s.feature); });
+  for (FeatureShape& s : w.shapes) stop_at_walls(w, s);
+  for (FeatureShape& s : w.whole_shapes) stop_at_walls(w, s);
   w.ties = model::ties_of(m, attribution);
   std::string lost;
   for (const auto& l : attribution.lost()) lost += (lost.empty() ? "" : "; ") + l.text;

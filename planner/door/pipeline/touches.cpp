@@ -172,6 +172,11 @@ std::optional<Touch> touch(const Asked& a, Vec2 d, double z) {
   return out;
 }
 
+/// What touches; a machine without a probe is measured on by hand.
+std::string ball_text(double radius_mm) {
+  return radius_mm > 0.0 ? "a ball of " + trimmed(2.0 * radius_mm, 3) + " mm" : "a gauge";
+}
+
 Touches across(const Asked& a, const std::vector<std::pair<Vec2, std::string>>& axes, bool all) {
   Touches out;
   std::string missing;
@@ -191,8 +196,8 @@ Touches across(const Asked& a, const std::vector<std::pair<Vec2, std::string>>& 
   }
   if (out.touches.empty() || (all && !missing.empty())) {
     out.touches.clear();
-    out.why_not = "along " + missing + " there are no two walls facing each other that a ball of " +
-                  trimmed(2.0 * a.ball, 3) + " mm is known to reach freely";
+    out.why_not = "along " + missing + " there are no two walls facing each other that " + ball_text(a.ball) +
+                  " is known to reach freely";
   }
   return out;
 }
@@ -223,7 +228,7 @@ Touches flank(const Work& w, const FeatureShape& s, Left left, double ball) {
   const double z = -0.5 * s.depth_mm + ball * sine;
   const double end = 0.5 * s.diameter.middle() + z * lean - ball / cosine - left.side_mm;
   if (end < kRoom || !within(w.plan.stock.box, s.frame.to_parent({0.0, 0.0, -0.5 * s.depth_mm})))
-    return {{}, "a ball of " + trimmed(2.0 * ball, 3) + " mm does not touch the flank of its cone freely"};
+    return {{}, ball_text(ball) + " does not touch the flank of its cone freely"};
   Touches out;
   for (const auto& [d, side] : {std::pair(Vec2{1.0, 0.0}, "+x"), std::pair(Vec2{-1.0, 0.0}, "-x"),
                                 std::pair(Vec2{0.0, 1.0}, "+y"), std::pair(Vec2{0.0, -1.0}, "-y")}) {

@@ -39,6 +39,12 @@ struct Thinner {
   std::string why;
 };
 
+/// The smallest cutter that the steps of a set-up ended with, and how often that was another than before.
+struct Smallest {
+  double mm = 0.0;
+  int times = 0;
+};
+
 /// Where a proposed step comes from.
 struct MadeStep {
   Member member;
@@ -77,6 +83,8 @@ class Tries {
   std::map<model::AnyRef, MadeStep> made;
   /// Answers of the optimiser that hold in every try.
   std::shared_ptr<CutsKnown> cuts;
+  /// By set-up, where the last try began with another: the stock's cells follow it.
+  std::map<std::size_t, Smallest> smallest;
 
  private:
   std::map<std::pair<Member, std::string>, std::string> chains_;

@@ -79,6 +79,16 @@ std::string size(const FeatureShape& s) {
 
 }  // namespace
 
+bool same_removal(const Work& w, const FeatureShape& a, const FeatureShape& b) {
+  const auto whole = [&](const FeatureShape& s) {
+    return std::find_if(w.whole_shapes.begin(), w.whole_shapes.end(), [&](const FeatureShape& o) {
+      return o.feature == s.feature && o.member == s.member;
+    });
+  };
+  const auto at = whole(a), bt = whole(b);
+  return at != w.whole_shapes.end() && bt != w.whole_shapes.end() && (twins(*at, *bt) || twins(*bt, *at));
+}
+
 std::string lies_within_another(const Work& w, const FeatureShape& s) {
   for (const FeatureShape& o : w.whole_shapes) {
     if (!within(s, o) || twins(s, o)) continue;

@@ -76,7 +76,7 @@ struct Work {
   std::vector<StepWork> steps;  ///< in order of execution once sequenced
   std::vector<model::FeatureShape>
       faces;  ///< planar faces of the part: cut first, so that less stands above the rest
-  std::vector<std::string> used_cutters;  ///< ids, so that a further tool change is not asked for lightly
+  std::vector<std::string> used_cutters;  ///< ids, each once: a further tool change is not asked for lightly
   std::vector<model::Cutter> recorded;    ///< what the plan said of its cutters when it was read
   std::optional<model::GeneralTolerance> general = {};  ///< of what states none: the user's, else the file's
   std::map<AnyRef, model::Quality> qualities = {};      ///< by feature
@@ -91,6 +91,7 @@ struct Work {
   std::vector<model::StepResult> recorded_steps = {};  ///< as the plan said when it was read,
   model::Machine recorded_machine = {};                ///< and for which machine
   model::WorkMaterial recorded_material = {};          ///< and material that was
+  std::set<AnyRef> left_out = {};                      ///< steps that were proposed and cut nothing
   bool again = false;  ///< something failed and `tries` says what: the plan is to be made again
 };
 
@@ -169,6 +170,8 @@ void stop_at_walls(const Work& w, model::FeatureShape& face);
 /// Why a hole cannot be told from another feature's: it lies wholly within that, or differs from it at the
 /// same place. Empty when it can.
 [[nodiscard]] std::string lies_within_another(const Work& w, const model::FeatureShape& shape);
+/// Whether two features' shapes are one removal, drawn twice; as they are drawn, however they are cut.
+[[nodiscard]] bool same_removal(const Work& w, const model::FeatureShape& a, const model::FeatureShape& b);
 /// Says which features are the same at the same place: they are made once.
 void tell_twins(Work& w);
 /// Says which radius stays where corners are drawn sharp and no radius is stated.

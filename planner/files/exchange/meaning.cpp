@@ -359,10 +359,11 @@ namespace {
 /// A file with more wrong references than this is none that anybody wrote by hand: it is refused.
 constexpr std::size_t kMostUnset = 100;  // default, unsourced
 
-/// Whether a plan can be made around the fault: it takes from some features or steps, or from the list of
-/// what is carried out.
+/// Whether the plan can be read around the fault: it takes from some features or steps, or from the list of
+/// what is carried out. Where it is of the whole plan, no program is made of what was read.
 bool belongs_to_some(const model::Plan& plan, std::optional<model::Leads>& leads, const Doubt& doubt) {
   if (doubt.attribute.empty()) return false;
+  if (model::of_whole_plan({doubt.object, doubt.attribute})) return true;
   if (plan.model.holds<model::ProgramStructure>(doubt.object)) return doubt.attribute == "its_elements";
   if (!leads) leads.emplace(plan.model);
   const auto touched = leads->touched_by(doubt.object);
@@ -403,7 +404,8 @@ void settle_doubts(model::Plan& plan, std::vector<Doubt>& doubts, const Marks& r
       model::set_unreadable(plan, doubt.object, doubt.attribute,
                             "line " + std::to_string(d.line) + ", #" + std::to_string(d.instance) + ": " +
                                 d.message + (d.expected.empty() ? "" : "; expected " + d.expected));
-      d.hint = "what needs it is not planned";
+      d.hint = model::of_whole_plan({doubt.object, doubt.attribute}) ? "no program is made of the plan"
+                                                                     : "what needs it is not planned";
       reporter.tell(std::move(d));
       continue;
     }

@@ -8,8 +8,10 @@
 #include "planner/files/exchange/report.h"
 #include "planner/ground/base/file.h"
 #include "planner/model/nouns/all.h"
+#include "planner/model/plan/contradicted.h"
 #include "planner/model/plan/edited.h"
 #include "planner/model/plan/unreadable.h"
+#include "planner/model/plan/workplan_order.h"
 
 namespace capstan::exchange {
 
@@ -414,7 +416,7 @@ class Writing {
              const std::pair<const model::DecisionKey, model::Decision>*>
         in_order;
     for (const auto& entry : plan_.ledger.entries()) {
-      if (here(entry.first.object))
+      if (here(entry.first.object) && model::is_written(plan_.ledger, entry.second))
         in_order[{sink_.order(entry.first.object), entry.first.attribute}] = &entry;
     }
     for (const auto& [place, entry] : in_order) {
@@ -552,10 +554,15 @@ bool restore_record(std::string_view kind, std::string_view label, RecordFields&
 void settle_edits(model::Plan& plan, Reporter& reporter) {
   for (const model::Edited& e : model::take_edits(plan.model, plan.ledger)) {
     reporter.about(plan.model, e.key.object,
-                   {.code = "EXC-EDITED",
+                   {.code = std::string(model::kEditedCode),
                     .severity = Severity::kNote,
                     .message = attribute_name(e.key.object, e.key.attribute) + " " + text_of(e)});
   }
+}
+
+void settle_order(model::Plan& plan, Reporter& reporter) {
+  if (const std::string how = model::follow_workplan(plan); !how.empty())
+    reporter.report(model::steps_disagree(how));
 }
 
 }  // namespace capstan::exchange

@@ -72,5 +72,8 @@ bool restore_record(std::string_view kind, std::string_view label, RecordFields&
 /// When all records are read: values that were edited since (model/edited.h) count as given, with the note
 /// EXC-EDITED.
 void settle_edits(model::Plan& plan, Reporter& reporter);
+/// When all is read: the steps come as the workplan has them; where the records have them otherwise, warns
+/// EXC-ORDER, once.
+void settle_order(model::Plan& plan, Reporter& reporter);
 
 }  // namespace capstan::exchange

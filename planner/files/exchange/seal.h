@@ -1,11 +1,13 @@
 #pragma once
 
+#include <set>
 #include <string>
 #include <string_view>
 
 #include "planner/files/exchange/report.h"
 #include "planner/files/p21/file.h"
 #include "planner/ground/base/result.h"
+#include "planner/model/plan/contradicted.h"
 
 namespace capstan::exchange {
 
@@ -13,14 +15,17 @@ namespace capstan::exchange {
 /// as hashes:
 ///
 ///     !CAPSTAN_SEAL('MILLING_TECHNOLOGY',5,'hash')    all entities of a keyword, in the header or the data
+///     !CAPSTAN_SEAL('capstan step',5,'hash')          all records of a kind that AP238 holds as properties
 ///
 /// By it a reader knows what was edited since, also where no record speaks of it. Numbers count by value;
 /// spacing, comments and the order of entities do not. Words for people (reasons, provenance, the standard's
 /// own header) are not sealed. Fails  P21-... when the file cannot be read.
 [[nodiscard]] Result<std::string> with_seal(std::string file);
 /// Whether the file has a seal that holds. Where it does not, warns EXC-EDITED, naming the kinds whose
-/// entities were edited since.
-[[nodiscard]] bool seal_holds(const p21::File& file, Reporter& reporter);
+/// entities were edited since; `edited`, if asked for, gets the lists of the plan among them that its header
+/// holds.
+[[nodiscard]] bool seal_holds(const p21::File& file, Reporter& reporter,
+                              std::set<model::Listed>* edited = nullptr);
 [[nodiscard]] bool is_seal(std::string_view keyword);
 
 }  // namespace capstan::exchange

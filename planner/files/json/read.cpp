@@ -15,8 +15,10 @@
 #include "planner/model/nouns/arena/walk.h"
 #include "planner/model/nouns/executable.h"
 #include "planner/model/nouns/workpiece.h"
+#include "planner/model/plan/contradicted.h"
 #include "planner/model/plan/edited.h"
 #include "planner/model/plan/step_ids.h"
+#include "planner/model/plan/workplan_order.h"
 
 namespace capstan::json {
 namespace json {
@@ -571,16 +573,17 @@ Result<model::Plan> read_json(std::string bytes, std::string file_name, Job& job
     json::Reader reader;
     model::Plan plan = reader.run(tree);
     for (const model::Edited& e : model::take_edits(plan.model, plan.ledger)) {
-      job.report({.code = "EXC-EDITED",
+      job.report({.code = std::string(model::kEditedCode),
                   .severity = Severity::kNote,
                   .message = e.key.attribute + " of " + json::object_id(e.key.object) + " " + text_of(e),
                   .file = file_name});
     }
     if (!reader.edited().empty()) {
-      Diagnostic d = model::parts_edited("JSON-EDITED", reader.edited());
-      d.file = file_name;
-      job.report(std::move(d));
+      job.report(model::parts_edited(std::string(model::kEditedJsonCode), reader.edited(), file_name));
+      model::refuse_edited(plan, json::listed_among(reader.edited()), "the plan's JSON");
     }
+    if (const std::string how = model::follow_workplan(plan); !how.empty())
+      job.report(model::steps_disagree(how, file_name));
     return plan;
   } catch (const json::Fault& f) {
     Diagnostic d{

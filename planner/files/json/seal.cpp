@@ -77,6 +77,7 @@ class Sealer {
       add("the reasons", h);
     }
     for (const auto& [key, decision] : plan_.ledger.entries()) {
+      if (!model::is_written(plan_.ledger, decision)) continue;
       Hash h;
       of(h, key);
       of(h, decision);
@@ -222,6 +223,20 @@ class Sealer {
 };
 
 }  // namespace
+
+std::set<model::Listed> listed_among(const std::vector<std::string>& edited_parts) {
+  std::set<model::Listed> out;
+  for (const std::string& part : edited_parts) {
+    // A step that is new, or gone, has another name: that is its workingstep's.
+    const bool named_anew = part.ends_with(" (new)") || part.ends_with(" (gone)");
+    if (part == "the material") out.insert(model::Listed::kMaterial);
+    if (part == "the raw piece") out.insert(model::Listed::kRawPiece);
+    if (part.starts_with("tool '")) out.insert(model::Listed::kCutters);
+    if (part.starts_with("set-up ")) out.insert(model::Listed::kSetups);
+    if (part.starts_with("step '") && !named_anew) out.insert(model::Listed::kSteps);
+  }
+  return out;
+}
 
 std::map<std::string, std::uint64_t> seals_of(const model::Plan& plan) { return Sealer(plan).run(); }
 

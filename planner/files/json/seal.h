@@ -2,8 +2,11 @@
 
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
+#include <vector>
 
+#include "planner/model/plan/contradicted.h"
 #include "planner/model/plan/plan.h"
 
 namespace capstan::json::json {
@@ -17,5 +20,7 @@ namespace capstan::json::json {
 ///             file.
 /// Cost        linear.
 [[nodiscard]] std::map<std::string, std::uint64_t> seals_of(const model::Plan& plan);
+/// Which lists of the plan are among the edited parts of a file (model/edited.h).
+[[nodiscard]] std::set<model::Listed> listed_among(const std::vector<std::string>& edited_parts);
 
 }  // namespace capstan::json::json

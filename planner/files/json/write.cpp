@@ -348,6 +348,7 @@ class Writer {
     out_.key("decisions");
     out_.open('[', true);
     for (const auto& [key, known] : plan_.ledger.entries()) {
+      if (!model::is_written(plan_.ledger, known)) continue;
       // What the value is as it is written, so that a reader sees whether somebody changed it since.
       model::Decision decision = known;
       decision.value_hash = model::hash_attribute(plan_.model, key.object, key.attribute);

@@ -65,6 +65,12 @@ bool overlap(const geometry::Box2& a, const geometry::Box2& b) {
   return a.lo.x <= b.hi.x && b.lo.x <= a.hi.x && a.lo.y <= b.hi.y && b.lo.y <= a.hi.y;
 }
 
+/// Not along a side only.
+bool across(const geometry::Box2& a, const geometry::Box2& b) {
+  return a.lo.x < b.hi.x - kLevel && b.lo.x < a.hi.x - kLevel && a.lo.y < b.hi.y - kLevel &&
+         b.lo.y < a.hi.y - kLevel;
+}
+
 /// Whether some of b's outline lies in a's area, or the other way round.
 bool meet(const FeatureShape& fa, const Seen& a, const FeatureShape& fb, const Seen& b,
           const geometry::Placement& side) {
@@ -84,8 +90,8 @@ bool is_edge(ShapeKind k) { return k == ShapeKind::kChamfer || k == ShapeKind::k
 /// Whether a comes before b by their kinds and heights alone; areas are looked at afterwards, for they cost
 /// more.
 ///
-/// Never both ways: an edge or a thread follows what it is on, a face precedes others from its top down, and
-/// for all else the top of `after` lies below that of `before`.
+/// Never both ways: an edge or a thread follows what it is on, a face precedes others from its top down and
+/// deeper faces from its top, and for all else the top of `after` lies below that of `before`.
 bool precedes(const FeatureShape& a, const Seen& sa, const FeatureShape& b, const Seen& sb, Cause& cause) {
   if (!leaves_a_floor(a.kind)) return false;
   const bool reached = sb.top >= sa.bottom - kLevel;
@@ -100,6 +106,11 @@ bool precedes(const FeatureShape& a, const Seen& sa, const FeatureShape& b, cons
   if (a.kind == ShapeKind::kFace && b.kind != ShapeKind::kFace) {
     cause = Cause::kFaceFirst;
     return reached && sb.top <= sa.top + kLevel;
+  }
+  // Two faces that begin at one height: what the deeper one takes lies in the other where they overlap.
+  if (a.kind == ShapeKind::kFace && std::abs(sa.top - sb.top) <= kLevel && across(sa.box, sb.box)) {
+    cause = Cause::kFaceFirst;
+    return sb.bottom < sa.bottom - kLevel;
   }
   if (b.kind == ShapeKind::kFace && a.kind != ShapeKind::kFace && sb.top >= sa.top - kLevel) return false;
   cause = a.kind == ShapeKind::kFace ? Cause::kFaceFirst : Cause::kLiesIn;

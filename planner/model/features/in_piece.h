@@ -69,6 +69,8 @@ struct SharpCorner {
 /// and of a pocket that states none, mm: 3 mm, and where that is deeper than a mill reaches in one hand, a
 /// sixth of the depth, which is a mill three diameters deep. Default, unsourced.
 [[nodiscard]] double unstated_corner_mm(const FeatureShape& s);
+/// The same for walls that are this high.
+[[nodiscard]] double unstated_corner_mm(double depth_mm);
 
 /// An inside corner that no mill makes, in words; empty when there is none: a slot whose end is square, as an
 /// open one is drawn, where solid stands beyond it and no corner radius is stated (`features` as above), a

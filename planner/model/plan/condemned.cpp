@@ -7,6 +7,8 @@
 #include "planner/ground/base/number.h"
 #include "planner/model/nouns/executable.h"
 #include "planner/model/nouns/feature.h"
+#include "planner/model/plan/contradicted.h"
+#include "planner/model/plan/unreadable.h"
 
 namespace capstan::model {
 namespace {
@@ -86,6 +88,10 @@ std::vector<Condemnation> condemned(const Plan& plan, const std::vector<Finding>
   for (const Finding& f : findings) {
     if (f.severity == Severity::kError) reasons.add(f.step, f.code, f.message);
   }
+  for (const Unreadable& u : unreadable(plan)) {
+    if (of_whole_plan(u.key)) reasons.add_at(0, "PIP-UNREADABLE", u.why);
+  }
+  for (const Contradiction& c : contradictions(plan)) reasons.add_at(0, "PIP-CONTRADICTED", c.why);
   for (std::size_t i = 0; i < plan.steps.size(); ++i) {
     for (const ExceededLimit& l : plan.steps[i].exceeded)
       reasons.add_at(i + 1, "PIP-EXCESS", text_of(l) + "; use a smaller tool or depth");

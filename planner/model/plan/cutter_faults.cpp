@@ -1,5 +1,6 @@
 #include "planner/model/plan/cutter_faults.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -70,6 +71,19 @@ void check_together(const Cutter& c, std::vector<std::string>& out) {
   if (c.stick_out_mm > c.functional_length_mm + kSlackMm)
     out.push_back("the tool sticks out " + mm(c.stick_out_mm) + ", more than from gage line to tip (" +
                   mm(c.functional_length_mm) + ")");
+  const auto longer = [&](double v, const char* what, double than, const char* other) {
+    if (than > 0.0 && v > than + kSlackMm)
+      out.push_back(std::string(what) + " (" + mm(v) + ") is longer than " + other + " (" + mm(than) + ")");
+  };
+  longer(c.maximum_depth_of_cut_mm, "the length of the flutes", c.overall_length_mm, "the whole tool");
+  longer(c.stick_out_mm, "what sticks out", c.overall_length_mm, "the whole tool");
+  longer(c.neck_length_mm, "the neck, from the tip,", c.overall_length_mm, "the whole tool");
+  if (c.neck_length_mm > 0.0)
+    longer(c.maximum_depth_of_cut_mm, "the length of the flutes", c.neck_length_mm, "the neck, from the tip");
+  const double widest = std::max(c.cutting_diameter_mm, c.shank_diameter_mm);
+  if (c.neck_diameter_mm > widest + kSlackMm)
+    out.push_back("the neck " + mm(c.neck_diameter_mm) + " is thicker than head and shank (" + mm(widest) +
+                  ")");
   const bool probe = c.cutter_class == CutterClass::kTouchProbe;
   if (!range::kTeeth.holds(c.teeth) && !(probe && c.teeth == 0))
     out.push_back(std::to_string(c.teeth) + " teeth");

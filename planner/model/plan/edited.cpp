@@ -121,16 +121,32 @@ std::optional<std::uint64_t> hash_from_text(std::string_view text) {
   return out;
 }
 
-Diagnostic parts_edited(std::string code, const std::vector<std::string>& parts) {
+EditTold edit_told_by(const Diagnostic& d) {
+  if (d.code == kDisagreesCode) return EditTold::kDisagrees;
+  if (d.code != kEditedCode && d.code != kEditedJsonCode) return EditTold::kNothing;
+  return d.severity == Severity::kNote ? EditTold::kValue : EditTold::kPart;
+}
+
+Diagnostic steps_disagree(const std::string& how, std::string file) {
+  return {.code = std::string(kDisagreesCode),
+          .severity = Severity::kWarning,
+          .message = how + "; the workplan counts",
+          .file = std::move(file),
+          .hint = "plan it again"};
+}
+
+Diagnostic parts_edited(std::string code, const std::vector<std::string>& parts, std::string file) {
   constexpr std::size_t kNamed = 6;
   std::string names;
   for (std::size_t i = 0; i < std::min(parts.size(), kNamed); ++i) names += (i == 0 ? "" : ", ") + parts[i];
   if (parts.size() > kNamed) names += " and " + std::to_string(parts.size() - kNamed) + " more";
   return {.code = std::move(code),
           .severity = Severity::kWarning,
-          .message = "the file was edited after it was written: " + names +
-                     "; what was computed of the old values was not computed again",
-          .hint = "plan it again"};
+          .message = "the file was edited after it was written: " + names,
+          .file = std::move(file),
+          .hint =
+              "`capstan plan` chooses anew what was chosen from the old values; `check` and `explain` "
+              "take all of it as it stands"};
 }
 
 }  // namespace capstan::model

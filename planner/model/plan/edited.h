@@ -54,7 +54,23 @@ template <class Seal>
   return out;
 }
 /// The warning about them, by the code of its reader.
-[[nodiscard]] Diagnostic parts_edited(std::string code, const std::vector<std::string>& parts);
+[[nodiscard]] Diagnostic parts_edited(std::string code, const std::vector<std::string>& parts,
+                                      std::string file = {});
+
+/// The codes by which readers tell of edits: of a value that was decided, or of a part of the file (a
+/// warning) in Part 21, and of a part in JSON; and that what stands twice about steps disagrees.
+inline constexpr std::string_view kEditedCode = "EXC-EDITED", kEditedJsonCode = "JSON-EDITED",
+                                  kDisagreesCode = "EXC-ORDER";
+/// What a diagnostic tells of edits. This is the one place that knows.
+enum class EditTold {
+  kNothing,
+  kValue,     ///< decided before, and given now: what follows from it is computed again
+  kPart,      ///< what was computed before does not follow from the file any more
+  kDisagrees  ///< the file says it twice, and otherwise
+};
+[[nodiscard]] EditTold edit_told_by(const Diagnostic& d);
+/// The warning that the list of steps is not as the workplan says (workplan_order.h).
+[[nodiscard]] Diagnostic steps_disagree(const std::string& how, std::string file = {});
 
 /// What `hex64` wrote; nothing for any other text.
 [[nodiscard]] std::optional<std::uint64_t> hash_from_text(std::string_view text);

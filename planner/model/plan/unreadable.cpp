@@ -100,6 +100,17 @@ std::vector<Unreadable> unreadable(const Plan& plan) {
   return out;
 }
 
+bool of_whole_plan(const DecisionKey& key) {
+  switch (key.object.type) {
+    case TypeId::kWorkpiece:
+    case TypeId::kSetup:
+    case TypeId::kWorkpieceSetup:
+      return true;
+    default:
+      return key.object.type == TypeId::kWorkplan && key.attribute == "its_setup";
+  }
+}
+
 void set_unreadable(Plan& plan, AnyRef object, std::string attribute, std::string why) {
   Decision d;
   d.binder = Binder::kGiven;

@@ -19,6 +19,9 @@ struct Unreadable {
 };
 /// Those of a plan that nobody has stated anew since.
 [[nodiscard]] std::vector<Unreadable> unreadable(const Plan& plan);
+/// Whether the attribute is of what every step rests on: the workpiece, its set-ups and which of them a
+/// workplan is in. A plan can be read without it, and no program can be made of it.
+[[nodiscard]] bool of_whole_plan(const DecisionKey& key);
 /// Records one, as it is now.
 void set_unreadable(Plan& plan, AnyRef object, std::string attribute, std::string why);
 

@@ -130,6 +130,41 @@ HeightMap from_mesh(const geometry::Mesh& mesh, double floor_mm, double cell_mm)
   return map;
 }
 
+Patch patch_of(const HeightMap& map, Vec2 lo, Vec2 hi) {
+  const auto cell = [&](double p, double origin, int n, int more) {
+    return static_cast<int>(
+        std::clamp(std::floor((p - origin) / map.cell_mm) + more, 0.0, static_cast<double>(n)));
+  };
+  Patch p;
+  p.x0 = cell(lo.x, map.origin.x, map.nx, -1);
+  p.y0 = cell(lo.y, map.origin.y, map.ny, -1);
+  p.nx = std::max(0, cell(hi.x, map.origin.x, map.nx, 2) - p.x0);
+  p.ny = std::max(0, cell(hi.y, map.origin.y, map.ny, 2) - p.y0);
+  const auto rows = [&](const std::vector<float>& from, std::vector<float>& to) {
+    to.reserve(static_cast<std::size_t>(p.nx) * static_cast<std::size_t>(p.ny));
+    for (int y = p.y0; y < p.y0 + p.ny; ++y) {
+      const auto row = from.begin() + static_cast<std::ptrdiff_t>(map.index(p.x0, y));
+      to.insert(to.end(), row, row + p.nx);
+    }
+  };
+  rows(map.top, p.top);
+  rows(map.low, p.low);
+  rows(map.share, p.share);
+  return p;
+}
+
+void put_back(HeightMap& map, const Patch& patch) {
+  const auto rows = [&](const std::vector<float>& from, std::vector<float>& to) {
+    for (int y = 0; y < patch.ny; ++y) {
+      std::copy_n(from.begin() + static_cast<std::ptrdiff_t>(y) * patch.nx, patch.nx,
+                  to.begin() + static_cast<std::ptrdiff_t>(map.index(patch.x0, patch.y0 + y)));
+    }
+  };
+  rows(patch.top, map.top);
+  rows(patch.low, map.low);
+  rows(patch.share, map.share);
+}
+
 double volume(const HeightMap& map) {
   double sum = 0.0;
   for (std::size_t i = 0; i < map.cells(); ++i) {

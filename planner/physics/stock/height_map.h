@@ -74,6 +74,16 @@ inline constexpr double kMaximumCells = 16e6;
 /// triangles does not matter; where no triangle lies there is nothing.
 [[nodiscard]] HeightMap from_mesh(const geometry::Mesh& mesh, double floor_mm, double cell_mm);
 
+/// The columns of a rectangle of cells, as they stood: what a cut is undone by.
+struct Patch {
+  int x0 = 0, y0 = 0, nx = 0, ny = 0;
+  std::vector<float> top, low, share;  ///< row by row
+};
+/// The cells of a rectangle, set-up frame, and one more on each side.
+[[nodiscard]] Patch patch_of(const HeightMap& map, geometry::Vec2 lo, geometry::Vec2 hi);
+/// Needs  a patch of this map.
+void put_back(HeightMap& map, const Patch& patch);
+
 [[nodiscard]] double volume(const HeightMap& map);  ///< mm3
 /// Height of the stock at a point, the mean of its cell; the floor outside.
 [[nodiscard]] double height_at(const HeightMap& map, geometry::Vec2 p);

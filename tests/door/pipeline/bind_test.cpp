@@ -203,6 +203,21 @@ TEST(Bind, FinishesASurfaceWithinItsTolerance) {
     EXPECT_EQ(f.severity, Severity::kNote) << f.code << " " << f.message;
 }
 
+TEST(Bind, ASurfaceThatIsRoughedOnlyIsFoundToStandTooHigh) {
+  // What lacks its finish keeps terraces and half a millimetre on them.
+  Inputs in = shop();
+  in.material_name = "EN AW-6061";
+  model::Plan plan = bound(part("surface.stl"), in);
+  ASSERT_EQ(plan.steps.size(), 3U);
+  plan.steps.erase(plan.steps.begin() + 1, plan.steps.end());
+  Job job;
+  const auto findings = findings_of(plan, job);
+  EXPECT_TRUE(std::any_of(findings.begin(), findings.end(), [](const model::Finding& f) {
+    return f.code == "CHK-LEFT" && f.severity == Severity::kError &&
+           f.message.find("square to the surface, still stand") != std::string::npos;
+  }));
+}
+
 // Roughing leaves terraces, and a finishing ball that meets them cuts a slot of their height, millimetres
 // deep. Evened out before, it meets square to the surface 0.2 mm, ridges and chords of 0.05 mm each, and what
 // a ball of 20 mm leaves in a crease of 20 degrees (sharper ones are corners), 10 mm (1 / cos 10 deg - 1) =

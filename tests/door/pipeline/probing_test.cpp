@@ -151,6 +151,20 @@ TEST(Measuring, AChainThatLeansOnItIsNotUsedWhereNothingCanBeMeasured) {
   EXPECT_THAT(p.said, Not(HasSubstr("is not proposed")));
 }
 
+TEST(Measuring, WithoutAProbeNoBallIsBlamed) {
+  // As above, on a machine that has none.
+  Inputs in = shop();
+  in.machine.abilities.probe = false;
+  const Planned p =
+      bound(read("#60=PLUS_MINUS_VALUE(0.013,0.,4);\n#61=TOLERANCED_LENGTH_MEASURE(20.,#60);\n"
+                 "#63=ROUND_HOLE('H1',#4,(),#50,#56,#61,$,#57000);\n#57000=FLAT_HOLE_BOTTOM();\n"
+                 "#64=TOLERANCED_LENGTH_MEASURE(40.,$);\n#62=CIRCULAR_CLOSED_PROFILE($,#64);\n"
+                 "#66=CLOSED_POCKET('P',#4,(),#50,#56,(),$,#57,$,$,#62);\n"),
+            in);
+  EXPECT_THAT(p.said, Not(HasSubstr("ball of 0 mm")));
+  EXPECT_THAT(p.said, HasSubstr("that a gauge is known to reach freely"));
+}
+
 TEST(Measuring, AMilledSizeThatIsOffStopsTheProgramForNoRadiusActsInIt) {
   // IT6 of 20 mm is 13 um: a milled pocket.
   const auto program_of = [](const std::string& features) {

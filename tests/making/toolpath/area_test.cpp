@@ -127,9 +127,12 @@ PathJob random_job(unsigned seed) {
 }
 
 TEST(AreaPath, HoldsForRandomPocketsToolsAndStrategies) {
-  const char* soak = std::getenv("CAPSTAN_SOAK");
-  const unsigned count = soak != nullptr ? static_cast<unsigned>(std::atoi(soak)) : 30;
-  for (unsigned seed = 100; seed < 100 + count; ++seed) {
+  constexpr unsigned kCount = 30;
+  const unsigned first =
+      100 + (std::getenv("CAPSTAN_SOAK") != nullptr
+                 ? kCount * static_cast<unsigned>(::testing::UnitTest::GetInstance()->random_seed())
+                 : 0U);
+  for (unsigned seed = first; seed < first + kCount; ++seed) {
     const PathJob t = random_job(seed);
     Job job;
     const auto g = generate(t, job);

@@ -118,6 +118,43 @@ void save(const char* name, const model::CutterPath& path) {
   }
 }
 
+/// The least distance of the axis from a rectangle, over all that is cut.
+double nearest_cut(const model::CutterPath& path, Vec2 lo, Vec2 hi) {
+  double out = 1e300;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    if (path.kind[i] == model::MoveKind::kRapid) continue;
+    const int n = std::max(1, static_cast<int>(std::ceil(model::move_length(path, i) / 0.05)));
+    for (int k = 0; k <= n; ++k) {
+      const Vec3 p = model::point_on_move(path, i, static_cast<double>(k) / n);
+      out = std::min(
+          out, std::hypot(std::max({lo.x - p.x, 0.0, p.x - hi.x}), std::max({lo.y - p.y, 0.0, p.y - hi.y})));
+    }
+  }
+  return out;
+}
+
+TEST(KeptOut, OfWhatHoldsThePieceTheCutterStaysItsRadiusAway) {
+  const Mesh mesh = surface(60, 50.0, waves);
+  const Vec2 lo{18, 20}, hi{26, 30};
+  Job job;
+  for (const bool last : {false, true}) {
+    const auto c =
+        last ? cutter(CutterClass::kBallEndmill, 6.0, 3.0) : cutter(CutterClass::kEndmill, 8.0, 0.0);
+    FreeformJob task = job_on(mesh, c);
+    if (last) task.stepover_mm = 1.0;
+    const auto make = [&] { return last ? finish(task, job) : rough(task, job); };
+    const auto over = make();
+    ASSERT_TRUE(over) << over.error().message;
+    EXPECT_EQ(nearest_cut(over->path, lo, hi), 0.0);
+    task.avoid = geometry::rectangle(lo, hi);
+    const auto around = make();
+    ASSERT_TRUE(around) << around.error().message;
+    const double radius = 0.5 * c.cutting_diameter_mm;
+    EXPECT_GE(nearest_cut(around->path, lo, hi), radius);
+    EXPECT_LE(nearest_cut(around->path, lo, hi), 1.1 * radius) << "and not farther than it must";
+  }
+}
+
 TEST(ScallopStepover, LeavesThatRidgeOnAPlane) {
   const double s = scallop_stepover(3.0, 0.02);
   EXPECT_NEAR(3.0 - std::sqrt(9.0 - s * s / 4.0), 0.02, 1e-12);

@@ -20,10 +20,14 @@ struct PlanClass {
   Kind kind = Kind::kDangerous;
   /// Nothing where the file has no such value, or the edit would change nothing.
   std::function<std::optional<std::string>(const std::string& file, Random&)> make;
+  /// Told as an edit is not enough: nothing may be made of the file.
+  bool stops = false;
 };
 
 [[nodiscard]] std::vector<PlanClass> json_classes();
 [[nodiscard]] std::vector<PlanClass> part21_classes();
+/// What leaves the file saying two things, or something wrong of the whole plan.
+[[nodiscard]] std::vector<PlanClass> contradiction_classes(Form form);
 
 /// What may become of one number.
 struct NumberEdit {

@@ -9,6 +9,7 @@
 #include "planner/files/json/json.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/plan/condemned.h"
+#include "planner/model/plan/edited.h"
 #include "planner/proof/verify/program/program_checks.h"
 #include "planner/proof/verify/verify.h"
 #include "tests/mutation/emitted.h"
@@ -21,6 +22,7 @@ using Words = std::set<std::string>;
 /// What a check says.
 struct Said {
   bool refused = false;
+  bool stops = false;  ///< refused, or no program is made of it, or an error at once
   Words reader, check;
   /// The first word that was not said of the file as it was written.
   [[nodiscard]] std::string news(const Said& before) const {
@@ -49,21 +51,35 @@ Words words(const std::vector<model::Finding>& findings) {
   return out;
 }
 
+/// Whether the plan that was read is an error by itself: steps said in two orders, a contradiction, or what
+/// cannot be.
+bool stops(const model::Plan& plan, const Job& reader) {
+  const auto& all = reader.diagnostics();
+  const bool disagrees = std::any_of(all.begin(), all.end(), [](const Diagnostic& d) {
+    return model::edit_told_by(d) == model::EditTold::kDisagrees;
+  });
+  return disagrees || !model::condemned(plan, {}).empty();
+}
+
 /// As `capstan check PLAN`. `values`: whether to check what the reader has found edited already.
 Said check_json(const std::string& text, bool values, std::optional<model::Plan>* read = nullptr) {
   Said out;
   Job job;
   auto plan = json::read_json(text, "plan.json", job);
   if (!plan) {
-    out.refused = true;
+    out.refused = out.stops = true;
     out.reader.insert(plan.error().code + " " + plan.error().path + " " + plan.error().expected);
     return out;
   }
   out.reader = words(job);
+  out.stops = stops(*plan, job);
   if (out.reader.empty() || values) {
     Job quiet;
     out.check = words(verify::check_plan(*plan, quiet));
-    for (const auto& c : model::condemned(*plan, {})) out.check.insert(c.text);
+    // A contradiction is known by the hashes; `values` asks what is found without them.
+    for (const auto& c : model::condemned(*plan, {})) {
+      if (c.code != "PIP-CONTRADICTED") out.check.insert(c.text);
+    }
   }
   if (read != nullptr) *read = *std::move(plan);
   return out;
@@ -75,11 +91,12 @@ Said check_part21(const std::string& text, bool benign) {
   Job job;
   auto plan = exchange::read_bytes(text, "plan.p21", {}, job);
   if (!plan) {
-    out.refused = true;
+    out.refused = out.stops = true;
     out.reader.insert(plan.error().code + " " + plan.error().message);
     return out;
   }
   out.reader = words(job);
+  out.stops = stops(*plan, job);
   if (!benign) return out;
   Job shop_job;
   static const auto shop = pipeline::load_shop({}, shop_job);
@@ -131,6 +148,24 @@ class Study {
       rows_.push_back(std::move(row));
       ++k;
     }
+    std::vector<Emitted> whole = all;
+    std::vector<Said> baselines;
+    for (Emitted& e : whole) {
+      if (!e.plan.project.set()) e.plan = with_project(std::move(e.plan));
+      baselines.push_back(check_json(json::write_json(e.plan), true));
+    }
+    for (const PlanClass& c : contradiction_classes(Form::kJson)) {
+      PlanRow row{.name = c.name, .kind = c.kind};
+      for (std::size_t p = 0; p < whole.size(); ++p) json(c, whole[p], baselines[p], seed_of(k, p), row);
+      rows_.push_back(std::move(row));
+      ++k;
+    }
+    for (const PlanClass& c : contradiction_classes(Form::kPart21)) {
+      PlanRow row{.name = c.name, .kind = c.kind};
+      part21(c, written->bytes, seed_of(k, 0), row);
+      rows_.push_back(std::move(row));
+      ++k;
+    }
     return std::move(rows_);
   }
 
@@ -155,7 +190,7 @@ class Study {
       if (!said) continue;
       count(c, e.name, seed, *said, before, row);
       if (!o_.by_values || c.kind == Kind::kBenign) continue;
-      const bool by_values = said->refused || !Said{false, {}, said->check}.news(before).empty();
+      const bool by_values = said->refused || !Said{.reader = {}, .check = said->check}.news(before).empty();
       row.found_by_values += by_values;
       if (by_values || !plan) continue;
       row.found_with_program +=
@@ -194,7 +229,7 @@ class Study {
   static void count(const PlanClass& c, const std::string& name, std::uint64_t seed, const Said& said,
                     const Said& before, PlanRow& row) {
     // What the plan's own file is told of says nothing of an edit.
-    const bool any = said.refused || !said.news(before).empty();
+    const bool any = c.stops ? said.stops && !before.stops : said.refused || !said.news(before).empty();
     ++row.edits;
     row.refused += said.refused;
     row.found += any;
@@ -205,7 +240,7 @@ class Study {
     }
     if (c.kind != Kind::kBenign && !any) {
       ++row.missed;
-      row.told.push_back(told + "not found");
+      row.told.push_back(told + (c.stops && !said.news(before).empty() ? "only told" : "not found"));
     }
   }
 

@@ -233,6 +233,15 @@ TEST(WidthLeft, IsAnErrorWhereThePlanStatesLessForceThanIsMet) {
   }
 }
 
+TEST(WidthLeft, IsAnErrorWhereThePlanStatesNoForce) {
+  for (const bool as_program : {false, true}) {
+    const auto untold = widely(0.0, as_program);
+    ASSERT_EQ(untold.size(), 1U) << told(untold);
+    EXPECT_EQ(untold[0].severity, Severity::kError) << told(untold);
+    EXPECT_NE(untold[0].message.find("the plan states no force for the step"), std::string::npos);
+  }
+}
+
 TEST(WidthLeft, OfAStripThinnerThanACellIsNoMoreThanTheStrip) {
   // Cells of 0.2 mm have their centres at odd tenths. Rings at 14.69 leave a wall at 30.31; a pass at 14.905
   // takes 0.215 mm off it, in which the centres at 30.3 and 30.1 lie: on cells 0.4 mm. Planned for 0.04 mm,

@@ -28,6 +28,30 @@ TEST(EditedPlan, AValueThatCannotBeIsAnError) {
       {"efficiency of nothing", [](model::Plan& p) { p.machine.spindle.efficiency = 0.0; }},
       {"efficiency above one", [](model::Plan& p) { p.machine.spindle.efficiency = 8.0; }},
       {"stick-out below zero", [](model::Plan& p) { p.cutters[0].stick_out_mm = -40.0; }},
+      {"no stick-out", [](model::Plan& p) { p.cutters[0].stick_out_mm = 0.0; }},
+      {"no stick-out, and no flutes",
+       [](model::Plan& p) {
+         p.cutters[0].stick_out_mm = p.cutters[0].maximum_depth_of_cut_mm = p.cutters[0].usable_length_mm =
+             0.0;
+       }},
+      {"flutes longer than the tool sticks out",
+       [](model::Plan& p) { p.cutters[0].maximum_depth_of_cut_mm = p.cutters[0].stick_out_mm + 1.0; }},
+      {"longer out than it is",
+       [](model::Plan& p) { p.cutters[0].overall_length_mm = p.cutters[0].stick_out_mm - 1.0; }},
+      {"neck longer than the tool",
+       [](model::Plan& p) {
+         p.cutters[0].overall_length_mm = 100.0;
+         p.cutters[0].neck_length_mm = 101.0;
+       }},
+      {"neck shorter than the flutes",
+       [](model::Plan& p) { p.cutters[0].neck_length_mm = p.cutters[0].maximum_depth_of_cut_mm - 1.0; }},
+      {"neck thicker than head and shank",
+       [](model::Plan& p) {
+         p.cutters[0].neck_diameter_mm =
+             std::max(p.cutters[0].cutting_diameter_mm, p.cutters[0].shank_diameter_mm) + 1.0;
+       }},
+      {"corner wider than the tool",
+       [](model::Plan& p) { p.cutters[0].corner_radius_mm = p.cutters[0].cutting_diameter_mm; }},
       {"no diameter", [](model::Plan& p) { p.cutters[1].cutting_diameter_mm = 0.0; }},
       {"travel backwards",
        [](model::Plan& p) { std::swap(p.machine.axes[2].travel_min_mm, p.machine.axes[2].travel_max_mm); }},
@@ -43,6 +67,17 @@ TEST(EditedPlan, AValueThatCannotBeIsAnError) {
     change(plan);
     EXPECT_TRUE(refused(plan)) << name;
   }
+}
+
+TEST(EditedPlan, AToolWithTwoStickOutsIsAnError) {
+  model::Plan plan = testing::good_plan().plan;
+  plan.cutters.push_back(plan.cutters[0]);
+  plan.cutters.back().stick_out_mm += 5.0;
+  Job job;
+  const auto findings = check_plan(plan, job);
+  EXPECT_TRUE(std::any_of(findings.begin(), findings.end(), [](const auto& f) {
+    return f.code == "CHK-TWICE" && f.message.find("sticks out") != std::string::npos;
+  }));
 }
 
 }  // namespace

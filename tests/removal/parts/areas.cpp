@@ -90,6 +90,41 @@ Part face_beside_walls(int walls, double height) {
   return {"face_beside_walls", d.text(), b, t};
 }
 
+// 60 x 50 mm: a face of 40 mm along x, 5 mm deep, beside a wall at x = 40; it lists a boss of 14 mm at
+// (20, 25), which keeps 13 mm to the wall.
+Part face_with_boss_beside_wall() {
+  const Box b = block(60, 50, 20, 5);
+  Drawing d("FACE WITH BOSS BESIDE WALL", b);
+  const auto boss = d.boss("BOSS", d.placement({20, 25, 5}), 5, d.circle(14));
+  d.face("FACE", 0, 0, 40, 50, 5, 5, {boss});
+  Target t(box(b.lo, b.hi));
+  t.cut(prism(without(rectangle(-40, -40, 40, 90), disc(20, 25, 7)), 0, 5 + kOver));
+  return {"face_with_boss_beside_wall", d.text(), b, t};
+}
+
+// 60 x 50 mm: along the left edge a face of 2 mm, 5 mm deep, and at x = 40 to 46 another one, as deep.
+Part face_at_the_edge_and_narrow_face() {
+  const Box b = block(60, 50, 20, 5);
+  Drawing d("FACE AT THE EDGE AND NARROW FACE", b);
+  d.face("EDGE", 0, 0, 2, 50, 5, 5);
+  d.face("NARROW", 40, 0, 6, 50, 5, 5);
+  Target t(box(b.lo, b.hi));
+  for (const auto& [x0, x1] : {std::pair(-40, 2), std::pair(40, 46)})
+    t.cut(box({static_cast<double>(x0), -40, 0}, {static_cast<double>(x1), 90, 5 + kOver}));
+  return {"face_at_the_edge_and_narrow_face", d.text(), b, t};
+}
+
+// 60 x 50 mm: a face of 30 mm along x, 5 mm deep, and one from x = 20 on, 2 mm deep, both from the raw top.
+Part deeper_face_over_a_shallow_one() {
+  const Box b = block(60, 50, 20, 5);
+  Drawing d("DEEPER FACE OVER A SHALLOW ONE", b);
+  d.face("DEEP", 0, 0, 30, 50, 5, 5);
+  d.face("SHALLOW", 20, 0, 40, 50, 5, 2);
+  Target t(box(b.lo, {60, 50, 3}));
+  t.cut(box({-40, -40, 0}, {30, 90, 5 + kOver}));
+  return {"deeper_face_over_a_shallow_one", d.text(), b, t};
+}
+
 // 50 x 40 mm: around a contour of 40 x 30 mm, R5, everything is taken away, 5 mm deep.
 Part outside_contour() {
   const Box b = block(50, 40, 14);

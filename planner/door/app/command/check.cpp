@@ -13,6 +13,8 @@
 #include "planner/files/p21/parse.h"
 #include "planner/ground/base/file.h"
 #include "planner/model/plan/condemned.h"
+#include "planner/model/plan/contradicted.h"
+#include "planner/model/plan/edited.h"
 #include "planner/model/plan/unreadable.h"
 #include "planner/proof/verify/verify.h"
 #include "tooling/catalogue/library.h"
@@ -62,13 +64,6 @@ class Check {
     return any;
   }
 
-  /// How many values were said to be edited so far.
-  [[nodiscard]] std::size_t edited() const {
-    const auto& all = s_.job.diagnostics();
-    return static_cast<std::size_t>(
-        std::count_if(all.begin(), all.end(), [](const Diagnostic& d) { return d.code == "EXC-EDITED"; }));
-  }
-
   using Stated = std::map<model::AnyRef, exchange::StepPath>;
 
   static Stated stated_paths(const model::Plan& plan) {
@@ -103,7 +98,9 @@ class Check {
     const auto inputs = gather(s_.options.inputs, plan, s_.job);
     if (!inputs) return tl::unexpected(inputs.error());
     const auto unreadable = model::unreadable(plan);
+    const auto contradictions = model::contradictions(plan);
     plan.ledger = model::Ledger{};
+    for (const auto& c : contradictions) model::set_contradicted(plan, c.key.object, c.key.attribute, c.why);
     for (const auto& u : unreadable) model::set_unreadable(plan, u.key.object, u.key.attribute, u.why);
     const auto stated = stated_paths(plan);
     auto bound = pipeline::bind(std::move(plan), *inputs, pipeline::Policy{}, s_.job);
@@ -150,14 +147,15 @@ class Check {
         continue;
       }
       const std::size_t before = s_.job.diagnostics().size();
-      const std::size_t edits = edited();
       auto plan = plan_of_bytes(std::move(in.bytes), in.path, s_.job);
       if (!plan) return plan.error();
       if (s_.options.schema) schema_ += s_.job.diagnostics().size() - before;
-      count_edits(before, in.path);
+      const bool values_edited = take_edits(before, in.path);
+      model::named_by_caller(*plan, s_.options.inputs.material.has_value(),
+                             !s_.options.inputs.stock_text.empty());
       ++checked_;
       // What was computed before somebody edited a value says nothing of the plan as it is now.
-      if (!has_paths(*plan) || edited() > edits) {
+      if (!has_paths(*plan) || values_edited) {
         plan = executed(*std::move(plan));
         if (!plan) return plan.error();
       }
@@ -175,18 +173,26 @@ class Check {
   }
 
   /// A file that somebody edited after it was written is found, for what was computed of the old values
-  /// stands in it. Its reader has said so already.
-  void count_edits(std::size_t before, const std::string& file) {
-    const auto& all = s_.job.diagnostics();
-    for (std::size_t i = before; i < all.size(); ++i) {
-      if (!all[i].code.ends_with("-EDITED") || all[i].severity == Severity::kNote) continue;
-      model::Finding f;
-      f.code = all[i].code;
-      f.severity = all[i].severity;
-      f.message = all[i].message;
-      ++count_;
-      findings_.push_back({file, std::move(f)});
+  /// stands in it. Its reader has said so already; that it says one thing twice, and otherwise, is an error
+  /// here. Gives whether values were edited that others follow from.
+  bool take_edits(std::size_t before, const std::string& file) {
+    bool values = false;
+    auto all = s_.job.take_diagnostics();
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const model::EditTold told = i < before ? model::EditTold::kNothing : model::edit_told_by(all[i]);
+      values = values || told == model::EditTold::kValue;
+      if (told == model::EditTold::kDisagrees) all[i].severity = Severity::kError;
+      if (told == model::EditTold::kPart || told == model::EditTold::kDisagrees) {
+        model::Finding f;
+        f.code = all[i].code;
+        f.severity = all[i].severity;
+        f.message = all[i].message;
+        ++count_;
+        findings_.push_back({file, std::move(f)});
+      }
+      s_.job.report(std::move(all[i]));
     }
+    return values;
   }
 
   /// What condemns the plan by its own record, as findings.

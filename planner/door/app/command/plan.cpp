@@ -14,6 +14,7 @@
 #include "planner/ground/base/file.h"
 #include "planner/ground/base/nearest_names.h"
 #include "planner/ground/base/number.h"
+#include "planner/model/plan/contradicted.h"
 #include "rules/engine/check.h"
 #include "tooling/catalogue/tree.h"
 #include "tooling/holding/holding.h"
@@ -101,6 +102,8 @@ int prepared(Session& s, const pipeline::Policy& policy, Task& task) {
   auto part = load_plan(s.options.files[0], s.job, s.options.strict);
   if (!part) return s.end(part.error(), kUnreadable);
   task.part = *std::move(part);
+  model::named_by_caller(task.part, s.options.inputs.material.has_value(),
+                         !s.options.inputs.stock_text.empty());
   auto inputs = gather(s.options.inputs, task.part, s.job);
   if (!inputs) return s.end(inputs.error(), kUnreadable);
   task.inputs = *std::move(inputs);
@@ -117,6 +120,21 @@ int prepared(Session& s, const pipeline::Policy& policy, Task& task) {
     task.inputs.provenance.push_back({"cases", *s.options.inputs.cases, "named by the caller"});
   }
   return kDone;
+}
+
+/// Without a list of tools those of the plan are what is loaded, in the plan's own tool numbers.
+void take_tools_of_plan(const model::Plan& part, pipeline::Inputs& inputs, Job& job) {
+  std::vector<model::Cutter> own;
+  for (const model::Cutter& c : part.cutters) {
+    if (c.pocket <= 0) continue;
+    own.push_back(c);
+    own.back().loaded = true;
+  }
+  if (own.empty()) return;
+  job.note("APP-TOOLS", "no --tools: the plan's own " + counted(own.size(), "cutter", "cutters") +
+                            " count as loaded, in the plan's tool numbers");
+  inputs.provenance.push_back({"tools", "those of the plan", "no --tools is given"});
+  inputs.library = std::move(own);
 }
 
 }  // namespace
@@ -136,6 +154,7 @@ int run_bind(Session& s) {
   const auto began = s.job.now();
   Task task;
   if (const int code = prepared(s, {}, task); code != kDone) return code;
+  if (!s.options.inputs.tools) take_tools_of_plan(task.part, task.inputs, s.job);
   // A catalogue says nothing of what is loaded.
   const bool any = std::any_of(task.inputs.library.begin(), task.inputs.library.end(),
                                [](const model::Cutter& c) { return c.loaded; });
@@ -143,7 +162,8 @@ int run_bind(Session& s) {
     return s.end(
         {.code = "APP-MAGAZINE",
          .message = "no cutter of the library is in the magazine",
-         .expected = "--tools with the machine's tool table (.tbl), or a list that gives tool numbers"},
+         .expected = "--tools with the machine's tool table (.tbl), or a list that gives tool numbers; "
+                     "or a plan that holds its cutters"},
         kUsage);
   }
   late::LatePolicy policy;

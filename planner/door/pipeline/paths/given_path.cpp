@@ -160,6 +160,19 @@ std::optional<engagement::Measurement> measured(Work& w, const StepWork& step, c
   return *std::move(m);
 }
 
+bool rigid_tap(const Work& w, const StepWork& step) {
+  const auto* tapping = w.plan.model.get<model::Tapping>(step.operation);
+  if (tapping == nullptr || tapping->compensation_chuck.value_or(false)) return false;
+  const auto* made = w.plan.ledger.find(step.operation, "its_toolpath");
+  if (made != nullptr && made->binder == model::Binder::kRule) return true;  // that cycle, written as moves
+  w.job.warn(
+      "PIP-CHANGED",
+      "step '" + name_of(w, step) +
+          "': the given toolpath of the tap is moves without synchronisation; planned as rigid tapping "
+          "instead");
+  return true;
+}
+
 Result<std::optional<GivenPath>> given_path(Work& w, StepWork& step, Stocks& stocks, const Progress& progress,
                                             Cuts& cuts) {
   auto given = exchange::path_of_step(w.plan, step.step, {}, w.job);

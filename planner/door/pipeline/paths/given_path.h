@@ -14,6 +14,10 @@ struct GivenPath {
   optimise::FeedQuestion feeds;
 };
 
+/// A given path is moves at feed; without a compensation chuck that breaks the tap, so that the thread is
+/// planned as a synchronised cycle instead. Said, unless the path is such a cycle.
+[[nodiscard]] bool rigid_tap(const Work& w, const StepWork& step);
+
 /// The step with the path, feeds and cross sections that its toolpaths say.
 ///
 /// Sections that the file states are what loads, and feeds where these are open, are computed from; no

@@ -55,11 +55,31 @@ Ref<model::Executable> made_by(const Work& w, const StepWork& step) {
   return out;
 }
 
+/// Whether another feature's step is kept already in which each of these shapes is drawn a second time, and
+/// none of this feature's own: the one that came first is made, the other is it.
+bool twin_made(const Work& w, const StepWork& step) {
+  const auto kept = [&](const StepWork& s) {
+    return std::any_of(w.plan.steps.begin(), w.plan.steps.end(),
+                       [&](const model::StepResult& r) { return r.step == s.step; });
+  };
+  bool found = false;
+  for (const StepWork& s : w.steps) {
+    if (s.step == step.step || !kept(s)) continue;
+    if (s.feature == step.feature) return false;
+    found = found || std::all_of(step.shapes.begin(), step.shapes.end(), [&](const model::FeatureShape& b) {
+              return std::any_of(s.shapes.begin(), s.shapes.end(),
+                                 [&](const model::FeatureShape& a) { return same_removal(w, a, b); });
+            });
+  }
+  return found;
+}
+
 }  // namespace
 
 bool in_air(const Work& w, const StepWork& step, double removed_mm3) {
   constexpr double kNothingMm3 = 0.01;  // default, unsourced: what a map's cells cannot tell from nothing
   const model::Model& m = w.plan.model;
+  if (step.proposed && twin_made(w, step)) return true;
   if (!step.proposed || removed_mm3 > kNothingMm3 || engagement::head_height(step.cutter)) return false;
   if (m.holds<model::CenterDrilling>(step.operation) || m.holds<model::Drilling>(step.operation) ||
       m.holds<model::MultistepDrilling>(step.operation))
@@ -104,6 +124,7 @@ bool leave_out(Work& w, const StepWork& step, const std::string& why) {
     std::erase(m.get<model::Workplan>(p)->its_elements.items, AnyRef(step.step));
   if (auto* f = m.get<model::MachiningFeature>(step.feature))
     std::erase(f->its_operations.items, step.operation);
+  w.left_out.insert(step.step);
   w.job.note("PIP-GONE",
              "step '" + name_of(w, step) + "' is left out: what it would cut is gone already; " + why);
   return true;

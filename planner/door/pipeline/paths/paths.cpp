@@ -73,6 +73,7 @@ class PathMaker {
       if (given_up(step)) continue;
       if (auto ok = make(step); !ok) return ok;
     }
+    w_.again = w_.again || stocks_.other_cells_asked_for(w_.tries);
     return {};
   }
 
@@ -151,11 +152,12 @@ class PathMaker {
   }
 
   Status make(StepWork& step) {
+    stocks_.keep(step.setup);
     if (!step.unreadable.empty()) {
       give_up(step, step.unreadable);
       return {};
     }
-    if (has_given_path(w_, step) && !rigid_tap(step)) return explicit_path(step);
+    if (has_given_path(w_, step) && !rigid_tap(w_, step)) return explicit_path(step);
     if (!w_.plan.model.holds<model::MachiningOperation>(step.operation)) return {};
     if (step.shapes.empty()) {
       give_up(step,
@@ -459,20 +461,6 @@ class PathMaker {
     auto* d = w_.plan.ledger.find(step.operation, what);
     if (d == nullptr) return;
     for (const model::Rejected& r : made.thicker) d->rejected.push_back(r);
-  }
-
-  // A given path is moves at feed; without a compensation chuck that breaks the tap, so the thread is planned
-  // as a synchronised cycle.
-  bool rigid_tap(const StepWork& step) {
-    const auto* tapping = w_.plan.model.get<model::Tapping>(step.operation);
-    if (tapping == nullptr || tapping->compensation_chuck.value_or(false)) return false;
-    const auto* made = w_.plan.ledger.find(step.operation, "its_toolpath");
-    if (made != nullptr && made->binder == model::Binder::kRule) return true;  // that cycle, written as moves
-    w_.job.warn("PIP-CHANGED",
-                "step '" + name_of(w_, step) +
-                    "': the given toolpath of the tap is moves without synchronisation; planned as rigid "
-                    "tapping instead");
-    return true;
   }
 
   /// A path that the file brings is cut as it is; its feed may be open.

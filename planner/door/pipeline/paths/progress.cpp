@@ -28,7 +28,8 @@ geometry::Region stays_beside(const Work& w, const model::FeatureShape& s) {
   geometry::Region out =
       geometry::subtract(geometry::rectangle(geometry::xy(part.lo), geometry::xy(part.hi)), s.area);
   if (out.empty()) return out;
-  for (const model::FeatureShape& other : w.shapes) {
+  // A boss that a face lists is none of the features that are cut beside it: its shape is all around it.
+  for (const model::FeatureShape& other : w.whole_shapes) {
     const auto rel = compose(to, other.frame);
     if ((other.feature == s.feature && other.member == s.member) || rel.z.z < 1.0 - kSame ||
         other.area.empty())
@@ -51,9 +52,21 @@ void stop_at_walls(const Work& w, model::FeatureShape& s) {
   constexpr double kSame = 1e-6;
   if (s.kind != ShapeKind::kFace || s.area.empty() || w.shapes.empty() || w.plan.target_mesh) return;
   if (transformed(part_box(w), inverse(s.frame)).hi.z <= -s.depth_mm + kSame) return;
-  for (const geometry::Region& piece : geometry::pieces(stays_beside(w, s))) {
+  const geometry::Box3 part = transformed(part_box(w), inverse(s.frame));
+  const geometry::Region beside = stays_beside(w, s);
+  bool walled = false;
+  for (const geometry::Region& piece : geometry::pieces(beside)) {
     if (geometry::offset(piece, -0.5 * kThinMm).empty()) continue;
     s.reach = geometry::subtract(s.reach, piece);
+    walled = true;
+  }
+  if (!walled) return;
+  // What others cut as deep behind the walls is no way out of this face: how narrow it is, is theirs.
+  const geometry::Region around =
+      geometry::subtract(geometry::rectangle(geometry::xy(part.lo), geometry::xy(part.hi)), s.area);
+  const geometry::Region own = geometry::offset_sharp(s.area, kThinMm);
+  for (const geometry::Region& piece : geometry::pieces(geometry::subtract(around, beside))) {
+    if (geometry::intersect(piece, own).empty()) s.reach = geometry::subtract(s.reach, piece);
   }
 }
 

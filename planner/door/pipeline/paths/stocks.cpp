@@ -13,23 +13,45 @@ namespace {
 
 constexpr double kCellsPerDiameter = 30.0;  // of the stock map, for the smallest cutter of the set-up
 constexpr double kMaximumCells = 600e3;     // keeps a set-up's map near 7 MB
+constexpr int kMostOtherCells = 2;      // times that cutters may change with the cells; default, unsourced
 constexpr double kContradiction = 0.1;  // of a step's volume, between map and geometry; default, unsourced
 constexpr double kTraceMm3 = 1.0;       // the same of next to nothing
 
 }  // namespace
 
+double Stocks::smallest(std::size_t setup) const {
+  double mm = 1e300;
+  for (const StepWork& s : w_.steps) {
+    if (s.setup == setup && s.cutter.cutting_diameter_mm > 0.0 && !w_.left_out.contains(s.step))
+      mm = std::min(mm, s.cutter.cutting_diameter_mm);
+  }
+  return mm > 1e200 ? 10.0 : mm;
+}
+
+double Stocks::cell(std::size_t setup, double smallest_mm) const {
+  return stock::cell_for(smallest_mm, w_.setups[setup].stock, kCellsPerDiameter, kMaximumCells);
+}
+
+bool Stocks::other_cells_asked_for(Tries& tries) const {
+  bool other = false;
+  for (std::size_t i = 0; i < maps_.size(); ++i) {
+    const double mm = smallest(i);
+    if (!maps_[i] || cell(i, mm) == cell(i, smallest_[i])) continue;
+    Smallest& known = tries.smallest[i];
+    if (known.times++ >= kMostOtherCells) continue;
+    known.mm = mm;
+    other = true;
+  }
+  return other;
+}
+
 stock::HeightMap& Stocks::of(std::size_t setup) {
   auto& map = maps_[setup];
   if (!map) {
-    double smallest = 1e300;
-    for (const StepWork& s : w_.steps) {
-      if (s.setup == setup && s.cutter.cutting_diameter_mm > 0.0) {
-        smallest = std::min(smallest, s.cutter.cutting_diameter_mm);
-      }
-    }
-    if (smallest > 1e200) smallest = 10.0;
+    const auto known = w_.tries.smallest.find(setup);
+    smallest_[setup] = known != w_.tries.smallest.end() ? known->second.mm : smallest(setup);
     const auto& box = w_.setups[setup].stock;
-    const double cell = stock::cell_for(smallest, box, kCellsPerDiameter, kMaximumCells);
+    const double cell = this->cell(setup, smallest_[setup]);
     const bool upright = std::abs(w_.setups[setup].workpiece.z.z) > 1.0 - 1e-9;
     const auto& round = w_.plan.stock.cylinder_radius_mm;
     map = round && upright ? stock::from_cylinder(box, *round, cell) : stock::from_box(box, cell);
@@ -51,20 +73,33 @@ stock::HeightMap& Stocks::of(std::size_t setup) {
 
 Stocks::Before Stocks::before(std::size_t setup) {
   (void)of(setup);
-  return {maps_[setup], exact_[setup]};
+  return {patches_[setup].size(), exact_[setup]->mark()};
 }
 
 void Stocks::put_back(std::size_t setup, const Before& before) {
-  maps_[setup] = before.map;
-  exact_[setup] = before.exact;
+  auto& patches = patches_[setup];
+  while (patches.size() > before.patches) {
+    stock::put_back(*maps_[setup], patches.back());
+    patches.pop_back();
+  }
+  exact_[setup]->put_back(before.exact);
+}
+
+void Stocks::keep(std::size_t setup) {
+  patches_[setup].clear();
+  if (exact_[setup]) exact_[setup]->forget();
 }
 
 Result<engagement::Measurement> Stocks::measure(std::size_t setup, const model::CutterPath& path,
                                                 const model::Cutter& cutter) {
   auto& map = of(setup);
   auto& exact = exact_[setup];
-  if (!exact || !exact->lost().empty()) return engagement::measure(path, cutter, map);
   const auto profile = model::profile_of(cutter);
+  const auto around = model::bounds(path);
+  const geometry::Vec2 reach{profile.radius_mm, profile.radius_mm};
+  patches_[setup].push_back(stock::patch_of(map, geometry::Vec2{around.lo.x, around.lo.y} - reach,
+                                            geometry::Vec2{around.hi.x, around.hi.y} + reach));
+  if (!exact || !exact->lost().empty()) return engagement::measure(path, cutter, map);
   if (engagement::head_height(cutter) || !stock::is_flat(profile)) {
     auto cells = engagement::measure(path, cutter, map);
     if (!cells) return cells;
@@ -82,14 +117,13 @@ Result<engagement::Measurement> Stocks::measure(std::size_t setup, const model::
     return engagement::measure(path, cutter, map);
   }
   // Two accounts of one cut: where they contradict each other the map's is kept.
-  stock::HeightMap after = map;
-  const double cells_mm3 = stock::cut(after, profile, path);
+  const double cells_mm3 = stock::cut(map, profile, path);
   const double exact_mm3 = measured->removed_mm3 + measured->rapid_removed_mm3;
   if (std::abs(cells_mm3 - exact_mm3) > kContradiction * std::max(cells_mm3, exact_mm3) + kTraceMm3) {
     exact->lose("it contradicts the height map");
+    stock::put_back(map, patches_[setup].back());
     return engagement::measure(path, cutter, map);
   }
-  map = std::move(after);
   return measured;
 }
 

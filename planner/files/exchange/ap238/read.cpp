@@ -7,6 +7,7 @@
 #include "planner/files/exchange/exact_paths.h"
 #include "planner/files/exchange/exchange.h"
 #include "planner/files/exchange/opening.h"
+#include "planner/files/exchange/records.h"
 #include "planner/files/exchange/seal.h"
 #include "planner/files/exchange/sections.h"
 #include "planner/files/p21/parse.h"
@@ -51,9 +52,12 @@ Result<model::Plan> read_ap238(const p21::File& file, Job& job, bool strict) {
   settle_doubts(plan, doubts, reached, strict, reporter);
   if (reporter.errors() == 0) {
     open_what_is_left_out(plan, reached, reporter);
-    const bool sealed = seal_holds(file, reporter);
+    std::set<model::Listed> edited;
+    const bool sealed = seal_holds(file, reporter, &edited);
     records.restore(sealed);
     if (sealed) restore_paths(file, plan, reporter);
+    model::refuse_edited(plan, edited, "the file's records");
+    settle_order(plan, reporter);
   }
   reporter.finish();
   if (reporter.errors() != 0) {

@@ -1,4 +1,7 @@
 #include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "planner/files/exchange/ap238/auxiliary.h"
 #include "planner/files/exchange/ap238/frames.h"
@@ -124,6 +127,15 @@ AnyRef shape_of(model::Plan& plan, AnyRef feature) {
   throw std::logic_error("mapping tables: features have no placement");
 }
 
+/// What is known of the values of one is known of its copy's: the copy is what the file holds.
+void decided_alike(model::Plan& plan, AnyRef from, AnyRef copy) {
+  std::vector<std::pair<std::string, model::Decision>> known;
+  for (const auto& [key, d] : plan.ledger.entries()) {
+    if (key.object == from) known.emplace_back(key.attribute, d);
+  }
+  for (auto& [attribute, d] : known) plan.ledger.set({copy, attribute}, std::move(d));
+}
+
 void state(model::Plan& plan, AnyRef shape, AnyRef context, const char* role, AnyRef what) {
   if (!what.set()) return;
   const AnyRef drawn = kept(plan, "SHAPE_REPRESENTATION",
@@ -246,6 +258,7 @@ void sweep_to_ap238(model::Plan& plan, AnyRef feature, std::vector<std::string>&
   }
   const PlacementRef turned = placement(m, compose(*frame, *start));
   const AnyRef own_path = copy_of(m, s.path);
+  decided_alike(plan, s.path, own_path);
   state(plan, shape, context, kPath, m.at<model::TravelPath>(s.path).placement);
   state(plan, shape, context, kDirection, d);
   const auto* unknown = m.get<KeptInstance>(f.depth);
@@ -268,6 +281,7 @@ void sweep_to_ap238(model::Plan& plan, AnyRef feature, std::vector<std::string>&
     state(plan, shape, context, kProfile, q);
     if (const auto inside = model::placement(m, q)) {
       const AnyRef own = copy_of(m, s.profile);
+      decided_alike(plan, s.profile, own);
       m.at<model::OpenProfile>(own).placement = placement(m, compose(inverse(*start), *inside));
       set_profile(m, feature, own);
     }

@@ -10,6 +10,7 @@
 #include "planner/ground/base/file.h"
 #include "planner/ground/base/number.h"
 #include "planner/model/nouns/arena/walk.h"
+#include "planner/model/plan/edited.h"
 
 namespace capstan::exchange {
 
@@ -160,7 +161,7 @@ bool unchanged(Reading& r, const p21::Instance& entity, const std::vector<Named>
   const std::string is =
       instance ? "is now another " + std::string(instance->is_complex() ? "instance" : instance->keyword())
                : "is gone";
-  r.reporter.report({.code = "EXC-EDITED",
+  r.reporter.report({.code = std::string(model::kEditedCode),
                      .severity = Severity::kWarning,
                      .message = "the header keeps " + what + ", but #" + std::to_string(other->number) + " " +
                                 is + ": it was edited or renumbered since; the header's " +

@@ -184,7 +184,7 @@ class Conversion {
   // profile have no shape, and are not planned), or it only describes. Everywhere else its absence would mean
   // something (no placement, no boss, another step): there it is an error.
   [[nodiscard]] bool missing_is_told() const {
-    if (a_.name == "its_material") return true;
+    if (a_.name == "its_material") return object_.type != TypeId::kWorkpiece;
     static constexpr std::array<std::string_view, 6> kOfShapes = {
         "bottom_condition", "depth", "diameter", "feature_boundary", "open_boundary", "swept_shape"};
     if (object_.type != TypeId::kKeptInstance && !model::is_a(object_.type, TypeId::kManufacturingFeature))
@@ -242,7 +242,7 @@ class Conversion {
          .message = name() + " points to #" + std::to_string(v.reference()) + ", a " +
                     std::string(model::noun_type(target.type).keyword) + (told ? "; taken as missing" : ""),
          .expected = expected},
-        a_.name == "its_material" ? std::string_view{} : a_.name);
+        a_.name == "its_material" && told ? std::string_view{} : a_.name);
     return std::nullopt;
   }
 

@@ -6,6 +6,7 @@
 #include "planner/files/exchange/iso14649/reading.h"
 #include "planner/files/exchange/iso14649/records.h"
 #include "planner/files/exchange/opening.h"
+#include "planner/files/exchange/records.h"
 #include "planner/files/exchange/seal.h"
 #include "planner/files/exchange/sections.h"
 #include "planner/model/nouns/all.h"
@@ -72,7 +73,8 @@ Result<model::Plan> read_iso14649(const p21::File& file, Job& job, bool strict) 
   Reporter reporter(job, file.name());
   Reading reading{
       .file = file, .plan = plan, .reporter = reporter, .object_of = {}, .draft = {}, .doubts = {}};
-  reading.sealed = seal_holds(file, reporter);
+  std::set<model::Listed> edited;
+  reading.sealed = seal_holds(file, reporter, &edited);
   read_header(file, plan);
   read_objects(reading);
   if (!reading.sealed) note_dialect(reading);  // Capstan's own way of writing
@@ -90,6 +92,8 @@ Result<model::Plan> read_iso14649(const p21::File& file, Job& job, bool strict) 
     open_what_is_left_out(plan, reached, reporter);
     read_records(reading);
     if (reading.sealed) restore_paths(file, plan, reporter);
+    model::refuse_edited(plan, edited, "the file's header");
+    settle_order(plan, reporter);
   }
   reporter.finish();
   if (reporter.errors() != 0) {

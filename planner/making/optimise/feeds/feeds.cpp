@@ -65,7 +65,7 @@ void keep_peak(model::StepLoads& peak, const State& s, const Judge& judge, const
   peak.deflection_mm = std::max(peak.deflection_mm, load(Limit::kDeflection));
   peak.torque_nm = std::max(peak.torque_nm, load(Limit::kTorque));
   peak.power_w = std::max(peak.power_w, load(Limit::kPower));
-  peak.chip_thickness_mm = std::max(peak.chip_thickness_mm, load(Limit::kChip));
+  peak.chip_thickness_mm = std::max(peak.chip_thickness_mm, s.chip_mm);
   // From the Ra that `cut` compares back to the height of the marks.
   const double rz = load(Limit::kSurface) / (1000.0 * kRoughnessOverGeometry * mechanics::kArcRaOverRz);
   peak.surface_rz_mm = std::max(peak.surface_rz_mm, rz);
@@ -161,7 +161,11 @@ void measure_peaks(const FeedQuestion& q, const CutterPath& path, Book& book, Fe
   }
   book.each([&](const Judge& judge, const Page& page) {
     if (!(page.most_scheduled > 0.0)) return;
-    const auto s = judge.at(page.cut, page.most_scheduled);
+    auto s = judge.at(page.cut, page.most_scheduled);
+    // An area wider than two cutters lies below the tip, along a ramp or a helix: its edge is no faster.
+    // Limits are held with it all the same. Default, unsourced.
+    constexpr double kBelowTheTip = 2.0;
+    if (s && page.gain > kBelowTheTip) s->chip_mm /= page.gain;
     if (s) keep_peak(a.peak, *s, judge, q.cut.cutter);
     worst.of(s, judge.limits(), &page);
   });

@@ -199,6 +199,7 @@ std::optional<State> Judge::at(const Cut& cut, double feed) const {
       std::max(chip, fz * cut.front_sin * std::cos(tooth_.lead_angle_rad) * std::cos(tooth_.taper_angle_rad));
   State s;
   s.raw = *l;
+  s.chip_mm = chip;
   const double force = l->peak_force_n * margin_;
   // Chip and surface as planned, as in `cut`; what breaks something also with the override.
   s.load = {force,
@@ -232,7 +233,7 @@ std::optional<State> Judge::plunging(double feed) const {
   State s;
   s.load[static_cast<std::size_t>(Limit::kTorque)] = l->torque_nm * margin;
   s.load[static_cast<std::size_t>(Limit::kPower)] = l->power_w * margin;
-  s.load[static_cast<std::size_t>(Limit::kChip)] = l->chip_thickness_mm / up_;
+  s.load[static_cast<std::size_t>(Limit::kChip)] = s.chip_mm = l->chip_thickness_mm / up_;
   return s;
 }
 

@@ -46,6 +46,7 @@ struct Cuts {
 struct State {
   Column load{};
   mechanics::SectionLoads raw;
+  double chip_mm = 0.0;  ///< of the chip itself: what `load` has is for the limit, and more in a deep slot
 };
 
 class Judge {

@@ -148,7 +148,9 @@ Result<FreeformPath> finish(const FreeformJob& task, Job& job) {
       task.stepover_mm > 0.0 ? task.stepover_mm : scallop_stepover(cutter->ball_mm, task.scallop_mm);
   if (!(stepover > 0.0)) return fail("FRF-VALUE", "neither a stepover nor a scallop height is given");
   const DropCutter drop(*task.surface);
-  Hatch lines = hatch(area_of(task, drop), task.feed_angle_rad, stepover);
+  // A step to the next pass is shorter than what is kept out of is wide.
+  Hatch lines =
+      hatch(geometry::subtract(area_of(task, drop), kept_out(task, *cutter)), task.feed_angle_rad, stepover);
   if (task.scallop_mm > 0.0) warn_of_ridges(task, cutter->ball_mm, lines, job);
   return Finisher(task, drop, *cutter, std::move(lines), job).run();
 }

@@ -25,6 +25,7 @@ struct FreeformJob {
   /// Whether there is nothing to spare where the cutter, let down, meets no triangle: it may then go down to
   /// bottom_z there. Else it stays away.
   bool beside_is_free = false;
+  geometry::Region avoid;                   ///< the cutter keeps out of it, at all heights at which it cuts
   const stock::HeightMap* stock = nullptr;  ///< what stands now; null: solid up to top_z under the area
   double top_z_mm = 0.0;                    ///< of the material
   double bottom_z_mm = -1e300;              ///< the tip goes no lower

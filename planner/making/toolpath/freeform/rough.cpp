@@ -40,16 +40,19 @@ struct Pass {
 
 class Rougher {
  public:
-  Rougher(const FreeformJob& task, const DropCutter& drop, const Toroid& cutter, Hatch hatch, Job& job)
+  Rougher(const FreeformJob& task, const DropCutter& drop, const Toroid& cutter, Hatch hatch,
+          geometry::Region kept_out, Job& job)
       : task_(task),
         drop_(drop),
         cutter_(cutter),
         hatch_(std::move(hatch)),
+        kept_out_(std::move(kept_out)),
         job_(job),
         profile_(model::profile_of(task.cutter)),
         rest_(task.stock ? *task.stock : block(task, hatch_)) {
     margin_ = std::max(task.tolerance_mm, 0.1 * task.allowance_mm);
-    spacing_ = std::min(probe_spacing(cutter.ball_mm + task.allowance_mm, margin_), 0.25 * cutter.radius());
+    spacing_ =
+        std::min(probe_spacing(cutter.ball_mm + task.allowance_mm, margin_), kProbedShare * cutter.radius());
     floor_ = std::max(task.bottom_z_mm, rest_.origin.z);
   }
 
@@ -131,6 +134,7 @@ class Rougher {
   }
 
   [[nodiscard]] double reach_down(Vec2 p, std::uint32_t& hint, double share = 1.0) const {
+    if (!kept_out_.empty() && geometry::contains(kept_out_, p)) return kBlocked;
     const double z = drop_.drop(cutter_, p.x, p.y, task_.allowance_mm + share * margin_, hint);
     if (z == DropCutter::kNoContact) return task_.beside_is_free ? floor_ : kBlocked;
     return std::max(z, floor_);
@@ -451,6 +455,7 @@ class Rougher {
   const DropCutter& drop_;
   Toroid cutter_;
   Hatch hatch_;
+  geometry::Region kept_out_;
   Job& job_;
   geometry::CutterProfile profile_;
   stock::HeightMap rest_;
@@ -477,9 +482,11 @@ Result<FreeformPath> rough(const FreeformJob& task, Job& job) {
   }
   const DropCutter drop(*task.surface);
   const geometry::Region area = area_of(task, drop);
-  Hatch lines = hatch(area, task.feed_angle_rad, task.stepover_mm);
+  geometry::Region out = kept_out(task, *cutter);
+  Hatch lines =
+      hatch(out.empty() ? area : geometry::subtract(area, out), task.feed_angle_rad, task.stepover_mm);
   if (lines.stripes.empty()) return fail("FRF-EMPTY", "the area to rough is empty");
-  return Rougher(task, drop, *cutter, std::move(lines), job).run(area);
+  return Rougher(task, drop, *cutter, std::move(lines), std::move(out), job).run(area);
 }
 
 }  // namespace capstan::toolpath::freeform

@@ -57,4 +57,10 @@ geometry::Region area_of(const FreeformJob& task, const DropCutter& drop) {
   return geometry::rectangle(xy(drop.bounds().lo), xy(drop.bounds().hi));
 }
 
+geometry::Region kept_out(const FreeformJob& task, const Toroid& cutter) {
+  if (task.avoid.empty()) return {};
+  // Over a corner a chord of length s comes as near as s^2 / 8 r.
+  return geometry::offset(task.avoid, (1.0 + kProbedShare * kProbedShare / 8.0) * cutter.radius());
+}
+
 }  // namespace capstan::toolpath::freeform

@@ -316,10 +316,11 @@ bool stops_at_walls(const FeatureShape& face) {
   return geometry::area(geometry::subtract(geometry::offset_sharp(face.area, kBesideMm), free)) > kSomeArea;
 }
 
-double unstated_corner_mm(const FeatureShape& s) {
+double unstated_corner_mm(double depth_mm) {
   constexpr double kLeastMm = 3.0, kOfDepth = 1.0 / 6.0;
-  return std::max(kLeastMm, kOfDepth * s.depth_mm);
+  return std::max(kLeastMm, kOfDepth * depth_mm);
 }
+double unstated_corner_mm(const FeatureShape& s) { return unstated_corner_mm(s.depth_mm); }
 
 std::string square_corner(const Model& m, const FeatureShape& s, const std::vector<FeatureShape>& features,
                           const PieceForm& part, bool stated_only) {

@@ -157,6 +157,10 @@ void PlanarStock::place(std::uint32_t id, Vec2 lo, Vec2 hi) {
       const Vec2 middle{box_.lo.x + (x + 0.5) * tile_mm_, box_.lo.y + (y + 0.5) * tile_mm_};
       const double d = t.distance(middle);
       if (d >= t.radius_mm + half_diagonal) continue;
+      if (tile.noted < marks_) {
+        changes_.emplace_back(static_cast<std::size_t>(&tile - tiles_.data()), tile);
+        tile.noted = marks_;
+      }
       if (d + half_diagonal <= t.radius_mm && t.highest_mm < tile.highest_mm) {
         std::erase_if(tile.trails, [&](std::uint32_t o) { return trails_[o].lowest_mm >= t.highest_mm; });
         tile.highest_mm = t.highest_mm;
@@ -238,6 +242,22 @@ void PlanarStock::take(Trail trail) {
           Vec2{std::max(p.x, q.x), std::max(p.y, q.y)} + r);
   }
 }
+
+PlanarStock::Mark PlanarStock::mark() {
+  ++marks_;
+  return {changes_.size(), trails_.size(), lost_};
+}
+
+void PlanarStock::put_back(const Mark& mark) {
+  while (changes_.size() > mark.changes) {
+    tiles_[changes_.back().first] = std::move(changes_.back().second);
+    changes_.pop_back();
+  }
+  trails_.resize(mark.trails);
+  lost_ = mark.lost;
+}
+
+void PlanarStock::forget() { changes_.clear(); }
 
 double PlanarStock::highest(Vec2 lo, Vec2 hi) const {
   double best = box_.lo.z;

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "planner/ground/base/result.h"
@@ -52,6 +53,17 @@ class PlanarStock {
   /// A copy of the profile that lives as long as this stock and its copies; null for a flat one.
   [[nodiscard]] const geometry::CutterProfile* keep(const geometry::CutterProfile& profile);
 
+  /// What stood at a moment; from then on what changes is noted, so that it can be put back.
+  struct Mark {
+    std::size_t changes = 0, trails = 0;
+    std::string lost;
+  };
+  [[nodiscard]] Mark mark();
+  /// Needs  a mark of this stock, younger than the last `forget`. Marks made after it are void.
+  void put_back(const Mark& mark);
+  /// All marks are void; what was noted since is let go.
+  void forget();
+
   /// Trails that may matter near a place; kept by the caller so that asking allocates nothing.
   struct Nearby {
     std::vector<std::uint32_t> trails;  ///< deepest floor first
@@ -85,6 +97,7 @@ class PlanarStock {
     std::vector<std::uint32_t> trails;
     double highest_mm = 0.0;
     std::size_t thin_at = kThinAt;  ///< as many trails are looked through for superfluous ones
+    std::uint32_t noted = 0;        ///< the mark since which it is noted as it was
   };
   static constexpr std::size_t kThinAt = 8;
   PlanarStock() = default;
@@ -102,6 +115,8 @@ class PlanarStock {
   std::vector<Trail> trails_;
   std::vector<std::shared_ptr<const geometry::CutterProfile>> outlines_;
   std::string lost_;
+  std::vector<std::pair<std::size_t, Tile>> changes_;  ///< tiles before they were changed, oldest first
+  std::uint32_t marks_ = 0;                            ///< how many were made
 };
 
 [[nodiscard]] bool is_flat(const geometry::CutterProfile& profile);

@@ -109,7 +109,10 @@ void check_machine(const model::Machine& m, Ranges& r) {
 
 void check_cutter(const model::Cutter& c, Ranges& r) {
   r.of("tool '" + c.id + "'");
-  for (const std::string& fault : model::value_faults_of(c)) r.say(fault);
+  for (const std::string& fault : model::faults_of(c)) r.say(fault);
+  // A library may not know it; a path was planned with it.
+  if (c.cutter_class != model::CutterClass::kTouchProbe && !(c.stick_out_mm > 0.0))
+    r.say("it does not stick out of its holder");
   r.within("the cutting diameter", c.cutting_diameter_mm, range::kToolDiameterMm);
   if (c.fz_max_mm != 0.0)
     r.within("the greatest chip", c.fz_max_mm, {c.fz_min_mm, range::kToolLengthMm.most});

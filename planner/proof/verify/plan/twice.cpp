@@ -1,4 +1,5 @@
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "planner/model/nouns/all.h"
@@ -107,9 +108,26 @@ void check_curve(const model::Plan& plan, const std::vector<model::SpindlePoint>
   }
 }
 
+/// A step names its tool by its id: two tools of one id are one tool with two sizes.
+void check_names(const model::Plan& plan, Findings& out) {
+  std::map<std::string, const model::Cutter*> known;
+  for (const model::Cutter& c : plan.cutters) {
+    const auto [it, fresh] = known.emplace(c.id, &c);
+    if (fresh) continue;
+    const model::Cutter& other = *it->second;
+    const std::string what = other.stick_out_mm != c.stick_out_mm
+                                 ? "sticks out " + mm(other.stick_out_mm) + " in one place and " +
+                                       mm(c.stick_out_mm) + " in another"
+                                 : "is listed twice";
+    out.error(1, "CHK-TWICE", {Findings::kWhole, "", -1},
+              "tool '" + c.id + "' " + what + ": keep one of them, or give the other a name of its own");
+  }
+}
+
 }  // namespace
 
 void check_twice(const model::Plan& plan, Findings& findings) {
+  check_names(plan, findings);
   Twice twice(plan, findings);
   for (std::size_t i = 0; i < plan.steps.size(); ++i) twice.step(plan.steps[i], i);
   check_curve(plan, plan.machine.spindle.curve, findings);

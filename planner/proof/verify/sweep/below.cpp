@@ -5,7 +5,7 @@
 
 // What no cutter reaches from above: heights hold the highest surface over each place, so that a surface of
 // the part that faces down, an undercut or the ceiling of a void, is not among them. Its triangles are
-// added up, those of the part's underside left out.
+// added up, those of the part's underside left out. Below that, what of the raw piece is lower stays, too.
 
 namespace capstan::verify {
 
@@ -35,6 +35,15 @@ void Target::below_mesh(const Asked& a, Findings& out) const {
     if (size <= widest) continue;
     widest = size;
     where = (1.0 / 3.0) * (a0 + a1 + a2);
+  }
+  if (stock_.lo.z < box.lo.z - kUndersideMm) {
+    out.warn(
+        36, "CHK-LEFT-UNDER", a.where,
+        "under the part, from z " + plain(stock_.lo.z) + " to " + plain(box.lo.z) + ", " +
+            mm(box.lo.z - stock_.lo.z) +
+            " of the raw piece stay: nothing cuts there from above; face the underside in another set-up, "
+            "or give a raw piece that ends there",
+        box.lo.z - stock_.lo.z);
   }
   if (area < kLeastMm2) return;
   out.warn(36, "CHK-LEFT-BELOW", a.where,

@@ -19,6 +19,9 @@
 // Crests of threads and what heights do not hold are not looked at, nor what is narrower than two cells: a
 // note says so.
 //
+// In the sharp inside corners of a mesh, which can state no radius, may stay what may stay in those of a
+// step.
+//
 // On a freeform surface the distance is measured square to it: from the top of what stands to the nearest of
 // the columns that the finished part fills. It may be the tolerance, and what the finishing step states as
 // the height of its ridges and of its chords.
@@ -314,12 +317,26 @@ void Target::left_of(const Cavity& c, const Grid& grid, const Asked& a, const st
             worst);
 }
 
+std::vector<geometry::MeshCorner> Target::corners_of_mesh() const {
+  if (sheet_) return {};
+  geometry::Mesh placed = *plan_.target_mesh;
+  for (geometry::Vec3& v : placed.vertices) v = frame_.to_parent(v);
+  return geometry::sharp_corners(placed, inside_out_);
+}
+
 void Target::left_on_mesh(const Grid& grid, const Asked& a, Findings& out) const {
   const PartShapes::Entry* e = part_.find(a.feature);
   if (e == nullptr || e->shapes.empty() || e->shapes.front().kind != ShapeKind::kFreeform) return;
   below_mesh(a, out);
   const double limit = allowed() + a.bottom_mm + a.ridges_mm;
   const double slack = 0.71 * grid.cell();  // a column may stand anywhere in its cell
+  const std::vector<geometry::MeshCorner> corners = corners_of_mesh();
+  const auto in_corner = [&](Vec2 p, double z) {
+    return std::any_of(corners.begin(), corners.end(), [&](const geometry::MeshCorner& c) {
+      const double may_stay = model::unstated_corner_mm(c.high - c.low);
+      return z <= c.high + limit && c.keeps(p, may_stay, limit + slack);
+    });
+  };
   double worst = 0.0, top = 0.0;
   std::size_t cells = 0, all = 0;
   Vec2 where;
@@ -349,7 +366,7 @@ void Target::left_on_mesh(const Grid& grid, const Asked& a, Findings& out) const
           }
         }
       }
-      if (near <= limit) continue;
+      if (near <= limit || in_corner(grid.centre(ix, iy), z)) continue;
       ++cells;
       if (near <= worst) continue;
       worst = near;

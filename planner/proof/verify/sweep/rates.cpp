@@ -83,10 +83,20 @@ void StepChecks::planned_section() {
   const bool wide = section > std::max(kWider * depth * width, felt) && sure > kWider * depth * width;
   if (!deep && !wide) return;
   const double stated = step_.planned->loads.peak_force_n, met = mean_force(a);
-  const bool unheld = stated > 0.0 && met > kMeasured * stated;
+  // Where either force cannot be told, nothing says that a limit was held.
+  const bool told = stated > 0.0 && met > 0.0;
+  const bool unheld = !told || met > kMeasured * stated;
   const Findings::Where where{step_.order + 1, step_.id, a.where};
   const auto tell = [&](const char* code, std::string text, double amount) {
     if (!unheld) return out_.warn(20, code, where, std::move(text), amount);
+    if (!told) {
+      return out_.error(20, code, where,
+                        text + "; " +
+                            (stated > 0.0 ? "what force that asks for cannot be told"
+                                          : "the plan states no force for the step") +
+                            ", so that nothing shows that its limits were held there; rough it first",
+                        amount);
+    }
     out_.error(20, code, where,
                text + "; that asks for a mean force of " + plain(met) +
                    " N (worn edge), more than the largest that the plan states for the step, " +

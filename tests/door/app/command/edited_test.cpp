@@ -246,6 +246,24 @@ TEST_F(EditedValues, AFeedAndASpeedTypedTogetherBothStay) {
   EXPECT_EQ(object(plan, at)["spindle"], -5000);
 }
 
+TEST_F(EditedValues, OfAFeedShowLoadsThatBelongToIt) {
+  Json plan = Json::parse(json_);
+  object(plan, operation(plan, kStep)["its_technology"])["feedrate"] = 1234;
+  put("e.json", plan.dump());
+  ASSERT_LE(run("plan e.json -o f.json").code, 1);
+  plan = Json::parse(slurp(folder_ / "f.json"));
+  for (const auto& s : plan["steps"]) {
+    if (s["id"] != kStep) continue;
+    const double fz = s["fz_mm"];
+    EXPECT_NEAR(fz, 1234.0 / s["spindle_rpm"].get<double>() / 3.0, 1e-9);
+    // No chip is thicker than the feed per tooth of the edge, which turns inside a corner at most at twice
+    // that of the centre; nor is more removed than a slot of the whole cutter, 10 mm wide, at that feed.
+    EXPECT_LE(s["loads"]["chip_thickness_mm"].get<double>(), 2.0 * fz * 1.2);
+    EXPECT_LE(s["loads"]["mrr_mm3_min"].get<double>(),
+              s["axial_depth_mm"].get<double>() * 10.0 * 1234.0 * 1.001);
+  }
+}
+
 TEST_F(EditedValues, AreOfNobodyInAPlanThatNobodyEdited) {
   put("b.json", json_);
   put("b.p21", part21_);

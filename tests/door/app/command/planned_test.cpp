@@ -130,6 +130,16 @@ TEST_F(Planned, BindPastItsDeadlineEndsWithFive) {
   EXPECT_EQ(run(bind), 0) << said_;  // nobody waits
 }
 
+TEST_F(Planned, BindWithoutToolsTakesThoseOfThePlanInTheirPockets) {
+  part("two_setups.p21", {});
+  ASSERT_EQ(run("plan p.p21 -o p.json -o p.o.p21 -o p.tbl"), 0) << said_;
+  for (const char* form : {"p.json", "p.o.p21"}) {
+    EXPECT_EQ(run(std::string("bind ") + form + " -o b.ngc -o b.tbl"), 0) << said_;
+    EXPECT_THAT(said_, HasSubstr("count as loaded, in the plan's tool numbers"));
+    EXPECT_EQ(slurp(folder_ / "b.tbl"), slurp(folder_ / "p.tbl")) << form;
+  }
+}
+
 TEST_F(Planned, AWideFittedHoleIsRoughedWithinTheRampOfItsCutter) {
   part("two_setups.p21",
        {{"#70=TOLERANCED_LENGTH_MEASURE(6.6,#25);",
