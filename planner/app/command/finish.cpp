@@ -6,6 +6,7 @@
 
 #include "planner/app/show/values.h"
 #include "planner/model/condemned.h"
+#include "planner/model/contradicted.h"
 #include "planner/model/unreadable.h"
 #include "planner/motion/time.h"
 #include "planner/output/linuxcnc/linuxcnc.h"
@@ -68,6 +69,10 @@ Result<Verdict> judged(Session& s, const model::Plan& plan, const KnownFindings&
     of_text = of_programs(plan, outputs, s.job);
   }
   std::move(of_text.begin(), of_text.end(), std::back_inserter(told));
+  for (const auto& c : model::contradictions(plan)) {
+    s.job.report(
+        {.code = "PIP-CONTRADICTED", .severity = Severity::kError, .message = c.why, .file = plan.file_name});
+  }
   for (const Told& t : told) {
     s.job.report(as_diagnostic(t.finding, t.file, t.program));
     if (t.finding.severity != Severity::kNote) ++v.findings;
