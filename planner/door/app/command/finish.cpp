@@ -7,6 +7,7 @@
 #include "planner/controls/linuxcnc/linuxcnc.h"
 #include "planner/door/app/show/values.h"
 #include "planner/model/plan/condemned.h"
+#include "planner/model/plan/contradicted.h"
 #include "planner/model/plan/unreadable.h"
 #include "planner/physics/motion/time.h"
 #include "planner/proof/verify/verify.h"
@@ -68,6 +69,10 @@ Result<Verdict> judged(Session& s, const model::Plan& plan, const KnownFindings&
     of_text = of_programs(plan, outputs, s.job);
   }
   std::move(of_text.begin(), of_text.end(), std::back_inserter(told));
+  for (const auto& c : model::contradictions(plan)) {
+    s.job.report(
+        {.code = "PIP-CONTRADICTED", .severity = Severity::kError, .message = c.why, .file = plan.file_name});
+  }
   for (const Told& t : told) {
     s.job.report(as_diagnostic(t.finding, t.file, t.program));
     if (t.finding.severity != Severity::kNote) ++v.findings;

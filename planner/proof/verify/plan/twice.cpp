@@ -66,7 +66,10 @@ class Twice {
   }
 
   void body(const model::MillingCuttingTool& tool, const model::Cutter& c) {
-    if (tool.its_id && *tool.its_id != c.id)
+    // Files name tools as they like: one without a name gets one, and the second of a name a number behind
+    // it.
+    const std::string named = tool.its_id.value_or("");
+    if (!named.empty() && named != c.id && !c.id.starts_with(named + "~"))
       differs("its tool is '" + c.id + "' in the step, and '" + *tool.its_id + "' in its operation");
     // A table that was loaded since has measured it.
     if (tool.overall_assembly_length && !c.table_line)
