@@ -24,5 +24,19 @@ TEST(EachFormOfAPlan, GivesItsProgramWhereASmallerCutterTookTheFirstOnesPlace) {
   EXPECT_EQ(lost_in_a_form(part, plan), "");
 }
 
+// The head bores to 9.9 mm, is measured, and bores to 10 mm: two tools, and two when the plan is read again.
+TEST(EachFormOfAPlan, KeepsTheTwoToolsOfOneHeadThatIsSetToTwoSizes) {
+  Part part{
+      .name = "bore", .text = {}, .block = block(40, 40, 16), .target = Target{body(block(40, 40, 16))}};
+  Drawing d{"BORE", part.block};
+  d.hole("B", d.placement({20, 20, 0}), 16, 10, d.through_bottom(), 0, 0.0045);
+  part.text = d.text();
+  const PlanOutput plan = plan_bytes(part.text, "bore.p21", part.options);
+  ASSERT_FALSE(plan.linuxcnc.empty());
+  EXPECT_NE(plan.json.find("\"generic/boring_head/8@10\""), std::string::npos)
+      << "other tools are chosen: this tests nothing";
+  EXPECT_EQ(lost_in_a_form(part, plan), "");
+}
+
 }  // namespace
 }  // namespace capstan::testing::removal

@@ -347,22 +347,28 @@ Result<Kind> kind_of(const Model& m, const Parts& p, Job& job) {
   return k;
 }
 
-/// The library's cutter that tool_usage names.
-const Cutter* named(const Model& m, const Parts& p, const std::vector<Cutter>& library) {
+/// The library's cutter that tool_usage names, and the name that it has in the plan.
+struct Named {
+  const Cutter* cutter = nullptr;
+  std::string id;
+};
+
+Named named(const Model& m, const Parts& p, const std::vector<Cutter>& library) {
   const auto* usage = m.get<model::ToolUsage>(p.tool->its_usage);
-  if (usage == nullptr) return nullptr;
+  if (usage == nullptr) return {};
   const auto* product = m.get<model::Workpiece>(usage->its_product);
   for (const auto* text : {&usage->its_library_reference, product != nullptr ? &product->its_id : nullptr}) {
     if (text == nullptr || !*text) continue;
-    // A boring tool that a plan sets to several sizes has each behind its name.
+    // A boring tool that a plan sets to several sizes has each behind its name, and stays as many tools.
     const std::string_view plain = std::string_view(**text).substr(0, (*text)->find('@'));
-    for (const Cutter& c : library)
-      if (c.id == **text || (c.adjustable_to_mm > 0.0 && c.id == plain) ||
-          (!c.library_reference.empty() && c.library_reference == **text) ||
+    for (const Cutter& c : library) {
+      if (c.adjustable_to_mm > 0.0 && c.id == plain) return {&c, **text};
+      if (c.id == **text || (!c.library_reference.empty() && c.library_reference == **text) ||
           (product != nullptr && text == &product->its_id && c.product_id == **text))
-        return &c;
+        return {&c, c.id};
+    }
   }
-  return nullptr;
+  return {};
 }
 
 bool same_size(const Parts& p, const Cutter& c) {
@@ -441,10 +447,11 @@ Result<Cutter> cutter_from_nouns(const Model& m, Ref<MachiningTool> tool, Job& j
   if (const auto* probe = m.get<model::TouchProbe>(tool)) return probe_from(m, *probe, library);
   const auto p = parts_of(m, tool);
   if (!p) return fail(p.error());
-  const Cutter* known = named(m, *p, library);
+  const auto [known, name] = named(m, *p, library);
   if (known != nullptr) {
     if (same_size(*p, *known)) {
       Cutter c = *known;
+      c.id = name;
       c.cutting_diameter_mm = *p->dimension->diameter;
       if (const int pocket = pocket_of(m, *p); pocket > 0) c.pocket = pocket;
       return c;
