@@ -7,6 +7,7 @@
 #include "casebase/casebase.h"
 #include "casebase/fields.h"
 #include "casebase/store.h"
+#include "planner/ground/base/no_number.h"
 #include "planner/ground/base/number.h"
 
 namespace capstan::casebase {
@@ -118,7 +119,7 @@ std::optional<std::string> put(Case& c, const std::string& name, const std::stri
     return std::nullopt;
   }
   const std::optional<double> number = parse_double(field);
-  if (!number) return fmt::format("{} is no number: '{}'", name, field.substr(0, 40));
+  if (!number) return name + ": " + no_number(field);
   for (const NumberField& f : number_fields()) {
     if (f.name != name) continue;
     f.in(c) = *number;

@@ -7,6 +7,7 @@
 
 #include "planner/ground/base/file.h"
 #include "planner/ground/base/number.h"
+#include "rules/engine/stray.h"
 #include "rules/engine/table.h"
 #include "rules/strategy/action.h"
 
@@ -293,6 +294,12 @@ void add_document(RuleBase& base, const YAML::Node& root, const std::string& fil
 Status add_text(RuleBase& base, const std::string& name, const std::string& text, bool shipped) {
   Diagnostic d;
   d.file = name;
+  if (const std::uint64_t line = stray_sign(text); line != 0)
+    return fail({.code = "RULE-SYNTAX",
+                 .message = "what stands here belongs to no value",
+                 .file = name,
+                 .line = line,
+                 .expected = "a map of table, facts and rows, or of capabilities"});
   try {
     for (const YAML::Node& root : YAML::LoadAll(text)) add_document(base, root, name, shipped);
     return {};
@@ -356,7 +363,7 @@ Result<RuleBase> load_rules(const std::string& extra_directory, Job& job) {
   if (files->empty())
     job.warn("RULE-NONE", "no *.yaml in " + extra_directory + ": the shipped rules stand alone");
   for (const std::string& file : *files) {
-    constexpr std::size_t kTableCap = std::size_t{64} << 20;
+    constexpr std::size_t kTableCap = std::size_t{4} << 20;  // the shipped tables have 20 kB at most
     auto text = read_file(file, kTableCap);
     if (!text) return fail(text.error());
     if (auto s = add_text(*base, file, *text, false); !s) return fail(s.error());

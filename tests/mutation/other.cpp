@@ -57,12 +57,17 @@ std::vector<Class> not_dangerous() {
       // The machine does something else.
       {"coolant", Kind::kDifferent, false,
        [](const Emitted& e, Random& r) {
-         return changed(
-             e, r, [](const std::string& l) { return l == "M8"; },
-             [&](const std::string&) {
-               static const char* const kOthers[] = {"M9", "M7", "", "M8\nM7"};
-               return std::string(kOthers[r.below(4)]);
-             });
+         Lines lines = split(e.text);
+         // One that turns the coolant on: a step with the tool of the step before only says it again.
+         const auto i = pick(lines, r, [&](std::size_t k) {
+           if (lines[k] != "M8") return false;
+           while (k > 0 && lines[k - 1] != "M8" && lines[k - 1] != "M9") --k;
+           return k == 0 || lines[k - 1] == "M9";
+         });
+         if (!i) return Made{};
+         static const char* const kOthers[] = {"M9", "M7", "", "M8\nM7"};
+         lines[*i] = kOthers[r.below(4)];
+         return Made{Edit{joined(lines), e.table}};
        }},
       {"coolant off in a cut", Kind::kDifferent, false,
        [](const Emitted& e, Random& r) {

@@ -4,7 +4,10 @@
 #include <chrono>
 
 #include "planner/files/exchange/exchange.h"
+#include "planner/files/json/json.h"
 #include "planner/ground/base/file.h"
+#include "planner/model/plan/positions.h"
+#include "rules/engine/table.h"
 #include "tests/support/corpus.h"
 #include "tooling/catalogue/machine.h"
 #include "tooling/formats/all.h"
@@ -39,6 +42,7 @@ TEST(HostileMesh, AVertexBeyondTheReachOfGeometryIsNamed) {
   ASSERT_FALSE(plan);
   EXPECT_EQ(plan.error().code, "STL-NUMBER");
   EXPECT_EQ(plan.error().line, 5U);
+  EXPECT_EQ(plan.error().message, "a coordinate is 1000000000; it can be -100000 to 100000 mm");
 }
 
 TEST(HostileMachine, ValuesNextToZeroAreRefused) {
@@ -49,6 +53,44 @@ TEST(HostileMachine, ValuesNextToZeroAreRefused) {
       tooling::read_machine(replaced(text, "efficiency: 0.85", "efficiency: 1e-320"), "m.yaml", job);
   ASSERT_FALSE(tiny);
   EXPECT_EQ(tiny.error().code, "MACHINE-RANGE");
+  EXPECT_THAT(tiny.error().message, HasSubstr("efficiency is 1e-320"));
+  EXPECT_EQ(tiny.error().expected, "0.05 to 1");
+  EXPECT_EQ(tiny.error().line, 14U);
+  const auto huge =
+      tooling::read_machine(replaced(text, "efficiency: 0.85", "efficiency: 1e300"), "m.yaml", job);
+  ASSERT_FALSE(huge);
+  EXPECT_THAT(huge.error().message, HasSubstr("efficiency is 1e+300"));
+  const auto none =
+      tooling::read_machine(replaced(text, "efficiency: 0.85", "efficiency: 1e999"), "m.yaml", job);
+  ASSERT_FALSE(none);
+  EXPECT_THAT(none.error().message, HasSubstr("'1e999' is beyond what a number can be"));
+}
+
+// Once without end, and 24 GB: the YAML library makes an empty document of the comma, and again.
+TEST(HostileRules, AStrayCommaAtTheTopIsRefused) {
+  const auto read = rules::rules_from_texts({{"r.yaml", "# shop\n,table: coolant\nrows: []\n"}});
+  ASSERT_FALSE(read);
+  EXPECT_EQ(read.error().code, "RULE-SYNTAX");
+  EXPECT_EQ(read.error().line, 2U);
+}
+
+// Each key was once held against all before it.
+TEST(HostileMachine, AHundredThousandKeysAreReadInTime) {
+  std::string text = "capstan_machine: 1\n";
+  for (int i = 0; i < 100'000; ++i) text += "k" + std::to_string(i) + ": 1\n";
+  Job job;
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_FALSE(tooling::read_machine(text, "m.yaml", job));
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+  EXPECT_LT(took.count(), 10.0);
+}
+
+TEST(HostilePlan, ANumberBeyondRangeIsNamedWithItsLine) {
+  Job job;
+  const auto read = json::read_json("{\"capstan_plan\": 1,\n\"summary\": {\"a\": 1e999}}", "p.json", job);
+  ASSERT_FALSE(read);
+  EXPECT_EQ(read.error().message, "'1e999' is beyond what a number can be (1.8e308 either way)");
+  EXPECT_EQ(read.error().line, 2U);
 }
 
 TEST(HostileTechnology, ASpindleThatHardlyTurnsIsTold) {
@@ -56,6 +98,18 @@ TEST(HostileTechnology, ASpindleThatHardlyTurnsIsTold) {
   Job job;
   (void)exchange::read_bytes(replaced(plate, "-21.", "-1.E-320"), "plate.p21", {}, job);
   EXPECT_FALSE(job.diagnostics().empty());
+}
+
+// Once "a fault of the program itself": a feed by a speed of next to nothing is a chip without end.
+TEST(HostileTechnology, ASpindleThatHardlyTurnsIsNotPlannedWith) {
+  const std::string plate = testing::slurp(CAPSTAN_SOURCE_DIR "/examples/plate_bound.p21");
+  Job job;
+  const auto plan = exchange::read_bytes(replaced(plate, "-21.", "-1.E-320"), "plate.p21", {}, job);
+  ASSERT_TRUE(plan);
+  // In 1/min: sixty times what the file says.
+  EXPECT_THAT(model::beyond_range(*plan),
+              ::testing::AllOf(HasSubstr("#61 MILLING_TECHNOLOGY.spindle is -5.9999"),
+                               HasSubstr("it can be 0, or 0.001 to 1000000, either way")));
 }
 
 // Once quadratic: 48 s for these.

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <optional>
 
+#include "planner/ground/base/no_number.h"
 #include "planner/ground/base/number.h"
 #include "tooling/catalogue/check.h"
 #include "tooling/catalogue/data.h"
@@ -154,7 +155,7 @@ std::vector<Size> read_sizes(Fields& f) {
   for (const Node& n : list->items) {
     if (n.kind == Node::Kind::kScalar) {
       const auto d = parse_double(n.text);
-      if (!d) f.fault("DATA-NUMBER", "'" + n.text + "' is not a number", "sizes", n.line);
+      if (!d) f.fault("DATA-NUMBER", no_number(n.text), "sizes", n.line);
       out.push_back({d.value_or(0.0), nullptr});
     } else if (n.find("from") != nullptr) {
       append_range(f.below("sizes", n), out);

@@ -3,6 +3,7 @@
 #include <map>
 #include <optional>
 
+#include "planner/ground/base/no_number.h"
 #include "planner/ground/base/number.h"
 #include "planner/model/plan/ranges.h"
 #include "tooling/catalogue/machine.h"
@@ -59,7 +60,7 @@ struct Reader {
     const auto it = ini.find({section, key});
     if (it == ini.end()) return std::nullopt;
     const auto v = parse_double(it->second.text);
-    if (!v) refuse("MACHINE-INI", "'" + it->second.text + "' is not a number", section, key, it->second.line);
+    if (!v) refuse("MACHINE-INI", no_number(it->second.text), section, key, it->second.line);
     return v;
   }
   double needed(const std::string& section, const std::string& key) {
@@ -104,7 +105,8 @@ void read_axis(Reader& r, std::size_t i, double mm_per_unit, Machine& m) {
   const auto within = [&](double v, const model::Range& range, const char* code, const char* key,
                           const char* unit) {
     if (!range.holds(v))
-      r.refuse(code, "it is " + shortest(v) + unit + "; it can be " + to_text(range), section, key, 0);
+      r.refuse(code, "it is " + model::value_text(v) + unit + "; it can be " + to_text(range), section, key,
+               0);
   };
   within(a.travel_min_mm, model::range::kAxisPositionMm, "MACHINE-RANGE", "MIN_LIMIT", " mm");
   within(a.travel_max_mm, model::range::kAxisPositionMm, "MACHINE-RANGE", "MAX_LIMIT", " mm");

@@ -43,7 +43,7 @@ std::string plain(std::string_view text) {
 
 void check(double value, const model::Range& range, std::string_view key, Fields& f) {
   if (range.holds(value)) return;
-  f.fault("MATERIAL-RANGE", trimmed(value, 6) + " is no value of a material", key, f.line_of(key),
+  f.fault("MATERIAL-RANGE", model::value_text(value) + " is no value of a material", key, f.line_of(key),
           to_text(range));
 }
 

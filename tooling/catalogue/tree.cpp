@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <unordered_set>
 
+#include "planner/ground/base/no_number.h"
 #include "planner/ground/base/number.h"
 
 namespace capstan::tooling {
@@ -51,7 +53,7 @@ class Builder final : public YAML::EventHandler {
 
  private:
   void key(const std::string& name, std::uint64_t line) {
-    if (open_.back().find(name) != nullptr)
+    if (!names_.back().insert(name).second)
       throw Refused{"DATA-DUPLICATE", "'" + name + "' is given twice", line};
     open_.back().entries.emplace_back(name, Node{});
     keys_.back() = true;
@@ -62,11 +64,13 @@ class Builder final : public YAML::EventHandler {
     check_key(line);
     open_.push_back({.kind = kind, .line = line});
     keys_.push_back(false);
+    names_.emplace_back();
   }
   void end() {
     Node done = std::move(open_.back());
     open_.pop_back();
     keys_.pop_back();
+    names_.pop_back();
     value(std::move(done));
   }
   void check_key(std::uint64_t line) const {
@@ -89,7 +93,8 @@ class Builder final : public YAML::EventHandler {
   }
 
   std::vector<Node> open_;
-  std::vector<bool> keys_;  // whether a map's key waits for its value
+  std::vector<bool> keys_;                              // whether a map's key waits for its value
+  std::vector<std::unordered_set<std::string>> names_;  // of its keys
 };
 
 }  // namespace
@@ -191,7 +196,7 @@ std::optional<double> Fields::optional_number(std::string_view key) {
   const Node* n = scalar(key, true);
   if (n == nullptr) return std::nullopt;
   const auto v = parse_double(n->text);
-  if (!v) fault("DATA-NUMBER", "'" + n->text + "' is not a number", key, n->line, "a finite decimal number");
+  if (!v) fault("DATA-NUMBER", no_number(n->text), key, n->line, "a finite decimal number");
   return v;
 }
 

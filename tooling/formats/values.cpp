@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "planner/ground/base/no_number.h"
 #include "planner/ground/base/number.h"
 #include "planner/model/plan/ranges.h"
 
@@ -50,7 +51,7 @@ constexpr std::array kFacts{
     length("CW", "cutting width"),
     length("TDZ", "thread size"),
     length("LEADLENGTH", "length of the lead"),
-    SymbolFact{"LEADTHREADS", Quantity::kNumber, 0.0, 100.0, "threads in the lead"},
+    SymbolFact{"LEADTHREADS", Quantity::kNumber, 0.0, model::range::kLeadThreads.most, "threads in the lead"},
     length("TP", "thread pitch"),
     length("TPN", "smallest thread pitch"),
     length("TPX", "largest thread pitch"),
@@ -69,8 +70,8 @@ constexpr std::array kFacts{
     count("CICT", "number of inserts"),
     SymbolFact{"RPMX", Quantity::kNumber, 0.0, kMostRpm, "largest speed"},
     SymbolFact{"WT", Quantity::kNumber, 0.0, 1000.0, "weight"},
-    SymbolFact{"LIFE", Quantity::kNumber, 0.0, 1e6, "life"},
-    SymbolFact{"PRICE", Quantity::kNumber, 0.0, 1e9, "price"},
+    SymbolFact{"LIFE", Quantity::kNumber, 0.0, model::range::kToolLifeMin.most, "life"},
+    SymbolFact{"PRICE", Quantity::kNumber, 0.0, model::range::kPrice.most, "price"},
     text("BMC", "body material"),
     text("SUBSTRATE", "substrate"),
     text("GRADE", "grade"),
@@ -180,8 +181,8 @@ Result<double> number_from(std::string_view text, const Place& place, bool decim
                          "one decimal comma and no thousands marks", "remove the thousands marks"));
   }
   if (const auto v = parse_double(t)) return *v;
-  return fail(fault_at(place, "DATA-NUMBER", "'" + std::string(t.substr(0, 60)) + "' is not a number",
-                       "one finite decimal number", "correct the value or leave it out"));
+  return fail(fault_at(place, "DATA-NUMBER", no_number(t), "one finite decimal number",
+                       "correct the value or leave it out"));
 }
 
 Result<Property> property_from(std::string_view symbol, std::string_view text, std::string_view unit,

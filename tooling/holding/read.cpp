@@ -22,9 +22,17 @@ constexpr std::array<std::pair<std::string_view, FixtureKind>, 5> kKinds = {
      {"toe_clamp", FixtureKind::kToeClamp}}};
 constexpr std::array<std::pair<std::string_view, Side>, 4> kSides = {
     {{"-x", Side::kMinusX}, {"+x", Side::kPlusX}, {"-y", Side::kMinusY}, {"+y", Side::kPlusY}}};
-constexpr double kLargest = model::range::kFixtureMm.most;
 
 bool clamps(FixtureKind k) { return k == FixtureKind::kStrapClamp || k == FixtureKind::kToeClamp; }
+
+std::string in_mm(const model::Range& range) { return to_text(range) + " mm"; }
+
+/// A fault where the value is none that the quantity can have.
+void within(Fields& f, std::string_view key, double v, const model::Range& range, const char* unit = " mm") {
+  if (!range.holds(v))
+    f.fault("DATA-RANGE", std::string(key) + " is " + model::value_text(v), key, f.line_of(key),
+            to_text(range) + unit);
+}
 
 /// A pair of numbers, [8, 30].
 std::optional<geometry::Vec2> pair_of(Fields& f, std::string_view key, const Node& n) {
@@ -32,8 +40,14 @@ std::optional<geometry::Vec2> pair_of(Fields& f, std::string_view key, const Nod
   bool good = n.kind == Node::Kind::kList && n.items.size() == 2;
   for (std::size_t i = 0; good && i < 2; ++i) {
     const auto number = n.items[i].kind == Node::Kind::kScalar ? parse_double(n.items[i].text) : std::nullopt;
-    good = number.has_value() && std::isfinite(*number) && std::abs(*number) <= kLargest;
-    if (good) v[i] = *number;
+    good = number.has_value();
+    if (!good) break;
+    if (!model::range::kFixtureAtMm.holds(*number)) {
+      f.fault("DATA-RANGE", std::string(key) + " has " + model::value_text(*number), key, n.line,
+              in_mm(model::range::kFixtureAtMm));
+      return std::nullopt;
+    }
+    v[i] = *number;
   }
   if (!good) {
     f.fault("DATA-TYPE", std::string(key) + " is not a pair of numbers", key, n.line, "[8, 30]");
@@ -45,9 +59,7 @@ std::optional<geometry::Vec2> pair_of(Fields& f, std::string_view key, const Nod
 double positive(Fields& f, std::string_view key) {
   const std::size_t before = f.fault_count();
   const double v = f.number(key);
-  if (f.fault_count() == before && !model::range::kFixtureMm.holds(v))
-    f.fault("DATA-RANGE", std::string(key) + " is " + trimmed(v, 6), key, f.line_of(key),
-            "a length above zero, at most 10000 mm");
+  if (f.fault_count() == before) within(f, key, v, model::range::kFixtureMm);
   return v;
 }
 
@@ -101,9 +113,8 @@ Fixture fixture_of(Fields f) {
   }
   const std::size_t before = f.fault_count();
   out.holding_force_n = f.number_or("holding_force_n", 0.0);
-  if (f.fault_count() == before && !model::range::kHoldingForceN.holds(out.holding_force_n))
-    f.fault("DATA-RANGE", "holding_force_n is " + trimmed(out.holding_force_n, 4), "holding_force_n",
-            f.line_of("holding_force_n"), "a force; 0 for not known");
+  if (f.fault_count() == before)
+    within(f, "holding_force_n", out.holding_force_n, model::range::kHoldingForceN, " N; 0 for not known");
   f.finish();
   out.source = f.source().empty() ? "not stated" : f.source();
   return out;
@@ -136,9 +147,7 @@ ClampWish clamp_of(Fields f, std::size_t number, const std::vector<Fixture>& fix
   out.name = f.text_or("name", "clamp " + std::to_string(number));
   out.from = side_of(f, "from", f.text("from"));
   out.bottom = f.optional_number("bottom");
-  if (out.bottom && std::abs(*out.bottom) > kLargest)
-    f.fault("DATA-RANGE", "bottom is " + trimmed(*out.bottom, 4), "bottom", f.line_of("bottom"),
-            "10000 mm either way at most");
+  if (out.bottom) within(f, "bottom", *out.bottom, model::range::kFixtureAtMm);
   if (const Node* at = f.child("at", true)) {
     if (const auto p = pair_of(f, "at", *at)) out.at = *p;
   }
@@ -159,14 +168,10 @@ HoldingWish wish_of(Fields f, const std::vector<Fixture>& fixtures) {
   out.fixture = f.text("fixture");
   if (f.has("fixed_jaw")) out.fixed_jaw = side_of(f, "fixed_jaw", f.text("fixed_jaw"));
   out.offset_mm = f.number_or("offset", 0.0);
-  if (std::abs(out.offset_mm) > kLargest)
-    f.fault("DATA-RANGE", "offset is " + trimmed(out.offset_mm, 4), "offset", f.line_of("offset"),
-            "10000 mm either way at most");
+  within(f, "offset", out.offset_mm, model::range::kFixtureAtMm);
   const std::size_t before = f.fault_count();
   out.clearance_mm = f.number_or("clearance", out.clearance_mm);
-  if (f.fault_count() == before && !model::range::kClearanceMm.holds(out.clearance_mm))
-    f.fault("DATA-RANGE", "clearance is " + trimmed(out.clearance_mm, 4), "clearance", f.line_of("clearance"),
-            "0.1 to 100 mm");
+  if (f.fault_count() == before) within(f, "clearance", out.clearance_mm, model::range::kClearanceMm);
   if (const Node* p = f.child("parallel", false)) {
     out.parallel = pair_of(f, "parallel", *p);
     if (out.parallel && !(out.parallel->x > 0.0 && out.parallel->y > 0.0))

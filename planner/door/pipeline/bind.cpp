@@ -223,7 +223,7 @@ Result<model::Plan> bind_within(const model::Plan& plan, const Inputs& inputs, c
 Result<model::Plan> bind(model::Plan plan, const Inputs& inputs, const Policy& policy, Job& job) {
   if (const std::string beyond = model::beyond_range(plan); !beyond.empty())
     return fail({.code = "PIP-RANGE",
-                 .message = beyond + ": no geometry can be computed with it",
+                 .message = beyond + ": nothing can be computed with it",
                  .file = plan.file_name,
                  .hint = "correct it in the file; lengths are in mm unless it says otherwise"});
   Tries tries;

@@ -36,7 +36,7 @@ constexpr std::array<std::pair<std::string_view, model::Listed>, 10> kListed = {
 struct Seal {
   std::size_t count = 0;
   std::uint64_t sum = 0;  // of the entities' hashes: their order does not count
-  friend bool operator==(const Seal&, const Seal&) = default;
+  bool operator==(const Seal&) const = default;
 };
 
 bool is_sealed(const p21::Instance& header) {

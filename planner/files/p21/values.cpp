@@ -92,7 +92,8 @@ bool Parser::check_range(const char* start, bool real) {
     const double value = to_real(lexeme);
     if (!std::isfinite(value)) {
       fault({.code = "P21-NUMBER",
-             .message = std::string(lexeme.substr(0, 40)) + " is beyond the range of a real"});
+             .message =
+                 std::string(lexeme.substr(0, 40)) + " is beyond the range of a real (1.8E308 either way)"});
       return false;
     }
     const std::string_view mantissa = lexeme.substr(0, lexeme.find_first_of("Ee"));
@@ -108,8 +109,11 @@ bool Parser::check_range(const char* start, bool real) {
   digits.remove_prefix(std::min(digits.find_first_not_of('0'), digits.size()));
   const std::string_view most = negative ? "9223372036854775808" : "9223372036854775807";
   if (digits.size() > most.size() || (digits.size() == most.size() && digits > most)) {
-    fault({.code = "P21-NUMBER",
-           .message = std::string(lexeme.substr(0, 40)) + " is beyond the range of an integer of 64 bits"});
+    fault(
+        {.code = "P21-NUMBER",
+         .message =
+             std::string(lexeme.substr(0, 40)) +
+             " is beyond the range of an integer of 64 bits (-9223372036854775808 to 9223372036854775807)"});
     return false;
   }
   return true;

@@ -17,13 +17,8 @@ std::string mm(double v) { return trimmed(v, 4) + " mm"; }
 
 void check_number(double v, const char* name, const Range& range, std::vector<std::string>& out) {
   if (range.holds(v)) return;
-  if (!std::isfinite(v)) {
-    out.push_back(std::string(name) + " is not a finite number");
-  } else if (v < 0.0) {
-    out.push_back(std::string(name) + " is negative: " + trimmed(v, 6));
-  } else {
-    out.push_back(std::string(name) + " is " + shortest(v) + "; it can be " + to_text(range));
-  }
+  out.push_back(std::string(name) + (v < 0.0 && range.least >= 0.0 ? " is negative: " : " is ") +
+                value_text(v) + "; it can be " + to_text(range));
 }
 void check_angle(double v, const char* name, double most, std::vector<std::string>& out) {
   check_number(v, name, {1e-6, most, true}, out);

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
-#include <set>
+#include <map>
 #include <utility>
 
 #include "planner/model/nouns/arena/model.h"
@@ -31,64 +31,110 @@ std::string binder_words(Binder b) {
   return out;
 }
 
-/// All that `key` was decided from, directly or through others.
-std::set<DecisionKey> upstream(const std::map<DecisionKey, Decision>& entries, const DecisionKey& key) {
-  std::set<DecisionKey> out;
-  std::vector<DecisionKey> pending = {key};
-  while (!pending.empty()) {
-    const auto it = entries.find(pending.back());
-    pending.pop_back();
-    if (it == entries.end()) continue;
-    for (const DecisionKey& k : it->second.depends_on) {
-      if (out.insert(k).second) pending.push_back(k);
+/// The decisions as they were read, by number in the order of their keys, and who was decided from whom. Each
+/// walk passes a decision once, whatever the number of edits.
+class Decided {
+ public:
+  explicit Decided(const std::map<DecisionKey, Decision>& entries) {
+    for (const auto& [key, d] : entries) {
+      number_.emplace(&key, keys_.size());
+      keys_.push_back(&key);
+      was_.push_back(&d);
+    }
+    needs_.resize(keys_.size());
+    needed_by_.resize(keys_.size());
+    for (std::size_t i = 0; i < keys_.size(); ++i) {
+      for (const DecisionKey& k : was_[i]->depends_on) {
+        const auto it = number_.find(&k);
+        if (it == number_.end()) continue;
+        needs_[i].push_back(it->second);
+        needed_by_[it->second].push_back(i);
+      }
     }
   }
-  return out;
+
+  [[nodiscard]] std::size_t size() const { return keys_.size(); }
+  [[nodiscard]] std::size_t number(const DecisionKey& key) const { return number_.at(&key); }
+  [[nodiscard]] const DecisionKey& key(std::size_t i) const { return *keys_[i]; }
+  [[nodiscard]] const Decision& was(std::size_t i) const { return *was_[i]; }
+  [[nodiscard]] const std::vector<std::size_t>& needs(std::size_t i) const { return needs_[i]; }
+  [[nodiscard]] const std::vector<std::size_t>& needed_by(std::size_t i) const { return needed_by_[i]; }
+
+ private:
+  struct ByKey {
+    bool operator()(const DecisionKey* a, const DecisionKey* b) const { return *a < *b; }
+  };
+  std::map<const DecisionKey*, std::size_t, ByKey> number_;
+  std::vector<const DecisionKey*> keys_;
+  std::vector<const Decision*> was_;
+  std::vector<std::vector<std::size_t>> needs_, needed_by_;
+};
+
+/// Goes from `start` along `next` through what `enter` lets in; `passed` has what no walk enters again.
+template <class Next, class Enter>
+void walk(std::size_t start, std::vector<bool>& passed, Next&& next, Enter&& enter) {
+  std::vector<std::size_t> pending = {start};
+  while (!pending.empty()) {
+    const std::size_t at = pending.back();
+    pending.pop_back();
+    for (const std::size_t i : next(at)) {
+      if (passed[i] || !enter(i)) continue;
+      passed[i] = true;
+      pending.push_back(i);
+    }
+  }
 }
 
 }  // namespace
 
 std::vector<Edited> take_edits(const Model& model, Ledger& ledger) {
   std::vector<Edited> out;
-  std::set<DecisionKey> keys;
   for (const auto& [key, d] : ledger.entries()) {
     if (d.value_hash == 0) continue;
     const std::uint64_t now = hash_attribute(model, key.object, key.attribute);
     const bool open = d.state == DecisionState::kOpen;
     if (now == d.value_hash || (open && !has_value_now(model, key))) continue;
     out.push_back({key, open, d.binder, {}});
-    keys.insert(key);
   }
   if (out.empty()) return out;
-  const std::map<DecisionKey, Decision> before = ledger.entries();
+  const std::map<DecisionKey, Decision> entries = ledger.entries();
+  const Decided before(entries);
+  std::vector<bool> edited(before.size());
+  for (const Edited& e : out) edited[before.number(e.key)] = true;
+  // One answer's decisions depend on each other directly, so the walk stays among those of one reason.
+  std::vector<bool> told(before.size());
   for (const Edited& e : out) {
-    const Decision& was = before.at(e.key);
-    const bool chosen = was.binder == Binder::kOptimiser || was.binder == Binder::kCase;
-    for (const DecisionKey& k : chosen && !e.was_open ? upstream(before, e.key) : std::set<DecisionKey>{}) {
-      Decision* d = ledger.find(k.object, k.attribute);
-      if (d == nullptr || d->reason != was.reason || keys.contains(k)) continue;
-      d->reason =
-          ledger.reason({std::string(kKept), "as it was planned, before " + e.key.attribute + " was edited",
-                         "the plan that was read"});
-    }
+    const std::size_t number = before.number(e.key);
+    const Decision& was = before.was(number);
+    if (e.was_open || (was.binder != Binder::kOptimiser && was.binder != Binder::kCase)) continue;
+    walk(
+        number, told, [&](std::size_t at) -> auto& { return before.needs(at); },
+        [&](std::size_t i) {
+          if (before.was(i).reason != was.reason) return false;
+          if (!edited[i]) {
+            const DecisionKey& k = before.key(i);
+            ledger.find(k.object, k.attribute)->reason = ledger.reason(
+                {std::string(kKept), "as it was planned, before " + e.key.attribute + " was edited",
+                 "the plan that was read"});
+          }
+          return true;
+        });
   }
+  std::vector<bool> opened(before.size());
   for (Edited& e : out) {
-    std::set<DecisionKey> seen = {e.key};
-    std::vector<DecisionKey> pending = {e.key};
-    while (!pending.empty()) {
-      const DecisionKey at = std::move(pending.back());
-      pending.pop_back();
-      for (const auto& [key, d] : before) {
-        const bool needs = std::find(d.depends_on.begin(), d.depends_on.end(), at) != d.depends_on.end();
-        if (!needs || d.pinned || !chosen_again(key, d) || keys.contains(key) || !seen.insert(key).second)
-          continue;
-        if (d.state == DecisionState::kBound) e.opened.push_back(key);
-        ledger.find(key.object, key.attribute)->state = DecisionState::kOpen;
-        pending.push_back(key);
-      }
-    }
+    const std::size_t number = before.number(e.key);
+    walk(
+        number, opened, [&](std::size_t at) -> auto& { return before.needed_by(at); },
+        [&](std::size_t i) {
+          const Decision& d = before.was(i);
+          const DecisionKey& key = before.key(i);
+          if (d.pinned || edited[i] || !chosen_again(key, d)) return false;
+          if (d.state == DecisionState::kBound) e.opened.push_back(key);
+          ledger.find(key.object, key.attribute)->state = DecisionState::kOpen;
+          return true;
+        });
     std::sort(e.opened.begin(), e.opened.end());
-    const Decision& was = before.at(e.key);
+    const Decision& was = before.was(number);
     Decision now;
     now.pinned = was.pinned;
     now.binder = was.pinned ? Binder::kOperator : Binder::kGiven;

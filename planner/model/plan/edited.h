@@ -22,7 +22,8 @@ struct Edited {
   DecisionKey key;
   bool was_open = false;
   Binder was = Binder::kGiven;
-  std::vector<DecisionKey> opened;  ///< what was decided from it, and is open again
+  /// What was decided from it, and is open again; what two edits open stands with the first of them.
+  std::vector<DecisionKey> opened;
 };
 
 /// Holds each value against the record of who decided it (`Decision::value_hash`; 0: the file knows none). A
@@ -30,6 +31,7 @@ struct Edited {
 /// away is open. What planning chose from it is open again, unless that was edited, too, or is pinned. What
 /// it was chosen together with stays, and its reason says so, since the limits that were named held with the
 /// old value. Gives the edits in order. To be called once, when the whole file is read.
+/// Cost  n log n in the decisions and what they depend on.
 [[nodiscard]] std::vector<Edited> take_edits(const Model& model, Ledger& ledger);
 
 /// "was edited since it was bound by optimiser; it counts as given, and 2 values chosen from it are open".

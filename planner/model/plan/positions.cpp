@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "planner/ground/base/number.h"
 #include "planner/model/nouns/arena/walk.h"
 #include "planner/model/plan/ranges.h"
 
@@ -16,8 +15,7 @@ class Look {
  public:
   void number(double v, const Range& range, const std::string& where) {
     if (!range.holds(v) && text.empty())
-      text = where + " is " + (std::isfinite(v) ? shortest(v) : "not a finite number") + "; it can be " +
-             to_text(range);
+      text = where + " is " + value_text(v) + "; it can be " + to_text(range);
   }
   void position(double v, const std::string& where) { number(v, range::kPositionMm, where); }
   void point(const geometry::Vec3& p, const std::string& where) {
@@ -28,6 +26,13 @@ class Look {
   }
   void path(const CutterPath& p, const std::string& where) {
     for (const auto* c : {&p.x, &p.y, &p.z, &p.cx, &p.cy}) column(*c, where);
+  }
+  /// Its sign is its sense; one that hardly turns makes a time or a chip without end.
+  template <class Where>
+  void speed(double v, const Range& range, const Where& where) {
+    if (range.holds(std::abs(v))) return;
+    number(v, range, where());
+    text += ", either way";
   }
   void object(const Model& m, AnyRef at) {
     const void* data = m.object(at);
@@ -40,7 +45,11 @@ class Look {
       };
       if (a.storage == Storage::kReal) {
         const auto& v = value_of<Real>(a, data);
-        if (v && !range.holds(*v)) number(*v, range, where());
+        if (v && (a.unit == Unit::kSpeed || a.unit == Unit::kRotSpeed)) {
+          speed(*v, a.unit == Unit::kSpeed ? range::kSpeed : range::kTurningRpm, where);
+        } else if (v && !range.holds(*v)) {
+          number(*v, range, where());
+        }
       } else if (a.storage == Storage::kRealList) {
         // Coordinates are of one kind, whatever their unit is called.
         for (const double v : value_of<RealList>(a, data).items) {

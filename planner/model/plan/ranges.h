@@ -18,6 +18,9 @@ struct Range {
 
 /// "0.001 to 2000", "0, or 0.001 to 2000".
 [[nodiscard]] std::string to_text(const Range& range);
+/// A value for a message, as near as a person reads it and never another one: "0.05", "1000000", "1e-320",
+/// "not a finite number".
+[[nodiscard]] std::string value_text(double v);
 
 namespace range {
 
@@ -88,12 +91,17 @@ inline constexpr Range kLeadThreads{1e-3, 100.0, true};
 inline constexpr Range kPositionMm{-1e5, 1e5};
 inline constexpr Range kRawPieceMm{0.001, 100'000.0};
 inline constexpr Range kDepthMm{0.0, 10'000.0};
+/// Of a step's technology, by magnitude: the sign of a speed is its sense.
+inline constexpr Range kTurningRpm{1e-3, 1e6, true};
+/// Of a step's technology, by magnitude, in whatever unit the model has it.
+inline constexpr Range kSpeed{1e-6, 1e9, true};
 inline constexpr Range kCuttingSpeedMMin{0.0, 10'000.0};
 inline constexpr Range kFeedPerToothMm{0.0, 100.0};
 inline constexpr Range kFeedMmMin{0.0, 1e6};
 inline constexpr Range kStepTimeS{0.0, 1e8};
 inline constexpr Range kContourMm{0.0, 100.0};
 inline constexpr Range kFixtureMm{1e-3, 10'000.0};  ///< more is a mistake of units
+inline constexpr Range kFixtureAtMm{-kFixtureMm.most, kFixtureMm.most};
 inline constexpr Range kClearanceMm{0.1, 100.0};
 inline constexpr Range kHoldingForceN{0.0, 1e7};
 

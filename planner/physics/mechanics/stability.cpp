@@ -124,7 +124,8 @@ Result<StabilityLobes> StabilityLobes::make(const std::vector<model::ToolPointMo
   if (auto ok = check(given, cut); !ok) return fail(ok.error());
   Modes modes = given;
   for (const auto& [there, missing] : {std::pair{"x", "y"}, std::pair{"y", "x"}}) {
-    if (std::any_of(given.begin(), given.end(), [&](const auto& m) { return m.direction == missing; }))
+    if (std::any_of(given.begin(), given.end(),
+                    [&, other = missing](const auto& m) { return m.direction == other; }))
       continue;
     for (model::ToolPointMode m : given) {
       if (m.direction != there) continue;

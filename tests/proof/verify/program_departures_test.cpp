@@ -103,6 +103,7 @@ const Departure kDepartures[] = {
     {"AMachineFeed", "G1 X65 Y65 Z-10 F600\n", "G1 X65 Y65 Z-10 F600\nG53 G1 Z-300\n", true},
     {"NoRetractBeforeALongerTool", "M5\nG53 G0 Z0\nT2 M6", "M5\nT2 M6", true},
     {"ARetractThatGoesDown", "G53 G0 Z0\nT2 M6", "G53 G0 Z-100\nT2 M6", true},
+    {"AMoveBeforeTheUnit", "G21 G17 G90 G94 G40 G80 G49\n", "G17 G90 G94 G40 G80 G49\nG53 G0 Z0\n", true},
     {"NoFirstRetract", "G53 G0 Z0\nT1 M6", "T1 M6", true},
     {"ARapidDownBesideThePartAtTheEnd", "M5 M9\nG53", "G0 X-20\nG0 Z-40\nM5 M9\nG53"},
     {"ARapidDownAfterTheLastPath", "M5 M9\nG53", "G0 Z-40\nM5 M9\nG53"},

@@ -230,11 +230,12 @@ void Writer::begin(AnyRef at, const ObjectRow& row, Id id, std::uint32_t copy) {
 bool Writer::is_taken(Id at, std::string_view attribute, Id by) const {
   const auto [owner, bare] = qualified(attribute);
   const EntityId wanted = owner.empty() ? express::kNoEntity : schema_.find(owner);
-  return std::any_of(made_[at - 1].values.begin(), made_[at - 1].values.end(), [&](const Value& v) {
-    return v.attribute->name == bare && (wanted == express::kNoEntity || v.attribute->owner == wanted) &&
-           !v.aggregate && !v.items.empty() && v.items.front().rfind('#', 0) == 0 &&
-           v.items.front() != "#" + std::to_string(by);
-  });
+  return std::any_of(
+      made_[at - 1].values.begin(), made_[at - 1].values.end(), [&, name = bare](const Value& v) {
+        return v.attribute->name == name && (wanted == express::kNoEntity || v.attribute->owner == wanted) &&
+               !v.aggregate && !v.items.empty() && v.items.front().rfind('#', 0) == 0 &&
+               v.items.front() != "#" + std::to_string(by);
+      });
 }
 
 // Another instance of an object: where it says itself whose it is, and is two objects' at once.

@@ -7,6 +7,7 @@
 #include <memory>
 #include <tuple>
 
+#include "planner/ground/base/no_number.h"
 #include "planner/ground/base/number.h"
 #include "planner/ground/geometry/mesh_form.h"
 #include "planner/model/nouns/all.h"
@@ -33,9 +34,12 @@ bool is_binary(std::string_view s) {
 
 class Builder {
  public:
-  bool corner(Vec3 p) {
+  /// Gives what is wrong with the corner, as "a coordinate is 1e300; ...", or nothing.
+  [[nodiscard]] std::string corner(Vec3 p) {
     for (const double v : {p.x, p.y, p.z}) {
-      if (!model::range::kPositionMm.holds(v)) return false;
+      if (!model::range::kPositionMm.holds(v))
+        return "a coordinate is " + model::value_text(v) + "; it can be " +
+               to_text(model::range::kPositionMm) + " mm";
     }
     const auto next = static_cast<std::uint32_t>(mesh_.vertices.size());
     // + 0.0 makes one corner of 0 and -0.
@@ -43,7 +47,7 @@ class Builder {
     if (fresh) mesh_.vertices.push_back({p.x + 0.0, p.y + 0.0, p.z + 0.0});
     corners_[count_++] = it->second;
     if (count_ == 3) triangle();
-    return true;
+    return {};
   }
   [[nodiscard]] bool between_triangles() const { return count_ == 0; }
 
@@ -84,10 +88,9 @@ Result<Mesh> read_binary(std::string_view s, const std::string& name, Job& job) 
     const std::size_t at = kHeader + i * kTriangle + 12;  // behind the normal
     for (std::size_t k = 0; k < 3; ++k) {
       const auto f = [&](std::size_t c) { return double{std::bit_cast<float>(u32(s, at + 12 * k + 4 * c))}; };
-      if (!out.corner({f(0), f(1), f(2)})) {
+      if (const std::string wrong = out.corner({f(0), f(1), f(2)}); !wrong.empty()) {
         return fail({.code = "STL-NUMBER",
-                     .message = "triangle " + std::to_string(i + 1) +
-                                " has a coordinate that is no number, or beyond 100 m",
+                     .message = "triangle " + std::to_string(i + 1) + ": " + wrong,
                      .file = name});
       }
     }
@@ -145,18 +148,13 @@ Result<Mesh> read_ascii(std::string_view s, const std::string& name, Job& job) {
         const auto v = parse_double(number);
         if (number.empty()) return truncated(name, words.line());
         if (!v) {
-          return fail({.code = "STL-NUMBER",
-                       .message = "'" + std::string(number.substr(0, 40)) + "' is no number",
-                       .file = name,
-                       .line = words.line()});
+          return fail(
+              {.code = "STL-NUMBER", .message = no_number(number), .file = name, .line = words.line()});
         }
         x = *v;
       }
-      if (!out.corner({c[0], c[1], c[2]})) {
-        return fail({.code = "STL-NUMBER",
-                     .message = "not finite, or beyond 100 m",
-                     .file = name,
-                     .line = words.line()});
+      if (const std::string wrong = out.corner({c[0], c[1], c[2]}); !wrong.empty()) {
+        return fail({.code = "STL-NUMBER", .message = wrong, .file = name, .line = words.line()});
       }
     } else if (same_word(w, "endloop") || same_word(w, "endfacet")) {
       if (!out.between_triangles()) {

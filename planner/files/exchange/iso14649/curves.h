@@ -2,6 +2,7 @@
 
 #include <cstddef>
 
+#include "planner/files/exchange/iso14649/step_frames.h"
 #include "planner/ground/base/job.h"
 #include "planner/ground/base/result.h"
 #include "planner/ground/geometry/placement.h"
@@ -19,24 +20,6 @@ struct CurveOptions {
   geometry::Vec3 helix_axis = {0, 0,
                                1};  ///< of via_helix_points: the stated tool axis, else the curve's own z
 };
-
-/// The frame in which a step's toolpath coordinates stand, seen from its set-up:
-///
-///     workingstep      workpiece's place in the set-up x orientations x the feature's placement
-///     rapid movement   the set-up itself x orientations
-///
-/// The set-up is that of the innermost workplan around the step that has one. Orientations are the
-/// toolpath_orientation of each workplan around the step, outermost first, then the step's own, which
-/// stands in place of the feature's placement.
-/// Source  ISO 14649-10 (feature placement); confirmed with the published toolkit's motion for example 1.
-///         ISO 10303-238 (toolpath_orientation of workingstep and, cumulatively, workplan).
-[[nodiscard]] Result<geometry::Placement> frame_of_step(const model::Plan& plan,
-                                                        model::Ref<model::Executable> step);
-
-/// The frame in which a feature's toolpaths stand where nothing else says so, workpiece coordinates: its own
-/// placement, where its compound or pattern puts that; the workpiece's own where it has none.
-/// Fails  as `placement` and `coordinates_of`.
-[[nodiscard]] Result<geometry::Placement> toolpath_frame(const model::Model& m, model::AnyRef feature);
 
 /// One toolpath as moves. Arcs about the set-up's z stay arcs, a helix too (turn by turn); other curves are
 /// sampled. A trimmed LINE runs from trim_1 to trim_2 whatever its sense says (published files contradict

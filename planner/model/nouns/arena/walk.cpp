@@ -11,6 +11,9 @@ namespace capstan::model {
 namespace {
 
 constexpr int kHashDepth = 6;  // levels of references a value's hash looks through
+/// Words that go into one value's hash: the rest does not count. Lists of one thing many times, level by
+/// level, would otherwise never end. Ten times what a boundary of two thousand segments needs.
+constexpr std::size_t kHashWords = 1'000'000;
 
 /// Hashes an attribute's value: numbers by their shortest text, references by what they point to.
 class Hasher {
@@ -74,7 +77,11 @@ class Hasher {
   [[nodiscard]] std::uint64_t value() const { return hash_; }
 
  private:
-  void text(std::string_view s) { hash_ = fnv1a("|", fnv1a(s, hash_)); }
+  void text(std::string_view s) {
+    if (words_ >= kHashWords) return;
+    ++words_;
+    hash_ = fnv1a("|", fnv1a(s, hash_));
+  }
 
   void select(const SelectValue& v, int depth) {
     reference(v.ref, depth);
@@ -92,6 +99,7 @@ class Hasher {
 
   // Depth is bounded, so that circles of references end.
   void reference(AnyRef r, int depth) {
+    if (words_ >= kHashWords) return;
     if (!r.set()) return text("$");
     const NounType& type = noun_type(r.type);
     text(type.keyword);
@@ -104,6 +112,7 @@ class Hasher {
 
   const Model& model_;
   std::uint64_t hash_ = fnv1a("");
+  std::size_t words_ = 0;
 };
 
 }  // namespace

@@ -132,7 +132,7 @@ inline void ranges(const Grid& g, const Work& w, int iy, Ranges& out) {
     const float edge = -y * tilt;
     lo = clip_low ? more(lo, edge) : lo;
     hi = clip_high ? less(hi, edge) : hi;
-    hi = clip_row & (hy * y < -cell) ? -1e30F : hi;
+    hi = (clip_row & (hy * y < -cell)) ? -1e30F : hi;
     out.first[k] = base + floor_of(bounded(within + lo * inverse - margin));
     out.last[k] = base + floor_of(bounded(within + hi * inverse + margin));
     const float h2 = hollow2 - y * y;

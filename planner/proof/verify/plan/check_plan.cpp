@@ -13,7 +13,7 @@ std::vector<model::Finding> check_plan(const model::Plan& plan, Job& job) {
   if (const std::string beyond = model::beyond_range(plan); !beyond.empty()) {
     findings.error(1, "CHK-RANGE", {Findings::kWhole, "", -1},
                    beyond +
-                       ": no geometry can be computed with it, and nothing else is checked: correct it in "
+                       ": nothing can be computed with it, and nothing else is checked: correct it in "
                        "the plan's file");
     return findings.take();
   }

@@ -20,7 +20,7 @@ class Ranges {
 
   void of(const std::string& owner) { owner_ = owner; }
   void within(const std::string& what, double v, const model::Range& wanted) {
-    if (!wanted.holds(v)) say(what + " is " + value(v) + "; it must be " + to_text(wanted));
+    if (!wanted.holds(v)) say(what + " is " + model::value_text(v) + "; it must be " + to_text(wanted));
   }
   /// 0 stands for "not known".
   void known(const std::string& what, double v, const model::Range& wanted) {
@@ -38,7 +38,6 @@ class Ranges {
   }
 
  private:
-  static std::string value(double v) { return std::isfinite(v) ? plain(v) : "not a finite number"; }
   Findings& out_;
   std::string owner_;
 };

@@ -319,8 +319,10 @@ void Interpreter::motion(const Said& s, bool machine_coordinates) {
   }
   const bool centre = s.is('I') || s.is('J');
   if (!axes && !(centre && (motion_ == 20 || motion_ == 30))) return;
-  if (motion_ >= 0 && motion_ != 0 && !units_stated_) {
-    fault(2, "CHK-UNITS", "a feed move before the unit of length was stated (G20 or G21)");
+  if (motion_ >= 0 && !units_stated_) {
+    fault(2, "CHK-UNITS",
+          "a move before the unit of length was stated (G20 or G21): the control takes the unit that the "
+          "program before left");
     units_stated_ = true;
   }
   switch (motion_) {

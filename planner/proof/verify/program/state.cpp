@@ -269,7 +269,6 @@ class StateChecks {
 void check_state(const ProgramCase& c, Findings& findings) { StateChecks(c, findings).run(); }
 
 void check_machine_moves(const ProgramCase& c, Findings& findings) {
-  geometry::Box3 box;
   for (const Block& b : c.program.blocks) {
     if (b.kind != Block::Kind::kMove) continue;
     const double to[3] = {b.to.x, b.to.y, b.to.z};
