@@ -15,7 +15,7 @@
 /// @file The fields of the plan's plain structs, named once: the writer, the reader, the schema (and the test
 /// that fills everything) visit them through these. Names wear their units. Optional members may be absent.
 
-namespace capstan::json::json {
+namespace capstan::json {
 
 template <class T, class U>
 concept Is = std::same_as<std::remove_const_t<T>, U>;
@@ -323,4 +323,4 @@ template <class T>
   return "schedule";
 }
 
-}  // namespace capstan::json::json
+}  // namespace capstan::json

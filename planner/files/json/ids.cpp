@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace capstan::json::json {
+namespace capstan::json {
 namespace {
 
 // A count from 1, without signs and leading zeros.
@@ -56,4 +56,4 @@ std::optional<std::size_t> shared_from_id(std::string_view what, std::string_vie
   return number_of(id.substr(what.size() + 1));
 }
 
-}  // namespace capstan::json::json
+}  // namespace capstan::json

@@ -7,7 +7,7 @@
 
 #include "planner/model/nouns/arena/attribute.h"
 
-namespace capstan::json::json {
+namespace capstan::json {
 
 /// "round_hole" of ROUND_HOLE.
 [[nodiscard]] std::string kind_name(model::TypeId t);
@@ -25,4 +25,4 @@ inline constexpr std::string_view kMoveKinds = "RLWCD";  ///< rapid, line, clock
 inline constexpr std::string_view kMoveRoles =
     "APMCLRDT";  ///< approach, plunge, ramp, cut, link, retract, drill, tap
 
-}  // namespace capstan::json::json
+}  // namespace capstan::json

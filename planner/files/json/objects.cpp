@@ -5,7 +5,7 @@
 
 #include "planner/model/nouns/arena/stand_in.h"
 
-namespace capstan::json::json {
+namespace capstan::json {
 namespace {
 
 using Tree = nlohmann::json;
@@ -194,4 +194,4 @@ void fill_objects(const T& objects, const Place& at, model::Model& model, ValueR
 template void make_objects(const Tree&, const Place&, model::Model&);
 template void fill_objects(const Tree&, const Place&, model::Model&, Values&);
 
-}  // namespace capstan::json::json
+}  // namespace capstan::json

@@ -4,7 +4,7 @@
 
 #include "planner/ground/base/number.h"
 
-namespace capstan::json::json {
+namespace capstan::json {
 namespace {
 
 constexpr std::string_view kHex = "0123456789abcdef";
@@ -158,4 +158,4 @@ std::string Printer::take() {
   return std::move(out_);
 }
 
-}  // namespace capstan::json::json
+}  // namespace capstan::json

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace capstan::json::json {
+namespace capstan::json {
 
 /// Prints JSON as it comes, without a tree: containers in lines of their own, or within one line.
 class Printer {
@@ -40,4 +40,4 @@ class Printer {
 /// The bytes of a text that a JSON parser has already unescaped.
 [[nodiscard]] std::string unquoted_bytes(std::string_view text);
 
-}  // namespace capstan::json::json
+}  // namespace capstan::json

@@ -15,7 +15,6 @@
 #include "planner/model/plan/workplan_order.h"
 
 namespace capstan::json {
-namespace json {
 namespace {
 
 using model::Plan;
@@ -165,7 +164,6 @@ std::uint64_t line_of(std::string_view text, std::size_t byte) {
 }
 
 }  // namespace
-}  // namespace json
 
 Result<model::Plan> read_json(std::string bytes, std::string file_name, Job& job, std::size_t cap) {
   const auto refuse = [&](const char* code, std::string message, std::uint64_t line = 0) {

@@ -11,7 +11,6 @@
 #include "planner/model/nouns/workpiece.h"
 
 namespace capstan::json {
-namespace json {
 namespace {
 
 using model::AnyRef;
@@ -423,7 +422,6 @@ class SchemaWriter {
 };
 
 }  // namespace
-}  // namespace json
 
 std::string json_schema() { return json::SchemaWriter().run(); }
 

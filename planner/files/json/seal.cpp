@@ -12,7 +12,7 @@
 #include "planner/model/nouns/arena/walk.h"
 #include "planner/model/plan/step_ids.h"
 
-namespace capstan::json::json {
+namespace capstan::json {
 namespace {
 
 using model::AnyRef;
@@ -240,4 +240,4 @@ std::set<model::Listed> listed_among(const std::vector<std::string>& edited_part
 
 std::map<std::string, std::uint64_t> seals_of(const model::Plan& plan) { return Sealer(plan).run(); }
 
-}  // namespace capstan::json::json
+}  // namespace capstan::json

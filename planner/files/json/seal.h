@@ -9,7 +9,7 @@
 #include "planner/model/plan/contradicted.h"
 #include "planner/model/plan/plan.h"
 
-namespace capstan::json::json {
+namespace capstan::json {
 
 /// A hash of each part of a plan ("the machine", "tool 'END MILL 12'", "step 'POCKET'", "objects of kind
 /// plane"), written beside it, so that a reader knows what somebody edited in between: what was computed of
@@ -23,4 +23,4 @@ namespace capstan::json::json {
 /// Which lists of the plan are among the edited parts of a file (model/edited.h).
 [[nodiscard]] std::set<model::Listed> listed_among(const std::vector<std::string>& edited_parts);
 
-}  // namespace capstan::json::json
+}  // namespace capstan::json

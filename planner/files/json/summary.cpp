@@ -5,7 +5,7 @@
 
 #include "planner/physics/motion/time.h"
 
-namespace capstan::json::json {
+namespace capstan::json {
 
 std::vector<std::pair<std::string, double>> summary_of(const model::Plan& plan) {
   double cutting = 0.0;
@@ -41,4 +41,4 @@ std::vector<std::string> to_load(const model::Plan& plan) {
   return out;
 }
 
-}  // namespace capstan::json::json
+}  // namespace capstan::json

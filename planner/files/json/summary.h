@@ -6,7 +6,7 @@
 
 #include "planner/model/plan/plan.h"
 
-namespace capstan::json::json {
+namespace capstan::json {
 
 /// What is derived of a whole plan and written for readers that do not add up themselves: numbers of steps
 /// and tool changes, and times in s. Times between steps only where the steps have paths.
@@ -16,4 +16,4 @@ namespace capstan::json::json {
 /// Tools to be put into the magazine, by id; none where nothing is known of it.
 [[nodiscard]] std::vector<std::string> to_load(const model::Plan& plan);
 
-}  // namespace capstan::json::json
+}  // namespace capstan::json

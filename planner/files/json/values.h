@@ -21,7 +21,7 @@
 // Values of the plan's JSON into the plan's own types, by `fields.h`. What is wrong ends the reading with the
 // place and what was expected there. Tree is the JSON library's value, which stays in sources.
 
-namespace capstan::json::json {
+namespace capstan::json {
 
 /// Where in the document; printed only when something is wrong there.
 struct Place {
@@ -262,4 +262,4 @@ class ValueReader {
   std::vector<std::shared_ptr<const model::SectionSeries>> sections_;
 };
 
-}  // namespace capstan::json::json
+}  // namespace capstan::json

@@ -15,7 +15,6 @@
 #include "planner/physics/motion/time.h"
 
 namespace capstan::json {
-namespace json {
 namespace {
 
 using model::AnyRef;
@@ -370,7 +369,6 @@ class Writer {
 };
 
 }  // namespace
-}  // namespace json
 
 std::string write_json(const model::Plan& plan) { return json::Writer(plan).run(); }
 

@@ -14,7 +14,6 @@
 namespace capstan::pipeline {
 namespace {
 
-namespace json = controls::json;
 using json::fields;
 
 /// Gives every field of a plain struct of the plan a value; references and shared columns stay.

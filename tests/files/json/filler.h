@@ -7,7 +7,7 @@
 #include "planner/files/json/fields.h"
 #include "planner/model/nouns/arena/walk.h"
 
-namespace capstan::json::json {
+namespace capstan::json {
 
 /// Fills every field of a plan and every attribute of its objects with seeded noise. `likely` is the chance
 /// of an optional one having a value.
@@ -219,4 +219,4 @@ class Filler {
   std::vector<std::shared_ptr<const model::FeedSchedule>> schedules_;
 };
 
-}  // namespace capstan::json::json
+}  // namespace capstan::json
