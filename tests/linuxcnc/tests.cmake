@@ -7,7 +7,7 @@ file(GLOB simulated_sources CONFIGURE_DEPENDS ${simulated}/*.cpp)
 list(FILTER simulated_sources EXCLUDE REGEX "_test\\.cpp$")
 add_library(capstan_simulated STATIC ${simulated_sources})
 target_link_libraries(capstan_simulated PUBLIC $<BUILD_INTERFACE:capstan_options> capstan_test_support
-  capstan::motion capstan::controls)
+  capstan::motion capstan::controls capstan::json)
 # LinuxCNC takes what is built, as it is used: the command and the clock.
 add_dependencies(capstan_simulated capstan capstan_fast_clock)
 target_compile_definitions(capstan_simulated PRIVATE

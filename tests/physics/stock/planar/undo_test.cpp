@@ -40,7 +40,7 @@ bool same(const PlanarStock& a, const PlanarStock& b) {
 
 TEST(UndoOfCuts, MapAndExactStockStandAsAtTheMark) {
   std::uint32_t seed = 7;
-  const geometry::CutterProfile mill{.radius_mm = 6.0};
+  const auto mill = geometry::flat_profile(12.0, 40.0);
   auto map = from_box(kBlock, 0.5);
   auto exact = PlanarStock::from_box(kBlock);
   for (int i = 0; i < 20; ++i) {
