@@ -271,12 +271,25 @@ std::string id_of(const Work& w, const StepWork& step) {
 /// A tool stands out by one length all through a plan: as far as the deepest of its steps needs. The steps
 /// before and after that bend as much.
 void stand_out_alike(Work& w) {
+  struct Out {
+    double stick_out_mm = 0.0, usable_length_mm = 0.0;
+  };
+  std::map<std::string, Out> most;
+  for (const StepWork& s : w.steps) {
+    if (s.cutter.id.empty()) continue;
+    Out& m = most[s.cutter.id];
+    m.stick_out_mm = std::max(m.stick_out_mm, s.cutter.stick_out_mm);
+    m.usable_length_mm = std::max(m.usable_length_mm, s.cutter.usable_length_mm);
+  }
+  const auto take = [&](model::Cutter& c) {
+    const auto it = most.find(c.id);
+    if (it == most.end()) return;
+    c.stick_out_mm = std::max(c.stick_out_mm, it->second.stick_out_mm);
+    c.usable_length_mm = std::max(c.usable_length_mm, it->second.usable_length_mm);
+  };
   for (StepWork& s : w.steps) {
-    for (const StepWork& other : w.steps) {
-      if (s.cutter.id.empty() || other.cutter.id != s.cutter.id) continue;
-      s.cutter.stick_out_mm = std::max(s.cutter.stick_out_mm, other.cutter.stick_out_mm);
-      s.cutter.usable_length_mm = std::max(s.cutter.usable_length_mm, other.cutter.usable_length_mm);
-    }
+    take(s.cutter);
+    for (model::Candidate& c : s.candidates) take(c.cutter);  // a step's cutter is taken from these once more
   }
 }
 

@@ -89,7 +89,9 @@ TEST(OneTool, WhichOfTwoKeepsTheirNameDoesNotDependOnTheOrderOfTheSteps) {
     for (const std::string& id : {first, second}) {
       const auto& ws = plan.model.at<model::MachiningWorkingstep>(step_of(plan, id)->step);
       const auto& op = plan.model.at<model::MachiningOperation>(ws.its_operation);
-      plan.model.at<model::MillingCuttingTool>(op.its_tool).its_id = "T";
+      auto& tool = plan.model.at<model::MillingCuttingTool>(op.its_tool);
+      auto& usage = plan.model.at<model::ToolUsage>(tool.its_usage);
+      tool.its_id = usage.its_id = usage.its_library_reference = "T";
     }
     if (other_order) {
       auto& all = elements(plan);

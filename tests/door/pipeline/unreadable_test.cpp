@@ -6,6 +6,7 @@
 #include "planner/door/pipeline/shop.h"
 #include "planner/files/exchange/exchange.h"
 #include "planner/model/nouns/all.h"
+#include "planner/model/plan/condemned.h"
 #include "planner/model/plan/unreadable.h"
 #include "tests/support/corpus.h"
 
@@ -140,20 +141,23 @@ TEST(WrongReference, ToAPlacementLeavesItsFeatureUnplanned) {
 }
 
 // What the whole plan rests on: the piece's raw shape.
-TEST(WrongReference, ToWhatTheWholePlanRestsOnKeepsTheFileFromBeingRead) {
-  Job job;
+TEST(WrongReference, ToWhatTheWholePlanRestsOnIsNamedAndCondemnsThePlan) {
   const std::string text = example("bracket.p21");
   const auto at = text.find("=WORKPIECE(");
   ASSERT_NE(at, std::string::npos);
-  const auto ref = text.find('#', text.find(',', text.find(',', at) + 1));
-  ASSERT_NE(ref, std::string::npos);
+  const auto ref = text.find('#', text.find(',', text.find(',', at) + 1));  // its_rawpiece
   std::string wrong = text;
   wrong.replace(ref, text.find_first_of(",)", ref) - ref, "#1");
-  const auto read = read_plan(wrong, "part.p21", job);
-  if (read) {
-    GTEST_LOG_(INFO) << text.substr(at, 120);
-  }
-  EXPECT_FALSE(read);
+  Made made;
+  plan_of(wrong, made);
+  const auto said = made.read.take_diagnostics();
+  EXPECT_TRUE(std::any_of(said.begin(), said.end(), [](const Diagnostic& d) {
+    return d.severity == Severity::kError && d.message.find("WORKPIECE.its_rawpiece") != std::string::npos;
+  }));
+  const auto reasons = model::condemned(made.plan, {});
+  EXPECT_TRUE(std::any_of(reasons.begin(), reasons.end(), [](const model::Condemnation& c) {
+    return c.code == "PIP-UNREADABLE" && c.step.empty();
+  }));
 }
 
 }  // namespace

@@ -93,7 +93,8 @@ const std::vector<Item>& items() {
        [] {
          return plate({{17, "ROUND_HOLE('HOLE',#4,(#20),#81,#64,#58,$,#45)"}});
        }},
-      {"WrongReferenceTypeInADescription", Verdict::kWarn, "EXC-REFERENCE",
+      // What the piece is made of holds for all that is planned on it.
+      {"WrongReferenceTypeOfTheWorkpiecesMaterial", Verdict::kRefuse, "EXC-REFERENCE",
        [] {
          return plate({{4, "WORKPIECE('PIECE',#45,0.01,$,$,$,())"}});
        }},
@@ -119,7 +120,7 @@ const std::vector<Item>& items() {
        [] {
          return plate({{17, "ROUND_HOLE('HOLE',#4,(#20),#81,#64,#999,$,#26)"}});
        }},
-      {"DanglingReferenceInAnOptionalPlace", Verdict::kWarn, "EXC-REFERENCE",
+      {"DanglingReferenceToTheWorkpiecesMaterial", Verdict::kRefuse, "EXC-REFERENCE",
        [] {
          return plate({{4, "WORKPIECE('PIECE',#999,0.01,$,$,$,())"}});
        }},

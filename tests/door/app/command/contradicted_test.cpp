@@ -164,7 +164,7 @@ TEST_F(ContradictedPlan, WhatTheHeaderListsIsNotEditedThere) {
 TEST_F(ContradictedPlan, WhatTheJsonListsIsNotEditedThere) {
   const std::vector<std::pair<const char*, std::function<void(Json&)>>> edits = {
       {"its_material", [](Json& p) { p["material"]["kc11_n_mm2"] = 320.5; }},
-      {"its_rawpiece", [](Json& p) { p["stock"]["box"]["hi"][2] = 5.0; }},
+      {"its_rawpiece", [](Json& p) { p["stock"]["box"]["hi"]["z"] = 5.0; }},
       {"steps", [](Json& p) { p["steps"][7]["spindle_rpm"] = 12000; }},
       {"tools", [](Json& p) { p["cutters"][2]["stick_out_mm"] = 60; }},
       {"tools", [](Json& p) { p["cutters"][2]["stick_out_mm"] = 0; }},
