@@ -47,7 +47,6 @@ namespace capstan::testing::removal {
 [[nodiscard]] Part mesh_box();
 [[nodiscard]] Part mesh_step();
 [[nodiscard]] Part mesh_pocket();
-[[nodiscard]] Part mesh_square_pocket();
 
 // Parts that once took minutes of planning.
 [[nodiscard]] Part tight_flat_hole();

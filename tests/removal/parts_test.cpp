@@ -32,7 +32,6 @@ CAPSTAN_MADE(RemovalOfParts, StopsAFaceThatListsABossAtTheWallBesideIt, face_wit
 CAPSTAN_MADE(RemovalOfParts, CutsAFaceAtTheEdgeWhateverNarrowOneLiesBehindTheWall,
              face_at_the_edge_and_narrow_face())
 CAPSTAN_MADE(RemovalOfParts, CutsTheShallowerOfTwoFacesThatOverlapFirst, deeper_face_over_a_shallow_one())
-CAPSTAN_MADE(RemovalOfParts, CutsANarrowPocketOfAMeshWithAMillThatPassesIt, mesh_square_pocket())
 CAPSTAN_MADE(RemovalOfParts, CutsAClosedMeshOfABoxOutOfABlock, mesh_box())
 CAPSTAN_MADE(RemovalOfParts, CutsAClosedMeshOfAStepOutOfABlock, mesh_step())
 CAPSTAN_MADE(RemovalOfParts, CutsAClosedMeshWithAPocketOutOfABlock, mesh_pocket())

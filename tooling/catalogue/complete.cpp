@@ -49,14 +49,20 @@ class Filler {
 void fill_lengths(Cutter& c, const Cutter& g, Filler& f) {
   constexpr double kBehindFlutesMm = 2.0;  // default, unsourced
   const double gage = g.functional_length_mm - g.stick_out_mm;
+  // The nearest generic one may be longer than this whole tool.
+  const auto within_whole = [&](double mm) {
+    return c.overall_length_mm > 0.0 ? std::min(mm, c.overall_length_mm) : mm;
+  };
   if (c.maximum_depth_of_cut_mm == 0.0) {
     f.take(c.maximum_depth_of_cut_mm, g.maximum_depth_of_cut_mm, "maximum_depth_of_cut_mm");
     if (c.stick_out_mm > 0.0) c.maximum_depth_of_cut_mm = std::min(c.maximum_depth_of_cut_mm, c.stick_out_mm);
+    c.maximum_depth_of_cut_mm = within_whole(c.maximum_depth_of_cut_mm);
   }
   if (c.stick_out_mm == 0.0) {
     f.take(c.stick_out_mm, std::max(g.stick_out_mm, c.maximum_depth_of_cut_mm + kBehindFlutesMm),
            "stick_out_mm");
     if (c.functional_length_mm > 0.0) c.stick_out_mm = std::min(c.stick_out_mm, c.functional_length_mm);
+    c.stick_out_mm = within_whole(c.stick_out_mm);
   }
   f.take(c.functional_length_mm, c.stick_out_mm + gage, "functional_length_mm");
   if (c.usable_length_mm == 0.0) {

@@ -113,7 +113,7 @@ Result<std::string> with_seal(std::string file) {
 
 bool is_seal(std::string_view keyword) { return keyword == kSeal; }
 
-bool seal_holds(const p21::File& file, Reporter& reporter, std::set<model::Listed>* listed) {
+SealState seal_of(const p21::File& file, Reporter& reporter) {
   using Seals = std::map<std::string, std::pair<std::int64_t, std::string>>;  // count and hash by keyword
   Seals then;
   for (std::size_t i = 0; i < file.header_count(); ++i) {
@@ -130,7 +130,8 @@ bool seal_holds(const p21::File& file, Reporter& reporter, std::set<model::Liste
     }
     then[p[0].as_text()] = {p[1].as_integer(), p[2].as_text()};
   }
-  if (then.empty()) return false;  // of another system, or an earlier version
+  SealState state;
+  if (then.empty()) return state;  // of another system, or an earlier version
   Seals now;
   // Files of earlier versions have no seals of their own for the records of AP238.
   const bool records =
@@ -139,16 +140,22 @@ bool seal_holds(const p21::File& file, Reporter& reporter, std::set<model::Liste
     if (records || !keyword.starts_with(kRecord))
       now[keyword] = {static_cast<std::int64_t>(s.count), hex64(s.sum)};
   const std::vector<std::string> edited = model::edited_parts(now, std::move(then));
-  if (edited.empty()) return true;
+  state.holds = state.paths_hold = edited.empty();
+  if (state.holds) return state;
   reporter.report(model::parts_edited(std::string(model::kEditedCode), edited));
-  for (const auto& [keyword, kind] : kListed) {
-    const bool any = std::any_of(edited.begin(), edited.end(), [&](const std::string& part) {
-      // One that is gone states nothing.
-      return part == keyword || part == std::string(keyword) + " (new)";
-    });
-    if (any && listed != nullptr) listed->insert(kind);
+  // Of one that is gone nothing is stated.
+  std::size_t lists = 0;
+  for (const std::string& part : edited) {
+    const auto is = [&](const auto& l) {
+      return part == l.first || part.starts_with(std::string(l.first) + " (");
+    };
+    const auto it = std::find_if(std::begin(kListed), std::end(kListed), is);
+    if (it == std::end(kListed)) continue;
+    ++lists;
+    if (part == it->first || part.ends_with(" (new)")) state.edited.insert(it->second);
   }
-  return false;
+  state.paths_hold = lists == edited.size();
+  return state;
 }
 
 }  // namespace capstan::exchange

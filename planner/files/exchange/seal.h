@@ -21,11 +21,14 @@ namespace capstan::exchange {
 /// spacing, comments and the order of entities do not. Words for people (reasons, provenance, the standard's
 /// own header) are not sealed. Fails  P21-... when the file cannot be read.
 [[nodiscard]] Result<std::string> with_seal(std::string file);
-/// Whether the file has a seal that holds. Where it does not, warns EXC-EDITED, naming the kinds whose
-/// entities were edited since; `edited`, if asked for, gets the lists of the plan among them that its header
-/// holds.
-[[nodiscard]] bool seal_holds(const p21::File& file, Reporter& reporter,
-                              std::set<model::Listed>* edited = nullptr);
+/// What a file's seal says of it.
+struct SealState {
+  bool holds = false;       ///< there is one, and nothing was edited
+  bool paths_hold = false;  ///< there is one, and nothing was edited but lists of the plan in the header
+  std::set<model::Listed> edited;  ///< these lists
+};
+/// Where the seal does not hold, warns EXC-EDITED, naming the kinds whose entities were edited since.
+[[nodiscard]] SealState seal_of(const p21::File& file, Reporter& reporter);
 [[nodiscard]] bool is_seal(std::string_view keyword);
 
 }  // namespace capstan::exchange

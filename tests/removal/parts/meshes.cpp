@@ -117,25 +117,4 @@ Part mesh_pocket() {
   return made_of("mesh_pocket", m, {44, 36, 16}, t);
 }
 
-// 26 x 24 x 8 mm with a pocket of 14 x 12 mm, 4 mm deep, its corners drawn sharp: up to R3 may stay in them.
-Part mesh_square_pocket() {
-  constexpr double kX0 = 6, kY0 = 6, kX1 = 20, kY1 = 18, kDepth = 4;
-  Mesh m;
-  const std::vector<Point> outer = {{0, 0, 0}, {26, 0, 0}, {26, 24, 0}, {0, 24, 0}};
-  const std::vector<Point> rim = {{kX0, kY0, 0}, {kX1, kY0, 0}, {kX1, kY1, 0}, {kX0, kY1, 0}};
-  underside(m, outer, -8);
-  const auto at = [](Point p, double z) { return Point{p.x, p.y, z}; };
-  for (std::size_t i = 0; i < 4; ++i) {
-    const std::size_t k = (i + 1) % 4;
-    m.wall(outer[i], outer[k], -8);
-    m.quad(outer[i], outer[k], rim[k], rim[i]);
-    m.wall(rim[k], rim[i], -kDepth);
-  }
-  m.quad(at(rim[0], -kDepth), at(rim[1], -kDepth), at(rim[2], -kDepth), at(rim[3], -kDepth));
-  Target t(box({0, 0, -8 - kGrown}, {26, 24, 0}));
-  t.cut(prism(rounded_rectangle(kX0, kY0, kX1, kY1, 3), -kDepth, kOver),
-        prism(rectangle(kX0, kY0, kX1, kY1), -kDepth, kOver));
-  return made_of("mesh_square_pocket", m, {26, 24, 8}, t);
-}
-
 }  // namespace capstan::testing::removal

@@ -52,11 +52,10 @@ Result<model::Plan> read_ap238(const p21::File& file, Job& job, bool strict) {
   settle_doubts(plan, doubts, reached, strict, reporter);
   if (reporter.errors() == 0) {
     open_what_is_left_out(plan, reached, reporter);
-    std::set<model::Listed> edited;
-    const bool sealed = seal_holds(file, reporter, &edited);
-    records.restore(sealed);
-    if (sealed) restore_paths(file, plan, reporter);
-    model::refuse_edited(plan, edited, "the file's records");
+    const SealState seal = seal_of(file, reporter);
+    records.restore(seal.holds);
+    if (seal.paths_hold) restore_paths(file, plan, reporter);
+    model::refuse_edited(plan, seal.edited, "the file's records");
     settle_order(plan, reporter);
   }
   reporter.finish();

@@ -73,8 +73,8 @@ Result<model::Plan> read_iso14649(const p21::File& file, Job& job, bool strict) 
   Reporter reporter(job, file.name());
   Reading reading{
       .file = file, .plan = plan, .reporter = reporter, .object_of = {}, .draft = {}, .doubts = {}};
-  std::set<model::Listed> edited;
-  reading.sealed = seal_holds(file, reporter, &edited);
+  const SealState seal = seal_of(file, reporter);
+  reading.sealed = seal.holds;
   read_header(file, plan);
   read_objects(reading);
   if (!reading.sealed) note_dialect(reading);  // Capstan's own way of writing
@@ -91,8 +91,8 @@ Result<model::Plan> read_iso14649(const p21::File& file, Job& job, bool strict) 
     if (!reading.sealed) find_deviations(reading);  // what is odd in a plan, its ledger says
     open_what_is_left_out(plan, reached, reporter);
     read_records(reading);
-    if (reading.sealed) restore_paths(file, plan, reporter);
-    model::refuse_edited(plan, edited, "the file's header");
+    if (seal.paths_hold) restore_paths(file, plan, reporter);
+    model::refuse_edited(plan, seal.edited, "the file's header");
     settle_order(plan, reporter);
   }
   reporter.finish();

@@ -30,11 +30,13 @@ class ContradictedPlan : public CommandTest {
     const std::string line = "cd '" + scratch_of_all_->path() + "' && '" CAPSTAN_COMMAND "' plan '" +
                              examples +
                              "bracket.p21' -o b.json -o b.p21 >out 2>&1 && '" CAPSTAN_COMMAND "' plan '" +
-                             examples + "two_setups.p21' -o t.p21 >out 2>&1";
+                             examples + "two_setups.p21' -o t.p21 >out 2>&1 && '" CAPSTAN_COMMAND "' plan '" +
+                             examples + "plate_bound.p21' -o p.p21 >out 2>&1";
     ASSERT_EQ(std::system(line.c_str()), 0) << slurp(scratch_of_all_->path() + "/out");
     json_ = slurp(scratch_of_all_->path() + "/b.json");
     part21_ = slurp(scratch_of_all_->path() + "/b.p21");
     two_setups_ = slurp(scratch_of_all_->path() + "/t.p21");
+    holes_ = slurp(scratch_of_all_->path() + "/p.p21");
   }
   static void TearDownTestSuite() {
     delete scratch_of_all_;
@@ -94,10 +96,11 @@ class ContradictedPlan : public CommandTest {
   }
 
   static ::capstan::testing::ScratchFolder* scratch_of_all_;
-  static std::string json_, part21_, two_setups_;
+  static std::string json_, part21_, two_setups_, holes_;
 };
 ::capstan::testing::ScratchFolder* ContradictedPlan::scratch_of_all_ = nullptr;
-std::string ContradictedPlan::json_, ContradictedPlan::part21_, ContradictedPlan::two_setups_;
+std::string ContradictedPlan::json_, ContradictedPlan::part21_, ContradictedPlan::two_setups_,
+    ContradictedPlan::holes_;
 
 TEST_F(ContradictedPlan, StepsInAnotherOrderThanTheWorkplansAreJudgedInTheWorkplansAndSaidOnce) {
   const auto step = [&](const std::string& its_id) {
@@ -195,11 +198,11 @@ TEST_F(ContradictedPlan, AWrongReferenceOfTheWholePlanIsAnErrorThatNamesIt) {
        {Wrong{"WORKPIECE", "its_material", 1}, Wrong{"WORKPLAN", "its_setup", 3},
         Wrong{"SETUP", "its_origin", 1}, Wrong{"SETUP", "its_secplane", 2},
         Wrong{"SETUP", "its_workpiece_setup", 3}, Wrong{"WORKPIECE_SETUP", "its_origin", 1}}) {
-    const std::string instance = number_of(part21_, w.keyword);
-    const std::string kind = number_of(part21_, "CUTTING_COMPONENT");
+    const std::string instance = number_of(holes_, w.keyword);
+    const std::string kind = number_of(holes_, "CUTTING_COMPONENT");
     for (const std::string& to : {std::string("#999999"), kind}) {
       SCOPED_TRACE(std::string(w.keyword) + "." + w.attribute + " = " + to);
-      std::string text = part21_;
+      std::string text = holes_;
       std::size_t i = text.find('(', text.find("\n" + instance + "=")) + 1;
       int depth = 0;
       for (int n = 0; n < w.parameter; ++i) {
