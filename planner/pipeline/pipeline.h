@@ -10,6 +10,7 @@
 
 #include "planner/base/job.h"
 #include "planner/base/result.h"
+#include "planner/mechanics/margin.h"
 #include "planner/model/cutter.h"
 #include "planner/model/machine.h"
 #include "planner/model/material.h"
@@ -44,6 +45,7 @@ struct Inputs {
   optimise::Solver solver = optimise::Solver::kNlopt;
   optimise::Backends backends;
   Objective objective = Objective::kTime;
+  mechanics::MarginPolicy margin = mechanics::kUsualMargin;  ///< of loads against their limits
   /// Objective::kProfit: what a piece brings less its material, in the currency of Machine::cost_per_hour.
   std::optional<double> revenue;
   bool constant_feeds = false;    ///< one feed for all of a step's path: the largest that every section bears

@@ -8,7 +8,6 @@
 #include "planner/base/number.h"
 #include "planner/model/condemned.h"
 #include "planner/motion/time.h"
-#include "planner/pipeline/paths/sections.h"
 
 namespace capstan::pipeline {
 namespace {
@@ -95,14 +94,6 @@ bool feed_was_planned(const Work& w, const StepWork& step) {
   const auto* d = w.plan.ledger.find(op->its_technology, "feedrate");
   return d != nullptr && !d->pinned && d->binder != model::Binder::kGiven &&
          d->binder != model::Binder::kOperator;
-}
-
-optimise::FeedAnswer feeds_along(optimise::FeedQuestion& question, const model::CutterPath& path) {
-  auto feeds = optimise::feeds(question, path);
-  if (feeds.worst_excess > kTolerableExcess &&
-      end_cuts_as_slots(question.samples, path, question.cut.cutter.cutting_diameter_mm))
-    feeds = optimise::feeds(question, path);
-  return feeds;
 }
 
 void keep_excess(Work& w, const StepWork& step, const optimise::FeedAnswer& feeds, model::StepResult& r) {
