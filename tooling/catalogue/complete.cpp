@@ -72,6 +72,9 @@ void fill_lengths(Cutter& c, const Cutter& g, Filler& f) {
 }
 
 constexpr const char* kBorrowed = " (as generic/";
+/// Feed that a cutter bears over the start value that its maker or the shop states. Default, unsourced; the
+/// check allows as much where nothing else is known (verify/sweep/feed_limit.cpp).
+constexpr double kOverPreset = 1.5;
 
 void fill_feeds(Cutter& c, const Cutter& g, Filler& f) {
   // A smaller tooth bears less; a larger one is not trusted with more.
@@ -80,9 +83,22 @@ void fill_feeds(Cutter& c, const Cutter& g, Filler& f) {
     if (c.fz_min_mm == 0.0 && c.fz_max_mm == 0.0)
       c.fz_min_mm = c.fz_max_mm = c.thread_pitch_mm / std::max(c.teeth, 1);
   } else {
+    // What its maker or the shop states for it says what it bears; a cutter like it only where nothing does.
+    double least = 0.0, most = 0.0;
+    for (const model::CuttingPreset& p : c.presets) {
+      if (borrowed(p) || !(p.fz_mm > 0.0)) continue;
+      least = least > 0.0 ? std::min(least, p.fz_mm) : p.fz_mm;
+      most = std::max(most, p.fz_mm);
+    }
+    if (c.fz_max_mm == 0.0 && kOverPreset * most > rounded(g.fz_max_mm * scale, 5)) {
+      c.fz_max_mm = rounded(kOverPreset * most, 5);
+      f.note("fz_max_mm", "derived: 1.5 times its own start value");
+    }
     if (c.fz_max_mm == 0.0) f.take(c.fz_max_mm, rounded(g.fz_max_mm * scale, 5), "fz_max_mm");
-    if (c.fz_min_mm == 0.0)
-      f.take(c.fz_min_mm, std::min(c.fz_max_mm, rounded(g.fz_min_mm * scale, 5)), "fz_min_mm");
+    if (c.fz_min_mm == 0.0) {
+      const double like = rounded(g.fz_min_mm * scale, 5);
+      f.take(c.fz_min_mm, std::min(c.fz_max_mm, least > 0.0 ? std::min(least, like) : like), "fz_min_mm");
+    }
   }
   std::string own;
   for (const model::CuttingPreset& p : c.presets) {
@@ -98,7 +114,11 @@ void fill_feeds(Cutter& c, const Cutter& g, Filler& f) {
       continue;
     p.fz_mm = rounded(p.fz_mm * scale, 5);
     // Another substrate bears another speed: the material's own is taken then.
-    if (c.substrate != g.substrate) p.vc_m_min = 0.0;
+    if (c.substrate != g.substrate || p.source.find(kCoated) != std::string::npos) {
+      p.vc_m_min = 0.0;
+      if (const auto fz_at = p.source.find("; fz: "); fz_at != std::string::npos)
+        p.source.erase(0, fz_at + 2);
+    }
     p.source += " (as " + g.id + (own.empty() ? "" : "; its own values are for " + own + " only") + ")";
     c.presets.push_back(std::move(p));
   }

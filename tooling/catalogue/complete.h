@@ -26,6 +26,10 @@ inline constexpr std::string_view kNotStated = "default: not stated";  ///< what
 inline constexpr std::string_view kRampUnstated = "default: 3 degrees, unsourced";
 inline constexpr std::string_view kSubstrateUnstated = "default: the slower one";
 
+/// What the source of a generic preset says where its speed is that of a coated edge: a cutter that does not
+/// say that it is coated takes the material's own speed.
+inline constexpr std::string_view kCoated = "(coated";
+
 inline constexpr double kCautiousRampRad = 3.0 * 3.14159265358979323846 / 180.0;  ///< default, unsourced
 
 /// What it says in `sources` of a field, or null.

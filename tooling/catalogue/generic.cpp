@@ -10,6 +10,7 @@
 #include "planner/ground/base/no_number.h"
 #include "planner/ground/base/number.h"
 #include "tooling/catalogue/check.h"
+#include "tooling/catalogue/complete.h"
 #include "tooling/catalogue/data.h"
 #include "tooling/catalogue/material.h"
 #include "tooling/catalogue/tree.h"
@@ -109,7 +110,15 @@ struct Reader {
   std::string feeds_source;
   std::vector<Cutter> cutters;
   std::vector<std::uint64_t> lines;
+  std::map<std::string, double> coated = {};  ///< speed of a coated edge over that of a bare one, by group
+  std::string coated_source = {};
 };
+
+void read_coated(Fields top, Reader& r) {
+  r.coated_source = top.source();
+  for (const char* group : kGroups) r.coated[group] = top.number(group);
+  top.finish();
+}
 
 void read_holding(Fields top, Reader& r) {
   r.holding.clamped = read_law(top, "clamped_length");
@@ -174,6 +183,7 @@ struct Series {
   std::optional<Law> stick_out, overall, usable, holder, lead_length, cutting_width, neck_diameter,
       neck_length;
   double speed_factor = 1.0;
+  bool coated = false;
 };
 
 std::optional<Law> optional_law(Fields& f, std::string_view key) {
@@ -219,6 +229,7 @@ Series read_series(Fields& f) {
   const bool cuts = s.base.cutter_class != CutterClass::kTouchProbe;
   s.feeds = cuts ? f.text("feeds") : "";
   s.speed_factor = cuts ? f.number("speed_factor") : 1.0;
+  s.coated = f.flag_or("coated", false);
   if (!s.stick_out && !s.overall)
     f.fault("DATA-MISSING", "stick_out or overall_length is missing", "stick_out", f.line());
   return s;
@@ -280,9 +291,14 @@ void set_presets(const Series& s, const Reader& r, Cutter& c) {
   if (tap) c.fz_min_mm = c.fz_max_mm = c.thread_pitch_mm / c.teeth;
   std::map<std::string, double> slowest;
   for (const WorkMaterial& m : r.materials) {
-    const double vc = rounded((hss ? m.vc_hss_m_min : m.vc_carbide_m_min) * s.speed_factor, 3);
+    const auto coat = s.coated ? r.coated.find(m.iso_group) : r.coated.end();
+    const double by_coat = coat != r.coated.end() ? coat->second : 1.0;
+    const double bare = hss ? m.vc_hss_m_min : m.vc_carbide_m_min;
+    const double vc = rounded(bare * s.speed_factor * by_coat, 3);
     const double fz = tap ? c.fz_min_mm : rounded(feeds.factor.at(m.iso_group) * d, 5);
-    const std::string times = s.speed_factor == 1.0 ? "" : trimmed(s.speed_factor, 3) + " (default) x ";
+    std::string times = s.speed_factor == 1.0 ? "" : trimmed(s.speed_factor, 3) + " (default) x ";
+    if (by_coat != 1.0)
+      times += trimmed(by_coat, 3) + " " + std::string(kCoated) + ": " + r.coated_source + ") x ";
     c.presets.push_back({m.id, vc, fz, "vc: " + times + speed_source(m, hss) + "; fz: " + r.feeds_source});
     const auto [at, fresh] = slowest.emplace(m.iso_group, vc);
     if (!fresh) at->second = std::min(at->second, vc);
@@ -291,8 +307,12 @@ void set_presets(const Series& s, const Reader& r, Cutter& c) {
     const auto vc = slowest.find(group);
     if (vc == slowest.end()) continue;
     const double fz = tap ? c.fz_min_mm : rounded(feeds.factor.at(group) * d, 5);
-    c.presets.push_back(
-        {group, vc->second, fz, "vc: the slowest shipped material of the group; fz: " + r.feeds_source});
+    const auto coat = s.coated ? r.coated.find(group) : r.coated.end();
+    const bool faster = coat != r.coated.end() && coat->second != 1.0;
+    c.presets.push_back({group, vc->second, fz,
+                         "vc: the slowest shipped material of the group" +
+                             (faster ? " " + std::string(kCoated) + ": " + r.coated_source + ")" : "") +
+                             "; fz: " + r.feeds_source});
   }
 }
 
@@ -354,6 +374,7 @@ Result<std::vector<Cutter>> expand_series(std::string_view text, const std::stri
   if (top.text("capstan_cutter_series") != "1")
     top.fault("DATA-VERSION", "not a table of cutter series of version 1", "capstan_cutter_series", 1);
   if (const Node* n = top.child("holding", true)) read_holding(top.below("holding", *n), r);
+  if (const Node* n = top.child("coated", false)) read_coated(top.below("coated", *n), r);
   if (const Node* n = top.child("feeds", true)) read_feeds(*n, top.below("feeds", *n), r);
   if (const Node* list = top.child("series", true)) {
     for (const Node& n : list->items) {

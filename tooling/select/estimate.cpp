@@ -5,6 +5,7 @@
 #include "planner/physics/mechanics/constants.h"
 #include "planner/physics/mechanics/deflection.h"
 #include "planner/physics/mechanics/drilling.h"
+#include "planner/physics/mechanics/force_law.h"
 #include "planner/physics/mechanics/immersion.h"
 #include "planner/physics/mechanics/kienzle.h"
 #include "planner/physics/mechanics/spindle.h"
@@ -46,9 +47,7 @@ std::optional<Capacity> capacity(const Machine& m, double rpm) {
   return Capacity{at->power_w * e, at->torque_nm * e};
 }
 
-double margin_of(const WorkMaterial& w) {
-  return std::max(mechanics::kForceUncertaintyFactor, 1.0 + w.kc_uncertainty) * mechanics::kWearForceFactor;
-}
+double margin_of(const WorkMaterial& w) { return mechanics::kienzle_margin(w).factor(); }
 
 void scale_down(double part, const char* by, double& scale, std::string& limited) {
   if (part >= scale) return;

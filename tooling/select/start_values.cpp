@@ -82,7 +82,9 @@ StartValues start_values(const Cutter& c, const WorkMaterial& material, const Ma
   limit_speed(rpm, 0.0, c.maximum_speed_rpm, "tool", text);
   limit_speed(rpm, machine.spindle.rpm_min, machine.spindle.rpm_max, "spindle", text);
   if (!tap && c.fz_max_mm > 0.0 && fz > c.fz_max_mm) {
-    text += "; fz lowered from " + trimmed(fz, 4) + " to the cutter's " + trimmed(c.fz_max_mm, 4) + " mm";
+    const std::string* of = source_of(c, "fz_max_mm");
+    text += "; fz lowered from " + trimmed(fz, 4) + " to the cutter's largest, " + trimmed(c.fz_max_mm, 4) +
+            " mm" + (of != nullptr ? " (" + *of + ")" : std::string());
     fz = c.fz_max_mm;
   }
   if (fz < c.fz_min_mm) fz = c.fz_min_mm;

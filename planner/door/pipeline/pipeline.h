@@ -15,6 +15,7 @@
 #include "planner/model/plan/machine.h"
 #include "planner/model/plan/material.h"
 #include "planner/model/plan/plan.h"
+#include "planner/physics/mechanics/margin.h"
 #include "rules/rules.h"
 
 namespace capstan::casebase {
@@ -44,6 +45,7 @@ struct Inputs {
   optimise::Solver solver = optimise::Solver::kNlopt;
   optimise::Backends backends;
   Objective objective = Objective::kTime;
+  mechanics::MarginPolicy margin = mechanics::kUsualMargin;  ///< of loads against their limits
   /// Objective::kProfit: what a piece brings less its material, in the currency of Machine::cost_per_hour.
   std::optional<double> revenue;
   bool constant_feeds = false;    ///< one feed for all of a step's path: the largest that every section bears

@@ -12,6 +12,7 @@
 #include "planner/model/plan/machine.h"
 #include "planner/model/plan/material.h"
 #include "planner/model/plan/plan.h"
+#include "planner/physics/mechanics/margin.h"
 
 namespace capstan::optimise {
 
@@ -61,6 +62,13 @@ struct CutQuestion {
   double wall_error_limit_mm = 0.0;  ///< how far bending may push the wall; 0: not asked
   double peak_force_limit_n = 0.0;   ///< of workholding or cutter; 0: none
   double least_chip_mm = 0.0;        ///< the thickest chip is no thinner: below, this work rubs; 0: not asked
+  /// The largest diameter that cuts: of a ball or bull nose that is not in with all of its radius, the one
+  /// that cutting speed is counted at. 0: the cutter's.
+  double speed_diameter_mm = 0.0;
+  bool as_measured =
+      false;  ///< depth and width are those of the path's sections: each may ask for its own feed
+  double margin_deviations =
+      mechanics::kUsualMargin.deviations;  ///< of the load's margin (mechanics/margin.h)
   Eased eased;
 };
 
@@ -106,10 +114,16 @@ struct CutAnswer {
   std::vector<std::string> violated;  ///< when not feasible: by name, with the numbers
 };
 
+/// The diameter that cutting speed is counted at.
+[[nodiscard]] inline double speed_diameter_mm(const CutQuestion& q) {
+  return q.speed_diameter_mm > 0.0 ? q.speed_diameter_mm : q.cutter.cutting_diameter_mm;
+}
+
 /// Depth, width, speed and feed that cut fastest (or cheapest, or to most profit) within every limit: spindle
 /// speed range, power and torque at that speed, tip deflection, wall error, surface, peak force, largest and
-/// least chip, depths, cutting length, axis feed. Forces carry the uncertainty of their coefficients and a
-/// worn edge; limits are thus never met on average values only.
+/// least chip, depths, cutting length, axis feed. Forces carry the margin of mechanics/margin.h: the spread
+/// of their coefficients, a worn edge and the operator's override; limits are thus never met on average
+/// values.
 ///
 /// Levels are whole: they are enumerated, and the other variables solved for each. Where the spindle's curve
 /// or the immersion has a corner, the pieces between are solved one by one: no smooth method shows an optimum
@@ -122,13 +136,13 @@ struct CutAnswer {
 ///              fails with.
 [[nodiscard]] Result<CutAnswer> cut(const CutQuestion& question, const Options& options, Job& job);
 
-/// How far the operator may turn the feed up: the limits of power, torque and bending hold there, and so does
-/// the largest chip that the cutter bears. 1 where overrides are locked, for taps, and for a feed that is
-/// given (it is executed as it is).
+/// How far the operator may turn the feed up: it counts in the margin of forces, and the largest chip that
+/// the cutter bears holds there. 1 where overrides are locked, for taps, and for a feed that is given (it is
+/// executed as it is).
 [[nodiscard]] double feed_override(const CutQuestion& q);
 
-/// The loads of a cut of these dimensions, uncertainty included, with the feed turned up as far as it goes
-/// (chip and removal rate: as planned); nothing when it is outside the formulas' range.
+/// The loads of a cut of these dimensions, the margin included (chip and removal rate: as planned); nothing
+/// when it is outside the formulas' range.
 [[nodiscard]] std::optional<model::StepLoads> loads_of(const CutQuestion& q, double ap_mm, double ae_mm,
                                                        double n_rpm, double feed_mm_min);
 

@@ -22,7 +22,9 @@ struct CutSample {
   double step_mm = 0.0;  ///< length it stands for
   double entry_rad = 0.0, exit_rad = 0.0;
   double csa_mm2 = 0.0;
-  double top_mm = 0.0;  ///< highest contact above the tip; 0: not known, the depth counts from the tip
+  double top_mm = 0.0;     ///< highest contact above the tip; 0: not known, the depth counts from the tip
+  double end_mm2 = 0.0;    ///< of the area: what no flank sweeps, so that the end cuts it on its way down
+  double end_slope = 0.0;  ///< how far down per length of path the end goes there
 };
 
 /// Feed of a plunge and of a ramp as a fraction of the step's feed, at most, for cutters that may do it.
@@ -36,7 +38,8 @@ inline constexpr double kAirFeedMmMin = 3000.0;
 /// thinning that chip is then kept up to a width of 0.029 D, so a sliver that the section missed does no
 /// harm. The same bound as in `cut`. Default, unsourced.
 inline constexpr double kMostThinning = 3.0;
-/// Below this share of the step's feed nothing is scheduled: an edge rubs there. Default, unsourced.
+/// Below this share of the step's feed nothing is scheduled, nor below the thinnest chip that the cutter
+/// takes (least_feed_mm_min): an edge rubs there. Default, unsourced.
 inline constexpr double kLeastFeedShare = 0.04;
 /// Neighbouring moves whose feeds lie within this ratio share the lower one. Default, unsourced: it costs
 /// about half of it in time and keeps F words and its_speed curves few.
@@ -54,6 +57,10 @@ struct FeedQuestion {
   double group_ratio = kGroupRatio;
   bool explain = true;  ///< fill `held_by`: costs about ten more schedules
 };
+
+/// The feed at which the cutter's teeth take its thinnest chip where they are in the cut with all their feed
+/// (mechanics::least_chip_mm): thinner ones rub anywhere.
+[[nodiscard]] double least_feed_mm_min(const CutQuestion& q, double n_rpm);
 
 struct FeedAnswer {
   model::FeedSchedule schedule;

@@ -51,6 +51,23 @@ inline constexpr double kWearForceFactor = 1.3;
 inline constexpr double kKienzleMinChipThicknessMm = 0.01;
 inline constexpr double kKienzleMaxChipThicknessMm = 2.5;
 
+/// Thinnest chip that an edge still cuts, divided by its edge radius: below, the material is pressed under
+/// the edge, which rubs, hardens the surface and wears. Source: S. Wojciechowski, "Estimation of Minimum
+/// Uncut Chip Thickness during Precision and Micro-Machining Processes of Various Materials - A Critical
+/// Review", Materials 2022, 15(1), 59 (doi 10.3390/ma15010059): tells the quotient by material; 0.3 is taken
+/// for all. The radii are defaults, unsourced (ground carbide, HSS).
+inline constexpr double kLeastChipOverEdgeRadius = 0.3;
+inline constexpr double kCarbideEdgeRadiusMm = 0.008;
+inline constexpr double kHssEdgeRadiusMm = 0.012;
+/// Small cutters are ground sharper. Default, unsourced: the least of the generic series (cutters.yaml).
+inline constexpr double kLeastChipPerDiameter = 0.001;
+/// The thinnest chip that a milling cutter is to take where it is fed, mm.
+[[nodiscard]] constexpr double least_chip_mm(double diameter_mm, bool hss) {
+  const double edge = kLeastChipOverEdgeRadius * (hss ? kHssEdgeRadiusMm : kCarbideEdgeRadiusMm);
+  const double small = kLeastChipPerDiameter * diameter_mm;
+  return small < edge ? small : edge;
+}
+
 // --- Machine ----------------------------------------------------------------------------------------
 
 /// Cutting power divided by motor power where the machine does not state it.

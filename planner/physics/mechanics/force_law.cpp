@@ -1,6 +1,7 @@
 #include "planner/physics/mechanics/force_law.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace capstan::mechanics {
 
@@ -11,14 +12,23 @@ const model::MechanisticSet* measured_set(const model::WorkMaterial& material, m
   return it == material.mechanistic.end() ? nullptr : &*it;
 }
 
-ForceMargin kienzle_margin(const model::WorkMaterial& material) {
-  return {.spread = std::max(kForceUncertaintyFactor, 1.0 + material.kc_uncertainty)};
+double ForceMargin::factor() const {
+  return std::exp(deviations * std::hypot(std::log(spread), std::log(wear), std::log(override_up)));
 }
 
-ForceMargin force_margin(const model::WorkMaterial& material, model::Substrate substrate) {
+ForceMargin kienzle_margin(const model::WorkMaterial& material, const MarginAsked& asked) {
+  return {.spread = std::max(kForceUncertaintyFactor, 1.0 + material.kc_uncertainty),
+          .override_up = std::pow(asked.feed_up, 1.0 - material.mc),
+          .deviations = asked.deviations};
+}
+
+ForceMargin force_margin(const model::WorkMaterial& material, model::Substrate substrate,
+                         const MarginAsked& asked) {
   const model::MechanisticSet* set = measured_set(material, substrate);
-  if (set == nullptr) return kienzle_margin(material);
-  return {.spread = set->uncertainty > 0.0 ? 1.0 + set->uncertainty : kForceUncertaintyFactor};
+  if (set == nullptr) return kienzle_margin(material, asked);
+  return {.spread = set->uncertainty > 0.0 ? 1.0 + set->uncertainty : kForceUncertaintyFactor,
+          .override_up = asked.feed_up,
+          .deviations = asked.deviations};
 }
 
 bool is_milled(model::TypeId operation, const model::Cutter& cutter) {

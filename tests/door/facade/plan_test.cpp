@@ -15,6 +15,7 @@ const std::string kBracket = std::string(CAPSTAN_SOURCE_DIR) + "/examples/bracke
 TEST(Facade, GivesNoProgramThatTheCheckCondemnsUnlessAsked) {
   PlanOptions options;
   options.machine = "small_router";
+  options.margin = "careful";
   const PlanOutput held = plan_file(kBracket, options);
   ASSERT_TRUE(held.planned);
   EXPECT_FALSE(held.json.empty());

@@ -233,6 +233,41 @@ TEST(Bind, FinishesASurfaceThroughThinStock) {
   EXPECT_LT(*std::max_element(s.csa_mm2.begin(), s.csa_mm2.end()), 1.0);
 }
 
+// The finish was asked for as if it cut the part's height of 22.9 mm at once, and might go no faster
+// afterwards: 0.025 mm per tooth in steel, half its start value, at the speed of the ball's full diameter: 94
+// mm/min for 44 minutes. What it cuts is less than 1 mm2 (above).
+TEST(Bind, FeedsASurfacesFinishByWhatItCutsThere) {
+  Inputs in = shop();
+  in.material_name = "C45";
+  const model::Plan plan = bound(part("surface.stl"), in);
+  ASSERT_EQ(plan.steps.size(), 3U);
+  for (const std::size_t i : {1U, 2U}) {
+    const model::StepResult& s = plan.steps[i];
+    const model::Cutter* c = model::find_cutter(plan, s.cutter_id);
+    ASSERT_NE(c, nullptr);
+    EXPECT_LT(s.axial_depth_mm, 0.5 * c->cutting_diameter_mm) << "no cut of the part's height";
+  }
+  const model::StepResult& last = plan.steps.back();
+  double way = 0.0, minutes = 0.0;
+  for (std::size_t i = 1; i < last.path->size(); ++i) {
+    if (last.path->role[i] != model::MoveRole::kCut) continue;
+    way += model::move_length(*last.path, i);
+    minutes += model::move_length(*last.path, i) / last.schedule->feed_mm_min[i];
+  }
+  const model::Cutter* ball = model::find_cutter(plan, last.cutter_id);
+  ASSERT_NE(ball, nullptr);
+  // Start value of the generic balls in steel: 0.005 of the diameter.
+  const double at_start = 0.005 * ball->cutting_diameter_mm * ball->teeth * std::abs(last.spindle_rpm);
+  // The heavier places bend it as far as they may; on the whole it goes near its start value.
+  EXPECT_GT(way / minutes, 0.8 * at_start);
+  EXPECT_LT(last.loads.chip_thickness_mm, 1.02 * 0.005 * ball->cutting_diameter_mm)
+      << "and no chip is thicker";
+  // It touches with less than its full diameter: the table's 102 m/min are those of where it cuts.
+  const double at_rim = 3.14159 * ball->cutting_diameter_mm * std::abs(last.spindle_rpm) / 1000.0;
+  EXPECT_GT(at_rim, 1.1 * 102.0);
+  EXPECT_LT(at_rim, 2.0 * 102.0);
+}
+
 TEST(Bind, StopsWhenItIsAsked) {
   Job job;
   job.request_stop();

@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <numbers>
 #include <set>
 #include <string>
 #include <vector>
@@ -270,25 +272,69 @@ TEST(Anew, ACleanPlanIsTheFirstOne) {
   for (const auto& d : job.diagnostics()) EXPECT_NE(d.code, "PIP-ANEW") << d.message;
 }
 
-TEST(Sections, ARampsEndCutIsToldAsASlotOfTheSameArea) {
-  // 25 mm cutter, 1 mm down over 20 mm: the end removes pi 12.5^2 / 20 = 24.54 mm2 per mm of way.
+TEST(Sections, NoSectionIsWiderThanTheCutterAndWhatIsMoreIsCutByTheEnd) {
+  // 25 mm cutter, 1 mm down over 20 mm: the end removes pi 12.5^2 / sqrt(401) = 24.51 mm2 per mm of way, and
+  // where it first touches the flank has 0.03 mm: at most 25 x 0.03 mm2 of that is the flank's.
   model::CutterPath path;
   path.start({0, 0, 0});
   path.line({20, 0, -1}, model::MoveRole::kRamp);
   path.line({40, 0, -1}, model::MoveRole::kCut);
-  optimise::CutSample ramp;
-  ramp.move = 1;
-  ramp.ap_mm = 0.03;
-  ramp.csa_mm2 = 24.54;
-  ramp.ae_mm = ramp.csa_mm2 / ramp.ap_mm;
-  optimise::CutSample level = ramp;
-  level.move = 2;
-  std::vector<optimise::CutSample> samples{ramp, level};
-  EXPECT_TRUE(end_cuts_as_slots(samples, path, 25.0));
-  EXPECT_EQ(samples[0].ae_mm, 25.0);
-  EXPECT_NEAR(samples[0].ap_mm, 24.54 / 25.0, 1e-12);
-  EXPECT_EQ(samples[0].csa_mm2, 24.54);
-  EXPECT_EQ(samples[1].ae_mm, level.ae_mm) << "a level move has no end cut";
+  model::Cutter cutter;
+  cutter.cutting_diameter_mm = 25.0;
+  engagement::Measurement m;
+  for (const std::uint32_t move : {1U, 2U}) {
+    m.engagement.push_back({.ap_mm = 0.03,
+                            .ae_mm = 25.0,
+                            .exit_rad = std::numbers::pi,
+                            .csa_mm2 = 24.51,
+                            .removed_mm3 = 24.51,
+                            .step_mm = 1.0});
+    m.sections.move.push_back(move);
+    m.sections.at_mm.push_back(1.0);
+    m.sections.ad_max_mm.push_back(0.03);
+    m.sections.rd_max_mm.push_back(25.0);
+    m.sections.x_max_ofs_mm.push_back(0.0);
+    m.sections.y_max_ofs_mm.push_back(0.015);
+    m.sections.csa_mm2.push_back(24.51);
+    m.sections.x_cg_ofs_mm.push_back(0.0);
+    m.sections.y_cg_ofs_mm.push_back(0.015);
+    m.sections.removed_mm3.push_back(24.51);
+  }
+  const auto samples = samples_of(m, path, cutter);
+  ASSERT_EQ(samples.size(), 2U);
+  EXPECT_NEAR(samples[0].ae_mm, 25.0, 1e-9);
+  EXPECT_EQ(samples[0].ap_mm, 0.03);
+  EXPECT_EQ(samples[0].csa_mm2, 24.51) << "what is removed stays what was measured";
+  EXPECT_NEAR(samples[0].end_mm2, 24.51 - 25.0 * 0.03, 1e-12);
+  EXPECT_NEAR(samples[0].end_slope, 1.0 / std::sqrt(401.0), 1e-12);
+  // A level way has no end cut: what is more than was seen is deeper.
+  EXPECT_NEAR(samples[1].ae_mm, 25.0, 1e-9);
+  EXPECT_EQ(samples[1].end_mm2, 0.0);
+  EXPECT_NEAR(samples[1].ap_mm, 24.51 / 25.0, 1e-12);
+}
+
+TEST(Sections, AHelixsFirstContactIsNotFedSlowerThanItsNextTurn) {
+  // Reference pocket in C45: the first arcs of the helix, where the area is the end's and the depth nothing,
+  // crawled at a tenth of what the rest of the helix is fed, and their chips read ten times the feed.
+  Job job;
+  auto inputs = shop();
+  inputs.material_name = "C45";
+  const std::string text = testing::slurp(std::string(CAPSTAN_SOURCE_DIR) + "/examples/reference_pocket.p21");
+  const auto plan = bind(read_plan(text, "reference_pocket.p21", job).value(), inputs, {}, job);
+  ASSERT_TRUE(plan) << plan.error().message;
+  const auto& step = plan->steps.front();
+  double least = 1e9, most = 0.0;
+  for (std::size_t i = 1; i < step.path->size(); ++i) {
+    if (step.path->role[i] != model::MoveRole::kRamp) continue;
+    least = std::min(least, step.schedule->feed_mm_min[i]);
+    most = std::max(most, step.schedule->feed_mm_min[i]);
+  }
+  ASSERT_GT(most, 0.0);
+  // The end cut of the 5 degree helix of 10 mm takes as much as a slot half a millimetre deep, which a cut of
+  // 1.4 mm at full width bears: nothing is to slow it below half of the steady helix.
+  EXPECT_GT(least, 0.5 * most);
+  // At the feed per tooth no chip is thicker than it, but for the outer edge in a corner.
+  EXPECT_LT(step.loads.chip_thickness_mm, 1.3 * step.fz_mm);
 }
 
 }  // namespace

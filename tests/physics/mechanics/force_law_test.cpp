@@ -33,13 +33,44 @@ TEST(ForceLaw, IsKienzlesWithoutAMeasuredSet) {
   EXPECT_DOUBLE_EQ(force_law(m, model::Substrate::kCarbide).uncertainty_factor, kForceUncertaintyFactor);
 }
 
-TEST(ForceMargin, IsTheSpreadOfTheCoefficientsTimesWear) {
+TEST(ForceMargin, IsTheRootOfTheSquaresOfSpreadWearAndOverride) {
   model::WorkMaterial m = aluminium();
-  EXPECT_DOUBLE_EQ(force_margin(m, model::Substrate::kCarbide).factor(), 1.72 * kWearForceFactor);
+  // exp(sqrt(ln^2 1.72 + ln^2 1.3)) = exp(0.60250) = 1.8267, where the product is 2.236.
+  EXPECT_NEAR(force_margin(m, model::Substrate::kCarbide).factor(), 1.8267, 5e-4);
+  // With the feed turned up by a fifth, and ln 1.2 = 0.18232: exp(0.62948) = 1.8766; the product is 2.683.
+  EXPECT_NEAR(force_margin(m, model::Substrate::kCarbide, {.feed_up = 1.2}).factor(), 1.8766, 5e-4);
   m.mechanistic.erase(m.mechanistic.begin() + 1);  // leaves a set that states no uncertainty
   EXPECT_DOUBLE_EQ(force_margin(m, model::Substrate::kCarbide).spread, kForceUncertaintyFactor);
   m.kc_uncertainty = 0.9;
   EXPECT_DOUBLE_EQ(kienzle_margin(m).spread, 1.9);
+}
+
+TEST(ForceMargin, OfOneCauseIsThatCause) {
+  ForceMargin m{.spread = 1.0, .wear = 1.3};
+  EXPECT_DOUBLE_EQ(m.factor(), 1.3);
+  m.wear = 1.0;
+  EXPECT_DOUBLE_EQ(m.factor(), 1.0);
+}
+
+TEST(ForceMargin, OfASteelIsMoreForTheCarefulAndLessForTheBold) {
+  // Kienzle's law, mc 0.24: ln 1.5 = 0.40547, ln 1.3 = 0.26236, 0.76 ln 1.2 = 0.13856; root of the squares
+  // 0.50249: 1.653 usually, at 1.6449 deviations 2.285, at 0.5244 of them 1.301. The product was 2.240.
+  model::WorkMaterial m;
+  m.kc11_n_mm2 = 2809.0;
+  m.mc = 0.24;
+  const auto of = [&](const char* name) {
+    return kienzle_margin(m, {.feed_up = 1.2, .deviations = margin_policy(name)->deviations}).factor();
+  };
+  EXPECT_NEAR(of("careful"), 2.285, 2e-3);
+  EXPECT_NEAR(of("usual"), 1.653, 1e-3);
+  EXPECT_NEAR(of("bold"), 1.301, 1e-3);
+  EXPECT_FALSE(margin_policy("none"));
+}
+
+TEST(LeastChip, IsAPartOfTheEdgesRadiusAndLessForSmallCutters) {
+  EXPECT_DOUBLE_EQ(least_chip_mm(10.0, false), 0.0024);
+  EXPECT_DOUBLE_EQ(least_chip_mm(10.0, true), 0.0036);
+  EXPECT_DOUBLE_EQ(least_chip_mm(1.0, false), 0.001);
 }
 
 TEST(ToothOfACutter, HasTheCornerOfABall) {

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <random>
 
+#include "tooling/catalogue/complete.h"
 #include "tooling/catalogue/generic.h"
 #include "tooling/catalogue/machine.h"
 #include "tooling/catalogue/material.h"
@@ -232,6 +233,46 @@ std::string why_not(const ToolRequirement& r, const Cutter& c, const model::Mach
   return s.ranked.empty() && !s.rejected.empty() ? s.rejected[0].why : "";
 }
 
+TEST(StartValues, OfTheShopAreLoweredByNothingThatNobodyStated) {
+  Cutter c;
+  c.id = "shop";
+  c.cutting_diameter_mm = c.shank_diameter_mm = 8.0;
+  c.teeth = 3;
+  c.presets = {{"P", 140.0, 0.12, "stated: the shop"}};
+  complete(c, library());
+  // A generic cutter of 8 mm bears 0.08 mm; this one was said to run at 0.12.
+  EXPECT_DOUBLE_EQ(c.fz_max_mm, 0.18);
+  ASSERT_NE(source_of(c, "fz_max_mm"), nullptr);
+  EXPECT_EQ(*source_of(c, "fz_max_mm"), "derived: 1.5 times its own start value");
+  const auto start = start_values(c, material("low_alloy_steel"), machine());
+  EXPECT_DOUBLE_EQ(start.fz_mm, 0.12);
+  EXPECT_NEAR(start.vc_m_min, 140.0, 1e-9);
+  EXPECT_EQ(start.why.text.find("lowered"), std::string::npos) << start.why.text;
+  // What it does state is a limit, and is named.
+  c.fz_max_mm = 0.1;
+  c.sources.clear();
+  c.sources.emplace_back("fz_max_mm", "stated: fz_max");
+  const auto held = start_values(c, material("low_alloy_steel"), machine());
+  EXPECT_DOUBLE_EQ(held.fz_mm, 0.1);
+  EXPECT_NE(held.why.text.find("largest, 0.1 mm (stated: fz_max)"), std::string::npos) << held.why.text;
+}
+
+TEST(StartValues, OfACoatedEdgeAreTakenOnlyWhereItIsSaidToBeCoated) {
+  // The generic mills are coated: 1.7 times the card's 60 m/min. A mill that states nothing is held bare.
+  const auto all = library();
+  const auto generic = std::find_if(all.begin(), all.end(),
+                                    [](const Cutter& c) { return c.id == "generic/endmill_4f_short/10"; });
+  ASSERT_NE(generic, all.end());
+  EXPECT_NEAR(start_values(*generic, material("low_alloy_steel"), machine()).vc_m_min, 102.0, 1e-9);
+  Cutter c;
+  c.id = "shop";
+  c.cutting_diameter_mm = c.shank_diameter_mm = 10.0;
+  c.teeth = 4;
+  complete(c, all);
+  EXPECT_NEAR(start_values(c, material("low_alloy_steel"), machine()).vc_m_min, 60.0, 1e-9);
+  EXPECT_NEAR(start_values(*generic, material("wrought_aluminium"), machine()).vc_m_min, 270.0, 1e-9);
+}
+
 TEST(Select, ReachesPastTheUsableLengthOnlyWhereTheHolderClearsTheWalls) {
   ToolRequirement r;
   r.classes = {CutterClass::kEndmill};
@@ -395,8 +436,8 @@ TEST(StartValues, FollowFromSpeedAndFeedPerTooth) {
   const Cutter& c = *std::find_if(library().begin(), library().end(),
                                   [](const Cutter& k) { return k.id == "generic/endmill_4f_short/10"; });
   const auto s = start_values(c, material("mild_steel"), machine());
-  // 70 m/min on 10 mm: 2228 1/min; fz 0.005 x 10 mm; four teeth.
-  EXPECT_NEAR(s.spindle_rpm, 70000.0 / (10.0 * std::numbers::pi), 1e-9);
+  // 70 m/min of the card times 1.7 for the coated edge on 10 mm: 3788 1/min; fz 0.005 x 10 mm; four teeth.
+  EXPECT_NEAR(s.spindle_rpm, 1.7 * 70000.0 / (10.0 * std::numbers::pi), 1e-9);
   EXPECT_NEAR(s.feed_mm_min, 4 * 0.05 * s.spindle_rpm, 1e-9);
   EXPECT_EQ(s.why.id, "tooling.start.mild_steel");
 }

@@ -20,7 +20,8 @@ struct InputOptions {
   std::optional<pipeline::Objective> objective;
   std::optional<optimise::Solver> solver;
   std::optional<std::string> general_tolerance, workholding;
-  std::optional<std::string> feeds;  ///< "constant" or "scheduled"
+  std::optional<std::string> feeds;   ///< "constant" or "scheduled"
+  std::optional<std::string> margin;  ///< by name, of mechanics/margin.h
   std::optional<double> revenue;
   int batch = 1;
   double edge_break_mm = 0.0;

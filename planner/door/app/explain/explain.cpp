@@ -201,8 +201,13 @@ std::vector<Computed> computed_of(const Plan& plan, const StepView& v) {
     out.push_back({"forces", "by coefficients",
                    mechanics::force_source(plan.material, cutting->substrate,
                                            mechanics::is_milled(v.operation.type, *cutting))});
+  if (r->loads.force_margin > 0.0) {
+    const char* what = "of a sharp edge with mean coefficients at the planned feed: what a load meter shows";
+    add("expected_force", r->loads.peak_force_n / r->loads.force_margin, " N", what);
+    add("expected_power", r->loads.power_w / r->loads.force_margin, " W", what);
+  }
   add("force_margin", r->loads.force_margin, "",
-      "factor in these loads on a sharp edge's with mean coefficients: their spread, and wear");
+      "factor in these loads on the expected ones of a sharp edge: spread, wear and override together");
   add("wall_error", r->loads.wall_error_mm, " mm", "that bending leaves on the wall; above 0: material");
   add("surface_rz", 1000.0 * r->loads.surface_rz_mm, " um", "feed marks by geometry alone");
   add("edge_life", r->loads.tool_life_min, " min", "cutting time of an edge at this speed and feed");

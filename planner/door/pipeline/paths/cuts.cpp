@@ -10,9 +10,9 @@
 namespace capstan::pipeline {
 namespace {
 
-using QuestionKey =
-    std::tuple<int, double, double, double, double, double, double, double, double, double, double, double,
-               double, double, double, double, bool, bool, bool, double, double, double, double>;
+using QuestionKey = std::tuple<int, double, double, double, double, double, double, double, double, double,
+                               double, double, double, double, double, double, bool, bool, bool, double,
+                               double, double, double, double, bool, double>;
 
 QuestionKey key_of(const optimise::CutQuestion& q) {
   constexpr double kUnset = -1.0;
@@ -38,7 +38,10 @@ QuestionKey key_of(const optimise::CutQuestion& q) {
           q.surface_ra_um,
           q.wall_error_limit_mm,
           q.peak_force_limit_n,
-          q.least_chip_mm};
+          q.least_chip_mm,
+          q.speed_diameter_mm,
+          q.as_measured,
+          q.margin_deviations};
 }
 
 }  // namespace

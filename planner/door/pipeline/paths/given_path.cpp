@@ -44,16 +44,17 @@ std::vector<optimise::CutSample> samples_for(Work& w, const StepWork& step, cons
                                              const model::SectionSeries& stated,
                                              const std::optional<engagement::Measurement>& found) {
   const double d = step.cutter.cutting_diameter_mm;
-  if (stated.size() == 0) return found ? samples_of(*found) : std::vector<optimise::CutSample>{};
+  const auto ours = found ? samples_of(*found, path, step.cutter) : std::vector<optimise::CutSample>{};
+  if (stated.size() == 0) return ours;
   if (const auto why = impossible(stated, path, d, step.cutter.maximum_depth_of_cut_mm)) {
     w.job.warn("PIP-SECTIONS", "step '" + name_of(w, step) + "': the file's cross sections cannot be, " +
                                    *why + "; " + (found ? "the measured ones are used" : "none are used"));
-    return found ? samples_of(*found) : std::vector<optimise::CutSample>{};
+    return ours;
   }
-  auto said = samples_of(stated, path, d);
+  auto said = samples_of(stated, path, step.cutter);
   if (!found) return said;
   const auto extents = extents_contradict(stated, found->sections, d);
-  auto both = compared(said, samples_of(*found), d);
+  auto both = compared(said, ours, d);
   if (both.contradictions > 0) {
     w.job.warn("PIP-SECTIONS", "step '" + name_of(w, step) + "': the file's cross sections contradict the " +
                                    "measured ones at " + std::to_string(both.contradictions) +
@@ -62,7 +63,6 @@ std::vector<optimise::CutSample> samples_for(Work& w, const StepWork& step, cons
   if (extents) {
     w.job.warn("PIP-SECTIONS", "step '" + name_of(w, step) + "': the file's cross sections contradict the " +
                                    "measured ones, " + *extents + "; the measured ones count, too");
-    const auto ours = samples_of(*found);
     both.samples.insert(both.samples.end(), ours.begin(), ours.end());
     std::stable_sort(both.samples.begin(), both.samples.end(), [](const auto& a, const auto& b) {
       return std::pair(a.move, a.at_mm) < std::pair(b.move, b.at_mm);
@@ -122,7 +122,7 @@ Result<model::FeedSchedule> chosen(Work& w, StepWork& step, const model::CutterP
   out.result.axial_depth_mm = answer->ap_mm;
   out.result.radial_depth_mm = answer->ae_mm;
   out.result.active = active_of(*answer);
-  const auto feeds = feeds_along(out.feeds, path);
+  const auto feeds = optimise::feeds(out.feeds, path);
   out.result.loads = feeds.peak;
   if (!(out.result.loads.tool_life_min > 0.0)) out.result.loads.tool_life_min = answer->life_min;
   out.result.held_by = feeds.held_by;
@@ -214,11 +214,10 @@ Result<std::optional<GivenPath>> given_path(Work& w, StepWork& step, Stocks& sto
   if (asks && fq.n_rpm != 0.0 && fq.feed_mm_min > 0.0) {
     fq.cut.feed_mm_min = fq.feed_mm_min;
     // A path and feed that planning made before are judged as then; what a file gives is its maker's.
-    const bool planned = feed_was_planned(w, step);
-    const auto feeds = planned ? feeds_along(fq, *path) : optimise::feeds(fq, *path);
+    const auto feeds = optimise::feeds(fq, *path);
     out.result.loads = feeds.peak;
     out.result.held_by = feeds.held_by;
-    if (planned) keep_excess(w, step, feeds, out.result);
+    if (feed_was_planned(w, step)) keep_excess(w, step, feeds, out.result);
   }
   out.result.schedule = std::make_shared<const model::FeedSchedule>(std::move(given->schedule));
   return out;

@@ -18,6 +18,7 @@
 #include "planner/door/pipeline/paths/results.h"
 #include "planner/door/pipeline/paths/sections.h"
 #include "planner/door/pipeline/paths/stocks.h"
+#include "planner/door/pipeline/paths/surface.h"
 #include "planner/door/pipeline/steps.h"
 #include "planner/ground/base/number.h"
 #include "planner/making/toolpath/region/undercut.h"
@@ -293,12 +294,21 @@ class PathMaker {
   Result<Made> attempt(const StepWork& step, const model::Candidate* candidate, double share) {
     Made out;
     bool first = true;
+    std::optional<toolpath::GeneratedPath> over_surface;  // of the shape at hand
+    const bool freeform = w_.plan.model.holds<model::FreeformOperation>(step.operation);
+    const bool passes =
+        w_.plan.model.holds<model::FreeformFinishMilling>(step.operation) && !cuts_levels(w_, step);
     for (const auto& shape : step.shapes) {
       auto job = job_of(w_, step, shape);
       progress_.prepare(step, stocks_.of(step.setup), job);
       if (first) {
         out.question = question_of(w_, step, candidate, job);
         if (step.open_technology) out.precedent = start_from_case(w_, step, shape, out.question);
+        if (passes && step.open_technology) {
+          auto path = pass_over(w_, step, job, stocks_, out.question);
+          if (!path) return tl::unexpected(path.error());
+          over_surface = *std::move(path);
+        }
         auto answer = cuts_.answer(step, out.question, out.let_go);
         if (!answer) return tl::unexpected(answer.error());
         out.answer = *std::move(answer);
@@ -326,11 +336,13 @@ class PathMaker {
         if (!loads && step.open_technology) return tl::unexpected(loads.error());
         if (loads) out.under = *loads;
       }
-      const bool freeform = w_.plan.model.holds<model::FreeformOperation>(step.operation);
-      auto path = kept_clear(w_, step, job, [&](const toolpath::PathJob& j) {
-        return freeform ? freeform_path(w_, step, j, out.answer, stocks_.of(step.setup))
-                        : toolpath::generate(j, w_.job);
-      });
+      auto path = over_surface ? Result<toolpath::GeneratedPath>(*std::move(over_surface))
+                               : kept_clear(w_, step, job, [&](const toolpath::PathJob& j) {
+                                   return freeform
+                                              ? freeform_path(w_, step, j, out.answer, stocks_.of(step.setup))
+                                              : toolpath::generate(j, w_.job);
+                                 });
+      over_surface.reset();
       if (!path) return tl::unexpected(path.error());
       if (first) {
         out.path = *std::move(path);
@@ -401,7 +413,7 @@ class PathMaker {
     r.active = active_of(made.answer);
     if (auto m = measured(w_, step, *out.path, stocks_)) {
       out.removed_mm3 = m->removed_mm3;
-      fq.samples = samples_of(*m);
+      fq.samples = samples_of(*m, *out.path, step.cutter);
       // One pass over a surface, not levels: as deep and as wide as what roughing left there.
       if (w_.plan.model.holds<model::FreeformFinishMilling>(step.operation)) {
         for (const optimise::CutSample& sample : fq.samples) {
@@ -414,7 +426,7 @@ class PathMaker {
       optimise::split_moves(fq, *out.path, &m->sections);
       r.sections = std::make_shared<const model::SectionSeries>(std::move(m->sections));
     }
-    out.feeds = fq.adapt ? feeds_along(fq, *out.path) : optimise::feeds(fq, *out.path);
+    out.feeds = optimise::feeds(fq, *out.path);
     out.made = std::move(made);
     return out;
   }

@@ -5,7 +5,6 @@
 #include <numbers>
 #include <utility>
 
-#include "planner/door/pipeline/paths/sections.h"
 #include "planner/ground/base/number.h"
 #include "planner/model/plan/condemned.h"
 #include "planner/physics/motion/time.h"
@@ -95,14 +94,6 @@ bool feed_was_planned(const Work& w, const StepWork& step) {
   const auto* d = w.plan.ledger.find(op->its_technology, "feedrate");
   return d != nullptr && !d->pinned && d->binder != model::Binder::kGiven &&
          d->binder != model::Binder::kOperator;
-}
-
-optimise::FeedAnswer feeds_along(optimise::FeedQuestion& question, const model::CutterPath& path) {
-  auto feeds = optimise::feeds(question, path);
-  if (feeds.worst_excess > kTolerableExcess &&
-      end_cuts_as_slots(question.samples, path, question.cut.cutter.cutting_diameter_mm))
-    feeds = optimise::feeds(question, path);
-  return feeds;
 }
 
 void keep_excess(Work& w, const StepWork& step, const optimise::FeedAnswer& feeds, model::StepResult& r) {

@@ -31,10 +31,6 @@ void append(toolpath::GeneratedPath& to, const toolpath::GeneratedPath& from);
 /// that a width or depth of cut, and with it force, torque and power, is uncertain by about so much. Default,
 /// unsourced. What is above it is kept as StepResult::exceeded, and model::condemned condemns the step.
 inline constexpr double kTolerableExcess = 0.1;
-/// Feeds along a path. Where a limit seems to be exceeded by more than kTolerableExcess, ramps that were told
-/// as side cuts are told as slots (end_cuts_as_slots), and the feeds are asked for again.
-[[nodiscard]] optimise::FeedAnswer feeds_along(optimise::FeedQuestion& question,
-                                               const model::CutterPath& path);
 /// Keeps the limit that feeds exceed by more than kTolerableExcess, and warns PIP-EXCESS.
 void keep_excess(Work& w, const StepWork& step, const optimise::FeedAnswer& feeds, model::StepResult& result);
 /// Puts the step into the plan, with its time and the seconds that its limits cost. Says PIP-SLOW of hours.

@@ -9,6 +9,8 @@
 #include <tuple>
 #include <utility>
 
+#include "planner/physics/mechanics/force_law.h"
+
 namespace capstan::pipeline {
 namespace {
 
@@ -16,15 +18,48 @@ using optimise::CutSample;
 
 constexpr double kWhole = 0.95;  // share of depth times width from which a section is a rectangle
 
-void add(CutSample s, std::vector<CutSample>& out) {
-  const double ap = s.ap_mm, ae = s.ae_mm;
-  const bool whole = s.plunge || !(ap > 0.0 && ae > 0.0) || s.csa_mm2 >= kWhole * ap * ae;
+/// How wide a cutter sweeps on a move with the diameter that it has at the top of its contact.
+double widest(const CutSample& s, const model::CutterPath& p, const model::Cutter& cutter) {
+  const double corner = mechanics::tooth_of(cutter).corner_radius_mm;
+  const double d = std::max(s.ae_mm, mechanics::effective_diameter_mm(std::max(s.ap_mm, s.top_mm),
+                                                                      cutter.cutting_diameter_mm, corner));
+  const std::size_t i = s.move;
+  if (i >= p.size() || (p.kind[i] != model::MoveKind::kArcCw && p.kind[i] != model::MoveKind::kArcCcw))
+    return d;
+  const double rho = std::hypot(p.x[i] - p.cx[i], p.y[i] - p.cy[i]);
+  return rho > 0.0 ? std::max(d, (rho + 0.5 * d) * (rho + 0.5 * d) / (2.0 * rho)) : d;
+}
+
+/// How far a move goes down per length of its path.
+double fall_of(const model::CutterPath& p, std::size_t i) {
+  if (i == 0 || i >= p.size()) return 0.0;
+  const double length = model::move_length(p, i);
+  return length > 0.0 ? std::clamp((p.z[i - 1] - p.z[i]) / length, 0.0, 1.0) : 0.0;
+}
+
+void add(CutSample s, const model::CutterPath& path, const model::Cutter& cutter,
+         std::vector<CutSample>& out) {
+  if (s.plunge || !(s.ap_mm > 0.0) || !(cutter.cutting_diameter_mm > 0.0)) {
+    out.push_back(s);
+    return;
+  }
+  const double most = widest(s, path, cutter);
+  s.ae_mm = std::min(s.ae_mm, most);
+  if (s.csa_mm2 > most * s.ap_mm) {
+    if (const double fall = fall_of(path, s.move); fall > 0.0) {
+      s.end_mm2 = s.csa_mm2 - most * s.ap_mm;
+      s.end_slope = fall;
+    } else {
+      s.ap_mm = s.csa_mm2 / most;
+    }
+  }
+  const double ap = s.ap_mm, ae = s.ae_mm, flank = s.csa_mm2 - s.end_mm2;
+  const bool whole = !(ae > 0.0) || flank >= kWhole * ap * ae;
   // On an arc about a corner the edge goes farther than the centre, and removes more than depth times width.
-  const double swept = ap > 0.0 ? s.csa_mm2 / ap : ae;
-  if (!s.plunge) s.ae_mm = whole ? std::max(ae, swept) : swept;
+  s.ae_mm = whole ? std::max(ae, flank / ap) : flank / ap;
   out.push_back(s);
   if (whole) return;
-  s.ap_mm = s.csa_mm2 / ae;
+  s.ap_mm = flank / ae;
   s.ae_mm = ae;
   out.push_back(s);
 }
@@ -88,26 +123,6 @@ std::pair<double, double> mean_extents(const model::SectionSeries& s) {
 
 }  // namespace
 
-bool end_cuts_as_slots(std::vector<CutSample>& samples, const model::CutterPath& path,
-                       double cutting_diameter_mm) {
-  bool any = false;
-  const double r = 0.5 * cutting_diameter_mm;
-  for (CutSample& s : samples) {
-    const std::size_t i = s.move;
-    if (s.plunge || !(s.ap_mm > 0.0) || i == 0 || i >= path.size() || !(path.z[i] < path.z[i - 1])) continue;
-    double most = cutting_diameter_mm;
-    if (path.kind[i] != model::MoveKind::kLine) {
-      const double rho = std::hypot(path.x[i] - path.cx[i], path.y[i] - path.cy[i]);
-      if (rho > 0.0) most = std::max(most, (rho + r) * (rho + r) / (2.0 * rho));
-    }
-    if (!(s.ae_mm > most) || !(s.csa_mm2 > most * s.ap_mm)) continue;
-    s.ap_mm = s.csa_mm2 / most;
-    s.ae_mm = most;
-    any = true;
-  }
-  return any;
-}
-
 std::optional<std::string> impossible(const model::SectionSeries& s, const model::CutterPath& path,
                                       double d_mm, double cutting_length_mm) {
   constexpr double kRounding = 1.02, kFloorMm = 0.02;  // of what is printed and measured; default, unsourced
@@ -166,7 +181,8 @@ std::optional<std::string> extents_contradict(const model::SectionSeries& stated
          " mm deep and " + six(our_rd) + " mm wide measured";
 }
 
-std::vector<CutSample> samples_of(const engagement::Measurement& m) {
+std::vector<CutSample> samples_of(const engagement::Measurement& m, const model::CutterPath& path,
+                                  const model::Cutter& cutter) {
   std::vector<CutSample> out;
   const auto& s = m.sections;
   out.reserve(s.size());
@@ -189,15 +205,15 @@ std::vector<CutSample> samples_of(const engagement::Measurement& m) {
          .exit_rad = exit,
          .csa_mm2 = e.csa_mm2,
          .top_mm = s.y_max_ofs_mm[i] + 0.5 * s.ad_max_mm[i]},
-        out);
+        path, cutter, out);
   }
   return out;
 }
 
 std::vector<CutSample> samples_of(const model::SectionSeries& s, const model::CutterPath& path,
-                                  double cutting_diameter_mm) {
+                                  const model::Cutter& cutter) {
   std::vector<CutSample> out;
-  const double r = 0.5 * cutting_diameter_mm;
+  const double r = 0.5 * cutter.cutting_diameter_mm;
   for (std::size_t i = 0; i < s.size(); ++i) {
     const bool same = i > 0 && s.move[i - 1] == s.move[i] && s.at_mm[i - 1] <= s.at_mm[i];
     const bool joins = i > 0 && s.move[i - 1] + 1 == s.move[i] && s.at_mm[i] > 0.0 &&
@@ -218,7 +234,7 @@ std::vector<CutSample> samples_of(const model::SectionSeries& s, const model::Cu
       c.entry_rad = std::acos(std::clamp(-(x - 0.5 * c.ae_mm) / r, -1.0, 1.0));
       c.exit_rad = std::acos(std::clamp(-(x + 0.5 * c.ae_mm) / r, -1.0, 1.0));
     }
-    add(c, out);
+    add(c, path, cutter, out);
   }
   return out;
 }

@@ -17,16 +17,18 @@ namespace capstan::pipeline {
 
 /// Of a measured path. A section that is no rectangle (a wall and a floor at once) counts as two of its area:
 /// as deep, and as wide.
-[[nodiscard]] std::vector<optimise::CutSample> samples_of(const engagement::Measurement& measured);
-
-/// A cutter that goes down on a slope cuts with its end, too: over its depth of contact it removes more than
-/// any width of it could, which as a side cut would be a chip many times the feed per tooth. Such sections
-/// are told as the slot that removes the same: as wide as the cutter can sweep (more on an arc of radius rho:
-/// the outer edge goes farther), and so much deeper. Gives whether there are any.
 ///
-///     ae <= max(D, (rho + R)^2 / (2 rho)),   ap = area / ae        derived: the same volume per length
-bool end_cuts_as_slots(std::vector<optimise::CutSample>& samples, const model::CutterPath& path,
-                       double cutting_diameter_mm);
+/// No section is wider than the cutter sweeps at its depth, whose diameter there is D (a ball's or bull
+/// nose's: where the contact ends) and whose outer edge goes farther than its centre on an arc of radius rho:
+///
+///     ae <= max(D, (rho + R)^2 / (2 rho))                      derived: the same volume per length of path
+///
+/// What a way down removes beyond that over its depth is cut by the end (CutSample::end_mm2): where a ramp or
+/// helix first touches, the depth is nothing and the area that of the whole end. What a level way removes
+/// beyond it is deeper than was measured.
+[[nodiscard]] std::vector<optimise::CutSample> samples_of(const engagement::Measurement& measured,
+                                                          const model::CutterPath& path,
+                                                          const model::Cutter& cutter);
 
 /// Of the seven numbers alone, no simulation: depth ADmax, width RDmax, and the arc of contact from the width
 /// about Xmaxofs on the cutter's diameter,
@@ -36,9 +38,10 @@ bool end_cuts_as_slots(std::vector<optimise::CutSample>& samples, const model::C
 /// A step ends where its sample stands and begins at the sample before on the same move; over it the larger
 /// of both holds, for between two points of a polyline the numbers change evenly.
 /// Source  AP238 edition 2, 4.2.379.4; chord geometry.
+/// Widths are bounded as those of a measured path.
 [[nodiscard]] std::vector<optimise::CutSample> samples_of(const model::SectionSeries& series,
                                                           const model::CutterPath& path,
-                                                          double cutting_diameter_mm);
+                                                          const model::Cutter& cutter);
 
 /// What no section can be, in words, with the first place of it; nothing when all are possible: each of the
 /// seven numbers finite, none of ADmax, RDmax and CSA below 0, ADmax within the cutting length, RDmax within

@@ -34,7 +34,7 @@ double minute_of(const CutQuestion& q) {
 }  // namespace
 
 double edge_life_min(const CutQuestion& q, const CutPoint& at) {
-  const double vc = std::numbers::pi * q.cutter.cutting_diameter_mm * at.n_rpm / 1000.0;
+  const double vc = std::numbers::pi * speed_diameter_mm(q) * at.n_rpm / 1000.0;
   if (const auto* l = law_of(q)) {
     const double fz = at.feed_mm_min / (at.n_rpm * teeth_of(q));
     const double depth = is_milling(q.kind) ? at.ap_mm : 0.5 * q.cutter.cutting_diameter_mm;

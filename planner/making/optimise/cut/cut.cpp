@@ -67,7 +67,7 @@ std::vector<std::string> not_a_cut(const CutQuestion& q) {
 
 void measure_answer(const CutQuestion& q, CutAnswer& a) {
   a.fz_mm = a.feed_mm_min / (a.n_rpm * teeth_of(q));
-  a.vc_m_min = pi * q.cutter.cutting_diameter_mm * a.n_rpm / 1000.0;
+  a.vc_m_min = pi * speed_diameter_mm(q) * a.n_rpm / 1000.0;
   const auto loads = loads_of(q, a.ap_mm, a.ae_mm, a.n_rpm, a.feed_mm_min);
   a.loads = loads.value_or(model::StepLoads{});
   a.violated.clear();

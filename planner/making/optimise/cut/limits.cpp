@@ -50,6 +50,14 @@ double largest_fz(const CutQuestion& q) {
   return fz;
 }
 
+double thinnest_chip_mm(const CutQuestion& q) {
+  const bool hss = q.cutter.substrate == model::Substrate::kHss;
+  // A given feed is its maker's word.
+  const bool given = q.feed_mm_min.has_value() || q.fz_mm.has_value();
+  const double own = given ? 0.0 : mechanics::least_chip_mm(q.cutter.cutting_diameter_mm, hss);
+  return std::max(q.least_chip_mm, own);
+}
+
 double least_fz(const CutQuestion& q) {
   if (q.kind == CutKind::kTap || !(q.cutter.fz_min_mm > 0.0)) return 0.0;
   return q.cutter.fz_min_mm;
@@ -130,7 +138,7 @@ Measures measures(const CutQuestion& q, const model::StepLoads& l, double ap, do
       m[5] = {1000.0 * kRoughnessOverGeometry * mechanics::kArcRaOverRz * l.surface_rz_mm, q.surface_ra_um};
   }
   if (q.peak_force_limit_n > 0.0) m[6] = {l.peak_force_n, q.peak_force_limit_n};
-  if (mills && q.least_chip_mm > 0.0) m[7] = {q.least_chip_mm, l.chip_thickness_mm};
+  if (mills && thinnest_chip_mm(q) > 0.0) m[7] = {thinnest_chip_mm(q), l.chip_thickness_mm};
   m[8] = {rpm.lo, n};
   if (rpm.hi > 0.0) m[9] = {n, rpm.hi};
   if (axis_feed(q) > 0.0) m[10] = {feed, axis_feed(q)};

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "planner/making/optimise/cut.h"
+#include "planner/physics/mechanics/force_law.h"
 #include "planner/physics/mechanics/section.h"
 #include "planner/physics/mechanics/spindle.h"
 
@@ -57,11 +58,13 @@ using Measures = std::array<Measure, kLimitsOfCut.size()>;
 [[nodiscard]] model::AxisForces axis_forces(const mechanics::ForceVector& f, double margin,
                                             const model::Cutter& cutter);
 
-/// The thickest chip at the planned feed, from what is known with the feed turned up: what runout adds does
-/// not grow with the feed.
-[[nodiscard]] double planned_chip_mm(const mechanics::Section& section, const mechanics::Tooth& tooth,
-                                     const mechanics::ForceLaw& law, double turned_up_fz_mm, double up,
-                                     double n_rpm, double turned_up_chip_mm);
+/// The margin of the question's forces: of a milling cut, and of drills, reamers and taps.
+[[nodiscard]] mechanics::ForceMargin margin_of(const CutQuestion& q);
+[[nodiscard]] mechanics::ForceMargin drilling_margin_of(const CutQuestion& q);
+/// Where a measured set gives the forces: the power that the material's card expects of the same removal in
+/// chips of this mean thickness, with a worn edge and the override. Two laws of one material differ by half;
+/// whichever is right, the spindle must not stall: no power is counted below it. 0: no measured set.
+[[nodiscard]] double power_by_card_w(const CutQuestion& q, double removal_mm3_min, double mean_chip_mm);
 
 struct Range {
   double lo = 0.0, hi = 0.0;
@@ -74,6 +77,8 @@ struct Range {
 
 /// The chip thickness that is planned for, at most.
 [[nodiscard]] double largest_fz(const CutQuestion& q);
+/// The thinnest chip that a milling cut is planned with: the cutter's own, or more where the question asks.
+[[nodiscard]] double thinnest_chip_mm(const CutQuestion& q);
 /// The feed per tooth that the cutter asks for at least; 0: none stated.
 [[nodiscard]] double least_fz(const CutQuestion& q);
 /// Whether the least feed is the maker's own word, and not derived or a default.

@@ -45,16 +45,14 @@ std::optional<double> compliance_of(const CutQuestion& q, double ap_mm) {
   return beam ? std::optional(mechanics::bending_mm_n(*beam, 0.5 * ap_mm, 0.0)) : std::nullopt;
 }
 
-/// A straight side cut, up or down milling, whichever is worse: the path may have both. `fz_mm` is with the
-/// feed turned up.
+/// A straight side cut, up or down milling, whichever is worse: the path may have both.
 std::optional<model::StepLoads> milling(const CutQuestion& q, double ap_mm, double ae_mm, double n_rpm,
                                         double fz_mm) {
   const auto compliance = compliance_of(q, ap_mm);
   if (!compliance || !(ae_mm > 0.0) || !(ap_mm > 0.0)) return std::nullopt;
   const mechanics::Tooth tooth = mechanics::tooth_of(q.cutter);
   const mechanics::ForceLaw law = mechanics::force_law(q.material, q.cutter.substrate);
-  const double margin = mechanics::force_margin(q.material, q.cutter.substrate).factor();
-  const double up = feed_override(q);
+  const double margin = margin_of(q).factor();
   model::StepLoads out;
   for (const auto direction : {mechanics::CutDirection::kUp, mechanics::CutDirection::kDown}) {
     const mechanics::Section section = mechanics::side_section(ap_mm, ae_mm, tooth, direction);
@@ -65,10 +63,11 @@ std::optional<model::StepLoads> milling(const CutQuestion& q, double ap_mm, doub
       out.mean_force = axis_forces(l->mean, margin, q.cutter);
       out.peak_force = axis_forces(l->peak, margin, q.cutter);
     }
-    out.torque_nm = std::max(out.torque_nm, l->torque_nm * margin);
-    out.power_w = std::max(out.power_w, l->power_w * margin);
-    out.chip_thickness_mm =
-        std::max(out.chip_thickness_mm, planned_chip_mm(section, tooth, law, fz_mm, up, n_rpm, l->h_max_mm));
+    const double removal = ap_mm * ae_mm * fz_mm * tooth.teeth * n_rpm;
+    const double power = std::max(l->power_w * margin, power_by_card_w(q, removal, l->h_mean_mm));
+    out.torque_nm = std::max({out.torque_nm, l->torque_nm * margin, 30.0 * power / (pi * n_rpm)});
+    out.power_w = std::max(out.power_w, power);
+    out.chip_thickness_mm = std::max(out.chip_thickness_mm, l->h_max_mm);
     if (q.wall_error_limit_mm > 0.0) {
       const bool is_up = direction == mechanics::CutDirection::kUp;
       // The wall stands at the full radius, where the flank makes it.
@@ -82,8 +81,8 @@ std::optional<model::StepLoads> milling(const CutQuestion& q, double ap_mm, doub
   }
   out.force_margin = margin;
   out.deflection_mm = out.peak_force_n * *compliance;
-  out.mrr_mm3_min = ap_mm * ae_mm * fz_mm / up * tooth.teeth * n_rpm;
-  out.surface_rz_mm = surface_rz(q, fz_mm / up);
+  out.mrr_mm3_min = ap_mm * ae_mm * fz_mm * tooth.teeth * n_rpm;
+  out.surface_rz_mm = surface_rz(q, fz_mm);
   return out;
 }
 
@@ -94,12 +93,22 @@ model::AxisForces axis_forces(const mechanics::ForceVector& f, double margin, co
   return {f.fx_n * margin, left * f.fy_n * margin, -f.fz_n * margin};
 }
 
-double planned_chip_mm(const mechanics::Section& section, const mechanics::Tooth& tooth,
-                       const mechanics::ForceLaw& law, double turned_up_fz_mm, double up, double n_rpm,
-                       double turned_up_chip_mm) {
-  if (!(tooth.runout_mm > 0.0) || up == 1.0) return turned_up_chip_mm / up;
-  const auto l = mechanics::section_loads(section, tooth, law, turned_up_fz_mm / up, n_rpm);
-  return l ? l->h_max_mm : turned_up_chip_mm;
+mechanics::ForceMargin margin_of(const CutQuestion& q) {
+  return mechanics::force_margin(q.material, q.cutter.substrate, {feed_override(q), q.margin_deviations});
+}
+
+double power_by_card_w(const CutQuestion& q, double removal_mm3_min, double mean_chip_mm) {
+  if (mechanics::measured_set(q.material, q.cutter.substrate) == nullptr || !(mean_chip_mm > 0.0)) return 0.0;
+  mechanics::ForceMargin margin = drilling_margin_of(q);
+  margin.spread = 1.0;
+  const double h =
+      std::clamp(mean_chip_mm, mechanics::kKienzleMinChipThicknessMm, mechanics::kKienzleMaxChipThicknessMm);
+  const double kc = mechanics::specific_force_n_mm2({q.material.kc11_n_mm2, q.material.mc}, h);
+  return kc * removal_mm3_min / 60000.0 * margin.factor();  // N mm/min = 1/60000 W
+}
+
+mechanics::ForceMargin drilling_margin_of(const CutQuestion& q) {
+  return mechanics::kienzle_margin(q.material, {feed_override(q), q.margin_deviations});
 }
 
 double feed_override(const CutQuestion& q) {
@@ -110,11 +119,10 @@ double feed_override(const CutQuestion& q) {
 
 std::optional<model::StepLoads> loads_of(const CutQuestion& q, double ap_mm, double ae_mm, double n_rpm,
                                          double feed_mm_min) {
-  const double up = feed_override(q);
-  const double fz = up * feed_mm_min / (n_rpm * teeth_of(q));
+  const double fz = feed_mm_min / (n_rpm * teeth_of(q));
   if (is_milling(q.kind)) return milling(q, ap_mm, std::min(ae_mm, q.cutter.cutting_diameter_mm), n_rpm, fz);
   const mechanics::WorkMaterial work{q.material.kc11_n_mm2, q.material.mc};
-  const double margin = mechanics::kienzle_margin(q.material).factor();
+  const double margin = drilling_margin_of(q).factor();
   model::StepLoads out;
   out.force_margin = margin;
   if (q.kind == CutKind::kTap) {
@@ -132,7 +140,7 @@ std::optional<model::StepLoads> loads_of(const CutQuestion& q, double ap_mm, dou
   }
   mechanics::DrillingCut c;
   c.diameter_mm = q.cutter.cutting_diameter_mm;
-  c.feed_mm_per_rev = up * feed_mm_min / n_rpm;
+  c.feed_mm_per_rev = feed_mm_min / n_rpm;
   c.n_rpm = n_rpm;
   c.teeth = teeth_of(q);
   c.point_angle_rad = q.cutter.point_angle_rad > 0.0 ? q.cutter.point_angle_rad : pi;
@@ -144,8 +152,8 @@ std::optional<model::StepLoads> loads_of(const CutQuestion& q, double ap_mm, dou
   out.peak_force_n = l->thrust_n * margin;
   out.torque_nm = l->torque_nm * margin;
   out.power_w = l->power_w * margin;
-  out.chip_thickness_mm = l->chip_thickness_mm / up;
-  out.mrr_mm3_min = l->removal_mm3_min / up;
+  out.chip_thickness_mm = l->chip_thickness_mm;
+  out.mrr_mm3_min = l->removal_mm3_min;
   return out;
 }
 

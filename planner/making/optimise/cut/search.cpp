@@ -20,8 +20,10 @@ constexpr const char* kWidth = "radial_cutting_depth";
 constexpr double kSlowest = 0.25;
 /// A thin cut may advance faster for the same chip, by this factor at most. Default, unsourced.
 constexpr double kThinning = 3.0;
-/// Narrowest width that is tried, as a fraction of the widest. Default, unsourced.
-constexpr double kNarrowest = 0.1;
+/// Narrowest width that is tried, as a fraction of the widest. A rough path begins with a slot of the whole
+/// diameter, which the check lets be eight times the planned section (verify/sweep: CHK-WIDTH-LEFT); a
+/// narrower cut would mostly not be what its path does. Derived from that: more than an eighth.
+constexpr double kNarrowest = 0.13;
 
 double corner_of(const model::Cutter& c) {
   return c.cutter_class == model::CutterClass::kBallEndmill ? 0.5 * c.cutting_diameter_mm
@@ -36,7 +38,7 @@ Search::Search(const CutQuestion& q, double ap_mm) : q_(q), ap_(ap_mm) {
   if (is_milling(q.kind)) add_width();
 }
 
-double Search::speed_of(double n_rpm) const { return pi * q_.cutter.cutting_diameter_mm * n_rpm / 1000.0; }
+double Search::speed_of(double n_rpm) const { return pi * speed_diameter_mm(q_) * n_rpm / 1000.0; }
 
 void Search::add(const char* name, const char* unit, double lo, double hi) {
   const double low = std::min(lo, hi);

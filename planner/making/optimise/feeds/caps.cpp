@@ -34,7 +34,7 @@ OnMove on_move(const FeedQuestion& q, Book& book, std::size_t move, std::size_t&
       continue;
     }
     out.cuts = true;
-    const Bears b = bears(book, s, q.cut.cutter, n);
+    const Bears b = bears(book, s, q.cut, n);
     out.known = out.known && b.known;
     for (std::size_t k = 0; k < kLimits; ++k) {
       out.at_limit[k] = std::min(out.at_limit[k], b.at_limit[k]);
@@ -131,12 +131,12 @@ double rpm_on(const FeedQuestion& q, std::size_t move) {
   return std::abs(move < q.speed_factor.size() ? q.n_rpm * q.speed_factor[move] : q.n_rpm);
 }
 
-Bears bears(Book& book, const CutSample& sample, const model::Cutter& cutter, double n_rpm) {
+Bears bears(Book& book, const CutSample& sample, const CutQuestion& question, double n_rpm) {
   Bears out;
   out.feed_mm_min = kAnyFeed;
   out.at_limit.fill(kAnyFeed);
   out.at_more.fill(kAnyFeed);
-  const Cuts cuts = cuts_of(sample, cutter);
+  const Cuts cuts = cuts_of(sample, question);
   for (std::size_t c = 0; c < cuts.n; ++c) {
     const Page& page = book.page(cuts.cut[c], n_rpm);
     const double per_gain = 1.0 / cuts.cut[c].gain;

@@ -43,7 +43,7 @@ struct Bears {
   Column at_limit{}, at_more{};
   bool known = true;  ///< false: outside the formulas' range
 };
-[[nodiscard]] Bears bears(Book& book, const CutSample& sample, const model::Cutter& cutter, double n_rpm);
+[[nodiscard]] Bears bears(Book& book, const CutSample& sample, const CutQuestion& question, double n_rpm);
 
 /// The spindle's speed on a move.
 [[nodiscard]] double rpm_on(const FeedQuestion& q, std::size_t move);

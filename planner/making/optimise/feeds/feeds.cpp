@@ -8,6 +8,7 @@
 
 #include "planner/making/optimise/cut/limits.h"
 #include "planner/making/optimise/feeds/followed.h"
+#include "planner/physics/mechanics/constants.h"
 #include "planner/physics/mechanics/surface.h"
 
 namespace capstan::optimise {
@@ -37,7 +38,7 @@ double constant_feed(const FeedQuestion& q, const CutterPath& path, Book& book) 
     const CutSample& s = q.samples[k];
     if (s.plunge || !(s.ap_mm > 0.0) || s.move >= path.size() || ends_in(path.role[s.move])) continue;
     const double n = rpm_on(q, s.move);
-    const double on_grid = bears(book, s, q.cut.cutter, n).feed_mm_min;
+    const double on_grid = bears(book, s, q.cut, n).feed_mm_min;
     if (on_grid < best) order.emplace_back(on_grid, k);
   }
   std::sort(order.begin(), order.end());
@@ -45,7 +46,7 @@ double constant_feed(const FeedQuestion& q, const CutterPath& path, Book& book) 
     if (on_grid >= best) break;
     const CutSample& s = q.samples[k];
     const Judge& judge = book.judge(rpm_on(q, s.move));
-    const Cuts cuts = cuts_of(s, q.cut.cutter);
+    const Cuts cuts = cuts_of(s, q.cut);
     for (std::size_t c = 0; c < cuts.n; ++c) {
       const auto at_best = judge.at(cuts.cut[c], best);
       if (at_best && ratio(at_best->load, judge.limits()) <= 1.0) continue;
@@ -119,7 +120,7 @@ class Worst {
     for (const CutSample& s : q.samples) {
       if (s.move >= feeds.size() || s.move >= path.size() || !(feeds[s.move] > 0.0)) continue;
       bool here = s.plunge && page_ == nullptr && s.ap_mm > 0.0 && rpm_on(q, s.move) == plunge_rpm_;
-      const Cuts cuts = cuts_of(s, q.cut.cutter);
+      const Cuts cuts = cuts_of(s, q.cut);
       for (std::size_t c = 0; c < cuts.n && !s.plunge && page_ != nullptr; ++c) {
         const Page& page = book.page(cuts.cut[c], rpm_on(q, s.move));
         here = here || (&page == page_ && feeds[s.move] * cuts.cut[c].gain >= page.most_scheduled);
@@ -152,7 +153,7 @@ void measure_peaks(const FeedQuestion& q, const CutterPath& path, Book& book, Fe
       if (s.ap_mm > 0.0) most = std::max(most, feed);
       continue;
     }
-    const Cuts cuts = cuts_of(s, q.cut.cutter);
+    const Cuts cuts = cuts_of(s, q.cut);
     for (std::size_t c = 0; c < cuts.n && feed > 0.0; ++c) {
       Page& page = book.page(cuts.cut[c], rpm_on(q, s.move));
       page.most_scheduled = std::max(page.most_scheduled, feed * cuts.cut[c].gain);
@@ -206,6 +207,11 @@ void as_planned(const FeedQuestion& q, const CutterPath& path, const std::vector
 
 }  // namespace
 
+double least_feed_mm_min(const CutQuestion& q, double n_rpm) {
+  const bool hss = q.cutter.substrate == model::Substrate::kHss;
+  return mechanics::least_chip_mm(q.cutter.cutting_diameter_mm, hss) * teeth_of(q) * std::abs(n_rpm);
+}
+
 FeedAnswer feeds(const FeedQuestion& q, const CutterPath& path) {
   FeedAnswer a;
   Book book(q);
@@ -251,7 +257,7 @@ FeedAnswer feeds(const FeedQuestion& q, const CutterPath& path) {
 
 double largest_feed(const FeedQuestion& q, const CutSample& s) {
   const Judge judge(q, rpm_on(q, s.move));
-  const Cuts cuts = cuts_of(s, q.cut.cutter);
+  const Cuts cuts = cuts_of(s, q.cut);
   double best = judge.ceiling_mm_min();
   for (std::size_t c = 0; c < cuts.n; ++c) best = std::min(best, judge.largest(cuts.cut[c], best));
   return best;
@@ -259,7 +265,7 @@ double largest_feed(const FeedQuestion& q, const CutSample& s) {
 
 std::optional<double> excess_at(const FeedQuestion& q, const CutSample& s, double feed_mm_min) {
   const Judge judge(q, rpm_on(q, s.move));
-  const Cuts cuts = cuts_of(s, q.cut.cutter);
+  const Cuts cuts = cuts_of(s, q.cut);
   double worst = -1.0;
   for (std::size_t c = 0; c < cuts.n; ++c) {
     const auto state = judge.at(cuts.cut[c], feed_mm_min);

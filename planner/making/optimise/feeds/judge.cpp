@@ -63,10 +63,16 @@ Cut rectangle(double ap, double ae, const CutSample& s, double diameter) {
 
 }  // namespace
 
-Cuts cuts_of(const CutSample& sample, const model::Cutter& cutter) {
+Cuts cuts_of(const CutSample& sample, const CutQuestion& question) {
   Cuts out;
+  const model::Cutter& cutter = question.cutter;
   CutSample s = sample;
   const double diameter = cutter.cutting_diameter_mm;
+  if (s.end_mm2 > 0.0 && s.end_slope > 0.0 && s.ae_mm > 0.0) {
+    const double slot = s.end_mm2 * std::pow(std::min(s.end_slope, 1.0), -question.material.mc);
+    s.csa_mm2 += slot - s.end_mm2;
+    s.ap_mm += slot / s.ae_mm;
+  }
   const double ap = s.ap_mm;
   const double ae = s.ae_mm;
   if (!(ap > 0.0) || !(ae > 0.0) || !(diameter > 0.0) || !std::isfinite(ap * ae)) return out;
@@ -123,8 +129,7 @@ Judge::Judge(const FeedQuestion& question, double n_rpm)
       n_(std::abs(n_rpm)),
       tooth_(mechanics::tooth_of(question.cut.cutter)),
       law_(mechanics::force_law(question.cut.material, question.cut.cutter.substrate)) {
-  up_ = feed_override(q_);
-  margin_ = mechanics::force_margin(q_.material, q_.cutter.substrate).factor();
+  margin_ = margin_of(q_).factor();
   if (const auto c = mechanics::tip_compliance_mm_n(q_.cutter)) compliance_ = *c;
   if (q_.wall_error_limit_mm > 0.0) {
     if (auto beam = mechanics::beam_of(q_.cutter)) beam_ = *std::move(beam);
@@ -135,10 +140,13 @@ Judge::Judge(const FeedQuestion& question, double n_rpm)
   for (std::size_t i = 0; i < kLimits; ++i) limits_[i] = std::min(m[kOfCut[i]].limit, kNoLimit);
   const double chip = limits_[static_cast<std::size_t>(Limit::kChip)];
   const double nominal = question.feed_mm_min;
-  // Finishing goes faster than planned only where a surface that is asked for bounds it.
-  const bool faster = chip < kNoLimit && (q_.kind == CutKind::kRough || q_.surface_ra_um > 0.0);
+  // Finishing goes faster than planned only where a surface that is asked for bounds it, or where it was
+  // planned for one of the sections that were measured: the thinner ones bear more, by their chips.
+  const bool faster =
+      chip < kNoLimit && (q_.kind == CutKind::kRough || q_.surface_ra_um > 0.0 || q_.as_measured);
   ceiling_ = faster ? std::max(nominal, kMostThinning * chip * tooth_.teeth * n_) : nominal;
-  floor_ = kLeastFeedShare * nominal;
+  floor_ = std::max(kLeastFeedShare * nominal, least_feed_mm_min(q_, n_));
+  ceiling_ = std::max(ceiling_, floor_);
 }
 
 double Judge::slot_share(const Cut& cut) const {
@@ -184,15 +192,15 @@ std::optional<State> Judge::at(const Cut& cut, double feed) const {
                                    .arc = {cut.entry_rad, cut.exit_rad},
                                    .csa_mm2 = cut.csa_mm2,
                                    .band_mm = cut.band_mm};
-  const auto l = mechanics::section_loads(section, tooth_, law_, up_ * fz, n_);
+  const auto l = mechanics::section_loads(section, tooth_, law_, fz, n_);
   if (!l) return std::nullopt;
-  double chip = planned_chip_mm(section, tooth_, law_, up_ * fz, up_, n_, l->h_max_mm);
+  double chip = l->h_max_mm;
   if (cut.band_mm > 0.0) {
     // How the area lies in the strip is not known: the chip is that of the front, wherever the arc has it.
     const mechanics::Section strip{.ap_mm = section.ap_mm, .arc = section.arc};
-    const auto whole = mechanics::section_loads(strip, tooth_, law_, up_ * fz, n_);
+    const auto whole = mechanics::section_loads(strip, tooth_, law_, fz, n_);
     if (!whole) return std::nullopt;
-    chip = std::max(chip, planned_chip_mm(strip, tooth_, law_, up_ * fz, up_, n_, whole->h_max_mm));
+    chip = std::max(chip, whole->h_max_mm);
   }
   // The area of a section that is no rectangle may lie anywhere in its arc: a rib stands in front.
   chip =
@@ -201,16 +209,16 @@ std::optional<State> Judge::at(const Cut& cut, double feed) const {
   s.raw = *l;
   s.chip_mm = chip;
   const double force = l->peak_force_n * margin_;
-  // Chip and surface as planned, as in `cut`; what breaks something also with the override.
-  s.load = {force,
-            force * compliance_,
-            l->torque_nm * margin_,
-            l->power_w * margin_,
-            chip / slot_share(cut),
-            surface_um(fz),
+  const double area = cut.csa_mm2 > 0.0
+                          ? cut.csa_mm2
+                          : cut.ap_mm * width_of(cut.entry_rad, cut.exit_rad, tooth_.cutting_diameter_mm);
+  const double power =
+      std::max(l->power_w * margin_, power_by_card_w(q_, area * fz * tooth_.teeth * n_, l->h_mean_mm));
+  s.load = {force, force * compliance_,    std::max(l->torque_nm * margin_, 30.0 * power / (pi * n_)),
+            power, chip / slot_share(cut), surface_um(fz),
             0.0};
   if (!beam_.segments.empty()) {
-    const auto wall = wall_mm(section, up_ * fz);
+    const auto wall = wall_mm(section, fz);
     if (!wall) return std::nullopt;
     s.load[static_cast<std::size_t>(Limit::kWallError)] = *wall * margin_;
   }
@@ -223,17 +231,17 @@ std::optional<State> Judge::at(const Cut& cut, double feed) const {
 std::optional<State> Judge::plunging(double feed) const {
   mechanics::DrillingCut c;
   c.diameter_mm = q_.cutter.cutting_diameter_mm;
-  c.feed_mm_per_rev = up_ * feed / n_;
+  c.feed_mm_per_rev = feed / n_;
   c.n_rpm = n_;
   c.teeth = tooth_.teeth;
   c.point_angle_rad = pi;
   const auto l = mechanics::drilling_loads(c, law_.kienzle);
   if (!l) return std::nullopt;
-  const double margin = mechanics::kienzle_margin(q_.material).factor();
+  const double margin = drilling_margin_of(q_).factor();
   State s;
   s.load[static_cast<std::size_t>(Limit::kTorque)] = l->torque_nm * margin;
   s.load[static_cast<std::size_t>(Limit::kPower)] = l->power_w * margin;
-  s.load[static_cast<std::size_t>(Limit::kChip)] = s.chip_mm = l->chip_thickness_mm / up_;
+  s.load[static_cast<std::size_t>(Limit::kChip)] = s.chip_mm = l->chip_thickness_mm;
   return s;
 }
 

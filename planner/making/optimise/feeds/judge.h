@@ -36,13 +36,19 @@ struct Cut {
 /// One or two: a section that is no rectangle (a wall and a floor at once) counts as two of its area, as deep
 /// and as wide. Of a cutter with a corner radius or a ball it is one, as measured: at its rim there is no
 /// edge. Of a left-hand cutter angles are mirrored: in mechanics they count in the sense of rotation.
+///
+/// What the end cuts on a slope s (CutSample::end_mm2) is a term of its own: it is no width, for no cutter is
+/// wider than its diameter. Its chips are thinner than the flank's by the slope, so that they take s^-mc of
+/// its specific force; it is counted as the depth of a slot that takes the same power,
+///
+///     d ap = end s^-mc / ae                                derived: kc = kc1.1 (s fz)^-mc on the area `end`
 struct Cuts {
   std::array<Cut, 2> cut;
   std::size_t n = 0;
 };
-[[nodiscard]] Cuts cuts_of(const CutSample& sample, const model::Cutter& cutter);
+[[nodiscard]] Cuts cuts_of(const CutSample& sample, const CutQuestion& question);
 
-/// Loads of a cut, margins and override included, and the forces by axis.
+/// Loads of a cut, the margin included, and the forces by axis.
 struct State {
   Column load{};
   mechanics::SectionLoads raw;
@@ -74,7 +80,7 @@ class Judge {
   [[nodiscard]] std::optional<double> wall_mm(const mechanics::Section& section, double fz_mm) const;
 
   const CutQuestion& q_;
-  double n_ = 0.0, up_ = 1.0, margin_ = 1.0, compliance_ = 0.0;
+  double n_ = 0.0, margin_ = 1.0, compliance_ = 0.0;
   double ceiling_ = 0.0, floor_ = 0.0;
   mechanics::Tooth tooth_;
   mechanics::ForceLaw law_;

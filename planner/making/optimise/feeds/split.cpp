@@ -75,9 +75,8 @@ class Pieces {
       const CutSample& s = q_.samples[k];
       const double end = std::min(s.at_mm, length);
       const double begin = std::max(from, std::min(end, s.at_mm - s.step_mm));
-      const double feed = s.ap_mm > 0.0 && !s.plunge
-                              ? std::clamp(bears(book_, s, q_.cut.cutter, n).feed_mm_min, least, top)
-                              : top;
+      const double feed =
+          s.ap_mm > 0.0 && !s.plunge ? std::clamp(bears(book_, s, q_.cut, n).feed_mm_min, least, top) : top;
       if (begin > from + kRounding) add(out, begin, from, top);
       if (end > begin + kRounding) {
         add(out, end, std::max(begin, from), feed);

@@ -124,9 +124,10 @@ double StepChecks::chip_of(const Account& a) const {
   const double fz = a.length_mm / a.minutes / (a.rpm * std::max(1, cutter_.teeth));
   if (a.axial || !(a.depth_mm > 0.0))
     return fz * std::sin(0.5 * (cutter_.point_angle_rad > 0.0 ? cutter_.point_angle_rad : std::numbers::pi));
-  // The mean section and the depth give the width; width and feed give the chip (chord geometry).
+  // The mean section and the depth give the width; width and feed give the chip (chord geometry). In a corner
+  // the edge goes farther than the centre: the section is that along the edge's way, and so is the feed.
   const double width = std::clamp(a.volume_mm3 / a.edge_mm / a.depth_mm, 0.01 * d, d);
-  return 2.0 * fz * width / (d * std::acos(1.0 - 2.0 * width / d));
+  return 2.0 * fz * (a.edge_mm / a.length_mm) * width / (d * std::acos(1.0 - 2.0 * width / d));
 }
 
 /// Of a worn edge, N/mm2.
@@ -173,6 +174,16 @@ void StepChecks::axial_feed(double fz) {
 // A feed that no square cut would bear is right where the cut is thin: whether it is, cells may be too far
 // apart to show.
 void StepChecks::chips(const Move& m, const Bite& bite, double fz) {
+  const bool hss = cutter_.substrate == model::Substrate::kHss;
+  const double least = mechanics::least_chip_mm(cutter_.cutting_diameter_mm, hss) * (1.0 - kWritten);
+  const bool sideways = norm(xy(m.to) - xy(m.from)) > 0.0 || is_arc(m.kind);
+  if (!works_along_axis(cutter_) && sideways && bite.volume_mm3 > 0.0 && fz > 0.0 && fz < least) {
+    if (rubbed_mm_ == 0.0 || fz < rubbed_at_mm_) {
+      rubbed_at_mm_ = fz;
+      rubbed_ = at(m);
+    }
+    rubbed_mm_ += length_of(m);
+  }
   chip(m, bite.chip_mm, fz, bite.chip_at);
   const double most = feed_limit(cutter_).mm * (1.0 + kWritten);
   if (bite.chip_mm > most) looks_ = 0;  // the step has its finding: no closer look changes that
@@ -180,6 +191,20 @@ void StepChecks::chips(const Move& m, const Bite& bite, double fz) {
   if (std::min(m.from.z, m.to.z) >= grid_.top()) return;
   const Bite closer = past_.look(grid_, m, profile_, fz, looks_);
   chip(m, closer.chip_mm, fz, closer.chip_at);
+}
+
+// No tooth takes a thicker chip than its feed: below the thinnest one that cuts, all of it rubs. Moves too
+// short to come to speed do no harm.
+void StepChecks::rubbing() {
+  constexpr double kHarmlessMm = 1.0;  // default, unsourced
+  if (rubbed_mm_ <= kHarmlessMm) return;
+  const bool hss = cutter_.substrate == model::Substrate::kHss;
+  out_.warn(18, "CHK-RUB", rubbed_,
+            "over " + mm(rubbed_mm_) + " of way in material the feed is down to " + mm(rubbed_at_mm_) +
+                " per tooth, where an edge rubs; at least " +
+                mm(mechanics::least_chip_mm(cutter_.cutting_diameter_mm, hss)) +
+                ": feed faster, cut less deep, or use a stiffer cutter",
+            rubbed_at_mm_);
 }
 
 void StepChecks::chip(const Move& m, double thickest_mm, double fz, Vec2 where) {
@@ -204,8 +229,12 @@ void StepChecks::power(double volume, double minutes, double chip_mm) {
   const Findings::Where where{step_.order + 1, step_.id, sum_.where};
   const std::string how =
       ": " + plain(volume / minutes) + " mm3/min at kc = " + plain(kc) + " N/mm2, worn edge";
-  // Written feeds must hold; the operator's override is told apart. h^-mc makes force grow slower than feed.
-  const double up = std::pow(override_most(), 1.0 - w.mc);
+  // Written feeds must hold with a worn edge; the operator's override is told apart. h^-mc makes force grow
+  // slower than feed. A worn edge and a feed turned up know nothing of one another: over a sharp edge at the
+  // written feed their logarithms add as squares.
+  const double turned_up = (1.0 - w.mc) * std::log(override_most());
+  const double worn = std::log(mechanics::kWearForceFactor);
+  const double up = std::exp(std::hypot(worn, turned_up) - worn);
   const auto judge = [&](const char* code, const char* unit, double asked, double gives) {
     if (!(gives > 0.0)) return;
     const double most = gives * efficiency;

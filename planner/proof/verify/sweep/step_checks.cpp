@@ -134,6 +134,7 @@ void StepChecks::run() {
     }
   }
   settle();
+  rubbing();
 }
 
 void StepChecks::rapid(const Move& m) {

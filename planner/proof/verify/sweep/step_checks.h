@@ -43,6 +43,7 @@ class StepChecks {
   [[nodiscard]] double feed_per_tooth(const Move& m) const;
   void chips(const Move& m, const Bite& bite, double fz);
   void chip(const Move& m, double thickest_mm, double fz, geometry::Vec2 where);
+  void rubbing();
   void axial_feed(double fz);
   void deflection(double torque_nm);
   struct Account;
@@ -69,6 +70,9 @@ class StepChecks {
   std::shared_ptr<const geometry::CutterProfile> kept_profile_;
   int looks_ = 8;  ///< closer looks at chips that are left for this step; default, unsourced
   bool judge_gouge_ = true;
+  double rubbed_mm_ = 0.0;     ///< way in material at feeds below the thinnest chip
+  double rubbed_at_mm_ = 0.0;  ///< the lowest feed per tooth there
+  Findings::Where rubbed_ = {};
   double helix_turned_ = 0.0;  ///< rad, of a descending spiral so far
   double cut_mm3_ = 0.0;       ///< by the step so far
   bool met_ = false;           ///< a head that heights do not follow was in material

@@ -130,7 +130,7 @@ void expect_kept(const CutQuestion& q, const CutAnswer& a, int number) {
                                  .arc = mechanics::immersion_arc(a.ae_mm, c.cutting_diameter_mm, side)};
       const bool round = tooth.corner_radius_mm > 0.0;
       if (round) section = mechanics::side_section(a.ap_mm, a.ae_mm, tooth, side);
-      const auto l = mechanics::section_loads(section, tooth, law, up * fz, a.n_rpm);
+      const auto l = mechanics::section_loads(section, tooth, law, fz, a.n_rpm);
       ASSERT_TRUE(l);
       const auto planned_loads = mechanics::section_loads(section, tooth, law, fz, a.n_rpm);
       ASSERT_TRUE(planned_loads);
@@ -141,10 +141,10 @@ void expect_kept(const CutQuestion& q, const CutAnswer& a, int number) {
     const double width = std::min(
         a.ae_mm, mechanics::effective_diameter_mm(a.ap_mm, c.cutting_diameter_mm, tooth.corner_radius_mm));
     const double law_n_mm2 =
-        law.mechanistic ? law.mechanistic->ktc_n_mm2 : mechanics::specific_force_n_mm2(law.kienzle, up * fz);
+        law.mechanistic ? law.mechanistic->ktc_n_mm2 : mechanics::specific_force_n_mm2(law.kienzle, fz);
     EXPECT_GE(torque * 2.0 * pi * a.n_rpm / 60.0,
-              0.99 * mechanics::cutting_power_w(a.ap_mm * width * up * a.feed_mm_min, law_n_mm2));
-    const double margin = mechanics::force_margin(q.material, c.substrate).factor();
+              0.99 * mechanics::cutting_power_w(a.ap_mm * width * a.feed_mm_min, law_n_mm2));
+    const double margin = mechanics::force_margin(q.material, c.substrate, {.feed_up = up}).factor();
     torque *= margin;
     force *= margin;
     const double planned = c.fz_max_mm > 0.0 ? std::min(q.fz_start_mm, c.fz_max_mm / up) : q.fz_start_mm;
@@ -163,14 +163,15 @@ void expect_kept(const CutQuestion& q, const CutAnswer& a, int number) {
     }
   } else {
     const auto l = mechanics::drilling_loads({.diameter_mm = c.cutting_diameter_mm,
-                                              .feed_mm_per_rev = up * a.feed_mm_min / a.n_rpm,
+                                              .feed_mm_per_rev = a.feed_mm_min / a.n_rpm,
                                               .n_rpm = a.n_rpm,
                                               .teeth = c.teeth,
                                               .point_angle_rad = c.point_angle_rad},
                                              {q.material.kc11_n_mm2, q.material.mc});
     ASSERT_TRUE(l);
-    const double margin = std::max(mechanics::kForceUncertaintyFactor, 1.0 + q.material.kc_uncertainty) *
-                          mechanics::kWearForceFactor;
+    const double spread = std::max(mechanics::kForceUncertaintyFactor, 1.0 + q.material.kc_uncertainty);
+    const double margin = std::exp(std::hypot(std::log(spread), std::log(mechanics::kWearForceFactor),
+                                              (1.0 - q.material.mc) * std::log(up)));
     torque = l->torque_nm * margin;
     force = l->thrust_n * margin;
   }
