@@ -18,7 +18,7 @@
 namespace capstan::pipeline {
 namespace {
 
-/// Around the raw piece; a cutter half as wide is limited by nothing. Default, unsourced.
+/// Around the raw piece: what is as wide is no passage. Default, unsourced.
 constexpr double kAroundMm = 60.0;
 constexpr double kAboveMm = 0.01;  ///< a floor is not higher than itself
 constexpr std::size_t kMostNamed = 4;
@@ -45,7 +45,7 @@ double passage_between(const geometry::Mesh& mesh, const SurfaceForm& form, cons
     const geometry::Region solid = geometry::higher_than(mesh, inside_out, z + kAboveMm);
     if (solid.empty()) continue;
     const double here = rules::passage_of(geometry::subtract(around, solid), false).narrowest_mm;
-    if (here > 0.0 && here < 0.5 * kAroundMm) out = out > 0.0 ? std::min(out, here) : here;
+    if (here > 0.0 && here < kAroundMm - kAboveMm) out = out > 0.0 ? std::min(out, here) : here;
   }
   return out;
 }

@@ -193,8 +193,11 @@ bool same_given(const model::Cutter& a, const model::Cutter& b) {
 bool same_chosen(const model::Cutter& a, const model::Cutter& b) {
   constexpr double kSame = 1e-6;  // mm, rad: what units round
   const auto near = [](double x, double y) { return std::abs(x - y) <= kSame; };
+  const auto agree = [&](double x, double y) { return x == 0.0 || y == 0.0 || near(x, y); };
   return a.cutter_class == b.cutter_class && a.teeth == b.teeth && a.hand == b.hand &&
-         near(a.cutting_diameter_mm, b.cutting_diameter_mm) && near(a.corner_radius_mm, b.corner_radius_mm);
+         near(a.cutting_diameter_mm, b.cutting_diameter_mm) && near(a.corner_radius_mm, b.corner_radius_mm) &&
+         agree(a.thread_pitch_mm, b.thread_pitch_mm) && agree(a.point_angle_rad, b.point_angle_rad) &&
+         agree(a.taper_angle_rad, b.taper_angle_rad);
 }
 
 /// Files name tools as they like, or not at all: different ones of one name get a name each. Which one keeps
@@ -221,7 +224,8 @@ void tell_apart(Work& w, const std::vector<StepWork*>& given) {
   const auto size = [](const StepWork* s) {
     const model::Cutter& c = s->cutter;
     return std::tuple(c.cutting_diameter_mm, c.functional_length_mm, c.maximum_depth_of_cut_mm,
-                      c.corner_radius_mm, c.point_angle_rad, c.teeth, c.cutter_class);
+                      c.corner_radius_mm, c.point_angle_rad, c.thread_pitch_mm, c.taper_angle_rad, c.teeth,
+                      c.cutter_class);
   };
   std::stable_sort(sorted.begin(), sorted.end(),
                    [&](const StepWork* a, const StepWork* b) { return size(a) < size(b); });

@@ -109,6 +109,7 @@ void tell_twins(Work& w) {
   for (std::size_t i = 0; i < all.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
       if (!twins(all[k], all[i])) continue;
+      w.of_twins.insert({all[k].feature, all[i].feature});
       w.job.warn("PIP-TWICE", "features '" + all[k].name + "' and '" + all[i].name +
                                   "' are the same at the same place, " + where(all[i]) +
                                   ": it is made once; if one of them belongs elsewhere, mend its placement, "

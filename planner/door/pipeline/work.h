@@ -84,6 +84,7 @@ struct Work {
   std::vector<std::pair<Ref<model::Setup>, model::Workholding>> held =
       {};                                        ///< as the plan said when it was read
   std::vector<model::FeatureShape> shapes = {};  ///< of all features, workpiece coordinates
+  std::set<model::AnyRef> of_twins = {};         ///< features that stand at one place twice (PIP-TWICE)
   std::vector<model::FeatureShape> whole_shapes =
       {};  ///< of these each once: elements and bosses count with what holds them
   std::map<AnyRef, std::string> unreadable = {};  ///< features and steps whose file states something wrongly

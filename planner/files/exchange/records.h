@@ -69,7 +69,7 @@ using SayOfRecord = std::function<void(Severity, std::string code, std::string m
 bool restore_record(std::string_view kind, std::string_view label, RecordFields& fields, model::Plan& plan,
                     bool sealed, const SayOfRecord& say);
 
-/// When all records are read: values that were edited since (model/edited.h) count as given, with the note
+/// When all records are read: values that were edited since (model/plan/edited.h) count as given, with the note
 /// EXC-EDITED.
 void settle_edits(model::Plan& plan, Reporter& reporter);
 /// When all is read: the steps come as the workplan has them; where the records have them otherwise, warns

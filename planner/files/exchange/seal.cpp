@@ -143,8 +143,9 @@ SealState seal_of(const p21::File& file, Reporter& reporter) {
   state.holds = state.paths_hold = edited.empty();
   if (state.holds) return state;
   reporter.report(model::parts_edited(std::string(model::kEditedCode), edited));
-  // Of one that is gone nothing is stated.
+  // Of one that is gone nothing is stated; what it held for the paths (what holds the piece) is missing.
   std::size_t lists = 0;
+  bool gone = false;
   for (const std::string& part : edited) {
     const auto is = [&](const auto& l) {
       return part == l.first || part.starts_with(std::string(l.first) + " (");
@@ -152,9 +153,10 @@ SealState seal_of(const p21::File& file, Reporter& reporter) {
     const auto it = std::find_if(std::begin(kListed), std::end(kListed), is);
     if (it == std::end(kListed)) continue;
     ++lists;
+    gone = gone || part.ends_with(" (gone)");
     if (part == it->first || part.ends_with(" (new)")) state.edited.insert(it->second);
   }
-  state.paths_hold = lists == edited.size();
+  state.paths_hold = !gone && lists == edited.size();
   return state;
 }
 

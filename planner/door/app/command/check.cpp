@@ -151,8 +151,6 @@ class Check {
       if (!plan) return plan.error();
       if (s_.options.schema) schema_ += s_.job.diagnostics().size() - before;
       const bool values_edited = take_edits(before, in.path);
-      model::named_by_caller(*plan, s_.options.inputs.material.has_value(),
-                             !s_.options.inputs.stock_text.empty());
       ++checked_;
       // What was computed before somebody edited a value says nothing of the plan as it is now.
       if (!has_paths(*plan) || values_edited) {

@@ -55,9 +55,10 @@ Ref<model::Executable> made_by(const Work& w, const StepWork& step) {
   return out;
 }
 
-/// Whether another feature's step is kept already in which each of these shapes is drawn a second time, and
-/// none of this feature's own: the one that came first is made, the other is it.
+/// Whether another feature's step of the same operation is kept already in which each of these shapes is
+/// drawn a second time, and none of this feature's own: the one that came first is made, the other is it.
 bool twin_made(const Work& w, const StepWork& step) {
+  if (!w.of_twins.contains(step.feature)) return false;
   const auto kept = [&](const StepWork& s) {
     return std::any_of(w.plan.steps.begin(), w.plan.steps.end(),
                        [&](const model::StepResult& r) { return r.step == s.step; });
@@ -66,6 +67,7 @@ bool twin_made(const Work& w, const StepWork& step) {
   for (const StepWork& s : w.steps) {
     if (s.step == step.step || !kept(s)) continue;
     if (s.feature == step.feature) return false;
+    if (s.operation.type != step.operation.type) continue;
     found = found || std::all_of(step.shapes.begin(), step.shapes.end(), [&](const model::FeatureShape& b) {
               return std::any_of(s.shapes.begin(), s.shapes.end(),
                                  [&](const model::FeatureShape& a) { return same_removal(w, a, b); });

@@ -7,7 +7,7 @@
 
 // Values that a plan's file states, against what they can be at all. A plan may come back from somebody's
 // editor: a specific force below zero, or an efficiency of nothing, makes every limit that is computed with
-// it hold. The ranges are those that readers of data files ask (model/ranges.h).
+// it hold. The ranges are those that readers of data files ask (model/plan/ranges.h).
 
 namespace capstan::verify {
 namespace {
