@@ -100,6 +100,7 @@ SurfaceForm surface_form(const geometry::Mesh& mesh, const geometry::Box3& raw) 
   SurfaceForm out;
   const geometry::MeshForm form = geometry::form_of(mesh);
   if (form.kind != geometry::MeshForm::Kind::kSolid) return out;
+  out.inside_out = form.inside_out;
   const auto on_side = [&](const std::array<Vec3, 3>& t) {
     const auto all = [&](auto coordinate, double at) {
       return std::all_of(t.begin(), t.end(), [&](Vec3 v) { return std::abs(coordinate(v) - at) < kSameMm; });

@@ -37,12 +37,11 @@ double sharp_corner_of(const SurfaceForm& form) {
 double passage_between(const geometry::Mesh& mesh, const SurfaceForm& form, const geometry::Box3& raw) {
   const geometry::Region around =
       geometry::offset_sharp(geometry::rectangle(geometry::xy(raw.lo), geometry::xy(raw.hi)), kAroundMm);
-  const bool inside_out = geometry::form_of(mesh).inside_out;
   std::vector<double> heights = form.floors_mm;
   heights.push_back(std::min(raw.lo.z, geometry::bounds(mesh).lo.z));
   double out = 0.0;
   for (const double z : heights) {
-    const geometry::Region solid = geometry::higher_than(mesh, inside_out, z + kAboveMm);
+    const geometry::Region solid = geometry::higher_than(mesh, form.inside_out, z + kAboveMm);
     if (solid.empty()) continue;
     const double here = rules::passage_of(geometry::subtract(around, solid), false).narrowest_mm;
     if (here > 0.0 && here < kAroundMm - kAboveMm) out = out > 0.0 ? std::min(out, here) : here;

@@ -66,6 +66,7 @@ struct SurfaceForm {
   std::vector<double> floors_mm;            ///< heights of level parts, from above
   double corner_mm = 0.0;                   ///< least radius of the walls' inside corners; 0: none, or sharp
   std::vector<geometry::MeshCorner> sharp;  ///< inside corners that no mill makes
+  bool inside_out = false;                  ///< as geometry::form_of says
 };
 /// The radius that may stay in the sharp ones, mm; 0: there is none.
 [[nodiscard]] double sharp_corner_of(const SurfaceForm& form);

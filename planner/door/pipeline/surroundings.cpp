@@ -320,10 +320,14 @@ Status take_requirements(Work& w) {
   }
   w.shapes = std::move(all);
   const std::set<AnyRef> parts = model::parts_of_others(m);
-  std::copy_if(w.shapes.begin(), w.shapes.end(), std::back_inserter(w.whole_shapes),
-               [&](const FeatureShape& s) { return !parts.contains(s.feature); });
+  const auto take_whole = [&] {
+    w.whole_shapes.clear();
+    std::copy_if(w.shapes.begin(), w.shapes.end(), std::back_inserter(w.whole_shapes),
+                 [&](const FeatureShape& s) { return !parts.contains(s.feature); });
+  };
+  take_whole();  // what a face stops at is asked of these
   for (FeatureShape& s : w.shapes) stop_at_walls(w, s);
-  for (FeatureShape& s : w.whole_shapes) stop_at_walls(w, s);
+  take_whole();
   w.ties = model::ties_of(m, attribution);
   std::string lost;
   for (const auto& l : attribution.lost()) lost += (lost.empty() ? "" : "; ") + l.text;

@@ -2,6 +2,7 @@
 
 #include <map>
 
+#include "planner/files/exchange/exact_paths.h"
 #include "planner/files/exchange/record_loads.h"
 #include "planner/files/exchange/record_machine.h"
 #include "planner/files/exchange/record_material.h"
@@ -560,7 +561,10 @@ void settle_edits(model::Plan& plan, Reporter& reporter) {
   }
 }
 
-void settle_order(model::Plan& plan, Reporter& reporter) {
+void settle_written(const p21::File& file, const SealState& seal, std::string_view called, model::Plan& plan,
+                    Reporter& reporter) {
+  if (seal.paths_hold) restore_paths(file, plan, reporter);
+  model::refuse_edited(plan, seal.edited, called);
   if (const std::string how = model::follow_workplan(plan); !how.empty())
     reporter.report(model::steps_disagree(how));
 }

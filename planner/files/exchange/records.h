@@ -6,6 +6,8 @@
 #include <string_view>
 
 #include "planner/files/exchange/report.h"
+#include "planner/files/exchange/seal.h"
+#include "planner/files/p21/file.h"
 #include "planner/ground/base/result.h"
 #include "planner/model/plan/plan.h"
 
@@ -69,11 +71,13 @@ using SayOfRecord = std::function<void(Severity, std::string code, std::string m
 bool restore_record(std::string_view kind, std::string_view label, RecordFields& fields, model::Plan& plan,
                     bool sealed, const SayOfRecord& say);
 
-/// When all records are read: values that were edited since (model/plan/edited.h) count as given, with the note
-/// EXC-EDITED.
+/// When all records are read: values that were edited since (model/plan/edited.h) count as given, with the
+/// note EXC-EDITED.
 void settle_edits(model::Plan& plan, Reporter& reporter);
-/// When all is read: the steps come as the workplan has them; where the records have them otherwise, warns
+/// When all is read: exact paths where their seal holds; lists that were edited in what is `called` so are a
+/// contradiction; the steps come as the workplan has them, and where the records have them otherwise, warns
 /// EXC-ORDER, once.
-void settle_order(model::Plan& plan, Reporter& reporter);
+void settle_written(const p21::File& file, const SealState& seal, std::string_view called, model::Plan& plan,
+                    Reporter& reporter);
 
 }  // namespace capstan::exchange

@@ -171,21 +171,21 @@ Result<model::Plan> read_json(std::string bytes, std::string file_name, Job& job
   };
   if (bytes.size() > cap)
     return refuse("JSON-SIZE", "the file is larger than " + std::to_string(cap) + " bytes");
-  if (json::deepest(bytes) > json::kDeepest) {
-    return refuse("JSON-DEPTH", "the file nests deeper than " + std::to_string(json::kDeepest) + " levels");
+  if (deepest(bytes) > kDeepest) {
+    return refuse("JSON-DEPTH", "the file nests deeper than " + std::to_string(kDeepest) + " levels");
   }
-  json::Tree tree;
+  Tree tree;
   try {
-    tree = json::Tree::parse(bytes);
-  } catch (const json::Tree::parse_error& e) {
-    return refuse("JSON-SYNTAX", "the file is not JSON", json::line_of(bytes, e.byte));
-  } catch (const json::Tree::out_of_range& e) {
+    tree = Tree::parse(bytes);
+  } catch (const Tree::parse_error& e) {
+    return refuse("JSON-SYNTAX", "the file is not JSON", line_of(bytes, e.byte));
+  } catch (const Tree::out_of_range& e) {
     // The library ends such a message with the number as it stands: "... parsing '1e999'".
     const std::string said = e.what();
     const std::size_t to = said.rfind('\''), from = to == 0 ? to : said.rfind('\'', to - 1);
     const std::string number = to == std::string::npos ? "" : said.substr(from + 1, to - from - 1);
-    return refuse("JSON-SYNTAX", no_number(number), json::line_of(bytes, bytes.find(number)));
-  } catch (const json::Tree::exception&) {
+    return refuse("JSON-SYNTAX", no_number(number), line_of(bytes, bytes.find(number)));
+  } catch (const Tree::exception&) {
     return refuse("JSON-SYNTAX", "the file is not JSON");
   }
   const auto version = tree.is_object() ? tree.find("capstan_plan") : tree.end();
@@ -195,22 +195,22 @@ Result<model::Plan> read_json(std::string bytes, std::string file_name, Job& job
     return refuse("JSON-VERSION", "the plan is of another version than " + std::to_string(kPlanJsonVersion));
   }
   try {
-    json::Reader reader;
+    Reader reader;
     model::Plan plan = reader.run(tree);
     for (const model::Edited& e : model::take_edits(plan.model, plan.ledger)) {
       job.report({.code = std::string(model::kEditedCode),
                   .severity = Severity::kNote,
-                  .message = e.key.attribute + " of " + json::object_id(e.key.object) + " " + text_of(e),
+                  .message = e.key.attribute + " of " + object_id(e.key.object) + " " + text_of(e),
                   .file = file_name});
     }
     if (!reader.edited().empty()) {
       job.report(model::parts_edited(std::string(model::kEditedJsonCode), reader.edited(), file_name));
-      model::refuse_edited(plan, json::listed_among(reader.edited()), "the plan's JSON");
+      model::refuse_edited(plan, listed_among(reader.edited()), "the plan's JSON");
     }
     if (const std::string how = model::follow_workplan(plan); !how.empty())
       job.report(model::steps_disagree(how, file_name));
     return plan;
-  } catch (const json::Fault& f) {
+  } catch (const Fault& f) {
     Diagnostic d{
         .code = "JSON-VALUE", .message = "the plan's JSON is not as its schema says", .file = file_name};
     d.path = f.place;

@@ -423,6 +423,6 @@ class SchemaWriter {
 
 }  // namespace
 
-std::string json_schema() { return json::SchemaWriter().run(); }
+std::string json_schema() { return SchemaWriter().run(); }
 
 }  // namespace capstan::json

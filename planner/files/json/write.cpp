@@ -370,6 +370,6 @@ class Writer {
 
 }  // namespace
 
-std::string write_json(const model::Plan& plan) { return json::Writer(plan).run(); }
+std::string write_json(const model::Plan& plan) { return Writer(plan).run(); }
 
 }  // namespace capstan::json

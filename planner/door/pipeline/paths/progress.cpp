@@ -51,8 +51,8 @@ void stop_at_walls(const Work& w, model::FeatureShape& s) {
   constexpr double kThinMm = 0.1;
   constexpr double kSame = 1e-6;
   if (s.kind != ShapeKind::kFace || s.area.empty() || w.shapes.empty() || w.plan.target_mesh) return;
-  if (transformed(part_box(w), inverse(s.frame)).hi.z <= -s.depth_mm + kSame) return;
   const geometry::Box3 part = transformed(part_box(w), inverse(s.frame));
+  if (part.hi.z <= -s.depth_mm + kSame) return;
   const geometry::Region beside = stays_beside(w, s);
   bool walled = false;
   for (const geometry::Region& piece : geometry::pieces(beside)) {

@@ -4,7 +4,6 @@
 #include "planner/files/exchange/ap238/reader.h"
 #include "planner/files/exchange/ap238/records.h"
 #include "planner/files/exchange/ap238/via.h"
-#include "planner/files/exchange/exact_paths.h"
 #include "planner/files/exchange/exchange.h"
 #include "planner/files/exchange/opening.h"
 #include "planner/files/exchange/records.h"
@@ -54,9 +53,7 @@ Result<model::Plan> read_ap238(const p21::File& file, Job& job, bool strict) {
     open_what_is_left_out(plan, reached, reporter);
     const SealState seal = seal_of(file, reporter);
     records.restore(seal.holds);
-    if (seal.paths_hold) restore_paths(file, plan, reporter);
-    model::refuse_edited(plan, seal.edited, "the file's records");
-    settle_order(plan, reporter);
+    settle_written(file, seal, "the file's records", plan, reporter);
   }
   reporter.finish();
   if (reporter.errors() != 0) {

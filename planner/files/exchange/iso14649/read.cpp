@@ -1,6 +1,5 @@
 #include <algorithm>
 
-#include "planner/files/exchange/exact_paths.h"
 #include "planner/files/exchange/exchange.h"
 #include "planner/files/exchange/iso14649/deviations.h"
 #include "planner/files/exchange/iso14649/reading.h"
@@ -91,9 +90,7 @@ Result<model::Plan> read_iso14649(const p21::File& file, Job& job, bool strict) 
     if (!reading.sealed) find_deviations(reading);  // what is odd in a plan, its ledger says
     open_what_is_left_out(plan, reached, reporter);
     read_records(reading);
-    if (seal.paths_hold) restore_paths(file, plan, reporter);
-    model::refuse_edited(plan, seal.edited, "the file's header");
-    settle_order(plan, reporter);
+    settle_written(file, seal, "the file's header", plan, reporter);
   }
   reporter.finish();
   if (reporter.errors() != 0) {

@@ -11,18 +11,13 @@ namespace capstan::verify {
 
 using geometry::Vec3;
 
-void Target::below_mesh(const Asked& a, Findings& out) const {
+void Target::below_mesh(const geometry::Mesh& mesh, const Asked& a, Findings& out) const {
   constexpr double kLevel = 0.02;        // of a unit normal: as good as upright; default, unsourced
   constexpr double kUndersideMm = 0.01;  // default, unsourced
   constexpr double kLeastMm2 = 0.1;      // less is dirt of the mesh; default, unsourced
-  const geometry::Mesh& mesh = *plan_.target_mesh;
   if (sheet_ || mesh.triangles.empty()) return;
-  std::vector<Vec3> at;
-  geometry::Box3 box;
-  for (const Vec3& v : mesh.vertices) {
-    at.push_back(frame_.to_parent(v));
-    box.add(at.back());
-  }
+  const std::vector<Vec3>& at = mesh.vertices;
+  const geometry::Box3 box = geometry::bounds(mesh);
   double area = 0.0, widest = 0.0;
   Vec3 where;
   for (const auto& t : mesh.triangles) {

@@ -317,20 +317,17 @@ void Target::left_of(const Cavity& c, const Grid& grid, const Asked& a, const st
             worst);
 }
 
-std::vector<geometry::MeshCorner> Target::corners_of_mesh() const {
-  if (sheet_) return {};
-  geometry::Mesh placed = *plan_.target_mesh;
-  for (geometry::Vec3& v : placed.vertices) v = frame_.to_parent(v);
-  return geometry::sharp_corners(placed, inside_out_);
-}
-
 void Target::left_on_mesh(const Grid& grid, const Asked& a, Findings& out) const {
   const PartShapes::Entry* e = part_.find(a.feature);
   if (e == nullptr || e->shapes.empty() || e->shapes.front().kind != ShapeKind::kFreeform) return;
-  below_mesh(a, out);
+  geometry::Mesh in_setup = *plan_.target_mesh;
+  for (geometry::Vec3& v : in_setup.vertices) v = frame_.to_parent(v);
+  below_mesh(in_setup, a, out);
   const double limit = allowed() + a.bottom_mm + a.ridges_mm;
   const double slack = 0.71 * grid.cell();  // a column may stand anywhere in its cell
-  const std::vector<geometry::MeshCorner> corners = corners_of_mesh();
+  // Inside corners of a solid's walls that no mill makes.
+  const std::vector<geometry::MeshCorner> corners =
+      sheet_ ? std::vector<geometry::MeshCorner>{} : geometry::sharp_corners(in_setup, inside_out_);
   const auto in_corner = [&](Vec2 p, double z) {
     return std::any_of(corners.begin(), corners.end(), [&](const geometry::MeshCorner& c) {
       const double may_stay = model::unstated_corner_mm(c.high - c.low);

@@ -112,11 +112,9 @@ class Target : public GougeJudge {
   [[nodiscard]] bool opens_below(const model::FeatureShape& s, const std::vector<Asked>& asked,
                                  geometry::Vec2 p, double z) const;
   void left_on_mesh(const Grid& grid, const Asked& a, Findings& out) const;
-  /// Of a solid mesh, in the set-up: the inside corners of its walls that no mill makes.
-  [[nodiscard]] std::vector<geometry::MeshCorner> corners_of_mesh() const;
   /// Warns of surfaces of the mesh that face down above its underside, and of the raw piece under
   /// that.
-  void below_mesh(const Asked& a, Findings& out) const;
+  void below_mesh(const geometry::Mesh& in_setup, const Asked& a, Findings& out) const;
   void add_broken_edges();
   [[nodiscard]] double floor_of(const Cavity& c, geometry::Vec2 p) const;
   [[nodiscard]] double height(geometry::Vec2 p) const;
