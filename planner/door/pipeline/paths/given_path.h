@@ -37,8 +37,4 @@ struct GivenPath {
   return q.kind == optimise::CutKind::kRough || q.kind == optimise::CutKind::kFinish;
 }
 
-/// Whether a given path of a tap is not cut: it is moves at feed, which break the tap without a compensation
-/// chuck, so that the thread is planned as a synchronised cycle. Says so.
-[[nodiscard]] bool rigid_tap(Work& w, const StepWork& step);
-
 }  // namespace capstan::pipeline
