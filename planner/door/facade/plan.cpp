@@ -59,10 +59,9 @@ Result<pipeline::Inputs> inputs_of(const PlanOptions& o, Job& job) {
       {{"time", Objective::kTime}, {"cost", Objective::kCost}, {"profit", Objective::kProfit}}, o.objective,
       "objective", in.objective);
   if (!ok) return tl::unexpected(ok.error());
-  ok = pick<mechanics::MarginPolicy>({{"careful", mechanics::kMarginPolicies[0]},
-                                      {"usual", mechanics::kMarginPolicies[1]},
-                                      {"bold", mechanics::kMarginPolicies[2]}},
-                                     o.margin, "margin", in.margin);
+  std::map<std::string, std::optional<mechanics::MarginPolicy>> margins;
+  for (const auto& policy : mechanics::kMarginPolicies) margins.emplace(policy.name, policy);
+  ok = pick<std::optional<mechanics::MarginPolicy>>(margins, o.margin, "margin", in.margin);
   if (!ok) return tl::unexpected(ok.error());
   auto feeds = pick<bool>({{"scheduled", false}, {"constant", true}}, o.feeds, "feeds", in.constant_feeds);
   if (!feeds) return tl::unexpected(feeds.error());

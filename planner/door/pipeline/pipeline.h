@@ -45,7 +45,8 @@ struct Inputs {
   optimise::Solver solver = optimise::Solver::kNlopt;
   optimise::Backends backends;
   Objective objective = Objective::kTime;
-  mechanics::MarginPolicy margin = mechanics::kUsualMargin;  ///< of loads against their limits
+  /// Of loads against their limits; none: that of the plan that is planned again, or the usual one.
+  std::optional<mechanics::MarginPolicy> margin;
   /// Objective::kProfit: what a piece brings less its material, in the currency of Machine::cost_per_hour.
   std::optional<double> revenue;
   bool constant_feeds = false;    ///< one feed for all of a step's path: the largest that every section bears

@@ -164,7 +164,7 @@ optimise::CutQuestion hole_question(const Work& w, const model::ProposedStep& st
   q.cutter = c.cutter;
   q.material = w.plan.material;
   q.machine = w.plan.machine;
-  q.margin_deviations = w.inputs.margin.deviations;
+  q.margin_deviations = w.margin.deviations;
   q.kind = model::is_a(step.operation, TypeId::kTapping)   ? CutKind::kTap
            : model::is_a(step.operation, TypeId::kReaming) ? CutKind::kReam
                                                            : CutKind::kDrill;
@@ -184,7 +184,7 @@ optimise::CutQuestion question_of(const Work& w, const StepWork& step, const mod
   q.cutter = step.cutter;
   q.material = w.plan.material;
   q.machine = w.plan.machine;
-  q.margin_deviations = w.inputs.margin.deviations;
+  q.margin_deviations = w.margin.deviations;
   q.kind = kind_of(m, step.operation, step.cutter);
   q.aim = w.inputs.objective == Objective::kTime   ? optimise::Aim::kTime
           : w.inputs.objective == Objective::kCost ? optimise::Aim::kCost

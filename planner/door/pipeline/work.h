@@ -78,6 +78,7 @@ struct Work {
       faces;  ///< planar faces of the part: cut first, so that less stands above the rest
   std::vector<std::string> used_cutters;  ///< ids, each once: a further tool change is not asked for lightly
   std::vector<model::Cutter> recorded;    ///< what the plan said of its cutters when it was read
+  mechanics::MarginPolicy margin = mechanics::kUsualMargin;  ///< of loads against their limits
   std::optional<model::GeneralTolerance> general = {};  ///< of what states none: the user's, else the file's
   std::map<AnyRef, model::Quality> qualities = {};      ///< by feature
   std::vector<model::Tie> ties = {};                    ///< features that a tolerance ties together

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "planner/door/pipeline/work.h"
+#include "planner/ground/base/nearest_names.h"
 #include "planner/ground/base/number.h"
 #include "planner/ground/geometry/mesh_form.h"
 #include "planner/model/features/in_piece.h"
@@ -134,6 +135,7 @@ Box3 box_of_features(const Work& w) {
   return out;
 }
 
+constexpr const char* kMargin = "margin";   // by this name in Plan::provenance
 constexpr double kLargestPiece = 20'000.0;  // mm: more is a mistake of units
 
 std::string words(const Box3& b) {
@@ -227,6 +229,31 @@ Status sheet_covers_raw_piece(const Work& w) {
        .hint = "extend the surface, close it to a solid, or give a smaller raw piece with --stock box:"});
 }
 
+/// The margin that a plan was made with holds when it is planned again, unless another is asked for. What
+/// else it was made with is said anew.
+Status resolve_margin(Work& w) {
+  const auto before = std::find_if(w.plan.provenance.begin(), w.plan.provenance.end(),
+                                   [](const model::Provenance& p) { return p.what == kMargin; });
+  model::Provenance said{kMargin, std::string(mechanics::kUsualMargin.name), "default"};
+  if (w.inputs.margin) {
+    w.margin = *w.inputs.margin;
+    said = {kMargin, std::string(w.margin.name), "named by the caller"};
+  } else if (before != w.plan.provenance.end()) {
+    const auto policy = mechanics::margin_policy(before->value);
+    if (!policy) {
+      Diagnostic d = unknown_name(kMargin, before->value, mechanics::margin_names(), "capstan plan --help");
+      d.file = w.plan.file_name;
+      d.hint = "the plan says that it was made with it: name one with --margin; " + d.hint;
+      return fail(std::move(d));
+    }
+    w.margin = *policy;
+    said = *before;
+  }
+  w.plan.provenance = w.inputs.provenance;
+  w.plan.provenance.push_back(std::move(said));
+  return {};
+}
+
 }  // namespace
 
 Box3 transformed(const Box3& box, const geometry::Placement& to) {
@@ -258,7 +285,7 @@ Status resolve_workpiece(Work& w) {
   const model::Workpiece* piece = model::workpiece_of(w.plan.model, w.plan.project);
   if (auto ok = resolve_material(w, piece); !ok) return ok;
   w.plan.machine = w.inputs.machine;
-  w.plan.provenance = w.inputs.provenance;
+  if (auto ok = resolve_margin(w); !ok) return ok;
   resolve_stock(w, piece);
   if (w.plan.stock.box.empty()) {
     return fail(

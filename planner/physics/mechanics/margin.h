@@ -2,7 +2,9 @@
 
 #include <array>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 /// The one policy of margins: how far the load that a limit is held against stands above the expected one.
 ///
@@ -39,6 +41,12 @@ inline constexpr MarginPolicy kUsualMargin = kMarginPolicies[1];
     if (p.name == name) return p;
   }
   return std::nullopt;
+}
+
+[[nodiscard]] inline std::vector<std::string> margin_names() {
+  std::vector<std::string> names;
+  for (const MarginPolicy& p : kMarginPolicies) names.emplace_back(p.name);
+  return names;
 }
 
 }  // namespace capstan::mechanics

@@ -11,6 +11,7 @@
 #include "planner/door/app/command/run.h"
 #include "planner/ground/base/number.h"
 #include "planner/model/features/fit/general.h"
+#include "planner/physics/mechanics/margin.h"
 
 // The one file that knows CLI11.
 
@@ -126,7 +127,7 @@ class CommandLine {
     sub->add_option("--margin", raw_.margin,
                     "how far the loads that limits are held against stand above the expected ones: careful "
                     "(19 of 20 cuts stay below), usual (5 of 6; the default), bold (7 of 10)")
-        ->check(CLI::IsMember(std::vector<std::string>{"careful", "usual", "bold"}));
+        ->check(CLI::IsMember(mechanics::margin_names()));
     sub->add_option("--revenue", raw_.revenue,
                     "what a piece brings less its material, in the currency of the machine's cost per hour");
     sub->add_option(

@@ -57,13 +57,7 @@ void choices(const InputOptions& o, const model::Plan& plan, pipeline::Inputs& i
   }
   in.objective = o.objective.value_or(pipeline::Objective::kTime);
   p.push_back({"objective", objective_text(in.objective), o.objective ? "--objective" : kDefault});
-  const auto* margin = made_with(plan, "margin");
-  const std::string named = o.margin.value_or(margin != nullptr ? margin->value : std::string());
-  in.margin = mechanics::margin_policy(named).value_or(mechanics::kUsualMargin);
-  p.push_back({"margin", std::string(in.margin.name),
-               o.margin            ? "--margin"
-               : margin != nullptr ? margin->source
-                                   : kDefault});
+  if (o.margin) in.margin = mechanics::margin_policy(*o.margin);
   in.revenue = o.revenue;
   if (o.revenue) p.push_back({"revenue", trimmed(*o.revenue, 4) + " a piece", "--revenue"});
   const auto carried = [&](const char* what, const std::optional<std::string>& given, std::string& into) {
