@@ -5,6 +5,7 @@
 
 #include "planner/door/pipeline/checked.h"
 #include "planner/door/pipeline/machine_needs.h"
+#include "planner/door/pipeline/paths/gone.h"
 #include "planner/door/pipeline/profit.h"
 #include "planner/door/pipeline/work.h"
 #include "planner/model/plan/contradicted.h"
@@ -96,7 +97,8 @@ void list_made(Work& w) {
     if (!s.proposed) continue;
     w.tries.made[s.step] = {s.member,        s.chain,
                             s.in_chain,      s.cutter.id,
-                            s.proposal.name, w.plan.model.holds<model::FreeformFinishMilling>(s.operation)};
+                            s.proposal.name, w.plan.model.holds<model::FreeformFinishMilling>(s.operation),
+                            cut_around(w, s)};
   }
 }
 
