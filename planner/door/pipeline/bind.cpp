@@ -5,8 +5,10 @@
 
 #include "planner/door/pipeline/checked.h"
 #include "planner/door/pipeline/machine_needs.h"
+#include "planner/door/pipeline/paths/gone.h"
 #include "planner/door/pipeline/profit.h"
 #include "planner/door/pipeline/work.h"
+#include "planner/model/plan/contradicted.h"
 #include "planner/model/plan/positions.h"
 #include "planner/model/plan/step_ids.h"
 #include "planner/model/plan/unreadable.h"
@@ -95,7 +97,8 @@ void list_made(Work& w) {
     if (!s.proposed) continue;
     w.tries.made[s.step] = {s.member,        s.chain,
                             s.in_chain,      s.cutter.id,
-                            s.proposal.name, w.plan.model.holds<model::FreeformFinishMilling>(s.operation)};
+                            s.proposal.name, w.plan.model.holds<model::FreeformFinishMilling>(s.operation),
+                            cut_around(w, s)};
   }
 }
 
@@ -149,6 +152,8 @@ Result<std::optional<model::Plan>> bind_once(model::Plan plan, const Inputs& inp
   plan.setups.clear();
   std::vector<model::Cutter> recorded = std::exchange(plan.cutters, {});
   plan.unplanned.clear();
+  model::named_by_caller(plan, inputs.material_name && !inputs.material_of_plan,
+                         (inputs.stock || inputs.stock_allowance_mm) && !inputs.stock_of_plan);
   const auto wrong = model::unreadable(plan);
   auto not_made = unreadable_of(plan, wrong);
   Work w{std::move(plan), inputs, policy, job, tries, {}, {}, {}, {}, std::move(recorded)};

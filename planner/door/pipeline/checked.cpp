@@ -17,9 +17,10 @@
 // tries, and its findings on the plan that is kept are handed on as they are. An error at a proposed step
 // bans what the step was made with, gently first: its cutter, twice; then its chain; last its feature is left
 // out, and with it what rests on it. An order that is broken is no matter of the cutter: there the chain goes
-// at once, and what lies outside the raw piece is left out at once. Of all tries the one with the fewest
-// errors is kept, then the one that leaves the fewest features out, then the first. Steps that the file
-// brings stay as they are.
+// at once, and what lies outside the raw piece is left out at once. A step around a boss that cuts
+// nothing is left out where other features' steps cut around it: the boss stands, and is not missing. Of all
+// tries the one with the fewest errors is kept, then the one that leaves the fewest features out, then the
+// first. Steps that the file brings stay as they are.
 
 namespace capstan::pipeline {
 namespace {
@@ -94,6 +95,13 @@ class Judge {
         out.emplace_back(s, found);
         continue;
       }
+      // A boss that others cut around stands: its own step is left out before anything is banned.
+      if (o.finding->code == "CHK-CUTS-NOTHING" && s.cut_around &&
+          tries_.cuts_nothing(s.member, s.chain, s.in_chain) == nullptr) {
+        tries_.cut_nothing(s.member, s.chain, s.in_chain, found);
+        out.emplace_back(s, found);
+        continue;
+      }
       if (tried >= kBeforeLeavingOut || of_drawing) {
         tries_.leave_out(s.member.feature, "step '" + s.name + "' with " + s.cutter + ": " + found);
       } else if (of_order || hits >= kMostCutters) {
@@ -122,6 +130,9 @@ std::string told(const Tries& tries, const MadeStep& before, const std::string& 
   std::string what = "planned anew in another way";
   if (out) {
     what = "its feature is left out";
+  } else if (tries.cuts_nothing(before.member, before.chain, before.in_chain) != nullptr && now != nullptr &&
+             now->cutter == before.cutter) {
+    what = "left out";
   } else if (now != nullptr && now->cutter != before.cutter) {
     what = "planned anew with " + now->cutter + " instead of " + before.cutter;
   } else if (now != nullptr && now->chain == before.chain) {

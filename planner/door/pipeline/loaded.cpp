@@ -91,7 +91,10 @@ Result<std::vector<std::string>> match_loaded(model::Plan& plan, Inputs& inputs,
                        std::string(model::to_text(wanted->cutter_class)) + " " +
                        trimmed(wanted->cutting_diameter_mm, 3) + " mm) is not in the magazine; re-opened");
   }
-  // Loaded cutters that the plan did not name stay as the table describes them; a name counts once.
+  // Loaded cutters that the plan did not name stay as the table describes them; a name counts once: what has
+  // that of a tool of the plan gets one of its own.
+  std::set<std::string> names;
+  for (const Cutter& m : merged) names.insert(m.id);
   for (const Cutter& c : inputs.library) {
     bool taken = false;
     for (const Cutter& m : merged) taken = taken || (c.pocket > 0 && m.pocket == c.pocket);
@@ -102,6 +105,8 @@ Result<std::vector<std::string>> match_loaded(model::Plan& plan, Inputs& inputs,
       continue;
     }
     merged.push_back(c);
+    for (int n = 2; !names.insert(merged.back().id).second; ++n)
+      merged.back().id = c.id + "~" + std::to_string(n);
   }
   inputs.library = std::move(merged);
   return reopened;

@@ -11,6 +11,7 @@
 #include "planner/ground/base/number.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/nouns/arena/walk.h"
+#include "planner/model/plan/stated.h"
 #include "tooling/nouns/nouns.h"
 #include "tooling/select/select.h"
 
@@ -181,6 +182,11 @@ bool select_one(Work& w, StepWork& step, const std::vector<model::Cutter>& libra
   return true;
 }
 
+std::string words(const model::Cutter& c) {
+  return std::string(model::to_text(c.cutter_class)) + " " + trimmed(c.cutting_diameter_mm, 4) + " mm, " +
+         std::to_string(c.teeth) + " teeth, " + trimmed(c.functional_length_mm, 4) + " mm long";
+}
+
 /// Whether two given ones of a name are one tool; how far it stands out is said for both (stand_out_alike).
 bool same_given(const model::Cutter& a, const model::Cutter& b) {
   model::Cutter other = b;
@@ -189,36 +195,60 @@ bool same_given(const model::Cutter& a, const model::Cutter& b) {
   other.sources = a.sources;
   return a == other;
 }
-/// The same of a given one and one of the library, of which nouns hold less.
-bool same_chosen(const model::Cutter& a, const model::Cutter& b) {
-  constexpr double kSame = 1e-6;  // mm, rad: what units round
+/// The same of a given one and one that planning chose or may choose, of which nouns hold less: what the file
+/// states of it is as it is there. A measured length is the magazine's to say, and one that planning recorded
+/// is that of the tool as it was put together; else two lengths are two tools, for the table has one line.
+bool same_chosen(const model::Cutter& a, const model::Cutter& b, bool recorded) {
+  constexpr double kSame = 1e-6;        // mm, rad: what units round
+  constexpr double kSameLength = 0.01;  // mm; lengths are preset to a hundredth
   const auto near = [](double x, double y) { return std::abs(x - y) <= kSame; };
   const auto agree = [&](double x, double y) { return x == 0.0 || y == 0.0 || near(x, y); };
-  return a.cutter_class == b.cutter_class && a.teeth == b.teeth && a.hand == b.hand &&
+  const auto stated = [&](const char* field, double x, double y) {
+    return near(x, y) || !model::is_stated(b, field);
+  };
+  const bool length = recorded || a.loaded || !model::is_stated(b, "functional_length_mm") ||
+                      std::abs(a.functional_length_mm - b.functional_length_mm) <= kSameLength;
+  return length && a.cutter_class == b.cutter_class && a.teeth == b.teeth && a.hand == b.hand &&
          near(a.cutting_diameter_mm, b.cutting_diameter_mm) && near(a.corner_radius_mm, b.corner_radius_mm) &&
-         agree(a.thread_pitch_mm, b.thread_pitch_mm) && agree(a.point_angle_rad, b.point_angle_rad) &&
-         agree(a.taper_angle_rad, b.taper_angle_rad);
+         agree(a.thread_pitch_mm, b.thread_pitch_mm) && agree(a.thread_size_mm, b.thread_size_mm) &&
+         agree(a.point_angle_rad, b.point_angle_rad) && agree(a.taper_angle_rad, b.taper_angle_rad) &&
+         stated("tip_diameter_mm", a.tip_diameter_mm, b.tip_diameter_mm) &&
+         stated("cutting_width_mm", a.cutting_width_mm, b.cutting_width_mm) &&
+         stated("maximum_depth_of_cut_mm", a.maximum_depth_of_cut_mm, b.maximum_depth_of_cut_mm) &&
+         (a.substrate == b.substrate || !model::is_stated(b, "substrate"));
 }
 
-/// Files name tools as they like, or not at all: different ones of one name get a name each. Which one keeps
-/// the name does not depend on the order of the steps: what planning chose from the library, then the
-/// smaller.
-void tell_apart(Work& w, const std::vector<StepWork*>& given) {
+/// Files name tools as they like, or not at all: different ones of one name get a name each. A name of the
+/// library is the library's, whether planning has chosen that tool or may still take it: pocket, length and
+/// table line go by the name. Which one keeps a name does not depend on the order of the steps: what planning
+/// chose or the library has, then the smaller.
+void tell_apart(Work& w, const std::vector<StepWork*>& given, const std::set<const StepWork*>& recorded) {
   std::map<std::string, std::vector<model::Cutter>> named;
-  std::set<std::string> taken, chosen;
+  std::set<std::string> taken, known;
+  // A head that is set to a size is named with it where a plan sets it to several (choose.cpp): its size says
+  // nothing against it.
+  const auto only_set = [&](const model::Cutter& c) {
+    return c.adjustable_to_mm > 0.0 && std::none_of(given.begin(), given.end(), [&](const StepWork* s) {
+             return s->cutter.id == c.id && !(s->cutter.adjustable_to_mm > 0.0);
+           });
+  };
+  for (const model::Cutter& c : w.inputs.library) {
+    taken.insert(c.id);
+    if (!only_set(c) && known.insert(c.id).second) named[c.id] = {c};
+  }
   for (const StepWork& s : w.steps) {
     if (s.cutter.id.empty()) continue;
     taken.insert(s.cutter.id);
     if (std::find(given.begin(), given.end(), &s) != given.end()) continue;
-    named[s.cutter.id] = {s.cutter};
-    chosen.insert(s.cutter.id);
+    if (known.insert(s.cutter.id).second) named[s.cutter.id] = {s.cutter};
   }
-  const auto find = [&](const model::Cutter& c) {
-    const auto& all = named[c.id];
-    const auto first = all.begin() + (chosen.contains(c.id) ? 1 : 0);
-    if (first != all.begin() && same_chosen(all.front(), c)) return std::size_t{0};
+  const auto find = [&](const StepWork& s) {
+    const auto& all = named[s.cutter.id];
+    const auto first = all.begin() + (known.contains(s.cutter.id) ? 1 : 0);
+    if (first != all.begin() && same_chosen(all.front(), s.cutter, recorded.contains(&s)))
+      return std::size_t{0};
     return static_cast<std::size_t>(
-        std::find_if(first, all.end(), [&](const auto& o) { return same_given(o, c); }) - all.begin());
+        std::find_if(first, all.end(), [&](const auto& o) { return same_given(o, s.cutter); }) - all.begin());
   };
   std::vector<const StepWork*> sorted(given.begin(), given.end());
   const auto size = [](const StepWork* s) {
@@ -230,7 +260,7 @@ void tell_apart(Work& w, const std::vector<StepWork*>& given) {
   std::stable_sort(sorted.begin(), sorted.end(),
                    [&](const StepWork* a, const StepWork* b) { return size(a) < size(b); });
   for (const StepWork* s : sorted) {
-    if (find(s->cutter) == named[s->cutter.id].size()) named[s->cutter.id].push_back(s->cutter);
+    if (find(*s) == named[s->cutter.id].size()) named[s->cutter.id].push_back(s->cutter);
   }
   std::map<std::string, std::vector<std::string>> names;
   for (const auto& [name, all] : named) {
@@ -239,8 +269,14 @@ void tell_apart(Work& w, const std::vector<StepWork*>& given) {
       const std::string other = name + "~" + std::to_string(n);
       if (taken.insert(other).second) own.push_back(other);
     }
+    if (!known.contains(name)) continue;
+    for (std::size_t i = 1; i < own.size(); ++i) {
+      w.job.note("PIP-TOOL-NAME", "the file's tool '" + name + "' (" + words(all[i]) +
+                                      ") is another than the one of that name that planning has (" +
+                                      words(all.front()) + "): it is '" + own[i] + "' in the plan");
+    }
   }
-  for (StepWork* s : given) s->cutter.id = names[s->cutter.id][find(s->cutter)];
+  for (StepWork* s : given) s->cutter.id = names[s->cutter.id][find(*s)];
 }
 
 /// A cutter that planning chose before is the one the plan recorded: nouns hold less of it. Where they have
@@ -272,11 +308,11 @@ std::string id_of(const Work& w, const StepWork& step) {
   return executable == nullptr ? std::string() : executable->its_id.value_or("");
 }
 
-/// A tool stands out by one length all through a plan: as far as the deepest of its steps needs. The steps
-/// before and after that bend as much.
+/// A tool stands out by one length all through a plan, and is as long: as far as the deepest of its steps
+/// needs. The steps before and after that bend as much.
 void stand_out_alike(Work& w) {
   struct Out {
-    double stick_out_mm = 0.0, usable_length_mm = 0.0;
+    double stick_out_mm = 0.0, usable_length_mm = 0.0, functional_length_mm = 0.0;
   };
   std::map<std::string, Out> most;
   for (const StepWork& s : w.steps) {
@@ -284,12 +320,14 @@ void stand_out_alike(Work& w) {
     Out& m = most[s.cutter.id];
     m.stick_out_mm = std::max(m.stick_out_mm, s.cutter.stick_out_mm);
     m.usable_length_mm = std::max(m.usable_length_mm, s.cutter.usable_length_mm);
+    m.functional_length_mm = std::max(m.functional_length_mm, s.cutter.functional_length_mm);
   }
   const auto take = [&](model::Cutter& c) {
     const auto it = most.find(c.id);
     if (it == most.end()) return;
     c.stick_out_mm = std::max(c.stick_out_mm, it->second.stick_out_mm);
     c.usable_length_mm = std::max(c.usable_length_mm, it->second.usable_length_mm);
+    c.functional_length_mm = std::max(c.functional_length_mm, it->second.functional_length_mm);
   };
   for (StepWork& s : w.steps) {
     take(s.cutter);
@@ -322,7 +360,7 @@ Status select_open_tools(Work& w) {
     w.plan.unplanned.push_back({step.feature, "step '" + id_of(w, step) + "', operation '" +
                                                   op->its_id.value_or("") + "': " + cutter.error().message});
   }
-  tell_apart(w, given);
+  tell_apart(w, given, recorded);
   for (StepWork* step : given) {
     if (!recorded.contains(step)) stand_out(w, *step);
     const double assumed = step->cutter.stick_out_mm;

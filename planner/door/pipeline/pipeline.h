@@ -42,6 +42,9 @@ struct Inputs {
   std::optional<std::string> material_name;         ///< overrides the file's
   std::optional<geometry::Box3> stock;              ///< overrides the file's, workpiece coordinates, mm
   std::optional<double> stock_allowance_mm;         ///< stock: the finished part grown by this
+  /// Those two are what the plan itself was made with, taken again. Nobody named them now, so they do not
+  /// settle what the plan's file says in two ways.
+  bool material_of_plan = false, stock_of_plan = false;
   optimise::Solver solver = optimise::Solver::kNlopt;
   optimise::Backends backends;
   Objective objective = Objective::kTime;
@@ -70,6 +73,8 @@ struct Policy {
 /// Closes what is open in a plan: proposes operations, picks cutters, orders the steps, and for each step in
 /// order chooses depths, makes the path, measures it against the stock and schedules feed and speed.
 ///
+/// What the file says in two ways of material or raw piece counts as settled where the inputs name one
+/// (model/plan/contradicted.h).
 /// What the file binds is kept; a change that safety forces is reported. A feature that cannot be planned is
 /// in Plan::unplanned with its reason; that is an outcome, not an error. It is whole or not at all: when a
 /// step that rules proposed finds no cutter, no path or no cut within the limits, its chain is given up and

@@ -24,6 +24,10 @@ void Tries::cut_thinner(const Member& m, const std::string& chain, std::size_t s
   t.why = why;
 }
 
+void Tries::cut_nothing(const Member& m, const std::string& chain, std::size_t step, const std::string& why) {
+  nothing_.emplace(std::tuple(m, chain, step), why);
+}
+
 void Tries::leave_out(model::AnyRef feature, const std::string& why) {
   auto& reasons = left_out_[feature].reasons;
   if (std::find(reasons.begin(), reasons.end(), why) == reasons.end()) reasons.push_back(why);
@@ -50,6 +54,11 @@ const std::string* Tries::cutter_banned(const Member& m, const std::string& chai
 const Thinner* Tries::thinner(const Member& m, const std::string& chain, std::size_t step) const {
   const auto at = thinner_.find(std::tuple(m, chain, step));
   return at == thinner_.end() ? nullptr : &at->second;
+}
+
+const std::string* Tries::cuts_nothing(const Member& m, const std::string& chain, std::size_t step) const {
+  const auto at = nothing_.find(std::tuple(m, chain, step));
+  return at == nothing_.end() ? nullptr : &at->second;
 }
 
 const LeftOut* Tries::left_out(model::AnyRef feature) const {

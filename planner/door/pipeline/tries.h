@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <compare>
 #include <cstddef>
 #include <map>
@@ -7,6 +8,7 @@
 #include <set>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "planner/model/nouns/arena/attribute.h"
@@ -45,13 +47,19 @@ struct Smallest {
   int times = 0;
 };
 
+/// What makes a set-up the same in another try: its noun, and how the workpiece lies in it. Its number is
+/// not it, for tries order set-ups anew; a noun alone is not it either, for a try that makes other set-ups
+/// gives them the same nouns.
+using SameSetup = std::pair<model::AnyRef, std::array<double, 9>>;
+
 /// Where a proposed step comes from.
 struct MadeStep {
   Member member;
   std::string chain;
   std::size_t in_chain = 0;
   std::string cutter, name;
-  bool as_found = false;  ///< cuts as deep as what was left: a thinner cut cannot be asked for
+  bool as_found = false;    ///< cuts as deep as what was left: a thinner cut cannot be asked for
+  bool cut_around = false;  ///< of a boss that stands by others' steps
 };
 
 /// Choices that were tried and did not work, with the reason. Proposing passes them over and puts the reason
@@ -67,6 +75,8 @@ class Tries {
                   const std::string& why);
   /// The step's cuts are to be thinner, once more.
   void cut_thinner(const Member& m, const std::string& chain, std::size_t step, const std::string& why);
+  /// The check found that the step cuts nothing, where others cut around a boss: it is left out.
+  void cut_nothing(const Member& m, const std::string& chain, std::size_t step, const std::string& why);
   void leave_out(model::AnyRef feature, const std::string& why);
   void rests(model::AnyRef feature, model::AnyRef on, const std::string& why);
 
@@ -74,6 +84,8 @@ class Tries {
   [[nodiscard]] const std::string* cutter_banned(const Member& m, const std::string& chain, std::size_t step,
                                                  const std::string& cutter) const;
   [[nodiscard]] const Thinner* thinner(const Member& m, const std::string& chain, std::size_t step) const;
+  [[nodiscard]] const std::string* cuts_nothing(const Member& m, const std::string& chain,
+                                                std::size_t step) const;
   [[nodiscard]] const LeftOut* left_out(model::AnyRef feature) const;
   [[nodiscard]] const std::map<model::AnyRef, LeftOut>& all_left_out() const { return left_out_; }
 
@@ -84,12 +96,13 @@ class Tries {
   /// Answers of the optimiser that hold in every try.
   std::shared_ptr<CutsKnown> cuts;
   /// By set-up, where the last try began with another: the stock's cells follow it.
-  std::map<std::size_t, Smallest> smallest;
+  std::map<SameSetup, Smallest> smallest;
 
  private:
   std::map<std::pair<Member, std::string>, std::string> chains_;
   std::map<std::tuple<Member, std::string, std::size_t, std::string>, std::string> cutters_;
   std::map<std::tuple<Member, std::string, std::size_t>, Thinner> thinner_;
+  std::map<std::tuple<Member, std::string, std::size_t>, std::string> nothing_;
   std::map<model::AnyRef, LeftOut> left_out_;
 };
 

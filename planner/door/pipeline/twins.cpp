@@ -80,13 +80,7 @@ std::string size(const FeatureShape& s) {
 }  // namespace
 
 bool same_removal(const Work& w, const FeatureShape& a, const FeatureShape& b) {
-  const auto whole = [&](const FeatureShape& s) {
-    return std::find_if(w.whole_shapes.begin(), w.whole_shapes.end(), [&](const FeatureShape& o) {
-      return o.feature == s.feature && o.member == s.member;
-    });
-  };
-  const auto at = whole(a), bt = whole(b);
-  return at != w.whole_shapes.end() && bt != w.whole_shapes.end() && (twins(*at, *bt) || twins(*bt, *at));
+  return w.twins.contains({Drawn{a.feature, a.member}, Drawn{b.feature, b.member}});
 }
 
 std::string lies_within_another(const Work& w, const FeatureShape& s) {
@@ -107,14 +101,16 @@ std::string lies_within_another(const Work& w, const FeatureShape& s) {
 void tell_twins(Work& w) {
   const auto& all = w.whole_shapes;
   for (std::size_t i = 0; i < all.size(); ++i) {
+    bool told = false;
     for (std::size_t k = 0; k < i; ++k) {
       if (!twins(all[k], all[i])) continue;
-      w.of_twins.insert({all[k].feature, all[i].feature});
+      const Drawn first{all[k].feature, all[k].member}, second{all[i].feature, all[i].member};
+      w.twins.insert({{first, second}, {second, first}});
+      if (std::exchange(told, true)) continue;
       w.job.warn("PIP-TWICE", "features '" + all[k].name + "' and '" + all[i].name +
                                   "' are the same at the same place, " + where(all[i]) +
                                   ": it is made once; if one of them belongs elsewhere, mend its placement, "
                                   "else take it out of the file");
-      break;
     }
   }
 }

@@ -66,6 +66,9 @@ struct StepWork {
   std::optional<Probing> probing = {};  ///< measured right before this step, if it can be
 };
 
+/// A shape as it is drawn: its feature, and its number among those of a pattern or compound.
+using Drawn = std::pair<AnyRef, int>;
+
 struct Work {
   model::Plan plan;
   const Inputs& inputs;
@@ -85,7 +88,7 @@ struct Work {
   std::vector<std::pair<Ref<model::Setup>, model::Workholding>> held =
       {};                                        ///< as the plan said when it was read
   std::vector<model::FeatureShape> shapes = {};  ///< of all features, workpiece coordinates
-  std::set<model::AnyRef> of_twins = {};         ///< features that stand at one place twice (PIP-TWICE)
+  std::set<std::pair<Drawn, Drawn>> twins = {};  ///< shapes that are one removal, drawn twice; both ways
   std::vector<model::FeatureShape> whole_shapes =
       {};  ///< of these each once: elements and bosses count with what holds them
   std::map<AnyRef, std::string> unreadable = {};  ///< features and steps whose file states something wrongly

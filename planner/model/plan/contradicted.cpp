@@ -41,17 +41,17 @@ void set_contradicted(Plan& plan, AnyRef object, std::string attribute, std::str
 }
 
 void named_by_caller(Plan& plan, bool material, bool raw_piece) {
-  const auto settle = [&](AnyRef piece, const char* attribute, const char* option) {
+  const auto settle = [&](AnyRef piece, const char* attribute) {
     Decision* known = plan.ledger.find(piece, attribute);
     if (known == nullptr) return;
     const std::string id = plan.ledger.reason(known->reason).id;
     if (id != kContradicted && id != kUnreadable) return;
     known->binder = Binder::kOperator;
-    known->reason = plan.ledger.reason({"given.named", std::string("named with ") + option, "the caller"});
+    known->reason = plan.ledger.reason({"given.named", "named by the caller", "the caller"});
   };
   for (const AnyRef piece : plan.model.all(TypeId::kWorkpiece)) {
-    if (material) settle(piece, "its_material", "--material");
-    if (raw_piece) settle(piece, "its_rawpiece", "--stock");
+    if (material) settle(piece, "its_material");
+    if (raw_piece) settle(piece, "its_rawpiece");
   }
 }
 

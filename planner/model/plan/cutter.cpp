@@ -7,6 +7,7 @@
 
 #include "planner/ground/base/number.h"
 #include "planner/model/plan/measured_length.h"
+#include "planner/model/plan/stated.h"
 
 namespace capstan::model {
 namespace {
@@ -58,7 +59,8 @@ bool has_cone(const Cutter& c) {
   }
 }
 
-/// Whether somebody said the value; one for all fields stands under "*".
+}  // namespace
+
 bool is_stated(const Cutter& c, std::string_view field) {
   for (const std::string_view of : {field, std::string_view("*")}) {
     for (const auto& [name, source] : c.sources)
@@ -66,8 +68,6 @@ bool is_stated(const Cutter& c, std::string_view field) {
   }
   return false;
 }
-
-}  // namespace
 
 std::string_view to_text(CutterClass c) { return kClasses.at(static_cast<std::size_t>(c)); }
 std::optional<CutterClass> cutter_class_from_text(std::string_view text) {

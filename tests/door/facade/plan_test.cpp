@@ -48,6 +48,27 @@ TEST(Facade, GivesNoProgramOfAPlanThatSaysTwoThingsThoughAsked) {
   EXPECT_EQ(out.condemned[0].code, "PIP-CONTRADICTED");
 }
 
+TEST(Facade, AMaterialThatTheFileContradictsIsSettledByTheOneThatTheCallerNames) {
+  PlanOutput first = plan_file(std::string(CAPSTAN_SOURCE_DIR) + "/examples/plate_bound.p21", {});
+  ASSERT_TRUE(first.condemned.empty());
+  // Somebody edits what the header lists of the material; the nouns still say another one.
+  std::string& text = first.iso14649;
+  const auto record = text.find("!CAPSTAN_MATERIAL");
+  ASSERT_NE(record, std::string::npos);
+  const auto value = text.find("2809.", record);  // kc1.1 of low alloy steel
+  ASSERT_NE(value, std::string::npos);
+  text.replace(value, 5, "1404.5");
+  const PlanOutput refused = plan_bytes(text, "plate.p21", {});
+  EXPECT_TRUE(refused.linuxcnc.empty());
+  ASSERT_FALSE(refused.condemned.empty());
+  EXPECT_EQ(refused.condemned[0].code, "PIP-CONTRADICTED");
+  PlanOptions options;
+  options.material = "low_alloy_steel";
+  const PlanOutput named = plan_bytes(text, "plate.p21", options);
+  EXPECT_TRUE(named.condemned.empty()) << named.condemned[0].text;
+  EXPECT_FALSE(named.linuxcnc.empty());
+}
+
 TEST(Facade, RefusesAnUnknownMaterialWithTheNearestNames) {
   PlanOptions options;
   options.material = "steeel";

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <string>
 
 #include "planner/door/pipeline/shop.h"
@@ -108,6 +109,82 @@ TEST(OneTool, WhichOfTwoKeepsTheirNameDoesNotDependOnTheOrderOfTheSteps) {
   // The drill of 5 mm is smaller than the mill of 6.
   EXPECT_EQ(names(false), "T, T~2");
   EXPECT_EQ(names(true), "T, T~2");
+}
+
+/// plate_bound.p21, whose step 'DRILL PLAIN HOLE' names its own drill: 'DRILL 9', 9 mm, 110 mm long.
+model::Plan plate_with(const model::Cutter& also_in_library) {
+  Inputs in = shop();
+  in.library.push_back(also_in_library);
+  Job job;
+  const std::string path = std::string(CAPSTAN_SOURCE_DIR) + "/examples/plate_bound.p21";
+  auto read = read_plan(testing::slurp(path), "plate_bound.p21", job);
+  return bind(*std::move(read), in, {}, job).value();
+}
+
+/// A drill of this diameter that is loaded as T3 and 125 mm long, and has the name of the file's.
+model::Cutter loaded_drill(double diameter_mm) {
+  for (const model::Cutter& c : shop().library) {
+    if (c.cutter_class != model::CutterClass::kTwistDrill || c.cutting_diameter_mm != diameter_mm) continue;
+    model::Cutter out = c;
+    out.id = "DRILL 9";
+    out.pocket = 3;
+    out.loaded = true;
+    out.functional_length_mm = 125.0;
+    return out;
+  }
+  return {};
+}
+
+const model::Cutter* drill_of(const model::Plan& plan) {
+  const auto* step = step_of(plan, "DRILL PLAIN HOLE");
+  return step == nullptr ? nullptr : model::find_cutter(plan, step->cutter_id);
+}
+
+TEST(OneTool, OfTheFileLeavesItsNameToTheLibrarysOfAnotherSize) {
+  const model::Cutter other = loaded_drill(8.5);
+  ASSERT_EQ(other.id, "DRILL 9");
+  const model::Plan plan = plate_with(other);
+  const auto* drill = drill_of(plan);
+  ASSERT_NE(drill, nullptr);
+  EXPECT_EQ(drill->id, "DRILL 9~2");
+  EXPECT_DOUBLE_EQ(drill->cutting_diameter_mm, 9.0);
+  EXPECT_DOUBLE_EQ(drill->functional_length_mm, 110.0) << "not the length of the drill of 8.5 mm";
+  EXPECT_FALSE(drill->loaded);
+}
+
+TEST(OneTool, OfTheFileThatIsTheLibrarysInAllThatItStatesIsTheLoadedOne) {
+  model::Cutter same = loaded_drill(9.0);
+  ASSERT_EQ(same.id, "DRILL 9");
+  const model::Plan before = plate_with(loaded_drill(8.5));
+  same.maximum_depth_of_cut_mm = drill_of(before)->maximum_depth_of_cut_mm;
+  same.point_angle_rad = drill_of(before)->point_angle_rad;
+  same.teeth = drill_of(before)->teeth;
+  const model::Plan plan = plate_with(same);
+  const auto* drill = drill_of(plan);
+  ASSERT_NE(drill, nullptr);
+  EXPECT_EQ(drill->id, "DRILL 9");
+  EXPECT_EQ(drill->pocket, 3);
+  EXPECT_TRUE(drill->loaded);
+  EXPECT_DOUBLE_EQ(drill->functional_length_mm, 125.0);
+}
+
+TEST(OneTool, ALoadedToolThatThePlanDoesNotNameGetsANameOfItsOwn) {
+  // The plan's drill of 9 mm is loaded under another name; what the table calls 'DRILL 9' has 8.5 mm.
+  Job job;
+  const std::string path = std::string(CAPSTAN_SOURCE_DIR) + "/examples/plate_bound.p21";
+  model::Plan plan = read_plan(testing::slurp(path), "plate_bound.p21", job).value();
+  model::Cutter nine = loaded_drill(9.0);
+  nine.id = "T7";
+  nine.pocket = 7;
+  nine.point_angle_rad = 0.0;  // as a table has it: it does not say
+  Inputs in = shop();
+  in.library = {nine, loaded_drill(8.5)};
+  ASSERT_TRUE(match_loaded(plan, in, job));
+  std::map<std::string, double> diameters;
+  for (const model::Cutter& c : in.library)
+    EXPECT_TRUE(diameters.emplace(c.id, c.cutting_diameter_mm).second);
+  EXPECT_DOUBLE_EQ(diameters["DRILL 9"], 9.0);
+  EXPECT_DOUBLE_EQ(diameters["DRILL 9~2"], 8.5);
 }
 
 }  // namespace

@@ -233,6 +233,45 @@ TEST(CheckProgram, ALengthShorterThanAnyHoldersFlangeIsFoundWhereASpindleHasATap
   }
 }
 
+TEST(CheckProgram, ALengthShorterThanTheWayThatTheToolIsFedDownIsFound) {
+  // T2 drills from Z2 to Z-22.4034, 24.4034 mm: at 24 mm its gage line would come below Z2. Nobody knows its
+  // flutes, and the spindle holds it in a collet of its own.
+  for (const auto& [length, said] : {std::pair("24", 1), std::pair("25", 0)}) {
+    model::Plan plan = testing::good_plan().plan;
+    plan.machine.spindle.taper = "ER20";
+    for (auto& c : plan.cutters) c.functional_length_mm = c.maximum_depth_of_cut_mm = 0.0;
+    const auto findings = check(testing::program_of(plan), plan, false,
+                                std::string("T1 P1 Z+100 D+10\nT2 P2 Z+") + length + " D+8\n");
+    EXPECT_EQ(std::count_if(findings.begin(), findings.end(),
+                            [](const auto& f) {
+                              return f.code == "CHK-TOOL-REACH" && f.property == 6 &&
+                                     f.message.starts_with("T2 is " + std::string("24 mm"));
+                            }),
+              said)
+        << length << "\n"
+        << told(findings);
+  }
+}
+
+TEST(CheckProgram, ALengthOfZeroInTheHeaderAloneIsFound) {
+  const auto errors = [](const std::string& tools) {
+    const std::string text = "(CAPSTAN PROGRAM version=1)\n" + tools +
+                             "G21 G17 G90 G94 G40 G80\nG54\nG53 G0 Z0\nT2 M6\nG43 H2\nS1500 M3\nG0 X15 Y15\n"
+                             "G0 Z5\nG98 G83 X15 Y15 Z-20 R2 Q5 F225\nG80\nM5\nG53 G0 Z0\nM2\n";
+    Job job;
+    const auto findings =
+        check_program({"part.ngc", text, {}}, nullptr, testing::good_plan().plan.machine, {}, job);
+    return std::count_if(findings.begin(), findings.end(),
+                         [](const auto& f) { return f.code == "CHK-TOOL-OFFSET"; });
+  };
+  const std::string one = "(CAPSTAN TOOL T1 H1 length=", two = "(CAPSTAN TOOL T2 H2 length=";
+  const std::string end = " diameter=8 id=\"d\" twist_drill)\n";
+  EXPECT_EQ(errors(two + "0" + end), 1);
+  EXPECT_EQ(errors(two + "-20" + end + one + "100" + end), 1);
+  EXPECT_EQ(errors(two + "130" + end), 0);
+  EXPECT_EQ(errors(two + "0" + end + one + "-12.5" + end), 0) << "they count from a reference";
+}
+
 TEST(CheckProgram, OfOffsetsThatCountFromAReferenceZeroIsTheReferencesAlone) {
   using Tools = std::vector<std::string>;
   // Negative ones with a 0 among them, or none above 0: they count from a reference.

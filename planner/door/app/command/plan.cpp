@@ -14,7 +14,6 @@
 #include "planner/ground/base/file.h"
 #include "planner/ground/base/nearest_names.h"
 #include "planner/ground/base/number.h"
-#include "planner/model/plan/contradicted.h"
 #include "rules/engine/check.h"
 #include "tooling/catalogue/tree.h"
 #include "tooling/holding/holding.h"
@@ -102,8 +101,6 @@ int prepared(Session& s, const pipeline::Policy& policy, Task& task) {
   auto part = load_plan(s.options.files[0], s.job, s.options.strict);
   if (!part) return s.end(part.error(), kUnreadable);
   task.part = *std::move(part);
-  model::named_by_caller(task.part, s.options.inputs.material.has_value(),
-                         !s.options.inputs.stock_text.empty());
   auto inputs = gather(s.options.inputs, task.part, s.job);
   if (!inputs) return s.end(inputs.error(), kUnreadable);
   task.inputs = *std::move(inputs);

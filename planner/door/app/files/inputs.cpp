@@ -45,6 +45,7 @@ void choices(const InputOptions& o, const model::Plan& plan, pipeline::Inputs& i
     p.push_back({"material", *o.material, "--material"});
   } else if (const auto* before = made_with(plan, "material")) {
     in.material_name = before->value;
+    in.material_of_plan = true;
     p.push_back(*before);
   }
   in.stock = o.stock;
@@ -53,6 +54,7 @@ void choices(const InputOptions& o, const model::Plan& plan, pipeline::Inputs& i
     p.push_back({"stock", o.stock_text, "--stock"});
   } else if (const auto* before = made_with(plan, "stock"); before != nullptr && !plan.stock.box.empty()) {
     in.stock = plan.stock.box;
+    in.stock_of_plan = true;
     p.push_back(*before);
   }
   in.objective = o.objective.value_or(pipeline::Objective::kTime);

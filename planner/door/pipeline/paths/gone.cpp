@@ -58,7 +58,7 @@ Ref<model::Executable> made_by(const Work& w, const StepWork& step) {
 /// Whether another feature's step of the same operation is kept already in which each of these shapes is
 /// drawn a second time, and none of this feature's own: the one that came first is made, the other is it.
 bool twin_made(const Work& w, const StepWork& step) {
-  if (!w.of_twins.contains(step.feature)) return false;
+  if (w.twins.empty()) return false;
   const auto kept = [&](const StepWork& s) {
     return std::any_of(w.plan.steps.begin(), w.plan.steps.end(),
                        [&](const model::StepResult& r) { return r.step == s.step; });
@@ -76,7 +76,31 @@ bool twin_made(const Work& w, const StepWork& step) {
   return found;
 }
 
+/// The feature itself when its steps make it all, and a boss that stands when others cut around it.
+std::string made_with(const Work& w, const StepWork& step, const model::MachiningWorkingstep& maker) {
+  const auto* of = w.plan.model.get<model::ManufacturingFeature>(maker.its_feature);
+  const auto* own = w.plan.model.get<model::ManufacturingFeature>(step.feature);
+  if (of == nullptr || AnyRef(maker.its_feature) == step.feature) return {};
+  const std::string by = "'" + of->its_id.value_or("") + "'";
+  if (!w.plan.model.holds<model::Boss>(step.feature)) return " with " + by;
+  return ", for " + by + " is cut around the boss '" + own->its_id.value_or("") + "', which stands";
+}
+
 }  // namespace
+
+bool cut_around(const Work& w, const StepWork& step) {
+  const model::Model& m = w.plan.model;
+  const auto boss = [&](const model::FeatureShape& s) {
+    return m.holds<model::Boss>(s.made_of.empty() ? s.feature : s.made_of.back());
+  };
+  if (step.shapes.empty() || !std::all_of(step.shapes.begin(), step.shapes.end(), boss)) return false;
+  // A chain of more than roughing and a finish asks for a size that others' steps do not aim at.
+  const bool finer = std::any_of(w.steps.begin(), w.steps.end(), [&](const StepWork& s) {
+    return s.member == step.member && s.chain == step.chain && s.in_chain >= 2;
+  });
+  const auto* maker = finer ? nullptr : m.get<model::MachiningWorkingstep>(made_by(w, step));
+  return maker != nullptr && AnyRef(maker->its_feature) != step.feature;
+}
 
 bool in_air(const Work& w, const StepWork& step, double removed_mm3) {
   constexpr double kNothingMm3 = 0.01;  // default, unsourced: what a map's cells cannot tell from nothing
@@ -117,6 +141,7 @@ bool leave_out(Work& w, const StepWork& step, const std::string& why) {
   }
   auto* maker = m.get<model::MachiningWorkingstep>(made_by(w, step));
   if (maker == nullptr && !others) return false;
+  const std::string with = maker == nullptr ? std::string() : made_with(w, step, *maker);
   if (maker != nullptr && AnyRef(maker->its_feature) != step.feature) {
     auto& made = maker->final_features;
     if (std::find(made.items.begin(), made.items.end(), step.feature) == made.items.end())
@@ -127,8 +152,8 @@ bool leave_out(Work& w, const StepWork& step, const std::string& why) {
   if (auto* f = m.get<model::MachiningFeature>(step.feature))
     std::erase(f->its_operations.items, step.operation);
   w.left_out.insert(step.step);
-  w.job.note("PIP-GONE",
-             "step '" + name_of(w, step) + "' is left out: what it would cut is gone already; " + why);
+  w.job.note("PIP-GONE", "step '" + name_of(w, step) + "' is left out: what it would cut is gone already" +
+                             with + "; " + why);
   return true;
 }
 

@@ -12,6 +12,10 @@ namespace capstan::pipeline {
 /// feature's steps took away. A finishing pass after a step that was kept takes what bending left.
 [[nodiscard]] bool in_air(const Work& w, const StepWork& step, double removed_mm3);
 
+/// Whether a step is to cut around a boss, no finer than a roughing and a finishing pass make it, and steps
+/// of other features that are kept take all of that away: the boss stands without it.
+[[nodiscard]] bool cut_around(const Work& w, const StepWork& step);
+
 /// A proposed step with nothing to cut is taken out of the workplan and of its feature; said as a note. Its
 /// feature is then made by the last kept step over its area (final_features). False, and
 /// nothing done, when neither that nor another step of the feature is there.

@@ -438,6 +438,9 @@ class PathMaker {
     if (tried.removed_mm3 && in_air(w_, step, *tried.removed_mm3) &&
         leave_out(w_, step, "it meets no material"))
       return {};
+    const std::string* nothing =
+        step.proposed ? w_.tries.cuts_nothing(step.member, step.chain, step.in_chain) : nullptr;
+    if (nothing != nullptr && cut_around(w_, step) && leave_out(w_, step, *nothing)) return {};
     if (candidate > 0 && candidate < step.candidates.size())
       take_cutter(w_, step, step.candidates[candidate]);
     const Made& made = tried.made;

@@ -17,6 +17,11 @@ constexpr int kMostOtherCells = 2;      // times that cutters may change with th
 constexpr double kContradiction = 0.1;  // of a step's volume, between map and geometry; default, unsourced
 constexpr double kTraceMm3 = 1.0;       // the same of next to nothing
 
+SameSetup same_setup(const SetupWork& s) {
+  const geometry::Placement& at = s.workpiece;
+  return {s.setup, {at.origin.x, at.origin.y, at.origin.z, at.x.x, at.x.y, at.x.z, at.z.x, at.z.y, at.z.z}};
+}
+
 }  // namespace
 
 double Stocks::smallest(std::size_t setup) const {
@@ -37,7 +42,7 @@ bool Stocks::other_cells_asked_for(Tries& tries) const {
   for (std::size_t i = 0; i < maps_.size(); ++i) {
     const double mm = smallest(i);
     if (!maps_[i] || cell(i, mm) == cell(i, smallest_[i])) continue;
-    Smallest& known = tries.smallest[i];
+    Smallest& known = tries.smallest[same_setup(w_.setups[i])];
     if (known.times++ >= kMostOtherCells) continue;
     known.mm = mm;
     other = true;
@@ -48,7 +53,7 @@ bool Stocks::other_cells_asked_for(Tries& tries) const {
 stock::HeightMap& Stocks::of(std::size_t setup) {
   auto& map = maps_[setup];
   if (!map) {
-    const auto known = w_.tries.smallest.find(setup);
+    const auto known = w_.tries.smallest.find(same_setup(w_.setups[setup]));
     smallest_[setup] = known != w_.tries.smallest.end() ? known->second.mm : smallest(setup);
     const auto& box = w_.setups[setup].stock;
     const double cell = this->cell(setup, smallest_[setup]);

@@ -147,7 +147,7 @@ class Contours {
       c_.warn("TPA-CHANGED", "the stepover of the rings is reduced so that nothing stays between them");
     }
     step_ = step;
-    all_ = rings(level_.centres, step);
+    all_ = c_.rings_of(level_.centres, step);
     std::vector<std::size_t> order = inside_out(all_);
     if (o_.outside_in) std::reverse(order.begin(), order.end());
     done_.assign(all_.size(), {});

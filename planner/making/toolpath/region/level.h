@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "planner/making/toolpath/link/path_writer.h"
 #include "planner/making/toolpath/region/inside.h"
@@ -38,6 +39,8 @@ class LevelCutter {
   Result<Track> enter(const Level& level, const Track& track, const geometry::Region* leaf);
   /// To a place that is cleared down to the level already, and down to it.
   void go_cleared(const Level& level, geometry::Vec2 p);
+  /// Rings of a level; walls are mostly upright, so that the level before had the same, which are kept.
+  const std::vector<Ring>& rings_of(const geometry::Region& centres, double step_mm);
   /// A straight cut on the level to p when it stays within the centres.
   bool cut_to(const Level& level, geometry::Vec2 p);
 
@@ -59,6 +62,10 @@ class LevelCutter {
   std::optional<Track> by_ramp(const Level& level, const Track& track);
   [[nodiscard]] double ramp_angle();
   [[nodiscard]] double gap() const;
+
+  geometry::Region ringed_;  ///< what `rings_` are of
+  double ringed_step_mm_ = 0.0;
+  std::vector<Ring> rings_;
 };
 
 /// The stepover that the job asks for, mm: radial depth, else overlap, else half the diameter.

@@ -38,6 +38,7 @@ std::vector<StepMoves> judge_text(const Program& program, const ProgramText& tex
     check_table_lines(c, findings);
   }
   check_header_tools(c, table, findings);
+  check_reach(c, table, findings);
   check_abilities(c, findings);
   say_unjudged(c, findings);
   check_machine_moves(c, findings);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "planner/model/plan/plan.h"
@@ -42,6 +43,11 @@ void check_compensation(const ProgramCase& c, Findings& findings);
 void check_program_coolant(const ProgramCase& c, Findings& findings);
 /// The tool table against the cutters: 4, 5, 6.
 void check_tool_table(const ProgramCase& c, const ToolTable& table, Findings& findings);
+/// The length of a tool from the gage line, as the table has it, else the library, else the program's header;
+/// nothing where nobody says it, or where offsets count from a reference.
+[[nodiscard]] std::optional<double> length_of_tool(const ProgramCase& c, const ToolTable& table, int tool);
+/// Lengths against what the program does with the tools, and those that its header alone tells: 6.
+void check_reach(const ProgramCase& c, const ToolTable& table, Findings& findings);
 /// Where no table is at hand: what a library took from one: 6.
 void check_table_lines(const ProgramCase& c, Findings& findings);
 /// The tools as the program's header has them, against table (may be empty) and cutters: 6.
