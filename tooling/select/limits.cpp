@@ -311,6 +311,9 @@ std::optional<std::string> not_for_machine(const Cutter& c, const StartValues& s
                                            const Machine& m, const Preferences& p) {
   if (auto why = not_in_magazine(c, m, p)) return why;
   if (c.cutter_class == CutterClass::kTouchProbe) return std::nullopt;
+  if (!(start.wanted_vc_m_min > 0.0))
+    return w.id + " is not cut with " + std::string(model::to_text(c.substrate)) +
+           ": its card has no speed for it, and the tool states none";
   if (c.maximum_speed_rpm > 0.0 && c.maximum_speed_rpm < m.spindle.rpm_min)
     return "its largest speed " + trimmed(c.maximum_speed_rpm, 0) + " 1/min is below the spindle's least " +
            trimmed(m.spindle.rpm_min, 0);
