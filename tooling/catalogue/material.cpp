@@ -54,13 +54,13 @@ struct Match {
 Match exact(const std::string& wanted, const std::vector<WorkMaterial>& materials) {
   if (wanted.empty()) return {};
   for (const WorkMaterial& m : materials) {
-    if (plain_name(m.id) == wanted) return {&m, m.id, "its id"};
     for (const std::string& name : m.names) {
       if (plain_name(name) != wanted) continue;
       const auto it = std::find_if(m.sources.begin(), m.sources.end(),
                                    [&](const auto& s) { return s.first == "name " + name; });
       return {&m, name, it == m.sources.end() ? "" : it->second};
     }
+    if (plain_name(m.id) == wanted) return {&m, m.id, "its id"};
   }
   return {};
 }
