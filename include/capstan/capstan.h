@@ -26,7 +26,8 @@ struct PlanOptions {
   double revenue = 0.0;  ///< what a piece brings less its material, in the currency of the machine's rate
   unsigned threads = 1;  ///< results do not depend on it
   bool allow_findings =
-      false;                ///< a program although the check condemns it; it stops before what is condemned
+      false;  ///< a program although the check condemns it; it stops before what is condemned. Never of a
+              ///< plan that its file states in two ways, or whose workpiece or set-ups it states wrongly
   std::string margin = {};  ///< of loads against their limits: "careful", "usual", "bold"
 };
 

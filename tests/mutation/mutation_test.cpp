@@ -6,6 +6,7 @@
 
 #include "tests/mutation/study.h"
 #include "tests/support/rs274.h"
+#include "tooling/catalogue/library.h"
 
 namespace capstan::mutation {
 namespace {
@@ -56,6 +57,12 @@ TEST(MutationSeed, AnEmittedProgramIsNotBlamedByAnyCheck) {
     // A tapped hole of a plan made by hand has no thread for the check of what stays.
     if (e.name == "tapped hole") continue;
     for (const auto& f : findings) EXPECT_EQ(f.severity, Severity::kNote) << e.name << ": " << f.message;
+    // With its table alone, which says what the tools are.
+    const auto tools = tooling::read_tool_table(e.table, "table", job);
+    ASSERT_TRUE(tools) << to_text(tools.error());
+    for (const auto& f :
+         verify::check_program({e.name, e.text, e.table}, nullptr, e.plan.machine, *tools, job))
+      EXPECT_EQ(f.severity, Severity::kNote) << e.name << ", alone: " << f.message;
   }
 }
 

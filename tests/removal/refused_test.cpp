@@ -296,6 +296,8 @@ TEST(TwoAtOnePlace, AHoleThatACompoundHoldsTooIsMadeOnceAndNotCalledUnplanned) {
   const PlanOutput o = s.planned();
   EXPECT_EQ(o.unplanned, 0U) << told(o);
   EXPECT_NE(told(o).find("PIP-TWICE"), std::string::npos) << told(o);
+  // Nor is anything said of the steps that are left out for it.
+  EXPECT_EQ(told(o).find("PIP-RAPID"), std::string::npos) << told(o);
 }
 
 TEST(RefusedParts, AFaceTooNarrowForAnyMillNamesItsWidthAndTheMillItWants) {

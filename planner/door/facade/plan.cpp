@@ -154,7 +154,7 @@ void checked(const pipeline::Checked& bound, bool allow_findings, PlanOutput& ou
   all.insert(all.end(), program.begin(), program.end());
   const auto condemned = model::condemned(plan, all);
   for (const auto& c : condemned) out.condemned.push_back(message_of(plan, c));
-  if (!condemned.empty() && allow_findings && !out.linuxcnc.empty()) {
+  if (!condemned.empty() && allow_findings && !model::never_written(condemned) && !out.linuxcnc.empty()) {
     Job silent;  // the writer's warnings are told already
     auto text = controls::write_linuxcnc(plan, silent, condemned);
     out.linuxcnc = text ? *std::move(text) : std::string();

@@ -95,7 +95,7 @@ Result<LateOutcome> bind(model::Plan plan, pipeline::Inputs inputs, const LatePo
   out.findings = pipeline::findings_of(*fallback, job);
   const auto checking = fallback->checking + (job.now() - check_start);
   out.condemned = model::condemned(fallback->plan, out.findings);
-  if (!out.condemned.empty() && !policy.allow_findings) {
+  if (!out.condemned.empty() && (!policy.allow_findings || model::never_written(out.condemned))) {
     return fail({.code = "LATE-UNSAFE",
                  .message = "the plan does not pass the check: " +
                             model::text_of(fallback->plan, out.condemned.front()),

@@ -22,9 +22,9 @@ using model::TypeId;
 
 /// Words for people: what they say decides nothing. A decision's hash is computed when it is written.
 bool only_words(std::string_view field) {
-  static constexpr std::array<std::string_view, 11> kWords = {"description", "source", "sources", "names",
-                                                              "pickup_text", "text",   "why",     "name",
-                                                              "lexeme",      "what",   kHashField};
+  static constexpr std::array<std::string_view, 10> kWords = {"description", "source",  "sources", "names",
+                                                              "pickup_text", "text",    "why",     "name",
+                                                              "lexeme",      kHashField};
   return std::find(kWords.begin(), kWords.end(), field) != kWords.end();
 }
 

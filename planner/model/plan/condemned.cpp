@@ -13,6 +13,8 @@
 namespace capstan::model {
 namespace {
 
+constexpr std::string_view kOfUnreadable = "PIP-UNREADABLE", kOfContradicted = "PIP-CONTRADICTED";
+
 /// The names of limits as sentences have them: "spindle_torque" is "spindle torque".
 std::string plain_name(std::string name) {
   std::replace(name.begin(), name.end(), '_', ' ');
@@ -83,15 +85,21 @@ std::string text_of(const Plan& plan, const Condemnation& reason) {
   return "step " + reason.step + ": " + reason.text;
 }
 
+bool never_written(const std::vector<Condemnation>& reasons) {
+  return std::any_of(reasons.begin(), reasons.end(), [](const Condemnation& c) {
+    return c.code == kOfUnreadable || c.code == kOfContradicted;
+  });
+}
+
 std::vector<Condemnation> condemned(const Plan& plan, const std::vector<Finding>& findings) {
   Reasons reasons(plan);
   for (const Finding& f : findings) {
     if (f.severity == Severity::kError) reasons.add(f.step, f.code, f.message);
   }
   for (const Unreadable& u : unreadable(plan)) {
-    if (of_whole_plan(u.key)) reasons.add_at(0, "PIP-UNREADABLE", u.why);
+    if (of_whole_plan(u.key)) reasons.add_at(0, std::string(kOfUnreadable), u.why);
   }
-  for (const Contradiction& c : contradictions(plan)) reasons.add_at(0, "PIP-CONTRADICTED", c.why);
+  for (const Contradiction& c : contradictions(plan)) reasons.add_at(0, std::string(kOfContradicted), c.why);
   for (std::size_t i = 0; i < plan.steps.size(); ++i) {
     for (const ExceededLimit& l : plan.steps[i].exceeded)
       reasons.add_at(i + 1, "PIP-EXCESS", text_of(l) + "; use a smaller tool or depth");

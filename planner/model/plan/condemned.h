@@ -29,6 +29,11 @@ struct Condemnation {
 /// that hands out a program asks this and nothing else.
 [[nodiscard]] std::vector<Condemnation> condemned(const Plan& plan, const std::vector<Finding>& findings);
 
+/// Whether one of them says that nobody knows what the plan is: its file states it in two ways, or states
+/// wrongly what all of it rests on. No stop makes a program of such a plan fit to run: none is written, even
+/// where programs that the check condemns are asked for.
+[[nodiscard]] bool never_written(const std::vector<Condemnation>& reasons);
+
 /// "spindle torque 1.11 of 0.48 Nm at X12.4 Y30.1".
 [[nodiscard]] std::string text_of(const ExceededLimit& limit);
 /// "step 5 SLOT: spindle torque 1.11 of 0.48 Nm at X12.4 Y30.1; use a smaller tool or depth".

@@ -33,6 +33,21 @@ TEST(Facade, GivesNoProgramThatTheCheckCondemnsUnlessAsked) {
   EXPECT_EQ(all_the_same.condemned.size(), held.condemned.size());
 }
 
+TEST(Facade, GivesNoProgramOfAPlanThatSaysTwoThingsThoughAsked) {
+  PlanOptions options;
+  std::string text = plan_file(kBracket, options).iso14649;
+  const auto at = text.find("'G54'", text.find("\n!CAPSTAN_SETUP"));
+  ASSERT_NE(at, std::string::npos);
+  text.replace(at, 5, "'G55'");
+  options.allow_findings = true;
+  const PlanOutput out = plan_bytes(text, "edited.p21", options);
+  ASSERT_TRUE(out.planned);
+  EXPECT_TRUE(out.linuxcnc.empty());
+  EXPECT_TRUE(out.tool_table.empty());
+  ASSERT_FALSE(out.condemned.empty());
+  EXPECT_EQ(out.condemned[0].code, "PIP-CONTRADICTED");
+}
+
 TEST(Facade, RefusesAnUnknownMaterialWithTheNearestNames) {
   PlanOptions options;
   options.material = "steeel";

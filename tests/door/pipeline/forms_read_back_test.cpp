@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
+#include <ctime>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -58,11 +59,13 @@ void expect_back(const std::string& path, Bind level, bool judged) {
   const auto plan = bind(*std::move(read), shop(), policy, job);
   if (!plan) return;
   const auto expected = judged ? findings(*plan) : std::vector<std::string>{};
+  double of_json_s = 0.0;
   for (const Form& form : kForms) {
     SCOPED_TRACE(form.ending);
     Job quiet, again;
     const auto text = write_plan(*plan, form.format, quiet);
     ASSERT_TRUE(text) << to_text(text.error());
+    const std::clock_t begin = std::clock();
     const auto back = read_plan(*text, std::string("plan") + form.ending, again);
     ASSERT_TRUE(back) << to_text(back.error());
     EXPECT_EQ(said_of_records(again), "");
@@ -72,6 +75,10 @@ void expect_back(const std::string& path, Bind level, bool judged) {
     EXPECT_EQ(difference.text(), "");
     if (judged) {
       EXPECT_EQ(findings(*back), expected);
+      const double took_s = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+      if (form.format == Format::kJson) of_json_s = took_s;
+      // Half a second is the text of a large file, which is longer in Part 21.
+      EXPECT_LE(took_s, 2.0 * of_json_s + 0.5) << "of processor time, to read and check";
     }
   }
 }

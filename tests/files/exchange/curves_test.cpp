@@ -1,9 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <memory>
 #include <numbers>
+#include <regex>
 #include <sstream>
 
 #include "planner/files/exchange/iso14649/curves.h"
@@ -315,32 +317,76 @@ TEST(Trajectories, PathThatOnlyTheResultsHoldIsWrittenToo) {
   EXPECT_EQ(got->schedule.feed_mm_min[1], 300.0);  // the operation's own
 }
 
-TEST(Trajectories, LeftHandedHelixBecomesChordsAndTheLossIsStated) {
+/// A plate whose drilling has a path that turns counter-clockwise down: a left-handed helix, in the file.
+std::string left_handed(std::shared_ptr<const CutterPath> path) {
   Job job;
   auto plan = read_text(testing::part21(testing::drilled_plate()), job);
-  ASSERT_TRUE(plan);
+  EXPECT_TRUE(plan);
   auto& m = plan->model;
-  auto path = std::make_shared<CutterPath>();
-  path->start({25, 60, 0});
-  path->arc({25, 60, -2}, {20, 60}, false, MoveRole::kCut);  // counter-clockwise down
   model::CutterLocationTrajectory t;
-  t.path = path;
+  t.path = std::move(path);
   model::ToolpathList list;
   list.its_list.push_back(m.add(std::move(t)));
   m.at<model::Drilling>(m.all(model::TypeId::kDrilling)[0]).its_toolpath = m.add(std::move(list));
   const auto written = write_iso14649(*plan, job);
-  ASSERT_TRUE(written);
+  EXPECT_TRUE(written);
   EXPECT_THAT(written->losses, ::testing::Contains(::testing::HasSubstr("left-handed helix")));
-  const auto again = read_text(written->bytes, job);
-  ASSERT_TRUE(again);
-  const auto got = path_of_step(
-      *again, model::Ref<model::Executable>(again->model.all(model::TypeId::kMachiningWorkingstep)[0]),
-      kOptions, job);
-  ASSERT_TRUE(got);
-  for (std::size_t i = 1; i < got->path.size(); ++i) {
-    const auto mid = 0.5 * (got->path.point(i - 1) + got->path.point(i));
-    EXPECT_NEAR(std::hypot(mid.x - 20.0, mid.y - 60.0), 5.0, 0.001 + 1e-9);
+  return written->bytes;
+}
+std::shared_ptr<const CutterPath> down_and_round() {
+  auto path = std::make_shared<CutterPath>();
+  path->start({25, 60, 0});
+  path->arc({25, 60, -2}, {20, 60}, false, MoveRole::kCut);     // a whole turn, counter-clockwise down
+  path->arc({20, 65, -2.75}, {20, 60}, false, MoveRole::kCut);  // a quarter
+  path->line({30, 65, -2.75}, MoveRole::kCut);
+  path->arc({30, 55, -1}, {30, 60}, true, MoveRole::kCut);  // clockwise up
+  return path;
+}
+/// Without the header's exact paths: what the toolpaths themselves say.
+Result<StepPath> path_of(const std::string& bytes) {
+  std::string text = bytes;
+  for (auto at = text.find("\n!CAPSTAN"); at != std::string::npos; at = text.find("\n!CAPSTAN"))
+    text.erase(at, text.find('\n', at + 1) - at);
+  Job job;
+  const auto plan = read_text(text, job);
+  EXPECT_TRUE(plan);
+  return path_of_step(*plan,
+                      model::Ref<model::Executable>(plan->model.all(model::TypeId::kMachiningWorkingstep)[0]),
+                      kOptions, job);
+}
+
+TEST(Trajectories, LeftHandedHelixIsWrittenAsChordsAndFollowedAsItself) {
+  const auto path = down_and_round();
+  const std::string bytes = left_handed(path);
+  // Its chords are within the tolerance of who knows nothing of the name: of a circle of 5 mm.
+  EXPECT_GT(std::count(bytes.begin(), bytes.end(), '\n'), 100);
+  const auto got = path_of(bytes);
+  ASSERT_TRUE(got) << to_text(got.error());
+  ASSERT_EQ(got->path.size(), path->size());
+  for (std::size_t i = 0; i < path->size(); ++i) {
+    EXPECT_LT(norm(got->path.point(i) - path->point(i)), 1e-9) << i;
+    if (i == 0) continue;
+    EXPECT_EQ(got->path.kind[i], path->kind[i]) << i;
+    EXPECT_NEAR(got->path.cx[i], path->cx[i], 1e-9) << i;
+    EXPECT_NEAR(got->path.cy[i], path->cy[i], 1e-9) << i;
   }
+}
+
+TEST(Trajectories, ChordsOfALeftHandedHelixThatWereEditedAreFollowedAsTheyStand) {
+  std::string bytes = left_handed(down_and_round());
+  // The point half round, opposite to where it begins: (15, 60, -1), moved by a tenth.
+  // In the hole's own coordinates: (-5, 0, -1).
+  const std::regex half_round("\\(-5\\.,([^,()]*),-1\\.\\)");
+  ASSERT_TRUE(std::regex_search(bytes, half_round)) << bytes;
+  bytes = std::regex_replace(bytes, half_round, "(-4.9,$1,-1.)", std::regex_constants::format_first_only);
+  const auto got = path_of(bytes);
+  ASSERT_TRUE(got) << to_text(got.error());
+  // A chord of a circle of 5 mm strays 0.001 mm at 2 acos(1 - 0.001 / 5) = 2.29 degrees: 158 a turn.
+  EXPECT_EQ(got->path.size(), down_and_round()->size() - 1 + 158);
+  double least = 5.0;
+  for (std::size_t i = 1; i < 158; ++i)
+    least = std::min(least, std::hypot(got->path.x[i] - 20.0, got->path.y[i] - 60.0));
+  EXPECT_NEAR(least, 4.9, 1e-6);
 }
 
 }  // namespace

@@ -24,11 +24,12 @@ constexpr Part kParts[] = {
     {"sections", Kind::kDifferent}, {"summary", Kind::kDifferent},  {"decisions", Kind::kDifferent},
 };
 
-/// What no reader sees, and no check needs: where an object stood in its file, and words.
+/// What no reader sees, and no check needs: where an object stood in its file, words, and the hash of a
+/// decided value, which is computed anew where the seal of the decisions holds.
 bool only_words(const std::string& key) {
-  static const std::vector<std::string> kWords = {"@instance", "@line", "description", "source",
-                                                  "sources",   "names", "pickup_text", "text",
-                                                  "why",       "name",  "lexeme",      "of"};
+  static const std::vector<std::string> kWords = {"@instance", "@line", "description", "source", "sources",
+                                                  "names",     "text",  "pickup_text", "why",    "name",
+                                                  "lexeme",    "of",    "value_hash"};
   return std::find(kWords.begin(), kWords.end(), key) != kWords.end();
 }
 

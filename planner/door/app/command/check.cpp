@@ -70,7 +70,7 @@ class Check {
     Stated out;
     Job quiet;  // executing says again what is wrong with a path
     for (const auto step : plan.model.all_below(model::TypeId::kMachiningWorkingstep)) {
-      auto path = exchange::path_of_step(plan, model::Ref<model::Executable>(step), {}, quiet);
+      auto path = exchange::path_of_step(plan, model::Ref<model::Executable>(step), {}, quiet, &plan.steps);
       if (path && path->path.size() > 0) out.emplace(step, *std::move(path));
     }
     return out;

@@ -44,6 +44,8 @@ std::vector<model::Finding> plain(const std::vector<Told>& told) {
 struct Verdict {
   std::size_t findings = 0;  ///< without notes
   std::vector<model::Condemnation> condemned;
+  /// Whether it is written all the same, with its stops: asked for, and known what it is.
+  bool written = false;
 };
 
 /// Checks the plan and its programs and tells the job. A condemned program that is asked for all the same is
@@ -58,7 +60,8 @@ Result<Verdict> judged(Session& s, const model::Plan& plan, const KnownFindings&
   auto all = plain(told);
   for (const Told& t : of_text) all.push_back(t.finding);
   v.condemned = model::condemned(plan, all);
-  if (!v.condemned.empty() && s.options.allow_findings && makes_program(outputs)) {
+  v.written = v.condemned.empty() || (s.options.allow_findings && !model::never_written(v.condemned));
+  if (!v.condemned.empty() && v.written && makes_program(outputs)) {
     Job silent;  // what the writer warns of was said when it wrote the first time
     for (Output& o : outputs) {
       if (!is_program(o)) continue;
@@ -132,14 +135,17 @@ void withhold(Session& s, const model::Plan& plan, const std::vector<model::Cond
               std::vector<Output>& outputs) {
   for (const Output& o : outputs) {
     if (!of_program(o)) continue;
-    s.job.report({.code = "APP-WITHHELD",
-                  .severity = Severity::kError,
-                  .message = (is_program(o) ? "program not written: " : "tool table not written: ") +
-                             why(plan, condemned),
-                  .file = o.path,
-                  .hint =
-                      "plan it with other tools, depths or another machine; --allow-findings writes it all "
-                      "the same, with a stop before each condemned step"});
+    s.job.report(
+        {.code = "APP-WITHHELD",
+         .severity = Severity::kError,
+         .message =
+             (is_program(o) ? "program not written: " : "tool table not written: ") + why(plan, condemned),
+         .file = o.path,
+         .hint = model::never_written(condemned)
+                     ? "correct the file; nobody can tell what its program would be, so that "
+                       "--allow-findings does not write it either"
+                     : "plan it with other tools, depths or another machine; --allow-findings writes "
+                       "it all the same, with a stop before each condemned step"});
     put_aside(o, s.job);
   }
   std::erase_if(outputs, of_program);
@@ -187,11 +193,11 @@ int finish(Session& s, const model::Plan& plan, std::vector<Output> outputs, con
   std::string verdict_text;
   if (condemned) {
     const bool asked = std::any_of(outputs.begin(), outputs.end(), of_program);
-    verdict_text = !asked                     ? "; no program can be made of it: "
-                   : s.options.allow_findings ? "; the program stops before what is condemned: "
-                                              : "; program not written: ";
+    verdict_text = !asked            ? "; no program can be made of it: "
+                   : verdict.written ? "; the program stops before what is condemned: "
+                                     : "; program not written: ";
     verdict_text += why(plan, verdict.condemned);
-    if (!s.options.allow_findings) withhold(s, plan, verdict.condemned, outputs);
+    if (!verdict.written) withhold(s, plan, verdict.condemned, outputs);
   }
   if (auto ok = write_all(outputs); !ok) return s.end(ok.error(), kImpossible);
   s.summary += verdict_text + written_text(outputs);

@@ -115,10 +115,11 @@ class CommandLine {
   void force(CLI::App* sub) {
     sub->add_flag("--force", out_.force, "let an output replace a file that this call reads");
   }
-  void inputs(CLI::App* sub) {
+  void inputs(CLI::App* sub, const char* tools = "tool library: a file, or `generic` (the default)") {
     sub->add_option("--machine", raw_.machine, "machine: a file, or the id of a built-in one");
-    sub->add_option("--tools", raw_.tools, "tool library: a file, or `generic`");
-    sub->add_option("--material", raw_.material, "work material, instead of the part's: a name, like:NAME, or a file of one");
+    sub->add_option("--tools", raw_.tools, tools);
+    sub->add_option("--material", raw_.material,
+                    "work material, instead of the part's: a name, like:NAME, or a file of one");
     sub->add_option("--stock", raw_.stock,
                     "raw piece: block:+2 (the part and 2 mm all round) or box:x0,y0,z0,x1,y1,z1");
     sub->add_option("--objective", raw_.objective,
@@ -170,7 +171,10 @@ class CommandLine {
   void bind() {
     auto* sub = command(app_, "bind", "close at the machine what a plan left open", Command::kBind);
     file(sub, "plan", "plan with open decisions");
-    inputs(sub);
+    inputs(
+        sub,
+        "the tools that are loaded: a tool table or library; without it the plan's own count as loaded, in "
+        "its tool numbers");
     sub->add_option("--deadline", raw_.deadline, "e.g. 200ms or 2s; a plan that comes later ends with 5");
     findings(sub);
     outputs(sub, true);

@@ -153,11 +153,13 @@ std::optional<engagement::Measurement> measured(Work& w, const StepWork& step, c
     w.job.warn(m.error().code, "step '" + name_of(w, step) + "' is not measured: " + m.error().message);
     return std::nullopt;
   }
-  if (m->rapid_removed_mm3 > 1e-3) {
-    w.job.warn("PIP-RAPID", "step '" + name_of(w, step) + "': rapid moves touch " +
-                                trimmed(m->rapid_removed_mm3, 3) + " mm3 of material");
-  }
   return *std::move(m);
+}
+
+void tell_rapids(Work& w, const StepWork& step, double removed_mm3) {
+  if (removed_mm3 <= 1e-3) return;
+  w.job.warn("PIP-RAPID", "step '" + name_of(w, step) + "': rapid moves touch " + trimmed(removed_mm3, 3) +
+                              " mm3 of material");
 }
 
 bool rigid_tap(const Work& w, const StepWork& step) {
@@ -175,7 +177,7 @@ bool rigid_tap(const Work& w, const StepWork& step) {
 
 Result<std::optional<GivenPath>> given_path(Work& w, StepWork& step, Stocks& stocks, const Progress& progress,
                                             Cuts& cuts) {
-  auto given = exchange::path_of_step(w.plan, step.step, {}, w.job);
+  auto given = exchange::path_of_step(w.plan, step.step, {}, w.job, &w.recorded_steps);
   if (!given) {
     w.job.report(given.error());
     return tl::unexpected(given.error());
@@ -194,6 +196,7 @@ Result<std::optional<GivenPath>> given_path(Work& w, StepWork& step, Stocks& sto
   auto path = std::make_shared<const model::CutterPath>(std::move(given->path));
   if (cuts_here) {
     auto found = measured(w, step, *path, stocks);
+    if (found) tell_rapids(w, step, found->rapid_removed_mm3);
     fq.samples = samples_for(w, step, *path, given->sections, found);
     if (found) {
       out.result.sections = std::make_shared<const model::SectionSeries>(std::move(found->sections));

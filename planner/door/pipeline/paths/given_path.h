@@ -28,9 +28,12 @@ struct GivenPath {
 [[nodiscard]] Result<std::optional<GivenPath>> given_path(Work& w, StepWork& step, Stocks& stocks,
                                                           const Progress& progress, Cuts& cuts);
 
-/// Measures a path and takes what it cuts from the stock. Says why not, and PIP-RAPID of rapids that cut.
+/// Measures a path and takes what it cuts from the stock. Says why not.
 [[nodiscard]] std::optional<engagement::Measurement> measured(Work& w, const StepWork& step,
                                                               const model::CutterPath& path, Stocks& stocks);
+
+/// Says PIP-RAPID where rapids of a path that is kept cut material.
+void tell_rapids(Work& w, const StepWork& step, double removed_mm3);
 
 /// Whether the step mills: then feeds follow the sections.
 [[nodiscard]] inline bool mills(const optimise::CutQuestion& q) {

@@ -52,6 +52,7 @@ struct Tried {
   optimise::FeedQuestion asked;
   optimise::FeedAnswer feeds;
   std::optional<double> removed_mm3;  ///< unset where nothing was measured
+  double rapid_removed_mm3 = 0.0;
 };
 
 /// Thinner cuts that are tried with one cutter where a limit is exceeded along its path.
@@ -421,6 +422,7 @@ class PathMaker {
     r.active = active_of(made.answer);
     if (auto m = measured(w_, step, *out.path, stocks_)) {
       out.removed_mm3 = m->removed_mm3;
+      out.rapid_removed_mm3 = m->rapid_removed_mm3;
       fq.samples = samples_of(*m, *out.path, step.cutter);
       // One pass over a surface, not levels: as deep and as wide as what roughing left there.
       if (w_.plan.model.holds<model::FreeformFinishMilling>(step.operation)) {
@@ -447,6 +449,7 @@ class PathMaker {
     if (candidate > 0 && candidate < step.candidates.size())
       take_cutter(w_, step, step.candidates[candidate]);
     const Made& made = tried.made;
+    tell_rapids(w_, step, tried.rapid_removed_mm3);
     let_go(w_, step, made.let_go);
     turn_with_the_cutter(w_, step);
     record_cut(w_, step, made.answer, made.depth_open, made.width_open, made.precedent);

@@ -38,8 +38,9 @@ bool as_large(const model::Cutter& a, const model::Cutter& b) {
 /// cutter, speed, feed, depth and path. Which limits these reached was found when these were chosen, and is
 /// not asked again. A plan that was read knows its machine by name, and its paths by what they take.
 const model::StepResult* unchanged(const Work& w, const StepWork& step, const model::StepResult& r) {
-  constexpr double kSame = 1e-6;   // of the value, what a file's units round; default, unsourced
-  constexpr double kSameS = 0.01;  // a left-handed helix is written as points; default, unsourced
+  constexpr double kSame = 1e-6;  // of the value, what a file's units round; default, unsourced
+  constexpr double kSameS =
+      0.01;  // files of earlier versions have left-handed helices as points; default, unsourced
   if (step.open_technology || w.recorded_machine.id != w.plan.machine.id ||
       w.recorded_material != w.plan.material)
     return nullptr;

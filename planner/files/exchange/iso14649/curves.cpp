@@ -206,8 +206,9 @@ Result<Followed> follow(const model::Plan& plan, AnyRef toolpath, const Placemen
 /// Puts the toolpaths of a step one after the other.
 class StepBuilder {
  public:
-  StepBuilder(const model::Plan& plan, AnyRef step, const CurveOptions& o, Job& job)
-      : plan_(plan), m_(plan.model), step_(step), o_(o), job_(job) {}
+  StepBuilder(const model::Plan& plan, AnyRef step, const CurveOptions& o, Job& job,
+              const std::vector<model::StepResult>* recorded)
+      : plan_(plan), recorded_(recorded), m_(plan.model), step_(step), o_(o), job_(job) {}
 
   Result<StepPath> run() {
     AnyRef list;
@@ -303,18 +304,25 @@ class StepBuilder {
     return {};
   }
 
-  // The path just joined may have feeds and speeds of its own, move by move.
+  // The path just joined may have feeds and speeds of its own, move by move. Where the technology, whose
+  // `settle` put there, is not the one that they were chosen with, somebody typed it since: it holds
+  // throughout.
   void take_schedule(const model::PathHandle& path) {
-    for (const auto& result : plan_.steps) {
+    constexpr double kSame = 1e-6;  // of the value, what a file's units round; default, unsourced
+    for (const auto& result : recorded_ == nullptr ? plan_.steps : *recorded_) {
       if (result.path != path || !result.schedule) continue;
-      const auto copy = [n = path->size()](const std::vector<double>& from, std::vector<double>& to) {
+      const auto copy = [n = path->size(), executes = recorded_ != nullptr](
+                            const std::vector<double>& from, std::vector<double>& to, double chosen) {
         if (from.size() != n || n == 0 || to.size() < n) return;
+        if (executes && chosen != 0.0 && to.back() != 0.0 &&
+            std::abs(to.back() - chosen) > kSame * std::abs(chosen))
+          return;
         // Its first point has no move, and may be where the one before ended.
         std::copy(from.begin() + 1, from.end(), to.end() - static_cast<std::ptrdiff_t>(n - 1));
       };
-      copy(result.schedule->feed_mm_min, out_.schedule.feed_mm_min);
-      copy(result.schedule->spindle_rpm, out_.schedule.spindle_rpm);
-      copy(result.schedule->dwell_s, out_.schedule.dwell_s);
+      copy(result.schedule->feed_mm_min, out_.schedule.feed_mm_min, result.feed_mm_min);
+      copy(result.schedule->spindle_rpm, out_.schedule.spindle_rpm, result.spindle_rpm);
+      copy(result.schedule->dwell_s, out_.schedule.dwell_s, 0.0);
       return;
     }
   }
@@ -405,6 +413,7 @@ class StepBuilder {
   }
 
   const model::Plan& plan_;
+  const std::vector<model::StepResult>* recorded_;
   const model::Model& m_;
   AnyRef step_;
   const CurveOptions& o_;
@@ -426,8 +435,9 @@ Result<CutterPath> path_of_toolpath(const model::Plan& plan, model::Ref<model::T
 }
 
 Result<StepPath> path_of_step(const model::Plan& plan, model::Ref<model::Executable> step,
-                              const CurveOptions& options, Job& job) {
-  return StepBuilder(plan, step, options, job).run();
+                              const CurveOptions& options, Job& job,
+                              const std::vector<model::StepResult>* recorded) {
+  return StepBuilder(plan, step, options, job, recorded).run();
 }
 
 }  // namespace capstan::exchange

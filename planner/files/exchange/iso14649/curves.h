@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #include "planner/files/exchange/iso14649/step_frames.h"
 #include "planner/ground/base/job.h"
@@ -46,9 +47,14 @@ struct StepPath {
 };
 
 /// The whole step: toolpaths one after the other; empty when it has none. A toolpath that carries a
-/// model::CutterPath (which is in the set-up's frame already) is taken as it is.
+/// model::CutterPath (which is in the set-up's frame already) is taken as it is, with the schedule that the
+/// plan's results have for it. `recorded`: of a plan that is executed anew, its results as they were read;
+/// where the technology states another feed, or speed, than these, somebody typed it since, and it holds
+/// throughout.
+///
 /// Fails  as path_of_toolpath; EXC-GAP where a toolpath does not begin where the one before ended.
 [[nodiscard]] Result<StepPath> path_of_step(const model::Plan& plan, model::Ref<model::Executable> step,
-                                            const CurveOptions& options, Job& job);
+                                            const CurveOptions& options, Job& job,
+                                            const std::vector<model::StepResult>* recorded = nullptr);
 
 }  // namespace capstan::exchange

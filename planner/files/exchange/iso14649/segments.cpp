@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "planner/files/exchange/ap238/via.h"
+#include "planner/files/exchange/iso14649/left_helix.h"
 #include "planner/ground/base/number.h"
 #include "planner/model/features/curve_points.h"
 #include "planner/model/features/resolve.h"
@@ -72,6 +73,7 @@ class Walker {
     for (const AnyRef end : {items.front(), items.back()}) {
       if (is_via(end)) return bad(m_, end, "a via point begins or ends a POLYLINE");
     }
+    if (const auto helix = named_helix(c)) return std::vector<Segment>{*helix};
     std::vector<Segment> out;
     auto from = model::point(m_, c.points[0]);
     if (!from) return fail(from.error());
@@ -102,6 +104,17 @@ class Walker {
     out.front().u_from = 0.0;
     out.back().u_to = static_cast<double>(items.size() - 1);
     return out;
+  }
+
+  [[nodiscard]] std::optional<Segment> named_helix(const model::Polyline& c) const {
+    if (!c.name || c.name->empty()) return std::nullopt;
+    std::vector<Vec3> points;
+    for (const AnyRef at : c.points.items) {
+      const auto p = model::point(m_, model::Ref<model::CartesianPoint>(at));
+      if (!p || is_via(at)) return std::nullopt;
+      points.push_back(*p);
+    }
+    return left_helix(*c.name, points);
   }
 
   static bool is_via(AnyRef p) {

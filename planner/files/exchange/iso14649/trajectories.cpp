@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "planner/files/exchange/iso14649/curves.h"
+#include "planner/files/exchange/iso14649/left_helix.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/nouns/arena/walk.h"
 
@@ -45,12 +46,13 @@ class CurveWriter {
   model::Ref<model::BoundedCurve> run(std::size_t first, std::size_t last) {
     std::vector<model::Ref<model::BoundedCurve>> parts;
     for (std::size_t i = first; i <= last;) {
-      if (is_arc(i) && !left_handed(i)) {
-        parts.push_back(arc(i++));
+      if (is_arc(i)) {
+        parts.push_back(left_handed(i) ? left_helix(i) : arc(i));
+        ++i;
         continue;
       }
-      std::vector<Vec3> points = {p_.point(i - 1)};
-      for (; i <= last && (!is_arc(i) || left_handed(i)); ++i) straight(i, points);
+      std::vector<Vec3> points = {f_.to_local(p_.point(i - 1))};
+      for (; i <= last && !is_arc(i); ++i) points.push_back(f_.to_local(p_.point(i)));
       parts.push_back(polyline(points));
     }
     if (parts.size() == 1) return parts.front();
@@ -80,23 +82,32 @@ class CurveWriter {
     return rise != 0.0 && (rise > 0.0) != (p_.kind[i] == MoveKind::kArcCcw);
   }
 
-  void straight(std::size_t i, std::vector<Vec3>& points) {
-    if (is_arc(i)) {
-      ++sampled_helices;
-      const double r = std::hypot(p_.x[i] - p_.cx[i], p_.y[i] - p_.cy[i]);
-      const double step = 2.0 * std::acos(std::clamp(1.0 - kHelixChordMm / std::max(r, 1e-6), -1.0, 1.0));
-      const auto n = static_cast<std::size_t>(std::max(2.0, std::ceil(arc_sweep(p_, i) / step)));
-      for (std::size_t k = 1; k < n; ++k) {
-        points.push_back(point_on_move(p_, i, static_cast<double>(k) / static_cast<double>(n)));
-      }
+  model::Ref<model::BoundedCurve> left_helix(std::size_t i) {
+    ++sampled_helices;
+    const double r = std::hypot(p_.x[i] - p_.cx[i], p_.y[i] - p_.cy[i]);
+    const double step = 2.0 * std::acos(std::clamp(1.0 - kHelixChordMm / std::max(r, 1e-6), -1.0, 1.0));
+    const auto n = static_cast<std::size_t>(std::max(2.0, std::ceil(arc_sweep(p_, i) / step)));
+    std::vector<Vec3> points;
+    for (std::size_t k = 0; k <= n; ++k) {
+      const Vec3 p = k == 0   ? p_.point(i - 1)
+                     : k == n ? p_.point(i)
+                              : point_on_move(p_, i, static_cast<double>(k) / static_cast<double>(n));
+      points.push_back(f_.to_local(p));
     }
-    points.push_back(p_.point(i));
+    const double sweep = arc_sweep(p_, i);
+    return polyline(points,
+                    curves::left_helix_name({.from = points.front(),
+                                             .to = points.back(),
+                                             .arc = true,
+                                             .centre = f_.to_local({p_.cx[i], p_.cy[i], p_.z[i]}),
+                                             .axis = f_.direction_to_local({0.0, 0.0, 1.0}),
+                                             .sweep = p_.kind[i] == MoveKind::kArcCcw ? sweep : -sweep}));
   }
 
-  model::Ref<model::BoundedCurve> polyline(const std::vector<Vec3>& points) {
+  model::Ref<model::BoundedCurve> polyline(const std::vector<Vec3>& points, std::string name = "") {
     model::Polyline c;
-    c.name = "";
-    for (const Vec3 p : points) c.points.push_back(add_point(m_, f_.to_local(p)));
+    c.name = std::move(name);
+    for (const Vec3 p : points) c.points.push_back(add_point(m_, p));
     return m_.add(std::move(c));
   }
 

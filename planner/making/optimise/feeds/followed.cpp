@@ -24,7 +24,8 @@ double down(double feed) { return std::max(rounded(std::floor(feed * 10.0 + 1e-6
 /// do at most is that of one.
 double across_mm_min(const CutterPath& path, std::size_t i, const model::Machine& machine) {
   double most = std::numeric_limits<double>::infinity();
-  if (path.kind[i] == MoveKind::kLine && path.x[i] == path.x[i - 1] && path.y[i] == path.y[i - 1])
+  if (path.kind[i] == MoveKind::kLine && path.x[i] == path.x[i - 1] && path.y[i] == path.y[i - 1] &&
+      path.z[i] != path.z[i - 1])
     return most;
   for (const std::size_t k : {0U, 1U}) {
     if (machine.axes[k].feed_max_mm_min > 0.0) most = std::min(most, machine.axes[k].feed_max_mm_min);

@@ -16,6 +16,7 @@
 namespace capstan::app {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
@@ -93,6 +94,12 @@ class ContradictedPlan : public CommandTest {
       EXPECT_THAT(checked.err, HasSubstr(name));
       EXPECT_THAT(planned.err, HasSubstr(name));
     }
+    // Stops before its steps would not tell what the steps are.
+    const Ran asked = run("plan " + file + " --allow-findings -o x.ngc -o x.tbl " + options);
+    EXPECT_EQ(asked.code, 1) << asked.err;
+    EXPECT_THAT(files(), AllOf(Not(Contains("x.ngc")), Not(Contains("x.tbl"))));
+    EXPECT_THAT(asked.err, AllOf(HasSubstr("program not written: "),
+                                 HasSubstr("--allow-findings does not write it either")));
   }
 
   static ::capstan::testing::ScratchFolder* scratch_of_all_;
@@ -162,6 +169,14 @@ TEST_F(ContradictedPlan, WhatTheHeaderListsIsNotEditedThere) {
   expect_refused("e.p21", with(part21_, "!CAPSTAN_SETUP", "'G54'", "'G55'"), {"set-ups"});
   expect_refused("e.p21", with(part21_, "!CAPSTAN_STEP", "859.", "1859."), {"steps"});
   expect_refused("e.p21", with(part21_, "!CAPSTAN_CUTTER", "120.", "150."), {"tools"});
+}
+
+TEST_F(ContradictedPlan, IsNotBoundToAProgramEither) {
+  put("e.p21", with(part21_, "!CAPSTAN_SETUP", "'G54'", "'G55'"));
+  for (const char* asked : {"", "--allow-findings "}) {
+    EXPECT_NE(run(std::string("bind e.p21 ") + asked + "-o x.ngc -o x.tbl").code, 0);
+    EXPECT_THAT(files(), AllOf(Not(Contains("x.ngc")), Not(Contains("x.tbl"))));
+  }
 }
 
 TEST_F(ContradictedPlan, WhatTheJsonListsIsNotEditedThere) {

@@ -1,9 +1,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <cmath>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -29,8 +32,10 @@ Json& object(Json& plan, const std::string& id) {
 }
 
 Json& operation(Json& plan, const std::string& its_id) {
-  for (auto& o : plan["objects"]["bottom_and_side_rough_milling"]) {
-    if (o["its_id"] == its_id) return o;
+  for (const char* kind : {"bottom_and_side_rough_milling", "bottom_and_side_finish_milling"}) {
+    for (auto& o : plan["objects"][kind]) {
+      if (o["its_id"] == its_id) return o;
+    }
   }
   throw std::runtime_error("no operation " + its_id);
 }
@@ -279,6 +284,77 @@ TEST_F(EditedValues, AreCheckedAndNotWhatWasPlannedBeforeThem) {
   const Ran ran = run("check e.json");
   EXPECT_EQ(ran.code, 1);
   EXPECT_THAT(ran.err, HasSubstr(kStep));
+}
+
+/// What a check finds of steps, by code and step, without the numbers.
+std::set<std::string> found_of_steps(const std::string& said) {
+  std::set<std::string> out;
+  std::istringstream lines(said);
+  for (std::string line; std::getline(lines, line);) {
+    const auto code = line.rfind(" [CHK-");
+    const auto step = line.find("step '");
+    if (code == std::string::npos || step == std::string::npos || line.find(": note: ") != std::string::npos)
+      continue;
+    out.insert(line.substr(step, line.find('\'', step + 6) + 1 - step) + line.substr(code));
+  }
+  return out;
+}
+
+// Once, in JSON, every other step was judged at its greatest feed throughout, and blamed for it.
+TEST_F(EditedValues, OfOneStepLeaveTheFeedsOfTheOthersAsTheyStand) {
+  Json plan = Json::parse(json_);
+  object(plan, operation(plan, "POCKET area_finish")["its_technology"])["feedrate"] = 900;
+  put("e.json", plan.dump());
+  const Ran ran = run("check e.json");
+  EXPECT_EQ(ran.code, 1);
+  EXPECT_THAT(ran.err, HasSubstr("JSON-EDITED"));
+  EXPECT_THAT(found_of_steps(ran.err), ::testing::IsEmpty()) << ran.err;
+}
+
+TEST_F(EditedValues, OfOneStepBlameNoOtherStepInEitherForm) {
+  for (const Typed& t : all_typed()) {
+    if (t.what != "feedrate" && t.what != "spindle") continue;
+    SCOPED_TRACE(t.what);
+    Json plan = Json::parse(json_);
+    t.json(plan);
+    put("e.json", plan.dump());
+    std::string text = part21_;
+    t.part21(text);
+    put("e.p21", text);
+    for (const char* form : {"e.json", "e.p21"}) {
+      const Ran ran = run(std::string("check ") + form);
+      EXPECT_EQ(ran.code, 1);
+      for (const std::string& found : found_of_steps(ran.err)) EXPECT_THAT(found, HasSubstr(kStep)) << form;
+    }
+  }
+}
+
+/// Processor time of the commands run so far.
+double of_commands_s() {
+  rusage all{};
+  getrusage(RUSAGE_CHILDREN, &all);
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  return seconds(all.ru_utime) + seconds(all.ru_stime);
+}
+
+// Once 23 s of Part 21 where JSON took half a second: each inner helix was thousands of chords.
+TEST_F(EditedValues, TakeAsLongToCheckInPart21AsInJson) {
+  const Typed t = all_typed().front();
+  Json plan = Json::parse(json_);
+  t.json(plan);
+  put("e.json", plan.dump());
+  std::string text = part21_;
+  t.part21(text);
+  put("e.p21", text);
+  const double begin = of_commands_s();
+  (void)run("check e.json");
+  const double json_s = of_commands_s() - begin;
+  (void)run("check e.p21");
+  const double part21_s = of_commands_s() - begin - json_s;
+  // A second is room for what else there is to read.
+  EXPECT_LE(part21_s, 2.0 * json_s + 1.0);
 }
 
 TEST_F(EditedValues, OpenAreToldAsOpenWithoutTheOldReason) {

@@ -72,6 +72,18 @@ TEST_F(Words, HelpNamesEveryFormThatIsReadAndWritten) {
     EXPECT_THAT(run(std::string(command) + " --help").out, HasSubstr(".stpnc"));
 }
 
+TEST_F(Words, HelpSaysWhichToolsCountWhereNoneAreNamed) {
+  // A line of help may end anywhere between two words.
+  const auto help = [&](const char* command) {
+    std::istringstream words(run(std::string(command) + " --help").out);
+    std::string all;
+    for (std::string word; words >> word;) all += word + " ";
+    return all;
+  };
+  EXPECT_THAT(help("plan"), HasSubstr("`generic` (the default)"));
+  EXPECT_THAT(help("bind"), HasSubstr("without it the plan's own count as loaded"));
+}
+
 TEST_F(Words, AMachineWithoutCoolantIsToldOnceForAllOperations) {
   const std::string bound = "plan '" CAPSTAN_SOURCE_DIR "/examples/bracket.p21' -o p.json";
   ASSERT_EQ(run(bound).code, 0);

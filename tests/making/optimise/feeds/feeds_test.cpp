@@ -233,6 +233,19 @@ TEST(Feeds, StayWithinWhatOneAxisDoesEvenWhereTwoShareTheWay) {
   EXPECT_EQ(a.held_by.front().name, "axis_feed");
 }
 
+TEST(Feeds, OfAMoveWithoutLengthStayWithinWhatOneAxisDoes) {
+  // A path over a surface ends a row where the next begins: such a move has no way to tell its axis by.
+  FeedQuestion q = question();
+  for (auto& axis : q.cut.machine.axes) axis.feed_max_mm_min = 900.0;
+  CutterPath p;
+  p.start({0, 0, 0});
+  p.line({50, 0, 0}, MoveRole::kCut);
+  p.line({50, 0, 0}, MoveRole::kCut);
+  p.line({100, 0, 0}, MoveRole::kCut);
+  cut_along(q, p, 1, 0.5, 0.5);
+  for (const double feed : feeds(q, p).schedule.feed_mm_min) EXPECT_LE(feed, 900.0);
+}
+
 TEST(Feeds, OfNumbersThatAreNoneAreFeedsStill) {
   const double nan = std::nan("");
   const double infinity = std::numeric_limits<double>::infinity();
