@@ -17,7 +17,7 @@ namespace capstan {
 struct PlanOptions {
   std::string machine;    ///< file, or id of a built-in machine
   std::string tools;      ///< file of a tool library
-  std::string material;   ///< name, instead of the part's
+  std::string material;   ///< a name, `like:NAME`, or a file of one; instead of the part's
   std::string rules;      ///< folder of rule tables, added to the built-in ones
   std::string objective;  ///< "time", "cost", "profit" (per time; needs `revenue`)
   std::string feeds;      ///< "scheduled" along the path, "constant"

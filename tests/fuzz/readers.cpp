@@ -9,6 +9,7 @@
 #include "planner/proof/verify/program/program_checks.h"
 #include "planner/proof/verify/verify.h"
 #include "rules/engine/table.h"
+#include "tooling/catalogue/hardness.h"
 #include "tooling/catalogue/library.h"
 #include "tooling/catalogue/machine.h"
 #include "tooling/catalogue/material.h"
@@ -69,7 +70,15 @@ void machine_ini(std::string bytes) {
 }
 void materials(std::string bytes) {
   Job job;
-  (void)said(tooling::read_materials(bytes, "input.yaml", job));
+  const auto read = tooling::read_materials(bytes, "input.yaml", job);
+  (void)tooling::stated_hardness(std::string_view(bytes));
+  if (!said(read)) return;
+  for (const auto& m : *read) {
+    for (const std::string& name : m.names) {
+      const auto found = tooling::find_material(name, *read, job);
+      must(found.has_value() && found->id == m.id, "a material is not found by its name\n");
+    }
+  }
 }
 void workholding(std::string bytes) {
   Job job;

@@ -9,6 +9,7 @@
 #include "planner/physics/mechanics/kienzle.h"
 #include "planner/physics/mechanics/section.h"
 #include "tests/validation/studies.h"
+#include "tooling/catalogue/material.h"
 
 namespace capstan::validation {
 namespace {
@@ -144,6 +145,53 @@ Comparison forces() {
   return out;
 }
 
+namespace {
+
+/// A shipped material beside the row of the maker's tables that is nearest in strength.
+struct Beside {
+  const char* material;
+  const char* row;
+  double milled_0_1, milled_0_6;  ///< N/mm2 at 0.1 and 0.6 mm per tooth
+  double turned_0_1, turned_0_6;  ///< at 0.1 and 0.6 mm per turn; 0: not tabulated
+};
+
+// Mitsubishi Materials, technical information: cutting power for face milling, and in turning.
+constexpr Beside kBeside[] = {
+    {"C45", "medium steel, 620 N/mm²", 1980, 1570, 3080, 2300},
+    {"42CrMo4", "CrMo steel, 600 N/mm²", 2180, 1670, 3610, 2500},
+    {"42CrMo4+QT", "CrMo steel, 730 N/mm²", 2540, 1800, 4500, 2850},
+    {"1.2311", "tool steel, 770 N/mm²", 2030, 1580, 3150, 2340},
+    {"AISI 304", "austenitic steel, 155 HB", 2030, 1710, 0, 0},
+    {"GG25", "grey cast iron, 200 HB", 1750, 970, 2110, 1330},
+    {"CW614N", "brass", 1150, 630, 0, 0},
+    {"EN AW-7075", "AlZnMgCu", 880, 720, 0, 0},
+};
+/// Mean chip over the feed of a face mill in the middle of a cut of 0.7 of its diameter: 1.4 / (2 asin 0.7).
+const double kMeanChip = 1.4 / (2.0 * std::asin(0.7));
+
+Table beside() {
+  Table out{{"material", "row of the table", "milling, 0.1 mm", "milling, 0.6 mm", "turning, 0.1 mm",
+             "turning, 0.6 mm"},
+            {}};
+  const auto materials = tooling::shipped_materials();
+  if (!materials) return out;
+  for (const Beside& b : kBeside) {
+    Job job;
+    const auto m = tooling::find_material(b.material, *materials, job);
+    if (!m) continue;
+    const auto ratio = [&](double h, double tabled) {
+      if (tabled == 0.0) return std::string("-");
+      return fixed(mechanics::specific_force_n_mm2({m->kc11_n_mm2, m->mc}, h) / tabled, 2);
+    };
+    out.rows.push_back({b.material, b.row, ratio(0.1 * kMeanChip, b.milled_0_1),
+                        ratio(0.6 * kMeanChip, b.milled_0_6), ratio(0.1, b.turned_0_1),
+                        ratio(0.6, b.turned_0_6)});
+  }
+  return out;
+}
+
+}  // namespace
+
 Comparison kienzle() {
   Comparison out{.name = "kienzle"};
   Table rows{{"material", "kc1.1, N/mm²", "exponent", "largest difference to the table"}, {}};
@@ -166,7 +214,8 @@ Comparison kienzle() {
     data.rows.push_back(row);
   }
   out.headline = "13 materials, largest difference to a table value " + fixed(100.0 * worst, 1) + " %";
-  out.text = markdown(rows);
+  out.text = markdown(rows) + "\nSpecific force of shipped materials over the tables' values:\n\n" +
+             markdown(beside());
   out.data.emplace_back("kienzle.dat", columns(data));
   return out;
 }

@@ -272,11 +272,7 @@ void set_lengths(const Series& s, const Holding& h, Cutter& c, Fields& where, bo
               {h.gage_length - nut, c.holder_diameter_mm, c.holder_diameter_mm}};
 }
 
-std::string speed_source(const WorkMaterial& m, bool hss) {
-  for (const auto& [field, source] : m.sources)
-    if (field == (hss ? "vc_hss_m_min" : "vc_carbide_m_min")) return source;
-  return "the material's";
-}
+constexpr const char* kSlowestOfGroup = "vc: the slowest shipped material of the group";
 
 void set_presets(const Series& s, const Reader& r, Cutter& c) {
   const auto it = r.feeds.find(s.feeds);
@@ -294,12 +290,14 @@ void set_presets(const Series& s, const Reader& r, Cutter& c) {
     const auto coat = s.coated ? r.coated.find(m.iso_group) : r.coated.end();
     const double by_coat = coat != r.coated.end() ? coat->second : 1.0;
     const double bare = hss ? m.vc_hss_m_min : m.vc_carbide_m_min;
+    if (!(bare > 0.0)) continue;  // no tool of this substrate is to cut it
     const double vc = rounded(bare * s.speed_factor * by_coat, 3);
     const double fz = tap ? c.fz_min_mm : rounded(feeds.factor.at(m.iso_group) * d, 5);
     std::string times = s.speed_factor == 1.0 ? "" : trimmed(s.speed_factor, 3) + " (default) x ";
     if (by_coat != 1.0)
       times += trimmed(by_coat, 3) + " " + std::string(kCoated) + ": " + r.coated_source + ") x ";
-    c.presets.push_back({m.id, vc, fz, "vc: " + times + speed_source(m, hss) + "; fz: " + r.feeds_source});
+    c.presets.push_back(
+        {m.id, vc, fz, "vc: " + times + std::string(kMaterialsSpeed) + "; fz: " + r.feeds_source});
     const auto [at, fresh] = slowest.emplace(m.iso_group, vc);
     if (!fresh) at->second = std::min(at->second, vc);
   }
@@ -310,7 +308,7 @@ void set_presets(const Series& s, const Reader& r, Cutter& c) {
     const auto coat = s.coated ? r.coated.find(group) : r.coated.end();
     const bool faster = coat != r.coated.end() && coat->second != 1.0;
     c.presets.push_back({group, vc->second, fz,
-                         "vc: the slowest shipped material of the group" +
+                         kSlowestOfGroup +
                              (faster ? " " + std::string(kCoated) + ": " + r.coated_source + ")" : "") +
                              "; fz: " + r.feeds_source});
   }
@@ -399,6 +397,36 @@ Result<std::vector<Cutter>> generic_library() {
   if (!materials) return fail(materials.error());
   Job job;
   return expand_series(shipped_text("cutters.yaml"), "cutters.yaml", *materials, job);
+}
+
+Status add_start_values(const WorkMaterial& own, std::vector<Cutter>& library) {
+  const auto shipped = shipped_materials();
+  if (!shipped) return fail(shipped.error());
+  // What the slowest of the group has, by substrate: a series' speed is a factor times a material's.
+  double slowest[2] = {0.0, 0.0};
+  for (const WorkMaterial& m : *shipped) {
+    if (m.iso_group != own.iso_group) continue;
+    const double bare[2] = {m.vc_hss_m_min, m.vc_carbide_m_min};
+    for (int i = 0; i < 2; ++i)
+      if (bare[i] > 0.0 && (slowest[i] == 0.0 || bare[i] < slowest[i])) slowest[i] = bare[i];
+  }
+  for (Cutter& c : library) {
+    const int i = c.substrate == model::Substrate::kHss ? 0 : 1;
+    const double bare = i == 0 ? own.vc_hss_m_min : own.vc_carbide_m_min;
+    if (!(bare > 0.0) || !(slowest[i] > 0.0)) continue;
+    const auto of_group = std::find_if(c.presets.begin(), c.presets.end(), [&](const auto& p) {
+      return p.material_group == own.iso_group && p.source.starts_with(kSlowestOfGroup);
+    });
+    if (of_group == c.presets.end()) continue;
+    model::CuttingPreset p = *of_group;
+    p.material_group = own.id;
+    const double factor = rounded(p.vc_m_min / slowest[i], 6);
+    p.vc_m_min = rounded(factor * bare, 3);
+    p.source.replace(0, std::string_view(kSlowestOfGroup).size(),
+                     "vc: " + trimmed(factor, 3) + " x " + std::string(kMaterialsSpeed));
+    c.presets.insert(c.presets.begin(), std::move(p));
+  }
+  return {};
 }
 
 const Result<std::vector<Cutter>>& shared_generic_library() {

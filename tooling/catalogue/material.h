@@ -17,10 +17,22 @@ namespace capstan::tooling {
 [[nodiscard]] Result<std::vector<model::WorkMaterial>> shipped_materials();
 
 /// As above from a text of the same form.
-/// Fails  DATA-*, MATERIAL-RANGE for a value no material has, MATERIAL-SUBSTRATE; each fault is reported to
-/// the job first.
+/// Fails  DATA-* (also a name of two materials, a citation that is not there), MATERIAL-RANGE for a value no
+///        material has, MATERIAL-GROUP, MATERIAL-SUBSTRATE; each fault is reported to the job first.
 [[nodiscard]] Result<std::vector<model::WorkMaterial>> read_materials(std::string_view text,
                                                                       const std::string& file, Job& job);
+
+/// Before a name whose figures are to stand for a material that is not known.
+inline constexpr std::string_view kLike = "like:";
+
+/// Whether `--material` names a file rather than a material: it ends in .yaml, .yml or .json.
+[[nodiscard]] bool names_a_material_file(std::string_view text);
+
+/// A shop's own material: a file of the form of materials.yaml that holds one.
+/// Fails  FILE-*, and as read_materials; MATERIAL-FILE when it holds several, or one with a shipped id.
+[[nodiscard]] Result<model::WorkMaterial> load_material(const std::string& path,
+                                                        const std::vector<model::WorkMaterial>& shipped,
+                                                        Job& job);
 
 /// Whether a family's word ("STEEL") may stand for a material.
 enum class Families : bool { kTaken, kRefused };
@@ -29,9 +41,11 @@ enum class Families : bool { kTaken, kRefused };
 /// material_identifier): an id or a name, letter case and punctuation aside; a name followed by a temper or
 /// quality ("EN AW-6061-T6"); else a family's word ("STEEL"), which stands for its hardest card (warns
 /// MATERIAL-FAMILY). When no text says anything, the shipped table's `unnamed` (warns MATERIAL-DEFAULT).
+/// A hardness beside the name ("42CrMo4 50 HRC") picks the card that is as hard (hardness.h). With `kRefused`
+/// "like:NAME" asks for the figures of NAME for a material that is not known.
 /// WorkMaterial::sources then has "chosen": why it was taken; its measured sets are those of the alloy named.
 /// Fails  NAME-UNKNOWN for a name that nobody knows: it is never guessed. MATERIAL-NONE when `materials` is
-///        empty.
+///        empty. MATERIAL-HARDNESS for one that is harder than its cards.
 ///        With `kRefused` it fails so for a family's word, too: who can choose a name is asked to.
 [[nodiscard]] Result<model::WorkMaterial> find_material(const std::vector<std::string>& texts,
                                                         const std::vector<model::WorkMaterial>& materials,

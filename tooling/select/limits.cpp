@@ -209,6 +209,13 @@ std::string slower_gear(const Machine& m, double rpm) {
 
 }  // namespace
 
+std::optional<std::string> not_cut_with(const Cutter& c, const StartValues& start,
+                                        const WorkMaterial& material) {
+  if (c.cutter_class == CutterClass::kTouchProbe || start.wanted_vc_m_min > 0.0) return std::nullopt;
+  return material.id + " is not cut with " + std::string(model::to_text(c.substrate)) +
+         ": its card has no speed for it, and the tool states none";
+}
+
 double lower_size(const ToolRequirement& r) {
   return r.diameter_exact_mm > 0.0 ? r.diameter_exact_mm - r.diameter_tolerance_mm : r.diameter_min_mm;
 }
@@ -311,6 +318,7 @@ std::optional<std::string> not_for_machine(const Cutter& c, const StartValues& s
                                            const Machine& m, const Preferences& p) {
   if (auto why = not_in_magazine(c, m, p)) return why;
   if (c.cutter_class == CutterClass::kTouchProbe) return std::nullopt;
+  if (auto why = not_cut_with(c, start, w)) return why;
   if (c.maximum_speed_rpm > 0.0 && c.maximum_speed_rpm < m.spindle.rpm_min)
     return "its largest speed " + trimmed(c.maximum_speed_rpm, 0) + " 1/min is below the spindle's least " +
            trimmed(m.spindle.rpm_min, 0);

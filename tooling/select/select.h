@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,11 @@ struct StartValues {
 /// Needs  cutting diameter > 0, teeth > 0.
 [[nodiscard]] StartValues start_values(const model::Cutter& c, const model::WorkMaterial& material,
                                        const model::Machine& machine);
+
+/// Why a cutter is not for this material at all: no speed is known for its substrate (0 in the material's
+/// table), and the tool states none. A touch probe cuts nothing.
+[[nodiscard]] std::optional<std::string> not_cut_with(const model::Cutter& c, const StartValues& start,
+                                                      const model::WorkMaterial& material);
 
 /// Seconds that it takes to assemble, measure and load a tool that the magazine does not hold. Default,
 /// unsourced.

@@ -5,6 +5,7 @@
 
 #include "planner/ground/base/number.h"
 #include "tooling/catalogue/complete.h"
+#include "tooling/catalogue/generic.h"
 #include "tooling/select/limits.h"
 #include "tooling/select/select.h"
 
@@ -74,6 +75,13 @@ StartValues start_values(const Cutter& c, const WorkMaterial& material, const Ma
   }
   const bool tap = c.cutter_class == CutterClass::kTap;
   if (tap) fz = c.thread_pitch_mm / c.teeth;
+
+  // Where the speed is the material's, its own source is the reason.
+  if (source.find(kMaterialsSpeed) != std::string::npos) {
+    const char* field = c.substrate == model::Substrate::kHss ? "vc_hss_m_min" : "vc_carbide_m_min";
+    for (const auto& [name, from] : material.sources)
+      if (name == field) source += "; the material's speed: " + from;
+  }
 
   std::string text;
   const double turn_mm = std::numbers::pi * c.cutting_diameter_mm;

@@ -5,6 +5,7 @@
 #include "capstan/capstan.h"
 #include "planner/controls/linuxcnc/linuxcnc.h"
 #include "planner/door/pipeline/pipeline.h"
+#include "planner/door/pipeline/shop.h"
 #include "planner/files/exchange/exchange.h"
 #include "planner/files/json/json.h"
 #include "planner/ground/base/file.h"
@@ -86,7 +87,11 @@ Result<pipeline::Inputs> inputs_of(const PlanOptions& o, Job& job) {
   auto rules = rules::load_rules(o.rules, job);
   if (!rules) return tl::unexpected(rules.error());
   in.rules = *std::move(rules);
-  if (!o.material.empty()) in.material_name = named("material", o.material, "");
+  if (!o.material.empty()) {
+    if (auto taken = pipeline::name_material(in, o.material, job); !taken)
+      return tl::unexpected(taken.error());
+    (void)named("material", *in.material_name, "");
+  }
   if (o.stock_allowance_mm >= 0.0) in.stock_allowance_mm = o.stock_allowance_mm;
   return in;
 }

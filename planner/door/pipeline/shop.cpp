@@ -44,10 +44,27 @@ Result<Inputs> load_shop(const ShopFiles& files, Job& job) {
                            files.rules.empty() ? "shipped tables" : "shipped tables and " + files.rules,
                            files.rules.empty() ? kBuiltIn : files.rules});
   if (!files.material.empty()) {
-    in.material_name = files.material;
-    in.provenance.push_back({"material", files.material, "named by the caller"});
+    if (auto ok = name_material(in, files.material, job); !ok) return tl::unexpected(ok.error());
+    in.provenance.push_back({"material", *in.material_name, "named by the caller"});
   }
   return in;
+}
+
+Status name_material(Inputs& in, model::WorkMaterial own) {
+  if (auto ok = tooling::add_start_values(own, in.library); !ok) return ok;
+  in.material_name = own.id;
+  in.materials.push_back(std::move(own));
+  return {};
+}
+
+Status name_material(Inputs& in, const std::string& given, Job& job) {
+  if (!tooling::names_a_material_file(given)) {
+    in.material_name = given;
+    return {};
+  }
+  auto own = tooling::load_material(given, in.materials, job);
+  if (!own) return tl::unexpected(own.error());
+  return name_material(in, *std::move(own));
 }
 
 Result<model::Plan> read_plan(std::string bytes, const std::string& name, Job& job) {

@@ -21,6 +21,13 @@ struct ShopFiles {
 /// Fails  as the rooms that read it, naming file and place.
 [[nodiscard]] Result<Inputs> load_shop(const ShopFiles& files, Job& job);
 
+/// The material by the caller's choice: a name, `like:NAME`, or a file with a material of the shop's own,
+/// which joins `in.materials` and gets start values in `in.library`; both are loaded before. Fails  as
+/// tooling::load_material.
+[[nodiscard]] Status name_material(Inputs& in, const std::string& given, Job& job);
+/// The same for a material that is at hand, as a plan holds it.
+[[nodiscard]] Status name_material(Inputs& in, model::WorkMaterial own);
+
 /// Reads a plan or a part: ISO 14649, AP238, STL, or plan JSON, told by content.
 [[nodiscard]] Result<model::Plan> read_plan(std::string bytes, const std::string& name, Job& job);
 

@@ -8,6 +8,7 @@
 #include "planner/ground/geometry/mesh_form.h"
 #include "planner/model/features/in_piece.h"
 #include "planner/model/features/raw_piece.h"
+#include "tooling/catalogue/hardness.h"
 #include "tooling/catalogue/material.h"
 
 namespace capstan::pipeline {
@@ -62,28 +63,78 @@ std::string property_text(const model::Model& m, const std::string& of, AnyRef p
   return name + " = " + (d == nullptr ? std::string("?") : d->descriptive_string.value_or("?"));
 }
 
-/// Cutting data are the material's card; what the file says beside its name changes nothing, and is said.
-void say_unused_properties(Work& w, const model::Material& material, const AnyRef& at) {
-  const model::Model& m = w.plan.model;
-  const auto say = [&](const std::string& text) {
-    w.job.report({.code = "PIP-MATERIAL-PROPERTY",
-                  .severity = Severity::kWarning,
-                  .message = "the part states " + text + " for its material; planning does not use it",
-                  .file = w.plan.file_name,
-                  .instance = m.origin(at).instance,
-                  .hint = "forces and speeds are those of '" + w.plan.material.id +
-                          "'; name a harder material with --material where that is too little"});
-  };
+/// A parameter of the material, and the property that it belongs to.
+struct StatedProperty {
+  std::string of;
+  AnyRef parameter;
+};
+
+std::vector<StatedProperty> properties_of(const model::Model& m, const model::Material& material) {
+  std::vector<StatedProperty> out;
   for (std::size_t i = 0; i < material.material_property.size(); ++i)
-    say(property_text(m, "", material.material_property[i]));
+    out.push_back({"", material.material_property[i]});
   for (std::size_t i = 0; i < material.its_properties.size(); ++i) {
     const auto* p = m.get<model::MaterialProperty>(material.its_properties[i]);
     if (p == nullptr) continue;
     const std::string name = p->name.value_or("a property");
-    if (p->its_parameters.size() == 0) say(name);
-    for (std::size_t k = 0; k < p->its_parameters.size(); ++k)
-      say(property_text(m, name, p->its_parameters[k]));
+    if (p->its_parameters.size() == 0) out.push_back({name, {}});
+    for (std::size_t k = 0; k < p->its_parameters.size(); ++k) out.push_back({name, p->its_parameters[k]});
   }
+  return out;
+}
+
+std::string text_of(const model::Model& m, const StatedProperty& p) {
+  return p.parameter.set() ? property_text(m, p.of, p.parameter) : p.of;
+}
+
+/// The hardness that a property states: a number with its unit, or words that say both.
+std::optional<tooling::StatedHardness> hardness_of(const model::Model& m, const StatedProperty& p) {
+  if (const auto* n = m.get<model::NumericParameter>(p.parameter); n != nullptr && n->its_parameter_value)
+    return tooling::stated_hardness(*n->its_parameter_value, n->its_parameter_unit.value_or(""));
+  if (const auto* d = m.get<model::DescriptiveParameter>(p.parameter))
+    return tooling::stated_hardness(d->descriptive_string.value_or(""));
+  return std::nullopt;
+}
+
+/// A stated hardness picks the card that is as hard; nothing else that the file says beside the name changes
+/// the cutting data, and what changes nothing is said.
+Status use_properties(Work& w, const model::Material& material, const AnyRef& at) {
+  const model::Model& m = w.plan.model;
+  const auto say = [&](Diagnostic d) {
+    d.file = w.plan.file_name;
+    d.instance = m.origin(at).instance;
+    w.job.report(std::move(d));
+  };
+  // Who asks for another material's figures has them as they are.
+  bool hard = w.inputs.material_name && w.inputs.material_name->starts_with(tooling::kLike);
+  for (const StatedProperty& p : properties_of(m, material)) {
+    const auto stated = hard ? std::nullopt : hardness_of(m, p);
+    if (stated) {
+      auto card = tooling::as_hard_as(w.plan.material, *stated, w.inputs.materials);
+      if (!card) {
+        Diagnostic d = card.error();
+        d.file = w.plan.file_name;
+        d.instance = m.origin(at).instance;
+        return fail(std::move(d));
+      }
+      if (*card) {
+        hard = true;
+        const std::string before = w.plan.material.id;
+        w.plan.material = **std::move(card);
+        say({.code = "PIP-MATERIAL-HARDNESS",
+             .severity = Severity::kNote,
+             .message = "the part states " + text_of(m, p) + "; " + before + " is planned as '" +
+                        w.plan.material.id + "' (" + trimmed(w.plan.material.hardness_hb, 0) + " HB)"});
+        continue;
+      }
+    }
+    say({.code = "PIP-MATERIAL-PROPERTY",
+         .severity = Severity::kWarning,
+         .message = "the part states " + text_of(m, p) + " for its material; planning does not use it",
+         .hint = "forces and speeds are those of '" + w.plan.material.id +
+                 "'; name a harder material with --material where that is too little"});
+  }
+  return {};
 }
 
 /// The material by the caller's name, else the part's; by default only where neither names one.
@@ -105,13 +156,12 @@ Status resolve_material(Work& w, const model::Workpiece* piece) {
     if (!w.inputs.material_name) {
       d.file = w.plan.file_name;
       d.instance = w.plan.model.origin(at).instance;
-      d.hint = "name one with --material; " + d.hint;
+      d.hint = "name one with --material, or one that it cuts like with --material like:C45; " + d.hint;
     }
     return fail(std::move(d));
   }
   w.plan.material = *std::move(material);
-  if (stated != nullptr) say_unused_properties(w, *stated, at);
-  return {};
+  return stated != nullptr ? use_properties(w, *stated, at) : Status{};
 }
 
 /// The box that the features' own extents span: what must be there at least.

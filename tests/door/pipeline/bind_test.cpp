@@ -242,10 +242,9 @@ TEST(Bind, FeedsASurfacesFinishByWhatItCutsThere) {
   const model::Plan plan = bound(part("surface.stl"), in);
   ASSERT_EQ(plan.steps.size(), 3U);
   for (const std::size_t i : {1U, 2U}) {
-    const model::StepResult& s = plan.steps[i];
-    const model::Cutter* c = model::find_cutter(plan, s.cutter_id);
-    ASSERT_NE(c, nullptr);
-    EXPECT_LT(s.axial_depth_mm, 0.5 * c->cutting_diameter_mm) << "no cut of the part's height";
+    // The stair that a level of the roughing leaves, and its allowance, below 1 mm.
+    EXPECT_LT(plan.steps[i].axial_depth_mm, plan.steps.front().axial_depth_mm + 1.0)
+        << "no cut of the part's height";
   }
   const model::StepResult& last = plan.steps.back();
   double way = 0.0, minutes = 0.0;
@@ -262,10 +261,11 @@ TEST(Bind, FeedsASurfacesFinishByWhatItCutsThere) {
   EXPECT_GT(way / minutes, 0.8 * at_start);
   EXPECT_LT(last.loads.chip_thickness_mm, 1.02 * 0.005 * ball->cutting_diameter_mm)
       << "and no chip is thicker";
-  // It touches with less than its full diameter: the table's 102 m/min are those of where it cuts.
+  // It touches with less than its full diameter: the table's 132.6 m/min (78 of the card, 1.7 for the
+  // coating) are those of where it cuts.
   const double at_rim = 3.14159 * ball->cutting_diameter_mm * std::abs(last.spindle_rpm) / 1000.0;
-  EXPECT_GT(at_rim, 1.1 * 102.0);
-  EXPECT_LT(at_rim, 2.0 * 102.0);
+  EXPECT_GT(at_rim, 1.1 * 132.6);
+  EXPECT_LT(at_rim, 2.0 * 132.6);
 }
 
 TEST(Bind, StopsWhenItIsAsked) {

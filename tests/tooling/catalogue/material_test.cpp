@@ -2,9 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <cctype>
+#include <cmath>
+#include <fstream>
+#include <map>
 #include <set>
 
 #include "tests/support/corpus.h"
+#include "tooling/catalogue/hardness.h"
 
 namespace capstan::tooling {
 namespace {
@@ -34,11 +39,26 @@ TEST_P(KnownNames, AreFoundWithoutAWarning) {
 
 INSTANTIATE_TEST_SUITE_P(
     Materials, KnownNames,
-    ::testing::Values(Named{"ST-50", "low_alloy_steel"}, Named{"St 50-2", "low_alloy_steel"},
-                      Named{"SAE 1020", "mild_steel"}, Named{"SAE 1015", "mild_steel"},
-                      Named{"ACO SEM LIGA", "low_alloy_steel"}, Named{"EN AW-6061", "wrought_aluminium"},
-                      Named{"EN AW-6061-T6", "wrought_aluminium"}, Named{"en aw 7075", "wrought_aluminium"},
-                      Named{"AISI 304", "austenitic_stainless_steel"}, Named{"mild_steel", "mild_steel"}));
+    ::testing::Values(
+        Named{"ST-50", "low_alloy_steel"}, Named{"St 50-2", "low_alloy_steel"},
+        Named{"SAE 1020", "mild_steel"}, Named{"SAE 1015", "mild_steel"},
+        Named{"ACO SEM LIGA", "low_alloy_steel"}, Named{"EN AW-6061", "wrought_aluminium"},
+        Named{"EN AW-6061-T6", "wrought_aluminium"}, Named{"en aw 7075", "en_aw_7075"},
+        Named{"AISI 304", "aisi_304"}, Named{"mild_steel", "mild_steel"}, Named{"C45", "c45"},
+        Named{"1.0503", "c45"}, Named{"S45C", "c45"}, Named{"C45E", "c45"}, Named{"42CrMo4", "42crmo4"},
+        Named{"1.7225+QT", "42crmo4_qt"}, Named{"SCM440", "42crmo4"}, Named{"16MnCr5", "16mncr5"},
+        Named{"11SMn30", "11smn30"}, Named{"SUJ2", "100cr6"}, Named{"S355J2+N", "s355"},
+        Named{"1.2311", "tool_steel_1_2311"}, Named{"D2", "tool_steel_1_2379"},
+        Named{"SKD61", "tool_steel_1_2344"}, Named{"1.4305", "aisi_303"}, Named{"1.4571", "aisi_316"},
+        Named{"AISI 410", "aisi_410"}, Named{"1.4016", "aisi_430"}, Named{"17-4PH", "17_4ph"},
+        Named{"1.4462", "duplex_1_4462"}, Named{"GG25", "grey_cast_iron"}, Named{"GGG40", "gjs_400"},
+        Named{"GGG50", "gjs_500"}, Named{"FCD600", "gjs_600"}, Named{"EN-GJS-800-8", "adi_800"},
+        Named{"EN AW-2024", "en_aw_2024"}, Named{"5083", "en_aw_5083"}, Named{"AlSi10Mg", "cast_aluminium"},
+        Named{"CW614N", "cw614n"}, Named{"CuSn12", "cusn12"}, Named{"Cu-ETP", "cu_etp"},
+        Named{"Ti grade 2", "ti_grade_2"}, Named{"Ti-6Al-4V", "ti6al4v"}, Named{"2.4668", "inconel_718"},
+        Named{"Inconel 625", "inconel_625"}, Named{"55 HRC", "hardened_steel_55"}, Named{"POM-C", "pom"},
+        Named{"PA66", "pa6"}, Named{"PMMA", "pmma"}, Named{"PC", "pc"}, Named{"PEEK", "peek"},
+        Named{"HDPE", "pe_hd"}, Named{"PVC", "pvc"}, Named{"PTFE", "ptfe"}));
 
 TEST(FindMaterial, PrefersTheFirstTextThatSaysSomething) {
   Job job;
@@ -77,11 +97,15 @@ TEST(FindMaterial, RefusesAnUnknownNameWithTheNearestOnes) {
   EXPECT_FALSE(find_material("unobtainium", table(), job));
 }
 
-TEST(FindMaterial, TakesTheHardestOfAllWhereNothingNamesOneAndSaysThatItIsADefault) {
+TEST(FindMaterial, TakesTheLargestForceOfWhatIsNotHardenedWhereNothingNamesOneAndSaysThatItIsADefault) {
   for (const std::vector<std::string>& nothing : {std::vector<std::string>{}, {"", " "}}) {
     Job job;
     const auto m = find_material(nothing, table(), job).value();
-    for (const auto& other : table()) EXPECT_LE(other.kc11_n_mm2, m.kc11_n_mm2);
+    // Hardened steel and heat-resistant alloys are not what somebody forgets to name.
+    for (const auto& other : table())
+      if (other.iso_group != "S" && other.iso_group != "H") {
+        EXPECT_LE(other.kc11_n_mm2, m.kc11_n_mm2);
+      }
     ASSERT_EQ(job.diagnostics().size(), 1u);
     EXPECT_EQ(job.diagnostics()[0].code, "MATERIAL-DEFAULT");
   }
@@ -107,6 +131,160 @@ TEST(FindMaterial, KnowsCastIronsByTheirJapaneseNamesAndWhy) {
   EXPECT_EQ(job.count(Severity::kWarning), 0u);
 }
 
+TEST(FindMaterial, GivesAnotherMaterialsFiguresOnlyToWhoAsksForThemAndSaysSo) {
+  Job job;
+  const auto like = find_material({"like:C45"}, table(), job, Families::kRefused).value();
+  const auto c45 = find_material("C45", table(), job).value();
+  EXPECT_EQ(like.id, c45.id);
+  EXPECT_EQ(like.kc11_n_mm2, c45.kc11_n_mm2);
+  EXPECT_EQ(like.sources.back().first, "chosen");
+  EXPECT_NE(like.sources.back().second.find("'like:C45' is asked for: planned with the figures of 'c45'"),
+            std::string::npos)
+      << like.sources.back().second;
+  EXPECT_FALSE(find_material("like:C45", table(), job));  // a file's word is a name
+  const auto wrong = find_material({"like:unobtainium"}, table(), job, Families::kRefused);
+  ASSERT_FALSE(wrong);
+  EXPECT_EQ(wrong.error().code, "NAME-UNKNOWN");
+  EXPECT_FALSE(find_material({"like:STEEL"}, table(), job, Families::kRefused));
+}
+
+TEST(FindMaterial, SaysWhereTheForceIsFromAndThatItIsAnothersWhereNoTableHasItsOwn) {
+  Job job;
+  const auto of = [&](const char* name) {
+    return find_material(name, table(), job).value().sources.back().second;
+  };
+  EXPECT_NE(of("C45").find("; kc1.1: Iscar"), std::string::npos) << of("C45");
+  EXPECT_NE(of("CuSn12").find("no table states tin bronze; the copper card is taken"), std::string::npos);
+  EXPECT_NE(of("17-4PH").find("the next as hard is taken"), std::string::npos);
+}
+
+TEST(FindMaterial, TakesTheCardThatIsAsHardAsTheNameSays) {
+  Job job;
+  // Within a tenth of its card's 200 HB the grade's own card stands.
+  EXPECT_EQ(id_of({"42CrMo4 217 HB"}, job), "42crmo4");
+  EXPECT_EQ(id_of({"42CrMo4 300 HB"}, job), "42crmo4_qt");
+  // 38 HRC is 352 HB by ASTM A370: the card of 350 HB.
+  EXPECT_EQ(id_of({"42CrMo4, 38 HRC"}, job), "34crnimo6_qt");
+  EXPECT_EQ(id_of({"42CrMo4 50HRC"}, job), "hardened_steel_50");
+  EXPECT_EQ(id_of({"C45 hardened HRC 55"}, job), "hardened_steel_55");
+  const auto hard = find_material("C45 250 HB", table(), job).value();
+  EXPECT_EQ(hard.id, "c45_qt");
+  EXPECT_NE(hard.sources.back().second.find("250 HB is stated"), std::string::npos);
+  EXPECT_EQ(job.count(Severity::kWarning), 0u);
+}
+
+TEST(FindMaterial, RefusesWhatIsHarderThanItsCards) {
+  Job job;
+  const auto m = find_material("GGG40 400 HB", table(), job);
+  ASSERT_FALSE(m);
+  EXPECT_EQ(m.error().code, "MATERIAL-HARDNESS");
+  EXPECT_NE(m.error().message.find("no card of 'gjs_400' goes above 250 HB"), std::string::npos)
+      << m.error().message;
+}
+
+TEST(FindMaterial, DoesNotTakeAFilledPlasticForThePlainOne) {
+  Job job;
+  EXPECT_FALSE(find_material("PEEK GF30", table(), job));
+  EXPECT_FALSE(find_material("PA66-CF20", table(), job));
+  EXPECT_FALSE(find_material("nylon 66 GF30", table(), job));
+  EXPECT_EQ(id_of({"PEEK natural"}, job), "peek");
+}
+
+TEST(StatedHardness, ReadsBrinellAndRockwellAndNothingElse) {
+  // ASTM A370: 45 HRC is 421 HB, 50 HRC is 481 HB; halfway between them is taken as halfway.
+  EXPECT_NEAR(stated_hardness(45.0, "HRC")->brinell, 421.0, 1e-9);
+  EXPECT_NEAR(stated_hardness(47.5, "hrc")->brinell, 451.0, 1e-9);
+  EXPECT_EQ(stated_hardness(207.0, "HBW")->brinell, 207.0);
+  EXPECT_FALSE(stated_hardness(207.0, "HV"));
+  EXPECT_FALSE(stated_hardness(207.0, "N/mm2"));
+  EXPECT_FALSE(stated_hardness(75.0, "HRC"));  // no steel is
+  EXPECT_FALSE(stated_hardness(-3.0, "HB"));
+  EXPECT_FALSE(stated_hardness("X40CrMoV5-1"));
+  EXPECT_FALSE(stated_hardness("HBX 300"));
+  EXPECT_EQ(stated_hardness("hardened to 48 HRC")->before, "hardened to ");
+}
+
+TEST(ShippedMaterials, AreAtLeastFortyOverAllGroups) {
+  std::map<std::string, int> by_group;
+  for (const auto& m : table()) ++by_group[m.iso_group];
+  EXPECT_GE(table().size(), 60u);
+  for (const char* group : {"P", "M", "K", "N", "S", "H"}) EXPECT_GE(by_group[group], 4) << group;
+  EXPECT_EQ(by_group.size(), 6u);
+}
+
+TEST(ShippedMaterials, GiveEachNameToOneMaterial) {
+  std::map<std::string, std::string> owner;
+  const auto plain = [](const std::string& name) {
+    std::string out;
+    for (const char c : name)
+      if (std::isalnum(static_cast<unsigned char>(c))) out += static_cast<char>(std::toupper(c));
+    return out;
+  };
+  for (const auto& m : table()) {
+    for (const auto& name : m.names) {
+      const auto [at, fresh] = owner.emplace(plain(name), m.id);
+      EXPECT_TRUE(fresh || at->second == m.id) << name << ": " << at->second << ", " << m.id;
+      Job job;
+      EXPECT_EQ(id_of({name}, job), m.id) << name;
+      EXPECT_EQ(job.count(Severity::kWarning), 0u) << name;
+    }
+  }
+}
+
+TEST(ShippedMaterials, HaveForcesThatGrowFromGroupToGroup) {
+  const auto middle = [](const char* group) {
+    std::vector<double> kc;
+    for (const auto& m : table())
+      if (m.iso_group == group) kc.push_back(m.kc11_n_mm2);
+    std::sort(kc.begin(), kc.end());
+    return kc[kc.size() / 2];
+  };
+  // ISO 513 N < K < P < M <= S, H: the order of every maker's table of groups.
+  const double n = middle("N"), k = middle("K"), p = middle("P"), m = middle("M");
+  EXPECT_LT(n, k);
+  EXPECT_LT(k, p);
+  EXPECT_LT(p, m);
+  EXPECT_LE(m, middle("S"));
+  EXPECT_LE(m, middle("H"));
+}
+
+TEST(ShippedMaterials, AreCutFasterByCarbideThanByHighSpeedSteelAndHardenedSteelNotAtAll) {
+  for (const auto& m : table()) {
+    EXPECT_GT(m.vc_carbide_m_min, m.vc_hss_m_min) << m.id;
+    // The hardness from which HSS is not used: group H alone.
+    EXPECT_EQ(m.vc_hss_m_min == 0.0, m.iso_group == "H") << m.id;
+    if (m.hardness_hb > 400.0) {
+      EXPECT_EQ(m.iso_group, "H") << m.id;
+    }
+  }
+}
+
+TEST(ShippedMaterials, HaveMoreForceThanAMakersTableOfMillingPower) {
+  // Mitsubishi Materials, cutting power for face milling: Kc in N/mm2 at 0.1 and 0.6 mm per tooth. The mean
+  // chip of a face mill that is engaged on 0.7 of its diameter is 0.9 of the feed: 2 * 0.7 / (2 asin 0.7) =
+  // 0.903.
+  const struct {
+    const char* name;
+    double at_0_1, at_0_6;
+  } rows[] = {{"C45", 1980, 1570},         // medium steel, 620 N/mm2
+              {"42CrMo4", 2180, 1670},     // chrome molybdenum steel, 600
+              {"42CrMo4+QT", 2540, 1800},  // chrome molybdenum steel, 730
+              {"1.2311", 2030, 1580},      // tool steel, 770
+              {"AISI 304", 2030, 1710},    // austenitic, 155 HB
+              {"GG25", 1750, 970},         // grey, 200 HB
+              {"CW614N", 1150, 630},       // brass
+              {"EN AW-7075", 880, 720}};   // Al-Zn-Mg-Cu
+  for (const auto& row : rows) {
+    Job job;
+    const auto m = find_material(row.name, table(), job).value();
+    const auto kc = [&](double fz) { return m.kc11_n_mm2 * std::pow(0.903 * fz, -m.mc); };
+    EXPECT_GE(kc(0.1) / row.at_0_1, 1.0) << row.name;
+    EXPECT_GE(kc(0.6) / row.at_0_6, 1.0) << row.name;
+    EXPECT_LE(kc(0.1) / row.at_0_1, 2.2) << row.name;  // the most: 1.2311, on the safe side
+    EXPECT_LE(kc(0.6) / row.at_0_6, 2.2) << row.name;
+  }
+}
+
 TEST(ShippedMaterials, NameASourceForEveryNumberAndEveryName) {
   for (const auto& m : table()) {
     std::set<std::string> told;
@@ -116,7 +294,10 @@ TEST(ShippedMaterials, NameASourceForEveryNumberAndEveryName) {
     }
     for (const char* field : {"kc11_n_mm2", "mc", "vc_hss_m_min", "vc_carbide_m_min", "kc_uncertainty"})
       EXPECT_EQ(told.count(field), 1u) << m.id << " " << field;
+    EXPECT_EQ(told.count("hardness_hb"), m.hardness_hb > 0.0 ? 1u : 0u) << m.id;
+    EXPECT_EQ(told.count("tensile_strength_n_mm2"), m.tensile_strength_n_mm2 > 0.0 ? 1u : 0u) << m.id;
     for (const auto& name : m.names) EXPECT_EQ(told.count("name " + name), 1u) << m.id << " " << name;
+    for (const auto& [field, source] : m.sources) EXPECT_EQ(source.find('@'), std::string::npos) << field;
   }
 }
 
@@ -219,6 +400,66 @@ TEST(ReadMaterials, ReadsSetsAndLawsOfLife) {
   EXPECT_EQ((*got)[0].life[0].source, "y");
   // A set that names no alloys holds for every name of the material.
   EXPECT_EQ(find_material("a", *got, job).value().mechanistic.size(), 1u);
+}
+
+TEST(ReadMaterials, PutsACitationInPlaceOfItsName) {
+  Job job;
+  const char* text = R"(capstan_materials: 1
+kc_uncertainty: {value: 0.3, source: "@handbook p. 7"}
+citations: {handbook: "Handbook, 3rd ed."}
+materials:
+  - {source: "@handbook, table 2", id: a, iso_group: P, kc11_n_mm2: 2298, mc: 0.2, vc_hss_m_min: 25, vc_carbide_m_min: 70}
+)";
+  const auto got = read_materials(text, "m.yaml", job);
+  ASSERT_TRUE(got) << got.error().message;
+  EXPECT_EQ((*got)[0].sources.front().second, "Handbook, 3rd ed., table 2");
+  EXPECT_EQ((*got)[0].sources.back().second, "Handbook, 3rd ed. p. 7");
+}
+
+TEST(ReadMaterials, RefusesATableThatContradictsItself) {
+  const auto refusal = [](const std::string& rows) {
+    Job job;
+    const auto got = read_materials(with(rows), "m.yaml", job);
+    return got ? std::string("accepted") : got.error().code + ": " + got.error().message;
+  };
+  const std::string other =
+      "  - {source: x, id: b, iso_group: P, kc11_n_mm2: 2000, mc: 0.2, vc_hss_m_min: 25, vc_carbide_m_min: "
+      "70,"
+      " names: [{name: [St 37]}]}\n";
+  EXPECT_EQ(refusal("    names: [{name: [St 37]}]\n" + other),
+            "DATA-DUPLICATE: the name 'St 37' is given to 'a' and to 'b'");
+  EXPECT_EQ(refusal("    harder: [c]\n"),
+            "DATA-UNKNOWN: 'c', said to be harder than 'a', is no material here");
+  EXPECT_EQ(refusal("    hardness_hb: {value: 200, source: \"@nowhere\"}\n"),
+            "DATA-SOURCE: '@nowhere' is no citation of this table");
+  EXPECT_EQ(refusal("    hardness_hb: 9000\n").substr(0, 14), "MATERIAL-RANGE");
+  EXPECT_EQ(refusal("    hardnes_hb: 200\n").substr(0, 12), "DATA-UNKNOWN");
+}
+
+TEST(LoadMaterial, TakesOneMaterialWithAnIdOfItsOwn) {
+  const std::string folder = ::testing::TempDir();
+  const auto load = [&](const std::string& text) {
+    const std::string path = folder + "capstan_material_test.yaml";
+    std::ofstream(path) << text;
+    Job job;
+    return load_material(path, table(), job);
+  };
+  EXPECT_EQ(load(with("")).value().id, "a");
+  const std::string other =
+      "  - {source: x, id: b, iso_group: P, kc11_n_mm2: 2000, mc: 0.2, vc_hss_m_min: 25, vc_carbide_m_min: "
+      "70}\n";
+  const auto two = load(with("") + other);
+  ASSERT_FALSE(two);
+  EXPECT_EQ(two.error().code, "MATERIAL-FILE");
+  EXPECT_NE(two.error().message.find("holds 2 materials"), std::string::npos);
+  std::string shipped = with("");
+  shipped.replace(shipped.find("id: a"), 5, "id: C 45");
+  EXPECT_EQ(load(shipped).error().code, "MATERIAL-FILE");
+  std::string none = with("");
+  none.erase(none.find("  - source"));
+  EXPECT_FALSE(load(none));
+  Job job;
+  EXPECT_FALSE(load_material(folder + "no_such_file.yaml", table(), job));
 }
 
 TEST(ReadMaterials, RefusesSetsAndLawsThatCannotBe) {

@@ -491,5 +491,49 @@ TEST(AssignPockets, KeepsGivenNumbersAndFillsTheLowestFree) {
   EXPECT_EQ(pockets, (std::vector<int>{2, 1, 3, 4, 5}));
 }
 
+TEST(Select, TakesNoHighSpeedSteelWhereTheMaterialHasNoSpeedForIt) {
+  ToolRequirement r;
+  r.classes = {CutterClass::kTwistDrill};
+  r.diameter_exact_mm = 8;
+  const auto s = select(r, library(), material("hardened_steel_55"), machine());
+  ASSERT_FALSE(s.ranked.empty());
+  for (const auto& c : s.ranked) EXPECT_EQ(c.cutter.substrate, model::Substrate::kCarbide) << c.cutter.id;
+  r.classes = {CutterClass::kTap};
+  r.thread_pitch_mm = 1.25;
+  const auto tap = select(r, library(), material("hardened_steel_55"), machine());
+  EXPECT_TRUE(tap.ranked.empty());
+  ASSERT_FALSE(tap.rejected.empty());
+  EXPECT_NE(tap.rejected[0].why.find("hardened_steel_55 is not cut with hss: its card has no speed for it"),
+            std::string::npos)
+      << tap.rejected[0].why;
+}
+
+TEST(StartValues, OfAShopsOwnMaterialAreItsSpeedTimesTheSeriesFactor) {
+  model::WorkMaterial own = material("c45");
+  own.id = "shop_steel";
+  own.names.clear();
+  own.vc_carbide_m_min = 100.0;
+  own.vc_hss_m_min = 30.0;
+  auto all = library();
+  ASSERT_TRUE(add_start_values(own, all));
+  const auto of = [&](const std::string& id) {
+    return *std::find_if(all.begin(), all.end(), [&](const Cutter& c) { return c.id == id; });
+  };
+  // Coated: 1.7 times, as for the shipped ones; drills of high-speed steel at the 0.8 of their series.
+  EXPECT_NEAR(start_values(of("generic/endmill_4f_short/10"), own, machine()).vc_m_min, 170.0, 1e-3);
+  EXPECT_NEAR(start_values(of("generic/drill_hss/8"), own, machine()).vc_m_min, 24.0, 1e-3);
+  // Without that, the slowest of its group would stand for it.
+  EXPECT_LT(start_values(*std::find_if(library().begin(), library().end(),
+                                       [](const Cutter& c) { return c.id == "generic/endmill_4f_short/10"; }),
+                         own, machine())
+                .vc_m_min,
+            80.0);
+}
+
+TEST(StartValues, NameTheSourceOfTheMaterialsSpeed) {
+  const auto start = start_values(library().front(), material("c45"), machine());
+  EXPECT_NE(start.why.source.find("; the material's speed: "), std::string::npos) << start.why.source;
+}
+
 }  // namespace
 }  // namespace capstan::tooling

@@ -118,7 +118,8 @@ class CommandLine {
   void inputs(CLI::App* sub, const char* tools = "tool library: a file, or `generic` (the default)") {
     sub->add_option("--machine", raw_.machine, "machine: a file, or the id of a built-in one");
     sub->add_option("--tools", raw_.tools, tools);
-    sub->add_option("--material", raw_.material, "work material, instead of the part's");
+    sub->add_option("--material", raw_.material,
+                    "work material, instead of the part's: a name, like:NAME, or a file of one");
     sub->add_option("--stock", raw_.stock,
                     "raw piece: block:+2 (the part and 2 mm all round) or box:x0,y0,z0,x1,y1,z1");
     sub->add_option("--objective", raw_.objective,
@@ -223,6 +224,11 @@ class CommandLine {
       known->require_subcommand(1);
       auto* all = command(*known, "list", "a line each", c);
       all->add_option("filter", out_.words, "only those whose line contains this");
+      if (c == Command::kMaterialsList) {
+        auto* page =
+            command(*known, "show", "all that is known of a material, with sources", Command::kMaterialsShow);
+        page->add_option("name", out_.words, "its id or a name, or a file of --material")->required();
+      }
     }
     auto* rules = app_.add_subcommand("rules", "the rule tables");
     rules->require_subcommand(1);

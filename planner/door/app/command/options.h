@@ -41,6 +41,7 @@ enum class Command : std::uint8_t {
   kToolsExport,
   kToolsConvert,
   kMaterialsList,
+  kMaterialsShow,
   kMachinesList,
   kFixturesList,
   kRulesCheck,

@@ -37,7 +37,10 @@ int dispatch(Session& s) {
     case Command::kToolsExport:
     case Command::kToolsConvert:
       return run_tools_convert(s);
+    case Command::kMaterialsShow:
+      return run_material(s);
     case Command::kMaterialsList:
+      return run_materials(s);
     case Command::kMachinesList:
     case Command::kFixturesList:
       return run_known(s);

@@ -94,8 +94,9 @@ void print_diagnostics(Session& s, int code) {
       s.options.command != Command::kExplain && s.options.command != Command::kInspect &&
       s.options.command != Command::kDiff && s.options.command != Command::kToolsList &&
       s.options.command != Command::kToolsShow && s.options.command != Command::kMaterialsList &&
-      s.options.command != Command::kMachinesList && s.options.command != Command::kFixturesList &&
-      s.options.command != Command::kCasesNearest && s.options.command != Command::kRulesList;
+      s.options.command != Command::kMaterialsShow && s.options.command != Command::kMachinesList &&
+      s.options.command != Command::kFixturesList && s.options.command != Command::kCasesNearest &&
+      s.options.command != Command::kRulesList;
   if (!shows && code <= kFindings) return;  // what was asked for stands on standard output
   const std::string line = summary_line(s, code);
   if (s.options.json_diagnostics) {

@@ -57,6 +57,8 @@ int run_convert(Session& s);
 int run_tools(Session& s);
 int run_tools_convert(Session& s);
 int run_known(Session& s);
+int run_materials(Session& s);
+int run_material(Session& s);
 int run_rules(Session& s);
 int run_cases_add(Session& s);
 int run_cases_nearest(Session& s);

@@ -8,7 +8,6 @@
 #include "rules/rules.h"
 #include "tooling/catalogue/library.h"
 #include "tooling/catalogue/machine.h"
-#include "tooling/catalogue/material.h"
 #include "tooling/holding/holding.h"
 
 // The tool library and the rule tables.
@@ -76,17 +75,6 @@ std::string cutter_page(const model::Cutter& c) {
   return out;
 }
 
-/// A line per name that a part or --material may use, behind the card it stands for.
-Rows materials_known(const std::vector<model::WorkMaterial>& materials) {
-  Rows rows;
-  for (const auto& m : materials) {
-    std::string names;
-    for (const std::string& name : m.names) names += (names.empty() ? "" : ", ") + name;
-    rows.push_back({m.id, "ISO 513 " + m.iso_group, "kc1.1 " + n(m.kc11_n_mm2) + " N/mm2", names});
-  }
-  return rows;
-}
-
 std::vector<std::string> machine_known(const model::Machine& m, const std::string& id) {
   std::string travel;
   for (const auto& a : m.axes) travel += (travel.empty() ? "" : " x ") + n(a.travel_max_mm - a.travel_min_mm);
@@ -142,11 +130,7 @@ int run_tools(Session& s) {
 
 int run_known(Session& s) {
   Rows rows;
-  if (s.options.command == Command::kMaterialsList) {
-    const auto materials = tooling::shipped_materials();
-    if (!materials) return s.end(materials.error(), kUnreadable);
-    rows = materials_known(*materials);
-  } else if (s.options.command == Command::kMachinesList) {
+  if (s.options.command == Command::kMachinesList) {
     for (const std::string& id : tooling::shipped_machines()) {
       const auto m = tooling::load_machine(id, s.job);
       if (!m) return s.end(m.error(), kUnreadable);

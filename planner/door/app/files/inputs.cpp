@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "planner/door/pipeline/shop.h"
 #include "planner/ground/base/nearest_names.h"
 #include "planner/ground/base/number.h"
 #include "planner/making/optimise/solver/ipopt_backend.h"
@@ -37,17 +38,32 @@ const model::Provenance* made_with(const model::Plan& plan, std::string_view wha
   return nullptr;
 }
 
+Status material_of(const InputOptions& o, const model::Plan& plan, pipeline::Inputs& in, Job& job) {
+  auto& p = in.provenance;
+  if (o.material) {
+    if (auto ok = pipeline::name_material(in, *o.material, job); !ok) return ok;
+    p.push_back({"material", *in.material_name,
+                 *in.material_name == *o.material ? "--material" : "--material " + *o.material});
+    return {};
+  }
+  const auto* before = made_with(plan, "material");
+  if (before == nullptr) return {};
+  in.material_of_plan = true;
+  const bool shipped = std::any_of(in.materials.begin(), in.materials.end(),
+                                   [&](const auto& m) { return m.id == before->value; });
+  if (!shipped && plan.material.id == before->value) {
+    // A shop's own: the plan has what its file said.
+    if (auto ok = pipeline::name_material(in, plan.material); !ok) return ok;
+  } else {
+    in.material_name = before->value;
+  }
+  p.push_back(*before);
+  return {};
+}
+
 /// The option that a plan was made with still holds when it is planned again, unless another is given.
 void choices(const InputOptions& o, const model::Plan& plan, pipeline::Inputs& in) {
   auto& p = in.provenance;
-  in.material_name = o.material;
-  if (o.material) {
-    p.push_back({"material", *o.material, "--material"});
-  } else if (const auto* before = made_with(plan, "material")) {
-    in.material_name = before->value;
-    in.material_of_plan = true;
-    p.push_back(*before);
-  }
   in.stock = o.stock;
   in.stock_allowance_mm = o.stock_allowance_mm;
   if (!o.stock_text.empty()) {
@@ -149,6 +165,7 @@ Result<pipeline::Inputs> gather(const InputOptions& o, const model::Plan& plan, 
                            o.rules ? "--rules " + *o.rules : kDefault});
 
   in.backends.ipopt = &optimise::solve_with_ipopt;
+  if (auto ok = material_of(o, plan, in, job); !ok) return tl::unexpected(ok.error());
   choices(o, plan, in);
   return in;
 }

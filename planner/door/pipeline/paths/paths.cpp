@@ -23,6 +23,7 @@
 #include "planner/ground/base/number.h"
 #include "planner/making/toolpath/region/undercut.h"
 #include "planner/model/plan/condemned.h"
+#include "tooling/select/select.h"
 
 // Step by step in order: depths, path, sections, feeds, with the stock carried on.
 
@@ -169,6 +170,13 @@ class PathMaker {
     if (step.cutter.cutting_diameter_mm <= 0.0) {  // no cutter was found; said already
       lose(step);
       return {};
+    }
+    if (step.open_technology && step.candidates.empty()) {  // a tool of the file, which nobody chose for it
+      const auto start = tooling::start_values(step.cutter, w_.plan.material, w_.plan.machine);
+      if (const auto why = tooling::not_cut_with(step.cutter, start, w_.plan.material)) {
+        give_up(step, "tool " + step.cutter.id + ": " + *why);
+        return {};
+      }
     }
     rank_by_time(w_, step, stocks_, progress_, cuts_);
     rank_by_path(w_, step, [&](std::size_t i) { return seconds_with(step, i); });

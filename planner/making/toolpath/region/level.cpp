@@ -67,11 +67,11 @@ LevelCutter::LevelCutter(const PathJob& t, const WorkArea& a, PathWriter& w, Job
       radius_mm(0.5 * t.cutter.cutting_diameter_mm),
       step_mm(stepover_of(t)) {}
 
-const std::vector<Ring>& LevelCutter::rings_of(const geometry::Region& centres, double step_mm) {
-  if (centres.loops != ringed_.loops || step_mm != ringed_step_mm_) {
-    rings_ = rings(centres, step_mm);
+const std::vector<Ring>& LevelCutter::rings_of(const geometry::Region& centres, double apart_mm) {
+  if (centres.loops != ringed_.loops || apart_mm != ringed_apart_mm_) {
+    rings_ = rings(centres, apart_mm);
     ringed_ = centres;
-    ringed_step_mm_ = step_mm;
+    ringed_apart_mm_ = apart_mm;
   }
   return rings_;
 }

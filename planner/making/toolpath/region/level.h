@@ -40,7 +40,7 @@ class LevelCutter {
   /// To a place that is cleared down to the level already, and down to it.
   void go_cleared(const Level& level, geometry::Vec2 p);
   /// Rings of a level; walls are mostly upright, so that the level before had the same, which are kept.
-  const std::vector<Ring>& rings_of(const geometry::Region& centres, double step_mm);
+  const std::vector<Ring>& rings_of(const geometry::Region& centres, double apart_mm);
   /// A straight cut on the level to p when it stays within the centres.
   bool cut_to(const Level& level, geometry::Vec2 p);
 
@@ -64,7 +64,7 @@ class LevelCutter {
   [[nodiscard]] double gap() const;
 
   geometry::Region ringed_;  ///< what `rings_` are of
-  double ringed_step_mm_ = 0.0;
+  double ringed_apart_mm_ = 0.0;
   std::vector<Ring> rings_;
 };
 

@@ -423,11 +423,6 @@ TEST_F(CommandTest, AStatedPropertyOfTheMaterialThatIsNotUsedIsSaid) {
 }
 
 TEST_F(CommandTest, WhatIsKnownIsListed) {
-  const Ran materials = run("materials list");
-  EXPECT_EQ(materials.code, 0);
-  EXPECT_THAT(materials.out, HasSubstr("FC200"));
-  EXPECT_THAT(materials.out, HasSubstr("wrought_aluminium"));
-  EXPECT_THAT(run("materials list FCD").out, Not(HasSubstr("wrought_aluminium")));
   EXPECT_THAT(run("machines list").out, HasSubstr("small_router"));
   EXPECT_THAT(run("fixtures list").out, HasSubstr("vise_125"));
 }
