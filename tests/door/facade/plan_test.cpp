@@ -55,7 +55,7 @@ TEST(Facade, AMaterialThatTheFileContradictsIsSettledByTheOneThatTheCallerNames)
   std::string& text = first.iso14649;
   const auto record = text.find("!CAPSTAN_MATERIAL");
   ASSERT_NE(record, std::string::npos);
-  const auto value = text.find("2809.", record);  // kc1.1 of low alloy steel
+  const auto value = text.find("1500.", record);  // kc1.1 of C45
   ASSERT_NE(value, std::string::npos);
   text.replace(value, 5, "1404.5");
   const PlanOutput refused = plan_bytes(text, "plate.p21", {});
@@ -63,7 +63,7 @@ TEST(Facade, AMaterialThatTheFileContradictsIsSettledByTheOneThatTheCallerNames)
   ASSERT_FALSE(refused.condemned.empty());
   EXPECT_EQ(refused.condemned[0].code, "PIP-CONTRADICTED");
   PlanOptions options;
-  options.material = "low_alloy_steel";
+  options.material = "C45";
   const PlanOutput named = plan_bytes(text, "plate.p21", options);
   EXPECT_TRUE(named.condemned.empty()) << named.condemned[0].text;
   EXPECT_FALSE(named.linuxcnc.empty());

@@ -126,20 +126,16 @@ TEST(Whole, ATapOfTheFileIsNotCutWhenTheDrillBeforeItHasNoCutter) {
 }
 
 TEST(Whole, AFeatureIsNotFinishedWhenItsRoughingHasNoPath) {
-  // One end mill is enough to try: each of dozens would be tried at several depths.
+  // No cut is so thin that this spindle turns it: nothing is tried along a path.
   Inputs in = shop();
-  std::erase_if(in.library, [](const auto& c) { return c.id != "generic/endmill_4f_short/10"; });
-  ASSERT_EQ(in.library.size(), 1U);
   for (auto& point : in.machine.spindle.curve) {
-    point.power_w *= 0.002;
-    point.torque_nm *= 0.002;
+    point.power_w *= 1e-5;
+    point.torque_nm *= 1e-5;
   }
   Job job;
-  const std::string pocket = std::string(CAPSTAN_SOURCE_DIR) + "/examples/reference_pocket.p21";
-  const auto plan = bind(read_plan(testing::slurp(pocket), "reference_pocket.p21", job).value(), in, {}, job);
+  const auto plan = bind(part(), in, {}, job);
   ASSERT_TRUE(plan);
-  ASSERT_EQ(plan->unplanned.size(), 1U);
-  EXPECT_TRUE(plan->steps.empty());
+  EXPECT_FALSE(plan->unplanned.empty());
   expect_whole_or_not_at_all(*plan);
   for (const auto& d : job.diagnostics()) EXPECT_NE(d.code, "PIP-NO-PATH") << d.message;
 }

@@ -325,11 +325,8 @@ Result<Level> best_level(const CutQuestion& q, const Options& options, Job& job)
     if (level) level->answer.levels = levels_of(*q.ap_mm);
     return level;
   }
-  // Thinner levels than this are not tried: they rub more than they cut, and cost hours. Default, unsourced:
-  // a fiftieth of the diameter, within these.
-  constexpr double kThinnestLeastMm = 0.05, kThinnestMostMm = 0.2, kThinnestPerDiameter = 0.02;
-  const double thinnest =
-      std::clamp(kThinnestPerDiameter * q.cutter.cutting_diameter_mm, kThinnestLeastMm, kThinnestMostMm);
+  // Thinner levels than this are not tried; default, unsourced.
+  constexpr double kThinnestMm = 0.05;
   constexpr int kMostTries = 24;
   std::optional<Level> best;
   double least = 0.0;
@@ -350,7 +347,7 @@ Result<Level> best_level(const CutQuestion& q, const Options& options, Job& job)
   std::set<int> tried;
   for (int levels = fewest; static_cast<int>(tried.size()) < kMostTries;
        levels = std::max(levels + 1, static_cast<int>(1.3 * levels))) {
-    if (levels > kMostLevels || (best && depth / levels < thinnest)) break;
+    if (levels > kMostLevels || (best && depth / levels < kThinnestMm)) break;
     // Thinner levels only lower what could be removed at most; but a deep slot is cut slower.
     const Search search(q, depth / levels);
     const bool slower = q.slot && depth / levels > kFullFeedSlotRatio * q.cutter.cutting_diameter_mm;
