@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 #include "planner/ground/base/number.h"
 #include "tooling/catalogue/material_table.h"
@@ -38,67 +39,95 @@ std::string upper(std::string_view text) {
   return out;
 }
 
+/// A number of a text, and where the run of numbers begins that it stands in.
 struct Number {
   double value = 0.0;
   std::size_t begin = 0;
 };
 
-std::optional<Number> number_at(const std::string& text, std::size_t begin, std::size_t end) {
-  const auto value = parse_double(text.substr(begin, end - begin));
-  if (!value) return std::nullopt;
-  return Number{*value, begin};
+bool of_numbers(char c) { return digit(c) || std::string_view(" .,+-/").find(c) != std::string_view::npos; }
+
+/// What a run of numbers means at most: "48-52" is 52, "58+2" is 60, "58,5" is 58.5; numbers that are no
+/// hardness in this unit, such as those of a grade before it, are passed over.
+std::optional<Number> most_of(const std::string& text, std::size_t begin, std::size_t end, double lo,
+                              double hi) {
+  std::optional<Number> out;
+  double before = 0.0;  // the number before a plus
+  for (std::size_t i = begin; i < end;) {
+    if (!digit(text[i])) {
+      if (text[i] != '+' && text[i] != ' ') before = 0.0;
+      ++i;
+      continue;
+    }
+    const std::size_t from = i;
+    while (i < end &&
+           (digit(text[i]) || ((text[i] == '.' || text[i] == ',') && i + 1 < end && digit(text[i + 1]))))
+      ++i;
+    std::string word = text.substr(from, i - from);
+    std::replace(word.begin(), word.end(), ',', '.');
+    // "X40" is a grade.
+    if (from > 0 && letter(text[from - 1])) continue;
+    const auto value = parse_double(word);
+    if (!value) continue;
+    const bool added = before > 0.0 && text.find('+', begin) < from;
+    const double most = added ? before + *value : *value;
+    if (most >= lo && most <= hi && (!out || most > out->value)) out = Number{most, out ? out->begin : from};
+    before = most >= lo && most <= hi ? most : 0.0;
+  }
+  return out;
 }
 
-/// The number that begins at `at`, after blanks; nothing where none does.
-std::optional<Number> number_after(const std::string& text, std::size_t at) {
-  at = text.find_first_not_of(" =:", at);
-  if (at == std::string::npos || !digit(text[at])) return std::nullopt;
-  std::size_t end = at;
-  while (end < text.size() && (digit(text[end]) || text[end] == '.')) ++end;
-  return number_at(text, at, end);
-}
-
-/// The number that ends before `at`, blanks apart.
-std::optional<Number> number_before(const std::string& text, std::size_t at) {
-  while (at > 0 && text[at - 1] == ' ') --at;
-  std::size_t begin = at;
-  while (begin > 0 && (digit(text[begin - 1]) || text[begin - 1] == '.')) --begin;
-  // "X40HRC" is no number, "S 40 HRC" is one.
-  if (begin == at || (begin > 0 && letter(text[begin - 1]))) return std::nullopt;
-  return number_at(text, begin, at);
-}
+struct Unit {
+  const char* name;
+  double lo, hi;  ///< outside, a number beside it is something else
+};
+constexpr std::array<Unit, 5> kUnits = {
+    {{"HRC", 5, 80}, {"HBW", 50, 1000}, {"BHN", 50, 1000}, {"HB", 50, 1000}, {"HV", 50, 2000}}};
+constexpr double kHarderThanAnyCard = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
 std::optional<StatedHardness> stated_hardness(double value, std::string_view unit) {
   const std::string u = plain_name(unit);
-  std::optional<double> hb;
-  if (u == "HB" || u == "HBW" || u == "HBS" || u == "BHN" || u == "BRINELL") {
-    if (value > 0.0) hb = value;
+  if (!(value > 0.0)) return std::nullopt;
+  double hb = 0.0;
+  // A Brinell number is never above the Vickers number.
+  if (u == "HB" || u == "HBW" || u == "HBS" || u == "BHN" || u == "BRINELL" || u == "HV" || u == "VICKERS") {
+    hb = value;
   } else if (u == "HRC" || u == "ROCKWELLC") {
-    hb = brinell_of_rockwell(value);
+    hb = value < kBrinell.front().hrc ? kBrinell.front().hb
+                                      : brinell_of_rockwell(value).value_or(kHarderThanAnyCard);
+  } else {
+    return std::nullopt;
   }
-  if (!hb) return std::nullopt;
-  return StatedHardness{*hb, trimmed(value, 4) + " " + std::string(unit), {}};
+  return StatedHardness{hb, trimmed(value, 4) + " " + std::string(unit), {}};
 }
 
 std::optional<StatedHardness> stated_hardness(std::string_view text) {
   const std::string t = upper(text);
-  for (const char* unit : {"HRC", "HBW", "BHN", "HB"}) {
-    const std::string u = unit;
+  std::optional<StatedHardness> out;
+  for (const Unit& unit : kUnits) {
+    const std::string u = unit.name;
     for (auto at = t.find(u); at != std::string::npos; at = t.find(u, at + 1)) {
       const std::size_t end = at + u.size();
       if ((at > 0 && letter(t[at - 1])) || (end < t.size() && letter(t[end]))) continue;
-      auto value = number_before(t, at);
-      if (!value) value = number_after(t, end);
-      if (!value) continue;
-      auto out = stated_hardness(value->value, u);
-      if (!out) continue;
-      out->before = std::string(text.substr(0, std::min(value->begin, at)));
-      return out;
+      std::size_t first = at;
+      while (first > 0 && of_numbers(t[first - 1])) --first;
+      std::size_t last = t.find_first_not_of(" =:", end);
+      if (last == std::string::npos) last = t.size();
+      const std::size_t after = last;
+      while (last < t.size() && of_numbers(t[last])) ++last;
+      const auto left = most_of(t, first, at, unit.lo, unit.hi);
+      const auto right = most_of(t, after, last, unit.lo, unit.hi);
+      auto here =
+          !left && !right
+              ? StatedHardness{kHarderThanAnyCard, "of a hardness in " + u + " that cannot be read,", {}}
+              : *stated_hardness(std::max(left ? left->value : 0.0, right ? right->value : 0.0), u);
+      here.before = std::string(text.substr(0, left ? std::min(left->begin, at) : at));
+      if (!out || here.brinell > out->brinell) out = std::move(here);
     }
   }
-  return std::nullopt;
+  return out;
 }
 
 Result<std::optional<WorkMaterial>> as_hard_as(const WorkMaterial& material, const StatedHardness& stated,
@@ -112,7 +141,7 @@ Result<std::optional<WorkMaterial>> as_hard_as(const WorkMaterial& material, con
       for (const WorkMaterial& m : materials)
         if (m.id == id && m.hardness_hb > 0.0) cards.push_back(&m);
   }
-  if (cards.empty() || cards.size() == 1) return std::optional<WorkMaterial>{};
+  if (cards.empty()) return std::optional<WorkMaterial>{};
   std::sort(cards.begin() + (cards.front() == &material ? 1 : 0), cards.end(),
             [](const auto* a, const auto* b) { return a->hardness_hb < b->hardness_hb; });
   const auto fits = [&](const WorkMaterial* m) { return stated.brinell <= kHardnessSlack * m->hardness_hb; };

@@ -17,13 +17,15 @@ struct StatedHardness {
   std::string before;  ///< what stands before it in the text that says it
 };
 
-/// Brinell hardness of a value in HB, HBW, HBS, BHN or HRC (20 to 60); nothing for other units and values.
+/// Brinell hardness of a value in HB, HBW, HBS, BHN, HV (taken as no softer than it is: as many HB) or HRC;
+/// infinite above 60 HRC, so that no card is as hard; nothing for other units and values.
 ///
 /// Source    HRC: ASTM A370 as at yidecasting.com, straight between its points; Miki Pulley's table
 ///           (mikipulley.co.jp, tech20) has the same values.
 /// Uncertainty  conversions are approximate by nature; they hold for steel.
 [[nodiscard]] std::optional<StatedHardness> stated_hardness(double value, std::string_view unit);
-/// The same where a text says it: "42CrMo4 300 HB", "hardened, HRC 48".
+/// The same where a text says it: "42CrMo4 300 HB", "hardened, HRC 48", "58+2 HRC"; of several, and of a
+/// range, the hardest. A unit beside which no number can be read is infinite, too: the piece is refused.
 [[nodiscard]] std::optional<StatedHardness> stated_hardness(std::string_view text);
 
 /// The card for a piece that is as hard as stated: the material's own while it is as hard, else the softest

@@ -7,6 +7,7 @@
 #include "planner/model/nouns/all.h"
 #include "planner/model/nouns/arena/walk.h"
 #include "planner/model/plan/measured_length.h"
+#include "tooling/catalogue/complete.h"
 #include "tooling/nouns/nouns.h"
 
 // What is in the magazine against what the plan wants.
@@ -34,12 +35,41 @@ bool same_tool(const Cutter& a, const Cutter& b) {
          near_if_known(a.tip_diameter_mm, b.tip_diameter_mm, kSameDiameter);
 }
 
+/// Whether the loaded tool does what the planned one is to do. A tool table tells no more than sizes; what a
+/// library says of the tool counts where it says it itself, and not a default.
+bool does_as_much(const Cutter& loaded, const Cutter& planned) {
+  if (loaded.table_line) return true;
+  constexpr double kRoom = 0.01;  // mm and 1/min: rounding of what is written
+  const auto says = [&](std::string_view field) { return tooling::source_of(loaded, field) == nullptr; };
+  const auto less = [&](std::string_view field, double has, double wants) {
+    return says(field) && has > 0.0 && wants > 0.0 && has < wants - kRoom;
+  };
+  const auto more = [&](std::string_view field, double has, double wants) {
+    return says(field) && has > 0.0 && wants > 0.0 && has > wants + kRoom;
+  };
+  if (says("substrate") && loaded.substrate != planned.substrate) return false;
+  if (says("teeth") && loaded.teeth > 0 && planned.teeth > 0 && loaded.teeth != planned.teeth) return false;
+  if (says("centre_cutting") && planned.centre_cutting && !loaded.centre_cutting) return false;
+  const bool slower =
+      loaded.maximum_speed_rpm > 0.0 && says("maximum_speed_rpm") &&
+      (planned.maximum_speed_rpm == 0.0 || loaded.maximum_speed_rpm < planned.maximum_speed_rpm);
+  const bool worn = loaded.life_min > 0.0 && loaded.life_used_min >= loaded.life_min;
+  return !slower && !worn &&
+         !less("maximum_depth_of_cut_mm", loaded.maximum_depth_of_cut_mm, planned.maximum_depth_of_cut_mm) &&
+         !less("usable_length_mm", loaded.usable_length_mm, planned.usable_length_mm) &&
+         !less("maximum_ramp_angle_rad", loaded.maximum_ramp_angle_rad, planned.maximum_ramp_angle_rad) &&
+         !less("neck_diameter_mm", loaded.neck_diameter_mm, planned.neck_diameter_mm) &&
+         !more("neck_length_mm", loaded.neck_length_mm, planned.neck_length_mm) &&
+         !more("stick_out_mm", loaded.stick_out_mm, planned.stick_out_mm) &&
+         !more("shank_diameter_mm", loaded.shank_diameter_mm, planned.shank_diameter_mm);
+}
+
 }  // namespace
 
 const Cutter* loaded_like(const std::vector<Cutter>& library, const Cutter& wanted) {
   const Cutter* found = nullptr;
   for (const Cutter& c : library) {
-    if (!c.loaded || c.pocket <= 0 || !same_tool(c, wanted)) continue;
+    if (!c.loaded || c.pocket <= 0 || !same_tool(c, wanted) || !does_as_much(c, wanted)) continue;
     // One that is measured first, then the lower number.
     const auto rank = [](const Cutter& x) { return std::pair(!model::offset_fault(x).empty(), x.pocket); };
     if (found == nullptr || rank(c) < rank(*found)) found = &c;

@@ -107,8 +107,15 @@ Status use_properties(Work& w, const model::Material& material, const AnyRef& at
   };
   // Who asks for another material's figures has them as they are.
   bool hard = w.inputs.material_name && w.inputs.material_name->starts_with(tooling::kLike);
-  for (const StatedProperty& p : properties_of(m, material)) {
-    const auto stated = hard ? std::nullopt : hardness_of(m, p);
+  // Of several the hardest counts: a case is cut through before its core.
+  const auto properties = properties_of(m, material);
+  double most = 0.0;
+  for (const StatedProperty& p : properties) {
+    if (const auto h = hardness_of(m, p)) most = std::max(most, h->brinell);
+  }
+  for (const StatedProperty& p : properties) {
+    auto stated = hard ? std::nullopt : hardness_of(m, p);
+    if (stated && stated->brinell < most) stated.reset();
     if (stated) {
       auto card = tooling::as_hard_as(w.plan.material, *stated, w.inputs.materials);
       if (!card) {
@@ -298,6 +305,12 @@ Status resolve_margin(Work& w) {
     }
     w.margin = *policy;
     said = *before;
+    if (policy->name != mechanics::kUsualMargin.name)
+      w.job.report({.code = "PIP-MARGIN",
+                    .severity = Severity::kNote,
+                    .message = "the plan was made with the margin '" + before->value + "', which holds",
+                    .file = w.plan.file_name,
+                    .hint = "name another with --margin"});
   }
   w.plan.provenance = w.inputs.provenance;
   w.plan.provenance.push_back(std::move(said));

@@ -195,13 +195,45 @@ TEST(StatedHardness, ReadsBrinellAndRockwellAndNothingElse) {
   EXPECT_NEAR(stated_hardness(45.0, "HRC")->brinell, 421.0, 1e-9);
   EXPECT_NEAR(stated_hardness(47.5, "hrc")->brinell, 451.0, 1e-9);
   EXPECT_EQ(stated_hardness(207.0, "HBW")->brinell, 207.0);
-  EXPECT_FALSE(stated_hardness(207.0, "HV"));
+  EXPECT_EQ(stated_hardness(207.0, "HV")->brinell, 207.0);
   EXPECT_FALSE(stated_hardness(207.0, "N/mm2"));
-  EXPECT_FALSE(stated_hardness(75.0, "HRC"));  // no steel is
+  EXPECT_TRUE(std::isinf(stated_hardness(75.0, "HRC")->brinell));  // harder than any card
   EXPECT_FALSE(stated_hardness(-3.0, "HB"));
   EXPECT_FALSE(stated_hardness("X40CrMoV5-1"));
   EXPECT_FALSE(stated_hardness("HBX 300"));
   EXPECT_EQ(stated_hardness("hardened to 48 HRC")->before, "hardened to ");
+}
+
+TEST(StatedHardness, OfATextIsTheHardestThatItMayMean) {
+  const std::pair<const char*, double> texts[] = {
+      {"42CrMo4 hardened 58+2 HRC", 60.0},
+      {"42CrMo4, hardened 58,5 HRC", 58.5},
+      {"4140 HRC 50", 50.0},
+      {"1.2379 HRC 60", 60.0},
+      {"42CrMo4, HRC 48-52", 52.0},
+      {"42CrMo4 48-52 HRC", 52.0},
+      {"core 30 HRC, case 58 HRC", 58.0},
+  };
+  for (const auto& [text, hrc] : texts) {
+    const auto stated = stated_hardness(text);
+    ASSERT_TRUE(stated) << text;
+    EXPECT_EQ(stated->brinell, stated_hardness(hrc, "HRC")->brinell) << text;
+  }
+  EXPECT_EQ(stated_hardness("1.7225 HB 300")->brinell, 300.0);
+  EXPECT_EQ(stated_hardness("42CrMo4 hardened 700 HV")->brinell, 700.0);
+}
+
+TEST(StatedHardness, ThatCannotBeReadOrIsBeyondAllCardsIsRefusedAndNotPlannedSoft) {
+  Job job;
+  const auto materials = shipped_materials();
+  ASSERT_TRUE(materials);
+  for (const char* name :
+       {"42CrMo4 hardened 62 HRC", "X153CrMoV12, hardened 62 HRC", "42CrMo4 hardened to HRC",
+        "17-4PH, 44 HRC", "S355J2, 300 HB", "S355 500 HBW 10/3000", "Inconel 625 45 HRC"}) {
+    const auto found = find_material(std::string(name), *materials, job);
+    ASSERT_FALSE(found) << name << " is taken for " << found->id;
+    EXPECT_EQ(found.error().code, "MATERIAL-HARDNESS") << name;
+  }
 }
 
 TEST(ShippedMaterials, AreAtLeastFortyOverAllGroups) {

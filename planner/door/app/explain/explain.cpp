@@ -204,7 +204,10 @@ std::vector<Computed> computed_of(const Plan& plan, const StepView& v) {
   if (r->loads.force_margin > 0.0) {
     const char* what = "of a sharp edge with mean coefficients at the planned feed: what a load meter shows";
     add("expected_force", r->loads.peak_force_n / r->loads.force_margin, " N", what);
-    add("expected_power", r->loads.power_w / r->loads.force_margin, " W", what);
+    // Where a measured set gives the forces, power may be the card's, whose margin is another.
+    if (cutting == nullptr || mechanics::measured_set(plan.material, cutting->substrate) == nullptr ||
+        !mechanics::is_milled(v.operation.type, *cutting))
+      add("expected_power", r->loads.power_w / r->loads.force_margin, " W", what);
   }
   add("force_margin", r->loads.force_margin, "",
       "factor in these loads on the expected ones of a sharp edge: spread, wear and override together");

@@ -312,12 +312,12 @@ class PathMaker {
       progress_.prepare(step, stocks_.of(step.setup), job);
       if (first) {
         out.question = question_of(w_, step, candidate, job);
-        if (step.open_technology) out.precedent = start_from_case(w_, step, shape, out.question);
         if (passes && step.open_technology) {
           auto path = pass_over(w_, step, job, stocks_, out.question);
           if (!path) return tl::unexpected(path.error());
           over_surface = *std::move(path);
         }
+        if (step.open_technology) out.precedent = start_from_case(w_, step, shape, out.question);
         auto answer = cuts_.answer(step, out.question, out.let_go);
         if (!answer) return tl::unexpected(answer.error());
         out.answer = *std::move(answer);

@@ -18,16 +18,11 @@ using optimise::CutSample;
 
 constexpr double kWhole = 0.95;  // share of depth times width from which a section is a rectangle
 
-/// How wide a cutter sweeps on a move with the diameter that it has at the top of its contact.
-double widest(const CutSample& s, const model::CutterPath& p, const model::Cutter& cutter) {
+/// How wide a cutter sweeps with the diameter that it has at the top of its contact. It is a disc that is
+/// moved: on an arc, too, its flank takes no more than that of a length of its centre's way.
+double widest(const CutSample& s, const model::Cutter& cutter) {
   const double corner = mechanics::tooth_of(cutter).corner_radius_mm;
-  const double d = std::max(s.ae_mm, mechanics::effective_diameter_mm(std::max(s.ap_mm, s.top_mm),
-                                                                      cutter.cutting_diameter_mm, corner));
-  const std::size_t i = s.move;
-  if (i >= p.size() || (p.kind[i] != model::MoveKind::kArcCw && p.kind[i] != model::MoveKind::kArcCcw))
-    return d;
-  const double rho = std::hypot(p.x[i] - p.cx[i], p.y[i] - p.cy[i]);
-  return rho > 0.0 ? std::max(d, (rho + 0.5 * d) * (rho + 0.5 * d) / (2.0 * rho)) : d;
+  return mechanics::effective_diameter_mm(std::max(s.ap_mm, s.top_mm), cutter.cutting_diameter_mm, corner);
 }
 
 /// How far a move goes down per length of its path.
@@ -43,8 +38,7 @@ void add(CutSample s, const model::CutterPath& path, const model::Cutter& cutter
     out.push_back(s);
     return;
   }
-  const double most = widest(s, path, cutter);
-  s.ae_mm = std::min(s.ae_mm, most);
+  const double most = std::max(widest(s, cutter), s.ae_mm);
   if (s.csa_mm2 > most * s.ap_mm) {
     if (const double fall = fall_of(path, s.move); fall > 0.0) {
       s.end_mm2 = s.csa_mm2 - most * s.ap_mm;

@@ -18,10 +18,8 @@ namespace capstan::pipeline {
 /// Of a measured path. A section that is no rectangle (a wall and a floor at once) counts as two of its area:
 /// as deep, and as wide.
 ///
-/// No section is wider than the cutter sweeps at its depth, whose diameter there is D (a ball's or bull
-/// nose's: where the contact ends) and whose outer edge goes farther than its centre on an arc of radius rho:
-///
-///     ae <= max(D, (rho + R)^2 / (2 rho))                      derived: the same volume per length of path
+/// No section is wider than the cutter at its depth (a ball's or bull nose's: where the contact ends): it is
+/// a disc that is moved, on arcs as on lines.
 ///
 /// What a way down removes beyond that over its depth is cut by the end (CutSample::end_mm2): where a ramp or
 /// helix first touches, the depth is nothing and the area that of the whole end. What a level way removes

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <sstream>
 #include <string_view>
 
@@ -46,6 +47,8 @@ std::optional<Segment> left_helix(const std::string& name, const std::vector<Vec
             .sweep = v[6]};
   if (std::abs(norm(s.axis) - 1.0) > kUnit || s.sweep == 0.0) return std::nullopt;
   const auto n = static_cast<double>(points.size() - 1);
+  // Whole turns between two points leave the points where they are: no chord of ours spans half a turn.
+  if (!(std::abs(s.sweep) < std::numbers::pi * n)) return std::nullopt;
   for (std::size_t i = 1; i < points.size(); ++i) {
     // Also where the numbers are beyond any arithmetic.
     if (!(norm(at(s, static_cast<double>(i) / n) - points[i]) <= kSameMm)) return std::nullopt;

@@ -124,10 +124,10 @@ double StepChecks::chip_of(const Account& a) const {
   const double fz = a.length_mm / a.minutes / (a.rpm * std::max(1, cutter_.teeth));
   if (a.axial || !(a.depth_mm > 0.0))
     return fz * std::sin(0.5 * (cutter_.point_angle_rad > 0.0 ? cutter_.point_angle_rad : std::numbers::pi));
-  // The mean section and the depth give the width; width and feed give the chip (chord geometry). In a corner
-  // the edge goes farther than the centre: the section is that along the edge's way, and so is the feed.
-  const double width = std::clamp(a.volume_mm3 / a.edge_mm / a.depth_mm, 0.01 * d, d);
-  return 2.0 * fz * (a.edge_mm / a.length_mm) * width / (d * std::acos(1.0 - 2.0 * width / d));
+  // The mean section and the depth give the width; width and feed give the chip (chord geometry). The cutter
+  // is a disc that is moved: also on an arc no chip is thicker than its centre's feed.
+  const double width = std::clamp(a.volume_mm3 / a.length_mm / a.depth_mm, 0.01 * d, d);
+  return 2.0 * fz * width / (d * std::acos(1.0 - 2.0 * width / d));
 }
 
 /// Of a worn edge, N/mm2.
