@@ -40,7 +40,10 @@ bool same_tool(const Cutter& a, const Cutter& b) {
 bool does_as_much(const Cutter& loaded, const Cutter& planned) {
   if (loaded.table_line) return true;
   constexpr double kRoom = 0.01;  // mm and 1/min: rounding of what is written
-  const auto says = [&](std::string_view field) { return tooling::source_of(loaded, field) == nullptr; };
+  const auto says = [&](std::string_view field) {
+    const std::string* source = tooling::source_of(loaded, field);
+    return source == nullptr || source->starts_with("stated");
+  };
   const auto less = [&](std::string_view field, double has, double wants) {
     return says(field) && has > 0.0 && wants > 0.0 && has < wants - kRoom;
   };

@@ -1,0 +1,75 @@
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include "planner/door/pipeline/shop.h"
+
+namespace capstan::pipeline {
+namespace {
+
+using model::Cutter;
+
+Cutter planned() {
+  Cutter c;
+  c.id = "END MILL 10";
+  c.cutter_class = model::CutterClass::kEndmill;
+  c.substrate = model::Substrate::kCarbide;
+  c.cutting_diameter_mm = 10.0;
+  c.teeth = 3;
+  c.centre_cutting = true;
+  c.maximum_depth_of_cut_mm = 22.0;
+  c.usable_length_mm = 30.0;
+  c.stick_out_mm = 32.0;
+  c.functional_length_mm = 102.0;
+  c.shank_diameter_mm = 10.0;
+  c.maximum_ramp_angle_rad = 0.1;
+  return c;
+}
+
+Cutter in_pocket_1(Cutter c) {
+  c.id = "crib 7";
+  c.loaded = true;
+  c.pocket = 1;
+  return c;
+}
+
+TEST(LoadedTool, OfTheSameSizesIsThePlannedOne) {
+  EXPECT_NE(loaded_like({in_pocket_1(planned())}, planned()), nullptr);
+}
+
+TEST(LoadedTool, ThatDoesLessThanThePlannedOneIsAnother) {
+  const std::vector<std::pair<const char*, std::function<void(Cutter&)>>> faults = {
+      {"substrate", [](Cutter& c) { c.substrate = model::Substrate::kHss; }},
+      {"teeth", [](Cutter& c) { c.teeth = 1; }},
+      {"centre", [](Cutter& c) { c.centre_cutting = false; }},
+      {"flutes", [](Cutter& c) { c.maximum_depth_of_cut_mm = 3.0; }},
+      {"reach", [](Cutter& c) { c.usable_length_mm = 10.0; }},
+      {"stick-out", [](Cutter& c) { c.stick_out_mm = 60.0; }},
+      {"shank", [](Cutter& c) { c.shank_diameter_mm = 20.0; }},
+      {"ramp", [](Cutter& c) { c.maximum_ramp_angle_rad = 0.02; }},
+      {"speed", [](Cutter& c) { c.maximum_speed_rpm = 300.0; }},
+      {"life", [](Cutter& c) { c.life_min = 15.0, c.life_used_min = 99.0; }},
+  };
+  for (const auto& [name, worsen] : faults) {
+    Cutter loaded = in_pocket_1(planned());
+    worsen(loaded);
+    EXPECT_EQ(loaded_like({loaded}, planned()), nullptr) << name;
+    // What its library does not say, but a default, holds nothing against it.
+    if (std::string_view(name) == "teeth") {
+      loaded.sources.emplace_back("teeth", "as generic");
+      EXPECT_NE(loaded_like({loaded}, planned()), nullptr);
+    }
+  }
+}
+
+TEST(LoadedTool, OfAToolTableIsKnownByItsSizesOnly) {
+  Cutter loaded = in_pocket_1(planned());
+  loaded.table_line = model::ToolTableLine{};
+  loaded.stick_out_mm = 60.0;
+  EXPECT_NE(loaded_like({loaded}, planned()), nullptr);
+}
+
+}  // namespace
+}  // namespace capstan::pipeline
