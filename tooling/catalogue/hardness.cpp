@@ -52,9 +52,11 @@ bool of_numbers(char c) { return digit(c) || std::string_view(" .,+-/").find(c) 
 std::optional<Number> most_of(const std::string& text, std::size_t begin, std::size_t end, double lo,
                               double hi) {
   std::optional<Number> out;
-  double before = 0.0;  // the number before a plus
+  double before = 0.0;  // the last number, where it is one of this unit
+  bool plus = false;    // between it and here
   for (std::size_t i = begin; i < end;) {
     if (!digit(text[i])) {
+      if (text[i] == '+') plus = true;
       if (text[i] != '+' && text[i] != ' ') before = 0.0;
       ++i;
       continue;
@@ -69,8 +71,8 @@ std::optional<Number> most_of(const std::string& text, std::size_t begin, std::s
     if (from > 0 && letter(text[from - 1])) continue;
     const auto value = parse_double(word);
     if (!value) continue;
-    const bool added = before > 0.0 && text.find('+', begin) < from;
-    const double most = added ? before + *value : *value;
+    const double most = plus ? before + *value : *value;
+    plus = false;
     if (most >= lo && most <= hi && (!out || most > out->value)) out = Number{most, out ? out->begin : from};
     before = most >= lo && most <= hi ? most : 0.0;
   }
@@ -132,7 +134,7 @@ std::optional<StatedHardness> stated_hardness(std::string_view text) {
 
 Result<std::optional<WorkMaterial>> as_hard_as(const WorkMaterial& material, const StatedHardness& stated,
                                                const std::vector<WorkMaterial>& materials) {
-  const auto table = shipped_material_table();
+  const auto& table = shipped_material_table();
   if (!table) return fail(table.error());
   std::vector<const WorkMaterial*> cards;
   if (material.hardness_hb > 0.0) cards.push_back(&material);

@@ -176,9 +176,9 @@ Result<std::vector<WorkMaterial>> read_materials(std::string_view text, const st
 }
 
 Result<std::vector<WorkMaterial>> shipped_materials() {
-  auto table = shipped_material_table();
+  const auto& table = shipped_material_table();
   if (!table) return fail(table.error());
-  return std::move(table->materials);
+  return table->materials;
 }
 
 bool names_a_material_file(std::string_view text) {
@@ -245,7 +245,7 @@ Result<WorkMaterial> find_material(const std::vector<std::string>& texts,
       return as_hard_as_named(chosen(*m.material, m.name, std::move(why)), g.hardness, materials);
     }
   }
-  const auto table = shipped_material_table();
+  const auto& table = shipped_material_table();
   if (!table) return fail(table.error());
   for (const std::string& text : texts) {
     const MaterialFamily* best = nullptr;

@@ -285,9 +285,12 @@ Result<MaterialTable> read_material_table(std::string_view text, const std::stri
   return out;
 }
 
-Result<MaterialTable> shipped_material_table() {
-  Job job;
-  return read_material_table(shipped_text(kFile), kFile, job);
+const Result<MaterialTable>& shipped_material_table() {
+  static const Result<MaterialTable> kTable = [] {
+    Job job;
+    return read_material_table(shipped_text(kFile), kFile, job);
+  }();
+  return kTable;
 }
 
 }  // namespace capstan::tooling

@@ -30,8 +30,8 @@ struct MaterialTable {
 /// Fails  as read_materials.
 [[nodiscard]] Result<MaterialTable> read_material_table(std::string_view text, const std::string& file,
                                                         Job& job);
-/// The one that comes with the planner.
-[[nodiscard]] Result<MaterialTable> shipped_material_table();
+/// The one that comes with the planner, read once.
+[[nodiscard]] const Result<MaterialTable>& shipped_material_table();
 
 /// Where each measured set's alloys are kept until a name is looked up: "set 0 for 6061".
 [[nodiscard]] std::string set_key(std::size_t set);

@@ -123,7 +123,7 @@ int run_materials(Session& s) {
 }
 
 int run_material(Session& s) {
-  const auto shipped = tooling::shipped_material_table();
+  const auto& shipped = tooling::shipped_material_table();
   if (!shipped) return s.end(shipped.error(), kUnreadable);
   const std::string& name = s.options.words.front();
   if (tooling::names_a_material_file(name)) {
