@@ -58,5 +58,7 @@ function(capstan_embed target namespace)
             -P ${CAPSTAN_EMBED_SCRIPT}
     DEPENDS ${files} ${list} ${CAPSTAN_EMBED_SCRIPT}
     COMMENT "Embedding the data of ${target}" VERBATIM)
+  # A text may be longer than the 65536 bytes that every C++ compiler must take; clang warns, both compilers take it.
+  set_source_files_properties(${out} PROPERTIES COMPILE_OPTIONS -Wno-overlength-strings)
   target_sources(${target} PRIVATE ${out})
 endfunction()
