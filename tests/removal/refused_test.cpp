@@ -479,6 +479,21 @@ TEST(RefusedParts, APocketInTheFloorOfOneThatIsNotPlannedIsNeitherAndNoProgramIs
   })) << told(o);
 }
 
+// Drilled from the raw surface, its spot drill would be 10 mm deep in the solid, at the feed of a spot.
+TEST(RefusedParts, AHoleInTheFloorOfAFaceThatIsNotPlannedIsNeither) {
+  Sheet s{removal::block(60, 60, 20, 10)};
+  // Between the bosses 2 mm are left, 10 mm deep: no mill of the library is so thin and long.
+  std::vector<Drawing::Id> bosses;
+  bosses.push_back(s.d.boss("B1", s.d.placement({17, 30, 10}), 10, s.d.rectangle(22, 30)));
+  bosses.push_back(s.d.boss("B2", s.d.placement({41, 30, 10}), 10, s.d.rectangle(22, 30)));
+  s.d.face("F", 0, 0, 60, 60, 10, 10, bosses);
+  s.d.hole("H", s.d.placement({5, 5, 0}), 20, 6, s.d.through_bottom());
+  const PlanOutput o = s.planned();
+  expect_unplanned(o, 2, "it rests on 'F', which is not planned");
+  EXPECT_EQ(o.steps, 0U) << told(o);
+  EXPECT_TRUE(o.linuxcnc.empty());
+}
+
 TEST(ThroughHoles, OneThatEndsInThePieceIsCutToItsUndersideUnlessAnotherFeatureOpensBelow) {
   for (const bool bore : {false, true}) {
     Sheet s;

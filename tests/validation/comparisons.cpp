@@ -40,7 +40,8 @@ Comparison summary(const std::vector<Comparison>& all) {
       {"sections", "8. Cross sections"},
       {"cycle-times", "9. Cycle times on a simulated machine"},
       {"edits", "10. Edited programs"},
-      {"plan-edits", "11. Edited plans"}};
+      {"plan-edits", "11. Edited plans"},
+      {"productivity", "12. Productivity"}};
   Comparison out{.name = "summary"};
   Table rows{{"comparison", "figure"}, {}};
   for (const auto& [name, title] : titles) {
@@ -70,6 +71,7 @@ std::vector<Comparison> all_comparisons(const std::string& corpus) {
   out.push_back(cycle_times(CAPSTAN_SOURCE_DIR "/docs/validation/cycle_times.csv"));
   out.push_back(edits());
   out.push_back(plan_edits());
+  out.push_back(productivity(corpus));
   out.push_back(summary(out));
   return out;
 }

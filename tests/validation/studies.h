@@ -36,6 +36,9 @@ namespace capstan::validation {
 /// Edits of plans' files and what the check finds of them: `tests/mutation/plans`.
 [[nodiscard]] Comparison plan_edits();
 
+/// Machining times against a good shop's estimates, and what holds the parts that take longer.
+[[nodiscard]] Comparison productivity(const std::string& corpus);
+
 /// Cycle times on LinuxCNC's simulated machine, as `capstan_cycle_times` recorded them in a file.
 [[nodiscard]] Comparison cycle_times(const std::string& file);
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <tuple>
 
 #include "planner/door/pipeline/shop.h"
 #include "planner/ground/base/number.h"
@@ -73,8 +74,12 @@ const Cutter* loaded_like(const std::vector<Cutter>& library, const Cutter& want
   const Cutter* found = nullptr;
   for (const Cutter& c : library) {
     if (!c.loaded || c.pocket <= 0 || !same_tool(c, wanted) || !does_as_much(c, wanted)) continue;
-    // One that is measured first, then the lower number.
-    const auto rank = [](const Cutter& x) { return std::pair(!model::offset_fault(x).empty(), x.pocket); };
+    // One that is measured first; of these the wanted one itself by name, then by number; then the lowest
+    // number.
+    const auto rank = [&](const Cutter& x) {
+      return std::tuple(!model::offset_fault(x).empty(), x.id != wanted.id, x.pocket != wanted.pocket,
+                        x.pocket);
+    };
     if (found == nullptr || rank(c) < rank(*found)) found = &c;
   }
   return found;

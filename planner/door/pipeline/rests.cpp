@@ -40,14 +40,12 @@ Shaped shaped(const Model& m) {
   return out;
 }
 
-/// A drill starts on the raw surface as well as on the face, as long as it reaches: its path and its length
-/// are chosen for what stands there. Where the hole ends depends on the face nowhere.
+/// A hole needs its face, too: depths of spot drills and countersinks, and feeds, are chosen from the face on.
 bool needs(const FeatureShape& before, const FeatureShape& after, Cause cause) {
   const bool faces = before.kind == ShapeKind::kFace && after.kind == ShapeKind::kFace;
   // From one height down the deeper of two takes all that the other does.
   if (faces && std::abs(dot(before.frame.z, after.frame.origin - before.frame.origin)) < kSameMm)
     return false;
-  if (cause == Cause::kFaceFirst && before.kind == ShapeKind::kFace) return after.kind != ShapeKind::kHole;
   return cause != Cause::kDatum;
 }
 

@@ -46,7 +46,8 @@ struct ShopFiles {
 [[nodiscard]] Result<std::vector<std::string>> match_loaded(model::Plan& plan, Inputs& inputs, Job& job);
 
 /// The cutter of the magazine (Cutter::loaded, a pocket) that is this one by class and every size that both
-/// know, whatever it is called; a measured one, and the lowest pocket, of several, null when none is.
+/// know, whatever it is called; of several a measured one, then that of the same name, then of the same
+/// number, then of the lowest; null when none is.
 [[nodiscard]] const model::Cutter* loaded_like(const std::vector<model::Cutter>& library,
                                                const model::Cutter& wanted);
 

@@ -14,4 +14,12 @@ TableReading reading_of(const std::vector<TableOffset>& table, std::optional<boo
   return out;
 }
 
+int magazine_pocket(const Cutter& c) {
+  if (!c.table_line) return c.pocket;
+  for (const ToolTableWord& w : c.table_line->words) {
+    if (w.letter == "P" && w.value >= 0.0 && w.value < 1e6) return static_cast<int>(w.value);
+  }
+  return c.pocket;
+}
+
 }  // namespace capstan::model

@@ -3,6 +3,8 @@
 #include <optional>
 #include <vector>
 
+#include "planner/model/plan/cutter.h"
+
 namespace capstan::model {
 
 /// What a line of a machine's tool table says of a tool's size, in the table's unit.
@@ -23,5 +25,8 @@ struct TableReading {
 /// reference. One negative Z among lengths is rather a sign that was mistyped. Of other tables the machine's
 /// description may say it (control, length_offsets): `stated`.
 [[nodiscard]] TableReading reading_of(const std::vector<TableOffset>& table, std::optional<bool> stated);
+
+/// Where the tool is in the magazine: P of its line in the machine's tool table, else its number.
+[[nodiscard]] int magazine_pocket(const Cutter& c);
 
 }  // namespace capstan::model

@@ -121,8 +121,9 @@ TEST(CorpusEachFormOfRandomFiles, ReadsBackAsThePlanThatWasWritten) {
     const auto turn = static_cast<std::size_t>(::testing::UnitTest::GetInstance()->random_seed());
     files = {files[turn % files.size()]};
   } else {
-    for (const char* file : {"/iso14649/meduag_furo.p21", "/iso14649/ufsc_FuroConico.p21",
-                             "/iso14649/ufsc_RanhuraPerfilVee.p21", "/iso14649/nist_tiny.stp"})
+    for (const char* file :
+         {"/iso14649/fdis_ex2.p21", "/iso14649/meduag_furo.p21", "/iso14649/ufsc_FuroConico.p21",
+          "/iso14649/ufsc_RanhuraPerfilVee.p21", "/iso14649/nist_tiny.stp"})
       files.push_back(corpus + file);
   }
   for (const std::string& file : files) {

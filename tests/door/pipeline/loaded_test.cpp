@@ -64,6 +64,24 @@ TEST(LoadedTool, ThatDoesLessThanThePlannedOneIsAnother) {
   }
 }
 
+TEST(LoadedTool, OfSeveralAlikeIsTheOneOfItsNameThenOfItsNumber) {
+  Cutter first = in_pocket_1(planned()), own = in_pocket_1(planned()), third = in_pocket_1(planned());
+  first.id = "another";
+  own.pocket = 2;
+  third.id = "a third";
+  third.pocket = 3;
+  const auto number = [&](const std::vector<Cutter>& magazine, const Cutter& wanted) {
+    const Cutter* found = loaded_like(magazine, wanted);
+    return found != nullptr ? found->pocket : 0;
+  };
+  EXPECT_EQ(number({first, own, third}, planned()), 2);
+  Cutter renamed = planned();
+  renamed.id = "nobody's";
+  renamed.pocket = 3;
+  EXPECT_EQ(number({first, own, third}, renamed), 3);
+  renamed.pocket = 7;
+  EXPECT_EQ(number({first, own, third}, renamed), 1);
+}
 TEST(LoadedTool, OfAToolTableIsKnownByItsSizesOnly) {
   Cutter loaded = in_pocket_1(planned());
   loaded.table_line = model::ToolTableLine{};

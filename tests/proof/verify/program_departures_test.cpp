@@ -121,6 +121,9 @@ const Departure kDepartures[] = {
     {"AWaitTooMany", "G1 X65 Y65 Z-10 F600\n", "G1 X65 Y65 Z-10 F600\nG4 P1\n"},
     {"APlannedWaitRemoved", "G4 P0.5\n", ""},
     {"APlannedWaitMadeLonger", "G4 P0.5\n", "G4 P5\n"},
+    {"AnAbortInAComment", "G1 X65 Y65 Z-10 F600\n", "(ABORT,stop)\nG1 X65 Y65 Z-10 F600\n", true},
+    {"AnAbortBesideAMove", "G1 X65 Y65 Z-10 F600\n", "G1 X65 Y65 Z-10 F600 (x) ( abort,)\n", true},
+    {"AFileOpenedByAComment", "G1 X65 Y65 Z-10 F600\n", "(LOGOPEN,log.txt)\nG1 X65 Y65 Z-10 F600\n", true},
     {"APercentInTheMiddle", "G1 X65 Y65 Z-10 F600\n", "G1 X65 Y65 Z-10 F600\n%\n", true},
     {"AnotherDrillBeforeTheReamer", "T3 M6\nG43 H3", "T2 M6\nG43 H2"},
     {"ADrillInPlaceOfTheReamer", "M9\nM5\nG53 G0 Z0\nT3 M6\nG43 H3", "G43 H2"},
@@ -255,6 +258,33 @@ TEST(Departures, WhatLinuxCncRefusesIsAnError) {
       return !f.undecided;
     })) << block;
   }
+}
+
+// As rs274 takes them: blanks before the name, any case, the last comment of a line; not behind a semicolon.
+TEST(Departures, OnlyACommentThatLinuxCncCarriesOutIsACommand) {
+  const auto faults = [](const std::string& line) {
+    return read_program("G21\n" + line + "\nM2\n").faults.size();
+  };
+  for (const char* command :
+       {"(ABORT,stop)", "( abort,stop)", "(ABORT,)", "G4 P0 (ABORT,x)", "(x)(ABORT,stop)",
+        "(LogAppend,/tmp/l)", "(PY,x=1)", ";py,x=1", "(PYRELOAD)", "(PROBEOPEN points.txt)"})
+    EXPECT_EQ(faults(command), 1U) << command;
+  for (const char* words : {"(abort)", "( abort , stop)", "(ABORT stop)", "(ABORT,stop)(x)", ";ABORT,stop",
+                            "(MSG,hello)", "(DEBUG,x)", "(PRINT,x)", "(LOG,x)", "(LOGCLOSE)", "(PROBECLOSE)"})
+    EXPECT_EQ(faults(words), 0U) << words;
+}
+
+TEST(Departures, AProgramWithoutMarkersIsToldOnceThatItCannotBeHeldAgainstItsPlan) {
+  const model::Plan plan = full_plan();
+  std::string text = full_program(plan);
+  for (std::size_t at = text.find("(CAPSTAN STEP"); at != std::string::npos; at = text.find("(CAPSTAN STEP"))
+    text.erase(at, text.find('\n', at) + 1 - at);
+  const auto found = check(text, plan);
+  EXPECT_TRUE(refused(found));
+  EXPECT_EQ(
+      std::count_if(found.begin(), found.end(), [](const auto& f) { return f.severity == Severity::kError; }),
+      1)
+      << told(found);
 }
 
 TEST(Departures, AProgramWithNeitherPlanNorTableIsHeldAgainstTheToolsOfItsHeader) {

@@ -414,7 +414,8 @@ std::map<AnyRef, std::vector<AnyRef>> by_workingstep(const model::Plan& plan) {
 
 }  // namespace
 
-void to_ap238(model::Plan& plan, std::vector<std::string>& losses) {
+std::vector<Unlisted> to_ap238(model::Plan& plan, std::vector<std::string>& losses) {
+  std::vector<Unlisted> unlisted;
   Model& m = plan.model;
   const auto operations = by_workingstep(plan);
   const Locations locations(m);
@@ -423,9 +424,13 @@ void to_ap238(model::Plan& plan, std::vector<std::string>& losses) {
   for (const AnyRef at : m.all_below(TypeId::kManufacturingFeature)) {
     {
       auto& f = m.at<model::ManufacturingFeature>(at);
-      const auto known = operations.find(at);
-      if (known != operations.end() && known->second == f.its_operations.items)
-        f.its_operations.items.clear();
+      if (const auto known = operations.find(at); known != operations.end()) {
+        auto& own = f.its_operations.items;
+        for (const AnyRef o : known->second) {
+          if (std::find(own.begin(), own.end(), o) == own.end()) unlisted.push_back({at, o});
+        }
+        if (known->second == own) own.clear();
+      }
       // The schema has no feature without a part.
       const auto* project = m.get<model::Project>(plan.project);
       if (!f.its_workpiece && project != nullptr && !project->its_workpieces.empty()) {
@@ -442,6 +447,7 @@ void to_ap238(model::Plan& plan, std::vector<std::string>& losses) {
       place_components(m, at, f->feature_placement, placed);
   }
   locations.follow(m);
+  return unlisted;
 }
 
 void to_model(Reader& reader) {

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "planner/files/exchange/ap238/reader.h"
 #include "planner/model/plan/plan.h"
 
@@ -20,9 +23,15 @@ namespace capstan::exchange::ap238 {
 /// the feature's own instance have none. What is derived only because AP238 asks for it is known by the name
 /// of its direction, and dropped again when it is read.
 
+/// An operation that a workingstep carries out on a feature, and that the feature does not list among its
+/// own. AP238 knows a feature's operations by workingsteps, so a record says it (`records.h`).
+struct Unlisted {
+  model::AnyRef feature, operation;
+};
+
 /// Before writing. `plan` is a copy. `losses`: features that could not be turned, whose placement or depth
 /// therefore is not what AP238 means by it.
-void to_ap238(model::Plan& plan, std::vector<std::string>& losses);
+[[nodiscard]] std::vector<Unlisted> to_ap238(model::Plan& plan, std::vector<std::string>& losses);
 /// After everything that the project and the features lead to was read.
 void to_model(Reader& reader);
 

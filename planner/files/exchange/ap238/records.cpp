@@ -192,10 +192,18 @@ class ItemFields final : public NamedFields {
   std::map<std::string, Node> items_;
 };
 
+/// An operation that its feature does not list (placement.h). ISO 14649 and JSON have the list itself.
+constexpr std::string_view kUnlisted = "UNLISTED_OPERATION";
+
+void describe(RecordFields& f, Unlisted& u) {
+  f.object("feature", u.feature);
+  f.object("operation", u.operation);
+}
+
 bool is_kind(std::string_view kind) {
-  static constexpr std::string_view kKinds[] = {"MACHINE",  "MATERIAL", "STOCK",       "CUTTER",
-                                                "SETUP",    "STEP",     "UNPLANNED",   "PROVENANCE",
-                                                "IDENTITY", "BINDING",  "MACHINE_DATA"};
+  static constexpr std::string_view kKinds[] = {"MACHINE",  "MATERIAL", "STOCK",        "CUTTER",
+                                                "SETUP",    "STEP",     "UNPLANNED",    "PROVENANCE",
+                                                "IDENTITY", "BINDING",  "MACHINE_DATA", kUnlisted};
   return std::find(std::begin(kKinds), std::end(kKinds), kind) != std::end(kKinds);
 }
 
@@ -249,6 +257,7 @@ void Records::restore(bool sealed) {
   model::Plan& plan = reader_.plan();
   const Graph& g = reader_.graph();
   const Addresses addresses(plan, [&](AnyRef at) { return plan.model.origin(at).instance; });
+  std::vector<Unlisted> unlisted;
   for (const Found& record : found_) {
     const std::string label = std::string(kPrefix) + lower(record.kind);
     const auto say = [&](Severity s, std::string code, std::string message) {
@@ -259,15 +268,30 @@ void Records::restore(bool sealed) {
     const AnyRef executable = on == kNoNode ? AnyRef{} : reader_.noun_at(on, model::TypeId::kExecutable);
     try {
       ItemFields fields(reader_, addresses, executable, record.items);
+      if (record.kind == kUnlisted) {
+        describe(fields, unlisted.emplace_back());
+        continue;
+      }
       restore_record(record.kind, label, fields, plan, sealed, say);
     } catch (const MalformedRecord&) {
       say(Severity::kWarning, "EXC-RECORD", "'" + label + "' is malformed; ignored");
     }
   }
   settle_edits(plan, reader_.reporter());
+  restore_unlisted(unlisted);
 }
 
-void write_records(Writer& w) {
+// What the feature or the operation was is gone where an address leads nowhere: then nothing is to be left
+// out.
+void Records::restore_unlisted(const std::vector<Unlisted>& unlisted) {
+  model::Model& m = reader_.plan().model;
+  for (const Unlisted& u : unlisted) {
+    if (m.get<model::ManufacturingFeature>(u.feature) == nullptr || !u.operation.set()) continue;
+    std::erase(m.at<model::ManufacturingFeature>(u.feature).its_operations.items, u.operation);
+  }
+}
+
+void write_records(Writer& w, const std::vector<Unlisted>& unlisted) {
   const Addresses addresses(w.plan(), [&](AnyRef at) { return w.written(at); });
   std::map<std::string, int, std::less<>> counts;
   RecordSink sink;
@@ -298,6 +322,10 @@ void write_records(Writer& w) {
     describe(fields);
   };
   write_plan_records(w.plan(), w.model(), sink);
+  for (Unlisted u : unlisted) {
+    if (sink.order(u.feature) != 0 && sink.order(u.operation) != 0)
+      sink.record(kUnlisted, u.feature, [&](RecordFields& f) { describe(f, u); });
+  }
 }
 
 }  // namespace capstan::exchange::ap238

@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include "planner/files/exchange/ap238/placement.h"
 #include "planner/files/exchange/ap238/reader.h"
 #include "planner/files/exchange/ap238/writer.h"
 #include "planner/files/exchange/records.h"
@@ -29,11 +30,13 @@ class Records {
     Node property;
     std::vector<Node> items;
   };
+  void restore_unlisted(const std::vector<Unlisted>& unlisted);
   Reader& reader_;
   std::vector<Found> found_;
 };
 
-/// Adds the records of the plan, once all its objects have instances.
-void write_records(Writer& writer);
+/// Adds the records of the plan, and of the operations that features do not list, once all objects have
+/// instances.
+void write_records(Writer& writer, const std::vector<Unlisted>& unlisted);
 
 }  // namespace capstan::exchange::ap238

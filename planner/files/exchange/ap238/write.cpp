@@ -46,9 +46,9 @@ Result<Written> write_ap238(const model::Plan& plan, Job& job) {
   if (auto done = ap238::write_paths(copy, out.losses); !done) return fail(done.error());
   ap238::state_frames(copy);
   ap238::helices_to_via_points(copy, out.losses);
-  ap238::to_ap238(copy, out.losses);
+  const auto unlisted = ap238::to_ap238(copy, out.losses);
   ap238::Writer writer(copy, ap238::Mapping::instance(), out.losses);
-  const std::string data = writer.run();
+  const std::string data = writer.run(unlisted);
   const auto name = [&](model::AnyRef r) { return writer.reference_text(r); };
   auto sealed = with_seal(header(copy) + exact_paths(plan, copy.model, name) + "ENDSEC;\n" +
                           sections_text(copy, name) + "DATA;\n" + data + "ENDSEC;\nEND-ISO-10303-21;\n");

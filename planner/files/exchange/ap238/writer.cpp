@@ -45,7 +45,7 @@ Writer::Writer(const model::Plan& plan, const Mapping& mapping, std::vector<std:
   }
 }
 
-std::string Writer::run() {
+std::string Writer::run(const std::vector<Unlisted>& unlisted) {
   shared("protocol");
   if (plan_.project) instance_of(plan_.project);
   for (const AnyRef f : m_.all_below(TypeId::kManufacturingFeature)) require(f);
@@ -63,7 +63,7 @@ std::string Writer::run() {
       if (to.set()) require(to);
     });
   }
-  write_records(*this);
+  write_records(*this, unlisted);
   fall_back();
   std::string out;
   for (Id id = 1; id <= made_.size(); ++id) {

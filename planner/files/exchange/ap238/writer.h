@@ -12,6 +12,8 @@
 
 namespace capstan::exchange::ap238 {
 
+struct Unlisted;  // placement.h
+
 /// An instance being written, by its number.
 using Id = std::uint32_t;
 inline constexpr Id kNoId = 0;
@@ -21,8 +23,8 @@ class Writer {
  public:
   Writer(const model::Plan& plan, const Mapping& mapping, std::vector<std::string>& losses);
 
-  /// The data section, one instance per line.
-  std::string run();
+  /// The data section, one instance per line. `unlisted`: what `to_ap238` gave.
+  std::string run(const std::vector<Unlisted>& unlisted);
   /// After run(): how the file refers to an object, "$" when it holds none.
   [[nodiscard]] std::string reference_text(model::AnyRef r);
 

@@ -52,7 +52,10 @@ std::optional<Spelling> kind_of(std::string_view keyword) {
   const auto type = model::find_noun(aliased ? alias->to : keyword);
   if (!type || *type == TypeId::kKeptInstance) return std::nullopt;
   const model::NounType& row = model::noun_type(*type);
-  if (row.abstract || !row.in_iso14649) return std::nullopt;
+  // Bodies of tools that AP238 adds are written by their own names: the standard's nearest kind is another
+  // tool.
+  const bool known = row.in_iso14649 || model::is_a(*type, TypeId::kMillingToolBody);
+  if (row.abstract || !known) return std::nullopt;
   return Spelling{*type, aliased || is_draft_kind(*type)};
 }
 

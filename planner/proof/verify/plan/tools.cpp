@@ -2,6 +2,7 @@
 #include <cmath>
 #include <map>
 
+#include "planner/model/plan/table_offsets.h"
 #include "planner/proof/verify/plan/plan_checks.h"
 
 namespace capstan::verify {
@@ -26,9 +27,10 @@ void check_cutter(const model::Plan& plan, const model::Cutter& c, Findings& fin
     findings.error(4, "CHK-TOOL", whole, "tool " + c.id + " has no cutting diameter");
   const int pockets = plan.machine.magazine_pockets;
   // One pocket is the spindle itself: tools are changed by hand, and numbers are free.
-  if (c.pocket <= 0 || (pockets > 1 && c.pocket > pockets)) {
+  const int at = model::magazine_pocket(c);
+  if (c.pocket <= 0 || (pockets > 1 && at > pockets)) {
     findings.error(4, "CHK-TOOL", whole,
-                   "tool " + c.id + " is in pocket " + std::to_string(c.pocket) + "; the magazine has " +
+                   "tool " + c.id + " is in pocket " + std::to_string(at) + "; the magazine has " +
                        std::to_string(pockets));
   }
   const double longest = plan.machine.tool_length_max_mm;

@@ -49,7 +49,11 @@ std::vector<StepMoves> judge_text(const Program& program, const ProgramText& tex
     extents.add(s, findings);
   }
   check_life(steps, findings);
-  if (plan != nullptr) {
+  if (plan != nullptr && program.markers.empty() && !plan->steps.empty()) {
+    findings.error(33, "CHK-TEXT-MARKERS", {0, "", -1},
+                   "no comment (CAPSTAN STEP ...) says which step begins where, so the text cannot be held "
+                   "against the plan; write the program anew from the plan, or check it without");
+  } else if (plan != nullptr) {
     compare(c, findings);
     check_between(c, findings);
   }

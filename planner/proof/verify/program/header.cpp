@@ -93,4 +93,14 @@ void Interpreter::comment(const std::string& text) {
   }
 }
 
+void Interpreter::command(const std::string& name) {
+  if (name.empty()) return;
+  const std::string what = name == "ABORT"           ? "ends the program here"
+                           : name.starts_with("PY")  ? "runs Python, which is not followed"
+                           : name.starts_with("LOG") ? "writes into a file of the control"
+                                                     : "opens a file of the control for probed points";
+  fault(33, "CHK-COMMENT",
+        "the comment (" + name + ",...) is a command to LinuxCNC: it " + what + "; take it out");
+}
+
 }  // namespace capstan::verify

@@ -368,6 +368,7 @@ void Interpreter::line(const Line& l, long number) {
   percent(l);
   any_line_ = any_line_ || l.percent || !l.words.empty() || !l.comments.empty() || !l.fault.empty();
   for (const std::string& c : l.comments) comment(c);
+  command(l.command);
   if (!l.fault.empty()) {
     const int property = l.not_finite ? 1 : 33;
     const char* code = l.not_finite ? "CHK-NUMBER" : l.unverifiable ? "CHK-UNVERIFIABLE" : "CHK-SYNTAX";

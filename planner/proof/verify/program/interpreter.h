@@ -34,6 +34,8 @@ class Interpreter {
   void percent(const Line& l);
   void start(int way);
   void comment(const std::string& text);
+  /// A comment that LinuxCNC carries out (Line::command).
+  void command(const std::string& name);
   void marker(const std::string& text);
   void fault(int property, std::string code, std::string message, bool undecided = false);
   void state_codes(const Said& s);

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <set>
 
+#include "planner/model/plan/table_offsets.h"
 #include "planner/proof/verify/program/program_checks.h"
 
 namespace capstan::verify {
@@ -116,10 +117,12 @@ class StateChecks {
                 " is loaded, and no tool table is at hand: name it beside the program (check PROGRAM TABLE)");
     } else if (b.tool > 0 && c_.cutter(b.tool) == nullptr)
       out_.error(4, "CHK-TOOL", c_.where(b), "T" + std::to_string(b.tool) + " is not in the tool library");
-    if (c_.machine.magazine_pockets > 1 && b.tool > c_.machine.magazine_pockets) {
+    const model::Cutter* cutter = c_.cutter(b.tool);
+    const int at = cutter != nullptr ? model::magazine_pocket(*cutter) : b.tool;
+    if (c_.machine.magazine_pockets > 1 && at > c_.machine.magazine_pockets) {
       out_.error(4, "CHK-TOOL", c_.where(b),
-                 "T" + std::to_string(b.tool) + "; the magazine has " +
-                     std::to_string(c_.machine.magazine_pockets) + " pockets");
+                 "T" + std::to_string(b.tool) + " is in pocket " + std::to_string(at) +
+                     "; the magazine has " + std::to_string(c_.machine.magazine_pockets) + " pockets");
     }
   }
 

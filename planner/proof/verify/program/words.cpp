@@ -18,12 +18,30 @@ std::size_t number_length(std::string_view t) {
   return i;
 }
 
+/// The command that a comment is to LinuxCNC 2.9, in capitals; empty: it is words for people
+/// (interp_convert.cc, convert_comment; emccanon.cc, COMMENT). Messages (MSG, DEBUG, PRINT, LOG, LOGCLOSE,
+/// PROBECLOSE) change nothing.
+std::string command_in(std::string_view comment) {
+  const std::size_t begin = comment.find_first_not_of(" \t");
+  if (begin == std::string_view::npos) return {};
+  std::string name(comment.substr(begin, comment.find(',', begin) - begin));
+  for (char& c : name) c = upper(c);
+  const bool comma = comment.find(',', begin) != std::string_view::npos;
+  for (const char* takes_text : {"ABORT", "LOGOPEN", "LOGAPPEND", "PY", "PYRUN"}) {
+    if (comma && name == takes_text) return name;
+  }
+  if (name == "PYRELOAD") return name;
+  return name.starts_with("PROBEOPEN ") ? "PROBEOPEN" : "";
+}
+
 /// Takes comments out and spaces away; gives false when a parenthesis stays open.
 bool strip(std::string_view text, std::string& code, Line& out) {
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
     if (c == ';') {
       out.comments.emplace_back(text.substr(i + 1));
+      // Behind a semicolon Python alone is more than words.
+      if (const std::string command = command_in(out.comments.back()); command == "PY") out.command = command;
       return true;
     }
     if (c == '(') {
@@ -34,6 +52,7 @@ bool strip(std::string_view text, std::string& code, Line& out) {
         return true;
       }
       out.comments.emplace_back(text.substr(i + 1, end - i - 1));
+      out.command = command_in(out.comments.back());  // LinuxCNC carries out the last one of a line
       i = end;
       continue;
     }
@@ -47,6 +66,7 @@ bool strip(std::string_view text, std::string& code, Line& out) {
 void split_line(std::string_view text, Line& out) {
   out.words.clear();
   out.comments.clear();
+  out.command.clear();
   out.percent = out.deleted = out.unverifiable = out.not_finite = false;
   out.fault.clear();
   std::string code;

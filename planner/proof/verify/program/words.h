@@ -15,6 +15,7 @@ struct Word {
 struct Line {
   std::vector<Word> words;
   std::vector<std::string> comments;
+  std::string command;  ///< what LinuxCNC carries out of the line's comments, "ABORT"; empty: nothing
   bool percent = false, deleted = false;
   std::string fault;          ///< why the rest was not read; empty when all was
   bool unverifiable = false;  ///< the fault is something this reader does not follow

@@ -4,6 +4,7 @@
 
 #include "planner/files/exchange/ap238/addresses.h"
 #include "tests/files/exchange/ap238/support.h"
+#include "tests/files/exchange/support.h"
 
 namespace capstan::exchange::ap238 {
 namespace {
@@ -180,6 +181,24 @@ TEST(Ap238Records, EditedValueIsGivenAgain) {
   EXPECT_EQ(after.at("{WORKPLAN:main}.its_elements").substr(0, 10), "bound rule");  // untouched
   EXPECT_EQ(after.size(), before_edit.size());
   EXPECT_THAT(said, Contains(HasSubstr("WORKPLAN.its_id was edited since it was bound by optimiser")));
+}
+
+// AP238 has a feature's operations by workingsteps alone; ISO 14649 lists them at the feature, and may not.
+TEST(Ap238Records, OperationThatItsFeatureDoesNotListIsNotListedAfterwards) {
+  for (const char* listed : {"(#20)", "()"}) {
+    SCOPED_TRACE(listed);
+    Job job;
+    const std::string hole = std::string("ROUND_HOLE('HOLE',#4,") + listed + ",#81,#64,#58,$,#26)";
+    const auto plan = exchange::testing::read_text(
+        exchange::testing::part21(exchange::testing::drilled_plate({{17, hole}})), job);
+    ASSERT_TRUE(plan) << to_text(plan.error());
+    const auto again = read_text(written(*plan).bytes);
+    const auto holes = again.model.all(TypeId::kRoundHole);
+    ASSERT_EQ(holes.size(), 1U);
+    const auto& hole_again = again.model.at<model::ManufacturingFeature>(holes[0]);
+    EXPECT_EQ(hole_again.its_operations.items.size(), std::string(listed) == "()" ? 0U : 1U);
+    EXPECT_EQ(again.model.all(TypeId::kDrilling).size(), 1U);
+  }
 }
 
 TEST(Ap238Records, OfAnotherKindAreProcessPropertiesLikeAnyOther) {
