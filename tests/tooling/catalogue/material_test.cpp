@@ -414,6 +414,34 @@ materials:
   EXPECT_EQ((*got)[0].sources.back().second, "Handbook, 3rd ed. p. 7");
 }
 
+TEST(ReadMaterials, RefusesASourceThatIsTooLongBeforeItIsCopied) {
+  const auto code = [](const std::string& text) {
+    Job job;
+    const auto got = read_materials(text, "m.yaml", job);
+    return got ? std::string("accepted") : got.error().code + ": " + got.error().expected;
+  };
+  const auto table = [](const std::string& cited, const std::string& source) {
+    return "capstan_materials: 1\nkc_uncertainty: 0.3\ncitations: {a: \"" + cited +
+           "\"}\nmaterials:\n  - {source: \"" + source +
+           "\", id: a, iso_group: P, kc11_n_mm2: 2298, mc: 0.2, vc_hss_m_min: 25, vc_carbide_m_min: 70}\n";
+  };
+  const std::string told = "DATA-SOURCE: at most 1000 bytes, its citations written out";
+  EXPECT_EQ(code(table("short", "@a")), "accepted");
+  EXPECT_EQ(code(table(std::string(1001, 'x'), "short")), told);
+  EXPECT_EQ(code(table("short", std::string(1001, 'x'))), told);
+  // 900 bytes meant twice are 1801.
+  EXPECT_EQ(code(table(std::string(900, 'x'), "@a @a")), told);
+  // And a table of more values than a table of materials has.
+  std::string many = table("short", "x");
+  many.insert(
+      many.size() - 2, ", names: [{name: [a" + [] {
+        std::string out;
+        for (int i = 0; i < 20'000; ++i) out += ", n" + std::to_string(i);
+        return out;
+      }() + "]}]");
+  EXPECT_EQ(code(many), "DATA-SIZE: at most 20000");
+}
+
 TEST(ReadMaterials, RefusesATableThatContradictsItself) {
   const auto refusal = [](const std::string& rows) {
     Job job;
