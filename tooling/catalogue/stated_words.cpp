@@ -36,7 +36,7 @@ struct Number {
 
 /// What a run of numbers means at most: "48-52" is 52, "58+2" is 60, "58,5" is 58.5; numbers that are no
 /// hardness in this unit, such as those of a grade before it, are passed over.
-std::optional<Number> most_of(const std::string& text, Run run, const ScaleUnit& unit) {
+std::optional<Number> most_of(const std::string& text, Run run, const ScaleUnit& unit, bool behind_unit) {
   std::optional<Number> out;
   double before = 0.0;  // the last number, where it is one of this unit
   bool plus = false;    // between it and here
@@ -53,8 +53,8 @@ std::optional<Number> most_of(const std::string& text, Run run, const ScaleUnit&
       ++i;
     std::string word = text.substr(from, i - from);
     std::replace(word.begin(), word.end(), ',', '.');
-    // "X40" is a grade.
-    if (from > 0 && letter(text[from - 1])) continue;
+    // "X40" is a grade, "HRC40" a hardness.
+    if (from > 0 && letter(text[from - 1]) && !(behind_unit && from == run.begin)) continue;
     const auto value = parse_double(word);
     if (!value) continue;
     const double most = plus ? before + *value : *value;
@@ -154,7 +154,7 @@ std::vector<Stated> hardness_of(const std::string& t) {
     while (before.begin > claimed && of_numbers(t[before.begin - 1])) --before.begin;
     Run after{behind(t, end), 0};
     for (after.end = after.begin; after.end < t.size() && of_numbers(t[after.end]);) ++after.end;
-    const auto left = most_of(t, before, *unit);
+    const auto left = most_of(t, before, *unit, false);
     if (k + 1 < units.size() && after.end >= units[k + 1].begin) {
       // The numbers between two units: the first is this one's where it has none before it.
       after = left ? Run{after.begin, after.begin} : first_of(t, {after.begin, units[k + 1].begin});
@@ -162,7 +162,7 @@ std::vector<Stated> hardness_of(const std::string& t) {
                t.substr(after.begin, after.end - after.begin).find('/') != std::string::npos) {
       after.end = after.begin;  // how it was measured: "500 HBW 10/3000"
     }
-    const auto right = most_of(t, after, *unit);
+    const auto right = most_of(t, after, *unit, true);
     claimed = std::max(end, right ? after.end : end);
     const std::string name(unit->as.empty() ? unit->word : unit->as);
     if (!left && !right) {
