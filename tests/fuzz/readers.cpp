@@ -9,10 +9,10 @@
 #include "planner/proof/verify/program/program_checks.h"
 #include "planner/proof/verify/verify.h"
 #include "rules/engine/table.h"
-#include "tooling/catalogue/hardness.h"
 #include "tooling/catalogue/library.h"
 #include "tooling/catalogue/machine.h"
 #include "tooling/catalogue/material.h"
+#include "tooling/catalogue/stated_words.h"
 #include "tooling/formats/all.h"
 #include "tooling/formats/import.h"
 #include "tooling/holding/holding.h"
@@ -71,7 +71,7 @@ void machine_ini(std::string bytes) {
 void materials(std::string bytes) {
   Job job;
   const auto read = tooling::read_materials(bytes, "input.yaml", job);
-  (void)tooling::stated_hardness(std::string_view(bytes));
+  (void)tooling::stated_words(bytes);
   if (!said(read)) return;
   for (const auto& m : *read) {
     for (const std::string& name : m.names) {

@@ -12,6 +12,7 @@
 #include "tooling/catalogue/check.h"
 #include "tooling/catalogue/complete.h"
 #include "tooling/catalogue/data.h"
+#include "tooling/catalogue/iso_groups.h"
 #include "tooling/catalogue/material.h"
 #include "tooling/catalogue/tree.h"
 
@@ -24,7 +25,6 @@ using model::WorkMaterial;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr std::size_t kMostSizes = 1000;  // of one series
-constexpr const char* kGroups[] = {"P", "M", "K", "N", "S", "H"};
 
 /// A number that depends on the size: linear with bounds, or a table of upper limits.
 struct Law {
@@ -116,7 +116,7 @@ struct Reader {
 
 void read_coated(Fields top, Reader& r) {
   r.coated_source = top.source();
-  for (const char* group : kGroups) r.coated[group] = top.number(group);
+  for (const IsoGroup& g : kIsoGroups) r.coated[std::string(g.letter)] = top.number(g.letter);
   top.finish();
 }
 
@@ -140,7 +140,7 @@ void read_feeds(const Node& node, Fields top, Reader& r) {
     out.d_cap = f.number("d_cap");
     out.least = f.number("least");
     out.most = f.number("most");
-    for (const char* group : kGroups) out.factor[group] = f.number(group);
+    for (const IsoGroup& g : kIsoGroups) out.factor[std::string(g.letter)] = f.number(g.letter);
     f.finish();
   }
 }
@@ -301,7 +301,8 @@ void set_presets(const Series& s, const Reader& r, Cutter& c) {
     const auto [at, fresh] = slowest.emplace(m.iso_group, vc);
     if (!fresh) at->second = std::min(at->second, vc);
   }
-  for (const char* group : kGroups) {
+  for (const IsoGroup& g : kIsoGroups) {
+    const std::string group(g.letter);
     const auto vc = slowest.find(group);
     if (vc == slowest.end()) continue;
     const double fz = tap ? c.fz_min_mm : rounded(feeds.factor.at(group) * d, 5);

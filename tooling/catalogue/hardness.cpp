@@ -1,10 +1,10 @@
 #include "tooling/catalogue/hardness.h"
 
 #include <algorithm>
-#include <array>
-#include <limits>
+#include <optional>
 
 #include "planner/ground/base/number.h"
+#include "tooling/catalogue/material.h"
 #include "tooling/catalogue/material_table.h"
 
 namespace capstan::tooling {
@@ -14,156 +14,123 @@ using model::WorkMaterial;
 
 /// Hardness of a grade varies from piece to piece by about this. Default, unsourced.
 constexpr double kHardnessSlack = 1.1;
+/// From here steel counts as hardened: 45 HRC, the softest card of ISO 513 H, less the slack.
+constexpr double kHardened = 421.0 / kHardnessSlack;
+/// Cards from here on are of a tempered state already: that of C45+QT, the softest of them.
+constexpr double kTempered = 250.0;
 
-struct Point {
-  double hrc, hb;
-};
-constexpr std::array<Point, 9> kBrinell = {
-    {{20, 226}, {25, 253}, {30, 286}, {35, 327}, {40, 371}, {45, 421}, {50, 481}, {55, 560}, {60, 654}}};
-
-std::optional<double> brinell_of_rockwell(double hrc) {
-  for (std::size_t i = 0; i + 1 < kBrinell.size(); ++i) {
-    const Point a = kBrinell[i], b = kBrinell[i + 1];
-    if (hrc >= a.hrc && hrc <= b.hrc) return a.hb + (hrc - a.hrc) / (b.hrc - a.hrc) * (b.hb - a.hb);
-  }
-  return std::nullopt;
-}
-
-bool digit(char c) { return c >= '0' && c <= '9'; }
-bool letter(char c) { return c >= 'A' && c <= 'Z'; }
-
-std::string upper(std::string_view text) {
-  std::string out(text);
-  for (char& c : out)
-    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+std::optional<StatedHardness> hardest(const std::vector<StatedHardness>& all, const WorkMaterial& m) {
+  std::optional<StatedHardness> out;
+  for (const StatedHardness& h : all)
+    if (converts(h.scale, m.iso_group) && (!out || h.brinell > out->brinell)) out = h;
   return out;
 }
 
-/// A number of a text, and where the run of numbers begins that it stands in.
-struct Number {
-  double value = 0.0;
-  std::size_t begin = 0;
-};
+std::string words(const WorkMaterial& m) {
+  return m.id + (m.hardness_hb > 0.0 ? ", " + trimmed(m.hardness_hb, 0) + " HB" : std::string());
+}
 
-bool of_numbers(char c) { return digit(c) || std::string_view(" .,+-/").find(c) != std::string_view::npos; }
-
-/// What a run of numbers means at most: "48-52" is 52, "58+2" is 60, "58,5" is 58.5; numbers that are no
-/// hardness in this unit, such as those of a grade before it, are passed over.
-std::optional<Number> most_of(const std::string& text, std::size_t begin, std::size_t end, double lo,
-                              double hi) {
-  std::optional<Number> out;
-  double before = 0.0;  // the last number, where it is one of this unit
-  bool plus = false;    // between it and here
-  for (std::size_t i = begin; i < end;) {
-    if (!digit(text[i])) {
-      if (text[i] == '+') plus = true;
-      if (text[i] != '+' && text[i] != ' ') before = 0.0;
-      ++i;
-      continue;
-    }
-    const std::size_t from = i;
-    while (i < end &&
-           (digit(text[i]) || ((text[i] == '.' || text[i] == ',') && i + 1 < end && digit(text[i + 1]))))
-      ++i;
-    std::string word = text.substr(from, i - from);
-    std::replace(word.begin(), word.end(), ',', '.');
-    // "X40" is a grade.
-    if (from > 0 && letter(text[from - 1])) continue;
-    const auto value = parse_double(word);
-    if (!value) continue;
-    const double most = plus ? before + *value : *value;
-    plus = false;
-    if (most >= lo && most <= hi && (!out || most > out->value)) out = Number{most, out ? out->begin : from};
-    before = most >= lo && most <= hi ? most : 0.0;
+/// The cards of the grade, its own first, then from soft to hard.
+std::vector<const WorkMaterial*> cards_of(const WorkMaterial& material, const MaterialTable& table,
+                                          const std::vector<WorkMaterial>& materials) {
+  std::vector<const WorkMaterial*> out;
+  if (const auto it = table.harder.find(material.id); it != table.harder.end()) {
+    for (const std::string& id : it->second)
+      for (const WorkMaterial& m : materials)
+        if (m.id == id && m.hardness_hb > 0.0) out.push_back(&m);
   }
+  std::sort(out.begin(), out.end(),
+            [](const auto* a, const auto* b) { return a->hardness_hb < b->hardness_hb; });
+  out.insert(out.begin(), &material);
   return out;
 }
 
-struct Unit {
-  const char* name;
-  double lo, hi;  ///< outside, a number beside it is something else
-};
-constexpr std::array<Unit, 5> kUnits = {
-    {{"HRC", 5, 80}, {"HBW", 50, 1000}, {"BHN", 50, 1000}, {"HB", 50, 1000}, {"HV", 50, 2000}}};
-constexpr double kHarderThanAnyCard = std::numeric_limits<double>::infinity();
+/// The first that is as hard; null: the material's own states no hardness and is taken to be.
+Result<const WorkMaterial*> as_hard(const WorkMaterial& material, const StatedHardness& stated,
+                                    const std::vector<const WorkMaterial*>& cards) {
+  const bool known = material.hardness_hb > 0.0;
+  if (!known) {
+    const double next = cards.size() > 1 ? cards[1]->hardness_hb / kHardnessSlack : kHardened;
+    if (stated.brinell < next) return nullptr;
+  }
+  const auto it = std::find_if(cards.begin() + (known ? 0 : 1), cards.end(), [&](const WorkMaterial* m) {
+    return stated.brinell <= kHardnessSlack * m->hardness_hb;
+  });
+  if (it != cards.end()) return *it;
+  const WorkMaterial& last = *cards.back();
+  const bool any = last.hardness_hb > 0.0;
+  return fail(
+      {.code = "MATERIAL-HARDNESS",
+       .message = stated.text + " is stated, and " +
+                  (any ? "no card of '" + material.id + "' goes above " + trimmed(last.hardness_hb, 0) +
+                             " HB (" + last.id + ")"
+                       : "the card '" + material.id + "' holds for nothing as hard"),
+       .expected = "at most " + trimmed(any ? kHardnessSlack * last.hardness_hb : kHardened, 0) + " HB",
+       .hint = "name a card with --material, or a file with the material's own figures"});
+}
+
+/// Whether a state in words means harder than the card, and no number says how hard.
+bool unstated(State state, const WorkMaterial& card, const std::optional<StatedHardness>& number) {
+  if (card.iso_group == "H") return false;
+  const bool steel_or_iron = card.iso_group == "P" || card.iso_group == "M" || card.iso_group == "K";
+  switch (state) {
+    case State::kSoft:
+      return false;
+    case State::kTempered:
+      // Other groups are used as they are treated: T6, solution treated and aged.
+      return !number && steel_or_iron && card.hardness_hb < kTempered;
+    case State::kAged:
+      return !number && steel_or_iron;
+    case State::kHard:
+      return !number;
+    case State::kSurface:
+      return !number || number->brinell < kHardened;  // a softer one is the core's
+  }
+  return false;
+}
 
 }  // namespace
 
-std::optional<StatedHardness> stated_hardness(double value, std::string_view unit) {
-  const std::string u = plain_name(unit);
-  if (!(value > 0.0)) return std::nullopt;
-  double hb = 0.0;
-  // A Brinell number is never above the Vickers number.
-  if (u == "HB" || u == "HBW" || u == "HBS" || u == "BHN" || u == "BRINELL" || u == "HV" || u == "VICKERS") {
-    hb = value;
-  } else if (u == "HRC" || u == "ROCKWELLC") {
-    hb = value < kBrinell.front().hrc ? kBrinell.front().hb
-                                      : brinell_of_rockwell(value).value_or(kHarderThanAnyCard);
-  } else {
-    return std::nullopt;
-  }
-  return StatedHardness{hb, trimmed(value, 4) + " " + std::string(unit), {}};
-}
-
-std::optional<StatedHardness> stated_hardness(std::string_view text) {
-  const std::string t = upper(text);
-  std::optional<StatedHardness> out;
-  for (const Unit& unit : kUnits) {
-    const std::string u = unit.name;
-    for (auto at = t.find(u); at != std::string::npos; at = t.find(u, at + 1)) {
-      const std::size_t end = at + u.size();
-      if ((at > 0 && letter(t[at - 1])) || (end < t.size() && letter(t[end]))) continue;
-      std::size_t first = at;
-      while (first > 0 && of_numbers(t[first - 1])) --first;
-      std::size_t last = t.find_first_not_of(" =:", end);
-      if (last == std::string::npos) last = t.size();
-      const std::size_t after = last;
-      while (last < t.size() && of_numbers(t[last])) ++last;
-      const auto left = most_of(t, first, at, unit.lo, unit.hi);
-      const auto right = most_of(t, after, last, unit.lo, unit.hi);
-      auto here =
-          !left && !right
-              ? StatedHardness{kHarderThanAnyCard, "of a hardness in " + u + " that cannot be read,", {}}
-              : *stated_hardness(std::max(left ? left->value : 0.0, right ? right->value : 0.0), u);
-      here.before = std::string(text.substr(0, left ? std::min(left->begin, at) : at));
-      if (!out || here.brinell > out->brinell) out = std::move(here);
+Result<Judged> as_stated(const WorkMaterial& material, const std::string& named, const Beside& beside,
+                         const std::vector<WorkMaterial>& materials) {
+  Judged out{material, false};
+  const auto stated = hardest(beside.hardness, material);
+  if (stated) {
+    const auto& table = shipped_material_table();
+    if (!table) return fail(table.error());
+    const auto card = as_hard(material, *stated, cards_of(material, *table, materials));
+    if (!card) return fail(card.error());
+    if (const WorkMaterial* m = *card) {
+      if (m != &material) {
+        out.material = *m;
+        if (const std::string* why = source_of(material, "chosen"))
+          out.material.sources.emplace_back("chosen", *why);
+      }
+      out.material.sources.emplace_back("chosen", stated->text + " is stated (" +
+                                                      trimmed(stated->brinell, 0) + " HB): the card '" +
+                                                      m->id + "' of " + trimmed(m->hardness_hb, 0) + " HB");
+      out.by_hardness = true;
     }
+  }
+  for (const StatedState& s : beside.states) {
+    if (!unstated(s.state, out.material, stated)) continue;
+    const bool core = s.state == State::kSurface && stated;
+    return fail(
+        {.code = "MATERIAL-STATE",
+         .message = "the material '" + named + "' is said to be '" + s.text +
+                    "', which is harder than its card (" + words(out.material) + "), and " +
+                    (core ? stated->text + " is not the hardness of its surface" : "nothing says how hard"),
+         .expected = "the hardness beside the name or as a property, as in '" + material.id + " " +
+                     (s.state == State::kTempered || s.state == State::kAged ? "32 HRC'" : "58 HRC'"),
+         .hint = "state it in HRC, or plan with another material's figures: --material like:" +
+                 std::string(s.state == State::kTempered || s.state == State::kAged ? "42CrMo4+QT"
+                                                                                    : "hardened_steel_60")});
   }
   return out;
 }
 
-Result<std::optional<WorkMaterial>> as_hard_as(const WorkMaterial& material, const StatedHardness& stated,
-                                               const std::vector<WorkMaterial>& materials) {
-  const auto& table = shipped_material_table();
-  if (!table) return fail(table.error());
-  std::vector<const WorkMaterial*> cards;
-  if (material.hardness_hb > 0.0) cards.push_back(&material);
-  if (const auto it = table->harder.find(material.id); it != table->harder.end()) {
-    for (const std::string& id : it->second)
-      for (const WorkMaterial& m : materials)
-        if (m.id == id && m.hardness_hb > 0.0) cards.push_back(&m);
-  }
-  if (cards.empty()) return std::optional<WorkMaterial>{};
-  std::sort(cards.begin() + (cards.front() == &material ? 1 : 0), cards.end(),
-            [](const auto* a, const auto* b) { return a->hardness_hb < b->hardness_hb; });
-  const auto fits = [&](const WorkMaterial* m) { return stated.brinell <= kHardnessSlack * m->hardness_hb; };
-  const auto it = std::find_if(cards.begin(), cards.end(), fits);
-  if (it == cards.end())
-    return fail({.code = "MATERIAL-HARDNESS",
-                 .message = "the material is " + stated.text + " hard, and no card of '" + material.id +
-                            "' goes above " + trimmed(cards.back()->hardness_hb, 0) + " HB (" +
-                            cards.back()->id + ")",
-                 .expected = "at most " + trimmed(kHardnessSlack * cards.back()->hardness_hb, 0) + " HB",
-                 .hint = "name a card with --material, or a file with the material's own figures"});
-  WorkMaterial out = **it;
-  if (*it != &material) {
-    for (const auto& [field, source] : material.sources)
-      if (field == "chosen") out.sources.emplace_back("chosen", source);
-  }
-  out.sources.emplace_back("chosen", stated.text + " is stated (" + trimmed(stated.brinell, 0) +
-                                         " HB): the card '" + out.id + "' of " + trimmed(out.hardness_hb, 0) +
-                                         " HB");
-  return std::optional<WorkMaterial>(std::move(out));
+bool is_used(const StatedHardness& stated, const Judged& judged) {
+  return judged.by_hardness && converts(stated.scale, judged.material.iso_group);
 }
 
 }  // namespace capstan::tooling

@@ -49,6 +49,7 @@ const WorkMaterial* by_id(const std::vector<WorkMaterial>& materials, const std:
 struct Match {
   const WorkMaterial* material = nullptr;
   std::string name, source;
+  std::size_t length = 0;  ///< how many letters and digits of the text the name takes
 };
 
 Match exact(const std::string& wanted, const std::vector<WorkMaterial>& materials) {
@@ -56,11 +57,10 @@ Match exact(const std::string& wanted, const std::vector<WorkMaterial>& material
   for (const WorkMaterial& m : materials) {
     for (const std::string& name : m.names) {
       if (plain_name(name) != wanted) continue;
-      const auto it = std::find_if(m.sources.begin(), m.sources.end(),
-                                   [&](const auto& s) { return s.first == "name " + name; });
-      return {&m, name, it == m.sources.end() ? "" : it->second};
+      const std::string* source = source_of(m, "name " + name);
+      return {&m, name, source == nullptr ? "" : *source, wanted.size()};
     }
-    if (plain_name(m.id) == wanted) return {&m, m.id, "its id"};
+    if (plain_name(m.id) == wanted) return {&m, m.id, "its id", wanted.size()};
   }
   return {};
 }
@@ -126,45 +126,90 @@ const WorkMaterial& hardest(const std::vector<WorkMaterial>& materials) {
 
 /// Where its force is from: of another material where no table has its own.
 std::string force_of(const WorkMaterial& m) {
-  for (const auto& [field, source] : m.sources)
-    if (field == "kc11_n_mm2") return "; kc1.1: " + source;
-  return {};
+  const std::string* source = source_of(m, "kc11_n_mm2");
+  return source == nullptr ? std::string() : "; kc1.1: " + *source;
 }
 
 struct Grade {
   Match match;
-  std::optional<StatedHardness> hardness;  ///< beside the name: "42CrMo4 50 HRC"
+  Beside beside;  ///< what the text says beside the name: "42CrMo4 50 HRC", "C45 nitrided"
 };
 
-/// The grade that a text names, by one way of searching.
+/// What stands behind the first letters and digits of a text.
+std::string_view behind(std::string_view text, std::size_t letters) {
+  std::size_t i = 0;
+  for (; i < text.size() && letters > 0; ++i) letters -= plain_name(text.substr(i, 1)).size();
+  return text.substr(i);
+}
+
+/// A name that holds a state ("C45+QT") says it itself; what stands behind it counts.
+Grade with_rest(Match match, const std::string& text, std::vector<StatedHardness> hardness) {
+  Grade out{std::move(match), {std::move(hardness), {}}};
+  const std::string_view rest = behind(text, out.match.length);
+  out.beside.states = stated_words(rest).states;
+  for (StatedState& s : states_behind_grade(rest)) out.beside.states.push_back(std::move(s));
+  return out;
+}
+
+/// The name that a text begins with when words are taken from its end one by one.
 template <class Search>
-Grade grade_of(const std::string& text, Search search, const std::vector<WorkMaterial>& materials) {
-  if (Match m = search(plain_name(text), materials); m.material != nullptr) {
-    // "50 HRC" may be a name itself.
-    if (plain_name(text) == plain_name(m.name)) return {std::move(m), {}};
-    return {std::move(m), stated_hardness(text)};
-  }
-  const auto hardness = stated_hardness(text);
-  if (!hardness) return {};
-  // "C45 hardened to 55 HRC": the words between are not the grade's.
-  for (std::string before = hardness->before; !plain_name(before).empty();) {
-    if (Match m = search(plain_name(before), materials); m.material != nullptr)
-      return {std::move(m), hardness};
-    const auto last = before.find_last_not_of(" ,;/");
-    const auto cut = before.find_last_of(" ,;/", last);
+Match without_last_words(std::string text, Search search, const std::vector<WorkMaterial>& materials) {
+  while (!plain_name(text).empty()) {
+    if (Match m = search(plain_name(text), materials); m.material != nullptr) return m;
+    const auto last = text.find_last_not_of(" ,;/");
+    const auto cut = text.find_last_of(" ,;/", last);
     if (cut == std::string::npos) break;
-    before.resize(cut);
+    text.resize(cut);
   }
   return {};
 }
 
-Result<WorkMaterial> as_hard_as_named(WorkMaterial material, const std::optional<StatedHardness>& stated,
-                                      const std::vector<WorkMaterial>& materials) {
-  if (!stated) return material;
-  auto card = as_hard_as(material, *stated, materials);
-  if (!card) return fail(card.error());
-  if (*card) return **std::move(card);
-  return material;
+/// The grade that a text names, by one way of searching.
+template <class Search>
+Grade grade_of(const std::string& text, Search search, const std::vector<WorkMaterial>& materials) {
+  StatedWords said = stated_words(text);
+  if (Match m = search(plain_name(text), materials); m.material != nullptr) {
+    // "50 HRC" may be a name itself.
+    if (plain_name(text) == plain_name(m.name)) return {std::move(m), {}};
+    return with_rest(std::move(m), text, std::move(said.hardness));
+  }
+  if (said.none()) return {};
+  // "C45 hardened to 55 HRC": the words between are not the grade's.
+  if (Match m = without_last_words(said.before, search, materials); m.material != nullptr)
+    return with_rest(std::move(m), text, std::move(said.hardness));
+  // "case-hardened C45"
+  if (Match m = without_last_words(said.plain, search, materials); m.material != nullptr)
+    return {std::move(m), {std::move(said.hardness), std::move(said.states)}};
+  return {};
+}
+
+/// Adds what other texts say of the same piece.
+void add(const StatedWords& said, Beside& to) {
+  to.hardness.insert(to.hardness.end(), said.hardness.begin(), said.hardness.end());
+  to.states.insert(to.states.end(), said.states.begin(), said.states.end());
+}
+
+/// The card for the piece, and a warning for each hardness of its names that is not used.
+Result<Judged> judged(const WorkMaterial& m, const std::string& named, Beside of_names,
+                      const std::vector<std::string>& properties, const std::vector<WorkMaterial>& materials,
+                      Job& job) {
+  const std::vector<StatedHardness> in_names = of_names.hardness;
+  for (const std::string& p : properties) add(stated_words(p), of_names);
+  auto out = as_stated(m, named, of_names, materials);
+  if (!out) return out;
+  for (const StatedHardness& h : in_names) {
+    if (is_used(h, *out)) continue;
+    const bool converted = converts(h.scale, out->material.iso_group);
+    job.report(
+        {.code = "MATERIAL-HARDNESS",
+         .severity = Severity::kWarning,
+         .message = "'" + named + "' states " + h.text + ", which is not used: " +
+                    (converted ? "the card '" + out->material.id + "' states no hardness"
+                               : "it does not convert to Brinell for ISO 513 " + out->material.iso_group),
+         .hint = "forces and speeds are those of '" + out->material.id +
+                 "'; state the hardness in HB, HV or HRC, or name a harder material with --material"});
+  }
+  return out;
 }
 
 }  // namespace
@@ -224,29 +269,48 @@ std::vector<std::string> names_of(const std::vector<WorkMaterial>& materials) {
   return out;
 }
 
-Result<WorkMaterial> find_material(const std::vector<std::string>& texts,
-                                   const std::vector<WorkMaterial>& materials, Job& job, Families families) {
+const std::string* source_of(const WorkMaterial& m, std::string_view field) {
+  for (const auto& [name, source] : m.sources)
+    if (name == field) return &source;
+  return nullptr;
+}
+
+Result<ChosenMaterial> choose_material(const std::vector<std::string>& texts,
+                                       const std::vector<std::string>& properties,
+                                       const std::vector<WorkMaterial>& materials, Job& job,
+                                       Families families) {
   if (materials.empty()) return fail("MATERIAL-NONE", "the material table is empty");
   // Only who chooses a name can ask for another material's figures.
   const auto asked_of = [&](const std::string& text) {
     return families == Families::kRefused && text.starts_with(kLike) ? text.substr(kLike.size()) : text;
   };
+  const auto as_said = [&](const WorkMaterial& m, const std::string& named, const std::string& alloy,
+                           std::string why, Beside beside) -> Result<ChosenMaterial> {
+    auto out = judged(chosen(m, alloy, std::move(why)), named, std::move(beside), properties, materials, job);
+    if (!out) return fail(out.error());
+    return ChosenMaterial{std::move(out->material), m.id, out->by_hardness};
+  };
   using Search = Match (*)(const std::string&, const std::vector<WorkMaterial>&);
   for (const Search search : std::array<Search, 2>{exact, longest_prefix}) {
     for (const std::string& text : texts) {
       const std::string asked = asked_of(text);
-      const Grade g = grade_of(asked, search, materials);
+      Grade g = grade_of(asked, search, materials);
       const Match& m = g.match;
       if (m.material == nullptr) continue;
       std::string why = "'" + asked + "' is " + m.name + ": " + m.source + force_of(*m.material);
       if (asked != text)
         why = "'" + text + "' is asked for: planned with the figures of '" + m.material->id +
               "', whatever the material is; " + why;
-      return as_hard_as_named(chosen(*m.material, m.name, std::move(why)), g.hardness, materials);
+      // What the other texts say of the piece counts, too.
+      for (const std::string& other : texts)
+        if (&other != &text) add(stated_words(asked_of(other)), g.beside);
+      return as_said(*m.material, asked, m.name, std::move(why), std::move(g.beside));
     }
   }
   const auto& table = shipped_material_table();
   if (!table) return fail(table.error());
+  Beside beside;
+  for (const std::string& text : texts) add(stated_words(asked_of(text)), beside);
   for (const std::string& text : texts) {
     const MaterialFamily* best = nullptr;
     std::size_t longest = 0;
@@ -263,7 +327,7 @@ Result<WorkMaterial> find_material(const std::vector<std::string>& texts,
     job.warn("MATERIAL-FAMILY", "the material '" + text + "' names only a family; forces and speeds are " +
                                     "calculated for " + m->id + ", " + best->source +
                                     "; name the material with --material");
-    return chosen(*m, {}, "'" + text + "': " + best->source);
+    return as_said(*m, text, {}, "'" + text + "': " + best->source, std::move(beside));
   }
   const auto named =
       std::find_if(texts.begin(), texts.end(), [](const auto& t) { return !plain_name(t).empty(); });
@@ -274,7 +338,14 @@ Result<WorkMaterial> find_material(const std::vector<std::string>& texts,
   job.warn("MATERIAL-DEFAULT", "no material is named; planned for " + m->id +
                                    " by default (the largest cutting force of those that are neither " +
                                    "hardened nor heat resistant): name one with --material");
-  return chosen(*m, {}, table->unnamed.source);
+  return as_said(*m, m->id, {}, table->unnamed.source, {});
+}
+
+Result<WorkMaterial> find_material(const std::vector<std::string>& texts,
+                                   const std::vector<WorkMaterial>& materials, Job& job, Families families) {
+  auto out = choose_material(texts, {}, materials, job, families);
+  if (!out) return fail(out.error());
+  return std::move(out->material);
 }
 
 Result<WorkMaterial> find_material(const std::string& text, const std::vector<WorkMaterial>& materials,

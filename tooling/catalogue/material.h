@@ -37,22 +37,40 @@ inline constexpr std::string_view kLike = "like:";
 /// Whether a family's word ("STEEL") may stand for a material.
 enum class Families : bool { kTaken, kRefused };
 
+struct ChosenMaterial {
+  model::WorkMaterial material;
+  std::string grade;         ///< the id of the card that the name alone means
+  bool by_hardness = false;  ///< a hardness chose the card
+};
+
 /// The material that a file means by these texts, most telling first (standard_identifier before
 /// material_identifier): an id or a name, letter case and punctuation aside; a name followed by a temper or
 /// quality ("EN AW-6061-T6"); else a family's word ("STEEL"), which stands for its hardest card (warns
 /// MATERIAL-FAMILY). When no text says anything, the shipped table's `unnamed` (warns MATERIAL-DEFAULT).
-/// A hardness beside the name ("42CrMo4 50 HRC") picks the card that is as hard (hardness.h). With `kRefused`
+/// A hardness beside the name ("42CrMo4 50 HRC", "Rm 1100") picks the card that is as hard (hardness.h), a
+/// state without a number ("case-hardened") is refused; of several texts, and of `properties`, the hardest
+/// counts. A hardness in the texts that does not convert is said (warns MATERIAL-HARDNESS). With `kRefused`
 /// "like:NAME" asks for the figures of NAME for a material that is not known.
 /// WorkMaterial::sources then has "chosen": why it was taken; its measured sets are those of the alloy named.
 /// Fails  NAME-UNKNOWN for a name that nobody knows: it is never guessed. MATERIAL-NONE when `materials` is
-///        empty. MATERIAL-HARDNESS for one that is harder than its cards.
+///        empty. MATERIAL-HARDNESS for one that is harder than its cards, MATERIAL-STATE for a state that is.
 ///        With `kRefused` it fails so for a family's word, too: who can choose a name is asked to.
+///
+/// properties   what the part says of its material beside the name: "tensile strength = 900 N/mm2"
+[[nodiscard]] Result<ChosenMaterial> choose_material(const std::vector<std::string>& texts,
+                                                     const std::vector<std::string>& properties,
+                                                     const std::vector<model::WorkMaterial>& materials,
+                                                     Job& job, Families families = Families::kTaken);
+/// The same of a name alone.
 [[nodiscard]] Result<model::WorkMaterial> find_material(const std::vector<std::string>& texts,
                                                         const std::vector<model::WorkMaterial>& materials,
                                                         Job& job, Families families = Families::kTaken);
 [[nodiscard]] Result<model::WorkMaterial> find_material(const std::string& text,
                                                         const std::vector<model::WorkMaterial>& materials,
                                                         Job& job);
+
+/// Where it has the value of a field from ("kc11_n_mm2", "name ST-50"), or null.
+[[nodiscard]] const std::string* source_of(const model::WorkMaterial& m, std::string_view field);
 
 /// Every id and name, in the table's order.
 [[nodiscard]] std::vector<std::string> names_of(const std::vector<model::WorkMaterial>& materials);

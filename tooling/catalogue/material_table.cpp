@@ -5,6 +5,8 @@
 #include "planner/model/plan/cutter.h"
 #include "planner/model/plan/ranges.h"
 #include "tooling/catalogue/data.h"
+#include "tooling/catalogue/iso_groups.h"
+#include "tooling/catalogue/material.h"
 #include "tooling/catalogue/tree.h"
 
 // A table is read row by row; every fault is told. Sources stand as they are written until the whole table is
@@ -18,6 +20,10 @@ using model::WorkMaterial;
 namespace range = model::range;
 
 constexpr const char* kFile = "materials.yaml";
+/// A source comes again with every value that it speaks for, and a citation wherever it is meant: unbounded,
+/// a small file would fill the memory. The shipped table's longest has 214 bytes, its values are some 3000.
+constexpr std::size_t kLongestSource = 1000;  // bytes; default, unsourced
+constexpr std::size_t kMostValues = 20'000;   // default, unsourced
 
 void check(double value, const model::Range& range, std::string_view key, Fields& f) {
   if (range.holds(value)) return;
@@ -150,9 +156,9 @@ WorkMaterial read_material(Fields f, double uncertainty, const std::string& unce
   check(m.kc_uncertainty, range::kKcUncertainty, "kc_uncertainty", f);
   check(m.tensile_strength_n_mm2, range::kStrengthNMm2, "tensile_strength_n_mm2", f);
   check(m.hardness_hb, range::kHardnessHb, "hardness_hb", f);
-  if (m.iso_group.size() != 1 || std::string_view("PMKNSH").find(m.iso_group) == std::string_view::npos)
+  if (!is_iso_group(m.iso_group))
     f.fault("MATERIAL-GROUP", "'" + m.iso_group + "' is no group of ISO 513", "iso_group",
-            f.line_of("iso_group"), "P, M, K, N, S or H");
+            f.line_of("iso_group"), iso_group_letters());
   read_names(f, m);
   read_sets(f, m);
   read_life(f, m);
@@ -171,15 +177,40 @@ MaterialFamily read_family(Fields f) {
   return out;
 }
 
+constexpr std::size_t kMostFaults = 100;  // told of citations; default, unsourced
+
+/// Whether a source is short enough; else that is told.
+bool fits(std::size_t bytes, const std::string& begins, std::string_view key, std::uint64_t line,
+          Fields& top) {
+  if (bytes <= kLongestSource) return true;
+  constexpr std::size_t kShown = 60;
+  top.fault("DATA-SOURCE",
+            "the source that begins with '" + begins.substr(0, kShown) + "' has " + std::to_string(bytes) +
+                " bytes",
+            key, line, "at most " + std::to_string(kLongestSource) + " bytes, its citations written out");
+  return false;
+}
+
+/// How many values stand below a node; what it calls a source is held against the bound.
+std::size_t count_values(const Node& node, Fields& top) {
+  std::size_t out = node.kind == Node::Kind::kScalar ? 1 : 0;
+  for (const Node& item : node.items) out += count_values(item, top);
+  for (const auto& [name, entry] : node.entries) {
+    if (name == "source") (void)fits(entry.text.size(), entry.text, "source", entry.line, top);
+    out += count_values(entry, top);
+  }
+  return out;
+}
+
 /// What its citations are called in the table's sources.
 using Citations = std::map<std::string, std::string>;
 
 Citations read_citations(const Node& rows, Fields& top) {
   Citations out;
   for (const auto& [name, text] : rows.entries) {
-    if (text.kind == Node::Kind::kScalar && !text.text.empty())
-      out[name] = text.text;
-    else
+    if (text.kind == Node::Kind::kScalar && !text.text.empty()) {
+      if (fits(text.text.size(), text.text, "citations", text.line, top)) out[name] = text.text;
+    } else
       top.fault("DATA-SOURCE", "the citation '" + name + "' says nothing", "citations", text.line);
   }
   return out;
@@ -191,6 +222,7 @@ bool of_name(char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') |
 void cite(std::string& source, const Citations& citations, Fields& top) {
   std::string out;
   for (std::size_t i = 0; i < source.size();) {
+    if (out.size() > kLongestSource || top.fault_count() > kMostFaults) break;
     if (source[i] != '@') {
       out += source[i++];
       continue;
@@ -205,7 +237,7 @@ void cite(std::string& source, const Citations& citations, Fields& top) {
     out += it == citations.end() ? name : it->second;
     i = end;
   }
-  source = std::move(out);
+  if (fits(out.size(), out, "citations", top.line_of("citations"), top)) source = std::move(out);
 }
 
 void cite_all(MaterialTable& table, const Citations& citations, Fields& top) {
@@ -267,6 +299,11 @@ Result<MaterialTable> read_material_table(std::string_view text, const std::stri
   MaterialTable out;
   if (top.text("capstan_materials") != "1")
     top.fault("DATA-VERSION", "not a material table of version 1", "capstan_materials", 1);
+  const std::size_t before = faults.size();
+  if (const std::size_t values = count_values(*root, top); values > kMostValues)
+    top.fault("DATA-SIZE", "the table has " + std::to_string(values) + " values", "", 1,
+              "at most " + std::to_string(kMostValues));
+  if (faults.size() > before) return fail(*tell(std::move(faults), job));
   const double uncertainty = top.number("kc_uncertainty");
   const std::string uncertainty_source = top.sources().empty() ? "" : top.sources().back().second;
   const Node* cited = top.child("citations", false);

@@ -6,6 +6,7 @@
 #include "tooling/catalogue/check.h"
 #include "tooling/catalogue/complete.h"
 #include "tooling/catalogue/generic.h"
+#include "tooling/catalogue/iso_groups.h"
 #include "tooling/catalogue/material.h"
 #include "tooling/formats/format.h"
 #include "tooling/formats/linuxcnc/linuxcnc.h"
@@ -20,6 +21,9 @@ namespace {
 
 using model::Cutter;
 using model::CutterClass;
+
+/// What makers call materials that are in no group of ISO 513.
+constexpr const char* kOtherGroup = "O";
 
 struct FieldOf {
   const char* symbol;
@@ -112,7 +116,7 @@ class Presets {
   /// A group letter or a material's id where the name is known, the name itself otherwise.
   const std::string& group_of(const std::string& name) {
     const auto [at, fresh] = known_.emplace(name, name);
-    if (!fresh || name.empty() || (name.size() == 1 && name.find_first_of("PMKNSHO") == 0)) return at->second;
+    if (!fresh || name.empty() || name == kOtherGroup || is_iso_group(name)) return at->second;
     Job quiet;
     const auto found = find_material(name, materials_, quiet);
     if (!found) return at->second;

@@ -6,6 +6,7 @@
 #include "planner/ground/base/number.h"
 #include "tooling/catalogue/complete.h"
 #include "tooling/catalogue/generic.h"
+#include "tooling/catalogue/material.h"
 #include "tooling/select/limits.h"
 #include "tooling/select/select.h"
 
@@ -79,8 +80,7 @@ StartValues start_values(const Cutter& c, const WorkMaterial& material, const Ma
   // Where the speed is the material's, its own source is the reason.
   if (source.find(kMaterialsSpeed) != std::string::npos) {
     const char* field = c.substrate == model::Substrate::kHss ? "vc_hss_m_min" : "vc_carbide_m_min";
-    for (const auto& [name, from] : material.sources)
-      if (name == field) source += "; the material's speed: " + from;
+    if (const std::string* from = source_of(material, field)) source += "; the material's speed: " + *from;
   }
 
   std::string text;

@@ -9,6 +9,7 @@
 #include "planner/model/nouns/arena/walk.h"
 #include "planner/model/plan/measured_length.h"
 #include "tooling/catalogue/complete.h"
+#include "tooling/formats/linuxcnc/linuxcnc.h"
 #include "tooling/nouns/nouns.h"
 
 // What is in the magazine against what the plan wants.
@@ -36,13 +37,14 @@ bool same_tool(const Cutter& a, const Cutter& b) {
          near_if_known(a.tip_diameter_mm, b.tip_diameter_mm, kSameDiameter);
 }
 
-/// Whether the loaded tool does what the planned one is to do. A tool table tells no more than sizes; what a
-/// library says of the tool counts where it says it itself, and not a default.
+/// Whether the loaded tool does what the planned one is to do. What a library says of the tool counts where
+/// it says it itself, and not a default; of a line of a tool table what its comment says.
 bool does_as_much(const Cutter& loaded, const Cutter& planned) {
-  if (loaded.table_line) return true;
   constexpr double kRoom = 0.01;  // mm and 1/min: rounding of what is written
   const auto says = [&](std::string_view field) {
     const std::string* source = tooling::source_of(loaded, field);
+    if (loaded.table_line)
+      return source != nullptr && (source->starts_with("stated") || source->ends_with(tooling::kOfComment));
     return source == nullptr || source->starts_with("stated");
   };
   const auto less = [&](std::string_view field, double has, double wants) {
@@ -53,6 +55,7 @@ bool does_as_much(const Cutter& loaded, const Cutter& planned) {
   };
   if (says("substrate") && loaded.substrate != planned.substrate) return false;
   if (says("teeth") && loaded.teeth > 0 && planned.teeth > 0 && loaded.teeth != planned.teeth) return false;
+  if (loaded.table_line) return true;  // its lengths are taken as they are measured
   if (says("centre_cutting") && planned.centre_cutting && !loaded.centre_cutting) return false;
   const bool slower =
       loaded.maximum_speed_rpm > 0.0 && says("maximum_speed_rpm") &&

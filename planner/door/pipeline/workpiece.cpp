@@ -87,61 +87,33 @@ std::string text_of(const model::Model& m, const StatedProperty& p) {
   return p.parameter.set() ? property_text(m, p.of, p.parameter) : p.of;
 }
 
-/// The hardness that a property states: a number with its unit, or words that say both.
-std::optional<tooling::StatedHardness> hardness_of(const model::Model& m, const StatedProperty& p) {
-  if (const auto* n = m.get<model::NumericParameter>(p.parameter); n != nullptr && n->its_parameter_value)
-    return tooling::stated_hardness(*n->its_parameter_value, n->its_parameter_unit.value_or(""));
-  if (const auto* d = m.get<model::DescriptiveParameter>(p.parameter))
-    return tooling::stated_hardness(d->descriptive_string.value_or(""));
-  return std::nullopt;
-}
-
-/// A stated hardness picks the card that is as hard; nothing else that the file says beside the name changes
-/// the cutting data, and what changes nothing is said.
-Status use_properties(Work& w, const model::Material& material, const AnyRef& at) {
-  const model::Model& m = w.plan.model;
+/// Says of each property whether the card was chosen by it.
+void tell_properties(Work& w, const std::vector<std::string>& properties,
+                     const tooling::ChosenMaterial& chosen, const AnyRef& at) {
   const auto say = [&](Diagnostic d) {
     d.file = w.plan.file_name;
-    d.instance = m.origin(at).instance;
+    d.instance = w.plan.model.origin(at).instance;
     w.job.report(std::move(d));
   };
-  // Who asks for another material's figures has them as they are.
-  bool hard = w.inputs.material_name && w.inputs.material_name->starts_with(tooling::kLike);
-  // Of several the hardest counts: a case is cut through before its core.
-  const auto properties = properties_of(m, material);
-  double most = 0.0;
-  for (const StatedProperty& p : properties) {
-    if (const auto h = hardness_of(m, p)) most = std::max(most, h->brinell);
-  }
-  for (const StatedProperty& p : properties) {
-    auto stated = hard ? std::nullopt : hardness_of(m, p);
-    if (stated && stated->brinell < most) stated.reset();
-    if (stated) {
-      auto card = tooling::as_hard_as(w.plan.material, *stated, w.inputs.materials);
-      if (!card) {
-        Diagnostic d = card.error();
-        d.file = w.plan.file_name;
-        d.instance = m.origin(at).instance;
-        return fail(std::move(d));
-      }
-      if (*card) {
-        hard = true;
-        const std::string before = w.plan.material.id;
-        w.plan.material = **std::move(card);
-        say({.code = "PIP-MATERIAL-HARDNESS",
-             .severity = Severity::kNote,
-             .message = "the part states " + text_of(m, p) + "; " + before + " is planned as '" +
-                        w.plan.material.id + "' (" + trimmed(w.plan.material.hardness_hb, 0) + " HB)"});
-        continue;
-      }
+  const model::WorkMaterial& card = w.plan.material;
+  for (const std::string& text : properties) {
+    const auto said = tooling::stated_words(text).hardness;
+    const bool used = chosen.by_hardness && std::any_of(said.begin(), said.end(), [&](const auto& h) {
+                        return tooling::converts(h.scale, card.iso_group);
+                      });
+    if (used) {
+      say({.code = "PIP-MATERIAL-HARDNESS",
+           .severity = Severity::kNote,
+           .message = "the part states " + text + "; " + chosen.grade + " is planned as '" + card.id + "' (" +
+                      trimmed(card.hardness_hb, 0) + " HB)"});
+      continue;
     }
     say({.code = "PIP-MATERIAL-PROPERTY",
          .severity = Severity::kWarning,
-         .message = "the part states " + text_of(m, p) + " for its material; planning does not use it",
-         .hint = "forces and speeds are those of '" + w.plan.material.id +
+         .message = "the part states " + text + " for its material; planning does not use it",
+         .hint = "forces and speeds are those of '" + card.id +
                  "'; name a harder material with --material where that is too little"});
   }
-  return {};
 }
 
 /// The material by the caller's name, else the part's; by default only where neither names one.
@@ -155,20 +127,28 @@ Status resolve_material(Work& w, const model::Workpiece* piece) {
     names.push_back(stated->standard_identifier.value_or(""));
     names.push_back(stated->material_identifier.value_or(""));
   }
-  auto material = tooling::find_material(
-      names, w.inputs.materials, w.job,
+  std::vector<std::string> properties;
+  if (stated != nullptr)
+    for (const StatedProperty& p : properties_of(w.plan.model, *stated))
+      properties.push_back(text_of(w.plan.model, p));
+  // Who asks for another material's figures has them as they are.
+  const bool like = w.inputs.material_name && w.inputs.material_name->starts_with(tooling::kLike);
+  auto material = tooling::choose_material(
+      names, like ? std::vector<std::string>{} : properties, w.inputs.materials, w.job,
       w.inputs.material_name ? tooling::Families::kRefused : tooling::Families::kTaken);
   if (!material) {
     Diagnostic d = material.error();
+    if (!w.inputs.material_name || !properties.empty()) d.file = w.plan.file_name;
     if (!w.inputs.material_name) {
-      d.file = w.plan.file_name;
       d.instance = w.plan.model.origin(at).instance;
       d.hint = "name one with --material, or one that it cuts like with --material like:C45; " + d.hint;
     }
     return fail(std::move(d));
   }
-  w.plan.material = *std::move(material);
-  return stated != nullptr ? use_properties(w, *stated, at) : Status{};
+  if (like) material->by_hardness = false;  // by the name's, at most
+  w.plan.material = material->material;
+  tell_properties(w, properties, *material, at);
+  return {};
 }
 
 /// The box that the features' own extents span: what must be there at least.

@@ -1,10 +1,12 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "planner/door/pipeline/shop.h"
+#include "tooling/catalogue/library.h"
 
 namespace capstan::pipeline {
 namespace {
@@ -82,7 +84,30 @@ TEST(LoadedTool, OfSeveralAlikeIsTheOneOfItsNameThenOfItsNumber) {
   renamed.pocket = 7;
   EXPECT_EQ(number({first, own, third}, renamed), 1);
 }
-TEST(LoadedTool, OfAToolTableIsKnownByItsSizesOnly) {
+
+/// As a line of a tool table with this comment is read.
+Cutter of_table(const std::string& comment) {
+  Job job;
+  auto read = tooling::read_tool_table("T1 P1 Z+102 D+10 ;" + comment + "\n", "shop.tbl", job);
+  Cutter out = read.value().front();
+  if (!out.table_line) out.table_line = model::ToolTableLine{};
+  return out;
+}
+
+TEST(LoadedTool, OfAToolTableIsHeldAgainstWhatItsCommentStates) {
+  for (const char* same :
+       {"end mill", "10 mm end mill", "carbide end mill, 3 flutes", "VHM Schaftfr\xC3\xA4ser Z3",
+        "HM schaftfr\xC3\xA4ser dreischneidig", "end mill 3fl", "end mill, three flutes"})
+    EXPECT_NE(loaded_like({of_table(same)}, planned()), nullptr) << same;
+  for (const char* other :
+       {"HSS end mill 2 flutes", "HSS end mill", "HSS-Co8 Schaftfr\xC3\xA4ser Z3",
+        "carbide end mill 2 flutes", "high speed steel end mill", "Schaftfr\xC3\xA4ser HSSE",
+        "Schaftfr\xC3\xA4ser zweischneidig", "Schaftfr\xC3\xA4ser 4 Schneiden", "end mill, 2fl",
+        "end mill two flute", "end mill Z=4"})
+    EXPECT_EQ(loaded_like({of_table(other)}, planned()), nullptr) << other;
+}
+
+TEST(LoadedTool, OfAToolTableIsKnownByItsSizesWhereItsCommentSaysNoMore) {
   Cutter loaded = in_pocket_1(planned());
   loaded.table_line = model::ToolTableLine{};
   loaded.stick_out_mm = 60.0;

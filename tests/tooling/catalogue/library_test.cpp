@@ -7,6 +7,7 @@
 #include "tests/support/corpus.h"
 #include "tooling/catalogue/check.h"
 #include "tooling/catalogue/complete.h"
+#include "tooling/formats/linuxcnc/linuxcnc.h"
 
 namespace capstan::tooling {
 namespace {
@@ -105,6 +106,21 @@ TEST(ClassFromWords, UnderstandsTheCommentsPeopleWrite) {
   EXPECT_EQ(class_from_words("90 deg spot drill"), CutterClass::kSpotDrill);
   EXPECT_FALSE(class_from_words("tool 6"));
   EXPECT_EQ(class_from_words("ball probe"), CutterClass::kTouchProbe);
+}
+
+TEST(ToolTable, ReadsSubstrateAndTeethOfACommentAndNoSizeForThem) {
+  using model::Substrate;
+  const auto of = [](const char* comment) { return words_of_comment(comment, CutterClass::kEndmill, 10.0); };
+  EXPECT_EQ(of("HSS end mill 2 flutes").substrate, Substrate::kHss);
+  EXPECT_EQ(of("HSS end mill 2 flutes").teeth, 2);
+  EXPECT_EQ(of("VHM Schaftfr\xC3\xA4ser vierschneidig").substrate, Substrate::kCarbide);
+  EXPECT_EQ(of("VHM Schaftfr\xC3\xA4ser vierschneidig").teeth, 4);
+  EXPECT_EQ(of("HSS, carbide tipped").substrate, Substrate::kHss);
+  for (const char* none : {"1/4 flat end mill", "6 flat end mill", "end mill 0.5 fl", "end mill z 20 mm",
+                           "end mill 2 flutes or 4 flutes", "10 mm end mill"})
+    EXPECT_EQ(of(none).teeth, 0) << none;
+  EXPECT_FALSE(of("10 mm end mill").substrate);
+  EXPECT_FALSE(of("10 mm end mill, crosshss").substrate);
 }
 
 TEST(ToolTable, UsesWhatItUnderstandsAndSaysWhatNot) {

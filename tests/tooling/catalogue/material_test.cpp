@@ -9,7 +9,6 @@
 #include <set>
 
 #include "tests/support/corpus.h"
-#include "tooling/catalogue/hardness.h"
 
 namespace capstan::tooling {
 namespace {
@@ -188,39 +187,6 @@ TEST(FindMaterial, DoesNotTakeAFilledPlasticForThePlainOne) {
   EXPECT_FALSE(find_material("PA66-CF20", table(), job));
   EXPECT_FALSE(find_material("nylon 66 GF30", table(), job));
   EXPECT_EQ(id_of({"PEEK natural"}, job), "peek");
-}
-
-TEST(StatedHardness, ReadsBrinellAndRockwellAndNothingElse) {
-  // ASTM A370: 45 HRC is 421 HB, 50 HRC is 481 HB; halfway between them is taken as halfway.
-  EXPECT_NEAR(stated_hardness(45.0, "HRC")->brinell, 421.0, 1e-9);
-  EXPECT_NEAR(stated_hardness(47.5, "hrc")->brinell, 451.0, 1e-9);
-  EXPECT_EQ(stated_hardness(207.0, "HBW")->brinell, 207.0);
-  EXPECT_EQ(stated_hardness(207.0, "HV")->brinell, 207.0);
-  EXPECT_FALSE(stated_hardness(207.0, "N/mm2"));
-  EXPECT_TRUE(std::isinf(stated_hardness(75.0, "HRC")->brinell));  // harder than any card
-  EXPECT_FALSE(stated_hardness(-3.0, "HB"));
-  EXPECT_FALSE(stated_hardness("X40CrMoV5-1"));
-  EXPECT_FALSE(stated_hardness("HBX 300"));
-  EXPECT_EQ(stated_hardness("hardened to 48 HRC")->before, "hardened to ");
-}
-
-TEST(StatedHardness, OfATextIsTheHardestThatItMayMean) {
-  const std::pair<const char*, double> texts[] = {
-      {"42CrMo4 hardened 58+2 HRC", 60.0},
-      {"42CrMo4, hardened 58,5 HRC", 58.5},
-      {"4140 HRC 50", 50.0},
-      {"1.2379 HRC 60", 60.0},
-      {"42CrMo4, HRC 48-52", 52.0},
-      {"42CrMo4 48-52 HRC", 52.0},
-      {"core 30 HRC, case 58 HRC", 58.0},
-  };
-  for (const auto& [text, hrc] : texts) {
-    const auto stated = stated_hardness(text);
-    ASSERT_TRUE(stated) << text;
-    EXPECT_EQ(stated->brinell, stated_hardness(hrc, "HRC")->brinell) << text;
-  }
-  EXPECT_EQ(stated_hardness("1.7225 HB 300")->brinell, 300.0);
-  EXPECT_EQ(stated_hardness("42CrMo4 hardened 700 HV")->brinell, 700.0);
 }
 
 TEST(StatedHardness, ThatCannotBeReadOrIsBeyondAllCardsIsRefusedAndNotPlannedSoft) {
@@ -446,6 +412,34 @@ materials:
   ASSERT_TRUE(got) << got.error().message;
   EXPECT_EQ((*got)[0].sources.front().second, "Handbook, 3rd ed., table 2");
   EXPECT_EQ((*got)[0].sources.back().second, "Handbook, 3rd ed. p. 7");
+}
+
+TEST(ReadMaterials, RefusesASourceThatIsTooLongBeforeItIsCopied) {
+  const auto code = [](const std::string& text) {
+    Job job;
+    const auto got = read_materials(text, "m.yaml", job);
+    return got ? std::string("accepted") : got.error().code + ": " + got.error().expected;
+  };
+  const auto table = [](const std::string& cited, const std::string& source) {
+    return "capstan_materials: 1\nkc_uncertainty: 0.3\ncitations: {a: \"" + cited +
+           "\"}\nmaterials:\n  - {source: \"" + source +
+           "\", id: a, iso_group: P, kc11_n_mm2: 2298, mc: 0.2, vc_hss_m_min: 25, vc_carbide_m_min: 70}\n";
+  };
+  const std::string told = "DATA-SOURCE: at most 1000 bytes, its citations written out";
+  EXPECT_EQ(code(table("short", "@a")), "accepted");
+  EXPECT_EQ(code(table(std::string(1001, 'x'), "short")), told);
+  EXPECT_EQ(code(table("short", std::string(1001, 'x'))), told);
+  // 900 bytes meant twice are 1801.
+  EXPECT_EQ(code(table(std::string(900, 'x'), "@a @a")), told);
+  // And a table of more values than a table of materials has.
+  std::string many = table("short", "x");
+  many.insert(
+      many.size() - 2, ", names: [{name: [a" + [] {
+        std::string out;
+        for (int i = 0; i < 20'000; ++i) out += ", n" + std::to_string(i);
+        return out;
+      }() + "]}]");
+  EXPECT_EQ(code(many), "DATA-SIZE: at most 20000");
 }
 
 TEST(ReadMaterials, RefusesATableThatContradictsItself) {

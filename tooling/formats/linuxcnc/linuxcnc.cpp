@@ -201,10 +201,10 @@ class Reader {
     item.cutter_class = class_from_words(e.comment);
     const double diameter = dc.number.value_or(0.0);
     item.properties.push_back(std::move(dc));
-    const auto derived = [&](Property p, const char* why) {
+    const auto derived = [&](Property p, std::string_view why) {
       p.state = ValueState::kDerived;
       p.source = why;
-      out_.report.derived.push_back({name, p.symbol, why});
+      out_.report.derived.push_back({name, p.symbol, std::string(why)});
       item.properties.push_back(std::move(p));
     };
     if (!item.cutter_class) {
@@ -214,12 +214,9 @@ class Reader {
                                              "' tells what kind of tool it is (end mill, drill, tap, ...)");
     } else {
       const CommentWords w = words_of_comment(e.comment, *item.cutter_class, diameter, mm_per_unit_);
-      derived(text_property("CLASS", model::to_text(*item.cutter_class), ""),
-              "from the words of the comment");
-      if (w.carbide) derived(text_property("SUBSTRATE", "carbide", ""), "from the words of the comment");
-      if (w.teeth > 0)
-        derived(number_property("ZEFF", w.teeth, "", ValueState::kDerived, ""),
-                "from the words of the comment");
+      derived(text_property("CLASS", model::to_text(*item.cutter_class), ""), kOfComment);
+      if (w.substrate) derived(text_property("SUBSTRATE", model::to_text(*w.substrate), ""), kOfComment);
+      if (w.teeth > 0) derived(number_property("ZEFF", w.teeth, "", ValueState::kDerived, ""), kOfComment);
       const std::pair<const char*, double> sizes[] = {{"TP", w.sizes.pitch_mm},
                                                       {"RE", w.sizes.corner_radius_mm},
                                                       {"SIG", w.sizes.point_angle_rad},
@@ -228,7 +225,7 @@ class Reader {
         if (value > 0.0)
           derived(number_property(symbol, value, std::string_view(symbol) == "SIG" ? "deg" : "mm",
                                   ValueState::kDerived, ""),
-                  "from the words of the comment");
+                  kOfComment);
     }
     ToolAssembly a;
     a.id = a.item = name;

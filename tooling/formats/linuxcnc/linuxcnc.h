@@ -30,9 +30,12 @@ struct CommentSizes {
 [[nodiscard]] CommentSizes sizes_of_words(std::string_view words, model::CutterClass c, double diameter_mm,
                                           double mm_per_unit = 1.0);
 
+/// Where what a comment says is from, behind "derived: " in Cutter::sources.
+inline constexpr std::string_view kOfComment = "from the words of the comment";
+
 struct CommentWords {
-  int teeth = 0;         ///< "4 flute", "3fl"
-  bool carbide = false;  ///< "carbide", "VHM", "Hartmetall"
+  int teeth = 0;  ///< "4 flute", "3fl", "Z4", "vierschneidig"; 0: not said, or said twice and differently
+  std::optional<model::Substrate> substrate;  ///< "carbide", "VHM", "HSS-E"; of both the slower one
   CommentSizes sizes;
 };
 [[nodiscard]] CommentWords words_of_comment(std::string_view comment, model::CutterClass c,

@@ -3,6 +3,7 @@
 #include "planner/door/app/command/session.h"
 #include "planner/door/app/show/values.h"
 #include "planner/ground/base/number.h"
+#include "tooling/catalogue/iso_groups.h"
 #include "tooling/catalogue/material.h"
 #include "tooling/catalogue/material_table.h"
 
@@ -15,17 +16,6 @@ using model::WorkMaterial;
 using Rows = std::vector<std::vector<std::string>>;
 
 constexpr std::size_t kNamesShown = 3;
-
-struct Group {
-  const char* letter;
-  const char* words;
-};
-constexpr Group kGroups[] = {{"P", "steel"},
-                             {"M", "austenitic and duplex stainless steel"},
-                             {"K", "cast iron"},
-                             {"N", "light metals, copper and its alloys, plastics"},
-                             {"S", "titanium and heat-resistant alloys"},
-                             {"H", "hardened steel"}};
 
 std::string n(double v) { return trimmed(v, 4); }
 
@@ -52,12 +42,13 @@ std::string first_names(const WorkMaterial& m, const std::string& word) {
 
 std::string list_text(const std::vector<WorkMaterial>& materials, const std::string& word) {
   Rows rows;
-  for (const Group& g : kGroups) {
+  for (const tooling::IsoGroup& g : tooling::kIsoGroups) {
     const std::size_t before = rows.size();
     for (const WorkMaterial& m : materials) {
       if (m.iso_group != g.letter || !has(m, word)) continue;
       if (rows.size() == before)
-        rows.push_back({"ISO 513 " + m.iso_group, "kc1.1", "mc", "HSS", "carbide", "HB", g.words});
+        rows.push_back(
+            {"ISO 513 " + m.iso_group, "kc1.1", "mc", "HSS", "carbide", "HB", std::string(g.words)});
       rows.push_back({"  " + m.id, n(m.kc11_n_mm2), n(m.mc), speed(m.vc_hss_m_min), speed(m.vc_carbide_m_min),
                       m.hardness_hb > 0.0 ? n(m.hardness_hb) : std::string("-"), first_names(m, word)});
     }
@@ -66,9 +57,8 @@ std::string list_text(const std::vector<WorkMaterial>& materials, const std::str
 }
 
 std::string source_of(const WorkMaterial& m, std::string_view field) {
-  for (const auto& [name, source] : m.sources)
-    if (name == field) return source;
-  return {};
+  const std::string* source = tooling::source_of(m, field);
+  return source == nullptr ? std::string() : *source;
 }
 
 std::string page_of(const WorkMaterial& m, const std::vector<std::string>& harder) {

@@ -106,6 +106,35 @@ TEST_F(CommandTest, AStatedHardnessPicksTheCardThatIsAsHardAndIsSaid) {
   EXPECT_THAT(run("explain a.json").out, HasSubstr("32 HRC is stated (302 HB): the card '42crmo4_qt'"));
 }
 
+TEST_F(CommandTest, AStateThatIsHarderThanTheCardIsRefusedInTheFileAndByTheCaller) {
+  std::string text = testing::drilled_plate();
+  const std::string stated = "MATERIAL('EN AW-6061','ALUMINIUM',())";
+  text.replace(text.find(stated), stated.size(), "MATERIAL('16MnCr5 case-hardened','STEEL',())");
+  put("plate.p21", text);
+  const Ran of_file = run("plan plate.p21 -o a.json");
+  EXPECT_GE(of_file.code, 2);
+  EXPECT_THAT(of_file.err, AllOf(HasSubstr("'case-hardened'"), HasSubstr("nothing says how hard"),
+                                 HasSubstr("HRC"), HasSubstr("plate.p21")));
+  put("plate.p21", testing::drilled_plate());
+  EXPECT_GE(run("plan plate.p21 --material '42CrMo4 nitriert' -o a.json").code, 2);
+  EXPECT_THAT(run("plan plate.p21 --material '42CrMo4 nitriert' -o a.json").err, HasSubstr("'nitriert'"));
+  EXPECT_LE(run("plan plate.p21 --material '42CrMo4 weichgegl\xC3\xBCht' -o a.json").code, 1);
+}
+
+TEST_F(CommandTest, OfAHardnessInTheNameAndAHarderPropertyTheHarderOneCounts) {
+  std::string text = testing::drilled_plate();
+  const std::string stated = "#6=MATERIAL('EN AW-6061','ALUMINIUM',());";
+  text.replace(text.find(stated), stated.size(),
+               "#6=MATERIAL('42CrMo4 300 HB','STEEL',(#301,#302));\n"
+               "#301=NUMERIC_PARAMETER('hardness',50.,'HRC');\n"
+               "#302=NUMERIC_PARAMETER('tensile strength',1000.,'N/mm2');");
+  put("plate.p21", text);
+  const Ran r = run("plan plate.p21 -o a.json");
+  EXPECT_THAT(r.err,
+              HasSubstr("the part states hardness = 50 HRC; 42crmo4 is planned as 'hardened_steel_50'"));
+  EXPECT_THAT(r.err, Not(HasSubstr("tensile strength = 1000 N/mm2 for its material; planning does not use")));
+}
+
 TEST_F(CommandTest, AToolOfThePlanThatCannotCutTheMaterialIsSaidAndNotRunAtSomeSpeed) {
   // The plate's drill is of high-speed steel; its speed and feed are to be chosen anew.
   put("plate.p21", testing::drilled_plate());
