@@ -71,6 +71,24 @@ void fill_lengths(Cutter& c, const Cutter& g, Filler& f) {
   }
 }
 
+/// The speed of a bare edge: what its source says the coated one is faster by is taken back, "1.3 (coated:
+/// ...)".
+void as_bare(model::CuttingPreset& p) {
+  const auto coated = p.source.find(kCoated);
+  if (coated == std::string::npos || coated == 0) return;
+  const auto begin = p.source.find_last_of(' ', coated - 2) + 1;
+  auto end = p.source.find(") x ", coated);
+  const bool of_group = end == std::string::npos;  // "..., 1.3 (coated: ...); fz: ..."
+  if (of_group) end = p.source.find("; fz: ", coated);
+  const auto faster = parse_double(std::string_view(p.source).substr(begin, coated - 1 - begin));
+  if (!faster || !(*faster > 0.0) || end == std::string::npos) {
+    p.vc_m_min = 0.0;
+    return;
+  }
+  p.vc_m_min = rounded(p.vc_m_min / *faster, 3);
+  p.source.erase(of_group ? begin - 2 : begin, of_group ? end - (begin - 2) : end + 4 - begin);
+}
+
 constexpr const char* kBorrowed = " (as generic/";
 /// Feed that a cutter bears over the start value that its maker or the shop states. Default, unsourced; the
 /// check allows as much where nothing else is known (verify/sweep/feed_limit.cpp).
@@ -113,8 +131,11 @@ void fill_feeds(Cutter& c, const Cutter& g, Filler& f) {
                     [&](const auto& o) { return o.material_group == p.material_group; }))
       continue;
     p.fz_mm = rounded(p.fz_mm * scale, 5);
-    // Another substrate bears another speed: the material's own is taken then.
-    if (c.substrate != g.substrate || p.source.find(kCoated) != std::string::npos) {
+    // Nothing says that this edge is coated. Another substrate bears another speed: the material's own is
+    // taken then.
+    if (c.substrate == g.substrate) {
+      as_bare(p);
+    } else {
       p.vc_m_min = 0.0;
       if (const auto fz_at = p.source.find("; fz: "); fz_at != std::string::npos)
         p.source.erase(0, fz_at + 2);

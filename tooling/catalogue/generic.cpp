@@ -89,6 +89,12 @@ struct Feeds {
   std::map<std::string, double> factor;
 };
 
+/// What an edge is faster than a bare one of its substrate, by group.
+struct Edge {
+  std::map<std::string, double> over_bare = {};
+  std::string source = {};
+};
+
 struct Holding {
   Law clamped, holder;
   double gage_length = 0.0;
@@ -110,14 +116,23 @@ struct Reader {
   std::string feeds_source;
   std::vector<Cutter> cutters;
   std::vector<std::uint64_t> lines;
-  std::map<std::string, double> coated = {};  ///< speed of a coated edge over that of a bare one, by group
-  std::string coated_source = {};
+  std::map<std::string, Edge> edges = {};
 };
 
-void read_coated(Fields top, Reader& r) {
-  r.coated_source = top.source();
-  for (const IsoGroup& g : kIsoGroups) r.coated[std::string(g.letter)] = top.number(g.letter);
-  top.finish();
+void read_edges(const Node& node, Fields top, Reader& r) {
+  for (const auto& [name, child] : node.entries) {
+    (void)top.child(name, true);
+    Fields f = top.below(name, child);
+    Edge& edge = r.edges[name];
+    edge.source = f.source();
+    for (const IsoGroup& g : kIsoGroups) {
+      const std::string group(g.letter);
+      edge.over_bare[group] = f.number(group);
+      if (f.has(group) && !(edge.over_bare[group] > 0.0))
+        f.fault("DATA-RANGE", "an edge's speed over a bare one's is above 0", group, f.line_of(group));
+    }
+    f.finish();
+  }
 }
 
 void read_holding(Fields top, Reader& r) {
@@ -183,7 +198,8 @@ struct Series {
   std::optional<Law> stick_out, overall, usable, holder, lead_length, cutting_width, neck_diameter,
       neck_length;
   double speed_factor = 1.0;
-  bool coated = false;
+  std::string factor_source = "default";
+  std::string edge;  ///< of Reader::edges; none: bare
 };
 
 std::optional<Law> optional_law(Fields& f, std::string_view key) {
@@ -229,7 +245,9 @@ Series read_series(Fields& f) {
   const bool cuts = s.base.cutter_class != CutterClass::kTouchProbe;
   s.feeds = cuts ? f.text("feeds") : "";
   s.speed_factor = cuts ? f.number("speed_factor") : 1.0;
-  s.coated = f.flag_or("coated", false);
+  if (const Node* n = cuts ? f.child("speed_factor", true) : nullptr; n != nullptr)
+    if (const Node* source = n->find("source")) s.factor_source = source->text;
+  s.edge = f.text_or("edge", "");
   if (!s.stick_out && !s.overall)
     f.fault("DATA-MISSING", "stick_out or overall_length is missing", "stick_out", f.line());
   return s;
@@ -285,17 +303,23 @@ void set_presets(const Series& s, const Reader& r, Cutter& c) {
   const bool tap = c.cutter_class == CutterClass::kTap;
   // A tap advances by its pitch in a turn, whatever is cut.
   if (tap) c.fz_min_mm = c.fz_max_mm = c.thread_pitch_mm / c.teeth;
+  const auto edge = r.edges.find(s.edge);
+  const auto over_bare = [&](const std::string& group) {
+    return edge == r.edges.end() ? 1.0 : edge->second.over_bare.at(group);
+  };
+  const auto by_edge = [&](double times) {
+    return trimmed(times, 3) + " " + std::string(kCoated) + ": " + edge->second.source + ")";
+  };
   std::map<std::string, double> slowest;
   for (const WorkMaterial& m : r.materials) {
-    const auto coat = s.coated ? r.coated.find(m.iso_group) : r.coated.end();
-    const double by_coat = coat != r.coated.end() ? coat->second : 1.0;
+    const double faster = over_bare(m.iso_group);
     const double bare = hss ? m.vc_hss_m_min : m.vc_carbide_m_min;
     if (!(bare > 0.0)) continue;  // no tool of this substrate is to cut it
-    const double vc = rounded(bare * s.speed_factor * by_coat, 3);
+    const double vc = rounded(bare * s.speed_factor * faster, 3);
     const double fz = tap ? c.fz_min_mm : rounded(feeds.factor.at(m.iso_group) * d, 5);
-    std::string times = s.speed_factor == 1.0 ? "" : trimmed(s.speed_factor, 3) + " (default) x ";
-    if (by_coat != 1.0)
-      times += trimmed(by_coat, 3) + " " + std::string(kCoated) + ": " + r.coated_source + ") x ";
+    std::string times =
+        s.speed_factor == 1.0 ? "" : trimmed(s.speed_factor, 3) + " (" + s.factor_source + ") x ";
+    if (faster != 1.0) times += by_edge(faster) + " x ";
     c.presets.push_back(
         {m.id, vc, fz, "vc: " + times + std::string(kMaterialsSpeed) + "; fz: " + r.feeds_source});
     const auto [at, fresh] = slowest.emplace(m.iso_group, vc);
@@ -306,12 +330,9 @@ void set_presets(const Series& s, const Reader& r, Cutter& c) {
     const auto vc = slowest.find(group);
     if (vc == slowest.end()) continue;
     const double fz = tap ? c.fz_min_mm : rounded(feeds.factor.at(group) * d, 5);
-    const auto coat = s.coated ? r.coated.find(group) : r.coated.end();
-    const bool faster = coat != r.coated.end() && coat->second != 1.0;
-    c.presets.push_back({group, vc->second, fz,
-                         kSlowestOfGroup +
-                             (faster ? " " + std::string(kCoated) + ": " + r.coated_source + ")" : "") +
-                             "; fz: " + r.feeds_source});
+    const double faster = over_bare(group);
+    const std::string times = faster == 1.0 ? "" : ", " + by_edge(faster);
+    c.presets.push_back({group, vc->second, fz, kSlowestOfGroup + times + "; fz: " + r.feeds_source});
   }
 }
 
@@ -373,7 +394,7 @@ Result<std::vector<Cutter>> expand_series(std::string_view text, const std::stri
   if (top.text("capstan_cutter_series") != "1")
     top.fault("DATA-VERSION", "not a table of cutter series of version 1", "capstan_cutter_series", 1);
   if (const Node* n = top.child("holding", true)) read_holding(top.below("holding", *n), r);
-  if (const Node* n = top.child("coated", false)) read_coated(top.below("coated", *n), r);
+  if (const Node* n = top.child("edges", false)) read_edges(*n, top.below("edges", *n), r);
   if (const Node* n = top.child("feeds", true)) read_feeds(*n, top.below("feeds", *n), r);
   if (const Node* list = top.child("series", true)) {
     for (const Node& n : list->items) {
@@ -381,6 +402,8 @@ Result<std::vector<Cutter>> expand_series(std::string_view text, const std::stri
       const Series s = read_series(f);
       if (!s.feeds.empty() && r.feeds.count(s.feeds) == 0)
         f.fault("DATA-UNKNOWN", "there is no feed table '" + s.feeds + "'", "feeds", f.line_of("feeds"));
+      if (!s.edge.empty() && r.edges.count(s.edge) == 0)
+        f.fault("DATA-UNKNOWN", "there is no edge '" + s.edge + "'", "edge", f.line_of("edge"));
       const std::vector<Size> sizes = read_sizes(f);
       f.finish();
       if (!faults.empty()) continue;

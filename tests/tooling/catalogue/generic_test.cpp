@@ -28,9 +28,9 @@ const Cutter* by_id(const std::string& id) {
   return nullptr;
 }
 
-TEST(GenericLibrary, HoldsSome450SizesAndEveryClass) {
-  EXPECT_GE(library().size(), 430u);
-  EXPECT_LE(library().size(), 530u);
+TEST(GenericLibrary, HoldsSome600SizesAndEveryClass) {
+  EXPECT_GE(library().size(), 580u);
+  EXPECT_LE(library().size(), 650u);
   std::set<CutterClass> classes;
   for (const Cutter& c : library()) classes.insert(c.cutter_class);
   EXPECT_EQ(classes.size(), static_cast<std::size_t>(model::kLastCutterClass) + 1);

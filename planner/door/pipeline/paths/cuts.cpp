@@ -1,5 +1,6 @@
 #include "planner/door/pipeline/paths/cuts.h"
 
+#include <cmath>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -9,6 +10,11 @@
 
 namespace capstan::pipeline {
 namespace {
+
+/// Widest face that one pass covers, as a fraction of the cutter's diameter.
+/// Source: Mitsubishi Materials, course on selecting tool diameter and setting position (mmc-carbide.com):
+/// for one pass a cutter of 1.2 to 1.3 times the face's width; the middle of it.
+constexpr double kFaceWidthRatio = 0.8;
 
 using QuestionKey = std::tuple<int, double, double, double, double, double, double, double, double, double,
                                double, double, double, double, double, double, bool, bool, bool, double,
@@ -68,6 +74,20 @@ Result<optimise::CutAnswer> Cuts::answer(const optimise::CutQuestion& q) {
   auto a = optimise::cut(q, options_, w_.job);
   if (a) known.emplace_back(q.cutter, *a);
   return a;
+}
+
+optimise::CutAnswer Cuts::in_one_pass(const optimise::CutQuestion& q, optimise::CutAnswer several) {
+  constexpr double kSlack = 1e-9;
+  const double widest = kFaceWidthRatio * q.cutter.cutting_diameter_mm * (1.0 + kSlack);
+  const bool open = !q.ae_mm && q.kind == optimise::CutKind::kRough && several.feasible;
+  if (!open || !(several.ae_mm > 0.0) || several.ae_mm >= q.width_mm || q.width_mm > widest) return several;
+  optimise::CutQuestion one = q;
+  one.ae_mm = q.width_mm;
+  const auto a = answer(one);
+  if (!a || !a->feasible) return several;
+  const double passes = std::ceil(q.width_mm / several.ae_mm - kSlack);
+  const bool less = a->levels * several.feed_mm_min < several.levels * passes * a->feed_mm_min;
+  return less ? *a : several;
 }
 
 Result<optimise::CutAnswer> Cuts::answer(const StepWork& step, optimise::CutQuestion& q,

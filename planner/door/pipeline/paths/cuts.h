@@ -23,6 +23,9 @@ class Cuts {
   /// and one of its own would, it is let go of, in `q` too, and `let_go` says what and why.
   [[nodiscard]] Result<optimise::CutAnswer> answer(const StepWork& step, optimise::CutQuestion& q,
                                                    std::string& let_go);
+  /// Of a face: the cut that covers it in one pass, where the cutter is wide enough for that and it takes
+  /// less than the passes of the answer; else the answer.
+  [[nodiscard]] optimise::CutAnswer in_one_pass(const optimise::CutQuestion& q, optimise::CutAnswer several);
 
  private:
   Work& w_;

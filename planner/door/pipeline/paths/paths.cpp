@@ -321,6 +321,8 @@ class PathMaker {
         auto answer = cuts_.answer(step, out.question, out.let_go);
         if (!answer) return tl::unexpected(answer.error());
         out.answer = *std::move(answer);
+        if (step.open_technology && w_.plan.model.holds<model::PlaneMilling>(step.operation))
+          out.answer = cuts_.in_one_pass(out.question, std::move(out.answer));
         out.depth_open = !out.question.ap_mm.has_value();
         // A finishing pass takes what is left on the wall; across a floor it steps as its path chooses.
         out.width_open = !out.question.ae_mm.has_value() && out.question.kind == optimise::CutKind::kRough;

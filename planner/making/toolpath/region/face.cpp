@@ -23,6 +23,9 @@ double flat_of(const model::Cutter& c) {
 /// How far a pass runs past the edge of the face, as a part of the cutter's radius: the cutter stands half a
 /// radius clear of it. Default, unsourced; as NIST's interpreter of ISO 14649 does.
 constexpr double kOverrun = 1.5;
+/// How far a single pass overhangs the edge at which it ends, as a part of the cutter's radius. Default,
+/// unsourced.
+constexpr double kOverhang = 0.1;
 constexpr double kSomeArea = 0.1;  // mm2: less is chords of arcs
 
 geometry::Loop oriented(geometry::Loop loop) {
@@ -124,7 +127,10 @@ class Face {
     }
     const double step = std::min({stepover_of(task_), 1.98 * radius_, flat_of(task_.cutter)});
     // The first pass overhangs the edge by what passes overlap, so that it is as wide as the others.
-    const double first = std::min(lo + step - radius_, 0.5 * (lo + hi));
+    double first = std::min(lo + step - radius_, 0.5 * (lo + hi));
+    // A single pass overhangs both edges: its rim on an edge would leave slivers there.
+    if (first + 0.5 * flat_of(task_.cutter) >= hi - 1e-6)
+      first = std::min(std::max(first, hi - radius_ + kOverhang * radius_), 0.5 * (lo + hi));
     std::vector<Stroke> out;
     const Inside material(w_.material);
     for (int k = 0; k < 100'000; ++k) {

@@ -22,6 +22,17 @@ Findings::Where ProgramCase::where(const Block& b) const {
   return {m + 2, program.markers[m].id, b.line};
 }
 
+namespace {
+
+/// An id too long for a line is told by its hash.
+bool is_of(const std::string& marker, const std::string& id) {
+  if (marker == id) return true;
+  constexpr std::string_view kHashed = "fnv1a:";
+  return marker.starts_with(kHashed) && marker.substr(kHashed.size()) == hex64(fnv1a(id));
+}
+
+}  // namespace
+
 ProgramCase make_case(const Program& program, const model::Plan* plan, const model::Machine& machine,
                       const std::vector<model::Cutter>& cutters) {
   ProgramCase out{program, plan, machine, cutters, std::vector<long>(program.markers.size(), -1)};
@@ -31,7 +42,7 @@ ProgramCase make_case(const Program& program, const model::Plan* plan, const mod
     // In the plan's order as a rule: begin to look where the last one was found.
     for (std::size_t k = 0; k < plan->steps.size(); ++k) {
       const std::size_t i = (next + k) % plan->steps.size();
-      if (model::step_id(*plan, plan->steps[i]) != program.markers[m].id) continue;
+      if (!is_of(program.markers[m].id, model::step_id(*plan, plan->steps[i]))) continue;
       out.step_of_marker[m] = static_cast<long>(i);
       next = i + 1;
       break;
