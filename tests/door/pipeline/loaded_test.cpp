@@ -69,6 +69,7 @@ TEST(LoadedTool, ThatDoesLessThanThePlannedOneIsAnother) {
 TEST(LoadedTool, OfSeveralAlikeIsTheOneOfItsNameThenOfItsNumber) {
   Cutter first = in_pocket_1(planned()), own = in_pocket_1(planned()), third = in_pocket_1(planned());
   first.id = "another";
+  own.id = planned().id;
   own.pocket = 2;
   third.id = "a third";
   third.pocket = 3;
