@@ -125,7 +125,7 @@ std::size_t behind(const std::string& t, std::size_t at) {
   constexpr std::array<std::string_view, 11> kSayNothing = {
       "HARDNESS", "HAERTE", "NUMBER", "SCALE", "VALUE", "OF", "IS", "MIN", "MAX", "A", "D"};
   for (;;) {
-    while (at < t.size() && std::string_view(" =:.").find(t[at]) != std::string_view::npos) ++at;
+    while (at < t.size() && std::string_view(" =:.(~<>").find(t[at]) != std::string_view::npos) ++at;
     std::size_t end = at;
     while (end < t.size() && letter(t[end])) ++end;
     const std::string_view word = std::string_view(t).substr(at, end - at);
@@ -184,6 +184,8 @@ std::vector<Stated> hardness_of(const std::string& t) {
     claimed = std::max(end, right ? after.end : end);
     const std::string name(unit->as.empty() ? unit->word : unit->as);
     if (!left && !right) {
+      // "Rockwell C hardness 38 HRC" names its unit twice.
+      if (!out.empty() && out.back().hardness.scale == unit->scale) continue;
       if (unit->must || unit->scale == Scale::kBrinell || unit->scale == Scale::kVickers) {
         Stated none{{unit->scale, kHarderThanAnyCard, "a hardness in " + name + " that cannot be read"},
                     begin};

@@ -44,8 +44,9 @@ TEST(StatedHardness, ReadsBrinellVickersAndRockwellAndNothingElse) {
   for (const char* text :
        {"207 HBW", "207 HV", "Brinell 207", "207 Vickers", "BHN 207", "hardness HBW = 207"})
     EXPECT_EQ(brinell(text), 207.0) << text;
-  for (const char* text : {"Rc 45", "HRc 45", "Rockwell C 45", "45 Rockwell C", "hardness = 45 HRC",
-                           "Rockwell C hardness = 45", "RC45", "42CrMo4 HRC45", "HRC min. 45"})
+  for (const char* text :
+       {"Rc 45", "HRc 45", "Rockwell C 45", "45 Rockwell C", "hardness = 45 HRC", "Rockwell C hardness = 45",
+        "Rockwell C hardness 45. HRC", "HRC (42-45)", "RC45", "42CrMo4 HRC45", "HRC min. 45"})
     EXPECT_NEAR(brinell(text), 421.0, 1e-9) << text;
   EXPECT_TRUE(std::isinf(brinell("75 HRC")));  // harder than any card
   for (const char* text : {"X40CrMoV5-1", "HBX 300", "arc 45", "207", "E = 210000 N/mm2", "PA 6", "Ra 3.2"})
