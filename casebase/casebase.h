@@ -11,11 +11,11 @@
 #include "planner/ground/base/job.h"
 #include "planner/ground/base/result.h"
 #include "planner/model/features/shape.h"
-#include "planner/model/plan/cutter.h"
-#include "planner/model/plan/machine.h"
-#include "planner/model/plan/material.h"
+#include "planner/model/plan/cutter/cutter.h"
 #include "planner/model/plan/plan.h"
 #include "planner/model/plan/proposal.h"
+#include "planner/model/plan/resources/machine.h"
+#include "planner/model/plan/resources/material.h"
 
 /// What was cut once, found again when something near to it is asked.
 namespace capstan::casebase {

@@ -10,9 +10,9 @@
 #include "planner/model/features/fit/general.h"
 #include "planner/model/features/quality.h"
 #include "planner/model/features/shape.h"
-#include "planner/model/plan/machine.h"
-#include "planner/model/plan/material.h"
 #include "planner/model/plan/proposal.h"
+#include "planner/model/plan/resources/machine.h"
+#include "planner/model/plan/resources/material.h"
 #include "rules/engine/check.h"
 #include "rules/engine/table.h"
 

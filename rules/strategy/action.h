@@ -65,7 +65,4 @@ inline constexpr double kReachClearanceMm = 2.0;
 /// Height of a 118 degree tip per diameter, tan(31 deg) / 2: the longest of the usual drill points.
 inline constexpr double kDrillTip = 0.30043;
 
-/// "a 6 mm end mill with 22 mm reach".
-[[nodiscard]] std::string words_of(const model::ToolRequirement& tool);
-
 }  // namespace capstan::rules

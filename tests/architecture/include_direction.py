@@ -13,37 +13,52 @@ import sys
 
 # Floor -> its rooms. A floor is a folder of planner/.
 FLOORS = {
-    "ground": "base geometry",
+    "ground": "base vocabulary geometry",
     "model": "nouns features plan",
     "files": "p21 exchange json",
     "physics": "mechanics motion stock engagement",
-    "making": "sequence toolpath optimise",
+    "making": "sequence workholding toolpath optimise",
     "proof": "verify",
     "door": "pipeline late facade app",
 }
 
-# Folder -> room. planner/controls is a floor of one room.
+# Folder -> room. planner/controls is a floor of one room. Of folders that hold each other the deepest counts.
+EXCHANGE = "common toolpaths records express conformance iso14649 ap238"
+TOOLING = {"tooling": "shop library selection", "tooling/library": "formats"}
 FOLDERS = {
+    **{f"planner/files/exchange/{name}": name for name in EXCHANGE.split()},
+    **{f"{folder}/{name}": name for folder, rooms in reversed(TOOLING.items()) for name in rooms.split()},
     **{f"planner/{floor}/{name}": name for floor, rooms in FLOORS.items() for name in rooms.split()},
     "planner/controls": "controls",
-    "rules": "rules", "casebase": "casebase", "tooling": "tooling", "include/capstan": "public",
+    "rules": "rules", "casebase": "casebase", "include/capstan": "public",
 }
 
 # Room -> what it may include besides itself.
-MODEL = "base geometry nouns features plan"
+GROUND = "base vocabulary geometry"
+MODEL = GROUND + " nouns features plan"
+EXCHANGE_COMMON = MODEL + " p21 common toolpaths"
+SHOP = "shop library selection"
 ALLOWED = {
-    "base": "",
+    "base": "", "vocabulary": "base",
     "geometry": "base",
-    "nouns": "base geometry", "features": "base geometry nouns", "plan": "base geometry nouns features",
-    "p21": "base", "exchange": MODEL + " p21", "json": MODEL + " motion",
+    "nouns": GROUND, "features": GROUND + " nouns", "plan": GROUND + " nouns features",
+    "p21": "base",
+    "common": MODEL + " p21", "toolpaths": MODEL + " p21 common", "records": EXCHANGE_COMMON,
+    "express": GROUND + " p21 common", "conformance": MODEL + " p21 common express",
+    "iso14649": EXCHANGE_COMMON + " records", "ap238": EXCHANGE_COMMON + " records express",
+    "exchange": EXCHANGE_COMMON + " iso14649 ap238",
+    "json": MODEL + " motion",
     "mechanics": MODEL, "motion": MODEL, "stock": MODEL, "engagement": MODEL + " stock",
     "rules": MODEL, "casebase": MODEL,
-    "tooling": MODEL + " p21 mechanics",
+    "shop": MODEL + " mechanics",
+    "library": MODEL + " shop formats", "formats": MODEL + " p21 shop library",
+    "selection": MODEL + " mechanics shop library",
     "sequence": MODEL + " motion",
+    "workholding": MODEL + " shop",
     "toolpath": MODEL + " stock",
     "optimise": MODEL + " mechanics motion",
     "controls": MODEL + " motion",
-    "verify": MODEL + " p21 exchange mechanics",
+    "verify": MODEL + " p21 " + EXCHANGE + " exchange mechanics",
     "pipeline": " ".join(r for r in FOLDERS.values() if r not in ("pipeline", "late", "facade", "app", "public")),
     "late": MODEL + " pipeline public",
     "facade": " ".join(r for r in FOLDERS.values() if r != "app"),

@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "planner/files/exchange/exchange.h"
-#include "planner/files/p21/parse.h"
+#include "planner/files/p21/read/parse.h"
 #include "planner/ground/base/file.h"
 #include "planner/model/nouns/all.h"
 #include "tests/support/corpus.h"

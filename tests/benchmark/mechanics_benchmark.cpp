@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "planner/physics/mechanics/beam.h"
-#include "planner/physics/mechanics/section.h"
+#include "planner/physics/mechanics/bending/beam.h"
+#include "planner/physics/mechanics/loads/section.h"
 
 namespace capstan::mechanics {
 namespace {

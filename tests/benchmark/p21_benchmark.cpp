@@ -9,8 +9,8 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "planner/files/p21/parse.h"
 #include "planner/files/p21/print.h"
+#include "planner/files/p21/read/parse.h"
 #include "planner/ground/base/file.h"
 #include "tests/support/amplify.h"
 #include "tests/support/corpus.h"

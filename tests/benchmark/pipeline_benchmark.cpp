@@ -5,8 +5,8 @@
 #include <set>
 #include <string>
 
+#include "planner/door/pipeline/given/shop.h"
 #include "planner/door/pipeline/pipeline.h"
-#include "planner/door/pipeline/shop.h"
 #include "planner/model/features/resolve.h"
 #include "planner/model/nouns/all.h"
 #include "planner/proof/verify/verify.h"

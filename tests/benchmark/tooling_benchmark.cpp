@@ -6,11 +6,11 @@
 #include <filesystem>
 
 #include "planner/ground/base/file.h"
-#include "tooling/catalogue/generic.h"
-#include "tooling/catalogue/machine.h"
-#include "tooling/catalogue/material.h"
-#include "tooling/select/select.h"
-#include "tooling/store/store.h"
+#include "tooling/library/cutters/generic.h"
+#include "tooling/library/store/store.h"
+#include "tooling/selection/select.h"
+#include "tooling/shop/machine/machine.h"
+#include "tooling/shop/material/material.h"
 
 namespace capstan::tooling {
 namespace {

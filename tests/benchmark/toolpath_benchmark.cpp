@@ -4,8 +4,8 @@
 #include <numbers>
 
 #include "planner/making/toolpath/path_job.h"
-#include "planner/making/toolpath/region/rings.h"
-#include "planner/making/toolpath/region/work_area.h"
+#include "planner/making/toolpath/region/area/rings.h"
+#include "planner/making/toolpath/region/area/work_area.h"
 
 namespace {
 

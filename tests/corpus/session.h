@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "planner/door/pipeline/given/shop.h"
 #include "planner/door/pipeline/pipeline.h"
-#include "planner/door/pipeline/shop.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/plan/plan.h"
 #include "planner/proof/verify/verify.h"

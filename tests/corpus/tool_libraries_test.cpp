@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "tests/corpus/session.h"
-#include "tooling/formats/import.h"
+#include "tooling/library/formats/import.h"
 
 // Real parts with the libraries that people really have: a plan that nothing is found against, or a list of
 // what is missing, never a plan that breaks a tool.

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "planner/files/exchange/exchange.h"
-#include "planner/files/p21/parse.h"
+#include "planner/files/p21/read/parse.h"
 
 namespace {
 

@@ -4,8 +4,8 @@
 #include <cstdlib>
 #include <string>
 
-#include "planner/files/p21/parse.h"
 #include "planner/files/p21/print.h"
+#include "planner/files/p21/read/parse.h"
 
 namespace {
 

@@ -9,13 +9,13 @@
 #include "planner/proof/verify/program/program_checks.h"
 #include "planner/proof/verify/verify.h"
 #include "rules/engine/table.h"
-#include "tooling/catalogue/library.h"
-#include "tooling/catalogue/machine.h"
-#include "tooling/catalogue/material.h"
-#include "tooling/catalogue/stated_words.h"
-#include "tooling/formats/all.h"
-#include "tooling/formats/import.h"
-#include "tooling/holding/holding.h"
+#include "tooling/library/formats/all.h"
+#include "tooling/library/formats/import.h"
+#include "tooling/library/library.h"
+#include "tooling/shop/fixtures/fixtures.h"
+#include "tooling/shop/machine/machine.h"
+#include "tooling/shop/material/material.h"
+#include "tooling/shop/material/stated_words.h"
 
 namespace capstan::fuzz {
 namespace {

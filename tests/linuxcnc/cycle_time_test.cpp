@@ -11,7 +11,7 @@
 #include "tests/linuxcnc/simulator.h"
 #include "tests/linuxcnc/times.h"
 #include "tests/support/corpus.h"
-#include "tooling/catalogue/machine.h"
+#include "tooling/shop/machine/machine.h"
 
 namespace capstan::linuxcnc {
 namespace {

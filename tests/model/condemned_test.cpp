@@ -1,4 +1,4 @@
-#include "planner/model/plan/condemned.h"
+#include "planner/model/plan/decision/condemned.h"
 
 #include <gtest/gtest.h>
 

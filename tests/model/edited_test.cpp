@@ -1,4 +1,4 @@
-#include "planner/model/plan/edited.h"
+#include "planner/model/plan/decision/edited.h"
 
 #include <gtest/gtest.h>
 

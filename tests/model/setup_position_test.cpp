@@ -1,4 +1,4 @@
-#include "planner/model/plan/setup_position.h"
+#include "planner/model/plan/resources/setup_position.h"
 
 #include <gtest/gtest.h>
 

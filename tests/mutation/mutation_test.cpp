@@ -6,7 +6,7 @@
 
 #include "tests/mutation/study.h"
 #include "tests/support/rs274.h"
-#include "tooling/catalogue/library.h"
+#include "tooling/library/library.h"
 
 namespace capstan::mutation {
 namespace {

@@ -7,7 +7,7 @@
 #include "planner/proof/verify/program/program_checks.h"
 #include "tests/mutation/lines.h"
 #include "tests/support/rs274.h"
-#include "tooling/catalogue/library.h"
+#include "tooling/library/library.h"
 
 namespace capstan::mutation {
 namespace {

@@ -3,8 +3,8 @@
 #include <cstdio>
 #include <string>
 
+#include "planner/door/pipeline/given/shop.h"
 #include "planner/door/pipeline/pipeline.h"
-#include "planner/door/pipeline/shop.h"
 #include "planner/files/exchange/exchange.h"
 #include "planner/ground/base/file.h"
 #include "planner/model/nouns/all.h"

@@ -6,11 +6,11 @@
 #include "planner/files/exchange/exchange.h"
 #include "planner/files/json/json.h"
 #include "planner/ground/base/file.h"
-#include "planner/model/plan/positions.h"
+#include "planner/model/plan/range/positions.h"
 #include "rules/engine/table.h"
 #include "tests/support/corpus.h"
-#include "tooling/catalogue/machine.h"
-#include "tooling/formats/all.h"
+#include "tooling/library/formats/all.h"
+#include "tooling/shop/machine/machine.h"
 
 // Inputs that were once too much: each ends soon, with an error that names what is wrong.
 

@@ -5,11 +5,11 @@
 
 #include "planner/ground/base/number.h"
 #include "planner/physics/mechanics/constants.h"
-#include "planner/physics/mechanics/force.h"
-#include "planner/physics/mechanics/kienzle.h"
-#include "planner/physics/mechanics/section.h"
+#include "planner/physics/mechanics/force/force.h"
+#include "planner/physics/mechanics/force/kienzle.h"
+#include "planner/physics/mechanics/loads/section.h"
 #include "tests/validation/studies.h"
-#include "tooling/catalogue/material.h"
+#include "tooling/shop/material/material.h"
 
 namespace capstan::validation {
 namespace {

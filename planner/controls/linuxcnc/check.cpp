@@ -8,7 +8,8 @@
 #include <vector>
 
 #include "planner/ground/base/number.h"
-#include "planner/model/plan/step_ids.h"
+#include "planner/ground/vocabulary/work_offset.h"
+#include "planner/model/plan/order/step_ids.h"
 
 namespace capstan::controls {
 namespace {
@@ -19,8 +20,6 @@ using model::StepResult;
 
 // Past this a number is no position on any machine, and fixed notation has no digits left for it.
 constexpr double kLargest = 1e6;
-constexpr std::array<std::string_view, 9> kWorkOffsets = {"G54", "G55",   "G56",   "G57",  "G58",
-                                                          "G59", "G59.1", "G59.2", "G59.3"};
 
 tl::unexpected<Diagnostic> bad(const char* code, std::string message, const std::string& step,
                                std::string hint = {}) {
@@ -104,7 +103,8 @@ Status check_step(const model::Plan& plan, const StepResult& step, const std::st
   }
   if (step.setup >= plan.setups.size()) return bad("OUT-SETUP", "the step's set-up does not exist", id);
   const model::SetupResult& setup = plan.setups[step.setup];
-  if (std::find(kWorkOffsets.begin(), kWorkOffsets.end(), setup.work_offset) == kWorkOffsets.end()) {
+  if (std::find(model::kWorkOffsets.begin(), model::kWorkOffsets.end(), setup.work_offset) ==
+      model::kWorkOffsets.end()) {
     return bad("OUT-SETUP", "\"" + setup.work_offset + "\" is not a work offset", id, "G54 to G59.3");
   }
   if (!fits(setup.security_z_mm)) return bad("OUT-NUMBER", "the security plane is no position", id);

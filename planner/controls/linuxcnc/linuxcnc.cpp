@@ -13,8 +13,8 @@
 #include "planner/controls/linuxcnc/program.h"
 #include "planner/ground/base/number.h"
 #include "planner/model/nouns/workpiece.h"
-#include "planner/model/plan/setup_position.h"
-#include "planner/model/plan/step_ids.h"
+#include "planner/model/plan/order/step_ids.h"
+#include "planner/model/plan/resources/setup_position.h"
 #include "planner/physics/motion/time.h"
 
 namespace capstan::controls {

@@ -5,7 +5,7 @@
 
 #include "planner/ground/base/job.h"
 #include "planner/ground/base/result.h"
-#include "planner/model/plan/condemned.h"
+#include "planner/model/plan/decision/condemned.h"
 #include "planner/model/plan/plan.h"
 
 namespace capstan::controls {

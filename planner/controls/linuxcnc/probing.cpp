@@ -9,7 +9,7 @@
 #include "planner/model/features/resolve.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/plan/measured.h"
-#include "planner/model/plan/setup_position.h"
+#include "planner/model/plan/resources/setup_position.h"
 
 namespace capstan::controls {
 

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "planner/ground/geometry/vec.h"
-#include "planner/model/plan/machine.h"
+#include "planner/model/plan/resources/machine.h"
 
 namespace capstan::controls {
 

@@ -4,18 +4,18 @@
 
 #include "capstan/capstan.h"
 #include "planner/controls/linuxcnc/linuxcnc.h"
+#include "planner/door/pipeline/given/shop.h"
 #include "planner/door/pipeline/pipeline.h"
-#include "planner/door/pipeline/shop.h"
 #include "planner/files/exchange/exchange.h"
 #include "planner/files/json/json.h"
 #include "planner/ground/base/file.h"
-#include "planner/model/plan/condemned.h"
+#include "planner/model/plan/decision/condemned.h"
 #include "planner/physics/motion/time.h"
 #include "planner/proof/verify/verify.h"
 #include "rules/rules.h"
-#include "tooling/catalogue/library.h"
-#include "tooling/catalogue/machine.h"
-#include "tooling/catalogue/material.h"
+#include "tooling/library/library.h"
+#include "tooling/shop/machine/machine.h"
+#include "tooling/shop/material/material.h"
 
 namespace capstan {
 namespace {

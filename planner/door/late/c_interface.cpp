@@ -7,7 +7,7 @@
 
 #include "capstan/capstan_late.h"
 #include "planner/door/late/late.h"
-#include "planner/door/pipeline/shop.h"
+#include "planner/door/pipeline/given/shop.h"
 
 /// A session behind the C interface.
 struct capstan_late {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "planner/door/pipeline/shop.h"
+#include "planner/door/pipeline/given/shop.h"
 
 // A fallback first, whatever it takes; then an improvement on the rest of the time. Each answer passes the
 // same three questions: is anything open, is every cutter in the magazine, does the check condemn it.

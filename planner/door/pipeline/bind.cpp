@@ -4,16 +4,17 @@
 #include <utility>
 
 #include "planner/door/pipeline/checked.h"
-#include "planner/door/pipeline/machine_needs.h"
+#include "planner/door/pipeline/given/machine_needs.h"
 #include "planner/door/pipeline/paths/gone.h"
 #include "planner/door/pipeline/profit.h"
 #include "planner/door/pipeline/work.h"
-#include "planner/model/plan/contradicted.h"
-#include "planner/model/plan/positions.h"
-#include "planner/model/plan/step_ids.h"
-#include "planner/model/plan/unreadable.h"
-#include "tooling/nouns/nouns.h"
-#include "tooling/select/select.h"
+#include "planner/ground/vocabulary/work_offset.h"
+#include "planner/model/plan/decision/contradicted.h"
+#include "planner/model/plan/decision/unreadable.h"
+#include "planner/model/plan/order/step_ids.h"
+#include "planner/model/plan/range/positions.h"
+#include "tooling/library/nouns/nouns.h"
+#include "tooling/selection/select.h"
 
 namespace capstan::pipeline {
 namespace {
@@ -66,15 +67,14 @@ void collect_cutters(Work& w) {
 
 Status collect_setups(Work& w) {
   // LinuxCNC has nine work offsets; a plan with more set-ups has to be parted.
-  constexpr const char* kOffsets[] = {"G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3"};
-  constexpr std::size_t kCount = std::size(kOffsets);
+  constexpr std::size_t kCount = model::kWorkOffsets.size();
   if (w.setups.size() > kCount) {
     return fail("PIP-OFFSETS", "the part needs " + std::to_string(w.setups.size()) +
                                    " set-ups, and a control has nine work offsets; plan it in parts");
   }
   for (std::size_t i = 0; i < w.setups.size(); ++i) {
-    w.plan.setups.push_back(
-        {w.setups[i].setup, kOffsets[i % kCount], w.setups[i].security_z_mm, w.setups[i].holding});
+    w.plan.setups.push_back({w.setups[i].setup, std::string(model::kWorkOffsets[i % kCount]),
+                             w.setups[i].security_z_mm, w.setups[i].holding});
   }
   if (w.setups.size() > kCount)
     w.job.warn("PIP-OFFSETS", "there are more set-ups than work offsets; offsets repeat");

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "planner/ground/base/number.h"
-#include "planner/model/plan/condemned.h"
+#include "planner/model/plan/decision/condemned.h"
 #include "planner/proof/verify/verify.h"
 
 // Plan, check, and plan anew what the check condemns. The check is independent: it is told nothing of the

@@ -3,7 +3,7 @@
 #include "planner/door/pipeline/work.h"
 #include "planner/ground/base/number.h"
 #include "planner/model/nouns/arena/walk.h"
-#include "tooling/nouns/nouns.h"
+#include "tooling/library/nouns/nouns.h"
 
 // Proposed steps as nouns: workingstep, operation, strategy, tool, technology, functions, and who bound them.
 

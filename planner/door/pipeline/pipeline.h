@@ -11,11 +11,11 @@
 #include "planner/ground/base/job.h"
 #include "planner/ground/base/result.h"
 #include "planner/making/optimise/solver/solver.h"
-#include "planner/model/plan/cutter.h"
-#include "planner/model/plan/machine.h"
-#include "planner/model/plan/material.h"
+#include "planner/model/plan/cutter/cutter.h"
 #include "planner/model/plan/plan.h"
-#include "planner/physics/mechanics/margin.h"
+#include "planner/model/plan/resources/machine.h"
+#include "planner/model/plan/resources/material.h"
+#include "planner/physics/mechanics/loads/margin.h"
 #include "rules/rules.h"
 
 namespace capstan::casebase {
@@ -74,7 +74,7 @@ struct Policy {
 /// order chooses depths, makes the path, measures it against the stock and schedules feed and speed.
 ///
 /// What the file says in two ways of material or raw piece counts as settled where the inputs name one
-/// (model/plan/contradicted.h).
+/// (model/plan/decision/contradicted.h).
 /// What the file binds is kept; a change that safety forces is reported. A feature that cannot be planned is
 /// in Plan::unplanned with its reason; that is an outcome, not an error. It is whole or not at all: when a
 /// step that rules proposed finds no cutter, no path or no cut within the limits, its chain is given up and

@@ -21,7 +21,8 @@ inline constexpr int kPlanJsonVersion = 1;
 ///   ("peak",
 ///               "id" and the top's "summary" are derived; on reading they are only compared)
 ///   decisions   who bound what and why ("reasons"), what it depends on, what was rejected; "value_hash" is
-///               of the value as it was written: one that is unlike it was edited (model/plan/edited.h)
+///               of the value as it was written: one that is unlike it was edited
+///               (model/plan/decision/edited.h)
 ///   paths, schedules, sections   columns, shared by reference ("path:1")
 ///
 ///   seals       a hash of each part, by which the reader tells what was edited since

@@ -9,10 +9,10 @@
 #include "planner/files/json/values.h"
 #include "planner/ground/base/file.h"
 #include "planner/ground/base/no_number.h"
-#include "planner/model/plan/contradicted.h"
-#include "planner/model/plan/edited.h"
-#include "planner/model/plan/step_ids.h"
-#include "planner/model/plan/workplan_order.h"
+#include "planner/model/plan/decision/contradicted.h"
+#include "planner/model/plan/decision/edited.h"
+#include "planner/model/plan/order/step_ids.h"
+#include "planner/model/plan/order/workplan_order.h"
 
 namespace capstan::json {
 namespace {

@@ -10,7 +10,7 @@
 #include "planner/ground/base/file.h"
 #include "planner/model/nouns/arena/kept.h"
 #include "planner/model/nouns/arena/walk.h"
-#include "planner/model/plan/step_ids.h"
+#include "planner/model/plan/order/step_ids.h"
 
 namespace capstan::json {
 namespace {

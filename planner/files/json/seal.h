@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "planner/model/plan/contradicted.h"
+#include "planner/model/plan/decision/contradicted.h"
 #include "planner/model/plan/plan.h"
 
 namespace capstan::json {
@@ -20,7 +20,7 @@ namespace capstan::json {
 ///             file.
 /// Cost        linear.
 [[nodiscard]] std::map<std::string, std::uint64_t> seals_of(const model::Plan& plan);
-/// Which lists of the plan are among the edited parts of a file (model/plan/edited.h).
+/// Which lists of the plan are among the edited parts of a file (model/plan/decision/edited.h).
 [[nodiscard]] std::set<model::Listed> listed_among(const std::vector<std::string>& edited_parts);
 
 }  // namespace capstan::json

@@ -15,7 +15,7 @@
 #include "planner/files/json/printer.h"
 #include "planner/model/nouns/executable.h"
 #include "planner/model/nouns/workpiece.h"
-#include "planner/model/plan/edited.h"
+#include "planner/model/plan/decision/edited.h"
 #include "planner/model/plan/plan.h"
 
 // Values of the plan's JSON into the plan's own types, by `fields.h`. What is wrong ends the reading with the

@@ -11,7 +11,7 @@
 #include "planner/files/json/summary.h"
 #include "planner/ground/base/file.h"
 #include "planner/model/nouns/arena/walk.h"
-#include "planner/model/plan/step_ids.h"
+#include "planner/model/plan/order/step_ids.h"
 #include "planner/physics/motion/time.h"
 
 namespace capstan::json {

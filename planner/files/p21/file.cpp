@@ -4,9 +4,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include "planner/files/p21/number.h"
+#include "planner/files/p21/read/number.h"
+#include "planner/files/p21/read/text.h"
 #include "planner/files/p21/store.h"
-#include "planner/files/p21/text.h"
 
 namespace capstan::p21 {
 

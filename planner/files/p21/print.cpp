@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "planner/files/p21/lexer.h"
+#include "planner/files/p21/read/lexer.h"
 #include "planner/ground/base/number.h"
 
 namespace capstan::p21 {

@@ -8,11 +8,11 @@
 #include "planner/ground/base/job.h"
 #include "planner/ground/base/result.h"
 #include "planner/making/optimise/solver/solver.h"
-#include "planner/model/plan/cutter.h"
-#include "planner/model/plan/machine.h"
-#include "planner/model/plan/material.h"
+#include "planner/model/plan/cutter/cutter.h"
 #include "planner/model/plan/plan.h"
-#include "planner/physics/mechanics/margin.h"
+#include "planner/model/plan/resources/machine.h"
+#include "planner/model/plan/resources/material.h"
+#include "planner/physics/mechanics/loads/margin.h"
 
 namespace capstan::optimise {
 

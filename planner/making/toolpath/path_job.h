@@ -8,9 +8,9 @@
 #include "planner/ground/base/result.h"
 #include "planner/ground/geometry/placement.h"
 #include "planner/ground/geometry/region.h"
+#include "planner/ground/vocabulary/noun_kind.h"
 #include "planner/model/features/shape.h"
-#include "planner/model/nouns/arena/type_id.h"
-#include "planner/model/plan/cutter.h"
+#include "planner/model/plan/cutter/cutter.h"
 #include "planner/model/plan/cutter_path.h"
 #include "planner/model/plan/proposal.h"
 

@@ -12,8 +12,6 @@ using geometry::Vec3;
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
 
-bool is_arc(MoveKind k) { return k == MoveKind::kArcCw || k == MoveKind::kArcCcw; }
-
 void push(CutterPath& p, Vec3 to, Vec2 centre, MoveKind kind, MoveRole why) {
   if (p.x.empty() && why != MoveRole::kApproach) throw std::logic_error("a path begins with start()");
   p.x.push_back(to.x);

@@ -1,23 +1,12 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <vector>
 
 #include "planner/ground/geometry/vec.h"
+#include "planner/ground/vocabulary/move_kind.h"
 
 namespace capstan::model {
-
-enum class MoveKind : std::uint8_t {
-  kRapid,  ///< straight, at rapid; on a control it may not be straight in space
-  kLine,   ///< straight, at feed
-  kArcCw,  ///< in the XY plane, clockwise seen from +Z; a helix when z changes
-  kArcCcw,
-  kDwell,  ///< stands still; `dwell_s` of the schedule says how long
-};
-
-/// What a move is for; decides its feed and what may be checked of it.
-enum class MoveRole : std::uint8_t { kApproach, kPlunge, kRamp, kCut, kLink, kRetract, kDrill, kTap };
 
 /// What the cutter's reference point (its tip on the axis) does in one workingstep: columns, one entry per
 /// move; move i runs from point i-1 to point i, entry 0 is the start and has no move. Arcs are kept as arcs.

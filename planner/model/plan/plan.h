@@ -10,12 +10,12 @@
 #include "planner/ground/geometry/vec.h"
 #include "planner/model/nouns/arena/model.h"
 #include "planner/model/nouns/forward.h"
-#include "planner/model/plan/cutter.h"
+#include "planner/model/plan/cutter/cutter.h"
 #include "planner/model/plan/cutter_path.h"
-#include "planner/model/plan/decision.h"
-#include "planner/model/plan/machine.h"
-#include "planner/model/plan/material.h"
-#include "planner/model/plan/workholding.h"
+#include "planner/model/plan/decision/decision.h"
+#include "planner/model/plan/resources/machine.h"
+#include "planner/model/plan/resources/material.h"
+#include "planner/model/plan/resources/workholding.h"
 
 namespace capstan::model {
 

@@ -19,8 +19,6 @@ using model::CutterPath;
 using model::MoveKind;
 using stock::Tally;
 
-bool is_arc(MoveKind k) { return k == MoveKind::kArcCw || k == MoveKind::kArcCcw; }
-
 bool is_flat(const geometry::CutterProfile& p) {
   return p.pieces.size() == 1 && p.pieces[0].radius_mm <= 0.0 && p.pieces[0].slope == 0.0;
 }

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "planner/ground/base/result.h"
-#include "planner/model/plan/cutter.h"
+#include "planner/model/plan/cutter/cutter.h"
 #include "planner/model/plan/cutter_path.h"
 #include "planner/physics/stock/height_map.h"
 

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "planner/physics/mechanics/constants.h"
-#include "planner/physics/mechanics/domain.h"
-#include "planner/physics/mechanics/force_law.h"
+#include "planner/physics/mechanics/force/domain.h"
+#include "planner/physics/mechanics/force/force_law.h"
 
 namespace capstan::mechanics {
 namespace {

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "planner/ground/base/result.h"
-#include "planner/model/plan/cutter.h"
-#include "planner/model/plan/machine.h"
-#include "planner/physics/mechanics/section.h"
+#include "planner/model/plan/cutter/cutter.h"
+#include "planner/model/plan/resources/machine.h"
+#include "planner/physics/mechanics/loads/section.h"
 
 /// Depths without chatter: lobes from modes of the tool point, else a limit on slenderness.
 namespace capstan::mechanics {

@@ -5,7 +5,7 @@
 #include "planner/ground/base/result.h"
 #include "planner/ground/geometry/vec.h"
 #include "planner/model/plan/cutter_path.h"
-#include "planner/model/plan/machine.h"
+#include "planner/model/plan/resources/machine.h"
 #include "planner/physics/motion/profile.h"
 
 /// One move of a path as the axes see it. Internal to the room.
@@ -29,10 +29,6 @@ struct Shape {
   double turning_mm_s = 0.0;   ///< what an arc's centripetal acceleration allows
 };
 inline constexpr double kNoSpeed = 1e300;
-
-[[nodiscard]] inline bool is_arc(model::MoveKind k) {
-  return k == model::MoveKind::kArcCw || k == model::MoveKind::kArcCcw;
-}
 
 /// Needs a move that is no dwell.
 [[nodiscard]] Shape shape_of(const model::CutterPath& path, std::size_t move, double feed_mm_s,

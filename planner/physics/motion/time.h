@@ -6,8 +6,8 @@
 
 #include "planner/ground/base/result.h"
 #include "planner/model/plan/cutter_path.h"
-#include "planner/model/plan/machine.h"
 #include "planner/model/plan/plan.h"
+#include "planner/model/plan/resources/machine.h"
 
 namespace capstan::motion {
 

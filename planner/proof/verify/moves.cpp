@@ -13,10 +13,6 @@ double start_angle(const Move& m) { return std::atan2(m.from.y - m.centre.y, m.f
 
 }  // namespace
 
-bool is_arc(model::MoveKind kind) {
-  return kind == model::MoveKind::kArcCw || kind == model::MoveKind::kArcCcw;
-}
-
 double sweep_of(const Move& m) {
   const double end = std::atan2(m.to.y - m.centre.y, m.to.x - m.centre.x);
   double sweep = end - start_angle(m);

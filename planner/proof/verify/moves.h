@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "planner/ground/geometry/vec.h"
-#include "planner/model/plan/cutter.h"
+#include "planner/model/plan/cutter/cutter.h"
 #include "planner/model/plan/cutter_path.h"
 #include "planner/model/plan/plan.h"
 
@@ -39,7 +39,6 @@ struct StepMoves {
   std::vector<Move> moves;
 };
 
-[[nodiscard]] bool is_arc(model::MoveKind kind);
 /// Swept angle, rad, in (0, 2 pi].
 [[nodiscard]] double sweep_of(const Move& m);
 [[nodiscard]] double length_of(const Move& m);

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "planner/ground/base/job.h"
-#include "planner/model/plan/cutter.h"
-#include "planner/model/plan/machine.h"
+#include "planner/model/plan/cutter/cutter.h"
 #include "planner/model/plan/plan.h"
+#include "planner/model/plan/resources/machine.h"
 
 namespace capstan::verify {
 

@@ -9,7 +9,7 @@
 
 #include "capstan/capstan_late.h"
 #include "planner/controls/linuxcnc/linuxcnc.h"
-#include "planner/door/pipeline/shop.h"
+#include "planner/door/pipeline/given/shop.h"
 #include "planner/model/nouns/all.h"
 #include "tests/support/corpus.h"
 #include "tests/support/seal.h"

@@ -1,9 +1,9 @@
-#include "planner/door/pipeline/holding.h"
+#include "planner/door/pipeline/workholding/holding.h"
 
 #include <gtest/gtest.h>
 
-#include "planner/door/pipeline/grouped.h"
-#include "planner/door/pipeline/shop.h"
+#include "planner/door/pipeline/given/shop.h"
+#include "planner/door/pipeline/propose/grouped_reasons.h"
 #include "planner/ground/base/file.h"
 #include "planner/model/nouns/all.h"
 

@@ -9,12 +9,12 @@
 #include <string>
 #include <vector>
 
+#include "planner/door/pipeline/given/shop.h"
 #include "planner/door/pipeline/paths/sections.h"
-#include "planner/door/pipeline/shop.h"
 #include "planner/model/nouns/all.h"
 #include "planner/proof/verify/verify.h"
 #include "tests/support/corpus.h"
-#include "tooling/catalogue/machine.h"
+#include "tooling/shop/machine/machine.h"
 
 // Features are made whole or not at all, and what the check condemns is made anew.
 

@@ -8,7 +8,7 @@
 #include <regex>
 #include <sstream>
 
-#include "planner/files/exchange/iso14649/curves.h"
+#include "planner/files/exchange/toolpaths/curves.h"
 #include "tests/files/exchange/support.h"
 #include "tests/support/corpus.h"
 

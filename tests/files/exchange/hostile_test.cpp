@@ -6,7 +6,7 @@
 #include <functional>
 #include <random>
 
-#include "planner/files/exchange/iso14649/curves.h"
+#include "planner/files/exchange/toolpaths/curves.h"
 #include "tests/files/exchange/support.h"
 
 namespace capstan::exchange {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "planner/model/features/curve_points.h"
-#include "tests/files/exchange/ap238/feature_support.h"
+#include "tests/files/exchange/ap238/part/feature_support.h"
 
 // Angles that trim circles, in files of both forms.
 

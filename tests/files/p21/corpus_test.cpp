@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "planner/files/p21/parse.h"
 #include "planner/files/p21/print.h"
+#include "planner/files/p21/read/parse.h"
 #include "tests/support/amplify.h"
 #include "tests/support/corpus.h"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "planner/files/p21/parse.h"
+#include "planner/files/p21/read/parse.h"
 
 namespace capstan::p21::testing {
 

@@ -1,4 +1,4 @@
-#include "planner/files/p21/parse.h"
+#include "planner/files/p21/read/parse.h"
 
 #include <cmath>
 #include <limits>

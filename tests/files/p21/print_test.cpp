@@ -4,7 +4,7 @@
 #include <cstring>
 #include <random>
 
-#include "planner/files/p21/parse.h"
+#include "planner/files/p21/read/parse.h"
 #include "tests/files/p21/p21_helpers.h"
 
 namespace capstan::p21::testing {

@@ -6,8 +6,8 @@
 
 #include "planner/making/optimise/solver/solver.h"
 #include "planner/physics/mechanics/constants.h"
-#include "planner/physics/mechanics/immersion.h"
-#include "planner/physics/mechanics/loads.h"
+#include "planner/physics/mechanics/force/immersion.h"
+#include "planner/physics/mechanics/loads/loads.h"
 
 namespace capstan::optimise {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "planner/making/toolpath/link/path_writer.h"
 #include "planner/making/toolpath/path_job.h"
-#include "planner/making/toolpath/region/track.h"
+#include "planner/making/toolpath/region/area/track.h"
 #include "tests/making/toolpath/path_helpers.h"
 
 namespace capstan::toolpath {

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <numbers>
 
-#include "planner/making/toolpath/region/inside.h"
+#include "planner/making/toolpath/region/area/inside.h"
 
 namespace capstan::toolpath {
 

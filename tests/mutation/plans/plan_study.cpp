@@ -4,12 +4,12 @@
 #include <set>
 #include <stdexcept>
 
-#include "planner/door/pipeline/shop.h"
+#include "planner/door/pipeline/given/shop.h"
 #include "planner/files/exchange/exchange.h"
 #include "planner/files/json/json.h"
 #include "planner/model/nouns/all.h"
-#include "planner/model/plan/condemned.h"
-#include "planner/model/plan/edited.h"
+#include "planner/model/plan/decision/condemned.h"
+#include "planner/model/plan/decision/edited.h"
 #include "planner/proof/verify/program/program_checks.h"
 #include "planner/proof/verify/verify.h"
 #include "tests/mutation/emitted.h"

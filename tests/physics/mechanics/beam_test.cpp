@@ -1,4 +1,4 @@
-#include "planner/physics/mechanics/beam.h"
+#include "planner/physics/mechanics/bending/beam.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "planner/physics/mechanics/deflection.h"
+#include "planner/physics/mechanics/bending/deflection.h"
 
 #include <gtest/gtest.h>
 

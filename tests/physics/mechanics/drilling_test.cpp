@@ -1,4 +1,4 @@
-#include "planner/physics/mechanics/drilling.h"
+#include "planner/physics/mechanics/force/drilling.h"
 
 #include <gtest/gtest.h>
 

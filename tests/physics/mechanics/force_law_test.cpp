@@ -1,4 +1,4 @@
-#include "planner/physics/mechanics/force_law.h"
+#include "planner/physics/mechanics/force/force_law.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "planner/physics/mechanics/force.h"
+#include "planner/physics/mechanics/force/force.h"
 
 #include <gtest/gtest.h>
 

@@ -5,11 +5,11 @@
 #include <limits>
 #include <random>
 
-#include "planner/physics/mechanics/beam.h"
-#include "planner/physics/mechanics/force_law.h"
-#include "planner/physics/mechanics/life.h"
-#include "planner/physics/mechanics/loads.h"
-#include "planner/physics/mechanics/section.h"
+#include "planner/physics/mechanics/bending/beam.h"
+#include "planner/physics/mechanics/force/force_law.h"
+#include "planner/physics/mechanics/life/life.h"
+#include "planner/physics/mechanics/loads/loads.h"
+#include "planner/physics/mechanics/loads/section.h"
 #include "planner/physics/mechanics/stability.h"
 
 namespace capstan::mechanics {

@@ -1,4 +1,4 @@
-#include "planner/physics/mechanics/immersion.h"
+#include "planner/physics/mechanics/force/immersion.h"
 
 #include <gtest/gtest.h>
 

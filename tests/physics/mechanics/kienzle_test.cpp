@@ -1,4 +1,4 @@
-#include "planner/physics/mechanics/kienzle.h"
+#include "planner/physics/mechanics/force/kienzle.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "planner/physics/mechanics/constants.h"
-#include "planner/physics/mechanics/immersion.h"
+#include "planner/physics/mechanics/force/immersion.h"
 
 namespace capstan::mechanics {
 namespace {

@@ -1,4 +1,4 @@
-#include "planner/physics/mechanics/life.h"
+#include "planner/physics/mechanics/life/life.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "planner/physics/mechanics/loads.h"
+#include "planner/physics/mechanics/loads/loads.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "planner/physics/mechanics/constants.h"
-#include "planner/physics/mechanics/immersion.h"
+#include "planner/physics/mechanics/force/immersion.h"
 
 namespace capstan::mechanics {
 namespace {

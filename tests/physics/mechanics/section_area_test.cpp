@@ -7,9 +7,9 @@
 #include <numbers>
 #include <random>
 
-#include "planner/physics/mechanics/kienzle.h"
-#include "planner/physics/mechanics/loads.h"
-#include "planner/physics/mechanics/section.h"
+#include "planner/physics/mechanics/force/kienzle.h"
+#include "planner/physics/mechanics/loads/loads.h"
+#include "planner/physics/mechanics/loads/section.h"
 
 namespace capstan::mechanics {
 namespace {

@@ -1,4 +1,4 @@
-#include "planner/physics/mechanics/section.h"
+#include "planner/physics/mechanics/loads/section.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "planner/physics/mechanics/tool_life.h"
+#include "planner/physics/mechanics/life/tool_life.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "planner/proof/verify/sweep/grid.h"
+#include "planner/proof/verify/sweep/grid/grid.h"
 
 #include <gtest/gtest.h>
 

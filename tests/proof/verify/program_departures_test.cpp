@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "planner/proof/verify/program/reader.h"
+#include "planner/proof/verify/program/linuxcnc/reader.h"
 #include "planner/proof/verify/verify.h"
 #include "tests/proof/verify/plans.h"
 #include "tests/support/rs274.h"

@@ -9,7 +9,7 @@
 
 #include "planner/ground/base/file.h"
 #include "planner/ground/base/number.h"
-#include "planner/proof/verify/program/reader.h"
+#include "planner/proof/verify/program/linuxcnc/reader.h"
 
 namespace capstan::validation::nist {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "planner/model/plan/machine.h"
+#include "planner/model/plan/resources/machine.h"
 #include "tests/validation/nist/plate_data.h"
 #include "tests/validation/report.h"
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "planner/ground/base/number.h"
-#include "planner/physics/mechanics/beam.h"
+#include "planner/physics/mechanics/bending/beam.h"
 #include "planner/physics/mechanics/constants.h"
 #include "planner/physics/mechanics/stability.h"
 #include "planner/physics/motion/time.h"

@@ -6,8 +6,8 @@
 #include "planner/door/app/show/values.h"
 #include "planner/ground/base/file.h"
 #include "planner/ground/base/number.h"
-#include "tooling/catalogue/machine.h"
-#include "tooling/catalogue/material.h"
+#include "tooling/shop/machine/machine.h"
+#include "tooling/shop/material/material.h"
 
 namespace capstan::app {
 namespace {

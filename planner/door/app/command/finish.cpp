@@ -6,9 +6,9 @@
 
 #include "planner/controls/linuxcnc/linuxcnc.h"
 #include "planner/door/app/show/values.h"
-#include "planner/model/plan/condemned.h"
-#include "planner/model/plan/contradicted.h"
-#include "planner/model/plan/unreadable.h"
+#include "planner/model/plan/decision/condemned.h"
+#include "planner/model/plan/decision/contradicted.h"
+#include "planner/model/plan/decision/unreadable.h"
 #include "planner/physics/motion/time.h"
 #include "planner/proof/verify/verify.h"
 

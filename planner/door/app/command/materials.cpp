@@ -3,9 +3,9 @@
 #include "planner/door/app/command/session.h"
 #include "planner/door/app/show/values.h"
 #include "planner/ground/base/number.h"
-#include "tooling/catalogue/iso_groups.h"
-#include "tooling/catalogue/material.h"
-#include "tooling/catalogue/material_table.h"
+#include "tooling/shop/material/iso_groups.h"
+#include "tooling/shop/material/material.h"
+#include "tooling/shop/material/material_table.h"
 
 // The work materials: a short list by group, and all that is known of one.
 

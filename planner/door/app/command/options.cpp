@@ -11,7 +11,7 @@
 #include "planner/door/app/command/run.h"
 #include "planner/ground/base/number.h"
 #include "planner/model/features/fit/general.h"
-#include "planner/physics/mechanics/margin.h"
+#include "planner/physics/mechanics/loads/margin.h"
 
 // The one file that knows CLI11.
 

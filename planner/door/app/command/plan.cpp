@@ -15,8 +15,8 @@
 #include "planner/ground/base/nearest_names.h"
 #include "planner/ground/base/number.h"
 #include "rules/engine/check.h"
-#include "tooling/catalogue/tree.h"
-#include "tooling/holding/holding.h"
+#include "tooling/shop/data/tree.h"
+#include "tooling/shop/fixtures/fixtures.h"
 
 namespace capstan::app {
 namespace {

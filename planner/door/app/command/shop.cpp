@@ -6,9 +6,9 @@
 #include "planner/ground/base/nearest_names.h"
 #include "planner/ground/base/number.h"
 #include "rules/rules.h"
-#include "tooling/catalogue/library.h"
-#include "tooling/catalogue/machine.h"
-#include "tooling/holding/holding.h"
+#include "tooling/library/library.h"
+#include "tooling/shop/fixtures/fixtures.h"
+#include "tooling/shop/machine/machine.h"
 
 // The tool library and the rule tables.
 

@@ -3,10 +3,11 @@
 
 #include "planner/door/app/command/session.h"
 #include "planner/ground/base/file.h"
-#include "tooling/catalogue/generic.h"
-#include "tooling/catalogue/library.h"
-#include "tooling/formats/import.h"
-#include "tooling/formats/json.h"
+#include "planner/ground/vocabulary/unit_factors.h"
+#include "tooling/library/cutters/generic.h"
+#include "tooling/library/formats/import.h"
+#include "tooling/library/formats/json.h"
+#include "tooling/library/library.h"
 
 // Tool libraries from one format to another, with what is lost on the way.
 
@@ -104,7 +105,7 @@ class Tools {
   int options() {
     const auto& t = s_.options.tools;
     if (t.unit == "mm") formats_.mm_per_unit = 1.0;
-    if (t.unit == "inch") formats_.mm_per_unit = 25.4;
+    if (t.unit == "inch") formats_.mm_per_unit = kMmPerInch;
     if (t.column_map.empty()) return kDone;
     auto text = read_file(t.column_map, std::size_t{16} << 20);
     if (!text) return s_.end(text.error(), kUnreadable);

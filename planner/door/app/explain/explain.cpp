@@ -8,8 +8,8 @@
 #include "planner/door/app/show/values.h"
 #include "planner/ground/base/number.h"
 #include "planner/model/nouns/arena/walk.h"
-#include "planner/model/plan/edited.h"
-#include "planner/physics/mechanics/force_law.h"
+#include "planner/model/plan/decision/edited.h"
+#include "planner/physics/mechanics/force/force_law.h"
 #include "planner/physics/motion/time.h"
 
 namespace capstan::app {

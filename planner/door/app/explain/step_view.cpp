@@ -8,7 +8,7 @@
 #include "planner/door/app/show/values.h"
 #include "planner/ground/base/number.h"
 #include "planner/model/nouns/arena/walk.h"
-#include "planner/model/plan/step_ids.h"
+#include "planner/model/plan/order/step_ids.h"
 
 namespace capstan::app {
 

@@ -3,15 +3,15 @@
 #include <algorithm>
 #include <string>
 
-#include "planner/door/pipeline/shop.h"
+#include "planner/door/pipeline/given/shop.h"
 #include "planner/ground/base/nearest_names.h"
 #include "planner/ground/base/number.h"
 #include "planner/making/optimise/solver/ipopt_backend.h"
 #include "rules/rules.h"
-#include "tooling/catalogue/generic.h"
-#include "tooling/catalogue/library.h"
-#include "tooling/catalogue/machine.h"
-#include "tooling/catalogue/material.h"
+#include "tooling/library/cutters/generic.h"
+#include "tooling/library/library.h"
+#include "tooling/shop/machine/machine.h"
+#include "tooling/shop/material/material.h"
 
 namespace capstan::app {
 namespace {

@@ -6,10 +6,10 @@
 #include <string>
 #include <utility>
 
-#include "planner/door/pipeline/holding.h"
 #include "planner/door/pipeline/paths/results.h"
 #include "planner/door/pipeline/paths/sections.h"
-#include "planner/files/exchange/iso14649/curves.h"
+#include "planner/door/pipeline/workholding/holding.h"
+#include "planner/files/exchange/toolpaths/curves.h"
 #include "planner/ground/base/number.h"
 
 namespace capstan::pipeline {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "planner/door/pipeline/paths/results.h"
-#include "planner/door/pipeline/steps.h"
+#include "planner/door/pipeline/step/steps.h"
 #include "planner/door/pipeline/work.h"
 #include "planner/physics/engagement/engagement.h"
 

@@ -8,8 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "planner/door/pipeline/grouped.h"
-#include "planner/door/pipeline/holding.h"
 #include "planner/door/pipeline/paths/cuts.h"
 #include "planner/door/pipeline/paths/given_path.h"
 #include "planner/door/pipeline/paths/gone.h"
@@ -19,11 +17,13 @@
 #include "planner/door/pipeline/paths/sections.h"
 #include "planner/door/pipeline/paths/stocks.h"
 #include "planner/door/pipeline/paths/surface.h"
-#include "planner/door/pipeline/steps.h"
+#include "planner/door/pipeline/propose/grouped_reasons.h"
+#include "planner/door/pipeline/step/steps.h"
+#include "planner/door/pipeline/workholding/holding.h"
 #include "planner/ground/base/number.h"
-#include "planner/making/toolpath/region/undercut.h"
-#include "planner/model/plan/condemned.h"
-#include "tooling/select/select.h"
+#include "planner/making/toolpath/region/form/undercut.h"
+#include "planner/model/plan/decision/condemned.h"
+#include "tooling/selection/select.h"
 
 // Step by step in order: depths, path, sections, feeds, with the stock carried on.
 

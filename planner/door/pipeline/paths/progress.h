@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "planner/door/pipeline/paths/stocks.h"
-#include "planner/door/pipeline/steps.h"
+#include "planner/door/pipeline/step/steps.h"
 
 // What earlier steps left for later ones; only planner/door/pipeline/*.cpp include this.
 

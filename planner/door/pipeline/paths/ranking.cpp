@@ -5,10 +5,10 @@
 #include <utility>
 #include <vector>
 
-#include "planner/door/pipeline/members.h"
-#include "planner/door/pipeline/steps.h"
+#include "planner/door/pipeline/propose/members.h"
+#include "planner/door/pipeline/step/steps.h"
 #include "planner/ground/base/number.h"
-#include "planner/making/toolpath/region/undercut.h"
+#include "planner/making/toolpath/region/form/undercut.h"
 
 namespace capstan::pipeline {
 

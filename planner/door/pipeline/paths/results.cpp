@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "planner/ground/base/number.h"
-#include "planner/model/plan/condemned.h"
+#include "planner/model/plan/decision/condemned.h"
 #include "planner/physics/motion/time.h"
 
 namespace capstan::pipeline {

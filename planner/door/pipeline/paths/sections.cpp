@@ -9,7 +9,7 @@
 #include <tuple>
 #include <utility>
 
-#include "planner/physics/mechanics/force_law.h"
+#include "planner/physics/mechanics/force/force_law.h"
 
 namespace capstan::pipeline {
 namespace {

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/door/pipeline/holding.h"
 #include "planner/door/pipeline/paths/sections.h"
-#include "planner/door/pipeline/steps.h"
-#include "planner/physics/mechanics/force_law.h"
-#include "planner/physics/mechanics/immersion.h"
+#include "planner/door/pipeline/step/steps.h"
+#include "planner/door/pipeline/workholding/holding.h"
+#include "planner/physics/mechanics/force/force_law.h"
+#include "planner/physics/mechanics/force/immersion.h"
 
 namespace capstan::pipeline {
 namespace {

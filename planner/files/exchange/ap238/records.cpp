@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <charconv>
 
-#include "planner/files/exchange/ap238/addresses.h"
+#include "planner/files/exchange/ap238/tables/addresses.h"
 #include "planner/ground/base/number.h"
 #include "planner/model/nouns/all.h"
 

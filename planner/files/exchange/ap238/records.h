@@ -3,12 +3,12 @@
 #include <utility>
 #include <vector>
 
-#include "planner/files/exchange/ap238/placement.h"
-#include "planner/files/exchange/ap238/reader.h"
-#include "planner/files/exchange/ap238/writer.h"
-#include "planner/files/exchange/records.h"
+#include "planner/files/exchange/ap238/placement/placement.h"
+#include "planner/files/exchange/ap238/read/reader.h"
+#include "planner/files/exchange/ap238/write/writer.h"
+#include "planner/files/exchange/records/records.h"
 
-// What a plan knows beside its nouns (planner/files/exchange/records.h) as process properties:
+// What a plan knows beside its nouns (planner/files/exchange/records/records.h) as process properties:
 // MACHINING_PROCESS_PROPERTY 'capstan binding', 'capstan cutter', … on the executable concerned, on the main
 // workplan what concerns the whole plan. A property's representation has an item for each field, named as the
 // field; objects are called by their address (addresses.h), never by number.

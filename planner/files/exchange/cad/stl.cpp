@@ -11,7 +11,7 @@
 #include "planner/ground/base/number.h"
 #include "planner/ground/geometry/mesh_form.h"
 #include "planner/model/nouns/all.h"
-#include "planner/model/plan/ranges.h"
+#include "planner/model/plan/range/ranges.h"
 
 namespace capstan::exchange {
 

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <string>
 
+#include "planner/files/exchange/common/embedded.h"
 #include "planner/files/exchange/conformance/faults.h"
 #include "planner/files/exchange/conformance/population.h"
 #include "planner/files/exchange/conformance/rules.h"
 #include "planner/files/exchange/conformance/values.h"
-#include "planner/files/exchange/embedded.h"
 #include "planner/files/exchange/express/dictionary.h"
 
 namespace capstan::exchange {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "planner/files/exchange/embedded.h"
+#include "planner/files/exchange/common/embedded.h"
 #include "planner/files/exchange/express/tables.h"
 
 namespace capstan::exchange::express {

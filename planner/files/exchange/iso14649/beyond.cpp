@@ -5,12 +5,13 @@
 #include <cmath>
 #include <optional>
 
-#include "planner/files/exchange/records.h"
+#include "planner/files/exchange/records/instance_hashes.h"
+#include "planner/files/exchange/records/records.h"
 #include "planner/files/p21/print.h"
 #include "planner/ground/base/file.h"
 #include "planner/ground/base/number.h"
 #include "planner/model/nouns/arena/walk.h"
-#include "planner/model/plan/edited.h"
+#include "planner/model/plan/decision/edited.h"
 
 namespace capstan::exchange {
 
@@ -142,15 +143,6 @@ std::vector<Named> named_in(const Hashes& now, const Value& v) {
 }
 
 /// The instances of `numbers` that a parameter refers to.
-void refers_to(const Value& v, const std::set<std::uint64_t>& numbers, std::set<std::uint64_t>& out) {
-  if (v.is(Kind::kReference) && numbers.contains(v.reference())) out.insert(v.reference());
-  for (std::size_t i = 0; i < v.size(); ++i) refers_to(v[i], numbers, out);
-}
-
-void add_texts(const Value& v, std::string& out) {
-  if (v.is(Kind::kString)) out += quoted(v.as_text());
-  for (std::size_t i = 0; i < v.size(); ++i) add_texts(v[i], out);
-}
 
 /// Whether all still say what they said; warns of the first that does not.
 bool unchanged(Reading& r, const p21::Instance& entity, const std::vector<Named>& all,
@@ -334,32 +326,6 @@ class Beyond {
 
 }  // namespace
 
-std::string spelled(const Value& v) {
-  switch (v.kind()) {
-    case Kind::kReal:
-      return part21_real(v.as_real());
-    case Kind::kString:
-      return quoted(v.as_text());
-    case Kind::kEnumeration:
-      return "." + std::string(v.enumeration()) + ".";
-    case Kind::kReference:
-      return "#" + std::to_string(v.reference());
-    case Kind::kInteger:
-      return std::to_string(v.as_integer());
-    case Kind::kList:
-    case Kind::kTyped: {
-      std::string out = v.is(Kind::kTyped) ? std::string(v.keyword()) + "(" : "(";
-      for (std::size_t i = 0; i < v.size(); ++i) out += (i == 0 ? "" : ",") + spelled(v[i]);
-      return out + ")";
-    }
-    case Kind::kOmitted:
-    case Kind::kDerived:
-    case Kind::kBinary:
-      return std::string(v.lexeme());
-  }
-  return {};
-}
-
 bool can_be_kept(const model::Model& m, AnyRef at, const Attribute& a, const NameOf& name_of) {
   if (a.name == "persistent_id" || a.name == "enabled") return false;  // records say these
   return value_text(a, m.object(at), name_of).has_value();
@@ -368,36 +334,6 @@ bool can_be_kept(const model::Model& m, AnyRef at, const Attribute& a, const Nam
 std::string write_value(const model::Model& m, AnyRef at, const Attribute& a, const NameOf& name_of) {
   return std::string(kValue) + "(" + quoted(name_of(at)) + "," + quoted(a.name) + "," +
          value_text(a, m.object(at), name_of).value_or("$");
-}
-
-std::map<std::uint64_t, std::string> hashes_of(const p21::File& file,
-                                               const std::set<std::uint64_t>& numbers) {
-  std::map<std::uint64_t, std::string> out;
-  if (numbers.empty()) return out;
-  std::map<std::uint64_t, std::vector<std::string>> named_by;
-  for (const p21::Instance i : file) {
-    std::set<std::uint64_t> to;
-    for (std::size_t k = 0; k < i.part_count(); ++k) refers_to(i.part(k).parameters, numbers, to);
-    if (to.empty()) continue;
-    std::string names;
-    for (std::size_t k = 0; k < i.part_count(); ++k) {
-      names += i.part(k).keyword;
-      add_texts(i.part(k).parameters, names);
-    }
-    for (const std::uint64_t n : to) named_by[n].push_back(names);
-  }
-  for (const std::uint64_t n : numbers) {
-    const auto instance = file.find(n);
-    if (!instance) continue;
-    std::string text;
-    for (std::size_t k = 0; k < instance->part_count(); ++k)
-      text += std::string(instance->part(k).keyword) + spelled(instance->part(k).parameters);
-    auto& names = named_by[n];
-    std::sort(names.begin(), names.end());
-    for (const std::string& name : names) text += " " + name;
-    out[n] = hex64(fnv1a(text));
-  }
-  return out;
 }
 
 std::map<std::uint64_t, TypeId> kinds_beyond(Reading& r) {

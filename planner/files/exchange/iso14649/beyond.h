@@ -28,15 +28,6 @@ namespace capstan::exchange {
 
 /// How the file calls an object; empty: it does not hold it.
 using NameOf = std::function<std::string(model::AnyRef)>;
-/// What some instances of a file say, as hashes; spacing and the spelling of numbers and texts do not count.
-/// To what an instance says belong the names and texts of those that refer to it: the body of a tap is told
-/// from that of another by the tool that has it.
-[[nodiscard]] std::map<std::uint64_t, std::string> hashes_of(const p21::File& file,
-                                                             const std::set<std::uint64_t>& numbers);
-
-/// What a parameter says, spelled in one way.
-[[nodiscard]] std::string spelled(const p21::Value& v);
-
 /// Whether the attribute, which has a value, is written by `write_value`: not what has a record of its own,
 /// nor what would hold nothing but references to what the file does not hold.
 [[nodiscard]] bool can_be_kept(const model::Model& m, model::AnyRef at, const model::Attribute& a,

@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "planner/files/exchange/common/text.h"
 #include "planner/files/exchange/iso14649/units.h"
-#include "planner/files/exchange/text.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/nouns/arena/stand_in.h"
 #include "planner/model/nouns/arena/walk.h"

@@ -4,8 +4,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "planner/files/exchange/common/ratio.h"
+#include "planner/files/exchange/common/text.h"
 #include "planner/files/exchange/iso14649/deviations_internal.h"
-#include "planner/files/exchange/text.h"
 #include "planner/ground/base/number.h"
 #include "planner/model/nouns/all.h"
 
@@ -200,22 +201,6 @@ void check_zeros(Reading& r) {
 }
 
 }  // namespace
-
-namespace {
-
-constexpr double kSurelyPercent = 10.0;  // default, unsourced: below, a length in mm may be meant
-bool may_exceed_one(std::string_view attribute) { return attribute == "feed_on_retract"; }
-
-}  // namespace
-
-bool beyond_ratio(std::string_view attribute, double value) {
-  return value > (may_exceed_one(attribute) ? kSurelyPercent : 1.0);
-}
-
-bool is_percent(std::string_view attribute, double value) {
-  return value <= (may_exceed_one(attribute) ? 1000.0 : 100.0) &&
-         (value >= kSurelyPercent || attribute != "overlap");
-}
 
 void find_deviations(Reading& r) {
   check_angles(r);

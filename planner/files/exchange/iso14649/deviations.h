@@ -37,8 +37,4 @@ struct Suspicion {
 /// All of them, in the ledger's order; also of a plan that was written and read again.
 [[nodiscard]] std::vector<Suspicion> suspicions(const model::Plan& plan);
 
-/// Whether a ratio attribute's value is beyond what a ratio can be, and whether percent must be meant then.
-[[nodiscard]] bool beyond_ratio(std::string_view attribute, double value);
-[[nodiscard]] bool is_percent(std::string_view attribute, double value);
-
 }  // namespace capstan::exchange

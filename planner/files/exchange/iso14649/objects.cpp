@@ -1,11 +1,11 @@
 #include <cmath>
 #include <limits>
 
+#include "planner/files/exchange/common/text.h"
 #include "planner/files/exchange/iso14649/beyond.h"
 #include "planner/files/exchange/iso14649/convert.h"
 #include "planner/files/exchange/iso14649/dialect.h"
 #include "planner/files/exchange/iso14649/reading.h"
-#include "planner/files/exchange/text.h"
 #include "planner/model/nouns/all.h"
 
 namespace capstan::exchange {

@@ -1,13 +1,13 @@
 #include <algorithm>
 
-#include "planner/files/exchange/exchange.h"
+#include "planner/files/exchange/common/open_decisions.h"
+#include "planner/files/exchange/common/sections.h"
 #include "planner/files/exchange/iso14649/deviations.h"
+#include "planner/files/exchange/iso14649/iso14649.h"
 #include "planner/files/exchange/iso14649/reading.h"
 #include "planner/files/exchange/iso14649/records.h"
-#include "planner/files/exchange/opening.h"
-#include "planner/files/exchange/records.h"
-#include "planner/files/exchange/seal.h"
-#include "planner/files/exchange/sections.h"
+#include "planner/files/exchange/records/records.h"
+#include "planner/files/exchange/records/seal.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/nouns/arena/walk.h"
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "planner/files/exchange/meaning.h"
-#include "planner/files/exchange/report.h"
+#include "planner/files/exchange/common/noun_faults.h"
+#include "planner/files/exchange/common/report.h"
 #include "planner/files/p21/file.h"
 #include "planner/model/plan/plan.h"
 

@@ -8,9 +8,9 @@
 
 namespace capstan::exchange {
 
-/// Restores what user-defined header entities say (planner/files/exchange/records.h). A decision whose value
-/// was edited since is dropped (and thereby *given*), with a note; unknown user-defined entities are noted
-/// and dropped.
+/// Restores what user-defined header entities say (planner/files/exchange/records/records.h). A decision
+/// whose value was edited since is dropped (and thereby *given*), with a note; unknown user-defined entities
+/// are noted and dropped.
 void read_records(Reading& reading);
 
 /// The header entities for the plan, one per line, in a stable order. `number_of` gives an object's instance

@@ -1,10 +1,10 @@
 #include <charconv>
 
-#include "planner/files/exchange/exact_paths.h"
 #include "planner/files/exchange/iso14649/beyond.h"
 #include "planner/files/exchange/iso14649/records.h"
-#include "planner/files/exchange/records.h"
-#include "planner/files/exchange/seal.h"
+#include "planner/files/exchange/records/exact_paths.h"
+#include "planner/files/exchange/records/records.h"
+#include "planner/files/exchange/records/seal.h"
 
 namespace capstan::exchange {
 

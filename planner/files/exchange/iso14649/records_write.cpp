@@ -1,7 +1,7 @@
 #include <map>
 
 #include "planner/files/exchange/iso14649/records.h"
-#include "planner/files/exchange/records.h"
+#include "planner/files/exchange/records/records.h"
 #include "planner/files/p21/print.h"
 #include "planner/ground/base/number.h"
 

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "planner/making/optimise/cut/limits.h"
-#include "planner/physics/mechanics/life.h"
+#include "planner/physics/mechanics/life/life.h"
 
 namespace capstan::optimise {
 namespace {

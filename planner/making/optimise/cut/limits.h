@@ -7,8 +7,8 @@
 #include <string_view>
 
 #include "planner/making/optimise/cut.h"
-#include "planner/physics/mechanics/force_law.h"
-#include "planner/physics/mechanics/section.h"
+#include "planner/physics/mechanics/force/force_law.h"
+#include "planner/physics/mechanics/loads/section.h"
 #include "planner/physics/mechanics/spindle.h"
 
 /// The limits of a cut: what they are called, and how near to each a cut comes. Of this room.

@@ -3,12 +3,12 @@
 #include <numbers>
 
 #include "planner/making/optimise/cut/limits.h"
-#include "planner/physics/mechanics/beam.h"
+#include "planner/physics/mechanics/bending/beam.h"
 #include "planner/physics/mechanics/constants.h"
-#include "planner/physics/mechanics/drilling.h"
-#include "planner/physics/mechanics/force_law.h"
-#include "planner/physics/mechanics/loads.h"
-#include "planner/physics/mechanics/section.h"
+#include "planner/physics/mechanics/force/drilling.h"
+#include "planner/physics/mechanics/force/force_law.h"
+#include "planner/physics/mechanics/loads/loads.h"
+#include "planner/physics/mechanics/loads/section.h"
 #include "planner/physics/mechanics/surface.h"
 
 namespace capstan::optimise {

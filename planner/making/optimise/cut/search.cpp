@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "planner/physics/mechanics/immersion.h"
+#include "planner/physics/mechanics/force/immersion.h"
 
 namespace capstan::optimise {
 namespace {

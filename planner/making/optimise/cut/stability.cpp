@@ -9,7 +9,7 @@
 
 #include "planner/making/optimise/cut/limits.h"
 #include "planner/physics/mechanics/constants.h"
-#include "planner/physics/mechanics/force_law.h"
+#include "planner/physics/mechanics/force/force_law.h"
 #include "planner/physics/mechanics/stability.h"
 
 namespace capstan::optimise {

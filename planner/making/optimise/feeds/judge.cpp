@@ -8,8 +8,8 @@
 
 #include "planner/making/optimise/cut/limits.h"
 #include "planner/physics/mechanics/constants.h"
-#include "planner/physics/mechanics/drilling.h"
-#include "planner/physics/mechanics/force_law.h"
+#include "planner/physics/mechanics/force/drilling.h"
+#include "planner/physics/mechanics/force/force_law.h"
 #include "planner/physics/mechanics/surface.h"
 
 namespace capstan::optimise::feed {

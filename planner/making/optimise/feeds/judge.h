@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "planner/making/optimise/feeds.h"
-#include "planner/physics/mechanics/beam.h"
-#include "planner/physics/mechanics/section.h"
+#include "planner/physics/mechanics/bending/beam.h"
+#include "planner/physics/mechanics/loads/section.h"
 
 /// What one section bears: loads against limits at a feed. No cache here, no path.
 namespace capstan::optimise::feed {

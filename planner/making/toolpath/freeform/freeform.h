@@ -7,7 +7,7 @@
 #include "planner/ground/base/result.h"
 #include "planner/ground/geometry/mesh.h"
 #include "planner/ground/geometry/region.h"
-#include "planner/model/plan/cutter.h"
+#include "planner/model/plan/cutter/cutter.h"
 #include "planner/model/plan/cutter_path.h"
 #include "planner/physics/stock/height_map.h"
 

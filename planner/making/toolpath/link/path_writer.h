@@ -3,7 +3,7 @@
 #include <string>
 
 #include "planner/making/toolpath/path_job.h"
-#include "planner/making/toolpath/region/track.h"
+#include "planner/making/toolpath/region/area/track.h"
 
 namespace capstan::toolpath {
 

@@ -2,9 +2,9 @@
 #include <cmath>
 
 #include "planner/ground/base/number.h"
+#include "planner/making/toolpath/region/area/rest.h"
 #include "planner/making/toolpath/region/patterns.h"
 #include "planner/making/toolpath/region/region_paths.h"
-#include "planner/making/toolpath/region/rest.h"
 
 namespace capstan::toolpath {
 

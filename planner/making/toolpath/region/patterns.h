@@ -1,6 +1,6 @@
 #pragma once
 
-#include "planner/making/toolpath/region/level.h"
+#include "planner/making/toolpath/region/area/level.h"
 
 namespace capstan::toolpath {
 

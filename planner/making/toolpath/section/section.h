@@ -5,7 +5,7 @@
 #include "planner/ground/base/result.h"
 #include "planner/ground/geometry/vec.h"
 #include "planner/model/features/shape.h"
-#include "planner/model/plan/cutter.h"
+#include "planner/model/plan/cutter/cutter.h"
 
 namespace capstan::toolpath {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/making/toolpath/region/inside.h"
+#include "planner/making/toolpath/region/area/inside.h"
 
 namespace capstan::toolpath {
 

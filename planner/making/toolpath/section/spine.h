@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "planner/making/toolpath/path_job.h"
-#include "planner/making/toolpath/region/track.h"
-#include "planner/making/toolpath/region/work_area.h"
+#include "planner/making/toolpath/region/area/track.h"
+#include "planner/making/toolpath/region/area/work_area.h"
 
 namespace capstan::toolpath {
 

@@ -313,13 +313,6 @@ Result<Shapes> any(const Model& m, AnyRef feature, const Within& in) {
 
 }  // namespace shape
 
-std::string_view to_text(ShapeKind k) {
-  constexpr std::array<std::string_view, 13> kNames = {
-      "face",       "pocket", "slot",          "step",        "hole",     "outside", "chamfer",
-      "edge_round", "thread", "spherical_cap", "rounded_end", "freeform", "toolpath"};
-  return kNames.at(static_cast<std::size_t>(k));
-}
-
 Result<std::vector<FeatureShape>> shapes_of(const Model& model, Ref<ManufacturingFeature> feature) {
   shape::Piece piece(model);
   const shape::Within workpiece{{}, {}, 0, false, &piece};

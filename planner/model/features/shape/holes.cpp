@@ -2,6 +2,7 @@
 #include <numbers>
 
 #include "planner/ground/base/number.h"
+#include "planner/ground/vocabulary/unit_factors.h"
 #include "planner/model/features/resolve.h"
 #include "planner/model/features/shape/build.h"
 #include "planner/model/nouns/geometric_item.h"
@@ -108,7 +109,7 @@ Result<Shapes> thread(const Model& m, AnyRef self, const Thread& f, const Within
   // number_of_threads counts them per unit of length, which the parameter names.
   const std::string unit = n->its_parameter_unit.value_or("");
   const bool per_inch = unit.find("in") != std::string::npos || unit.find("IN") != std::string::npos;
-  s.thread_pitch_mm = (per_inch ? 25.4 : 1.0) / *n->its_parameter_value;
+  s.thread_pitch_mm = (per_inch ? kMmPerInch : 1.0) / *n->its_parameter_value;
   s.thread_depth_mm = s.depth_mm;
   if (const auto* part = m.get<PartialAreaDefinition>(f.partial_profile)) {
     s.thread_depth_mm = part->effective_length.value_or(s.depth_mm);

@@ -25,7 +25,7 @@ ObjectKind object_kind(TypeId type) {
 #define CAPSTAN_NOUN(T) \
   case TypeId::k##T:    \
     return kind_of<T>();
-#include "planner/model/nouns/list.inc"
+#include "planner/ground/vocabulary/noun_kinds.inc"
 #undef CAPSTAN_NOUN
     case TypeId::kKeptInstance:
       return kind_of<KeptInstance>();

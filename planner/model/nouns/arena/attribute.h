@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "planner/model/nouns/arena/type_id.h"
+#include "planner/ground/vocabulary/noun_kind.h"
 
 namespace capstan::model {
 

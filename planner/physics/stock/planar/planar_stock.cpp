@@ -21,8 +21,6 @@ constexpr double kMostTiles = 1e6;
 constexpr double kTilesAlong = 48.0;  // default, from the planar benchmark's pocket of 60 mm
 constexpr double kLeastTile = 1.0;    // mm
 
-bool is_arc(MoveKind k) { return k == MoveKind::kArcCw || k == MoveKind::kArcCcw; }
-
 bool finite(Vec3 p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
 /// Rectangle around everything that a trail covers.

@@ -1,4 +1,4 @@
-#include "planner/model/plan/positions.h"
+#include "planner/model/plan/range/positions.h"
 #include "planner/proof/verify/plan/plan_checks.h"
 #include "planner/proof/verify/sweep/sweep.h"
 #include "planner/proof/verify/verify.h"

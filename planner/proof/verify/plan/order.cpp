@@ -5,7 +5,7 @@
 #include "planner/ground/geometry/region.h"
 #include "planner/model/nouns/all.h"
 #include "planner/proof/verify/plan/plan_checks.h"
-#include "planner/proof/verify/sweep/target.h"
+#include "planner/proof/verify/sweep/target/target.h"
 
 namespace capstan::verify {
 

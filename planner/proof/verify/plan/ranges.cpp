@@ -1,13 +1,13 @@
 #include <cmath>
 #include <set>
 
-#include "planner/model/plan/cutter_faults.h"
-#include "planner/model/plan/ranges.h"
+#include "planner/model/plan/cutter/cutter_faults.h"
+#include "planner/model/plan/range/ranges.h"
 #include "planner/proof/verify/plan/plan_checks.h"
 
 // Values that a plan's file states, against what they can be at all. A plan may come back from somebody's
 // editor: a specific force below zero, or an efficiency of nothing, makes every limit that is computed with
-// it hold. The ranges are those that readers of data files ask (model/plan/ranges.h).
+// it hold. The ranges are those that readers of data files ask (model/plan/range/ranges.h).
 
 namespace capstan::verify {
 namespace {

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <map>
 
-#include "planner/model/plan/table_offsets.h"
+#include "planner/model/plan/cutter/table_offsets.h"
 #include "planner/proof/verify/plan/plan_checks.h"
 
 namespace capstan::verify {

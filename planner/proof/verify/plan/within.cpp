@@ -5,7 +5,7 @@
 #include "planner/model/features/raw_piece.h"
 #include "planner/model/nouns/all.h"
 #include "planner/proof/verify/plan/plan_checks.h"
-#include "planner/proof/verify/sweep/target.h"
+#include "planner/proof/verify/sweep/target/target.h"
 
 // Planned features against the raw piece, and holes against each other.
 

@@ -7,8 +7,8 @@
 #include "planner/proof/verify/findings.h"
 #include "planner/proof/verify/moves.h"
 #include "planner/proof/verify/plan/plan_checks.h"
-#include "planner/proof/verify/program/reader.h"
-#include "planner/proof/verify/program/tool_table.h"
+#include "planner/proof/verify/program/linuxcnc/reader.h"
+#include "planner/proof/verify/program/linuxcnc/tool_table.h"
 #include "planner/proof/verify/verify.h"
 
 namespace capstan::verify {

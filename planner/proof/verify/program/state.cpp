@@ -3,7 +3,7 @@
 #include <set>
 
 #include "planner/ground/base/file.h"
-#include "planner/model/plan/table_offsets.h"
+#include "planner/model/plan/cutter/table_offsets.h"
 #include "planner/proof/verify/program/program_checks.h"
 
 namespace capstan::verify {

@@ -3,7 +3,7 @@
 #include <map>
 #include <set>
 
-#include "planner/model/plan/table_offsets.h"
+#include "planner/model/plan/cutter/table_offsets.h"
 #include "planner/proof/verify/program/program_checks.h"
 
 // The tool table against the program, and against the tools as plan or library have them. That a table and a

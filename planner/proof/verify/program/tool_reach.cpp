@@ -2,7 +2,7 @@
 #include <map>
 #include <optional>
 
-#include "planner/model/plan/table_offsets.h"
+#include "planner/model/plan/cutter/table_offsets.h"
 #include "planner/proof/verify/program/program_checks.h"
 
 // Lengths against the program itself. A tool is fed down from a height to which a rapid took it, just above

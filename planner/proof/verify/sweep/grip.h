@@ -2,10 +2,10 @@
 
 #include <vector>
 
-#include "planner/model/plan/workholding.h"
+#include "planner/model/plan/resources/workholding.h"
 #include "planner/proof/verify/findings.h"
 #include "planner/proof/verify/moves.h"
-#include "planner/proof/verify/sweep/grid.h"
+#include "planner/proof/verify/sweep/grid/grid.h"
 
 namespace capstan::verify {
 

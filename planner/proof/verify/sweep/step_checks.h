@@ -6,9 +6,9 @@
 #include "planner/model/plan/plan.h"
 #include "planner/proof/verify/findings.h"
 #include "planner/proof/verify/moves.h"
-#include "planner/proof/verify/sweep/grid.h"
-#include "planner/proof/verify/sweep/past.h"
-#include "planner/proof/verify/sweep/target.h"
+#include "planner/proof/verify/sweep/grid/closer_look.h"
+#include "planner/proof/verify/sweep/grid/grid.h"
+#include "planner/proof/verify/sweep/target/target.h"
 #include "planner/proof/verify/sweep/tool_body.h"
 
 namespace capstan::verify {

@@ -7,8 +7,8 @@
 #include <set>
 
 #include "planner/model/nouns/all.h"
-#include "planner/proof/verify/sweep/carry.h"
 #include "planner/proof/verify/sweep/fixtures.h"
+#include "planner/proof/verify/sweep/grid/carry.h"
 #include "planner/proof/verify/sweep/grip.h"
 #include "planner/proof/verify/sweep/step_checks.h"
 #include "planner/proof/verify/verify.h"

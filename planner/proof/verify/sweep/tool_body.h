@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "planner/model/plan/cutter.h"
+#include "planner/model/plan/cutter/cutter.h"
 
 namespace capstan::verify {
 

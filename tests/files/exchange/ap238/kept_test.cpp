@@ -3,8 +3,8 @@
 #include <memory>
 #include <set>
 
-#include "planner/files/p21/parse.h"
-#include "tests/files/exchange/ap238/feature_support.h"
+#include "planner/files/p21/read/parse.h"
+#include "tests/files/exchange/ap238/part/feature_support.h"
 
 namespace capstan::exchange::ap238 {
 namespace {

@@ -1,9 +1,9 @@
-#include "planner/files/exchange/ap238/mapping.h"
+#include "planner/files/exchange/ap238/tables/mapping.h"
 
 #include <array>
 #include <set>
 
-#include "planner/files/exchange/ap238/codecs.h"
+#include "planner/files/exchange/ap238/codecs/codecs.h"
 #include "tests/files/exchange/ap238/support.h"
 
 namespace capstan::exchange::ap238 {

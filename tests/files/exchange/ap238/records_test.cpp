@@ -1,8 +1,8 @@
-#include "planner/files/exchange/records.h"
+#include "planner/files/exchange/records/records.h"
 
 #include <regex>
 
-#include "planner/files/exchange/ap238/addresses.h"
+#include "planner/files/exchange/ap238/tables/addresses.h"
 #include "tests/files/exchange/ap238/support.h"
 #include "tests/files/exchange/support.h"
 

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "planner/files/exchange/embedded.h"
+#include "planner/files/exchange/common/embedded.h"
 #include "tests/files/exchange/conformance/support.h"
 
 namespace capstan::exchange::conformance {

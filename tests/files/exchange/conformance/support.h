@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "planner/files/exchange/conformance/check.h"
-#include "planner/files/p21/parse.h"
+#include "planner/files/p21/read/parse.h"
 
 namespace capstan::exchange::conformance {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "planner/files/exchange/embedded.h"
+#include "planner/files/exchange/common/embedded.h"
 
 namespace capstan::exchange::express {
 namespace {

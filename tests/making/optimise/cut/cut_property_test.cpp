@@ -10,12 +10,12 @@
 
 #include "planner/making/optimise/cut.h"
 #include "planner/physics/mechanics/constants.h"
-#include "planner/physics/mechanics/drilling.h"
-#include "planner/physics/mechanics/force_law.h"
-#include "planner/physics/mechanics/immersion.h"
-#include "planner/physics/mechanics/kienzle.h"
-#include "planner/physics/mechanics/loads.h"
-#include "planner/physics/mechanics/section.h"
+#include "planner/physics/mechanics/force/drilling.h"
+#include "planner/physics/mechanics/force/force_law.h"
+#include "planner/physics/mechanics/force/immersion.h"
+#include "planner/physics/mechanics/force/kienzle.h"
+#include "planner/physics/mechanics/loads/loads.h"
+#include "planner/physics/mechanics/loads/section.h"
 #include "planner/physics/mechanics/spindle.h"
 #include "tests/making/optimise/cut/questions.h"
 

@@ -11,7 +11,7 @@
 #include "planner/making/optimise/cut/stability.h"
 #include "planner/making/optimise/solver/ipopt_backend.h"
 #include "planner/physics/mechanics/constants.h"
-#include "planner/physics/mechanics/force_law.h"
+#include "planner/physics/mechanics/force/force_law.h"
 #include "planner/physics/mechanics/stability.h"
 #include "tests/making/optimise/cut/questions.h"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "planner/physics/mechanics/immersion.h"
+#include "planner/physics/mechanics/force/immersion.h"
 #include "planner/physics/motion/time.h"
 #include "tests/making/optimise/feeds/examples.h"
 

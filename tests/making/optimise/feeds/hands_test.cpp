@@ -7,11 +7,11 @@
 #include <numbers>
 
 #include "planner/making/optimise/feeds.h"
-#include "planner/physics/mechanics/beam.h"
+#include "planner/physics/mechanics/bending/beam.h"
 #include "planner/physics/mechanics/constants.h"
-#include "planner/physics/mechanics/force_law.h"
-#include "planner/physics/mechanics/kienzle.h"
-#include "planner/physics/mechanics/section.h"
+#include "planner/physics/mechanics/force/force_law.h"
+#include "planner/physics/mechanics/force/kienzle.h"
+#include "planner/physics/mechanics/loads/section.h"
 #include "tests/making/optimise/cut/questions.h"
 #include "tests/making/optimise/feeds/examples.h"
 

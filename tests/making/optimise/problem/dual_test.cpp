@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "planner/making/optimise/problem/problem.h"
-#include "planner/physics/mechanics/immersion.h"
-#include "planner/physics/mechanics/kienzle.h"
+#include "planner/physics/mechanics/force/immersion.h"
+#include "planner/physics/mechanics/force/kienzle.h"
 
 namespace capstan::optimise {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "planner/making/optimise/solver/ipopt_backend.h"
 #include "planner/making/optimise/solver/solver.h"
-#include "planner/physics/mechanics/immersion.h"
+#include "planner/physics/mechanics/force/immersion.h"
 #include "tests/making/optimise/examples.h"
 
 namespace capstan::optimise {

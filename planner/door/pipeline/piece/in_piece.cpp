@@ -1,0 +1,109 @@
+#include "planner/model/features/in_piece.h"
+
+#include <algorithm>
+
+#include "planner/door/pipeline/step/steps.h"
+#include "planner/ground/base/number.h"
+#include "planner/model/nouns/feature.h"
+
+// Features that the raw piece does not let be made as they are drawn.
+
+namespace capstan::pipeline {
+namespace {
+
+using model::FeatureShape;
+using model::ShapeKind;
+
+constexpr double kNoRadius = 1e300;
+constexpr std::ptrdiff_t kMostNamed = 4;  // corners that a message names
+
+model::PieceForm raw_piece(const Work& w) { return {w.plan.stock.box, w.plan.stock.cylinder_radius_mm}; }
+
+model::PieceForm part_form(const Work& w) { return {part_box(w), w.plan.stock.cylinder_radius_mm}; }
+
+/// What can state no radius of its inside corners, and a closed pocket for which the file states none.
+bool states_no_corner(const Work& w, const FeatureShape& s) {
+  if (s.kind == ShapeKind::kStep || s.kind == ShapeKind::kOutside || model::stops_at_walls(s)) return true;
+  if (s.kind != ShapeKind::kPocket || s.open || s.corner_radius_mm > 0.0) return false;
+  const auto* p = w.plan.model.get<model::Pocket>(s.made_of.empty() ? s.feature : s.made_of.back());
+  return p != nullptr && !p->orthogonal_radius.set();
+}
+
+}  // namespace
+
+std::string not_in_piece(const Work& w, const FeatureShape& s) {
+  const model::PieceForm part = part_form(w);
+  // Of a part that is given as a mesh the features are not all; what the nouns say of their ends holds there,
+  // too.
+  if (w.plan.target_mesh) return model::square_corner(w.plan.model, s, w.whole_shapes, part, true);
+  if (const std::string through = model::point_runs_through(s, raw_piece(w), part); !through.empty())
+    return through;
+  if (const std::string floor = model::floor_below_part(s, raw_piece(w), part); !floor.empty()) return floor;
+  if (model::buried(s, {}, part)) {
+    if (const auto lid = model::buried(s, w.whole_shapes, part))
+      return "solid stands above it: " + model::to_text(*lid);
+  }
+  return model::square_corner(w.plan.model, s, w.whole_shapes, part);
+}
+
+double sharp_corner_of(const Work& w, const FeatureShape& s) {
+  if (w.plan.target_mesh || !states_no_corner(w, s)) return 0.0;
+  return model::sharp_corners(s, w.whole_shapes, part_form(w)).empty() ? 0.0 : model::unstated_corner_mm(s);
+}
+
+void tell_corners(Work& w) {
+  if (w.plan.target_mesh) return tell_mesh_corners(w);
+  const model::PieceForm part = part_form(w);
+  for (const FeatureShape& s : w.whole_shapes) {
+    const bool open = s.kind == ShapeKind::kPocket && s.open && !(s.corner_radius_mm > 0.0);
+    if (!open && !states_no_corner(w, s)) continue;
+    double radius = kNoRadius;
+    for (const model::StepResult& made : w.plan.steps) {
+      const auto* ws = w.plan.model.get<model::MachiningWorkingstep>(made.step);
+      const model::Cutter* c = nullptr;
+      for (const StepWork& step : w.steps) {
+        const bool of_it = !step.shapes.empty() && step.shapes.front().feature == s.feature &&
+                           step.shapes.front().member == s.member;
+        if (step.step == made.step && of_it) c = &step.cutter;
+      }
+      if (ws == nullptr || c == nullptr) continue;
+      if (!w.plan.model.holds<model::MillingTypeOperation>(ws->its_operation)) continue;
+      radius = std::min(radius, 0.5 * c->cutting_diameter_mm);
+    }
+    if (radius >= kNoRadius) continue;
+    const auto corners = model::sharp_corners(s, w.whole_shapes, part);
+    if (corners.empty()) continue;
+    std::string where;
+    for (const model::SharpCorner& c : corners) {
+      if (&c - corners.data() == kMostNamed) {
+        where += ", and " + std::to_string(corners.size() - kMostNamed) + " more";
+        break;
+      }
+      where += (where.empty() ? "" : ", ") + std::string("(") + trimmed(c.at.x, 2) + ", " +
+               trimmed(c.at.y, 2) + ", " + trimmed(c.at.z, 2) + ")";
+    }
+    w.job.warn("PIP-CORNER",
+               "feature '" + s.name +
+                   "': " + (corners.size() == 1 ? "its inner corner at " : "its inner corners at ") + where +
+                   (corners.size() == 1 ? " is" : " are") + " drawn sharp, and a radius of " +
+                   trimmed(radius, 3) +
+                   " mm, that of the narrowest mill, stays; it needs broaching or erosion if it "
+                   "must be sharp");
+  }
+}
+
+model::Proposal without_drills_at_edges(const Work& w, const FeatureShape& hole, const model::Proposal& p) {
+  model::Proposal out = p;
+  const std::string why = model::cuts_an_edge(hole, raw_piece(w));
+  if (why.empty()) return out;
+  std::erase_if(out.chains, [](const std::vector<model::ProposedStep>& chain) {
+    return std::any_of(chain.begin(), chain.end(), [](const model::ProposedStep& s) {
+      return model::is_a(s.operation, model::TypeId::kDrillingTypeOperation);
+    });
+  });
+  if (out.chains.size() < p.chains.size())
+    out.rejected.push_back({"drilling at an edge", why + "; mill it, move it, or give a larger raw piece"});
+  return out;
+}
+
+}  // namespace capstan::pipeline

@@ -1,0 +1,317 @@
+#include <algorithm>
+#include <cmath>
+
+#include "casebase/casebase.h"
+#include "planner/door/pipeline/step/steps.h"
+#include "planner/ground/base/number.h"
+#include "planner/making/toolpath/hole/hole_paths.h"
+#include "planner/making/toolpath/region/form/undercut.h"
+#include "planner/model/features/raw_piece.h"
+#include "planner/physics/mechanics/stability.h"
+#include "tooling/selection/select.h"
+
+// The question that the optimiser is asked for a step, from nouns and geometry.
+
+namespace capstan::pipeline {
+namespace {
+
+using model::Model;
+using model::ShapeKind;
+using model::TypeId;
+using optimise::CutKind;
+
+/// Share of a tolerance zone that bending of the tool may use in finishing. Default, unsourced.
+constexpr double kDeflectionShare = 0.25;
+constexpr double kFinishDeflection = 0.02;  // mm, where no tolerance is stated; default, unsourced
+constexpr double kLeastDeflection = 0.004;  // mm; below, the model's own error rules
+/// Height of the terraces that roughing of a surface leaves, in diameters, at most. Default, unsourced.
+constexpr double kTerraceShare = 0.25;
+/// A slot no wider than its cutter by this is cut at its full width. Default, unsourced.
+constexpr double kAsWide = 1.02;
+
+CutKind kind_of(const Model& m, AnyRef op, const model::Cutter& c) {
+  if (m.holds<model::Tapping>(op)) return CutKind::kTap;
+  if (c.cutter_class == model::CutterClass::kThreadMill) return CutKind::kFinish;
+  if (m.holds<model::Reaming>(op)) return CutKind::kReam;
+  if (m.holds<model::DrillingTypeOperation>(op)) {
+    const bool mills = c.cutter_class == model::CutterClass::kEndmill ||
+                       c.cutter_class == model::CutterClass::kBullnoseEndmill;
+    return mills && m.holds<model::ThreadDrilling>(op) ? CutKind::kRough : CutKind::kDrill;
+  }
+  if (m.holds<model::SideFinishMilling>(op) || m.holds<model::BottomAndSideFinishMilling>(op) ||
+      m.holds<model::FreeformFinishMilling>(op)) {
+    return CutKind::kFinish;
+  }
+  return CutKind::kRough;
+}
+
+double tolerance_of(const Work& w, const StepWork& step, const model::FeatureShape& s) {
+  double width = 0.0;
+  for (const auto& t : {s.width, s.length, s.diameter}) {
+    if (t.given && t.width() > 0.0) width = width > 0.0 ? std::min(width, t.width()) : t.width();
+  }
+  if (width > 0.0) return width;
+  if (const auto* f = w.plan.model.get<model::ManufacturingFeature>(step.feature)) {
+    if (const auto* piece = w.plan.model.get<model::Workpiece>(f->its_workpiece)) {
+      return 2.0 * model::global_tolerance_of(*piece).value_or(0.0);
+    }
+  }
+  return 0.0;
+}
+
+/// What is asked of the surfaces that a finishing step leaves; a step that leaves material is asked nothing.
+///
+/// Where the wall's own error can be told, it is what the tolerance is shared with, and the tip's bending
+/// keeps to what runs quietly: most of it is along the wall, or while no tooth is at it.
+void hold_quality(const Work& w, const StepWork& step, const toolpath::PathJob& job,
+                  optimise::CutQuestion& q) {
+  const Model& m = w.plan.model;
+  const bool floor = job.allowance_bottom_mm > 0.0;
+  const bool wall = job.allowance_side_mm > 0.0;
+  const bool finishes = m.holds<model::PlaneFinishMilling>(step.operation) ||
+                        m.holds<model::SideFinishMilling>(step.operation) ||
+                        m.holds<model::BottomAndSideFinishMilling>(step.operation) ||
+                        m.holds<model::FreeformFinishMilling>(step.operation);
+  const auto asked = w.qualities.find(step.feature);
+  if (finishes && !(floor && wall) && asked != w.qualities.end())
+    q.surface_ra_um = asked->second.ra_um.value_or(0.0);
+  const bool upright = step.cutter.cutter_class == model::CutterClass::kEndmill ||
+                       step.cutter.cutter_class == model::CutterClass::kBullnoseEndmill;
+  if (q.kind != CutKind::kFinish || wall || !upright || m.holds<model::FreeformFinishMilling>(step.operation))
+    return;
+  q.wall_error_limit_mm = q.deflection_limit_mm;
+  q.deflection_limit_mm = std::max(q.deflection_limit_mm, mechanics::kQuietDeflectionMm);
+}
+
+/// The widest cut that the feature offers: a slot's width, a pocket's narrower side.
+double width_of(const model::FeatureShape& s) {
+  if (s.kind == ShapeKind::kHole || s.kind == ShapeKind::kThread) return s.diameter.nominal_mm;
+  if (s.kind == ShapeKind::kSlot) {
+    double half = 0.5 * s.width.nominal_mm;
+    for (const geometry::Vec2 p : s.slot_profile) half = std::max(half, p.y);
+    return 2.0 * half;
+  }
+  if (s.area.empty()) return 0.0;
+  const auto b = geometry::bounds(s.area);
+  return std::min(b.hi.x - b.lo.x, b.hi.y - b.lo.y);
+}
+
+/// Whether the feature's walls stand on both sides of the cutter.
+bool narrow(const model::FeatureShape& s) {
+  return s.kind == ShapeKind::kPocket || s.kind == ShapeKind::kSlot || s.kind == ShapeKind::kHole;
+}
+
+/// How wide a cone cuts at its depth: 2 t tan(SIG / 2), plus its flat tip; 0 when all of the cutter does.
+double engaged(TypeId operation, const model::Cutter& c, std::optional<double> depth_mm) {
+  const bool cone =
+      model::is_a(operation, TypeId::kCenterDrilling) || model::is_a(operation, TypeId::kCounterSinking);
+  if (!cone || !depth_mm || !(c.point_angle_rad > 0.0)) return 0.0;
+  return c.tip_diameter_mm + 2.0 * *depth_mm * std::tan(0.5 * c.point_angle_rad);
+}
+
+AnyRef technology_of(const Work& w, const StepWork& step) {
+  const auto* op = w.plan.model.get<model::MachiningOperation>(step.operation);
+  return op != nullptr ? AnyRef(op->its_technology) : AnyRef{};
+}
+
+bool override_locked(const Work& w, const StepWork& step) {
+  const auto* t = w.plan.model.get<model::MillingTechnology>(technology_of(w, step));
+  return (step.proposed && step.proposal.lock_override) ||
+         (t != nullptr && t->inhibit_feedrate_override.value_or(false));
+}
+
+/// Whether planning chose the feed that stands there, now or when the plan was made: then it keeps the same
+/// margins when it is planned again. A feed that somebody edited since is theirs.
+bool feed_by_planning(const Work& w, const StepWork& step) {
+  const AnyRef technology = technology_of(w, step);
+  if (!technology.set()) return false;
+  for (const char* name : {"feedrate", "feedrate_per_tooth"}) {
+    const auto* d = w.plan.ledger.find(technology, name);
+    if (d != nullptr && d->state == model::DecisionState::kBound && d->binder != model::Binder::kGiven &&
+        d->binder != model::Binder::kOperator)
+      return true;
+  }
+  return false;
+}
+
+/// Cuts under an overhang are not measured along the path: asked for with the head's full height and half the
+/// start feed, for the chips cannot leave upwards (the half is a default, unsourced). Where the mouth was
+/// milled before, what is cut beside it: both edges of the head at once in the middle, less when it moves
+/// aside. Else a slot of the head's diameter.
+void under_an_overhang(optimise::CutQuestion& q, const toolpath::PathJob& job) {
+  constexpr double kFeedShare = 0.5;
+  const model::Cutter& c = job.cutter;
+  const double d = c.cutting_diameter_mm;
+  q.kind = CutKind::kRough;
+  q.slot = true;
+  q.ap_mm = c.cutting_width_mm > 0.0 ? c.cutting_width_mm : c.maximum_depth_of_cut_mm;
+  q.depth_mm = *q.ap_mm;
+  q.ae_mm = q.width_mm = d;
+  q.fz_start_mm *= kFeedShare;
+  const auto u = toolpath::undercut_of(job.shape);
+  if (!u || u->flank_rad > 0.0 || !job.left_on_side_mm) return;
+  q.slot = false;
+  q.ae_mm = q.width_mm = toolpath::undercut_width_mm(job, *u);
+  // Where the head moves aside, a last thin pass makes the walls: the others may bend it as roughing may.
+  if (u->widest_mm - job.allowance_side_mm - 0.5 * d > toolpath::kLastSide) q.deflection_limit_mm = 0.0;
+}
+
+}  // namespace
+
+optimise::CutQuestion hole_question(const Work& w, const model::ProposedStep& step,
+                                    const model::Candidate& c) {
+  optimise::CutQuestion q;
+  q.cutter = c.cutter;
+  q.material = w.plan.material;
+  q.machine = w.plan.machine;
+  q.margin_deviations = w.margin.deviations;
+  q.kind = model::is_a(step.operation, TypeId::kTapping)   ? CutKind::kTap
+           : model::is_a(step.operation, TypeId::kReaming) ? CutKind::kReam
+                                                           : CutKind::kDrill;
+  q.vc_start_m_min = c.vc_m_min;
+  q.fz_start_mm = c.fz_mm;
+  q.pre_hole_mm = step.start_diameter_mm;
+  q.least_feed_ratio = optimise::kLeastDrillFeed;
+  q.override_locked = step.lock_override;
+  q.engaged_diameter_mm = engaged(step.operation, c.cutter, step.depth_mm);
+  return q;
+}
+
+optimise::CutQuestion question_of(const Work& w, const StepWork& step, const model::Candidate* candidate,
+                                  const toolpath::PathJob& job) {
+  const Model& m = w.plan.model;
+  optimise::CutQuestion q;
+  q.cutter = step.cutter;
+  q.material = w.plan.material;
+  q.machine = w.plan.machine;
+  q.margin_deviations = w.margin.deviations;
+  q.kind = kind_of(m, step.operation, step.cutter);
+  q.aim = w.inputs.objective == Objective::kTime   ? optimise::Aim::kTime
+          : w.inputs.objective == Objective::kCost ? optimise::Aim::kCost
+                                                   : optimise::Aim::kProfit;
+  q.earning_per_min = w.earning_per_min;
+  const auto start = tooling::start_values(step.cutter, w.plan.material, w.plan.machine);
+  q.vc_table_m_min = start.wanted_vc_m_min;
+  if (candidate != nullptr) {
+    q.vc_start_m_min = candidate->vc_m_min;
+    q.fz_start_mm = candidate->fz_mm;
+  } else {
+    q.vc_start_m_min = start.vc_m_min;
+    q.fz_start_mm = start.fz_mm;
+  }
+  const double bottom = job.feature_in_setup.origin.z - job.shape.depth_mm + job.allowance_bottom_mm;
+  q.depth_mm = std::max(0.0, job.start_z_mm - bottom);
+  q.width_mm = width_of(job.shape);
+  q.slot = narrow(job.shape) && q.width_mm > 0.0 && q.width_mm <= kAsWide * step.cutter.cutting_diameter_mm;
+  q.pre_hole_mm = job.previous_diameter_mm.value_or(0.0);
+  q.engaged_diameter_mm = engaged(step.operation.type, step.cutter, job.cutting_depth_mm);
+  const double d = step.cutter.cutting_diameter_mm;
+  if (job.axial_depth_mm > 0.0) q.ap_mm = job.axial_depth_mm;
+  // What a level leaves standing on a slope is cut by the finishing pass.
+  if (m.holds<model::FreeformOperation>(step.operation) && q.kind == CutKind::kRough)
+    q.ap_most_mm = kTerraceShare * d;
+  // Across the floor a finishing pass steps as given; what it takes from the wall is what roughing left.
+  const bool rough = q.kind != CutKind::kFinish;
+  if (rough && job.radial_depth_mm > 0.0) {
+    q.ae_mm = job.radial_depth_mm;
+  } else if (rough && job.overlap && !step.proposed) {
+    q.ae_mm = std::max(0.0, 1.0 - *job.overlap) * d;
+  }
+  if (m.holds<model::PlaneMilling>(step.operation)) q.deflection_limit_mm = optimise::kFaceDeflectionMm;
+  if (q.kind == CutKind::kFinish) {
+    // What the step before left on the walls; nothing known: the usual finishing allowance.
+    q.width_mm = std::max(0.05, job.left_on_side_mm.value_or(0.5) - job.allowance_side_mm);
+    const double zone = tolerance_of(w, step, job.shape);
+    q.deflection_limit_mm =
+        zone > 0.0 ? std::max(kLeastDeflection, kDeflectionShare * zone) : kFinishDeflection;
+    // What a semi-finish leaves on the walls takes up what bends: the tolerance is the next step's.
+    if (job.allowance_side_mm > 0.0)
+      q.deflection_limit_mm = std::max(q.deflection_limit_mm, kDeflectionShare * job.allowance_side_mm);
+    // A semi-finish of a surface: what it leaves takes up what bends.
+    if (m.holds<model::FreeformFinishMilling>(step.operation) && job.allowance_bottom_mm > 0.0)
+      q.deflection_limit_mm = std::max(q.deflection_limit_mm, kDeflectionShare * job.allowance_bottom_mm);
+    if (step.cutter.cutter_class == model::CutterClass::kThreadMill) {
+      // Depth of an ISO metric thread's flank, 0.6134 p (ISO 68-1).
+      q.width_mm = 0.6134 * job.shape.thread_pitch_mm;
+      q.ap_mm = std::min(step.cutter.maximum_depth_of_cut_mm, job.shape.thread_pitch_mm);
+    }
+  }
+  // A round slot into the solid, by a ball as wide as it is: no finishing cut, but what bends it tells.
+  if (q.kind == CutKind::kFinish && job.shape.kind == ShapeKind::kSlot && !job.left_on_side_mm &&
+      step.cutter.cutter_class == model::CutterClass::kBallEndmill && width_of(job.shape) <= kAsWide * d) {
+    q.kind = CutKind::kRough;
+    q.slot = true;
+    q.ae_mm = q.width_mm = d;
+  }
+  const bool floor_only =
+      job.multiple_passes.has_value() && !*job.multiple_passes && job.left_on_bottom_mm.value_or(0.0) > 0.0;
+  if (q.kind == CutKind::kFinish && floor_only) {
+    // A floor alone: as wide as a rough pass, as deep as what is left on it.
+    q.kind = CutKind::kRough;
+    q.width_mm = width_of(job.shape);
+    q.depth_mm = std::max(0.0, *job.left_on_bottom_mm - job.allowance_bottom_mm);
+    q.ap_mm = q.depth_mm;
+  } else if (q.kind == CutKind::kFinish && job.cleared_by) {
+    // Between two right-angled corners of radius R and r stand (sqrt 2 - 1)(R - r) at most.
+    q.width_mm += 0.41422 * std::max(0.0, 0.5 * (job.cleared_by->diameter_mm - d));
+    q.width_mm = std::min(q.width_mm, d);
+  }
+  if (step.cutter.cutter_class == model::CutterClass::kTSlotMill ||
+      step.cutter.cutter_class == model::CutterClass::kDovetailMill ||
+      step.cutter.cutter_class == model::CutterClass::kBackCountersink)
+    under_an_overhang(q, job);
+  if (q.slot && job.shape.kind == model::ShapeKind::kHole && toolpath::cuts_from_below(job)) {
+    const auto most = toolpath::back_cut(job);
+    q.slot = false;
+    q.ap_mm = q.depth_mm = most.ap_mm;
+    q.ae_mm = q.width_mm = most.ae_mm;
+  }
+  const bool cone = step.cutter.cutter_class == model::CutterClass::kChamferMill ||
+                    step.cutter.cutter_class == model::CutterClass::kCountersink;
+  // A broken edge: as wide as it is deep.
+  if (cone && q.kind == CutKind::kFinish && q.ap_mm) q.width_mm = std::max(0.05, *q.ap_mm);
+  // A hole's cone, in one cut: as deep and as wide as it is.
+  const double narrowing = job.shape.diameter.nominal_mm - job.shape.bottom_diameter_mm;
+  if (cone && q.kind == CutKind::kFinish && !q.ap_mm && job.shape.kind == ShapeKind::kHole &&
+      narrowing > 0.0) {
+    q.ap_mm = q.depth_mm = job.shape.depth_mm;
+    q.width_mm = 0.5 * narrowing;
+  }
+  hold_quality(w, step, job, q);
+  q.override_locked = override_locked(w, step);
+  const auto given = given_technology(m, step.operation, step.cutter);
+  if ((!step.open_technology || step.keep_speed) && given.rpm) q.n_rpm = std::abs(*given.rpm);
+  if (!step.open_technology) {
+    q.feed_mm_min = given.feed_mm_min;
+    q.feed_by_planning = feed_by_planning(w, step);
+  } else if (step.keep_feed) {
+    const auto* t = m.get<model::MillingTechnology>(technology_of(w, step));
+    if (t->feedrate && *t->feedrate > 0.0) {
+      q.feed_mm_min = t->feedrate;
+    } else {
+      q.fz_mm = t->feedrate_per_tooth;
+    }
+  }
+  return q;
+}
+
+std::optional<model::Reason> start_from_case(const Work& w, const StepWork& step,
+                                             const model::FeatureShape& shape, optimise::CutQuestion& q) {
+  // How far above the table's values a case may start; below there is no such limit. Default, unsourced.
+  constexpr double kCaseReach = 1.25;
+  if (!w.inputs.cases) return std::nullopt;
+  const auto asked = casebase::question_of(step.operation.type, w.plan.material, step.cutter, w.plan.machine,
+                                           casebase::sizes_of(shape));
+  const auto p = w.inputs.cases->recall(asked);
+  if (!p) return std::nullopt;
+  q.vc_start_m_min = std::min(p->vc_m_min, kCaseReach * q.vc_start_m_min);
+  q.fz_start_mm = std::min(p->fz_mm, kCaseReach * q.fz_start_mm);
+  if (q.cutter.fz_max_mm > 0.0) q.fz_start_mm = std::min(q.fz_start_mm, q.cutter.fz_max_mm);
+  return model::Reason{"case." + p->case_id,
+                       "starts from a " + p->provenance + " case at distance " + trimmed(p->distance, 3) +
+                           " (" + std::to_string(p->neighbours) + " near): " + trimmed(p->vc_m_min, 2) +
+                           " m/min, " + trimmed(p->fz_mm, 4) + " mm per tooth",
+                       "case base, " + p->provenance};
+}
+
+}  // namespace capstan::pipeline

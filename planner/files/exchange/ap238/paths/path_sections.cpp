@@ -1,0 +1,119 @@
+#include "planner/files/exchange/ap238/paths/path_sections.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace capstan::exchange::ap238 {
+namespace {
+
+constexpr double kSamePlace = 1e-9;  // mm
+constexpr double kNear = 0.02, kOffsetNear = 0.05;
+
+struct Knot {
+  double at_mm = 0.0;
+  SectionNumbers v{};
+};
+
+/// How far a knot is from the line between two others, in tolerances.
+double off(const Knot& a, const Knot& k, const Knot& b, const SectionNumbers& tolerance) {
+  const double t = b.at_mm > a.at_mm ? (k.at_mm - a.at_mm) / (b.at_mm - a.at_mm) : 0.0;
+  double out = 0.0;
+  for (std::size_t d = 0; d < k.v.size(); ++d) {
+    const double line = a.v[d] + t * (b.v[d] - a.v[d]);
+    if (tolerance[d] > 0.0) out = std::max(out, std::abs(k.v[d] - line) / tolerance[d]);
+  }
+  return out;
+}
+
+/// Which knots have to stay so that lines between them keep to the tolerance (Ramer 1972, Douglas & Peucker
+/// 1973).
+std::vector<bool> kept(const std::vector<Knot>& k, const SectionNumbers& tolerance) {
+  std::vector<bool> out(k.size(), false);
+  out.front() = out.back() = true;
+  std::vector<std::pair<std::size_t, std::size_t>> open = {{0, k.size() - 1}};
+  while (!open.empty()) {
+    const auto [a, b] = open.back();
+    open.pop_back();
+    double worst = 1.0;
+    std::size_t at = a;
+    for (std::size_t i = a + 1; i < b; ++i) {
+      const double d = off(k[a], k[i], k[b], tolerance);
+      if (d > worst) {
+        worst = d;
+        at = i;
+      }
+    }
+    if (at == a) continue;
+    out[at] = true;
+    open.emplace_back(a, at);
+    open.emplace_back(at, b);
+  }
+  return out;
+}
+
+}  // namespace
+
+PathSections::PathSections(const model::SectionSeries* s) : s_(s) {
+  for (std::size_t i = 0; s_ != nullptr && i < s_->size(); ++i) {
+    order_.push_back(i);
+    const SectionNumbers v = numbers(i);
+    const double deep = v[0], wide = v[1], area = v[4];
+    const SectionNumbers near = {kNear * deep, kNear * wide,       kOffsetNear * wide, kOffsetNear * deep,
+                                 kNear * area, kOffsetNear * wide, kOffsetNear * deep};
+    for (std::size_t d = 0; d < near.size(); ++d) tolerance_[d] = std::max(tolerance_[d], near[d]);
+  }
+  std::stable_sort(order_.begin(), order_.end(), [this](std::size_t a, std::size_t b) {
+    return std::pair(s_->move[a], s_->at_mm[a]) < std::pair(s_->move[b], s_->at_mm[b]);
+  });
+}
+
+SectionNumbers PathSections::numbers(std::size_t i) const {
+  return {s_->ad_max_mm[i], s_->rd_max_mm[i],   s_->x_max_ofs_mm[i], s_->y_max_ofs_mm[i],
+          s_->csa_mm2[i],   s_->x_cg_ofs_mm[i], s_->y_cg_ofs_mm[i]};
+}
+
+// A sample stands at the end of its step, which is as long as its volume over its area.
+double PathSections::step_mm(std::size_t i) const {
+  return s_->csa_mm2[i] > 0.0 ? s_->removed_mm3[i] / s_->csa_mm2[i] : 0.0;
+}
+
+SectionNumbers PathSections::at(std::size_t move, double at_mm) const {
+  const auto it = std::lower_bound(
+      order_.begin(), order_.end(), at_mm - kSamePlace,
+      [&](std::size_t i, double v) { return s_->move[i] != move ? s_->move[i] < move : s_->at_mm[i] < v; });
+  if (it == order_.end() || s_->move[*it] != move) return {};
+  const bool here = at_mm >= s_->at_mm[*it] - std::max(step_mm(*it) * (1.0 + 1e-6), kSamePlace);
+  return here ? numbers(*it) : SectionNumbers{};
+}
+
+std::vector<std::pair<double, SectionNumbers>> PathSections::inside(std::size_t move,
+                                                                    double length_mm) const {
+  std::vector<std::pair<double, SectionNumbers>> out;
+  auto it = std::lower_bound(order_.begin(), order_.end(), move,
+                             [this](std::size_t i, std::size_t m) { return s_->move[i] < m; });
+  std::vector<Knot> knots = {{0.0, at(move, 0.0)}};
+  for (; it != order_.end() && s_->move[*it] == move; ++it) {
+    const double end = s_->at_mm[*it], begin = end - step_mm(*it);
+    // Air before a cut is known up to where the cut begins.
+    if (begin > knots.back().at_mm + 1e-6 * length_mm) knots.push_back({begin, {}});
+    if (end > knots.back().at_mm + kSamePlace && end < length_mm - kSamePlace)
+      knots.push_back({end, numbers(*it)});
+  }
+  knots.push_back({length_mm, at(move, length_mm)});
+  if (knots.size() < 3) return out;
+  const auto stay = kept(knots, tolerance_);
+  for (std::size_t i = 1; i + 1 < knots.size(); ++i) {
+    if (stay[i]) out.emplace_back(knots[i].at_mm, knots[i].v);
+  }
+  return out;
+}
+
+double PathSections::volume(std::size_t first, std::size_t last) const {
+  double out = 0.0;
+  for (std::size_t i = 0; s_ != nullptr && i < s_->size(); ++i) {
+    if (s_->move[i] >= first && s_->move[i] <= last) out += s_->removed_mm3[i];
+  }
+  return out;
+}
+
+}  // namespace capstan::exchange::ap238

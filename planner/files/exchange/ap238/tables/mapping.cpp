@@ -1,0 +1,59 @@
+#include "planner/files/exchange/ap238/tables/mapping.h"
+
+#include <algorithm>
+
+#include "planner/files/exchange/common/embedded.h"
+
+namespace capstan::exchange::ap238 {
+
+using model::TypeId;
+
+void Mapping::index() {
+  const auto& schema = express::Dictionary::ap238();
+  at_.resize(schema.size());
+  of_.resize(model::kTypeCount);
+  rows_of_.resize(model::kTypeCount);
+  for (std::uint32_t i = 0; i < objects_.size(); ++i) {
+    const EntityId root = objects_[i].root.entities.front();
+    for (std::size_t e = 0; e < at_.size(); ++e) {
+      if (schema.is_a(static_cast<EntityId>(e), root)) at_[e].push_back(i);
+    }
+    if (objects_[i].written) of_[static_cast<std::size_t>(objects_[i].noun)].push_back(i);
+  }
+  for (std::size_t t = 1; t < model::kTypeCount; ++t) {
+    for (const Row& r : rows_) {
+      if (model::is_a(static_cast<TypeId>(t), r.noun)) rows_of_[t].push_back(&r);
+    }
+  }
+}
+
+const Mapping& Mapping::instance() {
+  static const Mapping kMapping = [] {
+    std::vector<std::pair<std::string, std::string>> tables;
+    for (const auto name : embedded_names()) {
+      if (name.ends_with(".map")) tables.emplace_back(name, embedded_file(name));
+    }
+    // By the file's name alone, whatever its folder: "0_macros.map" comes first.
+    const auto name = [](const auto& t) { return std::string_view(t.first).substr(t.first.rfind('/') + 1); };
+    std::sort(tables.begin(), tables.end(), [&](const auto& a, const auto& b) { return name(a) < name(b); });
+    return Mapping(tables);
+  }();
+  return kMapping;
+}
+
+std::span<const std::uint32_t> Mapping::objects_at(EntityId e) const {
+  return at_[static_cast<std::size_t>(e)];
+}
+std::span<const std::uint32_t> Mapping::objects_of(TypeId t) const {
+  return of_[static_cast<std::size_t>(t)];
+}
+std::span<const Row* const> Mapping::rows_of(TypeId t) const { return rows_of_[static_cast<std::size_t>(t)]; }
+
+const SharedRow* Mapping::shared(std::string_view name) const {
+  for (const SharedRow& s : shared_) {
+    if (s.name == name) return &s;
+  }
+  return nullptr;
+}
+
+}  // namespace capstan::exchange::ap238

@@ -1,0 +1,184 @@
+#include <algorithm>
+#include <numbers>
+
+#include "planner/files/exchange/ap238/read/auxiliary.h"
+#include "planner/files/exchange/ap238/write/writer.h"
+#include "planner/files/p21/print.h"
+#include "planner/ground/base/number.h"
+#include "planner/model/nouns/all.h"
+#include "planner/model/nouns/arena/walk.h"
+
+namespace capstan::exchange::ap238 {
+
+using model::AnyRef;
+using model::Attribute;
+using model::Storage;
+
+namespace {
+
+using Kind = express::TypeKind;
+
+// What stands where the mapping says nothing: '' and .F. where something must stand.
+std::string nothing(const express::Type* t, bool optional) {
+  while (t != nullptr && t->kind == Kind::kDefined) t = t->underlying;
+  if (optional || t == nullptr) return "$";
+  switch (t->kind) {
+    case Kind::kString:
+      return "''";
+    case Kind::kBoolean:
+    case Kind::kLogical:
+      return ".F.";
+    default:
+      return "$";
+  }
+}
+
+template <class List, class Show>
+std::string listed(const List& items, const Show& show) {
+  std::string out = "(";
+  for (const auto& item : items) {
+    if (out.size() > 1) out += ',';
+    out += show(item);
+  }
+  return out + ")";
+}
+
+}  // namespace
+
+std::string Writer::slot_text(const Made& made, const express::Slot& slot) const {
+  if (slot.derived) return "*";
+  for (const Value& v : made.values) {
+    if (v.attribute != slot.attribute) continue;
+    if (!v.aggregate) return v.items.back();
+    const std::string list = listed(v.items, [](const std::string& s) { return s; });
+    return v.wrapper.empty() ? list : v.wrapper + "(" + list + ")";
+  }
+  return nothing(slot.type, slot.optional);
+}
+
+void Writer::print(Id id, const Made& made, std::string& out) {
+  out += "#" + std::to_string(id) + "=";
+  if (const auto* kept = made.leaves.empty() ? m_.get<model::KeptInstance>(made.noun) : nullptr) {
+    print_kept(*kept, out);
+  } else if (made.leaves.empty()) {
+    if (made.name.empty()) {
+      print_geometry(made.noun, {}, out);
+    } else {
+      print_geometry(made.noun, made.name, out);
+    }
+  } else if (made.leaves.size() == 1) {
+    out += schema_.keyword(made.leaves.front());
+    out += listed(schema_.slots(made.leaves.front()),
+                  [&](const express::Slot& s) { return slot_text(made, s); });
+  } else {
+    out += '(';
+    for (const EntityId part : schema_.closure(made.leaves)) {
+      out += schema_.keyword(part);
+      out += listed(schema_.part_slots(part, made.leaves),
+                    [&](const express::Slot& slot) { return slot_text(made, slot); });
+    }
+    out += ')';
+  }
+  out += ";\n";
+}
+
+std::string Writer::reference_text(AnyRef r) {
+  if (!r.set()) return "$";
+  if (const auto* kept = m_.get<model::KeptInstance>(r)) {
+    if (const auto part = auxiliary_part(*kept)) {
+      const auto prefix = prefix_of_text_.find(part->second.path);
+      if (prefix != prefix_of_text_.end()) {
+        const auto it = memo_.find({part->first, prefix->second, part->second.ordinal, 0});
+        if (it != memo_.end()) return "#" + std::to_string(it->second);
+      }
+      lose("a reference to a part of " + std::string(model::noun_type(part->first.type).keyword));
+      return "$";
+    }
+  }
+  const auto it = ids_.find(r);
+  return it == ids_.end() || it->second == kNoId ? "$" : "#" + std::to_string(it->second);
+}
+
+void Writer::print_kept(const model::KeptInstance& kept, std::string& out) {
+  for (const auto& piece : kept.pieces) {
+    const auto* text = std::get_if<std::string>(&piece);
+    out += text != nullptr ? *text : reference_text(std::get<AnyRef>(piece));
+  }
+}
+
+void Writer::print_geometry(AnyRef at, const std::string& name, std::string& out) {
+  const auto& type = model::noun_type(at.type);
+  const EntityId e = schema_.find(type.keyword);
+  out += type.keyword;
+  if (e == express::kNoEntity) throw std::logic_error("AP238 has no " + std::string(type.keyword));
+  out += listed(schema_.slots(e), [&](const express::Slot& s) -> std::string {
+    if (s.derived) return "*";
+    if (s.attribute->name == "name" && !name.empty()) return name;
+    const Attribute* a = model::find_attribute(at.type, s.attribute->name);
+    if (a == nullptr || !model::has_value(*a, m_.object(at))) return nothing(s.type, s.optional);
+    if (const auto* trimmed = m_.get<model::TrimmedCurve>(at);
+        trimmed != nullptr && a->storage == Storage::kSelectList &&
+        (m_.holds<model::Circle>(trimmed->basis_curve) || m_.holds<model::Ellipse>(trimmed->basis_curve))) {
+      auto values = model::value_of<model::SelectList>(*a, m_.object(at));
+      for (auto& v : values.items) {  // degrees in the model, radians in the written context
+        if (v.real) v.real = *v.real * std::numbers::pi / 180.0;
+      }
+      return listed(values.items, [&](const model::SelectValue& v) { return select_text(v); });
+    }
+    return attribute_text(*a, m_.object(at));
+  });
+}
+
+std::string Writer::select_text(const model::SelectValue& v) {
+  if (v.ref.set()) return reference_text(v.ref);
+  const std::string bare = v.real ? part21_real(*v.real) : "." + v.text + ".";
+  return v.type.empty() ? bare : v.type + "(" + bare + ")";
+}
+
+std::string Writer::attribute_text(const Attribute& a, const void* data) {
+  const auto number = [](double v) { return part21_real(v); };
+  const auto whole = [](std::int64_t v) { return std::to_string(v); };
+  const auto text = [](const std::string& s) { return "'" + p21::encode_text(s) + "'"; };
+  const auto ref = [&](AnyRef r) { return reference_text(r); };
+  const auto select = [&](const model::SelectValue& v) { return select_text(v); };
+  switch (a.storage) {
+    case Storage::kReal:
+      return number(*model::value_of<model::Real>(a, data));
+    case Storage::kInteger:
+      return whole(*model::value_of<model::Integer>(a, data));
+    case Storage::kBoolean:
+      return *model::value_of<model::Boolean>(a, data) ? ".T." : ".F.";
+    case Storage::kText:
+      return text(*model::value_of<model::Text>(a, data));
+    case Storage::kEnum:
+      return "." +
+             std::string(
+                 a.enumerators[static_cast<std::size_t>(model::value_of<model::AnyEnum>(a, data).code)]) +
+             ".";
+    case Storage::kRef:
+      return ref(model::value_of<AnyRef>(a, data));
+    case Storage::kSelect:
+      return select(model::value_of<model::SelectValue>(a, data));
+    case Storage::kRefList:
+      return listed(model::value_of<model::AnyRefList>(a, data).items, ref);
+    case Storage::kSelectList:
+      return listed(model::value_of<model::SelectList>(a, data).items, select);
+    case Storage::kRealList:
+      return listed(model::value_of<model::RealList>(a, data).items, number);
+    case Storage::kIntegerList:
+      return listed(model::value_of<model::IntegerList>(a, data).items, whole);
+    case Storage::kTextList:
+      return listed(model::value_of<model::TextList>(a, data).items, text);
+    case Storage::kRefTable:
+      return listed(model::value_of<model::RefTable>(a, data).items,
+                    [&](const auto& row) { return listed(row, ref); });
+    case Storage::kRealTable:
+      return listed(model::value_of<model::RealTable>(a, data).items,
+                    [&](const auto& row) { return listed(row, number); });
+    case Storage::kPath:
+      return "$";
+  }
+  return "$";
+}
+
+}  // namespace capstan::exchange::ap238

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "planner/files/exchange/common/report.h"
+#include "planner/ground/base/result.h"
+#include "planner/model/plan/plan.h"
+
+// What a schema cannot say of a value alone, the same for every format: circles, endless workplans,
+// B-splines, directions, sizes, empty sets; and which of it matters.
+
+namespace capstan::exchange {
+
+/// A fault that matters only where the project reaches the object: an error there, else a warning.
+struct Doubt {
+  model::AnyRef object;
+  Diagnostic diagnostic;
+  /// Of a fault that leaves one attribute unset, its name: what needs the object is not planned
+  /// (unreadable.h).
+  std::string attribute = {};
+};
+
+/// Objects of a model, as a set.
+class Marks {
+ public:
+  /// Needs   a model that does not grow while it is used.
+  explicit Marks(const model::Model& m);
+  [[nodiscard]] bool has(model::AnyRef a) const { return marks_[static_cast<std::size_t>(a.type)][a.index]; }
+  void set(model::AnyRef a) { marks_[static_cast<std::size_t>(a.type)][a.index] = true; }
+  /// Marks the root and everything it reaches; what is marked already is not walked again.
+  void set_from(const model::Model& m, model::AnyRef root);
+
+ private:
+  std::array<std::vector<bool>, model::kTypeCount> marks_;
+};
+
+/// Every object that came from the file, in the file's order.
+[[nodiscard]] std::vector<model::AnyRef> objects_in_file_order(const model::Model& m);
+
+/// Circles of references, workplans that expand without end, B-splines that do not add up, directions
+/// without length, sizes below zero, empty sets.
+///
+/// Codes   EXC-CYCLE, EXC-LIMIT, EXC-GEOMETRY, EXC-SIZE; warnings EXC-TOLERANCE, EXC-EMPTY.
+void check_meaning(const model::Model& m, std::vector<Doubt>& doubts);
+
+/// Reports the doubts in the order of instances: as they are where `reached` has the object, as warnings
+/// elsewhere. Unless `strict`, one that leaves an attribute unset which only some features or workingsteps
+/// need is an error that does not keep the file from being read: the plan's ledger says what is not known.
+void settle_doubts(model::Plan& plan, std::vector<Doubt>& doubts, const Marks& reached, bool strict,
+                   Reporter& reporter);
+
+}  // namespace capstan::exchange

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "planner/files/exchange/records/records.h"
+#include "planner/model/plan/plan.h"
+
+/// What a step does to tool and machine and what holds it, described once for writing and for reading.
+namespace capstan::exchange {
+
+void describe(RecordFields& f, model::StepLoads& l);
+void describe(RecordFields& f, model::ActiveConstraint& c);
+void describe(RecordFields& f, model::LimitAlongPath& l);
+void describe(RecordFields& f, model::ExceededLimit& l);
+
+}  // namespace capstan::exchange

@@ -1,0 +1,163 @@
+#include "planner/files/exchange/records/seal.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "planner/files/exchange/records/instance_hashes.h"
+#include "planner/files/p21/read/parse.h"
+#include "planner/ground/base/file.h"
+#include "planner/ground/base/number.h"
+#include "planner/model/plan/decision/edited.h"
+
+namespace capstan::exchange {
+namespace {
+
+constexpr std::string_view kSeal = "!CAPSTAN_SEAL";
+
+/// What stands before the name of a record in AP238, and its own seals.
+constexpr std::string_view kRecord = "capstan ";
+
+constexpr std::array<std::pair<std::string_view, model::Listed>, 10> kListed = {
+    {{"capstan material", model::Listed::kMaterial},
+     {"capstan stock", model::Listed::kRawPiece},
+     {"capstan cutter", model::Listed::kCutters},
+     {"capstan setup", model::Listed::kSetups},
+     {"capstan step", model::Listed::kSteps},
+     {"!CAPSTAN_MATERIAL", model::Listed::kMaterial},
+     {"!CAPSTAN_STOCK", model::Listed::kRawPiece},
+     {"!CAPSTAN_CUTTER", model::Listed::kCutters},
+     {"!CAPSTAN_SETUP", model::Listed::kSetups},
+     {"!CAPSTAN_STEP", model::Listed::kSteps}}};
+
+struct Seal {
+  std::size_t count = 0;
+  std::uint64_t sum = 0;  // of the entities' hashes: their order does not count
+  bool operator==(const Seal&) const = default;
+};
+
+bool is_sealed(const p21::Instance& header) {
+  static constexpr std::array<std::string_view, 2> kWords = {"!CAPSTAN_REASON", "!CAPSTAN_PROVENANCE"};
+  return header.user_defined() && header.keyword() != kSeal &&
+         std::find(kWords.begin(), kWords.end(), header.keyword()) == kWords.end();
+}
+
+/// As `spelled`, without the numbers of instances: another program may give others.
+std::string without_numbers(const p21::Value& v) {
+  if (v.is(p21::Kind::kReference)) return "#";
+  if (!v.is(p21::Kind::kList) && !v.is(p21::Kind::kTyped)) return spelled(v);
+  std::string out = v.is(p21::Kind::kTyped) ? std::string(v.keyword()) + "(" : "(";
+  for (std::size_t i = 0; i < v.size(); ++i) out += without_numbers(v[i]) + ",";
+  return out + ")";
+}
+
+/// What a record of AP238 says, which is a representation with an item for each field.
+std::optional<std::pair<std::string, std::string>> record_of(const p21::File& file, const p21::Instance& e) {
+  if (e.part_count() != 1 || e.part(0).keyword != "REPRESENTATION") return std::nullopt;
+  const p21::Value p = e.part(0).parameters;
+  if (p.size() < 2 || !p[0].is(p21::Kind::kString) || !p[1].is(p21::Kind::kList)) return std::nullopt;
+  const std::string name = p[0].as_text();
+  const auto listed =
+      std::find_if(kListed.begin(), kListed.end(), [&](const auto& k) { return k.first == name; });
+  if (listed == kListed.end() || !name.starts_with(kRecord)) return std::nullopt;
+  std::string text;
+  for (std::size_t i = 0; i < p[1].size(); ++i) {
+    const auto item = p[1][i].is(p21::Kind::kReference) ? file.find(p[1][i].reference()) : std::nullopt;
+    for (std::size_t k = 0; item && k < item->part_count(); ++k)
+      text += std::string(item->part(k).keyword) + without_numbers(item->part(k).parameters);
+  }
+  return std::pair(name, text);
+}
+
+std::map<std::string, Seal> sealed(const p21::File& file) {
+  std::map<std::string, Seal> out;
+  const auto add = [&](std::string_view keyword, const std::string& text) {
+    Seal& s = out[std::string(keyword)];
+    ++s.count;
+    s.sum += fnv1a(text);
+  };
+  for (std::size_t i = 0; i < file.header_count(); ++i) {
+    const p21::Instance e = file.header(i);
+    if (is_sealed(e)) add(e.keyword(), spelled(e.parameters()));
+    // Of a reason its number and its id, which decide; not its words.
+    if (e.keyword() == "!CAPSTAN_REASON" && e.parameters().size() > 1)
+      add(e.keyword(), spelled(e.parameters()[0]) + "," + spelled(e.parameters()[1]));
+  }
+  for (const p21::Instance e : file) {
+    std::string text = "#" + std::to_string(e.id());
+    for (std::size_t k = 0; k < e.part_count(); ++k)
+      text += std::string(e.part(k).keyword) + spelled(e.part(k).parameters);
+    add(e.part_count() == 0 ? std::string_view() : e.part(0).keyword, text);
+    if (const auto record = record_of(file, e)) add(record->first, record->second);
+  }
+  for (const auto& section : file.verbatim_sections()) add("a section", std::string(section.text));
+  return out;
+}
+
+}  // namespace
+
+Result<std::string> with_seal(std::string file) {
+  Job quiet;
+  const auto parsed = p21::parse(std::string(file), "", {}, quiet);
+  if (!parsed) return fail(parsed.error());
+  std::string seals;
+  for (const auto& [keyword, s] : sealed(*parsed))
+    seals +=
+        std::string(kSeal) + "('" + keyword + "'," + std::to_string(s.count) + ",'" + hex64(s.sum) + "');\n";
+  file.insert(file.find("\nENDSEC;") + 1, seals);  // of the header: texts hold no line feed
+  return file;
+}
+
+bool is_seal(std::string_view keyword) { return keyword == kSeal; }
+
+SealState seal_of(const p21::File& file, Reporter& reporter) {
+  using Seals = std::map<std::string, std::pair<std::int64_t, std::string>>;  // count and hash by keyword
+  Seals then;
+  for (std::size_t i = 0; i < file.header_count(); ++i) {
+    const p21::Instance e = file.header(i);
+    if (e.keyword() != kSeal) continue;
+    const p21::Value p = e.parameters();
+    if (p.size() != 3 || !p[0].is(p21::Kind::kString) || !p[1].is(p21::Kind::kInteger) ||
+        !p[2].is(p21::Kind::kString)) {
+      reporter.report({.code = "EXC-RECORD",
+                       .severity = Severity::kWarning,
+                       .message = "the header's " + std::string(kSeal) + " is malformed; ignored",
+                       .line = e.line()});
+      continue;
+    }
+    then[p[0].as_text()] = {p[1].as_integer(), p[2].as_text()};
+  }
+  SealState state;
+  if (then.empty()) return state;  // of another system, or an earlier version
+  Seals now;
+  // Files of earlier versions have no seals of their own for the records of AP238.
+  const bool records =
+      std::any_of(then.begin(), then.end(), [](const auto& s) { return s.first.starts_with(kRecord); });
+  for (const auto& [keyword, s] : sealed(file))
+    if (records || !keyword.starts_with(kRecord))
+      now[keyword] = {static_cast<std::int64_t>(s.count), hex64(s.sum)};
+  const std::vector<std::string> edited = model::edited_parts(now, std::move(then));
+  state.holds = state.paths_hold = edited.empty();
+  if (state.holds) return state;
+  reporter.report(model::parts_edited(std::string(model::kEditedCode), edited));
+  // Of one that is gone nothing is stated; what it held for the paths (what holds the piece) is missing.
+  std::size_t lists = 0;
+  bool gone = false;
+  for (const std::string& part : edited) {
+    const auto is = [&](const auto& l) {
+      return part == l.first || part.starts_with(std::string(l.first) + " (");
+    };
+    const auto it = std::find_if(std::begin(kListed), std::end(kListed), is);
+    if (it == std::end(kListed)) continue;
+    ++lists;
+    gone = gone || part.ends_with(" (gone)");
+    if (part == it->first || part.ends_with(" (new)")) state.edited.insert(it->second);
+  }
+  state.paths_hold = !gone && lists == edited.size();
+  return state;
+}
+
+}  // namespace capstan::exchange

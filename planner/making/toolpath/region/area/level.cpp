@@ -1,0 +1,270 @@
+#include "planner/making/toolpath/region/area/level.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "planner/ground/base/number.h"
+
+namespace capstan::toolpath {
+
+using geometry::Region;
+using geometry::Vec2;
+using model::MoveRole;
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+/// Ramp angle when nobody says one; default, unsourced: what makers of solid end mills commonly allow.
+constexpr double kUsualRamp = 3.0 * kPi / 180.0;
+/// Helix radius as a part of the cutter's; below 1, so that no core is left; default, unsourced.
+constexpr double kHelixPart = 0.9;
+constexpr double kFreeAir = 0.2;  ///< mm between a cutter in air and the material
+constexpr int kMostTurns = 5'000;
+
+std::vector<Vec2> air_points(const WorkArea& w, const Region& centres, const Inside& material,
+                             double radius) {
+  std::vector<Vec2> out;
+  if (!w.open) return out;
+  for (const auto& loop : centres.loops) {
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const Vec2 a = loop[i];
+      const Vec2 d = loop[(i + 1) % loop.size()] - a;
+      const int n = std::clamp(static_cast<int>(norm(d) / (0.5 * radius)), 1, 200);
+      for (int k = 0; k < n; ++k) {
+        const Vec2 p = a + (static_cast<double>(k) / n) * d;
+        if (material.clear_of(p, radius + kFreeAir)) out.push_back(p);
+      }
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+double stepover_of(const PathJob& task) {
+  const double d = task.cutter.cutting_diameter_mm;
+  if (task.radial_depth_mm > 0.0) return std::min(task.radial_depth_mm, d);
+  if (task.overlap && *task.overlap >= 0.0 && *task.overlap < 1.0) return (1.0 - *task.overlap) * d;
+  return 0.5 * d;
+}
+
+Level::Level(const PathJob& task, const WorkArea& w, double tip_z, double material_z, double allowance)
+    : z_mm(tip_z),
+      from_mm(material_z),
+      above_mm(material_z),
+      allowance_mm(allowance),
+      centres(centres_at(w, task.cutter, tip_z, allowance, task.allowance_bottom_mm)),
+      inside(inset(centres, -kInsideSlack, 0.25 * kInsideSlack)),
+      material(w.material),
+      air(air_points(w, centres, material, 0.5 * task.cutter.cutting_diameter_mm)) {}
+
+LevelCutter::LevelCutter(const PathJob& t, const WorkArea& a, PathWriter& w, Job& j)
+    : task(t),
+      area(a),
+      writer(w),
+      job(j),
+      radius_mm(0.5 * t.cutter.cutting_diameter_mm),
+      step_mm(stepover_of(t)) {}
+
+const std::vector<Ring>& LevelCutter::rings_of(const geometry::Region& centres, double apart_mm) {
+  if (centres.loops != ringed_.loops || apart_mm != ringed_apart_mm_) {
+    rings_ = rings(centres, apart_mm);
+    ringed_ = centres;
+    ringed_apart_mm_ = apart_mm;
+  }
+  return rings_;
+}
+
+void LevelCutter::warn(const std::string& code, const std::string& message) {
+  for (const auto& d : said) {
+    if (d.code == code && d.message == message) return;
+  }
+  said.push_back({.code = code, .severity = Severity::kWarning, .message = message});
+  job.warn(code, task.shape.name.empty() ? message : task.shape.name + ": " + message);
+}
+
+double LevelCutter::gap() const { return std::min(task.clearance_mm, 1.0); }
+
+double LevelCutter::ramp_angle() {
+  const double most = task.cutter.maximum_ramp_angle_rad;
+  if (!(most > 0.0)) return 0.0;
+  const double given = task.approach.angle_rad;
+  const bool asked = task.approach.kind == Approach::Kind::kRamp ||
+                     task.approach.kind == Approach::Kind::kHelix ||
+                     task.approach.kind == Approach::Kind::kZigzag;
+  if (!asked || !(given > 0.0)) return std::min(most, kUsualRamp);
+  if (given > most + 1e-9) {
+    warn("TPA-CHANGED", "the given ramp angle of " + trimmed(given * 180.0 / kPi, 2) +
+                            " degrees is more than the cutter allows; " + trimmed(most * 180.0 / kPi, 2) +
+                            " is used");
+  }
+  return std::min({most, given, 1.5});
+}
+
+void LevelCutter::go_above(const Level& level, Vec2 p) {
+  const double z = level.from_mm + gap();
+  if (writer.begun() && writer.at().z < writer.rapid_z_mm() - 1e-9 && z < writer.rapid_z_mm()) {
+    const Vec2 here = xy(writer.at());
+    // Above the level before, within its cleared area: no need to go out.
+    if (norm(here - p) <= 6.0 * radius_mm && level.inside.contains(here, p)) {
+      if (writer.at().z < z) writer.line({here.x, here.y, z}, MoveRole::kLink);
+      writer.line({p.x, p.y, writer.at().z}, MoveRole::kLink);
+      return;
+    }
+  }
+  writer.over(p);
+}
+
+void LevelCutter::go_cleared(const Level& level, Vec2 p) {
+  if (writer.begun() && std::abs(writer.at().z - level.z_mm) < 1e-9 && norm(xy(writer.at()) - p) < 1e-6)
+    return;
+  go_above(level, p);
+  writer.descend(level.z_mm, level.z_mm);
+}
+
+bool LevelCutter::cut_to(const Level& level, Vec2 p) {
+  if (!writer.begun() || std::abs(writer.at().z - level.z_mm) > 1e-9) return false;
+  if (!level.inside.contains(xy(writer.at()), p)) return false;
+  writer.line({p.x, p.y, level.z_mm}, MoveRole::kCut);
+  return true;
+}
+
+std::optional<Track> LevelCutter::from_outside(const Level& level, const Track& track) {
+  if (level.air.empty()) return std::nullopt;
+  std::vector<std::pair<double, Vec2>> near;
+  near.reserve(level.air.size());
+  const Vec2 wish = task.start_point
+                        ? xy(task.feature_in_setup.to_parent({task.start_point->x, task.start_point->y, 0.0}))
+                        : track.start;
+  for (const Vec2 a : level.air) near.emplace_back(norm(a - wish), a);
+  std::stable_sort(near.begin(), near.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  if (near.size() > 64) near.resize(64);
+  for (const auto& [d, a] : near) {
+    const Spot spot = track.closed ? nearest(track, a) : Spot{.point = track.start};
+    if (!level.inside.contains(a, spot.point)) continue;
+    writer.over(a);
+    writer.descend(level.z_mm, level.z_mm);
+    writer.line({spot.point.x, spot.point.y, level.z_mm}, MoveRole::kCut);
+    return track.closed ? begun_at(track, spot) : track;
+  }
+  return std::nullopt;
+}
+
+std::optional<Track> LevelCutter::by_helix(const Level& level, const Track& track, const Region& leaf) {
+  const double angle = ramp_angle();
+  if (angle <= 0.0) return std::nullopt;
+  const Deepest d = deepest(leaf);
+  const double room = geometry::distance_to_boundary(level.centres, d.point);
+  const double flat = std::max(radius_mm - task.cutter.corner_radius_mm, 0.5 * radius_mm);
+  const double least = task.cutter.centre_cutting ? 0.2 * radius_mm : 0.5 * radius_mm;
+  double r = kHelixPart * flat;
+  if (task.approach.kind == Approach::Kind::kHelix && task.approach.radius_mm > 0.0) {
+    r = std::min(task.approach.radius_mm, flat);
+    if (r < task.approach.radius_mm - 1e-9)
+      warn("TPA-CHANGED", "the given helix would leave a core; its radius is " + trimmed(r, 3) + " mm");
+  }
+  r = std::min(r, room);
+  if (r < least) return std::nullopt;
+  // The ring must be reached from the helix without leaving the centres.
+  const Vec2 start{d.point.x + r, d.point.y};
+  const Spot spot = track.closed ? nearest(track, start) : Spot{.point = track.start};
+  if (!level.inside.contains(start, spot.point)) return std::nullopt;
+  const double depth = level.from_mm + gap() - level.z_mm;
+  const double half_pitch = kPi * r * std::tan(angle);
+  const int halves = static_cast<int>(std::min(std::ceil(depth / half_pitch), 2.0 * kMostTurns + 1.0));
+  if (halves > 2 * kMostTurns) return std::nullopt;
+  go_above(level, start);
+  writer.descend(level.from_mm + gap(), level.from_mm + gap());
+  const Vec2 other{d.point.x - r, d.point.y};
+  const bool cw = (task.cutter.hand == model::Hand::kLeft) == task.climb;
+  const double top = writer.at().z;
+  const int n = halves + halves % 2;
+  for (int i = 1; i <= n; ++i) {
+    const Vec2 to = i % 2 == 1 ? other : start;
+    writer.arc({to.x, to.y, i == n ? level.z_mm : top - (top - level.z_mm) * i / n}, d.point, cw,
+               MoveRole::kRamp);
+  }
+  for (const Vec2 to : {other, start}) {
+    writer.arc({to.x, to.y, level.z_mm}, d.point, cw, MoveRole::kCut);
+  }
+  writer.line({spot.point.x, spot.point.y, level.z_mm}, MoveRole::kCut);
+  return track.closed ? begun_at(track, spot) : track;
+}
+
+std::optional<Track> LevelCutter::by_ramp(const Level& level, const Track& track) {
+  const double angle = ramp_angle();
+  const double length = length_of(track);
+  if (angle <= 0.0 || length <= 0.0) return std::nullopt;
+  if (!task.cutter.centre_cutting) {
+    // On a track smaller than this a core would stay under the centre that does not cut.
+    geometry::Region box{{points_of(track, 0.01)}};
+    const auto b = geometry::bounds(box);
+    if (std::max(b.hi.x - b.lo.x, b.hi.y - b.lo.y) < radius_mm) return std::nullopt;
+  }
+  const double depth = level.from_mm + gap() - level.z_mm;
+  const double run = depth / std::tan(angle);
+  if (run / length > kMostTurns) return std::nullopt;
+  go_above(level, track.start);
+  writer.descend(level.from_mm + gap(), level.from_mm + gap());
+  const double top = writer.at().z;
+  const bool zigzag = !track.closed || task.approach.kind == Approach::Kind::kZigzag;
+  if (zigzag) {
+    double leg = std::min(length, std::max(4.0 * radius_mm, run / 40.0));
+    if (task.approach.kind == Approach::Kind::kZigzag && task.approach.width_mm > 0.0)
+      leg = std::min(length, task.approach.width_mm);
+    int n = std::max(2, static_cast<int>(std::ceil(run / leg)));
+    n += n % 2;
+    const Track there = part_of(track, 0.0, leg);
+    const Track back = reversed(there);
+    for (int i = 1; i <= n; ++i) {
+      const double z = i == n ? level.z_mm : top - (top - level.z_mm) * i / n;
+      writer.follow_down(i % 2 == 1 ? there : back, z, MoveRole::kRamp);
+    }
+    return track;
+  }
+  const int rounds = static_cast<int>(std::floor(run / length));
+  for (int i = 1; i <= rounds; ++i) {
+    writer.follow_down(track, top - (top - level.z_mm) * (i * length / run), MoveRole::kRamp);
+  }
+  const double rest = run - rounds * length;
+  const Track last = part_of(track, 0.0, rest);
+  if (rest > 1e-6 && !last.segments.empty()) writer.follow_down(last, level.z_mm, MoveRole::kRamp);
+  return begun_at(track, at_length(track, rest));
+}
+
+Result<Track> LevelCutter::enter(const Level& level, const Track& track, const Region* leaf) {
+  using Kind = Approach::Kind;
+  if (level.from_mm - level.z_mm <= 1e-9) {
+    go_cleared(level, track.start);
+    return track;
+  }
+  if (auto t = from_outside(level, track)) return *t;
+  const Kind asked = task.approach.kind;
+  const auto plunge = [&] {
+    go_above(level, track.start);
+    writer.descend(level.z_mm, level.from_mm + gap());
+    return track;
+  };
+  if (asked == Kind::kPlunge && task.cutter.centre_cutting) return plunge();
+  if (asked == Kind::kPlunge)
+    warn("TPA-CHANGED", "the cutter does not cut to its centre; the plunge given is replaced by a ramp");
+  const bool ramp_first = asked == Kind::kRamp || asked == Kind::kZigzag;
+  if (leaf != nullptr && !ramp_first) {
+    if (auto t = by_helix(level, track, *leaf)) return *t;
+  }
+  if (auto t = by_ramp(level, track)) return *t;
+  if (leaf != nullptr && ramp_first) {
+    if (auto t = by_helix(level, track, *leaf)) return *t;
+  }
+  if (task.cutter.centre_cutting) return plunge();
+  return fail({.code = "TPA-ENTRY",
+               .message = "no legal way into the material for " + task.shape.name + ": the cutter " +
+                          task.cutter.id + " does not cut to its centre, may ramp at " +
+                          trimmed(task.cutter.maximum_ramp_angle_rad * 180.0 / kPi, 2) +
+                          " degrees, and the place is too narrow for it",
+               .path = task.shape.name,
+               .hint = "a cutter that cuts to its centre, a smaller one, or a hole drilled first"});
+}
+
+}  // namespace capstan::toolpath

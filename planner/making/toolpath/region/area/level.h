@@ -1,0 +1,74 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "planner/making/toolpath/link/path_writer.h"
+#include "planner/making/toolpath/region/area/inside.h"
+#include "planner/making/toolpath/region/area/rings.h"
+#include "planner/making/toolpath/region/area/work_area.h"
+
+namespace capstan::toolpath {
+
+/// One height of a 2.5D pattern.
+struct Level {
+  Level(const PathJob& task, const WorkArea& w, double tip_z, double material_z, double allowance);
+
+  double z_mm;          ///< of the tip
+  double from_mm;       ///< top of what still stands here
+  double above_mm;      ///< of the level before; above `from_mm` where an earlier step has cleared this one
+  double allowance_mm;  ///< left on the walls
+  geometry::Region centres;         ///< where the cutter's centre may be
+  Inside inside;                    ///< the same, larger by kInsideSlack
+  Inside material;                  ///< outline of what is not air
+  std::optional<Inside> cleared;    ///< finishing: centres at which nothing was left to cut
+  std::vector<geometry::Vec2> air;  ///< centres at which the cutter stands free of material, if any
+};
+/// Rings lie on the boundary of the centres; questions are asked of a region this much larger, mm.
+inline constexpr double kInsideSlack = 0.002;
+
+/// What the patterns share: the writer, the job, and how to get from here to there, or into the material.
+class LevelCutter {
+ public:
+  LevelCutter(const PathJob& task, const WorkArea& area, PathWriter& writer, Job& job);
+
+  /// Brings the cutter onto the track at the level's height, by the best legal way: from outside, along a
+  /// helix, along a ramp on the track, or straight down. Returns the track turned so that it begins where the
+  /// cutter is. `leaf`: the area inside the track, for a helix.
+  /// Fails  TPA-ENTRY.
+  Result<Track> enter(const Level& level, const Track& track, const geometry::Region* leaf);
+  /// To a place that is cleared down to the level already, and down to it.
+  void go_cleared(const Level& level, geometry::Vec2 p);
+  /// Rings of a level; walls are mostly upright, so that the level before had the same, which are kept.
+  const std::vector<Ring>& rings_of(const geometry::Region& centres, double apart_mm);
+  /// A straight cut on the level to p when it stays within the centres.
+  bool cut_to(const Level& level, geometry::Vec2 p);
+
+  const PathJob& task;
+  const WorkArea& area;
+  PathWriter& writer;
+  Job& job;
+  double radius_mm;
+  double step_mm;  ///< between passes
+  std::vector<Diagnostic> said;
+
+  /// Warns once.
+  void warn(const std::string& code, const std::string& message);
+
+ private:
+  void go_above(const Level& level, geometry::Vec2 p);
+  std::optional<Track> from_outside(const Level& level, const Track& track);
+  std::optional<Track> by_helix(const Level& level, const Track& track, const geometry::Region& leaf);
+  std::optional<Track> by_ramp(const Level& level, const Track& track);
+  [[nodiscard]] double ramp_angle();
+  [[nodiscard]] double gap() const;
+
+  geometry::Region ringed_;  ///< what `rings_` are of
+  double ringed_apart_mm_ = 0.0;
+  std::vector<Ring> rings_;
+};
+
+/// The stepover that the job asks for, mm: radial depth, else overlap, else half the diameter.
+[[nodiscard]] double stepover_of(const PathJob& task);
+
+}  // namespace capstan::toolpath

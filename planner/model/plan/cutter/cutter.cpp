@@ -1,0 +1,121 @@
+#include "planner/model/plan/cutter/cutter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "planner/ground/base/number.h"
+#include "planner/model/plan/cutter/measured_length.h"
+#include "planner/model/plan/cutter/stated.h"
+#include "planner/model/plan/requirement.h"
+
+namespace capstan::model {
+namespace {
+
+bool has_cone(const Cutter& c) { return has(c.cutter_class, CutterTrait::kCone) && c.point_angle_rad > 0.0; }
+
+}  // namespace
+
+bool is_stated(const Cutter& c, std::string_view field) {
+  for (const std::string_view of : {field, std::string_view("*")}) {
+    for (const auto& [name, source] : c.sources)
+      if (name == of) return source.starts_with("stated");
+  }
+  return false;
+}
+
+geometry::CutterProfile profile_of(const Cutter& c) {
+  const double length = c.maximum_depth_of_cut_mm;
+  if (has_cone(c)) {
+    return geometry::cone_profile(c.cutting_diameter_mm, c.point_angle_rad, length, c.tip_diameter_mm);
+  }
+  if (c.cutter_class == CutterClass::kTaperedEndmill && c.taper_angle_rad > 0.0) {
+    // From a flat tip, whatever its corner: what it cuts besides lies below the real cutter's.
+    const double top = c.cutting_diameter_mm + 2.0 * length * std::tan(c.taper_angle_rad);
+    return geometry::cone_profile(top, 2.0 * c.taper_angle_rad, length, c.cutting_diameter_mm);
+  }
+  if (c.cutter_class == CutterClass::kFacemill && c.lead_angle_rad > 0.0 && length > 0.0) {
+    // DC is measured at the tip, the inserts lean outwards (ISO 13399: DCX = DC + 2 APMX tan PSIR). Their
+    // corners' rounding is left out: what is cut besides lies below the real cutter's.
+    const double top = c.cutting_diameter_mm + 2.0 * length * std::tan(c.lead_angle_rad);
+    return geometry::cone_profile(top, 2.0 * c.lead_angle_rad, length, c.cutting_diameter_mm);
+  }
+  if (c.cutter_class == CutterClass::kBallEndmill)
+    return geometry::ball_profile(c.cutting_diameter_mm, length);
+  return geometry::bull_profile(c.cutting_diameter_mm, c.corner_radius_mm, length);
+}
+
+double reach_of(const Cutter& c) {
+  const double reach = c.usable_length_mm;
+  // Chips leave a drill by its flutes, whatever is above them.
+  if (c.cutter_class == CutterClass::kTwistDrill || c.cutter_class == CutterClass::kGunDrill) return reach;
+  const double d = c.cutting_diameter_mm + kSizeSlackMm;
+  if (c.holder.empty() || !(c.shank_diameter_mm > 0.0) || c.shank_diameter_mm > d) return reach;
+  double clear = c.stick_out_mm;
+  bool through = false;
+  for (const auto& s : c.holder) {
+    if (std::max(s.lower_diameter_mm, s.upper_diameter_mm) > d) break;
+    clear += s.height_mm;
+    through = true;
+  }
+  return through ? std::max(reach, clear) : reach;
+}
+
+double tip_length(const Cutter& c) { return profile_of(c).height(0.5 * c.cutting_diameter_mm); }
+
+std::optional<double> table_word(const Cutter& c, std::string_view letter) {
+  if (!c.table_line) return std::nullopt;
+  for (const ToolTableWord& w : c.table_line->words) {
+    if (w.letter == letter) return w.value;
+  }
+  return std::nullopt;
+}
+
+double length_offset_mm(const Cutter& c) { return table_word(c, "Z").value_or(c.functional_length_mm); }
+
+void take_table_line(Cutter& c, const ToolTableLine& line) {
+  c.table_line = line;
+  if (line.against_reference || !offset_fault(c).empty()) return;
+  take_measured_length(c, *table_word(c, "Z"), "stated: the tool table's Z");
+}
+
+void take_measured_length(Cutter& c, double length_mm, const std::string& source) {
+  constexpr double kTraceMm = 0.001;
+  const double shorter = c.functional_length_mm - length_mm, before = c.stick_out_mm;
+  const auto forget = [&](std::string_view field) {
+    std::erase_if(c.sources, [&](const auto& s) { return s.first == field; });
+  };
+  if (before > 0.0 && shorter > 0.0 && !is_stated(c, "stick_out_mm")) {
+    c.stick_out_mm = std::max(before - shorter, kTraceMm);
+    forget("stick_out_mm");
+    c.sources.emplace_back("stick_out_mm", "derived: the tool is " + trimmed(length_mm, 4) +
+                                               " mm long where " + trimmed(c.functional_length_mm, 4) +
+                                               " was assumed, and its holder is not shorter for that");
+  }
+  c.functional_length_mm = length_mm;
+  c.stick_out_mm = std::min(c.stick_out_mm, length_mm);
+  if (before > 0.0 && !is_stated(c, "maximum_depth_of_cut_mm"))
+    c.maximum_depth_of_cut_mm = std::min(c.maximum_depth_of_cut_mm, c.stick_out_mm);
+  c.usable_length_mm = std::min(c.usable_length_mm, c.stick_out_mm);
+  forget("functional_length_mm");
+  c.sources.emplace_back("functional_length_mm", source);
+}
+
+std::string offset_fault(const Cutter& c) {
+  if (!c.table_line) return {};
+  const double z = table_word(c, "Z").value_or(0.0);
+  const std::string t = "T" + std::to_string(c.pocket) + " has Z" + trimmed(z, 4) + " in the tool table: ";
+  if (c.table_line->against_reference) {
+    if (!c.table_line->untouched) return {};
+    return t + "so has another tool, and only the reference itself has 0; one of them is not measured";
+  }
+  if (z == 0.0) return t + "it is not measured";
+  if (z < 0.0) return t + "no tool has a negative length from the gage line";
+  if (z < c.maximum_depth_of_cut_mm) {
+    return t + "no length from the gage line, for its flutes alone are " +
+           trimmed(c.maximum_depth_of_cut_mm, 4) + " mm long";
+  }
+  return {};
+}
+
+}  // namespace capstan::model

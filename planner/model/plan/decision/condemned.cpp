@@ -1,0 +1,129 @@
+#include "planner/model/plan/decision/condemned.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "planner/ground/base/number.h"
+#include "planner/model/nouns/executable.h"
+#include "planner/model/nouns/feature.h"
+#include "planner/model/plan/decision/contradicted.h"
+#include "planner/model/plan/decision/unreadable.h"
+
+namespace capstan::model {
+namespace {
+
+constexpr std::string_view kOfUnreadable = "PIP-UNREADABLE", kOfContradicted = "PIP-CONTRADICTED";
+
+/// The names of limits as sentences have them: "spindle_torque" is "spindle torque".
+std::string plain_name(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+/// Three digits that count, or three decimals of what is larger.
+std::string number(double v) {
+  const double a = std::abs(v);
+  return trimmed(v, a >= 100.0 ? 0 : a >= 10.0 ? 1 : a >= 0.1 ? 2 : 4);
+}
+
+const std::string& feature_name(const Plan& plan, const StepResult& step) {
+  static const std::string kNone;
+  const auto* ws = plan.model.get<MachiningWorkingstep>(step.step);
+  const auto* feature = ws == nullptr ? nullptr : plan.model.get<ManufacturingFeature>(ws->its_feature);
+  return feature == nullptr || !feature->its_id ? kNone : *feature->its_id;
+}
+
+/// Gathers reasons by the place of their step; 0 is the whole plan.
+class Reasons {
+ public:
+  explicit Reasons(const Plan& plan) : of_step_(plan.steps.size() + 1) {
+    for (const StepResult& s : plan.steps) ids_.push_back(step_id(plan, s));
+  }
+
+  void add(const std::string& step, const std::string& code, const std::string& text) {
+    const auto at = std::find(ids_.begin(), ids_.end(), step);
+    const bool whole = step.empty() || at == ids_.end();
+    add_at(whole ? 0 : static_cast<std::size_t>(at - ids_.begin()) + 1, code, text);
+  }
+  /// `place`: 0, or the number of the step.
+  void add_at(std::size_t place, const std::string& code, const std::string& text) {
+    Condemnation c{place == 0 ? std::string() : ids_[place - 1], code, text};
+    auto& there = of_step_[place];
+    if (std::find(there.begin(), there.end(), c) == there.end()) there.push_back(std::move(c));
+  }
+  [[nodiscard]] std::vector<Condemnation> take() {
+    std::vector<Condemnation> out;
+    for (auto& there : of_step_) std::move(there.begin(), there.end(), std::back_inserter(out));
+    return out;
+  }
+
+ private:
+  std::vector<std::string> ids_;
+  std::vector<std::vector<Condemnation>> of_step_;
+};
+
+}  // namespace
+
+std::string text_of(const ExceededLimit& l) {
+  std::string out = plain_name(l.name);
+  if (l.value == 0.0 && l.limit == 0.0) {
+    out += " outside what any formula tells";
+  } else {
+    out += " " + number(l.value) + " of " + number(l.limit) + (l.unit.empty() ? "" : " " + l.unit);
+  }
+  if (l.at_mm) out += " at X" + trimmed(l.at_mm->x, 1) + " Y" + trimmed(l.at_mm->y, 1);
+  return out;
+}
+
+std::string text_of(const Plan& plan, const Condemnation& reason) {
+  if (reason.step.empty()) return reason.text;
+  for (std::size_t i = 0; i < plan.steps.size(); ++i) {
+    if (step_id(plan, plan.steps[i]) == reason.step)
+      return "step " + std::to_string(i + 1) + " " + reason.step + ": " + reason.text;
+  }
+  return "step " + reason.step + ": " + reason.text;
+}
+
+bool never_written(const std::vector<Condemnation>& reasons) {
+  return std::any_of(reasons.begin(), reasons.end(), [](const Condemnation& c) {
+    return c.code == kOfUnreadable || c.code == kOfContradicted;
+  });
+}
+
+std::vector<Condemnation> condemned(const Plan& plan, const std::vector<Finding>& findings) {
+  Reasons reasons(plan);
+  for (const Finding& f : findings) {
+    if (f.severity == Severity::kError) reasons.add(f.step, f.code, f.message);
+  }
+  for (const Unreadable& u : unreadable(plan)) {
+    if (of_whole_plan(u.key)) reasons.add_at(0, std::string(kOfUnreadable), u.why);
+  }
+  for (const Contradiction& c : contradictions(plan)) reasons.add_at(0, std::string(kOfContradicted), c.why);
+  for (std::size_t i = 0; i < plan.steps.size(); ++i) {
+    for (const ExceededLimit& l : plan.steps[i].exceeded)
+      reasons.add_at(i + 1, "PIP-EXCESS", text_of(l) + "; use a smaller tool or depth");
+  }
+  for (const Unplanned& u : plan.unplanned) {
+    if (u.needed_by.empty()) continue;
+    const auto* feature = plan.model.get<ManufacturingFeature>(u.feature);
+    const std::string name = feature == nullptr ? "" : feature->its_id.value_or("");
+    const std::string text = "feature '" + name + "' is not planned, and this rests on it: " + u.reason;
+    bool found = false;
+    for (std::size_t i = 0; i < plan.steps.size(); ++i) {
+      const std::string& on = feature_name(plan, plan.steps[i]);
+      if (on.empty() || std::find(u.needed_by.begin(), u.needed_by.end(), on) == u.needed_by.end()) continue;
+      reasons.add_at(i + 1, "PIP-NEEDED", text);
+      found = true;
+    }
+    if (!found) {
+      std::string names;
+      for (const std::string& n : u.needed_by) names += (names.empty() ? "'" : ", '") + n + "'";
+      reasons.add_at(0, "PIP-NEEDED",
+                     "feature '" + name + "' is not planned, and " + names + " rests on it: " + u.reason);
+    }
+  }
+  return reasons.take();
+}
+
+}  // namespace capstan::model

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "planner/ground/base/result.h"
+#include "planner/model/plan/cutter/cutter.h"
+#include "planner/physics/mechanics/loads/section.h"
+
+/// Tool and holder as a stepped beam, and the error that its bending leaves on a wall.
+namespace capstan::mechanics {
+
+/// A piece of constant stiffness; from the tip up.
+struct BeamSegment {
+  double length_mm = 0.0;
+  double diameter_mm = 0.0;  ///< of the plain cylinder that bends alike
+  double youngs_modulus_n_mm2 = 0.0;
+};
+
+/// How the upper end of the beam (the gauge line, or the holder's face when its outline is not known) gives
+/// way; zero: rigid.
+struct HolderCompliance {
+  double shift_mm_n = 0.0;    ///< sideways per force
+  double tilt_rad_nmm = 0.0;  ///< per moment
+};
+
+/// A cantilever, force and place counted from the tip. Bending alone: shear would add 0.5 (d / L)^2 of it (6
+/// % at three diameters, 2 % at five; derived for a plain cylinder), and clamping is not soft here.
+struct ToolBeam {
+  std::vector<BeamSegment> segments;
+  HolderCompliance holder;
+  [[nodiscard]] double length_mm() const;
+};
+
+/// Young's modulus of a holder of steel, N/mm2. Source: as kHssYoungsModulusNMm2, the soft end of tool
+/// steels.
+inline constexpr double kHolderYoungsModulusNMm2 = 200e3;
+
+/// Flutes (kFluteEquivalentDiameterRatio D, or of the corresponding mean of a tapered one), neck, shank, then
+/// the holder's outline as far as it is known, each frustum with its smaller diameter (not too stiff).
+///
+/// A stick-out that is not known is the usable length, but at least three diameters; a shank that is not
+/// known is as thick as the cutter (both defaults, unsourced). Fails     MECH-DOMAIN for a cutter without a
+/// diameter. Uncertainty  the diameter of the flutes: 0.8 D within about 5 % (Kops & Vo), 20 % of the
+/// compliance. Holder,
+///           clamping and spindle of a real machine often add as much again as a short tool: rigid is the
+///           lower bound.
+[[nodiscard]] Result<ToolBeam> beam_of(const model::Cutter& cutter, const HolderCompliance& holder = {});
+
+/// Bending at `seen_mm` per force at `force_mm` above the tip, mm/N:
+///
+///     int_{max(a,b)}^{L} (x - a)(x - b) / (E I) dx + shift + tilt (L - a)(L - b)
+///
+/// Symmetric (Maxwell). A place above the beam's end does not move.
+/// Source    Euler-Bernoulli, unit load; derived.
+[[nodiscard]] double bending_mm_n(const ToolBeam& beam, double force_mm, double seen_mm);
+
+/// Bending of the tip per force at the tip, mm/N: flutes, neck, shank and the holder's outline as in beam_of.
+/// Fails     as beam_of.
+[[nodiscard]] Result<double> tip_compliance_mm_n(const model::Cutter& cutter);
+
+/// Tilt of the axis at `seen_mm` per force at `force_mm`, rad/N.
+[[nodiscard]] double tilt_rad_n(const ToolBeam& beam, double force_mm, double seen_mm);
+
+/// Error of a wall: material left (positive) or cut into the part (negative), mm.
+struct WallError {
+  static constexpr std::size_t kHeights = 9;
+  std::array<double, kHeights> height_mm{};  ///< above the tip, from the lower to the upper end of contact
+  std::array<double, kHeights> error_mm{};
+  double most_left_mm = 0.0;                ///< largest error_mm, at least 0
+  double most_over_mm = 0.0;                ///< smallest error_mm, at most 0
+  [[nodiscard]] double largest_mm() const;  ///< the larger of the two by amount, its sign kept
+};
+
+/// The side of the feed on which the wall stands: up milling leaves it at angle 0 (left), down milling at pi.
+enum class WallSide { kLeft, kRight };
+
+/// The wall that a section leaves: at each height, the tool's bending normal to the wall at the instant at
+/// which an edge generates that height, i.e. passes angle 0 (left) or pi (right); the smoothest path of the
+/// edge over all teeth. A static picture: forces far below the first natural frequency.
+///
+/// The section must reach that side (arc from 0, or to pi); the forces are those of section.h's model at the
+/// nominal chip, without runout. Flanks only: heights of a corner radius or a ball count as their own radius.
+/// Fails     MECH-DOMAIN as section_loads, or when the arc does not reach the wall.
+/// Accuracy  six Gauss points on each tooth's part in the arc: within 1 % of the integral. Of the model: the
+/// force's
+///           uncertainty (force_law.h) times the beam's.
+/// Source    Kline, DeVor & Shareef 1982 ("The prediction of surface accuracy in end milling", J. Eng. Ind.
+/// 104)
+///           for the principle; integrals derived.
+[[nodiscard]] Result<WallError> wall_error(const Section& section, const Tooth& tooth, const ForceLaw& law,
+                                           double fz_mm, WallSide side, const ToolBeam& beam);
+
+}  // namespace capstan::mechanics

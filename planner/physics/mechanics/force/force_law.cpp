@@ -1,0 +1,77 @@
+#include "planner/physics/mechanics/force/force_law.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace capstan::mechanics {
+
+const model::MechanisticSet* measured_set(const model::WorkMaterial& material, model::Substrate substrate) {
+  const auto it = std::find_if(
+      material.mechanistic.begin(), material.mechanistic.end(),
+      [&](const auto& set) { return set.substrate == model::to_text(substrate) && set.ktc_n_mm2 > 0.0; });
+  return it == material.mechanistic.end() ? nullptr : &*it;
+}
+
+double ForceMargin::factor() const {
+  return std::exp(deviations * std::hypot(std::log(spread), std::log(wear), std::log(override_up)));
+}
+
+ForceMargin kienzle_margin(const model::WorkMaterial& material, const MarginAsked& asked) {
+  return {.spread = std::max(kForceUncertaintyFactor, 1.0 + material.kc_uncertainty),
+          .override_up = std::pow(asked.feed_up, 1.0 - material.mc),
+          .deviations = asked.deviations};
+}
+
+ForceMargin force_margin(const model::WorkMaterial& material, model::Substrate substrate,
+                         const MarginAsked& asked) {
+  const model::MechanisticSet* set = measured_set(material, substrate);
+  if (set == nullptr) return kienzle_margin(material, asked);
+  return {.spread = set->uncertainty > 0.0 ? 1.0 + set->uncertainty : kForceUncertaintyFactor,
+          .override_up = asked.feed_up,
+          .deviations = asked.deviations};
+}
+
+bool is_milled(model::TypeId operation, const model::Cutter& cutter) {
+  if (!model::is_a(operation, model::TypeId::kDrillingTypeOperation)) return true;
+  const bool mills = cutter.cutter_class == model::CutterClass::kEndmill ||
+                     cutter.cutter_class == model::CutterClass::kBullnoseEndmill;
+  return mills && model::is_a(operation, model::TypeId::kThreadDrilling);
+}
+
+std::string force_source(const model::WorkMaterial& material, model::Substrate substrate, bool milled) {
+  const model::MechanisticSet* set = milled ? measured_set(material, substrate) : nullptr;
+  if (set != nullptr) {
+    return "measured coefficients of " + material.id + " for " + std::string(model::to_text(substrate)) +
+           (set->source.empty() ? std::string() : " (" + set->source + ")");
+  }
+  std::string source;
+  for (const auto& [field, from] : material.sources) {
+    if (field == "kc11_n_mm2") source = " (" + from + ")";
+  }
+  return "Kienzle's kc1.1 and mc of " + material.id + source;
+}
+
+ForceLaw force_law(const model::WorkMaterial& material, model::Substrate substrate) {
+  ForceLaw law{.kienzle = {material.kc11_n_mm2, material.mc}};
+  if (const model::MechanisticSet* set = measured_set(material, substrate))
+    law.mechanistic = CuttingCoefficients{set->ktc_n_mm2, set->kte_n_mm,  set->krc_n_mm2,
+                                          set->kre_n_mm,  set->kac_n_mm2, set->kae_n_mm};
+  law.uncertainty_factor = force_margin(material, substrate).spread;
+  return law;
+}
+
+Tooth tooth_of(const model::Cutter& cutter) {
+  Tooth t{.cutting_diameter_mm = cutter.cutting_diameter_mm,
+          .corner_radius_mm = cutter.corner_radius_mm,
+          .helix_rad = cutter.helix_rad,
+          .lead_angle_rad = cutter.lead_angle_rad,
+          .taper_angle_rad =
+              cutter.cutter_class == model::CutterClass::kTaperedEndmill ? cutter.taper_angle_rad : 0.0,
+          .runout_mm = cutter.runout_mm,
+          .teeth = std::max(1, cutter.teeth)};
+  if (cutter.cutter_class == model::CutterClass::kBallEndmill)
+    t.corner_radius_mm = 0.5 * cutter.cutting_diameter_mm;
+  return t;
+}
+
+}  // namespace capstan::mechanics

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <string>
+
+#include "planner/ground/vocabulary/noun_kind.h"
+#include "planner/model/plan/cutter/cutter.h"
+#include "planner/model/plan/resources/material.h"
+#include "planner/physics/mechanics/constants.h"
+#include "planner/physics/mechanics/loads/margin.h"
+#include "planner/physics/mechanics/loads/section.h"
+
+/// From the nouns of the model to the values of this room: which law of force holds for a material, how far
+/// it may be wrong, and what of a cutter cuts.
+namespace capstan::mechanics {
+
+/// By how much the force in a real cut may exceed the computed one, by each of its causes; margin.h tells how
+/// they combine.
+struct ForceMargin {
+  double spread = 1.0;                          ///< of the coefficients
+  double wear = kWearForceFactor;               ///< of a worn edge against a sharp one
+  double override_up = 1.0;                     ///< of the feed turned up
+  double deviations = kUsualMargin.deviations;  ///< how many standard deviations of these together
+  [[nodiscard]] double factor() const;
+};
+
+/// Whose margin is asked for: how far the operator may turn up the feed, and how careful the shop is.
+struct MarginAsked {
+  double feed_up = 1.0;
+  double deviations = kUsualMargin.deviations;
+};
+
+/// The measured set that is used: the first for the tool's substrate; null when there is none.
+[[nodiscard]] const model::MechanisticSet* measured_set(const model::WorkMaterial& material,
+                                                        model::Substrate substrate);
+
+/// Whether the law of milling holds for a cut: all but drilling, reaming and tapping; a thread or a hole may
+/// be milled.
+[[nodiscard]] bool is_milled(model::TypeId operation, const model::Cutter& cutter);
+/// Which coefficients gave the forces of a cut, with their source: the measured set that `force_law` takes,
+/// or Kienzle's law.
+[[nodiscard]] std::string force_source(const model::WorkMaterial& material, model::Substrate substrate,
+                                       bool milled);
+
+/// The measured set where there is one for this substrate, else Kienzle's law; uncertainty_factor is the
+/// margin's spread. The Kienzle values are there either way.
+[[nodiscard]] ForceLaw force_law(const model::WorkMaterial& material, model::Substrate substrate);
+
+/// Spread: 1 + the set's own uncertainty, kForceUncertaintyFactor for a set that states none; with Kienzle's
+/// law the larger of kForceUncertaintyFactor and 1 + kc_uncertainty. Wear: kWearForceFactor. Override: forces
+/// grow with feed^(1 - mc) by Kienzle's law, with the feed at most by a measured set.
+///
+/// Source    constants.h; the uncertainties of sets are told with them (tooling/data/materials.yaml).
+[[nodiscard]] ForceMargin force_margin(const model::WorkMaterial& material, model::Substrate substrate,
+                                       const MarginAsked& asked = {});
+
+/// The same for Kienzle's law alone: drilling, reaming, tapping, and whoever cannot use a measured set.
+[[nodiscard]] ForceMargin kienzle_margin(const model::WorkMaterial& material, const MarginAsked& asked = {});
+
+/// What of a cutter cuts when it mills: a ball's corner radius is half its diameter, no tooth is one.
+[[nodiscard]] Tooth tooth_of(const model::Cutter& cutter);
+
+}  // namespace capstan::mechanics

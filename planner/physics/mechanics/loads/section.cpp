@@ -1,0 +1,522 @@
+#include "planner/physics/mechanics/loads/section.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <utility>
+
+#include "planner/physics/mechanics/constants.h"
+#include "planner/physics/mechanics/force/domain.h"
+
+namespace capstan::mechanics {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr std::size_t kCells = 32;    // of the arc
+constexpr int kSamples = 32;          // of a tooth pitch
+constexpr std::size_t kCorner = 4;    // Gauss points along a corner
+constexpr double kNoLagRad = 1e-6;    // below, an edge is straight to within rounding
+constexpr double kJustInside = 1e-9;  // so that rounding cannot lose a tooth that is about to leave
+
+/// A piece of the edge with one kappa and one radius, over its own arc.
+struct Piece {
+  double depth = 0.0, edge = 0.0;  // dz, dS
+  double radius = 0.0;
+  double sin_kappa = 1.0, cos_kappa = 0.0;
+  double lag_low = 0.0, lag_high = 0.0;
+  double from = 0.0, to = 0.0;
+  // Force per integral of the chip's shape over the lag, and per angle (edge forces); tangential, radial in
+  // the plane, axial.
+  double ct = 0.0, cr = 0.0, ca = 0.0;
+  double et = 0.0, er = 0.0, ea = 0.0;
+};
+
+struct Pieces {
+  std::array<Piece, kCorner + 1> item;
+  std::size_t count = 0;
+  double area = 0.0;       // per unit of feed: sum of dz times width
+  double edge_arc = 0.0;   // sum of dS times arc
+  double max_chip = 0.0;   // largest sin(a) sin(kappa)
+  double front_sin = 0.0;  // largest sin(a)
+};
+
+double largest_sine(double from, double to) {
+  if (from <= 0.5 * kPi && to >= 0.5 * kPi) return 1.0;
+  return std::max(std::sin(from), std::sin(to));
+}
+
+void add(Pieces& all, Piece p, const ImmersionArc& arc, double band, double full_radius) {
+  if (!(p.depth > 0.0) || !(p.radius > 0.0)) return;
+  p.from = arc.entry_rad;
+  p.to = arc.exit_rad;
+  if (band > 0.0) {
+    const bool left = arc.entry_rad + arc.exit_rad < kPi;
+    const double wide = 2.0 * p.radius;
+    const ImmersionArc own =
+        immersion_arc(std::min(band, wide), wide, left ? CutDirection::kUp : CutDirection::kDown);
+    p.from = own.entry_rad;
+    p.to = own.exit_rad;
+  } else if (p.radius < full_radius) {
+    const double k = full_radius / p.radius;
+    p.from = std::acos(std::clamp(k * std::cos(arc.entry_rad), -1.0, 1.0));
+    p.to = std::acos(std::clamp(k * std::cos(arc.exit_rad), -1.0, 1.0));
+  }
+  if (!(p.to > p.from)) return;
+  all.area += p.depth * p.radius * (std::cos(p.from) - std::cos(p.to));
+  all.edge_arc += p.edge * (p.to - p.from);
+  const double front = largest_sine(p.from, p.to);
+  all.front_sin = std::max(all.front_sin, front);
+  all.max_chip = std::max(all.max_chip, front * p.sin_kappa);
+  all.item[all.count++] = p;
+}
+
+/// Gauss-Legendre on -1 .. 1.
+constexpr std::array<double, kCorner> kNode = {-0.8611363115940526, -0.3399810435848563, 0.3399810435848563,
+                                               0.8611363115940526};
+constexpr std::array<double, kCorner> kWeight = {0.3478548451374538, 0.6521451548625461, 0.6521451548625461,
+                                                 0.3478548451374538};
+
+Pieces pieces_of(const Section& s, const ImmersionArc& arc, double ap, const Tooth& tooth, double band) {
+  Pieces out;
+  const double full = 0.5 * tooth.cutting_diameter_mm;
+  const double corner = std::min(tooth.corner_radius_mm, full);
+  const double lag_per_mm = helix_lag_rad(1.0, tooth.cutting_diameter_mm, tooth.helix_rad);
+  const double low = s.from_tip_mm;
+  const double high = low + ap;
+  if (low < corner) {
+    const double from = immersion_angle_rad(low, 2.0 * corner);
+    const double to = immersion_angle_rad(std::min(high, corner), 2.0 * corner);
+    double z = low;
+    for (std::size_t i = 0; i < kCorner; ++i) {
+      const double psi = 0.5 * (from + to) + 0.5 * (to - from) * kNode[i];
+      const double d = 0.5 * (to - from) * kWeight[i];
+      Piece p;
+      p.sin_kappa = std::sin(psi);
+      p.cos_kappa = std::cos(psi);
+      p.edge = corner * d;
+      p.depth = p.edge * p.sin_kappa;
+      p.radius = full - corner + corner * p.sin_kappa;
+      p.lag_low = lag_per_mm * (z - low);
+      z += p.depth;
+      p.lag_high = lag_per_mm * (z - low);
+      add(out, p, arc, band, full);
+    }
+  }
+  const double flank_low = std::max(low, corner);
+  if (high > flank_low) {
+    const double lean = tooth.lead_angle_rad + tooth.taper_angle_rad;
+    Piece p;
+    p.depth = high - flank_low;
+    p.sin_kappa = std::cos(lean);
+    p.cos_kappa = std::sin(lean);
+    p.edge = p.depth / p.sin_kappa;
+    p.radius = full + (0.5 * (flank_low + high) - corner) * std::tan(lean);
+    p.lag_low = lag_per_mm * (flank_low - low);
+    p.lag_high = lag_per_mm * (high - low);
+    add(out, p, arc, band, full);
+  }
+  return out;
+}
+
+/// Chip and edge integrals: shape times cos, times sin, and alone; the same with the shape 1.
+struct Integrals {
+  double c = 0.0, s = 0.0, one = 0.0;
+  double ec = 0.0, es = 0.0, e1 = 0.0;
+};
+
+/// The shape of the tangential force over the arc, sin^(1 - mc), and its running integrals on a grid; linear
+/// between, so that the mean over a lag goes to the value without a jump as the lag goes to nothing.
+class ArcTable {
+ public:
+  ArcTable(double from, double to, double mc)
+      : from_(from), step_((to - from) / static_cast<double>(kCells)), edges_(mc == 0.0) {
+    const double turn_c = std::cos(step_);
+    const double turn_s = std::sin(step_);
+    double sine = std::sin(from);
+    double cosine = std::cos(from);
+    for (std::size_t i = 0; i <= kCells; ++i) {
+      const double a = from + step_ * static_cast<double>(i);
+      const double safe = std::max(sine, 0.0);
+      const double shape = mc == 0.0 ? safe : (safe > 0.0 ? std::exp((1.0 - mc) * std::log(safe)) : 0.0);
+      Integrals& f = value_[i];
+      f = {shape * cosine, shape * safe, shape, cosine, sine, 1.0};
+      Integrals& r = running_[i];
+      r.c = shape * safe / (2.0 - mc);  // exact
+      if (edges_) {
+        r.s = 0.5 * (a - sine * cosine);
+        r.one = -cosine;
+        r.ec = sine;
+        r.es = -cosine;
+        r.e1 = a;
+      } else if (i > 0) {
+        r.s = running_[i - 1].s + 0.5 * step_ * (value_[i - 1].s + f.s);
+        r.one = running_[i - 1].one + 0.5 * step_ * (value_[i - 1].one + f.one);
+      }
+      if (i > 0) {
+        const Integrals& e = value_[i - 1];
+        const Integrals& q = running_[i - 1];
+        const double half = 0.5 * step_;
+        short_[i - 1] = {r.c - q.c - half * (e.c + f.c),         r.s - q.s - half * (e.s + f.s),
+                         r.one - q.one - half * (e.one + f.one), r.ec - q.ec - half * (e.ec + f.ec),
+                         r.es - q.es - half * (e.es + f.es),     0.0};
+      }
+      const double next = sine * turn_c + cosine * turn_s;
+      cosine = cosine * turn_c - sine * turn_s;
+      sine = next;
+    }
+  }
+
+  [[nodiscard]] Integrals upto(double a) const {
+    const auto [i, t] = place(a);
+    const double late = 0.5 * t * t * step_;
+    const double early = t * step_ - late;
+    const Integrals& f = value_[i];
+    const Integrals& g = value_[i + 1];
+    const Integrals& r = running_[i];
+    const Integrals& k = short_[i];
+    Integrals out{r.c + early * f.c + late * g.c + t * k.c, r.s + early * f.s + late * g.s + t * k.s,
+                  r.one + early * f.one + late * g.one + t * k.one};
+    if (edges_) {
+      out.ec = r.ec + early * f.ec + late * g.ec + t * k.ec;
+      out.es = r.es + early * f.es + late * g.es + t * k.es;
+      out.e1 = r.e1 + early + late;
+    }
+    return out;
+  }
+
+  [[nodiscard]] Integrals between(double from, double to) const {
+    const Integrals a = upto(from);
+    const Integrals b = upto(to);
+    return {b.c - a.c, b.s - a.s, b.one - a.one, b.ec - a.ec, b.es - a.es, b.e1 - a.e1};
+  }
+
+  [[nodiscard]] Integrals at(double a) const {
+    if (edges_) {
+      const double c = std::cos(a);
+      const double s = std::sin(a);
+      return {s * c, s * s, s, c, s, 1.0};
+    }
+    const auto [i, t] = place(a);
+    const Integrals& f = value_[i];
+    const Integrals& g = value_[i + 1];
+    return {f.c + t * (g.c - f.c), f.s + t * (g.s - f.s), f.one + t * (g.one - f.one)};
+  }
+
+ private:
+  [[nodiscard]] std::pair<std::size_t, double> place(double a) const {
+    const double s = std::clamp((a - from_) / step_, 0.0, static_cast<double>(kCells));
+    const std::size_t i = std::min(static_cast<std::size_t>(s), kCells - 1);
+    return {i, s - static_cast<double>(i)};
+  }
+
+  double from_, step_;
+  bool edges_;
+  std::array<Integrals, kCells + 1> value_;
+  std::array<Integrals, kCells + 1> running_;
+  std::array<Integrals, kCells> short_;  // what the trapezium of a cell lacks of the exact integral
+};
+
+struct Moment {
+  ForceVector force;
+  double torque_nmm = 0.0;
+};
+
+void add(Moment& m, const Piece& p, const Integrals& i, double weight) {
+  const double cos_t = p.ct * i.c + p.et * i.ec;
+  const double sin_t = p.ct * i.s + p.et * i.es;
+  m.force.fx_n += weight * (-cos_t - p.cr * i.s - p.er * i.es);
+  m.force.fy_n += weight * (sin_t - p.cr * i.c - p.er * i.ec);
+  m.force.fz_n += weight * (p.ca * i.one + p.ea * i.e1);
+  m.torque_nmm += weight * p.radius * (p.ct * i.one + p.et * i.e1);
+}
+
+/// The forces of all teeth with the tip of one at an angle.
+Moment moment_at(const Pieces& all, const ArcTable& table, double tip, double pitch) {
+  Moment sum;
+  for (std::size_t k = 0; k < all.count; ++k) {
+    const Piece& p = all.item[k];
+    const double lag = p.lag_high - p.lag_low;
+    const double middle = 0.5 * (p.lag_low + p.lag_high);
+    if (lag < kNoLagRad) {
+      const double first = p.from + middle;
+      for (double a = tip - pitch * std::floor((tip - first) / pitch) - middle; a <= p.to; a += pitch)
+        add(sum, p, table.at(a), 1.0);
+      continue;
+    }
+    const double first = p.from + p.lag_low;
+    for (double a = tip - pitch * std::floor((tip - first) / pitch); a <= p.to + p.lag_high; a += pitch) {
+      const double from = std::max(p.from, a - p.lag_high);
+      const double to = std::min(p.to, a - p.lag_low);
+      if (from < to) add(sum, p, table.between(from, to), 1.0 / lag);
+    }
+  }
+  return sum;
+}
+
+void keep_larger(double& largest, double value) {
+  if (std::abs(value) > std::abs(largest)) largest = value;
+}
+
+struct Peak {
+  ForceVector force;
+  double plane_sq = 0.0, torque_nmm = 0.0;
+
+  void take(const Moment& m) {
+    keep_larger(force.fx_n, m.force.fx_n);
+    keep_larger(force.fy_n, m.force.fy_n);
+    keep_larger(force.fz_n, m.force.fz_n);
+    plane_sq = std::max(plane_sq, m.force.fx_n * m.force.fx_n + m.force.fy_n * m.force.fy_n);
+    torque_nmm = std::max(torque_nmm, m.torque_nmm);
+  }
+};
+
+Peak peak_of(const Pieces& all, const ArcTable& table, int teeth) {
+  const double pitch = 2.0 * kPi / teeth;
+  Peak peak;
+  const double start = all.item[0].from;
+  for (int i = 0; i < kSamples; ++i) peak.take(moment_at(all, table, start + pitch * i / kSamples, pitch));
+  // Extremes also sit where a piece of edge enters or leaves.
+  for (std::size_t k = 0; k < all.count; ++k) {
+    const Piece& p = all.item[k];
+    peak.take(moment_at(all, table, p.to + p.lag_low - kJustInside, pitch));
+    if (p.lag_high - p.lag_low < kNoLagRad) continue;
+    peak.take(moment_at(all, table, p.from + p.lag_high, pitch));
+    peak.take(moment_at(all, table, p.to + p.lag_high - kJustInside, pitch));
+  }
+  return peak;
+}
+
+void set_force(Pieces& all, const ForceLaw& law, double helix_rad, double fz) {
+  const double chip = law.mechanistic ? fz : law.kienzle.kc11_n_mm2 * std::pow(fz, 1.0 - law.kienzle.mc);
+  for (std::size_t i = 0; i < all.count; ++i) {
+    Piece& p = all.item[i];
+    double kt = 1.0, kr = 0.0, ka = 0.0;
+    if (law.mechanistic) {
+      const CuttingCoefficients& k = *law.mechanistic;
+      kt = k.ktc_n_mm2;
+      kr = k.krc_n_mm2;
+      ka = k.kac_n_mm2;
+      p.et = k.kte_n_mm * p.edge;
+      p.er = (k.kre_n_mm * p.sin_kappa + k.kae_n_mm * p.cos_kappa) * p.edge;
+      p.ea = (k.kae_n_mm * p.sin_kappa - k.kre_n_mm * p.cos_kappa) * p.edge;
+    } else {
+      kt = p.sin_kappa == 1.0 ? 1.0 : std::pow(p.sin_kappa, -law.kienzle.mc);
+      kr = kRadialToTangentialRatio * kt;
+      ka = kAxialToTangentialRatio * std::tan(helix_rad) * kt;
+    }
+    const double per = chip * p.depth;
+    p.ct = kt * per;
+    p.cr = (kr * p.sin_kappa + ka * p.cos_kappa) * per;
+    p.ca = (ka * p.sin_kappa - kr * p.cos_kappa) * per;
+  }
+}
+
+constexpr double kSteepestHelixRad = 1.3962634015954636;  // 80 degrees: tan stays moderate
+constexpr double kMostTeeth = 1000.0;                     // so that no sum over teeth is endless
+constexpr double kMostLagRad = 1000.0;                    // 160 turns of an edge: no cutter
+constexpr double kFlattestLeadRad = 1.5;                  // 86 degrees
+
+bool is_plunge(const ImmersionArc& arc) { return arc.exit_rad - arc.entry_rad >= 2.0 * kPi - 1e-6; }
+
+SectionLoads plunge_loads(const Section& s, const Tooth& t, const ForceLaw& law, double fz, double n) {
+  SectionLoads out;
+  const double d = t.cutting_diameter_mm;
+  const double disc = 0.25 * kPi * d * d;
+  const double area = s.csa_mm2 > 0.0 ? std::min(s.csa_mm2, disc) : disc;
+  const double kc = law.mechanistic ? law.mechanistic->ktc_n_mm2 + law.mechanistic->kte_n_mm / fz
+                                    : specific_force_n_mm2(law.kienzle, fz);
+  out.h_max_mm = out.h_mean_mm = fz;
+  out.power_w = cutting_power_w(area * fz * t.teeth * n, kc);
+  out.torque_nm = spindle_torque_nm(out.power_w, n);
+  out.peak_torque_nm = out.torque_nm;
+  out.mean.fz_n = out.peak.fz_n = -kDrillThrustFactor * kc * fz * t.teeth * 0.5 * d;
+  const double one_tooth = kc * fz * 0.5 * d;
+  out.peak_force_n = one_tooth * std::hypot(1.0, kRadialToTangentialRatio);
+  out.peak.fx_n = out.peak.fy_n = out.peak_force_n;
+  out.irregular = area < (1.0 - kIrregular) * disc;
+  return out;
+}
+
+/// Depth and arc of the front half; what is missing of them is made up from the area.
+struct Contact {
+  double ap = 0.0;
+  ImmersionArc arc;
+};
+
+Contact contact_of(const Section& s, double d) {
+  Contact c{s.ap_mm, s.arc};
+  const double turns = std::floor((c.arc.entry_rad + 0.5 * kPi) / (2.0 * kPi));
+  c.arc.entry_rad = std::clamp(c.arc.entry_rad - turns * 2.0 * kPi, 0.0, kPi);
+  c.arc.exit_rad = std::clamp(c.arc.exit_rad - turns * 2.0 * kPi, 0.0, kPi);
+  if (!(s.csa_mm2 > 0.0)) return c;
+  const bool no_arc = !(c.arc.exit_rad > c.arc.entry_rad);
+  if (!(c.ap > 0.0)) {
+    const double width = no_arc ? d : 0.5 * d * (std::cos(c.arc.entry_rad) - std::cos(c.arc.exit_rad));
+    c.ap = std::min(s.csa_mm2 / width, d);
+  }
+  if (no_arc) {
+    const double half = std::asin(std::min(1.0, s.csa_mm2 / (c.ap * d)));
+    c.arc = {0.5 * kPi - half, 0.5 * kPi + half};
+  }
+  return c;
+}
+
+/// The pieces of edge that a strip meets. A corner or ball does not reach a strip at the rim of the full
+/// radius, and meets less than its area where it reaches a part: there the strip is widened, first towards
+/// the axis, until the edge sweeps the area that is known to be removed.
+Pieces met_by(const Section& s, const Contact& c, const Tooth& tooth) {
+  Pieces all = pieces_of(s, c.arc, c.ap, tooth, s.band_mm);
+  const double full = 0.5 * tooth.cutting_diameter_mm;
+  const double corner = std::min(tooth.corner_radius_mm, full);
+  if (!(corner > 0.0)) return all;
+  const double strip = full * (std::cos(c.arc.entry_rad) - std::cos(c.arc.exit_rad));
+  const double wanted = s.csa_mm2 > 0.0 ? s.csa_mm2 : (all.area > 0.0 ? 0.0 : c.ap * strip);
+  constexpr double kRounding = 1e-9;
+  if (all.area >= wanted * (1.0 - kRounding)) return all;
+  const double top = s.from_tip_mm + c.ap;
+  const double reach = std::min(full, 0.5 * effective_diameter_mm(top, tooth.cutting_diameter_mm, corner));
+  // Ends of the strip across the feed, positive to the left.
+  double left = std::clamp(full * std::cos(c.arc.entry_rad), -reach, reach);
+  double right = std::clamp(full * std::cos(c.arc.exit_rad), -reach, reach);
+  double band = s.band_mm;
+  const auto between = [&] {
+    const ImmersionArc arc{std::acos(std::min(left / full, 1.0)), std::acos(std::max(right / full, -1.0))};
+    return pieces_of(s, band > 0.0 ? c.arc : arc, c.ap, tooth, band);
+  };
+  const auto move = [&](double& end, double most) {
+    const double from = end;
+    end = most;
+    all = between();
+    if (all.area < wanted) return false;
+    double enough = 1.0;
+    double less = 0.0;
+    constexpr int kHalvings = 24;
+    for (int i = 0; i < kHalvings; ++i) {
+      const double t = 0.5 * (less + enough);
+      end = from + t * (most - from);
+      Pieces p = between();
+      (p.area >= wanted ? enough : less) = t;
+      if (p.area >= wanted) all = p;
+    }
+    end = from + enough * (most - from);
+    return true;
+  };
+  if (band > 0.0) {
+    move(band, 2.0 * reach);
+    return all;
+  }
+  const bool leans_left = left + right >= 0.0;
+  if (!move(leans_left ? right : left, leans_left ? -reach : reach))
+    move(leans_left ? left : right, leans_left ? reach : -reach);
+  return all;
+}
+
+/// The feed at which an even cutter has the thickest chip of one that runs out.
+double widened_feed(double fz, const Tooth& t, double front_sin) {
+  if (!(t.runout_mm > 0.0) || !(front_sin > 0.0)) return fz;
+  const double shift = t.runout_mm * std::sin(kPi / t.teeth);
+  return std::min(fz + shift / front_sin, fz * t.teeth);
+}
+
+ForceVector scaled(const ForceVector& f, double k) { return {f.fx_n * k, f.fy_n * k, f.fz_n * k}; }
+
+}  // namespace
+
+Status check_section(const Section& s, const Tooth& t, const ForceLaw& law, double fz, double n) {
+  constexpr double kMost = 1e9;
+  if (auto ok = check_positive({{"fz_mm", fz},
+                                {"n_rpm", n},
+                                {"cutting_diameter_mm", t.cutting_diameter_mm},
+                                {"teeth", static_cast<double>(t.teeth)}});
+      !ok)
+    return ok;
+  for (const Named& v : {Named{"ap_mm", s.ap_mm}, Named{"csa_mm2", s.csa_mm2},
+                         Named{"from_tip_mm", s.from_tip_mm}, Named{"band_mm", s.band_mm},
+                         Named{"corner_radius_mm", t.corner_radius_mm}, Named{"runout_mm", t.runout_mm}})
+    if (auto ok = check_range(v, 0.0, kMost); !ok) return ok;
+  if (auto ok = check_range({"helix_rad", std::abs(t.helix_rad)}, 0.0, kSteepestHelixRad); !ok) return ok;
+  if (auto ok = check_range({"lead_angle_rad", t.lead_angle_rad + t.taper_angle_rad}, 0.0, kFlattestLeadRad);
+      !ok)
+    return ok;
+  if (auto ok = check_range({"entry_rad", s.arc.entry_rad}, -kMost, kMost); !ok) return ok;
+  if (auto ok = check_range({"arc", s.arc.exit_rad - s.arc.entry_rad}, 0.0, 2.0 * kPi + 1e-9); !ok) return ok;
+  if (auto ok = check_range({"teeth", static_cast<double>(t.teeth)}, 1.0, kMostTeeth); !ok) return ok;
+  const double lag = helix_lag_rad(s.ap_mm, t.cutting_diameter_mm, std::abs(t.helix_rad));
+  if (auto ok = check_range({"lag of the helix, rad", lag}, 0.0, kMostLagRad); !ok) return ok;
+  if (law.mechanistic) {
+    const CuttingCoefficients& k = *law.mechanistic;
+    if (auto ok = check_positive({{"ktc_n_mm2", k.ktc_n_mm2}}); !ok) return ok;
+    for (const Named& v :
+         {Named{"kte_n_mm", k.kte_n_mm}, Named{"krc_n_mm2", k.krc_n_mm2}, Named{"kre_n_mm", k.kre_n_mm},
+          Named{"kac_n_mm2", k.kac_n_mm2}, Named{"kae_n_mm", k.kae_n_mm}})
+      if (auto ok = check_range(v, 0.0, kMost); !ok) return ok;
+    return {};
+  }
+  if (auto ok = check_positive({{"kc11_n_mm2", law.kienzle.kc11_n_mm2}}); !ok) return ok;
+  return check_range({"mc", law.kienzle.mc}, 0.0, 0.999);
+}
+
+Result<SectionLoads> section_loads(const Section& section, const Tooth& tooth, const ForceLaw& law,
+                                   double fz_mm, double n_rpm) {
+  if (auto ok = check_section(section, tooth, law, fz_mm, n_rpm); !ok) return fail(ok.error());
+  if (is_plunge(section.arc)) {
+    if (!(section.ap_mm > 0.0) && !(section.csa_mm2 > 0.0)) return SectionLoads{};
+    return plunge_loads(section, tooth, law, fz_mm, n_rpm);
+  }
+  const Contact contact = contact_of(section, tooth.cutting_diameter_mm);
+  SectionLoads out;
+  if (!(contact.ap > 0.0) || !(contact.arc.exit_rad > contact.arc.entry_rad)) return out;
+  Pieces all = met_by(section, contact, tooth);
+  if (all.count == 0 || !(all.area > 0.0)) {
+    if (!(section.csa_mm2 > 0.0)) return out;
+    return fail(Diagnostic{.code = "MECH-DOMAIN",
+                           .message = "an area of " + told(section.csa_mm2) + " mm2 at a depth of " +
+                                      told(contact.ap) + " mm where no edge is",
+                           .path = "csa_mm2",
+                           .expected = "an area that the edge can sweep"});
+  }
+
+  const double ratio = section.csa_mm2 > 0.0 ? section.csa_mm2 / all.area : 1.0;
+  out.irregular = std::abs(ratio - 1.0) > kIrregular;
+  const double more = std::max(ratio, 1.0);
+  const double mc = law.mechanistic ? 0.0 : law.kienzle.mc;
+  const double less = ratio < 1.0 ? std::pow(ratio, 1.0 - mc) : ratio;
+
+  double from = all.item[0].from;
+  double to = all.item[0].to;
+  for (std::size_t i = 1; i < all.count; ++i) {
+    from = std::min(from, all.item[i].from);
+    to = std::max(to, all.item[i].to);
+  }
+  const ArcTable table(from, to, mc);
+  set_force(all, law, tooth.helix_rad, fz_mm);
+  const double per_turn = tooth.teeth / (2.0 * kPi);
+  Moment mean;
+  for (std::size_t i = 0; i < all.count; ++i) {
+    const Piece& p = all.item[i];
+    const Integrals sum = table.between(p.from, p.to);
+    add(mean, p, sum, per_turn);
+    out.torque_nm += 1e-3 * per_turn * p.radius * (less * p.ct * sum.one + more * p.et * sum.e1);
+  }
+  out.mean = scaled(mean.force, more);
+  out.power_w = out.torque_nm * 2.0 * kPi * n_rpm / 60.0;
+
+  const double widened = widened_feed(fz_mm, tooth, all.front_sin);
+  if (widened != fz_mm) set_force(all, law, tooth.helix_rad, widened);
+  const Peak peak = peak_of(all, table, tooth.teeth);
+  out.peak = scaled(peak.force, more);
+  out.peak_force_n = more * std::sqrt(peak.plane_sq);
+  out.peak_torque_nm = std::max(1e-3 * more * peak.torque_nmm, out.torque_nm);
+  out.h_max_mm = widened * (ratio > 1.0 + kIrregular ? 1.0 : all.max_chip);
+  double mean_chip = 0.0;
+  for (std::size_t i = 0; i < all.count; ++i) {
+    const Piece& p = all.item[i];
+    mean_chip += p.depth * (std::cos(p.from) - std::cos(p.to));
+  }
+  out.h_mean_mm = fz_mm * mean_chip / all.edge_arc;
+  return out;
+}
+
+}  // namespace capstan::mechanics

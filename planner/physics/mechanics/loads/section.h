@@ -1,0 +1,136 @@
+#pragma once
+
+#include <limits>
+#include <optional>
+
+#include "planner/ground/base/result.h"
+#include "planner/physics/mechanics/bending/deflection.h"
+#include "planner/physics/mechanics/force/force.h"
+#include "planner/physics/mechanics/force/immersion.h"
+#include "planner/physics/mechanics/force/kienzle.h"
+
+/// The door of this room for a cut as it is measured along a path: one section in, forces, torque and power
+/// out; or limits in, the largest feed per tooth out.
+namespace capstan::mechanics {
+
+/// Where and how deep the teeth are in the material.
+///
+/// Frame   angles as in immersion.h: 0 at the left of the feed, pi at its right, in the sense of rotation.
+struct Section {
+  double ap_mm = 0.0;        ///< axial depth of contact
+  ImmersionArc arc = {};     ///< at the cutter's full radius; a plunge: 0 .. 2 pi
+  double csa_mm2 = 0.0;      ///< removed volume per length of path; 0: depth times the width of the arc
+  double from_tip_mm = 0.0;  ///< height of the contact's lower end above the tip
+  /// > 0: at each height the material is this wide, from the edge's own radius there inwards, on the side to
+  /// which the arc leans; as a pass leaves it that an equal one has passed this far away. 0: the arc's strip.
+  double band_mm = 0.0;
+};
+
+/// What cuts, at which feed and speed.
+struct Tooth {
+  double cutting_diameter_mm = 0.0;
+  double corner_radius_mm = 0.0;  ///< a ball: half the diameter
+  double helix_rad = 0.0;
+  double lead_angle_rad = 0.0;  ///< PSIR, 0: square shoulder
+  double taper_angle_rad = 0.0;
+  double runout_mm = 0.0;  ///< total indicated; widens the largest chip of a tooth
+  int teeth = 0;
+};
+
+/// What the material asks for: measured coefficients where they are known, else Kienzle's law.
+struct ForceLaw {
+  WorkMaterial kienzle = {};
+  std::optional<CuttingCoefficients> mechanistic = {};
+  /// By how much a force may exceed the computed one: spread of the coefficients; wear is not in it.
+  double uncertainty_factor = 1.0;
+};
+
+struct SectionLoads {
+  ForceVector mean;           ///< over a revolution
+  ForceVector peak;           ///< largest by amount of each component, its sign kept
+  double peak_force_n = 0.0;  ///< largest resultant in the plane normal to the axis
+  double torque_nm = 0.0;     ///< mean
+  double peak_torque_nm = 0.0;
+  double power_w = 0.0;  ///< mean, at the tool
+  double h_max_mm = 0.0, h_mean_mm = 0.0;
+  bool irregular = false;  ///< the measured area is not that of depth and arc, by more than kIrregular
+};
+
+/// Above this relative difference of areas a section is called irregular. Default, unsourced.
+inline constexpr double kIrregular = 0.05;
+
+/// The loads of one section at a feed per tooth and a speed, for a sharp edge with mean coefficients; no
+/// engagement gives zeros.
+///
+/// Along the edge, kappa is the angle between it and the plane normal to the axis (pi / 2 on an upright
+/// flank, less by lead or taper angle, running from 0 to pi / 2 along a corner or a ball). Per height dz and
+/// length of edge dS = dz / sin(kappa), at the rotation angle a:
+///
+///     h   = fz sin(a) sin(kappa)
+///     dFt = kc1.1 h^-mc fz sin(a) dz                    or  Ktc fz sin(a) dz + Kte dS
+///     dFr = kRadialToTangentialRatio dFt                or  Krc fz sin(a) dz + Kre dS    normal to the edge
+///     dFa = kAxialToTangentialRatio tan(helix) dFt      or  Kac fz sin(a) dz + Kae dS
+///     Fx = sum -dFt cos(a) - dFq sin(a)     Fy = sum dFt sin(a) - dFq cos(a)     dFq = dFr sin k + dFa cos k
+///     Fz = sum dFa sin(kappa) - dFr cos(kappa)          positive: pulls the tool towards the work
+///
+/// summed over teeth and along the edge, which lags by 2 z tan(helix) / D. Below the full radius (corner,
+/// ball) the arc is the part of the given strip that this radius reaches; above it (lead, taper) the given
+/// arc. Where corner or ball reach less of the strip than csa says, the strip is widened, towards the axis
+/// first, until the edge sweeps that area (a band likewise); so is a strip that they do not reach at all
+/// (without csa: to depth times width).
+///
+/// Power     of a section with an area is never below the law's force at the whole feed times that area:
+///           Ktc csa v_f, or kc1.1 fz^-mc csa v_f.
+///
+/// Runout    shifts the teeth against one another by up to e = runout sin(pi / z). The thickest chip is
+///           min(h + e, z h); peaks are those of all teeth at the feed that has this chip (no smaller than
+///           the truth: not all teeth are the longest one). Means do not change.
+/// Area      csa below depth times width (irregular section): mean torque and power keep the chip's volume,
+///           in chips thinner by the same ratio (dearer by ratio^-mc; edge forces stay whole); mean and peak
+///           forces and peak torque stay those of the full depth and arc, not smaller than the truth. Above:
+///           everything grows in that ratio, and h_max is that of the whole feed. Depth or arc zero with an
+///           area: a contact of that area about the front (pi / 2); without depth, as deep as the diameter
+///           is wide at most.
+/// Plunge    (arc 0 .. 2 pi; fz along the axis; csa the area seen along the axis, 0: the whole disc.) Torque
+///           and power of csa in chips of fz; thrust as drilling.h's into the solid; the force in the plane
+///           is that of a single tooth over the whole radius: a bound for unevenly met teeth.
+/// Monotone  every load rises with fz: with fz^(1 - mc), or linearly (mean) and convexly (peak).
+/// Fails     MECH-DOMAIN: a value that is not finite, negative, or out of its range (fz or n not positive, no
+///           teeth, an arc longer than a turn or running backwards), or an area where there is no edge.
+/// Accuracy  integration within 3e-3 of the model on a straight edge (mean forces of measured coefficients:
+///           exact), within 3 % where a corner or ball is cut by a narrow strip; of the model: force.h and
+///           ForceLaw::uncertainty_factor, which is not applied here.
+/// Source    Altintas, Manufacturing Automation, 2nd ed., sections 2.7 and 2.8 (general end mill); Kienzle's
+///           law in it, runout and area: derived.
+[[nodiscard]] Result<SectionLoads> section_loads(const Section& section, const Tooth& tooth,
+                                                 const ForceLaw& law, double fz_mm, double n_rpm);
+
+/// What section_loads refuses, and nothing else: for whoever walks along the edge himself.
+[[nodiscard]] Status check_section(const Section& section, const Tooth& tooth, const ForceLaw& law,
+                                   double fz_mm, double n_rpm);
+
+/// What a section may ask for; infinity: no limit. Divide by margins before.
+struct LoadLimits {
+  double peak_force_n = std::numeric_limits<double>::infinity();
+  double torque_nm = std::numeric_limits<double>::infinity();
+  double peak_torque_nm = std::numeric_limits<double>::infinity();
+  double power_w = std::numeric_limits<double>::infinity();
+  double h_max_mm = std::numeric_limits<double>::infinity();
+};
+
+enum class LoadKind { kNone, kForce, kTorque, kPeakTorque, kPower, kChip };
+
+struct FeedWithin {
+  double fz_mm = 0.0;                  ///< 0: even the least feed exceeds a limit
+  LoadKind held_by = LoadKind::kNone;  ///< kNone: the most that was asked for
+};
+
+/// The largest feed per tooth between least and most that keeps every limit; it uses at least 0.999 of one,
+/// or 1.001 of it would exceed one. Never above.
+///
+/// Fails     MECH-DOMAIN as section_loads; also for least > most or a limit that is not positive.
+[[nodiscard]] Result<FeedWithin> feed_within(const Section& section, const Tooth& tooth, const ForceLaw& law,
+                                             const LoadLimits& limits, double n_rpm, double least_fz_mm,
+                                             double most_fz_mm);
+
+}  // namespace capstan::mechanics

@@ -1,0 +1,451 @@
+#include "planner/proof/verify/program/linuxcnc/interpreter.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+
+#include "planner/proof/verify/findings.h"
+
+namespace capstan::verify {
+
+using model::MoveKind;
+
+namespace {
+
+constexpr bool is_motion(int g) {
+  return g == 0 || g == 10 || g == 20 || g == 30 || g == 331 || g == 730 || g == 800 ||
+         (g >= 810 && g <= 890);
+}
+constexpr bool is_cycle(int g) { return g == 730 || (g >= 810 && g <= 890); }
+
+/// M codes that LinuxCNC has and this reader does not follow, times ten.
+constexpr bool is_other_m(int m) {
+  return m % 10 == 0 && (m == 190 || (m >= 500 && m <= 530) || (m >= 610 && m <= 680) ||
+                         (m >= 700 && m <= 730) || m == 980 || m == 990 || (m >= 1000 && m <= 1990));
+}
+
+/// A tool or offset number; out of range becomes one that no table has.
+int whole(double v) { return v >= 0.0 && v < 1e9 ? static_cast<int>(v) : 1000000000; }
+
+std::string code_text(char letter, int tenths) {
+  std::string out = letter + std::to_string(tenths / 10);
+  if (tenths % 10 != 0) out += "." + std::to_string(tenths % 10);
+  return out;
+}
+
+}  // namespace
+
+void Interpreter::fault(int property, std::string code, std::string message, bool undecided) {
+  if (out_.faults.size() < kFaultCap)
+    out_.faults.push_back({property, std::move(code), line_, std::move(message), undecided});
+}
+
+bool Interpreter::gather(const Line& l, Said& s) {
+  for (const Word& w : l.words) {
+    if (w.letter == 'G' || w.letter == 'M') {
+      const double tenths = std::round(w.value * 10.0);
+      if (!(tenths >= 0.0 && tenths < 10000.0) || std::abs(w.value * 10.0 - tenths) > 1e-6) {
+        fault(33, "CHK-CODE", std::string(1, w.letter) + plain(w.value) + " is not a code");
+        return false;
+      }
+      const bool g = w.letter == 'G';
+      int& count = g ? s.g_count : s.m_count;
+      if (count >= (g ? 32 : 16)) continue;
+      (g ? s.g : s.m)[count++] = static_cast<int>(tenths);
+      continue;
+    }
+    const int i = w.letter - 'A';
+    if (s.has[i])
+      fault(33, "CHK-WORD-TWICE", std::string("the word ") + w.letter + " stands twice in one block");
+    s.has[i] = true;
+    s.value[i] = w.value;
+  }
+  return true;
+}
+
+double Interpreter::speed() const { return spindle_ * speed_; }
+
+Block Interpreter::block() const {
+  Block b;
+  b.line = line_;
+  b.marker = marker_;
+  b.from = b.to = at_;
+  for (int i = 0; i < 3; ++i) b.known_from[i] = b.known_to[i] = known_[i];
+  b.feed_mm_min = feed_mode_ == 95 ? feed_ * std::abs(speed()) : feed_;
+  b.spindle_rpm = speed();
+  b.tool = tool_;
+  b.length_offset = length_;
+  b.radius_offset = radius_;
+  b.radius_left = left_;
+  b.work_offset = offset_;
+  b.machine_z = machine_z_;
+  b.unmoved = !moved_;
+  b.spindle_starts = starts_;
+  b.started_s = started_s_;
+  b.moved_since = moved_since_;
+  b.cycle_active = is_cycle(motion_);
+  b.mist = mist_;
+  b.flood = flood_;
+  b.stated = stated_;
+  b.units_stated = units_stated_;
+  b.tolerance_mm = tolerance_;
+  b.naive_mm = naive_;
+  b.exact_stop = exact_stop_;
+  return b;
+}
+
+void Interpreter::put(Block b) {
+  moved_ = moved_since_ = true;
+  at_ = b.to;
+  for (int i = 0; i < 3; ++i) known_[i] = b.known_to[i];
+  if (b.words[2] || b.from.z != b.to.z) {
+    machine_z_.reset();
+    if (b.in_machine) machine_z_ = b.to.z;
+  }
+  b.machine_z = machine_z_;
+  out_.blocks.push_back(std::move(b));
+}
+
+void Interpreter::length_code(int g, const Said& s) {
+  const int before = length_;
+  if (g == 490) {
+    length_ = -1;
+  } else if (g == 430) {
+    length_ = s.is('H') ? whole(s.of('H')) : tool_;
+    if (length_ == 0) length_ = -1;  // H0 is no offset
+    stated_ |= kStatedLength;
+  } else {
+    length_ = 0;
+    stated_ |= kStatedLength;
+    fault(5, "CHK-DYNAMIC-LENGTH", "G43.1 sets a length offset that no tool table proves", true);
+  }
+  if (length_ != before || length_ == 0) known_[2] = false;  // the tip's height is another one now
+}
+
+void Interpreter::state_code(int g, const Said& s) {
+  switch (g) {
+    case 170:
+      plane_xy_ = true;
+      stated_ |= kStatedPlane;
+      break;
+    case 180:
+    case 190:
+      plane_xy_ = false;
+      fault(33, "CHK-UNVERIFIABLE", code_text('G', g) + ": only the XY plane is followed", true);
+      break;
+    case 200:
+    case 210: {
+      const bool inch = g == 200;
+      if (units_stated_ && inch != inch_)
+        fault(2, "CHK-UNITS",
+              "the unit of length is switched from " + std::string(inch_ ? "inch" : "mm") + " to " +
+                  (inch ? "inch" : "mm"));
+      inch_ = inch;
+      units_stated_ = true;
+      stated_ |= kStatedUnits;
+      break;
+    }
+    case 400:
+      radius_ = -1;
+      stated_ |= kStatedRadius;
+      break;
+    case 410:
+    case 420:
+      left_ = g == 410;
+      radius_ = s.is('D') ? whole(s.of('D')) : tool_;
+      break;
+    case 430:
+    case 431:
+    case 490:
+      length_code(g, s);
+      break;
+    case 540:
+    case 550:
+    case 560:
+    case 570:
+    case 580:
+    case 590:
+    case 591:
+    case 592:
+    case 593:
+      // The work's coordinates of where the tool stands are others now.
+      if (offset_ != g && offset_ != 0) known_[0] = known_[1] = known_[2] = false;
+      offset_ = g;
+      stated_ |= kStatedOffset;
+      break;
+    case 610:
+    case 611:
+      tolerance_ = naive_ = 0.0;
+      exact_stop_ = g == 611;
+      break;
+    case 640:  // without P as fast as it likes
+      tolerance_ = s.is('P') ? s.of('P') * units() : kNoTolerance;
+      naive_ = s.is('Q') ? s.of('Q') * units() : tolerance_;
+      exact_stop_ = false;
+      break;
+    case 530:
+    case 40:
+      break;
+    case 900:
+      absolute_ = true;
+      stated_ |= kStatedDistance;
+      break;
+    case 910:
+      absolute_ = false;
+      stated_ |= kStatedDistance;
+      break;
+    case 901:
+      absolute_arcs_ = true;
+      break;
+    case 911:
+      absolute_arcs_ = false;
+      break;
+    case 930:
+    case 940:
+    case 950:
+      feed_mode_ = g / 10;
+      feed_ = 0.0;  // LinuxCNC forgets F at each of them, the mode that is on included
+      stated_ &= ~static_cast<unsigned>(kStatedFeed);
+      stated_ |= kStatedFeedMode;
+      break;
+    case 970:
+      break;
+    case 980:
+      return_to_r_ = false;
+      break;
+    case 990:
+      return_to_r_ = true;
+      break;
+    default:
+      if (!is_motion(g))
+        fault(33, "CHK-CODE",
+              code_text('G', g) + " is not followed: what it moves, shifts or sets is not known");
+  }
+}
+
+void Interpreter::state_codes(const Said& s) {
+  for (int i = 0; i < s.g_count; ++i) {
+    // The unit comes first: it tells what the other words mean.
+    if (s.g[i] == 200 || s.g[i] == 210 || (s.g[i] >= 930 && s.g[i] <= 950)) state_code(s.g[i], s);
+  }
+  if (s.is('F')) {
+    feed_ = feed_mode_ == 93 ? s.of('F') : s.of('F') * units();
+    stated_ |= kStatedFeed;
+  }
+  if (s.is('S')) {
+    speed_ = s.of('S');
+    stated_ |= kStatedSpeed;
+  }
+  if (s.is('T')) next_tool_ = whole(s.of('T'));
+}
+
+void Interpreter::machine_codes(const Said& s) {
+  for (int i = 0; i < s.m_count; ++i) {
+    switch (s.m[i]) {
+      case 60: {
+        Block b = block();
+        b.kind = Block::Kind::kToolChange;
+        if (next_tool_ < 0) fault(4, "CHK-TOOL", "M6 without a T word");
+        if (tool_ != std::max(0, next_tool_)) known_[2] = false;  // nobody knows where this one's tip is
+        b.tool = tool_ = std::max(0, next_tool_);
+        out_.blocks.push_back(b);
+        spindle_ = 0;  // LinuxCNC stops the spindle for a change
+        break;
+      }
+      case 30:
+      case 40:
+        start(s.m[i] == 30 ? 1 : -1);
+        break;
+      case 50:
+        spindle_ = 0;
+        break;
+      case 70:
+        mist_ = true;
+        break;
+      case 80:
+        flood_ = true;
+        break;
+      case 90:
+        mist_ = flood_ = false;
+        break;
+      case 10:
+      case 480:
+      case 490:
+        out_.odd.emplace_back(line_, code_text('M', s.m[i]));
+        break;
+      case 0:
+      case 600:
+      case 20:
+      case 300:
+        break;
+      default:
+        fault(33, is_other_m(s.m[i]) ? "CHK-UNVERIFIABLE" : "CHK-CODE",
+              code_text('M', s.m[i]) + (is_other_m(s.m[i]) ? " is not followed" : " is none of LinuxCNC's"),
+              is_other_m(s.m[i]));
+    }
+  }
+}
+
+void Interpreter::start(int way) {
+  if (spindle_ != way) {
+    ++starts_;
+    started_s_ = 0.0;
+    moved_since_ = false;
+  }
+  spindle_ = way;
+  stated_ |= kStatedSpindle;
+}
+
+void Interpreter::dwell(double seconds) {
+  Block b = block();
+  b.kind = Block::Kind::kDwell;
+  b.move = MoveKind::kDwell;
+  b.dwell_s = seconds;
+  out_.blocks.push_back(b);
+  started_s_ += seconds;
+}
+
+void Interpreter::motion(const Said& s, bool machine_coordinates) {
+  const bool axes = s.is('X') || s.is('Y') || s.is('Z');
+  for (int i = 0; i < s.g_count; ++i) {
+    if (!is_motion(s.g[i])) continue;
+    if (s.g[i] == 800) stated_ |= kStatedCycle;
+    if (is_cycle(s.g[i]) && !is_cycle(motion_)) {
+      cycle_known_ = false;
+      cycle_clear_ = known_[2] ? at_.z : 1e300;
+    }
+    motion_ = s.g[i] == 800 ? -1 : s.g[i];
+  }
+  const bool centre = s.is('I') || s.is('J');
+  if (!axes && !(centre && (motion_ == 20 || motion_ == 30))) return;
+  if (motion_ >= 0 && !units_stated_) {
+    fault(2, "CHK-UNITS",
+          "a move before the unit of length was stated (G20 or G21): the control takes the unit that the "
+          "program before left");
+    units_stated_ = true;
+  }
+  switch (motion_) {
+    case 0:
+    case 10:
+      straight(s, motion_ / 10, machine_coordinates);
+      break;
+    case 20:
+    case 30:
+      arc(s, motion_ == 20);
+      break;
+    case 331:
+      tap(s);
+      break;
+    case -1:
+      fault(33, "CHK-UNVERIFIABLE", "axis words without a motion mode");
+      break;
+    default:
+      cycle(s);
+  }
+}
+
+/// A line of % opens a program where nothing stands before it, and ends it otherwise.
+void Interpreter::percent(const Line& l) {
+  if (!l.percent) return;
+  if (!any_line_) {
+    percent_ = true;
+  } else if (!percent_) {
+    fault(32, "CHK-END", "a % here, in a program that does not begin with one, is refused by LinuxCNC");
+  } else {
+    percent_end_ = true;
+  }
+}
+
+void Interpreter::line(const Line& l, long number) {
+  line_ = number;
+  if (percent_end_) {
+    if (!l.words.empty() && !out_.ended) {
+      fault(32, "CHK-END", "the control ends at the % before this line; what follows is not run");
+    }
+    return;
+  }
+  percent(l);
+  any_line_ = any_line_ || l.percent || !l.words.empty() || !l.comments.empty() || !l.fault.empty();
+  for (const std::string& c : l.comments) comment(c);
+  command(l.command);
+  if (!l.fault.empty()) {
+    const int property = l.not_finite ? 1 : 33;
+    const char* code = l.not_finite ? "CHK-NUMBER" : l.unverifiable ? "CHK-UNVERIFIABLE" : "CHK-SYNTAX";
+    fault(property, code, l.fault, l.unverifiable);
+  }
+  if (l.deleted) {
+    fault(33, "CHK-UNVERIFIABLE", "a block that may be skipped (/) is taken as not skipped", true);
+  }
+  if (l.words.empty() || out_.ended) {
+    if (out_.ended && !l.words.empty()) fault(32, "CHK-END", "text goes on after the end of the program");
+    return;
+  }
+  Said s;
+  if (!gather(l, s)) return;
+  block_rules(l, s);
+  state_codes(s);
+  machine_codes(s);
+  bool g53 = false, dwells = false;
+  for (int i = 0; i < s.g_count; ++i) {
+    const int g = s.g[i];
+    g53 = g53 || g == 530;
+    dwells = dwells || g == 40;
+    if (g == 200 || g == 210 || (g >= 930 && g <= 950)) continue;
+    state_code(g, s);
+  }
+  if (dwells) {
+    dwell(s.of('P'));
+  } else {
+    motion(s, g53);
+  }
+  for (int i = 0; i < s.m_count; ++i) {
+    // M1 stops only where the operator has said so.
+    if (s.m[i] == 0 || s.m[i] == 600) {
+      Block b = block();
+      b.kind = Block::Kind::kStop;
+      out_.stops.push_back(b);
+      out_.blocks.push_back(b);
+    }
+    if (s.m[i] != 20 && s.m[i] != 300) continue;
+    Block b = block();
+    b.kind = Block::Kind::kEnd;
+    out_.blocks.push_back(b);
+    out_.ended = true;
+    out_.end_line = line_;
+  }
+}
+
+Program Interpreter::finish(long lines) {
+  out_.lines = lines;
+  return std::move(out_);
+}
+
+Program read_program(std::string_view text) {
+  Interpreter machine;
+  Line line;
+  long number = 0;
+  if (text.size() > kProgramCap) {
+    Program out;
+    out.faults.push_back(
+        {33, "CHK-TOO-LARGE", 0, "the program is larger than 256 MiB and was not read", true});
+    return out;
+  }
+  while (!text.empty()) {
+    const std::size_t end = text.find('\n');
+    std::string_view one = text.substr(0, end);
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    ++number;
+    if (one.size() > kLineCap) {
+      line = {};
+      line.fault = "the line has " + std::to_string(one.size()) + " characters; LinuxCNC reads " +
+                   std::to_string(kLineCap) + " at most";
+    } else {
+      split_line(one, line);
+    }
+    machine.line(line, number);
+  }
+  return machine.finish(number);
+}
+
+}  // namespace capstan::verify

@@ -1,0 +1,384 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "planner/model/features/in_piece.h"
+#include "planner/model/nouns/all.h"
+#include "planner/proof/verify/sweep/target/target.h"
+
+// What stays of planned features after the last step. Every cell of a feature's area is held against the
+// feature's own floor: its nominal height, the depth's tolerance and what the finest step states as allowance
+// added. A cell counts where the floor is as high, or there is none, at no point of a ring around it: the
+// ring's radius is a cell, the tolerances and the side allowance, so that walls and slopes are judged within
+// a cell. What may stay in corners is what the file allows: a stated radius; where none is stated, the
+// radius of the narrowest mill of its steps, and at the foot of a wall that of the tool's corner, both within
+// bounds (steps, outsides, closed pockets: model::unstated_corner_mm); nothing in the square ends of slots,
+// at the open side of a pocket, nor where a radius of 0 is stated. Points of drills count below a conical
+// bottom's depth only. A through hole that ends within another feature that the plan makes is done there.
+// Crests of threads and what heights do not hold are not looked at, nor what is narrower than two cells: a
+// note says so.
+//
+// In the sharp inside corners of a mesh, which can state no radius, may stay what may stay in those of a
+// step.
+//
+// On a freeform surface the distance is measured square to it: from the top of what stands to the nearest of
+// the columns that the finished part fills. It may be the tolerance, and what the finishing step states as
+// the height of its ridges and of its chords.
+
+namespace capstan::verify {
+
+using geometry::Region;
+using geometry::Vec2;
+using model::FeatureShape;
+using model::ShapeKind;
+
+namespace {
+
+constexpr int kRing = 8;
+constexpr double kSharpRad = 20.0 / 180.0 * std::numbers::pi;  ///< arcs are drawn by smaller turns
+constexpr double kNone = 1e300;
+/// What may stay in corners for which the file states no radius, of the outline's narrower side. Default,
+/// unsourced: a mill wider than 0.7 of what it cuts leaves no corner to speak of.
+constexpr double kUnstatedShare = 0.35;
+/// At the foot of an upright wall: the usual largest corner of a milling insert (ISO 1832, 08), mm.
+constexpr double kUnstatedFootMm = 0.8;
+constexpr double kBelowMm = 0.05;  ///< a hole's end, to see what it opens into; default, unsourced
+
+std::string place(Vec2 p, double z) { return "(" + plain(p.x) + ", " + plain(p.y) + ", " + plain(z) + ")"; }
+
+bool mills(const model::Cutter& c) {
+  switch (c.cutter_class) {
+    case model::CutterClass::kTwistDrill:
+    case model::CutterClass::kCenterDrill:
+    case model::CutterClass::kSpotDrill:
+    case model::CutterClass::kGunDrill:
+    case model::CutterClass::kReamer:
+    case model::CutterClass::kTap:
+    case model::CutterClass::kBoringTool:
+    case model::CutterClass::kCountersink:
+    case model::CutterClass::kTouchProbe:
+      return false;
+    default:
+      return true;
+  }
+}
+
+bool undercuts(const model::Cutter& c) {
+  switch (c.cutter_class) {
+    case model::CutterClass::kTSlotMill:
+    case model::CutterClass::kDovetailMill:
+    case model::CutterClass::kBackCounterbore:
+    case model::CutterClass::kBackCountersink:
+    case model::CutterClass::kSideMill:
+      return true;
+    default:
+      return false;
+  }
+}
+
+/// How much higher, and how much narrower than nominal the feature's tolerances let it be.
+double shallower(const FeatureShape& s) {
+  return s.depth_tolerance.given ? std::max(0.0, -s.depth_tolerance.lower_mm) : 0.0;
+}
+double narrower(const FeatureShape& s) {
+  double out = 0.0;
+  for (const model::Toleranced* t : {&s.width, &s.length, &s.diameter}) {
+    if (t->given) out = std::max(out, -0.5 * t->lower_mm);
+  }
+  return out;
+}
+
+/// The feature's own floor, frame coordinates; nothing where it leaves the place alone.
+std::optional<double> own_floor(const FeatureShape& s, Vec2 q) {
+  // Walls that lean, and cones under a hole's full depth, are made within what no height tells.
+  if (s.slope_rad > 0.0 && !geometry::contains(s.area, q)) return std::nullopt;
+  auto z = model::floor_at(s, q);
+  if (!z) return std::nullopt;
+  const bool hole = s.kind == ShapeKind::kHole || s.kind == ShapeKind::kThread;
+  return hole ? std::max(*z, -s.depth_mm) : *z;
+}
+
+double narrow_side(const Region& area) {
+  const auto b = geometry::bounds(area);
+  return std::min(b.hi.x - b.lo.x, b.hi.y - b.lo.y);
+}
+
+/// The radius that the file lets stay in a feature's inside corners; `mill`: that of its narrowest mill.
+double corner_allowed(const model::Model& m, const FeatureShape& s, double mill) {
+  if (s.corner_radius_mm > 0.0) return s.corner_radius_mm;
+  if (s.kind == ShapeKind::kSlot) return 0.0;
+  const auto* p = m.get<model::Pocket>(s.made_of.empty() ? s.feature : s.made_of.back());
+  if (p != nullptr && p->orthogonal_radius.set()) return 0.0;
+  if (s.kind == ShapeKind::kStep || s.kind == ShapeKind::kOutside || s.kind == ShapeKind::kFace ||
+      (s.kind == ShapeKind::kPocket && !s.open))
+    return std::min(mill, model::unstated_corner_mm(s));
+  return std::min(mill, kUnstatedShare * narrow_side(s.area));
+}
+
+/// The same for the foot of its walls; `corner`: that of the mill.
+double foot_allowed(const FeatureShape& s, double corner) {
+  if (s.bottom_radius_mm > 0.0)
+    return s.open || s.kind == ShapeKind::kSlot ? s.bottom_radius_mm : 0.0;  // else its floor tells it
+  return std::min(corner, s.slope_rad > 0.0 ? kUnstatedShare * narrow_side(s.area) : kUnstatedFootMm);
+}
+
+/// What of a feature no height tells, or no cell.
+std::string not_judged(const FeatureShape& s, const Asked& a, double ring) {
+  if (s.kind != ShapeKind::kChamfer && geometry::offset(s.area, -ring, 0.01).empty())
+    return "all of it, which is narrower than two cells (" + mm(2.0 * ring) + " with its tolerances)";
+  const bool cone = s.kind == ShapeKind::kHole && s.diameter.nominal_mm - s.bottom_diameter_mm > 1e-6;
+  std::string out;
+  const auto say = [&](bool so, const char* what) {
+    if (so) out += (out.empty() ? "" : "; ") + std::string(what);
+  };
+  say(s.kind == ShapeKind::kThread, "the flanks of its thread");
+  say(cone, "the cone of its wall");
+  say(a.undercut, "what lies under an overhang");
+  say(s.slope_rad > 0.0 && !cone, "its leaning walls");
+  return out;
+}
+
+/// Where a mill of this radius leaves the sharp corners of an area, and nowhere else. Corners at the open
+/// side of a pocket keep nothing: the mill runs out there. `open`: the pocket's reach, else empty.
+Region in_sharp_corners(const Region& area, const Region& open, double radius, double more) {
+  Region discs;
+  for (const auto& loop : area.loops) {
+    const std::size_t n = loop.size();
+    for (std::size_t i = 0; i < n; ++i) {
+      const Vec2 a = loop[(i + n - 1) % n], b = loop[i], c = loop[(i + 1) % n];
+      const double turn = std::atan2(cross(b - a, c - b), dot(b - a, c - b));
+      if (turn < kSharpRad) continue;
+      const auto opens = [&](Vec2 from, Vec2 to) {
+        const Vec2 d = to - from, p = 0.5 * (from + to);
+        return norm(d) > 1e-6 && geometry::contains(open, p + (kBelowMm / norm(d)) * Vec2{d.y, -d.x});
+      };
+      if (!open.empty() && (opens(a, b) || opens(b, c))) continue;
+      const double half = 0.5 * (std::numbers::pi - turn);
+      const double reach = radius / std::max(std::tan(half), 1e-3) + more;
+      discs = geometry::unite(discs, geometry::disc(b, reach, 0.01));
+    }
+  }
+  if (discs.empty()) return discs;
+  const Region reached = geometry::offset(geometry::offset(area, -radius, 0.01), radius, 0.01);
+  const Region missed = geometry::subtract(area, reached);
+  return geometry::intersect(geometry::offset(missed, more, 0.01), discs);
+}
+
+}  // namespace
+
+std::vector<Asked> asked_of(const model::Plan& plan) {
+  std::set<model::AnyRef> given_up;
+  for (const auto& u : plan.unplanned) given_up.insert(u.feature);
+  std::vector<Asked> out;
+  for (std::size_t i = 0; i < plan.steps.size(); ++i) {
+    const model::StepResult& step = plan.steps[i];
+    const auto* ws = plan.model.get<model::MachiningWorkingstep>(step.step);
+    const model::Cutter* cutter = model::find_cutter(plan, step.cutter_id);
+    if (ws == nullptr || cutter == nullptr || !step.path || step.path->size() < 2) continue;
+    if (cutter->cutter_class == model::CutterClass::kTouchProbe) continue;
+    std::vector<model::AnyRef> features = {ws->its_feature};
+    features.insert(features.end(), ws->final_features.items.begin(), ws->final_features.items.end());
+    for (const model::AnyRef f : features) {
+      if (!f.set() || given_up.contains(f)) continue;
+      auto it = std::find_if(out.begin(), out.end(), [&](const Asked& a) { return a.feature == f; });
+      if (it == out.end()) it = out.insert(out.end(), Asked{.feature = f});
+      it->where = {i + 1, model::step_id(plan, step), -1};
+      it->setup = step.setup;
+      double side = kNone, bottom = kNone;
+      if (const auto* o = plan.model.get<model::PlaneMilling>(ws->its_operation)) {
+        bottom = o->allowance_bottom.value_or(0.0);
+      } else if (const auto* s = plan.model.get<model::SideMilling>(ws->its_operation)) {
+        side = s->allowance_side.value_or(0.0);
+      } else if (const auto* b = plan.model.get<model::BottomAndSideMilling>(ws->its_operation)) {
+        side = b->allowance_side.value_or(0.0);
+        bottom = b->allowance_bottom.value_or(0.0);
+      }
+      it->side_mm = std::min(it->side_mm, side);
+      it->bottom_mm = std::min(it->bottom_mm, bottom);
+      it->undercut = it->undercut || undercuts(*cutter);
+      if (const auto* o = plan.model.get<model::FreeformOperation>(ws->its_operation)) {
+        double stated = 0.0;
+        const auto* strategy = plan.model.get<model::FreeformStrategy>(o->its_machining_strategy);
+        if (strategy != nullptr) {
+          if (const auto* t = plan.model.get<model::Tolerances>(strategy->its_milling_tolerances))
+            stated = t->scallop_height.value_or(0.0) + t->chordal_tolerance.value_or(0.0);
+        }
+        it->ridges_mm = std::min(it->ridges_mm, stated);
+      }
+      if (!mills(*cutter)) continue;
+      const bool ball = cutter->cutter_class == model::CutterClass::kBallEndmill;
+      const double corner = ball ? 0.5 * cutter->cutting_diameter_mm : cutter->corner_radius_mm;
+      it->radius_mm = std::min(it->radius_mm, 0.5 * cutter->cutting_diameter_mm);
+      it->corner_mm = std::min(it->corner_mm, corner);
+    }
+  }
+  for (Asked& a : out) {
+    if (a.side_mm >= kNone) a.side_mm = 0.0;
+    if (a.bottom_mm >= kNone) a.bottom_mm = 0.0;
+    if (a.ridges_mm >= kNone) a.ridges_mm = 0.0;
+    if (a.radius_mm >= kNone) a.radius_mm = a.corner_mm = 0.0;
+  }
+  return out;
+}
+
+void Target::left(const Grid& grid, const std::vector<Asked>& here, const std::vector<Asked>& asked,
+                  bool carried, Findings& out) const {
+  for (const Asked& a : here) {
+    if (plan_.target_mesh) left_on_mesh(grid, a, out);
+    for (const Cavity& c : cavities_) {
+      if (c.shape->feature == a.feature && !c.bevel) left_of(c, grid, a, asked, carried, out);
+    }
+  }
+}
+
+bool Target::opens_below(const FeatureShape& s, const std::vector<Asked>& asked, Vec2 p, double z) const {
+  const geometry::Vec3 at = frame_.to_local({p.x, p.y, z - kBelowMm});
+  return std::any_of(part_.entries.begin(), part_.entries.end(), [&](const PartShapes::Entry& e) {
+    const auto same = [&](const Asked& a) { return a.feature == e.feature; };
+    return !e.piece && e.feature != s.feature && std::any_of(asked.begin(), asked.end(), same) &&
+           std::any_of(e.shapes.begin(), e.shapes.end(), [&](const auto& o) { return model::takes(o, at); });
+  });
+}
+
+void Target::left_of(const Cavity& c, const Grid& grid, const Asked& a, const std::vector<Asked>& asked,
+                     bool carried, Findings& out) const {
+  const FeatureShape& s = *c.shape;
+  const double above = c.frame.origin.z;
+  const double limit = allowed() + shallower(s) + a.bottom_mm;
+  const double ring = (carried ? 1.5 : 1.0) * grid.cell() + allowed() + narrower(s) + a.side_mm;
+  const double fillet = foot_allowed(s, a.corner_mm);
+  if (const std::string what = not_judged(s, a, ring); !what.empty())
+    out.note(36, "CHK-NOT-JUDGED", a.where,
+             "of " + s.name + ", " + what + ": what stays there is not looked at");
+  const bool below = c.frame.z.z < 0.0;
+  const auto floor = [&](Vec2 p) -> std::optional<double> {
+    const geometry::Vec3 local = c.frame.to_local({p.x, p.y, 0.0});
+    const auto z = own_floor(s, {local.x, local.y});
+    if (!z) return std::nullopt;
+    if (*z <= -s.depth_mm + 1e-9 && c.open_bottom) return Grid::kNothing;
+    return below ? Grid::kNothing : above + *z;
+  };
+  /// The highest floor on the ring; nothing where the feature ends within it.
+  const auto around = [&](Vec2 p, double r) -> std::optional<double> {
+    double z = Grid::kNothing;
+    for (int i = 0; i < kRing; ++i) {
+      const double t = 2.0 * std::numbers::pi * i / kRing;
+      const auto f = floor(p + Vec2{r * std::cos(t), r * std::sin(t)});
+      if (!f) return std::nullopt;
+      z = std::max(z, *f);
+    }
+    return z;
+  };
+  std::optional<Region> corners;
+  double worst = 0.0, volume = 0.0, top = 0.0;
+  Vec2 where;
+  const auto [y0, y1] = grid.rows(c.box.lo.y, c.box.hi.y);
+  const auto [x0, x1] = grid.columns(c.box.lo.x, c.box.hi.x);
+  for (int iy = y0; iy < y1; ++iy) {
+    for (int ix = x0; ix < x1; ++ix) {
+      const std::size_t i = grid.index(ix, iy);
+      const double stands = grid.stock[i];
+      if (stands <= Grid::kNothing / 2 || (!c.open_bottom && stands <= above - s.depth_mm + limit)) continue;
+      // Over what a head has cut from below stands what it passed under.
+      if (a.undercut && stands > above + limit) continue;
+      const Vec2 p = grid.centre(ix, iy);
+      const auto own = floor(p);
+      if (!own || stands - std::max(*own, grid.base[i]) <= limit) continue;
+      if (s.through && stands <= above - s.depth_mm + limit && opens_below(s, asked, p, above - s.depth_mm))
+        continue;
+      const auto wide = around(p, ring);
+      if (!wide) continue;
+      const double left = stands - std::max({*own, *wide, grid.base[i]});
+      if (left <= limit) continue;
+      if (fillet > 0.0 && left <= fillet + limit && !around(p, ring + fillet)) continue;
+      if (!corners) {
+        const double r = corner_allowed(plan_.model, s, a.radius_mm);
+        Region own_area = s.area;
+        for (const auto& island : s.islands) own_area = geometry::subtract(own_area, island.area);
+        const bool milled = r > 0.0 && s.kind != ShapeKind::kHole && s.kind != ShapeKind::kThread;
+        const Region open = s.kind == ShapeKind::kPocket && s.open ? s.reach : Region{};
+        corners = milled ? in_sharp_corners(own_area, open, r + a.side_mm, ring) : Region{};
+      }
+      const geometry::Vec3 local = c.frame.to_local({p.x, p.y, 0.0});
+      if (!corners->empty() && geometry::contains(*corners, {local.x, local.y})) continue;
+      volume += left * grid.cell() * grid.cell();
+      if (left <= worst) continue;
+      worst = left;
+      where = p;
+      top = stands;
+    }
+  }
+  if (worst <= 0.0) return;
+  out.error(36, "CHK-LEFT", a.where,
+            "after the last step " + mm(worst) + " of " + s.name + " still stand at " + place(where, top) +
+                ", " + plain(volume) + " mm3 in all; allowed " + mm(limit) + " (cells of " + mm(grid.cell()) +
+                ")",
+            worst);
+}
+
+void Target::left_on_mesh(const Grid& grid, const Asked& a, Findings& out) const {
+  const PartShapes::Entry* e = part_.find(a.feature);
+  if (e == nullptr || e->shapes.empty() || e->shapes.front().kind != ShapeKind::kFreeform) return;
+  geometry::Mesh in_setup = *plan_.target_mesh;
+  for (geometry::Vec3& v : in_setup.vertices) v = frame_.to_parent(v);
+  below_mesh(in_setup, a, out);
+  const double limit = allowed() + a.bottom_mm + a.ridges_mm;
+  const double slack = 0.71 * grid.cell();  // a column may stand anywhere in its cell
+  // Inside corners of a solid's walls that no mill makes.
+  const std::vector<geometry::MeshCorner> corners =
+      sheet_ ? std::vector<geometry::MeshCorner>{} : geometry::sharp_corners(in_setup, inside_out_);
+  const auto in_corner = [&](Vec2 p, double z) {
+    return std::any_of(corners.begin(), corners.end(), [&](const geometry::MeshCorner& c) {
+      const double may_stay = model::unstated_corner_mm(c.high - c.low);
+      return z <= c.high + limit && c.keeps(p, may_stay, limit + slack);
+    });
+  };
+  double worst = 0.0, top = 0.0;
+  std::size_t cells = 0, all = 0;
+  Vec2 where;
+  for (int iy = 0; iy < grid.ny(); ++iy) {
+    for (int ix = 0; ix < grid.nx(); ++ix) {
+      const std::size_t i = grid.index(ix, iy);
+      const double z = grid.stock[i];
+      if (z <= Grid::kNothing / 2) continue;
+      ++all;
+      // What has no column under it must go down to the underside.
+      const double own = std::max(grid.part[i], grid.base[i]);
+      double near = z - own;
+      if (near <= limit) continue;
+      // Rings of columns around, until they are farther away than the nearest found.
+      const int most = std::max(grid.nx(), grid.ny());
+      for (int n = 1; n < most && near > limit; ++n) {
+        if ((n * grid.cell()) - slack >= near) break;
+        for (int dy = -n; dy <= n; ++dy) {
+          const int stride = std::abs(dy) == n ? 1 : 2 * n;
+          for (int dx = -n; dx <= n; dx += stride) {
+            const int jx = ix + dx, jy = iy + dy;
+            if (jx < 0 || jy < 0 || jx >= grid.nx() || jy >= grid.ny()) continue;
+            const double column = grid.part[grid.index(jx, jy)];
+            if (column <= Grid::kNothing / 2) continue;
+            const double aside = std::max(0.0, std::hypot(dx, dy) * grid.cell() - slack);
+            near = std::min(near, std::hypot(aside, std::max(0.0, z - column)));
+          }
+        }
+      }
+      if (near <= limit || in_corner(grid.centre(ix, iy), z)) continue;
+      ++cells;
+      if (near <= worst) continue;
+      worst = near;
+      where = grid.centre(ix, iy);
+      top = z;
+    }
+  }
+  if (worst <= 0.0) return;
+  out.error(36, "CHK-LEFT", a.where,
+            "after the last step " + mm(worst) + ", square to the surface, still stand at " +
+                place(where, top) + ", and more than is allowed on " +
+                plain(100.0 * static_cast<double>(cells) / static_cast<double>(all)) +
+                " % of what lies there; allowed " + mm(limit) + " (cells of " + mm(grid.cell()) +
+                "); no cutter of the plan reached it",
+            worst);
+}
+
+}  // namespace capstan::verify

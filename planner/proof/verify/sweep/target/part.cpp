@@ -1,0 +1,130 @@
+#include <algorithm>
+#include <cmath>
+
+#include "planner/ground/base/number.h"
+#include "planner/model/features/raw_piece.h"
+#include "planner/model/features/resolve.h"
+#include "planner/model/nouns/all.h"
+#include "planner/proof/verify/sweep/target/target.h"
+
+namespace capstan::verify {
+
+using geometry::Box3;
+using geometry::Placement;
+using geometry::Vec3;
+
+namespace {
+
+constexpr double kDefaultToleranceMm = 0.02;  // default, unsourced
+
+Box3 box_of_noun(const model::Model& m, model::AnyRef shape) {
+  if (const auto* b = m.get<model::Block>(shape)) {
+    const auto frame = model::placement_or_identity(m, b->position);
+    if (!frame || !b->x || !b->y || !b->z) return {};
+    Box3 local;
+    local.add({0.0, 0.0, 0.0});
+    local.add({*b->x, *b->y, *b->z});
+    return placed(local, *frame);
+  }
+  return {};
+}
+
+Box3 box_of_features(const PartShapes& part) {
+  Box3 out;
+  for (const auto& e : part.entries) {
+    for (const auto& s : e.shapes) {
+      if (s.area.empty() || s.kind == model::ShapeKind::kStep || s.kind == model::ShapeKind::kOutside)
+        continue;
+      const auto b = geometry::bounds(s.area);
+      Box3 local;
+      local.add({b.lo.x, b.lo.y, 0.0});
+      local.add({b.hi.x, b.hi.y, -s.depth_mm});
+      const Box3 there = placed(local, s.frame);
+      out.add(there.lo);
+      out.add(there.hi);
+    }
+  }
+  return out;
+}
+
+const model::Workpiece* workpiece_of(const model::Plan& plan) {
+  if (const auto* project = plan.model.get<model::Project>(plan.project)) {
+    for (const auto& w : project->its_workpieces.items) {
+      if (const auto* piece = plan.model.get<model::Workpiece>(w)) return piece;
+    }
+  }
+  const auto all = plan.model.all(model::TypeId::kWorkpiece);
+  return all.empty() ? nullptr : plan.model.get<model::Workpiece>(all.front());
+}
+
+}  // namespace
+
+Box3 placed(const Box3& box, const Placement& at) {
+  Box3 out;
+  for (const double x : {box.lo.x, box.hi.x}) {
+    for (const double y : {box.lo.y, box.hi.y}) {
+      for (const double z : {box.lo.z, box.hi.z}) out.add(at.to_parent({x, y, z}));
+    }
+  }
+  return out;
+}
+
+Placement workpiece_in(const model::Plan& plan, std::size_t setup) {
+  if (setup >= plan.setups.size()) return {};
+  const auto* s = plan.model.get<model::Setup>(plan.setups[setup].setup);
+  if (s == nullptr) return {};
+  for (const auto& item : s->its_workpiece_setup.items) {
+    const auto* ws = plan.model.get<model::WorkpieceSetup>(item);
+    if (ws == nullptr) continue;
+    if (const auto frame = model::placement_or_identity(plan.model, ws->its_origin)) return *frame;
+  }
+  return {};
+}
+
+const PartShapes::Entry* PartShapes::find(model::AnyRef feature) const {
+  for (const Entry& e : entries) {
+    if (e.feature == feature) return &e;
+  }
+  return nullptr;
+}
+
+PartShapes shapes_of_part(const model::Plan& plan) {
+  PartShapes out;
+  std::set<model::AnyRef> pieces = model::parts_of_others(plan.model);
+  for (const auto& s : plan.steps) {
+    const auto* ws = plan.model.get<model::MachiningWorkingstep>(s.step);
+    if (ws != nullptr) pieces.erase(ws->its_feature);
+  }
+  for (const auto f : plan.model.all_below(model::TypeId::kManufacturingFeature)) {
+    PartShapes::Entry e{f, {}, {}, pieces.contains(f)};
+    if (auto shapes = model::shapes_of(plan.model, model::Ref<model::ManufacturingFeature>(f))) {
+      e.shapes = *std::move(shapes);
+    } else {
+      e.fault = shapes.error().message;
+    }
+    out.entries.push_back(std::move(e));
+  }
+  out.tolerance_mm = kDefaultToleranceMm;
+  out.tolerance_source = "default";
+  const model::Workpiece* piece = workpiece_of(plan);
+  if (const auto stated = piece != nullptr ? model::global_tolerance_of(*piece) : std::nullopt) {
+    out.tolerance_mm = std::clamp(*stated, model::kFinestJudged, model::kWidestJudged);
+    out.tolerance_source = "global_tolerance";
+  }
+  // Raw material beyond the part may be cut freely: what belongs to the part is its own bounding box, where
+  // the raw piece is another one.
+  out.part = plan.stock.box;
+  const bool grown = plan.stock.source.find("--stock") != std::string::npos;
+  Box3 own = piece != nullptr ? box_of_noun(plan.model, piece->its_bounding_geometry) : Box3{};
+  if (own.empty() && grown && !plan.target_mesh) own = box_of_features(out);
+  if (!own.empty()) {
+    out.part.lo = {std::max(own.lo.x, out.part.lo.x), std::max(own.lo.y, out.part.lo.y),
+                   std::max(own.lo.z, out.part.lo.z)};
+    out.part.hi = {std::min(own.hi.x, out.part.hi.x), std::min(own.hi.y, out.part.hi.y),
+                   std::min(own.hi.z, out.part.hi.z)};
+    if (out.part.empty()) out.part = plan.stock.box;
+  }
+  return out;
+}
+
+}  // namespace capstan::verify

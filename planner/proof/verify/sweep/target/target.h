@@ -1,0 +1,140 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "planner/ground/geometry/mesh_corners.h"
+#include "planner/ground/geometry/placement.h"
+#include "planner/ground/geometry/region.h"
+#include "planner/model/features/shape.h"
+#include "planner/model/plan/plan.h"
+#include "planner/proof/verify/findings.h"
+#include "planner/proof/verify/sweep/grid/grid.h"
+
+namespace capstan::verify {
+
+/// What all features of a plan are, once for all set-ups.
+struct PartShapes {
+  struct Entry {
+    model::AnyRef feature;
+    std::vector<model::FeatureShape> shapes;
+    std::string fault;  ///< why there are none
+    bool piece =
+        false;  ///< a boss, element or base that another feature holds, and no step is for: made with that
+  };
+  std::vector<Entry> entries;
+  double tolerance_mm = 0.02;
+  std::string tolerance_source;
+  geometry::Box3 part;  ///< what of the raw piece belongs to the part, workpiece frame
+  [[nodiscard]] const Entry* find(model::AnyRef feature) const;
+};
+[[nodiscard]] PartShapes shapes_of_part(const model::Plan& plan);
+
+/// A feature that a plan makes, and what its steps say that they leave.
+struct Asked {
+  model::AnyRef feature;
+  Findings::Where where = {};                   ///< its last step
+  std::size_t setup = 0;                        ///< of its last step
+  double side_mm = 1e300, bottom_mm = 1e300;    ///< least allowances stated
+  double radius_mm = 1e300, corner_mm = 1e300;  ///< of its narrowest mill; of that mill's corner
+  double ridges_mm = 1e300;                     ///< freeform: least height of ridges and chords stated
+  bool undercut = false;                        ///< one of its tools cuts under what stands
+};
+/// Features with steps, but those that are unplanned in part.
+[[nodiscard]] std::vector<Asked> asked_of(const model::Plan& plan);
+
+/// Where the workpiece lies in a set-up's frame.
+[[nodiscard]] geometry::Placement workpiece_in(const model::Plan& plan, std::size_t setup);
+[[nodiscard]] geometry::Box3 placed(const geometry::Box3& box, const geometry::Placement& at);
+
+/// A path piece may leave the true arc by this much, mm; added to every tolerance. Derived: the checks' own
+/// chords (0.005), and the output's last decimal.
+inline constexpr double kChordMm = 0.005;
+
+/// The finished part in one set-up: heights, and for upright walls the exact areas in which a cutter may be
+/// at a given height.
+class Target : public GougeJudge {
+ public:
+  Target(const model::Plan& plan, const PartShapes& part, std::size_t setup);
+
+  /// Fills both heights. The grid must outlive this.
+  void fill(Grid& grid);
+  [[nodiscard]] bool guilty(geometry::Vec2 at, double z_mm) const override;
+  /// By how much a disc whose tip is at the height of the move enters a wall, beyond the tolerance; 0 none.
+  double wall_gouge(const Move& m, double radius_mm, double height_mm, geometry::Vec2& at);
+  /// Whether the feature's removal can be judged here; else why not.
+  [[nodiscard]] std::string undecided(model::AnyRef feature) const;
+  /// Says what of the features `here` still stands; `asked`: all that the plan makes. `carried`: cells have
+  /// been cut in another set-up, too.
+  void left(const Grid& grid, const std::vector<Asked>& here, const std::vector<Asked>& asked, bool carried,
+            Findings& out) const;
+  [[nodiscard]] double allowed() const { return part_.tolerance_mm + kChordMm; }
+  [[nodiscard]] const geometry::Box3& stock() const { return stock_; }
+  [[nodiscard]] const geometry::Placement& frame() const { return frame_; }
+
+ private:
+  struct Cavity {
+    const model::FeatureShape* shape = nullptr;
+    geometry::Placement frame;  ///< feature in set-up
+    geometry::Region area;      ///< set-up XY, widest, lateral tolerance included
+    geometry::Box2 box;
+    std::vector<std::pair<geometry::Region, double>> islands;  ///< set-up XY, top
+    double floor_mm = 0.0;                                     ///< lowest legal height, set-up
+    double deeper_mm = 0.0;    ///< by which the depth's tolerance allows more than the nominal
+    bool open_bottom = false;  ///< anything below is legal, too
+    bool bevel = false;        ///< of an edge that the plan breaks: no feature
+  };
+  struct Walls {
+    geometry::Region region;  ///< where the part stands above the height
+    struct Edge {
+      geometry::Vec2 a, b;
+    };
+    std::vector<Edge> edges;
+    /// Edges by strips of y that they touch, so that a look around a move sees those near it only.
+    std::vector<std::vector<std::uint32_t>> strips;
+    double y0_mm = 0.0, strip_mm = 1.0;
+    [[nodiscard]] std::size_t strip(double y) const;
+    /// Whether the part stands at p: the winding of the edges to its right.
+    [[nodiscard]] bool stands(geometry::Vec2 p) const;
+  };
+
+  void add(const model::FeatureShape& s, bool bevel = false);
+  void left_of(const Cavity& c, const Grid& grid, const Asked& a, const std::vector<Asked>& asked,
+               bool carried, Findings& out) const;
+  /// Whether another feature that is made takes away what lies right below a point at the end of this one,
+  /// set-up frame.
+  [[nodiscard]] bool opens_below(const model::FeatureShape& s, const std::vector<Asked>& asked,
+                                 geometry::Vec2 p, double z) const;
+  void left_on_mesh(const Grid& grid, const Asked& a, Findings& out) const;
+  /// Warns of surfaces of the mesh that face down above its underside, and of the raw piece under
+  /// that.
+  void below_mesh(const geometry::Mesh& in_setup, const Asked& a, Findings& out) const;
+  void add_broken_edges();
+  [[nodiscard]] double floor_of(const Cavity& c, geometry::Vec2 p) const;
+  [[nodiscard]] double height(geometry::Vec2 p) const;
+  void fill_mesh(Grid& grid) const;
+  const Walls& walls(double z_mm);
+  [[nodiscard]] std::size_t level(double z_mm) const;
+  [[nodiscard]] bool outside(geometry::Vec2 p) const;
+
+  const model::Plan& plan_;
+  const PartShapes& part_;
+  geometry::Placement frame_;
+  geometry::Box3 stock_, part_box_;
+  bool sheet_ = false;           ///< a mesh that says nothing of what lies outside its outline: that stays
+  bool inside_out_ = false;      ///< a closed mesh whose triangles face inwards
+  std::optional<double> round_;  ///< radius of a bar along the tool axis
+  std::deque<model::FeatureShape> bevels_;  ///< of edges that the plan breaks
+  std::vector<Cavity> cavities_;
+  std::vector<double> levels_;
+  std::map<std::size_t, Walls> walls_;
+  const Grid* grid_ = nullptr;  ///< of the last fill: slopes of a mesh are read from it
+};
+
+}  // namespace capstan::verify

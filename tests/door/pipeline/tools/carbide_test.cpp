@@ -1,0 +1,66 @@
+// A part that every shop makes, in the materials that every shop cuts: with the tools and passes of a shop.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "planner/door/pipeline/given/shop.h"
+#include "planner/model/nouns/all.h"
+#include "planner/proof/verify/verify.h"
+#include "tests/support/corpus.h"
+
+namespace capstan::pipeline {
+namespace {
+
+model::Plan bracket_of(const std::string& material) {
+  Job job;
+  Inputs in = load_shop({}, job).value();
+  in.material_name = material;
+  const std::string path = std::string(CAPSTAN_SOURCE_DIR) + "/examples/bracket.p21";
+  auto plan = read_plan(testing::slurp(path), "bracket.p21", job);
+  return bind(plan.value(), in, {}, job).value();
+}
+
+const model::StepResult& step_of(const model::Plan& plan, const std::string& id) {
+  const auto at = std::find_if(plan.steps.begin(), plan.steps.end(),
+                               [&](const auto& s) { return model::step_id(plan, s) == id; });
+  EXPECT_NE(at, plan.steps.end()) << id;
+  return at == plan.steps.end() ? plan.steps.front() : *at;
+}
+
+TEST(Bracket, IsDrilledAndReamedWithCarbideWhereCarbideMakesTheHole) {
+  for (const char* material : {"C45", "304", "GG25"}) {
+    const model::Plan plan = bracket_of(material);
+    EXPECT_TRUE(plan.unplanned.empty()) << material;
+    EXPECT_EQ(step_of(plan, "MOUNTING HOLES[1] drill").cutter_id, "generic/drill_carbide/6.6") << material;
+    EXPECT_EQ(step_of(plan, "CAP SCREW HOLE[2] drill").cutter_id, "generic/drill_carbide/6.6") << material;
+    EXPECT_EQ(step_of(plan, "DOWEL HOLE 1 drill").cutter_id, "generic/drill_carbide/7.8") << material;
+    EXPECT_EQ(step_of(plan, "DOWEL HOLE 1 ream").cutter_id, "generic/reamer_carbide_h7/8") << material;
+    // The file states a bottom of 118 degrees: the generic carbide drills have 140.
+    EXPECT_EQ(step_of(plan, "M6 CORE drill").cutter_id, "generic/drill_hss/5") << material;
+    Job job;
+    for (const auto& f : verify::check_plan(plan, job))
+      EXPECT_EQ(f.severity, Severity::kNote) << material << ": " << f.message;
+  }
+}
+
+TEST(Bracket, IsFacedInOnePassByACutterOfFiveFourthsItsWidth) {
+  // The face is 80 mm wide, the cutter 100 mm; a pass is 120 mm and three fourths of the cutter at either
+  // end.
+  const model::Plan plan = bracket_of("304");
+  for (const char* id : {"TOP FACE plane_rough", "TOP FACE plane_finish"}) {
+    const model::StepResult& s = step_of(plan, id);
+    EXPECT_EQ(s.cutter_id, "generic/face_mill/100");
+    double cut = 0.0;
+    for (std::size_t i = 1; i < s.path->size(); ++i) {
+      if (s.path->role[i] != model::MoveRole::kCut) continue;
+      cut += std::hypot(s.path->x[i] - s.path->x[i - 1], s.path->y[i] - s.path->y[i - 1]);
+    }
+    EXPECT_NEAR(cut, 120.0 + 2.0 * 75.0, 1e-6) << id;
+  }
+}
+
+}  // namespace
+}  // namespace capstan::pipeline

@@ -1,0 +1,199 @@
+#include "tooling/library/cutters/complete.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "planner/ground/base/number.h"
+
+namespace capstan::tooling {
+namespace {
+
+using model::Cutter;
+using model::CutterClass;
+
+/// Nearest in diameter of the class; of equals one of the same substrate and teeth, then the shorter.
+const Cutter* nearest(const Cutter& c, const std::vector<Cutter>& generic) {
+  const Cutter* best = nullptr;
+  double best_distance = 0.0;
+  for (const Cutter& g : generic) {
+    if (g.cutter_class != c.cutter_class) continue;
+    double d = std::abs(g.cutting_diameter_mm - c.cutting_diameter_mm);
+    if (g.substrate != c.substrate) d += 1e-3;
+    if (c.teeth > 0 && g.teeth != c.teeth) d += 1e-4;
+    if (c.thread_pitch_mm > 0.0) d += std::abs(g.thread_pitch_mm - c.thread_pitch_mm);
+    if (best == nullptr || d < best_distance || (d == best_distance && g.stick_out_mm < best->stick_out_mm)) {
+      best = &g;
+      best_distance = d;
+    }
+  }
+  return best;
+}
+
+class Filler {
+ public:
+  Filler(Cutter& c, const Cutter& g) : c_(c), source_(std::string(kAsGeneric) + g.id) {}
+  void take(double& field, double value, const char* name) {
+    if (field != 0.0 || value == 0.0) return;
+    field = value;
+    c_.sources.emplace_back(name, source_);
+  }
+  void note(const char* name, const std::string& why) { c_.sources.emplace_back(name, why); }
+  [[nodiscard]] const std::string& source() const { return source_; }
+
+ private:
+  Cutter& c_;
+  std::string source_;
+};
+
+void fill_lengths(Cutter& c, const Cutter& g, Filler& f) {
+  constexpr double kBehindFlutesMm = 2.0;  // default, unsourced
+  const double gage = g.functional_length_mm - g.stick_out_mm;
+  // The nearest generic one may be longer than this whole tool.
+  const auto within_whole = [&](double mm) {
+    return c.overall_length_mm > 0.0 ? std::min(mm, c.overall_length_mm) : mm;
+  };
+  if (c.maximum_depth_of_cut_mm == 0.0) {
+    f.take(c.maximum_depth_of_cut_mm, g.maximum_depth_of_cut_mm, "maximum_depth_of_cut_mm");
+    if (c.stick_out_mm > 0.0) c.maximum_depth_of_cut_mm = std::min(c.maximum_depth_of_cut_mm, c.stick_out_mm);
+    c.maximum_depth_of_cut_mm = within_whole(c.maximum_depth_of_cut_mm);
+  }
+  if (c.stick_out_mm == 0.0) {
+    f.take(c.stick_out_mm, std::max(g.stick_out_mm, c.maximum_depth_of_cut_mm + kBehindFlutesMm),
+           "stick_out_mm");
+    if (c.functional_length_mm > 0.0) c.stick_out_mm = std::min(c.stick_out_mm, c.functional_length_mm);
+    c.stick_out_mm = within_whole(c.stick_out_mm);
+  }
+  f.take(c.functional_length_mm, c.stick_out_mm + gage, "functional_length_mm");
+  if (c.usable_length_mm == 0.0) {
+    f.take(c.usable_length_mm, std::max(g.usable_length_mm, c.maximum_depth_of_cut_mm), "usable_length_mm");
+    c.usable_length_mm = std::min(c.usable_length_mm, c.stick_out_mm);
+  }
+}
+
+/// The speed of a bare edge: what its source says the coated one is faster by is taken back, "1.3 (coated:
+/// ...)".
+void as_bare(model::CuttingPreset& p) {
+  const auto coated = p.source.find(kCoated);
+  if (coated == std::string::npos || coated == 0) return;
+  const auto begin = p.source.find_last_of(' ', coated - 2) + 1;
+  auto end = p.source.find(") x ", coated);
+  const bool of_group = end == std::string::npos;  // "..., 1.3 (coated: ...); fz: ..."
+  if (of_group) end = p.source.find("; fz: ", coated);
+  const auto faster = parse_double(std::string_view(p.source).substr(begin, coated - 1 - begin));
+  if (!faster || !(*faster > 0.0) || end == std::string::npos) {
+    p.vc_m_min = 0.0;
+    return;
+  }
+  p.vc_m_min = rounded(p.vc_m_min / *faster, 3);
+  p.source.erase(of_group ? begin - 2 : begin, of_group ? end - (begin - 2) : end + 4 - begin);
+}
+
+constexpr const char* kBorrowed = " (as generic/";
+/// Feed that a cutter bears over the start value that its maker or the shop states. Default, unsourced; the
+/// check allows as much where nothing else is known (verify/sweep/feed_limit.cpp).
+constexpr double kOverPreset = 1.5;
+
+void fill_feeds(Cutter& c, const Cutter& g, Filler& f) {
+  // A smaller tooth bears less; a larger one is not trusted with more.
+  const double scale = std::min(1.0, c.cutting_diameter_mm / g.cutting_diameter_mm);
+  if (c.cutter_class == CutterClass::kTap) {
+    if (c.fz_min_mm == 0.0 && c.fz_max_mm == 0.0)
+      c.fz_min_mm = c.fz_max_mm = c.thread_pitch_mm / std::max(c.teeth, 1);
+  } else {
+    // What its maker or the shop states for it says what it bears; a cutter like it only where nothing does.
+    double least = 0.0, most = 0.0;
+    for (const model::CuttingPreset& p : c.presets) {
+      if (borrowed(p) || !(p.fz_mm > 0.0)) continue;
+      least = least > 0.0 ? std::min(least, p.fz_mm) : p.fz_mm;
+      most = std::max(most, p.fz_mm);
+    }
+    if (c.fz_max_mm == 0.0 && kOverPreset * most > rounded(g.fz_max_mm * scale, 5)) {
+      c.fz_max_mm = rounded(kOverPreset * most, 5);
+      f.note("fz_max_mm", "derived: 1.5 times its own start value");
+    }
+    if (c.fz_max_mm == 0.0) f.take(c.fz_max_mm, rounded(g.fz_max_mm * scale, 5), "fz_max_mm");
+    if (c.fz_min_mm == 0.0) {
+      const double like = rounded(g.fz_min_mm * scale, 5);
+      f.take(c.fz_min_mm, std::min(c.fz_max_mm, least > 0.0 ? std::min(least, like) : like), "fz_min_mm");
+    }
+  }
+  std::string own;
+  for (const model::CuttingPreset& p : c.presets) {
+    // Whoever was completed before has them already.
+    if (borrowed(p)) return;
+    own += (own.empty() ? "" : ", ") + p.material_group;
+  }
+  const std::size_t stated = c.presets.size();
+  for (model::CuttingPreset p : g.presets) {
+    const auto end = c.presets.begin() + static_cast<std::ptrdiff_t>(stated);
+    if (std::any_of(c.presets.begin(), end,
+                    [&](const auto& o) { return o.material_group == p.material_group; }))
+      continue;
+    p.fz_mm = rounded(p.fz_mm * scale, 5);
+    // Nothing says that this edge is coated. Another substrate bears another speed: the material's own is
+    // taken then.
+    if (c.substrate == g.substrate) {
+      as_bare(p);
+    } else {
+      p.vc_m_min = 0.0;
+      if (const auto fz_at = p.source.find("; fz: "); fz_at != std::string::npos)
+        p.source.erase(0, fz_at + 2);
+    }
+    p.source += " (as " + g.id + (own.empty() ? "" : "; its own values are for " + own + " only") + ")";
+    c.presets.push_back(std::move(p));
+  }
+}
+
+}  // namespace
+
+bool borrowed(const model::CuttingPreset& p) { return p.source.find(kBorrowed) != std::string::npos; }
+
+void complete(Cutter& c, const std::vector<Cutter>& generic) {
+  const Cutter* g = nearest(c, generic);
+  if (g == nullptr) return;
+  Filler f(c, *g);
+  if (c.cutter_class == CutterClass::kBallEndmill && c.corner_radius_mm == 0.0) {
+    c.corner_radius_mm = 0.5 * c.cutting_diameter_mm;
+    f.note("corner_radius_mm", "derived: half the diameter of a ball end mill");
+  }
+  if (c.teeth == 0) {
+    c.teeth = g->teeth;
+    f.note("teeth", f.source());
+  }
+  // A pitch, a corner and the angle of a cone are never assumed: see `faults_of`. Points of drills are.
+  const bool point = c.cutter_class == CutterClass::kTwistDrill ||
+                     c.cutter_class == CutterClass::kCenterDrill ||
+                     c.cutter_class == CutterClass::kSpotDrill || c.cutter_class == CutterClass::kGunDrill;
+  if (point) f.take(c.point_angle_rad, g->point_angle_rad, "point_angle_rad");
+  f.take(c.tip_diameter_mm, std::min(g->tip_diameter_mm, c.cutting_diameter_mm), "tip_diameter_mm");
+  f.take(c.helix_rad, g->helix_rad, "helix_rad");
+  f.take(c.shank_diameter_mm, g->shank_diameter_mm, "shank_diameter_mm");
+  f.take(c.holder_diameter_mm, g->holder_diameter_mm, "holder_diameter_mm");
+  fill_lengths(c, *g, f);
+  fill_feeds(c, *g, f);
+  const bool drill = c.cutter_class == CutterClass::kTwistDrill ||
+                     c.cutter_class == CutterClass::kCenterDrill || c.cutter_class == CutterClass::kSpotDrill;
+  if (drill && !c.centre_cutting) {
+    c.centre_cutting = true;
+    f.note("centre_cutting", "derived: a drill");
+  }
+  const bool mill = c.cutter_class == CutterClass::kEndmill ||
+                    c.cutter_class == CutterClass::kBullnoseEndmill ||
+                    c.cutter_class == CutterClass::kBallEndmill;
+  if (mill && !c.centre_cutting && c.maximum_ramp_angle_rad == 0.0) {
+    c.maximum_ramp_angle_rad = kCautiousRampRad;
+    f.note("centre_cutting", std::string(kNotStated) + ", held not to cut to the centre");
+    f.note("maximum_ramp_angle_rad", std::string(kRampUnstated));
+  }
+}
+
+const std::string* source_of(const Cutter& c, std::string_view field) {
+  for (const auto& [name, source] : c.sources)
+    if (name == field) return &source;
+  for (const auto& [name, source] : c.sources)
+    if (name == "*") return &source;
+  return nullptr;
+}
+
+}  // namespace capstan::tooling

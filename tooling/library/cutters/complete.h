@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "planner/model/plan/cutter/cutter.h"
+
+namespace capstan::tooling {
+
+/// Fills what a source left unsaid (zeros, no presets) from the generic cutter of the same class nearest in
+/// diameter, and says so in `sources`; what is said stays. Lengths are kept consistent with what is said:
+/// flutes and usable length within the stick-out, the stick-out within the length to the gage line.
+///
+/// Whether it cuts to the centre and how steeply it may ramp are not taken over: an unnamed end mill is held
+/// not to cut to the centre and to ramp at kCautiousRampRad.
+void complete(model::Cutter& c, const std::vector<model::Cutter>& generic);
+
+/// Whether a preset is not the cutter's own but taken from the generic cutter nearest to it: it counts only
+/// where no own preset is for the material.
+[[nodiscard]] bool borrowed(const model::CuttingPreset& p);
+
+/// How `sources` begins of a field that reading or `complete` fills in (a generic cutter's id follows
+/// kAsGeneric). The own format writes no such field.
+inline constexpr std::string_view kAsGeneric = "default: as ";
+inline constexpr std::string_view kNotStated = "default: not stated";  ///< what is taken then may follow
+inline constexpr std::string_view kRampUnstated = "default: 3 degrees, unsourced";
+inline constexpr std::string_view kSubstrateUnstated = "default: the slower one";
+
+/// What the source of a generic preset says where its speed is that of a coated edge: a cutter that does not
+/// say that it is coated takes the material's own speed.
+inline constexpr std::string_view kCoated = "(coated";
+
+inline constexpr double kCautiousRampRad = 3.0 * 3.14159265358979323846 / 180.0;  ///< default, unsourced
+
+/// What it says in `sources` of a field, or null.
+[[nodiscard]] const std::string* source_of(const model::Cutter& c, std::string_view field);
+
+}  // namespace capstan::tooling

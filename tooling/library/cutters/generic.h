@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "planner/ground/base/job.h"
+#include "planner/ground/base/result.h"
+#include "planner/model/plan/cutter/cutter.h"
+#include "planner/model/plan/resources/material.h"
+
+namespace capstan::tooling {
+
+/// The generic library: tooling/data/cutters.yaml expanded, some 600 sizes, ids "generic/<series>/<size>".
+/// None can be bought by this name; every number says "default: ..." in Cutter::sources.
+/// Presets: one per shipped material, and one per ISO 513 group for materials of other tables.
+[[nodiscard]] Result<std::vector<model::Cutter>> generic_library();
+/// The same, made once.
+[[nodiscard]] const Result<std::vector<model::Cutter>>& shared_generic_library();
+
+/// What the source of a generic preset calls the speed of the material that it is made for.
+inline constexpr std::string_view kMaterialsSpeed = "the material's";
+
+/// Start values for a material that is not shipped, where a cutter's are those of a generic series: its speed
+/// in the same proportion as the group's, the group's feed.
+[[nodiscard]] Status add_start_values(const model::WorkMaterial& own, std::vector<model::Cutter>& library);
+
+/// As above from texts of the same form.
+/// Fails  DATA-*, and what `check_cutters` finds.
+[[nodiscard]] Result<std::vector<model::Cutter>> expand_series(
+    std::string_view text, const std::string& file, const std::vector<model::WorkMaterial>& materials,
+    Job& job);
+
+}  // namespace capstan::tooling

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tooling/library/formats/format.h"
+
+namespace capstan::tooling {
+
+/// One file of a FreeCAD tool folder, by its path there: "Bit/5mm_Endmill.fctb", "Library/Default.fctl".
+struct FreecadFile {
+  std::string path, bytes;
+  bool operator==(const FreecadFile&) const = default;
+};
+
+/// FreeCAD's tool bits and libraries: one bit (`.fctb`), a library (`.fctl`) with the bits beside it or in
+/// the folder Bit next to its own, or a zip of both. Written as a zip of Bit/ and Library/.
+///
+/// Read     name, shape, lengths ("6.0000 mm", "0.375 \""), angles, flutes, tool numbers; unknown parameters
+///          and attributes are kept word for word.
+/// Source   FreeCAD's shape classes and their property names (src/Mod/CAM/Path/Tool/shape/models); of V-bits
+/// and
+///          chamfer mills CuttingEdgeAngle is the full angle (BIT_ATTRIBUTES.md there).
+/// Fails    FREECAD-VALUE, FREECAD-FORM, TOOL-NUMBER (twice in a library), TOOL-ID, DATA-*, FILE-*.
+/// The format is `freecad_format` (all.h). The same from files in memory; bits that no library lists are
+/// read, too. `file`: to name in diagnostics.
+[[nodiscard]] Result<Imported> read_freecad(const std::vector<FreecadFile>& files, const std::string& file,
+                                            Job& job);
+/// As a zip of such files.
+[[nodiscard]] Result<Exported> write_freecad(const ToolLibrary& library, const FormatOptions& options,
+                                             Job& job);
+/// What a folder would hold; sorted by path.
+[[nodiscard]] std::vector<FreecadFile> freecad_files(const ToolLibrary& library, LossReport& report);
+
+}  // namespace capstan::tooling

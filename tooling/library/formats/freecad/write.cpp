@@ -1,0 +1,226 @@
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "tooling/library/formats/freecad/freecad.h"
+#include "tooling/library/formats/freecad/shapes.h"
+#include "tooling/library/formats/item/item.h"
+#include "tooling/library/formats/json.h"
+#include "tooling/library/formats/zip.h"
+
+namespace capstan::tooling {
+namespace {
+
+using freecad::Shape;
+
+/// A name for a file on any system; FreeCAD knows a bit by it.
+std::string file_name(std::string_view id) {
+  std::string out;
+  for (const char c : id) {
+    const bool plain = (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') ||
+                       std::string_view("._- ()+,").find(c) != std::string_view::npos ||
+                       static_cast<unsigned char>(c) >= 0x80;
+    out += plain ? c : '_';
+  }
+  while (!out.empty() && (out.front() == '.' || out.front() == ' ')) out.front() = '_';
+  return out.empty() ? "tool" : out;
+}
+
+/// "6.0000 mm" as FreeCAD spells it; an empty text where it has no such unit.
+std::string quantity(const Property& p) {
+  if (!p.number) return p.text;
+  const SymbolFact* fact = symbol_fact(p.symbol);
+  if (fact == nullptr) return {};
+  if (fact->quantity == Quantity::kLength) {
+    const std::string unit = mm_per_unit_of(p.unit) ? p.unit : "mm";
+    return spelled_in(p, unit) + " " + unit;
+  }
+  if (fact->quantity == Quantity::kAngle) return spelled_in(p, "deg") + " \xC2\xB0";
+  return spelled_in(p, "");
+}
+
+class BitWriter {
+ public:
+  BitWriter(const CatalogueItem& item, LossReport& report) : item_(item), report_(report) {}
+
+  /// The bit, or nothing where FreeCAD has no shape for it.
+  std::optional<std::string> write() {
+    choose_shape();
+    if (shape_ == nullptr) return std::nullopt;
+    Json root = Json::map(), parameters = Json::map(), attributes = Json::map();
+    const std::string* version = find_kept(item_.kept, "version");
+    root.set("version", Json::number(version == nullptr ? "2" : *version));
+    if (const std::string* id = find_kept(item_.kept, "id")) root.set("id", Json::string(*id));
+    root.set("name", Json::string(item_.description.empty() ? item_.id : item_.description));
+    const std::string* file = find_kept(item_.kept, "shape");
+    root.set("shape", Json::string(file == nullptr ? shape_->file : *file));
+    const std::string* type = find_kept(item_.kept, "shape-type");
+    if (type != nullptr || file == nullptr) root.set("shape-type", Json::string(type ? *type : shape_->type));
+    for (const Property& p : item_.properties) write_property(p, parameters);
+    for (const auto& [path, text] : item_.kept) write_kept(path, text, parameters, attributes);
+    root.set("parameter", std::move(parameters));
+    root.set("attribute", std::move(attributes));
+    tell_rest();
+    return json_text(root, 2) + "\n";
+  }
+
+ private:
+  void drop(std::string field, std::string what) {
+    report_.dropped.push_back({item_.id, std::move(field), std::move(what)});
+  }
+
+  void choose_shape() {
+    const std::string* type = find_kept(item_.kept, "shape-type");
+    if (type == nullptr) type = find_kept(item_.kept, "shape");
+    static constexpr Shape kCustom{"Custom", "", std::nullopt};
+    if (type != nullptr) {
+      shape_ = freecad::find_shape(*type);
+      if (shape_ == nullptr) shape_ = &kCustom;
+      return;
+    }
+    if (!item_.cutter_class) {
+      drop("", "its kind '" + item_.kind + "' is no shape of FreeCAD");
+      return;
+    }
+    bool exact = true;
+    shape_ = freecad::shape_of(*item_.cutter_class, exact);
+    const std::string cls(model::to_text(*item_.cutter_class));
+    if (shape_ == nullptr) {
+      drop("", "FreeCAD has no shape for a " + cls);
+    } else if (!exact) {
+      drop("class", "written as " + std::string(shape_->type) + ": FreeCAD has no " + cls);
+    }
+  }
+
+  void write_property(const Property& p, Json& parameters) {
+    const std::string_view name = freecad::parameter_of(*shape_, p.symbol);
+    if (name.empty() || (shape_->type == "VBit" && p.symbol == "APMX")) {
+      const bool kept = p.symbol == "SUBSTRATE" && find_kept(item_.kept, "parameter/Material") != nullptr;
+      if (p.symbol == "SUBSTRATE" && !kept && (p.text == "hss" || p.text == "carbide")) {
+        parameters.set("Material", Json::string(p.text == "hss" ? "HSS" : "Carbide"));
+      } else if (p.state == ValueState::kStated && !kept) {
+        drop(p.symbol, "the shape " + std::string(shape_->type) + " has no parameter for it");
+      }
+      return;
+    }
+    const std::string text = quantity(p);
+    // The ball's radius and the like follow again on reading.
+    if (p.state == ValueState::kDerived && shape_->type != "Custom" && rederived(p.symbol)) return;
+    parameters.set(name, Json::string(text));
+  }
+
+  [[nodiscard]] bool rederived(std::string_view symbol) const {
+    return (shape_->type == "Ballend" && symbol == "RE") || (shape_->type == "Radius" && symbol == "DCN") ||
+           (shape_->type == "SlittingSaw" && symbol == "APMX");
+  }
+
+  void write_kept(const std::string& path, const std::string& text, Json& parameters, Json& attributes) {
+    if (path.starts_with("parameter/")) {
+      parameters.set(path.substr(10), Json::string(text));
+    } else if (path.starts_with("attribute/")) {
+      auto value = parse_json(text, path);
+      attributes.set(path.substr(10), value ? *std::move(value) : Json::string(text));
+    } else if (path != kLeftOut && path != "version" && path != "id" && path != "shape" &&
+               path != "shape-type") {
+      drop(path, "of another format, no place for it");
+    }
+  }
+
+  void tell_rest() {
+    for (const auto& [name, value] :
+         {std::pair{"manufacturer", &item_.manufacturer}, std::pair{"product_id", &item_.product_id},
+          std::pair{"product_link", &item_.product_link}})
+      if (!value->empty()) drop(name, "FreeCAD's bits have no place for it");
+    if (!item_.presets.empty())
+      drop("presets",
+           std::to_string(item_.presets.size()) + " start values: FreeCAD's bits have no place for them");
+  }
+
+  const CatalogueItem& item_;
+  LossReport& report_;
+  const Shape* shape_ = nullptr;
+};
+
+/// Tool numbers by library; FreeCAD knows neither pockets nor offsets.
+std::vector<FreecadFile> lists_of(const ToolLibrary& library, const std::map<std::string, std::string>& bits,
+                                  LossReport& report) {
+  std::map<std::string, Json> lists;
+  std::map<std::string, std::set<int>> numbers;
+  for (const MachineEntry& e : library.entries) {
+    const auto assembly = std::ranges::find(library.assemblies, e.assembly, &ToolAssembly::id);
+    std::string item = assembly == library.assemblies.end() ? e.assembly : assembly->item;
+    const auto bit = bits.find(item);
+    std::string path = bit == bits.end() ? file_name(e.comment) + ".fctb" : bit->second;
+    if (bit == bits.end() && (e.comment.empty() || !e.assembly.empty())) {
+      report.dropped.push_back({item, "number", "tool " + std::to_string(e.number) + " has no bit"});
+      continue;
+    }
+    const std::string name = e.carousel.empty() ? library.name : e.carousel;
+    const std::string list = file_name(name.empty() ? "Library" : name);
+    if (!numbers[list].insert(e.number).second) {
+      report.dropped.push_back(
+          {item, "number",
+           "tool number " + std::to_string(e.number) +
+               " is that of another tool of the library; FreeCAD holds each number once"});
+      continue;
+    }
+    if (e.pocket || !e.offsets.empty())
+      report.dropped.push_back({item, "table", "FreeCAD's libraries hold neither pockets nor offsets"});
+    Json entry = Json::map();
+    entry.set("nr", Json::number(std::to_string(e.number)));
+    entry.set("path", Json::string(path));
+    auto [it, fresh] = lists.try_emplace(list, Json::list());
+    it->second.items.push_back(std::move(entry));
+  }
+  std::vector<FreecadFile> out;
+  for (auto& [name, list] : lists) {
+    Json root = Json::map();
+    root.set("label", Json::string(name));
+    root.set("tools", std::move(list));
+    root.set("version", Json::number("1"));
+    out.push_back({"Library/" + name + ".fctl", json_text(root, 2) + "\n"});
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<FreecadFile> freecad_files(const ToolLibrary& library, LossReport& report) {
+  std::vector<FreecadFile> out;
+  std::map<std::string, std::string> bits;
+  UniqueIds taken;
+  for (const CatalogueItem& item : library.items) {
+    auto text = BitWriter(item, report).write();
+    if (!text) continue;
+    const std::string name = unique_id(file_name(item.id), taken) + ".fctb";
+    bits.emplace(item.id, name);
+    out.push_back({"Bit/" + name, std::move(*text)});
+    ++report.tools;
+  }
+  for (FreecadFile& f : lists_of(library, bits, report)) out.push_back(std::move(f));
+  for (const Holder& h : library.holders)
+    report.dropped.push_back({h.id, "holder", "FreeCAD's bits have no holder"});
+  for (const ToolInstance& i : library.instances)
+    report.dropped.push_back(
+        {i.id, "instance", "FreeCAD's bits are no pieces: stock, life and measures are left"});
+  for (const ToolAssembly& a : library.assemblies)
+    if (a.stick_out_mm || a.functional_length_mm)
+      report.dropped.push_back({a.item, "assembly", "FreeCAD's bits have no stick-out"});
+  std::ranges::sort(out, {}, &FreecadFile::path);
+  return out;
+}
+
+Result<Exported> write_freecad(const ToolLibrary& library, const FormatOptions& /*options*/, Job& /*job*/) {
+  Exported out;
+  std::vector<ZipEntry> entries;
+  for (FreecadFile& f : freecad_files(library, out.report))
+    entries.push_back({std::move(f.path), std::move(f.bytes)});
+  if (out.report.tools == 0)
+    return fail({.code = "FREECAD-NONE", .message = "none of the tools has a shape in FreeCAD"});
+  auto bytes = write_zip(entries);
+  if (!bytes) return fail(bytes.error());
+  out.bytes = *std::move(bytes);
+  return out;
+}
+
+}  // namespace capstan::tooling

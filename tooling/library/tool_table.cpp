@@ -1,0 +1,197 @@
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "planner/ground/base/number.h"
+#include "tooling/library/formats/all.h"
+#include "tooling/library/formats/linuxcnc/linuxcnc.h"
+#include "tooling/library/library.h"
+
+namespace capstan::tooling {
+namespace {
+
+using model::Cutter;
+using model::CutterClass;
+
+struct Word {
+  const char* text;
+  CutterClass cutter_class;
+};
+/// The first that occurs decides, so the more telling come first ("tap drill" is a drill, "thread mill" no
+/// end mill). English, German, Portuguese.
+constexpr std::array kWords = {Word{"gun drill", CutterClass::kGunDrill},
+                               Word{"corner round", CutterClass::kCornerRoundingMill},
+                               Word{"tapered", CutterClass::kTaperedEndmill},
+                               Word{"side mill", CutterClass::kSideMill},
+                               Word{"slitting saw", CutterClass::kSideMill},
+                               Word{"back counterbore", CutterClass::kBackCounterbore},
+                               Word{"back countersink", CutterClass::kBackCountersink},
+                               Word{"thread mill", CutterClass::kThreadMill},
+                               Word{"threadmill", CutterClass::kThreadMill},
+                               Word{"t-slot", CutterClass::kTSlotMill},
+                               Word{"tslot", CutterClass::kTSlotMill},
+                               Word{"dovetail", CutterClass::kDovetailMill},
+                               Word{"counterbore", CutterClass::kCounterbore},
+                               Word{"countersink", CutterClass::kCountersink},
+                               Word{"senker", CutterClass::kCountersink},
+                               Word{"chamfer", CutterClass::kChamferMill},
+                               Word{"v-bit", CutterClass::kChamferMill},
+                               Word{"vbit", CutterClass::kChamferMill},
+                               Word{"reamer", CutterClass::kReamer},
+                               Word{"reibahle", CutterClass::kReamer},
+                               Word{"alargador", CutterClass::kReamer},
+                               Word{"boring", CutterClass::kBoringTool},
+                               Word{"spot", CutterClass::kSpotDrill},
+                               Word{"center drill", CutterClass::kCenterDrill},
+                               Word{"centre drill", CutterClass::kCenterDrill},
+                               Word{"centerdrill", CutterClass::kCenterDrill},
+                               Word{"zentrierbohrer", CutterClass::kCenterDrill},
+                               Word{"gewindebohrer", CutterClass::kTap},
+                               Word{"drill", CutterClass::kTwistDrill},
+                               Word{"bohrer", CutterClass::kTwistDrill},
+                               Word{"broca", CutterClass::kTwistDrill},
+                               Word{"face mill", CutterClass::kFacemill},
+                               Word{"facemill", CutterClass::kFacemill},
+                               Word{"shell mill", CutterClass::kFacemill},
+                               Word{"planfr", CutterClass::kFacemill},
+                               Word{"ball", CutterClass::kBallEndmill},
+                               Word{"kugelfr", CutterClass::kBallEndmill},
+                               Word{"bull", CutterClass::kBullnoseEndmill},
+                               Word{"end mill", CutterClass::kEndmill},
+                               Word{"endmill", CutterClass::kEndmill},
+                               Word{"schaftfr", CutterClass::kEndmill},
+                               Word{"fresa", CutterClass::kEndmill},
+                               Word{"tap", CutterClass::kTap}};
+
+std::string lower(std::string_view s) {
+  std::string out(s);
+  for (char& c : out)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + 32);
+  return out;
+}
+
+bool holds(const std::string& text, const char* word) { return text.find(word) != std::string::npos; }
+
+bool digit(char c) { return c >= '0' && c <= '9'; }
+/// A byte of an umlaut counts as a letter.
+bool letter(char c) { return (c >= 'a' && c <= 'z') || static_cast<unsigned char>(c) >= 0x80; }
+
+/// Whether it stands there as a word of its own: no letters about it.
+bool word_at(const std::string& text, std::size_t at, std::size_t size) {
+  return (at == 0 || !letter(text[at - 1])) && (at + size >= text.size() || !letter(text[at + size]));
+}
+
+constexpr int kMostTeeth = 12;  // of a cutter that a comment counts them of; default, unsourced
+
+/// Whether it is the number of teeth: one to twelve, no part of a size ("1/4 fl", "0.5 flutes").
+int small_number(const std::string& text, std::size_t from, std::size_t end) {
+  if (end <= from || end - from > 2) return 0;
+  if (from > 0 &&
+      (letter(text[from - 1]) || std::string_view("./,").find(text[from - 1]) != std::string_view::npos))
+    return 0;
+  const int n = std::stoi(text.substr(from, end - from));
+  return n <= kMostTeeth ? n : 0;
+}
+
+/// The number that ends before a place: in digits, or in words ("four", "vier").
+int number_before(const std::string& text, std::size_t at) {
+  while (at > 0 && (text[at - 1] == ' ' || text[at - 1] == '-')) --at;
+  std::size_t from = at;
+  while (from > 0 && digit(text[from - 1])) --from;
+  if (from < at) return small_number(text, from, at);
+  constexpr std::pair<std::string_view, int> kNumbers[] = {
+      {"single", 1},      {"one", 1},   {"two", 2},   {"double", 2}, {"three", 3}, {"four", 4},
+      {"five", 5},        {"six", 6},   {"ein", 1},   {"zwei", 2},   {"drei", 3},  {"vier", 4},
+      {"f\xC3\xBCnf", 5}, {"fuenf", 5}, {"sechs", 6}, {"eight", 8},  {"acht", 8}};
+  while (from > 0 && letter(text[from - 1])) --from;
+  const std::string_view said = std::string_view(text).substr(from, at - from);
+  for (const auto& [name, n] : kNumbers)
+    if (said == name) return n;
+  return 0;
+}
+
+/// "4 flute", "3fl", "two flutes", "4 Schneiden", "vierschneidig", "Z4", "z=3". Two that differ say nothing.
+int teeth_from_words(const std::string& text) {
+  std::vector<int> said;
+  const auto add = [&](int n) {
+    if (n > 0) said.push_back(n);
+  };
+  for (const std::string_view word :
+       {"fl", "flt", "flts", "flute", "flutes", "fluted", "tooth", "teeth", "lip", "lips", "zahn",
+        "z\xC3\xA4hne", "zaehne", "schneider", "schneide", "schneiden", "schneidig", "schneidiger"}) {
+    for (auto at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
+      const bool ends = at + word.size() >= text.size() || !letter(text[at + word.size()]);
+      if (ends) add(number_before(text, at));
+    }
+  }
+  for (auto at = text.find('z'); at != std::string::npos; at = text.find('z', at + 1)) {
+    std::size_t from = at + 1;
+    if (at > 0 && (letter(text[at - 1]) || digit(text[at - 1]))) continue;
+    // "z4", "z = 4"; "z 12" is a height.
+    if (const auto sign = text.find_first_not_of(' ', from); sign != std::string::npos && text[sign] == '=')
+      from = std::min(text.find_first_not_of(' ', sign + 1), text.size());
+    std::size_t end = from;
+    while (end < text.size() && digit(text[end])) ++end;
+    if (end == from || end - from > 2) continue;
+    // "z 20 mm" is a length.
+    const auto next = text.find_first_not_of(' ', end);
+    const bool whole = next == std::string::npos || (!letter(text[next]) && text[next] != '.') ||
+                       (next > end && text[next] != 'm');
+    const int n = std::stoi(text.substr(from, end - from));
+    if (whole && n <= kMostTeeth) add(n);
+  }
+  for (const int n : said)
+    if (n != said.front()) return 0;
+  return said.empty() ? 0 : said.front();
+}
+
+/// What the edges are of; where both are named ("HSS, carbide tipped") the slower one.
+std::optional<model::Substrate> substrate_from_words(const std::string& text) {
+  for (auto at = text.find("hss"); at != std::string::npos; at = text.find("hss", at + 1)) {
+    // "HSS", "HSSE", "HSS-Co5", "HSSPM"; no part of another word.
+    if (at == 0 || !letter(text[at - 1])) return model::Substrate::kHss;
+  }
+  for (const char* word : {"high speed steel", "high-speed steel", "schnellarbeitsstahl", "schnellstahl"})
+    if (holds(text, word)) return model::Substrate::kHss;
+  for (const char* word : {"carbide", "vhm", "hartmetall", "metal duro"})
+    if (holds(text, word)) return model::Substrate::kCarbide;
+  for (auto at = text.find("hm"); at != std::string::npos; at = text.find("hm", at + 1))
+    if (word_at(text, at, 2)) return model::Substrate::kCarbide;
+  if (holds(text, "cobalt")) return model::Substrate::kHss;  // of a bare "cobalt drill"
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<CutterClass> class_from_words(std::string_view comment) {
+  const std::string text = lower(comment);
+  if (holds(text, "probe")) return CutterClass::kTouchProbe;  // "ball probe" is no ball end mill
+  for (const Word& w : kWords)
+    if (holds(text, w.text)) return w.cutter_class;
+  return std::nullopt;
+}
+
+CommentWords words_of_comment(std::string_view comment, CutterClass c, double diameter_mm,
+                              double mm_per_unit) {
+  const std::string words = lower(comment);
+  CommentWords out;
+  out.substrate = substrate_from_words(words);
+  out.teeth = teeth_from_words(words);
+  out.sizes = sizes_of_words(words, c, diameter_mm, mm_per_unit);
+  return out;
+}
+
+Result<std::vector<Cutter>> read_tool_table(std::string_view text, const std::string& file, Job& job,
+                                            const LibraryOptions& options) {
+  FormatOptions o;
+  o.mm_per_unit = options.mm_per_unit;
+  const auto read = linuxcnc_format().read(text, file, o, job);
+  if (!read) return fail(read.error());
+  LossReport report;
+  return cutters_of(read->library, report, job, options.offsets_against_reference);
+}
+
+}  // namespace capstan::tooling

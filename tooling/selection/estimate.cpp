@@ -1,0 +1,160 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "planner/physics/mechanics/bending/deflection.h"
+#include "planner/physics/mechanics/constants.h"
+#include "planner/physics/mechanics/force/drilling.h"
+#include "planner/physics/mechanics/force/force_law.h"
+#include "planner/physics/mechanics/force/immersion.h"
+#include "planner/physics/mechanics/force/kienzle.h"
+#include "planner/physics/mechanics/spindle.h"
+#include "tooling/selection/limits.h"
+
+// What a step would take with a cutter: rough, the same for all candidates, without any optimiser.
+
+namespace capstan::tooling {
+namespace {
+
+using model::Cutter;
+using model::CutterClass;
+using model::Machine;
+using model::ToolRequirement;
+using model::WorkMaterial;
+
+constexpr double kPi = std::numbers::pi;
+/// A step of which nobody said what it removes. Default, unsourced.
+constexpr double kNominalVolumeMm3 = 2000.0;
+/// A mill's cut at most, as parts of its diameter; default, unsourced (the optimiser's own bounds are wider).
+constexpr double kWidthRatio = 0.5, kDepthRatio = 1.0;
+/// Bending of the tip that roughing may have, mm; default, unsourced: a fifth of the usual allowance.
+constexpr double kBendingMm = 0.1;
+/// In aluminium and copper chips need room: teeth beyond these are not counted. Default, unsourced.
+constexpr int kTeethInSoft = 3;
+
+struct Capacity {
+  double power_w = 0.0, torque_nm = 0.0;
+};
+std::optional<Capacity> capacity(const Machine& m, double rpm) {
+  if (m.spindle.curve.empty()) return std::nullopt;
+  std::vector<mechanics::SpindlePoint> points;
+  for (const auto& p : m.spindle.curve) points.push_back({p.rpm, p.power_w, p.torque_nm});
+  const auto curve = mechanics::SpindleCurve::make(std::move(points));
+  if (!curve) return std::nullopt;
+  const auto at = curve->at(std::clamp(rpm, curve->min_rpm(), curve->max_rpm()));
+  if (!at) return std::nullopt;
+  const double e = mechanics::spindle_efficiency(m.spindle.efficiency);
+  return Capacity{at->power_w * e, at->torque_nm * e};
+}
+
+double margin_of(const WorkMaterial& w) { return mechanics::kienzle_margin(w).factor(); }
+
+void scale_down(double part, const char* by, double& scale, std::string& limited) {
+  if (part >= scale) return;
+  scale = part;
+  limited = by;
+}
+
+double milling_s(const Cutter& c, const StartValues& s, const WorkMaterial& w, const Machine& m,
+                 const Preferences& p, std::string& limited) {
+  const double d = c.cutting_diameter_mm;
+  const double volume = p.volume_mm3 > 0.0 ? p.volume_mm3 : kNominalVolumeMm3;
+  double ae = kWidthRatio * d;
+  if (p.width_mm > 0.0) ae = std::min(ae, p.width_mm);
+  double ap = kDepthRatio * d;
+  if (c.maximum_depth_of_cut_mm > 0.0) ap = std::min(ap, c.maximum_depth_of_cut_mm);
+  if (p.depth_mm > 0.0) ap = std::min(ap, p.depth_mm);
+  double feed = s.feed_mm_min;
+  int teeth = c.teeth;
+  if (w.iso_group == "N" && teeth > kTeethInSoft) {
+    feed *= static_cast<double>(kTeethInSoft) / teeth;
+    teeth = kTeethInSoft;
+  }
+  const mechanics::WorkMaterial work{w.kc11_n_mm2, w.mc};
+  const double h_mean = mechanics::mean_chip_thickness_mm(s.fz_mm, ae, d);
+  const double h_max = mechanics::max_chip_thickness_mm(s.fz_mm, ae, d);
+  double scale = 1.0;
+  if (h_mean > 0.0 && h_max > 0.0) {
+    const double margin = margin_of(w);
+    const double kc = mechanics::specific_force_n_mm2(work, h_mean);
+    const double power = margin * mechanics::cutting_power_w(ap * ae * feed, kc);
+    if (const auto most = capacity(m, s.spindle_rpm)) {
+      scale_down(most->power_w / power, "power", scale, limited);
+      scale_down(most->torque_nm / mechanics::spindle_torque_nm(power, s.spindle_rpm), "torque", scale,
+                 limited);
+    }
+    // One tooth at its thickest chip, radial force included, or all that are in the cut on average.
+    const double in_cut =
+        std::max(1.0, mechanics::mean_engaged_teeth(teeth, mechanics::immersion_angle_rad(ae, d)));
+    const double one = mechanics::specific_force_n_mm2(work, h_max) * h_max * ap;
+    const double force = margin * one * in_cut * std::hypot(1.0, mechanics::kRadialToTangentialRatio);
+    const double e = c.substrate == model::Substrate::kCarbide ? mechanics::kCarbideYoungsModulusNMm2
+                                                               : mechanics::kHssYoungsModulusNMm2;
+    const double out = c.stick_out_mm > 0.0 ? c.stick_out_mm : 3.0 * d;
+    const double shank = c.shank_diameter_mm > 0.0 ? c.shank_diameter_mm : d;
+    const double flute = c.maximum_depth_of_cut_mm > 0.0 ? std::min(c.maximum_depth_of_cut_mm, out) : out;
+    if (const auto bend = mechanics::tip_compliance_mm_n({out, shank, flute, d, e}))
+      scale_down(kBendingMm / (force * *bend), "bending", scale, limited);
+  }
+  ap *= scale;
+  // Levels are whole.
+  if (p.depth_mm > 0.0) ap = p.depth_mm / std::ceil(p.depth_mm / ap - 1e-9);
+  return 60.0 * volume / (ap * ae * feed);
+}
+
+double axial_s(const Cutter& c, const ToolRequirement& r, const StartValues& s, const WorkMaterial& w,
+               const Machine& m, const Preferences& p, std::string& limited) {
+  double length = p.depth_mm > 0.0 ? p.depth_mm : flutes_wanted(r);
+  if (!(length > 0.0)) length = r.reach_mm > 0.0 ? r.reach_mm : c.cutting_diameter_mm;
+  double scale = 1.0;
+  if (c.cutter_class == CutterClass::kTwistDrill || c.cutter_class == CutterClass::kGunDrill) {
+    const double hole = p.pre_hole_mm < c.cutting_diameter_mm ? p.pre_hole_mm : 0.0;
+    const auto l =
+        mechanics::drilling_loads({c.cutting_diameter_mm, s.fz_mm * c.teeth, s.spindle_rpm, c.teeth,
+                                   c.point_angle_rad > 0.0 ? c.point_angle_rad : kPi, hole},
+                                  {w.kc11_n_mm2, w.mc});
+    const auto most = capacity(m, s.spindle_rpm);
+    if (l && most) {
+      const double margin = margin_of(w), slope = 1.0 / (1.0 - w.mc);  // M grows with f^(1 - mc)
+      scale_down(std::pow(most->torque_nm / (margin * l->torque_nm), slope), "torque", scale, limited);
+      scale_down(std::pow(most->power_w / (margin * l->power_w), slope), "power", scale, limited);
+    }
+  }
+  // A tap comes out as slowly as it goes in.
+  const double ways = c.cutter_class == CutterClass::kTap ? 2.0 : 1.0;
+  return ways * 60.0 * length / (scale * s.feed_mm_min);
+}
+
+}  // namespace
+
+std::optional<double> life_left_min(const Cutter& c) {
+  if (!(c.life_min > 0.0)) return std::nullopt;
+  double left = std::max(0.0, c.life_min - c.life_used_min);
+  for (const auto& s : c.sisters) left += std::max(0.0, s.life_left_min);
+  return left;
+}
+
+Estimate estimate(const Cutter& c, const ToolRequirement& r, const StartValues& s, const WorkMaterial& w,
+                  const Machine& m, const Preferences& p) {
+  Estimate out;
+  if (c.cutter_class == CutterClass::kTouchProbe || !(s.feed_mm_min > 0.0)) return out;
+  out.cutting_s = model::has(c.cutter_class, model::CutterTrait::kAlongAxis)
+                      ? axial_s(c, r, s, w, m, p, out.limited_by)
+                      : milling_s(c, s, w, m, p, out.limited_by);
+  out.cutting_s *= std::max(1, p.places);
+  const double minutes = out.cutting_s / 60.0 * std::max(1, p.batch);
+  double whole = 0.0;  // of the batch
+  if (c.price > 0.0 && c.life_min > 0.0) {
+    // 60 per hour where the machine states no rate: default, unsourced.
+    const double per_second = (m.cost_per_hour > 0.0 ? m.cost_per_hour : 60.0) / 3600.0;
+    whole += minutes * c.price / c.life_min / per_second;
+  }
+  if (const auto left = life_left_min(c); left && minutes > *left) {
+    // What goes beyond the life that is there needs further edges, each loaded by hand.
+    whole += std::ceil((minutes - *left) / c.life_min) * (m.tool_change_s + kLoadingS);
+  }
+  out.tool_s = whole / std::max(1, p.batch);
+  return out;
+}
+
+}  // namespace capstan::tooling

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "planner/model/plan/cutter/cutter.h"
+#include "planner/model/plan/proposal.h"
+#include "planner/model/plan/resources/machine.h"
+#include "planner/model/plan/resources/material.h"
+#include "tooling/selection/select.h"
+
+// What a cutter must hold to, and what it would take; only tooling/select/*.cpp include this.
+
+namespace capstan::tooling {
+
+// The limits, in the order they are asked. Each gives the limit that fails, with both numbers.
+[[nodiscard]] std::optional<std::string> wrong_size(const model::Cutter& c, const model::ToolRequirement& r);
+[[nodiscard]] std::optional<std::string> wrong_shape(const model::Cutter& c, const model::ToolRequirement& r);
+[[nodiscard]] std::optional<std::string> too_short(const model::Cutter& c, const model::ToolRequirement& r);
+[[nodiscard]] std::optional<std::string> not_for_machine(const model::Cutter& c, const StartValues& start,
+                                                         const model::WorkMaterial& w,
+                                                         const model::Machine& m, const Preferences& p);
+
+/// What a step would take with a cutter, in seconds; money counts as the machine's time that it buys.
+struct Estimate {
+  double cutting_s = 0.0;  ///< removal at start values, within power, torque and bending
+  double tool_s = 0.0;     ///< price over life, and changes when its life ends
+  std::string limited_by;  ///< "", "torque", "power", "bending"
+};
+[[nodiscard]] Estimate estimate(const model::Cutter& c, const model::ToolRequirement& r,
+                                const StartValues& start, const model::WorkMaterial& w,
+                                const model::Machine& m, const Preferences& p);
+/// Minutes left on the tool and its sisters; nothing when its life is not known.
+[[nodiscard]] std::optional<double> life_left_min(const model::Cutter& c);
+
+}  // namespace capstan::tooling
