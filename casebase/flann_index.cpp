@@ -82,6 +82,5 @@ class FlannIndex final : public Index {
 std::unique_ptr<Index> make_index(std::vector<Point> points) {
   return std::make_unique<FlannIndex>(std::move(points));
 }
-std::string_view index_name() { return "flann"; }
 
 }  // namespace capstan::casebase

@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <memory>
-#include <string_view>
 #include <vector>
 
 #include "casebase/normalisation.h"
@@ -36,8 +35,6 @@ class Index {
 [[nodiscard]] std::unique_ptr<Index> make_tree_index(std::vector<Point> points);
 /// FLANN's exact single tree; the built-in one in a build without FLANN.
 [[nodiscard]] std::unique_ptr<Index> make_index(std::vector<Point> points);
-/// What `make_index` makes: "flann" or "tree".
-[[nodiscard]] std::string_view index_name();
 
 /// Throws std::logic_error unless finite.
 void expect_finite(const Point& p);

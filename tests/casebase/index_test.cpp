@@ -130,8 +130,6 @@ INSTANTIATE_TEST_SUITE_P(
       return std::string(made.index == 0 ? "linear" : made.index == 1 ? "tree" : "built");
     });
 
-TEST(Index, IsNamedAfterItsBackend) { EXPECT_THAT(index_name(), testing::AnyOf("flann", "tree")); }
-
 TEST(Normalisation, MeasuresSizesByTheirRatio) {
   const Question q{.operation = "A",
                    .material_group = "B",
