@@ -5,6 +5,7 @@
 #include <string>
 
 #include "planner/ground/base/number.h"
+#include "tooling/catalogue/material.h"
 
 namespace capstan::tooling {
 namespace {
@@ -71,6 +72,22 @@ void fill_lengths(Cutter& c, const Cutter& g, Filler& f) {
   }
 }
 
+/// An own preset that names a shipped material says in its source of which group that is.
+void tell_groups(Cutter& c) {
+  static const auto materials = shipped_materials();
+  if (!materials) return;
+  for (model::CuttingPreset& p : c.presets) {
+    if (borrowed(p)) continue;
+    for (const model::WorkMaterial& m : *materials) {
+      const bool it = m.id == p.material_group ||
+                      std::find(m.names.begin(), m.names.end(), p.material_group) != m.names.end();
+      if (!it) continue;
+      if (!p.source.ends_with(model::of_group(m.iso_group))) p.source += model::of_group(m.iso_group);
+      break;
+    }
+  }
+}
+
 void fill_feeds(Cutter& c, const Cutter& g, Filler& f) {
   // A smaller tooth bears less; a larger one is not trusted with more.
   const double scale = std::min(1.0, c.cutting_diameter_mm / g.cutting_diameter_mm);
@@ -84,7 +101,10 @@ void fill_feeds(Cutter& c, const Cutter& g, Filler& f) {
       if (borrowed(p) || !(p.fz_mm > 0.0)) continue;
       least = least > 0.0 ? std::min(least, p.fz_mm) : p.fz_mm;
     }
-    if (c.fz_max_mm == 0.0) f.take(c.fz_max_mm, rounded(g.fz_max_mm * scale, 5), "fz_max_mm");
+    if (c.fz_max_mm == 0.0) {
+      f.take(c.fz_max_mm, rounded(g.fz_max_mm * scale, 5), "fz_max_mm");
+      tell_groups(c);
+    }
     if (c.fz_min_mm == 0.0) {
       const double like = rounded(g.fz_min_mm * scale, 5);
       f.take(c.fz_min_mm, std::min(c.fz_max_mm, least > 0.0 ? std::min(least, like) : like), "fz_min_mm");

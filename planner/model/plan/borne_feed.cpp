@@ -36,9 +36,15 @@ double start_feed_mm(const Cutter& c, const WorkMaterial& m) {
   return p != nullptr ? p->fz_mm : 0.0;
 }
 
+std::string of_group(std::string_view iso_group) { return " (ISO group " + std::string(iso_group) + ")"; }
+
 BorneFeed borne_feed(const Cutter& c, const WorkMaterial& m) {
   const auto* own = preset_of(c, m, false);
-  const double by_own = own != nullptr ? kOverPreset * own->fz_mm : 0.0;
+  double by_own = own != nullptr ? kOverPreset * own->fz_mm : 0.0;
+  for (const CuttingPreset& p : c.presets) {
+    if (own == nullptr && !borrowed(p) && !m.iso_group.empty() && p.source.ends_with(of_group(m.iso_group)))
+      by_own = std::max(by_own, kOverPreset * p.fz_mm);
+  }
   const bool assumed = std::any_of(c.sources.begin(), c.sources.end(), [](const auto& s) {
     return s.first == "fz_max_mm" && s.second.starts_with(kAsGeneric);
   });

@@ -26,16 +26,23 @@ inline constexpr std::string_view kAsGeneric = "default: as ";
 /// Feed that a cutter bears over the start value that its maker or the shop states. Default, unsourced.
 inline constexpr double kOverPreset = 1.5;
 
+/// What stands at the end of an own preset's source, where the group of the material that it names is known.
+[[nodiscard]] std::string of_group(std::string_view iso_group);
+
 struct BorneFeed {
   double mm = 0.0;  ///< per tooth; 0: not known
   bool by_preset = false;
 };
 /// The largest feed per tooth that a cutter bears in a material: its stated largest; where that is only taken
-/// from a generic cutter, or not known, at least kOverPreset times its own start value for this material.
-/// What it bears in another material says nothing.
+/// from a generic cutter, or not known, at least kOverPreset times its own start value for this material,
+/// else for one of its ISO 513 group (`of_group`). What it bears in another group says nothing.
 [[nodiscard]] BorneFeed borne_feed(const Cutter& c, const WorkMaterial& m);
 
 /// The feed per tooth that its presets state for a material, the own before those of its like; 0: none.
 [[nodiscard]] double start_feed_mm(const Cutter& c, const WorkMaterial& m);
+
+/// Share of its start value down to which a cutter is held to cut, whatever its edge's radius says: who
+/// states a start value has seen it cut, and some limit may lower it. Default, unsourced.
+inline constexpr double kCutsDownTo = 0.5;
 
 }  // namespace capstan::model

@@ -147,9 +147,15 @@ TEST(PredictedEdges, ThatAToolTakesMoreThanOneOfAreToldOnceWithTheirNumber) {
   k.plan.steps[0].loads.tool_life_min = k.plan.steps[2].loads.tool_life_min = minutes / 0.7;
   auto found = of(k, "CHK-EDGES");
   ASSERT_EQ(found.size(), 1u);
-  EXPECT_EQ(found[0].severity, Severity::kWarning);
+  EXPECT_EQ(found[0].severity, Severity::kNote);
   EXPECT_EQ(found[0].step, "again");
   EXPECT_THAT(found[0].message, HasSubstr("it takes 2 edges"));
+  // 2.1 in all: even if the law were wrong by its factor of two, the first edge does not last.
+  k.plan.steps[2].loads.tool_life_min = minutes / 1.4;
+  found = of(k, "CHK-EDGES");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].severity, Severity::kWarning);
+  EXPECT_THAT(found[0].message, HasSubstr("it takes 3 edges"));
   k.plan.steps[2].loads.tool_life_min = minutes / 0.2;  // 0.9 in all
   EXPECT_TRUE(of(k, "CHK-EDGES").empty());
 }

@@ -267,6 +267,14 @@ TEST(StartValues, OfOneMaterialSayNothingOfWhatTheCutterBearsInAnother) {
   // 1.5 x 0.2 in aluminium; in steel what a generic cutter of 8 mm bears, 0.08.
   EXPECT_NEAR(model::borne_feed(c, material("wrought_aluminium")).mm, 0.3, 1e-12);
   EXPECT_DOUBLE_EQ(model::borne_feed(c, material("c45")).mm, 0.08);
+  // A preset for a material of the group says what the group bears, and nothing of others.
+  Cutter d = c;
+  d.presets = {{"en_aw_2024", 200.0, 0.24, "stated: the maker"}};
+  d.fz_max_mm = 0.0;
+  d.sources.clear();
+  complete(d, library());
+  EXPECT_NEAR(model::borne_feed(d, material("wrought_aluminium")).mm, 0.36, 1e-12);
+  EXPECT_DOUBLE_EQ(model::borne_feed(d, material("c45")).mm, 0.08);
   // Of a preset for the group and one for the material itself, that of the material counts.
   c.presets.insert(c.presets.begin(), {"c45", 100.0, 0.06, "stated: the shop"});
   EXPECT_NEAR(model::borne_feed(c, material("c45")).mm, 0.09, 1e-12);
@@ -284,6 +292,14 @@ TEST(StartValues, OfAGroupDoNotMakeHssCutWhatTheCardSaysItDoesNot) {
   const auto why = not_cut_with(c, start_values(c, hard, machine()), hard);
   ASSERT_TRUE(why);
   EXPECT_NE(why->find("hardened_steel_60 is not cut with hss"), std::string::npos) << *why;
+  ToolRequirement r;
+  r.classes = {CutterClass::kEndmill};
+  r.diameter_min_mm = r.diameter_max_mm = 8.0;
+  const auto none = select(r, {c}, hard, machine());
+  ASSERT_TRUE(none.ranked.empty());
+  EXPECT_NE(none.would_fit.find(", not of hss (em8: hardened_steel_60 is not cut with hss"),
+            std::string::npos)
+      << none.would_fit;
   // Who names this very material has tried it.
   c.presets.insert(c.presets.begin(), {"hardened_steel_60", 15.0, 0.02, "stated: the shop"});
   EXPECT_FALSE(not_cut_with(c, start_values(c, hard, machine()), hard));

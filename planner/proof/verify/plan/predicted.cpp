@@ -36,6 +36,9 @@ constexpr double kCardShort = 1.5;
 /// The cards are of bare edges, and no cutter says whether it is coated: carbide then runs 70 % to 260 %
 /// faster (tooling/data/cutters.yaml, `coated`, with its source); the least of it.
 constexpr double kCoatedCarbide = 1.7;
+/// Edges of a tool from which a plan surely wears out the first, and that is a warning: lives by the
+/// textbook's law are uncertain by a factor of two (mechanics/life.h).
+constexpr double kSurelyWorn = 2.0;
 /// Tip bending of roughing at which the plan's own figure is told. As kMostBentMm of the sweep.
 constexpr double kMostBentMm = 0.2;
 /// Bending stress at which a shank surely breaks or stays bent, N/mm2: transverse rupture strengths of
@@ -235,9 +238,8 @@ class Speed {
   }
 
   static std::string life_text(double minutes) {
-    return minutes >= 0.1    ? plain(minutes) + " min"
-           : minutes >= 1e-3 ? plain(60.0 * minutes) + " s"
-                             : "no time";
+    if (minutes >= 0.1) return trimmed(minutes, 1) + " min";
+    return minutes >= 2e-3 ? trimmed(60.0 * minutes, 1) + " s" : "less than 0.1 s";
   }
   static std::string state() { return "state what it is made of"; }
   [[nodiscard]] Findings::Where at() const { return {s_.order + 1, s_.id, -1}; }
@@ -327,12 +329,17 @@ void check_predicted(const model::Plan& plan, const std::vector<StepMoves>& step
   }
   for (const auto& [id, w] : worn) {
     if (w.first_worn == nullptr) continue;
-    findings.warn(30, "CHK-EDGES", {w.first_worn->order + 1, w.first_worn->id, -1},
-                  "tool " + id + " wears out in this step: it cuts " + trimmed(w.minutes, 1) +
-                      " min in all, and at these speeds an edge lasts " + trimmed(w.minutes / w.edges, 1) +
-                      " min; it takes " + trimmed(std::ceil(w.edges - 1e-9), 0) +
-                      " edges: load sister tools, or change the edge at a stop; state its life_min where it "
-                      "is known");
+    const Findings::Where at{w.first_worn->order + 1, w.first_worn->id, -1};
+    const std::string text =
+        "tool " + id + " wears out in this step: it cuts " + trimmed(w.minutes, 1) +
+        " min in all, and at these speeds an edge lasts " + trimmed(w.minutes / w.edges, 1) +
+        " min; it takes " + trimmed(std::ceil(w.edges - 1e-9), 0) +
+        " edges: load sister tools, or change the edge at a stop; state its life_min where it "
+        "is known";
+    if (w.edges > kSurelyWorn)
+      findings.warn(30, "CHK-EDGES", at, text);
+    else
+      findings.note(30, "CHK-EDGES", at, text);
   }
 }
 

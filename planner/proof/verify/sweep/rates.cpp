@@ -172,12 +172,12 @@ void StepChecks::axial_feed(double fz) {
              feed);
 }
 
-/// What is stated as the start value in this material is no rubbing, however thin.
+/// What is near the start value that is stated for this material is no rubbing, however thin.
 double StepChecks::least_chip() const {
   const bool hss = cutter_.substrate == model::Substrate::kHss;
   const double least = mechanics::least_chip_mm(cutter_.cutting_diameter_mm, hss, plan_.material.iso_group);
   const double start = model::start_feed_mm(cutter_, plan_.material);
-  return start > 0.0 ? std::min(least, start) : least;
+  return start > 0.0 ? std::min(least, model::kCutsDownTo * start) : least;
 }
 
 // A feed that no square cut would bear is right where the cut is thin: whether it is, cells may be too far
