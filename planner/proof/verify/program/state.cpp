@@ -2,6 +2,7 @@
 #include <cmath>
 #include <set>
 
+#include "planner/ground/base/file.h"
 #include "planner/model/plan/table_offsets.h"
 #include "planner/proof/verify/program/program_checks.h"
 

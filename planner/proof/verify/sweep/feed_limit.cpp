@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "planner/model/plan/borne_feed.h"
 #include "planner/proof/verify/sweep/step_checks.h"
 
 namespace capstan::verify {
@@ -27,14 +28,16 @@ bool works_along_axis(const model::Cutter& c) {
   }
 }
 
-FeedLimit feed_limit(const model::Cutter& c) {
+FeedLimit feed_limit(const model::Cutter& c, const model::WorkMaterial& material) {
   const double d = c.cutting_diameter_mm;
   const int teeth = std::max(1, c.teeth);
   FeedLimit out;
   out.per_revolution = works_along_axis(c);
+  const model::BorneFeed borne = model::borne_feed(c, material);
+  const std::string by_preset = "1.5 times the tool's start value for " + material.id;
   if (c.fz_max_mm > 0.0) {
-    out.mm = c.fz_max_mm * (out.per_revolution ? teeth : 1);
-    out.source = "the tool's own limit";
+    out.mm = borne.mm * (out.per_revolution ? teeth : 1);
+    out.source = borne.by_preset ? by_preset : "the tool's own limit";
     return out;
   }
   // Shares of the diameter with a cap: default, unsourced; above what catalogues recommend for steel.
@@ -49,12 +52,10 @@ FeedLimit feed_limit(const model::Cutter& c) {
       out.mm = out.per_revolution ? std::clamp(0.04 * d, 0.02, 0.8) : std::clamp(0.02 * d, 0.01, 0.3);
   }
   out.source = "default, unsourced";
-  for (const auto& p : c.presets) {
-    const double start = 1.5 * p.fz_mm * (out.per_revolution ? teeth : 1);
-    if (start > out.mm) {
-      out.mm = start;
-      out.source = "1.5 times the tool's start value";
-    }
+  const double start = borne.mm * (out.per_revolution ? teeth : 1);
+  if (start > out.mm) {
+    out.mm = start;
+    out.source = by_preset;
   }
   return out;
 }

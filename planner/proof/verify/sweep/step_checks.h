@@ -41,6 +41,7 @@ class StepChecks {
   void settle();
   void power(double volume, double minutes, double chip_mm);
   [[nodiscard]] double feed_per_tooth(const Move& m) const;
+  [[nodiscard]] double least_chip() const;
   void chips(const Move& m, const Bite& bite, double fz);
   void chip(const Move& m, double thickest_mm, double fz, geometry::Vec2 where);
   void rubbing();
@@ -94,7 +95,7 @@ struct FeedLimit {
   bool per_revolution = false;
   std::string source;
 };
-[[nodiscard]] FeedLimit feed_limit(const model::Cutter& c);
+[[nodiscard]] FeedLimit feed_limit(const model::Cutter& c, const model::WorkMaterial& material);
 [[nodiscard]] bool works_along_axis(const model::Cutter& c);
 /// Motor power and torque for continuous running at a speed, between the curve's points; power linear
 /// where torque is not stated.
