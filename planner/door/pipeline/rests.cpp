@@ -40,7 +40,8 @@ Shaped shaped(const Model& m) {
   return out;
 }
 
-/// A hole needs its face, too: depths of spot drills and countersinks, and feeds, are chosen from the face on.
+/// A hole needs its face, too: depths of spot drills and countersinks, and feeds, are chosen from the face
+/// on.
 bool needs(const FeatureShape& before, const FeatureShape& after, Cause cause) {
   const bool faces = before.kind == ShapeKind::kFace && after.kind == ShapeKind::kFace;
   // From one height down the deeper of two takes all that the other does.
