@@ -256,6 +256,8 @@ class Speed {
 double zone_of(const model::Plan& plan, const PartShapes& part, model::AnyRef feature) {
   double zone = 0.0;
   if (const auto* e = part.find(feature)) {
+    // Of a compound's elements the narrowest is not the one that every step makes.
+    if (e->shapes.size() > 1 && e->shapes.front().kind == model::ShapeKind::kHole) return 0.0;
     for (const model::FeatureShape& shape : e->shapes) {
       for (const auto& t : {shape.width, shape.length, shape.diameter}) {
         if (t.given && t.width() > 0.0) zone = zone > 0.0 ? std::min(zone, t.width()) : t.width();
