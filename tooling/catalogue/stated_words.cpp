@@ -34,6 +34,18 @@ struct Number {
   std::size_t begin = 0;
 };
 
+/// "160,000" as 160000; nothing where its marks do not part groups of three digits.
+std::optional<double> without_thousands(const std::string& spelled) {
+  const auto mark = spelled.find_first_of(".,");
+  if (mark == std::string::npos || mark > 3 || (spelled.size() - mark) % 4 != 0) return std::nullopt;
+  std::string out = spelled.substr(0, mark);
+  for (std::size_t i = mark; i < spelled.size(); i += 4) {
+    if (spelled[i] != spelled[mark] || spelled.find_first_of(".,", i + 1) < i + 4) return std::nullopt;
+    out += spelled.substr(i + 1, 3);
+  }
+  return parse_double(out);
+}
+
 /// What a run of numbers means at most: "48-52" is 52, "58+2" is 60, "58,5" is 58.5; numbers that are no
 /// hardness in this unit, such as those of a grade before it, are passed over.
 std::optional<Number> most_of(const std::string& text, Run run, const ScaleUnit& unit, bool behind_unit) {
@@ -51,11 +63,16 @@ std::optional<Number> most_of(const std::string& text, Run run, const ScaleUnit&
     while (i < run.end &&
            (digit(text[i]) || ((text[i] == '.' || text[i] == ',') && i + 1 < run.end && digit(text[i + 1]))))
       ++i;
-    std::string word = text.substr(from, i - from);
+    const std::string spelled = text.substr(from, i - from);
+    std::string word = spelled;
     std::replace(word.begin(), word.end(), ',', '.');
     // "X40" is a grade, "HRC40" a hardness.
     if (from > 0 && letter(text[from - 1]) && !(behind_unit && from == run.begin)) continue;
-    const auto value = parse_double(word);
+    auto value = parse_double(word);
+    if (!value || *value < unit.lo) {
+      // "1.400 N/mm2", "160,000 psi": groups of three digits.
+      if (const auto whole = without_thousands(spelled)) value = whole;
+    }
     if (!value) continue;
     const double most = plus ? before + *value : *value;
     plus = false;
@@ -108,7 +125,7 @@ std::size_t behind(const std::string& t, std::size_t at) {
   constexpr std::array<std::string_view, 11> kSayNothing = {
       "HARDNESS", "HAERTE", "NUMBER", "SCALE", "VALUE", "OF", "IS", "MIN", "MAX", "A", "D"};
   for (;;) {
-    while (at < t.size() && std::string_view(" =:.").find(t[at]) != std::string_view::npos) ++at;
+    while (at < t.size() && std::string_view(" =:.(~<>").find(t[at]) != std::string_view::npos) ++at;
     std::size_t end = at;
     while (end < t.size() && letter(t[end])) ++end;
     const std::string_view word = std::string_view(t).substr(at, end - at);
@@ -117,10 +134,11 @@ std::size_t behind(const std::string& t, std::size_t at) {
   }
 }
 
-/// Whether the words before a strength call it another one than the tensile strength.
-bool not_tensile(const std::string& t, std::size_t at) {
+/// Whether the words before a strength, from `first` on, call it another one than the tensile strength.
+bool not_tensile(const std::string& t, std::size_t first, std::size_t at) {
   std::size_t from = at;
-  while (from > 0 && t[from - 1] != ';' && !(t[from - 1] == ',' && from < t.size() && t[from] == ' ')) --from;
+  while (from > first && t[from - 1] != ';' && !(t[from - 1] == ',' && from < t.size() && t[from] == ' '))
+    --from;
   for (const std::string_view word :
        {"YIELD", "STRECK", "DEHN", "PROOF", "SHEAR", "SCHER", "FATIGUE", "MODUL", "ELASTI", "COMPRESS",
         "FLEX", "BIEGE", "DRUCK", "PRESSURE", "CREEP", "CUTTING", "SPECIFIC"}) {
@@ -166,6 +184,8 @@ std::vector<Stated> hardness_of(const std::string& t) {
     claimed = std::max(end, right ? after.end : end);
     const std::string name(unit->as.empty() ? unit->word : unit->as);
     if (!left && !right) {
+      // "Rockwell C hardness 38 HRC" names its unit twice.
+      if (!out.empty() && out.back().hardness.scale == unit->scale) continue;
       if (unit->must || unit->scale == Scale::kBrinell || unit->scale == Scale::kVickers) {
         Stated none{{unit->scale, kHarderThanAnyCard, "a hardness in " + name + " that cannot be read"},
                     begin};
@@ -178,7 +198,9 @@ std::vector<Stated> hardness_of(const std::string& t) {
     }
     const double value = std::max(left ? left->value : 0.0, right ? right->value : 0.0);
     const std::size_t at = left ? std::min(left->begin, begin) : begin;
-    const Scale scale = unit->scale == Scale::kStrength && not_tensile(t, at) ? Scale::kOther : unit->scale;
+    const Scale scale = unit->scale == Scale::kStrength && not_tensile(t, k > 0 ? units[k - 1].end : 0, at)
+                            ? Scale::kOther
+                            : unit->scale;
     out.push_back({{scale, brinell_of(scale, value * unit->factor), trimmed(value, 4) + " " + name}, at});
   }
   if (out.empty() && unread) out.push_back(*std::move(unread));
@@ -316,10 +338,23 @@ std::optional<Said> state_at(const std::vector<Word>& words, std::size_t i, cons
   return std::nullopt;
 }
 
+/// "48 TO 52", "MIN 48 MAX 52": the word between two numbers is a dash.
+void join_ranges(std::string& t) {
+  for (const std::string_view word : {" TO ", " BIS ", " MAX ", " AND ", " UND "}) {
+    for (auto at = t.find(word); at != std::string::npos; at = t.find(word, at + 1)) {
+      const std::size_t end = at + word.size();
+      if (at == 0 || end >= t.size() || !digit(t[at - 1]) || !digit(t[end])) continue;
+      std::fill(t.begin() + static_cast<std::ptrdiff_t>(at) + 1,
+                t.begin() + static_cast<std::ptrdiff_t>(end) - 1, '-');
+    }
+  }
+}
+
 }  // namespace
 
 StatedWords stated_words(std::string_view text) {
-  const FoldedText t = folded(text);
+  FoldedText t = folded(text);
+  join_ranges(t.text);
   StatedWords out;
   std::size_t first = t.text.size();
   for (Stated& s : hardness_of(t.text)) {

@@ -130,7 +130,9 @@ int teeth_from_words(const std::string& text) {
   for (auto at = text.find('z'); at != std::string::npos; at = text.find('z', at + 1)) {
     std::size_t from = at + 1;
     if (at > 0 && (letter(text[at - 1]) || digit(text[at - 1]))) continue;
-    while (from < text.size() && (text[from] == ' ' || text[from] == '=')) ++from;
+    // "z4", "z = 4"; "z 12" is a height.
+    if (const auto sign = text.find_first_not_of(' ', from); sign != std::string::npos && text[sign] == '=')
+      from = std::min(text.find_first_not_of(' ', sign + 1), text.size());
     std::size_t end = from;
     while (end < text.size() && digit(text[end])) ++end;
     if (end == from || end - from > 2) continue;

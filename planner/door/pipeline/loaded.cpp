@@ -53,7 +53,11 @@ bool does_as_much(const Cutter& loaded, const Cutter& planned) {
   const auto more = [&](std::string_view field, double has, double wants) {
     return says(field) && has > 0.0 && wants > 0.0 && has > wants + kRoom;
   };
-  if (says("substrate") && loaded.substrate != planned.substrate) return false;
+  // A plan that assumes HSS, the slower one, is no plan against carbide.
+  const std::string* assumed = tooling::source_of(planned, "substrate");
+  const bool slower_assumed =
+      assumed != nullptr && assumed->starts_with("default") && planned.substrate == model::Substrate::kHss;
+  if (says("substrate") && loaded.substrate != planned.substrate && !slower_assumed) return false;
   if (says("teeth") && loaded.teeth > 0 && planned.teeth > 0 && loaded.teeth != planned.teeth) return false;
   if (loaded.table_line) return true;  // its lengths are taken as they are measured
   if (says("centre_cutting") && planned.centre_cutting && !loaded.centre_cutting) return false;

@@ -15,11 +15,9 @@ TableReading reading_of(const std::vector<TableOffset>& table, std::optional<boo
 }
 
 int magazine_pocket(const Cutter& c) {
-  if (!c.table_line) return c.pocket;
-  for (const ToolTableWord& w : c.table_line->words) {
-    if (w.letter == "P" && w.value >= 0.0 && w.value < 1e6) return static_cast<int>(w.value);
-  }
-  return c.pocket;
+  constexpr double kMost = 1e6;
+  const auto p = table_word(c, "P");
+  return p && *p >= 0.0 && *p < kMost ? static_cast<int>(*p) : c.pocket;
 }
 
 }  // namespace capstan::model

@@ -115,7 +115,7 @@ TEST(Late, TheToolTableComesOutNumberForNumber) {
   Job job;
   const std::string line = "T7 P17 Z+65.2345678 D+11.999500";
   const auto bound =
-      bind(plate(), shop_with(line + " ;12 mm carbide end mill, 4 flutes"), {.deadline = std::nullopt}, job);
+      bind(plate(), shop_with(line + " ;12 mm carbide end mill, 3 flutes"), {.deadline = std::nullopt}, job);
   ASSERT_TRUE(bound) << to_text(bound.error()) << "\n" << texts(job);
   EXPECT_EQ(line_of(bound->plan, 7), line);
   EXPECT_EQ(line_of(bound->plan, 4), "T4 P4 Z+140.000000 D+9.800000");
@@ -127,7 +127,7 @@ TEST(Late, AnAssumedStickOutLosesWhatTheToolIsShorterThanAssumed) {
   for (const auto& [z, out] : {std::pair("65", 29.0), std::pair("115", 39.0)}) {
     Job job;
     const auto bound =
-        bind(plate(), shop_with("T7 P7 Z+" + std::string(z) + " D+12 ;12 mm carbide end mill, 4 flutes"),
+        bind(plate(), shop_with("T7 P7 Z+" + std::string(z) + " D+12 ;12 mm carbide end mill, 3 flutes"),
              {.deadline = std::nullopt}, job);
     ASSERT_TRUE(bound) << to_text(bound.error()) << "\n" << texts(job);
     const auto* mill = cutter_of(bound->plan, 7);
@@ -141,7 +141,7 @@ TEST(Late, AnAssumedStickOutLosesWhatTheToolIsShorterThanAssumed) {
 TEST(Late, AToolWhoseHolderWouldTakeInItsFlutesIsRefused) {
   // 39 - (75 - 61) = 25 mm stand out, the flutes are 26 mm long.
   Job job;
-  const auto bound = bind(plate(), shop_with("T7 P7 Z+61 D+12 ;12 mm carbide end mill, 4 flutes"),
+  const auto bound = bind(plate(), shop_with("T7 P7 Z+61 D+12 ;12 mm carbide end mill, 3 flutes"),
                           {.deadline = std::nullopt}, job);
   ASSERT_FALSE(bound);
   EXPECT_NE(bound.error().message.find("61 mm long as it is loaded, so that 25 mm of it stand out"),
@@ -153,7 +153,7 @@ TEST(Late, AToolWhoseLengthTheTableDoesNotTellIsRefused) {
   // 12 mm mills have flutes of some 26 mm: no length from the gage line is 20 mm.
   for (const std::string z : {"Z+20", "Z0", ""}) {
     Job job;
-    const auto bound = bind(plate(), shop_with("T7 P7 " + z + " D+12 ;12 mm carbide end mill, 4 flutes"),
+    const auto bound = bind(plate(), shop_with("T7 P7 " + z + " D+12 ;12 mm carbide end mill, 3 flutes"),
                             {.deadline = std::nullopt}, job);
     ASSERT_FALSE(bound) << z;
     EXPECT_EQ(bound.error().code, "LATE-TOOL") << to_text(bound.error());
@@ -170,7 +170,7 @@ TEST(Late, OffsetsAgainstAReferenceToolAreNoLengthsAndComeOutAgain) {
                                   "T3 P3 Z-12.5 D+9 ;9 mm carbide twist drill, 140 deg\n"
                                   "T4 P4 Z+14.25 D+9.8 ;9.8 mm carbide twist drill, 140 deg\n"
                                   "T5 P5 Z+15 D+10 ;10 mm hss reamer H7\n"
-                                  "T7 P7 Z+2.5 D+12 ;12 mm carbide end mill, 4 flutes\n"
+                                  "T7 P7 Z+2.5 D+12 ;12 mm carbide end mill, 3 flutes\n"
                                   "T8 P8 Z+1.5 D+8 ;8 mm carbide end mill, 4 flutes\n"),
                           {.deadline = std::nullopt}, job);
   ASSERT_TRUE(bound) << to_text(bound.error()) << "\n" << texts(job);
@@ -185,7 +185,7 @@ TEST(Late, OneNegativeOffsetAmongLengthsIsNoLengthAndNoReference) {
   // A sign mistyped: were it an offset from a reference, T8 would stand out 96 mm more than T7.
   Job job;
   const auto bound = bind(plate(),
-                          shop_of("T7 P7 Z-5 D+12 ;12 mm carbide end mill, 4 flutes\n"
+                          shop_of("T7 P7 Z-5 D+12 ;12 mm carbide end mill, 3 flutes\n"
                                   "T8 P8 Z+91 D+8 ;8 mm carbide end mill, 4 flutes\n"),
                           {.deadline = std::nullopt}, job);
   ASSERT_FALSE(bound);
@@ -194,7 +194,7 @@ TEST(Late, OneNegativeOffsetAmongLengthsIsNoLengthAndNoReference) {
 
 TEST(Late, AMachineMaySayThatItsOffsetsCountFromAReference) {
   // All above zero, as of a shop whose reference is the shortest: the machine's description tells.
-  pipeline::Inputs in = shop_with("T7 P7 Z+20 D+12 ;12 mm carbide end mill, 4 flutes", reference_machine());
+  pipeline::Inputs in = shop_with("T7 P7 Z+20 D+12 ;12 mm carbide end mill, 3 flutes", reference_machine());
   Job job;
   const auto bound = bind(plate(), std::move(in), {.deadline = std::nullopt}, job);
   ASSERT_TRUE(bound) << to_text(bound.error()) << "\n" << texts(job);
@@ -206,7 +206,7 @@ TEST(Late, OfAReferenceTableOnlyOneToolMayHaveZero) {
   const auto bound = bind(plate(),
                           shop_of("T2 P2 Z+0 D+10 ;10 mm carbide spot drill, 90 deg\n"
                                   "T3 P3 Z-12.5 D+9 ;9 mm carbide twist drill, 140 deg\n"
-                                  "T7 P7 Z+0 D+12 ;12 mm carbide end mill, 4 flutes\n"),
+                                  "T7 P7 Z+0 D+12 ;12 mm carbide end mill, 3 flutes\n"),
                           {.deadline = std::nullopt}, job);
   ASSERT_FALSE(bound);
   EXPECT_EQ(bound.error().code, "LATE-TOOL") << to_text(bound.error());

@@ -66,9 +66,17 @@ TEST(LoadedTool, ThatDoesLessThanThePlannedOneIsAnother) {
   }
 }
 
+TEST(LoadedTool, OfCarbideIsThePlannedOneWhereThePlanOnlyAssumesHss) {
+  Cutter assumed = planned();
+  assumed.substrate = model::Substrate::kHss;
+  EXPECT_EQ(loaded_like({in_pocket_1(planned())}, assumed), nullptr);
+  assumed.sources.emplace_back("substrate", "default: the slower of what it may be");
+  EXPECT_NE(loaded_like({in_pocket_1(planned())}, assumed), nullptr);
+}
 TEST(LoadedTool, OfSeveralAlikeIsTheOneOfItsNameThenOfItsNumber) {
   Cutter first = in_pocket_1(planned()), own = in_pocket_1(planned()), third = in_pocket_1(planned());
   first.id = "another";
+  own.id = planned().id;
   own.pocket = 2;
   third.id = "a third";
   third.pocket = 3;

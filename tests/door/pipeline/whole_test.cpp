@@ -140,7 +140,8 @@ TEST(Whole, AFeatureIsNotFinishedWhenItsRoughingHasNoPath) {
   for (const auto& d : job.diagnostics()) EXPECT_NE(d.code, "PIP-NO-PATH") << d.message;
 }
 
-TEST(Whole, WhatLiesInAFaceThatIsNotPlannedIsLeftOutButAHoleIsDrilledFromTheRawSurface) {
+// A hole, too: its spot drill would be as deep in the solid as the face and the spot together.
+TEST(Whole, WhatLiesInAFaceThatIsNotPlannedIsLeftOut) {
   const std::filesystem::path dir = std::filesystem::path(::testing::TempDir()) / "no_face_rows";
   std::filesystem::create_directories(dir);
   std::ofstream(dir / "face.yaml") << "table: face\nrows:\n  - id: shop.no_face\n    priority: 0\n"
@@ -160,9 +161,9 @@ TEST(Whole, WhatLiesInAFaceThatIsNotPlannedIsLeftOutButAHoleIsDrilledFromTheRawS
     return std::find(face->needed_by.begin(), face->needed_by.end(), name) != face->needed_by.end();
   };
   EXPECT_TRUE(needs("POCKET"));
-  EXPECT_FALSE(needs("DOWEL HOLE 1"));
+  EXPECT_TRUE(needs("DOWEL HOLE 1"));
   EXPECT_FALSE(has_steps(plan, "POCKET"));
-  EXPECT_TRUE(has_steps(plan, "DOWEL HOLE 1"));
+  EXPECT_FALSE(has_steps(plan, "DOWEL HOLE 1"));
   expect_whole_or_not_at_all(plan);
 }
 

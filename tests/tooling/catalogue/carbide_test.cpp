@@ -145,16 +145,6 @@ TEST(CarbideDrills, AreTakenWhereTheyReachAndTheBottomMayBeTheirs) {
   EXPECT_EQ(taken(18.0, 140.0), "generic/drill_carbide_short/6.6");
 }
 
-TEST(CarbideDrills, AreTakenByMachinesThatTurnFastEnough) {
-  for (const std::string& id : shipped_machines()) {
-    const auto s =
-        select(hole(CutterClass::kTwistDrill, 6.6, 18.0), library(), material("6061"), machine(id));
-    ASSERT_FALSE(s.ranked.empty()) << id;
-    const auto& first = s.ranked.front();
-    for (const auto& other : s.ranked) EXPECT_LE(first.estimated_s, other.estimated_s + 60.0) << id;
-  }
-}
-
 TEST(Complete, TakesTheBareSpeedOfADrillOfWhichNothingSaysThatItIsCoated) {
   Cutter c;
   c.id = "shop";

@@ -44,8 +44,9 @@ TEST(StatedHardness, ReadsBrinellVickersAndRockwellAndNothingElse) {
   for (const char* text :
        {"207 HBW", "207 HV", "Brinell 207", "207 Vickers", "BHN 207", "hardness HBW = 207"})
     EXPECT_EQ(brinell(text), 207.0) << text;
-  for (const char* text : {"Rc 45", "HRc 45", "Rockwell C 45", "45 Rockwell C", "hardness = 45 HRC",
-                           "Rockwell C hardness = 45", "RC45", "42CrMo4 HRC45", "HRC min. 45"})
+  for (const char* text :
+       {"Rc 45", "HRc 45", "Rockwell C 45", "45 Rockwell C", "hardness = 45 HRC", "Rockwell C hardness = 45",
+        "Rockwell C hardness 45. HRC", "HRC (42-45)", "RC45", "42CrMo4 HRC45", "HRC min. 45"})
     EXPECT_NEAR(brinell(text), 421.0, 1e-9) << text;
   EXPECT_TRUE(std::isinf(brinell("75 HRC")));  // harder than any card
   for (const char* text : {"X40CrMoV5-1", "HBX 300", "arc 45", "207", "E = 210000 N/mm2", "PA 6", "Ra 3.2"})
@@ -66,7 +67,11 @@ TEST(StatedHardness, ReadsATensileStrengthAndNoOther) {
   for (const char* text : {"965 N/mm2", "965 MPa", "Rm 965", "Rm=965", "965 N/mm\xC2\xB2", "900-965 MPa",
                            "tensile strength = 965 N/mm2", "0.965 GPa", "UTS 965"})
     EXPECT_NEAR(brinell(text), 285.0, 1e-9) << text;
-  EXPECT_NEAR(brinell("177 ksi"), 361.0, 1.0);  // 1220.4 N/mm2
+  // Groups of three digits; a yield strength before it is another number's.
+  for (const char* text : {"Rm 1.220 N/mm2", "Rp0.2 1000 MPa Rm 1220 MPa", "Re 900 MPa, Rm 1,220 MPa"})
+    EXPECT_NEAR(brinell(text), 361.0, 1e-9) << text;
+  EXPECT_NEAR(brinell("UTS 177,000 psi"), 361.0, 1.0);  // 1220.4 N/mm2
+  EXPECT_NEAR(brinell("177 ksi"), 361.0, 1.0);          // 1220.4 N/mm2
   for (const char* text :
        {"Re 700 N/mm2", "yield strength = 700 MPa", "Streckgrenze 700 N/mm2", "Rp0.2 700 MPa",
         "shear strength = 700 MPa", "specific cutting force = 2000 N/mm2"})
@@ -80,6 +85,9 @@ TEST(StatedHardness, OfATextIsTheHardestThatItMayMean) {
                                                   {"1.2379 HRC 60", 60.0},
                                                   {"42CrMo4, HRC 48-52", 52.0},
                                                   {"42CrMo4 48-52 HRC", 52.0},
+                                                  {"42CrMo4 HRC 48 to 52", 52.0},
+                                                  {"42CrMo4 48 bis 52 HRC", 52.0},
+                                                  {"C45 HRC min 48 max 52", 52.0},
                                                   {"core 30 HRC, case 58 HRC", 58.0},
                                                   {"42CrMo4 48\xE2\x80\x93"
                                                    "52 HRC",

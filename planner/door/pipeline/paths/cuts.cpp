@@ -1,5 +1,6 @@
 #include "planner/door/pipeline/paths/cuts.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <tuple>
@@ -78,7 +79,9 @@ Result<optimise::CutAnswer> Cuts::answer(const optimise::CutQuestion& q) {
 
 optimise::CutAnswer Cuts::in_one_pass(const optimise::CutQuestion& q, optimise::CutAnswer several) {
   constexpr double kSlack = 1e-9;
-  const double widest = kFaceWidthRatio * q.cutter.cutting_diameter_mm * (1.0 + kSlack);
+  // Passes overlap by what the round edge leaves (toolpath/region/face.cpp).
+  const double flat = q.cutter.cutting_diameter_mm - 2.0 * q.cutter.corner_radius_mm;
+  const double widest = std::min(kFaceWidthRatio * q.cutter.cutting_diameter_mm, flat) * (1.0 + kSlack);
   const bool open = !q.ae_mm && q.kind == optimise::CutKind::kRough && several.feasible;
   if (!open || !(several.ae_mm > 0.0) || several.ae_mm >= q.width_mm || q.width_mm > widest) return several;
   optimise::CutQuestion one = q;
