@@ -59,6 +59,11 @@ StartValues start_values(const Cutter& c, const WorkMaterial& material, const Ma
     vc = c.substrate == model::Substrate::kHss ? material.vc_hss_m_min : material.vc_carbide_m_min;
     source += (source.empty() ? "" : "; ") + std::string("vc: the material's");
   }
+  // An own preset may state a speed alone: the feed of its like counts then.
+  if (const double like = model::start_feed_mm(c, material); fz <= 0.0 && like > 0.0) {
+    fz = like;
+    source += "; fz: that of a cutter like it";
+  }
   if (fz <= 0.0) {
     fz = c.fz_min_mm > 0.0 ? c.fz_min_mm : kLeastFeedPerDiameter * c.cutting_diameter_mm;
     source += std::string("; fz: ") +

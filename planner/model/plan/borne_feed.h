@@ -15,6 +15,10 @@ inline constexpr std::string_view kAsGeneric = "default: as ";
 /// where no own preset is for the material.
 [[nodiscard]] bool borrowed(const CuttingPreset& p);
 
+/// Whether neither maker nor shop stands behind a preset: it is borrowed, or its source says that it is a
+/// default.
+[[nodiscard]] bool nobodys(const CuttingPreset& p);
+
 /// The cutter's own (or, where asked, borrowed) preset for a material: by id, by name, by ISO 513 group; null
 /// when it has none. What the material's card does not cut with this substrate is cut by a preset that names
 /// the material only: a group is wider than the card.
@@ -34,8 +38,9 @@ struct BorneFeed {
   bool by_preset = false;
 };
 /// The largest feed per tooth that a cutter bears in a material: its stated largest; where that is only taken
-/// from a generic cutter, or not known, at least kOverPreset times its own start value for this material,
-/// else for one of its ISO 513 group (`of_group`). What it bears in another group says nothing.
+/// from a generic cutter, or not known, at least kOverPreset times its own start value for this material.
+/// Where it has none, the least of those for materials of the same ISO 513 group (`of_group`), and no more:
+/// groups are wide. What it bears in another group says nothing.
 [[nodiscard]] BorneFeed borne_feed(const Cutter& c, const WorkMaterial& m);
 
 /// The feed per tooth that its presets state for a material, the own before those of its like; 0: none.
@@ -44,5 +49,8 @@ struct BorneFeed {
 /// Share of its start value down to which a cutter is held to cut, whatever its edge's radius says: who
 /// states a start value has seen it cut, and some limit may lower it. Default, unsourced.
 inline constexpr double kCutsDownTo = 0.5;
+/// The thinnest chip that the cutter is held to cut in a material by what its presets say, mm; 0: they say
+/// nothing. kCutsDownTo of a start value that its maker or the shop states; all of one that is nobody's.
+[[nodiscard]] double held_to_cut_mm(const Cutter& c, const WorkMaterial& m);
 
 }  // namespace capstan::model

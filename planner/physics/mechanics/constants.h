@@ -77,9 +77,10 @@ inline constexpr double kLeastChipPerDiameter = 0.001;
   return hardens * (small < edge ? small : edge);
 }
 
-/// The shallowest level that a milling cutter is to take, mm; what is left in all may be less.
-[[nodiscard]] constexpr double least_depth_mm(double diameter_mm, bool hss) {
-  return kLeastDepthOverEdgeRadius * least_chip_mm(diameter_mm, hss) / kLeastChipOverEdgeRadius;
+/// The shallowest level that a milling cutter is to take, mm; what is left in all may be less. In what
+/// hardens under an edge it is as much deeper as the chip is thicker there.
+[[nodiscard]] constexpr double least_depth_mm(double diameter_mm, bool hss, std::string_view iso_group = {}) {
+  return kLeastDepthOverEdgeRadius * least_chip_mm(diameter_mm, hss, iso_group) / kLeastChipOverEdgeRadius;
 }
 
 // --- Tool life --------------------------------------------------------------------------------------

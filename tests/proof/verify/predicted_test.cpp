@@ -133,6 +133,73 @@ TEST(PredictedSpeed, OfABallIsThatOfTheWidestCircleThatCuts) {
   EXPECT_FALSE(of(k, "CHK-SPEED-MATERIAL").empty() && of(k, "CHK-EDGE-LIFE").empty());
 }
 
+/// A finishing of a free surface with a ball of 10 mm, 0.5 mm deep, carbide's card at 41 m/min: on a level
+/// floor it cuts at 41 m/min, on a steep one at 94.
+PlanMaker freeform(double life_min) {
+  auto k = plan_in(25, 41, model::Substrate::kCarbide);
+  k.plan.cutters[0].cutter_class = model::CutterClass::kBallEndmill;
+  k.plan.cutters[0].corner_radius_mm = 5.0;
+  auto* ws = k.plan.model.get<model::MachiningWorkingstep>(k.plan.steps[0].step);
+  ws->its_operation = k.plan.model.add(model::FreeformFinishMilling{});
+  k.plan.steps[0].axial_depth_mm = 0.5;
+  k.plan.steps[0].loads.tool_life_min = life_min;
+  return k;
+}
+
+bool speed_told(const PlanMaker& k) {
+  return !of(k, "CHK-SPEED-MATERIAL").empty() || !of(k, "CHK-EDGE-LIFE").empty();
+}
+
+// 15 min at 41 m/min; at 1.25 times less speed 15 x 1.25^4 = 36.6 min, and at 1.25 times more 6.1.
+TEST(PredictedSpeed, OfABallOnAFreeSurfaceIsThatOfItsDiameterUnlessThePlanMeasuredLess) {
+  EXPECT_TRUE(speed_told(freeform(0.0)));
+  EXPECT_FALSE(speed_told(freeform(15.0)));
+  EXPECT_TRUE(speed_told(freeform(5.0)));  // it says itself that it is fast
+}
+
+TEST(PredictedSpeed, IsJudgedWhateverLifeAFileClaims) {
+  EXPECT_TRUE(speed_told(freeform(1e6)));
+  // In with all of its radius a ball cuts on its diameter.
+  auto k = freeform(15.0);
+  k.plan.steps[0].axial_depth_mm = 5.0;
+  EXPECT_TRUE(speed_told(k));
+  // On no free surface the depth says on what circle it cuts: 0.7 mm, 5.1 mm, 48 m/min.
+  auto pocket = plan_in(25, 30, model::Substrate::kCarbide);
+  pocket.plan.cutters[0].cutter_class = model::CutterClass::kBallEndmill;
+  pocket.plan.cutters[0].corner_radius_mm = 5.0;
+  pocket.plan.steps[0].axial_depth_mm = 0.7;
+  pocket.plan.steps[0].loads.tool_life_min = 1e6;
+  EXPECT_TRUE(speed_told(pocket));
+}
+
+// A drill of 8 mm at 2.5 times the card's speed: 15 / (2.5 / 1.5 / 1.3)^4 = 5.5 min were it coated, as a mill
+// would be 15 / (2.5 / 1.5 / 1.7)^4 = 16.2.
+TEST(PredictedSpeed, OfACoatedDrillIsNotThatOfACoatedMill) {
+  auto k = plan_in(10, 30, model::Substrate::kCarbide);
+  k.plan.material.iso_group = "P";
+  k.plan.cutters[1].presets.clear();
+  const double rpm = 1000.0 * 2.5 * 30.0 / (std::numbers::pi * k.plan.cutters[1].cutting_diameter_mm);
+  double minutes = 0.0;
+  const auto drill = [&](double feed) {
+    testing::edit_schedule(k.plan, 1, [&](model::FeedSchedule& s) {
+      for (double& f : s.feed_mm_min) f = feed;
+      for (double& n : s.spindle_rpm) n = rpm;
+    });
+    const auto& path = *k.plan.steps[1].path;
+    minutes = 0.0;
+    for (std::size_t i = 1; i < path.size(); ++i)
+      if (path.kind[i] != model::MoveKind::kRapid) minutes += model::move_length(path, i) / feed;
+  };
+  drill(1.0);
+  const double at_one = minutes;
+  drill(at_one / 10.0);  // ten minutes in the hole
+  ASSERT_NEAR(minutes, 10.0, 1e-9);
+  EXPECT_FALSE(of(k, "CHK-EDGE-LIFE").empty());
+  drill(at_one / 4.0);
+  const auto all = of(k, "CHK-EDGE-LIFE");
+  EXPECT_TRUE(std::none_of(all.begin(), all.end(), [](const auto& f) { return f.step == "drill"; }));
+}
+
 // Two steps of one tool and 0.7 of an edge each take two edges, and are told once, where the first ends.
 TEST(PredictedEdges, ThatAToolTakesMoreThanOneOfAreToldOnceWithTheirNumber) {
   auto k = plan_in(25, kSpeed, model::Substrate::kCarbide);
@@ -189,6 +256,11 @@ TEST(PredictedFeed, OfAnotherMaterialsPresetIsNoLimitInThisOne) {
   EXPECT_FALSE(of(k, "CHK-FEED-TOOL").empty());
   k.plan.cutters[0].presets = {{"P", 300.0, 0.25, "stated"}};
   EXPECT_TRUE(of(k, "CHK-FEED-TOOL").empty());
+  // One for a material of the group lets it bear that much in the others, and no more.
+  k.plan.cutters[0].presets = {{"11SMn30", 300.0, 0.31, "stated (ISO group P)"}};
+  EXPECT_TRUE(of(k, "CHK-FEED-TOOL").empty());
+  k.plan.cutters[0].presets = {{"11SMn30", 300.0, 0.25, "stated (ISO group P)"}};
+  EXPECT_FALSE(of(k, "CHK-FEED-TOOL").empty());
 }
 
 // A zone of 0.2 mm: a wall may be off by 0.1 mm at most, two walls by 0.05 mm each.
@@ -207,6 +279,57 @@ TEST(PredictedBending, OfAWallBeyondItsToleranceIsAnError) {
   EXPECT_EQ(found[0].severity, Severity::kWarning);
   k.plan.steps[0].loads.wall_error_mm = 0.05;
   EXPECT_TRUE(of(k, "CHK-WALL-ERROR").empty());
+}
+
+TEST(PredictedBending, OfAWallThatNoToleranceJudgesIsTold) {
+  PlanMaker k = testing::good_plan();
+  k.plan.steps[0].loads.wall_error_mm = 1.0;
+  EXPECT_TRUE(of(k, "CHK-WALL-ERROR").empty());
+  EXPECT_EQ(of(k, "CHK-BENDING").size(), 1u);
+  k.plan.steps[0].loads.wall_error_mm = 0.2;
+  EXPECT_TRUE(of(k, "CHK-BENDING").empty());
+}
+
+TEST(PredictedBending, ThatBreaksTheToolIsAnErrorWhateverTheWallDoes) {
+  PlanMaker k = testing::good_plan();
+  tolerate(k, 1.0);
+  k.plan.cutters[0].substrate = model::Substrate::kCarbide;
+  k.plan.steps[0].loads.deflection_mm = 1.0;
+  k.plan.steps[0].loads.wall_error_mm = 0.02;
+  const auto found = of(k, "CHK-BENDING");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].severity, Severity::kError);
+}
+
+/// A counterbore of 20 mm over a hole of 10: step "pocket" mills it. Widths of the zones, 0: none stated.
+PlanMaker counterbore(double wide_zone, double narrow_zone) {
+  PlanMaker k = testing::good_plan();
+  const auto hole = [&](double diameter, double zone) {
+    const auto ref = k.hole("of it", 50, 50, diameter, 10);
+    if (zone > 0.0) {
+      model::PlusMinusValue t;
+      t.upper_limit = t.lower_limit = 0.5 * zone;
+      const auto made = k.plan.model.add(t);
+      k.plan.model.get<model::TolerancedLengthMeasure>(k.plan.model.get<model::RoundHole>(ref)->diameter)
+          ->implicit_tolerance = made;
+    }
+    return ref;
+  };
+  model::CounterboreHole both;
+  both.its_id = "counterbore";
+  both.elements = {hole(20, wide_zone), hole(10, narrow_zone)};
+  const auto ref = k.plan.model.add(both);
+  k.plan.model.get<model::MachiningWorkingstep>(k.plan.steps[0].step)->its_feature = ref;
+  k.plan.steps[0].loads.wall_error_mm = 0.08;
+  return k;
+}
+
+TEST(PredictedBending, OfACompoundHoleIsJudgedByTheWidestOfItsElements) {
+  EXPECT_TRUE(of(counterbore(0.4, 0.015), "CHK-WALL-ERROR").empty());
+  const auto found = of(counterbore(0.1, 0.015), "CHK-WALL-ERROR");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].severity, Severity::kError);
+  EXPECT_TRUE(of(counterbore(0.0, 0.015), "CHK-WALL-ERROR").empty());
 }
 
 TEST(PredictedBending, OfARoughingToolIsTold) {

@@ -267,13 +267,14 @@ TEST(StartValues, OfOneMaterialSayNothingOfWhatTheCutterBearsInAnother) {
   // 1.5 x 0.2 in aluminium; in steel what a generic cutter of 8 mm bears, 0.08.
   EXPECT_NEAR(model::borne_feed(c, material("wrought_aluminium")).mm, 0.3, 1e-12);
   EXPECT_DOUBLE_EQ(model::borne_feed(c, material("c45")).mm, 0.08);
-  // A preset for a material of the group says what the group bears, and nothing of others.
+  // A preset for a material of the group says what the group bears and no more, and nothing of others.
   Cutter d = c;
   d.presets = {{"en_aw_2024", 200.0, 0.24, "stated: the maker"}};
   d.fz_max_mm = 0.0;
   d.sources.clear();
   complete(d, library());
-  EXPECT_NEAR(model::borne_feed(d, material("wrought_aluminium")).mm, 0.36, 1e-12);
+  EXPECT_NEAR(model::borne_feed(d, material("wrought_aluminium")).mm, 0.24, 1e-12);
+  EXPECT_NEAR(model::borne_feed(d, material("en_aw_2024")).mm, 0.36, 1e-12);
   EXPECT_DOUBLE_EQ(model::borne_feed(d, material("c45")).mm, 0.08);
   // Of a preset for the group and one for the material itself, that of the material counts.
   c.presets.insert(c.presets.begin(), {"c45", 100.0, 0.06, "stated: the shop"});

@@ -326,8 +326,11 @@ Result<Level> best_level(const CutQuestion& q, const Options& options, Job& job)
     if (level) level->answer.levels = levels_of(*q.ap_mm);
     return level;
   }
-  const double thinnest =
-      mechanics::least_depth_mm(q.cutter.cutting_diameter_mm, q.cutter.substrate == model::Substrate::kHss);
+  // Thinner levels than this are not tried, whatever the edge; default, unsourced.
+  constexpr double kThinnestMm = 0.05;
+  const bool hss = q.cutter.substrate == model::Substrate::kHss;
+  const double thinnest = std::max(
+      kThinnestMm, mechanics::least_depth_mm(q.cutter.cutting_diameter_mm, hss, q.material.iso_group));
   constexpr int kMostTries = 24;
   std::optional<Level> best;
   double least = 0.0;

@@ -55,8 +55,8 @@ double largest_fz(const CutQuestion& q) {
 double least_chip_mm(const CutQuestion& q) {
   const bool hss = q.cutter.substrate == model::Substrate::kHss;
   const double least = mechanics::least_chip_mm(q.cutter.cutting_diameter_mm, hss, q.material.iso_group);
-  const double start = model::start_feed_mm(q.cutter, q.material);
-  return start > 0.0 ? std::min(least, model::kCutsDownTo * start) : least;
+  const double held = model::held_to_cut_mm(q.cutter, q.material);
+  return held > 0.0 ? std::min(least, held) : least;
 }
 
 double thinnest_chip_mm(const CutQuestion& q) {

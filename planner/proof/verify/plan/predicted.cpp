@@ -7,9 +7,10 @@
 #include "planner/ground/base/number.h"
 #include "planner/model/features/raw_piece.h"
 #include "planner/model/nouns/all.h"
-#include "planner/model/plan/borne_feed.h"
 #include "planner/physics/mechanics/constants.h"
 #include "planner/proof/verify/plan/plan_checks.h"
+#include "planner/proof/verify/stated_values.h"
+#include "planner/proof/verify/sweep/step_checks.h"
 #include "planner/proof/verify/sweep/target.h"
 
 // What follows from a step's own numbers, whoever chose them: its cutting speed is held against what the
@@ -33,14 +34,9 @@ constexpr double kFaster = 1.25;
 /// By how much a card's speed may be too low for the tool at hand (grade, share of the turn in the cut):
 /// tables for one material and substrate differ by about this. Default, unsourced.
 constexpr double kCardShort = 1.5;
-/// The cards are of bare edges, and no cutter says whether it is coated: carbide then runs 70 % to 260 %
-/// faster (tooling/data/cutters.yaml, `coated`, with its source); the least of it.
-constexpr double kCoatedCarbide = 1.7;
 /// Edges of a tool from which a plan surely wears out the first, and that is a warning: lives by the
 /// textbook's law are uncertain by a factor of two (mechanics/life.h).
 constexpr double kSurelyWorn = 2.0;
-/// Tip bending of roughing at which the plan's own figure is told. As kMostBentMm of the sweep.
-constexpr double kMostBentMm = 0.2;
 /// Bending stress at which a shank surely breaks or stays bent, N/mm2: transverse rupture strengths of
 /// cemented carbide (ISO 3327) and of hardened high-speed steel lie at 2000 to 4000. Default, unsourced.
 constexpr double kBreakingNMm2 = 3500.0;
@@ -48,13 +44,13 @@ constexpr double kBreakingNMm2 = 3500.0;
 /// pocket or slot may be, each. Derived: a size in the middle of its zone has half of it on either side.
 constexpr double kWallOfZone = 0.5, kBothOfZone = 0.25;
 constexpr double kModelErrorMm = 0.005;  ///< below, the model's own error rules; default, unsourced
-constexpr double kRounded = 1.1;         ///< what rounding and limits kept nearly may exceed; as kMeasured
 
 /// What is known of a cutter's speed in a material.
 struct Reference {
   double vc_m_min = 0.0;  ///< 0: it is not for this material
   std::string source;
-  bool may_be_coated = false;  ///< a card's speed of a bare edge, and nobody says what the tool has
+  /// A card's speed is of a bare edge, and no cutter says whether it is coated: how much faster it is then.
+  double coated = 1.0;
   double life_min = mechanics::kLifeAtTableMin, n = mechanics::kTaylorExponentCarbide;
   [[nodiscard]] double life_at(double vc) const { return life_min * std::pow(vc / vc_m_min, -1.0 / n); }
 };
@@ -70,19 +66,20 @@ std::optional<Reference> reference_of(const model::WorkMaterial& m, const model:
   const bool hss = s == Substrate::kHss;
   out.n = hss ? mechanics::kTaylorExponentHss : mechanics::kTaylorExponentCarbide;
   if (c.life_min > 0.0) out.life_min = c.life_min;
+  const double coated = !hss && coating_helps(m) ? coated_over_bare(c) : 1.0;
   const double card = hss ? m.vc_hss_m_min : m.vc_carbide_m_min;
   // Presets are of what the cutter is made of; those of its like may be of another edge.
   for (const bool of_its_like : {false, true}) {
-    const auto* p = s == c.substrate ? model::preset_of(c, m, of_its_like) : nullptr;
-    if (p == nullptr || !(p->vc_m_min > 0.0)) continue;
+    const auto* p = s == c.substrate ? stated_for(c, m, of_its_like, Wanted::kSpeed) : nullptr;
+    if (p == nullptr) continue;
     out.vc_m_min = p->vc_m_min;
     out.source = (of_its_like ? "that of a cutter like it for " : "the tool's own for ") + p->material_group;
-    out.may_be_coated = of_its_like && !hss && coating_helps(m);
+    if (of_its_like) out.coated = coated;
     return out;
   }
   if (!(m.vc_hss_m_min > 0.0) && !(m.vc_carbide_m_min > 0.0)) return std::nullopt;
   out.vc_m_min = card;
-  out.may_be_coated = !hss && coating_helps(m);
+  out.coated = coated;
   out.source = "the card of " + m.id + " for " + std::string(model::to_text(s));
   for (const model::ToolLifeLaw& l : m.life) {
     if (l.substrate != model::to_text(s) || !(l.life_min > 0.0) || !(l.v0_m_min > 0.0) || !(l.n > 0.0))
@@ -90,7 +87,7 @@ std::optional<Reference> reference_of(const model::WorkMaterial& m, const model:
     out.vc_m_min = l.v0_m_min;
     out.life_min = l.life_min;
     out.n = l.n;
-    out.may_be_coated = false;
+    out.coated = 1.0;
     out.source = "the law of tool life of " + m.id;
     break;
   }
@@ -117,7 +114,8 @@ bool tells_speed(const model::Cutter& c) {
   }
 }
 
-/// Of a ball or bull nose that is not in with all of its radius, the widest circle that cuts.
+/// Of a ball or bull nose that is not in with all of its radius, the widest circle that cuts on a level
+/// floor.
 double contact_diameter(const model::Cutter& c, double depth_mm) {
   const double d = c.cutting_diameter_mm;
   const double r = c.cutter_class == CutterClass::kBallEndmill ? 0.5 * d : c.corner_radius_mm;
@@ -168,19 +166,40 @@ class Speed {
 
  private:
   bool judged(const Reference& ref) {
-    const double d = tells_speed(c_) ? contact_diameter(c_, s_.planned->axial_depth_mm) : 0.0;
-    vc_ = std::numbers::pi * d * cut_.rpm / 1000.0;
+    const double level = tells_speed(c_) ? contact_diameter(c_, s_.planned->axial_depth_mm) : 0.0;
+    // On a steep surface a round nose touches up to its whole diameter, however thin the layer is.
+    const double widest = level > 0.0 && freeform() ? c_.cutting_diameter_mm : level;
+    vc_ = speed(widest);
     if (!(ref.vc_m_min > 0.0)) {
       not_for_it();
       return true;
     }
-    if (!(d > 0.0) || vc_ <= kFaster * ref.vc_m_min) return false;
-    // The contact of a round nose is not measured here: where the plan predicts a usual life, it was.
-    const double predicted = s_.planned->loads.tool_life_min;
-    const bool round = d < c_.cutting_diameter_mm || c_.cutter_class == CutterClass::kBallEndmill;
-    if (round && predicted > ref.life_at(kFaster * ref.vc_m_min)) return false;
+    if (!(widest > 0.0) || vc_ <= kFaster * ref.vc_m_min) return false;
+    if (level < widest) {
+      where_ = " on the tool's whole diameter, which a steep surface touches";
+      if (gentle_enough(ref, speed(level))) return false;
+    }
     tell(ref);
     return true;
+  }
+
+  [[nodiscard]] double speed(double diameter_mm) const {
+    return std::numbers::pi * diameter_mm * cut_.rpm / 1000.0;
+  }
+
+  [[nodiscard]] bool freeform() const {
+    const auto* ws = plan_.model.get<model::MachiningWorkingstep>(s_.planned->step);
+    return ws != nullptr && (plan_.model.holds<model::FreeformFinishMilling>(ws->its_operation) ||
+                             plan_.model.holds<model::FreeformRoughMilling>(ws->its_operation));
+  }
+
+  /// How steep the surface is that a round nose meets is not measured here. Where the plan predicts a usual
+  /// life it was, but that is the plan's word: it counts only as far as the narrowest circle bears it out.
+  [[nodiscard]] bool gentle_enough(const Reference& ref, double narrowest_m_min) const {
+    const double most = kFaster * ref.vc_m_min;
+    const double predicted = s_.planned->loads.tool_life_min;
+    return narrowest_m_min <= most && predicted > ref.life_at(most) &&
+           predicted <= ref.life_at(narrowest_m_min / kFaster);
   }
 
   /// Whether the step is right for carbide, where what the cutter is made of is only assumed.
@@ -190,8 +209,7 @@ class Speed {
   }
 
   [[nodiscard]] bool too_short(const Reference& r) const {
-    const double coated = r.may_be_coated ? kCoatedCarbide : 1.0;
-    return !(r.vc_m_min > 0.0) || r.life_at(vc_ / (kCardShort * coated)) < cut_.minutes;
+    return !(r.vc_m_min > 0.0) || r.life_at(vc_ / (kCardShort * r.coated)) < cut_.minutes;
   }
 
   void not_for_it() {
@@ -218,10 +236,11 @@ class Speed {
     const bool assumed = carbide && carbide->vc_m_min > 0.0;
     const Reference& by = assumed ? *carbide : ref;
     const double rpm = std::floor(cut_.rpm * ref.vc_m_min / vc_);
-    std::string text = "a cutting speed of " + speed_text(vc_) + " in " + plan_.material.id + " with " +
-                       c_.id + "; at most " + speed_text(kFaster * ref.vc_m_min) + ", " + plain(kFaster) +
-                       " times " + ref.source + " (" + speed_text(ref.vc_m_min) + "): an edge lasts " +
-                       life_text(ref.life_at(vc_)) + " of the step's " + trimmed(cut_.minutes, 2) + " min";
+    std::string text = "a cutting speed of " + speed_text(vc_) + where_ + " in " + plan_.material.id +
+                       " with " + c_.id + "; at most " + speed_text(kFaster * ref.vc_m_min) + ", " +
+                       plain(kFaster) + " times " + ref.source + " (" + speed_text(ref.vc_m_min) +
+                       "): an edge lasts " + life_text(ref.life_at(vc_)) + " of the step's " +
+                       trimmed(cut_.minutes, 2) + " min";
     if (assumed && vc_ <= kFaster * carbide->vc_m_min) {
       text += "; that the tool is hss is only assumed, and carbide bears " + speed_text(carbide->vc_m_min) +
               ": " + state();
@@ -250,24 +269,42 @@ class Speed {
   Findings& out_;
   Turned cut_;
   double vc_ = 0.0;
+  std::string where_;  ///< what of the tool that is the speed of, where it is not plain
 };
 
-/// The narrowest zone that is stated of a feature's sizes across, else of the workpiece; 0: none.
-double zone_of(const model::Plan& plan, const PartShapes& part, model::AnyRef feature) {
+/// The narrowest zone that is stated of a shape's sizes across; 0: none.
+double zone_of(const model::FeatureShape& shape) {
   double zone = 0.0;
-  if (const auto* e = part.find(feature)) {
-    // Of a compound's elements the narrowest is not the one that every step makes.
-    if (e->shapes.size() > 1 && e->shapes.front().kind == model::ShapeKind::kHole) return 0.0;
-    for (const model::FeatureShape& shape : e->shapes) {
-      for (const auto& t : {shape.width, shape.length, shape.diameter}) {
-        if (t.given && t.width() > 0.0) zone = zone > 0.0 ? std::min(zone, t.width()) : t.width();
-      }
-    }
-  }
-  if (zone > 0.0) return zone;
+  for (const auto& t : {shape.width, shape.length, shape.diameter})
+    if (t.given && t.width() > 0.0) zone = zone > 0.0 ? std::min(zone, t.width()) : t.width();
+  return zone;
+}
+
+/// What the workpiece asks for where a size states nothing; 0: nothing.
+double general_zone(const model::Plan& plan, model::AnyRef feature) {
   const auto* f = plan.model.get<model::ManufacturingFeature>(feature);
   const auto* piece = f == nullptr ? nullptr : plan.model.get<model::Workpiece>(f->its_workpiece);
   return piece == nullptr ? 0.0 : 2.0 * model::global_tolerance_of(*piece).value_or(0.0);
+}
+
+/// The narrowest zone that is stated of a feature's sizes across, else of the workpiece; 0: none. Which
+/// element of a compound hole a step makes is not known here: the widest of them all, none where one has
+/// none.
+double zone_of(const model::Plan& plan, const PartShapes& part, model::AnyRef feature) {
+  const double general = general_zone(plan, feature);
+  const auto* e = part.find(feature);
+  if (e == nullptr || e->shapes.empty()) return general;
+  const bool compound = e->shapes.size() > 1 && e->shapes.front().kind == model::ShapeKind::kHole;
+  double least = 0.0, most = 0.0;
+  for (const model::FeatureShape& shape : e->shapes) {
+    const double stated = zone_of(shape);
+    const double zone = stated > 0.0 ? stated : general;
+    if (!(zone > 0.0) && compound) return 0.0;
+    most = std::max(most, zone);
+    if (stated > 0.0) least = least > 0.0 ? std::min(least, stated) : stated;
+  }
+  if (compound) return most;
+  return least > 0.0 ? least : general;
 }
 
 double youngs_modulus(const model::Cutter& c) {
@@ -275,47 +312,55 @@ double youngs_modulus(const model::Cutter& c) {
                                         : mechanics::kCarbideYoungsModulusNMm2;
 }
 
+/// Of a bar that is loaded at its end: 3 E d bent / (2 L^2), N/mm2; 0: its length is not known.
+double bending_stress(const model::Cutter& c, double bent_mm) {
+  if (!(c.stick_out_mm > 0.0)) return 0.0;
+  return 1.5 * youngs_modulus(c) * c.cutting_diameter_mm * bent_mm / (c.stick_out_mm * c.stick_out_mm);
+}
+
 void judge_bending(const model::Plan& plan, const PartShapes& part, const StepMoves& s, Findings& findings) {
   const model::StepLoads& l = s.planned->loads;
+  const model::Cutter& c = *s.cutter;
   const Findings::Where at{s.order + 1, s.id, -1};
   const std::string load = " at the largest load that the plan reckons with (" + plain(l.peak_force_n) +
                            " N, " + plain(l.force_margin) + " times the expected one)";
+  // A face mill's body is no bar.
+  const bool mills = !works_along_axis(c) && c.cutter_class != CutterClass::kFacemill;
+  const char* stiffer = ": cut less deep or less wide, feed slower, or use a stiffer or shorter cutter";
+  // Whatever it does to the wall, no tool bears that.
+  const double stress = mills ? bending_stress(c, l.deflection_mm) : 0.0;
+  if (stress > kBreakingNMm2) {
+    findings.error(21, "CHK-BENDING", at,
+                   "tool " + c.id + " bends by " + mm(l.deflection_mm) + load + ", which is a stress of " +
+                       trimmed(stress, 0) + " N/mm2 in its shank; it breaks at " + trimmed(kBreakingNMm2, 0) +
+                       stiffer,
+                   l.deflection_mm);
+  }
   const double wall = std::abs(l.wall_error_mm);
   const auto* ws = plan.model.get<model::MachiningWorkingstep>(s.planned->step);
-  if (wall > kModelErrorMm && ws != nullptr) {
-    const double zone = zone_of(plan, part, ws->its_feature);
-    if (!(zone > 0.0)) return;
-    const std::string what =
-        "tool " + s.cutter->id + " is pushed " + mm(wall) + " off the wall" + load + "; ";
+  const double zone = wall > 0.0 && ws != nullptr ? zone_of(plan, part, ws->its_feature) : 0.0;
+  if (zone > 0.0) {
+    const std::string what = "tool " + c.id + " is pushed " + mm(wall) + " off the wall" + load + "; ";
     const char* todo = ": feed slower, leave less, or use a stiffer or shorter cutter";
+    if (wall <= kModelErrorMm) return;
     if (wall > kWallOfZone * zone)
       findings.error(21, "CHK-WALL-ERROR", at,
                      what + "of a tolerance of " + mm(zone) + " in all, " + mm(kWallOfZone * zone) +
                          " is the most that one wall may be off" + todo,
                      wall);
-    else if (wall > kRounded * kBothOfZone * zone)
+    else if (wall > kMeasured * kBothOfZone * zone)
       findings.warn(21, "CHK-WALL-ERROR", at,
                     what + "two walls together leave a tolerance of " + mm(zone) + " from " +
                         mm(kBothOfZone * zone) + " each on" + todo,
                     wall);
     return;
   }
-  const model::Cutter& c = *s.cutter;
-  const bool mills = s.planned->radial_depth_mm > 0.0 && c.cutter_class != CutterClass::kFacemill;
-  if (wall > 0.0 || !mills || l.deflection_mm <= kRounded * kMostBentMm) return;
-  // A bar that is loaded at its end: stress 3 E d bent / (2 L^2).
-  const double stress = c.stick_out_mm > 0.0 ? 1.5 * youngs_modulus(c) * c.cutting_diameter_mm *
-                                                   l.deflection_mm / (c.stick_out_mm * c.stick_out_mm)
-                                             : 0.0;
-  const std::string text = "tool " + c.id + " bends by " + mm(l.deflection_mm) + load;
-  const char* todo = ": cut less deep or less wide, feed slower, or use a stiffer or shorter cutter";
-  if (stress > kBreakingNMm2)
-    findings.error(21, "CHK-BENDING", at,
-                   text + ", which is a stress of " + trimmed(stress, 0) +
-                       " N/mm2 in its shank; it breaks at " + trimmed(kBreakingNMm2, 0) + todo,
-                   l.deflection_mm);
-  else
-    findings.warn(21, "CHK-BENDING", at, text + "; at most " + mm(kMostBentMm) + todo, l.deflection_mm);
+  // What no tolerance judges is held against what roughing may bend.
+  const double bent = std::max(l.deflection_mm, wall);
+  if (stress > kBreakingNMm2 || !mills || bent <= kMeasured * kMostBentMm) return;
+  findings.warn(21, "CHK-BENDING", at,
+                "tool " + c.id + " bends by " + mm(bent) + load + "; at most " + mm(kMostBentMm) + stiffer,
+                bent);
 }
 
 }  // namespace

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "planner/model/plan/borne_feed.h"
 #include "planner/physics/mechanics/constants.h"
+#include "planner/proof/verify/stated_values.h"
 #include "planner/proof/verify/sweep/step_checks.h"
 
 namespace capstan::verify {
@@ -13,15 +13,13 @@ using model::CutterClass;
 
 namespace {
 
-constexpr double kMeasured = 1.1;   ///< by which a rate measured on cells may be too large
 constexpr double kTouchMm3 = 1e-6;  ///< less than this is not a cut
 constexpr double kDeeper = 1.5;     ///< depth over that planned, at most; default, unsourced
 constexpr double kWider = 8.0;      ///< mean section over that planned, at most; default, unsourced
 /// Of the diameter squared: smaller sections are nothing for a cutter, however little was planned; default,
 /// unsourced.
 constexpr double kFeltShare = 0.01;
-constexpr double kMostBentMm = 0.2;  ///< of the tip, under the mean force alone; default, unsourced
-constexpr double kWritten = 0.005;   ///< by which feed and speed may be off through their decimals
+constexpr double kWritten = 0.005;  ///< by which feed and speed may be off through their decimals
 
 /// How far the outermost point of the edge goes: on an arc farther than the centre. A volume divided by it is
 /// the least width that can have been cut, whichever side of the arc it lies on.
@@ -172,18 +170,10 @@ void StepChecks::axial_feed(double fz) {
              feed);
 }
 
-/// What is near the start value that is stated for this material is no rubbing, however thin.
-double StepChecks::least_chip() const {
-  const bool hss = cutter_.substrate == model::Substrate::kHss;
-  const double least = mechanics::least_chip_mm(cutter_.cutting_diameter_mm, hss, plan_.material.iso_group);
-  const double start = model::start_feed_mm(cutter_, plan_.material);
-  return start > 0.0 ? std::min(least, model::kCutsDownTo * start) : least;
-}
-
 // A feed that no square cut would bear is right where the cut is thin: whether it is, cells may be too far
 // apart to show.
 void StepChecks::chips(const Move& m, const Bite& bite, double fz) {
-  const double least = least_chip() * (1.0 - kWritten);
+  const double least = least_chip_of(cutter_, plan_.material) * (1.0 - kWritten);
   const bool sideways = norm(xy(m.to) - xy(m.from)) > 0.0 || is_arc(m.kind);
   if (!works_along_axis(cutter_) && sideways && bite.volume_mm3 > 0.0 && fz > 0.0 && fz < least) {
     if (rubbed_mm_ == 0.0 || fz < rubbed_at_mm_) {
@@ -208,8 +198,8 @@ void StepChecks::rubbing() {
   if (rubbed_mm_ <= kHarmlessMm) return;
   out_.warn(18, "CHK-RUB", rubbed_,
             "over " + mm(rubbed_mm_) + " of way in material the feed is down to " + mm(rubbed_at_mm_) +
-                " per tooth, where an edge rubs; at least " + mm(least_chip()) + " in " + plan_.material.id +
-                ": feed faster, cut less deep, or use a stiffer cutter",
+                " per tooth, where an edge rubs; at least " + mm(least_chip_of(cutter_, plan_.material)) +
+                " in " + plan_.material.id + ": feed faster, cut less deep, or use a stiffer cutter",
             rubbed_at_mm_);
 }
 

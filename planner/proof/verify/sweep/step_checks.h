@@ -41,7 +41,6 @@ class StepChecks {
   void settle();
   void power(double volume, double minutes, double chip_mm);
   [[nodiscard]] double feed_per_tooth(const Move& m) const;
-  [[nodiscard]] double least_chip() const;
   void chips(const Move& m, const Bite& bite, double fz);
   void chip(const Move& m, double thickest_mm, double fz, geometry::Vec2 where);
   void rubbing();
