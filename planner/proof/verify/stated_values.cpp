@@ -1,7 +1,6 @@
 #include "planner/proof/verify/stated_values.h"
 
 #include <algorithm>
-#include <vector>
 
 #include "planner/model/plan/borne_feed.h"
 #include "planner/physics/mechanics/constants.h"

@@ -111,7 +111,8 @@ double coated_by(const model::CuttingPreset& p) {
 
 TEST(CoatedEdges, RunAsMuchFasterInTheCheckAsTheLeastOfTheirKindInTheTable) {
   std::map<double, double> least;  // by what the check takes
-  for (const model::Cutter& c : tooling::generic_library().value()) {
+  const std::vector<model::Cutter> library = tooling::generic_library().value();
+  for (const model::Cutter& c : library) {
     for (const model::CuttingPreset& p : c.presets) {
       const bool helps = p.material_group == "P" || p.material_group == "M" || p.material_group == "K";
       const double by = coated_by(p);

@@ -317,7 +317,8 @@ PlanMaker counterbore(double wide_zone, double narrow_zone) {
   };
   model::CounterboreHole both;
   both.its_id = "counterbore";
-  both.elements = {hole(20, wide_zone), hole(10, narrow_zone)};
+  both.elements.push_back(hole(20, wide_zone));
+  both.elements.push_back(hole(10, narrow_zone));
   const auto ref = k.plan.model.add(both);
   k.plan.model.get<model::MachiningWorkingstep>(k.plan.steps[0].step)->its_feature = ref;
   k.plan.steps[0].loads.wall_error_mm = 0.08;
