@@ -90,7 +90,7 @@ TEST(LeastChip, IsTheSameToPlanningAndToTheCheck) {
 // A start value of 0.003 x 4 mm in titanium is nobody's; an edge of 0.008 mm asks for as much there.
 TEST(LeastChip, IsLoweredByWhatAShopStatesAndByNoDefault) {
   const auto all = materials();
-  const auto m = std::find_if(all.begin(), all.end(), [](const auto& x) { return x.id == "ti_6al_4v"; });
+  const auto m = std::find_if(all.begin(), all.end(), [](const auto& x) { return x.id == "ti6al4v"; });
   ASSERT_NE(m, all.end());
   model::Cutter c;
   c.cutting_diameter_mm = 4.0;
