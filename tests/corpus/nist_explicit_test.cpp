@@ -104,8 +104,9 @@ TEST(CorpusNistExplicit, IsToldExactlyWhatIsBadMachiningInIt) {
   }
   add("WS FINISH POCKET1 P", {"14 CHK-RAMP", "18 CHK-FEED-TOOL"});
   EXPECT_EQ(findings_of_program(session), bad);
-  // The loads of given paths are known, so the plan states what machine they need; and of each step that its
-  // speed is too high for HSS, which the tools are taken for, as the file does not say what they are made of.
+  // The loads of given paths are known, so the plan states what machine they need and how far its tools bend;
+  // and of each step that its speed is too high for HSS, which the tools are taken for, as the file does not
+  // say what they are made of.
   std::vector<std::string> of_plan = {"17 CHK-MACHINE-POWER ", "17 CHK-MACHINE-TORQUE "};
   std::string told;
   for (const std::string& f : bad) {
@@ -114,6 +115,7 @@ TEST(CorpusNistExplicit, IsToldExactlyWhatIsBadMachiningInIt) {
       of_plan.push_back("16 CHK-SPEED-MATERIAL " + step);
       told = step;
     }
+    if (f.starts_with("21 CHK-DEFLECTION")) of_plan.push_back("21 CHK-BENDING " + step);
     of_plan.push_back(f);
   }
   EXPECT_EQ(findings_of_plan(session), of_plan) << all_findings(session);
