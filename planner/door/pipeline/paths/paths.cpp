@@ -426,6 +426,7 @@ class PathMaker {
       out.removed_mm3 = m->removed_mm3;
       out.rapid_removed_mm3 = m->rapid_removed_mm3;
       fq.samples = step::samples_of(*m, *out.path, step.cutter);
+      fq.known_to_mm = m->known_to_mm;
       // One pass over a surface, not levels: as deep and as wide as what roughing left there.
       if (w_.plan.model.holds<model::FreeformFinishMilling>(step.operation)) {
         for (const optimise::CutSample& sample : fq.samples) {
