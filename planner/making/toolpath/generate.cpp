@@ -128,32 +128,19 @@ void warn_of_taper(const PathJob& task, Job& job) {
 }
 
 Result<GeneratedPath> dispatch(const PathJob& task, Job& job) {
-  switch (task.operation) {
-    case TypeId::kDrilling:
-    case TypeId::kCenterDrilling:
-    case TypeId::kCounterSinking:
-    case TypeId::kMultistepDrilling:
-    case TypeId::kBoring:
-    case TypeId::kReaming:
-    case TypeId::kBackBoring:
-      warn_of_taper(task, job);
-      return drill_path(task, job);
-    case TypeId::kTapping:
-      return tap_path(task, job);
-    case TypeId::kThreadDrilling:
-      return thread_mill_path(task, job);
-    case TypeId::kPlaneRoughMilling:
-    case TypeId::kPlaneFinishMilling:
-    case TypeId::kSideRoughMilling:
-    case TypeId::kSideFinishMilling:
-    case TypeId::kBottomAndSideRoughMilling:
-    case TypeId::kBottomAndSideFinishMilling:
-      return milling(task, job);
-    default:
-      return fail({.code = "TPA-UNSUPPORTED",
-                   .message = task.shape.name + ": this operation has no 2.5D path",
-                   .path = task.shape.name});
+  using model::OperationTrait;
+  if (model::has(task.operation, OperationTrait::kAlongAxis)) {
+    warn_of_taper(task, job);
+    return drill_path(task, job);
   }
+  if (task.operation == TypeId::kTapping) return tap_path(task, job);
+  if (model::has(task.operation, OperationTrait::kThreads)) return thread_mill_path(task, job);
+  if (model::has(task.operation, OperationTrait::kPlane) ||
+      model::has(task.operation, OperationTrait::kWalls))
+    return milling(task, job);
+  return fail({.code = "TPA-UNSUPPORTED",
+               .message = task.shape.name + ": this operation has no 2.5D path",
+               .path = task.shape.name});
 }
 
 }  // namespace

@@ -148,10 +148,8 @@ class PathMaker {
     const Model& m = w_.plan.model;
     return !m.holds<model::CenterDrilling>(step.operation) &&
            !m.holds<model::CounterSinking>(step.operation) &&
-           !m.holds<model::SideFinishMilling>(step.operation) &&
-           !m.holds<model::BottomAndSideFinishMilling>(step.operation) &&
-           !m.holds<model::PlaneFinishMilling>(step.operation) &&
-           !m.holds<model::FreeformFinishMilling>(step.operation) && !m.holds<model::Tapping>(step.operation);
+           !model::has(step.operation.type, model::OperationTrait::kFinishes) &&
+           !m.holds<model::Tapping>(step.operation);
   }
 
   Status make(StepWork& step) {
