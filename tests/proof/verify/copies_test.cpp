@@ -76,22 +76,5 @@ TEST(Copies, KnowTheWorkOffsetsOfTheTable) {
   EXPECT_TRUE(std::equal(own.begin(), own.end(), model::kWorkOffsets.begin(), model::kWorkOffsets.end()));
 }
 
-// The reamer's and the face mill's own caps stand in the check alone. What it allows over a stated start
-// value is what tooling gives a cutter that states no limit: 1.5 times
-// (tooling/library/cutters/complete.cpp).
-TEST(Copies, AllowTheFeedThatToolingGives) {
-  model::Cutter c;
-  c.cutting_diameter_mm = 10.0;
-  c.teeth = 4;
-  c.presets.push_back({});
-  c.presets.back().fz_mm = 1.0;        // far above the cap by diameter, so that the start value decides
-  const double axial = 1.5 * 1.0 * 4;  // per revolution: all teeth
-  for (const model::CutterClassRow& r : model::cutter_classes()) {
-    c.cutter_class = r.value;
-    const bool along = model::has(r.value, CutterTrait::kAlongAxis);
-    EXPECT_DOUBLE_EQ(feed_limit(c).mm, along ? axial : 1.5) << r.name;
-  }
-}
-
 }  // namespace
 }  // namespace capstan::verify
