@@ -7,11 +7,14 @@
 #include <string>
 #include <vector>
 
+/// Marks what the library exports; nothing else of it is visible to a linker.
+#define CAPSTAN_API __attribute__((visibility("default")))
+
 namespace capstan {
 
 /// The version of the library that is linked, as "major.minor.patch": what the program got, which need not be
 /// what it was compiled against.
-[[nodiscard]] std::string version();
+[[nodiscard]] CAPSTAN_API std::string version();
 
 /// What planning is given beside the part. An empty text is the built-in default.
 struct PlanOptions {
@@ -59,10 +62,10 @@ struct PlanOutput {
 /// Plans a part: an ISO 14649 or AP238 file, a plan as JSON, or an STL mesh, told by content. `name` is what
 /// diagnostics call it. Throws  std::logic_error and what derives from it for a fault of the library itself;
 /// std::bad_alloc.
-[[nodiscard]] PlanOutput plan_bytes(std::string part, const std::string& name,
-                                    const PlanOptions& options = {});
+[[nodiscard]] CAPSTAN_API PlanOutput plan_bytes(std::string part, const std::string& name,
+                                                const PlanOptions& options = {});
 
 /// As above, from a file.
-[[nodiscard]] PlanOutput plan_file(const std::string& path, const PlanOptions& options = {});
+[[nodiscard]] CAPSTAN_API PlanOutput plan_file(const std::string& path, const PlanOptions& options = {});
 
 }  // namespace capstan

@@ -207,6 +207,5 @@ void tell_corners(Work& w);
 void add_probings(Work& w);
 /// The noun of a cutter, made once per plan.
 [[nodiscard]] Ref<model::MachiningTool> tool_noun(Work& w, const model::Cutter& cutter);
-[[nodiscard]] geometry::Box3 transformed(const geometry::Box3& box, const geometry::Placement& to);
 
 }  // namespace capstan::pipeline
