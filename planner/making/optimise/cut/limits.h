@@ -29,6 +29,8 @@ struct Measures {
   std::array<Measure, model::kLimitCount> all;
   [[nodiscard]] Measure& operator[](model::Limit l) { return all.at(model::index_of(l)); }
   [[nodiscard]] const Measure& operator[](model::Limit l) const { return all.at(model::index_of(l)); }
+  [[nodiscard]] auto begin() const { return all.begin(); }
+  [[nodiscard]] auto end() const { return all.end(); }
 };
 [[nodiscard]] Measures measures(const CutQuestion& q, const model::StepLoads& loads, double ap_mm,
                                 double n_rpm, double feed_mm_min);
