@@ -31,6 +31,19 @@ bool sizes_hole(CutterClass c) {
 
 bool breaks_edges(CutterClass c) { return c == CutterClass::kChamferMill || c == CutterClass::kCountersink; }
 
+bool cuts_by_point(CutterClass c) {
+  switch (c) {
+    case CutterClass::kCenterDrill:
+    case CutterClass::kSpotDrill:
+    case CutterClass::kCountersink:
+    case CutterClass::kBackCountersink:
+    case CutterClass::kChamferMill:
+      return true;
+    default:
+      return false;
+  }
+}
+
 bool mills(CutterClass c) {
   switch (c) {
     case CutterClass::kTwistDrill:

@@ -18,6 +18,8 @@ namespace capstan::verify {
 [[nodiscard]] bool sizes_hole(model::CutterClass c);
 /// A cone that breaks edges along the side of a feature.
 [[nodiscard]] bool breaks_edges(model::CutterClass c);
+/// Cuts with a part of its cone: how wide it is there is not known.
+[[nodiscard]] bool cuts_by_point(model::CutterClass c);
 /// Moves along walls, and so leaves its radius in their corners.
 [[nodiscard]] bool mills(model::CutterClass c);
 /// Makes the surface that stays.

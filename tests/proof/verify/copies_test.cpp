@@ -43,6 +43,12 @@ TEST(Copies, BreakEdgesWithTheConesThatSink) {
   EXPECT_EQ(differing(breaks_edges, CutterTrait::kSinks), Classes{});
 }
 
+// Twist and gun drills cut with all of their cone.
+TEST(Copies, CutByThePointWhatHasOneAndIsNoDrill) {
+  EXPECT_EQ(differing(cuts_by_point, CutterTrait::kPointAngle),
+            (Classes{CutterClass::kTwistDrill, CutterClass::kGunDrill}));
+}
+
 // A side mill's body is thinner above its disc. The planner measures what its head cuts by the height of the
 // disc; the check has heights alone, which do not tell what lies under them.
 TEST(Copies, UndercutAsTheTableSaysAndSideMillsToo) {
