@@ -17,30 +17,26 @@ constexpr unsigned kAxis = bit(OperationTrait::kAlongAxis);
 constexpr unsigned kWider = bit(OperationTrait::kEnlarges);
 constexpr unsigned kTip = bit(OperationTrait::kConeTip);
 constexpr unsigned kThread = bit(OperationTrait::kThreads);
-constexpr unsigned kMeasure = bit(OperationTrait::kMeasures);
 
 using T = TypeId;
 constexpr std::array kRows{
-    OperationRow{T::kCenterDrilling, "centre drilling", craft::kMarks, kAxis | kTip},
-    OperationRow{T::kDrilling, "drilling", craft::kDrills, kAxis},
-    OperationRow{T::kMultistepDrilling, "drilling with retracts", craft::kDrills, kAxis},
-    OperationRow{T::kCounterSinking, "countersinking", craft::kNone, kAxis | kTip},
-    OperationRow{T::kBoring, "boring", craft::kSizes, kAxis | kWider},
-    OperationRow{T::kReaming, "reaming", craft::kSizes, kAxis | kWider},
-    OperationRow{T::kBackBoring, "back boring", craft::kSizes, kAxis},
-    OperationRow{T::kTapping, "tapping", craft::kSizes, kThread},
-    OperationRow{T::kThreadDrilling, "thread milling", craft::kSizes, kThread},
-    OperationRow{T::kPlaneRoughMilling, "plane rough milling", craft::kRoughs, kRough | kPlane},
-    OperationRow{T::kPlaneFinishMilling, "plane finish milling", craft::kFinishes, kFinish | kPlane},
-    OperationRow{T::kSideRoughMilling, "side rough milling", craft::kRoughs, kRough | kWall},
-    OperationRow{T::kSideFinishMilling, "side finish milling", craft::kFinishes, kFinish | kWall},
-    OperationRow{T::kBottomAndSideRoughMilling, "bottom and side rough milling", craft::kRoughs,
-                 kRough | kWall},
-    OperationRow{T::kBottomAndSideFinishMilling, "bottom and side finish milling", craft::kFinishes,
-                 kFinish | kWall},
-    OperationRow{T::kFreeformRoughMilling, "surface rough milling", craft::kRoughs, kRough | kSurface},
-    OperationRow{T::kFreeformFinishMilling, "surface finish milling", craft::kFinishes, kFinish | kSurface},
-    OperationRow{T::kWorkpieceProbing, "probing", craft::kNone, kMeasure},
+    OperationRow{T::kCenterDrilling, craft::kMarks, kAxis | kTip},
+    OperationRow{T::kDrilling, craft::kDrills, kAxis},
+    OperationRow{T::kMultistepDrilling, craft::kDrills, kAxis},
+    OperationRow{T::kCounterSinking, craft::kNone, kAxis | kTip},
+    OperationRow{T::kBoring, craft::kSizes, kAxis | kWider},
+    OperationRow{T::kReaming, craft::kSizes, kAxis | kWider},
+    OperationRow{T::kBackBoring, craft::kSizes, kAxis},
+    OperationRow{T::kTapping, craft::kSizes, kThread},
+    OperationRow{T::kThreadDrilling, craft::kSizes, kThread},
+    OperationRow{T::kPlaneRoughMilling, craft::kRoughs, kRough | kPlane},
+    OperationRow{T::kPlaneFinishMilling, craft::kFinishes, kFinish | kPlane},
+    OperationRow{T::kSideRoughMilling, craft::kRoughs, kRough | kWall},
+    OperationRow{T::kSideFinishMilling, craft::kFinishes, kFinish | kWall},
+    OperationRow{T::kBottomAndSideRoughMilling, craft::kRoughs, kRough | kWall},
+    OperationRow{T::kBottomAndSideFinishMilling, craft::kFinishes, kFinish | kWall},
+    OperationRow{T::kFreeformRoughMilling, craft::kRoughs, kRough | kSurface},
+    OperationRow{T::kFreeformFinishMilling, craft::kFinishes, kFinish | kSurface},
 };
 
 const OperationRow* find(TypeId operation) {

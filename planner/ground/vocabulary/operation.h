@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <span>
-#include <string_view>
 
 #include "planner/ground/vocabulary/noun_kind.h"
 
@@ -19,7 +18,6 @@ namespace capstan::model {
 ///     enlarges    widens a hole that is there, by the cutter's own diameter
 ///     cone_tip    the cutter's conical tip cuts, and is as wide there as it is deep
 ///     threads     makes a thread
-///     measures    takes no material away
 enum class OperationTrait : std::uint16_t {
   kRoughs = 1U << 0U,
   kFinishes = 1U << 1U,
@@ -30,7 +28,6 @@ enum class OperationTrait : std::uint16_t {
   kEnlarges = 1U << 6U,
   kConeTip = 1U << 7U,
   kThreads = 1U << 8U,
-  kMeasures = 1U << 9U,
 };
 
 /// Ranks in the order of the craft: of two steps that nothing else orders, the lower comes first.
@@ -40,12 +37,12 @@ inline constexpr int kNone = 0, kMarks = 1, kDrills = 2, kRoughs = 3, kFinishes 
 
 struct OperationRow {
   TypeId value;
-  std::string_view words;  ///< for people: "side finish milling"
-  int rank;                ///< in the order of the craft; 0: none
+  int rank;  ///< in the order of the craft; 0: none
   std::uint16_t traits;
 };
 
-/// Operations that planning makes. Abstract ones and extensions are not here: they have no trait, rank 0.
+/// Operations that cut. Abstract ones and extensions are not here: they have no trait, rank 0. For people
+/// they are called by their nouns' keywords.
 [[nodiscard]] std::span<const OperationRow> operations();
 [[nodiscard]] bool has(TypeId operation, OperationTrait t);
 /// Whether it makes walls that stay, with the flank.
