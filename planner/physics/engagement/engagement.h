@@ -31,8 +31,6 @@ struct Options {
   double step_mm = 0.0;
 };
 
-/// Cutters whose cut always lies under an overhang.
-[[nodiscard]] bool undercuts(model::CutterClass c);
 /// Height of a head behind which the body is thinner, mm: nothing over it is cut. None: the flanks go up.
 [[nodiscard]] std::optional<double> head_height(const model::Cutter& c);
 

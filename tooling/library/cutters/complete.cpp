@@ -161,7 +161,7 @@ void complete(Cutter& c, const std::vector<Cutter>& generic) {
   const Cutter* g = nearest(c, generic);
   if (g == nullptr) return;
   Filler f(c, *g);
-  if (c.cutter_class == CutterClass::kBallEndmill && c.corner_radius_mm == 0.0) {
+  if (model::has(c.cutter_class, model::CutterTrait::kBall) && c.corner_radius_mm == 0.0) {
     c.corner_radius_mm = 0.5 * c.cutting_diameter_mm;
     f.note("corner_radius_mm", "derived: half the diameter of a ball end mill");
   }
@@ -170,26 +170,20 @@ void complete(Cutter& c, const std::vector<Cutter>& generic) {
     f.note("teeth", f.source());
   }
   // A pitch, a corner and the angle of a cone are never assumed: see `faults_of`. Points of drills are.
-  const bool point = c.cutter_class == CutterClass::kTwistDrill ||
-                     c.cutter_class == CutterClass::kCenterDrill ||
-                     c.cutter_class == CutterClass::kSpotDrill || c.cutter_class == CutterClass::kGunDrill;
-  if (point) f.take(c.point_angle_rad, g->point_angle_rad, "point_angle_rad");
+  if (model::has(c.cutter_class, model::CutterTrait::kOpensSolid))
+    f.take(c.point_angle_rad, g->point_angle_rad, "point_angle_rad");
   f.take(c.tip_diameter_mm, std::min(g->tip_diameter_mm, c.cutting_diameter_mm), "tip_diameter_mm");
   f.take(c.helix_rad, g->helix_rad, "helix_rad");
   f.take(c.shank_diameter_mm, g->shank_diameter_mm, "shank_diameter_mm");
   f.take(c.holder_diameter_mm, g->holder_diameter_mm, "holder_diameter_mm");
   fill_lengths(c, *g, f);
   fill_feeds(c, *g, f);
-  const bool drill = c.cutter_class == CutterClass::kTwistDrill ||
-                     c.cutter_class == CutterClass::kCenterDrill || c.cutter_class == CutterClass::kSpotDrill;
-  if (drill && !c.centre_cutting) {
+  if (model::has(c.cutter_class, model::CutterTrait::kToCentre) && !c.centre_cutting) {
     c.centre_cutting = true;
     f.note("centre_cutting", "derived: a drill");
   }
-  const bool mill = c.cutter_class == CutterClass::kEndmill ||
-                    c.cutter_class == CutterClass::kBullnoseEndmill ||
-                    c.cutter_class == CutterClass::kBallEndmill;
-  if (mill && !c.centre_cutting && c.maximum_ramp_angle_rad == 0.0) {
+  if (model::has(c.cutter_class, model::CutterTrait::kRamps) && !c.centre_cutting &&
+      c.maximum_ramp_angle_rad == 0.0) {
     c.maximum_ramp_angle_rad = kCautiousRampRad;
     f.note("centre_cutting", std::string(kNotStated) + ", held not to cut to the centre");
     f.note("maximum_ramp_angle_rad", std::string(kRampUnstated));

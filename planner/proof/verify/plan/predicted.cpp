@@ -8,6 +8,7 @@
 #include "planner/model/features/raw_piece.h"
 #include "planner/model/nouns/all.h"
 #include "planner/physics/mechanics/constants.h"
+#include "planner/proof/verify/copies.h"
 #include "planner/proof/verify/plan/plan_checks.h"
 #include "planner/proof/verify/stated_values.h"
 #include "planner/proof/verify/sweep/step_checks.h"
@@ -101,17 +102,8 @@ bool substrate_assumed(const model::Cutter& c) {
 
 /// Whether it is the whole diameter that cuts; of cones nobody knows which part does.
 bool tells_speed(const model::Cutter& c) {
-  switch (c.cutter_class) {
-    case CutterClass::kCenterDrill:
-    case CutterClass::kSpotDrill:
-    case CutterClass::kCountersink:
-    case CutterClass::kBackCountersink:
-    case CutterClass::kChamferMill:
-    case CutterClass::kTouchProbe:
-      return false;
-    default:
-      return c.cutting_diameter_mm > 0.0;
-  }
+  if (cuts_by_point(c.cutter_class) || c.cutter_class == CutterClass::kTouchProbe) return false;
+  return c.cutting_diameter_mm > 0.0;
 }
 
 /// Of a ball or bull nose that is not in with all of its radius, the widest circle that cuts on a level

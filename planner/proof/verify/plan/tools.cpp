@@ -3,6 +3,7 @@
 #include <map>
 
 #include "planner/model/plan/cutter/table_offsets.h"
+#include "planner/proof/verify/copies.h"
 #include "planner/proof/verify/plan/plan_checks.h"
 
 namespace capstan::verify {
@@ -11,9 +12,8 @@ namespace {
 constexpr double kEqualMm = 1e-6;
 
 bool known_offset(const std::string& name) {
-  static constexpr std::string_view kOffsets[] = {"G54", "G55",   "G56",   "G57",  "G58",
-                                                  "G59", "G59.1", "G59.2", "G59.3"};
-  return std::find(std::begin(kOffsets), std::end(kOffsets), name) != std::end(kOffsets);
+  const auto known = work_offsets();
+  return std::find(known.begin(), known.end(), name) != known.end();
 }
 
 void check_cutter(const model::Plan& plan, const model::Cutter& c, Findings& findings) {
