@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "planner/door/pipeline/given/shop.h"
+#include "tests/support/shop.h"
 #include "planner/door/pipeline/paths/sections.h"
 #include "planner/model/nouns/all.h"
 #include "planner/proof/verify/verify.h"
