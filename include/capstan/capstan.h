@@ -11,11 +11,14 @@
 #include <string_view>
 #include <vector>
 
+/// Marks what the library exports; nothing else of it is visible to a linker.
+#define CAPSTAN_API __attribute__((visibility("default")))
+
 namespace capstan {
 
 /// The version of the library that is linked, as "major.minor.patch": what the program got, which need not be
 /// what it was compiled against.
-[[nodiscard]] std::string version();
+[[nodiscard]] CAPSTAN_API std::string version();
 
 /// What planning is given beside the part. An empty text is the built-in default.
 struct PlanOptions {
@@ -97,22 +100,24 @@ struct CheckInput {
 /// Plans a part: an ISO 14649 or AP238 file, a plan as JSON, or an STL mesh, told by content. `name` is what
 /// diagnostics call it. Throws  std::logic_error and what derives from it for a fault of the library itself;
 /// std::bad_alloc.
-[[nodiscard]] PlanOutput plan_bytes(std::string part, const std::string& name,
-                                    const PlanOptions& options = {});
+[[nodiscard]] CAPSTAN_API PlanOutput plan_bytes(std::string part, const std::string& name,
+                                                const PlanOptions& options = {});
 
 /// As above, from a file.
-[[nodiscard]] PlanOutput plan_file(const std::string& path, const PlanOptions& options = {});
+[[nodiscard]] CAPSTAN_API PlanOutput plan_file(const std::string& path, const PlanOptions& options = {});
 
 /// Closes at the machine what a plan leaves open, with the tools that `options.tools` says are loaded (else
 /// the plan's own): first a checked fallback, then an improvement while the deadline allows.
-[[nodiscard]] PlanOutput bind_bytes(std::string plan, const std::string& name,
-                                    const PlanOptions& options = {});
-[[nodiscard]] PlanOutput bind_file(const std::string& path, const PlanOptions& options = {});
+[[nodiscard]] CAPSTAN_API PlanOutput bind_bytes(std::string plan, const std::string& name,
+                                                const PlanOptions& options = {});
+[[nodiscard]] CAPSTAN_API PlanOutput bind_file(const std::string& path, const PlanOptions& options = {});
 
 /// Proves plans and programs safe, or says what is wrong with them. Of the options machine, tools, schema,
 /// threads, progress and stop count.
-[[nodiscard]] CheckOutput check_bytes(std::vector<CheckInput> files, const PlanOptions& options = {});
-[[nodiscard]] CheckOutput check_files(const std::vector<std::string>& paths, const PlanOptions& options = {});
+[[nodiscard]] CAPSTAN_API CheckOutput check_bytes(std::vector<CheckInput> files,
+                                                  const PlanOptions& options = {});
+[[nodiscard]] CAPSTAN_API CheckOutput check_files(const std::vector<std::string>& paths,
+                                                  const PlanOptions& options = {});
 
 /// What `explain_...` gives.
 struct ExplainOutput {
@@ -123,10 +128,11 @@ struct ExplainOutput {
 
 /// Why each value of a plan is what it is: of the whole plan, of one workingstep (its id, or its number in
 /// the order of execution), or of one of its attributes.
-[[nodiscard]] ExplainOutput explain_bytes(std::string plan, const std::string& name,
-                                          const std::string& step = {}, const std::string& attribute = {});
+[[nodiscard]] CAPSTAN_API ExplainOutput explain_bytes(std::string plan, const std::string& name,
+                                                      const std::string& step = {},
+                                                      const std::string& attribute = {});
 
 /// The names of the command's options that PlanOptions has fields for, without their dashes.
-[[nodiscard]] std::vector<std::string> option_names();
+[[nodiscard]] CAPSTAN_API std::vector<std::string> option_names();
 
 }  // namespace capstan

@@ -54,6 +54,7 @@ struct FeedQuestion {
   bool constant = false;  ///< one feed for all cutting moves: the largest that every section bears
   std::vector<double> feed_factor, speed_factor, dwell_s;  ///< of the path's moves
   std::vector<CutSample> samples;                          ///< in order of moves
+  double known_to_mm = 0.0;  ///< to what length along the path it is known where samples begin and end
   double group_ratio = kGroupRatio;
   bool explain = true;  ///< fill `held_by`: costs about ten more schedules
 };

@@ -61,6 +61,7 @@ class Measurer {
 
   Measurement run() {
     for (std::size_t i = 0; i < path_.size(); ++i) move(i);
+    out_.known_to_mm = map_.cell_mm;
     return std::move(out_);
   }
 

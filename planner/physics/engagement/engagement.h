@@ -43,6 +43,9 @@ struct Measurement {
   double removed_mm3 = 0.0;         ///< at feed
   double rapid_removed_mm3 = 0.0;   ///< by rapids: more than nothing is a collision
   double highest_contact_mm = 0.0;  ///< above the tip, at feed: to be held against the cutting length
+  /// To what length along the path it is known where contact begins and ends: a cell is cut when its middle
+  /// is met. 0: exactly.
+  double known_to_mm = 0.0;
 };
 
 /// Measures the cut along a path and takes what it cuts from the stock.

@@ -7,6 +7,7 @@
 #include <sstream>
 #include <tuple>
 
+#include "planner/door/app/command/reference.h"
 #include "planner/door/app/command/run.h"
 #include "planner/door/service/formats.h"
 #include "planner/door/service/options.h"
@@ -46,6 +47,37 @@ constexpr std::array kTerminal = {
     TerminalOption{"version", "a function of the library gives it"},
 };
 
+OptionText text_of(const CLI::Option& o) {
+  OptionText out;
+  out.positional = o.get_positional();
+  for (const std::string& name : o.get_snames()) out.names.push_back("-" + name);
+  for (const std::string& name : o.get_lnames()) out.names.push_back("--" + name);
+  if (out.positional) out.names = {o.get_name(true)};
+  // "TYPE", "TYPE:{choice,choice}" or "TYPE:limits"; a flag takes no item.
+  const std::string type = o.get_items_expected_max() == 0 ? "" : o.get_type_name();
+  out.value = type.substr(0, type.find(':'));
+  if (out.value.size() < type.size()) out.limits = type.substr(out.value.size() + 1);
+  if (out.limits.starts_with("{") && out.limits.ends_with("}")) {
+    std::istringstream words(out.limits.substr(1, out.limits.size() - 2));
+    for (std::string word; std::getline(words, word, ',');) out.choices.push_back(word);
+    out.limits.clear();
+  }
+  for (const CLI::Option* other : o.get_excludes()) out.excludes.push_back(other->get_name());
+  std::sort(out.excludes.begin(), out.excludes.end());
+  out.help = o.get_description();
+  out.required = o.get_required();
+  out.repeatable =
+      o.get_multi_option_policy() == CLI::MultiOptionPolicy::TakeAll || o.get_items_expected_max() > 1;
+  return out;
+}
+
+CommandText text_of(const CLI::App& app) {
+  CommandText out{app.get_name(), app.get_description(), app.get_footer(), {}, {}};
+  for (const CLI::Option* o : app.get_options({})) out.options.push_back(text_of(*o));
+  for (const CLI::App* sub : app.get_subcommands({})) out.commands.push_back(text_of(*sub));
+  return out;
+}
+
 class CommandLine {
  public:
   CommandLine() : app_("A generative process planner for CNC machining.", "capstan") {
@@ -64,6 +96,8 @@ class CommandLine {
     shop();
     cases();
   }
+
+  [[nodiscard]] CommandText text() const { return text_of(app_); }
 
   Parsed parse(int argc, const char* const* argv) {
     try {
@@ -290,6 +324,8 @@ class CommandLine {
 }  // namespace
 
 std::span<const TerminalOption> terminal_options() { return kTerminal; }
+
+CommandText command_reference() { return CommandLine().text(); }
 
 Parsed parse_command_line(int argc, const char* const* argv) { return CommandLine().parse(argc, argv); }
 

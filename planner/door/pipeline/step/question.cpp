@@ -7,6 +7,7 @@
 #include "planner/making/toolpath/hole/hole_paths.h"
 #include "planner/making/toolpath/region/form/undercut.h"
 #include "planner/model/features/raw_piece.h"
+#include "planner/model/plan/borne_feed.h"
 #include "planner/physics/mechanics/stability.h"
 #include "tooling/selection/select.h"
 
@@ -306,7 +307,8 @@ std::optional<model::Reason> start_from_case(const Work& w, const StepWork& step
   if (!p) return std::nullopt;
   q.vc_start_m_min = std::min(p->vc_m_min, kCaseReach * q.vc_start_m_min);
   q.fz_start_mm = std::min(p->fz_mm, kCaseReach * q.fz_start_mm);
-  if (q.cutter.fz_max_mm > 0.0) q.fz_start_mm = std::min(q.fz_start_mm, q.cutter.fz_max_mm);
+  if (const double borne = model::borne_feed(q.cutter, q.material).mm; borne > 0.0)
+    q.fz_start_mm = std::min(q.fz_start_mm, borne);
   return model::Reason{"case." + p->case_id,
                        "starts from a " + p->provenance + " case at distance " + trimmed(p->distance, 3) +
                            " (" + std::to_string(p->neighbours) + " near): " + trimmed(p->vc_m_min, 2) +

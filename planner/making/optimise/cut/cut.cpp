@@ -10,6 +10,7 @@
 #include "planner/making/optimise/cut/limits.h"
 #include "planner/making/optimise/cut/search.h"
 #include "planner/making/optimise/cut/stability.h"
+#include "planner/physics/mechanics/constants.h"
 
 namespace capstan::optimise {
 namespace {
@@ -325,8 +326,11 @@ Result<Level> best_level(const CutQuestion& q, const Options& options, Job& job)
     if (level) level->answer.levels = levels_of(*q.ap_mm);
     return level;
   }
-  // Thinner levels than this are not tried; default, unsourced.
+  // Thinner levels than this are not tried, whatever the edge; default, unsourced.
   constexpr double kThinnestMm = 0.05;
+  const bool hss = q.cutter.substrate == model::Substrate::kHss;
+  const double thinnest = std::max(
+      kThinnestMm, mechanics::least_depth_mm(q.cutter.cutting_diameter_mm, hss, q.material.iso_group));
   constexpr int kMostTries = 24;
   std::optional<Level> best;
   double least = 0.0;
@@ -335,6 +339,11 @@ Result<Level> best_level(const CutQuestion& q, const Options& options, Job& job)
     if (!level) return tl::unexpected(level.error());
     CutAnswer& a = level->answer;
     a.levels = levels;
+    if (levels > 1 && depth / levels < thinnest) {
+      a.feasible = false;
+      a.violated.push_back("level_depth_least: " + number(depth / levels) + " against " + number(thinnest) +
+                           " mm, below which the edge smears");
+    }
     const double objective = objective_of(q, {a.ap_mm, a.ae_mm, a.n_rpm, a.feed_mm_min});
     const bool better_one = !best || (a.feasible && !best->answer.feasible) ||
                             (a.feasible == best->answer.feasible && objective < least * (1.0 - 1e-6));
@@ -347,7 +356,7 @@ Result<Level> best_level(const CutQuestion& q, const Options& options, Job& job)
   std::set<int> tried;
   for (int levels = fewest; static_cast<int>(tried.size()) < kMostTries;
        levels = std::max(levels + 1, static_cast<int>(1.3 * levels))) {
-    if (levels > kMostLevels || (best && depth / levels < kThinnestMm)) break;
+    if (levels > kMostLevels || (best && depth / levels < thinnest)) break;
     // Thinner levels only lower what could be removed at most; but a deep slot is cut slower.
     const Search search(q, depth / levels);
     const bool slower = q.slot && depth / levels > kFullFeedSlotRatio * q.cutter.cutting_diameter_mm;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/model/plan/borne_feed.h"
 #include "planner/physics/mechanics/constants.h"
 #include "planner/physics/mechanics/stability.h"
 #include "planner/physics/mechanics/surface.h"
@@ -46,16 +47,22 @@ std::optional<mechanics::SpindleCurve> curve_of(const CutQuestion& q) {
 double largest_fz(const CutQuestion& q) {
   double fz = q.fz_start_mm;
   // The start value is what is planned for; the cutter's largest must hold with the override, too.
-  if (q.cutter.fz_max_mm > 0.0) fz = std::min(fz, q.cutter.fz_max_mm / feed_override(q));
+  if (const double most = model::borne_feed(q.cutter, q.material).mm; most > 0.0)
+    fz = std::min(fz, most / feed_override(q));
   return fz;
 }
 
-double thinnest_chip_mm(const CutQuestion& q) {
+double least_chip_mm(const CutQuestion& q) {
   const bool hss = q.cutter.substrate == model::Substrate::kHss;
+  const double least = mechanics::least_chip_mm(q.cutter.cutting_diameter_mm, hss, q.material.iso_group);
+  const double held = model::held_to_cut_mm(q.cutter, q.material);
+  return held > 0.0 ? std::min(least, held) : least;
+}
+
+double thinnest_chip_mm(const CutQuestion& q) {
   // A given feed is its maker's word.
   const bool given = q.feed_mm_min.has_value() || q.fz_mm.has_value();
-  const double own = given ? 0.0 : mechanics::least_chip_mm(q.cutter.cutting_diameter_mm, hss);
-  return std::max(q.least_chip_mm, own);
+  return std::max(q.least_chip_mm, given ? 0.0 : least_chip_mm(q));
 }
 
 double least_fz(const CutQuestion& q) {

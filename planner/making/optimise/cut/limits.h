@@ -77,6 +77,9 @@ struct Range {
 
 /// The chip thickness that is planned for, at most.
 [[nodiscard]] double largest_fz(const CutQuestion& q);
+/// The thinnest chip that the cutter takes in the material (mechanics::least_chip_mm); no more than what its
+/// presets hold it to cut (model::held_to_cut_mm).
+[[nodiscard]] double least_chip_mm(const CutQuestion& q);
 /// The thinnest chip that a milling cut is planned with: the cutter's own, or more where the question asks.
 [[nodiscard]] double thinnest_chip_mm(const CutQuestion& q);
 /// The feed per tooth that the cutter asks for at least; 0: none stated.

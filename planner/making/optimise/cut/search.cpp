@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "planner/model/plan/borne_feed.h"
 #include "planner/physics/mechanics/force/immersion.h"
 
 namespace capstan::optimise {
@@ -76,7 +77,8 @@ void Search::add_feed() {
   } else {
     const double largest = largest_fz(q_);
     double most = largest * (is_milling(q_.kind) ? kThinning : 1.0);
-    if (q_.cutter.fz_max_mm > 0.0) most = std::min(most, q_.cutter.fz_max_mm / feed_override(q_));
+    if (const double borne = model::borne_feed(q_.cutter, q_.material).mm; borne > 0.0)
+      most = std::min(most, borne / feed_override(q_));
     most *= ease_of(q_, kFeed);
     const double ratio = q_.least_feed_ratio > 1e-3 && q_.least_feed_ratio <= 1.0 ? q_.least_feed_ratio : 0.1;
     const double least = std::max(ratio * largest, least_fz(q_)) / ease_of(q_, "feed_per_tooth_least");

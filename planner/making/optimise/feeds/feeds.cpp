@@ -208,8 +208,7 @@ void as_planned(const FeedQuestion& q, const CutterPath& path, const std::vector
 }  // namespace
 
 double least_feed_mm_min(const CutQuestion& q, double n_rpm) {
-  const bool hss = q.cutter.substrate == model::Substrate::kHss;
-  return mechanics::least_chip_mm(q.cutter.cutting_diameter_mm, hss) * teeth_of(q) * std::abs(n_rpm);
+  return least_chip_mm(q) * teeth_of(q) * std::abs(n_rpm);
 }
 
 FeedAnswer feeds(const FeedQuestion& q, const CutterPath& path) {

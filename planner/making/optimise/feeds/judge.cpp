@@ -145,7 +145,8 @@ Judge::Judge(const FeedQuestion& question, double n_rpm)
   const bool faster =
       chip < kNoLimit && (q_.kind == CutKind::kRough || q_.surface_ra_um > 0.0 || q_.as_measured);
   ceiling_ = faster ? std::max(nominal, kMostThinning * chip * tooth_.teeth * n_) : nominal;
-  floor_ = std::max(kLeastFeedShare * nominal, least_feed_mm_min(q_, n_));
+  // Never over what is meant: a thinner feed that was chosen for the step is the least there.
+  floor_ = std::min(nominal, std::max(kLeastFeedShare * nominal, least_feed_mm_min(q_, n_)));
   ceiling_ = std::max(ceiling_, floor_);
 }
 

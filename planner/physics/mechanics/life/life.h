@@ -2,23 +2,15 @@
 
 #include "planner/model/plan/cutter/cutter.h"
 #include "planner/model/plan/resources/material.h"
+#include "planner/physics/mechanics/constants.h"
 #include "planner/physics/mechanics/life/tool_life.h"
 
 /// Tool life from the model's law, with its scatter, and what a minute of cutting costs in edges.
 namespace capstan::mechanics {
 
-/// Taylor's exponent n where no law is given. Source: Kalpakjian & Schmid, Manufacturing Engineering and
-/// Technology: carbide 0.2 to 0.5, high-speed steel 0.08 to 0.2; curioustab.com gives 0.2 to 0.25 (0.30) and
-/// 0.08 to 0.2. Taken: the lower part, where life falls faster with speed.
-inline constexpr double kTaylorExponentCarbide = 0.25;
-inline constexpr double kTaylorExponentHss = 0.125;
-
 /// Standard deviation of ln T where a law states none. Default, unsourced: half as much again as the 0.20
 /// found for the wear to 0.3 mm in 15 cases of the NASA / UC Berkeley milling data (Agogino & Goebel 2007).
 inline constexpr double kLifeScatter = 0.3;
-
-/// Life where neither law nor cutter states one, at the table's speed, min. Default, unsourced.
-inline constexpr double kLifeAtTableMin = 15.0;
 
 /// The material's law for the cutter's substrate; else one of the textbook's exponent through the table's
 /// speed and the cutter's stated life (kLifeAtTableMin when it states none), without influence of feed and

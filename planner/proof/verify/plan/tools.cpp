@@ -52,8 +52,17 @@ void check_cutter(const model::Plan& plan, const model::Cutter& c, Findings& fin
 void check_tools(const model::Plan& plan, const std::vector<StepMoves>& steps, Findings& findings) {
   const Findings::Where whole{0, "", -1};
   std::map<int, std::string> pockets;
+  std::map<int, const model::Cutter*> places;
   for (const model::Cutter& c : plan.cutters) {
     check_cutter(plan, c, findings);
+    // One pocket of the magazine holds one tool, whatever its number.
+    const int place = model::magazine_pocket(c);
+    const auto [held, free] = places.emplace(place, &c);
+    if (!free && place > 0 && plan.machine.magazine_pockets > 1 && held->second->pocket != c.pocket) {
+      findings.error(4, "CHK-TOOL", whole,
+                     "tools " + held->second->id + " and " + c.id + " are both in pocket " +
+                         std::to_string(place) + " of the magazine: give one of them another P");
+    }
     const auto [it, fresh] = pockets.emplace(c.pocket, c.id);
     if (!fresh && c.pocket > 0) {
       findings.error(5, "CHK-TOOL-NUMBER", whole,

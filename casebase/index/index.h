@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <memory>
-#include <string_view>
 #include <vector>
 
 #include "casebase/normalisation.h"
@@ -30,16 +29,18 @@ class Index {
   [[nodiscard]] virtual std::vector<Hit> within(const Point& q, double limit2) const = 0;
 };
 
-/// Looks at every point: the referee, and what is used without FLANN.
+/// Looks at every point: the referee.
 [[nodiscard]] std::unique_ptr<Index> make_linear_index(std::vector<Point> points);
-/// FLANN's exact single tree; the linear index in a build without FLANN.
+/// The built-in KD-tree.
+[[nodiscard]] std::unique_ptr<Index> make_tree_index(std::vector<Point> points);
+/// FLANN's exact single tree; the built-in one in a build without FLANN.
 [[nodiscard]] std::unique_ptr<Index> make_index(std::vector<Point> points);
-/// What `make_index` makes: "flann" or "linear".
-[[nodiscard]] std::string_view index_name();
 
 /// Throws std::logic_error unless finite.
 void expect_finite(const Point& p);
-/// The order that both promise, cut off after k.
+/// The order that all promise: nearest first, equal distances by row.
+[[nodiscard]] bool before(const Hit& a, const Hit& b);
+/// Puts hits in that order and keeps the first k.
 void put_in_order(std::vector<Hit>& hits, std::size_t k);
 
 }  // namespace capstan::casebase

@@ -3,7 +3,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "casebase/index.h"
+#include "casebase/index/index.h"
 
 namespace capstan::casebase {
 namespace {
@@ -44,10 +44,11 @@ void expect_finite(const Point& p) {
   }
 }
 
+bool before(const Hit& a, const Hit& b) {
+  return a.distance2 != b.distance2 ? a.distance2 < b.distance2 : a.row < b.row;
+}
+
 void put_in_order(std::vector<Hit>& hits, std::size_t k) {
-  const auto before = [](const Hit& a, const Hit& b) {
-    return a.distance2 != b.distance2 ? a.distance2 < b.distance2 : a.row < b.row;
-  };
   const std::size_t keep = std::min(k, hits.size());
   std::partial_sort(hits.begin(), hits.begin() + static_cast<std::ptrdiff_t>(keep), hits.end(), before);
   hits.resize(keep);

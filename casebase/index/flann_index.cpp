@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "casebase/index.h"
+#include "casebase/index/index.h"
 
 namespace capstan::casebase {
 namespace {
@@ -82,6 +82,5 @@ class FlannIndex final : public Index {
 std::unique_ptr<Index> make_index(std::vector<Point> points) {
   return std::make_unique<FlannIndex>(std::move(points));
 }
-std::string_view index_name() { return "flann"; }
 
 }  // namespace capstan::casebase
