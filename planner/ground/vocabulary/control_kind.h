@@ -25,9 +25,7 @@ struct ControlKind {
 
 /// One row per control.
 inline constexpr std::array kControlKinds{
-    // Source: LinuxCNC 2.9, blendmath.h, BLEND_ACC_RATIO_NORMAL and BLEND_ACC_RATIO_TANGENTIAL;
-    // interpretation
-    // of F one block ahead.
+    // Source: LinuxCNC 2.9, blendmath.h, BLEND_ACC_RATIO_NORMAL and BLEND_ACC_RATIO_TANGENTIAL.
     ControlKind{"linuxcnc", "LinuxCNC", ".ngc", ".tbl", kWorkOffsets, 0.86602540378443864676, 0.5, true},
 };
 
