@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "planner/door/pipeline/given/shop.h"
 #include "planner/model/plan/decision/condemned.h"
 #include "planner/proof/verify/verify.h"
 #include "tests/support/corpus.h"
+#include "tests/support/shop.h"
 
 // Speeds that a file gives are held against the material, as chosen ones are: examples/plate_bound.p21 mills
 // its pocket of C45 at 1260 1/min with a mill of 12 mm, 47.5 m/min. The card bears 20 m/min with HSS, 78 with

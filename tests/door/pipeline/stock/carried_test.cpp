@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <string>
 
-#include "planner/door/pipeline/given/shop.h"
+#include "tests/support/shop.h"
 #include "planner/physics/engagement/engagement.h"
 #include "planner/physics/stock/planar/planar_stock.h"
 #include "planner/proof/verify/sweep/target/target.h"

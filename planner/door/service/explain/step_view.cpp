@@ -1,16 +1,16 @@
-#include "planner/door/app/explain/step_view.h"
+#include "planner/door/service/explain/step_view.h"
 
 #include <algorithm>
 #include <charconv>
 #include <map>
 #include <set>
 
-#include "planner/door/app/show/values.h"
+#include "planner/door/service/explain/values.h"
 #include "planner/ground/base/number.h"
 #include "planner/model/nouns/arena/walk.h"
 #include "planner/model/plan/order/step_ids.h"
 
-namespace capstan::app {
+namespace capstan::service {
 
 using model::AnyRef;
 using model::Model;
@@ -138,4 +138,4 @@ std::vector<model::DecisionKey> open_decisions(const model::Plan& plan) {
   return out;
 }
 
-}  // namespace capstan::app
+}  // namespace capstan::service

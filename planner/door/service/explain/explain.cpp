@@ -1,18 +1,18 @@
-#include "planner/door/app/explain/explain.h"
+#include "planner/door/service/explain/explain.h"
 
 #include <algorithm>
 #include <cmath>
 #include <set>
 
-#include "planner/door/app/explain/step_view.h"
-#include "planner/door/app/show/values.h"
+#include "planner/door/service/explain/step_view.h"
+#include "planner/door/service/explain/values.h"
 #include "planner/ground/base/number.h"
 #include "planner/model/nouns/arena/walk.h"
 #include "planner/model/plan/decision/edited.h"
 #include "planner/physics/mechanics/force/force_law.h"
 #include "planner/physics/motion/time.h"
 
-namespace capstan::app {
+namespace capstan::service {
 
 using model::AnyRef;
 using model::Decision;
@@ -477,4 +477,4 @@ Result<std::string> explain(const Plan& plan, std::string_view step, std::string
                .expected = list});
 }
 
-}  // namespace capstan::app
+}  // namespace capstan::service

@@ -4,20 +4,19 @@
 #include <string_view>
 #include <vector>
 
+#include "planner/door/service/formats.h"
 #include "planner/ground/base/job.h"
 #include "planner/ground/base/result.h"
 #include "planner/model/plan/plan.h"
 
-namespace capstan::app {
+namespace capstan::service {
 
-enum class OutputKind : std::uint8_t { kIso14649, kAp238, kJson, kLinuxCnc, kToolTable };
-
-/// A file to write: its name, and the kind that its ending names ("-": JSON, to standard output).
+/// A file to write: its name, and the format that its ending names ("-": JSON, to standard output).
 struct Output {
   std::string path;
-  OutputKind kind = OutputKind::kJson;
-  std::string bytes;       ///< once made
-  std::size_t losses = 0;  ///< kinds of things that the format cannot hold, once made
+  const Format* format = nullptr;  ///< of `formats`, with a writer
+  std::string bytes;               ///< once made
+  std::size_t losses = 0;          ///< kinds of things that the format cannot hold, once made
 };
 
 /// Told by the ending alone, so that it fails before any work.
@@ -57,4 +56,4 @@ struct Aside {
 /// Fails  FILE-WRITE.
 [[nodiscard]] Status write_all(const std::vector<Output>& outputs);
 
-}  // namespace capstan::app
+}  // namespace capstan::service

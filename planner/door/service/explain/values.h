@@ -6,7 +6,7 @@
 #include "planner/model/nouns/arena/model.h"
 #include "planner/model/plan/plan.h"
 
-namespace capstan::app {
+namespace capstan::service {
 
 /// What a person calls an object: `#18 CLOSED_POCKET 'POCKET1'`; without a number when it came from no file.
 [[nodiscard]] std::string label(const model::Model& m, model::AnyRef at);
@@ -33,4 +33,4 @@ inline constexpr std::size_t kListShown = 12;
 [[nodiscard]] std::string table(const std::vector<std::vector<std::string>>& rows,
                                 const std::string& indent = "  ");
 
-}  // namespace capstan::app
+}  // namespace capstan::service

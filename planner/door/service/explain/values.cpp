@@ -1,4 +1,4 @@
-#include "planner/door/app/show/values.h"
+#include "planner/door/service/explain/values.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include "planner/model/nouns/arena/walk.h"
 #include "planner/physics/motion/time.h"
 
-namespace capstan::app {
+namespace capstan::service {
 
 using model::AnyRef;
 using model::Attribute;
@@ -165,4 +165,4 @@ std::string table(const std::vector<std::vector<std::string>>& rows, const std::
   return out;
 }
 
-}  // namespace capstan::app
+}  // namespace capstan::service

@@ -7,7 +7,7 @@
 #include "planner/ground/base/result.h"
 #include "planner/model/plan/plan.h"
 
-namespace capstan::app {
+namespace capstan::service {
 
 /// The plan as a whole: inputs and defaults, set-ups, a line per step, what is unplanned and why, what is
 /// still open. Text for people; same plan, same bytes.
@@ -26,4 +26,4 @@ namespace capstan::app {
 [[nodiscard]] Result<std::string> explain(const model::Plan& plan, std::string_view step,
                                           std::string_view attribute);
 
-}  // namespace capstan::app
+}  // namespace capstan::service

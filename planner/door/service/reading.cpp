@@ -1,4 +1,4 @@
-#include "planner/door/app/files/load.h"
+#include "planner/door/service/reading.h"
 
 #include <algorithm>
 #include <cctype>
@@ -9,7 +9,7 @@
 #include "planner/files/json/json.h"
 #include "planner/ground/base/file.h"
 
-namespace capstan::app {
+namespace capstan::service {
 namespace {
 
 constexpr std::string_view kMark = "\xEF\xBB\xBF";  // UTF-8's byte order mark
@@ -53,7 +53,7 @@ Content content_of(std::string_view bytes) {
   return Content::kProgram;
 }
 
-Result<model::Plan> plan_of_bytes(std::string bytes, const std::string& path, Job& job, bool strict) {
+Result<model::Plan> read_plan(std::string bytes, const std::string& path, Job& job, bool strict) {
   if (content_of(bytes) == Content::kPlanJson) {
     if (bytes.starts_with(kMark)) bytes.erase(0, kMark.size());
     return json::read_json(std::move(bytes), path, job);
@@ -66,7 +66,7 @@ Result<model::Plan> plan_of_bytes(std::string bytes, const std::string& path, Jo
 Result<model::Plan> load_plan(const std::string& path, Job& job, bool strict) {
   auto bytes = read_file(path);
   if (!bytes) return tl::unexpected(bytes.error());
-  return plan_of_bytes(*std::move(bytes), path, job, strict);
+  return read_plan(*std::move(bytes), path, job, strict);
 }
 
-}  // namespace capstan::app
+}  // namespace capstan::service

@@ -1,13 +1,14 @@
+#include "planner/door/service/check.h"
+
 #include <algorithm>
 #include <map>
 #include <optional>
 #include <string>
 #include <utility>
 
-#include "planner/door/app/command/session.h"
-#include "planner/door/app/files/inputs.h"
-#include "planner/door/app/files/load.h"
 #include "planner/door/pipeline/pipeline.h"
+#include "planner/door/service/reading.h"
+#include "planner/door/service/shop.h"
 #include "planner/files/exchange/conformance/check.h"
 #include "planner/files/exchange/toolpaths/curves.h"
 #include "planner/files/p21/read/parse.h"
@@ -20,7 +21,7 @@
 #include "tooling/library/library.h"
 #include "tooling/shop/machine/machine.h"
 
-namespace capstan::app {
+namespace capstan::service {
 namespace {
 
 struct Input {
@@ -37,20 +38,26 @@ struct Shop {
 
 class Check {
  public:
-  explicit Check(Session& s) : s_(s) {}
+  Check(const Request& request, std::vector<Source> sources, const std::function<void(const Told&)>& tell,
+        Job& job)
+      : request_(request), sources_(std::move(sources)), tell_(tell), job_(job) {}
 
-  int run() {
-    if (const auto d = read()) return s_.end(*d, kUnreadable);
-    if (const auto d = shop()) return s_.end(*d, kUnreadable);
+  Outcome<CheckResult> run() {
+    if (const auto d = read()) return failed(*d, code_of(*d, Code::kUnreadable));
+    if (const auto d = shop()) return failed(*d, code_of(*d, Code::kUnreadable));
     for (const Input& in : inputs_) {
       if (in.content != Content::kProgram) continue;
-      ++checked_;
+      ++out_.checked;
       const model::Plan* plan = plans_.empty() ? nullptr : &plans_.front();
       add(verify::check_program({in.path, in.bytes, shop_.tool_table}, plan, shop_.machine, shop_.cutters,
-                                s_.job),
+                                job_),
           in.path, true);
     }
-    return end();
+    if (out_.checked == 0)
+      return failed(
+          {.code = "APP-NOTHING", .message = "there is neither a plan nor a program among the files"},
+          Code::kUsage);
+    return std::move(out_);
   }
 
  private:
@@ -86,16 +93,16 @@ class Check {
       for (std::size_t i = 0; same && step.schedule && i < said.size(); ++i)
         same = !(said[i] > 0.0) || said[i] == step.schedule->feed_mm_min[i];
       if (same) continue;
-      s_.job.warn("APP-RECOMPUTED", "step '" + model::step_id(bound, step) +
-                                        "': its path or feeds were computed anew and are not those of the "
-                                        "file; the findings are about the new ones");
+      job_.warn("APP-RECOMPUTED", "step '" + model::step_id(bound, step) +
+                                      "': its path or feeds were computed anew and are not those of the "
+                                      "file; the findings are about the new ones");
     }
   }
 
   /// A file that says what is done and not, in full, how: what is open is closed as `plan` would, what it
   /// says is executed as given, whoever computed it: the ledger does not let anything be computed again.
   Result<model::Plan> executed(model::Plan plan) {
-    const auto inputs = gather(s_.options.inputs, plan, s_.job);
+    const auto inputs = gather(request_, plan, job_);
     if (!inputs) return tl::unexpected(inputs.error());
     const auto unreadable = model::unreadable(plan);
     const auto contradictions = model::contradictions(plan);
@@ -103,22 +110,21 @@ class Check {
     for (const auto& c : contradictions) model::set_contradicted(plan, c.key.object, c.key.attribute, c.why);
     for (const auto& u : unreadable) model::set_unreadable(plan, u.key.object, u.key.attribute, u.why);
     const auto stated = stated_paths(plan);
-    auto bound = pipeline::bind(std::move(plan), *inputs, pipeline::Policy{}, s_.job);
+    auto bound = pipeline::bind(std::move(plan), *inputs, pipeline::Policy{}, job_);
     if (!bound) return bound;
-    unplanned_ += unplanned_features(*bound);
+    out_.unplanned += unplanned_features(*bound);
     tell_recomputed(stated, *bound);
     return bound;
   }
 
   /// An AP238 file with --schema: compared with the EXPRESS dictionary instance by instance, not executed.
   std::optional<Diagnostic> compare_with_schema(Input& in) {
-    const auto file = p21::parse(std::move(in.bytes), in.path, {}, s_.job);
+    const auto file = p21::parse(std::move(in.bytes), in.path, {}, job_);
     if (!file) return file.error();
-    const std::size_t before = s_.job.diagnostics().size();
-    schema_ += exchange::check_schema(*file, s_.job);
-    ++checked_;
-    if (!s_.options.json) return std::nullopt;
-    const auto& all = s_.job.diagnostics();
+    const std::size_t before = job_.diagnostics().size();
+    out_.schema += exchange::check_schema(*file, job_);
+    ++out_.checked;
+    const auto& all = job_.diagnostics();
     for (std::size_t i = before; i < all.size(); ++i) {
       const std::string instance = all[i].instance == 0 ? "" : "#" + std::to_string(all[i].instance) + " ";
       const std::string path = all[i].path.empty() ? "" : all[i].path + ": ";
@@ -127,43 +133,44 @@ class Check {
       f.code = all[i].code;
       f.severity = all[i].severity;
       f.message = instance + path + all[i].message + expected;
-      findings_.push_back({in.path, std::move(f)});
+      out_.findings.push_back({in.path, std::move(f)});
     }
     return std::nullopt;
   }
 
   std::optional<Diagnostic> read() {
-    for (const std::string& path : s_.options.files) {
-      auto bytes = read_file(path);
+    for (Source& source : sources_) {
+      Result<std::string> bytes =
+          source.bytes ? Result<std::string>(*std::move(source.bytes)) : read_file(source.name);
       if (!bytes) return bytes.error();
       const Content content = content_of(*bytes);
-      inputs_.push_back({path, *std::move(bytes), content});
+      inputs_.push_back({source.name, *std::move(bytes), content});
       if (content == Content::kToolTable) shop_.tool_table = inputs_.back().bytes;
     }
     for (Input& in : inputs_) {
       if (in.content != Content::kPlanJson && in.content != Content::kPart) continue;
-      if (s_.options.schema && exchange::declares_ap238(in.bytes)) {
+      if (request_.schema && exchange::declares_ap238(in.bytes)) {
         if (const auto d = compare_with_schema(in)) return d;
         continue;
       }
-      const std::size_t before = s_.job.diagnostics().size();
-      auto plan = plan_of_bytes(std::move(in.bytes), in.path, s_.job);
+      const std::size_t before = job_.diagnostics().size();
+      auto plan = read_plan(std::move(in.bytes), in.path, job_);
       if (!plan) return plan.error();
-      if (s_.options.schema) schema_ += s_.job.diagnostics().size() - before;
+      if (request_.schema) out_.schema += job_.diagnostics().size() - before;
       const bool values_edited = take_edits(before, in.path);
-      ++checked_;
+      ++out_.checked;
       // What was computed before somebody edited a value says nothing of the plan as it is now.
       if (!has_paths(*plan) || values_edited) {
         plan = executed(*std::move(plan));
         if (!plan) return plan.error();
       }
       // A plan made for one machine may be asked of another.
-      if (const auto& named = s_.options.inputs.machine) {
-        auto machine = tooling::load_machine(*named, s_.job);
+      if (const auto& named = request_.machine) {
+        auto machine = tooling::load_machine(*named, job_);
         if (!machine) return machine.error();
         plan->machine = *std::move(machine);
       }
-      add(verify::check_plan(*plan, s_.job), in.path, false);
+      add(verify::check_plan(*plan, job_), in.path, false);
       add(beside_the_check(*plan), in.path, false);
       plans_.push_back(*std::move(plan));
     }
@@ -175,7 +182,7 @@ class Check {
   /// here. Gives whether values were edited that others follow from.
   bool take_edits(std::size_t before, const std::string& file) {
     bool values = false;
-    auto all = s_.job.take_diagnostics();
+    auto all = job_.take_diagnostics();
     for (std::size_t i = 0; i < all.size(); ++i) {
       const model::EditTold told = i < before ? model::EditTold::kNothing : model::edit_told_by(all[i]);
       values = values || told == model::EditTold::kValue;
@@ -185,10 +192,10 @@ class Check {
         f.code = all[i].code;
         f.severity = all[i].severity;
         f.message = all[i].message;
-        ++count_;
-        findings_.push_back({file, std::move(f)});
+        ++out_.count;
+        out_.findings.push_back({file, std::move(f)});
       }
-      s_.job.report(std::move(all[i]));
+      job_.report(std::move(all[i]));
     }
     return values;
   }
@@ -207,7 +214,7 @@ class Check {
   }
 
   std::optional<Diagnostic> shop() {
-    const auto& o = s_.options.inputs;
+    const auto& o = request_;
     const bool has_plan = !plans_.empty();
     if (has_plan) {
       shop_.machine = plans_.front().machine;
@@ -215,20 +222,20 @@ class Check {
     }
     if (o.machine || !has_data(shop_.machine)) {
       std::string wanted = o.machine.value_or(std::string(tooling::kDefaultMachine));
-      auto machine = tooling::load_machine(wanted, s_.job);
+      auto machine = tooling::load_machine(wanted, job_);
       if (!machine) return machine.error();
       shop_.machine = *std::move(machine);
       if (!o.machine && programs())
-        s_.job.note("APP-DEFAULT", "no machine is named; programs are checked for the built-in " + wanted);
+        job_.note("APP-DEFAULT", "no machine is named; programs are checked for the built-in " + wanted);
     }
     const tooling::LibraryOptions counts{
         .mm_per_unit = {}, .offsets_against_reference = shop_.machine.control.offsets_against_reference};
     if (o.tools) {
-      auto library = tooling::load_library(*o.tools, s_.job, counts);
+      auto library = tooling::load_library(*o.tools, job_, counts);
       if (!library) return library.error();
       shop_.cutters = *std::move(library);
     } else if (!has_plan && !shop_.tool_table.empty()) {
-      auto table = tooling::read_tool_table(shop_.tool_table, "tool table", s_.job, counts);
+      auto table = tooling::read_tool_table(shop_.tool_table, "tool table", job_, counts);
       if (!table) return table.error();
       shop_.cutters = *std::move(table);
     }
@@ -244,36 +251,27 @@ class Check {
 
   void add(const std::vector<model::Finding>& findings, const std::string& file, bool program) {
     for (const auto& f : findings) {
-      if (!s_.options.json) s_.job.report(as_diagnostic(f, file, program));
-      if (f.severity != Severity::kNote) ++count_;
-      findings_.push_back({file, f, program});
+      if (f.severity != Severity::kNote) ++out_.count;
+      out_.findings.push_back({file, f, program});
+      if (tell_) tell_(out_.findings.back());
     }
   }
 
-  int end() {
-    if (checked_ == 0)
-      return s_.end(
-          {.code = "APP-NOTHING", .message = "there is neither a plan nor a program among the files"},
-          kUsage);
-    if (s_.options.json && !print(findings_json(findings_)))
-      return s_.end({.code = "FILE-WRITE", .message = "standard output is closed"}, kImpossible);
-    s_.summary =
-        "checked " + counted(checked_, "file", "files") + ": " + counted(count_, "finding", "findings");
-    if (schema_ != 0) s_.summary += ", " + counted(schema_, "deviation", "deviations") + " from the schema";
-    if (unplanned_ != 0) s_.summary += ", " + counted(unplanned_, "feature", "features") + " not planned";
-    return count_ == 0 && schema_ == 0 && unplanned_ == 0 ? kDone : kFindings;
-  }
-
-  Session& s_;
+  const Request& request_;
+  std::vector<Source> sources_;
+  const std::function<void(const Told&)>& tell_;
+  Job& job_;
   std::vector<Input> inputs_;
   std::vector<model::Plan> plans_;
   Shop shop_;
-  std::vector<Told> findings_;
-  std::size_t count_ = 0, schema_ = 0, checked_ = 0, unplanned_ = 0;
+  CheckResult out_;
 };
 
 }  // namespace
 
-int run_check(Session& s) { return Check(s).run(); }
+Outcome<CheckResult> check(const Request& request, std::vector<Source> sources,
+                           const std::function<void(const Told&)>& tell, Job& job) {
+  return Check(request, std::move(sources), tell, job).run();
+}
 
-}  // namespace capstan::app
+}  // namespace capstan::service

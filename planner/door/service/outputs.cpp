@@ -1,31 +1,20 @@
-#include "planner/door/app/files/outputs.h"
+#include "planner/door/service/outputs.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <set>
 #include <system_error>
 #include <utility>
 
-#include "planner/controls/linuxcnc/linuxcnc.h"
-#include "planner/files/exchange/exchange.h"
-#include "planner/files/json/json.h"
 #include "planner/ground/base/file.h"
 
-namespace capstan::app {
+namespace capstan::service {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kSupported =
-    ".p21, .stp, .stpnc, .238, .json, .ngc or .tbl, or - for JSON on standard output";
-
-struct Later {
-  std::string_view ending, what;
-};
-constexpr std::array<Later, 4> kLater = {
-    {{".mpf", "Siemens 840D"}, {".nc", "Fanuc"}, {".h", "Heidenhain"}, {".html", "a report"}}};
+std::string supported() { return written_endings() + ", or - for JSON on standard output"; }
 
 std::string lower(std::string s) {
   std::transform(s.begin(), s.end(), s.begin(),
@@ -44,25 +33,21 @@ void name_file(Job& job, const std::string& path) {
 }  // namespace
 
 Result<Output> output_of(const std::string& path) {
-  if (path == "-") return Output{path, OutputKind::kJson, {}, 0};
+  if (path == "-") return Output{path, find_format("json"), {}, 0};
   const std::string ending = lower(fs::path(path).extension().string());
-  if (ending == ".p21" || ending == ".stp") return Output{path, OutputKind::kIso14649, {}, 0};
-  if (ending == ".stpnc" || ending == ".238") return Output{path, OutputKind::kAp238, {}, 0};
-  if (ending == ".json") return Output{path, OutputKind::kJson, {}, 0};
-  if (ending == ".ngc") return Output{path, OutputKind::kLinuxCnc, {}, 0};
-  if (ending == ".tbl") return Output{path, OutputKind::kToolTable, {}, 0};
-  for (const Later& l : kLater) {
-    if (ending == l.ending)
-      return fail({.code = "OUT-KIND",
-                   .message = "writing " + std::string(l.what) + " (" + ending + ") is not supported yet",
-                   .file = path,
-                   .expected = kSupported});
-  }
+  const Format* format = format_of_ending(ending);
+  if (format != nullptr && format->write != nullptr) return Output{path, format, {}, 0};
+  if (format != nullptr && !format->reads)
+    return fail(
+        {.code = "OUT-KIND",
+         .message = "writing " + std::string(format->words) + " (" + ending + ") is not supported yet",
+         .file = path,
+         .expected = supported()});
   return fail({.code = "OUT-KIND",
                .message = ending.empty() ? "has no ending that tells what to write"
                                          : "'" + ending + "' does not tell what to write",
                .file = path,
-               .expected = kSupported});
+               .expected = supported()});
 }
 
 Result<std::vector<Output>> outputs_of(const std::vector<std::string>& paths) {
@@ -77,30 +62,11 @@ Result<std::vector<Output>> outputs_of(const std::vector<std::string>& paths) {
 
 Status make(const model::Plan& plan, std::vector<Output>& outputs, Job& job) {
   for (Output& o : outputs) {
-    switch (o.kind) {
-      case OutputKind::kJson:
-        o.bytes = json::write_json(plan);
-        break;
-      case OutputKind::kToolTable:
-        o.bytes = controls::write_tool_table(plan);
-        break;
-      case OutputKind::kLinuxCnc: {
-        auto text = controls::write_linuxcnc(plan, job);
-        if (!text) return tl::unexpected(text.error());
-        o.bytes = *std::move(text);
-        break;
-      }
-      case OutputKind::kIso14649:
-      case OutputKind::kAp238: {
-        auto written = o.kind == OutputKind::kAp238 ? exchange::write_ap238(plan, job)
-                                                    : exchange::write_iso14649(plan, job);
-        if (!written) return tl::unexpected(written.error());
-        name_file(job, o.path);
-        o.bytes = std::move(written->bytes);
-        o.losses = written->losses.size();
-        break;
-      }
-    }
+    auto written = write(plan, *o.format, job);
+    if (!written) return tl::unexpected(written.error());
+    name_file(job, o.path);
+    o.bytes = std::move(written->bytes);
+    o.losses = written->losses;
   }
   return {};
 }
@@ -180,4 +146,4 @@ Status write_all(const std::vector<Output>& outputs) {
   return {};
 }
 
-}  // namespace capstan::app
+}  // namespace capstan::service

@@ -7,7 +7,7 @@
 #include "planner/model/nouns/all.h"
 #include "planner/model/plan/plan.h"
 
-namespace capstan::app {
+namespace capstan::service {
 
 /// An object that a workingstep's values stand in, and what it is to the step.
 struct StepPart {
@@ -41,4 +41,4 @@ struct StepView {
 /// replaced is nobody's any more.
 [[nodiscard]] std::vector<model::DecisionKey> open_decisions(const model::Plan& plan);
 
-}  // namespace capstan::app
+}  // namespace capstan::service
