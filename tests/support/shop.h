@@ -17,15 +17,16 @@ struct ShopFiles {
   std::string machine, tools, rules, material;
 };
 
+/// What nobody asks anything of. GCC 12 takes an optional that is made and assigned in one function for
+/// uninitialised; a copy of this it does not.
+inline const service::Request kAsksNothing{};
+
 inline Result<Inputs> load_shop(const ShopFiles& files, Job& job) {
-  service::Request request;
-  const auto named = [](const std::string& text) {
-    return text.empty() ? std::nullopt : std::optional(text);
-  };
-  request.machine = named(files.machine);
-  request.tools = named(files.tools);
-  request.rules = named(files.rules);
-  request.material = named(files.material);
+  service::Request request = kAsksNothing;
+  if (!files.machine.empty()) request.machine.emplace(files.machine);
+  if (!files.tools.empty()) request.tools.emplace(files.tools);
+  if (!files.rules.empty()) request.rules.emplace(files.rules);
+  if (!files.material.empty()) request.material.emplace(files.material);
   return service::gather(request, model::Plan{}, job);
 }
 
