@@ -1,7 +1,6 @@
 #include "planner/making/sequence/order.h"
 
 #include <algorithm>
-#include <ctime>
 #include <random>
 #include <set>
 
@@ -199,22 +198,6 @@ TEST(Order, KeepsEveryPrecedenceOnRandomPartsWithEachToolLoadedOnce) {
     EXPECT_EQ(o.tool_changes, tools.size()) << "no chain forces a second visit here";
     EXPECT_EQ(executed(ordered(shapes, items)), steps);
   }
-}
-
-TEST(Order, StaysWellBelowQuadraticFrom2000To16000Features) {
-  const auto seconds = [](std::size_t n) {  // of processor time: other work on the machine does not count
-    const auto [shapes, items] = many(n, 7);
-    const std::clock_t start = std::clock();
-    const Order o = ordered(shapes, items);
-    EXPECT_FALSE(o.setups.empty());
-    return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-  };
-  const double small = std::min({seconds(2000), seconds(2000), seconds(2000)});
-  const double large = std::min(seconds(16000), seconds(16000));
-  RecordProperty("ms_2000", std::to_string(1e3 * small));
-  RecordProperty("ms_16000", std::to_string(1e3 * large));
-  // 8 times the features: linear is 8, a sweep over columns of a grid 8^1.5 = 23, quadratic 64.
-  EXPECT_LT(large, 40.0 * small) << small << " s, " << large << " s";
 }
 
 TEST(Datums, ComeFirstWithTheirReason) {
