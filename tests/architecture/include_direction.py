@@ -17,7 +17,7 @@ FLOORS = {
     "model": "nouns features plan",
     "files": "p21 exchange json",
     "physics": "mechanics motion stock engagement",
-    "making": "sequence workholding toolpath optimise",
+    "making": "sequence workholding probing toolpath optimise step",
     "proof": "verify",
     "door": "pipeline late facade app",
 }
@@ -54,7 +54,8 @@ ALLOWED = {
     "library": MODEL + " shop formats", "formats": MODEL + " p21 shop library",
     "selection": MODEL + " mechanics shop library",
     "sequence": MODEL + " motion",
-    "workholding": MODEL + " shop",
+    "workholding": MODEL + " shop", "probing": MODEL,
+    "step": MODEL + " mechanics engagement optimise",
     "toolpath": MODEL + " stock",
     "optimise": MODEL + " mechanics motion",
     "controls": MODEL + " motion",

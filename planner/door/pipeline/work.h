@@ -211,6 +211,5 @@ inline constexpr int kMarks = 1, kDrills = 2, kRoughs = 3, kFinishes = 4, kSizes
 void add_probings(Work& w);
 /// The noun of a cutter, made once per plan.
 [[nodiscard]] Ref<model::MachiningTool> tool_noun(Work& w, const model::Cutter& cutter);
-[[nodiscard]] geometry::Box3 transformed(const geometry::Box3& box, const geometry::Placement& to);
 
 }  // namespace capstan::pipeline

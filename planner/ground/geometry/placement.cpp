@@ -42,4 +42,14 @@ Placement inverse(const Placement& p) {
           .z = p.direction_to_local({0.0, 0.0, 1.0})};
 }
 
+Box3 transformed(const Box3& box, const Placement& to) {
+  Box3 out;
+  for (const double x : {box.lo.x, box.hi.x}) {
+    for (const double y : {box.lo.y, box.hi.y}) {
+      for (const double z : {box.lo.z, box.hi.z}) out.add(to.to_parent({x, y, z}));
+    }
+  }
+  return out;
+}
+
 }  // namespace capstan::geometry

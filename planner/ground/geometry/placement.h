@@ -34,4 +34,7 @@ struct Placement {
 /// The parent's frame seen from inside.
 [[nodiscard]] Placement inverse(const Placement& p);
 
+/// The box around a box that is brought to another frame.
+[[nodiscard]] Box3 transformed(const Box3& box, const Placement& to);
+
 }  // namespace capstan::geometry

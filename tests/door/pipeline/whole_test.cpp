@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "planner/door/pipeline/given/shop.h"
-#include "planner/door/pipeline/paths/sections.h"
+#include "planner/making/step/cut_samples.h"
 #include "planner/model/nouns/all.h"
 #include "planner/proof/verify/verify.h"
 #include "tests/support/corpus.h"
@@ -302,7 +302,7 @@ TEST(Sections, NoSectionIsWiderThanTheCutterAndWhatIsMoreIsCutByTheEnd) {
     m.sections.y_cg_ofs_mm.push_back(0.015);
     m.sections.removed_mm3.push_back(24.51);
   }
-  const auto samples = samples_of(m, path, cutter);
+  const auto samples = step::samples_of(m, path, cutter);
   ASSERT_EQ(samples.size(), 2U);
   EXPECT_NEAR(samples[0].ae_mm, 25.0, 1e-9);
   EXPECT_EQ(samples[0].ap_mm, 0.03);

@@ -7,10 +7,10 @@
 #include <utility>
 
 #include "planner/door/pipeline/paths/results.h"
-#include "planner/door/pipeline/paths/sections.h"
 #include "planner/door/pipeline/workholding/holding.h"
 #include "planner/files/exchange/toolpaths/curves.h"
 #include "planner/ground/base/number.h"
+#include "planner/making/step/cut_samples.h"
 
 namespace capstan::pipeline {
 namespace {
@@ -44,17 +44,17 @@ std::vector<optimise::CutSample> samples_for(Work& w, const StepWork& step, cons
                                              const model::SectionSeries& stated,
                                              const std::optional<engagement::Measurement>& found) {
   const double d = step.cutter.cutting_diameter_mm;
-  const auto ours = found ? samples_of(*found, path, step.cutter) : std::vector<optimise::CutSample>{};
+  const auto ours = found ? step::samples_of(*found, path, step.cutter) : std::vector<optimise::CutSample>{};
   if (stated.size() == 0) return ours;
-  if (const auto why = impossible(stated, path, d, step.cutter.maximum_depth_of_cut_mm)) {
+  if (const auto why = step::impossible(stated, path, d, step.cutter.maximum_depth_of_cut_mm)) {
     w.job.warn("PIP-SECTIONS", "step '" + name_of(w, step) + "': the file's cross sections cannot be, " +
                                    *why + "; " + (found ? "the measured ones are used" : "none are used"));
     return ours;
   }
-  auto said = samples_of(stated, path, step.cutter);
+  auto said = step::samples_of(stated, path, step.cutter);
   if (!found) return said;
-  const auto extents = extents_contradict(stated, found->sections, d);
-  auto both = compared(said, ours, d);
+  const auto extents = step::extents_contradict(stated, found->sections, d);
+  auto both = step::compared(said, ours, d);
   if (both.contradictions > 0) {
     w.job.warn("PIP-SECTIONS", "step '" + name_of(w, step) + "': the file's cross sections contradict the " +
                                    "measured ones at " + std::to_string(both.contradictions) +

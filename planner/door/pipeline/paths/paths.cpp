@@ -14,13 +14,13 @@
 #include "planner/door/pipeline/paths/progress.h"
 #include "planner/door/pipeline/paths/ranking.h"
 #include "planner/door/pipeline/paths/results.h"
-#include "planner/door/pipeline/paths/sections.h"
 #include "planner/door/pipeline/paths/stocks.h"
 #include "planner/door/pipeline/paths/surface.h"
 #include "planner/door/pipeline/propose/grouped_reasons.h"
 #include "planner/door/pipeline/step/steps.h"
 #include "planner/door/pipeline/workholding/holding.h"
 #include "planner/ground/base/number.h"
+#include "planner/making/step/cut_samples.h"
 #include "planner/making/toolpath/region/form/undercut.h"
 #include "planner/model/plan/decision/condemned.h"
 #include "tooling/selection/select.h"
@@ -425,7 +425,7 @@ class PathMaker {
     if (auto m = measured(w_, step, *out.path, stocks_)) {
       out.removed_mm3 = m->removed_mm3;
       out.rapid_removed_mm3 = m->rapid_removed_mm3;
-      fq.samples = samples_of(*m, *out.path, step.cutter);
+      fq.samples = step::samples_of(*m, *out.path, step.cutter);
       // One pass over a surface, not levels: as deep and as wide as what roughing left there.
       if (w_.plan.model.holds<model::FreeformFinishMilling>(step.operation)) {
         for (const optimise::CutSample& sample : fq.samples) {

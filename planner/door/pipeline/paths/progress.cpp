@@ -1,4 +1,5 @@
 #include "planner/door/pipeline/paths/progress.h"
+#include "planner/making/step/middle_of_tolerance.h"
 
 #include <algorithm>
 #include <cmath>
@@ -90,7 +91,7 @@ std::optional<toolpath::Cleared> Progress::cleared_by(const std::vector<Milled>&
 void Progress::prepare(const StepWork& step, const stock::HeightMap& map, toolpath::PathJob& job) const {
   const SetupWork& setup = w_.setups[step.setup];
   shape_from_mesh(w_, step, job);
-  aim_at_the_middle(job.shape);
+  step::aim_at_the_middle(job.shape);
   stop_at_walls(w_, job.shape);
   if (opens_outwards(job.shape)) {
     const auto outline = transformed(setup.stock, inverse(job.feature_in_setup));

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/door/pipeline/paths/sections.h"
 #include "planner/door/pipeline/step/steps.h"
 #include "planner/door/pipeline/workholding/holding.h"
+#include "planner/making/step/cut_samples.h"
 #include "planner/physics/mechanics/force/force_law.h"
 #include "planner/physics/mechanics/force/immersion.h"
 
@@ -61,7 +61,7 @@ Result<toolpath::GeneratedPath> pass_over(Work& w, const StepWork& step, const t
   if (!path) return path;
   const auto before = stocks.before(step.setup);
   if (const auto m = stocks.measure(step.setup, path->path, step.cutter))
-    ask_as_measured(samples_of(*m, path->path, step.cutter), q);
+    ask_as_measured(step::samples_of(*m, path->path, step.cutter), q);
   stocks.put_back(step.setup, before);
   return path;
 }

@@ -299,16 +299,6 @@ Status resolve_margin(Work& w) {
 
 }  // namespace
 
-Box3 transformed(const Box3& box, const geometry::Placement& to) {
-  Box3 out;
-  for (const double x : {box.lo.x, box.hi.x}) {
-    for (const double y : {box.lo.y, box.hi.y}) {
-      for (const double z : {box.lo.z, box.hi.z}) out.add(to.to_parent({x, y, z}));
-    }
-  }
-  return out;
-}
-
 Box3 part_box(const Work& w) {
   Box3 out = w.plan.stock.box;
   const model::Workpiece* piece = model::workpiece_of(w.plan.model, w.plan.project);

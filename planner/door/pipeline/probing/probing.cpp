@@ -1,10 +1,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/door/pipeline/probing/touch_starts.h"
 #include "planner/door/pipeline/step/steps.h"
 #include "planner/door/pipeline/work.h"
 #include "planner/ground/base/number.h"
+#include "planner/making/probing/touch_starts.h"
+#include "planner/making/step/middle_of_tolerance.h"
 #include "planner/model/plan/measured.h"
 #include "tooling/library/nouns/nouns.h"
 
@@ -28,8 +29,8 @@ std::optional<model::Deviations> deviations(const Work& w, const model::Toleranc
 }
 
 /// What the last step will still take off the wall and the floor: what the one before it leaves.
-Left left_at(const std::vector<model::ProposedStep>& chain, std::size_t at, const FeatureShape& s) {
-  Left out;
+probing::Left left_at(const std::vector<model::ProposedStep>& chain, std::size_t at, const FeatureShape& s) {
+  probing::Left out;
   if (at > 0 && model::is_a(chain[at - 1].operation, model::TypeId::kMillingTypeOperation)) {
     out.side_mm = chain[at - 1].allowance_side_mm;
     out.bottom_mm = chain[at - 1].allowance_bottom_mm;
@@ -41,7 +42,7 @@ Left left_at(const std::vector<model::ProposedStep>& chain, std::size_t at, cons
 
 /// What is measured before a step, and how far its walls may be from where they are expected.
 struct Measured {
-  Touches found;
+  probing::Touches found;
   std::string of;  ///< "datum A, 'H2'"
   std::optional<double> lower_mm, upper_mm;
 };
@@ -64,7 +65,10 @@ std::optional<Measured> datum_of(const Work& w, std::size_t at, double ball) {
     const bool placed = s.kind == ShapeKind::kHole || s.kind == ShapeKind::kOutside ||
                         (s.kind == ShapeKind::kPocket && !s.open);
     if (!placed || dot(s.frame.z, step.shapes.front().frame.z) < 1.0 - 1e-6) continue;
-    Measured out{touches_of(w, s, {}, ball), "datum " + tie.letter + ", '" + s.name + "'", {}, {}};
+    Measured out{probing::touches_of({w.shapes, w.plan.stock.box}, s, {}, ball),
+                 "datum " + tie.letter + ", '" + s.name + "'",
+                 {},
+                 {}};
     if (out.found.touches.empty()) continue;
     if (const auto d = s.kind == ShapeKind::kHole ? deviations(w, s.diameter) : std::nullopt) {
       out.lower_mm = 0.5 * (d->lower_mm - d->middle());
@@ -110,9 +114,11 @@ Measured measured_before(const Work& w, std::size_t at, const std::optional<mode
   }
   // Where the walls are when each step is cut to the middle of the tolerance, as the paths are.
   FeatureShape s = step.shapes.front();
-  aim_at_the_middle(s);
-  Measured out{
-      touches_of(w, s, left_at(p.chain, p.at, s), ball), "'" + s.name + "' as it is cut so far", {}, {}};
+  step::aim_at_the_middle(s);
+  Measured out{probing::touches_of({w.shapes, w.plan.stock.box}, s, left_at(p.chain, p.at, s), ball),
+               "'" + s.name + "' as it is cut so far",
+               {},
+               {}};
   if (const auto off = for_size(p) ? wall_slack(s) : std::nullopt) {
     out.lower_mm = -*off;
     out.upper_mm = *off;
@@ -144,7 +150,7 @@ Ref<model::Executable> touch_noun(Work& w, const StepWork& next, const Measured&
   Model& m = w.plan.model;
   const Probing& wanted = *next.probing;
   const model::ProposedStep& step = wanted.chain[wanted.at];
-  const Touch& touch = what.found.touches[at];
+  const probing::Touch& touch = what.found.touches[at];
 
   model::CartesianPoint point;
   point.name = "";

@@ -19,10 +19,6 @@ namespace capstan::pipeline {
 /// what earlier steps left are the caller's to fill.
 [[nodiscard]] toolpath::PathJob job_of(const Work& w, const StepWork& step, const model::FeatureShape& shape);
 
-/// Moves the walls of pockets, slots and outsides, and the floors of these and of steps, to the middle of
-/// their tolerances. A hole's path does that by itself.
-void aim_at_the_middle(model::FeatureShape& shape);
-
 /// How far the path of a step, and the control that follows it, may leave what is wanted, mm; 0: the
 /// control's own. For milling: of a step that leaves material a quarter of that, of a finishing one a tenth
 /// of the tightest tolerance. Default, unsourced.

@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "planner/files/exchange/common/open_decisions.h"
-#include "planner/files/exchange/common/sections.h"
+#include "planner/files/exchange/common/file_sections.h"
 #include "planner/files/exchange/iso14649/deviations.h"
 #include "planner/files/exchange/iso14649/iso14649.h"
 #include "planner/files/exchange/iso14649/reading.h"

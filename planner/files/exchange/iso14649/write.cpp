@@ -4,7 +4,7 @@
 #include <set>
 #include <vector>
 
-#include "planner/files/exchange/common/sections.h"
+#include "planner/files/exchange/common/file_sections.h"
 #include "planner/files/exchange/iso14649/beyond.h"
 #include "planner/files/exchange/iso14649/dialect.h"
 #include "planner/files/exchange/iso14649/iso14649.h"

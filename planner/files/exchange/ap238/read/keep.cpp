@@ -3,7 +3,7 @@
 
 #include "planner/files/exchange/ap238/read/auxiliary.h"
 #include "planner/files/exchange/ap238/read/reader.h"
-#include "planner/files/exchange/common/sections.h"
+#include "planner/files/exchange/common/file_sections.h"
 #include "planner/files/exchange/common/text.h"
 #include "planner/model/nouns/all.h"
 

@@ -5,7 +5,7 @@
 #include "planner/files/exchange/ap238/read/reader.h"
 #include "planner/files/exchange/ap238/records.h"
 #include "planner/files/exchange/common/open_decisions.h"
-#include "planner/files/exchange/common/sections.h"
+#include "planner/files/exchange/common/file_sections.h"
 #include "planner/files/exchange/records/records.h"
 #include "planner/files/exchange/records/seal.h"
 #include "planner/files/exchange/toolpaths/via.h"

@@ -5,7 +5,7 @@
 #include "planner/files/exchange/ap238/paths/paths.h"
 #include "planner/files/exchange/ap238/placement/placement.h"
 #include "planner/files/exchange/ap238/write/writer.h"
-#include "planner/files/exchange/common/sections.h"
+#include "planner/files/exchange/common/file_sections.h"
 #include "planner/files/exchange/records/exact_paths.h"
 #include "planner/files/exchange/records/seal.h"
 #include "planner/files/p21/print.h"

@@ -6,7 +6,7 @@
 #include "planner/files/exchange/ap238/codecs/codecs.h"
 #include "planner/files/exchange/ap238/read/auxiliary.h"
 #include "planner/files/exchange/ap238/records.h"
-#include "planner/files/exchange/common/sections.h"
+#include "planner/files/exchange/common/file_sections.h"
 #include "planner/files/p21/print.h"
 #include "planner/ground/base/number.h"
 #include "planner/model/nouns/all.h"

@@ -1,4 +1,4 @@
-#include "planner/door/pipeline/probing/touch_starts.h"
+#include "planner/making/probing/touch_starts.h"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 
 #include "planner/ground/base/number.h"
 
-namespace capstan::pipeline {
+namespace capstan::probing {
 namespace {
 
 using geometry::Loop;
@@ -87,7 +87,7 @@ Region removed(const FeatureShape& s) {
 }
 
 /// Whether another feature takes away what is at this point of the workpiece.
-bool cut_away(const Work& w, const FeatureShape& own, Vec3 p) {
+bool cut_away(const Piece& w, const FeatureShape& own, Vec3 p) {
   return std::any_of(w.shapes.begin(), w.shapes.end(), [&](const FeatureShape& s) {
     if (s.feature == own.feature && s.member == own.member) return false;
     const Vec3 q = s.frame.to_local(p);
@@ -102,7 +102,7 @@ bool cut_away(const Work& w, const FeatureShape& own, Vec3 p) {
 }
 
 /// Whether what another outside leaves standing is nearer than `room`.
-bool stands(const Work& w, const FeatureShape& own, Vec3 p, double room) {
+bool stands(const Piece& w, const FeatureShape& own, Vec3 p, double room) {
   return std::any_of(w.shapes.begin(), w.shapes.end(), [&](const FeatureShape& s) {
     if (s.kind != ShapeKind::kOutside || (s.feature == own.feature && s.member == own.member)) return false;
     const Vec3 q = s.frame.to_local(p);
@@ -129,7 +129,7 @@ std::vector<double> heights(const FeatureShape& s, double left_bottom, double ba
 }
 
 struct Asked {
-  const Work& w;
+  const Piece& w;
   const FeatureShape& s;
   Left left;
   double ball = 0.0;
@@ -161,7 +161,7 @@ std::optional<Touch> touch(const Asked& a, Vec2 d, double z) {
   const Vec2 behind = a.middle + (wall.t + (a.inside ? kInto : -kInto)) * d;
   if (a.s.kind != ShapeKind::kHole && geometry::contains(a.s.reach, behind)) return std::nullopt;
   const Vec3 wall_point = a.s.frame.to_parent({behind.x, behind.y, z});
-  if (!within(a.w.plan.stock.box, wall_point) || cut_away(a.w, a.s, wall_point)) return std::nullopt;
+  if (!within(a.w.raw, wall_point) || cut_away(a.w, a.s, wall_point)) return std::nullopt;
   Touch out;
   const Vec2 from = a.middle + begin * d;
   out.start = a.s.frame.to_parent({from.x, from.y, z});
@@ -203,7 +203,7 @@ Touches across(const Asked& a, const std::vector<std::pair<Vec2, std::string>>& 
 }
 
 /// The level of a face, in its middle.
-Touches level(const Work& w, const FeatureShape& s, Left left, double ball) {
+Touches level(const Piece& w, const FeatureShape& s, Left left, double ball) {
   const auto box = geometry::bounds(s.area);
   const Vec2 middle = 0.5 * (box.lo + box.hi);
   const Vec3 below = s.frame.to_parent({middle.x, middle.y, -s.depth_mm - kInto});
@@ -222,12 +222,12 @@ Touches level(const Work& w, const FeatureShape& s, Left left, double ball) {
 /// The flank of a cone, at the middle of its height, along x and y. A ball of radius b that touches the flank
 /// there has its middle at r + (h - d / 2) tan a - b / cos a from the axis, when that is h = d / 2 - b sin a
 /// deep; r is the cone's radius at its top, d its depth, a half its angle.
-Touches flank(const Work& w, const FeatureShape& s, Left left, double ball) {
+Touches flank(const Piece& w, const FeatureShape& s, Left left, double ball) {
   const double lean = 0.5 * (s.diameter.nominal_mm - s.bottom_diameter_mm) / s.depth_mm;
   const double sine = lean / std::hypot(1.0, lean), cosine = 1.0 / std::hypot(1.0, lean);
   const double z = -0.5 * s.depth_mm + ball * sine;
   const double end = 0.5 * s.diameter.middle() + z * lean - ball / cosine - left.side_mm;
-  if (end < kRoom || !within(w.plan.stock.box, s.frame.to_parent({0.0, 0.0, -0.5 * s.depth_mm})))
+  if (end < kRoom || !within(w.raw, s.frame.to_parent({0.0, 0.0, -0.5 * s.depth_mm})))
     return {{}, ball_text(ball) + " does not touch the flank of its cone freely"};
   Touches out;
   for (const auto& [d, side] : {std::pair(Vec2{1.0, 0.0}, "+x"), std::pair(Vec2{-1.0, 0.0}, "-x"),
@@ -245,7 +245,7 @@ Touches flank(const Work& w, const FeatureShape& s, Left left, double ball) {
 
 }  // namespace
 
-Touches touches_of(const Work& w, const FeatureShape& s, Left left, double ball) {
+Touches touches_of(const Piece& w, const FeatureShape& s, Left left, double ball) {
   // Of a step the floor is touched where it is still to be cut: its one wall faces none.
   if (s.kind == ShapeKind::kFace || (s.kind == ShapeKind::kStep && left.bottom_mm > 0.0))
     return level(w, s, left, ball);
@@ -275,7 +275,7 @@ Touches touches_of(const Work& w, const FeatureShape& s, Left left, double ball)
     a.inside = false;
     const auto box = geometry::bounds(a.walls);
     a.middle = 0.5 * (box.lo + box.hi);
-    const auto raw = transformed(w.plan.stock.box, inverse(s.frame));
+    const auto raw = transformed(w.raw, inverse(s.frame));
     const Region beside = geometry::subtract(geometry::rectangle({-kFar, -kFar}, {kFar, kFar}),
                                              geometry::rectangle(geometry::xy(raw.lo), geometry::xy(raw.hi)));
     a.space = geometry::offset(geometry::subtract(geometry::unite(removed(s), beside), a.walls), -off);
@@ -286,4 +286,4 @@ Touches touches_of(const Work& w, const FeatureShape& s, Left left, double ball)
   return across(a, axes, all);
 }
 
-}  // namespace capstan::pipeline
+}  // namespace capstan::probing

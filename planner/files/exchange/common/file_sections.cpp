@@ -1,4 +1,4 @@
-#include "planner/files/exchange/common/sections.h"
+#include "planner/files/exchange/common/file_sections.h"
 
 #include <algorithm>
 #include <string_view>

@@ -3,12 +3,12 @@
 #include <string>
 #include <vector>
 
-#include "planner/door/pipeline/work.h"
 #include "planner/ground/geometry/vec.h"
+#include "planner/model/features/shape.h"
 
-// Where a touch probe starts and which way it moves; only planner/door/pipeline/*.cpp include this.
+// Where a touch probe starts and which way it moves.
 
-namespace capstan::pipeline {
+namespace capstan::probing {
 
 /// One measuring move.
 ///
@@ -30,12 +30,18 @@ struct Left {
   double side_mm = 0.0, bottom_mm = 0.0;
 };
 
+/// What the touches are looked for in; workpiece coordinates.
+struct Piece {
+  const std::vector<model::FeatureShape>& shapes;  ///< of all features
+  const geometry::Box3& raw;                       ///< of the raw piece
+};
+
 /// The touches that tell where a feature is, when it is cut but for `left`.
 ///
 /// Upright walls that face each other: holes, pockets and outsides in x and y, slots and open pockets at
 /// least across; faces: their level. Each start has room for the ball: within what the feature removes, for
 /// an outside also beside the raw piece; each wall is there, not cut away by another feature.
-[[nodiscard]] Touches touches_of(const Work& w, const model::FeatureShape& shape, Left left,
+[[nodiscard]] Touches touches_of(const Piece& piece, const model::FeatureShape& shape, Left left,
                                  double ball_radius_mm);
 
-}  // namespace capstan::pipeline
+}  // namespace capstan::probing

@@ -10,10 +10,9 @@
 #include "planner/model/plan/cutter_path.h"
 #include "planner/physics/engagement/engagement.h"
 
-// Cross sections as feeds ask for them, measured or brought by a file; only planner/door/pipeline/*.cpp
-// include this.
+// Cross sections as feeds ask for them, measured or brought by a file.
 
-namespace capstan::pipeline {
+namespace capstan::step {
 
 /// Of a measured path. A section that is no rectangle (a wall and a floor at once) counts as two of its area:
 /// as deep, and as wide.
@@ -75,4 +74,4 @@ inline constexpr double kExtentsFloor = 0.1;
                                         const std::vector<optimise::CutSample>& measured,
                                         double cutting_diameter_mm);
 
-}  // namespace capstan::pipeline
+}  // namespace capstan::step

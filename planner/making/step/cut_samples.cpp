@@ -1,4 +1,4 @@
-#include "planner/door/pipeline/paths/sections.h"
+#include "planner/making/step/cut_samples.h"
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,7 @@
 
 #include "planner/physics/mechanics/force/force_law.h"
 
-namespace capstan::pipeline {
+namespace capstan::step {
 namespace {
 
 using optimise::CutSample;
@@ -268,4 +268,4 @@ SectionsCompared compared(const std::vector<CutSample>& stated, const std::vecto
   return out;
 }
 
-}  // namespace capstan::pipeline
+}  // namespace capstan::step

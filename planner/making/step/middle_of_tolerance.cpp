@@ -1,11 +1,11 @@
+#include "planner/making/step/middle_of_tolerance.h"
+
 #include <algorithm>
 #include <cmath>
 
-#include "planner/door/pipeline/step/steps.h"
-
 // Sizes are cut to the middle of their tolerance: 20 H7 at 20.0105, an outside of 60 h9 at 59.963.
 
-namespace capstan::pipeline {
+namespace capstan::step {
 namespace {
 
 using geometry::Vec2;
@@ -128,4 +128,4 @@ void aim_at_the_middle(FeatureShape& s) {
     s.depth_mm += s.depth_tolerance.middle() - s.depth_tolerance.nominal_mm;
 }
 
-}  // namespace capstan::pipeline
+}  // namespace capstan::step
