@@ -24,7 +24,7 @@ FeatureShape square(ShapeKind kind, Vec3 origin, double half, double depth) {
   return s;
 }
 
-Item step(std::size_t feature, std::size_t in_chain, std::string cutter) {
+Item step(std::size_t feature, int in_chain, std::string cutter) {
   Item i;
   i.feature = feature;
   i.in_chain = in_chain;
