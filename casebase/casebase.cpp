@@ -150,6 +150,4 @@ std::optional<model::Precedent> CaseBase::recall(const Question& q) const { retu
 
 std::size_t CaseBase::size() const { return impl_->cases.size(); }
 const std::vector<Case>& CaseBase::cases() const { return impl_->cases; }
-std::string_view CaseBase::index_name() const { return casebase::index_name(); }
-
 }  // namespace capstan::casebase

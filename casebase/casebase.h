@@ -130,8 +130,6 @@ class CaseBase {
   [[nodiscard]] std::size_t size() const;
   /// All cases by id.
   [[nodiscard]] const std::vector<Case>& cases() const;
-  /// What finds neighbours: "flann" or "linear".
-  [[nodiscard]] std::string_view index_name() const;
 
  private:
   struct Impl;

@@ -1,6 +1,7 @@
 #include "planner/making/sequence/order.h"
 
 #include <algorithm>
+#include <map>
 #include <random>
 #include <set>
 
@@ -59,6 +60,21 @@ struct Plate {
   std::vector<Item> items{step(0, 0, "spot"), step(0, 1, "drill"), step(1, 0, "spot"),    step(1, 1, "drill"),
                           step(2, 0, "mill"), step(2, 1, "mill"),  step(3, 0, "facemill")};
 };
+
+/// Precedences that an order of items breaks.
+std::vector<Precedence> broken(const std::vector<Precedence>& precedences,
+                               const std::vector<std::size_t>& executed) {
+  std::map<std::size_t, std::size_t> position;
+  for (std::size_t i = 0; i < executed.size(); ++i) position.emplace(executed[i], i);
+  std::vector<Precedence> out;
+  for (const Precedence& p : precedences) {
+    const auto a = position.find(p.before);
+    const auto b = position.find(p.after);
+    if (b == position.end()) continue;  // never executed: nothing came too early
+    if (a == position.end() || a->second > b->second) out.push_back(p);
+  }
+  return out;
+}
 
 TEST(Order, PutsFacesFirstAndFloorsBeforeWhatBeginsInThem) {
   const Plate p;
