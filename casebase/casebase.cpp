@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-#include "casebase/index.h"
+#include "casebase/index/index.h"
 #include "casebase/recall.h"
 #include "casebase/store.h"
 
@@ -70,11 +70,7 @@ namespace {
 Result<Store> open_store(const std::string& uri, Store::Missing missing, Job& job) {
   const Result<std::string> path = path_of(uri);
   if (!path) return fail(path.error());
-  Result<Store> store = Store::open(*path, missing, job);
-  if (store && index_name() == "linear") {
-    job.note("CASE-INDEX", "built without FLANN: neighbours are found by looking at every case");
-  }
-  return store;
+  return Store::open(*path, missing, job);
 }
 
 }  // namespace
@@ -150,4 +146,5 @@ std::optional<model::Precedent> CaseBase::recall(const Question& q) const { retu
 
 std::size_t CaseBase::size() const { return impl_->cases.size(); }
 const std::vector<Case>& CaseBase::cases() const { return impl_->cases; }
+
 }  // namespace capstan::casebase

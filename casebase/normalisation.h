@@ -19,7 +19,7 @@ using Point = std::array<double, 4>;
 /// What has to be equal: the categories, and which of diameter, depth and width apply.
 [[nodiscard]] std::string bucket_of(const Question& q);
 
-/// Summed in the order of the array: the one formula of both indices.
+/// Summed in the order of the array: the one formula of all indices.
 [[nodiscard]] double distance2(const Point& a, const Point& b);
 
 }  // namespace capstan::casebase

@@ -1,9 +1,12 @@
-# cmake --install, and find_package(capstan) for those who link the result.
+# cmake --install [--strip], and find_package(capstan) or pkg-config for those who link the result. The folders are
+# those of GNUInstallDirs; tests/install/files.txt lists every file.
 #
-#   bin/capstan                 the command
-#   lib/libcapstan.so           capstan::capstan, with include/capstan/capstan.h
-#   lib/libcapstan_late.so      capstan::late, the C interface of late binding, where it is built
+#   bin/capstan                 the command; share/man/man1 its manual pages, and bash's completion of it
+#   lib/libcapstan.so           capstan::capstan, capstan.pc, with include/capstan/capstan.h
+#   lib/libcapstan_late.so      capstan::late, capstan_late.pc, the C interface of late binding
 #   share/capstan/{rules,tooling}/data   what the rules and the catalogue read
+#   share/capstan/plan.schema.json       the JSON schema of plans
+#   share/doc/capstan           what there is to read, and the examples
 include(CMakePackageConfigHelpers)
 
 set(capstan_config_folder ${CMAKE_INSTALL_LIBDIR}/cmake/capstan)
@@ -37,16 +40,35 @@ if(capstan_exported)
     DESTINATION ${capstan_config_folder})
 endif()
 
+# capstan_pkg_config(<library> <description>): a .pc file that finds the rest from where it lies itself, so that an
+# installation may be moved.
+function(capstan_pkg_config pc_name pc_description)
+  file(RELATIVE_PATH pc_up ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
+  string(REGEX REPLACE "/$" "" pc_up "${pc_up}")
+  configure_file(${CMAKE_CURRENT_FUNCTION_LIST_DIR}/library.pc.in ${CMAKE_BINARY_DIR}/${pc_name}.pc @ONLY)
+  install(FILES ${CMAKE_BINARY_DIR}/${pc_name}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+endfunction()
+if(TARGET capstan_facade)
+  capstan_pkg_config(capstan "${PROJECT_DESCRIPTION}")
+endif()
+if(TARGET capstan_late_shared)
+  capstan_pkg_config(capstan_late "Late binding of process plans inside a control, a C interface")
+endif()
+
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/include/capstan DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 
 if(TARGET capstan)
-  set_target_properties(capstan PROPERTIES INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
   install(TARGETS capstan RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()
+
+if(TARGET capstan_manual_pages)
+  install(DIRECTORY ${CAPSTAN_MANUAL_FOLDER}/man1 DESTINATION ${CMAKE_INSTALL_MANDIR})
+  install(DIRECTORY ${CAPSTAN_MANUAL_FOLDER}/completions DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion)
 endif()
 
 # What `cmake --install` needs, and no test: `./dev demo` builds this.
 add_custom_target(capstan_installed)
-foreach(target IN LISTS capstan_exported ITEMS capstan)
+foreach(target IN LISTS capstan_exported ITEMS capstan capstan_manual_pages)
   if(TARGET ${target})
     add_dependencies(capstan_installed ${target})
   endif()
@@ -58,8 +80,9 @@ foreach(folder IN ITEMS rules tooling)
     install(DIRECTORY ${CMAKE_SOURCE_DIR}/${folder}/data DESTINATION ${CMAKE_INSTALL_DATADIR}/capstan/${folder})
   endif()
 endforeach()
-foreach(file IN ITEMS LICENSE NOTICE)
-  if(EXISTS ${CMAKE_SOURCE_DIR}/${file})
-    install(FILES ${CMAKE_SOURCE_DIR}/${file} DESTINATION ${CMAKE_INSTALL_DOCDIR})
-  endif()
-endforeach()
+install(FILES ${CMAKE_SOURCE_DIR}/docs/plan.schema.json DESTINATION ${CMAKE_INSTALL_DATADIR}/capstan)
+# The texts keep their places relative to README, so that its links hold.
+install(FILES ${CMAKE_SOURCE_DIR}/README.md ${CMAKE_SOURCE_DIR}/CHANGELOG.md ${CMAKE_SOURCE_DIR}/LICENSE
+  ${CMAKE_SOURCE_DIR}/NOTICE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY ${CMAKE_SOURCE_DIR}/docs ${CMAKE_SOURCE_DIR}/examples DESTINATION ${CMAKE_INSTALL_DOCDIR}
+  PATTERN plan.schema.json EXCLUDE)

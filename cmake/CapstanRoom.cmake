@@ -5,6 +5,10 @@ target_include_directories(capstan_options INTERFACE ${CMAKE_SOURCE_DIR})
 # -ffp-contract=off: same input, same bytes, whatever the compiler may fuse.
 target_compile_options(capstan_options INTERFACE
   -ffp-contract=off -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror)
+# `char` is signed on amd64, where everything is tested, and not everywhere.
+if(NOT CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+  target_compile_options(capstan_options INTERFACE -fsigned-char)
+endif()
 if(CAPSTAN_SANITIZE)
   target_compile_options(capstan_options INTERFACE
     -fsanitize=${CAPSTAN_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)

@@ -155,22 +155,11 @@ const Row* edges_row(const RuleBase& base, const Facts& facts) {
 }
 
 // Two shapes for which the rules give the same: copies of a pattern.
-bool alike(const FeatureShape& a, const FeatureShape& b) {
-  return a.kind == b.kind && a.feature == b.feature && a.depth_mm == b.depth_mm && a.bottom == b.bottom &&
-         a.diameter.nominal_mm == b.diameter.nominal_mm && a.diameter.lower_mm == b.diameter.lower_mm &&
-         a.diameter.upper_mm == b.diameter.upper_mm && a.bottom_diameter_mm == b.bottom_diameter_mm &&
-         a.bottom_angle_rad == b.bottom_angle_rad && a.thread_major_mm == b.thread_major_mm &&
-         a.thread_pitch_mm == b.thread_pitch_mm && a.thread_depth_mm == b.thread_depth_mm &&
-         a.bottom_hole_radius_mm == b.bottom_hole_radius_mm && a.slope_rad == b.slope_rad &&
-         a.width.nominal_mm == b.width.nominal_mm && a.corner_radius_mm == b.corner_radius_mm &&
-         a.bottom_radius_mm == b.bottom_radius_mm && a.open == b.open &&
-         a.islands.size() == b.islands.size() && a.slot_profile == b.slot_profile &&
-         a.reach.loops == b.reach.loops && a.through == b.through;
+bool copies(const FeatureShape& a, const FeatureShape& b) {
+  return a.feature == b.feature && a.reach.loops == b.reach.loops && model::same_form(a, b);
 }
 
 constexpr double kCoaxial = 1e-4;  // mm; unit vectors to the same number of steps
-
-bool is_bore(const FeatureShape& s) { return s.kind == ShapeKind::kHole || s.kind == ShapeKind::kThread; }
 
 /// An axis, on a grid: two bores with the same one are coaxial and are entered from the same side.
 using Axis = std::array<long long, 6>;
@@ -186,7 +175,7 @@ double bottom_of(const FeatureShape& s) { return top_of(s) - s.depth_mm; }
 std::map<Axis, std::vector<std::size_t>> by_axis(std::span<const FeatureShape> shapes) {
   std::map<Axis, std::vector<std::size_t>> out;
   for (std::size_t i = 0; i < shapes.size(); ++i) {
-    if (is_bore(shapes[i])) out[axis_of(shapes[i])].push_back(i);
+    if (model::has(shapes[i].kind, model::ShapeTrait::kRound)) out[axis_of(shapes[i])].push_back(i);
   }
   return out;
 }
@@ -299,7 +288,7 @@ std::vector<Proposal> propose_members(const RuleBase& base, std::span<const Feat
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     std::size_t same = i;
     for (std::size_t back = 1; back <= std::min(i, kLookBack) && same == i; ++back) {
-      if (same_context(i - back, i) && alike(shapes[i - back], shapes[i])) same = i - back;
+      if (same_context(i - back, i) && copies(shapes[i - back], shapes[i])) same = i - back;
     }
     out.push_back(same != i ? out[same] : propose(base, shapes[i], contexts[i]));
   }

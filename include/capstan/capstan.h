@@ -4,14 +4,21 @@
 /// It names nothing but the standard library.
 
 #include <cstddef>
+#include <functional>
+#include <map>
+#include <stop_token>
 #include <string>
+#include <string_view>
 #include <vector>
+
+/// Marks what the library exports; nothing else of it is visible to a linker.
+#define CAPSTAN_API __attribute__((visibility("default")))
 
 namespace capstan {
 
 /// The version of the library that is linked, as "major.minor.patch": what the program got, which need not be
 /// what it was compiled against.
-[[nodiscard]] std::string version();
+[[nodiscard]] CAPSTAN_API std::string version();
 
 /// What planning is given beside the part. An empty text is the built-in default.
 struct PlanOptions {
@@ -28,7 +35,23 @@ struct PlanOptions {
   bool allow_findings =
       false;  ///< a program although the check condemns it; it stops before what is condemned. Never of a
               ///< plan that its file states in two ways, or whose workpiece or set-ups it states wrongly
-  std::string margin = {};  ///< of loads against their limits: "careful", "usual", "bold"
+  std::string margin = {};             ///< of loads against their limits: "careful", "usual", "bold"
+  std::string cases = {};              ///< a case base to begin from
+  std::string stock = {};              ///< the raw piece: "block:+2" or "box:x0,y0,z0,x1,y1,z1", mm
+  std::string solver = {};             ///< "nlopt", "ipopt"
+  std::string workholding = {};        ///< ids or a file of fixtures, "auto", "none"
+  std::string general_tolerance = {};  ///< of sizes without one: "ISO 2768-m", "ISO 22081 0.2", "+-0.1"
+  int batch = 1;                       ///< pieces to be made
+  double edge_break_mm = 0.0;          ///< edges that the part leaves sharp are chamfered by this
+  std::string bind = {};      ///< how far `plan_...` closes decisions: "none", "strategy", "tools", "all"
+  std::string deadline = {};  ///< of `bind_...`, since the call: "200ms", "2s"; then PlanOutput::late
+  bool strict = false;        ///< no program and no form of a plan that has findings
+  bool schema = false;        ///< `check_...`: what does not follow the schema is a finding, too
+  /// Called with the name of a stage and a fraction from 0 to 1, by the calling thread or one of its workers;
+  /// it must not throw.
+  std::function<void(std::string_view stage, double fraction)> progress = {};
+  /// Ends the call early: there is a plan only where one was made by then, and no program without its check.
+  std::stop_token stop = {};
 };
 
 /// A thing said about the input or the plan, as the command prints it.
@@ -54,15 +77,62 @@ struct PlanOutput {
   /// Why there is no program (with `allow_findings`: why it stops): errors of the check, limits that are
   /// exceeded, features that are not planned and that others rest on.
   std::vector<PlanMessage> condemned;
+  /// All forms by the name of their format, those above included: "iso14649", "ap238", "json", "linuxcnc",
+  /// "linuxcnc_tools", and what later versions add.
+  std::map<std::string, std::string> forms = {};
+  bool late = false;  ///< the deadline was past when the plan was there
+};
+
+/// What checking came to.
+struct CheckOutput {
+  bool checked = false;  ///< whether anything could be checked; otherwise `diagnostics` says why
+  bool clean = false;    ///< no finding, no deviation from the schema that was asked for, nothing unplanned
+  std::vector<PlanMessage> findings;
+  std::vector<PlanMessage> diagnostics;
+};
+
+/// A file to check, by its content: a plan, a program, or the tool table of programs.
+struct CheckInput {
+  std::string name;  ///< what findings call it
+  std::string bytes;
 };
 
 /// Plans a part: an ISO 14649 or AP238 file, a plan as JSON, or an STL mesh, told by content. `name` is what
 /// diagnostics call it. Throws  std::logic_error and what derives from it for a fault of the library itself;
 /// std::bad_alloc.
-[[nodiscard]] PlanOutput plan_bytes(std::string part, const std::string& name,
-                                    const PlanOptions& options = {});
+[[nodiscard]] CAPSTAN_API PlanOutput plan_bytes(std::string part, const std::string& name,
+                                                const PlanOptions& options = {});
 
 /// As above, from a file.
-[[nodiscard]] PlanOutput plan_file(const std::string& path, const PlanOptions& options = {});
+[[nodiscard]] CAPSTAN_API PlanOutput plan_file(const std::string& path, const PlanOptions& options = {});
+
+/// Closes at the machine what a plan leaves open, with the tools that `options.tools` says are loaded (else
+/// the plan's own): first a checked fallback, then an improvement while the deadline allows.
+[[nodiscard]] CAPSTAN_API PlanOutput bind_bytes(std::string plan, const std::string& name,
+                                                const PlanOptions& options = {});
+[[nodiscard]] CAPSTAN_API PlanOutput bind_file(const std::string& path, const PlanOptions& options = {});
+
+/// Proves plans and programs safe, or says what is wrong with them. Of the options machine, tools, schema,
+/// threads, progress and stop count.
+[[nodiscard]] CAPSTAN_API CheckOutput check_bytes(std::vector<CheckInput> files,
+                                                  const PlanOptions& options = {});
+[[nodiscard]] CAPSTAN_API CheckOutput check_files(const std::vector<std::string>& paths,
+                                                  const PlanOptions& options = {});
+
+/// What `explain_...` gives.
+struct ExplainOutput {
+  bool explained = false;  ///< otherwise `diagnostics` says why
+  std::string text;        ///< for people
+  std::vector<PlanMessage> diagnostics;
+};
+
+/// Why each value of a plan is what it is: of the whole plan, of one workingstep (its id, or its number in
+/// the order of execution), or of one of its attributes.
+[[nodiscard]] CAPSTAN_API ExplainOutput explain_bytes(std::string plan, const std::string& name,
+                                                      const std::string& step = {},
+                                                      const std::string& attribute = {});
+
+/// The names of the command's options that PlanOptions has fields for, without their dashes.
+[[nodiscard]] CAPSTAN_API std::vector<std::string> option_names();
 
 }  // namespace capstan

@@ -21,9 +21,15 @@ extern "C" {
 
 typedef struct capstan_late capstan_late;
 
+/* Counts what was added to this interface; what was there stays. 2: options by name, progress, stop, formats
+ * by name. */
+#define CAPSTAN_LATE_INTERFACE 2
+/* Of the library that is linked. */
+CAPSTAN_LATE_API unsigned capstan_late_interface(void);
+
 typedef enum capstan_late_code {
   CAPSTAN_LATE_OK = 0,
-  CAPSTAN_LATE_USAGE = 2,      /* a null or empty argument */
+  CAPSTAN_LATE_USAGE = 2,      /* a null or empty argument, an unknown option, no loaded tool */
   CAPSTAN_LATE_UNREADABLE = 3, /* machine, tools or plan cannot be read */
   CAPSTAN_LATE_IMPOSSIBLE = 4, /* nothing that may be cut: not bound, or not safe */
   CAPSTAN_LATE_LATE = 5,       /* a checked plan is there, and came after the deadline: see above */
@@ -43,6 +49,16 @@ typedef enum capstan_late_format {
  * code says whether it can be used. Gives NULL only when there is no memory. */
 CAPSTAN_LATE_API capstan_late* capstan_late_open(const char* machine, const char* tools);
 
+/* The same in steps: a session without a shop (NULL only when there is no memory), its options one by one,
+ * and (if wished, so that the first bind need not) the shop opened. The options are those of `capstan bind`
+ * without their dashes: "machine", "tools", "workholding", "general-tolerance", "cases", ...; a flag such as
+ * "allow-findings" takes "yes" or "no". An option set later opens the shop anew at the next call. Without
+ * "tools" the plan's own tools count as loaded. */
+CAPSTAN_LATE_API capstan_late* capstan_late_create(void);
+CAPSTAN_LATE_API capstan_late_code capstan_late_set(capstan_late* session, const char* option,
+                                                    const char* value);
+CAPSTAN_LATE_API capstan_late_code capstan_late_prepare(capstan_late* session);
+
 /* Binds a plan (ISO 14649, AP238 or JSON, `size` bytes) before `deadline_ms` have passed since the call. Past
  * that the code is CAPSTAN_LATE_LATE, never CAPSTAN_LATE_OK. No plan uses a tool that is not in the table, or
  * whose length the table does not tell (LATE-TOOL, code 4). What the table says of a tool comes out again in
@@ -51,10 +67,23 @@ CAPSTAN_LATE_API capstan_late* capstan_late_open(const char* machine, const char
 CAPSTAN_LATE_API capstan_late_code capstan_late_bind(capstan_late* session, const char* plan, size_t size,
                                                      unsigned deadline_ms);
 
+/* Is told during a bind how far it is: the stage's name and a fraction from 0 to 1; NULL: no more. It is
+ * called from the thread that binds, or one of its workers; of its session it may call capstan_late_stop
+ * only. */
+typedef void (*capstan_late_progress)(const char* stage, double fraction, void* user);
+CAPSTAN_LATE_API void capstan_late_on_progress(capstan_late* session, capstan_late_progress progress,
+                                               void* user);
+/* Ends a running bind early, from any thread. It gives what was checked by then (CAPSTAN_LATE_OK or
+ * CAPSTAN_LATE_LATE), or CAPSTAN_LATE_IMPOSSIBLE. Without a running bind it does nothing. */
+CAPSTAN_LATE_API void capstan_late_stop(capstan_late* session);
+
 /* The bound plan in a format, or NULL when there is none. It is valid until the next bind or close; `size`
  * may be NULL, the text ends with a zero byte. */
 CAPSTAN_LATE_API const char* capstan_late_output(capstan_late* session, capstan_late_format format,
                                                  size_t* size);
+
+/* The same by the format's name: "iso14649", "ap238", "json", "linuxcnc", "linuxcnc_tools". */
+CAPSTAN_LATE_API const char* capstan_late_output_as(capstan_late* session, const char* format, size_t* size);
 
 /* Code and diagnostics (lines of text) of the last call. Never NULL. */
 CAPSTAN_LATE_API capstan_late_code capstan_late_status(const capstan_late* session);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "planner/ground/vocabulary/shape_kind.h"
+
 namespace capstan::rules {
 namespace {
 
@@ -261,20 +263,14 @@ std::string RuleFinding::text() const {
 }
 
 const std::vector<ShapeTable>& shape_tables() {
-  static const std::vector<ShapeTable> kTables{{"face", "face"},
-                                               {"pocket", "pocket"},
-                                               {"slot", "slot"},
-                                               {"step", "step"},
-                                               {"hole", "hole"},
-                                               {"countersink", "hole"},
-                                               {"outside", "outside"},
-                                               {"chamfer", "chamfer"},
-                                               {"edge_round", "edge_round"},
-                                               {"thread", "thread"},
-                                               {"spherical_cap", "spherical_cap"},
-                                               {"rounded_end", "rounded_end"},
-                                               {"freeform", "freeform"},
-                                               {"toolpath", "toolpath"}};
+  static const std::vector<ShapeTable> kTables = [] {
+    std::vector<ShapeTable> out;
+    for (const model::ShapeKindRow& r : model::shape_kinds()) {
+      out.push_back({r.name, r.name});
+      if (r.value == model::ShapeKind::kHole) out.push_back({"countersink", r.name});
+    }
+    return out;
+  }();
   return kTables;
 }
 

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "planner/ground/base/number.h"
+#include "planner/ground/vocabulary/shape_kind.h"
 
 namespace capstan::rules {
 namespace {
@@ -13,6 +14,14 @@ FactType number(std::string_view name, double from, double below, std::string_vi
 }
 FactType symbols(std::string_view name, std::vector<std::string_view> values, std::string_view meaning) {
   return {name, FactKind::kSymbol, 0.0, 0.0, std::move(values), meaning};
+}
+
+/// Kinds of shape; countersinks are asked about apart from other holes.
+std::vector<std::string_view> shapes() {
+  std::vector<std::string_view> out{to_text(model::ShapeKind::kHole), "countersink"};
+  for (const model::ShapeKindRow& r : model::shape_kinds())
+    if (r.value != model::ShapeKind::kHole) out.push_back(r.name);
+  return out;
 }
 
 std::size_t index_of(std::string_view name) {
@@ -68,9 +77,7 @@ const std::vector<FactType>& fact_types() {
           "surface_form", {"curved", "walls", "prismatic"},
           "of a surface: no upright walls within the raw piece, curved with such walls, or walls and level "
           "floors only"),
-      symbols("shape",
-              {"hole", "countersink", "face", "pocket", "slot", "step", "outside", "chamfer", "edge_round",
-               "thread", "spherical_cap", "rounded_end", "freeform", "toolpath"},
+      symbols("shape", shapes(),
               "what kind of feature it is; countersink: a hole whose wall is a countersink's cone"),
       number("ra_um", 0.0, 1001.0, "surface roughness Ra asked; 1000: not asked"),
       number("position_mm", 0.0, 1001.0, "zone of position, coaxiality or symmetry; 1000: not asked"),

@@ -19,7 +19,7 @@ FLOORS = {
     "physics": "mechanics motion stock engagement",
     "making": "sequence workholding probing toolpath optimise step",
     "proof": "verify",
-    "door": "pipeline late facade app",
+    "door": "pipeline late service transport facade app",
 }
 
 # Folder -> room. planner/controls is a floor of one room. Of folders that hold each other the deepest counts.
@@ -32,6 +32,9 @@ FOLDERS = {
     "planner/controls": "controls",
     "rules": "rules", "casebase": "casebase", "include/capstan": "public",
 }
+
+# The rooms of the door; each may include only what its row says.
+DOORS = ("pipeline", "late", "service", "transport", "facade", "app", "public")
 
 # Room -> what it may include besides itself.
 GROUND = "base vocabulary geometry"
@@ -60,10 +63,13 @@ ALLOWED = {
     "optimise": MODEL + " mechanics motion",
     "controls": MODEL + " motion",
     "verify": MODEL + " p21 " + EXCHANGE + " exchange mechanics",
-    "pipeline": " ".join(r for r in FOLDERS.values() if r not in ("pipeline", "late", "facade", "app", "public")),
-    "late": MODEL + " pipeline public",
-    "facade": " ".join(r for r in FOLDERS.values() if r != "app"),
-    "app": " ".join(FOLDERS.values()),
+    "pipeline": " ".join(r for r in FOLDERS.values() if r not in DOORS),
+    "late": MODEL + " pipeline",
+    "service": " ".join(r for r in FOLDERS.values() if r not in DOORS) + " pipeline late",
+    "transport": "base service public",
+    "facade": MODEL + " motion optimise service public",
+    # The command shows what others do: the rooms after `service` are what its lists and texts are of.
+    "app": MODEL + " service motion mechanics optimise json rules casebase shop library formats",
     "public": "",
 }
 ALLOWED = {room: set(names.split()) for room, names in ALLOWED.items()}

@@ -132,18 +132,17 @@ def faults(found, allowed):
 
 
 def objects_of(root, build):
-    """The rooms' objects, and the sources that have none."""
-    objects, missing = [], []
+    """The objects of the rooms' sources (not what is left of sources that are gone), and the sources without."""
+    built = {}
     for top in FOLDERS:
         for folder, _, names in os.walk(os.path.join(build, top)):
-            objects += [os.path.join(folder, name) for name in names if name.endswith(".cpp.o")]
-    tails = {path.split(".dir/")[-1] for path in objects}
-    for path, _ in sources(root):
-        if path.endswith(".cpp") and not path.startswith("include"):
-            parts = path.split("/")
-            if not any("/".join(parts[i:]) + ".o" in tails for i in range(len(parts))):
-                missing.append(path)
-    return sorted(objects), missing
+            for name in names:
+                if name.endswith(".cpp.o"):
+                    path = os.path.join(folder, name)
+                    place = re.sub(r"CMakeFiles/[^/]+\.dir/", "", os.path.relpath(path, build))
+                    built[place[:-len(".o")]] = path
+    own = [path for path, _ in sources(root) if path.endswith(".cpp") and not path.startswith("include")]
+    return sorted(built[path] for path in own if path in built), [path for path in own if path not in built]
 
 
 def main(root, build):

@@ -5,7 +5,7 @@
 #include <set>
 #include <string>
 
-#include "planner/door/pipeline/given/shop.h"
+#include "tests/support/shop.h"
 #include "planner/door/pipeline/pipeline.h"
 #include "planner/model/features/resolve.h"
 #include "planner/model/nouns/all.h"

@@ -1,5 +1,7 @@
-#include "casebase/index.h"
+#include "casebase/index/index.h"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <random>
 #include <thread>
@@ -86,10 +88,47 @@ TEST_P(IndexContract, AnswersManyThreadsAlike) {
   for (const auto& other : answers) EXPECT_EQ(other, answers.front());
 }
 
-INSTANTIATE_TEST_SUITE_P(All, IndexContract, testing::Values(&make_linear_index, &make_index),
-                         [](const auto& made) {
-                           return made.index == 0 ? std::string("linear") : std::string("built");
-                         });
+TEST_P(IndexContract, KeepsItsLimitToTheLastBit) {
+  // Multiples of 0.1 are no binary fractions: differences, squares and sums all round.
+  std::mt19937 random(11);
+  std::uniform_int_distribution<int> tenths(-40, 40);
+  std::vector<Point> points(500);
+  for (Point& p : points) {
+    for (double& v : p) v = 0.1 * tenths(random);
+  }
+  const auto index = GetParam()(points);
+  for (const Point& q : random_points(10, 12, false)) {
+    for (std::size_t row = 0; row < points.size(); row += 7) {
+      const double exactly = distance2(q, points[row]);
+      const auto holds = [&](double limit) {
+        const auto hits = index->within(q, limit);
+        return std::any_of(hits.begin(), hits.end(), [&](const Hit& h) { return h.row == row; });
+      };
+      ASSERT_TRUE(holds(exactly));
+      ASSERT_FALSE(holds(std::nextafter(exactly, 0.0)));
+    }
+  }
+}
+
+TEST_P(IndexContract, FindsAmongPointsOnALine) {
+  // One side of every box has no width, and half of the points are one point.
+  std::vector<Point> points(64);
+  for (std::size_t i = 0; i < 32; ++i) points[i] = {double(i), 2.0, 2.0, 2.0};
+  for (std::size_t i = 32; i < 64; ++i) points[i] = {7.0, 2.0, 2.0, 2.0};
+  const auto hits = GetParam()(points)->nearest({7.0, 2.0, 2.0, 2.0}, 35);
+  ASSERT_EQ(hits.size(), 35u);
+  EXPECT_EQ(hits[0], (Hit{7, 0.0}));
+  for (std::size_t i = 1; i <= 32; ++i) EXPECT_EQ(hits[i], (Hit{31 + i, 0.0}));
+  EXPECT_EQ(hits[33], (Hit{6, 1.0}));
+  EXPECT_EQ(hits[34], (Hit{8, 1.0}));
+}
+
+// `built` is FLANN's where it is found.
+INSTANTIATE_TEST_SUITE_P(
+    All, IndexContract, testing::Values(&make_linear_index, &make_tree_index, &make_index),
+    [](const auto& made) {
+      return std::string(made.index == 0 ? "linear" : made.index == 1 ? "tree" : "built");
+    });
 
 TEST(Normalisation, MeasuresSizesByTheirRatio) {
   const Question q{.operation = "A",

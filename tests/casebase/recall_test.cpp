@@ -1,5 +1,5 @@
 #include "casebase/casebase.h"
-#include "casebase/index.h"
+#include "casebase/index/index.h"
 #include "casebase/sha256.h"
 #include "planner/model/nouns/all.h"
 #include "tests/casebase/sample.h"

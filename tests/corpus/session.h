@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "planner/door/pipeline/given/shop.h"
+#include "tests/support/shop.h"
 #include "planner/door/pipeline/pipeline.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/plan/plan.h"

@@ -6,6 +6,7 @@
 #include "casebase/casebase.h"
 #include "planner/files/exchange/exchange.h"
 #include "planner/files/json/json.h"
+#include "planner/making/workholding/place.h"
 #include "planner/proof/verify/program/program_checks.h"
 #include "planner/proof/verify/verify.h"
 #include "rules/engine/table.h"
@@ -85,7 +86,7 @@ void workholding(std::string bytes) {
   const auto file = tooling::read_holding(bytes, "input.yaml", job);
   if (!said(file)) return;
   for (const auto& wish : file->setups)
-    (void)said(tooling::place(wish, {{0, 0, -20}, {80, 60, 0}}, file->fixtures));
+    (void)said(workholding::place(wish, {{0, 0, -20}, {80, 60, 0}}, file->fixtures));
 }
 void rules(std::string bytes) { (void)said(rules::rules_from_texts({{"input.yaml", std::move(bytes)}})); }
 void cases(std::string bytes) { (void)said(casebase::from_csv(bytes, "input.csv")); }

@@ -1,9 +1,11 @@
-# An installed Capstan, used by a project that knows nothing of this tree. A sanitized library would want its
-# consumer sanitized too, so not there.
-if(TARGET capstan_facade AND NOT CAPSTAN_SANITIZE)
-  add_test(NAME Install.ServesAConsumer
-    COMMAND ${CMAKE_COMMAND} -DBUILT=${CMAKE_BINARY_DIR} -DSCRATCH=${CMAKE_BINARY_DIR}/install-test
-      -DCONSUMER=${CMAKE_CURRENT_LIST_DIR}/consumer -DVERSION=${PROJECT_VERSION} -DGENERATOR=${CMAKE_GENERATOR}
-      -DCOMPILER=${CMAKE_CXX_COMPILER} -P ${CMAKE_CURRENT_LIST_DIR}/consumer.cmake)
-  set_tests_properties(Install.ServesAConsumer PROPERTIES TIMEOUT 300)
+# An installed Capstan, used by projects that know nothing of this tree. A sanitized library would want its
+# consumers sanitized too, so not there.
+if(TARGET capstan_facade AND TARGET capstan_late_shared AND TARGET capstan_manual_pages AND NOT CAPSTAN_SANITIZE)
+  find_package(Python3 REQUIRED COMPONENTS Interpreter)
+  add_test(NAME Install.HoldsWhatIsPromised
+    COMMAND ${Python3_EXECUTABLE} -B ${CMAKE_CURRENT_LIST_DIR}/installed_test.py
+      --source ${CMAKE_SOURCE_DIR} --built ${CMAKE_BINARY_DIR} --scratch ${CMAKE_BINARY_DIR}/install-test
+      --libdir ${CMAKE_INSTALL_LIBDIR} --version ${PROJECT_VERSION} --cmake ${CMAKE_COMMAND}
+      --generator ${CMAKE_GENERATOR} --cxx ${CMAKE_CXX_COMPILER} --cc ${CMAKE_C_COMPILER})
+  set_tests_properties(Install.HoldsWhatIsPromised PROPERTIES TIMEOUT 300)
 endif()

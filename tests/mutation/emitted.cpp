@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "planner/controls/linuxcnc/linuxcnc.h"
-#include "planner/door/pipeline/given/shop.h"
+#include "tests/support/shop.h"
 #include "tests/proof/verify/plans.h"
 #include "tests/support/corpus.h"
 

@@ -6,5 +6,5 @@ list(FILTER mutation_sources EXCLUDE REGEX "_test\\.cpp$")
 add_library(capstan_mutation STATIC ${mutation_sources})
 target_link_libraries(capstan_mutation
   PUBLIC $<BUILD_INTERFACE:capstan_options> capstan_test_support
-  PRIVATE capstan::verify capstan::exchange capstan::json capstan::controls capstan::pipeline capstan::tooling)
+  PRIVATE capstan::verify capstan::exchange capstan::json capstan::controls capstan::service capstan::tooling)
 capstan_test(mutation DEPENDS verify LIBS capstan_mutation)

@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <string>
 
-#include "planner/door/pipeline/given/shop.h"
+#include "tests/support/shop.h"
 #include "planner/door/pipeline/pipeline.h"
 #include "planner/files/exchange/exchange.h"
 #include "planner/ground/base/file.h"

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "planner/door/pipeline/given/shop.h"
+#include "tests/support/shop.h"
 #include "planner/ground/base/number.h"
 #include "planner/physics/motion/time.h"
 #include "tests/support/corpus.h"

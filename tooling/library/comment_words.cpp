@@ -234,21 +234,15 @@ double angle_of(const std::string& text, CutterClass c) {
   return 0.0;
 }
 
-bool has_cone(CutterClass c) {
-  return c == CutterClass::kChamferMill || c == CutterClass::kCountersink || c == CutterClass::kSpotDrill ||
-         c == CutterClass::kCenterDrill || c == CutterClass::kBackCountersink ||
-         c == CutterClass::kTwistDrill;
-}
-
 }  // namespace
 
 CommentSizes sizes_of_words(std::string_view words, CutterClass c, double diameter_mm, double mm_per_unit) {
   constexpr std::size_t kLongest = 4096;  // default, unsourced: far above any comment
   const std::string text = lower(words.substr(0, kLongest));
   CommentSizes out;
-  if (c == CutterClass::kTap || c == CutterClass::kThreadMill) out.pitch_mm = pitch_of(text, c, diameter_mm);
+  if (model::has(c, model::CutterTrait::kThreads)) out.pitch_mm = pitch_of(text, c, diameter_mm);
   if (c == CutterClass::kBullnoseEndmill) out.corner_radius_mm = radius_of(text, diameter_mm, mm_per_unit);
-  if (has_cone(c)) {
+  if (model::has(c, model::CutterTrait::kPointAngle)) {
     out.point_angle_rad = angle_of(text, c);
     if (const double tip = after_word(text, "tip", mm_per_unit); tip < diameter_mm) out.tip_mm = tip;
     out.pointed = text.find("v-bit") != std::string::npos || text.find("vbit") != std::string::npos;

@@ -16,56 +16,6 @@ namespace {
 using model::Cutter;
 using model::CutterClass;
 
-struct Word {
-  const char* text;
-  CutterClass cutter_class;
-};
-/// The first that occurs decides, so the more telling come first ("tap drill" is a drill, "thread mill" no
-/// end mill). English, German, Portuguese.
-constexpr std::array kWords = {Word{"gun drill", CutterClass::kGunDrill},
-                               Word{"corner round", CutterClass::kCornerRoundingMill},
-                               Word{"tapered", CutterClass::kTaperedEndmill},
-                               Word{"side mill", CutterClass::kSideMill},
-                               Word{"slitting saw", CutterClass::kSideMill},
-                               Word{"back counterbore", CutterClass::kBackCounterbore},
-                               Word{"back countersink", CutterClass::kBackCountersink},
-                               Word{"thread mill", CutterClass::kThreadMill},
-                               Word{"threadmill", CutterClass::kThreadMill},
-                               Word{"t-slot", CutterClass::kTSlotMill},
-                               Word{"tslot", CutterClass::kTSlotMill},
-                               Word{"dovetail", CutterClass::kDovetailMill},
-                               Word{"counterbore", CutterClass::kCounterbore},
-                               Word{"countersink", CutterClass::kCountersink},
-                               Word{"senker", CutterClass::kCountersink},
-                               Word{"chamfer", CutterClass::kChamferMill},
-                               Word{"v-bit", CutterClass::kChamferMill},
-                               Word{"vbit", CutterClass::kChamferMill},
-                               Word{"reamer", CutterClass::kReamer},
-                               Word{"reibahle", CutterClass::kReamer},
-                               Word{"alargador", CutterClass::kReamer},
-                               Word{"boring", CutterClass::kBoringTool},
-                               Word{"spot", CutterClass::kSpotDrill},
-                               Word{"center drill", CutterClass::kCenterDrill},
-                               Word{"centre drill", CutterClass::kCenterDrill},
-                               Word{"centerdrill", CutterClass::kCenterDrill},
-                               Word{"zentrierbohrer", CutterClass::kCenterDrill},
-                               Word{"gewindebohrer", CutterClass::kTap},
-                               Word{"drill", CutterClass::kTwistDrill},
-                               Word{"bohrer", CutterClass::kTwistDrill},
-                               Word{"broca", CutterClass::kTwistDrill},
-                               Word{"face mill", CutterClass::kFacemill},
-                               Word{"facemill", CutterClass::kFacemill},
-                               Word{"shell mill", CutterClass::kFacemill},
-                               Word{"planfr", CutterClass::kFacemill},
-                               Word{"ball", CutterClass::kBallEndmill},
-                               Word{"kugelfr", CutterClass::kBallEndmill},
-                               Word{"bull", CutterClass::kBullnoseEndmill},
-                               Word{"end mill", CutterClass::kEndmill},
-                               Word{"endmill", CutterClass::kEndmill},
-                               Word{"schaftfr", CutterClass::kEndmill},
-                               Word{"fresa", CutterClass::kEndmill},
-                               Word{"tap", CutterClass::kTap}};
-
 std::string lower(std::string_view s) {
   std::string out(s);
   for (char& c : out)
@@ -167,11 +117,7 @@ std::optional<model::Substrate> substrate_from_words(const std::string& text) {
 }  // namespace
 
 std::optional<CutterClass> class_from_words(std::string_view comment) {
-  const std::string text = lower(comment);
-  if (holds(text, "probe")) return CutterClass::kTouchProbe;  // "ball probe" is no ball end mill
-  for (const Word& w : kWords)
-    if (holds(text, w.text)) return w.cutter_class;
-  return std::nullopt;
+  return model::cutter_class_called(lower(comment));
 }
 
 CommentWords words_of_comment(std::string_view comment, CutterClass c, double diameter_mm,

@@ -107,7 +107,7 @@ double axial_s(const Cutter& c, const ToolRequirement& r, const StartValues& s, 
   double length = p.depth_mm > 0.0 ? p.depth_mm : r.depth_of_cut_mm;
   if (!(length > 0.0)) length = r.reach_mm > 0.0 ? r.reach_mm : c.cutting_diameter_mm;
   double scale = 1.0;
-  if (c.cutter_class == CutterClass::kTwistDrill || c.cutter_class == CutterClass::kGunDrill) {
+  if (model::has(c.cutter_class, model::CutterTrait::kDrills)) {
     const double hole = p.pre_hole_mm < c.cutting_diameter_mm ? p.pre_hole_mm : 0.0;
     const auto l =
         mechanics::drilling_loads({c.cutting_diameter_mm, s.fz_mm * c.teeth, s.spindle_rpm, c.teeth,

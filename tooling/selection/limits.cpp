@@ -45,12 +45,10 @@ constexpr double kSteelDensity = 7.85e-6, kCarbideDensity = 14.9e-6;
 std::string mm(double v) { return trimmed(v, 3) + " mm"; }
 std::string degrees(double rad) { return trimmed(rad * 180.0 / kPi, 1) + " deg"; }
 
-bool threads(CutterClass c) { return c == CutterClass::kTap || c == CutterClass::kThreadMill; }
-
 std::optional<std::string> wrong_thread(const Cutter& c, const ToolRequirement& r) {
   if (r.thread_pitch_mm > 0.0 && std::abs(c.thread_pitch_mm - r.thread_pitch_mm) > kPitchSlackMm)
     return "pitch " + mm(c.thread_pitch_mm) + " is not " + mm(r.thread_pitch_mm);
-  if (!threads(c.cutter_class)) return std::nullopt;
+  if (!model::has(c.cutter_class, model::CutterTrait::kThreads)) return std::nullopt;
   if (!r.thread_form.empty() && !c.thread_form.empty() && r.thread_form != c.thread_form)
     return "thread form " + c.thread_form + " is not " + r.thread_form;
   if (r.thread_size_mm > 0.0 && c.thread_size_mm > 0.0) {
@@ -123,43 +121,34 @@ std::optional<double> least_torque_nm(const Cutter& c, const StartValues& s, con
   const mechanics::WorkMaterial work{w.kc11_n_mm2, w.mc};
   // Average values: margins for spread and wear are the optimiser's, which may feed slower for them.
   const double n = std::max(1.0, s.spindle_rpm);
-  switch (c.cutter_class) {
-    case CutterClass::kTwistDrill:
-    case CutterClass::kGunDrill: {
-      const double hole = p.pre_hole_mm < c.cutting_diameter_mm ? p.pre_hole_mm : 0.0;
-      const auto l =
-          mechanics::drilling_loads({c.cutting_diameter_mm, least_fz_mm(c, s) * c.teeth, n, c.teeth,
-                                     c.point_angle_rad > 0.0 ? c.point_angle_rad : kPi, hole},
-                                    work);
-      if (!l) return std::nullopt;
-      return l->torque_nm;
-    }
-    case CutterClass::kTap: {
-      mechanics::TappingCut t;
-      t.nominal_diameter_mm = c.cutting_diameter_mm;
-      t.pitch_mm = c.thread_pitch_mm;
-      t.core_hole_diameter_mm =
-          p.pre_hole_mm > 0.0 ? p.pre_hole_mm : c.cutting_diameter_mm - c.thread_pitch_mm;
-      t.n_rpm = n;
-      const auto l = mechanics::tapping_loads(t, work);
-      if (!l) return std::nullopt;
-      return l->torque_nm;
-    }
-    case CutterClass::kEndmill:
-    case CutterClass::kBullnoseEndmill:
-    case CutterClass::kBallEndmill:
-    case CutterClass::kFacemill: {
-      const double d = c.cutting_diameter_mm, ae = kLeastWidthRatio * d;
-      const double fz = least_fz_mm(c, s);
-      const double h = mechanics::mean_chip_thickness_mm(fz, ae, d);
-      if (!(h > 0.0)) return std::nullopt;
-      const double ft = mechanics::mean_tangential_force_n(mechanics::specific_force_n_mm2(work, h),
-                                                           kLeastDepthMm, ae, fz, c.teeth, d);
-      return ft * 0.5 * d / 1000.0;
-    }
-    default:
-      return std::nullopt;
+  if (model::has(c.cutter_class, model::CutterTrait::kDrills)) {
+    const double hole = p.pre_hole_mm < c.cutting_diameter_mm ? p.pre_hole_mm : 0.0;
+    const auto l = mechanics::drilling_loads({c.cutting_diameter_mm, least_fz_mm(c, s) * c.teeth, n, c.teeth,
+                                              c.point_angle_rad > 0.0 ? c.point_angle_rad : kPi, hole},
+                                             work);
+    if (!l) return std::nullopt;
+    return l->torque_nm;
   }
+  if (c.cutter_class == CutterClass::kTap) {
+    mechanics::TappingCut t;
+    t.nominal_diameter_mm = c.cutting_diameter_mm;
+    t.pitch_mm = c.thread_pitch_mm;
+    t.core_hole_diameter_mm = p.pre_hole_mm > 0.0 ? p.pre_hole_mm : c.cutting_diameter_mm - c.thread_pitch_mm;
+    t.n_rpm = n;
+    const auto l = mechanics::tapping_loads(t, work);
+    if (!l) return std::nullopt;
+    return l->torque_nm;
+  }
+  if (model::has(c.cutter_class, model::CutterTrait::kLayers)) {
+    const double d = c.cutting_diameter_mm, ae = kLeastWidthRatio * d;
+    const double fz = least_fz_mm(c, s);
+    const double h = mechanics::mean_chip_thickness_mm(fz, ae, d);
+    if (!(h > 0.0)) return std::nullopt;
+    const double ft = mechanics::mean_tangential_force_n(mechanics::specific_force_n_mm2(work, h),
+                                                         kLeastDepthMm, ae, fz, c.teeth, d);
+    return ft * 0.5 * d / 1000.0;
+  }
+  return std::nullopt;
 }
 
 double frustum_mm3(const model::HolderSegment& s) {

@@ -147,6 +147,7 @@ Selection select(const ToolRequirement& requirement, const std::vector<Cutter>& 
   std::vector<Fit> fits;
   std::vector<Near> near;
   std::map<CutterClass, std::set<double>> other_sizes;
+  std::string not_of;  // what the material is not cut with, of the first that would fit else
   for (const Cutter& original : library) {
     const std::size_t rank = rank_of(r, original.cutter_class);
     if (rank == r.classes.size() || original.cutting_diameter_mm <= 0.0) continue;
@@ -162,6 +163,8 @@ Selection select(const ToolRequirement& requirement, const std::vector<Cutter>& 
     if (!why) {
       if (c.cutter_class != CutterClass::kTouchProbe) start = start_values(c, material, machine);
       why = not_for_machine(c, start, material, machine, preferences);
+      if (const auto never = not_cut_with(c, start, material); never && not_of.empty())
+        not_of = ", not of " + std::string(model::to_text(c.substrate)) + " (" + c.id + ": " + *never + ")";
     }
     if (why)
       near.push_back({&c, std::move(*why)});
@@ -188,7 +191,7 @@ Selection select(const ToolRequirement& requirement, const std::vector<Cutter>& 
   }
   tell_near(near, preferences.most_rejected, out);
   sum_up_sizes(r, other_sizes, out);
-  if (out.ranked.empty()) out.would_fit = words_of(r);
+  if (out.ranked.empty()) out.would_fit = words_of(r) + not_of;
   return out;
 }
 

@@ -24,20 +24,10 @@ constexpr double kSlack = 1e-9;
 /// What a cutter without any preset starts with, as a part of its diameter.
 constexpr double kLeastFeedPerDiameter = 0.002;  // default, unsourced
 
+/// The cutter's own presets first, from the material itself to its group; then those of its like.
 const CuttingPreset* preset_for(const Cutter& c, const WorkMaterial& m) {
-  // The cutter's own presets first, from the material itself to its group; then those of its like.
-  for (const bool of_its_like : {false, true}) {
-    const auto named = [&](const std::string& name) -> const CuttingPreset* {
-      for (const CuttingPreset& p : c.presets)
-        if (p.material_group == name && borrowed(p) == of_its_like) return &p;
-      return nullptr;
-    };
-    if (const auto* p = named(m.id)) return p;
-    for (const std::string& name : m.names)
-      if (const auto* p = named(name)) return p;
-    if (const auto* p = named(m.iso_group)) return p;
-  }
-  return nullptr;
+  const auto* own = model::preset_of(c, m, false);
+  return own != nullptr ? own : model::preset_of(c, m, true);
 }
 
 double feed_limit(const Cutter& c, const Machine& m) {
@@ -70,6 +60,11 @@ StartValues start_values(const Cutter& c, const WorkMaterial& material, const Ma
     vc = c.substrate == model::Substrate::kHss ? material.vc_hss_m_min : material.vc_carbide_m_min;
     source += (source.empty() ? "" : "; ") + std::string("vc: the material's");
   }
+  // An own preset may state a speed alone: the feed of its like counts then.
+  if (const double like = model::start_feed_mm(c, material); fz <= 0.0 && like > 0.0) {
+    fz = like;
+    source += "; fz: that of a cutter like it";
+  }
   if (fz <= 0.0) {
     fz = c.fz_min_mm > 0.0 ? c.fz_min_mm : kLeastFeedPerDiameter * c.cutting_diameter_mm;
     source += std::string("; fz: ") +
@@ -90,11 +85,12 @@ StartValues start_values(const Cutter& c, const WorkMaterial& material, const Ma
   out.wanted_vc_m_min = vc;
   limit_speed(rpm, 0.0, c.maximum_speed_rpm, "tool", text);
   limit_speed(rpm, machine.spindle.rpm_min, machine.spindle.rpm_max, "spindle", text);
-  if (!tap && c.fz_max_mm > 0.0 && fz > c.fz_max_mm) {
+  const double largest = model::borne_feed(c, material).mm;
+  if (!tap && largest > 0.0 && fz > largest) {
     const std::string* of = source_of(c, "fz_max_mm");
-    text += "; fz lowered from " + trimmed(fz, 4) + " to the cutter's largest, " + trimmed(c.fz_max_mm, 4) +
+    text += "; fz lowered from " + trimmed(fz, 4) + " to the cutter's largest, " + trimmed(largest, 4) +
             " mm" + (of != nullptr ? " (" + *of + ")" : std::string());
-    fz = c.fz_max_mm;
+    fz = largest;
   }
   if (fz < c.fz_min_mm) fz = c.fz_min_mm;
   const double limit = feed_limit(c, machine);

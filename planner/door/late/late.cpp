@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "planner/door/pipeline/given/shop.h"
+#include "planner/door/pipeline/given/magazine.h"
+#include "planner/door/pipeline/program_check.h"
 
 // A fallback first, whatever it takes; then an improvement on the rest of the time. Each answer passes the
 // same three questions: is anything open, is every cutter in the magazine, does the check condemn it.
@@ -110,12 +111,17 @@ Result<LateOutcome> bind(model::Plan plan, pipeline::Inputs inputs, const LatePo
   // The improvement: only in the time left, with twice the time of one check in reserve.
   std::optional<TimePoint> until;
   if (policy.deadline) until = began + *policy.deadline - 2 * checking;
-  if (policy.budget <= policy.fallback_budget || (until && job.now() >= *until)) return told_late();
+  if (job.stop_requested() || policy.budget <= policy.fallback_budget || (until && job.now() >= *until))
+    return told_late();
   Job trial;
   trial.threads = job.threads;
   trial.evaluation_budget = policy.budget;
   trial.set_clock(job.clock());
-  trial.set_progress([&](std::string_view stage, double fraction) { job.progress(stage, fraction); });
+  // Who stops the call stops the improvement; the fallback is what was checked by then.
+  trial.set_progress([&](std::string_view stage, double fraction) {
+    job.progress(stage, fraction);
+    if (job.stop_requested()) trial.request_stop();
+  });
   if (until) trial.set_deadline(*until);
   auto better = pipeline::bind(std::move(plan), inputs, policy_of(), trial);
   if (!better || !acceptable(*better)) return told_late();

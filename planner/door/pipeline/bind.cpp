@@ -8,7 +8,7 @@
 #include "planner/door/pipeline/paths/gone.h"
 #include "planner/door/pipeline/profit.h"
 #include "planner/door/pipeline/work.h"
-#include "planner/ground/vocabulary/work_offset.h"
+#include "planner/ground/vocabulary/control_kind.h"
 #include "planner/model/plan/decision/contradicted.h"
 #include "planner/model/plan/decision/unreadable.h"
 #include "planner/model/plan/order/step_ids.h"
@@ -66,18 +66,17 @@ void collect_cutters(Work& w) {
 }
 
 Status collect_setups(Work& w) {
-  // LinuxCNC has nine work offsets; a plan with more set-ups has to be parted.
-  constexpr std::size_t kCount = model::kWorkOffsets.size();
-  if (w.setups.size() > kCount) {
-    return fail("PIP-OFFSETS", "the part needs " + std::to_string(w.setups.size()) +
-                                   " set-ups, and a control has nine work offsets; plan it in parts");
+  const model::ControlKind& control = model::control_kind(w.inputs.machine.control.dialect);
+  const std::size_t count = control.work_offsets.size();
+  if (w.setups.size() > count) {
+    return fail("PIP-OFFSETS", "the part needs " + std::to_string(w.setups.size()) + " set-ups, and " +
+                                   std::string(control.name) + " has " + std::to_string(count) +
+                                   " work offsets; plan it in parts");
   }
   for (std::size_t i = 0; i < w.setups.size(); ++i) {
-    w.plan.setups.push_back({w.setups[i].setup, std::string(model::kWorkOffsets[i % kCount]),
+    w.plan.setups.push_back({w.setups[i].setup, std::string(control.work_offsets[i]),
                              w.setups[i].security_z_mm, w.setups[i].holding});
   }
-  if (w.setups.size() > kCount)
-    w.job.warn("PIP-OFFSETS", "there are more set-ups than work offsets; offsets repeat");
   return {};
 }
 

@@ -97,7 +97,7 @@ void add_craft(const Work& w, const std::vector<std::size_t>& steps, const std::
       for (const std::size_t b : own) {
         const StepWork& sa = w.steps[steps[a]];
         const StepWork& sb = w.steps[steps[b]];
-        const int ra = craft_rank(items[a].operation), rb = craft_rank(items[b].operation);
+        const int ra = model::craft_rank(items[a].operation), rb = model::craft_rank(items[b].operation);
         if (items[a].feature == items[b].feature || ra == 0 || rb <= ra) continue;
         if (norm(sa.shapes.front().frame.z - sb.shapes.front().frame.z) > sequence::kSameDirection) continue;
         if (next[a].contains(b) || follows(next, b, a)) continue;
@@ -228,35 +228,6 @@ void drop_empty_setups(Work& w) {
 }
 
 }  // namespace
-
-int craft_rank(model::TypeId operation) {
-  using model::TypeId;
-  switch (operation) {
-    case TypeId::kCenterDrilling:
-      return kMarks;
-    case TypeId::kDrilling:
-    case TypeId::kMultistepDrilling:
-      return kDrills;
-    case TypeId::kPlaneRoughMilling:
-    case TypeId::kSideRoughMilling:
-    case TypeId::kBottomAndSideRoughMilling:
-    case TypeId::kFreeformRoughMilling:
-      return kRoughs;
-    case TypeId::kPlaneFinishMilling:
-    case TypeId::kSideFinishMilling:
-    case TypeId::kBottomAndSideFinishMilling:
-    case TypeId::kFreeformFinishMilling:
-      return kFinishes;
-    case TypeId::kBoring:
-    case TypeId::kReaming:
-    case TypeId::kBackBoring:
-    case TypeId::kTapping:
-    case TypeId::kThreadDrilling:
-      return kSizes;
-    default:
-      return 0;
-  }
-}
 
 Status order_steps(Work& w) {
   drop_empty_setups(w);

@@ -11,6 +11,7 @@
 #include "planner/door/pipeline/tries.h"
 #include "planner/ground/geometry/placement.h"
 #include "planner/ground/geometry/region.h"
+#include "planner/ground/vocabulary/operation.h"
 #include "planner/model/features/requirements.h"
 #include "planner/model/features/shape.h"
 #include "planner/model/nouns/all.h"
@@ -184,11 +185,6 @@ void tell_corners(Work& w);
 /// A hole at an edge of the raw piece is milled, or not made: its chains that drill are rejected.
 [[nodiscard]] model::Proposal without_drills_at_edges(const Work& w, const model::FeatureShape& hole,
                                                       const model::Proposal& p);
-
-/// The order of the craft among the steps of one feature: marks, drills, roughs, finishes, sizes holes; 0:
-/// none of these.
-[[nodiscard]] int craft_rank(model::TypeId operation);
-inline constexpr int kMarks = 1, kDrills = 2, kRoughs = 3, kFinishes = 4, kSizes = 5;
 
 /// Whether two shapes ask for the same steps and cutters: members of a pattern.
 [[nodiscard]] bool alike(const model::FeatureShape& a, const model::FeatureShape& b);

@@ -34,6 +34,10 @@ double CutterProfile::radius_at(double height_mm) const {
   return 0.0;
 }
 
+bool is_flat(const CutterProfile& p) {
+  return p.pieces.size() == 1 && p.pieces[0].radius_mm <= 0.0 && p.pieces[0].slope == 0.0;
+}
+
 CutterProfile flat_profile(double diameter_mm, double cutting_length_mm) {
   return bull_profile(diameter_mm, 0.0, cutting_length_mm);
 }

@@ -34,6 +34,9 @@ struct CutterProfile {
   friend bool operator==(const CutterProfile&, const CutterProfile&) = default;
 };
 
+/// One plane across the whole end: no corner, no cone, no ball.
+[[nodiscard]] bool is_flat(const CutterProfile& profile);
+
 [[nodiscard]] CutterProfile flat_profile(double diameter_mm, double cutting_length_mm);
 [[nodiscard]] CutterProfile ball_profile(double diameter_mm, double cutting_length_mm);
 /// Corner radius 0: flat; R: ball.

@@ -54,6 +54,7 @@ struct FeedQuestion {
   bool constant = false;  ///< one feed for all cutting moves: the largest that every section bears
   std::vector<double> feed_factor, speed_factor, dwell_s;  ///< of the path's moves
   std::vector<CutSample> samples;                          ///< in order of moves
+  double known_to_mm = 0.0;  ///< to what length along the path it is known where samples begin and end
   double group_ratio = kGroupRatio;
   bool explain = true;  ///< fill `held_by`: costs about ten more schedules
 };
@@ -78,8 +79,8 @@ struct FeedAnswer {
 ///
 ///     v_i^2 <= v_(i+1)^2 + 2 a L_i
 ///
-/// so that each move can be braked within itself to the feed of the next: a control that looks one block
-/// ahead, as LinuxCNC does for F, arrives at a heavy section slow enough. Last, neighbours within
+/// so that each move can be braked within itself to the feed of the next, where the control needs that
+/// (ControlKind::brakes_within_a_move), and it arrives at a heavy section slow enough. Last, neighbours within
 /// `group_ratio` share the lower feed, and no run of moves asks for more than its fastest move reaches.
 ///
 /// Plunges and ramps: fractions of the step's feed at most; below them what torque and power of drilling

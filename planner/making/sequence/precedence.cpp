@@ -82,20 +82,15 @@ bool meet(const FeatureShape& fa, const Seen& a, const FeatureShape& fb, const S
   return any_in(fa, b.outline) || any_in(fb, a.outline);
 }
 
-bool leaves_a_floor(ShapeKind k) {
-  return k != ShapeKind::kThread && k != ShapeKind::kChamfer && k != ShapeKind::kEdgeRound;
-}
-bool is_edge(ShapeKind k) { return k == ShapeKind::kChamfer || k == ShapeKind::kEdgeRound; }
-
 /// Whether a comes before b by their kinds and heights alone; areas are looked at afterwards, for they cost
 /// more.
 ///
 /// Never both ways: an edge or a thread follows what it is on, a face precedes others from its top down and
 /// deeper faces from its top, and for all else the top of `after` lies below that of `before`.
 bool precedes(const FeatureShape& a, const Seen& sa, const FeatureShape& b, const Seen& sb, Cause& cause) {
-  if (!leaves_a_floor(a.kind)) return false;
+  if (!model::has(a.kind, model::ShapeTrait::kFloor)) return false;
   const bool reached = sb.top >= sa.bottom - kLevel;
-  if (is_edge(b.kind)) {
+  if (model::has(b.kind, model::ShapeTrait::kEdge)) {
     cause = a.kind == ShapeKind::kFace ? Cause::kFaceFirst : Cause::kEdge;
     return reached && (a.kind == ShapeKind::kFace || std::abs(sa.top - sb.top) <= kLevel);
   }

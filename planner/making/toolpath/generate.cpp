@@ -2,6 +2,7 @@
 #include <string>
 
 #include "planner/ground/base/number.h"
+#include "planner/ground/vocabulary/operation.h"
 #include "planner/making/toolpath/hole/hole_paths.h"
 #include "planner/making/toolpath/path_job.h"
 #include "planner/making/toolpath/region/region_paths.h"
@@ -16,9 +17,7 @@ using model::TypeId;
 
 namespace {
 
-bool is_cone(const model::Cutter& c) {
-  return c.cutter_class == CutterClass::kChamferMill || c.cutter_class == CutterClass::kCountersink;
-}
+bool is_cone(const model::Cutter& c) { return model::has(c.cutter_class, model::CutterTrait::kSinks); }
 
 /// The cone of a hole, milled along its wall.
 bool mills_cone(const PathJob& task) {
@@ -33,9 +32,8 @@ bool mills_cone(const PathJob& task) {
 /// A cone along the side of a feature that is no chamfer.
 bool breaks_edge(const PathJob& task) {
   const bool cone = is_cone(task.cutter) && !mills_cone(task);
-  const bool edged = task.shape.kind == ShapeKind::kPocket || task.shape.kind == ShapeKind::kHole ||
-                     task.shape.kind == ShapeKind::kOutside;
-  return cone && edged && task.operation == TypeId::kSideFinishMilling;
+  return cone && model::has(task.shape.kind, model::ShapeTrait::kRim) &&
+         task.operation == TypeId::kSideFinishMilling;
 }
 
 Status check(const PathJob& task) {
@@ -70,7 +68,8 @@ Result<GeneratedPath> hole_milling(const PathJob& task, Job& job) {
   if (!task.previous_diameter_mm && task.left_on_side_mm)
     hole.previous_diameter_mm = task.shape.diameter.middle() - 2.0 * *task.left_on_side_mm;
   if (task.shape.bottom_diameter_mm > 0.0 &&
-      task.shape.bottom_diameter_mm < task.shape.diameter.nominal_mm - 1e-6 && mills_sections(task.cutter))
+      task.shape.bottom_diameter_mm < task.shape.diameter.nominal_mm - 1e-6 &&
+      model::has(task.cutter.cutter_class, model::CutterTrait::kLayers))
     return tapered_hole_path(hole, job);
   if (is_hole_cutter(hole)) return sunk_path(hole, job);
   if (helix_suits(hole)) return helix_path(hole, job);
@@ -117,7 +116,7 @@ void warn_of_taper(const PathJob& task, Job& job) {
   const auto& s = task.shape;
   const bool tapered = s.kind == ShapeKind::kHole && s.bottom_diameter_mm > 0.0 &&
                        s.bottom_diameter_mm < s.diameter.nominal_mm - 1e-6;
-  if (!tapered || (task.operation != TypeId::kReaming && task.operation != TypeId::kBoring)) return;
+  if (!tapered || !model::has(task.operation, model::OperationTrait::kEnlarges)) return;
   const double depth = task.cutting_depth_mm.value_or(s.depth_mm);
   job.warn("TPA-REST",
            "its wall tapers from " + trimmed(s.diameter.nominal_mm, 3) + " to " +
@@ -129,32 +128,19 @@ void warn_of_taper(const PathJob& task, Job& job) {
 }
 
 Result<GeneratedPath> dispatch(const PathJob& task, Job& job) {
-  switch (task.operation) {
-    case TypeId::kDrilling:
-    case TypeId::kCenterDrilling:
-    case TypeId::kCounterSinking:
-    case TypeId::kMultistepDrilling:
-    case TypeId::kBoring:
-    case TypeId::kReaming:
-    case TypeId::kBackBoring:
-      warn_of_taper(task, job);
-      return drill_path(task, job);
-    case TypeId::kTapping:
-      return tap_path(task, job);
-    case TypeId::kThreadDrilling:
-      return thread_mill_path(task, job);
-    case TypeId::kPlaneRoughMilling:
-    case TypeId::kPlaneFinishMilling:
-    case TypeId::kSideRoughMilling:
-    case TypeId::kSideFinishMilling:
-    case TypeId::kBottomAndSideRoughMilling:
-    case TypeId::kBottomAndSideFinishMilling:
-      return milling(task, job);
-    default:
-      return fail({.code = "TPA-UNSUPPORTED",
-                   .message = task.shape.name + ": this operation has no 2.5D path",
-                   .path = task.shape.name});
+  using model::OperationTrait;
+  if (model::has(task.operation, OperationTrait::kAlongAxis)) {
+    warn_of_taper(task, job);
+    return drill_path(task, job);
   }
+  if (task.operation == TypeId::kTapping) return tap_path(task, job);
+  if (model::has(task.operation, OperationTrait::kThreads)) return thread_mill_path(task, job);
+  if (model::has(task.operation, OperationTrait::kPlane) ||
+      model::has(task.operation, OperationTrait::kWalls))
+    return milling(task, job);
+  return fail({.code = "TPA-UNSUPPORTED",
+               .message = task.shape.name + ": this operation has no 2.5D path",
+               .path = task.shape.name});
 }
 
 }  // namespace

@@ -23,6 +23,7 @@ struct Toleranced {
   bool given = false;                     ///< whether a tolerance was stated
   [[nodiscard]] double middle() const { return nominal_mm + 0.5 * (lower_mm + upper_mm); }
   [[nodiscard]] double width() const { return upper_mm - lower_mm; }
+  friend bool operator==(const Toleranced&, const Toleranced&) = default;
 };
 
 /// A material left standing inside a pocket.
@@ -88,6 +89,9 @@ struct FeatureShape {
 /// Fails  SHP-… when the noun lacks what a shape needs (no depth, no profile), naming the attribute.
 [[nodiscard]] Result<std::vector<FeatureShape>> shapes_of(const Model& model,
                                                           Ref<ManufacturingFeature> feature);
+
+/// Whether two shapes have the same form, sizes and tolerances, wherever they lie; areas are not compared.
+[[nodiscard]] bool same_form(const FeatureShape& a, const FeatureShape& b);
 
 /// Features that are parts of others: elements of compounds, bases of patterns, bosses of pockets, faces and
 /// steps.

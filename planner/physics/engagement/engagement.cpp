@@ -19,10 +19,6 @@ using model::CutterPath;
 using model::MoveKind;
 using stock::Tally;
 
-bool is_flat(const geometry::CutterProfile& p) {
-  return p.pieces.size() == 1 && p.pieces[0].radius_mm <= 0.0 && p.pieces[0].slope == 0.0;
-}
-
 constexpr double kSlack = 1e-3;    // mm: heights are single precision
 constexpr double kFarthest = 1e5;  // mm, from the set-up's origin: no machine is a hundred metres long
 
@@ -61,6 +57,7 @@ class Measurer {
 
   Measurement run() {
     for (std::size_t i = 0; i < path_.size(); ++i) move(i);
+    out_.known_to_mm = map_.cell_mm;
     return std::move(out_);
   }
 
@@ -227,11 +224,6 @@ class Measurer {
 
 }  // namespace
 
-bool undercuts(model::CutterClass c) {
-  return c == CutterClass::kTSlotMill || c == CutterClass::kDovetailMill ||
-         c == CutterClass::kBackCountersink || c == CutterClass::kBackCounterbore;
-}
-
 std::optional<double> head_height(const model::Cutter& c) {
   if (c.cutter_class == CutterClass::kSideMill && c.cutting_width_mm > 0.0) return c.cutting_width_mm;
   if (c.cutter_class == CutterClass::kSideMill || c.cutter_class == CutterClass::kThreadMill) {
@@ -242,7 +234,7 @@ std::optional<double> head_height(const model::Cutter& c) {
 
 Result<Measurement> measure(const CutterPath& path, const model::Cutter& cutter, stock::HeightMap& map,
                             const Options& options) {
-  if (undercuts(cutter.cutter_class)) {
+  if (model::has(cutter.cutter_class, model::CutterTrait::kUndercuts)) {
     return fail("ENG-UNDERCUT", "the cut of " + std::string(model::to_text(cutter.cutter_class)) + " '" +
                                     cutter.id + "' lies under an overhang; it is not measured");
   }

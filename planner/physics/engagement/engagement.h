@@ -31,8 +31,6 @@ struct Options {
   double step_mm = 0.0;
 };
 
-/// Cutters whose cut always lies under an overhang.
-[[nodiscard]] bool undercuts(model::CutterClass c);
 /// Height of a head behind which the body is thinner, mm: nothing over it is cut. None: the flanks go up.
 [[nodiscard]] std::optional<double> head_height(const model::Cutter& c);
 
@@ -43,6 +41,9 @@ struct Measurement {
   double removed_mm3 = 0.0;         ///< at feed
   double rapid_removed_mm3 = 0.0;   ///< by rapids: more than nothing is a collision
   double highest_contact_mm = 0.0;  ///< above the tip, at feed: to be held against the cutting length
+  /// To what length along the path it is known where contact begins and ends: a cell is cut when its middle
+  /// is met. 0: exactly.
+  double known_to_mm = 0.0;
 };
 
 /// Measures the cut along a path and takes what it cuts from the stock.

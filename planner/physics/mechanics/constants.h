@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string_view>
+
 /// The empirical numbers of this room, each with its source. `verify` may use this header and nothing
 /// else of the room: its bounds are then computed apart from ours, from the same constants.
 namespace capstan::mechanics {
@@ -57,16 +59,40 @@ inline constexpr double kKienzleMaxChipThicknessMm = 2.5;
 /// Review", Materials 2022, 15(1), 59 (doi 10.3390/ma15010059): tells the quotient by material; 0.3 is taken
 /// for all. The radii are defaults, unsourced (ground carbide, HSS).
 inline constexpr double kLeastChipOverEdgeRadius = 0.3;
+/// The same of ISO group S (nickel, cobalt, titanium alloys), which harden under an edge that presses: the
+/// next tooth must cut below what this one hardened. Default, unsourced: no quotient of this was found.
+inline constexpr double kLeastChipOverEdgeRadiusS = 1.0;
 inline constexpr double kCarbideEdgeRadiusMm = 0.008;
 inline constexpr double kHssEdgeRadiusMm = 0.012;
+/// A level shallower than this many edge radii is not cut but smeared: most of what its end edges meet meets
+/// their rounding. Default, unsourced.
+inline constexpr double kLeastDepthOverEdgeRadius = 5.0;
 /// Small cutters are ground sharper. Default, unsourced: the least of the generic series (cutters.yaml).
 inline constexpr double kLeastChipPerDiameter = 0.001;
-/// The thinnest chip that a milling cutter is to take where it is fed, mm.
-[[nodiscard]] constexpr double least_chip_mm(double diameter_mm, bool hss) {
+/// The thinnest chip that a milling cutter is to take where it is fed, mm; in material of this ISO 513 group.
+[[nodiscard]] constexpr double least_chip_mm(double diameter_mm, bool hss, std::string_view iso_group = {}) {
   const double edge = kLeastChipOverEdgeRadius * (hss ? kHssEdgeRadiusMm : kCarbideEdgeRadiusMm);
   const double small = kLeastChipPerDiameter * diameter_mm;
-  return small < edge ? small : edge;
+  const double hardens = iso_group == "S" ? kLeastChipOverEdgeRadiusS / kLeastChipOverEdgeRadius : 1.0;
+  return hardens * (small < edge ? small : edge);
 }
+
+/// The shallowest level that a milling cutter is to take, mm; what is left in all may be less. In what
+/// hardens under an edge it is as much deeper as the chip is thicker there.
+[[nodiscard]] constexpr double least_depth_mm(double diameter_mm, bool hss, std::string_view iso_group = {}) {
+  return kLeastDepthOverEdgeRadius * least_chip_mm(diameter_mm, hss, iso_group) / kLeastChipOverEdgeRadius;
+}
+
+// --- Tool life --------------------------------------------------------------------------------------
+
+/// Taylor's exponent n where no law is given. Source: Kalpakjian & Schmid, Manufacturing Engineering and
+/// Technology: carbide 0.2 to 0.5, high-speed steel 0.08 to 0.2; curioustab.com gives 0.2 to 0.25 (0.30) and
+/// 0.08 to 0.2. Taken: the lower part, where life falls faster with speed.
+inline constexpr double kTaylorExponentCarbide = 0.25;
+inline constexpr double kTaylorExponentHss = 0.125;
+
+/// Life where neither law nor cutter states one, at the table's speed, min. Default, unsourced.
+inline constexpr double kLifeAtTableMin = 15.0;
 
 // --- Machine ----------------------------------------------------------------------------------------
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "planner/ground/vocabulary/control_kind.h"
+
 namespace capstan::motion {
 namespace {
 
@@ -12,11 +14,6 @@ using model::CutterPath;
 using model::Machine;
 using model::MoveKind;
 using model::MoveRole;
-
-// Share of the acceleration that a curve may use for turning; the rest (one half) is kept along the path.
-// Source: LinuxCNC 2.9, blendmath.h, BLEND_ACC_RATIO_NORMAL.
-constexpr double kNormalShare = 0.86602540378443864676;
-constexpr double kTangentialShare = 0.5;
 
 std::array<double, 3> array_of(Vec3 v) { return {v.x, v.y, v.z}; }
 
@@ -81,10 +78,10 @@ Shape arc_shape(const CutterPath& path, std::size_t i, double feed_mm_s, const L
   const double a = std::min(along(limits.acceleration, in_x), along(limits.acceleration, in_y));
   const double bend_mm = radius / (flat * flat);  // radius of curvature of a helix
   out.axes_mm_s = std::min(along(limits.feed_mm_s, in_x), along(limits.feed_mm_s, in_y));
-  out.turning_mm_s = std::sqrt(kNormalShare * a * bend_mm);
+  out.turning_mm_s = std::sqrt(limits.turning_share * a * bend_mm);
   const double v = std::min({feed_mm_s, out.axes_mm_s, out.turning_mm_s});
   const double used = v * v / (bend_mm * a);
-  const double share = std::max(kTangentialShare, std::sqrt(std::max(0.0, 1.0 - used * used)));
+  const double share = std::max(limits.along_share, std::sqrt(std::max(0.0, 1.0 - used * used)));
   out.segment = {length, v, a * share, 0.0, std::min(along(limits.jerk, in_x), along(limits.jerk, in_y))};
   return out;
 }
@@ -111,6 +108,9 @@ Result<Limits> limits_of(const Machine& machine) {
   }
   out.tolerance_mm = machine.control.path_tolerance_mm;
   out.block_s = machine.control.block_time_s;
+  const model::ControlKind& kind = model::control_kind(machine.control.dialect);
+  out.turning_share = kind.turning_share;
+  out.along_share = kind.along_share;
   return out;
 }
 
@@ -133,7 +133,7 @@ Junction junction(const Shape& before, const Shape& after, const Limits& limits)
   const double radius = std::min(by_tolerance, by_length);
   if (!(radius > 0.0)) return {0.0, true};
   const double a = within_plane(limits.acceleration, before.last, (1.0 / sine) * aside);
-  const double v = std::sqrt(kNormalShare * a * radius);
+  const double v = std::sqrt(limits.turning_share * a * radius);
   return {std::min(both, v), v < both && by_tolerance <= by_length};
 }
 

@@ -16,6 +16,8 @@ struct Limits {
   bool has_jerk = false;
   double tolerance_mm = 0.0;
   double block_s = 0.0;
+  /// What the control gives of the acceleration to turning at most, and along the path at least.
+  double turning_share = 0.0, along_share = 0.0;
 };
 
 /// Fails  MOT-MACHINE for an axis without acceleration or speed.

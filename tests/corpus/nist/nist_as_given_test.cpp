@@ -373,27 +373,44 @@ TEST_F(CorpusNistAsGiven, FeedsThePocketAsGiven) {
 TEST_F(CorpusNistAsGiven, IsToldExactlyWhatIsBadMachiningInIt) {
   CAPSTAN_NIST_EXAMPLE();
   // 0.83 and 0.5 mm per tooth in steel, 1.9 to 2.8 mm per revolution drilling, 1.7 reaming, with the power
-  // and torque that asks for; and a reamer withdrawn with the spindle stopped. Nothing else.
-  const std::vector<std::string> bad = {"17 CHK-POWER WS FINISH PLANAR FACE1",
-                                        "17 CHK-TORQUE WS FINISH PLANAR FACE1",
-                                        "18 CHK-FEED-TOOL WS FINISH PLANAR FACE1",
-                                        "21 CHK-DEFLECTION WS FINISH PLANAR FACE1",
-                                        "17 CHK-POWER WS DRILL HOLE1",
-                                        "17 CHK-TORQUE WS DRILL HOLE1",
-                                        "18 CHK-FEED-TOOL WS DRILL HOLE1",
-                                        "15 CHK-SPINDLE-STOPPED WS REAM HOLE1",
-                                        "17 CHK-POWER WS REAM HOLE1",
-                                        "17 CHK-TORQUE WS REAM HOLE1",
-                                        "18 CHK-FEED-TOOL WS REAM HOLE1",
-                                        "17 CHK-POWER WS ROUGH POCKET1",
-                                        "17 CHK-TORQUE WS ROUGH POCKET1",
-                                        "18 CHK-FEED-TOOL WS ROUGH POCKET1",
-                                        "21 CHK-DEFLECTION WS ROUGH POCKET1",
-                                        "18 CHK-FEED-TOOL WS FINISH POCKET1"};
+  // and torque that asks for; and a reamer withdrawn with the spindle stopped. Of the plan, too: the bending
+  // that it predicts, the finished wall's beyond the tolerance, and speeds of 41 to 75 m/min where the card
+  // bears 20 with HSS, which the tools are taken for, as the file does not say what they are made of.
+  // Nothing else.
+  const std::vector<std::string> bad_steps = {"16 CHK-SPEED-MATERIAL WS FINISH PLANAR FACE1",
+                                              "17 CHK-POWER WS FINISH PLANAR FACE1",
+                                              "17 CHK-TORQUE WS FINISH PLANAR FACE1",
+                                              "18 CHK-FEED-TOOL WS FINISH PLANAR FACE1",
+                                              "21 CHK-BENDING WS FINISH PLANAR FACE1",
+                                              "21 CHK-DEFLECTION WS FINISH PLANAR FACE1",
+                                              "16 CHK-SPEED-MATERIAL WS DRILL HOLE1",
+                                              "17 CHK-POWER WS DRILL HOLE1",
+                                              "17 CHK-TORQUE WS DRILL HOLE1",
+                                              "18 CHK-FEED-TOOL WS DRILL HOLE1",
+                                              "15 CHK-SPINDLE-STOPPED WS REAM HOLE1",
+                                              "16 CHK-SPEED-MATERIAL WS REAM HOLE1",
+                                              "17 CHK-POWER WS REAM HOLE1",
+                                              "17 CHK-TORQUE WS REAM HOLE1",
+                                              "18 CHK-FEED-TOOL WS REAM HOLE1",
+                                              "16 CHK-SPEED-MATERIAL WS ROUGH POCKET1",
+                                              "17 CHK-POWER WS ROUGH POCKET1",
+                                              "17 CHK-TORQUE WS ROUGH POCKET1",
+                                              "18 CHK-FEED-TOOL WS ROUGH POCKET1",
+                                              "21 CHK-BENDING WS ROUGH POCKET1",
+                                              "21 CHK-DEFLECTION WS ROUGH POCKET1",
+                                              "16 CHK-SPEED-MATERIAL WS FINISH POCKET1",
+                                              "18 CHK-FEED-TOOL WS FINISH POCKET1",
+                                              "21 CHK-WALL-ERROR WS FINISH POCKET1"};
   // The plan says, too, what machine such cuts would need.
   std::vector<std::string> bad_plan = {"17 CHK-MACHINE-POWER ", "17 CHK-MACHINE-TORQUE "};
-  bad_plan.insert(bad_plan.end(), bad.begin(), bad.end());
+  bad_plan.insert(bad_plan.end(), bad_steps.begin(), bad_steps.end());
   EXPECT_EQ(findings_of_plan(session_), bad_plan) << all_findings(session_);
+  // A program says nothing of what was predicted.
+  std::vector<std::string> bad = bad_steps;
+  std::erase_if(bad, [](const std::string& f) {
+    return f.find("CHK-SPEED-MATERIAL") != f.npos || f.find("CHK-BENDING") != f.npos ||
+           f.find("CHK-WALL-ERROR") != f.npos;
+  });
   EXPECT_EQ(findings_of_program(session_), bad);
 }
 

@@ -104,9 +104,23 @@ TEST(CorpusNistExplicit, IsToldExactlyWhatIsBadMachiningInIt) {
   }
   add("WS FINISH POCKET1 P", {"14 CHK-RAMP", "18 CHK-FEED-TOOL"});
   EXPECT_EQ(findings_of_program(session), bad);
-  // The loads of given paths are known, so the plan states what machine they need.
+  // The loads of given paths are known, so the plan states what machine they need and how far its tools bend;
+  // and of each step that its speed is too high for HSS, which the tools are taken for, as the file does not
+  // say what they are made of.
   std::vector<std::string> of_plan = {"17 CHK-MACHINE-POWER ", "17 CHK-MACHINE-TORQUE "};
-  of_plan.insert(of_plan.end(), bad.begin(), bad.end());
+  std::string told;
+  for (const std::string& f : bad) {
+    const std::string step = f.substr(f.find("WS "));
+    if (step != told && f.compare(0, 2, "16") > 0) {
+      of_plan.push_back("16 CHK-SPEED-MATERIAL " + step);
+      told = step;
+    }
+    if (f.starts_with("21 CHK-DEFLECTION")) of_plan.push_back("21 CHK-BENDING " + step);
+    of_plan.push_back(f);
+    // A mean force does not tell it of the levels that finish, their peak does; the last is thin.
+    const bool level = step.starts_with("WS FINISH POCKET1 ") && step != "WS FINISH POCKET1 P";
+    if (level && f.starts_with("18 CHK-FEED-TOOL")) of_plan.push_back("21 CHK-BENDING " + step);
+  }
   EXPECT_EQ(findings_of_plan(session), of_plan) << all_findings(session);
 }
 

@@ -1,7 +1,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <set>
+#include <stop_token>
+
 #include "capstan/capstan.h"
+#include "planner/door/service/options.h"
 
 // The library as other programs use it.
 
@@ -77,6 +81,97 @@ TEST(Facade, RefusesAnUnknownMaterialWithTheNearestNames) {
   ASSERT_FALSE(out.diagnostics.empty());
   EXPECT_EQ(out.diagnostics.back().code, "NAME-UNKNOWN");
   EXPECT_THAT(out.diagnostics.back().text, HasSubstr("mild_steel"));
+}
+
+TEST(Facade, AJsonPlanMayBeginWithAByteOrderMark) {
+  const std::string json = plan_file(std::string(CAPSTAN_SOURCE_DIR) + "/examples/plate_bound.p21", {}).json;
+  ASSERT_FALSE(json.empty());
+  const PlanOutput marked = plan_bytes("\xEF\xBB\xBF" + json, "marked.json", {});
+  EXPECT_TRUE(marked.planned) << (marked.diagnostics.empty() ? "" : marked.diagnostics.back().text);
+  EXPECT_TRUE(marked.linuxcnc == plan_bytes(json, "marked.json", {}).linuxcnc);
+}
+
+TEST(Facade, HasAFieldForEachOptionOfTheCommand) {
+  std::set<std::string> fields;
+  for (const std::string& name : option_names()) fields.insert(name);
+  for (const service::Option& o : service::options())
+    EXPECT_EQ(fields.erase(std::string(o.name)), 1U) << o.name;
+  EXPECT_TRUE(fields.empty()) << *fields.begin();
+}
+
+TEST(Facade, OptionsReachThePlan) {
+  PlanOptions options;
+  options.workholding = "auto";
+  options.general_tolerance = "ISO 2768-m";
+  options.batch = 7;
+  options.stock_allowance_mm = 3.0;
+  options.feeds = "constant";
+  const PlanOutput out = plan_file(kBracket, options);
+  ASSERT_TRUE(out.planned) << out.diagnostics.back().text;
+  for (const char* told : {"ISO 2768-m", "block:+3", "constant"})
+    EXPECT_TRUE(out.json.find(told) != std::string::npos) << told;
+  options.workholding = "no such fixture";
+  const PlanOutput refused = plan_file(kBracket, options);
+  EXPECT_FALSE(refused.planned);
+  options = {};
+  options.reopen = "everything";
+  const PlanOutput wrong = plan_file(kBracket, options);
+  ASSERT_FALSE(wrong.diagnostics.empty());
+  EXPECT_EQ(wrong.diagnostics.back().code, "OPTION-VALUE");
+}
+
+TEST(Facade, FormsStandUnderTheNamesOfTheirFormats) {
+  const PlanOutput out = plan_file(std::string(CAPSTAN_SOURCE_DIR) + "/examples/plate_bound.p21", {});
+  ASSERT_TRUE(out.planned);
+  EXPECT_TRUE(out.forms.at("json") == out.json);
+  EXPECT_TRUE(out.forms.at("linuxcnc") == out.linuxcnc);
+  EXPECT_TRUE(out.forms.at("linuxcnc_tools") == out.tool_table);
+  const CheckOutput checked = check_bytes({{"plate.json", out.json}, {"plate.ngc", out.linuxcnc}}, {});
+  EXPECT_TRUE(checked.checked);
+  for (const auto& f : checked.findings) EXPECT_NE(f.severity, "error") << f.text;
+  const CheckOutput nothing = check_bytes({}, {});
+  EXPECT_FALSE(nothing.checked);
+  EXPECT_EQ(nothing.diagnostics.back().code, "APP-NOTHING");
+}
+
+TEST(Facade, ExplainsAPlanAStepAndAValue) {
+  const std::string json = plan_file(std::string(CAPSTAN_SOURCE_DIR) + "/examples/plate_bound.p21", {}).json;
+  const ExplainOutput whole = explain_bytes(json, "plate.json");
+  ASSERT_TRUE(whole.explained);
+  const ExplainOutput step = explain_bytes(json, "plate.json", "1");
+  ASSERT_TRUE(step.explained);
+  EXPECT_TRUE(step.text != whole.text);
+  EXPECT_TRUE(explain_bytes(json, "plate.json", "1", "feed").explained);
+  const ExplainOutput none = explain_bytes(json, "plate.json", "no such step");
+  EXPECT_FALSE(none.explained);
+  EXPECT_EQ(none.diagnostics.back().code, "EXP-STEP");
+}
+
+TEST(Facade, BindsWithTheToolsThatAreLoaded) {
+  PlanOptions options;
+  options.tools = std::string(CAPSTAN_SOURCE_DIR) + "/tests/door/late/magazine.tbl";
+  options.deadline = "1ms";
+  const PlanOutput late = bind_file(std::string(CAPSTAN_SOURCE_DIR) + "/examples/plate_bound.p21", options);
+  ASSERT_TRUE(late.planned) << late.diagnostics.back().text;
+  EXPECT_TRUE(late.late);
+  EXPECT_FALSE(late.linuxcnc.empty());
+}
+
+TEST(Facade, TellsProgressAndAStoppedPlanHasNoProgram) {
+  PlanOptions options;
+  std::stop_source source;
+  int told = 0;
+  options.stop = source.get_token();
+  options.progress = [&](std::string_view stage, double fraction) {
+    EXPECT_FALSE(stage.empty());
+    EXPECT_GE(fraction, 0.0);
+    EXPECT_LE(fraction, 1.0);
+    ++told;
+    source.request_stop();
+  };
+  const PlanOutput out = plan_file(kBracket, options);
+  EXPECT_GT(told, 0);
+  EXPECT_TRUE(out.linuxcnc.empty());
 }
 
 }  // namespace

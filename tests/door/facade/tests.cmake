@@ -1,1 +1,1 @@
-capstan_test(facade DEPENDS facade)
+capstan_test(facade DEPENDS facade service)

@@ -9,10 +9,11 @@
 
 #include "capstan/capstan_late.h"
 #include "planner/controls/linuxcnc/linuxcnc.h"
-#include "planner/door/pipeline/given/shop.h"
+#include "planner/files/json/json.h"
 #include "planner/model/nouns/all.h"
 #include "tests/support/corpus.h"
 #include "tests/support/seal.h"
+#include "tests/support/shop.h"
 
 namespace capstan::late {
 namespace {
@@ -394,6 +395,67 @@ TEST(LateInterface, PastTheDeadlineTheCodeIsLateAndThePlanIsThere) {
   EXPECT_EQ(capstan_late_bind(s, text.data(), text.size(), 3600000), CAPSTAN_LATE_OK)
       << capstan_late_message(s);
   capstan_late_close(s);
+}
+
+TEST(LateInterface, AJsonPlanMayBeginWithAByteOrderMark) {
+  capstan_late* session = capstan_late_open("generic_vmc", kMagazine.c_str());
+  ASSERT_EQ(capstan_late_status(session), CAPSTAN_LATE_OK) << capstan_late_message(session);
+  const std::string json = "\xEF\xBB\xBF" + json::write_json(plate());
+  EXPECT_EQ(capstan_late_bind(session, json.data(), json.size(), 600000), CAPSTAN_LATE_OK)
+      << capstan_late_message(session);
+  EXPECT_NE(capstan_late_output(session, CAPSTAN_LATE_LINUXCNC, nullptr), nullptr);
+  capstan_late_close(session);
+}
+
+TEST(LateInterface, TakesOptionsByTheirNames) {
+  EXPECT_EQ(capstan_late_interface(), 2U);
+  capstan_late* session = capstan_late_create();
+  ASSERT_NE(session, nullptr);
+  EXPECT_EQ(capstan_late_set(session, "machine", "generic_vmc"), CAPSTAN_LATE_OK);
+  EXPECT_EQ(capstan_late_set(session, "tools", kMagazine.c_str()), CAPSTAN_LATE_OK);
+  EXPECT_EQ(capstan_late_set(session, "general-tolerance", "ISO 2768-m"), CAPSTAN_LATE_OK);
+  EXPECT_EQ(capstan_late_set(session, "colour", "red"), CAPSTAN_LATE_USAGE);
+  EXPECT_EQ(capstan_late_set(session, "margin", "wild"), CAPSTAN_LATE_USAGE);
+  EXPECT_NE(std::string(capstan_late_message(session)).find("margin"), std::string::npos);
+  EXPECT_EQ(capstan_late_prepare(session), CAPSTAN_LATE_OK) << capstan_late_message(session);
+  const std::string text = testing::slurp(kPlate);
+  EXPECT_EQ(capstan_late_bind(session, text.data(), text.size(), 600000), CAPSTAN_LATE_OK)
+      << capstan_late_message(session);
+  const std::string json = capstan_late_output_as(session, "json", nullptr);
+  EXPECT_TRUE(json.find("ISO 2768-m") != std::string::npos);
+  EXPECT_STREQ(capstan_late_output_as(session, "linuxcnc", nullptr),
+               capstan_late_output(session, CAPSTAN_LATE_LINUXCNC, nullptr));
+  EXPECT_EQ(capstan_late_output_as(session, "no such format", nullptr), nullptr);
+  EXPECT_EQ(capstan_late_set(session, "workholding", "no_such_fixture"), CAPSTAN_LATE_OK);
+  EXPECT_EQ(capstan_late_bind(session, text.data(), text.size(), 600000), CAPSTAN_LATE_UNREADABLE);
+  capstan_late_close(session);
+}
+
+TEST(LateInterface, TellsProgressAndEndsWhenItIsStopped) {
+  struct Seen {
+    capstan_late* session;
+    int calls = 0;
+  } seen{capstan_late_open("generic_vmc", kMagazine.c_str())};
+  capstan_late_on_progress(
+      seen.session,
+      [](const char* stage, double fraction, void* user) {
+        auto* s = static_cast<Seen*>(user);
+        EXPECT_STRNE(stage, "");
+        EXPECT_GE(fraction, 0.0);
+        ++s->calls;
+        capstan_late_stop(s->session);
+      },
+      &seen);
+  const std::string text = testing::slurp(kPlate);
+  // Nothing is given that was not checked to its end.
+  EXPECT_EQ(capstan_late_bind(seen.session, text.data(), text.size(), 600000), CAPSTAN_LATE_IMPOSSIBLE);
+  EXPECT_EQ(capstan_late_output(seen.session, CAPSTAN_LATE_LINUXCNC, nullptr), nullptr);
+  EXPECT_GT(seen.calls, 0);
+  // A stop is of one call.
+  capstan_late_on_progress(seen.session, nullptr, nullptr);
+  EXPECT_EQ(capstan_late_bind(seen.session, text.data(), text.size(), 600000), CAPSTAN_LATE_OK)
+      << capstan_late_message(seen.session);
+  capstan_late_close(seen.session);
 }
 
 TEST(LateInterface, SaysWhatIsWrongAndNeverThrows) {

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "planner/door/pipeline/given/shop.h"
+#include "tests/support/shop.h"
 #include "planner/model/features/requirements.h"
 #include "planner/model/nouns/all.h"
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "planner/door/pipeline/given/shop.h"
+#include "tests/support/shop.h"
 #include "planner/door/pipeline/propose/grouped_reasons.h"
 #include "planner/ground/base/file.h"
 #include "planner/model/nouns/all.h"

@@ -1,1 +1,1 @@
-capstan_test(pipeline DEPENDS pipeline casebase)
+capstan_test(pipeline DEPENDS pipeline service casebase)

@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "planner/door/pipeline/given/shop.h"
 #include "planner/making/step/cut_samples.h"
 #include "planner/model/nouns/all.h"
 #include "planner/proof/verify/verify.h"
 #include "tests/support/corpus.h"
+#include "tests/support/shop.h"
 #include "tooling/shop/machine/machine.h"
 
 // Features are made whole or not at all, and what the check condemns is made anew.

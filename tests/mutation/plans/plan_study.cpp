@@ -4,7 +4,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "planner/door/pipeline/given/shop.h"
+#include "tests/support/shop.h"
 #include "planner/files/exchange/exchange.h"
 #include "planner/files/json/json.h"
 #include "planner/model/nouns/all.h"

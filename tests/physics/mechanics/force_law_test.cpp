@@ -71,6 +71,8 @@ TEST(LeastChip, IsAPartOfTheEdgesRadiusAndLessForSmallCutters) {
   EXPECT_DOUBLE_EQ(least_chip_mm(10.0, false), 0.0024);
   EXPECT_DOUBLE_EQ(least_chip_mm(10.0, true), 0.0036);
   EXPECT_DOUBLE_EQ(least_chip_mm(1.0, false), 0.001);
+  EXPECT_NEAR(least_chip_mm(10.0, false, "S"), 0.008, 1e-15);
+  EXPECT_NEAR(least_chip_mm(10.0, false, "P"), 0.0024, 1e-15);
 }
 
 TEST(ToothOfACutter, HasTheCornerOfABall) {

@@ -91,6 +91,12 @@ const Fault kFaults[] = {
     {"UnknownWorkOffset", 3, "", [](PlanMaker& k) { k.plan.setups[0].work_offset = "G60"; }},
     {"ToolNotThere", 4, "drill", [](PlanMaker& k) { k.plan.steps[1].cutter_id = "d9"; }},
     {"PocketBeyondTheMagazine", 4, "", [](PlanMaker& k) { k.plan.cutters[1].pocket = 99; }},
+    {"TwoToolsInOnePocketOfTheMagazine", 4, "",
+     [](PlanMaker& k) {
+       model::ToolTableLine line;
+       line.words = {{"P", static_cast<double>(k.plan.cutters[0].pocket)}, {"Z", 100.0}};
+       k.plan.cutters[1].table_line = line;
+     }},
     {"TwoToolsWithOneNumber", 5, "", [](PlanMaker& k) { k.plan.cutters[1].pocket = 1; }},
     {"LengthInAnotherUnit", 6, "", [](PlanMaker& k) { k.plan.cutters[0].functional_length_mm *= 25.4; }},
     {"ToolChangeBelowTheSecurityPlane", 7, "pocket",

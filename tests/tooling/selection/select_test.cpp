@@ -6,6 +6,7 @@
 #include <numbers>
 #include <random>
 
+#include "planner/model/plan/borne_feed.h"
 #include "tooling/library/cutters/complete.h"
 #include "tooling/library/cutters/generic.h"
 #include "tooling/shop/machine/machine.h"
@@ -241,9 +242,8 @@ TEST(StartValues, OfTheShopAreLoweredByNothingThatNobodyStated) {
   c.presets = {{"P", 140.0, 0.12, "stated: the shop"}};
   complete(c, library());
   // A generic cutter of 8 mm bears 0.08 mm; this one was said to run at 0.12.
-  EXPECT_DOUBLE_EQ(c.fz_max_mm, 0.18);
-  ASSERT_NE(source_of(c, "fz_max_mm"), nullptr);
-  EXPECT_EQ(*source_of(c, "fz_max_mm"), "derived: 1.5 times its own start value");
+  EXPECT_DOUBLE_EQ(c.fz_max_mm, 0.08);
+  EXPECT_DOUBLE_EQ(model::borne_feed(c, material("low_alloy_steel")).mm, 0.18);
   const auto start = start_values(c, material("low_alloy_steel"), machine());
   EXPECT_DOUBLE_EQ(start.fz_mm, 0.12);
   EXPECT_NEAR(start.vc_m_min, 140.0, 1e-9);
@@ -255,6 +255,59 @@ TEST(StartValues, OfTheShopAreLoweredByNothingThatNobodyStated) {
   const auto held = start_values(c, material("low_alloy_steel"), machine());
   EXPECT_DOUBLE_EQ(held.fz_mm, 0.1);
   EXPECT_NE(held.why.text.find("largest, 0.1 mm (stated: fz_max)"), std::string::npos) << held.why.text;
+}
+
+TEST(StartValues, OfOneMaterialSayNothingOfWhatTheCutterBearsInAnother) {
+  Cutter c;
+  c.id = "for aluminium";
+  c.cutting_diameter_mm = c.shank_diameter_mm = 8.0;
+  c.teeth = 3;
+  c.presets = {{"N", 300.0, 0.2, "stated: the shop"}};
+  complete(c, library());
+  // 1.5 x 0.2 in aluminium; in steel what a generic cutter of 8 mm bears, 0.08.
+  EXPECT_NEAR(model::borne_feed(c, material("wrought_aluminium")).mm, 0.3, 1e-12);
+  EXPECT_DOUBLE_EQ(model::borne_feed(c, material("c45")).mm, 0.08);
+  // A preset for a material of the group says what the group bears and no more, and nothing of others.
+  Cutter d = c;
+  d.presets = {{"en_aw_2024", 200.0, 0.24, "stated: the maker"}};
+  d.fz_max_mm = 0.0;
+  d.sources.clear();
+  complete(d, library());
+  EXPECT_NEAR(model::borne_feed(d, material("wrought_aluminium")).mm, 0.24, 1e-12);
+  EXPECT_NEAR(model::borne_feed(d, material("en_aw_2024")).mm, 0.36, 1e-12);
+  EXPECT_DOUBLE_EQ(model::borne_feed(d, material("c45")).mm, 0.08);
+  // Of a preset for the group and one for the material itself, that of the material counts.
+  c.presets.insert(c.presets.begin(), {"c45", 100.0, 0.06, "stated: the shop"});
+  EXPECT_NEAR(model::borne_feed(c, material("c45")).mm, 0.09, 1e-12);
+}
+
+TEST(StartValues, OfAGroupDoNotMakeHssCutWhatTheCardSaysItDoesNot) {
+  Cutter c;
+  c.id = "em8";
+  c.substrate = model::Substrate::kHss;
+  c.cutting_diameter_mm = c.shank_diameter_mm = 8.0;
+  c.teeth = 4;
+  c.presets = {{"H", 150.0, 0.5, "stated: the shop"}};
+  complete(c, library());
+  const auto hard = material("hardened_steel_60");
+  const auto why = not_cut_with(c, start_values(c, hard, machine()), hard);
+  ASSERT_TRUE(why);
+  EXPECT_NE(why->find("hardened_steel_60 is not cut with hss"), std::string::npos) << *why;
+  ToolRequirement r;
+  r.classes = {CutterClass::kEndmill};
+  r.diameter_min_mm = r.diameter_max_mm = 8.0;
+  const auto none = select(r, {c}, hard, machine());
+  ASSERT_TRUE(none.ranked.empty());
+  EXPECT_NE(none.would_fit.find(", not of hss (em8: hardened_steel_60 is not cut with hss"),
+            std::string::npos)
+      << none.would_fit;
+  // Who names this very material has tried it.
+  c.presets.insert(c.presets.begin(), {"hardened_steel_60", 15.0, 0.02, "stated: the shop"});
+  EXPECT_FALSE(not_cut_with(c, start_values(c, hard, machine()), hard));
+  // What is carbide is cut by its group.
+  c.presets.erase(c.presets.begin());
+  c.substrate = model::Substrate::kCarbide;
+  EXPECT_NEAR(start_values(c, hard, machine()).wanted_vc_m_min, 150.0, 1e-9);
 }
 
 TEST(StartValues, OfACoatedEdgeAreTakenOnlyWhereItIsSaidToBeCoated) {

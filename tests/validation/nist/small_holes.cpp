@@ -51,8 +51,6 @@ struct Programmed {
   std::vector<std::size_t> moves;  ///< the arcs that mill it
 };
 
-bool is_arc(model::MoveKind k) { return k == model::MoveKind::kArcCw || k == model::MoveKind::kArcCcw; }
-
 Programmed programmed(const ToolRun& run, double tool_mm, double nominal_mm) {
   Programmed out;
   for (std::size_t i = 1; i < run.path.size(); ++i) {

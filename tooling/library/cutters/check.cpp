@@ -18,9 +18,7 @@ std::string mm(double v) { return trimmed(v, 4) + " mm"; }
 std::string unlikely_of(const Cutter& c) {
   // default, unsourced: beyond these only face mills, discs and bored-in heads are common
   constexpr double kWideMm = 100.0, kLongFlutesMm = 300.0;
-  const bool wide = c.cutter_class == CutterClass::kFacemill || c.cutter_class == CutterClass::kSideMill ||
-                    c.cutter_class == CutterClass::kBoringTool || c.cutter_class == CutterClass::kGunDrill;
-  if (c.cutting_diameter_mm > kWideMm && !wide)
+  if (c.cutting_diameter_mm > kWideMm && !model::has(c.cutter_class, model::CutterTrait::kWide))
     return "a diameter of " + mm(c.cutting_diameter_mm) + " is unlikely for a " +
            std::string(model::to_text(c.cutter_class));
   if (c.maximum_depth_of_cut_mm > kLongFlutesMm && c.cutter_class != CutterClass::kGunDrill)

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "planner/ground/base/number.h"
+#include "tooling/shop/material/material.h"
 
 namespace capstan::tooling {
 namespace {
@@ -89,10 +90,21 @@ void as_bare(model::CuttingPreset& p) {
   p.source.erase(of_group ? begin - 2 : begin, of_group ? end - (begin - 2) : end + 4 - begin);
 }
 
-constexpr const char* kBorrowed = " (as generic/";
-/// Feed that a cutter bears over the start value that its maker or the shop states. Default, unsourced; the
-/// check allows as much where nothing else is known (verify/sweep/feed_limit.cpp).
-constexpr double kOverPreset = 1.5;
+/// An own preset that names a shipped material says in its source of which group that is.
+void tell_groups(Cutter& c) {
+  static const auto materials = shipped_materials();
+  if (!materials) return;
+  for (model::CuttingPreset& p : c.presets) {
+    if (borrowed(p)) continue;
+    for (const model::WorkMaterial& m : *materials) {
+      const bool it = m.id == p.material_group ||
+                      std::find(m.names.begin(), m.names.end(), p.material_group) != m.names.end();
+      if (!it) continue;
+      if (!p.source.ends_with(model::of_group(m.iso_group))) p.source += model::of_group(m.iso_group);
+      break;
+    }
+  }
+}
 
 void fill_feeds(Cutter& c, const Cutter& g, Filler& f) {
   // A smaller tooth bears less; a larger one is not trusted with more.
@@ -101,18 +113,16 @@ void fill_feeds(Cutter& c, const Cutter& g, Filler& f) {
     if (c.fz_min_mm == 0.0 && c.fz_max_mm == 0.0)
       c.fz_min_mm = c.fz_max_mm = c.thread_pitch_mm / std::max(c.teeth, 1);
   } else {
-    // What its maker or the shop states for it says what it bears; a cutter like it only where nothing does.
-    double least = 0.0, most = 0.0;
+    // What its own start value lets it bear more, it bears in that material only: model::borne_feed.
+    double least = 0.0;
     for (const model::CuttingPreset& p : c.presets) {
       if (borrowed(p) || !(p.fz_mm > 0.0)) continue;
       least = least > 0.0 ? std::min(least, p.fz_mm) : p.fz_mm;
-      most = std::max(most, p.fz_mm);
     }
-    if (c.fz_max_mm == 0.0 && kOverPreset * most > rounded(g.fz_max_mm * scale, 5)) {
-      c.fz_max_mm = rounded(kOverPreset * most, 5);
-      f.note("fz_max_mm", "derived: 1.5 times its own start value");
+    if (c.fz_max_mm == 0.0) {
+      f.take(c.fz_max_mm, rounded(g.fz_max_mm * scale, 5), "fz_max_mm");
+      tell_groups(c);
     }
-    if (c.fz_max_mm == 0.0) f.take(c.fz_max_mm, rounded(g.fz_max_mm * scale, 5), "fz_max_mm");
     if (c.fz_min_mm == 0.0) {
       const double like = rounded(g.fz_min_mm * scale, 5);
       f.take(c.fz_min_mm, std::min(c.fz_max_mm, least > 0.0 ? std::min(least, like) : like), "fz_min_mm");
@@ -147,13 +157,11 @@ void fill_feeds(Cutter& c, const Cutter& g, Filler& f) {
 
 }  // namespace
 
-bool borrowed(const model::CuttingPreset& p) { return p.source.find(kBorrowed) != std::string::npos; }
-
 void complete(Cutter& c, const std::vector<Cutter>& generic) {
   const Cutter* g = nearest(c, generic);
   if (g == nullptr) return;
   Filler f(c, *g);
-  if (c.cutter_class == CutterClass::kBallEndmill && c.corner_radius_mm == 0.0) {
+  if (model::has(c.cutter_class, model::CutterTrait::kBall) && c.corner_radius_mm == 0.0) {
     c.corner_radius_mm = 0.5 * c.cutting_diameter_mm;
     f.note("corner_radius_mm", "derived: half the diameter of a ball end mill");
   }
@@ -162,26 +170,20 @@ void complete(Cutter& c, const std::vector<Cutter>& generic) {
     f.note("teeth", f.source());
   }
   // A pitch, a corner and the angle of a cone are never assumed: see `faults_of`. Points of drills are.
-  const bool point = c.cutter_class == CutterClass::kTwistDrill ||
-                     c.cutter_class == CutterClass::kCenterDrill ||
-                     c.cutter_class == CutterClass::kSpotDrill || c.cutter_class == CutterClass::kGunDrill;
-  if (point) f.take(c.point_angle_rad, g->point_angle_rad, "point_angle_rad");
+  if (model::has(c.cutter_class, model::CutterTrait::kOpensSolid))
+    f.take(c.point_angle_rad, g->point_angle_rad, "point_angle_rad");
   f.take(c.tip_diameter_mm, std::min(g->tip_diameter_mm, c.cutting_diameter_mm), "tip_diameter_mm");
   f.take(c.helix_rad, g->helix_rad, "helix_rad");
   f.take(c.shank_diameter_mm, g->shank_diameter_mm, "shank_diameter_mm");
   f.take(c.holder_diameter_mm, g->holder_diameter_mm, "holder_diameter_mm");
   fill_lengths(c, *g, f);
   fill_feeds(c, *g, f);
-  const bool drill = c.cutter_class == CutterClass::kTwistDrill ||
-                     c.cutter_class == CutterClass::kCenterDrill || c.cutter_class == CutterClass::kSpotDrill;
-  if (drill && !c.centre_cutting) {
+  if (model::has(c.cutter_class, model::CutterTrait::kToCentre) && !c.centre_cutting) {
     c.centre_cutting = true;
     f.note("centre_cutting", "derived: a drill");
   }
-  const bool mill = c.cutter_class == CutterClass::kEndmill ||
-                    c.cutter_class == CutterClass::kBullnoseEndmill ||
-                    c.cutter_class == CutterClass::kBallEndmill;
-  if (mill && !c.centre_cutting && c.maximum_ramp_angle_rad == 0.0) {
+  if (model::has(c.cutter_class, model::CutterTrait::kRamps) && !c.centre_cutting &&
+      c.maximum_ramp_angle_rad == 0.0) {
     c.maximum_ramp_angle_rad = kCautiousRampRad;
     f.note("centre_cutting", std::string(kNotStated) + ", held not to cut to the centre");
     f.note("maximum_ramp_angle_rad", std::string(kRampUnstated));

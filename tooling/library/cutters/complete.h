@@ -3,6 +3,7 @@
 #include <string_view>
 #include <vector>
 
+#include "planner/model/plan/borne_feed.h"
 #include "planner/model/plan/cutter/cutter.h"
 
 namespace capstan::tooling {
@@ -15,13 +16,11 @@ namespace capstan::tooling {
 /// not to cut to the centre and to ramp at kCautiousRampRad.
 void complete(model::Cutter& c, const std::vector<model::Cutter>& generic);
 
-/// Whether a preset is not the cutter's own but taken from the generic cutter nearest to it: it counts only
-/// where no own preset is for the material.
-[[nodiscard]] bool borrowed(const model::CuttingPreset& p);
+using model::borrowed;
 
 /// How `sources` begins of a field that reading or `complete` fills in (a generic cutter's id follows
 /// kAsGeneric). The own format writes no such field.
-inline constexpr std::string_view kAsGeneric = "default: as ";
+using model::kAsGeneric;
 inline constexpr std::string_view kNotStated = "default: not stated";  ///< what is taken then may follow
 inline constexpr std::string_view kRampUnstated = "default: 3 degrees, unsourced";
 inline constexpr std::string_view kSubstrateUnstated = "default: the slower one";

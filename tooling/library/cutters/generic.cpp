@@ -371,7 +371,7 @@ void add_cutter(const Series& s, const Size& size, Fields& f, Reader& r) {
     if (c.adjustable_to_mm > 0.0) extra = " to " + trimmed(c.adjustable_to_mm, 3) + " mm";
   }
   if (c.cutter_class == CutterClass::kTap) c.thread_size_mm = c.cutting_diameter_mm;
-  if (c.cutter_class == CutterClass::kBallEndmill) c.corner_radius_mm = 0.5 * c.cutting_diameter_mm;
+  if (model::has(c.cutter_class, model::CutterTrait::kBall)) c.corner_radius_mm = 0.5 * c.cutting_diameter_mm;
   c.id = "generic/" + s.name + "/" + label;
   c.description = "generic " + trimmed(size.d, 3) + " mm " + s.words + extra;
   if (size.row != nullptr && size.row->find("name") != nullptr) c.description += ", " + label;

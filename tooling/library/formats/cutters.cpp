@@ -403,21 +403,16 @@ class Maker {
     }
   }
 
-  /// A range that we assume gives way to what the library's presets say.
+  /// A least feed that we assume gives way to what the library's presets say; a largest one does by material
+  /// (model::borne_feed).
   static void widen_feeds(Cutter& c) {
     const std::string* least = source_of(c, "fz_min_mm");
-    const std::string* most = source_of(c, "fz_max_mm");
     const bool lower = least != nullptr && least->starts_with("default");
-    const bool raise = most != nullptr && most->starts_with("default");
     for (const auto& p : c.presets) {
       if (p.fz_mm <= 0.0) continue;
       if (lower && p.fz_mm < c.fz_min_mm) {
         c.fz_min_mm = p.fz_mm;
         set_source(c, "fz_min_mm", "derived: the least of the library's presets");
-      }
-      if (raise && p.fz_mm > c.fz_max_mm) {
-        c.fz_max_mm = p.fz_mm;
-        set_source(c, "fz_max_mm", "derived: the largest of the library's presets");
       }
     }
   }

@@ -16,6 +16,9 @@
 
 namespace capstan::tooling {
 
+/// Tool numbers and pockets at most, in every format: what LinuxCNC's tool table holds (five digits).
+inline constexpr int kMostToolNumber = 99999;
+
 enum class Quantity : std::uint8_t { kLength, kAngle, kNumber, kCount, kText };
 
 /// What a symbol means and which values it can have; lengths in mm, angles in degrees (here only).

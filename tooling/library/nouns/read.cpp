@@ -77,50 +77,48 @@ double width_of(const Model& m, model::AnyRef body) {
   return 0.0;
 }
 
+/// The first class that is written as this noun, or as the nearest noun above it.
+std::optional<CutterClass> class_of_noun(model::TypeId body) {
+  for (model::TypeId t = body; t != model::TypeId::kNone; t = model::noun_type(t).parent) {
+    for (const model::CutterClassRow& r : model::cutter_classes())
+      if (r.body == t) return r.value;
+  }
+  return std::nullopt;
+}
+
+/// The class of a tool that the standard has no noun for, by its words.
+std::optional<CutterClass> class_of_words(const model::UserDefinedTool& u, double corner_mm) {
+  for (const model::CutterClassRow& r : model::cutter_classes()) {
+    if (r.body != model::TypeId::kUserDefinedTool || u.identifier.value_or("") != r.words) continue;
+    const bool rounds = r.value == CutterClass::kCornerRoundingMill;
+    return rounds && corner_mm <= 0.0 ? std::nullopt : std::optional(r.value);
+  }
+  return std::nullopt;
+}
+
+/// The noun decides, and where one noun stands for several classes, what is stated of it.
 std::optional<CutterClass> class_of_body(const Model& m, const Parts& p, double point_angle_rad) {
   const double d = p.dimension->diameter.value_or(0.0), re = p.dimension->edge_radius.value_or(0.0);
   const model::AnyRef b = p.body_ref;
   if (is_tapered(m, b))
     return m.holds<model::TaperedEndmill>(b) ? std::optional(CutterClass::kTaperedEndmill) : std::nullopt;
-  if (const auto* u = m.get<model::UserDefinedTool>(b)) {
-    if (u->identifier.value_or("") == "corner rounding mill" && re > 0.0)
-      return CutterClass::kCornerRoundingMill;
-    return std::nullopt;
-  }
+  if (const auto* u = m.get<model::UserDefinedTool>(b)) return class_of_words(*u, re);
   if (width_of(m, b) > 0.0) return CutterClass::kSideMill;
-  if (m.holds<model::BacksideCountersink>(b)) return CutterClass::kBackCountersink;
-  if (m.holds<model::BacksideCounterbore>(b)) return CutterClass::kBackCounterbore;
   if (m.holds<model::CenterDrill>(b))
     return point_angle_rad > 75.0 * kDegree ? CutterClass::kSpotDrill : CutterClass::kCenterDrill;
-  if (m.holds<model::Countersink>(b)) return CutterClass::kCountersink;
   if (m.holds<model::Drill>(b)) {
     // Neither standard has a word for them: one lip, and coolant through it.
     const bool gun = p.body->number_of_teeth.value_or(0) == 1 && p.body->coolant_through_tool.value_or(false);
     return gun ? CutterClass::kGunDrill : CutterClass::kTwistDrill;
   }
-  if (m.holds<model::Facemill>(b))
-    return d < kLeastFacemillMm ? CutterClass::kEndmill : CutterClass::kFacemill;
-  if (m.holds<model::BallEndmill>(b)) return CutterClass::kBallEndmill;
-  if (m.holds<model::BullnoseEndmill>(b)) return CutterClass::kBullnoseEndmill;
-  if (m.holds<model::Endmill>(b)) {
-    if (re <= 0.0) return CutterClass::kEndmill;
-    return re >= 0.5 * d - kSizeSlackMm ? CutterClass::kBallEndmill : CutterClass::kBullnoseEndmill;
-  }
-  if (m.holds<model::TSlotMill>(b)) return CutterClass::kTSlotMill;
-  if (m.holds<model::DovetailMill>(b)) return CutterClass::kDovetailMill;
-  if (m.holds<model::ThreadMill>(b) || m.holds<model::MillingThreadingTool>(b))
-    return CutterClass::kThreadMill;
-  if (m.holds<model::Tap>(b)) return CutterClass::kTap;
-  if (m.holds<model::Counterbore>(b)) return CutterClass::kCounterbore;
-  if (m.holds<model::Reamer>(b)) return CutterClass::kReamer;
-  if (m.holds<model::BoringTool>(b)) return CutterClass::kBoringTool;
-  return std::nullopt;
-}
-
-bool is_mill(CutterClass c) {
-  return c == CutterClass::kEndmill || c == CutterClass::kBullnoseEndmill || c == CutterClass::kBallEndmill ||
-         c == CutterClass::kFacemill || c == CutterClass::kTaperedEndmill ||
-         c == CutterClass::kCornerRoundingMill;
+  if (m.holds<model::Facemill>(b) && d < kLeastFacemillMm) return CutterClass::kEndmill;
+  if (m.holds<model::MillingThreadingTool>(b)) return CutterClass::kThreadMill;
+  // A side mill without a width, and a tapered kind without a taper, are the plain tool or none.
+  const auto by_noun = m.holds<model::SideMill>(b) ? std::nullopt : class_of_noun(b.type);
+  const bool plain = by_noun == CutterClass::kEndmill || by_noun == CutterClass::kTaperedEndmill;
+  if (!plain) return by_noun;
+  if (re <= 0.0) return CutterClass::kEndmill;
+  return re >= 0.5 * d - kSizeSlackMm ? CutterClass::kBallEndmill : CutterClass::kBullnoseEndmill;
 }
 
 /// The points that each class is sold with, deg.
@@ -128,8 +126,8 @@ std::span<const double> usual_points(CutterClass c) {
   static constexpr std::array<double, 6> kDrill{118, 140, 135, 130, 120, 90};
   static constexpr std::array<double, 3> kCentre{60, 90, 120};
   static constexpr std::array<double, 5> kSink{90, 60, 82, 120, 30};
-  if (c == CutterClass::kTwistDrill) return kDrill;
-  if (c == CutterClass::kCenterDrill || c == CutterClass::kSpotDrill) return kCentre;
+  if (model::has(c, model::CutterTrait::kDrills)) return kDrill;
+  if (model::has(c, model::CutterTrait::kMarks)) return kCentre;
   return kSink;
 }
 
@@ -204,7 +202,8 @@ class Reader {
     if (b.thread_form_type) c_.thread_form = *b.thread_form_type;
   }
   void read_shape() {
-    if (is_mill(c_.cutter_class) && p_.dimension->edge_radius.value_or(0.0) > 0.0) {
+    if (model::has(c_.cutter_class, model::CutterTrait::kSmallerDoes) &&
+        p_.dimension->edge_radius.value_or(0.0) > 0.0) {
       c_.corner_radius_mm = *p_.dimension->edge_radius;
       stated("corner_radius_mm", "edge_radius");
     }
@@ -375,7 +374,7 @@ bool same_size(const Parts& p, const Cutter& c) {
   const bool d = std::abs(*p.dimension->diameter - c.cutting_diameter_mm) <= kSizeSlackMm;
   const bool set = c.adjustable_to_mm > 0.0 && *p.dimension->diameter >= c.cutting_diameter_mm &&
                    *p.dimension->diameter <= c.adjustable_to_mm;
-  const bool r = !p.dimension->edge_radius || !is_mill(c.cutter_class) ||
+  const bool r = !p.dimension->edge_radius || !model::has(c.cutter_class, model::CutterTrait::kSmallerDoes) ||
                  std::abs(*p.dimension->edge_radius - c.corner_radius_mm) <= kSizeSlackMm;
   return (d || set) && r;
 }
@@ -504,13 +503,14 @@ Result<model::ToolRequirement> requirement_from_nouns(const Model& m, Ref<Machin
   r.depth_of_cut_mm = p->dimension->cutting_edge_length.value_or(0.0);
   r.reach_mm = r.depth_of_cut_mm;
   const double re = p->dimension->edge_radius.value_or(0.0);
-  if (is_mill(k->cutter_class)) {
+  if (model::has(k->cutter_class, model::CutterTrait::kSmallerDoes)) {
     r.diameter_max_mm = d;
     r.diameter_min_mm = 0.5 * d;
-    if (k->cutter_class == CutterClass::kBallEndmill || k->cutter_class == CutterClass::kBullnoseEndmill) {
+    if (model::has(k->cutter_class, model::CutterTrait::kBall) ||
+        k->cutter_class == CutterClass::kBullnoseEndmill) {
       // Only this size makes this radius.
-      r.corner_radius_exact_mm = k->cutter_class == CutterClass::kBallEndmill ? 0.5 * d : re;
-      if (k->cutter_class == CutterClass::kBallEndmill) r.diameter_min_mm = d;
+      r.corner_radius_exact_mm = model::has(k->cutter_class, model::CutterTrait::kBall) ? 0.5 * d : re;
+      if (model::has(k->cutter_class, model::CutterTrait::kBall)) r.diameter_min_mm = d;
     } else {
       r.corner_radius_limited = true;
       r.corner_radius_max_mm = re;

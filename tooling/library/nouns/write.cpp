@@ -9,6 +9,7 @@
 namespace capstan::tooling {
 namespace {
 
+using model::AnyRef;
 using model::Cutter;
 using model::CutterClass;
 using model::MachiningTool;
@@ -23,69 +24,20 @@ struct Body {
   double lead_angle_rad = 0.0, thickness_mm = 0.0, taper_angle_rad = 0.0;
 };
 
+/// The noun of the class, with what that noun alone says. A class that the standard has no noun for is a
+/// user-defined tool with the class's words.
 Ref<model::MillingToolBody> body_of(Model& m, const Body& b) {
-  switch (b.cutter_class) {
-    case CutterClass::kEndmill:
-      return m.add<model::Endmill>();
-    case CutterClass::kBullnoseEndmill:
-      return m.add<model::BullnoseEndmill>();
-    case CutterClass::kBallEndmill:
-      return m.add<model::BallEndmill>();
-    case CutterClass::kFacemill:
-      return m.add<model::Facemill>();
-    case CutterClass::kTwistDrill:
-      return m.add<model::TwistDrill>();
-    case CutterClass::kCenterDrill:
-    case CutterClass::kSpotDrill:  // told apart by the point angle
-      return m.add<model::CenterDrill>();
-    case CutterClass::kReamer:
-      return m.add<model::Reamer>();
-    case CutterClass::kTap:
-      return m.add<model::Tap>();
-    case CutterClass::kThreadMill:
-      return m.add<model::ThreadMill>();
-    case CutterClass::kBoringTool:
-      return m.add<model::BoringTool>();
-    case CutterClass::kCountersink:
-    case CutterClass::kChamferMill:  // the standard has no chamfer mill
-      return m.add<model::Countersink>();
-    case CutterClass::kCounterbore:
-      return m.add<model::Counterbore>();
-    case CutterClass::kTSlotMill: {
-      const auto t = m.add<model::TSlotMill>();
-      if (b.thickness_mm > 0.0) m.at<model::TSlotMill>(t).cutting_thickness = b.thickness_mm;
-      return t;
-    }
-    case CutterClass::kDovetailMill: {
-      const auto t = m.add<model::DovetailMill>();
-      if (b.lead_angle_rad > 0.0) m.at<model::DovetailMill>(t).included_angle = 2.0 * b.lead_angle_rad;
-      return t;
-    }
-    case CutterClass::kGunDrill:
-      return m.add<model::TwistDrill>();
-    case CutterClass::kBackCounterbore:
-      return m.add<model::BacksideCounterbore>();
-    case CutterClass::kBackCountersink:
-      return m.add<model::BacksideCountersink>();
-    case CutterClass::kTaperedEndmill: {
-      const auto t = m.add<model::TaperedEndmill>();
-      m.at<model::TaperedEndmill>(t).taper_angle = b.taper_angle_rad;
-      return t;
-    }
-    case CutterClass::kSideMill: {
-      const auto t = m.add<model::SideMill>();
-      if (b.thickness_mm > 0.0) m.at<model::SideMill>(t).cutter_width = b.thickness_mm;
-      return t;
-    }
-    case CutterClass::kCornerRoundingMill: {
-      const auto t = m.add<model::UserDefinedTool>();
-      m.at<model::UserDefinedTool>(t).identifier = "corner rounding mill";
-      return t;
-    }
-    case CutterClass::kTouchProbe:
-      break;  // no body: a touch_probe is a tool of its own
-  }
-  return m.add<model::Endmill>();
+  const model::CutterClassRow& row = model::row_of(b.cutter_class);
+  const AnyRef body = m.add_object(row.body == model::TypeId::kNone ? model::TypeId::kEndmill : row.body);
+  if (auto* t = m.get<model::TSlotMill>(body); t != nullptr && b.thickness_mm > 0.0)
+    t->cutting_thickness = b.thickness_mm;
+  if (auto* d = m.get<model::DovetailMill>(body); d != nullptr && b.lead_angle_rad > 0.0)
+    d->included_angle = 2.0 * b.lead_angle_rad;
+  if (auto* e = m.get<model::TaperedEndmill>(body)) e->taper_angle = b.taper_angle_rad;
+  if (auto* s = m.get<model::SideMill>(body); s != nullptr && b.thickness_mm > 0.0)
+    s->cutter_width = b.thickness_mm;
+  if (auto* u = m.get<model::UserDefinedTool>(body)) u->identifier = std::string(row.words);
+  return Ref<model::MillingToolBody>(body);
 }
 
 /// Zero means unknown here, and is written as absent.

@@ -2,14 +2,17 @@
 
 #include "casebase/casebase.h"
 #include "planner/door/app/command/session.h"
-#include "planner/door/app/files/load.h"
-#include "planner/door/app/show/values.h"
+#include "planner/door/service/explain/values.h"
+#include "planner/door/service/reading.h"
 #include "planner/ground/base/file.h"
 #include "planner/ground/base/number.h"
 #include "tooling/shop/machine/machine.h"
 #include "tooling/shop/material/material.h"
 
 namespace capstan::app {
+
+using service::table;
+
 namespace {
 
 std::string n(double v) { return v != 0.0 ? trimmed(v, 4) : std::string("-"); }
@@ -18,9 +21,10 @@ std::string n(double v) { return v != 0.0 ? trimmed(v, 4) : std::string("-"); }
 Result<std::vector<casebase::Case>> cases_of(const std::string& path, Job& job) {
   auto bytes = read_file(path);
   if (!bytes) return tl::unexpected(bytes.error());
-  const Content content = content_of(*bytes);
-  if (content != Content::kPlanJson && content != Content::kPart) return casebase::from_csv(*bytes, path);
-  const auto plan = plan_of_bytes(*std::move(bytes), path, job);
+  const service::Content content = service::content_of(*bytes);
+  if (content != service::Content::kPlanJson && content != service::Content::kPart)
+    return casebase::from_csv(*bytes, path);
+  const auto plan = service::read_plan(*std::move(bytes), path, job);
   if (!plan) return tl::unexpected(plan.error());
   std::vector<casebase::Case> out;
   for (const auto& step : plan->steps) {

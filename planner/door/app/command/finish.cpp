@@ -4,84 +4,21 @@
 #include <string>
 #include <utility>
 
-#include "planner/controls/linuxcnc/linuxcnc.h"
-#include "planner/door/app/show/values.h"
+#include "planner/door/service/explain/values.h"
 #include "planner/model/plan/decision/condemned.h"
 #include "planner/model/plan/decision/contradicted.h"
 #include "planner/model/plan/decision/unreadable.h"
 #include "planner/physics/motion/time.h"
-#include "planner/proof/verify/verify.h"
 
 namespace capstan::app {
+
+using service::duration;
+
 namespace {
 
-bool is_program(const Output& o) { return o.kind == OutputKind::kLinuxCnc; }
-/// What is withheld with a condemned program: the table is of its tools.
-bool of_program(const Output& o) { return is_program(o) || o.kind == OutputKind::kToolTable; }
-
-/// Findings of each program among the outputs.
-std::vector<Told> of_programs(const model::Plan& plan, const std::vector<Output>& outputs, Job& job) {
-  std::string table;
-  for (const Output& o : outputs) {
-    if (o.kind == OutputKind::kToolTable) table = o.bytes;
-  }
-  std::vector<Told> out;
-  for (const Output& o : outputs) {
-    if (!is_program(o)) continue;
-    for (auto& f : verify::check_program({o.path, o.bytes, table}, &plan, plan.machine, plan.cutters, job))
-      out.push_back({o.path, std::move(f), true});
-  }
-  return out;
-}
-
-std::vector<model::Finding> plain(const std::vector<Told>& told) {
-  std::vector<model::Finding> out;
-  for (const Told& t : told) out.push_back(t.finding);
-  return out;
-}
-
-/// What checking came to.
-struct Verdict {
-  std::size_t findings = 0;  ///< without notes
-  std::vector<model::Condemnation> condemned;
-  /// Whether it is written all the same, with its stops: asked for, and known what it is.
-  bool written = false;
-};
-
-/// Checks the plan and its programs and tells the job. A condemned program that is asked for all the same is
-/// written again with its stops, and checked as it then is.
-Result<Verdict> judged(Session& s, const model::Plan& plan, const KnownFindings& known,
-                       std::vector<Output>& outputs) {
-  Verdict v;
-  std::vector<Told> told;
-  const auto of_plan = known ? *known : verify::check_plan(plan, s.job);
-  for (const auto& f : of_plan) told.push_back({plan.file_name, f, false});
-  auto of_text = of_programs(plan, outputs, s.job);
-  auto all = plain(told);
-  for (const Told& t : of_text) all.push_back(t.finding);
-  v.condemned = model::condemned(plan, all);
-  v.written = v.condemned.empty() || (s.options.allow_findings && !model::never_written(v.condemned));
-  if (!v.condemned.empty() && v.written && makes_program(outputs)) {
-    Job silent;  // what the writer warns of was said when it wrote the first time
-    for (Output& o : outputs) {
-      if (!is_program(o)) continue;
-      auto text = controls::write_linuxcnc(plan, silent, v.condemned);
-      if (!text) return tl::unexpected(text.error());
-      o.bytes = *std::move(text);
-    }
-    of_text = of_programs(plan, outputs, s.job);
-  }
-  std::move(of_text.begin(), of_text.end(), std::back_inserter(told));
-  for (const auto& c : model::contradictions(plan)) {
-    s.job.report(
-        {.code = "PIP-CONTRADICTED", .severity = Severity::kError, .message = c.why, .file = plan.file_name});
-  }
-  for (const Told& t : told) {
-    s.job.report(as_diagnostic(t.finding, t.file, t.program));
-    if (t.finding.severity != Severity::kNote) ++v.findings;
-  }
-  return v;
-}
+using service::is_program;
+using service::of_program;
+using service::Output;
 
 std::string summary_of(const model::Plan& plan, std::size_t findings) {
   std::string out = "planned " + counted(plan.steps.size(), "step", "steps") + " in " +
@@ -100,7 +37,7 @@ std::string summary_of(const model::Plan& plan, std::size_t findings) {
 std::string written_text(const std::vector<Output>& outputs) {
   std::string out;
   for (const Output& o : outputs) {
-    if (o.path != "-") out += (out.empty() ? "; wrote " : ", ") + o.path + losses_text(o);
+    if (o.path != "-") out += (out.empty() ? "; wrote " : ", ") + o.path + service::losses_text(o);
   }
   return out;
 }
@@ -118,7 +55,8 @@ std::string why(const model::Plan& plan, const std::vector<model::Condemnation>&
 /// aside. A tool table stays, for it may be the machine's own.
 void put_aside(const Output& o, Job& job) {
   if (o.path == "-") return;
-  const Aside aside = is_program(o) ? set_aside(o.path) : left_there(o.path);
+  using service::Aside;
+  const Aside aside = is_program(o) ? service::set_aside(o.path) : service::left_there(o.path);
   switch (aside.outcome) {
     case Aside::kNothingThere:
       return;
@@ -163,29 +101,36 @@ bool makes_program(const std::vector<Output>& outputs) {
   return std::any_of(outputs.begin(), outputs.end(), is_program);
 }
 
-int finish(Session& s, const model::Plan& plan, std::vector<Output> outputs, const KnownFindings& known) {
+int finish(Session& s, const service::Planned& planned, std::vector<Output> outputs) {
+  const model::Plan& plan = planned.plan;
   if (plan.steps.empty() && !plan.unplanned.empty()) {
     s.summary = "nothing can be planned, nothing is written";
     return s.end({.code = "APP-IMPOSSIBLE",
-                  .message = "none of " + counted(unplanned_features(plan), "feature", "features") +
+                  .message = "none of " + counted(service::unplanned_features(plan), "feature", "features") +
                              " can be planned with these tools on this machine",
                   .file = plan.file_name},
                  kImpossible);
   }
-  if (auto ok = make(plan, outputs, s.job); !ok) return s.end(ok.error(), kImpossible);
+  if (auto ok = service::make(plan, outputs, s.job); !ok) return s.end(ok.error(), kImpossible);
   // What is left open has no path yet, so there is nothing to prove.
-  const bool open = s.options.bind != pipeline::Bind::kAll;
-  Verdict verdict;
-  if (!open) {
-    auto judgement = judged(s, plan, known, outputs);
+  service::Verdict verdict;
+  if (!planned.open) {
+    auto judgement = service::judge(s.options.inputs, planned, outputs, s.job);
     if (!judgement) return s.end(judgement.error(), kImpossible);
     verdict = *std::move(judgement);
+    for (const auto& c : model::contradictions(plan)) {
+      s.job.report({.code = "PIP-CONTRADICTED",
+                    .severity = Severity::kError,
+                    .message = c.why,
+                    .file = plan.file_name});
+    }
+    for (const Told& t : verdict.told) s.job.report(as_diagnostic(t.finding, t.file, t.program));
   }
   s.summary = summary_of(plan, verdict.findings);
   const bool condemned = !verdict.condemned.empty();
   const bool clean =
       verdict.findings == 0 && plan.unplanned.empty() && !condemned && model::unreadable(plan).empty();
-  if (s.options.strict && !clean) {
+  if (s.options.inputs.strict && !clean) {
     put_programs_aside(outputs, s.job);
     s.summary += "; nothing written (--strict)";
     return kFindings;
@@ -199,7 +144,7 @@ int finish(Session& s, const model::Plan& plan, std::vector<Output> outputs, con
     verdict_text += why(plan, verdict.condemned);
     if (!verdict.written) withhold(s, plan, verdict.condemned, outputs);
   }
-  if (auto ok = write_all(outputs); !ok) return s.end(ok.error(), kImpossible);
+  if (auto ok = service::write_all(outputs); !ok) return s.end(ok.error(), kImpossible);
   s.summary += verdict_text + written_text(outputs);
   return clean ? kDone : kFindings;
 }

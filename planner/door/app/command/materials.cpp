@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "planner/door/app/command/session.h"
-#include "planner/door/app/show/values.h"
+#include "planner/door/service/explain/values.h"
 #include "planner/ground/base/number.h"
 #include "tooling/shop/material/iso_groups.h"
 #include "tooling/shop/material/material.h"
@@ -10,6 +10,9 @@
 // The work materials: a short list by group, and all that is known of one.
 
 namespace capstan::app {
+
+using service::table;
+
 namespace {
 
 using model::WorkMaterial;

@@ -1,31 +1,15 @@
 #pragma once
 
-#include <chrono>
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "planner/door/pipeline/pipeline.h"
-#include "planner/ground/geometry/vec.h"
-#include "planner/making/optimise/solver/solver.h"
+#include "planner/door/service/request.h"
 
 namespace capstan::app {
-
-/// What planning is given beside the part; nothing stands for the built-in default.
-struct InputOptions {
-  std::optional<std::string> machine, tools, material, rules, cases;
-  std::optional<geometry::Box3> stock;
-  std::optional<double> stock_allowance_mm;
-  std::string stock_text;  ///< as given
-  std::optional<pipeline::Objective> objective;
-  std::optional<optimise::Solver> solver;
-  std::optional<std::string> general_tolerance, workholding;
-  std::optional<std::string> feeds;   ///< "constant" or "scheduled"
-  std::optional<std::string> margin;  ///< by name, of mechanics/margin.h
-  std::optional<double> revenue;
-  int batch = 1;
-  double edge_break_mm = 0.0;
-};
 
 enum class Command : std::uint8_t {
   kPlan,
@@ -71,18 +55,11 @@ struct Options {
   std::vector<std::string> files;    ///< positional, in order
   std::vector<std::string> outputs;  ///< -o
   std::string step, attribute;       ///< explain; `path` of inspect is in `step`
-  InputOptions inputs;
-  pipeline::Reopen reopen = pipeline::Reopen::kNothing;
-  pipeline::Bind bind = pipeline::Bind::kAll;
-  std::optional<std::chrono::milliseconds> deadline;
-  bool strict = false;            ///< plan, bind: outputs only when there is no finding
-  bool allow_findings = false;    ///< plan, bind: a program even when the check condemns it
-  bool force = false;             ///< an output may be an input, too
-  bool json = false;              ///< check: findings as JSON on standard output
-  bool schema = false;            ///< check: what reading found is a finding, too
-  bool json_diagnostics = false;  ///< one JSON object per line on standard error
-  unsigned threads = 1;
-  std::vector<std::string> words;  ///< tools: a filter, an id
+  service::Request inputs;           ///< what the library takes, too
+  bool force = false;                ///< an output may be an input, too
+  bool json = false;                 ///< check: findings as JSON on standard output
+  bool json_diagnostics = false;     ///< one JSON object per line on standard error
+  std::vector<std::string> words;    ///< tools: a filter, an id
   ToolsOptions tools;
   CaseQuestion question;  ///< cases nearest; the base is in `inputs.cases`
 };
@@ -98,10 +75,11 @@ struct Parsed {
 };
 [[nodiscard]] Parsed parse_command_line(int argc, const char* const* argv);
 
-/// "200ms", "1.5s", "200" (milliseconds); nothing when it is no duration above 0.
-[[nodiscard]] std::optional<std::chrono::milliseconds> parse_duration(const std::string& text);
-
-/// "block:+2" sets the allowance, "box:x0,y0,z0,x1,y1,z1" the box; gives what is wrong, or nothing.
-[[nodiscard]] std::string parse_stock(const std::string& text, InputOptions& into);
+/// An option of `plan`, `bind` or `check` that only a command line has, and why a library has no use for it.
+struct TerminalOption {
+  std::string_view name, why;
+};
+/// All of them; every other option of these commands is one of service::options().
+[[nodiscard]] std::span<const TerminalOption> terminal_options();
 
 }  // namespace capstan::app

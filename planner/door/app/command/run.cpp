@@ -9,7 +9,7 @@
 #include "planner/door/app/command/finish.h"
 #include "planner/door/app/command/options.h"
 #include "planner/door/app/command/session.h"
-#include "planner/door/app/files/outputs.h"
+#include "planner/door/service/outputs.h"
 
 namespace capstan::app {
 namespace {
@@ -58,7 +58,7 @@ int dispatch(Session& s) {
 /// What a call reads: an output of the same name would take it away.
 std::vector<std::string> read_by(const Options& o) {
   std::vector<std::string> out = o.files;
-  const InputOptions& in = o.inputs;
+  const service::Request& in = o.inputs;
   for (const auto& path : {in.machine, in.tools, in.material, in.rules, in.cases, in.workholding}) {
     if (path) out.push_back(*path);
   }
@@ -70,7 +70,7 @@ std::vector<std::string> read_by(const Options& o) {
 int begun(Session& s) {
   std::vector<std::string> outputs = s.options.outputs;
   if (!s.options.tools.save_map.empty()) outputs.push_back(s.options.tools.save_map);
-  if (auto ok = can_be_written(outputs, read_by(s.options), s.options.force); !ok)
+  if (auto ok = service::can_be_written(outputs, read_by(s.options), s.options.force); !ok)
     return s.end(ok.error(), kUsage);
   return dispatch(s);
 }
@@ -99,7 +99,7 @@ void leave_nothing_stale(Session& s, int code) {
   }
   for (const std::string& path : s.options.outputs) {
     // One name that is wrong does not make the others' programs true.
-    if (auto one = output_of(path)) put_programs_aside({*std::move(one)}, s.job);
+    if (auto one = service::output_of(path)) put_programs_aside({*std::move(one)}, s.job);
   }
 }
 

@@ -1,16 +1,37 @@
 #pragma once
 
+#include <array>
+
 namespace capstan::app {
 
-/// What the command ends with.
+/// What the command ends with; `kExitTexts` says what each means.
 enum ExitCode : int {
   kDone = 0,
-  kFindings = 1,    ///< done, but with findings: an unplanned feature, a violation, a difference
-  kUsage = 2,       ///< wrong usage, or something that is not supported yet
-  kUnreadable = 3,  ///< an input cannot be read
-  kImpossible = 4,  ///< no tool, no machine can; or an output cannot be made or written
-  kLate = 5,        ///< bind: done, but after the deadline
-  kOurFault = 70,   ///< a fault of the program itself
+  kFindings = 1,
+  kUsage = 2,
+  kUnreadable = 3,
+  kImpossible = 4,
+  kLate = 5,
+  kOurFault = 70,
+};
+
+struct ExitText {
+  ExitCode code;
+  const char* meaning;
+};
+/// For the manual pages; README's table says the same at more length.
+inline constexpr std::array kExitTexts{
+    ExitText{kDone, "done"},
+    ExitText{kFindings,
+             "done, with findings: an unplanned feature, a violation, a difference; no program is "
+             "written of a plan that the check condemns"},
+    ExitText{kUsage,
+             "wrong usage; a material, machine, fixture or tool that nobody knows; an output that cannot "
+             "be written"},
+    ExitText{kUnreadable, "an input cannot be read"},
+    ExitText{kImpossible, "impossible: no tool, no machine can"},
+    ExitText{kLate, "bind: done, but after the deadline"},
+    ExitText{kOurFault, "a fault of the program itself"},
 };
 
 /// The whole program: reads the command line, does the command, prints, and gives the exit code.

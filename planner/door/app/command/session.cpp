@@ -4,11 +4,9 @@
 
 #include <chrono>
 #include <cstdio>
-#include <set>
 #include <utility>
 
 #include "planner/door/app/command/told_once.h"
-#include "planner/ground/base/nearest_names.h"
 #include "planner/ground/base/number.h"
 
 namespace capstan::app {
@@ -65,7 +63,7 @@ std::string summary_line(const Session& s, int code) {
 }  // namespace
 
 Session::Session(Options o) : options(std::move(o)) {
-  job.threads = options.threads;
+  job.threads = options.inputs.threads;
   if (::isatty(STDERR_FILENO) != 0 && !options.json_diagnostics)
     job.set_progress([](std::string_view stage, double fraction) { bar().show(stage, fraction); });
 }
@@ -78,8 +76,7 @@ int Session::end(const Diagnostic& d, int code) {
     fault.severity = Severity::kError;
     job.report(std::move(fault));
   }
-  const bool usage = d.code == kUnknownName || d.code == "MACHINE-GEAR" || d.code == "FILE-WRITE";
-  return usage ? static_cast<int>(kUsage) : code;
+  return static_cast<int>(service::code_of(d, service::Code{code}));
 }
 
 void print_diagnostics(Session& s, int code) {
@@ -120,14 +117,8 @@ Diagnostic as_diagnostic(const model::Finding& f, const std::string& file, bool 
   return d;
 }
 
-std::size_t unplanned_features(const model::Plan& plan) {
-  std::set<model::AnyRef> out;
-  for (const model::Unplanned& u : plan.unplanned) out.insert(u.feature);
-  return out.size();
-}
-
 std::string unplanned_text(const model::Plan& plan) {
-  return counted(unplanned_features(plan), "feature", "features") + " not planned";
+  return counted(service::unplanned_features(plan), "feature", "features") + " not planned";
 }
 
 std::string counted(std::size_t n, const std::string& one, const std::string& many) {

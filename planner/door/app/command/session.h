@@ -5,6 +5,7 @@
 
 #include "planner/door/app/command/options.h"
 #include "planner/door/app/command/run.h"
+#include "planner/door/service/planning.h"
 #include "planner/ground/base/job.h"
 #include "planner/ground/base/result.h"
 #include "planner/model/plan/plan.h"
@@ -21,6 +22,7 @@ struct Session {
   /// Tells a fault that ends the command, and gives the exit code it means: that of wrong usage for a name
   /// that nobody knows, whatever it was named in.
   int end(const Diagnostic& d, int code);
+  int end(const service::Failure& failure) { return end(failure.what, static_cast<int>(failure.code)); }
 };
 
 /// Prints what the job was told and the summary line on standard error, as `--diagnostics` asks.
@@ -30,18 +32,12 @@ bool print(const std::string& text);
 
 /// A finding as a diagnostic of the plan or program it is about.
 [[nodiscard]] Diagnostic as_diagnostic(const model::Finding& f, const std::string& file, bool program);
-/// A finding, and the file it is about.
-struct Told {
-  std::string file;
-  model::Finding finding;
-  bool program = false;  ///< then the finding's place is a line, else a move of its step
-};
+using service::Told;
 /// Findings as a JSON document; its places are `line` in a program, `move` in a plan.
 [[nodiscard]] std::string findings_json(const std::vector<Told>& findings);
 /// One diagnostic as a JSON object in a line.
 [[nodiscard]] std::string diagnostic_json(const Diagnostic& d);
-/// How many features have something of them not planned, each once; "2 features not planned".
-[[nodiscard]] std::size_t unplanned_features(const model::Plan& plan);
+/// "2 features not planned"
 [[nodiscard]] std::string unplanned_text(const model::Plan& plan);
 /// "3 findings", "1 finding", "no finding"
 [[nodiscard]] std::string counted(std::size_t n, const std::string& one, const std::string& many);

@@ -2,7 +2,7 @@
 #include <numbers>
 
 #include "planner/door/app/command/session.h"
-#include "planner/door/app/show/values.h"
+#include "planner/door/service/explain/values.h"
 #include "planner/ground/base/nearest_names.h"
 #include "planner/ground/base/number.h"
 #include "rules/rules.h"
@@ -13,6 +13,9 @@
 // The tool library and the rule tables.
 
 namespace capstan::app {
+
+using service::table;
+
 namespace {
 
 using Rows = std::vector<std::vector<std::string>>;

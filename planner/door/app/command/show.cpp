@@ -1,13 +1,16 @@
 #include "planner/door/app/command/session.h"
 #include "planner/door/app/diff/diff.h"
-#include "planner/door/app/explain/explain.h"
-#include "planner/door/app/files/load.h"
-#include "planner/door/app/files/outputs.h"
 #include "planner/door/app/show/inspect.h"
+#include "planner/door/service/explain/explain.h"
+#include "planner/door/service/outputs.h"
+#include "planner/door/service/reading.h"
 
 // Commands that read, and say or write what they read.
 
 namespace capstan::app {
+
+using service::explain;
+
 namespace {
 
 /// What is asked for is on standard output; notes about the file would only be noise beside it.
@@ -26,7 +29,7 @@ int said(Session& s, const Result<std::string>& text) {
 }  // namespace
 
 int run_explain(Session& s) {
-  const auto plan = load_plan(s.options.files[0], s.job);
+  const auto plan = service::load_plan(s.options.files[0], s.job);
   if (!plan) return s.end(plan.error(), kUnreadable);
   drop_notes(s.job);
   if (s.options.step.empty()) return said(s, explain(*plan));
@@ -35,7 +38,7 @@ int run_explain(Session& s) {
 }
 
 int run_inspect(Session& s) {
-  const auto plan = load_plan(s.options.files[0], s.job);
+  const auto plan = service::load_plan(s.options.files[0], s.job);
   if (!plan) return s.end(plan.error(), kUnreadable);
   if (!s.options.step.empty()) {
     drop_notes(s.job);
@@ -47,9 +50,9 @@ int run_inspect(Session& s) {
 }
 
 int run_diff(Session& s) {
-  const auto before = load_plan(s.options.files[0], s.job);
+  const auto before = service::load_plan(s.options.files[0], s.job);
   if (!before) return s.end(before.error(), kUnreadable);
-  const auto after = load_plan(s.options.files[1], s.job);
+  const auto after = service::load_plan(s.options.files[1], s.job);
   if (!after) return s.end(after.error(), kUnreadable);
   drop_notes(s.job);
   const Difference d = diff(*before, *after);
@@ -58,23 +61,24 @@ int run_diff(Session& s) {
 }
 
 int run_convert(Session& s) {
-  auto outputs = outputs_of(s.options.outputs);
+  auto outputs = service::outputs_of(s.options.outputs);
   if (!outputs) return s.end(outputs.error(), kUsage);
-  for (const Output& o : *outputs) {
-    if (o.kind == OutputKind::kLinuxCnc || o.kind == OutputKind::kToolTable)
+  for (const service::Output& o : *outputs) {
+    if (o.format->of_program())
       return s.end({.code = "OUT-KIND",
                     .message = "a program is planned, not converted",
                     .file = o.path,
                     .hint = "capstan plan PART -o " + o.path},
                    kUsage);
   }
-  const auto plan = load_plan(s.options.files[0], s.job);
+  const auto plan = service::load_plan(s.options.files[0], s.job);
   if (!plan) return s.end(plan.error(), plan.error().code == "EXC-UNSUPPORTED" ? kUsage : kUnreadable);
-  if (auto ok = make(*plan, *outputs, s.job); !ok) return s.end(ok.error(), kImpossible);
-  if (auto ok = write_all(*outputs); !ok) return s.end(ok.error(), kImpossible);
+  if (auto ok = service::make(*plan, *outputs, s.job); !ok) return s.end(ok.error(), kImpossible);
+  if (auto ok = service::write_all(*outputs); !ok) return s.end(ok.error(), kImpossible);
   s.summary = "converted " + s.options.files[0];
-  for (const Output& o : *outputs) {
-    if (o.path != "-") s.summary += (&o == outputs->data() ? " to " : ", ") + o.path + losses_text(o);
+  for (const service::Output& o : *outputs) {
+    if (o.path != "-")
+      s.summary += (&o == outputs->data() ? " to " : ", ") + o.path + service::losses_text(o);
   }
   return kDone;
 }

@@ -6,8 +6,8 @@
 #include <optional>
 #include <set>
 
-#include "planner/door/app/explain/step_view.h"
-#include "planner/door/app/show/values.h"
+#include "planner/door/service/explain/step_view.h"
+#include "planner/door/service/explain/values.h"
 #include "planner/ground/base/number.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/nouns/arena/walk.h"
@@ -19,6 +19,14 @@ using model::AnyRef;
 using model::Attribute;
 using model::Plan;
 using model::Storage;
+using service::binder_text;
+using service::box_text;
+using service::cutter_text;
+using service::duration;
+using service::name_of;
+using service::StepView;
+using service::value_text;
+using service::views_of;
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "planner/door/app/show/node.h"
-#include "planner/door/app/show/values.h"
+#include "planner/door/service/explain/values.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/nouns/arena/walk.h"
 
@@ -15,6 +15,7 @@ using model::AnyRef;
 using model::Model;
 using model::Storage;
 using model::value_of;
+using service::label;
 using Compare = Condition::Compare;
 
 namespace {

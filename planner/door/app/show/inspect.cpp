@@ -4,10 +4,10 @@
 #include <map>
 #include <variant>
 
-#include "planner/door/app/explain/step_view.h"
 #include "planner/door/app/show/node.h"
 #include "planner/door/app/show/paths.h"
-#include "planner/door/app/show/values.h"
+#include "planner/door/service/explain/step_view.h"
+#include "planner/door/service/explain/values.h"
 #include "planner/ground/base/number.h"
 #include "planner/model/features/shape.h"
 #include "planner/model/nouns/all.h"
@@ -17,6 +17,13 @@ namespace capstan::app {
 
 using model::AnyRef;
 using model::Model;
+using service::box_text;
+using service::kListShown;
+using service::label;
+using service::open_decisions;
+using service::table;
+using service::value_text;
+using service::with_unit;
 
 namespace {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "planner/door/app/show/condition.h"
-#include "planner/door/app/show/values.h"
+#include "planner/door/service/explain/values.h"
 #include "planner/ground/base/number.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/nouns/arena/walk.h"
@@ -14,6 +14,9 @@ using model::AnyRef;
 using model::Model;
 using model::Storage;
 using model::value_of;
+using service::label;
+using service::value_text;
+using service::with_unit;
 
 namespace {
 

@@ -3,7 +3,7 @@
 #include <set>
 #include <tuple>
 
-#include "planner/door/pipeline/given/shop.h"
+#include "planner/door/pipeline/given/magazine.h"
 #include "planner/ground/base/number.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/nouns/arena/walk.h"

@@ -5,7 +5,7 @@
 #include <set>
 #include <tuple>
 
-#include "planner/door/pipeline/given/shop.h"
+#include "planner/door/pipeline/given/magazine.h"
 #include "planner/door/pipeline/propose/shared_tools.h"
 #include "planner/door/pipeline/step/steps.h"
 #include "planner/ground/base/number.h"

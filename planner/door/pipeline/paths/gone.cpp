@@ -110,9 +110,8 @@ bool in_air(const Work& w, const StepWork& step, double removed_mm3) {
   if (m.holds<model::CenterDrilling>(step.operation) || m.holds<model::Drilling>(step.operation) ||
       m.holds<model::MultistepDrilling>(step.operation))
     return true;
-  const bool rough = m.holds<model::PlaneRoughMilling>(step.operation) ||
-                     m.holds<model::SideRoughMilling>(step.operation) ||
-                     m.holds<model::BottomAndSideRoughMilling>(step.operation);
+  const bool rough = model::has(step.operation.type, model::OperationTrait::kRoughs) &&
+                     !model::has(step.operation.type, model::OperationTrait::kSurface);
   if (rough) return true;
   if (!m.holds<model::Two5dMillingOperation>(step.operation)) return false;
   // A finish stays after other steps of what it finishes: of the same element, where there are several.

@@ -148,10 +148,8 @@ class PathMaker {
     const Model& m = w_.plan.model;
     return !m.holds<model::CenterDrilling>(step.operation) &&
            !m.holds<model::CounterSinking>(step.operation) &&
-           !m.holds<model::SideFinishMilling>(step.operation) &&
-           !m.holds<model::BottomAndSideFinishMilling>(step.operation) &&
-           !m.holds<model::PlaneFinishMilling>(step.operation) &&
-           !m.holds<model::FreeformFinishMilling>(step.operation) && !m.holds<model::Tapping>(step.operation);
+           !model::has(step.operation.type, model::OperationTrait::kFinishes) &&
+           !m.holds<model::Tapping>(step.operation);
   }
 
   Status make(StepWork& step) {
@@ -341,7 +339,7 @@ class PathMaker {
       if (out.depth_open) job.axial_depth_mm = out.answer.ap_mm;
       if (out.width_open && out.answer.ae_mm > 0.0) job.radial_depth_mm = out.answer.ae_mm;
       if (out.question.ae_mm) job.radial_depth_mm = *out.question.ae_mm;
-      if (toolpath::undercuts(step.cutter)) {
+      if (model::has(step.cutter.cutter_class, model::CutterTrait::kSlotForm)) {
         // A stated feed is lowered where that holds the limits, and otherwise by the teeth that cut.
         auto loads = hold_under_overhang(out.question, out.answer, job);
         if (!loads && step.open_technology) return tl::unexpected(loads.error());
@@ -426,6 +424,7 @@ class PathMaker {
       out.removed_mm3 = m->removed_mm3;
       out.rapid_removed_mm3 = m->rapid_removed_mm3;
       fq.samples = step::samples_of(*m, *out.path, step.cutter);
+      fq.known_to_mm = m->known_to_mm;
       // One pass over a surface, not levels: as deep and as wide as what roughing left there.
       if (w_.plan.model.holds<model::FreeformFinishMilling>(step.operation)) {
         for (const optimise::CutSample& sample : fq.samples) {

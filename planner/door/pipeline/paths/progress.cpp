@@ -11,15 +11,6 @@ using model::ShapeKind;
 
 constexpr double kWithinMm = 1e-4;  ///< less than any path's last digits; default, unsourced
 
-bool is_end_mill(const model::Cutter& c) {
-  return c.cutter_class == model::CutterClass::kEndmill ||
-         c.cutter_class == model::CutterClass::kBullnoseEndmill;
-}
-
-bool opens_outwards(const model::FeatureShape& s) {
-  return s.kind == ShapeKind::kStep || s.kind == ShapeKind::kOutside;
-}
-
 }  // namespace
 
 geometry::Region stays_beside(const Work& w, const model::FeatureShape& s) {
@@ -93,7 +84,7 @@ void Progress::prepare(const StepWork& step, const stock::HeightMap& map, toolpa
   shape_from_mesh(w_, step, job);
   step::aim_at_the_middle(job.shape);
   stop_at_walls(w_, job.shape);
-  if (opens_outwards(job.shape)) {
+  if (model::has(job.shape.kind, model::ShapeTrait::kOutwards)) {
     const auto outline = transformed(setup.stock, inverse(job.feature_in_setup));
     const auto raw = geometry::rectangle(geometry::xy(outline.lo), geometry::xy(outline.hi));
     job.shape.area = geometry::intersect(job.shape.area, raw);
@@ -128,7 +119,7 @@ void Progress::prepare(const StepWork& step, const stock::HeightMap& map, toolpa
 /// rules proposed says so itself; of one that was read, its nouns tell.
 void Progress::take_rest(const StepWork& step, toolpath::PathJob& job) const {
   const bool area = job.shape.kind == ShapeKind::kPocket || job.shape.kind == ShapeKind::kSlot;
-  if (!area || !is_end_mill(job.cutter)) return;
+  if (!area || !model::has(job.cutter.cutter_class, model::CutterTrait::kEndMill)) return;
   if (step.proposed) {
     const auto after = [&](const StepWork& s) {
       return s.feature == step.feature && s.proposal.rest_of_diameter_mm > 0.0 &&
@@ -147,7 +138,7 @@ void Progress::done(const StepWork& step) {
     const auto job = job_of(w_, step, shape);
     if (w_.plan.model.holds<model::Two5dMillingOperation>(step.operation)) {
       left_[{step.feature, shape.member}] = {job.allowance_side_mm, job.allowance_bottom_mm};
-      if (is_end_mill(step.cutter)) {
+      if (model::has(step.cutter.cutter_class, model::CutterTrait::kEndMill)) {
         milled_[{step.feature, shape.member}].push_back({job.operation, step.cutter.cutting_diameter_mm,
                                                          step.cutter.corner_radius_mm, job.allowance_side_mm,
                                                          job.allowance_bottom_mm});

@@ -55,9 +55,9 @@ void in_order(Work& w, StepWork& step, std::vector<std::pair<double, std::size_t
 
 void rank_by_time(Work& w, StepWork& step, Stocks& stocks, const Progress& progress, Cuts& cuts) {
   if (step.candidates.size() < 2 || step.shapes.empty()) return;
-  const Model& m = w.plan.model;
-  if (!m.holds<model::PlaneMilling>(step.operation) && !m.holds<model::SideRoughMilling>(step.operation) &&
-      !m.holds<model::BottomAndSideRoughMilling>(step.operation)) {
+  if (!model::has(step.operation.type, model::OperationTrait::kPlane) &&
+      !(model::has(step.operation.type, model::OperationTrait::kRoughs) &&
+        model::has(step.operation.type, model::OperationTrait::kWalls))) {
     return;
   }
   const std::size_t n = std::min(kCompared, step.candidates.size());
@@ -82,7 +82,7 @@ void rank_by_time(Work& w, StepWork& step, Stocks& stocks, const Progress& progr
 
 void rank_by_path(Work& w, StepWork& step, const std::function<std::optional<double>(std::size_t)>& seconds) {
   if (step.candidates.size() < 2 || step.shapes.empty() ||
-      !toolpath::undercuts(step.candidates.front().cutter))
+      !model::has(step.candidates.front().cutter.cutter_class, model::CutterTrait::kSlotForm))
     return;
   std::vector<std::pair<double, std::size_t>> times;
   for (std::size_t i = 0; i < std::min(kCompared, step.candidates.size()); ++i) {

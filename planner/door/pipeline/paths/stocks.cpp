@@ -105,7 +105,7 @@ Result<engagement::Measurement> Stocks::measure(std::size_t setup, const model::
   patches_[setup].push_back(stock::patch_of(map, geometry::Vec2{around.lo.x, around.lo.y} - reach,
                                             geometry::Vec2{around.hi.x, around.hi.y} + reach));
   if (!exact || !exact->lost().empty()) return engagement::measure(path, cutter, map);
-  if (engagement::head_height(cutter) || !stock::is_flat(profile)) {
+  if (engagement::head_height(cutter) || !geometry::is_flat(profile)) {
     auto cells = engagement::measure(path, cutter, map);
     if (!cells) return cells;
     if (engagement::head_height(cutter)) {

@@ -23,7 +23,7 @@ model::PieceForm part_form(const Work& w) { return {part_box(w), w.plan.stock.cy
 
 /// What can state no radius of its inside corners, and a closed pocket for which the file states none.
 bool states_no_corner(const Work& w, const FeatureShape& s) {
-  if (s.kind == ShapeKind::kStep || s.kind == ShapeKind::kOutside || model::stops_at_walls(s)) return true;
+  if (model::has(s.kind, model::ShapeTrait::kOutwards) || model::stops_at_walls(s)) return true;
   if (s.kind != ShapeKind::kPocket || s.open || s.corner_radius_mm > 0.0) return false;
   const auto* p = w.plan.model.get<model::Pocket>(s.made_of.empty() ? s.feature : s.made_of.back());
   return p != nullptr && !p->orthogonal_radius.set();

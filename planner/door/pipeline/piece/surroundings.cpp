@@ -109,10 +109,6 @@ void to_raw_sides(const FeatureShape& s, const geometry::Box3& raw, std::optiona
   }
 }
 
-bool has_walls(ShapeKind k) {
-  return k == ShapeKind::kPocket || k == ShapeKind::kSlot || k == ShapeKind::kHole;
-}
-
 /// Form and orientation that the general tolerance asks where the feature states none: over its longest and
 /// its shorter extent.
 void take_general(const model::GeneralTolerance& g, const FeatureShape& s, model::Quality& q) {
@@ -120,7 +116,7 @@ void take_general(const model::GeneralTolerance& g, const FeatureShape& s, model
   const Box2 box = geometry::bounds(s.area);
   const double x = box.hi.x - box.lo.x, y = box.hi.y - box.lo.y;
   if (!q.form_mm && s.kind == ShapeKind::kFace) q.form_mm = model::general_flatness(g, std::max(x, y));
-  if (!q.orientation_mm && has_walls(s.kind))
+  if (!q.orientation_mm && model::has(s.kind, model::ShapeTrait::kWalled))
     q.orientation_mm = model::general_perpendicularity(g, std::max(s.depth_mm, 1.0));
 }
 
@@ -144,7 +140,7 @@ Thickness thickness_beside(const Work& w, const FeatureShape& s) {
   const geometry::Box3 raw = transformed(w.plan.stock.box, to);
   const geometry::Region own = taken(s);
   const Box2 box = geometry::bounds(own);
-  if (has_walls(s.kind)) to_raw_sides(s, raw, out.wall_mm);
+  if (model::has(s.kind, model::ShapeTrait::kWalled)) to_raw_sides(s, raw, out.wall_mm);
   double below = s.through ? 0.0 : -s.depth_mm - raw.lo.z;
   for (const FeatureShape& other : w.shapes) {
     if (other.feature == s.feature && other.member == s.member) continue;
@@ -175,7 +171,7 @@ std::optional<double> clear_beside(const Work& w, const FeatureShape& s) {
   for (const FeatureShape& other : w.shapes) {
     if (other.area.empty() || dot(other.frame.z, s.frame.z) < 1.0 - kSame) continue;
     const bool wide = other.kind == ShapeKind::kFace || other.kind == ShapeKind::kOutside;
-    const bool walled = other.kind == ShapeKind::kStep || has_walls(other.kind);
+    const bool walled = other.kind == ShapeKind::kStep || model::has(other.kind, model::ShapeTrait::kWalled);
     if (!wide && !walled) continue;
     if (other.kind == ShapeKind::kHole && other.diameter.nominal_mm <= s.diameter.nominal_mm) continue;
     const Seen seen = see(other, to);

@@ -159,8 +159,7 @@ Box3 box_of_features(const Work& w) {
     if (!shapes) continue;
     for (const auto& s : *shapes) {
       if (s.kind == model::ShapeKind::kOutside) add_outside(s, out);
-      if (s.area.empty() || s.kind == model::ShapeKind::kStep || s.kind == model::ShapeKind::kOutside)
-        continue;
+      if (s.area.empty() || model::has(s.kind, model::ShapeTrait::kOutwards)) continue;
       const auto b = geometry::bounds(s.area);
       for (const Vec3 corner : {Vec3{b.lo.x, b.lo.y, 0}, Vec3{b.hi.x, b.lo.y, 0}, Vec3{b.lo.x, b.hi.y, 0},
                                 Vec3{b.hi.x, b.hi.y, 0}}) {
@@ -347,8 +346,7 @@ void report_outside(Work& w) {
     const auto shapes = model::shapes_of(w.plan.model, Ref<model::ManufacturingFeature>(f));
     if (!shapes) continue;
     for (const auto& s : *shapes) {
-      if (s.area.empty() || s.kind == model::ShapeKind::kStep || s.kind == model::ShapeKind::kOutside)
-        continue;
+      if (s.area.empty() || model::has(s.kind, model::ShapeTrait::kOutwards)) continue;
       const auto b = geometry::bounds(s.area);
       const Box3 raw = transformed(w.plan.stock.box, inverse(s.frame));
       std::string how;

@@ -9,7 +9,9 @@ namespace capstan::pipeline {
 
 void members_in_order(Work& w, const std::vector<std::size_t>& first,
                       const std::vector<std::size_t>& second) {
-  const auto sizes = [&](std::size_t step) { return craft_rank(w.steps[step].operation.type) == kSizes; };
+  const auto sizes = [&](std::size_t step) {
+    return model::craft_rank(w.steps[step].operation.type) == model::craft::kSizes;
+  };
   const auto sized = std::find_if(first.begin(), first.end(), sizes);
   const auto sized_too = std::find_if(second.begin(), second.end(), sizes);
   const bool opened = sized != first.end() && sized != first.begin() && sized_too != second.begin();

@@ -426,18 +426,8 @@ std::vector<model::Cutter> usable(const Work& w) {
 }
 
 bool alike(const FeatureShape& a, const FeatureShape& b) {
-  const auto same = [](const model::Toleranced& x, const model::Toleranced& y) {
-    return x.nominal_mm == y.nominal_mm && x.lower_mm == y.lower_mm && x.upper_mm == y.upper_mm &&
-           x.given == y.given;
-  };
-  if (!same(a.diameter, b.diameter) || !same(a.width, b.width) || !same(a.depth_tolerance, b.depth_tolerance))
-    return false;
-  if (a.bottom != b.bottom || a.through != b.through || a.bottom_diameter_mm != b.bottom_diameter_mm)
-    return false;
-  if (a.corner_radius_mm != b.corner_radius_mm || a.islands.size() != b.islands.size()) return false;
-  return a.kind == b.kind && a.depth_mm == b.depth_mm && a.diameter.nominal_mm == b.diameter.nominal_mm &&
-         a.area.loops == b.area.loops && a.frame.z == b.frame.z && a.frame.origin.z == b.frame.origin.z &&
-         a.thread_pitch_mm == b.thread_pitch_mm;
+  return model::same_form(a, b) && a.area.loops == b.area.loops && a.frame.z == b.frame.z &&
+         a.frame.origin.z == b.frame.origin.z;
 }
 
 Status propose_missing(Work& w) {

@@ -6,6 +6,7 @@
 
 #include "planner/door/pipeline/propose/members.h"
 #include "planner/ground/base/number.h"
+#include "planner/ground/vocabulary/operation.h"
 #include "tooling/selection/select.h"
 
 // The second look at the tools, when every step has one: fewer of them.
@@ -27,12 +28,6 @@ double perimeter(const geometry::Region& area) {
     for (std::size_t i = 0; i < loop.size(); ++i) out += norm(loop[(i + 1) % loop.size()] - loop[i]);
   }
   return out;
-}
-
-bool finishes(TypeId operation) {
-  return model::is_a(operation, TypeId::kSideFinishMilling) ||
-         model::is_a(operation, TypeId::kBottomAndSideFinishMilling) ||
-         model::is_a(operation, TypeId::kFreeformFinishMilling);
 }
 
 /// A tool that fits a step in place of its own.
@@ -178,16 +173,14 @@ tooling::Preferences preferences_of(const Work& w, const model::ProposedStep& st
     p.volume_mm3 = geometry::area(s.area) * p.depth_mm;
     return p;
   }
-  if (finishes(step.operation)) {
+  if (model::has(step.operation, model::OperationTrait::kFinishes)) {  // planes have returned
     p.width_mm = kLeftOnWalls;
     p.depth_mm = depth;
     p.volume_mm3 = perimeter(s.area) * depth * kLeftOnWalls;
     return p;
   }
-  const bool clears = s.kind == ShapeKind::kFace || s.kind == ShapeKind::kPocket ||
-                      s.kind == ShapeKind::kSlot || s.kind == ShapeKind::kStep ||
-                      s.kind == ShapeKind::kOutside || s.kind == ShapeKind::kHole;
-  if (!clears) return p;  // chamfers, rounds, threads: little, and nobody says how much
+  if (!model::has(s.kind, model::ShapeTrait::kClears))
+    return p;  // chamfers, rounds, threads: little, and nobody says how much
   p.depth_mm = depth;
   p.volume_mm3 = geometry::area(s.area) * depth;
   if (s.kind == ShapeKind::kHole) {

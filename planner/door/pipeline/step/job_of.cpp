@@ -152,11 +152,7 @@ void take_drilling(const Model& m, AnyRef op, toolpath::PathJob& job) {
 /// ISO 14649 has no place for necks: that of a form cutter read from a file is the one of the library's
 /// cutter of the same name, class and diameter.
 model::Cutter with_neck(const Work& w, model::Cutter c) {
-  const bool form = c.cutter_class == model::CutterClass::kTSlotMill ||
-                    c.cutter_class == model::CutterClass::kDovetailMill ||
-                    c.cutter_class == model::CutterClass::kBackCountersink ||
-                    c.cutter_class == model::CutterClass::kCornerRoundingMill;
-  if (!form) return c;
+  if (!model::has(c.cutter_class, model::CutterTrait::kNecked)) return c;
   for (const model::Cutter& known : w.inputs.library) {
     if (known.id != c.id || known.cutter_class != c.cutter_class ||
         std::abs(known.cutting_diameter_mm - c.cutting_diameter_mm) > 1e-6)

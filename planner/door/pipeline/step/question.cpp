@@ -4,9 +4,11 @@
 #include "casebase/casebase.h"
 #include "planner/door/pipeline/step/steps.h"
 #include "planner/ground/base/number.h"
+#include "planner/ground/vocabulary/operation.h"
 #include "planner/making/toolpath/hole/hole_paths.h"
 #include "planner/making/toolpath/region/form/undercut.h"
 #include "planner/model/features/raw_piece.h"
+#include "planner/model/plan/borne_feed.h"
 #include "planner/physics/mechanics/stability.h"
 #include "tooling/selection/select.h"
 
@@ -34,15 +36,11 @@ CutKind kind_of(const Model& m, AnyRef op, const model::Cutter& c) {
   if (c.cutter_class == model::CutterClass::kThreadMill) return CutKind::kFinish;
   if (m.holds<model::Reaming>(op)) return CutKind::kReam;
   if (m.holds<model::DrillingTypeOperation>(op)) {
-    const bool mills = c.cutter_class == model::CutterClass::kEndmill ||
-                       c.cutter_class == model::CutterClass::kBullnoseEndmill;
+    const bool mills = model::has(c.cutter_class, model::CutterTrait::kEndMill);
     return mills && m.holds<model::ThreadDrilling>(op) ? CutKind::kRough : CutKind::kDrill;
   }
-  if (m.holds<model::SideFinishMilling>(op) || m.holds<model::BottomAndSideFinishMilling>(op) ||
-      m.holds<model::FreeformFinishMilling>(op)) {
-    return CutKind::kFinish;
-  }
-  return CutKind::kRough;
+  const bool plane = model::has(op.type, model::OperationTrait::kPlane);
+  return !plane && model::has(op.type, model::OperationTrait::kFinishes) ? CutKind::kFinish : CutKind::kRough;
 }
 
 double tolerance_of(const Work& w, const StepWork& step, const model::FeatureShape& s) {
@@ -68,15 +66,11 @@ void hold_quality(const Work& w, const StepWork& step, const toolpath::PathJob& 
   const Model& m = w.plan.model;
   const bool floor = job.allowance_bottom_mm > 0.0;
   const bool wall = job.allowance_side_mm > 0.0;
-  const bool finishes = m.holds<model::PlaneFinishMilling>(step.operation) ||
-                        m.holds<model::SideFinishMilling>(step.operation) ||
-                        m.holds<model::BottomAndSideFinishMilling>(step.operation) ||
-                        m.holds<model::FreeformFinishMilling>(step.operation);
+  const bool finishes = model::has(step.operation.type, model::OperationTrait::kFinishes);
   const auto asked = w.qualities.find(step.feature);
   if (finishes && !(floor && wall) && asked != w.qualities.end())
     q.surface_ra_um = asked->second.ra_um.value_or(0.0);
-  const bool upright = step.cutter.cutter_class == model::CutterClass::kEndmill ||
-                       step.cutter.cutter_class == model::CutterClass::kBullnoseEndmill;
+  const bool upright = model::has(step.cutter.cutter_class, model::CutterTrait::kEndMill);
   if (q.kind != CutKind::kFinish || wall || !upright || m.holds<model::FreeformFinishMilling>(step.operation))
     return;
   q.wall_error_limit_mm = q.deflection_limit_mm;
@@ -85,7 +79,7 @@ void hold_quality(const Work& w, const StepWork& step, const toolpath::PathJob& 
 
 /// The widest cut that the feature offers: a slot's width, a pocket's narrower side.
 double width_of(const model::FeatureShape& s) {
-  if (s.kind == ShapeKind::kHole || s.kind == ShapeKind::kThread) return s.diameter.nominal_mm;
+  if (model::has(s.kind, model::ShapeTrait::kRound)) return s.diameter.nominal_mm;
   if (s.kind == ShapeKind::kSlot) {
     double half = 0.5 * s.width.nominal_mm;
     for (const geometry::Vec2 p : s.slot_profile) half = std::max(half, p.y);
@@ -96,15 +90,9 @@ double width_of(const model::FeatureShape& s) {
   return std::min(b.hi.x - b.lo.x, b.hi.y - b.lo.y);
 }
 
-/// Whether the feature's walls stand on both sides of the cutter.
-bool narrow(const model::FeatureShape& s) {
-  return s.kind == ShapeKind::kPocket || s.kind == ShapeKind::kSlot || s.kind == ShapeKind::kHole;
-}
-
 /// How wide a cone cuts at its depth: 2 t tan(SIG / 2), plus its flat tip; 0 when all of the cutter does.
 double engaged(TypeId operation, const model::Cutter& c, std::optional<double> depth_mm) {
-  const bool cone =
-      model::is_a(operation, TypeId::kCenterDrilling) || model::is_a(operation, TypeId::kCounterSinking);
+  const bool cone = model::has(operation, model::OperationTrait::kConeTip);
   if (!cone || !depth_mm || !(c.point_angle_rad > 0.0)) return 0.0;
   return c.tip_diameter_mm + 2.0 * *depth_mm * std::tan(0.5 * c.point_angle_rad);
 }
@@ -202,7 +190,8 @@ optimise::CutQuestion question_of(const Work& w, const StepWork& step, const mod
   const double bottom = job.feature_in_setup.origin.z - job.shape.depth_mm + job.allowance_bottom_mm;
   q.depth_mm = std::max(0.0, job.start_z_mm - bottom);
   q.width_mm = width_of(job.shape);
-  q.slot = narrow(job.shape) && q.width_mm > 0.0 && q.width_mm <= kAsWide * step.cutter.cutting_diameter_mm;
+  q.slot = model::has(job.shape.kind, model::ShapeTrait::kWalled) && q.width_mm > 0.0 &&
+           q.width_mm <= kAsWide * step.cutter.cutting_diameter_mm;
   q.pre_hole_mm = job.previous_diameter_mm.value_or(0.0);
   q.engaged_diameter_mm = engaged(step.operation.type, step.cutter, job.cutting_depth_mm);
   const double d = step.cutter.cutting_diameter_mm;
@@ -238,7 +227,7 @@ optimise::CutQuestion question_of(const Work& w, const StepWork& step, const mod
   }
   // A round slot into the solid, by a ball as wide as it is: no finishing cut, but what bends it tells.
   if (q.kind == CutKind::kFinish && job.shape.kind == ShapeKind::kSlot && !job.left_on_side_mm &&
-      step.cutter.cutter_class == model::CutterClass::kBallEndmill && width_of(job.shape) <= kAsWide * d) {
+      model::has(step.cutter.cutter_class, model::CutterTrait::kBall) && width_of(job.shape) <= kAsWide * d) {
     q.kind = CutKind::kRough;
     q.slot = true;
     q.ae_mm = q.width_mm = d;
@@ -256,9 +245,8 @@ optimise::CutQuestion question_of(const Work& w, const StepWork& step, const mod
     q.width_mm += 0.41422 * std::max(0.0, 0.5 * (job.cleared_by->diameter_mm - d));
     q.width_mm = std::min(q.width_mm, d);
   }
-  if (step.cutter.cutter_class == model::CutterClass::kTSlotMill ||
-      step.cutter.cutter_class == model::CutterClass::kDovetailMill ||
-      step.cutter.cutter_class == model::CutterClass::kBackCountersink)
+  if (model::has(step.cutter.cutter_class, model::CutterTrait::kUndercuts) &&
+      model::has(step.cutter.cutter_class, model::CutterTrait::kNecked))
     under_an_overhang(q, job);
   if (q.slot && job.shape.kind == model::ShapeKind::kHole && toolpath::cuts_from_below(job)) {
     const auto most = toolpath::back_cut(job);
@@ -266,8 +254,7 @@ optimise::CutQuestion question_of(const Work& w, const StepWork& step, const mod
     q.ap_mm = q.depth_mm = most.ap_mm;
     q.ae_mm = q.width_mm = most.ae_mm;
   }
-  const bool cone = step.cutter.cutter_class == model::CutterClass::kChamferMill ||
-                    step.cutter.cutter_class == model::CutterClass::kCountersink;
+  const bool cone = model::has(step.cutter.cutter_class, model::CutterTrait::kSinks);
   // A broken edge: as wide as it is deep.
   if (cone && q.kind == CutKind::kFinish && q.ap_mm) q.width_mm = std::max(0.05, *q.ap_mm);
   // A hole's cone, in one cut: as deep and as wide as it is.
@@ -306,7 +293,8 @@ std::optional<model::Reason> start_from_case(const Work& w, const StepWork& step
   if (!p) return std::nullopt;
   q.vc_start_m_min = std::min(p->vc_m_min, kCaseReach * q.vc_start_m_min);
   q.fz_start_mm = std::min(p->fz_mm, kCaseReach * q.fz_start_mm);
-  if (q.cutter.fz_max_mm > 0.0) q.fz_start_mm = std::min(q.fz_start_mm, q.cutter.fz_max_mm);
+  if (const double borne = model::borne_feed(q.cutter, q.material).mm; borne > 0.0)
+    q.fz_start_mm = std::min(q.fz_start_mm, borne);
   return model::Reason{"case." + p->case_id,
                        "starts from a " + p->provenance + " case at distance " + trimmed(p->distance, 3) +
                            " (" + std::to_string(p->neighbours) + " near): " + trimmed(p->vc_m_min, 2) +

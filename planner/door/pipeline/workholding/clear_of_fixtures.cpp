@@ -266,9 +266,7 @@ std::vector<Footprint> footprints(const Work& w, std::size_t setup) {
     for (const auto& shape : s.shapes) {
       const auto frame = compose(w.setups[setup].workpiece, shape.frame);
       Footprint f;
-      const bool over = shape.open || shape.kind == model::ShapeKind::kFace ||
-                        shape.kind == model::ShapeKind::kStep || shape.kind == model::ShapeKind::kOutside ||
-                        shape.kind == model::ShapeKind::kChamfer;
+      const bool over = shape.open || model::has(shape.kind, model::ShapeTrait::kBeyond);
       f.area = in_setup(shape.area, frame);
       if (over) {
         const auto& box = w.setups[setup].stock;

@@ -10,10 +10,12 @@
 #include "planner/making/optimise/cut/limits.h"
 #include "planner/making/optimise/cut/search.h"
 #include "planner/making/optimise/cut/stability.h"
+#include "planner/physics/mechanics/constants.h"
 
 namespace capstan::optimise {
 namespace {
 
+using model::Limit;
 using std::numbers::pi;
 
 /// Points that one search may evaluate, whatever the job's budget: a smooth one needs a tenth of them.
@@ -75,12 +77,13 @@ void measure_answer(const CutQuestion& q, CutAnswer& a) {
   if (!loads) a.violated.emplace_back("the cut lies outside the range of the force formulas");
   const Measures m = measures(q, a.loads, a.ap_mm, a.n_rpm, a.feed_mm_min);
   const bool torque = short_of_torque(q, a.n_rpm);
-  for (std::size_t i = 0; i < m.size(); ++i) {
-    if (!m[i].stated() || m[i].value <= m[i].limit * (1.0 + kRounding)) continue;
-    if (i == (torque ? 0u : 1u)) continue;  // the same limit by its other name
+  for (const model::LimitRow& r : model::kLimitRows) {
+    const Measure& one = m[r.value];
+    if (!one.stated() || one.value <= one.limit * (1.0 + kRounding)) continue;
+    if (r.value == (torque ? Limit::kSpindlePower : Limit::kSpindleTorque)) continue;  // its other name
     a.feasible = false;
-    a.violated.push_back(std::string(kLimitsOfCut[i].name) + ": " + number(m[i].value) + " against " +
-                         number(m[i].limit) + " " + kLimitsOfCut[i].unit);
+    a.violated.push_back(std::string(r.name) + ": " + number(one.value) + " against " + number(one.limit) +
+                         " " + std::string(r.unit));
   }
   const bool chosen = !q.feed_mm_min && !q.fz_mm;
   const double least = least_fz(q) / ease_of(q, "feed_per_tooth_least");
@@ -95,9 +98,8 @@ void measure_answer(const CutQuestion& q, CutAnswer& a) {
 double excess_by_feed(const CutQuestion& q, const CutAnswer& a) {
   const Measures m = measures(q, a.loads, a.ap_mm, a.n_rpm, a.feed_mm_min);
   double worst = 0.0;
-  for (std::size_t i = 0; i < m.size(); ++i) {
-    if (kLimitsOfCut[i].of_loads || std::string_view(kLimitsOfCut[i].name) == "axis_feed")
-      worst = std::max(worst, m[i].excess());
+  for (const model::LimitRow& r : model::kLimitRows) {
+    if (r.eased) worst = std::max(worst, m[r.value].excess());
   }
   return worst;
 }
@@ -182,15 +184,16 @@ std::vector<Held> held_by(const CutQuestion& q, const Solved& s, const CutAnswer
   for (const ActiveLimit& l : s.solution.active) {
     model::ActiveConstraint c;
     if (l.kind == ActiveLimit::Kind::kConstraint) {
-      const auto* at = std::find_if(kLimitsOfCut.begin(), kLimitsOfCut.end(),
-                                    [&](const LimitOfCut& k) { return l.name == k.name; });
-      auto i = static_cast<std::size_t>(at - kLimitsOfCut.begin());
-      if (l.name == "spindle_power" && short_of_torque(q, a.n_rpm)) i = 1;
-      if (!m[i].stated()) continue;
-      c.name = kLimitsOfCut[i].name;
-      c.unit = kLimitsOfCut[i].unit;
-      c.value = m[i].value;
-      c.limit = m[i].limit;
+      const auto* at = std::find_if(model::kLimitRows.begin(), model::kLimitRows.end(),
+                                    [&](const model::LimitRow& k) { return l.name == k.name; });
+      const bool torque = at->value == Limit::kSpindlePower && short_of_torque(q, a.n_rpm);
+      const model::LimitRow& told = torque ? row_of(Limit::kSpindleTorque) : *at;
+      const Measure& one = m[told.value];
+      if (!one.stated()) continue;
+      c.name = told.name;
+      c.unit = told.unit;
+      c.value = one.value;
+      c.limit = one.limit;
       if (at->at_rpm) c.at_rpm = a.n_rpm;
       c.shadow_price = 0.01 * l.multiplier;
     } else {
@@ -325,8 +328,11 @@ Result<Level> best_level(const CutQuestion& q, const Options& options, Job& job)
     if (level) level->answer.levels = levels_of(*q.ap_mm);
     return level;
   }
-  // Thinner levels than this are not tried; default, unsourced.
+  // Thinner levels than this are not tried, whatever the edge; default, unsourced.
   constexpr double kThinnestMm = 0.05;
+  const bool hss = q.cutter.substrate == model::Substrate::kHss;
+  const double thinnest = std::max(
+      kThinnestMm, mechanics::least_depth_mm(q.cutter.cutting_diameter_mm, hss, q.material.iso_group));
   constexpr int kMostTries = 24;
   std::optional<Level> best;
   double least = 0.0;
@@ -335,6 +341,11 @@ Result<Level> best_level(const CutQuestion& q, const Options& options, Job& job)
     if (!level) return tl::unexpected(level.error());
     CutAnswer& a = level->answer;
     a.levels = levels;
+    if (levels > 1 && depth / levels < thinnest) {
+      a.feasible = false;
+      a.violated.push_back("level_depth_least: " + number(depth / levels) + " against " + number(thinnest) +
+                           " mm, below which the edge smears");
+    }
     const double objective = objective_of(q, {a.ap_mm, a.ae_mm, a.n_rpm, a.feed_mm_min});
     const bool better_one = !best || (a.feasible && !best->answer.feasible) ||
                             (a.feasible == best->answer.feasible && objective < least * (1.0 - 1e-6));
@@ -347,7 +358,7 @@ Result<Level> best_level(const CutQuestion& q, const Options& options, Job& job)
   std::set<int> tried;
   for (int levels = fewest; static_cast<int>(tried.size()) < kMostTries;
        levels = std::max(levels + 1, static_cast<int>(1.3 * levels))) {
-    if (levels > kMostLevels || (best && depth / levels < kThinnestMm)) break;
+    if (levels > kMostLevels || (best && depth / levels < thinnest)) break;
     // Thinner levels only lower what could be removed at most; but a deep slot is cut slower.
     const Search search(q, depth / levels);
     const bool slower = q.slot && depth / levels > kFullFeedSlotRatio * q.cutter.cutting_diameter_mm;

@@ -3,11 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/model/plan/borne_feed.h"
 #include "planner/physics/mechanics/constants.h"
 #include "planner/physics/mechanics/stability.h"
 #include "planner/physics/mechanics/surface.h"
 
 namespace capstan::optimise {
+
+using model::Limit;
+
 namespace {
 
 double efficiency(const CutQuestion& q) {
@@ -46,16 +50,22 @@ std::optional<mechanics::SpindleCurve> curve_of(const CutQuestion& q) {
 double largest_fz(const CutQuestion& q) {
   double fz = q.fz_start_mm;
   // The start value is what is planned for; the cutter's largest must hold with the override, too.
-  if (q.cutter.fz_max_mm > 0.0) fz = std::min(fz, q.cutter.fz_max_mm / feed_override(q));
+  if (const double most = model::borne_feed(q.cutter, q.material).mm; most > 0.0)
+    fz = std::min(fz, most / feed_override(q));
   return fz;
 }
 
-double thinnest_chip_mm(const CutQuestion& q) {
+double least_chip_mm(const CutQuestion& q) {
   const bool hss = q.cutter.substrate == model::Substrate::kHss;
+  const double least = mechanics::least_chip_mm(q.cutter.cutting_diameter_mm, hss, q.material.iso_group);
+  const double held = model::held_to_cut_mm(q.cutter, q.material);
+  return held > 0.0 ? std::min(least, held) : least;
+}
+
+double thinnest_chip_mm(const CutQuestion& q) {
   // A given feed is its maker's word.
   const bool given = q.feed_mm_min.has_value() || q.fz_mm.has_value();
-  const double own = given ? 0.0 : mechanics::least_chip_mm(q.cutter.cutting_diameter_mm, hss);
-  return std::max(q.least_chip_mm, own);
+  return std::max(q.least_chip_mm, given ? 0.0 : least_chip_mm(q));
 }
 
 double least_fz(const CutQuestion& q) {
@@ -122,45 +132,50 @@ Measures measures(const CutQuestion& q, const model::StepLoads& l, double ap, do
   Measures m;
   if (const auto curve = curve_of(q)) {
     if (const auto c = curve->at(std::clamp(n, curve->min_rpm(), curve->max_rpm()))) {
-      m[0] = {l.power_w, c->power_w * efficiency(q)};
-      m[1] = {l.torque_nm, c->torque_nm * efficiency(q)};
+      m[Limit::kSpindlePower] = {l.power_w, c->power_w * efficiency(q)};
+      m[Limit::kSpindleTorque] = {l.torque_nm, c->torque_nm * efficiency(q)};
     }
   }
   if (mills) {
-    m[2] = {l.deflection_mm, deflection_limit(q)};
+    m[Limit::kToolDeflection] = {l.deflection_mm, deflection_limit(q)};
     // A catalogue's feed is along the feed: with a lead angle its chip is thinner from the start.
     const double slot =
         q.kind == CutKind::kRough && q.slot ? deep_slot_share(ap, q.cutter.cutting_diameter_mm) : 1.0;
     if (largest_fz(q) > 0.0)
-      m[3] = {l.chip_thickness_mm, slot * largest_fz(q) * std::cos(q.cutter.lead_angle_rad)};
-    if (q.wall_error_limit_mm > 0.0) m[4] = {std::abs(l.wall_error_mm), q.wall_error_limit_mm};
+      m[Limit::kChipThickness] = {l.chip_thickness_mm,
+                                  slot * largest_fz(q) * std::cos(q.cutter.lead_angle_rad)};
+    if (q.wall_error_limit_mm > 0.0)
+      m[Limit::kWallError] = {std::abs(l.wall_error_mm), q.wall_error_limit_mm};
     if (q.surface_ra_um > 0.0)
-      m[5] = {1000.0 * kRoughnessOverGeometry * mechanics::kArcRaOverRz * l.surface_rz_mm, q.surface_ra_um};
+      m[Limit::kSurfaceRoughness] = {
+          1000.0 * kRoughnessOverGeometry * mechanics::kArcRaOverRz * l.surface_rz_mm, q.surface_ra_um};
   }
-  if (q.peak_force_limit_n > 0.0) m[6] = {l.peak_force_n, q.peak_force_limit_n};
-  if (mills && thinnest_chip_mm(q) > 0.0) m[7] = {thinnest_chip_mm(q), l.chip_thickness_mm};
-  m[8] = {rpm.lo, n};
-  if (rpm.hi > 0.0) m[9] = {n, rpm.hi};
-  if (axis_feed(q) > 0.0) m[10] = {feed, axis_feed(q)};
-  if (mills && q.cutter.maximum_depth_of_cut_mm > 0.0) m[11] = {ap, q.cutter.maximum_depth_of_cut_mm};
-  if (mills && q.ap_most_mm > 0.0) m[12] = {ap, q.ap_most_mm};
-  m[13] = {ap, slender_depth(q)};
-  for (std::size_t i = 0; i < m.size(); ++i) m[i].limit *= ease_of(q, kLimitsOfCut[i].name);
+  if (q.peak_force_limit_n > 0.0) m[Limit::kPeakForce] = {l.peak_force_n, q.peak_force_limit_n};
+  if (mills && thinnest_chip_mm(q) > 0.0)
+    m[Limit::kChipThicknessLeast] = {thinnest_chip_mm(q), l.chip_thickness_mm};
+  m[Limit::kSpindleSpeedLeast] = {rpm.lo, n};
+  if (rpm.hi > 0.0) m[Limit::kSpindleSpeedMost] = {n, rpm.hi};
+  if (axis_feed(q) > 0.0) m[Limit::kAxisFeed] = {feed, axis_feed(q)};
+  if (mills && q.cutter.maximum_depth_of_cut_mm > 0.0)
+    m[Limit::kCuttingLength] = {ap, q.cutter.maximum_depth_of_cut_mm};
+  if (mills && q.ap_most_mm > 0.0) m[Limit::kLevelDepth] = {ap, q.ap_most_mm};
+  m[Limit::kStableDepth] = {ap, slender_depth(q)};
+  for (const model::LimitRow& r : model::kLimitRows) m[r.value].limit *= ease_of(q, r.name);
   // More power is more torque at the same speed, and the other way round.
-  m[0].limit *= ease_of(q, kLimitsOfCut[1].name);
-  m[1].limit *= ease_of(q, kLimitsOfCut[0].name);
+  m[Limit::kSpindlePower].limit *= ease_of(q, row_of(Limit::kSpindleTorque).name);
+  m[Limit::kSpindleTorque].limit *= ease_of(q, row_of(Limit::kSpindlePower).name);
   return m;
 }
 
 WorstLoad worst_load(const CutQuestion& q, const model::StepLoads& loads, double n_rpm) {
   const Measures m = measures(q, loads, 0.0, n_rpm, 0.0);
   WorstLoad worst;
-  for (std::size_t i = 0; i < m.size(); ++i) {
-    if (!kLimitsOfCut[i].of_loads) continue;
-    const double excess = m[i].excess();
+  for (const model::LimitRow& r : model::kLimitRows) {
+    if (!r.of_loads) continue;
+    const double excess = m[r.value].excess();
     if (std::isnan(excess)) return {std::numeric_limits<double>::infinity(), "load", 0.0, 0.0, ""};
     if (excess > worst.excess)
-      worst = {excess, kLimitsOfCut[i].name, m[i].value, m[i].limit, kLimitsOfCut[i].unit};
+      worst = {excess, std::string(r.name), m[r.value].value, m[r.value].limit, std::string(r.unit)};
   }
   return worst;
 }

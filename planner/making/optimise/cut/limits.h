@@ -6,6 +6,7 @@
 #include <optional>
 #include <string_view>
 
+#include "planner/ground/vocabulary/limit.h"
 #include "planner/making/optimise/cut.h"
 #include "planner/physics/mechanics/force/force_law.h"
 #include "planner/physics/mechanics/loads/section.h"
@@ -13,28 +14,6 @@
 
 /// The limits of a cut: what they are called, and how near to each a cut comes. Of this room.
 namespace capstan::optimise {
-
-struct LimitOfCut {
-  const char* name;
-  const char* unit;
-  bool of_loads;  ///< follows from StepLoads and the speed alone
-  bool at_rpm;    ///< holds at one speed of the spindle
-};
-
-inline constexpr std::array<LimitOfCut, 14> kLimitsOfCut = {{{"spindle_power", "W", true, true},
-                                                             {"spindle_torque", "Nm", true, true},
-                                                             {"tool_deflection", "mm", true, false},
-                                                             {"chip_thickness", "mm", true, false},
-                                                             {"wall_error", "mm", true, false},
-                                                             {"surface_roughness", "um", true, false},
-                                                             {"peak_force", "N", true, false},
-                                                             {"chip_thickness_least", "mm", false, false},
-                                                             {"spindle_speed_least", "1/min", false, false},
-                                                             {"spindle_speed_most", "1/min", false, false},
-                                                             {"axis_feed", "mm/min", false, false},
-                                                             {"cutting_length", "mm", false, false},
-                                                             {"level_depth", "mm", false, false},
-                                                             {"stable_depth", "mm", false, false}}};
 
 /// A value and what it must not exceed; a limit that nobody states is infinite.
 struct Measure {
@@ -45,8 +24,14 @@ struct Measure {
   [[nodiscard]] double excess() const { return stated() ? value / limit - 1.0 : -1.0; }
 };
 
-/// In the order of kLimitsOfCut. A least value stands as (least, value): the least must not exceed it.
-using Measures = std::array<Measure, kLimitsOfCut.size()>;
+/// One per limit. A least value stands as (least, value): the least must not exceed it.
+struct Measures {
+  std::array<Measure, model::kLimitCount> all;
+  [[nodiscard]] Measure& operator[](model::Limit l) { return all.at(model::index_of(l)); }
+  [[nodiscard]] const Measure& operator[](model::Limit l) const { return all.at(model::index_of(l)); }
+  [[nodiscard]] auto begin() const { return all.begin(); }
+  [[nodiscard]] auto end() const { return all.end(); }
+};
 [[nodiscard]] Measures measures(const CutQuestion& q, const model::StepLoads& loads, double ap_mm,
                                 double n_rpm, double feed_mm_min);
 
@@ -77,6 +62,9 @@ struct Range {
 
 /// The chip thickness that is planned for, at most.
 [[nodiscard]] double largest_fz(const CutQuestion& q);
+/// The thinnest chip that the cutter takes in the material (mechanics::least_chip_mm); no more than what its
+/// presets hold it to cut (model::held_to_cut_mm).
+[[nodiscard]] double least_chip_mm(const CutQuestion& q);
 /// The thinnest chip that a milling cut is planned with: the cutter's own, or more where the question asks.
 [[nodiscard]] double thinnest_chip_mm(const CutQuestion& q);
 /// The feed per tooth that the cutter asks for at least; 0: none stated.

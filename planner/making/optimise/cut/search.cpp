@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "planner/model/plan/borne_feed.h"
 #include "planner/physics/mechanics/force/immersion.h"
 
 namespace capstan::optimise {
@@ -26,8 +27,8 @@ constexpr double kThinning = 3.0;
 constexpr double kNarrowest = 0.13;
 
 double corner_of(const model::Cutter& c) {
-  return c.cutter_class == model::CutterClass::kBallEndmill ? 0.5 * c.cutting_diameter_mm
-                                                            : c.corner_radius_mm;
+  return model::has(c.cutter_class, model::CutterTrait::kBall) ? 0.5 * c.cutting_diameter_mm
+                                                               : c.corner_radius_mm;
 }
 
 }  // namespace
@@ -76,7 +77,8 @@ void Search::add_feed() {
   } else {
     const double largest = largest_fz(q_);
     double most = largest * (is_milling(q_.kind) ? kThinning : 1.0);
-    if (q_.cutter.fz_max_mm > 0.0) most = std::min(most, q_.cutter.fz_max_mm / feed_override(q_));
+    if (const double borne = model::borne_feed(q_.cutter, q_.material).mm; borne > 0.0)
+      most = std::min(most, borne / feed_override(q_));
     most *= ease_of(q_, kFeed);
     const double ratio = q_.least_feed_ratio > 1e-3 && q_.least_feed_ratio <= 1.0 ? q_.least_feed_ratio : 0.1;
     const double least = std::max(ratio * largest, least_fz(q_)) / ease_of(q_, "feed_per_tooth_least");
@@ -191,15 +193,13 @@ Problem Search::problem(std::vector<Variable> box, const std::optional<CutPoint>
   }
   p.variables = std::move(box);
   // Speeds are bounds, and the depth is fixed here: those limits are not part of it.
-  std::vector<std::size_t> limits;
+  std::vector<model::Limit> limits;
   const Measures stated = measures(q_, model::StepLoads{}, ap_, 1.0, 1.0);
-  for (std::size_t i = 0; i < stated.size(); ++i) {
-    const std::string name = kLimitsOfCut[i].name;
-    const bool varies = kLimitsOfCut[i].of_loads || name == "chip_thickness_least" || name == "axis_feed";
+  for (const model::LimitRow& r : model::kLimitRows) {
     // Power and torque of a spindle are one limit at any speed: see SpindleCurve::at.
-    if (!varies || !stated[i].stated() || name == "spindle_torque") continue;
-    limits.push_back(i);
-    p.constraints.push_back(name);
+    if (!r.varies || !stated[r.value].stated() || r.value == model::Limit::kSpindleTorque) continue;
+    limits.push_back(r.value);
+    p.constraints.emplace_back(r.name);
   }
   p.model = central_differences(
       [this, limits](std::span<const double> x, double& f, std::span<double> c) {

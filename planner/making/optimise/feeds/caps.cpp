@@ -113,7 +113,9 @@ Cap milled(const FeedQuestion& q, Book& book, const model::CutterPath& path, std
     bound(cap, kPlungeFraction * given * q.feed_mm_min, Holder::kEndCut);
     bound(cap, book.plunge(rpm_on(q, i)).feed_mm_min, Holder::kEndCut);
   } else if (role == MoveRole::kRamp) {
-    bound(cap, kRampFraction * given * q.feed_mm_min, Holder::kEndCut);
+    // A part of a feed that is near the thinnest chip would rub all the way down.
+    const double meant = given * q.feed_mm_min;
+    bound(cap, std::max(kRampFraction * meant, std::min(meant, judge.floor_mm_min())), Holder::kEndCut);
   } else if (in_air_by_role(role) && !m.cuts && !m.plunges) {
     const double feed = std::max(given * q.feed_mm_min, air_feed(q));
     cap = open_cap(feed);

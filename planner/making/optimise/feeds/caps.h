@@ -10,16 +10,10 @@
 namespace capstan::optimise::feed {
 
 /// What holds a move's feed: the limits of a section first, in their order.
+/// Below kLimits: the limit at that place of kSectionLimits.
 enum class Holder : std::uint8_t {
-  kForce,
-  kDeflection,
-  kTorque,
-  kPower,
-  kChip,
-  kSurface,
-  kWallError,
-  kStepFeed,  ///< the planned feed, or the bound of chip thinning
-  kEndCut,    ///< plunges and ramps: their fraction of the step's feed
+  kStepFeed = kLimits,  ///< the planned feed, or the bound of chip thinning
+  kEndCut,              ///< plunges and ramps: their fraction of the step's feed
   kAir,
   kAxisFeed,
   kAcceleration,

@@ -61,14 +61,15 @@ void keep_largest(double& a, double b) {
 }
 
 void keep_peak(model::StepLoads& peak, const State& s, const Judge& judge, const model::Cutter& cutter) {
-  const auto load = [&](Limit l) { return s.load[static_cast<std::size_t>(l)]; };
-  peak.peak_force_n = std::max(peak.peak_force_n, load(Limit::kForce));
-  peak.deflection_mm = std::max(peak.deflection_mm, load(Limit::kDeflection));
-  peak.torque_nm = std::max(peak.torque_nm, load(Limit::kTorque));
-  peak.power_w = std::max(peak.power_w, load(Limit::kPower));
+  const auto load = [&](Limit l) { return s.load.of(l); };
+  peak.peak_force_n = std::max(peak.peak_force_n, load(Limit::kPeakForce));
+  peak.deflection_mm = std::max(peak.deflection_mm, load(Limit::kToolDeflection));
+  peak.torque_nm = std::max(peak.torque_nm, load(Limit::kSpindleTorque));
+  peak.power_w = std::max(peak.power_w, load(Limit::kSpindlePower));
   peak.chip_thickness_mm = std::max(peak.chip_thickness_mm, s.chip_mm);
   // From the Ra that `cut` compares back to the height of the marks.
-  const double rz = load(Limit::kSurface) / (1000.0 * kRoughnessOverGeometry * mechanics::kArcRaOverRz);
+  const double rz =
+      load(Limit::kSurfaceRoughness) / (1000.0 * kRoughnessOverGeometry * mechanics::kArcRaOverRz);
   peak.surface_rz_mm = std::max(peak.surface_rz_mm, rz);
   peak.wall_error_mm = std::max(peak.wall_error_mm, load(Limit::kWallError));
   const double margin = judge.margin();
@@ -92,10 +93,11 @@ model::ExceededLimit worst_limit(const Column& load, const Column& limit) {
     most = r;
     worst = k;
   }
-  return {.name = kLimitNames[worst],
+  const model::LimitRow& row = row_of(model::kSectionLimits[worst]);
+  return {.name = std::string(row.name),
           .value = load[worst],
           .limit = limit[worst],
-          .unit = kLimitUnits[worst],
+          .unit = std::string(row.unit),
           .at_mm = std::nullopt};
 }
 
@@ -208,8 +210,7 @@ void as_planned(const FeedQuestion& q, const CutterPath& path, const std::vector
 }  // namespace
 
 double least_feed_mm_min(const CutQuestion& q, double n_rpm) {
-  const bool hss = q.cutter.substrate == model::Substrate::kHss;
-  return mechanics::least_chip_mm(q.cutter.cutting_diameter_mm, hss) * teeth_of(q) * std::abs(n_rpm);
+  return least_chip_mm(q) * teeth_of(q) * std::abs(n_rpm);
 }
 
 FeedAnswer feeds(const FeedQuestion& q, const CutterPath& path) {
@@ -237,7 +238,7 @@ FeedAnswer feeds(const FeedQuestion& q, const CutterPath& path) {
     for (std::size_t k = 0; k < kLimits; ++k) {
       for (std::size_t i = 1; i < path.size(); ++i) {
         if (static_cast<std::size_t>(caps[i].by) != k || caps[i].feed_mm_min >= q.feed_mm_min) continue;
-        a.slowed.emplace_back(kLimitNames[k]);
+        a.slowed.emplace_back(row_of(model::kSectionLimits[k]).name);
         break;
       }
     }

@@ -11,11 +11,11 @@ using model::CutterPath;
 
 // What may hold along a path: the holders of a feed, then what only motion knows.
 enum Name : std::size_t { kTolerance = kHolders, kBlockTime, kNames };
-constexpr std::array<const char*, kNames - kLimits> kText = {
+constexpr std::array<std::string_view, kNames - kLimits> kText = {
     "step_feed",         "end_cutting", "air_feed",       "axis_feed",
     "axis_acceleration", "least_feed",  "path_tolerance", "block_time"};
-constexpr std::array<const char*, kNames - kLimits> kUnit = {"mm/min", "mm/min", "mm/min", "mm/min",
-                                                             "mm/s2",  "mm/min", "mm",     "s"};
+constexpr std::array<std::string_view, kNames - kLimits> kUnit = {"mm/min", "mm/min", "mm/min", "mm/min",
+                                                                  "mm/s2",  "mm/min", "mm",     "s"};
 
 double limit_value(const FeedQuestion& q, Book& book, std::size_t name) {
   const Judge& judge = book.judge(rpm_on(q, q.speed_factor.size()));
@@ -96,8 +96,8 @@ std::vector<model::LimitAlongPath> held_by(const FeedQuestion& q, const CutterPa
     const double share = std::clamp(seconds[k] / t->cutting_s, 0.0, 1.0);
     if (share < kWorthSaying) continue;
     model::LimitAlongPath l;
-    l.name = k < kLimits ? kLimitNames[k] : kText[k - kLimits];
-    l.unit = k < kLimits ? kLimitUnits[k] : kUnit[k - kLimits];
+    l.name = k < kLimits ? row_of(model::kSectionLimits[k]).name : kText[k - kLimits];
+    l.unit = k < kLimits ? row_of(model::kSectionLimits[k]).unit : kUnit[k - kLimits];
     l.limit = limit_value(q, book, k);
     if (!std::isfinite(l.limit)) l.limit = 0.0;
     l.share = share;

@@ -134,18 +134,18 @@ Judge::Judge(const FeedQuestion& question, double n_rpm)
   if (q_.wall_error_limit_mm > 0.0) {
     if (auto beam = mechanics::beam_of(q_.cutter)) beam_ = *std::move(beam);
   }
-  // Limits are those of `cut`: power, torque, deflection, chip, wall, surface, force.
+  // Limits are those of `cut`.
   const Measures m = measures(q_, {}, 0.0, n_, 0.0);
-  constexpr std::array<std::size_t, kLimits> kOfCut = {6, 2, 1, 0, 3, 5, 4};
-  for (std::size_t i = 0; i < kLimits; ++i) limits_[i] = std::min(m[kOfCut[i]].limit, kNoLimit);
-  const double chip = limits_[static_cast<std::size_t>(Limit::kChip)];
+  for (const Limit l : model::kSectionLimits) limits_.of(l) = std::min(m[l].limit, kNoLimit);
+  const double chip = limits_.of(Limit::kChipThickness);
   const double nominal = question.feed_mm_min;
   // Finishing goes faster than planned only where a surface that is asked for bounds it, or where it was
   // planned for one of the sections that were measured: the thinner ones bear more, by their chips.
   const bool faster =
       chip < kNoLimit && (q_.kind == CutKind::kRough || q_.surface_ra_um > 0.0 || q_.as_measured);
   ceiling_ = faster ? std::max(nominal, kMostThinning * chip * tooth_.teeth * n_) : nominal;
-  floor_ = std::max(kLeastFeedShare * nominal, least_feed_mm_min(q_, n_));
+  // Never over what is meant: a thinner feed that was chosen for the step is the least there.
+  floor_ = std::min(nominal, std::max(kLeastFeedShare * nominal, least_feed_mm_min(q_, n_)));
   ceiling_ = std::max(ceiling_, floor_);
 }
 
@@ -214,13 +214,16 @@ std::optional<State> Judge::at(const Cut& cut, double feed) const {
                           : cut.ap_mm * width_of(cut.entry_rad, cut.exit_rad, tooth_.cutting_diameter_mm);
   const double power =
       std::max(l->power_w * margin_, power_by_card_w(q_, area * fz * tooth_.teeth * n_, l->h_mean_mm));
-  s.load = {force, force * compliance_,    std::max(l->torque_nm * margin_, 30.0 * power / (pi * n_)),
-            power, chip / slot_share(cut), surface_um(fz),
-            0.0};
+  s.load.of(Limit::kPeakForce) = force;
+  s.load.of(Limit::kToolDeflection) = force * compliance_;
+  s.load.of(Limit::kSpindleTorque) = std::max(l->torque_nm * margin_, 30.0 * power / (pi * n_));
+  s.load.of(Limit::kSpindlePower) = power;
+  s.load.of(Limit::kChipThickness) = chip / slot_share(cut);
+  s.load.of(Limit::kSurfaceRoughness) = surface_um(fz);
   if (!beam_.segments.empty()) {
     const auto wall = wall_mm(section, fz);
     if (!wall) return std::nullopt;
-    s.load[static_cast<std::size_t>(Limit::kWallError)] = *wall * margin_;
+    s.load.of(Limit::kWallError) = *wall * margin_;
   }
   for (const double v : s.load) {
     if (!std::isfinite(v)) return std::nullopt;
@@ -239,9 +242,9 @@ std::optional<State> Judge::plunging(double feed) const {
   if (!l) return std::nullopt;
   const double margin = drilling_margin_of(q_).factor();
   State s;
-  s.load[static_cast<std::size_t>(Limit::kTorque)] = l->torque_nm * margin;
-  s.load[static_cast<std::size_t>(Limit::kPower)] = l->power_w * margin;
-  s.load[static_cast<std::size_t>(Limit::kChip)] = s.chip_mm = l->chip_thickness_mm;
+  s.load.of(Limit::kSpindleTorque) = l->torque_nm * margin;
+  s.load.of(Limit::kSpindlePower) = l->power_w * margin;
+  s.load.of(Limit::kChipThickness) = s.chip_mm = l->chip_thickness_mm;
   return s;
 }
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <optional>
 
+#include "planner/ground/vocabulary/limit.h"
 #include "planner/making/optimise/feeds.h"
 #include "planner/physics/mechanics/bending/beam.h"
 #include "planner/physics/mechanics/loads/section.h"
@@ -11,15 +12,19 @@
 /// What one section bears: loads against limits at a feed. No cache here, no path.
 namespace capstan::optimise::feed {
 
-enum class Limit : std::uint8_t { kForce, kDeflection, kTorque, kPower, kChip, kSurface, kWallError };
-inline constexpr std::size_t kLimits = 7;
-/// As in CutAnswer::active.
-inline constexpr std::array<const char*, kLimits> kLimitNames = {
-    "peak_force",     "tool_deflection",   "spindle_torque", "spindle_power",
-    "chip_thickness", "surface_roughness", "wall_error"};
-inline constexpr std::array<const char*, kLimits> kLimitUnits = {"N", "mm", "Nm", "W", "mm", "um", "mm"};
+using model::Limit;
+inline constexpr std::size_t kLimits = model::kSectionLimits.size();
 
-using Column = std::array<double, kLimits>;  ///< loads or limits, in the order of Limit
+/// Loads or limits of a section, in the order of kSectionLimits.
+struct Column : std::array<double, kLimits> {
+  [[nodiscard]] static constexpr std::size_t at_of(Limit l) {
+    std::size_t i = 0;
+    while (model::kSectionLimits.at(i) != l) ++i;
+    return i;
+  }
+  [[nodiscard]] double& of(Limit l) { return (*this)[at_of(l)]; }
+  [[nodiscard]] double of(Limit l) const { return (*this)[at_of(l)]; }
+};
 
 /// One rectangle of material in front of the cutter.
 ///

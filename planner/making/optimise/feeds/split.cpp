@@ -37,6 +37,24 @@ void merge(std::vector<Piece>& p, std::size_t into) {
   p.erase(p.begin() + static_cast<std::ptrdiff_t>(into) + 1);
 }
 
+/// Where a cut begins and ends is known to a length only: the slower of two neighbours may reach so far into
+/// the faster one.
+void give_way(std::vector<Piece>& p, double known_to_mm) {
+  for (std::size_t i = 0; i + 1 < p.size(); ++i) {
+    Piece& a = p[i];
+    Piece& b = p[i + 1];
+    const double shift =
+        a.feed > b.feed ? -std::min(known_to_mm, a.length_mm) : std::min(known_to_mm, b.length_mm);
+    a.length_mm += shift;
+    a.end_mm += shift;
+    b.length_mm -= shift;
+  }
+  constexpr double kNothingMm = 1e-9;
+  const double end = p.empty() ? 0.0 : p.back().end_mm;
+  std::erase_if(p, [](const Piece& x) { return x.length_mm <= kNothingMm; });
+  if (!p.empty()) p.back().end_mm = end;
+}
+
 /// Joins what is too short to stand alone, then what is not worth a block.
 void join(std::vector<Piece>& p, double least_mm) {
   while (p.size() > 1) {
@@ -87,6 +105,7 @@ class Pieces {
     }
     if (length > from + kRounding) add(out, length, from, top);
     if (!out.empty()) out.back().end_mm = length;
+    if (q_.known_to_mm > 0.0) give_way(out, q_.known_to_mm);
     return binned(out, least_mm, length);
   }
 

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "planner/ground/base/number.h"
+#include "planner/ground/vocabulary/operation.h"
 #include "planner/making/toolpath/hole/hole_paths.h"
 #include "planner/making/toolpath/link/path_writer.h"
 
@@ -24,11 +25,9 @@ tl::unexpected<Diagnostic> refuse(const PathJob& task, const char* code, const s
   return fail({.code = code, .message = task.shape.name + ": " + what, .path = task.shape.name});
 }
 
-bool enlarges(TypeId op) { return op == TypeId::kReaming || op == TypeId::kBoring; }
-
 bool to_tip(const PathJob& task) {
-  return task.operation == TypeId::kCenterDrilling || task.cutter.cutter_class == CutterClass::kSpotDrill ||
-         task.cutter.cutter_class == CutterClass::kCenterDrill;
+  return task.operation == TypeId::kCenterDrilling ||
+         model::has(task.cutter.cutter_class, model::CutterTrait::kMarks);
 }
 
 /// Height of the tip at the bottom.
@@ -64,9 +63,9 @@ Result<double> bottom_z(const PathJob& task) {
   const bool reaches_bottom = depth >= s.depth_mm - 1e-6;
   if (s.through && reaches_bottom) {
     // The full diameter goes through; what follows a tool's tip has none.
-    z -= task.break_through_mm + (enlarges(task.operation) ? 0.0 : tip);
+    z -= task.break_through_mm + (model::has(task.operation, model::OperationTrait::kEnlarges) ? 0.0 : tip);
   } else if (s.bottom == HoleBottom::kConical || !reaches_bottom) {
-    z -= enlarges(task.operation) ? 0.0 : tip;
+    z -= model::has(task.operation, model::OperationTrait::kEnlarges) ? 0.0 : tip;
     if (reaches_bottom) {
       // A steeper tip than the hole's own would go through its cone.
       const double cone = 0.5 * s.diameter.nominal_mm * std::tan(s.bottom_angle_rad);
@@ -79,7 +78,9 @@ Result<double> bottom_z(const PathJob& task) {
 std::vector<Stretch> stretches(const PathJob& task, double end_z) {
   const DrillPhases p = task.phases.value_or(DrillPhases{});
   const double top = task.feature_in_setup.origin.z;
-  const double tip = to_tip(task) || enlarges(task.operation) ? 0.0 : model::tip_length(task.cutter);
+  const double tip = to_tip(task) || model::has(task.operation, model::OperationTrait::kEnlarges)
+                         ? 0.0
+                         : model::tip_length(task.cutter);
   std::vector<Stretch> out;
   double end_begins = end_z;
   if (p.depth_of_end_mm > 0.0)
@@ -155,7 +156,8 @@ Result<GeneratedPath> drill_path(const PathJob& task, Job& job) {
     feed_down(w, all, *z);
   }
   w.dwell(task.dwell_s);
-  const bool feed_out = task.feed_on_retract.has_value() || enlarges(task.operation);
+  const bool feed_out =
+      task.feed_on_retract.has_value() || model::has(task.operation, model::OperationTrait::kEnlarges);
   if (task.spindle_stop_at_bottom) {
     w.factors(task.feed_on_retract.value_or(1.0), 0.0);
     if (task.operation == TypeId::kReaming)

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "planner/ground/base/number.h"
+#include "planner/making/toolpath/defaults.h"
 #include "planner/making/toolpath/hole/hole_paths.h"
 #include "planner/making/toolpath/link/path_writer.h"
 #include "planner/making/toolpath/region/patterns.h"
@@ -16,7 +17,6 @@ using model::MoveRole;
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kUsualRamp = 3.0 * kPi / 180.0;  // default, unsourced
 
 tl::unexpected<Diagnostic> refuse(const PathJob& task, const char* code, const std::string& what) {
   return fail({.code = code, .message = task.shape.name + ": " + what, .path = task.shape.name});

@@ -13,11 +13,6 @@ using geometry::Vec2;
 using model::StrategyKind;
 using model::TypeId;
 
-bool is_finish(TypeId operation) {
-  return operation == TypeId::kPlaneFinishMilling || operation == TypeId::kSideFinishMilling ||
-         operation == TypeId::kBottomAndSideFinishMilling;
-}
-
 Vec2 pass_direction(const PathJob& task, const Region& area) {
   if (task.feed_direction) {
     const auto d =
@@ -129,10 +124,9 @@ Result<GeneratedPath> area_path(const PathJob& task, Job& job) {
   if (!w) return tl::unexpected(w.error());
   PathWriter writer(task);
   LevelCutter c(task, *w, writer, job);
-  const bool finish = is_finish(task.operation);
+  const bool finish = model::has(task.operation, model::OperationTrait::kFinishes);
   const bool floor = task.operation != TypeId::kSideFinishMilling;
-  const bool plane =
-      task.operation == TypeId::kPlaneRoughMilling || task.operation == TypeId::kPlaneFinishMilling;
+  const bool plane = model::has(task.operation, model::OperationTrait::kPlane);
   // Side finishing after an earlier step: only a shell is left on the walls.
   const bool shell = finish && !plane && task.left_on_side_mm.has_value();
   double end = w->bottom_z_mm + task.allowance_bottom_mm;

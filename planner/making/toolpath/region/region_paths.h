@@ -1,5 +1,6 @@
 #pragma once
 
+#include "planner/ground/vocabulary/operation.h"
 #include "planner/making/toolpath/path_job.h"
 
 namespace capstan::toolpath {
@@ -22,7 +23,6 @@ namespace capstan::toolpath {
 [[nodiscard]] Result<GeneratedPath> cone_of_hole_path(const PathJob& task, Job& job);
 
 /// Whether the operation is one that finishes.
-[[nodiscard]] bool is_finish(model::TypeId operation);
 /// The unit direction of straight passes in the set-up: given, else along the longer side of the area.
 [[nodiscard]] geometry::Vec2 pass_direction(const PathJob& task, const geometry::Region& area);
 

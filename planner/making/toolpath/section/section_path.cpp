@@ -5,6 +5,8 @@
 #include <numbers>
 
 #include "planner/ground/base/number.h"
+#include "planner/ground/vocabulary/operation.h"
+#include "planner/making/toolpath/defaults.h"
 #include "planner/making/toolpath/region/patterns.h"
 #include "planner/making/toolpath/section/section.h"
 #include "planner/making/toolpath/section/spine.h"
@@ -27,14 +29,9 @@ constexpr double kFinishStep = 0.35;
 constexpr double kOwnAllowance = 0.3;
 /// Levels of that roughing by the diameter, where no depth is given. Default, unsourced.
 constexpr double kOwnLevel = 0.25;
-constexpr double kUsualRamp = 3.0 * std::numbers::pi / 180.0;  // default, unsourced
 constexpr double kLeastU = 0.02;     ///< mm; nearer to the middle a track is the middle itself
 constexpr double kSameWidth = 0.02;  ///< mm; so near to the hole's own size a cutter is sunk, not led
 constexpr double kTellRest = 0.01;   ///< mm
-
-bool finishes(TypeId op) {
-  return op == TypeId::kBottomAndSideFinishMilling || op == TypeId::kSideFinishMilling;
-}
 
 /// A place on the track, moved to the nearest end of a segment when it is almost there: no crumbs of arcs.
 Spot snapped(const Track& t, Spot s) {
@@ -75,7 +72,7 @@ class SectionCutter {
         right_(walls_on_right(task)) {}
 
   Result<GeneratedPath> run() {
-    const bool rounds = finishes(task_.operation) && tip_.corner_mm > 0.0;
+    const bool rounds = model::finishes_walls(task_.operation) && tip_.corner_mm > 0.0;
     Status ok;
     if (!rounds) {
       ok = clear(task_.allowance_side_mm, task_.allowance_bottom_mm, level_step(), true);
@@ -149,7 +146,7 @@ class SectionCutter {
                                    " mm above the bottom: it is wider than the section there");
     }
     const double end = zero_z_ + lowest;
-    const bool fine = finishes(task_.operation) && tip_.corner_mm <= 0.0;
+    const bool fine = model::finishes_walls(task_.operation) && tip_.corner_mm <= 0.0;
     const auto zs = fine ? fine_levels(thick, rise, end) : levels(area_, task_.start_z_mm, end, step, 0.0);
     if (zs.empty() && lowest >= section_.depth_mm - 1e-6) return no_fit();
     if (zs.empty()) {
@@ -159,8 +156,8 @@ class SectionCutter {
                    .path = task_.shape.name});
     }
     // A hole is narrowest at its bottom: what roughed that has cleared all above but the wall.
-    const bool walls_only = spine_.line.size() == 1 && section_.floor && finishes(task_.operation) &&
-                            task_.left_on_side_mm.has_value();
+    const bool walls_only = spine_.line.size() == 1 && section_.floor &&
+                            model::finishes_walls(task_.operation) && task_.left_on_side_mm.has_value();
     double from = task_.start_z_mm;
     for (const double z : zs) {
       const double wide = widest_at(section_, thick, z - zero_z_ - rise);
@@ -342,11 +339,6 @@ class SectionCutter {
 };
 
 }  // namespace
-
-bool mills_sections(const model::Cutter& c) {
-  return c.cutter_class == CutterClass::kEndmill || c.cutter_class == CutterClass::kBullnoseEndmill ||
-         c.cutter_class == CutterClass::kBallEndmill || c.cutter_class == CutterClass::kFacemill;
-}
 
 Result<GeneratedPath> form_slot_path(const PathJob& task, Job& job) {
   const auto w = work_area(task);

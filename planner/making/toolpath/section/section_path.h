@@ -17,7 +17,5 @@ namespace capstan::toolpath {
 [[nodiscard]] bool is_hole_cutter(const PathJob& task);
 /// Straight down with such a cutter.
 [[nodiscard]] Result<GeneratedPath> sunk_path(const PathJob& task, Job& job);
-/// Whether this cutter mills a section in levels and passes.
-[[nodiscard]] bool mills_sections(const model::Cutter& cutter);
 
 }  // namespace capstan::toolpath

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/making/toolpath/defaults.h"
 #include "planner/making/toolpath/region/area/inside.h"
 
 namespace capstan::toolpath {
@@ -13,7 +14,6 @@ using geometry::Vec2;
 namespace {
 
 constexpr double kChord = 0.0005;    ///< mm, of arcs
-constexpr double kFreeAir = 1.0;     ///< mm beyond the material at open ends; default, unsourced
 constexpr double kSamePoint = 1e-6;  ///< mm
 
 }  // namespace
@@ -40,7 +40,7 @@ Result<Spine> spine_of_slot(const PathJob& task, const WorkArea& w, double half)
     if (reach.contains(end + (half + 1.0) * way)) {
       (last ? out.air_last : out.air_first) = true;
       const auto free = [&](Vec2 p) { return material.clear_of(p, radius + 0.2); };
-      end = end + (radius + kFreeAir) * way;
+      end = end + (radius + kAirBeyond) * way;
       for (int i = 0; i < 50 && !(free(end) && free(end + half * across) && free(end - half * across)); ++i)
         end = end + 0.5 * radius * way;
     } else if (reach.contains(end + 0.5 * half * way)) {

@@ -114,11 +114,6 @@ Result<std::vector<geometry::Placement>> frames(const Model& m, AnyRef boss, con
   return out;
 }
 
-bool cuts_around(const FeatureShape& s) {
-  return s.kind == ShapeKind::kFace || s.kind == ShapeKind::kOutside || s.kind == ShapeKind::kPocket ||
-         s.kind == ShapeKind::kStep;
-}
-
 bool stands_in(const FeatureShape& s, const geometry::Region& boss) {
   if (s.kind == ShapeKind::kFace || s.kind == ShapeKind::kOutside) {
     geometry::Region cut = s.area;
@@ -186,7 +181,9 @@ bool lies_below(const Model& m, AnyRef boss, const FeatureShape& s) {
 bool leans(const Boss& boss) { return std::abs(boss.slope.value_or(0.0)) > kLower; }
 
 Status spare_bosses(const Model& m, AnyRef feature, const Within& in, Shapes& shapes) {
-  if (std::none_of(shapes.begin(), shapes.end(), cuts_around)) return {};
+  if (std::none_of(shapes.begin(), shapes.end(),
+                   [](const FeatureShape& s) { return has(s.kind, ShapeTrait::kIslands); }))
+    return {};
   const auto* self = m.get<ManufacturingFeature>(feature);
   for (const AnyRef b : m.all(TypeId::kBoss)) {
     const auto* noun = m.get<Boss>(b);
@@ -198,7 +195,7 @@ Status spare_bosses(const Model& m, AnyRef feature, const Within& in, Shapes& sh
                               : Result<std::vector<geometry::Placement>>(tl::unexpected(as_stated.error()));
     const std::vector<AnyRef> by = bringers(m, b);
     for (FeatureShape& s : shapes) {
-      if (!cuts_around(s)) continue;
+      if (!has(s.kind, ShapeTrait::kIslands)) continue;
       if (!at) {
         if (lies_below(m, b, s)) continue;
         return fail({.code = "SHP-BOSS",

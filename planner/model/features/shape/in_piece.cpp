@@ -45,8 +45,6 @@ bool tilted(const FeatureShape& s) {
   return std::max({std::abs(s.frame.z.x), std::abs(s.frame.z.y), std::abs(s.frame.z.z)}) < kUpright;
 }
 
-bool is_hole(const FeatureShape& s) { return s.kind == ShapeKind::kHole || s.kind == ShapeKind::kThread; }
-
 double radius_of(const FeatureShape& s) {
   if (s.kind == ShapeKind::kThread) return 0.5 * std::max(s.thread_major_mm, s.diameter.nominal_mm);
   return 0.5 * std::min(s.diameter.nominal_mm, s.bottom_diameter_mm);
@@ -101,7 +99,7 @@ bool takes(const FeatureShape& s, Vec3 p) {
 }
 
 double beyond_sides(const FeatureShape& s, const PieceForm& raw) {
-  if (!is_hole(s) || raw.box.empty() || tilted(s)) return 0.0;
+  if (!has(s.kind, ShapeTrait::kRound) || raw.box.empty() || tilted(s)) return 0.0;
   const double r = radius_of(s);
   const Box3 box = seen_from(raw.box, s.frame);
   double out = std::max({r + box.lo.x, r - box.hi.x, r + box.lo.y, r - box.hi.y});
@@ -142,8 +140,9 @@ std::string point_runs_through(const FeatureShape& s, const PieceForm& raw, cons
 }
 
 std::string floor_below_part(const FeatureShape& s, const PieceForm& raw, const PieceForm& part) {
-  const bool blind = s.kind == ShapeKind::kHole || s.kind == ShapeKind::kPocket || s.kind == ShapeKind::kSlot;
-  if (!blind || s.through || s.area.empty() || raw.box.empty() || part.box.empty() || tilted(s)) return {};
+  if (!has(s.kind, ShapeTrait::kWalled) || s.through || s.area.empty() || raw.box.empty() ||
+      part.box.empty() || tilted(s))
+    return {};
   const Box3 finished = seen_from(part.box, s.frame);
   const double raw_under = -seen_from(raw.box, s.frame).lo.z, part_under = -finished.lo.z;
   const double by = s.depth_mm - part_under;
@@ -161,18 +160,8 @@ std::string floor_below_part(const FeatureShape& s, const PieceForm& raw, const 
 
 std::optional<Buried> buried(const FeatureShape& s, const std::vector<FeatureShape>& features,
                              const PieceForm& part) {
-  switch (s.kind) {
-    case ShapeKind::kPocket:
-    case ShapeKind::kSlot:
-    case ShapeKind::kStep:
-    case ShapeKind::kHole:
-    case ShapeKind::kThread:
-    case ShapeKind::kOutside:
-      break;
-    default:
-      return std::nullopt;
-  }
-  if (s.area.empty() || part.box.empty() || tilted(s)) return std::nullopt;
+  if (!has(s.kind, ShapeTrait::kBelowTop) || s.area.empty() || part.box.empty() || tilted(s))
+    return std::nullopt;
   Box3 box = seen_from(part.box, s.frame);
   if (box.hi.z <= kLidMm) return std::nullopt;
   auto b = geometry::bounds(s.area);
@@ -203,7 +192,7 @@ std::optional<Buried> buried(const FeatureShape& s, const std::vector<FeatureSha
            std::none_of(features.begin(), features.end(), [&](const FeatureShape& o) { return takes(o, p); });
   };
   // A far end: wide below a narrower hole on its axis and open at the underside, it is cut from below.
-  if (is_hole(s) && (s.through || -s.depth_mm <= box.lo.z + kLidMm)) {
+  if (has(s.kind, ShapeTrait::kRound) && (s.through || -s.depth_mm <= box.lo.z + kLidMm)) {
     bool open = !features.empty();
     const double high = (box.hi.z - kLidMm) / kUp;
     for (int k = 0; k < kUp && open; ++k) open = !lid(0.0, 0.0, kLidMm + (k + 0.5) * high);

@@ -141,8 +141,7 @@ Result<std::vector<Placement>> members(const Model& m, AnyRef self, const Rectan
 bool all_round(const Shapes& shapes, const Placement& base) {
   return std::all_of(shapes.begin(), shapes.end(), [&](const FeatureShape& s) {
     const Vec3 off = base.to_local(s.frame.origin);
-    return (s.kind == ShapeKind::kHole || s.kind == ShapeKind::kThread) &&
-           std::hypot(off.x, off.y) < kSamePlace;
+    return has(s.kind, ShapeTrait::kRound) && std::hypot(off.x, off.y) < kSamePlace;
   });
 }
 

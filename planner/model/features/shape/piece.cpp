@@ -41,7 +41,7 @@ void Piece::find() {
     const auto shapes = any(m_, f, Within{{}, {}, 0, false, this});
     if (!shapes) continue;
     for (const FeatureShape& s : *shapes) {
-      if (s.area.empty() || s.kind == ShapeKind::kStep || s.kind == ShapeKind::kOutside) continue;
+      if (s.area.empty() || model::has(s.kind, ShapeTrait::kOutwards)) continue;
       const auto b = geometry::bounds(s.area);
       for (const double x : {b.lo.x, b.hi.x}) {
         for (const double y : {b.lo.y, b.hi.y}) {

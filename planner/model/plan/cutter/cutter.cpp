@@ -40,15 +40,14 @@ geometry::CutterProfile profile_of(const Cutter& c) {
     const double top = c.cutting_diameter_mm + 2.0 * length * std::tan(c.lead_angle_rad);
     return geometry::cone_profile(top, 2.0 * c.lead_angle_rad, length, c.cutting_diameter_mm);
   }
-  if (c.cutter_class == CutterClass::kBallEndmill)
-    return geometry::ball_profile(c.cutting_diameter_mm, length);
+  if (has(c.cutter_class, CutterTrait::kBall)) return geometry::ball_profile(c.cutting_diameter_mm, length);
   return geometry::bull_profile(c.cutting_diameter_mm, c.corner_radius_mm, length);
 }
 
 double reach_of(const Cutter& c) {
   const double reach = c.usable_length_mm;
   // Chips leave a drill by its flutes, whatever is above them.
-  if (c.cutter_class == CutterClass::kTwistDrill || c.cutter_class == CutterClass::kGunDrill) return reach;
+  if (has(c.cutter_class, CutterTrait::kDrills)) return reach;
   const double d = c.cutting_diameter_mm + kSizeSlackMm;
   if (c.holder.empty() || !(c.shank_diameter_mm > 0.0) || c.shank_diameter_mm > d) return reach;
   double clear = c.stick_out_mm;

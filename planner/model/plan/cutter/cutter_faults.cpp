@@ -25,24 +25,15 @@ void check_angle(double v, const char* name, double most, std::vector<std::strin
 }
 
 /// What must be said, since a guess would spoil the thread or the shape.
-const char* missing_of(const Cutter& c) {
-  switch (c.cutter_class) {
-    case CutterClass::kTap:
-      return c.thread_pitch_mm == 0.0 ? "a tap without a pitch" : nullptr;
-    case CutterClass::kThreadMill:
-      return c.thread_pitch_mm == 0.0 ? "a thread mill without a pitch" : nullptr;
-    case CutterClass::kBullnoseEndmill:
-      return c.corner_radius_mm == 0.0 ? "a bull nose end mill without a corner radius" : nullptr;
-    case CutterClass::kChamferMill:
-      return c.point_angle_rad == 0.0 ? "a chamfer mill without the angle of its cone" : nullptr;
-    case CutterClass::kCountersink:
-    case CutterClass::kBackCountersink:
-      return c.point_angle_rad == 0.0 ? "a countersink without the angle of its cone" : nullptr;
-    case CutterClass::kTaperedEndmill:
-      return c.taper_angle_rad == 0.0 ? "a tapered end mill without its angle" : nullptr;
-    default:
-      return nullptr;
-  }
+std::string missing_of(const Cutter& c) {
+  const CutterMust must = row_of(c.cutter_class).must;
+  const bool states = must == CutterMust::kPitch          ? c.thread_pitch_mm != 0.0
+                      : must == CutterMust::kCornerRadius ? c.corner_radius_mm != 0.0
+                      : must == CutterMust::kConeAngle    ? c.point_angle_rad != 0.0
+                      : must == CutterMust::kTaper        ? c.taper_angle_rad != 0.0
+                                                          : true;
+  if (states) return {};
+  return "a " + std::string(words_of(c.cutter_class)) + " without " + std::string(words_of(must));
 }
 
 void check_together(const Cutter& c, std::vector<std::string>& out) {
@@ -83,7 +74,7 @@ void check_together(const Cutter& c, std::vector<std::string>& out) {
   if (!range::kTeeth.holds(c.teeth) && !(probe && c.teeth == 0))
     out.push_back(std::to_string(c.teeth) + " teeth");
   if (c.pocket < 0) out.push_back("the tool number is negative: " + std::to_string(c.pocket));
-  if (const char* missing = missing_of(c)) out.emplace_back(missing);
+  if (std::string missing = missing_of(c); !missing.empty()) out.push_back(std::move(missing));
   if (c.fz_min_mm > c.fz_max_mm)
     out.push_back("the least feed per tooth " + mm(c.fz_min_mm) + " is above the largest " + mm(c.fz_max_mm));
   if (c.adjustable_to_mm != 0.0 && c.adjustable_to_mm < c.cutting_diameter_mm)

@@ -130,7 +130,7 @@ class Measurer {
   }
 
   void measure_plunge(std::size_t i, const Trail& t, double from, double to, int steps, double step) {
-    const bool flat = stock::is_flat(profile_);
+    const bool flat = geometry::is_flat(profile_);
     const auto height = [&](int k) { return k == 0 ? from : from + (to - from) * k / steps; };
     Contact c;           // what the last step alone took
     Contact before;      // all down to ..
@@ -349,7 +349,7 @@ bool mills(const CutterPath& path, const geometry::CutterProfile& profile, const
 
 Result<Measurement> measure(const CutterPath& path, const model::Cutter& cutter, stock::PlanarStock& stock,
                             const Options& options) {
-  if (undercuts(cutter.cutter_class)) {
+  if (model::has(cutter.cutter_class, model::CutterTrait::kUndercuts)) {
     return fail("ENG-UNDERCUT", "the cut of " + std::string(model::to_text(cutter.cutter_class)) + " '" +
                                     cutter.id + "' lies under an overhang; it is not measured");
   }
@@ -365,7 +365,7 @@ Result<Measurement> measure(const CutterPath& path, const model::Cutter& cutter,
   if (!stock.lost().empty()) return fail("ENG-NOT-PLANAR", "the planar stock was lost: " + stock.lost());
   if (head_height(cutter))  // whether anything stands over it is for the height map to say
     return fail("ENG-NOT-PLANAR", "cutter '" + cutter.id + "' is thinner behind its head");
-  if (!stock::is_flat(profile) && mills(path, profile, stock)) {
+  if (!geometry::is_flat(profile) && mills(path, profile, stock)) {
     return fail("ENG-NOT-PLANAR",
                 "cutter '" + cutter.id + "' is not flat below: what it mills is measured on a height map");
   }

@@ -33,8 +33,7 @@ ForceMargin force_margin(const model::WorkMaterial& material, model::Substrate s
 
 bool is_milled(model::TypeId operation, const model::Cutter& cutter) {
   if (!model::is_a(operation, model::TypeId::kDrillingTypeOperation)) return true;
-  const bool mills = cutter.cutter_class == model::CutterClass::kEndmill ||
-                     cutter.cutter_class == model::CutterClass::kBullnoseEndmill;
+  const bool mills = model::has(cutter.cutter_class, model::CutterTrait::kEndMill);
   return mills && model::is_a(operation, model::TypeId::kThreadDrilling);
 }
 
@@ -69,7 +68,7 @@ Tooth tooth_of(const model::Cutter& cutter) {
               cutter.cutter_class == model::CutterClass::kTaperedEndmill ? cutter.taper_angle_rad : 0.0,
           .runout_mm = cutter.runout_mm,
           .teeth = std::max(1, cutter.teeth)};
-  if (cutter.cutter_class == model::CutterClass::kBallEndmill)
+  if (model::has(cutter.cutter_class, model::CutterTrait::kBall))
     t.corner_radius_mm = 0.5 * cutter.cutting_diameter_mm;
   return t;
 }

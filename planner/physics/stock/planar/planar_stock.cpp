@@ -56,10 +56,6 @@ double reach_of(const CutterProfile& outline, double radius_mm, double height_mm
 
 }  // namespace
 
-bool is_flat(const CutterProfile& p) {
-  return p.pieces.size() == 1 && p.pieces[0].radius_mm <= 0.0 && p.pieces[0].slope == 0.0;
-}
-
 std::vector<Trail> trails_of(const CutterPath& path, std::size_t i, double radius_mm,
                              const CutterProfile* outline) {
   std::vector<Trail> out;

@@ -212,10 +212,6 @@ class SlopeCells {
   double bin_scale_;
 };
 
-bool is_flat(const CutterProfile& p) {
-  return p.pieces.size() == 1 && p.pieces[0].radius_mm <= 0.0 && p.pieces[0].slope == 0.0;
-}
-
 /// Offset u (cell ahead of the axis) at which z falls no further on one arc piece: profile'(d) u / d = slope.
 double still_point(const ProfilePiece& p, double across, double slope) {
   const double w = std::abs(across);

@@ -21,6 +21,7 @@ std::vector<model::Finding> check_plan(const model::Plan& plan, Job& job) {
   check_limits(plan, steps, findings);
   check_coolant(plan, steps, findings);
   check_life(steps, findings);
+  check_predicted(plan, steps, findings);
   check_machine(plan, findings);
   check_holding(plan, findings);
   check_order(plan, findings);

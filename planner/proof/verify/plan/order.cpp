@@ -4,6 +4,7 @@
 
 #include "planner/ground/geometry/region.h"
 #include "planner/model/nouns/all.h"
+#include "planner/proof/verify/copies.h"
 #include "planner/proof/verify/plan/plan_checks.h"
 #include "planner/proof/verify/sweep/target/target.h"
 
@@ -78,8 +79,7 @@ std::vector<Entry> entries_of(const model::Plan& plan) {
 bool breaks_edges(const model::Plan& plan, const Entry& e) {
   const model::Cutter* c = model::find_cutter(plan, plan.steps[e.order].cutter_id);
   return e.operation.type == TypeId::kSideFinishMilling && c != nullptr &&
-         (c->cutter_class == model::CutterClass::kChamferMill ||
-          c->cutter_class == model::CutterClass::kCountersink);
+         verify::breaks_edges(c->cutter_class);
 }
 
 void check_ranks(const model::Plan& plan, const std::vector<Entry>& entries, Findings& findings) {

@@ -3,6 +3,7 @@
 #include <map>
 
 #include "planner/model/plan/cutter/table_offsets.h"
+#include "planner/proof/verify/copies.h"
 #include "planner/proof/verify/plan/plan_checks.h"
 
 namespace capstan::verify {
@@ -11,9 +12,8 @@ namespace {
 constexpr double kEqualMm = 1e-6;
 
 bool known_offset(const std::string& name) {
-  static constexpr std::string_view kOffsets[] = {"G54", "G55",   "G56",   "G57",  "G58",
-                                                  "G59", "G59.1", "G59.2", "G59.3"};
-  return std::find(std::begin(kOffsets), std::end(kOffsets), name) != std::end(kOffsets);
+  const auto known = work_offsets();
+  return std::find(known.begin(), known.end(), name) != known.end();
 }
 
 void check_cutter(const model::Plan& plan, const model::Cutter& c, Findings& findings) {
@@ -52,8 +52,17 @@ void check_cutter(const model::Plan& plan, const model::Cutter& c, Findings& fin
 void check_tools(const model::Plan& plan, const std::vector<StepMoves>& steps, Findings& findings) {
   const Findings::Where whole{0, "", -1};
   std::map<int, std::string> pockets;
+  std::map<int, const model::Cutter*> places;
   for (const model::Cutter& c : plan.cutters) {
     check_cutter(plan, c, findings);
+    // One pocket of the magazine holds one tool, whatever its number.
+    const int place = model::magazine_pocket(c);
+    const auto [held, free] = places.emplace(place, &c);
+    if (!free && place > 0 && plan.machine.magazine_pockets > 1 && held->second->pocket != c.pocket) {
+      findings.error(4, "CHK-TOOL", whole,
+                     "tools " + held->second->id + " and " + c.id + " are both in pocket " +
+                         std::to_string(place) + " of the magazine: give one of them another P");
+    }
     const auto [it, fresh] = pockets.emplace(c.pocket, c.id);
     if (!fresh && c.pocket > 0) {
       findings.error(5, "CHK-TOOL-NUMBER", whole,

@@ -4,6 +4,7 @@
 #include "planner/model/features/in_piece.h"
 #include "planner/model/features/raw_piece.h"
 #include "planner/model/nouns/all.h"
+#include "planner/proof/verify/copies.h"
 #include "planner/proof/verify/plan/plan_checks.h"
 #include "planner/proof/verify/sweep/target/target.h"
 
@@ -34,12 +35,6 @@ std::string not_within(const FeatureShape& s, const geometry::Box3& stock) {
   const double deeper = raw.lo.z + s.depth_mm;
   if (!s.through && deeper > kBeyondMm) return "ends " + mm(deeper) + " below the underside of the raw piece";
   return {};
-}
-
-bool drilled(model::CutterClass c) {
-  using model::CutterClass;
-  return c == CutterClass::kTwistDrill || c == CutterClass::kGunDrill || c == CutterClass::kReamer ||
-         c == CutterClass::kTap;
 }
 
 /// Whether two holes with one axis direction cut into each other's wall.
@@ -78,7 +73,7 @@ void check_within(const model::Plan& plan, Findings& findings) {
     return std::any_of(plan.steps.begin(), plan.steps.end(), [&](const model::StepResult& s) {
       const auto* ws = plan.model.get<model::MachiningWorkingstep>(s.step);
       const model::Cutter* c = model::find_cutter(plan, s.cutter_id);
-      return ws != nullptr && c != nullptr && ws->its_feature == feature && drilled(c->cutter_class);
+      return ws != nullptr && c != nullptr && ws->its_feature == feature && sizes_hole(c->cutter_class);
     });
   };
   for (const Asked& a : asked) {

@@ -1,5 +1,6 @@
 #include "planner/proof/verify/plan/plan_checks.h"
 #include "planner/proof/verify/program/program_checks.h"
+#include "planner/proof/verify/program/readers.h"
 #include "planner/proof/verify/sweep/sweep.h"
 #include "planner/proof/verify/verify.h"
 
@@ -7,7 +8,8 @@ namespace capstan::verify {
 namespace {
 
 /// What the text says and does, the removal of stock left out. Gives the moves by step.
-std::vector<StepMoves> judge_text(const Program& program, const ProgramText& text, const model::Plan* plan,
+std::vector<StepMoves> judge_text(const DialectReader& reader, const Program& program,
+                                  const ProgramText& text, const model::Plan* plan,
                                   const model::Machine& machine, const std::vector<model::Cutter>& cutters,
                                   Findings& findings) {
   ProgramCase c = make_case(program, plan, machine, cutters);
@@ -32,7 +34,7 @@ std::vector<StepMoves> judge_text(const Program& program, const ProgramText& tex
   check_setups(c, findings);
   ToolTable table;
   if (!text.tool_table.empty()) {
-    table = read_tool_table(text.tool_table);
+    table = reader.tool_table(text.tool_table);
     check_tool_table(c, table, findings);
   } else {
     check_table_lines(c, findings);
@@ -60,15 +62,29 @@ std::vector<StepMoves> judge_text(const Program& program, const ProgramText& tex
   return steps;
 }
 
+/// The reader for the machine's control. Without one nothing of the program is proved, which is a finding.
+const DialectReader* reader_for(const model::Machine& machine, Findings& findings) {
+  const DialectReader* reader = reader_of(machine.control.dialect);
+  if (reader == nullptr)
+    findings.error(33, "CHK-TEXT-DIALECT", {0, "", -1},
+                   "programs of the control '" + machine.control.dialect + "' of machine '" + machine.id +
+                       "' cannot be read back, so that nothing of this one is proved; name a machine with "
+                       "another control");
+  return reader;
+}
+
 }  // namespace
 
 std::vector<model::Finding> check_program_text(const ProgramText& text, const model::Plan* plan,
                                                const model::Machine& machine,
                                                const std::vector<model::Cutter>& cutters) {
   Findings findings;
-  const Program program = read_program(text.text);
+  const DialectReader* reader = reader_for(machine, findings);
+  if (reader == nullptr) return findings.take();
+  const Program program = reader->program(text.text);
   const bool none = plan == nullptr && cutters.empty() && text.tool_table.empty();
-  (void)judge_text(program, text, plan, machine, none ? tools_of_header(program) : cutters, findings);
+  (void)judge_text(*reader, program, text, plan, machine, none ? tools_of_header(program) : cutters,
+                   findings);
   return findings.take();
 }
 
@@ -76,11 +92,13 @@ std::vector<model::Finding> check_program(const ProgramText& text, const model::
                                           const model::Machine& machine,
                                           const std::vector<model::Cutter>& cutters, Job& job) {
   Findings findings;
-  const Program program = read_program(text.text);
+  const DialectReader* reader = reader_for(machine, findings);
+  if (reader == nullptr) return findings.take();
+  const Program program = reader->program(text.text);
   // Moves refer to the cutters.
   const bool none = plan == nullptr && cutters.empty() && text.tool_table.empty();
   const std::vector<model::Cutter> tools = none ? tools_of_header(program) : cutters;
-  const std::vector<StepMoves> steps = judge_text(program, text, plan, machine, tools, findings);
+  const std::vector<StepMoves> steps = judge_text(*reader, program, text, plan, machine, tools, findings);
   if (plan != nullptr) check_removal(*plan, steps, findings, job);
   job.progress("check", 1.0);
   return findings.take();

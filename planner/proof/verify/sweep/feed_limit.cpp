@@ -2,6 +2,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "planner/model/plan/borne_feed.h"
+#include "planner/proof/verify/stated_values.h"
 #include "planner/proof/verify/sweep/step_checks.h"
 
 namespace capstan::verify {
@@ -27,14 +29,49 @@ bool works_along_axis(const model::Cutter& c) {
   }
 }
 
-FeedLimit feed_limit(const model::Cutter& c) {
+namespace {
+
+/// What the tool's own start values let it bear, mm per tooth.
+struct ByPresets {
+  double mm = 0.0;
+  std::string source;
+};
+
+ByPresets by_presets(const model::Cutter& c, const model::WorkMaterial& m) {
+  if (const auto* own = stated_for(c, m, false, Wanted::kFeed))
+    return {model::kOverPreset * own->fz_mm,
+            plain(model::kOverPreset) + " times the tool's start value for " + m.id};
+  ByPresets out;
+  if (m.iso_group.empty()) return out;
+  const std::string group = model::of_group(m.iso_group);
+  for (const model::CuttingPreset& p : c.presets) {
+    const bool of_it = p.fz_mm > 0.0 && !model::borrowed(p) && p.source.ends_with(group);
+    if (of_it && (out.mm == 0.0 || p.fz_mm < out.mm))
+      out = {p.fz_mm, "the tool's start value for " + p.material_group + ", of ISO group " + m.iso_group};
+  }
+  return out;
+}
+
+/// Whether the largest feed that the tool carries is only that of a generic cutter near it.
+bool limit_assumed(const model::Cutter& c) {
+  for (const auto& [field, source] : c.sources)
+    if (field == "fz_max_mm" && source.starts_with(model::kAsGeneric)) return true;
+  return false;
+}
+
+}  // namespace
+
+FeedLimit feed_limit(const model::Cutter& c, const model::WorkMaterial& material) {
   const double d = c.cutting_diameter_mm;
   const int teeth = std::max(1, c.teeth);
   FeedLimit out;
   out.per_revolution = works_along_axis(c);
+  const int per = out.per_revolution ? teeth : 1;
+  const ByPresets own = by_presets(c, material);
   if (c.fz_max_mm > 0.0) {
-    out.mm = c.fz_max_mm * (out.per_revolution ? teeth : 1);
-    out.source = "the tool's own limit";
+    const bool more = limit_assumed(c) && own.mm > c.fz_max_mm;
+    out.mm = per * (more ? own.mm : c.fz_max_mm);
+    out.source = more ? own.source : "the tool's own limit";
     return out;
   }
   // Shares of the diameter with a cap: default, unsourced; above what catalogues recommend for steel.
@@ -49,12 +86,9 @@ FeedLimit feed_limit(const model::Cutter& c) {
       out.mm = out.per_revolution ? std::clamp(0.04 * d, 0.02, 0.8) : std::clamp(0.02 * d, 0.01, 0.3);
   }
   out.source = "default, unsourced";
-  for (const auto& p : c.presets) {
-    const double start = 1.5 * p.fz_mm * (out.per_revolution ? teeth : 1);
-    if (start > out.mm) {
-      out.mm = start;
-      out.source = "1.5 times the tool's start value";
-    }
+  if (per * own.mm > out.mm) {
+    out.mm = per * own.mm;
+    out.source = own.source;
   }
   return out;
 }

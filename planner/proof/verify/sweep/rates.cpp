@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "planner/physics/mechanics/constants.h"
+#include "planner/proof/verify/stated_values.h"
 #include "planner/proof/verify/sweep/step_checks.h"
 
 namespace capstan::verify {
@@ -12,15 +13,13 @@ using model::CutterClass;
 
 namespace {
 
-constexpr double kMeasured = 1.1;   ///< by which a rate measured on cells may be too large
 constexpr double kTouchMm3 = 1e-6;  ///< less than this is not a cut
 constexpr double kDeeper = 1.5;     ///< depth over that planned, at most; default, unsourced
 constexpr double kWider = 8.0;      ///< mean section over that planned, at most; default, unsourced
 /// Of the diameter squared: smaller sections are nothing for a cutter, however little was planned; default,
 /// unsourced.
 constexpr double kFeltShare = 0.01;
-constexpr double kMostBentMm = 0.2;  ///< of the tip, under the mean force alone; default, unsourced
-constexpr double kWritten = 0.005;   ///< by which feed and speed may be off through their decimals
+constexpr double kWritten = 0.005;  ///< by which feed and speed may be off through their decimals
 
 /// How far the outermost point of the edge goes: on an arc farther than the centre. A volume divided by it is
 /// the least width that can have been cut, whichever side of the arc it lies on.
@@ -161,7 +160,7 @@ double StepChecks::feed_per_tooth(const Move& m) const {
 }
 
 void StepChecks::axial_feed(double fz) {
-  const FeedLimit limit = feed_limit(cutter_);
+  const FeedLimit limit = feed_limit(cutter_, plan_.material);
   const double feed = limit.per_revolution ? fz * std::max(1, cutter_.teeth) : fz;
   if (feed <= limit.mm * (1.0 + kWritten)) return;
   out_.error(18, "CHK-FEED-TOOL", {step_.order + 1, step_.id, sum_.where},
@@ -174,8 +173,7 @@ void StepChecks::axial_feed(double fz) {
 // A feed that no square cut would bear is right where the cut is thin: whether it is, cells may be too far
 // apart to show.
 void StepChecks::chips(const Move& m, const Bite& bite, double fz) {
-  const bool hss = cutter_.substrate == model::Substrate::kHss;
-  const double least = mechanics::least_chip_mm(cutter_.cutting_diameter_mm, hss) * (1.0 - kWritten);
+  const double least = least_chip_of(cutter_, plan_.material) * (1.0 - kWritten);
   const bool sideways = norm(xy(m.to) - xy(m.from)) > 0.0 || is_arc(m.kind);
   if (!works_along_axis(cutter_) && sideways && bite.volume_mm3 > 0.0 && fz > 0.0 && fz < least) {
     if (rubbed_mm_ == 0.0 || fz < rubbed_at_mm_) {
@@ -185,7 +183,7 @@ void StepChecks::chips(const Move& m, const Bite& bite, double fz) {
     rubbed_mm_ += length_of(m);
   }
   chip(m, bite.chip_mm, fz, bite.chip_at);
-  const double most = feed_limit(cutter_).mm * (1.0 + kWritten);
+  const double most = feed_limit(cutter_, plan_.material).mm * (1.0 + kWritten);
   if (bite.chip_mm > most) looks_ = 0;  // the step has its finding: no closer look changes that
   if (works_along_axis(cutter_) || fz <= most || looks_ <= 0) return;
   if (std::min(m.from.z, m.to.z) >= grid_.top()) return;
@@ -198,17 +196,15 @@ void StepChecks::chips(const Move& m, const Bite& bite, double fz) {
 void StepChecks::rubbing() {
   constexpr double kHarmlessMm = 1.0;  // default, unsourced
   if (rubbed_mm_ <= kHarmlessMm) return;
-  const bool hss = cutter_.substrate == model::Substrate::kHss;
   out_.warn(18, "CHK-RUB", rubbed_,
             "over " + mm(rubbed_mm_) + " of way in material the feed is down to " + mm(rubbed_at_mm_) +
-                " per tooth, where an edge rubs; at least " +
-                mm(mechanics::least_chip_mm(cutter_.cutting_diameter_mm, hss)) +
-                ": feed faster, cut less deep, or use a stiffer cutter",
+                " per tooth, where an edge rubs; at least " + mm(least_chip_of(cutter_, plan_.material)) +
+                " in " + plan_.material.id + ": feed faster, cut less deep, or use a stiffer cutter",
             rubbed_at_mm_);
 }
 
 void StepChecks::chip(const Move& m, double thickest_mm, double fz, Vec2 where) {
-  const FeedLimit limit = feed_limit(cutter_);
+  const FeedLimit limit = feed_limit(cutter_, plan_.material);
   if (limit.per_revolution || thickest_mm <= limit.mm * (1.0 + kWritten)) return;
   out_.error(18, "CHK-FEED-TOOL", at(m),
              "chips of up to " + mm(thickest_mm) + " at (" + plain(where.x) + ", " + plain(where.y) +

@@ -6,6 +6,7 @@
 
 #include "planner/model/nouns/all.h"
 #include "planner/physics/mechanics/constants.h"
+#include "planner/proof/verify/copies.h"
 
 namespace capstan::verify {
 
@@ -25,17 +26,6 @@ std::string here(Vec2 p) { return "(" + plain(p.x) + ", " + plain(p.y) + ")"; }
 bool is_mill(const model::Cutter& c) {
   return !works_along_axis(c) && c.cutter_class != CutterClass::kThreadMill;
 }
-bool undercuts(const model::Cutter& c) {
-  return c.cutter_class == CutterClass::kTSlotMill || c.cutter_class == CutterClass::kDovetailMill ||
-         c.cutter_class == CutterClass::kBackCounterbore || c.cutter_class == CutterClass::kBackCountersink ||
-         c.cutter_class == CutterClass::kSideMill;
-}
-/// T-slot and dovetail cutters: run along a slot whose mouth is open already.
-bool under_overhangs(const model::Cutter& c) {
-  return c.cutter_class == CutterClass::kTSlotMill || c.cutter_class == CutterClass::kDovetailMill ||
-         c.cutter_class == CutterClass::kBackCountersink;
-}
-
 /// How far the head, its tip at p, is in the walls of the feature's upright holes, mm; 0 where there are
 /// none. A back countersink's cone ends at its neck, at the head's top.
 double into_hole_walls(const std::vector<model::FeatureShape>& shapes, const geometry::Placement& frame,
@@ -106,7 +96,7 @@ StepChecks::StepChecks(const model::Plan& plan, const StepMoves& step, Grid& gri
       step.planned != nullptr ? plan.model.get<model::Executable>(step.planned->step) : nullptr;
   const auto* ws = e != nullptr ? plan.model.get<model::MachiningWorkingstep>(step.planned->step) : nullptr;
   std::string why;
-  if (undercuts(cutter_)) {
+  if (undercuts(cutter_.cutter_class)) {
     why = "an undercut is not held as heights";
   } else if (ws != nullptr) {
     why = target.undecided(ws->its_feature);
@@ -162,7 +152,7 @@ void StepChecks::rapid(const Move& m) {
 }
 
 void StepChecks::feed(const Move& m) {
-  if (under_overhangs(cutter_)) {
+  if (under_overhangs(cutter_.cutter_class)) {
     // Heights hold no overhang: what the head cuts below one is not taken from them.
     head(m);
     spindle(m, {});

@@ -94,7 +94,7 @@ struct FeedLimit {
   bool per_revolution = false;
   std::string source;
 };
-[[nodiscard]] FeedLimit feed_limit(const model::Cutter& c);
+[[nodiscard]] FeedLimit feed_limit(const model::Cutter& c, const model::WorkMaterial& material);
 [[nodiscard]] bool works_along_axis(const model::Cutter& c);
 /// Motor power and torque for continuous running at a speed, between the curve's points; power linear
 /// where torque is not stated.

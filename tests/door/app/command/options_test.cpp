@@ -2,36 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+#include <sstream>
+
+#include "planner/door/service/options.h"
+
 namespace capstan::app {
 namespace {
-
-TEST(Options, DurationsAreReadWithTheirUnit) {
-  using std::chrono::milliseconds;
-  EXPECT_EQ(parse_duration("200ms"), milliseconds(200));
-  EXPECT_EQ(parse_duration("1.5s"), milliseconds(1500));
-  EXPECT_EQ(parse_duration("30"), milliseconds(30));
-  for (const char* bad : {"", "ms", "0", "-5ms", "soon", "nan", "inf", "1e300s", "5 minutes"})
-    EXPECT_FALSE(parse_duration(bad)) << bad;
-}
-
-TEST(Options, StockIsAnAllowanceOrABox) {
-  InputOptions o;
-  EXPECT_EQ(parse_stock("block:+2", o), "");
-  EXPECT_EQ(o.stock_allowance_mm, 2.0);
-  InputOptions p;
-  EXPECT_EQ(parse_stock("box:0,0,-30,120,80,1", p), "");
-  ASSERT_TRUE(p.stock);
-  EXPECT_EQ(p.stock->hi.x, 120.0);
-  EXPECT_EQ(p.stock->lo.z, -30.0);
-}
-
-TEST(Options, StockThatIsNoneIsRefusedWithAReason) {
-  for (const char* bad : {"", "block", "block:", "block:-1", "block:nan", "box:", "box:1,2,3",
-                          "box:0,0,0,1,1,0", "box:0,0,0,1,1,x", "box:0,0,0,1,1,1,1", "cylinder:5"}) {
-    InputOptions o;
-    EXPECT_NE(parse_stock(bad, o), "") << bad;
-  }
-}
 
 TEST(Options, ACommandLineIsUnderstood) {
   const char* argv[] = {"capstan", "plan", "part.p21", "--reopen", "tools", "--machine", "m.yaml", "--solver",
@@ -42,10 +19,10 @@ TEST(Options, ACommandLineIsUnderstood) {
   EXPECT_EQ(o.command, Command::kPlan);
   EXPECT_EQ(o.files, std::vector<std::string>{"part.p21"});
   EXPECT_EQ(o.outputs, (std::vector<std::string>{"a.ngc", "a.tbl"}));
-  EXPECT_EQ(o.reopen, pipeline::Reopen::kTools);
+  EXPECT_EQ(o.inputs.reopen, pipeline::Reopen::kTools);
   EXPECT_EQ(o.inputs.machine, "m.yaml");
   EXPECT_EQ(o.inputs.solver, optimise::Solver::kIpopt);
-  EXPECT_EQ(o.threads, 2U);
+  EXPECT_EQ(o.inputs.threads, 2U);
 }
 
 std::string refused(std::vector<const char*> more) {
@@ -92,6 +69,56 @@ TEST(Options, AFileMayFollowItsOutputs) {
   const auto parsed = parse_command_line(static_cast<int>(std::size(argv)), argv);
   ASSERT_TRUE(parsed.options) << parsed.ending.text;
   EXPECT_EQ(parsed.options->files, std::vector<std::string>{"part.p21"});
+}
+
+/// The long options that a verb's help names.
+std::set<std::string> long_options(const char* verb) {
+  const char* argv[] = {"capstan", verb, "--help"};
+  const std::string help = parse_command_line(static_cast<int>(std::size(argv)), argv).ending.text;
+  std::set<std::string> out;
+  std::istringstream lines(help);
+  for (std::string line; std::getline(lines, line);) {
+    // An option's own line is indented by two and begins with a dash; texts may name others.
+    if (!line.starts_with("  -")) continue;
+    std::istringstream words(line);
+    std::string word;
+    words >> word;
+    if (const auto at = word.find("--"); at != std::string::npos) {
+      word = word.substr(at + 2);
+      out.insert(word.substr(0, word.find_first_not_of("abcdefghijklmnopqrstuvwxyz-")));
+    }
+  }
+  return out;
+}
+
+TEST(Options, EachOptionOfPlanBindAndCheckIsTheServicesOrTheTerminalsOwn) {
+  const std::pair<const char*, service::Verb> verbs[] = {
+      {"plan", service::Verb::kPlan}, {"bind", service::Verb::kBind}, {"check", service::Verb::kCheck}};
+  std::set<std::string_view> terminal;
+  for (const TerminalOption& t : terminal_options()) {
+    EXPECT_FALSE(t.why.empty()) << t.name;
+    EXPECT_EQ(service::find_option(t.name), nullptr) << t.name << " stands in both tables";
+    terminal.insert(t.name);
+  }
+  for (const auto& [name, verb] : verbs) {
+    const auto shown = long_options(name);
+    EXPECT_GT(shown.size(), 4U) << name;
+    for (const std::string& option : shown) {
+      const service::Option* row = service::find_option(option);
+      const bool known = (row != nullptr && row->help_of(verb) != nullptr) || terminal.count(option) != 0;
+      EXPECT_TRUE(known) << name << " --" << option;
+    }
+    for (const service::Option& o : service::options()) {
+      if (o.help_of(verb) != nullptr && !o.of_all_commands) {
+        EXPECT_EQ(shown.count(std::string(o.name)), 1U) << name << " lacks --" << o.name;
+      }
+    }
+  }
+}
+
+TEST(Options, AllowFindingsExcludesStrict) {
+  EXPECT_EQ(refused({"--allow-findings"}), "");
+  EXPECT_NE(refused({"--allow-findings", "--strict"}), "");
 }
 
 }  // namespace

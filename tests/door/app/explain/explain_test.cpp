@@ -1,4 +1,4 @@
-#include "planner/door/app/explain/explain.h"
+#include "planner/door/service/explain/explain.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,6 +10,8 @@
 
 namespace capstan::app {
 namespace {
+
+using service::explain;
 
 using ::testing::HasSubstr;
 using ::testing::Not;

@@ -11,7 +11,7 @@
 #include <thread>
 
 #include "casebase/casebase.h"
-#include "planner/door/pipeline/given/shop.h"
+#include "tests/support/shop.h"
 #include "planner/model/nouns/all.h"
 #include "tests/support/corpus.h"
 

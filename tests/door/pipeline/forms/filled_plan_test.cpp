@@ -4,7 +4,7 @@
 #include <random>
 #include <string>
 
-#include "planner/door/pipeline/given/shop.h"
+#include "tests/support/shop.h"
 #include "planner/files/json/fields.h"
 #include "tests/support/corpus.h"
 #include "tests/support/plan_difference.h"

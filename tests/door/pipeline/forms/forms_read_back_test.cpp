@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "planner/door/pipeline/given/shop.h"
+#include "tests/support/shop.h"
 #include "tests/support/corpus.h"
 #include "tests/support/plan_difference.h"
 

@@ -7,7 +7,7 @@
 #include <memory>
 #include <string>
 
-#include "planner/door/pipeline/given/shop.h"
+#include "tests/support/shop.h"
 #include "planner/model/nouns/all.h"
 #include "rules/rules.h"
 #include "tests/support/corpus.h"

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "planner/door/pipeline/given/shop.h"
+#include "tests/support/shop.h"
 #include "tooling/library/library.h"
 
 namespace capstan::pipeline {

@@ -6,7 +6,7 @@
 #include <set>
 #include <string>
 
-#include "planner/door/pipeline/given/shop.h"
+#include "tests/support/shop.h"
 #include "planner/door/pipeline/paths/cuts.h"
 #include "planner/making/optimise/cut.h"
 #include "planner/model/nouns/all.h"

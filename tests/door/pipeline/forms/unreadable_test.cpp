@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string>
 
-#include "planner/door/pipeline/given/shop.h"
+#include "tests/support/shop.h"
 #include "planner/files/exchange/exchange.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/plan/decision/condemned.h"

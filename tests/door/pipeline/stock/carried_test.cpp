@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <string>
 
-#include "planner/door/pipeline/given/shop.h"
+#include "tests/support/shop.h"
 #include "planner/physics/engagement/engagement.h"
 #include "planner/physics/stock/planar/planar_stock.h"
 #include "planner/proof/verify/sweep/target/target.h"
@@ -75,7 +75,7 @@ TEST(CarriedSections, OfTheBracketAgreeStepByStepWithAFineMapAndWithTheVolumeOfT
     if (!map_is_off) {
       EXPECT_NEAR(carried, cells->removed_mm3, 2e-3 * cells->removed_mm3 + 0.5) << model::step_id(plan, s);
     }
-    if (!stock::is_flat(profile)) continue;
+    if (!geometry::is_flat(profile)) continue;
     ++flat_steps;
     worst_flat = std::max(worst_flat, std::abs(carried / by_volume - 1.0));
     EXPECT_NEAR(carried, by_volume, 3e-4 * by_volume + 0.03) << model::step_id(plan, s);

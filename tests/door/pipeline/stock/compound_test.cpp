@@ -4,7 +4,7 @@
 #include <set>
 #include <string>
 
-#include "planner/door/pipeline/given/shop.h"
+#include "tests/support/shop.h"
 #include "planner/ground/base/number.h"
 #include "planner/model/nouns/all.h"
 #include "tests/support/corpus.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string>
 
-#include "planner/door/pipeline/given/shop.h"
+#include "tests/support/shop.h"
 #include "planner/door/pipeline/profit.h"
 #include "tests/support/corpus.h"
 

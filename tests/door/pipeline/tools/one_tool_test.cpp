@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-#include "planner/door/pipeline/given/shop.h"
+#include "tests/support/shop.h"
 #include "planner/files/exchange/exchange.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/nouns/arena/walk.h"

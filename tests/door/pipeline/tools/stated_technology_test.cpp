@@ -4,7 +4,7 @@
 #include <numbers>
 #include <string>
 
-#include "planner/door/pipeline/given/shop.h"
+#include "tests/support/shop.h"
 #include "planner/model/nouns/all.h"
 #include "tests/support/corpus.h"
 

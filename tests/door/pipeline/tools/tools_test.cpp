@@ -6,7 +6,7 @@
 #include <set>
 #include <string>
 
-#include "planner/door/pipeline/given/shop.h"
+#include "tests/support/shop.h"
 #include "planner/model/nouns/all.h"
 #include "planner/proof/verify/verify.h"
 #include "tests/support/corpus.h"

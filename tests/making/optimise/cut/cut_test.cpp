@@ -67,6 +67,31 @@ TEST_F(Cut, IsNoSlowerThanAnyPointOfAGrid) {
   }
 }
 
+// An edge of HSS is rounded to 0.012 mm: five times that; in titanium, which hardens, as much more as the
+// chip is thicker: 0.06 / 0.3.
+TEST_F(Cut, InLevelsThatAnEdgeSmearsIsNone) {
+  auto q = questions::roughing();
+  q.cutter.substrate = model::Substrate::kHss;
+  q.ap_most_mm = 0.009;
+  const CutAnswer a = answered(q);
+  EXPECT_FALSE(a.feasible);
+  ASSERT_FALSE(a.violated.empty());
+  EXPECT_NE(a.violated.back().find("level_depth_least: 0.009 against 0.06 mm"), std::string::npos)
+      << a.violated.back();
+  q.ap_most_mm = 0.061;
+  EXPECT_TRUE(answered(q).feasible);
+  q.material.iso_group = "S";
+  const CutAnswer in_titanium = answered(q);
+  EXPECT_FALSE(in_titanium.feasible);
+  ASSERT_FALSE(in_titanium.violated.empty());
+  EXPECT_NE(in_titanium.violated.back().find("against 0.2 mm"), std::string::npos)
+      << in_titanium.violated.back();
+  q.material.iso_group = "P";
+  // What is left in all may be thinner: one level.
+  q.depth_mm = 0.009;
+  EXPECT_TRUE(answered(q).feasible);
+}
+
 TEST_F(Cut, NoOtherNumberOfLevelsIsBetter) {
   CutQuestion deep = questions::roughing();
   deep.depth_mm = 30.0;

@@ -132,6 +132,23 @@ TEST(Feeds, OfPlungesAndRampsAreFractionsAtMost) {
   EXPECT_LT(feeds(q, p).schedule.feed_mm_min[1], 0.5 * kPlungeFraction * 800.0);
 }
 
+// In titanium an edge of carbide asks for 0.008 mm: 4 x 4000 x 0.008 = 128 mm/min, and the step's feed is
+// 160.
+TEST(Feeds, OfRampsAreNotBelowTheThinnestChip) {
+  FeedQuestion q = question();
+  q.cut.material.iso_group = "S";
+  q.cut.cutter.substrate = model::Substrate::kCarbide;
+  q.cut.fz_start_mm = 0.01;
+  q.feed_mm_min = 160.0;
+  CutterPath p;
+  p.start({0, 0, 0});
+  p.line({20, 0, -1}, MoveRole::kRamp);
+  cut_along(q, p, 1, 0.5, 1.0);
+  EXPECT_NEAR(feeds(q, p).schedule.feed_mm_min[1], 128.0, 0.1);
+  q.feed_mm_min = 100.0;  // meant to be thinner
+  EXPECT_NEAR(feeds(q, p).schedule.feed_mm_min[1], 100.0, 0.1);
+}
+
 TEST(Feeds, WithoutSectionsAreNeverFasterThanPlanned) {
   const CutterPath p = straight();
   EXPECT_EQ(feeds(question(), p).schedule.feed_mm_min[1], 800.0);

@@ -79,6 +79,25 @@ TEST(SplitMoves, RenumbersSectionsFactorsAndDwellsWithTheMoves) {
   }
 }
 
+// Of cells it is known to half of one only where a cut begins: the heavy one may begin, and end, as much
+// farther on.
+TEST(SplitMoves, IsSlowWhereACutMayBeginOrEndForAllThatIsKnown) {
+  FeedQuestion q = question();
+  q.cut.peak_force_limit_n = 500.0;
+  q.known_to_mm = 0.5;
+  CutterPath p;
+  p.start({0, 0, 0});
+  p.line({100, 0, 0}, MoveRole::kCut);
+  cut_along(q, p, 1, 1.0, 1.0, 0.0, 40.0);
+  cut_along(q, p, 1, 8.0, 8.0, 40.0, 80.0);
+  cut_along(q, p, 1, 1.0, 1.0, 80.0);
+  split_moves(q, p, nullptr);
+  ASSERT_EQ(p.size(), 4U);
+  EXPECT_NEAR(p.x[1], 39.5, 1e-9);
+  EXPECT_NEAR(p.x[2], 80.5, 1e-9);
+  EXPECT_NEAR(p.x[3], 100.0, 1e-12);
+}
+
 TEST(SplitMoves, LeavesAnEvenMoveWhole) {
   FeedQuestion q = question();
   CutterPath p;

@@ -14,7 +14,6 @@
 namespace capstan::tooling::csv {
 namespace {
 
-constexpr int kMostToolNumber = 99999;
 constexpr std::size_t kFaultsShown = 100;
 
 bool has_field(const ColumnMap& map, std::string_view field) {

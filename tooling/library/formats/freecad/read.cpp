@@ -65,7 +65,7 @@ class BitReader {
     const std::string type = text_of(root.find("shape-type")), shape_file = text_of(root.find("shape"));
     item_.kind = type.empty() ? shape_file : type;
     shape_ = freecad::find_shape(type.empty() ? shape_file : type);
-    static constexpr Shape kUnknown{"", "", std::nullopt};
+    static constexpr Shape kUnknown{"", std::nullopt};
     if (const Json* parameters = root.find("parameter")) {
       for (const auto& [key, value] : parameters->entries)
         read_parameter(shape_ == nullptr ? kUnknown : *shape_, key, value);

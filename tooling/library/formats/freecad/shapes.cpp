@@ -1,31 +1,32 @@
 #include "tooling/library/formats/freecad/shapes.h"
 
+#include <algorithm>
 #include <array>
 #include <utility>
+#include <vector>
 
 namespace capstan::tooling::freecad {
 namespace {
 
 using model::CutterClass;
 
-constexpr std::array kShapes = {
-    Shape{"Endmill", "endmill.fcstd", CutterClass::kEndmill},
-    Shape{"Ballend", "ballend.fcstd", CutterClass::kBallEndmill},
-    Shape{"Bullnose", "bullnose.fcstd", CutterClass::kBullnoseEndmill},
-    Shape{"Chamfer", "chamfer.fcstd", CutterClass::kChamferMill},
-    Shape{"VBit", "v-bit.fcstd", CutterClass::kChamferMill},
-    Shape{"Drill", "drill.fcstd", CutterClass::kTwistDrill},
-    Shape{"Reamer", "reamer.fcstd", CutterClass::kReamer},
-    Shape{"Tap", "tap.fcstd", CutterClass::kTap},
-    Shape{"ThreadMill", "thread-mill.fcstd", CutterClass::kThreadMill},
-    Shape{"Dovetail", "dovetail.fcstd", CutterClass::kDovetailMill},
-    Shape{"Radius", "radius.fcstd", CutterClass::kCornerRoundingMill},
-    Shape{"TaperedBallNose", "taperedballnose.fcstd", CutterClass::kTaperedEndmill},
-    Shape{"SlittingSaw", "slittingsaw.fcstd", CutterClass::kSideMill},
-    Shape{"Probe", "probe.fcstd", CutterClass::kTouchProbe},
-    Shape{"Fillet", "fillet.fcstd", std::nullopt},
-    Shape{"Custom", "", std::nullopt},
+/// Shapes that stand beside a class's own, and those that are none; the vocabulary has the rest.
+constexpr std::array kOtherShapes = {
+    Shape{"VBit", CutterClass::kChamferMill},
+    Shape{"Fillet", std::nullopt},
+    Shape{"Custom", std::nullopt},
 };
+
+std::span<const Shape> shapes() {
+  static const std::vector<Shape> kShapes = [] {
+    std::vector<Shape> all;
+    for (const model::CutterClassRow& r : model::cutter_classes())
+      if (!r.freecad.empty()) all.push_back({r.freecad, r.value});
+    all.insert(all.end(), kOtherShapes.begin(), kOtherShapes.end());
+    return all;
+  }();
+  return kShapes;
+}
 
 constexpr std::array kAliases = {
     std::pair{"torus", "Bullnose"},
@@ -89,29 +90,27 @@ const Shape* find_shape(std::string_view type) {
   if (const auto dot = wanted.rfind(".fcstd"); dot != std::string::npos) wanted.erase(dot);
   for (const auto& [alias, name] : kAliases)
     if (wanted == alias) wanted = folded(name);
-  for (const Shape& s : kShapes)
+  for (const Shape& s : shapes())
     if (folded(s.type) == wanted) return &s;
   return nullptr;
 }
 
+std::string file_of(const Shape& shape) {
+  if (shape.type == "Custom") return {};
+  if (shape.type == "VBit") return "v-bit.fcstd";
+  if (shape.type == "ThreadMill") return "thread-mill.fcstd";
+  return folded(shape.type) + ".fcstd";
+}
+
 const Shape* shape_of(CutterClass c, bool& exact) {
-  exact = true;
-  for (const Shape& s : kShapes)
-    if (s.cutter_class == c) return &s;
-  exact = false;
-  switch (c) {
-    case CutterClass::kFacemill:
-    case CutterClass::kCounterbore:
-      return find_shape("Endmill");
-    case CutterClass::kCountersink:
-      return find_shape("Chamfer");
-    case CutterClass::kCenterDrill:
-    case CutterClass::kSpotDrill:
-    case CutterClass::kGunDrill:
-      return find_shape("Drill");
-    default:
-      return nullptr;
-  }
+  const auto own = [](CutterClass k) {
+    const auto all = shapes();
+    const auto it = std::find_if(all.begin(), all.end(), [&](const Shape& s) { return s.cutter_class == k; });
+    return it == all.end() ? nullptr : &*it;
+  };
+  const Shape* s = own(c);
+  exact = s != nullptr;
+  return exact ? s : own(model::row_of(c).stand_in);
 }
 
 std::string_view symbol_of(const Shape& shape, std::string_view parameter) {

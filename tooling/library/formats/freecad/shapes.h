@@ -12,12 +12,13 @@ namespace capstan::tooling::freecad {
 /// A shape of FreeCAD and the class it is.
 struct Shape {
   std::string_view type;  ///< "Endmill"
-  std::string_view file;  ///< "endmill.fcstd"
   std::optional<model::CutterClass> cutter_class;
 };
 
 /// By type, by an alias ("v-bit", "torus", "thread-mill") or by the name of the shape's file.
 [[nodiscard]] const Shape* find_shape(std::string_view type);
+/// The file of FreeCAD that draws it: "endmill.fcstd"; empty for a custom shape.
+[[nodiscard]] std::string file_of(const Shape& shape);
 /// The shape that holds a class best; null: none does. `exact`: it says the class, too.
 [[nodiscard]] const Shape* shape_of(model::CutterClass c, bool& exact);
 

@@ -53,7 +53,7 @@ class BitWriter {
     if (const std::string* id = find_kept(item_.kept, "id")) root.set("id", Json::string(*id));
     root.set("name", Json::string(item_.description.empty() ? item_.id : item_.description));
     const std::string* file = find_kept(item_.kept, "shape");
-    root.set("shape", Json::string(file == nullptr ? shape_->file : *file));
+    root.set("shape", Json::string(file == nullptr ? file_of(*shape_) : *file));
     const std::string* type = find_kept(item_.kept, "shape-type");
     if (type != nullptr || file == nullptr) root.set("shape-type", Json::string(type ? *type : shape_->type));
     for (const Property& p : item_.properties) write_property(p, parameters);
@@ -72,7 +72,7 @@ class BitWriter {
   void choose_shape() {
     const std::string* type = find_kept(item_.kept, "shape-type");
     if (type == nullptr) type = find_kept(item_.kept, "shape");
-    static constexpr Shape kCustom{"Custom", "", std::nullopt};
+    static constexpr Shape kCustom{"Custom", std::nullopt};
     if (type != nullptr) {
       shape_ = freecad::find_shape(*type);
       if (shape_ == nullptr) shape_ = &kCustom;

@@ -7,28 +7,10 @@ namespace {
 
 using model::CutterClass;
 
-constexpr std::array<std::pair<std::string_view, CutterClass>, 21> kTypes{{
-    {"flat end mill", CutterClass::kEndmill},
-    {"bull nose end mill", CutterClass::kBullnoseEndmill},
-    {"ball end mill", CutterClass::kBallEndmill},
-    {"face mill", CutterClass::kFacemill},
-    {"drill", CutterClass::kTwistDrill},
-    {"center drill", CutterClass::kCenterDrill},
-    {"spot drill", CutterClass::kSpotDrill},
-    {"reamer", CutterClass::kReamer},
-    {"tap right hand", CutterClass::kTap},
+/// Types that stand beside a class's own; the vocabulary has those.
+constexpr std::array<std::pair<std::string_view, CutterClass>, 2> kOtherNames{{
     {"tap left hand", CutterClass::kTap},
-    {"thread mill", CutterClass::kThreadMill},
-    {"boring bar", CutterClass::kBoringTool},
     {"boring head", CutterClass::kBoringTool},
-    {"counter sink", CutterClass::kCountersink},
-    {"counter bore", CutterClass::kCounterbore},
-    {"chamfer mill", CutterClass::kChamferMill},
-    {"slot mill", CutterClass::kTSlotMill},
-    {"dovetail mill", CutterClass::kDovetailMill},
-    {"radius mill", CutterClass::kCornerRoundingMill},
-    {"tapered mill", CutterClass::kTaperedEndmill},
-    {"probe", CutterClass::kTouchProbe},
 }};
 /// Known, but of no use to planning.
 constexpr std::array<std::string_view, 10> kOtherTypes{"circle segment barrel",
@@ -58,18 +40,18 @@ double preset_factor(char unit, bool inches) {
 }
 
 std::optional<CutterClass> class_of(std::string_view type) {
-  for (const auto& [name, c] : kTypes)
+  for (const model::CutterClassRow& r : model::cutter_classes())
+    if (!r.fusion.empty() && r.fusion == type) return r.value;
+  for (const auto& [name, c] : kOtherNames)
     if (name == type) return c;
   return std::nullopt;
 }
 
 std::optional<std::string_view> type_of(CutterClass c, bool left_hand) {
-  if (c == CutterClass::kTap) return left_hand ? "tap left hand" : "tap right hand";
-  if (c == CutterClass::kGunDrill) return "drill";
-  if (c == CutterClass::kSideMill) return "slot mill";
-  for (const auto& [name, k] : kTypes)
-    if (k == c) return name;
-  return std::nullopt;
+  if (c == CutterClass::kTap && left_hand) return "tap left hand";
+  const model::CutterClassRow& own = model::row_of(c);
+  const std::string_view type = own.fusion.empty() ? model::row_of(own.stand_in).fusion : own.fusion;
+  return type.empty() ? std::nullopt : std::optional(type);
 }
 
 bool is_type(std::string_view text) {

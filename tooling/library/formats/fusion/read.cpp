@@ -13,8 +13,6 @@ namespace {
 
 using model::CutterClass;
 
-constexpr int kMostToolNumber = 99999;
-
 /// Entries of a map that nothing of ours holds, as texts.
 void keep_rest(const Json& map, const std::string& prefix, const std::vector<std::string_view>& known,
                std::vector<std::pair<std::string, std::string>>& kept) {

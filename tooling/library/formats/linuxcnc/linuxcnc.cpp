@@ -14,7 +14,6 @@
 namespace capstan::tooling {
 namespace {
 
-constexpr int kMostToolNumber = 99999;
 constexpr std::string_view kAxes = "XYZABCUVW";  // in the order they are written
 constexpr std::string_view kAfter = "DIJQ";
 constexpr std::size_t kLongestLine = 4096;

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "planner/ground/base/number.h"
+#include "planner/making/toolpath/defaults.h"
 
 namespace capstan::toolpath {
 
@@ -15,11 +16,8 @@ using model::MoveRole;
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-/// Ramp angle when nobody says one; default, unsourced: what makers of solid end mills commonly allow.
-constexpr double kUsualRamp = 3.0 * kPi / 180.0;
 /// Helix radius as a part of the cutter's; below 1, so that no core is left; default, unsourced.
 constexpr double kHelixPart = 0.9;
-constexpr double kFreeAir = 0.2;  ///< mm between a cutter in air and the material
 constexpr int kMostTurns = 5'000;
 
 std::vector<Vec2> air_points(const WorkArea& w, const Region& centres, const Inside& material,
@@ -33,7 +31,7 @@ std::vector<Vec2> air_points(const WorkArea& w, const Region& centres, const Ins
       const int n = std::clamp(static_cast<int>(norm(d) / (0.5 * radius)), 1, 200);
       for (int k = 0; k < n; ++k) {
         const Vec2 p = a + (static_cast<double>(k) / n) * d;
-        if (material.clear_of(p, radius + kFreeAir)) out.push_back(p);
+        if (material.clear_of(p, radius + kAirBeside)) out.push_back(p);
       }
     }
   }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/making/toolpath/defaults.h"
+
 namespace capstan::toolpath {
 
 using geometry::Region;
@@ -10,7 +12,6 @@ using geometry::Vec2;
 
 namespace {
 
-constexpr double kFreeAir = 0.2;        ///< mm between a cutter in air and what is left
 constexpr double kCrumb = 1e-3;         ///< mm2 that count as nothing
 constexpr std::size_t kMostAir = 4000;  ///< places looked at
 
@@ -65,7 +66,7 @@ double narrow_to_rest(const PathJob& task, const WorkArea& w, Level& level) {
     if (geometry::area(opened(geometry::subtract(left, got), 0.25 * kFeather)) < kCrumb) break;
   }
   const Region free =
-      geometry::intersect(geometry::intersect(all, inset(cleared, radius + kFreeAir, kInnerChord)),
+      geometry::intersect(geometry::intersect(all, inset(cleared, radius + kAirBeside, kInnerChord)),
                           geometry::offset(level.centres, 2.0 * radius, 0.05));
   level.air = places(free, 0.5 * radius);
   return area;

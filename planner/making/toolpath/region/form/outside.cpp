@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "planner/ground/base/number.h"
+#include "planner/making/toolpath/defaults.h"
 #include "planner/making/toolpath/region/patterns.h"
 #include "planner/making/toolpath/region/region_paths.h"
 
@@ -171,7 +172,6 @@ Status run_in(const Around& a, const Inside& material, std::vector<Vec2>& line, 
 // wall, every pass in the sense that the cut mode asks for.
 Result<GeneratedPath> along_open_line(const Around& a, PathWriter& writer, const std::vector<double>& heights,
                                       double step, bool shell) {
-  constexpr double kFreeAir = 1.0;  // mm between the cutter and the raw piece before a pass
   const PathJob& task = a.task;
   constexpr double kFar = 1e5;  // mm: beyond every raw piece
   const auto& f = task.feature_in_setup;
@@ -197,10 +197,10 @@ Result<GeneratedPath> along_open_line(const Around& a, PathWriter& writer, const
     std::vector<Vec2> line = line_at(side, d);
     if (line.size() < 2) continue;
     std::reverse(line.begin(), line.end());
-    if (auto ok = run_in(a, material, line, in_plan(task.shape.spine.front()), a.radius + kFreeAir); !ok)
+    if (auto ok = run_in(a, material, line, in_plan(task.shape.spine.front()), a.radius + kAirBeyond); !ok)
       return tl::unexpected(ok.error());
     std::reverse(line.begin(), line.end());
-    if (auto ok = run_in(a, material, line, in_plan(task.shape.spine.back()), a.radius + kFreeAir); !ok)
+    if (auto ok = run_in(a, material, line, in_plan(task.shape.spine.back()), a.radius + kAirBeyond); !ok)
       return tl::unexpected(ok.error());
     Track t = track_of_line(line);
     // As it stands the wall is on its right.
@@ -246,7 +246,8 @@ Result<GeneratedPath> outside_path(const PathJob& task, Job& job) {
   if (task.stock.empty()) a.w.material = a.w.area = geometry::offset_sharp(a.kept, a.radius);
   PathWriter writer(task);
   LevelCutter c(task, a.w, writer, job);
-  const bool shell = is_finish(task.operation) && task.left_on_side_mm.has_value();
+  const bool shell =
+      model::has(task.operation, model::OperationTrait::kFinishes) && task.left_on_side_mm.has_value();
   if (task.stock.empty() && !shell)
     c.warn("TPA-REST", "the raw outline is not known: one round is made beside the contour");
   const double step = std::min(c.step_mm, 0.99 * a.radius);

@@ -87,11 +87,10 @@ Result<GeneratedPath> slot_path(const PathJob& task, Job& job) {
   if (!w) return tl::unexpected(w.error());
   const double d = task.cutter.cutting_diameter_mm;
   const bool form = !s.slot_profile.empty();
-  const bool end_mill = task.cutter.cutter_class == CutterClass::kEndmill ||
-                        task.cutter.cutter_class == CutterClass::kBullnoseEndmill;
+  const bool end_mill = model::has(task.cutter.cutter_class, model::CutterTrait::kEndMill);
   const auto u = undercut_of(s);
   if (u && end_mill) return slot_path(neck_of(task, *u), job);
-  if (u && undercuts(task.cutter)) {
+  if (u && model::has(task.cutter.cutter_class, model::CutterTrait::kSlotForm)) {
     if (s.spine.size() < 2 || norm(s.spine.front() - s.spine.back()) < 1e-6) {
       return fail({.code = "TPA-ENTRY",
                    .message = s.name + ": a cutter wider than the slot's mouth needs an open end to enter by",
@@ -101,7 +100,7 @@ Result<GeneratedPath> slot_path(const PathJob& task, Job& job) {
   }
   if (form) {
     if (auto ok = check_form(task); !ok) {
-      if (mills_sections(task.cutter)) return form_slot_path(task, job);
+      if (model::has(task.cutter.cutter_class, model::CutterTrait::kLayers)) return form_slot_path(task, job);
       return tl::unexpected(ok.error());
     }
   } else {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "planner/ground/base/number.h"
+#include "planner/making/toolpath/defaults.h"
 #include "planner/making/toolpath/region/form/undercut.h"
 #include "planner/making/toolpath/region/patterns.h"
 
@@ -17,7 +18,6 @@ namespace {
 
 constexpr double kSameSize = 0.02;    ///< mm; what a head narrower or lower than the slot by this still makes
 constexpr double kNeckClear = 0.1;    ///< mm between the neck and the mouth's walls
-constexpr double kFreeAir = 0.2;      ///< mm between a cutter in air and the material
 constexpr double kSidePart = 0.1;     ///< of the diameter: most that a pass takes further; default, unsourced
 constexpr double kSameAngle = 0.002;  ///< rad
 constexpr int kMostPasses = 200;
@@ -251,10 +251,6 @@ std::optional<Undercut> undercut_of(const model::FeatureShape& s) {
   return u;
 }
 
-bool undercuts(const model::Cutter& c) {
-  return c.cutter_class == CutterClass::kTSlotMill || c.cutter_class == CutterClass::kDovetailMill;
-}
-
 PathJob neck_of(const PathJob& task, const Undercut& u) {
   PathJob neck = task;
   auto& s = neck.shape;
@@ -305,7 +301,7 @@ Result<GeneratedPath> undercut_path(const PathJob& task, const Undercut& u, Slot
     const Vec2 before = last ? run.line[run.line.size() - 2] : run.line[1];
     const Vec2 out = (1.0 / norm(end - before)) * (end - before);
     int steps = 0;
-    while (!material.clear_of(end, radius + most_aside + kFreeAir)) {
+    while (!material.clear_of(end, radius + most_aside + kAirBeside)) {
       if (++steps > 400)
         return refuse(task, "TPA-ENTRY", "the cutter does not get free of the material at the open end");
       end = end + 0.5 * radius * out;

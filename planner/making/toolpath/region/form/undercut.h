@@ -18,8 +18,6 @@ struct Undercut {
 
 /// Nothing for slots that do not narrow upwards, or in a way that neither cutter makes.
 [[nodiscard]] std::optional<Undercut> undercut_of(const model::FeatureShape& slot);
-/// Whether the cutter cuts under an overhang.
-[[nodiscard]] bool undercuts(const model::Cutter& cutter);
 /// The same job for the upright slot as wide as the mouth, which is milled first.
 [[nodiscard]] PathJob neck_of(const PathJob& task, const Undercut& u);
 

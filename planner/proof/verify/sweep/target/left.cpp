@@ -5,6 +5,7 @@
 
 #include "planner/model/features/in_piece.h"
 #include "planner/model/nouns/all.h"
+#include "planner/proof/verify/copies.h"
 #include "planner/proof/verify/sweep/target/target.h"
 
 // What stays of planned features after the last step. Every cell of a feature's area is held against the
@@ -46,36 +47,6 @@ constexpr double kUnstatedFootMm = 0.8;
 constexpr double kBelowMm = 0.05;  ///< a hole's end, to see what it opens into; default, unsourced
 
 std::string place(Vec2 p, double z) { return "(" + plain(p.x) + ", " + plain(p.y) + ", " + plain(z) + ")"; }
-
-bool mills(const model::Cutter& c) {
-  switch (c.cutter_class) {
-    case model::CutterClass::kTwistDrill:
-    case model::CutterClass::kCenterDrill:
-    case model::CutterClass::kSpotDrill:
-    case model::CutterClass::kGunDrill:
-    case model::CutterClass::kReamer:
-    case model::CutterClass::kTap:
-    case model::CutterClass::kBoringTool:
-    case model::CutterClass::kCountersink:
-    case model::CutterClass::kTouchProbe:
-      return false;
-    default:
-      return true;
-  }
-}
-
-bool undercuts(const model::Cutter& c) {
-  switch (c.cutter_class) {
-    case model::CutterClass::kTSlotMill:
-    case model::CutterClass::kDovetailMill:
-    case model::CutterClass::kBackCounterbore:
-    case model::CutterClass::kBackCountersink:
-    case model::CutterClass::kSideMill:
-      return true;
-    default:
-      return false;
-  }
-}
 
 /// How much higher, and how much narrower than nominal the feature's tolerances let it be.
 double shallower(const FeatureShape& s) {
@@ -196,7 +167,7 @@ std::vector<Asked> asked_of(const model::Plan& plan) {
       }
       it->side_mm = std::min(it->side_mm, side);
       it->bottom_mm = std::min(it->bottom_mm, bottom);
-      it->undercut = it->undercut || undercuts(*cutter);
+      it->undercut = it->undercut || undercuts(cutter->cutter_class);
       if (const auto* o = plan.model.get<model::FreeformOperation>(ws->its_operation)) {
         double stated = 0.0;
         const auto* strategy = plan.model.get<model::FreeformStrategy>(o->its_machining_strategy);
@@ -206,7 +177,7 @@ std::vector<Asked> asked_of(const model::Plan& plan) {
         }
         it->ridges_mm = std::min(it->ridges_mm, stated);
       }
-      if (!mills(*cutter)) continue;
+      if (!mills(cutter->cutter_class)) continue;
       const bool ball = cutter->cutter_class == model::CutterClass::kBallEndmill;
       const double corner = ball ? 0.5 * cutter->cutting_diameter_mm : cutter->corner_radius_mm;
       it->radius_mm = std::min(it->radius_mm, 0.5 * cutter->cutting_diameter_mm);

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "planner/model/nouns/all.h"
+#include "planner/proof/verify/copies.h"
 #include "planner/proof/verify/sweep/step_checks.h"
 
 // Whether a step cuts at all. What it takes off the cells is added up. Where that is nothing, points up to
@@ -16,12 +17,6 @@ namespace {
 
 constexpr double kNothingMm3 = 1e-3;  ///< less is the rounding of arcs and cells; default, unsourced
 constexpr double kSkinMm = 0.02;      ///< a head that only touches a shoulder does not cut it
-
-bool finishes(model::TypeId op) {
-  using model::TypeId;
-  return op == TypeId::kSideFinishMilling || op == TypeId::kBottomAndSideFinishMilling ||
-         op == TypeId::kPlaneFinishMilling || op == TypeId::kFreeformFinishMilling;
-}
 
 double head_of(const model::Cutter& c) {
   return c.cutting_width_mm > 0.0 ? c.cutting_width_mm : c.maximum_depth_of_cut_mm;

@@ -6,6 +6,7 @@
 
 #include "planner/ground/geometry/mesh_form.h"
 #include "planner/model/nouns/all.h"
+#include "planner/proof/verify/copies.h"
 #include "planner/proof/verify/findings.h"
 
 namespace capstan::verify {
@@ -152,8 +153,7 @@ void Target::add_broken_edges() {
     const auto* ws = plan_.model.get<model::MachiningWorkingstep>(step.step);
     const model::Cutter* c = model::find_cutter(plan_, step.cutter_id);
     if (ws == nullptr || c == nullptr || !(c->point_angle_rad > 0.0)) continue;
-    const bool cone = c->cutter_class == model::CutterClass::kChamferMill ||
-                      c->cutter_class == model::CutterClass::kCountersink;
+    const bool cone = breaks_edges(c->cutter_class);
     const auto* op = plan_.model.get<model::SideFinishMilling>(ws->its_operation);
     if (!cone || op == nullptr) continue;
     const double depth = op->axial_cutting_depth.value_or(0.0);

@@ -1,0 +1,86 @@
+#include <flann/algorithms/dist.h>
+#include <flann/algorithms/kdtree_single_index.h>
+
+#include <algorithm>
+
+#include "casebase/index/index.h"
+
+namespace capstan::casebase {
+namespace {
+
+using Tree = flann::KDTreeSingleIndex<flann::L2<double>>;
+
+/// FLANN's single tree is exact but for rounding and for which of equal distances it keeps. So it only
+/// gathers candidates, a little beyond the limit; distance, limit and order are ours.
+/// Never saved nor loaded: it is rebuilt from the points.
+class FlannIndex final : public Index {
+ public:
+  explicit FlannIndex(std::vector<Point> points) : points_(std::move(points)) {
+    for (const Point& p : points_) expect_finite(p);
+    if (points_.empty()) return;  // FLANN crashes without a point
+    tree_ = std::make_unique<Tree>(
+        flann::Matrix<double>(points_.front().data(), points_.size(), points_.front().size()),
+        flann::KDTreeSingleIndexParams(kLeafSize));
+    tree_->buildIndex();
+  }
+
+  std::vector<Hit> nearest(const Point& q, std::size_t k) const override {
+    expect_finite(q);
+    const std::size_t n = std::min(k, points_.size());
+    if (n == 0) return {};
+    if (n > kManyAsked) return all(q, n);
+    flann::KNNSimpleResultSet<double> found(n);
+    tree_->findNeighbors(found, q.data(), flann::SearchParams(flann::FLANN_CHECKS_UNLIMITED));
+    std::vector<Hit> hits = gather(q, found.worstDist());
+    put_in_order(hits, n);
+    return hits;
+  }
+
+  std::vector<Hit> within(const Point& q, double limit2) const override {
+    expect_finite(q);
+    if (points_.empty() || !(limit2 >= 0.0)) return {};
+    std::vector<Hit> hits = gather(q, limit2);
+    std::erase_if(hits, [&](const Hit& h) { return h.distance2 > limit2; });
+    put_in_order(hits, hits.size());
+    return hits;
+  }
+
+ private:
+  // Rounding in FLANN's pruning is some units in the last place of sums up to about 1e4.
+  static constexpr double kRelative = 1e-9, kAbsolute = 1e-9;
+  static constexpr int kLeafSize = 10;
+  static constexpr std::size_t kManyAsked = 256;  // FLANN's list of results is sorted by insertion
+
+  std::vector<Hit> all(const Point& q, std::size_t n) const {
+    std::vector<Hit> hits;
+    hits.reserve(points_.size());
+    for (std::size_t row = 0; row < points_.size(); ++row) hits.push_back({row, distance2(q, points_[row])});
+    put_in_order(hits, n);
+    return hits;
+  }
+
+  /// Every point to `limit2`, and perhaps some a hair beyond it.
+  std::vector<Hit> gather(const Point& q, double limit2) const {
+    flann::RadiusResultSet<double> found(limit2 * (1.0 + kRelative) + kAbsolute);
+    tree_->findNeighbors(found, q.data(), flann::SearchParams(flann::FLANN_CHECKS_UNLIMITED));
+    const std::size_t n = found.size();
+    std::vector<std::size_t> rows(n);
+    std::vector<double> theirs(n);
+    if (n != 0) found.copy(rows.data(), theirs.data(), n, false);
+    std::vector<Hit> hits;
+    hits.reserve(n);
+    for (const std::size_t row : rows) hits.push_back({row, distance2(q, points_[row])});
+    return hits;
+  }
+
+  std::vector<Point> points_;
+  std::unique_ptr<Tree> tree_;
+};
+
+}  // namespace
+
+std::unique_ptr<Index> make_index(std::vector<Point> points) {
+  return std::make_unique<FlannIndex>(std::move(points));
+}
+
+}  // namespace capstan::casebase

@@ -1,0 +1,7 @@
+#include "casebase/index/index.h"
+
+namespace capstan::casebase {
+
+std::unique_ptr<Index> make_index(std::vector<Point> points) { return make_tree_index(std::move(points)); }
+
+}  // namespace capstan::casebase

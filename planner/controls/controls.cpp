@@ -1,0 +1,45 @@
+#include "planner/controls/controls.h"
+
+#include <algorithm>
+#include <array>
+
+#include "planner/controls/linuxcnc/linuxcnc.h"
+
+namespace capstan::controls {
+namespace {
+
+constexpr std::array kDialects{
+    Dialect{"linuxcnc", "linuxcnc_tools", "text/x-gcode", "text/plain", &write_linuxcnc, &write_tool_table},
+};
+
+}  // namespace
+
+std::span<const Dialect> dialects() { return kDialects; }
+
+const Dialect* find_dialect(std::string_view id) {
+  const auto* at =
+      std::find_if(kDialects.begin(), kDialects.end(), [&](const Dialect& d) { return d.id == id; });
+  return at == kDialects.end() ? nullptr : at;
+}
+
+Result<std::string> write_program(const model::Plan& plan, Job& job,
+                                  const std::vector<model::Condemnation>& condemned) {
+  const std::string& wanted = plan.machine.control.dialect;
+  const Dialect* dialect = find_dialect(wanted);
+  if (dialect != nullptr) return dialect->write_program(plan, job, condemned);
+  std::string known;
+  for (const Dialect& d : kDialects) known += (known.empty() ? "" : ", ") + std::string(d.id);
+  return fail(
+      {.code = "OUT-DIALECT",
+       .message = "no writer is known for the control '" + wanted + "' of machine '" + plan.machine.id + "'",
+       .file = plan.file_name,
+       .expected = known,
+       .hint = "name a machine with one of these controls, or write the plan without a program"});
+}
+
+std::string tool_table_of(const model::Plan& plan) {
+  const Dialect* dialect = find_dialect(plan.machine.control.dialect);
+  return dialect == nullptr ? std::string() : dialect->write_tool_table(plan);
+}
+
+}  // namespace capstan::controls

@@ -1,0 +1,75 @@
+#include "planner/door/facade/options.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "planner/door/service/options.h"
+#include "planner/ground/base/number.h"
+#include "planner/making/optimise/solver/ipopt_backend.h"
+
+namespace capstan::facade {
+namespace {
+
+/// An option of the service, and its field as text; empty: it is not given.
+struct Field {
+  std::string_view name;
+  std::string (*text)(const PlanOptions& o);
+};
+
+std::string above_zero(double v) { return v > 0.0 ? shortest(v) : std::string(); }
+std::string flag(bool v) { return v ? "yes" : ""; }
+
+constexpr std::array kFields = {
+    Field{"machine", [](const PlanOptions& o) { return o.machine; }},
+    Field{"tools", [](const PlanOptions& o) { return o.tools; }},
+    Field{"material", [](const PlanOptions& o) { return o.material; }},
+    Field{"stock",
+          [](const PlanOptions& o) {
+            if (!o.stock.empty() || !(o.stock_allowance_mm >= 0.0)) return o.stock;
+            return "block:+" + shortest(o.stock_allowance_mm);
+          }},
+    Field{"objective", [](const PlanOptions& o) { return o.objective; }},
+    Field{"margin", [](const PlanOptions& o) { return o.margin; }},
+    Field{"revenue", [](const PlanOptions& o) { return above_zero(o.revenue); }},
+    Field{"feeds", [](const PlanOptions& o) { return o.feeds; }},
+    Field{"rules", [](const PlanOptions& o) { return o.rules; }},
+    Field{"cases", [](const PlanOptions& o) { return o.cases; }},
+    Field{"solver", [](const PlanOptions& o) { return o.solver; }},
+    Field{"workholding", [](const PlanOptions& o) { return o.workholding; }},
+    Field{"general-tolerance", [](const PlanOptions& o) { return o.general_tolerance; }},
+    Field{"batch", [](const PlanOptions& o) { return std::to_string(o.batch); }},
+    Field{"edges",
+          [](const PlanOptions& o) { return o.edge_break_mm == 0.0 ? "" : shortest(o.edge_break_mm); }},
+    Field{"bind", [](const PlanOptions& o) { return o.bind; }},
+    Field{"reopen", [](const PlanOptions& o) { return o.reopen; }},
+    Field{"deadline", [](const PlanOptions& o) { return o.deadline; }},
+    Field{"strict", [](const PlanOptions& o) { return flag(o.strict); }},
+    Field{"allow-findings", [](const PlanOptions& o) { return flag(o.allow_findings); }},
+    Field{"schema", [](const PlanOptions& o) { return flag(o.schema); }},
+    Field{"threads", [](const PlanOptions& o) { return std::to_string(std::clamp(o.threads, 1U, 256U)); }},
+};
+
+}  // namespace
+
+Result<service::Request> request_of(const PlanOptions& options) {
+  service::Request request;
+  request.sign.clear();
+  request.backends.ipopt = &optimise::solve_with_ipopt;
+  for (const Field& field : kFields) {
+    const std::string text = field.text(options);
+    if (text.empty()) continue;
+    if (auto ok = service::set(request, field.name, text); !ok) return tl::unexpected(ok.error());
+  }
+  if (std::string wrong = service::contradiction(request); !wrong.empty())
+    return fail({.code = "OPTION-VALUE", .message = std::move(wrong)});
+  return request;
+}
+
+std::vector<std::string> option_names() {
+  std::vector<std::string> out;
+  for (const Field& field : kFields) out.emplace_back(field.name);
+  return out;
+}
+
+}  // namespace capstan::facade

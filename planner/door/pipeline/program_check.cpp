@@ -1,0 +1,31 @@
+#include "planner/door/pipeline/program_check.h"
+
+#include "planner/controls/controls.h"
+#include "planner/proof/verify/verify.h"
+
+namespace capstan::pipeline {
+
+std::vector<model::Finding> findings_of(const model::Plan& plan, Job& job) {
+  return findings_of(checked(plan, job), job);
+}
+
+std::vector<model::Finding> findings_of(const Checked& checked, Job& job) {
+  const model::Plan& plan = checked.plan;
+  std::vector<model::Finding> out = checked.findings;
+  if (plan.steps.empty()) return out;
+  const auto program = controls::write_program(plan, job);
+  if (!program) {
+    model::Finding f;
+    f.property = 33;
+    f.code = program.error().code;
+    f.message = program.error().message;
+    out.push_back(std::move(f));
+    return out;
+  }
+  const verify::ProgramText text{"program", *program, controls::tool_table_of(plan)};
+  const auto more = verify::check_program(text, &plan, plan.machine, plan.cutters, job);
+  out.insert(out.end(), more.begin(), more.end());
+  return out;
+}
+
+}  // namespace capstan::pipeline

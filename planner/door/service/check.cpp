@@ -1,0 +1,277 @@
+#include "planner/door/service/check.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "planner/door/pipeline/pipeline.h"
+#include "planner/door/service/reading.h"
+#include "planner/door/service/shop.h"
+#include "planner/files/exchange/conformance/check.h"
+#include "planner/files/exchange/toolpaths/curves.h"
+#include "planner/files/p21/read/parse.h"
+#include "planner/ground/base/file.h"
+#include "planner/model/plan/decision/condemned.h"
+#include "planner/model/plan/decision/contradicted.h"
+#include "planner/model/plan/decision/edited.h"
+#include "planner/model/plan/decision/unreadable.h"
+#include "planner/proof/verify/verify.h"
+#include "tooling/library/library.h"
+#include "tooling/shop/machine/machine.h"
+
+namespace capstan::service {
+namespace {
+
+struct Input {
+  std::string path, bytes;
+  Content content = Content::kProgram;
+};
+
+/// What programs are checked against.
+struct Shop {
+  model::Machine machine;
+  std::vector<model::Cutter> cutters;
+  std::string tool_table;
+};
+
+class Check {
+ public:
+  Check(const Request& request, std::vector<Source> sources, const std::function<void(const Told&)>& tell,
+        Job& job)
+      : request_(request), sources_(std::move(sources)), tell_(tell), job_(job) {}
+
+  Outcome<CheckResult> run() {
+    if (const auto d = read()) return failed(*d, code_of(*d, Code::kUnreadable));
+    if (const auto d = shop()) return failed(*d, code_of(*d, Code::kUnreadable));
+    for (const Input& in : inputs_) {
+      if (in.content != Content::kProgram) continue;
+      ++out_.checked;
+      const model::Plan* plan = plans_.empty() ? nullptr : &plans_.front();
+      add(verify::check_program({in.path, in.bytes, shop_.tool_table}, plan, shop_.machine, shop_.cutters,
+                                job_),
+          in.path, true);
+    }
+    if (out_.checked == 0)
+      return failed(
+          {.code = "APP-NOTHING", .message = "there is neither a plan nor a program among the files"},
+          Code::kUsage);
+    return std::move(out_);
+  }
+
+ private:
+  /// Whether there is something to check at all: planned steps with their paths.
+  static bool has_paths(const model::Plan& plan) {
+    bool any = false;
+    for (const auto& step : plan.steps) {
+      if (step.path == nullptr) return false;
+      any = true;
+    }
+    return any;
+  }
+
+  using Stated = std::map<model::AnyRef, exchange::StepPath>;
+
+  static Stated stated_paths(const model::Plan& plan) {
+    Stated out;
+    Job quiet;  // executing says again what is wrong with a path
+    for (const auto step : plan.model.all_below(model::TypeId::kMachiningWorkingstep)) {
+      auto path = exchange::path_of_step(plan, model::Ref<model::Executable>(step), {}, quiet, &plan.steps);
+      if (path && path->path.size() > 0) out.emplace(step, *std::move(path));
+    }
+    return out;
+  }
+
+  /// A step whose path was computed anew all the same is not judged by what the file says of it.
+  void tell_recomputed(const Stated& stated, const model::Plan& bound) {
+    for (const auto& step : bound.steps) {
+      const auto it = stated.find(step.step);
+      if (it == stated.end() || step.path == nullptr) continue;
+      const auto& said = it->second.schedule.feed_mm_min;
+      bool same = it->second.path == *step.path;
+      for (std::size_t i = 0; same && step.schedule && i < said.size(); ++i)
+        same = !(said[i] > 0.0) || said[i] == step.schedule->feed_mm_min[i];
+      if (same) continue;
+      job_.warn("APP-RECOMPUTED", "step '" + model::step_id(bound, step) +
+                                      "': its path or feeds were computed anew and are not those of the "
+                                      "file; the findings are about the new ones");
+    }
+  }
+
+  /// A file that says what is done and not, in full, how: what is open is closed as `plan` would, what it
+  /// says is executed as given, whoever computed it: the ledger does not let anything be computed again.
+  Result<model::Plan> executed(model::Plan plan) {
+    const auto inputs = gather(request_, plan, job_);
+    if (!inputs) return tl::unexpected(inputs.error());
+    const auto unreadable = model::unreadable(plan);
+    const auto contradictions = model::contradictions(plan);
+    plan.ledger = model::Ledger{};
+    for (const auto& c : contradictions) model::set_contradicted(plan, c.key.object, c.key.attribute, c.why);
+    for (const auto& u : unreadable) model::set_unreadable(plan, u.key.object, u.key.attribute, u.why);
+    const auto stated = stated_paths(plan);
+    auto bound = pipeline::bind(std::move(plan), *inputs, pipeline::Policy{}, job_);
+    if (!bound) return bound;
+    out_.unplanned += unplanned_features(*bound);
+    tell_recomputed(stated, *bound);
+    return bound;
+  }
+
+  /// An AP238 file with --schema: compared with the EXPRESS dictionary instance by instance, not executed.
+  std::optional<Diagnostic> compare_with_schema(Input& in) {
+    const auto file = p21::parse(std::move(in.bytes), in.path, {}, job_);
+    if (!file) return file.error();
+    const std::size_t before = job_.diagnostics().size();
+    out_.schema += exchange::check_schema(*file, job_);
+    ++out_.checked;
+    const auto& all = job_.diagnostics();
+    for (std::size_t i = before; i < all.size(); ++i) {
+      const std::string instance = all[i].instance == 0 ? "" : "#" + std::to_string(all[i].instance) + " ";
+      const std::string path = all[i].path.empty() ? "" : all[i].path + ": ";
+      const std::string expected = all[i].expected.empty() ? "" : "; expected " + all[i].expected;
+      model::Finding f;
+      f.code = all[i].code;
+      f.severity = all[i].severity;
+      f.message = instance + path + all[i].message + expected;
+      out_.findings.push_back({in.path, std::move(f)});
+    }
+    return std::nullopt;
+  }
+
+  std::optional<Diagnostic> read() {
+    for (Source& source : sources_) {
+      Result<std::string> bytes =
+          source.bytes ? Result<std::string>(*std::move(source.bytes)) : read_file(source.name);
+      if (!bytes) return bytes.error();
+      const Content content = content_of(*bytes);
+      inputs_.push_back({source.name, *std::move(bytes), content});
+      if (content == Content::kToolTable) shop_.tool_table = inputs_.back().bytes;
+    }
+    for (Input& in : inputs_) {
+      if (in.content != Content::kPlanJson && in.content != Content::kPart) continue;
+      if (request_.schema && exchange::declares_ap238(in.bytes)) {
+        if (const auto d = compare_with_schema(in)) return d;
+        continue;
+      }
+      const std::size_t before = job_.diagnostics().size();
+      auto plan = read_plan(std::move(in.bytes), in.path, job_);
+      if (!plan) return plan.error();
+      if (request_.schema) out_.schema += job_.diagnostics().size() - before;
+      const bool values_edited = take_edits(before, in.path);
+      ++out_.checked;
+      // What was computed before somebody edited a value says nothing of the plan as it is now.
+      if (!has_paths(*plan) || values_edited) {
+        plan = executed(*std::move(plan));
+        if (!plan) return plan.error();
+      }
+      // A plan made for one machine may be asked of another.
+      if (const auto& named = request_.machine) {
+        auto machine = tooling::load_machine(*named, job_);
+        if (!machine) return machine.error();
+        plan->machine = *std::move(machine);
+      }
+      add(verify::check_plan(*plan, job_), in.path, false);
+      add(beside_the_check(*plan), in.path, false);
+      plans_.push_back(*std::move(plan));
+    }
+    return std::nullopt;
+  }
+
+  /// A file that somebody edited after it was written is found, for what was computed of the old values
+  /// stands in it. Its reader has said so already; that it says one thing twice, and otherwise, is an error
+  /// here. Gives whether values were edited that others follow from.
+  bool take_edits(std::size_t before, const std::string& file) {
+    bool values = false;
+    auto all = job_.take_diagnostics();
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const model::EditTold told = i < before ? model::EditTold::kNothing : model::edit_told_by(all[i]);
+      values = values || told == model::EditTold::kValue;
+      if (told == model::EditTold::kDisagrees) all[i].severity = Severity::kError;
+      if (told == model::EditTold::kPart || told == model::EditTold::kDisagrees) {
+        model::Finding f;
+        f.code = all[i].code;
+        f.severity = all[i].severity;
+        f.message = all[i].message;
+        ++out_.count;
+        out_.findings.push_back({file, std::move(f)});
+      }
+      job_.report(std::move(all[i]));
+    }
+    return values;
+  }
+
+  /// What condemns the plan by its own record, as findings.
+  static std::vector<model::Finding> beside_the_check(const model::Plan& plan) {
+    std::vector<model::Finding> out;
+    for (auto& c : model::condemned(plan, {})) {
+      model::Finding f;
+      f.code = std::move(c.code);
+      f.step = std::move(c.step);
+      f.message = std::move(c.text);
+      out.push_back(std::move(f));
+    }
+    return out;
+  }
+
+  std::optional<Diagnostic> shop() {
+    const auto& o = request_;
+    const bool has_plan = !plans_.empty();
+    if (has_plan) {
+      shop_.machine = plans_.front().machine;
+      shop_.cutters = plans_.front().cutters;
+    }
+    if (o.machine || !has_data(shop_.machine)) {
+      std::string wanted = o.machine.value_or(std::string(tooling::kDefaultMachine));
+      auto machine = tooling::load_machine(wanted, job_);
+      if (!machine) return machine.error();
+      shop_.machine = *std::move(machine);
+      if (!o.machine && programs())
+        job_.note("APP-DEFAULT", "no machine is named; programs are checked for the built-in " + wanted);
+    }
+    const tooling::LibraryOptions counts{
+        .mm_per_unit = {}, .offsets_against_reference = shop_.machine.control.offsets_against_reference};
+    if (o.tools) {
+      auto library = tooling::load_library(*o.tools, job_, counts);
+      if (!library) return library.error();
+      shop_.cutters = *std::move(library);
+    } else if (!has_plan && !shop_.tool_table.empty()) {
+      auto table = tooling::read_tool_table(shop_.tool_table, "tool table", job_, counts);
+      if (!table) return table.error();
+      shop_.cutters = *std::move(table);
+    }
+    return std::nullopt;
+  }
+
+  [[nodiscard]] bool programs() const {
+    for (const Input& in : inputs_) {
+      if (in.content == Content::kProgram) return true;
+    }
+    return false;
+  }
+
+  void add(const std::vector<model::Finding>& findings, const std::string& file, bool program) {
+    for (const auto& f : findings) {
+      if (f.severity != Severity::kNote) ++out_.count;
+      out_.findings.push_back({file, f, program});
+      if (tell_) tell_(out_.findings.back());
+    }
+  }
+
+  const Request& request_;
+  std::vector<Source> sources_;
+  const std::function<void(const Told&)>& tell_;
+  Job& job_;
+  std::vector<Input> inputs_;
+  std::vector<model::Plan> plans_;
+  Shop shop_;
+  CheckResult out_;
+};
+
+}  // namespace
+
+Outcome<CheckResult> check(const Request& request, std::vector<Source> sources,
+                           const std::function<void(const Told&)>& tell, Job& job) {
+  return Check(request, std::move(sources), tell, job).run();
+}
+
+}  // namespace capstan::service

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include "planner/door/service/planning.h"
+#include "planner/door/service/request.h"
+#include "planner/ground/base/job.h"
+
+namespace capstan::service {
+
+/// What checking files came to.
+struct CheckResult {
+  std::vector<Told> findings;
+  std::size_t count = 0;      ///< findings without notes
+  std::size_t schema = 0;     ///< deviations from the schema, where they were asked for
+  std::size_t checked = 0;    ///< plans and programs looked at
+  std::size_t unplanned = 0;  ///< features that a file only names, and that cannot be planned
+  [[nodiscard]] bool clean() const { return count == 0 && schema == 0 && unplanned == 0; }
+};
+
+/// Proves plans and programs safe, or lists what is wrong with them. What each source is, its content tells
+/// (content_of); programs are checked against the first plan among them, with the tool table among them.
+///
+/// `tell` (may be empty) is called for each finding as it is found, so that it stands among the diagnostics
+/// in its place.
+/// Fails  APP-NOTHING when there is neither a plan nor a program; as the readers.
+[[nodiscard]] Outcome<CheckResult> check(const Request& request, std::vector<Source> sources,
+                                         const std::function<void(const Told&)>& tell, Job& job);
+
+}  // namespace capstan::service

@@ -1,0 +1,140 @@
+#include "planner/door/service/formats.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "planner/files/exchange/exchange.h"
+#include "planner/files/json/json.h"
+#include "planner/ground/vocabulary/control_kind.h"
+
+namespace capstan::service {
+namespace {
+
+using Condemned = std::vector<model::Condemnation>;
+
+Result<Written> of_part21(Result<exchange::Written> written) {
+  if (!written) return tl::unexpected(written.error());
+  return Written{std::move(written->bytes), written->losses.size()};
+}
+Result<Written> iso14649(const Format& /*f*/, const model::Plan& plan, Job& job, const Condemned& /*c*/) {
+  return of_part21(exchange::write_iso14649(plan, job));
+}
+Result<Written> ap238(const Format& /*f*/, const model::Plan& plan, Job& job, const Condemned& /*c*/) {
+  return of_part21(exchange::write_ap238(plan, job));
+}
+Result<Written> plan_json(const Format& /*f*/, const model::Plan& plan, Job& /*job*/,
+                          const Condemned& /*c*/) {
+  return Written{json::write_json(plan), 0};
+}
+Result<Written> program(const Format& f, const model::Plan& plan, Job& job, const Condemned& condemned) {
+  auto text = f.control->write_program(plan, job, condemned);
+  if (!text) return tl::unexpected(text.error());
+  return Written{*std::move(text), 0};
+}
+Result<Written> tool_table(const Format& f, const model::Plan& plan, Job& /*job*/, const Condemned& /*c*/) {
+  return Written{f.control->write_tool_table(plan), 0};
+}
+
+constexpr std::string_view kPart21 = "model/step";  // RFC 6838 registry: ISO 10303-21 files
+
+std::vector<Format> table() {
+  std::vector<Format> out{
+      {"iso14649", "ISO 14649", {".p21", ".stp"}, kPart21, Holds::kPlan, true, nullptr, &iso14649},
+      {"ap238", "AP238", {".stpnc", ".238"}, kPart21, Holds::kPlan, true, nullptr, &ap238},
+      {"json", "plan", {".json"}, "application/json", Holds::kPlan, true, nullptr, &plan_json},
+      {"stl", "STL", {".stl"}, "model/stl", Holds::kPlan, true, nullptr, nullptr},
+  };
+  for (const controls::Dialect& d : controls::dialects()) {
+    const model::ControlKind& kind = model::control_kind(d.id);
+    out.push_back(
+        {d.id, "program", {kind.program_ending}, d.program_media, Holds::kProgram, false, &d, &program});
+    out.push_back({d.tool_table_name,
+                   "tool table",
+                   {kind.tool_table_ending},
+                   d.tool_table_media,
+                   Holds::kToolTable,
+                   false,
+                   &d,
+                   &tool_table});
+  }
+  out.push_back({"siemens840d", "Siemens 840D", {".mpf"}, {}, Holds::kProgram});
+  out.push_back({"fanuc", "Fanuc", {".nc"}, {}, Holds::kProgram});
+  out.push_back({"heidenhain", "Heidenhain", {".h"}, {}, Holds::kProgram});
+  out.push_back({"report", "a report", {".html"}, "text/html", Holds::kReport});
+  return out;
+}
+
+}  // namespace
+
+std::span<const Format> formats() {
+  static const std::vector<Format> kFormats = table();
+  return kFormats;
+}
+
+const Format* find_format(std::string_view name) {
+  const auto all = formats();
+  const auto at = std::find_if(all.begin(), all.end(), [&](const Format& f) { return f.name == name; });
+  return at == all.end() ? nullptr : &*at;
+}
+
+const Format* format_of_ending(std::string_view ending) {
+  for (const Format& f : formats()) {
+    if (std::find(f.endings.begin(), f.endings.end(), ending) != f.endings.end()) return &f;
+  }
+  return nullptr;
+}
+
+Result<Written> write(const model::Plan& plan, const Format& format, Job& job, const Condemned& condemned) {
+  if (format.write != nullptr) return format.write(format, plan, job, condemned);
+  return fail({.code = "OUT-KIND",
+               .message = std::string(format.name) + " is not written",
+               .expected = written_endings()});
+}
+
+std::string written_endings() {
+  std::vector<std::string_view> all;
+  for (const Format& f : formats()) {
+    if (f.write != nullptr) all.insert(all.end(), f.endings.begin(), f.endings.end());
+  }
+  std::string out;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    out += (i == 0 ? "" : i + 1 < all.size() ? ", " : " or ") + std::string(all[i]);
+  return out;
+}
+
+std::string endings_of(Holds holds) {
+  std::string out;
+  for (const Format& f : formats()) {
+    if (f.write == nullptr || f.holds != holds) continue;
+    for (const std::string_view ending : f.endings) out += (out.empty() ? "" : ", ") + std::string(ending);
+  }
+  return out;
+}
+
+std::string written_text() {
+  std::string out;
+  for (const Format& f : formats()) {
+    if (f.write == nullptr) continue;
+    out += (out.empty() ? "" : ", ") + std::string(f.words);
+    for (const std::string_view ending : f.endings) out += " " + std::string(ending);
+  }
+  return out;
+}
+
+std::string read_text() {
+  // Part 21 files have two schemas; one word tells the others.
+  std::string schemas, endings, others;
+  for (const Format& f : formats()) {
+    if (!f.reads) continue;
+    if (f.media == kPart21) {
+      schemas += (schemas.empty() ? "" : " or ") + std::string(f.words);
+      for (const std::string_view e : f.endings) endings += (endings.empty() ? "" : " ") + std::string(e);
+    } else {
+      others += f.write == nullptr ? ", or " + std::string(f.words) + " mesh"
+                                   : ", " + std::string(f.words) + " JSON";
+    }
+  }
+  return schemas + " file (" + endings + ")" + others;
+}
+
+}  // namespace capstan::service

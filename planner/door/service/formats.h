@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "planner/controls/controls.h"
+#include "planner/ground/base/job.h"
+#include "planner/ground/base/result.h"
+#include "planner/model/plan/decision/condemned.h"
+#include "planner/model/plan/plan.h"
+
+namespace capstan::service {
+
+/// What a file of a format holds.
+enum class Holds : std::uint8_t { kPlan, kProgram, kToolTable, kReport };
+
+/// What a writer makes.
+struct Written {
+  std::string bytes;
+  std::size_t losses = 0;  ///< kinds of things that the format cannot hold
+};
+
+/// One form in which a part, a plan or what is made of it stands in a file: a row of `formats`.
+struct Format {
+  std::string_view name;                  ///< stable, for libraries: "iso14649", "json", "linuxcnc"
+  std::string_view words;                 ///< for people: "ISO 14649", "program"
+  std::vector<std::string_view> endings;  ///< of files, lower case; the usual one first
+  std::string_view media;                 ///< media type (RFC 6838); empty: none
+  Holds holds = Holds::kPlan;
+  bool reads = false;                          ///< read_plan reads it
+  const controls::Dialect* control = nullptr;  ///< of programs and tool tables
+  /// Null: it is not written. `condemned` is for programs only (controls/controls.h).
+  Result<Written> (*write)(const Format& format, const model::Plan& plan, Job& job,
+                           const std::vector<model::Condemnation>& condemned) = nullptr;
+
+  [[nodiscard]] bool of_program() const { return holds == Holds::kProgram || holds == Holds::kToolTable; }
+};
+
+/// All formats: those of plans, then a program and a tool table for each control (controls::dialects), then
+/// those that are not written yet (neither reader nor writer).
+[[nodiscard]] std::span<const Format> formats();
+
+/// The format of that name; null when there is none.
+[[nodiscard]] const Format* find_format(std::string_view name);
+/// The format that files with that ending (lower case, with its dot) have; null when there is none.
+[[nodiscard]] const Format* format_of_ending(std::string_view ending);
+
+/// The plan in a format; what the format cannot hold is noted to the job (EXC-LOSS).
+/// Fails  OUT-KIND for a format without a writer, and as the writers.
+[[nodiscard]] Result<Written> write(const model::Plan& plan, const Format& format, Job& job,
+                                    const std::vector<model::Condemnation>& condemned = {});
+
+/// ".p21, .stp, ... or .tbl": the endings of all formats that are written.
+[[nodiscard]] std::string written_endings();
+/// ".ngc": those of the formats that are written and hold this, with commas between.
+[[nodiscard]] std::string endings_of(Holds holds);
+/// "ISO 14649 .p21 .stp, AP238 .stpnc .238, ...": the same, with what each holds.
+[[nodiscard]] std::string written_text();
+/// "ISO 14649 or AP238 file (.p21 .stp .stpnc .238), plan JSON, or STL mesh": what is read.
+[[nodiscard]] std::string read_text();
+
+}  // namespace capstan::service

@@ -1,0 +1,331 @@
+#include "planner/door/service/options.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+#include <utility>
+
+#include "planner/door/service/formats.h"
+#include "planner/ground/base/nearest_names.h"
+#include "planner/ground/base/number.h"
+#include "planner/model/features/fit/general.h"
+#include "planner/physics/mechanics/loads/margin.h"
+
+namespace capstan::service {
+namespace {
+
+template <class T>
+using Named = std::vector<std::pair<std::string, T>>;
+
+// In alphabetical order: help texts and messages list them so.
+const Named<pipeline::Reopen>& reopen_words() {
+  static const Named<pipeline::Reopen> kWords = {{"all", pipeline::Reopen::kAll},
+                                                 {"operations", pipeline::Reopen::kOperations},
+                                                 {"technology", pipeline::Reopen::kTechnology},
+                                                 {"tools", pipeline::Reopen::kTools}};
+  return kWords;
+}
+const Named<pipeline::Bind>& bind_words() {
+  static const Named<pipeline::Bind> kWords = {{"all", pipeline::Bind::kAll},
+                                               {"none", pipeline::Bind::kNone},
+                                               {"strategy", pipeline::Bind::kStrategy},
+                                               {"tools", pipeline::Bind::kTools}};
+  return kWords;
+}
+const Named<pipeline::Objective>& objective_words() {
+  static const Named<pipeline::Objective> kWords = {{"cost", pipeline::Objective::kCost},
+                                                    {"profit", pipeline::Objective::kProfit},
+                                                    {"time", pipeline::Objective::kTime}};
+  return kWords;
+}
+const Named<optimise::Solver>& solver_words() {
+  static const Named<optimise::Solver> kWords = {{"ipopt", optimise::Solver::kIpopt},
+                                                 {"nlopt", optimise::Solver::kNlopt}};
+  return kWords;
+}
+
+template <class T>
+std::vector<std::string> names(const Named<T>& of) {
+  std::vector<std::string> out;
+  for (const auto& [name, value] : of) out.push_back(name);
+  return out;
+}
+
+/// The words were looked at before.
+template <class T>
+T value_of(const Named<T>& of, const std::string& word) {
+  return std::find_if(of.begin(), of.end(), [&](const auto& p) { return p.first == word; })->second;
+}
+
+using Text = const std::string&;
+
+std::string set_rules(Request& r, Text text) {
+  std::error_code error;
+  if (!std::filesystem::is_directory(text, error)) return "'" + text + "' is no folder";
+  r.rules = text;
+  return {};
+}
+std::string set_revenue(Request& r, Text text) {
+  const auto v = parse_double(text);
+  if (!v || !std::isfinite(*v) || !(*v > 0.0)) return "'" + text + "' is no amount above 0, e.g. 12.5";
+  r.revenue = *v;
+  return {};
+}
+std::string set_general_tolerance(Request& r, Text text) {
+  if (text.find(',') != std::string::npos)
+    return "'" + text + "' has a comma; decimals are written with a point";
+  const auto read = model::parse_general(text);
+  if (!read) return read.error().message + "; expected " + read.error().expected;
+  r.general_tolerance = text;
+  return {};
+}
+/// How wide an edge the rules break is theirs to say.
+std::string set_edges(Request& r, Text text) {
+  const auto v = parse_double(text);
+  if (!v || !std::isfinite(*v) || *v < 0.0) return "'" + text + "' is no width of 0 or more in mm, e.g. 0.3";
+  r.edge_break_mm = *v;
+  return {};
+}
+std::string set_deadline(Request& r, Text text) {
+  r.deadline = parse_duration(text);
+  return r.deadline ? "" : "'" + text + "' is no time above 0, e.g. 200ms or 2s";
+}
+
+const char* allow_help() {
+  static const std::string kText = "write the program (" + endings_of(Holds::kProgram) + ", " +
+                                   endings_of(Holds::kToolTable) +
+                                   ") although the check condemns it: its header and markers say why, and it "
+                                   "stops (M0) before each condemned step";
+  return kText.c_str();
+}
+constexpr const char* kStrict = "write nothing when there are findings";
+
+/// The same help for `plan` and `bind`.
+constexpr std::array<const char*, kVerbs> both(const char* text) { return {text, text, nullptr}; }
+
+std::vector<Option> table() {
+  return {
+      {"machine",
+       Value::kText,
+       {"machine: a file, or the id of a built-in one", "machine: a file, or the id of a built-in one",
+        "machine that programs run on"},
+       [](Request& r, Text t) { return r.machine = t, std::string(); },
+       {}},
+      {"tools",
+       Value::kText,
+       {"tool library: a file, or `generic` (the default)",
+        "the tools that are loaded: a tool table or library; without it the plan's own count as loaded, in "
+        "its tool numbers",
+        "tool library with the programs' tools"},
+       [](Request& r, Text t) { return r.tools = t, std::string(); },
+       {}},
+      {"material",
+       Value::kText,
+       both("work material, instead of the part's: a name, like:NAME, or a file of one"),
+       [](Request& r, Text t) { return r.material = t, std::string(); },
+       {}},
+      {"stock",
+       Value::kText,
+       both("raw piece: block:+2 (the part and 2 mm all round) or box:x0,y0,z0,x1,y1,z1"),
+       [](Request& r, Text t) { return parse_stock(t, r); },
+       {}},
+      {"objective", Value::kWord,
+       both("what is made least or most: time, cost, or profit per time (needs --revenue)"),
+       [](Request& r, Text t) { return r.objective = value_of(objective_words(), t), std::string(); },
+       names(objective_words())},
+      {"margin", Value::kWord,
+       both("how far the loads that limits are held against stand above the expected ones: careful "
+            "(19 of 20 cuts stay below), usual (5 of 6; the default), bold (7 of 10)"),
+       [](Request& r, Text t) { return r.margin = t, std::string(); }, mechanics::margin_names()},
+      {"revenue",
+       Value::kText,
+       both("what a piece brings less its material, in the currency of the machine's cost per hour"),
+       &set_revenue,
+       {}},
+      {"feeds",
+       Value::kWord,
+       both("scheduled: along the path, as each cross section bears (the default); constant: one feed, "
+            "the largest that all of them bear"),
+       [](Request& r, Text t) { return r.feeds = t, std::string(); },
+       {"constant", "scheduled"}},
+      {"rules", Value::kText, both("a folder of rule tables to add to the built-in ones"), &set_rules, {}},
+      {"cases",
+       Value::kText,
+       both("a case base to begin from"),
+       [](Request& r, Text t) { return r.cases = t, std::string(); },
+       {}},
+      {"solver", Value::kWord, both("nlopt or ipopt"),
+       [](Request& r, Text t) { return r.solver = value_of(solver_words(), t), std::string(); },
+       names(solver_words())},
+      {"workholding",
+       Value::kText,
+       both("how the piece is held: an id or file of fixtures, auto (the first of the shop's that does), "
+            "or none"),
+       [](Request& r, Text t) { return r.workholding = t, std::string(); },
+       {}},
+      {"general-tolerance",
+       Value::kText,
+       both("for sizes without one: \"ISO 2768-m\", \"ISO 22081 0.2\" or \"+-0.1\""),
+       &set_general_tolerance,
+       {}},
+      {"batch",
+       Value::kWhole,
+       both("pieces to be made"),
+       [](Request& r, Text t) { return r.batch = std::stoi(t), std::string(); },
+       {},
+       1,
+       1000000},
+      {"edges", Value::kText, both("chamfer edges that the part leaves sharp, mm"), &set_edges, {}},
+      {"bind",
+       Value::kWord,
+       {"how far decisions are closed: none, strategy, tools or all", nullptr, nullptr},
+       [](Request& r, Text t) { return r.bind = value_of(bind_words(), t), std::string(); },
+       names(bind_words())},
+      {"reopen",
+       Value::kWord,
+       {"what to plan anew although the file has it", nullptr, nullptr},
+       [](Request& r, Text t) { return r.reopen = value_of(reopen_words(), t), std::string(); },
+       names(reopen_words())},
+      {"deadline",
+       Value::kText,
+       {nullptr, "e.g. 200ms or 2s; a plan that comes later ends with 5", nullptr},
+       &set_deadline,
+       {}},
+      {"strict",
+       Value::kFlag,
+       both(kStrict),
+       [](Request& r, Text t) { return r.strict = t == "yes", std::string(); },
+       {}},
+      {"allow-findings",
+       Value::kFlag,
+       both(allow_help()),
+       [](Request& r, Text t) { return r.allow_findings = t == "yes", std::string(); },
+       {},
+       0,
+       0,
+       "strict"},
+      {"schema",
+       Value::kFlag,
+       {nullptr, nullptr, "what does not follow the schema is a finding, too"},
+       [](Request& r, Text t) { return r.schema = t == "yes", std::string(); },
+       {}},
+      {"threads",
+       Value::kWhole,
+       {"worker threads; results do not depend on it", "worker threads; results do not depend on it",
+        "worker threads; results do not depend on it"},
+       [](Request& r, Text t) { return r.threads = static_cast<unsigned>(std::stoi(t)), std::string(); },
+       {},
+       1,
+       256,
+       {},
+       true},
+  };
+}
+
+/// What is wrong with the text before it means anything, or nothing.
+std::string not_taken(const Option& o, const std::string& text) {
+  const auto list = [](const std::vector<std::string>& words) {
+    std::string out;
+    for (const auto& w : words) out += (out.empty() ? "" : ", ") + w;
+    return out;
+  };
+  if (text.find_first_not_of(" \t\n\r") == std::string::npos)  // blanks name nothing
+    return "the value is empty; leave the option out instead";
+  if (o.value == Value::kWord && std::find(o.words.begin(), o.words.end(), text) == o.words.end())
+    return "'" + text + "' is none of " + list(o.words);
+  if (o.value == Value::kFlag && text != "yes" && text != "no") return "'" + text + "' is neither yes nor no";
+  if (o.value == Value::kWhole) {
+    const auto v = parse_double(text);
+    if (!v || !(*v >= o.least && *v <= o.most) || *v != std::floor(*v))
+      return "'" + text + "' is no whole number from " + std::to_string(o.least) + " to " +
+             std::to_string(o.most);
+  }
+  return {};
+}
+
+}  // namespace
+
+std::span<const Option> options() {
+  static const std::vector<Option> kOptions = table();
+  return kOptions;
+}
+
+const Option* find_option(std::string_view name) {
+  const auto all = options();
+  const auto at = std::find_if(all.begin(), all.end(), [&](const Option& o) { return o.name == name; });
+  return at == all.end() ? nullptr : &*at;
+}
+
+Status set(Request& request, std::string_view name, const std::string& text) {
+  const Option* option = find_option(name);
+  if (option == nullptr) {
+    std::vector<std::string> known;
+    for (const Option& o : options()) known.emplace_back(o.name);
+    Diagnostic d = unknown_name("option", std::string(name), known, "capstan plan --help");
+    d.code = "OPTION-UNKNOWN";
+    return fail(std::move(d));
+  }
+  std::string wrong = not_taken(*option, text);
+  // A whole number may be written as one with a point; what sets it wants digits.
+  const std::string given =
+      wrong.empty() && option->value == Value::kWhole ? trimmed(*parse_double(text), 0) : text;
+  if (wrong.empty()) wrong = option->set(request, given);
+  if (wrong.empty()) return {};
+  return fail({.code = "OPTION-VALUE", .message = request.sign + std::string(name) + ": " + wrong});
+}
+
+std::string contradiction(const Request& r) {
+  const bool profit = r.objective == pipeline::Objective::kProfit;
+  if (profit && !r.revenue)
+    return r.sign + "objective profit: needs " + r.sign +
+           "revenue, what a piece brings less its material, in the currency of the machine's cost per hour";
+  if (!profit && r.revenue)
+    return r.sign + "revenue: only " + r.sign + "objective profit asks what a piece brings";
+  if (r.strict && r.allow_findings)
+    return r.sign + "strict: excludes " + r.sign + "allow-findings, which writes in spite of findings";
+  return {};
+}
+
+std::optional<std::chrono::milliseconds> parse_duration(const std::string& text) {
+  std::string number = text;
+  double factor = 1.0;
+  if (number.ends_with("ms")) {
+    number.resize(number.size() - 2);
+  } else if (number.ends_with("s")) {
+    number.pop_back();
+    factor = 1000.0;
+  }
+  const auto v = parse_double(number);
+  constexpr double kLongest = 1e9;  // ms, above eleven days
+  if (!v || !(*v * factor >= 1.0) || *v * factor > kLongest) return std::nullopt;
+  return std::chrono::milliseconds(static_cast<long>(*v * factor));
+}
+
+std::string parse_stock(const std::string& text, Request& into) {
+  into.stock_text = text;
+  if (text.starts_with("block:")) {
+    const std::string rest = text.substr(text.find(':') + 1);
+    const auto v = parse_double(rest.starts_with("+") ? rest.substr(1) : rest);
+    if (!v || *v < 0.0) return "'" + rest + "' is no allowance in mm, e.g. block:+2";
+    into.stock_allowance_mm = *v;
+    return {};
+  }
+  if (!text.starts_with("box:")) return "'" + text + "' is neither block:+2 nor box:x0,y0,z0,x1,y1,z1";
+  std::vector<double> v;
+  std::istringstream numbers(text.substr(4));
+  for (std::string one; std::getline(numbers, one, ',');) {
+    const auto d = parse_double(one);
+    if (!d) return "'" + one + "' is not a number";
+    v.push_back(*d);
+  }
+  if (v.size() != 6) return "a box needs six numbers, " + std::to_string(v.size()) + " are given";
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (!(v[i] < v[i + 3]))
+      return "the box is empty: each of its first three numbers must be below its partner";
+  }
+  into.stock = geometry::Box3{{v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
+  return {};
+}
+
+}  // namespace capstan::service

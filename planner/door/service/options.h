@@ -1,0 +1,59 @@
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "planner/door/service/request.h"
+
+namespace capstan::service {
+
+/// What an option may be given to.
+enum class Verb : std::uint8_t { kPlan, kBind, kCheck };
+inline constexpr std::size_t kVerbs = 3;
+
+/// What values an option takes.
+enum class Value : std::uint8_t { kText, kWord, kWhole, kFlag };
+
+/// One option of a request: a row of `options`. The command line, the C interface and other transports take
+/// it by its name; the C++ library has a field for it.
+struct Option {
+  std::string_view name;
+  Value value = Value::kText;
+  /// One sentence for each verb that has the option, by Verb; null: that verb has it not.
+  std::array<const char*, kVerbs> help = {};
+  /// Sets it in the request. Gives what is wrong with the text, or nothing. A flag takes "yes" or "no".
+  std::string (*set)(Request& request, const std::string& text) = nullptr;
+  std::vector<std::string> words;  ///< Value::kWord: those it takes
+  unsigned least = 0, most = 0;    ///< Value::kWhole
+  std::string_view excludes = {};  ///< the option that may not stand beside it
+  bool of_all_commands = false;    ///< the command line takes it in front of any command
+
+  [[nodiscard]] const char* help_of(Verb v) const { return help[static_cast<std::size_t>(v)]; }
+};
+
+/// All options, in the order of help texts.
+[[nodiscard]] std::span<const Option> options();
+/// The option of that name; null when there is none.
+[[nodiscard]] const Option* find_option(std::string_view name);
+
+/// Sets an option by its name. Fails  OPTION-UNKNOWN with the nearest names; OPTION-VALUE: the text is empty,
+/// or none of what the option takes.
+[[nodiscard]] Status set(Request& request, std::string_view name, const std::string& text);
+
+/// What is wrong between options, or nothing: profit needs a revenue, nothing else takes one; --strict and
+/// --allow-findings exclude each other.
+[[nodiscard]] std::string contradiction(const Request& request);
+
+/// "200ms", "1.5s", "200" (milliseconds); nothing when it is no duration above 0.
+[[nodiscard]] std::optional<std::chrono::milliseconds> parse_duration(const std::string& text);
+
+/// "block:+2" sets the allowance, "box:x0,y0,z0,x1,y1,z1" the box; gives what is wrong, or nothing.
+[[nodiscard]] std::string parse_stock(const std::string& text, Request& into);
+
+}  // namespace capstan::service

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "planner/door/service/formats.h"
+#include "planner/ground/base/job.h"
+#include "planner/ground/base/result.h"
+#include "planner/model/plan/plan.h"
+
+namespace capstan::service {
+
+/// A file to write: its name, and the format that its ending names ("-": JSON, to standard output).
+struct Output {
+  std::string path;
+  const Format* format = nullptr;  ///< of `formats`, with a writer
+  std::string bytes;               ///< once made
+  std::size_t losses = 0;          ///< kinds of things that the format cannot hold, once made
+};
+
+/// Told by the ending alone, so that it fails before any work.
+/// Fails  OUT-KIND: an ending that is not supported (yet), or none.
+[[nodiscard]] Result<Output> output_of(const std::string& path);
+/// All of them.
+[[nodiscard]] Result<std::vector<Output>> outputs_of(const std::vector<std::string>& paths);
+
+/// Fills `bytes` and `losses`. What ISO 14649 or AP238 cannot hold is told as notes (EXC-LOSS).
+/// Fails  as the writers.
+[[nodiscard]] Status make(const model::Plan& plan, std::vector<Output>& outputs, Job& job);
+
+/// " (without 3 things)", or nothing when the file holds all of the plan.
+[[nodiscard]] std::string losses_text(const Output& output);
+
+/// What became of a file from before, under a name that is not written now.
+struct Aside {
+  enum Outcome : std::uint8_t { kNothingThere, kRenamed, kStays };
+  Outcome outcome = kNothingThere;
+  std::string renamed_to;
+};
+/// Renames it to its name and ".before"; a file of that name goes. It stays where it cannot be renamed.
+[[nodiscard]] Aside set_aside(const std::string& path);
+/// Leaves it.
+[[nodiscard]] Aside left_there(const std::string& path);
+
+/// Judges the outputs' paths before any work: none is named twice, none is an input of the same call, unless
+/// forced, and each can be written.
+/// Fails  OUT-TWICE, OUT-INPUT, FILE-WRITE.
+[[nodiscard]] Status can_be_written(const std::vector<std::string>& outputs,
+                                    const std::vector<std::string>& inputs, bool force);
+
+/// Writes all files or none: all are brought to disk first (StagedFile), then all are put in place. Only a
+/// rename that fails after another succeeded (another program took the folder away) leaves a part; the fault
+/// says so.
+/// "-" goes to standard output last.
+/// Fails  FILE-WRITE.
+[[nodiscard]] Status write_all(const std::vector<Output>& outputs);
+
+}  // namespace capstan::service

@@ -1,0 +1,139 @@
+#include "planner/door/service/planning.h"
+
+#include <algorithm>
+#include <iterator>
+#include <set>
+#include <utility>
+
+#include "planner/door/late/late.h"
+#include "planner/door/service/reading.h"
+#include "planner/door/service/shop.h"
+#include "planner/ground/base/nearest_names.h"
+#include "planner/proof/verify/verify.h"
+
+namespace capstan::service {
+namespace {
+
+Result<model::Plan> read(Source source, bool strict, Job& job) {
+  if (source.bytes) return read_plan(*std::move(source.bytes), source.name, job, strict);
+  return load_plan(source.name, job, strict);
+}
+
+/// Findings of each program among the outputs.
+std::vector<Told> of_programs(const model::Plan& plan, const std::vector<Output>& outputs, Job& job) {
+  std::vector<Told> out;
+  for (const Output& o : outputs) {
+    if (!is_program(o)) continue;
+    std::string table;
+    for (const Output& t : outputs) {
+      if (t.format->holds == Holds::kToolTable && t.format->control == o.format->control) table = t.bytes;
+    }
+    for (auto& f : verify::check_program({o.path, o.bytes, table}, &plan, plan.machine, plan.cutters, job))
+      out.push_back({o.path, std::move(f), true});
+  }
+  return out;
+}
+
+}  // namespace
+
+std::size_t unplanned_features(const model::Plan& plan) {
+  std::set<model::AnyRef> out;
+  for (const model::Unplanned& u : plan.unplanned) out.insert(u.feature);
+  return out.size();
+}
+
+Code code_of(const Diagnostic& fault, Code otherwise) {
+  const bool usage = fault.code == kUnknownName || fault.code == "MACHINE-GEAR" ||
+                     fault.code == "FILE-WRITE" || fault.code == "APP-EDGES" ||
+                     fault.code.starts_with("OPTION-");
+  return usage ? Code::kUsage : otherwise;
+}
+
+Outcome<Planned> plan(const Request& request, Source part, Job& job) {
+  auto read_part = read(std::move(part), request.strict, job);
+  if (!read_part) return failed(read_part.error(), code_of(read_part.error(), Code::kUnreadable));
+  const auto inputs = gather(request, *read_part, job);
+  if (!inputs) return failed(inputs.error(), code_of(inputs.error(), Code::kUnreadable));
+  pipeline::Policy policy;
+  policy.reopen = request.reopen;
+  policy.bind = request.bind;
+  auto bound = pipeline::bind_checked(*read_part, *inputs, policy, job);
+  if (!bound) return failed(bound.error(), code_of(bound.error(), Code::kImpossible));
+  return Planned{std::move(bound->plan), std::move(bound->findings), policy.bind != pipeline::Bind::kAll};
+}
+
+namespace {
+
+/// Closes a plan that was read, in a shop whose choices are taken.
+Outcome<Planned> bound(const Request& request, model::Plan plan, pipeline::Inputs inputs,
+                       std::chrono::steady_clock::time_point began, Job& job) {
+  if (!request.tools) take_tools_of_plan(request, plan, inputs, job);
+  // A catalogue says nothing of what is loaded.
+  const bool any = std::any_of(inputs.library.begin(), inputs.library.end(),
+                               [](const model::Cutter& c) { return c.loaded; });
+  if (!any) {
+    return failed(
+        {.code = "APP-MAGAZINE",
+         .message = "no cutter of the library is in the magazine",
+         .expected = request.sign + "tools with the machine's tool table (.tbl), or a list that gives tool "
+                                    "numbers; or a plan that holds its cutters"},
+        Code::kUsage);
+  }
+  late::LatePolicy policy;
+  policy.deadline = request.deadline;
+  policy.began = began;
+  policy.allow_findings = request.allow_findings;
+  auto outcome = late::bind(std::move(plan), std::move(inputs), policy, job);
+  if (!outcome) return failed(outcome.error(), code_of(outcome.error(), Code::kImpossible));
+  for (const std::string& what : outcome->reopened) job.note("LATE-REOPENED", what, "");
+  return Planned{std::move(outcome->plan), std::move(outcome->of_plan), false, outcome->late};
+}
+
+}  // namespace
+
+Outcome<Planned> bind(const Request& request, Source source, std::chrono::steady_clock::time_point began,
+                      Job& job) {
+  auto read_part = read(std::move(source), request.strict, job);
+  if (!read_part) return failed(read_part.error(), code_of(read_part.error(), Code::kUnreadable));
+  auto inputs = gather(request, *read_part, job);
+  if (!inputs) return failed(inputs.error(), code_of(inputs.error(), Code::kUnreadable));
+  return bound(request, *std::move(read_part), *std::move(inputs), began, job);
+}
+
+Outcome<Planned> bind_in(pipeline::Inputs shop, const Request& request, Source source,
+                         std::chrono::steady_clock::time_point began, Job& job) {
+  auto read_part = read(std::move(source), request.strict, job);
+  if (!read_part) return failed(read_part.error(), code_of(read_part.error(), Code::kUnreadable));
+  if (auto ok = take_choices(request, *read_part, shop, job); !ok)
+    return failed(ok.error(), code_of(ok.error(), Code::kUnreadable));
+  return bound(request, *std::move(read_part), std::move(shop), began, job);
+}
+
+Result<Verdict> judge(const Request& request, const Planned& planned, std::vector<Output>& outputs,
+                      Job& job) {
+  const model::Plan& made = planned.plan;
+  Verdict v;
+  for (const auto& f : planned.findings) v.told.push_back({made.file_name, f, false});
+  auto of_text = of_programs(made, outputs, job);
+  std::vector<model::Finding> all = planned.findings;
+  for (const Told& t : of_text) all.push_back(t.finding);
+  v.condemned = model::condemned(made, all);
+  v.written = v.condemned.empty() || (request.allow_findings && !model::never_written(v.condemned));
+  if (!v.condemned.empty() && v.written && std::any_of(outputs.begin(), outputs.end(), is_program)) {
+    Job silent;  // what the writer warns of was said when it wrote the first time
+    for (Output& o : outputs) {
+      if (!is_program(o)) continue;
+      auto text = write(made, *o.format, silent, v.condemned);
+      if (!text) return tl::unexpected(text.error());
+      o.bytes = std::move(text->bytes);
+    }
+    of_text = of_programs(made, outputs, job);
+  }
+  std::move(of_text.begin(), of_text.end(), std::back_inserter(v.told));
+  for (const Told& t : v.told) {
+    if (t.finding.severity != Severity::kNote) ++v.findings;
+  }
+  return v;
+}
+
+}  // namespace capstan::service

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "planner/door/pipeline/pipeline.h"
+#include "planner/door/service/outputs.h"
+#include "planner/door/service/request.h"
+#include "planner/ground/base/job.h"
+#include "planner/model/plan/decision/condemned.h"
+#include "planner/model/plan/plan.h"
+
+namespace capstan::service {
+
+/// A part or plan to work on: a file, or its bytes under a name.
+struct Source {
+  std::string name;                                 ///< what diagnostics call it; the path of a file
+  std::optional<std::string> bytes = std::nullopt;  ///< nothing: the file of that name is read
+};
+
+/// A plan, and what the check says of it.
+struct Planned {
+  model::Plan plan;
+  std::vector<model::Finding> findings;  ///< of the plan; those of its program: `judge`
+  bool open = false;                     ///< decisions are left open, so there is no path to check yet
+  bool late = false;                     ///< bind: the deadline was past when the plan was there
+};
+
+/// The exit code that a fault means: wrong usage for a name that nobody knows, whatever it was named in.
+[[nodiscard]] Code code_of(const Diagnostic& fault, Code otherwise);
+
+/// Reads a part, opens the shop and plans. A job that is stopped gives no unchecked program: planning ends
+/// with PIP-STOPPED, a check with a finding that condemns the program (CHK-STOPPED).
+[[nodiscard]] Outcome<Planned> plan(const Request& request, Source part, Job& job);
+
+/// The same, closing at the machine what a plan leaves open, with the tools that are in the magazine
+/// (late/late.h). `began` is when the caller began to wait; the deadline counts from there.
+[[nodiscard]] Outcome<Planned> bind(const Request& request, Source plan,
+                                    std::chrono::steady_clock::time_point began, Job& job);
+/// The same in a shop that is open (open_shop).
+[[nodiscard]] Outcome<Planned> bind_in(pipeline::Inputs shop, const Request& request, Source plan,
+                                       std::chrono::steady_clock::time_point began, Job& job);
+
+/// A finding, and the file it is about.
+struct Told {
+  std::string file;
+  model::Finding finding;
+  bool program = false;  ///< then the finding's place is a line, else a move of its step
+};
+
+/// What checking a plan and its programs came to.
+struct Verdict {
+  std::vector<Told> told;                      ///< of the plan, then of the programs
+  std::size_t findings = 0;                    ///< without notes
+  std::vector<model::Condemnation> condemned;  ///< why the program must not be run
+  /// Whether programs are given: nothing condemns them, or they were asked for all the same and stop before
+  /// what is condemned.
+  bool written = true;
+};
+
+/// Checks the programs among the outputs, with what is known of the plan. A condemned program that is asked
+/// for all the same (Request::allow_findings) is written again with its stops, and checked as it then is.
+/// A program's file in `told` is its output's path. Fails  as the writers.
+[[nodiscard]] Result<Verdict> judge(const Request& request, const Planned& planned,
+                                    std::vector<Output>& outputs, Job& job);
+
+/// How many features have something of them not planned, each once.
+[[nodiscard]] std::size_t unplanned_features(const model::Plan& plan);
+
+[[nodiscard]] inline bool is_program(const Output& o) { return o.format->holds == Holds::kProgram; }
+/// What is withheld with a condemned program: the table is of its tools.
+[[nodiscard]] inline bool of_program(const Output& o) { return o.format->of_program(); }
+
+}  // namespace capstan::service

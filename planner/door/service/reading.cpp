@@ -1,0 +1,72 @@
+#include "planner/door/service/reading.h"
+
+#include <algorithm>
+#include <cctype>
+#include <utility>
+
+#include "planner/files/exchange/cad/stl.h"
+#include "planner/files/exchange/exchange.h"
+#include "planner/files/json/json.h"
+#include "planner/ground/base/file.h"
+
+namespace capstan::service {
+namespace {
+
+constexpr std::string_view kMark = "\xEF\xBB\xBF";  // UTF-8's byte order mark
+constexpr std::string_view kBlank = " \t\r\n";
+
+std::string_view trimmed_front(std::string_view s) {
+  if (s.starts_with(kMark)) s.remove_prefix(kMark.size());
+  const auto at = s.find_first_not_of(kBlank);
+  return at == std::string_view::npos ? std::string_view{} : s.substr(at);
+}
+
+/// Every line that is not blank or a comment begins with T and a digit, and has a P or a D.
+bool looks_like_tool_table(std::string_view bytes) {
+  std::size_t lines = 0;
+  while (!bytes.empty()) {
+    const auto end = std::min(bytes.find('\n'), bytes.size());
+    std::string_view line = trimmed_front(bytes.substr(0, end));
+    bytes.remove_prefix(std::min(end + 1, bytes.size()));
+    if (line.empty() || line.front() == ';') continue;
+    line = line.substr(0, std::min(line.find(';'), line.size()));
+    const bool tool = line.size() > 1 && (line[0] == 'T' || line[0] == 't') &&
+                      std::isdigit(static_cast<unsigned char>(line[1])) != 0 &&
+                      line.find_first_of("PpDdZz") != std::string_view::npos &&
+                      line.find_first_of("MmGg") == std::string_view::npos;
+    if (!tool) return false;
+    ++lines;
+  }
+  return lines != 0;
+}
+
+}  // namespace
+
+Content content_of(std::string_view bytes) {
+  const std::string_view text = trimmed_front(bytes);
+  if (text.starts_with('{')) return Content::kPlanJson;
+  // Comments may stand in front of a Part 21 file.
+  const std::string_view head = bytes.substr(0, std::min<std::size_t>(bytes.size(), 1 << 20));
+  if (head.find("ISO-10303-21") != std::string_view::npos || exchange::looks_like_stl(bytes))
+    return Content::kPart;
+  if (looks_like_tool_table(bytes)) return Content::kToolTable;
+  return Content::kProgram;
+}
+
+Result<model::Plan> read_plan(std::string bytes, const std::string& path, Job& job, bool strict) {
+  if (content_of(bytes) == Content::kPlanJson) {
+    if (bytes.starts_with(kMark)) bytes.erase(0, kMark.size());
+    return json::read_json(std::move(bytes), path, job);
+  }
+  exchange::ReadOptions options;
+  options.strict = strict;
+  return exchange::read_bytes(std::move(bytes), path, options, job);
+}
+
+Result<model::Plan> load_plan(const std::string& path, Job& job, bool strict) {
+  auto bytes = read_file(path);
+  if (!bytes) return tl::unexpected(bytes.error());
+  return read_plan(*std::move(bytes), path, job, strict);
+}
+
+}  // namespace capstan::service

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+
+#include "planner/ground/base/job.h"
+#include "planner/ground/base/result.h"
+#include "planner/model/plan/plan.h"
+
+namespace capstan::service {
+
+enum class Content : std::uint8_t { kPlanJson, kPart, kProgram, kToolTable };
+
+/// What the bytes are: JSON by its first character, Part 21 and STL as `exchange` tells them, a LinuxCNC tool
+/// table by its lines (`T1 P1 ...`), anything else a program.
+[[nodiscard]] Content content_of(std::string_view bytes);
+
+/// A part or a plan, told by its content: ISO 14649, AP238, STL or plan JSON, with or without a byte order
+/// mark. `name` is what diagnostics call it.
+///
+/// strict  one wrong reference keeps the whole file from being read; otherwise only what needs it is left
+/// out. Fails   as json::read_json and exchange::read; faults went to the job before.
+[[nodiscard]] Result<model::Plan> read_plan(std::string bytes, const std::string& name, Job& job,
+                                            bool strict = false);
+/// The same from a file. Fails  FILE-READ, and as above.
+[[nodiscard]] Result<model::Plan> load_plan(const std::string& path, Job& job, bool strict = false);
+
+}  // namespace capstan::service

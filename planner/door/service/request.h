@@ -1,0 +1,65 @@
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+
+#include "planner/door/pipeline/pipeline.h"
+#include "planner/ground/geometry/vec.h"
+#include "planner/making/optimise/solver/solver.h"
+
+namespace capstan::service {
+
+/// What a caller asks for beside the part: what every option of `plan`, `bind` and `check` sets
+/// (options.h has the table). Nothing, or an empty text, means the built-in default.
+struct Request {
+  std::optional<std::string> machine, tools, material, rules, cases;
+  std::optional<geometry::Box3> stock;
+  std::optional<double> stock_allowance_mm;
+  std::string stock_text;  ///< as given
+  std::optional<pipeline::Objective> objective;
+  std::optional<optimise::Solver> solver;
+  std::optional<std::string> general_tolerance, workholding;
+  std::optional<std::string> feeds;   ///< "constant" or "scheduled"
+  std::optional<std::string> margin;  ///< by name, of mechanics/margin.h
+  std::optional<double> revenue;
+  int batch = 1;
+  double edge_break_mm = 0.0;
+  pipeline::Reopen reopen = pipeline::Reopen::kNothing;
+  pipeline::Bind bind = pipeline::Bind::kAll;
+  std::optional<std::chrono::milliseconds> deadline;  ///< bind: since the call began
+  bool strict = false;                                ///< nothing is given when there is a finding
+  bool allow_findings = false;                        ///< a program even when the check condemns it
+  bool schema = false;                                ///< check: what reading found is a finding, too
+  unsigned threads = 1;
+
+  /// Solvers that this program links beside NLopt.
+  optimise::Backends backends;
+  /// How this caller writes an option, for messages and provenance: "--machine" on a command line.
+  std::string sign = "--";
+};
+
+/// What a call came to: the exit code of the command, the code of the C interface.
+enum class Code : int {
+  kDone = 0,
+  kFindings = 1,
+  kUsage = 2,
+  kUnreadable = 3,
+  kImpossible = 4,
+  kLate = 5,
+  kFault = 70,
+};
+
+/// Why a call gives nothing.
+struct Failure {
+  Diagnostic what;
+  Code code = Code::kImpossible;
+};
+template <class T>
+using Outcome = tl::expected<T, Failure>;
+
+[[nodiscard]] inline auto failed(Diagnostic what, Code code) {
+  return tl::unexpected(Failure{std::move(what), code});
+}
+
+}  // namespace capstan::service

@@ -1,0 +1,128 @@
+#include "planner/door/service/session.h"
+
+#include <chrono>
+#include <exception>
+#include <utility>
+
+#include "planner/door/service/formats.h"
+#include "planner/door/service/options.h"
+#include "planner/door/service/shop.h"
+
+namespace capstan::service {
+
+Code Session::end(Code code, const std::string& line) {
+  if (!line.empty()) message_ += line + "\n";
+  code_ = code;
+  return code;
+}
+
+Code Session::wrong(std::string line) {
+  message_.clear();
+  return end(Code::kUsage, line);
+}
+
+/// Runs what may throw; no exception leaves the session.
+template <class Body>
+Code Session::guarded(Body body) {
+  try {
+    return body();
+  } catch (const std::exception& e) {
+    return end(Code::kFault, std::string("error: a fault of the library itself: ") + e.what());
+  } catch (...) {
+    return end(Code::kFault, "error: a fault of the library itself");
+  }
+}
+
+Code Session::set(std::string_view name, const std::string& text) {
+  return guarded([&] {
+    message_.clear();
+    if (auto ok = service::set(request_, name, text); !ok) return end(Code::kUsage, to_text(ok.error()));
+    shop_.reset();
+    failed_ = false;
+    return end(Code::kDone);
+  });
+}
+
+Code Session::opened(Job& job) {
+  if (shop_) return Code::kDone;
+  auto shop = open_shop(request_, model::Plan{}, job);
+  for (const auto& d : job.take_diagnostics()) message_ += to_text(d) + "\n";
+  failed_ = !shop;
+  if (!shop) return end(Code::kUnreadable, to_text(shop.error()));
+  shop_ = *std::move(shop);
+  return Code::kDone;
+}
+
+Code Session::open() {
+  return guarded([&] {
+    message_.clear();
+    Job job;
+    return end(opened(job));
+  });
+}
+
+Code Session::bind(std::string plan, std::optional<std::chrono::milliseconds> deadline) {
+  const auto began = std::chrono::steady_clock::now();
+  return guarded([&] {
+    bound_.reset();
+    outputs_.clear();
+    message_.clear();
+    if (plan.empty() || failed_)
+      return end(Code::kUsage, "error: there is no plan, or the session did not open");
+    Job job;
+    job.threads = request_.threads;
+    job.set_progress(progress_);
+    // Whoever stops meets either this job or none.
+    struct Running {
+      Session& s;
+      Running(Session& session, Job& one) : s(session) {
+        const std::lock_guard lock(s.mutex_);
+        s.running_ = &one;
+      }
+      Running(const Running&) = delete;
+      Running& operator=(const Running&) = delete;
+      ~Running() {
+        const std::lock_guard lock(s.mutex_);
+        s.running_ = nullptr;
+      }
+    } const running(*this, job);
+    if (const Code code = opened(job); code != Code::kDone) return code;
+    Request request = request_;
+    if (deadline) request.deadline = deadline;
+    auto bound = bind_in(*shop_, request, {"plan", std::move(plan)}, began, job);
+    for (const auto& d : job.take_diagnostics()) message_ += to_text(d) + "\n";
+    if (!bound) return end(bound.error().code, to_text(bound.error().what));
+    bound_ = *std::move(bound);
+    return end(bound_->late ? Code::kLate : Code::kDone);
+  });
+}
+
+void Session::stop() {
+  const std::lock_guard lock(mutex_);
+  if (running_ != nullptr) running_->request_stop();
+}
+
+const std::string* Session::output(std::string_view name) {
+  const Format* format = find_format(name);
+  if (!bound_ || format == nullptr) return nullptr;
+  if (const auto at = outputs_.find(name); at != outputs_.end()) return &at->second;
+  const std::string* made = nullptr;
+  guarded([&] {
+    Job job;
+    auto written = write(bound_->plan, *format, job);
+    if (!written) return end(Code::kImpossible, to_text(written.error()));
+    made = &outputs_.emplace(name, std::move(written->bytes)).first->second;
+    return code_;
+  });
+  return made;
+}
+
+double Session::machining_s() const {
+  double t = 0.0;
+  if (bound_) {
+    for (const auto& s : bound_->plan.steps) t += s.cutting_s + s.rapid_s;
+  }
+  return t;
+}
+
+}  // namespace capstan::service

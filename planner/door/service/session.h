@@ -1,0 +1,70 @@
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "planner/door/service/planning.h"
+#include "planner/door/service/request.h"
+#include "planner/ground/base/job.h"
+
+namespace capstan::service {
+
+/// A session of late binding in a shop that is opened once: what every transport (the C interface, lines on a
+/// pipe, ...) keeps for its caller. Nothing is thrown, nothing is printed, no thread outlives a call.
+///
+/// Thread safety  one thread at a time, but for `stop`, which any thread may call at any time.
+class Session {
+ public:
+  explicit Session(std::string sign = {}) { request_.sign = std::move(sign); }
+
+  /// Sets an option by its name (options.h). One that the shop depends on opens it anew at the next call.
+  Code set(std::string_view name, const std::string& text);
+  /// Opens the shop, so that the first `bind` need not.
+  Code open();
+  /// Binds a plan before the deadline (nothing: that of the options, or none). Past it the code is kLate,
+  /// never kDone.
+  Code bind(std::string plan, std::optional<std::chrono::milliseconds> deadline);
+  /// Asks the running `bind` to end; what comes is its checked fallback, or kImpossible. It does not stop a
+  /// later one.
+  void stop();
+  /// Called with the stage's name and its fraction in [0, 1], by the thread that called `bind` or one of its
+  /// workers; nothing: not called. It must not throw, and of this session call `stop` only.
+  void set_progress(Job::Progress progress) { progress_ = std::move(progress); }
+
+  /// The bound plan in a format (formats.h); null when there is none, or no such format. Valid until the next
+  /// call but `code`, `message` and this.
+  const std::string* output(std::string_view format);
+  /// Of the bound plan; 0 when there is none.
+  [[nodiscard]] double machining_s() const;
+
+  /// Code and diagnostics (lines of text) of the last call but `output`.
+  [[nodiscard]] Code code() const { return code_; }
+  [[nodiscard]] const std::string& message() const { return message_; }
+
+  /// Ends a call that was used wrongly.
+  Code wrong(std::string line);
+
+ private:
+  template <class Body>
+  Code guarded(Body body);
+  Code end(Code code, const std::string& line = {});
+  Code opened(Job& job);
+
+  Request request_;
+  Job::Progress progress_;
+  std::optional<pipeline::Inputs> shop_;
+  bool failed_ = false;  ///< the shop did not open, and no option was set since
+  std::optional<Planned> bound_;
+  std::map<std::string, std::string, std::less<>> outputs_;
+  std::string message_;
+  Code code_ = Code::kDone;
+  std::mutex mutex_;  // of running_
+  Job* running_ = nullptr;
+};
+
+}  // namespace capstan::service

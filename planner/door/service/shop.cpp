@@ -1,0 +1,301 @@
+#include "planner/door/service/shop.h"
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "casebase/casebase.h"
+
+#include "planner/ground/base/file.h"
+#include "planner/ground/base/nearest_names.h"
+#include "planner/ground/base/number.h"
+#include "rules/engine/check.h"
+#include "rules/rules.h"
+#include "tooling/library/cutters/generic.h"
+#include "tooling/library/library.h"
+#include "tooling/shop/data/tree.h"
+#include "tooling/shop/fixtures/fixtures.h"
+#include "tooling/shop/machine/machine.h"
+#include "tooling/shop/material/material.h"
+
+namespace capstan::service {
+namespace {
+
+constexpr const char* kDefault = "built-in default";
+
+std::string objective_text(pipeline::Objective o) {
+  switch (o) {
+    case pipeline::Objective::kTime:
+      return "time";
+    case pipeline::Objective::kCost:
+      return "cost";
+    case pipeline::Objective::kProfit:
+      return "profit";
+  }
+  return "time";
+}
+
+/// What an option is called where a plan says what it was made with.
+std::string option(const Request& o, const std::string& name) { return o.sign + name; }
+
+/// A material that is at hand, as a plan holds it.
+Status take_material(pipeline::Inputs& in, model::WorkMaterial own) {
+  if (auto ok = tooling::add_start_values(own, in.library); !ok) return ok;
+  in.material_name = own.id;
+  in.materials.push_back(std::move(own));
+  return {};
+}
+
+/// What the plan says it was made with under that name, or null.
+const model::Provenance* made_with(const model::Plan& plan, std::string_view what) {
+  for (const auto& p : plan.provenance) {
+    if (p.what == what) return &p;
+  }
+  return nullptr;
+}
+
+Status material_of(const Request& o, const model::Plan& plan, pipeline::Inputs& in, Job& job) {
+  auto& p = in.provenance;
+  if (o.material) {
+    if (auto ok = name_material(in, *o.material, job); !ok) return ok;
+    p.push_back({"material", *in.material_name,
+                 option(o, *in.material_name == *o.material ? "material" : "material " + *o.material)});
+    return {};
+  }
+  const auto* before = made_with(plan, "material");
+  if (before == nullptr) return {};
+  in.material_of_plan = true;
+  const bool shipped = std::any_of(in.materials.begin(), in.materials.end(),
+                                   [&](const auto& m) { return m.id == before->value; });
+  if (!shipped && plan.material.id == before->value) {
+    // A shop's own: the plan has what its file said.
+    if (auto ok = take_material(in, plan.material); !ok) return ok;
+  } else {
+    in.material_name = before->value;
+  }
+  p.push_back(*before);
+  return {};
+}
+
+/// The option that a plan was made with still holds when it is planned again, unless another is given.
+void choices(const Request& o, const model::Plan& plan, pipeline::Inputs& in) {
+  auto& p = in.provenance;
+  in.stock = o.stock;
+  in.stock_allowance_mm = o.stock_allowance_mm;
+  if (!o.stock_text.empty()) {
+    p.push_back({"stock", o.stock_text, option(o, "stock")});
+  } else if (const auto* before = made_with(plan, "stock"); before != nullptr && !plan.stock.box.empty()) {
+    in.stock = plan.stock.box;
+    in.stock_of_plan = true;
+    p.push_back(*before);
+  }
+  in.objective = o.objective.value_or(pipeline::Objective::kTime);
+  p.push_back({"objective", objective_text(in.objective), o.objective ? option(o, "objective") : kDefault});
+  if (o.margin) in.margin = mechanics::margin_policy(*o.margin);
+  in.revenue = o.revenue;
+  if (o.revenue) p.push_back({"revenue", trimmed(*o.revenue, 4) + " a piece", option(o, "revenue")});
+  const auto carried = [&](const char* what, const std::optional<std::string>& given, std::string& into) {
+    if (given) {
+      into = *given;
+      p.push_back({what, into, option(o, what)});
+    } else if (const auto* before = made_with(plan, what)) {
+      into = before->value;
+      constexpr std::string_view kKept = ", of the plan";
+      p.push_back({what, into,
+                   before->source.ends_with(kKept) ? before->source : before->source + std::string(kKept)});
+    }
+  };
+  carried("general-tolerance", o.general_tolerance, in.general_tolerance);
+  carried("workholding", o.workholding, in.workholding);
+  std::string feeds = "scheduled";
+  carried("feeds", o.feeds, feeds);
+  in.constant_feeds = feeds == "constant";
+  in.batch = o.batch;
+  if (o.batch > 1) p.push_back({"batch", std::to_string(o.batch), option(o, "batch")});
+  in.edge_break_mm = o.edge_break_mm;
+  if (o.edge_break_mm > 0.0) p.push_back({"edges", trimmed(o.edge_break_mm, 4) + " mm", option(o, "edges")});
+  in.solver = o.solver.value_or(optimise::Solver::kNlopt);
+  p.push_back({"solver", in.solver == optimise::Solver::kIpopt ? "ipopt" : "nlopt",
+               o.solver ? option(o, "solver") : kDefault});
+}
+
+Status machine_of(const Request& o, const model::Plan& plan, pipeline::Inputs& in, Job& job) {
+  const auto shipped = tooling::shipped_machines();
+  const bool known = std::find(shipped.begin(), shipped.end(), plan.machine.id) != shipped.end();
+  const auto* before = made_with(plan, "machine");
+  if (!o.machine && has_data(plan.machine)) {
+    in.machine = plan.machine;
+    in.provenance.push_back(
+        before != nullptr ? *before : model::Provenance{"machine", in.machine.id, "the plan's own"});
+    return {};
+  }
+  const bool named = !o.machine && known;
+  if (!o.machine && !named && !plan.machine.id.empty()) {
+    Diagnostic d = unknown_name("machine", plan.machine.id, shipped, "capstan machines list");
+    d.file = plan.file_name;
+    d.hint =
+        "the plan was made for it and does not hold its data: name one with " + o.sign + "machine; " + d.hint;
+    return fail(std::move(d));
+  }
+  auto machine = tooling::load_machine(o.machine ? *o.machine
+                                       : named   ? plan.machine.id
+                                                 : std::string(tooling::kDefaultMachine),
+                                       job);
+  if (!machine) return tl::unexpected(machine.error());
+  in.machine = *std::move(machine);
+  if (named && before != nullptr) {
+    in.provenance.push_back(*before);
+  } else {
+    in.provenance.push_back(
+        {"machine", in.machine.id, o.machine ? option(o, "machine " + *o.machine) : kDefault});
+  }
+  return {};
+}
+
+/// What a shop's own tables lack or say twice: planning goes on, for the rows that do decide are sound.
+void judge_rules(const rules::RuleBase& base, Job& job) {
+  constexpr std::size_t kMostTold = 10;
+  const auto findings = rules::check(base);
+  for (std::size_t i = 0; i < std::min(kMostTold, findings.size()); ++i) {
+    const auto& f = findings[i];
+    job.report({.code = std::string(rules::code_of(f.fault)),
+                .severity = Severity::kWarning,
+                .message = f.text(),
+                .file = f.file,
+                .line = f.line});
+  }
+  if (findings.size() > kMostTold)
+    job.warn("RULE-MORE", std::to_string(findings.size() - kMostTold) +
+                              " further findings in the rules; capstan rules check --rules shows them all");
+}
+
+/// Why edges cannot be broken so wide, with the widths that the tables know; nothing when they can.
+std::optional<Diagnostic> edges_wrong(const Request& o, const pipeline::Inputs& in) {
+  const double width = in.edge_break_mm;
+  const rules::Table* table = in.rules.table("edge_break");
+  const auto fact = rules::find_fact("edge_break_mm");
+  if (!(width > 0.0) || table == nullptr || !fact) return std::nullopt;
+  const auto at = std::find(table->facts.begin(), table->facts.end(), *fact);
+  if (at == table->facts.end()) return std::nullopt;
+  const auto side = static_cast<std::size_t>(at - table->facts.begin());
+  std::string ranges;
+  for (const rules::Row& row : table->rows) {
+    if (row.chains.empty()) continue;
+    const rules::Side& s = row.when[side];
+    if (rules::holds(s, width)) return std::nullopt;
+    const std::string range = "from " + trimmed(s.from, 3) + " to below " + trimmed(s.below, 3) + " mm";
+    if (ranges.find(range) == std::string::npos) ranges += (ranges.empty() ? "" : ", ") + range;
+  }
+  return Diagnostic{.code = "APP-EDGES",
+                    .message = o.sign + "edges " + trimmed(width, 4) + ": no rule breaks edges so wide",
+                    .expected = "0 for none, or a width " + (ranges.empty() ? "that rules know" : ranges)};
+}
+
+/// Reads what holds the piece before anything is planned: a file that cannot be read is no failure of
+/// planning.
+std::optional<Diagnostic> holding_wrong(const std::string& how, Job& job) {
+  if (how == "auto" || how == "none") return std::nullopt;
+  auto fixtures = tooling::shipped_fixtures(job);
+  if (!fixtures || tooling::find_fixture(*fixtures, how) != nullptr) return std::nullopt;
+  auto text = read_file(how, tooling::kDataFileCap);
+  if (!text && only_a_name(how))
+    return unknown_name("fixture", how, tooling::ids_of(*fixtures), tooling::kListFixtures);
+  if (!text) {
+    text.error().hint = "workholding is auto, none, the id of a fixture, or a file";
+    return text.error();
+  }
+  Job silent;  // what there is to say of it is said when it is used
+  auto file = tooling::read_holding(*text, how, silent);
+  if (file) return std::nullopt;
+  for (const Diagnostic& d : silent.diagnostics()) {
+    if (!(d == file.error())) job.report(d);
+  }
+  return file.error();
+}
+
+}  // namespace
+
+bool has_data(const model::Machine& machine) { return !machine.axes[0].name.empty(); }
+
+Status name_material(pipeline::Inputs& in, const std::string& given, Job& job) {
+  if (!tooling::names_a_material_file(given)) {
+    in.material_name = given;
+    return {};
+  }
+  auto own = tooling::load_material(given, in.materials, job);
+  if (!own) return tl::unexpected(own.error());
+  return take_material(in, *std::move(own));
+}
+
+Result<pipeline::Inputs> open_shop(const Request& o, const model::Plan& plan, Job& job) {
+  pipeline::Inputs in;
+  if (auto ok = machine_of(o, plan, in, job); !ok) return tl::unexpected(ok.error());
+
+  auto library = tooling::load_library(
+      o.tools.value_or("generic"), job,
+      {.mm_per_unit = {}, .offsets_against_reference = in.machine.control.offsets_against_reference});
+  if (!library) return tl::unexpected(library.error());
+  in.library = *std::move(library);
+  in.provenance.push_back(
+      {"tools", o.tools.value_or("generic") + ", " + std::to_string(in.library.size()) + " cutters",
+       o.tools ? option(o, "tools " + *o.tools) : kDefault});
+
+  auto materials = tooling::shipped_materials();
+  if (!materials) return tl::unexpected(materials.error());
+  in.materials = *std::move(materials);
+  in.provenance.push_back(
+      {"materials", "shipped table, " + std::to_string(in.materials.size()) + " materials", kDefault});
+
+  auto rules = rules::load_rules(o.rules.value_or(""), job);
+  if (!rules) return tl::unexpected(rules.error());
+  in.rules = *std::move(rules);
+  in.provenance.push_back({"rules",
+                           o.rules ? "shipped tables and " + *o.rules : std::string("shipped tables"),
+                           o.rules ? option(o, "rules " + *o.rules) : kDefault});
+  if (o.rules) judge_rules(in.rules, job);
+
+  if (o.workholding) {
+    if (auto wrong = holding_wrong(*o.workholding, job)) return fail(*std::move(wrong));
+  }
+  if (o.cases) {
+    auto base = casebase::CaseBase::open(*o.cases, job);
+    if (!base) return tl::unexpected(base.error());
+    in.cases = std::make_shared<const casebase::CaseBase>(*std::move(base));
+  }
+  in.backends = o.backends;
+  return in;
+}
+
+Status take_choices(const Request& o, const model::Plan& plan, pipeline::Inputs& in, Job& job) {
+  if (auto ok = material_of(o, plan, in, job); !ok) return ok;
+  choices(o, plan, in);
+  if (auto wrong = edges_wrong(o, in)) return fail(*std::move(wrong));
+  if (o.cases) in.provenance.push_back({"cases", *o.cases, "named by the caller"});
+  return {};
+}
+
+Result<pipeline::Inputs> gather(const Request& o, const model::Plan& plan, Job& job) {
+  auto in = open_shop(o, plan, job);
+  if (!in) return in;
+  if (auto ok = take_choices(o, plan, *in, job); !ok) return tl::unexpected(ok.error());
+  return in;
+}
+
+void take_tools_of_plan(const Request& o, const model::Plan& plan, pipeline::Inputs& in, Job& job) {
+  std::vector<model::Cutter> own;
+  for (const model::Cutter& c : plan.cutters) {
+    if (c.pocket <= 0) continue;
+    own.push_back(c);
+    own.back().loaded = true;
+  }
+  if (own.empty()) return;
+  job.note("APP-TOOLS", "no " + option(o, "tools") + ": the plan's own " + std::to_string(own.size()) +
+                            (own.size() == 1 ? " cutter" : " cutters") +
+                            " count as loaded, in the plan's tool numbers");
+  in.provenance.push_back({"tools", "those of the plan", "no " + option(o, "tools") + " is given"});
+  in.library = std::move(own);
+}
+
+}  // namespace capstan::service

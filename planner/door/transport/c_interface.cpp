@@ -1,0 +1,110 @@
+#include <array>
+#include <chrono>
+#include <new>
+#include <optional>
+#include <string>
+
+#include "capstan/capstan_late.h"
+#include "planner/door/service/session.h"
+
+// Late binding for C: each function is one call of the session.
+
+/// A session behind the C interface.
+struct capstan_late {
+  capstan::service::Session session;
+};
+
+namespace {
+
+using capstan::service::Code;
+
+constexpr capstan_late_code code_of(Code c) { return static_cast<capstan_late_code>(c); }
+static_assert(code_of(Code::kDone) == CAPSTAN_LATE_OK && code_of(Code::kUsage) == CAPSTAN_LATE_USAGE &&
+              code_of(Code::kUnreadable) == CAPSTAN_LATE_UNREADABLE &&
+              code_of(Code::kImpossible) == CAPSTAN_LATE_IMPOSSIBLE &&
+              code_of(Code::kLate) == CAPSTAN_LATE_LATE && code_of(Code::kFault) == CAPSTAN_LATE_FAULT);
+
+// capstan_late_format by number; formats that came later go by their name.
+constexpr std::array kNumbered = {"iso14649", "json", "linuxcnc", "linuxcnc_tools", "ap238"};
+
+const char* text_of(const std::string* text, size_t* size) {
+  if (text == nullptr || text->empty()) return nullptr;
+  if (size != nullptr) *size = text->size();
+  return text->c_str();
+}
+
+}  // namespace
+
+unsigned capstan_late_interface(void) { return CAPSTAN_LATE_INTERFACE; }
+
+capstan_late* capstan_late_create(void) {
+  try {
+    return new (std::nothrow) capstan_late;
+  } catch (...) {
+    return nullptr;  // std::mutex, std::string: no memory
+  }
+}
+
+capstan_late* capstan_late_open(const char* machine, const char* tools) {
+  capstan_late* s = capstan_late_create();
+  if (s == nullptr) return nullptr;
+  if (machine == nullptr || tools == nullptr) {
+    s->session.wrong("error: machine and tools must be named");
+    return s;
+  }
+  if (capstan_late_set(s, "machine", machine) == CAPSTAN_LATE_OK &&
+      capstan_late_set(s, "tools", tools) == CAPSTAN_LATE_OK)
+    s->session.open();
+  return s;
+}
+
+capstan_late_code capstan_late_set(capstan_late* s, const char* option, const char* value) {
+  if (s == nullptr) return CAPSTAN_LATE_USAGE;
+  if (option == nullptr || value == nullptr)
+    return code_of(s->session.wrong("error: option and value must be given"));
+  return code_of(s->session.set(option, value));
+}
+
+capstan_late_code capstan_late_prepare(capstan_late* s) {
+  return s == nullptr ? CAPSTAN_LATE_USAGE : code_of(s->session.open());
+}
+
+capstan_late_code capstan_late_bind(capstan_late* s, const char* plan, size_t size, unsigned deadline_ms) {
+  if (s == nullptr) return CAPSTAN_LATE_USAGE;
+  return code_of(s->session.bind(plan == nullptr ? std::string() : std::string(plan, size),
+                                 std::chrono::milliseconds(deadline_ms)));
+}
+
+void capstan_late_on_progress(capstan_late* s, capstan_late_progress progress, void* user) {
+  if (s == nullptr) return;
+  if (progress == nullptr) return s->session.set_progress({});
+  s->session.set_progress([progress, user](std::string_view stage, double fraction) {
+    progress(std::string(stage).c_str(), fraction, user);
+  });
+}
+
+void capstan_late_stop(capstan_late* s) {
+  if (s != nullptr) s->session.stop();
+}
+
+const char* capstan_late_output_as(capstan_late* s, const char* format, size_t* size) {
+  if (size != nullptr) *size = 0;
+  if (s == nullptr || format == nullptr) return nullptr;
+  return text_of(s->session.output(format), size);
+}
+
+const char* capstan_late_output(capstan_late* s, capstan_late_format format, size_t* size) {
+  const auto index = static_cast<std::size_t>(format);
+  return capstan_late_output_as(s, index < kNumbered.size() ? kNumbered[index] : nullptr, size);
+}
+
+capstan_late_code capstan_late_status(const capstan_late* s) {
+  return s == nullptr ? CAPSTAN_LATE_USAGE : code_of(s->session.code());
+}
+const char* capstan_late_message(const capstan_late* s) {
+  return s == nullptr ? "" : s->session.message().c_str();
+}
+double capstan_late_machining_seconds(const capstan_late* s) {
+  return s == nullptr ? 0.0 : s->session.machining_s();
+}
+void capstan_late_close(capstan_late* s) { delete s; }

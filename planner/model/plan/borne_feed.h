@@ -1,0 +1,56 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "planner/model/plan/cutter/cutter.h"
+#include "planner/model/plan/resources/material.h"
+
+namespace capstan::model {
+
+/// How a cutter's `sources` begin of a field that was taken from a generic cutter (its id follows).
+inline constexpr std::string_view kAsGeneric = "default: as ";
+
+/// Whether a preset is not the cutter's own but taken from the generic cutter nearest to it: it counts only
+/// where no own preset is for the material.
+[[nodiscard]] bool borrowed(const CuttingPreset& p);
+
+/// Whether neither maker nor shop stands behind a preset: it is borrowed, or its source says that it is a
+/// default.
+[[nodiscard]] bool nobodys(const CuttingPreset& p);
+
+/// The cutter's own (or, where asked, borrowed) preset for a material: by id, by name, by ISO 513 group; null
+/// when it has none. What the material's card does not cut with this substrate is cut by a preset that names
+/// the material only: a group is wider than the card.
+[[nodiscard]] const CuttingPreset* preset_of(const Cutter& c, const WorkMaterial& m, bool of_its_like);
+
+/// Whether the card states speeds, and none for this substrate: not cut with it.
+[[nodiscard]] bool card_excludes(const WorkMaterial& m, Substrate s);
+
+/// Feed that a cutter bears over the start value that its maker or the shop states. Default, unsourced.
+inline constexpr double kOverPreset = 1.5;
+
+/// What stands at the end of an own preset's source, where the group of the material that it names is known.
+[[nodiscard]] std::string of_group(std::string_view iso_group);
+
+struct BorneFeed {
+  double mm = 0.0;  ///< per tooth; 0: not known
+  bool by_preset = false;
+};
+/// The largest feed per tooth that a cutter bears in a material: its stated largest; where that is only taken
+/// from a generic cutter, or not known, at least kOverPreset times its own start value for this material.
+/// Where it has none, the least of those for materials of the same ISO 513 group (`of_group`), and no more:
+/// groups are wide. What it bears in another group says nothing.
+[[nodiscard]] BorneFeed borne_feed(const Cutter& c, const WorkMaterial& m);
+
+/// The feed per tooth that its presets state for a material, the own before those of its like; 0: none.
+[[nodiscard]] double start_feed_mm(const Cutter& c, const WorkMaterial& m);
+
+/// Share of its start value down to which a cutter is held to cut, whatever its edge's radius says: who
+/// states a start value has seen it cut, and some limit may lower it. Default, unsourced.
+inline constexpr double kCutsDownTo = 0.5;
+/// The thinnest chip that the cutter is held to cut in a material by what its presets say, mm; 0: they say
+/// nothing. kCutsDownTo of a start value that its maker or the shop states; all of one that is nobody's.
+[[nodiscard]] double held_to_cut_mm(const Cutter& c, const WorkMaterial& m);
+
+}  // namespace capstan::model

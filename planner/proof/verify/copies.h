@@ -1,0 +1,30 @@
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "planner/ground/vocabulary/cutter_class.h"
+#include "planner/ground/vocabulary/noun_kind.h"
+
+/// What the check says of kinds of things by itself: a wrong row of the vocabulary must not pass it. Copies
+/// on purpose; tests/proof/verify/copies_test.cpp holds each against the vocabulary's column.
+namespace capstan::verify {
+
+/// Its head is wider than what stands above it: heights do not tell what it cuts.
+[[nodiscard]] bool undercuts(model::CutterClass c);
+/// Cuts under the walls of its own feature.
+[[nodiscard]] bool under_overhangs(model::CutterClass c);
+/// Its diameter is the hole's.
+[[nodiscard]] bool sizes_hole(model::CutterClass c);
+/// A cone that breaks edges along the side of a feature.
+[[nodiscard]] bool breaks_edges(model::CutterClass c);
+/// Cuts with a part of its cone: how wide it is there is not known.
+[[nodiscard]] bool cuts_by_point(model::CutterClass c);
+/// Moves along walls, and so leaves its radius in their corners.
+[[nodiscard]] bool mills(model::CutterClass c);
+/// Makes the surface that stays.
+[[nodiscard]] bool finishes(model::TypeId operation);
+/// Work offsets of RS-274 controls, in the order of their numbers.
+[[nodiscard]] std::span<const std::string_view> work_offsets();
+
+}  // namespace capstan::verify

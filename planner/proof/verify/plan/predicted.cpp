@@ -1,0 +1,385 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <optional>
+
+#include "planner/ground/base/number.h"
+#include "planner/model/features/raw_piece.h"
+#include "planner/model/nouns/all.h"
+#include "planner/physics/mechanics/constants.h"
+#include "planner/proof/verify/copies.h"
+#include "planner/proof/verify/plan/plan_checks.h"
+#include "planner/proof/verify/stated_values.h"
+#include "planner/proof/verify/sweep/step_checks.h"
+#include "planner/proof/verify/sweep/target/target.h"
+
+// What follows from a step's own numbers, whoever chose them: its cutting speed is held against what the
+// material's card or the tool states for that material, its edge's life against the time that it cuts, what
+// the plan says of bending against what the feature bears. A card is for no tool in particular, and a life by
+// Taylor's law falls with the fourth to eighth power of the speed: a speed somewhat above the card's is a
+// warning; an error only where the edge would not last its own step even if the card were too slow by
+// kCardShort. A cutter of which no one stated what it is made of is judged as the slower material, which the
+// plan takes for it, and where that alone condemns it, it is a warning that says so.
+
+namespace capstan::verify {
+
+using model::CutterClass;
+using model::Substrate;
+
+namespace {
+
+/// Speed over the card's or the tool's own from which it is told; what planning may reach where a spindle
+/// turns no slower. Default, unsourced.
+constexpr double kFaster = 1.25;
+/// By how much a card's speed may be too low for the tool at hand (grade, share of the turn in the cut):
+/// tables for one material and substrate differ by about this. Default, unsourced.
+constexpr double kCardShort = 1.5;
+/// Edges of a tool from which a plan surely wears out the first, and that is a warning: lives by the
+/// textbook's law are uncertain by a factor of two (mechanics/life.h).
+constexpr double kSurelyWorn = 2.0;
+/// Bending stress at which a shank surely breaks or stays bent, N/mm2: transverse rupture strengths of
+/// cemented carbide (ISO 3327) and of hardened high-speed steel lie at 2000 to 4000. Default, unsourced.
+constexpr double kBreakingNMm2 = 3500.0;
+/// Of a tolerance zone: what one wall may be pushed by and be within it at all, and what both walls of a
+/// pocket or slot may be, each. Derived: a size in the middle of its zone has half of it on either side.
+constexpr double kWallOfZone = 0.5, kBothOfZone = 0.25;
+constexpr double kModelErrorMm = 0.005;  ///< below, the model's own error rules; default, unsourced
+
+/// What is known of a cutter's speed in a material.
+struct Reference {
+  double vc_m_min = 0.0;  ///< 0: it is not for this material
+  std::string source;
+  /// A card's speed is of a bare edge, and no cutter says whether it is coated: how much faster it is then.
+  double coated = 1.0;
+  double life_min = mechanics::kLifeAtTableMin, n = mechanics::kTaylorExponentCarbide;
+  [[nodiscard]] double life_at(double vc) const { return life_min * std::pow(vc / vc_m_min, -1.0 / n); }
+};
+
+/// Steel, stainless steel and cast iron; the factors of the other groups are 1 there.
+bool coating_helps(const model::WorkMaterial& m) {
+  return m.iso_group == "P" || m.iso_group == "M" || m.iso_group == "K";
+}
+
+/// Nothing when the material's card states no speed for anything: then there is none to compare with.
+std::optional<Reference> reference_of(const model::WorkMaterial& m, const model::Cutter& c, Substrate s) {
+  Reference out;
+  const bool hss = s == Substrate::kHss;
+  out.n = hss ? mechanics::kTaylorExponentHss : mechanics::kTaylorExponentCarbide;
+  if (c.life_min > 0.0) out.life_min = c.life_min;
+  const double coated = !hss && coating_helps(m) ? coated_over_bare(c) : 1.0;
+  const double card = hss ? m.vc_hss_m_min : m.vc_carbide_m_min;
+  // Presets are of what the cutter is made of; those of its like may be of another edge.
+  for (const bool of_its_like : {false, true}) {
+    const auto* p = s == c.substrate ? stated_for(c, m, of_its_like, Wanted::kSpeed) : nullptr;
+    if (p == nullptr) continue;
+    out.vc_m_min = p->vc_m_min;
+    out.source = (of_its_like ? "that of a cutter like it for " : "the tool's own for ") + p->material_group;
+    if (of_its_like) out.coated = coated;
+    return out;
+  }
+  if (!(m.vc_hss_m_min > 0.0) && !(m.vc_carbide_m_min > 0.0)) return std::nullopt;
+  out.vc_m_min = card;
+  out.coated = coated;
+  out.source = "the card of " + m.id + " for " + std::string(model::to_text(s));
+  for (const model::ToolLifeLaw& l : m.life) {
+    if (l.substrate != model::to_text(s) || !(l.life_min > 0.0) || !(l.v0_m_min > 0.0) || !(l.n > 0.0))
+      continue;
+    out.vc_m_min = l.v0_m_min;
+    out.life_min = l.life_min;
+    out.n = l.n;
+    out.coated = 1.0;
+    out.source = "the law of tool life of " + m.id;
+    break;
+  }
+  return out;
+}
+
+bool substrate_assumed(const model::Cutter& c) {
+  return std::any_of(c.sources.begin(), c.sources.end(),
+                     [](const auto& s) { return s.first == "substrate" && s.second.starts_with("default"); });
+}
+
+/// Whether it is the whole diameter that cuts; of cones nobody knows which part does.
+bool tells_speed(const model::Cutter& c) {
+  if (cuts_by_point(c.cutter_class) || c.cutter_class == CutterClass::kTouchProbe) return false;
+  return c.cutting_diameter_mm > 0.0;
+}
+
+/// Of a ball or bull nose that is not in with all of its radius, the widest circle that cuts on a level
+/// floor.
+double contact_diameter(const model::Cutter& c, double depth_mm) {
+  const double d = c.cutting_diameter_mm;
+  const double r = c.cutter_class == CutterClass::kBallEndmill ? 0.5 * d : c.corner_radius_mm;
+  if (!(r > 0.0) || !(depth_mm > 0.0) || depth_mm >= r) return d;
+  return d - 2.0 * r + 2.0 * std::sqrt(depth_mm * (2.0 * r - depth_mm));
+}
+
+/// Cutting of one tool, in edges that it takes.
+struct Edges {
+  const StepMoves* first_worn = nullptr;  ///< the step in which its first edge is at its end
+  double minutes = 0.0, edges = 0.0;
+};
+
+struct Turned {
+  double rpm = 0.0, minutes = 0.0;
+};
+
+Turned turned(const StepMoves& s) {
+  Turned out;
+  for (const Move& m : s.moves) {
+    const double length = length_of(m);
+    if (m.kind == model::MoveKind::kRapid || !(m.feed_mm_min > 0.0) || length >= kUnknownHeightMm) continue;
+    out.rpm = std::max(out.rpm, std::abs(m.spindle_rpm));
+    out.minutes += length / m.feed_mm_min;
+  }
+  return out;
+}
+
+std::string speed_text(double vc) { return trimmed(vc, 1) + " m/min"; }
+
+class Speed {
+ public:
+  Speed(const model::Plan& plan, const StepMoves& s, Findings& findings)
+      : plan_(plan), s_(s), c_(*s.cutter), out_(findings), cut_(turned(s)) {}
+
+  /// Says what is wrong with the speed; else counts what the step takes of the tool's edge.
+  void judge(Edges& worn) {
+    if (!(cut_.rpm > 0.0)) return;
+    const auto ref = reference_of(plan_.material, c_, c_.substrate);
+    if (!ref) return;
+    const bool told = judged(*ref);
+    const double life = s_.planned->loads.tool_life_min;
+    if (told || !(life > 0.0) || c_.life_min > 0.0) return;
+    worn.minutes += cut_.minutes;
+    worn.edges += cut_.minutes / life;
+    if (worn.edges > 1.0 && worn.first_worn == nullptr) worn.first_worn = &s_;
+  }
+
+ private:
+  bool judged(const Reference& ref) {
+    const double level = tells_speed(c_) ? contact_diameter(c_, s_.planned->axial_depth_mm) : 0.0;
+    // On a steep surface a round nose touches up to its whole diameter, however thin the layer is.
+    const double widest = level > 0.0 && freeform() ? c_.cutting_diameter_mm : level;
+    vc_ = speed(widest);
+    if (!(ref.vc_m_min > 0.0)) {
+      not_for_it();
+      return true;
+    }
+    if (!(widest > 0.0) || vc_ <= kFaster * ref.vc_m_min) return false;
+    if (level < widest) {
+      where_ = " on the tool's whole diameter, which a steep surface touches";
+      if (gentle_enough(ref, speed(level))) return false;
+    }
+    tell(ref);
+    return true;
+  }
+
+  [[nodiscard]] double speed(double diameter_mm) const {
+    return std::numbers::pi * diameter_mm * cut_.rpm / 1000.0;
+  }
+
+  [[nodiscard]] bool freeform() const {
+    const auto* ws = plan_.model.get<model::MachiningWorkingstep>(s_.planned->step);
+    return ws != nullptr && (plan_.model.holds<model::FreeformFinishMilling>(ws->its_operation) ||
+                             plan_.model.holds<model::FreeformRoughMilling>(ws->its_operation));
+  }
+
+  /// How steep the surface is that a round nose meets is not measured here. Where the plan predicts a usual
+  /// life it was, but that is the plan's word: it counts only as far as the narrowest circle bears it out.
+  [[nodiscard]] bool gentle_enough(const Reference& ref, double narrowest_m_min) const {
+    const double most = kFaster * ref.vc_m_min;
+    const double predicted = s_.planned->loads.tool_life_min;
+    return narrowest_m_min <= most && predicted > ref.life_at(most) &&
+           predicted <= ref.life_at(narrowest_m_min / kFaster);
+  }
+
+  /// Whether the step is right for carbide, where what the cutter is made of is only assumed.
+  [[nodiscard]] std::optional<Reference> as_carbide() const {
+    if (c_.substrate != Substrate::kHss || !substrate_assumed(c_)) return std::nullopt;
+    return reference_of(plan_.material, c_, Substrate::kCarbide);
+  }
+
+  [[nodiscard]] bool too_short(const Reference& r) const {
+    return !(r.vc_m_min > 0.0) || r.life_at(vc_ / (kCardShort * r.coated)) < cut_.minutes;
+  }
+
+  void not_for_it() {
+    const auto carbide = as_carbide();
+    const bool mild = carbide && !too_short(*carbide);
+    const std::string text =
+        plan_.material.id + " is not cut with " + std::string(model::to_text(c_.substrate)) +
+        ": its card has no speed for it, and tool " + c_.id + " states none for this material" +
+        (vc_ > 0.0 ? " (the step cuts at " + speed_text(vc_) + ")" : std::string());
+    if (mild)
+      out_.warn(16, "CHK-SPEED-MATERIAL", at(), text + "; that the tool is hss is only assumed: " + state());
+    else
+      out_.error(16, "CHK-SPEED-MATERIAL", at(),
+                 text +
+                     (carbide ? "; that the tool is hss is only assumed, and as carbide it would not last "
+                                "its step either"
+                              : std::string()) +
+                     "; use a tool that is for it",
+                 vc_);
+  }
+
+  void tell(const Reference& ref) {
+    const auto carbide = as_carbide();
+    const bool assumed = carbide && carbide->vc_m_min > 0.0;
+    const Reference& by = assumed ? *carbide : ref;
+    const double rpm = std::floor(cut_.rpm * ref.vc_m_min / vc_);
+    std::string text = "a cutting speed of " + speed_text(vc_) + where_ + " in " + plan_.material.id +
+                       " with " + c_.id + "; at most " + speed_text(kFaster * ref.vc_m_min) + ", " +
+                       plain(kFaster) + " times " + ref.source + " (" + speed_text(ref.vc_m_min) +
+                       "): an edge lasts " + life_text(ref.life_at(vc_)) + " of the step's " +
+                       trimmed(cut_.minutes, 2) + " min";
+    if (assumed && vc_ <= kFaster * carbide->vc_m_min) {
+      text += "; that the tool is hss is only assumed, and carbide bears " + speed_text(carbide->vc_m_min) +
+              ": " + state();
+      return out_.warn(16, "CHK-SPEED-MATERIAL", at(), text, vc_);
+    }
+    if (assumed)
+      text += "; that the tool is hss is only assumed, but carbide bears no more than " +
+              speed_text(carbide->vc_m_min);
+    text += "; lower the spindle to " + plain(rpm) + " 1/min, or use a tool that bears more";
+    if (too_short(by))
+      out_.error(30, "CHK-EDGE-LIFE", at(), text, vc_);
+    else
+      out_.warn(16, "CHK-SPEED-MATERIAL", at(), text, vc_);
+  }
+
+  static std::string life_text(double minutes) {
+    if (minutes >= 0.1) return trimmed(minutes, 1) + " min";
+    return minutes >= 2e-3 ? trimmed(60.0 * minutes, 1) + " s" : "less than 0.1 s";
+  }
+  static std::string state() { return "state what it is made of"; }
+  [[nodiscard]] Findings::Where at() const { return {s_.order + 1, s_.id, -1}; }
+
+  const model::Plan& plan_;
+  const StepMoves& s_;
+  const model::Cutter& c_;
+  Findings& out_;
+  Turned cut_;
+  double vc_ = 0.0;
+  std::string where_;  ///< what of the tool that is the speed of, where it is not plain
+};
+
+/// The narrowest zone that is stated of a shape's sizes across; 0: none.
+double zone_of(const model::FeatureShape& shape) {
+  double zone = 0.0;
+  for (const auto& t : {shape.width, shape.length, shape.diameter})
+    if (t.given && t.width() > 0.0) zone = zone > 0.0 ? std::min(zone, t.width()) : t.width();
+  return zone;
+}
+
+/// What the workpiece asks for where a size states nothing; 0: nothing.
+double general_zone(const model::Plan& plan, model::AnyRef feature) {
+  const auto* f = plan.model.get<model::ManufacturingFeature>(feature);
+  const auto* piece = f == nullptr ? nullptr : plan.model.get<model::Workpiece>(f->its_workpiece);
+  return piece == nullptr ? 0.0 : 2.0 * model::global_tolerance_of(*piece).value_or(0.0);
+}
+
+/// The narrowest zone that is stated of a feature's sizes across, else of the workpiece; 0: none. Which
+/// element of a compound hole a step makes is not known here: the widest of them all, none where one has
+/// none.
+double zone_of(const model::Plan& plan, const PartShapes& part, model::AnyRef feature) {
+  const double general = general_zone(plan, feature);
+  const auto* e = part.find(feature);
+  if (e == nullptr || e->shapes.empty()) return general;
+  const bool compound = e->shapes.size() > 1 && e->shapes.front().kind == model::ShapeKind::kHole;
+  double least = 0.0, most = 0.0;
+  for (const model::FeatureShape& shape : e->shapes) {
+    const double stated = zone_of(shape);
+    const double zone = stated > 0.0 ? stated : general;
+    if (!(zone > 0.0) && compound) return 0.0;
+    most = std::max(most, zone);
+    if (stated > 0.0) least = least > 0.0 ? std::min(least, stated) : stated;
+  }
+  if (compound) return most;
+  return least > 0.0 ? least : general;
+}
+
+double youngs_modulus(const model::Cutter& c) {
+  return c.substrate == Substrate::kHss ? mechanics::kHssYoungsModulusNMm2
+                                        : mechanics::kCarbideYoungsModulusNMm2;
+}
+
+/// Of a bar that is loaded at its end: 3 E d bent / (2 L^2), N/mm2; 0: its length is not known.
+double bending_stress(const model::Cutter& c, double bent_mm) {
+  if (!(c.stick_out_mm > 0.0)) return 0.0;
+  return 1.5 * youngs_modulus(c) * c.cutting_diameter_mm * bent_mm / (c.stick_out_mm * c.stick_out_mm);
+}
+
+void judge_bending(const model::Plan& plan, const PartShapes& part, const StepMoves& s, Findings& findings) {
+  const model::StepLoads& l = s.planned->loads;
+  const model::Cutter& c = *s.cutter;
+  const Findings::Where at{s.order + 1, s.id, -1};
+  const std::string load = " at the largest load that the plan reckons with (" + plain(l.peak_force_n) +
+                           " N, " + plain(l.force_margin) + " times the expected one)";
+  // A face mill's body is no bar.
+  const bool mills = !works_along_axis(c) && c.cutter_class != CutterClass::kFacemill;
+  const char* stiffer = ": cut less deep or less wide, feed slower, or use a stiffer or shorter cutter";
+  // Whatever it does to the wall, no tool bears that.
+  const double stress = mills ? bending_stress(c, l.deflection_mm) : 0.0;
+  if (stress > kBreakingNMm2) {
+    findings.error(21, "CHK-BENDING", at,
+                   "tool " + c.id + " bends by " + mm(l.deflection_mm) + load + ", which is a stress of " +
+                       trimmed(stress, 0) + " N/mm2 in its shank; it breaks at " + trimmed(kBreakingNMm2, 0) +
+                       stiffer,
+                   l.deflection_mm);
+  }
+  const double wall = std::abs(l.wall_error_mm);
+  const auto* ws = plan.model.get<model::MachiningWorkingstep>(s.planned->step);
+  const double zone = wall > 0.0 && ws != nullptr ? zone_of(plan, part, ws->its_feature) : 0.0;
+  if (zone > 0.0) {
+    const std::string what = "tool " + c.id + " is pushed " + mm(wall) + " off the wall" + load + "; ";
+    const char* todo = ": feed slower, leave less, or use a stiffer or shorter cutter";
+    if (wall <= kModelErrorMm) return;
+    if (wall > kWallOfZone * zone)
+      findings.error(21, "CHK-WALL-ERROR", at,
+                     what + "of a tolerance of " + mm(zone) + " in all, " + mm(kWallOfZone * zone) +
+                         " is the most that one wall may be off" + todo,
+                     wall);
+    else if (wall > kMeasured * kBothOfZone * zone)
+      findings.warn(21, "CHK-WALL-ERROR", at,
+                    what + "two walls together leave a tolerance of " + mm(zone) + " from " +
+                        mm(kBothOfZone * zone) + " each on" + todo,
+                    wall);
+    return;
+  }
+  // What no tolerance judges is held against what roughing may bend.
+  const double bent = std::max(l.deflection_mm, wall);
+  if (stress > kBreakingNMm2 || !mills || bent <= kMeasured * kMostBentMm) return;
+  findings.warn(21, "CHK-BENDING", at,
+                "tool " + c.id + " bends by " + mm(bent) + load + "; at most " + mm(kMostBentMm) + stiffer,
+                bent);
+}
+
+}  // namespace
+
+void check_predicted(const model::Plan& plan, const std::vector<StepMoves>& steps, Findings& findings) {
+  const PartShapes part = shapes_of_part(plan);
+  std::map<std::string, Edges> worn;
+  for (const StepMoves& s : steps) {
+    if (s.planned == nullptr || s.cutter == nullptr || !(s.cutter->cutting_diameter_mm > 0.0)) continue;
+    if (s.cutter->cutter_class == CutterClass::kTouchProbe) continue;
+    Speed(plan, s, findings).judge(worn[s.cutter->id]);
+    judge_bending(plan, part, s, findings);
+  }
+  for (const auto& [id, w] : worn) {
+    if (w.first_worn == nullptr) continue;
+    const Findings::Where at{w.first_worn->order + 1, w.first_worn->id, -1};
+    const std::string text =
+        "tool " + id + " wears out in this step: it cuts " + trimmed(w.minutes, 1) +
+        " min in all, and at these speeds an edge lasts " + trimmed(w.minutes / w.edges, 1) +
+        " min; it takes " + trimmed(std::ceil(w.edges - 1e-9), 0) +
+        " edges: load sister tools, or change the edge at a stop; state its life_min where it "
+        "is known";
+    if (w.edges > kSurelyWorn)
+      findings.warn(30, "CHK-EDGES", at, text);
+    else
+      findings.note(30, "CHK-EDGES", at, text);
+  }
+}
+
+}  // namespace capstan::verify

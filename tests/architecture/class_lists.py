@@ -1,0 +1,79 @@
+#!/usr/bin/env python3
+"""Fails where a statement or a switch outside the vocabulary tells more than three classes of cutter apart.
+
+    class_lists.py [ROOT]
+
+What is true of a class is a column of planner/ground/vocabulary/cutter_class.cpp. A list of classes elsewhere is
+a place that whoever adds a class would have to know of. Allowed are the folders of ALLOWED, each with its reason.
+"""
+
+import os
+import re
+import sys
+
+FOLDERS = ("planner", "rules", "casebase", "tooling", "include")
+MOST = 3
+ALLOWED = {
+    "planner/ground/vocabulary/": "the table itself",
+    "rules/strategy/": "which classes a step asks for, in order of preference",
+    "planner/proof/verify/": "copies on purpose: tests/proof/verify/copies_test.cpp holds them to the table",
+    "tooling/library/formats/din4000/codes.cpp": "figures of one format's tables: several for one class",
+}
+CLASS = re.compile(r"\bCutterClass::(k\w+)")
+CASE = re.compile(r"\bcase (?:\w+::)*CutterClass::(k\w+)")
+COMMENT = re.compile(r"//[^\n]*")
+
+
+def parts_of(text):
+    """(offset, enumerators) of each statement and of each switch."""
+    at = 0
+    for statement in text.split(";"):
+        yield at, set(CLASS.findall(statement))
+        at += len(statement) + 1
+    for match in re.finditer(r"\bswitch \(", text):
+        end = text.find("\n}\n", match.start())
+        yield match.start(), set(CASE.findall(text[match.start():end]))
+
+
+def faults(files):
+    """One text per list; `files` are (path, text)."""
+    found = []
+    for path, text in files:
+        if path.startswith(tuple(ALLOWED)):
+            continue
+        text = COMMENT.sub("", text)
+        for at, classes in parts_of(text):
+            if len(classes) <= MOST:
+                continue
+            first = text.index("CutterClass::", at)
+            line = text.count("\n", 0, first) + 1
+            found.append(f"{path}:{line}: {len(classes)} classes of cutter in one list; make it a trait of "
+                         "planner/ground/vocabulary/cutter_class.cpp")
+    return found
+
+
+def read_all(root):
+    for top in FOLDERS:
+        for folder, folders, names in os.walk(os.path.join(root, top)):
+            folders.sort()
+            for name in sorted(names):
+                if name.endswith((".h", ".cpp")):
+                    path = os.path.join(folder, name)
+                    with open(path, encoding="utf-8") as file:
+                        yield os.path.relpath(path, root), file.read()
+
+
+def main(root):
+    files = list(read_all(root))
+    if not files:
+        print(f"{root}: there is nothing to look at")
+        return 1
+    found = faults(files)
+    for text in found:
+        print(text)
+    print(f"{len(files)} files, {len(found)} faults")
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1] if len(sys.argv) > 1 else "."))

@@ -1,0 +1,62 @@
+#include "planner/door/service/formats.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "planner/controls/controls.h"
+#include "planner/door/service/outputs.h"
+#include "planner/door/service/reading.h"
+#include "planner/ground/vocabulary/control_kind.h"
+
+namespace capstan::service {
+namespace {
+
+TEST(Formats, NamesAndEndingsAreUnique) {
+  std::set<std::string_view> names, endings;
+  for (const Format& f : formats()) {
+    EXPECT_TRUE(names.insert(f.name).second) << f.name;
+    EXPECT_FALSE(f.endings.empty()) << f.name;
+    for (const std::string_view e : f.endings) EXPECT_TRUE(endings.insert(e).second) << e;
+    EXPECT_EQ(f.of_program() && f.write != nullptr, f.control != nullptr) << f.name;
+  }
+}
+
+TEST(Formats, EachControlHasAProgramAndAToolTable) {
+  for (const controls::Dialect& d : controls::dialects()) {
+    ASSERT_NE(find_format(d.id), nullptr);
+    EXPECT_EQ(find_format(d.id)->control, &d);
+    EXPECT_EQ(format_of_ending(model::control_kind(d.id).program_ending), find_format(d.id));
+    EXPECT_EQ(format_of_ending(model::control_kind(d.id).tool_table_ending), find_format(d.tool_table_name));
+  }
+}
+
+TEST(Formats, AnOutputsEndingTellsItsFormat) {
+  for (const Format& f : formats()) {
+    for (const std::string_view e : f.endings) {
+      const auto output = output_of("a" + std::string(e));
+      EXPECT_EQ(output.has_value(), f.write != nullptr) << e;
+      if (output) EXPECT_EQ(output->format, &f) << e;
+    }
+  }
+  EXPECT_EQ(output_of("-")->format, find_format("json"));
+  EXPECT_EQ(output_of("A.NGC")->format, find_format("linuxcnc"));
+}
+
+TEST(Formats, TextsForPeopleAreMadeOfTheTable) {
+  EXPECT_EQ(written_endings(), ".p21, .stp, .stpnc, .238, .json, .ngc or .tbl");
+  EXPECT_EQ(written_text(),
+            "ISO 14649 .p21 .stp, AP238 .stpnc .238, plan .json, program .ngc, tool table .tbl");
+  EXPECT_EQ(endings_of(Holds::kProgram), ".ngc");
+  EXPECT_EQ(read_text(), "ISO 14649 or AP238 file (.p21 .stp .stpnc .238), plan JSON, or STL mesh");
+}
+
+TEST(Formats, AByteOrderMarkIsNoPartOfTheContent) {
+  EXPECT_EQ(content_of("\xEF\xBB\xBF {}"), Content::kPlanJson);
+  EXPECT_EQ(content_of("{}"), Content::kPlanJson);
+  EXPECT_EQ(content_of("T1 P1 D6"), Content::kToolTable);
+  EXPECT_EQ(content_of("G0 X1"), Content::kProgram);
+}
+
+}  // namespace
+}  // namespace capstan::service

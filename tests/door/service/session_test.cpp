@@ -1,0 +1,93 @@
+#include "planner/door/service/session.h"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "planner/door/service/options.h"
+#include "tests/support/corpus.h"
+
+namespace capstan::service {
+namespace {
+
+const std::string kSource = CAPSTAN_SOURCE_DIR;
+
+/// A whole transport, as another program might speak to a session over a pipe. A line asks, a line answers:
+///
+///     set NAME VALUE          -> CODE
+///     bind MILLISECONDS SIZE  -> CODE, after SIZE bytes of the plan
+///     output FORMAT           -> SIZE, and that many bytes
+///     message                 -> SIZE, and that many bytes
+void serve_lines(std::istream& in, std::ostream& out) {
+  Session session;
+  const auto sized = [&](const std::string& text) { out << text.size() << "\n" << text; };
+  for (std::string line; std::getline(in, line);) {
+    std::istringstream words(line);
+    std::string what, name;
+    words >> what;
+    if (what == "set") {
+      std::string value;
+      words >> name >> std::ws;
+      std::getline(words, value);
+      out << static_cast<int>(session.set(name, value)) << "\n";
+    } else if (what == "bind") {
+      long milliseconds = 0;
+      std::size_t size = 0;
+      words >> milliseconds >> size;
+      std::string plan(size, '\0');
+      in.read(plan.data(), static_cast<std::streamsize>(size));
+      out << static_cast<int>(session.bind(std::move(plan), std::chrono::milliseconds(milliseconds))) << "\n";
+    } else if (what == "output") {
+      words >> name;
+      const std::string* text = session.output(name);
+      sized(text == nullptr ? std::string() : *text);
+    } else if (what == "message") {
+      sized(session.message());
+    }
+  }
+}
+
+TEST(Session, ATransportOfLinesIsOneFunctionOverIt) {
+  const std::string plan = testing::slurp(kSource + "/examples/plate_bound.p21");
+  std::istringstream in("set machine generic_vmc\nset tools " + kSource +
+                        "/tests/door/late/magazine.tbl\nset margin wild\nbind 600000 " +
+                        std::to_string(plan.size()) + "\n" + plan + "output linuxcnc\n");
+  std::ostringstream out;
+  serve_lines(in, out);
+  std::istringstream said(out.str());
+  int machine = -1, tools = -1, margin = -1, bound = -1;
+  std::size_t size = 0;
+  said >> machine >> tools >> margin >> bound >> size;
+  EXPECT_EQ(machine, 0);
+  EXPECT_EQ(tools, 0);
+  EXPECT_EQ(margin, static_cast<int>(Code::kUsage));
+  EXPECT_EQ(bound, 0);
+  EXPECT_GT(size, 100U);
+  const std::string text = out.str();
+  ASSERT_GT(text.size(), size);
+  EXPECT_EQ(text.substr(text.size() - size, 17), "(CAPSTAN PROGRAM ");
+}
+
+TEST(Session, OpensItsShopOnceAndAnewAfterAnOption) {
+  Session s;
+  ASSERT_EQ(s.set("machine", "no such machine"), Code::kDone);
+  EXPECT_EQ(s.open(), Code::kUnreadable);
+  EXPECT_EQ(s.bind("x", std::nullopt), Code::kUsage);
+  ASSERT_EQ(s.set("machine", "generic_vmc"), Code::kDone);
+  EXPECT_EQ(s.open(), Code::kDone) << s.message();
+  EXPECT_EQ(s.bind("not a plan", std::nullopt), Code::kUnreadable);
+  EXPECT_EQ(s.output("json"), nullptr);
+  EXPECT_EQ(s.machining_s(), 0.0);
+}
+
+TEST(Session, BindsWithThePlansOwnToolsWhenNoneAreNamed) {
+  Session s;
+  ASSERT_EQ(s.set("machine", "generic_vmc"), Code::kDone);
+  // The example states its tools' sizes and no tool numbers: nothing of it is loaded.
+  EXPECT_EQ(s.bind(testing::slurp(kSource + "/examples/bracket.p21"), std::nullopt), Code::kUsage);
+  EXPECT_NE(s.message().find("no cutter of the library is in the magazine"), std::string::npos)
+      << s.message();
+}
+
+}  // namespace
+}  // namespace capstan::service

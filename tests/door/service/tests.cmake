@@ -1,0 +1,1 @@
+capstan_test(service DEPENDS service transport)

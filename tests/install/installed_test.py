@@ -1,0 +1,211 @@
+#!/usr/bin/env python3
+"""What `cmake --install --strip` lays down: each file, what the libraries export, that programs find and link them,
+and that manual pages and completion say what the command's own --help says."""
+
+import argparse
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import unittest
+
+GIVEN = None  # the arguments
+
+
+def run(*command, **more):
+    """Standard output; a command that fails is a failure of the test, with what it said."""
+    done = subprocess.run(command, capture_output=True, text=True, **more)
+    if done.returncode != 0:
+        raise AssertionError(f"{' '.join(command)}\nended with {done.returncode}\n{done.stdout}{done.stderr}")
+    return done.stdout
+
+
+def in_prefix(*parts):
+    return os.path.join(GIVEN.scratch, "prefix", *parts)
+
+
+def library(name):
+    return in_prefix(GIVEN.libdir, f"lib{name}.so")
+
+
+def read(path):
+    with open(path, encoding="utf-8") as file:
+        return file.read()
+
+
+def setUpModule():
+    shutil.rmtree(GIVEN.scratch, ignore_errors=True)
+    run(GIVEN.cmake, "--install", GIVEN.built, "--prefix", in_prefix(), "--strip")
+
+
+class Tree(unittest.TestCase):
+    def test_holds_the_files_of_the_list_and_no_other(self):
+        there = set()
+        for folder, _, names in os.walk(in_prefix()):
+            there |= {os.path.relpath(os.path.join(folder, name), in_prefix()) for name in names}
+        lines = read(os.path.join(GIVEN.source, "tests/install/files.txt"))
+        for key, value in {"LIBDIR": GIVEN.libdir, "VERSION": GIVEN.version,
+                           "MINOR": GIVEN.version.rpartition(".")[0]}.items():
+            lines = lines.replace(f"@{key}@", value)
+        wanted = {line for line in lines.split("\n") if line and not line.startswith("#")}
+        below = {line[:-2] for line in wanted if line.endswith("/**")}
+        wanted -= {line + "**" for line in below}
+        for folder in below:
+            inside = {path for path in there if path.startswith(folder)}
+            self.assertTrue(inside, f"{folder} is empty")
+            there -= inside
+        self.assertEqual(sorted(there), sorted(wanted))
+
+    def test_is_stripped_and_looks_for_libraries_nowhere_else(self):
+        for path in (in_prefix("bin/capstan"), library("capstan"), library("capstan_late")):
+            sections = run("readelf", "--wide", "--section-headers", path)
+            self.assertNotRegex(sections, r"\.symtab|\.debug", path)
+            self.assertNotRegex(run("readelf", "--wide", "--dynamic", path), r"\(R(UN)?PATH\)", path)
+
+    def test_needs_neither_mpi_nor_hdf5(self):
+        for path in (in_prefix("bin/capstan"), library("capstan"), library("capstan_late")):
+            self.assertNotRegex(run("readelf", "--wide", "--dynamic", path), r"NEEDED.*\[lib(mpi|hdf5|flann)", path)
+
+    def test_holds_a_schema_that_is_json(self):
+        self.assertIn("$schema", json.loads(read(in_prefix("share/capstan/plan.schema.json"))))
+
+
+class Exports(unittest.TestCase):
+    """What the dynamic linker sees is what the header marks, and the reverse."""
+
+    def exported(self, name):
+        lines = run("nm", "--dynamic", "--defined-only", "--demangle", library(name)).splitlines()
+        return sorted(re.sub(r"\[abi:\w+\]", "", line.split(" ", 2)[2]).partition("(")[0] for line in lines)
+
+    def marked(self, header, mark):
+        text = re.sub(r"#define.*", "", read(in_prefix("include/capstan", header)))
+        return sorted(re.findall(mark + r"\s[^;(]*?(\w+)\(", text))
+
+    def test_of_the_library_are_its_header_and_nothing_else(self):
+        marked = self.marked("capstan.h", "CAPSTAN_API")
+        self.assertIn("plan_file", marked)
+        self.assertEqual(self.exported("capstan"), ["capstan::" + name for name in marked])
+
+    def test_of_late_binding_are_its_header_and_nothing_else(self):
+        marked = self.marked("capstan_late.h", "CAPSTAN_LATE_API")
+        self.assertIn("capstan_late_bind", marked)
+        self.assertEqual(self.exported("capstan_late"), marked)
+
+
+class Consumer(unittest.TestCase):
+    SOURCE = property(lambda self: os.path.join(GIVEN.source, "tests/install/consumer"))
+    UNREADABLE = "3"  # CAPSTAN_LATE_UNREADABLE
+
+    def test_is_served_by_find_package(self):
+        build = os.path.join(GIVEN.scratch, "build")
+        run(GIVEN.cmake, "-S", self.SOURCE, "-B", build, "-G", GIVEN.generator, f"-DCMAKE_CXX_COMPILER={GIVEN.cxx}",
+            f"-DCMAKE_C_COMPILER={GIVEN.cc}", f"-DCMAKE_PREFIX_PATH={in_prefix()}",
+            "-DCMAKE_FIND_USE_PACKAGE_REGISTRY=OFF", f"-DWANTED={GIVEN.version}")
+        run(GIVEN.cmake, "--build", build)
+        self.assertEqual(run(os.path.join(build, "consumer")).strip(), GIVEN.version)
+        self.assertEqual(run(os.path.join(build, "late_consumer")).strip(), self.UNREADABLE)
+
+    def test_is_served_by_pkg_config(self):
+        found = dict(os.environ, PKG_CONFIG_PATH=in_prefix(GIVEN.libdir, "pkgconfig"))
+        linked = dict(os.environ, LD_LIBRARY_PATH=in_prefix(GIVEN.libdir))
+        for package, compiler, source, says in (
+                ("capstan", GIVEN.cxx, "consumer.cpp", GIVEN.version),
+                ("capstan_late", GIVEN.cc, "late_consumer.c", self.UNREADABLE)):
+            self.assertEqual(run("pkg-config", "--modversion", package, env=found).strip(), GIVEN.version)
+            flags = run("pkg-config", "--cflags", "--libs", package, env=found).split()
+            program = os.path.join(GIVEN.scratch, package + "_by_pkg_config")
+            run(compiler, os.path.join(self.SOURCE, source), "-o", program, *flags)
+            self.assertEqual(run(program, env=linked).strip(), says)
+
+
+class Manual(unittest.TestCase):
+    """The pages and the completion are generated; --help is the other way from the same options to a reader."""
+
+    @staticmethod
+    def help_of(*command):
+        """Commands below, and option -> its values, as --help lists them."""
+        text = run(in_prefix("bin/capstan"), *command, "--help")
+        below = re.search(r"^Subcommands:\n((?:  .*\n?)+)", text, re.M)
+        commands = re.findall(r"^  (\w+)  ", below[1], re.M) if below else []
+        options = {}
+        for name, rest in re.findall(r"^  (?:-\w,)?(--[\w-]+)(.*)", text, re.M):
+            values = re.search(r"\{([^}]*)\}", rest)
+            options[name] = values[1].split(",") if values else []
+        return commands, options, "-o,--output" in text
+
+    def every_command(self):
+        """(words, options) of each command; a page for each first word."""
+        first, options, _ = self.help_of()
+        yield [], options
+        for name in first:
+            below, options, _ = self.help_of(name)
+            yield [name], options
+            for sub in below:
+                yield [name, sub], self.help_of(name, sub)[1]
+
+    @staticmethod
+    def page(command):
+        text = read(in_prefix("share/man/man1", "-".join(["capstan"] + command[:1]) + ".1"))
+        return text.replace("\\-", "-")
+
+    def complete(self, *words):
+        script = ('source "$1"; shift; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _capstan; '
+                  'printf "%s\\n" "${COMPREPLY[@]}"')
+        return run("bash", "-c", script, "bash", in_prefix("share/bash-completion/completions/capstan"),
+                   "capstan", *words).split()
+
+    def test_says_of_each_command_every_option_and_value_of_its_help(self):
+        seen = 0
+        for command, options in self.every_command():
+            page = self.page(command)
+            if len(command) == 2:  # a section of its parent's page
+                page = page.partition(f".SS capstan {' '.join(command)}\n")[2].partition("\n.S")[0]
+            for option, values in options.items():
+                if option == "--help" or command and option in ("--diagnostics", "--threads", "--version"):
+                    continue
+                seen += 1
+                self.assertIn(f"\\fB{option}\\fR", page, command)
+                for value in values:
+                    self.assertIn(f"\\fB{value}\\fR", page, (command, option))
+        self.assertGreater(seen, 60)
+
+    def test_names_every_exit_status_of_the_readme(self):
+        table = read(in_prefix("share/doc/capstan/README.md")).partition("## Exit status")[2].partition("\n## ")[0]
+        wanted = re.findall(r"^\| (\d+) \|", table, re.M)
+        status = self.page([]).partition('.SH "EXIT STATUS"')[2]
+        self.assertEqual(re.findall(r"^\\fB(\d+)\\fR$", status, re.M), wanted)
+
+    def test_is_set_without_a_complaint(self):
+        if shutil.which("groff") is None:
+            self.skipTest("groff is not there (Debian: groff-base)")
+        pages = in_prefix("share/man/man1")
+        for name in sorted(os.listdir(pages)):
+            done = subprocess.run(["groff", "-man", "-ww", "-z", "-Tutf8", os.path.join(pages, name)],
+                                  capture_output=True, text=True)
+            self.assertEqual((done.returncode, done.stderr), (0, ""), name)
+
+    def test_completes_every_command_option_and_value_of_the_help(self):
+        for command, options in self.every_command():
+            if len(command) < 2 and (below := self.help_of(*command)[0]):
+                self.assertEqual(sorted(self.complete(*command, "")), sorted(below))
+            self.assertLessEqual(set(options), set(self.complete(*command, "--")), command)
+            for option, values in options.items():
+                if values:
+                    self.assertEqual(self.complete(*command, option, ""), values)
+                    self.assertEqual(self.complete(*command, option, "=", ""), values)
+
+    def test_completes_file_names_where_the_command_takes_any_word(self):
+        self.assertEqual(self.complete("plan", ""), [])
+        self.assertEqual(self.complete("plan", "part.p21", "--machine", ""), [])
+        self.assertEqual(self.complete("plan", "part.p21", "--margin", "b"), ["bold"])
+        self.assertEqual(self.complete("--threads", "2", "tools", "l"), ["list"])
+
+
+if __name__ == "__main__":
+    arguments = argparse.ArgumentParser()
+    for name in ("source", "built", "scratch", "libdir", "version", "cmake", "generator", "cxx", "cc"):
+        arguments.add_argument("--" + name, required=True)
+    GIVEN, rest = arguments.parse_known_args()
+    unittest.main(argv=[sys.argv[0], *rest], verbosity=2)

@@ -1,0 +1,86 @@
+#include "planner/proof/verify/copies.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "planner/ground/vocabulary/operation.h"
+#include "planner/ground/vocabulary/work_offset.h"
+#include "planner/proof/verify/sweep/step_checks.h"
+
+namespace capstan::verify {
+namespace {
+
+using model::CutterClass;
+using model::CutterTrait;
+using Classes = std::set<CutterClass>;
+
+/// Classes for which the check says something else than the trait does.
+template <class Says>
+Classes differing(Says says, CutterTrait t) {
+  Classes out;
+  for (const model::CutterClassRow& r : model::cutter_classes()) {
+    if (says(r.value) != model::has(r.value, t)) out.insert(r.value);
+  }
+  return out;
+}
+
+TEST(Copies, WorkAlongTheAxisAsTheTableSays) {
+  const auto says = [](CutterClass c) {
+    model::Cutter one;
+    one.cutter_class = c;
+    return works_along_axis(one);
+  };
+  EXPECT_EQ(differing(says, CutterTrait::kAlongAxis), Classes{});
+}
+
+TEST(Copies, SizeHolesAsTheTableSays) {
+  EXPECT_EQ(differing(sizes_hole, CutterTrait::kSizesHole), Classes{});
+}
+
+TEST(Copies, BreakEdgesWithTheConesThatSink) {
+  EXPECT_EQ(differing(breaks_edges, CutterTrait::kSinks), Classes{});
+}
+
+// Twist and gun drills cut with all of their cone.
+TEST(Copies, CutByThePointWhatHasOneAndIsNoDrill) {
+  EXPECT_EQ(differing(cuts_by_point, CutterTrait::kPointAngle),
+            (Classes{CutterClass::kTwistDrill, CutterClass::kGunDrill}));
+}
+
+// A side mill's body is thinner above its disc. The planner measures what its head cuts by the height of the
+// disc; the check has heights alone, which do not tell what lies under them.
+TEST(Copies, UndercutAsTheTableSaysAndSideMillsToo) {
+  EXPECT_EQ(differing(undercuts, CutterTrait::kUndercuts), Classes{CutterClass::kSideMill});
+}
+
+// A back counterbore swings out below the part and cuts upwards along its axis: no wall of its feature is
+// beside it.
+TEST(Copies, WorkUnderOverhangsAsTheTableSaysButBackCounterbores) {
+  EXPECT_EQ(differing(under_overhangs, CutterTrait::kUndercuts), Classes{CutterClass::kBackCounterbore});
+}
+
+// Counterbores and back tools are axial, and what they leave at the foot of a wall is their corner, as a
+// mill's is. A probe takes nothing away.
+TEST(Copies, MillWhatTheTableSaysIsNotAxialAndCounterboresToo) {
+  const auto says = [](CutterClass c) { return !mills(c); };
+  EXPECT_EQ(differing(says, CutterTrait::kAlongAxis),
+            (Classes{CutterClass::kCounterbore, CutterClass::kBackCounterbore, CutterClass::kBackCountersink,
+                     CutterClass::kTouchProbe}));
+}
+
+TEST(Copies, FinishWhatTheTableSays) {
+  for (std::size_t i = 0; i < model::kTypeCount; ++i) {
+    const auto op = static_cast<model::TypeId>(i);
+    EXPECT_EQ(finishes(op), model::has(op, model::OperationTrait::kFinishes)) << i;
+  }
+}
+
+TEST(Copies, KnowTheWorkOffsetsOfTheTable) {
+  const auto own = work_offsets();
+  EXPECT_TRUE(std::equal(own.begin(), own.end(), model::kWorkOffsets.begin(), model::kWorkOffsets.end()));
+}
+
+}  // namespace
+}  // namespace capstan::verify

@@ -1,0 +1,360 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <numbers>
+
+#include "planner/proof/verify/verify.h"
+#include "tests/proof/verify/plans.h"
+
+// What a step's own numbers say of speed, edge and bending, whoever chose them.
+
+namespace capstan::verify {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::PlanMaker;
+
+/// The pocket step of the small plan turns at 3000 1/min with a mill of 10 mm: 94.25 m/min.
+constexpr double kSpeed = std::numbers::pi * 10.0 * 3000.0 / 1000.0;
+
+PlanMaker plan_in(double vc_hss, double vc_carbide, model::Substrate substrate) {
+  PlanMaker k = testing::good_plan();
+  k.plan.material.vc_hss_m_min = vc_hss;
+  k.plan.material.vc_carbide_m_min = vc_carbide;
+  k.plan.cutters[0].substrate = substrate;
+  k.plan.cutters[1].substrate = model::Substrate::kCarbide;
+  // The drill is not what is judged: a speed of its own.
+  k.plan.cutters[1].presets = {{"steel", 100.0, 0.05, "stated"}};
+  return k;
+}
+
+std::vector<model::Finding> of(const PlanMaker& k, const std::string& code) {
+  Job job;
+  auto all = check_plan(k.plan, job);
+  std::erase_if(all, [&](const model::Finding& f) { return f.code != code; });
+  return all;
+}
+
+/// A tolerance of +-0.1 on the width and length of the pocket.
+void tolerate(PlanMaker& k, double each_way) {
+  const auto* ws = k.plan.model.get<model::MachiningWorkingstep>(k.plan.steps[0].step);
+  const auto* pocket = k.plan.model.get<model::ClosedPocket>(ws->its_feature);
+  const auto* profile = k.plan.model.get<model::RectangularClosedProfile>(pocket->feature_boundary);
+  for (const auto ref : {profile->profile_width, profile->profile_length}) {
+    model::PlusMinusValue t;
+    t.upper_limit = t.lower_limit = each_way;
+    const auto made = k.plan.model.add(t);
+    k.plan.model.get<model::TolerancedLengthMeasure>(ref)->implicit_tolerance = made;
+  }
+}
+
+TEST(PredictedSpeed, WithinTheCardIsNoFinding) {
+  const auto k = plan_in(25, kSpeed, model::Substrate::kCarbide);
+  EXPECT_TRUE(of(k, "CHK-SPEED-MATERIAL").empty());
+  EXPECT_TRUE(of(k, "CHK-EDGE-LIFE").empty());
+}
+
+TEST(PredictedSpeed, AQuarterAboveTheCardIsStillNone) {
+  const auto k = plan_in(25, kSpeed / 1.249, model::Substrate::kCarbide);
+  EXPECT_TRUE(of(k, "CHK-SPEED-MATERIAL").empty());
+}
+
+// At 1.4 times the card's speed an edge of carbide lasts 15 / 1.4^4 = 3.9 min: far longer than this step.
+TEST(PredictedSpeed, SomewhatAboveTheCardIsAWarningWithBothNumbers) {
+  const auto k = plan_in(25, kSpeed / 1.4, model::Substrate::kCarbide);
+  const auto found = of(k, "CHK-SPEED-MATERIAL");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].severity, Severity::kWarning);
+  EXPECT_EQ(found[0].step, "pocket");
+  EXPECT_THAT(found[0].message, HasSubstr("94.2 m/min"));
+  EXPECT_THAT(found[0].message, HasSubstr("lower the spindle to 2142 1/min"));  // 3000 / 1.4
+  EXPECT_TRUE(of(k, "CHK-EDGE-LIFE").empty());
+}
+
+// At 94 m/min against 20, and were the card too slow by half against 30: 15 min x (30 / 94.2)^8 = 0.0016 min,
+// and the step cuts for more than a minute.
+TEST(PredictedSpeed, ThatBurnsTheEdgeWithinItsStepIsAnError) {
+  const auto k = plan_in(20, 78, model::Substrate::kHss);
+  const auto found = of(k, "CHK-EDGE-LIFE");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].severity, Severity::kError);
+  EXPECT_EQ(found[0].step, "pocket");
+}
+
+TEST(PredictedSpeed, WhatTheCardSaysIsNotCutWithHssIsAnError) {
+  const auto found = of(plan_in(0, 60, model::Substrate::kHss), "CHK-SPEED-MATERIAL");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].severity, Severity::kError);
+  EXPECT_THAT(found[0].message, HasSubstr("steel is not cut with hss"));
+}
+
+TEST(PredictedSpeed, APresetOfAGroupDoesNotOverruleTheCardThatSaysNotWithHss) {
+  auto k = plan_in(0, 60, model::Substrate::kHss);
+  k.plan.cutters[0].presets = {{"P", 150.0, 0.5, "stated"}};
+  EXPECT_EQ(of(k, "CHK-SPEED-MATERIAL").size(), 1u);
+  k.plan.cutters[0].presets[0].material_group = "steel";  // the material itself
+  EXPECT_TRUE(of(k, "CHK-SPEED-MATERIAL").empty());
+}
+
+TEST(PredictedSpeed, OfAToolThatNobodySaysIsHssIsAWarningWhereCarbideBearsIt) {
+  auto k = plan_in(20, 78, model::Substrate::kHss);
+  k.plan.cutters[0].sources.emplace_back("substrate", "default: not stated, the slower one");
+  const auto found = of(k, "CHK-SPEED-MATERIAL");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].severity, Severity::kWarning);
+  EXPECT_THAT(found[0].message, HasSubstr("that the tool is hss is only assumed"));
+  EXPECT_TRUE(of(k, "CHK-EDGE-LIFE").empty());
+}
+
+// 94 m/min against 10 of carbide's card, even if that were of a coated edge and too slow by half, 25.5:
+// 15 min x (25.5 / 94.2)^4 = 0.08 min, and the step cuts for more than half a minute.
+TEST(PredictedSpeed, ThatNeitherHssNorCarbideBearsIsAnErrorWhateverTheToolIsMadeOf) {
+  auto k = plan_in(5, 10, model::Substrate::kHss);
+  k.plan.cutters[0].sources.emplace_back("substrate", "default: not stated, the slower one");
+  EXPECT_EQ(of(k, "CHK-EDGE-LIFE").size(), 1u);
+}
+
+TEST(PredictedSpeed, IsNotJudgedWhereNoCardStatesOne) {
+  const auto k = plan_in(0, 0, model::Substrate::kHss);
+  EXPECT_TRUE(of(k, "CHK-SPEED-MATERIAL").empty());
+  EXPECT_TRUE(of(k, "CHK-EDGE-LIFE").empty());
+}
+
+// A ball of 10 mm at 0.5 mm depth cuts on a circle of 2 sqrt(0.5 x 9.5) = 4.36 mm only: 41 m/min.
+TEST(PredictedSpeed, OfABallIsThatOfTheWidestCircleThatCuts) {
+  auto k = plan_in(25, 41, model::Substrate::kCarbide);
+  k.plan.cutters[0].cutter_class = model::CutterClass::kBallEndmill;
+  k.plan.cutters[0].corner_radius_mm = 5.0;
+  k.plan.steps[0].axial_depth_mm = 0.5;
+  EXPECT_TRUE(of(k, "CHK-SPEED-MATERIAL").empty());
+  k.plan.steps[0].axial_depth_mm = 5.0;
+  EXPECT_FALSE(of(k, "CHK-SPEED-MATERIAL").empty() && of(k, "CHK-EDGE-LIFE").empty());
+}
+
+/// A finishing of a free surface with a ball of 10 mm, 0.5 mm deep, carbide's card at 41 m/min: on a level
+/// floor it cuts at 41 m/min, on a steep one at 94.
+PlanMaker freeform(double life_min) {
+  auto k = plan_in(25, 41, model::Substrate::kCarbide);
+  k.plan.cutters[0].cutter_class = model::CutterClass::kBallEndmill;
+  k.plan.cutters[0].corner_radius_mm = 5.0;
+  auto* ws = k.plan.model.get<model::MachiningWorkingstep>(k.plan.steps[0].step);
+  ws->its_operation = k.plan.model.add(model::FreeformFinishMilling{});
+  k.plan.steps[0].axial_depth_mm = 0.5;
+  k.plan.steps[0].loads.tool_life_min = life_min;
+  return k;
+}
+
+bool speed_told(const PlanMaker& k) {
+  return !of(k, "CHK-SPEED-MATERIAL").empty() || !of(k, "CHK-EDGE-LIFE").empty();
+}
+
+// 15 min at 41 m/min; at 1.25 times less speed 15 x 1.25^4 = 36.6 min, and at 1.25 times more 6.1.
+TEST(PredictedSpeed, OfABallOnAFreeSurfaceIsThatOfItsDiameterUnlessThePlanMeasuredLess) {
+  EXPECT_TRUE(speed_told(freeform(0.0)));
+  EXPECT_FALSE(speed_told(freeform(15.0)));
+  EXPECT_TRUE(speed_told(freeform(5.0)));  // it says itself that it is fast
+}
+
+TEST(PredictedSpeed, IsJudgedWhateverLifeAFileClaims) {
+  EXPECT_TRUE(speed_told(freeform(1e6)));
+  // In with all of its radius a ball cuts on its diameter.
+  auto k = freeform(15.0);
+  k.plan.steps[0].axial_depth_mm = 5.0;
+  EXPECT_TRUE(speed_told(k));
+  // On no free surface the depth says on what circle it cuts: 0.7 mm, 5.1 mm, 48 m/min.
+  auto pocket = plan_in(25, 30, model::Substrate::kCarbide);
+  pocket.plan.cutters[0].cutter_class = model::CutterClass::kBallEndmill;
+  pocket.plan.cutters[0].corner_radius_mm = 5.0;
+  pocket.plan.steps[0].axial_depth_mm = 0.7;
+  pocket.plan.steps[0].loads.tool_life_min = 1e6;
+  EXPECT_TRUE(speed_told(pocket));
+}
+
+// A drill of 8 mm at 2.5 times the card's speed: 15 / (2.5 / 1.5 / 1.3)^4 = 5.5 min were it coated, as a mill
+// would be 15 / (2.5 / 1.5 / 1.7)^4 = 16.2.
+TEST(PredictedSpeed, OfACoatedDrillIsNotThatOfACoatedMill) {
+  auto k = plan_in(10, 30, model::Substrate::kCarbide);
+  k.plan.material.iso_group = "P";
+  k.plan.cutters[1].presets.clear();
+  const double rpm = 1000.0 * 2.5 * 30.0 / (std::numbers::pi * k.plan.cutters[1].cutting_diameter_mm);
+  double minutes = 0.0;
+  const auto drill = [&](double feed) {
+    testing::edit_schedule(k.plan, 1, [&](model::FeedSchedule& s) {
+      for (double& f : s.feed_mm_min) f = feed;
+      for (double& n : s.spindle_rpm) n = rpm;
+    });
+    const auto& path = *k.plan.steps[1].path;
+    minutes = 0.0;
+    for (std::size_t i = 1; i < path.size(); ++i)
+      if (path.kind[i] != model::MoveKind::kRapid) minutes += model::move_length(path, i) / feed;
+  };
+  drill(1.0);
+  const double at_one = minutes;
+  drill(at_one / 10.0);  // ten minutes in the hole
+  ASSERT_NEAR(minutes, 10.0, 1e-9);
+  EXPECT_FALSE(of(k, "CHK-EDGE-LIFE").empty());
+  drill(at_one / 4.0);
+  const auto all = of(k, "CHK-EDGE-LIFE");
+  EXPECT_TRUE(std::none_of(all.begin(), all.end(), [](const auto& f) { return f.step == "drill"; }));
+}
+
+// Two steps of one tool and 0.7 of an edge each take two edges, and are told once, where the first ends.
+TEST(PredictedEdges, ThatAToolTakesMoreThanOneOfAreToldOnceWithTheirNumber) {
+  auto k = plan_in(25, kSpeed, model::Substrate::kCarbide);
+  const auto* ws = k.plan.model.get<model::MachiningWorkingstep>(k.plan.steps[0].step);
+  const auto feature = ws->its_feature;
+  k.step<model::BottomAndSideRoughMilling>("again", feature, "em10", testing::pocket_path(), 600, 3000);
+  double minutes = 0.0;
+  const auto path = testing::pocket_path();
+  for (std::size_t i = 2; i + 1 < path.size(); ++i)  // all but the rapids at both ends, straight lines
+    minutes +=
+        std::hypot(path.x[i] - path.x[i - 1], path.y[i] - path.y[i - 1], path.z[i] - path.z[i - 1]) / 600.0;
+  k.plan.steps[0].loads.tool_life_min = k.plan.steps[2].loads.tool_life_min = minutes / 0.7;
+  auto found = of(k, "CHK-EDGES");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].severity, Severity::kNote);
+  EXPECT_EQ(found[0].step, "again");
+  EXPECT_THAT(found[0].message, HasSubstr("it takes 2 edges"));
+  // 2.1 in all: even if the law were wrong by its factor of two, the first edge does not last.
+  k.plan.steps[2].loads.tool_life_min = minutes / 1.4;
+  found = of(k, "CHK-EDGES");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].severity, Severity::kWarning);
+  EXPECT_THAT(found[0].message, HasSubstr("it takes 3 edges"));
+  k.plan.steps[2].loads.tool_life_min = minutes / 0.2;  // 0.9 in all
+  EXPECT_TRUE(of(k, "CHK-EDGES").empty());
+}
+
+// A tool of 10 mm and 4 teeth at 3000 1/min fed with 60 mm/min takes 0.005 mm: more than 0.3 of a carbide
+// edge's 0.008 mm, less than all of it, which alloys that harden ask.
+TEST(PredictedFeed, ThatSteelBearsRubsInWhatHardens) {
+  PlanMaker k = testing::good_plan();
+  k.plan.cutters[0].substrate = model::Substrate::kCarbide;
+  testing::edit_schedule(k.plan, 0, [](model::FeedSchedule& s) {
+    for (double& f : s.feed_mm_min) f = 60;
+  });
+  EXPECT_TRUE(of(k, "CHK-RUB").empty());
+  k.plan.material.iso_group = "S";
+  const auto found = of(k, "CHK-RUB");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_THAT(found[0].message, HasSubstr("at least 0.008 mm in steel"));
+  // What the tool is said to be fed with is no rubbing.
+  k.plan.cutters[0].presets = {{"S", 30.0, 0.005, "stated"}};
+  EXPECT_TRUE(of(k, "CHK-RUB").empty());
+}
+
+// What an aluminium mill bears in aluminium says nothing of steel: the limit there stays 0.02 D = 0.2 mm.
+TEST(PredictedFeed, OfAnotherMaterialsPresetIsNoLimitInThisOne) {
+  PlanMaker k = testing::good_plan();
+  testing::edit_schedule(k.plan, 0, [](model::FeedSchedule& s) {
+    for (double& f : s.feed_mm_min) f = 0.3 * 4 * 3000;
+  });
+  EXPECT_FALSE(of(k, "CHK-FEED-TOOL").empty());
+  k.plan.cutters[0].presets = {{"N", 300.0, 0.25, "stated"}};
+  EXPECT_FALSE(of(k, "CHK-FEED-TOOL").empty());
+  k.plan.cutters[0].presets = {{"P", 300.0, 0.25, "stated"}};
+  EXPECT_TRUE(of(k, "CHK-FEED-TOOL").empty());
+  // One for a material of the group lets it bear that much in the others, and no more.
+  k.plan.cutters[0].presets = {{"11SMn30", 300.0, 0.31, "stated (ISO group P)"}};
+  EXPECT_TRUE(of(k, "CHK-FEED-TOOL").empty());
+  k.plan.cutters[0].presets = {{"11SMn30", 300.0, 0.25, "stated (ISO group P)"}};
+  EXPECT_FALSE(of(k, "CHK-FEED-TOOL").empty());
+}
+
+// A zone of 0.2 mm: a wall may be off by 0.1 mm at most, two walls by 0.05 mm each.
+TEST(PredictedBending, OfAWallBeyondItsToleranceIsAnError) {
+  PlanMaker k = testing::good_plan();
+  tolerate(k, 0.1);
+  k.plan.steps[0].loads.wall_error_mm = -0.18;
+  auto found = of(k, "CHK-WALL-ERROR");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].severity, Severity::kError);
+  EXPECT_THAT(found[0].message, HasSubstr("0.18 mm"));
+  EXPECT_THAT(found[0].message, HasSubstr("0.1 mm is the most that one wall may be off"));
+  k.plan.steps[0].loads.wall_error_mm = 0.08;
+  found = of(k, "CHK-WALL-ERROR");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].severity, Severity::kWarning);
+  k.plan.steps[0].loads.wall_error_mm = 0.05;
+  EXPECT_TRUE(of(k, "CHK-WALL-ERROR").empty());
+}
+
+TEST(PredictedBending, OfAWallThatNoToleranceJudgesIsTold) {
+  PlanMaker k = testing::good_plan();
+  k.plan.steps[0].loads.wall_error_mm = 1.0;
+  EXPECT_TRUE(of(k, "CHK-WALL-ERROR").empty());
+  EXPECT_EQ(of(k, "CHK-BENDING").size(), 1u);
+  k.plan.steps[0].loads.wall_error_mm = 0.2;
+  EXPECT_TRUE(of(k, "CHK-BENDING").empty());
+}
+
+TEST(PredictedBending, ThatBreaksTheToolIsAnErrorWhateverTheWallDoes) {
+  PlanMaker k = testing::good_plan();
+  tolerate(k, 1.0);
+  k.plan.cutters[0].substrate = model::Substrate::kCarbide;
+  k.plan.steps[0].loads.deflection_mm = 1.0;
+  k.plan.steps[0].loads.wall_error_mm = 0.02;
+  const auto found = of(k, "CHK-BENDING");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].severity, Severity::kError);
+}
+
+/// A counterbore of 20 mm over a hole of 10: step "pocket" mills it. Widths of the zones, 0: none stated.
+PlanMaker counterbore(double wide_zone, double narrow_zone) {
+  PlanMaker k = testing::good_plan();
+  const auto hole = [&](double diameter, double zone) {
+    const auto ref = k.hole("of it", 50, 50, diameter, 10);
+    if (zone > 0.0) {
+      model::PlusMinusValue t;
+      t.upper_limit = t.lower_limit = 0.5 * zone;
+      const auto made = k.plan.model.add(t);
+      k.plan.model.get<model::TolerancedLengthMeasure>(k.plan.model.get<model::RoundHole>(ref)->diameter)
+          ->implicit_tolerance = made;
+    }
+    return ref;
+  };
+  model::CounterboreHole both;
+  both.its_id = "counterbore";
+  both.elements.push_back(hole(20, wide_zone));
+  both.elements.push_back(hole(10, narrow_zone));
+  const auto ref = k.plan.model.add(both);
+  k.plan.model.get<model::MachiningWorkingstep>(k.plan.steps[0].step)->its_feature = ref;
+  k.plan.steps[0].loads.wall_error_mm = 0.08;
+  return k;
+}
+
+TEST(PredictedBending, OfACompoundHoleIsJudgedByTheWidestOfItsElements) {
+  EXPECT_TRUE(of(counterbore(0.4, 0.015), "CHK-WALL-ERROR").empty());
+  const auto found = of(counterbore(0.1, 0.015), "CHK-WALL-ERROR");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].severity, Severity::kError);
+  EXPECT_TRUE(of(counterbore(0.0, 0.015), "CHK-WALL-ERROR").empty());
+}
+
+TEST(PredictedBending, OfARoughingToolIsTold) {
+  PlanMaker k = testing::good_plan();
+  k.plan.steps[0].axial_depth_mm = 5.0;
+  k.plan.steps[0].radial_depth_mm = 5.0;
+  k.plan.steps[0].loads.deflection_mm = 0.45;
+  const auto found = of(k, "CHK-BENDING");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].severity, Severity::kWarning);
+}
+
+// Carbide of 10 mm, 40 mm out, bent by 1 mm: 1.5 x 580000 x 10 x 1 / 40^2 = 5437 N/mm2.
+TEST(PredictedBending, ThatBreaksTheToolIsAnError) {
+  PlanMaker k = testing::good_plan();
+  k.plan.cutters[0].substrate = model::Substrate::kCarbide;
+  k.plan.steps[0].axial_depth_mm = 5.0;
+  k.plan.steps[0].radial_depth_mm = 5.0;
+  k.plan.steps[0].loads.deflection_mm = 1.0;
+  const auto found = of(k, "CHK-BENDING");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].severity, Severity::kError);
+  EXPECT_THAT(found[0].message, HasSubstr("a stress of 5438 N/mm2"));  // 5437.5
+}
+
+}  // namespace
+}  // namespace capstan::verify
