@@ -118,7 +118,6 @@ tl::expected<std::vector<ProposedStep>, std::string> make_chain(const Situation&
   double hole = at.shape.kind == ShapeKind::kHole ? at.context.core_diameter_mm : 0.0;
   const std::string prefix =
       at.shape.name.empty() ? std::string(model::to_text(at.shape.kind)) : at.shape.name;
-  std::size_t last = 0;  // of the row's own steps
   for (const auto& [spec, row] : wanted(at, alternative)) {
     const Action* action = find_action(spec->action);
     if (action == nullptr) return tl::unexpected("there is no action named " + spec->action);
@@ -142,10 +141,8 @@ tl::expected<std::vector<ProposedStep>, std::string> make_chain(const Situation&
     if (!out.empty()) s.after.push_back(out.size() - 1);
     const bool cuts = s.operation != model::TypeId::kWorkpieceProbing;
     if (at.shape.kind == ShapeKind::kHole && row == &at.row && cuts) hole = hole_after(s, at.shape);
-    if (row == &at.row) last = out.size();
     out.push_back(std::move(s));
   }
-  out[last].finish_ra_um = at.context.quality.ra_um.value_or(0.0);
   return out;
 }
 

@@ -55,7 +55,6 @@ Made through_the_hole(const Making& m, double widest) {
   const double open = std::min(hole, m.hole_mm > 0.0 ? m.hole_mm : hole);
   const double below = m.number("past_mm");
   ProposedStep s;
-  s.from_below = true;
   s.start_diameter_mm = hole;
   s.strategy = StrategyKind::kContourSpiral;
   s.tool.diameter_max_mm = open - 2.0 * kHeadClear;

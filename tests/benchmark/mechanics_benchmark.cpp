@@ -34,19 +34,6 @@ BENCHMARK_CAPTURE(loads, slot_tabulated, slot(), flat(), kTabulated);
 BENCHMARK_CAPTURE(loads, slot_measured, slot(), flat(), kMeasured);
 BENCHMARK_CAPTURE(loads, ball_tabulated, slot(), ball(), kTabulated);
 
-void feed_of_a_force(benchmark::State& state) {
-  const Section s = shoulder();
-  double fz = 0.0;
-  for (auto _ : state) {
-    auto found = feed_within(s, flat(), kTabulated, {.peak_force_n = 120.0}, 6000.0, 0.001, 0.5);
-    fz = found ? found->fz_mm : 0.0;
-    benchmark::DoNotOptimize(fz);
-  }
-  const auto l = section_loads(s, flat(), kTabulated, fz, 6000.0);
-  if (!l || std::abs(l->peak_force_n / 120.0 - 1.0) > 2e-3) state.SkipWithError("not the force asked for");
-}
-BENCHMARK(feed_of_a_force);
-
 void error_of_a_wall(benchmark::State& state) {
   model::Cutter c;
   c.cutting_diameter_mm = c.shank_diameter_mm = 12.0;

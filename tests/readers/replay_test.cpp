@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 
@@ -89,7 +88,7 @@ std::size_t inputs() {
   return n != nullptr ? static_cast<std::size_t>(std::atol(n)) : 40;
 }
 
-TEST(ReadersOfSeeds, TakeAnyBytesWithAnAnswerInTime) {
+TEST(ReadersOfSeeds, TakeAnyBytesWithAnAnswer) {
   const char* only = std::getenv("CAPSTAN_FUZZ_READER");
   static auto seed = static_cast<std::uint64_t>(::testing::UnitTest::GetInstance()->random_seed());
   ++seed;
@@ -99,11 +98,9 @@ TEST(ReadersOfSeeds, TakeAnyBytesWithAnAnswerInTime) {
     const auto seeds = seeds_of(r);
     ASSERT_FALSE(seeds.empty()) << r.name;
     for (const std::string& s : seeds) r.read(s);
-    double slowest = 0.0;
     for (std::size_t i = 0; i < inputs(); ++i) {
       Chance chance(seed * 1000003U + i);
       const std::string input = edited(seeds[chance.below(seeds.size())], chance);
-      const auto begin = std::chrono::steady_clock::now();
       try {
         r.read(input);
       } catch (const std::exception& e) {
@@ -112,14 +109,8 @@ TEST(ReadersOfSeeds, TakeAnyBytesWithAnAnswerInTime) {
         ADD_FAILURE() << r.name << ", input " << i << " of seed " << seed << ": " << e.what() << "; see "
                       << file;
       }
-      const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
-      slowest = std::max(slowest, took.count());
       ++all;
     }
-    // Seeds are below 200 kB; a minute is far above any of them.
-    EXPECT_LT(slowest, 60.0) << r.name;
-    if (only != nullptr || inputs() > 1000)
-      std::printf("%s: %zu inputs, slowest %.2f s\n", std::string(r.name).c_str(), inputs(), slowest);
   }
   RecordProperty("inputs", static_cast<int>(all));
 }

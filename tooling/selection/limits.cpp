@@ -16,7 +16,6 @@ namespace capstan::tooling {
 
 using model::Cutter;
 using model::CutterClass;
-using model::flutes_wanted;
 using model::kSizeSlackMm;
 using model::lower_size;
 using model::Machine;
@@ -259,8 +258,8 @@ std::optional<std::string> too_short(const Cutter& c, const ToolRequirement& r) 
              ") would meet the walls";
     return why;
   }
-  if (const double flutes = flutes_wanted(r); flutes > c.maximum_depth_of_cut_mm + kSizeSlackMm)
-    return "flutes " + mm(c.maximum_depth_of_cut_mm) + " are shorter than " + mm(flutes);
+  if (r.depth_of_cut_mm > c.maximum_depth_of_cut_mm + kSizeSlackMm)
+    return "flutes " + mm(c.maximum_depth_of_cut_mm) + " are shorter than " + mm(r.depth_of_cut_mm);
   return std::nullopt;
 }
 

@@ -13,11 +13,6 @@ constexpr std::size_t kLongestComment = 240;  // LinuxCNC's LINELEN is 255
 constexpr std::size_t kLongestMarker = 160;
 constexpr std::string_view kHex = "0123456789ABCDEF";
 
-int hex_digit(char c) {
-  const auto at = kHex.find(c);
-  return at == std::string_view::npos ? -1 : static_cast<int>(at);
-}
-
 }  // namespace
 
 std::string plain_text(std::string_view text) {
@@ -56,21 +51,6 @@ std::string marker_text(std::string_view text) {
   }
   // An id too long for a line is told by its hash.
   if (out.size() > kLongestMarker) out = "fnv1a:" + hex64(fnv1a(text));
-  return out;
-}
-
-std::string from_marker_text(std::string_view text) {
-  std::string out;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const bool escape =
-        text[i] == '%' && i + 2 < text.size() && hex_digit(text[i + 1]) >= 0 && hex_digit(text[i + 2]) >= 0;
-    if (escape) {
-      out += static_cast<char>(hex_digit(text[i + 1]) * 16 + hex_digit(text[i + 2]));
-      i += 2;
-    } else {
-      out += text[i];
-    }
-  }
   return out;
 }
 

@@ -58,7 +58,5 @@ namespace capstan::controls {
 /// Text that can stand in a comment, between quotes: what is not plain ASCII, and " % ( ) ; are
 /// percent-encoded as in a URL.
 [[nodiscard]] std::string marker_text(std::string_view text);
-/// Back again.
-[[nodiscard]] std::string from_marker_text(std::string_view text);
 
 }  // namespace capstan::controls

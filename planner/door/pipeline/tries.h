@@ -18,7 +18,7 @@
 
 namespace capstan::pipeline {
 
-struct CutsKnown;
+class KnownCuts;
 
 /// What one chain of steps is proposed for: a simple feature, or one member of a pattern or compound.
 struct Member {
@@ -94,7 +94,7 @@ class Tries {
   /// Of the last try that ended: its proposed steps.
   std::map<model::AnyRef, MadeStep> made;
   /// Answers of the optimiser that hold in every try.
-  std::shared_ptr<CutsKnown> cuts;
+  std::shared_ptr<KnownCuts> cuts;
   /// By set-up, where the last try began with another: the stock's cells follow it.
   std::map<SameSetup, Smallest> smallest;
 

@@ -48,10 +48,6 @@ std::size_t distance(const std::string& a, const std::string& b) {
 
 }  // namespace
 
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  return distance(letters_of(a), letters_of(b));
-}
-
 std::vector<std::string> nearest_names(std::string_view asked, const std::vector<std::string>& known,
                                        std::size_t most) {
   constexpr std::size_t kLongestName = 200;  // nobody means a longer one

@@ -9,14 +9,11 @@
 
 namespace capstan {
 
-/// Edits (a letter put in, left out, replaced, or two neighbours exchanged) that make one name of the other.
-/// Letter case and everything but letters and digits do not count.
-[[nodiscard]] std::size_t edit_distance(std::string_view a, std::string_view b);
-
-/// Those of `known` that `asked` may have meant, nearest first, at most `most`; equally near ones in the
-/// order of `known`, of several that differ only in case and punctuation the first. A name of several words
-/// is also compared word by word, which counts as one edit more. Further away than half of the letters asked
-/// for is not near.
+/// Those of `known` that `asked` may have meant, nearest first, at most `most`. Nearness counts edits: a
+/// letter put in, left out, replaced, or two neighbours exchanged; letter case and everything but letters and
+/// digits do not count; equally near ones in the order of `known`, of several that differ only in case and
+/// punctuation the first. A name of several words is also compared word by word, which counts as one edit
+/// more. Further away than half of the letters asked for is not near.
 [[nodiscard]] std::vector<std::string> nearest_names(std::string_view asked,
                                                      const std::vector<std::string>& known,
                                                      std::size_t most = 3);

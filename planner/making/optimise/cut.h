@@ -34,6 +34,7 @@ enum class Aim : std::uint8_t { kTime, kCost, kProfit };
 struct Eased {
   std::string name;     ///< of the limit, as in CutAnswer::active
   double factor = 1.0;  ///< 1.1: a tenth more (of a least value: a tenth less is asked)
+  friend bool operator==(const Eased&, const Eased&) = default;
 };
 
 /// What is asked before a path exists: how deep, how wide, how fast. A value given is kept.
@@ -70,6 +71,7 @@ struct CutQuestion {
   double margin_deviations =
       mechanics::kUsualMargin.deviations;  ///< of the load's margin (mechanics/margin.h)
   Eased eased;
+  friend bool operator==(const CutQuestion&, const CutQuestion&) = default;
 };
 
 /// Ra of milled surfaces over that of geometry alone, where Ra is demanded.

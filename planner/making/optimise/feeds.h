@@ -101,10 +101,6 @@ struct FeedAnswer {
 ///         piece.
 void split_moves(FeedQuestion& question, model::CutterPath& path, model::SectionSeries* sections);
 
-/// The largest feed at one sample, mm/min, computed directly; what `feeds` keeps on a grid. For checks.
-/// 0: no feed keeps the limits, or the section is outside the formulas' range.
-[[nodiscard]] double largest_feed(const FeedQuestion& question, const CutSample& sample);
-
 /// Relative excess over the limits of a sample at a feed, computed directly: the largest of load / limit - 1;
 /// negative when all hold; nothing when the section is outside the formulas' range.
 [[nodiscard]] std::optional<double> excess_at(const FeedQuestion& question, const CutSample& sample,

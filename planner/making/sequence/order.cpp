@@ -237,13 +237,6 @@ bool keep_sides_whole(const std::vector<Item>& items, const Access& access, Orde
 
 }  // namespace
 
-Result<std::vector<Precedence>> precedences(const std::vector<model::FeatureShape>& shapes,
-                                            const std::vector<Item>& items, const Options& options) {
-  if (auto ok = validate(shapes, items, options); !ok) return fail(ok.error());
-  std::vector<Precedence> dropped;
-  return all_precedences(shapes, items, options, access_of(shapes, options), dropped);
-}
-
 Result<Order> order(const std::vector<model::FeatureShape>& shapes, const std::vector<Item>& items,
                     const Options& options, Job& job) {
   if (auto ok = validate(shapes, items, options); !ok) return fail(ok.error());
@@ -266,20 +259,6 @@ Result<Order> order(const std::vector<model::FeatureShape>& shapes, const std::v
     out.cannot = describe(out.cycle, items, out.precedences);
     out.setups.clear();
     out.tool_changes = 0;
-  }
-  return out;
-}
-
-std::vector<Precedence> broken(const std::vector<Precedence>& precedences,
-                               const std::vector<std::size_t>& executed) {
-  std::map<std::size_t, std::size_t> position;
-  for (std::size_t i = 0; i < executed.size(); ++i) position.emplace(executed[i], i);
-  std::vector<Precedence> out;
-  for (const Precedence& p : precedences) {
-    const auto a = position.find(p.before);
-    const auto b = position.find(p.after);
-    if (b == position.end()) continue;  // never executed: nothing came too early
-    if (a == position.end() || a->second > b->second) out.push_back(p);
   }
   return out;
 }

@@ -35,7 +35,6 @@ enum class Cause : std::uint8_t {
   kEdge,       ///< the feature before the chamfer along its edge
   kDatum,      ///< a datum feature before what refers to it
 };
-[[nodiscard]] std::string_view to_text(Cause c);
 
 /// `before` must be finished when `after` begins (indices of items). Those between two features stand between
 /// the last step of the one and the first of the other.
@@ -97,14 +96,5 @@ inline constexpr double kSameDirection = 1e-6;
 /// Cost    n log n and a sweep over the features' boxes: n^1.5 for n scattered on a square.
 [[nodiscard]] Result<Order> order(const std::vector<model::FeatureShape>& shapes,
                                   const std::vector<Item>& items, const Options& options, Job& job);
-
-/// The precedences alone: for `check`, which proves an order against them.
-[[nodiscard]] Result<std::vector<Precedence>> precedences(const std::vector<model::FeatureShape>& shapes,
-                                                          const std::vector<Item>& items,
-                                                          const Options& options);
-
-/// Whether the order (items in execution) keeps each precedence: those that it breaks.
-[[nodiscard]] std::vector<Precedence> broken(const std::vector<Precedence>& precedences,
-                                             const std::vector<std::size_t>& executed);
 
 }  // namespace capstan::sequence

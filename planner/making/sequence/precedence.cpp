@@ -168,12 +168,6 @@ std::string words(const std::vector<FeatureShape>& shapes, const FeaturePair& p)
 
 }  // namespace
 
-std::string_view to_text(Cause c) {
-  static constexpr std::array<std::string_view, 7> kNames{"given",  "chain", "face first", "lies in",
-                                                          "thread", "edge",  "datum"};
-  return kNames.at(static_cast<std::size_t>(c));
-}
-
 Access access_of(const std::vector<FeatureShape>& shapes, const Options& options) {
   Access out;
   out.of_feature.resize(shapes.size());

@@ -40,8 +40,6 @@ struct ProposedStep {
   double rest_of_diameter_mm = 0.0;
   double axial_depth_mm = 0.0;  ///< per level, where the rule fixes it: thin walls, edge breaks; 0: chosen
   bool one_level = false;       ///< at the bottom only: floors finished apart from their walls
-  bool from_below = false;      ///< back boring, back countersinking
-  double finish_ra_um = 0.0;    ///< surface that this step must leave; 0: none asked
   Reason why;
   std::vector<std::size_t> after;  ///< indices in the same proposal that must come before
   int priority = 0;                ///< alternatives: lower is tried first

@@ -19,7 +19,6 @@ double lower_size(const ToolRequirement& r) {
 double upper_size(const ToolRequirement& r) {
   return r.diameter_exact_mm > 0.0 ? r.diameter_exact_mm + r.diameter_tolerance_mm : r.diameter_max_mm;
 }
-double flutes_wanted(const ToolRequirement& r) { return std::max(r.depth_of_cut_mm, r.flute_length_min_mm); }
 
 std::string words_of(const ToolRequirement& r) {
   const bool vowel = r.diameter_exact_mm <= 0.0 && (lower_size(r) <= 0.0 || upper_size(r) <= 0.0) &&
@@ -58,7 +57,7 @@ std::string words_of(const ToolRequirement& r) {
                                   : "a neck " + mm(r.neck_step_min_mm) + " below its head");
   }
   if (r.tip_diameter_max_mm > 0.0) add("a tip of at most " + mm(r.tip_diameter_max_mm));
-  if (const double flutes = flutes_wanted(r); flutes > 0.0) add(mm(flutes) + " flutes");
+  if (r.depth_of_cut_mm > 0.0) add(mm(r.depth_of_cut_mm) + " flutes");
   if (r.reach_mm > 0.0) add(mm(r.reach_mm) + " reach");
   if (r.centre_cutting) with += ", cutting to centre or ramping";
   if (r.coolant_through) with += ", with coolant through it";

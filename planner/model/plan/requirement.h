@@ -27,7 +27,6 @@ struct ToolRequirement {
   double neck_diameter_max_mm = 0.0;  ///< what must pass above the head, over `reach_mm`
   double neck_step_min_mm = 0.0;     ///< head less neck, on the diameter, over `reach_mm`: undercuts in holes
   double tip_diameter_max_mm = 0.0;  ///< flat at the tip at most: what stands below a cone stays
-  double flute_length_min_mm = 0.0;  ///< walls cut in one depth: flutes at least
   bool coolant_through = false;
   bool left_hand = false;   ///< taps of left-hand threads
   std::string thread_form;  ///< "M", "UN"; empty: any of the pitch
@@ -41,8 +40,6 @@ inline constexpr double kSizeSlackMm = 1e-6;
 /// The diameters that will do, mm; 0: any.
 [[nodiscard]] double lower_size(const ToolRequirement& r);
 [[nodiscard]] double upper_size(const ToolRequirement& r);
-/// Flutes at least: for the depth of cut, and for walls that are cut in one depth.
-[[nodiscard]] double flutes_wanted(const ToolRequirement& r);
 /// "a 6 mm end mill with 22 mm reach, cutting to centre"
 [[nodiscard]] std::string words_of(const ToolRequirement& requirement);
 

@@ -235,35 +235,4 @@ double slender_depth_mm(double diameter_mm, double stick_out_mm) {
   return kDeepestSlotRatio * diameter_mm * ratio * ratio * ratio;
 }
 
-Result<StableDepth> stable_depth_mm(const model::Machine& machine, const model::Cutter& cutter,
-                                    const ForceLaw& law, const ImmersionArc& arc, double fz_mm,
-                                    double n_rpm) {
-  if (auto ok = check_positive({{"fz_mm", fz_mm}, {"n_rpm", n_rpm}}); !ok) return fail(ok.error());
-  const std::vector<model::ToolPointMode> modes = modes_for(machine, cutter.id);
-  if (modes.empty()) {
-    const double out = cutter.stick_out_mm > 0.0
-                           ? cutter.stick_out_mm
-                           : std::max(cutter.usable_length_mm, 3.0 * cutter.cutting_diameter_mm);
-    return StableDepth{.depth_mm = slender_depth_mm(cutter.cutting_diameter_mm, out), .by_modes = false};
-  }
-  ChatterCut cut{.arc = arc, .teeth = std::max(1, cutter.teeth)};
-  if (law.mechanistic) {
-    cut.ktc_n_mm2 = law.mechanistic->ktc_n_mm2;
-    cut.krc_n_mm2 = law.mechanistic->krc_n_mm2;
-  } else {
-    // The slope of the force over the chip falls with the chip; kc itself is the larger.
-    const double swept = std::max(arc.exit_rad - arc.entry_rad, 1e-6);
-    const double mean = fz_mm * (std::cos(arc.entry_rad) - std::cos(arc.exit_rad)) / swept;
-    cut.ktc_n_mm2 = specific_force_n_mm2(law.kienzle, std::max(mean, 1e-6));
-    cut.krc_n_mm2 = kRadialToTangentialRatio * cut.ktc_n_mm2;
-  }
-  cut.ktc_n_mm2 *= law.uncertainty_factor;
-  cut.krc_n_mm2 *= law.uncertainty_factor;
-  const auto lobes = StabilityLobes::make(modes, cut);
-  if (!lobes) return fail(lobes.error());
-  const double engaged = mean_engaged_teeth(cut.teeth, arc.exit_rad - arc.entry_rad);
-  const double margin = engaged < kSafeTeeth - 1e-9 ? kSingleToothMargin : 1.0;
-  return StableDepth{.depth_mm = margin * lobes->limit_mm(n_rpm), .by_modes = true};
-}
-
 }  // namespace capstan::mechanics

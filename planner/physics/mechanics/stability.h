@@ -97,14 +97,4 @@ inline constexpr double kQuietDeflectionMm = 0.0254;
 /// Source    the constants above; the cube: F L^3 / (3 E I), derived.
 [[nodiscard]] double slender_depth_mm(double diameter_mm, double stick_out_mm);
 
-/// What is known: the lobes' limit at a speed when the machine has modes for the cutter (with
-/// kSingleToothMargin, and the law's uncertainty on the force), else the slenderness rule.
-struct StableDepth {
-  double depth_mm = 0.0;
-  bool by_modes = false;  ///< false: by slenderness alone
-};
-[[nodiscard]] Result<StableDepth> stable_depth_mm(const model::Machine& machine, const model::Cutter& cutter,
-                                                  const ForceLaw& law, const ImmersionArc& arc, double fz_mm,
-                                                  double n_rpm);
-
 }  // namespace capstan::mechanics

@@ -220,25 +220,4 @@ double cut(HeightMap& map, const CutterProfile& profile, const model::CutterPath
   return sum;
 }
 
-double clear_height(const HeightMap& map, const CutterProfile& profile, Vec2 axis) {
-  const double half = kHalfDiagonal * map.cell_mm;
-  const double reach = profile.radius_mm + half;
-  const auto index = [&](double p, double origin, int n) {
-    return static_cast<int>(std::clamp(std::floor((p - origin) / map.cell_mm), 0.0, n - 1.0));
-  };
-  double best = 0.0;
-  for (int iy = index(axis.y - reach, map.origin.y, map.ny);
-       iy <= index(axis.y + reach, map.origin.y, map.ny); ++iy) {
-    for (int ix = index(axis.x - reach, map.origin.x, map.nx);
-         ix <= index(axis.x + reach, map.origin.x, map.nx); ++ix) {
-      const auto top = static_cast<double>(map.at(ix, iy).top_mm);
-      if (top <= best) continue;
-      const double d = norm(Vec2{map.x_of(ix), map.y_of(iy)} - axis) - half;
-      if (d > profile.radius_mm) continue;
-      best = std::max(best, top - profile.height(std::max(0.0, d)));
-    }
-  }
-  return map.origin.z + best;
-}
-
 }  // namespace capstan::stock

@@ -62,9 +62,4 @@ double cut(HeightMap& map, const geometry::CutterProfile& profile, const model::
 [[nodiscard]] double swept_height(const geometry::CutterProfile& profile, double along, double across,
                                   double length, double rise);
 
-/// The lowest tip height at which a cutter on this axis touches nothing; the floor minus 0 when there is
-/// nothing near. Cells count with their nearest point: never too low.
-[[nodiscard]] double clear_height(const HeightMap& map, const geometry::CutterProfile& profile,
-                                  geometry::Vec2 axis);
-
 }  // namespace capstan::stock

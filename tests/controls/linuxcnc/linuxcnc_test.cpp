@@ -354,7 +354,8 @@ TEST(LinuxCnc, SurvivesNamesThatWouldEndAComment) {
     EXPECT_EQ(line.find("Z-100"), std::string::npos);
     EXPECT_NE(line, "G0 Z-50");
   }
-  EXPECT_EQ(from_marker_text(marker_text("bohrung \xC3\xBC (1)\nM3%41")), "bohrung \xC3\xBC (1)\nM3%41");
+  // As in a URL: a blank is 20, u umlaut C3 BC, brackets 28 and 29, a line's end 0A, the sign itself 25.
+  EXPECT_EQ(marker_text("bohrung \xC3\xBC (1)\nM3%41"), "bohrung%20%C3%BC%20%281%29%0AM3%2541");
   CAPSTAN_NEEDS_RS274();
   EXPECT_EQ(run(plan).status, 0);
 }

@@ -1,8 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <ctime>
-
 #include "planner/files/exchange/exchange.h"
 #include "planner/model/nouns/all.h"
 #include "tests/support/corpus.h"
@@ -25,13 +23,14 @@ const std::string kProject =
     "#3=MACHINING_PROJECT('p','',$,());\n#4=PROCESS_PRODUCT_ASSOCIATION('','',#1,#5);\n"
     "#5=PRODUCT_DEFINITION_PROCESS('machining','',#6,'');\n#6=MACHINING_WORKPLAN('w','','','');\n";
 
-/// Reads, writes in both forms when there is a plan; seconds. What was said goes to `said`.
-double answered(const std::string& text, std::string* said = nullptr) {
-  const std::clock_t begin = std::clock();  // of this process: other load does not count
+/// Reads, and writes in both forms when there is a plan. A file that would take without end is stopped by the
+/// test runner (TIMEOUT in cmake/CapstanRoom.cmake). Gives what was said.
+std::string answered(const std::string& text) {
+  std::string said;
   Job job;
   const auto plan = exchange::read_bytes(text, "hostile.stpnc", {}, job);
   for (const auto& d : job.diagnostics()) {
-    if (said != nullptr) *said += to_text(d) + "\n";
+    said += to_text(d) + "\n";
   }
   if (plan) {
     Job writing;
@@ -41,17 +40,12 @@ double answered(const std::string& text, std::string* said = nullptr) {
   } else {
     EXPECT_FALSE(plan.error().message.empty());
   }
-  return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+  return said;
 }
 
-constexpr double kBound = 10.0;  // s, default, unsourced: far above what such files need, far below an attack
-
 TEST(Ap238Hostile, AWorkplanThatHoldsItselfEnds) {
-  std::string said;
-  EXPECT_LT(
-      answered(file_of(kProject + "#7=MACHINING_PROCESS_SEQUENCE_RELATIONSHIP('','',#6,#6,1.);\n"), &said),
-      kBound);
-  EXPECT_THAT(said, HasSubstr("EXC-CYCLE"));
+  EXPECT_THAT(answered(file_of(kProject + "#7=MACHINING_PROCESS_SEQUENCE_RELATIONSHIP('','',#6,#6,1.);\n")),
+              HasSubstr("EXC-CYCLE"));
 }
 
 TEST(Ap238Hostile, AWorkplanWithinAWorkplanThirtyTimesTwiceEnds) {
@@ -65,28 +59,27 @@ TEST(Ap238Hostile, AWorkplanWithinAWorkplanThirtyTimesTwiceEnds) {
               "," + n(to) + "," + std::to_string(k) + ".);\n";
     }
   }
-  EXPECT_LT(answered(file_of(text)), kBound);
+  answered(file_of(text));
 }
 
 TEST(Ap238Hostile, UnitsThatAreMadeOfThemselvesEnd) {
-  EXPECT_LT(answered(file_of(kProject +
-                             "#20=(CONVERSION_BASED_UNIT('x',#21)LENGTH_UNIT()NAMED_UNIT(*));\n"
-                             "#21=LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE(2.),#20);\n"
-                             "#22=DERIVED_UNIT((#23));\n#23=DERIVED_UNIT_ELEMENT(#22,1.);\n"
-                             "#24=(GEOMETRIC_REPRESENTATION_CONTEXT(3)GLOBAL_UNIT_ASSIGNED_CONTEXT((#20,#22))"
-                             "REPRESENTATION_CONTEXT('',''));\n")),
-            kBound);
+  answered(file_of(kProject +
+                   "#20=(CONVERSION_BASED_UNIT('x',#21)LENGTH_UNIT()NAMED_UNIT(*));\n"
+                   "#21=LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE(2.),#20);\n"
+                   "#22=DERIVED_UNIT((#23));\n#23=DERIVED_UNIT_ELEMENT(#22,1.);\n"
+                   "#24=(GEOMETRIC_REPRESENTATION_CONTEXT(3)GLOBAL_UNIT_ASSIGNED_CONTEXT((#20,#22))"
+                   "REPRESENTATION_CONTEXT('',''));\n"));
 }
 
-TEST(Ap238Hostile, AHundredThousandUsersOfOneInstanceAreReadInLinearTime) {
+TEST(Ap238Hostile, AHundredThousandUsersOfOneInstanceAreRead) {
   std::string text = kProject;
   for (int i = 0; i < 100000; ++i) {
     text += "#" + std::to_string(100 + i) + "=ACTION_PROPERTY('a" + std::to_string(i) + "','',#6);\n";
   }
-  EXPECT_LT(answered(file_of(text)), kBound);
+  answered(file_of(text));
 }
 
-TEST(Ap238Hostile, AHundredThousandElementsInOneWorkplanAreReadInLinearTime) {
+TEST(Ap238Hostile, AHundredThousandElementsInOneWorkplanAreRead) {
   std::string text = kProject;
   for (int i = 0; i < 50000; ++i) {
     const std::string step = "#" + std::to_string(100 + 2 * i);
@@ -94,7 +87,7 @@ TEST(Ap238Hostile, AHundredThousandElementsInOneWorkplanAreReadInLinearTime) {
             "=MACHINING_PROCESS_SEQUENCE_RELATIONSHIP('','machining',#6," + step + "," +
             std::to_string(i + 1) + ".);\n";
   }
-  EXPECT_LT(answered(file_of(text)), kBound);
+  answered(file_of(text));
 }
 
 TEST(Ap238Hostile, AChainOfAHundredThousandKeptInstancesEnds) {
@@ -102,7 +95,7 @@ TEST(Ap238Hostile, AChainOfAHundredThousandKeptInstancesEnds) {
   for (int i = 0; i < 100000; ++i) {
     text += "#" + std::to_string(100 + i) + "=VENDOR_THING(#" + std::to_string(101 + i) + ");\n";
   }
-  EXPECT_LT(answered(file_of(text)), kBound);
+  answered(file_of(text));
 }
 
 TEST(Ap238Hostile, AnchorsToNothingAreWarnedOfAHundredTimes) {
@@ -112,8 +105,7 @@ TEST(Ap238Hostile, AnchorsToNothingAreWarnedOfAHundredTimes) {
   anchors += "<many>=(";
   for (int i = 0; i < 50000; ++i) anchors += "#8" + std::to_string(i) + ",";
   text.insert(text.find("ENDSEC;") + 7, anchors + "#1);\nENDSEC;");
-  std::string said;
-  EXPECT_LT(answered(text, &said), kBound);
+  const std::string said = answered(text);
   EXPECT_THAT(said, HasSubstr("EXC-ANCHOR"));
   EXPECT_LT(std::count(said.begin(), said.end(), '\n'), 400);
 }
@@ -144,8 +136,7 @@ TEST(Ap238Hostile, ValuesOfTheWrongKindAreFaultsAndNotNumbers) {
   for (const char* value :
        {"$", "'10'", ".T.", "(1.)", "COUNT_MEASURE('x')", "LENGTH_MEASURE(1.E400)", "1.E400", "#6", "*"}) {
     SCOPED_TRACE(value);
-    std::string said;
-    EXPECT_LT(answered(text(value), &said), kBound);
+    const std::string said = answered(text(value));
     Job job;
     const auto plan = exchange::read_bytes(text(value), "hostile.stpnc", {}, job);
     if (plan) {

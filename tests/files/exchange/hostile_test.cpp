@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <functional>
 #include <random>
 
@@ -280,14 +279,11 @@ const std::vector<Item>& items() {
 
 class Hostile : public ::testing::TestWithParam<Item> {};
 
-TEST_P(Hostile, GetsItsVerdictQuickly) {
+TEST_P(Hostile, GetsItsVerdict) {
   const Item& item = GetParam();
   const std::string bytes = item.file();
-  const auto start = std::chrono::steady_clock::now();
   Job job;
-  const auto plan = read_text(bytes, job);
-  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-  EXPECT_LT(took.count(), 20.0);  // generous: sanitizers and loaded machines
+  const auto plan = read_text(bytes, job);  // one that never ends is stopped by the runner's TIMEOUT
   std::string said;
   for (const auto& line : testing::lines(job)) said += line + "\n";
   if (!plan) said += to_text(plan.error()) + "\n";

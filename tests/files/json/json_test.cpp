@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cmath>
 
 #include "planner/files/json/printer.h"
@@ -175,40 +174,6 @@ TEST(PlanJson, RefusesToWriteWhatIsNoNumber) {
   Plan plan = testing::empty_plan();
   plan.cutters[0].cutting_diameter_mm = std::nan("");
   EXPECT_THROW((void)write_json(plan), std::logic_error);
-}
-
-Plan plan_of(int features) {
-  Plan plan = testing::empty_plan();
-  for (int i = 0; i < features; ++i) {
-    model::RoundHole hole;
-    hole.its_id = "hole " + std::to_string(i);
-    const auto feature = plan.model.add(hole);
-    model::CutterPath path;
-    path.start({0, 0, 5});
-    for (int k = 0; k < 200; ++k) path.line({0.1 * k + i, 0.3 * k, -0.7 * k}, model::MoveRole::kCut);
-    auto& step = testing::add_step(plan, "step " + std::to_string(i), "em18", path);
-    plan.model.at<model::MachiningWorkingstep>(step.step).its_feature =
-        model::Ref<model::ManufacturingFeature>(feature);
-    plan.ledger.bind(step.step, "its_operation", model::Binder::kRule,
-                     {"hole.drill", "drilled because of number " + std::to_string(i), "derived"});
-  }
-  return plan;
-}
-
-TEST(PlanJson, IsWrittenInLinearTime) {
-  const auto seconds = [](const Plan& plan) {
-    double best = 1e9;
-    for (int i = 0; i < 3; ++i) {
-      const auto begin = std::chrono::steady_clock::now();
-      EXPECT_FALSE(write_json(plan).empty());
-      best = std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
-    }
-    return best;
-  };
-  const double small = seconds(plan_of(250));
-  const double large = seconds(plan_of(2000));
-  EXPECT_LT(large,
-            8.0 * 3.0 * small);  // eight times the work; a quadratic writer would take 64 times as long
 }
 
 TEST(JsonText, KeepsEveryByte) {

@@ -5,14 +5,18 @@
 namespace capstan {
 namespace {
 
-TEST(EditDistance, CountsEachChangeOfALetterOnce) {
-  EXPECT_EQ(edit_distance("steel", "steel"), 0u);
-  EXPECT_EQ(edit_distance("steeel", "steel"), 1u);  // one out
-  EXPECT_EQ(edit_distance("stel", "steel"), 1u);    // one in
-  EXPECT_EQ(edit_distance("stael", "steel"), 1u);   // one replaced
-  EXPECT_EQ(edit_distance("setel", "steel"), 1u);   // two neighbours exchanged
-  EXPECT_EQ(edit_distance("", "abc"), 3u);
-  EXPECT_EQ(edit_distance("EN AW-6061", "enaw6061"), 0u);  // case and punctuation do not count
+// "steel" is one edit away from each at most; "brass" more than half of the letters.
+TEST(NearestNames, CountsEachChangeOfALetterOnce) {
+  for (const char* asked : {"steel", "steeel", "stel", "stael", "setel", "S-T.E e L"}) {
+    const auto near = nearest_names(asked, {"brass", "steel"});
+    ASSERT_EQ(near.size(), 1U) << asked;
+    EXPECT_EQ(near[0], "steel") << asked;
+  }
+  // Of three letters at most one may be wrong: half of them, whole.
+  EXPECT_EQ(nearest_names("abc", {"abd"}).size(), 1U);
+  EXPECT_TRUE(nearest_names("abc", {"ade"}).empty());
+  // Of two, the one of fewer edits comes first, whatever their order.
+  EXPECT_EQ(nearest_names("steell", {"stool", "steel"}).front(), "steel");
 }
 
 TEST(NearestNames, FindsWhatWasMeantNearestFirst) {

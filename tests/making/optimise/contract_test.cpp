@@ -249,6 +249,57 @@ TEST_P(Contract, SolvesThePublishedProblems) {
   }
 }
 
+/// Every published problem, with what is known of its optimum.
+std::vector<Example> published() {
+  return {examples::tolouei_rad_milling(),
+          examples::chen_tsai_turning(6.0, 1, 2.03508),
+          examples::chen_tsai_turning(8.0, 2, 2.55799),
+          examples::chen_tsai_turning(10.0, 3, 3.09427),
+          examples::quiza_turning(QuizaGoal::kTime),
+          examples::quiza_turning(QuizaGoal::kWear),
+          examples::quiza_turning(QuizaGoal::kWearWithinTime),
+          examples::drilled_hole(),
+          examples::textbook_speed(true),
+          examples::textbook_speed(false)};
+}
+
+// A point that breaks no limit by more than the feasibility tolerance e and whose first-order residual is
+// that small is below the optimum by at most the sum of its multipliers times e: these problems' limits are
+// ratios, their multipliers below 10 times the objective, and no more than 5 hold. With e = 1e-6: 5e-5 of the
+// objective for each of two solvers.
+TEST(Backends, FindTheSameOptimumOfEveryPublishedProblem) {
+  constexpr double kOfBoth = 2.0 * 5e-5;
+  const Way ways[] = {{"slsqp", Solver::kNlopt, Algorithm::kSlsqp},
+                      {"auglag", Solver::kNlopt, Algorithm::kAuglagLbfgs},
+                      {"ipopt", Solver::kIpopt, Algorithm::kSlsqp}};
+  int compared = 0;
+  for (const Example& e : published()) {
+    std::vector<std::pair<const char*, double>> found;
+    for (const Way& way : ways) {
+      Options o;
+      o.solver = way.solver;
+      o.algorithm = way.algorithm;
+      o.fall_back = false;
+      o.starts = 10;
+      o.evaluation_budget = 40000;
+      o.backends.ipopt = &solve_with_ipopt;
+      Job job;
+      const auto s = solve(e.problem, o, job);
+      if (!s && s.error().code == "OPT-BACKEND-ABSENT") continue;
+      ASSERT_TRUE(s) << way.name << " " << to_text(s.error());
+      EXPECT_TRUE(s->feasible) << e.name << " " << way.name;
+      for (const auto& [other, objective] : found) {
+        EXPECT_NEAR(s->objective, objective, kOfBoth * std::abs(objective))
+            << e.name << ": " << way.name << " and " << other;
+        ++compared;
+      }
+      found.emplace_back(way.name, s->objective);
+    }
+  }
+  if (compared == 0) GTEST_SKIP() << "fewer than two backends are built in";
+  RecordProperty("pairs_compared", compared);
+}
+
 TEST(AbsentBackend, IsRefusedWithWhatToBuild) {
   // Where the build has both, there is nothing to refuse; the build without them runs this in earnest.
   for (const Solver solver : {Solver::kNlopt, Solver::kIpopt}) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "planner/making/optimise/problem/problem.h"
+#include "tests/making/optimise/differentiated.h"
 
 /// Published machining problems as this project states them. Provenance of each number:
 /// [S] read in a source named here, [M] recalled and not checked against the paper, [C] computed here.

@@ -502,12 +502,5 @@ TEST(Fit, NamesAreReadAsTheyAreWritten) {
   EXPECT_EQ(to_text(*parse_fit(" ZC01 ")), "ZC01");
 }
 
-TEST(TargetSize, IsTheMiddleOfTheTolerance) {
-  EXPECT_DOUBLE_EQ(*target_size(20.0, "H7"), 20.0105);
-  EXPECT_DOUBLE_EQ(*target_size(20.0, "JS9"), 20.0);
-  EXPECT_DOUBLE_EQ(*target_size(20.0, "f7"), 19.9695);
-  EXPECT_EQ(target_size(20.0, "t6").error().code, "MDL-FIT");
-}
-
 }  // namespace
 }  // namespace capstan::model

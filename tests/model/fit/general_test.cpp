@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <numbers>
 #include <string>
 #include <vector>
 
@@ -43,31 +42,7 @@ TEST(General, GivesThePublishedDeviationsOfLinearSizes) {
   EXPECT_FALSE(general_size(read("ISO 2768-m"), 4001));
 }
 
-// ISO 2768-1:1989, table 2.
-TEST(General, GivesThePublishedDeviationsOfRadiiAndChamfers) {
-  const std::vector<Published> kTable{{"ISO 2768-f", 3, 0.2}, {"ISO 2768-f", 6, 0.5}, {"ISO 2768-f", 7, 1},
-                                      {"ISO 2768-m", 1, 0.2}, {"ISO 2768-m", 4, 0.5}, {"ISO 2768-m", 10, 1},
-                                      {"ISO 2768-c", 1, 0.4}, {"ISO 2768-c", 4, 1},   {"ISO 2768-c", 10, 2},
-                                      {"ISO 2768-v", 1, 0.4}, {"ISO 2768-v", 4, 1},   {"ISO 2768-v", 10, 2}};
-  for (const Published& p : kTable)
-    EXPECT_EQ(general_edge(read(p.text), p.nominal), p.value) << p.text << p.nominal;
-}
-
-// ISO 2768-1:1989, table 3, in minutes of arc.
-TEST(General, GivesThePublishedDeviationsOfAngles) {
-  const std::vector<Published> kTable{
-      {"ISO 2768-f", 10, 60},  {"ISO 2768-f", 50, 30},   {"ISO 2768-m", 120, 20}, {"ISO 2768-m", 400, 10},
-      {"ISO 2768-m", 401, 5},  {"ISO 2768-c", 10, 90},   {"ISO 2768-c", 50, 60},  {"ISO 2768-c", 120, 30},
-      {"ISO 2768-c", 400, 15}, {"ISO 2768-c", 1000, 10}, {"ISO 2768-v", 10, 180}, {"ISO 2768-v", 50, 120},
-      {"ISO 2768-v", 120, 60}, {"ISO 2768-v", 400, 30},  {"ISO 2768-v", 500, 20}};
-  for (const Published& p : kTable) {
-    const auto a = general_angle(read(p.text), p.nominal);
-    ASSERT_TRUE(a);
-    EXPECT_NEAR(*a * 180.0 / std::numbers::pi * 60.0, p.value, 1e-9) << p.text << p.nominal;
-  }
-}
-
-// ISO 2768-2:1989, tables 1 to 4.
+// ISO 2768-2:1989, tables 1 and 2.
 TEST(General, GivesThePublishedGeometricTolerances) {
   const std::vector<Published> kFlat{
       {"ISO 2768-mH", 10, 0.02}, {"ISO 2768-mH", 30, 0.05},  {"ISO 2768-mH", 100, 0.1},
@@ -85,16 +60,6 @@ TEST(General, GivesThePublishedGeometricTolerances) {
       {"ISO 2768-mL", 300, 1},    {"ISO 2768-mL", 1000, 1.5}, {"ISO 2768-mL", 3000, 2}};
   for (const Published& p : kSquare)
     EXPECT_EQ(general_perpendicularity(read(p.text), p.nominal), p.value) << p.text << p.nominal;
-  const std::vector<Published> kSymmetry{{"ISO 2768-mH", 100, 0.5}, {"ISO 2768-mH", 3000, 0.5},
-                                         {"ISO 2768-mK", 300, 0.6}, {"ISO 2768-mK", 1000, 0.8},
-                                         {"ISO 2768-mK", 3000, 1},  {"ISO 2768-mL", 100, 0.6},
-                                         {"ISO 2768-mL", 300, 1},   {"ISO 2768-mL", 3000, 2}};
-  for (const Published& p : kSymmetry)
-    EXPECT_EQ(general_symmetry(read(p.text), p.nominal), p.value) << p.text << p.nominal;
-  EXPECT_EQ(general_runout(read("ISO 2768-mH")), 0.1);
-  EXPECT_EQ(general_runout(read("ISO 2768-mK")), 0.2);
-  EXPECT_EQ(general_runout(read("ISO 2768-mL")), 0.5);
-  EXPECT_FALSE(general_runout(read("ISO 2768-m")));
 }
 
 TEST(General, ReadsWhatDrawingsSay) {

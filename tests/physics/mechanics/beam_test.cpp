@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "planner/physics/mechanics/bending/deflection.h"
 #include "planner/physics/mechanics/constants.h"
 
 namespace capstan::mechanics {
@@ -30,17 +31,15 @@ TEST(ToolBeam, OfFlutesAndShankBendsAsTheTwoStepFormula) {
   const ToolBeam beam = beam_of(end_mill()).value();
   const ToolStiffness two_steps{40.0, 12.0, 26.0, 12.0, kCarbideYoungsModulusNMm2};
   EXPECT_NEAR(bending_mm_n(beam, 0.0, 0.0) / *tip_compliance_mm_n(two_steps), 1.0, 1e-12);
-  EXPECT_DOUBLE_EQ(beam.length_mm(), 40.0);
 }
 
-TEST(ToolBeam, OfOneCylinderHasTheTextbookBendingAndSlope) {
-  // F L^3 / (3 E I), I = pi d^4 / 64, and F L^2 / (2 E I) [C].
+TEST(ToolBeam, OfOneCylinderHasTheTextbookBending) {
+  // F L^3 / (3 E I), I = pi d^4 / 64 [C].
   model::Cutter c = end_mill();
   c.maximum_depth_of_cut_mm = 40.0;
   const ToolBeam beam = beam_of(c).value();
   const double ei = kCarbideYoungsModulusNMm2 * moment_mm4(0.8 * 12.0);
   EXPECT_NEAR(bending_mm_n(beam, 0.0, 0.0), 64000.0 / (3.0 * ei), 1e-15);
-  EXPECT_NEAR(tilt_rad_n(beam, 0.0, 0.0), 1600.0 / (2.0 * ei), 1e-15);
   // Force at 10, seen at the tip: the beam above bends, the tip follows straight.
   EXPECT_NEAR(bending_mm_n(beam, 10.0, 0.0), 27000.0 / (3.0 * ei) + 10.0 * 900.0 / (2.0 * ei), 1e-15);
 }
@@ -51,7 +50,6 @@ TEST(ToolBeam, WithANeckAndAHolderIsTheIntegralAlongIt) {
   c.neck_length_mm = 34.0;
   c.holder = {{20.0, 24.0, 30.0}, {30.0, 40.0, 40.0}};
   const ToolBeam beam = beam_of(c).value();
-  EXPECT_DOUBLE_EQ(beam.length_mm(), 90.0);
   for (const double a : {0.0, 7.0, 30.0}) {
     for (const double b : {0.0, 12.0, 50.0}) {
       double sum = 0.0;
@@ -73,7 +71,6 @@ TEST(ToolBeam, AddsWhatTheHolderGivesWay) {
   const ToolBeam rigid = beam_of(end_mill()).value();
   const ToolBeam soft = beam_of(end_mill(), {.shift_mm_n = 1e-5, .tilt_rad_nmm = 1e-8}).value();
   EXPECT_NEAR(bending_mm_n(soft, 0.0, 0.0) - bending_mm_n(rigid, 0.0, 0.0), 1e-5 + 1e-8 * 1600.0, 1e-15);
-  EXPECT_NEAR(tilt_rad_n(soft, 0.0, 0.0) - tilt_rad_n(rigid, 0.0, 0.0), 1e-8 * 40.0, 1e-18);
   EXPECT_EQ(bending_mm_n(soft, 41.0, 0.0), 0.0);
 }
 

@@ -8,7 +8,6 @@
 #include "planner/physics/mechanics/bending/beam.h"
 #include "planner/physics/mechanics/force/force_law.h"
 #include "planner/physics/mechanics/life/life.h"
-#include "planner/physics/mechanics/loads/loads.h"
 #include "planner/physics/mechanics/loads/section.h"
 #include "planner/physics/mechanics/stability.h"
 
@@ -90,8 +89,6 @@ TEST_F(Hostile, SectionsGiveLoadsOrAnError) {
     EXPECT_FALSE(std::isnan(loads->peak_force_n));
     EXPECT_FALSE(std::isnan(loads->torque_nm));
     EXPECT_GE(loads->peak_force_n, 0.0);
-    (void)feed_within(s, t, l, {.peak_force_n = any(300.0), .power_w = any(900.0)}, any(5000.0), any(0.001),
-                      any(0.3));
   }
   EXPECT_GT(good, kTries / 4);
 }
@@ -113,32 +110,17 @@ TEST_F(Hostile, WallsGiveAnErrorOfTheWallOrOfTheInput) {
   }
 }
 
-TEST_F(Hostile, PlannedCutsGiveLoadsOrAnError) {
-  for (int i = 0; i < kTries; ++i) {
-    const MillingCut cut{any(3.0), any(2.0), any(0.05), any(4000.0), any(12.0),
-                         any(4),   any(0.5), any(1.0),  false};
-    const ToolStiffness tool{any(40.0), any(12.0), any(26.0), any(12.0), any(580e3)};
-    for (const auto& loads :
-         {milling_loads(cut, {any(2000.0), any(0.2)}, tool), milling_loads(cut, tooth(), law(), tool)}) {
-      if (loads) {
-        EXPECT_FALSE(std::isnan(loads->peak_force_n));
-      }
-    }
-  }
-}
-
 TEST_F(Hostile, ModesGiveADepthOrAnError) {
   for (int i = 0; i < 150; ++i) {
-    model::Machine machine;
-    machine.modes = {{"", "x", any(800.0), any(0.03), any(5000.0)},
-                     {"", "y", any(900.0), any(0.03), any(6000.0)}};
-    model::Cutter cutter;
-    cutter.teeth = any(4);
-    cutter.cutting_diameter_mm = any(12.0);
-    const auto depth = stable_depth_mm(machine, cutter, law(), {any(0.5), any(2.0)}, any(0.05), any(5000.0));
-    if (depth) {
-      EXPECT_FALSE(std::isnan(depth->depth_mm));
-      EXPECT_GE(depth->depth_mm, 0.0);
+    const std::vector<model::ToolPointMode> modes = {{"", "x", any(800.0), any(0.03), any(5000.0)},
+                                                     {"", "y", any(900.0), any(0.03), any(6000.0)}};
+    const ChatterCut cut{
+        .arc = {any(0.5), any(2.0)}, .teeth = any(4), .ktc_n_mm2 = any(2000.0), .krc_n_mm2 = any(1200.0)};
+    const auto lobes = StabilityLobes::make(modes, cut);
+    if (lobes) {
+      const double depth = lobes->limit_mm(any(5000.0));
+      EXPECT_FALSE(std::isnan(depth));
+      EXPECT_GE(depth, 0.0);
     }
   }
 }
@@ -151,7 +133,7 @@ TEST_F(Hostile, LawsOfLifeGiveALife) {
     l.n = any(0.25);
     l.p = any(2.0);
     l.h0_mm = any(0.1);
-    const double life = sure_life_min(l, any(0.9), any(150.0), any(0.1), any(2.0));
+    const double life = median_life_min(l, any(150.0), any(0.1), any(2.0));
     EXPECT_FALSE(std::isnan(life));
     EXPECT_GE(life, 0.0);
   }

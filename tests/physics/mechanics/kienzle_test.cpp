@@ -7,10 +7,13 @@
 #include <numbers>
 
 #include "planner/physics/mechanics/constants.h"
-#include "planner/physics/mechanics/force/immersion.h"
+#include "tests/support/kienzle_fit.h"
 
 namespace capstan::mechanics {
 namespace {
+
+using testing::fit_kienzle;
+using testing::SpecificForcePoint;
 
 struct MilledRow {
   const char* name;
@@ -114,15 +117,15 @@ TEST(KienzleFit, RefusesWhatDoesNotFixALine) {
 
 TEST(CuttingPower, MatchesTheToolMakersWorkedExample) {
   // [S] ap 2, ae 80 mm, vf 280 mm/min, kc 1800 MPa, coefficient 0.8: 1.68 kW.
-  const double at_tool = cutting_power_w(removal_rate_mm3_min(2.0, 80.0, 280.0), 1800.0);
-  EXPECT_NEAR(motor_power_w(at_tool, kDefaultSpindleEfficiency), 1680.0, 1e-9);
+  const double at_tool = cutting_power_w(2.0 * 80.0 * 280.0, 1800.0);
+  EXPECT_NEAR(at_tool / kDefaultSpindleEfficiency, 1680.0, 1e-9);
 }
 
 TEST(CuttingPower, MatchesGhoshAndMallikSlabMilling) {
   // [S] the problems (as FOSSEE's programs state them), [C] the powers. Ghosh & Mallik, Manufacturing
   // Science, problems 4.15 to 4.18; specific energy in J/mm3 is kN/mm2.
   const auto power = [](double width, double depth, double feed, WorkMaterial work, double h) {
-    return cutting_power_w(removal_rate_mm3_min(depth, width, feed), specific_force_n_mm2(work, h));
+    return cutting_power_w(depth * width * feed, specific_force_n_mm2(work, h));
   };
   EXPECT_NEAR(power(20, 1, 15, {1400.0, 0.4}, 0.0018), 87.70, 0.005);
   EXPECT_NEAR(power(20, 5, 100, {1400.0, 0.4}, 0.043), 821.5, 0.05);  // the book prints 817 W
@@ -130,16 +133,16 @@ TEST(CuttingPower, MatchesGhoshAndMallikSlabMilling) {
   EXPECT_NEAR(power(20, 5, 25, {3300.0, 0.0}, 1.0), 137.5, 1e-9);
 }
 
-TEST(CuttingPower, IsTheSameFromRemovalRateAndFromForce) {
+TEST(CuttingPower, IsTheMeanForceTimesTheSpeed) {
+  // P = F v / 60, v = pi D n / 1000 m/min; M = F D / 2.
   const WorkMaterial work{2298.0, 0.20};
   const double diameter = 16.0;
   const int teeth = 3;
   const double n = 1800.0;
-  const double kc = specific_force_n_mm2(work, mean_chip_thickness_mm(0.07, 5.0, diameter));
-  const double from_rate = cutting_power_w(removal_rate_mm3_min(8.0, 5.0, 0.07 * teeth * n), kc);
+  const double kc = specific_force_n_mm2(work, 0.04);
+  const double from_rate = cutting_power_w(8.0 * 5.0 * 0.07 * teeth * n, kc);
   const double force = mean_tangential_force_n(kc, 8.0, 5.0, 0.07, teeth, diameter);
-  const double from_force = power_from_force_w(force, cutting_speed_m_min(n, diameter));
-  EXPECT_NEAR(from_force, from_rate, 1e-9 * from_rate);
+  EXPECT_NEAR(force * std::numbers::pi * diameter * n / 60e3, from_rate, 1e-9 * from_rate);
   EXPECT_NEAR(spindle_torque_nm(from_rate, n), force * diameter / 2000.0, 1e-9 * force);
 }
 

@@ -8,8 +8,8 @@
 #include <random>
 
 #include "planner/physics/mechanics/force/kienzle.h"
-#include "planner/physics/mechanics/loads/loads.h"
 #include "planner/physics/mechanics/loads/section.h"
+#include "planner/physics/mechanics/loads/side_section.h"
 
 namespace capstan::mechanics {
 namespace {

@@ -177,28 +177,16 @@ TEST(SlenderDepth, FallsWithTheCubeBeyondFourDiameters) {
   EXPECT_EQ(slender_depth_mm(-1.0, 30.0), 0.0);
 }
 
-TEST(StableDepth, IsByModesWhereTheMachineHasThemForTheCutter) {
+// A mode that names the cutter takes the place of those that name none.
+TEST(Modes, AreThoseOfTheCutterBeforeThoseOfAny) {
   model::Machine machine;
-  model::Cutter cutter;
-  cutter.id = "em10";
-  cutter.cutting_diameter_mm = 10.0;
-  cutter.stick_out_mm = 50.0;
-  cutter.teeth = 3;
-  const ForceLaw law{.kienzle = {2298.0, 0.2}, .uncertainty_factor = 1.5};
-  const ImmersionArc arc = immersion_arc(5.0, 10.0, CutDirection::kDown);
-  const auto plain = stable_depth_mm(machine, cutter, law, arc, 0.05, 4000.0);
-  EXPECT_FALSE(plain->by_modes);
-  EXPECT_DOUBLE_EQ(plain->depth_mm, slender_depth_mm(10.0, 50.0));
   machine.modes = kTwoModes;
-  const double any = stable_depth_mm(machine, cutter, law, arc, 0.05, 4000.0)->depth_mm;
-  EXPECT_GT(any, 0.0);
-  // A mode that names the cutter takes the place of those that name none.
+  EXPECT_EQ(modes_for(machine, "em10").size(), kTwoModes.size());
   machine.modes.push_back(mode("x", 900.0, 0.02, 2000.0));
   machine.modes.back().cutter_id = "em10";
-  const auto own = stable_depth_mm(machine, cutter, law, arc, 0.05, 4000.0);
-  EXPECT_TRUE(own->by_modes);
-  EXPECT_LT(own->depth_mm, any);
-  EXPECT_FALSE(stable_depth_mm(machine, cutter, law, arc, 0.0, 4000.0));
+  ASSERT_EQ(modes_for(machine, "em10").size(), 1U);
+  EXPECT_EQ(modes_for(machine, "em10")[0].cutter_id, "em10");
+  EXPECT_EQ(modes_for(machine, "em8").size(), kTwoModes.size());
 }
 
 }  // namespace

@@ -64,16 +64,6 @@ TEST(MaxHeight, SeesOnlyWhatTheDiscCovers) {
   EXPECT_EQ(max_height(map, {-50.0, -3.0}, {70.0, -3.0}, 2.0), 0.0);
 }
 
-TEST(ClearHeight, LetsABallReachDeeperBesideAnEdge) {
-  const HeightMap map = from_box({{0, 0, 0}, {20, 20, 5}}, 0.05);
-  const auto ball = geometry::ball_profile(10.0, 20.0);
-  EXPECT_NEAR(clear_height(map, ball, {10.0, 10.0}), 5.0, 1e-6);
-  const double beside = 5.0 - (5.0 - std::sqrt(25.0 - 9.0));
-  const double found = clear_height(map, ball, {-3.0, 10.0});
-  EXPECT_GE(found, beside - 1e-9);
-  EXPECT_LE(found, beside + 0.1);
-}
-
 /// Least of z(t) + profile(distance) over a dense row of stamps.
 double stamped(const geometry::CutterProfile& profile, double along, double across, double length,
                double rise) {

@@ -32,7 +32,6 @@ struct Comparison {
 struct Verdict {
   std::vector<std::string> gouges, left, idle, rapids, rubs, faults;
   std::vector<Point> left_at;  ///< the worst place of each of `left`
-  double seconds = 0.0;
   std::size_t steps = 0;
   [[nodiscard]] bool agrees() const;
   [[nodiscard]] std::string text() const;

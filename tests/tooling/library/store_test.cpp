@@ -140,7 +140,6 @@ TEST(ToolStore, FindsEveryCutterThatSelectionAccepts) {
     }
     r.reach_mm = unit(rng) * 50.0;
     r.depth_of_cut_mm = unit(rng) < 0.5 ? unit(rng) * 20.0 : 0.0;
-    r.flute_length_min_mm = unit(rng) < 0.2 ? unit(rng) * 30.0 : 0.0;
     r.corner_radius_limited = unit(rng) < 0.3;
     r.corner_radius_max_mm = unit(rng) * 2.0;
     Preferences p;

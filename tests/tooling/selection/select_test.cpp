@@ -347,9 +347,9 @@ TEST(Select, HoldsFlutesAgainstWallsThatAreCutInOneDepth) {
   ToolRequirement r;
   r.classes = {CutterClass::kEndmill};
   r.diameter_max_mm = 10;
-  r.flute_length_min_mm = 22;
+  r.depth_of_cut_mm = 22;
   EXPECT_EQ(why_not(r, endmill("a", 10)), "flutes 20 mm are shorter than 22 mm");
-  r.flute_length_min_mm = 20;
+  r.depth_of_cut_mm = 20;
   EXPECT_EQ(why_not(r, endmill("a", 10)), "");
 }
 

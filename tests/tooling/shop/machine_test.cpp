@@ -137,15 +137,6 @@ TEST(Gears, TheFirstIsInUseUnlessAnotherIsNamed) {
   EXPECT_NE(none.error().expected.find("high, low"), std::string::npos);
 }
 
-TEST(Gears, ASpeedIsTurnedInTheGearInUseWhereItCanBe) {
-  Job job;
-  const auto m = load_machine("tormach_1100mx", job).value();
-  EXPECT_EQ(gear_for(m, 1000.0)->id, "high");  // both could
-  EXPECT_EQ(gear_for(m, 100.0)->id, "low");
-  EXPECT_EQ(gear_for(m, 9000.0), nullptr);
-  EXPECT_EQ(gear_for(in_gear(m, "low").value(), 1000.0)->id, "low");
-}
-
 TEST(Gears, TheLowRangeNeverGivesMoreThanTheHighOneOverEitherRatio) {
   Job job;
   const auto m = load_machine("tormach_1100mx", job).value();

@@ -477,7 +477,7 @@ std::vector<std::int64_t> ToolStore::find(const model::ToolRequirement& r) const
     for (; k != end && k->value[0] <= high; ++k) {
       const auto& [d, to, reach, flutes, corner, pitch] = k->value;
       if (to < low || reach < r.reach_mm - kSlackMm) continue;
-      if (flutes < std::max(r.depth_of_cut_mm, r.flute_length_min_mm) - kSlackMm) continue;
+      if (flutes < r.depth_of_cut_mm - kSlackMm) continue;
       if (r.corner_radius_limited && corner > r.corner_radius_max_mm + kSlackMm) continue;
       constexpr double kPitchSlackMm = 1e-3;
       if (r.thread_pitch_mm > 0.0 && std::abs(pitch - r.thread_pitch_mm) > kPitchSlackMm) continue;

@@ -409,17 +409,6 @@ Result<Machine> read_machine(std::string_view text, const std::string& file, Job
   return m;
 }
 
-const model::SpindleGear* gear_for(const Machine& m, double rpm) {
-  const auto turns = [&](double least, double most) { return least <= rpm && rpm <= most; };
-  const model::SpindleGear* found = nullptr;
-  for (const auto& g : m.spindle.gears) {
-    if (!turns(g.rpm_min, g.rpm_max)) continue;
-    if (g.rpm_min == m.spindle.rpm_min && g.rpm_max == m.spindle.rpm_max) return &g;  // the one in use
-    if (found == nullptr) found = &g;
-  }
-  return found;
-}
-
 Result<Machine> in_gear(Machine m, std::string_view id) {
   std::string names;
   for (const auto& g : m.spindle.gears) {

@@ -26,10 +26,6 @@ inline constexpr std::string_view kDefaultMachine = "generic_vmc";
 ///        speeds), MACHINE-RPM (looks like revolutions per second), MACHINE-AXIS (unknown or missing).
 [[nodiscard]] Result<model::Machine> read_machine(std::string_view text, const std::string& file, Job& job);
 
-/// The gear that turns at a speed: the one in use when it does, else the first that does; null when none
-/// does, or the spindle has none.
-[[nodiscard]] const model::SpindleGear* gear_for(const model::Machine& m, double rpm);
-
 /// The machine with that gear in use: Spindle::rpm_min, rpm_max and curve are the gear's.
 /// Fails  MACHINE-GEAR, naming the gears that there are.
 [[nodiscard]] Result<model::Machine> in_gear(model::Machine m, std::string_view id);

@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
-#include <tuple>
 #include <utility>
-#include <vector>
 
 #include "planner/ground/base/number.h"
 
@@ -17,49 +15,27 @@ namespace {
 /// for one pass a cutter of 1.2 to 1.3 times the face's width; the middle of it.
 constexpr double kFaceWidthRatio = 0.8;
 
-using QuestionKey = std::tuple<int, double, double, double, double, double, double, double, double, double,
-                               double, double, double, double, double, double, bool, bool, bool, double,
-                               double, double, double, double, bool, double>;
-
-QuestionKey key_of(const optimise::CutQuestion& q) {
-  constexpr double kUnset = -1.0;
-  return {static_cast<int>(q.kind),
-          q.vc_start_m_min,
-          q.vc_table_m_min,
-          q.fz_start_mm,
-          q.depth_mm,
-          q.width_mm,
-          q.pre_hole_mm,
-          q.deflection_limit_mm,
-          q.ap_mm.value_or(kUnset),
-          q.ae_mm.value_or(kUnset),
-          q.n_rpm.value_or(kUnset),
-          q.feed_mm_min.value_or(kUnset),
-          q.fz_mm.value_or(kUnset),
-          q.engaged_diameter_mm,
-          q.ap_most_mm,
-          q.least_feed_ratio,
-          q.slot,
-          q.override_locked,
-          q.feed_by_planning,
-          q.surface_ra_um,
-          q.wall_error_limit_mm,
-          q.peak_force_limit_n,
-          q.least_chip_mm,
-          q.speed_diameter_mm,
-          q.as_measured,
-          q.margin_deviations};
-}
-
 }  // namespace
 
-/// By cutter, whole: one name may stand out differently in two steps.
-struct CutsKnown {
-  std::map<QuestionKey, std::vector<std::pair<model::Cutter, optimise::CutAnswer>>> answers;
-};
+const optimise::CutAnswer* KnownCuts::find(const optimise::CutQuestion& q) const {
+  const auto [first, last] = answers_.equal_range(shelf_of(q));
+  for (auto it = first; it != last; ++it) {
+    if (it->second.first == q) return &it->second.second;
+  }
+  return nullptr;
+}
+
+void KnownCuts::keep(const optimise::CutQuestion& q, const optimise::CutAnswer& a) {
+  answers_.emplace(shelf_of(q), std::pair(q, a));
+}
+
+/// Tells most questions apart; equal questions have equal ones.
+KnownCuts::Shelf KnownCuts::shelf_of(const optimise::CutQuestion& q) {
+  return {q.cutter.id, q.depth_mm, q.width_mm, q.vc_start_m_min, q.fz_start_mm, q.ae_mm.value_or(-1.0)};
+}
 
 Cuts::Cuts(Work& w) : w_(w) {
-  if (!w.tries.cuts) w.tries.cuts = std::make_shared<CutsKnown>();
+  if (!w.tries.cuts) w.tries.cuts = std::make_shared<KnownCuts>();
   known_ = w.tries.cuts;
   options_.solver = w.inputs.solver;
   options_.backends = w.inputs.backends;
@@ -68,12 +44,9 @@ Cuts::Cuts(Work& w) : w_(w) {
 }
 
 Result<optimise::CutAnswer> Cuts::answer(const optimise::CutQuestion& q) {
-  auto& known = known_->answers[key_of(q)];
-  for (const auto& [cutter, answer] : known) {
-    if (cutter == q.cutter) return answer;
-  }
+  if (const auto* known = known_->find(q)) return *known;
   auto a = optimise::cut(q, options_, w_.job);
-  if (a) known.emplace_back(q.cutter, *a);
+  if (a) known_->keep(q, *a);
   return a;
 }
 

@@ -2,7 +2,9 @@
 
 #include <map>
 #include <memory>
-#include <optional>
+#include <string>
+#include <tuple>
+#include <utility>
 
 #include "planner/door/pipeline/work.h"
 #include "planner/making/optimise/cut.h"
@@ -12,6 +14,20 @@
 // include this.
 
 namespace capstan::pipeline {
+
+/// Answers by their whole question: cutter, machine, material, limits and what is given. Two cutters of one
+/// id are two questions where they differ in anything, as one that stands out farther in another step does.
+class KnownCuts {
+ public:
+  /// Null where this was not asked before. Valid until the next `keep`.
+  [[nodiscard]] const optimise::CutAnswer* find(const optimise::CutQuestion& q) const;
+  void keep(const optimise::CutQuestion& q, const optimise::CutAnswer& a);
+
+ private:
+  using Shelf = std::tuple<std::string, double, double, double, double, double>;
+  static Shelf shelf_of(const optimise::CutQuestion& q);
+  std::multimap<Shelf, std::pair<optimise::CutQuestion, optimise::CutAnswer>> answers_;
+};
 
 class Cuts {
  public:
@@ -30,7 +46,7 @@ class Cuts {
  private:
   Work& w_;
   optimise::Options options_;
-  std::shared_ptr<CutsKnown> known_;
+  std::shared_ptr<KnownCuts> known_;
 };
 
 /// Cuts under an overhang are not measured: bounds the feed of the passes in which more than one edge of the

@@ -58,10 +58,6 @@ bool Dictionary::admits(const Type& type, EntityId e) const {
   return (t.admitted[i / 64] >> (i % 64) & 1U) != 0;
 }
 
-std::span<const EntityId> Dictionary::supertypes(EntityId e) const {
-  return tables_->entities.at(index(e)).supertypes;
-}
-
 std::span<const std::vector<EntityId>> Dictionary::exclusive(EntityId e) const {
   return tables_->entities.at(index(e)).exclusive;
 }

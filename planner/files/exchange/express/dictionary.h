@@ -111,7 +111,6 @@ class Dictionary {
   /// Whether a reference to an instance of e may stand where `type` (entity, select, or a name for one) is
   /// due.
   [[nodiscard]] bool admits(const Type& type, EntityId e) const;
-  [[nodiscard]] std::span<const EntityId> supertypes(EntityId e) const;  ///< direct, as declared
 
   /// Groups of its subtypes of which an instance may be only one (ONEOF).
   [[nodiscard]] std::span<const std::vector<EntityId>> exclusive(EntityId e) const;

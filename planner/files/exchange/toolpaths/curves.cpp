@@ -427,13 +427,6 @@ class StepBuilder {
 
 }  // namespace
 
-Result<CutterPath> path_of_toolpath(const model::Plan& plan, model::Ref<model::Toolpath> toolpath,
-                                    const Placement& frame, const CurveOptions& options, Job& job) {
-  auto followed = follow(plan, toolpath, frame, options, job);
-  if (!followed) return fail(followed.error());
-  return std::move(followed->path);
-}
-
 Result<StepPath> path_of_step(const model::Plan& plan, model::Ref<model::Executable> step,
                               const CurveOptions& options, Job& job,
                               const std::vector<model::StepResult>* recorded) {

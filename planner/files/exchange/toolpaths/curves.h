@@ -22,21 +22,6 @@ struct CurveOptions {
                                1};  ///< of via_helix_points: the stated tool axis, else the curve's own z
 };
 
-/// One toolpath as moves. Arcs about the set-up's z stay arcs, a helix too (turn by turn); other curves are
-/// sampled. A trimmed LINE runs from trim_1 to trim_2 whatever its sense says (published files contradict
-/// themselves there); a trimmed circle or helix runs from trim_1 to trim_2 in the sense stated.
-///
-/// Tool    stays along the set-up's z: a tool axis that tilts is refused.
-/// Moves   rapid when its_speed is RAPID, or when its_type is CONNECT without a technology of its own (so the
-///         published toolkit reads it); else at feed.
-/// Fails   EXC-CURVE (a curve that cannot be followed), EXC-TOOLPATH (a kind without geometry of its own),
-///         EXC-TOOL-AXIS.
-/// Frame   `frame` carries curve coordinates into the path's.
-[[nodiscard]] Result<model::CutterPath> path_of_toolpath(const model::Plan& plan,
-                                                         model::Ref<model::Toolpath> toolpath,
-                                                         const geometry::Placement& frame,
-                                                         const CurveOptions& options, Job& job);
-
 /// What a step's toolpaths say altogether.
 struct StepPath {
   model::CutterPath path;         ///< in the set-up's frame
@@ -52,7 +37,15 @@ struct StepPath {
 /// where the technology states another feed, or speed, than these, somebody typed it since, and it holds
 /// throughout.
 ///
-/// Fails  as path_of_toolpath; EXC-GAP where a toolpath does not begin where the one before ended.
+/// Arcs about the set-up's z stay arcs, a helix too (turn by turn); other curves are
+/// sampled. A trimmed LINE runs from trim_1 to trim_2 whatever its sense says (published files contradict
+/// themselves there); a trimmed circle or helix runs from trim_1 to trim_2 in the sense stated.
+///
+/// Tool    stays along the set-up's z: a tool axis that tilts is refused.
+/// Moves   rapid when its_speed is RAPID, or when its_type is CONNECT without a technology of its own (so the
+///         published toolkit reads it); else at feed.
+/// Fails   EXC-CURVE (a curve that cannot be followed), EXC-TOOLPATH (a kind without geometry of its own),
+///         EXC-TOOL-AXIS; EXC-GAP where a toolpath does not begin where the one before ended.
 [[nodiscard]] Result<StepPath> path_of_step(const model::Plan& plan, model::Ref<model::Executable> step,
                                             const CurveOptions& options, Job& job,
                                             const std::vector<model::StepResult>* recorded = nullptr);

@@ -7,8 +7,8 @@
 #include "planner/physics/mechanics/constants.h"
 #include "planner/physics/mechanics/force/drilling.h"
 #include "planner/physics/mechanics/force/force_law.h"
-#include "planner/physics/mechanics/loads/loads.h"
 #include "planner/physics/mechanics/loads/section.h"
+#include "planner/physics/mechanics/loads/side_section.h"
 #include "planner/physics/mechanics/surface.h"
 
 namespace capstan::optimise {

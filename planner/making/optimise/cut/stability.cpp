@@ -20,7 +20,8 @@ bool has_modes(const CutQuestion& q) {
 
 namespace {
 
-/// The lobes of up and of down milling, each with the margin on its depth.
+/// The lobes of up and of down milling, each with the margin on its depth: kSingleToothMargin, and the law's
+/// uncertainty on the force.
 struct Lobes {
   std::vector<std::pair<mechanics::StabilityLobes, double>> of;
   [[nodiscard]] double depth(double n_rpm) const {
@@ -30,7 +31,7 @@ struct Lobes {
   }
 };
 
-/// As mechanics::stable_depth_mm, but kept for all speeds.
+/// Nothing where the machine has no modes for the cutter.
 std::optional<Lobes> lobes_of(const CutQuestion& q, double ae_mm, double fz_mm) {
   if (!has_modes(q) || !(ae_mm > 0.0) || !(fz_mm > 0.0)) return std::nullopt;
   const double d = q.cutter.cutting_diameter_mm;

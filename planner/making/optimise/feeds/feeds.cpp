@@ -256,14 +256,6 @@ FeedAnswer feeds(const FeedQuestion& q, const CutterPath& path) {
   return a;
 }
 
-double largest_feed(const FeedQuestion& q, const CutSample& s) {
-  const Judge judge(q, rpm_on(q, s.move));
-  const Cuts cuts = cuts_of(s, q.cut);
-  double best = judge.ceiling_mm_min();
-  for (std::size_t c = 0; c < cuts.n; ++c) best = std::min(best, judge.largest(cuts.cut[c], best));
-  return best;
-}
-
 std::optional<double> excess_at(const FeedQuestion& q, const CutSample& s, double feed_mm_min) {
   const Judge judge(q, rpm_on(q, s.move));
   const Cuts cuts = cuts_of(s, q.cut);

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <functional>
 #include <span>
@@ -8,7 +7,6 @@
 #include <vector>
 
 #include "planner/ground/base/result.h"
-#include "planner/making/optimise/problem/dual.h"
 
 namespace capstan::optimise {
 
@@ -51,47 +49,13 @@ struct Problem {
 /// lower > upper, a start that is not finite, a logarithmic walk with lower <= 0.
 [[nodiscard]] Status validate(const Problem& problem);
 
-/// A model from one formula, written once for any number type:
-///
-///     differentiate<2>([](const auto& x, auto& objective, auto& c) {
-///       objective = 1.0 / (x[0] * x[1]);
-///       c[0] = x[0] * x[0] * x[1] / 900.0 - 1.0;
-///     });
-///
-/// x is a std::array<T, N>, c a std::vector<T> of the problem's number of constraints; T is double when
-/// no slopes are wanted, else Dual<N>.
-template <std::size_t N, class Formula>
-[[nodiscard]] Model differentiate(Formula formula) {
-  return [formula = std::move(formula)](std::span<const double> x, bool want_slopes, Evaluation& out) {
-    if (!want_slopes) {
-      std::array<double, N> point;
-      for (std::size_t j = 0; j < N; ++j) point[j] = x[j];
-      formula(point, out.objective, out.constraints);
-      return;
-    }
-    using T = Dual<N>;
-    std::array<T, N> point;
-    for (std::size_t j = 0; j < N; ++j) point[j] = T::variable(x[j], j);
-    T objective;
-    std::vector<T> constraints(out.constraints.size());
-    formula(point, objective, constraints);
-    out.objective = objective.v;
-    for (std::size_t j = 0; j < N; ++j) out.gradient[j] = objective.d[j];
-    for (std::size_t i = 0; i < constraints.size(); ++i) {
-      out.constraints[i] = constraints[i].v;
-      for (std::size_t j = 0; j < N; ++j) out.jacobian[i * N + j] = constraints[i].d[j];
-    }
-  };
-}
-
 /// A function without slopes.
 using PlainModel =
     std::function<void(std::span<const double> x, double& objective, std::span<double> constraints)>;
 
-/// Slopes by central differences, step 1e-6 of a variable's range, one-sided at a bound. For formulas
-/// that cannot be templates (a peak over a rotation, a table); a slope costs 2 N calls of `plain`, which
-/// count as one evaluation.
-/// Accuracy  about 1e-9 of the range's change of the function; keep `plain` smooth to 1e-12.
+/// Slopes by central differences, step 1e-6 of a variable's range, one-sided at a bound. A slope costs 2 N
+/// calls of `plain`, which count as one evaluation. Accuracy  about 1e-9 of the range's change of the
+/// function; keep `plain` smooth to 1e-12.
 [[nodiscard]] Model central_differences(PlainModel plain, std::vector<Variable> variables);
 
 }  // namespace capstan::optimise

@@ -129,10 +129,4 @@ Result<Deviations> fit(double nominal_mm, std::string_view designation) {
   return fit(nominal_mm, *c);
 }
 
-Result<double> target_size(double nominal_mm, std::string_view designation) {
-  const auto d = fit(nominal_mm, designation);
-  if (!d) return tl::unexpected(d.error());
-  return nominal_mm + d->middle();
-}
-
 }  // namespace capstan::model

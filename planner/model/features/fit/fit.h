@@ -42,7 +42,4 @@ struct FitClass {
 [[nodiscard]] Result<Deviations> fit(double nominal_mm, const FitClass& c);
 [[nodiscard]] Result<Deviations> fit(double nominal_mm, std::string_view designation);
 
-/// The size that a path aims at, the middle of the tolerance: 20.0105 for 20 H7. Fails as fit.
-[[nodiscard]] Result<double> target_size(double nominal_mm, std::string_view designation);
-
 }  // namespace capstan::model

@@ -4,7 +4,6 @@
 #include <array>
 #include <cctype>
 #include <charconv>
-#include <numbers>
 #include <span>
 
 #include "planner/ground/base/number.h"
@@ -24,13 +23,6 @@ constexpr std::array<std::array<double, 8>, 4> kSize{{
     {0.2, 0.3, 0.5, 0.8, 1.2, 2, 3, 4},             // c
     {kNone, 0.5, 1, 1.5, 2.5, 4, 6, 8},             // v
 }};
-constexpr std::array<double, 3> kEdges{3, 6, 1e9};
-constexpr std::array<std::array<double, 3>, 4> kEdge{
-    {{0.2, 0.5, 1}, {0.2, 0.5, 1}, {0.4, 1, 2}, {0.4, 1, 2}}};
-constexpr std::array<double, 5> kSides{10, 50, 120, 400, 1e9};
-constexpr std::array<std::array<double, 5>, 4> kAngleMinutes{
-    {{60, 30, 20, 10, 5}, {60, 30, 20, 10, 5}, {90, 60, 30, 15, 10}, {180, 120, 60, 30, 20}}};
-
 constexpr std::array<double, 6> kLengths{10, 30, 100, 300, 1000, 3000};
 constexpr std::array<std::array<double, 6>, 3> kFlatness{{
     {0.02, 0.05, 0.1, 0.2, 0.3, 0.4},  // H
@@ -40,10 +32,6 @@ constexpr std::array<std::array<double, 6>, 3> kFlatness{{
 constexpr std::array<double, 4> kWide{100, 300, 1000, 3000};
 constexpr std::array<std::array<double, 4>, 3> kPerpendicularity{
     {{0.2, 0.3, 0.4, 0.5}, {0.4, 0.6, 0.8, 1}, {0.6, 1, 1.5, 2}}};
-constexpr std::array<std::array<double, 4>, 3> kSymmetry{
-    {{0.5, 0.5, 0.5, 0.5}, {0.6, 0.6, 0.8, 1}, {0.6, 1, 1.5, 2}}};
-constexpr std::array<double, 3> kRunout{0.1, 0.2, 0.5};
-
 constexpr std::string_view kSizeClasses = "fmcv";
 constexpr std::string_view kGeometryClasses = "HKL";
 
@@ -165,22 +153,6 @@ std::optional<double> general_size(const GeneralTolerance& g, double nominal_mm)
   return look_up(kSizes, kSize[row], nominal_mm);
 }
 
-std::optional<double> general_edge(const GeneralTolerance& g, double nominal_mm) {
-  if (g.size_mm) return g.size_mm;
-  if (g.profile_mm) return 0.5 * *g.profile_mm;
-  const auto row = kSizeClasses.find(g.size_class);
-  if (g.size_class == 0 || row == std::string_view::npos || nominal_mm < kLeastSize) return std::nullopt;
-  return look_up(kEdges, kEdge[row], nominal_mm);
-}
-
-std::optional<double> general_angle(const GeneralTolerance& g, double shorter_side_mm) {
-  const auto row = kSizeClasses.find(g.size_class);
-  if (g.size_class == 0 || row == std::string_view::npos) return std::nullopt;
-  const auto minutes = look_up(kSides, kAngleMinutes[row], shorter_side_mm);
-  if (!minutes) return std::nullopt;
-  return *minutes / 60.0 * std::numbers::pi / 180.0;
-}
-
 std::optional<double> general_flatness(const GeneralTolerance& g, double length_mm) {
   if (g.profile_mm) return g.profile_mm;
   const auto row = kGeometryClasses.find(g.geometry_class);
@@ -193,20 +165,6 @@ std::optional<double> general_perpendicularity(const GeneralTolerance& g, double
   const auto row = kGeometryClasses.find(g.geometry_class);
   if (g.geometry_class == 0 || row == std::string_view::npos) return std::nullopt;
   return look_up(kWide, kPerpendicularity[row], shorter_mm);
-}
-
-std::optional<double> general_symmetry(const GeneralTolerance& g, double length_mm) {
-  if (g.profile_mm) return g.profile_mm;
-  const auto row = kGeometryClasses.find(g.geometry_class);
-  if (g.geometry_class == 0 || row == std::string_view::npos) return std::nullopt;
-  return look_up(kWide, kSymmetry[row], length_mm);
-}
-
-std::optional<double> general_runout(const GeneralTolerance& g) {
-  if (g.profile_mm) return g.profile_mm;
-  const auto row = kGeometryClasses.find(g.geometry_class);
-  if (g.geometry_class == 0 || row == std::string_view::npos) return std::nullopt;
-  return kRunout[row];
 }
 
 }  // namespace capstan::model

@@ -34,20 +34,10 @@ struct GeneralTolerance {
 /// Source  ISO 2768-1:1989, table 1.
 [[nodiscard]] std::optional<double> general_size(const GeneralTolerance& g, double nominal_mm);
 
-/// The deviation, +-mm, of an external radius or a chamfer's height.
-/// Source  ISO 2768-1:1989, table 2.
-[[nodiscard]] std::optional<double> general_edge(const GeneralTolerance& g, double nominal_mm);
-
-/// The deviation, +-rad, of an angle whose shorter side is that long.
-/// Source  ISO 2768-1:1989, table 3.
-[[nodiscard]] std::optional<double> general_angle(const GeneralTolerance& g, double shorter_side_mm);
-
 /// General geometric tolerances, width of the zone in mm. Nothing without a class of ISO 2768-2; the profile
 /// zone of ISO 22081 is the same for all.
-/// Source  ISO 2768-2:1989, tables 1 to 4.
+/// Source  ISO 2768-2:1989, tables 1 and 2.
 [[nodiscard]] std::optional<double> general_flatness(const GeneralTolerance& g, double length_mm);
 [[nodiscard]] std::optional<double> general_perpendicularity(const GeneralTolerance& g, double shorter_mm);
-[[nodiscard]] std::optional<double> general_symmetry(const GeneralTolerance& g, double length_mm);
-[[nodiscard]] std::optional<double> general_runout(const GeneralTolerance& g);
 
 }  // namespace capstan::model

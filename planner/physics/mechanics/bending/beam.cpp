@@ -61,12 +61,6 @@ double force_y(const Tooth& t, const ForceLaw& law, double fz, double angle, dou
 
 }  // namespace
 
-double ToolBeam::length_mm() const {
-  double sum = 0.0;
-  for (const BeamSegment& s : segments) sum += s.length_mm;
-  return sum;
-}
-
 Result<ToolBeam> beam_of(const model::Cutter& c, const HolderCompliance& holder) {
   if (auto ok = check_positive({{"cutting_diameter_mm", c.cutting_diameter_mm}}); !ok)
     return fail(ok.error());
@@ -112,20 +106,6 @@ double bending_mm_n(const ToolBeam& beam, double force_mm, double seen_mm) {
   }
   if (low >= from) return 0.0;
   return sum + beam.holder.shift_mm_n + beam.holder.tilt_rad_nmm * (from - force_mm) * (from - seen_mm);
-}
-
-double tilt_rad_n(const ToolBeam& beam, double force_mm, double seen_mm) {
-  const double low = std::max({force_mm, seen_mm, 0.0});
-  double from = 0.0;
-  double sum = 0.0;
-  for (const BeamSegment& s : beam.segments) {
-    const double to = from + s.length_mm;
-    const double start = std::max(from, low);
-    if (start < to) sum += (to - start) * (0.5 * (start + to) - force_mm) / stiffness_nmm2(s);
-    from = to;
-  }
-  if (low >= from) return 0.0;
-  return sum + beam.holder.tilt_rad_nmm * (from - force_mm);
 }
 
 double WallError::largest_mm() const { return most_left_mm >= -most_over_mm ? most_left_mm : most_over_mm; }

@@ -30,7 +30,6 @@ struct HolderCompliance {
 struct ToolBeam {
   std::vector<BeamSegment> segments;
   HolderCompliance holder;
-  [[nodiscard]] double length_mm() const;
 };
 
 /// Young's modulus of a holder of steel, N/mm2. Source: as kHssYoungsModulusNMm2, the soft end of tool
@@ -59,9 +58,6 @@ inline constexpr double kHolderYoungsModulusNMm2 = 200e3;
 /// Bending of the tip per force at the tip, mm/N: flutes, neck, shank and the holder's outline as in beam_of.
 /// Fails     as beam_of.
 [[nodiscard]] Result<double> tip_compliance_mm_n(const model::Cutter& cutter);
-
-/// Tilt of the axis at `seen_mm` per force at `force_mm`, rad/N.
-[[nodiscard]] double tilt_rad_n(const ToolBeam& beam, double force_mm, double seen_mm);
 
 /// Error of a wall: material left (positive) or cut into the part (negative), mm.
 struct WallError {

@@ -33,23 +33,4 @@ Result<double> tip_compliance_mm_n(const ToolStiffness& tool) {
          (3.0 * tool.youngs_modulus_n_mm2);
 }
 
-Result<double> tip_stiffness_n_mm(const ToolStiffness& tool) {
-  return tip_compliance_mm_n(tool).map([](double c) { return 1.0 / c; });
-}
-
-Result<double> bending_stress_n_mm2(const ToolStiffness& tool, double force_n) {
-  if (auto s = check(tool); !s) return fail(s.error());
-  if (!(std::isfinite(force_n) && force_n >= 0.0)) {
-    return fail(Diagnostic{
-        .code = "MECH-DOMAIN", .message = "the force is negative or not finite", .path = "force_n"});
-  }
-  const auto stress = [&](double arm, double d) {
-    return 32.0 * force_n * arm / (std::numbers::pi * cube(d));
-  };
-  const double flutes = std::min(tool.flute_length_mm, tool.stickout_mm);
-  const double in_flutes = stress(flutes, kFluteEquivalentDiameterRatio * tool.cutting_diameter_mm);
-  if (flutes >= tool.stickout_mm) return in_flutes;
-  return std::max(in_flutes, stress(tool.stickout_mm, tool.shank_diameter_mm));
-}
-
 }  // namespace capstan::mechanics

@@ -32,11 +32,4 @@ struct ToolStiffness {
 /// Source    Euler-Bernoulli beam, integral of x^2 / (E I) from the tip; derived.
 [[nodiscard]] Result<double> tip_compliance_mm_n(const ToolStiffness& tool);
 
-/// N/mm at the tip.
-[[nodiscard]] Result<double> tip_stiffness_n_mm(const ToolStiffness& tool);
-
-/// Largest bending stress under a force at the tip, N/mm2: at the holder or where the flutes begin,
-/// sigma = 32 F x / (pi d^3). No allowable stress is given with it: none was found in a citable source.
-[[nodiscard]] Result<double> bending_stress_n_mm2(const ToolStiffness& tool, double force_n);
-
 }  // namespace capstan::mechanics

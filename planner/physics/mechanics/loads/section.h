@@ -1,16 +1,14 @@
 #pragma once
 
-#include <limits>
 #include <optional>
 
 #include "planner/ground/base/result.h"
-#include "planner/physics/mechanics/bending/deflection.h"
 #include "planner/physics/mechanics/force/force.h"
 #include "planner/physics/mechanics/force/immersion.h"
 #include "planner/physics/mechanics/force/kienzle.h"
 
 /// The door of this room for a cut as it is measured along a path: one section in, forces, torque and power
-/// out; or limits in, the largest feed per tooth out.
+/// out.
 namespace capstan::mechanics {
 
 /// Where and how deep the teeth are in the material.
@@ -108,29 +106,5 @@ inline constexpr double kIrregular = 0.05;
 /// What section_loads refuses, and nothing else: for whoever walks along the edge himself.
 [[nodiscard]] Status check_section(const Section& section, const Tooth& tooth, const ForceLaw& law,
                                    double fz_mm, double n_rpm);
-
-/// What a section may ask for; infinity: no limit. Divide by margins before.
-struct LoadLimits {
-  double peak_force_n = std::numeric_limits<double>::infinity();
-  double torque_nm = std::numeric_limits<double>::infinity();
-  double peak_torque_nm = std::numeric_limits<double>::infinity();
-  double power_w = std::numeric_limits<double>::infinity();
-  double h_max_mm = std::numeric_limits<double>::infinity();
-};
-
-enum class LoadKind { kNone, kForce, kTorque, kPeakTorque, kPower, kChip };
-
-struct FeedWithin {
-  double fz_mm = 0.0;                  ///< 0: even the least feed exceeds a limit
-  LoadKind held_by = LoadKind::kNone;  ///< kNone: the most that was asked for
-};
-
-/// The largest feed per tooth between least and most that keeps every limit; it uses at least 0.999 of one,
-/// or 1.001 of it would exceed one. Never above.
-///
-/// Fails     MECH-DOMAIN as section_loads; also for least > most or a limit that is not positive.
-[[nodiscard]] Result<FeedWithin> feed_within(const Section& section, const Tooth& tooth, const ForceLaw& law,
-                                             const LoadLimits& limits, double n_rpm, double least_fz_mm,
-                                             double most_fz_mm);
 
 }  // namespace capstan::mechanics

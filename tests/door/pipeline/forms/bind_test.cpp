@@ -1,9 +1,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <condition_variable>
 #include <memory>
+#include <mutex>
+#include <set>
 #include <string>
+#include <thread>
 
 #include "casebase/casebase.h"
 #include "tests/support/shop.h"
@@ -59,21 +64,57 @@ TEST(Bind, PlansTheBracketWholeAndSafe) {
   }
 }
 
+/// A clock that notes who reads it: each row of a surface asks its job whether it is to stop, from its own
+/// thread. The first worker waits there for a second, so that one cannot do the work of both.
+class Witness {
+ public:
+  std::chrono::steady_clock::time_point read() {
+    std::unique_lock lock(mutex_);
+    if (std::this_thread::get_id() != planner_ && workers_.insert(std::this_thread::get_id()).second) {
+      arrived_.notify_all();
+      // Waited out only where no second worker ever comes: the test fails then.
+      arrived_.wait_for(lock, std::chrono::seconds(10), [this] { return workers_.size() > 1; });
+    }
+    return std::chrono::steady_clock::now();
+  }
+  [[nodiscard]] std::size_t workers() const { return workers_.size(); }
+
+ private:
+  std::thread::id planner_ = std::this_thread::get_id();
+  std::mutex mutex_;
+  std::condition_variable arrived_;
+  std::set<std::thread::id> workers_;
+};
+
+// Only paths over surfaces are made on several threads (parallel_for in planner/making/toolpath/freeform).
 TEST(Bind, GivesTheSameBytesOnOneThreadAndOnTwo) {
-  const auto bytes = [](unsigned threads) {
+  Inputs in = shop();
+  in.material_name = "EN AW-6061";
+  const auto bytes = [&in](unsigned threads, std::size_t& workers) {
+    Witness witness;
     Job job;
     job.threads = threads;
-    auto plan = bind(part("bracket.p21"), shop(), {}, job);
-    EXPECT_TRUE(plan);
+    job.set_deadline(std::chrono::steady_clock::now() + std::chrono::hours(1));  // so that the clock is read
+    job.set_clock([&witness] { return witness.read(); });
+    auto plan = bind(part("surface.stl"), in, {}, job);
+    EXPECT_TRUE(plan) << (plan ? "" : to_text(plan.error()));
+    workers = witness.workers();
     std::string out;
+    if (!plan) return out;
     for (const Format f : {Format::kIso14649, Format::kJson, Format::kLinuxCnc, Format::kToolTable}) {
       auto text = write_plan(*plan, f, job);
-      EXPECT_TRUE(text);
+      EXPECT_TRUE(text) << (text ? "" : to_text(text.error()));
       out += text ? *text : "";
     }
     return out;
   };
-  EXPECT_EQ(bytes(1), bytes(2));
+  std::size_t alone = 0, together = 0;
+  const std::string one = bytes(1, alone);
+  const std::string two = bytes(2, together);
+  EXPECT_EQ(alone, 0U) << "one thread is the planner's own";
+  EXPECT_GE(together, 2U);
+  EXPECT_FALSE(one.empty());
+  EXPECT_TRUE(one == two);
 }
 
 TEST(Bind, BindsEveryToolAndFeedWithAReason) {

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <set>
 #include <string>
@@ -46,6 +47,7 @@ const std::vector<model::Plan>& plans() {
 
 TEST(ReasonsProperty, ALimitThatIsNamedIsAtItsBoundAtTheSpeedAndFeedThatWereChosen) {
   std::size_t named = 0;
+  std::map<std::string, std::size_t> by_name;
   for (const model::Plan& plan : plans()) {
     for (const model::StepResult& s : plan.steps) {
       const model::Cutter* c = model::find_cutter(plan, s.cutter_id);
@@ -54,6 +56,7 @@ TEST(ReasonsProperty, ALimitThatIsNamedIsAtItsBoundAtTheSpeedAndFeedThatWereChos
       for (const model::ActiveConstraint& a : s.active) {
         SCOPED_TRACE(model::step_id(plan, s) + ": " + a.name);
         ++named;
+        ++by_name[a.name];
         // Numbers are rounded to whole turns and mm/min, to the safe side: a hundredth is more than that.
         EXPECT_NEAR(a.value, a.limit, 0.01 * a.limit);
         const double vc = std::numbers::pi * c->cutting_diameter_mm * n / 1000.0;
@@ -74,6 +77,9 @@ TEST(ReasonsProperty, ALimitThatIsNamedIsAtItsBoundAtTheSpeedAndFeedThatWereChos
     }
   }
   EXPECT_GT(named, 60U);  // two or so in each of some 45 steps
+  for (const char* looked_at :
+       {"cutting_speed", "spindle_speed_most", "feed_per_tooth", "radial_cutting_depth"})
+    EXPECT_GT(by_name[looked_at], 0U) << looked_at;
 }
 
 TEST(ReasonsProperty, ForcesNameTheCoefficientsThatGaveThem) {

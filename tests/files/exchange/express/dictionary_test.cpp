@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -153,13 +152,10 @@ TEST(Dictionary, ReadsEachFormOfItsTable) {
   EXPECT_THROW(Dictionary("entity a :\nentity a :\n"), std::logic_error);
 }
 
-TEST(Dictionary, IsBuiltInMilliseconds) {
-  const auto start = std::chrono::steady_clock::now();
+TEST(Dictionary, IsBuiltAgainFromItsTableWithTheSameEntities) {
   const Dictionary d(embedded_file("express/ap238.table"));
-  const auto took = std::chrono::steady_clock::now() - start;
-  EXPECT_EQ(d.size(), ap238().size());
-  RecordProperty("microseconds",
-                 static_cast<int>(std::chrono::duration_cast<std::chrono::microseconds>(took).count()));
+  ASSERT_EQ(d.size(), ap238().size());
+  EXPECT_GT(d.size(), 0U);
 }
 
 }  // namespace

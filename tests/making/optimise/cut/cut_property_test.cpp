@@ -14,8 +14,8 @@
 #include "planner/physics/mechanics/force/force_law.h"
 #include "planner/physics/mechanics/force/immersion.h"
 #include "planner/physics/mechanics/force/kienzle.h"
-#include "planner/physics/mechanics/loads/loads.h"
 #include "planner/physics/mechanics/loads/section.h"
+#include "planner/physics/mechanics/loads/side_section.h"
 #include "planner/physics/mechanics/spindle.h"
 #include "tests/making/optimise/cut/questions.h"
 

@@ -40,7 +40,7 @@ double cutting_s(const FeedQuestion& q, const CutterPath& p, const model::FeedSc
 
 TEST(Feeds, OfAThinLightCutIsThatOfTheSameLargestChip) {
   // ae = 0.05 D: the chip is 2 sqrt(r (1 - r)) = 0.4359 of the feed per tooth; 0.05 mm at 4 x 4000 1/min.
-  const double expected = mechanics::feed_for_chip_thickness_mm(0.05, 0.5, 10.0) * 16000.0;
+  const double expected = 0.05 / mechanics::max_chip_thickness_mm(1.0, 0.5, 10.0) * 16000.0;
   const double feed = feed_of(question(), 1.0, 0.5);
   EXPECT_LE(feed, expected);
   EXPECT_GT(feed, 0.98 * expected);  // sections are taken 1 to 2 % heavier

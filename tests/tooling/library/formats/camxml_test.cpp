@@ -1,6 +1,5 @@
 #include <gmock/gmock.h>
 
-#include <chrono>
 #include <numbers>
 
 #include "tests/support/corpus.h"
@@ -90,12 +89,10 @@ TEST(SolidCam, ReadsSizesAndHowFarTheToolStandsOut) {
   EXPECT_EQ(r.library.assemblies.front().stick_out_mm, 24.13);
 }
 
-TEST(CatalogueFamily, ReadsEverySizeOfALargePageFast) {
+TEST(CatalogueFamily, ReadsEverySizeOfALargePage) {
   CAPSTAN_CORPUS_FILE(path, "tools/din4000/EN_1000.xml");
   Job job;
-  const auto start = std::chrono::steady_clock::now();
   const Imported r = corpus(path, job);
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(1));
   // 86 Parameters elements
   EXPECT_EQ(r.library.items.size(), 86U);
   EXPECT_EQ(r.library.name, "HM90 E90A-10");

@@ -86,10 +86,10 @@ TEST(Freecad, FindsWhatThePublicBitsGetWrong) {
   const auto cutters = cutters_of(r->library, report, job);
   ASSERT_TRUE(cutters) << to_text(cutters.error());
   EXPECT_EQ(cutters->size(), 12U);  // without the chamfer mill and a thread mill that has no pitch
-  for (const auto& c : *cutters)
-    if (c.id == "375-16_Tap") {
-      EXPECT_NEAR(c.thread_pitch_mm, 25.4 / 16.0, 1e-9);
-    }
+  const auto tap =
+      std::find_if(cutters->begin(), cutters->end(), [](const auto& c) { return c.id == "375-16_Tap"; });
+  ASSERT_NE(tap, cutters->end());
+  EXPECT_NEAR(tap->thread_pitch_mm, 25.4 / 16.0, 1e-9);
 }
 
 TEST(Freecad, ALibraryFindsItsBitsInTheFolderBesideItsOwn) {

@@ -1,12 +1,9 @@
-#include "planner/making/optimise/problem/dual.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "planner/making/optimise/problem/problem.h"
-#include "planner/physics/mechanics/force/immersion.h"
-#include "planner/physics/mechanics/force/kienzle.h"
+#include "tests/making/optimise/differentiated.h"
 
 namespace capstan::optimise {
 namespace {
@@ -48,23 +45,7 @@ TEST(Dual, SlopesAgreeWithDifferences) {
               1e-7 * std::abs(r.d[1]) + 1e-9);
 }
 
-TEST(Dual, GoesThroughTheFormulasOfMechanics) {
-  const mechanics::WorkMaterial work{2298.0, 0.2};
-  const auto power = [&](const auto& fz, const auto& ae) {
-    using T = std::decay_t<decltype(fz)>;
-    const T d = T(10.0);
-    const T h = mechanics::mean_chip_thickness_mm(fz, ae, d);
-    const T q = mechanics::removal_rate_mm3_min(T(5.0), ae, T(fz * 4.0 * 3000.0));
-    return mechanics::cutting_power_w(q, mechanics::specific_force_n_mm2(work, h));
-  };
-  const D p = power(D::variable(0.05, 0), D::variable(2.0, 1));
-  // Power goes with fz^(1 - mc).
-  EXPECT_NEAR(p.d[0], 0.8 * p.v / 0.05, 1e-9 * p.d[0]);
-  const double h = 1e-6;
-  EXPECT_NEAR(p.d[1], (power(0.05, 2.0 + h) - power(0.05, 2.0 - h)) / (2.0 * h), 1e-6 * p.d[1]);
-}
-
-TEST(CentralDifferences, AgreeWithDuals) {
+TEST(CentralDifferences, AgreeWithExactSlopes) {
   const std::vector<Variable> variables = {{"x", "", 0.5, 2.0, 1.0}, {"y", "", 0.5, 1.0, 0.7}};
   const auto dual = differentiate<2>([](const auto& x, auto& f, auto& c) {
     f = everything(x[0], x[1]);

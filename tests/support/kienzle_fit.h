@@ -1,10 +1,35 @@
-#include "planner/physics/mechanics/force/kienzle.h"
+#pragma once
 
 #include <algorithm>
+#include <cmath>
+#include <vector>
 
-namespace capstan::mechanics {
+#include "planner/ground/base/result.h"
+#include "planner/physics/mechanics/force/kienzle.h"
 
-Result<KienzleFit> fit_kienzle(const std::vector<SpecificForcePoint>& points) {
+/// Kienzle's law fitted to the tables of tool makers: how near the law is to them.
+namespace capstan::testing {
+
+using mechanics::specific_force_n_mm2;
+using mechanics::WorkMaterial;
+
+/// One row of a table of specific cutting force.
+struct SpecificForcePoint {
+  double h_mm = 0.0;
+  double kc_n_mm2 = 0.0;
+};
+
+struct KienzleFit {
+  WorkMaterial work;
+  double max_relative_error = 0.0;  ///< largest |fit / table - 1|
+};
+
+/// Least squares of log kc over log h.
+///
+/// Needs     two points of different h, all positive and finite; the argument is what the table's
+///           argument is (some tables state feed per tooth, not chip thickness).
+/// Fails     MECH-FIT-POINTS.
+[[nodiscard]] inline Result<KienzleFit> fit_kienzle(const std::vector<SpecificForcePoint>& points) {
   double mean_x = 0.0;
   double mean_y = 0.0;
   for (const auto& p : points) {
@@ -34,4 +59,4 @@ Result<KienzleFit> fit_kienzle(const std::vector<SpecificForcePoint>& points) {
   return fit;
 }
 
-}  // namespace capstan::mechanics
+}  // namespace capstan::testing

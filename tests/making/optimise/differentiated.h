@@ -4,7 +4,13 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <span>
+#include <utility>
+#include <vector>
 
+#include "planner/making/optimise/problem/problem.h"
+
+/// Exact slopes of the published problems, against which planning's differences and solvers are held.
 namespace capstan::optimise {
 
 /// A number that carries its slopes: value + sum of d[i] eps_i, eps_i eps_j = 0 (forward differentiation).
@@ -108,5 +114,38 @@ struct Dual {
     return r;
   }
 };
+
+/// A model from one formula, written once for any number type:
+///
+///     differentiate<2>([](const auto& x, auto& objective, auto& c) {
+///       objective = 1.0 / (x[0] * x[1]);
+///       c[0] = x[0] * x[0] * x[1] / 900.0 - 1.0;
+///     });
+///
+/// x is a std::array<T, N>, c a std::vector<T> of the problem's number of constraints; T is double when
+/// no slopes are wanted, else Dual<N>.
+template <std::size_t N, class Formula>
+[[nodiscard]] Model differentiate(Formula formula) {
+  return [formula = std::move(formula)](std::span<const double> x, bool want_slopes, Evaluation& out) {
+    if (!want_slopes) {
+      std::array<double, N> point;
+      for (std::size_t j = 0; j < N; ++j) point[j] = x[j];
+      formula(point, out.objective, out.constraints);
+      return;
+    }
+    using T = Dual<N>;
+    std::array<T, N> point;
+    for (std::size_t j = 0; j < N; ++j) point[j] = T::variable(x[j], j);
+    T objective;
+    std::vector<T> constraints(out.constraints.size());
+    formula(point, objective, constraints);
+    out.objective = objective.v;
+    for (std::size_t j = 0; j < N; ++j) out.gradient[j] = objective.d[j];
+    for (std::size_t i = 0; i < constraints.size(); ++i) {
+      out.constraints[i] = constraints[i].v;
+      for (std::size_t j = 0; j < N; ++j) out.jacobian[i * N + j] = constraints[i].d[j];
+    }
+  };
+}
 
 }  // namespace capstan::optimise
