@@ -228,6 +228,24 @@ std::optional<std::string> other_sizes(const Reading& own, const std::vector<Fea
   return std::nullopt;
 }
 
+/// By how much two readings that mean the same may differ, mm.
+double agreed(const Reading& own, const std::vector<FeatureShape>& planner) {
+  double out = kAgreeMm;
+  // A round floor of a slot is 16 chords of a quarter turn in the planner's section.
+  for (const FeatureShape& s : planner)
+    out = std::max(out, kAgreeMm + s.slot_bottom_radius_mm * (1.0 - std::cos(std::numbers::pi / 64.0)));
+  // A slot that ends on an arc is cut off square to the planner's last chord, which leans by half its turn.
+  constexpr double kChord = 0.001;
+  for (const Solid& s : own.solids) {
+    const auto* g = std::get_if<Groove>(&s.form);
+    for (std::size_t i = 0; g != nullptr && !g->loop && i < g->course.edges.size(); ++i) {
+      const Edge& e = g->course.edges[i];
+      if (e.arc()) out = std::max(out, kAgreeMm + g->half_mm * std::sqrt(2.0 * kChord / e.radius_mm));
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
 bool removes(const FeatureShape& s, Vec3 p) {
@@ -244,6 +262,13 @@ bool removes(const FeatureShape& s, Vec3 p) {
   }
   const auto floor = model::floor_at(s, xy(q));
   if (!floor) return false;
+  // Of what is open the radius between walls and floor is a size only; its walls bound its reach, too.
+  const double up = s.bottom_radius_mm - (q.z + s.depth_mm);
+  if (s.open && s.kind != ShapeKind::kSlot && s.kind != ShapeKind::kChamfer && s.bottom_radius_mm > 0.0 &&
+      up > 0.0 && up < s.bottom_radius_mm && *floor <= -s.depth_mm) {
+    const double out = s.bottom_radius_mm - std::sqrt(s.bottom_radius_mm * s.bottom_radius_mm - up * up);
+    if (geometry::distance_to_boundary(s.reach, xy(q)) < out) return false;
+  }
   return q.z > *floor || (s.through && *floor <= -s.depth_mm + 1e-9);
 }
 
@@ -256,11 +281,7 @@ std::optional<Disagreement> disagreement(const Reading& own, const std::vector<F
   if (const auto what = other_sizes(own, planner)) return Disagreement{{}, false, {}, {}, *what};
   const Shapes theirs(planner);
   const Own mine(own);
-  double tolerance = kAgreeMm;
-  // A round floor of a slot is 16 chords of a quarter turn in the planner's section.
-  for (const FeatureShape& s : planner)
-    tolerance =
-        std::max(tolerance, kAgreeMm + s.slot_bottom_radius_mm * (1.0 - std::cos(std::numbers::pi / 64.0)));
+  const double tolerance = agreed(own, planner);
   const auto differ = [&](Vec3 p) -> std::optional<Disagreement> {
     if (!raw.empty() && (p.x < raw.lo.x || p.x > raw.hi.x || p.y < raw.lo.y || p.y > raw.hi.y ||
                          p.z < raw.lo.z || p.z > raw.hi.z))
@@ -278,7 +299,7 @@ std::optional<Disagreement> disagreement(const Reading& own, const std::vector<F
     return Disagreement{p, removed, told(own, p), told(planner, p), {}};
   };
   for (const Solid& s : own.solids) {
-    for (const Vec3 p : places_of(s)) {
+    for (const Vec3 p : places_of(s, tolerance)) {
       if (auto d = differ(p)) return d;
     }
   }

@@ -35,7 +35,8 @@ struct Disagreement {
 /// section.
 [[nodiscard]] bool removes(const model::FeatureShape& shape, geometry::Vec3 p);
 
-/// Places at both sides of all surfaces of a solid and within it, workpiece coordinates.
-[[nodiscard]] std::vector<geometry::Vec3> places_of(const Solid& s);
+/// Places at both sides of all surfaces of a solid, twice a tolerance away, and within it; workpiece
+/// coordinates.
+[[nodiscard]] std::vector<geometry::Vec3> places_of(const Solid& s, double tolerance_mm);
 
 }  // namespace capstan::verify::volumes

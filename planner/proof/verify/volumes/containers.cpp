@@ -23,6 +23,7 @@ namespace {
 
 constexpr int kDeepest = 8;  ///< patterns of compounds of patterns
 constexpr std::int64_t kMostCopies = 100000;
+constexpr std::size_t kMostPlaces = 1000;  ///< in which one element is listed
 constexpr double kOn = 0.01;  ///< mm over an edge of the raw piece that count as on it; default, unsourced
 constexpr double kSame = 1e-6;
 
@@ -52,11 +53,24 @@ bool in_box(const Box3& box, Vec3 p) {
          p.z > box.lo.z - kOn && p.z < box.hi.z + kOn;
 }
 
+/// The middle of a solid in plan, its frame; of what goes on for ever that of its walls.
+Vec2 middle(const Solid& s) {
+  const auto* area = std::get_if<Area>(&s.form);
+  if (area == nullptr || !(area->only_mm > 0.0)) {
+    const Box3 box = s.box();
+    return 0.5 * (xy(box.lo) + xy(box.hi));
+  }
+  Outline walls;
+  for (const Edge& e : area->outline.edges) {
+    if (!e.open) walls.add(e);
+  }
+  return 0.5 * (walls.lo + walls.hi);
+}
+
 /// Whether the middle line of a solid, from its top to its floor, meets the raw piece anywhere.
 bool meets(const Box3& raw, const Solid& s, bool by_its_top) {
   if (raw.empty()) return true;
-  const Box3 box = s.box();
-  const double x = 0.5 * (box.lo.x + box.hi.x), y = 0.5 * (box.lo.y + box.hi.y);
+  const auto [x, y] = middle(s);
   if (by_its_top) return in_box(raw, s.frame.to_parent({x, y, 0.0}));
   const Vec3 top = s.frame.to_parent({x, y, 0.0}),
              floor = s.frame.to_parent({x, y, -std::max(s.depth_mm, kOn)});
@@ -268,6 +282,13 @@ Read pattern(const Source& source, AnyRef self, const model::ReplicateFeature& p
     const Placement stands = placed ? compose(way.elements.frame, *own) : one.solids.front().frame;
     if (placed) out.stated.push_back(*own);
     std::string fault;
+    const auto* turned = m.get<model::CircularPattern>(self);
+    if (turned != nullptr && std::abs(turned->base_feature_rotation.value_or(0.0)) > kSame &&
+        !std::all_of(one.solids.begin(), one.solids.end(),
+                     [](const Solid& s) { return std::holds_alternative<Bore>(s.form); })) {
+      out.reading = unread("its base_feature_rotation turns what is not round, and about what nobody says");
+      return out;
+    }
     const auto frames = members(m, self, compose(in.frame, *self_frame), way.locations, stands, fault);
     if (frames.size() > static_cast<std::size_t>(kMostCopies) / one.solids.size())
       fault = "it has too many members";
@@ -311,32 +332,35 @@ Reading expand(const Source& source, AnyRef f, const Within& in) {
   return out;
 }
 
-/// The coordinates that a feature is stated in, once for each place where it is listed.
+/// The coordinates that a feature is stated in, once for each place where it is listed; none: it is nested in
+/// itself, or too deeply.
 std::vector<Within> coordinates(const Source& source, AnyRef f, int depth) {
-  std::vector<Within> out;
   const auto by = source.in.find(f);
-  if (by != source.in.end() && depth <= kDeepest) {
-    for (const AnyRef holder : by->second) {
-      for (const Within& w : coordinates(source, holder, depth + 1)) {
-        if (const auto* c = source.m.get<model::CompoundFeature>(holder)) {
-          out.push_back(compound(source, holder, *c, w).elements);
-        } else if (const auto* p = source.m.get<model::ReplicateFeature>(holder)) {
-          out.push_back(pattern(source, holder, *p, w).elements);
-        } else {
-          out.push_back(w);  // a boss stands in the coordinates of what lists it
-        }
-        if (out.size() > 1000) return out;
+  if (by == source.in.end()) return {{{}, {}, depth, false}};
+  std::vector<Within> out;
+  if (depth > kDeepest) return out;
+  for (const AnyRef holder : by->second) {
+    const auto outer = coordinates(source, holder, depth + 1);
+    if (outer.empty()) return {};
+    for (const Within& w : outer) {
+      if (const auto* c = source.m.get<model::CompoundFeature>(holder)) {
+        out.push_back(compound(source, holder, *c, w).elements);
+      } else if (const auto* p = source.m.get<model::ReplicateFeature>(holder)) {
+        out.push_back(pattern(source, holder, *p, w).elements);
+      } else {
+        out.push_back(w);  // a boss stands in the coordinates of what lists it
       }
+      if (out.size() > kMostPlaces) return {};
     }
   }
-  if (out.empty()) out.push_back({{}, {}, depth, false});
   return out;
 }
 
 Reading everywhere(const Source& source, AnyRef f, int depth) {
-  if (depth > kDeepest) return unread("it is nested in itself, or too deeply");
+  const auto places = coordinates(source, f, depth);
+  if (depth > kDeepest || places.empty()) return unread("it is nested in itself, or too deeply");
   Reading out;
-  for (const Within& w : coordinates(source, f, depth)) {
+  for (const Within& w : places) {
     Reading part = expand(source, f, w);
     if (!part.unread.empty()) return part;
     out.nothing = part.nothing;

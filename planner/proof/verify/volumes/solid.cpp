@@ -48,8 +48,7 @@ Said in_area(const Area& a, const Solid& s, Vec3 p) {
       return taken ? Said::kNotSaid : a.around ? Said::kNotSaid : Said::kStays;
     if (a.leaning_mm > 0.0 && near.distance_mm < a.leaning_mm) return Said::kNotSaid;
     if (!taken) return Said::kStays;
-    if (radiused && near.distance_mm < fillet(a.foot_radius_mm, height))
-      return a.only_mm > 0.0 ? Said::kNotSaid : Said::kStays;
+    if (radiused && near.distance_mm < fillet(a.foot_radius_mm, height)) return Said::kStays;
   }
   for (const Standing& b : a.standing) {
     if (p.z > b.top_mm) continue;
