@@ -26,6 +26,7 @@ FLOORS = {
 EXCHANGE = "common toolpaths records express conformance iso14649 ap238"
 TOOLING = {"tooling": "shop library selection", "tooling/library": "formats"}
 FOLDERS = {
+    "planner/proof/verify/volumes": "volumes",
     **{f"planner/files/exchange/{name}": name for name in EXCHANGE.split()},
     **{f"{folder}/{name}": name for folder, rooms in reversed(TOOLING.items()) for name in rooms.split()},
     **{f"planner/{floor}/{name}": name for floor, rooms in FLOORS.items() for name in rooms.split()},
@@ -62,7 +63,9 @@ ALLOWED = {
     "toolpath": MODEL + " stock",
     "optimise": MODEL + " mechanics motion",
     "controls": MODEL + " motion",
-    "verify": MODEL + " p21 " + EXCHANGE + " exchange mechanics",
+    # Only the plan's shapes, to judge them; the reading itself knows nouns alone.
+    "volumes": MODEL,
+    "verify": MODEL + " p21 " + EXCHANGE + " exchange mechanics volumes",
     "pipeline": " ".join(r for r in FOLDERS.values() if r not in DOORS),
     "late": MODEL + " pipeline",
     "service": " ".join(r for r in FOLDERS.values() if r not in DOORS) + " pipeline late",

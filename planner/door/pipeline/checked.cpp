@@ -83,8 +83,8 @@ class Judge {
       const std::string found = "the check found " + o.finding->code + ": " + o.finding->message;
       const MadeStep& s = o.step;
       const bool of_order = o.finding->property == 28;
-      // What lies outside the raw piece does so with every cutter and chain.
-      const bool of_drawing = o.finding->code == "CHK-OUTSIDE";
+      // What lies outside the raw piece, or is read in two ways, does so with every cutter and chain.
+      const bool of_drawing = o.finding->code == "CHK-OUTSIDE" || o.finding->code == "CHK-MEANING";
       int& hits = hits_[{s.member, s.chain, s.in_chain}];
       // Torque, power, bending: a thinner cut of the same cutter.
       const bool of_load =

@@ -64,7 +64,4 @@ std::vector<model::Finding> Findings::take() {
   return out;
 }
 
-std::string plain(double v) { return std::isfinite(v) ? trimmed(v, 3) : "not a number"; }
-std::string mm(double v) { return plain(v) + " mm"; }
-
 }  // namespace capstan::verify

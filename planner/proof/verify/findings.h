@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "planner/model/plan/plan.h"
+#include "planner/proof/verify/volumes/number_text.h"
 
 namespace capstan::verify {
 
@@ -37,9 +38,5 @@ class Findings {
            double badness);
   std::vector<Item> items_;
 };
-
-/// "12.5 mm" and the like, three decimals at most.
-[[nodiscard]] std::string mm(double v);
-[[nodiscard]] std::string plain(double v);
 
 }  // namespace capstan::verify

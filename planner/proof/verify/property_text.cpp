@@ -6,7 +6,7 @@
 namespace capstan::verify {
 
 std::string_view property_text(int number) {
-  static constexpr std::array<std::pair<int, std::string_view>, 37> kTexts = {{
+  static constexpr std::array<std::pair<int, std::string_view>, 38> kTexts = {{
       {1, "All numbers are finite."},
       {2, "One length unit, stated once and never switched."},
       {3, "The work offset is explicit and defined."},
@@ -53,6 +53,7 @@ std::string_view property_text(int number) {
       {37,
        "Planned features lie within the raw piece and open to above, and drilled holes run into neither "
        "its sides nor each other."},
+      {38, "Features are read alike by the planner and by the check's own reading of the file."},
       {0, ""},
   }};
   for (const auto& [n, text] : kTexts) {

@@ -11,6 +11,8 @@
 
 namespace capstan::verify {
 
+struct PartShapes;
+
 /// The moves of every step with a path whose numbers are finite; what is not becomes a finding (1).
 [[nodiscard]] std::vector<StepMoves> moves_of(const model::Plan& plan, Findings& findings);
 
@@ -78,7 +80,7 @@ void check_order(const model::Plan& plan, Findings& findings);
 void check_coverage(const model::Plan& plan, Findings& findings);
 
 /// Planned features within the raw piece; holes that a drill makes apart from others: 37.
-void check_within(const model::Plan& plan, Findings& findings);
+void check_within(const model::Plan& plan, const PartShapes& part, Findings& findings);
 
 /// Two radii of an arc differ by no more than coordinates rounded to three decimals explain:
 /// each of start, end and centre by 0.0005 sqrt(2), derived.

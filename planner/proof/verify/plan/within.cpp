@@ -50,9 +50,8 @@ bool overlap(const FeatureShape& a, const FeatureShape& b) {
 
 }  // namespace
 
-void check_within(const model::Plan& plan, Findings& findings) {
+void check_within(const model::Plan& plan, const PartShapes& part, Findings& findings) {
   if (plan.stock.box.empty()) return;
-  const PartShapes part = shapes_of_part(plan);
   struct Hole {
     const FeatureShape* shape;
     const Asked* asked;

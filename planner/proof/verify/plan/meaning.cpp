@@ -1,0 +1,67 @@
+#include "planner/proof/verify/plan/meaning.h"
+
+#include "planner/model/nouns/all.h"
+#include "planner/proof/verify/volumes/compare.h"
+
+namespace capstan::verify {
+
+namespace {
+
+std::string name_of(const model::Model& m, model::AnyRef f) {
+  const auto* named = m.get<model::ManufacturingFeature>(f);
+  const std::string id = named != nullptr ? named->its_id.value_or("") : "";
+  return id.empty() ? std::string(model::noun_type(f.type).keyword) : id;
+}
+
+std::string place(geometry::Vec3 p) { return "X" + plain(p.x) + " Y" + plain(p.y) + " Z" + plain(p.z); }
+
+}  // namespace
+
+void check_meaning(const model::Plan& plan, const PartShapes& part, Findings& findings) {
+  const volumes::Source source = volumes::source_of(plan.model, plan.stock.box);
+  for (const PartShapes::Entry& e : part.entries) {
+    if (e.shapes.empty()) continue;
+    std::size_t order = 0;
+    std::string step;
+    for (std::size_t i = 0; i < plan.steps.size(); ++i) {
+      const auto* ws = plan.model.get<model::MachiningWorkingstep>(plan.steps[i].step);
+      if (ws == nullptr || model::AnyRef(ws->its_feature) != e.feature) continue;
+      order = i + 1;
+      step = model::step_id(plan, plan.steps[i]);
+      break;
+    }
+    // A part of another feature is compared with that one, unless it is cut on its own.
+    if (order == 0 && e.piece) continue;
+    const volumes::Reading own = volumes::read(source, e.feature);
+    const Findings::Where where{order, step, -1};
+    const std::string name = name_of(plan.model, e.feature);
+    if (!own.unread.empty()) {
+      if (order > 0)
+        findings.note(
+            38, "CHK-NOT-JUDGED", where,
+            "feature " + name +
+                ": only the planner's reading of its shape is known, the check's own does not read it: " +
+                own.unread);
+      continue;
+    }
+    const auto d = volumes::disagreement(own, e.shapes, plan.stock.box);
+    if (!d) continue;
+    const std::string text = d->what.empty()
+                                 ? "feature " + name + " is read in two ways: at " + place(d->at) +
+                                       " of the workpiece the file's text " +
+                                       (d->removed ? "removes material (" : "leaves material (") + d->own +
+                                       "), and the planner's reading " +
+                                       (d->removed ? "leaves it (" : "removes it (") + d->theirs + ")"
+                                 : "feature " + name + " is read in two ways: " + d->what;
+    const std::string act =
+        "; do not cut it: compare both with the drawing, state the feature otherwise or leave it out, and "
+        "report it";
+    if (order > 0) {
+      findings.error(38, "CHK-MEANING", where, text + act, 1.0);
+    } else {
+      findings.warn(38, "CHK-MEANING", where, text + "; no step cuts it: compare both with the drawing", 1.0);
+    }
+  }
+}
+
+}  // namespace capstan::verify

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "planner/model/nouns/arena/model.h"
+#include "planner/proof/verify/volumes/nouns.h"
+#include "planner/proof/verify/volumes/solid.h"
+
+namespace capstan::verify::volumes {
+
+/// What a feature takes away, by the check's own reading of the file's text.
+struct Reading {
+  std::vector<Solid> solids;  ///< workpiece coordinates; one for each element and member
+  std::string unread;         ///< why it was not read; empty: it was
+  bool nothing = false;       ///< it has no volume of its own: surfaces, and features that are paths
+
+  /// What is said of a place of the workpiece: removed by one of the solids, else not said by one, else it
+  /// stays.
+  [[nodiscard]] Said at(geometry::Vec3 p) const;
+};
+
+/// What readings need of a file, worked out once.
+struct Source {
+  const model::Model& m;
+  geometry::Box3 raw;                                      ///< the raw piece, workpiece coordinates
+  std::map<model::AnyRef, std::vector<model::AnyRef>> in;  ///< compounds, patterns (and, of bosses, others)
+  std::vector<Solid> bosses;                               ///< all that stand, wherever they are put
+};
+[[nodiscard]] Source source_of(const model::Model& m, const geometry::Box3& raw);
+
+/// A feature wherever its compounds and patterns put it, with the bosses in it left standing.
+[[nodiscard]] Reading read(const Source& source, model::AnyRef feature);
+
+// What follows is shared by the files of this folder only.
+
+/// A simple feature in the coordinates that it is stated in.
+[[nodiscard]] Reading simple(const Source& source, model::AnyRef feature);
+[[nodiscard]] Reading area_of(const Source& source, model::AnyRef feature, Solid solid);
+[[nodiscard]] Reading bore_of(const Source& source, model::AnyRef feature, Solid solid);
+[[nodiscard]] Reading groove_of(const Source& source, model::AnyRef feature, Solid solid);
+/// A feature in the coordinates of the workpiece, whatever lists it; and wherever its holders put it.
+[[nodiscard]] Reading placed_in(const Source& source, model::AnyRef feature);
+[[nodiscard]] Reading wherever(const Source& source, model::AnyRef feature);
+/// A broken edge of what it is on, and a thread in it: in the same place.
+[[nodiscard]] Reading on_others(const Source& source, model::AnyRef feature, Reading others);
+
+[[nodiscard]] inline Reading unread(std::string why) { return {{}, std::move(why), false}; }
+
+/// An open line in the plane of a feature: of an open profile, or of a path of travel.
+[[nodiscard]] Course line_of(const model::Model& m, model::AnyRef profile_or_path);
+
+}  // namespace capstan::verify::volumes

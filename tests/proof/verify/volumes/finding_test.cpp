@@ -1,0 +1,58 @@
+#include <gtest/gtest.h>
+
+#include "planner/proof/verify/verify.h"
+#include "planner/proof/verify/plan/meaning.h"
+#include "tests/proof/verify/plans.h"
+
+// What the check says of a feature that is read in two ways, on the small plan that is right.
+
+namespace capstan::verify {
+namespace {
+
+using testing::PlanMaker;
+
+std::vector<model::Finding> meaning(const model::Plan& plan, const PartShapes& part) {
+  Findings findings;
+  check_meaning(plan, part, findings);
+  return findings.take();
+}
+
+TEST(MeaningFinding, OfAPlanThatIsRightThereIsNone) {
+  const PlanMaker k = testing::good_plan();
+  EXPECT_TRUE(meaning(k.plan, shapes_of_part(k.plan)).empty());
+}
+
+TEST(MeaningFinding, NamesFeatureStepPlaceAndBothReadings) {
+  const PlanMaker k = testing::good_plan();
+  PartShapes part = shapes_of_part(k.plan);
+  for (auto& e : part.entries) {
+    if (e.shapes.at(0).kind == model::ShapeKind::kHole) e.shapes[0].frame.origin = {0, 0, 0};  // at X15 Y15
+  }
+  const auto findings = meaning(k.plan, part);
+  ASSERT_EQ(findings.size(), 1u);
+  const model::Finding& f = findings[0];
+  EXPECT_EQ(f.code, "CHK-MEANING");
+  EXPECT_EQ(f.property, 38);
+  EXPECT_EQ(f.severity, Severity::kError);
+  EXPECT_EQ(f.step, "drill");
+  for (const char* part_of :
+       {"is read in two ways", "of the workpiece", "ROUND_HOLE at X15 Y15 Z0, 20 mm deep",
+        "hole at X0 Y0 Z0, 20 mm deep", "do not cut it"})
+    EXPECT_NE(f.message.find(part_of), std::string::npos) << f.message;
+}
+
+TEST(MeaningFinding, WhatNoStepCutsIsAWarning) {
+  PlanMaker k = testing::good_plan();
+  k.pocket("other", 80, 80, 20, 5);
+  PartShapes part = shapes_of_part(k.plan);
+  ASSERT_TRUE(meaning(k.plan, part).empty());
+  for (auto& e : part.entries) {
+    if (e.shapes.at(0).name == "other") e.shapes[0].depth_mm = 9;
+  }
+  const auto findings = meaning(k.plan, part);
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_EQ(findings[0].severity, Severity::kWarning);
+}
+
+}  // namespace
+}  // namespace capstan::verify
