@@ -117,8 +117,8 @@ TEST(CorpusNistExplicit, IsToldExactlyWhatIsBadMachiningInIt) {
     }
     if (f.starts_with("21 CHK-DEFLECTION")) of_plan.push_back("21 CHK-BENDING " + step);
     of_plan.push_back(f);
-    // A mean force does not tell it of the levels that finish, their peak does; the last is thin.
-    const bool level = step.starts_with("WS FINISH POCKET1 ") && step != "WS FINISH POCKET1 P";
+    // A mean force does not tell it of the levels that finish, their peak does; of the last its helix's.
+    const bool level = step.starts_with("WS FINISH POCKET1 ");
     if (level && f.starts_with("18 CHK-FEED-TOOL")) of_plan.push_back("21 CHK-BENDING " + step);
   }
   EXPECT_EQ(findings_of_plan(session), of_plan) << all_findings(session);
