@@ -36,7 +36,9 @@ TEST(Formats, AnOutputsEndingTellsItsFormat) {
     for (const std::string_view e : f.endings) {
       const auto output = output_of("a" + std::string(e));
       EXPECT_EQ(output.has_value(), f.write != nullptr) << e;
-      if (output) EXPECT_EQ(output->format, &f) << e;
+      if (output) {
+        EXPECT_EQ(output->format, &f) << e;
+      }
     }
   }
   EXPECT_EQ(output_of("-")->format, find_format("json"));
