@@ -125,6 +125,13 @@ Result<Shapes> pocket(const Model& m, AnyRef self, const Pocket& f) {
   if (clockwise) std::reverse(loop.begin(), loop.end());
   s->area = geometry::clean({loop});
   s->open = true;
+  // A stated corner radius rounds the inside corners between walls; where a wall meets the mouth there is none.
+  if (s->corner_radius_mm > 0.0) {
+    const auto beyond = geometry::unite(s->area, beside(mouth, kOpenReach, !clockwise));
+    auto rounded = rounded_corners(m, self, beyond, s->corner_radius_mm);
+    if (!rounded) return tl::unexpected(rounded.error());
+    s->area = geometry::intersect(s->area, *rounded);
+  }
   if (auto ok = add_islands(m, f.its_boss, *s); !ok) return tl::unexpected(ok.error());
   // The mouth is passed in the sense of the loop: the outside lies on its right.
   s->reach = without_islands(*s, geometry::unite(s->area, beside(mouth, kOpenReach, !clockwise)));

@@ -80,6 +80,23 @@ TEST(Reading, AnOpenPocketIsClosedByItsMouthAndHasNoFootThere) {
   EXPECT_EQ(k.agree(p), "");
 }
 
+TEST(Reading, AnOpenPocketsInsideCornersHaveItsRadiusAndItsMouthNone) {
+  Bench k;
+  model::GeneralProfile walls;
+  walls.its_profile = k.line({{20, 15}, {-20, 15}, {-20, -15}, {20, -15}});
+  model::OpenPocket o;
+  o.feature_placement = k.at(180, 75, 0);
+  o.depth = k.depth(-10);
+  o.bottom_condition = k.m.add(model::PlanarPocketBottomCondition{});
+  o.open_boundary = k.m.add(walls);
+  o.orthogonal_radius = k.length(4);
+  const auto p = k.m.add(o);
+  // Of a corner of radius 4, (sqrt 2 - 1) 4 = 1.66 stays along the diagonal: 1.17 along x and y.
+  const Reading r = k.own(p);
+  EXPECT_EQ(said(r, {{161.1, 61.1, -5}, {161.3, 61.3, -5}, {199.9, 60.1, -5}}), "-RR");
+  EXPECT_EQ(k.agree(p), "");
+}
+
 TEST(Reading, HolesHaveTheBottomsTheirConditionsSay) {
   Bench k;
   const auto with = [&](AnyRef bottom) {
