@@ -122,6 +122,13 @@ TEST(RefusedParts, AStepBelowSolidIsNotDugDownTo) {
   expect_refused(s, "up to 8 mm of the piece stand above its top");
 }
 
+// The wall stands at x = 30 and the block ends at x = 200: 170 mm, of which a step is read as 100.
+TEST(RefusedParts, AStepWiderThanItIsReadIsNotCutInPart) {
+  Sheet s{.block = removal::block(200, 60, 20)};
+  s.d.step("S", s.d.placement({30, 0, 0}), 6, 60, {0, 1, 0});
+  expect_refused(s, "the raw piece goes on 170 mm beyond its wall");
+}
+
 TEST(RefusedParts, AMilledHoleBelowSolidIsNotDugDownTo) {
   Sheet s;
   s.d.hole("H", s.d.placement({30, 30, -8}), 6, 8, s.d.flat_bottom());

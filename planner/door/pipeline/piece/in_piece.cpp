@@ -4,6 +4,7 @@
 
 #include "planner/door/pipeline/step/steps.h"
 #include "planner/ground/base/number.h"
+#include "planner/model/features/shape/open_reach.h"
 #include "planner/model/nouns/feature.h"
 
 // Features that the raw piece does not let be made as they are drawn.
@@ -29,10 +30,30 @@ bool states_no_corner(const Work& w, const FeatureShape& s) {
   return p != nullptr && !p->orthogonal_radius.set();
 }
 
+/// A step is read as a strip of kOpenReach on the right of its wall (areas.cpp). Where the raw piece goes on
+/// beyond it, that would stay, and nobody would say so.
+std::string wider_than_read(const Work& w, const FeatureShape& s) {
+  if (s.kind != ShapeKind::kStep || s.spine.size() < 2) return {};
+  const geometry::Vec2 along = s.spine.back() - s.spine.front();
+  const geometry::Vec2 right = (1.0 / norm(along)) * geometry::Vec2{along.y, -along.x};
+  const geometry::Box3 raw = geometry::transformed(w.plan.stock.box, inverse(s.frame));
+  double most = 0.0;
+  for (const double x : {raw.lo.x, raw.hi.x}) {
+    for (const double y : {raw.lo.y, raw.hi.y})
+      most = std::max(most, dot(geometry::Vec2{x, y} - s.spine.front(), right));
+  }
+  constexpr double kSame = 1e-6;  // mm
+  if (most <= model::shape::kOpenReach + kSame) return {};
+  return "the raw piece goes on " + trimmed(most, 1) + " mm beyond its wall, and a step is cut " +
+         trimmed(model::shape::kOpenReach, 0) +
+         " mm wide at most: state a smaller raw piece, or an open pocket";
+}
+
 }  // namespace
 
 std::string not_in_piece(const Work& w, const FeatureShape& s) {
   const model::PieceForm part = part_form(w);
+  if (const std::string wide = wider_than_read(w, s); !wide.empty()) return wide;
   // Of a part that is given as a mesh the features are not all; what the nouns say of their ends holds there,
   // too.
   if (w.plan.target_mesh) return model::square_corner(w.plan.model, s, w.whole_shapes, part, true);

@@ -142,6 +142,13 @@ Result<geometry::Placement> profile_frame(const Model& m, const Profile& profile
   if (!frame) return frame;
   const bool somewhere = norm(into.frame.origin) > 0.0;
   if (somewhere && norm(frame->origin - into.frame.origin) < 1e-9) {
+    const bool turned = norm(frame->z - into.frame.z) > 1e-9 || norm(frame->x - into.frame.x) > 1e-9;
+    if (turned) {
+      return unsupported(
+          m, into.feature,
+          "its profile's placement has the feature's origin and other axes, so that nobody can "
+          "tell whether it is relative to the feature; state it relative to the feature");
+    }
     into.assumptions.push_back(
         "the profile's placement repeats the feature's; it is read as relative to it, that is, none");
     return geometry::Placement{};

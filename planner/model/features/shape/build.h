@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "planner/model/features/shape.h"
+#include "planner/model/features/shape/open_reach.h"
 #include "planner/model/nouns/feature.h"
 #include "planner/model/nouns/profile.h"
 
@@ -12,8 +13,6 @@
 
 namespace capstan::model::shape {
 
-/// How far beyond an open side the reach of a feature goes: room for a cutter to enter, mm.
-inline constexpr double kOpenReach = 100.0;
 /// Chord tolerance of areas, mm.
 inline constexpr double kAreaTolerance = 0.001;
 
