@@ -11,7 +11,10 @@ import os
 import re
 import sys
 
-FOLDERS = ("planner", "rules", "casebase", "tooling", "include")
+sys.dont_write_bytecode = True
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import unique_types  # noqa: E402
+
 MOST = 3
 ALLOWED = {
     "planner/ground/vocabulary/": "the table itself",
@@ -52,19 +55,8 @@ def faults(files):
     return found
 
 
-def read_all(root):
-    for top in FOLDERS:
-        for folder, folders, names in os.walk(os.path.join(root, top)):
-            folders.sort()
-            for name in sorted(names):
-                if name.endswith((".h", ".cpp")):
-                    path = os.path.join(folder, name)
-                    with open(path, encoding="utf-8") as file:
-                        yield os.path.relpath(path, root), file.read()
-
-
 def main(root):
-    files = list(read_all(root))
+    files = list(unique_types.read_all(root))
     if not files:
         print(f"{root}: there is nothing to look at")
         return 1

@@ -18,7 +18,6 @@ import include_direction  # noqa: E402
 
 FOLDERS = "planner rules casebase tooling include tests".split()
 MOST_LINES, MOST_FILES = 10_000, 20
-SOURCES = (".h", ".hpp", ".cpp", ".c", ".inc")
 # A file that a README names in backquotes: `step/record.cpp`, `../noun_faults.h`.
 NAMED = re.compile(r"`((?:\.\./)*[\w/]+\.(?:h|cpp|py|inc|map))`")
 
