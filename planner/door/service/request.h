@@ -5,6 +5,7 @@
 #include <string>
 
 #include "planner/door/pipeline/pipeline.h"
+#include "planner/door/service/code.h"
 #include "planner/ground/geometry/vec.h"
 #include "planner/making/optimise/solver/solver.h"
 
@@ -37,17 +38,6 @@ struct Request {
   optimise::Backends backends;
   /// How this caller writes an option, for messages and provenance: "--machine" on a command line.
   std::string sign = "--";
-};
-
-/// What a call came to: the exit code of the command, the code of the C interface.
-enum class Code : int {
-  kDone = 0,
-  kFindings = 1,
-  kUsage = 2,
-  kUnreadable = 3,
-  kImpossible = 4,
-  kLate = 5,
-  kFault = 70,
 };
 
 /// Why a call gives nothing.

@@ -13,6 +13,8 @@ namespace capstan::p21 {
 /// UTF-8 as the inside of a Part 21 string: quotes and backslashes doubled, everything outside
 /// printable ASCII as \X2\ or \X4\. Invalid UTF-8 throws std::logic_error: decode before writing.
 [[nodiscard]] std::string encode_text(std::string_view utf8);
+/// The same between its apostrophes: a whole Part 21 string.
+[[nodiscard]] std::string quoted(std::string_view utf8);
 
 /// Writes an exchange file from top to bottom:
 ///

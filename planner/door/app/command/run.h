@@ -2,17 +2,19 @@
 
 #include <array>
 
+#include "planner/door/service/code.h"
+
 namespace capstan::app {
 
 /// What the command ends with; `kExitTexts` says what each means.
 enum ExitCode : int {
-  kDone = 0,
-  kFindings = 1,
-  kUsage = 2,
-  kUnreadable = 3,
-  kImpossible = 4,
-  kLate = 5,
-  kOurFault = 70,
+  kDone = static_cast<int>(service::Code::kDone),
+  kFindings = static_cast<int>(service::Code::kFindings),
+  kUsage = static_cast<int>(service::Code::kUsage),
+  kUnreadable = static_cast<int>(service::Code::kUnreadable),
+  kImpossible = static_cast<int>(service::Code::kImpossible),
+  kLate = static_cast<int>(service::Code::kLate),
+  kOurFault = static_cast<int>(service::Code::kFault),
 };
 
 struct ExitText {

@@ -28,7 +28,7 @@ constexpr std::string_view kType = "!CAPSTAN_TYPE";
 constexpr std::string_view kObject = "!CAPSTAN_OBJECT";
 constexpr std::string_view kValue = "!CAPSTAN_VALUE";
 
-std::string quoted(std::string_view s) { return "'" + p21::encode_text(s) + "'"; }
+using p21::quoted;
 
 template <class List, class Show>
 std::string listed(const List& items, const Show& show) {

@@ -11,7 +11,7 @@ using model::AnyRef;
 
 namespace {
 
-std::string quoted(std::string_view s) { return "'" + p21::encode_text(s) + "'"; }
+using p21::quoted;
 
 /// Reasons by number, each once, before the bindings that refer to them.
 class Reasons {

@@ -10,8 +10,8 @@
 #include "planner/files/exchange/iso14649/iso14649.h"
 #include "planner/files/exchange/iso14649/records.h"
 #include "planner/files/exchange/iso14649/units.h"
-#include "planner/files/exchange/records/instance_hashes.h"
 #include "planner/files/exchange/records/exact_paths.h"
+#include "planner/files/exchange/records/instance_hashes.h"
 #include "planner/files/exchange/records/seal.h"
 #include "planner/files/exchange/toolpaths/trajectories.h"
 #include "planner/files/p21/print.h"
@@ -289,11 +289,9 @@ class FileWriter {
 
   // --- text ---
 
-  static std::string quoted(std::string_view s) { return "'" + p21::encode_text(s) + "'"; }
-
   static std::string texts(const std::vector<std::string>& items) {
     std::string out = "(";
-    for (const std::string& s : items) out += (out.size() > 1 ? "," : "") + quoted(s);
+    for (const std::string& s : items) out += (out.size() > 1 ? "," : "") + p21::quoted(s);
     return items.empty() ? "('')" : out + ")";
   }
 
@@ -309,9 +307,9 @@ class FileWriter {
       line.clear();
     }
     return "FILE_DESCRIPTION(" + texts(lines) + ",'" + implementation_level(plan_) + "');\nFILE_NAME(" +
-           quoted(base_name()) + "," + quoted(plan_.header_time_stamp) + "," + texts(plan_.header_authors) +
-           "," + texts(plan_.header_organizations) + ",'Capstan','Capstan','');\n" +
-           "FILE_SCHEMA(('MACHINING_SCHEMA','MILLING_SCHEMA'));\n";
+           p21::quoted(base_name()) + "," + p21::quoted(plan_.header_time_stamp) + "," +
+           texts(plan_.header_authors) + "," + texts(plan_.header_organizations) +
+           ",'Capstan','Capstan','');\n" + "FILE_SCHEMA(('MACHINING_SCHEMA','MILLING_SCHEMA'));\n";
   }
   [[nodiscard]] std::string base_name() const {
     const auto slash = plan_.file_name.find_last_of('/');
@@ -379,7 +377,7 @@ class FileWriter {
         out += *model::value_of<model::Boolean>(a, data) ? ".T." : ".F.";
         break;
       case Storage::kText:
-        out += quoted(*model::value_of<model::Text>(a, data));
+        out += p21::quoted(*model::value_of<model::Text>(a, data));
         break;
       case Storage::kEnum:
         out += "." +
@@ -410,7 +408,8 @@ class FileWriter {
         break;
       case Storage::kTextList:
         list(
-            model::value_of<model::TextList>(a, data).items, [](const auto& s) { return quoted(s); }, out);
+            model::value_of<model::TextList>(a, data).items, [](const auto& s) { return p21::quoted(s); },
+            out);
         break;
       case Storage::kRefTable:
       case Storage::kRealTable:

@@ -59,7 +59,7 @@ class Shared {
   std::map<const T*, std::size_t> number_;
 };
 
-std::string quoted(std::string_view s) { return "'" + p21::encode_text(s) + "'"; }
+using p21::quoted;
 
 std::string column(const std::vector<double>& v) {
   std::string out = "(";

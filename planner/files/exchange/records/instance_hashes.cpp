@@ -14,7 +14,7 @@ using p21::Value;
 
 namespace {
 
-std::string quoted(std::string_view s) { return "'" + p21::encode_text(s) + "'"; }
+using p21::quoted;
 
 void refers_to(const Value& v, const std::set<std::uint64_t>& numbers, std::set<std::uint64_t>& out) {
   if (v.is(Kind::kReference) && numbers.contains(v.reference())) out.insert(v.reference());

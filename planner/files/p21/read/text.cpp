@@ -268,4 +268,6 @@ std::string encode_text(std::string_view utf8) {
   return out;
 }
 
+std::string quoted(std::string_view utf8) { return "'" + encode_text(utf8) + "'"; }
+
 }  // namespace capstan::p21

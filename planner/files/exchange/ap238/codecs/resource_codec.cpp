@@ -16,7 +16,7 @@ using p21::Value;
 
 namespace {
 
-std::string quoted(std::string_view s) { return "'" + p21::encode_text(s) + "'"; }
+using p21::quoted;
 
 std::string lower(std::string_view s) {
   std::string out(s);

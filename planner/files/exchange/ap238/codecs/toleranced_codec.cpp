@@ -18,7 +18,7 @@ using p21::Value;
 
 namespace {
 
-std::string quoted(std::string_view s) { return "'" + p21::encode_text(s) + "'"; }
+using p21::quoted;
 
 /// The text of a spelling: 'width' without its quotes.
 std::string bare(const std::string& spelling) {

@@ -96,7 +96,7 @@ void write_commands(Writer& writer, const Row& row, AnyRef owner, const Attribut
   for (std::size_t i = 0; i < curves.size(); ++i) {
     std::string name;
     if (axes != nullptr && i < axes->axis_list.items.size()) {
-      name = "'" + p21::encode_text(axes->axis_list.items[i]) + "'";
+      name = p21::quoted(axes->axis_list.items[i]);
     }
     join(writer, row, owner, root, static_cast<std::uint32_t>(i + 1), writer.instance_named(curves[i], name));
   }

@@ -13,7 +13,7 @@
 namespace capstan::exchange {
 namespace {
 
-std::string quoted(std::string_view s) { return "'" + p21::encode_text(s) + "'"; }
+using p21::quoted;
 
 std::string texts(const std::vector<std::string>& items) {
   std::string out = "(";

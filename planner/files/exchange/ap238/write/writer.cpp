@@ -153,7 +153,7 @@ void Writer::turn_into(Id at, std::string_view entity) {
   if (!made_[at - 1].leaves.empty()) made_[at - 1].leaves = {e};
 }
 
-std::string Writer::quoted(std::string_view text) { return "'" + p21::encode_text(text) + "'"; }
+std::string Writer::quoted(std::string_view text) { return p21::quoted(text); }
 
 const ObjectRow* Writer::object_row(AnyRef at) const {
   const auto leads_to = [&](const std::vector<std::string>& path) {

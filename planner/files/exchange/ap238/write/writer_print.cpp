@@ -138,7 +138,7 @@ std::string Writer::select_text(const model::SelectValue& v) {
 std::string Writer::attribute_text(const Attribute& a, const void* data) {
   const auto number = [](double v) { return part21_real(v); };
   const auto whole = [](std::int64_t v) { return std::to_string(v); };
-  const auto text = [](const std::string& s) { return "'" + p21::encode_text(s) + "'"; };
+  const auto text = [](const std::string& s) { return p21::quoted(s); };
   const auto ref = [&](AnyRef r) { return reference_text(r); };
   const auto select = [&](const model::SelectValue& v) { return select_text(v); };
   switch (a.storage) {

@@ -1,0 +1,16 @@
+#pragma once
+
+namespace capstan::service {
+
+/// What a call came to: the exit code of the command, the code of the C interface.
+enum class Code : int {
+  kDone = 0,
+  kFindings = 1,
+  kUsage = 2,
+  kUnreadable = 3,
+  kImpossible = 4,
+  kLate = 5,
+  kFault = 70,
+};
+
+}  // namespace capstan::service
