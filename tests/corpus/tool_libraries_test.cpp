@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "tests/corpus/session.h"
+#include "tests/support/corpus.h"
 #include "tooling/library/formats/import.h"
 
 // Real parts with the libraries that people really have: a plan that nothing is found against, or a list of
@@ -72,7 +73,7 @@ TEST(CorpusRandomToolLibraries, TheBracketWithThemIsASoundPlanOrAListOfWhatIsMis
   for (std::size_t i = 0; i < libraries.size(); ++i) {
     if (!in_sample(i, libraries.size(), 0)) continue;
     SCOPED_TRACE(libraries[i]);
-    expect_a_sound_plan_or_a_list(CAPSTAN_SOURCE_DIR "/examples/bracket.p21", libraries[i]);
+    expect_a_sound_plan_or_a_list(capstan::testing::source_dir() + "/examples/bracket.p21", libraries[i]);
   }
 }
 

@@ -13,7 +13,7 @@ namespace capstan::linuxcnc {
 Planned plan(const std::vector<std::string>& arguments) {
   const testing::ScratchFolder folder;
   Planned out;
-  std::string command = "cd '" CAPSTAN_SOURCE_DIR "' && '" CAPSTAN_COMMAND "' plan";
+  std::string command = "cd '" + capstan::testing::source_dir() + "' && '" CAPSTAN_COMMAND "' plan";
   for (const std::string& a : arguments) command += " '" + a + "'";
   for (const char* kind : {"json", "ngc", "tbl"}) command += " -o '" + folder.file("out.") + kind + "'";
   command += " > '" + folder.file("said.txt") + "' 2>&1 < /dev/null";

@@ -60,11 +60,11 @@ Record run(const Order& order) {
     return out;
   }
   // The system's own Python: LinuxCNC's module is built for that one.
-  std::string command = "/usr/bin/python3 " CAPSTAN_SOURCE_DIR
-                        "/tests/linuxcnc/run.py --clock " CAPSTAN_FAST_CLOCK " --program " +
-                        quoted(folder.file("program.ngc")) + " --tools " + quoted(folder.file("tools.tbl")) +
-                        " --samples " + quoted(folder.file("samples.txt")) + " --rate " +
-                        trimmed(order.rate, 3);
+  std::string command =
+      "/usr/bin/python3 " +
+      capstan::testing::source_dir() "/tests/linuxcnc/run.py --clock " CAPSTAN_FAST_CLOCK " --program " +
+      quoted(folder.file("program.ngc")) + " --tools " + quoted(folder.file("tools.tbl")) + " --samples " +
+      quoted(folder.file("samples.txt")) + " --rate " + trimmed(order.rate, 3);
   for (const std::string& o : order.offsets) command += " --offset " + quoted(o);
   command += " > " + quoted(folder.file("said.txt")) + " 2>&1 < /dev/null";
   const int status = std::system(command.c_str());

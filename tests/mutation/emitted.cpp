@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "planner/controls/linuxcnc/linuxcnc.h"
-#include "tests/support/shop.h"
 #include "tests/proof/verify/plans.h"
 #include "tests/support/corpus.h"
+#include "tests/support/shop.h"
 
 namespace capstan::mutation {
 namespace {
@@ -89,7 +89,7 @@ model::Plan tapped() {
 model::Plan plate() {
   Job job;
   const auto shop = pipeline::load_shop({}, job);
-  const std::string path = std::string(CAPSTAN_SOURCE_DIR) + "/examples/plate_bound.p21";
+  const std::string path = capstan::testing::source_dir() + "/examples/plate_bound.p21";
   auto plan = pipeline::read_plan(testing::slurp(path), path, job);
   if (!shop || !plan) throw std::runtime_error("the plate is not read");
   auto bound = pipeline::bind(*std::move(plan), *shop, {}, job);

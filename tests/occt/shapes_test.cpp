@@ -3,12 +3,12 @@
 #include <cstdio>
 #include <string>
 
-#include "tests/support/shop.h"
 #include "planner/door/pipeline/pipeline.h"
 #include "planner/files/exchange/exchange.h"
 #include "planner/ground/base/file.h"
 #include "planner/model/nouns/all.h"
 #include "tests/support/corpus.h"
+#include "tests/support/shop.h"
 
 namespace capstan::exchange {
 namespace {
@@ -81,7 +81,7 @@ TEST(OpenCascade, SeesTheSameSolidsInAFileThatWasReadAndWrittenBack) {
 TEST(OpenCascade, KnowsEveryPointOfAPlanWithToolpaths) {
   NEEDS_OCCT(program);
   Job job;
-  auto bytes = read_file(CAPSTAN_SOURCE_DIR "/examples/bracket.p21");
+  auto bytes = read_file(capstan::testing::source_dir() + "/examples/bracket.p21");
   ASSERT_TRUE(bytes);
   auto shop = pipeline::load_shop({}, job);
   auto part = pipeline::read_plan(std::move(*bytes), "bracket.p21", job);

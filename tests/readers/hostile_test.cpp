@@ -44,7 +44,8 @@ TEST(HostileMesh, AVertexBeyondTheReachOfGeometryIsNamed) {
 }
 
 TEST(HostileMachine, ValuesNextToZeroAreRefused) {
-  const std::string text = testing::slurp(CAPSTAN_SOURCE_DIR "/tooling/data/machines/generic_vmc.yaml");
+  const std::string text =
+      testing::slurp(capstan::testing::source_dir() + "/tooling/data/machines/generic_vmc.yaml");
   Job job;
   ASSERT_TRUE(tooling::read_machine(text, "m.yaml", job));
   const auto tiny =
@@ -89,7 +90,7 @@ TEST(HostilePlan, ANumberBeyondRangeIsNamedWithItsLine) {
 }
 
 TEST(HostileTechnology, ASpindleThatHardlyTurnsIsTold) {
-  const std::string plate = testing::slurp(CAPSTAN_SOURCE_DIR "/examples/plate_bound.p21");
+  const std::string plate = testing::slurp(capstan::testing::source_dir() + "/examples/plate_bound.p21");
   Job job;
   (void)exchange::read_bytes(replaced(plate, "-21.", "-1.E-320"), "plate.p21", {}, job);
   EXPECT_FALSE(job.diagnostics().empty());
@@ -97,7 +98,7 @@ TEST(HostileTechnology, ASpindleThatHardlyTurnsIsTold) {
 
 // Once "a fault of the program itself": a feed by a speed of next to nothing is a chip without end.
 TEST(HostileTechnology, ASpindleThatHardlyTurnsIsNotPlannedWith) {
-  const std::string plate = testing::slurp(CAPSTAN_SOURCE_DIR "/examples/plate_bound.p21");
+  const std::string plate = testing::slurp(capstan::testing::source_dir() + "/examples/plate_bound.p21");
   Job job;
   const auto plan = exchange::read_bytes(replaced(plate, "-21.", "-1.E-320"), "plate.p21", {}, job);
   ASSERT_TRUE(plan);

@@ -64,14 +64,14 @@ std::string edited(std::string s, Chance& c) {
 
 std::vector<std::string> seeds_of(const Reader& r) {
   std::vector<std::string> files, out;
-  const std::string folder = CAPSTAN_SOURCE_DIR "/tests/fuzz/seeds/" + std::string(r.name);
+  const std::string folder = capstan::testing::source_dir() + "/tests/fuzz/seeds/" + std::string(r.name);
   if (std::filesystem::exists(folder)) {
     for (const auto& e : std::filesystem::directory_iterator(folder)) files.push_back(e.path().string());
   }
   for (const std::string& s : r.seeds) {
     // Of the corpus beside the checkout, where it is there.
     if (s.rfind("corpus/", 0) != 0) {
-      files.push_back(CAPSTAN_SOURCE_DIR "/" + s);
+      files.push_back(capstan::testing::source_dir() + "/" + s);
     } else if (!testing::corpus_folder().empty()) {
       files.push_back(testing::corpus_folder() + s.substr(6));
     }

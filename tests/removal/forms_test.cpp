@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/removal/planned.h"
+#include "tests/support/corpus.h"
 
 // A plan's three forms, read again, give its program.
 
@@ -17,7 +18,7 @@ TEST(EachFormOfAPlan, GivesItsProgramWhereASmallerCutterTookTheFirstOnesPlace) {
   d.slot("S", d.placement({37.5, 10, 0}), 4, d.linear_path(5, {-0.6, 0.8, 0}), d.square_u(5), "radiused",
          "radiused");
   part.text = d.text();
-  part.options.tools = CAPSTAN_SOURCE_DIR "/tests/removal/random/workshop.yaml";
+  part.options.tools = capstan::testing::source_dir() + "/tests/removal/random/workshop.yaml";
   const PlanOutput plan = plan_bytes(part.text, "slot.p21", part.options);
   ASSERT_FALSE(plan.linuxcnc.empty());
   EXPECT_NE(plan.json.find("\"em_3\""), std::string::npos) << "another cutter is chosen: this tests nothing";

@@ -190,7 +190,7 @@ INSTANTIATE_TEST_SUITE_P(
 class ShopRules : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = std::filesystem::path(CAPSTAN_BINARY_DIR) /
+    folder_ = std::filesystem::path(testing::TempDir()) /
               (std::string("rules_test_") + testing::UnitTest::GetInstance()->current_test_info()->name());
     std::filesystem::remove_all(folder_);
     std::filesystem::create_directories(folder_);

@@ -7,11 +7,13 @@
 
 namespace capstan::testing {
 
+std::string source_dir() { return CAPSTAN_SOURCE_DIR; }
+
 std::string corpus_folder() {
   const char* named = std::getenv("CAPSTAN_CORPUS");
-  const std::filesystem::path folder =
-      named != nullptr ? std::filesystem::path(named)
-                       : std::filesystem::path(CAPSTAN_SOURCE_DIR) / ".." / "shared" / "corpus";
+  const std::filesystem::path folder = named != nullptr
+                                           ? std::filesystem::path(named)
+                                           : std::filesystem::path(source_dir()) / ".." / "shared" / "corpus";
   std::error_code ignored;
   return std::filesystem::is_directory(folder, ignored) ? folder.lexically_normal().string() : std::string();
 }

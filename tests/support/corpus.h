@@ -6,6 +6,9 @@
 
 namespace capstan::testing {
 
+/// The root of this checkout, where `examples` and `docs` are.
+[[nodiscard]] std::string source_dir();
+
 /// The folder of real files beside the checkout, or empty when it is absent (CAPSTAN_CORPUS overrides it).
 [[nodiscard]] std::string corpus_folder();
 

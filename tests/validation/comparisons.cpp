@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "tests/support/corpus.h"
 #include "tests/validation/studies.h"
 
 namespace capstan::validation {
@@ -17,7 +18,8 @@ void add_plate(const std::string& corpus, std::vector<Comparison>& out) {
   };
   if (corpus.empty()) return skip("the corpus is absent");
   const std::string folder = corpus + "/measured/nist_plate";
-  const auto plate = nist::read_plate(folder, CAPSTAN_SOURCE_DIR "/tests/validation/nist_plate.yaml");
+  const auto plate =
+      nist::read_plate(folder, capstan::testing::source_dir() + "/tests/validation/nist_plate.yaml");
   if (!plate) return skip(plate.error().message);
   const auto study = nist::study_times(*plate);
   if (!study) return skip(study.error().message);
@@ -68,7 +70,7 @@ std::vector<Comparison> all_comparisons(const std::string& corpus) {
   out.push_back(optima());
   out.push_back(lobes());
   out.push_back(sections());
-  out.push_back(cycle_times(CAPSTAN_SOURCE_DIR "/docs/validation/cycle_times.csv"));
+  out.push_back(cycle_times(capstan::testing::source_dir() + "/docs/validation/cycle_times.csv"));
   out.push_back(edits());
   out.push_back(plan_edits());
   out.push_back(productivity(corpus));

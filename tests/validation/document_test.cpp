@@ -8,7 +8,7 @@
 namespace capstan::validation {
 namespace {
 
-std::string document() { return testing::slurp(CAPSTAN_SOURCE_DIR "/docs/validation.md"); }
+std::string document() { return testing::slurp(capstan::testing::source_dir() + "/docs/validation.md"); }
 
 const std::vector<Comparison>& computed() {
   static const std::vector<Comparison> all = all_comparisons(testing::corpus_folder());
@@ -39,7 +39,7 @@ TEST(Document, HasAPlaceAndAPictureForEachComparison) {
   while ((at = text.find("](validation/", at)) != std::string::npos) {
     at += 2;
     const std::string file = text.substr(at, text.find(')', at) - at);
-    EXPECT_FALSE(testing::slurp(CAPSTAN_SOURCE_DIR "/docs/" + file).empty()) << file;
+    EXPECT_FALSE(testing::slurp(capstan::testing::source_dir() + "/docs/" + file).empty()) << file;
     ++pictures;
   }
   EXPECT_GT(pictures, 0);

@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "tests/support/shop.h"
 #include "planner/ground/base/number.h"
 #include "planner/physics/motion/time.h"
 #include "tests/support/corpus.h"
+#include "tests/support/shop.h"
 #include "tests/validation/studies.h"
 
 namespace capstan::validation {
@@ -112,7 +112,7 @@ Comparison productivity(const std::string& corpus) {
   double worst = 0.0;
   for (const Part& part : kParts) {
     const std::string file =
-        part.file[0] == '/' ? corpus + part.file : std::string(CAPSTAN_SOURCE_DIR) + "/" + part.file;
+        part.file[0] == '/' ? corpus + part.file : capstan::testing::source_dir() + "/" + part.file;
     Job quiet;
     pipeline::Inputs in = *shop;
     if (*part.material != '\0') in.material_name = part.material;

@@ -9,6 +9,7 @@
 #include "planner/model/nouns/all.h"
 #include "planner/model/nouns/arena/walk.h"
 #include "tests/corpus/session.h"
+#include "tests/support/corpus.h"
 
 // Who bound what, and why, in plans that went through AP238.
 
@@ -112,7 +113,7 @@ void expect_kept(const model::Plan& plan) {
   }
 }
 
-std::string bracket() { return std::string(CAPSTAN_SOURCE_DIR) + "/examples/bracket.p21"; }
+std::string bracket() { return capstan::testing::source_dir() + "/examples/bracket.p21"; }
 
 TEST(Ap238Ledger, OfTheBracketComesBackEqual) { expect_kept(planned(bracket(), Reopen::kNothing).plan); }
 

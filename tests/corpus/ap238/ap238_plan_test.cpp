@@ -9,6 +9,7 @@
 #include "planner/files/exchange/toolpaths/curves.h"
 #include "planner/files/p21/read/parse.h"
 #include "tests/corpus/session.h"
+#include "tests/support/corpus.h"
 #include "tests/support/seal.h"
 
 // Plans as AP238 files: complete, and carried out as they were planned.
@@ -77,7 +78,7 @@ double stated_volume(const model::Model& m, model::AnyRef step) {
 class Ap238Plan : public ::testing::TestWithParam<Case> {
  protected:
   static std::string path() {
-    if (GetParam().example) return std::string(CAPSTAN_SOURCE_DIR) + "/examples/" + GetParam().file;
+    if (GetParam().example) return capstan::testing::source_dir() + "/examples/" + GetParam().file;
     return testing::corpus_folder() + "/iso14649/" + GetParam().file;
   }
 };

@@ -6,11 +6,12 @@
 #include "planner/files/exchange/exchange.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/plan/plan.h"
+#include "tests/support/corpus.h"
 
 namespace capstan::app::testing {
 
 inline std::string example(const std::string& name) {
-  return std::string(CAPSTAN_SOURCE_DIR) + "/examples/" + name;
+  return capstan::testing::source_dir() + "/examples/" + name;
 }
 
 /// A part with one hole and one drilling step, as a file.

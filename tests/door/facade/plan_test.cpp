@@ -6,6 +6,7 @@
 
 #include "capstan/capstan.h"
 #include "planner/door/service/options.h"
+#include "tests/support/corpus.h"
 
 // The library as other programs use it.
 
@@ -14,7 +15,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-const std::string kBracket = std::string(CAPSTAN_SOURCE_DIR) + "/examples/bracket.p21";
+const std::string kBracket = capstan::testing::source_dir() + "/examples/bracket.p21";
 
 TEST(Facade, GivesNoProgramThatTheCheckCondemnsUnlessAsked) {
   PlanOptions options;
@@ -53,7 +54,7 @@ TEST(Facade, GivesNoProgramOfAPlanThatSaysTwoThingsThoughAsked) {
 }
 
 TEST(Facade, AMaterialThatTheFileContradictsIsSettledByTheOneThatTheCallerNames) {
-  PlanOutput first = plan_file(std::string(CAPSTAN_SOURCE_DIR) + "/examples/plate_bound.p21", {});
+  PlanOutput first = plan_file(capstan::testing::source_dir() + "/examples/plate_bound.p21", {});
   ASSERT_TRUE(first.condemned.empty());
   // Somebody edits what the header lists of the material; the nouns still say another one.
   std::string& text = first.iso14649;
@@ -84,7 +85,7 @@ TEST(Facade, RefusesAnUnknownMaterialWithTheNearestNames) {
 }
 
 TEST(Facade, AJsonPlanMayBeginWithAByteOrderMark) {
-  const std::string json = plan_file(std::string(CAPSTAN_SOURCE_DIR) + "/examples/plate_bound.p21", {}).json;
+  const std::string json = plan_file(capstan::testing::source_dir() + "/examples/plate_bound.p21", {}).json;
   ASSERT_FALSE(json.empty());
   const PlanOutput marked = plan_bytes("\xEF\xBB\xBF" + json, "marked.json", {});
   EXPECT_TRUE(marked.planned) << (marked.diagnostics.empty() ? "" : marked.diagnostics.back().text);
@@ -121,7 +122,7 @@ TEST(Facade, OptionsReachThePlan) {
 }
 
 TEST(Facade, FormsStandUnderTheNamesOfTheirFormats) {
-  const PlanOutput out = plan_file(std::string(CAPSTAN_SOURCE_DIR) + "/examples/plate_bound.p21", {});
+  const PlanOutput out = plan_file(capstan::testing::source_dir() + "/examples/plate_bound.p21", {});
   ASSERT_TRUE(out.planned);
   EXPECT_TRUE(out.forms.at("json") == out.json);
   EXPECT_TRUE(out.forms.at("linuxcnc") == out.linuxcnc);
@@ -135,7 +136,7 @@ TEST(Facade, FormsStandUnderTheNamesOfTheirFormats) {
 }
 
 TEST(Facade, ExplainsAPlanAStepAndAValue) {
-  const std::string json = plan_file(std::string(CAPSTAN_SOURCE_DIR) + "/examples/plate_bound.p21", {}).json;
+  const std::string json = plan_file(capstan::testing::source_dir() + "/examples/plate_bound.p21", {}).json;
   const ExplainOutput whole = explain_bytes(json, "plate.json");
   ASSERT_TRUE(whole.explained);
   const ExplainOutput step = explain_bytes(json, "plate.json", "1");
@@ -149,9 +150,9 @@ TEST(Facade, ExplainsAPlanAStepAndAValue) {
 
 TEST(Facade, BindsWithTheToolsThatAreLoaded) {
   PlanOptions options;
-  options.tools = std::string(CAPSTAN_SOURCE_DIR) + "/tests/door/late/magazine.tbl";
+  options.tools = capstan::testing::source_dir() + "/tests/door/late/magazine.tbl";
   options.deadline = "1ms";
-  const PlanOutput late = bind_file(std::string(CAPSTAN_SOURCE_DIR) + "/examples/plate_bound.p21", options);
+  const PlanOutput late = bind_file(capstan::testing::source_dir() + "/examples/plate_bound.p21", options);
   ASSERT_TRUE(late.planned) << late.diagnostics.back().text;
   EXPECT_TRUE(late.late);
   EXPECT_FALSE(late.linuxcnc.empty());

@@ -18,9 +18,9 @@
 namespace capstan::late {
 namespace {
 
-const std::string kPlate = std::string(CAPSTAN_SOURCE_DIR) + "/examples/plate_bound.p21";
-const std::string kMagazine = std::string(CAPSTAN_SOURCE_DIR) + "/tests/door/late/magazine.tbl";
-const std::string kOneTool = std::string(CAPSTAN_SOURCE_DIR) + "/tests/door/late/one_tool.tbl";
+const std::string kPlate = capstan::testing::source_dir() + "/examples/plate_bound.p21";
+const std::string kMagazine = capstan::testing::source_dir() + "/tests/door/late/magazine.tbl";
+const std::string kOneTool = capstan::testing::source_dir() + "/tests/door/late/one_tool.tbl";
 
 pipeline::Inputs shop(const std::string& tools) {
   Job job;
@@ -42,7 +42,7 @@ pipeline::Inputs shop_of(const std::string& table, const std::string& machine = 
 /// The generic machine, whose table counts from a reference.
 std::string reference_machine() {
   std::string text =
-      testing::slurp(std::string(CAPSTAN_SOURCE_DIR) + "/tooling/data/machines/generic_vmc.yaml");
+      testing::slurp(capstan::testing::source_dir() + "/tooling/data/machines/generic_vmc.yaml");
   const std::string at = "control: {";
   text.insert(text.find(at) + at.size(), "length_offsets: reference, ");
   const std::string path = ::testing::TempDir() + "late_reference.yaml";

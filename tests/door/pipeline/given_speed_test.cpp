@@ -31,7 +31,7 @@ struct Judged {
 
 /// The plate with another edge of its mill.
 Judged plate(const std::string& edge, const std::string& material = "") {
-  std::string text = testing::slurp(std::string(CAPSTAN_SOURCE_DIR) + "/examples/plate_bound.p21");
+  std::string text = testing::slurp(capstan::testing::source_dir() + "/examples/plate_bound.p21");
   const auto at = text.find(kEdge);
   EXPECT_NE(at, std::string::npos);
   text.replace(at, std::string(kEdge).size(), edge);

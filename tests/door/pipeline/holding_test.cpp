@@ -2,10 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/shop.h"
 #include "planner/door/pipeline/propose/grouped_reasons.h"
 #include "planner/ground/base/file.h"
 #include "planner/model/nouns/all.h"
+#include "tests/support/corpus.h"
+#include "tests/support/shop.h"
 
 namespace capstan::pipeline {
 namespace {
@@ -136,7 +137,7 @@ Inputs shop(const std::string& workholding) {
 
 model::Plan part(const std::string& name) {
   Job job;
-  const std::string path = std::string(CAPSTAN_SOURCE_DIR) + "/examples/" + name;
+  const std::string path = capstan::testing::source_dir() + "/examples/" + name;
   return *read_plan(*read_file(path), path, job);
 }
 

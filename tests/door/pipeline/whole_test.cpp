@@ -23,7 +23,7 @@ namespace {
 
 using model::CutterClass;
 
-const std::string kBracket = std::string(CAPSTAN_SOURCE_DIR) + "/examples/bracket.p21";
+const std::string kBracket = capstan::testing::source_dir() + "/examples/bracket.p21";
 
 Inputs shop() {
   static const Inputs kShop = [] {
@@ -321,7 +321,7 @@ TEST(Sections, AHelixsFirstContactIsNotFedSlowerThanItsNextTurn) {
   Job job;
   auto inputs = shop();
   inputs.material_name = "C45";
-  const std::string text = testing::slurp(std::string(CAPSTAN_SOURCE_DIR) + "/examples/reference_pocket.p21");
+  const std::string text = testing::slurp(capstan::testing::source_dir() + "/examples/reference_pocket.p21");
   const auto plan = bind(read_plan(text, "reference_pocket.p21", job).value(), inputs, {}, job);
   ASSERT_TRUE(plan) << plan.error().message;
   const auto& step = plan->steps.front();

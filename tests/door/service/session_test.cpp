@@ -10,7 +10,7 @@
 namespace capstan::service {
 namespace {
 
-const std::string kSource = CAPSTAN_SOURCE_DIR;
+const std::string kSource = capstan::testing::source_dir();
 
 /// A whole transport, as another program might speak to a session over a pipe. A line asks, a line answers:
 ///

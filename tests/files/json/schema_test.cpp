@@ -70,7 +70,7 @@ TEST_F(PlanSchema, DoesNotHoldForOtherDocuments) {
 
 // Run with CAPSTAN_UPDATE=1 in the environment after the model has changed.
 TEST(PlanSchemaFile, IsCurrent) {
-  const std::string path = std::string(CAPSTAN_SOURCE_DIR) + "/docs/plan.schema.json";
+  const std::string path = capstan::testing::source_dir() + "/docs/plan.schema.json";
   if (std::getenv("CAPSTAN_UPDATE") != nullptr) {
     ASSERT_TRUE(write_file(path, json_schema()));
   }

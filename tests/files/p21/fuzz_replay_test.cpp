@@ -16,7 +16,8 @@ int replay(const std::string& bytes) {
 // The fuzzed function aborts when a property does not hold.
 TEST(FuzzSeeds, HoldTheFuzzedProperties) {
   std::size_t seeds = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(CAPSTAN_SOURCE_DIR "/tests/fuzz/seeds/p21")) {
+  for (const auto& entry :
+       std::filesystem::directory_iterator(capstan::testing::source_dir() + "/tests/fuzz/seeds/p21")) {
     SCOPED_TRACE(entry.path().string());
     EXPECT_EQ(replay(::capstan::testing::slurp(entry.path().string())), 0);
     ++seeds;

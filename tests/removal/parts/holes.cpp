@@ -3,6 +3,7 @@
 
 #include "planner/ground/base/file.h"
 #include "tests/removal/parts.h"
+#include "tests/support/corpus.h"
 
 namespace capstan::testing::removal {
 namespace {
@@ -131,7 +132,8 @@ Part turned_over() {
     t.cut(cylinder(x, 30, 3.3, -32, kOver));
     t.cut(cylinder(x, 30, 5.5, -32, -23.5));
   }
-  Part p{"turned_over", read_file(CAPSTAN_SOURCE_DIR "/examples/two_setups.p21").value_or(""), b, t};
+  Part p{"turned_over", read_file(capstan::testing::source_dir() + "/examples/two_setups.p21").value_or(""),
+         b, t};
   p.grid = {0.5, 0.2, 0.15};
   return p;
 }

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "tests/support/corpus.h"
+
 namespace capstan::testing::removal {
 
 double standard_tolerance(int grade, double size) {
@@ -49,9 +51,10 @@ RandomPart Maker::done(unsigned seed) {
   out.part.options.machine =
       one_of<std::string>({"", "", "", "generic_vmc", "tormach_1100mx", "linuxcnc_axis_mm", "small_router"});
   // A shop with one cutter, or a drawer of them: much cannot be made there, and that must be said.
-  out.part.options.tools = one_of<std::string>({"", "", "", "", "", "", "", "",
-                                                CAPSTAN_SOURCE_DIR "/examples/reference_pocket_tools.yaml",
-                                                CAPSTAN_SOURCE_DIR "/tests/removal/random/workshop.yaml"});
+  out.part.options.tools =
+      one_of<std::string>({"", "", "", "", "", "", "", "",
+                           capstan::testing::source_dir() + "/examples/reference_pocket_tools.yaml",
+                           capstan::testing::source_dir() + "/tests/removal/random/workshop.yaml"});
   if (chance(0.2)) out.part.options.feeds = "constant";
   if (chance(0.2)) out.part.options.objective = "cost";
   out.whole_shop = out.part.options.tools.empty() &&

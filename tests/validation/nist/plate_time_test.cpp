@@ -15,7 +15,8 @@ class PlateTimes : public ::testing::Test {
  protected:
   void SetUp() override {
     CAPSTAN_CORPUS_FILE(folder, "measured/nist_plate");
-    const auto read = read_plate(folder, CAPSTAN_SOURCE_DIR "/tests/validation/nist_plate.yaml");
+    const auto read =
+        read_plate(folder, capstan::testing::source_dir() + "/tests/validation/nist_plate.yaml");
     ASSERT_TRUE(read) << to_text(read.error());
     plate_ = *read;
     const auto study = study_times(plate_);

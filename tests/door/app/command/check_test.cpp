@@ -22,7 +22,7 @@ using ::testing::HasSubstr;
 class CheckedAsWritten : public ::testing::Test {
  protected:
   void SetUp() override {
-    run("plan '" CAPSTAN_SOURCE_DIR "/examples/two_setups.p21' -o p.stpnc");
+    run("plan '" + capstan::testing::source_dir() + "/examples/two_setups.p21' -o p.stpnc");
     std::ifstream in(folder_ / "p.stpnc", std::ios::binary);
     std::ostringstream text;
     text << in.rdbuf();
@@ -95,7 +95,8 @@ TEST_F(CheckedAsWritten, APointMovedBelowWhatItCutsIsFound) {
 
 TEST_F(CheckedAsWritten, AToolLengthOfZeroIsFoundThoughProgramAndTableAgree) {
   // As a shop has it that measured no tool: the program was posted with that table, and says 0, too.
-  ASSERT_EQ(run("plan '" CAPSTAN_SOURCE_DIR "/examples/two_setups.p21' -o p.ngc -o p.tbl"), 0) << said_;
+  ASSERT_EQ(run("plan '" + capstan::testing::source_dir() + "/examples/two_setups.p21' -o p.ngc -o p.tbl"), 0)
+      << said_;
   const auto slurped = [&](const char* name) {
     std::ifstream in(folder_ / name, std::ios::binary);
     return std::string(std::istreambuf_iterator<char>(in), {});

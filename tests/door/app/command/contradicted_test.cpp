@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tests/door/app/command/command.h"
+#include "tests/support/corpus.h"
 
 // What a plan's file says twice, and otherwise, or states wrongly of the whole plan: told as an error, and no
 // program is made of it.
@@ -27,7 +28,7 @@ class ContradictedPlan : public CommandTest {
  protected:
   static void SetUpTestSuite() {
     scratch_of_all_ = new ::capstan::testing::ScratchFolder();
-    const std::string examples = std::string(CAPSTAN_SOURCE_DIR) + "/examples/";
+    const std::string examples = capstan::testing::source_dir() + "/examples/";
     const std::string line = "cd '" + scratch_of_all_->path() + "' && '" CAPSTAN_COMMAND "' plan '" +
                              examples +
                              "bracket.p21' -o b.json -o b.p21 >out 2>&1 && '" CAPSTAN_COMMAND "' plan '" +

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "tests/door/app/command/command.h"
+#include "tests/support/corpus.h"
 
 // What a person types into a written plan: it is theirs, what was chosen from it is planned anew, and no
 // reason speaks of what stood there before. In the plan's JSON, and in Part 21.
@@ -145,7 +146,8 @@ class EditedValues : public CommandTest {
   static void SetUpTestSuite() {
     scratch_of_all_ = new ::capstan::testing::ScratchFolder();
     const std::string line = "cd '" + scratch_of_all_->path() + "' && '" CAPSTAN_COMMAND "' plan '" +
-                             CAPSTAN_SOURCE_DIR + "/examples/bracket.p21' -o b.json -o b.p21 >out 2>&1";
+                             capstan::testing::source_dir() +
+                             "/examples/bracket.p21' -o b.json -o b.p21 >out 2>&1";
     ASSERT_EQ(std::system(line.c_str()), 0);
     json_ = slurp(scratch_of_all_->path() + "/b.json");
     part21_ = slurp(scratch_of_all_->path() + "/b.p21");

@@ -33,7 +33,7 @@ class Planned : public ::testing::Test {
   }
   /// An example with texts replaced, as p.p21.
   void part(const std::string& example, const std::vector<std::pair<std::string, std::string>>& changes) {
-    std::string text = slurp(fs::path(CAPSTAN_SOURCE_DIR) / "examples" / example);
+    std::string text = slurp(fs::path(capstan::testing::source_dir()) / "examples" / example);
     for (const auto& [from, to] : changes) {
       const auto at = text.find(from);
       ASSERT_NE(at, std::string::npos) << from;
@@ -123,7 +123,7 @@ TEST_F(Planned, AllowFindingsWritesTheProgramWithAStopBeforeEachCondemnedStep) {
 }
 
 TEST_F(Planned, BindPastItsDeadlineEndsWithFive) {
-  const std::string source = CAPSTAN_SOURCE_DIR;
+  const std::string source = capstan::testing::source_dir();
   const std::string bind = "bind '" + source + "/examples/plate_bound.p21' --tools '" + source +
                            "/tests/door/late/magazine.tbl' -o x.ngc -o x.json";
   EXPECT_EQ(run(bind + " --deadline 1ms"), 5) << said_;

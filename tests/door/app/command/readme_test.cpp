@@ -3,6 +3,7 @@
 
 #include "tests/door/app/command/command.h"
 #include "tests/door/app/plans.h"
+#include "tests/support/corpus.h"
 
 // The sessions that README shows are what the program says: each `$ capstan` line is run, in order, in one
 // folder, and what it prints is held against the lines below it. "..." stands for lines, or for the rest of a
@@ -69,9 +70,9 @@ std::string missing(const std::vector<std::string>& printed, const std::vector<s
 class Readme : public CommandTest {};
 
 TEST_F(Readme, ShowsWhatTheProgramSays) {
-  const auto shown = sessions(slurp(CAPSTAN_SOURCE_DIR "/README.md"));
+  const auto shown = sessions(slurp(capstan::testing::source_dir() + "/README.md"));
   ASSERT_GE(shown.size(), 4U);
-  for (const auto& e : fs::directory_iterator(CAPSTAN_SOURCE_DIR "/examples")) {
+  for (const auto& e : fs::directory_iterator(capstan::testing::source_dir() + "/examples")) {
     if (e.is_regular_file()) fs::copy_file(e.path(), folder_ / e.path().filename());
   }
   for (const Shown& s : shown) {

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "tests/door/app/command/command.h"
+#include "tests/support/corpus.h"
 
 // Words: what is said of many is said once, what is counted is what is named.
 
@@ -85,11 +86,11 @@ TEST_F(Words, HelpSaysWhichToolsCountWhereNoneAreNamed) {
 }
 
 TEST_F(Words, AMachineWithoutCoolantIsToldOnceForAllOperations) {
-  const std::string bound = "plan '" CAPSTAN_SOURCE_DIR "/examples/bracket.p21' -o p.json";
+  const std::string bound = "plan '" + capstan::testing::source_dir() + "/examples/bracket.p21' -o p.json";
   ASSERT_EQ(run(bound).code, 0);
   // The plan asks for flood; this machine has none.
   put("dry.yaml", [] {
-    std::string text = slurp(CAPSTAN_SOURCE_DIR "/tooling/data/machines/generic_vmc.yaml");
+    std::string text = slurp(capstan::testing::source_dir() + "/tooling/data/machines/generic_vmc.yaml");
     const auto at = text.find("flood:");
     EXPECT_NE(at, std::string::npos);
     text.replace(at, text.find(',', at) - at, "flood: false");
@@ -100,7 +101,7 @@ TEST_F(Words, AMachineWithoutCoolantIsToldOnceForAllOperations) {
 }
 
 TEST_F(Words, FeaturesNotPlannedAreCountedAsFeaturesWithTheReasonThatInspectKnows) {
-  ASSERT_EQ(run("plan '" CAPSTAN_SOURCE_DIR "/examples/bracket.p21' -o p.p21").code, 0);
+  ASSERT_EQ(run("plan '" + capstan::testing::source_dir() + "/examples/bracket.p21' -o p.p21").code, 0);
   // A pocket without its depth: neither its roughing nor its finishing can be made, and it is one feature.
   std::string text = slurp(folder_ / "p.p21");
   auto at = text.find("=CLOSED_POCKET('POCKET'");
@@ -130,8 +131,8 @@ double seconds(const std::string& text) {
 TEST_F(Words, TheTimeIsTheSameWithTheSamePartsWhereverItIsTold) {
   for (const char* part : {"bracket.p21", "two_setups.p21"}) {
     SCOPED_TRACE(part);
-    const Ran ran =
-        run("plan '" CAPSTAN_SOURCE_DIR "/examples/" + std::string(part) + "' -o p.json -o p.ngc");
+    const Ran ran = run("plan '" + capstan::testing::source_dir() + "/examples/" + std::string(part) +
+                        "' -o p.json -o p.ngc");
     const auto plan = nlohmann::json::parse(slurp(folder_ / "p.json"));
     const auto& sum = plan["summary"];
     const double total = sum["total_s"];
@@ -160,8 +161,11 @@ TEST_F(Words, TheTimeIsTheSameWithTheSamePartsWhereverItIsTold) {
     EXPECT_THAT(slurp(folder_ / "p.ngc"), HasSubstr("(time: " + line + ")"));
   }
   // One that is a feed slower: what `diff` tells of the totals is what both plans tell of themselves.
-  ASSERT_EQ(run("plan '" CAPSTAN_SOURCE_DIR "/examples/bracket.p21' -o a.json").code, 0);
-  ASSERT_EQ(run("plan '" CAPSTAN_SOURCE_DIR "/examples/bracket.p21' --feeds constant -o b.json").code, 0);
+  ASSERT_EQ(run("plan '" + capstan::testing::source_dir() + "/examples/bracket.p21' -o a.json").code, 0);
+  ASSERT_EQ(
+      run("plan '" + capstan::testing::source_dir() + "/examples/bracket.p21' --feeds constant -o b.json")
+          .code,
+      0);
   const std::string told = run("diff a.json b.json").out;
   const auto at = told.find("Time in all: ");
   ASSERT_NE(at, std::string::npos) << told;

@@ -43,7 +43,7 @@ class Workholding : public ::testing::Test {
 /// The file of an example, as a shell takes it.
 std::string quoted(const char* name) {
   std::string out = "'";
-  out.append((fs::path(CAPSTAN_SOURCE_DIR) / "examples" / name).string()).append("'");
+  out.append((fs::path(capstan::testing::source_dir()) / "examples" / name).string()).append("'");
   return out;
 }
 

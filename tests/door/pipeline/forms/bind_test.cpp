@@ -11,14 +11,14 @@
 #include <thread>
 
 #include "casebase/casebase.h"
-#include "tests/support/shop.h"
 #include "planner/model/nouns/all.h"
 #include "tests/support/corpus.h"
+#include "tests/support/shop.h"
 
 namespace capstan::pipeline {
 namespace {
 
-const std::string kExamples = std::string(CAPSTAN_SOURCE_DIR) + "/examples/";
+const std::string kExamples = capstan::testing::source_dir() + "/examples/";
 
 Inputs shop() {
   static const Inputs kShop = [] {

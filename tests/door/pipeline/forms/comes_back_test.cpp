@@ -3,16 +3,16 @@
 #include <algorithm>
 #include <string>
 
-#include "tests/support/shop.h"
 #include "planner/model/nouns/all.h"
 #include "tests/support/corpus.h"
+#include "tests/support/shop.h"
 
 // A plan that was written, read and bound again is the plan that it was.
 
 namespace capstan::pipeline {
 namespace {
 
-const std::string kExamples = std::string(CAPSTAN_SOURCE_DIR) + "/examples/";
+const std::string kExamples = capstan::testing::source_dir() + "/examples/";
 
 Inputs shop() {
   Job job;

@@ -4,10 +4,10 @@
 #include <random>
 #include <string>
 
-#include "tests/support/shop.h"
 #include "planner/files/json/fields.h"
 #include "tests/support/corpus.h"
 #include "tests/support/plan_difference.h"
+#include "tests/support/shop.h"
 
 // A plan whose every field has a value of its own comes back from each form.
 
@@ -104,7 +104,7 @@ TEST(WrittenPlanProperty, ReadsBackWithEveryFieldFilledInEachForm) {
   Job job;
   auto in = load_shop({}, job);
   ASSERT_TRUE(in);
-  const std::string source = CAPSTAN_SOURCE_DIR;
+  const std::string source = capstan::testing::source_dir();
   auto read = read_plan(testing::slurp(source + "/examples/plate_bound.p21"), "plate_bound.p21", job);
   ASSERT_TRUE(read);
   const auto plan = bind(*std::move(read), *in, {}, job);
@@ -133,7 +133,7 @@ TEST(WrittenPlanProperty, ReadsBackWithEveryFieldFilledInEachForm) {
 
 // A hole's depth as a length below its top, which files have where a plane is due.
 TEST(WrittenPlan, WhoseHoleHasALengthForItsDepthReadsBackFromJson) {
-  const std::string source = CAPSTAN_SOURCE_DIR;
+  const std::string source = capstan::testing::source_dir();
   std::string text = testing::slurp(source + "/examples/plate_bound.p21");
   const auto hole = text.find("=ROUND_HOLE(");
   ASSERT_NE(hole, std::string::npos);

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "tests/support/shop.h"
 #include "tests/support/corpus.h"
 #include "tests/support/plan_difference.h"
+#include "tests/support/shop.h"
 
 // A plan in each form that it is written in, read again, is the plan that was written.
 
@@ -87,7 +87,7 @@ void expect_back(const std::string& path, Bind level, bool judged) {
 class EachForm : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(EachForm, ReadsBackAsThePlanThatWasWritten) {
-  const std::string path = std::string(CAPSTAN_SOURCE_DIR) + "/" + GetParam();
+  const std::string path = capstan::testing::source_dir() + "/" + GetParam();
   expect_back(path, Bind::kAll, true);
   expect_back(path, Bind::kStrategy, false);
   expect_back(path, Bind::kTools, false);

@@ -7,15 +7,15 @@
 #include <memory>
 #include <string>
 
-#include "tests/support/shop.h"
 #include "planner/model/nouns/all.h"
 #include "rules/rules.h"
 #include "tests/support/corpus.h"
+#include "tests/support/shop.h"
 
 namespace capstan::pipeline {
 namespace {
 
-const std::string kSource = CAPSTAN_SOURCE_DIR;
+const std::string kSource = capstan::testing::source_dir();
 
 Inputs shop() {
   Job job;

@@ -6,12 +6,12 @@
 #include <set>
 #include <string>
 
-#include "tests/support/shop.h"
 #include "planner/door/pipeline/paths/cuts.h"
 #include "planner/making/optimise/cut.h"
 #include "planner/model/nouns/all.h"
 #include "tests/support/corpus.h"
 #include "tests/support/plate.h"
+#include "tests/support/shop.h"
 
 // What a plan says of why is what held: limits, coefficients, alternatives; and what is stated once is used
 // everywhere.
@@ -38,7 +38,7 @@ const std::vector<model::Plan>& plans() {
   static const std::vector<model::Plan> kPlans = [] {
     std::vector<model::Plan> out;
     for (const char* name : {"bracket.p21", "two_setups.p21", "plate_bound.p21"})
-      out.push_back(planned(testing::slurp(std::string(CAPSTAN_SOURCE_DIR) + "/examples/" + name)));
+      out.push_back(planned(testing::slurp(capstan::testing::source_dir() + "/examples/" + name)));
     for (const std::size_t n : {3U, 6U}) out.push_back(planned(testing::plate(n).text));
     return out;
   }();

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <string>
 
-#include "tests/support/shop.h"
 #include "planner/files/exchange/exchange.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/plan/decision/condemned.h"
 #include "planner/model/plan/decision/unreadable.h"
 #include "tests/support/corpus.h"
+#include "tests/support/shop.h"
 
 // One wrong reference in a file: what needs it is not planned, everything else is.
 
@@ -24,7 +24,7 @@ const Inputs& shop() {
 }
 
 std::string example(const std::string& name) {
-  const std::string path = CAPSTAN_SOURCE_DIR;
+  const std::string path = capstan::testing::source_dir();
   return testing::slurp(path + "/examples/" + name);
 }
 

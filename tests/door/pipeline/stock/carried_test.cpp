@@ -5,16 +5,16 @@
 #include <cstdio>
 #include <string>
 
-#include "tests/support/shop.h"
 #include "planner/physics/engagement/engagement.h"
 #include "planner/physics/stock/planar/planar_stock.h"
 #include "planner/proof/verify/sweep/target/target.h"
 #include "tests/support/corpus.h"
+#include "tests/support/shop.h"
 
 namespace capstan::pipeline {
 namespace {
 
-const std::string kBracket = std::string(CAPSTAN_SOURCE_DIR) + "/examples/bracket.p21";
+const std::string kBracket = capstan::testing::source_dir() + "/examples/bracket.p21";
 
 model::Plan planned_bracket() {
   Job job;

@@ -4,10 +4,10 @@
 #include <set>
 #include <string>
 
-#include "tests/support/shop.h"
 #include "planner/ground/base/number.h"
 #include "planner/model/nouns/all.h"
 #include "tests/support/corpus.h"
+#include "tests/support/shop.h"
 
 // Where compounds and patterns are cut; every coordinate stands in the part's comments.
 
@@ -15,7 +15,7 @@ namespace capstan::pipeline {
 namespace {
 
 std::string part() {
-  const std::string folder = CAPSTAN_SOURCE_DIR;
+  const std::string folder = capstan::testing::source_dir();
   return testing::slurp(folder + "/tests/door/pipeline/parts/compounds.p21");
 }
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tests/support/shop.h"
 #include "planner/model/nouns/all.h"
 #include "tests/support/corpus.h"
+#include "tests/support/shop.h"
 
 // What stays beside a feature is not cut, whichever feature's steps are near it.
 
@@ -16,7 +16,7 @@ model::Plan planned(const std::string& file) {
   Job job;
   auto in = load_shop({}, job);
   EXPECT_TRUE(in) << (in ? "" : in.error().message);
-  const std::string path = CAPSTAN_SOURCE_DIR "/tests/door/pipeline/parts/" + file;
+  const std::string path = capstan::testing::source_dir() + "/tests/door/pipeline/parts/" + file;
   auto plan = read_plan(testing::slurp(path), file, job);
   EXPECT_TRUE(plan) << (plan ? "" : to_text(plan.error()));
   if (!in || !plan) return {};

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <string>
 
-#include "tests/support/shop.h"
 #include "planner/model/nouns/all.h"
 #include "planner/proof/verify/verify.h"
 #include "tests/support/corpus.h"
+#include "tests/support/shop.h"
 
 namespace capstan::pipeline {
 namespace {
@@ -18,7 +18,7 @@ model::Plan bracket_of(const std::string& material) {
   Job job;
   Inputs in = load_shop({}, job).value();
   in.material_name = material;
-  const std::string path = std::string(CAPSTAN_SOURCE_DIR) + "/examples/bracket.p21";
+  const std::string path = capstan::testing::source_dir() + "/examples/bracket.p21";
   auto plan = read_plan(testing::slurp(path), "bracket.p21", job);
   return bind(plan.value(), in, {}, job).value();
 }

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <string>
 
-#include "tests/support/shop.h"
 #include "planner/door/pipeline/profit.h"
 #include "tests/support/corpus.h"
+#include "tests/support/shop.h"
 
 // What planning makes of the ways to choose feeds, and of what is wanted most, on the bracket.
 
@@ -23,7 +23,8 @@ const Inputs& shop() {
 
 model::Plan bracket(const Inputs& in) {
   Job job;
-  auto plan = read_plan(testing::slurp(CAPSTAN_SOURCE_DIR "/examples/bracket.p21"), "bracket.p21", job);
+  auto plan =
+      read_plan(testing::slurp(capstan::testing::source_dir() + "/examples/bracket.p21"), "bracket.p21", job);
   EXPECT_TRUE(plan);
   if (!plan) return {};
   auto out = bind(*std::move(plan), in, {}, job);

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <string>
 
-#include "tests/support/shop.h"
 #include "planner/physics/mechanics/loads/margin.h"
 #include "tests/support/corpus.h"
+#include "tests/support/shop.h"
 
 namespace capstan::pipeline {
 namespace {
@@ -21,7 +21,7 @@ const Inputs& shop() {
 
 model::Plan pocket() {
   Job job;
-  auto plan = read_plan(testing::slurp(std::string(CAPSTAN_SOURCE_DIR) + "/examples/reference_pocket.p21"),
+  auto plan = read_plan(testing::slurp(capstan::testing::source_dir() + "/examples/reference_pocket.p21"),
                         "reference_pocket.p21", job);
   EXPECT_TRUE(plan) << (plan ? "" : to_text(plan.error()));
   return plan ? *std::move(plan) : model::Plan{};

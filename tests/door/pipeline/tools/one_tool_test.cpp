@@ -4,11 +4,11 @@
 #include <map>
 #include <string>
 
-#include "tests/support/shop.h"
 #include "planner/files/exchange/exchange.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/nouns/arena/walk.h"
 #include "tests/support/corpus.h"
+#include "tests/support/shop.h"
 
 // A tool of one name is one tool, all through a plan.
 
@@ -26,7 +26,7 @@ const Inputs& shop() {
 const model::Plan& bracket() {
   static const model::Plan one = [] {
     Job job;
-    const std::string path = std::string(CAPSTAN_SOURCE_DIR) + "/examples/bracket.p21";
+    const std::string path = capstan::testing::source_dir() + "/examples/bracket.p21";
     auto read = read_plan(testing::slurp(path), "bracket.p21", job);
     return bind(*std::move(read), shop(), {}, job).value();
   }();
@@ -116,7 +116,7 @@ model::Plan plate_with(const model::Cutter& also_in_library) {
   Inputs in = shop();
   in.library.push_back(also_in_library);
   Job job;
-  const std::string path = std::string(CAPSTAN_SOURCE_DIR) + "/examples/plate_bound.p21";
+  const std::string path = capstan::testing::source_dir() + "/examples/plate_bound.p21";
   auto read = read_plan(testing::slurp(path), "plate_bound.p21", job);
   return bind(*std::move(read), in, {}, job).value();
 }
@@ -171,7 +171,7 @@ TEST(OneTool, OfTheFileThatIsTheLibrarysInAllThatItStatesIsTheLoadedOne) {
 TEST(OneTool, ALoadedToolThatThePlanDoesNotNameGetsANameOfItsOwn) {
   // The plan's drill of 9 mm is loaded under another name; what the table calls 'DRILL 9' has 8.5 mm.
   Job job;
-  const std::string path = std::string(CAPSTAN_SOURCE_DIR) + "/examples/plate_bound.p21";
+  const std::string path = capstan::testing::source_dir() + "/examples/plate_bound.p21";
   model::Plan plan = read_plan(testing::slurp(path), "plate_bound.p21", job).value();
   model::Cutter nine = loaded_drill(9.0);
   nine.id = "T7";

@@ -4,9 +4,9 @@
 #include <numbers>
 #include <string>
 
-#include "tests/support/shop.h"
 #include "planner/model/nouns/all.h"
 #include "tests/support/corpus.h"
+#include "tests/support/shop.h"
 
 // Speeds and feeds of a file that states only one of them, or one that cannot be.
 
@@ -29,7 +29,7 @@ Inputs shop() {
 /// Two holes of 8 mm, drilled by a drill of two edges. `technology` begins MILLING_TECHNOLOGY (feed m/s,
 /// reference, cutting speed m/s, spindle 1/s, feed per tooth mm); `retract` is feed_on_retract.
 Planned drilled(const std::string& technology, const std::string& retract = "$", const Policy& policy = {}) {
-  const std::string folder = CAPSTAN_SOURCE_DIR;
+  const std::string folder = capstan::testing::source_dir();
   std::string text = testing::slurp(folder + "/tests/door/pipeline/parts/compounds.p21");
   const auto put = [&](const std::string& from, const std::string& to) {
     const auto at = text.find(from);

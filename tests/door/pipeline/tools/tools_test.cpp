@@ -6,17 +6,17 @@
 #include <set>
 #include <string>
 
-#include "tests/support/shop.h"
 #include "planner/model/nouns/all.h"
 #include "planner/proof/verify/verify.h"
 #include "tests/support/corpus.h"
+#include "tests/support/shop.h"
 #include "tooling/library/nouns/nouns.h"
 #include "tooling/shop/machine/machine.h"
 
 namespace capstan::pipeline {
 namespace {
 
-const std::string kExamples = std::string(CAPSTAN_SOURCE_DIR) + "/examples/";
+const std::string kExamples = capstan::testing::source_dir() + "/examples/";
 
 Inputs shop() {
   static const Inputs kShop = [] {
@@ -188,7 +188,7 @@ Inputs two_drills() {
 
 TEST(Tools, ADrillThatGivesWayLeavesTheDepthToThePointOfTheOther) {
   Inputs in = two_drills();
-  const std::string file = CAPSTAN_SOURCE_DIR "/tests/door/pipeline/parts/two_points.p21";
+  const std::string file = capstan::testing::source_dir() + "/tests/door/pipeline/parts/two_points.p21";
   for (const double change_s : {0.0, 600.0}) {
     in.machine.tool_change_s = in.machine.spindle.spin_up_s = change_s;
     Job job;
