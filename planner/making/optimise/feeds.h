@@ -51,7 +51,7 @@ struct FeedQuestion {
   double feed_mm_min =
       0.0;                ///< of the step: plunges and ramps are fractions of it, finishing never exceeds it
   bool adapt = true;      ///< false: a given feed is executed as given; factors above 1 do not count
-  bool constant = false;  ///< one feed for all cutting moves: the largest that every section bears
+  bool constant = false;  ///< one feed for all cutting moves: the largest within every section's limits
   std::vector<double> feed_factor, speed_factor, dwell_s;  ///< of the path's moves
   std::vector<CutSample> samples;                          ///< in order of moves
   double known_to_mm = 0.0;  ///< to what length along the path it is known where samples begin and end

@@ -90,9 +90,9 @@ class Units {
   std::array<std::pair<EntityId, Dimension>, 6> kinds_;
 };
 
-class Judge {
+class RuleCheck {
  public:
-  Judge(const Population& population, std::span<const Rule> rules, Faults& faults)
+  RuleCheck(const Population& population, std::span<const Rule> rules, Faults& faults)
       : p_(population), faults_(faults), links_(population), units_(links_, population.dictionary()) {
     const auto& d = population.dictionary();
     parameters_ = d.find("shape_representation_with_parameters");
@@ -121,7 +121,7 @@ class Judge {
         return;
       }
       for (const Rule* r : rules_of_[layout]) {
-        if (applies(*r, i)) judge(*r, i);
+        if (applies(*r, i)) check(*r, i);
       }
     }
   }
@@ -384,7 +384,7 @@ class Judge {
     if (at && !links_.is_a(*at, r.type)) fault(r, i, "is of #" + id(*at), keyword(r.type));
   }
 
-  void judge(const Rule& r, std::size_t i) {
+  void check(const Rule& r, std::size_t i) {
     switch (r.subject) {
       case Subject::kOwn: {
         const auto value = own(r, i, r.attribute);
@@ -434,7 +434,7 @@ class Judge {
 }  // namespace
 
 void check_rules(const Population& population, std::span<const Rule> rules, Faults& faults) {
-  Judge(population, rules, faults).run();
+  RuleCheck(population, rules, faults).run();
 }
 
 }  // namespace capstan::exchange::conformance

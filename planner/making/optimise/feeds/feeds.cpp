@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "planner/making/optimise/cut/limits.h"
-#include "planner/making/optimise/feeds/followed.h"
+#include "planner/making/optimise/feeds/motion_limits.h"
 #include "planner/physics/mechanics/constants.h"
 #include "planner/physics/mechanics/surface.h"
 
@@ -22,14 +22,14 @@ using model::MoveRole;
 /// Plunges and ramps keep their own feed, where it is lower.
 bool ends_in(MoveRole r) { return r == MoveRole::kPlunge || r == MoveRole::kRamp; }
 
-/// The largest feed that every section of the cut bears, to 1e-6: by the grid first, directly where it
-/// matters.
-double constant_feed(const FeedQuestion& q, const CutterPath& path, Book& book) {
+/// The largest feed at which every section of the cut keeps its limits, to 1e-6: by the grid first, directly
+/// where it matters.
+double constant_feed(const FeedQuestion& q, const CutterPath& path, CutClasses& classes) {
   double best = 0.0;
   for (std::size_t i = 1; i < path.size(); ++i) {
     const double given = i < q.feed_factor.size() ? std::max(q.feed_factor[i], 0.0) : 1.0;
     if (path.role[i] == MoveRole::kCut && given > 0.0)
-      best = std::max(best, q.samples.empty() ? q.feed_mm_min : book.judge(rpm_on(q, i)).ceiling_mm_min());
+      best = std::max(best, q.samples.empty() ? q.feed_mm_min : classes.loads(rpm_on(q, i)).ceiling_mm_min());
   }
   if (!(best > 0.0)) best = q.feed_mm_min;
   if (!cuts_sideways(q.cut.kind) || !q.adapt) return best;
@@ -38,19 +38,19 @@ double constant_feed(const FeedQuestion& q, const CutterPath& path, Book& book) 
     const CutSample& s = q.samples[k];
     if (s.plunge || !(s.ap_mm > 0.0) || s.move >= path.size() || ends_in(path.role[s.move])) continue;
     const double n = rpm_on(q, s.move);
-    const double on_grid = bears(book, s, q.cut, n).feed_mm_min;
+    const double on_grid = sample_feed(classes, s, q.cut, n).feed_mm_min;
     if (on_grid < best) order.emplace_back(on_grid, k);
   }
   std::sort(order.begin(), order.end());
   for (const auto& [on_grid, k] : order) {
     if (on_grid >= best) break;
     const CutSample& s = q.samples[k];
-    const Judge& judge = book.judge(rpm_on(q, s.move));
+    const CutLoads& loads = classes.loads(rpm_on(q, s.move));
     const Cuts cuts = cuts_of(s, q.cut);
     for (std::size_t c = 0; c < cuts.n; ++c) {
-      const auto at_best = judge.at(cuts.cut[c], best);
-      if (at_best && ratio(at_best->load, judge.limits()) <= 1.0) continue;
-      best = std::max(judge.largest(cuts.cut[c], best), judge.floor_mm_min());
+      const auto at_best = loads.at(cuts.cut[c], best);
+      if (at_best && ratio(at_best->load, loads.limits()) <= 1.0) continue;
+      best = std::max(loads.largest(cuts.cut[c], best), loads.floor_mm_min());
     }
   }
   return best;
@@ -60,7 +60,7 @@ void keep_largest(double& a, double b) {
   if (std::abs(b) > std::abs(a)) a = b;
 }
 
-void keep_peak(model::StepLoads& peak, const State& s, const Judge& judge, const model::Cutter& cutter) {
+void keep_peak(model::StepLoads& peak, const State& s, const CutLoads& loads, const model::Cutter& cutter) {
   const auto load = [&](Limit l) { return s.load.of(l); };
   peak.peak_force_n = std::max(peak.peak_force_n, load(Limit::kPeakForce));
   peak.deflection_mm = std::max(peak.deflection_mm, load(Limit::kToolDeflection));
@@ -72,7 +72,7 @@ void keep_peak(model::StepLoads& peak, const State& s, const Judge& judge, const
       load(Limit::kSurfaceRoughness) / (1000.0 * kRoughnessOverGeometry * mechanics::kArcRaOverRz);
   peak.surface_rz_mm = std::max(peak.surface_rz_mm, rz);
   peak.wall_error_mm = std::max(peak.wall_error_mm, load(Limit::kWallError));
-  const double margin = judge.margin();
+  const double margin = loads.margin();
   const auto keep = [](model::AxisForces& a, const model::AxisForces& b) {
     keep_largest(a.x_n, b.x_n);
     keep_largest(a.y_n, b.y_n);
@@ -101,31 +101,32 @@ model::ExceededLimit worst_limit(const Column& load, const Column& limit) {
           .at_mm = std::nullopt};
 }
 
-/// Keeps the largest excess, what it is of, and the page it stands on. No load known: more than any.
+/// Keeps the largest excess, what it is of, and the class it is of. No load known: more than any.
 class Worst {
  public:
   explicit Worst(FeedAnswer& a) : a_(a) {}
-  void of(const std::optional<State>& s, const Column& limits, const Page* page, double plunge_rpm = 0.0) {
+  void of(const std::optional<State>& s, const Column& limits, const CutClass* kind,
+          double plunge_rpm = 0.0) {
     const double excess = s ? ratio(s->load, limits) - 1.0 : std::numeric_limits<double>::infinity();
     if (!(excess > a_.worst_excess)) return;
     a_.worst_excess = excess;
-    page_ = page;
+    class_ = kind;
     plunge_rpm_ = plunge_rpm;
     if (excess > 0.0)
       a_.worst = s ? worst_limit(s->load, limits) : model::ExceededLimit{"load", 0.0, 0.0, "", std::nullopt};
   }
 
   /// Where the path first meets what is worst.
-  void place(const FeedQuestion& q, const CutterPath& path, Book& book) {
+  void place(const FeedQuestion& q, const CutterPath& path, CutClasses& classes) {
     if (!(a_.worst_excess > 0.0)) return;
     const auto& feeds = a_.schedule.feed_mm_min;
     for (const CutSample& s : q.samples) {
       if (s.move >= feeds.size() || s.move >= path.size() || !(feeds[s.move] > 0.0)) continue;
-      bool here = s.plunge && page_ == nullptr && s.ap_mm > 0.0 && rpm_on(q, s.move) == plunge_rpm_;
+      bool here = s.plunge && class_ == nullptr && s.ap_mm > 0.0 && rpm_on(q, s.move) == plunge_rpm_;
       const Cuts cuts = cuts_of(s, q.cut);
-      for (std::size_t c = 0; c < cuts.n && !s.plunge && page_ != nullptr; ++c) {
-        const Page& page = book.page(cuts.cut[c], rpm_on(q, s.move));
-        here = here || (&page == page_ && feeds[s.move] * cuts.cut[c].gain >= page.most_scheduled);
+      for (std::size_t c = 0; c < cuts.n && !s.plunge && class_ != nullptr; ++c) {
+        const CutClass& kind = classes.class_of(cuts.cut[c], rpm_on(q, s.move));
+        here = here || (&kind == class_ && feeds[s.move] * cuts.cut[c].gain >= kind.most_scheduled);
       }
       if (!here) continue;
       const double length = model::move_length(path, s.move);
@@ -137,12 +138,12 @@ class Worst {
 
  private:
   FeedAnswer& a_;
-  const Page* page_ = nullptr;  // null: a plunge
+  const CutClass* class_ = nullptr;  // null: a plunge
   double plunge_rpm_ = 0.0;
 };
 
 /// Loads of every class of section at the largest feed it is cut with.
-void measure_peaks(const FeedQuestion& q, const CutterPath& path, Book& book, FeedAnswer& a) {
+void measure_peaks(const FeedQuestion& q, const CutterPath& path, CutClasses& classes, FeedAnswer& a) {
   const model::FeedSchedule& schedule = a.schedule;
   Worst worst(a);
   double removal = 0.0;
@@ -157,29 +158,29 @@ void measure_peaks(const FeedQuestion& q, const CutterPath& path, Book& book, Fe
     }
     const Cuts cuts = cuts_of(s, q.cut);
     for (std::size_t c = 0; c < cuts.n && feed > 0.0; ++c) {
-      Page& page = book.page(cuts.cut[c], rpm_on(q, s.move));
-      page.most_scheduled = std::max(page.most_scheduled, feed * cuts.cut[c].gain);
+      CutClass& kind = classes.class_of(cuts.cut[c], rpm_on(q, s.move));
+      kind.most_scheduled = std::max(kind.most_scheduled, feed * cuts.cut[c].gain);
       removal = std::max(removal, feed * (s.csa_mm2 > 0.0 ? s.csa_mm2 : s.ap_mm * s.ae_mm));
     }
   }
-  book.each([&](const Judge& judge, const Page& page) {
-    if (!(page.most_scheduled > 0.0)) return;
-    auto s = judge.at(page.cut, page.most_scheduled);
+  classes.each([&](const CutLoads& loads, const CutClass& kind) {
+    if (!(kind.most_scheduled > 0.0)) return;
+    auto s = loads.at(kind.cut, kind.most_scheduled);
     // An area wider than two cutters lies below the tip, along a ramp or a helix: its edge is no faster.
     // Limits are held with it all the same. Default, unsourced.
     constexpr double kBelowTheTip = 2.0;
-    if (s && page.gain > kBelowTheTip) s->chip_mm /= page.gain;
-    if (s) keep_peak(a.peak, *s, judge, q.cut.cutter);
-    worst.of(s, judge.limits(), &page);
+    if (s && kind.gain > kBelowTheTip) s->chip_mm /= kind.gain;
+    if (s) keep_peak(a.peak, *s, loads, q.cut.cutter);
+    worst.of(s, loads.limits(), &kind);
   });
   for (const auto& [n, feed] : plunging) {
     if (!(feed > 0.0)) continue;
-    const Judge& judge = book.judge(n);
-    const auto s = judge.plunging(feed);
-    if (s) keep_peak(a.peak, *s, judge, q.cut.cutter);
-    worst.of(s, judge.limits(), nullptr, n);
+    const CutLoads& loads = classes.loads(n);
+    const auto s = loads.plunging(feed);
+    if (s) keep_peak(a.peak, *s, loads, q.cut.cutter);
+    worst.of(s, loads.limits(), nullptr, n);
   }
-  worst.place(q, path, book);
+  worst.place(q, path, classes);
   a.peak.mrr_mm3_min = removal;
 }
 
@@ -215,26 +216,26 @@ double least_feed_mm_min(const CutQuestion& q, double n_rpm) {
 
 FeedAnswer feeds(const FeedQuestion& q, const CutterPath& path) {
   FeedAnswer a;
-  Book book(q);
-  const std::vector<Cap> caps = caps_of(q, path, book);
+  CutClasses classes(q);
+  const std::vector<Cap> caps = caps_of(q, path, classes);
   const bool sideways = cuts_sideways(q.cut.kind);
   if (!q.adapt || !sideways) {
     as_planned(q, path, caps, a);
   } else {
     std::vector<double> most(path.size(), 0.0);
-    std::vector<Holder> by(path.size(), Holder::kStepFeed);
-    const double one = q.constant ? constant_feed(q, path, book) : 0.0;
+    std::vector<FeedBound> by(path.size(), FeedBound::kStepFeed);
+    const double one = q.constant ? constant_feed(q, path, classes) : 0.0;
     for (std::size_t i = 1; i < path.size(); ++i) {
       most[i] = caps[i].feed_mm_min;
       by[i] = caps[i].by;
-      if (!q.constant || by[i] == Holder::kAir) continue;
+      if (!q.constant || by[i] == FeedBound::kAir) continue;
       const double given = i < q.feed_factor.size() ? q.feed_factor[i] : 1.0;
-      const bool own = ends_in(path.role[i]) || by[i] == Holder::kEndCut;
+      const bool own = ends_in(path.role[i]) || by[i] == FeedBound::kEndCut;
       const double all = std::min(1.0, given) * one;
       most[i] = own ? std::min(most[i], all) : all;
     }
     Followed f = followed(q, path, std::move(most), std::move(by), q.cut.machine);
-    if (q.explain && !q.constant) a.held_by = held_by(q, path, caps, book, f);
+    if (q.explain && !q.constant) a.held_by = held_by(q, path, caps, classes, f);
     for (std::size_t k = 0; k < kLimits; ++k) {
       for (std::size_t i = 1; i < path.size(); ++i) {
         if (static_cast<std::size_t>(caps[i].by) != k || caps[i].feed_mm_min >= q.feed_mm_min) continue;
@@ -246,7 +247,7 @@ FeedAnswer feeds(const FeedQuestion& q, const CutterPath& path) {
     a.schedule = schedule_with(q, path, std::move(f.feed_mm_min));
   }
   if (sideways) {
-    measure_peaks(q, path, book, a);
+    measure_peaks(q, path, classes, a);
   } else if (const auto l = loads_of(q.cut, 0.0, 0.0, std::abs(q.n_rpm), q.feed_mm_min)) {
     a.peak = *l;
     const WorstLoad worst = worst_load(q.cut, *l, std::abs(q.n_rpm));
@@ -257,13 +258,13 @@ FeedAnswer feeds(const FeedQuestion& q, const CutterPath& path) {
 }
 
 std::optional<double> excess_at(const FeedQuestion& q, const CutSample& s, double feed_mm_min) {
-  const Judge judge(q, rpm_on(q, s.move));
+  const CutLoads loads(q, rpm_on(q, s.move));
   const Cuts cuts = cuts_of(s, q.cut);
   double worst = -1.0;
   for (std::size_t c = 0; c < cuts.n; ++c) {
-    const auto state = judge.at(cuts.cut[c], feed_mm_min);
+    const auto state = loads.at(cuts.cut[c], feed_mm_min);
     if (!state) return std::nullopt;
-    worst = std::max(worst, ratio(state->load, judge.limits()) - 1.0);
+    worst = std::max(worst, ratio(state->load, loads.limits()) - 1.0);
   }
   return worst;
 }

@@ -2,7 +2,7 @@
 #include <array>
 #include <cmath>
 
-#include "planner/making/optimise/feeds/followed.h"
+#include "planner/making/optimise/feeds/motion_limits.h"
 
 namespace capstan::optimise::feed {
 namespace {
@@ -10,30 +10,30 @@ namespace {
 using model::CutterPath;
 
 // What may hold along a path: the holders of a feed, then what only motion knows.
-enum Name : std::size_t { kTolerance = kHolders, kBlockTime, kNames };
+enum Name : std::size_t { kTolerance = kFeedBounds, kBlockTime, kNames };
 constexpr std::array<std::string_view, kNames - kLimits> kText = {
     "step_feed",         "end_cutting", "air_feed",       "axis_feed",
     "axis_acceleration", "least_feed",  "path_tolerance", "block_time"};
 constexpr std::array<std::string_view, kNames - kLimits> kUnit = {"mm/min", "mm/min", "mm/min", "mm/min",
                                                                   "mm/s2",  "mm/min", "mm",     "s"};
 
-double limit_value(const FeedQuestion& q, Book& book, std::size_t name) {
-  const Judge& judge = book.judge(rpm_on(q, q.speed_factor.size()));
+double limit_value(const FeedQuestion& q, CutClasses& classes, std::size_t name) {
+  const CutLoads& loads = classes.loads(rpm_on(q, q.speed_factor.size()));
   const auto& axes = q.cut.machine.axes;
-  if (name < kLimits) return stated(judge.limits()[name]) ? judge.limits()[name] : 0.0;
+  if (name < kLimits) return stated(loads.limits()[name]) ? loads.limits()[name] : 0.0;
   switch (name) {
-    case static_cast<std::size_t>(Holder::kStepFeed):
-      return judge.ceiling_mm_min();
-    case static_cast<std::size_t>(Holder::kEndCut):
+    case static_cast<std::size_t>(FeedBound::kStepFeed):
+      return loads.ceiling_mm_min();
+    case static_cast<std::size_t>(FeedBound::kEndCut):
       return kPlungeFraction * q.feed_mm_min;
-    case static_cast<std::size_t>(Holder::kAir):
+    case static_cast<std::size_t>(FeedBound::kAir):
       return kAirFeedMmMin;
-    case static_cast<std::size_t>(Holder::kAxisFeed):
+    case static_cast<std::size_t>(FeedBound::kAxisFeed):
       return std::min(axes[0].feed_max_mm_min, axes[1].feed_max_mm_min);
-    case static_cast<std::size_t>(Holder::kAcceleration):
+    case static_cast<std::size_t>(FeedBound::kAcceleration):
       return std::min(axes[0].acceleration_mm_s2, axes[1].acceleration_mm_s2);
-    case static_cast<std::size_t>(Holder::kUnknown):
-      return judge.floor_mm_min();
+    case static_cast<std::size_t>(FeedBound::kUnknown):
+      return loads.floor_mm_min();
     case kTolerance:
       return q.cut.machine.control.path_tolerance_mm;
     default:
@@ -43,11 +43,11 @@ double limit_value(const FeedQuestion& q, Book& book, std::size_t name) {
 
 std::array<double, kNames> seconds_by(const CutterPath& path, const Followed& f, const motion::StepTime& t) {
   std::array<double, kNames> out{};
-  const auto acceleration = static_cast<std::size_t>(Holder::kAcceleration);
+  const auto acceleration = static_cast<std::size_t>(FeedBound::kAcceleration);
   for (std::size_t i = 1; i < path.size(); ++i) {
     if (path.kind[i] == model::MoveKind::kRapid || path.kind[i] == model::MoveKind::kDwell) continue;
     auto name = static_cast<std::size_t>(f.by[i]);
-    if (t.top[i] == motion::TopBy::kAxes) name = static_cast<std::size_t>(Holder::kAxisFeed);
+    if (t.top[i] == motion::TopBy::kAxes) name = static_cast<std::size_t>(FeedBound::kAxisFeed);
     if (t.top[i] == motion::TopBy::kTurning) name = acceleration;
     if (t.top[i] == motion::TopBy::kBlock) name = kBlockTime;
     out[name] += t.at_top_s[i];
@@ -62,19 +62,19 @@ std::array<double, kNames> seconds_by(const CutterPath& path, const Followed& f,
 double seconds_with_more(const FeedQuestion& q, const CutterPath& path, const std::vector<Cap>& caps,
                          std::size_t name) {
   std::vector<double> most(caps.size());
-  std::vector<Holder> by(caps.size());
+  std::vector<FeedBound> by(caps.size());
   model::Machine machine = q.cut.machine;
   const bool of_caps = name <= kLimits;
   for (std::size_t i = 0; i < caps.size(); ++i) {
     most[i] = of_caps ? caps[i].more[name] : caps[i].feed_mm_min;
     by[i] = caps[i].by;
-    const bool fraction =
-        name == static_cast<std::size_t>(Holder::kEndCut) || name == static_cast<std::size_t>(Holder::kAir);
+    const bool fraction = name == static_cast<std::size_t>(FeedBound::kEndCut) ||
+                          name == static_cast<std::size_t>(FeedBound::kAir);
     if (fraction && static_cast<std::size_t>(caps[i].by) == name) most[i] *= kMoreOfALimit;
   }
   for (auto& axis : machine.axes) {
-    if (name == static_cast<std::size_t>(Holder::kAxisFeed)) axis.feed_max_mm_min *= kMoreOfALimit;
-    if (name == static_cast<std::size_t>(Holder::kAcceleration)) axis.acceleration_mm_s2 *= kMoreOfALimit;
+    if (name == static_cast<std::size_t>(FeedBound::kAxisFeed)) axis.feed_max_mm_min *= kMoreOfALimit;
+    if (name == static_cast<std::size_t>(FeedBound::kAcceleration)) axis.acceleration_mm_s2 *= kMoreOfALimit;
   }
   if (name == kTolerance) machine.control.path_tolerance_mm *= kMoreOfALimit;
   if (name == kBlockTime) machine.control.block_time_s /= kMoreOfALimit;
@@ -86,7 +86,8 @@ double seconds_with_more(const FeedQuestion& q, const CutterPath& path, const st
 }  // namespace
 
 std::vector<model::LimitAlongPath> held_by(const FeedQuestion& q, const CutterPath& path,
-                                           const std::vector<Cap>& caps, Book& book, const Followed& f) {
+                                           const std::vector<Cap>& caps, CutClasses& classes,
+                                           const Followed& f) {
   std::vector<model::LimitAlongPath> out;
   const auto t = motion::time_of(path, schedule_with(q, path, f.feed_mm_min), q.cut.machine);
   if (!t || !(t->cutting_s > 0.0)) return out;
@@ -98,7 +99,7 @@ std::vector<model::LimitAlongPath> held_by(const FeedQuestion& q, const CutterPa
     model::LimitAlongPath l;
     l.name = k < kLimits ? row_of(model::kSectionLimits[k]).name : kText[k - kLimits];
     l.unit = k < kLimits ? row_of(model::kSectionLimits[k]).unit : kUnit[k - kLimits];
-    l.limit = limit_value(q, book, k);
+    l.limit = limit_value(q, classes, k);
     if (!std::isfinite(l.limit)) l.limit = 0.0;
     l.share = share;
     const double quicker = seconds_with_more(q, path, caps, k);

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "planner/making/optimise/feeds/caps.h"
+#include "planner/making/optimise/feeds/move_limits.h"
 
 // Where moves are cut so that each piece may have its own feed.
 
@@ -21,7 +21,7 @@ constexpr double kLeastPiece = 0.2;
 /// A cut has to save this much, s: it costs a block of program. Default, unsourced.
 constexpr double kWorthS = 0.005;
 
-/// A stretch of a move and what it bears.
+/// A stretch of a move and its largest feed.
 struct Piece {
   double end_mm = 0.0, length_mm = 0.0, feed = 0.0;
 };
@@ -77,24 +77,25 @@ void join(std::vector<Piece>& p, double least_mm) {
   }
 }
 
-/// Stretches of one move, by what its samples bear; what no sample stands for bears the ceiling.
+/// Stretches of one move, by the largest feeds of its samples; a stretch without a sample has the ceiling.
 class Pieces {
  public:
-  Pieces(const FeedQuestion& q, Book& book) : q_(q), book_(book) {}
+  Pieces(const FeedQuestion& q, CutClasses& classes) : q_(q), classes_(classes) {}
 
   std::vector<Piece> of(std::size_t move, std::size_t first, std::size_t last, double length,
                         double least_mm) {
     const double n = rpm_on(q_, move);
-    const double least = book_.judge(n).floor_mm_min();
-    const double top = book_.judge(n).ceiling_mm_min();
+    const double least = classes_.loads(n).floor_mm_min();
+    const double top = classes_.loads(n).ceiling_mm_min();
     std::vector<Piece> out;
     double from = 0.0;
     for (std::size_t k = first; k < last; ++k) {
       const CutSample& s = q_.samples[k];
       const double end = std::min(s.at_mm, length);
       const double begin = std::max(from, std::min(end, s.at_mm - s.step_mm));
-      const double feed =
-          s.ap_mm > 0.0 && !s.plunge ? std::clamp(bears(book_, s, q_.cut, n).feed_mm_min, least, top) : top;
+      const double feed = s.ap_mm > 0.0 && !s.plunge
+                              ? std::clamp(sample_feed(classes_, s, q_.cut, n).feed_mm_min, least, top)
+                              : top;
       if (begin > from + kRounding) add(out, begin, from, top);
       if (end > begin + kRounding) {
         add(out, end, std::max(begin, from), feed);
@@ -139,7 +140,7 @@ class Pieces {
   }
 
   const FeedQuestion& q_;
-  Book& book_;
+  CutClasses& classes_;
 };
 
 void push(CutterPath& out, const CutterPath& path, std::size_t i, geometry::Vec3 p) {
@@ -182,8 +183,8 @@ bool may_be_cut(const FeedQuestion& q, const CutterPath& path, std::size_t i) {
 
 void split_moves(FeedQuestion& q, CutterPath& path, model::SectionSeries* s) {
   const double least = kLeastPiece * q.cut.cutter.cutting_diameter_mm;
-  Book book(q);
-  Pieces pieces_of(q, book);
+  CutClasses classes(q);
+  Pieces pieces_of(q, classes);
   CutterPath out;
   std::vector<double> feed;
   std::vector<double> speed;

@@ -1,4 +1,4 @@
-#include "planner/making/optimise/feeds/followed.h"
+#include "planner/making/optimise/feeds/motion_limits.h"
 
 #include <algorithm>
 #include <cmath>
@@ -49,7 +49,7 @@ void brake(const CutterPath& path, const std::vector<motion::MoveReach>& reach, 
       const double most = motion::braked_mm_min(reach[i], f.feed_mm_min[after]);
       if (most < f.feed_mm_min[i]) {
         f.feed_mm_min[i] = most;
-        f.by[i] = Holder::kAcceleration;
+        f.by[i] = FeedBound::kAcceleration;
       }
     }
     after = i;
@@ -98,7 +98,7 @@ void trim(const FeedQuestion& q, const CutterPath& path, const model::Machine& m
     for (; i < end; ++i) {
       if (reached > 0.0 && enough < feed) {
         f.feed_mm_min[i] = enough;
-        f.by[i] = Holder::kAcceleration;
+        f.by[i] = FeedBound::kAcceleration;
       }
     }
   }
@@ -121,7 +121,7 @@ model::FeedSchedule schedule_with(const FeedQuestion& q, const CutterPath& path,
 }
 
 Followed followed(const FeedQuestion& q, const CutterPath& path, std::vector<double> most,
-                  std::vector<Holder> by, const model::Machine& machine) {
+                  std::vector<FeedBound> by, const model::Machine& machine) {
   Followed f{std::move(most), std::move(by)};
   const auto reach = motion::reach_along(path, machine);
   for (std::size_t i = 1; i < path.size(); ++i) {
@@ -130,7 +130,7 @@ Followed followed(const FeedQuestion& q, const CutterPath& path, std::vector<dou
     if (reach && (*reach)[i].length_mm > 0.0) axes = std::min(axes, (*reach)[i].most_mm_min);
     if (axes < f.feed_mm_min[i]) {
       f.feed_mm_min[i] = axes;
-      f.by[i] = Holder::kAxisFeed;
+      f.by[i] = FeedBound::kAxisFeed;
     }
   }
   if (q.constant) {

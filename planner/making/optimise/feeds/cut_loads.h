@@ -9,7 +9,7 @@
 #include "planner/physics/mechanics/bending/beam.h"
 #include "planner/physics/mechanics/loads/section.h"
 
-/// What one section bears: loads against limits at a feed. No cache here, no path.
+/// Loads of one cut at a feed, and the limits of its step. It keeps no result and knows no path.
 namespace capstan::optimise::feed {
 
 using model::Limit;
@@ -60,9 +60,9 @@ struct State {
   double chip_mm = 0.0;  ///< of the chip itself: what `load` has is for the limit, and more in a deep slot
 };
 
-class Judge {
+class CutLoads {
  public:
-  Judge(const FeedQuestion& q, double n_rpm);
+  CutLoads(const FeedQuestion& q, double n_rpm);
 
   /// Loads at a feed of the cutter's centre; nothing outside the formulas' range.
   [[nodiscard]] std::optional<State> at(const Cut& cut, double feed_mm_min) const;

@@ -1,4 +1,4 @@
-#include "planner/making/optimise/feeds/book.h"
+#include "planner/making/optimise/feeds/cut_classes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +19,7 @@ constexpr double kCornerGrid = 1.01;
 constexpr double kGainStep = 0.1;
 constexpr double kFrontStep = 1.0 / 128.0;
 constexpr long kNoArea = std::numeric_limits<long>::min();
-constexpr int kPoints = 7;  // feeds at which a class is judged, from above the ceiling down
+constexpr int kPoints = 7;  // feeds at which loads of a class are computed, from above the ceiling down
 
 struct Point {
   double feed = 0.0;
@@ -46,8 +46,8 @@ double feed_at(const std::vector<Point>& points, std::size_t i, double limit) {
 }
 
 /// Loads of a class, of a corner's no less than any of the class has.
-std::optional<Column> loads_at(const Judge& judge, const Cut& cut, double feed) {
-  const auto s = judge.at(cut, feed);
+std::optional<Column> loads_at(const CutLoads& loads, const Cut& cut, double feed) {
+  const auto s = loads.at(cut, feed);
   if (!s) return std::nullopt;
   Column load = s->load;
   if (cut.csa_mm2 > 0.0) {
@@ -60,13 +60,13 @@ bool within(const Column& load, const Column& limits) { return ratio(load, limit
 
 }  // namespace
 
-const Judge& Book::judge(double n_rpm) {
-  const auto it = judges_.find(n_rpm);
-  if (it != judges_.end()) return it->second;
-  return judges_.emplace(n_rpm, Judge(q_, n_rpm)).first->second;
+const CutLoads& CutClasses::loads(double n_rpm) {
+  const auto it = loads_.find(n_rpm);
+  if (it != loads_.end()) return it->second;
+  return loads_.emplace(n_rpm, CutLoads(q_, n_rpm)).first->second;
 }
 
-Page& Book::page(const Cut& cut, double n_rpm) {
+CutClass& CutClasses::class_of(const Cut& cut, double n_rpm) {
   const long depth = static_cast<long>(std::ceil(std::log(cut.ap_mm) / kDepthStep - 1e-9));
   const double sweep = std::max(cut.exit_rad - cut.entry_rad, 1e-4);
   // One step more than needed, so that the class still covers the arc after its entry is rounded down.
@@ -82,9 +82,9 @@ Page& Book::page(const Cut& cut, double n_rpm) {
   const long front = static_cast<long>(std::ceil(cut.front_sin / kFrontStep - 1e-9));
   const Key key{n_rpm, depth, sweep_class, entry_class, area, gain, band, front};
   if (last_ != nullptr && key == last_key_) return *last_;
-  auto it = pages_.find(key);
-  if (it == pages_.end()) {
-    Page p;
+  auto it = classes_.find(key);
+  if (it == classes_.end()) {
+    CutClass p;
     p.cut.ap_mm = std::exp(kDepthStep * static_cast<double>(depth));
     if (area != kNoArea) p.cut.csa_mm2 = std::exp(kDepthStep * static_cast<double>(area));
     if (band != kNoArea) p.cut.band_mm = std::exp(kDepthStep * static_cast<double>(band));
@@ -92,19 +92,19 @@ Page& Book::page(const Cut& cut, double n_rpm) {
     p.cut.front_sin = std::min(1.0, kFrontStep * static_cast<double>(front));
     p.cut.entry_rad = std::min(static_cast<double>(entry_class) * entry_step, cut.entry_rad);
     p.cut.exit_rad = std::min(p.cut.entry_rad + swept, std::max(pi, cut.exit_rad));
-    fill(p, judge(n_rpm));
-    it = pages_.emplace(key, p).first;
+    fill(p, loads(n_rpm));
+    it = classes_.emplace(key, p).first;
   }
   last_key_ = key;
   last_ = &it->second;
   return *last_;
 }
 
-const Page& Book::plunge(double n_rpm) {
+const CutClass& CutClasses::plunge(double n_rpm) {
   const auto it = plunges_.find(n_rpm);
   if (it != plunges_.end()) return it->second;
-  const Judge& j = judge(n_rpm);
-  Page p;
+  const CutLoads& j = loads(n_rpm);
+  CutClass p;
   double lo = j.floor_mm_min();
   double hi = std::max(lo, kPlungeFraction * q_.feed_mm_min);
   const auto ok = [&](double feed) {
@@ -123,29 +123,29 @@ const Page& Book::plunge(double n_rpm) {
   return plunges_.emplace(n_rpm, p).first->second;
 }
 
-void Book::fill(Page& page, const Judge& judge) const {
-  const double top = kMoreOfALimit * judge.ceiling_mm_min() * page.gain;
-  const double bottom = judge.floor_mm_min();
-  const Column& limits = judge.limits();
+void CutClasses::fill(CutClass& kind, const CutLoads& loads) const {
+  const double top = kMoreOfALimit * loads.ceiling_mm_min() * kind.gain;
+  const double bottom = loads.floor_mm_min();
+  const Column& limits = loads.limits();
   std::vector<Point> points;
   const double step = std::pow(bottom / top, 1.0 / (kPoints - 1));
   for (int k = 0; k < kPoints; ++k) {
     const double feed = k + 1 == kPoints ? bottom : top * std::pow(step, k);
-    const auto load = loads_at(judge, page.cut, feed);
+    const auto load = loads_at(loads, kind.cut, feed);
     if (!load) {
-      page.known = false;
+      kind.known = false;
       return;
     }
     points.push_back({feed, *load});
     if (within(*load, limits)) break;
   }
   for (std::size_t i = 0; i < kLimits; ++i) {
-    page.at_limit[i] = feed_at(points, i, limits[i]);
-    page.at_more[i] = feed_at(points, i, kMoreOfALimit * limits[i]);
+    kind.at_limit[i] = feed_at(points, i, limits[i]);
+    kind.at_more[i] = feed_at(points, i, kMoreOfALimit * limits[i]);
   }
-  const double first = *std::min_element(page.at_limit.begin(), page.at_limit.end());
+  const double first = *std::min_element(kind.at_limit.begin(), kind.at_limit.end());
   if (points.size() == 1 || !within(points.back().load, limits)) {
-    page.feed_mm_min = points.size() == 1 ? first : 0.0;
+    kind.feed_mm_min = points.size() == 1 ? first : 0.0;
     return;
   }
   // Chords of chords: what holds and what does not draw near each other.
@@ -155,7 +155,7 @@ void Book::fill(Page& page, const Judge& judge) const {
   double guess = first;
   for (int i = 0; i < 6 && bad.feed > good.feed * (1.0 + kNear); ++i) {
     guess = std::clamp(guess, good.feed * (1.0 + 0.1 * kNear), bad.feed / (1.0 + 0.1 * kNear));
-    const auto load = loads_at(judge, page.cut, guess);
+    const auto load = loads_at(loads, kind.cut, guess);
     if (!load) break;
     const Point p{guess, *load};
     const double r = ratio(p.load, limits);
@@ -166,15 +166,15 @@ void Book::fill(Page& page, const Judge& judge) const {
       if (bad.load[k] > limits[k]) guess = std::min(guess, crossing(good, bad, k, limits[k]));
     }
   }
-  page.feed_mm_min = good.feed;
+  kind.feed_mm_min = good.feed;
   // The limit that holds is the one whose own feed lies lowest; its own feed is the one found.
-  const auto lowest = std::min_element(page.at_limit.begin(), page.at_limit.end());
+  const auto lowest = std::min_element(kind.at_limit.begin(), kind.at_limit.end());
   const double up = good.feed / std::max(*lowest, 1e-9);
   for (std::size_t k = 0; k < kLimits; ++k) {
-    page.at_limit[k] = std::max(page.at_limit[k], good.feed);
-    page.at_more[k] = std::max(page.at_more[k] * (up > 1.0 ? up : 1.0), page.at_limit[k]);
+    kind.at_limit[k] = std::max(kind.at_limit[k], good.feed);
+    kind.at_more[k] = std::max(kind.at_more[k] * (up > 1.0 ? up : 1.0), kind.at_limit[k]);
   }
-  page.at_limit[static_cast<std::size_t>(lowest - page.at_limit.begin())] = good.feed;
+  kind.at_limit[static_cast<std::size_t>(lowest - kind.at_limit.begin())] = good.feed;
 }
 
 }  // namespace capstan::optimise::feed

@@ -1,4 +1,4 @@
-#include "planner/making/optimise/feeds/caps.h"
+#include "planner/making/optimise/feeds/move_limits.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +21,7 @@ struct OnMove {
   std::array<double, kLimits> more{};
 };
 
-OnMove on_move(const FeedQuestion& q, Book& book, std::size_t move, std::size_t& next) {
+OnMove on_move(const FeedQuestion& q, CutClasses& classes, std::size_t move, std::size_t& next) {
   OnMove out;
   out.at_limit.fill(kAnyFeed);
   out.more.fill(kAnyFeed);
@@ -34,7 +34,7 @@ OnMove on_move(const FeedQuestion& q, Book& book, std::size_t move, std::size_t&
       continue;
     }
     out.cuts = true;
-    const Bears b = bears(book, s, q.cut, n);
+    const SampleFeed b = sample_feed(classes, s, q.cut, n);
     out.known = out.known && b.known;
     for (std::size_t k = 0; k < kLimits; ++k) {
       out.at_limit[k] = std::min(out.at_limit[k], b.at_limit[k]);
@@ -48,7 +48,7 @@ OnMove on_move(const FeedQuestion& q, Book& book, std::size_t move, std::size_t&
   return out;
 }
 
-void bound(Cap& cap, double feed, Holder by) {
+void bound(Cap& cap, double feed, FeedBound by) {
   for (double& m : cap.more) m = std::min(m, feed);
   if (feed >= cap.feed_mm_min) return;
   cap.feed_mm_min = feed;
@@ -60,24 +60,24 @@ Cap open_cap(double feed) {
   Cap cap;
   cap.feed_mm_min = feed;
   cap.more.fill(feed);
-  cap.more[static_cast<std::size_t>(Holder::kStepFeed)] = kMoreOfALimit * feed;
+  cap.more[static_cast<std::size_t>(FeedBound::kStepFeed)] = kMoreOfALimit * feed;
   return cap;
 }
 
 /// A share of a feed, of none that is bounded too.
 double part(double share, double feed) { return std::isfinite(feed) ? share * feed : feed; }
 
-void bound_by_sections(Cap& cap, const OnMove& m, const Judge& judge, double share) {
+void bound_by_sections(Cap& cap, const OnMove& m, const CutLoads& loads, double share) {
   const double ceiling = cap.feed_mm_min;
   for (std::size_t k = 0; k < kLimits; ++k) {
-    const double feed = std::max(part(share, m.at_limit[k]), std::min(judge.floor_mm_min(), ceiling));
+    const double feed = std::max(part(share, m.at_limit[k]), std::min(loads.floor_mm_min(), ceiling));
     if (feed < cap.feed_mm_min) {
       cap.feed_mm_min = feed;
       // Where no load can be computed every limit counts as reached, those that nobody states, too.
-      cap.by = stated(judge.limits()[k]) && m.known ? static_cast<Holder>(k) : Holder::kUnknown;
+      cap.by = stated(loads.limits()[k]) && m.known ? static_cast<FeedBound>(k) : FeedBound::kUnknown;
     }
   }
-  const auto step = static_cast<std::size_t>(Holder::kStepFeed);
+  const auto step = static_cast<std::size_t>(FeedBound::kStepFeed);
   for (std::size_t k = 0; k < kLimits; ++k)
     cap.more[k] = std::clamp(part(share, m.more[k]), cap.feed_mm_min, std::max(ceiling, cap.feed_mm_min));
   double of_sections = kAnyFeed;
@@ -100,27 +100,27 @@ bool unmeasured_plunge(const FeedQuestion& q, const model::CutterPath& p, std::s
 }
 
 /// A move of a milling step whose feed is free.
-Cap milled(const FeedQuestion& q, Book& book, const model::CutterPath& path, std::size_t i, double given,
-           const OnMove& m) {
+Cap milled(const FeedQuestion& q, CutClasses& classes, const model::CutterPath& path, std::size_t i,
+           double given, const OnMove& m) {
   const MoveRole role = path.role[i];
-  const Judge& judge = book.judge(rpm_on(q, i));
+  const CutLoads& loads = classes.loads(rpm_on(q, i));
   // Without any section nothing is known of the cut: then never faster than planned.
   const bool measured = !q.samples.empty() && !m.plunges;
-  Cap cap = open_cap(given * (measured ? judge.ceiling_mm_min() : q.feed_mm_min));
-  if (m.cuts) bound_by_sections(cap, m, judge, std::min(1.0, given));
+  Cap cap = open_cap(given * (measured ? loads.ceiling_mm_min() : q.feed_mm_min));
+  if (m.cuts) bound_by_sections(cap, m, loads, std::min(1.0, given));
   // By its direction where samples tell it: a given trajectory may call a plunge a cut.
   if (role == MoveRole::kPlunge || m.plunges || unmeasured_plunge(q, path, i)) {
-    bound(cap, kPlungeFraction * given * q.feed_mm_min, Holder::kEndCut);
-    bound(cap, book.plunge(rpm_on(q, i)).feed_mm_min, Holder::kEndCut);
+    bound(cap, kPlungeFraction * given * q.feed_mm_min, FeedBound::kEndCut);
+    bound(cap, classes.plunge(rpm_on(q, i)).feed_mm_min, FeedBound::kEndCut);
   } else if (role == MoveRole::kRamp) {
     // A part of a feed that is near the thinnest chip would rub all the way down.
     const double meant = given * q.feed_mm_min;
-    bound(cap, std::max(kRampFraction * meant, std::min(meant, judge.floor_mm_min())), Holder::kEndCut);
+    bound(cap, std::max(kRampFraction * meant, std::min(meant, loads.floor_mm_min())), FeedBound::kEndCut);
   } else if (in_air_by_role(role) && !m.cuts && !m.plunges) {
     const double feed = std::max(given * q.feed_mm_min, air_feed(q));
     cap = open_cap(feed);
     cap.more.fill(feed);
-    cap.by = Holder::kAir;
+    cap.by = FeedBound::kAir;
   }
   return cap;
 }
@@ -133,26 +133,27 @@ double rpm_on(const FeedQuestion& q, std::size_t move) {
   return std::abs(move < q.speed_factor.size() ? q.n_rpm * q.speed_factor[move] : q.n_rpm);
 }
 
-Bears bears(Book& book, const CutSample& sample, const CutQuestion& question, double n_rpm) {
-  Bears out;
+SampleFeed sample_feed(CutClasses& classes, const CutSample& sample, const CutQuestion& question,
+                       double n_rpm) {
+  SampleFeed out;
   out.feed_mm_min = kAnyFeed;
   out.at_limit.fill(kAnyFeed);
   out.at_more.fill(kAnyFeed);
   const Cuts cuts = cuts_of(sample, question);
   for (std::size_t c = 0; c < cuts.n; ++c) {
-    const Page& page = book.page(cuts.cut[c], n_rpm);
+    const CutClass& kind = classes.class_of(cuts.cut[c], n_rpm);
     const double per_gain = 1.0 / cuts.cut[c].gain;
-    out.known = out.known && page.known;
-    out.feed_mm_min = std::min(out.feed_mm_min, page.feed_mm_min * per_gain);
+    out.known = out.known && kind.known;
+    out.feed_mm_min = std::min(out.feed_mm_min, kind.feed_mm_min * per_gain);
     for (std::size_t k = 0; k < kLimits; ++k) {
-      out.at_limit[k] = std::min(out.at_limit[k], page.at_limit[k] * per_gain);
-      out.at_more[k] = std::min(out.at_more[k], page.at_more[k] * per_gain);
+      out.at_limit[k] = std::min(out.at_limit[k], kind.at_limit[k] * per_gain);
+      out.at_more[k] = std::min(out.at_more[k], kind.at_more[k] * per_gain);
     }
   }
   return out;
 }
 
-std::vector<Cap> caps_of(const FeedQuestion& q, const model::CutterPath& path, Book& book) {
+std::vector<Cap> caps_of(const FeedQuestion& q, const model::CutterPath& path, CutClasses& classes) {
   std::vector<Cap> out(path.size());
   const bool sideways = cuts_sideways(q.cut.kind);
   std::size_t next = 0;
@@ -160,14 +161,14 @@ std::vector<Cap> caps_of(const FeedQuestion& q, const model::CutterPath& path, B
     const double given = i < q.feed_factor.size() ? q.feed_factor[i] : 1.0;
     OnMove m;
     if (sideways && q.adapt) {
-      m = on_move(q, book, i, next);
+      m = on_move(q, classes, i, next);
     } else {
       for (; next < q.samples.size() && q.samples[next].move <= i; ++next)
         m.cuts = m.cuts || (q.samples[next].move == i && q.samples[next].ap_mm > 0.0);
     }
     if (i == 0 || path.kind[i] == MoveKind::kRapid || path.kind[i] == MoveKind::kDwell) continue;
     if (sideways && q.adapt) {
-      out[i] = milled(q, book, path, i, given, m);
+      out[i] = milled(q, classes, path, i, given, m);
       continue;
     }
     // A path may ask for less of a given feed, never for more: that is the file's to say.
@@ -175,7 +176,7 @@ std::vector<Cap> caps_of(const FeedQuestion& q, const model::CutterPath& path, B
     out[i] = open_cap(share * q.feed_mm_min);
     if (q.adapt && in_air_by_role(path.role[i]) && !m.cuts && air_feed(q) > out[i].feed_mm_min) {
       out[i] = open_cap(air_feed(q));
-      out[i].by = Holder::kAir;
+      out[i].by = FeedBound::kAir;
     }
   }
   return out;

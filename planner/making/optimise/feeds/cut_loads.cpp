@@ -1,4 +1,4 @@
-#include "planner/making/optimise/feeds/judge.h"
+#include "planner/making/optimise/feeds/cut_loads.h"
 
 #include <algorithm>
 #include <cmath>
@@ -124,7 +124,7 @@ double ratio(const Column& load, const Column& limit) {
 
 bool stated(double limit) { return limit < kNoLimit; }
 
-Judge::Judge(const FeedQuestion& question, double n_rpm)
+CutLoads::CutLoads(const FeedQuestion& question, double n_rpm)
     : q_(question.cut),
       n_(std::abs(n_rpm)),
       tooth_(mechanics::tooth_of(question.cut.cutter)),
@@ -149,20 +149,20 @@ Judge::Judge(const FeedQuestion& question, double n_rpm)
   ceiling_ = std::max(ceiling_, floor_);
 }
 
-double Judge::slot_share(const Cut& cut) const {
+double CutLoads::slot_share(const Cut& cut) const {
   constexpr double kWholeArc = 0.95 * pi;  // as wide as 0.994 D
   const bool slot = q_.kind == CutKind::kRough && cut.exit_rad - cut.entry_rad >= kWholeArc;
   return slot ? deep_slot_share(cut.ap_mm, q_.cutter.cutting_diameter_mm) : 1.0;
 }
 
-double Judge::surface_um(double fz) const {
+double CutLoads::surface_um(double fz) const {
   const double wall = mechanics::wall_rz_mm(fz, q_.cutter.cutting_diameter_mm);
   const double corner = q_.cutter.corner_radius_mm;
   const double rz = corner > 0.0 ? std::max(wall, mechanics::floor_rz_mm(fz, corner)) : wall;
   return 1000.0 * kRoughnessOverGeometry * mechanics::kArcRaOverRz * rz;
 }
 
-std::optional<double> Judge::wall_mm(const mechanics::Section& section, double fz) const {
+std::optional<double> CutLoads::wall_mm(const mechanics::Section& section, double fz) const {
   double worst = 0.0;
   constexpr double kReaches = 1e-9;
   mechanics::Section to_wall = section;
@@ -186,7 +186,7 @@ std::optional<double> Judge::wall_mm(const mechanics::Section& section, double f
   return worst;
 }
 
-std::optional<State> Judge::at(const Cut& cut, double feed) const {
+std::optional<State> CutLoads::at(const Cut& cut, double feed) const {
   const double fz = feed / (n_ * tooth_.teeth) * cut.gain;
   const mechanics::Section section{.ap_mm = cut.ap_mm,
                                    .arc = {cut.entry_rad, cut.exit_rad},
@@ -231,7 +231,7 @@ std::optional<State> Judge::at(const Cut& cut, double feed) const {
   return s;
 }
 
-std::optional<State> Judge::plunging(double feed) const {
+std::optional<State> CutLoads::plunging(double feed) const {
   mechanics::DrillingCut c;
   c.diameter_mm = q_.cutter.cutting_diameter_mm;
   c.feed_mm_per_rev = feed / n_;
@@ -248,7 +248,7 @@ std::optional<State> Judge::plunging(double feed) const {
   return s;
 }
 
-double Judge::largest(const Cut& cut, double most) const {
+double CutLoads::largest(const Cut& cut, double most) const {
   const auto ok = [&](double feed) {
     const auto s = at(cut, feed);
     return s && ratio(s->load, limits_) <= 1.0;

@@ -4,14 +4,14 @@
 #include <cstddef>
 #include <vector>
 
-#include "planner/making/optimise/feeds/book.h"
+#include "planner/making/optimise/feeds/cut_classes.h"
 
 /// What each move of a path may be fed at most, and why.
 namespace capstan::optimise::feed {
 
-/// What holds a move's feed: the limits of a section first, in their order.
+/// What bounds a move's feed: the limits of a section first, in their order.
 /// Below kLimits: the limit at that place of kSectionLimits.
-enum class Holder : std::uint8_t {
+enum class FeedBound : std::uint8_t {
   kStepFeed = kLimits,  ///< the planned feed, or the bound of chip thinning
   kEndCut,              ///< plunges and ramps: their fraction of the step's feed
   kAir,
@@ -19,30 +19,33 @@ enum class Holder : std::uint8_t {
   kAcceleration,
   kUnknown,  ///< sections outside the formulas' range: the least feed
 };
-inline constexpr std::size_t kHolders = 13;
+inline constexpr std::size_t kFeedBounds = 13;
 
-/// `more[k]`: the same with 10 % more of Holder k, as far as sections and the planned feed go.
+/// `more[k]`: the same with 10 % more of FeedBound k, as far as sections and the planned feed go.
 struct Cap {
   double feed_mm_min = 0.0;
-  Holder by = Holder::kStepFeed;
+  FeedBound by = FeedBound::kStepFeed;
   std::array<double, kLimits + 1> more{};
 };
 
-/// Which kinds of cut sections are judged for.
+/// Whether sections are computed for cuts of this kind.
 [[nodiscard]] bool cuts_sideways(CutKind kind);
 
-/// The feed that one sample bears, beyond the step's own bounds; infinite where it bears any.
-struct Bears {
+/// The largest feed at which one sample keeps every limit, without the step's own bounds; infinite where no
+/// feed reaches a limit.
+struct SampleFeed {
   double feed_mm_min = 0.0;
   Column at_limit{}, at_more{};
   bool known = true;  ///< false: outside the formulas' range
 };
-[[nodiscard]] Bears bears(Book& book, const CutSample& sample, const CutQuestion& question, double n_rpm);
+[[nodiscard]] SampleFeed sample_feed(CutClasses& classes, const CutSample& sample,
+                                     const CutQuestion& question, double n_rpm);
 
 /// The spindle's speed on a move.
 [[nodiscard]] double rpm_on(const FeedQuestion& q, std::size_t move);
 
 /// One entry per move; rapids and dwells hold zeros. Needs samples in order of moves.
-[[nodiscard]] std::vector<Cap> caps_of(const FeedQuestion& q, const model::CutterPath& path, Book& book);
+[[nodiscard]] std::vector<Cap> caps_of(const FeedQuestion& q, const model::CutterPath& path,
+                                       CutClasses& classes);
 
 }  // namespace capstan::optimise::feed
