@@ -17,6 +17,7 @@ namespace capstan::testing::removal {
 [[nodiscard]] Part plain_slots();
 [[nodiscard]] Part undercut_slots();
 [[nodiscard]] Part short_step();
+[[nodiscard]] Part wide_step();
 /// The face stops at walls as high as it is deep on one, two or three of its sides.
 [[nodiscard]] Part face_beside_walls(int walls, double height);
 [[nodiscard]] Part face_with_boss_beside_wall();
@@ -37,6 +38,7 @@ namespace capstan::testing::removal {
 [[nodiscard]] Part hole_over_an_edge();
 [[nodiscard]] Part pocket_over_an_edge();
 [[nodiscard]] Part lone_boss(bool round);
+[[nodiscard]] Part boss_at_the_end_of_a_long_block();
 [[nodiscard]] Part pocket_in_a_pocket();
 [[nodiscard]] Part flat_ended_slot();
 [[nodiscard]] Part unequal_flat_ends();

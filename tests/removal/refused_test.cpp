@@ -122,11 +122,15 @@ TEST(RefusedParts, AStepBelowSolidIsNotDugDownTo) {
   expect_refused(s, "up to 8 mm of the piece stand above its top");
 }
 
-// The wall stands at x = 30 and the block ends at x = 200: 170 mm, of which a step is read as 100.
-TEST(RefusedParts, AStepWiderThanItIsReadIsNotCutInPart) {
-  Sheet s{.block = removal::block(200, 60, 20)};
+// The wall stands at x = 30 and the file's block ends at x = 60; the block that is cut goes on to x = 200.
+TEST(RefusedParts, AStepOfAWiderRawPieceThanTheFileStatesIsNotCutInPart) {
+  Sheet s;
   s.d.step("S", s.d.placement({30, 0, 0}), 6, 60, {0, 1, 0});
-  expect_refused(s, "the raw piece goes on 170 mm beyond its wall");
+  PlanOptions wider;
+  wider.stock = "box:0,0,-20,200,60,0";
+  const PlanOutput o = plan_bytes(s.d.text(), "sheet.p21", wider);
+  expect_unplanned(o, 1, "the raw piece goes on 170 mm beyond its wall");
+  EXPECT_EQ(o.steps, 0U) << told(o);
 }
 
 TEST(RefusedParts, AMilledHoleBelowSolidIsNotDugDownTo) {

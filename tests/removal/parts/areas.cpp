@@ -75,6 +75,16 @@ Part short_step() {
   return {"short_step", d.text(), b, t};
 }
 
+// 200 x 40 mm: all that lies beyond x = 30 goes, 6 mm deep: 170 mm.
+Part wide_step() {
+  const Box b = block(200, 40, 20);
+  Drawing d("WIDE STEP", b);
+  d.step("STEP", d.placement({30, 0, 0}), 6, 40, {0, 1, 0});
+  Target t(body(b));
+  t.cut(prism(rectangle(30, -kOver, 202, 42), -6, kOver));
+  return {"wide_step", d.text(), b, t};
+}
+
 // 60 x 40 mm: a face of 30 mm along x beside one wall (at x = 30), two (at y = 30, too) or three (at x = 10,
 // too). Its inner corners are drawn sharp: up to R3 may stay in them, or a sixth of the depth.
 Part face_beside_walls(int walls, double height) {

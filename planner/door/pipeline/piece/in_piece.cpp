@@ -4,7 +4,6 @@
 
 #include "planner/door/pipeline/step/steps.h"
 #include "planner/ground/base/number.h"
-#include "planner/model/features/shape/open_reach.h"
 #include "planner/model/nouns/feature.h"
 
 // Features that the raw piece does not let be made as they are drawn.
@@ -30,23 +29,26 @@ bool states_no_corner(const Work& w, const FeatureShape& s) {
   return p != nullptr && !p->orthogonal_radius.set();
 }
 
-/// A step is read as a strip of kOpenReach on the right of its wall (areas.cpp). Where the raw piece goes on
-/// beyond it, that would stay, and nobody would say so.
+/// A step is read as a strip on the right of its wall, out to the edge of the raw piece that the file states
+/// (areas.cpp). Where the raw piece that is cut goes on beyond it, that would stay, and nobody would say so.
 std::string wider_than_read(const Work& w, const FeatureShape& s) {
   if (s.kind != ShapeKind::kStep || s.spine.size() < 2) return {};
   const geometry::Vec2 along = s.spine.back() - s.spine.front();
   const geometry::Vec2 right = (1.0 / norm(along)) * geometry::Vec2{along.y, -along.x};
   const geometry::Box3 raw = geometry::transformed(w.plan.stock.box, inverse(s.frame));
-  double most = 0.0;
+  double most = 0.0, read = 0.0;
+  for (const geometry::Loop& loop : s.area.loops) {
+    for (const geometry::Vec2 p : loop) read = std::max(read, dot(p - s.spine.front(), right));
+  }
   for (const double x : {raw.lo.x, raw.hi.x}) {
     for (const double y : {raw.lo.y, raw.hi.y})
       most = std::max(most, dot(geometry::Vec2{x, y} - s.spine.front(), right));
   }
   constexpr double kSame = 1e-6;  // mm
-  if (most <= model::shape::kOpenReach + kSame) return {};
-  return "the raw piece goes on " + trimmed(most, 1) + " mm beyond its wall, and a step is cut " +
-         trimmed(model::shape::kOpenReach, 0) +
-         " mm wide at most: state a smaller raw piece, or an open pocket";
+  if (most <= read + kSame) return {};
+  return "the raw piece goes on " + trimmed(most, 1) + " mm beyond its wall, and the step is " +
+         trimmed(read, 1) +
+         " mm wide as the file states it: state the raw piece in the file, or take a smaller one";
 }
 
 }  // namespace

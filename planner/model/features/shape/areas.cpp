@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "planner/model/features/curve_points.h"
+#include "planner/model/features/raw_piece.h"
 #include "planner/model/features/resolve.h"
 #include "planner/model/features/shape/build.h"
 #include "planner/model/nouns/geometric_item.h"
@@ -125,7 +126,8 @@ Result<Shapes> pocket(const Model& m, AnyRef self, const Pocket& f) {
   if (clockwise) std::reverse(loop.begin(), loop.end());
   s->area = geometry::clean({loop});
   s->open = true;
-  // A stated corner radius rounds the inside corners between walls; where a wall meets the mouth there is none.
+  // A stated corner radius rounds the inside corners between walls; where a wall meets the mouth there is
+  // none.
   if (s->corner_radius_mm > 0.0) {
     const auto beyond = geometry::unite(s->area, beside(mouth, kOpenReach, !clockwise));
     auto rounded = rounded_corners(m, self, beyond, s->corner_radius_mm);
@@ -159,10 +161,18 @@ Result<Shapes> step(const Model& m, AnyRef self, const Step& f) {
   }
   // The wall runs along the path; what is taken away lies on its right, out to the edge of the raw piece.
   s->spine = *line;
-  s->area = beside(*line, kOpenReach, true);
   const Vec2 d = (1.0 / norm(line->back() - line->front())) * (line->back() - line->front());
+  double width = kOpenReach;
+  if (const auto raw = stated_raw(m, self)) {
+    const geometry::Box2 plan = in_plan(*raw, s->frame);
+    for (const double x : {plan.lo.x, plan.hi.x}) {
+      for (const double y : {plan.lo.y, plan.hi.y})
+        width = std::max(width, dot(Vec2{x, y} - line->front(), Vec2{d.y, -d.x}));
+    }
+  }
+  s->area = beside(*line, width, true);
   const std::vector<Vec2> longer = {line->front() - kOpenReach * d, line->back() + kOpenReach * d};
-  s->reach = beside(longer, 2.0 * kOpenReach, true);
+  s->reach = beside(longer, width + kOpenReach, true);
   if (auto ok = add_islands(m, f.its_boss, *s); !ok) return tl::unexpected(ok.error());
   s->reach = without_islands(*s, s->reach);
   s->assumptions.push_back(

@@ -70,6 +70,9 @@ Result<std::vector<geometry::Vec2>> travel_line(const Model& m, Ref<TravelPath> 
 /// The bosses of a pocket or face as islands. Fails for one that is not in it, and for one that leans.
 Status add_islands(const Model& m, const RefList<Boss>& bosses, FeatureShape& into);
 
+/// The box that spans a box in plan: workpiece coordinates in, coordinates of the frame out.
+geometry::Box2 in_plan(const geometry::Box3& box, const geometry::Placement& frame);
+
 /// Takes out of a feature what bosses of their own leave standing in it, wherever compounds and patterns put
 /// them. Fails  SHP-BOSS where a boss may stand in it of which not even the contour is known.
 Status spare_bosses(const Model& m, AnyRef feature, const Within& in, Shapes& shapes);

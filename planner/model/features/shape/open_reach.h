@@ -2,8 +2,8 @@
 
 namespace capstan::model::shape {
 
-/// How far beyond an open side the reach of a feature goes: room for a cutter to enter, mm. A step is cut as
-/// wide as this. Default, unsourced.
+/// How far beyond an open side the reach of a feature goes: room for a cutter to enter, mm. What is cut out to
+/// the edge of the raw piece (a step, an outside) is cut as wide as this at least. Default, unsourced.
 inline constexpr double kOpenReach = 100.0;
 
 }  // namespace capstan::model::shape

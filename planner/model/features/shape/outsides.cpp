@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "planner/ground/base/number.h"
@@ -111,13 +112,7 @@ struct Sides {
 };
 
 Sides parted(const geometry::Box3& raw, const std::vector<Vec2>& line, const geometry::Placement& frame) {
-  const geometry::Placement in = inverse(frame);
-  Box2 plan;
-  for (const double x : {raw.lo.x, raw.hi.x}) {
-    for (const double y : {raw.lo.y, raw.hi.y}) {
-      for (const double z : {raw.lo.z, raw.hi.z}) add(plan, xy(in.to_parent({x, y, z})));
-    }
-  }
+  const Box2 plan = in_plan(raw, frame);
   Box2 all = bounds_of(line);
   add(all, plan.lo);
   add(all, plan.hi);
@@ -150,15 +145,48 @@ Status beside_a_line(const Model& m, AnyRef self, const std::vector<Vec2>& line,
                            " mm2: which of them is taken away is not clear; close the profile");
   }
   const bool right = sides.right < sides.left;
-  const Box2 near = grown(bounds_of(line), kOpenReach);
   s.spine = line;
   if (!right) std::reverse(s.spine.begin(), s.spine.end());
+  Box2 near = grown(bounds_of(line), kOpenReach);
+  if (raw) {
+    // Out to the edge of the raw piece where that is farther.
+    const Box2 plan = in_plan(*raw, s.frame);
+    Box2 both = near;
+    add(both, plan.lo);
+    add(both, plan.hi);
+    const auto cut = geometry::intersect(side_of(s.spine, both, true), geometry::rectangle(plan.lo, plan.hi));
+    if (!cut.empty()) {
+      const Box2 b = geometry::bounds(cut);
+      add(near, b.lo);
+      add(near, b.hi);
+    }
+  }
   s.area = side_of(s.spine, near, true);
   s.reach = side_of(s.spine, grown(near, kOpenReach), true);
   s.assumptions.push_back("its open profile parts " + what + " in two: the smaller side, on the " +
                           std::string(right ? "right" : "left") +
                           " of the profile as drawn, is taken away, also straight on over its ends");
   return {};
+}
+
+/// What is cut around a contour that stays, out to the edge of the raw piece.
+void stand_in_its_middle(const Model& m, AnyRef self, const geometry::Region& inner, FeatureShape& s) {
+  double width = kOpenReach;
+  if (const auto raw = stated_raw(m, self)) {
+    const Box2 plan = in_plan(*raw, s.frame);
+    for (const double x : {plan.lo.x, plan.hi.x}) {
+      for (const double y : {plan.lo.y, plan.hi.y}) {
+        double near = std::numeric_limits<double>::infinity();  // to the nearest vertex of the contour
+        for (const geometry::Loop& loop : inner.loops) {
+          for (const Vec2 p : loop) near = std::min(near, norm(Vec2{x, y} - p));
+        }
+        if (std::isfinite(near)) width = std::max(width, near);
+      }
+    }
+  }
+  s.islands.push_back({inner, 0.0});
+  s.area = geometry::offset_sharp(inner, width);
+  s.reach = geometry::subtract(geometry::offset_sharp(inner, width + kOpenReach), inner);
 }
 
 }  // namespace
@@ -195,10 +223,7 @@ Result<Shapes> outside(const Model& m, AnyRef self, const ProfileFeature& f) {
   }
   auto inner = closed_area(m, Ref<ClosedProfile>(profile), *s);
   if (!inner) return tl::unexpected(inner.error());
-  const geometry::Region around = geometry::offset_sharp(*inner, kOpenReach);
-  s->islands.push_back({*inner, 0.0});
-  s->area = around;
-  s->reach = geometry::subtract(geometry::offset_sharp(*inner, 2.0 * kOpenReach), *inner);
+  stand_in_its_middle(m, self, *inner, *s);
   return Shapes{*s};
 }
 
@@ -210,9 +235,7 @@ Result<Shapes> boss(const Model& m, AnyRef self, const Boss& f) {
   s->open = true;
   auto inner = closed_area(m, f.its_boundary, *s);
   if (!inner) return tl::unexpected(inner.error());
-  s->islands.push_back({*inner, 0.0});
-  s->area = geometry::offset_sharp(*inner, kOpenReach);
-  s->reach = geometry::subtract(geometry::offset_sharp(*inner, 2.0 * kOpenReach), *inner);
+  stand_in_its_middle(m, self, *inner, *s);
   return Shapes{*s};
 }
 

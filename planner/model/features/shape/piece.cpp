@@ -26,6 +26,21 @@ Vec3 middle(const FeatureShape& s, double z) {
   return s.frame.to_parent({0.5 * (b.lo.x + b.hi.x), 0.5 * (b.lo.y + b.hi.y), z});
 }
 
+geometry::Box2 in_plan(const Box3& box, const geometry::Placement& frame) {
+  const geometry::Placement in = inverse(frame);
+  geometry::Box2 out;
+  for (const double x : {box.lo.x, box.hi.x}) {
+    for (const double y : {box.lo.y, box.hi.y}) {
+      for (const double z : {box.lo.z, box.hi.z}) {
+        const geometry::Vec2 p = xy(in.to_parent({x, y, z}));
+        out.lo = {std::min(out.lo.x, p.x), std::min(out.lo.y, p.y)};
+        out.hi = {std::max(out.hi.x, p.x), std::max(out.hi.y, p.y)};
+      }
+    }
+  }
+  return out;
+}
+
 void Piece::find() {
   if (known_) return;
   known_ = true;
