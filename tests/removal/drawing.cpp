@@ -212,12 +212,13 @@ Drawing::Id Drawing::compound(const std::string& name, Id at, const std::vector<
 }
 
 Drawing::Id Drawing::circular_pattern(const std::string& name, Id at, Id base, double increment, int number,
-                                      double diameter, const std::vector<int>& omitted) {
+                                      double diameter, const std::vector<int>& omitted, double turned_deg) {
   std::vector<Id> missing;
   for (const int i : omitted) missing.push_back(write("CIRCULAR_OMIT(" + std::to_string(i) + ")"));
   const Id size = length(diameter);
   return write("CIRCULAR_PATTERN" + head(name, at) + "," + ref(base) + "," + real(increment) + "," +
-               std::to_string(number) + ",()," + list_of(missing) + "," + ref(size) + ",0.)");
+               std::to_string(number) + ",()," + list_of(missing) + "," + ref(size) + "," + real(turned_deg) +
+               ")");
 }
 
 Drawing::Id Drawing::rectangular_pattern(const std::string& name, Id at, Id base, double spacing, Point along,

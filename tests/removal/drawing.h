@@ -69,7 +69,7 @@ class Drawing {
   Id compound(const std::string& name, Id placement, const std::vector<Id>& elements,
               const std::string& keyword = "COMPOUND_FEATURE");
   Id circular_pattern(const std::string& name, Id placement, Id base, double increment_deg, int number,
-                      double diameter, const std::vector<int>& omitted = {});
+                      double diameter, const std::vector<int>& omitted = {}, double turned_deg = 0);
   Id rectangular_pattern(const std::string& name, Id placement, Id base, double spacing, Point along,
                          int columns, int rows, double row_spacing, Point rows_along);
   Id general_pattern(const std::string& name, Id placement, Id base, const std::vector<Id>& places);

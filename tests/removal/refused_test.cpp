@@ -243,6 +243,17 @@ TEST(RefusedParts, MembersOfAPatternAllAtOnePlaceAreRefused) {
   expect_refused(s, "all of its 4 members stand at one place");
 }
 
+TEST(RefusedParts, PocketsThatTheirPatternTurnsAboutAnUnstatedAxisAreRefusedAndHolesAreNot) {
+  Sheet pockets, holes;
+  const auto p =
+      pockets.d.closed_pocket("P", pockets.d.placement({14, 0, 0}), 5, pockets.d.rectangle(12, 8), 3);
+  pockets.d.circular_pattern("C", pockets.d.placement({30, 30, 0}), p, 90, 4, 28, {}, 45);
+  expect_refused(pockets, "its base_feature_rotation of 45 degrees turns members that are not round");
+  const auto h = holes.d.hole("H", holes.d.placement({14, 0, 0}), 20, 5, holes.d.through_bottom());
+  holes.d.circular_pattern("C", holes.d.placement({30, 30, 0}), h, 90, 4, 28, {}, 45);
+  EXPECT_EQ(holes.planned().unplanned, 0U);
+}
+
 TEST(RefusedParts, ANumberLeftOutThatNoMemberHasIsRefused) {
   Sheet s;
   const auto h = s.d.hole("H", s.d.placement({10, 0, 0}), 20, 5, s.d.through_bottom());

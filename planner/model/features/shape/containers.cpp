@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "planner/ground/base/number.h"
 #include "planner/model/features/resolve.h"
@@ -28,6 +29,7 @@ using geometry::Vec3;
 
 namespace {
 
+constexpr double kTurnedDeg = 1e-6;        // below it a rotation is none; rounding of a file's numbers
 constexpr std::size_t kMaxPlaces = 1'000;  // in which one element is listed
 
 std::string place(const Vec3& p) {
@@ -249,6 +251,20 @@ Result<Shapes> compound(const Model& m, AnyRef self, const CompoundFeature& f, c
 Result<Shapes> replicate(const Model& m, AnyRef self, const ReplicateFeature& f, const Within& in) {
   auto out = decide(m, self, f, in);
   if (!out) return tl::unexpected(out.error());
+  if (const auto* c = m.get<CircularPattern>(self)) {
+    const double turn_deg = c->base_feature_rotation.value_or(0.0) * 180.0 / std::numbers::pi;
+    const AnyRef base = f.replicate_base_feature;
+    const bool round = !m.holds<CompoundFeature>(base) && !m.holds<ReplicateFeature>(base) &&
+                       std::all_of(out->shapes.begin(), out->shapes.end(), [](const FeatureShape& s) {
+                         return model::has(s.kind, ShapeTrait::kRound);
+                       });
+    if (std::abs(turn_deg) > kTurnedDeg && !round) {
+      return unsupported(m, self,
+                         "its base_feature_rotation of " + trimmed(turn_deg, 3) +
+                             " degrees turns members that are not round, and ISO 14649-10 does not say about "
+                             "which axis: state each member with its own placement, in a general_pattern");
+    }
+  }
   return std::move(out->shapes);
 }
 
