@@ -62,7 +62,7 @@ Record run(const Order& order) {
   // The system's own Python: LinuxCNC's module is built for that one.
   std::string command =
       "/usr/bin/python3 " +
-      capstan::testing::source_dir() "/tests/linuxcnc/run.py --clock " CAPSTAN_FAST_CLOCK " --program " +
+      capstan::testing::source_dir() + "/tests/linuxcnc/run.py --clock " CAPSTAN_FAST_CLOCK " --program " +
       quoted(folder.file("program.ngc")) + " --tools " + quoted(folder.file("tools.tbl")) + " --samples " +
       quoted(folder.file("samples.txt")) + " --rate " + trimmed(order.rate, 3);
   for (const std::string& o : order.offsets) command += " --offset " + quoted(o);

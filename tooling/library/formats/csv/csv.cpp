@@ -1,17 +1,17 @@
 #include "tooling/library/formats/csv/csv.h"
 
+#include <algorithm>
 #include <map>
 
 #include "planner/ground/base/number.h"
 #include "tooling/library/formats/all.h"
-#include "tooling/library/formats/csv/table.h"
 #include "tooling/library/formats/values.h"
 
 namespace capstan::tooling::csv {
 namespace {
 
 /// Whether numbers of the table have commas: those of columns that hold numbers, and none has a point.
-bool has_decimal_commas(const std::vector<Row>& rows, const ColumnMap& map) {
+bool has_decimal_commas(const std::vector<SeparatedRow>& rows, const ColumnMap& map) {
   bool comma = false;
   for (std::size_t r = 1; r < rows.size(); ++r) {
     for (std::size_t k = 0; k < map.columns.size() && k < rows[r].cells.size(); ++k) {
@@ -71,8 +71,12 @@ Result<Imported> read(std::string_view bytes, const std::string& file, const For
     map.separator = separator_of(bytes);
     if (map.separator == '\0') map.separator = ',';
   }
-  auto rows = parse_rows(bytes, map.separator, file);
+  auto rows = separated_rows(bytes, map.separator, file, "CSV-SYNTAX", StrayQuotes::kKept);
   if (!rows) return fail(rows.error());
+  // Spreadsheets end their tables with rows of separators alone.
+  std::erase_if(*rows, [](const SeparatedRow& r) {
+    return std::ranges::all_of(r.cells, [](const std::string& c) { return c.empty(); });
+  });
   if (rows->empty())
     return fail({.code = "CSV-SYNTAX", .message = "the table is empty", .file = file, .expected = "titles"});
   // Fusion marks its export behind the last title; no row has a cell there.
@@ -129,13 +133,13 @@ namespace {
 
 /// A table whose first row names a diameter and something else that we know.
 bool recognises(std::string_view bytes, std::string_view) {
-  const char separator = csv::separator_of(bytes.substr(0, std::size_t{1} << 20));
+  const char separator = separator_of(bytes.substr(0, std::size_t{1} << 20));
   if (separator == '\0' || bytes.starts_with("<") || trimmed_text(bytes.substr(0, 64)).starts_with('{'))
     return false;
   std::string_view text = bytes;
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   text = text.substr(0, text.find('\n'));
-  const auto rows = csv::parse_rows(text, separator, "");
+  const auto rows = separated_rows(text, separator, "", "CSV-SYNTAX", StrayQuotes::kKept);
   if (!rows || rows->empty()) return false;
   const auto map = csv::map_of_titles(rows->front().cells, separator);
   std::size_t known = 0;

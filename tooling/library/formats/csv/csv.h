@@ -1,7 +1,7 @@
 #pragma once
 
+#include "planner/ground/base/separated.h"
 #include "tooling/library/formats/csv/columns.h"
-#include "tooling/library/formats/csv/table.h"
 #include "tooling/library/formats/format.h"
 
 namespace capstan::tooling::csv {
@@ -12,7 +12,7 @@ inline constexpr const char* kMapKey = "csv:map";
 [[nodiscard]] Result<Imported> read(std::string_view bytes, const std::string& file,
                                     const FormatOptions& options, Job& job);
 /// The rows below the titles, each cell by its column's meaning.
-[[nodiscard]] Result<Imported> read_rows(const std::vector<Row>& rows, const ColumnMap& map,
+[[nodiscard]] Result<Imported> read_rows(const std::vector<SeparatedRow>& rows, const ColumnMap& map,
                                          const std::string& file, const FormatOptions& options, Job& job);
 [[nodiscard]] Result<Exported> write(const ToolLibrary& library, const FormatOptions& options, Job& job);
 

@@ -5,7 +5,6 @@
 
 #include "planner/ground/base/number.h"
 #include "tooling/library/formats/csv/csv.h"
-#include "tooling/library/formats/csv/table.h"
 #include "tooling/library/formats/fusion/keys.h"
 #include "tooling/library/formats/values.h"
 #include "tooling/library/library.h"
@@ -30,7 +29,7 @@ class Reader {
     grouped_ = has_field(map, "group");
   }
 
-  Result<Imported> read(const std::vector<Row>& rows) {
+  Result<Imported> read(const std::vector<SeparatedRow>& rows) {
     out_.library.source = file_;
     out_.library.kept.emplace_back(kMapKey, map_text(map_));
     for (const Column& c : map_.columns)
@@ -74,7 +73,7 @@ class Reader {
     return std::string(field);
   }
 
-  void row(const Row& r) {
+  void row(const SeparatedRow& r) {
     row_ = &r;
     unit_told_ = false;
     words_.clear();
@@ -451,7 +450,7 @@ class Reader {
   bool comma_, grouped_ = false;
   bool unit_told_ = false;  // one fault a row suffices
   std::string unit_, words_;
-  const Row* row_ = nullptr;
+  const SeparatedRow* row_ = nullptr;
   Imported out_;
   std::map<std::string, Open> open_;
   UniqueIds ids_, holder_ids_;
@@ -461,8 +460,8 @@ class Reader {
 
 }  // namespace
 
-Result<Imported> read_rows(const std::vector<Row>& rows, const ColumnMap& map, const std::string& file,
-                           const FormatOptions& options, Job& job) {
+Result<Imported> read_rows(const std::vector<SeparatedRow>& rows, const ColumnMap& map,
+                           const std::string& file, const FormatOptions& options, Job& job) {
   return Reader(file, map, options, job).read(rows);
 }
 

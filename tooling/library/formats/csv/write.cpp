@@ -4,7 +4,6 @@
 
 #include "planner/ground/base/number.h"
 #include "tooling/library/formats/csv/csv.h"
-#include "tooling/library/formats/csv/table.h"
 #include "tooling/library/formats/fusion/keys.h"
 #include "tooling/library/formats/values.h"
 
@@ -84,7 +83,7 @@ class Writer {
     const auto row = [&](const std::vector<std::string>& cells) {
       for (std::size_t k = 0; k < cells.size(); ++k) {
         if (k > 0) out.bytes.push_back(map.separator);
-        out.bytes += cell(cells[k], map.separator);
+        out.bytes += separated_cell(cells[k], map.separator);
       }
       out.bytes.push_back('\n');
     };

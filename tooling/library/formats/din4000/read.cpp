@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <map>
 
+#include "planner/ground/base/separated.h"
 #include "tooling/library/formats/all.h"
 #include "tooling/library/formats/din4000/din4000.h"
 #include "tooling/library/formats/xml.h"
@@ -9,8 +10,6 @@ namespace capstan::tooling {
 namespace {
 
 using din4000::Record;
-
-constexpr std::size_t kMostRows = 1'000'000;
 
 bool is_code(std::string_view s) {
   return s.size() >= 2 && s[0] >= 'A' && s[0] <= 'K' && s[1] >= '0' && s[1] <= '9';
@@ -78,51 +77,13 @@ Result<std::vector<Record>> records_of_xml(std::string_view bytes, const std::st
 // --- CSV: a line of codes, then a line per tool
 // ----------------------------------------------------------------
 
-/// One line's fields; quotes keep the separator, and are doubled within.
-Result<std::vector<std::string>> fields_of(std::string_view bytes, std::size_t& at, std::uint64_t& line,
-                                           const std::string& file) {
-  std::vector<std::string> out(1);
-  bool quoted = false;
-  const std::uint64_t first = line;
-  for (; at < bytes.size(); ++at) {
-    const char c = bytes[at];
-    if (c == '\n') ++line;
-    if (quoted) {
-      if (c != '"') {
-        out.back() += c;
-      } else if (at + 1 < bytes.size() && bytes[at + 1] == '"') {
-        out.back() += c;
-        ++at;
-      } else {
-        quoted = false;
-      }
-    } else if (c == '"' && out.back().empty()) {
-      quoted = true;
-    } else if (c == ';') {
-      out.emplace_back();
-    } else if (c == '\n') {
-      ++at;
-      return out;
-    } else if (c != '\r') {
-      out.back() += c;
-    }
-  }
-  if (quoted)
-    return fail({.code = "DIN4000-FORM",
-                 .message = "a quoted field does not end",
-                 .file = file,
-                 .line = first,
-                 .expected = "a closing quote"});
-  return out;
-}
-
 Result<std::vector<Record>> records_of_csv(std::string_view bytes, const std::string& file) {
-  std::size_t at = 0;
-  std::uint64_t line = 1;
-  auto head = fields_of(bytes, at, line, file);
-  if (!head) return fail(head.error());
+  auto rows = separated_rows(bytes, ';', file, "DIN4000-FORM", StrayQuotes::kKept);
+  if (!rows) return fail(rows.error());
+  std::vector<std::string> head;
+  if (!rows->empty()) head = rows->front().cells;
   std::map<std::string, int> met;
-  for (std::string& h : *head) {
+  for (std::string& h : head) {
     h = trimmed_text(h);
     if (!h.empty() && ++met[h] > 1)
       return fail({.code = "DIN4000-FORM",
@@ -132,23 +93,21 @@ Result<std::vector<Record>> records_of_csv(std::string_view bytes, const std::st
                    .expected = "each code once"});
   }
   std::vector<Record> out;
-  while (at < bytes.size()) {
-    const std::uint64_t here = line;
-    auto fields = fields_of(bytes, at, line, file);
-    if (!fields) return fail(fields.error());
-    if (std::ranges::all_of(*fields, [](const std::string& f) { return trimmed_text(f).empty(); })) continue;
-    if (fields->size() != head->size() || out.size() >= kMostRows)
+  for (std::size_t k = 1; k < rows->size(); ++k) {
+    const SeparatedRow& row = (*rows)[k];
+    if (std::ranges::all_of(row.cells, [](const std::string& f) { return trimmed_text(f).empty(); }))
+      continue;
+    if (row.cells.size() != head.size())
       return fail({.code = "DIN4000-FORM",
-                   .message = out.size() >= kMostRows ? "more than a million lines"
-                                                      : std::to_string(fields->size()) + " fields",
+                   .message = std::to_string(row.cells.size()) + " fields",
                    .file = file,
-                   .line = here,
-                   .expected = std::to_string(head->size()) + " as in the first line"});
+                   .line = row.line,
+                   .expected = std::to_string(head.size()) + " as in the first line"});
     Record r;
-    r.line = here;
-    for (std::size_t i = 0; i < head->size(); ++i) {
-      const std::string& code = (*head)[i];
-      const std::string& value = (*fields)[i];
+    r.line = row.line;
+    for (std::size_t i = 0; i < head.size(); ++i) {
+      const std::string& code = head[i];
+      const std::string& value = row.cells[i];
       if (code == "NSM") r.table = value;
       if (code == "BLD") r.figure = value;
       if (code == "J21") r.id = value;
