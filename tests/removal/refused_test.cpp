@@ -271,6 +271,14 @@ TEST(RefusedParts, APointThatWouldComeOutBelowIsToldWithItsLength) {
       "underside of the raw piece by 2.004 mm");
 }
 
+TEST(RefusedParts, AThroughHoleDeeperThanThePieceIsToldWithWhatItCutsBelow) {
+  Sheet s;
+  s.d.hole("H", s.d.placement({30, 30, 0}), 43, 10, s.d.through_bottom());
+  const std::string said = told(s.planned());
+  EXPECT_NE(said.find("goes 23 mm below the underside of the raw piece"), std::string::npos) << said;
+  EXPECT_NE(said.find("a depth of 20 mm ends at the underside"), std::string::npos) << said;
+}
+
 /// The same with a finished part of 15 mm in the raw piece of 20: 5 mm are cut off below.
 PlanOutput planned_thinner(Sheet& s) {
   const auto part =

@@ -88,7 +88,10 @@ Status check_schedule(const CutterPath& path, const model::FeedSchedule& f, int 
     }
     const double feed = f.feed_mm_min[i];
     if (!fits(feed) || rounded(feed, feed_decimals) <= 0.0) {
-      return bad("OUT-FEED", move + " has no feed", id);
+      return bad("OUT-FEED",
+                 move + " has a feed of " + trimmed(feed, 6) + " mm/min; a program can say " +
+                     trimmed(std::pow(10.0, -feed_decimals), feed_decimals) + " to " + trimmed(kLargest, 0),
+                 id, "state a feed that the machine has, or leave it open");
     }
   }
   return {};

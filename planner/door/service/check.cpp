@@ -1,12 +1,14 @@
 #include "planner/door/service/check.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include "planner/door/pipeline/pipeline.h"
+#include "planner/door/service/formats.h"
 #include "planner/door/service/reading.h"
 #include "planner/door/service/shop.h"
 #include "planner/files/exchange/conformance/check.h"
@@ -138,6 +140,20 @@ class Check {
     return std::nullopt;
   }
 
+  /// A program is what is nothing else. A file whose ending says that it holds something else is none.
+  static std::optional<Diagnostic> not_what_it_is_called(const Input& in) {
+    const Format* format = format_of_ending(std::filesystem::path(in.path).extension().string());
+    if (in.content != Content::kProgram || format == nullptr || format->holds == Holds::kProgram)
+      return std::nullopt;
+    const bool empty = in.bytes.find_first_not_of(" \t\r\n") == std::string::npos;
+    return Diagnostic{
+        .code = "APP-CONTENT",
+        .message = empty ? "the file is empty" : "its content is not what its name says",
+        .file = in.path,
+        .expected = std::string(format->words) + ", as the ending says",
+        .hint = "write it again; a program has an ending of its own (" + endings_of(Holds::kProgram) + ")"};
+  }
+
   std::optional<Diagnostic> read() {
     for (Source& source : sources_) {
       Result<std::string> bytes =
@@ -145,6 +161,7 @@ class Check {
       if (!bytes) return bytes.error();
       const Content content = content_of(*bytes);
       inputs_.push_back({source.name, *std::move(bytes), content});
+      if (const auto d = not_what_it_is_called(inputs_.back())) return d;
       if (content == Content::kToolTable) shop_.tool_table = inputs_.back().bytes;
     }
     for (Input& in : inputs_) {

@@ -77,7 +77,10 @@ const Format* find_format(std::string_view name) {
   return at == all.end() ? nullptr : &*at;
 }
 
-const Format* format_of_ending(std::string_view ending) {
+const Format* format_of_ending(std::string_view given) {
+  std::string ending(given);
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
   for (const Format& f : formats()) {
     if (std::find(f.endings.begin(), f.endings.end(), ending) != f.endings.end()) return &f;
   }

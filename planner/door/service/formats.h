@@ -45,7 +45,7 @@ struct Format {
 
 /// The format of that name; null when there is none.
 [[nodiscard]] const Format* find_format(std::string_view name);
-/// The format that files with that ending (lower case, with its dot) have; null when there is none.
+/// The format that files with that ending (with its dot, in any case) have; null when there is none.
 [[nodiscard]] const Format* format_of_ending(std::string_view ending);
 
 /// The plan in a format; what the format cannot hold is noted to the job (EXC-LOSS).

@@ -16,12 +16,6 @@ namespace fs = std::filesystem;
 
 std::string supported() { return written_endings() + ", or - for JSON on standard output"; }
 
-std::string lower(std::string s) {
-  std::transform(s.begin(), s.end(), s.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return s;
-}
-
 /// What a writer said about no file in particular is about this one.
 void name_file(Job& job, const std::string& path) {
   for (Diagnostic& d : job.take_diagnostics()) {
@@ -34,7 +28,7 @@ void name_file(Job& job, const std::string& path) {
 
 Result<Output> output_of(const std::string& path) {
   if (path == "-") return Output{path, find_format("json"), {}, 0};
-  const std::string ending = lower(fs::path(path).extension().string());
+  const std::string ending = fs::path(path).extension().string();
   const Format* format = format_of_ending(ending);
   if (format != nullptr && format->write != nullptr) return Output{path, format, {}, 0};
   if (format != nullptr && !format->reads)

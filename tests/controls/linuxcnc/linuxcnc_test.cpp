@@ -276,6 +276,20 @@ TEST(LinuxCnc, RefusesATapWhoseFeedIsNotItsPitch) {
   EXPECT_EQ(failure_of(plan), "OUT-TAP");
 }
 
+TEST(LinuxCnc, AFeedThatNoProgramCanSayIsToldWithItsNumberAndTheLimits) {
+  Plan plan = testing::empty_plan();
+  testing::add_step(plan, "a", "em18", contour());
+  model::FeedSchedule f = *plan.steps[0].schedule;
+  f.feed_mm_min[3] = 1e9;
+  plan.steps[0].schedule = std::make_shared<const model::FeedSchedule>(f);
+  Job job;
+  const auto out = write_linuxcnc(plan, job);
+  ASSERT_FALSE(out);
+  EXPECT_NE(out.error().message.find("a feed of 1000000000 mm/min"), std::string::npos)
+      << out.error().message;
+  EXPECT_NE(out.error().message.find("0.1 to 1000000"), std::string::npos) << out.error().message;
+}
+
 TEST(LinuxCnc, WritesNothingForAPlanThatCannotBeRun) {
   const auto broken = [](auto&& change) {
     Plan plan = testing::empty_plan();
@@ -307,6 +321,7 @@ TEST(LinuxCnc, WritesNothingForAPlanThatCannotBeRun) {
   EXPECT_EQ(broken([&](Plan& p) { with_path(p, [](CutterPath& c) { c.x[3] = 1e300; }); }), "OUT-NUMBER");
   EXPECT_EQ(broken([&](Plan& p) { with_path(p, [](CutterPath& c) { c.cx[4] += 0.1; }); }), "OUT-ARC");
   EXPECT_EQ(broken([&](Plan& p) { with_schedule(p, [](auto& f) { f.feed_mm_min[3] = 0.04; }); }), "OUT-FEED");
+  EXPECT_EQ(broken([&](Plan& p) { with_schedule(p, [](auto& f) { f.feed_mm_min[3] = 1e9; }); }), "OUT-FEED");
   EXPECT_EQ(broken([&](Plan& p) { with_schedule(p, [](auto& f) { f.feed_mm_min.pop_back(); }); }),
             "OUT-SCHEDULE");
   EXPECT_EQ(broken([&](Plan& p) { with_schedule(p, [](auto& f) { f.spindle_rpm[2] = INFINITY; }); }),

@@ -43,13 +43,13 @@ Part lone_boss(bool round) {
   return {round ? "lone_round_boss" : "lone_square_boss", d.text(), b, t};
 }
 
-// 240 x 40 mm: a boss of 24 mm near one end; 203 mm beside it go, 5 mm deep.
+// 180 x 40 mm: a boss of 24 mm near one end; 143 mm beside it go, 5 mm deep.
 Part boss_at_the_end_of_a_long_block() {
-  const Box b = block(240, 40, 14);
+  const Box b = block(180, 40, 14);
   Drawing d("BOSS AT THE END OF A LONG BLOCK", b);
   d.boss("BOSS", d.placement({25, 20, 0}), 5, d.circle(24));
   Target t(body(b));
-  t.cut(prism(without(rectangle(-kOver, -kOver, 242, 42), disc(25, 20, 12)), -5, kOver));
+  t.cut(prism(without(rectangle(-kOver, -kOver, 182, 42), disc(25, 20, 12)), -5, kOver));
   return {"boss_at_the_end_of_a_long_block", d.text(), b, t};
 }
 

@@ -353,9 +353,13 @@ void report_outside(Work& w) {
       if (b.lo.x > raw.hi.x || b.hi.x < raw.lo.x || b.lo.y > raw.hi.y || b.hi.y < raw.lo.y ||
           -s.depth_mm > raw.hi.z || raw.lo.z > 0.0) {
         how = "lies wholly outside the raw piece: its tool cuts air, or what holds the piece";
-      } else if (-s.depth_mm < raw.lo.z - kBeyond ||
-                 (s.kind == model::ShapeKind::kFace && -s.depth_mm < raw.lo.z + kBeyond)) {
-        how = "goes down to or below the underside of the raw piece";
+      } else if (-s.depth_mm < raw.lo.z - kBeyond) {
+        how = "goes " + trimmed(raw.lo.z + s.depth_mm, 2) +
+              " mm below the underside of the raw piece: there its tool cuts into what holds the piece; a "
+              "depth of " +
+              trimmed(-raw.lo.z, 2) + " mm ends at the underside";
+      } else if (s.kind == model::ShapeKind::kFace && -s.depth_mm < raw.lo.z + kBeyond) {
+        how = "goes down to the underside of the raw piece: nothing of the piece stays below it";
       } else if (s.kind != model::ShapeKind::kFace && !s.open &&
                  (b.lo.x < raw.lo.x - kBeyond || b.hi.x > raw.hi.x + kBeyond || b.lo.y < raw.lo.y - kBeyond ||
                   b.hi.y > raw.hi.y + kBeyond)) {

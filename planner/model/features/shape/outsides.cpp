@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "planner/ground/base/number.h"
@@ -169,24 +168,19 @@ Status beside_a_line(const Model& m, AnyRef self, const std::vector<Vec2>& line,
   return {};
 }
 
-/// What is cut around a contour that stays, out to the edge of the raw piece.
+/// What is cut around a contour that stays: as far as kOpenReach, and out to the edge of the raw piece that
+/// the file states.
 void stand_in_its_middle(const Model& m, AnyRef self, const geometry::Region& inner, FeatureShape& s) {
-  double width = kOpenReach;
-  if (const auto raw = stated_raw(m, self)) {
-    const Box2 plan = in_plan(*raw, s.frame);
-    for (const double x : {plan.lo.x, plan.hi.x}) {
-      for (const double y : {plan.lo.y, plan.hi.y}) {
-        double near = std::numeric_limits<double>::infinity();  // to the nearest vertex of the contour
-        for (const geometry::Loop& loop : inner.loops) {
-          for (const Vec2 p : loop) near = std::min(near, norm(Vec2{x, y} - p));
-        }
-        if (std::isfinite(near)) width = std::max(width, near);
-      }
-    }
-  }
   s.islands.push_back({inner, 0.0});
-  s.area = geometry::offset_sharp(inner, width);
-  s.reach = geometry::subtract(geometry::offset_sharp(inner, width + kOpenReach), inner);
+  s.area = geometry::offset_sharp(inner, kOpenReach);
+  s.reach = geometry::subtract(geometry::offset_sharp(inner, 2.0 * kOpenReach), inner);
+  const auto raw = stated_raw(m, self);
+  if (!raw) return;
+  const Box2 plan = in_plan(*raw, s.frame);
+  const geometry::Region piece = geometry::rectangle(plan.lo, plan.hi);
+  if (geometry::subtract(piece, s.area).empty()) return;
+  s.area = geometry::unite(s.area, piece);
+  s.reach = geometry::subtract(geometry::offset_sharp(s.area, kOpenReach), inner);
 }
 
 }  // namespace

@@ -51,6 +51,20 @@ class CheckedAsWritten : public ::testing::Test {
 
 TEST_F(CheckedAsWritten, NothingIsFoundInTheFileAsItWasPlanned) { EXPECT_EQ(checked(text_), 0) << said_; }
 
+TEST_F(CheckedAsWritten, APlanOrAToolTableThatIsEmptyOrSomethingElseIsNotCheckedAsAProgram) {
+  for (const std::string name : {"e.json", "e.tbl", "e.STPNC"}) {
+    std::ofstream(folder_ / name, std::ios::binary) << " \n";
+    EXPECT_EQ(run("check " + name), 3) << said_;
+    EXPECT_THAT(said_, HasSubstr(name + ": error: the file is empty")) << said_;
+    std::ofstream(folder_ / name, std::ios::binary) << "hello\n";
+    EXPECT_EQ(run("check " + name), 3) << said_;
+    EXPECT_THAT(said_, HasSubstr("its content is not what its name says")) << said_;
+  }
+  std::ofstream(folder_ / "e.ngc", std::ios::binary) << "M2\n";
+  EXPECT_EQ(run("check e.ngc"), 1) << said_;
+  EXPECT_THAT(said_, HasSubstr("CHK-END-LOW")) << "a program, and checked as one";
+}
+
 TEST_F(CheckedAsWritten, TripledFeedsAreFound) {
   static const std::regex kFeed(R"((REPRESENTATION_ITEM\('feed speed',NUMERIC_MEASURE\()([0-9.E+-]+))");
   std::string tripled;
