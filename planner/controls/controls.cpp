@@ -9,17 +9,24 @@ namespace capstan::controls {
 namespace {
 
 constexpr std::array kDialects{
-    Dialect{"linuxcnc", "linuxcnc_tools", "text/x-gcode", "text/plain", &write_linuxcnc, &write_tool_table},
+    &linuxcnc::kDialect,
+};
+
+constexpr std::array kUnwritten{
+    Unwritten{"siemens840d", "Siemens 840D", ".mpf"},
+    Unwritten{"fanuc", "Fanuc", ".nc"},
+    Unwritten{"heidenhain", "Heidenhain", ".h"},
 };
 
 }  // namespace
 
-std::span<const Dialect> dialects() { return kDialects; }
+std::span<const Dialect* const> dialects() { return kDialects; }
+std::span<const Unwritten> unwritten() { return kUnwritten; }
 
 const Dialect* find_dialect(std::string_view id) {
   const auto* at =
-      std::find_if(kDialects.begin(), kDialects.end(), [&](const Dialect& d) { return d.id == id; });
-  return at == kDialects.end() ? nullptr : at;
+      std::find_if(kDialects.begin(), kDialects.end(), [&](const Dialect* d) { return d->id == id; });
+  return at == kDialects.end() ? nullptr : *at;
 }
 
 Result<std::string> write_program(const model::Plan& plan, Job& job,
@@ -28,7 +35,7 @@ Result<std::string> write_program(const model::Plan& plan, Job& job,
   const Dialect* dialect = find_dialect(wanted);
   if (dialect != nullptr) return dialect->write_program(plan, job, condemned);
   std::string known;
-  for (const Dialect& d : kDialects) known += (known.empty() ? "" : ", ") + std::string(d.id);
+  for (const Dialect* d : kDialects) known += (known.empty() ? "" : ", ") + std::string(d->id);
   return fail(
       {.code = "OUT-DIALECT",
        .message = "no writer is known for the control '" + wanted + "' of machine '" + plan.machine.id + "'",

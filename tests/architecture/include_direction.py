@@ -22,7 +22,7 @@ FLOORS = {
     "door": "pipeline late service transport facade app",
 }
 
-# Folder -> room. planner/controls is a floor of one room. Of folders that hold each other the deepest counts.
+# Folder -> room. planner/controls is a room with a folder per control, on shared pieces. Of folders that hold each other the deepest counts.
 EXCHANGE = "common toolpaths records express conformance iso14649 ap238"
 TOOLING = {"tooling": "shop library selection", "tooling/library": "formats"}
 FOLDERS = {
@@ -30,7 +30,7 @@ FOLDERS = {
     **{f"planner/files/exchange/{name}": name for name in EXCHANGE.split()},
     **{f"{folder}/{name}": name for folder, rooms in reversed(TOOLING.items()) for name in rooms.split()},
     **{f"planner/{floor}/{name}": name for floor, rooms in FLOORS.items() for name in rooms.split()},
-    "planner/controls": "controls",
+    "planner/controls/gcode": "gcode", "planner/controls": "controls",
     "rules": "rules", "casebase": "casebase", "include/capstan": "public",
 }
 
@@ -62,7 +62,7 @@ ALLOWED = {
     "step": MODEL + " mechanics engagement optimise",
     "toolpath": MODEL + " stock",
     "optimise": MODEL + " mechanics motion",
-    "controls": MODEL + " motion",
+    "gcode": MODEL + " motion", "controls": MODEL + " gcode",
     # Only the plan's shapes, to judge them; the reading itself knows nouns alone.
     "volumes": MODEL,
     "verify": MODEL + " p21 " + EXCHANGE + " exchange mechanics volumes",

@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "planner/controls/linuxcnc/linuxcnc.h"
+#include "planner/controls/controls.h"
 #include "tests/proof/verify/plans.h"
 #include "tests/support/corpus.h"
 #include "tests/support/shop.h"
@@ -22,9 +22,9 @@ Emitted written(std::string name, model::Plan plan) {
           trimmed(c.cutting_diameter_mm, 2) + " mm " + std::string(model::to_text(c.cutter_class));
   }
   Job job;
-  auto text = controls::write_linuxcnc(plan, job);
+  auto text = controls::write_program(plan, job);
   if (!text) throw std::runtime_error(name + ": " + to_text(text.error()));
-  std::string table = controls::write_tool_table(plan);
+  std::string table = controls::tool_table_of(plan);
   return {std::move(name), std::move(plan), *std::move(text), std::move(table)};
 }
 

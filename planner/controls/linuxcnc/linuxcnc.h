@@ -1,52 +1,20 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 
-#include "planner/ground/base/job.h"
-#include "planner/ground/base/result.h"
-#include "planner/model/plan/decision/condemned.h"
+#include "planner/controls/dialect.h"
 #include "planner/model/plan/plan.h"
 
-namespace capstan::controls {
+namespace capstan::controls::linuxcnc {
 
-/// The plan as one LinuxCNC program.
+/// LinuxCNC 2.9: its programs as `gcode::write` says them.
 ///
-/// Each step begins with a marker and the full modal state, so that a start at any marker is safe:
-///
-///     (CAPSTAN STEP id="finish%20pocket" n=3 tool=2 setup=1)
-///     G21 G17 G90 G94 G40 G80      units, plane, distances, feed per minute, no compensation, no cycle
-///     G64 P0.01                    path tolerance: the step's, else the machine's (G61 when it states none)
-///     G54                          the set-up's work offset
-///     T2 M6                        only when the tool changes: retracted, spindle and coolant off
-///     G43 H2                       the length offset of the loaded tool
-///     S3000 M3 ... G0 X Y ... M8 ... G0 Z
-///
-/// Frame   the set-up's; the work offset is the operator's to set. Retracts are to the top of Z in machine
-///         coordinates (G53).
-/// Moves   explicit ones, no canned cycles; arcs as G2/G3 of at most half a turn with I and J, whose radii
-///         agree within the last decimal after rounding; arcs flatter than half the last decimal become
-///         lines. Moves without length after rounding are left out. A tapping move and its way back are one
-///         G33.1, which turns the spindle round by itself.
-/// Probing a workpiece_probing of the workplan becomes a stop before the step it precedes: retracted, spindle
-///         and coolant off, `M0` with a message that says what to measure, what is expected, and its
-///         tolerance. No move of a probe is written, whether the machine has one or not: its approach is not
-///         planned and so not checked against the piece and what holds it; the operator measures by hand or
-///         with a routine of the machine's own. The message says what to correct: the work offset by a
-///         place; by a size the radius or the length of the next step's tool.
-/// Start   a path's first point is reached by rapid from straight above it; a path's maker vouches for that.
-/// Needs   each step bound: a path, a cutter with a pocket, a set-up.
-/// Fails   OUT-EMPTY, OUT-OPEN (no path), OUT-TOOL, OUT-SETUP, OUT-SCHEDULE, OUT-NUMBER (not finite or out of
-///         range), OUT-FEED, OUT-ARC (radii of the plan's arc disagree), OUT-TAP. Nothing is written then.
-/// Warns   OUT-TOOL-LENGTH for a cutter whose functional length is not known.
-/// Source  LinuxCNC 2.9 manual, G-code reference and "RS274/NGC"; dwell after a start of the spindle:
-///         Spindle::spin_up_s.
-/// `condemned` (model::condemned): the reasons why the program must not be run. The header lists them; the
-/// marker of each condemned step says `condemned="CODE"`, and behind it the program stops: retracted, spindle
-/// and coolant off, a message, `M0`. Reasons of the whole plan stop it before its first step. Whether such a
-/// program is written at all is the caller's to decide.
-[[nodiscard]] Result<std::string> write_linuxcnc(const model::Plan& plan, Job& job,
-                                                 const std::vector<model::Condemnation>& condemned = {});
+/// Path    `G64 P` with the tolerance, `G61` without one.
+/// Top     of Z by `G53 G0 Z`.
+/// Tapping `G33.1`, which turns the spindle round by itself.
+/// Stops   `(MSG, ...)`, then `M0`.
+/// Source  LinuxCNC 2.9 manual, G-code reference and "RS274/NGC".
+extern const Dialect kDialect;
 
 /// The tool table (.tbl) of the program: `T1 P1 Z+50.000000 D+18.000000 ;description`, by tool number.
 /// Units  mm (LINEAR_UNITS = mm of the machine's ini file).
@@ -55,8 +23,4 @@ namespace capstan::controls {
 /// length, D the diameter, P the tool number.
 [[nodiscard]] std::string write_tool_table(const model::Plan& plan);
 
-/// Text that can stand in a comment, between quotes: what is not plain ASCII, and " % ( ) ; are
-/// percent-encoded as in a URL.
-[[nodiscard]] std::string marker_text(std::string_view text);
-
-}  // namespace capstan::controls
+}  // namespace capstan::controls::linuxcnc

@@ -1,14 +1,13 @@
-#include <algorithm>
 #include <cmath>
 #include <string>
 #include <string_view>
-#include <vector>
 
-#include "planner/controls/linuxcnc/comment.h"
+#include "planner/controls/gcode/header.h"
+#include "planner/controls/gcode/text.h"
 #include "planner/controls/linuxcnc/linuxcnc.h"
 #include "planner/ground/base/number.h"
 
-namespace capstan::controls {
+namespace capstan::controls::linuxcnc {
 namespace {
 
 /// Six decimals, and more only where the number needs them: what a table said comes out again.
@@ -35,20 +34,15 @@ std::string table_words(const model::Cutter& c) {
 }  // namespace
 
 std::string write_tool_table(const model::Plan& plan) {
-  std::vector<const model::Cutter*> loaded;
-  for (const model::Cutter& c : plan.cutters) {
-    if (c.pocket > 0) loaded.push_back(&c);
-  }
-  std::sort(loaded.begin(), loaded.end(),
-            [](const model::Cutter* a, const model::Cutter* b) { return a->pocket < b->pocket; });
   std::string out;
-  for (const model::Cutter* c : loaded) {
+  for (const model::Cutter* c : gcode::by_tool_number(plan)) {
+    if (c->pocket <= 0) continue;
     const auto pocket = model::table_word(*c, "P");
     const std::string t = std::to_string(c->pocket);
     out += "T" + t + " P" + (pocket ? trimmed(*pocket, 0) : t) + table_words(*c) + " ;" +
-           plain_text(c->description.empty() ? c->id : c->description).substr(0, 120) + "\n";
+           gcode::plain_text(c->description.empty() ? c->id : c->description).substr(0, 120) + "\n";
   }
   return out;
 }
 
-}  // namespace capstan::controls
+}  // namespace capstan::controls::linuxcnc

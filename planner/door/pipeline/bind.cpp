@@ -3,12 +3,12 @@
 #include <set>
 #include <utility>
 
+#include "planner/controls/controls.h"
 #include "planner/door/pipeline/checked.h"
 #include "planner/door/pipeline/given/machine_needs.h"
 #include "planner/door/pipeline/paths/gone.h"
 #include "planner/door/pipeline/profit.h"
 #include "planner/door/pipeline/work.h"
-#include "planner/ground/vocabulary/control_kind.h"
 #include "planner/model/plan/decision/contradicted.h"
 #include "planner/model/plan/decision/unreadable.h"
 #include "planner/model/plan/order/step_ids.h"
@@ -66,7 +66,9 @@ void collect_cutters(Work& w) {
 }
 
 Status collect_setups(Work& w) {
-  const model::ControlKind& control = model::control_kind(w.inputs.machine.control.dialect);
+  // A control without a row gets no program; its set-ups are named as those of the first.
+  const controls::Dialect* known = controls::find_dialect(w.inputs.machine.control.dialect);
+  const controls::Dialect& control = known != nullptr ? *known : *controls::dialects().front();
   const std::size_t count = control.work_offsets.size();
   if (w.setups.size() > count) {
     return fail("PIP-OFFSETS", "the part needs " + std::to_string(w.setups.size()) + " set-ups, and " +

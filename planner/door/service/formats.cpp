@@ -5,7 +5,6 @@
 
 #include "planner/files/exchange/exchange.h"
 #include "planner/files/json/json.h"
-#include "planner/ground/vocabulary/control_kind.h"
 
 namespace capstan::service {
 namespace {
@@ -44,22 +43,16 @@ std::vector<Format> table() {
       {"json", "plan", {".json"}, "application/json", Holds::kPlan, true, nullptr, &plan_json},
       {"stl", "STL", {".stl"}, "model/stl", Holds::kPlan, true, nullptr, nullptr},
   };
-  for (const controls::Dialect& d : controls::dialects()) {
-    const model::ControlKind& kind = model::control_kind(d.id);
+  for (const controls::Dialect* d : controls::dialects()) {
+    const auto& [program_name, program_ending, program_media] = d->program;
     out.push_back(
-        {d.id, "program", {kind.program_ending}, d.program_media, Holds::kProgram, false, &d, &program});
-    out.push_back({d.tool_table_name,
-                   "tool table",
-                   {kind.tool_table_ending},
-                   d.tool_table_media,
-                   Holds::kToolTable,
-                   false,
-                   &d,
-                   &tool_table});
+        {program_name, "program", {program_ending}, program_media, Holds::kProgram, false, d, &program});
+    const auto& [table_name, table_ending, table_media] = d->tool_table;
+    out.push_back(
+        {table_name, "tool table", {table_ending}, table_media, Holds::kToolTable, false, d, &tool_table});
   }
-  out.push_back({"siemens840d", "Siemens 840D", {".mpf"}, {}, Holds::kProgram});
-  out.push_back({"fanuc", "Fanuc", {".nc"}, {}, Holds::kProgram});
-  out.push_back({"heidenhain", "Heidenhain", {".h"}, {}, Holds::kProgram});
+  for (const controls::Unwritten& u : controls::unwritten())
+    out.push_back({u.id, u.name, {u.ending}, {}, Holds::kProgram});
   out.push_back({"report", "a report", {".html"}, "text/html", Holds::kReport});
   return out;
 }

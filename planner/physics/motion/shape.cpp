@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "planner/ground/vocabulary/control_kind.h"
+#include "planner/ground/vocabulary/path_following.h"
 
 namespace capstan::motion {
 namespace {
@@ -108,9 +108,9 @@ Result<Limits> limits_of(const Machine& machine) {
   }
   out.tolerance_mm = machine.control.path_tolerance_mm;
   out.block_s = machine.control.block_time_s;
-  const model::ControlKind& kind = model::control_kind(machine.control.dialect);
-  out.turning_share = kind.turning_share;
-  out.along_share = kind.along_share;
+  const model::PathFollowing& follows = model::path_following(machine.control.dialect);
+  out.turning_share = follows.turning_share;
+  out.along_share = follows.along_share;
   return out;
 }
 

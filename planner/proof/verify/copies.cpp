@@ -1,7 +1,5 @@
 #include "planner/proof/verify/copies.h"
 
-#include <array>
-
 namespace capstan::verify {
 
 using model::CutterClass;
@@ -65,12 +63,6 @@ bool finishes(model::TypeId op) {
   using model::TypeId;
   return op == TypeId::kSideFinishMilling || op == TypeId::kBottomAndSideFinishMilling ||
          op == TypeId::kPlaneFinishMilling || op == TypeId::kFreeformFinishMilling;
-}
-
-std::span<const std::string_view> work_offsets() {
-  static constexpr std::array<std::string_view, 9> kOffsets = {"G54", "G55",   "G56",   "G57",  "G58",
-                                                               "G59", "G59.1", "G59.2", "G59.3"};
-  return kOffsets;
 }
 
 }  // namespace capstan::verify

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <span>
-#include <string_view>
-
 #include "planner/ground/vocabulary/cutter_class.h"
 #include "planner/ground/vocabulary/noun_kind.h"
 
@@ -24,7 +21,5 @@ namespace capstan::verify {
 [[nodiscard]] bool mills(model::CutterClass c);
 /// Makes the surface that stays.
 [[nodiscard]] bool finishes(model::TypeId operation);
-/// Work offsets of RS-274 controls, in the order of their numbers.
-[[nodiscard]] std::span<const std::string_view> work_offsets();
 
 }  // namespace capstan::verify

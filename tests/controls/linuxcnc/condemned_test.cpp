@@ -7,7 +7,7 @@
 
 // Programs that are written although the check condemns them.
 
-namespace capstan::controls {
+namespace capstan::controls::linuxcnc {
 namespace {
 
 using model::CutterPath;
@@ -38,7 +38,7 @@ TEST(LinuxCnc, ACondemnedStepSaysSoInHeaderAndMarkerAndIsStoppedBefore) {
   testing::add_step(plan, "b", "em18", contour());
   testing::add_step(plan, "c", "em18", contour());
   Job job;
-  const auto text = write_linuxcnc(plan, job, {{"b", "CHK-GOUGE", "gouges (by 2 mm)"}});
+  const auto text = kDialect.write_program(plan, job, {{"b", "CHK-GOUGE", "gouges (by 2 mm)"}});
   ASSERT_TRUE(text) << to_text(text.error());
   EXPECT_LT(position(*text, "(CONDEMNED: step 2 b: gouges [by 2 mm])\n"), position(*text, "G21"));
   EXPECT_THAT(*text, HasSubstr("G53 G0 Z0\nM5\nM9\n"
@@ -50,7 +50,7 @@ TEST(LinuxCnc, ACondemnedStepSaysSoInHeaderAndMarkerAndIsStoppedBefore) {
   EXPECT_THAT(*text, HasSubstr("(CAPSTAN STEP id=\"a\" n=1 tool=1 setup=1)\nG21"));
   EXPECT_THAT(*text, HasSubstr("(CAPSTAN STEP id=\"c\" n=3 tool=1 setup=1)\nG21"));
   // What condemns the whole plan stops it before its first step.
-  const auto whole = write_linuxcnc(plan, job, {{"", "CHK-ORDER", "order"}});
+  const auto whole = kDialect.write_program(plan, job, {{"", "CHK-ORDER", "order"}});
   ASSERT_TRUE(whole);
   EXPECT_THAT(*whole, HasSubstr("n=1 tool=1 setup=1 condemned=\"CHK-ORDER\")\n(CONDEMNED: order)\n(MSG, "));
   EXPECT_EQ(whole->find("M0\n", position(*whole, "M0\n") + 1), std::string::npos);
@@ -63,7 +63,7 @@ TEST(LinuxCnc, TheInterpreterTakesAProgramWithCondemnedSteps) {
   testing::add_step(plan, "b", "em18", contour());
   Job job;
   const std::string long_text(500, 'x');
-  const auto text = write_linuxcnc(
+  const auto text = kDialect.write_program(
       plan, job, {{"a", "CHK-A", long_text}, {"b", "CHK-B", "(#<_x>; %"}, {"b", "CHK-C", long_text}});
   ASSERT_TRUE(text) << to_text(text.error());
   const Rs274Run ran = testing::run_rs274(write_tool_table(plan), *text);
@@ -72,4 +72,4 @@ TEST(LinuxCnc, TheInterpreterTakesAProgramWithCondemnedSteps) {
 }
 
 }  // namespace
-}  // namespace capstan::controls
+}  // namespace capstan::controls::linuxcnc

@@ -99,7 +99,7 @@ pipeline::Inputs shop_with(const std::string& line, const std::string& machine =
 
 /// The line of a tool in the table that the plan is given with.
 std::string line_of(const model::Plan& plan, int tool) {
-  std::istringstream lines(controls::write_tool_table(plan));
+  std::istringstream lines(controls::linuxcnc::write_tool_table(plan));
   for (std::string one; std::getline(lines, one);)
     if (one.starts_with("T" + std::to_string(tool) + " ")) return one.substr(0, one.find(" ;"));
   return {};

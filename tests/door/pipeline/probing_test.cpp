@@ -8,7 +8,7 @@
 #include <tuple>
 #include <vector>
 
-#include "planner/controls/linuxcnc/probing.h"
+#include "planner/controls/gcode/probing.h"
 #include "tests/door/pipeline/block.h"
 
 // Measuring in the process: where is touched, what is expected there, and what becomes of what cannot be
@@ -236,7 +236,7 @@ TEST(Probing, StopsTheProgramBeforeTheLastStepWhereThePositionAsksForIt) {
   const Planned p = bound(std::move(plan), in);
   const auto probings = p.plan.model.all(model::TypeId::kWorkpieceProbing);
   ASSERT_EQ(probings.size(), 4U) << p.said;
-  const auto before = controls::probings_before(p.plan);
+  const auto before = controls::gcode::probings_before(p.plan);
   ASSERT_EQ(before.size(), 1U) << "one stop";
   for (const auto& s : p.plan.steps) {
     if (s.step != before.begin()->first) continue;

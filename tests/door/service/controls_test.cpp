@@ -2,28 +2,34 @@
 
 #include <gtest/gtest.h>
 
-#include "planner/ground/vocabulary/control_kind.h"
+#include <algorithm>
+
+#include "planner/ground/vocabulary/path_following.h"
 #include "planner/proof/verify/program/readers.h"
 #include "planner/proof/verify/verify.h"
 #include "tooling/shop/machine/machine.h"
 
-// The three tables of controls: what one is, who writes its programs, who reads them back.
+// The three tables of controls: what one is and who writes its programs, how it follows a path, and who reads
+// its programs back. The reader's copies agree with what the writer has.
 
 namespace capstan::service {
 namespace {
 
-TEST(Controls, EachHasAKindAWriterAndAReader) {
-  ASSERT_EQ(controls::dialects().size(), model::kControlKinds.size());
-  for (const model::ControlKind& kind : model::kControlKinds) {
-    const controls::Dialect* writer = controls::find_dialect(kind.dialect);
-    ASSERT_NE(writer, nullptr) << kind.dialect;
-    EXPECT_NE(writer->write_program, nullptr);
-    EXPECT_NE(writer->write_tool_table, nullptr);
-    const verify::DialectReader* reader = verify::reader_of(kind.dialect);
-    ASSERT_NE(reader, nullptr) << kind.dialect;
-    EXPECT_FALSE(kind.work_offsets.empty());
-    EXPECT_GT(kind.turning_share, 0.0);
-    EXPECT_GT(kind.along_share, 0.0);
+TEST(Controls, EachHasAWriterAReaderAndAWayToFollowPaths) {
+  ASSERT_EQ(controls::dialects().size(), model::kPathFollowing.size());
+  for (const model::PathFollowing& follows : model::kPathFollowing) {
+    EXPECT_GT(follows.turning_share, 0.0);
+    EXPECT_GT(follows.along_share, 0.0);
+    const controls::Dialect* control = controls::find_dialect(follows.dialect);
+    ASSERT_NE(control, nullptr) << follows.dialect;
+    EXPECT_NE(control->write_program, nullptr);
+    EXPECT_NE(control->write_tool_table, nullptr);
+    EXPECT_FALSE(control->work_offsets.empty());
+    const verify::DialectReader* reader = verify::reader_of(follows.dialect);
+    ASSERT_NE(reader, nullptr) << follows.dialect;
+    EXPECT_EQ(reader->name, control->name);
+    EXPECT_TRUE(std::equal(reader->work_offsets.begin(), reader->work_offsets.end(),
+                           control->work_offsets.begin(), control->work_offsets.end()));
   }
 }
 

@@ -7,7 +7,6 @@
 #include "planner/controls/controls.h"
 #include "planner/door/service/outputs.h"
 #include "planner/door/service/reading.h"
-#include "planner/ground/vocabulary/control_kind.h"
 
 namespace capstan::service {
 namespace {
@@ -23,11 +22,12 @@ TEST(Formats, NamesAndEndingsAreUnique) {
 }
 
 TEST(Formats, EachControlHasAProgramAndAToolTable) {
-  for (const controls::Dialect& d : controls::dialects()) {
-    ASSERT_NE(find_format(d.id), nullptr);
-    EXPECT_EQ(find_format(d.id)->control, &d);
-    EXPECT_EQ(format_of_ending(model::control_kind(d.id).program_ending), find_format(d.id));
-    EXPECT_EQ(format_of_ending(model::control_kind(d.id).tool_table_ending), find_format(d.tool_table_name));
+  for (const controls::Dialect* d : controls::dialects()) {
+    for (const controls::FileKind& file : {d->program, d->tool_table}) {
+      ASSERT_NE(find_format(file.name), nullptr);
+      EXPECT_EQ(find_format(file.name)->control, d);
+      EXPECT_EQ(format_of_ending(file.ending), find_format(file.name));
+    }
   }
 }
 

@@ -6,7 +6,6 @@
 #include <set>
 
 #include "planner/ground/vocabulary/operation.h"
-#include "planner/ground/vocabulary/work_offset.h"
 #include "planner/proof/verify/sweep/step_checks.h"
 
 namespace capstan::verify {
@@ -75,11 +74,6 @@ TEST(Copies, FinishWhatTheTableSays) {
     const auto op = static_cast<model::TypeId>(i);
     EXPECT_EQ(finishes(op), model::has(op, model::OperationTrait::kFinishes)) << i;
   }
-}
-
-TEST(Copies, KnowTheWorkOffsetsOfTheTable) {
-  const auto own = work_offsets();
-  EXPECT_TRUE(std::equal(own.begin(), own.end(), model::kWorkOffsets.begin(), model::kWorkOffsets.end()));
 }
 
 }  // namespace

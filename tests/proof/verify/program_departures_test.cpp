@@ -253,7 +253,7 @@ TEST(Departures, WhatLinuxCncRefusesIsAnError) {
     const auto run = capstan::testing::run_rs274("T1 P1 Z0\n", begin + block + "\nM2\n");
     const bool ended = run.output.find("PROGRAM_END()") != std::string::npos;
     EXPECT_FALSE(ended) << block << ": LinuxCNC takes it\n" << run.output;
-    const Program read = read_program(begin + block + "\nM2\n");
+    const Program read = linuxcnc::read_program(begin + block + "\nM2\n");
     EXPECT_TRUE(std::any_of(read.faults.begin(), read.faults.end(), [](const auto& f) {
       return !f.undecided;
     })) << block;
@@ -263,7 +263,7 @@ TEST(Departures, WhatLinuxCncRefusesIsAnError) {
 // As rs274 takes them: blanks before the name, any case, the last comment of a line; not behind a semicolon.
 TEST(Departures, OnlyACommentThatLinuxCncCarriesOutIsACommand) {
   const auto faults = [](const std::string& line) {
-    return read_program("G21\n" + line + "\nM2\n").faults.size();
+    return linuxcnc::read_program("G21\n" + line + "\nM2\n").faults.size();
   };
   for (const char* command :
        {"(ABORT,stop)", "( abort,stop)", "(ABORT,)", "G4 P0 (ABORT,x)", "(x)(ABORT,stop)",
@@ -311,8 +311,8 @@ TEST(Departures, ALineLongerThanLinuxCncReadsIsAnError) {
   const auto with_comment = [](std::size_t length) {
     return "G21\n(" + std::string(length - 2, 'a') + ")\nM2\n";
   };
-  EXPECT_TRUE(read_program(with_comment(252)).faults.empty());
-  EXPECT_EQ(read_program(with_comment(253)).faults.size(), 1U);
+  EXPECT_TRUE(linuxcnc::read_program(with_comment(252)).faults.empty());
+  EXPECT_EQ(linuxcnc::read_program(with_comment(253)).faults.size(), 1U);
   CAPSTAN_NEEDS_RS274();
   EXPECT_NE(capstan::testing::run_rs274("T1 P1 Z0\n", with_comment(252)).output.find("PROGRAM_END()"),
             std::string::npos);
@@ -324,7 +324,7 @@ TEST(Departures, AThousandRepeatsOfAPeckCycleAreBounded) {
   std::string text =
       "G21 G17 G90 G94 G40 G80\nG54\nG53 G0 Z0\nT2 M6\nG43 H2\nS1500 M3\nG0 X15 Y15\nG0 Z5\nF225\n";
   for (int i = 0; i < 1500; ++i) text += "G83 X" + std::to_string(i % 90) + " Y15 Z-20 R2 Q0.01 L1000\n";
-  const Program read = read_program(text + "G80\nM5\nG53 G0 Z0\nM2\n");
+  const Program read = linuxcnc::read_program(text + "G80\nM5\nG53 G0 Z0\nM2\n");
   EXPECT_LE(read.blocks.size(), kCycleBlockCap + 100);
   EXPECT_TRUE(std::any_of(read.faults.begin(), read.faults.end(),
                           [](const auto& f) { return f.code == "CHK-TOO-LARGE" && !f.undecided; }));

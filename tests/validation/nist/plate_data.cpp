@@ -167,7 +167,7 @@ Result<Plate> read_plate(const std::string& folder, const std::string& setup) {
   for (const int n : {2, 20}) {
     const auto text = read_file(folder + "/nc/NIST_MTC_CRADA_PLATE-" + std::to_string(n) + ".NC");
     if (!text) return tl::unexpected(text.error());
-    out.programs[n] = runs_of(verify::read_program(*text));
+    out.programs[n] = runs_of(verify::linuxcnc::read_program(*text));
   }
   for (PlatePart& p : out.parts) {
     const std::string two = (p.part < 10 ? "0" : "") + std::to_string(p.part);

@@ -5,14 +5,15 @@
 #include "planner/model/plan/cutter/table_offsets.h"
 #include "planner/proof/verify/copies.h"
 #include "planner/proof/verify/plan/plan_checks.h"
+#include "planner/proof/verify/program/readers.h"
 
 namespace capstan::verify {
 namespace {
 
 constexpr double kEqualMm = 1e-6;
 
-bool known_offset(const std::string& name) {
-  const auto known = work_offsets();
+bool known_offset(const model::Machine& machine, const std::string& name) {
+  const auto known = work_offsets_of(machine.control.dialect);
   return std::find(known.begin(), known.end(), name) != known.end();
 }
 
@@ -71,7 +72,7 @@ void check_tools(const model::Plan& plan, const std::vector<StepMoves>& steps, F
     }
   }
   for (std::size_t i = 0; i < plan.setups.size(); ++i) {
-    if (!known_offset(plan.setups[i].work_offset)) {
+    if (!known_offset(plan.machine, plan.setups[i].work_offset)) {
       findings.error(3, "CHK-WORK-OFFSET", whole,
                      "set-up " + std::to_string(i + 1) + " has the work offset \"" +
                          plan.setups[i].work_offset + "\", which no control has");

@@ -12,7 +12,7 @@ std::vector<StepMoves> judge_text(const DialectReader& reader, const Program& pr
                                   const ProgramText& text, const model::Plan* plan,
                                   const model::Machine& machine, const std::vector<model::Cutter>& cutters,
                                   Findings& findings) {
-  ProgramCase c = make_case(program, plan, machine, cutters);
+  ProgramCase c = make_case(reader, program, plan, machine, cutters);
   c.has_table = !text.tool_table.empty();
   for (const ReaderFault& f : program.faults) {
     std::size_t order = 1;

@@ -7,14 +7,15 @@
 #include "planner/proof/verify/findings.h"
 #include "planner/proof/verify/moves.h"
 #include "planner/proof/verify/plan/plan_checks.h"
-#include "planner/proof/verify/program/linuxcnc/reader.h"
-#include "planner/proof/verify/program/linuxcnc/tool_table.h"
+#include "planner/proof/verify/program/program.h"
+#include "planner/proof/verify/program/readers.h"
 #include "planner/proof/verify/verify.h"
 
 namespace capstan::verify {
 
 /// What a program's checks look at together.
 struct ProgramCase {
+  const DialectReader& reader;
   const Program& program;
   const model::Plan* plan;  ///< may be null
   const model::Machine& machine;
@@ -26,8 +27,9 @@ struct ProgramCase {
   std::vector<long> step_of_marker;
   bool has_table = false;  ///< a tool table is at hand
 };
-[[nodiscard]] ProgramCase make_case(const Program& program, const model::Plan* plan,
-                                    const model::Machine& machine, const std::vector<model::Cutter>& cutters);
+[[nodiscard]] ProgramCase make_case(const DialectReader& reader, const Program& program,
+                                    const model::Plan* plan, const model::Machine& machine,
+                                    const std::vector<model::Cutter>& cutters);
 
 /// The top of Z in machine coordinates.
 [[nodiscard]] double top_of(const model::Machine& machine);

@@ -2,12 +2,15 @@
 
 #include <array>
 
+#include "planner/proof/verify/program/linuxcnc/reader.h"
+
 namespace capstan::verify {
 namespace {
 
 // A new control is a folder beside linuxcnc/ and a row.
 constexpr std::array kReaders{
-    DialectReader{"linuxcnc", &read_program, &read_tool_table},
+    DialectReader{"linuxcnc", "LinuxCNC", linuxcnc::kWorkOffsets, &linuxcnc::read_program,
+                  &linuxcnc::read_tool_table},
 };
 
 }  // namespace
@@ -17,6 +20,11 @@ const DialectReader* reader_of(std::string_view dialect) {
     if (reader.dialect == dialect) return &reader;
   }
   return nullptr;
+}
+
+std::span<const std::string_view> work_offsets_of(std::string_view dialect) {
+  const DialectReader* reader = reader_of(dialect);
+  return reader != nullptr ? reader->work_offsets : kReaders.front().work_offsets;
 }
 
 }  // namespace capstan::verify

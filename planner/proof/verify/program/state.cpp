@@ -34,9 +34,9 @@ bool is_of(const std::string& marker, const std::string& id) {
 
 }  // namespace
 
-ProgramCase make_case(const Program& program, const model::Plan* plan, const model::Machine& machine,
-                      const std::vector<model::Cutter>& cutters) {
-  ProgramCase out{program, plan, machine, cutters, std::vector<long>(program.markers.size(), -1)};
+ProgramCase make_case(const DialectReader& reader, const Program& program, const model::Plan* plan,
+                      const model::Machine& machine, const std::vector<model::Cutter>& cutters) {
+  ProgramCase out{reader, program, plan, machine, cutters, std::vector<long>(program.markers.size(), -1)};
   if (plan == nullptr) return out;
   std::size_t next = 0;
   for (std::size_t m = 0; m < program.markers.size(); ++m) {
@@ -142,7 +142,9 @@ class StateChecks {
     const bool feeds = b.move != MoveKind::kRapid;
     const bool named_z = b.words[2] && !b.in_machine;
     if (!b.in_machine && b.work_offset == 0 && said_.insert({3, b.marker}).second)
-      out_.error(3, "CHK-WORK-OFFSET", c_.where(b), "a move before a work offset (G54 to G59.3) was stated");
+      out_.error(3, "CHK-WORK-OFFSET", c_.where(b),
+                 "a move before a work offset (" + std::string(c_.reader.work_offsets.front()) + " to " +
+                     std::string(c_.reader.work_offsets.back()) + ") was stated");
     if (b.tool == 0 && feeds && said_.insert({4, b.marker}).second)
       out_.error(4, "CHK-TOOL", c_.where(b), "a feed move without a loaded tool");
     if (b.length_offset > 0 && b.length_offset != b.tool && said_.insert({5, b.line}).second)

@@ -109,7 +109,8 @@ void check_tool_table(const ProgramCase& c, const ToolTable& table, Findings& fi
       if (!fresh && other->second->tool != e.tool)
         findings.error(5, "CHK-TABLE-POCKET", whole,
                        name + " and T" + std::to_string(other->second->tool) + " have the pocket P" +
-                           std::to_string(e.pocket) + "; LinuxCNC keeps one of them");
+                           std::to_string(e.pocket) + "; " + std::string(c.reader.name) +
+                           " keeps one of them");
     }
     if (loaded && !e.has_length)
       findings.error(6, "CHK-TABLE-LENGTH", whole,

@@ -11,7 +11,7 @@
 // makes every other check one of another program. Each rule was tried on LinuxCNC's own interpreter
 // (rs274, 2.9).
 
-namespace capstan::verify {
+namespace capstan::verify::linuxcnc {
 namespace {
 
 /// Codes, times ten, of which a block may have one. Source: LinuxCNC 2.9 manual, "Modal groups".
@@ -238,4 +238,14 @@ void Interpreter::code_rules(const Said& s) {
   }
 }
 
-}  // namespace capstan::verify
+void Interpreter::command(const std::string& name) {
+  if (name.empty()) return;
+  const std::string what = name == "ABORT"           ? "ends the program here"
+                           : name.starts_with("PY")  ? "runs Python, which is not followed"
+                           : name.starts_with("LOG") ? "writes into a file of the control"
+                                                     : "opens a file of the control for probed points";
+  fault(33, "CHK-COMMENT",
+        "the comment (" + name + ",...) is a command to LinuxCNC: it " + what + "; take it out");
+}
+
+}  // namespace capstan::verify::linuxcnc

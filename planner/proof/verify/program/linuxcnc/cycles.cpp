@@ -6,7 +6,7 @@
 
 // Canned cycles, made into moves.
 
-namespace capstan::verify {
+namespace capstan::verify::linuxcnc {
 
 using model::MoveKind;
 
@@ -105,4 +105,4 @@ void Interpreter::cycle(const Said& s) {
     one_hole(mode, x, y, cycle_z_, cycle_r_, cycle_q_, cycle_p_, cycle_clear_);
 }
 
-}  // namespace capstan::verify
+}  // namespace capstan::verify::linuxcnc

@@ -7,7 +7,7 @@
 
 #include "planner/proof/verify/findings.h"
 
-namespace capstan::verify {
+namespace capstan::verify::linuxcnc {
 
 using model::MoveKind;
 
@@ -367,7 +367,11 @@ void Interpreter::line(const Line& l, long number) {
   }
   percent(l);
   any_line_ = any_line_ || l.percent || !l.words.empty() || !l.comments.empty() || !l.fault.empty();
-  for (const std::string& c : l.comments) comment(c);
+  for (const std::string& c : l.comments) {
+    if (!read_comment(c, line_, out_)) continue;
+    marker_ = static_cast<int>(out_.markers.size()) - 1;
+    stated_ = 0;
+  }
   command(l.command);
   if (!l.fault.empty()) {
     const int property = l.not_finite ? 1 : 33;
@@ -448,4 +452,4 @@ Program read_program(std::string_view text) {
   return machine.finish(number);
 }
 
-}  // namespace capstan::verify
+}  // namespace capstan::verify::linuxcnc

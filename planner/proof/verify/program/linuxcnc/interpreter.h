@@ -5,7 +5,7 @@
 #include "planner/proof/verify/program/linuxcnc/reader.h"
 #include "planner/proof/verify/program/linuxcnc/words.h"
 
-namespace capstan::verify {
+namespace capstan::verify::linuxcnc {
 
 /// The interpreter's state, and what one line does to it.
 class Interpreter {
@@ -33,10 +33,8 @@ class Interpreter {
   void code_rules(const Said& s);
   void percent(const Line& l);
   void start(int way);
-  void comment(const std::string& text);
   /// A comment that LinuxCNC carries out (Line::command).
   void command(const std::string& name);
-  void marker(const std::string& text);
   void fault(int property, std::string code, std::string message, bool undecided = false);
   void state_codes(const Said& s);
   void state_code(int g, const Said& s);
@@ -84,4 +82,4 @@ class Interpreter {
   unsigned stated_ = 0;
 };
 
-}  // namespace capstan::verify
+}  // namespace capstan::verify::linuxcnc

@@ -5,7 +5,7 @@
 
 // Straight moves, arcs and taps, as the words of one block give them.
 
-namespace capstan::verify {
+namespace capstan::verify::linuxcnc {
 
 using model::MoveKind;
 
@@ -103,4 +103,4 @@ void Interpreter::tap(const Said& s) {
   put(b);
 }
 
-}  // namespace capstan::verify
+}  // namespace capstan::verify::linuxcnc

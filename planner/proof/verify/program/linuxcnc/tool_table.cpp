@@ -1,4 +1,4 @@
-#include "planner/proof/verify/program/linuxcnc/tool_table.h"
+#include "planner/proof/verify/program/linuxcnc/reader.h"
 
 #include <algorithm>
 #include <cctype>
@@ -9,7 +9,7 @@
 // much of a number as C's scanf finds; what stands behind that number it leaves out without a word. A piece
 // that is not all letter and number is therefore a fault here: nobody can have meant what the control reads.
 
-namespace capstan::verify {
+namespace capstan::verify::linuxcnc {
 
 namespace {
 
@@ -92,4 +92,4 @@ ToolTable read_tool_table(std::string_view text) {
   return out;
 }
 
-}  // namespace capstan::verify
+}  // namespace capstan::verify::linuxcnc

@@ -5,7 +5,7 @@
 
 #include "planner/ground/base/number.h"
 
-namespace capstan::verify {
+namespace capstan::verify::linuxcnc {
 namespace {
 
 char upper(char c) { return static_cast<char>(std::toupper(static_cast<unsigned char>(c))); }
@@ -117,4 +117,4 @@ void split_line(std::string_view text, Line& out) {
   }
 }
 
-}  // namespace capstan::verify
+}  // namespace capstan::verify::linuxcnc

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-namespace capstan::verify {
+namespace capstan::verify::linuxcnc {
 
 struct Word {
   char letter = ' ';  ///< upper case
@@ -25,4 +25,4 @@ struct Line {
 /// Reuses `out`'s storage.
 void split_line(std::string_view text, Line& out);
 
-}  // namespace capstan::verify
+}  // namespace capstan::verify::linuxcnc

@@ -1,15 +1,15 @@
-#include "planner/controls/linuxcnc/comment.h"
+#include "planner/controls/gcode/text.h"
 
 #include <algorithm>
 
-#include "planner/controls/linuxcnc/linuxcnc.h"
 #include "planner/ground/base/file.h"
 #include "planner/ground/base/number.h"
 
-namespace capstan::controls {
+namespace capstan::controls::gcode {
 namespace {
 
-constexpr std::size_t kLongestComment = 240;  // LinuxCNC's LINELEN is 255
+// Characters of a line that a comment's text leaves free; default, unsourced.
+constexpr std::size_t kFree = 15;
 constexpr std::size_t kLongestMarker = 160;
 constexpr std::string_view kHex = "0123456789ABCDEF";
 
@@ -33,8 +33,8 @@ std::string plain_text(std::string_view text) {
   return out;
 }
 
-std::string comment_line(std::string_view text) {
-  return "(" + plain_text(text).substr(0, kLongestComment) + ")\n";
+std::string comment_line(std::string_view text, std::size_t longest_line) {
+  return "(" + plain_text(text).substr(0, longest_line - std::min(kFree, longest_line)) + ")\n";
 }
 
 std::string marker_text(std::string_view text) {
@@ -54,4 +54,4 @@ std::string marker_text(std::string_view text) {
   return out;
 }
 
-}  // namespace capstan::controls
+}  // namespace capstan::controls::gcode

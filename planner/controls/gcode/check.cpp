@@ -1,22 +1,23 @@
-#include "planner/controls/linuxcnc/check.h"
+#include "planner/controls/gcode/check.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <string>
 #include <vector>
 
+#include "planner/controls/gcode/words.h"
 #include "planner/ground/base/number.h"
-#include "planner/ground/vocabulary/work_offset.h"
 #include "planner/model/plan/order/step_ids.h"
 
-namespace capstan::controls {
+namespace capstan::controls::gcode {
 namespace {
 
 using model::CutterPath;
 using model::MoveKind;
 using model::StepResult;
+
+using Offsets = std::span<const std::string_view>;
 
 // Past this a number is no position on any machine, and fixed notation has no digits left for it.
 constexpr double kLargest = 1e6;
@@ -97,7 +98,7 @@ Status check_schedule(const CutterPath& path, const model::FeedSchedule& f, int 
   return {};
 }
 
-Status check_step(const model::Plan& plan, const StepResult& step, const std::string& id) {
+Status check_step(const model::Plan& plan, const StepResult& step, const std::string& id, Offsets offsets) {
   if (!step.path || step.path->size() == 0) {
     return bad("OUT-OPEN", "the step has no path", id, "bind what is open before writing a program");
   }
@@ -106,9 +107,9 @@ Status check_step(const model::Plan& plan, const StepResult& step, const std::st
   }
   if (step.setup >= plan.setups.size()) return bad("OUT-SETUP", "the step's set-up does not exist", id);
   const model::SetupResult& setup = plan.setups[step.setup];
-  if (std::find(model::kWorkOffsets.begin(), model::kWorkOffsets.end(), setup.work_offset) ==
-      model::kWorkOffsets.end()) {
-    return bad("OUT-SETUP", "\"" + setup.work_offset + "\" is not a work offset", id, "G54 to G59.3");
+  if (std::find(offsets.begin(), offsets.end(), setup.work_offset) == offsets.end()) {
+    return bad("OUT-SETUP", "\"" + setup.work_offset + "\" is not a work offset", id,
+               std::string(offsets.front()) + " to " + std::string(offsets.back()));
   }
   if (!fits(setup.security_z_mm)) return bad("OUT-NUMBER", "the security plane is no position", id);
   if (auto path = check_path(*step.path, id); !path) return path;
@@ -124,20 +125,20 @@ Status check_step(const model::Plan& plan, const StepResult& step, const std::st
 
 }  // namespace
 
-Status writable(const model::Plan& plan, Job& job) {
+Status writable(const model::Plan& plan, Offsets work_offsets, Job& job) {
   if (plan.steps.empty()) return fail("OUT-EMPTY", "the plan has no step to write a program of");
   const auto& control = plan.machine.control;
-  if (control.decimals < 0 || control.decimals > 7 || control.feed_decimals < 0 ||
-      control.feed_decimals > 7 || !fits(control.path_tolerance_mm) ||
+  if (control.decimals < 0 || control.decimals > kMostDecimals || control.feed_decimals < 0 ||
+      control.feed_decimals > kMostDecimals || !fits(control.path_tolerance_mm) ||
       !fits(plan.machine.axes[2].travel_max_mm) || !fits(plan.machine.spindle.spin_up_s)) {
     return fail("OUT-NUMBER", "the machine's control is described by numbers that cannot be");
   }
   if (auto tools = check_tools(plan, job); !tools) return tools;
   const std::vector<std::string> ids = model::step_ids(plan);
   for (std::size_t i = 0; i < plan.steps.size(); ++i) {
-    if (auto step = check_step(plan, plan.steps[i], ids[i]); !step) return step;
+    if (auto step = check_step(plan, plan.steps[i], ids[i], work_offsets); !step) return step;
   }
   return {};
 }
 
-}  // namespace capstan::controls
+}  // namespace capstan::controls::gcode

@@ -6,7 +6,7 @@
 #include "planner/ground/geometry/vec.h"
 #include "planner/model/plan/cutter_path.h"
 
-namespace capstan::controls {
+namespace capstan::controls::gcode {
 
 /// A piece of an arc as it is written: rounded end, centre relative to the rounded start.
 struct ArcPiece {
@@ -29,4 +29,4 @@ struct ArcPiece {
 [[nodiscard]] Result<std::vector<ArcPiece>> arc_pieces(const model::CutterPath& path, std::size_t move,
                                                        geometry::Vec3 from, int decimals);
 
-}  // namespace capstan::controls
+}  // namespace capstan::controls::gcode

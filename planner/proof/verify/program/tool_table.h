@@ -1,12 +1,11 @@
 #pragma once
 
-#include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace capstan::verify {
 
+/// A line of a tool table, whatever control it is for.
 struct ToolTableEntry {
   int tool = 0, pocket = 0;
   double length_mm = 0.0, diameter_mm = 0.0;
@@ -18,9 +17,5 @@ struct ToolTable {
   std::vector<ToolTableEntry> entries;  ///< in the file's order
   std::vector<std::string> faults;
 };
-
-/// LinuxCNC's tool table as LinuxCNC reads it: a line per tool of words T, P, Z, D and others, a comment
-/// after `;`. Units   as written, taken as mm. Source  LinuxCNC 2.9 manual, "Tool table format".
-[[nodiscard]] ToolTable read_tool_table(std::string_view text);
 
 }  // namespace capstan::verify

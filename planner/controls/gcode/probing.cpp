@@ -1,4 +1,4 @@
-#include "planner/controls/linuxcnc/probing.h"
+#include "planner/controls/gcode/probing.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 #include "planner/model/plan/measured.h"
 #include "planner/model/plan/resources/setup_position.h"
 
-namespace capstan::controls {
+namespace capstan::controls::gcode {
 
 using model::AnyRef;
 
@@ -188,4 +188,4 @@ Remedy remedy_of(const model::Plan& plan, const std::vector<AnyRef>& probings, A
   return out;
 }
 
-}  // namespace capstan::controls
+}  // namespace capstan::controls::gcode

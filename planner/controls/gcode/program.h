@@ -4,16 +4,17 @@
 #include <string>
 #include <string_view>
 
+#include "planner/controls/gcode/words.h"
 #include "planner/ground/geometry/vec.h"
 #include "planner/model/plan/resources/machine.h"
 
-namespace capstan::controls {
+namespace capstan::controls::gcode {
 
 /// The text of a program as it grows, and what the control knows at its end: position, feed.
 /// Units  mm, mm/min, 1/min, s. Positions are those of the work offset, rounded as they are written.
 class Program {
  public:
-  explicit Program(const model::Control& control) : control_(control) {}
+  Program(const model::Control& control, const Words& words) : control_(control), words_(words) {}
 
   void line(std::string_view text);
   void comment(std::string_view text);
@@ -46,9 +47,10 @@ class Program {
   [[nodiscard]] std::string feed_word(double feed_mm_min);
 
   const model::Control& control_;
+  const Words& words_;
   std::string text_;
   std::optional<double> x_, y_, z_;
   std::string feed_;
 };
 
-}  // namespace capstan::controls
+}  // namespace capstan::controls::gcode

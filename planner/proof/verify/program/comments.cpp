@@ -1,9 +1,9 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "planner/proof/verify/program/linuxcnc/interpreter.h"
+#include "planner/proof/verify/program/program.h"
 
-// What a program's comments say of itself: the markers of its steps, its set-ups, tools, raw piece.
+// What a program's comments say of itself, and the names of work offsets.
 
 namespace capstan::verify {
 namespace {
@@ -53,13 +53,12 @@ bool begins(const std::string& text, const char* words) {
 }  // namespace
 
 int offset_code(std::string_view name) {
-  static constexpr std::pair<std::string_view, int> kOffsets[] = {
-      {"G54", 540}, {"G55", 550},   {"G56", 560},   {"G57", 570},  {"G58", 580},
-      {"G59", 590}, {"G59.1", 591}, {"G59.2", 592}, {"G59.3", 593}};
-  for (const auto& [text, code] : kOffsets) {
-    if (text == name) return code;
-  }
-  return 0;
+  static constexpr std::string_view kDigits = "0123456789";
+  if (!name.starts_with("G5") || name.size() < 3 || name[2] < '4' || name[2] > '9') return 0;
+  const int whole = 500 + 10 * (name[2] - '0');
+  if (name.size() == 3) return whole;
+  const bool tenth = name.size() == 5 && name[3] == '.' && kDigits.find(name[4]) != std::string_view::npos;
+  return tenth ? whole + (name[4] - '0') : 0;
 }
 
 std::string offset_name(int code) {
@@ -67,40 +66,27 @@ std::string offset_name(int code) {
   return "G" + std::to_string(code / 10) + (code % 10 != 0 ? "." + std::to_string(code % 10) : "");
 }
 
-void Interpreter::marker(const std::string& text) {
+bool read_comment(const std::string& text, long line, Program& out) {
   const auto whole_number = [&](const char* name) {
     return std::strtol(field(text, name).c_str(), nullptr, 10);
   };
-  out_.markers.push_back({field(text, "id"), whole_number("n"), line_, whole_number("setup"),
-                          whole_number("tool"), !field(text, "condemned").empty()});
-  marker_ = static_cast<int>(out_.markers.size()) - 1;
-  stated_ = 0;
-}
-
-void Interpreter::comment(const std::string& text) {
   if (begins(text, "CAPSTAN STEP ")) {
-    marker(text);
-  } else if (begins(text, "CAPSTAN SETUP ") && out_.setups.size() < kMostInHeader) {
-    out_.setups.push_back({std::strtol(field(text, "n").c_str(), nullptr, 10),
-                           offset_code(field(text, "offset")), number(field(text, "security")), line_});
-  } else if (begins(text, "CAPSTAN TOOL T") && out_.tools.size() < kMostInHeader) {
-    const long t = std::strtol(text.c_str() + text.find("TOOL T") + 6, nullptr, 10);
-    if (t <= 0 || t >= 1000000000) return;
-    out_.tools.push_back({static_cast<int>(t), number(field(text, "length")), number(field(text, "diameter")),
-                          line_, field(text, "id"), text.substr(text.rfind(' ') + 1)});
-  } else if (out_.stock.empty() && begins(text, "stock: ")) {
-    out_.stock = text.substr(text.find("stock: ") + 7, 100);
+    out.markers.push_back({field(text, "id"), whole_number("n"), line, whole_number("setup"),
+                           whole_number("tool"), !field(text, "condemned").empty()});
+    return true;
   }
-}
-
-void Interpreter::command(const std::string& name) {
-  if (name.empty()) return;
-  const std::string what = name == "ABORT"           ? "ends the program here"
-                           : name.starts_with("PY")  ? "runs Python, which is not followed"
-                           : name.starts_with("LOG") ? "writes into a file of the control"
-                                                     : "opens a file of the control for probed points";
-  fault(33, "CHK-COMMENT",
-        "the comment (" + name + ",...) is a command to LinuxCNC: it " + what + "; take it out");
+  if (begins(text, "CAPSTAN SETUP ") && out.setups.size() < kMostInHeader) {
+    out.setups.push_back(
+        {whole_number("n"), offset_code(field(text, "offset")), number(field(text, "security")), line});
+  } else if (begins(text, "CAPSTAN TOOL T") && out.tools.size() < kMostInHeader) {
+    const long t = std::strtol(text.c_str() + text.find("TOOL T") + 6, nullptr, 10);
+    if (t <= 0 || t >= 1000000000) return false;
+    out.tools.push_back({static_cast<int>(t), number(field(text, "length")), number(field(text, "diameter")),
+                         line, field(text, "id"), text.substr(text.rfind(' ') + 1)});
+  } else if (out.stock.empty() && begins(text, "stock: ")) {
+    out.stock = text.substr(text.find("stock: ") + 7, 100);
+  }
+  return false;
 }
 
 }  // namespace capstan::verify

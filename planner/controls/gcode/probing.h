@@ -6,7 +6,7 @@
 
 #include "planner/model/plan/plan.h"
 
-namespace capstan::controls {
+namespace capstan::controls::gcode {
 
 /// The measurements of the workplan by the step that they come before, in its order; those after the last
 /// step under an unset handle.
@@ -25,4 +25,4 @@ struct Remedy {
 [[nodiscard]] Remedy remedy_of(const model::Plan& plan, const std::vector<model::AnyRef>& probings,
                                model::AnyRef before);
 
-}  // namespace capstan::controls
+}  // namespace capstan::controls::gcode

@@ -1,10 +1,10 @@
-#include "planner/controls/linuxcnc/program.h"
+#include "planner/controls/gcode/program.h"
 
-#include "planner/controls/linuxcnc/arcs.h"
-#include "planner/controls/linuxcnc/comment.h"
+#include "planner/controls/gcode/arcs.h"
+#include "planner/controls/gcode/text.h"
 #include "planner/ground/base/number.h"
 
-namespace capstan::controls {
+namespace capstan::controls::gcode {
 
 using geometry::Vec3;
 
@@ -13,7 +13,7 @@ void Program::line(std::string_view text) {
   text_ += '\n';
 }
 
-void Program::comment(std::string_view text) { text_ += comment_line(text); }
+void Program::comment(std::string_view text) { text_ += comment_line(text, words_.longest_line); }
 
 void Program::forget() {
   x_.reset();
@@ -26,8 +26,8 @@ Vec3 Program::round(Vec3 p) const {
   return {rounded(p.x, control_.decimals), rounded(p.y, control_.decimals), rounded(p.z, control_.decimals)};
 }
 
-std::string Program::number(double v) const { return trimmed(v, control_.decimals); }
-std::string Program::feed(double v) const { return trimmed(v, control_.feed_decimals); }
+std::string Program::number(double v) const { return words_.number(v, control_.decimals); }
+std::string Program::feed(double v) const { return words_.number(v, control_.feed_decimals); }
 
 std::optional<Vec3> Program::at() const {
   if (!x_ || !y_ || !z_) return std::nullopt;
@@ -84,7 +84,7 @@ void Program::arc(Vec3 to, double i, double j, bool clockwise, double feed_mm_mi
   const int decimals = centre_decimals(control_.decimals);
   std::string text = (clockwise ? "G2 X" : "G3 X") + number(to.x) + " Y" + number(to.y);
   if (z_ != to.z) text += " Z" + number(to.z);
-  text += " I" + trimmed(i, decimals) + " J" + trimmed(j, decimals);
+  text += " I" + words_.number(i, decimals) + " J" + words_.number(j, decimals);
   line(text + feed_word(feed_mm_min));
   arrive(to);
 }
@@ -94,4 +94,4 @@ void Program::moved(std::string_view text, Vec3 to) {
   arrive(to);
 }
 
-}  // namespace capstan::controls
+}  // namespace capstan::controls::gcode

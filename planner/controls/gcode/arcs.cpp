@@ -1,13 +1,14 @@
-#include "planner/controls/linuxcnc/arcs.h"
+#include "planner/controls/gcode/arcs.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
 
+#include "planner/controls/gcode/words.h"
 #include "planner/ground/base/number.h"
 
-namespace capstan::controls {
+namespace capstan::controls::gcode {
 namespace {
 
 using geometry::Vec2;
@@ -22,7 +23,7 @@ Vec3 rounded_point(Vec3 p, int decimals) {
 
 }  // namespace
 
-int centre_decimals(int decimals) { return std::max(decimals, std::min(decimals + 2, 7)); }
+int centre_decimals(int decimals) { return std::max(decimals, std::min(decimals + 2, kMostDecimals)); }
 
 Result<std::vector<ArcPiece>> arc_pieces(const model::CutterPath& path, std::size_t move, Vec3 from,
                                          int decimals) {
@@ -65,4 +66,4 @@ Result<std::vector<ArcPiece>> arc_pieces(const model::CutterPath& path, std::siz
   return out;
 }
 
-}  // namespace capstan::controls
+}  // namespace capstan::controls::gcode

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "planner/ground/base/job.h"
+#include "planner/ground/base/result.h"
+#include "planner/model/plan/decision/condemned.h"
+#include "planner/model/plan/plan.h"
+
+namespace capstan::controls {
+
+/// A kind of file that a control reads.
+struct FileKind {
+  std::string_view name;    ///< as a format (door/service/formats.h)
+  std::string_view ending;  ///< with its dot, lower case
+  std::string_view media;   ///< media type (RFC 6838)
+};
+
+/// One control that programs are written for: what it is, what its files hold and who writes them. How it
+/// follows a path is in ground/vocabulary/path_following.h, for timing and feeds need it; who reads its
+/// programs back for the check in proof/verify/program/readers.cpp.
+struct Dialect {
+  std::string_view id;    ///< as model::Control::dialect has it
+  std::string_view name;  ///< for people
+  FileKind program, tool_table;
+  std::span<const std::string_view> work_offsets;  ///< in the order in which set-ups get them
+  /// The plan as one program. `condemned` (model::condemned): why it must not be run; the program says so and
+  /// stops before each condemned step.
+  Result<std::string> (*write_program)(const model::Plan& plan, Job& job,
+                                       const std::vector<model::Condemnation>& condemned);
+  /// The tools of that program as the control reads them.
+  std::string (*write_tool_table)(const model::Plan& plan);
+};
+
+}  // namespace capstan::controls

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <vector>
+
+#include "planner/controls/gcode/program.h"
+#include "planner/model/plan/decision/condemned.h"
+#include "planner/model/plan/plan.h"
+
+namespace capstan::controls::gcode {
+
+/// The plan's cutters by rising tool number.
+[[nodiscard]] std::vector<const model::Cutter*> by_tool_number(const model::Plan& plan);
+
+/// The comments that a program begins with: what it is for, its set-ups and tools with their lengths (read
+/// back by the check), tools that are not measured, and why it must not be run.
+void write_header(const model::Plan& plan, const std::vector<model::Condemnation>& condemned, Program& out);
+
+}  // namespace capstan::controls::gcode

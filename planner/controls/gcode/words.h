@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace capstan::controls::gcode {
+
+/// Decimals of a number in a program at most: a double of six digits before the point has no more to say.
+inline constexpr int kMostDecimals = 7;
+
+/// What one control says in its own way; `write` (writer.h) says the rest as all RS-274 controls do.
+/// Units  texts are numbers of mm, mm per turn or s, already rounded and written by `number`.
+struct Words {
+  std::span<const std::string_view> work_offsets;  ///< in the order in which set-ups get them
+  std::size_t longest_line = 0;                    ///< characters, without the line's end
+  int speed_decimals = 0, dwell_decimals = 0, pitch_decimals = 0;
+  std::string_view first, last;  ///< lines that begin and end a program; `first` may be empty
+  std::string (*number)(double value, int decimals) = nullptr;
+  /// The path mode for a tolerance in mm; exact stop where the text is empty.
+  std::string (*path_mode)(const std::string& tolerance) = nullptr;
+  /// To that height in machine coordinates, by rapid.
+  std::string (*retract)(const std::string& z) = nullptr;
+  /// A line that shows a text to the operator; the program stops with an M0 behind it.
+  std::string (*message)(const std::string& text) = nullptr;
+  std::string (*dwell)(const std::string& seconds) = nullptr;
+  /// Rigid tapping from `top` to `bottom` and back, at which the tool stands then; one or more lines.
+  std::string (*tap)(const std::string& top, const std::string& bottom, const std::string& pitch) = nullptr;
+};
+
+}  // namespace capstan::controls::gcode

@@ -1,0 +1,333 @@
+#include "planner/controls/gcode/writer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include "planner/controls/gcode/arcs.h"
+#include "planner/controls/gcode/check.h"
+#include "planner/controls/gcode/header.h"
+#include "planner/controls/gcode/probing.h"
+#include "planner/controls/gcode/program.h"
+#include "planner/controls/gcode/setups.h"
+#include "planner/controls/gcode/text.h"
+#include "planner/ground/base/number.h"
+#include "planner/model/plan/order/step_ids.h"
+
+namespace capstan::controls::gcode {
+namespace {
+
+using geometry::Vec3;
+using model::Cutter;
+using model::CutterPath;
+using model::MoveKind;
+using model::MoveRole;
+using model::Plan;
+using model::StepResult;
+
+// Millimetres, plane XY, absolute, feed per minute, no compensation of the radius, no cycle.
+constexpr std::string_view kStepState = "G21 G17 G90 G94 G40 G80";
+// Before the first tool no length offset either.
+constexpr std::string_view kFirstState = "G21 G17 G90 G94 G40 G49 G80";
+// Characters of a line that a message leaves free; defaults, unsourced.
+constexpr std::size_t kFreeOfClamping = 25, kFreeOfProbing = 35, kFreeOfCondemned = 55;
+// Feed and pitch times speed of a tap may differ by what rounding of either explains.
+constexpr double kPitchAgreement = 0.01;
+
+class Writer {
+ public:
+  Writer(const Plan& plan, const Words& words, const std::vector<model::Condemnation>& condemned)
+      : plan_(plan),
+        words_(words),
+        condemned_(condemned),
+        program_(plan.machine.control, words),
+        probings_(probings_before(plan)) {}
+
+  Result<std::string> run() {
+    if (!words_.first.empty()) program_.line(words_.first);
+    write_header(plan_, condemned_, program_);
+    write_setup(plan_, plan_.steps.front().setup, std::nullopt, program_);
+    program_.blank();
+    program_.line(kFirstState);
+    tolerance(0.0);
+    retract();
+    stop();
+    const std::vector<std::string> ids = model::step_ids(plan_);
+    for (std::size_t n = 0; n < plan_.steps.size(); ++n) {
+      const StepResult& step = plan_.steps[n];
+      const Cutter& cutter = *model::find_cutter(plan_, step.cutter_id);
+      const bool measured = probe(step.step);
+      enter(step, cutter, ids[n], n, measured);
+      if (auto done = moves(step, cutter, ids[n]); !done) return tl::unexpected(done.error());
+    }
+    program_.blank();
+    (void)probe({});
+    program_.comment("end");
+    retract();
+    stop();
+    program_.line(words_.last);
+    return program_.take();
+  }
+
+ private:
+  // Characters of a message that leaves so many of the line free.
+  [[nodiscard]] std::size_t room(std::size_t free) const {
+    return words_.longest_line - std::min(free, words_.longest_line);
+  }
+
+  void tell(const std::string& text) {
+    program_.line(words_.message(text));
+    program_.line("M0");
+  }
+
+  // `after` stands whole, what comes before it as far as there is room.
+  static std::string shortened(const std::string& text, const std::string& after, std::size_t longest) {
+    return plain_text(text).substr(0, longest - std::min(longest, after.size())) + after;
+  }
+
+  // Measurements before a step (at the end: those that are left): a stop each, with nothing moving. Whether
+  // there was one.
+  bool probe(model::AnyRef before) {
+    const auto due = probings_.find(before);
+    if (due == probings_.end()) return false;
+    program_.blank();
+    retract();
+    stop();
+    std::string first;
+    for (const model::AnyRef r : due->second) {
+      const std::vector<std::string> lines = probing_text(plan_, r);
+      for (const std::string& line : lines) program_.comment(line);
+      if (first.empty()) first = lines.front();
+    }
+    const std::size_t n = due->second.size();
+    const std::string what = n == 1 ? first : std::to_string(n) + " touches as listed: " + first + ", ...";
+    const Remedy remedy = remedy_of(plan_, due->second, before);
+    for (const std::string& line : remedy.comments) program_.comment(line);
+    tell(shortened(what, ", " + remedy.message, room(kFreeOfProbing)));
+    return true;
+  }
+
+  // The reasons to stop before a step; those of the whole plan stop before its first.
+  [[nodiscard]] std::vector<const model::Condemnation*> reasons(const StepResult& step, std::size_t n) const {
+    std::vector<const model::Condemnation*> out;
+    if (condemned_.empty()) return out;
+    const std::string id = model::step_id(plan_, step);
+    for (const auto& c : condemned_) {
+      if (c.step.empty() ? n == 0 : c.step == id) out.push_back(&c);
+    }
+    return out;
+  }
+
+  void stop_for(const std::vector<const model::Condemnation*>& why, std::size_t n) {
+    for (const auto* c : why) program_.comment("CONDEMNED: " + c->text);
+    const std::string before = "condemned step " + std::to_string(n + 1) + ": ";
+    const std::string after = why.size() == 1 ? "; continue at your own risk"
+                                              : "; and " + std::to_string(why.size() - 1) +
+                                                    " more, see the program; continue at your own risk";
+    tell(shortened(before + why.front()->text, after, room(kFreeOfCondemned)));
+  }
+
+  // The step's own tolerance, where the control blends at all.
+  void tolerance(double of_step_mm) {
+    const double own = plan_.machine.control.path_tolerance_mm;
+    const double p = own > 0.0 && of_step_mm > 0.0 ? of_step_mm : own;
+    const bool exact = p < 0.0 || rounded(p, plan_.machine.control.decimals) == 0.0;
+    program_.line(words_.path_mode(exact ? std::string() : program_.number(p)));
+  }
+
+  void retract() {
+    program_.line(words_.retract(program_.number(plan_.machine.axes[2].travel_max_mm)));
+    program_.lost_z();
+  }
+
+  void stop() {
+    program_.line("M5");
+    program_.line("M9");
+    speed_ = 0.0;
+    flood_ = mist_ = false;
+  }
+
+  // The marker, and everything the control must know, wherever it comes from. `measured`: behind a stop for
+  // measuring.
+  void enter(const StepResult& step, const Cutter& cutter, const std::string& id, std::size_t n,
+             bool measured) {
+    const model::SetupResult& setup = plan_.setups[step.setup];
+    const bool new_tool = cutter.pocket != tool_;
+    const bool first = tool_ == 0;
+    const bool new_setup = !first && step.setup != setup_;
+    const auto why = reasons(step, n);
+    program_.blank();
+    if ((new_tool || new_setup || !why.empty()) && !first) {
+      retract();
+      stop();
+    }
+    program_.line("(CAPSTAN STEP id=\"" + marker_text(id) + "\" n=" + std::to_string(n + 1) +
+                  " tool=" + std::to_string(cutter.pocket) + " setup=" + std::to_string(step.setup + 1) +
+                  (why.empty() ? std::string() : " condemned=\"" + marker_text(why.front()->code) + "\"") +
+                  ")");
+    if (new_setup) {
+      write_setup(plan_, step.setup, setup_, program_);
+      tell(plain_text(clamping_text(plan_, step.setup, setup_, room(kFreeOfClamping))));
+    }
+    if (!why.empty()) stop_for(why, n);
+    program_.line(kStepState);
+    tolerance(step.contour_tolerance_mm);
+    program_.line(setup.work_offset);
+    const std::string t = std::to_string(cutter.pocket);
+    if (new_tool && cutter.cutter_class == model::CutterClass::kBoringTool)
+      program_.comment("T" + t + ": the boring tool is set to diameter " +
+                       program_.number(cutter.cutting_diameter_mm) + " mm");
+    if (new_tool) program_.line("T" + t + " M6");
+    program_.line("G43 H" + t);
+    tool_ = cutter.pocket;
+    setup_ = step.setup;
+    approach(step, setup, new_tool || new_setup || measured || !why.empty());
+  }
+
+  // To the start of the path, from the top of the machine or from the security plane.
+  void approach(const StepResult& step, const model::SetupResult& setup, bool from_top) {
+    const Vec3 start = program_.round(step.path->point(0));
+    const auto before = program_.at();
+    program_.forget();
+    if (!from_top) {
+      double top = std::max(start.z, program_.round({0.0, 0.0, setup.security_z_mm}).z);
+      if (before) top = std::max(top, before->z);
+      program_.rapid_z(top);
+    }
+    spindle(speed(step, step.path->size() > 1 ? 1 : 0), true);
+    program_.rapid_xy(start);
+    coolant(step);
+    program_.rapid_z(start.z);
+  }
+
+  static double speed(const StepResult& step, std::size_t move) {
+    return step.schedule ? step.schedule->spindle_rpm[move] : step.spindle_rpm;
+  }
+
+  // `always`: stated even when it is so already. A start and a reversal wait for the spindle.
+  void spindle(double rpm, bool always) {
+    const double wanted = rounded(rpm, words_.speed_decimals);
+    if (wanted == speed_ && !always) return;
+    if (wanted == 0.0) {
+      program_.line("M5");
+      speed_ = 0.0;
+      return;
+    }
+    const bool turns = speed_ != 0.0 && (speed_ > 0.0) == (wanted > 0.0);
+    if (!turns && speed_ != 0.0) program_.line("M5");
+    program_.line("S" + words_.number(std::abs(wanted), words_.speed_decimals) +
+                  (wanted > 0.0 ? " M3" : " M4"));
+    if (!turns) dwell(plan_.machine.spindle.spin_up_s);
+    speed_ = wanted;
+  }
+
+  void coolant(const StepResult& step) {
+    if ((flood_ && !step.flood) || (mist_ && !step.mist) || (!step.flood && !step.mist)) program_.line("M9");
+    if (step.mist) program_.line("M7");
+    if (step.flood) program_.line("M8");
+    flood_ = step.flood;
+    mist_ = step.mist;
+  }
+
+  Status moves(const StepResult& step, const Cutter& cutter, const std::string& id) {
+    const CutterPath& path = *step.path;
+    for (std::size_t i = 1; i < path.size(); ++i) {
+      spindle(speed(step, i), false);
+      const double feed = step.schedule ? step.schedule->feed_mm_min[i] : step.feed_mm_min;
+      const Vec3 to = program_.round(path.point(i));
+      if (path.role[i] == MoveRole::kTap && path.kind[i] != MoveKind::kRapid) {
+        const auto last = tap(step, cutter, i);
+        if (!last) return located(last.error(), id, i);
+        i = *last;
+        continue;
+      }
+      switch (path.kind[i]) {
+        case MoveKind::kRapid:
+          program_.rapid(to);
+          break;
+        case MoveKind::kLine:
+          program_.cut(to, feed);
+          break;
+        case MoveKind::kArcCw:
+        case MoveKind::kArcCcw:
+          if (auto done = arc(path, i, feed); !done) return located(done.error(), id, i);
+          break;
+        case MoveKind::kDwell:
+          dwell(step.schedule ? step.schedule->dwell_s[i] : 0.0);
+          break;
+      }
+    }
+    return {};
+  }
+
+  static tl::unexpected<Diagnostic> located(Diagnostic d, const std::string& id, std::size_t move) {
+    d.path = id + ", move " + std::to_string(move);
+    return fail(std::move(d));
+  }
+
+  void dwell(double seconds) {
+    if (rounded(seconds, words_.dwell_decimals) > 0.0)
+      program_.line(words_.dwell(words_.number(seconds, words_.dwell_decimals)));
+  }
+
+  Status arc(const CutterPath& path, std::size_t i, double feed) {
+    const auto pieces = arc_pieces(path, i, *program_.at(), plan_.machine.control.decimals);
+    if (!pieces) return tl::unexpected(pieces.error());
+    for (const ArcPiece& p : *pieces) {
+      if (p.line) {
+        program_.cut(p.to, feed);
+      } else {
+        program_.arc(p.to, p.i, p.j, path.kind[i] == MoveKind::kArcCw, feed);
+      }
+    }
+    return {};
+  }
+
+  // The control goes down in step with the spindle, reverses it, and comes back to where it began: the move
+  // down, perhaps dwells, and the move up. Gives the index of the move up.
+  Result<std::size_t> tap(const StepResult& step, const Cutter& cutter, std::size_t down) {
+    const CutterPath& path = *step.path;
+    const Vec3 top = *program_.at();
+    const Vec3 bottom = program_.round(path.point(down));
+    std::size_t up = down + 1;
+    while (up < path.size() && path.kind[up] == MoveKind::kDwell) ++up;
+    const bool back = up < path.size() && path.kind[up] == MoveKind::kLine &&
+                      path.role[up] == MoveRole::kTap && program_.round(path.point(up)) == top;
+    if (path.kind[down] != MoveKind::kLine || xy(bottom) != xy(top) || bottom.z >= top.z || !back) {
+      return fail("OUT-TAP", "a tapping move must run straight down and the same way back");
+    }
+    if (speed_ == 0.0) return fail("OUT-TAP", "the spindle stands still when tapping begins");
+    const double feed = step.schedule ? step.schedule->feed_mm_min[down] : step.feed_mm_min;
+    const double by_feed = feed / std::abs(speed_);
+    const double pitch = cutter.thread_pitch_mm > 0.0 ? cutter.thread_pitch_mm : by_feed;
+    if (std::abs(by_feed - pitch) > kPitchAgreement * pitch) {
+      return fail("OUT-TAP", "feed and speed make a pitch of " + trimmed(by_feed, 4) + " mm, the tap has " +
+                                 trimmed(pitch, 4) + " mm");
+    }
+    program_.moved(words_.tap(program_.number(top.z), program_.number(bottom.z),
+                              words_.number(pitch, words_.pitch_decimals)),
+                   top);
+    return up;
+  }
+
+  const Plan& plan_;
+  const Words& words_;
+  const std::vector<model::Condemnation>& condemned_;
+  Program program_;
+  std::map<model::AnyRef, std::vector<model::AnyRef>> probings_;  // by the step they precede
+  int tool_ = 0;
+  std::size_t setup_ = 0;
+  double speed_ = 0.0;
+  bool flood_ = false, mist_ = false;
+};
+
+}  // namespace
+
+Result<std::string> write(const Plan& plan, const Words& words,
+                          const std::vector<model::Condemnation>& condemned, Job& job) {
+  if (auto ok = writable(plan, words.work_offsets, job); !ok) return tl::unexpected(ok.error());
+  return Writer(plan, words, condemned).run();
+}
+
+}  // namespace capstan::controls::gcode
