@@ -213,7 +213,7 @@ void area_facts(const FeatureShape& s, const Context& c, FeatureFacts& out) {
   if (!s.through && c.floor_thickness_mm)
     out.facts.set("floor_ratio", ratio(out.passage.widest_mm, *c.floor_thickness_mm, kUnknownLength));
   out.facts.set("depth_ratio", across > 0.0 ? s.depth_mm / across : 9999.0);
-  if (s.kind == ShapeKind::kSlot) {
+  if (model::has(s.kind, model::ShapeTrait::kSwept)) {
     out.facts.set("slot_form", slot_form(s));
     out.facts.set("slot_angle_deg", s.slot_angle_rad / kDegree);
   }
@@ -249,34 +249,20 @@ FeatureFacts facts_of(const FeatureShape& s, const Context& c) {
     return tolerance_or_general(t, c);
   }();
   f.set("depth_it_grade", grade(depth));
-  switch (s.kind) {
-    case ShapeKind::kHole:
-      hole_facts(s, c, out);
-      break;
-    case ShapeKind::kThread:
-      thread_facts(s, c, f);
-      break;
-    case ShapeKind::kFace:
-    case ShapeKind::kPocket:
-    case ShapeKind::kSlot:
-    case ShapeKind::kStep:
-    case ShapeKind::kOutside:
-      area_facts(s, c, out);
-      break;
-    case ShapeKind::kChamfer:
-      f.set("chamfer_angle_deg", s.chamfer_angle_rad / kDegree);
-      break;
-    case ShapeKind::kEdgeRound:
-      f.set("round_radius_mm", s.round_radius_mm);
-      break;
-    case ShapeKind::kSphericalCap:
-    case ShapeKind::kRoundedEnd:
-    case ShapeKind::kFreeform:
-      f.set("surface_radius_mm", c.surface_radius_mm);
-      f.set("surface_form", !c.surface_walls ? "curved" : c.surface_curved ? "walls" : "prismatic");
-      break;
-    case ShapeKind::kToolpath:
-      break;
+  using model::ShapeTrait;
+  if (s.kind == ShapeKind::kHole) {
+    hole_facts(s, c, out);
+  } else if (s.kind == ShapeKind::kThread) {
+    thread_facts(s, c, f);
+  } else if (s.kind == ShapeKind::kChamfer) {
+    f.set("chamfer_angle_deg", s.chamfer_angle_rad / kDegree);
+  } else if (s.kind == ShapeKind::kEdgeRound) {
+    f.set("round_radius_mm", s.round_radius_mm);
+  } else if (model::has(s.kind, ShapeTrait::kClears)) {
+    area_facts(s, c, out);
+  } else if (model::has(s.kind, ShapeTrait::kSurface)) {
+    f.set("surface_radius_mm", c.surface_radius_mm);
+    f.set("surface_form", !c.surface_walls ? "curved" : c.surface_curved ? "walls" : "prismatic");
   }
   return out;
 }

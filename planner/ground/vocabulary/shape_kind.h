@@ -6,23 +6,12 @@
 
 namespace capstan::model {
 
-/// What kind of removal a feature is, whatever noun it came from.
+/// What kind of removal a feature is, whatever noun it came from. The rows are in shape_kinds.inc.
 enum class ShapeKind : std::uint8_t {
-  kFace,          ///< planar_face: everything above a plane, within an area
-  kPocket,        ///< closed_pocket, open_pocket: an area with walls, to a depth; islands stay
-  kSlot,          ///< slot: a profile swept along a path
-  kStep,          ///< step: a corner of the part taken away, open on two sides or more
-  kHole,          ///< round_hole and what compounds are made of
-  kOutside,       ///< general_outside_profile, shape profiles, boss: the outside of a contour, to a depth
-  kChamfer,       ///< chamfer along an edge
-  kEdgeRound,     ///< edge_round along an edge
-  kThread,        ///< thread in (or on) another feature
-  kSphericalCap,  ///< a dome that stays, or a dish
-  kRoundedEnd,    ///< the rounded end of a part
-  kFreeform,      ///< region: a surface
-  kToolpath,      ///< toolpath_feature: nothing but paths
+#define CAPSTAN_SHAPE_KIND(Kind, name, traits) k##Kind,
+#include "planner/ground/vocabulary/shape_kinds.inc"
+#undef CAPSTAN_SHAPE_KIND
 };
-inline constexpr ShapeKind kLastShapeKind = ShapeKind::kToolpath;
 
 /// What is true of every feature of a kind.
 ///
@@ -36,6 +25,8 @@ inline constexpr ShapeKind kLastShapeKind = ShapeKind::kToolpath;
 ///     clears      takes away its area times its depth
 ///     below_top   lies below the part's top: material above it is in the way
 ///     beyond      the cutter passes over the bounds of its area
+///     swept       a section along a spine: its floor is that of the section
+///     surface     its floor is no plane: rules ask for the curvature of its surface
 enum class ShapeTrait : std::uint16_t {
   kRound = 1U << 0U,
   kWalled = 1U << 1U,
@@ -47,6 +38,8 @@ enum class ShapeTrait : std::uint16_t {
   kClears = 1U << 7U,
   kBelowTop = 1U << 8U,
   kBeyond = 1U << 9U,
+  kSwept = 1U << 10U,
+  kSurface = 1U << 11U,
 };
 
 struct ShapeKindRow {

@@ -1,13 +1,13 @@
 #include <cmath>
+#include <stdexcept>
 #include <string>
 
 #include "planner/ground/base/number.h"
 #include "planner/ground/vocabulary/operation.h"
 #include "planner/making/toolpath/hole/hole_paths.h"
+#include "planner/making/toolpath/kind/kind_path.h"
 #include "planner/making/toolpath/path_job.h"
 #include "planner/making/toolpath/region/region_paths.h"
-#include "planner/making/toolpath/section/section_path.h"
-#include "planner/model/features/in_piece.h"
 
 namespace capstan::toolpath {
 
@@ -60,55 +60,18 @@ Status check(const PathJob& task) {
   return {};
 }
 
-Result<GeneratedPath> hole_milling(const PathJob& task, Job& job) {
-  if (cuts_from_below(task)) return back_path(task, job);
-  PathJob hole = task;
-  if (task.cutting_depth_mm) hole.shape.depth_mm = *task.cutting_depth_mm;
-  // What an earlier step left is a hole already there.
-  if (!task.previous_diameter_mm && task.left_on_side_mm)
-    hole.previous_diameter_mm = task.shape.diameter.middle() - 2.0 * *task.left_on_side_mm;
-  if (task.shape.bottom_diameter_mm > 0.0 &&
-      task.shape.bottom_diameter_mm < task.shape.diameter.nominal_mm - 1e-6 &&
-      model::has(task.cutter.cutter_class, model::CutterTrait::kLayers))
-    return tapered_hole_path(hole, job);
-  if (is_hole_cutter(hole)) return sunk_path(hole, job);
-  if (helix_suits(hole)) return helix_path(hole, job);
-  hole.shape.area = hole.shape.reach = geometry::disc({0.0, 0.0}, 0.5 * task.shape.diameter.middle());
-  return area_path(hole, job);
-}
-
 Result<GeneratedPath> milling(const PathJob& task, Job& job) {
   if (task.cutter.cutter_class == CutterClass::kThreadMill) return thread_mill_path(task, job);
   if (mills_cone(task)) return cone_of_hole_path(task, job);
   if (breaks_edge(task)) return broken_edge_path(task, job);
   switch (task.shape.kind) {
-    case ShapeKind::kFace:
-      return model::stops_at_walls(task.shape) ? area_path(task, job) : face_path(task, job);
-    case ShapeKind::kPocket:
-      return area_path(task, job);
-    case ShapeKind::kStep:
-      if (task.stock.empty()) {
-        return fail(
-            {.code = "TPA-STOCK",
-             .message = task.shape.name + ": how far a step reaches is known only with the raw outline",
-             .path = task.shape.name});
-      }
-      return area_path(task, job);
-    case ShapeKind::kSlot:
-      return slot_path(task, job);
-    case ShapeKind::kHole:
-      return hole_milling(task, job);
-    case ShapeKind::kOutside:
-      return outside_path(task, job);
-    case ShapeKind::kChamfer:
-    case ShapeKind::kEdgeRound:
-      return edge_path(task, job);
-    default:
-      return fail({.code = "TPA-UNSUPPORTED",
-                   .message = task.shape.name + ": a " + std::string(to_text(task.shape.kind)) +
-                              " has no 2.5D path yet",
-                   .path = task.shape.name});
+#define CAPSTAN_SHAPE_KIND(Kind, name, traits) \
+  case ShapeKind::k##Kind:                     \
+    return mill<ShapeKind::k##Kind>(task, job);
+#include "planner/ground/vocabulary/shape_kinds.inc"
+#undef CAPSTAN_SHAPE_KIND
   }
+  throw std::logic_error("there is no such kind of shape");
 }
 
 /// A boring tool or reamer is known by its diameter alone: the taper of its flanks is not.

@@ -204,4 +204,21 @@ Result<Shapes> rounded_end(const Model& m, AnyRef self, const RoundedEnd& f) {
   return Shapes{*s};
 }
 
+Result<Shapes> toolpath(const Model& m, AnyRef self, const ToolpathFeature& /*f*/) {
+  auto s = base(m, self, false);
+  if (!s) return tl::unexpected(s.error());
+  s->kind = ShapeKind::kToolpath;
+  return Shapes{*s};
+}
+
+Result<Shapes> freeform(const Model& m, AnyRef self, const Region& f) {
+  auto s = base(m, self, false);
+  if (!s) return tl::unexpected(s.error());
+  s->kind = ShapeKind::kFreeform;
+  const auto frame = placement_or_identity(m, f.feature_placement);
+  if (!frame) return tl::unexpected(frame.error());
+  s->frame = *frame;
+  return Shapes{*s};
+}
+
 }  // namespace capstan::model::shape

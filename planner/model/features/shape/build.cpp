@@ -275,30 +275,10 @@ Result<std::vector<Vec2>> travel_line(const Model& m, Ref<TravelPath> path, Feat
 namespace {
 
 Result<Shapes> plain(const Model& m, AnyRef feature) {
-  if (const auto* f = m.get<PlanarFace>(feature)) return face(m, feature, *f);
-  if (const auto* f = m.get<Pocket>(feature)) return pocket(m, feature, *f);
-  if (const auto* f = m.get<Slot>(feature)) return slot(m, feature, *f);
-  if (const auto* f = m.get<Step>(feature)) return step(m, feature, *f);
-  if (const auto* f = m.get<RoundHole>(feature)) return hole(m, feature, *f);
-  if (const auto* f = m.get<ProfileFeature>(feature)) return outside(m, feature, *f);
-  if (const auto* f = m.get<Boss>(feature)) return boss(m, feature, *f);
-  if (const auto* f = m.get<SphericalCap>(feature)) return spherical_cap(m, feature, *f);
-  if (const auto* f = m.get<RoundedEnd>(feature)) return rounded_end(m, feature, *f);
-  auto s = base(m, feature, false);
-  if (!s) return tl::unexpected(s.error());
-  if (m.holds<ToolpathFeature>(feature)) {
-    s->kind = ShapeKind::kToolpath;
-    return Shapes{*s};
-  }
-  if (m.holds<Region>(feature)) {
-    s->kind = ShapeKind::kFreeform;
-    if (const auto* r = m.get<Region>(feature)) {
-      auto frame = placement_or_identity(m, r->feature_placement);
-      if (!frame) return tl::unexpected(frame.error());
-      s->frame = *frame;
-    }
-    return Shapes{*s};
-  }
+#define CAPSTAN_SHAPE_NOUN(Noun, build) \
+  if (const auto* f = m.get<Noun>(feature)) return build(m, feature, *f);
+#include "planner/model/features/shape/shape_nouns.inc"
+#undef CAPSTAN_SHAPE_NOUN
   return unsupported(m, feature, "is a kind of feature that is not understood");
 }
 

@@ -98,15 +98,9 @@ struct FlatCorners {
 };
 Result<FlatCorners> corners_of(const Model& m, const FlatSlotEndType& end, AnyRef feature);
 
-Result<Shapes> face(const Model& m, AnyRef self, const PlanarFace& f);
-Result<Shapes> pocket(const Model& m, AnyRef self, const Pocket& f);
-Result<Shapes> slot(const Model& m, AnyRef self, const Slot& f);
-Result<Shapes> step(const Model& m, AnyRef self, const Step& f);
-Result<Shapes> hole(const Model& m, AnyRef self, const RoundHole& f);
-Result<Shapes> outside(const Model& m, AnyRef self, const ProfileFeature& f);
-Result<Shapes> boss(const Model& m, AnyRef self, const Boss& f);
-Result<Shapes> spherical_cap(const Model& m, AnyRef self, const SphericalCap& f);
-Result<Shapes> rounded_end(const Model& m, AnyRef self, const RoundedEnd& f);
+#define CAPSTAN_SHAPE_NOUN(Noun, build) Result<Shapes> build(const Model& m, AnyRef self, const Noun& f);
+#include "planner/model/features/shape/shape_nouns.inc"
+#undef CAPSTAN_SHAPE_NOUN
 Result<Shapes> thread(const Model& m, AnyRef self, const Thread& f, const Within& in);
 Result<Shapes> transition(const Model& m, AnyRef self, const TransitionFeature& f, const Within& in);
 Result<Shapes> compound(const Model& m, AnyRef self, const CompoundFeature& f, const Within& in);

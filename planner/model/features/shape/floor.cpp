@@ -68,7 +68,7 @@ double wall_rise(const FeatureShape& s, double from_wall) {
 
 std::optional<double> floor_at(const FeatureShape& s, Vec2 p) {
   if (has(s.kind, ShapeTrait::kRound)) return hole_floor(s, norm(p));
-  if (s.kind == ShapeKind::kSlot) return slot_floor(s, p);
+  if (has(s.kind, ShapeTrait::kSwept)) return slot_floor(s, p);
   if (s.kind == ShapeKind::kChamfer) {
     // A cone or a bevel along the outline of the edge's feature, as wide as the chamfer.
     const bool inside = geometry::contains(s.area, p);

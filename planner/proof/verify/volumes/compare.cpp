@@ -253,7 +253,7 @@ bool removes(const FeatureShape& s, Vec3 p) {
   if (q.z > 0.0) return false;
   if (s.kind == ShapeKind::kToolpath || s.kind == ShapeKind::kFreeform) return false;
   if (s.kind == ShapeKind::kEdgeRound) return in_round(s, q);
-  if (s.kind == ShapeKind::kSlot && undercut(s)) return in_section(s, q);
+  if (model::has(s.kind, model::ShapeTrait::kSwept) && undercut(s)) return in_section(s, q);
   const bool hole = s.kind == ShapeKind::kHole || s.kind == ShapeKind::kThread;
   if (hole && s.bottom_diameter_mm > s.diameter.nominal_mm && q.z > -s.depth_mm) {
     const double share = -q.z / s.depth_mm;

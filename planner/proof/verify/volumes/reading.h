@@ -37,9 +37,11 @@ struct Source {
 
 /// A simple feature in the coordinates that it is stated in.
 [[nodiscard]] Reading simple(const Source& source, model::AnyRef feature);
-[[nodiscard]] Reading area_of(const Source& source, model::AnyRef feature, Solid solid);
-[[nodiscard]] Reading bore_of(const Source& source, model::AnyRef feature, Solid solid);
-[[nodiscard]] Reading groove_of(const Source& source, model::AnyRef feature, Solid solid);
+/// A noun of a row, its frame and depth read already.
+#define CAPSTAN_READING(Noun, read) \
+  [[nodiscard]] Reading read(const Source& source, model::AnyRef feature, Solid solid);
+#include "planner/proof/verify/volumes/readings.inc"
+#undef CAPSTAN_READING
 /// A feature in the coordinates of the workpiece, whatever lists it; and wherever its holders put it.
 [[nodiscard]] Reading placed_in(const Source& source, model::AnyRef feature);
 [[nodiscard]] Reading wherever(const Source& source, model::AnyRef feature);

@@ -171,9 +171,11 @@ Reading simple(const Source& source, AnyRef f) {
   }
   if (*deep < 0.0) return unread("its depth lies above its placement");
   s.depth_mm = *deep;
-  if (m.holds<model::RoundHole>(f)) return bore_of(source, f, std::move(s));
-  if (m.holds<model::Slot>(f)) return groove_of(source, f, std::move(s));
-  return area_of(source, f, std::move(s));
+#define CAPSTAN_READING(Noun, read) \
+  if (m.holds<model::Noun>(f)) return read(source, f, std::move(s));
+#include "planner/proof/verify/volumes/readings.inc"
+#undef CAPSTAN_READING
+  return unread("it is of a kind that this reading does not know");
 }
 
 Source source_of(const Model& m, const Box3& raw) {

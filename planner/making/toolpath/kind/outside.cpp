@@ -1,0 +1,11 @@
+#include "planner/making/toolpath/kind/kind_path.h"
+#include "planner/making/toolpath/region/region_paths.h"
+
+namespace capstan::toolpath {
+
+template <>
+Result<GeneratedPath> mill<model::ShapeKind::kOutside>(const PathJob& task, Job& job) {
+  return outside_path(task, job);
+}
+
+}  // namespace capstan::toolpath
