@@ -3,6 +3,7 @@
 #include <array>
 #include <concepts>
 #include <cstddef>
+#include <string>
 #include <string_view>
 #include <tuple>
 #include <type_traits>
@@ -10,10 +11,10 @@
 
 #include "planner/model/nouns/arena/attribute.h"
 
-/// @file The table of fields of a plain struct of the plan: one row per field. Plan JSON, the records of Part 21
-/// files, the tool store, the own tool list, diff and the keys that compare cutters visit it; none of them names
-/// fields itself. The tables stand beside the structs (cutter/cutter_fields.h, resources/*_fields.h), apart from
-/// them, so that only these forms are compiled anew when a column changes.
+/// @file The table of fields of a plain struct of the plan: one row per field. Plan JSON, the records of Part
+/// 21 files, the tool store, the own tool list, diff and the keys that compare cutters visit it; none of them
+/// names fields itself. The tables stand beside the structs (cutter/cutter_fields.h, resources/*_fields.h),
+/// apart from them, so that only these forms are compiled anew when a column changes.
 
 namespace capstan::model {
 
@@ -28,7 +29,7 @@ struct RecordPart {
 /// A row of the table.
 template <class S, class T>
 struct Field {
-  const char* name;       ///< as JSON writes it, and `sources` and messages call it; wears its unit
+  const char* name;  ///< as JSON writes it, and `sources` and messages call it; wears its unit
   T S::*member;
   Unit unit = Unit::kNone;  ///< that the forms convert
   const char* in_record = nullptr;
@@ -101,6 +102,17 @@ constexpr void for_each_field(S& x, Visit&& visit) {
   std::apply([&](const auto&... row) { (visit(row, x.*row.member), ...); }, kFields<std::remove_cv_t<S>>);
 }
 
+/// The names of the fields in which two differ, in order and with commas between; of those that diff tells.
+template <HasFields S>
+[[nodiscard]] std::string told_differences(const S& a, const S& b) {
+  std::string out;
+  for_each_field(a, [&](const auto& row, const auto& value) {
+    if (row.not_told == nullptr && !(value == b.*row.member))
+      out += (out.empty() ? "" : ", ") + std::string(row.name);
+  });
+  return out;
+}
+
 /// Stands for a value of any type where members are counted; never made.
 struct AnyValue {
   template <class T>
@@ -120,8 +132,8 @@ template <class S, std::size_t N = 0>
   }
 }
 
-/// Whether the table has as many rows as the struct has members, and no name twice. As the rows are of distinct
-/// members (a member under two names is two rows too many), none is missing.
+/// Whether the table has as many rows as the struct has members, and no name twice. As the rows are of
+/// distinct members (a member under two names is two rows too many), none is missing.
 template <class S>
 [[nodiscard]] constexpr bool has_row_per_member() {
   constexpr auto names =

@@ -21,9 +21,9 @@ struct NothingBefore {
   void operator()(std::size_t) const {}
 };
 
-/// Describes every field that has a name in the record, each with `prefix` before it. `before(part)` is called
-/// before the fields of a piece. Ends where a file of an earlier version does: what is left keeps its value.
-/// Fails   throws MalformedRecord.
+/// Describes every field that has a name in the record, each with `prefix` before it. `before(part)` is
+/// called before the fields of a piece. Ends where a file of an earlier version does: what is left keeps its
+/// value. Fails   throws MalformedRecord.
 template <model::HasFields S, class Before = NothingBefore>
 void describe_fields(RecordFields& f, S& x, const std::string& prefix = {}, const Before& before = {});
 

@@ -3,8 +3,8 @@
 #include "planner/model/plan/cutter/cutter.h"
 #include "planner/model/plan/fields.h"
 
-// The fields of a cutter. A new one is a member of Cutter and a row here: in a piece of the record of its own,
-// behind the last one, and with a key in the own list or the reason why it has none.
+// The fields of a cutter. A new one is a member of Cutter and a row here: in a piece of the record of its
+// own, behind the last one, and with a key in the own list or the reason why it has none.
 
 namespace capstan::model {
 
