@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <numbers>
 
 #include "planner/ground/base/file.h"
 #include "planner/ground/base/nearest_names.h"
 #include "planner/ground/vocabulary/unit_factors.h"
+#include "planner/model/plan/cutter/cutter_fields.h"
 #include "tooling/library/cutters/check.h"
 #include "tooling/library/cutters/complete.h"
 #include "tooling/library/cutters/generic.h"
@@ -20,30 +20,7 @@ namespace {
 
 using model::Cutter;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr std::size_t kLibraryBytesCap = std::size_t{256} << 20;
-
-/// Reads one field when the file has it, and remembers where it is from.
-class CutterFields {
- public:
-  CutterFields(Fields& f, Cutter& c, double mm_per_unit) : f_(f), c_(c), mm_per_unit_(mm_per_unit) {}
-  void length(const char* key, double& field) { number(key, field, mm_per_unit_); }
-  void angle(const char* key, double& field) { number(key, field, kDegree); }
-  void number(const char* key, double& field, double factor = 1.0) {
-    const auto v = f_.optional_number(key);
-    if (!v) return;
-    field = *v * factor;
-    state(key);
-  }
-  void state(const char* key) {
-    c_.sources.emplace_back(key, "stated: " + (f_.source().empty() ? "the library file" : f_.source()));
-  }
-
- private:
-  Fields& f_;
-  Cutter& c_;
-  double mm_per_unit_;
-};
 
 void read_presets(Fields& f, Cutter& c, double mm_per_unit) {
   const Node* list = f.child("presets", false);
@@ -62,96 +39,113 @@ void read_presets(Fields& f, Cutter& c, double mm_per_unit) {
   }
 }
 
-void read_holder(Fields& f, Cutter& c, double mm_per_unit) {
-  c.holder_id = f.text_or("holder_id", "");
-  const Node* list = f.child("holder", false);
-  if (list == nullptr) return;
-  for (const Node& n : list->items) {
-    Fields s = f.below("holder", n);
-    c.holder.push_back({s.number("height") * mm_per_unit, s.number("lower_diameter") * mm_per_unit,
-                        s.number("upper_diameter") * mm_per_unit});
-    s.finish();
-    const auto& last = c.holder.back();
-    if (c.holder_diameter_mm < std::max(last.lower_diameter_mm, last.upper_diameter_mm))
-      c.holder_diameter_mm = std::max(last.lower_diameter_mm, last.upper_diameter_mm);
+/// How the list states one tool. Class, substrate and hand are words of their own; every other field is read
+/// by its key and kind.
+class ToolReader {
+ public:
+  ToolReader(Fields f, double mm_per_unit) : f_(std::move(f)), mm_per_unit_(mm_per_unit) {
+    c_.stated_in_inches = mm_per_unit != 1.0;
   }
-  c.sources.emplace_back("holder_diameter_mm", "derived: the widest of the holder's outline");
-}
 
-void read_names(Fields& f, Cutter& c) {
-  c.id = f.text("id");
-  c.description = f.text_or("description", c.id);
-  const std::string cls = f.text("class"), substrate = f.text_or("substrate", "hss");
-  const auto k = model::cutter_class_from_text(cls);
-  if (!k) f.fault("DATA-UNKNOWN", "'" + cls + "' is no class of cutter", "class", f.line_of("class"));
-  c.cutter_class = k.value_or(model::CutterClass::kEndmill);
-  const auto s = model::substrate_from_text(substrate);
-  if (!s)
-    f.fault("DATA-UNKNOWN", "'" + substrate + "' is no substrate", "substrate", f.line_of("substrate"),
-            "hss or carbide");
-  c.substrate = s.value_or(model::Substrate::kHss);
-  c.sources.emplace_back("substrate", f.has("substrate") ? std::string_view("stated") : kSubstrateUnstated);
-  const std::string hand = f.text_or("hand", "right");
-  if (hand != "right" && hand != "left")
-    f.fault("DATA-UNKNOWN", "'" + hand + "' is no hand", "hand", f.line_of("hand"), "right or left");
-  c.hand = hand == "left" ? model::Hand::kLeft : model::Hand::kRight;
-}
-
-Cutter read_cutter(Fields f, double mm_per_unit) {
-  Cutter c;
-  c.stated_in_inches = mm_per_unit != 1.0;
-  read_names(f, c);
-  CutterFields r(f, c, mm_per_unit);
-  (void)f.child("cutting_diameter", true);
-  r.length("cutting_diameter", c.cutting_diameter_mm);
-  r.length("corner_radius", c.corner_radius_mm);
-  r.length("tip_diameter", c.tip_diameter_mm);
-  r.length("maximum_depth_of_cut", c.maximum_depth_of_cut_mm);
-  r.length("usable_length", c.usable_length_mm);
-  r.length("stick_out", c.stick_out_mm);
-  r.length("functional_length", c.functional_length_mm);
-  r.length("shank_diameter", c.shank_diameter_mm);
-  r.length("holder_diameter", c.holder_diameter_mm);
-  r.length("thread_pitch", c.thread_pitch_mm);
-  r.length("adjustable_to", c.adjustable_to_mm);
-  r.length("overall_length", c.overall_length_mm);
-  r.length("neck_diameter", c.neck_diameter_mm);
-  r.length("neck_length", c.neck_length_mm);
-  r.length("cutting_width", c.cutting_width_mm);
-  r.length("thread_size", c.thread_size_mm);
-  r.length("lead_length", c.lead_length_mm);
-  r.number("lead_threads", c.lead_threads);
-  r.angle("taper_angle_deg", c.taper_angle_rad);
-  r.number("life_used_min", c.life_used_min);
-  r.length("fz_min", c.fz_min_mm);
-  r.length("fz_max", c.fz_max_mm);
-  r.angle("point_angle_deg", c.point_angle_rad);
-  r.angle("helix_deg", c.helix_rad);
-  r.angle("lead_angle_deg", c.lead_angle_rad);
-  r.angle("maximum_ramp_angle_deg", c.maximum_ramp_angle_rad);
-  r.number("maximum_speed_rpm", c.maximum_speed_rpm);
-  r.number("life_min", c.life_min);
-  r.number("price", c.price);
-  if (const auto z = f.optional_integer("teeth")) {
-    c.teeth = static_cast<int>(*z);
-    r.state("teeth");
-    if (*z == 0 && c.cutter_class != model::CutterClass::kTouchProbe)
-      f.fault("TOOL-VALUE", "0 teeth", "teeth", f.line_of("teeth"));
+  Cutter run() {
+    (void)f_.child("cutting_diameter", true);
+    model::for_each_field(c_, [&](const auto& row, auto& v) {
+      if (row.own_key != nullptr) read(row, v);
+    });
+    f_.finish();
+    return std::move(c_);
   }
-  if (const auto p = f.optional_integer("pocket")) c.pocket = static_cast<int>(*p);
-  if (f.has("centre_cutting")) r.state("centre_cutting");
-  c.centre_cutting = f.flag_or("centre_cutting", false);
-  c.coolant_through = f.flag_or("coolant_through", false);
-  c.thread_form = f.text_or("thread_form", "");
-  c.product_id = f.text_or("product_id", "");
-  c.carousel = f.text_or("carousel", "");
-  c.loaded = f.flag_or("loaded", c.pocket > 0);
-  if (const auto n = f.optional_integer("in_stock")) c.in_stock = static_cast<int>(*n);
-  read_holder(f, c, mm_per_unit);
-  read_presets(f, c, mm_per_unit);
-  f.finish();
-  return c;
-}
+
+ private:
+  [[nodiscard]] double factor(model::Unit unit) const {
+    return unit == model::Unit::kLength ? mm_per_unit_ : unit == model::Unit::kAngle ? kRadPerDegree : 1.0;
+  }
+  template <class Row>
+  void state(const Row& row) {
+    if (row.is_sourced)
+      c_.sources.emplace_back(row.name,
+                              "stated: " + (f_.source().empty() ? "the library file" : f_.source()));
+  }
+
+  template <class Row>
+  void read(const Row& row, double& v) {
+    const auto stated = f_.optional_number(row.own_key);
+    if (!stated) return;
+    v = *stated * factor(row.unit);
+    state(row);
+  }
+  template <class Row>
+  void read(const Row& row, int& v) {
+    const auto stated = f_.optional_integer(row.own_key);
+    if (!stated) return;
+    v = static_cast<int>(*stated);
+    state(row);
+    if (row.member == &Cutter::teeth && v == 0 && c_.cutter_class != model::CutterClass::kTouchProbe)
+      f_.fault("TOOL-VALUE", "0 teeth", row.own_key, f_.line_of(row.own_key));
+  }
+  template <class Row>
+  void read(const Row& row, bool& v) {
+    if (f_.has(row.own_key)) state(row);
+    v = f_.flag_or(row.own_key, row.member == &Cutter::loaded ? c_.pocket > 0 : v);
+  }
+  template <class Row>
+  void read(const Row& row, std::string& v) {
+    v = row.member == &Cutter::id ? f_.text(row.own_key)
+                                  : f_.text_or(row.own_key, row.member == &Cutter::description ? c_.id : v);
+  }
+  template <class Row>
+  void read(const Row& row, model::CutterClass& v) {
+    const std::string text = f_.text(row.own_key);
+    const auto known = model::cutter_class_from_text(text);
+    if (!known) unknown(row, "'" + text + "' is no class of cutter", {});
+    v = known.value_or(model::CutterClass::kEndmill);
+  }
+  template <class Row>
+  void read(const Row& row, model::Substrate& v) {
+    const std::string text = f_.text_or(row.own_key, "hss");
+    const auto known = model::substrate_from_text(text);
+    if (!known) unknown(row, "'" + text + "' is no substrate", "hss or carbide");
+    v = known.value_or(model::Substrate::kHss);
+    c_.sources.emplace_back(row.name, f_.has(row.own_key) ? std::string_view("stated") : kSubstrateUnstated);
+  }
+  template <class Row>
+  void read(const Row& row, model::Hand& v) {
+    const std::string text = f_.text_or(row.own_key, "right");
+    if (text != "right" && text != "left") unknown(row, "'" + text + "' is no hand", "right or left");
+    v = text == "left" ? model::Hand::kLeft : model::Hand::kRight;
+  }
+  template <class Row>
+  void read(const Row&, std::vector<model::CuttingPreset>&) {
+    read_presets(f_, c_, mm_per_unit_);
+  }
+  template <class Row>
+  void read(const Row& row, std::vector<model::HolderSegment>& v) {
+    const Node* list = f_.child(row.own_key, false);
+    if (list == nullptr) return;
+    for (const Node& n : list->items) {
+      Fields s = f_.below(row.own_key, n);
+      model::for_each_field(v.emplace_back(), [&](const auto& of, double& size) {
+        size = s.number(of.own_key) * factor(of.unit);
+      });
+      s.finish();
+      c_.holder_diameter_mm =
+          std::max({c_.holder_diameter_mm, v.back().lower_diameter_mm, v.back().upper_diameter_mm});
+    }
+    c_.sources.emplace_back("holder_diameter_mm", "derived: the widest of the holder's outline");
+  }
+  /// What has no key.
+  template <class Row, class T>
+  void read(const Row&, T&) {}
+
+  template <class Row>
+  void unknown(const Row& row, std::string message, std::string expected) {
+    f_.fault("DATA-UNKNOWN", std::move(message), row.own_key, f_.line_of(row.own_key), std::move(expected));
+  }
+
+  Fields f_;
+  Cutter c_;
+  double mm_per_unit_;
+};
 
 Result<std::vector<Cutter>> finished(std::vector<Cutter> cutters, const std::vector<std::uint64_t>& lines,
                                      const std::string& file, std::vector<Diagnostic> faults, Job& job) {
@@ -188,7 +182,7 @@ Result<std::vector<Cutter>> read_own(const Node& root, const std::string& file, 
   std::vector<std::uint64_t> lines;
   if (const Node* list = top.child("tools", true)) {
     for (const Node& n : list->items) {
-      cutters.push_back(read_cutter(top.below("tools", n), unit == "inch" ? kMmPerInch : 1.0));
+      cutters.push_back(ToolReader(top.below("tools", n), unit == "inch" ? kMmPerInch : 1.0).run());
       lines.push_back(n.line);
     }
   }

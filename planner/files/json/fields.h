@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "planner/model/plan/cutter/cutter_fields.h"
+#include "planner/model/plan/fields.h"
 #include "planner/model/plan/plan.h"
 
 /// @file The fields of the plan's plain structs, named once: the writer, the reader, the schema (and the test
@@ -20,6 +22,11 @@ namespace capstan::json {
 template <class T, class U>
 concept Is = std::same_as<std::remove_const_t<T>, U>;
 
+/// What has a table of fields is visited by it.
+template <class V>
+void fields(V& v, model::HasFields auto& x) {
+  model::for_each_field(x, [&v](const auto& row, auto& value) { v(row.name, value); });
+}
 template <class V>
 void fields(V& v, Is<geometry::Vec3> auto& x) {
   v("x", x.x), v("y", x.y), v("z", x.z);
@@ -100,53 +107,6 @@ void fields(V& v, Is<model::WorkMaterial> auto& x) {
   v("hardness_hb", x.hardness_hb);
   v("mechanistic", x.mechanistic), v("life", x.life);
   v("sources", x.sources);
-}
-template <class V>
-void fields(V& v, Is<model::CuttingPreset> auto& x) {
-  v("material_group", x.material_group), v("vc_m_min", x.vc_m_min), v("fz_mm", x.fz_mm),
-      v("source", x.source);
-}
-template <class V>
-void fields(V& v, Is<model::Cutter> auto& x) {
-  v("id", x.id), v("description", x.description), v("cutter_class", x.cutter_class),
-      v("substrate", x.substrate);
-  v("cutting_diameter_mm", x.cutting_diameter_mm), v("corner_radius_mm", x.corner_radius_mm);
-  v("point_angle_rad", x.point_angle_rad), v("tip_diameter_mm", x.tip_diameter_mm);
-  v("maximum_depth_of_cut_mm", x.maximum_depth_of_cut_mm), v("usable_length_mm", x.usable_length_mm);
-  v("stick_out_mm", x.stick_out_mm), v("functional_length_mm", x.functional_length_mm);
-  v("shank_diameter_mm", x.shank_diameter_mm), v("holder_diameter_mm", x.holder_diameter_mm);
-  v("teeth", x.teeth), v("helix_rad", x.helix_rad), v("lead_angle_rad", x.lead_angle_rad);
-  v("thread_pitch_mm", x.thread_pitch_mm), v("centre_cutting", x.centre_cutting);
-  v("maximum_ramp_angle_rad", x.maximum_ramp_angle_rad), v("hand", x.hand);
-  v("coolant_through", x.coolant_through), v("maximum_speed_rpm", x.maximum_speed_rpm);
-  v("life_min", x.life_min), v("price", x.price), v("fz_min_mm", x.fz_min_mm), v("fz_max_mm", x.fz_max_mm);
-  v("presets", x.presets), v("sources", x.sources), v("pocket", x.pocket);
-  v("adjustable_to_mm", x.adjustable_to_mm), v("overall_length_mm", x.overall_length_mm);
-  v("neck_diameter_mm", x.neck_diameter_mm), v("neck_length_mm", x.neck_length_mm);
-  v("taper_angle_rad", x.taper_angle_rad), v("cutting_width_mm", x.cutting_width_mm);
-  v("thread_size_mm", x.thread_size_mm), v("thread_form", x.thread_form), v("lead_threads", x.lead_threads);
-  v("lead_length_mm", x.lead_length_mm), v("holder_id", x.holder_id), v("holder", x.holder);
-  v("library_reference", x.library_reference), v("library_source", x.library_source);
-  v("product_id", x.product_id), v("carousel", x.carousel), v("stated_in_inches", x.stated_in_inches);
-  v("loaded", x.loaded), v("in_stock", x.in_stock), v("life_used_min", x.life_used_min);
-  v("sisters", x.sisters), v("runout_mm", x.runout_mm), v("table_line", x.table_line);
-}
-template <class V>
-void fields(V& v, Is<model::ToolTableWord> auto& x) {
-  v("letter", x.letter), v("value", x.value);
-}
-template <class V>
-void fields(V& v, Is<model::ToolTableLine> auto& x) {
-  v("words", x.words), v("against_reference", x.against_reference), v("untouched", x.untouched);
-}
-template <class V>
-void fields(V& v, Is<model::HolderSegment> auto& x) {
-  v("height_mm", x.height_mm), v("lower_diameter_mm", x.lower_diameter_mm);
-  v("upper_diameter_mm", x.upper_diameter_mm);
-}
-template <class V>
-void fields(V& v, Is<model::SisterTool> auto& x) {
-  v("id", x.id), v("pocket", x.pocket), v("life_left_min", x.life_left_min);
 }
 template <class V>
 void fields(V& v, Is<model::Stock> auto& x) {

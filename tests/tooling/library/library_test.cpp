@@ -26,7 +26,7 @@ TEST(OwnList, KeepsWhatIsStatedAndSaysWhatIsNot) {
   ASSERT_TRUE(tools) << to_text(tools.error());
   const model::Cutter& c = tools->at(0);
   EXPECT_DOUBLE_EQ(c.stick_out_mm, 25.0);
-  EXPECT_EQ(*source_of(c, "stick_out"), "stated: shop list");
+  EXPECT_EQ(*source_of(c, "stick_out_mm"), "stated: shop list");
   EXPECT_GT(c.maximum_depth_of_cut_mm, 0.0);
   EXPECT_TRUE(source_of(c, "maximum_depth_of_cut_mm")->starts_with("default: as generic/"));
   EXPECT_FALSE(c.centre_cutting);  // nobody said so

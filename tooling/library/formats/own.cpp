@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "planner/ground/base/number.h"
+#include "planner/model/plan/cutter/cutter_fields.h"
 #include "tooling/library/cutters/complete.h"
 #include "tooling/library/formats/all.h"
 #include "tooling/library/formats/json.h"
@@ -13,44 +14,7 @@ namespace capstan::tooling {
 namespace {
 
 using model::Cutter;
-
-struct Field {
-  const char* key;
-  double Cutter::*field;
-  char unit;  ///< 'L', 'D', '1'
-  const char* source;
-};
-constexpr Field kFields[] = {
-    {"cutting_diameter", &Cutter::cutting_diameter_mm, 'L', "cutting_diameter_mm"},
-    {"adjustable_to", &Cutter::adjustable_to_mm, 'L', "adjustable_to_mm"},
-    {"corner_radius", &Cutter::corner_radius_mm, 'L', "corner_radius_mm"},
-    {"tip_diameter", &Cutter::tip_diameter_mm, 'L', "tip_diameter_mm"},
-    {"maximum_depth_of_cut", &Cutter::maximum_depth_of_cut_mm, 'L', "maximum_depth_of_cut_mm"},
-    {"usable_length", &Cutter::usable_length_mm, 'L', "usable_length_mm"},
-    {"stick_out", &Cutter::stick_out_mm, 'L', "stick_out_mm"},
-    {"functional_length", &Cutter::functional_length_mm, 'L', "functional_length_mm"},
-    {"overall_length", &Cutter::overall_length_mm, 'L', "overall_length_mm"},
-    {"shank_diameter", &Cutter::shank_diameter_mm, 'L', "shank_diameter_mm"},
-    {"neck_diameter", &Cutter::neck_diameter_mm, 'L', "neck_diameter_mm"},
-    {"neck_length", &Cutter::neck_length_mm, 'L', "neck_length_mm"},
-    {"cutting_width", &Cutter::cutting_width_mm, 'L', "cutting_width_mm"},
-    {"holder_diameter", &Cutter::holder_diameter_mm, 'L', "holder_diameter_mm"},
-    {"thread_pitch", &Cutter::thread_pitch_mm, 'L', "thread_pitch_mm"},
-    {"thread_size", &Cutter::thread_size_mm, 'L', "thread_size_mm"},
-    {"lead_length", &Cutter::lead_length_mm, 'L', "lead_length_mm"},
-    {"lead_threads", &Cutter::lead_threads, '1', "lead_threads"},
-    {"fz_min", &Cutter::fz_min_mm, 'L', "fz_min_mm"},
-    {"fz_max", &Cutter::fz_max_mm, 'L', "fz_max_mm"},
-    {"point_angle_deg", &Cutter::point_angle_rad, 'D', "point_angle_rad"},
-    {"helix_deg", &Cutter::helix_rad, 'D', "helix_rad"},
-    {"lead_angle_deg", &Cutter::lead_angle_rad, 'D', "lead_angle_rad"},
-    {"taper_angle_deg", &Cutter::taper_angle_rad, 'D', "taper_angle_rad"},
-    {"maximum_ramp_angle_deg", &Cutter::maximum_ramp_angle_rad, 'D', "maximum_ramp_angle_rad"},
-    {"maximum_speed_rpm", &Cutter::maximum_speed_rpm, '1', "maximum_speed_rpm"},
-    {"life_min", &Cutter::life_min, '1', "life_min"},
-    {"life_used_min", &Cutter::life_used_min, '1', "life_used_min"},
-    {"price", &Cutter::price, '1', "price"},
-};
+using model::Unit;
 
 /// What reading and `complete` fill in is found again when the list is read, and may be a better one then. A
 /// value that the library itself holds by default (as the generic series do) is its own, and is written.
@@ -62,48 +26,95 @@ bool by_default(const Cutter& c, std::string_view field) {
   });
 }
 
-std::string tool_text(const Cutter& c, double mm_per_unit) {
-  std::string out = "  - id: " + json_quoted(c.id) + "\n";
-  const auto line = [&out](std::string_view key, const std::string& value) {
-    out += "    " + std::string(key) + ": " + value + "\n";
-  };
-  if (!c.description.empty()) line("description", json_quoted(c.description));
-  line("class", std::string(model::to_text(c.cutter_class)));
-  if (!by_default(c, "substrate")) line("substrate", std::string(model::to_text(c.substrate)));
-  for (const Field& f : kFields) {
-    if (c.*f.field == 0.0 || by_default(c, f.source)) continue;
-    if (std::string_view(f.key) == "holder_diameter" && !c.holder.empty()) continue;
-    line(f.key, spelled(c.*f.field, f.unit == 'L' ? mm_per_unit : f.unit == 'D' ? kRadPerDegree : 1.0));
+/// What the list says of one field; empty where it says nothing, for that is found again when it is read.
+class Writer {
+ public:
+  Writer(const Cutter& c, double mm_per_unit) : c_(c), mm_per_unit_(mm_per_unit) {}
+
+  [[nodiscard]] std::string text() {
+    std::vector<std::pair<int, std::string>> lines;
+    model::for_each_field(c_, [&](const auto& row, const auto& v) {
+      if (row.own_key == nullptr || (row.is_sourced && by_default(c_, row.name))) return;
+      const std::string value = value_of(row, v);
+      if (!value.empty())
+        lines.emplace_back(row.own_place, "    " + std::string(row.own_key) + ":" + value + "\n");
+    });
+    std::stable_sort(lines.begin(), lines.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::string out;
+    for (const auto& line : lines) out += line.second;
+    return out.replace(0, 4, "  - ");
   }
-  if (c.teeth > 0 && !by_default(c, "teeth")) line("teeth", std::to_string(c.teeth));
-  if (!by_default(c, "centre_cutting")) line("centre_cutting", c.centre_cutting ? "true" : "false");
-  if (c.coolant_through) line("coolant_through", "true");
-  if (c.hand == model::Hand::kLeft) line("hand", "left");
-  if (!c.thread_form.empty()) line("thread_form", json_quoted(c.thread_form));
-  if (!c.product_id.empty()) line("product_id", json_quoted(c.product_id));
-  if (c.pocket > 0) line("pocket", std::to_string(c.pocket));
-  if (c.loaded != (c.pocket > 0)) line("loaded", c.loaded ? "true" : "false");
-  if (!c.carousel.empty()) line("carousel", json_quoted(c.carousel));
-  if (c.in_stock >= 0) line("in_stock", std::to_string(c.in_stock));
-  if (!c.holder_id.empty()) line("holder_id", json_quoted(c.holder_id));
-  if (!c.holder.empty()) {
-    out += "    holder:\n";
-    for (const auto& s : c.holder)
-      out += "      - {height: " + spelled(s.height_mm, mm_per_unit) +
-             ", lower_diameter: " + spelled(s.lower_diameter_mm, mm_per_unit) +
-             ", upper_diameter: " + spelled(s.upper_diameter_mm, mm_per_unit) + "}\n";
+
+ private:
+  [[nodiscard]] double factor(Unit unit) const {
+    return unit == Unit::kLength ? mm_per_unit_ : unit == Unit::kAngle ? kRadPerDegree : 1.0;
   }
-  std::string presets;
-  for (const auto& p : c.presets) {
-    if (p.source.find("(as ") != std::string::npos || p.material_group.empty()) continue;  // completed
-    presets += "      - {material: " + json_quoted(p.material_group);
-    if (p.vc_m_min > 0.0) presets += ", vc_m_min: " + shortest(p.vc_m_min);
-    if (p.fz_mm > 0.0) presets += ", fz: " + spelled(p.fz_mm, mm_per_unit);
-    presets += ", source: " + json_quoted(p.source) + "}\n";
+  template <class Row>
+  std::string value_of(const Row& row, double v) const {
+    if (v == 0.0 || (row.member == &Cutter::holder_diameter_mm && !c_.holder.empty())) return {};
+    return " " + spelled(v, factor(row.unit));
   }
-  if (!presets.empty()) out += "    presets:\n" + presets;
-  return out;
-}
+  template <class Row>
+  std::string value_of(const Row& row, int v) const {
+    return v > kUnsaid.*row.member ? " " + std::to_string(v) : std::string();
+  }
+  template <class Row>
+  std::string value_of(const Row& row, bool v) const {
+    const bool unsaid = row.member == &Cutter::loaded ? c_.pocket > 0 : kUnsaid.*row.member;
+    if (v == unsaid && !row.is_sourced) return {};
+    return v ? " true" : " false";
+  }
+  template <class Row>
+  std::string value_of(const Row& row, const std::string& v) const {
+    return v.empty() && row.member != &Cutter::id ? std::string() : " " + json_quoted(v);
+  }
+  template <class Row>
+  std::string value_of(const Row&, model::CutterClass v) const {
+    return " " + std::string(model::to_text(v));
+  }
+  template <class Row>
+  std::string value_of(const Row&, model::Substrate v) const {
+    return " " + std::string(model::to_text(v));
+  }
+  template <class Row>
+  std::string value_of(const Row&, model::Hand v) const {
+    return v == model::Hand::kLeft ? " left" : "";
+  }
+  template <class Row>
+  std::string value_of(const Row&, const std::vector<model::HolderSegment>& holder) const {
+    std::string out;
+    for (const auto& segment : holder) {
+      std::string item;
+      model::for_each_field(segment, [&](const auto& row, double v) {
+        item += (item.empty() ? "" : ", ") + std::string(row.own_key) + ": " + spelled(v, factor(row.unit));
+      });
+      out += "\n      - {" + item + "}";
+    }
+    return out;
+  }
+  template <class Row>
+  std::string value_of(const Row&, const std::vector<model::CuttingPreset>& presets) const {
+    std::string out;
+    for (const auto& p : presets) {
+      if (p.source.find("(as ") != std::string::npos || p.material_group.empty()) continue;  // completed
+      out += "\n      - {material: " + json_quoted(p.material_group);
+      if (p.vc_m_min > 0.0) out += ", vc_m_min: " + shortest(p.vc_m_min);
+      if (p.fz_mm > 0.0) out += ", fz: " + spelled(p.fz_mm, mm_per_unit_);
+      out += ", source: " + json_quoted(p.source) + "}";
+    }
+    return out;
+  }
+  /// What has no key.
+  template <class Row, class T>
+  std::string value_of(const Row&, const T&) const {
+    return {};
+  }
+
+  inline static const Cutter kUnsaid;
+  const Cutter& c_;
+  double mm_per_unit_;
+};
 
 bool recognises(std::string_view bytes, std::string_view) { return looks_like_own_list(bytes); }
 
@@ -140,7 +151,7 @@ Result<Exported> write(const ToolLibrary& library, const FormatOptions&, Job& jo
   bool inches = !cutters->empty();
   for (const Cutter& c : *cutters) inches = inches && c.stated_in_inches;
   out.bytes = std::string("capstan_tools: 1\nunit: ") + (inches ? "inch" : "mm") + "\ntools:\n";
-  for (const Cutter& c : *cutters) out.bytes += tool_text(c, inches ? kMmPerInch : 1.0);
+  for (const Cutter& c : *cutters) out.bytes += Writer(c, inches ? kMmPerInch : 1.0).text();
   if (cutters->empty()) out.bytes += "  []\n";
   out.report.tools = cutters->size();
   return out;

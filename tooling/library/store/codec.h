@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "planner/model/plan/cutter/cutter.h"
+#include "planner/model/plan/cutter/cutter_fields.h"
 #include "tooling/library/records/records.h"
 
 // Records as bytes: little-endian numbers, texts and lists with their length in front. Only store.cpp
@@ -20,7 +20,8 @@
 
 namespace capstan::tooling {
 
-/// Every field of a struct, in an order that is part of the file's version.
+/// Every field of a struct, in an order that is part of the file's version: what has a table of fields in its
+/// order.
 template <class A, class T>
 void each_field(A& a, T& x);
 
@@ -216,28 +217,13 @@ class Decoder {
 
 template <class A, class T>
 void each_field(A& a, T& x) {
-  if constexpr (std::is_same_v<T, model::CuttingPreset>) {
-    a.shared(x.material_group), a(x.vc_m_min), a(x.fz_mm), a.shared(x.source);
-  } else if constexpr (std::is_same_v<T, model::HolderSegment>) {
-    a(x.height_mm), a(x.lower_diameter_mm), a(x.upper_diameter_mm);
-  } else if constexpr (std::is_same_v<T, model::SisterTool>) {
-    a(x.id), a(x.pocket), a(x.life_left_min);
-  } else if constexpr (std::is_same_v<T, model::ToolTableWord>) {
-    a(x.letter), a(x.value);
-  } else if constexpr (std::is_same_v<T, model::ToolTableLine>) {
-    a(x.words), a(x.against_reference), a(x.untouched);
-  } else if constexpr (std::is_same_v<T, model::Cutter>) {
-    a(x.id), a(x.description), a(x.cutter_class), a(x.substrate), a(x.cutting_diameter_mm);
-    a(x.corner_radius_mm), a(x.point_angle_rad), a(x.tip_diameter_mm), a(x.maximum_depth_of_cut_mm);
-    a(x.usable_length_mm), a(x.stick_out_mm), a(x.functional_length_mm), a(x.shank_diameter_mm);
-    a(x.holder_diameter_mm), a(x.teeth), a(x.helix_rad), a(x.lead_angle_rad), a(x.thread_pitch_mm);
-    a(x.centre_cutting), a(x.maximum_ramp_angle_rad), a(x.hand), a(x.coolant_through);
-    a(x.maximum_speed_rpm), a(x.life_min), a(x.price), a(x.fz_min_mm), a(x.fz_max_mm), a(x.presets);
-    a.shared(x.sources), a(x.pocket), a(x.adjustable_to_mm), a(x.overall_length_mm), a(x.neck_diameter_mm);
-    a(x.neck_length_mm), a(x.taper_angle_rad), a(x.cutting_width_mm), a(x.thread_size_mm);
-    a(x.thread_form), a(x.lead_threads), a(x.lead_length_mm), a(x.holder_id), a(x.holder);
-    a(x.library_reference), a(x.library_source), a(x.product_id), a(x.carousel), a(x.stated_in_inches);
-    a(x.loaded), a(x.in_stock), a(x.life_used_min), a(x.sisters), a(x.runout_mm), a(x.table_line);
+  if constexpr (model::HasFields<T>) {
+    model::for_each_field(x, [&a](const auto& row, auto& v) {
+      if constexpr (requires { a.shared(v); }) {
+        if (row.is_repeated) return a.shared(v);
+      }
+      a(v);
+    });
   } else if constexpr (std::is_same_v<T, Property>) {
     a(x.symbol), a(x.number), a(x.text), a(x.unit), a(x.state), a(x.source);
   } else if constexpr (std::is_same_v<T, Preset>) {

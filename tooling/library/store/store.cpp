@@ -20,7 +20,8 @@ namespace {
 using model::Cutter;
 
 constexpr int kApplicationId = 0x43415054;  // "CAPT"
-constexpr int kSchemaVersion = 2;
+/// A row holds the fields of a cutter as the table has them: 2 is version 5 of these.
+constexpr int kSchemaVersion = model::kCutterFieldsVersion - 3;
 constexpr int kMostRowBytes = 4 << 20;
 constexpr double kSlackMm = 1e-6;
 

@@ -11,6 +11,7 @@
 #include "planner/ground/base/number.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/nouns/arena/walk.h"
+#include "planner/model/plan/cutter/cutter_fields.h"
 #include "planner/physics/motion/time.h"
 
 namespace capstan::app {
@@ -264,13 +265,6 @@ std::vector<std::string> inputs(const Plan& a, const Plan& b) {
   return out;
 }
 
-/// A cutter without what an ISO 14649 file leaves out of it.
-model::Cutter bare(model::Cutter c) {
-  c.presets.clear();
-  c.sources.clear();
-  return c;
-}
-
 std::vector<std::string> tools(const Plan& a, const Plan& b) {
   std::vector<std::string> out;
   for (const auto& c : a.cutters) {
@@ -279,8 +273,8 @@ std::vector<std::string> tools(const Plan& a, const Plan& b) {
       out.push_back("- T" + std::to_string(c.pocket) + " " + c.id + " (" + cutter_text(a, c.id) + ")");
     } else if (other->pocket != c.pocket) {
       out.push_back(change(c.id, "T" + std::to_string(c.pocket), "T" + std::to_string(other->pocket)));
-    } else if (!(bare(*other) == bare(c))) {
-      out.push_back("~ " + c.id + ": its data differ");
+    } else if (const std::string fields = model::told_differences(c, *other); !fields.empty()) {
+      out.push_back("~ " + c.id + ": its data differ (" + fields + ")");
     }
   }
   for (const auto& c : b.cutters) {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "planner/ground/base/number.h"
+#include "planner/model/plan/cutter/cutter_fields.h"
 #include "planner/model/plan/decision/condemned.h"
 #include "planner/physics/motion/time.h"
 
@@ -28,10 +29,11 @@ void tell_slow(Work& w, const StepWork& step, const model::StepResult& r) {
 
 /// Whether forces and bending find the same in both.
 bool as_large(const model::Cutter& a, const model::Cutter& b) {
-  return a.cutter_class == b.cutter_class && a.substrate == b.substrate && a.teeth == b.teeth &&
-         a.cutting_diameter_mm == b.cutting_diameter_mm && a.corner_radius_mm == b.corner_radius_mm &&
-         a.stick_out_mm == b.stick_out_mm && a.shank_diameter_mm == b.shank_diameter_mm &&
-         a.helix_rad == b.helix_rad;
+  bool same = true;
+  model::for_each_field(a, [&](const auto& row, const auto& value) {
+    same = same && (!row.is_load || value == b.*row.member);
+  });
+  return same;
 }
 
 /// What the plan said of a step for which all that its limits rest on is as it was: machine, material,

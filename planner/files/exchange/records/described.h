@@ -1,0 +1,103 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "planner/files/exchange/records/record_material.h"
+#include "planner/files/exchange/records/records.h"
+#include "planner/model/plan/fields.h"
+
+// Records by the table of fields (planner/model/plan/fields.h): what has a table is described by it, piece by
+// piece. A kind of value that records write in a way of their own has a `describe_value` beside its record.
+
+namespace capstan::exchange {
+
+/// Nothing comes before a piece's fields.
+struct NothingBefore {
+  void operator()(std::size_t) const {}
+};
+
+/// Describes every field that has a name in the record, each with `prefix` before it. `before(part)` is
+/// called before the fields of a piece. Ends where a file of an earlier version does: what is left keeps its
+/// value. Fails   throws MalformedRecord.
+template <model::HasFields S, class Before = NothingBefore>
+void describe_fields(RecordFields& f, S& x, const std::string& prefix = {}, const Before& before = {});
+
+inline void describe_value(RecordFields& f, const std::string& name, model::Unit, std::string& v) {
+  f.text(name, v);
+}
+inline void describe_value(RecordFields& f, const std::string& name, model::Unit unit, double& v) {
+  f.real(name, unit, v);
+}
+inline void describe_value(RecordFields& f, const std::string& name, model::Unit unit,
+                           std::optional<double>& v) {
+  f.optional_real(name, unit, v);
+}
+inline void describe_value(RecordFields& f, const std::string& name, model::Unit, int& v) {
+  f.whole(name, v);
+}
+inline void describe_value(RecordFields& f, const std::string& name, model::Unit, bool& v) {
+  f.truth(name, v);
+}
+inline void describe_value(RecordFields& f, const std::string&, model::Unit, Sources& v) {
+  describe_sources(f, v);
+}
+inline void describe_value(RecordFields& f, const std::string& name, model::Unit,
+                           std::vector<std::string>& v) {
+  v.resize(f.list(name, v.size()));
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    f.element(i);
+    f.text("", v[i]);
+  }
+  f.end();
+}
+/// A list of groups.
+template <model::HasFields S>
+void describe_value(RecordFields& f, const std::string& name, model::Unit, std::vector<S>& v) {
+  v.resize(f.list(name, v.size()));
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    f.element(i);
+    f.group();
+    describe_fields(f, v[i]);
+    f.end();
+  }
+  f.end();
+}
+/// A list of at most one.
+template <model::HasFields S>
+void describe_value(RecordFields& f, const std::string& name, model::Unit unit, std::optional<S>& v) {
+  std::vector<S> list;
+  if (v) list.push_back(std::move(*v));
+  describe_value(f, name, unit, list);
+  if (list.size() > 1) throw MalformedRecord{};
+  v.reset();
+  if (!list.empty()) v = std::move(list.front());
+}
+template <model::HasFields S>
+void describe_value(RecordFields& f, const std::string&, model::Unit, S& v) {
+  describe_fields(f, v);
+}
+
+template <model::HasFields S, class Before>
+void describe_fields(RecordFields& f, S& x, const std::string& prefix, const Before& before) {
+  std::size_t part = 0;
+  int version = 1;
+  for (const model::RecordPart& p : model::kRecordParts<S>) {
+    if (p.since > version && !f.more()) return;
+    version = p.since;
+    if (p.opens) f.group();
+    before(part);
+    model::for_each_field(x, [&](const auto& row, auto& v) {
+      if (row.in_record != nullptr && row.part == part)
+        describe_value(f, prefix + row.in_record, row.unit, v);
+    });
+    if (p.closes) f.end();
+    ++part;
+  }
+}
+
+}  // namespace capstan::exchange
