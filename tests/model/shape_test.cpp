@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -191,6 +192,49 @@ TEST(Shape, ARectangularPatternCountsRowsAndColumnsFromItsBase) {
   ASSERT_TRUE(s);
   ASSERT_EQ(s->size(), 6U);
   EXPECT_LT(norm(s->back().frame.origin - geometry::Vec3{45, 20, 0}), 1e-12);
+}
+
+TEST(Shape, APolygonThatDoesNotSayWhatItsDiameterIsOfIsAssumedAcrossCorners) {
+  for (const bool says : {false, true}) {
+    Maker k;
+    NgonClosedProfile n;
+    n.diameter = k.length(20);
+    n.number_of_sides = 6;
+    if (says) n.circumscribed = false;
+    ClosedPocket p;
+    p.feature_placement = k.at(0, 0, 0);
+    p.depth = k.depth(-3);
+    p.bottom_condition = k.m.add(PlanarPocketBottomCondition{});
+    p.feature_boundary = k.m.add(n);
+    const FeatureShape s = k.only(k.m.add(p));
+    const bool told = std::any_of(s.assumptions.begin(), s.assumptions.end(), [](const std::string& a) {
+      return a.find("20 mm is across flats or across corners") != std::string::npos;
+    });
+    EXPECT_EQ(told, !says);
+    EXPECT_NEAR(geometry::area(s.area), 6.0 * 0.5 * 100.0 * std::sin(std::numbers::pi / 3.0), 1e-3);
+  }
+}
+
+TEST(Shape, AnEdgeOfNoSizeIsRefusedAndSaysWhatAndWhy) {
+  Maker k;
+  Chamfer c;
+  c.its_id = "C";
+  c.first_feature = k.pocket(0, 0, 20, 10, 5);
+  c.first_offset_amount = k.length(0.0);
+  const auto chamfer = shapes_of(k.m, k.m.add(c));
+  ASSERT_FALSE(chamfer);
+  EXPECT_EQ(chamfer.error().code, "SHP-UNSUPPORTED");
+  EXPECT_NE(chamfer.error().message.find("'C'"), std::string::npos) << chamfer.error().message;
+  EXPECT_NE(chamfer.error().message.find("first_offset_amount is 0 mm"), std::string::npos)
+      << chamfer.error().message;
+  EdgeRound e;
+  e.its_id = "E";
+  e.first_feature = c.first_feature;
+  e.radius = k.length(0.0);
+  const auto round = shapes_of(k.m, k.m.add(e));
+  ASSERT_FALSE(round);
+  EXPECT_EQ(round.error().code, "SHP-UNSUPPORTED");
+  EXPECT_NE(round.error().message.find("radius is 0 mm"), std::string::npos) << round.error().message;
 }
 
 TEST(Shape, WhatIsMissingIsNamed) {

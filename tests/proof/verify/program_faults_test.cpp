@@ -306,6 +306,30 @@ TEST(CheckProgram, WhatItCannotFollowIsAWarning) {
   }
 }
 
+TEST(CheckProgram, AnExponentIsToldAsTheFormOfItsNumber) {
+  const model::Plan plan = testing::good_plan().plan;
+  const struct {
+    const char *written, *told;
+  } kWritten[] = {{"F1e9", "write F1000000000"}, {"F2.5E+2", "write F250"}, {"F1e400", "all its digits"}};
+  for (const auto& [written, told_as] : kWritten) {
+    const std::string text = replaced(testing::program_of(plan), "F225", written);
+    const auto findings = check(text, plan, false);
+    const auto f = std::find_if(findings.begin(), findings.end(),
+                                [](const auto& one) { return one.code == "CHK-NUMBER"; });
+    ASSERT_NE(f, findings.end()) << told(findings);
+    EXPECT_EQ(f->move, line_of(text, written));
+    EXPECT_NE(f->message.find("no exponent"), std::string::npos) << f->message;
+    EXPECT_NE(f->message.find(told_as), std::string::npos) << f->message;
+    EXPECT_EQ(told(findings).find("word E"), std::string::npos) << told(findings);
+  }
+}
+
+TEST(CheckProgram, AWordEBehindASpaceIsAWordAndNoExponent) {
+  const model::Plan plan = testing::good_plan().plan;
+  const auto findings = check(replaced(testing::program_of(plan), "F225", "F225 E9"), plan, false);
+  EXPECT_NE(told(findings).find("word E"), std::string::npos) << told(findings);
+}
+
 TEST(CheckProgram, APathToleranceWiderThanTheStepAllowsIsFoundOncePerStep) {
   model::Plan plan = testing::good_plan().plan;
   const std::string text = testing::program_of(plan);

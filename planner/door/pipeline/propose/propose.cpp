@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <set>
 #include <utility>
 
@@ -49,13 +50,33 @@ std::vector<AnyRef> wanted(const Work& w) {
 }
 
 /// The set-up in which this axis points up; made when there is none.
+/// Warns  PIP-TILT when the axis leans against that of a set-up by less than anybody means.
 std::size_t setup_for(Work& w, const FeatureShape& s) {
+  constexpr double kLeastMeantDeg = 0.5;
+  std::size_t nearest = 0;
+  double tilt_deg = kLeastMeantDeg;
   for (std::size_t i = 0; i < w.setups.size(); ++i) {
-    if (norm(cross(w.setups[i].workpiece.direction_to_parent(s.frame.z), geometry::Vec3{0, 0, 1})) <
-            kSameAxis &&
-        w.setups[i].workpiece.direction_to_parent(s.frame.z).z > 0.0) {
-      return i;
-    }
+    const auto up = w.setups[i].workpiece.direction_to_parent(s.frame.z);
+    const double sine = std::hypot(up.x, up.y);
+    if (sine < kSameAxis && up.z > 0.0) return i;
+    const double deg = std::atan2(sine, up.z) * 180.0 / std::numbers::pi;
+    if (deg >= tilt_deg) continue;
+    nearest = i;
+    tilt_deg = deg;
+  }
+  if (tilt_deg < kLeastMeantDeg) {
+    const auto* from = w.plan.model.get<model::Setup>(w.setups[nearest].setup);
+    w.job.report(
+        {.code = "PIP-TILT",
+         .severity = Severity::kWarning,
+         .message = "feature '" + s.name + "': its axis is tilted by " + trimmed(tilt_deg, 4) +
+                    " degrees against set-up '" + (from == nullptr ? "" : from->its_id.value_or("")) +
+                    "', and a set-up of its own is made for it; a tilt below " + trimmed(kLeastMeantDeg, 4) +
+                    " degrees is hardly meant",
+         .file = w.plan.file_name,
+         .line = w.plan.model.origin(s.feature).line,
+         .instance = w.plan.model.origin(s.feature).instance,
+         .hint = "correct the axis of its feature_placement; if it is meant, clamp the piece anew for it"});
   }
   const auto seen = geometry::make_placement({}, s.frame.z, s.frame.x);
   geometry::Placement turned = inverse(*seen);

@@ -343,7 +343,7 @@ std::vector<AnyRef> objects_in_file_order(const model::Model& m) {
   return out;
 }
 
-void check_meaning(const model::Model& m, std::vector<Doubt>& doubts) {
+void check_nouns(const model::Model& m, std::vector<Doubt>& doubts) {
   Check r{m, doubts, objects_in_file_order(m)};
   CycleFinder cycles(r);
   cycles.run();

@@ -42,7 +42,7 @@ class Marks {
 /// without length, sizes below zero, empty sets.
 ///
 /// Codes   EXC-CYCLE, EXC-LIMIT, EXC-GEOMETRY, EXC-SIZE; warnings EXC-TOLERANCE, EXC-EMPTY.
-void check_meaning(const model::Model& m, std::vector<Doubt>& doubts);
+void check_nouns(const model::Model& m, std::vector<Doubt>& doubts);
 
 /// Reports the doubts in the order of instances: as they are where `reached` has the object, as warnings
 /// elsewhere. Unless `strict`, one that leaves an attribute unset which only some features or workingsteps

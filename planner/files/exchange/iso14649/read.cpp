@@ -1,7 +1,7 @@
 #include <algorithm>
 
-#include "planner/files/exchange/common/open_decisions.h"
 #include "planner/files/exchange/common/file_sections.h"
+#include "planner/files/exchange/common/open_decisions.h"
 #include "planner/files/exchange/iso14649/deviations.h"
 #include "planner/files/exchange/iso14649/iso14649.h"
 #include "planner/files/exchange/iso14649/reading.h"
@@ -78,7 +78,7 @@ Result<model::Plan> read_iso14649(const p21::File& file, Job& job, bool strict) 
   read_objects(reading);
   if (!reading.sealed) note_dialect(reading);  // Capstan's own way of writing
   find_project(reading);
-  check_meaning(plan.model, reading.doubts);
+  check_nouns(plan.model, reading.doubts);
   Marks reached(plan.model);
   if (plan.project) reached.set_from(plan.model, plan.project);
   settle_doubts(plan, reading.doubts, reached, strict, reporter);

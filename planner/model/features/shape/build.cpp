@@ -193,6 +193,12 @@ Result<geometry::Region> closed_area(const Model& m, Ref<ClosedProfile> profile,
     if (sides < 3 || sides > 1000 || !(d->nominal_mm > 0.0))
       return unsupported(m, into.feature, "its polygon has fewer than three sides or no size");
     // circumscribed: the circle lies inside, touching the sides; otherwise the corners lie on it.
+    if (!n->circumscribed) {
+      into.assumptions.push_back("its polygon does not say whether its diameter of " +
+                                 trimmed(d->nominal_mm, 4) +
+                                 " mm is across flats or across corners (circumscribed_or_across_flats); "
+                                 "across corners is taken");
+    }
     const double inner = std::cos(std::numbers::pi / static_cast<double>(sides));
     const double radius = 0.5 * d->nominal_mm / (n->circumscribed.value_or(false) ? inner : 1.0);
     Loop loop;

@@ -121,6 +121,17 @@ Result<Shapes> thread(const Model& m, AnyRef self, const Thread& f, const Within
   return wherever(s, *on);
 }
 
+namespace {
+
+/// The refusal of an edge that leaves nothing to cut.
+tl::unexpected<Diagnostic> no_size(const Model& m, AnyRef self, const std::string& attribute, double mm) {
+  return unsupported(m, self,
+                     "its " + attribute + " is " + trimmed(mm, 4) +
+                         " mm, so that nothing is cut; state a length above 0, or leave the feature out");
+}
+
+}  // namespace
+
 Result<Shapes> transition(const Model& m, AnyRef self, const TransitionFeature& f, const Within& in) {
   const auto first = one_of_each(referred(m, f.first_feature, in));
   if (!first) return first;
@@ -135,6 +146,7 @@ Result<Shapes> transition(const Model& m, AnyRef self, const TransitionFeature& 
     const auto width = length(m, c->first_offset_amount);
     if (!width) return missing(m, self, "first_offset_amount", width.error());
     s.chamfer_width_mm = width->nominal_mm;
+    if (!(s.chamfer_width_mm > 0.0)) return no_size(m, self, "first_offset_amount", s.chamfer_width_mm);
     s.chamfer_angle_rad = c->angle_to_plane.value_or(std::numbers::pi / 4.0);
     if (!(s.chamfer_angle_rad > 0.0 && s.chamfer_angle_rad < std::numbers::pi / 2.0)) {
       return unsupported(m, self, "its angle_to_plane is not between 0 and 90 degrees");
@@ -147,6 +159,7 @@ Result<Shapes> transition(const Model& m, AnyRef self, const TransitionFeature& 
     const auto r = length(m, e->radius);
     if (!r) return missing(m, self, "radius", r.error());
     s.round_radius_mm = s.depth_mm = r->nominal_mm;
+    if (!(s.round_radius_mm > 0.0)) return no_size(m, self, "radius", s.round_radius_mm);
     return wherever(s, *first);
   }
   return unsupported(m, self, "is a transition that is not understood");

@@ -4,8 +4,8 @@
 #include "planner/files/exchange/ap238/read/mended_values.h"
 #include "planner/files/exchange/ap238/read/reader.h"
 #include "planner/files/exchange/ap238/records.h"
-#include "planner/files/exchange/common/open_decisions.h"
 #include "planner/files/exchange/common/file_sections.h"
+#include "planner/files/exchange/common/open_decisions.h"
 #include "planner/files/exchange/records/records.h"
 #include "planner/files/exchange/records/seal.h"
 #include "planner/files/exchange/toolpaths/via.h"
@@ -44,7 +44,7 @@ Result<model::Plan> read_ap238(const p21::File& file, Job& job, bool strict) {
                      .message = "the file holds no machining project: there is nothing to carry out"});
   }
   std::vector<Doubt> doubts = std::move(reader.doubts());
-  check_meaning(plan.model, doubts);
+  check_nouns(plan.model, doubts);
   ap238::doubt_placements(plan.model, doubts);
   Marks reached(plan.model);
   if (plan.project) reached.set_from(plan.model, plan.project);

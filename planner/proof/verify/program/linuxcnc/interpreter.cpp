@@ -374,8 +374,8 @@ void Interpreter::line(const Line& l, long number) {
   }
   command(l.command);
   if (!l.fault.empty()) {
-    const int property = l.not_finite ? 1 : 33;
-    const char* code = l.not_finite ? "CHK-NUMBER" : l.unverifiable ? "CHK-UNVERIFIABLE" : "CHK-SYNTAX";
+    const int property = l.no_number ? 1 : 33;
+    const char* code = l.no_number ? "CHK-NUMBER" : l.unverifiable ? "CHK-UNVERIFIABLE" : "CHK-SYNTAX";
     fault(property, code, l.fault, l.unverifiable);
   }
   if (l.deleted) {

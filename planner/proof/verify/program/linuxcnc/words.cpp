@@ -1,5 +1,6 @@
 #include "planner/proof/verify/program/linuxcnc/words.h"
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 
@@ -16,6 +17,33 @@ std::size_t number_length(std::string_view t) {
   if (i < t.size() && (t[i] == '+' || t[i] == '-')) ++i;
   while (i < t.size() && ((t[i] >= '0' && t[i] <= '9') || t[i] == '.')) ++i;
   return i;
+}
+
+/// The length of "E9" or "E-9" at the beginning of what follows a number: what other languages call its
+/// exponent; 0: none stands there.
+std::size_t exponent_length(std::string_view t) {
+  if (t.empty() || t.front() != 'E') return 0;
+  std::size_t i = 1;
+  if (i < t.size() && (t[i] == '+' || t[i] == '-')) ++i;
+  const std::size_t sign = i;
+  while (i < t.size() && t[i] >= '0' && t[i] <= '9') ++i;
+  return i == sign ? 0 : i;
+}
+
+/// Whether the line has these characters without a space between them: "P1 E2" is two words.
+bool stands_together(std::string_view line, std::string_view capitals) {
+  return std::search(line.begin(), line.end(), capitals.begin(), capitals.end(),
+                     [](char a, char b) { return upper(a) == b; }) != line.end();
+}
+
+/// "F1E9: ...; write F1000000000".
+std::string no_exponents(char letter, std::string_view number) {
+  std::string out = letter + std::string(number) +
+                    ": a number of an NC program has a sign, digits and a point, and no exponent (E); write ";
+  if (!number.empty() && number.front() == '+') number.remove_prefix(1);
+  const auto value = parse_double(number);
+  const bool short_enough = value && std::abs(*value) < 1e12;
+  return out + (short_enough ? letter + trimmed(*value, 9) : "all its digits");
 }
 
 /// The command that a comment is to LinuxCNC 2.9, in capitals; empty: it is words for people
@@ -67,7 +95,7 @@ void split_line(std::string_view text, Line& out) {
   out.words.clear();
   out.comments.clear();
   out.command.clear();
-  out.percent = out.deleted = out.unverifiable = out.not_finite = false;
+  out.percent = out.deleted = out.unverifiable = out.no_number = false;
   out.fault.clear();
   std::string code;
   if (!strip(text, code, out)) {
@@ -107,9 +135,15 @@ void split_line(std::string_view text, Line& out) {
     if (!digits.empty() && digits.front() == '+') digits.remove_prefix(1);
     const auto value = parse_double(digits);
     if (!value || !std::isfinite(*value)) {
-      out.not_finite = true;
+      out.no_number = true;
       out.fault = std::string(1, letter) + " is not followed by a finite number (\"" +
                   std::string(rest.substr(0, 12)) + "\")";
+      return;
+    }
+    const std::string_view number = rest.substr(0, n + exponent_length(rest.substr(n)));
+    if (number.size() > n && stands_together(text, letter + std::string(number))) {
+      out.no_number = true;
+      out.fault = no_exponents(letter, number);
       return;
     }
     out.words.push_back({letter, *value});

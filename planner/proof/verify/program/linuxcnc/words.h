@@ -19,7 +19,7 @@ struct Line {
   bool percent = false, deleted = false;
   std::string fault;          ///< why the rest was not read; empty when all was
   bool unverifiable = false;  ///< the fault is something this reader does not follow
-  bool not_finite = false;
+  bool no_number = false;     ///< the fault is that a word has no number that LinuxCNC reads
 };
 
 /// Reuses `out`'s storage.
