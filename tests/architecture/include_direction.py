@@ -17,7 +17,7 @@ FLOORS = {
     "model": "nouns features plan",
     "files": "p21 exchange json",
     "physics": "mechanics motion stock engagement",
-    "making": "sequence workholding probing toolpath optimise step",
+    "making": "draft sequence piece workholding probing toolpath optimise step",
     "proof": "verify",
     "door": "pipeline late service transport facade app",
 }
@@ -57,7 +57,8 @@ ALLOWED = {
     "shop": MODEL + " mechanics",
     "library": MODEL + " shop formats", "formats": MODEL + " p21 shop library",
     "selection": MODEL + " mechanics shop library",
-    "sequence": MODEL + " motion",
+    "sequence": MODEL + " motion", "draft": MODEL,
+    "piece": MODEL + " mechanics shop rules sequence draft",
     "workholding": MODEL + " shop", "probing": MODEL,
     "step": MODEL + " mechanics engagement optimise",
     "toolpath": MODEL + " stock",

@@ -9,6 +9,8 @@
 #include "planner/door/pipeline/paths/gone.h"
 #include "planner/door/pipeline/profit.h"
 #include "planner/door/pipeline/work.h"
+#include "planner/making/piece/in_piece.h"
+#include "planner/making/piece/workpiece.h"
 #include "planner/model/plan/decision/contradicted.h"
 #include "planner/model/plan/decision/unreadable.h"
 #include "planner/model/plan/order/step_ids.h"
@@ -21,7 +23,7 @@ namespace {
 
 /// The steps that the plan executes, where it has paths: one that was left out needs no tool, nor what was to
 /// be measured before it.
-bool executed(const Work& w, const StepWork& s) {
+bool executed(const Work& w, const StepDraft& s) {
   if (w.policy.bind != Bind::kAll || w.plan.model.holds<model::WorkpieceProbing>(s.step)) return true;
   return std::any_of(w.plan.steps.begin(), w.plan.steps.end(),
                      [&](const model::StepResult& r) { return r.step == s.step; });
@@ -30,7 +32,7 @@ bool executed(const Work& w, const StepWork& s) {
 /// The cutters that steps use, each once, with their tool numbers; nouns say the same.
 void collect_cutters(Work& w) {
   std::set<std::string> seen;
-  for (const StepWork& s : w.steps) {
+  for (const StepDraft& s : w.steps) {
     if (!(s.cutter.cutting_diameter_mm > 0.0) || !executed(w, s)) continue;
     if (seen.insert(s.cutter.id).second) {
       w.plan.cutters.push_back(s.cutter);
@@ -44,7 +46,7 @@ void collect_cutters(Work& w) {
     }
   }
   tooling::assign_pockets(w.plan.cutters);
-  for (const StepWork& s : w.steps) {
+  for (const StepDraft& s : w.steps) {
     const auto* op = w.plan.model.get<model::MachiningOperation>(s.operation);
     if (const auto* probing = w.plan.model.get<model::WorkpieceProbing>(s.step)) {
       const model::Cutter* c = model::find_cutter(w.plan, s.cutter.id);
@@ -94,7 +96,7 @@ void name_steps(Work& w) {
 /// Which chain and cutter made each proposed step, so that what a check says of it can be traced back.
 void list_made(Work& w) {
   w.tries.made.clear();
-  for (const StepWork& s : w.steps) {
+  for (const StepDraft& s : w.steps) {
     if (!s.proposed) continue;
     w.tries.made[s.step] = {s.member,        s.chain,
                             s.in_chain,      s.cutter.id,
@@ -106,7 +108,7 @@ void list_made(Work& w) {
 /// Leaves open what the policy does not want bound: feeds and paths always, tools too when only operations
 /// are wanted. A plan written like this is closed by a later bind.
 void leave_open(Work& w) {
-  for (StepWork& s : w.steps) {
+  for (StepDraft& s : w.steps) {
     auto* op = w.plan.model.get<model::MachiningOperation>(s.operation);
     if (op == nullptr) continue;
     if (s.open_technology) {
@@ -147,22 +149,17 @@ std::map<AnyRef, std::string> unreadable_of(const model::Plan& plan,
 /// One try. Nothing when something failed: `tries` has learned what, and the plan is to be made again.
 Result<std::optional<model::Plan>> bind_once(model::Plan plan, const Inputs& inputs, const Policy& policy,
                                              double earning_per_min, Tries& tries, Job& job) {
-  std::vector<model::StepResult> recorded_steps = std::exchange(plan.steps, {});
-  std::vector<std::pair<Ref<model::Setup>, model::Workholding>> held;
-  for (const auto& s : plan.setups) held.emplace_back(s.setup, s.holding);
+  draft::Recorded recorded{
+      std::exchange(plan.cutters, {}), std::exchange(plan.steps, {}), plan.machine, plan.material, {}};
+  for (const auto& s : plan.setups) recorded.holdings.emplace_back(s.setup, s.holding);
   plan.setups.clear();
-  std::vector<model::Cutter> recorded = std::exchange(plan.cutters, {});
   plan.unplanned.clear();
   model::named_by_caller(plan, inputs.material_name && !inputs.material_of_plan,
                          (inputs.stock || inputs.stock_allowance_mm) && !inputs.stock_of_plan);
   const auto wrong = model::unreadable(plan);
   auto not_made = unreadable_of(plan, wrong);
-  Work w{std::move(plan), inputs, policy, job, tries, {}, {}, {}, {}, std::move(recorded)};
+  Work w{std::move(plan), inputs, policy, job, tries, {}, {}, {}, std::move(recorded)};
   w.unreadable = std::move(not_made);
-  w.held = std::move(held);
-  w.recorded_steps = std::move(recorded_steps);
-  w.recorded_machine = w.plan.machine;
-  w.recorded_material = w.plan.material;
   w.earning_per_min = earning_per_min;
   using Stage = Status (*)(Work&);
   std::vector<Stage> stages = {resolve_workpiece, list_given, take_requirements};
@@ -177,7 +174,7 @@ Result<std::optional<model::Plan>> bind_once(model::Plan plan, const Inputs& inp
   if (policy.bind == Bind::kAll || policy.bind == Bind::kTools) collect_cutters(w);
   if (policy.bind == Bind::kAll || policy.bind == Bind::kTools) tell_loading(w);
   if (policy.bind == Bind::kAll) state_machine_needs(w);
-  if (policy.bind == Bind::kAll) tell_corners(w);
+  if (policy.bind == Bind::kAll) piece::tell_corners(w.piece(), w.steps, job);
   if (policy.bind != Bind::kAll && policy.bind != Bind::kNone) leave_open(w);
   if (auto ok = collect_setups(w); !ok) return tl::unexpected(ok.error());
   name_what_rests(w);

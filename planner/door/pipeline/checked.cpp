@@ -91,23 +91,23 @@ class Bans {
           o.finding->property == 17 || o.finding->property == 20 || o.finding->property == 21;
       if (of_load && !s.as_found && tried < kBeforeLeavingOut &&
           thinned_[{s.member, s.chain, s.in_chain}]++ < kMostThinner) {
-        tries_.cut_thinner(s.member, s.chain, s.in_chain, found);
+        tries_.bans.cut_thinner(s.member, s.chain, s.in_chain, found);
         out.emplace_back(s, found);
         continue;
       }
       // A boss that others cut around stands: its own step is left out before anything is banned.
       if (o.finding->code == "CHK-CUTS-NOTHING" && s.cut_around &&
-          tries_.cuts_nothing(s.member, s.chain, s.in_chain) == nullptr) {
-        tries_.cut_nothing(s.member, s.chain, s.in_chain, found);
+          tries_.bans.cuts_nothing(s.member, s.chain, s.in_chain) == nullptr) {
+        tries_.bans.cut_nothing(s.member, s.chain, s.in_chain, found);
         out.emplace_back(s, found);
         continue;
       }
       if (tried >= kBeforeLeavingOut || of_drawing) {
-        tries_.leave_out(s.member.feature, "step '" + s.name + "' with " + s.cutter + ": " + found);
+        tries_.bans.leave_out(s.member.feature, "step '" + s.name + "' with " + s.cutter + ": " + found);
       } else if (of_order || hits >= kMostCutters) {
-        tries_.ban_chain(s.member, s.chain, "step '" + s.name + "': " + found);
+        tries_.bans.ban_chain(s.member, s.chain, "step '" + s.name + "': " + found);
       } else {
-        tries_.ban_cutter(s.member, s.chain, s.in_chain, s.cutter, found);
+        tries_.bans.ban_cutter(s.member, s.chain, s.in_chain, s.cutter, found);
       }
       ++hits;
       out.emplace_back(s, found);
@@ -117,7 +117,7 @@ class Bans {
 
  private:
   Tries& tries_;
-  std::map<std::tuple<Member, std::string, std::size_t>, int> hits_, thinned_;
+  std::map<std::tuple<draft::Member, std::string, std::size_t>, int> hits_, thinned_;
 };
 
 /// "step 'X': planned anew with em6 instead of em10, because the check found …"
@@ -126,12 +126,12 @@ std::string told(const Tries& tries, const MadeStep& before, const std::string& 
   for (const auto& [ref, made] : tries.made) {
     if (made.member == before.member && made.name == before.name) now = &made;
   }
-  const bool out = tries.left_out(before.member.feature) != nullptr;
+  const bool out = tries.bans.left_out(before.member.feature) != nullptr;
   std::string what = "planned anew in another way";
   if (out) {
     what = "its feature is left out";
-  } else if (tries.cuts_nothing(before.member, before.chain, before.in_chain) != nullptr && now != nullptr &&
-             now->cutter == before.cutter) {
+  } else if (tries.bans.cuts_nothing(before.member, before.chain, before.in_chain) != nullptr &&
+             now != nullptr && now->cutter == before.cutter) {
     what = "left out";
   } else if (now != nullptr && now->cutter != before.cutter) {
     what = "planned anew with " + now->cutter + " instead of " + before.cutter;

@@ -231,43 +231,4 @@ Ref<model::MachiningWorkingstep> add_nouns(Work& w, const model::ProposedStep& s
   return made;
 }
 
-Ref<model::Setup> add_setup(Work& w, const geometry::Placement& p) {
-  Model& m = w.plan.model;
-  const auto point = [&](geometry::Vec3 v) {
-    model::CartesianPoint q;
-    q.name = "";
-    q.coordinates = {{v.x, v.y, v.z}, true};
-    return m.add(q);
-  };
-  const auto direction = [&](geometry::Vec3 v) {
-    model::Direction q;
-    q.name = "";
-    q.direction_ratios = {{v.x, v.y, v.z}, true};
-    return m.add(q);
-  };
-  const auto frame = [&](geometry::Placement f) {
-    model::Axis2Placement3d q;
-    q.name = "";
-    q.location = point(f.origin);
-    q.axis = direction(f.z);
-    q.ref_direction = direction(f.x);
-    return m.add(q);
-  };
-  const double top = transformed(w.plan.stock.box, p).hi.z;
-  model::Plane plane;
-  plane.name = "";
-  plane.position = frame({.origin = {0.0, 0.0, top + 10.0}});
-  model::WorkpieceSetup ws;
-  const auto pieces = m.all(TypeId::kWorkpiece);
-  if (!pieces.empty()) ws.its_workpiece = Ref<model::Workpiece>(pieces.front());
-  ws.its_origin = frame(p);
-  ws.its_instructions.given = true;
-  model::Setup setup;
-  setup.its_id = "SETUP" + std::to_string(w.setups.size() + 1);
-  setup.its_origin = frame({});
-  setup.its_secplane = m.add(plane);
-  setup.its_workpiece_setup.push_back(m.add(ws));
-  return m.add(setup);
-}
-
 }  // namespace capstan::pipeline

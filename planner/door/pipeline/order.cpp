@@ -23,7 +23,7 @@ std::string named(const Model& m, AnyRef feature) {
 std::vector<sequence::Wish> wishes_of(const Work& w,
                                       const std::map<AnyRef, std::set<std::size_t>>& shapes_of) {
   std::vector<sequence::Wish> out;
-  for (const model::Tie& tie : w.ties) {
+  for (const model::Tie& tie : w.demands.ties) {
     const auto first = shapes_of.find(tie.first);
     const auto second = shapes_of.find(tie.second);
     if (tie.letter.empty() || first == shapes_of.end() || second == shapes_of.end()) continue;
@@ -42,12 +42,12 @@ std::vector<sequence::Wish> wishes_of(const Work& w,
 /// holds only as well as the clamping repeats.
 void warn_of_parted(Work& w) {
   std::map<AnyRef, std::set<std::size_t>> setups;
-  for (const StepWork& s : w.steps) {
+  for (const StepDraft& s : w.steps) {
     if (s.feature.set()) setups[s.feature].insert(s.setup);
     for (const auto& shape : s.shapes) setups[shape.feature].insert(s.setup);
   }
   std::set<std::string> said;
-  for (const model::Tie& tie : w.ties) {
+  for (const model::Tie& tie : w.demands.ties) {
     const auto a = setups.find(tie.first);
     const auto b = setups.find(tie.second);
     if (a == setups.end() || b == setups.end()) continue;
@@ -95,8 +95,8 @@ void add_craft(const Work& w, const std::vector<std::size_t>& steps, const std::
     }
     for (const std::size_t a : own) {
       for (const std::size_t b : own) {
-        const StepWork& sa = w.steps[steps[a]];
-        const StepWork& sb = w.steps[steps[b]];
+        const StepDraft& sa = w.steps[steps[a]];
+        const StepDraft& sb = w.steps[steps[b]];
         const int ra = model::craft_rank(items[a].operation), rb = model::craft_rank(items[b].operation);
         if (items[a].feature == items[b].feature || ra == 0 || rb <= ra) continue;
         if (norm(sa.shapes.front().frame.z - sb.shapes.front().frame.z) > sequence::kSameDirection) continue;
@@ -117,7 +117,7 @@ Result<sequence::Order> order_of(Work& w, const std::vector<std::size_t>& propos
   std::map<AnyRef, std::set<std::size_t>> shapes_of;
   sequence::Options options;
   for (const std::size_t i : proposed) {
-    const StepWork& s = w.steps[i];
+    const StepDraft& s = w.steps[i];
     sequence::Item item;
     // One shape of a pattern stands for all of it: they are made one after the other.
     item.feature = shapes.size();
@@ -142,7 +142,7 @@ Result<sequence::Order> order_of(Work& w, const std::vector<std::size_t>& propos
   }
   add_craft(w, proposed, items, options.given);
   options.wishes = wishes_of(w, shapes_of);
-  for (const SetupWork& s : w.setups)
+  for (const SetupDraft& s : w.setups)
     options.directions.push_back(s.workpiece.direction_to_local({0.0, 0.0, 1.0}));
   return sequence::order(shapes, items, options, w.job);
 }
@@ -181,7 +181,7 @@ void rebuild_workplan(Work& w, bool keep) {
   Ref<model::Workplan> into = main;
   std::size_t last = w.setups.size();
   const bool nest = !one_setup || (keep && old != nullptr && !m.at<model::Workplan>(main).its_setup.set());
-  for (const StepWork& s : w.steps) {
+  for (const StepDraft& s : w.steps) {
     if (!s.proposed) continue;
     if (nest && s.setup != last) {
       into = plan_of(m, "set-up " + std::to_string(s.setup + 1), w.setups[s.setup].setup);
@@ -215,7 +215,7 @@ std::string words(const sequence::Order& order) {
 /// Set-ups without a step are not clamped.
 void drop_empty_setups(Work& w) {
   std::vector<std::size_t> renumbered(w.setups.size(), 0);
-  std::vector<SetupWork> used;
+  std::vector<SetupDraft> used;
   for (std::size_t i = 0; i < w.setups.size(); ++i) {
     const bool has = std::any_of(w.steps.begin(), w.steps.end(), [i](const auto& s) { return s.setup == i; });
     if (!has && w.setups.size() > 1) continue;
@@ -223,7 +223,7 @@ void drop_empty_setups(Work& w) {
     used.push_back(w.setups[i]);
   }
   if (used.empty()) return;
-  for (StepWork& s : w.steps) s.setup = renumbered[s.setup];
+  for (StepDraft& s : w.steps) s.setup = renumbered[s.setup];
   w.setups = std::move(used);
 }
 
@@ -241,7 +241,7 @@ Status order_steps(Work& w) {
   const auto order = order_of(w, proposed);
   if (!order) return tl::unexpected(order.error());
   if (!order->cannot.empty()) return fail("PIP-ORDER", "no order of the steps exists: " + order->cannot);
-  std::vector<StepWork> sorted;
+  std::vector<StepDraft> sorted;
   for (const std::size_t i : given) sorted.push_back(std::move(w.steps[i]));
   for (const auto& setup : order->setups) {
     for (const std::size_t item : setup.steps) sorted.push_back(std::move(w.steps[proposed[item]]));

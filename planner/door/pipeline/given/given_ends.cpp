@@ -92,7 +92,7 @@ void carry_on(const model::Model& m, const model::StepResult* before, model::Ste
 
 Status carry_tools(Work& w) {
   for (std::size_t i = 0; i < w.steps.size(); ++i) {
-    StepWork& step = w.steps[i];
+    StepDraft& step = w.steps[i];
     if (!w.plan.model.holds<model::RapidMovement>(step.step) || step.cutter.cutting_diameter_mm > 0.0)
       continue;
     // The tool in the spindle; before the first, the one that comes next.

@@ -5,6 +5,8 @@
 
 #include "planner/door/pipeline/work.h"
 #include "planner/ground/base/number.h"
+#include "planner/making/draft/setup_nouns.h"
+#include "planner/making/piece/workpiece.h"
 #include "planner/model/features/resolve.h"
 #include "tooling/library/nouns/nouns.h"
 
@@ -14,9 +16,6 @@ namespace capstan::pipeline {
 namespace {
 
 using model::TypeId;
-
-constexpr double kClearPlane =
-    10.0;  // default height of the security plane above the raw piece, mm; unsourced
 
 bool reopens(const Work& w, Reopen level) { return w.policy.reopen >= level; }
 
@@ -87,7 +86,7 @@ class Walker {
   void step(Item at) {
     const auto* e = w_.plan.model.get<model::Executable>(at.executable);
     if (!e->enabled.value_or(true)) return say("PIP-DISABLED", at.executable, "is disabled; not executed");
-    StepWork work;
+    StepDraft work;
     work.step = Ref<model::Executable>(at.executable);
     work.setup = setup_index(at.setup);
     if (const auto* ws = w_.plan.model.get<model::MachiningWorkingstep>(at.executable)) {
@@ -135,7 +134,7 @@ class Walker {
     for (std::size_t i = 0; i < w_.setups.size(); ++i) {
       if (w_.setups[i].setup == setup) return i;
     }
-    SetupWork work;
+    SetupDraft work;
     work.setup = setup;
     w_.setups.push_back(work);
     return w_.setups.size() - 1;
@@ -157,7 +156,7 @@ class Walker {
   std::set<AnyRef> entered_;
 };
 
-Status resolve_setup(Work& w, SetupWork& s) {
+Status resolve_setup(Work& w, SetupDraft& s) {
   const model::Model& m = w.plan.model;
   const auto* setup = m.get<model::Setup>(s.setup);
   bool placed = false;
@@ -173,7 +172,7 @@ Status resolve_setup(Work& w, SetupWork& s) {
     }
   }
   s.stock = transformed(w.plan.stock.box, s.workpiece);
-  const double lowest = s.stock.hi.z + kClearPlane;
+  const double lowest = s.stock.hi.z + draft::kSecurityAboveMm;
   s.security_z_mm = lowest;
   if (!placed) {
     w.job.warn("PIP-SETUP", "no set-up places the workpiece; its own coordinates are taken as the set-up's");
@@ -189,9 +188,9 @@ Status resolve_setup(Work& w, SetupWork& s) {
 
 /// The security plane must lie above the raw piece and every feature; a given one that does not is raised.
 void raise_security_plane(Work& w, std::size_t index) {
-  SetupWork& s = w.setups[index];
+  SetupDraft& s = w.setups[index];
   double top = s.stock.hi.z;
-  for (const StepWork& step : w.steps) {
+  for (const StepDraft& step : w.steps) {
     if (step.setup != index) continue;
     for (const auto& shape : step.shapes) {
       const auto frame = compose(s.workpiece, shape.frame);
@@ -205,7 +204,7 @@ void raise_security_plane(Work& w, std::size_t index) {
   }
   // Rapids cross at this height: it must clear the material, with the margin that the checker asks too.
   if (s.security_z_mm >= top + least) return;
-  const double raised = top + std::max(kClearPlane, least);
+  const double raised = top + std::max(draft::kSecurityAboveMm, least);
   w.job.warn("PIP-SECPLANE", "the security plane at z = " + trimmed(s.security_z_mm, 3) +
                                  " mm does not clear the material and the features up to z = " +
                                  trimmed(top, 3) + " mm; raised to " + trimmed(raised, 3) + " mm");
@@ -225,14 +224,14 @@ void raise_security_plane(Work& w, std::size_t index) {
   plane.position = m.add(frame);
   const auto made = m.add(plane);
   if (auto* setup = m.get<model::Setup>(s.setup)) setup->its_secplane = made;
-  for (const StepWork& step : w.steps) {
+  for (const StepDraft& step : w.steps) {
     auto* ws = m.get<model::Workingstep>(step.step);
     if (step.setup == index && ws != nullptr) ws->its_secplane = made;
   }
 }
 
 /// Depths and widths that are open are chosen anew: what stands there was chosen for something else.
-void drop_open_depths(Work& w, const StepWork& step) {
+void drop_open_depths(Work& w, const StepDraft& step) {
   model::Model& m = w.plan.model;
   const model::Ledger& ledger = w.plan.ledger;
   const auto drop = [&](AnyRef object, const char* attribute, model::Real& value) {
@@ -252,7 +251,7 @@ void drop_open_depths(Work& w, const StepWork& step) {
   if (auto* s = m.get<model::Two5dMillingStrategy>(strategy)) drop(strategy, "overlap", s->overlap);
 }
 
-void mark_open(Work& w, StepWork& step) {
+void mark_open(Work& w, StepDraft& step) {
   const model::Model& m = w.plan.model;
   const auto* op = m.get<model::MachiningOperation>(step.operation);
   if (op == nullptr) return;
@@ -300,7 +299,7 @@ void mark_open(Work& w, StepWork& step) {
 }
 
 /// A tool cannot be withdrawn at no feed: such a value is taken as not stated, for this operation only.
-void overrule_retract(Work& w, const StepWork& step) {
+void overrule_retract(Work& w, const StepDraft& step) {
   auto* op = w.plan.model.get<model::DrillingTypeOperation>(step.operation);
   if (op == nullptr || !op->feed_on_retract || *op->feed_on_retract > 0.0) return;
   const std::string value = trimmed(*op->feed_on_retract, 4);
@@ -315,7 +314,7 @@ void overrule_retract(Work& w, const StepWork& step) {
 }
 
 /// A reamer that stops in its hole marks the wall: given so, it is kept only while everything given is kept.
-void overrule_stop(Work& w, const StepWork& step) {
+void overrule_stop(Work& w, const StepDraft& step) {
   auto* op = w.plan.model.get<model::Reaming>(step.operation);
   if (op == nullptr || !step.open_technology || !op->spindle_stop_at_bottom.value_or(false)) return;
   op->spindle_stop_at_bottom = false;
@@ -329,7 +328,7 @@ void overrule_stop(Work& w, const StepWork& step) {
 }
 
 /// Coolant that the machine does not have cannot be switched on: the next best is, and it is said.
-void overrule_coolant(Work& w, const StepWork& step) {
+void overrule_coolant(Work& w, const StepDraft& step) {
   const auto* op = w.plan.model.get<model::MachiningOperation>(step.operation);
   if (op == nullptr) return;
   const AnyRef functions = op->its_machine_functions;
@@ -376,7 +375,7 @@ std::vector<model::FeatureShape> members_meant(std::vector<model::FeatureShape> 
     if (shapes.size() == 1 || !name.starts_with(meant.name + " ")) continue;
     std::vector<model::FeatureShape> out;
     for (const model::FeatureShape& s : shapes) {
-      if (alike(s, meant)) out.push_back(s);
+      if (piece::alike(s, meant)) out.push_back(s);
     }
     return out;
   }
@@ -403,7 +402,7 @@ std::vector<model::FeatureShape> elements_meant(const model::Model& m,
 /// How the shapes of given steps were read, where that was assumed: once for each feature.
 void say_assumptions(Work& w) {
   std::set<std::pair<AnyRef, std::string>> said;
-  for (const StepWork& step : w.steps) {
+  for (const StepDraft& step : w.steps) {
     for (const model::FeatureShape& s : step.shapes) {
       for (const std::string& a : s.assumptions) {
         if (!said.insert({step.feature, a}).second) continue;
@@ -421,13 +420,7 @@ void say_assumptions(Work& w) {
 }  // namespace
 
 Status list_given(Work& w) {
-  report_outside(w);
-  for (const AnyRef f : w.plan.model.all_below(TypeId::kPlanarFace)) {
-    if (w.tries.left_out(f) != nullptr) continue;  // it stays
-    if (auto s = model::shapes_of(w.plan.model, Ref<model::ManufacturingFeature>(f))) {
-      w.faces.insert(w.faces.end(), s->begin(), s->end());
-    }
-  }
+  piece::report_outside(w.plan, w.job);
   const auto* project = w.plan.model.get<model::Project>(w.plan.project);
   AnyRef root = project != nullptr ? AnyRef(project->main_workplan) : AnyRef{};
   if (!root.set()) {
@@ -436,9 +429,10 @@ Status list_given(Work& w) {
   }
   Walker(w).walk(root);
   if (w.setups.empty()) {
-    SetupWork s;
+    SetupDraft s;
     const auto setups = w.plan.model.all(TypeId::kSetup);
-    s.setup = setups.empty() ? add_setup(w, {}) : Ref<model::Setup>(setups.front());
+    s.setup = setups.empty() ? draft::add_setup(w.plan.model, 1, w.plan.stock.box, {})
+                             : Ref<model::Setup>(setups.front());
     if (setups.empty()) {
       w.job.warn("PIP-SETUP",
                  "the file has no set-up; one is made in which the workpiece stands as it is drawn");
@@ -449,13 +443,13 @@ Status list_given(Work& w) {
     // The set-ups stay; what is done in them is proposed anew.
     w.steps.clear();
   }
-  for (SetupWork& s : w.setups) {
+  for (SetupDraft& s : w.setups) {
     if (auto ok = resolve_setup(w, s); !ok) return ok;
   }
-  std::vector<StepWork> kept;
-  for (StepWork& step : w.steps) {
+  std::vector<StepDraft> kept;
+  for (StepDraft& step : w.steps) {
     if (step.feature.set() && w.plan.model.holds<model::ManufacturingFeature>(step.feature)) {
-      auto shapes = shapes_in_piece(w, step.feature);
+      auto shapes = piece::shapes_in_piece(w.piece(), step.feature);
       if (shapes) {
         const std::string name = w.plan.model.get<model::Executable>(step.step)->its_id.value_or("");
         step.shapes = members_meant(

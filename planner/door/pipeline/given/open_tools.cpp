@@ -24,12 +24,12 @@ using model::FeatureShape;
 
 /// What the rules ask of the tool of this operation on this feature: of the step of that name, else of that
 /// kind.
-std::optional<model::ToolRequirement> asked_by_rules(Work& w, const StepWork& step) {
+std::optional<model::ToolRequirement> asked_by_rules(Work& w, const StepDraft& step) {
   if (step.shapes.empty()) return std::nullopt;
-  const auto all = shapes_in_piece(w, step.feature);
+  const auto all = piece::shapes_in_piece(w.piece(), step.feature);
   if (!all) return std::nullopt;
   const auto shapes = rules::from_the_top(*all);
-  const rules::Context context = context_of(w, step.feature, shapes);
+  const rules::Context context = piece::context_of(w.piece(), w.demands, step.feature, shapes);
   const std::string name = w.plan.model.at<model::MachiningOperation>(step.operation).its_id.value_or("");
   std::optional<model::ToolRequirement> same_kind;
   const auto proposals = rules::propose_members(w.inputs.rules, shapes, context);
@@ -59,7 +59,7 @@ bool agree(const model::ToolRequirement& asked, const model::ToolRequirement& st
 
 /// What an open tool must be: as the file's requirement says, else as the rules ask for such an operation on
 /// such a feature; deep enough for the feature in any case.
-Result<model::ToolRequirement> requirement_of(Work& w, const StepWork& step) {
+Result<model::ToolRequirement> requirement_of(Work& w, const StepDraft& step) {
   const auto* op = w.plan.model.get<model::MachiningOperation>(step.operation);
   const bool deep = !step.shapes.empty();
   const double reach =
@@ -101,7 +101,7 @@ Result<model::ToolRequirement> requirement_of(Work& w, const StepWork& step) {
 
 /// A tool whose holder nobody described stands out of it as far as its feature needs, and as its flutes do;
 /// its length counts from the gage line, holder included. Defaults, unsourced.
-void stand_out(const Work& w, StepWork& step) {
+void stand_out(const Work& w, StepDraft& step) {
   constexpr double kFluteShare = 1.5;   // of the cutting edge's length
   constexpr double kSlenderness = 3.0;  // diameters
   constexpr double kSpare = 5.0;        // between holder and material, mm
@@ -140,7 +140,7 @@ std::optional<std::string> too_short_as_loaded(const model::Cutter& c, double as
 }
 
 /// Picks the cutter of one open operation; false when none fits.
-bool select_one(Work& w, StepWork& step, const std::vector<model::Cutter>& library) {
+bool select_one(Work& w, StepDraft& step, const std::vector<model::Cutter>& library) {
   const std::string name = w.plan.model.at<model::MachiningOperation>(step.operation).its_id.value_or("");
   const auto requirement = requirement_of(w, step);
   if (!requirement) {
@@ -222,13 +222,13 @@ bool same_chosen(const model::Cutter& a, const model::Cutter& b, bool recorded) 
 /// library is the library's, whether planning has chosen that tool or may still take it: pocket, length and
 /// table line go by the name. Which one keeps a name does not depend on the order of the steps: what planning
 /// chose or the library has, then the smaller.
-void tell_apart(Work& w, const std::vector<StepWork*>& given, const std::set<const StepWork*>& recorded) {
+void tell_apart(Work& w, const std::vector<StepDraft*>& given, const std::set<const StepDraft*>& recorded) {
   std::map<std::string, std::vector<model::Cutter>> named;
   std::set<std::string> taken, known;
   // A head that is set to a size is named with it where a plan sets it to several (choose.cpp): its size says
   // nothing against it.
   const auto only_set = [&](const model::Cutter& c) {
-    return c.adjustable_to_mm > 0.0 && std::none_of(given.begin(), given.end(), [&](const StepWork* s) {
+    return c.adjustable_to_mm > 0.0 && std::none_of(given.begin(), given.end(), [&](const StepDraft* s) {
              return s->cutter.id == c.id && !(s->cutter.adjustable_to_mm > 0.0);
            });
   };
@@ -236,13 +236,13 @@ void tell_apart(Work& w, const std::vector<StepWork*>& given, const std::set<con
     taken.insert(c.id);
     if (!only_set(c) && known.insert(c.id).second) named[c.id] = {c};
   }
-  for (const StepWork& s : w.steps) {
+  for (const StepDraft& s : w.steps) {
     if (s.cutter.id.empty()) continue;
     taken.insert(s.cutter.id);
     if (std::find(given.begin(), given.end(), &s) != given.end()) continue;
     if (known.insert(s.cutter.id).second) named[s.cutter.id] = {s.cutter};
   }
-  const auto find = [&](const StepWork& s) {
+  const auto find = [&](const StepDraft& s) {
     const auto& all = named[s.cutter.id];
     const auto first = all.begin() + (known.contains(s.cutter.id) ? 1 : 0);
     if (first != all.begin() && same_chosen(all.front(), s.cutter, recorded.contains(&s)))
@@ -250,16 +250,16 @@ void tell_apart(Work& w, const std::vector<StepWork*>& given, const std::set<con
     return static_cast<std::size_t>(
         std::find_if(first, all.end(), [&](const auto& o) { return same_given(o, s.cutter); }) - all.begin());
   };
-  std::vector<const StepWork*> sorted(given.begin(), given.end());
-  const auto size = [](const StepWork* s) {
+  std::vector<const StepDraft*> sorted(given.begin(), given.end());
+  const auto size = [](const StepDraft* s) {
     const model::Cutter& c = s->cutter;
     return std::tuple(c.cutting_diameter_mm, c.functional_length_mm, c.maximum_depth_of_cut_mm,
                       c.corner_radius_mm, c.point_angle_rad, c.thread_pitch_mm, c.taper_angle_rad, c.teeth,
                       c.cutter_class);
   };
   std::stable_sort(sorted.begin(), sorted.end(),
-                   [&](const StepWork* a, const StepWork* b) { return size(a) < size(b); });
-  for (const StepWork* s : sorted) {
+                   [&](const StepDraft* a, const StepDraft* b) { return size(a) < size(b); });
+  for (const StepDraft* s : sorted) {
     if (find(*s) == named[s->cutter.id].size()) named[s->cutter.id].push_back(s->cutter);
   }
   std::map<std::string, std::vector<std::string>> names;
@@ -276,20 +276,20 @@ void tell_apart(Work& w, const std::vector<StepWork*>& given, const std::set<con
                                       words(all.front()) + "): it is '" + own[i] + "' in the plan");
     }
   }
-  for (StepWork* s : given) s->cutter.id = names[s->cutter.id][find(*s)];
+  for (StepDraft* s : given) s->cutter.id = names[s->cutter.id][find(*s)];
 }
 
 /// A cutter that planning chose before is the one the plan recorded: nouns hold less of it. Where they have
 /// been edited since, or somebody else chose, they count.
-bool take_recorded(const Work& w, const StepWork& step, model::Cutter& cutter) {
+bool take_recorded(const Work& w, const StepDraft& step, model::Cutter& cutter) {
   const auto* d = w.plan.ledger.find(step.operation, "its_tool");
   if (d == nullptr || d->binder == model::Binder::kGiven || d->binder == model::Binder::kOperator)
     return false;
   const auto named = [&](const model::Cutter& c) { return c.id == cutter.id; };
-  const auto it = std::find_if(w.recorded.begin(), w.recorded.end(), named);
+  const auto it = std::find_if(w.recorded.cutters.begin(), w.recorded.cutters.end(), named);
   constexpr double kSame = 1e-6;  // mm
-  if (it == w.recorded.end() || it->cutter_class != cutter.cutter_class || it->teeth != cutter.teeth ||
-      std::abs(it->cutting_diameter_mm - cutter.cutting_diameter_mm) > kSame) {
+  if (it == w.recorded.cutters.end() || it->cutter_class != cutter.cutter_class ||
+      it->teeth != cutter.teeth || std::abs(it->cutting_diameter_mm - cutter.cutting_diameter_mm) > kSame) {
     return false;
   }
   model::Cutter known = *it;
@@ -303,7 +303,7 @@ bool take_recorded(const Work& w, const StepWork& step, model::Cutter& cutter) {
   return true;
 }
 
-std::string id_of(const Work& w, const StepWork& step) {
+std::string id_of(const Work& w, const StepDraft& step) {
   const auto* executable = w.plan.model.get<model::Executable>(step.step);
   return executable == nullptr ? std::string() : executable->its_id.value_or("");
 }
@@ -315,7 +315,7 @@ void stand_out_alike(Work& w) {
     double stick_out_mm = 0.0, usable_length_mm = 0.0, functional_length_mm = 0.0;
   };
   std::map<std::string, Out> most;
-  for (const StepWork& s : w.steps) {
+  for (const StepDraft& s : w.steps) {
     if (s.cutter.id.empty()) continue;
     Out& m = most[s.cutter.id];
     m.stick_out_mm = std::max(m.stick_out_mm, s.cutter.stick_out_mm);
@@ -329,7 +329,7 @@ void stand_out_alike(Work& w) {
     c.usable_length_mm = std::max(c.usable_length_mm, it->second.usable_length_mm);
     c.functional_length_mm = std::max(c.functional_length_mm, it->second.functional_length_mm);
   };
-  for (StepWork& s : w.steps) {
+  for (StepDraft& s : w.steps) {
     take(s.cutter);
     for (model::Candidate& c : s.candidates) take(c.cutter);  // a step's cutter is taken from these once more
   }
@@ -339,9 +339,9 @@ void stand_out_alike(Work& w) {
 
 Status select_open_tools(Work& w) {
   const std::vector<model::Cutter> library = usable(w);
-  std::vector<StepWork*> given;
-  std::set<const StepWork*> recorded;
-  for (StepWork& step : w.steps) {
+  std::vector<StepDraft*> given;
+  std::set<const StepDraft*> recorded;
+  for (StepDraft& step : w.steps) {
     if (step.proposed || !step.operation.set()) continue;
     const auto* op = w.plan.model.get<model::MachiningOperation>(step.operation);
     if (step.open_tool) {
@@ -357,16 +357,18 @@ Status select_open_tools(Work& w) {
       continue;
     }
     w.job.report(cutter.error());
-    w.plan.unplanned.push_back({step.feature, "step '" + id_of(w, step) + "', operation '" +
-                                                  op->its_id.value_or("") + "': " + cutter.error().message});
+    w.plan.unplanned.push_back({step.feature, "step '" + draft::name_of(w.plan.model, step) +
+                                                  "', operation '" + op->its_id.value_or("") +
+                                                  "': " + cutter.error().message});
   }
   tell_apart(w, given, recorded);
-  for (StepWork* step : given) {
+  for (StepDraft* step : given) {
     if (!recorded.contains(step)) stand_out(w, *step);
     const double assumed = step->cutter.stick_out_mm;
     take_from_magazine(w, step->cutter);
     if (auto why = too_short_as_loaded(step->cutter, assumed)) {
-      w.plan.unplanned.push_back({step->feature, "step '" + id_of(w, *step) + "': " + *why});
+      w.plan.unplanned.push_back(
+          {step->feature, "step '" + draft::name_of(w.plan.model, *step) + "': " + *why});
     }
   }
   share_tools(w);

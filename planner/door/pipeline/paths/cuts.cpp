@@ -66,7 +66,7 @@ optimise::CutAnswer Cuts::in_one_pass(const optimise::CutQuestion& q, optimise::
   return less ? *a : several;
 }
 
-Result<optimise::CutAnswer> Cuts::answer(const StepWork& step, optimise::CutQuestion& q,
+Result<optimise::CutAnswer> Cuts::answer(const StepDraft& step, optimise::CutQuestion& q,
                                          std::string& let_go) {
   auto out = answer(q);
   if (!out || out->feasible || !step.open_technology || !(step.keep_speed || step.keep_feed)) return out;

@@ -35,9 +35,9 @@ class Cuts {
   Cuts(const Cuts&) = delete;
   Cuts& operator=(const Cuts&) = delete;
   [[nodiscard]] Result<optimise::CutAnswer> answer(const optimise::CutQuestion& q);
-  /// As above; where a stated speed or feed that stays (StepWork::keep_speed) allows no cut within the limits
-  /// and one of its own would, it is let go of, in `q` too, and `let_go` says what and why.
-  [[nodiscard]] Result<optimise::CutAnswer> answer(const StepWork& step, optimise::CutQuestion& q,
+  /// As above; where a stated speed or feed that stays (StepDraft::keep_speed) allows no cut within the
+  /// limits and one of its own would, it is let go of, in `q` too, and `let_go` says what and why.
+  [[nodiscard]] Result<optimise::CutAnswer> answer(const StepDraft& step, optimise::CutQuestion& q,
                                                    std::string& let_go);
   /// Of a face: the cut that covers it in one pass, where the cutter is wide enough for that and it takes
   /// less than the passes of the answer; else the answer.

@@ -8,6 +8,7 @@
 
 #include "planner/door/pipeline/step/steps.h"
 #include "planner/ground/geometry/mesh_form.h"
+#include "planner/making/piece/surface_form.h"
 #include "planner/making/toolpath/freeform/freeform.h"
 
 // Freeform steps: a surface given as a mesh, roughed in levels and finished in passes.
@@ -21,12 +22,6 @@ constexpr double kRoughAllowanceMm = 0.5;  // left by roughing when no rule says
 constexpr double kSemiAllowanceMm = 0.2;   // left by a semi-finish, likewise; default, unsourced
 
 constexpr double kLevelStep = 0.5;  // of the diameter, over a level floor; default, unsourced
-constexpr double kCreaseMm =
-    0.02;  // a ball may leave in a crease: what the check lets stand; default, unsourced
-constexpr double kSharpRad = 20.0 / 180.0 * std::numbers::pi;  // sharper corners keep any ball's radius
-constexpr double kFlatRad = 0.5 / 180.0 * std::numbers::pi;    // less is the rounding of coordinates
-constexpr double kLeastMm =
-    1.0;  // radius: below, planning takes smaller cutters than shops use; default, unsourced
 
 /// Height of the ridges that a freeform operation may leave.
 double scallop_of(const model::Model& m, model::AnyRef operation) {
@@ -40,14 +35,14 @@ double scallop_of(const model::Model& m, model::AnyRef operation) {
 
 // The nouns of a freeform operation have no place for it: of one that was read, that it is not the last says
 // so. A finish is a semi-finish when a finer one of the same feature follows.
-double freeform_allowance(const Work& w, const StepWork& step) {
+double freeform_allowance(const Work& w, const StepDraft& step) {
   const model::Model& m = w.plan.model;
   if (!m.holds<model::FreeformOperation>(step.operation)) return 0.0;
   if (step.proposed) return step.proposal.allowance_side_mm;
   if (m.holds<model::FreeformRoughMilling>(step.operation)) return kRoughAllowanceMm;
   const double own = scallop_of(m, step.operation);
   bool after = false;
-  for (const StepWork& s : w.steps) {
+  for (const StepDraft& s : w.steps) {
     if (after && s.feature == step.feature && m.holds<model::FreeformFinishMilling>(s.operation) &&
         scallop_of(m, s.operation) < own)
       return kSemiAllowanceMm;
@@ -56,127 +51,13 @@ double freeform_allowance(const Work& w, const StepWork& step) {
   return 0.0;
 }
 
-// In a crease of angle d between two facets a ball of radius R leaves R (1 / cos(d / 2) - 1). Where facets
-// are so narrow that the ball does not touch both beside their crease, they draw a curve, and its radius is
-// their width over d.
-double surface_radius(const geometry::Mesh& mesh) {
-  using geometry::Vec3;
-  struct Side {
-    Vec3 normal, apex;
-  };
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<Side>> edges;
-  for (const auto& t : mesh.triangles) {
-    const Vec3 a = mesh.vertices[t[0]], b = mesh.vertices[t[1]], c = mesh.vertices[t[2]];
-    Vec3 n = cross(b - a, c - a);
-    if (std::abs(n.z) < 1e-9 * norm(n)) continue;  // upright: no ball from above finishes it by its facets
-    n = (n.z > 0.0 ? 1.0 : -1.0) / norm(n) * n;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t p = t[k], q = t[(k + 1) % 3];
-      edges[{std::min(p, q), std::max(p, q)}].push_back({n, mesh.vertices[t[(k + 2) % 3]]});
-    }
-  }
-  double out = 0.0;
-  for (const auto& [e, sides] : edges) {
-    if (sides.size() != 2) continue;
-    const Vec3 a = mesh.vertices[e.first];
-    const Vec3 along = mesh.vertices[e.second] - a;
-    const double length = norm(along);
-    if (!(length > 0.0) || dot(sides[0].normal, sides[1].apex - a) <= 0.0) continue;  // not concave
-    const double angle = std::acos(std::clamp(dot(sides[0].normal, sides[1].normal), -1.0, 1.0));
-    if (angle < kFlatRad || angle > kSharpRad) continue;
-    const double of_crease = kCreaseMm / (1.0 / std::cos(0.5 * angle) - 1.0);
-    const double width =
-        std::min(norm(cross(sides[0].apex - a, along)), norm(cross(sides[1].apex - a, along))) / length;
-    const double limit = std::max(kLeastMm, std::min(of_crease, std::max(kLeastMm, width / angle)));
-    out = out > 0.0 ? std::min(out, limit) : limit;
-  }
-  return out;
-}
-
-SurfaceForm surface_form(const geometry::Mesh& mesh, const geometry::Box3& raw) {
-  using geometry::Vec3;
-  constexpr double kUpright = 1e-3, kLevel = 1.0 - 1e-6;  // of unit normals
-  constexpr double kSameMm = 0.02;                        // of coordinates; default, unsourced
-  SurfaceForm out;
-  const geometry::MeshForm form = geometry::form_of(mesh);
-  if (form.kind != geometry::MeshForm::Kind::kSolid) return out;
-  out.inside_out = form.inside_out;
-  const auto on_side = [&](const std::array<Vec3, 3>& t) {
-    const auto all = [&](auto coordinate, double at) {
-      return std::all_of(t.begin(), t.end(), [&](Vec3 v) { return std::abs(coordinate(v) - at) < kSameMm; });
-    };
-    const auto x = [](Vec3 v) { return v.x; };
-    const auto y = [](Vec3 v) { return v.y; };
-    return all(x, raw.lo.x) || all(x, raw.hi.x) || all(y, raw.lo.y) || all(y, raw.hi.y);
-  };
-  struct Side {
-    Vec3 normal, apex;
-  };
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<Side>> edges;  // of upright facets
-  constexpr double kSameFloorMm = 1e-3;
-  constexpr double kLeastFloorMm2 = 3.0;               // the disc of a mill of 2 mm; default, unsourced
-  constexpr std::size_t kMostFloors = 64;              // default, unsourced
-  std::map<double, std::pair<double, double>> floors;  // area and height, by the cell of kSameFloorMm
-  for (const auto& t : mesh.triangles) {
-    const std::array<Vec3, 3> p{mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
-    Vec3 n = cross(p[1] - p[0], p[2] - p[0]);
-    if (!(norm(n) > 0.0)) continue;
-    n = (form.inside_out ? -1.0 : 1.0) / norm(n) * n;
-    if (std::abs(n.z) < kUpright) {
-      if (on_side(p)) continue;
-      out.walls = true;
-      for (std::size_t k = 0; k < 3; ++k) {
-        const std::uint32_t a = t[k], b = t[(k + 1) % 3];
-        edges[{std::min(a, b), std::max(a, b)}].push_back({n, p[(k + 2) % 3]});
-      }
-    } else if (n.z > kLevel) {
-      auto& [area, height] =
-          floors.emplace(std::round(p[0].z / kSameFloorMm), std::pair(0.0, p[0].z)).first->second;
-      area += 0.5 * norm(cross(p[1] - p[0], p[2] - p[0]));
-      height = std::max(height, p[0].z);
-    } else if (n.z > 0.0) {
-      out.curved = true;
-    }
-  }
-  // A floor is worth levels of its own where an end mill has room on it; the largest ones, so that a relief
-  // of many heights is not cut level by level: a ball makes the others.
-  std::vector<std::pair<double, double>> by_area;
-  for (const auto& [cell, floor] : floors) by_area.push_back(floor);
-  std::sort(by_area.begin(), by_area.end(), std::greater<>());
-  for (const auto& [area, height] : by_area) {
-    if (area >= kLeastFloorMm2 && out.floors_mm.size() < kMostFloors)
-      out.floors_mm.push_back(height);
-    else
-      out.curved = true;
-  }
-  std::sort(out.floors_mm.begin(), out.floors_mm.end(), std::greater<>());
-  if (out.walls) out.sharp = geometry::sharp_corners(mesh, form.inside_out);
-  for (const auto& [e, sides] : edges) {
-    if (sides.size() != 2) continue;
-    const Vec3 a = mesh.vertices[e.first];
-    const Vec3 along = mesh.vertices[e.second] - a;
-    if (!(norm(along) > 0.0) || dot(sides[0].normal, sides[1].apex - a) <= 0.0) continue;  // not concave
-    const double angle = std::acos(std::clamp(dot(sides[0].normal, sides[1].normal), -1.0, 1.0));
-    if (angle < kFlatRad || angle > kSharpRad) continue;
-    const double width =
-        std::min(norm(cross(sides[0].apex - a, along)), norm(cross(sides[1].apex - a, along))) / norm(along);
-    out.corner_mm = out.corner_mm > 0.0 ? std::min(out.corner_mm, width / angle) : width / angle;
-  }
-  return out;
-}
-
-bool cuts_levels(const Work& w, const StepWork& step) {
-  return w.plan.model.holds<model::FreeformFinishMilling>(step.operation) &&
-         step.cutter.cutter_class == model::CutterClass::kEndmill;
-}
-
 geometry::Mesh mesh_in_setup(const Work& w, std::size_t setup) {
   geometry::Mesh out = *w.plan.target_mesh;
   for (geometry::Vec3& v : out.vertices) v = w.setups[setup].workpiece.to_parent(v);
   return out;
 }
 
-void shape_from_mesh(const Work& w, const StepWork& step, toolpath::PathJob& job) {
+void shape_from_mesh(const Work& w, const StepDraft& step, toolpath::PathJob& job) {
   if (job.shape.kind != model::ShapeKind::kFreeform || !w.plan.target_mesh) return;
   const auto box = geometry::bounds(mesh_in_setup(w, step.setup));
   const auto local = transformed(box, inverse(job.feature_in_setup));
@@ -184,7 +65,7 @@ void shape_from_mesh(const Work& w, const StepWork& step, toolpath::PathJob& job
   job.shape.depth_mm = job.feature_in_setup.origin.z - box.lo.z;
 }
 
-Result<toolpath::GeneratedPath> freeform_path(Work& w, const StepWork& step, const toolpath::PathJob& job,
+Result<toolpath::GeneratedPath> freeform_path(Work& w, const StepDraft& step, const toolpath::PathJob& job,
                                               const optimise::CutAnswer& cut, const stock::HeightMap& map) {
   if (!w.plan.target_mesh) {
     return fail("PIP-SURFACE",
@@ -218,8 +99,8 @@ Result<toolpath::GeneratedPath> freeform_path(Work& w, const StepWork& step, con
     f.stepover_mm = std::min(cut.ae_mm, step.cutter.cutting_diameter_mm);
   }
   const geometry::Box3& raw = w.setups[step.setup].stock;
-  const bool levels = cuts_levels(w, step);
-  const SurfaceForm form = rough || levels ? surface_form(mesh, raw) : SurfaceForm{};
+  const bool levels = draft::cuts_levels(w.plan.model, step);
+  const piece::SurfaceForm form = rough || levels ? piece::surface_form(mesh, raw) : piece::SurfaceForm{};
   if (form.walls) {
     // Around the solid all goes, down to the underside; the cutter comes from beside the raw piece.
     constexpr double kBesideMm = 1.0;

@@ -26,7 +26,7 @@ void ask_for_heaviest(const std::vector<optimise::CutSample>& samples, optimise:
   }
 }
 
-optimise::CutQuestion question_for(const Work& w, const StepWork& step, const Progress& progress,
+optimise::CutQuestion question_for(const Work& w, const StepDraft& step, const Progress& progress,
                                    const stock::HeightMap& map) {
   toolpath::PathJob job;
   if (!step.shapes.empty()) {
@@ -40,15 +40,16 @@ optimise::CutQuestion question_for(const Work& w, const StepWork& step, const Pr
 }
 
 /// The file's sections, where it has any; else the measured ones.
-std::vector<optimise::CutSample> samples_for(Work& w, const StepWork& step, const model::CutterPath& path,
+std::vector<optimise::CutSample> samples_for(Work& w, const StepDraft& step, const model::CutterPath& path,
                                              const model::SectionSeries& stated,
                                              const std::optional<engagement::Measurement>& found) {
   const double d = step.cutter.cutting_diameter_mm;
   const auto ours = found ? step::samples_of(*found, path, step.cutter) : std::vector<optimise::CutSample>{};
   if (stated.size() == 0) return ours;
   if (const auto why = step::impossible(stated, path, d, step.cutter.maximum_depth_of_cut_mm)) {
-    w.job.warn("PIP-SECTIONS", "step '" + name_of(w, step) + "': the file's cross sections cannot be, " +
-                                   *why + "; " + (found ? "the measured ones are used" : "none are used"));
+    w.job.warn("PIP-SECTIONS", "step '" + draft::name_of(w.plan.model, step) +
+                                   "': the file's cross sections cannot be, " + *why + "; " +
+                                   (found ? "the measured ones are used" : "none are used"));
     return ours;
   }
   auto said = step::samples_of(stated, path, step.cutter);
@@ -56,13 +57,15 @@ std::vector<optimise::CutSample> samples_for(Work& w, const StepWork& step, cons
   const auto extents = step::extents_contradict(stated, found->sections, d);
   auto both = step::compared(said, ours, d);
   if (both.contradictions > 0) {
-    w.job.warn("PIP-SECTIONS", "step '" + name_of(w, step) + "': the file's cross sections contradict the " +
-                                   "measured ones at " + std::to_string(both.contradictions) +
-                                   " places, most at " + both.worst + "; the larger ones are used");
+    w.job.warn("PIP-SECTIONS", "step '" + draft::name_of(w.plan.model, step) +
+                                   "': the file's cross sections contradict the " + "measured ones at " +
+                                   std::to_string(both.contradictions) + " places, most at " + both.worst +
+                                   "; the larger ones are used");
   }
   if (extents) {
-    w.job.warn("PIP-SECTIONS", "step '" + name_of(w, step) + "': the file's cross sections contradict the " +
-                                   "measured ones, " + *extents + "; the measured ones count, too");
+    w.job.warn("PIP-SECTIONS", "step '" + draft::name_of(w.plan.model, step) +
+                                   "': the file's cross sections contradict the " + "measured ones, " +
+                                   *extents + "; the measured ones count, too");
     both.samples.insert(both.samples.end(), ours.begin(), ours.end());
     std::stable_sort(both.samples.begin(), both.samples.end(), [](const auto& a, const auto& b) {
       return std::pair(a.move, a.at_mm) < std::pair(b.move, b.at_mm);
@@ -83,7 +86,7 @@ void ask_as_stated(const model::FeedSchedule& s, optimise::FeedQuestion& q) {
 
 /// Toolpaths have technologies of their own: where these turn against the cutter, they are turned round. A
 /// tap turns back by intent.
-void turn_round(Work& w, const StepWork& step, model::FeedSchedule& s) {
+void turn_round(Work& w, const StepDraft& step, model::FeedSchedule& s) {
   if (!(step.cutter.cutting_diameter_mm > 0.0) || step.cutter.cutter_class == model::CutterClass::kTap)
     return;
   const double sense = step.cutter.hand == model::Hand::kLeft ? -1.0 : 1.0;
@@ -94,14 +97,15 @@ void turn_round(Work& w, const StepWork& step, model::FeedSchedule& s) {
     ++turned;
   }
   if (turned == 0) return;
-  w.job.warn("PIP-CHANGED", "step '" + name_of(w, step) + "': in " + std::to_string(turned) +
+  w.job.warn("PIP-CHANGED", "step '" + draft::name_of(w.plan.model, step) + "': in " +
+                                std::to_string(turned) +
                                 " moves of its toolpaths the spindle would turn against " + step.cutter.id +
                                 ", which cuts " + (sense > 0.0 ? "right" : "left") + "-hand; it turns " +
                                 (sense > 0.0 ? "clockwise" : "counter-clockwise"));
 }
 
 /// Speed and feed that the file leaves open. Nothing when no cut keeps the limits.
-Result<model::FeedSchedule> chosen(Work& w, StepWork& step, const model::CutterPath& path,
+Result<model::FeedSchedule> chosen(Work& w, StepDraft& step, const model::CutterPath& path,
                                    const model::FeedSchedule& stated, GivenPath& out, Cuts& cuts) {
   auto& q = out.feeds.cut;
   std::string freed;
@@ -131,7 +135,7 @@ Result<model::FeedSchedule> chosen(Work& w, StepWork& step, const model::CutterP
 }
 
 /// Toolpaths state ratios of feeds that were chosen now: the path stands in their place.
-void state_path(Work& w, const StepWork& step, const std::shared_ptr<const model::CutterPath>& path) {
+void state_path(Work& w, const StepDraft& step, const std::shared_ptr<const model::CutterPath>& path) {
   auto* op = w.plan.model.get<model::MachiningOperation>(step.operation);
   if (op == nullptr) return;
   model::CutterLocationTrajectory t;
@@ -146,38 +150,39 @@ void state_path(Work& w, const StepWork& step, const std::shared_ptr<const model
 
 }  // namespace
 
-std::optional<engagement::Measurement> measured(Work& w, const StepWork& step, const model::CutterPath& path,
+std::optional<engagement::Measurement> measured(Work& w, const StepDraft& step, const model::CutterPath& path,
                                                 Stocks& stocks) {
   auto m = stocks.measure(step.setup, path, step.cutter);
   if (!m) {
-    w.job.warn(m.error().code, "step '" + name_of(w, step) + "' is not measured: " + m.error().message);
+    w.job.warn(m.error().code,
+               "step '" + draft::name_of(w.plan.model, step) + "' is not measured: " + m.error().message);
     return std::nullopt;
   }
   return *std::move(m);
 }
 
-void tell_rapids(Work& w, const StepWork& step, double removed_mm3) {
+void tell_rapids(Work& w, const StepDraft& step, double removed_mm3) {
   if (removed_mm3 <= 1e-3) return;
-  w.job.warn("PIP-RAPID", "step '" + name_of(w, step) + "': rapid moves touch " + trimmed(removed_mm3, 3) +
-                              " mm3 of material");
+  w.job.warn("PIP-RAPID", "step '" + draft::name_of(w.plan.model, step) + "': rapid moves touch " +
+                              trimmed(removed_mm3, 3) + " mm3 of material");
 }
 
-bool rigid_tap(const Work& w, const StepWork& step) {
+bool rigid_tap(const Work& w, const StepDraft& step) {
   const auto* tapping = w.plan.model.get<model::Tapping>(step.operation);
   if (tapping == nullptr || tapping->compensation_chuck.value_or(false)) return false;
   const auto* made = w.plan.ledger.find(step.operation, "its_toolpath");
   if (made != nullptr && made->binder == model::Binder::kRule) return true;  // that cycle, written as moves
   w.job.warn(
       "PIP-CHANGED",
-      "step '" + name_of(w, step) +
+      "step '" + draft::name_of(w.plan.model, step) +
           "': the given toolpath of the tap is moves without synchronisation; planned as rigid tapping "
           "instead");
   return true;
 }
 
-Result<std::optional<GivenPath>> given_path(Work& w, StepWork& step, Stocks& stocks, const Progress& progress,
-                                            Cuts& cuts) {
-  auto given = exchange::path_of_step(w.plan, step.step, {}, w.job, &w.recorded_steps);
+Result<std::optional<GivenPath>> given_path(Work& w, StepDraft& step, Stocks& stocks,
+                                            const Progress& progress, Cuts& cuts) {
+  auto given = exchange::path_of_step(w.plan, step.step, {}, w.job, &w.recorded.steps);
   if (!given) {
     w.job.report(given.error());
     return tl::unexpected(given.error());

@@ -6,6 +6,7 @@
 #include "planner/door/pipeline/paths/results.h"
 #include "planner/door/pipeline/step/steps.h"
 #include "planner/door/pipeline/work.h"
+#include "planner/making/piece/twins.h"
 #include "planner/physics/engagement/engagement.h"
 
 // What other features' steps took away already is not cut again: the step is left out, not its feature.
@@ -27,12 +28,12 @@ geometry::Region gone_with(const model::FeatureShape& a, const model::FeatureSha
   if (bottom > -b.depth_mm + kSameMm || top < -kSameMm) return {};
   geometry::Region out = a.area;
   for (const auto& island : a.islands) out = geometry::subtract(out, island.area);
-  return moved(out, rel);
+  return geometry::moved(out, rel);
 }
 
 /// The last of the steps with a path, in whichever set-up, in whose areas together this one's lies: what it
 /// would cut is gone with these. Nothing when some of it lies beyond them.
-Ref<model::Executable> made_by(const Work& w, const StepWork& step) {
+Ref<model::Executable> made_by(const Work& w, const StepDraft& step) {
   Ref<model::Executable> out;
   for (const model::FeatureShape& b : step.shapes) {
     const geometry::Box3 raw = transformed(w.plan.stock.box, inverse(b.frame));
@@ -41,7 +42,7 @@ Ref<model::Executable> made_by(const Work& w, const StepWork& step) {
     for (const auto& island : b.islands) left = geometry::subtract(left, island.area);
     for (const model::StepResult& kept : w.plan.steps) {
       const auto it = std::find_if(w.steps.begin(), w.steps.end(),
-                                   [&](const StepWork& s) { return s.step == kept.step; });
+                                   [&](const StepDraft& s) { return s.step == kept.step; });
       if (it == w.steps.end()) continue;
       for (const model::FeatureShape& a : it->shapes) {
         const geometry::Region gone = gone_with(a, b);
@@ -57,27 +58,28 @@ Ref<model::Executable> made_by(const Work& w, const StepWork& step) {
 
 /// Whether another feature's step of the same operation is kept already in which each of these shapes is
 /// drawn a second time, and none of this feature's own: the one that came first is made, the other is it.
-bool twin_made(const Work& w, const StepWork& step) {
-  if (w.twins.empty()) return false;
-  const auto kept = [&](const StepWork& s) {
+bool twin_made(const Work& w, const StepDraft& step) {
+  if (w.shapes.twins.empty()) return false;
+  const auto kept = [&](const StepDraft& s) {
     return std::any_of(w.plan.steps.begin(), w.plan.steps.end(),
                        [&](const model::StepResult& r) { return r.step == s.step; });
   };
   bool found = false;
-  for (const StepWork& s : w.steps) {
+  for (const StepDraft& s : w.steps) {
     if (s.step == step.step || !kept(s)) continue;
     if (s.feature == step.feature) return false;
     if (s.operation.type != step.operation.type) continue;
     found = found || std::all_of(step.shapes.begin(), step.shapes.end(), [&](const model::FeatureShape& b) {
-              return std::any_of(s.shapes.begin(), s.shapes.end(),
-                                 [&](const model::FeatureShape& a) { return same_removal(w, a, b); });
+              return std::any_of(s.shapes.begin(), s.shapes.end(), [&](const model::FeatureShape& a) {
+                return piece::same_removal(w.shapes, a, b);
+              });
             });
   }
   return found;
 }
 
 /// The feature itself when its steps make it all, and a boss that stands when others cut around it.
-std::string made_with(const Work& w, const StepWork& step, const model::MachiningWorkingstep& maker) {
+std::string made_with(const Work& w, const StepDraft& step, const model::MachiningWorkingstep& maker) {
   const auto* of = w.plan.model.get<model::ManufacturingFeature>(maker.its_feature);
   const auto* own = w.plan.model.get<model::ManufacturingFeature>(step.feature);
   if (of == nullptr || AnyRef(maker.its_feature) == step.feature) return {};
@@ -88,21 +90,21 @@ std::string made_with(const Work& w, const StepWork& step, const model::Machinin
 
 }  // namespace
 
-bool cut_around(const Work& w, const StepWork& step) {
+bool cut_around(const Work& w, const StepDraft& step) {
   const model::Model& m = w.plan.model;
   const auto boss = [&](const model::FeatureShape& s) {
     return m.holds<model::Boss>(s.made_of.empty() ? s.feature : s.made_of.back());
   };
   if (step.shapes.empty() || !std::all_of(step.shapes.begin(), step.shapes.end(), boss)) return false;
   // A chain of more than roughing and a finish asks for a size that others' steps do not aim at.
-  const bool finer = std::any_of(w.steps.begin(), w.steps.end(), [&](const StepWork& s) {
+  const bool finer = std::any_of(w.steps.begin(), w.steps.end(), [&](const StepDraft& s) {
     return s.member == step.member && s.chain == step.chain && s.in_chain >= 2;
   });
   const auto* maker = finer ? nullptr : m.get<model::MachiningWorkingstep>(made_by(w, step));
   return maker != nullptr && AnyRef(maker->its_feature) != step.feature;
 }
 
-bool in_air(const Work& w, const StepWork& step, double removed_mm3) {
+bool in_air(const Work& w, const StepDraft& step, double removed_mm3) {
   constexpr double kNothingMm3 = 0.01;  // default, unsourced: what a map's cells cannot tell from nothing
   const model::Model& m = w.plan.model;
   if (step.proposed && twin_made(w, step)) return true;
@@ -115,23 +117,23 @@ bool in_air(const Work& w, const StepWork& step, double removed_mm3) {
   if (rough) return true;
   if (!m.holds<model::Two5dMillingOperation>(step.operation)) return false;
   // A finish stays after other steps of what it finishes: of the same element, where there are several.
-  return std::none_of(w.steps.begin(), w.steps.end(), [&](const StepWork& other) {
+  return std::none_of(w.steps.begin(), w.steps.end(), [&](const StepDraft& other) {
     const auto is_other = [&](const model::StepResult& r) { return r.step == other.step; };
     return other.feature == step.feature && (!other.proposed || other.member == step.member) &&
            std::any_of(w.plan.steps.begin(), w.plan.steps.end(), is_other);
   });
 }
 
-bool leave_out(Work& w, const StepWork& step, const std::string& why) {
+bool leave_out(Work& w, const StepDraft& step, const std::string& why) {
   model::Model& m = w.plan.model;
   // Steps of the feature that are kept, or still to come: without any, and made by no other's, it is not
   // made.
-  const auto kept = [&](const StepWork& s) {
+  const auto kept = [&](const StepDraft& s) {
     return std::any_of(w.plan.steps.begin(), w.plan.steps.end(),
                        [&](const model::StepResult& r) { return r.step == s.step; });
   };
   bool later = false, others = false;
-  for (const StepWork& s : w.steps) {
+  for (const StepDraft& s : w.steps) {
     if (s.step == step.step) {
       later = true;
     } else if (s.feature == step.feature) {
@@ -151,8 +153,8 @@ bool leave_out(Work& w, const StepWork& step, const std::string& why) {
   if (auto* f = m.get<model::MachiningFeature>(step.feature))
     std::erase(f->its_operations.items, step.operation);
   w.left_out.insert(step.step);
-  w.job.note("PIP-GONE", "step '" + name_of(w, step) + "' is left out: what it would cut is gone already" +
-                             with + "; " + why);
+  w.job.note("PIP-GONE", "step '" + draft::name_of(w.plan.model, step) +
+                             "' is left out: what it would cut is gone already" + with + "; " + why);
   return true;
 }
 

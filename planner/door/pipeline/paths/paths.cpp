@@ -20,6 +20,7 @@
 #include "planner/door/pipeline/step/steps.h"
 #include "planner/door/pipeline/workholding/holding.h"
 #include "planner/ground/base/number.h"
+#include "planner/making/piece/rests.h"
 #include "planner/making/step/cut_samples.h"
 #include "planner/making/toolpath/region/form/undercut.h"
 #include "planner/model/plan/decision/condemned.h"
@@ -55,7 +56,7 @@ struct Tried {
   double rapid_removed_mm3 = 0.0;
 };
 
-/// Thinner cuts that are tried with one cutter where a limit is exceeded along its path.
+/// draft::Thinner cuts that are tried with one cutter where a limit is exceeded along its path.
 constexpr int kMostThinner = 3;
 /// A thinner cut aims below the limit by this, for sections along the path are not proportional to it.
 constexpr double kThinnerAim = 0.9;      // default, unsourced
@@ -69,7 +70,7 @@ class PathMaker {
 
   Status run() {
     std::size_t done = 0;
-    for (StepWork& step : w_.steps) {
+    for (StepDraft& step : w_.steps) {
       w_.job.progress("paths", static_cast<double>(done++) / static_cast<double>(w_.steps.size()));
       if (w_.job.stop_requested())
         return fail("PIP-STOPPED", "planning was stopped before every step had its path");
@@ -83,7 +84,7 @@ class PathMaker {
  private:
   /// Whether what this step needs has failed: then it is not made either. A proposed one waits for the next
   /// try at its feature; of one of the file the reason is said.
-  bool given_up(const StepWork& step) {
+  bool given_up(const StepDraft& step) {
     if (step.proposed) return failed_.contains(step.feature) || resting_.contains(step.feature);
     if (lost_.empty() || !w_.plan.model.holds<model::MachiningOperation>(step.operation)) return false;
     // A path that the file brings is kept; that of a tap is never cut as moves.
@@ -101,18 +102,18 @@ class PathMaker {
   }
 
   /// The features that this step's rests on and that failed, by name.
-  std::string needed_by(const StepWork& step) const {
-    const auto all = what_rests(w_);
+  std::string needed_by(const StepDraft& step) const {
+    const auto all = piece::what_rests(w_.plan.model, w_.setups);
     std::string out;
     for (const AnyRef f : failed_) {
-      if (!resting_on(all, {f}).contains(step.feature)) continue;
+      if (!piece::resting_on(all, {f}).contains(step.feature)) continue;
       const auto* named = w_.plan.model.get<model::ManufacturingFeature>(f);
       out += (out.empty() ? "'" : ", '") + (named == nullptr ? "" : named->its_id.value_or("")) + "'";
     }
     return out;
   }
 
-  static std::vector<Member> members(const StepWork& step) {
+  static std::vector<Member> members(const StepDraft& step) {
     std::vector<Member> out;
     for (const auto& s : step.shapes) out.push_back({step.feature, s.feature, s.member});
     if (out.empty()) out.push_back({step.feature, {}, 0});
@@ -120,31 +121,31 @@ class PathMaker {
   }
 
   /// What this step of the file would have left is not there for those after it.
-  void lose(const StepWork& step) {
+  void lose(const StepDraft& step) {
     if (!step.feature.set() || !leaves_what_others_need(step)) return;
-    for (const Member& m : members(step)) lost_.emplace(m, name_of(w_, step));
+    for (const Member& m : members(step)) lost_.emplace(m, draft::name_of(w_.plan.model, step));
     failed_.insert(step.feature);
-    resting_ = resting_on(what_rests(w_), failed_);
+    resting_ = piece::resting_on(piece::what_rests(w_.plan.model, w_.setups), failed_);
   }
 
   /// A step that cannot be made. If rules proposed it, its chain is given up, and with it for now what rests
   /// on its feature; the plan is made again with the next chain. A step of the file is reported.
-  void give_up(const StepWork& step, const std::string& why) {
+  void give_up(const StepDraft& step, const std::string& why) {
     if (!step.proposed) {
       no_path(w_, step, why);
       lose(step);
       return;
     }
-    const std::string text = "step '" + name_of(w_, step) + "' has no path: " + why;
-    w_.tries.ban_chain(step.member, step.chain, text);
+    const std::string text = "step '" + draft::name_of(w_.plan.model, step) + "' has no path: " + why;
+    w_.tries.bans.ban_chain(step.member, step.chain, text);
     w_.tries.said.push_back(text + "; its feature is planned anew");
     w_.again = true;
     failed_.insert(step.feature);
-    resting_ = resting_on(what_rests(w_), failed_);
+    resting_ = piece::resting_on(piece::what_rests(w_.plan.model, w_.setups), failed_);
   }
 
   /// A mark for the drill, a finished wall or a broken edge is missed by no other step of its feature.
-  bool leaves_what_others_need(const StepWork& step) const {
+  bool leaves_what_others_need(const StepDraft& step) const {
     const Model& m = w_.plan.model;
     return !m.holds<model::CenterDrilling>(step.operation) &&
            !m.holds<model::CounterSinking>(step.operation) &&
@@ -152,7 +153,7 @@ class PathMaker {
            !m.holds<model::Tapping>(step.operation);
   }
 
-  Status make(StepWork& step) {
+  Status make(StepDraft& step) {
     stocks_.keep(step.setup);
     if (!step.unreadable.empty()) {
       give_up(step, step.unreadable);
@@ -206,7 +207,7 @@ class PathMaker {
     return {};
   }
 
-  [[nodiscard]] static bool exceeds(const StepWork& step, const Tried& t) {
+  [[nodiscard]] static bool exceeds(const StepDraft& step, const Tried& t) {
     return step.open_technology && t.feeds.worst_excess > kTolerableExcess;
   }
 
@@ -218,7 +219,7 @@ class PathMaker {
   }
 
   /// How long a candidate's path takes, if it keeps the limits; nothing is kept or said of it.
-  std::optional<double> seconds_with(StepWork& step, std::size_t i) {
+  std::optional<double> seconds_with(StepDraft& step, std::size_t i) {
     auto said = w_.job.take_diagnostics();
     const auto before = stocks_.before(step.setup);
     const model::Cutter cutter = step.cutter;
@@ -234,7 +235,7 @@ class PathMaker {
   /// A try with one of the candidates: thinner, where a limit is exceeded along its path, up to kMostThinner
   /// times; the gentlest when none keeps the limits. What it cuts is gone from the stock, but for a proposed
   /// step's that keeps no limits.
-  Result<Tried> with_cutter(StepWork& step, std::size_t i) {
+  Result<Tried> with_cutter(StepDraft& step, std::size_t i) {
     const model::Candidate* candidate = i < step.candidates.size() ? &step.candidates[i] : nullptr;
     if (candidate != nullptr) step.cutter = candidate->cutter;
     const auto before = stocks_.before(step.setup);
@@ -243,8 +244,8 @@ class PathMaker {
     std::optional<Tried> came_of_it;
     std::vector<Diagnostic> said_of_it;
     double of_gentlest = 0.0, share = 1.0;
-    if (const Thinner* t =
-            step.proposed ? w_.tries.thinner(step.member, step.chain, step.in_chain) : nullptr) {
+    if (const draft::Thinner* t =
+            step.proposed ? w_.tries.bans.thinner(step.member, step.chain, step.in_chain) : nullptr) {
       share = std::pow(kThinnerAnew, t->times);
       thicker.push_back({"a cut " + trimmed(1.0 / share, 2) + " times as large", t->why});
     }
@@ -263,9 +264,9 @@ class PathMaker {
       if (!made && !gentlest) return tl::unexpected(made.error());
       if (!made) break;
       // A pass over a surface is as deep as what was left there, whatever was asked for.
-      const bool thinner =
-          (made->depth_open || made->width_open) &&
-          (!w_.plan.model.holds<model::FreeformFinishMilling>(step.operation) || cuts_levels(w_, step));
+      const bool thinner = (made->depth_open || made->width_open) &&
+                           (!w_.plan.model.holds<model::FreeformFinishMilling>(step.operation) ||
+                            draft::cuts_levels(w_.plan.model, step));
       made->thicker = thicker;
       Tried tried = cut(step, *std::move(made));
       const double excess = tried.feeds.worst_excess;
@@ -298,13 +299,13 @@ class PathMaker {
     return trimmed(a.ap_mm, 3) + " mm deep, " + trimmed(a.ae_mm, 3) + " mm wide";
   }
 
-  Result<Made> attempt(const StepWork& step, const model::Candidate* candidate, double share) {
+  Result<Made> attempt(const StepDraft& step, const model::Candidate* candidate, double share) {
     Made out;
     bool first = true;
     std::optional<toolpath::GeneratedPath> over_surface;  // of the shape at hand
     const bool freeform = w_.plan.model.holds<model::FreeformOperation>(step.operation);
-    const bool passes =
-        w_.plan.model.holds<model::FreeformFinishMilling>(step.operation) && !cuts_levels(w_, step);
+    const bool passes = w_.plan.model.holds<model::FreeformFinishMilling>(step.operation) &&
+                        !draft::cuts_levels(w_.plan.model, step);
     for (const auto& shape : step.shapes) {
       auto job = job_of(w_, step, shape);
       progress_.prepare(step, stocks_.of(step.setup), job);
@@ -380,14 +381,14 @@ class PathMaker {
   }
 
   /// A given depth at which no feed keeps the limits is cut in thinner levels; said, never silent.
-  Status lower_depth(const StepWork& step, Made& out) {
+  Status lower_depth(const StepDraft& step, Made& out) {
     auto q = out.question;
     q.ap_most_mm = *q.ap_mm;
     q.ap_mm.reset();
     auto answer = cuts_.answer(q);
     if (!answer) return tl::unexpected(answer.error());
     if (!answer->feasible) return {};
-    w_.job.warn("PIP-CHANGED", "step '" + name_of(w_, step) + "': the given depth of " +
+    w_.job.warn("PIP-CHANGED", "step '" + draft::name_of(w_.plan.model, step) + "': the given depth of " +
                                    trimmed(q.ap_most_mm, 3) + " mm per level breaks " +
                                    out.answer.violated.front() + "; cut " + trimmed(answer->ap_mm, 3) +
                                    " mm deep instead");
@@ -398,7 +399,7 @@ class PathMaker {
   }
 
   /// Measures a try against the stock, which is cut by it, and schedules its feeds.
-  Tried cut(const StepWork& step, Made made) {
+  Tried cut(const StepDraft& step, Made made) {
     Tried out;
     if (!step.open_technology) turn_with_the_cutter(w_, step);
     const auto given = step.open_technology ? GivenTechnology{}
@@ -443,12 +444,12 @@ class PathMaker {
   }
 
   /// Takes a try: into nouns, ledger and plan.
-  Status accept(StepWork& step, Tried tried, std::size_t candidate) {
+  Status accept(StepDraft& step, Tried tried, std::size_t candidate) {
     if (tried.removed_mm3 && in_air(w_, step, *tried.removed_mm3) &&
         leave_out(w_, step, "it meets no material"))
       return {};
     const std::string* nothing =
-        step.proposed ? w_.tries.cuts_nothing(step.member, step.chain, step.in_chain) : nullptr;
+        step.proposed ? w_.tries.bans.cuts_nothing(step.member, step.chain, step.in_chain) : nullptr;
     if (nothing != nullptr && cut_around(w_, step) && leave_out(w_, step, *nothing)) return {};
     if (candidate > 0 && candidate < step.candidates.size())
       take_cutter(w_, step, step.candidates[candidate]);
@@ -475,14 +476,15 @@ class PathMaker {
   }
 
   /// Depths that exceeded a limit along the path: an alternative that was tried, and why not.
-  void tell_thicker(const StepWork& step, const Made& made) {
+  void tell_thicker(const StepDraft& step, const Made& made) {
     if (made.thicker.empty()) return;
     // What the check asked for is told by `bind_checked`.
-    const bool asked = step.proposed && w_.tries.thinner(step.member, step.chain, step.in_chain) != nullptr;
+    const bool asked =
+        step.proposed && w_.tries.bans.thinner(step.member, step.chain, step.in_chain) != nullptr;
     if (made.thicker.size() > 1 || !asked) {
-      w_.job.note("PIP-ANEW", "step '" + name_of(w_, step) + "': planned anew " + sizes(made.answer) +
-                                  " instead of " + made.thicker.front().what + ", because " +
-                                  made.thicker.front().why);
+      w_.job.note("PIP-ANEW", "step '" + draft::name_of(w_.plan.model, step) + "': planned anew " +
+                                  sizes(made.answer) + " instead of " + made.thicker.front().what +
+                                  ", because " + made.thicker.front().why);
     }
     const char* what = made.depth_open ? "axial_cutting_depth" : "radial_cutting_depth";
     auto* d = w_.plan.ledger.find(step.operation, what);
@@ -491,7 +493,7 @@ class PathMaker {
   }
 
   /// A path that the file brings is cut as it is; its feed may be open.
-  Status explicit_path(StepWork& step) {
+  Status explicit_path(StepDraft& step) {
     turn_with_the_cutter(w_, step);
     auto made = given_path(w_, step, stocks_, progress_, cuts_);
     if (!made) {

@@ -1,4 +1,5 @@
 #include "planner/door/pipeline/paths/progress.h"
+#include "planner/making/piece/surroundings.h"
 #include "planner/making/step/middle_of_tolerance.h"
 
 #include <algorithm>
@@ -12,55 +13,6 @@ using model::ShapeKind;
 constexpr double kWithinMm = 1e-4;  ///< less than any path's last digits; default, unsourced
 
 }  // namespace
-
-geometry::Region stays_beside(const Work& w, const model::FeatureShape& s) {
-  constexpr double kSame = 1e-6;
-  const auto to = inverse(s.frame);
-  const geometry::Box3 part = transformed(part_box(w), to);
-  geometry::Region out =
-      geometry::subtract(geometry::rectangle(geometry::xy(part.lo), geometry::xy(part.hi)), s.area);
-  if (out.empty()) return out;
-  // A boss that a face lists is none of the features that are cut beside it: its shape is all around it.
-  for (const model::FeatureShape& other : w.whole_shapes) {
-    const auto rel = compose(to, other.frame);
-    if ((other.feature == s.feature && other.member == s.member) || rel.z.z < 1.0 - kSame ||
-        other.area.empty())
-      continue;
-    if (rel.origin.z - other.depth_mm > -s.depth_mm + kSame) continue;
-    geometry::Region cut = other.area;
-    for (const auto& island : other.islands) cut = geometry::subtract(cut, island.area);
-    for (auto& loop : cut.loops) {
-      for (auto& q : loop) q = geometry::xy(rel.to_parent({q.x, q.y, 0.0}));
-    }
-    out = geometry::subtract(out, cut);
-  }
-  return out;
-}
-
-void stop_at_walls(const Work& w, model::FeatureShape& s) {
-  // Thinner walls are the rounding of a drawing, and less than what a part's tolerances allow. Default,
-  // unsourced.
-  constexpr double kThinMm = 0.1;
-  constexpr double kSame = 1e-6;
-  if (s.kind != ShapeKind::kFace || s.area.empty() || w.shapes.empty() || w.plan.target_mesh) return;
-  const geometry::Box3 part = transformed(part_box(w), inverse(s.frame));
-  if (part.hi.z <= -s.depth_mm + kSame) return;
-  const geometry::Region beside = stays_beside(w, s);
-  bool walled = false;
-  for (const geometry::Region& piece : geometry::pieces(beside)) {
-    if (geometry::offset(piece, -0.5 * kThinMm).empty()) continue;
-    s.reach = geometry::subtract(s.reach, piece);
-    walled = true;
-  }
-  if (!walled) return;
-  // What others cut as deep behind the walls is no way out of this face: how narrow it is, is theirs.
-  const geometry::Region around =
-      geometry::subtract(geometry::rectangle(geometry::xy(part.lo), geometry::xy(part.hi)), s.area);
-  const geometry::Region own = geometry::offset_sharp(s.area, kThinMm);
-  for (const geometry::Region& piece : geometry::pieces(geometry::subtract(around, beside))) {
-    if (geometry::intersect(piece, own).empty()) s.reach = geometry::subtract(s.reach, piece);
-  }
-}
 
 /// The earlier step that reached all of the area but corners and narrow places, if this one has a smaller
 /// cutter and leaves the same: then there is no more to do than the rest.
@@ -79,11 +31,11 @@ std::optional<toolpath::Cleared> Progress::cleared_by(const std::vector<Milled>&
   return out;
 }
 
-void Progress::prepare(const StepWork& step, const stock::HeightMap& map, toolpath::PathJob& job) const {
-  const SetupWork& setup = w_.setups[step.setup];
+void Progress::prepare(const StepDraft& step, const stock::HeightMap& map, toolpath::PathJob& job) const {
+  const SetupDraft& setup = w_.setups[step.setup];
   shape_from_mesh(w_, step, job);
   step::aim_at_the_middle(job.shape);
-  stop_at_walls(w_, job.shape);
+  piece::stop_at_walls(w_.piece(), job.shape);
   if (model::has(job.shape.kind, model::ShapeTrait::kOutwards)) {
     const auto outline = transformed(setup.stock, inverse(job.feature_in_setup));
     const auto raw = geometry::rectangle(geometry::xy(outline.lo), geometry::xy(outline.hi));
@@ -93,7 +45,7 @@ void Progress::prepare(const StepWork& step, const stock::HeightMap& map, toolpa
                          job.shape.kind == ShapeKind::kPocket)) {
     // A little within its own sides, so that the walls of the feature stay those of its own reach.
     const geometry::Region beside =
-        geometry::offset(stays_beside(w_, job.shape), -kWithinMm, 0.1 * kWithinMm);
+        geometry::offset(piece::stays_beside(w_.piece(), job.shape), -kWithinMm, 0.1 * kWithinMm);
     if (!beside.empty()) job.shape.reach = geometry::subtract(job.shape.reach, beside);
   }
   const double top = job.feature_in_setup.origin.z;
@@ -117,11 +69,11 @@ void Progress::prepare(const StepWork& step, const stock::HeightMap& map, toolpa
 
 /// Whether the step cuts what an earlier one left, and whether a later one will do so after it. A step that
 /// rules proposed says so itself; of one that was read, its nouns tell.
-void Progress::take_rest(const StepWork& step, toolpath::PathJob& job) const {
+void Progress::take_rest(const StepDraft& step, toolpath::PathJob& job) const {
   const bool area = job.shape.kind == ShapeKind::kPocket || job.shape.kind == ShapeKind::kSlot;
   if (!area || !model::has(job.cutter.cutter_class, model::CutterTrait::kEndMill)) return;
   if (step.proposed) {
-    const auto after = [&](const StepWork& s) {
+    const auto after = [&](const StepDraft& s) {
       return s.feature == step.feature && s.proposal.rest_of_diameter_mm > 0.0 &&
              s.operation.type == step.operation.type;
     };
@@ -133,7 +85,7 @@ void Progress::take_rest(const StepWork& step, toolpath::PathJob& job) const {
   if (it != milled_.end()) job.cleared_by = cleared_by(it->second, job);
 }
 
-void Progress::done(const StepWork& step) {
+void Progress::done(const StepDraft& step) {
   for (const auto& shape : step.shapes) {
     const auto job = job_of(w_, step, shape);
     if (w_.plan.model.holds<model::Two5dMillingOperation>(step.operation)) {

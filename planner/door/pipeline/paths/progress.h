@@ -16,9 +16,9 @@ class Progress {
   explicit Progress(const Work& w) : w_(w) {}
 
   /// Fills in where the job's material begins, and what earlier steps left on walls and floor.
-  void prepare(const StepWork& step, const stock::HeightMap& map, toolpath::PathJob& job) const;
+  void prepare(const StepDraft& step, const stock::HeightMap& map, toolpath::PathJob& job) const;
   /// The step is done, with the cutter it has.
-  void done(const StepWork& step);
+  void done(const StepDraft& step);
 
  private:
   /// What is still left on a feature's walls and floor after the steps so far.
@@ -32,7 +32,7 @@ class Progress {
   };
   [[nodiscard]] static std::optional<toolpath::Cleared> cleared_by(const std::vector<Milled>& before,
                                                                    const toolpath::PathJob& job);
-  void take_rest(const StepWork& step, toolpath::PathJob& job) const;
+  void take_rest(const StepDraft& step, toolpath::PathJob& job) const;
 
   using Key = std::pair<AnyRef, int>;  ///< feature and member of its pattern
   const Work& w_;

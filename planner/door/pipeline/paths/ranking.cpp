@@ -14,7 +14,7 @@ namespace capstan::pipeline {
 
 using model::Model;
 
-void take_cutter(Work& w, StepWork& step, const model::Candidate& c) {
+void take_cutter(Work& w, StepDraft& step, const model::Candidate& c) {
   std::erase_if(step.rejected_tools, [&](const auto& r) { return r.what == c.cutter.id; });
   w.plan.model.get<model::MachiningOperation>(step.operation)->its_tool = tool_noun(w, c.cutter);
   fit_to_cutter(w, step);
@@ -32,7 +32,7 @@ bool used(const Work& w, const model::Cutter& c) {
 }
 
 /// The candidates that were compared by their times, then the others.
-void in_order(Work& w, StepWork& step, std::vector<std::pair<double, std::size_t>> times) {
+void in_order(Work& w, StepDraft& step, std::vector<std::pair<double, std::size_t>> times) {
   const std::string first = step.candidates.front().cutter.id;
   const std::size_t n = times.size();
   const double of_first = times.front().first;
@@ -53,7 +53,7 @@ void in_order(Work& w, StepWork& step, std::vector<std::pair<double, std::size_t
 
 }  // namespace
 
-void rank_by_time(Work& w, StepWork& step, Stocks& stocks, const Progress& progress, Cuts& cuts) {
+void rank_by_time(Work& w, StepDraft& step, Stocks& stocks, const Progress& progress, Cuts& cuts) {
   if (step.candidates.size() < 2 || step.shapes.empty()) return;
   if (!model::has(step.operation.type, model::OperationTrait::kPlane) &&
       !(model::has(step.operation.type, model::OperationTrait::kRoughs) &&
@@ -63,7 +63,7 @@ void rank_by_time(Work& w, StepWork& step, Stocks& stocks, const Progress& progr
   const std::size_t n = std::min(kCompared, step.candidates.size());
   std::vector<std::pair<double, std::size_t>> times;
   for (std::size_t i = 0; i < n; ++i) {
-    StepWork trial = step;
+    StepDraft trial = step;
     trial.cutter = step.candidates[i].cutter;
     auto job = job_of(w, trial, step.shapes.front());
     progress.prepare(trial, stocks.of(trial.setup), job);
@@ -80,7 +80,8 @@ void rank_by_time(Work& w, StepWork& step, Stocks& stocks, const Progress& progr
   in_order(w, step, std::move(times));
 }
 
-void rank_by_path(Work& w, StepWork& step, const std::function<std::optional<double>(std::size_t)>& seconds) {
+void rank_by_path(Work& w, StepDraft& step,
+                  const std::function<std::optional<double>(std::size_t)>& seconds) {
   if (step.candidates.size() < 2 || step.shapes.empty() ||
       !model::has(step.candidates.front().cutter.cutter_class, model::CutterTrait::kSlotForm))
     return;

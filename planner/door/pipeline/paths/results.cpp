@@ -14,13 +14,13 @@ namespace capstan::pipeline {
 namespace {
 
 /// Hours of cutting are worth another tool: said with what holds the step back.
-void tell_slow(Work& w, const StepWork& step, const model::StepResult& r) {
+void tell_slow(Work& w, const StepDraft& step, const model::StepResult& r) {
   constexpr double kSlowS = 4.0 * 3600.0;  // default, unsourced
   if (!step.open_technology || r.cutting_s < kSlowS) return;
   std::string limits;
   for (const auto& a : r.active) limits += (limits.empty() ? "" : ", ") + a.name;
-  w.job.warn("PIP-SLOW", "step '" + name_of(w, step) + "' cuts " + trimmed(r.cutting_s / 3600.0, 1) +
-                             " h with " + step.cutter.id + " (" +
+  w.job.warn("PIP-SLOW", "step '" + draft::name_of(w.plan.model, step) + "' cuts " +
+                             trimmed(r.cutting_s / 3600.0, 1) + " h with " + step.cutter.id + " (" +
                              trimmed(step.cutter.cutting_diameter_mm, 3) + " mm, " +
                              trimmed(step.cutter.stick_out_mm, 1) + " mm out), held back by " +
                              (limits.empty() ? "given values" : limits) +
@@ -39,17 +39,17 @@ bool as_large(const model::Cutter& a, const model::Cutter& b) {
 /// What the plan said of a step for which all that its limits rest on is as it was: machine, material,
 /// cutter, speed, feed, depth and path. Which limits these reached was found when these were chosen, and is
 /// not asked again. A plan that was read knows its machine by name, and its paths by what they take.
-const model::StepResult* unchanged(const Work& w, const StepWork& step, const model::StepResult& r) {
+const model::StepResult* unchanged(const Work& w, const StepDraft& step, const model::StepResult& r) {
   constexpr double kSame = 1e-6;  // of the value, what a file's units round; default, unsourced
   constexpr double kSameS =
       0.01;  // files of earlier versions have left-handed helices as points; default, unsourced
-  if (step.open_technology || w.recorded_machine.id != w.plan.machine.id ||
-      w.recorded_material != w.plan.material)
+  if (step.open_technology || w.recorded.machine.id != w.plan.machine.id ||
+      w.recorded.material != w.plan.material)
     return nullptr;
-  const auto cutter = std::find_if(w.recorded.begin(), w.recorded.end(),
+  const auto cutter = std::find_if(w.recorded.cutters.begin(), w.recorded.cutters.end(),
                                    [&](const model::Cutter& c) { return c.id == r.cutter_id; });
-  if (cutter == w.recorded.end() || !as_large(*cutter, step.cutter)) return nullptr;
-  for (const model::StepResult& was : w.recorded_steps) {
+  if (cutter == w.recorded.cutters.end() || !as_large(*cutter, step.cutter)) return nullptr;
+  for (const model::StepResult& was : w.recorded.steps) {
     if (was.step != r.step) continue;
     const auto same = [](double a, double b) { return std::abs(a - b) <= kSame * std::abs(a); };
     const bool as_before =
@@ -70,7 +70,7 @@ std::vector<model::ActiveConstraint> active_of(const optimise::CutAnswer& answer
   return out;
 }
 
-void keep(Work& w, const StepWork& step, model::StepResult r, const optimise::FeedQuestion& fq) {
+void keep(Work& w, const StepDraft& step, model::StepResult r, const optimise::FeedQuestion& fq) {
   if (r.feed_mm_min == 0.0) r.feed_mm_min = fq.feed_mm_min;
   if (r.spindle_rpm == 0.0) r.spindle_rpm = fq.n_rpm;
   const double d = step.cutter.cutting_diameter_mm;
@@ -85,13 +85,14 @@ void keep(Work& w, const StepWork& step, model::StepResult r, const optimise::Fe
     tell_slow(w, step, r);
   } else {
     for (auto& a : r.active) a.saves_s = 0.0;
-    w.job.warn(t.error().code, "step '" + name_of(w, step) + "' has no time: " + t.error().message);
+    w.job.warn(t.error().code,
+               "step '" + draft::name_of(w.plan.model, step) + "' has no time: " + t.error().message);
   }
   if (const auto* was = r.active.empty() ? unchanged(w, step, r) : nullptr) r.active = was->active;
   w.plan.steps.push_back(std::move(r));
 }
 
-bool feed_was_planned(const Work& w, const StepWork& step) {
+bool feed_was_planned(const Work& w, const StepDraft& step) {
   const auto* op = w.plan.model.get<model::MachiningOperation>(step.operation);
   if (op == nullptr || !op->its_technology.set()) return false;
   const auto* d = w.plan.ledger.find(op->its_technology, "feedrate");
@@ -99,14 +100,15 @@ bool feed_was_planned(const Work& w, const StepWork& step) {
          d->binder != model::Binder::kOperator;
 }
 
-void keep_excess(Work& w, const StepWork& step, const optimise::FeedAnswer& feeds, model::StepResult& r) {
+void keep_excess(Work& w, const StepDraft& step, const optimise::FeedAnswer& feeds, model::StepResult& r) {
   if (!(feeds.worst_excess > kTolerableExcess)) return;
   r.exceeded.push_back(feeds.worst);
-  w.job.warn("PIP-EXCESS", "step '" + name_of(w, step) + "': " + model::text_of(feeds.worst) +
+  w.job.warn("PIP-EXCESS", "step '" + draft::name_of(w.plan.model, step) +
+                               "': " + model::text_of(feeds.worst) +
                                ", even at the least feed; use a smaller tool or depth");
 }
 
-model::StepResult result_of(const Work& w, const StepWork& step) {
+model::StepResult result_of(const Work& w, const StepDraft& step) {
   model::StepResult r;
   r.step = step.step;
   r.setup = step.setup;
@@ -145,16 +147,16 @@ std::optional<double> seconds_of(const Work& w, const model::CutterPath& path,
   return t ? std::optional(t->cutting_s + t->dwell_s + t->rapid_s) : std::nullopt;
 }
 
-std::string name_of(const Work& w, const StepWork& step) {
+std::string name_of(const Work& w, const StepDraft& step) {
   const auto* e = w.plan.model.get<model::Executable>(step.step);
   return e != nullptr ? e->its_id.value_or("") : "";
 }
 
-void no_path(Work& w, const StepWork& step, const std::string& why) {
-  w.plan.unplanned.push_back({step.feature, "step '" + name_of(w, step) + "': " + why});
+void no_path(Work& w, const StepDraft& step, const std::string& why) {
+  w.plan.unplanned.push_back({step.feature, "step '" + draft::name_of(w.plan.model, step) + "': " + why});
   w.job.report({.code = "PIP-NO-PATH",
                 .severity = Severity::kError,
-                .message = "step '" + name_of(w, step) + "' has no path: " + why,
+                .message = "step '" + draft::name_of(w.plan.model, step) + "' has no path: " + why,
                 .file = w.plan.file_name,
                 .instance = w.plan.model.origin(step.step).instance});
 }

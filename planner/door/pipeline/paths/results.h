@@ -18,24 +18,25 @@ void append(toolpath::GeneratedPath& to, const toolpath::GeneratedPath& from);
 [[nodiscard]] std::optional<double> seconds_of(const Work& w, const model::CutterPath& path,
                                                const model::FeedSchedule& schedule);
 /// The name that messages call a step by.
-[[nodiscard]] std::string name_of(const Work& w, const StepWork& step);
+[[nodiscard]] std::string name_of(const Work& w, const StepDraft& step);
 /// What is known of a step before it has a path.
-[[nodiscard]] model::StepResult result_of(const Work& w, const StepWork& step);
+[[nodiscard]] model::StepResult result_of(const Work& w, const StepDraft& step);
 /// The limits of an answer; `saves_s` is the part of the cutting time that a tenth more of each saves, until
 /// `keep` knows that time.
 [[nodiscard]] std::vector<model::ActiveConstraint> active_of(const optimise::CutAnswer& answer);
 /// Whether the feed is one that planning bound before: then it is the most, and each move has its own.
-[[nodiscard]] bool feed_was_planned(const Work& w, const StepWork& step);
+[[nodiscard]] bool feed_was_planned(const Work& w, const StepDraft& step);
 /// By which share of itself a limit may be exceeded at one place of a path before the step counts as
 /// exceeding it. Sections come from cells (the height map's are a twentieth of the cutter wide and more), so
 /// that a width or depth of cut, and with it force, torque and power, is uncertain by about so much. Default,
 /// unsourced. What is above it is kept as StepResult::exceeded, and model::condemned condemns the step.
 inline constexpr double kTolerableExcess = 0.1;
 /// Keeps the limit that feeds exceed by more than kTolerableExcess, and warns PIP-EXCESS.
-void keep_excess(Work& w, const StepWork& step, const optimise::FeedAnswer& feeds, model::StepResult& result);
+void keep_excess(Work& w, const StepDraft& step, const optimise::FeedAnswer& feeds,
+                 model::StepResult& result);
 /// Puts the step into the plan, with its time and the seconds that its limits cost. Says PIP-SLOW of hours.
-void keep(Work& w, const StepWork& step, model::StepResult result, const optimise::FeedQuestion& asked);
+void keep(Work& w, const StepDraft& step, model::StepResult result, const optimise::FeedQuestion& asked);
 /// The step stays without a path: said, and kept as unplanned.
-void no_path(Work& w, const StepWork& step, const std::string& why);
+void no_path(Work& w, const StepDraft& step, const std::string& why);
 
 }  // namespace capstan::pipeline

@@ -17,7 +17,7 @@ constexpr int kMostOtherCells = 2;      // times that cutters may change with th
 constexpr double kContradiction = 0.1;  // of a step's volume, between map and geometry; default, unsourced
 constexpr double kTraceMm3 = 1.0;       // the same of next to nothing
 
-SameSetup same_setup(const SetupWork& s) {
+SameSetup same_setup(const SetupDraft& s) {
   const geometry::Placement& at = s.workpiece;
   return {s.setup, {at.origin.x, at.origin.y, at.origin.z, at.x.x, at.x.y, at.x.z, at.z.x, at.z.y, at.z.z}};
 }
@@ -26,7 +26,7 @@ SameSetup same_setup(const SetupWork& s) {
 
 double Stocks::smallest(std::size_t setup) const {
   double mm = 1e300;
-  for (const StepWork& s : w_.steps) {
+  for (const StepDraft& s : w_.steps) {
     if (s.setup == setup && s.cutter.cutting_diameter_mm > 0.0 && !w_.left_out.contains(s.step))
       mm = std::min(mm, s.cutter.cutting_diameter_mm);
   }

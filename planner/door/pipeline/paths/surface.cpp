@@ -53,7 +53,7 @@ void ask_as_measured(const std::vector<optimise::CutSample>& samples, optimise::
   if (q.speed_diameter_mm < d) q.vc_start_m_min = std::max(q.vc_start_m_min, q.vc_table_m_min);
 }
 
-Result<toolpath::GeneratedPath> pass_over(Work& w, const StepWork& step, const toolpath::PathJob& job,
+Result<toolpath::GeneratedPath> pass_over(Work& w, const StepDraft& step, const toolpath::PathJob& job,
                                           Stocks& stocks, optimise::CutQuestion& q) {
   auto path = kept_clear(w, step, job, [&](const toolpath::PathJob& j) {
     return freeform_path(w, step, j, {}, stocks.of(step.setup));

@@ -28,7 +28,7 @@ void ask_as_measured(const std::vector<optimise::CutSample>& samples, optimise::
 
 /// The passes over a surface, which need no speed and feed, and the question for what they cut of the stock;
 /// the stock is left as it is.
-[[nodiscard]] Result<toolpath::GeneratedPath> pass_over(Work& w, const StepWork& step,
+[[nodiscard]] Result<toolpath::GeneratedPath> pass_over(Work& w, const StepDraft& step,
                                                         const toolpath::PathJob& job, Stocks& stocks,
                                                         optimise::CutQuestion& q);
 

@@ -23,7 +23,7 @@ using model::ShapeKind;
 /// The deviations of a size: its own, else the general ones.
 std::optional<model::Deviations> deviations(const Work& w, const model::Toleranced& t) {
   if (t.given) return model::Deviations{t.lower_mm, t.upper_mm};
-  const auto half = w.general ? model::general_size(*w.general, t.nominal_mm) : std::nullopt;
+  const auto half = w.demands.general ? model::general_size(*w.demands.general, t.nominal_mm) : std::nullopt;
   if (!half) return std::nullopt;
   return model::Deviations{-*half, *half};
 }
@@ -49,10 +49,10 @@ struct Measured {
 
 /// The datum that the position of this step's feature refers to, when it is done before in the same set-up.
 std::optional<Measured> datum_of(const Work& w, std::size_t at, double ball) {
-  const StepWork& step = w.steps[at];
-  for (const model::Tie& tie : w.ties) {
+  const StepDraft& step = w.steps[at];
+  for (const model::Tie& tie : w.demands.ties) {
     if (tie.letter.empty() || tie.second != step.feature || tie.first == step.feature) continue;
-    const auto is_datum = [&](const StepWork& s) { return s.feature == tie.first; };
+    const auto is_datum = [&](const StepDraft& s) { return s.feature == tie.first; };
     const auto here = w.steps.begin() + static_cast<std::ptrdiff_t>(at);
     if (std::none_of(w.steps.begin(), here, is_datum) || std::any_of(here, w.steps.end(), is_datum)) continue;
     if (std::any_of(w.steps.begin(), here,
@@ -65,7 +65,7 @@ std::optional<Measured> datum_of(const Work& w, std::size_t at, double ball) {
     const bool placed = s.kind == ShapeKind::kHole || s.kind == ShapeKind::kOutside ||
                         (s.kind == ShapeKind::kPocket && !s.open);
     if (!placed || dot(s.frame.z, step.shapes.front().frame.z) < 1.0 - 1e-6) continue;
-    Measured out{probing::touches_of({w.shapes, w.plan.stock.box}, s, {}, ball),
+    Measured out{probing::touches_of({w.shapes.all, w.plan.stock.box}, s, {}, ball),
                  "datum " + tie.letter + ", '" + s.name + "'",
                  {},
                  {}};
@@ -81,7 +81,7 @@ std::optional<Measured> datum_of(const Work& w, std::size_t at, double ball) {
 
 /// Whether the chain leans on what is measured: its own row wants it between two cuts, for the size. Else a
 /// demand of position wants it.
-bool for_size(const Probing& p) {
+bool for_size(const draft::ProbingDraft& p) {
   const std::string& row = p.chain[p.at].why.id;
   return std::any_of(p.chain.begin(), p.chain.end(), [&](const model::ProposedStep& s) {
     return s.operation != model::TypeId::kWorkpieceProbing && s.why.id == row;
@@ -106,8 +106,8 @@ std::optional<double> wall_slack(const FeatureShape& s) {
 }
 
 Measured measured_before(const Work& w, std::size_t at, const std::optional<model::Candidate>& probe) {
-  const StepWork& step = w.steps[at];
-  const Probing& p = *step.probing;
+  const StepDraft& step = w.steps[at];
+  const draft::ProbingDraft& p = *step.probing;
   const double ball = probe ? 0.5 * probe->cutter.cutting_diameter_mm : 0.0;
   if (!for_size(p)) {
     if (auto datum = datum_of(w, at, ball)) return *std::move(datum);
@@ -115,7 +115,7 @@ Measured measured_before(const Work& w, std::size_t at, const std::optional<mode
   // Where the walls are when each step is cut to the middle of the tolerance, as the paths are.
   FeatureShape s = step.shapes.front();
   step::aim_at_the_middle(s);
-  Measured out{probing::touches_of({w.shapes, w.plan.stock.box}, s, left_at(p.chain, p.at, s), ball),
+  Measured out{probing::touches_of({w.shapes.all, w.plan.stock.box}, s, left_at(p.chain, p.at, s), ball),
                "'" + s.name + "' as it is cut so far",
                {},
                {}};
@@ -146,9 +146,9 @@ Ref<model::Direction> direction(Model& m, Vec3 v) {
   return m.add(d);
 }
 
-Ref<model::Executable> touch_noun(Work& w, const StepWork& next, const Measured& what, std::size_t at) {
+Ref<model::Executable> touch_noun(Work& w, const StepDraft& next, const Measured& what, std::size_t at) {
   Model& m = w.plan.model;
-  const Probing& wanted = *next.probing;
+  const draft::ProbingDraft& wanted = *next.probing;
   const model::ProposedStep& step = wanted.chain[wanted.at];
   const probing::Touch& touch = what.found.touches[at];
 
@@ -202,11 +202,11 @@ Ref<model::Executable> touch_noun(Work& w, const StepWork& next, const Measured&
 }  // namespace
 
 void add_probings(Work& w) {
-  std::vector<StepWork> out;
+  std::vector<StepDraft> out;
   for (std::size_t i = 0; i < w.steps.size(); ++i) {
     if (w.steps[i].probing) {
-      StepWork& next = w.steps[i];
-      Probing& probing = *next.probing;
+      StepDraft& next = w.steps[i];
+      draft::ProbingDraft& probing = *next.probing;
       const model::ProposedStep& wanted = probing.chain[probing.at];
       Measured what = measured_before(w, i, probing.probe);
       std::string not_by_probe = "machine or library has no touch probe";
@@ -219,7 +219,7 @@ void add_probings(Work& w) {
       if (what.found.touches.empty()) {
         // A last cut that nothing sets holds no more than the cut before it, and a place that nobody measures
         // is where the machine happens to put it: such a chain is none.
-        w.tries.ban_chain(
+        w.tries.bans.ban_chain(
             next.member, next.chain,
             "'" + wanted.name + "' cannot be made (" + what.found.why_not + "), and without it " +
                 (for_size(probing)
@@ -234,7 +234,7 @@ void add_probings(Work& w) {
                                     "; the program stops, and it is measured by other means");
       }
       for (std::size_t k = 0; k < what.found.touches.size(); ++k) {
-        StepWork step;
+        StepDraft step;
         step.feature = next.feature;
         step.setup = next.setup;
         step.shapes = next.shapes;

@@ -50,7 +50,7 @@ std::string keep_untried(const Work& w, const Member& member, const std::string&
                          model::Selection& s) {
   std::string last;
   std::erase_if(s.ranked, [&](const model::Candidate& c) {
-    const std::string* why = w.tries.cutter_banned(member, chain, at, c.cutter.id);
+    const std::string* why = w.tries.bans.cutter_banned(member, chain, at, c.cutter.id);
     if (why == nullptr) return false;
     s.rejected.push_back({c.cutter.id, *why});
     last = c.cutter.id + ": " + *why;
@@ -74,7 +74,7 @@ void tell_apart(const Work& w, const std::vector<model::Selection>& before, mode
       return same;
     };
     const bool taken = std::any_of(w.steps.begin(), w.steps.end(),
-                                   [&](const StepWork& step) { return look_at(step.cutter); });
+                                   [&](const StepDraft& step) { return look_at(step.cutter); });
     for (std::size_t i = 0; i < before.size() && !taken; ++i) {
       if (!before[i].ranked.empty() && look_at(before[i].ranked.front().cutter)) break;
     }
@@ -92,10 +92,10 @@ Chosen choose(Work& w, const model::Proposal& p, const FeatureShape& shape, cons
               const std::vector<model::Cutter>& library, std::vector<model::Rejected>& rejected) {
   for (const auto& chain : p.chains) {
     Chosen out;
-    out.key = Tries::key_of(chain);
+    out.key = draft::key_of(chain);
     std::vector<std::string> used = w.used_cutters;
     std::string why_not;
-    if (const std::string* why = w.tries.chain_banned(member, out.key)) why_not = *why;
+    if (const std::string* why = w.tries.bans.chain_banned(member, out.key)) why_not = *why;
     for (std::size_t i = 0; why_not.empty() && i < chain.size(); ++i) {
       const model::ProposedStep step = as_opened(chain, i, out.tools);
       tooling::Preferences wanted = preferences_of(w, step, shape);

@@ -11,7 +11,7 @@ namespace capstan::pipeline {
 
 struct Chosen {
   const std::vector<model::ProposedStep>* chain = nullptr;  ///< null: none
-  std::string key;                                          ///< Tries::key_of
+  std::string key;                                          ///< draft::key_of
   std::vector<model::Selection> tools;                      ///< one per step
 };
 

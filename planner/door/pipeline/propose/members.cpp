@@ -49,20 +49,20 @@ double depth_over_cone(const model::FeatureShape& hole, const model::Cutter& dri
   return std::min(apex - tip, at_corner);
 }
 
-std::optional<double> depth_with_its_cutter(const StepWork& step) {
+std::optional<double> depth_with_its_cutter(const StepDraft& step) {
   if (!step.proposed || step.shapes.empty() || !(step.proposal.tool.point_angle_rad > 0.0) ||
       step.cutter.cutter_class != model::CutterClass::kTwistDrill)
     return std::nullopt;
   return depth_over_cone(step.shapes.front(), step.cutter);
 }
 
-void fit_to_cutter(Work& w, StepWork& step) {
+void fit_to_cutter(Work& w, StepDraft& step) {
   if (!step.proposed) return;
   if (const auto depth = depth_with_its_cutter(step)) {
     step.proposal.depth_mm = *depth;
     if (auto* o = w.plan.model.get<model::DrillingTypeOperation>(step.operation)) o->cutting_depth = *depth;
   }
-  for (StepWork& next : w.steps) {
+  for (StepDraft& next : w.steps) {
     if (!next.proposed || next.member != step.member || next.chain != step.chain ||
         next.in_chain != step.in_chain + 1)
       continue;

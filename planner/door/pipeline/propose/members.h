@@ -25,11 +25,11 @@ void members_in_order(Work& w, const std::vector<std::size_t>& first, const std:
 
 /// The cutting depth of a proposed step that drills over a conical bottom, with the cutter that it has now;
 /// nothing for all others: theirs does not hang on the point of the drill.
-[[nodiscard]] std::optional<double> depth_with_its_cutter(const StepWork& step);
+[[nodiscard]] std::optional<double> depth_with_its_cutter(const StepDraft& step);
 
 /// After a proposed step has been given another cutter: its depth, and the hole that the step after it in the
 /// chain finds, are those of that cutter.
-void fit_to_cutter(Work& w, StepWork& step);
+void fit_to_cutter(Work& w, StepDraft& step);
 
 /// Says which holes have an operation that makes a thread although no feature states one: re-opened, they
 /// stay plain.

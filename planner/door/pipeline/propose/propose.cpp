@@ -9,6 +9,11 @@
 #include "planner/door/pipeline/propose/members.h"
 #include "planner/door/pipeline/step/steps.h"
 #include "planner/ground/base/number.h"
+#include "planner/making/draft/setup_nouns.h"
+#include "planner/making/piece/in_piece.h"
+#include "planner/making/piece/surface_form.h"
+#include "planner/making/piece/surroundings.h"
+#include "planner/making/piece/twins.h"
 #include "planner/model/nouns/arena/walk.h"
 #include "tooling/library/nouns/nouns.h"
 #include "tooling/selection/select.h"
@@ -30,7 +35,7 @@ std::vector<AnyRef> wanted(const Work& w) {
   const Model& m = w.plan.model;
   const std::set<AnyRef> parts = model::parts_of_others(m);
   std::set<AnyRef> done;
-  for (const StepWork& s : w.steps) done.insert(s.feature);
+  for (const StepDraft& s : w.steps) done.insert(s.feature);
   // A compound whose elements have their own steps is made by these.
   const auto by_elements = [&](AnyRef r) {
     const auto* c = m.get<model::CompoundFeature>(r);
@@ -83,11 +88,11 @@ std::size_t setup_for(Work& w, const FeatureShape& s) {
   // The work offset lies at the raw piece's lower corner, as it is clamped.
   const auto box = transformed(w.plan.stock.box, turned);
   turned.origin = turned.origin - box.lo;
-  SetupWork work;
+  SetupDraft work;
   work.workpiece = turned;
-  work.setup = add_setup(w, turned);
+  work.setup = draft::add_setup(w.plan.model, w.setups.size() + 1, w.plan.stock.box, turned);
   work.stock = transformed(w.plan.stock.box, turned);
-  work.security_z_mm = work.stock.hi.z + 10.0;
+  work.security_z_mm = work.stock.hi.z + draft::kSecurityAboveMm;
   w.setups.push_back(work);
   w.plan.ledger.bind(
       work.setup, "its_origin", model::Binder::kRule,
@@ -114,7 +119,7 @@ class Proposer {
 
   void feature(AnyRef f, const std::vector<FeatureShape>& shapes) {
     if (left_out(f, shapes.front())) return;
-    rules::Context context = context_of(w_, f, shapes);
+    rules::Context context = piece::context_of(w_.piece(), w_.demands, f, shapes);
     const std::optional<Core> core = core_of(shapes);
     if (core) context.core_diameter_mm = core->diameter_mm;
     judge_tolerances(shapes.front());
@@ -123,17 +128,17 @@ class Proposer {
         if (said_.insert({f, a}).second) w_.job.warn("PIP-ASSUMED", "feature '" + s.name + "': " + a);
       }
       if (s.kind == model::ShapeKind::kFreeform && w_.plan.target_mesh) {
-        context.surface_radius_mm = surface_radius(*w_.plan.target_mesh);
-        const SurfaceForm form = surface_form(*w_.plan.target_mesh, w_.plan.stock.box);
+        context.surface_radius_mm = piece::surface_radius(*w_.plan.target_mesh);
+        const piece::SurfaceForm form = piece::surface_form(*w_.plan.target_mesh, w_.plan.stock.box);
         context.surface_walls = form.walls;
         context.surface_curved = form.curved;
         context.surface_corner_mm = form.corner_mm;
-        context.surface_sharp_mm = sharp_corner_of(form);
+        context.surface_sharp_mm = piece::sharp_corner_of(form);
         if (form.walls)
           context.surface_height_mm = geometry::bounds(*w_.plan.target_mesh).hi.z - w_.plan.stock.box.lo.z;
         // Of what is curved, too, a ball finishes the places that no mill enters.
         if (form.walls && !form.curved)
-          context.surface_passage_mm = passage_between(*w_.plan.target_mesh, form, w_.plan.stock.box);
+          context.surface_passage_mm = piece::passage_between(*w_.plan.target_mesh, form, w_.plan.stock.box);
       }
     }
     const auto proposals = rules::propose_members(w_.inputs.rules, shapes, context);
@@ -144,7 +149,7 @@ class Proposer {
     for (std::size_t i = 0; i < shapes.size(); ++i) {
       representative[i] = i;
       for (std::size_t j = 0; j < i; ++j) {
-        if (representative[j] == j && alike(shapes[i], shapes[j])) {
+        if (representative[j] == j && piece::alike(shapes[i], shapes[j])) {
           representative[i] = j;
           break;
         }
@@ -165,7 +170,7 @@ class Proposer {
     // Part of a feature is not made: what is made of it stands or falls with the rest.
     if (const auto why = failed_.find(f); why != failed_.end()) {
       const bool some = std::any_of(made.begin(), made.end(), [](const auto& m) { return !m.empty(); });
-      for (const std::string& reason : why->second) w_.tries.leave_out(f, reason);
+      for (const std::string& reason : why->second) w_.tries.bans.leave_out(f, reason);
       // A face that stays makes all below it deeper: what was proposed reckoned without it.
       const bool face = shapes.front().kind == model::ShapeKind::kFace;
       w_.again = w_.again || some || face;
@@ -180,7 +185,7 @@ class Proposer {
  private:
   /// Whether an earlier try left this feature out; said again in this one.
   bool left_out(AnyRef f, const FeatureShape& first) {
-    const LeftOut* out = w_.tries.left_out(f);
+    const draft::LeftOut* out = w_.tries.bans.left_out(f);
     if (out == nullptr) return false;
     const auto* named = w_.plan.model.get<model::ManufacturingFeature>(f);
     FeatureShape whole = first;
@@ -241,7 +246,7 @@ class Proposer {
       if (s.kind != model::ShapeKind::kHole || s.through) return std::nullopt;
       std::optional<Core> here;
       for (std::size_t i = 0; i < w_.steps.size(); ++i) {
-        const StepWork& step = w_.steps[i];
+        const StepDraft& step = w_.steps[i];
         if (step.feature == s.feature || step.setup > setup_up(s.frame.z)) continue;
         for (const FeatureShape& hole : step.shapes) {
           if (!runs_through(hole, s)) continue;
@@ -287,7 +292,7 @@ class Proposer {
     std::set<AnyRef> joined{f};
     for (bool grown = true; grown;) {
       grown = false;
-      for (const model::Tie& t : w_.ties) {
+      for (const model::Tie& t : w_.demands.ties) {
         if (joined.contains(t.first) == joined.contains(t.second)) continue;
         joined.insert(t.first);
         joined.insert(t.second);
@@ -296,7 +301,7 @@ class Proposer {
     }
     Sides out;
     if (joined.size() == 1) return out;
-    for (const FeatureShape& s : w_.shapes) {
+    for (const FeatureShape& s : w_.shapes.all) {
       if (s.feature == f || !joined.contains(s.feature) || plain_through(s)) continue;
       out.same = out.same || std::abs(dot(s.frame.z, z) - 1.0) < kSameAxis;
       out.opposite = out.opposite || std::abs(dot(s.frame.z, z) + 1.0) < kSameAxis;
@@ -311,7 +316,7 @@ class Proposer {
     const Sides tied = sides_tied_to(f, s.frame.z);
     if (tied.same) return s;
     bool below = tied.opposite;
-    for (const SetupWork& setup : w_.setups) {
+    for (const SetupDraft& setup : w_.setups) {
       const auto up = setup.workpiece.direction_to_parent(s.frame.z);
       if (!tied.opposite && std::abs(up.z - 1.0) < kSameAxis) return s;
       below = below || std::abs(up.z + 1.0) < kSameAxis;
@@ -329,14 +334,14 @@ class Proposer {
 
   std::vector<std::size_t> shape(AnyRef f, const FeatureShape& given, const model::Proposal& proposed) {
     std::string why = swallowed(given);
-    if (why.empty()) why = crosses_a_wall(w_, given);
-    if (why.empty()) why = not_in_piece(w_, given);
-    if (why.empty()) why = lies_within_another(w_, given);
+    if (why.empty()) why = piece::crosses_a_wall(w_.piece(), given);
+    if (why.empty()) why = piece::not_in_piece(w_.piece(), given);
+    if (why.empty()) why = piece::lies_within_another(w_.shapes, given);
     if (!why.empty() || !proposed.cannot.empty()) {
       fail_member(f, given, why.empty() ? proposed.cannot : why);
       return {};
     }
-    const model::Proposal p = without_drills_at_edges(w_, given, proposed);
+    const model::Proposal p = piece::without_drills_at_edges(w_.piece(), given, proposed);
     if (p.chains.empty() && !proposed.chains.empty()) {
       fail_member(f, given, p.rejected.back().why);
       return {};
@@ -351,7 +356,7 @@ class Proposer {
     const Chosen chosen = choose(w_, p, s, member, library_, rejected);
     if (chosen.chain == nullptr) {
       const bool tried = std::any_of(p.chains.begin(), p.chains.end(), [&](const auto& chain) {
-        return w_.tries.chain_banned(member, Tries::key_of(chain)) != nullptr;
+        return w_.tries.bans.chain_banned(member, draft::key_of(chain)) != nullptr;
       });
       std::string reason = tried ? "no way to make it works" : "no cutter in the library fits";
       for (const auto& r : rejected) {
@@ -363,10 +368,10 @@ class Proposer {
     for (model::Rejected& r : alternatives(w_, p, s, chosen, library_)) rejected.push_back(std::move(r));
     std::vector<std::size_t> made;
     std::vector<std::optional<std::size_t>> made_of;  // by step of the chain
-    std::optional<Probing> probing;
+    std::optional<draft::ProbingDraft> probing;
     const std::size_t setup = setup_for(w_, s);
     for (std::size_t i = 0; i < chosen.chain->size(); ++i) {
-      StepWork step;
+      StepDraft step;
       step.feature = f;
       step.setup = setup;
       step.shapes = {s};
@@ -406,9 +411,9 @@ class Proposer {
     return made;
   }
 
-  Probing probing_at(const std::vector<model::ProposedStep>& chain, std::size_t i,
-                     const model::Selection& tools) {
-    Probing out{chain, i, {}};
+  draft::ProbingDraft probing_at(const std::vector<model::ProposedStep>& chain, std::size_t i,
+                                 const model::Selection& tools) {
+    draft::ProbingDraft out{chain, i, {}};
     if (w_.plan.machine.abilities.probe && !tools.ranked.empty()) {
       out.probe = tools.ranked.front();
       tooling::use(w_.used_cutters, out.probe->cutter.id);
@@ -424,19 +429,6 @@ class Proposer {
 
 }  // namespace
 
-double stock_above(const Work& w, const FeatureShape& s) {
-  double top = transformed(w.plan.stock.box, inverse(s.frame)).hi.z;
-  if (s.kind == model::ShapeKind::kFace) return std::max(0.0, top);
-  for (const FeatureShape& face : w.faces) {
-    const auto rel = compose(inverse(s.frame), face.frame);
-    if (std::abs(rel.z.z - 1.0) > kSameAxis) continue;
-    const auto here = face.frame.to_local(s.frame.origin);
-    if (!geometry::contains(face.area, geometry::xy(here))) continue;
-    top = std::min(top, rel.origin.z - face.depth_mm);
-  }
-  return std::max(0.0, top);
-}
-
 std::vector<model::Cutter> usable(const Work& w) {
   if (!w.policy.only_loaded_cutters) return w.inputs.library;
   std::vector<model::Cutter> out;
@@ -444,11 +436,6 @@ std::vector<model::Cutter> usable(const Work& w) {
     if (c.loaded) out.push_back(c);
   }
   return out;
-}
-
-bool alike(const FeatureShape& a, const FeatureShape& b) {
-  return model::same_form(a, b) && a.area.loops == b.area.loops && a.frame.z == b.frame.z &&
-         a.frame.origin.z == b.frame.origin.z;
 }
 
 Status propose_missing(Work& w) {
@@ -469,10 +456,10 @@ Status propose_missing(Work& w) {
     // What is not known might be a boss: nothing of it is cut.
     if (const auto wrong = w.unreadable.find(f); wrong != w.unreadable.end()) {
       unplanned(w, f, nameless, wrong->second);
-      if (w.tries.left_out(f) == nullptr) w.tries.leave_out(f, wrong->second);
+      if (w.tries.bans.left_out(f) == nullptr) w.tries.bans.leave_out(f, wrong->second);
       continue;
     }
-    const auto shapes = shapes_in_piece(w, f);
+    const auto shapes = piece::shapes_in_piece(w.piece(), f);
     if (!shapes) {
       unplanned(w, f, nameless, shapes.error().message);
       continue;

@@ -7,6 +7,7 @@
 #include "planner/door/pipeline/propose/members.h"
 #include "planner/ground/base/number.h"
 #include "planner/ground/vocabulary/operation.h"
+#include "planner/making/piece/surroundings.h"
 #include "tooling/selection/select.h"
 
 // The second look at the tools, when every step has one: fewer of them.
@@ -36,7 +37,7 @@ struct Instead {
   double loss_s = 0.0;
 };
 
-const Candidate* own(const StepWork& s) {
+const Candidate* own(const StepDraft& s) {
   for (const Candidate& c : s.candidates) {
     if (c.cutter.id == s.cutter.id) return &c;
   }
@@ -65,7 +66,7 @@ class Sharer {
     }
     // What gave way is not used any more.
     w_.used_cutters.clear();
-    for (const StepWork& s : w_.steps) {
+    for (const StepDraft& s : w_.steps) {
       if (!s.cutter.id.empty()) tooling::use(w_.used_cutters, s.cutter.id);
     }
   }
@@ -88,7 +89,7 @@ class Sharer {
   /// The best of the tools that the rest of the plan uses; of the same class, so that what the rules prefer
   /// stays.
   [[nodiscard]] std::optional<Instead> instead(std::size_t i, const std::set<std::string>& others) const {
-    const StepWork& s = w_.steps[i];
+    const StepDraft& s = w_.steps[i];
     const Candidate* mine = own(s);
     if (mine == nullptr) return std::nullopt;
     std::optional<Instead> best;
@@ -106,7 +107,7 @@ class Sharer {
 
   bool give_way(const std::string& id, const std::vector<std::size_t>& steps) {
     std::set<std::string> others;
-    for (const StepWork& s : w_.steps) {
+    for (const StepDraft& s : w_.steps) {
       if (s.cutter.id != id) others.insert(s.cutter.id);
     }
     std::vector<Instead> taken;
@@ -133,7 +134,7 @@ class Sharer {
   }
 
   void swap(const Instead& t, const std::string& id, double loss_s, double saved_s) {
-    StepWork& s = w_.steps[t.step];
+    StepDraft& s = w_.steps[t.step];
     std::rotate(s.candidates.begin(), s.candidates.begin() + static_cast<std::ptrdiff_t>(t.candidate),
                 s.candidates.begin() + static_cast<std::ptrdiff_t>(t.candidate) + 1);
     const Candidate& now = s.candidates.front();
@@ -162,7 +163,7 @@ tooling::Preferences preferences_of(const Work& w, const model::ProposedStep& st
   tooling::Preferences p;
   p.batch = w.inputs.batch;
   p.pre_hole_mm = step.start_diameter_mm;
-  const double above = stock_above(w, s);
+  const double above = piece::stock_above(w.piece(), s);
   const double depth = s.kind == ShapeKind::kFace ? std::max(above, s.depth_mm) : s.depth_mm + above;
   if (model::is_a(step.operation, TypeId::kDrillingTypeOperation)) {
     p.depth_mm = step.depth_mm > 0.0 ? step.depth_mm + above : depth;

@@ -41,7 +41,8 @@ Tightest tightest(const Work& w, AnyRef feature, const FeatureShape& s) {
   const auto size = [&](const Toleranced& t, const char* name) {
     if (!(t.nominal_mm > 0.0)) return;
     if (t.given) return take(out, t.width(), "the tolerance of the " + std::string(name));
-    const auto general = w.general ? model::general_size(*w.general, t.nominal_mm) : std::nullopt;
+    const auto general =
+        w.demands.general ? model::general_size(*w.demands.general, t.nominal_mm) : std::nullopt;
     if (general) take(out, 2.0 * *general, "the general tolerance of the " + std::string(name));
   };
   size(s.width, "width");
@@ -50,7 +51,7 @@ Tightest tightest(const Work& w, AnyRef feature, const FeatureShape& s) {
   Toleranced depth = s.depth_tolerance;
   depth.nominal_mm = s.depth_mm;
   if (!s.through) size(depth, "depth");
-  if (const auto it = w.qualities.find(feature); it != w.qualities.end()) {
+  if (const auto it = w.demands.qualities.find(feature); it != w.demands.qualities.end()) {
     const model::Quality& q = it->second;
     take(out, q.form_mm.value_or(0.0), "the tolerance of form");
     take(out, q.orientation_mm.value_or(0.0), "the tolerance of orientation");
@@ -63,7 +64,7 @@ Tightest tightest(const Work& w, AnyRef feature, const FeatureShape& s) {
 
 }  // namespace
 
-Deviation deviation_of(const Work& w, const StepWork& step, const toolpath::PathJob& job) {
+Deviation deviation_of(const Work& w, const StepDraft& step, const toolpath::PathJob& job) {
   Deviation out;
   const model::Model& m = w.plan.model;
   if (!m.holds<model::MillingTypeOperation>(step.operation) || step.shapes.empty()) return out;

@@ -187,7 +187,7 @@ double hole_above(const Model& m, AnyRef feature, const model::FeatureShape& s) 
 
 /// The widest narrower hole that goes on below a cone's foot or a shoulder, of the same feature or as the
 /// proposal of a cone knows it.
-double hole_below(const Model& m, const StepWork& step, const model::FeatureShape& s) {
+double hole_below(const Model& m, const StepDraft& step, const model::FeatureShape& s) {
   constexpr double kSame = 1e-4;  // mm
   const bool cone = s.bottom_diameter_mm < s.diameter.nominal_mm - kSame;
   if (s.kind != model::ShapeKind::kHole || (s.through && !cone)) return 0.0;
@@ -208,9 +208,9 @@ double hole_below(const Model& m, const StepWork& step, const model::FeatureShap
 
 }  // namespace
 
-toolpath::PathJob job_of(const Work& w, const StepWork& step, const model::FeatureShape& shape) {
+toolpath::PathJob job_of(const Work& w, const StepDraft& step, const model::FeatureShape& shape) {
   const Model& m = w.plan.model;
-  const SetupWork& setup = w.setups[step.setup];
+  const SetupDraft& setup = w.setups[step.setup];
   toolpath::PathJob job;
   job.shape = shape;
   job.feature_in_setup = compose(setup.workpiece, shape.frame);

@@ -43,7 +43,7 @@ CutKind kind_of(const Model& m, AnyRef op, const model::Cutter& c) {
   return !plane && model::has(op.type, model::OperationTrait::kFinishes) ? CutKind::kFinish : CutKind::kRough;
 }
 
-double tolerance_of(const Work& w, const StepWork& step, const model::FeatureShape& s) {
+double tolerance_of(const Work& w, const StepDraft& step, const model::FeatureShape& s) {
   double width = 0.0;
   for (const auto& t : {s.width, s.length, s.diameter}) {
     if (t.given && t.width() > 0.0) width = width > 0.0 ? std::min(width, t.width()) : t.width();
@@ -61,14 +61,14 @@ double tolerance_of(const Work& w, const StepWork& step, const model::FeatureSha
 ///
 /// Where the wall's own error can be told, it is what the tolerance is shared with, and the tip's bending
 /// keeps to what runs quietly: most of it is along the wall, or while no tooth is at it.
-void hold_quality(const Work& w, const StepWork& step, const toolpath::PathJob& job,
+void hold_quality(const Work& w, const StepDraft& step, const toolpath::PathJob& job,
                   optimise::CutQuestion& q) {
   const Model& m = w.plan.model;
   const bool floor = job.allowance_bottom_mm > 0.0;
   const bool wall = job.allowance_side_mm > 0.0;
   const bool finishes = model::has(step.operation.type, model::OperationTrait::kFinishes);
-  const auto asked = w.qualities.find(step.feature);
-  if (finishes && !(floor && wall) && asked != w.qualities.end())
+  const auto asked = w.demands.qualities.find(step.feature);
+  if (finishes && !(floor && wall) && asked != w.demands.qualities.end())
     q.surface_ra_um = asked->second.ra_um.value_or(0.0);
   const bool upright = model::has(step.cutter.cutter_class, model::CutterTrait::kEndMill);
   if (q.kind != CutKind::kFinish || wall || !upright || m.holds<model::FreeformFinishMilling>(step.operation))
@@ -97,12 +97,12 @@ double engaged(TypeId operation, const model::Cutter& c, std::optional<double> d
   return c.tip_diameter_mm + 2.0 * *depth_mm * std::tan(0.5 * c.point_angle_rad);
 }
 
-AnyRef technology_of(const Work& w, const StepWork& step) {
+AnyRef technology_of(const Work& w, const StepDraft& step) {
   const auto* op = w.plan.model.get<model::MachiningOperation>(step.operation);
   return op != nullptr ? AnyRef(op->its_technology) : AnyRef{};
 }
 
-bool override_locked(const Work& w, const StepWork& step) {
+bool override_locked(const Work& w, const StepDraft& step) {
   const auto* t = w.plan.model.get<model::MillingTechnology>(technology_of(w, step));
   return (step.proposed && step.proposal.lock_override) ||
          (t != nullptr && t->inhibit_feedrate_override.value_or(false));
@@ -110,7 +110,7 @@ bool override_locked(const Work& w, const StepWork& step) {
 
 /// Whether planning chose the feed that stands there, now or when the plan was made: then it keeps the same
 /// margins when it is planned again. A feed that somebody edited since is theirs.
-bool feed_by_planning(const Work& w, const StepWork& step) {
+bool feed_by_planning(const Work& w, const StepDraft& step) {
   const AnyRef technology = technology_of(w, step);
   if (!technology.set()) return false;
   for (const char* name : {"feedrate", "feedrate_per_tooth"}) {
@@ -165,7 +165,7 @@ optimise::CutQuestion hole_question(const Work& w, const model::ProposedStep& st
   return q;
 }
 
-optimise::CutQuestion question_of(const Work& w, const StepWork& step, const model::Candidate* candidate,
+optimise::CutQuestion question_of(const Work& w, const StepDraft& step, const model::Candidate* candidate,
                                   const toolpath::PathJob& job) {
   const Model& m = w.plan.model;
   optimise::CutQuestion q;
@@ -282,7 +282,7 @@ optimise::CutQuestion question_of(const Work& w, const StepWork& step, const mod
   return q;
 }
 
-std::optional<model::Reason> start_from_case(const Work& w, const StepWork& step,
+std::optional<model::Reason> start_from_case(const Work& w, const StepDraft& step,
                                              const model::FeatureShape& shape, optimise::CutQuestion& q) {
   // How far above the table's values a case may start; below there is no such limit. Default, unsourced.
   constexpr double kCaseReach = 1.25;

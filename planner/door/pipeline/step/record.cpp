@@ -17,7 +17,7 @@ using model::DecisionKey;
 using model::Model;
 
 /// Where the numbers of a cut come from: first of all whose coefficients gave its forces.
-std::string mechanics_of(const Work& w, const StepWork& step) {
+std::string mechanics_of(const Work& w, const StepDraft& step) {
   const bool milled = mechanics::is_milled(step.operation.type, step.cutter);
   return "forces by " + mechanics::force_source(w.plan.material, step.cutter.substrate, milled) +
          ", tool bending as a stepped beam, the machine's spindle curve";
@@ -80,7 +80,7 @@ double noun_sense(const model::Cutter& c) { return c.hand == model::Hand::kLeft 
 
 /// What stands before the cut of a step is chosen: its tool, what its chain says of its sizes, and what the
 /// steps before it on its feature leave on walls and floor. Only what is in the ledger can be depended on.
-std::vector<DecisionKey> decided_before(const Work& w, const StepWork& step) {
+std::vector<DecisionKey> decided_before(const Work& w, const StepDraft& step) {
   std::vector<DecisionKey> out = {{step.operation, "its_tool"}};
   const auto add = [&](AnyRef operation, const char* attribute) {
     if (operation.set() && w.plan.ledger.find(operation, attribute) != nullptr)
@@ -88,7 +88,7 @@ std::vector<DecisionKey> decided_before(const Work& w, const StepWork& step) {
   };
   for (const char* name : {"allowance_side", "allowance_bottom", "cutting_depth", "previous_diameter"})
     add(step.operation, name);
-  for (const StepWork& s : w.steps) {
+  for (const StepDraft& s : w.steps) {
     if (s.step == step.step) break;
     if (!step.feature.set() || s.feature != step.feature) continue;
     for (const char* name : {"allowance_side", "allowance_bottom"}) add(s.operation, name);
@@ -123,14 +123,14 @@ GivenTechnology given_technology(const Model& m, AnyRef operation, const model::
   return out;
 }
 
-void let_go(Work& w, StepWork& step, const std::string& word) {
+void let_go(Work& w, StepDraft& step, const std::string& word) {
   if (word.empty()) return;
   step.keep_speed = step.keep_feed = false;
   const auto* e = w.plan.model.get<model::Executable>(step.step);
   w.job.warn("PIP-CHANGED", "step '" + (e != nullptr ? e->its_id.value_or("") : "") + "': " + word);
 }
 
-void turn_with_the_cutter(Work& w, const StepWork& step) {
+void turn_with_the_cutter(Work& w, const StepDraft& step) {
   Model& m = w.plan.model;
   const auto* op = m.get<model::MachiningOperation>(step.operation);
   const auto* t = op != nullptr ? m.get<model::MillingTechnology>(op->its_technology) : nullptr;
@@ -159,7 +159,7 @@ void turn_with_the_cutter(Work& w, const StepWork& step) {
       {"safety.spindle_direction", text, "the cutter's hand_of_cut; safety: an edge cuts forwards"});
 }
 
-bool has_given_path(const Work& w, const StepWork& step) {
+bool has_given_path(const Work& w, const StepDraft& step) {
   if (w.plan.model.holds<model::RapidMovement>(step.step)) return true;
   const auto* op = w.plan.model.get<model::MachiningOperation>(step.operation);
   if (op == nullptr || !op->its_toolpath.set()) return false;
@@ -169,7 +169,7 @@ bool has_given_path(const Work& w, const StepWork& step) {
   return d == nullptr || d->binder == Binder::kGiven || d->pinned;
 }
 
-void record_cut(Work& w, StepWork& step, const optimise::CutAnswer& a, bool depth_open, bool width_open,
+void record_cut(Work& w, StepDraft& step, const optimise::CutAnswer& a, bool depth_open, bool width_open,
                 const std::optional<model::Reason>& precedent) {
   Model& m = w.plan.model;
   model::Ledger& ledger = w.plan.ledger;
@@ -255,7 +255,7 @@ void record_cut(Work& w, StepWork& step, const optimise::CutAnswer& a, bool dept
   }
 }
 
-void record_path(Work& w, const StepWork& step, const std::shared_ptr<const model::CutterPath>& path,
+void record_path(Work& w, const StepDraft& step, const std::shared_ptr<const model::CutterPath>& path,
                  const std::string& deviation) {
   Model& m = w.plan.model;
   model::CutterLocationTrajectory t;

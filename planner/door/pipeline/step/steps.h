@@ -17,7 +17,8 @@ namespace capstan::pipeline {
 
 /// The values a path is made from, as the nouns of the step's operation say them. Heights of material and
 /// what earlier steps left are the caller's to fill.
-[[nodiscard]] toolpath::PathJob job_of(const Work& w, const StepWork& step, const model::FeatureShape& shape);
+[[nodiscard]] toolpath::PathJob job_of(const Work& w, const StepDraft& step,
+                                       const model::FeatureShape& shape);
 
 /// How far the path of a step, and the control that follows it, may leave what is wanted, mm; 0: the
 /// control's own. For milling: of a step that leaves material a quarter of that, of a finishing one a tenth
@@ -26,7 +27,7 @@ struct Deviation {
   double mm = 0.0;
   std::string why;
 };
-[[nodiscard]] Deviation deviation_of(const Work& w, const StepWork& step, const toolpath::PathJob& job);
+[[nodiscard]] Deviation deviation_of(const Work& w, const StepDraft& step, const toolpath::PathJob& job);
 
 /// What the nouns say of speed and feed.
 struct GivenTechnology {
@@ -37,13 +38,13 @@ struct GivenTechnology {
                                                const model::Cutter& cutter);
 
 /// A stated speed whose direction is not the cutter's is turned round, for this operation only; it is said.
-void turn_with_the_cutter(Work& w, const StepWork& step);
+void turn_with_the_cutter(Work& w, const StepDraft& step);
 
 /// What was stated and could not stay goes, with a word; nothing where the word is empty.
-void let_go(Work& w, StepWork& step, const std::string& word);
+void let_go(Work& w, StepDraft& step, const std::string& word);
 
 /// The question for depth, width, speed and feed of a step.
-[[nodiscard]] optimise::CutQuestion question_of(const Work& w, const StepWork& step,
+[[nodiscard]] optimise::CutQuestion question_of(const Work& w, const StepDraft& step,
                                                 const model::Candidate* candidate,
                                                 const toolpath::PathJob& job);
 
@@ -51,55 +52,31 @@ void let_go(Work& w, StepWork& step, const std::string& word);
 [[nodiscard]] optimise::CutQuestion hole_question(const Work& w, const model::ProposedStep& step,
                                                   const model::Candidate& candidate);
 
-/// The radius of the largest ball that finishes a surface from above, mm: by its concave creases and curves;
-/// 0: it has none. Corners sharper than 20 degrees keep any ball's radius and do not count.
-[[nodiscard]] double surface_radius(const geometry::Mesh& mesh);
-/// What of a mesh is walls and level floors, seen along z. A sheet has none, and walls on the sides of the
-/// raw piece are there already.
-struct SurfaceForm {
-  bool walls = false;                       ///< upright ones, of a closed solid
-  bool curved = false;                      ///< anything else that is seen from above
-  std::vector<double> floors_mm;            ///< heights of level parts, from above
-  double corner_mm = 0.0;                   ///< least radius of the walls' inside corners; 0: none, or sharp
-  std::vector<geometry::MeshCorner> sharp;  ///< inside corners that no mill makes
-  bool inside_out = false;                  ///< as geometry::form_of says
-};
-/// The radius that may stay in the sharp ones, mm; 0: there is none.
-[[nodiscard]] double sharp_corner_of(const SurfaceForm& form);
-/// Says which corners of a mesh keep the radius of the narrowest mill.
-void tell_mesh_corners(Work& w);
-/// The largest cutter that passes between all walls, over each level floor and around the solid; 0: nothing
-/// limits it.
-[[nodiscard]] double passage_between(const geometry::Mesh& mesh, const SurfaceForm& form,
-                                     const geometry::Box3& raw);
-[[nodiscard]] SurfaceForm surface_form(const geometry::Mesh& mesh, const geometry::Box3& raw);
-/// Whether a step finishes walls and level floors of a surface by an end mill.
-[[nodiscard]] bool cuts_levels(const Work& w, const StepWork& step);
 /// Gives a freeform feature the extent of the plan's mesh; leaves others alone.
-void shape_from_mesh(const Work& w, const StepWork& step, toolpath::PathJob& job);
+void shape_from_mesh(const Work& w, const StepDraft& step, toolpath::PathJob& job);
 /// The path of a freeform operation over the plan's mesh.
 /// What a freeform step leaves on its surface, square to it; 0 for other steps.
-[[nodiscard]] double freeform_allowance(const Work& w, const StepWork& step);
-[[nodiscard]] Result<toolpath::GeneratedPath> freeform_path(Work& w, const StepWork& step,
+[[nodiscard]] double freeform_allowance(const Work& w, const StepDraft& step);
+[[nodiscard]] Result<toolpath::GeneratedPath> freeform_path(Work& w, const StepDraft& step,
                                                             const toolpath::PathJob& job,
                                                             const optimise::CutAnswer& cut,
                                                             const stock::HeightMap& map);
 
 /// Lets the nearest case in the base, if there is one, say where speed and feed start from; never above
 /// kCaseReach times the table's values. Gives the reason, or nothing.
-[[nodiscard]] std::optional<model::Reason> start_from_case(const Work& w, const StepWork& step,
+[[nodiscard]] std::optional<model::Reason> start_from_case(const Work& w, const StepDraft& step,
                                                            const model::FeatureShape& shape,
                                                            optimise::CutQuestion& q);
 
 /// Writes what was chosen into the nouns, and why into the ledger.
-void record_cut(Work& w, StepWork& step, const optimise::CutAnswer& answer, bool depth_open, bool width_open,
+void record_cut(Work& w, StepDraft& step, const optimise::CutAnswer& answer, bool depth_open, bool width_open,
                 const std::optional<model::Reason>& precedent);
 /// Puts the computed path at the operation's its_toolpath, as derived.
-void record_path(Work& w, const StepWork& step, const std::shared_ptr<const model::CutterPath>& path,
+void record_path(Work& w, const StepDraft& step, const std::shared_ptr<const model::CutterPath>& path,
                  const std::string& deviation);
 
 /// Whether the operation brings a path that is to be executed: not one that an earlier planning computed,
 /// which is computed again.
-[[nodiscard]] bool has_given_path(const Work& w, const StepWork& step);
+[[nodiscard]] bool has_given_path(const Work& w, const StepDraft& step);
 
 }  // namespace capstan::pipeline

@@ -219,7 +219,7 @@ std::optional<NearMove> near_move_of(const model::CutterPath& path, const model:
 }
 
 Result<toolpath::GeneratedPath> kept_clear(
-    const Work& w, const StepWork& step, const toolpath::PathJob& job,
+    const Work& w, const StepDraft& step, const toolpath::PathJob& job,
     const std::function<Result<toolpath::GeneratedPath>(const toolpath::PathJob&)>& make) {
   auto path = make(job);
   const model::Workholding& h = w.setups[step.setup].holding;
@@ -260,7 +260,7 @@ Result<toolpath::GeneratedPath> kept_clear(
 
 std::vector<Footprint> footprints(const Work& w, std::size_t setup) {
   std::vector<Footprint> out;
-  for (const StepWork& s : w.steps) {
+  for (const StepDraft& s : w.steps) {
     if (s.setup != setup) continue;
     const double d = s.cutter.cutting_diameter_mm > 0.0 ? s.cutter.cutting_diameter_mm : kUsualCutter;
     for (const auto& shape : s.shapes) {

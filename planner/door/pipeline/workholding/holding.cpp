@@ -27,9 +27,9 @@ constexpr const char* kMark = "Workholding: ";  // begins the instruction that t
 
 /// What stands of the raw piece when a set-up begins: faces that earlier ones cut off whole are gone.
 Box3 remaining(const Work& w, std::size_t setup) {
-  const SetupWork& here = w.setups[setup];
+  const SetupDraft& here = w.setups[setup];
   Box3 box = here.stock;
-  for (const StepWork& s : w.steps) {
+  for (const StepDraft& s : w.steps) {
     if (s.setup >= setup) continue;
     for (const auto& shape : s.shapes) {
       if (shape.kind != model::ShapeKind::kFace) continue;
@@ -51,7 +51,7 @@ Box3 remaining(const Work& w, std::size_t setup) {
 
 /// The whole instruction for the operator.
 std::string instruction(const Work& w, std::size_t i) {
-  const SetupWork& s = w.setups[i];
+  const SetupDraft& s = w.setups[i];
   std::string out =
       kMark + s.holding.description + ". Workpiece's " + model::axis_text(s.workpiece, {0, 0, 1}) + " up";
   for (const auto& solid : s.holding.solids) {
@@ -196,7 +196,7 @@ void note(Work& w, const std::string& value, const std::string& source) {
 /// one block says it.
 void write_nouns(Work& w, std::size_t i) {
   model::Model& m = w.plan.model;
-  const SetupWork& s = w.setups[i];
+  const SetupDraft& s = w.setups[i];
   auto* setup = m.get<model::Setup>(s.setup);
   if (setup == nullptr) return;
   const auto point = [&](Vec3 v) {
@@ -327,8 +327,8 @@ Status hold_workpieces(Work& w) {
   // A plan that is bound again keeps how it is held, unless somebody says otherwise.
   bool kept = false;
   if (!asked_now) {
-    for (SetupWork& s : w.setups) {
-      for (const auto& [setup, holding] : w.held) {
+    for (SetupDraft& s : w.setups) {
+      for (const auto& [setup, holding] : w.recorded.holdings) {
         if (setup == s.setup && !holding.solids.empty()) {
           s.holding = holding;
           kept = true;

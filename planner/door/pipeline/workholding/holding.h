@@ -28,7 +28,7 @@ struct NearMove {
 /// stay
 ///        uncut under a clamp.
 [[nodiscard]] Result<toolpath::GeneratedPath> kept_clear(
-    const Work& w, const StepWork& step, const toolpath::PathJob& job,
+    const Work& w, const StepDraft& step, const toolpath::PathJob& job,
     const std::function<Result<toolpath::GeneratedPath>(const toolpath::PathJob&)>& make);
 
 /// Where each step of a set-up cuts, and how low, set-up frame.

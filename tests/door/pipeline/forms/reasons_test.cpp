@@ -161,7 +161,7 @@ TEST(Answers, OfOneNameWithTwoStickOutsAreTwo) {
   Job job;
   Policy policy;
   Tries tries;
-  Work w{{}, shop(), policy, job, tries, {}, {}, {}, {}, {}};
+  Work w{{}, shop(), policy, job, tries, {}, {}, {}, {}};
   Cuts cuts(w);
   auto q = asked();
   const auto close = cuts.answer(q);

@@ -14,10 +14,10 @@ struct Try {
   Policy policy;
   Job job;
   Work w;
-  Try(Tries& tries, bool from_below_first) : w{{}, inputs, policy, job, tries, {}, {}, {}, {}, {}} {
+  Try(Tries& tries, bool from_below_first) : w{{}, inputs, policy, job, tries, {}, {}, {}, {}} {
     w.plan.stock.box = {{0, 0, -20}, {100, 100, 0}};
     for (const bool below : {from_below_first, !from_below_first}) {
-      SetupWork s;
+      SetupDraft s;
       s.setup = below ? below_ : above_;
       if (below) s.workpiece = *geometry::make_placement({0, 0, 0}, {0, 0, -1}, {1, 0, 0});
       s.stock = transformed(w.plan.stock.box, s.workpiece);
@@ -26,7 +26,7 @@ struct Try {
   }
   /// The noun of a set-up is its own in every try.
   void step(bool below, double cutter_mm) {
-    StepWork s;
+    StepDraft s;
     s.setup = w.setups[0].setup == (below ? below_ : above_) ? 0 : 1;
     s.cutter.cutting_diameter_mm = cutter_mm;
     w.steps.push_back(s);

@@ -1,21 +1,27 @@
+#include "planner/making/piece/workpiece.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "planner/door/pipeline/work.h"
 #include "planner/ground/base/nearest_names.h"
 #include "planner/ground/base/number.h"
 #include "planner/ground/geometry/mesh_form.h"
 #include "planner/model/features/in_piece.h"
 #include "planner/model/features/raw_piece.h"
+#include "planner/model/features/shape.h"
+#include "planner/model/nouns/all.h"
+#include "planner/model/nouns/arena/walk.h"
 #include "tooling/shop/material/hardness.h"
 #include "tooling/shop/material/material.h"
 
-namespace capstan::pipeline {
+namespace capstan::piece {
 namespace {
 
 using geometry::Box3;
 using geometry::Vec3;
+using model::AnyRef;
+using model::Ref;
 
 /// What stands over an outside contour of a raw piece that nobody states, mm: something must be there to be
 /// milled. Default, unsourced.
@@ -88,14 +94,14 @@ std::string text_of(const model::Model& m, const StatedProperty& p) {
 }
 
 /// Says of each property whether the card was chosen by it.
-void tell_properties(Work& w, const std::vector<std::string>& properties,
-                     const tooling::ChosenMaterial& chosen, const AnyRef& at) {
+void tell_properties(const model::Plan& plan, const std::vector<std::string>& properties,
+                     const tooling::ChosenMaterial& chosen, const AnyRef& at, Job& job) {
   const auto say = [&](Diagnostic d) {
-    d.file = w.plan.file_name;
-    d.instance = w.plan.model.origin(at).instance;
-    w.job.report(std::move(d));
+    d.file = plan.file_name;
+    d.instance = plan.model.origin(at).instance;
+    job.report(std::move(d));
   };
-  const model::WorkMaterial& card = w.plan.material;
+  const model::WorkMaterial& card = chosen.material;
   for (const std::string& text : properties) {
     const auto said = tooling::stated_words(text).hardness;
     const bool used = chosen.by_hardness && std::any_of(said.begin(), said.end(), [&](const auto& h) {
@@ -116,46 +122,11 @@ void tell_properties(Work& w, const std::vector<std::string>& properties,
   }
 }
 
-/// The material by the caller's name, else the part's; by default only where neither names one.
-Status resolve_material(Work& w, const model::Workpiece* piece) {
-  std::vector<std::string> names;
-  const AnyRef at = piece == nullptr ? AnyRef{} : AnyRef(piece->its_material);
-  const auto* stated = w.plan.model.get<model::Material>(at);
-  if (w.inputs.material_name) {
-    names.push_back(*w.inputs.material_name);
-  } else if (stated != nullptr) {
-    names.push_back(stated->standard_identifier.value_or(""));
-    names.push_back(stated->material_identifier.value_or(""));
-  }
-  std::vector<std::string> properties;
-  if (stated != nullptr)
-    for (const StatedProperty& p : properties_of(w.plan.model, *stated))
-      properties.push_back(text_of(w.plan.model, p));
-  // Who asks for another material's figures has them as they are.
-  const bool like = w.inputs.material_name && w.inputs.material_name->starts_with(tooling::kLike);
-  auto material = tooling::choose_material(
-      names, like ? std::vector<std::string>{} : properties, w.inputs.materials, w.job,
-      w.inputs.material_name ? tooling::Families::kRefused : tooling::Families::kTaken);
-  if (!material) {
-    Diagnostic d = material.error();
-    if (!w.inputs.material_name || !properties.empty()) d.file = w.plan.file_name;
-    if (!w.inputs.material_name) {
-      d.instance = w.plan.model.origin(at).instance;
-      d.hint = "name one with --material, or one that it cuts like with --material like:C45; " + d.hint;
-    }
-    return fail(std::move(d));
-  }
-  if (like) material->by_hardness = false;  // by the name's, at most
-  w.plan.material = material->material;
-  tell_properties(w, properties, *material, at);
-  return {};
-}
-
 /// The box that the features' own extents span: what must be there at least.
-Box3 box_of_features(const Work& w) {
+Box3 box_of_features(const model::Model& m) {
   Box3 out;
-  for (const AnyRef f : w.plan.model.all_below(model::TypeId::kManufacturingFeature)) {
-    const auto shapes = model::shapes_of(w.plan.model, Ref<model::ManufacturingFeature>(f));
+  for (const AnyRef f : m.all_below(model::TypeId::kManufacturingFeature)) {
+    const auto shapes = model::shapes_of(m, Ref<model::ManufacturingFeature>(f));
     if (!shapes) continue;
     for (const auto& s : *shapes) {
       if (s.kind == model::ShapeKind::kOutside) add_outside(s, out);
@@ -180,10 +151,116 @@ std::string words(const Box3& b) {
          trimmed(b.lo.x, 3) + ", " + trimmed(b.lo.y, 3) + ", " + trimmed(b.lo.z, 3) + ")";
 }
 
-/// An open outside profile says its side by the raw piece: one named by --stock is stated for it where the
-/// file states none.
-void state_raw_piece(Work& w, const Box3& box) {
-  model::Model& m = w.plan.model;
+/// The file's, else the box of the surface or of the features.
+void look_for_raw_piece(const model::Plan& plan, const WorkpieceWish& wish, model::Stock& stock, Job& job) {
+  const model::Workpiece* piece = model::workpiece_of(plan.model, plan.project);
+  if (piece != nullptr) {
+    const AnyRef shape = model::raw_solid(plan.model, *piece);
+    if (const auto box = model::box_of(plan.model, shape)) {
+      stock.box = *box;
+      stock.source = "given: " + std::string(model::noun_type(shape.type).keyword) + " of the workpiece";
+      if (const auto* c = plan.model.get<model::RightCircularCylinder>(shape))
+        stock.cylinder_radius_mm = c->radius;
+    }
+  }
+  if (stock.box.empty() && plan.target_mesh) {
+    stock.box = geometry::bounds(*plan.target_mesh);
+    stock.source = "inferred: the box of the surface";
+    job.warn("PIP-STOCK", "no raw piece is given; taken as the box of the surface: " + words(stock.box));
+  }
+  if (stock.box.empty()) {
+    stock.box = box_of_features(plan.model);
+    if (stock.box.empty()) return;
+    stock.source = "inferred: the box of the features";
+    job.warn("PIP-STOCK",
+             "no raw piece is given; taken as the box that the features span: " + words(stock.box));
+  }
+  if (wish.allowance_mm) {
+    const double a = *wish.allowance_mm;
+    stock.box.lo = stock.box.lo - Vec3{a, a, a};
+    stock.box.hi = stock.box.hi + Vec3{a, a, a};
+    stock.source += ", grown by " + trimmed(a, 3) + " mm (--stock)";
+  }
+}
+
+/// Outside a sheet's outline nothing says what is to be made, and a cutter on its border would cut there.
+Status sheet_covers_raw_piece(const model::Plan& plan, const Box3& raw) {
+  if (!plan.target_mesh) return {};
+  const geometry::MeshForm form = geometry::form_of(*plan.target_mesh);
+  if (form.kind != geometry::MeshForm::Kind::kSheet) return {};
+  const double bare =
+      geometry::area(geometry::subtract(geometry::rectangle(xy(raw.lo), xy(raw.hi)), form.outline));
+  constexpr double kTraceMm2 = 0.01;  // of outlines rounded to single precision
+  if (bare <= kTraceMm2) return {};
+  return fail(
+      {.code = "PIP-SHEET",
+       .message = "the surface is a sheet, and " + trimmed(bare, 2) +
+                  " mm2 of the raw piece lie outside its outline: what is to stand there is not known",
+       .file = plan.file_name,
+       .expected = "a sheet over the whole raw piece (" + words(raw) + "), or a closed solid",
+       .hint = "extend the surface, close it to a solid, or give a smaller raw piece with --stock box:"});
+}
+
+}  // namespace
+
+Result<model::WorkMaterial> material_of(const model::Plan& plan, const WorkpieceWish& wish, Job& job) {
+  const model::Workpiece* piece = model::workpiece_of(plan.model, plan.project);
+  std::vector<std::string> names;
+  const AnyRef at = piece == nullptr ? AnyRef{} : AnyRef(piece->its_material);
+  const auto* stated = plan.model.get<model::Material>(at);
+  if (wish.material) {
+    names.push_back(*wish.material);
+  } else if (stated != nullptr) {
+    names.push_back(stated->standard_identifier.value_or(""));
+    names.push_back(stated->material_identifier.value_or(""));
+  }
+  std::vector<std::string> properties;
+  if (stated != nullptr)
+    for (const StatedProperty& p : properties_of(plan.model, *stated))
+      properties.push_back(text_of(plan.model, p));
+  // Who asks for another material's figures has them as they are.
+  const bool like = wish.material && wish.material->starts_with(tooling::kLike);
+  auto material =
+      tooling::choose_material(names, like ? std::vector<std::string>{} : properties, wish.known, job,
+                               wish.material ? tooling::Families::kRefused : tooling::Families::kTaken);
+  if (!material) {
+    Diagnostic d = material.error();
+    if (!wish.material || !properties.empty()) d.file = plan.file_name;
+    if (!wish.material) {
+      d.instance = plan.model.origin(at).instance;
+      d.hint = "name one with --material, or one that it cuts like with --material like:C45; " + d.hint;
+    }
+    return fail(std::move(d));
+  }
+  if (like) material->by_hardness = false;  // by the name's, at most
+  tell_properties(plan, properties, *material, at, job);
+  return std::move(material->material);
+}
+
+Result<Margin> margin_of(const model::Plan& plan, const WorkpieceWish& wish, Job& job) {
+  Margin out{mechanics::kUsualMargin, {kMargin, std::string(mechanics::kUsualMargin.name), "default"}};
+  if (wish.margin)
+    return Margin{*wish.margin, {kMargin, std::string(wish.margin->name), "named by the caller"}};
+  const auto before = std::find_if(plan.provenance.begin(), plan.provenance.end(),
+                                   [](const model::Provenance& p) { return p.what == kMargin; });
+  if (before == plan.provenance.end()) return out;
+  const auto policy = mechanics::margin_policy(before->value);
+  if (!policy) {
+    Diagnostic d = unknown_name(kMargin, before->value, mechanics::margin_names(), "capstan plan --help");
+    d.file = plan.file_name;
+    d.hint = "the plan says that it was made with it: name one with --margin; " + d.hint;
+    return fail(std::move(d));
+  }
+  if (policy->name != mechanics::kUsualMargin.name)
+    job.report({.code = "PIP-MARGIN",
+                .severity = Severity::kNote,
+                .message = "the plan was made with the margin '" + before->value + "', which holds",
+                .file = plan.file_name,
+                .hint = "name another with --margin"});
+  return Margin{*policy, *before};
+}
+
+void state_raw_piece(model::Model& m, const Box3& box) {
   for (const AnyRef f : m.all_below(model::TypeId::kGeneralOutsideProfile)) {
     const auto* outside = m.get<model::GeneralOutsideProfile>(f);
     const auto owner = outside->its_workpiece;
@@ -209,146 +286,44 @@ void state_raw_piece(Work& w, const Box3& box) {
   }
 }
 
-void resolve_stock(Work& w, const model::Workpiece* piece) {
-  model::Stock& stock = w.plan.stock;
-  if (w.inputs.stock) {
-    stock.box = *w.inputs.stock;
+Result<model::Stock> raw_piece_of(const model::Plan& plan, const WorkpieceWish& wish, Job& job) {
+  model::Stock stock = plan.stock;
+  if (wish.raw) {
+    stock.box = *wish.raw;
     stock.source = "given: --stock";
-    state_raw_piece(w, stock.box);
-    return;
-  }
-  if (piece != nullptr) {
-    const AnyRef shape = model::raw_solid(w.plan.model, *piece);
-    if (const auto box = model::box_of(w.plan.model, shape)) {
-      stock.box = *box;
-      stock.source = "given: " + std::string(model::noun_type(shape.type).keyword) + " of the workpiece";
-      if (const auto* c = w.plan.model.get<model::RightCircularCylinder>(shape))
-        stock.cylinder_radius_mm = c->radius;
-    }
-  }
-  if (stock.box.empty() && w.plan.target_mesh) {
-    stock.box = geometry::bounds(*w.plan.target_mesh);
-    stock.source = "inferred: the box of the surface";
-    w.job.warn("PIP-STOCK", "no raw piece is given; taken as the box of the surface: " + words(stock.box));
+  } else {
+    look_for_raw_piece(plan, wish, stock, job);
   }
   if (stock.box.empty()) {
-    stock.box = box_of_features(w);
-    if (stock.box.empty()) return;
-    stock.source = "inferred: the box of the features";
-    w.job.warn("PIP-STOCK",
-               "no raw piece is given; taken as the box that the features span: " + words(stock.box));
-  }
-  if (w.inputs.stock_allowance_mm) {
-    const double a = *w.inputs.stock_allowance_mm;
-    stock.box.lo = stock.box.lo - Vec3{a, a, a};
-    stock.box.hi = stock.box.hi + Vec3{a, a, a};
-    stock.source += ", grown by " + trimmed(a, 3) + " mm (--stock)";
-  }
-}
-
-/// Outside a sheet's outline nothing says what is to be made, and a cutter on its border would cut there.
-Status sheet_covers_raw_piece(const Work& w) {
-  if (!w.plan.target_mesh) return {};
-  const geometry::MeshForm form = geometry::form_of(*w.plan.target_mesh);
-  if (form.kind != geometry::MeshForm::Kind::kSheet) return {};
-  const Box3& raw = w.plan.stock.box;
-  const double bare =
-      geometry::area(geometry::subtract(geometry::rectangle(xy(raw.lo), xy(raw.hi)), form.outline));
-  constexpr double kTraceMm2 = 0.01;  // of outlines rounded to single precision
-  if (bare <= kTraceMm2) return {};
-  return fail(
-      {.code = "PIP-SHEET",
-       .message = "the surface is a sheet, and " + trimmed(bare, 2) +
-                  " mm2 of the raw piece lie outside its outline: what is to stand there is not known",
-       .file = w.plan.file_name,
-       .expected = "a sheet over the whole raw piece (" + words(raw) + "), or a closed solid",
-       .hint = "extend the surface, close it to a solid, or give a smaller raw piece with --stock box:"});
-}
-
-/// The margin that a plan was made with holds when it is planned again, unless another is asked for. What
-/// else it was made with is said anew.
-Status resolve_margin(Work& w) {
-  const auto before = std::find_if(w.plan.provenance.begin(), w.plan.provenance.end(),
-                                   [](const model::Provenance& p) { return p.what == kMargin; });
-  model::Provenance said{kMargin, std::string(mechanics::kUsualMargin.name), "default"};
-  if (w.inputs.margin) {
-    w.margin = *w.inputs.margin;
-    said = {kMargin, std::string(w.margin.name), "named by the caller"};
-  } else if (before != w.plan.provenance.end()) {
-    const auto policy = mechanics::margin_policy(before->value);
-    if (!policy) {
-      Diagnostic d = unknown_name(kMargin, before->value, mechanics::margin_names(), "capstan plan --help");
-      d.file = w.plan.file_name;
-      d.hint = "the plan says that it was made with it: name one with --margin; " + d.hint;
-      return fail(std::move(d));
-    }
-    w.margin = *policy;
-    said = *before;
-    if (policy->name != mechanics::kUsualMargin.name)
-      w.job.report({.code = "PIP-MARGIN",
-                    .severity = Severity::kNote,
-                    .message = "the plan was made with the margin '" + before->value + "', which holds",
-                    .file = w.plan.file_name,
-                    .hint = "name another with --margin"});
-  }
-  w.plan.provenance = w.inputs.provenance;
-  w.plan.provenance.push_back(std::move(said));
-  return {};
-}
-
-}  // namespace
-
-Box3 part_box(const Work& w) {
-  Box3 out = w.plan.stock.box;
-  const model::Workpiece* piece = model::workpiece_of(w.plan.model, w.plan.project);
-  const auto own =
-      piece != nullptr ? model::box_of(w.plan.model, piece->its_bounding_geometry) : std::nullopt;
-  const double grown = w.inputs.stock_allowance_mm.value_or(0.0);
-  if (own && piece->its_rawpiece.set()) {
-    out = *own;
-  } else if (grown > 0.0) {
-    out.lo = out.lo + Vec3{grown, grown, grown};
-    out.hi = out.hi - Vec3{grown, grown, grown};
-  }
-  return out.empty() ? w.plan.stock.box : out;
-}
-
-Status resolve_workpiece(Work& w) {
-  const model::Workpiece* piece = model::workpiece_of(w.plan.model, w.plan.project);
-  if (auto ok = resolve_material(w, piece); !ok) return ok;
-  w.plan.machine = w.inputs.machine;
-  if (auto ok = resolve_margin(w); !ok) return ok;
-  resolve_stock(w, piece);
-  if (w.plan.stock.box.empty()) {
     return fail(
         {.code = "PIP-NOTHING",
          .message =
              "there is neither a raw piece nor a feature whose size is known, so there is nothing to plan",
-         .file = w.plan.file_name,
+         .file = plan.file_name,
          .hint = "give the workpiece a bounding geometry, or name one with --stock"});
   }
-  if (auto ok = sheet_covers_raw_piece(w); !ok) return ok;
-  const Vec3 size = w.plan.stock.box.size();
+  if (auto ok = sheet_covers_raw_piece(plan, stock.box); !ok) return tl::unexpected(ok.error());
+  const Vec3 size = stock.box.size();
   const double largest = std::max({size.x, size.y, size.z});
   if (!(largest <= kLargestPiece)) {
     return fail({.code = "PIP-STOCK-SIZE",
                  .message = "the raw piece would be " + trimmed(largest / 1000.0, 1) + " m long",
-                 .file = w.plan.file_name,
+                 .file = plan.file_name,
                  .expected = "at most " + trimmed(kLargestPiece / 1000.0, 0) + " m",
                  .hint = "look at the unit of the file, or at --stock"});
   }
-  return {};
+  return stock;
 }
 
-void report_outside(Work& w) {
+void report_outside(const model::Plan& plan, Job& job) {
   constexpr double kBeyond = model::kBeyondPieceMm;
-  for (const AnyRef f : w.plan.model.all_below(model::TypeId::kMachiningFeature)) {
-    const auto shapes = model::shapes_of(w.plan.model, Ref<model::ManufacturingFeature>(f));
+  for (const AnyRef f : plan.model.all_below(model::TypeId::kMachiningFeature)) {
+    const auto shapes = model::shapes_of(plan.model, Ref<model::ManufacturingFeature>(f));
     if (!shapes) continue;
     for (const auto& s : *shapes) {
       if (s.area.empty() || model::has(s.kind, model::ShapeTrait::kOutwards)) continue;
       const auto b = geometry::bounds(s.area);
-      const Box3 raw = transformed(w.plan.stock.box, inverse(s.frame));
+      const Box3 raw = transformed(plan.stock.box, inverse(s.frame));
       std::string how;
       if (b.lo.x > raw.hi.x || b.hi.x < raw.lo.x || b.lo.y > raw.hi.y || b.hi.y < raw.lo.y ||
           -s.depth_mm > raw.hi.z || raw.lo.z > 0.0) {
@@ -366,15 +341,15 @@ void report_outside(Work& w) {
         how = "reaches over the edge of the raw piece";
       }
       if (how.empty()) continue;
-      w.job.report({.code = "PIP-OUTSIDE",
-                    .severity = Severity::kWarning,
-                    .message = "feature '" + s.name + "' " + how,
-                    .file = w.plan.file_name,
-                    .instance = w.plan.model.origin(f).instance,
-                    .hint = "look at its placement, or at the raw piece (" + words(w.plan.stock.box) + ")"});
+      job.report({.code = "PIP-OUTSIDE",
+                  .severity = Severity::kWarning,
+                  .message = "feature '" + s.name + "' " + how,
+                  .file = plan.file_name,
+                  .instance = plan.model.origin(f).instance,
+                  .hint = "look at its placement, or at the raw piece (" + words(plan.stock.box) + ")"});
       break;
     }
   }
 }
 
-}  // namespace capstan::pipeline
+}  // namespace capstan::piece

@@ -1,9 +1,10 @@
+#include "planner/making/piece/twins.h"
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <utility>
 
-#include "planner/door/pipeline/work.h"
 #include "planner/ground/base/number.h"
 
 // Separate features in one place. The same hole or pocket drawn twice is made once, and both are named. A
@@ -12,7 +13,7 @@
 // made as one; so is one of the same width that is shallower and has its own tolerance: the fit of a bore's
 // mouth.
 
-namespace capstan::pipeline {
+namespace capstan::piece {
 namespace {
 
 using model::FeatureShape;
@@ -79,12 +80,12 @@ std::string size(const FeatureShape& s) {
 
 }  // namespace
 
-bool same_removal(const Work& w, const FeatureShape& a, const FeatureShape& b) {
-  return w.twins.contains({Drawn{a.feature, a.member}, Drawn{b.feature, b.member}});
+bool same_removal(const Shapes& shapes, const FeatureShape& a, const FeatureShape& b) {
+  return shapes.twins.contains({Drawn{a.feature, a.member}, Drawn{b.feature, b.member}});
 }
 
-std::string lies_within_another(const Work& w, const FeatureShape& s) {
-  for (const FeatureShape& o : w.whole_shapes) {
+std::string lies_within_another(const Shapes& shapes, const FeatureShape& s) {
+  for (const FeatureShape& o : shapes.whole) {
     if (!within(s, o) || twins(s, o)) continue;
     const bool of_one = near(s.diameter.nominal_mm, o.diameter.nominal_mm) && near(s.depth_mm, o.depth_mm);
     return of_one ? "'" + o.name + "' is a hole of the same size at the same place, " + where(s) +
@@ -98,21 +99,22 @@ std::string lies_within_another(const Work& w, const FeatureShape& s) {
   return {};
 }
 
-void tell_twins(Work& w) {
-  const auto& all = w.whole_shapes;
+std::set<std::pair<Drawn, Drawn>> twins_of(const std::vector<FeatureShape>& all, Job& job) {
+  std::set<std::pair<Drawn, Drawn>> out;
   for (std::size_t i = 0; i < all.size(); ++i) {
     bool told = false;
     for (std::size_t k = 0; k < i; ++k) {
       if (!twins(all[k], all[i])) continue;
       const Drawn first{all[k].feature, all[k].member}, second{all[i].feature, all[i].member};
-      w.twins.insert({{first, second}, {second, first}});
+      out.insert({{first, second}, {second, first}});
       if (std::exchange(told, true)) continue;
-      w.job.warn("PIP-TWICE", "features '" + all[k].name + "' and '" + all[i].name +
-                                  "' are the same at the same place, " + where(all[i]) +
-                                  ": it is made once; if one of them belongs elsewhere, mend its placement, "
-                                  "else take it out of the file");
+      job.warn("PIP-TWICE", "features '" + all[k].name + "' and '" + all[i].name +
+                                "' are the same at the same place, " + where(all[i]) +
+                                ": it is made once; if one of them belongs elsewhere, mend its placement, "
+                                "else take it out of the file");
     }
   }
+  return out;
 }
 
-}  // namespace capstan::pipeline
+}  // namespace capstan::piece

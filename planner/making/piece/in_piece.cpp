@@ -1,14 +1,13 @@
-#include "planner/model/features/in_piece.h"
+#include "planner/making/piece/in_piece.h"
 
 #include <algorithm>
 
-#include "planner/door/pipeline/step/steps.h"
 #include "planner/ground/base/number.h"
+#include "planner/making/piece/surface_form.h"
+#include "planner/model/features/in_piece.h"
 #include "planner/model/nouns/feature.h"
 
-// Features that the raw piece does not let be made as they are drawn.
-
-namespace capstan::pipeline {
+namespace capstan::piece {
 namespace {
 
 using model::FeatureShape;
@@ -17,25 +16,29 @@ using model::ShapeKind;
 constexpr double kNoRadius = 1e300;
 constexpr std::ptrdiff_t kMostNamed = 4;  // corners that a message names
 
-model::PieceForm raw_piece(const Work& w) { return {w.plan.stock.box, w.plan.stock.cylinder_radius_mm}; }
+model::PieceForm raw_piece(const Piece& piece) {
+  return {piece.plan.stock.box, piece.plan.stock.cylinder_radius_mm};
+}
 
-model::PieceForm part_form(const Work& w) { return {part_box(w), w.plan.stock.cylinder_radius_mm}; }
+model::PieceForm part_form(const Piece& piece) {
+  return {part_box(piece), piece.plan.stock.cylinder_radius_mm};
+}
 
 /// What can state no radius of its inside corners, and a closed pocket for which the file states none.
-bool states_no_corner(const Work& w, const FeatureShape& s) {
+bool states_no_corner(const Piece& piece, const FeatureShape& s) {
   if (model::has(s.kind, model::ShapeTrait::kOutwards) || model::stops_at_walls(s)) return true;
   if (s.kind != ShapeKind::kPocket || s.open || s.corner_radius_mm > 0.0) return false;
-  const auto* p = w.plan.model.get<model::Pocket>(s.made_of.empty() ? s.feature : s.made_of.back());
+  const auto* p = piece.plan.model.get<model::Pocket>(s.made_of.empty() ? s.feature : s.made_of.back());
   return p != nullptr && !p->orthogonal_radius.set();
 }
 
 /// A step is read as a strip on the right of its wall, out to the edge of the raw piece that the file states
 /// (areas.cpp). Where the raw piece that is cut goes on beyond it, that would stay, and nobody would say so.
-std::string wider_than_read(const Work& w, const FeatureShape& s) {
+std::string wider_than_read(const Piece& piece, const FeatureShape& s) {
   if (s.kind != ShapeKind::kStep || s.spine.size() < 2) return {};
   const geometry::Vec2 along = s.spine.back() - s.spine.front();
   const geometry::Vec2 right = (1.0 / norm(along)) * geometry::Vec2{along.y, -along.x};
-  const geometry::Box3 raw = geometry::transformed(w.plan.stock.box, inverse(s.frame));
+  const geometry::Box3 raw = geometry::transformed(piece.plan.stock.box, inverse(s.frame));
   double most = 0.0, read = 0.0;
   for (const geometry::Loop& loop : s.area.loops) {
     for (const geometry::Vec2 p : loop) read = std::max(read, dot(p - s.spine.front(), right));
@@ -53,48 +56,51 @@ std::string wider_than_read(const Work& w, const FeatureShape& s) {
 
 }  // namespace
 
-std::string not_in_piece(const Work& w, const FeatureShape& s) {
-  const model::PieceForm part = part_form(w);
-  if (const std::string wide = wider_than_read(w, s); !wide.empty()) return wide;
+std::string not_in_piece(const Piece& piece, const FeatureShape& s) {
+  const model::PieceForm part = part_form(piece);
+  if (const std::string wide = wider_than_read(piece, s); !wide.empty()) return wide;
   // Of a part that is given as a mesh the features are not all; what the nouns say of their ends holds there,
   // too.
-  if (w.plan.target_mesh) return model::square_corner(w.plan.model, s, w.whole_shapes, part, true);
-  if (const std::string through = model::point_runs_through(s, raw_piece(w), part); !through.empty())
+  if (piece.plan.target_mesh)
+    return model::square_corner(piece.plan.model, s, piece.shapes.whole, part, true);
+  if (const std::string through = model::point_runs_through(s, raw_piece(piece), part); !through.empty())
     return through;
-  if (const std::string floor = model::floor_below_part(s, raw_piece(w), part); !floor.empty()) return floor;
+  if (const std::string floor = model::floor_below_part(s, raw_piece(piece), part); !floor.empty())
+    return floor;
   if (model::buried(s, {}, part)) {
-    if (const auto lid = model::buried(s, w.whole_shapes, part))
+    if (const auto lid = model::buried(s, piece.shapes.whole, part))
       return "solid stands above it: " + model::to_text(*lid);
   }
-  return model::square_corner(w.plan.model, s, w.whole_shapes, part);
+  return model::square_corner(piece.plan.model, s, piece.shapes.whole, part);
 }
 
-double sharp_corner_of(const Work& w, const FeatureShape& s) {
-  if (w.plan.target_mesh || !states_no_corner(w, s)) return 0.0;
-  return model::sharp_corners(s, w.whole_shapes, part_form(w)).empty() ? 0.0 : model::unstated_corner_mm(s);
+double sharp_corner_of(const Piece& piece, const FeatureShape& s) {
+  if (piece.plan.target_mesh || !states_no_corner(piece, s)) return 0.0;
+  return model::sharp_corners(s, piece.shapes.whole, part_form(piece)).empty() ? 0.0
+                                                                               : model::unstated_corner_mm(s);
 }
 
-void tell_corners(Work& w) {
-  if (w.plan.target_mesh) return tell_mesh_corners(w);
-  const model::PieceForm part = part_form(w);
-  for (const FeatureShape& s : w.whole_shapes) {
+void tell_corners(const Piece& piece, const std::vector<draft::StepDraft>& steps, Job& job) {
+  if (piece.plan.target_mesh) return tell_mesh_corners(piece.plan, steps, job);
+  const model::PieceForm part = part_form(piece);
+  for (const FeatureShape& s : piece.shapes.whole) {
     const bool open = s.kind == ShapeKind::kPocket && s.open && !(s.corner_radius_mm > 0.0);
-    if (!open && !states_no_corner(w, s)) continue;
+    if (!open && !states_no_corner(piece, s)) continue;
     double radius = kNoRadius;
-    for (const model::StepResult& made : w.plan.steps) {
-      const auto* ws = w.plan.model.get<model::MachiningWorkingstep>(made.step);
+    for (const model::StepResult& made : piece.plan.steps) {
+      const auto* ws = piece.plan.model.get<model::MachiningWorkingstep>(made.step);
       const model::Cutter* c = nullptr;
-      for (const StepWork& step : w.steps) {
+      for (const draft::StepDraft& step : steps) {
         const bool of_it = !step.shapes.empty() && step.shapes.front().feature == s.feature &&
                            step.shapes.front().member == s.member;
         if (step.step == made.step && of_it) c = &step.cutter;
       }
       if (ws == nullptr || c == nullptr) continue;
-      if (!w.plan.model.holds<model::MillingTypeOperation>(ws->its_operation)) continue;
+      if (!piece.plan.model.holds<model::MillingTypeOperation>(ws->its_operation)) continue;
       radius = std::min(radius, 0.5 * c->cutting_diameter_mm);
     }
     if (radius >= kNoRadius) continue;
-    const auto corners = model::sharp_corners(s, w.whole_shapes, part);
+    const auto corners = model::sharp_corners(s, piece.shapes.whole, part);
     if (corners.empty()) continue;
     std::string where;
     for (const model::SharpCorner& c : corners) {
@@ -105,19 +111,19 @@ void tell_corners(Work& w) {
       where += (where.empty() ? "" : ", ") + std::string("(") + trimmed(c.at.x, 2) + ", " +
                trimmed(c.at.y, 2) + ", " + trimmed(c.at.z, 2) + ")";
     }
-    w.job.warn("PIP-CORNER",
-               "feature '" + s.name +
-                   "': " + (corners.size() == 1 ? "its inner corner at " : "its inner corners at ") + where +
-                   (corners.size() == 1 ? " is" : " are") + " drawn sharp, and a radius of " +
-                   trimmed(radius, 3) +
-                   " mm, that of the narrowest mill, stays; it needs broaching or erosion if it "
-                   "must be sharp");
+    job.warn("PIP-CORNER", "feature '" + s.name + "': " +
+                               (corners.size() == 1 ? "its inner corner at " : "its inner corners at ") +
+                               where + (corners.size() == 1 ? " is" : " are") +
+                               " drawn sharp, and a radius of " + trimmed(radius, 3) +
+                               " mm, that of the narrowest mill, stays; it needs broaching or erosion if it "
+                               "must be sharp");
   }
 }
 
-model::Proposal without_drills_at_edges(const Work& w, const FeatureShape& hole, const model::Proposal& p) {
+model::Proposal without_drills_at_edges(const Piece& piece, const FeatureShape& hole,
+                                        const model::Proposal& p) {
   model::Proposal out = p;
-  const std::string why = model::cuts_an_edge(hole, raw_piece(w));
+  const std::string why = model::cuts_an_edge(hole, raw_piece(piece));
   if (why.empty()) return out;
   std::erase_if(out.chains, [](const std::vector<model::ProposedStep>& chain) {
     return std::any_of(chain.begin(), chain.end(), [](const model::ProposedStep& s) {
@@ -129,4 +135,4 @@ model::Proposal without_drills_at_edges(const Work& w, const FeatureShape& hole,
   return out;
 }
 
-}  // namespace capstan::pipeline
+}  // namespace capstan::piece

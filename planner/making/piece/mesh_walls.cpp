@@ -2,9 +2,9 @@
 #include <cmath>
 #include <set>
 
-#include "planner/door/pipeline/step/steps.h"
 #include "planner/ground/base/number.h"
 #include "planner/ground/geometry/mesh_form.h"
+#include "planner/making/piece/surface_form.h"
 #include "planner/model/features/in_piece.h"
 #include "rules/facts/passage.h"
 
@@ -15,7 +15,7 @@
 // rectangle around the piece; how wide a cutter passes everywhere in the rest is measured as it is for
 // pockets.
 
-namespace capstan::pipeline {
+namespace capstan::piece {
 namespace {
 
 /// Around the raw piece: what is as wide is no passage. Default, unsourced.
@@ -49,29 +49,29 @@ double passage_between(const geometry::Mesh& mesh, const SurfaceForm& form, cons
   return out;
 }
 
-void tell_mesh_corners(Work& w) {
-  if (!w.plan.target_mesh) return;
+void tell_mesh_corners(const model::Plan& plan, const std::vector<draft::StepDraft>& steps, Job& job) {
+  if (!plan.target_mesh) return;
   double radius = 1e300;
-  for (const model::StepResult& made : w.plan.steps) {
-    for (const StepWork& step : w.steps) {
-      const bool levels = step.step == made.step && cuts_levels(w, step);
+  for (const model::StepResult& made : plan.steps) {
+    for (const draft::StepDraft& step : steps) {
+      const bool levels = step.step == made.step && draft::cuts_levels(plan.model, step);
       if (levels) radius = std::min(radius, 0.5 * step.cutter.cutting_diameter_mm);
     }
   }
   if (radius > 1e299) return;
   std::string where;
   std::size_t count = 0;
-  for (const geometry::MeshCorner& c : surface_form(*w.plan.target_mesh, w.plan.stock.box).sharp) {
+  for (const geometry::MeshCorner& c : surface_form(*plan.target_mesh, plan.stock.box).sharp) {
     if (++count > kMostNamed) continue;
     where += (where.empty() ? "(" : ", (") + trimmed(c.at.x, 2) + ", " + trimmed(c.at.y, 2) + ", " +
              trimmed(c.high, 2) + ")";
   }
   if (count == 0) return;
   if (count > kMostNamed) where += ", and " + std::to_string(count - kMostNamed) + " more";
-  w.job.warn("PIP-CORNER",
-             std::string("the surface: its inner corner") + (count == 1 ? "" : "s") + " at " + where +
-                 (count == 1 ? " is" : " are") + " drawn sharp, and a radius of " + trimmed(radius, 3) +
-                 " mm, that of the narrowest mill, stays; it needs broaching or erosion if it must be sharp");
+  job.warn("PIP-CORNER",
+           std::string("the surface: its inner corner") + (count == 1 ? "" : "s") + " at " + where +
+               (count == 1 ? " is" : " are") + " drawn sharp, and a radius of " + trimmed(radius, 3) +
+               " mm, that of the narrowest mill, stays; it needs broaching or erosion if it must be sharp");
 }
 
-}  // namespace capstan::pipeline
+}  // namespace capstan::piece

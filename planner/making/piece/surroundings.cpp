@@ -1,15 +1,14 @@
+#include "planner/making/piece/surroundings.h"
+
 #include <algorithm>
 #include <cmath>
 
-#include "planner/door/pipeline/work.h"
 #include "planner/ground/base/number.h"
 #include "planner/model/features/in_piece.h"
 #include "planner/model/features/raw_piece.h"
 #include "planner/model/nouns/arena/walk.h"
 
-// What surrounds a feature: what is asked of it, what stays beside and below it, what the shop says.
-
-namespace capstan::pipeline {
+namespace capstan::piece {
 namespace {
 
 using geometry::Box2;
@@ -109,40 +108,18 @@ void to_raw_sides(const FeatureShape& s, const geometry::Box3& raw, std::optiona
   }
 }
 
-/// Form and orientation that the general tolerance asks where the feature states none: over its longest and
-/// its shorter extent.
-void take_general(const model::GeneralTolerance& g, const FeatureShape& s, model::Quality& q) {
-  if (s.area.empty()) return;
-  const Box2 box = geometry::bounds(s.area);
-  const double x = box.hi.x - box.lo.x, y = box.hi.y - box.lo.y;
-  if (!q.form_mm && s.kind == ShapeKind::kFace) q.form_mm = model::general_flatness(g, std::max(x, y));
-  if (!q.orientation_mm && model::has(s.kind, model::ShapeTrait::kWalled))
-    q.orientation_mm = model::general_perpendicularity(g, std::max(s.depth_mm, 1.0));
-}
-
 }  // namespace
 
-geometry::Region moved(const geometry::Region& r, const geometry::Placement& at) {
-  geometry::Region out;
-  for (const Loop& loop : r.loops) {
-    Loop q;
-    for (const Vec2 p : loop) q.push_back(geometry::xy(at.to_parent({p.x, p.y, 0.0})));
-    if (at.z.z < 0.0) std::reverse(q.begin(), q.end());
-    out.loops.push_back(std::move(q));
-  }
-  return out;
-}
-
-Thickness thickness_beside(const Work& w, const FeatureShape& s) {
+Thickness thickness_beside(const Piece& piece, const FeatureShape& s) {
   Thickness out;
-  if (s.area.empty() || w.shapes.size() > kMostShapes || s.kind == ShapeKind::kFreeform) return out;
+  if (s.area.empty() || piece.shapes.all.size() > kMostShapes || s.kind == ShapeKind::kFreeform) return out;
   const auto to = inverse(s.frame);
-  const geometry::Box3 raw = transformed(w.plan.stock.box, to);
+  const geometry::Box3 raw = transformed(piece.plan.stock.box, to);
   const geometry::Region own = taken(s);
   const Box2 box = geometry::bounds(own);
   if (model::has(s.kind, model::ShapeTrait::kWalled)) to_raw_sides(s, raw, out.wall_mm);
   double below = s.through ? 0.0 : -s.depth_mm - raw.lo.z;
-  for (const FeatureShape& other : w.shapes) {
+  for (const FeatureShape& other : piece.shapes.all) {
     if (other.feature == s.feature && other.member == s.member) continue;
     if (other.area.empty() || std::abs(std::abs(dot(other.frame.z, s.frame.z)) - 1.0) > kSame) continue;
     const Seen seen = see(other, to);
@@ -162,13 +139,13 @@ Thickness thickness_beside(const Work& w, const FeatureShape& s) {
   return out;
 }
 
-std::optional<double> clear_beside(const Work& w, const FeatureShape& s) {
+std::optional<double> clear_beside(const Piece& piece, const FeatureShape& s) {
   constexpr double kFarMm = 50.0;     // no spot drill is as wide as this from its axis
   constexpr double kAwayMm = 1000.0;  // where a face has no walls
-  if (s.kind != ShapeKind::kHole || w.shapes.size() > kMostShapes) return std::nullopt;
+  if (s.kind != ShapeKind::kHole || piece.shapes.all.size() > kMostShapes) return std::nullopt;
   const auto to = inverse(s.frame);
   geometry::Region free;
-  for (const FeatureShape& other : w.shapes) {
+  for (const FeatureShape& other : piece.shapes.all) {
     if (other.area.empty() || dot(other.frame.z, s.frame.z) < 1.0 - kSame) continue;
     const bool wide = other.kind == ShapeKind::kFace || other.kind == ShapeKind::kOutside;
     const bool walled = other.kind == ShapeKind::kStep || model::has(other.kind, model::ShapeTrait::kWalled);
@@ -194,14 +171,14 @@ std::optional<double> clear_beside(const Work& w, const FeatureShape& s) {
 namespace {
 
 /// How far the walls are apart at which a step ends on both sides; 0: it runs out on one.
-double between_ends(const Work& w, const FeatureShape& s) {
+double between_ends(const Piece& piece, const FeatureShape& s) {
   constexpr double kBeyond = 0.5;  // mm
-  if (s.kind != ShapeKind::kStep || s.spine.size() < 2 || w.shapes.size() > kMostShapes) return 0.0;
+  if (s.kind != ShapeKind::kStep || s.spine.size() < 2 || piece.shapes.all.size() > kMostShapes) return 0.0;
   const double length = norm(s.spine.back() - s.spine.front());
   if (length < kSame) return 0.0;
   const Vec2 d = (kBeyond / length) * (s.spine.back() - s.spine.front());
   const Vec2 in{d.y, -d.x};  // the step lies on the right of its line
-  const geometry::Region beside = stays_beside(w, s);
+  const geometry::Region beside = stays_beside(piece, s);
   for (const Vec2 p : {s.spine.front() - d + in, s.spine.back() + d + in}) {
     if (!geometry::contains(beside, p)) return 0.0;
   }
@@ -210,12 +187,12 @@ double between_ends(const Work& w, const FeatureShape& s) {
 
 }  // namespace
 
-std::string crosses_a_wall(const Work& w, const FeatureShape& face) {
+std::string crosses_a_wall(const Piece& piece, const FeatureShape& face) {
   constexpr double kSomeArea = 1.0;  // mm2: less is rounding of outlines
-  if (face.kind != ShapeKind::kFace || w.shapes.size() > kMostShapes) return {};
+  if (face.kind != ShapeKind::kFace || piece.shapes.all.size() > kMostShapes) return {};
   const auto to = inverse(face.frame);
   const geometry::Region own = taken(face);
-  for (const FeatureShape& other : w.shapes) {
+  for (const FeatureShape& other : piece.shapes.all) {
     // The contour of an outside is the part itself: steps and faces on it are part of its drawing.
     if (other.feature == face.feature || other.islands.empty() || other.kind == ShapeKind::kOutside) continue;
     const auto rel = compose(to, other.frame);
@@ -234,106 +211,89 @@ std::string crosses_a_wall(const Work& w, const FeatureShape& face) {
   return {};
 }
 
-rules::Context context_of(const Work& w, AnyRef feature, const std::vector<FeatureShape>& shapes) {
-  rules::Context c;
-  c.material = w.plan.material;
-  c.general = w.general;
-  if (const auto* named = w.plan.model.get<model::ManufacturingFeature>(feature)) {
-    if (const auto* piece = w.plan.model.get<model::Workpiece>(named->its_workpiece))
-      c.global_tolerance_mm = model::global_tolerance_of(*piece);
-  }
-  if (const auto it = w.qualities.find(feature); it != w.qualities.end()) c.quality = it->second;
-  if (w.general) take_general(*w.general, shapes.front(), c.quality);
-  c.stock_above_mm = stock_above(w, shapes.front());
-  c.has_coolant = w.plan.machine.has_flood || w.plan.machine.has_mist;
-  c.has_through_coolant = w.plan.machine.has_through;
-  c.abilities = w.plan.machine.abilities;
-  c.batch = std::max(1, w.inputs.batch);
-  c.edge_break_mm = std::max(0.0, w.inputs.edge_break_mm);
-  std::optional<double> wall, floor;
-  for (const FeatureShape& s : shapes) {
-    const Thickness t = thickness_beside(w, s);
-    if (t.wall_mm) least(wall, *t.wall_mm);
-    if (t.floor_mm) least(floor, *t.floor_mm);
-  }
-  c.wall_thickness_mm = wall;
-  c.floor_thickness_mm = floor;
-  c.between_ends_mm = between_ends(w, shapes.front());
-  c.sharp_corner_mm = sharp_corner_of(w, shapes.front());
-  for (const FeatureShape& s : shapes) {
-    if (const auto clear = clear_beside(w, s)) least(c.clear_radius_mm, *clear);
-  }
-  return c;
-}
-
-namespace {
-
-/// Zones of no width (0 at maximum material): what the size leaves. Which that is, only the finished size
-/// says.
-void warn_of_zero_zones(const Work& w, const model::Attribution& attribution) {
-  const Model& m = w.plan.model;
-  for (const AnyRef r : m.all_below(model::TypeId::kGeometricTolerance)) {
-    const auto& value = m.at<model::GeometricTolerance>(r).tolerance_value;
-    if (value && *value > 0.0) continue;
-    std::string of;
-    for (const AnyRef f : attribution.features(r)) {
-      const auto* feature = m.get<model::ManufacturingFeature>(f);
-      if (feature != nullptr) of += (of.empty() ? " of '" : ", '") + feature->its_id.value_or("") + "'";
+geometry::Region stays_beside(const Piece& piece, const model::FeatureShape& s) {
+  constexpr double kSame = 1e-6;
+  const auto to = inverse(s.frame);
+  const geometry::Box3 part = transformed(part_box(piece), to);
+  geometry::Region out =
+      geometry::subtract(geometry::rectangle(geometry::xy(part.lo), geometry::xy(part.hi)), s.area);
+  if (out.empty()) return out;
+  // A boss that a face lists is none of the features that are cut beside it: its shape is all around it.
+  for (const model::FeatureShape& other : piece.shapes.whole) {
+    const auto rel = compose(to, other.frame);
+    if ((other.feature == s.feature && other.member == s.member) || rel.z.z < 1.0 - kSame ||
+        other.area.empty())
+      continue;
+    if (rel.origin.z - other.depth_mm > -s.depth_mm + kSame) continue;
+    geometry::Region cut = other.area;
+    for (const auto& island : other.islands) cut = geometry::subtract(cut, island.area);
+    for (auto& loop : cut.loops) {
+      for (auto& q : loop) q = geometry::xy(rel.to_parent({q.x, q.y, 0.0}));
     }
-    w.job.warn("PIP-REQUIREMENT",
-               std::string(model::noun_type(r.type).keyword) + of +
-                   (value ? " has a zone of 0, the whole of which the size leaves" : " states no value") +
-                   "; kept in the plan, and not planned for: hold it by the size");
+    out = geometry::subtract(out, cut);
+  }
+  return out;
+}
+
+void stop_at_walls(const Piece& piece, model::FeatureShape& s) {
+  // Thinner walls are the rounding of a drawing, and less than what a part's tolerances allow. Default,
+  // unsourced.
+  constexpr double kThinMm = 0.1;
+  constexpr double kSame = 1e-6;
+  if (s.kind != ShapeKind::kFace || s.area.empty() || piece.shapes.all.empty() || piece.plan.target_mesh)
+    return;
+  const geometry::Box3 part = transformed(part_box(piece), inverse(s.frame));
+  if (part.hi.z <= -s.depth_mm + kSame) return;
+  const geometry::Region beside = stays_beside(piece, s);
+  bool walled = false;
+  for (const geometry::Region& part_of : geometry::pieces(beside)) {
+    if (geometry::offset(part_of, -0.5 * kThinMm).empty()) continue;
+    s.reach = geometry::subtract(s.reach, part_of);
+    walled = true;
+  }
+  if (!walled) return;
+  // What others cut as deep behind the walls is no way out of this face: how narrow it is, is theirs.
+  const geometry::Region around =
+      geometry::subtract(geometry::rectangle(geometry::xy(part.lo), geometry::xy(part.hi)), s.area);
+  const geometry::Region own = geometry::offset_sharp(s.area, kThinMm);
+  for (const geometry::Region& part_of : geometry::pieces(geometry::subtract(around, beside))) {
+    if (geometry::intersect(part_of, own).empty()) s.reach = geometry::subtract(s.reach, part_of);
   }
 }
 
-}  // namespace
-
-Status take_requirements(Work& w) {
-  const Model& m = w.plan.model;
-  if (!w.inputs.general_tolerance.empty()) {
-    auto g = model::parse_general(w.inputs.general_tolerance);
-    if (!g) return tl::unexpected(g.error());
-    w.general = *std::move(g);
-    w.plan.provenance.push_back({"general tolerance", w.general->text, "named by the user"});
-  } else {
-    for (const AnyRef piece : m.all(model::TypeId::kWorkpiece)) {
-      auto g = model::general_tolerance_of(m, Ref<model::Workpiece>(piece));
-      if (!g) {
-        w.job.warn(g.error().code, g.error().message + "; taken as not stated");
-      } else if (*g) {
-        w.general = **g;
-        w.plan.provenance.push_back({"general tolerance", w.general->text, "the file"});
-        break;
-      }
-    }
+double stock_above(const Piece& piece, const FeatureShape& s) {
+  double top = transformed(piece.plan.stock.box, inverse(s.frame)).hi.z;
+  if (s.kind == model::ShapeKind::kFace) return std::max(0.0, top);
+  for (const FeatureShape& face : piece.shapes.faces) {
+    const auto rel = compose(inverse(s.frame), face.frame);
+    if (std::abs(rel.z.z - 1.0) > kSame) continue;
+    const auto here = face.frame.to_local(s.frame.origin);
+    if (!geometry::contains(face.area, geometry::xy(here))) continue;
+    top = std::min(top, rel.origin.z - face.depth_mm);
   }
-  const model::Attribution attribution(m);
-  std::vector<FeatureShape> all;
-  for (const AnyRef f : m.all_below(model::TypeId::kManufacturingFeature)) {
-    w.qualities[f] = attribution.quality(f);
-    if (auto s = shapes_in_piece(w, f)) all.insert(all.end(), s->begin(), s->end());
-  }
-  w.shapes = std::move(all);
-  const std::set<AnyRef> parts = model::parts_of_others(m);
-  const auto take_whole = [&] {
-    w.whole_shapes.clear();
-    std::copy_if(w.shapes.begin(), w.shapes.end(), std::back_inserter(w.whole_shapes),
-                 [&](const FeatureShape& s) { return !parts.contains(s.feature); });
-  };
-  take_whole();  // what a face stops at is asked of these
-  for (FeatureShape& s : w.shapes) stop_at_walls(w, s);
-  take_whole();
-  w.ties = model::ties_of(m, attribution);
-  std::string lost;
-  for (const auto& l : attribution.lost()) lost += (lost.empty() ? "" : "; ") + l.text;
-  if (!lost.empty()) {
-    w.job.warn("PIP-REQUIREMENT", "no feature answers for what is asked of faces or elements of the part: " +
-                                      lost + "; kept in the plan, and not planned for");
-  }
-  warn_of_zero_zones(w, attribution);
-  tell_twins(w);
-  return {};
+  return std::max(0.0, top);
 }
 
-}  // namespace capstan::pipeline
+Thickness thinnest_beside(const Piece& piece, const std::vector<FeatureShape>& shapes) {
+  Thickness out;
+  for (const FeatureShape& s : shapes) {
+    const Thickness t = thickness_beside(piece, s);
+    if (t.wall_mm) least(out.wall_mm, *t.wall_mm);
+    if (t.floor_mm) least(out.floor_mm, *t.floor_mm);
+  }
+  return out;
+}
+
+std::optional<double> least_clear_beside(const Piece& piece, const std::vector<FeatureShape>& shapes) {
+  std::optional<double> out;
+  for (const FeatureShape& s : shapes) {
+    if (const auto clear = clear_beside(piece, s)) least(out, *clear);
+  }
+  return out;
+}
+
+double raw_above(const geometry::Box3& raw, const geometry::Placement& feature) {
+  return std::max(0.0, transformed(raw, inverse(feature)).hi.z);
+}
+
+}  // namespace capstan::piece

@@ -1,19 +1,24 @@
-#include <algorithm>
-#include <map>
+#include "planner/making/piece/rests.h"
+
+#include <cmath>
+#include <string>
 #include <utility>
 
-#include "planner/door/pipeline/work.h"
 #include "planner/making/sequence/precedence.h"
+#include "planner/model/features/shape.h"
+#include "rules/rules.h"
 
 // Which features need others to be made first. What rests on a feature that is not planned is left out, too:
 // a tap does not run into the solid, a pocket is not begun in the material of a face. The relation is the one
 // that orders the steps (sequence/precedence): of two features that meet, the upper comes first.
 
-namespace capstan::pipeline {
+namespace capstan::piece {
 namespace {
 
+using model::AnyRef;
 using model::FeatureShape;
 using model::Model;
+using model::Ref;
 using model::ShapeKind;
 using sequence::Cause;
 
@@ -50,23 +55,12 @@ bool needs(const FeatureShape& before, const FeatureShape& after, Cause cause) {
   return cause != Cause::kDatum;
 }
 
-std::string name_of(const Model& m, AnyRef f) {
-  const auto* named = m.get<model::ManufacturingFeature>(f);
-  return named == nullptr ? std::string() : named->its_id.value_or("");
-}
-
-std::set<AnyRef> unplanned_of(const Work& w) {
-  std::set<AnyRef> out;
-  for (const model::Unplanned& u : w.plan.unplanned) out.insert(u.feature);
-  return out;
-}
-
 }  // namespace
 
-std::vector<RestsOn> what_rests(const Work& w) {
-  const Shaped all = shaped(w.plan.model);
+std::vector<RestsOn> what_rests(const Model& m, const std::vector<draft::SetupDraft>& setups) {
+  const Shaped all = shaped(m);
   sequence::Options options;
-  for (const SetupWork& s : w.setups)
+  for (const draft::SetupDraft& s : setups)
     options.directions.push_back(s.workpiece.direction_to_local({0.0, 0.0, 1.0}));
   std::set<std::pair<AnyRef, AnyRef>> found;
   for (const auto& pair : sequence::geometric_pairs(all.shapes, sequence::access_of(all.shapes, options))) {
@@ -91,39 +85,4 @@ std::set<AnyRef> resting_on(const std::vector<RestsOn>& all, const std::set<AnyR
   return reached;
 }
 
-Status leave_what_rests(Work& w) {
-  const std::set<AnyRef> roots = unplanned_of(w);
-  if (roots.empty()) return {};
-  std::set<AnyRef> planned;
-  for (const StepWork& s : w.steps) {
-    if (s.proposed) planned.insert(s.feature);
-  }
-  const std::vector<RestsOn> all = what_rests(w);
-  const std::set<AnyRef> resting = resting_on(all, roots);
-  for (const RestsOn& r : all) {
-    if (!resting.contains(r.after) || !(roots.contains(r.before) || resting.contains(r.before))) continue;
-    if (!planned.contains(r.after)) continue;
-    // Of the root, where it rests on one through others.
-    const auto is_why = [&](const model::Unplanned& u) {
-      return u.feature == r.before || resting_on(all, {u.feature}).contains(r.before);
-    };
-    const auto why = std::find_if(w.plan.unplanned.begin(), w.plan.unplanned.end(), is_why);
-    w.tries.rests(r.after, r.before, why == w.plan.unplanned.end() ? std::string() : why->reason);
-    w.again = true;
-  }
-  return {};
-}
-
-void name_what_rests(Work& w) {
-  const std::set<AnyRef> roots = unplanned_of(w);
-  if (roots.empty()) return;
-  const std::vector<RestsOn> all = what_rests(w);
-  std::set<AnyRef> named;
-  for (model::Unplanned& u : w.plan.unplanned) {
-    if (!named.insert(u.feature).second) continue;
-    for (const AnyRef f : resting_on(all, {u.feature})) u.needed_by.push_back(name_of(w.plan.model, f));
-    std::sort(u.needed_by.begin(), u.needed_by.end());
-  }
-}
-
-}  // namespace capstan::pipeline
+}  // namespace capstan::piece

@@ -1,10 +1,12 @@
+#include "planner/making/piece/surroundings.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "planner/door/pipeline/work.h"
+#include "planner/making/piece/demands.h"
 
-namespace capstan::pipeline {
+namespace capstan::piece {
 namespace {
 
 using geometry::Vec3;
@@ -12,19 +14,17 @@ using model::FeatureShape;
 using model::ShapeKind;
 
 /// A raw piece of 100 x 100 x 20 mm, its top at z = 0, and features in it.
-struct Piece {
-  Inputs inputs;
-  Policy policy;
-  Job job;
-  Tries tries;
-  Work w{{}, inputs, policy, job, tries, {}, {}, {}, {}, {}};
-  Piece() { w.plan.stock.box = {{0, 0, -20}, {100, 100, 0}}; }
+struct Plate {
+  model::Plan plan;
+  Shapes shapes;
+  Piece piece{plan, shapes};
+  Plate() { plan.stock.box = {{0, 0, -20}, {100, 100, 0}}; }
 
   const FeatureShape& add(ShapeKind kind, Vec3 top, double x, double y, double depth,
                           bool from_below = false) {
     FeatureShape s;
     s.kind = kind;
-    s.member = static_cast<int>(w.shapes.size());
+    s.member = static_cast<int>(shapes.all.size());
     s.frame.origin = top;
     if (from_below) {
       s.frame.z = {0, 0, -1};
@@ -32,26 +32,26 @@ struct Piece {
     }
     s.depth_mm = depth;
     s.area = s.reach = geometry::rectangle({-0.5 * x, -0.5 * y}, {0.5 * x, 0.5 * y});
-    w.shapes.push_back(s);
-    return w.shapes.back();
+    shapes.all.push_back(s);
+    return shapes.all.back();
   }
 };
 
 TEST(Thickness, IsWhatStaysToTheSidesAndTheBottomOfTheRawPiece) {
-  Piece p;
-  const Thickness t = thickness_beside(p.w, p.add(ShapeKind::kPocket, {50, 30, 0}, 40, 50, 15));
+  Plate p;
+  const Thickness t = thickness_beside(p.piece, p.add(ShapeKind::kPocket, {50, 30, 0}, 40, 50, 15));
   EXPECT_DOUBLE_EQ(t.wall_mm.value_or(0), 5.0) << "30 less half of 50";
   EXPECT_DOUBLE_EQ(t.floor_mm.value_or(0), 5.0);
 }
 
 TEST(Thickness, LeavesOutAnOpenSide) {
-  Piece p;
-  const Thickness t = thickness_beside(p.w, p.add(ShapeKind::kPocket, {50, 25, 0}, 40, 50, 15));
+  Plate p;
+  const Thickness t = thickness_beside(p.piece, p.add(ShapeKind::kPocket, {50, 25, 0}, 40, 50, 15));
   EXPECT_DOUBLE_EQ(t.wall_mm.value_or(0), 30.0) << "y = 0 is open; 50 less half of 40 stays beside";
 }
 
 TEST(Thickness, ARoundedCornerBesideAnOpenSideIsNoThinWall) {
-  Piece p;
+  Plate p;
   FeatureShape s = p.add(ShapeKind::kPocket, {50, 20, 0}, 40, 50, 15);  // runs out over y = 0 by 5 mm
   // Corners of 10 mm, in small pieces: some of them end just inside the raw piece's side.
   geometry::Loop loop;
@@ -63,62 +63,63 @@ TEST(Thickness, ARoundedCornerBesideAnOpenSideIsNoThinWall) {
     }
   }
   s.area = s.reach = geometry::Region{{loop}};
-  EXPECT_NEAR(thickness_beside(p.w, s).wall_mm.value_or(0), 30.0, 1e-6) << "50 less half of 40";
+  EXPECT_NEAR(thickness_beside(p.piece, s).wall_mm.value_or(0), 30.0, 1e-6) << "50 less half of 40";
 }
 
 TEST(Thickness, IsTheWallBetweenTwoPocketsAtOverlappingDepths) {
-  Piece p;
+  Plate p;
   p.add(ShapeKind::kPocket, {30, 50, 0}, 30, 40, 10);
   p.add(ShapeKind::kPocket, {62, 50, 0}, 30, 40, 6);
-  EXPECT_NEAR(thickness_beside(p.w, p.w.shapes[0]).wall_mm.value_or(0), 2.0, 1e-9);
-  EXPECT_NEAR(thickness_beside(p.w, p.w.shapes[1]).wall_mm.value_or(0), 2.0, 1e-9);
+  EXPECT_NEAR(thickness_beside(p.piece, p.shapes.all[0]).wall_mm.value_or(0), 2.0, 1e-9);
+  EXPECT_NEAR(thickness_beside(p.piece, p.shapes.all[1]).wall_mm.value_or(0), 2.0, 1e-9);
   // One that begins below the other's floor stands beside nothing.
-  p.w.shapes[1].frame.origin.z = -11.0;
-  EXPECT_DOUBLE_EQ(thickness_beside(p.w, p.w.shapes[0]).wall_mm.value_or(0), 15.0);
+  p.shapes.all[1].frame.origin.z = -11.0;
+  EXPECT_DOUBLE_EQ(thickness_beside(p.piece, p.shapes.all[0]).wall_mm.value_or(0), 15.0);
 }
 
 TEST(Thickness, SeesWhatIsCutFromTheOtherSide) {
-  Piece p;
+  Plate p;
   p.add(ShapeKind::kPocket, {50, 50, 0}, 40, 40, 8);
   p.add(ShapeKind::kPocket, {50, 50, -20}, 40, 40, 9, true);
-  EXPECT_NEAR(thickness_beside(p.w, p.w.shapes[0]).floor_mm.value_or(0), 3.0, 1e-9);
-  EXPECT_NEAR(thickness_beside(p.w, p.w.shapes[1]).floor_mm.value_or(0), 3.0, 1e-9);
-  p.w.shapes[1].frame.origin.x = 95;
-  EXPECT_NEAR(thickness_beside(p.w, p.w.shapes[0]).floor_mm.value_or(0), 12.0, 1e-9) << "not below it";
+  EXPECT_NEAR(thickness_beside(p.piece, p.shapes.all[0]).floor_mm.value_or(0), 3.0, 1e-9);
+  EXPECT_NEAR(thickness_beside(p.piece, p.shapes.all[1]).floor_mm.value_or(0), 3.0, 1e-9);
+  p.shapes.all[1].frame.origin.x = 95;
+  EXPECT_NEAR(thickness_beside(p.piece, p.shapes.all[0]).floor_mm.value_or(0), 12.0, 1e-9) << "not below it";
 }
 
 TEST(Thickness, OfWhatGoesThroughHasNoFloor) {
-  Piece p;
+  Plate p;
   p.add(ShapeKind::kPocket, {50, 50, 0}, 40, 40, 20);
-  p.w.shapes[0].through = true;
-  EXPECT_FALSE(thickness_beside(p.w, p.w.shapes[0]).floor_mm);
+  p.shapes.all[0].through = true;
+  EXPECT_FALSE(thickness_beside(p.piece, p.shapes.all[0]).floor_mm);
 }
 
 TEST(Context, TakesGeneralFlatnessOfAFaceThatStatesNone) {
-  Piece p;
-  p.w.general = *model::parse_general("ISO 2768-mH");
+  Plate p;
+  Demands demands;
+  demands.general = *model::parse_general("ISO 2768-mH");
   p.add(ShapeKind::kFace, {50, 50, 0}, 100, 80, 1);
-  EXPECT_EQ(context_of(p.w, {}, {p.w.shapes[0]}).quality.form_mm, 0.1) << "up to 100 mm";
+  EXPECT_EQ(context_of(p.piece, demands, {}, {p.shapes.all[0]}).quality.form_mm, 0.1) << "up to 100 mm";
 }
 
 TEST(Face, ThatCrossesABossOfAnotherFeatureIsRefused) {
-  Piece piece;
-  piece.add(ShapeKind::kPocket, {50, 50, 0}, 80, 80, 10);
+  Plate plate;
+  plate.add(ShapeKind::kPocket, {50, 50, 0}, 80, 80, 10);
   // A boss 20 x 20 in the middle of the pocket, as high as the raw piece.
-  piece.w.shapes.back().islands.push_back({geometry::rectangle({-10, -10}, {10, 10}), 0.0});
-  piece.w.shapes.back().feature = {model::TypeId::kClosedPocket, 0};
+  plate.shapes.all.back().islands.push_back({geometry::rectangle({-10, -10}, {10, 10}), 0.0});
+  plate.shapes.all.back().feature = {model::TypeId::kClosedPocket, 0};
   FeatureShape face;
   face.feature = {model::TypeId::kPlanarFace, 0};
   face.kind = ShapeKind::kFace;
   face.depth_mm = 4.0;
   face.area = geometry::rectangle({0, 0}, {100, 50});  // through the middle of the boss
-  const std::string why = crosses_a_wall(piece.w, face);
+  const std::string why = crosses_a_wall(plate.piece, face);
   EXPECT_NE(why.find("4 mm above the face's floor"), std::string::npos) << why;
   face.area = geometry::rectangle({0, 0}, {100, 40});  // up to the boss
-  EXPECT_EQ(crosses_a_wall(piece.w, face), "");
+  EXPECT_EQ(crosses_a_wall(plate.piece, face), "");
   face.area = geometry::rectangle({0, 0}, {100, 100});  // over all of it: the boss is faced
-  EXPECT_EQ(crosses_a_wall(piece.w, face), "");
+  EXPECT_EQ(crosses_a_wall(plate.piece, face), "");
 }
 
 }  // namespace
-}  // namespace capstan::pipeline
+}  // namespace capstan::piece

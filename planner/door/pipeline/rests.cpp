@@ -1,0 +1,60 @@
+#include <algorithm>
+#include <map>
+
+#include "planner/door/pipeline/work.h"
+#include "planner/making/piece/rests.h"
+
+// What rests on a feature that is not planned is left out, too.
+
+namespace capstan::pipeline {
+namespace {
+
+std::string name_of(const model::Model& m, AnyRef f) {
+  const auto* named = m.get<model::ManufacturingFeature>(f);
+  return named == nullptr ? std::string() : named->its_id.value_or("");
+}
+
+std::set<AnyRef> unplanned_of(const Work& w) {
+  std::set<AnyRef> out;
+  for (const model::Unplanned& u : w.plan.unplanned) out.insert(u.feature);
+  return out;
+}
+
+}  // namespace
+
+Status leave_what_rests(Work& w) {
+  const std::set<AnyRef> roots = unplanned_of(w);
+  if (roots.empty()) return {};
+  std::set<AnyRef> planned;
+  for (const StepDraft& s : w.steps) {
+    if (s.proposed) planned.insert(s.feature);
+  }
+  const std::vector<piece::RestsOn> all = piece::what_rests(w.plan.model, w.setups);
+  const std::set<AnyRef> resting = piece::resting_on(all, roots);
+  for (const piece::RestsOn& r : all) {
+    if (!resting.contains(r.after) || !(roots.contains(r.before) || resting.contains(r.before))) continue;
+    if (!planned.contains(r.after)) continue;
+    // Of the root, where it rests on one through others.
+    const auto is_why = [&](const model::Unplanned& u) {
+      return u.feature == r.before || piece::resting_on(all, {u.feature}).contains(r.before);
+    };
+    const auto why = std::find_if(w.plan.unplanned.begin(), w.plan.unplanned.end(), is_why);
+    w.tries.bans.rests(r.after, r.before, why == w.plan.unplanned.end() ? std::string() : why->reason);
+    w.again = true;
+  }
+  return {};
+}
+
+void name_what_rests(Work& w) {
+  const std::set<AnyRef> roots = unplanned_of(w);
+  if (roots.empty()) return;
+  const std::vector<piece::RestsOn> all = piece::what_rests(w.plan.model, w.setups);
+  std::set<AnyRef> named;
+  for (model::Unplanned& u : w.plan.unplanned) {
+    if (!named.insert(u.feature).second) continue;
+    for (const AnyRef f : piece::resting_on(all, {u.feature})) u.needed_by.push_back(name_of(w.plan.model, f));
+    std::sort(u.needed_by.begin(), u.needed_by.end());
+  }
+}
+
+}  // namespace capstan::pipeline

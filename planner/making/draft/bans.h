@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "planner/making/draft/draft.h"
+
+namespace capstan::draft {
+
+/// A feature that is not planned.
+struct LeftOut {
+  std::vector<std::string> reasons;  ///< of its own: why each of its members cannot be made
+  std::string why_rests;             ///< why the first of those is not planned
+  std::vector<AnyRef> rests_on;      ///< features that are not planned and that this one needs
+};
+
+/// How often a step's cuts were found too large, and why last.
+struct Thinner {
+  int times = 0;
+  std::string why;
+};
+
+/// Choices that were tried and did not work, with the reason. Proposing passes them over and puts the reason
+/// among the rejected alternatives, so that `explain` tells them. Nothing is ever taken back: each try bans
+/// at least one choice more, so tries come to an end.
+class Bans {
+ public:
+  void ban_chain(const Member& m, const std::string& chain, const std::string& why);
+  void ban_cutter(const Member& m, const std::string& chain, std::size_t step, const std::string& cutter,
+                  const std::string& why);
+  /// The step's cuts are to be thinner, once more.
+  void cut_thinner(const Member& m, const std::string& chain, std::size_t step, const std::string& why);
+  /// The check found that the step cuts nothing, where others cut around a boss: it is left out.
+  void cut_nothing(const Member& m, const std::string& chain, std::size_t step, const std::string& why);
+  void leave_out(AnyRef feature, const std::string& why);
+  void rests(AnyRef feature, AnyRef on, const std::string& why);
+
+  [[nodiscard]] const std::string* chain_banned(const Member& m, const std::string& chain) const;
+  [[nodiscard]] const std::string* cutter_banned(const Member& m, const std::string& chain, std::size_t step,
+                                                 const std::string& cutter) const;
+  [[nodiscard]] const Thinner* thinner(const Member& m, const std::string& chain, std::size_t step) const;
+  [[nodiscard]] const std::string* cuts_nothing(const Member& m, const std::string& chain,
+                                                std::size_t step) const;
+  [[nodiscard]] const LeftOut* left_out(AnyRef feature) const;
+
+ private:
+  std::map<std::pair<Member, std::string>, std::string> chains_;
+  std::map<std::tuple<Member, std::string, std::size_t, std::string>, std::string> cutters_;
+  std::map<std::tuple<Member, std::string, std::size_t>, Thinner> thinner_;
+  std::map<std::tuple<Member, std::string, std::size_t>, std::string> nothing_;
+  std::map<AnyRef, LeftOut> left_out_;
+};
+
+}  // namespace capstan::draft

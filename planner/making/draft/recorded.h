@@ -1,0 +1,19 @@
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "planner/model/plan/plan.h"
+
+namespace capstan::draft {
+
+/// What the plan said when it was read.
+struct Recorded {
+  std::vector<model::Cutter> cutters;
+  std::vector<model::StepResult> steps;
+  model::Machine machine;        ///< for which the steps were planned,
+  model::WorkMaterial material;  ///< and the material
+  std::vector<std::pair<model::Ref<model::Setup>, model::Workholding>> holdings;
+};
+
+}  // namespace capstan::draft

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "planner/making/draft/draft.h"
+#include "planner/making/piece/piece.h"
+#include "planner/model/plan/proposal.h"
+
+// Features that the raw piece does not let be made as they are drawn.
+
+namespace capstan::piece {
+
+/// Why a feature cannot be cut from this raw piece: solid stands above its top, or its drill's point comes
+/// out on the other side. Empty when it can.
+[[nodiscard]] std::string not_in_piece(const Piece& piece, const model::FeatureShape& shape);
+/// The radius that may stay in the inner corners of a step, an outside or a closed pocket that are drawn
+/// sharp and state none; 0: it has none.
+[[nodiscard]] double sharp_corner_of(const Piece& piece, const model::FeatureShape& shape);
+/// Says which radius stays where corners are drawn sharp and no radius is stated (PIP-CORNER).
+void tell_corners(const Piece& piece, const std::vector<draft::StepDraft>& steps, Job& job);
+/// A hole at an edge of the raw piece is milled, or not made: its chains that drill are rejected.
+[[nodiscard]] model::Proposal without_drills_at_edges(const Piece& piece, const model::FeatureShape& hole,
+                                                      const model::Proposal& proposal);
+
+}  // namespace capstan::piece

@@ -1,0 +1,119 @@
+#include "planner/making/piece/piece.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "planner/ground/base/number.h"
+#include "planner/making/piece/surroundings.h"
+#include "planner/making/piece/twins.h"
+#include "planner/model/features/raw_piece.h"
+
+// Holes that say "through" and end inside the piece. Their bottom condition is the firmer word: what comes
+// out on the other side is a size nobody measures, and drawings often give the depth of the wall that once
+// stood there (ISO 14649-11, example 2: 40 mm through, beside an outside of 50 mm). Such a hole goes down to
+// the underside of the raw piece, and that is said. Where anything else is cut away on its axis below, the
+// hole opens into that, and ends as stated.
+
+namespace capstan::piece {
+namespace {
+
+using geometry::Box3;
+using model::FeatureShape;
+
+constexpr double kInside = 0.01;  // mm: less is the rounding of a file
+constexpr double kSameAxis = 1e-9;
+
+/// Whether a feature takes away something within a thin column, workpiece coordinates.
+bool meets(const FeatureShape& s, const Box3& column) {
+  if (s.area.empty() || s.kind == model::ShapeKind::kToolpath) return false;
+  const auto b = geometry::bounds(s.area);
+  const Box3 there = transformed(column, inverse(s.frame));
+  return there.hi.x >= b.lo.x && there.lo.x <= b.hi.x && there.hi.y >= b.lo.y && there.lo.y <= b.hi.y &&
+         there.hi.z >= -s.depth_mm && there.lo.z <= 0.0;
+}
+
+bool open_below(const model::Model& m, const Box3& column) {
+  for (const AnyRef f : m.all_below(model::TypeId::kMachiningFeature)) {
+    const auto shapes = model::shapes_of(m, Ref<model::ManufacturingFeature>(f));
+    if (!shapes) continue;
+    if (std::any_of(shapes->begin(), shapes->end(), [&](const auto& s) { return meets(s, column); }))
+      return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+Box3 part_box(const Piece& piece) {
+  Box3 out = piece.plan.stock.box;
+  const model::Workpiece* made = model::workpiece_of(piece.plan.model, piece.plan.project);
+  const auto own =
+      made != nullptr ? model::box_of(piece.plan.model, made->its_bounding_geometry) : std::nullopt;
+  const double grown = piece.grown_mm;
+  if (own && made->its_rawpiece.set()) {
+    out = *own;
+  } else if (grown > 0.0) {
+    out.lo = out.lo + geometry::Vec3{grown, grown, grown};
+    out.hi = out.hi - geometry::Vec3{grown, grown, grown};
+  }
+  return out.empty() ? piece.plan.stock.box : out;
+}
+
+Result<std::vector<FeatureShape>> shapes_in_piece(const Piece& piece, AnyRef feature) {
+  auto shapes = model::shapes_of(piece.plan.model, Ref<model::ManufacturingFeature>(feature));
+  if (!shapes) return shapes;
+  const Box3 part = part_box(piece);
+  for (FeatureShape& s : *shapes) {
+    stop_at_walls(piece, s);
+    if (s.kind != model::ShapeKind::kHole || !s.through || s.bottom_diameter_mm != s.diameter.nominal_mm)
+      continue;
+    const auto& z = s.frame.z;
+    if (std::max({std::abs(z.x), std::abs(z.y), std::abs(z.z)}) < 1.0 - kSameAxis) continue;
+    const double under = -transformed(part, inverse(s.frame)).lo.z;
+    if (under < s.depth_mm + kInside || transformed(part, inverse(s.frame)).hi.z < -s.depth_mm) continue;
+    const double raw = -transformed(piece.plan.stock.box, inverse(s.frame)).lo.z;
+    Box3 column;
+    column.add(s.frame.to_parent({0.0, 0.0, -s.depth_mm - 0.5 * kInside}));
+    column.add(s.frame.to_parent({0.0, 0.0, -raw}));
+    if (open_below(piece.plan.model, column)) continue;
+    s.assumptions.push_back("it goes through, but its depth of " + trimmed(s.depth_mm, 3) + " mm ends " +
+                            trimmed(raw - s.depth_mm, 3) +
+                            " mm above the underside of the piece: it is cut down to the underside");
+    s.depth_mm = raw;
+  }
+  return shapes;
+}
+
+Shapes shapes_of_all(const model::Plan& plan, double grown_mm, const draft::Bans& bans, Job& job) {
+  const model::Model& m = plan.model;
+  Shapes out;
+  for (const AnyRef f : m.all_below(model::TypeId::kPlanarFace)) {
+    if (bans.left_out(f) != nullptr) continue;  // it stays
+    if (auto s = model::shapes_of(m, Ref<model::ManufacturingFeature>(f)))
+      out.faces.insert(out.faces.end(), s->begin(), s->end());
+  }
+  std::vector<FeatureShape> all;
+  for (const AnyRef f : m.all_below(model::TypeId::kManufacturingFeature)) {
+    if (auto s = shapes_in_piece({plan, out, grown_mm}, f)) all.insert(all.end(), s->begin(), s->end());
+  }
+  out.all = std::move(all);
+  const std::set<AnyRef> parts = model::parts_of_others(m);
+  const auto take_whole = [&] {
+    out.whole.clear();
+    std::copy_if(out.all.begin(), out.all.end(), std::back_inserter(out.whole),
+                 [&](const FeatureShape& s) { return !parts.contains(s.feature); });
+  };
+  take_whole();  // what a face stops at is asked of these
+  for (FeatureShape& s : out.all) stop_at_walls({plan, out, grown_mm}, s);
+  take_whole();
+  out.twins = twins_of(out.whole, job);
+  return out;
+}
+
+bool alike(const FeatureShape& a, const FeatureShape& b) {
+  return model::same_form(a, b) && a.area.loops == b.area.loops && a.frame.z == b.frame.z &&
+         a.frame.origin.z == b.frame.origin.z;
+}
+
+}  // namespace capstan::piece

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "planner/ground/base/job.h"
+#include "planner/ground/base/result.h"
+#include "planner/model/plan/plan.h"
+#include "planner/physics/mechanics/loads/margin.h"
+
+namespace capstan::piece {
+
+/// What the caller says of material, raw piece and margin; what he leaves open, the file says.
+struct WorkpieceWish {
+  std::optional<std::string> material;            ///< overrides the file's
+  const std::vector<model::WorkMaterial>& known;  ///< materials
+  std::optional<geometry::Box3> raw;              ///< overrides the file's, workpiece coordinates, mm
+  std::optional<double> allowance_mm;             ///< raw piece: the finished part grown by this
+  std::optional<mechanics::MarginPolicy> margin;  ///< of loads against their limits
+};
+
+/// The material by the caller's name, else the part's; by default only where neither names one. Says of each
+/// property that the part states whether the card was chosen by it.
+/// Fails  as tooling::choose_material.
+[[nodiscard]] Result<model::WorkMaterial> material_of(const model::Plan& plan, const WorkpieceWish& wish,
+                                                      Job& job);
+
+/// The margin, and who named it.
+struct Margin {
+  mechanics::MarginPolicy policy = mechanics::kUsualMargin;
+  model::Provenance said;
+};
+/// The margin that a plan was made with holds when it is planned again, unless another is asked for.
+/// Fails  NAME-UNKNOWN for one that the plan says and nobody knows.
+[[nodiscard]] Result<Margin> margin_of(const model::Plan& plan, const WorkpieceWish& wish, Job& job);
+
+/// The raw piece: the caller's, else the file's, else the box of the surface or of the features (said).
+/// Fails  PIP-NOTHING   there is neither a raw piece nor a feature whose size is known
+///        PIP-SHEET     a surface that is a sheet does not cover it
+///        PIP-STOCK-SIZE  it is larger than any machine
+[[nodiscard]] Result<model::Stock> raw_piece_of(const model::Plan& plan, const WorkpieceWish& wish, Job& job);
+
+/// An open outside profile says its side by the raw piece: one that the caller names is stated for it where
+/// the file states none.
+void state_raw_piece(model::Model& m, const geometry::Box3& box);
+
+/// Says which features the raw piece does not hold (PIP-OUTSIDE).
+void report_outside(const model::Plan& plan, Job& job);
+
+}  // namespace capstan::piece

@@ -1,0 +1,1 @@
+capstan_test(piece DEPENDS piece)
