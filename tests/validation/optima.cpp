@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "planner/ground/base/number.h"
-#include "planner/making/optimise/solver/ipopt_backend.h"
+#include "planner/making/optimise/solver/solvers.h"
 #include "planner/making/optimise/solver/solver.h"
 #include "tests/making/optimise/examples.h"
 #include "tests/validation/studies.h"
@@ -40,7 +40,7 @@ double best(const optimise::Problem& problem, optimise::Solver solver) {
   o.solver = solver;
   o.starts = 10;
   o.evaluation_budget = 40000;
-  o.backends.ipopt = &optimise::solve_with_ipopt;
+  o.backends = optimise::all_backends();
   Job job;
   const auto s = optimise::solve(problem, o, job);
   return s && s->feasible ? s->objective : std::nan("");

@@ -40,8 +40,12 @@ const Named<pipeline::Objective>& objective_words() {
   return kWords;
 }
 const Named<optimise::Solver>& solver_words() {
-  static const Named<optimise::Solver> kWords = {{"ipopt", optimise::Solver::kIpopt},
-                                                 {"nlopt", optimise::Solver::kNlopt}};
+  static const Named<optimise::Solver> kWords = [] {
+    Named<optimise::Solver> words;
+    for (const auto& [solver, word] : optimise::kSolvers) words.emplace_back(word, solver);
+    std::sort(words.begin(), words.end());
+    return words;
+  }();
   return kWords;
 }
 
@@ -155,7 +159,7 @@ std::vector<Option> table() {
        both("a case base to begin from"),
        [](Request& r, Text t) { return r.cases = t, std::string(); },
        {}},
-      {"solver", Value::kWord, both("nlopt or ipopt"),
+      {"solver", Value::kWord, both("which solver finds feeds and speeds"),
        [](Request& r, Text t) { return r.solver = value_of(solver_words(), t), std::string(); },
        names(solver_words())},
       {"workholding",

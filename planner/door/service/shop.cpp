@@ -116,9 +116,8 @@ void choices(const Request& o, const model::Plan& plan, pipeline::Inputs& in) {
   if (o.batch > 1) p.push_back({"batch", std::to_string(o.batch), option(o, "batch")});
   in.edge_break_mm = o.edge_break_mm;
   if (o.edge_break_mm > 0.0) p.push_back({"edges", trimmed(o.edge_break_mm, 4) + " mm", option(o, "edges")});
-  in.solver = o.solver.value_or(optimise::Solver::kNlopt);
-  p.push_back({"solver", in.solver == optimise::Solver::kIpopt ? "ipopt" : "nlopt",
-               o.solver ? option(o, "solver") : kDefault});
+  in.solver = o.solver.value_or(optimise::kSolvers.front().solver);
+  p.push_back({"solver", optimise::word_of(in.solver), o.solver ? option(o, "solver") : kDefault});
 }
 
 Status machine_of(const Request& o, const model::Plan& plan, pipeline::Inputs& in, Job& job) {

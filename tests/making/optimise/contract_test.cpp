@@ -7,7 +7,7 @@
 #include <ostream>
 #include <stdexcept>
 
-#include "planner/making/optimise/solver/ipopt_backend.h"
+#include "planner/making/optimise/solver/solvers.h"
 #include "planner/making/optimise/solver/solver.h"
 #include "tests/making/optimise/examples.h"
 
@@ -34,7 +34,7 @@ class Contract : public ::testing::TestWithParam<Way> {
     o.algorithm = GetParam().algorithm;
     o.fall_back = false;
     o.evaluation_budget = 20000;
-    o.backends.ipopt = &solve_with_ipopt;
+    o.backends = all_backends();
     if (referee()) o.starts = 1;  // it starts everywhere by itself
     return o;
   }
@@ -282,7 +282,7 @@ TEST(Backends, FindTheSameOptimumOfEveryPublishedProblem) {
       o.fall_back = false;
       o.starts = 10;
       o.evaluation_budget = 40000;
-      o.backends.ipopt = &solve_with_ipopt;
+      o.backends = all_backends();
       Job job;
       const auto s = solve(e.problem, o, job);
       if (!s && s.error().code == "OPT-BACKEND-ABSENT") continue;
@@ -305,7 +305,7 @@ TEST(AbsentBackend, IsRefusedWithWhatToBuild) {
   for (const Solver solver : {Solver::kNlopt, Solver::kIpopt}) {
     Options o;
     o.solver = solver;
-    o.backends.ipopt = &solve_with_ipopt;
+    o.backends = all_backends();
     o.fall_back = false;
     Job job;
     const auto s = solve(examples::projected_point(), o, job);

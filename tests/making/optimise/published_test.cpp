@@ -7,7 +7,7 @@
 #include <cmath>
 #include <ostream>
 
-#include "planner/making/optimise/solver/ipopt_backend.h"
+#include "planner/making/optimise/solver/solvers.h"
 #include "planner/making/optimise/solver/solver.h"
 #include "tests/making/optimise/examples.h"
 
@@ -34,7 +34,7 @@ class Published : public ::testing::TestWithParam<Chain> {
     o.solver = GetParam().solver;
     o.starts = 10;
     o.evaluation_budget = 40000;
-    o.backends.ipopt = &solve_with_ipopt;
+    o.backends = all_backends();
     return o;
   }
 

@@ -1,1 +1,1 @@
-capstan_test(optimise DEPENDS optimise optimise_ipopt)
+capstan_test(optimise DEPENDS optimise optimise_solvers)

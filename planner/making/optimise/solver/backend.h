@@ -30,7 +30,10 @@ struct Attempt {
 ///           library out; rethrow, after its library has returned, what the evaluator threw.
 using Backend = Result<std::vector<double>> (*)(Evaluator& evaluator, const Attempt& attempt);
 
-/// NLopt 2.7, or OPT-BACKEND-ABSENT when built without it.
-[[nodiscard]] Result<std::vector<double>> solve_with_nlopt(Evaluator& evaluator, const Attempt& attempt);
+/// solve_with_nlopt (NLopt 2.7), solve_with_ipopt …: each answers OPT-BACKEND-ABSENT when built without its library.
+#define CAPSTAN_SOLVER(noun, word) \
+  [[nodiscard]] Result<std::vector<double>> solve_with_##word(Evaluator& evaluator, const Attempt& attempt);
+#include "planner/making/optimise/solver/solvers.inc"
+#undef CAPSTAN_SOLVER
 
 }  // namespace capstan::optimise

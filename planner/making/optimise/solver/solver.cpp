@@ -35,22 +35,24 @@ const char* name_of(Algorithm a) {
 
 std::vector<Stage> stages_of(const Options& options) {
   const Backends& b = options.backends;
+  const Backend nlopt = b[Solver::kNlopt];
   std::vector<Stage> stages;
-  if (options.solver == Solver::kIpopt) {
-    stages.push_back({b.ipopt, Algorithm::kSlsqp, "ipopt"});
+  if (options.solver == Solver::kNlopt) {
+    stages.push_back({nlopt, options.algorithm, name_of(options.algorithm)});
   } else {
-    stages.push_back({b.nlopt, options.algorithm, name_of(options.algorithm)});
+    stages.push_back({b[options.solver], Algorithm::kSlsqp, word_of(options.solver)});
   }
   if (!options.fall_back) return stages;
-  if (b.nlopt != nullptr) {
+  if (nlopt != nullptr) {
     for (const Algorithm a : {Algorithm::kSlsqp, Algorithm::kAuglagLbfgs}) {
       const bool behind = options.solver == Solver::kNlopt && a == options.algorithm;
       const bool slower = a == Algorithm::kSlsqp && options.algorithm == Algorithm::kAuglagLbfgs;
-      if (!behind && !slower) stages.push_back({b.nlopt, a, name_of(a)});
+      if (!behind && !slower) stages.push_back({nlopt, a, name_of(a)});
     }
   }
-  if (b.ipopt != nullptr && options.solver != Solver::kIpopt) {
-    stages.push_back({b.ipopt, Algorithm::kSlsqp, "ipopt"});
+  for (const auto& [solver, word] : kSolvers) {
+    if (solver == Solver::kNlopt || solver == options.solver || b[solver] == nullptr) continue;
+    stages.push_back({b[solver], Algorithm::kSlsqp, word});
   }
   return stages;
 }

@@ -8,23 +8,10 @@
 #include "planner/ground/base/result.h"
 #include "planner/making/optimise/problem/problem.h"
 #include "planner/making/optimise/solver/backend.h"
+#include "planner/making/optimise/solver/solvers.h"
 
 /// The fence around the solvers: a checked problem in, a checked solution out, whichever solver ran.
 namespace capstan::optimise {
-
-enum class Solver : std::uint8_t { kNlopt, kIpopt };
-
-/// The libraries a program brings. NLopt is part of this room; Ipopt is another target, so that only a
-/// program that names it links it:
-///
-///     #include "planner/making/optimise/solver/ipopt_backend.h"     // and link capstan::optimise_ipopt
-///     options.backends.ipopt = &optimise::solve_with_ipopt;
-///
-/// A null pointer is a backend that is absent.
-struct Backends {
-  Backend nlopt = &solve_with_nlopt;
-  Backend ipopt = nullptr;
-};
 
 struct Options {
   Solver solver = Solver::kNlopt;
@@ -33,7 +20,7 @@ struct Options {
   std::uint32_t starts = 8;             ///< the problem's own start, then a fixed low-discrepancy sequence
   double relative_tolerance = 1e-10;    ///< of the objective, where a solver stops
   double feasibility_tolerance = 1e-6;  ///< largest c_i that counts as kept
-  bool fall_back = true;                ///< SLSQP, then AUGLAG + L-BFGS, then Ipopt if it is there
+  bool fall_back = true;                ///< SLSQP, then AUGLAG + L-BFGS, then the other solvers that are there
   Backends backends;
 };
 

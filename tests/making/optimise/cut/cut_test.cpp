@@ -9,7 +9,7 @@
 #include "planner/making/optimise/cut/cost.h"
 #include "planner/making/optimise/cut/limits.h"
 #include "planner/making/optimise/cut/stability.h"
-#include "planner/making/optimise/solver/ipopt_backend.h"
+#include "planner/making/optimise/solver/solvers.h"
 #include "planner/physics/mechanics/constants.h"
 #include "planner/physics/mechanics/force/force_law.h"
 #include "planner/physics/mechanics/stability.h"
@@ -122,7 +122,7 @@ TEST_F(Cut, NoOtherNumberOfLevelsIsBetter) {
 void expect_the_same_by_either_solver(const CutQuestion& q, const std::string& what) {
   Options ipopt;
   ipopt.solver = Solver::kIpopt;
-  ipopt.backends.ipopt = &solve_with_ipopt;
+  ipopt.backends = all_backends();
   ipopt.fall_back = false;
   ipopt.starts = 2;
   Job job;
@@ -504,7 +504,7 @@ TEST_F(Cut, GivesTheSameAnswerTwice) {
 
 TEST(CutWithoutSolver, IsRefusedAsAbsent) {
   Options o;
-  o.backends.nlopt = nullptr;
+  o.backends[Solver::kNlopt] = nullptr;
   Job job;
   const auto a = cut(questions::roughing(), o, job);
   ASSERT_FALSE(a);

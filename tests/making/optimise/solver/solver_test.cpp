@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "planner/making/optimise/solver/ipopt_backend.h"
+#include "planner/making/optimise/solver/solvers.h"
 #include "planner/making/optimise/solver/multipliers.h"
 #include "tests/making/optimise/examples.h"
 
@@ -37,7 +37,7 @@ TEST(Solve, FallsBackWhenAMethodEndsShortOfTheOptimum) {
   if (!has_nlopt()) GTEST_SKIP() << "NLopt is absent";
   Options o;
   o.solver = Solver::kIpopt;
-  o.backends.ipopt = &lazy;
+  o.backends[Solver::kIpopt] = &lazy;
   Job job;
   const auto s = solve(examples::projected_point(), o, job);
   ASSERT_TRUE(s);

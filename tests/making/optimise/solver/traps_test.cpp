@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "planner/making/optimise/solver/ipopt_backend.h"
+#include "planner/making/optimise/solver/solvers.h"
 #include "planner/making/optimise/solver/solver.h"
 #include "planner/physics/mechanics/force/immersion.h"
 #include "tests/making/optimise/examples.h"
@@ -24,7 +24,7 @@ bool has_ipopt() {
   Options o;
   o.solver = Solver::kIpopt;
   o.fall_back = false;
-  o.backends.ipopt = &solve_with_ipopt;
+  o.backends = all_backends();
   Job job;
   return solve(examples::projected_point(), o, job).has_value();
 }
@@ -80,7 +80,7 @@ TEST(Trap, AnInfiniteSlopeAtTheFullDiameterEndsNoSearch) {
     if (!(ipopt ? has_ipopt() : has_nlopt())) continue;
     Options o;
     o.solver = ipopt ? Solver::kIpopt : Solver::kNlopt;
-    o.backends.ipopt = &solve_with_ipopt;  // SLSQP alone stops short of it
+    o.backends = all_backends();  // SLSQP alone stops short of it
     Job job;
     const auto s = solve(until_the_diameter(), o, job);
     ASSERT_TRUE(s);
@@ -160,7 +160,7 @@ TEST(Trap, AnEndThatIsInfeasibleIsSeenAndMended) {
   const auto e = with_both_depths();
   Options o;
   o.evaluation_budget = 20000;
-  o.backends.nlopt = &ends_outside;
+  o.backends[Solver::kNlopt] = &ends_outside;
   Job job;
   const auto s = solve(e.problem, o, job);
   ASSERT_TRUE(s);
@@ -210,7 +210,7 @@ TEST(Trap, NoMethodAsksBeyondItsBudgetWhateverTheModelIsLike) {
       };
       Options o;
       o.solver = solver;
-      o.backends.ipopt = &solve_with_ipopt;
+      o.backends = all_backends();
       o.starts = 4;
       o.evaluation_budget = 300;
       Job job;

@@ -1,4 +1,4 @@
-#include "planner/making/optimise/solver/ipopt_backend.h"
+#include "planner/making/optimise/solver/backend.h"
 
 namespace capstan::optimise {
 
