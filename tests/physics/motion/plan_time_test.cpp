@@ -83,6 +83,15 @@ TEST(PlanTime, CountsOnlyTheDifferenceOfSpeedsWhereTheToolStays) {
   EXPECT_NEAR(t->spin_up_s, 1.0 + 0.2 + 1.2, 1e-12);
 }
 
+TEST(PlanTime, StartsTheSpindleForTheFirstMoveWhateverTheStartSays) {
+  model::Plan plan = plan_with({"a"});
+  plan.steps[0].schedule =
+      std::make_shared<const model::FeedSchedule>(model::FeedSchedule{{0, 3000}, {0, 5000}, {0, 0}});
+  const auto t = time_of(plan);
+  ASSERT_TRUE(t);
+  EXPECT_NEAR(t->spin_up_s, 1.0 + 1.0, 1e-12);
+}
+
 TEST(PlanTime, StopsTheSpindleAndTakesNoWayBetweenSetUpsWithTheSameTool) {
   model::Plan plan = plan_with({"a", "a"});
   plan.setups.push_back(plan.setups.front());

@@ -336,20 +336,6 @@ TEST(JerkTime, TendsToThatOfAccelerationAloneAsJerkGrows) {
   }
 }
 
-TEST(Reachable, SmoothlyIsTheInverseOfTheRamp) {
-  std::mt19937 random(4);
-  std::uniform_real_distribution<double> log_v(-2, 2), log_l(-4, 2), log_j(2, 7);
-  for (int i = 0; i < 5000; ++i) {
-    const double v = i % 10 == 0 ? 0.0 : std::pow(10.0, log_v(random));
-    const double length = std::pow(10.0, log_l(random));
-    const double jerk = std::pow(10.0, log_j(random));
-    const double top = reachable_smoothly(v, length, kA, jerk);
-    EXPECT_GT(top, v);
-    EXPECT_NEAR(ramp_mm(v, top, kA, jerk), length, 1e-4 * length);  // v1 - v cancels
-  }
-  EXPECT_EQ(reachable_smoothly(3.0, 0.0, kA, 1e5), 3.0);
-}
-
 // --- What holds -------------------------------------------------------------------------------------
 
 TEST(Time, TellsWhatHoldsEachMove) {
