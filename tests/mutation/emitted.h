@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,8 @@ struct Emitted {
   std::string name;
   model::Plan plan;
   std::string text, table;
+  /// Codes of what the check finds against the program of the plan, for the plan lacks what would allow it.
+  std::set<std::string> found = {};
 };
 
 /// Of plans made by hand: a pocket, a drilled and reamed hole, arcs, a helix, waits; two set-ups; a tapped

@@ -28,6 +28,12 @@ TEST(Document, SaysTheFiguresThatAreComputed) {
   if (!skipped.empty()) GTEST_SKIP() << "not checked: " << skipped;
 }
 
+TEST(Document, IsQuotedByTheReadmeAsItStands) {
+  const std::string readme = testing::slurp(capstan::testing::source_dir() + "/README.md");
+  EXPECT_FALSE(standing(readme, "summary").empty());
+  EXPECT_EQ(standing(readme, "summary"), standing(document(), "summary")) << "run ./dev validate";
+}
+
 TEST(Document, HasAPlaceAndAPictureForEachComparison) {
   const std::string text = document();
   for (const Comparison& c : computed()) {

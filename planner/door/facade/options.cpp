@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string_view>
 
 #include "planner/door/service/options.h"
@@ -17,7 +18,9 @@ struct Field {
   std::string (*text)(const PlanOptions& o);
 };
 
-std::string above_zero(double v) { return v > 0.0 ? shortest(v) : std::string(); }
+/// A number as the service reads it. One that is not finite is refused there, as any text that is none.
+std::string number(double v) { return std::isfinite(v) ? shortest(v) : "not finite"; }
+std::string above_zero(double v) { return v <= 0.0 ? std::string() : number(v); }
 std::string flag(bool v) { return v ? "yes" : ""; }
 
 constexpr std::array kFields = {
@@ -26,8 +29,8 @@ constexpr std::array kFields = {
     Field{"material", [](const PlanOptions& o) { return o.material; }},
     Field{"stock",
           [](const PlanOptions& o) {
-            if (!o.stock.empty() || !(o.stock_allowance_mm >= 0.0)) return o.stock;
-            return "block:+" + shortest(o.stock_allowance_mm);
+            if (!o.stock.empty() || o.stock_allowance_mm < 0.0) return o.stock;
+            return "block:+" + number(o.stock_allowance_mm);
           }},
     Field{"objective", [](const PlanOptions& o) { return o.objective; }},
     Field{"margin", [](const PlanOptions& o) { return o.margin; }},
@@ -40,7 +43,7 @@ constexpr std::array kFields = {
     Field{"general-tolerance", [](const PlanOptions& o) { return o.general_tolerance; }},
     Field{"batch", [](const PlanOptions& o) { return std::to_string(o.batch); }},
     Field{"edges",
-          [](const PlanOptions& o) { return o.edge_break_mm == 0.0 ? "" : shortest(o.edge_break_mm); }},
+          [](const PlanOptions& o) { return o.edge_break_mm == 0.0 ? "" : number(o.edge_break_mm); }},
     Field{"bind", [](const PlanOptions& o) { return o.bind; }},
     Field{"reopen", [](const PlanOptions& o) { return o.reopen; }},
     Field{"deadline", [](const PlanOptions& o) { return o.deadline; }},

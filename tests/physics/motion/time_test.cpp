@@ -336,20 +336,6 @@ TEST(JerkTime, TendsToThatOfAccelerationAloneAsJerkGrows) {
   }
 }
 
-TEST(Reachable, SmoothlyIsTheInverseOfTheRamp) {
-  std::mt19937 random(4);
-  std::uniform_real_distribution<double> log_v(-2, 2), log_l(-4, 2), log_j(2, 7);
-  for (int i = 0; i < 5000; ++i) {
-    const double v = i % 10 == 0 ? 0.0 : std::pow(10.0, log_v(random));
-    const double length = std::pow(10.0, log_l(random));
-    const double jerk = std::pow(10.0, log_j(random));
-    const double top = reachable_smoothly(v, length, kA, jerk);
-    EXPECT_GT(top, v);
-    EXPECT_NEAR(ramp_mm(v, top, kA, jerk), length, 1e-4 * length);  // v1 - v cancels
-  }
-  EXPECT_EQ(reachable_smoothly(3.0, 0.0, kA, 1e5), 3.0);
-}
-
 // --- What holds -------------------------------------------------------------------------------------
 
 TEST(Time, TellsWhatHoldsEachMove) {
@@ -423,33 +409,6 @@ TEST(TimeProperty, MoreOfAnythingIsNeverSlowerOnStraightMoves) {
     looser.control.path_tolerance_mm *= 2.0;
     EXPECT_LE(time_of(p, f, looser)->cutting_s, base * (1.0 + slack));
   }
-}
-
-TEST(PlanTime, CountsToolChangesSpinUpsAndTheWayBetweenSteps) {
-  model::Plan plan;
-  plan.machine = machine();
-  plan.machine.tool_change_s = 6.0;
-  plan.setups.push_back({.setup = {}, .work_offset = "G54", .security_z_mm = 20.0});
-  auto path = std::make_shared<CutterPath>();
-  path->start({0, 0, 10});
-  path->line({100, 0, 10}, MoveRole::kCut);
-  for (const char* cutter : {"a", "a", "b"}) {
-    model::StepResult step;
-    step.cutter_id = cutter;
-    step.path = path;
-    step.spindle_rpm = 5000.0;
-    step.feed_mm_min = 3000.0;
-    plan.steps.push_back(step);
-  }
-  const auto t = time_of(plan);
-  ASSERT_TRUE(t) << to_text(t.error());
-  EXPECT_EQ(t->tool_changes, 2);
-  EXPECT_EQ(t->tool_change_s, 12.0);
-  EXPECT_NEAR(t->spin_up_s, 4.0, 1e-12);  // two starts and two stops of 1 s each: 5000 of 10000, 2 s
-  EXPECT_NEAR(t->cutting_s, 3.0 * 2.1, 1e-9);
-  // 10 mm up, 100 mm back, 10 mm down, stopping at each corner (no tolerance).
-  const double ten = 2.0 * std::sqrt(10.0 / kA);
-  EXPECT_NEAR(t->link_s, 2.0 * ten + 2.0 * kRapid / kA + (100.0 - kRapid * kRapid / kA) / kRapid, 1e-9);
 }
 
 }  // namespace

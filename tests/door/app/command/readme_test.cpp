@@ -1,6 +1,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <regex>
+
+#include "planner/physics/mechanics/loads/margin.h"
 #include "tests/door/app/command/command.h"
 #include "tests/door/app/plans.h"
 #include "tests/support/corpus.h"
@@ -13,6 +16,8 @@ namespace capstan::app {
 namespace {
 
 namespace fs = std::filesystem;
+
+std::string readme() { return slurp(capstan::testing::source_dir() + "/README.md"); }
 
 struct Shown {
   std::string arguments;
@@ -70,7 +75,7 @@ std::string missing(const std::vector<std::string>& printed, const std::vector<s
 class Readme : public CommandTest {};
 
 TEST_F(Readme, ShowsWhatTheProgramSays) {
-  const auto shown = sessions(slurp(capstan::testing::source_dir() + "/README.md"));
+  const auto shown = sessions(readme());
   ASSERT_GE(shown.size(), 4U);
   for (const auto& e : fs::directory_iterator(capstan::testing::source_dir() + "/examples")) {
     if (e.is_regular_file()) fs::copy_file(e.path(), folder_ / e.path().filename());
@@ -84,6 +89,51 @@ TEST_F(Readme, ShowsWhatTheProgramSays) {
     }
     EXPECT_EQ(missing(printed, s.lines), "") << "$ capstan " << s.arguments << "\n" << r.err << r.out;
   }
+}
+
+/// What stands outside of sessions, as one line.
+std::string told(const std::string& text) {
+  std::string out;
+  bool fenced = false;
+  for (const std::string& line : lines_of(text)) {
+    if (line.starts_with("```")) fenced = !fenced;
+    if (!fenced) out += line + " ";
+  }
+  return out;
+}
+
+/// A number with a unit of time or memory: what another machine, or another load, measures otherwise.
+std::string machine_dependent(const std::string& text) {
+  static const std::regex kMeasured("[0-9][0-9.,]* ?(ns|µs|ms|s|min|h|kB|MB|GB)\\b");
+  std::smatch found;
+  return std::regex_search(text, found, kMeasured) ? found.str() : "";
+}
+
+TEST(ReadmeFigures, DependOnNoMachine) { EXPECT_EQ(machine_dependent(told(readme())), ""); }
+
+TEST(ReadmeFigures, ThatDependOnAMachineAreFound) {
+  EXPECT_EQ(machine_dependent("read in 0.16 s"), "0.16 s");
+  EXPECT_EQ(machine_dependent("69 MB of it"), "69 MB");
+  EXPECT_EQ(machine_dependent("7 ms each"), "7 ms");
+  EXPECT_EQ(machine_dependent("21 steps, 5 sizes, 1 set-up"), "");
+  EXPECT_EQ(machine_dependent(told("a\n```\n3 min 24.8 s\n```\nb")), "");
+}
+
+// "19 of 20, 5 of 6 (the default) or 7 of 10 cuts stay below": careful, usual, bold.
+TEST(ReadmeFigures, SayHowManyCutsStayBelowEachMargin) {
+  const std::string text = told(readme());
+  const std::regex share("([0-9]+) of ([0-9]+)");
+  const auto from = text.find("`--margin careful`, `usual` or `bold`"),
+             to = text.find("cuts stay below", from);
+  ASSERT_NE(to, std::string::npos);
+  const std::string sentence = text.substr(from, to - from);
+  std::vector<double> shares;
+  for (std::sregex_iterator it(sentence.begin(), sentence.end(), share), end; it != end; ++it)
+    shares.push_back(std::stod((*it)[1]) / std::stod((*it)[2]));
+  ASSERT_EQ(shares.size(), mechanics::kMarginPolicies.size());
+  for (std::size_t i = 0; i < shares.size(); ++i)
+    EXPECT_NEAR(shares[i], mechanics::kMarginPolicies[i].confidence, 0.01)
+        << mechanics::kMarginPolicies[i].name;
 }
 
 TEST(ReadmeSessions, AreComparedLineByLine) {
