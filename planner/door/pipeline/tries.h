@@ -87,7 +87,6 @@ class Tries {
   [[nodiscard]] const std::string* cuts_nothing(const Member& m, const std::string& chain,
                                                 std::size_t step) const;
   [[nodiscard]] const LeftOut* left_out(model::AnyRef feature) const;
-  [[nodiscard]] const std::map<model::AnyRef, LeftOut>& all_left_out() const { return left_out_; }
 
   /// What was planned anew, and why; a sentence each, in the order it happened.
   std::vector<std::string> said;
