@@ -67,13 +67,9 @@ struct Case {
 
 struct Neighbour {
   Case found;
-  double distance = 0.0;  ///< by the normalisation `kNormalisationVersion`
+  double distance = 0.0;  ///< by the fixed scales of normalisation.h
   friend bool operator==(const Neighbour&, const Neighbour&) = default;
 };
-
-/// Of the fixed scales by which sizes become distances (normalisation.h). Distances of different versions
-/// must not be compared.
-inline constexpr int kNormalisationVersion = 1;
 
 /// Beyond this distance there is no precedent. One size apart by a factor of 2^0.5, or the tolerance by a
 /// factor of 2, all else equal. Default, unsourced.

@@ -8,9 +8,9 @@
 namespace capstan::casebase {
 
 /// A question's sizes where distance is measured: Euclid's, over logarithms divided by fixed scales.
-/// The scales never depend on the cases stored, so that a distance means the same tomorrow; changing one
-/// takes a new `kNormalisationVersion`. (With the categories equal and the scale of each size fixed,
-/// HVDM of Wilson and Martinez, "Improved heterogeneous distance functions", JAIR 6, 1997, is this.)
+/// The scales never depend on the cases stored, so that a distance means the same tomorrow. (With the
+/// categories equal and the scale of each size fixed, HVDM of Wilson and Martinez, "Improved heterogeneous
+/// distance functions", JAIR 6, 1997, is this.)
 using Point = std::array<double, 4>;
 
 /// Needs a question without fault.

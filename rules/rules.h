@@ -62,7 +62,6 @@ struct Context {
   std::optional<double> floor_thickness_mm;  ///< what stays below its bottom; unset: not known
   int batch = 1;                             ///< pieces
   double edge_break_mm = 0.0;                ///< the shop's rule: outer edges are chamfered by this; 0: none
-  std::vector<model::Precedent> precedents;  ///< kept for later tables; no shipped row asks about them
 };
 
 /// What the rules say about one feature: chains in order of preference, each step with its tool requirement,

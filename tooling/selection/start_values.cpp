@@ -85,7 +85,7 @@ StartValues start_values(const Cutter& c, const WorkMaterial& material, const Ma
   out.wanted_vc_m_min = vc;
   limit_speed(rpm, 0.0, c.maximum_speed_rpm, "tool", text);
   limit_speed(rpm, machine.spindle.rpm_min, machine.spindle.rpm_max, "spindle", text);
-  const double largest = model::borne_feed(c, material).mm;
+  const double largest = model::borne_feed_mm(c, material);
   if (!tap && largest > 0.0 && fz > largest) {
     const std::string* of = source_of(c, "fz_max_mm");
     text += "; fz lowered from " + trimmed(fz, 4) + " to the cutter's largest, " + trimmed(largest, 4) +

@@ -9,7 +9,7 @@ namespace capstan::controls::gcode {
 namespace {
 
 // Characters of a line that a comment's text leaves free; default, unsourced.
-constexpr std::size_t kFree = 15;
+constexpr std::size_t kFree = 12;
 constexpr std::size_t kLongestMarker = 160;
 constexpr std::string_view kHex = "0123456789ABCDEF";
 

@@ -31,7 +31,7 @@ constexpr std::string_view kStepState = "G21 G17 G90 G94 G40 G80";
 // Before the first tool no length offset either.
 constexpr std::string_view kFirstState = "G21 G17 G90 G94 G40 G49 G80";
 // Characters of a line that a message leaves free; defaults, unsourced.
-constexpr std::size_t kFreeOfClamping = 25, kFreeOfProbing = 35, kFreeOfCondemned = 55;
+constexpr std::size_t kFreeOfClamping = 22, kFreeOfProbing = 32, kFreeOfCondemned = 52;
 // Feed and pitch times speed of a tap may differ by what rounding of either explains.
 constexpr double kPitchAgreement = 0.01;
 

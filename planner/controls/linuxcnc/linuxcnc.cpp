@@ -15,7 +15,7 @@ constexpr std::array<std::string_view, 9> kWorkOffsets = {"G54", "G55",   "G56",
 
 constexpr gcode::Words kWords{
     .work_offsets = kWorkOffsets,
-    .longest_line = 255,  // LINELEN
+    .longest_line = 252,  // LINELEN is 255; longer ones are refused ("Command too long")
     .speed_decimals = 1,
     .dwell_decimals = 3,
     .pitch_decimals = 6,

@@ -176,7 +176,6 @@ MeshForm form_of(const Mesh& mesh) {
   const auto& first = hole != nullptr ? *hole : loops.front();
   Box3 around;
   for (const std::uint32_t v : first) around.add(mesh.vertices[v]);
-  out.opening = around;
   const Vec3 size = around.size();
   out.fault = std::to_string(out.open_edges) + " edges have no triangle on one side, in " +
               std::to_string(loops.size()) + (loops.size() == 1 ? " opening" : " openings") +

@@ -25,7 +25,6 @@ struct MeshForm {
   std::size_t turned_edges = 0;   ///< between two triangles that face opposite ways
   bool inside_out = false;        ///< a solid whose triangles face inwards
   Region outline;                 ///< of a sheet, in XY
-  std::optional<Box3> opening;    ///< of what is neither: round its first hole or border
   std::string fault;              ///< of what is neither: what it has, with the place
 };
 

@@ -111,7 +111,6 @@ struct CutAnswer {
   /// solving again; below zero where cost or profit is the aim and more time is the cheaper way.
   std::vector<double> saved_by_tenth;
   double life_min = 0.0;              ///< cutting time of an edge, as the cost counts it
-  bool below_least_feed = false;      ///< no cut kept every limit at the cutter's (derived) least feed
   std::string method;                 ///< of the solver
   std::vector<std::string> violated;  ///< when not feasible: by name, with the numbers
 };

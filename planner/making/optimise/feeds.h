@@ -66,7 +66,6 @@ struct FeedQuestion {
 struct FeedAnswer {
   model::FeedSchedule schedule;
   model::StepLoads peak;                       ///< over all samples at the scheduled feed
-  std::vector<std::string> slowed;             ///< names of the limits that hold the path below its feed
   std::vector<model::LimitAlongPath> held_by;  ///< which limits hold the feed, largest share first
   double worst_excess = -1.0;                  ///< > 0: some sample exceeds a limit even at the least feed
   model::ExceededLimit worst;  ///< which limit that is, and where; unset while nothing exceeds
@@ -80,8 +79,9 @@ struct FeedAnswer {
 ///     v_i^2 <= v_(i+1)^2 + 2 a L_i
 ///
 /// so that each move can be braked within itself to the feed of the next, where the control needs that
-/// (PathFollowing::brakes_within_a_move), and it arrives at a heavy section slow enough. Last, neighbours within
-/// `group_ratio` share the lower feed, and no run of moves asks for more than its fastest move reaches.
+/// (PathFollowing::brakes_within_a_move), and it arrives at a heavy section slow enough. Last, neighbours
+/// within `group_ratio` share the lower feed, and no run of moves asks for more than its fastest move
+/// reaches.
 ///
 /// Plunges and ramps: fractions of the step's feed at most; below them what torque and power of drilling
 /// into the solid (plunge) or the side cut measured (ramp) allow.

@@ -242,7 +242,6 @@ SectionsCompared compared(const std::vector<CutSample>& stated, const std::vecto
     ++out.contradictions;
     if (std::abs(said - found) <= worst) return;
     worst = std::abs(said - found);
-    out.worst_move = at.move;
     out.worst = "move " + std::to_string(at.move) + ", " + six(at.at_mm) + " mm along it: " + six(said) +
                 " mm2 stated, " + six(found) + " mm2 measured";
   };

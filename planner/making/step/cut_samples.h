@@ -58,8 +58,7 @@ namespace capstan::step {
 struct SectionsCompared {
   std::vector<optimise::CutSample> samples;  ///< the file's; measured ones where those are larger
   std::size_t contradictions = 0;            ///< places where both differ by more than the tolerance
-  std::optional<std::size_t> worst_move;
-  std::string worst;  ///< the place and both numbers
+  std::string worst;                         ///< the place and both numbers
 };
 
 /// Tolerance of a comparison: a part of the larger area, and of depth times diameter. Twice and more what

@@ -29,8 +29,6 @@ class Attribution {
   [[nodiscard]] const std::vector<AnyRef>& features(AnyRef requirement) const;
   /// What is stated of a feature, and of what it is made of, in the model's order.
   [[nodiscard]] std::vector<AnyRef> requirements(AnyRef feature) const;
-  /// What names nothing, and so is of the whole part (ISO 1101: "all over").
-  [[nodiscard]] const std::vector<AnyRef>& of_whole_part() const { return whole_; }
 
   [[nodiscard]] Quality quality(AnyRef feature) const;
 
@@ -49,7 +47,7 @@ class Attribution {
   std::map<AnyRef, std::vector<AnyRef>> faces_;         // face -> features
   std::map<AnyRef, std::vector<AnyRef>> features_;      // requirement -> features
   std::map<AnyRef, std::vector<AnyRef>> requirements_;  // feature -> requirements
-  std::vector<AnyRef> whole_;
+  std::vector<AnyRef> whole_;  // requirements that name nothing (ISO 1101: "all over")
 };
 
 /// Two features that a tolerance ties together: the datum's first, then the toleranced one; or two that are

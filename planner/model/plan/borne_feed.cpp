@@ -57,7 +57,7 @@ double held_to_cut_mm(const Cutter& c, const WorkMaterial& m) {
 
 std::string of_group(std::string_view iso_group) { return " (ISO group " + std::string(iso_group) + ")"; }
 
-BorneFeed borne_feed(const Cutter& c, const WorkMaterial& m) {
+double borne_feed_mm(const Cutter& c, const WorkMaterial& m) {
   const auto* own = feed_preset(c, m, false);
   double by_own = own != nullptr ? kOverPreset * own->fz_mm : 0.0;
   for (const CuttingPreset& p : c.presets) {
@@ -68,8 +68,8 @@ BorneFeed borne_feed(const Cutter& c, const WorkMaterial& m) {
   const bool assumed = std::any_of(c.sources.begin(), c.sources.end(), [](const auto& s) {
     return s.first == "fz_max_mm" && s.second.starts_with(kAsGeneric);
   });
-  if (c.fz_max_mm > 0.0 && !(assumed && by_own > c.fz_max_mm)) return {c.fz_max_mm, false};
-  return {by_own, by_own > 0.0};
+  if (c.fz_max_mm > 0.0 && !(assumed && by_own > c.fz_max_mm)) return c.fz_max_mm;
+  return by_own;
 }
 
 }  // namespace capstan::model

@@ -33,15 +33,11 @@ inline constexpr double kOverPreset = 1.5;
 /// What stands at the end of an own preset's source, where the group of the material that it names is known.
 [[nodiscard]] std::string of_group(std::string_view iso_group);
 
-struct BorneFeed {
-  double mm = 0.0;  ///< per tooth; 0: not known
-  bool by_preset = false;
-};
-/// The largest feed per tooth that a cutter bears in a material: its stated largest; where that is only taken
-/// from a generic cutter, or not known, at least kOverPreset times its own start value for this material.
-/// Where it has none, the least of those for materials of the same ISO 513 group (`of_group`), and no more:
-/// groups are wide. What it bears in another group says nothing.
-[[nodiscard]] BorneFeed borne_feed(const Cutter& c, const WorkMaterial& m);
+/// The largest feed per tooth that a cutter bears in a material, mm; 0: not known. It is its stated largest;
+/// where that is only taken from a generic cutter, or not known, at least kOverPreset times its own start
+/// value for this material. Where it has none, the least of those for materials of the same ISO 513 group
+/// (`of_group`), and no more: groups are wide. What it bears in another group says nothing.
+[[nodiscard]] double borne_feed_mm(const Cutter& c, const WorkMaterial& m);
 
 /// The feed per tooth that its presets state for a material, the own before those of its like; 0: none.
 [[nodiscard]] double start_feed_mm(const Cutter& c, const WorkMaterial& m);

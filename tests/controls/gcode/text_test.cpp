@@ -6,7 +6,7 @@ namespace capstan::controls::gcode {
 namespace {
 
 TEST(GcodeText, ACommentIsPlainHasNoBracketsInsideAndEndsWithinTheLine) {
-  EXPECT_EQ(comment_line("bore \xC3\x98 6 (two)\n", 255), "(bore ? 6 [two] )\n");
+  EXPECT_EQ(comment_line("bore \xC3\x98 6 (two)\n", 80), "(bore ? 6 [two] )\n");
   EXPECT_LE(comment_line(std::string(500, 'a'), 80).size(), 81U);  // with the line's end
   EXPECT_EQ(comment_line("a", 0), "()\n");
 }

@@ -8,7 +8,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -24,9 +23,6 @@ namespace capstan::tooling {
 /// order.
 template <class A, class T>
 void each_field(A& a, T& x);
-
-template <class T>
-inline constexpr bool kIsStruct = std::is_class_v<T>;
 
 /// Texts that many cutters share (what a preset is for, where values are from), each kept once.
 class SharedTexts {

@@ -293,7 +293,7 @@ std::optional<model::Reason> start_from_case(const Work& w, const StepDraft& ste
   if (!p) return std::nullopt;
   q.vc_start_m_min = std::min(p->vc_m_min, kCaseReach * q.vc_start_m_min);
   q.fz_start_mm = std::min(p->fz_mm, kCaseReach * q.fz_start_mm);
-  if (const double borne = model::borne_feed(q.cutter, q.material).mm; borne > 0.0)
+  if (const double borne = model::borne_feed_mm(q.cutter, q.material); borne > 0.0)
     q.fz_start_mm = std::min(q.fz_start_mm, borne);
   return model::Reason{"case." + p->case_id,
                        "starts from a " + p->provenance + " case at distance " + trimmed(p->distance, 3) +

@@ -62,7 +62,6 @@ struct Type {
   std::vector<const Type*> values{};      ///< of kSelect: all that is not an entity, through nested selects
   std::vector<std::uint64_t> admitted{};  ///< of kSelect, kEntity: bit per entity, subtypes included
   std::optional<Range> range{};           ///< of kDefined numbers
-  [[nodiscard]] bool is_named() const { return !name.empty(); }
 };
 
 /// An explicit attribute, where it is declared.

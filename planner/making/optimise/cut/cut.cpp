@@ -417,7 +417,6 @@ Result<CutAnswer> cut(const CutQuestion& q, const Options& options, Job& job) {
   lower.cutter.fz_min_mm = 0.0;
   auto b = answer(lower, options, job);
   if (!b || !b->feasible) return a;
-  b->below_least_feed = b->fz_mm < q.cutter.fz_min_mm * (1.0 - kRounding);
   return b;
 }
 

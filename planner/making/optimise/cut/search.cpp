@@ -77,7 +77,7 @@ void Search::add_feed() {
   } else {
     const double largest = largest_fz(q_);
     double most = largest * (is_milling(q_.kind) ? kThinning : 1.0);
-    if (const double borne = model::borne_feed(q_.cutter, q_.material).mm; borne > 0.0)
+    if (const double borne = model::borne_feed_mm(q_.cutter, q_.material); borne > 0.0)
       most = std::min(most, borne / feed_override(q_));
     most *= ease_of(q_, kFeed);
     const double ratio = q_.least_feed_ratio > 1e-3 && q_.least_feed_ratio <= 1.0 ? q_.least_feed_ratio : 0.1;

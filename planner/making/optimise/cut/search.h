@@ -54,7 +54,6 @@ class Search {
 
   const CutQuestion& q_;
   double ap_;
-  std::optional<CutPoint> given_;
   std::optional<double> n_fixed_, feed_fixed_, fz_fixed_, ae_fixed_;
   bool speed_by_spindle_ = false;  ///< the upper end of the speed is the spindle's, not the table's
   std::vector<Variable> variables_;

@@ -236,13 +236,6 @@ FeedAnswer feeds(const FeedQuestion& q, const CutterPath& path) {
     }
     Followed f = followed(q, path, std::move(most), std::move(by), q.cut.machine);
     if (q.explain && !q.constant) a.held_by = held_by(q, path, caps, classes, f);
-    for (std::size_t k = 0; k < kLimits; ++k) {
-      for (std::size_t i = 1; i < path.size(); ++i) {
-        if (static_cast<std::size_t>(caps[i].by) != k || caps[i].feed_mm_min >= q.feed_mm_min) continue;
-        a.slowed.emplace_back(row_of(model::kSectionLimits[k]).name);
-        break;
-      }
-    }
     if (!f.feed_mm_min.empty()) f.feed_mm_min[0] = q.feed_mm_min;
     a.schedule = schedule_with(q, path, std::move(f.feed_mm_min));
   }

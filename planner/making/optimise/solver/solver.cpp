@@ -211,7 +211,6 @@ class Search {
   }
 
   void describe(const FirstOrder& order, const Evaluation& e, Solution& s) const {
-    s.kkt_residual = order.residual;
     for (const ReachedLimit& r : order.reached) {
       if (r.kind == ReachedLimit::Kind::kConstraint) {
         s.active.push_back({problem_.constraints[r.index], ActiveLimit::Kind::kConstraint,

@@ -26,7 +26,7 @@ struct Options {
 
 /// What the search came to. Feasibility and optimality are measured here, not believed.
 enum class Outcome : std::uint8_t {
-  kOptimal,       ///< feasible, and first-order optimal (kkt_residual <= kOptimalityTolerance)
+  kOptimal,       ///< feasible, and first-order optimal (FirstOrder::residual <= kOptimalityTolerance)
   kFeasible,      ///< feasible, the best seen; not shown to be optimal
   kInfeasible,    ///< no feasible point from any start by any method; x violates least. Not a proof.
   kLimitReached,  ///< budget, stop or deadline came first; usable when `feasible`
@@ -51,7 +51,6 @@ struct Solution {
   std::vector<double> x;  ///< within the bounds, always
   double objective = 0.0;
   double max_violation = 0.0;       ///< largest c_i above zero, else 0
-  double kkt_residual = 0.0;        ///< |grad f + J^T lambda| / max(1, |grad f|), unit box, largest part
   std::vector<ActiveLimit> active;  ///< constraints first, in the problem's order; then bounds
   std::uint32_t evaluations = 0;
   std::string method;  ///< that found x: "start", "slsqp", "auglag+lbfgs", "cobyla", "isres", "ipopt"

@@ -28,12 +28,11 @@ namespace capstan::mechanics {
 struct MarginPolicy {
   std::string_view name;
   double deviations = 1.0;  ///< k
-  double confidence = 0.5;  ///< one-sided: the load stays below its limit in so many of all cuts
 };
 
-/// The shop's to choose (--margin).
+/// The shop's to choose (--margin): the load stays below its limit in 95 %, 84 % and 70 % of all cuts.
 inline constexpr std::array<MarginPolicy, 3> kMarginPolicies = {
-    {{"careful", 1.6449, 0.95}, {"usual", 1.0, 0.84}, {"bold", 0.5244, 0.70}}};
+    {{"careful", 1.6449}, {"usual", 1.0}, {"bold", 0.5244}}};
 inline constexpr MarginPolicy kUsualMargin = kMarginPolicies[1];
 
 [[nodiscard]] constexpr std::optional<MarginPolicy> margin_policy(std::string_view name) {

@@ -75,10 +75,9 @@ struct Block {
   bool cycle_active = false;
   bool mist = false, flood = false;  ///< M7, M8
   unsigned stated = 0;               ///< Stated bits set since the last marker
-  bool units_stated = false;
-  double tolerance_mm = 0.0;  ///< G64 P: corners may be rounded by this; 0 G61; kNoTolerance G64 alone
-  double naive_mm = 0.0;      ///< G64 Q: points this near to a line are left out; as P where not said
-  bool exact_stop = false;    ///< G61.1
+  double tolerance_mm = 0.0;         ///< G64 P: corners may be rounded by this; 0 G61; kNoTolerance G64 alone
+  double naive_mm = 0.0;             ///< G64 Q: points this near to a line are left out; as P where not said
+  bool exact_stop = false;           ///< G61.1
 };
 inline constexpr double kNoTolerance = 1e300;
 
@@ -116,7 +115,7 @@ struct Program {
   std::vector<Block> stops;                       ///< M0 and M60, with the state they stop in
   std::vector<std::pair<long, std::string>> odd;  ///< line and code: followed, but no plan asks for it
   bool ended = false;
-  long end_line = 0, lines = 0;
+  long lines = 0;
 };
 
 /// "G54" .. "G59.9" as a code times ten; 0 for anything else.

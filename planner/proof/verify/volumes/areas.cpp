@@ -133,7 +133,6 @@ std::string stand(const Model& m, const model::RefList<model::Boss>& bosses, con
     s.boss = r;
     for (const Edge& e : c.edges) s.outline.add(e);
     s.top_mm = rel.origin.z;
-    s.foot_mm = -1e9;
     s.leaning_mm = open;
     if (std::abs(b->slope.value_or(0.0)) > kUpright) return "a boss that it lists leans";
     s.foot_radius_mm = std::max(area.foot_radius_mm, radius_of(m, b->fillet_radius).value_or(0.0));

@@ -18,7 +18,6 @@ struct Standing {
   model::AnyRef boss;
   Outline outline;
   double top_mm = 0.0;          ///< solid's frame
-  double foot_mm = 0.0;         ///< where its own height ends
   double leaning_mm = 0.0;      ///< its walls lean by up to so much beside the outline: nothing is said there
   double foot_radius_mm = 0.0;  ///< between it and the floor: nothing is said there
 };

@@ -49,7 +49,6 @@ void spare(const Source& source, Solid& s) {
     x.boss = b.noun;
     for (const Edge& e : c.edges) x.outline.add(e);
     x.top_mm = top;
-    x.foot_mm = foot;
     x.leaning_mm = form.leaning_mm;
     if (all_of_it) {
       // A boss that ends at the wall lies in the area, too.

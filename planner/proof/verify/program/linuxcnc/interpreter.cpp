@@ -88,7 +88,6 @@ Block Interpreter::block() const {
   b.mist = mist_;
   b.flood = flood_;
   b.stated = stated_;
-  b.units_stated = units_stated_;
   b.tolerance_mm = tolerance_;
   b.naive_mm = naive_;
   b.exact_stop = exact_stop_;
@@ -416,7 +415,6 @@ void Interpreter::line(const Line& l, long number) {
     b.kind = Block::Kind::kEnd;
     out_.blocks.push_back(b);
     out_.ended = true;
-    out_.end_line = line_;
   }
 }
 

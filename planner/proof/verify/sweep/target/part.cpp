@@ -105,11 +105,9 @@ PartShapes shapes_of_part(const model::Plan& plan) {
     out.entries.push_back(std::move(e));
   }
   out.tolerance_mm = kDefaultToleranceMm;
-  out.tolerance_source = "default";
   const model::Workpiece* piece = workpiece_of(plan);
   if (const auto stated = piece != nullptr ? model::global_tolerance_of(*piece) : std::nullopt) {
     out.tolerance_mm = std::clamp(*stated, model::kFinestJudged, model::kWidestJudged);
-    out.tolerance_source = "global_tolerance";
   }
   // Raw material beyond the part may be cut freely: what belongs to the part is its own bounding box, where
   // the raw piece is another one.

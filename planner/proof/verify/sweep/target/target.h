@@ -30,7 +30,6 @@ struct PartShapes {
   };
   std::vector<Entry> entries;
   double tolerance_mm = 0.02;
-  std::string tolerance_source;
   geometry::Box3 part;  ///< what of the raw piece belongs to the part, workpiece frame
   [[nodiscard]] const Entry* find(model::AnyRef feature) const;
 };
