@@ -52,8 +52,9 @@ class Compensation {
       return;
     }
     if (!b.known_from[0] || !b.known_from[1]) {
-      out_.warn(25, "CHK-COMP-UNKNOWN", c_.where(b),
-                "cutter compensation begins where the position is not known; its lead-in cannot be judged");
+      out_.unproved(
+          Severity::kWarning, 25, "CHK-COMP-UNKNOWN", c_.where(b),
+          "cutter compensation begins where the position is not known; its lead-in cannot be judged");
     } else if (length <= r + kSlackMm) {
       out_.error(25, "CHK-COMP-LEAD", c_.where(b),
                  "the lead-in of cutter compensation is " + mm(length) +

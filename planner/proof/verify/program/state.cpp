@@ -164,8 +164,9 @@ class StateChecks {
     if (c_.plan == nullptr) tool_of_marker(b);
     restart(b);
     if (c_.plan == nullptr && cutting && b.spindle_rpm == 0.0)
-      out_.warn(15, "CHK-SPINDLE-STOPPED", c_.where(b),
-                "a feed move with the spindle stopped; without the plan it cannot be told whether it cuts");
+      out_.unproved(
+          Severity::kWarning, 15, "CHK-SPINDLE-STOPPED", c_.where(b),
+          "a feed move with the spindle stopped; without the plan it cannot be told whether it cuts");
     direction(b, cutting);
     tap(b);
   }

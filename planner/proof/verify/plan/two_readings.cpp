@@ -1,4 +1,4 @@
-#include "planner/proof/verify/plan/meaning.h"
+#include "planner/proof/verify/plan/two_readings.h"
 
 #include "planner/model/nouns/all.h"
 #include "planner/proof/verify/volumes/compare.h"
@@ -17,7 +17,7 @@ std::string place(geometry::Vec3 p) { return "X" + plain(p.x) + " Y" + plain(p.y
 
 }  // namespace
 
-void check_meaning(const model::Plan& plan, const PartShapes& part, Findings& findings) {
+void check_readings(const model::Plan& plan, const PartShapes& part, Findings& findings) {
   const volumes::Source source = volumes::source_of(plan.model, plan.stock.box);
   for (const PartShapes::Entry& e : part.entries) {
     if (e.shapes.empty()) continue;
@@ -37,8 +37,8 @@ void check_meaning(const model::Plan& plan, const PartShapes& part, Findings& fi
     const std::string name = name_of(plan.model, e.feature);
     if (!own.unread.empty()) {
       if (order > 0)
-        findings.note(
-            38, "CHK-NOT-JUDGED", where,
+        findings.unproved(
+            Severity::kNote, 38, "CHK-NOT-JUDGED", where,
             "feature " + name +
                 ": only the planner's reading of its shape is known, the check's own does not read it: " +
                 own.unread);
