@@ -40,8 +40,8 @@ struct Shop {
 
 class Check {
  public:
-  Check(const Request& request, std::vector<Source> sources, const std::function<void(const Told&)>& tell,
-        Job& job)
+  Check(const Request& request, std::vector<Source> sources,
+        const std::function<void(const FileFinding&)>& tell, Job& job)
       : request_(request), sources_(std::move(sources)), tell_(tell), job_(job) {}
 
   Outcome<CheckResult> run() {
@@ -126,6 +126,7 @@ class Check {
     const std::size_t before = job_.diagnostics().size();
     out_.schema += exchange::check_schema(*file, job_);
     ++out_.checked;
+    ++out_.compared;
     const auto& all = job_.diagnostics();
     for (std::size_t i = before; i < all.size(); ++i) {
       const std::string instance = all[i].instance == 0 ? "" : "#" + std::to_string(all[i].instance) + " ";
@@ -135,7 +136,7 @@ class Check {
       f.code = all[i].code;
       f.severity = all[i].severity;
       f.message = instance + path + all[i].message + expected;
-      out_.findings.push_back({in.path, std::move(f)});
+      out_.findings.push_back({.file = in.path, .finding = std::move(f), .schema = true});
     }
     return std::nullopt;
   }
@@ -171,16 +172,23 @@ class Check {
         continue;
       }
       const std::size_t before = job_.diagnostics().size();
+      std::size_t errors = job_.count(Severity::kError);
       auto plan = read_plan(std::move(in.bytes), in.path, job_);
       if (!plan) return plan.error();
       if (request_.schema) out_.schema += job_.diagnostics().size() - before;
+      out_.errors += job_.count(Severity::kError) - errors;
       const bool values_edited = take_edits(before, in.path);
       ++out_.checked;
       // What was computed before somebody edited a value says nothing of the plan as it is now.
       if (!has_paths(*plan) || values_edited) {
+        errors = job_.count(Severity::kError);
         plan = executed(*std::move(plan));
         if (!plan) return plan.error();
+        out_.errors += job_.count(Severity::kError) - errors;
+        ++out_.planned_anew;
       }
+      out_.left_out += unplanned_features(*plan);
+      out_.features += features_of(*plan);
       // A plan made for one machine may be asked of another.
       if (const auto& named = request_.machine) {
         auto machine = tooling::load_machine(*named, job_);
@@ -276,7 +284,7 @@ class Check {
 
   const Request& request_;
   std::vector<Source> sources_;
-  const std::function<void(const Told&)>& tell_;
+  const std::function<void(const FileFinding&)>& tell_;
   Job& job_;
   std::vector<Input> inputs_;
   std::vector<model::Plan> plans_;
@@ -287,7 +295,7 @@ class Check {
 }  // namespace
 
 Outcome<CheckResult> check(const Request& request, std::vector<Source> sources,
-                           const std::function<void(const Told&)>& tell, Job& job) {
+                           const std::function<void(const FileFinding&)>& tell, Job& job) {
   return Check(request, std::move(sources), tell, job).run();
 }
 
