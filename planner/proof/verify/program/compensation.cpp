@@ -22,7 +22,8 @@ class Compensation {
     for (const Block& b : c_.program.blocks) {
       const bool on = b.radius_offset >= 0;
       if (b.kind == Block::Kind::kToolChange && on)
-        out_.error(25, "CHK-COMP-CHANGE", c_.where(b), "M6 while cutter compensation is active");
+        out_.error(25, "CHK-COMP-CHANGE", c_.where(b),
+                   "M6 changes the tool while cutter compensation is active; cancel it before (G40)");
       if (b.kind == Block::Kind::kEnd && on)
         out_.error(25, "CHK-COMP-END", c_.where(b),
                    "the program ends with cutter compensation active: it is cancelled by G40");
