@@ -85,20 +85,27 @@ class Check {
     return out;
   }
 
-  /// A step whose path was computed anew all the same is not judged by what the file says of it.
-  void tell_recomputed(const Stated& stated, const model::Plan& bound) {
+  /// A step whose path was computed anew all the same is not judged by what the file says of it. Gives
+  /// whether the file states every path, and none was computed anew.
+  bool tell_recomputed(const Stated& stated, const model::Plan& bound) {
+    bool all_stated = true;
     for (const auto& step : bound.steps) {
       const auto it = stated.find(step.step);
-      if (it == stated.end() || step.path == nullptr) continue;
+      if (it == stated.end() || step.path == nullptr) {
+        all_stated = false;
+        continue;
+      }
       const auto& said = it->second.schedule.feed_mm_min;
       bool same = it->second.path == *step.path;
       for (std::size_t i = 0; same && step.schedule && i < said.size(); ++i)
         same = !(said[i] > 0.0) || said[i] == step.schedule->feed_mm_min[i];
       if (same) continue;
+      all_stated = false;
       job_.warn("APP-RECOMPUTED", "step '" + model::step_id(bound, step) +
                                       "': its path or feeds were computed anew and are not those of the "
                                       "file; the findings are about the new ones");
     }
+    return all_stated;
   }
 
   /// A file that says what is done and not, in full, how: what is open is closed as `plan` would, what it
@@ -115,7 +122,7 @@ class Check {
     auto bound = pipeline::bind(std::move(plan), *inputs, pipeline::Policy{}, job_);
     if (!bound) return bound;
     out_.unplanned += unplanned_features(*bound);
-    tell_recomputed(stated, *bound);
+    if (!tell_recomputed(stated, *bound)) ++out_.planned_anew;
     return bound;
   }
 
@@ -185,7 +192,6 @@ class Check {
         plan = executed(*std::move(plan));
         if (!plan) return plan.error();
         out_.errors += job_.count(Severity::kError) - errors;
-        ++out_.planned_anew;
       }
       out_.left_out += unplanned_features(*plan);
       out_.features += features_of(*plan);

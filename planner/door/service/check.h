@@ -20,7 +20,8 @@ struct CheckResult {
   // What the last line says beside these (ending/last_line.h).
   std::size_t features = 0;      ///< of the plans, planned or not
   std::size_t left_out = 0;      ///< of these, not planned
-  std::size_t planned_anew = 0;  ///< plans without paths, or edited: checked as they would be planned now
+  std::size_t planned_anew = 0;  ///< plans checked as they would be planned now: not all paths are in the
+                                 ///< file, or values were edited
   std::size_t compared = 0;      ///< files that were compared with the schema only
   std::size_t errors = 0;  ///< told while plans were read and closed: what they are about is not checked
   [[nodiscard]] bool clean() const { return count == 0 && schema == 0 && unplanned == 0; }

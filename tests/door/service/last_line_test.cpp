@@ -12,9 +12,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-Ending planned() {
-  return {.steps = 21, .setups = 1, .tools = 10, .time_s = 269.0, .features = 12};
-}
+Ending planned() { return {.steps = 21, .setups = 1, .tools = 10, .time_s = 269.0, .features = 12}; }
 
 TEST(LastLine, OfASafePlanHasItsAmountsAndFiles) {
   Ending end = planned();
@@ -115,9 +113,10 @@ TEST(LastLine, OfACheckCountsFiles) {
   EXPECT_EQ(last_line(end), "NOT SAFE: 4 findings; 2 files checked");
   end.condemned = 0;
   end.planned_anew = 1;
-  EXPECT_EQ(last_line(end),
-            "Not proven safe: 1 plan was planned anew to be checked (no paths in the file, or edited values); "
-            "2 files checked");
+  EXPECT_EQ(
+      last_line(end),
+      "Not proven safe: 1 plan was planned anew to be checked: not all paths are in the file, or values "
+      "were edited; 2 files checked");
   end = {.verb = Verb::kCheck, .files = 1, .compared = 1, .schema = 3};
   EXPECT_EQ(last_line(end),
             "Not proven safe: 1 file is compared with the schema only; 3 deviations from the schema; "
@@ -151,7 +150,8 @@ TEST(LastLine, FindingsOfACheckAreCountedByWhatTheySay) {
   EXPECT_TRUE(end.stopped);
 }
 
-/// Whatever else is said: only where nothing is open, unchecked, unread or condemned does the line say "Safe".
+/// Whatever else is said: only where nothing is open, unchecked, unread or condemned does the line say
+/// "Safe".
 TEST(LastLine, SaysSafeOnlyWhereEverythingIsProved) {
   const auto with = [](auto change) {
     Ending end = planned();

@@ -40,7 +40,8 @@ void put_aside(const Output& o, Job& job) {
       return job.warn("APP-BEFORE", "the program " + o.path +
                                         " from before is not of this plan; renamed to " + aside.renamed_to);
     case Aside::kStays:
-      return job.warn("APP-BEFORE", o.path + " is from before, not of this plan");
+      return job.warn("APP-BEFORE", "the " + std::string(o.format->words) + " " + o.path +
+                                        " from before is not of this plan, and stays");
   }
 }
 

@@ -55,7 +55,7 @@ std::vector<std::string> doubts(const Ending& end) {
                   (end.unread == 1 ? "it is" : "they are") + " about is not in the plan");
   if (end.planned_anew > 0)
     out.push_back(counted(end.planned_anew, "plan was", "plans were") +
-                  " planned anew to be checked (no paths in the file, or edited values)");
+                  " planned anew to be checked: not all paths are in the file, or values were edited");
   if (end.unproved > 0)
     out.push_back(counted(end.unproved, "thing is", "things are") + " not judged (see above)");
   if (end.compared > 0)

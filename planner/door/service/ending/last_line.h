@@ -40,7 +40,7 @@ struct Ending {
   std::size_t warned = 0;        ///< warnings of the check, which condemn nothing
   std::size_t unproved = 0;      ///< things that the check could not judge (Finding::unproved)
   std::size_t unread = 0;        ///< errors of reading and planning: what they are about is not in the plan
-  std::size_t planned_anew = 0;  ///< check: plans without paths, or edited, which were planned to be checked
+  std::size_t planned_anew = 0;  ///< check: plans that were planned to be checked (CheckResult)
   std::size_t compared = 0;      ///< check: files compared with the schema, and not checked
   std::size_t schema = 0;        ///< check: deviations from the schema
   // What was written.

@@ -71,7 +71,7 @@ TEST_F(Planned, NoProgramIsWrittenThatTheCheckCondemnsAndAnOldOneIsPutAside) {
   EXPECT_THAT(said_,
               ::testing::ContainsRegex("NOT SAFE: [0-9]+ findings?, no program written; .*; wrote x.json"));
   EXPECT_THAT(said_, HasSubstr("renamed to x.ngc.before"));
-  EXPECT_THAT(said_, HasSubstr("x.tbl is from before, not of this plan"));
+  EXPECT_THAT(said_, HasSubstr("tool table x.tbl from before is not of this plan, and stays"));
   EXPECT_FALSE(fs::exists(folder_ / "x.ngc"));
   EXPECT_EQ(slurp(folder_ / "x.ngc.before"), "(a program from before)\n");
   EXPECT_EQ(slurp(folder_ / "x.tbl"), "T1 P1 Z+1 D+1 ;from before\n");
