@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "planner/door/pipeline/pipeline.h"
+#include "planner/door/service/ending/last_line.h"
 #include "planner/door/service/formats.h"
 #include "planner/door/service/reading.h"
 #include "planner/door/service/shop.h"
@@ -179,19 +180,18 @@ class Check {
         continue;
       }
       const std::size_t before = job_.diagnostics().size();
-      std::size_t errors = job_.count(Severity::kError);
       auto plan = read_plan(std::move(in.bytes), in.path, job_);
       if (!plan) return plan.error();
       if (request_.schema) out_.schema += job_.diagnostics().size() - before;
-      out_.errors += job_.count(Severity::kError) - errors;
+      out_.errors += reading_errors(job_.diagnostics(), before);
       const bool values_edited = take_edits(before, in.path);
       ++out_.checked;
       // What was computed before somebody edited a value says nothing of the plan as it is now.
       if (!has_paths(*plan) || values_edited) {
-        errors = job_.count(Severity::kError);
+        const std::size_t said = job_.diagnostics().size();
         plan = executed(*std::move(plan));
         if (!plan) return plan.error();
-        out_.errors += job_.count(Severity::kError) - errors;
+        out_.errors += reading_errors(job_.diagnostics(), said);
       }
       out_.left_out += unplanned_features(*plan);
       out_.features += features_of(*plan);

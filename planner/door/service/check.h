@@ -23,7 +23,7 @@ struct CheckResult {
   std::size_t planned_anew = 0;  ///< plans checked as they would be planned now: not all paths are in the
                                  ///< file, or values were edited
   std::size_t compared = 0;      ///< files that were compared with the schema only
-  std::size_t errors = 0;  ///< told while plans were read and closed: what they are about is not checked
+  std::size_t errors = 0;        ///< of reading: what they are about is not checked
   [[nodiscard]] bool clean() const { return count == 0 && schema == 0 && unplanned == 0; }
 };
 

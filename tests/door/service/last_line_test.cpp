@@ -69,6 +69,8 @@ TEST(LastLine, OpenDecisionsAreNotChecked) {
   end.unplanned = 1;
   EXPECT_EQ(last_line(end),
             "Not checked: decisions are left open; 1 of 12 features is not planned; 21 steps, 10 tools");
+  end.steps = end.unplanned = 0;
+  EXPECT_EQ(last_line(end), "Not checked: decisions are left open; 10 tools");
 }
 
 TEST(LastLine, WhatIsNotJudgedIsNotSafe) {
@@ -79,7 +81,8 @@ TEST(LastLine, WhatIsNotJudgedIsNotSafe) {
   EXPECT_THAT(last_line(end), HasSubstr("; 2 warnings of the check; 21 steps"));
   Ending unread = planned();
   unread.unread = 2;
-  EXPECT_THAT(last_line(unread), StartsWith("Not proven safe: 2 errors in reading or planning"));
+  EXPECT_THAT(last_line(unread),
+              StartsWith("Not proven safe: 2 errors in reading: what they are about is not in the plan; 21"));
 }
 
 TEST(LastLine, OfStoppedAndFailedCallsPromisesNothing) {
@@ -121,6 +124,13 @@ TEST(LastLine, OfACheckCountsFiles) {
   EXPECT_EQ(last_line(end),
             "Not proven safe: 1 file is compared with the schema only; 3 deviations from the schema; "
             "1 file checked");
+}
+
+TEST(LastLine, ErrorsOfPlanningAreToldByTheFeaturesThatItLeavesOut) {
+  EXPECT_EQ(reading_errors({{.code = "EXC-REFERENCE", .message = ""},
+                            {.code = "PIP-NO-PATH", .message = ""},
+                            {.code = "EXC-SIZE", .severity = Severity::kWarning, .message = ""}}),
+            1U);
 }
 
 FileFinding finding(Severity severity, std::string code = "CHK-X", bool unproved = false) {

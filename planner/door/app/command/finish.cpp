@@ -83,7 +83,7 @@ int finish(Session& s, const service::Planned& planned, std::vector<Output> outp
   const model::Plan& plan = planned.plan;
   service::Ending end{.verb = began ? service::Verb::kBind : service::Verb::kPlan,
                       .open = planned.open,
-                      .unread = s.job.count(Severity::kError)};
+                      .unread = service::reading_errors(s.job.diagnostics())};
   if (plan.steps.empty() && !plan.unplanned.empty()) {
     return s.end({.code = "APP-IMPOSSIBLE",
                   .message = "none of " + counted(service::unplanned_features(plan), "feature", "features") +

@@ -31,7 +31,8 @@ std::string amounts(const Ending& end) {
   std::vector<std::string> out;
   if (end.files > 0) out.push_back(counted(end.files, "file", "files") + " checked");
   if (end.verb != Verb::kCheck || end.steps > 0) {
-    out.push_back(counted(end.steps, "step", "steps"));
+    // Where decisions are open there may be no step yet.
+    if (!end.open || end.steps > 0) out.push_back(counted(end.steps, "step", "steps"));
     if (end.setups > 1) out.push_back(std::to_string(end.setups) + " set-ups");
     out.push_back(counted(end.tools, "tool", "tools") +
                   (end.to_load > 0 ? " (" + std::to_string(end.to_load) + " to load)" : ""));
@@ -51,7 +52,7 @@ std::string unplanned_text(const Ending& end) {
 std::vector<std::string> doubts(const Ending& end) {
   std::vector<std::string> out;
   if (end.unread > 0)
-    out.push_back(counted(end.unread, "error", "errors") + " in reading or planning: what " +
+    out.push_back(counted(end.unread, "error", "errors") + " in reading: what " +
                   (end.unread == 1 ? "it is" : "they are") + " about is not in the plan");
   if (end.planned_anew > 0)
     out.push_back(counted(end.planned_anew, "plan was", "plans were") +
@@ -84,7 +85,7 @@ std::string last_line(const Ending& end) {
   if (!end.done) return nothing_done(end);
   std::string head;
   std::vector<std::string> parts;
-  const std::vector<std::string> doubted = doubts(end);
+  const std::vector<std::string> doubted = end.condemned > 0 ? std::vector<std::string>{} : doubts(end);
   const bool whole = end.unplanned == 0;
   std::string warnings = counted(end.warned, "warning", "warnings") + " of the check";
   if (end.condemned > 0) {
@@ -118,6 +119,12 @@ std::string last_line(const Ending& end) {
   if (end.strict) parts.emplace_back("nothing written (--strict)");
   if (!end.wrote.empty()) parts.push_back("wrote " + joined(end.wrote, ", "));
   return head + ": " + joined(parts, "; ");
+}
+
+std::size_t reading_errors(const std::vector<Diagnostic>& said, std::size_t from) {
+  return static_cast<std::size_t>(std::count_if(
+      said.begin() + static_cast<std::ptrdiff_t>(from), said.end(),
+      [](const Diagnostic& d) { return d.severity == Severity::kError && !d.code.starts_with("PIP-"); }));
 }
 
 void take_plan(const model::Plan& plan, Ending& into) {

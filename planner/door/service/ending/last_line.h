@@ -34,12 +34,12 @@ struct Ending {
   std::size_t features = 0;                     ///< that are planned, or should be
   std::size_t unplanned = 0;                    ///< of these
   // What is known of it.
-  bool open = false;             ///< decisions are left open, so that nothing was checked
-  std::size_t condemned = 0;     ///< reasons why it must not be run
-  std::string why = {};          ///< what they say (model::text_of)
-  std::size_t warned = 0;        ///< warnings of the check, which condemn nothing
-  std::size_t unproved = 0;      ///< things that the check could not judge (Finding::unproved)
-  std::size_t unread = 0;        ///< errors of reading and planning: what they are about is not in the plan
+  bool open = false;          ///< decisions are left open, so that nothing was checked
+  std::size_t condemned = 0;  ///< reasons why it must not be run
+  std::string why = {};       ///< what they say (model::text_of)
+  std::size_t warned = 0;     ///< warnings of the check, which condemn nothing
+  std::size_t unproved = 0;   ///< things that the check could not judge (Finding::unproved)
+  std::size_t unread = 0;     ///< errors of reading (reading_errors): what they are about is not in the plan
   std::size_t planned_anew = 0;  ///< check: plans that were planned to be checked (CheckResult)
   std::size_t compared = 0;      ///< check: files compared with the schema, and not checked
   std::size_t schema = 0;        ///< check: deviations from the schema
@@ -59,6 +59,10 @@ struct Ending {
 /// It says "Safe" only where all decisions are bound, all was checked to its end, nothing failed to be read,
 /// and nothing condemns the plan or its program.
 [[nodiscard]] std::string last_line(const Ending& end);
+
+/// How many errors stand from there on, without those of planning, which lists what it leaves out
+/// (Plan::unplanned).
+[[nodiscard]] std::size_t reading_errors(const std::vector<Diagnostic>& said, std::size_t from = 0);
 
 /// What an Ending takes from a plan: steps, set-ups, tools, time, features.
 void take_plan(const model::Plan& plan, Ending& into);

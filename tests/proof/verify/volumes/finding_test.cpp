@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "planner/proof/verify/plan/two_readings.h"
 #include "planner/proof/verify/verify.h"
+#include "planner/proof/verify/plan/meaning.h"
 #include "tests/proof/verify/plans.h"
 
 // What the check says of a feature that is read in two ways, on the small plan that is right.
@@ -13,7 +13,7 @@ using testing::PlanMaker;
 
 std::vector<model::Finding> meaning(const model::Plan& plan, const PartShapes& part) {
   Findings findings;
-  check_readings(plan, part, findings);
+  check_meaning(plan, part, findings);
   return findings.take();
 }
 

@@ -219,9 +219,10 @@ void Target::left_of(const Cavity& c, const Grid& grid, const Asked& a, const st
   const double limit = allowed() + shallower(s) + a.bottom_mm;
   const double ring = (carried ? 1.5 : 1.0) * grid.cell() + allowed() + narrower(s) + a.side_mm;
   const double fillet = foot_allowed(s, a.corner_mm);
+  // What stays is a matter of the part's form, not of safety: a note, and nothing unproved.
   if (const std::string what = not_judged(s, a, ring); !what.empty())
-    out.unproved(Severity::kNote, 36, "CHK-NOT-JUDGED", a.where,
-                 "of " + s.name + ", " + what + ": what stays there is not looked at");
+    out.note(36, "CHK-NOT-JUDGED", a.where,
+             "of " + s.name + ", " + what + ": what stays there is not looked at");
   const bool below = c.frame.z.z < 0.0;
   const auto floor = [&](Vec2 p) -> std::optional<double> {
     const geometry::Vec3 local = c.frame.to_local({p.x, p.y, 0.0});

@@ -1,4 +1,4 @@
-#include "planner/proof/verify/plan/two_readings.h"
+#include "planner/proof/verify/plan/meaning.h"
 
 #include "planner/model/nouns/all.h"
 #include "planner/proof/verify/volumes/compare.h"
@@ -17,7 +17,7 @@ std::string place(geometry::Vec3 p) { return "X" + plain(p.x) + " Y" + plain(p.y
 
 }  // namespace
 
-void check_readings(const model::Plan& plan, const PartShapes& part, Findings& findings) {
+void check_meaning(const model::Plan& plan, const PartShapes& part, Findings& findings) {
   const volumes::Source source = volumes::source_of(plan.model, plan.stock.box);
   for (const PartShapes::Entry& e : part.entries) {
     if (e.shapes.empty()) continue;
