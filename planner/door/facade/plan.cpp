@@ -22,7 +22,7 @@ PlanMessage message_of(const model::Plan& plan, const model::Condemnation& c) {
 }
 PlanMessage message(const Diagnostic& d) { return {to_text(d.severity), d.code, to_text(d)}; }
 
-PlanMessage message(const service::Told& t, bool named) {
+PlanMessage message(const service::FileFinding& t, bool named) {
   const model::Finding& f = t.finding;
   const std::string of = named ? t.file + ": " : t.program ? std::string("program: ") : std::string();
   const std::string step = f.step.empty() ? std::string() : "step '" + f.step + "': ";
@@ -100,10 +100,10 @@ void finish(const service::Request& request, const service::Planned& planned, Pl
       verdict.written = false;
     }
   }
-  for (const service::Told& t : verdict.told) out.findings.push_back(message(t, false));
+  for (const service::FileFinding& t : verdict.findings) out.findings.push_back(message(t, false));
   for (const auto& c : verdict.condemned) out.condemned.push_back(message_of(plan, c));
   if (!verdict.written) std::erase_if(made, service::of_program);
-  const bool clean = verdict.findings == 0 && plan.unplanned.empty() && verdict.condemned.empty() &&
+  const bool clean = verdict.count == 0 && plan.unplanned.empty() && verdict.condemned.empty() &&
                      model::unreadable(plan).empty();
   if (request.strict && !clean) made.clear();
   take(std::move(made), out);
@@ -138,7 +138,7 @@ CheckOutput checked(std::vector<service::Source> sources, const PlanOptions& opt
   } else if (const auto result = service::check(*request, std::move(sources), {}, work.job)) {
     out.checked = true;
     out.clean = result->clean();
-    for (const service::Told& t : result->findings) out.findings.push_back(message(t, true));
+    for (const service::FileFinding& t : result->findings) out.findings.push_back(message(t, true));
   } else {
     work.job.report(result.error().what);
   }

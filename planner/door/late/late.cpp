@@ -5,6 +5,7 @@
 
 #include "planner/door/pipeline/given/magazine.h"
 #include "planner/door/pipeline/program_check.h"
+#include "planner/ground/base/number.h"
 
 // A fallback first, whatever it takes; then an improvement on the rest of the time. Each answer passes the
 // same three questions: is anything open, is every cutter in the magazine, does the check condemn it.
@@ -57,7 +58,8 @@ Status only_loaded(const model::Plan& plan, const std::vector<model::Cutter>& ma
 Status nothing_open(const model::Plan& plan) {
   if (plan.unplanned.empty()) return {};
   return fail({.code = "LATE-OPEN",
-               .message = "something stays open: " + plan.unplanned.front().reason,
+               .message = "planning leaves " + counted(plan.unplanned.size(), "thing", "things") +
+                          " open, first: " + plan.unplanned.front().reason,
                .file = plan.file_name,
                .hint = "load what is missing, or plan anew"});
 }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "planner/door/pipeline/pipeline.h"
+#include "planner/door/service/ending/last_line.h"
 #include "planner/door/service/formats.h"
 #include "planner/door/service/reading.h"
 #include "planner/door/service/shop.h"
@@ -40,8 +41,8 @@ struct Shop {
 
 class Check {
  public:
-  Check(const Request& request, std::vector<Source> sources, const std::function<void(const Told&)>& tell,
-        Job& job)
+  Check(const Request& request, std::vector<Source> sources,
+        const std::function<void(const FileFinding&)>& tell, Job& job)
       : request_(request), sources_(std::move(sources)), tell_(tell), job_(job) {}
 
   Outcome<CheckResult> run() {
@@ -85,20 +86,27 @@ class Check {
     return out;
   }
 
-  /// A step whose path was computed anew all the same is not judged by what the file says of it.
-  void tell_recomputed(const Stated& stated, const model::Plan& bound) {
+  /// A step whose path was computed anew all the same is not judged by what the file says of it. Gives
+  /// whether the file states every path, and none was computed anew.
+  bool tell_recomputed(const Stated& stated, const model::Plan& bound) {
+    bool all_stated = true;
     for (const auto& step : bound.steps) {
       const auto it = stated.find(step.step);
-      if (it == stated.end() || step.path == nullptr) continue;
+      if (it == stated.end() || step.path == nullptr) {
+        all_stated = false;
+        continue;
+      }
       const auto& said = it->second.schedule.feed_mm_min;
       bool same = it->second.path == *step.path;
       for (std::size_t i = 0; same && step.schedule && i < said.size(); ++i)
         same = !(said[i] > 0.0) || said[i] == step.schedule->feed_mm_min[i];
       if (same) continue;
+      all_stated = false;
       job_.warn("APP-RECOMPUTED", "step '" + model::step_id(bound, step) +
                                       "': its path or feeds were computed anew and are not those of the "
                                       "file; the findings are about the new ones");
     }
+    return all_stated;
   }
 
   /// A file that says what is done and not, in full, how: what is open is closed as `plan` would, what it
@@ -115,7 +123,7 @@ class Check {
     auto bound = pipeline::bind(std::move(plan), *inputs, pipeline::Policy{}, job_);
     if (!bound) return bound;
     out_.unplanned += unplanned_features(*bound);
-    tell_recomputed(stated, *bound);
+    if (!tell_recomputed(stated, *bound)) ++out_.planned_anew;
     return bound;
   }
 
@@ -126,6 +134,7 @@ class Check {
     const std::size_t before = job_.diagnostics().size();
     out_.schema += exchange::check_schema(*file, job_);
     ++out_.checked;
+    ++out_.compared;
     const auto& all = job_.diagnostics();
     for (std::size_t i = before; i < all.size(); ++i) {
       const std::string instance = all[i].instance == 0 ? "" : "#" + std::to_string(all[i].instance) + " ";
@@ -135,7 +144,7 @@ class Check {
       f.code = all[i].code;
       f.severity = all[i].severity;
       f.message = instance + path + all[i].message + expected;
-      out_.findings.push_back({in.path, std::move(f)});
+      out_.findings.push_back({.file = in.path, .finding = std::move(f), .schema = true});
     }
     return std::nullopt;
   }
@@ -174,13 +183,18 @@ class Check {
       auto plan = read_plan(std::move(in.bytes), in.path, job_);
       if (!plan) return plan.error();
       if (request_.schema) out_.schema += job_.diagnostics().size() - before;
+      out_.errors += reading_errors(job_.diagnostics(), before);
       const bool values_edited = take_edits(before, in.path);
       ++out_.checked;
       // What was computed before somebody edited a value says nothing of the plan as it is now.
       if (!has_paths(*plan) || values_edited) {
+        const std::size_t said = job_.diagnostics().size();
         plan = executed(*std::move(plan));
         if (!plan) return plan.error();
+        out_.errors += reading_errors(job_.diagnostics(), said);
       }
+      out_.left_out += unplanned_features(*plan);
+      out_.features += features_of(*plan);
       // A plan made for one machine may be asked of another.
       if (const auto& named = request_.machine) {
         auto machine = tooling::load_machine(*named, job_);
@@ -276,7 +290,7 @@ class Check {
 
   const Request& request_;
   std::vector<Source> sources_;
-  const std::function<void(const Told&)>& tell_;
+  const std::function<void(const FileFinding&)>& tell_;
   Job& job_;
   std::vector<Input> inputs_;
   std::vector<model::Plan> plans_;
@@ -287,7 +301,7 @@ class Check {
 }  // namespace
 
 Outcome<CheckResult> check(const Request& request, std::vector<Source> sources,
-                           const std::function<void(const Told&)>& tell, Job& job) {
+                           const std::function<void(const FileFinding&)>& tell, Job& job) {
   return Check(request, std::move(sources), tell, job).run();
 }
 

@@ -12,11 +12,18 @@ namespace capstan::service {
 
 /// What checking files came to.
 struct CheckResult {
-  std::vector<Told> findings;
+  std::vector<FileFinding> findings;
   std::size_t count = 0;      ///< findings without notes
   std::size_t schema = 0;     ///< deviations from the schema, where they were asked for
   std::size_t checked = 0;    ///< plans and programs looked at
   std::size_t unplanned = 0;  ///< features that a file only names, and that cannot be planned
+  // What the last line says beside these (ending/last_line.h).
+  std::size_t features = 0;      ///< of the plans, planned or not
+  std::size_t left_out = 0;      ///< of these, not planned
+  std::size_t planned_anew = 0;  ///< plans checked as they would be planned now: not all paths are in the
+                                 ///< file, or values were edited
+  std::size_t compared = 0;      ///< files that were compared with the schema only
+  std::size_t errors = 0;        ///< of reading: what they are about is not checked
   [[nodiscard]] bool clean() const { return count == 0 && schema == 0 && unplanned == 0; }
 };
 
@@ -27,6 +34,6 @@ struct CheckResult {
 /// in its place.
 /// Fails  APP-NOTHING when there is neither a plan nor a program; as the readers.
 [[nodiscard]] Outcome<CheckResult> check(const Request& request, std::vector<Source> sources,
-                                         const std::function<void(const Told&)>& tell, Job& job);
+                                         const std::function<void(const FileFinding&)>& tell, Job& job);
 
 }  // namespace capstan::service

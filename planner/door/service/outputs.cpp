@@ -38,8 +38,8 @@ Result<Output> output_of(const std::string& path) {
          .file = path,
          .expected = supported()});
   return fail({.code = "OUT-KIND",
-               .message = ending.empty() ? "has no ending that tells what to write"
-                                         : "'" + ending + "' does not tell what to write",
+               .message = ending.empty() ? "the name has no ending, which says what to write"
+                                         : "the ending '" + ending + "' names no format",
                .file = path,
                .expected = supported()});
 }
@@ -97,13 +97,13 @@ Status can_be_written(const std::vector<std::string>& outputs, const std::vector
   for (const std::string& path : outputs) {
     const std::string target = path == "-" ? path : resolved(path);
     if (!seen.insert(target).second)
-      return fail({.code = "OUT-TWICE", .message = "is to be written twice", .file = path});
+      return fail({.code = "OUT-TWICE", .message = "this output is named twice", .file = path});
     if (path == "-") continue;
     for (const std::string& in : inputs) {
       std::error_code ec;
       if (force || (resolved(in) != target && !fs::equivalent(in, target, ec))) continue;
       return fail({.code = "OUT-INPUT",
-                   .message = "is read by this call, too (as " + in + "), and would be lost",
+                   .message = "this output is also read by the call (as " + in + ") and would be lost",
                    .file = path,
                    .hint = "name another file, or --force to replace it"});
     }

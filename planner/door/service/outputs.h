@@ -19,7 +19,7 @@ struct Output {
   std::size_t losses = 0;          ///< kinds of things that the format cannot hold, once made
 };
 
-/// Told by the ending alone, so that it fails before any work.
+/// The ending alone decides, so that a wrong name fails before any work.
 /// Fails  OUT-KIND: an ending that is not supported (yet), or none.
 [[nodiscard]] Result<Output> output_of(const std::string& path);
 /// All of them.

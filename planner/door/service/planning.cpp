@@ -9,6 +9,7 @@
 #include "planner/door/service/reading.h"
 #include "planner/door/service/shop.h"
 #include "planner/ground/base/nearest_names.h"
+#include "planner/model/nouns/executable.h"
 #include "planner/proof/verify/verify.h"
 
 namespace capstan::service {
@@ -20,8 +21,8 @@ Result<model::Plan> read(Source source, bool strict, Job& job) {
 }
 
 /// Findings of each program among the outputs.
-std::vector<Told> of_programs(const model::Plan& plan, const std::vector<Output>& outputs, Job& job) {
-  std::vector<Told> out;
+std::vector<FileFinding> of_programs(const model::Plan& plan, const std::vector<Output>& outputs, Job& job) {
+  std::vector<FileFinding> out;
   for (const Output& o : outputs) {
     if (!is_program(o)) continue;
     std::string table;
@@ -39,6 +40,16 @@ std::vector<Told> of_programs(const model::Plan& plan, const std::vector<Output>
 std::size_t unplanned_features(const model::Plan& plan) {
   std::set<model::AnyRef> out;
   for (const model::Unplanned& u : plan.unplanned) out.insert(u.feature);
+  return out.size();
+}
+
+std::size_t features_of(const model::Plan& plan) {
+  std::set<model::AnyRef> out;
+  for (const model::Unplanned& u : plan.unplanned) out.insert(u.feature);
+  for (const model::StepResult& s : plan.steps) {
+    const auto* ws = plan.model.get<model::MachiningWorkingstep>(s.step);
+    if (ws != nullptr && ws->its_feature.set()) out.insert(ws->its_feature);
+  }
   return out.size();
 }
 
@@ -113,10 +124,10 @@ Result<Verdict> judge(const Request& request, const Planned& planned, std::vecto
                       Job& job) {
   const model::Plan& made = planned.plan;
   Verdict v;
-  for (const auto& f : planned.findings) v.told.push_back({made.file_name, f, false});
+  for (const auto& f : planned.findings) v.findings.push_back({made.file_name, f, false});
   auto of_text = of_programs(made, outputs, job);
   std::vector<model::Finding> all = planned.findings;
-  for (const Told& t : of_text) all.push_back(t.finding);
+  for (const FileFinding& f : of_text) all.push_back(f.finding);
   v.condemned = model::condemned(made, all);
   v.written = v.condemned.empty() || (request.allow_findings && !model::never_written(v.condemned));
   if (!v.condemned.empty() && v.written && std::any_of(outputs.begin(), outputs.end(), is_program)) {
@@ -129,9 +140,9 @@ Result<Verdict> judge(const Request& request, const Planned& planned, std::vecto
     }
     of_text = of_programs(made, outputs, job);
   }
-  std::move(of_text.begin(), of_text.end(), std::back_inserter(v.told));
-  for (const Told& t : v.told) {
-    if (t.finding.severity != Severity::kNote) ++v.findings;
+  std::move(of_text.begin(), of_text.end(), std::back_inserter(v.findings));
+  for (const FileFinding& f : v.findings) {
+    if (f.finding.severity != Severity::kNote) ++v.count;
   }
   return v;
 }

@@ -45,16 +45,17 @@ struct Planned {
                                        std::chrono::steady_clock::time_point began, Job& job);
 
 /// A finding, and the file it is about.
-struct Told {
+struct FileFinding {
   std::string file;
   model::Finding finding;
   bool program = false;  ///< then the finding's place is a line, else a move of its step
+  bool schema = false;   ///< a deviation from the schema, which says nothing of safety
 };
 
 /// What checking a plan and its programs came to.
 struct Verdict {
-  std::vector<Told> told;                      ///< of the plan, then of the programs
-  std::size_t findings = 0;                    ///< without notes
+  std::vector<FileFinding> findings;           ///< of the plan, then of the programs
+  std::size_t count = 0;                       ///< findings without notes
   std::vector<model::Condemnation> condemned;  ///< why the program must not be run
   /// Whether programs are given: nothing condemns them, or they were asked for all the same and stop before
   /// what is condemned.
@@ -63,12 +64,14 @@ struct Verdict {
 
 /// Checks the programs among the outputs, with what is known of the plan. A condemned program that is asked
 /// for all the same (Request::allow_findings) is written again with its stops, and checked as it then is.
-/// A program's file in `told` is its output's path. Fails  as the writers.
+/// A program's file in `findings` is its output's path. Fails  as the writers.
 [[nodiscard]] Result<Verdict> judge(const Request& request, const Planned& planned,
                                     std::vector<Output>& outputs, Job& job);
 
 /// How many features have something of them not planned, each once.
 [[nodiscard]] std::size_t unplanned_features(const model::Plan& plan);
+/// How many features have a step, or have something not planned.
+[[nodiscard]] std::size_t features_of(const model::Plan& plan);
 
 [[nodiscard]] inline bool is_program(const Output& o) { return o.format->holds == Holds::kProgram; }
 /// What is withheld with a condemned program: the table is of its tools.

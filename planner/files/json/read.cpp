@@ -192,7 +192,8 @@ Result<model::Plan> read_json(std::string bytes, std::string file_name, Job& job
   if (!tree.is_object() || version == tree.end())
     return refuse("JSON-VERSION", "the file is not a Capstan plan");
   if (*version != kPlanJsonVersion) {
-    return refuse("JSON-VERSION", "the plan is of another version than " + std::to_string(kPlanJsonVersion));
+    return refuse("JSON-VERSION", "the plan's capstan_plan is " + version->dump().substr(0, 20) +
+                                      "; this program reads version " + std::to_string(kPlanJsonVersion));
   }
   try {
     Reader reader;

@@ -38,11 +38,11 @@ class Descriptor {
 
 Result<std::string> read_file(const std::string& path, std::size_t cap) {
   const Descriptor fd(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-  if (fd.get() < 0) return io_fault("FILE-READ", path, "cannot be opened for reading");
+  if (fd.get() < 0) return io_fault("FILE-READ", path, "the file cannot be opened for reading");
   struct stat info {};
-  if (::fstat(fd.get(), &info) != 0) return io_fault("FILE-READ", path, "cannot be examined");
+  if (::fstat(fd.get(), &info) != 0) return io_fault("FILE-READ", path, "the file cannot be examined");
   if (S_ISDIR(info.st_mode))
-    return fail({.code = "FILE-READ", .message = "is a folder", .file = path, .expected = "a file"});
+    return fail({.code = "FILE-READ", .message = "this is a folder", .file = path, .expected = "a file"});
   // A pipe or a device may never end; what is piped in is a program, a part or a plan.
   constexpr std::size_t kStreamCap = std::size_t{64} << 20;
   const bool stream = !S_ISREG(info.st_mode);
@@ -61,15 +61,15 @@ Result<std::string> read_file(const std::string& path, std::size_t cap) {
         bytes.resize(at);
         continue;
       }
-      return io_fault("FILE-READ", path, "cannot be read");
+      return io_fault("FILE-READ", path, "the file cannot be read");
     }
     bytes.resize(at + static_cast<std::size_t>(got));
     if (bytes.size() > cap) {
-      return fail(
-          {.code = "FILE-TOO-LARGE",
-           .message = std::string(stream ? "is no regular file, and gives more than " : "is larger than ") +
-                      "the limit of " + std::to_string(cap) + " bytes",
-           .file = path});
+      return fail({.code = "FILE-TOO-LARGE",
+                   .message = std::string(stream ? "this is no regular file, and gives more than "
+                                                 : "the file is larger than ") +
+                              "the limit of " + std::to_string(cap) + " bytes",
+                   .file = path});
     }
     if (got == 0) return bytes;
   }
@@ -99,12 +99,12 @@ Result<StagedFile> StagedFile::make(const std::string& path, std::string_view by
   std::error_code ec;
   const auto at = std::filesystem::status(out.target_, ec);
   if (std::filesystem::is_symlink(std::filesystem::symlink_status(out.target_, ec)))
-    return fail({.code = "FILE-WRITE", .message = "is a link that leads to itself", .file = path});
+    return fail({.code = "FILE-WRITE", .message = "this is a link that leads to itself", .file = path});
   if (std::filesystem::is_directory(at))
-    return fail({.code = "FILE-WRITE", .message = "is a folder", .file = path, .expected = "a file"});
+    return fail({.code = "FILE-WRITE", .message = "this is a folder", .file = path, .expected = "a file"});
   if (std::filesystem::exists(at) && !std::filesystem::is_regular_file(at))
     return fail(
-        {.code = "FILE-WRITE", .message = "is a pipe or a device", .file = path, .expected = "a file"});
+        {.code = "FILE-WRITE", .message = "this is a pipe or a device", .file = path, .expected = "a file"});
   const auto parent = std::filesystem::path(out.target_).parent_path();
   const std::string folder = parent.empty() ? "." : parent.string();
   // A nameless file gets its name through /proc.
@@ -115,16 +115,16 @@ Result<StagedFile> StagedFile::make(const std::string& path, std::string_view by
     out.fd_ = ::open(out.temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
     if (out.fd_ < 0) out.temporary_.clear();
   }
-  if (out.fd_ < 0) return io_fault("FILE-WRITE", path, "cannot be written");
+  if (out.fd_ < 0) return io_fault("FILE-WRITE", path, "the file cannot be written");
   while (!bytes.empty()) {
     const ssize_t put = ::write(out.fd_, bytes.data(), bytes.size());
     if (put < 0) {
       if (errno == EINTR) continue;
-      return io_fault("FILE-WRITE", path, "cannot be written");
+      return io_fault("FILE-WRITE", path, "the file cannot be written");
     }
     bytes.remove_prefix(static_cast<std::size_t>(put));
   }
-  if (::fsync(out.fd_) != 0) return io_fault("FILE-WRITE", path, "cannot be brought to disk");
+  if (::fsync(out.fd_) != 0) return io_fault("FILE-WRITE", path, "the file cannot be brought to disk");
   return out;
 }
 
@@ -154,13 +154,13 @@ Status StagedFile::put() {
     const std::string open = "/proc/self/fd/" + std::to_string(fd_);
     ::unlink(name.c_str());
     if (::linkat(AT_FDCWD, open.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) != 0)
-      return io_fault("FILE-WRITE", path_, "cannot be given its name");
+      return io_fault("FILE-WRITE", path_, "the file cannot be given its name");
     temporary_ = name;
   }
   if (std::rename(temporary_.c_str(), target_.c_str()) != 0)
-    return io_fault("FILE-WRITE", path_, "cannot be put in place");
+    return io_fault("FILE-WRITE", path_, "the file cannot be put in place");
   temporary_.clear();
-  if (::close(std::exchange(fd_, -1)) != 0) return io_fault("FILE-WRITE", path_, "cannot be closed");
+  if (::close(std::exchange(fd_, -1)) != 0) return io_fault("FILE-WRITE", path_, "the file cannot be closed");
   return {};
 }
 

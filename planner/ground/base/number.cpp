@@ -74,4 +74,9 @@ double unconverted(double value, double factor) {
   return raw;
 }
 
+std::string counted(std::size_t n, const std::string& one, const std::string& many) {
+  if (n == 0) return "no " + one;
+  return std::to_string(n) + " " + (n == 1 ? one : many);
+}
+
 }  // namespace capstan

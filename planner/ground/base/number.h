@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -25,6 +26,9 @@ namespace capstan {
 
 /// The whole text as a finite double, locale-free; nothing when it is not exactly one number.
 [[nodiscard]] std::optional<double> parse_double(std::string_view text);
+
+/// "3 findings", "1 finding", "no finding".
+[[nodiscard]] std::string counted(std::size_t n, const std::string& one, const std::string& many);
 
 /// The shortest decimal d for which d * factor == value (bit for bit), so that a converted unit is
 /// written as it was read: unconverted(720.0, 60.0) == 12.0. Falls back to value / factor.

@@ -113,9 +113,10 @@ struct Finding {
   int property = 0;  ///< number of the property
   std::string code;  ///< "CHK-GOUGE"
   Severity severity = Severity::kError;
-  std::string step;     ///< persistent id of the workingstep; empty: whole plan
-  long move = -1;       ///< move index in the path, or line of the program; -1 none
-  std::string message;  ///< with the numbers
+  std::string step;       ///< persistent id of the workingstep; empty: whole plan
+  long move = -1;         ///< move index in the path, or line of the program; -1 none
+  std::string message;    ///< with the numbers
+  bool unproved = false;  ///< it says what the check could not judge, not what is wrong
   friend bool operator==(const Finding&, const Finding&) = default;
 };
 

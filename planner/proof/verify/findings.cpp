@@ -10,7 +10,7 @@
 namespace capstan::verify {
 
 void Findings::add(Severity severity, int property, std::string code, Where where, std::string message,
-                   double badness) {
+                   double badness, bool unproved) {
   // Recent items are those of the same step: looking back is short.
   for (std::size_t i = items_.size(); i-- > 0;) {
     Item& old = items_[i];
@@ -36,7 +36,8 @@ void Findings::add(Severity severity, int property, std::string code, Where wher
                      .severity = severity,
                      .step = std::move(where.step),
                      .move = where.move,
-                     .message = std::move(message)}});
+                     .message = std::move(message),
+                     .unproved = unproved}});
 }
 
 void Findings::error(int property, std::string code, Where where, std::string message, double badness) {
@@ -47,6 +48,9 @@ void Findings::warn(int property, std::string code, Where where, std::string mes
 }
 void Findings::note(int property, std::string code, Where where, std::string message) {
   add(Severity::kNote, property, std::move(code), std::move(where), std::move(message), 0.0);
+}
+void Findings::unproved(Severity severity, int property, std::string code, Where where, std::string message) {
+  add(severity, property, std::move(code), std::move(where), std::move(message), 0.0, true);
 }
 
 std::vector<model::Finding> Findings::take() {

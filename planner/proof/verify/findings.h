@@ -24,6 +24,8 @@ class Findings {
   void error(int property, std::string code, Where where, std::string message, double badness = 0.0);
   void warn(int property, std::string code, Where where, std::string message, double badness = 0.0);
   void note(int property, std::string code, Where where, std::string message);
+  /// What could not be judged (Finding::unproved): a note, or a warning where more than usual hangs on it.
+  void unproved(Severity severity, int property, std::string code, Where where, std::string message);
 
   [[nodiscard]] std::vector<model::Finding> take();
 
@@ -35,7 +37,7 @@ class Findings {
     model::Finding finding;
   };
   void add(Severity severity, int property, std::string code, Where where, std::string message,
-           double badness);
+           double badness, bool unproved = false);
   std::vector<Item> items_;
 };
 

@@ -37,6 +37,9 @@ struct ProgramText {
 /// What each property asks, one sentence; empty for a number that is not checked.
 [[nodiscard]] std::string_view property_text(int number);
 
+/// The code of the finding, an error, of a check that was stopped before its end.
+inline constexpr std::string_view kStopped = "CHK-STOPPED";
+
 /// Largest height map of one set-up.
 inline constexpr long kMaximumCells = 1000000;
 

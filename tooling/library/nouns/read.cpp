@@ -497,7 +497,10 @@ Result<model::ToolRequirement> requirement_from_nouns(const Model& m, Ref<Machin
   if (!k) return fail(k.error());
   const double d = *p->dimension->diameter;
   if (!(d > 0.0) || !std::isfinite(d))
-    return fail({.code = "TOOL-VALUE", .message = "the diameter is " + trimmed(d, 6), .path = p->name});
+    return fail({.code = "TOOL-VALUE",
+                 .message = "the diameter is " + trimmed(d, 6) + " mm",
+                 .path = p->name,
+                 .expected = "a diameter above 0"});
   r.classes = {k->cutter_class};
   r.point_angle_rad = k->point_angle_rad;
   r.depth_of_cut_mm = p->dimension->cutting_edge_length.value_or(0.0);

@@ -4,15 +4,13 @@
 #include <string>
 #include <utility>
 
-#include "planner/door/service/explain/values.h"
+#include "planner/door/service/ending/last_line.h"
+#include "planner/ground/base/number.h"
 #include "planner/model/plan/decision/condemned.h"
 #include "planner/model/plan/decision/contradicted.h"
 #include "planner/model/plan/decision/unreadable.h"
-#include "planner/physics/motion/time.h"
 
 namespace capstan::app {
-
-using service::duration;
 
 namespace {
 
@@ -20,34 +18,12 @@ using service::is_program;
 using service::of_program;
 using service::Output;
 
-std::string summary_of(const model::Plan& plan, std::size_t findings) {
-  std::string out = "planned " + counted(plan.steps.size(), "step", "steps") + " in " +
-                    counted(plan.setups.size(), "set-up", "set-ups") + " with " +
-                    counted(plan.cutters.size(), "tool", "tools");
-  if (const auto t = motion::time_of(plan)) out += ", " + duration(t->total_s());
-  const auto loaded = static_cast<std::size_t>(
-      std::count_if(plan.cutters.begin(), plan.cutters.end(), [](const auto& c) { return c.loaded; }));
-  // Where none is in the magazine, nothing is known of it.
-  if (loaded > 0 && loaded < plan.cutters.size())
-    out += ", " + std::to_string(plan.cutters.size() - loaded) + " of them to load";
-  if (!plan.unplanned.empty()) out += "; " + unplanned_text(plan);
-  return out + "; " + counted(findings, "finding", "findings");
-}
-
-std::string written_text(const std::vector<Output>& outputs) {
-  std::string out;
+/// The files that were written, each with what it cannot hold.
+std::vector<std::string> written(const std::vector<Output>& outputs) {
+  std::vector<std::string> out;
   for (const Output& o : outputs) {
-    if (o.path != "-") out += (out.empty() ? "; wrote " : ", ") + o.path + service::losses_text(o);
+    if (o.path != "-") out.push_back(o.path + service::losses_text(o));
   }
-  return out;
-}
-
-/// "step 5 SLOT: ... (and 2 more)": a step's reason says more than one of the whole plan.
-std::string why(const model::Plan& plan, const std::vector<model::Condemnation>& condemned) {
-  const auto of_step =
-      std::find_if(condemned.begin(), condemned.end(), [](const auto& c) { return !c.step.empty(); });
-  std::string out = model::text_of(plan, of_step == condemned.end() ? condemned.front() : *of_step);
-  if (condemned.size() > 1) out += " (and " + std::to_string(condemned.size() - 1) + " more)";
   return out;
 }
 
@@ -64,7 +40,8 @@ void put_aside(const Output& o, Job& job) {
       return job.warn("APP-BEFORE", "the program " + o.path +
                                         " from before is not of this plan; renamed to " + aside.renamed_to);
     case Aside::kStays:
-      return job.warn("APP-BEFORE", o.path + " is from before, not of this plan");
+      return job.warn("APP-BEFORE", "the " + std::string(o.format->words) + " " + o.path +
+                                        " from before is not of this plan, and stays");
   }
 }
 
@@ -76,8 +53,8 @@ void withhold(Session& s, const model::Plan& plan, const std::vector<model::Cond
     s.job.report(
         {.code = "APP-WITHHELD",
          .severity = Severity::kError,
-         .message =
-             (is_program(o) ? "program not written: " : "tool table not written: ") + why(plan, condemned),
+         .message = (is_program(o) ? "program not written: " : "tool table not written: ") +
+                    model::text_of(plan, condemned),
          .file = o.path,
          .hint = model::never_written(condemned)
                      ? "correct the file; nobody can tell what its program would be, so that "
@@ -101,10 +78,13 @@ bool makes_program(const std::vector<Output>& outputs) {
   return std::any_of(outputs.begin(), outputs.end(), is_program);
 }
 
-int finish(Session& s, const service::Planned& planned, std::vector<Output> outputs) {
+int finish(Session& s, const service::Planned& planned, std::vector<Output> outputs,
+           std::optional<std::chrono::steady_clock::time_point> began) {
   const model::Plan& plan = planned.plan;
+  service::Ending end{.verb = began ? service::Verb::kBind : service::Verb::kPlan,
+                      .open = planned.open,
+                      .unread = service::reading_errors(s.job.diagnostics())};
   if (plan.steps.empty() && !plan.unplanned.empty()) {
-    s.summary = "nothing can be planned, nothing is written";
     return s.end({.code = "APP-IMPOSSIBLE",
                   .message = "none of " + counted(service::unplanned_features(plan), "feature", "features") +
                              " can be planned with these tools on this machine",
@@ -124,29 +104,30 @@ int finish(Session& s, const service::Planned& planned, std::vector<Output> outp
                     .message = c.why,
                     .file = plan.file_name});
     }
-    for (const Told& t : verdict.told) s.job.report(as_diagnostic(t.finding, t.file, t.program));
+    for (const FileFinding& f : verdict.findings) s.job.report(as_diagnostic(f.finding, f.file, f.program));
   }
-  s.summary = summary_of(plan, verdict.findings);
+  service::take_plan(plan, end);
+  service::take_verdict(plan, verdict, end);
   const bool condemned = !verdict.condemned.empty();
   const bool clean =
-      verdict.findings == 0 && plan.unplanned.empty() && !condemned && model::unreadable(plan).empty();
-  if (s.options.inputs.strict && !clean) {
+      verdict.count == 0 && plan.unplanned.empty() && !condemned && model::unreadable(plan).empty();
+  end.strict = s.options.inputs.strict && !clean;
+  if (end.strict) {
     put_programs_aside(outputs, s.job);
-    s.summary += "; nothing written (--strict)";
-    return kFindings;
-  }
-  std::string verdict_text;
-  if (condemned) {
-    const bool asked = std::any_of(outputs.begin(), outputs.end(), of_program);
-    verdict_text = !asked            ? "; no program can be made of it: "
-                   : verdict.written ? "; the program stops before what is condemned: "
-                                     : "; program not written: ";
-    verdict_text += why(plan, verdict.condemned);
+  } else {
+    if (std::any_of(outputs.begin(), outputs.end(), of_program)) {
+      end.program = !condemned        ? service::ProgramEnd::kWritten
+                    : verdict.written ? service::ProgramEnd::kWithStops
+                                      : service::ProgramEnd::kWithheld;
+    }
     if (!verdict.written) withhold(s, plan, verdict.condemned, outputs);
+    if (auto ok = service::write_all(outputs); !ok) return s.end(ok.error(), kImpossible);
+    end.wrote = written(outputs);
   }
-  if (auto ok = service::write_all(outputs); !ok) return s.end(ok.error(), kImpossible);
-  s.summary += verdict_text + written_text(outputs);
-  return clean ? kDone : kFindings;
+  const auto& deadline = s.options.inputs.deadline;
+  end.late = planned.late || (began && deadline && s.job.now() - *began > *deadline);
+  s.verdict = service::last_line(end);
+  return end.late ? kLate : clean ? kDone : kFindings;
 }
 
 }  // namespace capstan::app

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <chrono>
+#include <optional>
 #include <vector>
 
 #include "planner/door/app/command/session.h"
@@ -12,7 +14,10 @@ namespace capstan::app {
 /// program that the check condemns (model::condemned) is not written, nor its tool table, unless
 /// `--allow-findings`; a program of that name from before is put aside, so that nobody takes it for the new
 /// one. Gives the exit code.
-[[nodiscard]] int finish(Session& s, const service::Planned& planned, std::vector<service::Output> outputs);
+///
+/// `began`  bind: when the caller began to wait; checking and writing take their time of the deadline, too.
+[[nodiscard]] int finish(Session& s, const service::Planned& planned, std::vector<service::Output> outputs,
+                         std::optional<std::chrono::steady_clock::time_point> began = std::nullopt);
 
 /// Puts programs from before aside whose names were asked for, where none is written now: whatever ended the
 /// run, once its command line was understood.

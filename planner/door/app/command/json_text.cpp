@@ -28,16 +28,17 @@ std::string diagnostic_json(const Diagnostic& d) {
   return dump(t, -1);
 }
 
-std::string findings_json(const std::vector<Told>& findings) {
+std::string findings_json(const std::vector<FileFinding>& findings) {
   Tree list = Tree::array();
-  for (const auto& [file, f, program] : findings) {
+  for (const FileFinding& one : findings) {
+    const model::Finding& f = one.finding;
     Tree t;
-    t["file"] = file;
+    t["file"] = one.file;
     t["property"] = f.property;
     t["code"] = f.code;
     t["severity"] = to_text(f.severity);
     if (!f.step.empty()) t["step"] = f.step;
-    if (f.move >= 0) t[program ? "line" : "move"] = f.move;
+    if (f.move >= 0) t[one.program ? "line" : "move"] = f.move;
     t["message"] = f.message;
     list.push_back(std::move(t));
   }

@@ -3,6 +3,7 @@
 #include "planner/door/app/command/finish.h"
 #include "planner/door/app/command/session.h"
 #include "planner/door/service/check.h"
+#include "planner/door/service/ending/last_line.h"
 #include "planner/door/service/planning.h"
 
 namespace capstan::app {
@@ -36,31 +37,22 @@ int run_bind(Session& s) {
   if (const int code = outputs_for(s, outputs); code != kDone) return code;
   const auto planned = service::bind(s.options.inputs, {s.options.files[0]}, began, s.job);
   if (!planned) return s.end(planned.error());
-  const int code = finish(s, *planned, std::move(outputs));
-  // Checking the program and writing it take their time, too.
-  const auto& deadline = s.options.inputs.deadline;
-  const bool late = planned->late || (deadline && s.job.now() - began > *deadline);
-  if (!late || code > kFindings) return code;
-  s.summary += "; too late: the deadline was past when the plan was there";
-  return kLate;
+  return finish(s, *planned, std::move(outputs), began);
 }
 
 int run_check(Session& s) {
   std::vector<service::Source> sources;
   for (const std::string& path : s.options.files) sources.push_back({path});
-  const auto tell = [&](const Told& t) {
+  const auto tell = [&](const FileFinding& t) {
     if (!s.options.json) s.job.report(as_diagnostic(t.finding, t.file, t.program));
   };
   const auto result = service::check(s.options.inputs, std::move(sources), tell, s.job);
   if (!result) return s.end(result.error());
   if (s.options.json && !print(findings_json(result->findings)))
     return s.end({.code = "FILE-WRITE", .message = "standard output is closed"}, kImpossible);
-  s.summary = "checked " + counted(result->checked, "file", "files") + ": " +
-              counted(result->count, "finding", "findings");
-  if (result->schema != 0)
-    s.summary += ", " + counted(result->schema, "deviation", "deviations") + " from the schema";
-  if (result->unplanned != 0)
-    s.summary += ", " + counted(result->unplanned, "feature", "features") + " not planned";
+  service::Ending end{.verb = service::Verb::kCheck};
+  service::take_check(*result, end);
+  s.verdict = service::last_line(end);
   return result->clean() ? kDone : kFindings;
 }
 

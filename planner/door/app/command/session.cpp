@@ -2,11 +2,14 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <optional>
 #include <utility>
 
-#include "planner/door/app/command/told_once.h"
+#include "planner/door/app/command/folded_diagnostics.h"
+#include "planner/door/service/ending/last_line.h"
 #include "planner/ground/base/number.h"
 
 namespace capstan::app {
@@ -47,16 +50,39 @@ std::string one_line(std::string text) {
   return text;
 }
 
-std::string summary_line(const Session& s, int code) {
-  std::string out = "capstan: ";
-  if (!s.summary.empty()) {
-    out += s.summary;
-  } else {
-    out += code == kDone ? "done" : code == kFindings ? "done, with findings" : "nothing done";
+/// Of the commands that say whether something is safe: which of them this is.
+std::optional<service::Verb> verb_of(Command command) {
+  switch (command) {
+    case Command::kPlan:
+      return service::Verb::kPlan;
+    case Command::kBind:
+      return service::Verb::kBind;
+    case Command::kCheck:
+      return service::Verb::kCheck;
+    default:
+      return std::nullopt;
   }
-  const auto errors = s.job.count(Severity::kError);
-  const auto warnings = s.job.count(Severity::kWarning);
-  out += "; " + counted(errors, "error", "errors") + ", " + counted(warnings, "warning", "warnings");
+}
+
+std::string summary_line(const Session& s, const std::vector<Diagnostic>& said, int code) {
+  std::string out;
+  if (const auto verb = verb_of(s.options.command)) {
+    out = !s.verdict.empty()
+              ? s.verdict
+              : service::last_line({.verb = *verb, .done = false, .stopped = s.job.stop_requested()});
+  } else if (!s.summary.empty()) {
+    out = "capstan: " + s.summary;
+  } else {
+    out = code == kDone       ? "capstan: done"
+          : code == kFindings ? "capstan: done, with findings"
+                              : "capstan: nothing done";
+  }
+  const auto count = [&](Severity severity) {
+    return static_cast<std::size_t>(
+        std::count_if(said.begin(), said.end(), [&](const Diagnostic& d) { return d.severity == severity; }));
+  };
+  out += "; " + counted(count(Severity::kError), "error", "errors") + ", " +
+         counted(count(Severity::kWarning), "warning", "warnings");
   return out;
 }
 
@@ -81,10 +107,11 @@ int Session::end(const Diagnostic& d, int code) {
 
 void print_diagnostics(Session& s, int code) {
   if (bar().visible) std::fputs("\r\033[K", stderr);
+  const std::vector<Diagnostic> said = without_repeats(s.job.diagnostics());
   if (s.options.json_diagnostics) {
-    for (const Diagnostic& d : s.job.diagnostics()) std::fprintf(stderr, "%s\n", diagnostic_json(d).c_str());
+    for (const Diagnostic& d : said) std::fprintf(stderr, "%s\n", diagnostic_json(d).c_str());
   } else {
-    for (const Diagnostic& d : told_once(s.job.diagnostics()))
+    for (const Diagnostic& d : folded_diagnostics(said))
       std::fprintf(stderr, "%s\n", one_line(to_text(d)).c_str());
   }
   const bool shows =
@@ -95,7 +122,7 @@ void print_diagnostics(Session& s, int code) {
       s.options.command != Command::kFixturesList && s.options.command != Command::kCasesNearest &&
       s.options.command != Command::kRulesList;
   if (!shows && code <= kFindings) return;  // what was asked for stands on standard output
-  const std::string line = summary_line(s, code);
+  const std::string line = summary_line(s, said, code);
   if (s.options.json_diagnostics) {
     std::fprintf(stderr, "%s\n",
                  diagnostic_json({.code = "SUMMARY", .severity = Severity::kNote, .message = line}).c_str());
@@ -115,15 +142,6 @@ Diagnostic as_diagnostic(const model::Finding& f, const std::string& file, bool 
   if (!program && f.move >= 0)
     d.path = "move " + std::to_string(f.move) + (d.path.empty() ? "" : " of " + d.path);
   return d;
-}
-
-std::string unplanned_text(const model::Plan& plan) {
-  return counted(service::unplanned_features(plan), "feature", "features") + " not planned";
-}
-
-std::string counted(std::size_t n, const std::string& one, const std::string& many) {
-  if (n == 0) return "no " + one;
-  return std::to_string(n) + " " + (n == 1 ? one : many);
 }
 
 }  // namespace capstan::app

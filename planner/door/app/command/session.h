@@ -18,6 +18,7 @@ struct Session {
   Options options;
   Job job;
   std::string summary;  ///< what was done, for the one line at the end
+  std::string verdict;  ///< plan, bind, check: that line (service::last_line)
 
   /// Tells a fault that ends the command, and gives the exit code it means: that of wrong usage for a name
   /// that nobody knows, whatever it was named in.
@@ -32,15 +33,11 @@ bool print(const std::string& text);
 
 /// A finding as a diagnostic of the plan or program it is about.
 [[nodiscard]] Diagnostic as_diagnostic(const model::Finding& f, const std::string& file, bool program);
-using service::Told;
+using service::FileFinding;
 /// Findings as a JSON document; its places are `line` in a program, `move` in a plan.
-[[nodiscard]] std::string findings_json(const std::vector<Told>& findings);
+[[nodiscard]] std::string findings_json(const std::vector<FileFinding>& findings);
 /// One diagnostic as a JSON object in a line.
 [[nodiscard]] std::string diagnostic_json(const Diagnostic& d);
-/// "2 features not planned"
-[[nodiscard]] std::string unplanned_text(const model::Plan& plan);
-/// "3 findings", "1 finding", "no finding"
-[[nodiscard]] std::string counted(std::size_t n, const std::string& one, const std::string& many);
 
 // The commands. Each gives the exit code.
 int run_plan(Session& s);

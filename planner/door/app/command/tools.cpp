@@ -3,6 +3,7 @@
 
 #include "planner/door/app/command/session.h"
 #include "planner/ground/base/file.h"
+#include "planner/ground/base/number.h"
 #include "planner/ground/vocabulary/unit_factors.h"
 #include "tooling/library/cutters/generic.h"
 #include "tooling/library/formats/import.h"

@@ -190,7 +190,8 @@ void check_directions_and_points(Check& r) {
   for (const AnyRef at : m.all(TypeId::kCartesianPoint)) {
     const std::size_t n = m.at<model::CartesianPoint>(at).coordinates.items.size();
     if ((n < 1 || n > 3) && n != 7)  // seven: a point of cross-section parameters (ISO 10303-238)
-      warn(r, at, "EXC-GEOMETRY", "CARTESIAN_POINT has " + std::to_string(n) + " coordinates");
+      warn(r, at, "EXC-GEOMETRY",
+           "CARTESIAN_POINT has " + std::to_string(n) + " coordinates; a point has 1 to 3");
   }
 }
 

@@ -64,7 +64,9 @@ class Emitter {
   }
 
  private:
-  static Status too_many() { return fail("EXC-CURVE", "a path has too many moves"); }
+  [[nodiscard]] Status too_many() const {
+    return fail("EXC-CURVE", "a path has more than " + std::to_string(o_.max_moves) + " moves");
+  }
 
   // Whether so many more moves still fit; before they are made.
   [[nodiscard]] bool room_for(double moves, const CutterPath& path) const {

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "planner/files/exchange/toolpaths/segments.h"
+#include "planner/ground/base/number.h"
 #include "planner/model/features/resolve.h"
 #include "planner/model/nouns/all.h"
 
@@ -133,7 +134,9 @@ Result<std::vector<Vec3>> sample_spline(const model::Model& m, AnyRef curve, dou
         pending.emplace_back(u, 0.5 * (u + v));
       } else {
         out.push_back(q);
-        if (out.size() > o.max_moves) return fail("EXC-CURVE", "a B-spline needs too many points");
+        if (out.size() > o.max_moves)
+          return fail("EXC-CURVE", "a B-spline needs more points than " + std::to_string(o.max_moves) +
+                                       " to stay within " + shortest(o.chord_tolerance_mm) + " mm of it");
       }
     }
   }

@@ -127,14 +127,20 @@ Result<GeneratedPath> back_path(const PathJob& task, Job&) {
     const double flat = r - most.ae_mm;
     const double e = -flat + std::sqrt(flat * flat - r * r + wall * wall);
     if (circles.size() >= kMost || !(e > (circles.empty() ? 0.0 : circles.back() + 1e-6)))
-      return refuse(task, "TPA-NO-FIT", "the cutter is much too small for what it mills");
+      return refuse(task, "TPA-NO-FIT",
+                    "the cutter's head of " + trimmed(b->head_mm, 3) +
+                        " mm is too small for what it mills: it takes more than " + std::to_string(kMost) +
+                        " circles; take a larger one");
     circles.push_back(std::min(e, b->aside_mm));
     wall = circles.back() + r;
   }
   const double rise = b->high_z - b->low_z;
   const double levels_most = rise / most.ap_mm;
   if (!(levels_most <= kMost))
-    return refuse(task, "TPA-NO-FIT", "the cutter is much too low for what it mills");
+    return refuse(task, "TPA-NO-FIT",
+                  "the cutter takes levels of " + trimmed(most.ap_mm, 3) + " mm in a height of " +
+                      trimmed(rise, 3) + " mm, which are more than " + std::to_string(kMost) +
+                      "; take one with a higher head");
   const int levels = static_cast<int>(std::ceil(levels_most - 1e-9));
   const bool cw = !walls_on_right(task);
   const Vec2 c = xy(task.feature_in_setup.origin);

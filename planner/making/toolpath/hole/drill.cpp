@@ -54,7 +54,9 @@ Result<double> bottom_z(const PathJob& task) {
                         " mm would stand on the cone's foot of " + trimmed(s.bottom_diameter_mm, 3) +
                         " mm and leave a ring; take a countersink with a narrower tip, or a chamfer mill");
     if (s.diameter.middle() > task.cutter.cutting_diameter_mm + 1e-6)
-      return refuse(task, "TPA-NO-FIT", "the countersink is wider than its cutter");
+      return refuse(task, "TPA-NO-FIT",
+                    "the countersink is " + trimmed(s.diameter.middle(), 3) + " mm wide, its cutter " +
+                        trimmed(task.cutter.cutting_diameter_mm, 3) + " mm; take a wider one");
     return top - 0.5 * width / std::tan(half);
   }
   const double depth = task.cutting_depth_mm.value_or(s.depth_mm);
@@ -175,7 +177,8 @@ Result<GeneratedPath> drill_path(const PathJob& task, Job& job) {
 
 Result<GeneratedPath> tap_path(const PathJob& task, Job&) {
   const auto& s = task.shape;
-  if (task.cutter.cutter_class != CutterClass::kTap) return refuse(task, "TPA-TOOL", "tapping needs a tap");
+  if (task.cutter.cutter_class != CutterClass::kTap)
+    return refuse(task, "TPA-TOOL", "tapping needs a tap; cutter " + task.cutter.id + " is none");
   const double pitch = s.thread_pitch_mm > 0.0 ? s.thread_pitch_mm : task.cutter.thread_pitch_mm;
   if (s.thread_pitch_mm > 0.0 && task.cutter.thread_pitch_mm > 0.0 &&
       std::abs(s.thread_pitch_mm - task.cutter.thread_pitch_mm) > 1e-4)

@@ -17,6 +17,7 @@ using model::MoveRole;
 namespace {
 
 constexpr double kPi = std::numbers::pi;
+constexpr int kMostTurns = 10'000;
 
 tl::unexpected<Diagnostic> refuse(const PathJob& task, const char* code, const std::string& what) {
   return fail({.code = code, .message = task.shape.name + ": " + what, .path = task.shape.name});
@@ -81,8 +82,11 @@ Result<GeneratedPath> helix_path(const PathJob& task, Job&) {
   if (task.axial_depth_mm > 0.0) pitch = std::min(pitch, task.axial_depth_mm);
   pitch = std::min(pitch, top - end);
   const double turns = std::ceil((top - end) / pitch - 1e-9);
-  if (!(turns > 0.0) || turns > 10'000.0)
-    return refuse(task, "TPA-ENTRY", "the ramp angle allowed makes more than ten thousand turns");
+  if (!(turns > 0.0) || turns > kMostTurns)
+    return refuse(task, "TPA-ENTRY",
+                  "the cutter's ramp angle of " + trimmed(angle * 180.0 / kPi, 4) +
+                      " degrees takes more than " + std::to_string(kMostTurns) +
+                      " turns; take a cutter that ramps steeper");
   const bool cw = walls_on_right(task) == false;
   PathWriter w(task);
   const Vec2 c = xy(o);
@@ -107,14 +111,20 @@ Result<GeneratedPath> thread_mill_path(const PathJob& task, Job&) {
   const double pitch = s.thread_pitch_mm;
   const double r = 0.5 * (s.thread_major_mm - task.cutter.cutting_diameter_mm);
   if (task.cutter.cutter_class != model::CutterClass::kThreadMill)
-    return refuse(task, "TPA-TOOL", "thread milling needs a thread mill");
+    return refuse(task, "TPA-TOOL",
+                  "thread milling needs a thread mill; cutter " + task.cutter.id + " is none");
   if (!(pitch > 0.0) || !(s.thread_major_mm > 0.0))
     return refuse(task, "TPA-DEPTH", "the thread has no pitch");
   if (task.cutter.thread_pitch_mm > 0.0 && std::abs(task.cutter.thread_pitch_mm - pitch) > 1e-4)
-    return refuse(task, "TPA-TOOL", "the thread mill's pitch is not the thread's");
+    return refuse(task, "TPA-TOOL",
+                  "the thread mill's pitch of " + trimmed(task.cutter.thread_pitch_mm, 3) +
+                      " mm is not the thread's " + trimmed(pitch, 3) + " mm");
   // The core hole must let the cutter in.
   if (!(r > 0.0) || task.cutter.cutting_diameter_mm > s.diameter.nominal_mm - 1e-3)
-    return refuse(task, "TPA-NO-FIT", "the thread mill is wider than the core hole");
+    return refuse(task, "TPA-NO-FIT",
+                  "the thread mill of " + trimmed(task.cutter.cutting_diameter_mm, 3) +
+                      " mm is too wide for the core hole of " + trimmed(s.diameter.nominal_mm, 3) +
+                      " mm and the thread of " + trimmed(s.thread_major_mm, 3) + " mm; take a narrower one");
   const double depth =
       task.cutting_depth_mm.value_or(s.thread_depth_mm > 0.0 ? s.thread_depth_mm : s.depth_mm);
   const auto o = task.feature_in_setup.origin;
@@ -122,7 +132,10 @@ Result<GeneratedPath> thread_mill_path(const PathJob& task, Job&) {
   // Rows of teeth over the whole thread need one turn; a single row as many as there are pitches.
   const bool full_form = task.cutter.maximum_depth_of_cut_mm >= depth;
   const int turns = full_form ? 1 : static_cast<int>(std::ceil(depth / pitch - 1e-9));
-  if (turns > 10'000) return refuse(task, "TPA-DEPTH", "the thread has too many turns");
+  if (turns > kMostTurns)
+    return refuse(task, "TPA-DEPTH",
+                  "the thread of " + trimmed(depth, 3) + " mm with a pitch of " + trimmed(pitch, 4) +
+                      " mm has " + std::to_string(turns) + " turns, more than " + std::to_string(kMostTurns));
   // A right-hand cutter climbs counter-clockwise inside; a right-hand thread then rises.
   const bool cw = !walls_on_right(task);
   const bool up = cw == s.thread_left_hand;

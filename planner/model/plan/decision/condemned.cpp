@@ -85,6 +85,14 @@ std::string text_of(const Plan& plan, const Condemnation& reason) {
   return "step " + reason.step + ": " + reason.text;
 }
 
+std::string text_of(const Plan& plan, const std::vector<Condemnation>& reasons) {
+  const auto of_step =
+      std::find_if(reasons.begin(), reasons.end(), [](const Condemnation& c) { return !c.step.empty(); });
+  std::string out = text_of(plan, of_step == reasons.end() ? reasons.front() : *of_step);
+  if (reasons.size() > 1) out += " (and " + std::to_string(reasons.size() - 1) + " more)";
+  return out;
+}
+
 bool never_written(const std::vector<Condemnation>& reasons) {
   return std::any_of(reasons.begin(), reasons.end(), [](const Condemnation& c) {
     return c.code == kOfUnreadable || c.code == kOfContradicted;

@@ -37,8 +37,8 @@ void check_meaning(const model::Plan& plan, const PartShapes& part, Findings& fi
     const std::string name = name_of(plan.model, e.feature);
     if (!own.unread.empty()) {
       if (order > 0)
-        findings.note(
-            38, "CHK-NOT-JUDGED", where,
+        findings.unproved(
+            Severity::kNote, 38, "CHK-NOT-JUDGED", where,
             "feature " + name +
                 ": only the planner's reading of its shape is known, the check's own does not read it: " +
                 own.unread);

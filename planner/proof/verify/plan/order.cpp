@@ -180,8 +180,12 @@ void check_coverage(const model::Plan& plan, Findings& findings) {
   std::set<AnyRef> covered, said;
   for (const auto& u : plan.unplanned) {
     said.insert(u.feature);
-    if (u.reason.empty())
-      findings.error(34, "CHK-UNPLANNED", {0, "", -1}, "a feature is unplanned without a reason");
+    if (!u.reason.empty()) continue;
+    const auto* feature = m.get<model::ManufacturingFeature>(u.feature);
+    findings.error(34, "CHK-UNPLANNED", {0, "", -1},
+                   "feature " + (feature == nullptr ? std::string() : feature->its_id.value_or("")) + " (" +
+                       name_of(u.feature.type) +
+                       ") is listed as not planned, and no reason stands beside it");
   }
   for (const auto& s : plan.steps) {
     const auto* ws = m.get<model::MachiningWorkingstep>(s.step);

@@ -29,17 +29,33 @@ bool step_numbers(const model::StepResult& s) {
   return true;
 }
 
+/// The first of a move's numbers that is none, "its feed is inf"; empty: all are.
+std::string not_finite(const model::StepResult& s, std::size_t i) {
+  const model::CutterPath& p = *s.path;
+  struct Number {
+    const char* name;
+    double value;
+  };
+  std::vector<Number> all = {
+      {"x", p.x[i]}, {"y", p.y[i]}, {"z", p.z[i]}, {"arc's centre x", p.cx[i]}, {"arc's centre y", p.cy[i]}};
+  if (s.schedule)
+    all.insert(all.end(), {{"feed", s.schedule->feed_mm_min[i]},
+                           {"spindle speed", s.schedule->spindle_rpm[i]},
+                           {"dwell", s.schedule->dwell_s[i]}});
+  for (const Number& n : all) {
+    if (!finite(n.value))
+      return std::string("its ") + n.name + " is " + plain(n.value) +
+             ", which is not a finite number below 1e7";
+  }
+  return {};
+}
+
 bool moves_finite(const model::StepResult& s, const std::string& id, std::size_t order, Findings& findings) {
   const model::CutterPath& p = *s.path;
   for (std::size_t i = 0; i < p.size(); ++i) {
-    bool good = finite(p.x[i]) && finite(p.y[i]) && finite(p.z[i]) && finite(p.cx[i]) && finite(p.cy[i]);
-    if (s.schedule) {
-      good = good && finite(s.schedule->feed_mm_min[i]) && finite(s.schedule->spindle_rpm[i]) &&
-             finite(s.schedule->dwell_s[i]);
-    }
-    if (good) continue;
-    findings.error(1, "CHK-NUMBER", {order + 1, id, static_cast<long>(i)},
-                   "a coordinate, feed, speed or dwell is not a finite number below 1e7");
+    std::string wrong = not_finite(s, i);
+    if (wrong.empty()) continue;
+    findings.error(1, "CHK-NUMBER", {order + 1, id, static_cast<long>(i)}, std::move(wrong));
     return false;
   }
   return true;
@@ -84,7 +100,8 @@ std::vector<StepMoves> moves_of(const model::Plan& plan, Findings& findings) {
     std::string id = model::step_id(plan, s);
     if (!columns_agree(s)) {
       findings.error(1, "CHK-COLUMNS", {i + 1, id, -1},
-                     "path and feed schedule do not have the same number of moves");
+                     "the columns of its path and its feed schedule differ in length; the path has " +
+                         std::to_string(s.path->size()) + " moves: plan the step anew");
       continue;
     }
     if (!step_numbers(s)) {

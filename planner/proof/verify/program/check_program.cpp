@@ -23,7 +23,7 @@ std::vector<StepMoves> judge_text(const DialectReader& reader, const Program& pr
     }
     // A program of this plan has nothing in it that cannot be followed.
     if (f.undecided && plan == nullptr) {
-      findings.warn(f.property, f.code, {order, id, f.line}, f.message);
+      findings.unproved(Severity::kWarning, f.property, f.code, {order, id, f.line}, f.message);
     } else {
       findings.error(f.property, f.code, {order, id, f.line}, f.message);
     }

@@ -22,7 +22,8 @@ class Compensation {
     for (const Block& b : c_.program.blocks) {
       const bool on = b.radius_offset >= 0;
       if (b.kind == Block::Kind::kToolChange && on)
-        out_.error(25, "CHK-COMP-CHANGE", c_.where(b), "M6 while cutter compensation is active");
+        out_.error(25, "CHK-COMP-CHANGE", c_.where(b),
+                   "M6 changes the tool while cutter compensation is active; cancel it before (G40)");
       if (b.kind == Block::Kind::kEnd && on)
         out_.error(25, "CHK-COMP-END", c_.where(b),
                    "the program ends with cutter compensation active: it is cancelled by G40");
@@ -52,8 +53,9 @@ class Compensation {
       return;
     }
     if (!b.known_from[0] || !b.known_from[1]) {
-      out_.warn(25, "CHK-COMP-UNKNOWN", c_.where(b),
-                "cutter compensation begins where the position is not known; its lead-in cannot be judged");
+      out_.unproved(
+          Severity::kWarning, 25, "CHK-COMP-UNKNOWN", c_.where(b),
+          "cutter compensation begins where the position is not known; its lead-in cannot be judged");
     } else if (length <= r + kSlackMm) {
       out_.error(25, "CHK-COMP-LEAD", c_.where(b),
                  "the lead-in of cutter compensation is " + mm(length) +

@@ -141,7 +141,7 @@ void say_unjudged(const ProgramCase& c, Findings& findings) {
       "depth and load of cuts, holder and clamps)";
   if (!c.program.stock.empty())
     text += "; the header says how large the raw piece is (" + c.program.stock + "), but not where it lies";
-  findings.note(9, "CHK-NOT-JUDGED", {Findings::kWhole, "", -1}, std::move(text));
+  findings.unproved(Severity::kNote, 9, "CHK-NOT-JUDGED", {Findings::kWhole, "", -1}, std::move(text));
 }
 
 }  // namespace capstan::verify

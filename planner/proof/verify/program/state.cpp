@@ -120,7 +120,9 @@ class StateChecks {
       out_.error(7, "CHK-TOOL-CHANGE", c_.where(b),
                  (b.known_to[2] ? "M6 at z = " + plain(b.to.z) : std::string("M6 at an unknown height")) +
                      ", not retracted: G53 G0 Z" + plain(top_of(c_.machine)) + " comes before it");
-    if (b.cycle_active) out_.error(26, "CHK-CYCLE", c_.where(b), "M6 while a cycle is active");
+    if (b.cycle_active)
+      out_.error(26, "CHK-CYCLE", c_.where(b),
+                 "M6 changes the tool while a cycle is active; cancel it before (G80)");
     if (b.tool > 0 && c_.cutters.empty() && !c_.has_table && c_.plan == nullptr) {
       if (said_.insert({105, 0}).second)
         out_.error(
@@ -166,8 +168,9 @@ class StateChecks {
     if (c_.plan == nullptr) tool_of_marker(b);
     restart(b);
     if (c_.plan == nullptr && cutting && b.spindle_rpm == 0.0)
-      out_.warn(15, "CHK-SPINDLE-STOPPED", c_.where(b),
-                "a feed move with the spindle stopped; without the plan it cannot be told whether it cuts");
+      out_.unproved(
+          Severity::kWarning, 15, "CHK-SPINDLE-STOPPED", c_.where(b),
+          "a feed move with the spindle stopped; without the plan it cannot be told whether it cuts");
     direction(b, cutting);
     tap(b);
   }
@@ -267,9 +270,10 @@ class StateChecks {
         at_top(b, c_.machine) || (security_ < 1e299 && b.known_to[2] && b.to.z >= security_ - 1e-6);
     if (!high)
       out_.error(32, "CHK-END-LOW", at, "the program ends at z = " + plain(b.to.z) + ", not retracted");
-    if (b.cycle_active) out_.error(26, "CHK-CYCLE", at, "a cycle is still active at the end");
+    if (b.cycle_active)
+      out_.error(26, "CHK-CYCLE", at, "a cycle is still active at the end; cancel it (G80)");
     if (b.radius_offset >= 0)
-      out_.error(32, "CHK-END-RADIUS", at, "radius compensation is still active at the end");
+      out_.error(32, "CHK-END-RADIUS", at, "radius compensation is still active at the end; cancel it (G40)");
   }
 
   const ProgramCase& c_;

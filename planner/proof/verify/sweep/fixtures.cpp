@@ -178,11 +178,8 @@ void check_bodies(const model::Plan& plan, const std::vector<StepMoves>& steps, 
     const bool fixtures = step.setup < plan.setups.size() && !plan.setups[step.setup].holding.solids.empty();
     if (!said.insert(step.cutter->id + (fixtures ? "/held" : "")).second) continue;
     const Findings::Where at{step.order + 1, step.id, -1};
-    if (fixtures) {
-      findings.warn(12, "CHK-BODY-UNDECIDED", at, "tool '" + step.cutter->id + "': " + what);
-    } else {
-      findings.note(12, "CHK-BODY-UNDECIDED", at, "tool '" + step.cutter->id + "': " + what);
-    }
+    findings.unproved(fixtures ? Severity::kWarning : Severity::kNote, 12, "CHK-BODY-UNDECIDED", at,
+                      "tool '" + step.cutter->id + "': " + what);
   }
 }
 

@@ -73,21 +73,21 @@ bool cuts_to_centre(const model::Cutter& c) {
 
 }  // namespace
 
-StepChecks::StepChecks(const model::Plan& plan, const StepMoves& step, Grid& grid, Target& target, Past& past,
-                       Findings& findings)
+StepChecks::StepChecks(const model::Plan& plan, const StepMoves& step, Grid& grid, Target& target,
+                       EarlierCuts& earlier, Findings& findings)
     : plan_(plan),
       step_(step),
       cutter_(*step.cutter),
       grid_(grid),
       target_(target),
-      past_(past),
+      earlier_(earlier),
       out_(findings),
       profile_(model::profile_of(*step.cutter)),
       body_(body_of(*step.cutter)),
       radius_(profile_.radius_mm),
       tip_mm_(model::tip_length(*step.cutter)),
       kept_profile_(std::make_shared<const geometry::CutterProfile>(profile_)),
-      mark_(past.mark()) {
+      mark_(earlier.mark()) {
   constexpr double kThicker = 0.02;  // mm: what is no thicker follows where the cutter has been
   std::erase_if(body_, [&](const BodyPart& p) {
     return p.what == BodyPart::What::kCutter || p.radius_mm <= radius_ + kThicker;
@@ -103,7 +103,8 @@ StepChecks::StepChecks(const model::Plan& plan, const StepMoves& step, Grid& gri
   }
   if (!why.empty()) {
     judge_gouge_ = false;
-    out_.note(11, "CHK-GOUGE-UNDECIDED", {step.order + 1, step.id, -1}, "not judged for gouges: " + why);
+    out_.unproved(Severity::kNote, 11, "CHK-GOUGE-UNDECIDED", {step.order + 1, step.id, -1},
+                  "the check does not judge this step for gouges: " + why);
   }
 }
 
@@ -165,7 +166,7 @@ void StepChecks::feed(const Move& m) {
   const Bite bite = cut(grid_, m, profile_, judge_gouge_ ? allowed : 1e300, &target_, fz);
   cut_mm3_ += bite.volume_mm3;
   chips(m, bite, fz);
-  past_.add(m, kept_profile_);
+  earlier_.add(m, kept_profile_);
   if (judge_gouge_) gouge(m, bite);
   spindle(m, bite);
   reach(m);

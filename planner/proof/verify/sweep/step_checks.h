@@ -16,7 +16,7 @@ namespace capstan::verify {
 /// The checks of one step's moves while they cut.
 class StepChecks {
  public:
-  StepChecks(const model::Plan& plan, const StepMoves& step, Grid& grid, Target& target, Past& past,
+  StepChecks(const model::Plan& plan, const StepMoves& step, Grid& grid, Target& target, EarlierCuts& earlier,
              Findings& findings);
   void run();
   /// Whether it cut anything: known after `run`.
@@ -62,7 +62,7 @@ class StepChecks {
   const model::Cutter& cutter_;
   Grid& grid_;
   Target& target_;
-  Past& past_;
+  EarlierCuts& earlier_;
   Findings& out_;
   geometry::CutterProfile profile_;
   std::vector<BodyPart> body_;  ///< shank and holder, thicker than what cuts below them
@@ -76,7 +76,7 @@ class StepChecks {
   double helix_turned_ = 0.0;  ///< rad, of a descending spiral so far
   double cut_mm3_ = 0.0;       ///< by the step so far
   bool met_ = false;           ///< a head that heights do not follow was in material
-  std::size_t mark_;           ///< in `past_`, before the step
+  std::size_t mark_;           ///< in `earlier_`, before the step
 
   // Moves taken together until they are long enough to be measured on the grid.
   struct Account {

@@ -22,11 +22,11 @@ constexpr double kUsualCells = 250e3;  // default, unsourced: a compromise of ti
 struct Scene {
   Target target;
   Grid grid;
-  Past past;
+  EarlierCuts earlier;
   Scene(const model::Plan& plan, const PartShapes& part, std::size_t setup, double cell)
       : target(plan, part, setup), grid(xy(target.stock().lo), xy(target.stock().hi), cell, kMaximumCells) {
     target.fill(grid);
-    past.begin(grid);
+    earlier.begin(grid);
   }
 };
 
@@ -70,8 +70,8 @@ void check_removal(const model::Plan& plan, const std::vector<StepMoves>& steps,
   check_bodies(plan, steps, findings);
   check_fixtures(plan, steps, findings);
   if (plan.stock.box.empty()) {
-    findings.warn(11, "CHK-NO-STOCK", {0, "", -1},
-                  "there is no raw piece, so that removal cannot be checked");
+    findings.unproved(Severity::kWarning, 11, "CHK-NO-STOCK", {0, "", -1},
+                      "there is no raw piece, so that removal cannot be checked");
     return;
   }
   const PartShapes part = shapes_of_part(plan);
@@ -86,7 +86,7 @@ void check_removal(const model::Plan& plan, const std::vector<StepMoves>& steps,
     const StepMoves& step = steps[i];
     job.progress("check", static_cast<double>(i) / static_cast<double>(steps.size()));
     if (job.stop_requested()) {
-      findings.error(11, "CHK-STOPPED", {Findings::kWhole, "", -1},
+      findings.error(11, std::string(kStopped), {Findings::kWhole, "", -1},
                      "the check was stopped before step " + std::to_string(i + 1) + " of " +
                          std::to_string(steps.size()) + ": nothing is proven of it and of what follows");
       return;
@@ -105,7 +105,7 @@ void check_removal(const model::Plan& plan, const std::vector<StepMoves>& steps,
         if (s.get() == scene) continue;
         carry(scene->grid, frame, s->grid, s->target.frame());
       }
-      if (scenes.size() > 1) scene->past.begin(scene->grid);
+      if (scenes.size() > 1) scene->earlier.begin(scene->grid);
       last = scene;
     }
     if (step.setup != held && step.setup < plan.setups.size()) {
@@ -113,7 +113,7 @@ void check_removal(const model::Plan& plan, const std::vector<StepMoves>& steps,
       grip.emplace(plan.setups[held].holding, scene->grid, step, findings);
     }
     if (!sound(step.cutter)) continue;
-    StepChecks checks(plan, step, scene->grid, scene->target, scene->past, findings);
+    StepChecks checks(plan, step, scene->grid, scene->target, scene->earlier, findings);
     checks.run();
     const auto* ws = plan.model.get<model::MachiningWorkingstep>(
         step.planned != nullptr ? step.planned->step : model::Ref<model::Executable>{});

@@ -119,7 +119,7 @@ TEST_F(CommandTest, AnchorsAndReferencesStayAndASignatureGoes) {
 TEST_F(CommandTest, AFileThatCannotBeReadEndsWithThreeAndOneClearError) {
   const Ran missing = run("plan missing.p21 -o a.json");
   EXPECT_EQ(missing.code, 3);
-  EXPECT_THAT(missing.err, HasSubstr("missing.p21: error: cannot be opened for reading"));
+  EXPECT_THAT(missing.err, HasSubstr("missing.p21: error: the file cannot be opened for reading"));
   EXPECT_EQ(run("inspect .").code, 3);
   put("broken.p21", "ISO-10303-21;\nHEADER;\nENDSEC;\nDATA;\n#1=PROJECT('P',\nENDSEC;\nEND-ISO-10303-21;\n");
   const Ran broken = run("inspect broken.p21");
@@ -206,7 +206,7 @@ TEST_F(CommandTest, OutputsAreWrittenWholeOrNotAtAll) {
   fs::create_directory(folder_ / "folder.p21");
   const Ran r = run("convert plate.p21 -o kept.json -o folder.p21");
   EXPECT_EQ(r.code, 2);
-  EXPECT_THAT(r.err, HasSubstr("folder.p21: error: is a folder"));
+  EXPECT_THAT(r.err, HasSubstr("folder.p21: error: this is a folder"));
   EXPECT_EQ(slurp(folder_ / "kept.json"), "as it was");
   EXPECT_EQ(files(), (std::vector<std::string>{"folder.p21", "kept.json", "plate.p21"}));
 }

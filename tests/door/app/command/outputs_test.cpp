@@ -26,7 +26,7 @@ TEST_F(Outputs, ThatAreInputsAreRefusedBeforeAnyWork) {
   for (const char* name : {"plate.p21", "./plate.p21", "sub/../plate.p21", "other.p21"}) {
     const Ran r = run(std::string("plan plate.p21 -o ") + name);
     EXPECT_EQ(r.code, 2) << name;
-    EXPECT_THAT(r.err, HasSubstr("is read by this call, too")) << name;
+    EXPECT_THAT(r.err, HasSubstr("is also read by the call")) << name;
     EXPECT_THAT(r.err, HasSubstr("--force"));
   }
   EXPECT_EQ(slurp(folder_ / "plate.p21"), plate_);
@@ -70,7 +70,7 @@ TEST_F(Outputs, OfOnePathAreRefusedAlsoByAnotherName) {
   for (const char* pair : {"-o a.json -o a.json", "-o a.json -o ./a.json"}) {
     const Ran r = run(std::string("plan plate.p21 ") + pair);
     EXPECT_EQ(r.code, 2);
-    EXPECT_THAT(r.err, HasSubstr("is to be written twice")) << pair;
+    EXPECT_THAT(r.err, HasSubstr("is named twice")) << pair;
   }
   put("a.json", "x");
   EXPECT_THAT(run("plan plate.p21 -o a.json -o b.json").err, HasSubstr("OUT-TWICE"));

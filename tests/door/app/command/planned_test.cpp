@@ -68,9 +68,10 @@ TEST_F(Planned, NoProgramIsWrittenThatTheCheckCondemnsAndAnOldOneIsPutAside) {
       << said_;
   EXPECT_THAT(said_, HasSubstr("x.ngc: error: program not written: "));
   EXPECT_THAT(said_, HasSubstr("x.tbl: error: tool table not written: "));
-  EXPECT_THAT(said_, ::testing::ContainsRegex("capstan: planned .*; program not written: .*; wrote x.json"));
+  EXPECT_THAT(said_,
+              ::testing::ContainsRegex("NOT SAFE: [0-9]+ findings?, no program written; .*; wrote x.json"));
   EXPECT_THAT(said_, HasSubstr("renamed to x.ngc.before"));
-  EXPECT_THAT(said_, HasSubstr("x.tbl is from before, not of this plan"));
+  EXPECT_THAT(said_, HasSubstr("tool table x.tbl from before is not of this plan, and stays"));
   EXPECT_FALSE(fs::exists(folder_ / "x.ngc"));
   EXPECT_EQ(slurp(folder_ / "x.ngc.before"), "(a program from before)\n");
   EXPECT_EQ(slurp(folder_ / "x.tbl"), "T1 P1 Z+1 D+1 ;from before\n");
@@ -104,7 +105,8 @@ TEST_F(Planned, AllowFindingsWritesTheProgramWithAStopBeforeEachCondemnedStep) {
                 "x.tbl -o x.json"),
             1)
       << said_;
-  EXPECT_THAT(said_, HasSubstr("the program stops before what is condemned: step "));
+  EXPECT_THAT(said_, HasSubstr("NOT SAFE: "));
+  EXPECT_THAT(said_, HasSubstr("the program stops before what is condemned; step "));
   const std::string program = slurp(folder_ / "x.ngc");
   EXPECT_THAT(program, HasSubstr("(CONDEMNED: the check refuses this program"));
   const auto marker = program.find("condemned=\"CHK-POWER\")\n");
@@ -127,7 +129,7 @@ TEST_F(Planned, BindPastItsDeadlineEndsWithFive) {
   const std::string bind = "bind '" + source + "/examples/plate_bound.p21' --tools '" + source +
                            "/tests/door/late/magazine.tbl' -o x.ngc -o x.json";
   EXPECT_EQ(run(bind + " --deadline 1ms"), 5) << said_;
-  EXPECT_THAT(said_, HasSubstr("too late: the deadline was past"));
+  EXPECT_THAT(said_, HasSubstr("Safe, too late: the deadline was past"));
   EXPECT_TRUE(fs::exists(folder_ / "x.ngc"));  // checked, but late
   EXPECT_EQ(run(bind + " --deadline 600s"), 0) << said_;
   EXPECT_EQ(run(bind), 0) << said_;  // nobody waits

@@ -75,11 +75,21 @@ const std::vector<Ring>& LevelCutter::rings_of(const geometry::Region& centres, 
 }
 
 void LevelCutter::warn(const std::string& code, const std::string& message) {
+  tell(Severity::kWarning, code, message);
+}
+
+void LevelCutter::note(const std::string& code, const std::string& message) {
+  tell(Severity::kNote, code, message);
+}
+
+void LevelCutter::tell(Severity severity, const std::string& code, const std::string& message) {
   for (const auto& d : said) {
     if (d.code == code && d.message == message) return;
   }
-  said.push_back({.code = code, .severity = Severity::kWarning, .message = message});
-  job.warn(code, task.shape.name.empty() ? message : task.shape.name + ": " + message);
+  said.push_back({.code = code, .severity = severity, .message = message});
+  job.report({.code = code,
+              .severity = severity,
+              .message = task.shape.name.empty() ? message : task.shape.name + ": " + message});
 }
 
 double LevelCutter::gap() const { return std::min(task.clearance_mm, 1.0); }

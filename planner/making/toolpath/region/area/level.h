@@ -54,8 +54,11 @@ class LevelCutter {
 
   /// Warns once.
   void warn(const std::string& code, const std::string& message);
+  /// What is done otherwise and needs no action.
+  void note(const std::string& code, const std::string& message);
 
  private:
+  void tell(Severity severity, const std::string& code, const std::string& message);
   void go_above(const Level& level, geometry::Vec2 p);
   std::optional<Track> from_outside(const Level& level, const Track& track);
   std::optional<Track> by_helix(const Level& level, const Track& track, const geometry::Region& leaf);

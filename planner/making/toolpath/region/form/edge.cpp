@@ -58,6 +58,8 @@ struct TipAt {
   double radius_mm = 0.0, below_mm = 0.0;
 };
 
+std::string degrees(double rad) { return trimmed(rad * 180.0 / std::numbers::pi, 2); }
+
 Result<TipAt> tip_of_cone(const PathJob& task, double below_mm) {
   const auto& s = task.shape;
   const auto refuse = [&](const char* code, const std::string& what) {
@@ -66,7 +68,10 @@ Result<TipAt> tip_of_cone(const PathJob& task, double below_mm) {
   // The flank's angle against the axis is the complement of the chamfer's against the plane.
   const double half = 0.5 * task.cutter.point_angle_rad;
   if (std::abs(std::tan(half) - 1.0 / std::tan(s.chamfer_angle_rad)) > 1e-3 || !(half > 0.0))
-    return refuse("TPA-TOOL", "the cutter's point angle does not make the chamfer's angle");
+    return refuse("TPA-TOOL", "the cutter's point of " + degrees(2.0 * half) +
+                                  " degrees makes no chamfer of " + degrees(s.chamfer_angle_rad) +
+                                  " degrees to the plane; take a point of " +
+                                  degrees(std::numbers::pi - 2.0 * s.chamfer_angle_rad) + " degrees");
   const double radius = 0.5 * task.cutter.tip_diameter_mm + below_mm * std::tan(half);
   const double needed = radius + s.chamfer_width_mm;
   if (2.0 * needed > task.cutter.cutting_diameter_mm + 1e-9)
@@ -120,7 +125,9 @@ Result<GeneratedPath> along_edge(const PathJob& task, double tip_below_mm, Job& 
   PathWriter writer(task);
   LevelCutter c(slim, *w, writer, job);
   Level level(slim, *w, z, z, 0.0);
-  if (level.centres.empty()) return refuse("TPA-NO-FIT", "the cutter's tip does not fit inside the edge");
+  if (level.centres.empty())
+    return refuse("TPA-NO-FIT", "the cutter's tip, " + trimmed(2.0 * tip->radius_mm, 3) +
+                                    " mm wide, does not fit inside the edge; take a narrower one");
   level.cleared.emplace(level.centres);
   if (auto ok = along_edges(c, level, task.cutter.cutting_diameter_mm); !ok)
     return tl::unexpected(ok.error());

@@ -313,7 +313,11 @@ Result<GeneratedPath> undercut_path(const PathJob& task, const Undercut& u, Slot
     const double step = side_step(task, head->diameter_mm);
     const double rough = std::max(0.0, aside - kLastSide);
     const int n = static_cast<int>(std::ceil(rough / step - 1e-9));
-    if (n > kMostPasses) return refuse(task, "TPA-NO-FIT", "the cutter is much too small for the slot");
+    if (n > kMostPasses)
+      return refuse(task, "TPA-NO-FIT",
+                    "the cutter of " + trimmed(head->diameter_mm, 3) + " mm takes " + std::to_string(n) +
+                        " passes to reach the slot's sides, more than " + std::to_string(kMostPasses) +
+                        "; take a larger one");
     for (int i = 1; i <= n; ++i) sides.push_back(rough * i / n);
     sides.push_back(aside);
   }

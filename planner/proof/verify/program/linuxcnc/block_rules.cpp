@@ -178,16 +178,21 @@ void Interpreter::word_rules(const Said& s) {
     fault(23, "CHK-ARC", "an arc with both R and a centre is refused by LinuxCNC");
   for (const char c : {'F', 'S', 'T', 'H', 'D', 'L'}) {
     if (s.is(c) && s.of(c) < 0.0)
-      fault(33, "CHK-WORD", std::string("the word ") + c + " is below zero; LinuxCNC refuses it");
+      fault(33, "CHK-WORD",
+            std::string("the word ") + c + " is " + plain(s.of(c)) + "; LinuxCNC refuses what is below zero");
   }
   for (const char c : {'T', 'H', 'D', 'L'}) {
     if (s.is(c) && s.of(c) != std::floor(s.of(c)))
-      fault(33, "CHK-WORD", std::string("the word ") + c + " must be a whole number");
+      fault(33, "CHK-WORD",
+            std::string("the word ") + c + " is " + plain(s.of(c)) + "; it must be a whole number");
   }
-  if (s.is('L') && s.of('L') == 0.0) fault(26, "CHK-CYCLE", "a cycle with L0 is refused by LinuxCNC");
+  if (s.is('L') && s.of('L') == 0.0)
+    fault(26, "CHK-CYCLE", "LinuxCNC refuses a cycle with L0; L counts its repeats, 1 or more");
   if (new_unit && s.is('F'))
-    fault(2, "CHK-UNITS",
-          "the block changes the unit of length and sets F; LinuxCNC takes F in the unit before");
+    fault(
+        2, "CHK-UNITS",
+        "the block changes the unit of length and sets F; LinuxCNC takes F in the unit before: set F in the "
+        "next block");
 }
 
 void Interpreter::code_rules(const Said& s) {
@@ -205,27 +210,31 @@ void Interpreter::code_rules(const Said& s) {
     motion_said = true;
   }
   if (dwells) {
-    if (!s.is('P') || s.of('P') < 0.0) fault(33, "CHK-WORD", "G4 without P, or with one below zero");
+    if (!s.is('P') || s.of('P') < 0.0)
+      fault(33, "CHK-WORD",
+            s.is('P') ? "G4 waits for P" + plain(s.of('P')) + " seconds; P must be 0 or more"
+                      : std::string("G4 has no P, the seconds that it waits"));
     if (axes || motion_said)
       fault(33, "CHK-WORD",
             "G4 stands with a motion or words of axes in one block; its motion is not followed");
   }
   if (motion_said && (motion == 20 || motion == 30) && !s.is('I') && !s.is('J') && !s.is('R'))
-    fault(23, "CHK-ARC", "an arc without I, J or R");
-  if (g53 && motion != 0 && motion != 10)
-    fault(33, "CHK-WORD", "G53 without G0 or G1 is refused by LinuxCNC");
-  if (g53 && !absolute) fault(33, "CHK-WORD", "G53 in incremental mode is refused by LinuxCNC");
+    fault(23, "CHK-ARC", "the arc has neither a centre (I, J) nor a radius (R)");
+  if (g53 && motion != 0 && motion != 10) fault(33, "CHK-WORD", "LinuxCNC refuses G53 without G0 or G1");
+  if (g53 && !absolute)
+    fault(33, "CHK-WORD", "LinuxCNC refuses G53 in incremental mode (G91); state G90 before it");
   if (feed_mode == 93 && axes && motion != 0 && motion >= 0 && !s.is('F'))
-    fault(18, "CHK-FEED", "a feed move in inverse time (G93) without its own F");
+    fault(18, "CHK-FEED", "a feed move in inverse time (G93) needs an F of its own in its block");
   if (motion == 331 && axes && spindle_ == 0) {
     bool starts = false;
     for (int i = 0; i < s.m_count; ++i) starts = starts || s.m[i] == 30 || s.m[i] == 40;
-    if (!starts) fault(15, "CHK-SPINDLE", "G33.1 with the spindle stopped");
+    if (!starts)
+      fault(15, "CHK-SPINDLE", "G33.1 begins with the spindle stopped; start it before (S and M3 or M4)");
   }
   if (motion_said && (motion == 730 || motion == 830) && !s.is('Q'))
-    fault(26, "CHK-CYCLE", "a peck cycle without Q");
+    fault(26, "CHK-CYCLE", "the peck cycle has no Q, the depth of one peck");
   if (motion_said && (motion == 820 || motion == 860 || motion == 890) && !s.is('P'))
-    fault(26, "CHK-CYCLE", "this cycle needs P, its dwell");
+    fault(26, "CHK-CYCLE", "the cycle has no P, the seconds that it dwells at its bottom");
   if (s.m_count > kMostM)
     fault(33, "CHK-WORD", "more than four M codes in one block are refused by LinuxCNC");
   bool groups[6] = {};

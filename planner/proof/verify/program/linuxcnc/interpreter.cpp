@@ -245,7 +245,7 @@ void Interpreter::machine_codes(const Said& s) {
       case 60: {
         Block b = block();
         b.kind = Block::Kind::kToolChange;
-        if (next_tool_ < 0) fault(4, "CHK-TOOL", "M6 without a T word");
+        if (next_tool_ < 0) fault(4, "CHK-TOOL", "M6 changes the tool, and no T says to which");
         if (tool_ != std::max(0, next_tool_)) known_[2] = false;  // nobody knows where this one's tip is
         b.tool = tool_ = std::max(0, next_tool_);
         out_.blocks.push_back(b);
@@ -337,7 +337,7 @@ void Interpreter::motion(const Said& s, bool machine_coordinates) {
       tap(s);
       break;
     case -1:
-      fault(33, "CHK-UNVERIFIABLE", "axis words without a motion mode");
+      fault(33, "CHK-UNVERIFIABLE", "the words of axes have no motion: state G0, G1 or another before them");
       break;
     default:
       cycle(s);

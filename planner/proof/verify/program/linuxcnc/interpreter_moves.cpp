@@ -73,7 +73,8 @@ void Interpreter::arc(const Said& s, bool clockwise) {
     const geometry::Vec2 left = (0.5 / half) * geometry::Vec2{-chord.y, chord.x};
     b.centre = xy(b.from) + 0.5 * chord + (side * height) * left;
   } else {
-    if (!s.is('I') && !s.is('J')) return fault(23, "CHK-ARC", "an arc without I, J or R");
+    if (!s.is('I') && !s.is('J'))
+      return fault(23, "CHK-ARC", "the arc has neither a centre (I, J) nor a radius (R)");
     const double i = s.of('I') * units();
     const double j = s.of('J') * units();
     b.centre = absolute_arcs_ ? geometry::Vec2{i, j} : xy(b.from) + geometry::Vec2{i, j};

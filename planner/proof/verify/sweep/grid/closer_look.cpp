@@ -17,18 +17,19 @@ constexpr double kWorthwhile = 1.4;
 
 }  // namespace
 
-void Past::begin(const Grid& grid) {
+void EarlierCuts::begin(const Grid& grid) {
   stock_ = grid.stock;
   base_ = grid.base;
   cuts_.clear();
 }
 
-void Past::add(const Move& m, std::shared_ptr<const CutterProfile> cutter) {
+void EarlierCuts::add(const Move& m, std::shared_ptr<const CutterProfile> cutter) {
   geometry::Box3 box = box_of(m);
   cuts_.push_back({m, std::move(cutter), box});
 }
 
-Grid Past::before(const Grid& grid, Vec2 lo, Vec2 hi, double cell, std::size_t mark, Begun begun) const {
+Grid EarlierCuts::before(const Grid& grid, Vec2 lo, Vec2 hi, double cell, std::size_t mark,
+                         Begun begun) const {
   const bool all = begun == Begun::kWhereAllHaveIt;
   Grid local(lo, hi, cell, static_cast<long>(2.0 * kPoints));
   local.floor = grid.floor;
@@ -66,8 +67,8 @@ Grid Past::before(const Grid& grid, Vec2 lo, Vec2 hi, double cell, std::size_t m
   return local;
 }
 
-Bite Past::look(const Grid& grid, const Move& m, const CutterProfile& cutter, double advance_mm,
-                int& pieces) const {
+Bite EarlierCuts::look(const Grid& grid, const Move& m, const CutterProfile& cutter, double advance_mm,
+                       int& pieces) const {
   Bite worst;
   if (stock_.size() != grid.stock.size()) return worst;
   const double r = cutter.radius_mm;
@@ -98,8 +99,8 @@ Bite Past::look(const Grid& grid, const Move& m, const CutterProfile& cutter, do
   return worst;
 }
 
-bool Past::takes(const Grid& grid, const std::vector<Move>& moves, const CutterProfile& cutter,
-                 std::size_t mark, double& cell_mm) const {
+bool EarlierCuts::takes(const Grid& grid, const std::vector<Move>& moves, const CutterProfile& cutter,
+                        std::size_t mark, double& cell_mm) const {
   constexpr int kLooks = 400;  // default, unsourced: a compromise of time
   const double r = cutter.radius_mm;
   cell_mm = 0.0;

@@ -9,7 +9,7 @@
 namespace capstan::verify {
 
 /// What a set-up began with and what has been cut since: to look again, closer, at a place.
-class Past {
+class EarlierCuts {
  public:
   /// The stock as it stands now is the beginning.
   void begin(const Grid& grid);

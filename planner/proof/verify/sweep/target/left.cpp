@@ -219,6 +219,7 @@ void Target::left_of(const Cavity& c, const Grid& grid, const Asked& a, const st
   const double limit = allowed() + shallower(s) + a.bottom_mm;
   const double ring = (carried ? 1.5 : 1.0) * grid.cell() + allowed() + narrower(s) + a.side_mm;
   const double fillet = foot_allowed(s, a.corner_mm);
+  // What stays is a matter of the part's form, not of safety: a note, and nothing unproved.
   if (const std::string what = not_judged(s, a, ring); !what.empty())
     out.note(36, "CHK-NOT-JUDGED", a.where,
              "of " + s.name + ", " + what + ": what stays there is not looked at");

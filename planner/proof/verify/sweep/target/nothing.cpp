@@ -72,7 +72,7 @@ void StepChecks::nothing(bool begun) {
       step_.planned != nullptr ? plan_.model.get<model::MachiningWorkingstep>(step_.planned->step) : nullptr;
   if (ws != nullptr && begun && finishes(ws->its_operation.type) && follows_finished()) return;
   double closest = grid_.cell();
-  if (past_.takes(grid_, step_.moves, profile_, mark_, closest)) return;
+  if (earlier_.takes(grid_, step_.moves, profile_, mark_, closest)) return;
   out_.error(35, "CHK-CUTS-NOTHING", {step_.order + 1, step_.id, -1},
              "the step cuts nothing: no move at feed meets material (points " + mm(closest) + " apart)");
 }

@@ -1,4 +1,4 @@
-#include "planner/door/app/command/told_once.h"
+#include "planner/door/app/command/folded_diagnostics.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -27,39 +27,49 @@ std::size_t count_of(const std::string& text, const std::string& what) {
   return n;
 }
 
-TEST(ToldOnce, EqualWordsAboutSeveralOperationsAreOneLineWithTheirNumberAndNames) {
+TEST(FoldedDiagnostics, EqualWordsAboutSeveralOperationsAreOneLineWithTheirNumberAndNames) {
   std::vector<Diagnostic> all;
   for (int i = 1; i <= 57; ++i)
     all.push_back(warning("operation 'D" + std::to_string(i) + "': machine 'm' has no mist: cut dry"));
   all.push_back(warning("operation 'D1': spins backwards"));
-  const auto told = told_once(all);
+  const auto told = folded_diagnostics(all);
   ASSERT_EQ(told.size(), 2U);
   EXPECT_THAT(told[0].message, HasSubstr("57 operations ('D1', 'D2', 'D3'"));
   EXPECT_THAT(told[0].message, HasSubstr("'D57'): machine 'm' has no mist: cut dry"));
   EXPECT_EQ(told[1].message, "operation 'D1': spins backwards");
 }
 
-TEST(ToldOnce, StepsThatThePathNamesAreGatheredToo) {
+TEST(FoldedDiagnostics, StepsThatThePathNamesAreGatheredToo) {
   auto a = warning("its thread is not looked at"), b = a;
   a.path = "step 'one'";
   b.path = "step 'two'";
-  const auto told = told_once({a, b});
+  const auto told = folded_diagnostics({a, b});
   ASSERT_EQ(told.size(), 1U);
   EXPECT_EQ(told[0].path, "2 steps ('one', 'two')");
 }
 
-TEST(ToldOnce, TheSameSentenceAgainSaysHowOften) {
-  const auto told = told_once({warning("POCKET: reduced"), warning("POCKET: reduced")});
+TEST(FoldedDiagnostics, TheSameSentenceAgainSaysHowOften) {
+  const auto told = folded_diagnostics({warning("POCKET: reduced"), warning("POCKET: reduced")});
   ASSERT_EQ(told.size(), 1U);
   EXPECT_EQ(told[0].message, "POCKET: reduced (2 times)");
 }
 
-TEST(ToldOnce, OtherCodesFilesAndSubjectsStayApart) {
+TEST(FoldedDiagnostics, TheSameSentenceAboutTheSameLineStandsOnce) {
+  auto a = warning("#77 has no boss"), other = a;
+  a.line = 12;
+  other.line = 13;
+  EXPECT_EQ(without_repeats({a, a, other, a}), (std::vector<Diagnostic>{a, other}));
+  const auto placeless = warning("POCKET: reduced");
+  EXPECT_EQ(without_repeats({placeless, placeless}).size(), 2U) << "of two places that nobody names";
+}
+
+TEST(FoldedDiagnostics, OtherCodesFilesAndSubjectsStayApart) {
   auto other = warning("operation 'A': x");
   other.code = "PIP-ASSUMED";
   auto elsewhere = warning("operation 'A': x");
   elsewhere.file = "b";
-  EXPECT_EQ(told_once({warning("operation 'A': x"), other, elsewhere, warning("step 'A': x")}).size(), 4U);
+  EXPECT_EQ(
+      folded_diagnostics({warning("operation 'A': x"), other, elsewhere, warning("step 'A': x")}).size(), 4U);
 }
 
 using Words = CommandTest;
@@ -111,7 +121,7 @@ TEST_F(Words, FeaturesNotPlannedAreCountedAsFeaturesWithTheReasonThatInspectKnow
   put("p.p21", text);
   ASSERT_THAT(run("inspect p.p21").out, HasSubstr("shape not known: the feature has no depth"));
   const Ran ran = run("plan p.p21 -o q.json");
-  EXPECT_THAT(ran.err, HasSubstr("; 1 feature not planned;"));
+  EXPECT_THAT(ran.err, HasSubstr("features is not planned; "));
   EXPECT_THAT(ran.err, HasSubstr("the feature has no depth"));
 }
 

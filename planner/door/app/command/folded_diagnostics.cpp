@@ -1,9 +1,10 @@
-#include "planner/door/app/command/told_once.h"
+#include "planner/door/app/command/folded_diagnostics.h"
 
 #include <algorithm>
 #include <array>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -62,7 +63,21 @@ Diagnostic told(const Group& g) {
 
 }  // namespace
 
-std::vector<Diagnostic> told_once(const std::vector<Diagnostic>& all) {
+std::vector<Diagnostic> without_repeats(const std::vector<Diagnostic>& all) {
+  using Key = std::tuple<std::string_view, Severity, std::string_view, std::uint64_t, std::uint64_t,
+                         std::string_view, std::string_view, std::string_view, std::string_view>;
+  std::set<Key> said;
+  std::vector<Diagnostic> out;
+  out.reserve(all.size());
+  for (const Diagnostic& d : all) {
+    const bool placed = d.line != 0 || d.instance != 0;
+    const Key key{d.code, d.severity, d.file, d.line, d.instance, d.path, d.message, d.expected, d.hint};
+    if (!placed || said.insert(key).second) out.push_back(d);
+  }
+  return out;
+}
+
+std::vector<Diagnostic> folded_diagnostics(const std::vector<Diagnostic>& all) {
   using Key = std::tuple<std::string_view, Severity, std::string_view, std::string_view, std::string_view,
                          std::string_view, std::string_view>;
   std::map<Key, std::size_t> where;
