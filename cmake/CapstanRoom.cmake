@@ -55,6 +55,10 @@ function(capstan_room name)
   endif()
   if(CAPSTAN_PRECOMPILE)
     target_precompile_headers(capstan_${name} REUSE_FROM capstan_room_pch)
+    # Where <string> comes precompiled, GCC 12 takes its copies for out of bounds (GCC bugs 105329 and 105651). The
+    # presets that do without keep these warnings errors.
+    target_compile_options(capstan_${name} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds>
+      $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
   endif()
 endfunction()
 
