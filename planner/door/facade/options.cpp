@@ -6,7 +6,7 @@
 
 #include "planner/door/service/options.h"
 #include "planner/ground/base/number.h"
-#include "planner/making/optimise/solver/ipopt_backend.h"
+#include "planner/making/optimise/solver/every_backend.h"
 
 namespace capstan::facade {
 namespace {
@@ -55,7 +55,7 @@ constexpr std::array kFields = {
 Result<service::Request> request_of(const PlanOptions& options) {
   service::Request request;
   request.sign.clear();
-  request.backends.ipopt = &optimise::solve_with_ipopt;
+  request.backends = optimise::every_backend();
   for (const Field& field : kFields) {
     const std::string text = field.text(options);
     if (text.empty()) continue;

@@ -57,9 +57,12 @@ std::vector<Format> table() {
                    &d,
                    &tool_table});
   }
-  out.push_back({"siemens840d", "Siemens 840D", {".mpf"}, {}, Holds::kProgram});
-  out.push_back({"fanuc", "Fanuc", {".nc"}, {}, Holds::kProgram});
-  out.push_back({"heidenhain", "Heidenhain", {".h"}, {}, Holds::kProgram});
+  // Controls without a writer, so that their endings are known; a row of controls takes the place of one.
+  for (const Format& f : {Format{"siemens840d", "Siemens 840D", {".mpf"}, {}, Holds::kProgram},
+                          Format{"fanuc", "Fanuc", {".nc"}, {}, Holds::kProgram},
+                          Format{"heidenhain", "Heidenhain", {".h"}, {}, Holds::kProgram}}) {
+    if (controls::find_dialect(f.name) == nullptr) out.push_back(f);
+  }
   out.push_back({"report", "a report", {".html"}, "text/html", Holds::kReport});
   return out;
 }

@@ -40,8 +40,12 @@ const Named<pipeline::Objective>& objective_words() {
   return kWords;
 }
 const Named<optimise::Solver>& solver_words() {
-  static const Named<optimise::Solver> kWords = {{"ipopt", optimise::Solver::kIpopt},
-                                                 {"nlopt", optimise::Solver::kNlopt}};
+  static const Named<optimise::Solver> kWords = [] {
+    Named<optimise::Solver> out;
+    for (const optimise::Solver s : optimise::solvers()) out.emplace_back(optimise::to_text(s), s);
+    std::sort(out.begin(), out.end());
+    return out;
+  }();
   return kWords;
 }
 
@@ -97,6 +101,15 @@ const char* allow_help() {
                                    endings_of(Holds::kToolTable) +
                                    ") although the check condemns it: its header and markers say why, and it "
                                    "stops (M0) before each condemned step";
+  return kText.c_str();
+}
+const char* solver_help() {
+  static const std::string kText = [] {
+    std::string out;
+    for (const optimise::Solver s : optimise::solvers())
+      out += (out.empty() ? "" : " or ") + std::string(optimise::to_text(s));
+    return out;
+  }();
   return kText.c_str();
 }
 constexpr const char* kStrict = "write nothing when there are findings";
@@ -155,7 +168,7 @@ std::vector<Option> table() {
        both("a case base to begin from"),
        [](Request& r, Text t) { return r.cases = t, std::string(); },
        {}},
-      {"solver", Value::kWord, both("nlopt or ipopt"),
+      {"solver", Value::kWord, both(solver_help()),
        [](Request& r, Text t) { return r.solver = value_of(solver_words(), t), std::string(); },
        names(solver_words())},
       {"workholding",

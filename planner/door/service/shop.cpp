@@ -117,7 +117,7 @@ void choices(const Request& o, const model::Plan& plan, pipeline::Inputs& in) {
   in.edge_break_mm = o.edge_break_mm;
   if (o.edge_break_mm > 0.0) p.push_back({"edges", trimmed(o.edge_break_mm, 4) + " mm", option(o, "edges")});
   in.solver = o.solver.value_or(optimise::Solver::kNlopt);
-  p.push_back({"solver", in.solver == optimise::Solver::kIpopt ? "ipopt" : "nlopt",
+  p.push_back({"solver", optimise::to_text(in.solver),
                o.solver ? option(o, "solver") : kDefault});
 }
 

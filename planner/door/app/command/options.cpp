@@ -11,7 +11,7 @@
 #include "planner/door/app/command/run.h"
 #include "planner/door/service/formats.h"
 #include "planner/door/service/options.h"
-#include "planner/making/optimise/solver/ipopt_backend.h"
+#include "planner/making/optimise/solver/every_backend.h"
 
 // The one file that knows CLI11.
 
@@ -311,7 +311,7 @@ class CommandLine {
       if (auto ok = service::set(request, o.name, text); !ok) return ok.error().message;
     }
     if (std::string wrong = service::contradiction(request); !wrong.empty()) return wrong;
-    request.backends.ipopt = &optimise::solve_with_ipopt;
+    request.backends = optimise::every_backend();
     out_.json_diagnostics = raw_.diagnostics == "json";
     return {};
   }

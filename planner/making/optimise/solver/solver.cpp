@@ -1,12 +1,45 @@
 #include "planner/making/optimise/solver/solver.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
 #include "planner/making/optimise/solver/multipliers.h"
 
 namespace capstan::optimise {
+
+const char* to_text(Solver solver) {
+  switch (solver) {
+#define CAPSTAN_SOLVER(Name, word, function) \
+  case Solver::k##Name:                      \
+    return #word;
+#include "planner/making/optimise/solver/solvers.inc"
+#undef CAPSTAN_SOLVER
+  }
+  return "";
+}
+
+std::span<const Solver> solvers() {
+  static constexpr std::array kSolvers{
+#define CAPSTAN_SOLVER(Name, word, function) Solver::k##Name,
+#include "planner/making/optimise/solver/solvers.inc"
+#undef CAPSTAN_SOLVER
+  };
+  return kSolvers;
+}
+
+Backend Backends::of(Solver solver) const {
+  switch (solver) {
+#define CAPSTAN_SOLVER(Name, word, function) \
+  case Solver::k##Name:                      \
+    return word;
+#include "planner/making/optimise/solver/solvers.inc"
+#undef CAPSTAN_SOLVER
+  }
+  return nullptr;
+}
+
 namespace {
 
 /// Close enough to a limit to be held by it, in constraint ratios and parts of a variable's range.
@@ -36,10 +69,10 @@ const char* name_of(Algorithm a) {
 std::vector<Stage> stages_of(const Options& options) {
   const Backends& b = options.backends;
   std::vector<Stage> stages;
-  if (options.solver == Solver::kIpopt) {
-    stages.push_back({b.ipopt, Algorithm::kSlsqp, "ipopt"});
-  } else {
+  if (options.solver == Solver::kNlopt) {
     stages.push_back({b.nlopt, options.algorithm, name_of(options.algorithm)});
+  } else {
+    stages.push_back({b.of(options.solver), Algorithm::kSlsqp, to_text(options.solver)});
   }
   if (!options.fall_back) return stages;
   if (b.nlopt != nullptr) {
@@ -49,8 +82,9 @@ std::vector<Stage> stages_of(const Options& options) {
       if (!behind && !slower) stages.push_back({b.nlopt, a, name_of(a)});
     }
   }
-  if (b.ipopt != nullptr && options.solver != Solver::kIpopt) {
-    stages.push_back({b.ipopt, Algorithm::kSlsqp, "ipopt"});
+  for (const Solver s : solvers()) {
+    if (s != Solver::kNlopt && s != options.solver && b.of(s) != nullptr)
+      stages.push_back({b.of(s), Algorithm::kSlsqp, to_text(s)});
   }
   return stages;
 }

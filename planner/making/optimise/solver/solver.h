@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -12,28 +13,39 @@
 /// The fence around the solvers: a checked problem in, a checked solution out, whichever solver ran.
 namespace capstan::optimise {
 
-enum class Solver : std::uint8_t { kNlopt, kIpopt };
+/// Solver libraries; their rows are in solvers.inc.
+enum class Solver : std::uint8_t {
+#define CAPSTAN_SOLVER(Name, word, function) k##Name,
+#include "planner/making/optimise/solver/solvers.inc"
+#undef CAPSTAN_SOLVER
+};
+/// "nlopt": as options call it.
+[[nodiscard]] const char* to_text(Solver solver);
+[[nodiscard]] std::span<const Solver> solvers();
 
-/// The libraries a program brings. NLopt is part of this room; Ipopt is another target, so that only a
-/// program that names it links it:
+/// The libraries a program brings. NLopt is part of this room; the others are another target, so that only a
+/// program that names them links them:
 ///
-///     #include "planner/making/optimise/solver/ipopt_backend.h"     // and link capstan::optimise_ipopt
-///     options.backends.ipopt = &optimise::solve_with_ipopt;
+///     #include "planner/making/optimise/solver/every_backend.h"     // and link capstan::optimise_ipopt
+///     options.backends = optimise::every_backend();
 ///
 /// A null pointer is a backend that is absent.
 struct Backends {
-  Backend nlopt = &solve_with_nlopt;
-  Backend ipopt = nullptr;
+  Backends() : nlopt(&solve_with_nlopt) {}
+#define CAPSTAN_SOLVER(Name, word, function) Backend word = nullptr;
+#include "planner/making/optimise/solver/solvers.inc"
+#undef CAPSTAN_SOLVER
+  [[nodiscard]] Backend of(Solver solver) const;
 };
 
 struct Options {
   Solver solver = Solver::kNlopt;
-  Algorithm algorithm = Algorithm::kSlsqp;  ///< of NLopt; Ipopt has one
+  Algorithm algorithm = Algorithm::kSlsqp;  ///< of NLopt; others have one
   std::uint32_t evaluation_budget = 0;      ///< points in all; 0: the job's budget
   std::uint32_t starts = 8;             ///< the problem's own start, then a fixed low-discrepancy sequence
   double relative_tolerance = 1e-10;    ///< of the objective, where a solver stops
   double feasibility_tolerance = 1e-6;  ///< largest c_i that counts as kept
-  bool fall_back = true;                ///< SLSQP, then AUGLAG + L-BFGS, then Ipopt if it is there
+  bool fall_back = true;                ///< SLSQP, then AUGLAG + L-BFGS, then others that are there
   Backends backends;
 };
 
