@@ -38,7 +38,7 @@ struct PlanOptions {
   std::string margin = {};             ///< of loads against their limits: "careful", "usual", "bold"
   std::string cases = {};              ///< a case base to begin from
   std::string stock = {};              ///< the raw piece: "block:+2" or "box:x0,y0,z0,x1,y1,z1", mm
-  std::string solver = {};             ///< "nlopt", "ipopt"
+  std::string solver = {};             ///< as `capstan plan --solver` lists them
   std::string workholding = {};        ///< ids or a file of fixtures, "auto", "none"
   std::string general_tolerance = {};  ///< of sizes without one: "ISO 2768-m", "ISO 22081 0.2", "+-0.1"
   int batch = 1;                       ///< pieces to be made

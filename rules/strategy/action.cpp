@@ -10,9 +10,12 @@ namespace capstan::rules {
 
 const Action* find_action(std::string_view name) {
   static const std::vector<Action> kActions = [] {
-    std::vector<Action> all = hole_actions();
-    for (auto&& family : {cone_actions(), area_actions(), form_actions(), section_actions(),
-                          undercut_actions(), back_actions()})
+    std::vector<Action> all;
+    for (auto&& family : {
+#define CAPSTAN_ACTIONS(family) family(),
+#include "rules/strategy/families.inc"
+#undef CAPSTAN_ACTIONS
+         })
       all.insert(all.end(), family.begin(), family.end());
     return all;
   }();

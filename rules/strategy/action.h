@@ -43,8 +43,9 @@ struct Action {
 [[nodiscard]] const Action* find_action(std::string_view name);
 
 /// The actions of each family, for `find_action`.
-[[nodiscard]] std::vector<Action> hole_actions();
-[[nodiscard]] std::vector<Action> cone_actions();
+#define CAPSTAN_ACTIONS(family) [[nodiscard]] std::vector<Action> family();
+#include "rules/strategy/families.inc"
+#undef CAPSTAN_ACTIONS
 
 /// What a cone cuts along an edge or the wall of a hole.
 struct Bevel {
@@ -53,11 +54,6 @@ struct Bevel {
 };
 /// A pass with a chamfer mill or a countersink of that angle, its flank on the bevel.
 [[nodiscard]] model::ProposedStep along_a_cone(const Making& m, const Bevel& bevel);
-[[nodiscard]] std::vector<Action> area_actions();
-[[nodiscard]] std::vector<Action> form_actions();
-[[nodiscard]] std::vector<Action> section_actions();
-[[nodiscard]] std::vector<Action> undercut_actions();
-[[nodiscard]] std::vector<Action> back_actions();
 
 /// Room left between the tool's usable length and the depth, so that the holder stays clear of the face.
 /// Default, unsourced.

@@ -3,7 +3,7 @@
 
     class_lists.py [ROOT]
 
-What is true of a class is a column of planner/ground/vocabulary/cutter_class.cpp. A list of classes elsewhere is
+What is true of a class is a column of planner/ground/vocabulary/cutter_classes.inc. A list of classes elsewhere is
 a place that whoever adds a class would have to know of. Allowed are the folders of ALLOWED, each with its reason.
 """
 
@@ -51,7 +51,7 @@ def faults(files):
             first = text.index("CutterClass::", at)
             line = text.count("\n", 0, first) + 1
             found.append(f"{path}:{line}: {len(classes)} classes of cutter in one list; make it a trait of "
-                         "planner/ground/vocabulary/cutter_class.cpp")
+                         "planner/ground/vocabulary/cutter_classes.inc")
     return found
 
 

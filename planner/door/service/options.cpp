@@ -49,6 +49,16 @@ const Named<optimise::Solver>& solver_words() {
   return kWords;
 }
 
+/// "nlopt or ipopt": in the order of their rows.
+const char* solver_help() {
+  static const std::string kText = [] {
+    std::string out;
+    for (const auto& [solver, word] : optimise::kSolvers) out += (out.empty() ? "" : " or ") + std::string(word);
+    return out;
+  }();
+  return kText.c_str();
+}
+
 template <class T>
 std::vector<std::string> names(const Named<T>& of) {
   std::vector<std::string> out;
@@ -159,7 +169,7 @@ std::vector<Option> table() {
        both("a case base to begin from"),
        [](Request& r, Text t) { return r.cases = t, std::string(); },
        {}},
-      {"solver", Value::kWord, both("which solver finds feeds and speeds"),
+      {"solver", Value::kWord, both(solver_help()),
        [](Request& r, Text t) { return r.solver = value_of(solver_words(), t), std::string(); },
        names(solver_words())},
       {"workholding",

@@ -32,55 +32,10 @@ using C = CutterClass;
 using M = CutterMust;
 using T = TypeId;
 constexpr std::array kRows{
-    CutterClassRow{C::kEndmill, "endmill", "end mill", kEnd | kLay | kRamp | kLess, M::kNothing, T::kEndmill,
-                   "flat end mill", "Endmill", C::kEndmill},
-    CutterClassRow{C::kBullnoseEndmill, "bullnose_endmill", "bull-nose end mill", kEnd | kLay | kRamp | kLess,
-                   M::kCornerRadius, T::kBullnoseEndmill, "bull nose end mill", "Bullnose",
-                   C::kBullnoseEndmill},
-    CutterClassRow{C::kBallEndmill, "ball_endmill", "ball end mill", kBall | kLay | kRamp | kLess,
-                   M::kNothing, T::kBallEndmill, "ball end mill", "Ballend", C::kBallEndmill},
-    CutterClassRow{C::kFacemill, "facemill", "face mill", kLay | kLess | kWide, M::kNothing, T::kFacemill,
-                   "face mill", "", C::kEndmill},
-    CutterClassRow{C::kTwistDrill, "twist_drill", "twist drill",
-                   kAxis | kSolid | kSizes | kPoint | kDrill | kCentre, M::kNothing, T::kTwistDrill, "drill",
-                   "Drill", C::kTwistDrill},
-    CutterClassRow{C::kCenterDrill, "center_drill", "centre drill", kAxis | kSolid | kPoint | kMark | kCentre,
-                   M::kNothing, T::kCenterDrill, "center drill", "", C::kTwistDrill},
-    CutterClassRow{C::kSpotDrill, "spotdrill", "spot drill", kAxis | kSolid | kPoint | kMark | kCentre,
-                   M::kNothing, T::kCenterDrill, "spot drill", "", C::kTwistDrill},
-    CutterClassRow{C::kReamer, "reamer", "reamer", kAxis | kSizes, M::kNothing, T::kReamer, "reamer",
-                   "Reamer", C::kReamer},
-    CutterClassRow{C::kTap, "tap", "tap", kAxis | kSizes | kThread, M::kPitch, T::kTap, "tap right hand",
-                   "Tap", C::kTap},
-    CutterClassRow{C::kThreadMill, "thread_mill", "thread mill", kThread, M::kPitch, T::kThreadMill,
-                   "thread mill", "ThreadMill", C::kThreadMill},
-    CutterClassRow{C::kBoringTool, "boring_tool", "boring tool", kAxis | kWide, M::kNothing, T::kBoringTool,
-                   "boring bar", "", C::kBoringTool},
-    CutterClassRow{C::kCountersink, "countersink", "countersink", kAxis | kPoint | kSink, M::kConeAngle,
-                   T::kCountersink, "counter sink", "", C::kChamferMill},
-    CutterClassRow{C::kCounterbore, "counterbore", "counterbore", kAxis, M::kNothing, T::kCounterbore,
-                   "counter bore", "", C::kEndmill},
-    CutterClassRow{C::kChamferMill, "chamfer_mill", "chamfer mill", kPoint | kSink, M::kConeAngle,
-                   T::kCountersink, "chamfer mill", "Chamfer", C::kChamferMill},
-    CutterClassRow{C::kTSlotMill, "t_slot_mill", "T-slot cutter", kUnder | kSlot | kNeck, M::kNothing,
-                   T::kTSlotMill, "slot mill", "", C::kTSlotMill},
-    CutterClassRow{C::kDovetailMill, "dovetail_mill", "dovetail cutter", kUnder | kSlot | kNeck, M::kNothing,
-                   T::kDovetailMill, "dovetail mill", "Dovetail", C::kDovetailMill},
-    CutterClassRow{C::kGunDrill, "gun_drill", "gun drill", kAxis | kSolid | kSizes | kPoint | kDrill | kWide,
-                   M::kNothing, T::kTwistDrill, "", "", C::kTwistDrill},
-    CutterClassRow{C::kBackCounterbore, "back_counterbore", "back counterbore", kAxis | kUnder, M::kNothing,
-                   T::kBacksideCounterbore, "", "", C::kBackCounterbore},
-    CutterClassRow{C::kBackCountersink, "back_countersink", "back countersink",
-                   kAxis | kUnder | kNeck | kAngle, M::kConeAngle, T::kBacksideCountersink, "", "",
-                   C::kBackCountersink},
-    CutterClassRow{C::kCornerRoundingMill, "corner_rounding_mill", "corner rounding mill", kLess | kNeck,
-                   M::kNothing, T::kUserDefinedTool, "radius mill", "Radius", C::kCornerRoundingMill},
-    CutterClassRow{C::kTaperedEndmill, "tapered_endmill", "tapered end mill", kLess, M::kTaper,
-                   T::kTaperedEndmill, "tapered mill", "TaperedBallNose", C::kTaperedEndmill},
-    CutterClassRow{C::kSideMill, "side_mill", "side mill", kWide, M::kNothing, T::kSideMill, "",
-                   "SlittingSaw", C::kTSlotMill},
-    CutterClassRow{C::kTouchProbe, "touch_probe", "touch probe", 0, M::kNothing, T::kNone, "probe", "Probe",
-                   C::kTouchProbe},
+#define CAPSTAN_CUTTER_CLASS(value, name, words, traits, must, body, fusion, freecad, stand_in) \
+  CutterClassRow{C::value, name, words, traits, M::must, T::body, fusion, freecad, C::stand_in},
+#include "planner/ground/vocabulary/cutter_classes.inc"
+#undef CAPSTAN_CUTTER_CLASS
 };
 
 struct Called {
@@ -136,14 +91,6 @@ constexpr std::array kCalled{
     Called{"fresa", C::kEndmill},
     Called{"tap", C::kTap},
 };
-
-constexpr bool in_order() {
-  for (std::size_t i = 0; i < kRows.size(); ++i) {
-    if (static_cast<std::size_t>(kRows[i].value) != i) return false;
-  }
-  return kRows.size() == static_cast<std::size_t>(kLastCutterClass) + 1;
-}
-static_assert(in_order());
 
 constexpr std::array<std::string_view, 2> kSubstrates = {"hss", "carbide"};
 

@@ -9,33 +9,18 @@
 
 namespace capstan::model {
 
-/// Classes of cutter the planner tells apart (ISO 14649-111 tool bodies). The order is the table's.
+/// Classes of cutter the planner tells apart (ISO 14649-111 tool bodies); their rows are in
+/// cutter_classes.inc.
 enum class CutterClass : std::uint8_t {
-  kEndmill,
-  kBullnoseEndmill,
-  kBallEndmill,
-  kFacemill,
-  kTwistDrill,
-  kCenterDrill,
-  kSpotDrill,
-  kReamer,
-  kTap,
-  kThreadMill,
-  kBoringTool,
-  kCountersink,
-  kCounterbore,
-  kChamferMill,
-  kTSlotMill,
-  kDovetailMill,
-  kGunDrill,
-  kBackCounterbore,
-  kBackCountersink,
-  kCornerRoundingMill,  ///< a concave quarter round of corner_radius_mm; its tip has tip_diameter_mm
-  kTaperedEndmill,      ///< a cone of taper_angle_rad over a flat, bull or ball tip of cutting_diameter_mm
-  kSideMill,            ///< a disc of cutting_width_mm: side mills, slitting saws, woodruff cutters
-  kTouchProbe,          ///< no cutter: measures; cutting_diameter_mm is that of its ball
+#define CAPSTAN_CUTTER_CLASS(value, ...) value,
+#include "planner/ground/vocabulary/cutter_classes.inc"
+#undef CAPSTAN_CUTTER_CLASS
 };
-inline constexpr CutterClass kLastCutterClass = CutterClass::kTouchProbe;
+inline constexpr CutterClass kLastCutterClass = static_cast<CutterClass>(-1
+#define CAPSTAN_CUTTER_CLASS(value, ...) +1
+#include "planner/ground/vocabulary/cutter_classes.inc"
+#undef CAPSTAN_CUTTER_CLASS
+);
 
 /// What is true of every cutter of a class.
 ///

@@ -20,23 +20,9 @@ constexpr unsigned kThread = bit(OperationTrait::kThreads);
 
 using T = TypeId;
 constexpr std::array kRows{
-    OperationRow{T::kCenterDrilling, craft::kMarks, kAxis | kTip},
-    OperationRow{T::kDrilling, craft::kDrills, kAxis},
-    OperationRow{T::kMultistepDrilling, craft::kDrills, kAxis},
-    OperationRow{T::kCounterSinking, craft::kNone, kAxis | kTip},
-    OperationRow{T::kBoring, craft::kSizes, kAxis | kWider},
-    OperationRow{T::kReaming, craft::kSizes, kAxis | kWider},
-    OperationRow{T::kBackBoring, craft::kSizes, kAxis},
-    OperationRow{T::kTapping, craft::kSizes, kThread},
-    OperationRow{T::kThreadDrilling, craft::kSizes, kThread},
-    OperationRow{T::kPlaneRoughMilling, craft::kRoughs, kRough | kPlane},
-    OperationRow{T::kPlaneFinishMilling, craft::kFinishes, kFinish | kPlane},
-    OperationRow{T::kSideRoughMilling, craft::kRoughs, kRough | kWall},
-    OperationRow{T::kSideFinishMilling, craft::kFinishes, kFinish | kWall},
-    OperationRow{T::kBottomAndSideRoughMilling, craft::kRoughs, kRough | kWall},
-    OperationRow{T::kBottomAndSideFinishMilling, craft::kFinishes, kFinish | kWall},
-    OperationRow{T::kFreeformRoughMilling, craft::kRoughs, kRough | kSurface},
-    OperationRow{T::kFreeformFinishMilling, craft::kFinishes, kFinish | kSurface},
+#define CAPSTAN_OPERATION(Noun, rank, traits) OperationRow{T::k##Noun, craft::rank, traits},
+#include "planner/ground/vocabulary/operations.inc"
+#undef CAPSTAN_OPERATION
 };
 
 const OperationRow* find(TypeId operation) {
