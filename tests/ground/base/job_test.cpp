@@ -103,19 +103,22 @@ TEST(ParallelFor, CallsTheBodyOnceForEachIndexOnAnyNumberOfThreads) {
   }
 }
 
-/// The threads that a loop of so many rounds runs on; a round waits until `wanted` of them are there.
+/// The threads that a loop of so many rounds runs on; a round waits until `wanted` of them are there, once in
+/// vain.
 std::set<std::thread::id> threads_of(unsigned threads, std::size_t n, std::size_t wanted) {
   Job job;
   job.threads = threads;
   std::mutex mutex;
   std::condition_variable arrived;
   std::set<std::thread::id> met;
+  bool in_vain = false;
   parallel_for(job, n, [&](std::size_t) {
     std::unique_lock lock(mutex);
     met.insert(std::this_thread::get_id());
     arrived.notify_all();
+    if (in_vain) return;
     // Waited out only where there are fewer: the test fails then.
-    arrived.wait_for(lock, std::chrono::seconds(10), [&] { return met.size() >= wanted; });
+    in_vain = !arrived.wait_for(lock, std::chrono::seconds(10), [&] { return met.size() >= wanted; });
   });
   return met;
 }
