@@ -2,7 +2,6 @@
 
 #include <string>
 
-#include "planner/door/pipeline/given/magazine.h"
 #include "planner/door/pipeline/program_check.h"
 #include "planner/door/service/formats.h"
 #include "planner/door/service/reading.h"

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "planner/door/pipeline/given/magazine.h"
 #include "planner/door/pipeline/program_check.h"
 #include "planner/ground/base/number.h"
+#include "planner/making/given/magazine.h"
 
 // A fallback first, whatever it takes; then an improvement on the rest of the time. Each answer passes the
 // same three questions: is anything open, is every cutter in the magazine, does the check condemn it.
@@ -36,7 +36,7 @@ std::string ms(Duration d) {
 Status only_loaded(const model::Plan& plan, const std::vector<model::Cutter>& magazine) {
   for (const model::StepResult& step : plan.steps) {
     const model::Cutter* cutter = model::find_cutter(plan, step.cutter_id);
-    const model::Cutter* there = cutter == nullptr ? nullptr : pipeline::loaded_like(magazine, *cutter);
+    const model::Cutter* there = cutter == nullptr ? nullptr : given::loaded_like(magazine, *cutter);
     const std::string unmeasured = cutter == nullptr ? "" : model::offset_fault(*cutter);
     if (there != nullptr && there->pocket == cutter->pocket && unmeasured.empty()) continue;
     std::string why = "is not in the tool table";
@@ -78,7 +78,7 @@ Result<LateOutcome> bind(model::Plan plan, pipeline::Inputs inputs, const LatePo
     return std::move(out);
   };
   const std::vector<model::Cutter> magazine = inputs.library;
-  auto reopened = pipeline::match_loaded(plan, inputs, job);
+  auto reopened = given::match_loaded(plan, inputs.library, job);
   if (!reopened) return tl::unexpected(reopened.error());
   out.reopened = *std::move(reopened);
 

@@ -5,12 +5,13 @@
 
 #include "planner/controls/controls.h"
 #include "planner/door/pipeline/checked.h"
-#include "planner/door/pipeline/given/machine_needs.h"
-#include "planner/door/pipeline/paths/gone.h"
 #include "planner/door/pipeline/profit.h"
-#include "planner/door/pipeline/work.h"
+#include "planner/door/pipeline/stages.h"
+#include "planner/making/given/ends.h"
+#include "planner/making/given/machine_needs.h"
 #include "planner/making/piece/in_piece.h"
 #include "planner/making/piece/workpiece.h"
+#include "planner/making/step/record/gone.h"
 #include "planner/model/plan/decision/contradicted.h"
 #include "planner/model/plan/decision/unreadable.h"
 #include "planner/model/plan/order/step_ids.h"
@@ -21,109 +22,115 @@
 namespace capstan::pipeline {
 namespace {
 
+using draft::StepDraft;
+
 /// The steps that the plan executes, where it has paths: one that was left out needs no tool, nor what was to
 /// be measured before it.
-bool executed(const Work& w, const StepDraft& s) {
-  if (w.policy.bind != Bind::kAll || w.plan.model.holds<model::WorkpieceProbing>(s.step)) return true;
-  return std::any_of(w.plan.steps.begin(), w.plan.steps.end(),
+bool executed(const model::Plan& plan, const Policy& policy, const StepDraft& s) {
+  if (policy.bind != Bind::kAll || plan.model.holds<model::WorkpieceProbing>(s.step)) return true;
+  return std::any_of(plan.steps.begin(), plan.steps.end(),
                      [&](const model::StepResult& r) { return r.step == s.step; });
 }
 
 /// The cutters that steps use, each once, with their tool numbers; nouns say the same.
-void collect_cutters(Work& w) {
+void collect_cutters(model::Plan& plan, const std::vector<StepDraft>& steps, const Policy& policy) {
   std::set<std::string> seen;
-  for (const StepDraft& s : w.steps) {
-    if (!(s.cutter.cutting_diameter_mm > 0.0) || !executed(w, s)) continue;
+  for (const StepDraft& s : steps) {
+    if (!(s.cutter.cutting_diameter_mm > 0.0) || !executed(plan, policy, s)) continue;
     if (seen.insert(s.cutter.id).second) {
-      w.plan.cutters.push_back(s.cutter);
+      plan.cutters.push_back(s.cutter);
       continue;
     }
     // It stands out as far as the deepest of its steps needs.
-    for (model::Cutter& c : w.plan.cutters) {
+    for (model::Cutter& c : plan.cutters) {
       if (c.id != s.cutter.id) continue;
       c.stick_out_mm = std::max(c.stick_out_mm, s.cutter.stick_out_mm);
       c.usable_length_mm = std::max(c.usable_length_mm, s.cutter.usable_length_mm);
     }
   }
-  tooling::assign_pockets(w.plan.cutters);
-  for (const StepDraft& s : w.steps) {
-    const auto* op = w.plan.model.get<model::MachiningOperation>(s.operation);
-    if (const auto* probing = w.plan.model.get<model::WorkpieceProbing>(s.step)) {
-      const model::Cutter* c = model::find_cutter(w.plan, s.cutter.id);
-      const auto* probe = w.plan.model.get<model::TouchProbe>(probing->its_probe);
-      auto* usage = probe == nullptr ? nullptr : w.plan.model.get<model::ToolUsage>(probe->its_usage);
+  tooling::assign_pockets(plan.cutters);
+  for (const StepDraft& s : steps) {
+    const auto* op = plan.model.get<model::MachiningOperation>(s.operation);
+    if (const auto* probing = plan.model.get<model::WorkpieceProbing>(s.step)) {
+      const model::Cutter* c = model::find_cutter(plan, s.cutter.id);
+      const auto* probe = plan.model.get<model::TouchProbe>(probing->its_probe);
+      auto* usage = probe == nullptr ? nullptr : plan.model.get<model::ToolUsage>(probe->its_usage);
       if (c != nullptr && usage != nullptr) usage->its_position = std::to_string(c->pocket);
       continue;
     }
-    auto* tool = op != nullptr ? w.plan.model.get<model::MachiningTool>(op->its_tool) : nullptr;
-    const model::Cutter* c = model::find_cutter(w.plan, s.cutter.id);
+    auto* tool = op != nullptr ? plan.model.get<model::MachiningTool>(op->its_tool) : nullptr;
+    const model::Cutter* c = model::find_cutter(plan, s.cutter.id);
     if (tool == nullptr || c == nullptr) continue;
     const auto position = std::to_string(c->pocket);
-    if (auto* usage = w.plan.model.get<model::ToolUsage>(tool->its_usage)) {
+    if (auto* usage = plan.model.get<model::ToolUsage>(tool->its_usage)) {
       usage->its_position = position;
     }
   }
-  std::stable_sort(w.plan.cutters.begin(), w.plan.cutters.end(),
+  std::stable_sort(plan.cutters.begin(), plan.cutters.end(),
                    [](const auto& a, const auto& b) { return a.pocket < b.pocket; });
 }
 
-Status collect_setups(Work& w) {
+Status collect_setups(model::Plan& plan, const std::vector<draft::SetupDraft>& setups) {
   // A control without a row gets no program; its set-ups are named as those of the first.
-  const controls::Dialect* known = controls::find_dialect(w.inputs.machine.control.dialect);
+  const controls::Dialect* known = controls::find_dialect(plan.machine.control.dialect);
   const controls::Dialect& control = known != nullptr ? *known : *controls::dialects().front();
   const std::size_t count = control.work_offsets.size();
-  if (w.setups.size() > count) {
-    return fail("PIP-OFFSETS", "the part needs " + std::to_string(w.setups.size()) + " set-ups, and " +
+  if (setups.size() > count) {
+    return fail("PIP-OFFSETS", "the part needs " + std::to_string(setups.size()) + " set-ups, and " +
                                    std::string(control.name) + " has " + std::to_string(count) +
                                    " work offsets; plan it in parts");
   }
-  for (std::size_t i = 0; i < w.setups.size(); ++i) {
-    w.plan.setups.push_back({w.setups[i].setup, std::string(control.work_offsets[i]),
-                             w.setups[i].security_z_mm, w.setups[i].holding});
+  for (std::size_t i = 0; i < setups.size(); ++i) {
+    plan.setups.push_back(
+        {setups[i].setup, std::string(control.work_offsets[i]), setups[i].security_z_mm, setups[i].holding});
   }
   return {};
 }
 
 /// Each executed step gets a name of its own that every file format carries.
-void name_steps(Work& w) {
-  const std::vector<std::string> ids = model::step_ids(w.plan);
+void name_steps(model::Plan& plan) {
+  const std::vector<std::string> ids = model::step_ids(plan);
   for (std::size_t i = 0; i < ids.size(); ++i) {
-    auto* e = w.plan.model.get<model::Executable>(w.plan.steps[i].step);
+    auto* e = plan.model.get<model::Executable>(plan.steps[i].step);
     if (e != nullptr && !e->persistent_id) e->persistent_id = ids[i];
   }
 }
 
 /// Which chain and cutter made each proposed step, so that what a check says of it can be traced back.
-void list_made(Work& w) {
-  w.tries.made.clear();
-  for (const StepDraft& s : w.steps) {
+std::map<AnyRef, MadeStep> made_steps(const step::PlanSoFar& p) {
+  std::map<AnyRef, MadeStep> out;
+  for (const StepDraft& s : p.steps) {
     if (!s.proposed) continue;
-    w.tries.made[s.step] = {s.member,        s.chain,
-                            s.in_chain,      s.cutter.id,
-                            s.proposal.name, w.plan.model.holds<model::FreeformFinishMilling>(s.operation),
-                            cut_around(w, s)};
+    out[s.step] = {s.member,
+                   s.chain,
+                   s.in_chain,
+                   s.cutter.id,
+                   s.proposal.name,
+                   p.plan.model.holds<model::FreeformFinishMilling>(s.operation),
+                   step::cut_around(p, s)};
   }
+  return out;
 }
 
 /// Leaves open what the policy does not want bound: feeds and paths always, tools too when only operations
 /// are wanted. A plan written like this is closed by a later bind.
-void leave_open(Work& w) {
-  for (StepDraft& s : w.steps) {
-    auto* op = w.plan.model.get<model::MachiningOperation>(s.operation);
+void leave_open(model::Plan& plan, const std::vector<StepDraft>& steps, Bind bind) {
+  for (const StepDraft& s : steps) {
+    auto* op = plan.model.get<model::MachiningOperation>(s.operation);
     if (op == nullptr) continue;
     if (s.open_technology) {
       const AnyRef technology = op->its_technology;
-      if (auto* t = w.plan.model.get<model::MillingTechnology>(technology); t != nullptr && s.proposed) {
+      if (auto* t = plan.model.get<model::MillingTechnology>(technology); t != nullptr && s.proposed) {
         t->feedrate.reset();
         t->spindle.reset();
       }
-      if (technology.set() && !s.keep_feed) w.plan.ledger.reopen({technology, "feedrate"});
-      if (technology.set() && !s.keep_speed) w.plan.ledger.reopen({technology, "spindle"});
+      if (technology.set() && !s.keep_feed) plan.ledger.reopen({technology, "feedrate"});
+      if (technology.set() && !s.keep_speed) plan.ledger.reopen({technology, "spindle"});
     }
-    if (w.policy.bind == Bind::kStrategy && s.proposed) {
-      const auto wanted = tooling::nouns_from_requirement(w.plan.model, s.proposal.tool);
-      w.plan.model.get<model::MachiningOperation>(s.operation)->its_tool = wanted;
-      w.plan.ledger.reopen({s.operation, "its_tool"});
+    if (bind == Bind::kStrategy && s.proposed) {
+      const auto wanted = tooling::nouns_from_requirement(plan.model, s.proposal.tool);
+      plan.model.get<model::MachiningOperation>(s.operation)->its_tool = wanted;
+      plan.ledger.reopen({s.operation, "its_tool"});
     }
   }
 }
@@ -146,9 +153,27 @@ std::map<AnyRef, std::string> unreadable_of(const model::Plan& plan,
   return out;
 }
 
+/// The stages of one try that choose steps, tools and order; whether all of them came to their end.
+Result<bool> choose_steps(model::Plan& plan, Drafts& drafts, const Required& required, const Asked& asked,
+                          Tries& tries, Job& job) {
+  auto [proposed, learned] = propose_missing(plan, std::move(drafts), required, asked, job);
+  if (tries.learn(std::move(learned))) return false;
+  drafts = select_open_tools(plan, std::move(proposed), required, asked, job);
+  if (tries.learn(leave_what_rests(plan, drafts))) return false;
+  auto ordered = order_steps(plan, std::move(drafts), required, job);
+  if (!ordered) return tl::unexpected(ordered.error());
+  if (tries.learn(std::move(ordered->second))) return false;
+  auto held = hold_workpieces(plan, std::move(ordered->first), asked, job);
+  if (!held) return tl::unexpected(held.error());
+  drafts = *std::move(held);
+  given::raise_security_planes(plan, drafts.setups, drafts.steps, job);
+  return true;
+}
+
 /// One try. Nothing when something failed: `tries` has learned what, and the plan is to be made again.
 Result<std::optional<model::Plan>> bind_once(model::Plan plan, const Inputs& inputs, const Policy& policy,
                                              double earning_per_min, Tries& tries, Job& job) {
+  const std::optional<model::Plan> again;
   draft::Recorded recorded{
       std::exchange(plan.cutters, {}), std::exchange(plan.steps, {}), plan.machine, plan.material, {}};
   for (const auto& s : plan.setups) recorded.holdings.emplace_back(s.setup, s.holding);
@@ -157,39 +182,57 @@ Result<std::optional<model::Plan>> bind_once(model::Plan plan, const Inputs& inp
   model::named_by_caller(plan, inputs.material_name && !inputs.material_of_plan,
                          (inputs.stock || inputs.stock_allowance_mm) && !inputs.stock_of_plan);
   const auto wrong = model::unreadable(plan);
-  auto not_made = unreadable_of(plan, wrong);
-  Work w{std::move(plan), inputs, policy, job, tries, {}, {}, {}, std::move(recorded)};
-  w.unreadable = std::move(not_made);
-  w.earning_per_min = earning_per_min;
-  using Stage = Status (*)(Work&);
-  std::vector<Stage> stages = {resolve_workpiece, list_given, take_requirements};
-  if (policy.bind >= Bind::kStrategy)
-    stages.insert(stages.end(), {propose_missing, select_open_tools, leave_what_rests, order_steps,
-                                 hold_workpieces, raise_security_planes});
-  if (policy.bind == Bind::kAll) stages.insert(stages.end(), {carry_tools, make_paths, join_paths});
-  for (const Stage stage : stages) {
-    if (auto ok = stage(w); !ok) return tl::unexpected(ok.error());
-    if (w.again) return std::optional<model::Plan>{};
+  const auto not_made = unreadable_of(plan, wrong);
+
+  const auto margin = resolve_workpiece(plan, inputs, job);
+  if (!margin) return tl::unexpected(margin.error());
+  const Asked asked{inputs, policy, tries.bans, recorded, not_made, *margin};
+  piece::report_outside(plan, job);
+  auto listed = given::list_steps(plan, policy.reopen, not_made, grown_mm(inputs), job);
+  if (!listed) return tl::unexpected(listed.error());
+  const auto required = take_requirements(plan, asked, job);
+  if (!required) return tl::unexpected(required.error());
+  Drafts drafts{std::move(listed->setups), std::move(listed->steps), {}};
+  if (policy.bind >= Bind::kStrategy) {
+    const auto chosen = choose_steps(plan, drafts, *required, asked, tries, job);
+    if (!chosen) return tl::unexpected(chosen.error());
+    if (!*chosen) return again;
   }
-  if (policy.bind == Bind::kAll || policy.bind == Bind::kTools) collect_cutters(w);
-  if (policy.bind == Bind::kAll || policy.bind == Bind::kTools) tell_loading(w);
-  if (policy.bind == Bind::kAll) state_machine_needs(w);
-  if (policy.bind == Bind::kAll) piece::tell_corners(w.piece(), w.steps, job);
-  if (policy.bind != Bind::kAll && policy.bind != Bind::kNone) leave_open(w);
-  if (auto ok = collect_setups(w); !ok) return tl::unexpected(ok.error());
-  name_what_rests(w);
-  name_steps(w);
-  list_made(w);
+  const piece::Piece piece{plan, required->shapes, grown_mm(inputs)};
+  const step::Wishes wishes{inputs.objective,      earning_per_min,    margin->deviations,
+                            inputs.constant_feeds, inputs.cases.get(), inputs.library};
+  const step::PlanSoFar so_far{plan, drafts.setups, drafts.steps, piece, required->demands, recorded, wishes};
+  if (policy.bind == Bind::kAll) {
+    given::carry_tools(plan.model, drafts.steps);
+    auto made = make_paths(plan, drafts.steps, so_far, drafts.used, tries, options_of(inputs), job);
+    if (!made) return tl::unexpected(made.error());
+    if (tries.learn(*std::move(made))) return again;
+    given::join_paths(plan, drafts.setups);
+  }
+
+  if (policy.bind == Bind::kAll || policy.bind == Bind::kTools) {
+    collect_cutters(plan, drafts.steps, policy);
+    given::tell_loading(plan, inputs.library, job);
+  }
+  if (policy.bind == Bind::kAll) {
+    given::state_machine_needs(plan);
+    piece::tell_corners(piece, drafts.steps, job);
+  }
+  if (policy.bind != Bind::kAll && policy.bind != Bind::kNone) leave_open(plan, drafts.steps, policy.bind);
+  if (auto ok = collect_setups(plan, drafts.setups); !ok) return tl::unexpected(ok.error());
+  name_what_rests(plan, drafts.setups);
+  name_steps(plan);
+  tries.made = made_steps(so_far);
   // What was chosen in the place of what is not known does not make it known.
-  for (const auto& u : wrong) model::set_unreadable(w.plan, u.key.object, u.key.attribute, u.why);
-  return std::move(w.plan);
+  for (const auto& u : wrong) model::set_unreadable(plan, u.key.object, u.key.attribute, u.why);
+  return std::optional<model::Plan>(std::move(plan));
 }
 
 /// Tries until nothing fails. Each try that does not end bans a chain, or leaves a feature out, for good:
 /// there are no more of them than chains and features. What is said is that of the last.
 Result<model::Plan> bind_settled(const model::Plan& plan, const Inputs& inputs, const Policy& policy,
                                  double earning_per_min, Tries& tries, Job& job) {
-  tries.cuts.reset();  // another earning, other answers
+  tries.cuts = {};  // another earning, other answers
   auto before = job.take_diagnostics();
   for (;;) {
     auto out = bind_once(plan, inputs, policy, earning_per_min, tries, job);

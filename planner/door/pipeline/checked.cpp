@@ -72,9 +72,10 @@ std::vector<Offence> offences_of(const model::Plan& plan, const std::vector<Find
   return out;
 }
 
-class Bans {
+/// Bans by what the check finds.
+class BansByCheck {
  public:
-  explicit Bans(Tries& tries) : tries_(tries) {}
+  explicit BansByCheck(Tries& tries) : tries_(tries) {}
 
   /// Bans what these were made with; gives what was banned, to be told once it is known what came instead.
   std::vector<std::pair<MadeStep, std::string>> condemn(const std::vector<Offence>& offences, int tried) {
@@ -170,7 +171,7 @@ Result<Checked> bind_checked(const model::Plan& plan, const Inputs& inputs, cons
   std::vector<std::string> said = tries.said;
   auto diagnostics = job.take_diagnostics();
   std::size_t least = errors_of(best.plan, best.findings);
-  Bans bans(tries);
+  BansByCheck bans(tries);
   std::vector<Offence> offences = offences_of(best.plan, best.findings, tries);
   std::vector<Finding> findings;  // of the last try, which `offences` point into
   for (int tried = 0; tried < kMostReplannings && least > 0 && !offences.empty(); ++tried) {

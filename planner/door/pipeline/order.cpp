@@ -2,7 +2,9 @@
 #include <map>
 #include <set>
 
-#include "planner/door/pipeline/work.h"
+#include "planner/door/pipeline/stages.h"
+#include "planner/ground/vocabulary/operation.h"
+#include "planner/making/probing/add_probings.h"
 #include "planner/making/sequence/order.h"
 
 // The order of proposed steps, and the workplan that says it.
@@ -10,6 +12,8 @@
 namespace capstan::pipeline {
 namespace {
 
+using draft::SetupDraft;
+using draft::StepDraft;
 using model::Model;
 
 constexpr std::size_t kMostWishes = 20000;  // each is held against those before it
@@ -20,15 +24,15 @@ std::string named(const Model& m, AnyRef feature) {
 }
 
 /// Datum features first: between all shapes of the one and of the other.
-std::vector<sequence::Wish> wishes_of(const Work& w,
+std::vector<sequence::Wish> wishes_of(const Model& m, const piece::Demands& demands,
                                       const std::map<AnyRef, std::set<std::size_t>>& shapes_of) {
   std::vector<sequence::Wish> out;
-  for (const model::Tie& tie : w.demands.ties) {
+  for (const model::Tie& tie : demands.ties) {
     const auto first = shapes_of.find(tie.first);
     const auto second = shapes_of.find(tie.second);
     if (tie.letter.empty() || first == shapes_of.end() || second == shapes_of.end()) continue;
-    const std::string text = "datum " + tie.letter + " (" + named(w.plan.model, tie.first) +
-                             ") first, before " + named(w.plan.model, tie.second) + ": " + tie.text;
+    const std::string text = "datum " + tie.letter + " (" + named(m, tie.first) + ") first, before " +
+                             named(m, tie.second) + ": " + tie.text;
     for (const std::size_t a : first->second) {
       for (const std::size_t b : second->second) {
         if (out.size() < kMostWishes) out.push_back({a, b, text});
@@ -40,14 +44,15 @@ std::vector<sequence::Wish> wishes_of(const Work& w,
 
 /// Features that a tolerance ties together and that are not made in one set-up: said, for the tolerance then
 /// holds only as well as the clamping repeats.
-void warn_of_parted(Work& w) {
+void warn_of_parted(const Model& m, const std::vector<StepDraft>& steps, const piece::Demands& demands,
+                    Job& job) {
   std::map<AnyRef, std::set<std::size_t>> setups;
-  for (const StepDraft& s : w.steps) {
+  for (const StepDraft& s : steps) {
     if (s.feature.set()) setups[s.feature].insert(s.setup);
     for (const auto& shape : s.shapes) setups[shape.feature].insert(s.setup);
   }
   std::set<std::string> said;
-  for (const model::Tie& tie : w.demands.ties) {
+  for (const model::Tie& tie : demands.ties) {
     const auto a = setups.find(tie.first);
     const auto b = setups.find(tie.second);
     if (a == setups.end() || b == setups.end()) continue;
@@ -55,10 +60,10 @@ void warn_of_parted(Work& w) {
     both.insert(b->second.begin(), b->second.end());
     if (both.size() < 2) continue;
     const std::string datum = tie.letter.empty() ? "" : " (datum " + tie.letter + ")";
-    const std::string text = named(w.plan.model, tie.second) + " and " + named(w.plan.model, tie.first) +
-                             datum + " are not cut in one set-up, for no direction reaches both; '" +
-                             tie.text + "' between them holds only as well as the part is located again";
-    if (said.insert(text).second) w.job.warn("PIP-TIED", text);
+    const std::string text = named(m, tie.second) + " and " + named(m, tie.first) + datum +
+                             " are not cut in one set-up, for no direction reaches both; '" + tie.text +
+                             "' between them holds only as well as the part is located again";
+    if (said.insert(text).second) job.warn("PIP-TIED", text);
   }
 }
 
@@ -79,11 +84,12 @@ bool follows(const std::vector<std::set<std::size_t>>& next, std::size_t from, s
 /// Members of one feature that are cut from the same side, all marked before all are drilled, and so on: a
 /// wider hole is milled before the narrower one in it is reamed. Where a chain or the order of coaxial holes
 /// wants it otherwise, that counts.
-void add_craft(const Work& w, const std::vector<std::size_t>& steps, const std::vector<sequence::Item>& items,
+void add_craft(const std::vector<StepDraft>& drafts, const std::vector<std::size_t>& steps,
+               const std::vector<sequence::Item>& items,
                std::vector<std::pair<std::size_t, std::size_t>>& given) {
   constexpr std::size_t kMost = 64;  // steps of one feature; each pair is looked at
   std::map<AnyRef, std::vector<std::size_t>> by_feature;
-  for (std::size_t i = 0; i < items.size(); ++i) by_feature[w.steps[steps[i]].feature].push_back(i);
+  for (std::size_t i = 0; i < items.size(); ++i) by_feature[drafts[steps[i]].feature].push_back(i);
   std::vector<std::set<std::size_t>> next(items.size());
   for (const auto& [a, b] : given) next[a].insert(b);
   for (const auto& [feature, own] : by_feature) {
@@ -95,8 +101,8 @@ void add_craft(const Work& w, const std::vector<std::size_t>& steps, const std::
     }
     for (const std::size_t a : own) {
       for (const std::size_t b : own) {
-        const StepDraft& sa = w.steps[steps[a]];
-        const StepDraft& sb = w.steps[steps[b]];
+        const StepDraft& sa = drafts[steps[a]];
+        const StepDraft& sb = drafts[steps[b]];
         const int ra = model::craft_rank(items[a].operation), rb = model::craft_rank(items[b].operation);
         if (items[a].feature == items[b].feature || ra == 0 || rb <= ra) continue;
         if (norm(sa.shapes.front().frame.z - sb.shapes.front().frame.z) > sequence::kSameDirection) continue;
@@ -109,7 +115,8 @@ void add_craft(const Work& w, const std::vector<std::size_t>& steps, const std::
 }
 
 /// Steps of a file keep the file's order and come first; what rules proposed follows, ordered.
-Result<sequence::Order> order_of(Work& w, const std::vector<std::size_t>& proposed) {
+Result<sequence::Order> order_of(const Model& m, const Drafts& drafts, const piece::Demands& demands,
+                                 const std::vector<std::size_t>& proposed, Job& job) {
   std::vector<model::FeatureShape> shapes;
   std::vector<sequence::Item> items;
   std::map<std::size_t, std::size_t> item_of;  // step -> item
@@ -117,7 +124,7 @@ Result<sequence::Order> order_of(Work& w, const std::vector<std::size_t>& propos
   std::map<AnyRef, std::set<std::size_t>> shapes_of;
   sequence::Options options;
   for (const std::size_t i : proposed) {
-    const StepDraft& s = w.steps[i];
+    const StepDraft& s = drafts.steps[i];
     sequence::Item item;
     // One shape of a pattern stands for all of it: they are made one after the other.
     item.feature = shapes.size();
@@ -136,15 +143,15 @@ Result<sequence::Order> order_of(Work& w, const std::vector<std::size_t>& propos
     items.push_back(std::move(item));
   }
   for (const std::size_t i : proposed) {
-    for (const std::size_t before : w.steps[i].after) {
+    for (const std::size_t before : drafts.steps[i].after) {
       if (item_of.contains(before)) options.given.emplace_back(item_of[before], item_of[i]);
     }
   }
-  add_craft(w, proposed, items, options.given);
-  options.wishes = wishes_of(w, shapes_of);
-  for (const SetupDraft& s : w.setups)
+  add_craft(drafts.steps, proposed, items, options.given);
+  options.wishes = wishes_of(m, demands, shapes_of);
+  for (const SetupDraft& s : drafts.setups)
     options.directions.push_back(s.workpiece.direction_to_local({0.0, 0.0, 1.0}));
-  return sequence::order(shapes, items, options, w.job);
+  return sequence::order(shapes, items, options, job);
 }
 
 Ref<model::Workplan> plan_of(Model& m, const std::string& id, Ref<model::Setup> setup) {
@@ -156,40 +163,40 @@ Ref<model::Workplan> plan_of(Model& m, const std::string& id, Ref<model::Setup> 
 }
 
 /// The main workplan: what it held before (unless operations were re-opened), then the new steps by set-up.
-void rebuild_workplan(Work& w, bool keep) {
-  Model& m = w.plan.model;
-  auto* project = m.get<model::Project>(w.plan.project);
+void rebuild_workplan(model::Plan& plan, const Drafts& drafts, bool keep) {
+  Model& m = plan.model;
+  auto* project = m.get<model::Project>(plan.project);
   if (project == nullptr) {
     model::Project p;
     p.its_id = "project";
     p.its_workpieces.given = true;
     for (const AnyRef piece : m.all(model::TypeId::kWorkpiece))
       p.its_workpieces.push_back(Ref<model::Workpiece>(piece));
-    w.plan.project = m.add(p);
-    project = m.get<model::Project>(w.plan.project);
+    plan.project = m.add(p);
+    project = m.get<model::Project>(plan.project);
   }
   const auto* old = m.get<model::Workplan>(project->main_workplan);
   const std::string id = old != nullptr ? old->its_id.value_or("main workplan") : "main workplan";
-  const bool one_setup = w.setups.size() == 1;
+  const bool one_setup = drafts.setups.size() == 1;
   Ref<model::Workplan> main;
   if (keep && old != nullptr) {
     main = project->main_workplan;
   } else {
-    main = plan_of(m, id, one_setup ? w.setups.front().setup : Ref<model::Setup>{});
-    m.get<model::Project>(w.plan.project)->main_workplan = main;
+    main = plan_of(m, id, one_setup ? drafts.setups.front().setup : Ref<model::Setup>{});
+    m.get<model::Project>(plan.project)->main_workplan = main;
   }
   Ref<model::Workplan> into = main;
-  std::size_t last = w.setups.size();
+  std::size_t last = drafts.setups.size();
   const bool nest = !one_setup || (keep && old != nullptr && !m.at<model::Workplan>(main).its_setup.set());
-  for (const StepDraft& s : w.steps) {
+  for (const StepDraft& s : drafts.steps) {
     if (!s.proposed) continue;
     if (nest && s.setup != last) {
-      into = plan_of(m, "set-up " + std::to_string(s.setup + 1), w.setups[s.setup].setup);
+      into = plan_of(m, "set-up " + std::to_string(s.setup + 1), drafts.setups[s.setup].setup);
       m.at<model::Workplan>(main).its_elements.push_back(into);
       last = s.setup;
     }
     m.at<model::Workplan>(into).its_elements.push_back(s.step);
-    if (const auto* setup = m.get<model::Setup>(w.setups[s.setup].setup)) {
+    if (const auto* setup = m.get<model::Setup>(drafts.setups[s.setup].setup)) {
       const auto plane = setup->its_secplane;
       if (auto* ws = m.get<model::Workingstep>(s.step)) ws->its_secplane = plane;
     }
@@ -213,50 +220,57 @@ std::string words(const sequence::Order& order) {
 }
 
 /// Set-ups without a step are not clamped.
-void drop_empty_setups(Work& w) {
-  std::vector<std::size_t> renumbered(w.setups.size(), 0);
+void drop_empty_setups(Drafts& drafts) {
+  std::vector<std::size_t> renumbered(drafts.setups.size(), 0);
   std::vector<SetupDraft> used;
-  for (std::size_t i = 0; i < w.setups.size(); ++i) {
-    const bool has = std::any_of(w.steps.begin(), w.steps.end(), [i](const auto& s) { return s.setup == i; });
-    if (!has && w.setups.size() > 1) continue;
+  for (std::size_t i = 0; i < drafts.setups.size(); ++i) {
+    const bool has =
+        std::any_of(drafts.steps.begin(), drafts.steps.end(), [i](const auto& s) { return s.setup == i; });
+    if (!has && drafts.setups.size() > 1) continue;
     renumbered[i] = used.size();
-    used.push_back(w.setups[i]);
+    used.push_back(drafts.setups[i]);
   }
   if (used.empty()) return;
-  for (StepDraft& s : w.steps) s.setup = renumbered[s.setup];
-  w.setups = std::move(used);
+  for (StepDraft& s : drafts.steps) s.setup = renumbered[s.setup];
+  drafts.setups = std::move(used);
 }
 
 }  // namespace
 
-Status order_steps(Work& w) {
-  drop_empty_setups(w);
+Result<std::pair<Drafts, Learned>> order_steps(model::Plan& plan, Drafts drafts, const Required& required,
+                                               Job& job) {
+  const piece::Demands& demands = required.demands;
+  Learned learned;
+  drop_empty_setups(drafts);
+  std::vector<StepDraft>& steps = drafts.steps;
   std::vector<std::size_t> given;
   std::vector<std::size_t> proposed;
-  for (std::size_t i = 0; i < w.steps.size(); ++i) (w.steps[i].proposed ? proposed : given).push_back(i);
+  for (std::size_t i = 0; i < steps.size(); ++i) (steps[i].proposed ? proposed : given).push_back(i);
   if (proposed.empty()) {
-    warn_of_parted(w);
-    return {};
+    warn_of_parted(plan.model, steps, demands, job);
+    return std::pair(std::move(drafts), std::move(learned));
   }
-  const auto order = order_of(w, proposed);
+  const auto order = order_of(plan.model, drafts, demands, proposed, job);
   if (!order) return tl::unexpected(order.error());
   if (!order->cannot.empty()) return fail("PIP-ORDER", "no order of the steps exists: " + order->cannot);
   std::vector<StepDraft> sorted;
-  for (const std::size_t i : given) sorted.push_back(std::move(w.steps[i]));
+  for (const std::size_t i : given) sorted.push_back(std::move(steps[i]));
   for (const auto& setup : order->setups) {
-    for (const std::size_t item : setup.steps) sorted.push_back(std::move(w.steps[proposed[item]]));
+    for (const std::size_t item : setup.steps) sorted.push_back(std::move(steps[proposed[item]]));
   }
-  w.steps = std::move(sorted);
-  add_probings(w);
+  auto added = probing::add_probings(plan, std::move(sorted), required.shapes, demands, job);
+  steps = std::move(added.steps);
+  learned.again = !added.given_up.empty();
+  learned.given_up = std::move(added.given_up);
   for (const auto& d : order->dropped)
-    w.job.note("PIP-ORDER", "an order that was found gives way to one that must hold: " + d.text);
-  warn_of_parted(w);
-  rebuild_workplan(w, !given.empty());
-  const auto* project = w.plan.model.get<model::Project>(w.plan.project);
-  w.plan.ledger.bind(project->main_workplan, "its_elements", model::Binder::kRule,
-                     {"sequence.order", words(*order),
-                      "precedences by geometry and chain; few tool changes (planner/making/sequence)"});
-  return {};
+    job.note("PIP-ORDER", "an order that was found gives way to one that must hold: " + d.text);
+  warn_of_parted(plan.model, steps, demands, job);
+  rebuild_workplan(plan, drafts, !given.empty());
+  const auto* project = plan.model.get<model::Project>(plan.project);
+  plan.ledger.bind(project->main_workplan, "its_elements", model::Binder::kRule,
+                   {"sequence.order", words(*order),
+                    "precedences by geometry and chain; few tool changes (planner/making/sequence)"});
+  return std::pair(std::move(drafts), std::move(learned));
 }
 
 }  // namespace capstan::pipeline

@@ -10,7 +10,8 @@
 
 #include "planner/ground/base/job.h"
 #include "planner/ground/base/result.h"
-#include "planner/making/optimise/solver/solver.h"
+#include "planner/making/given/listed_steps.h"
+#include "planner/making/optimise/cut.h"
 #include "planner/model/plan/cutter/cutter.h"
 #include "planner/model/plan/plan.h"
 #include "planner/model/plan/resources/machine.h"
@@ -24,13 +25,12 @@ class CaseBase;
 
 namespace capstan::pipeline {
 
-/// What is re-opened before planning, although the file binds it. Each includes those below it.
-enum class Reopen : std::uint8_t { kNothing, kTechnology, kTools, kOperations, kAll };
+using given::Reopen;
 
 /// How far decisions are bound. What is left open is written open, for the machine to close.
 enum class Bind : std::uint8_t { kNone, kStrategy, kTools, kAll };
 
-enum class Objective : std::uint8_t { kTime, kCost, kProfit };
+using Objective = optimise::Aim;
 
 /// What the shop and the caller bring. All by value: planning changes none of it.
 struct Inputs {
@@ -54,8 +54,9 @@ struct Inputs {
   std::optional<double> revenue;
   bool constant_feeds = false;    ///< one feed for all of a step's path: the largest that every section bears
   std::string general_tolerance;  ///< "ISO 2768-m", "ISO 22081 0.2", "+-0.1"; empty: the file's, or none
-  std::string workholding;     ///< ids or a file, see tooling/holding; "auto"; empty or "none": not planned
-  int batch = 1;               ///< pieces
+  std::string
+      workholding;  ///< ids or a file, see tooling/shop/fixtures; "auto"; empty or "none": not planned
+  int batch = 1;    ///< pieces
   double edge_break_mm = 0.0;  ///< edges that the part leaves sharp are chamfered by this; 0: left
   std::vector<model::Provenance> provenance;  ///< what was named, what is a default
 };

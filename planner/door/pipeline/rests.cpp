@@ -1,7 +1,7 @@
 #include <algorithm>
-#include <map>
+#include <set>
 
-#include "planner/door/pipeline/work.h"
+#include "planner/door/pipeline/stages.h"
 #include "planner/making/piece/rests.h"
 
 // What rests on a feature that is not planned is left out, too.
@@ -14,22 +14,23 @@ std::string name_of(const model::Model& m, AnyRef f) {
   return named == nullptr ? std::string() : named->its_id.value_or("");
 }
 
-std::set<AnyRef> unplanned_of(const Work& w) {
+std::set<AnyRef> unplanned_of(const model::Plan& plan) {
   std::set<AnyRef> out;
-  for (const model::Unplanned& u : w.plan.unplanned) out.insert(u.feature);
+  for (const model::Unplanned& u : plan.unplanned) out.insert(u.feature);
   return out;
 }
 
 }  // namespace
 
-Status leave_what_rests(Work& w) {
-  const std::set<AnyRef> roots = unplanned_of(w);
-  if (roots.empty()) return {};
+Learned leave_what_rests(const model::Plan& plan, const Drafts& drafts) {
+  Learned out;
+  const std::set<AnyRef> roots = unplanned_of(plan);
+  if (roots.empty()) return out;
   std::set<AnyRef> planned;
-  for (const StepDraft& s : w.steps) {
+  for (const draft::StepDraft& s : drafts.steps) {
     if (s.proposed) planned.insert(s.feature);
   }
-  const std::vector<piece::RestsOn> all = piece::what_rests(w.plan.model, w.setups);
+  const std::vector<piece::RestsOn> all = piece::what_rests(plan.model, drafts.setups);
   const std::set<AnyRef> resting = piece::resting_on(all, roots);
   for (const piece::RestsOn& r : all) {
     if (!resting.contains(r.after) || !(roots.contains(r.before) || resting.contains(r.before))) continue;
@@ -38,21 +39,21 @@ Status leave_what_rests(Work& w) {
     const auto is_why = [&](const model::Unplanned& u) {
       return u.feature == r.before || piece::resting_on(all, {u.feature}).contains(r.before);
     };
-    const auto why = std::find_if(w.plan.unplanned.begin(), w.plan.unplanned.end(), is_why);
-    w.tries.bans.rests(r.after, r.before, why == w.plan.unplanned.end() ? std::string() : why->reason);
-    w.again = true;
+    const auto why = std::find_if(plan.unplanned.begin(), plan.unplanned.end(), is_why);
+    out.rests.push_back({r.after, r.before, why == plan.unplanned.end() ? std::string() : why->reason});
+    out.again = true;
   }
-  return {};
+  return out;
 }
 
-void name_what_rests(Work& w) {
-  const std::set<AnyRef> roots = unplanned_of(w);
+void name_what_rests(model::Plan& plan, const std::vector<draft::SetupDraft>& setups) {
+  const std::set<AnyRef> roots = unplanned_of(plan);
   if (roots.empty()) return;
-  const std::vector<piece::RestsOn> all = piece::what_rests(w.plan.model, w.setups);
+  const std::vector<piece::RestsOn> all = piece::what_rests(plan.model, setups);
   std::set<AnyRef> named;
-  for (model::Unplanned& u : w.plan.unplanned) {
+  for (model::Unplanned& u : plan.unplanned) {
     if (!named.insert(u.feature).second) continue;
-    for (const AnyRef f : piece::resting_on(all, {u.feature})) u.needed_by.push_back(name_of(w.plan.model, f));
+    for (const AnyRef f : piece::resting_on(all, {u.feature})) u.needed_by.push_back(name_of(plan.model, f));
     std::sort(u.needed_by.begin(), u.needed_by.end());
   }
 }

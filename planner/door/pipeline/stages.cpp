@@ -1,42 +1,113 @@
+#include "planner/door/pipeline/stages.h"
+
 #include <algorithm>
+#include <utility>
 
-#include "planner/door/pipeline/work.h"
+#include "planner/making/given/open_tools.h"
 #include "planner/making/piece/workpiece.h"
-
-// The stages whose work is done in rooms of `making`: what they read, and where their results go.
+#include "planner/making/propose/shared_tools.h"
+#include "planner/making/workholding/hold.h"
 
 namespace capstan::pipeline {
+namespace {
 
-Status resolve_workpiece(Work& w) {
-  const piece::WorkpieceWish wish{w.inputs.material_name, w.inputs.materials, w.inputs.stock,
-                                  w.inputs.stock_allowance_mm, w.inputs.margin};
-  auto material = piece::material_of(w.plan, wish, w.job);
-  if (!material) return tl::unexpected(material.error());
-  w.plan.material = *std::move(material);
-  w.plan.machine = w.inputs.machine;
-  auto margin = piece::margin_of(w.plan, wish, w.job);
-  if (!margin) return tl::unexpected(margin.error());
-  w.margin = margin->policy;
-  // What else the plan was made with before is said anew.
-  w.plan.provenance = w.inputs.provenance;
-  w.plan.provenance.push_back(std::move(margin->said));
-  auto raw = piece::raw_piece_of(w.plan, wish, w.job);
-  if (!raw) return tl::unexpected(raw.error());
-  w.plan.stock = *std::move(raw);
-  if (w.inputs.stock) piece::state_raw_piece(w.plan.model, w.plan.stock.box);
-  return {};
+/// The cutters that may be used: the library, or what of it is loaded.
+std::vector<model::Cutter> usable(const Asked& asked) {
+  if (!asked.policy.only_loaded_cutters) return asked.inputs.library;
+  std::vector<model::Cutter> out;
+  for (const auto& c : asked.inputs.library) {
+    if (c.loaded) out.push_back(c);
+  }
+  return out;
 }
 
-Status take_requirements(Work& w) {
-  auto demands = piece::demands_of(w.plan, w.inputs.general_tolerance, w.inputs.edge_break_mm,
-                                   w.inputs.batch, w.job);
+}  // namespace
+
+double grown_mm(const Inputs& inputs) { return inputs.stock_allowance_mm.value_or(0.0); }
+
+optimise::Options options_of(const Inputs& inputs) {
+  optimise::Options out;
+  out.solver = inputs.solver;
+  out.backends = inputs.backends;
+  return out;
+}
+
+Result<mechanics::MarginPolicy> resolve_workpiece(model::Plan& plan, const Inputs& inputs, Job& job) {
+  const piece::WorkpieceWish wish{inputs.material_name, inputs.materials, inputs.stock,
+                                  inputs.stock_allowance_mm, inputs.margin};
+  auto material = piece::material_of(plan, wish, job);
+  if (!material) return tl::unexpected(material.error());
+  plan.material = *std::move(material);
+  plan.machine = inputs.machine;
+  auto margin = piece::margin_of(plan, wish, job);
+  if (!margin) return tl::unexpected(margin.error());
+  // What else the plan was made with before is said anew.
+  plan.provenance = inputs.provenance;
+  plan.provenance.push_back(std::move(margin->said));
+  auto raw = piece::raw_piece_of(plan, wish, job);
+  if (!raw) return tl::unexpected(raw.error());
+  plan.stock = *std::move(raw);
+  if (inputs.stock) piece::state_raw_piece(plan.model, plan.stock.box);
+  return margin->policy;
+}
+
+Result<Required> take_requirements(model::Plan& plan, const Asked& asked, Job& job) {
+  const Inputs& inputs = asked.inputs;
+  auto demands = piece::demands_of(plan, inputs.general_tolerance, inputs.edge_break_mm, inputs.batch, job);
   if (!demands) return tl::unexpected(demands.error());
-  w.demands = *std::move(demands);
-  if (w.demands.general)
-    w.plan.provenance.push_back({"general tolerance", w.demands.general->text, w.demands.general_from});
-  w.shapes =
-      piece::shapes_of_all(w.plan, w.inputs.stock_allowance_mm.value_or(0.0), w.tries.bans, w.job);
-  return {};
+  if (demands->general)
+    plan.provenance.push_back({"general tolerance", demands->general->text, demands->general_from});
+  return Required{*std::move(demands), piece::shapes_of_all(plan, grown_mm(inputs), asked.bans, job)};
+}
+
+std::pair<Drafts, Learned> propose_missing(model::Plan& plan, Drafts drafts, const Required& required,
+                                           const Asked& asked, Job& job) {
+  const std::vector<model::Cutter> cutters = usable(asked);
+  const optimise::Options options = options_of(asked.inputs);
+  const piece::Piece piece{plan, required.shapes, grown_mm(asked.inputs)};
+  const propose::Choice choice{
+      piece, cutters, asked.bans, options, asked.margin.deviations, required.demands.batch};
+  const propose::Sources sources{asked.inputs.rules, required.demands, asked.unreadable, choice,
+                                 asked.policy.reopen >= Reopen::kOperations};
+  auto made = propose::propose_missing(plan, std::move(drafts), sources, job);
+  Learned learned;
+  learned.left_out = std::move(made.left_out);
+  learned.again = made.again;
+  return {std::move(made.drafts), std::move(learned)};
+}
+
+Drafts select_open_tools(model::Plan& plan, Drafts drafts, const Required& required, const Asked& asked,
+                         Job& job) {
+  const std::vector<model::Cutter> cutters = usable(asked);
+  const std::vector<model::Cutter>& library = asked.inputs.library;
+  const piece::Piece piece{plan, required.shapes, grown_mm(asked.inputs)};
+  const given::Choice choice{library, cutters,          asked.inputs.rules,
+                             piece,   required.demands, asked.recorded.cutters};
+  given::select_open_tools(plan, drafts.steps, drafts.used, choice, job);
+  const bool magazine_known =
+      std::any_of(library.begin(), library.end(), [](const model::Cutter& c) { return c.loaded; });
+  drafts.used = propose::share_tools(plan, drafts.steps, magazine_known, required.demands.batch);
+  given::stand_out_alike(drafts.steps);
+  return drafts;
+}
+
+Result<Drafts> hold_workpieces(model::Plan& plan, Drafts drafts, const Asked& asked, Job& job) {
+  const auto about = [](const model::Provenance& p) { return p.what == "workholding"; };
+  const bool asked_now = std::any_of(plan.provenance.begin(), plan.provenance.end(),
+                                     [&](const auto& p) { return about(p) && p.source == "--workholding"; });
+  const std::string& how = asked.inputs.workholding;
+  auto held =
+      workholding::hold(plan, drafts.setups, drafts.steps, {how, asked_now, asked.recorded.holdings}, job);
+  if (!held) return tl::unexpected(held.error());
+  if (held->note && std::none_of(plan.provenance.begin(), plan.provenance.end(), about))
+    plan.provenance.push_back(*std::move(held->note));
+  if (!held->planned) return drafts;
+  for (std::size_t i = 0; i < drafts.setups.size(); ++i)
+    drafts.setups[i].holding = std::move(held->holdings[i]);
+  for (std::size_t i = 0; i < drafts.setups.size(); ++i) {
+    if (!drafts.setups[i].holding.solids.empty()) workholding::write_nouns(plan, drafts.setups, i, how);
+  }
+  return drafts;
 }
 
 }  // namespace capstan::pipeline

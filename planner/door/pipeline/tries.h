@@ -1,31 +1,19 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <map>
-#include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "planner/making/draft/bans.h"
+#include "planner/making/step/cut/cuts.h"
+#include "planner/making/step/path/stocks.h"
 
 // What earlier tries at one plan taught; only planner/door/pipeline/*.cpp include this.
 
 namespace capstan::pipeline {
-
-class KnownCuts;
-
-/// The smallest cutter that the steps of a set-up ended with, and how often that was another than before.
-struct Smallest {
-  double mm = 0.0;
-  int times = 0;
-};
-
-/// What makes a set-up the same in another try: its noun, and how the workpiece lies in it. Its number is
-/// not it, for tries order set-ups anew; a noun alone is not it either, for a try that makes other set-ups
-/// gives them the same nouns.
-using SameSetup = std::pair<model::AnyRef, std::array<double, 9>>;
 
 /// Where a proposed step comes from.
 struct MadeStep {
@@ -37,7 +25,22 @@ struct MadeStep {
   bool cut_around = false;  ///< of a boss that stands by others' steps
 };
 
-/// What earlier tries at one plan taught.
+/// What a stage learned.
+struct Learned {
+  std::vector<draft::GivenUp> given_up;
+  std::vector<std::pair<model::AnyRef, std::string>> left_out;  ///< features, with why
+  struct Rests {
+    model::AnyRef feature, on;
+    std::string why;
+  };
+  std::vector<Rests> rests;                       ///< features on others that are not planned
+  std::vector<std::string> said;                  ///< what is planned anew, and why
+  std::optional<step::SmallestCutters> smallest;  ///< of all tries so far
+  bool again = false;                             ///< the plan is to be made again
+};
+
+/// What earlier tries taught. Nothing is ever taken back: each try bans at least one choice more, so tries
+/// come to an end.
 struct Tries {
   draft::Bans bans;
   /// What was planned anew, and why; a sentence each, in the order it happened.
@@ -45,9 +48,12 @@ struct Tries {
   /// Of the last try that ended: its proposed steps.
   std::map<model::AnyRef, MadeStep> made;
   /// Answers of the optimiser that hold in every try.
-  std::shared_ptr<KnownCuts> cuts;
+  step::KnownCuts cuts;
   /// By set-up, where the last try began with another: the stock's cells follow it.
-  std::map<SameSetup, Smallest> smallest;
+  step::SmallestCutters smallest;
+
+  /// Keeps what a stage learned; whether the plan is to be made again.
+  bool learn(Learned learned);
 };
 
 }  // namespace capstan::pipeline

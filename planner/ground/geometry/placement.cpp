@@ -1,8 +1,5 @@
 #include "planner/ground/geometry/placement.h"
 
-#include <algorithm>
-#include <utility>
-
 namespace capstan::geometry {
 namespace {
 
@@ -51,17 +48,6 @@ Box3 transformed(const Box3& box, const Placement& to) {
     for (const double y : {box.lo.y, box.hi.y}) {
       for (const double z : {box.lo.z, box.hi.z}) out.add(to.to_parent({x, y, z}));
     }
-  }
-  return out;
-}
-
-Region moved(const Region& r, const Placement& to) {
-  Region out;
-  for (const Loop& loop : r.loops) {
-    Loop q;
-    for (const Vec2 p : loop) q.push_back(xy(to.to_parent({p.x, p.y, 0.0})));
-    if (to.z.z < 0.0) std::reverse(q.begin(), q.end());
-    out.loops.push_back(std::move(q));
   }
   return out;
 }

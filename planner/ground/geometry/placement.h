@@ -1,7 +1,6 @@
 #pragma once
 
 #include "planner/ground/base/result.h"
-#include "planner/ground/geometry/region.h"
 #include "planner/ground/geometry/vec.h"
 
 namespace capstan::geometry {
@@ -37,7 +36,5 @@ struct Placement {
 
 /// The box around a box that is brought to another frame.
 [[nodiscard]] Box3 transformed(const Box3& box, const Placement& to);
-/// An area in the frame of another height, seen from above; turned over, its loops run the other way round.
-[[nodiscard]] Region moved(const Region& r, const Placement& to);
 
 }  // namespace capstan::geometry

@@ -24,12 +24,19 @@ struct Thinner {
   std::string why;
 };
 
+/// A chain that does not work.
+struct GivenUp {
+  Member member;
+  std::string chain, why;
+};
+
 /// Choices that were tried and did not work, with the reason. Proposing passes them over and puts the reason
 /// among the rejected alternatives, so that `explain` tells them. Nothing is ever taken back: each try bans
 /// at least one choice more, so tries come to an end.
 class Bans {
  public:
   void ban_chain(const Member& m, const std::string& chain, const std::string& why);
+  void ban_chain(const GivenUp& g) { ban_chain(g.member, g.chain, g.why); }
   void ban_cutter(const Member& m, const std::string& chain, std::size_t step, const std::string& cutter,
                   const std::string& why);
   /// The step's cuts are to be thinner, once more.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "planner/ground/base/number.h"
+#include "planner/ground/geometry/moved.h"
 #include "planner/model/features/in_piece.h"
 #include "planner/model/features/raw_piece.h"
 #include "planner/model/nouns/arena/walk.h"
@@ -128,12 +129,13 @@ Thickness thickness_beside(const Piece& piece, const FeatureShape& s) {
     const bool under = !same_side && !s.through && seen.top < -s.depth_mm - kSame && !other.through;
     const double apart = gap(box, seen.box);
     if (under && apart <= 0.0) {
-      const auto area = moved(taken(other), compose(to, other.frame));
+      const auto area = geometry::moved(taken(other), compose(to, other.frame));
       if (!geometry::intersect(own, area).empty()) below = std::min(below, -s.depth_mm - seen.top);
     }
     if (!beside || other.kind == ShapeKind::kFace || other.kind == ShapeKind::kThread) continue;
     if (out.wall_mm && apart >= *out.wall_mm) continue;
-    if (const auto d = between(own, moved(taken(other), compose(to, other.frame)))) least(out.wall_mm, *d);
+    if (const auto d = between(own, geometry::moved(taken(other), compose(to, other.frame))))
+      least(out.wall_mm, *d);
   }
   if (below > kSame) out.floor_mm = below;
   return out;
@@ -157,9 +159,10 @@ std::optional<double> clear_beside(const Piece& piece, const FeatureShape& s) {
     const auto rel = compose(to, other.frame);
     const bool all_round = wide && !model::stops_at_walls(other);
     geometry::Region open = all_round ? geometry::rectangle({-kAwayMm, -kAwayMm}, {kAwayMm, kAwayMm})
-                                      : moved(other.reach.empty() ? other.area : other.reach, rel);
+                                      : geometry::moved(other.reach.empty() ? other.area : other.reach, rel);
     for (const model::Island& island : other.islands) {
-      if (rel.origin.z + island.top_z_mm > kSame) open = geometry::subtract(open, moved(island.area, rel));
+      if (rel.origin.z + island.top_z_mm > kSame)
+        open = geometry::subtract(open, geometry::moved(island.area, rel));
     }
     free = free.empty() ? open : geometry::unite(free, open);
   }
@@ -200,7 +203,7 @@ std::string crosses_a_wall(const Piece& piece, const FeatureShape& face) {
     for (const model::Island& island : other.islands) {
       const double top = rel.origin.z + island.top_z_mm;
       if (top <= -face.depth_mm + kSame || rel.origin.z - other.depth_mm >= -kSame) continue;
-      const auto boss = moved(island.area, rel);
+      const auto boss = geometry::moved(island.area, rel);
       const double inside = geometry::area(geometry::intersect(own, boss));
       const double whole = geometry::area(boss);
       if (inside <= kSomeArea || inside >= whole - kSomeArea) continue;
@@ -227,10 +230,7 @@ geometry::Region stays_beside(const Piece& piece, const model::FeatureShape& s) 
     if (rel.origin.z - other.depth_mm > -s.depth_mm + kSame) continue;
     geometry::Region cut = other.area;
     for (const auto& island : other.islands) cut = geometry::subtract(cut, island.area);
-    for (auto& loop : cut.loops) {
-      for (auto& q : loop) q = geometry::xy(rel.to_parent({q.x, q.y, 0.0}));
-    }
-    out = geometry::subtract(out, cut);
+    out = geometry::subtract(out, geometry::moved(cut, rel));
   }
   return out;
 }

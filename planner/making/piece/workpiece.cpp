@@ -238,12 +238,12 @@ Result<model::WorkMaterial> material_of(const model::Plan& plan, const Workpiece
 }
 
 Result<Margin> margin_of(const model::Plan& plan, const WorkpieceWish& wish, Job& job) {
-  Margin out{mechanics::kUsualMargin, {kMargin, std::string(mechanics::kUsualMargin.name), "default"}};
   if (wish.margin)
     return Margin{*wish.margin, {kMargin, std::string(wish.margin->name), "named by the caller"}};
   const auto before = std::find_if(plan.provenance.begin(), plan.provenance.end(),
                                    [](const model::Provenance& p) { return p.what == kMargin; });
-  if (before == plan.provenance.end()) return out;
+  if (before == plan.provenance.end())
+    return Margin{mechanics::kUsualMargin, {kMargin, std::string(mechanics::kUsualMargin.name), "default"}};
   const auto policy = mechanics::margin_policy(before->value);
   if (!policy) {
     Diagnostic d = unknown_name(kMargin, before->value, mechanics::margin_names(), "capstan plan --help");

@@ -53,6 +53,9 @@ namespace capstan::tooling {
 /// (its_position: the tool number; its_library_reference: the cutter's id; description: its description).
 [[nodiscard]] model::Ref<model::MachiningTool> nouns_from_cutter(model::Model& m, const model::Cutter& c);
 
+/// The noun of a cutter that planning chose, made once per model.
+[[nodiscard]] model::Ref<model::MachiningTool> tool_noun(model::Model& m, const model::Cutter& c);
+
 /// A requirement as nouns: class and dimensions, nothing else.
 [[nodiscard]] model::Ref<model::MachiningTool> nouns_from_requirement(model::Model& m,
                                                                       const model::ToolRequirement& r);

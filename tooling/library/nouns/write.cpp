@@ -144,6 +144,13 @@ Ref<MachiningTool> nouns_from_cutter(Model& m, const Cutter& c) {
   return tool;
 }
 
+Ref<MachiningTool> tool_noun(Model& m, const Cutter& c) {
+  for (const AnyRef r : m.all(model::TypeId::kMillingCuttingTool)) {
+    if (m.origin(r).instance == 0 && m.get<MachiningTool>(r)->its_id == c.id) return Ref<MachiningTool>(r);
+  }
+  return nouns_from_cutter(m, c);
+}
+
 Ref<MachiningTool> nouns_from_requirement(Model& m, const model::ToolRequirement& r) {
   const auto dimension = m.add<model::MillingToolDimension>();
   auto& d = m.at<model::MillingToolDimension>(dimension);

@@ -6,8 +6,8 @@
 #include <set>
 #include <string>
 
-#include "planner/door/pipeline/paths/cuts.h"
 #include "planner/making/optimise/cut.h"
+#include "planner/making/step/cut/cuts.h"
 #include "planner/model/nouns/all.h"
 #include "tests/support/corpus.h"
 #include "tests/support/plate.h"
@@ -159,10 +159,12 @@ TEST(Efficiency, OfOneIsOptimisedAsOne) {
 
 TEST(Answers, OfOneNameWithTwoStickOutsAreTwo) {
   Job job;
-  Policy policy;
-  Tries tries;
-  Work w{{}, shop(), policy, job, tries, {}, {}, {}, {}};
-  Cuts cuts(w);
+  const Inputs inputs = shop();
+  optimise::Options options;
+  options.solver = inputs.solver;
+  options.backends = inputs.backends;
+  step::KnownCuts known;
+  step::Cuts cuts(known, options, job);
   auto q = asked();
   const auto close = cuts.answer(q);
   q.cutter.stick_out_mm *= 2.0;  // bends eight times as much

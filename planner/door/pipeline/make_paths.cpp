@@ -1,0 +1,390 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "planner/door/pipeline/stages.h"
+#include "planner/ground/base/number.h"
+#include "planner/ground/vocabulary/operation.h"
+#include "planner/making/piece/rests.h"
+#include "planner/making/step/cut/cuts.h"
+#include "planner/making/step/cut/deviation.h"
+#include "planner/making/step/cut/ranking.h"
+#include "planner/making/step/path/attempt.h"
+#include "planner/making/step/path/given_path.h"
+#include "planner/making/step/path/job_of.h"
+#include "planner/making/step/path/progress.h"
+#include "planner/making/step/path/stocks.h"
+#include "planner/making/step/record/gone.h"
+#include "planner/making/step/record/grouped_reasons.h"
+#include "planner/making/step/record/record.h"
+#include "planner/making/step/record/results.h"
+#include "planner/model/plan/decision/condemned.h"
+#include "tooling/selection/select.h"
+
+// Step by step in order: depths, path, sections, feeds, with the stock carried on.
+
+namespace capstan::pipeline {
+namespace {
+
+using draft::Member;
+using draft::StepDraft;
+using model::Model;
+
+/// Thinner cuts that are tried with one cutter where a limit is exceeded along its path.
+constexpr int kMostThinner = 3;
+/// A thinner cut aims below the limit by this, for sections along the path are not proportional to it.
+constexpr double kThinnerAim = 0.9;      // default, unsourced
+constexpr double kThinnerUnknown = 0.5;  // where no formula tells the excess; default, unsourced
+constexpr double kThinnerAnew = 0.7;     // each time that the check condemned the cut; default, unsourced
+constexpr double kThinnest = 0.02;       // of the cut that keeps the limits off the path; default, unsourced
+
+/// Depth and width of a cut, for people.
+std::string sizes(const optimise::CutAnswer& a) {
+  return trimmed(a.ap_mm, 3) + " mm deep, " + trimmed(a.ae_mm, 3) + " mm wide";
+}
+
+class PathMaker {
+ public:
+  PathMaker(model::Plan& plan, std::vector<StepDraft>& steps, const step::PlanSoFar& p,
+            const std::vector<std::string>& used, Tries& tries, const optimise::Options& options, Job& job)
+      : plan_(plan),
+        steps_(steps),
+        p_(p),
+        used_(used),
+        bans_(tries.bans),
+        job_(job),
+        stocks_(plan.stock, p.setups, steps, left_out_, tries.smallest),
+        progress_(p),
+        cuts_(tries.cuts, options, job) {}
+
+  Result<Learned> run() {
+    std::size_t done = 0;
+    for (StepDraft& step : steps_) {
+      job_.progress("paths", static_cast<double>(done++) / static_cast<double>(steps_.size()));
+      if (job_.stop_requested())
+        return fail("PIP-STOPPED", "planning was stopped before every step had its path");
+      if (given_up(step)) continue;
+      if (auto ok = make(step); !ok) return tl::unexpected(ok.error());
+    }
+    auto cells = stocks_.other_cells();
+    learned_.again = learned_.again || cells.again;
+    learned_.smallest = std::move(cells.cutters);
+    return std::move(learned_);
+  }
+
+ private:
+  /// Whether what this step needs has failed: then it is not made either. A proposed one waits for the next
+  /// try at its feature; of one of the file the reason is said.
+  bool given_up(const StepDraft& step) {
+    if (step.proposed) return failed_.contains(step.feature) || resting_.contains(step.feature);
+    if (lost_.empty() || !plan_.model.holds<model::MachiningOperation>(step.operation)) return false;
+    // A path that the file brings is kept; that of a tap is never cut as moves.
+    if (step::has_given_path(plan_, step) && !plan_.model.holds<model::Tapping>(step.operation)) return false;
+    const std::string* lost = nullptr;
+    for (const Member& m : members(step)) {
+      if (const auto at = lost_.find(m); at != lost_.end()) lost = &at->second;
+    }
+    if (lost == nullptr && !resting_.contains(step.feature)) return false;
+    step::no_path(plan_, step,
+                  lost != nullptr ? "it needs step '" + *lost + "' before it, which has no path"
+                                  : "it needs " + needed_by(step) + " before it, which is not planned",
+                  job_);
+    lose(step);
+    return true;
+  }
+
+  /// The features that this step's rests on and that failed, by name.
+  std::string needed_by(const StepDraft& step) const {
+    const auto all = piece::what_rests(plan_.model, p_.setups);
+    std::string out;
+    for (const AnyRef f : failed_) {
+      if (!piece::resting_on(all, {f}).contains(step.feature)) continue;
+      const auto* named = plan_.model.get<model::ManufacturingFeature>(f);
+      out += (out.empty() ? "'" : ", '") + (named == nullptr ? "" : named->its_id.value_or("")) + "'";
+    }
+    return out;
+  }
+
+  static std::vector<Member> members(const StepDraft& step) {
+    std::vector<Member> out;
+    for (const auto& s : step.shapes) out.push_back({step.feature, s.feature, s.member});
+    if (out.empty()) out.push_back({step.feature, {}, 0});
+    return out;
+  }
+
+  /// What this step of the file would have left is not there for those after it.
+  void lose(const StepDraft& step) {
+    if (!step.feature.set() || !leaves_what_others_need(step)) return;
+    for (const Member& m : members(step)) lost_.emplace(m, draft::name_of(plan_.model, step));
+    failed_.insert(step.feature);
+    resting_ = piece::resting_on(piece::what_rests(plan_.model, p_.setups), failed_);
+  }
+
+  /// A step that cannot be made. If rules proposed it, its chain is given up, and with it for now what rests
+  /// on its feature; the plan is made again with the next chain. A step of the file is reported.
+  void give_up(const StepDraft& step, const std::string& why) {
+    if (!step.proposed) {
+      step::no_path(plan_, step, why, job_);
+      lose(step);
+      return;
+    }
+    const std::string text = "step '" + draft::name_of(plan_.model, step) + "' has no path: " + why;
+    learned_.given_up.push_back({step.member, step.chain, text});
+    learned_.said.push_back(text + "; its feature is planned anew");
+    learned_.again = true;
+    failed_.insert(step.feature);
+    resting_ = piece::resting_on(piece::what_rests(plan_.model, p_.setups), failed_);
+  }
+
+  /// Whether the step could be left out, for it cuts nothing.
+  bool left_out(const StepDraft& step, const std::string& why) {
+    if (!step::leave_out(plan_, p_, step, why, job_)) return false;
+    left_out_.insert(step.step);
+    return true;
+  }
+
+  /// A mark for the drill, a finished wall or a broken edge is missed by no other step of its feature.
+  bool leaves_what_others_need(const StepDraft& step) const {
+    const Model& m = plan_.model;
+    return !m.holds<model::CenterDrilling>(step.operation) &&
+           !m.holds<model::CounterSinking>(step.operation) &&
+           !model::has(step.operation.type, model::OperationTrait::kFinishes) &&
+           !m.holds<model::Tapping>(step.operation);
+  }
+
+  Status make(StepDraft& step) {
+    stocks_.keep(step.setup);
+    if (!step.unreadable.empty()) {
+      give_up(step, step.unreadable);
+      return {};
+    }
+    if (step::has_given_path(plan_, step) && !step::rigid_tap(plan_, step, job_)) return explicit_path(step);
+    if (!plan_.model.holds<model::MachiningOperation>(step.operation)) return {};
+    if (step.shapes.empty()) {
+      give_up(step,
+              "the shape of its feature is not known" + (step.no_shape.empty() ? "" : ": " + step.no_shape));
+      return {};
+    }
+    if (step.cutter.cutting_diameter_mm <= 0.0) {  // no cutter was found; said already
+      lose(step);
+      return {};
+    }
+    if (step.open_technology && step.candidates.empty()) {  // a tool of the file, which nobody chose for it
+      const auto start = tooling::start_values(step.cutter, plan_.material, plan_.machine);
+      if (const auto why = tooling::not_cut_with(step.cutter, start, plan_.material)) {
+        give_up(step, "tool " + step.cutter.id + ": " + *why);
+        return {};
+      }
+    }
+    step::rank_by_time(plan_, p_, steps_, step, used_, stocks_, progress_, cuts_);
+    step::rank_by_path(plan_, steps_, step, used_, [&](std::size_t i) { return seconds_with(step, i); });
+    const std::size_t tries = std::max<std::size_t>(1, step.candidates.size());
+    step::GroupedReasons why_not;
+    bool gone = step.proposed;                            // whichever cutter: nothing stands there to be cut
+    std::optional<std::pair<std::size_t, double>> least;  // of those that exceed a limit: which, by how much
+    for (std::size_t i = 0; i < tries; ++i) {
+      const auto before = stocks_.before(step.setup);
+      auto tried = with_cutter(step, i);
+      if (tried && !exceeds(step, *tried)) return accept(step, *std::move(tried), i);
+      gone = gone && !tried && tried.error().code == toolpath::kNothingToCut;
+      const std::string why = tried ? excess_text(*tried) : tried.error().message;
+      if (tried) {
+        if (!least || tried->feeds.worst_excess < least->second) least = {i, tried->feeds.worst_excess};
+        stocks_.put_back(step.setup, before);
+      }
+      why_not.add(step.cutter.id, why);
+      step.rejected_tools.push_back({step.cutter.id, why});
+    }
+    // What the file asks for is cut as gently as it can be; the plan then says which limit is exceeded.
+    if (least && !step.proposed) {
+      auto tried = with_cutter(step, least->first);
+      if (tried) return accept(step, *std::move(tried), least->first);
+    }
+    if (gone && left_out(step, why_not.text())) return {};
+    give_up(step,
+            why_not.text() + (least ? "; a smaller or shorter cutter or a stronger spindle would do" : ""));
+    return {};
+  }
+
+  [[nodiscard]] static bool exceeds(const StepDraft& step, const step::MeasuredCut& t) {
+    return step.open_technology && t.feeds.worst_excess > step::kTolerableExcess;
+  }
+
+  static std::string excess_text(const step::MeasuredCut& t) {
+    const std::string thinner = t.made.thicker.empty()
+                                    ? std::string()
+                                    : ", also where it cuts " + trimmed(t.made.answer.ap_mm, 3) + " mm deep";
+    return model::text_of(t.feeds.worst) + ", even at the least feed" + thinner;
+  }
+
+  /// How long a candidate's path takes, if it keeps the limits; nothing is kept or said of it.
+  std::optional<double> seconds_with(StepDraft& step, std::size_t i) {
+    auto said = job_.take_diagnostics();
+    const auto before = stocks_.before(step.setup);
+    const model::Cutter cutter = step.cutter;
+    const auto tried = with_cutter(step, i);
+    step.cutter = cutter;
+    stocks_.put_back(step.setup, before);
+    (void)job_.take_diagnostics();
+    for (auto& d : said) job_.report(std::move(d));
+    if (!tried || exceeds(step, *tried)) return std::nullopt;
+    return step::seconds_of(plan_.machine, *tried->path, tried->feeds.schedule);
+  }
+
+  /// A try with one of the candidates: thinner, where a limit is exceeded along its path, up to kMostThinner
+  /// times; the gentlest when none keeps the limits. What it cuts is gone from the stock, but for a proposed
+  /// step's that keeps no limits.
+  Result<step::MeasuredCut> with_cutter(StepDraft& step, std::size_t i) {
+    const model::Candidate* candidate = i < step.candidates.size() ? &step.candidates[i] : nullptr;
+    if (candidate != nullptr) step.cutter = candidate->cutter;
+    const auto before = stocks_.before(step.setup);
+    std::vector<model::Rejected> thicker;
+    std::optional<double> gentlest;  // share of the first try
+    std::optional<step::MeasuredCut> came_of_it;
+    std::vector<Diagnostic> said_of_it;
+    double of_gentlest = 0.0, share = 1.0;
+    if (const draft::Thinner* t =
+            step.proposed ? bans_.thinner(step.member, step.chain, step.in_chain) : nullptr) {
+      share = std::pow(kThinnerAnew, t->times);
+      thicker.push_back({"a cut " + trimmed(1.0 / share, 2) + " times as large", t->why});
+    }
+    for (int round = 0; round <= kMostThinner; ++round) {
+      auto said = job_.take_diagnostics();  // before this try; what a try says that is not kept is not told
+      const auto told = [&](bool kept) {
+        auto now = job_.take_diagnostics();
+        for (auto& d : said) job_.report(std::move(d));
+        if (!kept) return now;
+        for (auto& d : now) job_.report(std::move(d));
+        now.clear();
+        return now;
+      };
+      auto made = step::path_with_cut(p_, step, candidate, share, means_);
+      if (!made) told(!gentlest);
+      if (!made && !gentlest) return tl::unexpected(made.error());
+      if (!made) break;
+      // A pass over a surface is as deep as what was left there, whatever was asked for.
+      const bool thinner = (made->depth_open || made->width_open) &&
+                           (!plan_.model.holds<model::FreeformFinishMilling>(step.operation) ||
+                            draft::cuts_levels(plan_.model, step));
+      made->thicker = thicker;
+      step::MeasuredCut tried = step::measured_cut(plan_, p_, step, *std::move(made), means_);
+      const double excess = tried.feeds.worst_excess;
+      const bool kept = !exceeds(step, tried) || !thinner;
+      auto unsaid = told(kept);
+      if (kept) return tried;
+      thicker.push_back({sizes(tried.made.answer), excess_text(tried)});
+      if (!gentlest || excess < of_gentlest) {
+        gentlest = share;
+        of_gentlest = excess;
+        came_of_it = std::move(tried);
+        said_of_it = std::move(unsaid);
+      }
+      stocks_.put_back(step.setup, before);
+      share *= std::isfinite(excess) ? kThinnerAim / (1.0 + excess) : kThinnerUnknown;
+      if (share < kThinnest) break;
+    }
+    if (step.proposed) {  // exceeds a limit and is not taken: nothing is cut, what is known of it will do
+      came_of_it->made.thicker = std::move(thicker);
+      for (auto& d : said_of_it) job_.report(std::move(d));
+      return *std::move(came_of_it);
+    }
+    auto made = step::path_with_cut(p_, step, candidate, *gentlest, means_);
+    if (!made) return tl::unexpected(made.error());
+    made->thicker = std::move(thicker);
+    return step::measured_cut(plan_, p_, step, *std::move(made), means_);
+  }
+
+  /// Takes a try: into nouns, ledger and plan.
+  Status accept(StepDraft& step, step::MeasuredCut tried, std::size_t candidate) {
+    if (tried.removed_mm3 && step::in_air(p_, step, *tried.removed_mm3) &&
+        left_out(step, "it meets no material"))
+      return {};
+    const std::string* nothing =
+        step.proposed ? bans_.cuts_nothing(step.member, step.chain, step.in_chain) : nullptr;
+    if (nothing != nullptr && step::cut_around(p_, step) && left_out(step, *nothing)) return {};
+    if (candidate > 0 && candidate < step.candidates.size())
+      step::take_cutter(plan_, steps_, step, step.candidates[candidate]);
+    const step::PathWithCut& made = tried.made;
+    step::tell_rapids(plan_.model, step, tried.rapid_removed_mm3, job_);
+    step::let_go(plan_.model, step, made.let_go, job_);
+    step::turn_with_the_cutter(plan_, step, job_);
+    step::record_cut(plan_, steps_, step, made.answer, made.depth_open, made.width_open, made.precedent);
+    tell_thicker(step, made);
+    progress_.done(step);
+    const auto& feeds = tried.feeds;
+    model::StepResult& r = tried.result;
+    if (tried.asked.adapt || step.open_technology) step::keep_excess(plan_.model, step, feeds, r, job_);
+    r.schedule = std::make_shared<const model::FeedSchedule>(feeds.schedule);
+    r.loads = made.under && !tried.removed_mm3 ? *made.under : feeds.peak;
+    if (!(r.loads.tool_life_min > 0.0)) r.loads.tool_life_min = made.answer.life_min;
+    r.held_by = feeds.held_by;
+    r.path = tried.path;
+    const step::Deviation deviation =
+        step::deviation_of(p_, step, step::job_of(p_, step, step.shapes.front()));
+    r.path_deviation_mm = r.contour_tolerance_mm = deviation.mm;
+    step::record_path(plan_, steps_, step, tried.path, deviation.why);
+    step::keep(plan_, p_.recorded, step, std::move(r), tried.asked, job_);
+    return {};
+  }
+
+  /// Depths that exceeded a limit along the path: an alternative that was tried, and why not.
+  void tell_thicker(const StepDraft& step, const step::PathWithCut& made) {
+    if (made.thicker.empty()) return;
+    // What the check asked for is told by `bind_checked`.
+    const bool asked = step.proposed && bans_.thinner(step.member, step.chain, step.in_chain) != nullptr;
+    if (made.thicker.size() > 1 || !asked) {
+      job_.note("PIP-ANEW", "step '" + draft::name_of(plan_.model, step) + "': planned anew " +
+                                sizes(made.answer) + " instead of " + made.thicker.front().what +
+                                ", because " + made.thicker.front().why);
+    }
+    const char* what = made.depth_open ? "axial_cutting_depth" : "radial_cutting_depth";
+    auto* d = plan_.ledger.find(step.operation, what);
+    if (d == nullptr) return;
+    for (const model::Rejected& r : made.thicker) d->rejected.push_back(r);
+  }
+
+  /// A path that the file brings is cut as it is; its feed may be open.
+  Status explicit_path(StepDraft& step) {
+    step::turn_with_the_cutter(plan_, step, job_);
+    auto made = step::given_path(plan_, p_, step, stocks_, progress_, cuts_, job_);
+    if (!made) {
+      give_up(step, made.error().message);
+    } else if (*made) {
+      step::keep(plan_, p_.recorded, step, std::move((*made)->result), (*made)->feeds, job_);
+    }
+    return {};
+  }
+
+  model::Plan& plan_;
+  std::vector<StepDraft>& steps_;
+  const step::PlanSoFar& p_;
+  const std::vector<std::string>& used_;
+  const draft::Bans& bans_;
+  Job& job_;
+  std::set<AnyRef> left_out_;  ///< steps that were proposed and cut nothing
+  step::Stocks stocks_;
+  step::Progress progress_;
+  step::Cuts cuts_;
+  step::Means means_{stocks_, progress_, cuts_, job_};
+  Learned learned_;
+  std::set<AnyRef> failed_;   ///< features with a step that failed in this try
+  std::set<AnyRef> resting_;  ///< features that rest on those
+  std::map<Member, std::string>
+      lost_;  ///< what steps of the file would have made that have no path: the first
+};
+
+}  // namespace
+
+Result<Learned> make_paths(model::Plan& plan, std::vector<StepDraft>& steps, const step::PlanSoFar& p,
+                           const std::vector<std::string>& used, Tries& tries,
+                           const optimise::Options& options, Job& job) {
+  return PathMaker(plan, steps, p, used, tries, options, job).run();
+}
+
+}  // namespace capstan::pipeline

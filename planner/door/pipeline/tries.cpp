@@ -1,0 +1,16 @@
+#include "planner/door/pipeline/tries.h"
+
+#include <utility>
+
+namespace capstan::pipeline {
+
+bool Tries::learn(Learned learned) {
+  for (const draft::GivenUp& g : learned.given_up) bans.ban_chain(g);
+  for (const auto& [feature, why] : learned.left_out) bans.leave_out(feature, why);
+  for (const Learned::Rests& r : learned.rests) bans.rests(r.feature, r.on, r.why);
+  for (std::string& s : learned.said) said.push_back(std::move(s));
+  if (learned.smallest) smallest = *std::move(learned.smallest);
+  return learned.again;
+}
+
+}  // namespace capstan::pipeline

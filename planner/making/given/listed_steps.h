@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "planner/ground/base/job.h"
+#include "planner/ground/base/result.h"
+#include "planner/making/draft/draft.h"
+#include "planner/model/plan/plan.h"
+
+namespace capstan::given {
+
+/// What is re-opened before planning, although the file binds it. Each includes those below it.
+enum class Reopen : std::uint8_t { kNothing, kTechnology, kTools, kOperations, kAll };
+
+/// What the file already says.
+struct Listed {
+  std::vector<draft::SetupDraft> setups;
+  std::vector<draft::StepDraft> steps;  ///< in the order of the workplan
+};
+
+/// The set-ups and workingsteps of the plan's file; in `plan`, a set-up where the file has none, what is
+/// re-opened, and what safety overrules (PIP-CHANGED). Steps without an operation are left to the rules;
+/// those that nobody understands are unplanned (PIP-UNHANDLED). `unreadable`: by feature and workingstep,
+/// what the file states wrongly. `grown_mm` as piece::Piece. Fails  as model::placement for a set-up that is
+/// none.
+[[nodiscard]] Result<Listed> list_steps(model::Plan& plan, Reopen reopen,
+                                        const std::map<model::AnyRef, std::string>& unreadable,
+                                        double grown_mm, Job& job);
+
+/// The security planes lie above the raw piece, every feature that is cut and what holds the piece; a given
+/// one that does not is raised (PIP-SECPLANE), in `setups` and in the nouns.
+void raise_security_planes(model::Plan& plan, std::vector<draft::SetupDraft>& setups,
+                           const std::vector<draft::StepDraft>& steps, Job& job);
+
+}  // namespace capstan::given

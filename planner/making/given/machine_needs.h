@@ -1,0 +1,21 @@
+#pragma once
+
+#include <vector>
+
+#include "planner/ground/base/job.h"
+#include "planner/model/plan/plan.h"
+
+// What the plan asks of a machine.
+
+namespace capstan::given {
+
+/// States at the main workplan what a machine must have for this plan (its_minimum_machine_params): the
+/// fastest feed, speed, the largest power and torque at the motor with the margins of planning, axes, travel.
+/// Where the file states its own, that stays.
+void state_machine_needs(model::Plan& plan);
+
+/// Marks which of the plan's cutters are in the magazine (Cutter::loaded) and notes those that have to be
+/// loaded.
+void tell_loading(model::Plan& plan, const std::vector<model::Cutter>& library, Job& job);
+
+}  // namespace capstan::given

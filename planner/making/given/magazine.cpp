@@ -1,0 +1,161 @@
+#include "planner/making/given/magazine.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <tuple>
+
+#include "planner/ground/base/number.h"
+#include "planner/model/nouns/all.h"
+#include "planner/model/nouns/arena/walk.h"
+#include "planner/model/plan/cutter/measured_length.h"
+#include "tooling/library/cutters/complete.h"
+#include "tooling/library/formats/linuxcnc/linuxcnc.h"
+#include "tooling/library/nouns/nouns.h"
+
+// What is in the magazine against what the plan wants.
+
+namespace capstan::given {
+namespace {
+
+using model::AnyRef;
+using model::Cutter;
+
+constexpr double kSameAngle = 0.01;      // rad, about half a degree
+constexpr double kSameDiameter = 0.001;  // mm; a tool table's diameter is measured to a micrometre at best
+
+/// A name says nothing: every size that both know has to agree, and what a thread is has to be known.
+bool same_tool(const Cutter& a, const Cutter& b) {
+  const auto near = [](double x, double y, double by) { return std::abs(x - y) <= by; };
+  const auto near_if_known = [&](double x, double y, double by) {
+    return x == 0.0 || y == 0.0 || near(x, y, by);
+  };
+  return a.cutter_class == b.cutter_class && a.hand == b.hand &&
+         near(a.cutting_diameter_mm, b.cutting_diameter_mm, kSameDiameter) &&
+         near(a.corner_radius_mm, b.corner_radius_mm, kSameDiameter) &&
+         near(a.thread_pitch_mm, b.thread_pitch_mm, 1e-6) &&
+         near_if_known(a.point_angle_rad, b.point_angle_rad, kSameAngle) &&
+         near_if_known(a.tip_diameter_mm, b.tip_diameter_mm, kSameDiameter);
+}
+
+/// Whether the loaded tool does what the planned one is to do. What a library says of the tool counts where
+/// it says it itself, and not a default; of a line of a tool table what its comment says.
+bool does_as_much(const Cutter& loaded, const Cutter& planned) {
+  constexpr double kRoom = 0.01;  // mm and 1/min: rounding of what is written
+  const auto says = [&](std::string_view field) {
+    const std::string* source = tooling::source_of(loaded, field);
+    if (loaded.table_line)
+      return source != nullptr && (source->starts_with("stated") || source->ends_with(tooling::kOfComment));
+    return source == nullptr || source->starts_with("stated");
+  };
+  const auto less = [&](std::string_view field, double has, double wants) {
+    return says(field) && has > 0.0 && wants > 0.0 && has < wants - kRoom;
+  };
+  const auto more = [&](std::string_view field, double has, double wants) {
+    return says(field) && has > 0.0 && wants > 0.0 && has > wants + kRoom;
+  };
+  // A plan that assumes HSS, the slower one, is no plan against carbide.
+  const std::string* assumed = tooling::source_of(planned, "substrate");
+  const bool slower_assumed =
+      assumed != nullptr && assumed->starts_with("default") && planned.substrate == model::Substrate::kHss;
+  if (says("substrate") && loaded.substrate != planned.substrate && !slower_assumed) return false;
+  if (says("teeth") && loaded.teeth > 0 && planned.teeth > 0 && loaded.teeth != planned.teeth) return false;
+  if (loaded.table_line) return true;  // its lengths are taken as they are measured
+  if (says("centre_cutting") && planned.centre_cutting && !loaded.centre_cutting) return false;
+  const bool slower =
+      loaded.maximum_speed_rpm > 0.0 && says("maximum_speed_rpm") &&
+      (planned.maximum_speed_rpm == 0.0 || loaded.maximum_speed_rpm < planned.maximum_speed_rpm);
+  const bool worn = loaded.life_min > 0.0 && loaded.life_used_min >= loaded.life_min;
+  return !slower && !worn &&
+         !less("maximum_depth_of_cut_mm", loaded.maximum_depth_of_cut_mm, planned.maximum_depth_of_cut_mm) &&
+         !less("usable_length_mm", loaded.usable_length_mm, planned.usable_length_mm) &&
+         !less("maximum_ramp_angle_rad", loaded.maximum_ramp_angle_rad, planned.maximum_ramp_angle_rad) &&
+         !less("neck_diameter_mm", loaded.neck_diameter_mm, planned.neck_diameter_mm) &&
+         !more("neck_length_mm", loaded.neck_length_mm, planned.neck_length_mm) &&
+         !more("stick_out_mm", loaded.stick_out_mm, planned.stick_out_mm) &&
+         !more("shank_diameter_mm", loaded.shank_diameter_mm, planned.shank_diameter_mm);
+}
+
+}  // namespace
+
+const Cutter* loaded_like(const std::vector<Cutter>& library, const Cutter& wanted) {
+  const Cutter* found = nullptr;
+  for (const Cutter& c : library) {
+    if (!c.loaded || c.pocket <= 0 || !same_tool(c, wanted) || !does_as_much(c, wanted)) continue;
+    // One that is measured first; of these the wanted one itself by name, then by number; then the lowest
+    // number.
+    const auto rank = [&](const Cutter& x) {
+      return std::tuple(!model::offset_fault(x).empty(), x.id != wanted.id, x.pocket != wanted.pocket,
+                        x.pocket);
+    };
+    if (found == nullptr || rank(c) < rank(*found)) found = &c;
+  }
+  return found;
+}
+
+void take_length(const Cutter& loaded, Cutter& into) {
+  if (loaded.table_line) return model::take_table_line(into, *loaded.table_line);
+  if (!(loaded.functional_length_mm > 0.0)) return;
+  if (loaded.functional_length_mm == into.functional_length_mm) return;
+  model::take_measured_length(into, loaded.functional_length_mm, "derived: as long as the loaded tool");
+}
+
+Result<std::vector<std::string>> match_loaded(model::Plan& plan, std::vector<Cutter>& library, Job& job) {
+  std::vector<std::string> reopened;
+  std::vector<Cutter> merged;
+  std::set<std::string> seen;
+  const std::vector<AnyRef> roots = {plan.project};
+  for (const AnyRef r : model::reachable(plan.model, roots)) {
+    const auto* op = plan.model.get<model::MachiningOperation>(r);
+    if (op == nullptr || !plan.model.holds<model::MachiningTool>(op->its_tool)) continue;
+    if (tooling::is_requirement(plan.model, op->its_tool)) continue;
+    const auto wanted = tooling::cutter_from_nouns(plan.model, op->its_tool, job, plan.cutters);
+    if (!wanted) return tl::unexpected(wanted.error());
+    if (const Cutter* there = loaded_like(library, *wanted)) {
+      if (!seen.insert(wanted->id).second) continue;
+      const auto same_pocket = [&](const Cutter& m) { return m.pocket == there->pocket; };
+      if (std::any_of(merged.begin(), merged.end(), same_pocket))
+        continue;  // the same tool under another name
+      Cutter c = *wanted;
+      c.pocket = there->pocket;
+      c.loaded = true;
+      take_length(*there, c);
+      if (std::string fault = model::offset_fault(c); !fault.empty()) {
+        return fail({.code = "LATE-TOOL",
+                     .message = "the tool '" + c.id + "' of operation '" + op->its_id.value_or("") +
+                                "' has no length that can be used: " + fault,
+                     .file = plan.file_name,
+                     .path = c.id,
+                     .hint = "measure it and enter its length; where offsets count from a reference tool, "
+                             "say length_offsets: reference under the machine's control"});
+      }
+      merged.push_back(std::move(c));
+      continue;
+    }
+    plan.ledger.reopen({r, "its_tool"});
+    reopened.push_back("operation '" + op->its_id.value_or("") + "': tool '" + wanted->id + "' (" +
+                       std::string(model::to_text(wanted->cutter_class)) + " " +
+                       trimmed(wanted->cutting_diameter_mm, 3) + " mm) is not in the magazine; re-opened");
+  }
+  // Loaded cutters that the plan did not name stay as the table describes them; a name counts once: what has
+  // that of a tool of the plan gets one of its own.
+  std::set<std::string> names;
+  for (const Cutter& m : merged) names.insert(m.id);
+  for (const Cutter& c : library) {
+    bool taken = false;
+    for (const Cutter& m : merged) taken = taken || (c.pocket > 0 && m.pocket == c.pocket);
+    if (taken) continue;
+    if (const std::string fault = model::offset_fault(c); c.loaded && !fault.empty()) {
+      const bool named = c.id == "T" + std::to_string(c.pocket);  // by the text itself
+      job.note("LATE-TOOL", (named ? "not used: " : "'" + c.id + "' is not used: ") + fault);
+      continue;
+    }
+    merged.push_back(c);
+    for (int n = 2; !names.insert(merged.back().id).second; ++n)
+      merged.back().id = c.id + "~" + std::to_string(n);
+  }
+  library = std::move(merged);
+  return reopened;
+}
+
+}  // namespace capstan::given

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "planner/ground/base/job.h"
+#include "planner/making/draft/bans.h"
+#include "planner/making/draft/draft.h"
+#include "planner/making/optimise/solver/solver.h"
+#include "planner/making/piece/piece.h"
+#include "planner/model/plan/proposal.h"
+
+// Which chain of a proposal is taken.
+
+namespace capstan::propose {
+
+/// What chains and their cutters are chosen by.
+struct Choice {
+  const piece::Piece& piece;
+  const std::vector<model::Cutter>& usable;  ///< cutters that may be used
+  const draft::Bans& bans;
+  const optimise::Options& options;
+  double margin_deviations = 0.0;  ///< of loads against their limits
+  int batch = 1;                   ///< pieces
+};
+
+struct Chosen {
+  const std::vector<model::ProposedStep>* chain = nullptr;  ///< null: none
+  std::string key;                                          ///< draft::key_of
+  std::vector<model::Selection> tools;                      ///< one per step
+};
+
+/// The first chain that was not tried in vain and whose every step finds a cutter; why the others do not.
+/// `steps` are those of the plan so far, `used` the cutters in use.
+[[nodiscard]] Chosen choose(const Choice& choice, const model::Proposal& p, const model::FeatureShape& shape,
+                            const draft::Member& member, const std::vector<draft::StepDraft>& steps,
+                            const std::vector<std::string>& used, std::vector<model::Rejected>& rejected,
+                            Job& job);
+
+/// A chain by its steps: "centre + drill + ream [hole.ream.it7]".
+[[nodiscard]] std::string chain_text(const std::vector<model::ProposedStep>& chain,
+                                     const model::FeatureShape& shape);
+/// What the chains after the chosen one would take, by the estimate that also ranks cutters, against the
+/// chosen one.
+[[nodiscard]] std::vector<model::Rejected> alternatives(const Choice& choice, const model::Proposal& p,
+                                                        const model::FeatureShape& shape,
+                                                        const Chosen& chosen,
+                                                        const std::vector<std::string>& used);
+
+}  // namespace capstan::propose

@@ -1,0 +1,477 @@
+#include "planner/making/propose/propose.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <set>
+#include <utility>
+
+#include "planner/ground/base/number.h"
+#include "planner/making/draft/setup_nouns.h"
+#include "planner/making/piece/in_piece.h"
+#include "planner/making/piece/surface_form.h"
+#include "planner/making/piece/surroundings.h"
+#include "planner/making/piece/twins.h"
+#include "planner/making/propose/members.h"
+#include "planner/making/propose/operation_nouns.h"
+#include "planner/making/step/cut/drill_depth.h"
+#include "planner/model/nouns/all.h"
+#include "planner/model/nouns/arena/walk.h"
+#include "tooling/library/nouns/nouns.h"
+#include "tooling/selection/select.h"
+
+namespace capstan::propose {
+namespace {
+
+using draft::Member;
+using draft::ProbingDraft;
+using draft::SetupDraft;
+using draft::StepDraft;
+using model::AnyRef;
+using model::FeatureShape;
+using model::Model;
+using model::Ref;
+using model::TypeId;
+
+constexpr double kSameAxis = 1e-6;  // sine below which two tool axes are the same
+
+/// Features the file wants made, in the order of the file.
+std::vector<AnyRef> wanted(const Model& m, const std::vector<StepDraft>& steps) {
+  const std::set<AnyRef> parts = model::parts_of_others(m);
+  std::set<AnyRef> done;
+  for (const StepDraft& s : steps) done.insert(s.feature);
+  // A compound whose elements have their own steps is made by these.
+  const auto by_elements = [&](AnyRef r) {
+    const auto* c = m.get<model::CompoundFeature>(r);
+    return c != nullptr && !c->elements.empty() &&
+           std::all_of(c->elements.items.begin(), c->elements.items.end(),
+                       [&](AnyRef e) { return done.contains(e); });
+  };
+  std::vector<AnyRef> out;
+  for (const AnyRef r : m.all_below(TypeId::kManufacturingFeature)) {
+    if (parts.contains(r) || done.contains(r) || by_elements(r) || m.holds<model::ToolpathFeature>(r))
+      continue;
+    out.push_back(r);
+  }
+  std::stable_sort(out.begin(), out.end(),
+                   [&](AnyRef a, AnyRef b) { return m.origin(a).instance < m.origin(b).instance; });
+  return out;
+}
+
+/// The set-up in which this axis points up; made when there is none.
+/// Warns  PIP-TILT when the axis leans against that of a set-up by less than anybody means.
+std::size_t setup_for(model::Plan& plan, std::vector<SetupDraft>& setups, const FeatureShape& s, Job& job) {
+  constexpr double kLeastMeantDeg = 0.5;
+  std::size_t nearest = 0;
+  double tilt_deg = kLeastMeantDeg;
+  for (std::size_t i = 0; i < setups.size(); ++i) {
+    const auto up = setups[i].workpiece.direction_to_parent(s.frame.z);
+    const double sine = std::hypot(up.x, up.y);
+    if (sine < kSameAxis && up.z > 0.0) return i;
+    const double deg = std::atan2(sine, up.z) * 180.0 / std::numbers::pi;
+    if (deg >= tilt_deg) continue;
+    nearest = i;
+    tilt_deg = deg;
+  }
+  if (tilt_deg < kLeastMeantDeg) {
+    const auto* from = plan.model.get<model::Setup>(setups[nearest].setup);
+    job.report(
+        {.code = "PIP-TILT",
+         .severity = Severity::kWarning,
+         .message = "feature '" + s.name + "': its axis is tilted by " + trimmed(tilt_deg, 4) +
+                    " degrees against set-up '" + (from == nullptr ? "" : from->its_id.value_or("")) +
+                    "', and a set-up of its own is made for it; a tilt below " + trimmed(kLeastMeantDeg, 4) +
+                    " degrees is hardly meant",
+         .file = plan.file_name,
+         .line = plan.model.origin(s.feature).line,
+         .instance = plan.model.origin(s.feature).instance,
+         .hint = "correct the axis of its feature_placement; if it is meant, clamp the piece anew for it"});
+  }
+  const auto seen = geometry::make_placement({}, s.frame.z, s.frame.x);
+  geometry::Placement turned = inverse(*seen);
+  // The work offset lies at the raw piece's lower corner, as it is clamped.
+  const auto box = transformed(plan.stock.box, turned);
+  turned.origin = turned.origin - box.lo;
+  SetupDraft work;
+  work.workpiece = turned;
+  work.setup = draft::add_setup(plan.model, setups.size() + 1, plan.stock.box, turned);
+  work.stock = transformed(plan.stock.box, turned);
+  work.security_z_mm = work.stock.hi.z + draft::kSecurityAboveMm;
+  setups.push_back(work);
+  plan.ledger.bind(
+      work.setup, "its_origin", model::Binder::kRule,
+      {"setup.access", "made because no set-up of the file reaches feature '" + s.name + "' along its axis",
+       "derived from the feature's placement"});
+  return setups.size() - 1;
+}
+
+void unplanned(model::Plan& plan, AnyRef feature, const FeatureShape& s, const std::string& reason,
+               Job& job) {
+  plan.unplanned.push_back({feature, reason});
+  job.report({.code = "PIP-UNPLANNED",
+              .severity = Severity::kWarning,
+              .message = "feature '" + s.name + "' (" +
+                         std::string(model::noun_type(s.feature.type).keyword) +
+                         ") is not planned: " + reason,
+              .file = plan.file_name,
+              .line = plan.model.origin(s.feature).line,
+              .instance = plan.model.origin(s.feature).instance});
+}
+
+class Proposer {
+ public:
+  Proposer(model::Plan& plan, const Sources& sources, Proposed& out, Job& job)
+      : plan_(plan), sources_(sources), choice_(sources.choice), out_(out), job_(job) {}
+
+  void feature(AnyRef f, const std::vector<FeatureShape>& shapes) {
+    if (left_out(f, shapes.front())) return;
+    rules::Context context = piece::context_of(choice_.piece, sources_.demands, f, shapes);
+    const std::optional<Core> core = core_of(shapes);
+    if (core) context.core_diameter_mm = core->diameter_mm;
+    judge_tolerances(shapes.front());
+    for (const auto& s : shapes) {
+      for (const std::string& a : s.assumptions) {
+        if (said_.insert({f, a}).second) job_.warn("PIP-ASSUMED", "feature '" + s.name + "': " + a);
+      }
+      if (s.kind == model::ShapeKind::kFreeform && plan_.target_mesh) {
+        context.surface_radius_mm = piece::surface_radius(*plan_.target_mesh);
+        const piece::SurfaceForm form = piece::surface_form(*plan_.target_mesh, plan_.stock.box);
+        context.surface_walls = form.walls;
+        context.surface_curved = form.curved;
+        context.surface_corner_mm = form.corner_mm;
+        context.surface_sharp_mm = piece::sharp_corner_of(form);
+        if (form.walls)
+          context.surface_height_mm = geometry::bounds(*plan_.target_mesh).hi.z - plan_.stock.box.lo.z;
+        // Of what is curved, too, a ball finishes the places that no mill enters.
+        if (form.walls && !form.curved)
+          context.surface_passage_mm = piece::passage_between(*plan_.target_mesh, form, plan_.stock.box);
+      }
+    }
+    const auto proposals = rules::propose_members(sources_.rules, shapes, context);
+    const auto order = rules::member_order(shapes);
+    const auto within = rules::made_within(shapes);
+    std::vector<std::vector<std::size_t>> made(shapes.size());  // indices of steps by shape
+    std::vector<std::size_t> representative(shapes.size());
+    for (std::size_t i = 0; i < shapes.size(); ++i) {
+      representative[i] = i;
+      for (std::size_t j = 0; j < i; ++j) {
+        if (representative[j] == j && piece::alike(shapes[i], shapes[j])) {
+          representative[i] = j;
+          break;
+        }
+      }
+      // Like members are made in one step each of their chain, one after the other.
+      if (representative[i] != i) {
+        for (const std::size_t s : made[representative[i]]) out_.drafts.steps[s].shapes.push_back(shapes[i]);
+        continue;
+      }
+      if (within[i] != i) {
+        job_.note("PIP-WITHIN", "feature '" + shapes[i].name + "': nothing is left to cut, for '" +
+                                    shapes[within[i]].name + "' takes all of it away");
+        continue;
+      }
+      made[i] = shape(f, shapes[i], proposals[i]);
+      if (core && !made[i].empty()) out_.drafts.steps[made[i].front()].after.push_back(core->last_step);
+    }
+    // Part of a feature is not made: what is made of it stands or falls with the rest.
+    if (const auto why = failed_.find(f); why != failed_.end()) {
+      const bool some = std::any_of(made.begin(), made.end(), [](const auto& m) { return !m.empty(); });
+      for (const std::string& reason : why->second) out_.left_out.emplace_back(f, reason);
+      // A face that stays makes all below it deeper: what was proposed reckoned without it.
+      const bool face = shapes.front().kind == model::ShapeKind::kFace;
+      out_.again = out_.again || some || face;
+    }
+    for (const auto& [first, second] : order) {
+      if (representative[first] != first || representative[second] != second) continue;
+      if (made[first].empty() || made[second].empty()) continue;
+      members_in_order(out_.drafts.steps, made[first], made[second]);
+    }
+  }
+
+ private:
+  /// Whether an earlier try left this feature out; said again in this one.
+  bool left_out(AnyRef f, const FeatureShape& first) {
+    const draft::LeftOut* out = choice_.bans.left_out(f);
+    if (out == nullptr) return false;
+    const auto* named = plan_.model.get<model::ManufacturingFeature>(f);
+    FeatureShape whole = first;
+    if (named != nullptr && named->its_id) whole.name = *named->its_id;
+    for (const std::string& why : out->reasons) unplanned(plan_, f, whole, why, job_);
+    if (!out->reasons.empty()) return true;
+    std::string names;
+    for (const AnyRef on : out->rests_on) {
+      const auto* other = plan_.model.get<model::ManufacturingFeature>(on);
+      names += (names.empty() ? "'" : ", '") + (other == nullptr ? "" : other->its_id.value_or("")) + "'";
+    }
+    unplanned(plan_, f, whole,
+              "it rests on " + names + ", which " + (out->rests_on.size() > 1 ? "are" : "is") +
+                  " not planned" + (out->why_rests.empty() ? "" : ": ") + out->why_rests,
+              job_);
+    return true;
+  }
+
+  /// Why this member cannot be made; with its name where the feature has others.
+  void fail_member(AnyRef f, const FeatureShape& s, const std::string& reason) {
+    const auto* named = plan_.model.get<model::ManufacturingFeature>(f);
+    const bool whole = named == nullptr || named->its_id.value_or("") == s.name;
+    const std::string text = whole ? reason : "'" + s.name + "': " + reason;
+    failed_[f].push_back(text);
+    unplanned(plan_, f, s, text, job_);
+  }
+
+  /// A narrower hole of another feature that an earlier step makes right through where these holes are.
+  struct Core {
+    double diameter_mm = 0.0;
+    std::size_t last_step = 0;
+  };
+
+  /// Whether `hole` runs on the axis of `s`, from above its bottom to below it, from whichever side it is
+  /// cut.
+  static bool runs_through(const FeatureShape& hole, const FeatureShape& s) {
+    constexpr double kCoaxial = 1e-4;  // mm
+    if (hole.kind != model::ShapeKind::kHole || hole.bottom_diameter_mm < hole.diameter.nominal_mm - kCoaxial)
+      return false;
+    if (hole.diameter.nominal_mm > s.diameter.nominal_mm - kCoaxial) return false;
+    const auto rel = compose(inverse(s.frame), hole.frame);
+    if (std::abs(std::abs(rel.z.z) - 1.0) > kSameAxis || std::hypot(rel.origin.x, rel.origin.y) > kCoaxial)
+      return false;
+    const double a = rel.origin.z, b = rel.origin.z - hole.depth_mm * rel.z.z;
+    return std::min(a, b) < -s.depth_mm - kCoaxial && std::max(a, b) > -kCoaxial;
+  }
+
+  /// The set-up in which these would be cut; past the last when none has their axis up yet.
+  [[nodiscard]] std::size_t setup_up(geometry::Vec3 z) const {
+    for (std::size_t i = 0; i < out_.drafts.setups.size(); ++i) {
+      if (std::abs(out_.drafts.setups[i].workpiece.direction_to_parent(z).z - 1.0) < kSameAxis) return i;
+    }
+    return out_.drafts.setups.size();
+  }
+
+  [[nodiscard]] std::optional<Core> core_of(const std::vector<FeatureShape>& shapes) const {
+    std::optional<Core> out;
+    for (const FeatureShape& s : shapes) {
+      if (s.kind != model::ShapeKind::kHole || s.through) return std::nullopt;
+      std::optional<Core> here;
+      for (std::size_t i = 0; i < out_.drafts.steps.size(); ++i) {
+        const StepDraft& step = out_.drafts.steps[i];
+        if (step.feature == s.feature || step.setup > setup_up(s.frame.z)) continue;
+        for (const FeatureShape& hole : step.shapes) {
+          if (!runs_through(hole, s)) continue;
+          if (!here || hole.diameter.nominal_mm >= here->diameter_mm)
+            here = Core{hole.diameter.nominal_mm, i};
+        }
+      }
+      if (!here || (out && out->diameter_mm != here->diameter_mm)) return std::nullopt;
+      out = Core{here->diameter_mm, std::max(here->last_step, out ? out->last_step : 0)};
+    }
+    return out;
+  }
+
+  /// A tolerance wider than its size is more likely a slip of the pen than meant.
+  void judge_tolerances(const FeatureShape& s) {
+    for (const auto& [what, t] : {std::pair("diameter", s.diameter), std::pair("width", s.width)}) {
+      if (!t.given || !(t.nominal_mm > 0.0) || t.upper_mm - t.lower_mm < t.nominal_mm) continue;
+      job_.warn("MDL-TOLERANCE", "feature '" + s.name + "': the tolerance of its " + what + ", " +
+                                     trimmed(t.lower_mm, 4) + " to " + trimmed(t.upper_mm, 4) +
+                                     " mm, is as wide as the size of " + trimmed(t.nominal_mm, 4) +
+                                     " mm or wider; look at its unit and value");
+    }
+  }
+  /// Why the tolerance leaves nothing to make; empty when it leaves something.
+  static std::string swallowed(const FeatureShape& s) {
+    for (const auto& [what, t] : {std::pair("diameter", s.diameter), std::pair("width", s.width)}) {
+      if (!t.given || !(t.nominal_mm > 0.0) || t.nominal_mm + t.lower_mm > 0.0) continue;
+      return "the tolerance swallows the size: a " + std::string(what) + " of " + trimmed(t.nominal_mm, 4) +
+             " mm with a lower limit " + trimmed(-t.lower_mm, 4) + " mm below it";
+    }
+    return {};
+  }
+
+  static bool plain_through(const FeatureShape& s) {
+    return s.kind == model::ShapeKind::kHole && s.through && s.bottom_diameter_mm == s.diameter.nominal_mm;
+  }
+
+  /// From which side the features are cut that tolerances tie to this one, directly or through others.
+  struct Sides {
+    bool same = false, opposite = false;
+  };
+  [[nodiscard]] Sides sides_tied_to(AnyRef f, geometry::Vec3 z) const {
+    std::set<AnyRef> joined{f};
+    for (bool grown = true; grown;) {
+      grown = false;
+      for (const model::Tie& t : sources_.demands.ties) {
+        if (joined.contains(t.first) == joined.contains(t.second)) continue;
+        joined.insert(t.first);
+        joined.insert(t.second);
+        grown = true;
+      }
+    }
+    Sides out;
+    if (joined.size() == 1) return out;
+    for (const FeatureShape& s : choice_.piece.shapes.all) {
+      if (s.feature == f || !joined.contains(s.feature) || plain_through(s)) continue;
+      out.same = out.same || std::abs(dot(s.frame.z, z) - 1.0) < kSameAxis;
+      out.opposite = out.opposite || std::abs(dot(s.frame.z, z) + 1.0) < kSameAxis;
+    }
+    return out;
+  }
+
+  /// A hole right through, seen from the other side when only that is up in some set-up.
+  /// Or from the side from which everything is cut that a tolerance ties it to.
+  [[nodiscard]] FeatureShape reachable_side(AnyRef f, const FeatureShape& s) const {
+    if (!plain_through(s)) return s;
+    const Sides tied = sides_tied_to(f, s.frame.z);
+    if (tied.same) return s;
+    bool below = tied.opposite;
+    for (const SetupDraft& setup : out_.drafts.setups) {
+      const auto up = setup.workpiece.direction_to_parent(s.frame.z);
+      if (!tied.opposite && std::abs(up.z - 1.0) < kSameAxis) return s;
+      below = below || std::abs(up.z + 1.0) < kSameAxis;
+    }
+    // Only from where it comes out: a hole that ends inside the piece has no other side.
+    constexpr double kOut = 0.5;  // mm
+    const double under = -transformed(plan_.stock.box, inverse(s.frame)).lo.z;
+    if (!below || under > s.depth_mm + kOut) return s;
+    FeatureShape turned = s;
+    turned.frame.origin = s.frame.origin - s.depth_mm * s.frame.z;
+    turned.frame.z = -1.0 * s.frame.z;
+    turned.frame.y = -1.0 * s.frame.y;
+    return turned;
+  }
+
+  std::vector<std::size_t> shape(AnyRef f, const FeatureShape& given, const model::Proposal& proposed) {
+    std::string why = swallowed(given);
+    if (why.empty()) why = piece::crosses_a_wall(choice_.piece, given);
+    if (why.empty()) why = piece::not_in_piece(choice_.piece, given);
+    if (why.empty()) why = piece::lies_within_another(choice_.piece.shapes, given);
+    if (!why.empty() || !proposed.cannot.empty()) {
+      fail_member(f, given, why.empty() ? proposed.cannot : why);
+      return {};
+    }
+    const model::Proposal p = piece::without_drills_at_edges(choice_.piece, given, proposed);
+    if (p.chains.empty() && !proposed.chains.empty()) {
+      fail_member(f, given, p.rejected.back().why);
+      return {};
+    }
+    for (const model::Rejected& r : p.rejected) {
+      if (r.what == "breaking edges" && said_.insert({f, "edges: " + r.why}).second)
+        job_.note("PIP-EDGE", "feature '" + given.name + "': its edges are not broken: " + r.why);
+    }
+    const FeatureShape s = reachable_side(f, given);
+    std::vector<model::Rejected> rejected = p.rejected;
+    const Member member{f, s.feature, s.member};
+    const Chosen chosen = choose(choice_, p, s, member, out_.drafts.steps, out_.drafts.used, rejected, job_);
+    if (chosen.chain == nullptr) {
+      const bool tried = std::any_of(p.chains.begin(), p.chains.end(), [&](const auto& chain) {
+        return choice_.bans.chain_banned(member, draft::key_of(chain)) != nullptr;
+      });
+      std::string reason = tried ? "no way to make it works" : "no cutter in the library fits";
+      for (const auto& r : rejected) {
+        if (reason.find("; " + r.why) == std::string::npos) reason += "; " + r.why;  // chains share reasons
+      }
+      fail_member(f, given, reason);
+      return {};
+    }
+    for (model::Rejected& r : alternatives(choice_, p, s, chosen, out_.drafts.used))
+      rejected.push_back(std::move(r));
+    std::vector<std::size_t> made;
+    std::vector<std::optional<std::size_t>> made_of;  // by step of the chain
+    std::optional<ProbingDraft> probing;
+    const std::size_t setup = setup_for(plan_, out_.drafts.setups, s, job_);
+    for (std::size_t i = 0; i < chosen.chain->size(); ++i) {
+      StepDraft step;
+      step.feature = f;
+      step.setup = setup;
+      step.shapes = {s};
+      step.proposed = true;
+      step.member = member;
+      step.chain = chosen.key;
+      step.in_chain = i;
+      step.open_technology = true;
+      step.proposal = as_opened(*chosen.chain, i, chosen.tools);
+      step.proposal.feature = f;
+      if (step.proposal.operation == TypeId::kWorkpieceProbing) {
+        probing = probing_at(*chosen.chain, i, chosen.tools[i]);
+        made_of.push_back(made.empty() ? std::nullopt : std::optional(made.back()));
+        continue;
+      }
+      step.candidates = chosen.tools[i].ranked;
+      step.rejected_tools = chosen.tools[i].rejected;
+      step.cutter = step.candidates.front().cutter;
+      step.start_in_chain_mm = (*chosen.chain)[i].start_diameter_mm;
+      if (const auto depth = step::depth_with_its_cutter(step)) step.proposal.depth_mm = *depth;
+      for (std::size_t k = 1; k < step.candidates.size() && k < 4; ++k) {
+        step.rejected_tools.push_back(
+            {step.candidates[k].cutter.id, "fits, ranked lower: " + step.candidates[k].why.text});
+      }
+      const auto ws =
+          add_nouns(plan_, step.proposal, step.candidates.front(), s, rejected, step.rejected_tools, job_);
+      step.step = ws;
+      step.operation = plan_.model.at<model::MachiningWorkingstep>(ws).its_operation;
+      for (const std::size_t before : step.proposal.after) {
+        if (before < made_of.size() && made_of[before]) step.after.push_back(*made_of[before]);
+      }
+      step.probing = std::exchange(probing, std::nullopt);
+      made_of.push_back(out_.drafts.steps.size());
+      tooling::use(out_.drafts.used, step.cutter.id);
+      made.push_back(out_.drafts.steps.size());
+      out_.drafts.steps.push_back(std::move(step));
+    }
+    return made;
+  }
+
+  ProbingDraft probing_at(const std::vector<model::ProposedStep>& chain, std::size_t i,
+                          const model::Selection& tools) {
+    ProbingDraft out{chain, i, {}};
+    if (plan_.machine.abilities.probe && !tools.ranked.empty()) {
+      out.probe = tools.ranked.front();
+      tooling::use(out_.drafts.used, out.probe->cutter.id);
+    }
+    return out;
+  }
+
+  model::Plan& plan_;
+  const Sources& sources_;
+  const Choice& choice_;
+  Proposed& out_;
+  Job& job_;
+  std::set<std::pair<AnyRef, std::string>> said_;
+  std::map<AnyRef, std::vector<std::string>> failed_;  ///< why members cannot be made, by feature
+};
+
+}  // namespace
+
+Proposed propose_missing(model::Plan& plan, Drafts given, const Sources& sources, Job& job) {
+  Proposed out;
+  out.drafts = std::move(given);
+  const std::vector<AnyRef> features = wanted(plan.model, out.drafts.steps);
+  if (sources.reopened) {
+    warn_of_lost_threads(plan, job);
+    for (const AnyRef f : features)
+      plan.model.get<model::ManufacturingFeature>(f)->its_operations.items.clear();
+  }
+  Proposer proposer(plan, sources, out, job);
+  std::size_t done = 0;
+  for (const AnyRef f : features) {
+    job.progress("propose", static_cast<double>(done++) / static_cast<double>(features.size()));
+    FeatureShape nameless;
+    nameless.feature = f;
+    nameless.name = plan.model.get<model::ManufacturingFeature>(f)->its_id.value_or("");
+    // What is not known might be a boss: nothing of it is cut.
+    if (const auto wrong = sources.unreadable.find(f); wrong != sources.unreadable.end()) {
+      unplanned(plan, f, nameless, wrong->second, job);
+      if (sources.choice.bans.left_out(f) == nullptr) out.left_out.emplace_back(f, wrong->second);
+      continue;
+    }
+    const auto shapes = piece::shapes_in_piece(sources.choice.piece, f);
+    if (!shapes) {
+      unplanned(plan, f, nameless, shapes.error().message, job);
+      continue;
+    }
+    if (!shapes->empty()) proposer.feature(f, rules::from_the_top(*shapes));
+  }
+  return out;
+}
+
+}  // namespace capstan::propose

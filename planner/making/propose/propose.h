@@ -1,0 +1,41 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "planner/making/piece/demands.h"
+#include "planner/making/propose/choose.h"
+#include "rules/rules.h"
+
+// Features without bound operations: what the rules say, which cutters there are.
+
+namespace capstan::propose {
+
+/// What is proposed by.
+struct Sources {
+  const rules::RuleBase& rules;
+  const piece::Demands& demands;
+  const std::map<model::AnyRef, std::string>& unreadable;  ///< by feature: what its file states wrongly
+  const Choice& choice;
+  bool reopened = false;  ///< operations that the file binds are proposed anew
+};
+
+/// Drafts of a plan: those of its file, and what was proposed.
+struct Drafts {
+  std::vector<draft::SetupDraft> setups;
+  std::vector<draft::StepDraft> steps;
+  std::vector<std::string> used;  ///< ids of the cutters that steps use, each once
+};
+
+/// The drafts with the steps that are proposed for the features that have none; in `plan`, their nouns and
+/// the features that are not planned (PIP-UNPLANNED).
+struct Proposed {
+  Drafts drafts;
+  std::vector<std::pair<model::AnyRef, std::string>> left_out;  ///< features that cannot be made, with why
+  bool again = false;  ///< what was proposed reckoned with one of these: the plan is to be made again
+};
+[[nodiscard]] Proposed propose_missing(model::Plan& plan, Drafts given, const Sources& sources, Job& job);
+
+}  // namespace capstan::propose

@@ -1,0 +1,156 @@
+#include "planner/making/propose/shared_tools.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "planner/ground/base/number.h"
+#include "planner/making/step/cut/drill_depth.h"
+#include "planner/model/nouns/all.h"
+#include "tooling/library/nouns/nouns.h"
+#include "tooling/selection/select.h"
+
+// The second look at the tools, when every step has one: fewer of them.
+
+namespace capstan::propose {
+namespace {
+
+using draft::StepDraft;
+using model::Candidate;
+
+/// A tool that fits a step in place of its own.
+struct Instead {
+  std::size_t step = 0, candidate = 0;
+  double loss_s = 0.0;
+};
+
+const Candidate* own(const StepDraft& s) {
+  for (const Candidate& c : s.candidates) {
+    if (c.cutter.id == s.cutter.id) return &c;
+  }
+  return nullptr;
+}
+
+class Sharer {
+ public:
+  Sharer(model::Plan& plan, std::vector<StepDraft>& steps, bool magazine_known, int batch)
+      : plan_(plan), steps_(steps), magazine_known_(magazine_known), batch_(batch) {}
+
+  std::vector<std::string> run() {
+    std::set<std::string> stay;
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (const auto& [id, steps] : by_use()) {
+        if (stay.contains(id)) continue;
+        if (give_way(id, steps)) {
+          changed = true;
+          break;
+        }
+        stay.insert(id);
+      }
+    }
+    // What gave way is not used any more.
+    std::vector<std::string> used;
+    for (const StepDraft& s : steps_) {
+      if (!s.cutter.id.empty()) tooling::use(used, s.cutter.id);
+    }
+    return used;
+  }
+
+ private:
+  using Uses = std::vector<std::pair<std::string, std::vector<std::size_t>>>;
+
+  /// Tools with their steps, the least used first, then by name.
+  [[nodiscard]] Uses by_use() const {
+    std::map<std::string, std::vector<std::size_t>> steps;
+    for (std::size_t i = 0; i < steps_.size(); ++i) {
+      if (!steps_[i].cutter.id.empty()) steps[steps_[i].cutter.id].push_back(i);
+    }
+    Uses out(steps.begin(), steps.end());
+    std::stable_sort(out.begin(), out.end(),
+                     [](const auto& a, const auto& b) { return a.second.size() < b.second.size(); });
+    return out;
+  }
+
+  /// The best of the tools that the rest of the plan uses; of the same class, so that what the rules prefer
+  /// stays.
+  [[nodiscard]] std::optional<Instead> instead(std::size_t i, const std::set<std::string>& others) const {
+    const StepDraft& s = steps_[i];
+    const Candidate* mine = own(s);
+    if (mine == nullptr) return std::nullopt;
+    std::optional<Instead> best;
+    for (std::size_t k = 0; k < s.candidates.size(); ++k) {
+      const Candidate& c = s.candidates[k];
+      if (!others.contains(c.cutter.id) || c.cutter.cutter_class != mine->cutter.cutter_class) continue;
+      // A tool that is set to a size is not the same at another size.
+      if (c.cutter.adjustable_to_mm > 0.0) continue;
+      const double loss =
+          std::max(1, static_cast<int>(s.shapes.size())) * (c.estimated_s - mine->estimated_s);
+      if (!best || loss < best->loss_s) best = Instead{i, k, loss};
+    }
+    return best;
+  }
+
+  bool give_way(const std::string& id, const std::vector<std::size_t>& steps) {
+    std::set<std::string> others;
+    for (const StepDraft& s : steps_) {
+      if (s.cutter.id != id) others.insert(s.cutter.id);
+    }
+    std::vector<Instead> taken;
+    double loss = 0.0;
+    for (const std::size_t i : steps) {
+      // Tools that a file binds stay.
+      if (!steps_[i].proposed && !steps_[i].open_tool) return false;
+      const auto other = instead(i, others);
+      if (!other) return false;
+      loss += other->loss_s;
+      taken.push_back(*other);
+    }
+    const double saved = saved_s(steps_[steps.front()].cutter);
+    if (loss >= saved) return false;
+    for (const Instead& t : taken) swap(t, id, loss, saved);
+    return true;
+  }
+
+  [[nodiscard]] double saved_s(const model::Cutter& c) const {
+    const model::Machine& m = plan_.machine;
+    const double loading = magazine_known_ && !c.loaded ? tooling::kLoadingS / std::max(1, batch_) : 0.0;
+    return m.tool_change_s + m.spindle.spin_up_s + loading;
+  }
+
+  void swap(const Instead& t, const std::string& id, double loss_s, double saved_s) {
+    StepDraft& s = steps_[t.step];
+    std::rotate(s.candidates.begin(), s.candidates.begin() + static_cast<std::ptrdiff_t>(t.candidate),
+                s.candidates.begin() + static_cast<std::ptrdiff_t>(t.candidate) + 1);
+    const Candidate& now = s.candidates.front();
+    s.cutter = now.cutter;
+    step::fit_to_cutter(plan_.model, steps_, s);
+    const std::string why = "gives way to " + now.cutter.id +
+                            ", which the plan uses already: that costs about " +
+                            trimmed(std::max(0.0, loss_s), 1) + " s of cutting and saves " +
+                            trimmed(saved_s, 1) + " s of changing tools";
+    s.rejected_tools.push_back({id, why});
+    const auto tool = tooling::tool_noun(plan_.model, s.cutter);
+    plan_.model.get<model::MachiningOperation>(s.operation)->its_tool = tool;
+    plan_.ledger.bind(
+        s.operation, "its_tool", model::Binder::kToolSelection,
+        {"tooling.fewer_changes", now.why.text + "; in place of " + id + ", which " + why, now.why.source},
+        {{s.step, "its_operation"}}, s.rejected_tools);
+  }
+
+  model::Plan& plan_;
+  std::vector<StepDraft>& steps_;
+  bool magazine_known_ = false;
+  int batch_ = 1;
+};
+
+}  // namespace
+
+std::vector<std::string> share_tools(model::Plan& plan, std::vector<StepDraft>& steps, bool magazine_known,
+                                     int batch) {
+  return Sharer(plan, steps, magazine_known, batch).run();
+}
+
+}  // namespace capstan::propose

@@ -1,0 +1,134 @@
+#include "planner/making/step/cut/cuts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "planner/ground/base/number.h"
+
+namespace capstan::step {
+namespace {
+
+/// Widest face that one pass covers, as a fraction of the cutter's diameter.
+/// Source: Mitsubishi Materials, course on selecting tool diameter and setting position (mmc-carbide.com):
+/// for one pass a cutter of 1.2 to 1.3 times the face's width; the middle of it.
+constexpr double kFaceWidthRatio = 0.8;
+
+}  // namespace
+
+const optimise::CutAnswer* KnownCuts::find(const optimise::CutQuestion& q) const {
+  const auto [first, last] = answers_.equal_range(shelf_of(q));
+  for (auto it = first; it != last; ++it) {
+    if (it->second.first == q) return &it->second.second;
+  }
+  return nullptr;
+}
+
+void KnownCuts::keep(const optimise::CutQuestion& q, const optimise::CutAnswer& a) {
+  answers_.emplace(shelf_of(q), std::pair(q, a));
+}
+
+/// Tells most questions apart; equal questions have equal ones.
+KnownCuts::Shelf KnownCuts::shelf_of(const optimise::CutQuestion& q) {
+  return {q.cutter.id, q.depth_mm, q.width_mm, q.vc_start_m_min, q.fz_start_mm, q.ae_mm.value_or(-1.0)};
+}
+
+Cuts::Cuts(KnownCuts& known, optimise::Options options, Job& job)
+    : known_(known), options_(std::move(options)), job_(job) {
+  options_.starts = 2;
+  options_.relative_tolerance = 1e-7;
+}
+
+Result<optimise::CutAnswer> Cuts::answer(const optimise::CutQuestion& q) {
+  if (const auto* known = known_.find(q)) return *known;
+  auto a = optimise::cut(q, options_, job_);
+  if (a) known_.keep(q, *a);
+  return a;
+}
+
+optimise::CutAnswer Cuts::in_one_pass(const optimise::CutQuestion& q, optimise::CutAnswer several) {
+  constexpr double kSlack = 1e-9;
+  // Passes overlap by what the round edge leaves (toolpath/region/face.cpp).
+  const double flat = q.cutter.cutting_diameter_mm - 2.0 * q.cutter.corner_radius_mm;
+  const double widest = std::min(kFaceWidthRatio * q.cutter.cutting_diameter_mm, flat) * (1.0 + kSlack);
+  const bool open = !q.ae_mm && q.kind == optimise::CutKind::kRough && several.feasible;
+  if (!open || !(several.ae_mm > 0.0) || several.ae_mm >= q.width_mm || q.width_mm > widest) return several;
+  optimise::CutQuestion one = q;
+  one.ae_mm = q.width_mm;
+  const auto a = answer(one);
+  if (!a || !a->feasible) return several;
+  const double passes = std::ceil(q.width_mm / several.ae_mm - kSlack);
+  const bool less = a->levels * several.feed_mm_min < several.levels * passes * a->feed_mm_min;
+  return less ? *a : several;
+}
+
+Result<optimise::CutAnswer> Cuts::answer(const draft::StepDraft& step, optimise::CutQuestion& q,
+                                         std::string& let_go) {
+  auto out = answer(q);
+  if (!out || out->feasible || !step.open_technology || !(step.keep_speed || step.keep_feed)) return out;
+  optimise::CutQuestion free = q;
+  free.n_rpm.reset();
+  free.feed_mm_min.reset();
+  free.fz_mm.reset();
+  auto other = answer(free);
+  if (!other || !other->feasible) return out;
+  let_go = "the stated ";
+  if (step.keep_speed && q.n_rpm) let_go += "speed of " + trimmed(*q.n_rpm, 3) + " 1/min";
+  if (step.keep_speed && step.keep_feed) let_go += " and ";
+  if (step.keep_feed && q.feed_mm_min) let_go += "feed of " + trimmed(*q.feed_mm_min, 3) + " mm/min";
+  if (step.keep_feed && q.fz_mm) let_go += "feed of " + trimmed(*q.fz_mm, 4) + " mm per tooth";
+  let_go += " breaks " + (out->violated.empty() ? std::string("a limit") : out->violated.front()) +
+            "; chosen anew, " + trimmed(other->n_rpm, 1) + " 1/min and " + trimmed(other->feed_mm_min, 1) +
+            " mm/min";
+  q = free;
+  return other;
+}
+
+Result<model::StepLoads> hold_under_overhang(const optimise::CutQuestion& q, const optimise::CutAnswer& a,
+                                             toolpath::PathJob& job) {
+  if (q.slot || !job.left_on_side_mm) return a.loads;  // asked as a slot of the whole head
+  constexpr double kLeast = 0.02;                      // of the feed; default, unsourced
+  constexpr int kHalvings = 12;                        // to a thousandth of the feed
+  const auto at = [&](double width, double edges, double share) -> Result<model::StepLoads> {
+    auto l = optimise::loads_of(q, a.ap_mm, width, a.n_rpm, share * a.feed_mm_min);
+    if (!l) return fail("PIP-INFEASIBLE", "under the overhang the loads of the head cannot be computed");
+    l->torque_nm *= edges;
+    l->power_w *= edges;
+    l->mrr_mm3_min *= edges;
+    return *l;
+  };
+  const auto most = [&](double width, double edges, double share) -> Result<double> {
+    const auto holds = [&](double x) {
+      const auto l = at(width, edges, x);
+      return l && optimise::worst_excess(q, *l, a.n_rpm) <= 0.0;
+    };
+    if (holds(share)) return share;
+    if (!holds(kLeast)) {
+      const auto l = at(width, edges, kLeast);
+      if (!l) return tl::unexpected(l.error());
+      const auto worst = optimise::worst_load(q, *l, a.n_rpm);
+      return fail("PIP-INFEASIBLE", "under the overhang, over a width of " + trimmed(width, 2) + " mm, " +
+                                        worst.name + " is " + trimmed(worst.value, 3) + " of " +
+                                        trimmed(worst.limit, 3) + " " + worst.unit +
+                                        " even at a fiftieth of the feed; use a smaller or a lower head");
+    }
+    double lo = kLeast, hi = share;
+    for (int i = 0; i < kHalvings; ++i) {
+      const double x = 0.5 * (lo + hi);
+      (holds(x) ? lo : hi) = x;
+    }
+    return lo;
+  };
+  // At no angle do the forces of both edges together exceed those of one at its worst (checked for heads of
+  // 16 to 40 mm with 6 and 8 teeth, edges a twentieth to a fifth of the diameter wide).
+  const auto both = most(a.ae_mm, 2.0, 1.0);
+  if (!both) return tl::unexpected(both.error());
+  const auto front = most(q.cutter.cutting_diameter_mm, 1.0, job.front_share);
+  if (!front) return tl::unexpected(front.error());
+  job.both_edges_share = *both;
+  job.front_share = *front;
+  return at(a.ae_mm, 2.0, job.both_edges_share);
+}
+
+}  // namespace capstan::step

@@ -1,0 +1,63 @@
+#include "planner/making/step/cut/preferences.h"
+
+#include <algorithm>
+
+#include "planner/ground/vocabulary/operation.h"
+#include "planner/making/piece/surroundings.h"
+#include "planner/model/nouns/arena/walk.h"
+
+namespace capstan::step {
+namespace {
+
+using model::FeatureShape;
+using model::ShapeKind;
+using model::TypeId;
+
+/// What a finishing pass finds on walls and floors, mm. Default, unsourced: the usual allowance.
+constexpr double kLeftOnWalls = 0.5;
+
+double perimeter(const geometry::Region& area) {
+  double out = 0.0;
+  for (const auto& loop : area.loops) {
+    for (std::size_t i = 0; i < loop.size(); ++i) out += norm(loop[(i + 1) % loop.size()] - loop[i]);
+  }
+  return out;
+}
+
+}  // namespace
+
+tooling::Preferences preferences_of(const piece::Piece& piece, int batch, const model::ProposedStep& step,
+                                    const FeatureShape& s) {
+  tooling::Preferences p;
+  p.batch = batch;
+  p.pre_hole_mm = step.start_diameter_mm;
+  const double above = piece::stock_above(piece, s);
+  const double depth = s.kind == ShapeKind::kFace ? std::max(above, s.depth_mm) : s.depth_mm + above;
+  if (model::is_a(step.operation, TypeId::kDrillingTypeOperation)) {
+    p.depth_mm = step.depth_mm > 0.0 ? step.depth_mm + above : depth;
+    return p;
+  }
+  if (model::is_a(step.operation, TypeId::kPlaneFinishMilling)) {
+    p.depth_mm = std::min(depth, kLeftOnWalls);
+    p.volume_mm3 = geometry::area(s.area) * p.depth_mm;
+    return p;
+  }
+  if (model::has(step.operation, model::OperationTrait::kFinishes)) {  // planes have returned
+    p.width_mm = kLeftOnWalls;
+    p.depth_mm = depth;
+    p.volume_mm3 = perimeter(s.area) * depth * kLeftOnWalls;
+    return p;
+  }
+  if (!model::has(s.kind, model::ShapeTrait::kClears))
+    return p;  // chamfers, rounds, threads: little, and nobody says how much
+  p.depth_mm = depth;
+  p.volume_mm3 = geometry::area(s.area) * depth;
+  if (s.kind == ShapeKind::kHole) {
+    constexpr double kQuarterPi = 0.78539816339744831;
+    const double d = s.diameter.nominal_mm, hole = step.start_diameter_mm;
+    p.volume_mm3 = kQuarterPi * std::max(0.0, d * d - hole * hole) * depth;
+  }
+  return p;
+}
+
+}  // namespace capstan::step

@@ -1,0 +1,306 @@
+#include "planner/making/step/cut/question.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "casebase/casebase.h"
+#include "planner/ground/base/number.h"
+#include "planner/ground/vocabulary/operation.h"
+#include "planner/making/step/record/record.h"
+#include "planner/making/toolpath/hole/hole_paths.h"
+#include "planner/making/toolpath/region/form/undercut.h"
+#include "planner/model/features/raw_piece.h"
+#include "planner/model/plan/borne_feed.h"
+#include "planner/physics/mechanics/stability.h"
+#include "tooling/selection/select.h"
+
+namespace capstan::step {
+namespace {
+
+using draft::StepDraft;
+using model::AnyRef;
+using model::Model;
+using model::ShapeKind;
+using model::TypeId;
+using optimise::CutKind;
+
+/// Share of a tolerance zone that bending of the tool may use in finishing. Default, unsourced.
+constexpr double kDeflectionShare = 0.25;
+constexpr double kFinishDeflection = 0.02;  // mm, where no tolerance is stated; default, unsourced
+constexpr double kLeastDeflection = 0.004;  // mm; below, the model's own error rules
+/// Height of the terraces that roughing of a surface leaves, in diameters, at most. Default, unsourced.
+constexpr double kTerraceShare = 0.25;
+/// A slot no wider than its cutter by this is cut at its full width. Default, unsourced.
+constexpr double kAsWide = 1.02;
+
+CutKind kind_of(const Model& m, AnyRef op, const model::Cutter& c) {
+  if (m.holds<model::Tapping>(op)) return CutKind::kTap;
+  if (c.cutter_class == model::CutterClass::kThreadMill) return CutKind::kFinish;
+  if (m.holds<model::Reaming>(op)) return CutKind::kReam;
+  if (m.holds<model::DrillingTypeOperation>(op)) {
+    const bool mills = model::has(c.cutter_class, model::CutterTrait::kEndMill);
+    return mills && m.holds<model::ThreadDrilling>(op) ? CutKind::kRough : CutKind::kDrill;
+  }
+  const bool plane = model::has(op.type, model::OperationTrait::kPlane);
+  return !plane && model::has(op.type, model::OperationTrait::kFinishes) ? CutKind::kFinish : CutKind::kRough;
+}
+
+double tolerance_of(const PlanSoFar& p, const StepDraft& step, const model::FeatureShape& s) {
+  double width = 0.0;
+  for (const auto& t : {s.width, s.length, s.diameter}) {
+    if (t.given && t.width() > 0.0) width = width > 0.0 ? std::min(width, t.width()) : t.width();
+  }
+  if (width > 0.0) return width;
+  if (const auto* f = p.plan.model.get<model::ManufacturingFeature>(step.feature)) {
+    if (const auto* piece = p.plan.model.get<model::Workpiece>(f->its_workpiece)) {
+      return 2.0 * model::global_tolerance_of(*piece).value_or(0.0);
+    }
+  }
+  return 0.0;
+}
+
+/// What is asked of the surfaces that a finishing step leaves; a step that leaves material is asked nothing.
+///
+/// Where the wall's own error can be told, it is what the tolerance is shared with, and the tip's bending
+/// keeps to what runs quietly: most of it is along the wall, or while no tooth is at it.
+void hold_quality(const PlanSoFar& p, const StepDraft& step, const toolpath::PathJob& job,
+                  optimise::CutQuestion& q) {
+  const Model& m = p.plan.model;
+  const bool floor = job.allowance_bottom_mm > 0.0;
+  const bool wall = job.allowance_side_mm > 0.0;
+  const bool finishes = model::has(step.operation.type, model::OperationTrait::kFinishes);
+  const auto asked = p.demands.qualities.find(step.feature);
+  if (finishes && !(floor && wall) && asked != p.demands.qualities.end())
+    q.surface_ra_um = asked->second.ra_um.value_or(0.0);
+  const bool upright = model::has(step.cutter.cutter_class, model::CutterTrait::kEndMill);
+  if (q.kind != CutKind::kFinish || wall || !upright || m.holds<model::FreeformFinishMilling>(step.operation))
+    return;
+  q.wall_error_limit_mm = q.deflection_limit_mm;
+  q.deflection_limit_mm = std::max(q.deflection_limit_mm, mechanics::kQuietDeflectionMm);
+}
+
+/// The widest cut that the feature offers: a slot's width, a pocket's narrower side.
+double width_of(const model::FeatureShape& s) {
+  if (model::has(s.kind, model::ShapeTrait::kRound)) return s.diameter.nominal_mm;
+  if (s.kind == ShapeKind::kSlot) {
+    double half = 0.5 * s.width.nominal_mm;
+    for (const geometry::Vec2 p : s.slot_profile) half = std::max(half, p.y);
+    return 2.0 * half;
+  }
+  if (s.area.empty()) return 0.0;
+  const auto b = geometry::bounds(s.area);
+  return std::min(b.hi.x - b.lo.x, b.hi.y - b.lo.y);
+}
+
+/// How wide a cone cuts at its depth: 2 t tan(SIG / 2), plus its flat tip; 0 when all of the cutter does.
+double engaged(TypeId operation, const model::Cutter& c, std::optional<double> depth_mm) {
+  const bool cone = model::has(operation, model::OperationTrait::kConeTip);
+  if (!cone || !depth_mm || !(c.point_angle_rad > 0.0)) return 0.0;
+  return c.tip_diameter_mm + 2.0 * *depth_mm * std::tan(0.5 * c.point_angle_rad);
+}
+
+AnyRef technology_of(const PlanSoFar& p, const StepDraft& step) {
+  const auto* op = p.plan.model.get<model::MachiningOperation>(step.operation);
+  return op != nullptr ? AnyRef(op->its_technology) : AnyRef{};
+}
+
+bool override_locked(const PlanSoFar& p, const StepDraft& step) {
+  const auto* t = p.plan.model.get<model::MillingTechnology>(technology_of(p, step));
+  return (step.proposed && step.proposal.lock_override) ||
+         (t != nullptr && t->inhibit_feedrate_override.value_or(false));
+}
+
+/// Whether planning chose the feed that stands there, now or when the plan was made: then it keeps the same
+/// margins when it is planned again. A feed that somebody edited since is theirs.
+bool feed_by_planning(const PlanSoFar& p, const StepDraft& step) {
+  const AnyRef technology = technology_of(p, step);
+  if (!technology.set()) return false;
+  for (const char* name : {"feedrate", "feedrate_per_tooth"}) {
+    const auto* d = p.plan.ledger.find(technology, name);
+    if (d != nullptr && d->state == model::DecisionState::kBound && d->binder != model::Binder::kGiven &&
+        d->binder != model::Binder::kOperator)
+      return true;
+  }
+  return false;
+}
+
+/// Cuts under an overhang are not measured along the path: asked for with the head's full height and half the
+/// start feed, for the chips cannot leave upwards (the half is a default, unsourced). Where the mouth was
+/// milled before, what is cut beside it: both edges of the head at once in the middle, less when it moves
+/// aside. Else a slot of the head's diameter.
+void under_an_overhang(optimise::CutQuestion& q, const toolpath::PathJob& job) {
+  constexpr double kFeedShare = 0.5;
+  const model::Cutter& c = job.cutter;
+  const double d = c.cutting_diameter_mm;
+  q.kind = CutKind::kRough;
+  q.slot = true;
+  q.ap_mm = c.cutting_width_mm > 0.0 ? c.cutting_width_mm : c.maximum_depth_of_cut_mm;
+  q.depth_mm = *q.ap_mm;
+  q.ae_mm = q.width_mm = d;
+  q.fz_start_mm *= kFeedShare;
+  const auto u = toolpath::undercut_of(job.shape);
+  if (!u || u->flank_rad > 0.0 || !job.left_on_side_mm) return;
+  q.slot = false;
+  q.ae_mm = q.width_mm = toolpath::undercut_width_mm(job, *u);
+  // Where the head moves aside, a last thin pass makes the walls: the others may bend it as roughing may.
+  if (u->widest_mm - job.allowance_side_mm - 0.5 * d > toolpath::kLastSide) q.deflection_limit_mm = 0.0;
+}
+
+}  // namespace
+
+optimise::CutQuestion hole_question(const model::Plan& plan, double margin_deviations,
+                                    const model::ProposedStep& step, const model::Candidate& c) {
+  optimise::CutQuestion q;
+  q.cutter = c.cutter;
+  q.material = plan.material;
+  q.machine = plan.machine;
+  q.margin_deviations = margin_deviations;
+  q.kind = model::is_a(step.operation, TypeId::kTapping)   ? CutKind::kTap
+           : model::is_a(step.operation, TypeId::kReaming) ? CutKind::kReam
+                                                           : CutKind::kDrill;
+  q.vc_start_m_min = c.vc_m_min;
+  q.fz_start_mm = c.fz_mm;
+  q.pre_hole_mm = step.start_diameter_mm;
+  q.least_feed_ratio = optimise::kLeastDrillFeed;
+  q.override_locked = step.lock_override;
+  q.engaged_diameter_mm = engaged(step.operation, c.cutter, step.depth_mm);
+  return q;
+}
+
+optimise::CutQuestion question_of(const PlanSoFar& p, const StepDraft& step,
+                                  const model::Candidate* candidate, const toolpath::PathJob& job) {
+  const Model& m = p.plan.model;
+  optimise::CutQuestion q;
+  q.cutter = step.cutter;
+  q.material = p.plan.material;
+  q.machine = p.plan.machine;
+  q.margin_deviations = p.wishes.margin_deviations;
+  q.kind = kind_of(m, step.operation, step.cutter);
+  q.aim = p.wishes.aim;
+  q.earning_per_min = p.wishes.earning_per_min;
+  const auto start = tooling::start_values(step.cutter, p.plan.material, p.plan.machine);
+  q.vc_table_m_min = start.wanted_vc_m_min;
+  if (candidate != nullptr) {
+    q.vc_start_m_min = candidate->vc_m_min;
+    q.fz_start_mm = candidate->fz_mm;
+  } else {
+    q.vc_start_m_min = start.vc_m_min;
+    q.fz_start_mm = start.fz_mm;
+  }
+  const double bottom = job.feature_in_setup.origin.z - job.shape.depth_mm + job.allowance_bottom_mm;
+  q.depth_mm = std::max(0.0, job.start_z_mm - bottom);
+  q.width_mm = width_of(job.shape);
+  q.slot = model::has(job.shape.kind, model::ShapeTrait::kWalled) && q.width_mm > 0.0 &&
+           q.width_mm <= kAsWide * step.cutter.cutting_diameter_mm;
+  q.pre_hole_mm = job.previous_diameter_mm.value_or(0.0);
+  q.engaged_diameter_mm = engaged(step.operation.type, step.cutter, job.cutting_depth_mm);
+  const double d = step.cutter.cutting_diameter_mm;
+  if (job.axial_depth_mm > 0.0) q.ap_mm = job.axial_depth_mm;
+  // What a level leaves standing on a slope is cut by the finishing pass.
+  if (m.holds<model::FreeformOperation>(step.operation) && q.kind == CutKind::kRough)
+    q.ap_most_mm = kTerraceShare * d;
+  // Across the floor a finishing pass steps as given; what it takes from the wall is what roughing left.
+  const bool rough = q.kind != CutKind::kFinish;
+  if (rough && job.radial_depth_mm > 0.0) {
+    q.ae_mm = job.radial_depth_mm;
+  } else if (rough && job.overlap && !step.proposed) {
+    q.ae_mm = std::max(0.0, 1.0 - *job.overlap) * d;
+  }
+  if (m.holds<model::PlaneMilling>(step.operation)) q.deflection_limit_mm = optimise::kFaceDeflectionMm;
+  if (q.kind == CutKind::kFinish) {
+    // What the step before left on the walls; nothing known: the usual finishing allowance.
+    q.width_mm = std::max(0.05, job.left_on_side_mm.value_or(0.5) - job.allowance_side_mm);
+    const double zone = tolerance_of(p, step, job.shape);
+    q.deflection_limit_mm =
+        zone > 0.0 ? std::max(kLeastDeflection, kDeflectionShare * zone) : kFinishDeflection;
+    // What a semi-finish leaves on the walls takes up what bends: the tolerance is the next step's.
+    if (job.allowance_side_mm > 0.0)
+      q.deflection_limit_mm = std::max(q.deflection_limit_mm, kDeflectionShare * job.allowance_side_mm);
+    // A semi-finish of a surface: what it leaves takes up what bends.
+    if (m.holds<model::FreeformFinishMilling>(step.operation) && job.allowance_bottom_mm > 0.0)
+      q.deflection_limit_mm = std::max(q.deflection_limit_mm, kDeflectionShare * job.allowance_bottom_mm);
+    if (step.cutter.cutter_class == model::CutterClass::kThreadMill) {
+      // Depth of an ISO metric thread's flank, 0.6134 p (ISO 68-1).
+      q.width_mm = 0.6134 * job.shape.thread_pitch_mm;
+      q.ap_mm = std::min(step.cutter.maximum_depth_of_cut_mm, job.shape.thread_pitch_mm);
+    }
+  }
+  // A round slot into the solid, by a ball as wide as it is: no finishing cut, but what bends it tells.
+  if (q.kind == CutKind::kFinish && job.shape.kind == ShapeKind::kSlot && !job.left_on_side_mm &&
+      model::has(step.cutter.cutter_class, model::CutterTrait::kBall) && width_of(job.shape) <= kAsWide * d) {
+    q.kind = CutKind::kRough;
+    q.slot = true;
+    q.ae_mm = q.width_mm = d;
+  }
+  const bool floor_only =
+      job.multiple_passes.has_value() && !*job.multiple_passes && job.left_on_bottom_mm.value_or(0.0) > 0.0;
+  if (q.kind == CutKind::kFinish && floor_only) {
+    // A floor alone: as wide as a rough pass, as deep as what is left on it.
+    q.kind = CutKind::kRough;
+    q.width_mm = width_of(job.shape);
+    q.depth_mm = std::max(0.0, *job.left_on_bottom_mm - job.allowance_bottom_mm);
+    q.ap_mm = q.depth_mm;
+  } else if (q.kind == CutKind::kFinish && job.cleared_by) {
+    // Between two right-angled corners of radius R and r stand (sqrt 2 - 1)(R - r) at most.
+    q.width_mm += 0.41422 * std::max(0.0, 0.5 * (job.cleared_by->diameter_mm - d));
+    q.width_mm = std::min(q.width_mm, d);
+  }
+  if (model::has(step.cutter.cutter_class, model::CutterTrait::kUndercuts) &&
+      model::has(step.cutter.cutter_class, model::CutterTrait::kNecked))
+    under_an_overhang(q, job);
+  if (q.slot && job.shape.kind == model::ShapeKind::kHole && toolpath::cuts_from_below(job)) {
+    const auto most = toolpath::back_cut(job);
+    q.slot = false;
+    q.ap_mm = q.depth_mm = most.ap_mm;
+    q.ae_mm = q.width_mm = most.ae_mm;
+  }
+  const bool cone = model::has(step.cutter.cutter_class, model::CutterTrait::kSinks);
+  // A broken edge: as wide as it is deep.
+  if (cone && q.kind == CutKind::kFinish && q.ap_mm) q.width_mm = std::max(0.05, *q.ap_mm);
+  // A hole's cone, in one cut: as deep and as wide as it is.
+  const double narrowing = job.shape.diameter.nominal_mm - job.shape.bottom_diameter_mm;
+  if (cone && q.kind == CutKind::kFinish && !q.ap_mm && job.shape.kind == ShapeKind::kHole &&
+      narrowing > 0.0) {
+    q.ap_mm = q.depth_mm = job.shape.depth_mm;
+    q.width_mm = 0.5 * narrowing;
+  }
+  hold_quality(p, step, job, q);
+  q.override_locked = override_locked(p, step);
+  const auto given = given_technology(m, step.operation, step.cutter);
+  if ((!step.open_technology || step.keep_speed) && given.rpm) q.n_rpm = std::abs(*given.rpm);
+  if (!step.open_technology) {
+    q.feed_mm_min = given.feed_mm_min;
+    q.feed_by_planning = feed_by_planning(p, step);
+  } else if (step.keep_feed) {
+    const auto* t = m.get<model::MillingTechnology>(technology_of(p, step));
+    if (t->feedrate && *t->feedrate > 0.0) {
+      q.feed_mm_min = t->feedrate;
+    } else {
+      q.fz_mm = t->feedrate_per_tooth;
+    }
+  }
+  return q;
+}
+
+std::optional<model::Reason> start_from_case(const PlanSoFar& p, const StepDraft& step,
+                                             const model::FeatureShape& shape, optimise::CutQuestion& q) {
+  // How far above the table's values a case may start; below there is no such limit. Default, unsourced.
+  constexpr double kCaseReach = 1.25;
+  if (!p.wishes.cases) return std::nullopt;
+  const auto asked = casebase::question_of(step.operation.type, p.plan.material, step.cutter, p.plan.machine,
+                                           casebase::sizes_of(shape));
+  const auto found = p.wishes.cases->recall(asked);
+  if (!found) return std::nullopt;
+  q.vc_start_m_min = std::min(found->vc_m_min, kCaseReach * q.vc_start_m_min);
+  q.fz_start_mm = std::min(found->fz_mm, kCaseReach * q.fz_start_mm);
+  if (const double borne = model::borne_feed_mm(q.cutter, q.material); borne > 0.0)
+    q.fz_start_mm = std::min(q.fz_start_mm, borne);
+  return model::Reason{"case." + found->case_id,
+                       "starts from a " + found->provenance + " case at distance " +
+                           trimmed(found->distance, 3) + " (" + std::to_string(found->neighbours) +
+                           " near): " + trimmed(found->vc_m_min, 2) + " m/min, " + trimmed(found->fz_mm, 4) +
+                           " mm per tooth",
+                       "case base, " + found->provenance};
+}
+
+}  // namespace capstan::step

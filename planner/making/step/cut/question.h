@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+
+#include "planner/making/optimise/cut.h"
+#include "planner/making/step/plan_so_far.h"
+#include "planner/making/toolpath/path_job.h"
+#include "planner/model/plan/proposal.h"
+
+// The question that the optimiser is asked for a step, from nouns and geometry.
+
+namespace capstan::step {
+
+/// The question for depth, width, speed and feed of a step.
+[[nodiscard]] optimise::CutQuestion question_of(const PlanSoFar& p, const draft::StepDraft& step,
+                                                const model::Candidate* candidate,
+                                                const toolpath::PathJob& job);
+
+/// The same for a proposed hole-making step, before any noun exists: can this cutter do it at all?
+[[nodiscard]] optimise::CutQuestion hole_question(const model::Plan& plan, double margin_deviations,
+                                                  const model::ProposedStep& step,
+                                                  const model::Candidate& candidate);
+
+/// Lets the nearest case in the base, if there is one, say where speed and feed start from; never above
+/// kCaseReach times the table's values. Gives the reason, or nothing.
+[[nodiscard]] std::optional<model::Reason> start_from_case(const PlanSoFar& p, const draft::StepDraft& step,
+                                                           const model::FeatureShape& shape,
+                                                           optimise::CutQuestion& q);
+
+/// Whether the step mills: then feeds follow the sections.
+[[nodiscard]] inline bool mills(const optimise::CutQuestion& q) {
+  return q.kind == optimise::CutKind::kRough || q.kind == optimise::CutKind::kFinish;
+}
+
+}  // namespace capstan::step

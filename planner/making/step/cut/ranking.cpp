@@ -1,0 +1,106 @@
+#include "planner/making/step/cut/ranking.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "planner/ground/base/number.h"
+#include "planner/ground/vocabulary/operation.h"
+#include "planner/making/step/cut/drill_depth.h"
+#include "planner/making/step/cut/question.h"
+#include "planner/making/step/path/job_of.h"
+#include "planner/model/nouns/all.h"
+#include "tooling/library/nouns/nouns.h"
+
+namespace capstan::step {
+
+using draft::StepDraft;
+
+void take_cutter(model::Plan& plan, std::vector<StepDraft>& steps, StepDraft& step,
+                 const model::Candidate& c) {
+  std::erase_if(step.rejected_tools, [&](const auto& r) { return r.what == c.cutter.id; });
+  plan.model.get<model::MachiningOperation>(step.operation)->its_tool =
+      tooling::tool_noun(plan.model, c.cutter);
+  fit_to_cutter(plan.model, steps, step);
+  plan.ledger.bind(step.operation, "its_tool", model::Binder::kToolSelection, c.why,
+                   {{step.step, "its_operation"}}, step.rejected_tools);
+}
+
+namespace {
+
+constexpr std::size_t kCompared = 5;
+constexpr double kNever = 1e12;  // s: no path, or none within the limits
+
+bool is_used(const std::vector<std::string>& used, const model::Cutter& c) {
+  return std::find(used.begin(), used.end(), c.id) != used.end();
+}
+
+/// The candidates that were compared by their times, then the others.
+void in_order(model::Plan& plan, std::vector<StepDraft>& steps, StepDraft& step,
+              std::vector<std::pair<double, std::size_t>> times) {
+  const std::string first = step.candidates.front().cutter.id;
+  const std::size_t n = times.size();
+  const double of_first = times.front().first;
+  std::stable_sort(times.begin(), times.end());
+  std::vector<model::Candidate> sorted;
+  for (const auto& [t, i] : times) sorted.push_back(step.candidates[i]);
+  for (std::size_t i = n; i < step.candidates.size(); ++i) sorted.push_back(step.candidates[i]);
+  step.candidates = std::move(sorted);
+  if (step.candidates.front().cutter.id == first) return;
+  step.cutter = step.candidates.front().cutter;
+  step.rejected_tools.push_back(
+      {first,
+       "fits, but takes " +
+           (of_first < kNever ? trimmed(of_first, 1) + " s" : std::string("too long, or breaks a limit,")) +
+           " against " + trimmed(times.front().first, 1) + " s of " + step.cutter.id});
+  take_cutter(plan, steps, step, step.candidates.front());
+}
+
+}  // namespace
+
+void rank_by_time(model::Plan& plan, const PlanSoFar& p, std::vector<StepDraft>& steps, StepDraft& step,
+                  const std::vector<std::string>& used, Stocks& stocks, const Progress& progress,
+                  Cuts& cuts) {
+  if (step.candidates.size() < 2 || step.shapes.empty()) return;
+  if (!model::has(step.operation.type, model::OperationTrait::kPlane) &&
+      !(model::has(step.operation.type, model::OperationTrait::kRoughs) &&
+        model::has(step.operation.type, model::OperationTrait::kWalls))) {
+    return;
+  }
+  const std::size_t n = std::min(kCompared, step.candidates.size());
+  std::vector<std::pair<double, std::size_t>> times;
+  for (std::size_t i = 0; i < n; ++i) {
+    StepDraft trial = step;
+    trial.cutter = step.candidates[i].cutter;
+    auto job = job_of(p, trial, step.shapes.front());
+    progress.prepare(trial, stocks.of(trial.setup), job);
+    const auto q = question_of(p, trial, &step.candidates[i], job);
+    const auto a = cuts.answer(q);
+    double t = kNever * static_cast<double>(i + 1);
+    if (a && a->feasible) {
+      const double volume = geometry::area(job.shape.area) * q.depth_mm;
+      t = volume / (a->ap_mm * a->ae_mm * a->feed_mm_min) * 60.0;
+      if (!is_used(used, trial.cutter)) t += plan.machine.tool_change_s;
+    }
+    times.emplace_back(t, i);
+  }
+  in_order(plan, steps, step, std::move(times));
+}
+
+void rank_by_path(model::Plan& plan, std::vector<StepDraft>& steps, StepDraft& step,
+                  const std::vector<std::string>& used,
+                  const std::function<std::optional<double>(std::size_t)>& seconds) {
+  if (step.candidates.size() < 2 || step.shapes.empty() ||
+      !model::has(step.candidates.front().cutter.cutter_class, model::CutterTrait::kSlotForm))
+    return;
+  std::vector<std::pair<double, std::size_t>> times;
+  for (std::size_t i = 0; i < std::min(kCompared, step.candidates.size()); ++i) {
+    const double change = is_used(used, step.candidates[i].cutter) ? 0.0 : plan.machine.tool_change_s;
+    const auto t = seconds(i);
+    times.emplace_back(t ? *t + change : kNever * static_cast<double>(i + 1), i);
+  }
+  in_order(plan, steps, step, std::move(times));
+}
+
+}  // namespace capstan::step

@@ -1,0 +1,172 @@
+#include "planner/making/step/path/attempt.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "planner/ground/base/number.h"
+#include "planner/making/step/cut/question.h"
+#include "planner/making/step/cut_samples.h"
+#include "planner/making/step/path/freeform.h"
+#include "planner/making/step/path/given_path.h"
+#include "planner/making/step/path/job_of.h"
+#include "planner/making/step/path/surface.h"
+#include "planner/making/step/record/record.h"
+#include "planner/making/step/record/results.h"
+#include "planner/making/workholding/clear_of_fixtures.h"
+#include "planner/model/nouns/all.h"
+
+namespace capstan::step {
+namespace {
+
+using draft::StepDraft;
+
+/// The cut again at a share of its depth, or of its width where the depth is not open.
+Status make_thinner(PathWithCut& out, double share, Cuts& cuts) {
+  auto q = out.question;
+  if (out.depth_open) {
+    q.ap_most_mm = share * out.answer.ap_mm;
+  } else {
+    q.ae_mm = share * out.answer.ae_mm;
+  }
+  auto answer = cuts.answer(q);
+  if (!answer) return tl::unexpected(answer.error());
+  if (!answer->feasible) return fail("PIP-INFEASIBLE", "no thinner cut keeps every limit");
+  out.question = q;
+  out.answer = *std::move(answer);
+  return {};
+}
+
+/// A given depth at which no feed keeps the limits is cut in thinner levels; said, never silent.
+Status lower_depth(const model::Model& m, const StepDraft& step, PathWithCut& out, const Means& means) {
+  auto q = out.question;
+  q.ap_most_mm = *q.ap_mm;
+  q.ap_mm.reset();
+  auto answer = means.cuts.answer(q);
+  if (!answer) return tl::unexpected(answer.error());
+  if (!answer->feasible) return {};
+  means.job.warn("PIP-CHANGED", "step '" + draft::name_of(m, step) + "': the given depth of " +
+                                    trimmed(q.ap_most_mm, 3) + " mm per level breaks " +
+                                    out.answer.violated.front() + "; cut " + trimmed(answer->ap_mm, 3) +
+                                    " mm deep instead");
+  out.question = q;
+  out.answer = *std::move(answer);
+  out.depth_open = true;
+  return {};
+}
+
+}  // namespace
+
+Result<PathWithCut> path_with_cut(const PlanSoFar& p, const StepDraft& step,
+                                  const model::Candidate* candidate, double share, const Means& means) {
+  const model::Model& m = p.plan.model;
+  PathWithCut out;
+  bool first = true;
+  std::optional<toolpath::GeneratedPath> over_surface;  // of the shape at hand
+  const bool freeform = m.holds<model::FreeformOperation>(step.operation);
+  const bool passes =
+      m.holds<model::FreeformFinishMilling>(step.operation) && !draft::cuts_levels(m, step);
+  for (const auto& shape : step.shapes) {
+    auto job = job_of(p, step, shape);
+    means.progress.prepare(step, means.stocks.of(step.setup), job);
+    if (first) {
+      out.question = question_of(p, step, candidate, job);
+      if (passes && step.open_technology) {
+        auto path = pass_over(p, step, job, means.stocks, out.question, means.job);
+        if (!path) return tl::unexpected(path.error());
+        over_surface = *std::move(path);
+      }
+      if (step.open_technology) out.precedent = start_from_case(p, step, shape, out.question);
+      auto answer = means.cuts.answer(step, out.question, out.let_go);
+      if (!answer) return tl::unexpected(answer.error());
+      out.answer = *std::move(answer);
+      if (step.open_technology && m.holds<model::PlaneMilling>(step.operation))
+        out.answer = means.cuts.in_one_pass(out.question, std::move(out.answer));
+      out.depth_open = !out.question.ap_mm.has_value();
+      // A finishing pass takes what is left on the wall; across a floor it steps as its path chooses.
+      out.width_open = !out.question.ae_mm.has_value() && out.question.kind == optimise::CutKind::kRough;
+      if (step.open_technology && !out.answer.feasible && out.question.ap_mm && !step.proposed) {
+        if (auto ok = lower_depth(m, step, out, means); !ok) return tl::unexpected(ok.error());
+      }
+      if (step.open_technology && !out.answer.feasible) {
+        std::string limits;
+        for (const auto& v : out.answer.violated) limits += (limits.empty() ? "" : ", ") + v;
+        return fail("PIP-INFEASIBLE", "no cut keeps every limit: " + limits);
+      }
+      if (share < 1.0) {
+        if (auto ok = make_thinner(out, share, means.cuts); !ok) return tl::unexpected(ok.error());
+      }
+    }
+    if (out.depth_open) job.axial_depth_mm = out.answer.ap_mm;
+    if (out.width_open && out.answer.ae_mm > 0.0) job.radial_depth_mm = out.answer.ae_mm;
+    if (out.question.ae_mm) job.radial_depth_mm = *out.question.ae_mm;
+    if (model::has(step.cutter.cutter_class, model::CutterTrait::kSlotForm)) {
+      // A stated feed is lowered where that holds the limits, and otherwise by the teeth that cut.
+      auto loads = hold_under_overhang(out.question, out.answer, job);
+      if (!loads && step.open_technology) return tl::unexpected(loads.error());
+      if (loads) out.under = *loads;
+    }
+    auto path = over_surface ? Result<toolpath::GeneratedPath>(*std::move(over_surface))
+                             : workholding::kept_clear(
+                                   p.setups[step.setup], step.cutter, job, [&](const toolpath::PathJob& j) {
+                                     return freeform ? freeform_path(p, step, j, out.answer,
+                                                                     means.stocks.of(step.setup), means.job)
+                                                     : toolpath::generate(j, means.job);
+                                   });
+    over_surface.reset();
+    if (!path) return tl::unexpected(path.error());
+    if (first) {
+      out.path = *std::move(path);
+    } else {
+      append(out.path, *path);
+    }
+    first = false;
+  }
+  return out;
+}
+
+MeasuredCut measured_cut(model::Plan& plan, const PlanSoFar& p, const StepDraft& step, PathWithCut made,
+                         const Means& means) {
+  MeasuredCut out;
+  if (!step.open_technology) turn_with_the_cutter(plan, step, means.job);
+  const auto given =
+      step.open_technology ? GivenTechnology{} : given_technology(plan.model, step.operation, step.cutter);
+  const double sense = step.open_technology && step.cutter.hand == model::Hand::kLeft ? -1.0 : 1.0;
+  optimise::FeedQuestion& fq = out.asked;
+  fq.cut = made.question;
+  fq.n_rpm = given.rpm.value_or(sense * made.answer.n_rpm);
+  fq.feed_mm_min = given.feed_mm_min.value_or(made.answer.feed_mm_min);
+  const bool kept = step.keep_feed && made.let_go.empty();
+  fq.adapt = (step.open_technology && !kept) || feed_was_planned(plan, step);
+  fq.constant = p.wishes.constant_feeds;
+  fq.feed_factor = std::move(made.path.feed_factor);
+  fq.speed_factor = std::move(made.path.speed_factor);
+  fq.dwell_s = std::move(made.path.dwell_s);
+  out.path = std::make_shared<model::CutterPath>(std::move(made.path.path));
+  model::StepResult& r = out.result;
+  r = result_of(plan.model, step);
+  r.axial_depth_mm = made.answer.ap_mm;
+  r.radial_depth_mm = made.answer.ae_mm;
+  r.active = active_of(made.answer);
+  if (auto m = measured(plan.model, step, *out.path, means.stocks, means.job)) {
+    out.removed_mm3 = m->removed_mm3;
+    out.rapid_removed_mm3 = m->rapid_removed_mm3;
+    fq.samples = samples_of(*m, *out.path, step.cutter);
+    fq.known_to_mm = m->known_to_mm;
+    // One pass over a surface, not levels: as deep and as wide as what roughing left there.
+    if (plan.model.holds<model::FreeformFinishMilling>(step.operation)) {
+      for (const optimise::CutSample& sample : fq.samples) {
+        if (sample.plunge) continue;
+        const double ae = std::min(sample.ae_mm, step.cutter.cutting_diameter_mm);
+        r.axial_depth_mm = std::max(r.axial_depth_mm, sample.ap_mm);
+        r.radial_depth_mm = std::max(r.radial_depth_mm, ae);
+      }
+    }
+    optimise::split_moves(fq, *out.path, &m->sections);
+    r.sections = std::make_shared<const model::SectionSeries>(std::move(m->sections));
+  }
+  out.feeds = optimise::feeds(fq, *out.path);
+  out.made = std::move(made);
+  return out;
+}
+
+}  // namespace capstan::step

@@ -1,0 +1,125 @@
+#include "planner/making/step/path/freeform.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "planner/making/piece/surface_form.h"
+#include "planner/making/toolpath/freeform/freeform.h"
+
+namespace capstan::step {
+namespace {
+
+using draft::StepDraft;
+using piece::SurfaceForm;
+
+constexpr double kScallopMm = 0.01;        // where the file states no scallop height; default, unsourced
+constexpr double kChordMm = 0.01;          // where the file states no chordal tolerance; default, unsourced
+constexpr double kRoughAllowanceMm = 0.5;  // left by roughing when no rule says otherwise; default, unsourced
+constexpr double kSemiAllowanceMm = 0.2;   // left by a semi-finish, likewise; default, unsourced
+
+constexpr double kLevelStep = 0.5;  // of the diameter, over a level floor; default, unsourced
+
+/// Height of the ridges that a freeform operation may leave.
+double scallop_of(const model::Model& m, model::AnyRef operation) {
+  const auto* op = m.get<model::FreeformOperation>(operation);
+  const auto* s = op != nullptr ? m.get<model::FreeformStrategy>(op->its_machining_strategy) : nullptr;
+  const auto* t = s != nullptr ? m.get<model::Tolerances>(s->its_milling_tolerances) : nullptr;
+  return t != nullptr ? t->scallop_height.value_or(kScallopMm) : kScallopMm;
+}
+
+geometry::Mesh mesh_in_setup(const PlanSoFar& p, std::size_t setup) {
+  geometry::Mesh out = *p.plan.target_mesh;
+  for (geometry::Vec3& v : out.vertices) v = p.setups[setup].workpiece.to_parent(v);
+  return out;
+}
+
+}  // namespace
+
+// The nouns of a freeform operation have no place for it: of one that was read, that it is not the last says
+// so. A finish is a semi-finish when a finer one of the same feature follows.
+double freeform_allowance(const model::Model& m, const std::vector<StepDraft>& steps, const StepDraft& step) {
+  if (!m.holds<model::FreeformOperation>(step.operation)) return 0.0;
+  if (step.proposed) return step.proposal.allowance_side_mm;
+  if (m.holds<model::FreeformRoughMilling>(step.operation)) return kRoughAllowanceMm;
+  const double own = scallop_of(m, step.operation);
+  bool after = false;
+  for (const StepDraft& s : steps) {
+    if (after && s.feature == step.feature && m.holds<model::FreeformFinishMilling>(s.operation) &&
+        scallop_of(m, s.operation) < own)
+      return kSemiAllowanceMm;
+    after = after || s.step == step.step;
+  }
+  return 0.0;
+}
+
+void shape_from_mesh(const PlanSoFar& p, const StepDraft& step, toolpath::PathJob& job) {
+  if (job.shape.kind != model::ShapeKind::kFreeform || !p.plan.target_mesh) return;
+  const auto box = geometry::bounds(mesh_in_setup(p, step.setup));
+  const auto local = transformed(box, inverse(job.feature_in_setup));
+  job.shape.area = geometry::rectangle(geometry::xy(local.lo), geometry::xy(local.hi));
+  job.shape.depth_mm = job.feature_in_setup.origin.z - box.lo.z;
+}
+
+Result<toolpath::GeneratedPath> freeform_path(const PlanSoFar& p, const StepDraft& step,
+                                              const toolpath::PathJob& path, const optimise::CutAnswer& cut,
+                                              const stock::HeightMap& map, Job& job) {
+  if (!p.plan.target_mesh) {
+    return fail("PIP-SURFACE",
+                "the surface of a freeform feature is only planned when it is given as a mesh (STL)");
+  }
+  const geometry::Mesh mesh = mesh_in_setup(p, step.setup);
+  const bool rough = p.plan.model.holds<model::FreeformRoughMilling>(step.operation);
+  toolpath::freeform::FreeformJob f;
+  f.surface = &mesh;
+  f.cutter = step.cutter;
+  f.stock = &map;
+  f.top_z_mm = path.start_z_mm;
+  f.bottom_z_mm = geometry::bounds(mesh).lo.z;
+  f.security_z_mm = path.security_z_mm;
+  f.clearance_mm = path.clearance_mm;
+  f.avoid = path.avoid;
+  f.tolerance_mm = kChordMm;
+  f.scallop_mm = kScallopMm;
+  const auto* op = p.plan.model.get<model::FreeformOperation>(step.operation);
+  if (const auto* s = p.plan.model.get<model::FreeformStrategy>(op->its_machining_strategy)) {
+    if (const auto* t = p.plan.model.get<model::Tolerances>(s->its_milling_tolerances)) {
+      f.tolerance_mm = t->chordal_tolerance.value_or(kChordMm);
+      f.scallop_mm = t->scallop_height.value_or(kScallopMm);
+    }
+    if (s->stepover) f.stepover_mm = *s->stepover;
+    f.to_and_fro = s->pathmode.value_or(model::PathmodeType::kZigzag) == model::PathmodeType::kZigzag;
+  }
+  f.allowance_mm = freeform_allowance(p.plan.model, p.steps, step);
+  if (rough) {
+    f.axial_depth_mm = cut.ap_mm;
+    f.stepover_mm = std::min(cut.ae_mm, step.cutter.cutting_diameter_mm);
+  }
+  const geometry::Box3& raw = p.setups[step.setup].stock;
+  const bool levels = draft::cuts_levels(p.plan.model, step);
+  const SurfaceForm form = rough || levels ? piece::surface_form(mesh, raw) : SurfaceForm{};
+  if (form.walls) {
+    // Around the solid all goes, down to the underside; the cutter comes from beside the raw piece.
+    constexpr double kBesideMm = 1.0;
+    f.area = geometry::offset_sharp(geometry::rectangle(geometry::xy(raw.lo), geometry::xy(raw.hi)),
+                                    0.5 * step.cutter.cutting_diameter_mm + kBesideMm);
+    f.beside_is_free = true;
+    f.bottom_z_mm = std::min(f.bottom_z_mm, raw.lo.z);
+    f.floors_z_mm = form.floors_mm;
+  }
+  if (levels) {
+    f.axial_depth_mm = cut.ap_mm;
+    f.stepover_mm = kLevelStep * step.cutter.cutting_diameter_mm;
+    f.left_mm = kRoughAllowanceMm;
+  }
+  auto made = rough || levels ? toolpath::freeform::rough(f, job) : toolpath::freeform::finish(f, job);
+  if (!made) return tl::unexpected(made.error());
+  toolpath::GeneratedPath out;
+  out.path = std::move(made->path);
+  out.levels_z_mm = std::move(made->levels_z_mm);
+  out.feed_factor.assign(out.path.size(), 1.0);
+  out.speed_factor.assign(out.path.size(), 1.0);
+  out.dwell_s.assign(out.path.size(), 0.0);
+  return out;
+}
+
+}  // namespace capstan::step

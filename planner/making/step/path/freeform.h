@@ -1,0 +1,26 @@
+#pragma once
+
+#include "planner/ground/base/job.h"
+#include "planner/ground/base/result.h"
+#include "planner/making/step/plan_so_far.h"
+#include "planner/making/toolpath/path_job.h"
+#include "planner/physics/stock/height_map.h"
+
+// Freeform steps: a surface given as a mesh, roughed in levels and finished in passes.
+
+namespace capstan::step {
+
+/// What a freeform step leaves on its surface, square to it; 0 for other steps. `steps` are those of the
+/// plan.
+[[nodiscard]] double freeform_allowance(const model::Model& m, const std::vector<draft::StepDraft>& steps,
+                                        const draft::StepDraft& step);
+/// Gives a freeform feature the extent of the plan's mesh; leaves others alone.
+void shape_from_mesh(const PlanSoFar& p, const draft::StepDraft& step, toolpath::PathJob& job);
+/// The path of a freeform operation over the plan's mesh; `map` is what stands.
+/// Fails  PIP-SURFACE without a mesh; as the paths over a surface do.
+[[nodiscard]] Result<toolpath::GeneratedPath> freeform_path(const PlanSoFar& p, const draft::StepDraft& step,
+                                                            const toolpath::PathJob& path,
+                                                            const optimise::CutAnswer& cut,
+                                                            const stock::HeightMap& map, Job& job);
+
+}  // namespace capstan::step

@@ -1,0 +1,153 @@
+#include "planner/making/step/path/stocks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "planner/physics/engagement/planar/planar.h"
+#include "planner/physics/stock/sweep.h"
+#include "planner/physics/stock/turned.h"
+
+namespace capstan::step {
+namespace {
+
+constexpr double kCellsPerDiameter = 30.0;  // of the stock map, for the smallest cutter of the set-up
+constexpr double kMaximumCells = 600e3;     // keeps a set-up's map near 7 MB
+constexpr int kMostOtherCells = 2;      // times that cutters may change with the cells; default, unsourced
+constexpr double kContradiction = 0.1;  // of a step's volume, between map and geometry; default, unsourced
+constexpr double kTraceMm3 = 1.0;       // the same of next to nothing
+
+SameSetup same_setup(const draft::SetupDraft& s) {
+  const geometry::Placement& at = s.workpiece;
+  return {s.setup, {at.origin.x, at.origin.y, at.origin.z, at.x.x, at.x.y, at.x.z, at.z.x, at.z.y, at.z.z}};
+}
+
+}  // namespace
+
+double Stocks::smallest(std::size_t setup) const {
+  double mm = 1e300;
+  for (const draft::StepDraft& s : steps_) {
+    if (s.setup == setup && s.cutter.cutting_diameter_mm > 0.0 && !left_out_.contains(s.step))
+      mm = std::min(mm, s.cutter.cutting_diameter_mm);
+  }
+  return mm > 1e200 ? 10.0 : mm;
+}
+
+double Stocks::cell(std::size_t setup, double smallest_mm) const {
+  return stock::cell_for(smallest_mm, setups_[setup].stock, kCellsPerDiameter, kMaximumCells);
+}
+
+Stocks::OtherCells Stocks::other_cells() const {
+  OtherCells out{known_, false};
+  for (std::size_t i = 0; i < maps_.size(); ++i) {
+    const double mm = smallest(i);
+    if (!maps_[i] || cell(i, mm) == cell(i, smallest_[i])) continue;
+    Smallest& known = out.cutters[same_setup(setups_[i])];
+    if (known.times++ >= kMostOtherCells) continue;
+    known.mm = mm;
+    out.again = true;
+  }
+  return out;
+}
+
+stock::HeightMap& Stocks::of(std::size_t setup) {
+  auto& map = maps_[setup];
+  if (!map) {
+    const auto known = known_.find(same_setup(setups_[setup]));
+    smallest_[setup] = known != known_.end() ? known->second.mm : smallest(setup);
+    const auto& box = setups_[setup].stock;
+    const double cell = this->cell(setup, smallest_[setup]);
+    const bool upright = std::abs(setups_[setup].workpiece.z.z) > 1.0 - 1e-9;
+    const auto& round = raw_.cylinder_radius_mm;
+    map = round && upright ? stock::from_cylinder(box, *round, cell) : stock::from_box(box, cell);
+    exact_[setup] =
+        round && upright ? stock::PlanarStock::from_cylinder(box, *round) : stock::PlanarStock::from_box(box);
+  }
+  if (setup != last_) {
+    // Another clamping: what the others took away is gone here, too.
+    last_ = setup;
+    const double before = stock::volume(*map);
+    for (std::size_t i = 0; i < maps_.size(); ++i) {
+      if (i != setup && maps_[i])
+        stock::take_over(*map, setups_[setup].workpiece, *maps_[i], setups_[i].workpiece);
+    }
+    if (exact_[setup] && stock::volume(*map) != before) exact_[setup]->lose("cut in another clamping");
+  }
+  return *map;
+}
+
+Stocks::Before Stocks::before(std::size_t setup) {
+  (void)of(setup);
+  return {patches_[setup].size(), exact_[setup]->mark()};
+}
+
+void Stocks::put_back(std::size_t setup, const Before& before) {
+  auto& patches = patches_[setup];
+  while (patches.size() > before.patches) {
+    stock::put_back(*maps_[setup], patches.back());
+    patches.pop_back();
+  }
+  exact_[setup]->put_back(before.exact);
+}
+
+void Stocks::keep(std::size_t setup) {
+  patches_[setup].clear();
+  if (exact_[setup]) exact_[setup]->forget();
+}
+
+Result<engagement::Measurement> Stocks::measure(std::size_t setup, const model::CutterPath& path,
+                                                const model::Cutter& cutter) {
+  auto& map = of(setup);
+  auto& exact = exact_[setup];
+  const auto profile = model::profile_of(cutter);
+  const auto around = model::bounds(path);
+  const geometry::Vec2 reach{profile.radius_mm, profile.radius_mm};
+  patches_[setup].push_back(stock::patch_of(map, geometry::Vec2{around.lo.x, around.lo.y} - reach,
+                                            geometry::Vec2{around.hi.x, around.hi.y} + reach));
+  if (!exact || !exact->lost().empty()) return engagement::measure(path, cutter, map);
+  if (engagement::head_height(cutter) || !geometry::is_flat(profile)) {
+    auto cells = engagement::measure(path, cutter, map);
+    if (!cells) return cells;
+    if (engagement::head_height(cutter)) {
+      exact->lose("cut by a cutter that is thinner behind its head");
+    } else if (auto held = exact->cut(profile, path); !held) {
+      exact->lose(held.error().message);
+    }
+    return cells;
+  }
+  const engagement::Options options{.step_mm = std::max(profile.radius_mm / 20.0, 2.0 * map.cell_mm)};
+  auto measured = engagement::measure(path, cutter, *exact, options);
+  if (!measured) {
+    if (exact->lost().empty()) exact->lose(measured.error().message);
+    return engagement::measure(path, cutter, map);
+  }
+  // Two accounts of one cut: where they contradict each other the map's is kept.
+  const double cells_mm3 = stock::cut(map, profile, path);
+  const double exact_mm3 = measured->removed_mm3 + measured->rapid_removed_mm3;
+  if (std::abs(cells_mm3 - exact_mm3) > kContradiction * std::max(cells_mm3, exact_mm3) + kTraceMm3) {
+    exact->lose("it contradicts the height map");
+    stock::put_back(map, patches_[setup].back());
+    return engagement::measure(path, cutter, map);
+  }
+  return measured;
+}
+
+double top_over(const stock::HeightMap& map, const toolpath::PathJob& job) {
+  geometry::Box3 box;
+  const auto b = geometry::bounds(job.shape.area);
+  for (const geometry::Vec2 c :
+       {b.lo, geometry::Vec2{b.hi.x, b.lo.y}, b.hi, geometry::Vec2{b.lo.x, b.hi.y}}) {
+    box.add(job.feature_in_setup.to_parent({c.x, c.y, 0.0}));
+  }
+  const int x0 = std::max(0, static_cast<int>(std::floor((box.lo.x - map.origin.x) / map.cell_mm)));
+  const int x1 = std::min(map.nx - 1, static_cast<int>(std::floor((box.hi.x - map.origin.x) / map.cell_mm)));
+  const int y0 = std::max(0, static_cast<int>(std::floor((box.lo.y - map.origin.y) / map.cell_mm)));
+  const int y1 = std::min(map.ny - 1, static_cast<int>(std::floor((box.hi.y - map.origin.y) / map.cell_mm)));
+  float top = 0.0F;
+  for (int y = y0; y <= y1; ++y) {
+    for (int x = x0; x <= x1; ++x) top = std::max(top, map.at(x, y).top_mm);
+  }
+  return map.origin.z + static_cast<double>(top);
+}
+
+}  // namespace capstan::step

@@ -1,0 +1,70 @@
+#include "planner/making/step/path/surface.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "planner/making/step/cut_samples.h"
+#include "planner/making/step/path/freeform.h"
+#include "planner/making/workholding/clear_of_fixtures.h"
+#include "planner/physics/mechanics/force/force_law.h"
+#include "planner/physics/mechanics/force/immersion.h"
+
+namespace capstan::step {
+namespace {
+
+/// How far above the table's speed the widest contact of a path may run, where most of it runs below.
+/// Default, unsourced: as far as a cutter's slowest speed may exceed its preset (tooling/select).
+constexpr double kOverTable = 1.25;
+
+}  // namespace
+
+void ask_as_measured(const std::vector<optimise::CutSample>& samples, optimise::CutQuestion& q) {
+  const model::Cutter& c = q.cutter;
+  const double d = c.cutting_diameter_mm;
+  const double corner = mechanics::tooth_of(c).corner_radius_mm;
+  const double n =
+      c.substrate == model::Substrate::kCarbide ? optimise::kTaylorCarbide : optimise::kTaylorHss;
+  std::vector<const optimise::CutSample*> cut;
+  double volume = 0.0, length = 0.0, wear = 0.0, widest = 0.0;
+  for (const optimise::CutSample& s : samples) {
+    if (s.plunge || !(s.ap_mm > 0.0) || !(s.csa_mm2 > 0.0) || !(s.step_mm > 0.0)) continue;
+    cut.push_back(&s);
+    volume += s.csa_mm2 * s.step_mm;
+    length += s.step_mm;
+    const double contact = mechanics::effective_diameter_mm(std::max(s.top_mm, s.ap_mm), d, corner);
+    wear += s.step_mm * std::pow(contact / d, 1.0 / n);
+    widest = std::max(widest, contact);
+  }
+  if (cut.empty() || !(volume > 0.0)) return;
+  std::stable_sort(cut.begin(), cut.end(),
+                   [](const auto* a, const auto* b) { return a->csa_mm2 < b->csa_mm2; });
+  double below = 0.0;
+  const auto middle = std::find_if(cut.begin(), cut.end(), [&](const auto* s) {
+    below += s->csa_mm2 * s->step_mm;
+    return below >= 0.5 * volume;
+  });
+  const optimise::CutSample& typical = middle != cut.end() ? **middle : *cut.back();
+  q.ap_mm = q.depth_mm = typical.ap_mm;
+  q.width_mm = std::clamp(typical.csa_mm2 / typical.ap_mm, 1e-3, d);
+  q.as_measured = true;
+  q.speed_diameter_mm = std::max(d * std::pow(wear / length, n), widest / kOverTable);
+  // What spindle or axes lowered at the full diameter is the table's again at the contact's; the machine's
+  // limits are the optimiser's to keep.
+  if (q.speed_diameter_mm < d) q.vc_start_m_min = std::max(q.vc_start_m_min, q.vc_table_m_min);
+}
+
+Result<toolpath::GeneratedPath> pass_over(const PlanSoFar& p, const draft::StepDraft& step,
+                                          const toolpath::PathJob& path, Stocks& stocks,
+                                          optimise::CutQuestion& q, Job& job) {
+  auto made = workholding::kept_clear(
+      p.setups[step.setup], step.cutter, path,
+      [&](const toolpath::PathJob& j) { return freeform_path(p, step, j, {}, stocks.of(step.setup), job); });
+  if (!made) return made;
+  const auto before = stocks.before(step.setup);
+  if (const auto m = stocks.measure(step.setup, made->path, step.cutter))
+    ask_as_measured(samples_of(*m, made->path, step.cutter), q);
+  stocks.put_back(step.setup, before);
+  return made;
+}
+
+}  // namespace capstan::step

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "planner/ground/base/job.h"
+#include "planner/making/draft/draft.h"
+#include "planner/making/optimise/cut.h"
+#include "planner/model/plan/cutter_path.h"
+#include "planner/model/plan/plan.h"
+
+// What was chosen, in the nouns, and why, in the ledger.
+
+namespace capstan::step {
+
+/// What the nouns say of speed and feed.
+struct GivenTechnology {
+  std::optional<double> rpm;  ///< positive clockwise
+  std::optional<double> feed_mm_min;
+};
+[[nodiscard]] GivenTechnology given_technology(const model::Model& m, model::AnyRef operation,
+                                               const model::Cutter& cutter);
+
+/// A stated speed whose direction is not the cutter's is turned round, for this operation only; it is said.
+void turn_with_the_cutter(model::Plan& plan, const draft::StepDraft& step, Job& job);
+
+/// What was stated and could not stay goes, with a word; nothing where the word is empty.
+void let_go(const model::Model& m, draft::StepDraft& step, const std::string& word, Job& job);
+
+/// Writes what was chosen into the nouns, and why into the ledger. `steps` are those of the plan.
+void record_cut(model::Plan& plan, const std::vector<draft::StepDraft>& steps, const draft::StepDraft& step,
+                const optimise::CutAnswer& answer, bool depth_open, bool width_open,
+                const std::optional<model::Reason>& precedent);
+/// Puts the computed path at the operation's its_toolpath, as derived.
+void record_path(model::Plan& plan, const std::vector<draft::StepDraft>& steps, const draft::StepDraft& step,
+                 const std::shared_ptr<const model::CutterPath>& path, const std::string& deviation);
+/// Puts a path at the operation's its_toolpath. Nothing where the step has no operation.
+void state_path(model::Model& m, const draft::StepDraft& step,
+                const std::shared_ptr<const model::CutterPath>& path);
+
+}  // namespace capstan::step

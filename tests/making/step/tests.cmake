@@ -1,0 +1,1 @@
+capstan_test(step DEPENDS step)
