@@ -26,7 +26,8 @@ FLOORS = {
 EXCHANGE = "common toolpaths records express conformance iso14649 ap238"
 TOOLING = {"tooling": "shop library selection", "tooling/library": "formats"}
 FOLDERS = {
-    "planner/proof/verify/volumes": "volumes",
+    "planner/proof/verify/volumes": "volumes", "planner/proof/verify/compared": "compared",
+    "planner/model/features/fit": "fit",
     **{f"planner/files/exchange/{name}": name for name in EXCHANGE.split()},
     **{f"{folder}/{name}": name for folder, rooms in reversed(TOOLING.items()) for name in rooms.split()},
     **{f"planner/{floor}/{name}": name for floor, rooms in FLOORS.items() for name in rooms.split()},
@@ -39,13 +40,16 @@ DOORS = ("pipeline", "late", "service", "transport", "facade", "app", "public")
 
 # Room -> what it may include besides itself.
 GROUND = "base vocabulary geometry"
-MODEL = GROUND + " nouns features plan"
+MODEL = GROUND + " nouns fit features plan"
+# What the check reads by itself: nothing of what the planner takes features for.
+PROVEN = GROUND + " nouns fit plan"
 EXCHANGE_COMMON = MODEL + " p21 common toolpaths"
 SHOP = "shop library selection"
 ALLOWED = {
     "base": "", "vocabulary": "base",
     "geometry": "base",
-    "nouns": GROUND, "features": GROUND + " nouns", "plan": GROUND + " nouns features",
+    "nouns": GROUND, "fit": GROUND + " nouns", "features": GROUND + " nouns fit",
+    "plan": GROUND + " nouns fit features",
     "p21": "base",
     "common": MODEL + " p21", "toolpaths": MODEL + " p21 common", "records": EXCHANGE_COMMON,
     "express": GROUND + " p21 common", "conformance": MODEL + " p21 common express",
@@ -63,9 +67,10 @@ ALLOWED = {
     "toolpath": MODEL + " stock",
     "optimise": MODEL + " mechanics motion",
     "controls": MODEL + " motion",
-    # Only the plan's shapes, to judge them; the reading itself knows nouns alone.
-    "volumes": MODEL,
-    "verify": MODEL + " p21 " + EXCHANGE + " exchange mechanics volumes",
+    "volumes": PROVEN,
+    # The one place that looks at the planner's shapes: to hold them against the own reading.
+    "compared": MODEL + " volumes verify",
+    "verify": PROVEN + " p21 " + EXCHANGE + " exchange mechanics volumes compared",
     "pipeline": " ".join(r for r in FOLDERS.values() if r not in DOORS),
     "late": MODEL + " pipeline",
     "service": " ".join(r for r in FOLDERS.values() if r not in DOORS) + " pipeline late",
@@ -78,7 +83,10 @@ ALLOWED = {
 ALLOWED = {room: set(names.split()) for room, names in ALLOWED.items()}
 
 # Of these rooms only such headers: the checker shares numbers with the planner, never its reasoning.
-ONLY = {("verify", "mechanics"): re.compile(r"constants?\.h$")}
+ONLY = {("verify", "mechanics"): re.compile(r"constants?\.h$"),
+        # The tables of ISO 286, not what a file's tolerance is read as.
+        ("volumes", "fit"): re.compile(r"fit/(fit|deviation|grade)\.h$"),
+        ("verify", "fit"): re.compile(r"fit/(fit|deviation|grade)\.h$")}
 
 # External library -> what its includes look like, and how many .cpp files may have them (None: any number).
 # No header may: it would hand the library's names and its compile time to everyone.

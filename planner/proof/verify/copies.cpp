@@ -1,6 +1,7 @@
 #include "planner/proof/verify/copies.h"
 
 #include <array>
+#include <cmath>
 
 namespace capstan::verify {
 
@@ -65,6 +66,35 @@ bool finishes(model::TypeId op) {
   using model::TypeId;
   return op == TypeId::kSideFinishMilling || op == TypeId::kBottomAndSideFinishMilling ||
          op == TypeId::kPlaneFinishMilling || op == TypeId::kFreeformFinishMilling;
+}
+
+geometry::CutterProfile outline_of(const model::Cutter& c) {
+  const double d = c.cutting_diameter_mm, high = c.maximum_depth_of_cut_mm;
+  const auto widening = [&](double lean) {
+    return geometry::cone_profile(d + 2.0 * high * std::tan(lean), 2.0 * lean, high, d);
+  };
+  switch (c.cutter_class) {
+    case CutterClass::kTwistDrill:
+    case CutterClass::kCenterDrill:
+    case CutterClass::kSpotDrill:
+    case CutterClass::kGunDrill:
+    case CutterClass::kCountersink:
+    case CutterClass::kChamferMill:
+      if (c.point_angle_rad > 0.0)
+        return geometry::cone_profile(d, c.point_angle_rad, high, c.tip_diameter_mm);
+      break;
+    case CutterClass::kTaperedEndmill:  // its diameter is that of the tip
+      if (c.taper_angle_rad > 0.0) return widening(c.taper_angle_rad);
+      break;
+    case CutterClass::kFacemill:  // ISO 13399: DC is measured at the tip, DCX = DC + 2 APMX tan PSIR
+      if (c.lead_angle_rad > 0.0 && high > 0.0) return widening(c.lead_angle_rad);
+      break;
+    case CutterClass::kBallEndmill:
+      return geometry::ball_profile(d, high);
+    default:
+      break;
+  }
+  return geometry::bull_profile(d, c.corner_radius_mm, high);
 }
 
 std::span<const std::string_view> work_offsets() {

@@ -3,8 +3,10 @@
 #include <span>
 #include <string_view>
 
+#include "planner/ground/geometry/profile.h"
 #include "planner/ground/vocabulary/cutter_class.h"
 #include "planner/ground/vocabulary/noun_kind.h"
+#include "planner/model/plan/cutter/cutter.h"
 
 /// What the check says of kinds of things by itself: a wrong row of the vocabulary must not pass it. Copies
 /// on purpose; tests/proof/verify/copies_test.cpp holds each against the vocabulary's column.
@@ -24,6 +26,9 @@ namespace capstan::verify {
 [[nodiscard]] bool mills(model::CutterClass c);
 /// Makes the surface that stays.
 [[nodiscard]] bool finishes(model::TypeId operation);
+/// What a cutter's edges sweep, by its class and its stated sizes: a cone to a point, a cone over a flat tip,
+/// a ball, else a flat end with rounded corners.
+[[nodiscard]] geometry::CutterProfile outline_of(const model::Cutter& c);
 /// Work offsets of RS-274 controls, in the order of their numbers.
 [[nodiscard]] std::span<const std::string_view> work_offsets();
 

@@ -35,6 +35,22 @@ TEST(Copies, WorkAlongTheAxisAsTheTableSays) {
   EXPECT_EQ(differing(says, CutterTrait::kAlongAxis), Classes{});
 }
 
+TEST(Copies, SweepTheOutlineThatThePlanHasOfEveryClass) {
+  for (const model::CutterClassRow& r : model::cutter_classes()) {
+    model::Cutter c;
+    c.cutter_class = r.value;
+    c.cutting_diameter_mm = 12.0;
+    c.maximum_depth_of_cut_mm = 8.0;
+    EXPECT_EQ(outline_of(c), model::profile_of(c)) << r.name;
+    c.corner_radius_mm = 1.5;
+    c.tip_diameter_mm = 2.0;
+    c.point_angle_rad = 2.0;
+    c.taper_angle_rad = 0.1;
+    c.lead_angle_rad = 0.4;
+    EXPECT_EQ(outline_of(c), model::profile_of(c)) << r.name;
+  }
+}
+
 TEST(Copies, SizeHolesAsTheTableSays) {
   EXPECT_EQ(differing(sizes_hole, CutterTrait::kSizesHole), Classes{});
 }

@@ -1,7 +1,8 @@
 #include "planner/model/plan/range/positions.h"
-#include "planner/proof/verify/plan/meaning.h"
+#include "planner/proof/verify/compared/meaning.h"
 #include "planner/proof/verify/plan/plan_checks.h"
 #include "planner/proof/verify/sweep/sweep.h"
+#include "planner/proof/verify/sweep/target/target.h"
 #include "planner/proof/verify/verify.h"
 
 namespace capstan::verify {
@@ -28,7 +29,7 @@ std::vector<model::Finding> check_plan(const model::Plan& plan, Job& job) {
   check_order(plan, findings);
   check_coverage(plan, findings);
   const PartShapes part = shapes_of_part(plan);
-  check_meaning(plan, part, findings);
+  check_meaning(plan, findings);
   check_within(plan, part, findings);
   check_removal(plan, steps, findings, job);
   job.progress("check", 1.0);

@@ -4,11 +4,10 @@
 #include <string>
 #include <tuple>
 
-#include "planner/model/features/fit/stated.h"
-#include "planner/model/features/quality.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/nouns/arena/walk.h"
 #include "planner/proof/verify/plan/plan_checks.h"
+#include "planner/proof/verify/volumes/form/limits.h"
 
 // What a plan (or the part's file) says that a machine must have, against the machine.
 
@@ -161,7 +160,7 @@ void check_steps(const model::Plan& plan, Findings& findings) {
 /// and zones of location.
 class Tightest {
  public:
-  explicit Tightest(const model::Plan& plan) : plan_(plan) {
+  explicit Tightest(const model::Plan& plan) {
     std::vector<model::AnyRef> roots;
     for (const model::StepResult& s : plan.steps) {
       const auto* ws = plan.model.get<model::MachiningWorkingstep>(s.step);
@@ -174,13 +173,16 @@ class Tightest {
     }
     for (const model::AnyRef r : all) {
       const auto* size = plan.model.get<model::TolerancedLengthMeasure>(r);
-      if (size != nullptr && !bores.contains(r)) add_size(*size);
+      if (size == nullptr || bores.contains(r)) continue;
+      const volumes::Limits l = volumes::limits_of(plan.model, r);
+      // What cannot be read is told where it is planned.
+      if (l.given) add(l.width(), "a size of " + mm(l.nominal_mm));
     }
+    const auto zones = volumes::location_zones(plan.model);
     for (const model::StepResult& s : plan.steps) {
       const auto* ws = plan.model.get<model::MachiningWorkingstep>(s.step);
-      if (ws == nullptr) continue;
-      const model::Quality q = model::quality_of(plan.model, ws->its_feature);
-      if (q.location_mm) add(*q.location_mm, "a location of step '" + model::step_id(plan, s) + "'");
+      const auto zone = ws == nullptr ? zones.end() : zones.find(ws->its_feature);
+      if (zone != zones.end()) add(zone->second, "a location of step '" + model::step_id(plan, s) + "'");
     }
   }
   double width_mm = 1e300;
@@ -192,17 +194,6 @@ class Tightest {
     width_mm = width;
     what = std::move(name);
   }
-  void add_size(const model::TolerancedLengthMeasure& size) {
-    const double nominal = size.theoretical_size.value_or(0.0);
-    Result<std::optional<model::Deviations>> said = std::optional<model::Deviations>{};
-    if (const auto* t = plan_.model.get<model::PlusMinusValue>(size.implicit_tolerance))
-      said = model::stated(*t);
-    else if (const auto* f = plan_.model.get<model::LimitsAndFits>(size.implicit_tolerance))
-      said = model::stated(nominal, *f);
-    // What cannot be read is told where it is planned.
-    if (said && *said) add((*said)->width(), "a size of " + mm(nominal));
-  }
-  const model::Plan& plan_;
 };
 
 void check_accuracy(const model::Plan& plan, Findings& findings) {

@@ -114,19 +114,16 @@ Footprint footprint(const PartShapes& part, const geometry::Placement& workpiece
   out.top = -1e300;
   out.bottom = 1e300;
   for (const auto& s : e->shapes) {
-    const geometry::Placement at = compose(workpiece, s.frame);
+    const geometry::Placement at = compose(workpiece, s.frame());
     if (at.z.z < 1.0 - 1e-9) return {};
-    Region area = s.area;
-    if (area.empty() && s.diameter.nominal_mm > 0.0)
-      area = geometry::disc({0.0, 0.0}, 0.5 * s.diameter.nominal_mm);
-    for (const auto& loop : area.loops) {
+    for (const auto& loop : s.area.loops) {
       geometry::Loop moved;
       for (const Vec2 p : loop) moved.push_back(xy(at.to_parent({p.x, p.y, 0.0})));
       loops.push_back(std::move(moved));
     }
     out.face = s.kind == ShapeKind::kFace;
     out.top = std::max(out.top, at.origin.z);
-    out.bottom = std::min(out.bottom, at.origin.z - s.depth_mm);
+    out.bottom = std::min(out.bottom, at.origin.z - s.depth_mm());
   }
   out.area = geometry::clean(loops);
   out.box = geometry::bounds(out.area);
@@ -190,7 +187,7 @@ void check_coverage(const model::Plan& plan, Findings& findings) {
     for (const auto& f : ws->final_features.items) covered.insert(f);
   }
   // What is only a piece of another feature is planned with it.
-  const std::set<AnyRef> parts = model::parts_of_others(m);
+  const std::set<AnyRef> parts = volumes::parts_of_others(m);
   for (const auto f : m.all_below(TypeId::kManufacturingFeature)) {
     if (covered.contains(f) || said.contains(f) || parts.contains(f)) continue;
     if (const auto* c = m.get<model::CompoundFeature>(f)) {

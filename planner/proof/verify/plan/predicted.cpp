@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "planner/ground/base/number.h"
-#include "planner/model/features/raw_piece.h"
 #include "planner/model/nouns/all.h"
 #include "planner/physics/mechanics/constants.h"
 #include "planner/proof/verify/copies.h"
@@ -265,7 +264,7 @@ class Speed {
 };
 
 /// The narrowest zone that is stated of a shape's sizes across; 0: none.
-double zone_of(const model::FeatureShape& shape) {
+double zone_of(const volumes::Form& shape) {
   double zone = 0.0;
   for (const auto& t : {shape.width, shape.length, shape.diameter})
     if (t.given && t.width() > 0.0) zone = zone > 0.0 ? std::min(zone, t.width()) : t.width();
@@ -276,7 +275,7 @@ double zone_of(const model::FeatureShape& shape) {
 double general_zone(const model::Plan& plan, model::AnyRef feature) {
   const auto* f = plan.model.get<model::ManufacturingFeature>(feature);
   const auto* piece = f == nullptr ? nullptr : plan.model.get<model::Workpiece>(f->its_workpiece);
-  return piece == nullptr ? 0.0 : 2.0 * model::global_tolerance_of(*piece).value_or(0.0);
+  return piece == nullptr ? 0.0 : 2.0 * general_tolerance_of(*piece).value_or(0.0);
 }
 
 /// The narrowest zone that is stated of a feature's sizes across, else of the workpiece; 0: none. Which
@@ -288,7 +287,7 @@ double zone_of(const model::Plan& plan, const PartShapes& part, model::AnyRef fe
   if (e == nullptr || e->shapes.empty()) return general;
   const bool compound = e->shapes.size() > 1 && e->shapes.front().kind == model::ShapeKind::kHole;
   double least = 0.0, most = 0.0;
-  for (const model::FeatureShape& shape : e->shapes) {
+  for (const volumes::Form& shape : e->shapes) {
     const double stated = zone_of(shape);
     const double zone = stated > 0.0 ? stated : general;
     if (!(zone > 0.0) && compound) return 0.0;

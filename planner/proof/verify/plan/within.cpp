@@ -1,12 +1,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/model/features/in_piece.h"
-#include "planner/model/features/raw_piece.h"
 #include "planner/model/nouns/all.h"
 #include "planner/proof/verify/copies.h"
 #include "planner/proof/verify/plan/plan_checks.h"
 #include "planner/proof/verify/sweep/target/target.h"
+#include "planner/proof/verify/volumes/form/in_raw.h"
 
 // Planned features against the raw piece, and holes against each other.
 
@@ -14,38 +13,38 @@ namespace capstan::verify {
 namespace {
 
 using model::AnyRef;
-using model::FeatureShape;
 using model::ShapeKind;
-
-constexpr double kBeyondMm = model::kBeyondPieceMm;
+using volumes::Form;
+using volumes::kBeyondMm;
 
 std::string where(geometry::Vec3 p) { return "(" + plain(p.x) + ", " + plain(p.y) + ", " + plain(p.z) + ")"; }
 
 /// Why a feature cannot be made of this raw piece; empty when it can.
-std::string not_within(const FeatureShape& s, const geometry::Box3& stock) {
+std::string not_within(const Form& s, const geometry::Box3& stock) {
   if (s.area.empty()) return {};
   const auto b = geometry::bounds(s.area);
-  const geometry::Box3 raw = placed(stock, inverse(s.frame));
+  const geometry::Box3 raw = placed(stock, inverse(s.frame()));
   // Steps and outsides are drawn out over the edges of the piece.
   const bool over_edges = s.kind == ShapeKind::kStep || s.kind == ShapeKind::kOutside;
   if (!over_edges && (b.lo.x > raw.hi.x || b.hi.x < raw.lo.x || b.lo.y > raw.hi.y || b.hi.y < raw.lo.y ||
-                      -s.depth_mm > raw.hi.z || raw.lo.z > 0.0)) {
+                      -s.depth_mm() > raw.hi.z || raw.lo.z > 0.0)) {
     return "lies wholly outside the raw piece";
   }
-  const double deeper = raw.lo.z + s.depth_mm;
-  if (!s.through && deeper > kBeyondMm) return "ends " + mm(deeper) + " below the underside of the raw piece";
+  const double deeper = raw.lo.z + s.depth_mm();
+  if (!s.solid.through && deeper > kBeyondMm)
+    return "ends " + mm(deeper) + " below the underside of the raw piece";
   return {};
 }
 
 /// Whether two holes with one axis direction cut into each other's wall.
-bool overlap(const FeatureShape& a, const FeatureShape& b) {
-  if (std::abs(std::abs(dot(a.frame.z, b.frame.z)) - 1.0) > 1e-9) return false;
-  const geometry::Vec3 local = a.frame.to_local(b.frame.origin);
+bool overlap(const Form& a, const Form& b) {
+  if (std::abs(std::abs(dot(a.frame().z, b.frame().z)) - 1.0) > 1e-9) return false;
+  const geometry::Vec3 local = a.frame().to_local(b.frame().origin);
   const double apart = std::hypot(local.x, local.y);
-  const double ra = 0.5 * a.diameter.nominal_mm, rb = 0.5 * b.diameter.nominal_mm;
+  const double ra = a.bore()->top_radius_mm, rb = b.bore()->top_radius_mm;
   if (apart >= ra + rb - kBeyondMm || apart <= std::abs(ra - rb) + kBeyondMm) return false;
-  const double end = local.z - b.depth_mm * dot(a.frame.z, b.frame.z);
-  return std::max(local.z, end) > -a.depth_mm + kBeyondMm && std::min(local.z, end) < -kBeyondMm;
+  const double end = local.z - b.depth_mm() * dot(a.frame().z, b.frame().z);
+  return std::max(local.z, end) > -a.depth_mm() + kBeyondMm && std::min(local.z, end) < -kBeyondMm;
 }
 
 }  // namespace
@@ -53,18 +52,18 @@ bool overlap(const FeatureShape& a, const FeatureShape& b) {
 void check_within(const model::Plan& plan, const PartShapes& part, Findings& findings) {
   if (plan.stock.box.empty()) return;
   struct Hole {
-    const FeatureShape* shape;
+    const Form* shape;
     const Asked* asked;
   };
   std::vector<Hole> holes;
   const std::vector<Asked> asked = asked_of(plan);
-  const model::PieceForm raw{plan.stock.box, plan.stock.cylinder_radius_mm};
-  const model::PieceForm whole{part.part, plan.stock.cylinder_radius_mm};
+  const volumes::Piece raw{plan.stock.box, plan.stock.cylinder_radius_mm};
+  const volumes::Piece whole{part.part, plan.stock.cylinder_radius_mm};
   // The features alone do not tell how thick the part is below a hole.
-  const model::Workpiece* piece = model::workpiece_of(plan.model, plan.project);
+  const model::Workpiece* piece = workpiece_of(plan);
   const bool stated = piece != nullptr && piece->its_bounding_geometry.set() && !plan.target_mesh;
-  const model::PieceForm finished = stated ? whole : raw;
-  std::vector<FeatureShape> all;
+  const volumes::Piece finished = stated ? whole : raw;
+  std::vector<Form> all;
   for (const auto& e : part.entries) {
     if (!e.piece) all.insert(all.end(), e.shapes.begin(), e.shapes.end());
   }
@@ -78,27 +77,28 @@ void check_within(const model::Plan& plan, const PartShapes& part, Findings& fin
   for (const Asked& a : asked) {
     const PartShapes::Entry* e = part.find(a.feature);
     if (e == nullptr) continue;
-    for (const FeatureShape& s : e->shapes) {
+    for (const Form& s : e->shapes) {
       if (const std::string why = not_within(s, plan.stock.box); !why.empty()) {
         findings.error(37, "CHK-OUTSIDE", a.where,
-                       "feature " + s.name + ", placed at " + where(s.frame.origin) + " of the workpiece, " +
-                           why + " (" + where(plan.stock.box.lo) + " to " + where(plan.stock.box.hi) + ")");
+                       "feature " + s.name + ", placed at " + where(s.frame().origin) +
+                           " of the workpiece, " + why + " (" + where(plan.stock.box.lo) + " to " +
+                           where(plan.stock.box.hi) + ")");
       }
       const std::string at =
-          "feature " + s.name + ", placed at " + where(s.frame.origin) + " of the workpiece";
-      if (const std::string why = model::floor_below_part(s, raw, finished); !why.empty())
+          "feature " + s.name + ", placed at " + where(s.frame().origin) + " of the workpiece";
+      if (const std::string why = volumes::floor_below_part(s, raw, finished); !why.empty())
         findings.error(37, "CHK-OUTSIDE", a.where, at + ": " + why);
       if (drills(a.feature)) {
-        if (const std::string why = model::cuts_an_edge(s, raw); !why.empty())
+        if (const std::string why = volumes::cuts_an_edge(s, raw); !why.empty())
           findings.error(37, "CHK-EDGE", a.where, at + ", is drilled, but " + why + "; mill it, or move it");
-        if (const std::string why = model::point_runs_through(s, raw, finished); !why.empty())
+        if (const std::string why = volumes::point_runs_through(s, raw, finished); !why.empty())
           findings.error(37, "CHK-OUTSIDE", a.where, at + ": " + why);
       }
-      if (!plan.target_mesh && model::buried(s, {}, whole)) {
-        if (const auto lid = model::buried(s, all, whole))
-          findings.error(37, "CHK-BURIED", a.where,
-                         at + ", is cut through what stands above it: " + model::to_text(*lid),
-                         lid->above_mm);
+      double above = 0.0;
+      if (!plan.target_mesh && !volumes::buried(s, {}, whole, above).empty()) {
+        if (const std::string lid = volumes::buried(s, all, whole, above); !lid.empty())
+          findings.error(37, "CHK-BURIED", a.where, at + ", is cut through what stands above it: " + lid,
+                         above);
       }
       if (s.kind == ShapeKind::kHole || s.kind == ShapeKind::kThread) holes.push_back({&s, &a});
     }
@@ -111,9 +111,9 @@ void check_within(const model::Plan& plan, const PartShapes& part, Findings& fin
       const Hole& first = &last == &holes[i] ? holes[k] : holes[i];
       if (!drills(last.asked->feature)) continue;
       findings.error(37, "CHK-OVERLAP", last.asked->where,
-                     "hole " + last.shape->name + " at " + where(last.shape->frame.origin) +
+                     "hole " + last.shape->name + " at " + where(last.shape->frame().origin) +
                          " runs into the wall of " + first.shape->name + " at " +
-                         where(first.shape->frame.origin) +
+                         where(first.shape->frame().origin) +
                          ": a drill is pushed aside there; mill one of them, or move it");
     }
   }

@@ -28,7 +28,7 @@ bool is_mill(const model::Cutter& c) {
 }
 /// How far the head, its tip at p, is in the walls of the feature's upright holes, mm; 0 where there are
 /// none. A back countersink's cone ends at its neck, at the head's top.
-double into_hole_walls(const std::vector<model::FeatureShape>& shapes, const geometry::Placement& frame,
+double into_hole_walls(const std::vector<volumes::Form>& shapes, const geometry::Placement& frame,
                        const model::Cutter& c, double head_mm, const geometry::Vec3& p) {
   constexpr int kSlices = 8;
   const double r = 0.5 * c.cutting_diameter_mm;
@@ -41,18 +41,19 @@ double into_hole_walls(const std::vector<model::FeatureShape>& shapes, const geo
     const double t = std::clamp(head_mm * i / kSlices, 1e-3, head_mm - 1e-3);
     const double own = t > widest_mm ? r - (t - widest_mm) * lean : r;
     double low = 1e300, high = -1e300, room = -1e300;
-    for (const model::FeatureShape& s : shapes) {
+    for (const volumes::Form& s : shapes) {
       if (s.kind != model::ShapeKind::kHole) continue;
-      const geometry::Placement at = compose(frame, s.frame);
+      const volumes::Bore& bore = *s.bore();
+      const geometry::Placement at = compose(frame, s.frame());
       if (at.z.z < 1.0 - 1e-9) continue;
       const double down = at.origin.z - (p.z + t);
-      low = std::min(low, at.origin.z - s.depth_mm);
+      low = std::min(low, at.origin.z - s.depth_mm());
       high = std::max(high, at.origin.z);
-      if (down < -1e-6 || down > s.depth_mm + 1e-6) continue;
-      const double wide = s.diameter.nominal_mm +
-                          (s.bottom_diameter_mm - s.diameter.nominal_mm) * down / std::max(s.depth_mm, 1e-9);
+      if (down < -1e-6 || down > s.depth_mm() + 1e-6) continue;
+      const double wide = bore.top_radius_mm +
+                          (bore.bottom_radius_mm - bore.top_radius_mm) * down / std::max(s.depth_mm(), 1e-9);
       const double more = s.diameter.given ? std::max(0.0, s.diameter.upper_mm) : 0.0;
-      room = std::max(room, 0.5 * (wide + more) - norm(xy(p) - xy(at.origin)));
+      room = std::max(room, wide + 0.5 * more - norm(xy(p) - xy(at.origin)));
     }
     // Above the uppermost and below the lowest hole other material is judged by its heights.
     if (low > high || p.z + t > high || p.z + t < low) continue;
@@ -82,10 +83,10 @@ StepChecks::StepChecks(const model::Plan& plan, const StepMoves& step, Grid& gri
       target_(target),
       past_(past),
       out_(findings),
-      profile_(model::profile_of(*step.cutter)),
+      profile_(outline_of(*step.cutter)),
       body_(body_of(*step.cutter)),
       radius_(profile_.radius_mm),
-      tip_mm_(model::tip_length(*step.cutter)),
+      tip_mm_(profile_.height(0.5 * step.cutter->cutting_diameter_mm)),
       kept_profile_(std::make_shared<const geometry::CutterProfile>(profile_)),
       mark_(past.mark()) {
   constexpr double kThicker = 0.02;  // mm: what is no thicker follows where the cutter has been
@@ -191,17 +192,15 @@ void StepChecks::neck(const Move& m) {
     radius = radius_ - head * std::tan(cutter_.lead_angle_rad);
   if (step_.planned != nullptr) {
     const auto* ws = plan_.model.get<model::MachiningWorkingstep>(step_.planned->step);
-    const auto shapes = ws != nullptr
-                            ? model::shapes_of(plan_.model, ws->its_feature)
-                            : Result<std::vector<model::FeatureShape>>(std::vector<model::FeatureShape>{});
-    const bool holes = shapes && !shapes->empty() &&
-                       std::all_of(shapes->begin(), shapes->end(),
+    const PartShapes::Entry* e = ws != nullptr ? target_.part().find(ws->its_feature) : nullptr;
+    const bool holes = e != nullptr && !e->shapes.empty() &&
+                       std::all_of(e->shapes.begin(), e->shapes.end(),
                                    [](const auto& s) { return s.kind == model::ShapeKind::kHole; });
     const int pieces = holes ? std::max(4, static_cast<int>(std::ceil(length_of(m)))) : -1;
     for (int i = 0; i <= pieces; ++i) {
       const geometry::Vec3 p = point_of(m, static_cast<double>(i) / pieces);
       const double into =
-          into_hole_walls(*shapes, workpiece_in(plan_, step_.planned->setup), cutter_, head, p);
+          into_hole_walls(e->shapes, workpiece_in(plan_, step_.planned->setup), cutter_, head, p);
       if (into <= kSlackMm) continue;
       out_.error(11, "CHK-HEAD", at(m),
                  "the tool's head runs " + mm(into) + " into a hole's wall at " + here(xy(p)), into);

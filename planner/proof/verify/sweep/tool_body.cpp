@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "planner/proof/verify/copies.h"
 #include "planner/proof/verify/findings.h"
 
 namespace capstan::verify {
@@ -59,7 +60,7 @@ std::string not_described(const model::Cutter& c) {
 
 std::vector<BodyPart> body_of(const model::Cutter& c) {
   using What = BodyPart::What;
-  const double r = std::max(model::profile_of(c).radius_mm, 0.5 * c.cutting_diameter_mm);
+  const double r = std::max(outline_of(c).radius_mm, 0.5 * c.cutting_diameter_mm);
   const double shank = c.shank_diameter_mm > 0.0 ? 0.5 * c.shank_diameter_mm : r;
   const Lengths l = lengths_of(c);
   std::vector<BodyPart> out;

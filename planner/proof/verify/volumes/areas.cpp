@@ -102,7 +102,11 @@ Closed outline_of(const Model& m, AnyRef r, double radius_mm, const Placement& a
   if (!out.fault.empty()) return out;
   out.unsaid_mm = unsaid;
   if (!(std::abs(twice_area(out.outline)) > 1e-6)) return {{}, "its profile bounds no area"};
-  const double radius = radius_mm > 0.0 ? radius_mm : corner;
+  double radius = radius_mm > 0.0 ? radius_mm : corner;
+  // Nothing rounder fits into a rectangle than half circles at its ends.
+  if (const auto* box = m.get<model::RectangularClosedProfile>(r))
+    radius = std::min(radius, 0.5 * std::min(size_of(m, box->profile_length).value_or(0.0),
+                                             size_of(m, box->profile_width).value_or(0.0)));
   if (!(radius > 0.0)) return out;
   Rounded arcs = rounded(out.outline, radius);
   return {std::move(arcs.outline), std::move(arcs.fault), unsaid};

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "planner/proof/verify/volumes/compare.h"
+#include "planner/proof/verify/volumes/reading.h"
 
 // Where two readings are compared: on either side of every piece of the own outlines (at the ends of lines,
 // at the middle and the quarters of arcs, across the halves of sharp corners), at heights through the

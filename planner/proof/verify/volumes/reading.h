@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -33,12 +34,19 @@ struct Source {
 /// A feature wherever its compounds and patterns put it, with the bosses in it left standing.
 [[nodiscard]] Reading read(const Source& source, model::AnyRef feature);
 
+/// Places at both sides of all surfaces of a solid, twice a tolerance away, and within it; workpiece
+/// coordinates.
+[[nodiscard]] std::vector<geometry::Vec3> places_of(const Solid& s, double tolerance_mm);
+
+/// Features that are parts of others: elements of compounds, bases of patterns, bosses that others list.
+[[nodiscard]] std::set<model::AnyRef> parts_of_others(const model::Model& m);
+
 // What follows is shared by the files of this folder only.
 
 /// A simple feature in the coordinates that it is stated in.
 [[nodiscard]] Reading simple(const Source& source, model::AnyRef feature);
 /// A noun of a row, its frame and depth read already.
-#define CAPSTAN_READING(Noun, read) \
+#define CAPSTAN_READING(Noun, Kind, read) \
   [[nodiscard]] Reading read(const Source& source, model::AnyRef feature, Solid solid);
 #include "planner/proof/verify/volumes/readings.inc"
 #undef CAPSTAN_READING

@@ -171,7 +171,7 @@ Reading simple(const Source& source, AnyRef f) {
   }
   if (*deep < 0.0) return unread("its depth lies above its placement");
   s.depth_mm = *deep;
-#define CAPSTAN_READING(Noun, read) \
+#define CAPSTAN_READING(Noun, Kind, read) \
   if (m.holds<model::Noun>(f)) return read(source, f, std::move(s));
 #include "planner/proof/verify/volumes/readings.inc"
 #undef CAPSTAN_READING
@@ -190,6 +190,18 @@ Source source_of(const Model& m, const Box3& raw) {
     }
   }
   for (const AnyRef b : m.all(model::TypeId::kBoss)) stand_everywhere(out, b, out.bosses);
+  return out;
+}
+
+std::set<AnyRef> parts_of_others(const Model& m) {
+  std::set<AnyRef> out;
+  for (const AnyRef f : m.all_below(model::TypeId::kManufacturingFeature)) {
+    if (const auto* bosses = bosses_in(m, f)) out.insert(bosses->items.begin(), bosses->items.end());
+    if (const auto* c = m.get<model::CompoundFeature>(f))
+      out.insert(c->elements.items.begin(), c->elements.items.end());
+    if (const auto* p = m.get<model::ReplicateFeature>(f)) out.insert(p->replicate_base_feature);
+  }
+  out.erase(AnyRef{});
   return out;
 }
 

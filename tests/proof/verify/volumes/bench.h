@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "planner/proof/verify/volumes/compare.h"
+#include "planner/proof/verify/compared/compare.h"
 #include "tests/model/maker.h"
 
 namespace capstan::verify::volumes {

@@ -3,10 +3,10 @@
 #include <numbers>
 #include <set>
 
-#include "planner/model/features/in_piece.h"
 #include "planner/model/nouns/all.h"
 #include "planner/proof/verify/copies.h"
 #include "planner/proof/verify/sweep/target/target.h"
+#include "planner/proof/verify/volumes/form/in_raw.h"
 
 // What stays of planned features after the last step. Every cell of a feature's area is held against the
 // feature's own floor: its nominal height, the depth's tolerance and what the finest step states as allowance
@@ -14,7 +14,7 @@
 // ring's radius is a cell, the tolerances and the side allowance, so that walls and slopes are judged within
 // a cell. What may stay in corners is what the file allows: a stated radius; where none is stated, the
 // radius of the narrowest mill of its steps, and at the foot of a wall that of the tool's corner, both within
-// bounds (steps, outsides, closed pockets: model::unstated_corner_mm); nothing in the square ends of slots,
+// bounds (steps, outsides, closed pockets: volumes::unstated_corner_mm); nothing in the square ends of slots,
 // at the open side of a pocket, nor where a radius of 0 is stated. Points of drills count below a conical
 // bottom's depth only. A through hole that ends within another feature that the plan makes is done there.
 // Crests of threads and what heights do not hold are not looked at, nor what is narrower than two cells: a
@@ -31,8 +31,8 @@ namespace capstan::verify {
 
 using geometry::Region;
 using geometry::Vec2;
-using model::FeatureShape;
 using model::ShapeKind;
+using volumes::Form;
 
 namespace {
 
@@ -49,25 +49,23 @@ constexpr double kBelowMm = 0.05;  ///< a hole's end, to see what it opens into;
 std::string place(Vec2 p, double z) { return "(" + plain(p.x) + ", " + plain(p.y) + ", " + plain(z) + ")"; }
 
 /// How much higher, and how much narrower than nominal the feature's tolerances let it be.
-double shallower(const FeatureShape& s) {
-  return s.depth_tolerance.given ? std::max(0.0, -s.depth_tolerance.lower_mm) : 0.0;
-}
-double narrower(const FeatureShape& s) {
+double shallower(const Form& s) { return s.depth.given ? std::max(0.0, -s.depth.lower_mm) : 0.0; }
+double narrower(const Form& s) {
   double out = 0.0;
-  for (const model::Toleranced* t : {&s.width, &s.length, &s.diameter}) {
+  for (const volumes::Limits* t : {&s.width, &s.length, &s.diameter}) {
     if (t->given) out = std::max(out, -0.5 * t->lower_mm);
   }
   return out;
 }
 
 /// The feature's own floor, frame coordinates; nothing where it leaves the place alone.
-std::optional<double> own_floor(const FeatureShape& s, Vec2 q) {
+std::optional<double> own_floor(const Form& s, Vec2 q) {
   // Walls that lean, and cones under a hole's full depth, are made within what no height tells.
   if (s.slope_rad > 0.0 && !geometry::contains(s.area, q)) return std::nullopt;
-  auto z = model::floor_at(s, q);
+  auto z = volumes::floor_at(s, q);
   if (!z) return std::nullopt;
   const bool hole = s.kind == ShapeKind::kHole || s.kind == ShapeKind::kThread;
-  return hole ? std::max(*z, -s.depth_mm) : *z;
+  return hole ? std::max(*z, -s.depth_mm()) : *z;
 }
 
 double narrow_side(const Region& area) {
@@ -76,29 +74,29 @@ double narrow_side(const Region& area) {
 }
 
 /// The radius that the file lets stay in a feature's inside corners; `mill`: that of its narrowest mill.
-double corner_allowed(const model::Model& m, const FeatureShape& s, double mill) {
+double corner_allowed(const Form& s, double mill) {
   if (s.corner_radius_mm > 0.0) return s.corner_radius_mm;
   if (s.kind == ShapeKind::kSlot) return 0.0;
-  const auto* p = m.get<model::Pocket>(s.made_of.empty() ? s.feature : s.made_of.back());
-  if (p != nullptr && p->orthogonal_radius.set()) return 0.0;
+  if (s.corner_stated) return 0.0;
   if (s.kind == ShapeKind::kStep || s.kind == ShapeKind::kOutside || s.kind == ShapeKind::kFace ||
-      (s.kind == ShapeKind::kPocket && !s.open))
-    return std::min(mill, model::unstated_corner_mm(s));
+      (s.kind == ShapeKind::kPocket && !s.open()))
+    return std::min(mill, volumes::unstated_corner_mm(s.depth_mm()));
   return std::min(mill, kUnstatedShare * narrow_side(s.area));
 }
 
 /// The same for the foot of its walls; `corner`: that of the mill.
-double foot_allowed(const FeatureShape& s, double corner) {
-  if (s.bottom_radius_mm > 0.0)
-    return s.open || s.kind == ShapeKind::kSlot ? s.bottom_radius_mm : 0.0;  // else its floor tells it
+double foot_allowed(const Form& s, double corner) {
+  if (const double foot = s.foot_radius_mm(); foot > 0.0)
+    return s.open() || s.kind == ShapeKind::kSlot ? foot : 0.0;  // else its floor tells it
   return std::min(corner, s.slope_rad > 0.0 ? kUnstatedShare * narrow_side(s.area) : kUnstatedFootMm);
 }
 
 /// What of a feature no height tells, or no cell.
-std::string not_judged(const FeatureShape& s, const Asked& a, double ring) {
+std::string not_judged(const Form& s, const Asked& a, double ring) {
   if (s.kind != ShapeKind::kChamfer && geometry::offset(s.area, -ring, 0.01).empty())
     return "all of it, which is narrower than two cells (" + mm(2.0 * ring) + " with its tolerances)";
-  const bool cone = s.kind == ShapeKind::kHole && s.diameter.nominal_mm - s.bottom_diameter_mm > 1e-6;
+  const auto* bore = s.kind == ShapeKind::kHole ? s.bore() : nullptr;
+  const bool cone = bore != nullptr && bore->top_radius_mm - bore->bottom_radius_mm > 5e-7;
   std::string out;
   const auto say = [&](bool so, const char* what) {
     if (so) out += (out.empty() ? "" : "; ") + std::string(what);
@@ -203,18 +201,19 @@ void Target::left(const Grid& grid, const std::vector<Asked>& here, const std::v
   }
 }
 
-bool Target::opens_below(const FeatureShape& s, const std::vector<Asked>& asked, Vec2 p, double z) const {
+bool Target::opens_below(const Form& s, const std::vector<Asked>& asked, Vec2 p, double z) const {
   const geometry::Vec3 at = frame_.to_local({p.x, p.y, z - kBelowMm});
   return std::any_of(part_.entries.begin(), part_.entries.end(), [&](const PartShapes::Entry& e) {
     const auto same = [&](const Asked& a) { return a.feature == e.feature; };
     return !e.piece && e.feature != s.feature && std::any_of(asked.begin(), asked.end(), same) &&
-           std::any_of(e.shapes.begin(), e.shapes.end(), [&](const auto& o) { return model::takes(o, at); });
+           std::any_of(e.shapes.begin(), e.shapes.end(),
+                       [&](const auto& o) { return volumes::takes(o, at); });
   });
 }
 
 void Target::left_of(const Cavity& c, const Grid& grid, const Asked& a, const std::vector<Asked>& asked,
                      bool carried, Findings& out) const {
-  const FeatureShape& s = *c.shape;
+  const Form& s = *c.shape;
   const double above = c.frame.origin.z;
   const double limit = allowed() + shallower(s) + a.bottom_mm;
   const double ring = (carried ? 1.5 : 1.0) * grid.cell() + allowed() + narrower(s) + a.side_mm;
@@ -227,7 +226,7 @@ void Target::left_of(const Cavity& c, const Grid& grid, const Asked& a, const st
     const geometry::Vec3 local = c.frame.to_local({p.x, p.y, 0.0});
     const auto z = own_floor(s, {local.x, local.y});
     if (!z) return std::nullopt;
-    if (*z <= -s.depth_mm + 1e-9 && c.open_bottom) return Grid::kNothing;
+    if (*z <= -s.depth_mm() + 1e-9 && c.open_bottom) return Grid::kNothing;
     return below ? Grid::kNothing : above + *z;
   };
   /// The highest floor on the ring; nothing where the feature ends within it.
@@ -250,13 +249,15 @@ void Target::left_of(const Cavity& c, const Grid& grid, const Asked& a, const st
     for (int ix = x0; ix < x1; ++ix) {
       const std::size_t i = grid.index(ix, iy);
       const double stands = grid.stock[i];
-      if (stands <= Grid::kNothing / 2 || (!c.open_bottom && stands <= above - s.depth_mm + limit)) continue;
+      if (stands <= Grid::kNothing / 2 || (!c.open_bottom && stands <= above - s.depth_mm() + limit))
+        continue;
       // Over what a head has cut from below stands what it passed under.
       if (a.undercut && stands > above + limit) continue;
       const Vec2 p = grid.centre(ix, iy);
       const auto own = floor(p);
       if (!own || stands - std::max(*own, grid.base[i]) <= limit) continue;
-      if (s.through && stands <= above - s.depth_mm + limit && opens_below(s, asked, p, above - s.depth_mm))
+      if (s.solid.through && stands <= above - s.depth_mm() + limit &&
+          opens_below(s, asked, p, above - s.depth_mm()))
         continue;
       const auto wide = around(p, ring);
       if (!wide) continue;
@@ -264,11 +265,11 @@ void Target::left_of(const Cavity& c, const Grid& grid, const Asked& a, const st
       if (left <= limit) continue;
       if (fillet > 0.0 && left <= fillet + limit && !around(p, ring + fillet)) continue;
       if (!corners) {
-        const double r = corner_allowed(plan_.model, s, a.radius_mm);
+        const double r = corner_allowed(s, a.radius_mm);
         Region own_area = s.area;
         for (const auto& island : s.islands) own_area = geometry::subtract(own_area, island.area);
         const bool milled = r > 0.0 && s.kind != ShapeKind::kHole && s.kind != ShapeKind::kThread;
-        const Region open = s.kind == ShapeKind::kPocket && s.open ? s.reach : Region{};
+        const Region open = s.kind == ShapeKind::kPocket ? s.before_mouth : Region{};
         corners = milled ? in_sharp_corners(own_area, open, r + a.side_mm, ring) : Region{};
       }
       const geometry::Vec3 local = c.frame.to_local({p.x, p.y, 0.0});
@@ -301,7 +302,7 @@ void Target::left_on_mesh(const Grid& grid, const Asked& a, Findings& out) const
       sheet_ ? std::vector<geometry::MeshCorner>{} : geometry::sharp_corners(in_setup, inside_out_);
   const auto in_corner = [&](Vec2 p, double z) {
     return std::any_of(corners.begin(), corners.end(), [&](const geometry::MeshCorner& c) {
-      const double may_stay = model::unstated_corner_mm(c.high - c.low);
+      const double may_stay = volumes::unstated_corner_mm(c.high - c.low);
       return z <= c.high + limit && c.keeps(p, may_stay, limit + slack);
     });
   };

@@ -2,10 +2,9 @@
 #include <cmath>
 
 #include "planner/ground/base/number.h"
-#include "planner/model/features/raw_piece.h"
-#include "planner/model/features/resolve.h"
 #include "planner/model/nouns/all.h"
 #include "planner/proof/verify/sweep/target/target.h"
+#include "planner/proof/verify/volumes/nouns.h"
 
 namespace capstan::verify {
 
@@ -19,7 +18,7 @@ constexpr double kDefaultToleranceMm = 0.02;  // default, unsourced
 
 Box3 box_of_noun(const model::Model& m, model::AnyRef shape) {
   if (const auto* b = m.get<model::Block>(shape)) {
-    const auto frame = model::placement_or_identity(m, b->position);
+    const auto frame = volumes::frame_or_same(m, b->position);
     if (!frame || !b->x || !b->y || !b->z) return {};
     Box3 local;
     local.add({0.0, 0.0, 0.0});
@@ -38,14 +37,16 @@ Box3 box_of_features(const PartShapes& part) {
       const auto b = geometry::bounds(s.area);
       Box3 local;
       local.add({b.lo.x, b.lo.y, 0.0});
-      local.add({b.hi.x, b.hi.y, -s.depth_mm});
-      const Box3 there = placed(local, s.frame);
+      local.add({b.hi.x, b.hi.y, -s.depth_mm()});
+      const Box3 there = placed(local, s.frame());
       out.add(there.lo);
       out.add(there.hi);
     }
   }
   return out;
 }
+
+}  // namespace
 
 const model::Workpiece* workpiece_of(const model::Plan& plan) {
   if (const auto* project = plan.model.get<model::Project>(plan.project)) {
@@ -57,7 +58,10 @@ const model::Workpiece* workpiece_of(const model::Plan& plan) {
   return all.empty() ? nullptr : plan.model.get<model::Workpiece>(all.front());
 }
 
-}  // namespace
+std::optional<double> general_tolerance_of(const model::Workpiece& piece) {
+  const auto& t = piece.global_tolerance;
+  return t && *t > 0.0 && *t <= kLargestGeneralMm ? std::optional<double>(*t) : std::nullopt;
+}
 
 Box3 placed(const Box3& box, const Placement& at) {
   Box3 out;
@@ -76,7 +80,7 @@ Placement workpiece_in(const model::Plan& plan, std::size_t setup) {
   for (const auto& item : s->its_workpiece_setup.items) {
     const auto* ws = plan.model.get<model::WorkpieceSetup>(item);
     if (ws == nullptr) continue;
-    if (const auto frame = model::placement_or_identity(plan.model, ws->its_origin)) return *frame;
+    if (const auto frame = volumes::frame_or_same(plan.model, ws->its_origin)) return *frame;
   }
   return {};
 }
@@ -90,25 +94,24 @@ const PartShapes::Entry* PartShapes::find(model::AnyRef feature) const {
 
 PartShapes shapes_of_part(const model::Plan& plan) {
   PartShapes out;
-  std::set<model::AnyRef> pieces = model::parts_of_others(plan.model);
+  std::set<model::AnyRef> pieces = volumes::parts_of_others(plan.model);
+  const volumes::Source source = volumes::source_of(plan.model, plan.stock.box);
   for (const auto& s : plan.steps) {
     const auto* ws = plan.model.get<model::MachiningWorkingstep>(s.step);
     if (ws != nullptr) pieces.erase(ws->its_feature);
   }
   for (const auto f : plan.model.all_below(model::TypeId::kManufacturingFeature)) {
     PartShapes::Entry e{f, {}, {}, pieces.contains(f)};
-    if (auto shapes = model::shapes_of(plan.model, model::Ref<model::ManufacturingFeature>(f))) {
-      e.shapes = *std::move(shapes);
-    } else {
-      e.fault = shapes.error().message;
-    }
+    const volumes::Reading own = volumes::read(source, f);
+    e.shapes = volumes::forms_of(source, f, own);
+    e.fault = own.unread;
     out.entries.push_back(std::move(e));
   }
   out.tolerance_mm = kDefaultToleranceMm;
   out.tolerance_source = "default";
   const model::Workpiece* piece = workpiece_of(plan);
-  if (const auto stated = piece != nullptr ? model::global_tolerance_of(*piece) : std::nullopt) {
-    out.tolerance_mm = std::clamp(*stated, model::kFinestJudged, model::kWidestJudged);
+  if (const auto stated = piece != nullptr ? general_tolerance_of(*piece) : std::nullopt) {
+    out.tolerance_mm = std::clamp(*stated, kFinestJudgedMm, kWidestJudgedMm);
     out.tolerance_source = "global_tolerance";
   }
   // Raw material beyond the part may be cut freely: what belongs to the part is its own bounding box, where

@@ -16,8 +16,8 @@ using geometry::Placement;
 using geometry::Region;
 using geometry::Vec2;
 using geometry::Vec3;
-using model::FeatureShape;
 using model::ShapeKind;
+using volumes::Form;
 
 namespace {
 
@@ -36,7 +36,7 @@ Region moved(const Region& r, const Placement& to) {
   return {std::move(loops)};
 }
 
-bool representable(const FeatureShape& s) {
+bool representable(const Form& s) {
   switch (s.kind) {
     case ShapeKind::kToolpath:
     case ShapeKind::kSphericalCap:
@@ -50,27 +50,25 @@ bool representable(const FeatureShape& s) {
 }
 
 /// How far beyond its nominal walls the feature's tolerances let a cutter go.
-double sideways(const FeatureShape& s) {
+double sideways(const Form& s) {
   double out = 0.0;
-  for (const model::Toleranced* t : {&s.width, &s.length, &s.diameter}) {
+  for (const volumes::Limits* t : {&s.width, &s.length, &s.diameter}) {
     if (t->given) out = std::max(out, 0.5 * t->upper_mm);
   }
   return out;
 }
 
 /// The widest area a cutter may be in anywhere above the bottom, feature frame.
-Region widest(const FeatureShape& s) {
-  double grow = sideways(s);
-  if (s.kind == ShapeKind::kThread) {
-    const double r = std::max(0.5 * s.thread_major_mm, 0.5 * s.diameter.nominal_mm);
-    return geometry::disc({0.0, 0.0}, r + grow);
+Region widest(const Form& s) {
+  const double grow = sideways(s);
+  if (const auto* b = s.bore()) {
+    const double thread = s.kind == ShapeKind::kThread ? 0.5 * b->thread_major_mm : 0.0;
+    return geometry::disc({0.0, 0.0}, std::max({thread, b->top_radius_mm, b->bottom_radius_mm}) + grow);
   }
-  if (s.kind == ShapeKind::kHole) {
-    return geometry::disc({0.0, 0.0}, 0.5 * std::max(s.diameter.nominal_mm, s.bottom_diameter_mm) + grow);
-  }
-  if (s.kind == ShapeKind::kChamfer) grow += s.chamfer_width_mm;
-  if (s.slope_rad > 0.0) grow += s.depth_mm * std::tan(s.slope_rad);
-  return grow > 0.0 ? geometry::offset(s.area, grow) : s.area;
+  const double wider = s.bevel() != nullptr ? s.bevel()->width_mm
+                       : s.slope_rad > 0.0  ? s.depth_mm() * std::tan(s.slope_rad)
+                                            : 0.0;
+  return grow + wider > 0.0 ? geometry::offset(s.area, grow + wider) : s.area;
 }
 
 double segment_distance(Vec2 p, Vec2 a, Vec2 b) {
@@ -114,11 +112,11 @@ Target::Target(const model::Plan& plan, const PartShapes& part, std::size_t setu
   levels_.erase(std::unique(levels_.begin(), levels_.end()), levels_.end());
 }
 
-void Target::add(const FeatureShape& s, bool bevel) {
-  const Placement at = compose(frame_, s.frame);
+void Target::add(const Form& s, bool bevel) {
+  const Placement at = compose(frame_, s.frame());
   if (std::abs(at.z.z) < kUpright) return;
   const bool below = at.z.z < 0.0;
-  if (below && !s.through) return;  // from the other side: seen from here the surface stays
+  if (below && !s.solid.through) return;  // from the other side: seen from here the surface stays
   if (!representable(s)) return;
   Cavity c;
   c.shape = &s;
@@ -126,22 +124,20 @@ void Target::add(const FeatureShape& s, bool bevel) {
   c.frame = at;
   c.area = moved(widest(s), at);
   c.box = geometry::bounds(c.area);
-  double tip = 0.0;  // of conical and round bottoms below the depth of the full diameter
-  if (s.kind == ShapeKind::kHole && s.bottom == model::HoleBottom::kConical)
-    tip = 0.5 * s.bottom_diameter_mm * std::tan(s.bottom_angle_rad);
-  c.deeper_mm = s.depth_tolerance.given ? std::max(0.0, s.depth_tolerance.upper_mm) : 0.0;
-  double depth = std::max(s.depth_mm + tip, s.kind == ShapeKind::kThread ? s.thread_depth_mm : 0.0);
+  c.deeper_mm = s.depth.given ? std::max(0.0, s.depth.upper_mm) : 0.0;
+  const double thread = s.kind == ShapeKind::kThread ? s.bore()->thread_depth_mm : 0.0;
+  const double depth = std::max(s.depth_mm() + (s.kind == ShapeKind::kHole ? s.tip_mm : 0.0), thread);
   c.floor_mm = at.origin.z - depth - c.deeper_mm;
-  c.open_bottom = s.through || below || c.floor_mm <= stock_.lo.z + part_.tolerance_mm;
+  c.open_bottom = s.solid.through || below || c.floor_mm <= stock_.lo.z + part_.tolerance_mm;
   if (below) c.floor_mm = stock_.lo.z;
   // What an outside leaves may be as small as its tolerance says.
   double smaller = 0.0;
-  for (const model::Toleranced* t : {&s.width, &s.length}) {
+  for (const volumes::Limits* t : {&s.width, &s.length}) {
     if (s.kind == ShapeKind::kOutside && t->given) smaller = std::max(smaller, -0.5 * t->lower_mm);
   }
   for (const auto& i : s.islands) {
     const Region stays = smaller > 0.0 ? geometry::offset(i.area, -smaller) : i.area;
-    c.islands.emplace_back(moved(stays, at), at.origin.z + i.top_z_mm);
+    c.islands.emplace_back(moved(stays, at), at.origin.z + i.top_mm);
   }
   cavities_.push_back(std::move(c));
 }
@@ -159,20 +155,12 @@ void Target::add_broken_edges() {
     const double depth = op->axial_cutting_depth.value_or(0.0);
     const PartShapes::Entry* e = part_.find(ws->its_feature);
     if (e == nullptr || !(depth > 0.0 && depth <= kMostEdgeBreakMm)) continue;
-    for (const FeatureShape& s : e->shapes) {
+    for (const Form& s : e->shapes) {
       if (s.kind != ShapeKind::kPocket && s.kind != ShapeKind::kHole && s.kind != ShapeKind::kOutside)
         continue;
-      FeatureShape& bevel = bevels_.emplace_back(s);
-      bevel.kind = ShapeKind::kChamfer;
-      bevel.through = false;
-      if (s.kind == ShapeKind::kHole)
-        bevel.area = geometry::disc({0.0, 0.0}, 0.5 * (s.diameter.nominal_mm + s.diameter.upper_mm));
-      for (const auto& i : s.islands) bevel.area = geometry::subtract(bevel.area, i.area);
-      bevel.islands.clear();
-      bevel.chamfer_angle_rad = 0.5 * (std::numbers::pi - c->point_angle_rad);
-      bevel.depth_mm = depth;
-      bevel.chamfer_width_mm = depth / std::tan(bevel.chamfer_angle_rad);
-      add(bevel, true);
+      const double width = depth * std::tan(0.5 * c->point_angle_rad);
+      for (Form& edge : volumes::broken_edges(s, depth, width))
+        add(bevels_.emplace_back(std::move(edge)), true);
     }
   }
 }
@@ -189,12 +177,12 @@ double Target::floor_of(const Cavity& c, Vec2 p) const {
   if (p.x < c.box.lo.x || p.x > c.box.hi.x || p.y < c.box.lo.y || p.y > c.box.hi.y) return 1e300;
   const Vec3 local = c.frame.to_local({p.x, p.y, 0.0});
   const Vec2 q{local.x, local.y};
-  const FeatureShape& s = *c.shape;
-  if (s.kind == ShapeKind::kThread && norm(q) <= 0.5 * s.thread_major_mm)
+  const Form& s = *c.shape;
+  if (s.kind == ShapeKind::kThread && norm(q) <= 0.5 * s.bore()->thread_major_mm)
     return c.open_bottom ? Grid::kNothing : c.floor_mm;
-  const auto floor = model::floor_at(s, q);
+  const auto floor = volumes::floor_at(s, q);
   if (!floor) return 1e300;
-  const bool at_bottom = *floor <= -s.depth_mm + 1e-9;
+  const bool at_bottom = *floor <= -s.depth_mm() + 1e-9;
   if (at_bottom && c.open_bottom) return Grid::kNothing;
   return c.frame.origin.z + *floor - c.deeper_mm;
 }
@@ -384,7 +372,7 @@ std::string Target::undecided(model::AnyRef feature) const {
   for (const auto& s : e->shapes) {
     if (s.kind == ShapeKind::kFreeform && plan_.target_mesh) continue;
     if (!representable(s)) return "a " + std::string(model::to_text(s.kind)) + " is not held as heights";
-    if (std::abs(compose(frame_, s.frame).z.z) < kUpright) return "it is tilted against the tool axis";
+    if (std::abs(compose(frame_, s.frame()).z.z) < kUpright) return "it is tilted against the tool axis";
   }
   return {};
 }

@@ -12,19 +12,19 @@
 #include "planner/ground/geometry/mesh_corners.h"
 #include "planner/ground/geometry/placement.h"
 #include "planner/ground/geometry/region.h"
-#include "planner/model/features/shape.h"
 #include "planner/model/plan/plan.h"
 #include "planner/proof/verify/findings.h"
 #include "planner/proof/verify/sweep/grid/grid.h"
+#include "planner/proof/verify/volumes/form/form.h"
 
 namespace capstan::verify {
 
-/// What all features of a plan are, once for all set-ups.
+/// What all features of a plan are by the own reading (volumes), once for all set-ups.
 struct PartShapes {
   struct Entry {
     model::AnyRef feature;
-    std::vector<model::FeatureShape> shapes;
-    std::string fault;  ///< why there are none
+    std::vector<volumes::Form> shapes;
+    std::string fault;  ///< why they were not read
     bool piece =
         false;  ///< a boss, element or base that another feature holds, and no step is for: made with that
   };
@@ -35,6 +35,14 @@ struct PartShapes {
   [[nodiscard]] const Entry* find(model::AnyRef feature) const;
 };
 [[nodiscard]] PartShapes shapes_of_part(const model::Plan& plan);
+
+/// The workpiece that the project makes, else the first of the file; null: there is none.
+[[nodiscard]] const model::Workpiece* workpiece_of(const model::Plan& plan);
+/// Above this a stated general tolerance is hardly meant; the widest and the finest that a check goes by, mm.
+/// Defaults, unsourced.
+inline constexpr double kLargestGeneralMm = 5.0, kWidestJudgedMm = 0.5, kFinestJudgedMm = 0.001;
+/// The general tolerance that a workpiece states, +- mm; nothing: none that can be meant.
+[[nodiscard]] std::optional<double> general_tolerance_of(const model::Workpiece& piece);
 
 /// A feature that a plan makes, and what its steps say that they leave.
 struct Asked {
@@ -77,10 +85,11 @@ class Target : public GougeJudge {
   [[nodiscard]] double allowed() const { return part_.tolerance_mm + kChordMm; }
   [[nodiscard]] const geometry::Box3& stock() const { return stock_; }
   [[nodiscard]] const geometry::Placement& frame() const { return frame_; }
+  [[nodiscard]] const PartShapes& part() const { return part_; }
 
  private:
   struct Cavity {
-    const model::FeatureShape* shape = nullptr;
+    const volumes::Form* shape = nullptr;
     geometry::Placement frame;  ///< feature in set-up
     geometry::Region area;      ///< set-up XY, widest, lateral tolerance included
     geometry::Box2 box;
@@ -104,13 +113,13 @@ class Target : public GougeJudge {
     [[nodiscard]] bool stands(geometry::Vec2 p) const;
   };
 
-  void add(const model::FeatureShape& s, bool bevel = false);
+  void add(const volumes::Form& s, bool bevel = false);
   void left_of(const Cavity& c, const Grid& grid, const Asked& a, const std::vector<Asked>& asked,
                bool carried, Findings& out) const;
   /// Whether another feature that is made takes away what lies right below a point at the end of this one,
   /// set-up frame.
-  [[nodiscard]] bool opens_below(const model::FeatureShape& s, const std::vector<Asked>& asked,
-                                 geometry::Vec2 p, double z) const;
+  [[nodiscard]] bool opens_below(const volumes::Form& s, const std::vector<Asked>& asked, geometry::Vec2 p,
+                                 double z) const;
   void left_on_mesh(const Grid& grid, const Asked& a, Findings& out) const;
   /// Warns of surfaces of the mesh that face down above its underside, and of the raw piece under
   /// that.
@@ -130,7 +139,7 @@ class Target : public GougeJudge {
   bool sheet_ = false;           ///< a mesh that says nothing of what lies outside its outline: that stays
   bool inside_out_ = false;      ///< a closed mesh whose triangles face inwards
   std::optional<double> round_;  ///< radius of a bar along the tool axis
-  std::deque<model::FeatureShape> bevels_;  ///< of edges that the plan breaks
+  std::deque<volumes::Form> bevels_;  ///< of edges that the plan breaks
   std::vector<Cavity> cavities_;
   std::vector<double> levels_;
   std::map<std::size_t, Walls> walls_;

@@ -1,7 +1,8 @@
 #include <gtest/gtest.h>
 
+#include "planner/proof/verify/compared/compare.h"
+#include "planner/proof/verify/compared/meaning.h"
 #include "planner/proof/verify/verify.h"
-#include "planner/proof/verify/plan/meaning.h"
 #include "tests/proof/verify/plans.h"
 
 // What the check says of a feature that is read in two ways, on the small plan that is right.
@@ -11,7 +12,7 @@ namespace {
 
 using testing::PlanMaker;
 
-std::vector<model::Finding> meaning(const model::Plan& plan, const PartShapes& part) {
+std::vector<model::Finding> meaning(const model::Plan& plan, const std::vector<PlannersReading>& part) {
   Findings findings;
   check_meaning(plan, part, findings);
   return findings.take();
@@ -19,13 +20,13 @@ std::vector<model::Finding> meaning(const model::Plan& plan, const PartShapes& p
 
 TEST(MeaningFinding, OfAPlanThatIsRightThereIsNone) {
   const PlanMaker k = testing::good_plan();
-  EXPECT_TRUE(meaning(k.plan, shapes_of_part(k.plan)).empty());
+  EXPECT_TRUE(meaning(k.plan, planners_readings(k.plan.model)).empty());
 }
 
 TEST(MeaningFinding, NamesFeatureStepPlaceAndBothReadings) {
   const PlanMaker k = testing::good_plan();
-  PartShapes part = shapes_of_part(k.plan);
-  for (auto& e : part.entries) {
+  std::vector<PlannersReading> part = planners_readings(k.plan.model);
+  for (auto& e : part) {
     if (e.shapes.at(0).kind == model::ShapeKind::kHole) e.shapes[0].frame.origin = {0, 0, 0};  // at X15 Y15
   }
   const auto findings = meaning(k.plan, part);
@@ -44,9 +45,9 @@ TEST(MeaningFinding, NamesFeatureStepPlaceAndBothReadings) {
 TEST(MeaningFinding, WhatNoStepCutsIsAWarning) {
   PlanMaker k = testing::good_plan();
   k.pocket("other", 80, 80, 20, 5);
-  PartShapes part = shapes_of_part(k.plan);
+  std::vector<PlannersReading> part = planners_readings(k.plan.model);
   ASSERT_TRUE(meaning(k.plan, part).empty());
-  for (auto& e : part.entries) {
+  for (auto& e : part) {
     if (e.shapes.at(0).name == "other") e.shapes[0].depth_mm = 9;
   }
   const auto findings = meaning(k.plan, part);

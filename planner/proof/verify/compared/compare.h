@@ -7,6 +7,18 @@
 #include "planner/model/features/shape.h"
 #include "planner/proof/verify/volumes/reading.h"
 
+namespace capstan::verify {
+
+/// How the planner reads one feature.
+struct PlannersReading {
+  model::AnyRef feature;
+  std::vector<model::FeatureShape> shapes;
+};
+/// Of all features that the planner can read.
+[[nodiscard]] std::vector<PlannersReading> planners_readings(const model::Model& m);
+
+}  // namespace capstan::verify
+
 namespace capstan::verify::volumes {
 
 /// Two readings that differ by less are one, mm: the planner's areas stray by 0.001 from the arcs they stand
@@ -34,9 +46,5 @@ struct Disagreement {
 /// down to `floor_at`; what heights do not hold (slots under a narrower mouth, holes that widen) by its
 /// section.
 [[nodiscard]] bool removes(const model::FeatureShape& shape, geometry::Vec3 p);
-
-/// Places at both sides of all surfaces of a solid, twice a tolerance away, and within it; workpiece
-/// coordinates.
-[[nodiscard]] std::vector<geometry::Vec3> places_of(const Solid& s, double tolerance_mm);
 
 }  // namespace capstan::verify::volumes

@@ -1,4 +1,4 @@
-#include "planner/proof/verify/volumes/compare.h"
+#include "planner/proof/verify/compared/compare.h"
 
 #include <algorithm>
 #include <array>
@@ -312,3 +312,16 @@ std::optional<Disagreement> disagreement(const Reading& own, const std::vector<F
 }
 
 }  // namespace capstan::verify::volumes
+
+namespace capstan::verify {
+
+std::vector<PlannersReading> planners_readings(const model::Model& m) {
+  std::vector<PlannersReading> out;
+  for (const auto f : m.all_below(model::TypeId::kManufacturingFeature)) {
+    if (auto shapes = model::shapes_of(m, model::Ref<model::ManufacturingFeature>(f)))
+      out.push_back({f, *std::move(shapes)});
+  }
+  return out;
+}
+
+}  // namespace capstan::verify

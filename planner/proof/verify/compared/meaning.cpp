@@ -1,7 +1,7 @@
-#include "planner/proof/verify/plan/meaning.h"
+#include "planner/proof/verify/compared/meaning.h"
 
 #include "planner/model/nouns/all.h"
-#include "planner/proof/verify/volumes/compare.h"
+#include "planner/proof/verify/compared/compare.h"
 
 namespace capstan::verify {
 
@@ -17,9 +17,14 @@ std::string place(geometry::Vec3 p) { return "X" + plain(p.x) + " Y" + plain(p.y
 
 }  // namespace
 
-void check_meaning(const model::Plan& plan, const PartShapes& part, Findings& findings) {
+void check_meaning(const model::Plan& plan, Findings& findings) {
+  check_meaning(plan, planners_readings(plan.model), findings);
+}
+
+void check_meaning(const model::Plan& plan, const std::vector<PlannersReading>& planner, Findings& findings) {
   const volumes::Source source = volumes::source_of(plan.model, plan.stock.box);
-  for (const PartShapes::Entry& e : part.entries) {
+  const std::set<model::AnyRef> pieces = volumes::parts_of_others(plan.model);
+  for (const PlannersReading& e : planner) {
     if (e.shapes.empty()) continue;
     std::size_t order = 0;
     std::string step;
@@ -31,7 +36,7 @@ void check_meaning(const model::Plan& plan, const PartShapes& part, Findings& fi
       break;
     }
     // A part of another feature is compared with that one, unless it is cut on its own.
-    if (order == 0 && e.piece) continue;
+    if (order == 0 && pieces.contains(e.feature)) continue;
     const volumes::Reading own = volumes::read(source, e.feature);
     const Findings::Where where{order, step, -1};
     const std::string name = name_of(plan.model, e.feature);
@@ -40,7 +45,8 @@ void check_meaning(const model::Plan& plan, const PartShapes& part, Findings& fi
         findings.note(
             38, "CHK-NOT-JUDGED", where,
             "feature " + name +
-                ": only the planner's reading of its shape is known, the check's own does not read it: " +
+                ": the check's own reading does not read its shape, so that walls, floor and what is left of "
+                "it are not judged: " +
                 own.unread);
       continue;
     }

@@ -1,4 +1,4 @@
-#include "planner/proof/verify/volumes/compare.h"
+#include "planner/proof/verify/compared/compare.h"
 
 #include <gtest/gtest.h>
 

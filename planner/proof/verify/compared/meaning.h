@@ -1,0 +1,19 @@
+#pragma once
+
+#include <vector>
+
+#include "planner/model/plan/plan.h"
+#include "planner/proof/verify/findings.h"
+
+namespace capstan::verify {
+
+struct PlannersReading;
+
+/// What the planner reads features as, which its paths are made by, against the own reading of the file's
+/// text (volumes/reading.h): 38. An error where a step cuts what is read in two ways, a warning where none
+/// does; a note for what is cut and not read by both.
+void check_meaning(const model::Plan& plan, Findings& findings);
+/// The same of readings that are given (compare.h): those of the planner, or with a fault in them.
+void check_meaning(const model::Plan& plan, const std::vector<PlannersReading>& planner, Findings& findings);
+
+}  // namespace capstan::verify
