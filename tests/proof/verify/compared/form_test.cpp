@@ -139,7 +139,11 @@ TEST(OwnForms, OfEdgesFollowTheOutlineOfWhatTheyBreak) {
   o.closed_boundary = k.m.add(circle);
   o.floor_condition = k.m.add(model::ThroughProfileFloor{});
   const AnyRef outside = k.m.add(o);
-  EXPECT_EQ(k.differing(outside), "");
+  const auto round = k.forms(outside);
+  ASSERT_EQ(round.size(), 1u);
+  EXPECT_FALSE(floor_at(round[0], {29.9, 0}));
+  EXPECT_EQ(floor_at(round[0], {30.1, 0}), -10.0);
+  EXPECT_EQ(floor_at(round[0], {60.0, 0}), -10.0);
   c.first_feature = Ref<model::MachiningFeature>(outside);
   const auto own = k.forms(k.m.add(c));
   ASSERT_EQ(own.size(), 1u);
