@@ -32,7 +32,7 @@ TEST(RequestOf, OptionsThatNobodySetIsTheRequestThatNobodySet) {
   EXPECT_EQ(r.bind, none.bind);
   EXPECT_FALSE(r.strict || r.allow_findings || r.schema);
   EXPECT_EQ(r.threads, none.threads);
-  EXPECT_TRUE(r.backends.ipopt) << "the library brings Ipopt where it is built";
+  EXPECT_TRUE(r.backends[optimise::Solver::kIpopt]) << "the library brings Ipopt where it is built";
 }
 
 TEST(RequestOf, EachFieldSetsWhatItsNameSays) {

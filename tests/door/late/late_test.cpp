@@ -10,6 +10,7 @@
 #include "capstan/capstan_late.h"
 #include "planner/controls/linuxcnc/linuxcnc.h"
 #include "planner/files/json/json.h"
+#include "planner/making/given/magazine.h"
 #include "planner/model/nouns/all.h"
 #include "tests/support/corpus.h"
 #include "tests/support/seal.h"
@@ -326,7 +327,7 @@ TEST(Late, ReopensAToolThatIsNotInTheMagazine) {
   pipeline::Inputs in = shop(kMagazine);
   std::erase_if(in.library, [](const auto& c) { return c.pocket == 7; });
   Job job;
-  const auto reopened = pipeline::match_loaded(plan, in, job);
+  const auto reopened = given::match_loaded(plan, in.library, job);
   ASSERT_TRUE(reopened);
   ASSERT_FALSE(reopened->empty());
   EXPECT_NE(reopened->front().find("END MILL 12"), std::string::npos) << reopened->front();

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -131,9 +132,11 @@ TEST(ReadmeFigures, SayHowManyCutsStayBelowEachMargin) {
   for (std::sregex_iterator it(sentence.begin(), sentence.end(), share), end; it != end; ++it)
     shares.push_back(std::stod((*it)[1]) / std::stod((*it)[2]));
   ASSERT_EQ(shares.size(), mechanics::kMarginPolicies.size());
-  for (std::size_t i = 0; i < shares.size(); ++i)
-    EXPECT_NEAR(shares[i], mechanics::kMarginPolicies[i].confidence, 0.01)
-        << mechanics::kMarginPolicies[i].name;
+  for (std::size_t i = 0; i < shares.size(); ++i) {
+    // Below k standard deviations lies this share of a normal distribution.
+    const double share = 0.5 * std::erfc(-mechanics::kMarginPolicies[i].deviations / std::sqrt(2.0));
+    EXPECT_NEAR(shares[i], share, 0.01) << mechanics::kMarginPolicies[i].name;
+  }
 }
 
 TEST(ReadmeSessions, AreComparedLineByLine) {

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "planner/files/exchange/exchange.h"
+#include "planner/making/given/magazine.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/nouns/arena/walk.h"
 #include "tests/support/corpus.h"
@@ -179,7 +180,7 @@ TEST(OneTool, ALoadedToolThatThePlanDoesNotNameGetsANameOfItsOwn) {
   nine.point_angle_rad = 0.0;  // as a table has it: it does not say
   Inputs in = shop();
   in.library = {nine, loaded_drill(8.5)};
-  ASSERT_TRUE(match_loaded(plan, in, job));
+  ASSERT_TRUE(given::match_loaded(plan, in.library, job));
   std::map<std::string, double> diameters;
   for (const model::Cutter& c : in.library)
     EXPECT_TRUE(diameters.emplace(c.id, c.cutting_diameter_mm).second);

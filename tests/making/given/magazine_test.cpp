@@ -5,10 +5,10 @@
 #include <utility>
 #include <vector>
 
-#include "tests/support/shop.h"
+#include "planner/making/given/magazine.h"
 #include "tooling/library/library.h"
 
-namespace capstan::pipeline {
+namespace capstan::given {
 namespace {
 
 using model::Cutter;
@@ -123,4 +123,4 @@ TEST(LoadedTool, OfAToolTableIsKnownByItsSizesWhereItsCommentSaysNoMore) {
 }
 
 }  // namespace
-}  // namespace capstan::pipeline
+}  // namespace capstan::given

@@ -1,0 +1,1 @@
+capstan_test(given DEPENDS given tooling)
