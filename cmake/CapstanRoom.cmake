@@ -65,8 +65,16 @@ function(capstan_room name)
   endif()
 endfunction()
 
-# What tests do themselves runs once: less optimised, it is compiled in four fifths of the time.
-set(capstan_test_optimisation -O1)
+# capstan_compile_as_test(<target>)
+#
+# With the precompiled header of the tests, and with its options. What tests do themselves runs once: less
+# optimised, it is compiled in four fifths of the time.
+function(capstan_compile_as_test target)
+  target_compile_options(${target} PRIVATE -O1)
+  if(NOT target STREQUAL capstan_test_pch)
+    target_precompile_headers(${target} REUSE_FROM capstan_test_pch)
+  endif()
+endfunction()
 
 # capstan_test(<room> [DEPENDS room...] [LIBS lib...])
 #
@@ -81,8 +89,7 @@ function(capstan_test room)
   add_executable(${target}_test ${sources})
   target_link_libraries(${target}_test PRIVATE
     $<BUILD_INTERFACE:capstan_options> capstan_test_support GTest::gmock GTest::gtest_main ${ARG_LIBS})
-  target_compile_options(${target}_test PRIVATE ${capstan_test_optimisation})
-  target_precompile_headers(${target}_test REUSE_FROM capstan_test_pch)
+  capstan_compile_as_test(${target}_test)
   foreach(dep IN LISTS ARG_DEPENDS)
     target_link_libraries(${target}_test PRIVATE capstan::${dep})
   endforeach()

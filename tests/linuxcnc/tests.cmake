@@ -16,7 +16,7 @@ target_compile_definitions(capstan_simulated PRIVATE
 file(GLOB simulated_tests CONFIGURE_DEPENDS ${simulated}/*_test.cpp)
 add_executable(linuxcnc_test ${simulated_tests})
 target_link_libraries(linuxcnc_test PRIVATE capstan_simulated capstan::tooling GTest::gmock GTest::gtest_main)
-target_precompile_headers(linuxcnc_test REUSE_FROM capstan_test_pch)
+capstan_compile_as_test(linuxcnc_test)
 # LinuxCNC's shared memory has fixed keys, and its clock runs fast: one at a time, with both processors.
 gtest_discover_tests(linuxcnc_test DISCOVERY_TIMEOUT 60
   PROPERTIES TIMEOUT 900 RESOURCE_LOCK linuxcnc PROCESSORS 2)

@@ -1,6 +1,6 @@
-#include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <cmath>
 
 #include <regex>
 
@@ -134,8 +134,8 @@ TEST(ReadmeFigures, SayHowManyCutsStayBelowEachMargin) {
   ASSERT_EQ(shares.size(), mechanics::kMarginPolicies.size());
   for (std::size_t i = 0; i < shares.size(); ++i) {
     // Below k standard deviations lies this share of a normal distribution.
-    const double share = 0.5 * std::erfc(-mechanics::kMarginPolicies[i].deviations / std::sqrt(2.0));
-    EXPECT_NEAR(shares[i], share, 0.01) << mechanics::kMarginPolicies[i].name;
+    const double below = 0.5 * std::erfc(-mechanics::kMarginPolicies[i].deviations / std::sqrt(2.0));
+    EXPECT_NEAR(shares[i], below, 0.01) << mechanics::kMarginPolicies[i].name;
   }
 }
 
