@@ -171,9 +171,6 @@ std::optional<double> clear_beside(const Piece& piece, const FeatureShape& s) {
   return clear < kFarMm ? std::optional(clear) : std::nullopt;
 }
 
-namespace {
-
-/// How far the walls are apart at which a step ends on both sides; 0: it runs out on one.
 double between_ends(const Piece& piece, const FeatureShape& s) {
   constexpr double kBeyond = 0.5;  // mm
   if (s.kind != ShapeKind::kStep || s.spine.size() < 2 || piece.shapes.all.size() > kMostShapes) return 0.0;
@@ -187,8 +184,6 @@ double between_ends(const Piece& piece, const FeatureShape& s) {
   }
   return length;
 }
-
-}  // namespace
 
 std::string crosses_a_wall(const Piece& piece, const FeatureShape& face) {
   constexpr double kSomeArea = 1.0;  // mm2: less is rounding of outlines
