@@ -101,7 +101,8 @@ TEST(Bind, GivesTheSameBytesOnOneThreadAndOnTwo) {
     workers = witness.workers();
     std::string out;
     if (!plan) return out;
-    for (const Format f : {Format::kIso14649, Format::kJson, Format::kLinuxCnc, Format::kToolTable}) {
+    for (const Format f :
+         {Format::kIso14649, Format::kAp238, Format::kJson, Format::kLinuxCnc, Format::kToolTable}) {
       auto text = write_plan(*plan, f, job);
       EXPECT_TRUE(text) << (text ? "" : to_text(text.error()));
       out += text ? *text : "";
