@@ -230,8 +230,6 @@ std::optional<std::string> wrong_shape(const Cutter& c, const ToolRequirement& r
     return "taper " + degrees(taper) + " is not " + degrees(r.taper_angle_rad);
   // T-slot cutters of older libraries state their head as the length of flutes.
   const double width = c.cutting_width_mm > 0.0 ? c.cutting_width_mm : c.maximum_depth_of_cut_mm;
-  if (r.cutting_width_min_mm > 0.0 && width < r.cutting_width_min_mm - kSizeSlackMm)
-    return "cutting width " + mm(width) + " is below " + mm(r.cutting_width_min_mm);
   if (r.cutting_width_max_mm > 0.0 && width > r.cutting_width_max_mm + kSizeSlackMm)
     return "cutting width " + mm(width) + " is above " + mm(r.cutting_width_max_mm);
   if (auto why = wrong_thread(c, r)) return why;

@@ -13,6 +13,9 @@
 #include "planner/model/plan/cutter/cutter_fields.h"
 #include "planner/model/plan/fields.h"
 #include "planner/model/plan/plan.h"
+#include "planner/model/plan/resources/machine_fields.h"
+#include "planner/model/plan/resources/material_fields.h"
+#include "planner/model/plan/resources/workholding_fields.h"
 
 /// @file The fields of the plan's plain structs, named once: the writer, the reader, the schema (and the test
 /// that fills everything) visit them through these. Names wear their units. Optional members may be absent.
@@ -28,85 +31,12 @@ void fields(V& v, model::HasFields auto& x) {
   model::for_each_field(x, [&v](const auto& row, auto& value) { v(row.name, value); });
 }
 template <class V>
-void fields(V& v, Is<geometry::Vec3> auto& x) {
-  v("x", x.x), v("y", x.y), v("z", x.z);
-}
-template <class V>
 void fields(V& v, Is<geometry::Box3> auto& x) {
   v("lo", x.lo), v("hi", x.hi);
 }
 template <class V>
 void fields(V& v, Is<std::pair<std::string, std::string>> auto& x) {
   v("of", x.first), v("source", x.second);
-}
-template <class V>
-void fields(V& v, Is<model::LinearAxis> auto& x) {
-  v("name", x.name), v("travel_min_mm", x.travel_min_mm), v("travel_max_mm", x.travel_max_mm);
-  v("rapid_mm_min", x.rapid_mm_min), v("feed_max_mm_min", x.feed_max_mm_min);
-  v("acceleration_mm_s2", x.acceleration_mm_s2), v("jerk_mm_s3", x.jerk_mm_s3);
-}
-template <class V>
-void fields(V& v, Is<model::SpindlePoint> auto& x) {
-  v("rpm", x.rpm), v("power_w", x.power_w), v("torque_nm", x.torque_nm);
-}
-template <class V>
-void fields(V& v, Is<model::Spindle> auto& x) {
-  v("rpm_min", x.rpm_min), v("rpm_max", x.rpm_max), v("curve", x.curve), v("taper", x.taper);
-  v("efficiency", x.efficiency), v("spin_up_s", x.spin_up_s), v("gears", x.gears);
-}
-template <class V>
-void fields(V& v, Is<model::SpindleGear> auto& x) {
-  v("id", x.id), v("rpm_min", x.rpm_min), v("rpm_max", x.rpm_max), v("curve", x.curve);
-  v("curve_s6", x.curve_s6);
-}
-template <class V>
-void fields(V& v, Is<model::MachineAbilities> auto& x) {
-  v("control_axes", x.control_axes), v("simultaneous_axes", x.simultaneous_axes);
-  v("positioning_accuracy_mm", x.positioning_accuracy_mm), v("table_indexing", x.table_indexing);
-  v("table_length_mm", x.table_length_mm), v("table_width_mm", x.table_width_mm);
-  v("rigid_tapping", x.rigid_tapping), v("probe", x.probe), v("through_pressure_bar", x.through_pressure_bar);
-  v("feed_override_max", x.feed_override_max), v("magazine_mass_max_kg", x.magazine_mass_max_kg);
-}
-template <class V>
-void fields(V& v, Is<model::Control> auto& x) {
-  v("dialect", x.dialect), v("decimals", x.decimals), v("feed_decimals", x.feed_decimals);
-  v("path_tolerance_mm", x.path_tolerance_mm), v("block_time_s", x.block_time_s);
-  v("offsets_against_reference", x.offsets_against_reference);
-}
-template <class V>
-void fields(V& v, Is<model::Machine> auto& x) {
-  v("id", x.id), v("description", x.description), v("axes", x.axes), v("spindle", x.spindle);
-  v("magazine_pockets", x.magazine_pockets), v("tool_diameter_max_mm", x.tool_diameter_max_mm);
-  v("tool_length_max_mm", x.tool_length_max_mm), v("tool_change_s", x.tool_change_s);
-  v("has_flood", x.has_flood), v("has_mist", x.has_mist), v("has_through", x.has_through);
-  v("cost_per_hour", x.cost_per_hour), v("control", x.control), v("sources", x.sources);
-  v("abilities", x.abilities), v("modes", x.modes);
-}
-template <class V>
-void fields(V& v, Is<model::MechanisticSet> auto& x) {
-  v("substrate", x.substrate), v("ktc_n_mm2", x.ktc_n_mm2), v("kte_n_mm", x.kte_n_mm);
-  v("krc_n_mm2", x.krc_n_mm2), v("kre_n_mm", x.kre_n_mm), v("kac_n_mm2", x.kac_n_mm2);
-  v("kae_n_mm", x.kae_n_mm), v("uncertainty", x.uncertainty), v("source", x.source);
-}
-template <class V>
-void fields(V& v, Is<model::ToolLifeLaw> auto& x) {
-  v("substrate", x.substrate), v("v0_m_min", x.v0_m_min), v("life_min", x.life_min), v("h0_mm", x.h0_mm);
-  v("a0_mm", x.a0_mm), v("n", x.n), v("p", x.p), v("q", x.q), v("scatter", x.scatter);
-  v("source", x.source);
-}
-template <class V>
-void fields(V& v, Is<model::ToolPointMode> auto& x) {
-  v("cutter_id", x.cutter_id), v("direction", x.direction), v("frequency_hz", x.frequency_hz);
-  v("damping_ratio", x.damping_ratio), v("stiffness_n_mm", x.stiffness_n_mm);
-}
-template <class V>
-void fields(V& v, Is<model::WorkMaterial> auto& x) {
-  v("id", x.id), v("iso_group", x.iso_group), v("names", x.names), v("kc11_n_mm2", x.kc11_n_mm2);
-  v("mc", x.mc), v("vc_hss_m_min", x.vc_hss_m_min), v("vc_carbide_m_min", x.vc_carbide_m_min);
-  v("tensile_strength_n_mm2", x.tensile_strength_n_mm2), v("kc_uncertainty", x.kc_uncertainty);
-  v("hardness_hb", x.hardness_hb);
-  v("mechanistic", x.mechanistic), v("life", x.life);
-  v("sources", x.sources);
 }
 template <class V>
 void fields(V& v, Is<model::Stock> auto& x) {
@@ -116,22 +46,6 @@ template <class V>
 void fields(V& v, Is<model::SetupResult> auto& x) {
   v("setup", x.setup), v("work_offset", x.work_offset), v("security_z_mm", x.security_z_mm);
   v("holding", x.holding);
-}
-template <class V>
-void fields(V& v, Is<model::FixtureSolid> auto& x) {
-  v("id", x.id), v("kind", x.kind), v("outline", x.outline), v("bottom_mm", x.bottom_mm),
-      v("top_mm", x.top_mm);
-  v("presses", x.presses);
-}
-template <class V>
-void fields(V& v, Is<model::Workholding> auto& x) {
-  v("id", x.id), v("description", x.description), v("source", x.source), v("solids", x.solids);
-  v("pickup", x.pickup), v("pickup_text", x.pickup_text), v("clearance_mm", x.clearance_mm);
-  v("holding_force_n", x.holding_force_n);
-}
-template <class V>
-void fields(V& v, Is<geometry::Vec2> auto& x) {
-  v("x", x.x), v("y", x.y);
 }
 template <class V>
 void fields(V& v, Is<model::AxisForces> auto& x) {

@@ -61,8 +61,7 @@ struct CutQuestion {
   bool feed_by_planning = false;  ///< feed_mm_min was chosen by planning before: the margin holds for it, too
   double surface_ra_um = 0.0;     ///< demanded of the surface this cut leaves; 0: none
   double wall_error_limit_mm = 0.0;  ///< how far bending may push the wall; 0: not asked
-  double peak_force_limit_n = 0.0;   ///< of workholding or cutter; 0: none
-  double least_chip_mm = 0.0;        ///< the thickest chip is no thinner: below, this work rubs; 0: not asked
+  double peak_force_limit_n = 0.0;   ///< that what holds the piece bears; 0: not known
   /// The largest diameter that cuts: of a ball or bull nose that is not in with all of its radius, the one
   /// that cutting speed is counted at. 0: the cutter's.
   double speed_diameter_mm = 0.0;

@@ -43,13 +43,7 @@ std::string words_of(const ToolRequirement& r) {
   if (r.point_angle_rad > 0.0) add(degrees(r.point_angle_rad) + " point");
   if (r.corner_radius_exact_mm >= 0.0) add(mm(r.corner_radius_exact_mm) + " corner radius");
   if (r.corner_radius_limited) add("at most " + mm(r.corner_radius_max_mm) + " corner radius");
-  if (r.cutting_width_min_mm > 0.0 && r.cutting_width_max_mm > 0.0) {
-    add(mm(r.cutting_width_min_mm) + " to " + mm(r.cutting_width_max_mm) + " width");
-  } else if (r.cutting_width_max_mm > 0.0) {
-    add("at most " + mm(r.cutting_width_max_mm) + " width");
-  } else if (r.cutting_width_min_mm > 0.0) {
-    add("at least " + mm(r.cutting_width_min_mm) + " width");
-  }
+  if (r.cutting_width_max_mm > 0.0) add("at most " + mm(r.cutting_width_max_mm) + " width");
   if (r.neck_diameter_max_mm > 0.0) add("a neck of at most " + mm(r.neck_diameter_max_mm));
   if (r.neck_step_min_mm > 0.0) {
     add(high > r.neck_step_min_mm ? "a neck of at most " + mm(high - r.neck_step_min_mm) + " (" +

@@ -23,7 +23,7 @@ struct ToolRequirement {
   double thread_pitch_mm = 0.0;
   double thread_size_mm = 0.0;                                    ///< nominal, thread mills and taps
   double taper_angle_rad = 0.0;                                   ///< tapered end mills: half angle
-  double cutting_width_min_mm = 0.0, cutting_width_max_mm = 0.0;  ///< side mills, heads of T-slot cutters
+  double cutting_width_max_mm = 0.0;  ///< side mills, heads of T-slot cutters
   double neck_diameter_max_mm = 0.0;  ///< what must pass above the head, over `reach_mm`
   double neck_step_min_mm = 0.0;     ///< head less neck, on the diameter, over `reach_mm`: undercuts in holes
   double tip_diameter_max_mm = 0.0;  ///< flat at the tip at most: what stands below a cone stays

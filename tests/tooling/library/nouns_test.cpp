@@ -248,6 +248,18 @@ TEST(Requirement, SurvivesBeingWritten) {
   EXPECT_NEAR(back.point_angle_rad, r.point_angle_rad, 1e-12);
 }
 
+TEST(Requirement, OfALeftHandTapStaysLeft) {
+  model::ToolRequirement r;
+  r.classes = {CutterClass::kTap};
+  r.diameter_exact_mm = 8.0;
+  for (const bool left : {true, false}) {
+    r.left_hand = left;
+    Model m;
+    Job job;
+    EXPECT_EQ(requirement_from_nouns(m, nouns_from_requirement(m, r), job).value().left_hand, left);
+  }
+}
+
 TEST(Requirement, LeavesASmallerMillPossible) {
   model::ToolRequirement r;
   r.classes = {CutterClass::kEndmill};

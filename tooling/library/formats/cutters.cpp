@@ -3,6 +3,7 @@
 #include <map>
 
 #include "planner/ground/base/number.h"
+#include "planner/model/plan/cutter/cutter_fields.h"
 #include "tooling/library/cutters/check.h"
 #include "tooling/library/cutters/complete.h"
 #include "tooling/library/cutters/generic.h"
@@ -24,41 +25,57 @@ using model::CutterClass;
 /// What makers call materials that are in no group of ISO 513.
 constexpr const char* kOtherGroup = "O";
 
+/// Which field a symbol of ISO 13399, or of our own, speaks of.
 struct FieldOf {
   const char* symbol;
   double Cutter::*field;
-  const char* name;
-  const char* unit;
+  const char* name = "";
+  const char* unit = "";
+
+  /// Name and unit are those of the table of fields.
+  constexpr FieldOf(const char* of_symbol, double Cutter::*of_field) : symbol(of_symbol), field(of_field) {
+    std::apply([this](const auto&... row) { (look_at(row), ...); }, model::kFields<Cutter>);
+  }
+
+ private:
+  constexpr void look_at(const model::Field<Cutter, double>& row) {
+    if (row.member != field) return;
+    name = row.name;
+    unit = row.unit == model::Unit::kLength ? "mm" : row.unit == model::Unit::kAngle ? "deg" : "";
+  }
+  template <class T>
+  constexpr void look_at(const model::Field<Cutter, T>&) {}
 };
 /// The first symbol of a field that a record has is taken; the first is written.
 constexpr std::array kFields{
-    FieldOf{"DC", &Cutter::cutting_diameter_mm, "cutting_diameter_mm", "mm"},
-    FieldOf{"DCX", &Cutter::adjustable_to_mm, "adjustable_to_mm", "mm"},
-    FieldOf{"RE", &Cutter::corner_radius_mm, "corner_radius_mm", "mm"},
-    FieldOf{"SIG", &Cutter::point_angle_rad, "point_angle_rad", "deg"},
-    FieldOf{"DCN", &Cutter::tip_diameter_mm, "tip_diameter_mm", "mm"},
-    FieldOf{"APMX", &Cutter::maximum_depth_of_cut_mm, "maximum_depth_of_cut_mm", "mm"},
-    FieldOf{"LCF", &Cutter::maximum_depth_of_cut_mm, "maximum_depth_of_cut_mm", "mm"},
-    FieldOf{"LU", &Cutter::usable_length_mm, "usable_length_mm", "mm"},
-    FieldOf{"LPR", &Cutter::stick_out_mm, "stick_out_mm", "mm"},
-    FieldOf{"LF", &Cutter::functional_length_mm, "functional_length_mm", "mm"},
-    FieldOf{"DMM", &Cutter::shank_diameter_mm, "shank_diameter_mm", "mm"},
-    FieldOf{"DCONMS", &Cutter::shank_diameter_mm, "shank_diameter_mm", "mm"},
-    FieldOf{"FHA", &Cutter::helix_rad, "helix_rad", "deg"},
-    FieldOf{"PSIR", &Cutter::lead_angle_rad, "lead_angle_rad", "deg"},
-    FieldOf{"TP", &Cutter::thread_pitch_mm, "thread_pitch_mm", "mm"},
-    FieldOf{"RMPX", &Cutter::maximum_ramp_angle_rad, "maximum_ramp_angle_rad", "deg"},
-    FieldOf{"RPMX", &Cutter::maximum_speed_rpm, "maximum_speed_rpm", ""},
-    FieldOf{"FZMIN", &Cutter::fz_min_mm, "fz_min_mm", "mm"},
-    FieldOf{"FZMAX", &Cutter::fz_max_mm, "fz_max_mm", "mm"},
-    FieldOf{"OAL", &Cutter::overall_length_mm, "overall_length_mm", "mm"},
-    FieldOf{"DN", &Cutter::neck_diameter_mm, "neck_diameter_mm", "mm"},
-    FieldOf{"LN", &Cutter::neck_length_mm, "neck_length_mm", "mm"},
-    FieldOf{"TA", &Cutter::taper_angle_rad, "taper_angle_rad", "deg"},
-    FieldOf{"CW", &Cutter::cutting_width_mm, "cutting_width_mm", "mm"},
-    FieldOf{"TDZ", &Cutter::thread_size_mm, "thread_size_mm", "mm"},
-    FieldOf{"LEADLENGTH", &Cutter::lead_length_mm, "lead_length_mm", "mm"},
-    FieldOf{"LEADTHREADS", &Cutter::lead_threads, "lead_threads", ""},
+    FieldOf{"DC", &Cutter::cutting_diameter_mm},
+    FieldOf{"DCX", &Cutter::adjustable_to_mm},
+    FieldOf{"RE", &Cutter::corner_radius_mm},
+    FieldOf{"SIG", &Cutter::point_angle_rad},
+    FieldOf{"DCN", &Cutter::tip_diameter_mm},
+    FieldOf{"APMX", &Cutter::maximum_depth_of_cut_mm},
+    FieldOf{"LCF", &Cutter::maximum_depth_of_cut_mm},
+    FieldOf{"LU", &Cutter::usable_length_mm},
+    FieldOf{"LPR", &Cutter::stick_out_mm},
+    FieldOf{"LF", &Cutter::functional_length_mm},
+    FieldOf{"DMM", &Cutter::shank_diameter_mm},
+    FieldOf{"DCONMS", &Cutter::shank_diameter_mm},
+    FieldOf{"FHA", &Cutter::helix_rad},
+    FieldOf{"PSIR", &Cutter::lead_angle_rad},
+    FieldOf{"TP", &Cutter::thread_pitch_mm},
+    FieldOf{"RMPX", &Cutter::maximum_ramp_angle_rad},
+    FieldOf{"RPMX", &Cutter::maximum_speed_rpm},
+    FieldOf{"FZMIN", &Cutter::fz_min_mm},
+    FieldOf{"FZMAX", &Cutter::fz_max_mm},
+    FieldOf{"OAL", &Cutter::overall_length_mm},
+    FieldOf{"DN", &Cutter::neck_diameter_mm},
+    FieldOf{"LN", &Cutter::neck_length_mm},
+    FieldOf{"TA", &Cutter::taper_angle_rad},
+    FieldOf{"CW", &Cutter::cutting_width_mm},
+    FieldOf{"TDZ", &Cutter::thread_size_mm},
+    FieldOf{"LEADLENGTH", &Cutter::lead_length_mm},
+    FieldOf{"LEADTHREADS", &Cutter::lead_threads},
+    FieldOf{"RUNOUT", &Cutter::runout_mm},
 };
 
 bool yes(std::string_view text) {

@@ -52,6 +52,7 @@ constexpr std::array kFacts{
     length("TDZ", "thread size"),
     length("LEADLENGTH", "length of the lead"),
     SymbolFact{"LEADTHREADS", Quantity::kNumber, 0.0, model::range::kLeadThreads.most, "threads in the lead"},
+    length("RUNOUT", "run-out of the teeth"),
     length("TP", "thread pitch"),
     length("TPN", "smallest thread pitch"),
     length("TPX", "largest thread pitch"),

@@ -29,7 +29,7 @@ struct SymbolFact {
   std::string_view words;  ///< "cutting diameter"
 };
 /// The symbols that planning reads (ISO 13399, and names of our own: "TA" half taper or tip angle,
-/// "FZMIN", "FZMAX", "LEADLENGTH", "LEADTHREADS", "LIFE", "PRICE"); null for others.
+/// "FZMIN", "FZMAX", "LEADLENGTH", "LEADTHREADS", "RUNOUT", "LIFE", "PRICE"); null for others.
 [[nodiscard]] const SymbolFact* symbol_fact(std::string_view symbol);
 
 /// Where a value stands in a file.

@@ -522,6 +522,8 @@ Result<model::ToolRequirement> requirement_from_nouns(const Model& m, Ref<Machin
     r.diameter_exact_mm = d;
     r.diameter_tolerance_mm = kSizeSlackMm;
   }
+  r.left_hand = k->cutter_class == CutterClass::kTap && p->body->hand_of_cut.set() &&
+                p->body->hand_of_cut.value() == model::Hand::kLeft;
   r.words = words_of(r);
   return r;
 }

@@ -163,6 +163,7 @@ Ref<MachiningTool> nouns_from_requirement(Model& m, const model::ToolRequirement
   if (!d.edge_radius && r.corner_radius_limited) d.edge_radius = r.corner_radius_max_mm;
   const auto body = body_of(m, {r.classes.empty() ? CutterClass::kEndmill : r.classes.front(), 0.0, 0.0});
   m.at<model::MillingToolBody>(body).dimension = dimension;
+  if (r.left_hand) m.at<model::MillingToolBody>(body).hand_of_cut = model::Hand::kLeft;
   const auto tool = m.add<model::MillingCuttingTool>();
   auto& t = m.at<model::MillingCuttingTool>(tool);
   t.its_id = r.words.empty() ? words_of(r) : r.words;

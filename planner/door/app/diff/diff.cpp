@@ -12,6 +12,8 @@
 #include "planner/model/nouns/all.h"
 #include "planner/model/nouns/arena/walk.h"
 #include "planner/model/plan/cutter/cutter_fields.h"
+#include "planner/model/plan/resources/machine_fields.h"
+#include "planner/model/plan/resources/material_fields.h"
 #include "planner/physics/motion/time.h"
 
 namespace capstan::app {
@@ -248,11 +250,15 @@ std::vector<std::string> inputs(const Plan& a, const Plan& b) {
   };
   one("machine", a.machine.id, b.machine.id);
   const bool known = !a.machine.axes[0].name.empty() && !b.machine.axes[0].name.empty();
-  if (a.machine.id == b.machine.id && known && !(a.machine == b.machine))
-    out.emplace_back("machine: its data differ");
+  if (const std::string fields = model::told_differences(a.machine, b.machine);
+      a.machine.id == b.machine.id && known && !fields.empty())
+    out.push_back("machine: its data differ (" + fields + ")");
   one("material", a.material.id, b.material.id);
   if (a.material.id == b.material.id && a.material.kc11_n_mm2 != b.material.kc11_n_mm2)
     one("kc1.1 of the material", shortest(a.material.kc11_n_mm2), shortest(b.material.kc11_n_mm2));
+  else if (const std::string fields = model::told_differences(a.material, b.material);
+           a.material.id == b.material.id && !fields.empty())
+    out.push_back("material: its data differ (" + fields + ")");
   one("stock", a.stock.box.empty() ? "" : box_text(a.stock.box),
       b.stock.box.empty() ? "" : box_text(b.stock.box));
   one("set-ups", std::to_string(a.setups.size()), std::to_string(b.setups.size()));

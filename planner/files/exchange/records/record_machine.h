@@ -2,7 +2,8 @@
 
 #include "planner/files/exchange/records/records.h"
 
-// The record of the machine that a plan was made for: all that a check of the plan asks of it.
+// The two records of the machine that a plan was made for: its names, and all that a check of the plan asks
+// of it.
 
 namespace capstan::exchange {
 
@@ -11,6 +12,8 @@ struct MachineData {
   model::Machine& machine;
 };
 
+/// Its id and description.
+void describe(RecordFields& f, model::Machine& m);
 void describe(RecordFields& f, MachineData m);
 
 }  // namespace capstan::exchange

@@ -3,6 +3,7 @@
 #include <map>
 
 #include "planner/files/exchange/common/report.h"
+#include "planner/files/exchange/records/described.h"
 #include "planner/files/exchange/records/exact_paths.h"
 #include "planner/files/exchange/records/record_cutter.h"
 #include "planner/files/exchange/records/record_loads.h"
@@ -14,6 +15,7 @@
 #include "planner/model/plan/decision/edited.h"
 #include "planner/model/plan/decision/unreadable.h"
 #include "planner/model/plan/order/workplan_order.h"
+#include "planner/model/plan/resources/workholding_fields.h"
 
 namespace capstan::exchange {
 
@@ -27,71 +29,23 @@ namespace {
 
 using exchange::describe;
 
-void describe(RecordFields& f, model::Machine& m) {
-  f.text("id", m.id);
-  f.text("description", m.description);
-}
-
 void describe(RecordFields& f, model::Stock& s) {
-  const auto corner = [&](std::string_view which, geometry::Vec3& p) {
-    const std::string name(which);
+  const auto corner = [&](const char* which, geometry::Vec3& p) {
     f.group();
-    f.real(name + " x", Unit::kLength, p.x);
-    f.real(name + " y", Unit::kLength, p.y);
-    f.real(name + " z", Unit::kLength, p.z);
+    describe_fields(f, p, which);
     f.end();
   };
-  corner("least", s.box.lo);
-  corner("greatest", s.box.hi);
+  corner("least ", s.box.lo);
+  corner("greatest ", s.box.hi);
   f.text("source", s.source);
   f.optional_real("cylinder radius", Unit::kLength, s.cylinder_radius_mm);
-}
-
-void describe(RecordFields& f, std::vector<model::FixtureSolid>& solids) {
-  solids.resize(f.list("solid", solids.size()));
-  for (std::size_t i = 0; i < solids.size(); ++i) {
-    model::FixtureSolid& s = solids[i];
-    f.element(i);
-    f.group();
-    f.text("id", s.id);
-    f.text("kind", s.kind);
-    f.real("bottom", Unit::kLength, s.bottom_mm);
-    f.real("top", Unit::kLength, s.top_mm);
-    f.truth("presses", s.presses);
-    s.outline.resize(f.list("corner", s.outline.size()));
-    for (std::size_t k = 0; k < s.outline.size(); ++k) {
-      f.element(k);
-      f.group();
-      f.real("x", Unit::kLength, s.outline[k].x);
-      f.real("y", Unit::kLength, s.outline[k].y);
-      f.end();
-    }
-    f.end();
-    f.end();
-  }
-  f.end();
-}
-
-void describe(RecordFields& f, model::Workholding& h) {
-  f.group();
-  f.text("fixture", h.id);
-  f.text("fixture description", h.description);
-  f.text("fixture source", h.source);
-  f.text("pickup", h.pickup_text);
-  f.real("pickup x", Unit::kLength, h.pickup.x);
-  f.real("pickup y", Unit::kLength, h.pickup.y);
-  f.real("pickup z", Unit::kLength, h.pickup.z);
-  f.real("clearance", Unit::kLength, h.clearance_mm);
-  f.real("holding force [N]", Unit::kNone, h.holding_force_n);
-  f.end();
-  describe(f, h.solids);
 }
 
 std::string describe(RecordFields& f, model::SetupResult& s) {
   std::string address = f.object("set-up", s.setup);
   f.text("work offset", s.work_offset);
   f.real("security height", Unit::kLength, s.security_z_mm);
-  if (f.more()) describe(f, s.holding);
+  if (f.more()) describe_fields(f, s.holding);
   return address;
 }
 

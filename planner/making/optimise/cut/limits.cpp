@@ -65,7 +65,7 @@ double least_chip_mm(const CutQuestion& q) {
 double thinnest_chip_mm(const CutQuestion& q) {
   // A given feed is its maker's word.
   const bool given = q.feed_mm_min.has_value() || q.fz_mm.has_value();
-  return std::max(q.least_chip_mm, given ? 0.0 : least_chip_mm(q));
+  return given ? 0.0 : least_chip_mm(q);
 }
 
 double least_fz(const CutQuestion& q) {

@@ -65,7 +65,7 @@ struct Range {
 /// The thinnest chip that the cutter takes in the material (mechanics::least_chip_mm); no more than what its
 /// presets hold it to cut (model::held_to_cut_mm).
 [[nodiscard]] double least_chip_mm(const CutQuestion& q);
-/// The thinnest chip that a milling cut is planned with: the cutter's own, or more where the question asks.
+/// The thinnest chip that a milling cut is planned with: the cutter's own; 0 where the feed is given.
 [[nodiscard]] double thinnest_chip_mm(const CutQuestion& q);
 /// The feed per tooth that the cutter asks for at least; 0: none stated.
 [[nodiscard]] double least_fz(const CutQuestion& q);

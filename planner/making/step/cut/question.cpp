@@ -11,6 +11,7 @@
 #include "planner/making/toolpath/region/form/undercut.h"
 #include "planner/model/features/raw_piece.h"
 #include "planner/model/plan/borne_feed.h"
+#include "planner/physics/mechanics/holding_constants.h"
 #include "planner/physics/mechanics/stability.h"
 #include "tooling/selection/select.h"
 
@@ -77,6 +78,13 @@ void hold_quality(const PlanSoFar& p, const StepDraft& step, const toolpath::Pat
     return;
   q.wall_error_limit_mm = q.deflection_limit_mm;
   q.deflection_limit_mm = std::max(q.deflection_limit_mm, mechanics::kQuietDeflectionMm);
+}
+
+/// What holds the piece bears so much of a milling cut that planning chooses, N; 0: nobody said. The thrust
+/// of a drill goes down into the table, not along it. A cut that is given is kept, and the check tells.
+double most_force_n(const PlanSoFar& p, const StepDraft& step, const optimise::CutQuestion& q) {
+  if (!step.open_technology || !mills(q) || step.setup >= p.setups.size()) return 0.0;
+  return p.setups[step.setup].holding.holding_force_n / mechanics::kHoldingForceSafety;
 }
 
 /// The widest cut that the feature offers: a slot's width, a pocket's narrower side.
@@ -265,6 +273,7 @@ optimise::CutQuestion question_of(const PlanSoFar& p, const StepDraft& step,
     q.width_mm = 0.5 * narrowing;
   }
   hold_quality(p, step, job, q);
+  q.peak_force_limit_n = most_force_n(p, step, q);
   q.override_locked = override_locked(p, step);
   const auto given = given_technology(m, step.operation, step.cutter);
   if ((!step.open_technology || step.keep_speed) && given.rpm) q.n_rpm = std::abs(*given.rpm);

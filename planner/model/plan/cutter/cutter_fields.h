@@ -92,7 +92,7 @@ inline constexpr auto kFields<Cutter> = std::tuple{
     field("corner_radius_mm", &Cutter::corner_radius_mm, Unit::kLength)
         .record("corner radius", kCutterSizes).own("corner_radius", 7).sourced().load(),
     field("point_angle_rad", &Cutter::point_angle_rad, Unit::kAngle)
-        .record("point angle", kCutterSizes).own("point_angle_deg", 25).sourced(),
+        .record("point angle", kCutterSizes).own("point_angle_deg", 25).sourced().load(),
     field("tip_diameter_mm", &Cutter::tip_diameter_mm, Unit::kLength)
         .record("tip diameter", kCutterSizes).own("tip_diameter", 8).sourced(),
     field("maximum_depth_of_cut_mm", &Cutter::maximum_depth_of_cut_mm, Unit::kLength)
@@ -113,7 +113,7 @@ inline constexpr auto kFields<Cutter> = std::tuple{
     field("lead_angle_rad", &Cutter::lead_angle_rad, Unit::kAngle)
         .record("lead angle", kCutterSizes).own("lead_angle_deg", 27).sourced().load(),
     field("thread_pitch_mm", &Cutter::thread_pitch_mm, Unit::kLength)
-        .record("thread pitch", kCutterSizes).own("thread_pitch", 19).sourced(),
+        .record("thread pitch", kCutterSizes).own("thread_pitch", 19).sourced().load(),
     field("centre_cutting", &Cutter::centre_cutting)
         .record("centre cutting", kCutterFlags).own("centre_cutting", 35).sourced(),
     field("maximum_ramp_angle_rad", &Cutter::maximum_ramp_angle_rad, Unit::kAngle)
@@ -155,7 +155,7 @@ inline constexpr auto kFields<Cutter> = std::tuple{
     field("lead_length_mm", &Cutter::lead_length_mm, Unit::kLength)
         .record("length of the chamfer", kCutterBody).own("lead_length", 21).sourced(),
     field("holder_id", &Cutter::holder_id).record("holder", kCutterHolderId).own("holder_id", 44),
-    field("holder", &Cutter::holder).record("holder segment", kCutterHolder).own("holder", 45),
+    field("holder", &Cutter::holder).record("holder segment", kCutterHolder).own("holder", 45).load(),
     field("library_reference", &Cutter::library_reference)
         .record("library reference", kCutterBody).no_own(kOfCatalogue),
     field("library_source", &Cutter::library_source).record("library", kCutterBody).no_own(kOfCatalogue),

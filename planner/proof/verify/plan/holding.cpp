@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "planner/physics/mechanics/holding_constants.h"
 #include "planner/proof/verify/plan/plan_checks.h"
 
 // What holds the piece, judged as it is described: solids in one place, a clamp alone, too little force.
@@ -14,7 +15,6 @@ using geometry::Vec2;
 using model::FixtureSolid;
 
 constexpr double kTouchMm = 0.05;         // solids may touch this deep; default, unsourced
-constexpr double kForceSafety = 2.0;      // holding force over cutting force; default, unsourced
 constexpr std::size_t kMostSolids = 500;  // compared pair by pair
 
 bool convex(const FixtureSolid& s) {
@@ -117,12 +117,12 @@ void check_holding(const model::Plan& plan, Findings& findings) {
     check_overlap(h, at, findings);
     check_alone(h, at, findings);
     if (heaviest == nullptr || !(h.holding_force_n > 0.0)) continue;
-    const double needed = kForceSafety * heaviest->loads.peak_force_n;
+    const double needed = mechanics::kHoldingForceSafety * heaviest->loads.peak_force_n;
     if (needed > h.holding_force_n)
       findings.warn(31, "CHK-HOLD-FORCE", {heaviest_at + 1, model::step_id(plan, *heaviest), -1},
                     "the step cuts with up to " + plain(heaviest->loads.peak_force_n) + " N; '" + h.id +
                         "' holds with " + plain(h.holding_force_n) + " N against sliding, less than " +
-                        plain(kForceSafety) + " times that (default, unsourced)",
+                        plain(mechanics::kHoldingForceSafety) + " times that (default, unsourced)",
                     needed);
   }
 }

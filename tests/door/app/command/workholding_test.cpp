@@ -7,6 +7,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "planner/files/json/json.h"
+#include "planner/physics/mechanics/holding_constants.h"
 #include "tests/support/corpus.h"
 
 // A part on two set-ups, in a vise and under clamps, planned and checked by the built program.
@@ -104,9 +106,9 @@ TEST_F(Workholding, FaultsOfTheFileAreToldOnceEach) {
   EXPECT_THAT(said_, HasSubstr("no_such_file.yaml"));
 }
 
-TEST_F(Workholding, AutoTakesWhatTheShopsOwnFileLists) {
-  // Only fixtures, no set-ups: the choice is left, and the shop's own vise comes before the shipped ones.
-  std::ofstream(folder_ / "shop.yaml") << R"(capstan_workholding: 1
+/// A shop's file with fixtures only.
+std::string shop_with_vise(double holding_force_n) {
+  return R"(capstan_workholding: 1
 unit: mm
 fixtures:
   - id: our_vise
@@ -118,12 +120,46 @@ fixtures:
     opening: 160
     length: 360
     bed: 75
-    holding_force_n: 20000
     parallels: [[8, 10], [8, 14], [8, 18], [8, 22], [8, 26], [8, 30]]
-)";
+    holding_force_n: )" +
+         std::to_string(holding_force_n) + "\n";
+}
+
+TEST_F(Workholding, AutoTakesWhatTheShopsOwnFileLists) {
+  // No set-ups: the choice is left, and the shop's own vise comes before the shipped ones.
+  std::ofstream(folder_ / "shop.yaml") << shop_with_vise(20000.0);
   ASSERT_EQ(run(plan_with("shop.yaml")), 0) << said_;
   EXPECT_THAT(slurp("p.json"), HasSubstr("\"our_vise\""));
   EXPECT_THAT(slurp("p.json"), Not(HasSubstr("\"vise_125\"")));
+}
+
+/// The largest force of a milling step in a plan, N.
+double heaviest_cut_n(std::string json) {
+  Job job;
+  const auto plan = json::read_json(std::move(json), "p.json", job);
+  EXPECT_TRUE(plan);
+  double out = 0.0;
+  for (const model::StepResult& s : plan->steps) {
+    const bool along_axis = std::any_of(s.path->role.begin(), s.path->role.end(), [](model::MoveRole r) {
+      return r == model::MoveRole::kDrill || r == model::MoveRole::kTap;
+    });
+    if (!along_axis) out = std::max(out, s.loads.peak_force_n);
+  }
+  return out;
+}
+
+TEST_F(Workholding, CutsNoHarderThanWhatHoldsThePieceBears) {
+  std::ofstream(folder_ / "strong.yaml") << shop_with_vise(20000.0);
+  ASSERT_EQ(run(plan_with("strong.yaml")), 0) << said_;
+  const double free_n = heaviest_cut_n(slurp("p.json"));
+  ASSERT_GT(free_n, 0.0);
+  const double held_n = 1.5 * free_n;
+  std::ofstream(folder_ / "weak.yaml") << shop_with_vise(held_n);
+  (void)run(plan_with("weak.yaml"));
+  EXPECT_THAT(said_, Not(HasSubstr("CHK-HOLD-FORCE")));
+  const double heaviest_n = heaviest_cut_n(slurp("p.json"));
+  EXPECT_GT(heaviest_n, 0.0);
+  EXPECT_LE(heaviest_n * mechanics::kHoldingForceSafety, held_n * (1.0 + 1e-9));
 }
 
 }  // namespace

@@ -89,7 +89,8 @@ CutQuestion any_question(Dice& d) {
   q.deflection_limit_mm = d.maybe(0.5) ? d.between(0.002, 0.5) : 0.0;
   if (d.maybe(0.2)) q.surface_ra_um = d.between(0.01, 10.0);
   if (d.maybe(0.2)) q.peak_force_limit_n = d.between(10.0, 5000.0);
-  if (d.maybe(0.1)) q.least_chip_mm = d.between(0.0005, 0.02);
+  // A draw without a use, so that the numbers after it are those of the seeds that found faults.
+  if (d.maybe(0.1)) (void)d.between(0.0005, 0.02);
   if (d.maybe(0.1)) q.wall_error_limit_mm = d.between(0.002, 0.1);
   if (d.maybe(0.2)) q.ap_mm = d.between(0.05, 10.0);
   if (d.maybe(0.1)) q.ae_mm = d.between(0.05, 60.0);
@@ -149,9 +150,6 @@ void expect_kept(const CutQuestion& q, const CutAnswer& a, int number) {
     force *= margin;
     const double planned = c.fz_max_mm > 0.0 ? std::min(q.fz_start_mm, c.fz_max_mm / up) : q.fz_start_mm;
     EXPECT_LE(chip, planned * kHair);
-    if (q.least_chip_mm > 0.0) {
-      EXPECT_GE(chip * kHair, q.least_chip_mm);
-    }
     EXPECT_LE(a.loads.deflection_mm,
               (q.deflection_limit_mm > 0.0 ? q.deflection_limit_mm : kRoughDeflectionMm) * kHair);
     EXPECT_NEAR(a.loads.peak_force_n, force, 1e-9 * force);
@@ -247,7 +245,6 @@ TEST(CutProperty, NumbersThatAreNoneThrowNothing) {
                         &q.ap_most_mm,
                         &q.surface_ra_um,
                         &q.peak_force_limit_n,
-                        &q.least_chip_mm,
                         &q.wall_error_limit_mm,
                         &q.earning_per_min,
                         &q.cutter.cutting_diameter_mm,

@@ -385,11 +385,11 @@ TEST_F(Cut, ALeastFeedThatNobodyStatedGivesWayBeforeTheCutDoes) {
 TEST_F(Cut, KeepsTheLeastChip) {
   CutQuestion q = questions::finishing();
   q.surface_ra_um = 0.02;  // feeds below about 0.05
-  q.least_chip_mm = 0.005;
+  const double least = mechanics::least_chip_mm(q.cutter.cutting_diameter_mm, false, q.material.iso_group);
   const CutAnswer a = answered(q);
   ASSERT_TRUE(a.feasible);
-  EXPECT_GE(a.loads.chip_thickness_mm, 0.005 * (1.0 - 1e-5));
-  q.least_chip_mm = 0.05;
+  EXPECT_GE(a.loads.chip_thickness_mm, least * (1.0 - 1e-5));
+  q.surface_ra_um = 1e-5;  // feeds below about a thousandth
   const CutAnswer b = answered(q);
   EXPECT_FALSE(b.feasible);
 }
