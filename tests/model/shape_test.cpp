@@ -237,6 +237,30 @@ TEST(Shape, AnEdgeOfNoSizeIsRefusedAndSaysWhatAndWhy) {
   EXPECT_NE(round.error().message.find("radius is 0 mm"), std::string::npos) << round.error().message;
 }
 
+TEST(Shape, AThreadInAHoleThatSaysItIsAnOuterOneIsRefused) {
+  Maker k;
+  RoundHole hole;
+  hole.feature_placement = k.at(0, 0, 0);
+  hole.depth = k.depth(-10);
+  hole.diameter = k.length(5);
+  hole.bottom_condition = k.m.add(FlatHoleBottom{});
+  DefinedThread t;
+  t.its_id = "M6";
+  t.applied_shape.push_back(k.m.add(hole));
+  t.major_diameter = 6.0;
+  NumericParameter pitch;
+  pitch.its_parameter_value = 1.0;
+  t.number_of_threads = k.m.add(pitch);
+  for (const Boolean inner : {Boolean{}, Boolean{true}, Boolean{false}}) {
+    t.inner_or_outer_thread = inner;
+    const auto s = shapes_of(k.m, k.m.add(t));
+    EXPECT_EQ(s.has_value(), inner != false) << (s ? "" : s.error().message);
+    if (s) continue;
+    EXPECT_NE(s.error().message.find("'M6'"), std::string::npos) << s.error().message;
+    EXPECT_NE(s.error().message.find("inner_or_outer_thread"), std::string::npos) << s.error().message;
+  }
+}
+
 TEST(Shape, WhatIsMissingIsNamed) {
   Maker k;
   ClosedPocket p;
