@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "planner/door/app/diff/diff.h"
-#include "planner/door/pipeline/paths/cuts.h"
+#include "planner/making/step/cut/cuts.h"
 #include "planner/model/plan/cutter/cutter_faults.h"
 #include "planner/model/plan/cutter/cutter_fields.h"
 #include "planner/model/plan/resources/machine_fields.h"
@@ -230,7 +230,7 @@ TEST(WorkholdingFields, ComeBackFromEachFormOfAPlan) {
 TEST(CutterFields, EachMakesAnotherQuestionForTheOptimiser) {
   optimise::CutQuestion asked;
   asked.cutter = filled_cutter();
-  pipeline::KnownCuts known;
+  step::KnownCuts known;
   known.keep(asked, {});
   ASSERT_NE(known.find(asked), nullptr);
   const Cutter unsaid;

@@ -10,8 +10,7 @@
 #include "planner/making/optimise/cut.h"
 #include "planner/making/toolpath/path_job.h"
 
-// The optimiser, asked once for each question, in all tries at a plan; only planner/door/pipeline/*.cpp
-// include this.
+// The optimiser, asked once for each question, in all tries at a plan.
 
 namespace capstan::step {
 
