@@ -7,6 +7,7 @@
 #include <set>
 
 #include "planner/door/service/options.h"
+#include "tests/support/corpus.h"
 
 namespace capstan::facade {
 namespace {
@@ -40,7 +41,7 @@ TEST(RequestOf, EachFieldSetsWhatItsNameSays) {
   o.machine = "a machine";
   o.tools = "some tools";
   o.material = "C45";
-  o.rules = "rules";
+  o.rules = capstan::testing::source_dir() + "/rules";
   o.cases = "cases.db";
   o.general_tolerance = "ISO 2768-m";
   o.workholding = "auto";
@@ -62,7 +63,7 @@ TEST(RequestOf, EachFieldSetsWhatItsNameSays) {
   EXPECT_EQ(r.machine, "a machine");
   EXPECT_EQ(r.tools, "some tools");
   EXPECT_EQ(r.material, "C45");
-  EXPECT_EQ(r.rules, "rules");
+  EXPECT_EQ(r.rules, o.rules);
   EXPECT_EQ(r.cases, "cases.db");
   EXPECT_EQ(r.general_tolerance, "ISO 2768-m");
   EXPECT_EQ(r.workholding, "auto");

@@ -91,7 +91,7 @@ TEST(MeshForm, ASheetIsOneUntilItHasAHole) {
   m.triangles.erase(m.triangles.begin() + 24);  // of the square in the middle, from (2, 2)
   const MeshForm holed = form_of(m);
   EXPECT_EQ(holed.kind, Kind::kBroken);
-  EXPECT_NE(holed.fault.find("1 x 1 x 0 mm, from"), std::string::npos) << holed.fault;
+  EXPECT_NE(holed.fault.find("1 x 1 x 0.5 mm, from (2, 2, 0.4)"), std::string::npos) << holed.fault;
 }
 
 TEST(MeshForm, ASheetThatFoldsOverItselfIsNone) {

@@ -119,8 +119,8 @@ std::optional<double> radius_of(const Model& m, AnyRef r) {
 }
 
 /// What stands in an area: the bosses that its feature lists, in its frame.
-std::string stand(const Model& m, const model::RefList<model::Boss>& bosses, const Placement& at,
-                  Area& area) {
+std::string stand(const Model& m, const model::RefList<model::Boss>& bosses, const Solid& in, Area& area) {
+  const Placement& at = in.frame;
   for (const AnyRef r : bosses.items) {
     const auto* b = m.get<model::Boss>(r);
     const auto frame = b == nullptr ? std::nullopt : frame_or_same(m, b->feature_placement);
@@ -138,7 +138,10 @@ std::string stand(const Model& m, const model::RefList<model::Boss>& bosses, con
     for (const Edge& e : c.edges) s.outline.add(e);
     s.top_mm = rel.origin.z;
     s.leaning_mm = open;
-    if (std::abs(b->slope.value_or(0.0)) > kUpright) return "a boss that it lists leans";
+    const double lean = std::abs(b->slope.value_or(0.0));
+    if (lean > kSteep) return "the walls of a boss that it lists lean too much";
+    // Its contour is its top; its foot, on the floor, is wider.
+    if (lean > kUpright) s.leaning_mm += std::max(0.0, s.top_mm + in.depth_mm) * std::tan(lean);
     s.foot_radius_mm = std::max(area.foot_radius_mm, radius_of(m, b->fillet_radius).value_or(0.0));
     area.standing.push_back(std::move(s));
   }
@@ -173,7 +176,7 @@ Reading face(const Model& m, const model::PlanarFace& f, Solid solid) {
     for (const Edge& e : c.edges) area.outline.add(e);
     if (!(std::abs(twice_area(area.outline)) > 1e-6)) return unread("its boundary spans no area");
   }
-  if (const std::string why = stand(m, f.its_boss, solid.frame, area); !why.empty()) return unread(why);
+  if (const std::string why = stand(m, f.its_boss, solid, area); !why.empty()) return unread(why);
   return done(std::move(solid), std::move(area));
 }
 
@@ -224,7 +227,7 @@ Reading pocket(const Model& m, AnyRef self, const model::Pocket& f, Solid solid)
       area.outline = std::move(arcs.outline);
     }
   }
-  if (const std::string why = stand(m, f.its_boss, solid.frame, area); !why.empty()) return unread(why);
+  if (const std::string why = stand(m, f.its_boss, solid, area); !why.empty()) return unread(why);
   return done(std::move(solid), std::move(area));
 }
 
@@ -250,7 +253,7 @@ Reading step(const Model& m, const model::Step& f, Solid solid) {
     if (!foot) return unread("the radius of its wall is no length");
     area.foot_radius_mm = *foot;
   }
-  if (const std::string why = stand(m, f.its_boss, solid.frame, area); !why.empty()) return unread(why);
+  if (const std::string why = stand(m, f.its_boss, solid, area); !why.empty()) return unread(why);
   return done(std::move(solid), std::move(area));
 }
 

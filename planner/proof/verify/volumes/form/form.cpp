@@ -145,6 +145,15 @@ void area_form(const Source& source, const Area& a, Form& f) {
   if (f.kind == ShapeKind::kPocket && !closed) f.before_mouth = before_open_edges(a, f.area);
 }
 
+/// A flat end has its own radius in both corners; those of the other end may have another.
+Region rounded_at(const Region& area, Vec2 end, double half, double radius) {
+  if (!(radius > 0.0)) return area;
+  constexpr double kMore = 0.01;  // mm: the corner piece ends where its radius touches the side
+  const Region rounded = geometry::offset(geometry::offset(area, -radius, kChord), radius, kChord);
+  const Region corners = geometry::disc(end, std::hypot(half, radius) + kMore, kChord);
+  return geometry::subtract(area, geometry::intersect(geometry::subtract(area, rounded), corners));
+}
+
 void groove_form(const Groove& g, Form& f) {
   f.half_section = half_section_of(g, f.solid.depth_mm);
   const double half = f.half_section.back().y;
@@ -157,9 +166,13 @@ void groove_form(const Groove& g, Form& f) {
     if (g.corner_mm[end] > 0.0)
       f.corner_radius_mm =
           f.corner_radius_mm > 0.0 ? std::min(f.corner_radius_mm, g.corner_mm[end]) : g.corner_mm[end];
-    if (g.loop || g.ends[end] == Groove::End::kFlat) continue;
-    if (g.ends[end] == Groove::End::kOpen && !(g.rising_mm[end] > 0.0)) continue;
+    if (g.loop) continue;
     const Vec2 at = end == 0 ? f.course.front() : f.course.back();
+    if (g.ends[end] == Groove::End::kFlat) {
+      f.area = rounded_at(f.area, at, half, g.corner_mm[end]);
+      continue;
+    }
+    if (g.ends[end] == Groove::End::kOpen && !(g.rising_mm[end] > 0.0)) continue;
     f.area = geometry::unite(f.area, geometry::disc(at, half, kChord));
   }
 }

@@ -125,6 +125,7 @@ std::string point_runs_through(const Form& f, const Piece& raw, const Piece& par
   const double raw_under = -seen(raw.box, f.frame()).lo.z;
   const double part_under = part.box.empty() ? raw_under : -seen(part.box, f.frame()).lo.z;
   const double under = std::min(raw_under, part_under);
+  if (!std::isfinite(f.tip_mm)) return "the point of its drill has no end; state a tip_angle in radians";
   const double by = f.depth_mm() + f.tip_mm - under;
   if (by <= kBeyondMm || f.depth_mm() > under + kBeyondMm) return {};
   const double full = 2.0 * std::atan(b->bottom_radius_mm / f.tip_mm) * 180.0 / std::numbers::pi;
