@@ -45,7 +45,9 @@ std::optional<double> floor_of(const Bore& b, const Form& f, double r) {
 std::optional<double> floor_of(const Area& a, const Form& f, Vec2 q) {
   const double depth = f.depth_mm();
   for (const Standing& s : a.standing) {
-    if (!inside(s.outline, q)) continue;
+    // Where its walls lean it stands to its foot: what of the flank stays nobody cuts, so nothing is asked
+    // there.
+    if (!inside(s.outline, q) && !(nearest(s.outline, q).distance_mm < s.leaning_mm)) continue;
     return s.top_mm < 0.0 ? std::optional<double>(s.top_mm) : std::nullopt;
   }
   const bool taken = inside(a.outline, q) != a.around;
