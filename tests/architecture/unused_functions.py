@@ -21,7 +21,7 @@ FOLDERS = ("planner", "rules", "casebase", "tooling")
 LIST = os.path.join("tests", "architecture", "unused_functions.txt")
 SKIPPED = 77
 # Built only with, or only without, a library or a processor.
-OPTIONAL = re.compile(r"/(no_\w+|\w+_backend|\w+_stub|flann_index|rows_\w+)\.cpp$")
+OPTIONAL = re.compile(r"/(no_\w+|backend|absent|\w+_stub|flann_index|rows_\w+)\.cpp$")
 
 
 def plain(text):
