@@ -160,7 +160,7 @@ double StepChecks::feed_per_tooth(const Move& m) const {
 }
 
 void StepChecks::axial_feed(double fz) {
-  const FeedLimit limit = feed_limit(cutter_, plan_.material);
+  const FeedLimit& limit = feed_limit_;
   const double feed = limit.per_revolution ? fz * std::max(1, cutter_.teeth) : fz;
   if (feed <= limit.mm * (1.0 + kWritten)) return;
   out_.error(18, "CHK-FEED-TOOL", {step_.order + 1, step_.id, sum_.where},
@@ -173,7 +173,7 @@ void StepChecks::axial_feed(double fz) {
 // A feed that no square cut would bear is right where the cut is thin: whether it is, cells may be too far
 // apart to show.
 void StepChecks::chips(const Move& m, const Bite& bite, double fz) {
-  const double least = least_chip_of(cutter_, plan_.material) * (1.0 - kWritten);
+  const double least = least_chip_mm_ * (1.0 - kWritten);
   const bool sideways = norm(xy(m.to) - xy(m.from)) > 0.0 || is_arc(m.kind);
   if (!works_along_axis(cutter_) && sideways && bite.volume_mm3 > 0.0 && fz > 0.0 && fz < least) {
     if (rubbed_mm_ == 0.0 || fz < rubbed_at_mm_) {
@@ -183,11 +183,11 @@ void StepChecks::chips(const Move& m, const Bite& bite, double fz) {
     rubbed_mm_ += length_of(m);
   }
   chip(m, bite.chip_mm, fz, bite.chip_at);
-  const double most = feed_limit(cutter_, plan_.material).mm * (1.0 + kWritten);
+  const double most = feed_limit_.mm * (1.0 + kWritten);
   if (bite.chip_mm > most) looks_ = 0;  // the step has its finding: no closer look changes that
   if (works_along_axis(cutter_) || fz <= most || looks_ <= 0) return;
   if (std::min(m.from.z, m.to.z) >= grid_.top()) return;
-  const Bite closer = earlier_.look(grid_, m, profile_, fz, looks_);
+  const Bite closer = earlier_.look(grid_, m, *outline_, fz, looks_);
   chip(m, closer.chip_mm, fz, closer.chip_at);
 }
 
@@ -198,13 +198,13 @@ void StepChecks::rubbing() {
   if (rubbed_mm_ <= kHarmlessMm) return;
   out_.warn(18, "CHK-RUB", rubbed_,
             "over " + mm(rubbed_mm_) + " of way in material the feed is down to " + mm(rubbed_at_mm_) +
-                " per tooth, where an edge rubs; at least " + mm(least_chip_of(cutter_, plan_.material)) +
+                " per tooth, where an edge rubs; at least " + mm(least_chip_mm_) +
                 " in " + plan_.material.id + ": feed faster, cut less deep, or use a stiffer cutter",
             rubbed_at_mm_);
 }
 
 void StepChecks::chip(const Move& m, double thickest_mm, double fz, Vec2 where) {
-  const FeedLimit limit = feed_limit(cutter_, plan_.material);
+  const FeedLimit& limit = feed_limit_;
   if (limit.per_revolution || thickest_mm <= limit.mm * (1.0 + kWritten)) return;
   out_.error(18, "CHK-FEED-TOOL", at(m),
              "chips of up to " + mm(thickest_mm) + " at (" + plain(where.x) + ", " + plain(where.y) +

@@ -7,6 +7,7 @@
 #include "planner/model/nouns/all.h"
 #include "planner/physics/mechanics/constants.h"
 #include "planner/proof/verify/copies.h"
+#include "planner/proof/verify/stated_values.h"
 
 namespace capstan::verify {
 
@@ -83,11 +84,12 @@ StepChecks::StepChecks(const model::Plan& plan, const StepMoves& step, Grid& gri
       target_(target),
       earlier_(earlier),
       out_(findings),
-      profile_(outline_of(*step.cutter)),
+      outline_(std::make_shared<const CutterOutline>(outline_of(*step.cutter))),
       body_(body_of(*step.cutter)),
-      radius_(profile_.radius_mm),
-      tip_mm_(profile_.height(0.5 * step.cutter->cutting_diameter_mm)),
-      kept_profile_(std::make_shared<const geometry::CutterProfile>(profile_)),
+      radius_(outline_->radius()),
+      tip_mm_(outline_->profile().height(0.5 * step.cutter->cutting_diameter_mm)),
+      feed_limit_(feed_limit(*step.cutter, plan.material)),
+      least_chip_mm_(least_chip_of(*step.cutter, plan.material)),
       mark_(earlier.mark()) {
   constexpr double kThicker = 0.02;  // mm: what is no thicker follows where the cutter has been
   std::erase_if(body_, [&](const BodyPart& p) {
@@ -133,7 +135,7 @@ void StepChecks::rapid(const Move& m) {
   helix_turned_ = 0.0;
   body(m);
   Vec2 where;
-  const double dip = rapid_collision(grid_, m, profile_, kRapidClearanceMm, where);
+  const double dip = rapid_collision(grid_, m, *outline_, kRapidClearanceMm, where);
   if (dip > 0.0) {
     const bool falls = m.to.z < m.from.z - 1e-9 && norm(xy(m.to) - xy(m.from)) < 1e-9;
     const double into = std::max(0.0, dip - kRapidClearanceMm);
@@ -164,10 +166,10 @@ void StepChecks::feed(const Move& m) {
   }
   const double allowed = target_.allowed();
   const double fz = feed_per_tooth(m);
-  const Bite bite = cut(grid_, m, profile_, judge_gouge_ ? allowed : 1e300, &target_, fz);
+  const Bite bite = cut(grid_, m, *outline_, judge_gouge_ ? allowed : 1e300, &target_, fz);
   cut_mm3_ += bite.volume_mm3;
   chips(m, bite, fz);
-  earlier_.add(m, kept_profile_);
+  earlier_.add(m, outline_);
   if (judge_gouge_) gouge(m, bite);
   spindle(m, bite);
   reach(m);
@@ -243,10 +245,11 @@ void StepChecks::gouge(const Move& m, const Bite& bite) {
     }
   }
   Vec2 where;
-  double worst = target_.wall_gouge(m, radius_, profile_.height(radius_), where);
-  const double flat = profile_.pieces.empty() ? 0.0 : profile_.pieces.front().r1_mm;
-  if (profile_.pieces.size() > 1 && profile_.pieces.front().radius_mm == 0.0 &&
-      profile_.pieces.front().slope == 0.0 && flat > target_.allowed()) {
+  double worst = target_.wall_gouge(m, radius_, outline_->height(radius_), where);
+  const std::vector<geometry::ProfilePiece>& pieces = outline_->profile().pieces;
+  const double flat = pieces.empty() ? 0.0 : pieces.front().r1_mm;
+  if (pieces.size() > 1 && pieces.front().radius_mm == 0.0 && pieces.front().slope == 0.0 &&
+      flat > target_.allowed()) {
     Vec2 other;
     const double below = target_.wall_gouge(m, flat, 0.0, other);
     if (below > worst) {

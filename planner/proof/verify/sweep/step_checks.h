@@ -13,6 +13,13 @@
 
 namespace capstan::verify {
 
+/// Largest feed per tooth, or per revolution for tools that work along their axis, mm, with where it is from.
+struct FeedLimit {
+  double mm = 0.0;
+  bool per_revolution = false;
+  std::string source;
+};
+
 /// The checks of one step's moves while they cut.
 class StepChecks {
  public:
@@ -64,10 +71,11 @@ class StepChecks {
   Target& target_;
   EarlierCuts& earlier_;
   Findings& out_;
-  geometry::CutterProfile profile_;
+  std::shared_ptr<const CutterOutline> outline_;
   std::vector<BodyPart> body_;  ///< shank and holder, thicker than what cuts below them
   double radius_, tip_mm_;
-  std::shared_ptr<const geometry::CutterProfile> kept_profile_;
+  FeedLimit feed_limit_;
+  double least_chip_mm_;
   int looks_ = 8;  ///< closer looks at chips that are left for this step; default, unsourced
   bool judge_gouge_ = true;
   double rubbed_mm_ = 0.0;     ///< way in material at feeds below the thinnest chip
@@ -88,12 +96,6 @@ class StepChecks {
   Account left_;  ///< the same for a diameter's way: against what the step was planned to take
 };
 
-/// Largest feed per tooth, or per revolution for tools that work along their axis, mm, with where it is from.
-struct FeedLimit {
-  double mm = 0.0;
-  bool per_revolution = false;
-  std::string source;
-};
 [[nodiscard]] FeedLimit feed_limit(const model::Cutter& c, const model::WorkMaterial& material);
 [[nodiscard]] bool works_along_axis(const model::Cutter& c);
 /// Motor power and torque for continuous running at a speed, between the curve's points; power linear

@@ -119,7 +119,7 @@ void check_removal(const model::Plan& plan, const std::vector<StepMoves>& steps,
         step.planned != nullptr ? step.planned->step : model::Ref<model::Executable>{});
     checks.nothing(ws != nullptr && begun.contains(ws->its_feature));
     if (ws != nullptr && checks.cuts()) begun.insert(ws->its_feature);
-    scene->grid.find_top();
+    scene->grid.find_top_after_cuts();
     if (grip && step.setup == held) grip->after(step, scene->grid, findings);
   }
   check_left(plan, scenes, findings);

@@ -6,7 +6,6 @@
 
 namespace capstan::verify {
 
-using geometry::CutterProfile;
 using geometry::Vec2;
 
 namespace {
@@ -23,7 +22,7 @@ void EarlierCuts::begin(const Grid& grid) {
   cuts_.clear();
 }
 
-void EarlierCuts::add(const Move& m, std::shared_ptr<const CutterProfile> cutter) {
+void EarlierCuts::add(const Move& m, std::shared_ptr<const CutterOutline> cutter) {
   geometry::Box3 box = box_of(m);
   cuts_.push_back({m, std::move(cutter), box});
 }
@@ -56,7 +55,7 @@ Grid EarlierCuts::before(const Grid& grid, Vec2 lo, Vec2 hi, double cell, std::s
   std::vector<const Cut*> met;
   for (std::size_t i = 0; i < mark; ++i) {
     const Cut& c = cuts_[i];
-    const double r = c.cutter->radius_mm;
+    const double r = c.cutter->radius();
     if (c.box.lo.x - r > hi.x || c.box.hi.x + r < lo.x || c.box.lo.y - r > hi.y || c.box.hi.y + r < lo.y)
       continue;
     met.push_back(&c);
@@ -67,11 +66,11 @@ Grid EarlierCuts::before(const Grid& grid, Vec2 lo, Vec2 hi, double cell, std::s
   return local;
 }
 
-Bite EarlierCuts::look(const Grid& grid, const Move& m, const CutterProfile& cutter, double advance_mm,
+Bite EarlierCuts::look(const Grid& grid, const Move& m, const CutterOutline& cutter, double advance_mm,
                        int& pieces) const {
   Bite worst;
   if (stock_.size() != grid.stock.size()) return worst;
-  const double r = cutter.radius_mm;
+  const double r = cutter.radius();
   const int n = is_arc(m.kind) ? 1 : std::max(1, static_cast<int>(std::ceil(length_of(m) / (4.0 * r))));
   const geometry::Vec3 start = m.from;
   for (int i = 0; i < n && pieces > 0; ++i) {
@@ -99,10 +98,10 @@ Bite EarlierCuts::look(const Grid& grid, const Move& m, const CutterProfile& cut
   return worst;
 }
 
-bool EarlierCuts::takes(const Grid& grid, const std::vector<Move>& moves, const CutterProfile& cutter,
+bool EarlierCuts::takes(const Grid& grid, const std::vector<Move>& moves, const CutterOutline& cutter,
                         std::size_t mark, double& cell_mm) const {
   constexpr int kLooks = 400;  // default, unsourced: a compromise of time
-  const double r = cutter.radius_mm;
+  const double r = cutter.radius();
   cell_mm = 0.0;
   int looks = kLooks;
   for (const Move& m : moves) {

@@ -1,12 +1,13 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
-#include "planner/ground/geometry/profile.h"
 #include "planner/ground/geometry/vec.h"
 #include "planner/proof/verify/moves.h"
+#include "planner/proof/verify/sweep/grid/outline.h"
 
 namespace capstan::verify {
 
@@ -55,13 +56,25 @@ class Grid {
   /// How far below the part's surface a height is, measured square to the surface; 0 beside an edge of it.
   [[nodiscard]] double normal_depth(geometry::Vec2 at, double z_mm) const;
   [[nodiscard]] double top() const { return top_; }  ///< no stock is higher; may be too high
+  /// No stock of a row is higher; may be too high.
+  [[nodiscard]] double row_top(int iy) const { return row_top_[static_cast<std::size_t>(iy)]; }
+  /// Says that stock in these rows is about to be cut.
+  void cut_rows(int from, int to) {
+    cut_from_ = std::min(cut_from_, from);
+    cut_to_ = std::max(cut_to_, to);
+  }
+  /// Finds the tops of all rows: for stock that was written other than by `cut` and `lower`.
   void find_top();
+  /// Finds those of the rows that were cut since.
+  void find_top_after_cuts();
 
  private:
   geometry::Vec2 lo_;
   double cell_ = 0.0;
   int nx_ = 0, ny_ = 0;
   double top_ = kNothing;
+  std::vector<double> row_top_;
+  int cut_from_ = 0, cut_to_ = 0;  ///< rows cut since their tops were found
   std::vector<double> before_;
   std::vector<std::uint32_t> touched_;
   std::uint32_t move_ = 0;
@@ -91,7 +104,7 @@ class GougeJudge {
 };
 
 /// Cuts with the move and says what it took. `allowed_mm`: depth below the part that is within tolerance.
-/// Exact at cell centres for straight moves and level arcs; helices by chords of 2 um.
+/// Exact at cell centres for lines and arcs, level or not.
 ///
 /// Chips: a centre that the front of the cutter meets has met it at one place of its surface, whose normal n
 /// and the direction of travel v are known exactly. `advance_mm`, what a tooth advances, times n v is the
@@ -99,16 +112,16 @@ class GougeJudge {
 ///
 /// `head_mm` > 0: the cutter has nothing that cuts above that height. What stands higher than the head's top
 /// is an overhang, which heights do not hold: it stays.
-Bite cut(Grid& grid, const Move& m, const geometry::CutterProfile& cutter, double allowed_mm,
+Bite cut(Grid& grid, const Move& m, const CutterOutline& cutter, double allowed_mm,
          const GougeJudge* judge, double advance_mm = 0.0, double head_mm = 0.0);
 
 /// Takes the heights down as `cut` does, and measures nothing. Heights after several moves do not depend on
 /// their order; the lowest first is the fastest.
-void lower(Grid& grid, const Move& m, const geometry::CutterProfile& cutter);
+void lower(Grid& grid, const Move& m, const CutterOutline& cutter);
 
 /// How deep a rapid would dip into what stands there, > 0: it does, also when axes do not arrive together:
 /// the box that the two ends span, swept by the cutter. `at` says where.
-[[nodiscard]] double rapid_collision(const Grid& grid, const Move& m, const geometry::CutterProfile& cutter,
+[[nodiscard]] double rapid_collision(const Grid& grid, const Move& m, const CutterOutline& cutter,
                                      double clearance_mm, geometry::Vec2& at);
 
 }  // namespace capstan::verify

@@ -39,7 +39,7 @@ void StepChecks::head(const Move& m) {
       met_ = grid_.stands(xy(p), r, p.z + kSkinMm, p.z + high - kSkinMm);
     }
   }
-  cut_mm3_ += cut(grid_, m, profile_, 1e300, nullptr, 0.0, high).volume_mm3;
+  cut_mm3_ += cut(grid_, m, *outline_, 1e300, nullptr, 0.0, high).volume_mm3;
 }
 
 bool StepChecks::follows_finished() {
@@ -53,11 +53,11 @@ bool StepChecks::follows_finished() {
       for (int ix = x0; ix < x1; ++ix) {
         const double d = norm(grid_.centre(ix, iy) - xy(p));
         if (d > radius_) continue;
-        if (std::abs(p.z + profile_.height(d) - grid_.part[grid_.index(ix, iy)]) <= reach) return true;
+        if (std::abs(p.z + outline_->height(d) - grid_.part[grid_.index(ix, iy)]) <= reach) return true;
       }
     }
     geometry::Vec2 where;
-    if (target_.wall_gouge(m, radius_ + reach, profile_.height(radius_), where) > 0.0) return true;
+    if (target_.wall_gouge(m, radius_ + reach, outline_->height(radius_), where) > 0.0) return true;
   }
   return false;
 }
@@ -72,7 +72,7 @@ void StepChecks::nothing(bool begun) {
       step_.planned != nullptr ? plan_.model.get<model::MachiningWorkingstep>(step_.planned->step) : nullptr;
   if (ws != nullptr && begun && finishes(ws->its_operation.type) && follows_finished()) return;
   double closest = grid_.cell();
-  if (earlier_.takes(grid_, step_.moves, profile_, mark_, closest)) return;
+  if (earlier_.takes(grid_, step_.moves, *outline_, mark_, closest)) return;
   out_.error(35, "CHK-CUTS-NOTHING", {step_.order + 1, step_.id, -1},
              "the step cuts nothing: no move at feed meets material (points " + mm(closest) + " apart)");
 }
