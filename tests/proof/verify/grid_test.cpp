@@ -56,10 +56,8 @@ TEST(Grid, IsCutToTheLowestHeightOfTheCutterOnItsWay) {
   constexpr int kPlaces = 5000;
   for (const CutterProfile& cutter : cutters()) {
     for (const Move& m : ways()) {
-      // Between two places; and the cutter leaves a point up to 2 um / tan(the angle at which the rim passes
-      // it) earlier or later on a chord: 25 um of the way at 0.01 mm within the rim, where a helix falls
-      // 0.08 mm per mm.
-      const double between = 1e-6 + std::abs(m.to.z - m.from.z) / kPlaces + (is_arc(m.kind) ? 0.002 : 0.0);
+      // Between two places.
+      const double between = 1e-6 + std::abs(m.to.z - m.from.z) / kPlaces;
       Grid g = block();
       (void)cut(g, m, cutter, 1e300, nullptr);
       for (int iy = 0; iy < g.ny(); ++iy) {
@@ -77,8 +75,7 @@ TEST(Grid, IsCutToTheLowestHeightOfTheCutterOnItsWay) {
           }
           // At the rim one of the two may be beside the cutter.
           if (std::abs(nearest - cutter.radius_mm) < 0.01) continue;
-          // Places are up to 4 um apart in the plane and the chords of a helix 2 um aside: as much height as
-          // the surface rises over 6 um there.
+          // Places are up to 4 um apart in the plane: as much height as the surface rises over 6 um there.
           const double rise = cutter.height(std::min(cutter.radius_mm, there + 0.006)) - cutter.height(there);
           EXPECT_NEAR(g.stock[g.index(ix, iy)], lowest, rise + between)
               << "cutter of " << cutter.radius_mm << " mm, way from z = " << m.from.z << " at ("

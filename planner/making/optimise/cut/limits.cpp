@@ -126,14 +126,32 @@ double deep_slot_share(double ap, double d) {
   return 1.0 - (1.0 - kDeepestSlotShare) * std::clamp(deep, 0.0, 1.0);
 }
 
+FixedLimits fixed_limits(const CutQuestion& q) {
+  FixedLimits out{.curve = curve_of(q),
+                  .rpm = speeds(q),
+                  .efficiency = efficiency(q),
+                  .largest_fz_mm = largest_fz(q),
+                  .thinnest_chip_mm = thinnest_chip_mm(q),
+                  .axis_feed_mm_min = axis_feed(q),
+                  .slender_depth_mm = slender_depth(q)};
+  for (const model::LimitRow& r : model::kLimitRows) out.ease.at(model::index_of(r.value)) = ease_of(q, r.name);
+  return out;
+}
+
 Measures measures(const CutQuestion& q, const model::StepLoads& l, double ap, double n, double feed) {
+  return measures(q, fixed_limits(q), l, ap, n, feed);
+}
+
+Measures measures(const CutQuestion& q, const FixedLimits& fixed, const model::StepLoads& l, double ap, double n,
+                  double feed) {
   const bool mills = is_milling(q.kind);
-  const Range rpm = speeds(q);
+  const Range& rpm = fixed.rpm;
+  const auto ease = [&](Limit limit) { return fixed.ease.at(model::index_of(limit)); };
   Measures m;
-  if (const auto curve = curve_of(q)) {
+  if (const auto& curve = fixed.curve) {
     if (const auto c = curve->at(std::clamp(n, curve->min_rpm(), curve->max_rpm()))) {
-      m[Limit::kSpindlePower] = {l.power_w, c->power_w * efficiency(q)};
-      m[Limit::kSpindleTorque] = {l.torque_nm, c->torque_nm * efficiency(q)};
+      m[Limit::kSpindlePower] = {l.power_w, c->power_w * fixed.efficiency};
+      m[Limit::kSpindleTorque] = {l.torque_nm, c->torque_nm * fixed.efficiency};
     }
   }
   if (mills) {
@@ -141,9 +159,9 @@ Measures measures(const CutQuestion& q, const model::StepLoads& l, double ap, do
     // A catalogue's feed is along the feed: with a lead angle its chip is thinner from the start.
     const double slot =
         q.kind == CutKind::kRough && q.slot ? deep_slot_share(ap, q.cutter.cutting_diameter_mm) : 1.0;
-    if (largest_fz(q) > 0.0)
+    if (fixed.largest_fz_mm > 0.0)
       m[Limit::kChipThickness] = {l.chip_thickness_mm,
-                                  slot * largest_fz(q) * std::cos(q.cutter.lead_angle_rad)};
+                                  slot * fixed.largest_fz_mm * std::cos(q.cutter.lead_angle_rad)};
     if (q.wall_error_limit_mm > 0.0)
       m[Limit::kWallError] = {std::abs(l.wall_error_mm), q.wall_error_limit_mm};
     if (q.surface_ra_um > 0.0)
@@ -151,19 +169,19 @@ Measures measures(const CutQuestion& q, const model::StepLoads& l, double ap, do
           1000.0 * kRoughnessOverGeometry * mechanics::kArcRaOverRz * l.surface_rz_mm, q.surface_ra_um};
   }
   if (q.peak_force_limit_n > 0.0) m[Limit::kPeakForce] = {l.peak_force_n, q.peak_force_limit_n};
-  if (mills && thinnest_chip_mm(q) > 0.0)
-    m[Limit::kChipThicknessLeast] = {thinnest_chip_mm(q), l.chip_thickness_mm};
+  if (mills && fixed.thinnest_chip_mm > 0.0)
+    m[Limit::kChipThicknessLeast] = {fixed.thinnest_chip_mm, l.chip_thickness_mm};
   m[Limit::kSpindleSpeedLeast] = {rpm.lo, n};
   if (rpm.hi > 0.0) m[Limit::kSpindleSpeedMost] = {n, rpm.hi};
-  if (axis_feed(q) > 0.0) m[Limit::kAxisFeed] = {feed, axis_feed(q)};
+  if (fixed.axis_feed_mm_min > 0.0) m[Limit::kAxisFeed] = {feed, fixed.axis_feed_mm_min};
   if (mills && q.cutter.maximum_depth_of_cut_mm > 0.0)
     m[Limit::kCuttingLength] = {ap, q.cutter.maximum_depth_of_cut_mm};
   if (mills && q.ap_most_mm > 0.0) m[Limit::kLevelDepth] = {ap, q.ap_most_mm};
-  m[Limit::kStableDepth] = {ap, slender_depth(q)};
-  for (const model::LimitRow& r : model::kLimitRows) m[r.value].limit *= ease_of(q, r.name);
+  m[Limit::kStableDepth] = {ap, fixed.slender_depth_mm};
+  for (const model::LimitRow& r : model::kLimitRows) m[r.value].limit *= ease(r.value);
   // More power is more torque at the same speed, and the other way round.
-  m[Limit::kSpindlePower].limit *= ease_of(q, row_of(Limit::kSpindleTorque).name);
-  m[Limit::kSpindleTorque].limit *= ease_of(q, row_of(Limit::kSpindlePower).name);
+  m[Limit::kSpindlePower].limit *= ease(Limit::kSpindleTorque);
+  m[Limit::kSpindleTorque].limit *= ease(Limit::kSpindlePower);
   return m;
 }
 

@@ -35,6 +35,25 @@ struct Measures {
 [[nodiscard]] Measures measures(const CutQuestion& q, const model::StepLoads& loads, double ap_mm,
                                 double n_rpm, double feed_mm_min);
 
+
+struct Range {
+  double lo = 0.0, hi = 0.0;
+};
+
+/// What no variable of a search changes of a question's limits: names and presets are compared once.
+struct FixedLimits {
+  std::optional<mechanics::SpindleCurve> curve;
+  Range rpm;
+  double efficiency = 1.0;
+  double largest_fz_mm = 0.0, thinnest_chip_mm = 0.0;
+  double axis_feed_mm_min = 0.0, slender_depth_mm = 0.0;
+  std::array<double, model::kLimitCount> ease{};  ///< factor of each limit
+};
+[[nodiscard]] FixedLimits fixed_limits(const CutQuestion& q);
+/// As the one above, for many cuts of one question.
+[[nodiscard]] Measures measures(const CutQuestion& q, const FixedLimits& fixed, const model::StepLoads& loads,
+                                double ap_mm, double n_rpm, double feed_mm_min);
+
 [[nodiscard]] inline bool is_milling(CutKind k) { return k == CutKind::kRough || k == CutKind::kFinish; }
 [[nodiscard]] inline int teeth_of(const CutQuestion& q) { return q.cutter.teeth > 0 ? q.cutter.teeth : 1; }
 
@@ -42,6 +61,25 @@ struct Measures {
 /// in mechanics; a left-hand cutter is the mirror image of the one that mechanics computes.
 [[nodiscard]] model::AxisForces axis_forces(const mechanics::ForceVector& f, double margin,
                                             const model::Cutter& cutter);
+
+/// Loads of milling cuts of one question. Cuts of one depth and width share what their sections have at every
+/// feed, so that a search that moves speed and feed costs little.
+class MillingLoads {
+ public:
+  /// The question must outlive it.
+  explicit MillingLoads(const CutQuestion& q);
+  /// A straight side cut, up or down milling, whichever is worse: the path may have both. Nothing outside the
+  /// formulas' range.
+  [[nodiscard]] std::optional<model::StepLoads> at(double ap_mm, double ae_mm, double n_rpm, double fz_mm);
+
+ private:
+  const CutQuestion& q_;
+  mechanics::Tooth tooth_;
+  mechanics::ForceLaw law_;
+  double margin_ = 1.0;
+  double ap_mm_ = -1.0, ae_mm_ = -1.0;  ///< of the sections that are ready
+  std::array<std::optional<mechanics::SectionAtFeeds>, 2> ready_;  ///< up, down
+};
 
 /// The margin of the question's forces: of a milling cut, and of drills, reamers and taps.
 [[nodiscard]] mechanics::ForceMargin margin_of(const CutQuestion& q);
@@ -51,9 +89,6 @@ struct Measures {
 /// whichever is right, the spindle must not stall: no power is counted below it. 0: no measured set.
 [[nodiscard]] double power_by_card_w(const CutQuestion& q, double removal_mm3_min, double mean_chip_mm);
 
-struct Range {
-  double lo = 0.0, hi = 0.0;
-};
 /// Speeds of machine and cutter, 1/min.
 [[nodiscard]] Range speeds(const CutQuestion& q);
 

@@ -45,47 +45,6 @@ std::optional<double> compliance_of(const CutQuestion& q, double ap_mm) {
   return beam ? std::optional(mechanics::bending_mm_n(*beam, 0.5 * ap_mm, 0.0)) : std::nullopt;
 }
 
-/// A straight side cut, up or down milling, whichever is worse: the path may have both.
-std::optional<model::StepLoads> milling(const CutQuestion& q, double ap_mm, double ae_mm, double n_rpm,
-                                        double fz_mm) {
-  const auto compliance = compliance_of(q, ap_mm);
-  if (!compliance || !(ae_mm > 0.0) || !(ap_mm > 0.0)) return std::nullopt;
-  const mechanics::Tooth tooth = mechanics::tooth_of(q.cutter);
-  const mechanics::ForceLaw law = mechanics::force_law(q.material, q.cutter.substrate);
-  const double margin = margin_of(q).factor();
-  model::StepLoads out;
-  for (const auto direction : {mechanics::CutDirection::kUp, mechanics::CutDirection::kDown}) {
-    const mechanics::Section section = mechanics::side_section(ap_mm, ae_mm, tooth, direction);
-    const auto l = mechanics::section_loads(section, tooth, law, fz_mm, n_rpm);
-    if (!l) return std::nullopt;
-    if (l->peak_force_n * margin > out.peak_force_n) {
-      out.peak_force_n = l->peak_force_n * margin;
-      out.mean_force = axis_forces(l->mean, margin, q.cutter);
-      out.peak_force = axis_forces(l->peak, margin, q.cutter);
-    }
-    const double removal = ap_mm * ae_mm * fz_mm * tooth.teeth * n_rpm;
-    const double power = std::max(l->power_w * margin, power_by_card_w(q, removal, l->h_mean_mm));
-    out.torque_nm = std::max({out.torque_nm, l->torque_nm * margin, 30.0 * power / (pi * n_rpm)});
-    out.power_w = std::max(out.power_w, power);
-    out.chip_thickness_mm = std::max(out.chip_thickness_mm, l->h_max_mm);
-    if (q.wall_error_limit_mm > 0.0) {
-      const bool is_up = direction == mechanics::CutDirection::kUp;
-      // The wall stands at the full radius, where the flank makes it.
-      const mechanics::Section flank{
-          .ap_mm = ap_mm, .arc = mechanics::immersion_arc(ae_mm, tooth.cutting_diameter_mm, direction)};
-      const auto error = wall_error(q, flank, tooth, law, fz_mm,
-                                    is_up ? mechanics::WallSide::kLeft : mechanics::WallSide::kRight);
-      if (!error) return std::nullopt;
-      if (std::abs(*error * margin) > std::abs(out.wall_error_mm)) out.wall_error_mm = *error * margin;
-    }
-  }
-  out.force_margin = margin;
-  out.deflection_mm = out.peak_force_n * *compliance;
-  out.mrr_mm3_min = ap_mm * ae_mm * fz_mm * tooth.teeth * n_rpm;
-  out.surface_rz_mm = surface_rz(q, fz_mm);
-  return out;
-}
-
 }  // namespace
 
 model::AxisForces axis_forces(const mechanics::ForceVector& f, double margin, const model::Cutter& cutter) {
@@ -117,10 +76,66 @@ double feed_override(const CutQuestion& q) {
   return std::max(1.0, q.machine.abilities.feed_override_max);
 }
 
+MillingLoads::MillingLoads(const CutQuestion& q)
+    : q_(q),
+      tooth_(mechanics::tooth_of(q.cutter)),
+      law_(mechanics::force_law(q.material, q.cutter.substrate)),
+      margin_(margin_of(q).factor()) {}
+
+std::optional<model::StepLoads> MillingLoads::at(double ap_mm, double ae_mm, double n_rpm, double fz_mm) {
+  const CutQuestion& q = q_;
+  const mechanics::Tooth& tooth = tooth_;
+  const mechanics::ForceLaw& law = law_;
+  const double margin = margin_;
+  const auto compliance = compliance_of(q, ap_mm);
+  if (!compliance || !(ae_mm > 0.0) || !(ap_mm > 0.0)) return std::nullopt;
+  if (ap_mm != ap_mm_ || ae_mm != ae_mm_) ready_ = {};
+  ap_mm_ = ap_mm;
+  ae_mm_ = ae_mm;
+  model::StepLoads out;
+  for (const auto direction : {mechanics::CutDirection::kUp, mechanics::CutDirection::kDown}) {
+    const bool is_up = direction == mechanics::CutDirection::kUp;
+    auto& ready = ready_[is_up ? 0 : 1];
+    if (!ready) {
+      auto made =
+          mechanics::SectionAtFeeds::of(mechanics::side_section(ap_mm, ae_mm, tooth, direction), tooth, law);
+      if (!made) return std::nullopt;
+      ready = *std::move(made);
+    }
+    const auto l = ready->at(fz_mm, n_rpm);
+    if (!l) return std::nullopt;
+    if (l->peak_force_n * margin > out.peak_force_n) {
+      out.peak_force_n = l->peak_force_n * margin;
+      out.mean_force = axis_forces(l->mean, margin, q.cutter);
+      out.peak_force = axis_forces(l->peak, margin, q.cutter);
+    }
+    const double removal = ap_mm * ae_mm * fz_mm * tooth.teeth * n_rpm;
+    const double power = std::max(l->power_w * margin, power_by_card_w(q, removal, l->h_mean_mm));
+    out.torque_nm = std::max({out.torque_nm, l->torque_nm * margin, 30.0 * power / (pi * n_rpm)});
+    out.power_w = std::max(out.power_w, power);
+    out.chip_thickness_mm = std::max(out.chip_thickness_mm, l->h_max_mm);
+    if (q.wall_error_limit_mm > 0.0) {
+      // The wall stands at the full radius, where the flank makes it.
+      const mechanics::Section flank{
+          .ap_mm = ap_mm, .arc = mechanics::immersion_arc(ae_mm, tooth.cutting_diameter_mm, direction)};
+      const auto error = wall_error(q, flank, tooth, law, fz_mm,
+                                    is_up ? mechanics::WallSide::kLeft : mechanics::WallSide::kRight);
+      if (!error) return std::nullopt;
+      if (std::abs(*error * margin) > std::abs(out.wall_error_mm)) out.wall_error_mm = *error * margin;
+    }
+  }
+  out.force_margin = margin;
+  out.deflection_mm = out.peak_force_n * *compliance;
+  out.mrr_mm3_min = ap_mm * ae_mm * fz_mm * tooth.teeth * n_rpm;
+  out.surface_rz_mm = surface_rz(q, fz_mm);
+  return out;
+}
+
 std::optional<model::StepLoads> loads_of(const CutQuestion& q, double ap_mm, double ae_mm, double n_rpm,
                                          double feed_mm_min) {
   const double fz = feed_mm_min / (n_rpm * teeth_of(q));
-  if (is_milling(q.kind)) return milling(q, ap_mm, std::min(ae_mm, q.cutter.cutting_diameter_mm), n_rpm, fz);
+  if (is_milling(q.kind))
+    return MillingLoads(q).at(ap_mm, std::min(ae_mm, q.cutter.cutting_diameter_mm), n_rpm, fz);
   const mechanics::WorkMaterial work{q.material.kc11_n_mm2, q.material.mc};
   const double margin = drilling_margin_of(q).factor();
   model::StepLoads out;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 
 #include "planner/model/plan/borne_feed.h"
@@ -194,23 +195,28 @@ Problem Search::problem(std::vector<Variable> box, const std::optional<CutPoint>
   p.variables = std::move(box);
   // Speeds are bounds, and the depth is fixed here: those limits are not part of it.
   std::vector<model::Limit> limits;
-  const Measures stated = measures(q_, model::StepLoads{}, ap_, 1.0, 1.0);
+  const FixedLimits fixed = fixed_limits(q_);
+  const Measures stated = measures(q_, fixed, model::StepLoads{}, ap_, 1.0, 1.0);
   for (const model::LimitRow& r : model::kLimitRows) {
     // Power and torque of a spindle are one limit at any speed: see SpindleCurve::at.
     if (!r.varies || !stated[r.value].stated() || r.value == model::Limit::kSpindleTorque) continue;
     limits.push_back(r.value);
     p.constraints.emplace_back(r.name);
   }
+  const auto mills = is_milling(q_.kind) ? std::make_shared<MillingLoads>(q_) : nullptr;
   p.model = central_differences(
-      [this, limits](std::span<const double> x, double& f, std::span<double> c) {
+      [this, limits, mills, fixed](std::span<const double> x, double& f, std::span<double> c) {
         const CutPoint at_x = at(x);
         f = std::log(objective_of(q_, at_x));
-        const auto loads = loads_of(q_, at_x.ap_mm, at_x.ae_mm, at_x.n_rpm, at_x.feed_mm_min);
+        const auto loads =
+            mills ? mills->at(at_x.ap_mm, std::min(at_x.ae_mm, q_.cutter.cutting_diameter_mm), at_x.n_rpm,
+                              at_x.feed_mm_min / (at_x.n_rpm * teeth_of(q_)))
+                  : loads_of(q_, at_x.ap_mm, at_x.ae_mm, at_x.n_rpm, at_x.feed_mm_min);
         if (!loads) {
           std::fill(c.begin(), c.end(), 1.0);
           return;
         }
-        const Measures m = measures(q_, *loads, at_x.ap_mm, at_x.n_rpm, at_x.feed_mm_min);
+        const Measures m = measures(q_, fixed, *loads, at_x.ap_mm, at_x.n_rpm, at_x.feed_mm_min);
         for (std::size_t i = 0; i < limits.size(); ++i) c[i] = m[limits[i]].excess();
       },
       p.variables);

@@ -46,11 +46,11 @@ double feed_at(const std::vector<Point>& points, std::size_t i, double limit) {
 }
 
 /// Loads of a class, of a corner's no less than any of the class has.
-std::optional<Column> loads_at(const CutLoads& loads, const Cut& cut, double feed) {
-  const auto s = loads.at(cut, feed);
+std::optional<Column> loads_at(const CutLoads& loads, const std::optional<ReadyCut>& cut, double feed) {
+  const auto s = cut ? loads.at(*cut, feed) : std::nullopt;
   if (!s) return std::nullopt;
   Column load = s->load;
-  if (cut.csa_mm2 > 0.0) {
+  if (cut->cut.csa_mm2 > 0.0) {
     for (double& v : load) v *= kCornerGrid;
   }
   return load;
@@ -127,11 +127,12 @@ void CutClasses::fill(CutClass& kind, const CutLoads& loads) const {
   const double top = kMoreOfALimit * loads.ceiling_mm_min() * kind.gain;
   const double bottom = loads.floor_mm_min();
   const Column& limits = loads.limits();
+  const std::optional<ReadyCut> cut = loads.ready(kind.cut);
   std::vector<Point> points;
   const double step = std::pow(bottom / top, 1.0 / (kPoints - 1));
   for (int k = 0; k < kPoints; ++k) {
     const double feed = k + 1 == kPoints ? bottom : top * std::pow(step, k);
-    const auto load = loads_at(loads, kind.cut, feed);
+    const auto load = loads_at(loads, cut, feed);
     if (!load) {
       kind.known = false;
       return;
@@ -155,7 +156,7 @@ void CutClasses::fill(CutClass& kind, const CutLoads& loads) const {
   double guess = first;
   for (int i = 0; i < 6 && bad.feed > good.feed * (1.0 + kNear); ++i) {
     guess = std::clamp(guess, good.feed * (1.0 + 0.1 * kNear), bad.feed / (1.0 + 0.1 * kNear));
-    const auto load = loads_at(loads, kind.cut, guess);
+    const auto load = loads_at(loads, cut, guess);
     if (!load) break;
     const Point p{guess, *load};
     const double r = ratio(p.load, limits);

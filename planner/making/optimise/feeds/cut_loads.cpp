@@ -186,22 +186,35 @@ std::optional<double> CutLoads::wall_mm(const mechanics::Section& section, doubl
   return worst;
 }
 
-std::optional<State> CutLoads::at(const Cut& cut, double feed) const {
-  const double fz = feed / (n_ * tooth_.teeth) * cut.gain;
+std::optional<ReadyCut> CutLoads::ready(const Cut& cut) const {
   const mechanics::Section section{.ap_mm = cut.ap_mm,
                                    .arc = {cut.entry_rad, cut.exit_rad},
                                    .csa_mm2 = cut.csa_mm2,
                                    .band_mm = cut.band_mm};
-  const auto l = mechanics::section_loads(section, tooth_, law_, fz, n_);
+  auto loads = mechanics::SectionAtFeeds::of(section, tooth_, law_);
+  if (!loads) return std::nullopt;
+  ReadyCut out{.cut = cut, .section = section, .loads = *std::move(loads), .strip = std::nullopt};
+  if (cut.band_mm > 0.0) {
+    auto strip = mechanics::SectionAtFeeds::of({.ap_mm = section.ap_mm, .arc = section.arc}, tooth_, law_);
+    if (!strip) return std::nullopt;
+    out.strip = *std::move(strip);
+  }
+  return out;
+}
+
+std::optional<State> CutLoads::at(const Cut& cut, double feed) const {
+  const auto made = ready(cut);
+  return made ? at(*made, feed) : std::nullopt;
+}
+
+std::optional<State> CutLoads::at(const ReadyCut& made, double feed) const {
+  const Cut& cut = made.cut;
+  const double fz = feed / (n_ * tooth_.teeth) * cut.gain;
+  const auto l = made.loads.at(fz, n_);
   if (!l) return std::nullopt;
   double chip = l->h_max_mm;
-  if (cut.band_mm > 0.0) {
-    // How the area lies in the strip is not known: the chip is that of the front, wherever the arc has it.
-    const mechanics::Section strip{.ap_mm = section.ap_mm, .arc = section.arc};
-    const auto whole = mechanics::section_loads(strip, tooth_, law_, fz, n_);
-    if (!whole) return std::nullopt;
-    chip = std::max(chip, whole->h_max_mm);
-  }
+  // How the area lies in the strip is not known: the chip is that of the front, wherever the arc has it.
+  if (made.strip) chip = std::max(chip, made.strip->thickest_chip_mm(fz));
   // The area of a section that is no rectangle may lie anywhere in its arc: a rib stands in front.
   chip =
       std::max(chip, fz * cut.front_sin * std::cos(tooth_.lead_angle_rad) * std::cos(tooth_.taper_angle_rad));
@@ -221,7 +234,7 @@ std::optional<State> CutLoads::at(const Cut& cut, double feed) const {
   s.load.of(Limit::kChipThickness) = chip / slot_share(cut);
   s.load.of(Limit::kSurfaceRoughness) = surface_um(fz);
   if (!beam_.segments.empty()) {
-    const auto wall = wall_mm(section, fz);
+    const auto wall = wall_mm(made.section, fz);
     if (!wall) return std::nullopt;
     s.load.of(Limit::kWallError) = *wall * margin_;
   }
@@ -249,8 +262,9 @@ std::optional<State> CutLoads::plunging(double feed) const {
 }
 
 double CutLoads::largest(const Cut& cut, double most) const {
+  const auto made = ready(cut);
   const auto ok = [&](double feed) {
-    const auto s = at(cut, feed);
+    const auto s = made ? at(*made, feed) : std::nullopt;
     return s && ratio(s->load, limits_) <= 1.0;
   };
   if (!(most > 0.0) || ok(most)) return most;

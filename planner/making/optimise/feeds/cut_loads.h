@@ -60,9 +60,21 @@ struct State {
   double chip_mm = 0.0;  ///< of the chip itself: what `load` has is for the limit, and more in a deep slot
 };
 
+/// A cut with its section made ready for many feeds.
+struct ReadyCut {
+  Cut cut;
+  mechanics::Section section;
+  mechanics::SectionAtFeeds loads;
+  std::optional<mechanics::SectionAtFeeds> strip;  ///< of a band: the whole strip that it lies in
+};
+
 class CutLoads {
  public:
   CutLoads(const FeedQuestion& q, double n_rpm);
+
+  /// Nothing outside the formulas' range.
+  [[nodiscard]] std::optional<ReadyCut> ready(const Cut& cut) const;
+  [[nodiscard]] std::optional<State> at(const ReadyCut& cut, double feed_mm_min) const;
 
   /// Loads at a feed of the cutter's centre; nothing outside the formulas' range.
   [[nodiscard]] std::optional<State> at(const Cut& cut, double feed_mm_min) const;

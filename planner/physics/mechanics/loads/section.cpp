@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <numbers>
 #include <utility>
+#include <vector>
 
 #include "planner/physics/mechanics/constants.h"
 #include "planner/physics/mechanics/force/domain.h"
@@ -232,9 +233,15 @@ void add(Moment& m, const Piece& p, const Integrals& i, double weight) {
   m.torque_nmm += weight * p.radius * (p.ct * i.one + p.et * i.e1);
 }
 
-/// The forces of all teeth with the tip of one at an angle.
-Moment moment_at(const Pieces& all, const ArcTable& table, double tip, double pitch) {
-  Moment sum;
+/// What one piece of the edge of one tooth adds at an angle: its integrals over the lag.
+struct Part {
+  std::size_t piece = 0;
+  double weight = 0.0;
+  Integrals of;
+};
+
+/// What all teeth add with the tip of one at an angle.
+void append_parts(std::vector<Part>& parts, const Pieces& all, const ArcTable& table, double tip, double pitch) {
   for (std::size_t k = 0; k < all.count; ++k) {
     const Piece& p = all.item[k];
     const double lag = p.lag_high - p.lag_low;
@@ -242,17 +249,16 @@ Moment moment_at(const Pieces& all, const ArcTable& table, double tip, double pi
     if (lag < kNoLagRad) {
       const double first = p.from + middle;
       for (double a = tip - pitch * std::floor((tip - first) / pitch) - middle; a <= p.to; a += pitch)
-        add(sum, p, table.at(a), 1.0);
+        parts.push_back({k, 1.0, table.at(a)});
       continue;
     }
     const double first = p.from + p.lag_low;
     for (double a = tip - pitch * std::floor((tip - first) / pitch); a <= p.to + p.lag_high; a += pitch) {
       const double from = std::max(p.from, a - p.lag_high);
       const double to = std::min(p.to, a - p.lag_low);
-      if (from < to) add(sum, p, table.between(from, to), 1.0 / lag);
+      if (from < to) parts.push_back({k, 1.0 / lag, table.between(from, to)});
     }
   }
-  return sum;
 }
 
 void keep_larger(double& largest, double value) {
@@ -272,18 +278,44 @@ struct Peak {
   }
 };
 
-Peak peak_of(const Pieces& all, const ArcTable& table, int teeth) {
+/// Angles of a pitch with what all teeth add there.
+struct Angles {
+  std::vector<Part> parts;
+  std::vector<std::size_t> ends;  ///< of each angle, in `parts`
+};
+
+Angles angles_of(const Pieces& all, const ArcTable& table, int teeth) {
   const double pitch = 2.0 * kPi / teeth;
-  Peak peak;
+  Angles out;
+  const auto at = [&](double tip) {
+    append_parts(out.parts, all, table, tip, pitch);
+    out.ends.push_back(out.parts.size());
+  };
+  out.ends.reserve(kSamples + 3 * all.count);
+  out.parts.reserve((kSamples + 3 * all.count) * 2 * all.count);
   const double start = all.item[0].from;
-  for (int i = 0; i < kSamples; ++i) peak.take(moment_at(all, table, start + pitch * i / kSamples, pitch));
+  for (int i = 0; i < kSamples; ++i) at(start + pitch * i / kSamples);
   // Extremes also sit where a piece of edge enters or leaves.
   for (std::size_t k = 0; k < all.count; ++k) {
     const Piece& p = all.item[k];
-    peak.take(moment_at(all, table, p.to + p.lag_low - kJustInside, pitch));
+    at(p.to + p.lag_low - kJustInside);
     if (p.lag_high - p.lag_low < kNoLagRad) continue;
-    peak.take(moment_at(all, table, p.from + p.lag_high, pitch));
-    peak.take(moment_at(all, table, p.to + p.lag_high - kJustInside, pitch));
+    at(p.from + p.lag_high);
+    at(p.to + p.lag_high - kJustInside);
+  }
+  return out;
+}
+
+Peak peak_of(const Pieces& all, const Angles& angles) {
+  Peak peak;
+  std::size_t i = 0;
+  for (const std::size_t end : angles.ends) {
+    Moment sum;
+    for (; i < end; ++i) {
+      const Part& part = angles.parts[i];
+      add(sum, all.item[part.piece], part.of, part.weight);
+    }
+    peak.take(sum);
   }
   return peak;
 }
@@ -424,11 +456,13 @@ ForceVector scaled(const ForceVector& f, double k) { return {f.fx_n * k, f.fy_n 
 
 }  // namespace
 
-Status check_section(const Section& s, const Tooth& t, const ForceLaw& law, double fz, double n) {
+namespace {
+
+Status check_feed(double fz, double n) { return check_positive({{"fz_mm", fz}, {"n_rpm", n}}); }
+
+Status check_shape(const Section& s, const Tooth& t, const ForceLaw& law) {
   constexpr double kMost = 1e9;
-  if (auto ok = check_positive({{"fz_mm", fz},
-                                {"n_rpm", n},
-                                {"cutting_diameter_mm", t.cutting_diameter_mm},
+  if (auto ok = check_positive({{"cutting_diameter_mm", t.cutting_diameter_mm},
                                 {"teeth", static_cast<double>(t.teeth)}});
       !ok)
     return ok;
@@ -458,17 +492,45 @@ Status check_section(const Section& s, const Tooth& t, const ForceLaw& law, doub
   return check_range({"mc", law.kienzle.mc}, 0.0, 0.999);
 }
 
-Result<SectionLoads> section_loads(const Section& section, const Tooth& tooth, const ForceLaw& law,
-                                   double fz_mm, double n_rpm) {
-  if (auto ok = check_section(section, tooth, law, fz_mm, n_rpm); !ok) return fail(ok.error());
+}  // namespace
+
+Status check_section(const Section& s, const Tooth& t, const ForceLaw& law, double fz, double n) {
+  if (auto ok = check_feed(fz, n); !ok) return ok;
+  return check_shape(s, t, law);
+}
+
+/// What of a section is the same at every feed.
+struct SectionAtFeeds::Shape {
+  Section section;
+  Tooth tooth;
+  ForceLaw law;
+  bool plunge = false;
+  bool nothing = true;  ///< no engagement: no loads
+  Pieces all;
+  double ratio = 1.0, more = 1.0, less = 1.0;
+  std::array<Integrals, kCorner + 1> whole;  ///< of each piece over its own arc
+  Angles angles;
+  double mean_chip = 0.0;
+};
+
+Result<SectionAtFeeds> SectionAtFeeds::of(const Section& section, const Tooth& tooth, const ForceLaw& law) {
+  if (auto ok = check_shape(section, tooth, law); !ok) return fail(ok.error());
+  auto made = std::make_shared<Shape>();
+  Shape& shape = *made;
+  shape.section = section;
+  shape.tooth = tooth;
+  shape.law = law;
+  SectionAtFeeds out;
+  out.shape_ = made;
   if (is_plunge(section.arc)) {
-    if (!(section.ap_mm > 0.0) && !(section.csa_mm2 > 0.0)) return SectionLoads{};
-    return plunge_loads(section, tooth, law, fz_mm, n_rpm);
+    shape.plunge = true;
+    shape.nothing = !(section.ap_mm > 0.0) && !(section.csa_mm2 > 0.0);
+    return out;
   }
   const Contact contact = contact_of(section, tooth.cutting_diameter_mm);
-  SectionLoads out;
   if (!(contact.ap > 0.0) || !(contact.arc.exit_rad > contact.arc.entry_rad)) return out;
-  Pieces all = met_by(section, contact, tooth);
+  shape.all = met_by(section, contact, tooth);
+  const Pieces& all = shape.all;
   if (all.count == 0 || !(all.area > 0.0)) {
     if (!(section.csa_mm2 > 0.0)) return out;
     return fail(Diagnostic{.code = "MECH-DOMAIN",
@@ -477,13 +539,11 @@ Result<SectionLoads> section_loads(const Section& section, const Tooth& tooth, c
                            .path = "csa_mm2",
                            .expected = "an area that the edge can sweep"});
   }
-
-  const double ratio = section.csa_mm2 > 0.0 ? section.csa_mm2 / all.area : 1.0;
-  out.irregular = std::abs(ratio - 1.0) > kIrregular;
-  const double more = std::max(ratio, 1.0);
+  shape.nothing = false;
+  shape.ratio = section.csa_mm2 > 0.0 ? section.csa_mm2 / all.area : 1.0;
+  shape.more = std::max(shape.ratio, 1.0);
   const double mc = law.mechanistic ? 0.0 : law.kienzle.mc;
-  const double less = ratio < 1.0 ? std::pow(ratio, 1.0 - mc) : ratio;
-
+  shape.less = shape.ratio < 1.0 ? std::pow(shape.ratio, 1.0 - mc) : shape.ratio;
   double from = all.item[0].from;
   double to = all.item[0].to;
   for (std::size_t i = 1; i < all.count; ++i) {
@@ -491,32 +551,60 @@ Result<SectionLoads> section_loads(const Section& section, const Tooth& tooth, c
     to = std::max(to, all.item[i].to);
   }
   const ArcTable table(from, to, mc);
-  set_force(all, law, tooth.helix_rad, fz_mm);
-  const double per_turn = tooth.teeth / (2.0 * kPi);
+  for (std::size_t i = 0; i < all.count; ++i) {
+    const Piece& p = all.item[i];
+    shape.whole[i] = table.between(p.from, p.to);
+    shape.mean_chip += p.depth * (std::cos(p.from) - std::cos(p.to));
+  }
+  shape.angles = angles_of(all, table, tooth.teeth);
+  return out;
+}
+
+double SectionAtFeeds::thickest_chip_mm(double fz_mm) const {
+  const Shape& s = *shape_;
+  if (s.nothing) return 0.0;
+  if (s.plunge) return fz_mm;
+  const double widened = widened_feed(fz_mm, s.tooth, s.all.front_sin);
+  return widened * (s.ratio > 1.0 + kIrregular ? 1.0 : s.all.max_chip);
+}
+
+Result<SectionLoads> SectionAtFeeds::at(double fz_mm, double n_rpm) const {
+  if (auto ok = check_feed(fz_mm, n_rpm); !ok) return fail(ok.error());
+  const Shape& s = *shape_;
+  SectionLoads out;
+  if (s.nothing) return out;
+  if (s.plunge) return plunge_loads(s.section, s.tooth, s.law, fz_mm, n_rpm);
+  out.irregular = std::abs(s.ratio - 1.0) > kIrregular;
+  Pieces all = s.all;
+  set_force(all, s.law, s.tooth.helix_rad, fz_mm);
+  const double per_turn = s.tooth.teeth / (2.0 * kPi);
   Moment mean;
   for (std::size_t i = 0; i < all.count; ++i) {
     const Piece& p = all.item[i];
-    const Integrals sum = table.between(p.from, p.to);
+    const Integrals& sum = s.whole[i];
     add(mean, p, sum, per_turn);
-    out.torque_nm += 1e-3 * per_turn * p.radius * (less * p.ct * sum.one + more * p.et * sum.e1);
+    out.torque_nm += 1e-3 * per_turn * p.radius * (s.less * p.ct * sum.one + s.more * p.et * sum.e1);
   }
-  out.mean = scaled(mean.force, more);
+  out.mean = scaled(mean.force, s.more);
   out.power_w = out.torque_nm * 2.0 * kPi * n_rpm / 60.0;
 
-  const double widened = widened_feed(fz_mm, tooth, all.front_sin);
-  if (widened != fz_mm) set_force(all, law, tooth.helix_rad, widened);
-  const Peak peak = peak_of(all, table, tooth.teeth);
-  out.peak = scaled(peak.force, more);
-  out.peak_force_n = more * std::sqrt(peak.plane_sq);
-  out.peak_torque_nm = std::max(1e-3 * more * peak.torque_nmm, out.torque_nm);
-  out.h_max_mm = widened * (ratio > 1.0 + kIrregular ? 1.0 : all.max_chip);
-  double mean_chip = 0.0;
-  for (std::size_t i = 0; i < all.count; ++i) {
-    const Piece& p = all.item[i];
-    mean_chip += p.depth * (std::cos(p.from) - std::cos(p.to));
-  }
-  out.h_mean_mm = fz_mm * mean_chip / all.edge_arc;
+  const double widened = widened_feed(fz_mm, s.tooth, all.front_sin);
+  if (widened != fz_mm) set_force(all, s.law, s.tooth.helix_rad, widened);
+  const Peak peak = peak_of(all, s.angles);
+  out.peak = scaled(peak.force, s.more);
+  out.peak_force_n = s.more * std::sqrt(peak.plane_sq);
+  out.peak_torque_nm = std::max(1e-3 * s.more * peak.torque_nmm, out.torque_nm);
+  out.h_max_mm = thickest_chip_mm(fz_mm);
+  out.h_mean_mm = fz_mm * s.mean_chip / all.edge_arc;
   return out;
+}
+
+Result<SectionLoads> section_loads(const Section& section, const Tooth& tooth, const ForceLaw& law,
+                                   double fz_mm, double n_rpm) {
+  if (auto ok = check_feed(fz_mm, n_rpm); !ok) return fail(ok.error());
+  const auto prepared = SectionAtFeeds::of(section, tooth, law);
+  if (!prepared) return fail(prepared.error());
+  return prepared->at(fz_mm, n_rpm);
 }
 
 }  // namespace capstan::mechanics

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "planner/ground/base/result.h"
@@ -102,6 +103,24 @@ inline constexpr double kIrregular = 0.05;
 ///           law in it, runout and area: derived.
 [[nodiscard]] Result<SectionLoads> section_loads(const Section& section, const Tooth& tooth,
                                                  const ForceLaw& law, double fz_mm, double n_rpm);
+
+/// A section made ready for many feeds: what does not depend on feed and speed (pieces of the edge, integrals of
+/// the chip over their arcs) is worked out once. `at` gives the same numbers as `section_loads`, to the bit.
+///
+/// Cost      `at` a tenth of `section_loads`.
+class SectionAtFeeds {
+ public:
+  /// Fails  as section_loads does for what is not feed or speed.
+  [[nodiscard]] static Result<SectionAtFeeds> of(const Section& section, const Tooth& tooth,
+                                                 const ForceLaw& law);
+  [[nodiscard]] Result<SectionLoads> at(double fz_mm, double n_rpm) const;
+  /// The h_max_mm of `at` alone.
+  [[nodiscard]] double thickest_chip_mm(double fz_mm) const;
+
+ private:
+  struct Shape;
+  std::shared_ptr<const Shape> shape_;
+};
 
 /// What section_loads refuses, and nothing else: for whoever walks along the edge himself.
 [[nodiscard]] Status check_section(const Section& section, const Tooth& tooth, const ForceLaw& law,

@@ -49,8 +49,8 @@ Deepest deepest(const Region& piece) {
   double lo = 0.0;
   double hi = 0.5 * std::min(box.hi.x - box.lo.x, box.hi.y - box.lo.y);
   Region best = piece;
-  if (!inset(piece, hi * 0.999, kInnerChord).empty()) {
-    best = inset(piece, hi * 0.999, kInnerChord);
+  if (Region nearly = inset(piece, hi * 0.999, kInnerChord); !nearly.empty()) {
+    best = std::move(nearly);
     lo = hi * 0.999;
   }
   while (hi - lo > 0.01 * hi && hi - lo > 1e-3) {
