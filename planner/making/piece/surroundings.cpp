@@ -120,7 +120,19 @@ Thickness thickness_beside(const Piece& piece, const FeatureShape& s) {
   const Box2 box = geometry::bounds(own);
   if (model::has(s.kind, model::ShapeTrait::kWalled)) to_raw_sides(s, raw, out.wall_mm);
   double below = s.through ? 0.0 : -s.depth_mm - raw.lo.z;
-  for (const FeatureShape& other : piece.shapes.all) {
+  const Around here = around(s);
+  const bool known = piece.shapes.around.size() == piece.shapes.all.size();
+  for (std::size_t i = 0; i < piece.shapes.all.size(); ++i) {
+    const FeatureShape& other = piece.shapes.all[i];
+    if (known && out.wall_mm) {
+      // What lies farther aside than the thinnest wall so far is neither beside nor under.
+      const Around& there = piece.shapes.around[i];
+      const geometry::Vec3 way = there.centre - here.centre;
+      const double along = dot(way, s.frame.z);
+      const double apart =
+          std::sqrt(std::max(0.0, dot(way, way) - along * along)) - there.radius_mm - here.radius_mm;
+      if (apart > kSame && apart - kSame >= *out.wall_mm) continue;
+    }
     if (other.feature == s.feature && other.member == s.member) continue;
     if (other.area.empty() || std::abs(std::abs(dot(other.frame.z, s.frame.z)) - 1.0) > kSame) continue;
     const Seen seen = see(other, to);

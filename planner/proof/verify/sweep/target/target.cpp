@@ -71,11 +71,13 @@ Region widest(const Form& s) {
   return grow + wider > 0.0 ? geometry::offset(s.area, grow + wider) : s.area;
 }
 
-double segment_distance(Vec2 p, Vec2 a, Vec2 b) {
+/// The square of the distance between a point and a line's piece.
+double squared_distance(Vec2 p, Vec2 a, Vec2 b) {
   const Vec2 d = b - a;
   const double n = dot(d, d);
   const double t = n > 0.0 ? std::clamp(dot(p - a, d) / n, 0.0, 1.0) : 0.0;
-  return norm(p - (a + t * d));
+  const Vec2 apart = p - (a + t * d);
+  return dot(apart, apart);
 }
 
 bool crossing(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
@@ -273,6 +275,10 @@ std::size_t Target::Walls::strip(double y) const {
   return static_cast<std::size_t>(at);
 }
 
+std::size_t Target::Walls::square(double at, double begin) const {
+  return static_cast<std::size_t>(std::clamp((at - begin) / square_mm, 0.0, kSquares - 1.0));
+}
+
 bool Target::Walls::stands(Vec2 p) const {
   if (strips.empty()) return false;
   int winding = 0;
@@ -315,6 +321,18 @@ const Target::Walls& Target::walls(double z) {
     const std::size_t last = out.strip(std::max(e.a.y, e.b.y));
     for (std::size_t k = out.strip(std::min(e.a.y, e.b.y)); k <= last; ++k) out.strips[k].push_back(i);
   }
+  out.x0_mm = part_box_.lo.x;
+  out.square_mm = std::max({part_box_.hi.x - part_box_.lo.x, part_box_.hi.y - part_box_.lo.y, 0.1}) /
+                  static_cast<double>(Walls::kSquares);
+  out.squares.resize(Walls::kSquares * Walls::kSquares);
+  for (std::uint32_t i = 0; i < out.edges.size(); ++i) {
+    const auto& e = out.edges[i];
+    const std::size_t last_y = out.square(std::max(e.a.y, e.b.y), out.y0_mm);
+    const std::size_t last_x = out.square(std::max(e.a.x, e.b.x), out.x0_mm);
+    for (std::size_t y = out.square(std::min(e.a.y, e.b.y), out.y0_mm); y <= last_y; ++y)
+      for (std::size_t x = out.square(std::min(e.a.x, e.b.x), out.x0_mm); x <= last_x; ++x)
+        out.squares[y * Walls::kSquares + x].push_back(i);
+  }
   return walls_.emplace(key, std::move(out)).first->second;
 }
 
@@ -333,24 +351,27 @@ double Target::wall_gouge(const Move& m, double radius, double height_mm, Vec2& 
     if (z + allowed() < part_box_.hi.z) {
       const Walls& w = walls(z);
       const Vec2 p = i == n && changes ? xy(b) : xy(a);
-      double near = 1e300;
+      double square = 1e300;
       const double reach = radius - allowed();
       const double x0 = std::min(p.x, b.x) - reach, x1 = std::max(p.x, b.x) + reach;
       const double y0 = std::min(p.y, b.y) - reach, y1 = std::max(p.y, b.y) + reach;
-      // An edge that lies in several strips is merely looked at again.
-      const std::size_t last = w.strip(y1);
-      for (std::size_t k = w.strip(y0); k <= last; ++k) {
-        for (const std::uint32_t index : w.strips[k]) {
-          const auto& e = w.edges[index];
-          if (std::max(e.a.x, e.b.x) < x0 || std::min(e.a.x, e.b.x) > x1 || std::max(e.a.y, e.b.y) < y0 ||
-              std::min(e.a.y, e.b.y) > y1) {
-            continue;
+      // An edge that lies in several squares is merely looked at again.
+      const std::size_t last_y = w.square(y1, w.y0_mm), last_x = w.square(x1, w.x0_mm);
+      for (std::size_t iy = w.square(y0, w.y0_mm); iy <= last_y; ++iy) {
+        for (std::size_t ix = w.square(x0, w.x0_mm); ix <= last_x; ++ix) {
+          for (const std::uint32_t index : w.squares[iy * Walls::kSquares + ix]) {
+            const auto& e = w.edges[index];
+            if (std::max(e.a.x, e.b.x) < x0 || std::min(e.a.x, e.b.x) > x1 || std::max(e.a.y, e.b.y) < y0 ||
+                std::min(e.a.y, e.b.y) > y1) {
+              continue;
+            }
+            if (crossing(p, xy(b), e.a, e.b)) square = 0.0;
+            square = std::min({square, squared_distance(p, e.a, e.b), squared_distance(xy(b), e.a, e.b),
+                               squared_distance(e.a, p, xy(b)), squared_distance(e.b, p, xy(b))});
           }
-          if (crossing(p, xy(b), e.a, e.b)) near = 0.0;
-          near = std::min({near, segment_distance(p, e.a, e.b), segment_distance(xy(b), e.a, e.b),
-                           segment_distance(e.a, p, xy(b)), segment_distance(e.b, p, xy(b))});
         }
       }
+      const double near = std::sqrt(square);
       double into = radius - near;
       if (near > std::max(reach, kChordMm) && w.stands(xy(b))) {
         into = radius;
