@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "planner/making/draft/candidates.h"
 #include "planner/ground/geometry/placement.h"
 #include "planner/model/features/shape.h"
 #include "planner/model/nouns/all.h"
@@ -57,7 +58,7 @@ struct StepDraft {
   std::size_t in_chain = 0;                  ///< and its place in it
   model::ProposedStep proposal;              ///< when proposed
   double start_in_chain_mm = 0.0;            ///< of its proposal, before the drill ahead of it was known
-  std::vector<model::Candidate> candidates;  ///< when the cutter was selected in this run, best first
+  Candidates candidates;                     ///< when the cutter was selected in this run, best first
   std::vector<model::Rejected> rejected_tools;
   bool open_technology = false;  ///< feed or speed to be chosen
   bool keep_speed = false;       ///< of an open technology: the stated speed stays, the feed is chosen for it

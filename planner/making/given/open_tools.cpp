@@ -173,7 +173,7 @@ bool select_one(model::Plan& plan, StepDraft& step, std::vector<std::string>& us
                 .hint = "load or add one, or re-open the operations"});
     return false;
   }
-  step.candidates = s.ranked;
+  step.candidates = draft::CandidatePool().list(s.ranked);
   step.cutter = s.ranked.front().cutter;
   step.rejected_tools = s.rejected;
   tooling::use(used, step.cutter.id);
@@ -362,9 +362,22 @@ void stand_out_alike(std::vector<StepDraft>& steps) {
     c.usable_length_mm = std::max(c.usable_length_mm, it->second.usable_length_mm);
     c.functional_length_mm = std::max(c.functional_length_mm, it->second.functional_length_mm);
   };
+  // A step's cutter is taken from its candidates once more; what steps share is changed once for all.
+  std::map<const model::Candidate*, draft::Candidates::Shared> changed;
+  const auto longer = [&](const draft::Candidates::Shared& c) -> draft::Candidates::Shared {
+    const auto [it, is_new] = changed.try_emplace(c.get(), nullptr);
+    if (is_new && most.contains(c->cutter.id)) {
+      model::Candidate out = *c;
+      take(out.cutter);
+      if (!(out == *c)) it->second = std::make_shared<const model::Candidate>(std::move(out));
+    }
+    return it->second;
+  };
+  std::vector<draft::Candidates> before;  // keeps what `changed` knows by its place
   for (StepDraft& s : steps) {
     take(s.cutter);
-    for (model::Candidate& c : s.candidates) take(c.cutter);  // a step's cutter is taken from these once more
+    before.push_back(s.candidates);
+    s.candidates.replace(longer);
   }
 }
 

@@ -396,7 +396,7 @@ class Proposer {
         made_of.push_back(made.empty() ? std::nullopt : std::optional(made.back()));
         continue;
       }
-      step.candidates = chosen.tools[i].ranked;
+      step.candidates = pool_.list(chosen.tools[i].ranked);
       step.rejected_tools = chosen.tools[i].rejected;
       step.cutter = step.candidates.front().cutter;
       step.start_in_chain_mm = (*chosen.chain)[i].start_diameter_mm;
@@ -436,6 +436,7 @@ class Proposer {
   const Choice& choice_;
   Proposed& out_;
   Job& job_;
+  draft::CandidatePool pool_;
   std::set<std::pair<AnyRef, std::string>> said_;
   std::map<AnyRef, std::vector<std::string>> failed_;  ///< why members cannot be made, by feature
 };

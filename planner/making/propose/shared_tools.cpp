@@ -122,8 +122,7 @@ class Sharer {
 
   void swap(const Instead& t, const std::string& id, double loss_s, double saved_s) {
     StepDraft& s = steps_[t.step];
-    std::rotate(s.candidates.begin(), s.candidates.begin() + static_cast<std::ptrdiff_t>(t.candidate),
-                s.candidates.begin() + static_cast<std::ptrdiff_t>(t.candidate) + 1);
+    s.candidates.prefer(t.candidate);
     const Candidate& now = s.candidates.front();
     s.cutter = now.cutter;
     step::fit_to_cutter(plan_.model, steps_, s);

@@ -60,6 +60,7 @@ struct Candidate {
   double score = 0.0;        ///< lower is better
   double estimated_s = 0.0;  ///< of cutting, its tool's cost as time included; no change, no loading
   Reason why;
+  friend bool operator==(const Candidate&, const Candidate&) = default;
 };
 struct Selection {
   std::vector<Candidate> ranked;

@@ -40,13 +40,11 @@ bool is_used(const std::vector<std::string>& used, const model::Cutter& c) {
 void in_order(model::Plan& plan, std::vector<StepDraft>& steps, StepDraft& step,
               std::vector<std::pair<double, std::size_t>> times) {
   const std::string first = step.candidates.front().cutter.id;
-  const std::size_t n = times.size();
   const double of_first = times.front().first;
   std::stable_sort(times.begin(), times.end());
-  std::vector<model::Candidate> sorted;
-  for (const auto& [t, i] : times) sorted.push_back(step.candidates[i]);
-  for (std::size_t i = n; i < step.candidates.size(); ++i) sorted.push_back(step.candidates[i]);
-  step.candidates = std::move(sorted);
+  std::vector<std::size_t> first_ones;
+  for (const auto& [t, i] : times) first_ones.push_back(i);
+  step.candidates.prefer(first_ones);
   if (step.candidates.front().cutter.id == first) return;
   step.cutter = step.candidates.front().cutter;
   step.rejected_tools.push_back(
