@@ -20,7 +20,7 @@ struct LibraryOptions {
 };
 
 /// A tool library from a file or folder, its kind told by content: our own list (YAML or JSON,
-/// tooling/data/README.md), or any format of `tooling/formats` that can be read. "generic" is the shipped
+/// tooling/data/README.md), or any format of `tooling/library/formats` that can be read. "generic" is the shipped
 /// one.
 ///
 /// Fields that the file leaves out are completed from the generic series (see complete.h), each with its

@@ -9,7 +9,7 @@
 #include "planner/model/plan/resources/material.h"
 #include "tooling/selection/select.h"
 
-// What a cutter must hold to, and what it would take; only tooling/select/*.cpp include this.
+// What a cutter must hold to, and what it would take; only tooling/selection/*.cpp include this.
 
 namespace capstan::tooling {
 

@@ -112,7 +112,7 @@ struct Anew {
   std::function<Status(const model::Plan&)> acceptable = {};
 };
 
-/// `bind`, then the check (verify/check_plan). Where it finds an error at a step that rules proposed, what
+/// `bind`, then the check (`verify::check_plan`). Where it finds an error at a step that rules proposed, what
 /// the step was made with is banned (cutter, chain, at last the feature) and the plan is made anew, at most
 /// kMostReplannings times; the plan with the fewest errors is given. What was made anew, and why, is noted
 /// (PIP-ANEW) and stands in the ledger among the rejected alternatives. A plan without errors costs one

@@ -22,7 +22,7 @@ struct Request {
   std::optional<optimise::Solver> solver;
   std::optional<std::string> general_tolerance, workholding;
   std::optional<std::string> feeds;   ///< "constant" or "scheduled"
-  std::optional<std::string> margin;  ///< by name, of mechanics/margin.h
+  std::optional<std::string> margin;  ///< by name, of mechanics/loads/margin.h
   std::optional<double> revenue;
   int batch = 1;
   double edge_break_mm = 0.0;

@@ -68,7 +68,7 @@ struct CutQuestion {
   bool as_measured =
       false;  ///< depth and width are those of the path's sections: each may ask for its own feed
   double margin_deviations =
-      mechanics::kUsualMargin.deviations;  ///< of the load's margin (mechanics/margin.h)
+      mechanics::kUsualMargin.deviations;  ///< of the load's margin (mechanics/loads/margin.h)
   Eased eased;
   friend bool operator==(const CutQuestion&, const CutQuestion&) = default;
 };
@@ -121,7 +121,7 @@ struct CutAnswer {
 
 /// Depth, width, speed and feed that cut fastest (or cheapest, or to most profit) within every limit: spindle
 /// speed range, power and torque at that speed, tip deflection, wall error, surface, peak force, largest and
-/// least chip, depths, cutting length, axis feed. Forces carry the margin of mechanics/margin.h: the spread
+/// least chip, depths, cutting length, axis feed. Forces carry the margin of mechanics/loads/margin.h: the spread
 /// of their coefficients, a worn edge and the operator's override; limits are thus never met on average
 /// values.
 ///

@@ -12,7 +12,7 @@ namespace capstan::optimise {
 
 /// How the cutter is engaged somewhere along a move; what feeds are chosen from.
 ///
-/// Frame  angles as in mechanics/immersion.h: 0 at the left of the feed, pi at its right, in the sense of
+/// Frame  angles as in mechanics/force/immersion.h: 0 at the left of the feed, pi at its right, in the sense of
 ///        rotation.
 struct CutSample {
   std::uint32_t move = 0;
@@ -88,7 +88,7 @@ struct FeedAnswer {
 ///
 /// Shape         the schedule has one entry per move of `path`.
 /// Determinism   same question, same answer; sections are compared on a grid, rounded to the heavier side.
-/// Source        sections: mechanics/section.h; the braking bound: derived.
+/// Source        sections: mechanics/loads/section.h; the braking bound: derived.
 [[nodiscard]] FeedAnswer feeds(const FeedQuestion& question, const model::CutterPath& path);
 
 /// Cuts moves at feed, lines and arcs, where the feed that their sections bear changes, so that a heavy

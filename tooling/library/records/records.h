@@ -10,7 +10,7 @@
 
 /// @file The four records of a shop's tools, as catalogues and tool rooms keep them: what can be bought
 /// (item), the piece on the shelf (instance), how it is put together (assembly), where it sits (machine
-/// entry). Every format of `tooling/formats` reads into a ToolLibrary and is written from one; `cutters_of`
+/// entry). Every format of `tooling/library/formats` reads into a ToolLibrary and is written from one; `cutters_of`
 /// makes of it what planning uses.
 
 namespace capstan::tooling {

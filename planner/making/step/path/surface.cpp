@@ -13,7 +13,7 @@ namespace capstan::step {
 namespace {
 
 /// How far above the table's speed the widest contact of a path may run, where most of it runs below.
-/// Default, unsourced: as far as a cutter's slowest speed may exceed its preset (tooling/select).
+/// Default, unsourced: as far as a cutter's slowest speed may exceed its preset (tooling/selection).
 constexpr double kOverTable = 1.25;
 
 }  // namespace
