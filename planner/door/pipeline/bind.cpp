@@ -9,7 +9,7 @@
 #include "planner/door/pipeline/stages.h"
 #include "planner/making/given/ends.h"
 #include "planner/making/given/machine_needs.h"
-#include "planner/making/piece/in_piece.h"
+#include "planner/making/piece/raw_piece_limits.h"
 #include "planner/making/piece/workpiece.h"
 #include "planner/making/step/record/gone.h"
 #include "planner/model/plan/decision/contradicted.h"

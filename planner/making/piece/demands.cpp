@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "planner/making/piece/in_piece.h"
+#include "planner/making/piece/raw_piece_limits.h"
 #include "planner/making/piece/surroundings.h"
 #include "planner/model/features/raw_piece.h"
 #include "planner/model/nouns/all.h"

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "planner/ground/base/number.h"
-#include "planner/making/step/cut/drill_depth.h"
+#include "planner/making/step/cut/drilled_hole.h"
 #include "planner/model/nouns/all.h"
 #include "tooling/library/nouns/nouns.h"
 #include "tooling/selection/select.h"

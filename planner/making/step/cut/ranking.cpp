@@ -7,7 +7,7 @@
 
 #include "planner/ground/base/number.h"
 #include "planner/ground/vocabulary/operation.h"
-#include "planner/making/step/cut/drill_depth.h"
+#include "planner/making/step/cut/drilled_hole.h"
 #include "planner/making/step/cut/question.h"
 #include "planner/making/step/path/job_of.h"
 #include "planner/model/nouns/all.h"

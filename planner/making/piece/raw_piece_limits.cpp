@@ -1,4 +1,4 @@
-#include "planner/making/piece/in_piece.h"
+#include "planner/making/piece/raw_piece_limits.h"
 
 #include <algorithm>
 
