@@ -9,6 +9,19 @@
 #include "planner/ground/base/number.h"
 #include "planner/physics/stock/sweep.h"
 
+// Cross sections on a height map, measured by volume. A move is divided into steps. `stock::sweep` lowers the
+// cells under each step and tallies what it removed: volume, moments, and the lowest and highest contact in
+// bins across the feed. For one step of length s:
+//
+//     CSA = removed volume / s           centre of gravity = moments / removed volume
+//     ADmax = tallest contact of a bin   RDmax = right - left contact, within the outline's width there
+//     entry, exit = acos(-x / R) of the left and the right contact; a plunge is the whole circle
+//
+// The lateral contact is known to a cell. Where a flat cutter takes an even layer, CSA / ADmax is more exact,
+// so that the side away from the cutter's edge is set by it (`sharpen`). Moves above all material are
+// skipped.
+// Source  definitions of the seven numbers: AP238 edition 2, 4.2.379.4; the method: derived.
+
 namespace capstan::engagement {
 namespace {
 

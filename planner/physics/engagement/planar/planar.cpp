@@ -8,6 +8,20 @@
 
 #include "planner/physics/engagement/planar/contact.h"
 
+// Cross sections of flat cutters on the exact stock. At one place of a move the section is an integral over
+// the cutter's front half circle: `Prober::on_the_way` gets the heights there as exact pieces and sums area
+// and moments. On a ramp it adds the material under the tip, by lines across the disc.
+//
+// Over one step the amounts are integrated by Simpson's rule. If the section in the middle differs from those
+// at the ends, the step is halved until both rules agree to kTolerance, or to kInStrips where floors are read
+// in strips. The halves are then taken (Richardson: their error is a fifteenth of the difference). The number
+// of halvings is bounded, because no halving makes a jump even.
+//
+// A plunge is a difference of volumes: that above the tip now, less that above it one step before. The disc
+// is integrated by Gauss-Legendre panels over x = R sin t (contact.cpp), which gives a whole disc exactly.
+// Source  quadrature: Abramowitz and Stegun, table 25.4; the seven numbers: AP238 edition 2, 4.2.379.4; the
+// rest: derived.
+
 namespace capstan::engagement {
 namespace {
 
