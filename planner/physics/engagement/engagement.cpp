@@ -179,8 +179,8 @@ class Measurer {
     push(i, at, axial, radial, t.sum_x / t.removed_mm3, t.sum_y / t.removed_mm3, e);
   }
 
-  /// Angle between entry and exit at which nothing was touched, at the full radius. What is narrower than two
-  /// bins or a cell and a half is not told from the spacing of cells.
+  /// Angle between entry and exit at which nothing was touched, at the full radius, rad. A gap narrower than
+  /// a bin and a half or a cell and a half does not count: it may be the spacing of cells.
   [[nodiscard]] double gaps(const Tally& t, double left, double right) const {
     const double r = profile_.radius_mm;
     const double bin = 2.0 * r / static_cast<double>(Tally::kBins);

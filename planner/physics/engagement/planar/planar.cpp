@@ -32,7 +32,7 @@ using model::MoveKind;
 using stock::kTouch;
 using stock::Trail;
 
-constexpr double kAir = 1e-6;        // mm2: sections below are none
+constexpr double kAir = 1e-6;        // mm2: smaller sections count as none
 constexpr double kTolerance = 1e-6;  // of diameter times depth, in a step
 constexpr int kDeepest = 14;         // halvings of a step
 constexpr double kInStrips =
@@ -249,7 +249,7 @@ class Measurer {
               int depth) {
     const double h = s1 - s0;
     const bool strips = a.in_strips || m.in_strips || b.in_strips;
-    // No halving of the way tells what the lines across it do not.
+    // Halving the step does not reduce the errors of lines across floors read in strips.
     const double allowed = std::max((strips ? kInStrips : kTolerance) * 2.0 * profile_.radius_mm *
                                         std::max({a.highest, m.highest, b.highest}),
                                     std::max({a.unsure, m.unsure, b.unsure}));
@@ -377,7 +377,7 @@ Result<Measurement> measure(const CutterPath& path, const model::Cutter& cutter,
     }
   }
   if (!stock.lost().empty()) return fail("ENG-NOT-PLANAR", "the planar stock was lost: " + stock.lost());
-  if (head_height(cutter))  // whether anything stands over it is for the height map to say
+  if (head_height(cutter))  // the height map decides whether material is above the head
     return fail("ENG-NOT-PLANAR", "cutter '" + cutter.id + "' is thinner behind its head");
   if (!geometry::is_flat(profile) && mills(path, profile, stock)) {
     return fail("ENG-NOT-PLANAR",

@@ -18,7 +18,7 @@ constexpr std::size_t kCells = 32;    // of the arc
 constexpr int kSamples = 32;          // of a tooth pitch
 constexpr std::size_t kCorner = 4;    // Gauss points along a corner
 constexpr double kNoLagRad = 1e-6;    // below, an edge is straight to within rounding
-constexpr double kJustInside = 1e-9;  // so that rounding cannot lose a tooth that is about to leave
+constexpr double kJustInside = 1e-9;  // keeps rounding from losing a tooth that is about to leave
 
 /// A piece of the edge with one kappa and one radius, over its own arc.
 struct Piece {
@@ -277,7 +277,7 @@ Peak peak_of(const Pieces& all, const ArcTable& table, int teeth) {
   Peak peak;
   const double start = all.item[0].from;
   for (int i = 0; i < kSamples; ++i) peak.take(moment_at(all, table, start + pitch * i / kSamples, pitch));
-  // Extremes also sit where a piece of edge enters or leaves.
+  // Extremes also occur where a piece of edge enters or leaves.
   for (std::size_t k = 0; k < all.count; ++k) {
     const Piece& p = all.item[k];
     peak.take(moment_at(all, table, p.to + p.lag_low - kJustInside, pitch));
