@@ -20,19 +20,19 @@ struct Output {
 };
 
 /// The ending alone decides, so that a wrong name fails before any work.
-/// Fails  OUT-KIND: an ending that is not supported (yet), or none.
+/// Fails  OUT-KIND: no ending, or one that is not supported (yet).
 [[nodiscard]] Result<Output> output_of(const std::string& path);
 /// All of them.
 [[nodiscard]] Result<std::vector<Output>> outputs_of(const std::vector<std::string>& paths);
 
-/// Fills `bytes` and `losses`. What ISO 14649 or AP238 cannot hold is told as notes (EXC-LOSS).
+/// Fills `bytes` and `losses`. Things that ISO 14649 or AP238 cannot hold are noted (EXC-LOSS).
 /// Fails  as the writers.
 [[nodiscard]] Status make(const model::Plan& plan, std::vector<Output>& outputs, Job& job);
 
 /// " (without 3 things)", or nothing when the file holds all of the plan.
 [[nodiscard]] std::string losses_text(const Output& output);
 
-/// What became of a file from before, under a name that is not written now.
+/// The fate of an older file whose name is not written now.
 struct Aside {
   enum Outcome : std::uint8_t { kNothingThere, kRenamed, kStays };
   Outcome outcome = kNothingThere;
