@@ -43,15 +43,15 @@ struct Aside {
 /// Leaves it.
 [[nodiscard]] Aside left_there(const std::string& path);
 
-/// Judges the outputs' paths before any work: none is named twice, none is an input of the same call, unless
+/// Checks the outputs' paths before any work: none is named twice, none is an input of the same call, unless
 /// forced, and each can be written.
 /// Fails  OUT-TWICE, OUT-INPUT, FILE-WRITE.
 [[nodiscard]] Status can_be_written(const std::vector<std::string>& outputs,
                                     const std::vector<std::string>& inputs, bool force);
 
-/// Writes all files or none: all are brought to disk first (StagedFile), then all are put in place. Only a
-/// rename that fails after another succeeded (another program took the folder away) leaves a part; the fault
-/// says so.
+/// Writes all files or none: all are brought to disk first (StagedFile), then all are renamed into place.
+/// Only if a rename fails after another succeeded (another program removed the folder) some are written; the
+/// fault says so.
 /// "-" goes to standard output last.
 /// Fails  FILE-WRITE.
 [[nodiscard]] Status write_all(const std::vector<Output>& outputs);
