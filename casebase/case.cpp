@@ -68,7 +68,7 @@ std::optional<std::string> fault_of_numbers(const Case& c, std::size_t from, std
   return std::nullopt;
 }
 
-/// What numbers that are possible one by one cannot be together.
+/// Why numbers that are possible one by one are impossible together.
 std::optional<std::string> fault_together(const Case& c) {
   const double rpm = 1000.0 * c.vc_m_min / (std::numbers::pi * c.cutting_diameter_mm);
   if (!(rpm <= kRpmMax)) {

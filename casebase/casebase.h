@@ -17,14 +17,15 @@
 #include "planner/model/plan/resources/machine.h"
 #include "planner/model/plan/resources/material.h"
 
-/// What was cut once, found again when something near to it is asked.
+/// Case base: finds earlier cuts near a question.
 namespace capstan::casebase {
 
-/// What is asked: four categories, which a case has to share exactly, and sizes, which it has to be near to.
+/// The key of a search: four categories, which a case must share exactly, and sizes, which it must be near
+/// to.
 ///
-/// Units   mm. Zero: the size does not apply (a face has no diameter; no tolerance was asked). Two
-///         questions of which one has a diameter, a depth or a width and the other has none never match;
-///         no tolerance counts as one of 1 mm.
+/// Units   mm. Zero: the size does not apply (a face has no diameter; no tolerance is stated). If one
+///         question has a diameter, a depth or a width and the other has none, they never match; no tolerance
+///         counts as one of 1 mm.
 /// Shape   categories are keywords: 1 to 80 of letters, digits and `_ . / + -`.
 struct Question {
   std::string operation;       ///< keyword of the operation, e.g. "DRILLING"
@@ -36,12 +37,12 @@ struct Question {
   bool operator==(const Question&) const = default;
 };
 
-/// One executed or simulated workingstep: what was asked, what was bound, what came of it, and where the
-/// numbers come from.
+/// One executed or simulated workingstep: its question, the bound values, the results, and the origin of the
+/// numbers.
 ///
 /// Units   as the names say; zero among the results: not known.
 struct Case {
-  std::string id;  ///< given by `id_of`; what stands here before `add` is ignored
+  std::string id;  ///< given by `id_of`; a value set before `add` is ignored
   Question asked;
 
   double cutting_diameter_mm = 0.0;
@@ -84,8 +85,9 @@ struct Answer {
 /// Cases in one SQLite file, with an exact nearest-neighbour index per combination of categories that is
 /// rebuilt from the store, never loaded.
 ///
-/// Sees     what stood in the file when it was opened, and what it added itself since.
-/// Threads  the const members may be called from many threads; `add` from one, with nobody reading.
+/// Sees     the content of the file when it was opened, and what it added itself since.
+/// Threads  the const members may be called from many threads; `add` from one, without readers at the same
+///          time.
 class CaseBase {
  public:
   /// Opens an existing file: "path" or "sqlite:path". Rows whose hash or limits do not hold are reported
@@ -102,8 +104,8 @@ class CaseBase {
   CaseBase& operator=(CaseBase&&) noexcept;
   ~CaseBase();
 
-  /// Retain. All of them are stored and synchronised to disk, or none. Cases that are there already are
-  /// passed over, so an `add` whose outcome is unknown may be repeated.
+  /// Retain. All cases are stored and synchronised to disk, or none. Cases that are stored already are
+  /// skipped, so an `add` whose outcome is unknown may be repeated.
   ///
   /// Fails   CASE-INVALID a case that cannot be; CASE-READ-ONLY; CASE-BUSY another writer held the file for
   ///         5 s; CASE-DAMAGED; CASE-STORE no space, or another fault of the store.
@@ -115,10 +117,10 @@ class CaseBase {
   [[nodiscard]] Result<std::vector<Neighbour>> nearest(const Question& q, std::size_t k) const;
 
   /// The case to start from, or why there is none. Only good cases within `kPrecedentDistance` count
-  /// (simulated ones also while nobody judged them). Provenances are not mixed: measured cases if
-  /// there are any, else entered ones, else simulated ones, and `neighbours` counts those of that kind
-  /// alone. Passed over: a case next to a bad one that was cut no harder and is at least as trustworthy;
-  /// a case whose vc or fz is more than twice or less than half the median, where three or more are near.
+  /// (simulated ones also without a verdict). Provenances are not mixed: measured cases if there are any,
+  /// else entered ones, else simulated ones, and `neighbours` counts those of that kind alone. Skipped are: a
+  /// case next to a bad one that was cut no harder and is at least as trustworthy; a case whose vc or fz is
+  /// more than twice or less than half the median, if three or more are near.
   [[nodiscard]] Answer ask(const Question& q) const;
   /// Recall: the precedent of `ask`.
   [[nodiscard]] std::optional<model::Precedent> recall(const Question& q) const;
@@ -138,7 +140,7 @@ class CaseBase {
 /// ISO 513 letter and the material's id: within one letter speeds differ by more than a start value may.
 [[nodiscard]] std::string material_group_of(const model::WorkMaterial& material);
 
-/// The sizes of what is asked; zero where one does not apply.
+/// The sizes of a question; zero if one does not apply.
 struct Sizes {
   double diameter_mm = 0.0, depth_mm = 0.0, width_mm = 0.0, tolerance_mm = 0.0;
   friend bool operator==(const Sizes&, const Sizes&) = default;

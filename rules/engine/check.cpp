@@ -28,7 +28,7 @@ void find_gaps(const Table& table, std::vector<RuleFinding>& out) {
     out.push_back({RuleFault::kGap, table.name, {}, to_text(box, table.facts), table.file, 0});
 }
 
-// What is left of `box` where no row of better priority than `priority` decides.
+// The part of `box` in which no row of better priority than `priority` decides.
 std::vector<Box> undecided(const Table& table, const Box& box, int priority) {
   std::vector<Box> left{box};
   for (const Row& row : table.rows) {
@@ -67,7 +67,7 @@ void find_dead_rows(const Table& table, std::vector<RuleFinding>& out) {
   }
 }
 
-/// What a chain holds: the best that any of its steps claims; unset: none claims anything.
+/// What a chain holds: the best that any of its steps claims; unset: no step claims anything.
 struct Holds {
   std::optional<double> grade, ra_um, position_mm, form_mm;
 };
@@ -143,7 +143,7 @@ bool leads_to(const Table& table, const Row& row, const Table& demands, const Ro
   return table.name != "hole" || (shape == "countersink" ? sunk : straight);
 }
 
-// What both tables ask about is the same thing: of the demand's box, only what the row takes.
+// Narrows the demand's box, in the facts that both tables use, to the values that the row accepts.
 void narrow_to(const Table& table, const Row& row, const Table& demands, Box& box) {
   for (std::size_t i = 0; i < demands.facts.size(); ++i) {
     const auto at = std::find(table.facts.begin(), table.facts.end(), demands.facts[i]);
@@ -152,7 +152,7 @@ void narrow_to(const Table& table, const Row& row, const Table& demands, Box& bo
   }
 }
 
-// What the demand's row accepts where nothing of better priority decides, against what the chain holds.
+// True if the chain holds what the demand's row accepts, where no row of better priority decides.
 bool holds_demand(const RuleBase& base, const Table& table, const Row& row, const DemandKind& kind,
                   std::string_view shape, const Holds& chain, std::vector<RuleFinding>& out) {
   const Table* demands = base.table(kind.table);

@@ -16,7 +16,7 @@ FactType symbols(std::string_view name, std::vector<std::string_view> values, st
   return {name, FactKind::kSymbol, 0.0, 0.0, std::move(values), meaning};
 }
 
-/// Kinds of shape; countersinks are asked about apart from other holes.
+/// Kinds of shape; a countersink is a kind of its own beside other holes.
 std::vector<std::string_view> shapes() {
   std::vector<std::string_view> out{to_text(model::ShapeKind::kHole), "countersink"};
   for (const model::ShapeKindRow& r : model::shape_kinds())
@@ -135,7 +135,7 @@ std::string Facts::text(std::size_t fact) const {
   if (type.kind == FactKind::kSymbol)
     return name + " = " + std::string(type.symbols.at(static_cast<std::size_t>(*values_[fact])));
   const std::string text = trimmed(*values_[fact], 4);
-  // "ra_um = 1000 (not asked)": the meaning says which value stands for that.
+  // "ra_um = 1000 (not asked)": the meaning names the value that stands for "none".
   const std::size_t at = type.meaning.rfind("; " + text + ": ");
   if (at == std::string_view::npos) return name + " = " + text;
   return name + " = " + text + " (" + std::string(type.meaning.substr(at + text.size() + 4)) + ")";

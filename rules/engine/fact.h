@@ -27,7 +27,7 @@ struct FactType {
 [[nodiscard]] const std::vector<FactType>& fact_types();
 [[nodiscard]] std::optional<std::size_t> find_fact(std::string_view name);
 
-/// What is known about one feature: a value per fact, or none. Symbols are their index in the domain.
+/// Known facts about one feature: a value per fact, or none. Symbols are stored as their index in the domain.
 class Facts {
  public:
   Facts() : values_(fact_types().size()) {}

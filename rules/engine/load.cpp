@@ -18,7 +18,7 @@ std::span<const std::string_view> embedded_names();
 
 namespace {
 
-// A fault while reading one file: caught in `add_text`, never leaves this source.
+// A fault while reading one file: caught in `add_text`, so that it never leaves this source.
 struct Fault {
   std::string code, message;
   YAML::Mark mark;

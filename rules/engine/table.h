@@ -49,11 +49,11 @@ struct Table {
   std::string file;
 };
 
-/// What a process can hold, so that rows can be checked against it. Unset: nothing is claimed.
+/// The best result of a process, to check rows against. Unset: no claim.
 struct Capability {
   std::string action;
   std::optional<int> finest_grade;     ///< finest ISO 286 grade it holds
-  std::optional<double> finest_ra_um;  ///< finest roughness Ra it leaves
+  std::optional<double> finest_ra_um;  ///< finest roughness Ra it makes
   std::optional<double> position_mm;   ///< smallest zone of position it keeps
   std::optional<double> form_mm;       ///< smallest zone of form and orientation it keeps
   std::string source;
@@ -67,11 +67,11 @@ struct RuleBase {
   [[nodiscard]] const Capability* capability(std::string_view action) const;
 };
 
-/// The row that decides: of those that hold, the one of lowest priority number (then lowest id, which only
-/// matters in a table that `check` refuses). Null when none does.
-/// Needs   a value for each fact of the table; `missing_fact` says which is not there.
+/// The row that decides: among those whose conditions hold, the one of lowest priority number (then of lowest
+/// id, which matters only in a table that `check` refuses). Null if none holds.
+/// Needs   a value for each fact of the table; `missing_fact` gives one that is missing.
 [[nodiscard]] const Row* decide(const Table& table, const Facts& facts);
-/// The first fact of the table that is unknown, or lies outside its domain; nothing when all are there.
+/// The first fact of the table that is unknown or outside its domain; nothing if there is none.
 [[nodiscard]] std::optional<std::size_t> missing_fact(const Table& table, const Facts& facts);
 
 /// The shipped tables, with the rows of each *.yaml of `extra_directory` (when not empty) added; a row with

@@ -75,13 +75,13 @@ double least(std::initializer_list<std::optional<double>> values) {
 }
 double ratio(double a, double b, double most) { return b > 0.0 ? std::clamp(a / b, 0.0, most) : 0.0; }
 
-/// A countersink is asked about apart from other holes.
+/// The symbol of a shape; a countersink has one of its own.
 std::string_view shape_symbol(const FeatureShape& s) {
   if (s.kind == ShapeKind::kHole && taper_of(s).starts_with("countersink")) return "countersink";
   return model::to_text(s.kind);
 }
 
-// What does not depend on the kind of feature: what is asked of it, what surrounds it, what the machine can.
+// Sets facts that do not depend on the kind of feature: requirements, surroundings, abilities of the machine.
 void surroundings(const FeatureShape& s, const Context& c, Facts& f) {
   const model::Quality& q = c.quality;
   f.set("shape", shape_symbol(s));
@@ -116,7 +116,7 @@ std::string_view reamer_of(const Toleranced& t) {
   return inside && is_reamer_size(t.nominal_mm) ? "fits" : "none";
 }
 
-/// Half the general tolerance of a size; nothing where none is stated for it.
+/// Half the general tolerance of a size, mm; nothing if none is stated.
 std::optional<double> general_of(const Toleranced& t, const Context& c) {
   if (c.general) {
     if (const auto half = model::general_size(*c.general, t.nominal_mm)) return half;

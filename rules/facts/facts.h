@@ -9,18 +9,18 @@
 
 namespace capstan::rules {
 
-/// What one feature's rules may ask about, and the measures its steps need.
+/// The facts of one feature for the rules, and the measures its steps need.
 struct FeatureFacts {
   Facts facts;
   Passage passage;             ///< areas only
-  model::Toleranced diameter;  ///< holes: with the general tolerance where none is stated
-  std::string notes;           ///< what was assumed, for the reason: "no tolerance stated, taken as IT13; "
+  model::Toleranced diameter;  ///< holes: with the general tolerance if none is stated
+  std::string notes;           ///< assumptions, for the reason: "no tolerance stated, taken as IT13; "
 };
 
 /// Frame   plain numbers of the shape; no placement enters.
 [[nodiscard]] FeatureFacts facts_of(const model::FeatureShape& shape, const Context& context);
 
-/// The stated tolerance as it stands, or the general one where none is.
+/// The stated tolerance, or the general one if none is stated.
 [[nodiscard]] model::Toleranced tolerance_or_general(const model::Toleranced& t, const Context& context);
 
 /// Sizes that standard machine reamers (H7) come in: 1 to 20 mm by 0.5, to 32 by 1, to 50 by 5 and the even

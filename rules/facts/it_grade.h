@@ -2,7 +2,7 @@
 
 namespace capstan::rules {
 
-/// Standard tolerance IT1 .. IT18, mm, for a nominal size; 0 where the standard has none.
+/// Standard tolerance IT1 .. IT18, mm, for a nominal size; 0 if the standard has none.
 ///
 /// Domain  0 < nominal <= 3150 mm.
 /// Source  planner/model/features/fit/grade.h.

@@ -12,7 +12,7 @@ constexpr double kAccuracy = 0.01;  // of the widest
 constexpr double kStep = 1.25;  // from one radius to the next while looking for the first that does not pass
 constexpr double kSmallestMm = 0.2;  // radius; narrower cutters are not looked for
 
-// Whether a cutter of that radius leaves no piece larger than `share` of r^2; arcs to `arc` of r.
+// True if a cutter of that radius leaves no piece larger than `share` of r^2; arcs to `arc` of r.
 bool reaches(const geometry::Region& area, double radius_mm, double share, double arc) {
   if (!(radius_mm > 0.0)) return true;
   const double arc_mm = std::max(1e-4, arc * radius_mm);
@@ -50,7 +50,7 @@ bool convex(const geometry::Region& area) {
   return true;
 }
 
-// A finger is only told from a corner by a cutter little wider than it, so radii are tried from below.
+// Only a cutter little wider than a finger distinguishes it from a corner, so radii are tried from below.
 double narrowest(const geometry::Region& area, double top, double accuracy) {
   constexpr double kArc = 0.01;
   const auto fits = [&](double r) { return reaches(area, r, kCorner, kArc); };
@@ -63,8 +63,7 @@ double narrowest(const geometry::Region& area, double top, double accuracy) {
   }
 }
 
-// Without the points that lie within the tolerance of the chord over them: fine arcs cost more than they
-// tell.
+// Drops points within the tolerance of the chord over them: fine arcs cost time without changing the result.
 geometry::Region thinned(const geometry::Region& area, double tolerance_mm) {
   constexpr std::size_t kSpan = 16;  // points under one chord at most, so that the cost stays linear
   std::vector<geometry::Loop> loops;
@@ -106,7 +105,7 @@ Passage passage_of(const geometry::Region& given, bool corners) {
   const double passes = narrowest(area, widest - accuracy, accuracy);
   constexpr double kFineArc = 0.002;
   const auto cleans = [&](double r) { return reaches(area, r, kReached, kFineArc); };
-  // Sharp corners are common: told by one try at a radius that any fillet worth the name has.
+  // Sharp corners are common: one try at a radius that any real fillet has detects them.
   double exact = 0.0;
   if (corners && cleans(5.0 * accuracy))
     exact = cleans(passes) ? passes : between(5.0 * accuracy, passes, 2.0 * accuracy, cleans);

@@ -11,10 +11,11 @@ struct Passage {
   double exact_mm = 0.0;      ///< largest cutter that reaches the corners, too; 0 when they are sharp
 };
 
-/// Estimated by offsets: a cutter of diameter D reaches offset(offset(area, -D/2), D/2). What that leaves in
-/// pieces no larger than a corner of 60 degrees leaves, r^2 (cot 30 - (pi - pi/3)/2) = 0.685 r^2, counts as a
-/// corner; anything larger is a passage too narrow for the cutter. Radii are tried from 0.2 mm up, for only a
-/// cutter little wider than a passage tells it from a corner. `exact_mm` allows 0.005 r^2 per corner.
+/// Estimated by offsets: a cutter of diameter D reaches offset(offset(area, -D/2), D/2). Pieces that it
+/// leaves count as corners up to the size that a corner of 60 degrees leaves, r^2 (cot 30 - (pi - pi/3)/2) =
+/// 0.685 r^2; anything larger is a passage too narrow for the cutter. Radii are tried from 0.2 mm up, for
+/// only a cutter little wider than a passage distinguishes it from a corner. `exact_mm` allows 0.005 r^2 per
+/// corner.
 ///
 /// Accuracy   widest and narrowest to 3 %, on the small side; exact to 4 % of itself; fillets below 5 % of
 /// the

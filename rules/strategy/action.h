@@ -10,14 +10,14 @@
 
 namespace capstan::rules {
 
-/// What an action sees while a chain is made, step after step.
+/// Input of an action while a chain is made, step after step.
 struct Making {
   const RuleBase& base;
   const model::FeatureShape& shape;
   const Context& context;
   const FeatureFacts& known;
   const StepSpec& spec;
-  double hole_mm = 0.0;  ///< diameter of the hole that earlier steps of the chain made; 0: none
+  double hole_mm = 0.0;  ///< diameter of the hole after the earlier steps of the chain; 0: none
   /// The spec's number, else the action's own default.
   [[nodiscard]] double number(std::string_view parameter) const;
 };
@@ -39,7 +39,7 @@ struct Action {
   Made (*make)(const Making&) = nullptr;
 };
 
-/// All actions; null when there is none of that name.
+/// The action of this name; null if there is none.
 [[nodiscard]] const Action* find_action(std::string_view name);
 
 /// The actions of each family, for `find_action`.
@@ -47,7 +47,7 @@ struct Action {
 #include "rules/strategy/families.inc"
 #undef CAPSTAN_ACTIONS
 
-/// What a cone cuts along an edge or the wall of a hole.
+/// The cut of a cone along an edge or the wall of a hole.
 struct Bevel {
   double depth_mm = 0.0, width_mm = 0.0;  ///< along the axis; across it
   double angle_rad = 0.0;                 ///< full angle of the cone

@@ -29,11 +29,11 @@ ProposedStep begin(const Making& m) {
 }
 
 struct Limit {
-  double diameter_mm = 0.0;  // 0: none
+  double diameter_mm = 0.0;  // 0: no limit
   std::string text;
 };
 
-// The cutter that fits into the corners of walls that stay `allowance` away; 0: none limits it.
+// The largest cutter for the corners of walls with an allowance; 0: no limit.
 Limit corner_cutter(const Making& m, double allowance) {
   const auto& s = m.shape;
   // A wall moved inwards by the allowance has corners that much tighter.
@@ -49,11 +49,12 @@ Limit corner_cutter(const Making& m, double allowance) {
 /// Default, unsourced.
 constexpr double kOfEnds = 0.5;
 
-/// A roughing cutter by the one that finishes sharp inner corners after it: in a right angle stand 0.41 of
-/// the finishing cutter's radius, and its round along the walls takes that. Default, unsourced.
+/// Factor of the roughing cutter's size to that of the cutter that finishes sharp inner corners after it. In
+/// a right angle 0.41 of the finishing cutter's radius remains, which its round along the walls removes.
+/// Default, unsourced.
 constexpr double kBeforeSharp = 2.0;
 
-// The widest cutter for the walls that stay `allowance` away, and what decides it.
+// The widest cutter between walls with an allowance, and what determines it.
 Limit widest_cutter(const Making& m, double of_passage, double allowance, bool corners = true,
                     double of_sharp = 1.0) {
   const auto& s = m.shape;
@@ -109,8 +110,8 @@ tl::expected<Limit, std::string> before_rest(const Making& m, double of_passage,
   return wide;
 }
 
-// What a rough step leaves so that a cutter without the fillet's radius stays above the fillet: its corner
-// lies on or above the arc of radius r when both allowances are (1 - 1/sqrt 2) r.
+// Allowance of roughing such that a cutter without the fillet's radius stays above the fillet: its corner
+// lies on or above the arc of radius r if both allowances are (1 - 1/sqrt 2) r.
 double for_fillet(const Making& m) { return 0.293 * m.shape.bottom_radius_mm; }
 
 Made rough(const Making& m) {
@@ -131,7 +132,7 @@ Made rough(const Making& m) {
   s.tool.diameter_max_mm = limit.diameter_mm;
   s.tool.corner_radius_limited = true;
   s.tool.corner_radius_max_mm =
-      s.allowance_bottom_mm;  // a corner no larger leaves no more than the allowance
+      s.allowance_bottom_mm;  // a corner radius up to the allowance leaves at most the allowance
   s.strategy = m.shape.kind == ShapeKind::kStep || m.shape.kind == ShapeKind::kFace
                    ? StrategyKind::kBidirectional
                    : StrategyKind::kContourParallel;
@@ -198,7 +199,7 @@ Made floor_finish(const Making& m) {
   return made;
 }
 
-// Thin walls: in shallow levels from above, so that what is cut always stands on what is still thick.
+// Thin walls: in shallow levels from above, so that each cut is supported by a wall that is still thick.
 Made thin_wall_finish(const Making& m) {
   Made made = finish(m);
   if (!made) return made;
@@ -252,7 +253,7 @@ Made vee_rough(const Making& m) {
   const double half = 0.5 * s0.slot_angle_rad;
   const double allowance = m.number("allowance_side_mm");
   const double slope = std::tan(half);
-  // Half the depth leaves half the width: a quarter of the section stays for the vee cutter.
+  // At half the depth half the width remains: a quarter of the section is left for the vee cutter.
   const double depth = 0.5 * s0.depth_mm;
   const double width = 2.0 * ((s0.depth_mm - depth) * slope - allowance / std::cos(half));
   if (width < m.number("smallest_mm"))

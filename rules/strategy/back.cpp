@@ -5,7 +5,7 @@
 #include "planner/ground/base/number.h"
 #include "rules/strategy/action.h"
 
-// What is wider below a narrower hole: milled from above by a head on a neck that goes down through it.
+// Wider holes below a narrower one: milled from above by a head on a neck that goes down through it.
 
 namespace capstan::rules {
 namespace {
@@ -48,7 +48,7 @@ Made open_below(const Making& m) {
   return s;
 }
 
-/// What a head on a neck needs to make `widest` below the narrow hole.
+/// Requirement of a head on a neck that makes `widest` below the narrow hole.
 Made through_the_hole(const Making& m, double widest) {
   const double hole = m.context.core_diameter_mm;
   if (!is_open(m) && !(m.hole_mm < hole - 1e-9)) return no("the narrow hole ends above its far end");

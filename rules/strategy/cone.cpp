@@ -54,7 +54,7 @@ Made countersink(const Making& m) {
   s.tool.point_angle_rad = 2.0 * half;
   if (at_top) {
     s.tool.diameter_min_mm = d;
-    s.tool.tip_diameter_max_mm = s0.bottom_diameter_mm;  // a wider one would stand on the cone's foot
+    s.tool.tip_diameter_max_mm = s0.bottom_diameter_mm;  // a wider tip would rest on the foot of the cone
     s.start_diameter_mm = s0.bottom_diameter_mm;
   } else {
     s.tool.diameter_max_mm = m.known.diameter.nominal_mm + m.known.diameter.lower_mm;

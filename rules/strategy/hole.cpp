@@ -5,7 +5,7 @@
 #include "planner/ground/base/number.h"
 #include "rules/strategy/action.h"
 
-// Holes: centre, drill, ream, bore, mill, counterbore. Cones stand in cone.cpp.
+// Holes: centre, drill, ream, bore, mill, counterbore. Cones are in cone.cpp.
 
 namespace capstan::rules {
 namespace {
@@ -41,8 +41,8 @@ bool is_drill_size(double d) {
   return std::abs(d / step - std::round(d / step)) * step < 1e-6;
 }
 
-// A drill cuts a little oversize (how much is not known): nothing above the middle of the tolerance. To size
-// for a later step: what that step leaves, between half and twice `under`.
+// A drill cuts a little oversize (by an unknown amount), so it is at most the middle of the tolerance. Before
+// a later step it leaves between half and twice `under`.
 Window drill_window(const Making& m) {
   double under = m.number("under_mm");
   if (m.number("for_ream") > 0.0) {
@@ -206,7 +206,7 @@ Made pilot(const Making& m) {
   s.tool.classes = {CutterClass::kTwistDrill};
   double lo = kLeastPilot * hi;
   if (m.hole_mm > 0.0) {
-    // What is known of the pilot before is its least diameter.
+    // Only the least diameter of the pilot before is known.
     lo = std::max(kLeastNextPilot * hi, m.hole_mm / kLeastPilot + 1.0);
     if (!(lo < hi)) return no("between the pilot before and " + mm(hi) + " there is no room for another");
   }
@@ -224,7 +224,7 @@ Made pilot(const Making& m) {
   return s;
 }
 
-/// Room between a spot drill's body and a wall that stands beside the hole, mm. Default, unsourced.
+/// Room between a spot drill's body and a wall beside the hole, mm. Default, unsourced.
 constexpr double kBesideWallMm = 0.25;
 
 // A mark for the drill: narrower than the hole, so that nothing of it stays. The body above the mark is

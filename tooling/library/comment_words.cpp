@@ -133,7 +133,7 @@ double metric_pitch(const std::string& text, CutterClass c, double diameter_mm) 
   return 0.0;
 }
 
-/// What the digits before the dash of "1/4-20" may mean, in mm.
+/// Possible meanings, in mm, of the digits before the dash of "1/4-20".
 std::vector<double> inch_sizes(const std::string& text, std::size_t dash) {
   std::size_t from = dash;
   while (from > 0 && (digit(text[from - 1]) || text[from - 1] == '.' || text[from - 1] == '/')) --from;

@@ -133,7 +133,7 @@ class ToolReader {
     }
     c_.sources.emplace_back("holder_diameter_mm", "derived: the widest of the holder's outline");
   }
-  /// What has no key.
+  /// Fields without a key.
   template <class Row, class T>
   void read(const Row&, T&) {}
 
@@ -151,11 +151,11 @@ Result<std::vector<Cutter>> finished(std::vector<Cutter> cutters, const std::vec
                                      const std::string& file, std::vector<Diagnostic> faults, Job& job) {
   const auto& generic = shared_generic_library();
   if (!generic) return fail(generic.error());
-  // What the file says is judged before what we add.
+  // The file's values are checked before missing ones are added.
   for (std::size_t i = 0; i < cutters.size(); ++i) {
     if (cutters[i].cutting_diameter_mm > 0.0) complete(cutters[i], *generic);
   }
-  // Values that could not be read need not be judged, too.
+  // Unreadable values need no further check.
   if (faults.empty()) faults = check_cutters(cutters, file, lines);
   if (auto d = tell(std::move(faults), job)) return fail(std::move(*d));
   for (std::size_t i = 0; i < cutters.size(); ++i)
@@ -199,7 +199,7 @@ Result<std::vector<Cutter>> read_own_list(std::string_view text, const std::stri
 }
 
 bool looks_like_own_list(std::string_view text) {
-  // The key stands at the beginning of a line, or in quotes where the list is JSON.
+  // The key is at the beginning of a line, or in quotes if the list is JSON.
   for (auto at = text.find("capstan_tools"); at != std::string_view::npos;
        at = text.find("capstan_tools", at + 1)) {
     if (at == 0 || text[at - 1] == '\n' || text[at - 1] == '"' || text[at - 1] == '{' || text[at - 1] == ' ')

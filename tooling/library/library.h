@@ -19,9 +19,9 @@ struct LibraryOptions {
   std::optional<bool> offsets_against_reference;
 };
 
-/// A tool library from a file or folder, its kind told by content: our own list (YAML or JSON,
-/// tooling/data/README.md), or any format of `tooling/formats` that can be read. "generic" is the shipped
-/// one.
+/// Loads a tool library from a file or folder, whose content decides its kind: our own list (YAML or JSON,
+/// tooling/data/README.md), or any format of `tooling/library/formats` that can be read. "generic" is the
+/// shipped one.
 ///
 /// Fields that the file leaves out are completed from the generic series (see complete.h), each with its
 /// source. Entries that cannot be used (no diameter, a kind that planning does not know) are left out, with a
@@ -44,7 +44,7 @@ struct LibraryOptions {
                                                                  const std::string& file, Job& job,
                                                                  const LibraryOptions& options = {});
 
-/// The class that the words of a comment tell ("6mm endmill", "5mm tap drill", "16 mm schaftfraeser").
+/// The class named by the words of a comment ("6mm endmill", "5mm tap drill", "16 mm schaftfraeser").
 [[nodiscard]] std::optional<model::CutterClass> class_from_words(std::string_view comment);
 
 }  // namespace capstan::tooling

@@ -29,7 +29,7 @@ bool digit(char c) { return c >= '0' && c <= '9'; }
 /// A byte of an umlaut counts as a letter.
 bool letter(char c) { return (c >= 'a' && c <= 'z') || static_cast<unsigned char>(c) >= 0x80; }
 
-/// Whether it stands there as a word of its own: no letters about it.
+/// True if the text at this position is a word of its own: no letters beside it.
 bool word_at(const std::string& text, std::size_t at, std::size_t size) {
   return (at == 0 || !letter(text[at - 1])) && (at + size >= text.size() || !letter(text[at + size]));
 }
@@ -98,7 +98,7 @@ int teeth_from_words(const std::string& text) {
   return said.empty() ? 0 : said.front();
 }
 
-/// What the edges are of; where both are named ("HSS, carbide tipped") the slower one.
+/// Material of the edges; if both are named ("HSS, carbide tipped") the slower one.
 std::optional<model::Substrate> substrate_from_words(const std::string& text) {
   for (auto at = text.find("hss"); at != std::string::npos; at = text.find("hss", at + 1)) {
     // "HSS", "HSSE", "HSS-Co5", "HSSPM"; no part of another word.

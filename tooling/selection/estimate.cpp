@@ -11,7 +11,7 @@
 #include "planner/physics/mechanics/spindle.h"
 #include "tooling/selection/limits.h"
 
-// What a step would take with a cutter: rough, the same for all candidates, without any optimiser.
+// Estimated time of a step with a cutter: rough, the same for all candidates, without any optimiser.
 
 namespace capstan::tooling {
 namespace {
@@ -23,7 +23,7 @@ using model::ToolRequirement;
 using model::WorkMaterial;
 
 constexpr double kPi = std::numbers::pi;
-/// A step of which nobody said what it removes. Default, unsourced.
+/// Volume of a step whose removal is unknown. Default, unsourced.
 constexpr double kNominalVolumeMm3 = 2000.0;
 /// A mill's cut at most, as parts of its diameter; default, unsourced (the optimiser's own bounds are wider).
 constexpr double kWidthRatio = 0.5, kDepthRatio = 1.0;
@@ -150,7 +150,7 @@ Estimate estimate(const Cutter& c, const ToolRequirement& r, const StartValues& 
     whole += minutes * c.price / c.life_min / per_second;
   }
   if (const auto left = life_left_min(c); left && minutes > *left) {
-    // What goes beyond the life that is there needs further edges, each loaded by hand.
+    // Time beyond the remaining life needs further edges, each loaded by hand.
     whole += std::ceil((minutes - *left) / c.life_min) * (m.tool_change_s + kLoadingS);
   }
   out.tool_s = whole / std::max(1, p.batch);

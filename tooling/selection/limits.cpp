@@ -28,7 +28,7 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kPitchSlackMm = 1e-3;
 constexpr double kAngleSlackRad = 0.5 * kPi / 180.0;
-/// Drawings show the point of a twist drill, 118 degrees, as 120; what it leaves of a cone is 1.2 % of its
+/// Drawings show the point of a twist drill, 118 degrees, as 120; the difference in the cone is 1.2 % of the
 /// diameter. The next point of a catalogue, 130 degrees, is another. Default, unsourced.
 constexpr double kPointSlackRad = 2.0 * kPi / 180.0;
 /// The spindle's slowest turn may exceed the preset's cutting speed by this much and no more.
@@ -156,7 +156,7 @@ double frustum_mm3(const model::HolderSegment& s) {
   return kPi / 3.0 * s.height_mm * (a * a + a * b + b * b);
 }
 
-/// At least: the taper in the spindle is not counted, nor a holder that nobody described.
+/// Least mass of a cutter, kg: without the taper in the spindle and a holder that is not described.
 double least_mass_kg(const Cutter& c) {
   const double density = c.substrate == model::Substrate::kCarbide && c.cutting_diameter_mm <= 25.0 &&
                                  c.cutter_class != CutterClass::kFacemill

@@ -9,11 +9,12 @@
 #include "planner/model/plan/resources/material.h"
 #include "tooling/selection/select.h"
 
-// What a cutter must hold to, and what it would take; only tooling/select/*.cpp include this.
+// Limits of a cutter for a requirement, and the estimate of its time; only tooling/selection/*.cpp include
+// this.
 
 namespace capstan::tooling {
 
-// The limits, in the order they are asked. Each gives the limit that fails, with both numbers.
+// The limits in the order of checking. Each returns the limit that fails, with both numbers.
 [[nodiscard]] std::optional<std::string> wrong_size(const model::Cutter& c, const model::ToolRequirement& r);
 [[nodiscard]] std::optional<std::string> wrong_shape(const model::Cutter& c, const model::ToolRequirement& r);
 [[nodiscard]] std::optional<std::string> too_short(const model::Cutter& c, const model::ToolRequirement& r);
@@ -21,7 +22,7 @@ namespace capstan::tooling {
                                                          const model::WorkMaterial& w,
                                                          const model::Machine& m, const Preferences& p);
 
-/// What a step would take with a cutter, in seconds; money counts as the machine's time that it buys.
+/// Estimated time of a step with a cutter, s; money counts as the machine's time that it buys.
 struct Estimate {
   double cutting_s = 0.0;  ///< removal at start values, within power, torque and bending
   double tool_s = 0.0;     ///< price over life, and changes when its life ends

@@ -71,7 +71,7 @@ std::size_t rank_of(const ToolRequirement& r, CutterClass c) {
   return static_cast<std::size_t>(std::find(r.classes.begin(), r.classes.end(), c) - r.classes.begin());
 }
 
-/// What was refused for its size alone, summed up; the nearest sizes below and above are named.
+/// Summarises cutters refused for their size alone; names the nearest sizes below and above.
 void sum_up_sizes(const ToolRequirement& r, const std::map<CutterClass, std::set<double>>& sizes,
                   Selection& out) {
   const double low = lower_size(r), high = upper_size(r);
@@ -197,7 +197,7 @@ Selection select(const ToolRequirement& requirement, const std::vector<Cutter>& 
 
 void assign_pockets(std::vector<Cutter>& cutters) {
   std::set<int> taken;
-  // What is in the magazine stays there; of the others, the first that prefers a number has it.
+  // Tools in the magazine stay there; of the others, the first that prefers a number gets it.
   for (const bool loaded : {true, false}) {
     for (Cutter& c : cutters) {
       if (c.loaded == loaded && c.pocket > 0 && !taken.insert(c.pocket).second) {

@@ -42,7 +42,7 @@ struct StartValues {
 /// unsourced.
 inline constexpr double kLoadingS = 180.0;
 
-/// What the plan around a step says, and what the step removes. Zero: not known.
+/// Facts of the plan around a step, and its removal. Zero: unknown.
 struct Preferences {
   std::vector<std::string>
       used;               ///< ids of cutters that the plan uses already, each once: no further tool change

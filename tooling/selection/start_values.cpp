@@ -21,7 +21,7 @@ using model::WorkMaterial;
 
 /// Room for rounding when speeds are compared with limits.
 constexpr double kSlack = 1e-9;
-/// What a cutter without any preset starts with, as a part of its diameter.
+/// Start feed of a cutter without any preset, as a share of its diameter.
 constexpr double kLeastFeedPerDiameter = 0.002;  // default, unsourced
 
 /// The cutter's own presets first, from the material itself to its group; then those of its like.
@@ -95,7 +95,8 @@ StartValues start_values(const Cutter& c, const WorkMaterial& material, const Ma
   if (fz < c.fz_min_mm) fz = c.fz_min_mm;
   const double limit = feed_limit(c, machine);
   if (limit > 0.0 && fz * c.teeth * rpm > limit * (1.0 + kSlack)) {
-    // Less feed per tooth down to the least the cutter bears (a tap: none), then a slower spindle.
+    // Reduce the feed per tooth to the least that the cutter allows (a tap: not at all), then the spindle
+    // speed.
     const double least = tap ? fz : c.fz_min_mm;
     fz = std::max(least, limit / (c.teeth * rpm));
     if (fz * c.teeth * rpm > limit) rpm = std::max(machine.spindle.rpm_min, limit / (fz * c.teeth));

@@ -6,12 +6,12 @@
 #include <optional>
 
 #include "planner/controls/gcode/arcs.h"
-#include "planner/controls/gcode/check.h"
 #include "planner/controls/gcode/header.h"
 #include "planner/controls/gcode/probing.h"
 #include "planner/controls/gcode/program.h"
 #include "planner/controls/gcode/setups.h"
 #include "planner/controls/gcode/text.h"
+#include "planner/controls/gcode/writable.h"
 #include "planner/ground/base/number.h"
 #include "planner/model/plan/order/step_ids.h"
 

@@ -18,7 +18,7 @@ struct Field {
   std::string (*text)(const PlanOptions& o);
 };
 
-/// A number as the service reads it. One that is not finite is refused there, as any text that is none.
+/// A number in the service's form. The service refuses a number that is not finite like any other text.
 std::string number(double v) { return std::isfinite(v) ? shortest(v) : "not finite"; }
 std::string above_zero(double v) { return v <= 0.0 ? std::string() : number(v); }
 std::string flag(bool v) { return v ? "yes" : ""; }

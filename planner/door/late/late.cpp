@@ -82,8 +82,8 @@ Result<LateOutcome> bind(model::Plan plan, pipeline::Inputs inputs, const LatePo
   if (!reopened) return tl::unexpected(reopened.error());
   out.reopened = *std::move(reopened);
 
-  // The fallback: everything, on a small budget, and checked. What the check condemns is made anew, while
-  // half of the time is left.
+  // The fallback: everything, on a small budget, and checked. Steps that the check condemns are planned again
+  // while half of the time is left.
   std::optional<TimePoint> half;
   if (policy.deadline) half = began + *policy.deadline / 2;
   const auto acceptable = [&](const model::Plan& made) -> Status {

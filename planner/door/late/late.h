@@ -13,9 +13,9 @@
 
 namespace capstan::late {
 
-/// What late binding may do, and until when.
+/// Limits of late binding: time and budget.
 struct LatePolicy {
-  /// Counted from `began`. Nothing: nobody waits, and the improvement takes the time it takes.
+  /// Counted from `began`. Unset: no deadline; the improvement takes the time that it needs.
   std::optional<std::chrono::milliseconds> deadline = std::chrono::milliseconds(200);
   /// When the caller began to wait; nothing: with the call of `bind`.
   std::optional<std::chrono::steady_clock::time_point> began = std::nullopt;
@@ -27,7 +27,7 @@ struct LatePolicy {
   bool allow_findings = false;
 };
 
-/// What came of it. Only a plan that nothing condemns is ever given, unless the policy allows it.
+/// Result of late binding. It never contains a condemned plan, unless the policy allows it.
 struct LateOutcome {
   model::Plan plan;
   std::vector<std::string> reopened;           ///< what the machine's state re-opened, one sentence each
@@ -39,14 +39,14 @@ struct LateOutcome {
   double fallback_s = 0.0, machining_s = 0.0;  ///< machining time of the fallback, and of what is given
 };
 
-/// Closes at the machine what a plan leaves open, with the tools that are in the magazine
-/// (`inputs.library`, Cutter::pocket > 0): first a verified fallback on a small budget, then, while the
-/// deadline allows, an improvement, which is taken only when it is verified and faster.
+/// Binds at the machine the decisions that a plan leaves open, with the tools in the magazine
+/// (`inputs.library`, Cutter::pocket > 0). First it makes a checked fallback on a small budget; then, while
+/// the deadline allows, an improvement, which is used only if it passes the check and is faster.
 ///
-/// Time    the clock is the job's (Job::now). The deadline guards the improvement; time that verifying took
-///         once is kept in reserve, and a check that the deadline stops is no check: the improvement is
-///         dropped. The fallback is always finished. What is there after the deadline is given with `late`.
-/// Progress  the improvement's stages are told to the job, too.
+/// Time    the clock is the job's (Job::now). The deadline limits the improvement; the time of one check is
+/// kept in reserve. If the deadline stops a check, the improvement is dropped. The fallback is always
+/// finished. A result after the deadline is marked `late`.
+/// Progress  the improvement's stages are reported to the job, too.
 /// Fails   LATE-UNSAFE when the fallback is condemned (retract and stop), LATE-OPEN when something stays open
 ///         (no loaded cutter fits), LATE-TOOL when a step uses a cutter that is not in the magazine, PIP-...
 ///         when nothing can be planned.

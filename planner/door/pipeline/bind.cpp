@@ -9,7 +9,7 @@
 #include "planner/door/pipeline/stages.h"
 #include "planner/making/given/ends.h"
 #include "planner/making/given/machine_needs.h"
-#include "planner/making/piece/in_piece.h"
+#include "planner/making/piece/raw_piece_limits.h"
 #include "planner/making/piece/workpiece.h"
 #include "planner/making/step/record/gone.h"
 #include "planner/model/plan/decision/contradicted.h"
@@ -41,7 +41,7 @@ void collect_cutters(model::Plan& plan, const std::vector<StepDraft>& steps, con
       plan.cutters.push_back(s.cutter);
       continue;
     }
-    // It stands out as far as the deepest of its steps needs.
+    // The stick-out is what the deepest of its steps needs.
     for (model::Cutter& c : plan.cutters) {
       if (c.id != s.cutter.id) continue;
       c.stick_out_mm = std::max(c.stick_out_mm, s.cutter.stick_out_mm);
@@ -223,13 +223,13 @@ Result<std::optional<model::Plan>> bind_once(model::Plan plan, const Inputs& inp
   name_what_rests(plan, drafts.setups);
   name_steps(plan);
   tries.made = made_steps(so_far);
-  // What was chosen in the place of what is not known does not make it known.
+  // A value chosen in place of an unreadable one does not make that readable.
   for (const auto& u : wrong) model::set_unreadable(plan, u.key.object, u.key.attribute, u.why);
   return std::optional<model::Plan>(std::move(plan));
 }
 
-/// Tries until nothing fails. Each try that does not end bans a chain, or leaves a feature out, for good:
-/// there are no more of them than chains and features. What is said is that of the last.
+/// Tries until nothing fails. Each failed try bans a chain or leaves a feature out for good, so there are at
+/// most as many tries as chains and features. The diagnostics are those of the last try.
 Result<model::Plan> bind_settled(const model::Plan& plan, const Inputs& inputs, const Policy& policy,
                                  double earning_per_min, Tries& tries, Job& job) {
   tries.cuts = {};  // another earning, other answers
@@ -256,7 +256,7 @@ Result<model::Plan> bind_within(const model::Plan& plan, const Inputs& inputs, c
                  .message = "most profit needs to be told what a piece brings",
                  .expected = "its price less its material, in the currency of the machine's cost per hour"});
   }
-  // What is left open has no time, and so no profit: planned for least cost.
+  // Open decisions have no time, and so no profit: the plan is made for least cost.
   if (policy.bind != Bind::kAll) return bind_settled(plan, inputs, policy, 0.0, tries, job);
   return most_profit(
       *inputs.revenue,

@@ -13,14 +13,14 @@
 #include "planner/model/plan/decision/condemned.h"
 #include "planner/proof/verify/verify.h"
 
-// Plan, check, and plan anew what the check condemns. The check is independent: it is told nothing of the
-// tries, and its findings on the plan that is kept are handed on as they are. An error at a proposed step
-// bans what the step was made with, gently first: its cutter, twice; then its chain; last its feature is left
-// out, and with it what rests on it. An order that is broken is no matter of the cutter: there the chain goes
-// at once, and what lies outside the raw piece is left out at once. A step around a boss that cuts
-// nothing is left out where other features' steps cut around it: the boss stands, and is not missing. Of all
-// tries the one with the fewest errors is kept, then the one that leaves the fewest features out, then the
-// first. Steps that the file brings stay as they are.
+// Plans, checks, and plans again what the check condemns. The check is independent: it gets no information
+// about the tries, and its findings on the kept plan are passed on unchanged. An error at a proposed step
+// bans its choices, the mildest first: its cutter, twice; then its chain; last, the feature is left out
+// together with those that rest on it. A broken order does not depend on the cutter: the chain is banned at
+// once. A feature outside the raw piece is left out at once. A step around a boss that cuts nothing is left
+// out if other features' steps cut around the boss: the boss is then made, and not missing. Of all tries the
+// one with the fewest errors is kept, then the one with the fewest features left out, then the first. Steps
+// from the file are never changed.
 
 namespace capstan::pipeline {
 namespace {
@@ -43,7 +43,7 @@ std::size_t errors_of(const model::Plan& plan, const std::vector<Finding>& findi
   return model::condemned(plan, findings).size();
 }
 
-/// What a plan needs of the spindle in all, its heaviest step needs.
+/// The heaviest step, for a finding on the torque or power that the whole plan needs; empty for others.
 std::string heaviest(const model::Plan& plan, const Finding& f) {
   const bool torque = f.code == "CHK-MACHINE-TORQUE";
   if (!torque && f.code != "CHK-MACHINE-POWER") return {};
@@ -77,14 +77,15 @@ class BansByCheck {
  public:
   explicit BansByCheck(Tries& tries) : tries_(tries) {}
 
-  /// Bans what these were made with; gives what was banned, to be told once it is known what came instead.
+  /// Bans the choices of these steps; returns what was banned, to be reported when the replacement is known.
   std::vector<std::pair<MadeStep, std::string>> condemn(const std::vector<Offence>& offences, int tried) {
     std::vector<std::pair<MadeStep, std::string>> out;
     for (const Offence& o : offences) {
       const std::string found = "the check found " + o.finding->code + ": " + o.finding->message;
       const MadeStep& s = o.step;
       const bool of_order = o.finding->property == 28;
-      // What lies outside the raw piece, or is read in two ways, does so with every cutter and chain.
+      // Material outside the raw piece, or a feature read in two ways, remains so with every cutter and
+      // chain.
       const bool of_drawing = o.finding->code == "CHK-OUTSIDE" || o.finding->code == "CHK-MEANING";
       int& hits = hits_[{s.member, s.chain, s.in_chain}];
       // Torque, power, bending: a thinner cut of the same cutter.
@@ -96,7 +97,8 @@ class BansByCheck {
         out.emplace_back(s, found);
         continue;
       }
-      // A boss that others cut around stands: its own step is left out before anything is banned.
+      // A boss that others cut around exists without its own step: leave the step out before banning
+      // anything.
       if (o.finding->code == "CHK-CUTS-NOTHING" && s.cut_around &&
           tries_.bans.cuts_nothing(s.member, s.chain, s.in_chain) == nullptr) {
         tries_.bans.cut_nothing(s.member, s.chain, s.in_chain, found);

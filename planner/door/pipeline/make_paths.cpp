@@ -40,7 +40,7 @@ using model::Model;
 constexpr int kMostThinner = 3;
 /// A thinner cut aims below the limit by this, for sections along the path are not proportional to it.
 constexpr double kThinnerAim = 0.9;      // default, unsourced
-constexpr double kThinnerUnknown = 0.5;  // where no formula tells the excess; default, unsourced
+constexpr double kThinnerUnknown = 0.5;  // if no formula gives the excess; default, unsourced
 constexpr double kThinnerAnew = 0.7;     // each time that the check condemned the cut; default, unsourced
 constexpr double kThinnest = 0.02;       // of the cut that keeps the limits off the path; default, unsourced
 
@@ -79,8 +79,8 @@ class PathMaker {
   }
 
  private:
-  /// Whether what this step needs has failed: then it is not made either. A proposed one waits for the next
-  /// try at its feature; of one of the file the reason is said.
+  /// True if a feature that this step needs has failed: then the step is not made either. A proposed step
+  /// waits for the next try at its feature; for a step of the file the reason is reported.
   bool given_up(const StepDraft& step) {
     if (step.proposed) return failed_.contains(step.feature) || resting_.contains(step.feature);
     if (lost_.empty() || !plan_.model.holds<model::MachiningOperation>(step.operation)) return false;
@@ -118,7 +118,7 @@ class PathMaker {
     return out;
   }
 
-  /// What this step of the file would have left is not there for those after it.
+  /// Records that this step of the file does not prepare its feature for the steps after it.
   void lose(const StepDraft& step) {
     if (!step.feature.set() || !leaves_what_others_need(step)) return;
     for (const Member& m : members(step)) lost_.emplace(m, draft::name_of(plan_.model, step));
@@ -175,7 +175,7 @@ class PathMaker {
       lose(step);
       return {};
     }
-    if (step.open_technology && step.candidates.empty()) {  // a tool of the file, which nobody chose for it
+    if (step.open_technology && step.candidates.empty()) {  // a tool of the file, not chosen by planning
       const auto start = tooling::start_values(step.cutter, plan_.material, plan_.machine);
       if (const auto why = tooling::not_cut_with(step.cutter, start, plan_.material)) {
         give_up(step, "tool " + step.cutter.id + ": " + *why);
@@ -186,7 +186,7 @@ class PathMaker {
     step::rank_by_path(plan_, steps_, step, used_, [&](std::size_t i) { return seconds_with(step, i); });
     const std::size_t tries = std::max<std::size_t>(1, step.candidates.size());
     step::GroupedReasons why_not;
-    bool gone = step.proposed;                            // whichever cutter: nothing stands there to be cut
+    bool gone = step.proposed;                            // true: every cutter finds no material to cut
     std::optional<std::pair<std::size_t, double>> least;  // of those that exceed a limit: which, by how much
     for (std::size_t i = 0; i < tries; ++i) {
       const auto before = stocks_.before(step.setup);
@@ -201,7 +201,7 @@ class PathMaker {
       why_not.add(step.cutter.id, why);
       step.rejected_tools.push_back({step.cutter.id, why});
     }
-    // What the file asks for is cut as gently as it can be; the plan then says which limit is exceeded.
+    // A step of the file is cut as gently as possible; the plan then says which limit is exceeded.
     if (least && !step.proposed) {
       auto tried = with_cutter(step, least->first);
       if (tried) return accept(step, *std::move(tried), least->first);
@@ -237,9 +237,9 @@ class PathMaker {
     return step::seconds_of(plan_.machine, *tried->path, tried->feeds.schedule);
   }
 
-  /// A try with one of the candidates: thinner, where a limit is exceeded along its path, up to kMostThinner
-  /// times; the gentlest when none keeps the limits. What it cuts is gone from the stock, but for a proposed
-  /// step's that keeps no limits.
+  /// Tries one of the candidates: with a thinner cut, up to kMostThinner times, if a limit is exceeded along
+  /// its path; takes the gentlest if none keeps the limits. Removes the cut from the stock, except for a
+  /// proposed step that exceeds the limits.
   Result<step::MeasuredCut> with_cutter(StepDraft& step, std::size_t i) {
     const model::Candidate* candidate = i < step.candidates.size() ? &step.candidates[i] : nullptr;
     if (candidate != nullptr) step.cutter = candidate->cutter;
@@ -255,7 +255,8 @@ class PathMaker {
       thicker.push_back({"a cut " + trimmed(1.0 / share, 2) + " times as large", t->why});
     }
     for (int round = 0; round <= kMostThinner; ++round) {
-      auto said = job_.take_diagnostics();  // before this try; what a try says that is not kept is not told
+      auto said = job_.take_diagnostics();  // diagnostics before this try; those of a try that is not kept
+                                            // are dropped
       const auto told = [&](bool kept) {
         auto now = job_.take_diagnostics();
         for (auto& d : said) job_.report(std::move(d));
@@ -268,7 +269,7 @@ class PathMaker {
       if (!made) told(!gentlest);
       if (!made && !gentlest) return tl::unexpected(made.error());
       if (!made) break;
-      // A pass over a surface is as deep as what was left there, whatever was asked for.
+      // A pass over a surface is as deep as the material left there, whatever depth was chosen.
       const bool thinner = (made->depth_open || made->width_open) &&
                            (!plan_.model.holds<model::FreeformFinishMilling>(step.operation) ||
                             draft::cuts_levels(plan_.model, step));

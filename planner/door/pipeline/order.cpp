@@ -126,7 +126,7 @@ Result<sequence::Order> order_of(const Model& m, const Drafts& drafts, const pie
   for (const std::size_t i : proposed) {
     const StepDraft& s = drafts.steps[i];
     sequence::Item item;
-    // One shape of a pattern stands for all of it: they are made one after the other.
+    // One shape represents a whole pattern: its members are made one after the other.
     item.feature = shapes.size();
     for (std::size_t k = 0; k < shapes.size(); ++k) {
       if (shapes[k].feature == s.shapes.front().feature && shapes[k].member == s.shapes.front().member)

@@ -27,12 +27,12 @@ namespace capstan::pipeline {
 
 using given::Reopen;
 
-/// How far decisions are bound. What is left open is written open, for the machine to close.
+/// The extent to which decisions are bound. The others stay open in the file; the machine binds them.
 enum class Bind : std::uint8_t { kNone, kStrategy, kTools, kAll };
 
 using Objective = optimise::Aim;
 
-/// What the shop and the caller bring. All by value: planning changes none of it.
+/// Input of planning from shop and caller. All by value: planning changes none of it.
 struct Inputs {
   model::Machine machine;
   std::vector<model::Cutter> library;
@@ -48,17 +48,18 @@ struct Inputs {
   optimise::Solver solver = optimise::Solver::kNlopt;
   optimise::Backends backends;
   Objective objective = Objective::kTime;
-  /// Of loads against their limits; none: that of the plan that is planned again, or the usual one.
+  /// margin of loads against limits; unset: that of the plan that is planned again, or the usual one
   std::optional<mechanics::MarginPolicy> margin;
-  /// Objective::kProfit: what a piece brings less its material, in the currency of Machine::cost_per_hour.
+  /// Objective::kProfit: revenue of a piece less its material, in the currency of Machine::cost_per_hour.
   std::optional<double> revenue;
-  bool constant_feeds = false;    ///< one feed for all of a step's path: the largest that every section bears
+  bool constant_feeds =
+      false;  ///< one feed for the whole path of a step: the largest that all its sections allow
   std::string general_tolerance;  ///< "ISO 2768-m", "ISO 22081 0.2", "+-0.1"; empty: the file's, or none
   std::string
       workholding;  ///< ids or a file, see tooling/shop/fixtures; "auto"; empty or "none": not planned
   int batch = 1;    ///< pieces
-  double edge_break_mm = 0.0;  ///< edges that the part leaves sharp are chamfered by this; 0: left
-  std::vector<model::Provenance> provenance;  ///< what was named, what is a default
+  double edge_break_mm = 0.0;                 ///< chamfer on edges that the part leaves sharp; 0: none
+  std::vector<model::Provenance> provenance;  ///< origin of each input: named or default
 };
 
 /// Plannings for most profit, the first for least cost among them; two or three usually do.
@@ -74,13 +75,13 @@ struct Policy {
 /// Closes what is open in a plan: proposes operations, picks cutters, orders the steps, and for each step in
 /// order chooses depths, makes the path, measures it against the stock and schedules feed and speed.
 ///
-/// What the file says in two ways of material or raw piece counts as settled where the inputs name one
+/// A contradiction of the file on material or raw piece is settled if the inputs name one
 /// (model/plan/decision/contradicted.h).
-/// What the file binds is kept; a change that safety forces is reported. A feature that cannot be planned is
-/// in Plan::unplanned with its reason; that is an outcome, not an error. It is whole or not at all: when a
-/// step that rules proposed finds no cutter, no path or no cut within the limits, its chain is given up and
-/// the plan is made again with the next one (each chain once), at last without the feature. What rests on a
-/// feature that is not planned is not planned either; Unplanned::needed_by names it.
+/// Values bound by the file are kept; a change that safety forces is reported. A feature that cannot be
+/// planned is in Plan::unplanned with its reason; that is an outcome, not an error. It is made completely or
+/// not at all: if a proposed step finds no cutter, no path or no cut within the limits, its chain is given up
+/// and the plan is made again with the next one (each chain once), at last without the feature. Features that
+/// rest on an unplanned feature are not planned either; Unplanned::needed_by names it.
 /// Objective::kProfit makes (revenue - cost) / time largest: the plan is made for least cost first, then
 /// again with what a minute earned in it, until that stays within a thousandth or kMostPlannings are made;
 /// the best of them is kept (W. Dinkelbach, Management Science 13 (1967) 492-498). A piece that loses money
@@ -112,11 +113,11 @@ struct Anew {
   std::function<Status(const model::Plan&)> acceptable = {};
 };
 
-/// `bind`, then the check (verify/check_plan). Where it finds an error at a step that rules proposed, what
-/// the step was made with is banned (cutter, chain, at last the feature) and the plan is made anew, at most
-/// kMostReplannings times; the plan with the fewest errors is given. What was made anew, and why, is noted
-/// (PIP-ANEW) and stands in the ledger among the rejected alternatives. A plan without errors costs one
-/// check. A plan whose decisions are not all bound is not checked.
+/// `bind`, then the check (`verify::check_plan`). If it finds an error at a proposed step, the step's choice
+/// is banned (cutter, chain, at last the feature) and the plan is made again, at most kMostReplannings times;
+/// the plan with the fewest errors is returned. Each replanning is noted with its reason (PIP-ANEW) and
+/// recorded in the ledger among the rejected alternatives. A plan without errors costs one check. A plan with
+/// open decisions is not checked.
 ///
 /// Determinism  as `bind`, unless the job is stopped or `Anew::until` is past: then nothing more is made
 ///              anew, and what is there so far is given, with its findings.

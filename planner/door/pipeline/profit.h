@@ -4,7 +4,7 @@
 
 #include "planner/door/pipeline/pipeline.h"
 
-// What a plan costs and earns; only planner/door/pipeline/*.cpp include this.
+// Cost and earning of a plan; only planner/door/pipeline/*.cpp include this.
 
 namespace capstan::pipeline {
 
@@ -12,8 +12,8 @@ namespace capstan::pipeline {
 ///
 ///     cost = r t + sum over steps (t_cut / T) (price + r times the change)    r: Machine::cost_per_hour / 60
 ///
-/// Steps whose edge life is not known cost no edges. One rate is assumed where the machine states none, as in
-/// optimise/cut.h. Source  as there: textbook machining economics.
+/// Steps of unknown edge life cost no edges. A machine without a rate gets the assumed one of optimise/cut.h.
+/// Source  as there: textbook machining economics.
 struct Economy {
   double time_min = 0.0, cost = 0.0;
 };

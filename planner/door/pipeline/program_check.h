@@ -6,9 +6,9 @@
 
 namespace capstan::pipeline {
 
-/// What the checker says of a plan, and of the program that its machine's control gets of it.
+/// Findings of the check on a plan and on the program that its machine's control gets.
 [[nodiscard]] std::vector<model::Finding> findings_of(const model::Plan& plan, Job& job);
-/// The same, where the plan is checked already.
+/// The same for a plan that is checked already.
 [[nodiscard]] std::vector<model::Finding> findings_of(const Checked& checked, Job& job);
 
 }  // namespace capstan::pipeline

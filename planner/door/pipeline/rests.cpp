@@ -4,7 +4,7 @@
 #include "planner/door/pipeline/stages.h"
 #include "planner/making/piece/rests.h"
 
-// What rests on a feature that is not planned is left out, too.
+// Leaves out the features that rest on an unplanned feature.
 
 namespace capstan::pipeline {
 namespace {

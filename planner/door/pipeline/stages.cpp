@@ -41,7 +41,7 @@ Result<mechanics::MarginPolicy> resolve_workpiece(model::Plan& plan, const Input
   plan.machine = inputs.machine;
   auto margin = piece::margin_of(plan, wish, job);
   if (!margin) return tl::unexpected(margin.error());
-  // What else the plan was made with before is said anew.
+  // Other provenance is recorded anew in this run.
   plan.provenance = inputs.provenance;
   plan.provenance.push_back(std::move(margin->said));
   auto raw = piece::raw_piece_of(plan, wish, job);

@@ -24,7 +24,7 @@ using model::AnyRef;
 using model::Ref;
 using propose::Drafts;
 
-/// What a try is made by; nothing of it changes meanwhile.
+/// Input of a try; constant during the try.
 struct Asked {
   const Inputs& inputs;
   const Policy& policy;
@@ -35,30 +35,30 @@ struct Asked {
   mechanics::MarginPolicy margin = mechanics::kUsualMargin;  ///< of loads against their limits
 };
 
-/// What is asked of the features, and their shapes in the raw piece.
+/// The demands on the features, and their shapes in the raw piece.
 struct Required {
   piece::Demands demands;
   piece::Shapes shapes;
 };
 
-/// By which the raw piece stands over the finished part, mm.
+/// Excess of the raw piece over the finished part, mm.
 [[nodiscard]] double grown_mm(const Inputs& inputs);
 
-/// Material, machine and raw piece into the plan; gives the margin.
+/// Puts material, machine and raw piece into the plan; returns the margin.
 [[nodiscard]] Result<mechanics::MarginPolicy> resolve_workpiece(model::Plan& plan, const Inputs& inputs,
                                                                 Job& job);
-/// General tolerance, what is asked of each feature.
+/// General tolerance and the demands on each feature.
 [[nodiscard]] Result<Required> take_requirements(model::Plan& plan, const Asked& asked, Job& job);
-/// Rules and tooling for features that have no bound operations.
+/// Proposes operations and cutters for features without bound operations.
 [[nodiscard]] std::pair<Drafts, Learned> propose_missing(model::Plan& plan, Drafts drafts,
                                                          const Required& required, const Asked& asked,
                                                          Job& job);
 /// Cutters for given operations; then fewer of all cutters.
 [[nodiscard]] Drafts select_open_tools(model::Plan& plan, Drafts drafts, const Required& required,
                                        const Asked& asked, Job& job);
-/// What rests on features that are not planned is not planned either.
+/// Features that rest on unplanned features become unplanned, too.
 [[nodiscard]] Learned leave_what_rests(const model::Plan& plan, const Drafts& drafts);
-/// Names, at each feature that is not planned, those that rest on it.
+/// Names, at each unplanned feature, the features that rest on it.
 void name_what_rests(model::Plan& plan, const std::vector<draft::SetupDraft>& setups);
 /// Set-ups, order, and what is measured between the steps.
 [[nodiscard]] Result<std::pair<Drafts, Learned>> order_steps(model::Plan& plan, Drafts drafts,

@@ -11,7 +11,7 @@
 #include "planner/making/step/cut/cuts.h"
 #include "planner/making/step/path/stocks.h"
 
-// What earlier tries at one plan taught; only planner/door/pipeline/*.cpp include this.
+// Results of earlier tries at one plan; only planner/door/pipeline/*.cpp include this.
 
 namespace capstan::pipeline {
 
@@ -21,11 +21,11 @@ struct MadeStep {
   std::string chain;
   std::size_t in_chain = 0;
   std::string cutter, name;
-  bool as_found = false;    ///< cuts as deep as what was left: a thinner cut cannot be asked for
-  bool cut_around = false;  ///< of a boss that stands by others' steps
+  bool as_found = false;    ///< depth is that of the material left there: it cannot be made thinner
+  bool cut_around = false;  ///< of a boss that other features' steps cut around
 };
 
-/// What a stage learned.
+/// Results of a stage for the next try.
 struct Learned {
   std::vector<draft::GivenUp> given_up;
   std::vector<std::pair<model::AnyRef, std::string>> left_out;  ///< features, with why
@@ -39,11 +39,11 @@ struct Learned {
   bool again = false;                             ///< the plan is to be made again
 };
 
-/// What earlier tries taught. Nothing is ever taken back: each try bans at least one choice more, so tries
-/// come to an end.
+/// Results of all earlier tries. A ban is never removed: each try adds at least one, so that the tries come
+/// to an end.
 struct Tries {
   draft::Bans bans;
-  /// What was planned anew, and why; a sentence each, in the order it happened.
+  /// Replannings and their reasons; a sentence each, in order.
   std::vector<std::string> said;
   /// Of the last try that ended: its proposed steps.
   std::map<model::AnyRef, MadeStep> made;

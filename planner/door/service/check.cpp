@@ -32,7 +32,7 @@ struct Input {
   Content content = Content::kProgram;
 };
 
-/// What programs are checked against.
+/// Machine, tools and tool table that programs are checked against.
 struct Shop {
   model::Machine machine;
   std::vector<model::Cutter> cutters;
@@ -86,8 +86,8 @@ class Check {
     return out;
   }
 
-  /// A step whose path was computed anew all the same is not judged by what the file says of it. Gives
-  /// whether the file states every path, and none was computed anew.
+  /// Reports steps whose path was computed anew; they are not judged by the file's data. True if the file
+  /// states every path, and none was computed anew.
   bool tell_recomputed(const Stated& stated, const model::Plan& bound) {
     bool all_stated = true;
     for (const auto& step : bound.steps) {
@@ -109,8 +109,8 @@ class Check {
     return all_stated;
   }
 
-  /// A file that says what is done and not, in full, how: what is open is closed as `plan` would, what it
-  /// says is executed as given, whoever computed it: the ledger does not let anything be computed again.
+  /// Completes a file that states its steps but not all their values: open decisions are bound as `plan`
+  /// would, stated values are executed as given, because the ledger prevents computing them again.
   Result<model::Plan> executed(model::Plan plan) {
     const auto inputs = gather(request_, plan, job_);
     if (!inputs) return tl::unexpected(inputs.error());
@@ -149,7 +149,7 @@ class Check {
     return std::nullopt;
   }
 
-  /// A program is what is nothing else. A file whose ending says that it holds something else is none.
+  /// Content of no other kind is a program. A file whose ending belongs to another kind is no program.
   static std::optional<Diagnostic> not_what_it_is_called(const Input& in) {
     const Format* format = format_of_ending(std::filesystem::path(in.path).extension().string());
     if (in.content != Content::kProgram || format == nullptr || format->holds == Holds::kProgram)
@@ -186,7 +186,7 @@ class Check {
       out_.errors += reading_errors(job_.diagnostics(), before);
       const bool values_edited = take_edits(before, in.path);
       ++out_.checked;
-      // What was computed before somebody edited a value says nothing of the plan as it is now.
+      // Results computed before a value was edited do not describe the plan as it is now.
       if (!has_paths(*plan) || values_edited) {
         const std::size_t said = job_.diagnostics().size();
         plan = executed(*std::move(plan));
@@ -195,7 +195,7 @@ class Check {
       }
       out_.left_out += unplanned_features(*plan);
       out_.features += features_of(*plan);
-      // A plan made for one machine may be asked of another.
+      // A plan made for one machine may be checked for another.
       if (const auto& named = request_.machine) {
         auto machine = tooling::load_machine(*named, job_);
         if (!machine) return machine.error();
@@ -208,9 +208,9 @@ class Check {
     return std::nullopt;
   }
 
-  /// A file that somebody edited after it was written is found, for what was computed of the old values
-  /// stands in it. Its reader has said so already; that it says one thing twice, and otherwise, is an error
-  /// here. Gives whether values were edited that others follow from.
+  /// Finds a file that was edited after it was written, for it contains results of the old values. Its reader
+  /// has reported this already; two different statements of one value are an error here. True if edited
+  /// values determine others.
   bool take_edits(std::size_t before, const std::string& file) {
     bool values = false;
     auto all = job_.take_diagnostics();
@@ -231,7 +231,7 @@ class Check {
     return values;
   }
 
-  /// What condemns the plan by its own record, as findings.
+  /// Reasons in the plan's own record that condemn it, as findings.
   static std::vector<model::Finding> beside_the_check(const model::Plan& plan) {
     std::vector<model::Finding> out;
     for (auto& c : model::condemned(plan, {})) {

@@ -10,14 +10,14 @@
 
 namespace capstan::service {
 
-/// What checking files came to.
+/// Result of checking files.
 struct CheckResult {
   std::vector<FileFinding> findings;
   std::size_t count = 0;      ///< findings without notes
-  std::size_t schema = 0;     ///< deviations from the schema, where they were asked for
+  std::size_t schema = 0;     ///< deviations from the schema, if requested
   std::size_t checked = 0;    ///< plans and programs looked at
   std::size_t unplanned = 0;  ///< features that a file only names, and that cannot be planned
-  // What the last line says beside these (ending/last_line.h).
+  // Further numbers for the last line (ending/last_line.h).
   std::size_t features = 0;      ///< of the plans, planned or not
   std::size_t left_out = 0;      ///< of these, not planned
   std::size_t planned_anew = 0;  ///< plans checked as they would be planned now: not all paths are in the
@@ -27,11 +27,11 @@ struct CheckResult {
   [[nodiscard]] bool clean() const { return count == 0 && schema == 0 && unplanned == 0; }
 };
 
-/// Proves plans and programs safe, or lists what is wrong with them. What each source is, its content tells
-/// (content_of); programs are checked against the first plan among them, with the tool table among them.
+/// Proves plans and programs safe, or lists their faults. The kind of each source is found by its content
+/// (content_of). Programs are checked against the first plan, with the tool table among the sources.
 ///
-/// `tell` (may be empty) is called for each finding as it is found, so that it stands among the diagnostics
-/// in its place.
+/// `tell` (may be empty) is called for each finding when it is found, so that it appears in its place among
+/// the diagnostics.
 /// Fails  APP-NOTHING when there is neither a plan nor a program; as the readers.
 [[nodiscard]] Outcome<CheckResult> check(const Request& request, std::vector<Source> sources,
                                          const std::function<void(const FileFinding&)>& tell, Job& job);

@@ -2,7 +2,7 @@
 
 namespace capstan::service {
 
-/// What a call came to: the exit code of the command, the code of the C interface.
+/// Result of a call: the exit code of the command, the code of the C interface.
 enum class Code : int {
   kDone = 0,
   kFindings = 1,

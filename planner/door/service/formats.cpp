@@ -118,7 +118,7 @@ std::string written_text() {
 }
 
 std::string read_text() {
-  // Part 21 files have two schemas; one word tells the others.
+  // Part 21 files have two schemas, which share their words; the other formats have one word each.
   std::string schemas, endings, others;
   for (const Format& f : formats()) {
     if (!f.reads) continue;

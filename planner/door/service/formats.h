@@ -14,16 +14,16 @@
 
 namespace capstan::service {
 
-/// What a file of a format holds.
+/// The content of a file of a format.
 enum class Holds : std::uint8_t { kPlan, kProgram, kToolTable, kReport };
 
-/// What a writer makes.
+/// Result of a writer.
 struct Written {
   std::string bytes;
   std::size_t losses = 0;  ///< kinds of things that the format cannot hold
 };
 
-/// One form in which a part, a plan or what is made of it stands in a file: a row of `formats`.
+/// A file format of parts, plans, programs or reports: a row of `formats`.
 struct Format {
   std::string_view name;                  ///< stable, for libraries: "iso14649", "json", "linuxcnc"
   std::string_view words;                 ///< for people: "ISO 14649", "program"
@@ -43,12 +43,12 @@ struct Format {
 /// those that are not written yet (neither reader nor writer).
 [[nodiscard]] std::span<const Format> formats();
 
-/// The format of that name; null when there is none.
+/// The format of that name; null if there is none.
 [[nodiscard]] const Format* find_format(std::string_view name);
-/// The format that files with that ending (with its dot, in any case) have; null when there is none.
+/// The format of files with that ending (with its dot, in any case); null if there is none.
 [[nodiscard]] const Format* format_of_ending(std::string_view ending);
 
-/// The plan in a format; what the format cannot hold is noted to the job (EXC-LOSS).
+/// Writes the plan in a format; things that the format cannot hold are noted to the job (EXC-LOSS).
 /// Fails  OUT-KIND for a format without a writer, and as the writers.
 [[nodiscard]] Result<Written> write(const model::Plan& plan, const Format& format, Job& job,
                                     const std::vector<model::Condemnation>& condemned = {});

@@ -53,7 +53,8 @@ const Named<optimise::Solver>& solver_words() {
 const char* solver_help() {
   static const std::string kText = [] {
     std::string out;
-    for (const auto& [solver, word] : optimise::kSolvers) out += (out.empty() ? "" : " or ") + std::string(word);
+    for (const auto& [solver, word] : optimise::kSolvers)
+      out += (out.empty() ? "" : " or ") + std::string(word);
     return out;
   }();
   return kText.c_str();
@@ -237,7 +238,7 @@ std::vector<Option> table() {
   };
 }
 
-/// What is wrong with the text before it means anything, or nothing.
+/// The fault of the text itself, before its meaning is looked at; empty: none.
 std::string not_taken(const Option& o, const std::string& text) {
   const auto list = [](const std::vector<std::string>& words) {
     std::string out;

@@ -13,11 +13,11 @@
 
 namespace capstan::service {
 
-/// What an option may be given to.
+/// The verbs that an option may belong to.
 enum class Verb : std::uint8_t { kPlan, kBind, kCheck };
 inline constexpr std::size_t kVerbs = 3;
 
-/// What values an option takes.
+/// The kinds of values of options.
 enum class Value : std::uint8_t { kText, kWord, kWhole, kFlag };
 
 /// One option of a request: a row of `options`. The command line, the C interface and other transports take
@@ -31,7 +31,7 @@ struct Option {
   std::string (*set)(Request& request, const std::string& text) = nullptr;
   std::vector<std::string> words;  ///< Value::kWord: those it takes
   unsigned least = 0, most = 0;    ///< Value::kWhole
-  std::string_view excludes = {};  ///< the option that may not stand beside it
+  std::string_view excludes = {};  ///< the option that excludes this one
   bool of_all_commands = false;    ///< the command line takes it in front of any command
 
   [[nodiscard]] const char* help_of(Verb v) const { return help[static_cast<std::size_t>(v)]; }
@@ -39,15 +39,15 @@ struct Option {
 
 /// All options, in the order of help texts.
 [[nodiscard]] std::span<const Option> options();
-/// The option of that name; null when there is none.
+/// The option of that name; null if there is none.
 [[nodiscard]] const Option* find_option(std::string_view name);
 
 /// Sets an option by its name. Fails  OPTION-UNKNOWN with the nearest names; OPTION-VALUE: the text is empty,
-/// or none of what the option takes.
+/// or not a value of the option.
 [[nodiscard]] Status set(Request& request, std::string_view name, const std::string& text);
 
-/// What is wrong between options, or nothing: profit needs a revenue, nothing else takes one; --strict and
-/// --allow-findings exclude each other.
+/// The contradiction between options; empty: none. Profit needs a revenue, no other objective takes one;
+/// --strict and --allow-findings exclude each other.
 [[nodiscard]] std::string contradiction(const Request& request);
 
 /// "200ms", "1.5s", "200" (milliseconds); nothing when it is no duration above 0.

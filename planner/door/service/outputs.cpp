@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 std::string supported() { return written_endings() + ", or - for JSON on standard output"; }
 
-/// What a writer said about no file in particular is about this one.
+/// Adds the file's name to a writer's diagnostics that name none.
 void name_file(Job& job, const std::string& path) {
   for (Diagnostic& d : job.take_diagnostics()) {
     if (d.file.empty() && d.code == "EXC-LOSS") d.file = path;
@@ -79,8 +79,8 @@ Aside left_there(const std::string& path) {
 Aside set_aside(const std::string& path) {
   if (left_there(path).outcome == Aside::kNothingThere) return {};
   std::error_code ec;
-  // What was put aside earlier stays: it may be the last good one.
-  // What a link leads to is the program that runs, not the link.
+  // An earlier copy stays: it may be the last good program. Of a link its target is renamed, because that is
+  // the program that runs.
   const std::string file = fs::is_symlink(fs::symlink_status(path, ec)) ? resolved(path) : path;
   std::string to = file + ".before";
   for (int n = 2; fs::exists(to, ec) && n < 1000; ++n) to = file + ".before." + std::to_string(n);

@@ -20,19 +20,19 @@ struct Output {
 };
 
 /// The ending alone decides, so that a wrong name fails before any work.
-/// Fails  OUT-KIND: an ending that is not supported (yet), or none.
+/// Fails  OUT-KIND: no ending, or one that is not supported (yet).
 [[nodiscard]] Result<Output> output_of(const std::string& path);
 /// All of them.
 [[nodiscard]] Result<std::vector<Output>> outputs_of(const std::vector<std::string>& paths);
 
-/// Fills `bytes` and `losses`. What ISO 14649 or AP238 cannot hold is told as notes (EXC-LOSS).
+/// Fills `bytes` and `losses`. Things that ISO 14649 or AP238 cannot hold are noted (EXC-LOSS).
 /// Fails  as the writers.
 [[nodiscard]] Status make(const model::Plan& plan, std::vector<Output>& outputs, Job& job);
 
 /// " (without 3 things)", or nothing when the file holds all of the plan.
 [[nodiscard]] std::string losses_text(const Output& output);
 
-/// What became of a file from before, under a name that is not written now.
+/// The fate of an older file whose name is not written now.
 struct Aside {
   enum Outcome : std::uint8_t { kNothingThere, kRenamed, kStays };
   Outcome outcome = kNothingThere;
@@ -43,15 +43,15 @@ struct Aside {
 /// Leaves it.
 [[nodiscard]] Aside left_there(const std::string& path);
 
-/// Judges the outputs' paths before any work: none is named twice, none is an input of the same call, unless
+/// Checks the outputs' paths before any work: none is named twice, none is an input of the same call, unless
 /// forced, and each can be written.
 /// Fails  OUT-TWICE, OUT-INPUT, FILE-WRITE.
 [[nodiscard]] Status can_be_written(const std::vector<std::string>& outputs,
                                     const std::vector<std::string>& inputs, bool force);
 
-/// Writes all files or none: all are brought to disk first (StagedFile), then all are put in place. Only a
-/// rename that fails after another succeeded (another program took the folder away) leaves a part; the fault
-/// says so.
+/// Writes all files or none: all are brought to disk first (StagedFile), then all are renamed into place.
+/// Only if a rename fails after another succeeded (another program removed the folder) some are written; the
+/// fault says so.
 /// "-" goes to standard output last.
 /// Fails  FILE-WRITE.
 [[nodiscard]] Status write_all(const std::vector<Output>& outputs);

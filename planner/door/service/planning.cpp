@@ -131,7 +131,7 @@ Result<Verdict> judge(const Request& request, const Planned& planned, std::vecto
   v.condemned = model::condemned(made, all);
   v.written = v.condemned.empty() || (request.allow_findings && !model::never_written(v.condemned));
   if (!v.condemned.empty() && v.written && std::any_of(outputs.begin(), outputs.end(), is_program)) {
-    Job silent;  // what the writer warns of was said when it wrote the first time
+    Job silent;  // the writer's warnings were reported when it wrote the first time
     for (Output& o : outputs) {
       if (!is_program(o)) continue;
       auto text = write(made, *o.format, silent, v.condemned);

@@ -29,14 +29,14 @@ struct Planned {
   bool late = false;                     ///< bind: the deadline was past when the plan was there
 };
 
-/// The exit code that a fault means: wrong usage for a name that nobody knows, whatever it was named in.
+/// The exit code of a fault: wrong usage for an unknown name, wherever it was given.
 [[nodiscard]] Code code_of(const Diagnostic& fault, Code otherwise);
 
 /// Reads a part, opens the shop and plans. A job that is stopped gives no unchecked program: planning ends
 /// with PIP-STOPPED, a check with a finding that condemns the program (CHK-STOPPED).
 [[nodiscard]] Outcome<Planned> plan(const Request& request, Source part, Job& job);
 
-/// The same, closing at the machine what a plan leaves open, with the tools that are in the magazine
+/// The same, binding at the machine the decisions that a plan leaves open, with the tools in the magazine
 /// (late/late.h). `began` is when the caller began to wait; the deadline counts from there.
 [[nodiscard]] Outcome<Planned> bind(const Request& request, Source plan,
                                     std::chrono::steady_clock::time_point began, Job& job);
@@ -52,29 +52,29 @@ struct FileFinding {
   bool schema = false;   ///< a deviation from the schema, which says nothing of safety
 };
 
-/// What checking a plan and its programs came to.
+/// Result of checking a plan and its programs.
 struct Verdict {
   std::vector<FileFinding> findings;           ///< of the plan, then of the programs
   std::size_t count = 0;                       ///< findings without notes
   std::vector<model::Condemnation> condemned;  ///< why the program must not be run
-  /// Whether programs are given: nothing condemns them, or they were asked for all the same and stop before
-  /// what is condemned.
+  /// True if programs are given: they are not condemned, or were requested all the same and stop before each
+  /// condemned step.
   bool written = true;
 };
 
-/// Checks the programs among the outputs, with what is known of the plan. A condemned program that is asked
-/// for all the same (Request::allow_findings) is written again with its stops, and checked as it then is.
+/// Checks the programs among the outputs against the plan. A condemned program that is requested all the same
+/// (Request::allow_findings) is written again with its stops, and checked in that form.
 /// A program's file in `findings` is its output's path. Fails  as the writers.
 [[nodiscard]] Result<Verdict> judge(const Request& request, const Planned& planned,
                                     std::vector<Output>& outputs, Job& job);
 
-/// How many features have something of them not planned, each once.
+/// Number of features of which some part is unplanned, each once.
 [[nodiscard]] std::size_t unplanned_features(const model::Plan& plan);
 /// How many features have a step, or have something not planned.
 [[nodiscard]] std::size_t features_of(const model::Plan& plan);
 
 [[nodiscard]] inline bool is_program(const Output& o) { return o.format->holds == Holds::kProgram; }
-/// What is withheld with a condemned program: the table is of its tools.
+/// True for outputs withheld with a condemned program: the tool table belongs to it.
 [[nodiscard]] inline bool of_program(const Output& o) { return o.format->of_program(); }
 
 }  // namespace capstan::service

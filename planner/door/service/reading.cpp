@@ -45,7 +45,7 @@ bool looks_like_tool_table(std::string_view bytes) {
 Content content_of(std::string_view bytes) {
   const std::string_view text = trimmed_front(bytes);
   if (text.starts_with('{')) return Content::kPlanJson;
-  // Comments may stand in front of a Part 21 file.
+  // Comments may precede a Part 21 file.
   const std::string_view head = bytes.substr(0, std::min<std::size_t>(bytes.size(), 1 << 20));
   if (head.find("ISO-10303-21") != std::string_view::npos || exchange::looks_like_stl(bytes))
     return Content::kPart;

@@ -10,12 +10,12 @@ namespace capstan::service {
 
 enum class Content : std::uint8_t { kPlanJson, kPart, kProgram, kToolTable };
 
-/// What the bytes are: JSON by its first character, Part 21 and STL as `exchange` tells them, a LinuxCNC tool
-/// table by its lines (`T1 P1 ...`), anything else a program.
+/// The kind of the bytes: JSON by its first character, Part 21 and STL as `exchange` recognises them, a
+/// LinuxCNC tool table by its lines (`T1 P1 ...`), anything else a program.
 [[nodiscard]] Content content_of(std::string_view bytes);
 
-/// A part or a plan, told by its content: ISO 14649, AP238, STL or plan JSON, with or without a byte order
-/// mark. `name` is what diagnostics call it.
+/// Reads a part or a plan, whose content decides the format: ISO 14649, AP238, STL or plan JSON, with or
+/// without a byte order mark. `name` is the file's name in diagnostics.
 ///
 /// strict  one wrong reference keeps the whole file from being read; otherwise only what needs it is left
 /// out. Fails   as json::read_json and exchange::read; faults went to the job before.

@@ -11,8 +11,8 @@
 
 namespace capstan::service {
 
-/// What a caller asks for beside the part: what every option of `plan`, `bind` and `check` sets
-/// (options.h has the table). Nothing, or an empty text, means the built-in default.
+/// The caller's choices beside the part: every option of `plan`, `bind` and `check` (options.h has the
+/// table). Unset or empty means the built-in default.
 struct Request {
   std::optional<std::string> machine, tools, material, rules, cases;
   std::optional<geometry::Box3> stock;
@@ -22,7 +22,7 @@ struct Request {
   std::optional<optimise::Solver> solver;
   std::optional<std::string> general_tolerance, workholding;
   std::optional<std::string> feeds;   ///< "constant" or "scheduled"
-  std::optional<std::string> margin;  ///< by name, of mechanics/margin.h
+  std::optional<std::string> margin;  ///< by name, of mechanics/loads/margin.h
   std::optional<double> revenue;
   int batch = 1;
   double edge_break_mm = 0.0;

@@ -21,7 +21,7 @@ Code Session::wrong(std::string line) {
   return end(Code::kUsage, line);
 }
 
-/// Runs what may throw; no exception leaves the session.
+/// Runs a function that may throw; no exception leaves the session.
 template <class Body>
 Code Session::guarded(Body body) {
   try {
@@ -72,7 +72,7 @@ Code Session::bind(std::string plan, std::optional<std::chrono::milliseconds> de
     Job job;
     job.threads = request_.threads;
     job.set_progress(progress_);
-    // Whoever stops meets either this job or none.
+    // `stop` finds either this job or none.
     struct Running {
       Session& s;
       Running(Session& session, Job& one) : s(session) {

@@ -26,20 +26,20 @@ class Session {
   Code set(std::string_view name, const std::string& text);
   /// Opens the shop, so that the first `bind` need not.
   Code open();
-  /// Binds a plan before the deadline (nothing: that of the options, or none). Past it the code is kLate,
+  /// Binds a plan before the deadline (unset: that of the options, or none). After it the code is kLate,
   /// never kDone.
   Code bind(std::string plan, std::optional<std::chrono::milliseconds> deadline);
-  /// Asks the running `bind` to end; what comes is its checked fallback, or kImpossible. It does not stop a
-  /// later one.
+  /// Asks the running `bind` to end; it then returns its checked fallback, or kImpossible. A later one is not
+  /// affected.
   void stop();
   /// Called with the stage's name and its fraction in [0, 1], by the thread that called `bind` or one of its
   /// workers; nothing: not called. It must not throw, and of this session call `stop` only.
   void set_progress(Job::Progress progress) { progress_ = std::move(progress); }
 
-  /// The bound plan in a format (formats.h); null when there is none, or no such format. Valid until the next
-  /// call but `code`, `message` and this.
+  /// The bound plan in a format (formats.h); null without a plan, or for an unknown format. Valid until the
+  /// next call but `code`, `message` and this.
   const std::string* output(std::string_view format);
-  /// Of the bound plan; 0 when there is none.
+  /// Of the bound plan; 0 if there is none.
   [[nodiscard]] double machining_s() const;
 
   /// Code and diagnostics (lines of text) of the last call but `output`.

@@ -37,7 +37,7 @@ std::string objective_text(pipeline::Objective o) {
   return "time";
 }
 
-/// What an option is called where a plan says what it was made with.
+/// Name of an option in the provenance of a plan.
 std::string option(const Request& o, const std::string& name) { return o.sign + name; }
 
 /// A material that is at hand, as a plan holds it.
@@ -48,7 +48,7 @@ Status take_material(pipeline::Inputs& in, model::WorkMaterial own) {
   return {};
 }
 
-/// What the plan says it was made with under that name, or null.
+/// The plan's provenance of that name, or null.
 const model::Provenance* made_with(const model::Plan& plan, std::string_view what) {
   for (const auto& p : plan.provenance) {
     if (p.what == what) return &p;
@@ -153,7 +153,8 @@ Status machine_of(const Request& o, const model::Plan& plan, pipeline::Inputs& i
   return {};
 }
 
-/// What a shop's own tables lack or say twice: planning goes on, for the rows that do decide are sound.
+/// Warns of gaps and contradictions in a shop's own tables; planning continues, for the deciding rows are
+/// sound.
 void judge_rules(const rules::RuleBase& base, Job& job) {
   constexpr std::size_t kMostTold = 10;
   const auto findings = rules::check(base);
@@ -205,7 +206,7 @@ std::optional<Diagnostic> holding_wrong(const std::string& how, Job& job) {
     text.error().hint = "workholding is auto, none, the id of a fixture, or a file";
     return text.error();
   }
-  Job silent;  // what there is to say of it is said when it is used
+  Job silent;  // its diagnostics are reported when it is used
   auto file = tooling::read_holding(*text, how, silent);
   if (file) return std::nullopt;
   for (const Diagnostic& d : silent.diagnostics()) {

@@ -28,7 +28,7 @@ namespace capstan::service {
 /// Both.
 [[nodiscard]] Result<pipeline::Inputs> gather(const Request& request, const model::Plan& plan, Job& job);
 
-/// The tools that are in the magazine, where nobody lists them: those of the plan, in its own tool numbers.
+/// Takes the magazine's tools if no list names them: those of the plan, in its own tool numbers.
 void take_tools_of_plan(const Request& request, const model::Plan& plan, pipeline::Inputs& shop, Job& job);
 
 /// The material by the caller's choice: a name, `like:NAME`, or a file with a material of the shop's own,

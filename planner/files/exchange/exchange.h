@@ -20,8 +20,8 @@ struct ReadOptions {
   bool strict = true;
 };
 
-/// Reads a part or a plan, told by its content and not by its name: ISO 14649 or ISO 10303-238 (Part 21), or
-/// STL, which gives a plan with a target mesh and one region to machine.
+/// Reads a part or a plan; its content, not its name, decides the format: ISO 14649 or ISO 10303-238 (Part
+/// 21), or STL, which gives a plan with a target mesh and one region to machine.
 ///
 /// Fails  FILE-READ, P21-… (not a Part 21 file), EXC-… (not a plan), EXC-UNKNOWN-FORMAT for anything else,
 ///        EXC-UNSUPPORTED for Part 21 files of other schemas; each fault went to `job` before.

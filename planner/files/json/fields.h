@@ -25,7 +25,7 @@ namespace capstan::json {
 template <class T, class U>
 concept Is = std::same_as<std::remove_const_t<T>, U>;
 
-/// What has a table of fields is visited by it.
+/// A type with a table of fields is visited by it.
 template <class V>
 void fields(V& v, model::HasFields auto& x) {
   model::for_each_field(x, [&v](const auto& row, auto& value) { v(row.name, value); });
@@ -126,7 +126,7 @@ template <class V>
 void fields(V& v, Is<geometry::Mesh> auto& x) {
   v("vertices", x.vertices), v("triangles", x.triangles);
 }
-/// What of the plan is neither an object, nor the ledger, nor shared columns.
+/// Members of the plan that are neither objects, nor the ledger, nor shared columns.
 template <class V>
 void fields(V& v, Is<model::Plan> auto& x) {
   v("project", x.project), v("file_name", x.file_name), v("header_description", x.header_description);
@@ -189,7 +189,7 @@ inline constexpr bool kIsShared = false;
 template <class T>
 inline constexpr bool kIsShared<std::shared_ptr<const T>> = true;
 
-/// What shared columns are called.
+/// Names of shared columns.
 template <class T>
 [[nodiscard]] constexpr std::string_view shared_name() {
   if constexpr (std::is_same_v<T, model::CutterPath>) return "path";

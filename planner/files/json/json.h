@@ -33,8 +33,8 @@ inline constexpr int kPlanJsonVersion = 1;
 /// Cost   linear.
 [[nodiscard]] std::string write_json(const model::Plan& plan);
 
-/// Reads what `write_json` wrote. Notes EXC-EDITED of decided values that somebody changed since, and warns
-/// JSON-EDITED, naming the parts that were edited.
+/// Reads the output of `write_json`. Notes EXC-EDITED for decided values that were edited since, and warns
+/// JSON-EDITED, naming the edited parts.
 ///
 /// Fails  JSON-SIZE past `cap` bytes, JSON-DEPTH past 32 levels, JSON-SYNTAX with the line, JSON-VERSION,
 ///        JSON-VALUE naming the place (/objects/round_hole/3/depth) and what was expected there.

@@ -15,7 +15,7 @@ unsigned char byte_at(std::string_view s, std::size_t i) {
 
 bool continues(unsigned char c) { return (c & 0xC0U) == 0x80U; }
 
-// Length of the well-formed character at i (RFC 3629), 0 when there is none.
+// Length of the well-formed character at i (RFC 3629), 0 if there is none.
 std::size_t utf8_length(std::string_view s, std::size_t i) {
   const unsigned char a = byte_at(s, i);
   const unsigned char b = byte_at(s, i + 1);

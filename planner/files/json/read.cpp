@@ -46,7 +46,7 @@ class Reader {
     return std::move(plan_);
   }
 
-  /// What somebody edited since the file was written, part by part.
+  /// The parts of the file that were edited since it was written.
   [[nodiscard]] const std::vector<std::string>& edited() const { return edited_; }
 
  private:
@@ -97,7 +97,7 @@ class Reader {
     edited_ = model::edited_parts(seals_of(plan_), std::move(then));
   }
 
-  /// What a file says for readers that only look, against what it follows from.
+  /// Compares values that the file states for mere readers with the data from which they follow.
   void compare_derived(const Tree& tree) {
     const auto differs = [](const Tree& t, const char* name, double v) {
       const auto it = t.find(name);
@@ -180,7 +180,7 @@ Result<model::Plan> read_json(std::string bytes, std::string file_name, Job& job
   } catch (const Tree::parse_error& e) {
     return refuse("JSON-SYNTAX", "the file is not JSON", line_of(bytes, e.byte));
   } catch (const Tree::out_of_range& e) {
-    // The library ends such a message with the number as it stands: "... parsing '1e999'".
+    // The library ends such a message with the number as written: "... parsing '1e999'".
     const std::string said = e.what();
     const std::size_t to = said.rfind('\''), from = to == 0 ? to : said.rfind('\'', to - 1);
     const std::string number = to == std::string::npos ? "" : said.substr(from + 1, to - from - 1);

@@ -274,7 +274,7 @@ class SchemaWriter {
     return out;
   }
 
-  // A definition per set of kinds that references may point to; kept instances may stand anywhere.
+  // A definition per set of kinds that references may point to; kept instances are allowed everywhere.
   std::string reference_to(std::span<const TypeId> targets) {
     std::string name = "reference_to";
     for (const TypeId t : targets) name += "_" + kind_name(t);

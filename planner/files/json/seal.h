@@ -12,8 +12,8 @@
 namespace capstan::json {
 
 /// A hash of each part of a plan ("the machine", "tool 'END MILL 12'", "step 'POCKET'", "objects of kind
-/// plane"), written beside it, so that a reader knows what somebody edited in between: what was computed of
-/// the old value is no longer true. No secret: it finds slips, not forgery.
+/// plane"), written beside it, so that a reader finds edited parts: results computed from an old value are no
+/// longer true. No secret: it finds slips, not forgery.
 ///
 /// Counts      numbers by value, choices, references, ids.
 /// Does not    words for people (descriptions, sources, reasons' texts, labels), where an object stood in its

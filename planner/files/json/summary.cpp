@@ -16,7 +16,7 @@ std::vector<std::pair<std::string, double>> summary_of(const model::Plan& plan) 
   }
   std::vector<std::pair<std::string, double>> out = {
       {"steps", static_cast<double>(plan.steps.size())}, {"cutting_s", cutting}, {"rapid_s", rapid}};
-  // What lies between the steps, by their paths; without these nobody knows.
+  // Times between the steps, from their paths; unknown without paths.
   if (const auto t = motion::time_of(plan); t && t->total_s() > 0.0 && std::isfinite(t->total_s())) {
     out.insert(out.end(), {{"link_s", t->link_s},
                            {"tool_changes", static_cast<double>(t->tool_changes)},

@@ -30,9 +30,9 @@ struct GivenUp {
   std::string chain, why;
 };
 
-/// Choices that were tried and did not work, with the reason. Proposing passes them over and puts the reason
-/// among the rejected alternatives, so that `explain` tells them. Nothing is ever taken back: each try bans
-/// at least one choice more, so tries come to an end.
+/// Choices that were tried in vain, with the reason. Proposing skips them and adds the reason to the rejected
+/// alternatives, where `explain` lists them. A ban is never removed: each try adds at least one, so that the
+/// tries come to an end.
 class Bans {
  public:
   void ban_chain(const Member& m, const std::string& chain, const std::string& why);

@@ -28,7 +28,7 @@ struct SetupDraft {
   model::Workholding holding = {};
 };
 
-/// What one chain of steps is proposed for: a simple feature, or one member of a pattern or compound.
+/// The subject of one chain of steps: a simple feature, or one member of a pattern or compound.
 struct Member {
   AnyRef feature;  ///< as the workingsteps name it
   AnyRef part;     ///< the noun that the member's shape came from
@@ -50,7 +50,7 @@ struct StepDraft {
   AnyRef operation;  ///< unset for a rapid movement
   std::size_t setup = 0;
   std::vector<model::FeatureShape> shapes;  ///< workpiece coordinates; more than one for patterns
-  std::string no_shape;                     ///< why there are none
+  std::string no_shape;                     ///< why `shapes` is empty
   model::Cutter cutter;
   bool proposed = false;                     ///< made by rules in this run
   Member member = {};                        ///< when proposed: what its chain is for,

@@ -7,7 +7,7 @@
 
 namespace capstan::draft {
 
-/// What the plan said when it was read.
+/// Tools, results, machine and material of the plan as it was read.
 struct Recorded {
   std::vector<model::Cutter> cutters;
   std::vector<model::StepResult> steps;

@@ -8,8 +8,7 @@
 
 namespace capstan::draft {
 
-/// How far above the raw piece the security plane of a set-up lies where nobody states it, mm. Default,
-/// unsourced.
+/// Height of a set-up's security plane above the raw piece if the file states none, mm. Default, unsourced.
 inline constexpr double kSecurityAboveMm = 10.0;
 
 /// The nouns of a set-up that planning makes: its number counts from 1, `raw` is the raw piece in workpiece

@@ -109,7 +109,8 @@ class Walker {
     out_.steps.push_back(std::move(work));
   }
 
-  // What has no noun is kept as it is: turning (ISO 14649-12, and its forms in AP238), additive, of a vendor.
+  // Keeps entities without a noun as they are: turning (ISO 14649-12, and its forms in AP238), additive,
+  // vendors'.
   void refuse(AnyRef executable, AnyRef kept, AnyRef feature) {
     const auto* k = plan_.model.get<model::KeptInstance>(kept);
     const std::string keyword = k == nullptr ? std::string(model::noun_type(kept.type).keyword) : k->keyword;
@@ -237,7 +238,7 @@ void raise_security_plane(model::Plan& plan, SetupDraft& s, std::size_t index,
   }
 }
 
-/// Depths and widths that are open are chosen anew: what stands there was chosen for something else.
+/// Removes open depths and widths, which were chosen for another cut; they are chosen again.
 void drop_open_depths(model::Plan& plan, const StepDraft& step) {
   model::Model& m = plan.model;
   const model::Ledger& ledger = plan.ledger;
@@ -275,7 +276,7 @@ void mark_open(model::Plan& plan, Reopen reopen, StepDraft& step) {
                      ledger.is_open(step.operation, "its_tool") || tooling::is_requirement(m, op->its_tool);
     if (pinned(step.operation, "its_tool") && m.holds<model::MachiningTool>(op->its_tool))
       step.open_tool = false;
-    // What was chosen for the tool that goes, goes with it.
+    // When a tool goes, the values chosen for it go too.
     if (step.open_tool) ledger.reopen({step.operation, "its_tool"});
     drop_open_depths(plan, step);
   }
@@ -288,7 +289,7 @@ void mark_open(model::Plan& plan, Reopen reopen, StepDraft& step) {
                                                        ledger.is_open(op->its_technology, "spindle")));
   if (pinned(op->its_technology, "feedrate") && pinned(op->its_technology, "spindle"))
     step.open_technology = false;
-  // Of a technology that is open in part, what somebody stated stays: what planning chose goes with the rest.
+  // In a technology that is open in part, values that somebody stated stay; values that planning chose go.
   const auto stays = [&](bool absent, const char* attribute, const char* other) {
     if (!step.open_technology || absent) return false;
     if (pinned(op->its_technology, attribute) || pinned(op->its_technology, other)) return true;
@@ -332,7 +333,7 @@ void overrule_stop(model::Plan& plan, const StepDraft& step, Job& job) {
                     "safety: the spindle turns while the tool is in the material"});
 }
 
-/// Coolant that the machine does not have cannot be switched on: the next best is, and it is said.
+/// Replaces coolant that the machine does not have by the next best, and reports it.
 void overrule_coolant(model::Plan& plan, const StepDraft& step, Job& job) {
   const auto* op = plan.model.get<model::MachiningOperation>(step.operation);
   if (op == nullptr) return;
@@ -387,8 +388,9 @@ std::vector<model::FeatureShape> members_meant(std::vector<model::FeatureShape> 
   return shapes;
 }
 
-/// An operation is for the elements of a compound, or the base of a pattern, that list it; listed by none of
-/// them, for all. The workingstep names the compound, its elements name their operations.
+/// The shapes that an operation machines. The elements of a compound, or the base of a pattern, may list the
+/// operation: then only those. If none lists it: all. The workingstep names the compound, its elements name
+/// their operations.
 std::vector<model::FeatureShape> elements_meant(const model::Model& m,
                                                 std::vector<model::FeatureShape> shapes, AnyRef operation) {
   const auto lists = [&](AnyRef element) {

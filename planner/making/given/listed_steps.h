@@ -12,20 +12,20 @@
 
 namespace capstan::given {
 
-/// What is re-opened before planning, although the file binds it. Each includes those below it.
+/// What to re-open before planning, although the file binds it. Each value includes those below it.
 enum class Reopen : std::uint8_t { kNothing, kTechnology, kTools, kOperations, kAll };
 
-/// What the file already says.
+/// Set-ups and steps that the file states.
 struct Listed {
   std::vector<draft::SetupDraft> setups;
   std::vector<draft::StepDraft> steps;  ///< in the order of the workplan
 };
 
-/// The set-ups and workingsteps of the plan's file; in `plan`, a set-up where the file has none, what is
-/// re-opened, and what safety overrules (PIP-CHANGED). Steps without an operation are left to the rules;
-/// those that nobody understands are unplanned (PIP-UNHANDLED). `unreadable`: by feature and workingstep,
-/// what the file states wrongly. `grown_mm` as piece::Piece. Fails  as model::placement for a set-up that is
-/// none.
+/// Gives the set-ups and workingsteps of the plan's file. Writes into `plan`: a set-up where the file has
+/// none, re-opened values, and changes for safety (PIP-CHANGED). Steps without an operation are left to the
+/// rules; steps that are not understood become unplanned (PIP-UNHANDLED). `unreadable`: by feature and
+/// workingstep, what the file states wrongly. `grown_mm` as piece::Piece.
+/// Fails  as model::placement for a set-up without a valid placement.
 [[nodiscard]] Result<Listed> list_steps(model::Plan& plan, Reopen reopen,
                                         const std::map<model::AnyRef, std::string>& unreadable,
                                         double grown_mm, Job& job);

@@ -5,7 +5,7 @@
 #include "planner/ground/base/job.h"
 #include "planner/model/plan/plan.h"
 
-// What the plan asks of a machine.
+// Requirements of the plan on a machine.
 
 namespace capstan::given {
 

@@ -13,7 +13,7 @@
 #include "tooling/library/formats/linuxcnc/linuxcnc.h"
 #include "tooling/library/nouns/nouns.h"
 
-// What is in the magazine against what the plan wants.
+// Compares the tools of the plan with those loaded in the magazine.
 
 namespace capstan::given {
 namespace {
@@ -38,8 +38,8 @@ bool same_tool(const Cutter& a, const Cutter& b) {
          near_if_known(a.tip_diameter_mm, b.tip_diameter_mm, kSameDiameter);
 }
 
-/// Whether the loaded tool does what the planned one is to do. What a library says of the tool counts where
-/// it says it itself, and not a default; of a line of a tool table what its comment says.
+/// True if the loaded tool can replace the planned one. A value of a library counts only if the library
+/// states it and it is no default; of a line of a tool table the values in its comment count.
 bool does_as_much(const Cutter& loaded, const Cutter& planned) {
   constexpr double kRoom = 0.01;  // mm and 1/min: rounding of what is written
   const auto says = [&](std::string_view field) {

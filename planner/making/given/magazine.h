@@ -15,19 +15,18 @@ namespace capstan::given {
 /// length from the table; one that is not is re-opened, and with it, by the ledger, what depends on it.
 /// `library` then has the plan's tools as they are loaded, and the loaded ones that it does not name.
 /// Gives what was re-opened, one sentence each, in the order of the plan.
-/// Fails  LATE-TOOL for a tool of the plan that is there and whose length the table does not tell
-///        (model::offset_fault). A loaded tool like that which the plan does not name is not used.
+/// Fails  LATE-TOOL for a tool of the plan that is loaded but has no length in the table
+///        (model::offset_fault). Such a tool that the plan does not name is not used.
 [[nodiscard]] Result<std::vector<std::string>> match_loaded(model::Plan& plan,
                                                             std::vector<model::Cutter>& library, Job& job);
 
-/// The cutter of the magazine (Cutter::loaded, a pocket) that is this one by class and every size that both
-/// know, whatever it is called; of several a measured one, then that of the same name, then of the same
-/// number, then of the lowest; null when none is.
+/// The loaded cutter (Cutter::loaded, a pocket) that equals this one by class and every size that both state,
+/// whatever its name. Of several: a measured one first, then the same name, the same number, the lowest
+/// number. Null if there is none.
 [[nodiscard]] const model::Cutter* loaded_like(const std::vector<model::Cutter>& library,
                                                const model::Cutter& wanted);
 
-/// The tool is as long as it is in the magazine, and stands out no farther; the line of the machine's tool
-/// table goes with it.
+/// Takes the length, the stick-out (if shorter) and the tool table's line of the loaded tool.
 void take_length(const model::Cutter& loaded, model::Cutter& into);
 
 }  // namespace capstan::given

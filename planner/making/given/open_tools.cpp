@@ -23,8 +23,8 @@ namespace {
 using draft::StepDraft;
 using model::FeatureShape;
 
-/// What the rules ask of the tool of this operation on this feature: of the step of that name, else of that
-/// kind.
+/// The tool requirement that the rules give for this operation on this feature: from the step of the same
+/// name, else of the same kind.
 std::optional<model::ToolRequirement> asked_by_rules(const Choice& choice, const StepDraft& step) {
   if (step.shapes.empty()) return std::nullopt;
   const auto all = piece::shapes_in_piece(choice.piece, step.feature);
@@ -48,7 +48,7 @@ std::optional<model::ToolRequirement> asked_by_rules(const Choice& choice, const
   return same_kind;
 }
 
-/// Whether a tool that meets the second can meet the first: the stated size lies within what is asked.
+/// True if a tool that meets `stated` can meet `asked`: the stated size lies within the range asked for.
 bool agree(const model::ToolRequirement& asked, const model::ToolRequirement& stated) {
   const double d = stated.diameter_exact_mm > 0.0 ? stated.diameter_exact_mm : stated.diameter_max_mm;
   if (!(d > 0.0)) return true;
@@ -59,8 +59,8 @@ bool agree(const model::ToolRequirement& asked, const model::ToolRequirement& st
          (asked.diameter_max_mm <= 0.0 || d <= asked.diameter_max_mm + kSame);
 }
 
-/// What an open tool must be: as the file's requirement says, else as the rules ask for such an operation on
-/// such a feature; deep enough for the feature in any case.
+/// Requirement of an open tool: the file's, else the rules' for such an operation on such a feature. It is
+/// always deep enough for the feature.
 Result<model::ToolRequirement> requirement_of(const model::Plan& plan, const Choice& choice,
                                               const StepDraft& step, Job& job) {
   const auto* op = plan.model.get<model::MachiningOperation>(step.operation);
@@ -76,7 +76,7 @@ Result<model::ToolRequirement> requirement_of(const model::Plan& plan, const Cho
   if (plan.model.holds<model::MachiningTool>(op->its_tool)) {
     auto r = tooling::requirement_from_nouns(plan.model, op->its_tool, job);
     if (r) {
-      // What the feature needs counts, not how long the given tool was.
+      // The feature's depth counts, not the length of the given tool.
       if (deep) {
         r->reach_mm = reach;
         r->depth_of_cut_mm = std::min(r->depth_of_cut_mm, reach);
@@ -100,14 +100,14 @@ Result<model::ToolRequirement> requirement_of(const model::Plan& plan, const Cho
                .hint = "or re-open the operations"});
 }
 
-/// A tool whose holder nobody described stands out of it as far as its feature needs, and as its flutes do;
-/// its length counts from the gage line, holder included. Defaults, unsourced.
+/// Shortens the stick-out of a tool without a described holder to the length that its feature and its flutes
+/// need. The functional length counts from the gage line, holder included. Defaults, unsourced.
 void stand_out(const geometry::Box3& raw, StepDraft& step) {
   constexpr double kFluteShare = 1.5;   // of the cutting edge's length
   constexpr double kSlenderness = 3.0;  // diameters
   constexpr double kSpare = 5.0;        // between holder and material, mm
   model::Cutter& c = step.cutter;
-  if (c.stick_out_mm < c.functional_length_mm) return;  // somebody did say
+  if (c.stick_out_mm < c.functional_length_mm) return;  // the stick-out is stated
   double needed = std::max(kFluteShare * c.maximum_depth_of_cut_mm, kSlenderness * c.cutting_diameter_mm);
   for (const FeatureShape& s : step.shapes) {
     const double above = piece::raw_above(raw, s.frame);
@@ -140,7 +140,7 @@ std::optional<std::string> too_short_as_loaded(const model::Cutter& c, double as
          "tool";
 }
 
-/// Picks the cutter of one open operation; false when none fits.
+/// Selects the cutter of one open operation; false if none fits.
 bool select_one(model::Plan& plan, StepDraft& step, std::vector<std::string>& used, const Choice& choice,
                 Job& job) {
   const std::string name = plan.model.at<model::MachiningOperation>(step.operation).its_id.value_or("");
@@ -189,7 +189,8 @@ std::string words(const model::Cutter& c) {
          std::to_string(c.teeth) + " teeth, " + trimmed(c.functional_length_mm, 4) + " mm long";
 }
 
-/// Whether two given ones of a name are one tool; how far it stands out is said for both (stand_out_alike).
+/// True if two given tools with one name are the same tool. Stick-outs may differ; stand_out_alike takes the
+/// longest.
 bool same_given(const model::Cutter& a, const model::Cutter& b) {
   model::Cutter other = b;
   other.stick_out_mm = a.stick_out_mm;
@@ -282,8 +283,8 @@ void tell_apart(const std::vector<StepDraft>& steps, const std::vector<model::Cu
   for (StepDraft* s : given) s->cutter.id = names[s->cutter.id][find(*s)];
 }
 
-/// A cutter that planning chose before is the one the plan recorded: nouns hold less of it. Where they have
-/// been edited since, or somebody else chose, they count.
+/// Takes the cutter that the plan recorded if planning chose it before: nouns hold fewer values. If the nouns
+/// were edited since, or somebody else chose the tool, the nouns count.
 bool take_recorded(const model::Plan& plan, const Choice& choice, const StepDraft& step,
                    model::Cutter& cutter) {
   const auto* d = plan.ledger.find(step.operation, "its_tool");

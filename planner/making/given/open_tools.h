@@ -14,7 +14,7 @@
 
 namespace capstan::given {
 
-/// What cutters are chosen from, and by what.
+/// The cutters to choose from, and the criteria.
 struct Choice {
   const std::vector<model::Cutter>& library;
   const std::vector<model::Cutter>& usable;  ///< of the library
@@ -24,13 +24,13 @@ struct Choice {
   const std::vector<model::Cutter>& recorded;  ///< what the plan said of its cutters when it was read
 };
 
-/// Gives each step of the file its cutter; in `plan`, the tools that were chosen and the steps that find none
-/// (PIP-NO-TOOL). `used`: ids of the cutters that steps use, each once.
+/// Gives each step of the file its cutter. Writes the chosen tools into `plan`, and reports the steps without
+/// one (PIP-NO-TOOL). `used`: ids of the cutters that steps use, each once.
 void select_open_tools(model::Plan& plan, std::vector<draft::StepDraft>& steps,
                        std::vector<std::string>& used, const Choice& choice, Job& job);
 
-/// A tool stands out by one length all through a plan, and is as long: as far as the deepest of its steps
-/// needs. The steps before and after that bend as much.
+/// Gives a tool one stick-out and length in the whole plan: the one that the deepest of its steps needs. It
+/// bends accordingly in all its steps.
 void stand_out_alike(std::vector<draft::StepDraft>& steps);
 
 }  // namespace capstan::given

@@ -18,7 +18,7 @@ namespace capstan::optimise {
 
 enum class CutKind : std::uint8_t { kRough, kFinish, kDrill, kReam, kTap };
 
-/// What is made least.
+/// The objective to minimise.
 ///
 ///     kTime    t
 ///     kCost    r t + edges               r: machine's rate; edges: t / T (price + r times the change)
@@ -33,11 +33,11 @@ enum class Aim : std::uint8_t { kTime, kCost, kProfit };
 /// A limit that is taken larger or smaller than it is: what if there were more of it?
 struct Eased {
   std::string name;     ///< of the limit, as in CutAnswer::active
-  double factor = 1.0;  ///< 1.1: a tenth more (of a least value: a tenth less is asked)
+  double factor = 1.0;  ///< 1.1: a tenth more (of a lower limit: a tenth less)
   friend bool operator==(const Eased&, const Eased&) = default;
 };
 
-/// What is asked before a path exists: how deep, how wide, how fast. A value given is kept.
+/// Input of the cut optimiser: depth, width and speed limits before there is a path. Given values are kept.
 struct CutQuestion {
   CutKind kind = CutKind::kRough;
   model::Cutter cutter;
@@ -59,16 +59,16 @@ struct CutQuestion {
   double earning_per_min = 0.0;   ///< kProfit: what a minute of this machine earns, net of its own cost
   bool override_locked = false;   ///< the operator cannot turn the feed up: no margin for it
   bool feed_by_planning = false;  ///< feed_mm_min was chosen by planning before: the margin holds for it, too
-  double surface_ra_um = 0.0;     ///< demanded of the surface this cut leaves; 0: none
-  double wall_error_limit_mm = 0.0;  ///< how far bending may push the wall; 0: not asked
-  double peak_force_limit_n = 0.0;   ///< that what holds the piece bears; 0: not known
+  double surface_ra_um = 0.0;     ///< required Ra of the surface that this cut leaves, um; 0: none
+  double wall_error_limit_mm = 0.0;  ///< largest error of the wall by bending, mm; 0: no limit
+  double peak_force_limit_n = 0.0;   ///< largest force that the workholding holds, N; 0: unknown
   /// The largest diameter that cuts: of a ball or bull nose that is not in with all of its radius, the one
   /// that cutting speed is counted at. 0: the cutter's.
   double speed_diameter_mm = 0.0;
   bool as_measured =
       false;  ///< depth and width are those of the path's sections: each may ask for its own feed
   double margin_deviations =
-      mechanics::kUsualMargin.deviations;  ///< of the load's margin (mechanics/margin.h)
+      mechanics::kUsualMargin.deviations;  ///< of the load's margin (mechanics/loads/margin.h)
   Eased eased;
   friend bool operator==(const CutQuestion&, const CutQuestion&) = default;
 };
@@ -76,7 +76,7 @@ struct CutQuestion {
 /// Ra of milled surfaces over that of geometry alone, where Ra is demanded.
 /// Source: 318 f^2 / (4 D) um in Tolouei-Rad & Bidhendi 1997, against 256.6 f^2 / (4 D) of the parabola.
 inline constexpr double kRoughnessOverGeometry = 1.24;
-/// What a level costs beside its cutting: over, down and to speed again, s. Default, unsourced.
+/// Time of a level beside its cutting: moving over, down, and back to speed, s. Default, unsourced.
 inline constexpr double kLevelOverheadS = 2.0;
 
 /// Largest deflection of the tip in roughing, mm. Default, unsourced: a third of the usual side allowance.
@@ -94,7 +94,7 @@ inline constexpr double kTaylorCarbide = 0.25;
 inline constexpr double kTaylorHss = 0.125;
 /// Tool life at the table's speed when neither material nor cutter states one, min. Default, unsourced.
 inline constexpr double kLifeAtTableSpeedMin = 15.0;
-/// Rate of a machine that states none, per hour. Default, unsourced.
+/// Hourly rate of a machine that states none. Default, unsourced.
 inline constexpr double kMachinePerHour = 60.0;
 
 struct CutAnswer {
@@ -121,9 +121,9 @@ struct CutAnswer {
 
 /// Depth, width, speed and feed that cut fastest (or cheapest, or to most profit) within every limit: spindle
 /// speed range, power and torque at that speed, tip deflection, wall error, surface, peak force, largest and
-/// least chip, depths, cutting length, axis feed. Forces carry the margin of mechanics/margin.h: the spread
-/// of their coefficients, a worn edge and the operator's override; limits are thus never met on average
-/// values.
+/// least chip, depths, cutting length, axis feed. Forces carry the margin of mechanics/loads/margin.h: the
+/// spread of their coefficients, a worn edge and the operator's override; limits are thus never met on
+/// average values.
 ///
 /// Levels are whole: they are enumerated, and the other variables solved for each. Where the spindle's curve
 /// or the immersion has a corner, the pieces between are solved one by one: no smooth method shows an optimum

@@ -12,19 +12,20 @@ namespace capstan::optimise {
 
 /// How the cutter is engaged somewhere along a move; what feeds are chosen from.
 ///
-/// Frame  angles as in mechanics/immersion.h: 0 at the left of the feed, pi at its right, in the sense of
+/// Frame  angles as in mechanics/force/immersion.h: 0 at the left of the feed, pi at its right, in the sense
+/// of
 ///        rotation.
 struct CutSample {
   std::uint32_t move = 0;
   double ap_mm = 0.0, ae_mm = 0.0;
   bool plunge = false;
   double at_mm = 0.0;    ///< where on the move the sample's step ends
-  double step_mm = 0.0;  ///< length it stands for
+  double step_mm = 0.0;  ///< length of path that it represents
   double entry_rad = 0.0, exit_rad = 0.0;
   double csa_mm2 = 0.0;
-  double top_mm = 0.0;     ///< highest contact above the tip; 0: not known, the depth counts from the tip
-  double end_mm2 = 0.0;    ///< of the area: what no flank sweeps, so that the end cuts it on its way down
-  double end_slope = 0.0;  ///< how far down per length of path the end goes there
+  double top_mm = 0.0;   ///< highest contact above the tip; 0: not known, the depth counts from the tip
+  double end_mm2 = 0.0;  ///< part of the area that no flank sweeps: the cutter's end cuts it on the way down
+  double end_slope = 0.0;  ///< slope of the end's way down, per length of path
 };
 
 /// Feed of a plunge and of a ramp as a fraction of the step's feed, at most, for cutters that may do it.
@@ -88,12 +89,12 @@ struct FeedAnswer {
 ///
 /// Shape         the schedule has one entry per move of `path`.
 /// Determinism   same question, same answer; sections are compared on a grid, rounded to the heavier side.
-/// Source        sections: mechanics/section.h; the braking bound: derived.
+/// Source        sections: mechanics/loads/section.h; the braking bound: derived.
 [[nodiscard]] FeedAnswer feeds(const FeedQuestion& question, const model::CutterPath& path);
 
-/// Cuts moves at feed, lines and arcs, where the feed that their sections bear changes, so that a heavy
-/// corner at the end of a long move does not slow all of it: a feed is one per move. The way itself stays as
-/// it is. Pieces are no shorter than a fifth of the diameter, and only made where they save time.
+/// Splits feed moves (lines and arcs) where the allowed feed of their sections changes. A move has one feed,
+/// so that without this a heavy corner at its end would slow all of it. The path itself does not change.
+/// Pieces are at least a fifth of the diameter long, and made only where they save time.
 ///
 /// Needs   samples and sections of this very path, `at_mm` from the start of each move, steps of samples that
 ///         do not overlap (but the second rectangle of one step). `sections` may be null.
@@ -101,8 +102,8 @@ struct FeedAnswer {
 ///         piece.
 void split_moves(FeedQuestion& question, model::CutterPath& path, model::SectionSeries* sections);
 
-/// Relative excess over the limits of a sample at a feed, computed directly: the largest of load / limit - 1;
-/// negative when all hold; nothing when the section is outside the formulas' range.
+/// Relative excess over the limits of a sample at a feed, computed directly: the largest of load / limit - 1.
+/// Negative if all limits hold; nothing if the section is outside the formulas' range.
 [[nodiscard]] std::optional<double> excess_at(const FeedQuestion& question, const CutSample& sample,
                                               double feed_mm_min);
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "planner/making/piece/in_piece.h"
+#include "planner/making/piece/raw_piece_limits.h"
 #include "planner/making/piece/surroundings.h"
 #include "planner/model/features/raw_piece.h"
 #include "planner/model/nouns/all.h"
@@ -16,8 +16,8 @@ using model::FeatureShape;
 using model::Model;
 using model::ShapeKind;
 
-/// Form and orientation that the general tolerance asks where the feature states none: over its longest and
-/// its shorter extent.
+/// Adds the general tolerance's flatness (over the longer side of a face) and perpendicularity (over the
+/// depth of walls) where the feature states none.
 void take_general(const model::GeneralTolerance& g, const FeatureShape& s, model::Quality& q) {
   if (s.area.empty()) return;
   const Box2 box = geometry::bounds(s.area);
@@ -27,8 +27,8 @@ void take_general(const model::GeneralTolerance& g, const FeatureShape& s, model
     q.orientation_mm = model::general_perpendicularity(g, std::max(s.depth_mm, 1.0));
 }
 
-/// Zones of no width (0 at maximum material): what the size leaves. Which that is, only the finished size
-/// says.
+/// Warns of tolerance zones of 0 (at maximum material): their width is what the finished size leaves unused,
+/// which the file does not state.
 void warn_of_zero_zones(const Model& m, const model::Attribution& attribution, Job& job) {
   for (const AnyRef r : m.all_below(model::TypeId::kGeometricTolerance)) {
     const auto& value = m.at<model::GeometricTolerance>(r).tolerance_value;

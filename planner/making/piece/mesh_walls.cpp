@@ -8,12 +8,12 @@
 #include "planner/model/features/in_piece.h"
 #include "rules/facts/passage.h"
 
-// What the upright walls of a mesh ask of the cutter: to pass between them, and to leave no more in their
-// inside corners than may stay there.
+// Limits of the upright walls of a mesh on the cutter: it must pass between them, and must leave no more in
+// their inside corners than the check allows.
 //
-// For each level floor, and for the underside of the raw piece, what of the solid is higher is taken off a
-// rectangle around the piece; how wide a cutter passes everywhere in the rest is measured as it is for
-// pockets.
+// For each level floor, and for the underside of the raw piece, the solid above that height is subtracted
+// from a rectangle around the piece. The widest cutter that passes everywhere in the remaining area is found
+// as for pockets.
 
 namespace capstan::piece {
 namespace {

@@ -9,11 +9,11 @@
 #include "planner/making/piece/twins.h"
 #include "planner/model/features/raw_piece.h"
 
-// Holes that say "through" and end inside the piece. Their bottom condition is the firmer word: what comes
-// out on the other side is a size nobody measures, and drawings often give the depth of the wall that once
-// stood there (ISO 14649-11, example 2: 40 mm through, beside an outside of 50 mm). Such a hole goes down to
-// the underside of the raw piece, and that is said. Where anything else is cut away on its axis below, the
-// hole opens into that, and ends as stated.
+// Holes that are stated as through and end inside the piece. The bottom condition is the more reliable
+// statement: the drawn depth is often that of a wall that was there before (ISO 14649-11, example 2: 40 mm
+// through, beside an outside of 50 mm). Such a hole goes down to the underside of the raw piece, and that is
+// reported. If another feature removes material on its axis below, the hole opens into that and ends as
+// stated.
 
 namespace capstan::piece {
 namespace {
@@ -104,7 +104,7 @@ Shapes shapes_of_all(const model::Plan& plan, double grown_mm, const draft::Bans
     std::copy_if(out.all.begin(), out.all.end(), std::back_inserter(out.whole),
                  [&](const FeatureShape& s) { return !parts.contains(s.feature); });
   };
-  take_whole();  // what a face stops at is asked of these
+  take_whole();  // stop_at_walls needs these
   for (FeatureShape& s : out.all) stop_at_walls({plan, out, grown_mm}, s);
   take_whole();
   for (const FeatureShape& s : out.all) out.around.push_back(around(s));

@@ -39,16 +39,16 @@ struct Shapes {
 struct Piece {
   const model::Plan& plan;  ///< nouns, raw piece, mesh
   const Shapes& shapes;
-  double grown_mm = 0.0;  ///< by which the raw piece stands over the finished part, where that was asked for
+  double grown_mm = 0.0;  ///< how far the raw piece was grown over the finished part, mm; 0: not
 };
 
-/// The box of the finished part: what of the raw piece lies beyond it is nobody's. Workpiece coordinates.
+/// The box of the finished part, workpiece coordinates. Raw material beyond it belongs to no feature.
 [[nodiscard]] geometry::Box3 part_box(const Piece& piece);
 
 /// The shapes of a feature in this raw piece: a hole right through reaches the underside.
 [[nodiscard]] Result<std::vector<model::FeatureShape>> shapes_in_piece(const Piece& piece, AnyRef feature);
 
-/// The shapes of all features in this raw piece; faces that `bans` leaves out stay. Twins are said
+/// The shapes of all features in this raw piece; faces that `bans` leaves out stay. Reports twins
 /// (PIP-TWICE).
 [[nodiscard]] Shapes shapes_of_all(const model::Plan& plan, double grown_mm, const draft::Bans& bans,
                                    Job& job);

@@ -8,9 +8,9 @@
 #include "planner/model/features/shape.h"
 #include "rules/rules.h"
 
-// Which features need others to be made first. What rests on a feature that is not planned is left out, too:
-// a tap does not run into the solid, a pocket is not begun in the material of a face. The relation is the one
-// that orders the steps (sequence/precedence): of two features that meet, the upper comes first.
+// Which features need others to be made first. A feature that rests on an unplanned one is left out too: a
+// tap would run into the solid, a pocket would begin in the material of a face. The relation is the one that
+// orders the steps (sequence/precedence): of two features that meet, the upper comes first.
 
 namespace capstan::piece {
 namespace {

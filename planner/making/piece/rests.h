@@ -7,7 +7,7 @@
 
 namespace capstan::piece {
 
-/// `after` cannot be cut rightly while `before` still stands.
+/// `before` must be cut before `after`.
 struct RestsOn {
   model::AnyRef before, after;
 };

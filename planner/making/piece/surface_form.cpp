@@ -15,7 +15,7 @@ namespace capstan::piece {
 namespace {
 
 constexpr double kCreaseMm =
-    0.02;  // a ball may leave in a crease: what the check lets stand; default, unsourced
+    0.02;  // largest height that a ball may leave in a crease, as the check allows it; default, unsourced
 constexpr double kSharpRad = 20.0 / 180.0 * std::numbers::pi;  // sharper corners keep any ball's radius
 constexpr double kFlatRad = 0.5 / 180.0 * std::numbers::pi;    // less is the rounding of coordinates
 constexpr double kLeastMm =
@@ -23,9 +23,8 @@ constexpr double kLeastMm =
 
 }  // namespace
 
-// In a crease of angle d between two facets a ball of radius R leaves R (1 / cos(d / 2) - 1). Where facets
-// are so narrow that the ball does not touch both beside their crease, they draw a curve, and its radius is
-// their width over d.
+// In a crease of angle d between two facets, a ball of radius R leaves R (1 / cos(d / 2) - 1). Facets too
+// narrow for the ball to touch both beside their crease approximate a curve of radius width / d.
 double surface_radius(const geometry::Mesh& mesh) {
   using geometry::Vec3;
   struct Side {

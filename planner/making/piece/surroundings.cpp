@@ -50,7 +50,7 @@ double gap(const Box2& a, const Box2& b) {
   return std::hypot(x, y);
 }
 
-/// What a feature takes away at its bottom: of an outside, all but the contour that stays.
+/// The area that a feature removes at its bottom; of an outside, everything but the contour that stays.
 geometry::Region taken(const FeatureShape& s) {
   geometry::Region out = s.area;
   for (const auto& i : s.islands) out = geometry::subtract(out, i.area);
@@ -229,7 +229,7 @@ geometry::Region stays_beside(const Piece& piece, const model::FeatureShape& s) 
   geometry::Region out =
       geometry::subtract(geometry::rectangle(geometry::xy(part.lo), geometry::xy(part.hi)), s.area);
   if (out.empty()) return out;
-  // A boss that a face lists is none of the features that are cut beside it: its shape is all around it.
+  // Skip a boss that a face lists: its shape surrounds the boss and is not cut beside it.
   for (const model::FeatureShape& other : piece.shapes.whole) {
     const auto rel = compose(to, other.frame);
     if ((other.feature == s.feature && other.member == s.member) || rel.z.z < 1.0 - kSame ||
@@ -260,7 +260,8 @@ void stop_at_walls(const Piece& piece, model::FeatureShape& s) {
     walled = true;
   }
   if (!walled) return;
-  // What others cut as deep behind the walls is no way out of this face: how narrow it is, is theirs.
+  // Areas that other features cut as deep behind the walls are no way out of this face; their own cutters
+  // must fit there.
   const geometry::Region around =
       geometry::subtract(geometry::rectangle(geometry::xy(part.lo), geometry::xy(part.hi)), s.area);
   const geometry::Region own = geometry::offset_sharp(s.area, kThinMm);

@@ -8,10 +8,9 @@
 #include "planner/ground/base/number.h"
 
 // Separate features in one place. The same hole or pocket drawn twice is made once, and both are named. A
-// hole that lies wholly within another's leaves nothing of its own wall: drawing and file disagree, and
-// nobody knows which is meant. Two on one axis of which the narrower goes deeper are a counterbore, and are
-// made as one; so is one of the same width that is shallower and has its own tolerance: the fit of a bore's
-// mouth.
+// hole wholly within another's leaves no wall of its own: drawing and file disagree, and the file cannot
+// decide which is meant. Two on one axis, the narrower deeper, are a counterbore and made as one; so is a
+// shallower one of the same width with its own tolerance: the fit of a bore's mouth.
 
 namespace capstan::piece {
 namespace {

@@ -9,14 +9,14 @@
 
 namespace capstan::piece {
 
-/// Which features are the same at the same place, both ways; they are made once, and it is said (PIP-TWICE).
+/// Pairs of features that are the same at the same place, both ways; made once and reported (PIP-TWICE).
 [[nodiscard]] std::set<std::pair<Drawn, Drawn>> twins_of(const std::vector<model::FeatureShape>& whole,
                                                          Job& job);
-/// Whether two features' shapes are one removal, drawn twice; as they are drawn, however they are cut.
+/// True if the shapes of two features are one removal drawn twice, whatever steps cut them.
 [[nodiscard]] bool same_removal(const Shapes& shapes, const model::FeatureShape& a,
                                 const model::FeatureShape& b);
-/// Why a hole cannot be told from another feature's: it lies wholly within that, or differs from it at the
-/// same place. Empty when it can.
+/// Why a hole cannot be planned apart from another feature's: it lies wholly within that, or differs from it
+/// at the same place. Empty if it can.
 [[nodiscard]] std::string lies_within_another(const Shapes& shapes, const model::FeatureShape& hole);
 
 }  // namespace capstan::piece

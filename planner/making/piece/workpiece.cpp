@@ -23,11 +23,11 @@ using geometry::Vec3;
 using model::AnyRef;
 using model::Ref;
 
-/// What stands over an outside contour of a raw piece that nobody states, mm: something must be there to be
-/// milled. Default, unsourced.
+/// Stock added around outside contours when no raw piece is stated, mm, so that there is material to mill.
+/// Default, unsourced.
 constexpr double kOverOutsides = 5.0;
 
-/// What an outside asks of the raw piece: to stand over its contour, to its depth.
+/// Extends the raw piece over an outside's contour, down to its depth.
 void add_outside(const model::FeatureShape& s, Box3& out) {
   geometry::Region within;
   for (const auto& i : s.islands) within = geometry::unite(within, i.area);
@@ -53,7 +53,7 @@ void add_outside(const model::FeatureShape& s, Box3& out) {
   }
 }
 
-/// What a property says: "hardness = 200 HB".
+/// A property as text: "hardness = 200 HB".
 std::string property_text(const model::Model& m, const std::string& of, AnyRef parameter) {
   std::string name = of;
   if (const auto* p = m.get<model::PropertyParameter>(parameter)) {

@@ -11,7 +11,7 @@
 
 namespace capstan::piece {
 
-/// What the caller says of material, raw piece and margin; what he leaves open, the file says.
+/// The caller's choice of material, raw piece and margin. Unset fields are taken from the file.
 struct WorkpieceWish {
   std::optional<std::string> material;            ///< overrides the file's
   const std::vector<model::WorkMaterial>& known;  ///< materials
@@ -31,8 +31,8 @@ struct Margin {
   mechanics::MarginPolicy policy = mechanics::kUsualMargin;
   model::Provenance said;
 };
-/// The margin that a plan was made with holds when it is planned again, unless another is asked for.
-/// Fails  NAME-UNKNOWN for one that the plan says and nobody knows.
+/// The margin of loads: the caller's, else the one that the plan was made with.
+/// Fails  NAME-UNKNOWN for a name in the plan that no margin has.
 [[nodiscard]] Result<Margin> margin_of(const model::Plan& plan, const WorkpieceWish& wish, Job& job);
 
 /// The raw piece: the caller's, else the file's, else the box of the surface or of the features (said).
@@ -41,8 +41,8 @@ struct Margin {
 ///        PIP-STOCK-SIZE  it is larger than any machine
 [[nodiscard]] Result<model::Stock> raw_piece_of(const model::Plan& plan, const WorkpieceWish& wish, Job& job);
 
-/// An open outside profile says its side by the raw piece: one that the caller names is stated for it where
-/// the file states none.
+/// An open outside profile says its side by the raw piece. States a raw piece that the caller names in the
+/// nouns, if the file states none.
 void state_raw_piece(model::Model& m, const geometry::Box3& box);
 
 /// Says which features the raw piece does not hold (PIP-OUTSIDE).

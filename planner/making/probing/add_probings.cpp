@@ -33,7 +33,7 @@ std::optional<model::Deviations> deviations(const piece::Demands& demands, const
   return model::Deviations{-*half, *half};
 }
 
-/// What the last step will still take off the wall and the floor: what the one before it leaves.
+/// Allowance on wall and floor before the last step: what the step before it leaves.
 Left left_at(const std::vector<model::ProposedStep>& chain, std::size_t at, const FeatureShape& s) {
   Left out;
   if (at > 0 && model::is_a(chain[at - 1].operation, model::TypeId::kMillingTypeOperation)) {
@@ -45,14 +45,14 @@ Left left_at(const std::vector<model::ProposedStep>& chain, std::size_t at, cons
   return out;
 }
 
-/// What is measured before a step, and how far its walls may be from where they are expected.
+/// The touches before a step, and the largest deviation of its walls from where they are expected.
 struct Measured {
   Touches found;
   std::string of;  ///< "datum A, 'H2'"
   std::optional<double> lower_mm, upper_mm;
 };
 
-/// What is known of the part when it is said what is measured.
+/// Facts of the part that a message about probing needs.
 struct Known {
   const std::vector<StepDraft>& steps;
   const piece::Shapes& shapes;
@@ -234,8 +234,8 @@ Added add_probings(model::Plan& plan, std::vector<StepDraft> steps, const piece:
         if (!what.found.touches.empty()) probing.probe.reset();
       }
       if (what.found.touches.empty()) {
-        // A last cut that nothing sets holds no more than the cut before it, and a place that nobody measures
-        // is where the machine happens to put it: such a chain is none.
+        // A last cut without a measured setting is no more accurate than the cut before it, and a place that
+        // is not measured is arbitrary: such a chain is rejected.
         added.given_up.push_back(
             {next.member, next.chain,
              "'" + wanted.name + "' cannot be made (" + what.found.why_not + "), and without it " +

@@ -18,15 +18,15 @@ struct Added {
   std::vector<draft::GivenUp> given_up;  ///< chains that need a measurement which cannot be made
 };
 
-/// Puts what is to be measured before the steps that want it, once the order is known: a workpiece_probing
-/// per touch, start and direction in workpiece coordinates, the distance expected from the start until the
-/// ball touches (its radius taken off, and what later steps still take off).
+/// Adds a workingstep of probing before each step that needs one, once the order is known: a
+/// workpiece_probing per touch, with start and direction in workpiece coordinates. The expected distance is
+/// that from the start to the touch: the ball's radius and the allowance of later steps are subtracted.
 ///
-/// Measured is the datum that the position refers to, where that is a hole, a pocket or an outside made
-/// before in the same set-up, else the feature itself: of a hole, a pocket or an outside opposite walls in x
-/// and in y, of a slot across, of a face its level. Where no start is known to be free and no wall known to
-/// be there, nothing is proposed, and the chain is given up (by hand where the probe's ball does not come).
-/// What is measured by hand is said (PIP-PROBE).
+/// It measures the datum that the position refers to, if that is a hole, a pocket or an outside made before
+/// in the same set-up; else the feature itself. Of a hole, a pocket or an outside it measures opposite walls
+/// in x and in y, of a slot across, of a face its level. If no start is known to be free or no wall is known
+/// to exist, it proposes nothing and gives up the chain (or measures by hand if the probe's ball does not
+/// fit). Reports what is measured by hand (PIP-PROBE).
 [[nodiscard]] Added add_probings(model::Plan& plan, std::vector<draft::StepDraft> steps,
                                  const piece::Shapes& shapes, const piece::Demands& demands, Job& job);
 

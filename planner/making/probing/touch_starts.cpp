@@ -78,7 +78,7 @@ std::vector<Hit> hits(const Region& area, Vec2 from, Vec2 along) {
   return out;
 }
 
-/// What a shape takes away at its bottom, in its frame.
+/// The area that a shape removes at its bottom, in its frame.
 Region removed(const FeatureShape& s) {
   if (s.kind == ShapeKind::kHole) return geometry::disc({0.0, 0.0}, 0.5 * s.diameter.middle());
   Region out = s.area;
@@ -101,7 +101,7 @@ bool cut_away(const Piece& w, const FeatureShape& own, Vec3 p) {
   });
 }
 
-/// Whether what another outside leaves standing is nearer than `room`.
+/// True if material of another outside is nearer than `room`.
 bool stands(const Piece& w, const FeatureShape& own, Vec3 p, double room) {
   return std::any_of(w.shapes.begin(), w.shapes.end(), [&](const FeatureShape& s) {
     if (s.kind != ShapeKind::kOutside || (s.feature == own.feature && s.member == own.member)) return false;
@@ -157,7 +157,7 @@ std::optional<Touch> touch(const Asked& a, Vec2 d, double z) {
     if (!a.inside && stands(a.w, a.s, a.s.frame.to_parent({p.x, p.y, z}), a.ball + kRoom))
       return std::nullopt;
   }
-  // Behind an open side nothing stands.
+  // There is no wall behind an open side.
   const Vec2 behind = a.middle + (wall.t + (a.inside ? kInto : -kInto)) * d;
   if (a.s.kind != ShapeKind::kHole && geometry::contains(a.s.reach, behind)) return std::nullopt;
   const Vec3 wall_point = a.s.frame.to_parent({behind.x, behind.y, z});
@@ -172,7 +172,7 @@ std::optional<Touch> touch(const Asked& a, Vec2 d, double z) {
   return out;
 }
 
-/// What touches; a machine without a probe is measured on by hand.
+/// The measuring device in words; without a probe the machine measures by hand.
 std::string ball_text(double radius_mm) {
   return radius_mm > 0.0 ? "a ball of " + trimmed(2.0 * radius_mm, 3) + " mm" : "a gauge";
 }
@@ -246,7 +246,7 @@ Touches flank(const Piece& w, const FeatureShape& s, Left left, double ball) {
 }  // namespace
 
 Touches touches_of(const Piece& w, const FeatureShape& s, Left left, double ball) {
-  // Of a step the floor is touched where it is still to be cut: its one wall faces none.
+  // Of a step the floor is touched if it is still to be cut: its one wall has no opposite.
   if (s.kind == ShapeKind::kFace || (s.kind == ShapeKind::kStep && left.bottom_mm > 0.0))
     return level(w, s, left, ball);
   if (s.kind == ShapeKind::kHole && s.bottom_diameter_mm > 0.0 &&

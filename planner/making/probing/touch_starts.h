@@ -19,24 +19,24 @@ struct Touch {
   std::string side;                            ///< "+x" of the feature's frame
 };
 
-/// What is measured, or why it cannot be.
+/// The touches that measure a feature, or why there are none.
 struct Touches {
   std::vector<Touch> touches;
-  std::string why_not;  ///< set when there are none
+  std::string why_not;  ///< set if `touches` is empty
 };
 
-/// What later steps will still take off the walls and the floor, mm.
+/// Allowance that later steps will remove from walls and floor, mm.
 struct Left {
   double side_mm = 0.0, bottom_mm = 0.0;
 };
 
-/// What the touches are looked for in; workpiece coordinates.
+/// The surroundings in which touches are searched; workpiece coordinates.
 struct Piece {
   const std::vector<model::FeatureShape>& shapes;  ///< of all features
   const geometry::Box3& raw;                       ///< of the raw piece
 };
 
-/// The touches that tell where a feature is, when it is cut but for `left`.
+/// Touches that find the place of a feature that is cut except for `left`.
 ///
 /// Upright walls that face each other: holes, pockets and outsides in x and y, slots and open pockets at
 /// least across; faces: their level. Each start has room for the ball: within what the feature removes, for

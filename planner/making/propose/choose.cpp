@@ -20,8 +20,8 @@ using draft::StepDraft;
 using model::FeatureShape;
 using model::TypeId;
 
-/// Drops drills, reamers and taps that the spindle cannot turn at any useful feed; says why when none is
-/// left.
+/// Removes drills, reamers and taps that the spindle cannot turn at any useful feed; gives the reason if none
+/// is left.
 std::string keep_able(const Choice& choice, const model::ProposedStep& step, model::Selection& s, Job& job) {
   if (!model::is_a(step.operation, TypeId::kDrillingTypeOperation) ||
       model::is_a(step.operation, TypeId::kThreadDrilling))

@@ -14,7 +14,7 @@
 
 namespace capstan::propose {
 
-/// What chains and their cutters are chosen by.
+/// Criteria for chains and their cutters.
 struct Choice {
   const piece::Piece& piece;
   const std::vector<model::Cutter>& usable;  ///< cutters that may be used
@@ -25,13 +25,13 @@ struct Choice {
 };
 
 struct Chosen {
-  const std::vector<model::ProposedStep>* chain = nullptr;  ///< null: none
+  const std::vector<model::ProposedStep>* chain = nullptr;  ///< null: no chain
   std::string key;                                          ///< draft::key_of
   std::vector<model::Selection> tools;                      ///< one per step
 };
 
-/// The first chain that was not tried in vain and whose every step finds a cutter; why the others do not.
-/// `steps` are those of the plan so far, `used` the cutters in use.
+/// Chooses the first chain that was not tried in vain and finds a cutter for every step; gives the reasons
+/// against the others. `steps` are those of the plan so far, `used` the cutters in use.
 [[nodiscard]] Chosen choose(const Choice& choice, const model::Proposal& p, const model::FeatureShape& shape,
                             const draft::Member& member, const std::vector<draft::StepDraft>& steps,
                             const std::vector<std::string>& used, std::vector<model::Rejected>& rejected,
@@ -40,8 +40,8 @@ struct Chosen {
 /// A chain by its steps: "centre + drill + ream [hole.ream.it7]".
 [[nodiscard]] std::string chain_text(const std::vector<model::ProposedStep>& chain,
                                      const model::FeatureShape& shape);
-/// What the chains after the chosen one would take, by the estimate that also ranks cutters, against the
-/// chosen one.
+/// Estimated time of the chains after the chosen one, compared with it, by the estimate that also ranks
+/// cutters.
 [[nodiscard]] std::vector<model::Rejected> alternatives(const Choice& choice, const model::Proposal& p,
                                                         const model::FeatureShape& shape,
                                                         const Chosen& chosen,

@@ -4,7 +4,7 @@
 #include <iterator>
 
 #include "planner/ground/vocabulary/operation.h"
-#include "planner/making/step/cut/drill_depth.h"
+#include "planner/making/step/cut/drilled_hole.h"
 #include "planner/model/nouns/all.h"
 
 namespace capstan::propose {

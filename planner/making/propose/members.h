@@ -16,12 +16,12 @@ namespace capstan::propose {
 void members_in_order(std::vector<draft::StepDraft>& steps, const std::vector<std::size_t>& first,
                       const std::vector<std::size_t>& second);
 
-/// Step `at` of a chain with the hole that the drill chosen before it leaves, where its requirement left open
-/// which.
+/// Step `at` of a chain, starting from the hole of the drill that was chosen before it, if the requirement
+/// left its size open.
 [[nodiscard]] model::ProposedStep as_opened(const std::vector<model::ProposedStep>& chain, std::size_t at,
                                             const std::vector<model::Selection>& chosen);
 
-/// Says which holes have an operation that makes a thread although no feature states one: re-opened, they
+/// Reports holes with an operation that makes a thread although no feature states one: re-opened, they
 /// stay plain.
 void warn_of_lost_threads(const model::Plan& plan, Job& job);
 

@@ -25,10 +25,10 @@ using model::TypeId;
 
 constexpr double kRetract = 5.0;  // retract plane above the material over a feature, mm; default, unsourced
 
-/// The coolant that a step wants, or the next best that the machine has: mist for flood, else none.
+/// The coolant of a step, or the next best that the machine has: mist for flood, else none.
 struct Coolant {
   bool flood = false, mist = false, through = false;
-  std::string instead;  ///< what was taken in place of what; empty: as wanted
+  std::string instead;  ///< coolant used and coolant wanted, in words; empty: as wanted
 };
 
 Coolant coolant_on(const model::Machine& machine, const model::ProposedStep& step) {
@@ -117,8 +117,8 @@ void fill_milling(Model& m, AnyRef op, const model::ProposedStep& step) {
   }
 }
 
-/// Parallel passes at the usual tolerances; of a step that leaves material each at a quarter of that.
-/// Defaults, unsourced.
+/// Parallel passes at the usual tolerances; a step with an allowance uses a quarter of it. Defaults,
+/// unsourced.
 Ref<model::FreeformStrategy> passes(Model& m, const model::ProposedStep& step) {
   model::Tolerances t;
   constexpr double kFine = 0.01, kShareOfLeft = 0.25;
@@ -189,7 +189,7 @@ Ref<model::MachiningWorkingstep> add_nouns(model::Plan& plan, const model::Propo
     const auto strategy = passes(m, step);
     m.get<model::FreeformOperation>(op)->its_machining_strategy = strategy;
   }
-  // The retract plane counts from the feature's top; the raw piece may stand higher.
+  // The retract plane counts from the feature's top; the raw piece may be higher.
   m.get<model::MachiningOperation>(op)->retract_plane =
       piece::raw_above(plan.stock.box, shape.frame) + kRetract;
 

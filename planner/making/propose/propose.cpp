@@ -9,13 +9,13 @@
 
 #include "planner/ground/base/number.h"
 #include "planner/making/draft/setup_nouns.h"
-#include "planner/making/piece/in_piece.h"
+#include "planner/making/piece/raw_piece_limits.h"
 #include "planner/making/piece/surface_form.h"
 #include "planner/making/piece/surroundings.h"
 #include "planner/making/piece/twins.h"
 #include "planner/making/propose/members.h"
 #include "planner/making/propose/operation_nouns.h"
-#include "planner/making/step/cut/drill_depth.h"
+#include "planner/making/step/cut/drilled_hole.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/nouns/arena/walk.h"
 #include "tooling/library/nouns/nouns.h"
@@ -59,8 +59,8 @@ std::vector<AnyRef> wanted(const Model& m, const std::vector<StepDraft>& steps) 
   return out;
 }
 
-/// The set-up in which this axis points up; made when there is none.
-/// Warns  PIP-TILT when the axis leans against that of a set-up by less than anybody means.
+/// The set-up in which this axis points up; creates it if there is none.
+/// Warns  PIP-TILT if the axis leans against that of a set-up by less than anybody would intend.
 std::size_t setup_for(model::Plan& plan, std::vector<SetupDraft>& setups, const FeatureShape& s, Job& job) {
   constexpr double kLeastMeantDeg = 0.5;
   std::size_t nearest = 0;
@@ -174,11 +174,11 @@ class Proposer {
       made[i] = shape(f, shapes[i], proposals[i]);
       if (core && !made[i].empty()) out_.drafts.steps[made[i].front()].after.push_back(core->last_step);
     }
-    // Part of a feature is not made: what is made of it stands or falls with the rest.
+    // Part of a feature cannot be made, so the rest of the feature is not made either.
     if (const auto why = failed_.find(f); why != failed_.end()) {
       const bool some = std::any_of(made.begin(), made.end(), [](const auto& m) { return !m.empty(); });
       for (const std::string& reason : why->second) out_.left_out.emplace_back(f, reason);
-      // A face that stays makes all below it deeper: what was proposed reckoned without it.
+      // An omitted face makes all features below it deeper; the proposals assumed that it is cut.
       const bool face = shapes.front().kind == model::ShapeKind::kFace;
       out_.again = out_.again || some || face;
     }
@@ -240,7 +240,7 @@ class Proposer {
     return std::min(a, b) < -s.depth_mm - kCoaxial && std::max(a, b) > -kCoaxial;
   }
 
-  /// The set-up in which these would be cut; past the last when none has their axis up yet.
+  /// The set-up in which this axis points up; past the last one if there is none yet.
   [[nodiscard]] std::size_t setup_up(geometry::Vec3 z) const {
     for (std::size_t i = 0; i < out_.drafts.setups.size(); ++i) {
       if (std::abs(out_.drafts.setups[i].workpiece.direction_to_parent(z).z - 1.0) < kSameAxis) return i;
@@ -278,7 +278,7 @@ class Proposer {
                                      " mm or wider; look at its unit and value");
     }
   }
-  /// Why the tolerance leaves nothing to make; empty when it leaves something.
+  /// Why the tolerance leaves no size to make; empty if it does.
   static std::string swallowed(const FeatureShape& s) {
     for (const auto& [what, t] : {std::pair("diameter", s.diameter), std::pair("width", s.width)}) {
       if (!t.given || !(t.nominal_mm > 0.0) || t.nominal_mm + t.lower_mm > 0.0) continue;
@@ -459,7 +459,7 @@ Proposed propose_missing(model::Plan& plan, Drafts given, const Sources& sources
     FeatureShape nameless;
     nameless.feature = f;
     nameless.name = plan.model.get<model::ManufacturingFeature>(f)->its_id.value_or("");
-    // What is not known might be a boss: nothing of it is cut.
+    // An unreadable feature might be a boss: it is not cut at all.
     if (const auto wrong = sources.unreadable.find(f); wrong != sources.unreadable.end()) {
       unplanned(plan, f, nameless, wrong->second, job);
       if (sources.choice.bans.left_out(f) == nullptr) out.left_out.emplace_back(f, wrong->second);

@@ -13,7 +13,7 @@
 
 namespace capstan::propose {
 
-/// What is proposed by.
+/// Input of proposing: rules, demands, unreadable features, choice of cutters.
 struct Sources {
   const rules::RuleBase& rules;
   const piece::Demands& demands;
@@ -29,12 +29,12 @@ struct Drafts {
   std::vector<std::string> used;  ///< ids of the cutters that steps use, each once
 };
 
-/// The drafts with the steps that are proposed for the features that have none; in `plan`, their nouns and
-/// the features that are not planned (PIP-UNPLANNED).
+/// The drafts with the proposed steps of features that have none. Writes their nouns into `plan`, and the
+/// features that are not planned (PIP-UNPLANNED).
 struct Proposed {
   Drafts drafts;
   std::vector<std::pair<model::AnyRef, std::string>> left_out;  ///< features that cannot be made, with why
-  bool again = false;  ///< what was proposed reckoned with one of these: the plan is to be made again
+  bool again = false;  ///< a feature was left out that other proposals assumed as made: plan again
 };
 [[nodiscard]] Proposed propose_missing(model::Plan& plan, Drafts given, const Sources& sources, Job& job);
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "planner/ground/base/number.h"
-#include "planner/making/step/cut/drill_depth.h"
+#include "planner/making/step/cut/drilled_hole.h"
 #include "planner/model/nouns/all.h"
 #include "tooling/library/nouns/nouns.h"
 #include "tooling/selection/select.h"
@@ -51,7 +51,7 @@ class Sharer {
         stay.insert(id);
       }
     }
-    // What gave way is not used any more.
+    // Cutters that were replaced are no longer in use.
     std::vector<std::string> used;
     for (const StepDraft& s : steps_) {
       if (!s.cutter.id.empty()) tooling::use(used, s.cutter.id);

@@ -199,7 +199,7 @@ class Scheduler {
   std::vector<Pools> pools_;
   std::size_t remaining_ = 0;
   std::string tool_;
-  std::size_t wanted_ = 0;  // so many directions were asked for, in their order
+  std::size_t wanted_ = 0;  // number of directions requested, in their order
 };
 
 std::string describe(const std::vector<std::size_t>& cycle, const std::vector<Item>& items,

@@ -15,7 +15,7 @@ namespace capstan::sequence {
 
 /// One step to be ordered: one operation on one shape.
 ///
-/// Shape   `feature` indexes the shapes handed to `order`; steps of one feature stand in the order of their
+/// Shape   `feature` indexes the shapes given to `order`; steps of one feature are in the order of their
 ///         chain (`in_chain` rising).
 struct Item {
   std::size_t feature = 0;
@@ -36,7 +36,7 @@ enum class Cause : std::uint8_t {
   kDatum,      ///< a datum feature before what refers to it
 };
 
-/// `before` must be finished when `after` begins (indices of items). Those between two features stand between
+/// `before` must be finished when `after` begins (indices of items). A precedence of two features is between
 /// the last step of the one and the first of the other.
 struct Precedence {
   std::size_t before = 0, after = 0;
@@ -69,7 +69,7 @@ struct Wish {
   std::string text;                   ///< "datum A (face 'top') before hole 'H1': position 0.05 | A"
 };
 
-/// What is known besides shapes and items.
+/// Constraints on the order besides shapes and items.
 struct Options {
   /// Datum features before what refers to them. One that contradicts a given, a geometric or an earlier one,
   /// or for which a side would have to be visited once more, is in Order::dropped.

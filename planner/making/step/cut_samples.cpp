@@ -76,7 +76,7 @@ double most_near(const std::vector<CutSample>& s, std::uint32_t move, double fro
   return out;
 }
 
-/// The area at the end of a move: where two moves meet, one point stands for both.
+/// The area of the last section of a move, mm2. Where two moves meet, one point belongs to both.
 double last_of(const std::vector<CutSample>& s, std::uint32_t move) {
   const auto behind = std::upper_bound(s.begin(), s.end(), move,
                                        [](std::uint32_t m, const CutSample& a) { return m < a.move; });

@@ -14,15 +14,15 @@
 
 namespace capstan::step {
 
-/// Of a measured path. A section that is no rectangle (a wall and a floor at once) counts as two of its area:
-/// as deep, and as wide.
+/// Samples of a measured path. A section that is no rectangle (a wall and a floor at once) becomes one that
+/// is as deep and as wide, with the same area counted twice.
 ///
-/// No section is wider than the cutter at its depth (a ball's or bull nose's: where the contact ends): it is
-/// a disc that is moved, on arcs as on lines.
+/// No section is wider than the cutter at its depth (for a ball or a bull nose: where the contact ends),
+/// because the cutter is a disc that is moved, on arcs as on lines.
 ///
-/// What a way down removes beyond that over its depth is cut by the end (CutSample::end_mm2): where a ramp or
-/// helix first touches, the depth is nothing and the area that of the whole end. What a level way removes
-/// beyond it is deeper than was measured.
+/// On a way down, the area beyond that over its depth is cut by the cutter's end (CutSample::end_mm2): where
+/// a ramp or helix first touches, the depth is 0 and the area is that of the whole end. On a level way, the
+/// area beyond depth times width means that the cut is deeper than was measured.
 [[nodiscard]] std::vector<optimise::CutSample> samples_of(const engagement::Measurement& measured,
                                                           const model::CutterPath& path,
                                                           const model::Cutter& cutter);
@@ -32,19 +32,19 @@ namespace capstan::step {
 ///
 ///     entry = acos(-x1 / R), exit = acos(-x2 / R)    x1, x2 = Xmaxofs -+ RDmax / 2, within +-R
 ///
-/// A step ends where its sample stands and begins at the sample before on the same move; over it the larger
-/// of both holds, for between two points of a polyline the numbers change evenly.
+/// A sample ends at its own point and begins at the point before on the same move. It takes the larger values
+/// of the two points, because the numbers of a polyline change evenly between them.
 /// Source  AP238 edition 2, 4.2.379.4; chord geometry.
 /// Widths are bounded as those of a measured path.
 [[nodiscard]] std::vector<optimise::CutSample> samples_of(const model::SectionSeries& series,
                                                           const model::CutterPath& path,
                                                           const model::Cutter& cutter);
 
-/// What no section can be, in words, with the first place of it; nothing when all are possible: each of the
-/// seven numbers finite, none of ADmax, RDmax and CSA below 0, ADmax within the cutting length, RDmax within
-/// the diameter, the offsets within the cutter, and the area within what the cutter meets there: the disc
-/// when it moves along its axis, the profile otherwise, and in level straight moves ADmax x RDmax. On arcs
-/// the edge goes farther than the centre by the cutter's radius over the arc's.
+/// Why a section series is impossible, in words, with the first place of it; nothing if it is possible. Each
+/// of the seven numbers must be finite, none of ADmax, RDmax and CSA below 0, ADmax within the cutting
+/// length, RDmax within the diameter, and the offsets within the cutter. The area must lie within what the
+/// cutter meets there: the disc when it moves along its axis, the profile otherwise, and in level straight
+/// moves ADmax x RDmax. On arcs the edge goes farther than the centre by the cutter's radius over the arc's.
 [[nodiscard]] std::optional<std::string> impossible(const model::SectionSeries& series,
                                                     const model::CutterPath& path, double cutting_diameter_mm,
                                                     double cutting_length_mm);
@@ -54,7 +54,7 @@ namespace capstan::step {
                                                             const model::SectionSeries& measured,
                                                             double cutting_diameter_mm);
 
-/// What a file says of a path's sections, held against what was measured.
+/// Sections that a file states, compared with those measured along the path.
 struct SectionsCompared {
   std::vector<optimise::CutSample> samples;  ///< the file's; measured ones where those are larger
   std::size_t contradictions = 0;            ///< places where both differ by more than the tolerance

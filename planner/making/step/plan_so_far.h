@@ -15,12 +15,13 @@ class CaseBase;
 
 namespace capstan::step {
 
-/// What the caller wants of every step.
+/// The caller's choices for every step.
 struct Wishes {
   optimise::Aim aim = optimise::Aim::kTime;
-  double earning_per_min = 0.0;    ///< Aim::kProfit: what a minute earns above its cost
+  double earning_per_min = 0.0;    ///< Aim::kProfit: earning of a machine minute above its cost
   double margin_deviations = 0.0;  ///< of loads against their limits
-  bool constant_feeds = false;  ///< one feed for all of a step's path: the largest that every section bears
+  bool constant_feeds =
+      false;  ///< one feed for the whole path of a step: the largest that all its sections allow
   const casebase::CaseBase* cases = nullptr;  ///< null: no precedents
   const std::vector<model::Cutter>& library;
 };

@@ -2,11 +2,11 @@
 
 #include <numbers>
 
-/// Numbers that several kinds of path take where nobody says one. Of this room.
+/// Default numbers that several kinds of path share. Used in this room only.
 namespace capstan::toolpath {
 
-/// Steepest ramp, rad, however steep the cutter may go; default, unsourced: what makers of solid end mills
-/// commonly allow.
+/// Steepest ramp, rad, even for a cutter that allows a steeper one; default, unsourced: what makers of solid
+/// end mills commonly allow.
 inline constexpr double kUsualRamp = 3.0 * std::numbers::pi / 180.0;
 /// Between the cutter and the material beside it, where it must be in the air, mm; default, unsourced.
 inline constexpr double kAirBeside = 0.2;

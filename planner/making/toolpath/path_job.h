@@ -16,10 +16,10 @@
 
 namespace capstan::toolpath {
 
-/// The code of a refusal because nothing stands above the bottom of the step.
+/// Code of a refusal because there is no material above the bottom of the step.
 inline constexpr const char* kNothingToCut = "TPA-NOTHING";
 
-/// How a cutter gets into the material, when somebody has said so (ISO 14649-11, approach_retract_strategy).
+/// The way into the material that the file states (ISO 14649-11, approach_retract_strategy).
 struct Approach {
   enum class Kind : std::uint8_t {
     kFree,     ///< not given: the path chooses
@@ -45,25 +45,26 @@ struct Peck {
   double dwell_s = 0.0;     ///< at the bottom of each step
 };
 
-/// Reduced speed and feed where a drill enters and leaves (drilling_type_strategy).
+/// Reduced speed and feed at the start and the end of drilling (drilling_type_strategy).
 struct DrillPhases {
   double speed_at_start = 1.0, feed_at_start = 1.0;  ///< fractions
-  double depth_of_start_mm = 0.0;  ///< of the full diameter below the feature's top; 0: none
+  double depth_of_start_mm =
+      0.0;  ///< length of the start phase, full diameter below the feature's top; 0: none
   double speed_at_end = 1.0, feed_at_end = 1.0;
-  double depth_of_end_mm = 0.0;  ///< 0: none
-  /// Whether depth_of_end is the depth at which the end phase begins (as NIST's interpreter of 2002 reads
-  /// the standard), or its length above the bottom.
+  double depth_of_end_mm = 0.0;  ///< of the end phase; 0: none
+  /// true: depth_of_end is the depth at which the end phase begins (as NIST's interpreter of 2002 reads the
+  /// standard). false: it is the length above the bottom.
   bool end_counts_from_top = false;
 };
 
-/// What a wider cutter did in the same area before, to the same floor.
+/// A wider cutter that milled the same area before, to the same floor.
 struct Cleared {
   double diameter_mm = 0.0;
   double corner_radius_mm = 0.0;
   double allowance_side_mm = 0.0;
 };
 
-/// What one workingstep's path is made from.
+/// Input of one workingstep's path.
 ///
 /// Frame  everything named `_z_` is in the set-up's frame, z along the tool axis, away from the work.
 ///        `shape` is in its feature's frame, which `feature_in_setup` puts into the set-up's.
@@ -79,10 +80,10 @@ struct PathJob {
   double axial_depth_mm = 0.0;   ///< at most, per level; 0: the whole depth at once
   double radial_depth_mm = 0.0;  ///< stepover; 0: from `overlap`, else half the diameter
   double allowance_side_mm = 0.0, allowance_bottom_mm = 0.0;  ///< to be left
-  /// What an earlier step left on walls and floor; nothing: the feature is still solid.
+  /// Allowance that an earlier step left on walls and floor; unset: the feature is still solid.
   std::optional<double> left_on_side_mm, left_on_bottom_mm;
 
-  /// Rest machining of areas between upright walls: only what that cutter did not reach is cut.
+  /// Rest machining of areas between upright walls: only the area that this cutter did not reach is cut.
   std::optional<Cleared> cleared_by;
   bool rest_follows = false;  ///< a later step cuts what this cutter cannot reach: no warning of it
 
@@ -102,8 +103,10 @@ struct PathJob {
 
   std::optional<double> cutting_depth_mm;      ///< drilling: of the full diameter (centre drill: of the tip)
   std::optional<double> previous_diameter_mm;  ///< hole already there
-  double hole_above_mm = 0.0;  ///< of what is wider below: the narrow hole it is reached by; 0: none
-  double hole_below_mm = 0.0;  ///< of a cone or a shoulder: the narrower hole that goes on below it; 0: none
+  double hole_above_mm =
+      0.0;  ///< diameter of the narrower hole above, through which a wider one below is reached; 0: none
+  double hole_below_mm =
+      0.0;  ///< diameter of the narrower hole that continues below a cone or a shoulder; 0: none
   std::optional<Peck> peck;
   std::optional<DrillPhases> phases;
   std::optional<double> feed_on_retract;  ///< fraction of the feed; nothing: as usual for the operation

@@ -159,7 +159,7 @@ std::string touch_text(const model::CutterPath& path, std::size_t i, const char*
 
 Region region_of(const FixtureSolid& s) { return {{s.outline}}; }
 
-/// What must not be entered by any tool whose tip goes down to `low`.
+/// The area that a tool whose tip goes down to `low` must not enter.
 Region keep_out(const model::Workholding& h, double low) {
   Region out;
   for (const FixtureSolid& s : h.solids) {

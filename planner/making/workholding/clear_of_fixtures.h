@@ -26,15 +26,15 @@ struct NearMove {
 [[nodiscard]] std::optional<NearMove> near_move_of(const model::CutterPath& path, const model::Cutter& cutter,
                                                    const model::Workholding& holding);
 
-/// Makes a path in a set-up; when it comes near what holds the piece, again with higher links, then around
-/// it.
-/// Fails  as `make`; PIP-HOLDING, naming move and solid, when none of these keeps clear or some of the
-///        feature would stay uncut under a clamp.
+/// Makes a path in a set-up. If it comes near the workholding, makes it again with higher links, then around
+/// the workholding.
+/// Fails  as `make`; PIP-HOLDING, naming move and solid, if none of these keeps clear, or some of the feature
+///        would stay uncut under a clamp.
 [[nodiscard]] Result<toolpath::GeneratedPath> kept_clear(
     const draft::SetupDraft& setup, const model::Cutter& cutter, const toolpath::PathJob& job,
     const std::function<Result<toolpath::GeneratedPath>(const toolpath::PathJob&)>& make);
 
-/// Where a step of a set-up cuts, and how low, set-up frame.
+/// Area of a step's cut in a set-up, and its lowest height, set-up frame.
 struct Footprint {
   geometry::Region area;
   double low_mm = 0.0;
@@ -42,7 +42,7 @@ struct Footprint {
 /// Those of the steps of set-up `at`.
 [[nodiscard]] std::vector<Footprint> footprints(const draft::SetupDraft& setup, std::size_t at,
                                                 const std::vector<draft::StepDraft>& steps);
-/// The first solid that what is cut would come near to; null: none.
+/// The first solid that a cut would come near; null: none.
 [[nodiscard]] const model::FixtureSolid* in_the_way(const model::Workholding& holding,
                                                     const std::vector<Footprint>& cuts);
 

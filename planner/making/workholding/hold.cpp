@@ -26,7 +26,7 @@ using tooling::Side;
 
 constexpr const char* kMark = "Workholding: ";  // begins the instruction that this stage writes
 
-/// What stands of the raw piece when a set-up begins: faces that earlier ones cut off whole are gone.
+/// Stock at the start of a set-up: the raw piece less the faces that earlier set-ups cut off completely.
 Box3 remaining(const std::vector<SetupDraft>& setups, const std::vector<StepDraft>& steps,
                std::size_t setup) {
   const SetupDraft& here = setups[setup];
@@ -85,7 +85,8 @@ class Chooser {
   }
 
   std::optional<Workholding> run() {
-    // The list's order is that of preference. Soft jaws are cut to a piece: somebody has to ask for them.
+    // Fixtures are tried in the order of the list. Soft jaws are cut to a piece, so they are used only on
+    // request.
     for (const Fixture& f : fixtures_) {
       if (f.kind != tooling::FixtureKind::kVise) continue;
       if (auto h = vise(f.id)) return h;
@@ -287,7 +288,7 @@ Result<std::optional<std::vector<Workholding>>> as_named(const Clampings& c, con
   }
   auto file = tooling::read_holding(*text, how, job);
   if (!file) return tl::unexpected(file.error());
-  // A file that lists what the shop has, and no set-ups, leaves the choice: its own fixtures come first.
+  // A file of fixtures without set-ups leaves the choice open: its own fixtures are tried first.
   if (file->setups.empty()) return Found(chosen(c, file->fixtures, "auto", job));
   auto held = by_file(c, *file, job);
   if (!held) return tl::unexpected(held.error());
@@ -300,7 +301,7 @@ Result<Held> hold(const model::Plan& plan, const std::vector<SetupDraft>& setups
                   const std::vector<StepDraft>& steps, const Wish& wish, Job& job) {
   Held out;
   out.holdings.resize(setups.size());
-  // A plan that is bound again keeps how it is held, unless somebody says otherwise.
+  // A plan that is bound again keeps its workholding, unless the caller asks for another.
   bool kept = false;
   for (std::size_t i = 0; i < setups.size() && !wish.asked_now; ++i) {
     for (const auto& [setup, holding] : wish.recorded) {

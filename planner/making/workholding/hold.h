@@ -10,35 +10,35 @@
 #include "planner/making/draft/draft.h"
 #include "planner/model/plan/plan.h"
 
-// Which fixture holds each set-up, where, and what the operator is told about it.
+// The fixture of each set-up, its place, and the set-up instructions for the operator.
 
 namespace capstan::workholding {
 
-/// What the piece is to be held by.
+/// The workholding that the caller wants.
 struct Wish {
   std::string how;         ///< "auto", the id of a fixture, or a file; empty or "none": not planned
-  bool asked_now = false;  ///< somebody says so now: what the plan said before does not count
+  bool asked_now = false;  ///< the caller asks for it now: the workholding in the plan does not count
   /// As the plan said when it was read.
   const std::vector<std::pair<model::Ref<model::Setup>, model::Workholding>>& recorded;
 };
 
-/// What holds each set-up.
+/// Workholding of each set-up.
 struct Held {
   std::vector<model::Workholding> holdings;  ///< by set-up; without solids where it is not planned
-  bool planned = true;                       ///< false: nothing was asked for, or the file cannot be read now
+  bool planned = true;                       ///< false: none was requested, or the file cannot be read now
   std::optional<model::Provenance> note;     ///< that nothing is planned, where the plan does not say it yet
 };
 
-/// Holds each set-up as wished: by what the plan recorded, by the fixture or the file that is named, or by
-/// the first of the shipped fixtures that keeps out of the way of all cuts. Says of which set-up nothing is
-/// known (PIP-HOLDING).
+/// Holds each set-up as wished: as recorded in the plan, by the fixture or the file that is named, or by the
+/// first shipped fixture that is clear of all cuts. Reports set-ups whose workholding is unknown
+/// (PIP-HOLDING).
 /// Fails  HOLD-KIND for a clamp without a plate, HOLD-SETUP for a set-up that the file names and the plan has
 ///        not, as `place`, and as reading the file.
 [[nodiscard]] Result<Held> hold(const model::Plan& plan, const std::vector<draft::SetupDraft>& setups,
                                 const std::vector<draft::StepDraft>& steps, const Wish& wish, Job& job);
 
-/// Writes the holding of set-up `at`, where it has one: an instruction of the workpiece's set-up, the fixture
-/// used, and what must not be entered where one block says it. `by`: what was asked for.
+/// Writes the workholding of set-up `at`, if it has one: an instruction of the workpiece's set-up, the
+/// fixture used, and the area to avoid if one block can describe it. `by`: what the caller requested.
 void write_nouns(model::Plan& plan, const std::vector<draft::SetupDraft>& setups, std::size_t at,
                  const std::string& by);
 

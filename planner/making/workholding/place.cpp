@@ -83,7 +83,7 @@ class Placer {
     return tl::unexpected(fault(code, std::move(message), line, std::move(hint)));
   }
 
-  /// The parallel that is asked for, else the one that holds deepest within two thirds of the piece.
+  /// The parallel that is requested, else the one with the deepest grip within two thirds of the piece.
   [[nodiscard]] Vec2 parallel_of(const Fixture& f, double height) const {
     if (wish_.parallel) return *wish_.parallel;
     Vec2 best{};
@@ -208,7 +208,7 @@ class Placer {
                         " from " + std::string(to_text(c.from));
     out_.solids.push_back(std::move(body));
     if (!strap) return {};
-    // Bolt and rear block stand outside the piece; the block reaches down to what the clamp stands on.
+    // Bolt and rear block are outside the piece; the block reaches down to the surface under the clamp.
     const double edge =
         dot(geometry::Vec2{back.x > 0 ? piece_.hi.x : piece_.lo.x, back.y > 0 ? piece_.hi.y : piece_.lo.y} -
                 c.at,
@@ -232,7 +232,7 @@ class Placer {
     const Vec2 block = tail - std::min(kBlock, 0.25 * f->length_mm) * back;
     out_.solids.push_back(prism(c.name + ".block", "body", block - w, tail + w, base, bottom, false));
     if (under.kind == FixtureKind::kPlate) {
-      // The support stands under the tip.
+      // The support is under the tip.
       const double reach = std::clamp(edge, kTouch, f->reach_mm);
       const Vec2 rim = c.at + edge * back;
       out_.solids.push_back(

@@ -9,6 +9,19 @@
 #include "planner/ground/base/number.h"
 #include "planner/physics/stock/sweep.h"
 
+// Cross sections on a height map, measured by volume. A move is divided into steps. `stock::sweep` lowers the
+// cells under each step and tallies what it removed: volume, moments, and the lowest and highest contact in
+// bins across the feed. For one step of length s:
+//
+//     CSA = removed volume / s           centre of gravity = moments / removed volume
+//     ADmax = tallest contact of a bin   RDmax = right - left contact, within the outline's width there
+//     entry, exit = acos(-x / R) of the left and the right contact; a plunge is the whole circle
+//
+// The lateral contact is known to a cell. Where a flat cutter takes an even layer, CSA / ADmax is more exact,
+// so that the side away from the cutter's edge is set by it (`sharpen`). Moves above all material are
+// skipped.
+// Source  definitions of the seven numbers: AP238 edition 2, 4.2.379.4; the method: derived.
+
 namespace capstan::engagement {
 namespace {
 
@@ -166,8 +179,8 @@ class Measurer {
     push(i, at, axial, radial, t.sum_x / t.removed_mm3, t.sum_y / t.removed_mm3, e);
   }
 
-  /// Angle between entry and exit at which nothing was touched, at the full radius. What is narrower than two
-  /// bins or a cell and a half is not told from the spacing of cells.
+  /// Angle between entry and exit at which nothing was touched, at the full radius, rad. A gap narrower than
+  /// a bin and a half or a cell and a half does not count: it may be the spacing of cells.
   [[nodiscard]] double gaps(const Tally& t, double left, double right) const {
     const double r = profile_.radius_mm;
     const double bin = 2.0 * r / static_cast<double>(Tally::kBins);

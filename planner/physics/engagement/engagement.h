@@ -21,7 +21,7 @@ struct Engagement {
       0.0;  ///< angle of contact: exit - entry less what lies free between, as beside a thin wall
   double csa_mm2 = 0.0;  ///< removed volume per length of path
   double removed_mm3 = 0.0;
-  double step_mm = 0.0;  ///< path length that the sample stands for, up to its point
+  double step_mm = 0.0;  ///< length of path that the sample represents, up to its point
   bool plunge = false;   ///< the move goes straight along the axis
   friend bool operator==(const Engagement&, const Engagement&) = default;
 };
@@ -48,11 +48,11 @@ struct Measurement {
 
 /// Measures the cut along a path and takes what it cuts from the stock.
 ///
-/// One sample stands at the end of each step; its numbers hold for that step (the mean over it, the extreme
-/// for depths). The volume a step sweeps, projected along the feed, is the contact section: CSA is removed
-/// volume over length, its centre of gravity that of the removed volume, which is exact for any rotating
-/// outline and any stock in the limit of small steps. On a plunge the section is the contact area seen along
-/// the axis; X is then measured across the last horizontal feed.
+/// One sample is made at the end of each step; its numbers are those of the step (means over it, for depths
+/// the extreme). The volume that a step removes, projected along the feed, is the contact section: CSA is
+/// removed volume over length, its centre of gravity that of the removed volume. This is exact for any
+/// rotating outline and any stock in the limit of small steps. On a plunge the section is the contact area
+/// seen along the axis; X is then measured across the last horizontal feed.
 ///
 /// ADmax and RDmax are the greatest extents of contact along Y and across X; Ymaxofs and Xmaxofs are the
 /// middles of those extents. Steps in air give no sample, but one empty sample closes each cut.
@@ -64,10 +64,10 @@ struct Measurement {
 ///
 /// Frame    path and stock in the set-up's.
 /// Units    mm.
-/// Fails    ENG-PROFILE for a cutter without diameter or with an outline that is none; ENG-NUMBER when a
-///          coordinate is not finite or farther than a hundred metres; ENG-UNDERCUT for T-slot, dovetail and
-///          back cutters, and for side and thread mills where material stands over their head: a height map
-///          cannot hold such a cut. The stock is then as it was.
+/// Fails    ENG-PROFILE for a cutter without diameter or with an invalid outline; ENG-NUMBER if a coordinate
+///          is not finite or farther than a hundred metres; ENG-UNDERCUT for T-slot, dovetail and back
+///          cutters, and for side and thread mills with material above their head: a height map cannot hold
+///          such a cut. The stock is then unchanged.
 /// Accuracy cells of D/100: README.md. Angles: those of X known to a cell or, for an even layer, to that of
 /// CSA. Source   AP238 edition 2, 4.2.379.4; CSA and centre derived by the divergence theorem.
 [[nodiscard]] Result<Measurement> measure(const model::CutterPath& path, const model::Cutter& cutter,

@@ -100,7 +100,7 @@ inline constexpr double kLifeAtTableMin = 15.0;
 /// Source: 0.8 in Mitsubishi Materials' worked example of milling power; Kyocera's catalogue 2021 gives
 /// 0.7 to 0.8.
 inline constexpr double kDefaultSpindleEfficiency = 0.8;
-/// What of the motor's power reaches the cut, as a machine states it; else the default.
+/// Share of the motor's power that reaches the cut: the machine's own, else the default.
 [[nodiscard]] constexpr double spindle_efficiency(double stated) {
   return stated > 0.0 && stated <= 1.0 ? stated : kDefaultSpindleEfficiency;
 }

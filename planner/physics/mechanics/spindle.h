@@ -4,7 +4,7 @@
 
 #include "planner/ground/base/result.h"
 
-/// What a spindle can give at a speed.
+/// Power and torque of a spindle at a speed.
 namespace capstan::mechanics {
 
 /// A point of the maker's diagram, continuous rating (S1) unless the caller says otherwise.

@@ -12,7 +12,7 @@
 /// Depths without chatter: lobes from modes of the tool point, else a limit on slenderness.
 namespace capstan::mechanics {
 
-/// What turns and cuts when stability is asked for.
+/// Input of the stability lobes: cutter, arc of contact and force coefficients.
 struct ChatterCut {
   ImmersionArc arc = {};
   int teeth = 0;
@@ -43,7 +43,7 @@ class StabilityLobes {
   static constexpr double kSpeedBand = 0.02;
 
   /// A direction without modes takes those of the other.
-  /// Fails     MECH-MODES: none, or a value out of range; MECH-DOMAIN for the cut.
+  /// Fails     MECH-MODES: no modes, or a value out of range; MECH-DOMAIN for the cut.
   [[nodiscard]] static Result<StabilityLobes> make(const std::vector<model::ToolPointMode>& modes,
                                                    const ChatterCut& cut);
 
@@ -72,7 +72,7 @@ class StabilityLobes {
 inline constexpr double kSingleToothMargin = 0.6;
 inline constexpr double kSafeTeeth = 1.5;
 
-/// The modes that hold for a cutter: those that name it, else those that name none.
+/// The modes of a cutter: those that name it, else those that name no cutter.
 [[nodiscard]] std::vector<model::ToolPointMode> modes_for(const model::Machine& machine,
                                                           const std::string& cutter_id);
 

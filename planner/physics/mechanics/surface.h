@@ -1,7 +1,7 @@
 #pragma once
 
-/// The surface that geometry alone leaves, in mm: a lower bound. Measured roughness is larger, and in
-/// fine feeds hardly follows f^2 (runout, edge, material): treat as what cannot be undercut.
+/// The surface that geometry alone produces, in mm: a lower bound. Measured roughness is larger, and in fine
+/// feeds hardly follows f^2 (runout, edge, material).
 ///
 /// Needs     positive finite arguments; the limits below are the caller's to keep.
 namespace capstan::mechanics {

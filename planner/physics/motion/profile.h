@@ -17,7 +17,7 @@ struct Segment {
   double jerk_mm_s3 = kNoJerk;
 };
 
-/// What a move does between two speeds.
+/// Time of a move between two speeds.
 struct SegmentTime {
   double seconds = 0.0;
   double peak_mm_s = 0.0;

@@ -27,7 +27,8 @@ double along(const std::array<double, 3>& limit, Vec3 u) {
   return out;
 }
 
-// What every axis can give in any direction of the plane spanned by the orthonormal u and v.
+// Acceleration or speed that every axis can reach in any direction of the plane spanned by the orthonormal u
+// and v.
 double within_plane(const std::array<double, 3>& limit, Vec3 u, Vec3 v) {
   const auto a = array_of(u);
   const auto b = array_of(v);

@@ -16,7 +16,7 @@ struct Limits {
   bool has_jerk = false;
   double tolerance_mm = 0.0;
   double block_s = 0.0;
-  /// What the control gives of the acceleration to turning at most, and along the path at least.
+  /// largest share of the acceleration for turning, and smallest share along the path
   double turning_share = 0.0, along_share = 0.0;
 };
 

@@ -267,7 +267,7 @@ class Scan {
   const Machine& machine_;
   const Limits& limits_;
   std::vector<Segment> segments_;
-  std::vector<std::size_t> next_;  // the move that follows without a stop between; 0: none
+  std::vector<std::size_t> next_;  // the next move without a stop in between; 0: none
   std::vector<double> corner_;     // speed at the start of a move where the path tolerance limits it; else -1
   StepTime out_;
 };

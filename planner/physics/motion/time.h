@@ -11,7 +11,7 @@
 
 namespace capstan::motion {
 
-/// What sets the most that a move runs at.
+/// The limit that determines a move's highest speed.
 enum class TopBy : std::uint8_t {
   kFeed,     ///< the schedule
   kAxes,     ///< the axes' speed
@@ -63,7 +63,7 @@ struct StepTime {
 [[nodiscard]] Result<StepTime> time_of(const model::CutterPath& path, const model::FeedSchedule& schedule,
                                        const model::Machine& machine);
 
-/// What the axes can do along each move, the feed aside: what a feed schedule has to know.
+/// Limits of the axes along each move, regardless of feed: input of a feed schedule.
 struct MoveReach {
   double length_mm = 0.0;
   double most_mm_min = 0.0;         ///< axes and centripetal acceleration
@@ -108,7 +108,7 @@ struct PlanTime {
 /// Fails  as `time_of` of a step, naming it.
 [[nodiscard]] Result<PlanTime> time_of(const model::Plan& plan);
 
-/// The feed schedule of a step: its own, or its one feed and speed where it has none.
+/// The feed schedule of a step: its own, else one made of its single feed and speed.
 [[nodiscard]] model::FeedSchedule schedule_of(const model::StepResult& step);
 
 }  // namespace capstan::motion

@@ -8,9 +8,9 @@
 
 namespace capstan::stock {
 
-/// What still stands on one cell: a share of it is at `low_mm`, the rest at `top_mm`. Both are heights above
-/// the map's floor; on a uniform cell share is 0 and both are equal. Two levels let an edge that crosses a
-/// cell keep its place.
+/// The material on one cell: a share of the cell is at `low_mm`, the rest at `top_mm`, both above the map's
+/// floor. On a uniform cell the share is 0 and both are equal. Two levels represent an edge that crosses the
+/// cell.
 struct Column {
   float top_mm = 0.0F;
   float low_mm = 0.0F;
@@ -74,7 +74,7 @@ inline constexpr double kMaximumCells = 16e6;
 /// triangles does not matter; where no triangle lies there is nothing.
 [[nodiscard]] HeightMap from_mesh(const geometry::Mesh& mesh, double floor_mm, double cell_mm);
 
-/// The columns of a rectangle of cells, as they stood: what a cut is undone by.
+/// The columns of a rectangle of cells before a cut, to undo it.
 struct Patch {
   int x0 = 0, y0 = 0, nx = 0, ny = 0;
   std::vector<float> top, low, share;  ///< row by row
@@ -87,8 +87,8 @@ void put_back(HeightMap& map, const Patch& patch);
 [[nodiscard]] double volume(const HeightMap& map);  ///< mm3
 /// Height of the stock at a point, the mean of its cell; the floor outside.
 [[nodiscard]] double height_at(const HeightMap& map, geometry::Vec2 p);
-/// Highest material under a disc, set-up z; the floor when there is none. Cells that the disc merely
-/// touches count: never too low.
+/// Highest material under a disc, set-up z; the floor if there is none. Cells that the disc only touches
+/// count, so that the result is never too low.
 [[nodiscard]] double max_height(const HeightMap& map, geometry::Vec2 centre, double radius_mm);
 /// As above under the band that a disc sweeps from a to b.
 [[nodiscard]] double max_height(const HeightMap& map, geometry::Vec2 a, geometry::Vec2 b, double radius_mm);

@@ -17,11 +17,11 @@ struct Track {
   bool arc = false;
   geometry::Vec2 centre;  ///< of the arc
   bool clockwise = false;
-  double ceiling_mm = 1e300;  ///< known: no material under the track stands higher (z); only a saving of time
+  double ceiling_mm = 1e300;  ///< no material under the track is higher (z); saves time only
 };
 
-/// What a sweep took away, in the section frame of the track: X across (negative left of the feed), Y along
-/// the axis from the lowest tip height of the track.
+/// Removal of a sweep, in the section frame of the track: X across (negative left of the feed), Y along the
+/// axis from the lowest tip height of the track.
 struct Tally {
   static constexpr std::size_t kBins = 64;  ///< across the cutter's diameter
   double removed_mm3 = 0.0;
@@ -39,8 +39,8 @@ struct Tally {
 /// rotating outline over the track, not a row of stamps; for level arcs too. A rising or falling arc is taken
 /// as chords within a twentieth of a cell.
 ///
-/// `behind_is_cut`  the cutter stood at track.from before, with the same profile and nothing added since:
-///                  cells behind it need no look. Only a saving of time.
+/// `behind_is_cut`  the cutter was at track.from before, with the same profile and no material added since:
+///                  cells behind it are skipped. Saves time only.
 /// `heading`        feed direction that X is measured against on a vertical track; any length but 0.
 /// Needs            a profile whose height does not fall and is convex in r (as geometry/profile.h says).
 /// Units            mm. No allocation.
@@ -49,7 +49,7 @@ struct Tally {
 void sweep(HeightMap& map, const geometry::CutterProfile& profile, const Track& track, bool behind_is_cut,
            geometry::Vec2 heading, Tally& tally);
 
-/// Cuts move i of the path; returns the removed volume, mm3. Dwells and entry 0 cut where the tool stands.
+/// Cuts move i of the path; returns the removed volume, mm3. Dwells and entry 0 cut at the tool's position.
 double cut(HeightMap& map, const geometry::CutterProfile& profile, const model::CutterPath& path,
            std::size_t i);
 /// Cuts the whole path, rapids included; mm3.

@@ -42,7 +42,7 @@ void sink(HeightMap& map, std::size_t i, float height) {
   map.set(i, c);
 }
 
-/// The highest point of what stands in `from`, along a direction of its own frame.
+/// The highest material of `from` along a direction of its own frame.
 double extent(const HeightMap& from, Vec3 along) {
   double best = -1e300;
   for (int y = 0; y < from.ny; ++y) {

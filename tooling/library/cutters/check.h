@@ -9,7 +9,7 @@
 namespace capstan::tooling {
 
 using model::faults_of;
-/// A size that exists but is more likely of another unit; empty: none.
+/// Why a size, though it exists, is more likely in another unit; empty: it is not.
 [[nodiscard]] std::string unlikely_of(const model::Cutter& c);
 
 /// Faults of a whole library: those of each cutter (TOOL-VALUE), ids given twice (TOOL-ID) and tool numbers

@@ -107,13 +107,13 @@ void tell_groups(Cutter& c) {
 }
 
 void fill_feeds(Cutter& c, const Cutter& g, Filler& f) {
-  // A smaller tooth bears less; a larger one is not trusted with more.
+  // A smaller tooth allows less; a larger one is not given more.
   const double scale = std::min(1.0, c.cutting_diameter_mm / g.cutting_diameter_mm);
   if (c.cutter_class == CutterClass::kTap) {
     if (c.fz_min_mm == 0.0 && c.fz_max_mm == 0.0)
       c.fz_min_mm = c.fz_max_mm = c.thread_pitch_mm / std::max(c.teeth, 1);
   } else {
-    // What its own start value lets it bear more, it bears in that material only: model::borne_feed.
+    // A start value of its own that is higher applies to that material only: model::borne_feed.
     double least = 0.0;
     for (const model::CuttingPreset& p : c.presets) {
       if (borrowed(p) || !(p.fz_mm > 0.0)) continue;
@@ -141,8 +141,8 @@ void fill_feeds(Cutter& c, const Cutter& g, Filler& f) {
                     [&](const auto& o) { return o.material_group == p.material_group; }))
       continue;
     p.fz_mm = rounded(p.fz_mm * scale, 5);
-    // Nothing says that this edge is coated. Another substrate bears another speed: the material's own is
-    // taken then.
+    // The edge is not stated to be coated. For another substrate the speed is not known either: the
+    // material's own is taken then.
     if (c.substrate == g.substrate) {
       as_bare(p);
     } else {

@@ -8,9 +8,12 @@
 
 namespace capstan::tooling {
 
-/// Fills what a source left unsaid (zeros, no presets) from the generic cutter of the same class nearest in
-/// diameter, and says so in `sources`; what is said stays. Lengths are kept consistent with what is said:
+/// Completes missing values (zeros, no presets) from the generic cutter of the same class nearest in
+/// diameter, and records this in `sources`; stated values stay. Lengths stay consistent with stated ones:
 /// flutes and usable length within the stick-out, the stick-out within the length to the gage line.
+///
+/// Centre cutting and ramp angle are not taken over: an unnamed end mill counts as not centre cutting, and as
+/// ramping at kCautiousRampRad.
 ///
 /// Whether it cuts to the centre and how steeply it may ramp are not taken over: an unnamed end mill is held
 /// not to cut to the centre and to ramp at kCautiousRampRad.
@@ -25,13 +28,13 @@ inline constexpr std::string_view kNotStated = "default: not stated";  ///< what
 inline constexpr std::string_view kRampUnstated = "default: 3 degrees, unsourced";
 inline constexpr std::string_view kSubstrateUnstated = "default: the slower one";
 
-/// What the source of a generic preset says where its speed is that of a coated edge: a cutter that does not
-/// say that it is coated takes the material's own speed.
+/// Text in the source of a generic preset whose speed is that of a coated edge. A cutter that is not stated
+/// to be coated takes the material's own speed.
 inline constexpr std::string_view kCoated = "(coated";
 
 inline constexpr double kCautiousRampRad = 3.0 * 3.14159265358979323846 / 180.0;  ///< default, unsourced
 
-/// What it says in `sources` of a field, or null.
+/// The entry of a field in `sources`, or null.
 [[nodiscard]] const std::string* source_of(const model::Cutter& c, std::string_view field);
 
 }  // namespace capstan::tooling

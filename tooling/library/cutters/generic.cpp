@@ -89,7 +89,7 @@ struct Feeds {
   std::map<std::string, double> factor;
 };
 
-/// What an edge is faster than a bare one of its substrate, by group.
+/// Speed of an edge relative to a bare one of its substrate, by group.
 struct Edge {
   std::map<std::string, double> over_bare = {};
   std::string source = {};
@@ -199,7 +199,7 @@ struct Series {
       neck_length;
   double speed_factor = 1.0;
   std::string factor_source = "default";
-  std::string edge;  ///< of Reader::edges; none: bare
+  std::string edge;  ///< of Reader::edges; empty: bare
 };
 
 std::optional<Law> optional_law(Fields& f, std::string_view key) {
@@ -426,7 +426,7 @@ Result<std::vector<Cutter>> generic_library() {
 Status add_start_values(const WorkMaterial& own, std::vector<Cutter>& library) {
   const auto shipped = shipped_materials();
   if (!shipped) return fail(shipped.error());
-  // What the slowest of the group has, by substrate: a series' speed is a factor times a material's.
+  // The slowest speed in the group, by substrate: a series' speed is a factor times a material's.
   double slowest[2] = {0.0, 0.0};
   for (const WorkMaterial& m : *shipped) {
     if (m.iso_group != own.iso_group) continue;

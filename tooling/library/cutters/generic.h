@@ -18,11 +18,11 @@ namespace capstan::tooling {
 /// The same, made once.
 [[nodiscard]] const Result<std::vector<model::Cutter>>& shared_generic_library();
 
-/// What the source of a generic preset calls the speed of the material that it is made for.
+/// Name, in the source of a generic preset, of the speed of the material it is made for.
 inline constexpr std::string_view kMaterialsSpeed = "the material's";
 
-/// Start values for a material that is not shipped, where a cutter's are those of a generic series: its speed
-/// in the same proportion as the group's, the group's feed.
+/// Adds start values for a material that is not shipped to cutters of a generic series: its speed in the same
+/// proportion as the group's, the group's feed.
 [[nodiscard]] Status add_start_values(const model::WorkMaterial& own, std::vector<model::Cutter>& library);
 
 /// As above from texts of the same form.

@@ -11,7 +11,7 @@ namespace capstan::tooling {
 [[nodiscard]] const Format& csv_format();          ///< with a column map, both ways
 [[nodiscard]] const Format& linuxcnc_format();     ///< `.tbl`, PathPilot's too, both ways
 [[nodiscard]] const Format& own_format();          ///< our own list (YAML, JSON), both ways
-[[nodiscard]] const Format& store_format();        ///< SQLite, both ways; tooling/store
+[[nodiscard]] const Format& store_format();        ///< SQLite, both ways; tooling/library/store
 [[nodiscard]] const Format& freecad_format();
 [[nodiscard]] const Format& iso13399_format();
 [[nodiscard]] const Format& gtc_format();

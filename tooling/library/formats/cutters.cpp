@@ -22,10 +22,10 @@ namespace {
 using model::Cutter;
 using model::CutterClass;
 
-/// What makers call materials that are in no group of ISO 513.
+/// Group name that makers use for materials in no group of ISO 513.
 constexpr const char* kOtherGroup = "O";
 
-/// Which field a symbol of ISO 13399, or of our own, speaks of.
+/// The field of a cutter for a symbol of ISO 13399 or of our own.
 struct FieldOf {
   const char* symbol;
   double Cutter::*field;
@@ -308,7 +308,7 @@ class Maker {
     }
   }
 
-  /// What the numbers leave open and the tool's names say.
+  /// Takes sizes that the numbers leave open from the tool's names.
   static void words(const CatalogueItem& item, Cutter& c) {
     for (const std::string* text : {&item.description, &item.id, &item.kind}) {
       const CommentSizes s =
@@ -516,7 +516,7 @@ CatalogueItem item_of(const Cutter& c) {
   const bool own =
       std::any_of(c.presets.begin(), c.presets.end(), [](const auto& p) { return !borrowed(p); });
   for (const auto& p : c.presets) {
-    if (own && borrowed(p)) continue;  // filled in again by whoever reads
+    if (own && borrowed(p)) continue;  // the reader fills it in again
     Preset q;
     q.name = q.material = p.material_group;
     if (p.vc_m_min > 0.0) q.vc_m_min = p.vc_m_min;

@@ -133,7 +133,7 @@ Result<Imported> import_folder(const std::string& folder, const FormatOptions& o
 
 const std::vector<Format>& formats() {
   static const std::vector<Format> kFormats = {
-      // Archives and marked files first; tables, which are told by little, last.
+      // Archives and marked files first; tables, which have few marks, last.
       store_format(),  fusion_format(),    fusion_json_format(), own_format(),       freecad_format(),
       gtc_format(),    iso13399_format(),  din4000_format(),     hypermill_format(), solidcam_format(),
       family_format(), mtconnect_format(), linuxcnc_format(),    csv_format(),

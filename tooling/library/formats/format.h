@@ -11,9 +11,9 @@
 
 namespace capstan::tooling {
 
-/// What reading or writing a format may need to be told.
+/// Options that reading or writing a format may need.
 struct FormatOptions {
-  /// Of formats that do not say their unit (LinuxCNC tables, some CSV): 1 or 25.4.
+  /// For formats that do not state their unit (LinuxCNC tables, some CSV): 1 or 25.4.
   std::optional<double> mm_per_unit;
   /// CSV: column title -> symbol or field, as saved by an earlier import; a file's text.
   std::string column_map;
@@ -36,7 +36,7 @@ struct Format {
   std::string_view name;                  ///< "fusion", "csv", "linuxcnc", "iso13399", "freecad", ...
   std::string_view title;                 ///< for people
   std::vector<std::string_view> endings;  ///< ".tools", ".json"; the first one is written
-  bool (*recognises)(std::string_view bytes, std::string_view file) = nullptr;  ///< told by content
+  bool (*recognises)(std::string_view bytes, std::string_view file) = nullptr;  ///< decides by content
   Result<Imported> (*read)(std::string_view bytes, const std::string& file, const FormatOptions& options,
                            Job& job) = nullptr;
   Result<Exported> (*write)(const ToolLibrary& library, const FormatOptions& options, Job& job) = nullptr;
@@ -46,13 +46,14 @@ struct Format {
 [[nodiscard]] const std::vector<Format>& formats();
 [[nodiscard]] const Format* find_format(std::string_view name);
 
-/// A library from a file or, for formats of many files (FreeCAD), a folder; told by content.
+/// Reads a library from a file or, for formats of many files (FreeCAD), a folder. The format is found by
+/// content.
 /// Fails  FILE-*, LIBRARY-KIND, and as the format.
 [[nodiscard]] Result<Imported> import_library(const std::string& path, const FormatOptions& options,
                                               Job& job);
 
-/// As planning uses it: assemblies first, then items without one; each value with its source, what is missing
-/// completed as in `complete.h`. Items of no known class are left out; `report` says so.
+/// The cutters for planning: assemblies first, then items without one; each value with its source, missing
+/// ones completed as in `complete.h`. Items of no known class are left out; `report` says so.
 /// Fails  what `check_cutters` finds.
 [[nodiscard]] Result<std::vector<model::Cutter>> cutters_of(
     const ToolLibrary& library, LossReport& report, Job& job,

@@ -16,8 +16,9 @@ namespace {
 using model::Cutter;
 using model::Unit;
 
-/// What reading and `complete` fill in is found again when the list is read, and may be a better one then. A
-/// value that the library itself holds by default (as the generic series do) is its own, and is written.
+/// True for values that reading and `complete` fill in: they are found again when the list is read, and may
+/// be better then. A default that the library itself holds (as the generic series do) is its own, and is
+/// written.
 bool by_default(const Cutter& c, std::string_view field) {
   constexpr std::string_view kFilledIn[] = {kAsGeneric, kNotStated, kRampUnstated, kSubstrateUnstated};
   return std::any_of(c.sources.begin(), c.sources.end(), [&](const auto& s) {
@@ -26,7 +27,7 @@ bool by_default(const Cutter& c, std::string_view field) {
   });
 }
 
-/// What the list says of one field; empty where it says nothing, for that is found again when it is read.
+/// Writes the list's text of each field; empty for values that are found again when the list is read.
 class Writer {
  public:
   Writer(const Cutter& c, double mm_per_unit) : c_(c), mm_per_unit_(mm_per_unit) {}
@@ -105,7 +106,7 @@ class Writer {
     }
     return out;
   }
-  /// What has no key.
+  /// Fields without a key.
   template <class Row, class T>
   std::string value_of(const Row&, const T&) const {
     return {};

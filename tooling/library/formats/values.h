@@ -21,7 +21,7 @@ inline constexpr int kMostToolNumber = 99999;
 
 enum class Quantity : std::uint8_t { kLength, kAngle, kNumber, kCount, kText };
 
-/// What a symbol means and which values it can have; lengths in mm, angles in degrees (here only).
+/// Meaning of a symbol and its range of values; lengths in mm, angles in degrees (here only).
 struct SymbolFact {
   std::string_view symbol;
   Quantity quantity;
@@ -32,7 +32,7 @@ struct SymbolFact {
 /// "FZMIN", "FZMAX", "LEADLENGTH", "LEADTHREADS", "RUNOUT", "LIFE", "PRICE"); null for others.
 [[nodiscard]] const SymbolFact* symbol_fact(std::string_view symbol);
 
-/// Where a value stands in a file.
+/// Position of a value in a file.
 struct Place {
   std::string file;
   std::uint64_t line = 0;  ///< 0 unknown
@@ -78,7 +78,7 @@ struct UniqueIds {
 [[nodiscard]] std::string_view trimmed_text(std::string_view text);
 /// ASCII letters in lower case.
 [[nodiscard]] std::string lower_text(std::string_view text);
-/// The id, or the id with " (2)", " (3)" ... behind, so that none of `taken` is met; adds it there.
+/// The id, or the id with " (2)", " (3)" ... behind, so that it differs from all in `taken`; adds it there.
 [[nodiscard]] std::string unique_id(const std::string& id, UniqueIds& taken);
 
 /// The value stated for a path ("geometry.JET") in a list of kept texts, or null.

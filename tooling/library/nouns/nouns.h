@@ -43,8 +43,8 @@ namespace capstan::tooling {
 /// "stated", or how it was read.
 [[nodiscard]] double point_angle_from(double tool_top_angle_rad, model::CutterClass c, std::string& reading);
 
-/// What a tool of a file asks for. Hole-making tools: its size; mills: at most its diameter, at least half of
-/// it. Fails as above.
+/// Requirement from a tool of a file. Hole-making tools: its size; mills: at most its diameter, at least half
+/// of it. Fails as above.
 [[nodiscard]] Result<model::ToolRequirement> requirement_from_nouns(const model::Model& m,
                                                                     model::Ref<model::MachiningTool> tool,
                                                                     Job& job);

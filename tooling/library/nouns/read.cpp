@@ -96,7 +96,7 @@ std::optional<CutterClass> class_of_words(const model::UserDefinedTool& u, doubl
   return std::nullopt;
 }
 
-/// The noun decides, and where one noun stands for several classes, what is stated of it.
+/// The class of a body: its noun decides, and if one noun has several classes, its stated values.
 std::optional<CutterClass> class_of_body(const Model& m, const Parts& p, double point_angle_rad) {
   const double d = p.dimension->diameter.value_or(0.0), re = p.dimension->edge_radius.value_or(0.0);
   const model::AnyRef b = p.body_ref;
@@ -113,7 +113,7 @@ std::optional<CutterClass> class_of_body(const Model& m, const Parts& p, double 
   }
   if (m.holds<model::Facemill>(b) && d < kLeastFacemillMm) return CutterClass::kEndmill;
   if (m.holds<model::MillingThreadingTool>(b)) return CutterClass::kThreadMill;
-  // A side mill without a width, and a tapered kind without a taper, are the plain tool or none.
+  // A side mill without a width, or a tapered kind without a taper, is the plain tool, or has no class.
   const auto by_noun = m.holds<model::SideMill>(b) ? std::nullopt : class_of_noun(b.type);
   const bool plain = by_noun == CutterClass::kEndmill || by_noun == CutterClass::kTaperedEndmill;
   if (!plain) return by_noun;
@@ -148,10 +148,10 @@ double gage_length(const Model& m, const model::ToolUsage* usage) {
   return std::isfinite(length) && length > kSizeSlackMm ? length : 0.0;
 }
 
-/// What tool_usage says beside the position: names and links.
+/// Reads tool_usage except its position: names and links.
 void read_usage(const Model& m, const model::ToolUsage& usage, Cutter& c) {
   if (usage.its_library_reference) {
-    // A link into somebody's library, or (as we write it) the cutter's own name.
+    // A link into another library, or (as we write it) the cutter's own name.
     const bool link = usage.its_id && !usage.its_id->empty() && *usage.its_id != *usage.its_library_reference;
     c.id = link ? *usage.its_id : *usage.its_library_reference;
     if (link) c.library_reference = *usage.its_library_reference;

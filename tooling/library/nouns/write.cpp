@@ -18,7 +18,7 @@ using model::Ref;
 
 constexpr double kSecondsPerMinute = 60.0;
 
-/// What a body is made from: a cutter, or as much of one as a requirement fixes.
+/// Input of a body: a cutter, or the part of one that a requirement fixes.
 struct Body {
   CutterClass cutter_class = CutterClass::kEndmill;
   double lead_angle_rad = 0.0, thickness_mm = 0.0, taper_angle_rad = 0.0;
@@ -87,7 +87,7 @@ Ref<MachiningTool> probe_of(Model& m, const Cutter& c) {
   return m.add(probe);
 }
 
-/// What only some kinds of body say.
+/// Sets attributes that only some kinds of body have.
 void fill_body(Model& m, model::AnyRef body, const Cutter& c) {
   const auto threaded = [&](auto* b) {
     if (b == nullptr || !(c.thread_pitch_mm > 0.0)) return;

@@ -10,8 +10,8 @@
 
 /// @file The four records of a shop's tools, as catalogues and tool rooms keep them: what can be bought
 /// (item), the piece on the shelf (instance), how it is put together (assembly), where it sits (machine
-/// entry). Every format of `tooling/formats` reads into a ToolLibrary and is written from one; `cutters_of`
-/// makes of it what planning uses.
+/// entry). Every format of `tooling/library/formats` reads into a ToolLibrary and is written from one;
+/// `cutters_of` makes of it what planning uses.
 
 namespace capstan::tooling {
 
@@ -42,7 +42,7 @@ struct Preset {
   bool operator==(const Preset&) const = default;
 };
 
-/// What can be bought.
+/// A purchasable tool.
 struct CatalogueItem {
   std::string id;  ///< unique in the library
   std::string description, manufacturer, product_id, product_link;
@@ -75,7 +75,7 @@ struct Holder {
   bool operator==(const Holder&) const = default;
 };
 
-/// Tool, holder, and how far it stands out.
+/// A tool in its holder, with its stick-out.
 struct ToolAssembly {
   std::string id, item, instance, holder;      ///< `instance` and `holder` may be empty
   std::optional<double> stick_out_mm;          ///< LPR, from the holder's face
@@ -106,7 +106,7 @@ struct ToolLibrary {
   bool operator==(const ToolLibrary&) const = default;
 };
 
-/// What came of reading or writing a library: each line about one tool or field, in the file's order.
+/// Report of reading or writing a library: each line about one tool or field, in the file's order.
 struct LossReport {
   struct Line {
     std::string tool, field, what;  ///< `tool` empty: all of them

@@ -11,7 +11,7 @@ bool recognises(std::string_view bytes, std::string_view) { return looks_like_st
 Result<Imported> read(std::string_view bytes, const std::string& file, const FormatOptions&, Job&) {
   const auto store = ToolStore::from_bytes(std::string(bytes), file);
   if (!store) return fail(store.error());
-  // The cutters are judged with the records: a damaged row is told now, not when it is needed.
+  // Check the cutters with the records, so that a damaged row is reported now and not when it is needed.
   if (const auto cutters = store->all_cutters(); !cutters) return fail(cutters.error());
   auto library = store->library();
   if (!library) return fail(library.error());

@@ -45,7 +45,7 @@ struct Finalize {
 using Database = std::unique_ptr<sqlite3, CloseDatabase>;
 using Statement = std::unique_ptr<sqlite3_stmt, Finalize>;
 
-/// What the index says of a cutter.
+/// The index entry of a cutter.
 struct Key {
   std::int64_t place = 0;
   int cutter_class = 0;

@@ -25,7 +25,7 @@ inline constexpr std::size_t kMostStoredTools = 1'000'000;
 [[nodiscard]] Result<std::string> store_of(const ToolLibrary& library,
                                            const std::vector<model::Cutter>& cutters);
 
-/// Whether bytes are a SQLite file: whose, opening it tells.
+/// True if the bytes are a SQLite file; opening it shows whether it is a store.
 [[nodiscard]] bool looks_like_store(std::string_view bytes);
 
 /// A store, open for reading. Opening reads the index only; a cutter is read, and checked, when asked for.

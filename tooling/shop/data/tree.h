@@ -32,7 +32,7 @@ struct Node {
 ///        given twice, FILE-TOO-LARGE; each with file and line.
 [[nodiscard]] Result<Node> parse_tree(std::string_view text, const std::string& file);
 
-/// Reads the fields of one mapping and remembers what is wrong, so that every fault is told, not the first.
+/// Reads the fields of one mapping and collects the faults, so that all are reported, not only the first.
 ///
 /// A `source` entry speaks for all values of its mapping and below; a number may also be written
 /// `{value: 457, source: "..."}`.
@@ -65,7 +65,7 @@ class Fields {
   [[nodiscard]] const std::string& source() const { return source_; }
   [[nodiscard]] std::uint64_t line() const { return node_.line; }
   [[nodiscard]] std::uint64_t line_of(std::string_view key) const;
-  /// (path, source) of every value read so far here; "" where none was stated.
+  /// (path, source) of every value read so far here; "" if none was stated.
   [[nodiscard]] const std::vector<std::pair<std::string, std::string>>& sources() const { return sources_; }
 
  private:
@@ -77,7 +77,7 @@ class Fields {
   std::vector<std::pair<std::string, std::string>> sources_;
 };
 
-/// Reports all faults to the job and gives the last as the result's error; nothing when there is none.
+/// Reports all faults to the job and returns the last as the result's error; nothing if there is none.
 [[nodiscard]] std::optional<Diagnostic> tell(std::vector<Diagnostic> faults, Job& job);
 
 }  // namespace capstan::tooling

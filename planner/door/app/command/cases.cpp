@@ -17,7 +17,7 @@ namespace {
 
 std::string n(double v) { return v != 0.0 ? trimmed(v, 4) : std::string("-"); }
 
-/// The cases of a CSV file, or of a plan's steps; a step that is none is told and left out.
+/// Cases from a CSV file, or from a plan's steps. A step that makes no case is reported and skipped.
 Result<std::vector<casebase::Case>> cases_of(const std::string& path, Job& job) {
   auto bytes = read_file(path);
   if (!bytes) return tl::unexpected(bytes.error());

@@ -92,7 +92,7 @@ int finish(Session& s, const service::Planned& planned, std::vector<Output> outp
                  kImpossible);
   }
   if (auto ok = service::make(plan, outputs, s.job); !ok) return s.end(ok.error(), kImpossible);
-  // What is left open has no path yet, so there is nothing to prove.
+  // Open decisions have no path yet, so there is nothing to check.
   service::Verdict verdict;
   if (!planned.open) {
     auto judgement = service::judge(s.options.inputs, planned, outputs, s.job);

@@ -6,12 +6,11 @@
 
 namespace capstan::app {
 
-/// Without what is said again in the same words of the same line or instance.
+/// Drops diagnostics that repeat the text of an earlier one about the same line or instance.
 [[nodiscard]] std::vector<Diagnostic> without_repeats(const std::vector<Diagnostic>& all);
 
-/// Diagnostics for a person: what is said of several operations, steps or features in the same words is said
-/// once, where it was said first, with how many there are and their names; what is said again word for word,
-/// with how often.
+/// Diagnostics for a person. One text about several operations, steps or features is shown once, at its first
+/// place, with their number and names; an identical diagnostic is shown once, with its count.
 [[nodiscard]] std::vector<Diagnostic> folded_diagnostics(const std::vector<Diagnostic>& all);
 
 }  // namespace capstan::app

@@ -31,7 +31,7 @@ bool has(const WorkMaterial& m, const std::string& word) {
 }
 
 std::string first_names(const WorkMaterial& m, const std::string& word) {
-  // What was asked for comes first.
+  // Matches of the word come first.
   std::vector<std::string> names = m.names;
   if (!word.empty())
     std::stable_partition(names.begin(), names.end(),
@@ -90,7 +90,7 @@ std::string page_of(const WorkMaterial& m, const std::vector<std::string>& harde
         {"life, " + law.substrate, n(law.life_min) + " min at " + n(law.v0_m_min) + " m/min", law.source});
   for (const std::string& id : harder) rows.push_back({"where it is harder", id, ""});
   std::string out = m.id + "\n" + table(rows);
-  // Names of one source stand together.
+  // Groups names by source.
   Rows names;
   for (const std::string& name : m.names) {
     const std::string source = source_of(m, "name " + name);
@@ -126,7 +126,7 @@ int run_material(Session& s) {
   }
   const auto found = tooling::find_material({name}, shipped->materials, s.job, tooling::Families::kRefused);
   if (!found) return s.end(found.error(), kUsage);
-  // The card as it stands: the sets of all its alloys.
+  // Shows the card unchanged: the sets of all its alloys.
   for (const WorkMaterial& m : shipped->materials) {
     if (m.id != found->id) continue;
     const auto harder = shipped->harder.find(m.id);

@@ -155,7 +155,7 @@ class CommandLine {
       if (!o.of_all_commands && o.help_of(verb) != nullptr) option(sub, o, verb);
     }
   }
-  /// One of them in a command that is none of the service's verbs.
+  /// Adds an option of the service to a command that is no verb of the service.
   void option(CLI::App* sub, std::string_view name, const char* help) {
     sub->add_option("--" + std::string(name), raw_.of[service::find_option(name)->name], help);
   }
@@ -298,7 +298,7 @@ class CommandLine {
     }
     return {};
   }
-  /// What is wrong, or nothing.
+  /// The fault of the command line; empty: none.
   std::string understand() {
     if (!raw_.file.empty()) out_.files = {raw_.file};
     if (std::string wrong = empty_value(app_); !wrong.empty()) return wrong;

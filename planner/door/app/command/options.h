@@ -34,7 +34,7 @@ enum class Command : std::uint8_t {
   kCasesNearest,
 };
 
-/// What `cases nearest` is asked.
+/// The question of `cases nearest`.
 struct CaseQuestion {
   std::string operation, material, tool_class;
   double diameter_mm = 0.0, depth_mm = 0.0, width_mm = 0.0, tolerance_mm = 0.0;
@@ -45,7 +45,7 @@ struct CaseQuestion {
 struct ToolsOptions {
   std::string column_map, save_map;  ///< files
   std::string unit;                  ///< mm or inch, of files that do not say
-  std::string format;                ///< instead of what the output's ending tells
+  std::string format;                ///< overrides the format of the output's ending
   bool report = false;               ///< every line of the loss report
 };
 

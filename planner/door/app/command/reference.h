@@ -11,7 +11,7 @@ struct OptionText {
   std::string value;                  ///< what kind of value, e.g. "TEXT"; empty: a flag
   std::string limits;                 ///< of the value, e.g. "UINT in [1 - 256]"; empty: any
   std::vector<std::string> choices;   ///< all values that are taken; empty: any
-  std::vector<std::string> excludes;  ///< options that cannot stand beside it
+  std::vector<std::string> excludes;  ///< options that exclude this one
   std::string help;
   bool positional = false, required = false, repeatable = false;
 };
@@ -25,7 +25,7 @@ struct CommandText {
   std::vector<CommandText> commands;
 };
 
-/// The whole command line: read from the parser's own options, so that no option stands twice.
+/// The whole command line, read from the parser's own options, so that each option is described once.
 [[nodiscard]] CommandText command_reference();
 
 }  // namespace capstan::app

@@ -55,7 +55,7 @@ int dispatch(Session& s) {
   return kUsage;
 }
 
-/// What a call reads: an output of the same name would take it away.
+/// Files that a call reads: an output of the same name would overwrite them.
 std::vector<std::string> read_by(const Options& o) {
   std::vector<std::string> out = o.files;
   const service::Request& in = o.inputs;
@@ -75,7 +75,7 @@ int begun(Session& s) {
   return dispatch(s);
 }
 
-/// The only place that catches: everything below tells its outcome by value.
+/// The only place that catches exceptions: all functions below return their outcome by value.
 int guarded(Session& s) {
   try {
     return begun(s);

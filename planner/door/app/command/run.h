@@ -6,7 +6,7 @@
 
 namespace capstan::app {
 
-/// What the command ends with; `kExitTexts` says what each means.
+/// Exit codes of the command; `kExitTexts` has their meaning.
 enum ExitCode : int {
   kDone = static_cast<int>(service::Code::kDone),
   kFindings = static_cast<int>(service::Code::kFindings),

@@ -121,7 +121,7 @@ void print_diagnostics(Session& s, int code) {
       s.options.command != Command::kMaterialsShow && s.options.command != Command::kMachinesList &&
       s.options.command != Command::kFixturesList && s.options.command != Command::kCasesNearest &&
       s.options.command != Command::kRulesList;
-  if (!shows && code <= kFindings) return;  // what was asked for stands on standard output
+  if (!shows && code <= kFindings) return;  // the requested text is on standard output
   const std::string line = summary_line(s, said, code);
   if (s.options.json_diagnostics) {
     std::fprintf(stderr, "%s\n",

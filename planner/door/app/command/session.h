@@ -12,7 +12,7 @@
 
 namespace capstan::app {
 
-/// What a command works in: its options, the job, and what it says at its end.
+/// State of a command: its options, the job, and the summary for its end.
 struct Session {
   explicit Session(Options o);
   Options options;
@@ -20,13 +20,13 @@ struct Session {
   std::string summary;  ///< what was done, for the one line at the end
   std::string verdict;  ///< plan, bind, check: that line (service::last_line)
 
-  /// Tells a fault that ends the command, and gives the exit code it means: that of wrong usage for a name
-  /// that nobody knows, whatever it was named in.
+  /// Reports a fault that ends the command, and returns the exit code: that of wrong usage for an unknown
+  /// name, wherever it was given.
   int end(const Diagnostic& d, int code);
   int end(const service::Failure& failure) { return end(failure.what, static_cast<int>(failure.code)); }
 };
 
-/// Prints what the job was told and the summary line on standard error, as `--diagnostics` asks.
+/// Prints the job's diagnostics and the summary line on standard error, as `--diagnostics` says.
 void print_diagnostics(Session& session, int code);
 /// Text for people or programs on standard output. False when it cannot be written (a closed pipe).
 bool print(const std::string& text);

@@ -13,7 +13,7 @@ using service::explain;
 
 namespace {
 
-/// What is asked for is on standard output; notes about the file would only be noise beside it.
+/// The requested text is on standard output; notes about the file would only disturb.
 void drop_notes(Job& job) {
   for (Diagnostic& d : job.take_diagnostics()) {
     if (d.severity == Severity::kError) job.report(std::move(d));

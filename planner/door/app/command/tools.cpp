@@ -40,7 +40,7 @@ std::string report_json(const LossReport& r) {
          ",\n  \"dropped\": " + lines_json(r.dropped) + "\n}";
 }
 
-/// What happened to many tools in the same way is said once: "18 tools, LU: the shoulder's length".
+/// Groups equal lines of many tools: "18 tools, LU: the shoulder's length".
 std::vector<std::string> grouped(const std::vector<LossReport::Line>& lines) {
   std::vector<std::pair<std::string, std::vector<const LossReport::Line*>>> groups;
   std::map<std::string, std::size_t> at;
@@ -150,7 +150,7 @@ class Tools {
       note("TOOLS-DROPPED", std::to_string(lines.size() - kShown) + " more; --report shows all");
   }
 
-  /// What planning would have of it.
+  /// Reports the cutters that planning could use from the library.
   int usable(const tooling::ToolLibrary& library) {
     LossReport report;
     const auto cutters = tooling::cutters_of(library, report, s_.job);

@@ -88,7 +88,7 @@ class Pairs {
     for (const Attribute& at : model::noun_type(p.a.type).attributes) {
       const std::string name = p.path.empty() ? std::string(at.name) : p.path + "/" + std::string(at.name);
       if (at.name == "persistent_id") continue;
-      // What only one kind of file can hold is no difference when the other says nothing of it.
+      // An attribute that only one kind of file can hold is no difference if the other plan lacks it.
       if (!at.in_iso14649 &&
           model::has_value(at, a_.model.object(p.a)) != model::has_value(at, b_.model.object(p.b)))
         continue;

@@ -11,13 +11,13 @@ struct Difference {
   std::string text;  ///< for people, by section; "the plans say the same" when they do
 };
 
-/// What changed from one plan to another, who decided it, and what it costs in time: inputs, tools, features,
-/// steps (removed, added, moved), and in each step that both have the values, binders and reasons, and the
-/// path. Steps are matched by their persistent id, features by kind and name.
+/// Differences between two plans: what changed, who decided it, and the change of time. Compares inputs,
+/// tools, features, steps (removed, added, moved), and in each common step the values, binders, reasons and
+/// the path. Steps are matched by their persistent id, features by kind and name.
 ///
-/// What an ISO 14649 file cannot hold (paths as planned, data of the machine) is compared where both plans
-/// have it. Time of steps is motion's where both hold paths, else what the plans state. Same plans, same
-/// bytes.
+/// Values that an ISO 14649 file cannot hold (planned paths, data of the machine) are compared if both plans
+///        have them. The time of steps is computed by motion if both have paths, else it is what the plans
+///        state. Same plans, same bytes.
 [[nodiscard]] Difference diff(const model::Plan& before, const model::Plan& after);
 
 }  // namespace capstan::app

@@ -35,7 +35,7 @@ std::string joined(const std::vector<std::string>& words, const char* between, O
   return out;
 }
 
-/// What follows an option's name.
+/// The value of an option, as shown behind its name.
 std::string value_of(const OptionText& o) {
   if (o.choices.empty()) return italic(o.value);
   return joined(o.choices, "|", bold);

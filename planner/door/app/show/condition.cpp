@@ -85,7 +85,7 @@ class Evaluator {
     return out;
   }
 
-  /// Attributes that no object had although it was asked for them.
+  /// A fault if no object had an attribute that the condition names.
   std::optional<Diagnostic> nowhere() const {
     for (const auto& [position, name] : asked_) {
       if (had_.contains(position)) continue;
@@ -124,7 +124,7 @@ class Evaluator {
     return nodes;
   }
 
-  // A list stands for its items.
+  // A list is replaced by its items.
   [[nodiscard]] std::vector<Node> items(const Node& n) const {
     const auto size = list_size(m_, n);
     if (!size) return {n};

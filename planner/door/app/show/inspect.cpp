@@ -220,7 +220,7 @@ Result<std::string> inspect(const model::Plan& plan, std::string_view path) {
   }
   if (nodes->empty()) return std::string("(none)\n");
   if (nodes->size() == 1) return place_text(plan, nodes->front());
-  // What a search finds is told with where it stands.
+  // Results of a search are shown with their path.
   const bool search = std::any_of(query->steps.begin(), query->steps.end(), [](const QueryStep& s) {
     return s.kind == QueryStep::Kind::kBelow || s.kind == QueryStep::Kind::kFilter;
   });

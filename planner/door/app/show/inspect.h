@@ -9,13 +9,13 @@
 
 namespace capstan::app {
 
-/// What a file holds: project, workpiece, features, steps, counts by kind, what is unhandled, what deviates.
-/// `diagnostics` are those of reading it.
+/// Summary of a file: project, workpiece, features, steps, counts by kind, unhandled entities, deviations
+/// from the standard. `diagnostics` are those of reading it.
 [[nodiscard]] std::string inspect(const model::Plan& plan, const std::vector<Diagnostic>& diagnostics);
 
-/// What stands at a path (see query.h): a value in a line, an object with its attributes, a list with an item
-/// per line, what a search finds with the path of each. A trailing `#size` counts: the items of each list
-/// that the path leads to, else the places. Fails  INS-PATH.
+/// The value at a path (see query.h): a value in a line, an object with its attributes, a list with an item
+/// per line, results of a search with the path of each. A trailing `#size` counts the items of each list that
+/// the path leads to, else the places. Fails  INS-PATH.
 [[nodiscard]] Result<std::string> inspect(const model::Plan& plan, std::string_view path);
 
 }  // namespace capstan::app

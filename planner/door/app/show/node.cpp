@@ -37,14 +37,14 @@ Node list_node(std::vector<AnyRef> items) {
   return n;
 }
 
-/// Objects that a search found: attributes are asked of each.
+/// A node of objects that a search found; an attribute is then read from each of them.
 Node objects_node(std::vector<AnyRef> items) {
   Node n = list_node(std::move(items));
   n.spread = true;
   return n;
 }
 
-/// Everything of a kind that the roots reach, without them; of the whole plan when there are none.
+/// All objects of a kind that the roots reach, without the roots; of the whole plan if there are no roots.
 std::vector<AnyRef> below(const model::Plan& plan, std::vector<AnyRef> roots, model::TypeId type) {
   const bool whole_plan = roots.empty();
   if (whole_plan) {

@@ -18,7 +18,8 @@ struct Node {
   std::vector<std::size_t> item;                ///< indices into a list or table attribute
   std::vector<model::AnyRef> list;              ///< with `is_list`: objects that no attribute holds
   bool is_list = false;
-  bool spread = false;  ///< the list is what a search or a condition found: attributes are asked of each item
+  bool spread =
+      false;  ///< the list is the result of a search or a condition: attributes are read from each item
 };
 
 /// Every place that the path (see query.h) leads to, in order; several where it maps with `[*]`, a condition

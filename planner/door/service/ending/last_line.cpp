@@ -48,7 +48,7 @@ std::string unplanned_text(const Ending& end) {
          (end.unplanned == 1 ? " is" : " are") + " not planned";
 }
 
-/// Why nobody can say that it is safe, though nothing condemns it.
+/// Why a plan that is not condemned cannot be called safe.
 std::vector<std::string> doubts(const Ending& end) {
   std::vector<std::string> out;
   if (end.unread > 0)
@@ -64,7 +64,7 @@ std::vector<std::string> doubts(const Ending& end) {
   return out;
 }
 
-/// What became of condemned programs.
+/// The fate of condemned programs, in words.
 std::string_view program_text(const Ending& end) {
   if (end.strict || end.verb == Verb::kCheck) return "";
   switch (end.program) {
@@ -133,7 +133,7 @@ void take_plan(const model::Plan& plan, Ending& into) {
   into.tools = plan.cutters.size();
   const auto loaded = static_cast<std::size_t>(
       std::count_if(plan.cutters.begin(), plan.cutters.end(), [](const auto& c) { return c.loaded; }));
-  // Where none is in the magazine, nothing is known of it.
+  // If no tool is in the magazine, its content is unknown.
   into.to_load = loaded == 0 ? 0 : plan.cutters.size() - loaded;
   // Steps without a path have no time.
   if (const auto t = motion::time_of(plan); t && t->total_s() > 0.0) into.time_s = t->total_s();

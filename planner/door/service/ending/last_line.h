@@ -12,7 +12,7 @@
 
 namespace capstan::service {
 
-/// What became of the programs that a call was to write.
+/// The fate of the programs that a call was to write.
 enum class ProgramEnd : std::uint8_t {
   kNotAsked,   ///< no output is a program or a tool table
   kWritten,    ///< as planned
@@ -24,16 +24,16 @@ enum class ProgramEnd : std::uint8_t {
 struct Ending {
   Verb verb = Verb::kPlan;
   bool done = true;      ///< false: a fault ended it before there was anything to judge
-  bool stopped = false;  ///< somebody stopped it, so that the plan is not made, or not checked to its end
+  bool stopped = false;  ///< somebody stopped the call: the plan is not made, or not checked completely
   bool late = false;     ///< bind: past the deadline
-  // What the plan is.
+  // The plan.
   std::size_t steps = 0, setups = 0, tools = 0;
   std::size_t to_load = 0;                      ///< tools that are not in the magazine, where others are
   std::optional<double> time_s = std::nullopt;  ///< nothing: not known
   std::size_t files = 0;                        ///< check: plans and programs that were looked at
   std::size_t features = 0;                     ///< that are planned, or should be
   std::size_t unplanned = 0;                    ///< of these
-  // What is known of it.
+  // Results of the check.
   bool open = false;          ///< decisions are left open, so that nothing was checked
   std::size_t condemned = 0;  ///< reasons why it must not be run
   std::string why = {};       ///< what they say (model::text_of)
@@ -43,7 +43,7 @@ struct Ending {
   std::size_t planned_anew = 0;  ///< check: plans that were planned to be checked (CheckResult)
   std::size_t compared = 0;      ///< check: files compared with the schema, and not checked
   std::size_t schema = 0;        ///< check: deviations from the schema
-  // What was written.
+  // Files that were written.
   ProgramEnd program = ProgramEnd::kNotAsked;
   bool strict = false;                  ///< nothing is written for its findings' sake (--strict)
   std::vector<std::string> wrote = {};  ///< files, each with what it cannot hold
@@ -60,15 +60,15 @@ struct Ending {
 /// and nothing condemns the plan or its program.
 [[nodiscard]] std::string last_line(const Ending& end);
 
-/// How many errors stand from there on, without those of planning, which lists what it leaves out
+/// Number of errors from that index on, without those of planning, which lists unplanned features itself
 /// (Plan::unplanned).
 [[nodiscard]] std::size_t reading_errors(const std::vector<Diagnostic>& said, std::size_t from = 0);
 
-/// What an Ending takes from a plan: steps, set-ups, tools, time, features.
+/// Takes the numbers of a plan: steps, set-ups, tools, time, features.
 void take_plan(const model::Plan& plan, Ending& into);
-/// What it takes from the check of a plan and its programs.
+/// Takes the result of checking a plan and its programs.
 void take_verdict(const model::Plan& plan, const Verdict& verdict, Ending& into);
-/// What it takes from checking files.
+/// Takes the result of checking files.
 void take_check(const CheckResult& result, Ending& into);
 
 }  // namespace capstan::service

@@ -22,7 +22,7 @@ using model::Plan;
 namespace {
 
 constexpr int kDecimals = 4;
-constexpr int kChainDepth = 12;  // of dependencies that are told one below the other
+constexpr int kChainDepth = 12;  // largest number of dependencies shown one below the other
 
 using Rows = std::vector<std::vector<std::string>>;
 
@@ -64,7 +64,7 @@ std::string rpm_text(double rpm) {
   return out + " rpm";
 }
 
-/// Whether a limit is one that somebody states: plans of other programs may write a huge number, or infinity.
+/// True if a limit is stated: plans of other programs may write a huge number, or infinity, for none.
 bool is_stated(double limit) {
   constexpr double kNobodyStates = 1e12;
   return std::isfinite(limit) && std::abs(limit) < kNobodyStates;
@@ -95,7 +95,7 @@ void limits(const model::StepResult* result, const std::string& indent, std::str
   }
 }
 
-/// What held the feed along the path, and for how much of the time.
+/// The limits that held the feed along the path, with their share of the time.
 void along_the_path(const model::StepResult& result, std::string& out) {
   if (result.held_by.empty()) return;
   out += "\nalong the path\n";
@@ -155,7 +155,7 @@ void chain(const Plan& plan, const model::StepResult* result, const Decision& d,
   }
 }
 
-/// What planning computed beside the nouns, by name.
+/// A value that planning computed beside the nouns.
 struct Computed {
   std::string name, value, how;
 };
@@ -236,7 +236,7 @@ std::string headline(const Plan& plan, const StepView& v) {
   return out;
 }
 
-/// What is worth telling of an object: numbers and choices, and whatever somebody decided or left open.
+/// True if an attribute is worth showing: numbers and choices, and every attribute with a decision.
 bool is_told(const Plan& plan, const StepPart& part, const model::Attribute& a) {
   if (plan.ledger.find(part.object, a.name) != nullptr) return true;
   if (!model::has_value(a, plan.model.object(part.object))) return false;
@@ -255,8 +255,8 @@ std::string value_of_part(const Plan& plan, const StepPart& part, const model::A
   return value_text(plan.model, a, plan.model.object(part.object), kDecimals);
 }
 
-/// Who chose a value without a record that no file states: whoever chose the object it came with; of a
-/// technology everything but speed and feed, and what locks them, is what planning writes for want of a wish.
+/// The origin of a value without a record and not from a file: its object's. In a technology it is a default
+/// of the planner, except a lock that is set.
 std::string nobody_else(const Plan& plan, const StepPart& part, const model::Attribute& a) {
   if (part.role != "its_technology") return "comes with it";
   const bool locks = a.storage == model::Storage::kBoolean &&
@@ -264,7 +264,7 @@ std::string nobody_else(const Plan& plan, const StepPart& part, const model::Att
   return locks ? "comes with it" : "default of the planner, unsourced";
 }
 
-/// The attributes of one part. What is given and says no more than that stays on its line.
+/// The attributes of one part. Given values without a reason share a line.
 void part_text(const Plan& plan, const StepView& v, const StepPart& part, std::string& out) {
   std::string lines;
   for (const auto& a : model::noun_type(part.object.type).attributes) {

@@ -9,7 +9,7 @@
 
 namespace capstan::service {
 
-/// An object that a workingstep's values stand in, and what it is to the step.
+/// An object that holds values of a workingstep, and its role in the step.
 struct StepPart {
   std::string role;  ///< "operation", "its_tool", "its_technology", "its_machining_strategy", ...
   model::AnyRef object;
@@ -37,8 +37,8 @@ struct StepView {
 /// Diameter, class and id of a cutter in a few words.
 [[nodiscard]] std::string cutter_text(const model::Plan& plan, std::string_view cutter_id);
 
-/// What is still open, of the objects that the project, its steps and features reach: a technology that was
-/// replaced is nobody's any more.
+/// The open decisions of the objects that the project, its steps and features reach. A technology that was
+/// replaced is not reached any more.
 [[nodiscard]] std::vector<model::DecisionKey> open_decisions(const model::Plan& plan);
 
 }  // namespace capstan::service

@@ -8,7 +8,7 @@
 
 namespace capstan::service {
 
-/// What a person calls an object: `#18 CLOSED_POCKET 'POCKET1'`; without a number when it came from no file.
+/// Name of an object for people: `#18 CLOSED_POCKET 'POCKET1'`; without a number if it came from no file.
 [[nodiscard]] std::string label(const model::Model& m, model::AnyRef at);
 /// As `label` without the number: the same for one object in two plans.
 [[nodiscard]] std::string name_of(const model::Model& m, model::AnyRef at);
@@ -17,8 +17,8 @@ namespace capstan::service {
 /// direction left as ISO 14649 signs it. `decimals` < 0: the shortest text that reads back to the value.
 [[nodiscard]] std::string with_unit(double value, model::Unit unit, int decimals = -1);
 
-/// One attribute's value as text; references by `label`, lists in brackets, "absent" when there is none.
-/// At most `kListShown` items of a list are shown, with the number of the others.
+/// One attribute's value as text; references by `label`, lists in brackets, "absent" if it has none. At most
+/// `kListShown` items of a list are shown, with the number of the others.
 [[nodiscard]] std::string value_text(const model::Model& m, const model::Attribute& a, const void* object,
                                      int decimals = -1);
 inline constexpr std::size_t kListShown = 12;

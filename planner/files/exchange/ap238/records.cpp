@@ -222,7 +222,8 @@ Records::Records(Reader& reader) : reader_(reader) {
     const Value name = g.get(n, "name");
     if (!name.is(Kind::kString) || name.as_text().rfind(kPrefix, 0) != 0) continue;
     Found record{.kind = upper(name.as_text().substr(kPrefix.size())), .property = n, .items = {}};
-    if (!is_kind(record.kind)) continue;  // somebody else's, or a later version's: a property like any other
+    if (!is_kind(record.kind))
+      continue;  // another program's, or a later version's: a property like any other
     reader.claim(n);
     for (const Node link : g.users(n)) {
       if (!g.is(link, entity("ACTION_PROPERTY_REPRESENTATION"))) continue;
@@ -281,8 +282,7 @@ void Records::restore(bool sealed) {
   restore_unlisted(unlisted);
 }
 
-// What the feature or the operation was is gone where an address leads nowhere: then nothing is to be left
-// out.
+// The feature or the operation is gone if its address leads nowhere: then nothing has to be left out.
 void Records::restore_unlisted(const std::vector<Unlisted>& unlisted) {
   model::Model& m = reader_.plan().model;
   for (const Unlisted& u : unlisted) {

@@ -8,10 +8,10 @@
 #include "planner/files/exchange/ap238/write/writer.h"
 #include "planner/files/exchange/records/records.h"
 
-// What a plan knows beside its nouns (planner/files/exchange/records/records.h) as process properties:
-// MACHINING_PROCESS_PROPERTY 'capstan binding', 'capstan cutter', … on the executable concerned, on the main
-// workplan what concerns the whole plan. A property's representation has an item for each field, named as the
-// field; objects are called by their address (addresses.h), never by number.
+// Records of a plan beside its nouns (planner/files/exchange/records/records.h) as process properties:
+// MACHINING_PROCESS_PROPERTY 'capstan binding', 'capstan cutter', … on the executable concerned, or on the
+// main workplan if they concern the whole plan. A property's representation has an item for each field, with
+// the field's name; objects are named by their address (addresses.h), never by number.
 
 namespace capstan::exchange::ap238 {
 

@@ -66,7 +66,7 @@ void parts_of(std::string_view s, const Text& text, const Number& number) {
   if (from != s.size()) text(s.substr(from));
 }
 
-// The <name> of the entry in which a place stands.
+// The <name> of the entry that contains a place.
 std::string entry_name(std::string_view s, std::size_t at) {
   const auto open = s.rfind('<', at);
   const auto close = open == std::string_view::npos ? open : s.find('>', open);

@@ -23,15 +23,15 @@ void keep_sections(const p21::File& file, model::KeptSchema schema,
                    const std::function<model::AnyRef(std::uint64_t)>& resolve, model::Plan& plan,
                    Reporter& reporter);
 
-/// The sections that the plan keeps, as they stand in a file between header and data.
+/// The sections that the plan keeps, as a file has them between header and data.
 [[nodiscard]] std::string sections_text(const model::Plan& plan,
                                         const std::function<std::string(model::AnyRef)>& reference);
 
-/// What FILE_DESCRIPTION says of the edition that the file needs: '4;1' with such sections.
+/// The implementation level that FILE_DESCRIPTION states for the file: '4;1' with such sections.
 [[nodiscard]] std::string implementation_level(const model::Plan& plan);
 
-/// Numbers of instances that kept text of a standard mentions without pointing to an object: an instance of
-/// that number in another file, or none at all. New instances must not take them.
+/// Numbers of instances in kept text of a standard that refer to no object: an instance of that number in
+/// another file, or none at all. New instances must not take them.
 [[nodiscard]] std::set<std::uint64_t> unresolved_numbers(const model::KeptInstance& kept);
 
 }  // namespace capstan::exchange

@@ -202,8 +202,8 @@ bool is_size(std::string_view name) {
          name == "cutting_edge_length" || name == "expected_tool_life" || name == "dwell" || name == "pitch";
 }
 
-/// Lengths that only say how far straight paths go: a negative one leaves its feature without a shape, which
-/// is said there (model::length), and the rest of the file is read.
+/// Lengths that only say how far straight paths go. A negative one leaves its feature without a shape;
+/// model::length reports that, and the rest of the file is read.
 std::set<AnyRef> only_distances(const Check& r) {
   std::set<AnyRef> out, others;
   for (const AnyRef at : r.objects) {
@@ -274,8 +274,8 @@ void check_sets(Check& r) {
   }
 }
 
-// How often the steps of a workplan would run when shared parts are run wherever they stand: a graph of
-// depth 39 whose levels each use the next one twice has 2^39. Needs a model without circles.
+// Number of steps that a workplan runs if shared parts run at each of their places: a graph of depth 39 whose
+// levels each use the next one twice has 2^39. Needs a model without circles.
 void check_expansion(Check& r) {
   const auto& m = r.m;
   std::array<std::vector<std::uint64_t>, model::kTypeCount> runs;
@@ -357,7 +357,7 @@ void check_nouns(const model::Model& m, std::vector<Doubt>& doubts) {
 
 namespace {
 
-/// A file with more wrong references than this is none that anybody wrote by hand: it is refused.
+/// Largest number of wrong references: a file with more was not written by hand, and is refused.
 constexpr std::size_t kMostUnset = 100;  // default, unsourced
 
 /// Whether the plan can be read around the fault: it takes from some features or steps, or from the list of

@@ -7,8 +7,8 @@
 #include "planner/ground/base/result.h"
 #include "planner/model/plan/plan.h"
 
-// What a schema cannot say of a value alone, the same for every format: circles, endless workplans,
-// B-splines, directions, sizes, empty sets; and which of it matters.
+// Faults that a schema cannot find in a value alone, the same for every format: circles, endless workplans,
+// B-splines, directions, sizes, empty sets; and which of them matter.
 
 namespace capstan::exchange {
 
@@ -16,7 +16,7 @@ namespace capstan::exchange {
 struct Doubt {
   model::AnyRef object;
   Diagnostic diagnostic;
-  /// Of a fault that leaves one attribute unset, its name: what needs the object is not planned
+  /// Name of the one attribute that the fault leaves unset; objects that need it are not planned
   /// (unreadable.h).
   std::string attribute = {};
 };
@@ -44,9 +44,9 @@ class Marks {
 /// Codes   EXC-CYCLE, EXC-LIMIT, EXC-GEOMETRY, EXC-SIZE; warnings EXC-TOLERANCE, EXC-EMPTY.
 void check_nouns(const model::Model& m, std::vector<Doubt>& doubts);
 
-/// Reports the doubts in the order of instances: as they are where `reached` has the object, as warnings
-/// elsewhere. Unless `strict`, one that leaves an attribute unset which only some features or workingsteps
-/// need is an error that does not keep the file from being read: the plan's ledger says what is not known.
+/// Reports the doubts in the order of instances: unchanged if `reached` has the object, else as warnings.
+/// Unless `strict`, a doubt that leaves an attribute unset which only some features or workingsteps need is
+/// an error, but the file is read: the plan's ledger records what is unknown.
 void settle_doubts(model::Plan& plan, std::vector<Doubt>& doubts, const Marks& reached, bool strict,
                    Reporter& reporter);
 

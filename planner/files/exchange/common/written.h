@@ -5,7 +5,7 @@
 
 namespace capstan::exchange {
 
-/// What was written, and what could not be.
+/// A written file, and its losses.
 struct Written {
   std::string bytes;
   std::vector<std::string> losses;  ///< sentences; empty when the file holds all of the plan

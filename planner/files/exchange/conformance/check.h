@@ -8,7 +8,7 @@
 
 namespace capstan::exchange {
 
-/// Faults of one kind (code) that are reported one by one; of the others SCH-MORE tells the number.
+/// Largest number of faults of one code that are reported singly; SCH-MORE gives the number of the others.
 /// Default, unsourced.
 inline constexpr std::size_t kReportedFaultsPerCode = 50;
 

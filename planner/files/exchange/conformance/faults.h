@@ -11,10 +11,10 @@
 
 namespace capstan::exchange::conformance {
 
-/// Of what the schema wants and the file leaves open; a warning, and not counted as an error.
+/// Code of values that the schema requires and the file leaves open; a warning, not counted as an error.
 inline constexpr const char* kOpenCode = "SCH-OPEN";
 
-/// What is wrong with an instance.
+/// A fault of an instance.
 struct Fault {
   const char* code = "";
   std::string message;

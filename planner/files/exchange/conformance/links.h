@@ -39,7 +39,7 @@ class Links {
   /// "action_property.name" of an instance; nothing when it has no such attribute or it is $.
   [[nodiscard]] std::optional<p21::Value> value(std::size_t instance, std::string_view attribute) const;
   [[nodiscard]] std::optional<std::string> text(std::size_t instance, std::string_view attribute) const;
-  /// What the attribute refers to, when the file holds it.
+  /// The instance that the attribute refers to; nothing if the file does not contain it.
   [[nodiscard]] std::optional<std::size_t> target(std::size_t instance, std::string_view attribute) const;
   [[nodiscard]] std::optional<std::size_t> target(const p21::Value& reference) const;
   /// The instances that a list of references names.

@@ -13,11 +13,11 @@
 
 namespace capstan::exchange::conformance {
 
-/// What instances of one entity, or of one combination of parts, look like.
+/// Layout of the instances of one entity, or of one combination of parts.
 struct Layout {
   std::vector<express::EntityId> parts;  ///< known entities; one for a simple instance
   bool complex = false;
-  /// Parameters per part in the order of the file's parts; empty for an unknown one (`known` tells).
+  /// Parameters per part in the order of the file's parts; empty for an unknown part (see `known`).
   std::vector<std::vector<express::Slot>> slots;
   std::vector<bool> known;
   std::vector<Fault> faults;  ///< of the combination itself
@@ -39,7 +39,7 @@ class Population {
   /// Number of the instance's layout, or kNone; equal where the parts are.
   [[nodiscard]] std::uint32_t layout_number(std::size_t instance) const { return layout_of_[instance]; }
   [[nodiscard]] std::span<const Layout> layouts() const { return layouts_; }
-  /// Whether instances of the layout may stand where the type is due.
+  /// True if instances of the layout are allowed where the type is required.
   [[nodiscard]] bool admits(const express::Type& type, const Layout& layout) const;
   [[nodiscard]] bool is_a(const Layout& layout, express::EntityId entity) const;
 

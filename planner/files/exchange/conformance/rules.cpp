@@ -159,7 +159,7 @@ class RuleCheck {
   // "has the property 'coolant' twice; expected 1"
   void count(const Rule& r, std::size_t i, std::size_t found, const std::string& thing) {
     if (found >= r.least && found <= r.most) return;
-    // A tool, a technology, an allowance, a length of a tool: what a plan that is not complete leaves open.
+    // A tool, a technology, an allowance, a length of a tool: values that an incomplete plan leaves open.
     const bool open = found == 0 && (r.subject == Subject::kProperty || r.subject == Subject::kResource ||
                                      r.subject == Subject::kTool || r.subject == Subject::kTools ||
                                      r.subject == Subject::kMethod);
@@ -303,7 +303,7 @@ class RuleCheck {
     for (const EntityId e : entities) out += (out.empty() ? "" : " or ") + keyword(e);
     return out;
   }
-  // One of them, or anything where none is named.
+  // True for one of these entities, or for any if none is named.
   bool is_one(std::size_t instance, const std::vector<EntityId>& entities) const {
     return entities.empty() || std::any_of(entities.begin(), entities.end(),
                                            [&](EntityId e) { return links_.is_a(instance, e); });

@@ -13,7 +13,7 @@
 
 namespace capstan::exchange::conformance {
 
-/// What a rule looks at; rules.table tells each.
+/// The subject of a rule; rules.table explains each.
 enum class Subject : std::uint8_t {
   kOwn,        ///< an attribute of the instance itself
   kProperty,   ///< action_property
@@ -71,7 +71,7 @@ struct Rule {
   Form form;
 };
 
-/// Reads a table in the form that the head of rules.table tells; throws std::logic_error where it is
+/// Reads a table in the form that the head of rules.table describes; throws std::logic_error if it is
 /// malformed.
 [[nodiscard]] std::vector<Rule> read_rules(std::string_view table, const express::Dictionary& dictionary);
 

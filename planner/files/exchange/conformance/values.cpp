@@ -78,7 +78,7 @@ std::vector<bool> section_points(const Population& p) {
   return out;
 }
 
-// Checks one parameter. Where it stands is kept for the texts alone.
+// Checks one parameter. Its place is kept for messages only.
 class Checker {
  public:
   Checker(const Population& population, Faults& faults)
@@ -208,7 +208,7 @@ class Checker {
       return;
     }
     const Layout* layout = p_.layout(target->index());
-    // What is unknown has its own fault.
+    // An unknown entity has its own fault.
     if (layout == nullptr || layout->parts.empty() || p_.admits(type, *layout) || silent("SCH-TYPE")) return;
     std::string what(p_.dictionary().keyword(layout->parts.front()));
     if (layout->complex) {

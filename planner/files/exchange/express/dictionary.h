@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-/// What an EXPRESS schema says of the instances of an exchange file: entities, their places, what may stand
-/// there.
+/// An EXPRESS schema as the rules for instances of an exchange file: entities, their attributes, and the
+/// types allowed there.
 namespace capstan::exchange::express {
 
 /// An entity of the dictionary. Ids follow the alphabet of the keywords, as the parts of a complex instance
@@ -33,7 +33,7 @@ enum class TypeKind : std::uint8_t {
 };
 enum class AggregateKind : std::uint8_t { kList, kSet, kBag, kArray };
 
-/// The numbers that a WHERE rule of a defined type leaves.
+/// The numbers that a WHERE rule of a defined type allows.
 struct Range {
   double lower, upper;  ///< infinite where open to that side
   bool lower_included, upper_included;
@@ -45,7 +45,7 @@ struct Range {
   [[nodiscard]] std::string text() const { return std::string(spelling); }
 };
 
-/// What an attribute, an element or a select item may hold.
+/// The type of an attribute, an element or a select item.
 struct Type {
   static constexpr std::size_t kUnbounded = static_cast<std::size_t>(-1);
 
@@ -90,7 +90,7 @@ class Dictionary {
  public:
   /// MODEL_BASED_INTEGRATED_MANUFACTURING_SCHEMA, of which INTEGRATED_CNC_SCHEMA is a subset. Built once.
   static const Dictionary& ap238();
-  /// From a table in the form that generate.py tells; throws std::logic_error where it is malformed.
+  /// From a table in the form of generate.py; throws std::logic_error if it is malformed.
   explicit Dictionary(std::string_view table);
   ~Dictionary();
   Dictionary(const Dictionary&) = delete;
@@ -99,16 +99,16 @@ class Dictionary {
   struct Tables;  ///< how it is kept
 
   [[nodiscard]] std::size_t size() const;  ///< ids are 0 ... size() - 1
-  /// Upper or lower case; kNoEntity when there is none. One hash and one comparison.
+  /// Upper or lower case; kNoEntity if there is none. One hash and one comparison.
   [[nodiscard]] EntityId find(std::string_view keyword) const;
-  /// A defined type, select or enumeration by its name, any case; null when there is none.
+  /// A defined type, select or enumeration by its name, any case; null if there is none.
   [[nodiscard]] const Type* find_type(std::string_view name) const;
   [[nodiscard]] std::string_view keyword(EntityId e) const;  ///< upper case
   [[nodiscard]] bool abstract(EntityId e) const;
   /// Whether e is `ancestor` or a subtype of it. One bit looked up; false for kNoEntity.
   [[nodiscard]] bool is_a(EntityId e, EntityId ancestor) const;
-  /// Whether a reference to an instance of e may stand where `type` (entity, select, or a name for one) is
-  /// due.
+  /// True if a reference to an instance of e is allowed where `type` (entity, select, or a name for one) is
+  /// required.
   [[nodiscard]] bool admits(const Type& type, EntityId e) const;
 
   /// Groups of its subtypes of which an instance may be only one (ONEOF).
@@ -123,10 +123,10 @@ class Dictionary {
   [[nodiscard]] std::span<const Slot> slots(EntityId e) const;
   /// The parameters of `part` in a complex instance of `parts`, with what the other parts redeclare.
   [[nodiscard]] std::vector<Slot> part_slots(EntityId part, std::span<const EntityId> parts) const;
-  /// Where an attribute stands in slots(e). `attribute` in lower case, alone (the first of that name) or as
-  /// "shape_aspect.name" where several supertypes have one of that name.
+  /// Position of an attribute in slots(e). `attribute` in lower case, alone (the first of that name) or as
+  /// "shape_aspect.name" if several supertypes have one of that name.
   [[nodiscard]] std::optional<std::size_t> position(EntityId e, std::string_view attribute) const;
-  /// Which entity, e or a supertype, declares the attribute at position(e, attribute); kNoEntity when none
+  /// The entity, e or a supertype, that declares the attribute at position(e, attribute); kNoEntity if none
   /// does.
   [[nodiscard]] EntityId owner(EntityId e, std::string_view attribute) const;
 

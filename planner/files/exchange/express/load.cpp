@@ -183,7 +183,7 @@ class Loader {
     const auto comma = text.find(',');
     if (comma == std::string_view::npos || text.size() < 5) malformed(text);
     const auto number = [](std::string_view s, double none) {
-      std::from_chars(s.data(), s.data() + s.size(), none);  // leaves it where there is no number
+      std::from_chars(s.data(), s.data() + s.size(), none);  // unchanged if there is no number
       return none;
     };
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -302,7 +302,7 @@ class Loader {
       redeclare(t_->entities[static_cast<std::size_t>(id)], e.slots);
   }
 
-  // Which entities may stand where an entity or select is due.
+  // Computes the entities allowed where an entity or select is required.
   void admitted() {
     for (Type& type : t_->types) {
       if (type.kind != TypeKind::kEntity && type.kind != TypeKind::kSelect) continue;

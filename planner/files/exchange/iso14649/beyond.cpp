@@ -178,7 +178,7 @@ void report_malformed(Reading& r, const p21::Instance& e) {
                      .line = e.line()});
 }
 
-/// What the instances that the header's entities of a kind name say now.
+/// Hashes of the present content of the instances that the header's entities of a kind name.
 Hashes hashes_now(const p21::File& file, std::string_view keyword, std::size_t place) {
   std::set<std::uint64_t> numbers;
   each(file, keyword, [&](const p21::Instance& e) {

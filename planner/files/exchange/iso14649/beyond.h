@@ -38,8 +38,8 @@ using NameOf = std::function<std::string(model::AnyRef)>;
 
 /// The kinds of instances that are written as others, by number. Warns EXC-EDITED of those that have changed.
 [[nodiscard]] std::map<std::uint64_t, model::TypeId> kinds_beyond(Reading& reading);
-/// Makes the objects and sets the values. What is malformed, or does not fit, is ignored with the warning
-/// EXC-RECORD; what speaks of an instance that has changed, with the warning EXC-EDITED.
+/// Makes the objects and sets the values. Malformed or misfit entities are ignored with the warning
+/// EXC-RECORD, entities about an instance that has changed with the warning EXC-EDITED.
 void read_beyond(Reading& reading);
 /// Whether a header entity is one of these.
 [[nodiscard]] bool is_beyond(std::string_view keyword);

@@ -95,7 +95,7 @@ class Conversion {
                          a_.storage == Storage::kRealList || a_.storage == Storage::kIntegerList ||
                          a_.storage == Storage::kTextList || a_.storage == Storage::kRefTable ||
                          a_.storage == Storage::kRealTable;
-    // Open decisions are told apart, once all is read.
+    // Open decisions are reported separately, when all is read.
     static constexpr std::array<std::string_view, 3> kOpen = {"its_tool", "its_technology", "its_operation"};
     if (std::find(kOpen.begin(), kOpen.end(), a_.name) != kOpen.end()) return;
     warn("P21-MANDATORY", name() + (is_list ? " is missing; taken as empty" : " is missing; left unset"));

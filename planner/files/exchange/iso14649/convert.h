@@ -6,9 +6,9 @@
 
 namespace capstan::exchange {
 
-/// Reads one parameter into one attribute, in the model's unit. What does not fit is reported: an integer
-/// where a real is due (and a whole real where an integer is) is a warning, everything else a doubt.
-/// `$` for a mandatory attribute is a warning; lists are then taken as empty.
+/// Reads one parameter into one attribute, in the model's unit. Misfits are reported: an integer for a real
+/// (and a whole real for an integer) is a warning, everything else a doubt. `$` for a mandatory attribute is
+/// a warning; lists are then taken as empty.
 void convert(Reading& reading, model::AnyRef object, const model::Attribute& attribute, const p21::Value& v);
 
 }  // namespace capstan::exchange

@@ -74,8 +74,8 @@ std::vector<AngleAt> angles(const Reading& r) {
   return out;
 }
 
-// A number that is not a round one in degrees and, read as radians, is a multiple of half a degree to nine
-// digits: nobody writes such an angle in degrees.
+// A number that is not round in degrees and, read as radians, is a multiple of half a degree to nine digits
+// is in radians: such an angle in degrees is not written by hand.
 bool is_radians(double v) {
   const double halves = 2.0 * v / kDegree;
   const bool round_in_radians = std::abs(halves - std::round(halves)) < 1e-7 && std::round(halves) != 0.0;
@@ -84,7 +84,7 @@ bool is_radians(double v) {
 }
 
 /// Parameters that trim circles and ellipses are angles, in degrees in the model as in the standard. A
-/// curve's two are in one unit: one that is in radians without doubt tells the other.
+/// curve's two have one unit: if one is in radians without doubt, so is the other.
 void check_trims(Reading& r) {
   for (const AnyRef at : r.object_of) {
     auto* c = r.plan.model.get<model::TrimmedCurve>(at);

@@ -20,8 +20,8 @@ struct Reading;
 ///   a spindle that turns against the cutter's hand           EXC-SPINDLE-DIRECTION
 ///   feeds and lengths of 0, feeds no cutter can take         EXC-ZERO, EXC-FEED
 ///
-/// What can be decided is repaired: the model holds the new value, the ledger the old lexeme under the
-/// reason "given.repaired". What cannot is kept as given under "given.suspicious". Each is one warning.
+/// Decidable cases are repaired: the model holds the new value, the ledger the old lexeme under the reason
+/// "given.repaired". Others are kept as given under "given.suspicious". Each is one warning.
 /// An operation's feed or spindle speed of 0 is taken as open.
 void find_deviations(Reading& reading);
 

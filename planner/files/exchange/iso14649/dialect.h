@@ -8,14 +8,14 @@
 
 namespace capstan::exchange {
 
-/// What a keyword means at the published level.
+/// Meaning of a keyword at the published level.
 struct Spelling {
   model::TypeId type = model::TypeId::kNone;
   bool draft = false;  ///< the 2001 draft's (or a misspelt) keyword
 };
 
-/// The kind of object for a keyword of either level; nothing for abstract kinds, kinds that are not in
-/// ISO 14649, and keywords unknown. FILE_SCHEMA does not tell the levels apart, keywords and counts do.
+/// The kind of object for a keyword of either level; nothing for abstract kinds, kinds that are not in ISO
+/// 14649, and unknown keywords. FILE_SCHEMA does not distinguish the levels; keywords and counts do.
 [[nodiscard]] std::optional<Spelling> kind_of(std::string_view keyword);
 
 /// Number of Part 21 parameters of a kind at the published level.

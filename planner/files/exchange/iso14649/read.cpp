@@ -35,8 +35,8 @@ void find_project(Reading& r) {
   }
 }
 
-// What the project does not reach and nothing else refers to, in file order; then, for circles, whatever
-// is still left.
+// Keeps objects that the project does not reach and no other object refers to, in file order; then, for
+// circles, all that are still left.
 void keep_the_rest(Reading& r, Marks seen) {
   const auto& m = r.plan.model;
   Marks referred(m);

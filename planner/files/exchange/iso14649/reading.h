@@ -12,7 +12,7 @@
 
 namespace capstan::exchange {
 
-/// What is shared while one file is read.
+/// State while one file is read.
 struct Reading {
   const p21::File& file;
   model::Plan& plan;
@@ -22,7 +22,7 @@ struct Reading {
   std::set<std::string> draft;           ///< what showed that the file is at the draft level
 
   std::vector<Doubt> doubts;
-  bool sealed = false;  ///< nobody edited the file since Capstan wrote it (seal.h)
+  bool sealed = false;  ///< the file is unedited since Capstan wrote it (seal.h)
 
   [[nodiscard]] model::AnyRef find(std::uint64_t id) const {
     const auto instance = file.find(id);

@@ -90,7 +90,7 @@ class HeaderFields final : public RecordFields {
     if (l.i >= l.values.size()) throw MalformedRecord{};
     return l.values[l.i++];
   }
-  // "#12" -> the object; unset when there is none any more.
+  // "#12" -> the object; unset if it is gone.
   [[nodiscard]] AnyRef object_named(std::string_view name) const {
     std::uint64_t id = 0;
     if (name.size() < 2 || name.front() != '#') throw MalformedRecord{};

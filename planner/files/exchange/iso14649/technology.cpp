@@ -15,7 +15,7 @@ using model::AnyRef;
 
 namespace {
 
-// What is possible at all, not what is good: defaults, unsourced.
+// Limits of what is possible at all, not of what is good: defaults, unsourced.
 constexpr double kMaxRpm = 60000.0;
 constexpr double kMinVc = 1.0, kMaxVcMilling = 2000.0, kMaxVcDrilling = 300.0;  // m/min
 constexpr double kAgrees = 1.25;              // cutspeed and pi D n within this factor say the same

@@ -29,7 +29,7 @@ using model::TypeId;
 
 namespace {
 
-// What the file will hold of each number: so that hashes are of what is read back.
+// Rounds each number to what the file will contain, so that hashes match what is read back.
 void round_units(model::Model& m) {
   for (std::size_t i = 1; i < model::kTypeCount; ++i) {
     const auto type = static_cast<TypeId>(i);
@@ -140,7 +140,7 @@ class FileWriter {
     std::set<std::uint64_t> named;
   };
 
-  // What the schema cannot hold, into the header; what has no form there either is lost.
+  // Writes values that the schema cannot hold into the header; those without a form there are lost.
   Status keep_beyond() {
     std::vector<BeyondEntity> entities;
     std::set<std::uint64_t> named;
@@ -198,7 +198,7 @@ class FileWriter {
     return {};
   }
 
-  // Kept instances of AP238, and what only stands for parts of its mapping.
+  // True for kept instances of AP238 and those that only represent parts of its mapping.
   bool is_foreign(AnyRef at) {
     const auto* kept = m_.get<model::KeptInstance>(at);
     if (kept == nullptr || kept->schema != model::KeptSchema::kAp238) return false;
@@ -245,7 +245,7 @@ class FileWriter {
 
   void lost(AnyRef at, const Attribute& a, bool kept) {
     if (a.name == "persistent_id") return;  // in the header, and only for people and Capstan
-    if (number_of(at) == 0) return;         // told of what holds it
+    if (number_of(at) == 0) return;         // reported for its owner
     const std::string what = std::string(model::noun_type(at.type).keyword) + "." + std::string(a.name);
     ++left_out_[kept || a.name == "enabled" ? what + ", kept in the header only," : what];
   }

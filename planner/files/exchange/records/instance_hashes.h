@@ -9,13 +9,13 @@
 
 namespace capstan::exchange {
 
-/// What some instances of a file say, as hashes; spacing and the spelling of numbers and texts do not count.
-/// To what an instance says belong the names and texts of those that refer to it: the body of a tap is told
-/// from that of another by the tool that has it.
+/// Hashes of the content of some instances of a file; spacing and the spelling of numbers and texts do not
+/// count. The names and texts of referring instances belong to an instance's content: the bodies of two taps
+/// differ by the tools that have them.
 [[nodiscard]] std::map<std::uint64_t, std::string> hashes_of(const p21::File& file,
                                                              const std::set<std::uint64_t>& numbers);
 
-/// What a parameter says, spelled in one way.
+/// A parameter's content in one spelling.
 [[nodiscard]] std::string spelled(const p21::Value& v);
 
 }  // namespace capstan::exchange

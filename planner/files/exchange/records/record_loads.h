@@ -3,7 +3,7 @@
 #include "planner/files/exchange/records/records.h"
 #include "planner/model/plan/plan.h"
 
-/// What a step does to tool and machine and what holds it, described once for writing and for reading.
+/// Fields of a step's loads and limits, described once for writing and for reading.
 namespace capstan::exchange {
 
 void describe(RecordFields& f, model::StepLoads& l);

@@ -5,7 +5,7 @@
 
 namespace capstan::exchange {
 
-/// What the offsets of a tool table count from; empty: not said.
+/// The datum from which the offsets of a tool table count; empty: not stated.
 static void describe_value(RecordFields& f, const std::string& name, model::Unit, std::optional<bool>& v) {
   constexpr const char *kReference = "reference", *kGageLine = "gage line";
   std::string against = v ? (*v ? kReference : kGageLine) : "";

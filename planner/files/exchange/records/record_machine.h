@@ -7,7 +7,7 @@
 
 namespace capstan::exchange {
 
-/// What the machine is beside its id and description.
+/// The machine without its id and description.
 struct MachineData {
   model::Machine& machine;
 };

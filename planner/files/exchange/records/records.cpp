@@ -341,7 +341,7 @@ class Restoring {
     const std::string address = describe(f_, b);
     if (b.attribute.empty()) throw MalformedRecord{};
     if (!here(b.at, address)) return true;
-    // What could not be read stays so, whoever bound it before.
+    // An unreadable attribute remains so, whoever bound it before.
     if (const model::Decision* d = plan_.ledger.find(b.at, b.attribute);
         d != nullptr && plan_.ledger.reason(d->reason).id == model::kUnreadable)
       return true;

@@ -11,13 +11,14 @@
 #include "planner/ground/base/result.h"
 #include "planner/model/plan/plan.h"
 
-// What a plan knows beside its nouns (who bound what, identities, machine, material, cutters, stock, set-ups,
-// steps, what is not planned, provenance), described once; files carry it in their own ways: ISO 14649 as
-// user-defined header entities, ISO 10303-238 as process properties.
+// Contents of a plan beside its nouns (who bound what, identities, machine, material, cutters, stock,
+// set-ups, steps, unplanned features, provenance), described once. Each standard carries them in its own way:
+// ISO 14649 as user-defined header entities, ISO 10303-238 as process properties.
 
 namespace capstan::exchange {
 
-/// What a record lacks; thrown by a carrier that reads, caught per record by whoever calls `restore_record`.
+/// A missing or malformed field of a record; thrown by a carrier that reads, caught per record by the caller
+/// of `restore_record`.
 struct MalformedRecord {};
 
 /// One record of a file, to be written or read field by field, in an order that both agree on. Fields have
@@ -30,13 +31,12 @@ class RecordFields {
   virtual void optional_real(std::string_view name, model::Unit unit, std::optional<double>& v) = 0;
   virtual void whole(std::string_view name, int& v) = 0;
   virtual void truth(std::string_view name, bool& v) = 0;
-  /// An application object; reading leaves it unset when there is none any more. Gives what the file calls
-  /// it.
+  /// An application object; reading leaves it unset if it is gone. Returns the file's name of it.
   virtual std::string object(std::string_view name, model::AnyRef& v) = 0;
   /// A decision: an object's attribute.
   virtual void decision(std::string_view name, model::DecisionKey& v) = 0;
   virtual void reason(model::Reason& v) = 0;
-  /// Fields that stand together, until `end`.
+  /// Fields that belong together, until `end`.
   virtual void group() = 0;
   /// A list of `n` elements, each begun by `element`, until `end`. Gives how many there are.
   virtual std::size_t list(std::string_view name, std::size_t n) = 0;
@@ -48,7 +48,7 @@ class RecordFields {
 
 /// Which records a file takes.
 struct RecordSink {
-  /// Whether the object stands in the file, and where: records follow that order. 0: it does not.
+  /// Position of the object in the file, 0: not in it. Records follow that order.
   std::function<std::uint64_t(model::AnyRef)> order;
   /// A record of a kind ("BINDING") about an object (unset: the whole plan), whose fields `describe` gives.
   std::function<void(std::string_view kind, model::AnyRef about,
@@ -64,9 +64,9 @@ void write_plan_records(const model::Plan& plan, const model::Model& written, co
 /// Says something about the record being read.
 using SayOfRecord = std::function<void(Severity, std::string code, std::string message)>;
 
-/// Puts what a record says back into the plan; false for an unknown kind. A record of an object that is gone
-/// is dropped with the note EXC-RECORD. `label` is what the record is called when something is said of it. Of
-/// a sealed file (seal.h), which nobody edited, values are not compared: what a unit rounds is no edit.
+/// Puts a record back into the plan; false for an unknown kind. A record of an object that is gone is dropped
+/// with the note EXC-RECORD. `label` names the record in messages. In a sealed file (seal.h), which is
+/// unedited, values are not compared: the rounding of a unit is no edit.
 /// Fails   throws MalformedRecord.
 bool restore_record(std::string_view kind, std::string_view label, RecordFields& fields, model::Plan& plan,
                     bool sealed, const SayOfRecord& say);

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::string_view kSeal = "!CAPSTAN_SEAL";
 
-/// What stands before the name of a record in AP238, and its own seals.
+/// Prefix of the name of a record in AP238, and of its seals.
 constexpr std::string_view kRecord = "capstan ";
 
 constexpr std::array<std::pair<std::string_view, model::Listed>, 10> kListed = {
@@ -54,7 +54,7 @@ std::string without_numbers(const p21::Value& v) {
   return out + ")";
 }
 
-/// What a record of AP238 says, which is a representation with an item for each field.
+/// A record of AP238: a representation with an item for each field.
 std::optional<std::pair<std::string, std::string>> record_of(const p21::File& file, const p21::Instance& e) {
   if (e.part_count() != 1 || e.part(0).keyword != "REPRESENTATION") return std::nullopt;
   const p21::Value p = e.part(0).parameters;

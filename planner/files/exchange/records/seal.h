@@ -21,7 +21,7 @@ namespace capstan::exchange {
 /// spacing, comments and the order of entities do not. Words for people (reasons, provenance, the standard's
 /// own header) are not sealed. Fails  P21-... when the file cannot be read.
 [[nodiscard]] Result<std::string> with_seal(std::string file);
-/// What a file's seal says of it.
+/// Result of comparing a file with its seal.
 struct SealState {
   bool holds = false;       ///< there is one, and nothing was edited
   bool paths_hold = false;  ///< there is one, and nothing was edited but lists of the plan in the header

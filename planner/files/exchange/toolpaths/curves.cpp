@@ -195,7 +195,7 @@ Result<Followed> follow(const model::Plan& plan, AnyRef toolpath, const Placemen
   if (auto done = Emitter(frame, options, role_of(t), is_rapid(t)).add(*segments, out); !done) {
     return fail(done.error());
   }
-  // What goes along with the curve goes by the curve's own parameter.
+  // Values along the curve use the curve's own parameter.
   if (against) {
     for (auto* list : {&out.moves.from, &out.moves.to}) {
       for (double& u : *list) u = out.moves.first + out.moves.last - u;
@@ -306,9 +306,9 @@ class StepBuilder {
     return {};
   }
 
-  // The path just joined may have feeds and speeds of its own, move by move. Where the technology, whose
-  // `settle` put there, is not the one that they were chosen with, somebody typed it since: it holds
-  // throughout.
+  // The path just joined may have feeds and speeds of its own, move by move. If the technology, which
+  // `settle` has put there, differs from the one that they were chosen with, it was edited since: it then
+  // holds throughout.
   void take_schedule(const model::PathHandle& path) {
     constexpr double kSame = 1e-6;  // of the value, what a file's units round; default, unsourced
     for (const auto& result : recorded_ == nullptr ? plan_.steps : *recorded_) {

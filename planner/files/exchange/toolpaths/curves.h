@@ -22,7 +22,7 @@ struct CurveOptions {
                                1};  ///< of via_helix_points: the stated tool axis, else the curve's own z
 };
 
-/// What a step's toolpaths say altogether.
+/// The path of a step, from its toolpaths.
 struct StepPath {
   model::CutterPath path;         ///< in the set-up's frame
   model::FeedSchedule schedule;   ///< from each toolpath's technology, else the operation's; 0 where open
@@ -31,11 +31,10 @@ struct StepPath {
   model::SectionSeries sections;  ///< where a file states the cross-section parameters
 };
 
-/// The whole step: toolpaths one after the other; empty when it has none. A toolpath that carries a
+/// The whole step: toolpaths one after the other; empty if it has none. A toolpath that carries a
 /// model::CutterPath (which is in the set-up's frame already) is taken as it is, with the schedule that the
-/// plan's results have for it. `recorded`: of a plan that is executed anew, its results as they were read;
-/// where the technology states another feed, or speed, than these, somebody typed it since, and it holds
-/// throughout.
+/// plan's results have for it. `recorded`: of a plan that is executed anew, its results as they were read. If
+/// the technology states another feed or speed than these, it was edited since, and it holds throughout.
 ///
 /// Arcs about the set-up's z stay arcs, a helix too (turn by turn); other curves are
 /// sampled. A trimmed LINE runs from trim_1 to trim_2 whatever its sense says (published files contradict

@@ -15,7 +15,7 @@ using geometry::Vec3;
 namespace {
 
 constexpr std::string_view kName = "LEFT-HANDED HELIX";
-constexpr double kSameMm = 1e-6;  // what arithmetic leaves of a point, far below any edit; default, unsourced
+constexpr double kSameMm = 1e-6;  // rounding of a point's coordinates, far below any edit; default, unsourced
 constexpr double kUnit = 1e-9;    // of a direction's length
 
 }  // namespace
@@ -47,7 +47,7 @@ std::optional<Segment> left_helix(const std::string& name, const std::vector<Vec
             .sweep = v[6]};
   if (std::abs(norm(s.axis) - 1.0) > kUnit || s.sweep == 0.0) return std::nullopt;
   const auto n = static_cast<double>(points.size() - 1);
-  // Whole turns between two points leave the points where they are: no chord of ours spans half a turn.
+  // Whole turns between two points would not change the points: no chord of ours spans half a turn.
   if (!(std::abs(s.sweep) < std::numbers::pi * n)) return std::nullopt;
   for (std::size_t i = 1; i < points.size(); ++i) {
     // Also where the numbers are beyond any arithmetic.

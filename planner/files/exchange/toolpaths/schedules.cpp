@@ -49,8 +49,8 @@ struct Reading {
   const char* name;
 };
 
-// What the values can be; the first is taken. The ratio comes first: it is what stands beside the curve in
-// the same select, and has no unit to state.
+// Possible meanings of the values; the first is taken. The ratio comes first: it is the one that the same
+// select offers beside the curve, and has no unit to state.
 std::vector<Reading> readings_of(const std::vector<double>& values, double feed) {
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
   std::vector<Reading> out = {{1.0, "multiples of the feed"}};
@@ -59,7 +59,7 @@ std::vector<Reading> readings_of(const std::vector<double>& values, double feed)
     out.push_back({1.0 / feed, "millimetres per minute"});
   }
   std::erase_if(out, [lo = *least, hi = *most](const Reading& r) {
-    // Just 1 at most: ratios of the greatest feed, down to whatever the heaviest cut leaves.
+    // At most exactly 1: ratios of the greatest feed, however small for the heaviest cut.
     if (r.unit == 1.0 && hi == 1.0) return false;
     return !(r.unit * lo >= kLeastRatio && r.unit * hi <= kMostRatio);
   });

@@ -27,9 +27,9 @@ struct MoveParameters {
 /// the greatest is just 1.
 inline constexpr double kLeastRatio = 0.01, kMostRatio = 4.0;
 
-/// What each move's feed is times the technology's, from a speed curve: the least along the move. The values
-/// are multiples of that feed (what else they could be, metres per second or millimetres per minute, is told
-/// from their size; where two of these are plausible, a warning EXC-SPEED-PROFILE says which is taken).
+/// Ratio of each move's feed to the technology's, from a speed curve: the least along the move. The values
+/// are multiples of that feed. Other meanings, metres per second or millimetres per minute, are recognised by
+/// their size; if two are plausible, a warning EXC-SPEED-PROFILE says which is taken.
 /// Fails  EXC-SPEED-PROFILE: another parameter range, values that are not positive or could be anything.
 [[nodiscard]] Result<std::vector<double>> speed_ratios(const model::Model& m, model::AnyRef speed,
                                                        const MoveParameters& moves, double feed_mm_min,
@@ -41,8 +41,8 @@ inline constexpr double kLeastRatio = 0.01, kMostRatio = 4.0;
                                                Job& job);
 
 /// Adds the cross-section parameters of one trajectory, whose moves are the last ones of `path`: one sample
-/// where each point of the basic curve lies. What the trajectory removes in total is shared out by length
-/// times the mean area of both its ends.
+/// at each point of the basic curve. The total removal of the trajectory is distributed over them in
+/// proportion to length times the mean area of both ends.
 /// Fails  EXC-SECTIONS: another parameter range, or points of other than seven numbers.
 [[nodiscard]] Status add_sections(const model::Model& m, const model::Trajectory& t,
                                   const MoveParameters& moves, const model::CutterPath& path,

@@ -7,8 +7,8 @@
 
 namespace capstan::exchange {
 
-/// The name of a point that stands on a straight line only because cross sections change there. Names of
-/// points mean nothing to others; here they tell that the line is one move.
+/// Name of a point on a straight line that is there only because cross sections change. Other programs ignore
+/// names of points; here they show that the line is one move.
 inline constexpr const char* kSectionPoint = "section";
 
 /// Joins the last `moves` of a path again where they meet in such a point, are straight on and have one feed

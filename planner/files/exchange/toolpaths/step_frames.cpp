@@ -19,7 +19,7 @@ namespace {
 /// Of workplans within workplans: a file may nest them in a circle.
 constexpr std::size_t kMostOrientations = 1000;
 
-/// What the workplans around a step say of its place.
+/// Set-up and orientations of the workplans around a step.
 struct Around {
   AnyRef setup;                      ///< the innermost
   std::vector<AnyRef> orientations;  ///< of toolpaths, outermost first
@@ -65,7 +65,7 @@ AnyRef feature_of(const model::Model& m, AnyRef step) {
 }  // namespace
 
 Result<Placement> toolpath_frame(const model::Model& m, AnyRef feature) {
-  // A chamfer or an edge round stands where the feature stands whose edge it is.
+  // A chamfer or an edge round has the place of the feature whose edge it is.
   AnyRef stands = feature;
   if (const auto* f = m.get<model::TransitionFeature>(feature)) stands = f->first_feature;
   AnyRef at;
@@ -73,7 +73,7 @@ Result<Placement> toolpath_frame(const model::Model& m, AnyRef feature) {
   if (const auto* f = m.get<model::Region>(stands)) at = f->feature_placement;
   auto own = model::placement_or_identity(m, model::Ref<model::Axis2Placement3d>(at));
   if (!own) return own;
-  // An element stands where its compound or pattern puts it.
+  // An element has the place where its compound or pattern puts it.
   const auto outer = model::coordinates_of(m, stands);
   if (!outer) return fail(outer.error());
   return *outer == Placement{} ? *own : geometry::compose(*outer, *own);

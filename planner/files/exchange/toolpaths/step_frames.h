@@ -6,21 +6,21 @@
 
 namespace capstan::exchange {
 
-/// The frame in which a step's toolpath coordinates stand, seen from its set-up:
+/// The frame of a step's toolpath coordinates, seen from its set-up:
 ///
 ///     workingstep      workpiece's place in the set-up x orientations x the feature's placement
 ///     rapid movement   the set-up itself x orientations
 ///
 /// The set-up is that of the innermost workplan around the step that has one. Orientations are the
 /// toolpath_orientation of each workplan around the step, outermost first, then the step's own, which
-/// stands in place of the feature's placement.
+/// replaces the feature's placement.
 /// Source  ISO 14649-10 (feature placement); confirmed with the published toolkit's motion for example 1.
 ///         ISO 10303-238 (toolpath_orientation of workingstep and, cumulatively, workplan).
 [[nodiscard]] Result<geometry::Placement> frame_of_step(const model::Plan& plan,
                                                         model::Ref<model::Executable> step);
 
-/// The frame in which a feature's toolpaths stand where nothing else says so, workpiece coordinates: its own
-/// placement, where its compound or pattern puts that; the workpiece's own where it has none.
+/// The default frame of a feature's toolpaths, workpiece coordinates: its own placement, where its compound
+/// or pattern puts that; the workpiece's own if it has none.
 /// Fails  as `placement` and `coordinates_of`.
 [[nodiscard]] Result<geometry::Placement> toolpath_frame(const model::Model& m, model::AnyRef feature);
 

@@ -239,8 +239,8 @@ class Splitter {
     t.its_technology = technology;
   }
 
-  // The operation's own technology where it says the same; a link always gets one, which tells it from a
-  // rapid connection.
+  // The operation's own technology if it has the same values. A link always gets one of its own, which
+  // distinguishes it from a rapid connection.
   model::Ref<model::Technology> technology_for(std::size_t i) {
     const auto* general = m_.get<model::MillingTechnology>(general_);
     if (!schedule_ || general == nullptr) return model::Ref<model::Technology>(general_);
@@ -353,7 +353,7 @@ bool same_place(const Placement& a, const Placement& b) {
   return norm(a.origin - b.origin) <= kSame && norm(a.x - b.x) <= kSame && norm(a.z - b.z) <= kSame;
 }
 
-// Toolpaths that this standard cannot say where or as they stand become paths: their curves are made anew.
+// Makes paths of toolpaths whose place or form this standard cannot state: their curves are made anew.
 Status unfold(model::Plan& plan, Schedules& schedules, std::vector<std::string>& losses) {
   auto& m = plan.model;
   struct Step {

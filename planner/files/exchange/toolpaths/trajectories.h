@@ -22,15 +22,15 @@ inline constexpr double kHelixChordMm = 0.001;  // default, unsourced
 /// Fails   when a step's frame cannot be found.
 [[nodiscard]] Status write_curves(model::Plan& plan, std::vector<std::string>& losses);
 
-// What both exchanges need of toolpaths.
+// Functions on toolpaths that both exchanges need.
 
 /// Paths that only the plan's results hold get a toolpath in the model.
 void adopt_paths(model::Plan& plan);
 /// Whether a trajectory has a path and no curves.
 [[nodiscard]] bool has_bare_path(const model::Model& m, model::AnyRef at);
-/// What a run of moves is for, as a file says it.
+/// The purpose of a run of moves, in the file's terms.
 [[nodiscard]] model::ToolpathType toolpath_type_of(model::MoveRole role, bool rapid);
-/// The list of toolpaths of an executable, unset when it has none.
+/// The list of toolpaths of an executable, unset if it has none.
 [[nodiscard]] model::AnyRef toolpath_list_of(const model::Model& m, model::AnyRef step);
 
 }  // namespace capstan::exchange

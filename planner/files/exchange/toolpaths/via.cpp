@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kGridMm = 1e-9;    // of decimals that people and programs write
-constexpr double kNoiseMm = 1e-11;  // what three points leave of a centre's digits
+constexpr double kNoiseMm = 1e-11;  // error of a centre computed from three points
 
 tl::unexpected<Diagnostic> bad(std::string what) {
   return fail({.code = "EXC-VIA", .message = "via points: " + std::move(what)});

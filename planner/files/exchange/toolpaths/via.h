@@ -9,7 +9,7 @@
 #include "planner/model/nouns/forward.h"
 #include "planner/model/plan/plan.h"
 
-/// @file Points of a polyline that stand for arcs (via_arc_point, via_helix_point): an arc runs from the
+/// @file Points of a polyline that describe arcs (via_arc_point, via_helix_point): an arc runs from the
 /// ordinary point before, through them, to the ordinary point after, by less than a full turn; a full turn
 /// (whose ends coincide) has two of them.
 

@@ -24,7 +24,8 @@ double influence(double x, double x0, double e) {
   return e > 0.0 && x0 > 0.0 ? std::pow(x / x0, -1.0 / e) : 1.0;
 }
 
-/// What a minute counts. What stands still while an edge is changed costs what it would have earned, too.
+/// Value of one machine minute. A minute in which an edge is changed costs the machine's lost earning as
+/// well.
 double minute_of(const CutQuestion& q) {
   if (q.aim == Aim::kTime) return 1.0;
   const double rate = (q.machine.cost_per_hour > 0.0 ? q.machine.cost_per_hour : kMachinePerHour) / 60.0;

@@ -2,7 +2,7 @@
 
 #include "planner/making/optimise/cut.h"
 
-/// What a cut costs: time, edges, and what the time would earn. Of this room.
+/// Cost of a cut: time, edges, and the earning of the machine's time. Used in this room only.
 namespace capstan::optimise {
 
 /// Dimensions and rates of a cut, and its thickest chip.
@@ -23,10 +23,10 @@ struct CutPoint {
 /// whose area is known, changing levels.
 [[nodiscard]] double time_of(const CutQuestion& q, const CutPoint& at);
 
-/// What Aim makes least, per volume or depth.
+/// The value that the Aim minimises, per volume or depth.
 [[nodiscard]] double objective_of(const CutQuestion& q, const CutPoint& at);
 
-/// The same without edges: no more than objective_of.
+/// The same without the cost of edges; never more than objective_of.
 [[nodiscard]] double objective_without_edges(const CutQuestion& q, const CutPoint& at);
 
 }  // namespace capstan::optimise

@@ -44,7 +44,7 @@ struct Solved {
 /// At most four decimals; a sum of nonsense may be no number.
 std::string number(double v) { return std::isfinite(v) ? trimmed(v, 4) : std::string("no number"); }
 
-/// What is wrong with the given values; a cut cannot be computed with them.
+/// Faults of the given values that make a cut impossible to compute.
 std::vector<std::string> not_a_cut(const CutQuestion& q) {
   struct Given {
     const char* name;
@@ -142,7 +142,7 @@ bool hopeless(const CutQuestion& q, const Search& search, const std::vector<Vari
   });
 }
 
-/// The best of the pieces between the corners; nothing when none of them holds a cut.
+/// The best solution over the pieces between the corners; nothing if no piece contains a feasible cut.
 Result<std::optional<Solved>> best_of(const CutQuestion& q, const Search& search, Options options, Job& job,
                                       const std::optional<CutPoint>& start = {}) {
   const std::uint32_t budget =
@@ -213,7 +213,7 @@ std::vector<Held> held_by(const CutQuestion& q, const Solved& s, const CutAnswer
   return out;
 }
 
-/// What more of each limit is worth.
+/// Sets the limits that hold the cut, with the gain of easing each.
 void take_active(const CutQuestion& q, const Solved& s, const Options& options, Job& job, CutAnswer& a) {
   const Search search(q, s.point.ap_mm);
   constexpr double kOnePercent = 1.01;
@@ -274,8 +274,8 @@ Result<Level> solve_level(const CutQuestion& q, double ap_mm, const Options& opt
   return out;
 }
 
-/// A level that does not chatter where the machine's modes tell: at the speed found, else at the next slower
-/// one whose lobe is deep enough. Lobes have corners everywhere, so speeds are tried one by one.
+/// A level without chatter, if the machine states modes: at the speed found, else at the next slower speed
+/// whose lobe is deep enough. Lobes have corners everywhere, so speeds are tried one by one.
 Result<Level> quiet_level(const CutQuestion& q, double ap_mm, const Options& options, Job& job) {
   auto level = solve_level(q, ap_mm, options, job);
   if (!level || !level->answer.feasible || !has_modes(q)) return level;

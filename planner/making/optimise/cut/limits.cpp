@@ -18,7 +18,8 @@ double efficiency(const CutQuestion& q) {
   return mechanics::spindle_efficiency(q.machine.spindle.efficiency);
 }
 
-/// The smaller of two axes' feeds, or the Z axis's; an axis that states none does not limit.
+/// Largest feed of the axes, mm/min: the smaller of X and Y in milling, else Z. An axis that states none is
+/// unlimited.
 double axis_feed(const CutQuestion& q) {
   const auto& a = q.machine.axes;
   if (!is_milling(q.kind)) return a[2].feed_max_mm_min;

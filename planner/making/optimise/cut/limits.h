@@ -15,7 +15,7 @@
 /// The limits of a cut: what they are called, and how near to each a cut comes. Of this room.
 namespace capstan::optimise {
 
-/// A value and what it must not exceed; a limit that nobody states is infinite.
+/// A value and its upper limit. The limit is infinite if none is stated.
 struct Measure {
   double value = 0.0;
   double limit = std::numeric_limits<double>::infinity();
@@ -24,7 +24,7 @@ struct Measure {
   [[nodiscard]] double excess() const { return stated() ? value / limit - 1.0 : -1.0; }
 };
 
-/// One per limit. A least value stands as (least, value): the least must not exceed it.
+/// One Measure per limit. A lower limit is stored as (lower limit, value): it must not exceed the value.
 struct Measures {
   std::array<Measure, model::kLimitCount> all;
   [[nodiscard]] Measure& operator[](model::Limit l) { return all.at(model::index_of(l)); }
@@ -92,19 +92,19 @@ class MillingLoads {
 /// Speeds of machine and cutter, 1/min.
 [[nodiscard]] Range speeds(const CutQuestion& q);
 
-/// The machine's curve, or nothing when it states none that is one.
+/// The machine's spindle curve; nothing if it states none or an invalid one.
 [[nodiscard]] std::optional<mechanics::SpindleCurve> curve_of(const CutQuestion& q);
 
-/// The chip thickness that is planned for, at most.
+/// Largest feed per tooth to plan, mm.
 [[nodiscard]] double largest_fz(const CutQuestion& q);
 /// The thinnest chip that the cutter takes in the material (mechanics::least_chip_mm); no more than what its
 /// presets hold it to cut (model::held_to_cut_mm).
 [[nodiscard]] double least_chip_mm(const CutQuestion& q);
 /// The thinnest chip that a milling cut is planned with: the cutter's own; 0 where the feed is given.
 [[nodiscard]] double thinnest_chip_mm(const CutQuestion& q);
-/// The feed per tooth that the cutter asks for at least; 0: none stated.
+/// Least feed per tooth that the cutter states, mm; 0: none stated.
 [[nodiscard]] double least_fz(const CutQuestion& q);
-/// Whether the least feed is the maker's own word, and not derived or a default.
+/// True if the maker states the least feed; false if it is derived or a default.
 [[nodiscard]] bool least_fz_stated(const CutQuestion& q);
 
 /// Whether a spindle that gives no more at this speed is short of torque rather than of power: below the

@@ -16,14 +16,15 @@ namespace {
 
 using std::numbers::pi;
 
-/// Feed marks on the wall, and on the floor where a corner radius leaves some; at the planned feed.
+/// Height Rz of the feed marks on the wall, and on the floor if there is a corner radius, mm; at the planned
+/// feed.
 double surface_rz(const CutQuestion& q, double fz_mm) {
   const double wall = mechanics::wall_rz_mm(fz_mm, q.cutter.cutting_diameter_mm);
   const double corner = q.cutter.corner_radius_mm;
   return corner > 0.0 ? std::max(wall, mechanics::floor_rz_mm(fz_mm, corner)) : wall;
 }
 
-/// How far bending pushes the wall that this arc leaves; nothing when it cannot be said.
+/// Error of the wall from bending of the tool over this arc, mm; nothing if it cannot be computed.
 std::optional<double> wall_error(const CutQuestion& q, const mechanics::Section& section,
                                  const mechanics::Tooth& tooth, const mechanics::ForceLaw& law, double fz_mm,
                                  mechanics::WallSide side) {

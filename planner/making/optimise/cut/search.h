@@ -20,24 +20,24 @@ class Search {
   [[nodiscard]] const std::vector<Variable>& variables() const { return variables_; }
   [[nodiscard]] CutPoint at(std::span<const double> x) const;
 
-  /// Parts of the box between the corners of the model: the points of the spindle's curve, and the widths
-  /// where the chip stops growing and where the effective diameter ends. One: there are none.
+  /// Parts of the box between the corners of the model: the points of the spindle's curve, the width from
+  /// which the chip stops growing, the end of the effective diameter. One part if there are none.
   [[nodiscard]] std::vector<std::vector<Variable>> pieces() const;
 
-  /// Where a piece asks for least: lowest feed, narrowest width, at either end of its speeds. Loads rise with
-  /// feed and width, and the spindle's torque has no corner inside a piece, so if neither point keeps the
-  /// limits of loads, no point does.
+  /// The points of a piece with the smallest loads: lowest feed, narrowest width, at either end of its
+  /// speeds. Loads rise with feed and width, and the spindle's torque has no corner inside a piece, so if
+  /// neither point keeps the limits of loads, no point does.
   [[nodiscard]] std::vector<CutPoint> gentlest(const std::vector<Variable>& piece) const;
 
-  /// No cut of this depth removes more per time than this one would, limits of loads aside: the fastest
-  /// speed, the widest cut, the largest feed that bound and chip leave there.
+  /// An upper bound of the removal rate at this depth, limits of loads aside: the fastest speed, the widest
+  /// cut, and the largest feed that its bound and the chip allow there.
   [[nodiscard]] CutPoint fastest() const;
 
   /// Minimise the logarithm of the objective over a part of the box, from `start` where one is known. A
   /// multiplier then is a fraction of the objective.
   [[nodiscard]] Problem problem(std::vector<Variable> box, const std::optional<CutPoint>& start = {}) const;
 
-  /// What a bound of a variable is called as a limit; nothing when it is only a border of the search.
+  /// Name of a variable's bound as a limit; nothing if the bound is only a border of the search.
   struct Bound {
     std::string name, unit;
     double value = 0.0;  ///< in that unit

@@ -23,7 +23,7 @@ struct CutClass {
   double most_scheduled = 0.0;  ///< largest edge feed scheduled so far; for the peak loads
 };
 
-/// `explain` tells the time that this much more of one limit saves.
+/// Factor by which one limit is eased to find the time that this would save, for `explain`.
 inline constexpr double kMoreOfALimit = 1.1;
 
 class CutClasses {

@@ -17,7 +17,8 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kNoLimit = std::numeric_limits<double>::infinity();  // of what nobody states
+constexpr double kNoLimit =
+    std::numeric_limits<double>::infinity();  // the value of a limit that is not stated
 constexpr double kWhole = 0.95;  // share of depth times width from which a section is a rectangle
 
 /// Width of an arc across the feed.
@@ -42,8 +43,9 @@ double front_of(const CutSample& s) {
   return std::max(std::sin(entry), std::sin(exit));
 }
 
-/// The rectangle of a depth and a width at the section's place: the arc that was measured where it is about
-/// as wide, else one of that width. What the arc lacks is speed of the edge.
+/// The rectangle of a depth and a width at the section's place. It keeps the measured arc if that is about as
+/// wide; else it takes an arc of that width. The area that the arc lacks is removed by the edge's higher
+/// speed.
 Cut rectangle(double ap, double ae, const CutSample& s, double diameter) {
   const double entry = std::clamp(s.entry_rad, 0.0, pi);
   const double exit = std::clamp(s.exit_rad, entry, pi);
@@ -86,10 +88,10 @@ Cuts cuts_of(const CutSample& sample, const CutQuestion& question) {
     const double entry = std::clamp(s.entry_rad, 0.0, pi);
     const double exit = std::clamp(s.exit_rad, 0.0, pi);
     const double area = s.csa_mm2 > 0.0 ? s.csa_mm2 : ap * ae;
-    // Above the tip the edge stands steeper, and its chip is thicker.
+    // Above the tip the edge is steeper, so its chip is thicker.
     const double up = std::min(std::max(ap, s.top_mm), corner);
     const double kappa_sin = std::sqrt(up * (2.0 * corner - up)) / corner;
-    // An arc that was not measured is made of the width.
+    // Without a measured arc, make one from the width.
     Cut c = exit > entry ? Cut{.ap_mm = ap, .entry_rad = entry, .exit_rad = exit}
                          : trimmed_arc(ap, ae, s, diameter);
     c.csa_mm2 = area;
@@ -139,12 +141,12 @@ CutLoads::CutLoads(const FeedQuestion& question, double n_rpm)
   for (const Limit l : model::kSectionLimits) limits_.of(l) = std::min(m[l].limit, kNoLimit);
   const double chip = limits_.of(Limit::kChipThickness);
   const double nominal = question.feed_mm_min;
-  // Finishing goes faster than planned only where a surface that is asked for bounds it, or where it was
-  // planned for one of the sections that were measured: the thinner ones bear more, by their chips.
+  // A finishing move may exceed the planned feed only if a required Ra limits it, or if the step was planned
+  // for a median of the measured sections: thinner sections allow more, by their chips.
   const bool faster =
       chip < kNoLimit && (q_.kind == CutKind::kRough || q_.surface_ra_um > 0.0 || q_.as_measured);
   ceiling_ = faster ? std::max(nominal, kMostThinning * chip * tooth_.teeth * n_) : nominal;
-  // Never over what is meant: a thinner feed that was chosen for the step is the least there.
+  // The lower bound never exceeds the planned feed: a thinner feed chosen for the step is the minimum there.
   floor_ = std::min(nominal, std::max(kLeastFeedShare * nominal, least_feed_mm_min(q_, n_)));
   ceiling_ = std::max(ceiling_, floor_);
 }

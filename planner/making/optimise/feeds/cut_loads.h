@@ -33,8 +33,8 @@ struct Cut {
   double ap_mm = 0.0, entry_rad = 0.0, exit_rad = 0.0, gain = 1.0;
   double csa_mm2 = 0.0;  ///< measured area; 0: depth times width
   double band_mm = 0.0;  ///< as mechanics::Section's
-  /// Sine of the measured arc where it is nearest to the front: wherever in it the area lies, no chip is
-  /// thicker than this part of the feed per tooth. 0: the cut's own arc tells.
+  /// Sine of the measured arc where it is nearest to the front. Wherever the area lies in the arc, no chip is
+  /// thicker than this share of the feed per tooth. 0: use the arc of contact of this cut.
   double front_sin = 0.0;
 };
 
@@ -42,9 +42,9 @@ struct Cut {
 /// and as wide. Of a cutter with a corner radius or a ball it is one, as measured: at its rim there is no
 /// edge. Of a left-hand cutter angles are mirrored: in mechanics they count in the sense of rotation.
 ///
-/// What the end cuts on a slope s (CutSample::end_mm2) is a term of its own: it is no width, for no cutter is
-/// wider than its diameter. Its chips are thinner than the flank's by the slope, so that they take s^-mc of
-/// its specific force; it is counted as the depth of a slot that takes the same power,
+/// The area that the end cuts on a slope s (CutSample::end_mm2) is a separate term. It is no width, for no
+/// cutter is wider than its diameter. Its chips are thinner than the flank's by the slope, so that they take
+/// s^-mc of its specific force. It is counted as the depth of a slot with the same power,
 ///
 ///     d ap = end s^-mc / ae                                derived: kc = kc1.1 (s fz)^-mc on the area `end`
 struct Cuts {
@@ -82,17 +82,17 @@ class CutLoads {
   [[nodiscard]] std::optional<State> plunging(double feed_mm_min) const;
 
   [[nodiscard]] const Column& limits() const { return limits_; }
-  /// The most that any section is asked to bear, and the least that is scheduled, mm/min.
+  /// Largest and smallest feed that the schedule may use, mm/min.
   [[nodiscard]] double ceiling_mm_min() const { return ceiling_; }
   [[nodiscard]] double floor_mm_min() const { return floor_; }
   [[nodiscard]] double margin() const { return margin_; }
   [[nodiscard]] double rpm() const { return n_; }
-  /// Largest feed that keeps every limit, at most `most`; 0 when none down to the floor does.
+  /// Largest feed that keeps every limit, at most `most_mm_min`, mm/min; 0 if none down to the floor does.
   [[nodiscard]] double largest(const Cut& cut, double most_mm_min) const;
 
  private:
   [[nodiscard]] double surface_um(double fz_mm) const;
-  /// What remains of the largest chip in a deep slot.
+  /// Share of the largest chip that is allowed in a deep slot.
   [[nodiscard]] double slot_share(const Cut& cut) const;
   [[nodiscard]] std::optional<double> wall_mm(const mechanics::Section& section, double fz_mm) const;
 
@@ -108,7 +108,7 @@ class CutLoads {
 /// The largest of load / limit.
 [[nodiscard]] double ratio(const Column& load, const Column& limit);
 
-/// Whether somebody states this limit; one that nobody states is larger than any load, and never told.
+/// True if the limit is finite. An infinite limit means that none is stated; it is never reported.
 [[nodiscard]] bool stated(double limit);
 
 }  // namespace capstan::optimise::feed

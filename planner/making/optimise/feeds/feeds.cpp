@@ -11,6 +11,23 @@
 #include "planner/physics/mechanics/constants.h"
 #include "planner/physics/mechanics/surface.h"
 
+// The feed schedule is made in four stages:
+//
+// 1. Caps (`caps_of`, move_limits.cpp): for each move the largest feed at which every section measured along
+//    it keeps every limit. Sections that are nearly equal form a class, whose feed is computed once
+//    (cut_classes.cpp). Plunges and ramps also keep their fraction of the step's feed.
+// 2. Axes (`followed`, motion_limits.cpp): caps are lowered to what the axes can do; neighbours within
+//    `group_ratio` share the lower feed.
+// 3. Braking: backwards along the path v_i^2 <= v_(i+1)^2 + 2 a L_i, for controls that brake within a move.
+//    Then a run of moves at one feed asks for no more than its fastest move reaches, and braking is applied
+//    once more.
+// 4. Peaks (`measure_peaks`): the loads of each class at the largest feed at which it is cut, and the largest
+//    excess over a limit with its place.
+//
+// With `constant` one feed replaces the caps of cutting moves, the largest that every section allows
+// (`constant_feed`), and nothing is grouped or braked.
+// Source  loads: mechanics/loads/section.h; the braking bound: constant deceleration, derived.
+
 namespace capstan::optimise {
 namespace {
 

@@ -9,7 +9,7 @@ namespace {
 
 using model::CutterPath;
 
-// What may hold along a path: the holders of a feed, then what only motion knows.
+// Limits that can determine a feed along a path: those of FeedBound, then those of motion.
 enum Name : std::size_t { kTolerance = kFeedBounds, kBlockTime, kNames };
 constexpr std::array<std::string_view, kNames - kLimits> kText = {
     "step_feed",         "end_cutting", "air_feed",       "axis_feed",

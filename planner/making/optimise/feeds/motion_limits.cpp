@@ -21,8 +21,8 @@ bool at_feed(const CutterPath& path, std::size_t i) {
 
 double down(double feed) { return std::max(rounded(std::floor(feed * 10.0 + 1e-6) / 10.0, 1), kLeastFeed); }
 
-/// A feed that needs no look at the direction: two axes together could do more, but what a machine is said to
-/// do at most is that of one.
+/// Largest feed of a move regardless of its direction, mm/min. Two axes together could move faster, but a
+/// machine's stated maximum is that of one axis.
 double across_mm_min(const CutterPath& path, std::size_t i, const model::Machine& machine) {
   double most = std::numeric_limits<double>::infinity();
   if (path.kind[i] == MoveKind::kLine && path.x[i] == path.x[i - 1] && path.y[i] == path.y[i - 1] &&

@@ -12,7 +12,7 @@ using model::MoveRole;
 
 constexpr double kAnyFeed = std::numeric_limits<double>::infinity();
 
-/// What the samples of one move bear together.
+/// The combined limits of the samples of one move.
 struct OnMove {
   bool cuts = false;  ///< sideways somewhere
   bool plunges = false;
@@ -64,7 +64,7 @@ Cap open_cap(double feed) {
   return cap;
 }
 
-/// A share of a feed, of none that is bounded too.
+/// A share of a feed; infinite if the feed is not bounded.
 double part(double share, double feed) { return std::isfinite(feed) ? share * feed : feed; }
 
 void bound_by_sections(Cap& cap, const OnMove& m, const CutLoads& loads, double share) {
@@ -73,7 +73,7 @@ void bound_by_sections(Cap& cap, const OnMove& m, const CutLoads& loads, double 
     const double feed = std::max(part(share, m.at_limit[k]), std::min(loads.floor_mm_min(), ceiling));
     if (feed < cap.feed_mm_min) {
       cap.feed_mm_min = feed;
-      // Where no load can be computed every limit counts as reached, those that nobody states, too.
+      // If no load can be computed, every limit counts as reached, also those that are not stated.
       cap.by = stated(loads.limits()[k]) && m.known ? static_cast<FeedBound>(k) : FeedBound::kUnknown;
     }
   }
@@ -108,7 +108,7 @@ Cap milled(const FeedQuestion& q, CutClasses& classes, const model::CutterPath& 
   const bool measured = !q.samples.empty() && !m.plunges;
   Cap cap = open_cap(given * (measured ? loads.ceiling_mm_min() : q.feed_mm_min));
   if (m.cuts) bound_by_sections(cap, m, loads, std::min(1.0, given));
-  // By its direction where samples tell it: a given trajectory may call a plunge a cut.
+  // Take the direction from the samples if there are any: a given trajectory may call a plunge a cut.
   if (role == MoveRole::kPlunge || m.plunges || unmeasured_plunge(q, path, i)) {
     bound(cap, kPlungeFraction * given * q.feed_mm_min, FeedBound::kEndCut);
     bound(cap, classes.plunge(rpm_on(q, i)).feed_mm_min, FeedBound::kEndCut);

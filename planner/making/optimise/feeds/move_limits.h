@@ -6,10 +6,10 @@
 
 #include "planner/making/optimise/feeds/cut_classes.h"
 
-/// What each move of a path may be fed at most, and why.
+/// Largest feed of each move of a path, and the limit that determines it.
 namespace capstan::optimise::feed {
 
-/// What bounds a move's feed: the limits of a section first, in their order.
+/// Limit that determines a move's feed: first the limits of a section, in their order.
 /// Below kLimits: the limit at that place of kSectionLimits.
 enum class FeedBound : std::uint8_t {
   kStepFeed = kLimits,  ///< the planned feed, or the bound of chip thinning

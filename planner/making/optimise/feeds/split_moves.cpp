@@ -55,7 +55,7 @@ void give_way(std::vector<Piece>& p, double known_to_mm) {
   if (!p.empty()) p.back().end_mm = end;
 }
 
-/// Joins what is too short to stand alone, then what is not worth a block.
+/// Merges pieces that are too short, then pieces that would save too little time to need a block.
 void join(std::vector<Piece>& p, double least_mm) {
   while (p.size() > 1) {
     std::size_t shortest = 0;
@@ -113,7 +113,7 @@ class Pieces {
  private:
   static constexpr double kRounding = 1e-9;
 
-  /// Joined from the left until none is much shorter than a piece may be: a bound on what is left to do.
+  /// Merges from the left until no piece is much shorter than the minimum, to bound the remaining work.
   static std::vector<Piece> binned(const std::vector<Piece>& p, double least_mm, double length) {
     constexpr std::size_t kFew = 64;
     if (p.size() <= kFew) return p;
@@ -129,7 +129,7 @@ class Pieces {
     return out;
   }
 
-  /// Neighbours that bear nearly the same are one piece from the start.
+  /// Merges neighbours with nearly the same allowed feed from the start.
   void add(std::vector<Piece>& out, double end, double begin, double feed) const {
     constexpr double kAlike = 1.02;
     if (!out.empty() && out.back().feed <= kAlike * feed && feed <= kAlike * out.back().feed) {

@@ -62,7 +62,7 @@ Model central_differences(PlainModel plain, std::vector<Variable> variables) {
     for (std::size_t j = 0; j < n; ++j) {
       const Variable& v = variables[j];
       const double step = 1e-6 * (v.upper - v.lower);
-      if (!(step > 0.0)) {  // a fixed variable: nobody asks for its slope
+      if (!(step > 0.0)) {  // a fixed variable needs no slope
         out.gradient[j] = 0.0;
         for (std::size_t i = 0; i < above.size(); ++i) out.jacobian[i * n + j] = 0.0;
         continue;

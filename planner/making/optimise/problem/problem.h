@@ -22,7 +22,7 @@ struct Variable {
   Walk walk = Walk::kLinear;
 };
 
-/// What a model says at one point.
+/// Values and derivatives of a model at one point.
 struct Evaluation {
   double objective = 0.0;
   std::vector<double> constraints;  ///< c_i, satisfied when <= 0

@@ -6,7 +6,7 @@
 #include "planner/ground/base/result.h"
 #include "planner/making/optimise/solver/evaluator.h"
 
-/// What a solver library has to do for us. Callers use solver.h.
+/// The interface that each solver library implements. Callers use solver.h.
 namespace capstan::optimise {
 
 enum class Algorithm : std::uint8_t {
@@ -30,7 +30,8 @@ struct Attempt {
 ///           library out; rethrow, after its library has returned, what the evaluator threw.
 using Backend = Result<std::vector<double>> (*)(Evaluator& evaluator, const Attempt& attempt);
 
-/// solve_with_nlopt (NLopt 2.7), solve_with_ipopt …: each answers OPT-BACKEND-ABSENT when built without its library.
+/// solve_with_nlopt (NLopt 2.7), solve_with_ipopt …: each answers OPT-BACKEND-ABSENT when built without its
+/// library.
 #define CAPSTAN_SOLVER(noun, word) \
   [[nodiscard]] Result<std::vector<double>> solve_with_##word(Evaluator& evaluator, const Attempt& attempt);
 #include "planner/making/optimise/solver/solvers.inc"

@@ -11,7 +11,7 @@
 namespace capstan::optimise {
 
 /// A problem as the backends see it: free variables mapped to [0, 1] (linearly or logarithmically), fixed
-/// ones left out, one evaluation per point whoever asks, and the count of them.
+/// variables removed. Evaluates the model once per point for all callers, and counts these points.
 class Evaluator {
  public:
   /// Needs a validated problem, which must outlive this.

@@ -20,11 +20,12 @@ struct Options {
   std::uint32_t starts = 8;             ///< the problem's own start, then a fixed low-discrepancy sequence
   double relative_tolerance = 1e-10;    ///< of the objective, where a solver stops
   double feasibility_tolerance = 1e-6;  ///< largest c_i that counts as kept
-  bool fall_back = true;                ///< SLSQP, then AUGLAG + L-BFGS, then the other solvers that are there
+  bool fall_back = true;  ///< SLSQP, then AUGLAG + L-BFGS, then the other solvers that are there
   Backends backends;
 };
 
-/// What the search came to. Feasibility and optimality are measured here, not believed.
+/// Result of the search. Feasibility and optimality are measured here; the backend's own claim does not
+/// count.
 enum class Outcome : std::uint8_t {
   kOptimal,       ///< feasible, and first-order optimal (FirstOrder::residual <= kOptimalityTolerance)
   kFeasible,      ///< feasible, the best seen; not shown to be optimal
@@ -58,7 +59,8 @@ struct Solution {
 
 inline constexpr double kOptimalityTolerance = 1e-4;
 
-/// Minimises from several fixed starts and keeps the best feasible end; falls back when none is optimal.
+/// Minimises from several fixed starts and keeps the best feasible result; tries the next method if no result
+/// is optimal.
 ///
 /// Determinism   same problem, same options, same budget: same bytes. Starts are fixed; budgets count
 ///               points, not time. Only a stop request or a deadline on `job` may cut it short.

@@ -49,7 +49,7 @@ Result<optimise::CutAnswer> Cuts::answer(const optimise::CutQuestion& q) {
 
 optimise::CutAnswer Cuts::in_one_pass(const optimise::CutQuestion& q, optimise::CutAnswer several) {
   constexpr double kSlack = 1e-9;
-  // Passes overlap by what the round edge leaves (toolpath/region/face.cpp).
+  // Neighbouring passes overlap by the round part of the edge, as in toolpath/region/form/face.cpp.
   const double flat = q.cutter.cutting_diameter_mm - 2.0 * q.cutter.corner_radius_mm;
   const double widest = std::min(kFaceWidthRatio * q.cutter.cutting_diameter_mm, flat) * (1.0 + kSlack);
   const bool open = !q.ae_mm && q.kind == optimise::CutKind::kRough && several.feasible;

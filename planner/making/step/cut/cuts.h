@@ -14,8 +14,8 @@
 
 namespace capstan::step {
 
-/// Answers by their whole question: cutter, machine, material, limits and what is given. Two cutters of one
-/// id are two questions where they differ in anything, as one that stands out farther in another step does.
+/// Cut answers, found by the whole question: cutter, machine, material, limits and given values. A cutter
+/// that sticks out farther in another step is another question, although its id is the same.
 class KnownCuts {
  public:
   /// Null where this was not asked before. Valid until the next `keep`.
@@ -49,10 +49,10 @@ class Cuts {
   Job& job_;
 };
 
-/// Cuts under an overhang are not measured: bounds the feed of the passes in which more than one edge of the
-/// head cuts (PathJob::both_edges_share, front_share) by the loads of what they cut, so that torque and power
-/// hold there, too. Of both edges at once these add up, while the forces across, which bend the neck, stand
-/// against each other; the whole front is a slot. Gives the loads of the middle pass.
+/// Bounds the feed of passes under an overhang, whose sections are not measured along the path. Where both
+/// edges of the head or its whole front cut (PathJob::both_edges_share, front_share), the loads of that cut
+/// must stay within torque and power. Torques of the two edges add up; their forces across the neck oppose
+/// each other. The whole front cuts as in a slot. Returns the loads of the middle pass.
 /// Fails  PIP-INFEASIBLE where no feed holds the limits.
 [[nodiscard]] Result<model::StepLoads> hold_under_overhang(const optimise::CutQuestion& q,
                                                            const optimise::CutAnswer& answer,

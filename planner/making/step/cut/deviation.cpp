@@ -5,8 +5,7 @@
 
 #include "planner/ground/base/number.h"
 
-// How far a path, and the control that follows it, may leave what is wanted: from the tolerance, step by
-// step.
+// The deviation that a path, and the control that follows it, may use: from the tolerance, step by step.
 
 namespace capstan::step {
 namespace {
@@ -22,14 +21,15 @@ constexpr double kFinishShare = 0.1;
 constexpr double kRoughShare = 0.25;
 constexpr double kFinest = 0.001;   // mm: what the paths themselves are made to
 constexpr double kCoarsest = 0.05;  // mm; default, unsourced
-constexpr double kUnstated = 0.01;  // mm: most for a finish where the machine states none; default, unsourced
-constexpr double kGrid = 0.0001;    // mm: stated no finer, and rounded down
+constexpr double kUnstated =
+    0.01;  // mm: largest deviation of a finishing step if the machine states none; default, unsourced
+constexpr double kGrid = 0.0001;  // mm: stated no finer, and rounded down
 
 double clipped(double v, double most) {
   return std::floor(std::clamp(v, kFinest, most) / kGrid + 1e-6) * kGrid;
 }
 
-/// The tightest width of tolerance on a feature: its sizes, the general one, what is asked of form and place.
+/// The narrowest tolerance zone of a feature: from its sizes, the general tolerance, form and position.
 struct Tightest {
   double mm = 0.0;
   std::string of;
@@ -77,7 +77,7 @@ Deviation deviation_of(const PlanSoFar& p, const StepDraft& step, const toolpath
   const double most = own > 0.0 ? std::max(own, kFinest) : kUnstated;
   const double share = kFinishShare * t.mm;
   const double finest = t.mm > 0.0 ? clipped(share, most) : own;
-  // What stays on every surface that it cuts: of a face the floor, of a wall alone the side.
+  // The allowance on every surface that the step cuts: of a face the floor, of a wall alone the side.
   double left = 0.0;
   if (m.holds<model::PlaneMilling>(step.operation)) {
     left = job.allowance_bottom_mm;

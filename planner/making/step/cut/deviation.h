@@ -7,9 +7,9 @@
 
 namespace capstan::step {
 
-/// How far the path of a step, and the control that follows it, may leave what is wanted, mm; 0: the
-/// control's own. For milling: of a step that leaves material a quarter of that, of a finishing one a tenth
-/// of the tightest tolerance. Default, unsourced.
+/// Largest deviation of a step's path, and of the control that follows it, from the wanted surface, mm; 0:
+/// use the control's own setting. Applies to milling: a quarter of the allowance of a roughing step, a tenth
+/// of the tightest tolerance of a finishing step. Default, unsourced.
 struct Deviation {
   double mm = 0.0;
   std::string why;

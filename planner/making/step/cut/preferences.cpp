@@ -13,7 +13,7 @@ using model::FeatureShape;
 using model::ShapeKind;
 using model::TypeId;
 
-/// What a finishing pass finds on walls and floors, mm. Default, unsourced: the usual allowance.
+/// The allowance that roughing leaves on walls and floors for the finishing pass, mm. Default, unsourced.
 constexpr double kLeftOnWalls = 0.5;
 
 double perimeter(const geometry::Region& area) {
@@ -49,7 +49,7 @@ tooling::Preferences preferences_of(const piece::Piece& piece, int batch, const 
     return p;
   }
   if (!model::has(s.kind, model::ShapeTrait::kClears))
-    return p;  // chamfers, rounds, threads: little, and nobody says how much
+    return p;  // chamfers, rounds, threads: a small volume that is not estimated
   p.depth_mm = depth;
   p.volume_mm3 = geometry::area(s.area) * depth;
   if (s.kind == ShapeKind::kHole) {

@@ -6,8 +6,9 @@
 
 namespace capstan::step {
 
-/// What a proposed step removes, as selection asks: from the feature's geometry, rest machining and islands
-/// not taken off (more, not less). `batch`: pieces.
+/// Volume, depth and length of cut of a proposed step, for tool selection. Computed from the feature's
+/// geometry; rest machining and islands are not subtracted, so that the volume is never too small. `batch`:
+/// pieces.
 [[nodiscard]] tooling::Preferences preferences_of(const piece::Piece& piece, int batch,
                                                   const model::ProposedStep& step,
                                                   const model::FeatureShape& shape);

@@ -29,7 +29,7 @@ using optimise::CutKind;
 constexpr double kDeflectionShare = 0.25;
 constexpr double kFinishDeflection = 0.02;  // mm, where no tolerance is stated; default, unsourced
 constexpr double kLeastDeflection = 0.004;  // mm; below, the model's own error rules
-/// Height of the terraces that roughing of a surface leaves, in diameters, at most. Default, unsourced.
+/// Largest height of the terraces that roughing of a surface leaves, in diameters. Default, unsourced.
 constexpr double kTerraceShare = 0.25;
 /// A slot no wider than its cutter by this is cut at its full width. Default, unsourced.
 constexpr double kAsWide = 1.02;
@@ -60,10 +60,10 @@ double tolerance_of(const PlanSoFar& p, const StepDraft& step, const model::Feat
   return 0.0;
 }
 
-/// What is asked of the surfaces that a finishing step leaves; a step that leaves material is asked nothing.
+/// Sets the surface limits of a finishing step: roughness and form error. Roughing steps have none.
 ///
-/// Where the wall's own error can be told, it is what the tolerance is shared with, and the tip's bending
-/// keeps to what runs quietly: most of it is along the wall, or while no tooth is at it.
+/// If the wall error can be computed, it is limited to a share of the tolerance. The tip's deflection then
+/// only has to keep the cut quiet: most of it is along the wall, or occurs while no tooth touches the wall.
 void hold_quality(const PlanSoFar& p, const StepDraft& step, const toolpath::PathJob& job,
                   optimise::CutQuestion& q) {
   const Model& m = p.plan.model;
@@ -80,8 +80,9 @@ void hold_quality(const PlanSoFar& p, const StepDraft& step, const toolpath::Pat
   q.deflection_limit_mm = std::max(q.deflection_limit_mm, mechanics::kQuietDeflectionMm);
 }
 
-/// What holds the piece bears so much of a milling cut that planning chooses, N; 0: nobody said. The thrust
-/// of a drill goes down into the table, not along it. A cut that is given is kept, and the check tells.
+/// Largest cutting force that the workholding holds, N; 0: unknown. Applies to milling cuts whose technology
+/// planning chooses: the thrust of a drill acts down into the table. A given cut is kept; the check reports
+/// it where it exceeds the holding force.
 double most_force_n(const PlanSoFar& p, const StepDraft& step, const optimise::CutQuestion& q) {
   if (!step.open_technology || !mills(q) || step.setup >= p.setups.size()) return 0.0;
   return p.setups[step.setup].holding.holding_force_n / mechanics::kHoldingForceSafety;
@@ -118,8 +119,8 @@ bool override_locked(const PlanSoFar& p, const StepDraft& step) {
          (t != nullptr && t->inhibit_feedrate_override.value_or(false));
 }
 
-/// Whether planning chose the feed that stands there, now or when the plan was made: then it keeps the same
-/// margins when it is planned again. A feed that somebody edited since is theirs.
+/// True if planning chose the feed, now or when the plan was made. Such a feed keeps its margins when it is
+/// planned again. A feed that was edited since counts as given.
 bool feed_by_planning(const PlanSoFar& p, const StepDraft& step) {
   const AnyRef technology = technology_of(p, step);
   if (!technology.set()) return false;
@@ -132,10 +133,10 @@ bool feed_by_planning(const PlanSoFar& p, const StepDraft& step) {
   return false;
 }
 
-/// Cuts under an overhang are not measured along the path: asked for with the head's full height and half the
-/// start feed, for the chips cannot leave upwards (the half is a default, unsourced). Where the mouth was
-/// milled before, what is cut beside it: both edges of the head at once in the middle, less when it moves
-/// aside. Else a slot of the head's diameter.
+/// Depth, width and start feed of a cut under an overhang, whose sections are not measured along the path.
+/// Depth is the head's full height. The start feed is halved because chips cannot leave upwards (the half is
+/// a default, unsourced). If the mouth was milled before, the width is what the head cuts beside it: both
+/// edges at once in the middle, less when it moves aside. Else it is a slot of the head's diameter.
 void under_an_overhang(optimise::CutQuestion& q, const toolpath::PathJob& job) {
   constexpr double kFeedShare = 0.5;
   const model::Cutter& c = job.cutter;
@@ -204,7 +205,7 @@ optimise::CutQuestion question_of(const PlanSoFar& p, const StepDraft& step,
   q.engaged_diameter_mm = engaged(step.operation.type, step.cutter, job.cutting_depth_mm);
   const double d = step.cutter.cutting_diameter_mm;
   if (job.axial_depth_mm > 0.0) q.ap_mm = job.axial_depth_mm;
-  // What a level leaves standing on a slope is cut by the finishing pass.
+  // The finishing pass cuts the terraces that the levels leave on a slope.
   if (m.holds<model::FreeformOperation>(step.operation) && q.kind == CutKind::kRough)
     q.ap_most_mm = kTerraceShare * d;
   // Across the floor a finishing pass steps as given; what it takes from the wall is what roughing left.
@@ -216,15 +217,15 @@ optimise::CutQuestion question_of(const PlanSoFar& p, const StepDraft& step,
   }
   if (m.holds<model::PlaneMilling>(step.operation)) q.deflection_limit_mm = optimise::kFaceDeflectionMm;
   if (q.kind == CutKind::kFinish) {
-    // What the step before left on the walls; nothing known: the usual finishing allowance.
+    // Width: the allowance that the step before left on the walls; if unknown, the usual finishing allowance.
     q.width_mm = std::max(0.05, job.left_on_side_mm.value_or(0.5) - job.allowance_side_mm);
     const double zone = tolerance_of(p, step, job.shape);
     q.deflection_limit_mm =
         zone > 0.0 ? std::max(kLeastDeflection, kDeflectionShare * zone) : kFinishDeflection;
-    // What a semi-finish leaves on the walls takes up what bends: the tolerance is the next step's.
+    // A semi-finishing pass may bend within its own allowance: the tolerance is for the next step.
     if (job.allowance_side_mm > 0.0)
       q.deflection_limit_mm = std::max(q.deflection_limit_mm, kDeflectionShare * job.allowance_side_mm);
-    // A semi-finish of a surface: what it leaves takes up what bends.
+    // A semi-finishing pass of a surface may bend within the allowance it leaves.
     if (m.holds<model::FreeformFinishMilling>(step.operation) && job.allowance_bottom_mm > 0.0)
       q.deflection_limit_mm = std::max(q.deflection_limit_mm, kDeflectionShare * job.allowance_bottom_mm);
     if (step.cutter.cutter_class == model::CutterClass::kThreadMill) {
@@ -233,7 +234,8 @@ optimise::CutQuestion question_of(const PlanSoFar& p, const StepDraft& step,
       q.ap_mm = std::min(step.cutter.maximum_depth_of_cut_mm, job.shape.thread_pitch_mm);
     }
   }
-  // A round slot into the solid, by a ball as wide as it is: no finishing cut, but what bends it tells.
+  // A ball as wide as a round slot, milling it into the solid, cuts as in roughing; its deflection limit
+  // stays.
   if (q.kind == CutKind::kFinish && job.shape.kind == ShapeKind::kSlot && !job.left_on_side_mm &&
       model::has(step.cutter.cutter_class, model::CutterTrait::kBall) && width_of(job.shape) <= kAsWide * d) {
     q.kind = CutKind::kRough;
@@ -249,7 +251,7 @@ optimise::CutQuestion question_of(const PlanSoFar& p, const StepDraft& step,
     q.depth_mm = std::max(0.0, *job.left_on_bottom_mm - job.allowance_bottom_mm);
     q.ap_mm = q.depth_mm;
   } else if (q.kind == CutKind::kFinish && job.cleared_by) {
-    // Between two right-angled corners of radius R and r stand (sqrt 2 - 1)(R - r) at most.
+    // Between two right-angled corners of radius R and r, at most (sqrt 2 - 1)(R - r) of material is left.
     q.width_mm += 0.41422 * std::max(0.0, 0.5 * (job.cleared_by->diameter_mm - d));
     q.width_mm = std::min(q.width_mm, d);
   }

@@ -7,7 +7,7 @@
 #include "planner/making/toolpath/path_job.h"
 #include "planner/model/plan/proposal.h"
 
-// The question that the optimiser is asked for a step, from nouns and geometry.
+// Builds the optimiser's question for a step from its nouns and geometry.
 
 namespace capstan::step {
 

@@ -7,7 +7,7 @@
 
 #include "planner/ground/base/number.h"
 #include "planner/ground/vocabulary/operation.h"
-#include "planner/making/step/cut/drill_depth.h"
+#include "planner/making/step/cut/drilled_hole.h"
 #include "planner/making/step/cut/question.h"
 #include "planner/making/step/path/job_of.h"
 #include "planner/model/nouns/all.h"
@@ -30,7 +30,7 @@ void take_cutter(model::Plan& plan, std::vector<StepDraft>& steps, StepDraft& st
 namespace {
 
 constexpr std::size_t kCompared = 5;
-constexpr double kNever = 1e12;  // s: no path, or none within the limits
+constexpr double kNever = 1e12;  // s: no path, or no path within the limits
 
 bool is_used(const std::vector<std::string>& used, const model::Cutter& c) {
   return std::find(used.begin(), used.end(), c.id) != used.end();

@@ -21,14 +21,14 @@ void rank_by_time(model::Plan& plan, const PlanSoFar& p, std::vector<draft::Step
                   draft::StepDraft& step, const std::vector<std::string>& used, Stocks& stocks,
                   const Progress& progress, Cuts& cuts);
 
-/// Cuts under an overhang, where the whole depth of a head and the passes that it needs say more than the
-/// volume: the cutter whose path takes the least time, tool change included. `seconds` tells that of a
-/// candidate; nothing where it has no path within the limits.
+/// Ranks the cutters of a cut under an overhang by the time of their paths, tool change included. There the
+/// height of the head and the number of passes matter more than the volume. `seconds` gives the time of a
+/// candidate; nothing if it has no path within the limits.
 void rank_by_path(model::Plan& plan, std::vector<draft::StepDraft>& steps, draft::StepDraft& step,
                   const std::vector<std::string>& used,
                   const std::function<std::optional<double>(std::size_t)>& seconds);
 
-/// A cutter further down the list does what the first could not: into the nouns and the ledger.
+/// Moves a step to a cutter further down the list, because the first one failed: into nouns and ledger.
 void take_cutter(model::Plan& plan, std::vector<draft::StepDraft>& steps, draft::StepDraft& step,
                  const model::Candidate& c);
 

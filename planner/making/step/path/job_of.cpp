@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/making/step/cut/drill_depth.h"
+#include "planner/making/step/cut/drilled_hole.h"
 #include "planner/making/step/path/freeform.h"
 #include "planner/model/features/resolve.h"
 #include "planner/model/nouns/all.h"

@@ -20,8 +20,8 @@ constexpr double kWithinMm = 1e-4;  ///< less than any path's last digits; defau
 
 }  // namespace
 
-/// The earlier step that reached all of the area but corners and narrow places, if this one has a smaller
-/// cutter and leaves the same: then there is no more to do than the rest.
+/// The earlier step that reached all of the area except corners and narrow places, if this step has a smaller
+/// cutter and leaves the same allowance. This step then cuts only the rest.
 std::optional<toolpath::Cleared> Progress::cleared_by(const std::vector<Milled>& before,
                                                       const toolpath::PathJob& job) {
   constexpr double kSame = 1e-6;
@@ -73,8 +73,8 @@ void Progress::prepare(const StepDraft& step, const stock::HeightMap& map, toolp
   take_rest(step, job);
 }
 
-/// Whether the step cuts what an earlier one left, and whether a later one will do so after it. A step that
-/// rules proposed says so itself; of one that was read, its nouns tell.
+/// Sets whether the step cuts the rest of an earlier step, and whether a later step will cut its rest. A
+/// proposed step carries this flag; for a step from the file it is read from the nouns.
 void Progress::take_rest(const StepDraft& step, toolpath::PathJob& job) const {
   const bool area = job.shape.kind == ShapeKind::kPocket || job.shape.kind == ShapeKind::kSlot;
   if (!area || !model::has(job.cutter.cutter_class, model::CutterTrait::kEndMill)) return;

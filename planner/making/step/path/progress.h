@@ -8,7 +8,7 @@
 #include "planner/making/step/path/stocks.h"
 #include "planner/making/step/plan_so_far.h"
 
-// What earlier steps left for later ones.
+// Material that earlier steps leave for later ones.
 
 namespace capstan::step {
 
@@ -22,7 +22,7 @@ class Progress {
   void done(const draft::StepDraft& step);
 
  private:
-  /// What is still left on a feature's walls and floor after the steps so far.
+  /// Allowance on a feature's walls and floor after the steps so far.
   struct Left {
     double side_mm = 0.0, bottom_mm = 0.0;
   };

@@ -20,9 +20,9 @@
 
 namespace capstan::step {
 
-/// What makes a set-up the same in another try: its noun, and how the workpiece lies in it. Its number is
-/// not it, for tries order set-ups anew; a noun alone is not it either, for a try that makes other set-ups
-/// gives them the same nouns.
+/// Identifies a set-up across tries: its noun and the orientation of the workpiece. The number of a set-up
+/// does not, because tries order set-ups anew. The noun alone does not, because a try that makes other
+/// set-ups gives them the same nouns.
 using SameSetup = std::pair<model::AnyRef, std::array<double, 9>>;
 
 /// The smallest cutter that the steps of a set-up ended with, and how often that was another than before.
@@ -49,11 +49,12 @@ class Stocks {
         smallest_(setups.size()),
         exact_(setups.size()) {}
 
-  /// What still stands in a set-up; in another one than before, less what the others took away since.
+  /// The stock of a set-up. When the set-up changes, the material that the others removed since is
+  /// subtracted.
   [[nodiscard]] stock::HeightMap& of(std::size_t setup);
 
-  /// What stands in a set-up, to be put back when a cut is tried that is not kept: how many patches were
-  /// noted by then, and the exact stock's mark.
+  /// The state of a set-up's stock, to restore it after a cut that is tried and not kept: the number of
+  /// patches so far and the exact stock's mark.
   struct Before {
     std::size_t patches = 0;
     stock::PlanarStock::Mark exact;
@@ -61,7 +62,7 @@ class Stocks {
   [[nodiscard]] Before before(std::size_t setup);
   /// Needs  what `before` gave for this set-up since the last `keep`.
   void put_back(std::size_t setup, const Before& before);
-  /// What was cut so far in a set-up stays cut.
+  /// Makes the cuts so far in a set-up permanent.
   void keep(std::size_t setup);
 
   /// Sections are sampled by the cells of the maps, and these by the smallest cutter of the set-up: that of
@@ -73,9 +74,10 @@ class Stocks {
   };
   [[nodiscard]] OtherCells other_cells() const;
 
-  /// Sections along a step's path; takes what is cut from the stock. Flat cutters are measured by geometry,
-  /// as long as all that was cut in the set-up can be held so and the map's volume of each step bears it out;
-  /// other cutters on the height map. At the machine, too: sections that a file states are held against them.
+  /// Measures the sections along a step's path and removes the cut from the stock. Flat cutters are measured
+  /// by exact geometry, as long as the exact stock can represent all cuts of the set-up and the height map
+  /// removes the same volume in each step. Other cutters are measured on the height map. Late binding
+  /// measures too: sections that a file states are compared with these.
   /// Fails  as engagement::measure; then nothing was cut.
   [[nodiscard]] Result<engagement::Measurement> measure(std::size_t setup, const model::CutterPath& path,
                                                         const model::Cutter& cutter);

@@ -13,7 +13,7 @@ namespace capstan::step {
 namespace {
 
 /// How far above the table's speed the widest contact of a path may run, where most of it runs below.
-/// Default, unsourced: as far as a cutter's slowest speed may exceed its preset (tooling/select).
+/// Default, unsourced: as far as a cutter's slowest speed may exceed its preset (tooling/selection).
 constexpr double kOverTable = 1.25;
 
 }  // namespace
@@ -48,8 +48,8 @@ void ask_as_measured(const std::vector<optimise::CutSample>& samples, optimise::
   q.width_mm = std::clamp(typical.csa_mm2 / typical.ap_mm, 1e-3, d);
   q.as_measured = true;
   q.speed_diameter_mm = std::max(d * std::pow(wear / length, n), widest / kOverTable);
-  // What spindle or axes lowered at the full diameter is the table's again at the contact's; the machine's
-  // limits are the optimiser's to keep.
+  // Where spindle or axes lowered the speed at the full diameter, take the table's speed at the contact
+  // diameter again. The optimiser keeps the machine's limits.
   if (q.speed_diameter_mm < d) q.vc_start_m_min = std::max(q.vc_start_m_min, q.vc_table_m_min);
 }
 

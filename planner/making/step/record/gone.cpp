@@ -9,7 +9,7 @@
 #include "planner/model/nouns/all.h"
 #include "planner/physics/engagement/engagement.h"
 
-// What other features' steps took away already is not cut again: the step is left out, not its feature.
+// Leaves out a step whose material other features' steps have removed already. Its feature stays.
 
 namespace capstan::step {
 namespace {
@@ -60,8 +60,8 @@ Ref<model::Executable> made_by(const PlanSoFar& p, const StepDraft& step) {
   return out;
 }
 
-/// Whether another feature's step of the same operation is kept already in which each of these shapes is
-/// drawn a second time, and none of this feature's own: the one that came first is made, the other is it.
+/// True if a kept step of another feature, with the same operation, machines a twin of each of these shapes,
+/// and no step of this feature is kept. The feature that came first is machined; the other is its twin.
 bool twin_made(const PlanSoFar& p, const StepDraft& step) {
   if (p.piece.shapes.twins.empty()) return false;
   const auto kept = [&](const StepDraft& s) {
@@ -82,7 +82,7 @@ bool twin_made(const PlanSoFar& p, const StepDraft& step) {
   return found;
 }
 
-/// The feature itself when its steps make it all, and a boss that stands when others cut around it.
+/// The feature itself if its own steps make all of it; a boss if the steps around it have made it.
 std::string made_with(const PlanSoFar& p, const StepDraft& step, const model::MachiningWorkingstep& maker) {
   const auto* of = p.plan.model.get<model::ManufacturingFeature>(maker.its_feature);
   const auto* own = p.plan.model.get<model::ManufacturingFeature>(step.feature);
@@ -109,7 +109,8 @@ bool cut_around(const PlanSoFar& p, const StepDraft& step) {
 }
 
 bool in_air(const PlanSoFar& p, const StepDraft& step, double removed_mm3) {
-  constexpr double kNothingMm3 = 0.01;  // default, unsourced: what a map's cells cannot tell from nothing
+  constexpr double kNothingMm3 =
+      0.01;  // default, unsourced: the height map cannot distinguish less from nothing
   const model::Model& m = p.plan.model;
   if (step.proposed && twin_made(p, step)) return true;
   if (!step.proposed || removed_mm3 > kNothingMm3 || engagement::head_height(step.cutter)) return false;

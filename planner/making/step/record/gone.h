@@ -9,12 +9,12 @@
 
 namespace capstan::step {
 
-/// Whether a step that rules proposed takes nothing off what stands: a mark in air, roughing of what another
-/// feature's steps took away. A finishing pass after a step that was kept takes what bending left.
+/// True if a proposed step removes nothing: a centre mark in air, or roughing of material that another
+/// feature's steps removed. A finishing pass after a kept step is not left out: it cuts what bending left.
 [[nodiscard]] bool in_air(const PlanSoFar& p, const draft::StepDraft& step, double removed_mm3);
 
-/// Whether a step is to cut around a boss, no finer than a roughing and a finishing pass make it, and steps
-/// of other features that are kept take all of that away: the boss stands without it.
+/// True if a step cuts around a boss no finer than roughing and finishing do, and kept steps of other
+/// features remove all of that material. The boss is then made without the step.
 [[nodiscard]] bool cut_around(const PlanSoFar& p, const draft::StepDraft& step);
 
 /// A proposed step with nothing to cut is taken out of the workplan and of its feature; said as a note. Its

@@ -6,7 +6,7 @@
 
 namespace capstan::step {
 
-/// Why each of several cutters will not do; what is the same for many is said once:
+/// Collects why each of several cutters does not fit, and states a reason that many share once:
 /// "em10: it is too short, the same for 7 more cutters; em20: ...".
 class GroupedReasons {
  public:

@@ -80,8 +80,8 @@ Ref<model::MillingTechnology> own_technology(model::Plan& plan, AnyRef operation
 /// right-hand cutter wants.
 double noun_sense(const model::Cutter& c) { return c.hand == model::Hand::kLeft ? 1.0 : -1.0; }
 
-/// What stands before the cut of a step is chosen: its tool, what its chain says of its sizes, and what the
-/// steps before it on its feature leave on walls and floor. Only what is in the ledger can be depended on.
+/// Decisions that a step's cut depends on: its tool, the sizes of its chain, the allowances that earlier
+/// steps of its feature leave on walls and floor. Only decisions in the ledger can be named.
 std::vector<DecisionKey> decided_before(const model::Plan& plan, const std::vector<StepDraft>& steps,
                                         const StepDraft& step) {
   std::vector<DecisionKey> out = {{step.operation, "its_tool"}};
@@ -99,7 +99,7 @@ std::vector<DecisionKey> decided_before(const model::Plan& plan, const std::vect
   return out;
 }
 
-/// Where the width of a cut stands: in the operation, or as the overlap of its strategy.
+/// The attribute that holds the width of a cut: of the operation, or the overlap of its strategy.
 DecisionKey width_key(const Model& m, AnyRef operation) {
   const auto* o = m.get<model::PlaneMilling>(operation);
   return o != nullptr ? DecisionKey{o->its_machining_strategy, "overlap"}

@@ -11,11 +11,11 @@
 #include "planner/model/plan/cutter_path.h"
 #include "planner/model/plan/plan.h"
 
-// What was chosen, in the nouns, and why, in the ledger.
+// Writes choices into the nouns and their reasons into the ledger.
 
 namespace capstan::step {
 
-/// What the nouns say of speed and feed.
+/// Speed and feed as the nouns state them.
 struct GivenTechnology {
   std::optional<double> rpm;  ///< positive clockwise
   std::optional<double> feed_mm_min;
@@ -23,10 +23,11 @@ struct GivenTechnology {
 [[nodiscard]] GivenTechnology given_technology(const model::Model& m, model::AnyRef operation,
                                                const model::Cutter& cutter);
 
-/// A stated speed whose direction is not the cutter's is turned round, for this operation only; it is said.
+/// Reverses a stated spindle speed whose direction is not the cutter's, for this operation only, and reports
+/// it.
 void turn_with_the_cutter(model::Plan& plan, const draft::StepDraft& step, Job& job);
 
-/// What was stated and could not stay goes, with a word; nothing where the word is empty.
+/// Drops stated values that could not be kept and reports `word`; does nothing if `word` is empty.
 void let_go(const model::Model& m, draft::StepDraft& step, const std::string& word, Job& job);
 
 /// Writes what was chosen into the nouns, and why into the ledger. `steps` are those of the plan.

@@ -38,9 +38,9 @@ bool as_large(const model::Cutter& a, const model::Cutter& b) {
   return same;
 }
 
-/// What the plan said of a step for which all that its limits rest on is as it was: machine, material,
-/// cutter, speed, feed, depth and path. Which limits these reached was found when these were chosen, and is
-/// not asked again. A plan that was read knows its machine by name, and its paths by what they take.
+/// The result that the plan recorded for a step, if everything that its limits depend on is unchanged:
+/// machine, material, cutter, speed, feed, depth and path. Its limits were found when these were chosen and
+/// are not computed again. A plan that was read is compared by the machine's name and the times of its paths.
 const model::StepResult* unchanged(const model::Plan& plan, const draft::Recorded& recorded,
                                    const StepDraft& step, const model::StepResult& r) {
   constexpr double kSame = 1e-6;  // of the value, what a file's units round; default, unsourced

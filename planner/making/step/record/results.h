@@ -10,16 +10,16 @@
 #include "planner/making/optimise/feeds.h"
 #include "planner/making/toolpath/path_job.h"
 
-// What a step came to.
+// Result of a step: time, limits, excess.
 
 namespace capstan::step {
 
-/// Goes on with another path after this one, over the security plane.
+/// Appends another path to this one, over the security plane.
 void append(toolpath::GeneratedPath& to, const toolpath::GeneratedPath& from);
-/// How long a path takes on the plan's machine; nothing when it cannot be told.
+/// Time of a path on the plan's machine, s; nothing if it cannot be computed.
 [[nodiscard]] std::optional<double> seconds_of(const model::Machine& machine, const model::CutterPath& path,
                                                const model::FeedSchedule& schedule);
-/// What is known of a step before it has a path.
+/// The part of a step's result that is known before the step has a path.
 [[nodiscard]] model::StepResult result_of(const model::Model& m, const draft::StepDraft& step);
 /// The limits of an answer; `saves_s` is the part of the cutting time that a tenth more of each saves, until
 /// `keep` knows that time.

@@ -132,7 +132,7 @@ double DropCutter::search(const Toroid& t, double x, double y, std::uint32_t& hi
     std::uint32_t node;
     double bound;
   };
-  std::array<Entry, 128> stack;  // the tree is balanced: its depth is the logarithm of its leaves
+  std::array<Entry, 128> stack;  // the tree is balanced: its depth is the logarithm of the number of leaves
   std::size_t n = 0;
   stack[n++] = {0, bound(nodes_[0])};
   while (n > 0) {
@@ -239,7 +239,7 @@ class DropCutter::Builder {
       n = -1.0 * n;
     }
     const double length = norm(n);
-    // What is as steep as this is seen as its edges: between them it is nowhere higher.
+    // Facets as steep as this are represented by their edges: between them they are nowhere higher.
     if (!(length > 0.0) || n.z < 1e-9 * length) return;
     n = (1.0 / length) * n;
     Facet f{.a = xy(a),

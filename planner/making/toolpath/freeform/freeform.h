@@ -13,7 +13,7 @@
 
 namespace capstan::toolpath::freeform {
 
-/// What a freeform path is made from.
+/// Input of a freeform path.
 ///
 /// Frame  everything in the set-up's, z along the tool axis.
 /// Units  mm, rad.
@@ -25,13 +25,14 @@ struct FreeformJob {
   /// Whether there is nothing to spare where the cutter, let down, meets no triangle: it may then go down to
   /// bottom_z there. Else it stays away.
   bool beside_is_free = false;
-  geometry::Region avoid;                   ///< the cutter keeps out of it, at all heights at which it cuts
-  const stock::HeightMap* stock = nullptr;  ///< what stands now; null: solid up to top_z under the area
-  double top_z_mm = 0.0;                    ///< of the material
-  double bottom_z_mm = -1e300;              ///< the tip goes no lower
-  double security_z_mm = 0.0;               ///< rapids in XY happen here
-  double clearance_mm = 2.0;                ///< between material and what moves fast above it
-  double allowance_mm = 0.0;                ///< left on the surface, along its normal
+  geometry::Region avoid;  ///< the cutter keeps out of it, at all heights at which it cuts
+  const stock::HeightMap* stock =
+      nullptr;                  ///< the stock before the path; null: solid up to top_z under the area
+  double top_z_mm = 0.0;        ///< of the material
+  double bottom_z_mm = -1e300;  ///< the tip goes no lower
+  double security_z_mm = 0.0;   ///< rapids in XY happen here
+  double clearance_mm = 2.0;    ///< between material and what moves fast above it
+  double allowance_mm = 0.0;    ///< left on the surface, along its normal
   double tolerance_mm = 0.01;   ///< largest distance of the cut from surface + allowance, outwards
   double feed_angle_rad = 0.0;  ///< of the passes, against x
   double axial_depth_mm = 0.0;  ///< rough: at most, per level

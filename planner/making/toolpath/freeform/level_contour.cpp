@@ -61,9 +61,9 @@ class Marcher {
     for (const double v : z) {
       if (std::isnan(v)) return;
     }
-    // Sides counter-clockwise: side k joins corner k and k + 1. Walking round the cell, the border leaves
-    // through a side that goes from free to blocked and comes in through the one from blocked to free before:
-    // that keeps the free corner on its left.
+    // Sides are counter-clockwise: side k joins corners k and k + 1. On the way round the cell, the border
+    // leaves through a side that goes from free to blocked. It enters through the side before it that goes
+    // from blocked to free. This keeps the free corner on its left.
     const std::array<Side, 4> sides{side(ix, iy, false), side(ix + 1, iy, true), side(ix, iy + 1, false),
                                     side(ix, iy, true)};
     for (std::size_t k = 0; k < 4; ++k) {

@@ -29,8 +29,8 @@ struct DropGrid {
     const DropGrid& grid, double level,
     const std::function<geometry::Vec2(geometry::Vec2 free, geometry::Vec2 blocked)>& border);
 
-/// A border, free ground on its left, with further points where it leaves the chord between two by more than
-/// `within`, and without those that lie within a tenth of that of the chord over them.
+/// Refines a border with free ground on its left: adds points where the border leaves the chord between two
+/// by more than `within_mm`, and removes points that lie within a tenth of that of the chord over them.
 [[nodiscard]] std::vector<geometry::Vec2> refined(
     const std::vector<geometry::Vec2>& line, double within_mm,
     const std::function<bool(geometry::Vec2)>& is_free,

@@ -119,7 +119,7 @@ class Rougher {
     return out;
   }
 
-  /// Solid material under the area where nobody said what stands there.
+  /// Solid material under the area, for a job without a stock.
   static stock::HeightMap block(const FreeformJob& task, const Hatch& hatch) {
     geometry::Box3 box;
     for (const Stripe& s : hatch.stripes) {
@@ -274,8 +274,8 @@ class Rougher {
     return any;
   }
 
-  /// Once along a border, to take what the passes left before it. Comes from the end of a pass of this level;
-  /// leaves out stretches without material and those it cannot be sure of.
+  /// Follows a border once, to cut what the passes left along it. Starts from the end of a pass of this
+  /// level; skips stretches without material and stretches that it cannot prove safe.
   bool go_along(const std::vector<Vec2>& line, double z) {
     bool any = false;
     bool on = false;
@@ -305,7 +305,7 @@ class Rougher {
     std::optional<Vec2> from;
     for (const Vec2 e : ends_) {
       if (norm(e - p) > 2.0 * cutter_.radius() || (from && norm(e - p) >= norm(*from - p))) continue;
-      if (is_free(e, p, z, 0.5)) from = e;  // the cutter stood there at this level
+      if (is_free(e, p, z, 0.5)) from = e;  // the cutter was there at this level
     }
     if (!from && task_.left_mm) from = air_near(p, z);
     if (!from) return false;
@@ -315,7 +315,7 @@ class Rougher {
     return true;
   }
 
-  /// The nearest place, as far as a diameter away, where the cutter stands in air with a free way to p.
+  /// The nearest place within a diameter where the cutter is in air and has a free way to p.
   [[nodiscard]] std::optional<Vec2> air_near(Vec2 p, double z) const {
     constexpr int kRings = 16, kAround = 24;
     std::uint32_t hint = 0;

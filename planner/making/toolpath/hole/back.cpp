@@ -28,7 +28,7 @@ tl::unexpected<Diagnostic> refuse(const PathJob& task, const char* code, const s
   return fail({.code = code, .message = task.shape.name + ": " + what, .path = task.shape.name});
 }
 
-/// The head, and where the cutter stands for the last level.
+/// Sizes of the head, and the cutter's position at the last level.
 struct Back {
   double head_mm = 0.0, height_mm = 0.0, neck_mm = 0.0;
   double aside_mm = 0.0;  ///< of the last circle

@@ -64,7 +64,7 @@ Result<double> bottom_z(const PathJob& task) {
   double z = top - depth;
   const bool reaches_bottom = depth >= s.depth_mm - 1e-6;
   if (s.through && reaches_bottom) {
-    // The full diameter goes through; what follows a tool's tip has none.
+    // The full diameter must pass through; the tip below it has no full diameter.
     z -= task.break_through_mm + (model::has(task.operation, model::OperationTrait::kEnlarges) ? 0.0 : tip);
   } else if (s.bottom == HoleBottom::kConical || !reaches_bottom) {
     z -= model::has(task.operation, model::OperationTrait::kEnlarges) ? 0.0 : tip;

@@ -12,24 +12,23 @@ namespace capstan::toolpath {
 [[nodiscard]] Result<GeneratedPath> tap_path(const PathJob& task, Job& job);
 /// An inner thread milled along a helix, one turn per pitch, entered and left on half-circles.
 [[nodiscard]] Result<GeneratedPath> thread_mill_path(const PathJob& task, Job& job);
-/// A round hole milled along a helix. Needs a cutter that leaves no core.
+/// Mills a round hole along a helix. Needs a cutter that leaves no core.
 [[nodiscard]] Result<GeneratedPath> helix_path(const PathJob& task, Job& job);
-/// Whether a helix leaves no core, so that helix_path does it.
+/// True if a helix leaves no core, so that helix_path can mill the hole.
 [[nodiscard]] bool helix_suits(const PathJob& task);
-/// Under a narrower hole (`hole_above_mm`), through which the cutter goes down and up in the middle: a ring
-/// milled on full circles from below, by the head of a T-slot cutter; the cone of a back countersink whose
-/// own cone ends at its neck, at the top of its head. The spindle needs no orientation.
+/// Mills below a narrower hole (`hole_above_mm`), through which the cutter goes down and up in the middle.
+/// The head of a T-slot cutter mills a ring on full circles from below. A back countersink mills its cone,
+/// which ends at its neck, at the top of its head. The spindle needs no orientation.
 ///
 /// Needs   head 0.2 mm clear of the narrow hole on each side; neck 0.1 mm clear of it while the head is out.
 /// Fails   TPA-NO-FIT (it says which head and neck would do), TPA-TOOL, as `generate`.
 [[nodiscard]] Result<GeneratedPath> back_path(const PathJob& task, Job& job);
-/// What such a circle takes at most: height of the cut, and the width of a straight cut with its contact
-/// angle.
+/// Largest cut of such a circle: its height, and the width of a straight cut with the same contact angle, mm.
 struct BackCut {
   double ap_mm = 0.0, ae_mm = 0.0;
 };
 [[nodiscard]] BackCut back_cut(const PathJob& task);
-/// Whether the cutter has a head that cuts above itself, on a neck.
+/// True if the cutter has a head that cuts above itself, on a neck.
 [[nodiscard]] bool cuts_from_below(const PathJob& task);
 
 }  // namespace capstan::toolpath

@@ -10,7 +10,7 @@ Result<GeneratedPath> mill<model::ShapeKind::kHole>(const PathJob& task, Job& jo
   if (cuts_from_below(task)) return back_path(task, job);
   PathJob hole = task;
   if (task.cutting_depth_mm) hole.shape.depth_mm = *task.cutting_depth_mm;
-  // What an earlier step left is a hole already there.
+  // The hole that an earlier step left counts as a pilot hole.
   if (!task.previous_diameter_mm && task.left_on_side_mm)
     hole.previous_diameter_mm = task.shape.diameter.middle() - 2.0 * *task.left_on_side_mm;
   if (task.shape.bottom_diameter_mm > 0.0 &&

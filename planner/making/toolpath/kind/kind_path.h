@@ -5,9 +5,8 @@
 
 namespace capstan::toolpath {
 
-/// How a kind of shape is milled: one specialisation for each row of shape_kinds.inc, in a file of this
-/// folder. What a thread mill or a cone along an edge does in it is chosen before, by `generate`. Fails   as
-/// `generate`.
+/// Mills a kind of shape: one specialisation for each row of shape_kinds.inc, in a file of this folder.
+/// `generate` handles thread mills and cones along edges before it calls this. Fails as `generate`.
 template <model::ShapeKind kind>
 [[nodiscard]] Result<GeneratedPath> mill(const PathJob& task, Job& job);
 

@@ -53,8 +53,8 @@ void PathWriter::line(Vec3 to, MoveRole why) {
   fill();
 }
 
-/// An arc whose ends a control does not tell apart is a full turn to it, or nothing: short of half a turn it
-/// becomes a line, beyond that two arcs. Ends that agree exactly mean a full turn.
+/// Adds an arc. A control takes an arc whose ends it cannot distinguish for a full turn, or for nothing. Such
+/// an arc becomes a line below half a turn, and two arcs above. Ends that agree exactly mean a full turn.
 void PathWriter::arc(Vec3 to, Vec2 centre, bool clockwise, MoveRole why) {
   const Vec2 from = xy(at());
   const double chord = norm(xy(to) - from);

@@ -105,7 +105,7 @@ Result<GeneratedPath> rest_path(const PathJob& task, const WorkArea& w, const st
   return out;
 }
 
-/// Says what this cutter leaves on the floor, and what no later one is there for.
+/// Warns of material that this cutter leaves on the floor and no later step removes.
 void warn_of_rest(LevelCutter& c, const WorkArea& w, const Region& centres) {
   const PathJob& task = c.task;
   if (task.rest_follows) return;
@@ -141,7 +141,7 @@ Result<GeneratedPath> area_path(const PathJob& task, Job& job) {
                  .path = task.shape.name});
   }
   if (task.cleared_by && !plane && w->slope_rad == 0.0) return rest_path(task, *w, heights, c);
-  // Top of what still stands away from the walls.
+  // Top of the material away from the walls.
   const bool opened = shell || (plane && task.left_on_bottom_mm.has_value());
   const double left_bottom = task.left_on_bottom_mm.value_or(0.0);
   double inner = opened ? std::min(task.start_z_mm, w->bottom_z_mm + left_bottom) : task.start_z_mm;

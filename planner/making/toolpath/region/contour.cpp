@@ -59,8 +59,9 @@ bool lead_at(const Level& level, const Track& track, const Spot& spot, double ra
          arc_inside(level, out.centre, out.track.start, out.to);
 }
 
-/// What the places of the outer ring that are nearest to one point of the inner ring say: stripes as wide as
-/// a pass can cut, or a corner whose sides they keep to; else a limb of the area has ended between the rings.
+/// Summary of the places of the outer ring that are nearest to one point of the inner ring. Their stripe must
+/// be no wider than a pass can cut, or be the wedge of a plain corner; else a limb of the area has ended
+/// between the rings.
 struct Corner {
   double allowed = 0.0;   ///< width of stripe that is cut in any case
   double wedge = 0.0;     ///< from the inner corner to the outer one, if both are plain corners
@@ -86,7 +87,7 @@ double wedge_at(const Track& a, const Spot& spot, double ring_step) {
   return ring_step / std::max(std::cos(half_turn), 1e-6);
 }
 
-/// Round the track once while sliding from one to the other; empty when that would leave the centres or
+/// One turn round the track while moving from one ring to the other; empty if that would leave the centres or
 /// spread the passes too far.
 std::vector<Vec2> melted(const LevelCutter& c, const Level& level, const Track& a, const Track& b,
                          double ring_step) {
@@ -140,7 +141,8 @@ class Contours {
 
   Status run() {
     if (o_.wall_only) return walls();
-    // Beyond the radius stripes would stay between rings; a corner radius narrows what a ring leaves flat.
+    // With a step above the radius, stripes would remain between rings; a corner radius narrows the flat part
+    // of the end.
     const double flat = c_.radius_mm - c_.task.cutter.corner_radius_mm;
     double step = std::min(c_.step_mm, 0.99 * c_.radius_mm);
     if (flat > 0.1 * c_.radius_mm) step = std::min(step, flat);
@@ -176,7 +178,7 @@ class Contours {
     return {};
   }
 
-  /// What has been arrived at but not yet gone round.
+  /// Writes the pending track, which has been reached but not followed yet.
   void flush() {
     if (pending_.segments.empty()) return;
     c_.writer.follow(pending_, level_.z_mm, MoveRole::kCut);

@@ -102,7 +102,7 @@ class Finisher {
     return covered(i, j, contact_[j]);
   }
 
-  /// Whether passes i and j leave no more than the scallop between i's contact and the given point.
+  /// True if passes i and j leave at most the scallop between i's contact and the given point.
   [[nodiscard]] bool covered(std::size_t i, std::size_t j, std::size_t to) const {
     const std::size_t lo = std::min(to, contact_[i]);
     const std::size_t hi = std::max(to, contact_[i]);

@@ -108,7 +108,7 @@ double drop(const Section& s, const Tip& tip, double u) {
   for (std::size_t i = 0; i < w.size(); ++i) {
     const Vec2 a = w[i];
     const Vec2 b = i + 1 < w.size() ? w[i + 1] : Vec2{a.x + kFar, a.y};
-    if (a.x >= reach - kTiny) break;  // it stands beside the flank
+    if (a.x >= reach - kTiny) break;  // a is beside the flank
     if (b.x < u) continue;
     const double run = b.x - a.x;
     if (run < kTiny) {

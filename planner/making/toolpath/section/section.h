@@ -9,8 +9,8 @@
 
 namespace capstan::toolpath {
 
-/// What a slot or a tapered hole looks like across: the height of its surface as a function of the distance
-/// from its middle (the spine of a slot, the axis of a hole). The same on both sides.
+/// Profile of a slot or a tapered hole: the height of its surface as a function of the distance from its
+/// middle (the spine of a slot, the axis of a hole). The same on both sides.
 ///
 /// Shape  `wall` holds (distance, height above the bottom), neither falls; it begins at distance 0 and ends
 ///        on the feature's top at `depth_mm`. A rounded bottom is a polyline within the true arc: it holds
@@ -43,7 +43,7 @@ struct Tip {
 /// Cost  the pieces of the wall.
 /// Source  derived.
 [[nodiscard]] double drop(const Section& s, const Tip& tip, double u_mm);
-/// The widest u at which the tip may be at height h; below 0: none.
+/// The largest distance u at which the tip fits at height h, mm; below 0: none.
 [[nodiscard]] double widest_at(const Section& s, const Tip& tip, double height_mm);
 
 /// One run of the cutter around the middle.
@@ -57,8 +57,8 @@ struct Finishing {
   std::vector<SectionPass> passes;  ///< from above and outside to the middle
   double rest_mm = 0.0;             ///< most that stays where the cutter does not reach
 };
-/// Passes of a rounded cutter that leave no more than `scallop_mm` on what it reaches, at most `down_mm`
-/// apart in height (0: any). Needs a corner radius.
+/// Passes of a rounded cutter that leave at most `scallop_mm` where it reaches, at most `down_mm` apart in
+/// height (0: any). Needs a corner radius.
 [[nodiscard]] Finishing finishing(const Section& s, const Tip& tip, double scallop_mm, double down_mm);
 
 /// Distance between the cutter at (u, height) and a point of the section, mm; below 0: the point is cut.

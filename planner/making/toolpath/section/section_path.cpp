@@ -20,14 +20,14 @@ using model::TypeId;
 
 namespace {
 
-/// Height of the ridges that finishing leaves, mm. Default, unsourced.
+/// Largest height of the ridges after finishing, mm. Default, unsourced.
 constexpr double kScallop = 0.01;
-/// Height of the steps that a flat cutter leaves on a leaning or round wall when it finishes, measured square
-/// to the wall, mm. Default, unsourced.
+/// Largest height of the steps that a flat cutter leaves in finishing a leaning or round wall, square to the
+/// wall, mm. Default, unsourced.
 constexpr double kFinishStep = 0.35;
-/// What is left for the finishing passes where no earlier step has roughed, mm. Default, unsourced.
+/// Allowance for the finishing passes where no earlier step has roughed, mm. Default, unsourced.
 constexpr double kOwnAllowance = 0.3;
-/// Levels of that roughing by the diameter, where no depth is given. Default, unsourced.
+/// Depth of the levels of that roughing, in diameters, if none is given. Default, unsourced.
 constexpr double kOwnLevel = 0.25;
 constexpr double kLeastU = 0.02;     ///< mm; nearer to the middle a track is the middle itself
 constexpr double kSameWidth = 0.02;  ///< mm; so near to the hole's own size a cutter is sunk, not led
@@ -137,7 +137,7 @@ class SectionCutter {
   /// Levels from above, everything within the section that the cutter reaches, from the middle outwards.
   Status clear(double side, double bottom, double step, bool tell) {
     const Tip thick{tip_.radius_mm + side, tip_.corner_mm > 0.0 ? tip_.corner_mm + side : 0.0};
-    // Over a round or leaning wall the allowance stands upright, too; a larger one counts from the lowest
+    // Over a round or leaning wall the allowance also applies upright; a larger one counts from the lowest
     // point.
     const double rise = std::min(side, bottom);
     const double lowest = std::max(drop(section_, thick, 0.0) + rise, bottom);

@@ -4,16 +4,16 @@
 
 namespace capstan::toolpath {
 
-/// A slot whose section is not square, by a cutter that has not its form: levels for a flat end (as wide at
-/// each as the section lets the cutter in), passes at the heights of a cutter dropped onto the section for a
-/// finishing cutter with a corner radius.
+/// Mills a slot whose section is not square with a cutter of another form. A flat end cuts levels, each as
+/// wide as the section admits the cutter. A finishing cutter with a corner radius makes passes at the heights
+/// at which it touches the section from above.
 ///
 /// Fails  as `generate`.
-/// Warns  TPA-REST what the cutter's shape leaves; TPA-DEFAULT the scallop, where nobody gives one.
+/// Warns  TPA-REST for material that the cutter's shape leaves; TPA-DEFAULT for a scallop that is not given.
 [[nodiscard]] Result<GeneratedPath> form_slot_path(const PathJob& task, Job& job);
-/// A hole that narrows downwards, in the same way, on circles.
+/// Mills a hole that narrows downwards in the same way, on circles.
 [[nodiscard]] Result<GeneratedPath> tapered_hole_path(const PathJob& task, Job& job);
-/// Whether the cutter has the hole's own size and bottom.
+/// True if the cutter has the hole's own size and bottom.
 [[nodiscard]] bool is_hole_cutter(const PathJob& task);
 /// Straight down with such a cutter.
 [[nodiscard]] Result<GeneratedPath> sunk_path(const PathJob& task, Job& job);

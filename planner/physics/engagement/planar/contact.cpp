@@ -39,10 +39,10 @@ class Disc {
     refined(-kQuarter, kQuarter, panel(-kQuarter, kQuarter), 0, out);
     return out;
   }
-  /// Whether the first halving told more than rounding: then edges lie within the disc, and what comes out is
-  /// as good as the panels, no better.
+  /// True if the first halving changed the result by more than rounding: edges then lie within the disc, and
+  /// the result is only as good as the panels.
   [[nodiscard]] bool edged() const { return edged_; }
-  /// By how much the last panels told more than those before them.
+  /// Change of the result in the last halving: the error estimate.
   [[nodiscard]] double unsure() const { return unsure_; }
 
  private:
@@ -158,7 +158,8 @@ Contact Prober::on_the_way(Vec2 at, Vec2 unit_heading, double z_mm, double fall)
 
 void Prober::under_tip(Vec2 at, Vec2 ahead, double z_mm, double fall, Contact& c) {
   const double radius = profile_.radius_mm;
-  // A helix in a hole that is there, a ramp over what is cut: nothing stands under the tip, no line needed.
+  // No material under the tip, as on a helix in an existing hole or a ramp over a cut area: no lines are
+  // needed.
   if (stock_.cleared(near_, at, radius, z_mm + stock::kTouch)) return;
   const Vec2 along{ahead.y, -ahead.x};
   const auto on_line = [&](double x, Contact& line) {
@@ -183,7 +184,7 @@ void Prober::under_tip(Vec2 at, Vec2 ahead, double z_mm, double fall, Contact& c
   c.in_strips = c.in_strips || disc.edged();
   if (disc.edged()) c.unsure = fall * disc.unsure();
   c.add(under, fall);
-  c.extend(under);  // what is cut below leaves no gap
+  c.extend(under);  // material cut below the tip closes gaps
 }
 
 double Prober::reach_at(double height_mm) const {
@@ -240,7 +241,7 @@ Contact Prober::inside(Vec2 at, Vec2 ahead, double z_mm, double advance_mm) {
       }
       if (std::abs(x) >= last_reach) continue;
       const double most = std::sqrt((last_reach - x) * (last_reach + x));
-      // Between the places where the outline has corners: its axis, and where it leaves the piece below.
+      // Between the corners of the outline: its axis, and where it leaves the piece below.
       const double corner =
           std::abs(x) < through ? std::min(most, std::sqrt((through - x) * (through + x))) : 0.0;
       double from = -most;

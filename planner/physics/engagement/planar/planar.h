@@ -7,9 +7,9 @@
 
 namespace capstan::engagement {
 
-/// As `measure` with a height map (engagement.h), by geometry instead of cells: at a place of the path the
-/// front half of the cutter's circle is cut with the trails that earlier moves left, and what is found is
-/// integrated along each step. Takes what it cuts from the stock.
+/// As `measure` with a height map (engagement.h), by geometry instead of cells: at each place of the path the
+/// front half of the cutter's circle is intersected with the trails of earlier moves, and the result is
+/// integrated along each step. Removes the cut from the stock.
 ///
 /// Removed volume and CSA are integrals over the step, X and Y of the centre of gravity too; depths, widths
 /// and angles are the extremes over it. A contact less than kSliver wide counts in volume, not in extents.

@@ -120,7 +120,7 @@ struct Edge {
   double fz = 0.0, wall = 0.0, lag = 0.0;  // lag per height
 };
 
-/// Bending at a height (above the lower end of contact) while an edge there stands at the wall.
+/// Bending at a height above the lower end of contact while an edge at that height is at the wall.
 double bend_at(const Edge& e, double above) {
   constexpr double kStraight = 1e-9;
   const double seen = e.section.from_tip_mm + above;

@@ -69,7 +69,7 @@ struct WallError {
   [[nodiscard]] double largest_mm() const;  ///< the larger of the two by amount, its sign kept
 };
 
-/// The side of the feed on which the wall stands: up milling leaves it at angle 0 (left), down milling at pi.
+/// The side of the feed on which the wall is: up milling makes it at angle 0 (left), down milling at pi.
 enum class WallSide { kLeft, kRight };
 
 /// The wall that a section leaves: at each height, the tool's bending normal to the wall at the instant at

@@ -13,8 +13,8 @@
 /// it may be wrong, and what of a cutter cuts.
 namespace capstan::mechanics {
 
-/// By how much the force in a real cut may exceed the computed one, by each of its causes; margin.h tells how
-/// they combine.
+/// Factors by which the force of a real cut may exceed the computed one, by cause; margin.h says how they
+/// combine.
 struct ForceMargin {
   double spread = 1.0;                          ///< of the coefficients
   double wear = kWearForceFactor;               ///< of a worn edge against a sharp one
@@ -23,13 +23,13 @@ struct ForceMargin {
   [[nodiscard]] double factor() const;
 };
 
-/// Whose margin is asked for: how far the operator may turn up the feed, and how careful the shop is.
+/// Input of a margin: how far the operator may turn up the feed, and the shop's caution.
 struct MarginAsked {
   double feed_up = 1.0;
   double deviations = kUsualMargin.deviations;
 };
 
-/// The measured set that is used: the first for the tool's substrate; null when there is none.
+/// The measured set of the material: the first for the tool's substrate; null if there is none.
 [[nodiscard]] const model::MechanisticSet* measured_set(const model::WorkMaterial& material,
                                                         model::Substrate substrate);
 
@@ -49,14 +49,14 @@ struct MarginAsked {
 /// law the larger of kForceUncertaintyFactor and 1 + kc_uncertainty. Wear: kWearForceFactor. Override: forces
 /// grow with feed^(1 - mc) by Kienzle's law, with the feed at most by a measured set.
 ///
-/// Source    constants.h; the uncertainties of sets are told with them (tooling/data/materials.yaml).
+/// Source    constants.h; the uncertainties of the sets are in tooling/data/materials.yaml.
 [[nodiscard]] ForceMargin force_margin(const model::WorkMaterial& material, model::Substrate substrate,
                                        const MarginAsked& asked = {});
 
-/// The same for Kienzle's law alone: drilling, reaming, tapping, and whoever cannot use a measured set.
+/// The same for Kienzle's law alone: drilling, reaming, tapping, and callers that cannot use a measured set.
 [[nodiscard]] ForceMargin kienzle_margin(const model::WorkMaterial& material, const MarginAsked& asked = {});
 
-/// What of a cutter cuts when it mills: a ball's corner radius is half its diameter, no tooth is one.
+/// The cutting edge of a milling cutter: a ball's corner radius is half its diameter, 0 teeth count as one.
 [[nodiscard]] Tooth tooth_of(const model::Cutter& cutter);
 
 }  // namespace capstan::mechanics

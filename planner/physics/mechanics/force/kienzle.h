@@ -6,7 +6,7 @@
 /// Specific cutting force after Kienzle (VDI-Z 94, 1952), and what follows from it: power and torque.
 namespace capstan::mechanics {
 
-/// What a work material asks for. The nouns of the model hold the values; callers hand them in.
+/// Kienzle's coefficients of a work material. The model's nouns hold them; callers pass them in.
 struct WorkMaterial {
   double kc11_n_mm2 = 0.0;  ///< specific force for a chip of 1 mm by 1 mm
   double mc = 0.0;          ///< exponent of the chip thickness, 0 <= mc < 1

@@ -5,8 +5,8 @@
 /// Tool life from the model's law, and its scatter.
 namespace capstan::mechanics {
 
-/// Standard deviation of ln T where a law states none. Default, unsourced: half as much again as the 0.20
-/// found for the wear to 0.3 mm in 15 cases of the NASA / UC Berkeley milling data (Agogino & Goebel 2007).
+/// Standard deviation of ln T if a law states none. Default, unsourced: half as much again as the 0.20 found
+/// for the wear to 0.3 mm in 15 cases of the NASA / UC Berkeley milling data (Agogino & Goebel 2007).
 inline constexpr double kLifeScatter = 0.3;
 
 /// The median life in minutes of cutting (half of the edges live longer):
@@ -17,7 +17,7 @@ inline constexpr double kLifeScatter = 0.3;
 /// Source    Taylor's law in its extended form, model::ToolLifeLaw.
 [[nodiscard]] double median_life_min(const model::ToolLifeLaw& law, double v_m_min, double h_mm, double a_mm);
 
-/// Scatter of the law; kLifeScatter where it states none.
+/// Scatter of the law; kLifeScatter if it states none.
 [[nodiscard]] double scatter_of(const model::ToolLifeLaw& law);
 
 }  // namespace capstan::mechanics

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-/// The one policy of margins: how far the load that a limit is held against stands above the expected one.
+/// The one policy of margins: the ratio of the load that is compared with a limit to the expected load.
 ///
 /// A force may exceed the computed one because the coefficients of the material spread, because the edge
 /// wears, and because the operator turns the feed up. These do not know of one another, so that their

@@ -19,7 +19,7 @@ constexpr std::size_t kCells = 32;    // of the arc
 constexpr int kSamples = 32;          // of a tooth pitch
 constexpr std::size_t kCorner = 4;    // Gauss points along a corner
 constexpr double kNoLagRad = 1e-6;    // below, an edge is straight to within rounding
-constexpr double kJustInside = 1e-9;  // so that rounding cannot lose a tooth that is about to leave
+constexpr double kJustInside = 1e-9;  // keeps rounding from losing a tooth that is about to leave
 
 /// A piece of the edge with one kappa and one radius, over its own arc.
 struct Piece {

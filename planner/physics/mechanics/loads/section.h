@@ -21,11 +21,11 @@ struct Section {
   double csa_mm2 = 0.0;      ///< removed volume per length of path; 0: depth times the width of the arc
   double from_tip_mm = 0.0;  ///< height of the contact's lower end above the tip
   /// > 0: at each height the material is this wide, from the edge's own radius there inwards, on the side to
-  /// which the arc leans; as a pass leaves it that an equal one has passed this far away. 0: the arc's strip.
+  /// which the arc leans. It is the material between two equal passes at this distance. 0: the arc's strip.
   double band_mm = 0.0;
 };
 
-/// What cuts, at which feed and speed.
+/// The cutting edge, and its feed and speed.
 struct Tooth {
   double cutting_diameter_mm = 0.0;
   double corner_radius_mm = 0.0;  ///< a ball: half the diameter
@@ -36,7 +36,7 @@ struct Tooth {
   int teeth = 0;
 };
 
-/// What the material asks for: measured coefficients where they are known, else Kienzle's law.
+/// Forces of a material: by measured coefficients if they are known, else by Kienzle's law.
 struct ForceLaw {
   WorkMaterial kienzle = {};
   std::optional<CuttingCoefficients> mechanistic = {};

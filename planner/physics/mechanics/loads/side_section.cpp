@@ -24,7 +24,7 @@ Section side_section(double ap_mm, double ae_mm, const Tooth& tooth, CutDirectio
     return s;
   }
   s.band_mm = width;
-  // The pass before stands ae away: the two corners meet half way, the flanks a whole step.
+  // The pass before is ae away: the two corners meet half way, the flanks at a whole step.
   const double outer = std::min(widest / d, 1.0);
   const double inner =
       std::clamp(std::min(0.5 * d - corner - 0.5 * width, 0.5 * widest - width) / (0.5 * d), -1.0, outer);

@@ -7,6 +7,21 @@
 #include <stdexcept>
 #include <utility>
 
+// The stock is the raw piece less the trails of all moves: bands of lines, sectors of arcs, discs of plunges.
+// No polygon is computed, so that nothing is rounded and walls that touch stay as they are.
+//
+// 1. `take` enters a trail into the tiles of a grid that it reaches. A trail that covers a whole tile removes
+//    the trails above it there; a trail whose track covers another's removes that one.
+// 2. A tile with many trails drops those that deeper ones cover together (`thin`). `covered` decides this by
+//    halving a square: the distance to a track is 1-Lipschitz, so the middle of a square with half diagonal c
+//    decides for all of it when it lies deeper than c inside or outside. What stays open is not covered.
+// 3. `heights` looks along a probe (a line, or the front half circle of a cutter). It collects the trails of
+//    the tiles nearby, deepest floor first, and lowers the probe's pieces where it crosses each trail. It
+//    ends as soon as every piece is at `above_mm` or lower than all trails that are left.
+//
+// Level floors are exact; sloping and round floors are read in strips (Trail::lower).
+// Source  derived: the union of the swept areas of discs; no published algorithm is followed.
+
 namespace capstan::stock {
 namespace {
 

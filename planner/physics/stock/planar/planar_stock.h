@@ -38,11 +38,11 @@ class PlanarStock {
   [[nodiscard]] static PlanarStock from_cylinder(const geometry::Box3& box, double radius_mm,
                                                  double tile_mm = 0.0);
 
-  /// Why this is no longer what stands there; empty while it is.
+  /// Why this no longer equals the real stock; empty while it does.
   [[nodiscard]] const std::string& lost() const { return lost_; }
   void lose(std::string why) { lost_ = std::move(why); }
 
-  /// Empty when every move of the path can be held (moves through air always can), else why not.
+  /// Empty if every move of the path can be represented (moves through air always can), else why not.
   [[nodiscard]] std::string cannot_hold(const geometry::CutterProfile& profile,
                                         const model::CutterPath& path) const;
   /// Cuts the whole path, rapids included.
@@ -53,7 +53,7 @@ class PlanarStock {
   /// A copy of the profile that lives as long as this stock and its copies; null for a flat one.
   [[nodiscard]] const geometry::CutterProfile* keep(const geometry::CutterProfile& profile);
 
-  /// What stood at a moment; from then on what changes is noted, so that it can be put back.
+  /// The stock at a moment. Changes after `mark` are recorded, so that `put_back` can undo them.
   struct Mark {
     std::size_t changes = 0, trails = 0;
     std::string lost;
@@ -74,16 +74,16 @@ class PlanarStock {
     bool in_strips = false;  ///< the last answer came from floors that are read in strips, in part
   };
   void gather(geometry::Vec2 lo, geometry::Vec2 hi, Nearby& out) const;
-  /// Whether what stands there is the same at all heights between: no floor begins or ends in between.
+  /// True if the material is the same at all heights between: no floor begins or ends there.
   [[nodiscard]] bool even(const Nearby& near, double from_mm, double to_mm) const;
-  /// Whether trails whose floors lie at or below z took all of a disc; false where squares of an eighth
-  /// of its radius do not tell. `near` was gathered around it.
+  /// True if trails with floors at or below z removed all of a disc. False also if squares of an eighth of
+  /// its radius are too coarse to decide. `near` was gathered around it.
   [[nodiscard]] bool cleared(const Nearby& near, geometry::Vec2 centre, double radius_mm, double z_mm) const;
-  /// What stands along the probe; `near` was gathered around it. Below `above_mm` nothing is told apart,
-  /// nor is it above `most_mm`: it is said to be so high.
+  /// Heights of the material along the probe; `near` was gathered around it. Heights below `above_mm` are
+  /// reported as `above_mm`, heights over `most_mm` as `most_mm`.
   void heights(const Probe& probe, Nearby& near, double above_mm, Heights& out, double most_mm = 1e300) const;
 
-  /// Not below the highest material over a rectangle; the floor where there is none.
+  /// An upper bound of the material over a rectangle; the floor if there is none.
   [[nodiscard]] double highest(geometry::Vec2 lo, geometry::Vec2 hi) const;
   [[nodiscard]] double height_at(geometry::Vec2 p) const;
   /// mm3, integrated over lines along x to about `relative` of the raw piece, apart from any cutting.

@@ -42,18 +42,18 @@ struct Probe {
   void cross_circle(geometry::Vec2 centre, double radius_mm, Cuts& out) const;
 };
 
-/// Height of what stands along a probe, constant by pieces that follow one another without gaps.
+/// Heights of the material along a probe: constant pieces that follow one another without gaps.
 class Heights {
  public:
   struct Piece {
     double x0, x1, z_mm;
   };
   void reset(double lo, double hi, double z_mm);
-  /// Takes down to z what stands higher between x0 and x1; whether there was any.
+  /// Lowers everything above z between x0 and x1 to z; true if there was any.
   bool lower(double x0, double x1, double z_mm);
-  /// Highest, and the range of what stands above z; lo > hi: nothing does.
+  /// The highest piece above z and the range of all of them; x0 > x1: there is none.
   [[nodiscard]] Piece standing(double above_mm) const;
-  /// Narrows x0 .. x1 to what stands above z between them; false: nothing does.
+  /// Narrows x0 .. x1 to the range of material above z between them; false: there is none.
   [[nodiscard]] bool narrow(double& x0, double& x1, double above_mm) const;
   [[nodiscard]] const std::vector<Piece>& pieces() const { return pieces_; }
 

@@ -9,8 +9,9 @@
 
 namespace capstan::stock {
 
-/// What a cutter took along one piece of a move: everything within its radius of the axis' track, down to a
-/// floor. Straight tracks of any length (a point for a plunge), round ones of at most a quarter turn or so.
+/// The volume that a cutter removed along one piece of a move: everything within its radius of the axis'
+/// track, down to a floor. Straight tracks of any length (a point for a plunge), arcs of at most about a
+/// quarter turn.
 ///
 /// Units  mm.
 struct Trail {
@@ -20,7 +21,7 @@ struct Trail {
   bool arc = false;
   geometry::Vec2 centre;  ///< of the arc
   double turn_rad = 0.0;  ///< of the arc, positive counter-clockwise, |turn| < pi
-  /// What is not flat below: only on level tracks, and at a point. Not owned; null: flat.
+  /// Outline of a cutter that is not flat below: only on level tracks, and at a point. Not owned; null: flat.
   const geometry::CutterProfile* outline = nullptr;
 
   double lowest_mm = 0.0, highest_mm = 0.0;  ///< of its floor
@@ -45,8 +46,8 @@ struct Trail {
   [[nodiscard]] bool covers(const Trail& other) const;
   /// Height of the floor at a place within the radius.
   [[nodiscard]] double floor_at(geometry::Vec2 p) const;
-  /// Lowers what stands along the probe; what lies below `above_mm` does not matter and may be said to be
-  /// there. Whether it lowered anything.
+  /// Lowers the heights along the probe by this trail; heights below `above_mm` may be reported as lower or
+  /// not. True if it lowered anything.
   /// Accuracy  level floors: exact but for rounding; others in strips of at most a 16th of what they cover,
   ///           each at the height of its middle.
   bool lower(const Probe& probe, double above_mm, Heights& heights) const;

@@ -9,7 +9,7 @@ namespace capstan::stock::rows {
 inline constexpr int kLanes = 8;
 inline constexpr int kBins = 64;
 inline constexpr int kPieces = 8;
-/// Removals thinner than this are left standing: single precision could not tell them from rounding, mm.
+/// Thinner removals are skipped, mm: single precision cannot distinguish them from rounding.
 inline constexpr float kThinnest = 2e-5F;
 
 /// One piece of the cutter's outline, as geometry::ProfilePiece, in the form that is cheapest to evaluate.
@@ -51,7 +51,7 @@ struct Work {
   double hollow = 0.0;  ///< cells nearer than this to a are cut already
 };
 
-/// What was taken; see Tally.
+/// Sums of a removal; see Tally.
 struct Sums {
   double volume = 0.0, x = 0.0, y = 0.0;  ///< over cell area
   float left = 1e30F, right = -1e30F;     ///< centres of touched cells
@@ -61,7 +61,7 @@ struct Sums {
 using Kernel = void (*)(const Grid&, const Work&, Sums&);
 
 [[nodiscard]] Kernel portable();
-[[nodiscard]] Kernel avx2();    ///< null where the compiler or the processor has none
+[[nodiscard]] Kernel avx2();    ///< null if the compiler or the processor lacks it
 [[nodiscard]] Kernel avx512();  ///< as above
 [[nodiscard]] Kernel best();    ///< chosen once
 

@@ -328,7 +328,7 @@ CAPSTAN_INLINE Chips lower_parts(Float c, Float z, Mask valid, const Constants& 
   const Mask from_low = (whole & (t - z < kThinnest)) | (~whole & from_low_part);
   out.drop = select(out.touched, drop, 0.0F);
   out.top = select(from_low, l, t);
-  // Levels that were made one tell no more from where the chip came.
+  // Levels that were merged no longer show where the chip came from.
   const Mask kept_apart = whole | (below & (s <= c));
   const Float difference = twice_moment(t, l, s, c0.tip) - twice_moment(t1, l1, s1, c0.tip);
   const Float chip = drop * (out.top + z - c0.twice_tip);

@@ -45,7 +45,7 @@ inline Chip lower(Column& c, float cover, float z) {
     c.share = cover;
   } else if (z <= c.low_mm) {
     if (cover >= c.share) {
-      // Deeper in the same place, or a little wider: told by where most of the chip comes from.
+      // Deeper in the same place, or a little wider: decided by where most of the chip comes from.
       if ((cover - c.share) * (c.top_mm - c.low_mm) < c.share * (c.low_mm - z)) chip.top = c.low_mm;
       c.low_mm = z;
       c.share = cover;

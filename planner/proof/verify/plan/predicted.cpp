@@ -35,7 +35,7 @@ constexpr double kFaster = 1.25;
 /// tables for one material and substrate differ by about this. Default, unsourced.
 constexpr double kCardShort = 1.5;
 /// Edges of a tool from which a plan surely wears out the first, and that is a warning: lives by the
-/// textbook's law are uncertain by a factor of two (mechanics/life.h).
+/// textbook's law are uncertain by a factor of two (mechanics/life/life.h).
 constexpr double kSurelyWorn = 2.0;
 /// Bending stress at which a shank surely breaks or stays bent, N/mm2: transverse rupture strengths of
 /// cemented carbide (ISO 3327) and of hardened high-speed steel lie at 2000 to 4000. Default, unsourced.

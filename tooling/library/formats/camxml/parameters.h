@@ -18,8 +18,9 @@ struct Parameter {
 /// `<param name= value=/>` children by name; the first of a name counts.
 [[nodiscard]] std::string parameter(const XmlNode& tool, std::string_view name);
 
-/// Adds what the table knows; the rest is kept word for word under its name, and told unless empty or zero.
-/// Lengths in `unit`, angles in degrees. A zero of an optional size is "not given" in these files.
+/// Adds the parameters that the table knows. Others are kept word for word under their name, and reported
+/// unless empty or zero. Lengths in `unit`, angles in degrees. Zero of an optional size means "not given" in
+/// these files.
 void read_parameters(const XmlNode& tool, std::span<const Parameter> known,
                      std::span<const std::string_view> taken_elsewhere, std::string_view unit,
                      std::string_view system, const Place& place, CatalogueItem& item, ItemGatherer& gatherer,
@@ -37,8 +38,8 @@ template <class Reader>
   return out;
 }
 
-/// A number above zero, of start values; nothing for none, zero or an empty text.
-/// A text that is no number is a fault of the item.
+/// A start value above zero; nothing if it is missing, zero or empty. A text that is no number is a fault of
+/// the item.
 [[nodiscard]] std::optional<double> positive(std::string_view text, const Place& place,
                                              ItemGatherer& gatherer);
 

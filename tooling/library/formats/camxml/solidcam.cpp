@@ -77,7 +77,7 @@ class Reader {
       out_.library.assemblies.push_back(std::move(assembly));
   }
 
-  /// A shoulder no wider or longer than the edges is none.
+  /// A shoulder no wider or longer than the edges does not count.
   static void shoulder(CatalogueItem& item) {
     const auto dn = number_of(item, "DN"), dc = number_of(item, "DC"), ln = number_of(item, "LN"),
                edge = number_of(item, "APMX");

@@ -99,7 +99,7 @@ constexpr std::array kFusion{
     Name{"holder_vendor", "holder.manufacturer"},
     Name{"holder_segments", "holder.segments"},
 };
-/// What people call their columns, in lower case.
+/// Common names of columns, in lower case.
 constexpr std::array kWords{
     Name{"d", "DC"},
     Name{"dia", "DC"},

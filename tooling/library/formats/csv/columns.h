@@ -10,7 +10,7 @@
 
 namespace capstan::tooling::csv {
 
-/// What a column holds. Fields:
+/// The content of a column. Fields:
 ///   id group description class kind manufacturer product_id product_link comment unit number pocket carousel
 ///   in_stock price life_min life_used_min stick_out length not_stated
 ///   holder.id .description .manufacturer .product_id .product_link .gage .segments
@@ -26,7 +26,7 @@ struct Column {
 struct ColumnMap {
   char separator = ',';
   char decimal = '.';
-  std::string unit;  ///< mm or in of lengths that nothing else tells; may be empty
+  std::string unit;  ///< mm or in for lengths whose unit is stated nowhere else; may be empty
   std::vector<Column> columns;
 };
 

@@ -10,7 +10,7 @@
 namespace capstan::tooling::csv {
 namespace {
 
-/// Whether numbers of the table have commas: those of columns that hold numbers, and none has a point.
+/// True if the table has decimal commas: columns of numbers contain a comma, and none a point.
 bool has_decimal_commas(const std::vector<SeparatedRow>& rows, const ColumnMap& map) {
   bool comma = false;
   for (std::size_t r = 1; r < rows.size(); ++r) {

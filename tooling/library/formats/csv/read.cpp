@@ -61,7 +61,7 @@ class Reader {
     faults_.push_back(
         fault_at(place(column), code, std::move(message), std::move(expected), std::move(hint)));
   }
-  /// The cell of a field, without blanks; empty when there is none.
+  /// The cell of a field, without blanks; empty if there is none.
   [[nodiscard]] std::string cell_of(std::string_view field) const {
     for (std::size_t k = 0; k < map_.columns.size(); ++k)
       if (map_.columns[k].field == field) return std::string(trimmed_text(row_->cells[k]));
@@ -176,7 +176,7 @@ class Reader {
     out_.report.derived.push_back({words_, "class", std::string("from ") + from});
   }
 
-  /// Of lengths whose column does not say: the row's, the map's; empty when none does.
+  /// Unit of lengths whose column states none: the row's, else the map's; empty if neither states one.
   std::string row_unit() {
     const std::string stated = cell_of("unit");
     if (stated.empty()) return unit_;
@@ -437,7 +437,7 @@ class Reader {
     }
   }
 
-  /// What is said of tools that planning cannot use.
+  /// Reports tools that planning cannot use.
   void finish() {
     for (const CatalogueItem& i : out_.library.items)
       if (!i.cutter_class)

@@ -17,9 +17,9 @@ struct Record {
   std::uint64_t line = 0;
 };
 
-/// Codes mean something within their table only. What is known of 80 (taps), 81 (drills) and 82 (end mills)
-/// becomes symbols; every other code is kept word for word and told, never guessed. DIN 4000 measures in mm
-/// and degrees; decimals have a comma or a point.
+/// Codes have a meaning within their table only. The known codes of 80 (taps), 81 (drills) and 82 (end mills)
+/// become symbols; every other code is kept word for word and reported, never guessed. DIN 4000 measures in
+/// mm and degrees; decimals have a comma or a point.
 ///
 /// Source   the codes' meaning: makers' public files read against their own descriptions (length of cut,
 /// overall

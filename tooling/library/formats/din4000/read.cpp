@@ -29,7 +29,7 @@ void take_properties(const XmlNode& list, std::string_view index, Record& r) {
     std::string code = p.text_of("PropertyName");
     const std::string value = p.text_of("Value");
     if (code.empty() || code == "NSM" || code == "BLD") continue;
-    // A block repeats what stands above, or holds the second of its kind.
+    // A block repeats an earlier value, or contains the second of its kind.
     if (!index.empty() && index != "1") code += "_" + std::string(index);
     const std::pair<std::string, std::string> one(code, value);
     if (std::ranges::find(r.values, one) == r.values.end()) r.values.push_back(one);

@@ -75,11 +75,11 @@ class RecordReader {
         add_derived(item_, "ZEFF", *face, "", "the face edges (F22); F21 is not given", report_);
       }
     }
-    // Clamped on the whole shank, the head stands out.
+    // If the whole shank is clamped, the head is the stick-out.
     const auto head = number_of(item_, "LH");
     if (head && *head > 0.0)
       add_derived(item_, "LPR", *head, "mm", "B3: all but the shank stands out", report_);
-    // The codes that are known: 0 none; 1 to 3 through the tool, along the axis, across it or slanting.
+    // The known codes: 0 none; 1 to 3 through the tool, along the axis, across it or slanting.
     if (const Property* coolant = find(item_.properties, "CXSC");
         coolant != nullptr && coolant->text.size() == 1) {
       const char code = coolant->text.front();
@@ -136,7 +136,7 @@ class RecordReader {
     report_.dropped.push_back({item_.id, field, "the file contradicts itself: " + what});
   }
 
-  /// Public files round and mix up lengths; what does not fit is told, the values stay as stated.
+  /// Public files round and mix up lengths; contradictions are reported, the values stay as stated.
   void contradictions() {
     const auto oal = number_of(item_, "OAL"), ls = number_of(item_, "LS"), lh = number_of(item_, "LH");
     if (oal && ls && lh && *lh + *ls > *oal + kSlackMm)

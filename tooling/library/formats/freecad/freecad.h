@@ -30,7 +30,7 @@ struct FreecadFile {
 /// As a zip of such files.
 [[nodiscard]] Result<Exported> write_freecad(const ToolLibrary& library, const FormatOptions& options,
                                              Job& job);
-/// What a folder would hold; sorted by path.
+/// The files of a FreeCAD folder, sorted by path.
 [[nodiscard]] std::vector<FreecadFile> freecad_files(const ToolLibrary& library, LossReport& report);
 
 }  // namespace capstan::tooling

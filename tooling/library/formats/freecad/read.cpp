@@ -158,7 +158,7 @@ class BitReader {
     }
   }
 
-  /// Chamfer mills and V-bits: the angle is the full one; over the cone stands a cylinder on V-bits only.
+  /// Chamfer mills and V-bits: the angle is the full one; only V-bits have a cylinder above the cone.
   void derive_cone(double dc) {
     const auto sig = number_of(item_, "SIG");
     const double tip = number_of(item_, "DCN").value_or(0.0);
@@ -282,7 +282,7 @@ Status read_list(const Json& root, const std::string& path, const std::string& f
   return {};
 }
 
-/// Entries whose bit was read get an assembly; the others are told.
+/// Makes an assembly for each entry whose bit was read; reports the others.
 void link_entries(Imported& out, Job& job, const std::string& file) {
   std::set<std::string> items, assembled;
   for (const CatalogueItem& i : out.library.items) items.insert(i.id);

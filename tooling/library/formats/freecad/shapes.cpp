@@ -10,7 +10,7 @@ namespace {
 
 using model::CutterClass;
 
-/// Shapes that stand beside a class's own, and those that are none; the vocabulary has the rest.
+/// Shapes beside a class's own, and shapes of no class; the vocabulary has the rest.
 constexpr std::array kOtherShapes = {
     Shape{"VBit", CutterClass::kChamferMill},
     Shape{"Fillet", std::nullopt},

@@ -19,7 +19,7 @@ struct Shape {
 [[nodiscard]] const Shape* find_shape(std::string_view type);
 /// The file of FreeCAD that draws it: "endmill.fcstd"; empty for a custom shape.
 [[nodiscard]] std::string file_of(const Shape& shape);
-/// The shape that holds a class best; null: none does. `exact`: it says the class, too.
+/// The shape that fits a class best; null: none does. `exact`: the shape also determines the class.
 [[nodiscard]] const Shape* shape_of(model::CutterClass c, bool& exact);
 
 /// The symbol of a parameter of a shape; empty: no symbol, kept word for word.

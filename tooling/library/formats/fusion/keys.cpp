@@ -7,7 +7,7 @@ namespace {
 
 using model::CutterClass;
 
-/// Types that stand beside a class's own; the vocabulary has those.
+/// Types beside a class's own, which the vocabulary has.
 constexpr std::array<std::pair<std::string_view, CutterClass>, 2> kOtherNames{{
     {"tap left hand", CutterClass::kTap},
     {"boring head", CutterClass::kBoringTool},

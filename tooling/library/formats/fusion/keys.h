@@ -13,12 +13,12 @@
 
 namespace capstan::tooling::fusion {
 
-/// ToolLibrary::kept: the id of a holder that stands for itself, not only in tools.
+/// ToolLibrary::kept: id of a holder that is listed by itself, not only in tools.
 inline constexpr const char* kListedKey = "fusion:listed";
 /// ToolLibrary::kept: the records were read from Fusion, and what they keep is Fusion's.
 inline constexpr const char* kReadKey = "fusion:read";
 
-/// A number of "geometry". What the key is called when no ISO 13399 symbol means the same: the key itself.
+/// A number of "geometry" and its ISO 13399 symbol; if no symbol means the same, the key itself.
 struct GeometryKey {
   std::string_view key, symbol;
   std::string_view unit;  ///< "L" the tool's unit, "deg", "" a count
@@ -77,15 +77,15 @@ inline constexpr std::array kPreset{
 
 /// The class of a "type"; nothing for kinds that planning does not know.
 [[nodiscard]] std::optional<model::CutterClass> class_of(std::string_view type);
-/// The "type" of a class; nothing when Fusion has none.
+/// The "type" of a class; nothing if Fusion has none.
 [[nodiscard]] std::optional<std::string_view> type_of(model::CutterClass c, bool left_hand);
 [[nodiscard]] bool is_type(std::string_view text);
 
 [[nodiscard]] Result<Imported> read(std::string_view bytes, const std::string& file,
                                     const FormatOptions& options, Job& job);
 [[nodiscard]] Result<Imported> read_tree(const Json& root, const std::string& file, Job& job);
-/// What follows from what a Fusion library states and planning needs under another name: the usable length,
-/// a neck, the point angle of chamfer mills.
+/// Derives values that planning needs under another name from those that a Fusion library states: usable
+/// length, neck, point angle of chamfer mills.
 void derive(CatalogueItem& item, ToolAssembly& assembly, LossReport& report);
 /// The document of a library.
 [[nodiscard]] Result<Json> write_tree(const ToolLibrary& library, LossReport& report);

@@ -199,7 +199,7 @@ class Reader {
               {"type", "unit", "guid", "description", "vendor", "product-id", "product-link", "gaugeLength",
                "segments"},
               out.kept);
-    // The guid is kept as it stands: some exporters write it empty, or give it to different holders.
+    // The guid is kept unchanged: some exporters leave it empty, or give it to different holders.
     const std::string guid = h.text_of("guid");
     out.kept.emplace_back("guid", json_quoted(guid));
     for (const Holder& o : out_->library.holders) {
@@ -303,7 +303,7 @@ void derive(CatalogueItem& item, ToolAssembly& assembly, LossReport& report) {
   const auto of = [&item](const char* symbol) { return number_of(item, symbol).value_or(0.0); };
   const auto has = [&item](const char* symbol) { return find(item.properties, symbol) != nullptr; };
   const double stick_out = assembly.stick_out_mm.value_or(0.0), shoulder = of("shoulder-length");
-  // Without a holder the stick-out stands here: then the length to the gage line is not known.
+  // Without a holder this is the stick-out, and the length to the gage line is unknown.
   if (const double gauge = of("assemblyGaugeLength"); gauge > stick_out)
     assembly.functional_length_mm = gauge;
   if (of("DMM") > of("DC") && shoulder > 0.0 && shoulder <= stick_out && !has("LU"))

@@ -9,7 +9,7 @@
 namespace capstan::tooling::fusion {
 namespace {
 
-/// What Fusion writes today; it reads older ones. Source: exported libraries.
+/// The version that Fusion writes today; it reads older ones. Source: exported libraries.
 constexpr const char* kVersion = "36";
 
 class Writer {
@@ -38,7 +38,7 @@ class Writer {
         tool(i, a, data);
       }
     }
-    // Holders that stand for themselves come behind the tools.
+    // Holders listed by themselves follow the tools.
     for (const auto& [key, id] : l_.kept)
       if (key == kListedKey) used.erase(id);
     for (const auto& h : l_.holders)
@@ -58,7 +58,7 @@ class Writer {
     report_.dropped.push_back({who, std::move(field), std::move(why)});
   }
 
-  /// Kept texts of ours come back where they stood; those of other formats have no place.
+  /// Restores kept texts of Fusion files at their place; texts of other formats have none here.
   std::optional<Diagnostic> put_kept(const std::vector<std::pair<std::string, std::string>>& kept,
                                      const std::string& who, Json& into) {
     for (const auto& [path, text] : kept) {
@@ -297,12 +297,12 @@ Result<Exported> write_packed(const ToolLibrary& library, const FormatOptions& o
   return out;
 }
 
-/// A zip's list of entries stands at its end.
+/// A zip's list of entries is at its end.
 bool recognises_packed(std::string_view bytes, std::string_view) {
   return is_zip(bytes) && bytes.rfind("tools.json") != std::string_view::npos;
 }
 
-/// The first key that matters may stand behind the tools; a list called data decides.
+/// The first significant key may follow the tools; a list called data decides.
 bool recognises_json(std::string_view bytes, std::string_view) {
   if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);
   const std::string_view text = trimmed_text(bytes.substr(0, 4096));

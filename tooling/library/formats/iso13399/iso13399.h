@@ -17,9 +17,10 @@ namespace capstan::tooling {
 ///                                                  -> NUMERICAL_VALUE / STRING_VALUE (name, value, UNIT)
 ///
 /// A value's symbol is found by the code of the dictionary, else by the value's name as symbol, else as
-/// preferred name; what none of them tells is kept under its name. Roles come from
-/// SPECIFIC_ITEM_CLASSIFICATION: tool items become catalogue items, adaptive items holders, cutting items
-/// (inserts) are told and left. Values that no association ties to an item belong to the only item of a file.
+/// preferred name. A value without a symbol is kept under its name. Roles come from
+/// SPECIFIC_ITEM_CLASSIFICATION: tool items become catalogue items, adaptive items holders; cutting items
+/// (inserts) are reported and skipped. Values that no association ties to an item belong to the only item of
+/// a file.
 ///
 /// Units    lengths and angles need theirs; numbers may be quoted or plain.
 /// Source   entity and attribute order: as makers' public files have them.
@@ -32,8 +33,8 @@ struct IsoReadOptions {
 [[nodiscard]] Result<Imported> read_iso13399(std::string_view bytes, const std::string& file,
                                              const IsoReadOptions& options, Job& job);
 
-/// What a tool that must not be planned with is classified as, its reason being the class: else its words
-/// might give it a class again.
+/// Classification of a tool that must not be planned with; the reason is the class. Without it the tool's
+/// words might give it a class again.
 inline constexpr std::string_view kNotPlanned = "not for planning";
 
 [[nodiscard]] Result<Exported> write_iso13399(const ToolLibrary& library, const FormatOptions& options,

@@ -152,7 +152,7 @@ class Reader {
     return {};
   }
 
-  /// ITEM_VERSION(item, ..), ITEM_DEFINITION(version, ..): what they belong to is asked for later.
+  /// ITEM_VERSION(item, ..), ITEM_DEFINITION(version, ..): keeps the link; its owner is looked up later.
   Status link(const Instance& i, const Value& p, std::string_view wanted) {
     if (p.empty() || !p[0].is(Kind::kReference))
       return form(i, "its first parameter is no reference", "a " + std::string(wanted));

@@ -15,16 +15,15 @@ namespace capstan::tooling {
 
 /// One value as a file spells it.
 struct StatedValue {
-  std::string_view symbol;  ///< of ISO 13399, or the file's own name where none is known
+  std::string_view symbol;  ///< of ISO 13399, or the file's own name if none is known
   std::string_view text;
   std::string_view unit;  ///< "mm", "in", "deg", ""
   std::string source;
   bool decimal_comma = false;  ///< allowed, beside the point
 };
 
-/// Adds the value to the item. What the project does not know is kept as text, with its number where it is
-/// one; an empty text adds nothing. Returns  what is wrong: as `property_from`, or a symbol given twice with
-/// different values.
+/// Adds the value to the item. An unknown symbol is kept as text, with its number if it is one; an empty text
+/// adds nothing. Returns the fault: as `property_from`, or a symbol given twice with different values.
 [[nodiscard]] std::optional<Diagnostic> add_value(CatalogueItem& item, const StatedValue& value,
                                                   const Place& place);
 
@@ -34,13 +33,13 @@ void add_derived(CatalogueItem& item, std::string_view symbol, double number, st
 void add_derived_text(CatalogueItem& item, std::string_view symbol, std::string_view text, std::string why,
                       LossReport& report);
 
-/// What is wrong between an item's values, each as a sentence with its numbers: a zero diameter, flutes
+/// Contradictions between an item's values, each as a sentence with its numbers: a zero diameter, flutes
 /// longer than the tool, a radius beyond half the diameter, an unknown hand, no teeth.
 [[nodiscard]] std::vector<std::string> item_faults(const CatalogueItem& item);
 
-/// Where `leave_out` keeps its reason in CatalogueItem::kept; readers find it again, writers leave it.
+/// Key of the reason of `leave_out` in CatalogueItem::kept; readers find it again, writers skip it.
 inline constexpr std::string_view kLeftOut = "left out";
-/// The class is taken back: what is known does not allow planning with the tool.
+/// Removes the class: the known values do not allow planning with the tool.
 void leave_out(CatalogueItem& item, const std::string& why, LossReport& report);
 
 /// An end mill whose corner has a radius is a bullnose or ball end mill.

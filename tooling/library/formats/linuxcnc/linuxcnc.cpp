@@ -165,11 +165,11 @@ class Reader {
       add_item(name, e, *std::move(dc), inches);
       e.assembly = name;
     }
-    if (!e.pocket) e.pocket = e.number;  // a tool table tells of what is in the machine
+    if (!e.pocket) e.pocket = e.number;  // a tool table lists the tools in the machine
     out_.library.entries.push_back(std::move(e));
   }
 
-  /// "1/4 end mill" beside 0.25: nobody writes fractions of a millimetre.
+  /// True if a comment states the diameter as a fraction ("1/4 end mill" beside 0.25), which means inches.
   static bool says_fraction(std::string_view comment, double d) {
     for (auto at = comment.find('/'); at != std::string_view::npos; at = comment.find('/', at + 1)) {
       const auto digit = [&](std::size_t k) {
@@ -339,7 +339,7 @@ class Writer {
     if (item != nullptr) told(*item, comment, e.assembly);
   }
 
-  /// The words by which the class is told when the table is read again.
+  /// The words from which the class is found when the table is read again.
   std::string comment_of(const MachineEntry& e, const CatalogueItem* item) {
     std::string out = e.comment;
     if (out.empty() && item != nullptr) out = item->description;
@@ -353,7 +353,7 @@ class Writer {
     return class_from_words(with) == item->cutter_class ? with : out;
   }
 
-  /// Sizes that the comment does not tell yet, in words that are read again.
+  /// Adds sizes that the comment does not state yet, in words that are read again.
   std::string with_sizes(std::string comment, const CatalogueItem* item) const {
     if (item == nullptr || !item->cutter_class) return comment;
     const double dc = number_of(*item, "DC").value_or(0.0);
@@ -399,7 +399,7 @@ class Writer {
     }
     if (!fields.empty()) drop(who, fields, "a tool table has no place for these");
     if (!item.presets.empty()) drop(who, "presets", "a tool table has no place for start values");
-    std::vector<std::string> rest;  // "presets.0.guid" and its like are said once, as "presets"
+    std::vector<std::string> rest;  // "presets.0.guid" and the like are reported once, as "presets"
     for (const auto& [path, text] : item.kept) {
       std::string stem = path.substr(0, path.find_first_of(".#"));
       if (stem != "left out" && std::find(rest.begin(), rest.end(), stem) == rest.end())

@@ -15,8 +15,8 @@ namespace capstan::tooling {
 /// Whether the first line that says anything begins with a tool number.
 [[nodiscard]] bool looks_like_tool_table(std::string_view text);
 
-/// What the words of a comment tell beyond the class; see also `class_from_words`.
-/// Sizes that names and comments of tools state in words; 0: they say nothing, and nothing is guessed.
+/// Sizes in the words of a tool's name or comment, beside its class (see `class_from_words`); 0: not stated,
+/// and not guessed.
 struct CommentSizes {
   double pitch_mm = 0.0;  ///< taps, thread mills: "M6x0.75", "1/4-20", "20 TPI", "M6" (coarse, ISO 261)
   double corner_radius_mm = 0.0;  ///< bull noses: "R1.5"

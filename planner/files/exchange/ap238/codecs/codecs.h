@@ -9,11 +9,12 @@
 
 namespace capstan::exchange::ap238 {
 
-/// What a row with `| codec NAME` does with where its path leads, for values that no measure, text or
-/// reference holds.
+/// Code of a row with `| codec NAME` at the end of its path, for values that no measure, text or reference
+/// can hold.
 struct Codec {
   std::string_view name;
-  /// Sets the attribute; false when it could not, after saying why. What it read beyond the path it marks.
+  /// Sets the attribute; false, after a report, if it could not. Marks the instances that it read beyond the
+  /// path.
   bool (*read)(Reader& reader, const Row& row, model::AnyRef at, const model::Attribute& a,
                const std::vector<Terminal>& found);
   /// Makes what the path needs; `owner` has the rows, `data` is the object that has the attribute.
@@ -21,7 +22,7 @@ struct Codec {
                 const void* data, Id root);
 };
 
-/// Null when there is none of that name.
+/// Null if there is none of that name.
 [[nodiscard]] const Codec* find_codec(std::string_view name);
 
 }  // namespace capstan::exchange::ap238

@@ -4,8 +4,8 @@
 
 namespace capstan::exchange::ap238 {
 
-/// TOLERANCED_LENGTH_MEASURE: a length that is qualified by its limits or its significant digits, or that
-/// stands in a dimension with a fit.
+/// TOLERANCED_LENGTH_MEASURE: a length that is qualified by its limits or its significant digits, or a
+/// dimension with a fit.
 extern const Codec kTolerancedCodec;
 /// NUMERIC_PARAMETER and DESCRIPTIVE_PARAMETER of ISO 14649: an item named by its role. A name or unit that
 /// the role does not give goes along as the item's type_qualifier: 'PROFILE LENGTH [MM]'.
@@ -14,13 +14,13 @@ extern const Codec kParameterTextCodec;
 
 /// The workpiece by its shape, which all its features share.
 extern const Codec kItsWorkpieceCodec;
-/// Operations for a feature that stand in no workingstep of a plan.
+/// Operations for a feature that belong to no workingstep of a plan.
 extern const Codec kFeatureOperationsCodec;
 /// Items of the part's shape that are the feature's.
 extern const Codec kFacesInPartCodec;
-/// The two ends of a slot, told apart by name.
+/// The two ends of a slot, distinguished by name.
 extern const Codec kSlotEndsCodec;
-/// What is drawn beside the curve of a profile or path.
+/// Elements drawn beside the curve of a profile or path.
 extern const Codec kBesideCodec;
 /// A polygon's diameter has its name by which of the two it is.
 extern const Codec kAcrossFlatsCodec;

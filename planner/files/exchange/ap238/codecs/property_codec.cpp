@@ -67,7 +67,7 @@ bool read_name(Reader& reader, const Row&, AnyRef at, const Attribute& a,
 
 void write_nothing(Writer&, const Row&, AnyRef, const Attribute&, const void*, Id) {}
 
-// The surfaces of a texture parameter stand in two lists, by kind.
+// The surfaces of a texture parameter are in two lists, by kind.
 bool read_surfaces(Reader& reader, const Row& row, AnyRef at, const Attribute& a,
                    const std::vector<Terminal>& found) {
   static constexpr TypeId kAny[] = {TypeId::kManufacturingFeature, TypeId::kMachinedSurface,
@@ -145,7 +145,7 @@ void write_general(Writer& writer, const Row& row, AnyRef owner, const Attribute
     if (general != kNoId) writer.link(association, "base_definition", general);
     return;
   }
-  // The name: of the property, and of what stands for its general property.
+  // Writes the name: of the property, and of its general property if that has no noun.
   const std::string name = Writer::quoted(*model::value_of<model::Text>(a, data));
   writer.set(root, "property_definition.name", name);
   if (writer.model().at<model::AssignedProperty>(owner).general_property) return;

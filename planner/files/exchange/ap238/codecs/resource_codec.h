@@ -6,9 +6,9 @@
 
 namespace capstan::exchange::ap238 {
 
-/// `said`: a text; one without letters is as none (the standard makes many texts mandatory).
+/// `said`: a text; a text without letters counts as none (the standard makes many texts mandatory).
 extern const Codec kSaidCodec;
-/// `twice`: the file's number is twice the model's: full angles and half angles, diameters and radii.
+/// `twice`: the file's number is twice the model's: full angles for half angles, diameters for radii.
 extern const Codec kTwiceCodec;
 /// `other_kind`: the word of a tool of no kind that the standard names.
 extern const Codec kOtherKindCodec;
@@ -18,7 +18,7 @@ extern const Codec kTextsCodec;
 extern const Codec kMeasureCodec;
 /// `typed`: a text inside a typed parameter: IDENTIFIER('x').
 extern const Codec kTypedCodec;
-/// `library`: the same, of a class that must have a source even when none is known.
+/// `library`: the same, for a class that must have a source even if none is known.
 extern const Codec kLibraryCodec;
 /// `parameter_value`, `parameter_unit`: a number in any unit, as the file has it, and the unit's name.
 extern const Codec kParameterValueCodec, kParameterUnitCodec;

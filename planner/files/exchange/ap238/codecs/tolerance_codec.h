@@ -6,9 +6,9 @@ namespace capstan::exchange::ap238 {
 
 // Tolerances (tolerance_codec.cpp)
 
-/// What a tolerance is stated of; several are one COMPOSITE_GROUP_SHAPE_ASPECT.
+/// The subject of a tolerance; several subjects form one COMPOSITE_GROUP_SHAPE_ASPECT.
 extern const Codec kTolerancedCodecOfShape;
-/// The workpiece behind a shape aspect or dimension; not written, since what is stated belongs to it.
+/// The workpiece behind a shape aspect or dimension; not written, since the statement belongs to it.
 extern const Codec kWholePartCodec;
 /// GEOMETRIC_TOLERANCE_WITH_DATUM_REFERENCE; the older DATUM_REFERENCE lists are read as systems.
 extern const Codec kToleranceDatumsCodec;
@@ -24,7 +24,7 @@ extern const Codec kShapeElementsCodec;
 
 // Datums (datum_codec.cpp)
 
-/// What establishes a datum; a manufacturing feature becomes a DATUM_FEATURE, too.
+/// The feature that establishes a datum; a manufacturing feature becomes a DATUM_FEATURE, too.
 extern const Codec kEstablishedByCodec;
 extern const Codec kDatumBaseCodec;
 extern const Codec kCommonDatumCodec;
@@ -49,31 +49,31 @@ extern const Codec kMeasurementPathCodec;
 extern const Codec kTextureValueCodec;
 extern const Codec kTextureNameCodec;
 extern const Codec kTextureSurfacesCodec;
-/// What a property is of: one aspect, or a group.
+/// The subject of a property: one aspect, or a group.
 extern const Codec kPropertyOfCodec;
 extern const Codec kPartPropertiesCodec;
 extern const Codec kGeneralPropertyCodec;
-/// What is stated of a workpiece, in the file's order.
+/// The requirements of a workpiece, in the file's order.
 extern const Codec kRequirementsCodec;
 
-/// The codec of that name among these; null when there is none.
+/// The codec of that name among these; null if there is none.
 [[nodiscard]] const Codec* find_requirement_codec(std::string_view name);
 
 // --- shared among them ---
 
-/// The product definition that a shape aspect, a dimension or a shape belongs to; kNoNode when there is none.
+/// The product definition of a shape aspect, a dimension or a shape; kNoNode if there is none.
 [[nodiscard]] Node product_of(const Graph& g, Node n);
 /// The shape of a workpiece: the instance that its own rows lead through.
 [[nodiscard]] Id shape_of(Writer& writer, model::AnyRef workpiece);
 /// Makes a new shape aspect part of the workpiece that the owner names in its_workpiece.
 void in_shape(Writer& writer, Id aspect, model::AnyRef owner);
-/// The owner's its_workpiece; unset when it has none.
+/// The owner's its_workpiece; unset if it has none.
 [[nodiscard]] model::AnyRef workpiece_of(const model::Model& m, model::AnyRef owner);
 /// Marks one instance as part of the owner's mapping.
 void mark_one(Reader& reader, const Row& row, model::AnyRef owner, Node n, std::uint32_t ordinal);
-/// The shape aspects that stand for several, or the one itself.
+/// The members of a group of shape aspects, or the aspect itself.
 [[nodiscard]] std::vector<Node> members_of_group(Reader& reader, const Row& row, model::AnyRef owner, Node n);
-/// One aspect for all of them: itself, or a new group. kNoId for none.
+/// One aspect for all items: the item itself, or a new group. kNoId for none.
 [[nodiscard]] Id group_of(Writer& writer, model::AnyRef owner, const std::vector<model::AnyRef>& items);
 [[nodiscard]] bool measures(Reader& reader, Node n, model::Unit unit);
 [[nodiscard]] std::string lower_case(std::string_view s);

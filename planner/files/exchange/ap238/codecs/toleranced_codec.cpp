@@ -38,7 +38,7 @@ Value number_of(const Graph& g, Node n) {
   return v.is(Kind::kTyped) ? v[0] : v;
 }
 
-/// What a number beside the measure (a limit) is times to be millimetres or radians.
+/// Factor from a number beside the measure (a limit) to millimetres or radians.
 double factor_of(Reader& reader, Node n, Unit unit, const Scale& scale) {
   const Value u = reader.graph().get(n, "unit_component");
   if (u.is(Kind::kReference)) {
@@ -280,8 +280,7 @@ Role role_of(const std::string& name) {
           "mm"};
 }
 
-/// What a number in a unit given in words is times to be in the role's. Words that mean nothing: 1, as
-/// written.
+/// Factor from a number in a unit given in words to the role's unit; 1 for unknown words.
 double factor_of_words(std::string words, Unit unit) {
   for (char& c : words) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c + 32 : c);
   struct Word {

@@ -20,7 +20,7 @@ void assign(Reader& reader, AnyRef at, const Attribute& a, T value) {
   *static_cast<T*>(a.at(reader.plan().model.object(at))) = std::move(value);
 }
 
-// What the row's last step leads to is an instance that is there already.
+// Connects the row's last step to an instance that exists already.
 void join(Writer& writer, const Row& row, AnyRef owner, Id root, std::uint32_t ordinal, Id target) {
   if (target == kNoId) return;
   writer.connect(row.steps.back(), writer.walk(row, owner, root, 1, ordinal), target, ordinal, owner);

@@ -148,10 +148,10 @@ struct Point {
   bool via = false;
 };
 
-// What a written helix may take, as many as a path may have moves; default, unsourced.
+// Largest number of points of a written helix, as many as a path may have moves; default, unsourced.
 constexpr std::size_t kMostPoints = CurveOptions{}.max_moves;
 
-// Full turns with two via points, the rest with one. Nothing when they are more than `most`.
+// Full turns have two via points, the rest has one. Nothing if there are more than `most`.
 std::optional<std::vector<Point>> points_of(const curves::Segment& s, bool upright, std::size_t most) {
   std::vector<Point> out = {{s.from}};
   if (!s.arc) {

@@ -72,7 +72,7 @@ SectionNumbers PathSections::numbers(std::size_t i) const {
           s_->csa_mm2[i],   s_->x_cg_ofs_mm[i], s_->y_cg_ofs_mm[i]};
 }
 
-// A sample stands at the end of its step, which is as long as its volume over its area.
+// A sample is at the end of its step, whose length is its volume over its area.
 double PathSections::step_mm(std::size_t i) const {
   return s_->csa_mm2[i] > 0.0 ? s_->removed_mm3[i] / s_->csa_mm2[i] : 0.0;
 }

@@ -96,10 +96,10 @@ class Curves {
     return m_.add(std::move(c));
   }
 
-  std::size_t straightened = 0;  ///< arcs too small to be told from a line
+  std::size_t straightened = 0;  ///< arcs too small to differ from a line
 
  private:
-  // Where one run ends, the next begins.
+  // The end of a run is the start of the next.
   model::Ref<model::CartesianPoint> end_of(std::size_t i) {
     auto& p = ends_[i];
     if (!p) p = add_point(m_, numbers(p_.point(i)));
@@ -236,7 +236,7 @@ class Splitter {
     if (p.kind[i] == MoveKind::kDwell || p.kind[j] == MoveKind::kDwell) return false;
     const bool rapid = p.kind[i] == MoveKind::kRapid;
     if (rapid != (p.kind[j] == MoveKind::kRapid) || p.role[i] != p.role[j]) return false;
-    // A feed of nothing is no multiple of any: such moves stand alone.
+    // Zero is no multiple of any feed: such moves form a run of their own.
     return rapid || (speed(i) == speed(j) && (feed(i) > 0.0) == (feed(j) > 0.0));
   }
 
@@ -314,7 +314,7 @@ class Splitter {
       most = std::max(most, feed(i));
       least = std::min(least, feed(i));
     }
-    // Multiples that a reader would not take for such are told of the run's greatest feed instead.
+    // If readers would not take the ratios as such, they refer to the run's greatest feed instead.
     const double base = general->feedrate.value_or(0.0);
     const bool near = least > 0.0 && least >= kLeastRatio * base && most <= kMostRatio * base;
     if (general->spindle == spindle && near) return model::Ref<model::Technology>(general_);
@@ -336,7 +336,7 @@ class Splitter {
   std::vector<std::string>& losses_;
   std::string name_;
   std::shared_ptr<const model::FeedSchedule> schedule_;
-  double deviation_mm_ = 0.0;  ///< what the path, and the control that follows it, may leave it by
+  double deviation_mm_ = 0.0;  ///< largest deviation of the path, and of the control that follows it
   std::map<std::tuple<double, double>, model::Ref<model::Technology>> technologies_;
 };
 

@@ -6,8 +6,8 @@
 #include "planner/ground/base/result.h"
 #include "planner/model/plan/plan.h"
 
-/// @file What stands between paths as the planner has them and toolpaths as AP238 has them. All of it works
-/// on a copy, or on a model that was just read.
+/// @file Conversion between the planner's paths and AP238's toolpaths. All functions work on a copy, or on a
+/// model that was just read.
 
 namespace capstan::exchange::ap238 {
 
@@ -29,9 +29,9 @@ namespace capstan::exchange::ap238 {
 /// Fails   when a step's frame cannot be found.
 [[nodiscard]] Status write_paths(model::Plan& plan, std::vector<std::string>& losses);
 
-/// Toolpaths stand in their feature's frame unless a toolpath_orientation says otherwise. AP238 places
-/// features elsewhere than the model does, so what is written says it: each workingstep with curves gets the
-/// toolpath_orientation that is its feature's placement. To be called while placements are the model's.
+/// Toolpaths are in their feature's frame unless a toolpath_orientation says otherwise. AP238 places features
+/// elsewhere than the model does, so the written file states it: each workingstep with curves gets the
+/// toolpath_orientation that is its feature's placement. Call it while placements are the model's.
 void state_frames(model::Plan& plan);
 
 /// The same for a model that was just read, while placements are still AP238's.

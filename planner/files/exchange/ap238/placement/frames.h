@@ -13,12 +13,12 @@ using geometry::Placement;
 using geometry::Vec3;
 using PlacementRef = model::Ref<model::Axis2Placement3d>;
 
-/// Names of directions that stand only where AP238 asks for one.
+/// Name of directions that exist only because AP238 requires them.
 inline constexpr std::string_view kDerived = "derived";
-/// A course of travel made of a depth that was a length.
+/// Name of a course of travel made from a depth that was a length.
 inline constexpr std::string_view kDerivedFromLength = "derived from a length";
 
-/// Sides whose angle a plan leaves open: upright (what the model takes them for), told by its last bit.
+/// Angle of sides that a plan leaves open: upright, as the model takes them; its last bit marks it.
 inline constexpr double kUpright = 1.5707963267948968;
 
 model::Ref<model::Direction> direction(model::Model& m, Vec3 d, std::string_view name = "");

@@ -120,13 +120,13 @@ void for_each_component(Model& m, AnyRef feature, const Visit& visit) {
   }
 }
 
-// Those without a placement stand where the feature stands; AP238 asks them to say so.
+// Components without a placement have the feature's; AP238 requires it to be stated.
 void place_components(Model& m, AnyRef feature, PlacementRef at, std::map<AnyRef, AnyRef>& placed) {
   if (!at) return;
   for_each_component(m, feature, [&](const Attribute& a, AnyRef to) {
     const auto before = placed.find(to);
     if (before != placed.end() &&
-        before->second != AnyRef(at)) {  // shared with a feature that stands elsewhere
+        before->second != AnyRef(at)) {  // shared with a feature at another placement
       const AnyRef own = copy_of(m, to);
       placement_in(m, own) = at;
       *static_cast<AnyRef*>(a.at(m.object(feature))) = own;
@@ -195,7 +195,7 @@ void drilled_to_ap238(Model& m, AnyRef feature, std::vector<std::string>& losses
   const auto depth = model::depth_of(m, feature);
   if (!*f.course) {
     if (!depth || depth->tilted || !(depth->depth_mm > 0.0)) {
-      // On top, as AP238 has it where the bottom is at the end of the course; there is none to say how deep.
+      // On top, as AP238 has it if the bottom is at the end of the course; no course states how deep.
       if (m.at<model::MachiningFeature>(feature).depth) {
         losses.push_back(feature_name(m, feature) +
                          ": its depth is not one along its axis; it has no course of travel in AP238");
@@ -298,8 +298,8 @@ void right_way_up(Reader& reader, AnyRef feature, const std::vector<AnyRef>& ste
   }
 }
 
-// A course of travel that was made of the depth goes, and the depth stays. False: somebody took the depth
-// away or turned the course round; then it counts like any other.
+// Removes a course of travel that was made from the depth, and keeps the depth. False: the depth was removed
+// or the course reversed since; then it counts like any other.
 bool drop_derived(Reader& reader, AnyRef feature) {
   Model& m = reader.plan().model;
   const Drilled f = drilled(m, feature);
@@ -395,7 +395,7 @@ void sides(Model& m, bool to_ap238) {
 
 // --- operations ---
 
-// What the plan's workingsteps do to each feature, in the order of the plan.
+// The operations of the plan's workingsteps on each feature, in the order of the plan.
 std::map<AnyRef, std::vector<AnyRef>> by_workingstep(const model::Plan& plan) {
   std::vector<AnyRef> roots;
   if (plan.project) roots.push_back(plan.project);

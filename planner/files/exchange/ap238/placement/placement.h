@@ -8,8 +8,8 @@
 
 namespace capstan::exchange::ap238 {
 
-/// Features stand differently in the two standards; the rows of the mapping are plain, and these two
-/// functions turn the features round them.
+/// Features have different placements in the two standards. The rows of the mapping do not convert them;
+/// these two functions do.
 ///
 ///     model (ISO 14649)   origin on top, z out of the material, the depth is a surface; slots and steps too,
 ///                         their travel any direction in the plane
@@ -18,10 +18,10 @@ namespace capstan::exchange::ap238 {
 ///                         top. Slots and steps: origin at the profile's, z along the travel, y out of the
 ///                         material
 ///
-/// A depth surface ('maximum feature limit') may stand beside the course of travel, as in the standard's own
-/// examples; where the two differ the surface decides, with a warning. Profiles and paths whose placement is
-/// the feature's own instance have none. What is derived only because AP238 asks for it is known by the name
-/// of its direction, and dropped again when it is read.
+/// A depth surface ('maximum feature limit') may be stated beside the course of travel, as in the standard's
+/// own examples; if the two differ the surface decides, with a warning. Profiles and paths whose placement is
+/// the feature's own instance have none. Elements derived only because AP238 requires them are marked by the
+/// name of their direction, and dropped when read.
 
 /// An operation that a workingstep carries out on a feature, and that the feature does not list among its
 /// own. AP238 knows a feature's operations by workingsteps, so a record says it (`records.h`).

@@ -37,7 +37,7 @@ struct Sweep {
 };
 
 Sweep sweep_of(const Model& m, AnyRef feature) {
-  // What is kept in their place has no meaning here.
+  // Instances kept in their place have no meaning here.
   const auto understood = [&](AnyRef path, AnyRef profile) {
     return Sweep{
         m.holds<model::TravelPath>(path) ? Ref<model::TravelPath>(path) : Ref<model::TravelPath>(),
@@ -94,7 +94,7 @@ std::optional<Placement> start_of(const Model& m, AnyRef path, const Placement& 
       .origin = {start.x, start.y, -depth_mm}, .x = {-z.y, z.x, 0.0}, .y = {0.0, 0.0, 1.0}, .z = z};
 }
 
-/// How far below the top AP238's frame lies. Nothing where the depth is none along the axis: it lies on top.
+/// Depth of AP238's frame below the top, mm; nothing if the depth is not along the axis: then it is on top.
 std::optional<double> sunk(const Model& m, AnyRef feature) {
   const auto depth = model::depth_of(m, feature);
   return depth && !depth->tilted ? std::optional(depth->depth_mm) : std::nullopt;
@@ -127,7 +127,7 @@ AnyRef shape_of(model::Plan& plan, AnyRef feature) {
   throw std::logic_error("mapping tables: features have no placement");
 }
 
-/// What is known of the values of one is known of its copy's: the copy is what the file holds.
+/// Copies the decisions on one object to its copy, which is the one that the file holds.
 void decided_alike(model::Plan& plan, AnyRef from, AnyRef copy) {
   std::vector<std::pair<std::string, model::Decision>> known;
   for (const auto& [key, d] : plan.ledger.entries()) {
@@ -167,7 +167,7 @@ AnyRef stated(Reader& reader, AnyRef feature, const char* role) {
   return {};
 }
 
-/// Where a limit lies above AP238's frame; nothing when it is none across the profile.
+/// Height of a limit above AP238's frame; nothing if it does not lie across the profile.
 std::optional<double> limit_height(const Model& m, AnyRef depth) {
   const auto* plane = m.get<model::ElementarySurface>(depth);  // null: kept, and without meaning here
   const auto surface = model::placement(m, plane != nullptr ? plane->position : PlacementRef{});
@@ -179,8 +179,8 @@ double apart(const Placement& a, const Placement& b) {
   return norm(a.origin - b.origin) + norm(a.x - b.x) + norm(a.y - b.y) + norm(a.z - b.z);
 }
 
-/// As the plan stated it, when that agrees with what AP238 says. What could not be turned is stated where it
-/// stands.
+/// Restores the frame that the plan stated, if it agrees with AP238's data. A frame that cannot be turned is
+/// stated as it is.
 bool restore(Reader& reader, AnyRef feature, const Placement& frame) {
   Model& m = reader.plan().model;
   const Sweep s = sweep_of(m, feature);

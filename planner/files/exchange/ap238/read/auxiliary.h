@@ -24,7 +24,7 @@ struct Part {
   return out;
 }
 
-/// What such an instance says; nothing for any other kept instance.
+/// The owner and part of such an instance; nothing for any other kept instance.
 [[nodiscard]] inline std::optional<std::pair<model::AnyRef, Part>> auxiliary_part(
     const model::KeptInstance& k) {
   if (k.keyword.empty() || k.keyword.front() != '&' || k.pieces.size() != 1) return std::nullopt;

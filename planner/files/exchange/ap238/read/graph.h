@@ -36,12 +36,11 @@ class Graph {
   [[nodiscard]] bool is(Node n, std::string_view entity) const { return is(n, schema_.find(entity)); }
   [[nodiscard]] bool is_all(Node n, std::span<const EntityId> es) const;
 
-  /// The attribute's value by name, "owner.name" where several supertypes have it; omitted when there is
-  /// none.
+  /// The attribute's value by name, "owner.name" if several supertypes have it; omitted if there is none.
   [[nodiscard]] p21::Value get(Node n, std::string_view attribute) const;
-  /// What the attribute refers to; kNoNode when it is no reference, or a dangling one.
+  /// The instance that the attribute refers to; kNoNode if it is no reference, or a dangling one.
   [[nodiscard]] Node referred(Node n, std::string_view attribute) const;
-  /// The attribute's text; empty when it has none.
+  /// The attribute's text; empty if it has none.
   [[nodiscard]] std::string text(Node n, std::string_view attribute) const;
   /// Instances that refer to this one, each once, in file order.
   [[nodiscard]] std::span<const Node> users(Node n) const;

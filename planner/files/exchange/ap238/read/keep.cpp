@@ -7,8 +7,8 @@
 #include "planner/files/exchange/common/text.h"
 #include "planner/model/nouns/all.h"
 
-// What the mapping does not explain is kept verbatim, still connected: to application objects, to
-// instances that belong to an object's mapping, and to other kept ones.
+// Keeps instances that the mapping does not explain verbatim, still connected: to application objects, to
+// instances of an object's mapping, and to other kept ones.
 
 namespace capstan::exchange::ap238 {
 
@@ -37,7 +37,7 @@ AnyRef Reader::auxiliary(Node n) {
   return at;
 }
 
-// What a reference of kept text leads to; nothing when the file holds no such instance.
+// The target of a reference in kept text; nothing if the file has no such instance.
 AnyRef Reader::connected(std::uint64_t id) {
   const Node to = g_.find(id);
   if (to == kNoNode) return {};

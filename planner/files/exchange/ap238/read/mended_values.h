@@ -12,7 +12,8 @@ namespace capstan::exchange::ap238 {
 /// a warning each.
 void mend_ratios(model::Plan& plan, Reporter& reporter);
 
-/// A feature that is machined and whose placement could not be read lies nobody knows where: a fault.
+/// Reports a fault for each feature that is machined and whose placement could not be read: its place is
+/// unknown.
 void doubt_placements(const model::Model& m, std::vector<Doubt>& doubts);
 
 }  // namespace capstan::exchange::ap238

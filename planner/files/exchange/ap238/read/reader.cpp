@@ -327,7 +327,7 @@ void Reader::settle() {
 
 void Reader::fill(AnyRef at, Node n) {
   for (const Row* row : map_.rows_of(at.type)) read_row(*row, at, n);
-  // AP238 has no other way to write a list without elements than to leave it out.
+  // AP238 writes a list without elements by leaving it out.
   for (const Row* row : map_.rows_of(at.type)) {
     const Attribute* a =
         row->attribute.size() == 1 ? model::find_attribute(at.type, row->attribute.front()) : nullptr;
@@ -369,7 +369,7 @@ bool Reader::read_row(const Row& row, AnyRef at, Node n) {
 
 void Reader::run() {
   const auto& schema = g_.schema();
-  // What a representation without units of its own is taken to be in: what the file says elsewhere.
+  // The units of a representation that states none: those stated elsewhere in the file.
   const EntityId context = schema.find("GLOBAL_UNIT_ASSIGNED_CONTEXT");
   for (Node n = 0; n < g_.size() && !default_scale_.stated; ++n) {
     if (g_.is(n, context)) default_scale_ = units_.scale(n, Scale{});

@@ -41,7 +41,7 @@ class Reader {
   /// Everything: the project and what it leads to, other application objects, the rest verbatim.
   void run();
 
-  // What codecs and later stages use.
+  // Access for codecs and later stages.
   [[nodiscard]] const Graph& graph() const { return g_; }
   [[nodiscard]] const Mapping& mapping() const { return map_; }
   [[nodiscard]] model::Plan& plan() { return plan_; }
@@ -63,14 +63,14 @@ class Reader {
   /// finite.
   [[nodiscard]] std::optional<double> finite(Node n, double value, double factor,
                                              std::string_view what) const;
-  /// The nearest integer; nothing (reported) when a double does not tell it from its neighbours.
+  /// The nearest integer; nothing (reported) if doubles of this size cannot represent integers exactly.
   [[nodiscard]] std::optional<std::int64_t> integer(Node n, double value, std::string_view what) const;
   /// DESCRIPTIVE_REPRESENTATION_ITEM's text, or the name of anything else.
   [[nodiscard]] std::string description(Node n) const;
   [[nodiscard]] bool used(Node n) const { return owner_[n].set() || object_[n] || claimed_[n]; }
   /// Takes an instance away from the mapping: no path leads to it, and it is not kept. Before `run`.
   void claim(Node n) { claimed_[n] = true; }
-  /// The application object of that kind that was read there; unset when there is none.
+  /// The application object of that kind read from there; unset if there is none.
   [[nodiscard]] model::AnyRef noun_at(Node n, model::TypeId kind) const;
   void about(Node n, Diagnostic d) const;
   /// Faults in geometry that the project did not reach as it was read; it may as it is now.
@@ -104,7 +104,7 @@ class Reader {
   void list(const Row& row, model::AnyRef at, const model::Attribute& a, const std::vector<Terminal>& found);
   void select(const Row& row, const model::Attribute& a, const Terminal& t, model::SelectValue& out);
   [[nodiscard]] bool holds(Node n, const Step& s, std::uint32_t* ordinal, double* order) const;
-  /// What several ways led to, while a path is followed.
+  /// The state in which several ways meet while a path is followed.
   struct Meeting {
     std::vector<Terminal::Mark> way;
     Node node;
@@ -155,7 +155,7 @@ class Reader {
   std::vector<Doubt> doubts_;
 
   mutable std::uint64_t visits_ = 0;  ///< steps of paths taken so far, see `visit`
-  /// What paths and constraints have made use of: attributes, and references whichever way they were gone.
+  /// Attributes and references that paths and constraints have used, in either direction.
   mutable std::vector<std::uint64_t> read_attributes_, read_references_;
 };
 

@@ -4,8 +4,7 @@
 #include "planner/files/exchange/ap238/read/reader.h"
 #include "planner/model/nouns/arena/walk.h"
 
-// What a file says of an application object and no row of the mapping asks for: it does not reach the model,
-// so it is told.
+// Reports attributes of an application object that no row of the mapping uses: they do not reach the model.
 
 namespace capstan::exchange::ap238 {
 
@@ -14,7 +13,7 @@ using p21::Value;
 
 namespace {
 
-// FNV-1a, 32 bits; attributes are told apart by name.
+// FNV-1a, 32 bits, of an attribute's name.
 std::uint32_t hash_of(std::string_view name) {
   std::uint32_t h = 2166136261U;
   for (const char c : name) h = (h ^ static_cast<unsigned char>(c)) * 16777619U;

@@ -12,24 +12,24 @@
 
 namespace capstan::exchange::ap238 {
 
-/// What objects of a plan are called in a file whose instances another system may number anew: the way from
-/// an executable along attributes, `its_operation.its_machine_functions`,
-/// `its_operation.its_toolpath.its_list[2]` (from 0); empty is the executable itself. What is not below it
-/// begins with what is, by kind and its_id:
-/// `{ROUND_HOLE:H1}`, `{MACHINING_WORKINGSTEP:drill}.its_operation`; the second of the same its_id has `:2`.
+/// Names of a plan's objects in a file whose instances another system may renumber: the way from an
+/// executable along attributes, `its_operation.its_machine_functions`,
+/// `its_operation.its_toolpath.its_list[2]` (from 0); empty is the executable itself. An object that is not
+/// below the executable begins with an object by kind and its_id: `{ROUND_HOLE:H1}`,
+/// `{MACHINING_WORKINGSTEP:drill}.its_operation`; the second of the same its_id has `:2`.
 class Addresses {
  public:
   /// `number` orders objects of one kind with the same its_id; the same in the writing and the reading
   /// system.
   Addresses(const model::Plan& plan, const std::function<std::uint64_t(model::AnyRef)>& number);
 
-  /// Where the object stands among all that have an address, from 1; 0 when it has none.
+  /// Position of the object among all that have an address, from 1; 0 if it has none.
   [[nodiscard]] std::uint64_t order(model::AnyRef object) const;
-  /// The executable that a property about the object belongs on; the main workplan where there is none.
+  /// The executable that carries a property about the object; the main workplan if there is none.
   [[nodiscard]] model::AnyRef executable(model::AnyRef object) const;
   /// Needs   an object that has an address.
   [[nodiscard]] std::string from(model::AnyRef executable, model::AnyRef object) const;
-  /// The object of that name; unset when there is none any more.
+  /// The object of that name; unset if it is gone.
   [[nodiscard]] model::AnyRef find(model::AnyRef executable, std::string_view address) const;
 
  private:

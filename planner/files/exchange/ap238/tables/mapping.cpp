@@ -4,6 +4,20 @@
 
 #include "planner/files/exchange/common/embedded.h"
 
+// The mapping from AP238's application objects to the instances of its schema, as rows of data that reader
+// and writer interpret alike. The tables are parsed once (mapping_parser.cpp) and indexed twice: by the
+// entity that may be an object's root, subtypes included (`objects_at`), and by noun (`objects_of`;
+// `rows_of`, with the rows of the nouns that it is derived from).
+//
+// Reading: an instance is the object of the first row whose root, constraints and guard hold. Each row of
+// that noun is a path of steps, followed forwards along attributes or backwards along references, over sets
+// of instances; the value at its end goes into the attribute. Instances that no row explains are kept
+// verbatim.
+//
+// Writing: the same path is followed from the object's root, and a step without an instance makes one. Rows
+// that begin with the same steps share the instances of these steps (Step::prefix), unless a step has `!`.
+// Source  ISO 10303-238, clause 5.1 (mapping) and its EXPRESS schema; the language: mapping/README.md.
+
 namespace capstan::exchange::ap238 {
 
 using model::TypeId;

@@ -41,8 +41,8 @@ struct Step {
   std::string attribute;
   std::uint32_t index = 0;         ///< forward: only this element of the list, from 1; 0: any
   std::string wrapper;             ///< typed parameter around the list, e.g. LIST_REPRESENTATION_ITEM
-  std::vector<EntityId> entities;  ///< what stands there: one, or the leaves of a complex instance
-  std::vector<EntityId> also;      ///< what may stand there instead when reading
+  std::vector<EntityId> entities;  ///< entities at this step: one, or the leaves of a complex instance
+  std::vector<EntityId> also;      ///< entities accepted there instead when reading
   std::vector<Constraint> constraints;
   std::uint32_t prefix = 0;  ///< identifies the way up to here, the same for rows that share it
 };
@@ -52,11 +52,11 @@ struct Row {
   std::vector<std::string> attribute;  ///< "its_tool_body.dimension.diameter"; empty: structure without value
   /// For each of them but the last: what is made there when the path finds something; kNone: nothing.
   std::vector<model::TypeId> made;
-  /// For each of them but the last: the kind that must stand there, or the row is passed over; kNone: any.
+  /// For each of them but the last: the required kind, else the row is skipped; kNone: any.
   std::vector<model::TypeId> only;
   std::vector<Step> steps;
   std::string value_of;            ///< the value is this attribute of the last instance
-  std::vector<std::string> texts;  ///< what stands for true and false, or for each enumerator
+  std::vector<std::string> texts;  ///< spelling of true and false, or of each enumerator
   std::string codec;               ///< a value that needs code, by name
   std::string when;                ///< writes only values of this form: text, real, ref, or a noun
   std::string unless;              ///< written only where this attribute of the same object is unset
@@ -71,7 +71,7 @@ struct ObjectRow {
   std::vector<std::pair<std::vector<std::string>, model::TypeId>> with;  ///< objects inside, made with it
   std::vector<std::string> unless;  ///< dotted attribute that must be unset to write so
   std::vector<std::pair<std::vector<std::string>, model::TypeId>>
-      when;  ///< what must stand there to write so
+      when;  ///< attributes and their required kinds for writing this row
   bool written = true;
   std::string place;
 };

@@ -20,7 +20,7 @@ struct FileUnit {
   [[nodiscard]] bool operator==(const FileUnit&) const = default;
 };
 
-/// What coordinates of points are: a curve need not be one in space.
+/// The kind of coordinates of a point: a curve need not be in space.
 enum class Coordinates : std::uint8_t {
   kLengths,
   kNumbers,   ///< ratios, components of directions: no units
@@ -30,7 +30,7 @@ enum class Coordinates : std::uint8_t {
 /// The identifier of the context with units that the writer makes; @context in 0_macros.map.
 inline constexpr std::string_view kWrittenContext = "MILLIMETRE RADIAN STERADIAN";
 
-/// What numbers of a representation without units of their own are in.
+/// Units of the numbers of a representation that has no units of its own.
 struct Scale {
   double length = 1.0;  ///< to mm
   double angle = 1.0;   ///< to rad
@@ -49,10 +49,9 @@ class Units {
  public:
   explicit Units(const Graph& g) : g_(g) {}
 
-  /// A NAMED_UNIT or DERIVED_UNIT; nothing when it is none that can be understood. Its parts are added to
-  /// `used`.
+  /// A NAMED_UNIT or DERIVED_UNIT; nothing if it cannot be understood. Its parts are added to `used`.
   [[nodiscard]] std::optional<FileUnit> unit(Node n);
-  /// What a number in that unit is times to be the model's `to`; nothing when it measures something else.
+  /// Factor from a number in that unit to the model's `to`; nothing if it measures something else.
   [[nodiscard]] static std::optional<double> factor(const FileUnit& from, model::Unit to);
   /// Of a representation's context. Without global units: millimetres and what `fallback` says.
   [[nodiscard]] Scale scale(Node context, const Scale& fallback);

@@ -75,7 +75,7 @@ std::string Writer::run(const std::vector<Unlisted>& unlisted) {
   return out;
 }
 
-// What the standard wants said where the plan says nothing.
+// Sets texts that the standard requires and the plan does not have.
 void Writer::fall_back() {
   const auto pending = std::move(fallbacks_);
   for (const auto& [at, constraint] : pending) {

@@ -25,10 +25,10 @@ class Writer {
 
   /// The data section, one instance per line. `unlisted`: what `to_ap238` gave.
   std::string run(const std::vector<Unlisted>& unlisted);
-  /// After run(): how the file refers to an object, "$" when it holds none.
+  /// After run(): the file's reference to an object, "$" if it has none.
   [[nodiscard]] std::string reference_text(model::AnyRef r);
 
-  // What codecs use.
+  // Access for codecs.
   [[nodiscard]] const model::Model& model() const { return m_; }
   [[nodiscard]] const model::Plan& plan() const { return plan_; }
   [[nodiscard]] const express::Dictionary& schema() const { return schema_; }
@@ -50,15 +50,15 @@ class Writer {
   /// A text as it is spelled.
   [[nodiscard]] static std::string quoted(std::string_view text);
   void link(Id from, std::string_view attribute, Id to) { set(from, attribute, "#" + std::to_string(to)); }
-  /// Follows the row's steps from the object's instance and gives the last instance but `leave` steps.
+  /// Follows the row's steps from the object's instance and returns the last instance but `leave` steps.
   Id walk(const Row& row, model::AnyRef owner, Id root, std::size_t leave, std::uint32_t ordinal);
-  /// Joins what the row's last step leads to.
+  /// Connects the target of the row's last step.
   void connect(const Step& last, Id from, Id to, std::uint32_t ordinal, model::AnyRef owner);
   /// A measure with unit as a representation item.
   Id measure(double value, model::Unit unit, std::string_view name, std::span<const EntityId> entities);
   Id description(std::string_view name, std::string_view text);
   void lose(const std::string& what) { ++lost_[what]; }
-  /// The instance of what was written; kNoId for what was not, and for what has none of its own.
+  /// The instance of a written object; kNoId for others, and for objects without an instance of their own.
   [[nodiscard]] Id written(model::AnyRef at) const;
   /// Whether AP238 has no place for the object.
   [[nodiscard]] bool is_lost(model::AnyRef at) const;

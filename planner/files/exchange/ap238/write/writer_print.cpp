@@ -18,7 +18,7 @@ namespace {
 
 using Kind = express::TypeKind;
 
-// What stands where the mapping says nothing: '' and .F. where something must stand.
+// The value of an attribute that the mapping does not set: '' and .F. if it is mandatory.
 std::string nothing(const express::Type* t, bool optional) {
   while (t != nullptr && t->kind == Kind::kDefined) t = t->underlying;
   if (optional || t == nullptr) return "$";

@@ -21,7 +21,7 @@ using model::TypeId;
 
 namespace {
 
-// The name a step demands, as spelled; empty when it demands none.
+// The name that a step demands, as spelled; empty if it demands none.
 std::string demanded_name(const Step& s) {
   for (const Constraint& c : s.constraints) {
     if ((c.attribute == "name" || c.attribute == "representation_item.name") && !c.texts.empty() &&

@@ -15,19 +15,20 @@ struct Level {
   Level(const PathJob& task, const WorkArea& w, double tip_z, double material_z, double allowance);
 
   double z_mm;          ///< of the tip
-  double from_mm;       ///< top of what still stands here
+  double from_mm;       ///< top of the material at this level
   double above_mm;      ///< of the level before; above `from_mm` where an earlier step has cleared this one
   double allowance_mm;  ///< left on the walls
   geometry::Region centres;         ///< where the cutter's centre may be
   Inside inside;                    ///< the same, larger by kInsideSlack
   Inside material;                  ///< outline of what is not air
   std::optional<Inside> cleared;    ///< finishing: centres at which nothing was left to cut
-  std::vector<geometry::Vec2> air;  ///< centres at which the cutter stands free of material, if any
+  std::vector<geometry::Vec2> air;  ///< centres at which the cutter touches no material, if any
 };
-/// Rings lie on the boundary of the centres; questions are asked of a region this much larger, mm.
+/// Rings lie on the boundary of the centres; tests of inclusion use a region this much larger, mm.
 inline constexpr double kInsideSlack = 0.002;
 
-/// What the patterns share: the writer, the job, and how to get from here to there, or into the material.
+/// State and moves that the patterns share: the writer, the job, links between passes, ways into the
+/// material.
 class LevelCutter {
  public:
   LevelCutter(const PathJob& task, const WorkArea& area, PathWriter& writer, Job& job);
@@ -54,7 +55,7 @@ class LevelCutter {
 
   /// Warns once.
   void warn(const std::string& code, const std::string& message);
-  /// What is done otherwise and needs no action.
+  /// Reports a deviation from the request that needs no action.
   void note(const std::string& code, const std::string& message);
 
  private:

@@ -15,7 +15,7 @@ namespace {
 constexpr double kCrumb = 1e-3;         ///< mm2 that count as nothing
 constexpr std::size_t kMostAir = 4000;  ///< places looked at
 
-/// What the wider cutter took away at this height.
+/// The area that the wider cutter removed at this height.
 Region taken(const PathJob& task, const WorkArea& w, double z_mm) {
   const Cleared& by = *task.cleared_by;
   model::Cutter wide = task.cutter;
@@ -24,7 +24,7 @@ Region taken(const PathJob& task, const WorkArea& w, double z_mm) {
   const Region stood = centres_at(w, wide, z_mm, by.allowance_side_mm, task.allowance_bottom_mm);
   if (stood.empty()) return {};
   double reach = 0.5 * by.diameter_mm;
-  // A rounder corner than is wanted leaves a fillet along the floor: that counts as left.
+  // A larger corner radius than required leaves a fillet along the floor, which counts as rest.
   const double wanted =
       std::max({task.cutter.corner_radius_mm, task.allowance_bottom_mm, w.bottom_radius_mm});
   if (by.corner_radius_mm > wanted + 1e-9) reach -= by.corner_radius_mm;

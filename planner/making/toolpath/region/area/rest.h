@@ -9,9 +9,10 @@ namespace capstan::toolpath {
 ///
 ///     left = reach of this cutter \ reach of the wider one
 ///
-/// The level's `centres` shrink to those near what is left, its `air` is where the cutter stands free in what
-/// is cleared already; `inside` stays, so that ways may lead through there. Feather edges, where the two
-/// reaches part by less than kFeather, are passed over by the run-out along the wall, not left.
+/// Shrinks the level's `centres` to those near the rest; `air` becomes the centres at which the cutter is
+/// free in the area cleared already. `inside` does not change, so that links may pass there. Feather edges,
+/// where the two reaches differ by less than kFeather, count as no rest: the run-out along the wall covers
+/// them.
 ///
 /// Needs   upright walls; the wider cutter went as deep.
 /// Returns the area left, mm2; 0: nothing, and the level is not to be cut.

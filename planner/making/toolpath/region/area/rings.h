@@ -15,9 +15,9 @@ struct Ring {
   std::vector<std::size_t> children;  ///< what became of it one inset later
 };
 
-/// All rings, each inset from the one before; parents stand before their children. With a step of at most
-/// the cutter's radius nothing between two rings, or within the last, stays uncut: every centre that is not
-/// in the next inset lies within one step of this ring.
+/// All rings, each inset from the one before; a parent precedes its children. With a step of at most the
+/// cutter's radius, nothing between two rings or within the last stays uncut: every centre that is not in the
+/// next inset lies within one step of this ring.
 /// Cost  linear in rings times vertices (each ring is made from the last, simplified).
 [[nodiscard]] std::vector<Ring> rings(const geometry::Region& centres, double step_mm);
 

@@ -75,7 +75,7 @@ Region centres_at(const WorkArea& w, const model::Cutter& cutter, double tip_z_m
   }
   Region keep = w.reach;
   if (w.open) {
-    // Beyond an open side a cutter needs room to stand free, not more.
+    // Beyond an open side a cutter needs room to leave the material, not more.
     const double room = cutter.cutting_diameter_mm + 2.0 + allowance_mm;
     keep = geometry::intersect(keep, geometry::offset_sharp(w.area, room));
   }

@@ -13,7 +13,7 @@ struct WorkArea {
   geometry::Region reach;  ///< where a cutter may be, islands and `avoid` not yet taken out
   std::vector<model::Island> islands;
   geometry::Region avoid;
-  geometry::Region material;  ///< outline of what stands there before; a cutter outside it is in air
+  geometry::Region material;  ///< outline of the material before the step; a cutter outside it is in air
   double top_z_mm = 0.0, bottom_z_mm = 0.0;  ///< of the feature; bottom without allowance
   double slope_rad = 0.0, bottom_radius_mm = 0.0;
   bool open = false;

@@ -24,8 +24,8 @@ Result<GeneratedPath> around_outside(const PathJob& slim, double z_mm, Job& job)
   return outside_path(t, job);
 }
 
-/// Round each edge: on arcs where they fit, else, and in openings narrower than the cutter, from the middle,
-/// where the cutter stands free. `diameter_mm` of the whole cutter.
+/// Moves along each edge, entered on arcs where these fit. Elsewhere, and in openings narrower than the
+/// cutter, it enters from the middle, where the cutter touches nothing. `diameter_mm`: of the whole cutter.
 Status along_edges(LevelCutter& c, const Level& level, double diameter_mm) {
   const bool natural = walls_on_right(c.task);
   for (const geometry::Region& piece : geometry::pieces(level.centres)) {

@@ -14,17 +14,16 @@ using model::StrategyKind;
 
 namespace {
 
-/// How far apart passes may be: no farther than the flat end is wide, or a corner radius leaves ridges
-/// between them. A ball leaves them in any case: a tenth of its diameter then, default, unsourced.
+/// Largest distance between passes: the width of the flat end, else a corner radius leaves ridges between
+/// them. A ball always leaves ridges: a tenth of its diameter, default, unsourced.
 double flat_of(const model::Cutter& c) {
   return std::max(c.cutting_diameter_mm - 2.0 * c.corner_radius_mm, 0.1 * c.cutting_diameter_mm);
 }
 
-/// How far a pass runs past the edge of the face, as a part of the cutter's radius: the cutter stands half a
-/// radius clear of it. Default, unsourced; as NIST's interpreter of ISO 14649 does.
+/// Overrun of a pass past the edge of the face, in cutter radii: the cutter then is half a radius clear of
+/// it. Default, unsourced; as NIST's interpreter of ISO 14649 does.
 constexpr double kOverrun = 1.5;
-/// How far a single pass overhangs the edge at which it ends, as a part of the cutter's radius. Default,
-/// unsourced.
+/// Overhang of a single pass over the edge at which it ends, in cutter radii. Default, unsourced.
 constexpr double kOverhang = 0.1;
 constexpr double kSomeArea = 0.1;  // mm2: less is chords of arcs
 
@@ -70,7 +69,7 @@ class Face {
   }
 
  private:
-  /// What stands above the level and must not be touched, grown by the cutter.
+  /// Areas higher than the level, which must not be touched, grown by the cutter.
   [[nodiscard]] Region obstacles(double z, double more) const {
     Region r;
     for (const auto& i : w_.islands) {
@@ -128,7 +127,7 @@ class Face {
     const double step = std::min({stepover_of(task_), 1.98 * radius_, flat_of(task_.cutter)});
     // The first pass overhangs the edge by what passes overlap, so that it is as wide as the others.
     double first = std::min(lo + step - radius_, 0.5 * (lo + hi));
-    // A single pass overhangs both edges: its rim on an edge would leave slivers there.
+    // A single pass overhangs both edges: a rim exactly on an edge would leave slivers there.
     if (first + 0.5 * flat_of(task_.cutter) >= hi - 1e-6)
       first = std::min(std::max(first, hi - radius_ + kOverhang * radius_), 0.5 * (lo + hi));
     std::vector<Stroke> out;
@@ -142,13 +141,13 @@ class Face {
         out.push_back({(a - over) * e_ + v * n_, (b + over) * e_ + v * n_});
         free_start(material, out.back());
       }
-      // The flat end reaches the edge: what a corner radius leaves there is no ridge between passes only.
+      // The flat end must reach the edge: beyond it a corner radius would leave a ridge.
       if (v + 0.5 * flat_of(task_.cutter) >= hi - 1e-6) break;
     }
     return out;
   }
 
-  /// Raw material that stands out further than the face: begin outside of that, too.
+  /// Moves the start of a pass out of raw material that is larger than the face.
   void free_start(const Inside& material, Stroke& s) const {
     for (int i = 0; i < 20 && !material.clear_of(s.from, radius_ + 0.2); ++i)
       s.from = s.from - 0.25 * radius_ * e_;
@@ -188,7 +187,7 @@ class Face {
     return {};
   }
 
-  /// Straight passes with something standing on the face: the area between, then along what stands.
+  /// Straight passes over a face with islands: first the area between them, then along the islands.
   Status around(double z, double from, const std::vector<Stroke>& all, const Region& keep_off) {
     WorkArea open = w_;
     open.reach = geometry::offset_sharp(w_.area, 3.0 * radius_);
@@ -204,7 +203,7 @@ class Face {
                                  first - far * e_ + across * n_};
     const Region out = geometry::offset_sharp(w_.area, kOverrun * radius_);
     level.centres = geometry::subtract(geometry::intersect(out, geometry::clean({oriented(band)})), keep_off);
-    // Between what stands and the edge there may be room for a part of the cutter only: passes further out.
+    // Between an island and the edge only a part of the cutter may fit: add passes further out.
     if (reached(out, keep_off) > reached(level.centres, {}) + kSomeArea)
       level.centres = geometry::subtract(out, keep_off);
     level.inside = Inside(inset(level.centres, -kInsideSlack, 0.25 * kInsideSlack));

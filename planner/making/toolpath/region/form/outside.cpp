@@ -42,7 +42,7 @@ Region grown_by(const Around& a, double d) {
   return g;
 }
 
-/// Whether a ring at this distance leaves some of the raw piece beyond its outer edge.
+/// True if a ring at this distance leaves raw material beyond its outer edge.
 bool beyond(const Around& a, double distance) {
   return geometry::area(geometry::subtract(a.task.stock,
                                            inset(a.kept, -(distance + a.radius), kInnerChord))) >= kNoAreaMm2;
@@ -120,9 +120,9 @@ double distance_to(const std::vector<Vec2>& line, Vec2 p) {
   return best;
 }
 
-/// The track at a distance from an open line: the boundary of what is taken away moved inwards, less what
-/// does not belong to the line; what is taken away lies on its left. Nothing where the distance leaves
-/// nothing.
+/// The track at a distance from an open line: the boundary of the removed area, offset inwards, without the
+/// parts that do not belong to the line. The removed area lies on the line's left. Empty if the distance
+/// leaves no track.
 std::vector<Vec2> line_at(const OpenSide& side, double d) {
   constexpr double kBeside = 0.01;  // mm, of chords
   std::vector<Vec2> best;
@@ -149,7 +149,7 @@ std::vector<Vec2> line_at(const OpenSide& side, double d) {
   return best;
 }
 
-/// The line cut back at its first end to where the cutter just stands free of the material, beside `end`.
+/// Cuts the line back at its first end to the point beside `end` where the cutter just leaves the material.
 Status run_in(const Around& a, const Inside& material, std::vector<Vec2>& line, Vec2 end, double room) {
   const Vec2 out = (1.0 / norm(line[0] - line[1])) * (line[0] - line[1]);
   const double length = norm(line[0] - line[1]);
@@ -193,7 +193,7 @@ Result<GeneratedPath> along_open_line(const Around& a, PathWriter& writer, const
   const Inside material(a.w.material);
   std::vector<Track> passes;
   for (const double d : distances) {
-    // What is taken away lies on the right of the spine: on the left of its boundary.
+    // The removed area lies on the right of the spine, and on the left of its boundary.
     std::vector<Vec2> line = line_at(side, d);
     if (line.size() < 2) continue;
     std::reverse(line.begin(), line.end());
@@ -203,7 +203,7 @@ Result<GeneratedPath> along_open_line(const Around& a, PathWriter& writer, const
     if (auto ok = run_in(a, material, line, in_plan(task.shape.spine.back()), a.radius + kAirBeyond); !ok)
       return tl::unexpected(ok.error());
     Track t = track_of_line(line);
-    // As it stands the wall is on its right.
+    // In this direction the wall is on the right of the pass.
     passes.push_back(walls_on_right(task) ? t : reversed(t));
   }
   if (passes.empty()) {
@@ -268,7 +268,7 @@ Result<GeneratedPath> outside_path(const PathJob& task, Job& job) {
     const double lean = std::max(0.0, z - a.w.bottom_z_mm) * std::tan(a.w.slope_rad);
     if (lean > 0.0) at.kept = inset(a.kept, lean, kWallChord);
     if (at.kept.empty()) at.kept = a.kept;
-    // A finish takes what stands on the floor first, clear of what stands on the wall.
+    // A finishing step first removes the allowance on the floor, clear of that on the wall.
     const double on_floor = task.left_on_bottom_mm.value_or(0.0) - task.allowance_bottom_mm;
     const double on_wall = std::max(task.allowance_side_mm, task.left_on_side_mm.value_or(0.0));
     if (shell && z == heights.back() && on_floor > kNoFloorMm &&

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kSameWidth = 0.02;  ///< mm; a cutter this much narrower than the slot cuts it in one pass
 
-/// By how much a flat tip may stand out of a vee's flanks where no tolerance says more, mm; default,
+/// Largest distance of a flat tip's corners beyond a vee's flanks if no tolerance limits it, mm; default,
 /// unsourced.
 constexpr double kSharpVee = 0.05;
 
@@ -34,7 +34,7 @@ Status check_form(const PathJob& task) {
     if (std::abs(c.point_angle_rad - s.slot_angle_rad) > 1e-3)
       return refuse("a vee of " + trimmed(s.slot_angle_rad * 180.0 / M_PI, 2) +
                     " degrees needs a cutter with that point angle");
-    // A flat tip at the bottom of a sharp vee stands out of its flanks by half its width at most.
+    // At the bottom of a sharp vee, a flat tip's corners cut into the flanks by at most half its width.
     const double off = 0.5 * c.tip_diameter_mm;
     const double most = s.width.given ? std::max(kSharpVee, 0.25 * s.width.width()) : kSharpVee;
     if (off > most)

@@ -21,11 +21,10 @@ constexpr double kNeckClear = 0.1;    ///< mm between the neck and the mouth's w
 constexpr double kSidePart = 0.1;     ///< of the diameter: most that a pass takes further; default, unsourced
 constexpr double kSameAngle = 0.002;  ///< rad
 constexpr int kMostPasses = 200;
-/// Back through what it has just cut a head goes faster: it meets no material, but chips that could not leave
-/// upwards. Default, unsourced.
+/// Factor of the feed on the way back through a slot just cut: the head meets no material, but chips that
+/// could not leave upwards. Default, unsourced.
 constexpr double kBackFree = 4.0;
-/// Most by which a thin pass of the head is quicker than one that goes a whole step aside; default,
-/// unsourced.
+/// Largest factor of the feed of a thin pass against one that moves a whole step aside; default, unsourced.
 constexpr double kMostQuicker = 3.0;
 
 /// The cutter's head: what cuts under the mouth.
@@ -137,7 +136,7 @@ Status cut_through(const PathJob& task, const Undercut& u, const std::vector<Vec
     passes.emplace_back(-sides[i], share);
   }
   const bool edges = task.left_on_side_mm.has_value();
-  bool back = false;  // the cutter stands at the far end
+  bool back = false;  // true: the cutter is at the far end
   for (const double z : heights) {
     for (const auto& [side, share] : passes) {
       writer.factors(edges ? share : 1.0, 1.0);
@@ -292,7 +291,7 @@ Result<GeneratedPath> undercut_path(const PathJob& task, const Undercut& u, Slot
     std::reverse(run.line.begin(), run.line.end());
     std::swap(run.open_first, run.open_last);
   }
-  // The whole head stands free at open ends, for every pass.
+  // At open ends the whole head is clear of the material, for every pass.
   const Inside material(w->material);
   const double most_aside = std::max(aside, 0.0);
   for (const bool last : {false, true}) {

@@ -21,13 +21,13 @@ struct Undercut {
 /// The same job for the upright slot as wide as the mouth, which is milled first.
 [[nodiscard]] PathJob neck_of(const PathJob& task, const Undercut& u);
 
-/// What the last pass of the head takes from the walls where it moves aside, mm. Default, unsourced.
+/// Width of the head's last pass along the walls, where it moves aside, mm. Default, unsourced.
 inline constexpr double kLastSide = 0.2;
-/// By how much a pass of the head goes further aside than the one before, mm.
+/// Distance that a pass of the head moves aside from the one before, mm.
 [[nodiscard]] double side_step(const PathJob& task, double diameter_mm);
 
-/// What one edge of the head cuts at most, across: beside the mouth that was milled before, or as far as it
-/// moves aside in one pass; its diameter where no mouth was milled.
+/// Largest width that one edge of the head cuts, mm: beside the mouth that was milled before, or the distance
+/// that it moves aside in one pass; its diameter if no mouth was milled.
 [[nodiscard]] double undercut_width_mm(const PathJob& task, const Undercut& u);
 
 /// The course of a slot, set-up frame.
@@ -36,10 +36,10 @@ struct SlotRun {
   bool open_first = false, open_last = false;
 };
 
-/// Through the mouth that is milled already, under its overhang: along the middle, then aside in steps to
-/// both walls, from above to the floor where the head is lower than the slot's wide part. Enters and leaves
-/// at its height beyond open ends only, and never rises in the slot. To a closed end the steps go in along
-/// one wall, round the end and out along the other.
+/// Mills under the overhang of a slot whose mouth is milled already: along the middle, then in steps aside to
+/// both walls. Where the head is lower than the slot's wide part, it works from above to the floor. It enters
+/// and leaves at its height, beyond open ends only, and never rises in the slot. To a closed end the steps go
+/// in along one wall, round the end and out along the other.
 ///
 /// Needs   head diameter at most the slot's; neck narrower than the mouth by what the cutter moves aside and
 ///         0.1 mm on each side; for a T-slot a head no higher than the wide part, for a dovetail flanks of

@@ -1,4 +1,4 @@
-#include "planner/controls/gcode/check.h"
+#include "planner/controls/gcode/writable.h"
 
 #include <algorithm>
 #include <cmath>

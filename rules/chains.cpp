@@ -67,10 +67,10 @@ struct Situation {
   const Row& row;
   Coolant cooling;
   const Demand& demand;
-  const Row* edges;  ///< row of edge_break that wants edges broken; null: none
+  const Row* edges;  ///< row of edge_break that breaks edges; null: none
 };
 
-/// A step of a chain and the row that wants it.
+/// A step of a chain and the row that proposed it.
 struct Wanted {
   const StepSpec* spec;
   const Row* row;
@@ -122,7 +122,8 @@ tl::expected<std::vector<ProposedStep>, std::string> make_chain(const Situation&
     const Action* action = find_action(spec->action);
     if (action == nullptr) return tl::unexpected("there is no action named " + spec->action);
     Made made = action->make({at.base, at.shape, at.context, at.known, *spec, hole});
-    if (!made && row == at.edges) {  // a broken edge is wanted, but no reason to leave the feature unmade
+    if (!made &&
+        row == at.edges) {  // an edge is to be broken, but a failure leaves the feature itself possible
       const model::Rejected why_not{"breaking edges", made.error() + " [" + row->id + "]"};
       if (std::find(left_out.begin(), left_out.end(), why_not) == left_out.end()) left_out.push_back(why_not);
       continue;
@@ -182,7 +183,7 @@ std::map<Axis, std::vector<std::size_t>> by_axis(std::span<const FeatureShape> s
 
 double widest(const FeatureShape& s) { return std::max(s.diameter.nominal_mm, s.bottom_diameter_mm); }
 
-// What shape i may know of the others on its axis.
+// Context of shape i, completed by the other shapes on its axis.
 Context among(std::span<const FeatureShape> shapes, const std::vector<std::size_t>& axis, std::size_t i,
               Context context) {
   const FeatureShape& s = shapes[i];

@@ -1,4 +1,4 @@
-#include "planner/making/step/cut/drill_depth.h"
+#include "planner/making/step/cut/drilled_hole.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,12 +5,12 @@
 
 #include "planner/making/draft/draft.h"
 
-// What a drill leaves: how deep it goes, and the hole that the next tool finds.
+// The hole that a drill makes: how deep the drill goes, and the diameter that the next tool starts from.
 
 namespace capstan::step {
 
-/// The hole that a step finds where the chain states one: the drill before it may be wider, where its
-/// requirement left open which.
+/// Diameter of the hole that a step starts from, mm. `stated_mm` is that of the chain; the drill before may
+/// be wider if its requirement left its size open.
 [[nodiscard]] double opened_by(double stated_mm, const model::ProposedStep& before,
                                const model::Cutter& drill);
 

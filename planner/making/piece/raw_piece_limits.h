@@ -11,13 +11,13 @@
 
 namespace capstan::piece {
 
-/// Why a feature cannot be cut from this raw piece: solid stands above its top, or its drill's point comes
-/// out on the other side. Empty when it can.
+/// Why a feature cannot be cut from this raw piece: material above its top, or its drill's point would come
+/// out on the other side. Empty if it can.
 [[nodiscard]] std::string not_in_piece(const Piece& piece, const model::FeatureShape& shape);
 /// The radius that may stay in the inner corners of a step, an outside or a closed pocket that are drawn
-/// sharp and state none; 0: it has none.
+/// sharp and state none, mm; 0: there are none.
 [[nodiscard]] double sharp_corner_of(const Piece& piece, const model::FeatureShape& shape);
-/// Says which radius stays where corners are drawn sharp and no radius is stated (PIP-CORNER).
+/// Reports the radius that stays in corners drawn sharp without a stated radius (PIP-CORNER).
 void tell_corners(const Piece& piece, const std::vector<draft::StepDraft>& steps, Job& job);
 /// A hole at an edge of the raw piece is milled, or not made: its chains that drill are rejected.
 [[nodiscard]] model::Proposal without_drills_at_edges(const Piece& piece, const model::FeatureShape& hole,

@@ -1,4 +1,4 @@
-#include "planner/making/piece/in_piece.h"
+#include "planner/making/piece/raw_piece_limits.h"
 
 #include <algorithm>
 
@@ -24,7 +24,7 @@ model::PieceForm part_form(const Piece& piece) {
   return {part_box(piece), piece.plan.stock.cylinder_radius_mm};
 }
 
-/// What can state no radius of its inside corners, and a closed pocket for which the file states none.
+/// True for shapes that cannot state a corner radius, and for a closed pocket whose file states none.
 bool states_no_corner(const Piece& piece, const FeatureShape& s) {
   if (model::has(s.kind, model::ShapeTrait::kOutwards) || model::stops_at_walls(s)) return true;
   if (s.kind != ShapeKind::kPocket || s.open || s.corner_radius_mm > 0.0) return false;
@@ -33,7 +33,8 @@ bool states_no_corner(const Piece& piece, const FeatureShape& s) {
 }
 
 /// A step is read as a strip on the right of its wall, out to the edge of the raw piece that the file states
-/// (areas.cpp). Where the raw piece that is cut goes on beyond it, that would stay, and nobody would say so.
+/// (areas.cpp). Returns why not if the raw piece that is cut goes farther: that material would stay
+/// unreported.
 std::string wider_than_read(const Piece& piece, const FeatureShape& s) {
   if (s.kind != ShapeKind::kStep || s.spine.size() < 2) return {};
   const geometry::Vec2 along = s.spine.back() - s.spine.front();
