@@ -5,6 +5,7 @@
 #include "planner/ground/base/number.h"
 #include "planner/making/toolpath/hole/hole_paths.h"
 #include "planner/making/toolpath/link/path_writer.h"
+#include "planner/making/toolpath/refuse.h"
 #include "planner/making/toolpath/region/patterns.h"
 
 // Counterbores and countersinks at the far end of a hole, milled on circles from above.
@@ -23,10 +24,6 @@ constexpr double kNeckClear = 0.1;  ///< mm between the neck and that wall while
 constexpr double kSidePart = 0.25;  ///< of the head's diameter: most that a circle takes; default, unsourced
 constexpr double kHeightPart = 0.25;  ///< of the head's height: most that a level takes; default, unsourced
 constexpr std::size_t kMost = 400;    ///< circles or levels
-
-tl::unexpected<Diagnostic> refuse(const PathJob& task, const char* code, const std::string& what) {
-  return fail({.code = code, .message = task.shape.name + ": " + what, .path = task.shape.name});
-}
 
 /// The head, and where the cutter stands for the last level.
 struct Back {

@@ -6,6 +6,7 @@
 #include "planner/ground/base/number.h"
 #include "planner/making/toolpath/defaults.h"
 #include "planner/making/toolpath/region/form/undercut.h"
+#include "planner/making/toolpath/refuse.h"
 #include "planner/making/toolpath/region/patterns.h"
 
 namespace capstan::toolpath {
@@ -32,10 +33,6 @@ constexpr double kMostQuicker = 3.0;
 struct Head {
   double diameter_mm = 0.0, height_mm = 0.0, neck_mm = 0.0;
 };
-
-tl::unexpected<Diagnostic> refuse(const PathJob& task, const char* code, const std::string& what) {
-  return fail({.code = code, .message = task.shape.name + ": " + what, .path = task.shape.name});
-}
 
 Result<Head> head_of(const PathJob& task, const Undercut& u) {
   const auto& c = task.cutter;
