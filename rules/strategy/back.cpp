@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "planner/ground/base/number.h"
+#include "planner/model/plan/clearances.h"
 #include "rules/strategy/action.h"
 
 // What is wider below a narrower hole: milled from above by a head on a neck that goes down through it.
@@ -15,10 +16,6 @@ using model::HoleBottom;
 using model::ProposedStep;
 using model::StrategyKind;
 using model::TypeId;
-
-constexpr double kHeadClear = 0.2;  ///< mm between head and narrow hole, on each side; default, unsourced
-constexpr double kNeckClear =
-    0.1;  ///< mm between neck and narrow hole while the head is out; default, unsourced
 
 Made no(std::string why) { return tl::unexpected(std::move(why)); }
 std::string mm(double v) { return trimmed(v, 3) + " mm"; }
@@ -57,8 +54,8 @@ Made through_the_hole(const Making& m, double widest) {
   ProposedStep s;
   s.start_diameter_mm = hole;
   s.strategy = StrategyKind::kContourSpiral;
-  s.tool.diameter_max_mm = open - 2.0 * kHeadClear;
-  s.tool.neck_step_min_mm = widest - hole + 2.0 * kNeckClear;
+  s.tool.diameter_max_mm = open - 2.0 * model::kHeadClearMm;
+  s.tool.neck_step_min_mm = widest - hole + 2.0 * model::kNeckClearMm;
   s.tool.reach_mm = down_mm(m) + (m.shape.through ? below : 0.0) + kReachClearanceMm;
   const double neck = s.tool.diameter_max_mm - s.tool.neck_step_min_mm;
   if (!(neck > 0.0))

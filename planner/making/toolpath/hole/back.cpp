@@ -7,6 +7,7 @@
 #include "planner/making/toolpath/link/path_writer.h"
 #include "planner/making/toolpath/refuse.h"
 #include "planner/making/toolpath/region/patterns.h"
+#include "planner/model/plan/clearances.h"
 
 // Counterbores and countersinks at the far end of a hole, milled on circles from above.
 
@@ -19,8 +20,6 @@ using model::MoveRole;
 
 namespace {
 
-constexpr double kHeadClear = 0.2;  ///< mm between the head and the narrow hole's wall, on each side
-constexpr double kNeckClear = 0.1;  ///< mm between the neck and that wall while the head is out
 constexpr double kSidePart = 0.25;  ///< of the head's diameter: most that a circle takes; default, unsourced
 constexpr double kHeightPart = 0.25;  ///< of the head's height: most that a level takes; default, unsourced
 constexpr std::size_t kMost = 400;    ///< circles or levels
@@ -78,10 +77,11 @@ Status passes(const PathJob& task, const Back& b) {
   if (!(b.aside_mm > 0.0))
     return refuse(task, "TPA-NO-FIT",
                   "the head of " + trimmed(b.head_mm, 3) + " mm is as wide as what it mills");
-  const double room = 0.5 * (hole - b.neck_mm) - kNeckClear;
-  if (b.head_mm <= hole - 2.0 * kHeadClear + 1e-9 && b.aside_mm <= room + 1e-9) return {};
-  const double most = hole - 2.0 * kHeadClear;
-  const double neck = hole - 2.0 * kNeckClear - 2.0 * b.aside_mm - b.head_mm + std::min(b.head_mm, most);
+  const double room = 0.5 * (hole - b.neck_mm) - model::kNeckClearMm;
+  if (b.head_mm <= hole - 2.0 * model::kHeadClearMm + 1e-9 && b.aside_mm <= room + 1e-9) return {};
+  const double most = hole - 2.0 * model::kHeadClearMm;
+  const double neck =
+      hole - 2.0 * model::kNeckClearMm - 2.0 * b.aside_mm - b.head_mm + std::min(b.head_mm, most);
   return fail({.code = "TPA-NO-FIT",
                .message = task.shape.name + ": the cutter " + task.cutter.id + " with a head of " +
                           trimmed(b.head_mm, 3) + " mm and a neck of " + trimmed(b.neck_mm, 3) +
