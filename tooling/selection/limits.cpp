@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "planner/ground/base/number.h"
+#include "planner/model/plan/requirement.h"
 #include "planner/physics/mechanics/constants.h"
 #include "planner/physics/mechanics/force/drilling.h"
 #include "planner/physics/mechanics/force/immersion.h"
@@ -26,7 +27,6 @@ using model::WorkMaterial;
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kPitchSlackMm = 1e-3;
 constexpr double kAngleSlackRad = 0.5 * kPi / 180.0;
 /// Drawings show the point of a twist drill, 118 degrees, as 120; what it leaves of a cone is 1.2 % of its
 /// diameter. The next point of a catalogue, 130 degrees, is another. Default, unsourced.
@@ -46,15 +46,15 @@ std::string mm(double v) { return trimmed(v, 3) + " mm"; }
 std::string degrees(double rad) { return trimmed(rad * 180.0 / kPi, 1) + " deg"; }
 
 std::optional<std::string> wrong_thread(const Cutter& c, const ToolRequirement& r) {
-  if (r.thread_pitch_mm > 0.0 && std::abs(c.thread_pitch_mm - r.thread_pitch_mm) > kPitchSlackMm)
+  if (r.thread_pitch_mm > 0.0 && std::abs(c.thread_pitch_mm - r.thread_pitch_mm) > model::kPitchSlackMm)
     return "pitch " + mm(c.thread_pitch_mm) + " is not " + mm(r.thread_pitch_mm);
   if (!model::has(c.cutter_class, model::CutterTrait::kThreads)) return std::nullopt;
   if (!r.thread_form.empty() && !c.thread_form.empty() && r.thread_form != c.thread_form)
     return "thread form " + c.thread_form + " is not " + r.thread_form;
   if (r.thread_size_mm > 0.0 && c.thread_size_mm > 0.0) {
-    if (c.cutter_class == CutterClass::kTap && std::abs(c.thread_size_mm - r.thread_size_mm) > kPitchSlackMm)
+    if (c.cutter_class == CutterClass::kTap && std::abs(c.thread_size_mm - r.thread_size_mm) > model::kPitchSlackMm)
       return "thread " + mm(c.thread_size_mm) + " is not " + mm(r.thread_size_mm);
-    if (c.thread_size_mm > r.thread_size_mm + kPitchSlackMm)
+    if (c.thread_size_mm > r.thread_size_mm + model::kPitchSlackMm)
       return "made for threads from " + mm(c.thread_size_mm) + ", above " + mm(r.thread_size_mm);
   }
   return std::nullopt;
@@ -217,7 +217,7 @@ std::optional<std::string> wrong_size(const Cutter& c, const ToolRequirement& r)
 
 std::optional<std::string> wrong_shape(const Cutter& c, const ToolRequirement& r) {
   if (r.corner_radius_exact_mm >= 0.0 &&
-      std::abs(c.corner_radius_mm - r.corner_radius_exact_mm) > kPitchSlackMm)
+      std::abs(c.corner_radius_mm - r.corner_radius_exact_mm) > model::kPitchSlackMm)
     return "corner radius " + mm(c.corner_radius_mm) + " is not " + mm(r.corner_radius_exact_mm);
   if (r.corner_radius_limited && c.corner_radius_mm > r.corner_radius_max_mm + kSizeSlackMm)
     return "corner radius " + mm(c.corner_radius_mm) + " is above " + mm(r.corner_radius_max_mm);
