@@ -88,6 +88,10 @@ inline constexpr double kRoughWidthRatio = 0.65;
 /// Least feed at which a drill, reamer or countersink is worth choosing, as a fraction of the start value.
 /// Default, unsourced.
 inline constexpr double kLeastDrillFeed = 0.4;
+/// Thin cuts and air on the way of a cut go no faster than this times the feed of the largest chip: by chip
+/// thinning that chip is then kept up to a width of 0.029 D, so a sliver that the section missed does no
+/// harm. Default, unsourced.
+inline constexpr double kMostThinning = 3.0;
 /// Rate of a machine that states none, per hour. Default, unsourced.
 inline constexpr double kMachinePerHour = 60.0;
 

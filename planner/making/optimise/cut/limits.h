@@ -51,6 +51,9 @@ struct Measures {
 /// whichever is right, the spindle must not stall: no power is counted below it. 0: no measured set.
 [[nodiscard]] double power_by_card_w(const CutQuestion& q, double removal_mm3_min, double mean_chip_mm);
 
+/// Slowest speed that is tried, as a fraction of the fastest. Default, unsourced.
+inline constexpr double kSlowestSpeedShare = 0.25;
+
 struct Range {
   double lo = 0.0, hi = 0.0;
 };
