@@ -1,8 +1,7 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
-#include "planner/ground/base/number.h"
+#include "planner/ground/base/text.h"
 #include "planner/model/plan/clearances.h"
 #include "rules/strategy/action.h"
 
@@ -16,9 +15,6 @@ using model::HoleBottom;
 using model::ProposedStep;
 using model::StrategyKind;
 using model::TypeId;
-
-Made no(std::string why) { return tl::unexpected(std::move(why)); }
-std::string mm(double v) { return trimmed(v, 3) + " mm"; }
 
 bool is_open(const Making& m) { return m.context.core_depth_mm >= m.shape.depth_mm - 1e-4; }
 
@@ -38,10 +34,11 @@ Made open_below(const Making& m) {
   s.tool.classes = {CutterClass::kTwistDrill};
   s.tool.diameter_max_mm = hi;
   s.tool.diameter_min_mm = m.number("of_diameter") * d;
-  if (!(s.tool.diameter_min_mm <= hi)) return no("no drill is a little narrower than a hole of " + mm(d));
+  if (!(s.tool.diameter_min_mm <= hi))
+    return no("no drill is a little narrower than a hole of " + mm_text(d));
   s.tool.reach_mm = down_mm(m) + kDrillTip * hi + kReachClearanceMm;
   s.tool.depth_of_cut_mm = s.tool.reach_mm;
-  s.why.text = "opens the way to the far end through the hole of " + mm(d);
+  s.why.text = "opens the way to the far end through the hole of " + mm_text(d);
   return s;
 }
 
@@ -59,10 +56,10 @@ Made through_the_hole(const Making& m, double widest) {
   s.tool.reach_mm = down_mm(m) + (m.shape.through ? below : 0.0) + kReachClearanceMm;
   const double neck = s.tool.diameter_max_mm - s.tool.neck_step_min_mm;
   if (!(neck > 0.0))
-    return no("a head of " + mm(std::max(0.0, s.tool.diameter_max_mm)) + " that passes the hole of " +
-              mm(hole) + " leaves no room for a neck: turn the piece over");
-  s.why.text = "goes down and up in the middle of the hole of " + mm(hole) +
-               ", its head cuts on circles below, neck at most " + mm(neck) +
+    return no("a head of " + mm_text(std::max(0.0, s.tool.diameter_max_mm)) + " that passes the hole of " +
+              mm_text(hole) + " leaves no room for a neck: turn the piece over");
+  s.why.text = "goes down and up in the middle of the hole of " + mm_text(hole) +
+               ", its head cuts on circles below, neck at most " + mm_text(neck) +
                "; cuts under the overhang are not measured, the feed begins at half the start value";
   return s;
 }

@@ -3,6 +3,7 @@
 #include <map>
 
 #include "planner/ground/base/number.h"
+#include "planner/ground/base/text.h"
 #include "planner/model/plan/cutter/cutter_fields.h"
 #include "tooling/library/cutters/check.h"
 #include "tooling/library/cutters/complete.h"

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "planner/ground/base/file.h"
+#include "planner/ground/base/text.h"
 #include "tooling/library/formats/all.h"
 #include "tooling/library/formats/byte_cap.h"
 #include "tooling/library/formats/import.h"
