@@ -18,7 +18,6 @@ using model::MoveRole;
 
 namespace {
 
-constexpr double kSameSize = 0.02;    ///< mm; what a head narrower or lower than the slot by this still makes
 constexpr double kSidePart = 0.1;     ///< of the diameter: most that a pass takes further; default, unsourced
 constexpr double kSameAngle = 0.002;  ///< rad
 constexpr int kMostPasses = 200;
