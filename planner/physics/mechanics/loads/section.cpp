@@ -335,7 +335,6 @@ SectionLoads plunge_loads(const Section& s, const Tooth& t, const ForceLaw& law,
   const double one_tooth = kc * fz * 0.5 * d;
   out.peak_force_n = one_tooth * std::hypot(1.0, kRadialToTangentialRatio);
   out.peak.fx_n = out.peak.fy_n = out.peak_force_n;
-  out.irregular = area < (1.0 - kIrregular) * disc;
   return out;
 }
 
@@ -479,7 +478,6 @@ Result<SectionLoads> section_loads(const Section& section, const Tooth& tooth, c
   }
 
   const double ratio = section.csa_mm2 > 0.0 ? section.csa_mm2 / all.area : 1.0;
-  out.irregular = std::abs(ratio - 1.0) > kIrregular;
   const double more = std::max(ratio, 1.0);
   const double mc = law.mechanistic ? 0.0 : law.kienzle.mc;
   const double less = ratio < 1.0 ? std::pow(ratio, 1.0 - mc) : ratio;
