@@ -341,8 +341,6 @@ Quality Attribution::quality(AnyRef feature) const {
       if (!ra) continue;
       tighten(out.ra_um, *ra);
       out.texts.push_back("Ra " + trimmed(*ra, 6));
-    } else if (const auto* d = model_.get<Datum>(r)) {
-      out.is_datum.push_back(d->identification.value_or(""));
     } else if (model_.holds<LocationDimension>(r)) {
       take_location(model_, r, out);
     } else if (model_.holds<GeometricTolerance>(r)) {
