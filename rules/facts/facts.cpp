@@ -150,7 +150,6 @@ void hole_facts(const FeatureShape& s, const Context& c, FeatureFacts& out) {
 }
 
 void thread_facts(const FeatureShape& s, const Context& c, Facts& out) {
-  out.set("thread_side", c.outer_thread ? "outside" : "inside");
   out.set("thread_hand", s.thread_left_hand ? "left" : "right");
   out.set("thread_major_mm", s.thread_major_mm);
   const double hole = c.core_depth_mm > 0.0 ? c.core_depth_mm : s.depth_mm;
