@@ -129,12 +129,7 @@ std::optional<double> least_torque_nm(const Cutter& c, const StartValues& s, con
     return l->torque_nm;
   }
   if (c.cutter_class == CutterClass::kTap) {
-    mechanics::TappingCut t;
-    t.nominal_diameter_mm = c.cutting_diameter_mm;
-    t.pitch_mm = c.thread_pitch_mm;
-    t.core_hole_diameter_mm = p.pre_hole_mm > 0.0 ? p.pre_hole_mm : c.cutting_diameter_mm - c.thread_pitch_mm;
-    t.n_rpm = n;
-    const auto l = mechanics::tapping_loads(t, work);
+    const auto l = mechanics::tapping_loads(mechanics::tapping_cut_of(c, p.pre_hole_mm, n), work);
     if (!l) return std::nullopt;
     return l->torque_nm;
   }
