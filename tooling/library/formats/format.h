@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -10,6 +11,10 @@
 #include "tooling/library/records/records.h"
 
 namespace capstan::tooling {
+
+/// So many entries of a library are told one by one, then their number: what a person still reads. Default,
+/// unsourced.
+inline constexpr std::size_t kEntriesShown = 20;
 
 /// What reading or writing a format may need to be told.
 struct FormatOptions {
