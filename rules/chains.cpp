@@ -160,13 +160,12 @@ bool copies(const FeatureShape& a, const FeatureShape& b) {
   return a.feature == b.feature && a.reach.loops == b.reach.loops && model::same_form(a, b);
 }
 
-constexpr double kCoaxial = 1e-4;  // mm; unit vectors to the same number of steps
-
-/// An axis, on a grid: two bores with the same one are coaxial and are entered from the same side.
+/// An axis, on a grid of kCoaxialMm (unit vectors to the same number of steps): two bores with the same one
+/// are coaxial and are entered from the same side.
 using Axis = std::array<long long, 6>;
 Axis axis_of(const FeatureShape& s) {
   const auto foot = s.frame.origin - dot(s.frame.origin, s.frame.z) * s.frame.z;
-  const auto grid = [](double v) { return std::llround(v / kCoaxial); };
+  const auto grid = [](double v) { return std::llround(v / model::kCoaxialMm); };
   return {grid(s.frame.z.x), grid(s.frame.z.y), grid(s.frame.z.z), grid(foot.x), grid(foot.y), grid(foot.z)};
 }
 double top_of(const FeatureShape& s) { return dot(s.frame.origin, s.frame.z); }
@@ -191,16 +190,18 @@ Context among(std::span<const FeatureShape> shapes, const std::vector<std::size_
     const FeatureShape& other = shapes[k];
     if (k == i || other.kind != ShapeKind::kHole) continue;
     const double d = other.diameter.nominal_mm;
-    const bool goes_on = bottom_of(other) < bottom_of(s) - kCoaxial;
-    const bool meets = top_of(other) > bottom_of(s) - kCoaxial;
+    const bool goes_on = bottom_of(other) < bottom_of(s) - model::kCoaxialMm;
+    const bool meets = top_of(other) > bottom_of(s) - model::kCoaxialMm;
     // Where a wider hole begins at the same height there is no edge; from_the_top brought this one up there.
-    const bool covered = d > s.diameter.nominal_mm + kCoaxial && top_of(other) > top_of(s) - kCoaxial &&
-                         bottom_of(other) < top_of(s) - kCoaxial;
+    const bool covered = d > s.diameter.nominal_mm + model::kCoaxialMm &&
+                         top_of(other) > top_of(s) - model::kCoaxialMm &&
+                         bottom_of(other) < top_of(s) - model::kCoaxialMm;
     if (s.kind == ShapeKind::kHole && covered) context.edge_break_mm = 0.0;
     // However deep it goes: what begins higher and is narrower is the way in.
-    const bool above = top_of(other) > top_of(s) + kCoaxial && bottom_of(other) < top_of(s) + kCoaxial;
+    const bool above =
+        top_of(other) > top_of(s) + model::kCoaxialMm && bottom_of(other) < top_of(s) + model::kCoaxialMm;
     if (s.kind == ShapeKind::kHole) {
-      if (above && d < widest(s) - kCoaxial) {
+      if (above && d < widest(s) - model::kCoaxialMm) {
         if (!context.core_above || d < context.core_diameter_mm) context.core_diameter_mm = d;
         context.core_above = true;
         context.core_depth_mm = std::max(context.core_depth_mm, top_of(s) - bottom_of(other));
@@ -208,7 +209,7 @@ Context among(std::span<const FeatureShape> shapes, const std::vector<std::size_
         continue;
       }
       if (context.core_above) continue;
-      if (goes_on && meets && d < s.diameter.nominal_mm - kCoaxial)
+      if (goes_on && meets && d < s.diameter.nominal_mm - model::kCoaxialMm)
         context.core_diameter_mm = std::max(context.core_diameter_mm, d);
     } else if (meets && d < s.thread_major_mm) {
       context.core_diameter_mm = std::max(context.core_diameter_mm, d);
@@ -300,12 +301,13 @@ std::vector<std::size_t> made_within(std::span<const FeatureShape> shapes) {
   std::vector<std::size_t> out(shapes.size());
   for (std::size_t i = 0; i < shapes.size(); ++i) out[i] = i;
   const auto upright = [](const FeatureShape& s) {
-    return s.kind == ShapeKind::kHole && std::abs(s.bottom_diameter_mm - s.diameter.nominal_mm) < kCoaxial;
+    return s.kind == ShapeKind::kHole &&
+           std::abs(s.bottom_diameter_mm - s.diameter.nominal_mm) < model::kCoaxialMm;
   };
   // Its limits lie within the other's: whatever makes the other makes this one.
   const auto asks_no_less = [](const model::Toleranced& other, const model::Toleranced& own) {
     const double off = other.nominal_mm - own.nominal_mm;
-    if (off > kCoaxial) return true;
+    if (off > model::kCoaxialMm) return true;
     if (!other.given) return !own.given;
     return !own.given ||
            (other.upper_mm + off <= own.upper_mm + 1e-9 && other.lower_mm + off >= own.lower_mm - 1e-9);
@@ -316,13 +318,14 @@ std::vector<std::size_t> made_within(std::span<const FeatureShape> shapes) {
       if (!upright(s)) continue;
       for (const std::size_t k : members) {
         const FeatureShape& other = shapes[k];
-        if (k == i || !upright(other) || other.diameter.nominal_mm < s.diameter.nominal_mm - kCoaxial)
+        if (k == i || !upright(other) ||
+            other.diameter.nominal_mm < s.diameter.nominal_mm - model::kCoaxialMm)
           continue;
-        const bool covers =
-            top_of(other) >= top_of(s) - kCoaxial && bottom_of(other) <= bottom_of(s) + kCoaxial;
+        const bool covers = top_of(other) >= top_of(s) - model::kCoaxialMm &&
+                            bottom_of(other) <= bottom_of(s) + model::kCoaxialMm;
         if (!covers || !asks_no_less(other.diameter, s.diameter)) continue;
-        const bool alike_too = s.diameter.nominal_mm >= other.diameter.nominal_mm - kCoaxial &&
-                               std::abs(bottom_of(other) - bottom_of(s)) < kCoaxial;
+        const bool alike_too = s.diameter.nominal_mm >= other.diameter.nominal_mm - model::kCoaxialMm &&
+                               std::abs(bottom_of(other) - bottom_of(s)) < model::kCoaxialMm;
         if (alike_too && (s.bottom != other.bottom || i < k)) continue;
         out[i] = k;
         break;
@@ -341,7 +344,8 @@ std::vector<std::pair<std::size_t, std::size_t>> member_order(std::span<const Fe
         const FeatureShape& b = shapes[k];
         if (i == k || a.kind == ShapeKind::kThread) continue;
         const bool thread = b.kind == ShapeKind::kThread;
-        if (thread || a.diameter.nominal_mm < b.diameter.nominal_mm - kCoaxial) out.emplace_back(i, k);
+        if (thread || a.diameter.nominal_mm < b.diameter.nominal_mm - model::kCoaxialMm)
+          out.emplace_back(i, k);
       }
     }
   }
@@ -360,8 +364,9 @@ std::vector<FeatureShape> from_the_top(std::vector<FeatureShape> shapes) {
           const FeatureShape& wide = shapes[k];
           if (k == i || wide.kind != ShapeKind::kHole) continue;
           const double rise = top_of(wide) - top_of(s);
-          const bool wider = wide.diameter.nominal_mm > s.diameter.nominal_mm + kCoaxial;
-          if (!wider || rise <= kCoaxial || top_of(s) < bottom_of(wide) - kCoaxial) continue;
+          const bool wider = wide.diameter.nominal_mm > s.diameter.nominal_mm + model::kCoaxialMm;
+          if (!wider || rise <= model::kCoaxialMm || top_of(s) < bottom_of(wide) - model::kCoaxialMm)
+            continue;
           s.frame.origin = s.frame.origin + rise * s.frame.z;
           s.depth_mm += rise;
           s.assumptions.push_back("drilled from the top of the wider hole around it, " + trimmed(rise, 3) +

@@ -43,7 +43,6 @@ struct Context {
   /// they have none.
   double sharp_corner_mm = 0.0;
   double core_height_mm = 0.0;     ///< with core_above: how high above this one's top it begins
-  bool outer_thread = false;       ///< threads: on a shaft
   double surface_radius_mm = 0.0;  ///< freeform: smallest concave radius; 0 not known
   /// Freeform: true if it has upright walls within the raw piece; true if it has more than walls and level
   /// floors; the least radius of the walls' inside corners; 0: none, or sharp.

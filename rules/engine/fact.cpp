@@ -66,7 +66,6 @@ const std::vector<FactType>& fact_types() {
       symbols("slot_form", {"square", "vee", "radiused_vee", "round", "tee", "dovetail", "other"},
               "profile of a slot"),
       number("slot_angle_deg", 0.0, 180.0, "full angle of a vee slot"),
-      symbols("thread_side", {"inside", "outside"}, "thread in a hole, or on a shaft"),
       symbols("thread_hand", {"right", "left"}, "direction of a thread"),
       number("thread_major_mm", 0.0, 2000.0, "major diameter of a thread"),
       number("thread_runout_pitches", 0.0, 10001.0, "depth below the thread by the pitch; 10000: through"),

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "planner/ground/base/number.h"
+#include "planner/ground/vocabulary/unit_factors.h"
 #include "planner/model/features/in_piece.h"
 #include "rules/facts/it_grade.h"
 
@@ -17,7 +17,6 @@ using model::HoleBottom;
 using model::ShapeKind;
 using model::Toleranced;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kAngleMatch = 1.0;  // degrees within which an angle counts as a standard tool's
 
 bool near_any(double value, std::initializer_list<double> standard) {
@@ -58,7 +57,7 @@ std::string_view symbol_of(HoleBottom b) {
 std::string_view taper_of(const FeatureShape& s) {
   const double narrowing = s.diameter.nominal_mm - s.bottom_diameter_mm;
   if (!(s.bottom_diameter_mm > 0.0) || std::abs(narrowing) < 1e-6) return "none";
-  const double angle = 2.0 * std::atan(0.5 * narrowing / s.depth_mm) / kDegree;
+  const double angle = 2.0 * std::atan(0.5 * narrowing / s.depth_mm) / kRadPerDegree;
   if (is_countersink_angle(-angle)) return "countersink_below";
   return is_countersink_angle(angle) ? "countersink" : "other";
 }
@@ -104,7 +103,7 @@ void surroundings(const FeatureShape& s, const Context& c, Facts& f) {
 
 std::string_view point_of(const FeatureShape& s) {
   if (s.bottom != HoleBottom::kConical) return "none";
-  const double angle = 180.0 - 2.0 * s.bottom_angle_rad / kDegree;
+  const double angle = 180.0 - 2.0 * s.bottom_angle_rad / kRadPerDegree;
   // 120 degrees is both: a drill is cheaper.
   return is_drill_angle(angle) ? "drill" : is_countersink_angle(angle) ? "countersink" : "other";
 }
@@ -151,7 +150,6 @@ void hole_facts(const FeatureShape& s, const Context& c, FeatureFacts& out) {
 }
 
 void thread_facts(const FeatureShape& s, const Context& c, Facts& out) {
-  out.set("thread_side", c.outer_thread ? "outside" : "inside");
   out.set("thread_hand", s.thread_left_hand ? "left" : "right");
   out.set("thread_major_mm", s.thread_major_mm);
   const double hole = c.core_depth_mm > 0.0 ? c.core_depth_mm : s.depth_mm;
@@ -215,7 +213,7 @@ void area_facts(const FeatureShape& s, const Context& c, FeatureFacts& out) {
   out.facts.set("depth_ratio", across > 0.0 ? s.depth_mm / across : 9999.0);
   if (model::has(s.kind, model::ShapeTrait::kSwept)) {
     out.facts.set("slot_form", slot_form(s));
-    out.facts.set("slot_angle_deg", s.slot_angle_rad / kDegree);
+    out.facts.set("slot_angle_deg", s.slot_angle_rad / kRadPerDegree);
   }
 }
 
@@ -255,7 +253,7 @@ FeatureFacts facts_of(const FeatureShape& s, const Context& c) {
   } else if (s.kind == ShapeKind::kThread) {
     thread_facts(s, c, f);
   } else if (s.kind == ShapeKind::kChamfer) {
-    f.set("chamfer_angle_deg", s.chamfer_angle_rad / kDegree);
+    f.set("chamfer_angle_deg", s.chamfer_angle_rad / kRadPerDegree);
   } else if (s.kind == ShapeKind::kEdgeRound) {
     f.set("round_radius_mm", s.round_radius_mm);
   } else if (model::has(s.kind, ShapeTrait::kClears)) {

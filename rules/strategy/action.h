@@ -3,6 +3,7 @@
 #include <string>
 #include <string_view>
 #include <tl/expected.hpp>
+#include <utility>
 #include <vector>
 
 #include "planner/model/plan/proposal.h"
@@ -24,6 +25,7 @@ struct Making {
 
 /// A step, or why geometry rules this chain out.
 using Made = tl::expected<model::ProposedStep, std::string>;
+[[nodiscard]] inline Made no(std::string why) { return tl::unexpected(std::move(why)); }
 
 struct ActionParameter {
   std::string_view name;

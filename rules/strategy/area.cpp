@@ -2,7 +2,7 @@
 #include <cmath>
 #include <limits>
 
-#include "planner/ground/base/number.h"
+#include "planner/ground/base/text.h"
 #include "planner/model/features/in_piece.h"
 #include "rules/strategy/action.h"
 
@@ -16,9 +16,6 @@ using model::ProposedStep;
 using model::ShapeKind;
 using model::StrategyKind;
 using model::TypeId;
-
-Made no(std::string why) { return tl::unexpected(std::move(why)); }
-std::string mm(double v) { return trimmed(v, 3) + " mm"; }
 
 ProposedStep begin(const Making& m) {
   ProposedStep s;
@@ -39,7 +36,7 @@ Limit corner_cutter(const Making& m, double allowance) {
   // A wall moved inwards by the allowance has corners that much tighter.
   if (s.corner_radius_mm > 0.0)
     return {2.0 * std::max(s.corner_radius_mm - allowance, 0.5 * s.corner_radius_mm),
-            "corners of radius " + mm(s.corner_radius_mm) + " limit the cutter"};
+            "corners of radius " + mm_text(s.corner_radius_mm) + " limit the cutter"};
   if (!s.open && m.known.passage.exact_mm > 0.0)
     return {m.known.passage.exact_mm, "the outline's own corners limit the cutter"};
   return {};
@@ -71,13 +68,13 @@ Limit widest_cutter(const Making& m, double of_passage, double allowance, bool c
                        s.kind == ShapeKind::kPocket || model::stops_at_walls(s);
   if (bounded && s.kind != ShapeKind::kStep)
     narrow(of_passage * (passage - 2.0 * allowance),
-           "the narrowest passage of " + mm(passage) + " limits the cutter");
+           "the narrowest passage of " + mm_text(passage) + " limits the cutter");
   if (s.kind == ShapeKind::kStep && m.context.between_ends_mm > 0.0)
     narrow(kOfEnds * m.context.between_ends_mm,
-           "walls " + mm(m.context.between_ends_mm) + " apart at the step's ends limit the cutter");
+           "walls " + mm_text(m.context.between_ends_mm) + " apart at the step's ends limit the cutter");
   if (m.context.sharp_corner_mm > 0.0)
     narrow(2.0 * of_sharp * m.context.sharp_corner_mm,
-           "inner corners are drawn sharp: a radius of " + mm(of_sharp * m.context.sharp_corner_mm) +
+           "inner corners are drawn sharp: a radius of " + mm_text(of_sharp * m.context.sharp_corner_mm) +
                (of_sharp > 1.0 ? " may stay until the finish" : " may stay at most"));
   const Limit corner = corner_cutter(m, allowance);
   if (!corners) {
@@ -103,8 +100,8 @@ tl::expected<Limit, std::string> before_rest(const Making& m, double of_passage,
     return tl::unexpected(std::string("no corner asks for a smaller cutter: there is no rest to machine"));
   Limit wide = widest_cutter(m, of_passage, allowance, false);
   if (wide.diameter_mm > 0.0 && wide.diameter_mm < kWorthARest * corner.diameter_mm)
-    return tl::unexpected("a cutter of at most " + mm(wide.diameter_mm) + " (" + wide.text +
-                          ") is not wide enough to be worth a second one of " + mm(corner.diameter_mm) +
+    return tl::unexpected("a cutter of at most " + mm_text(wide.diameter_mm) + " (" + wide.text +
+                          ") is not wide enough to be worth a second one of " + mm_text(corner.diameter_mm) +
                           " for the corners");
   tool.diameter_min_mm = kWorthARest * corner.diameter_mm;
   return wide;
@@ -157,7 +154,7 @@ Made finish(const Making& m) {
   s.tool.classes = {CutterClass::kEndmill};
   if (r > 0.0) {
     if (limit.diameter_mm > 0.0 && 2.0 * r > limit.diameter_mm + 1e-9)
-      return no("a floor fillet of " + mm(r) + " needs a wider cutter than fits (" + limit.text + ")");
+      return no("a floor fillet of " + mm_text(r) + " needs a wider cutter than fits (" + limit.text + ")");
     s.tool.classes = {CutterClass::kBullnoseEndmill, CutterClass::kBallEndmill};
     s.tool.corner_radius_exact_mm = r;
     s.tool.corner_radius_max_mm = r;
@@ -180,7 +177,7 @@ Made rest(const Making& m, Made made) {
   s.tool.diameter_max_mm = std::min(corner.diameter_mm, m.number("of_corner") * corners);
   s.tool.diameter_min_mm = 0.0;
   if (s.tool.corner_radius_exact_mm > 0.0 && 2.0 * s.tool.corner_radius_exact_mm > s.tool.diameter_max_mm)
-    return no("a floor fillet of " + mm(s.tool.corner_radius_exact_mm) +
+    return no("a floor fillet of " + mm_text(s.tool.corner_radius_exact_mm) +
               " needs a wider cutter than the corners let in");
   s.rest_of_diameter_mm = wide->diameter_mm > 0.0 ? wide->diameter_mm : before.diameter_min_mm;
   s.strategy = StrategyKind::kContourParallel;
@@ -207,8 +204,8 @@ Made thin_wall_finish(const Making& m) {
   made->allowance_bottom_mm = 0.0;
   made->axial_depth_mm = wall > 0.0 ? m.number("of_thickness") * wall : m.number("axial_mm");
   made->why.text += (made->why.text.empty() ? "" : "; ") + std::string("levels of ") +
-                    mm(made->axial_depth_mm) +
-                    (wall > 0.0 ? " for a wall of " + mm(wall) : ", the wall's thickness is not known");
+                    mm_text(made->axial_depth_mm) +
+                    (wall > 0.0 ? " for a wall of " + mm_text(wall) : ", the wall's thickness is not known");
   return made;
 }
 
@@ -257,7 +254,7 @@ Made vee_rough(const Making& m) {
   const double depth = 0.5 * s0.depth_mm;
   const double width = 2.0 * ((s0.depth_mm - depth) * slope - allowance / std::cos(half));
   if (width < m.number("smallest_mm"))
-    return no("half way down the vee is " + mm(std::max(width, 0.0)) + " wide, too narrow to rough");
+    return no("half way down the vee is " + mm_text(std::max(width, 0.0)) + " wide, too narrow to rough");
   ProposedStep s = begin(m);
   s.depth_mm = depth;
   s.allowance_side_mm = allowance;

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
-#include "planner/ground/base/number.h"
+#include "planner/ground/base/text.h"
+#include "planner/model/plan/clearances.h"
 #include "rules/strategy/action.h"
 
 // Wider holes below a narrower one: milled from above by a head on a neck that goes down through it.
@@ -15,13 +15,6 @@ using model::HoleBottom;
 using model::ProposedStep;
 using model::StrategyKind;
 using model::TypeId;
-
-constexpr double kHeadClear = 0.2;  ///< mm between head and narrow hole, on each side; default, unsourced
-constexpr double kNeckClear =
-    0.1;  ///< mm between neck and narrow hole while the head is out; default, unsourced
-
-Made no(std::string why) { return tl::unexpected(std::move(why)); }
-std::string mm(double v) { return trimmed(v, 3) + " mm"; }
 
 bool is_open(const Making& m) { return m.context.core_depth_mm >= m.shape.depth_mm - 1e-4; }
 
@@ -41,10 +34,11 @@ Made open_below(const Making& m) {
   s.tool.classes = {CutterClass::kTwistDrill};
   s.tool.diameter_max_mm = hi;
   s.tool.diameter_min_mm = m.number("of_diameter") * d;
-  if (!(s.tool.diameter_min_mm <= hi)) return no("no drill is a little narrower than a hole of " + mm(d));
+  if (!(s.tool.diameter_min_mm <= hi))
+    return no("no drill is a little narrower than a hole of " + mm_text(d));
   s.tool.reach_mm = down_mm(m) + kDrillTip * hi + kReachClearanceMm;
   s.tool.depth_of_cut_mm = s.tool.reach_mm;
-  s.why.text = "opens the way to the far end through the hole of " + mm(d);
+  s.why.text = "opens the way to the far end through the hole of " + mm_text(d);
   return s;
 }
 
@@ -57,15 +51,15 @@ Made through_the_hole(const Making& m, double widest) {
   ProposedStep s;
   s.start_diameter_mm = hole;
   s.strategy = StrategyKind::kContourSpiral;
-  s.tool.diameter_max_mm = open - 2.0 * kHeadClear;
-  s.tool.neck_step_min_mm = widest - hole + 2.0 * kNeckClear;
+  s.tool.diameter_max_mm = open - 2.0 * model::kHeadClearMm;
+  s.tool.neck_step_min_mm = widest - hole + 2.0 * model::kNeckClearMm;
   s.tool.reach_mm = down_mm(m) + (m.shape.through ? below : 0.0) + kReachClearanceMm;
   const double neck = s.tool.diameter_max_mm - s.tool.neck_step_min_mm;
   if (!(neck > 0.0))
-    return no("a head of " + mm(std::max(0.0, s.tool.diameter_max_mm)) + " that passes the hole of " +
-              mm(hole) + " leaves no room for a neck: turn the piece over");
-  s.why.text = "goes down and up in the middle of the hole of " + mm(hole) +
-               ", its head cuts on circles below, neck at most " + mm(neck) +
+    return no("a head of " + mm_text(std::max(0.0, s.tool.diameter_max_mm)) + " that passes the hole of " +
+              mm_text(hole) + " leaves no room for a neck: turn the piece over");
+  s.why.text = "goes down and up in the middle of the hole of " + mm_text(hole) +
+               ", its head cuts on circles below, neck at most " + mm_text(neck) +
                "; cuts under the overhang are not measured, the feed begins at half the start value";
   return s;
 }

@@ -1,7 +1,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "planner/ground/base/number.h"
+#include "planner/ground/base/text.h"
 #include "rules/strategy/action.h"
 
 // Cones of holes: by a countersink straight down, or by a chamfer mill on a circle. Where the cone's foot is
@@ -15,9 +15,6 @@ using model::CutterClass;
 using model::ProposedStep;
 using model::StrategyKind;
 using model::TypeId;
-
-Made no(std::string why) { return tl::unexpected(std::move(why)); }
-std::string mm(double v) { return trimmed(v, 3) + " mm"; }
 
 constexpr double kSame = 1e-3;  // mm: a foot as wide as the hole below it
 
@@ -36,9 +33,9 @@ Made countersink(const Making& m) {
   const auto& s0 = m.shape;
   const bool at_top = m.known.facts.symbol("taper") == "countersink";
   if (at_top && has_shoulder(m)) {
-    return no("a countersink of " + mm(s0.diameter.nominal_mm) +
-              " cuts the shoulder away that stays between " + mm(s0.bottom_diameter_mm) +
-              " at the cone's foot and the hole of " + mm(m.hole_mm));
+    return no("a countersink of " + mm_text(s0.diameter.nominal_mm) +
+              " cuts the shoulder away that stays between " + mm_text(s0.bottom_diameter_mm) +
+              " at the cone's foot and the hole of " + mm_text(m.hole_mm));
   }
   const double half = at_top ? half_angle(s0) : 0.5 * std::numbers::pi - s0.bottom_angle_rad;
   const double d = s0.diameter.nominal_mm;
@@ -72,8 +69,8 @@ Made countersink_mill(const Making& m) {
   const auto& s0 = m.shape;
   if (m.known.facts.symbol("taper") != "countersink") return no("only cones at the top of a hole are milled");
   if (has_shoulder(m)) {
-    return no("the cone's foot of " + mm(s0.bottom_diameter_mm) + " is a shoulder around a hole of " +
-              mm(m.hole_mm) + ", which is to be milled before");
+    return no("the cone's foot of " + mm_text(s0.bottom_diameter_mm) + " is a shoulder around a hole of " +
+              mm_text(m.hole_mm) + ", which is to be milled before");
   }
   const double width = 0.5 * (s0.diameter.nominal_mm - s0.bottom_diameter_mm);
   ProposedStep s =
@@ -82,8 +79,8 @@ Made countersink_mill(const Making& m) {
       m.context.core_diameter_mm;  // below the cone: room for the tip, or a shoulder under it
   s.allowance_side_mm = m.number("allowance_side_mm");
   if (s.allowance_side_mm >= width)
-    return no("an allowance of " + mm(s.allowance_side_mm) + " leaves nothing of a cone " + mm(width) +
-              " wide");
+    return no("an allowance of " + mm_text(s.allowance_side_mm) + " leaves nothing of a cone " +
+              mm_text(width) + " wide");
   return s;
 }
 

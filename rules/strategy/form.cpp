@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "planner/ground/base/number.h"
+#include "planner/ground/base/text.h"
 #include "rules/strategy/action.h"
 
 // Threads, chamfers and surfaces.
@@ -14,9 +15,6 @@ using model::CutterClass;
 using model::ProposedStep;
 using model::StrategyKind;
 using model::TypeId;
-
-Made no(std::string why) { return tl::unexpected(std::move(why)); }
-std::string mm(double v) { return trimmed(v, 3) + " mm"; }
 
 /// The hole a thread is cut into: what is known of it, and whether it has the size a thread needs.
 ///
@@ -33,8 +31,9 @@ tl::expected<double, std::string> core(const Making& m) {
   double d = m.context.core_diameter_mm > 0.0 ? m.context.core_diameter_mm : m.shape.diameter.nominal_mm;
   if (std::abs(d - major) < 1e-6 || !(d > 0.0)) return major - p;  // the hole is named by its thread
   if (d < major - 1.0825 * p - 0.01 || d > major - 0.8 * p) {
-    return tl::unexpected("a hole of " + mm(d) + " is no core for M" + trimmed(major, 3) + "x" +
-                          trimmed(p, 3) + " (" + mm(major - 1.0825 * p) + " to " + mm(major - 0.8 * p) + ")");
+    return tl::unexpected("a hole of " + mm_text(d) + " is no core for M" + trimmed(major, 3) + "x" +
+                          trimmed(p, 3) + " (" + mm_text(major - 1.0825 * p) + " to " +
+                          mm_text(major - 0.8 * p) + ")");
   }
   return d;
 }
@@ -107,7 +106,7 @@ Made break_edge(const Making& m) {
   if (c >= s0.depth_mm) return no("the feature is no deeper than the chamfer of its edge");
   ProposedStep s = along_a_cone(m, {.depth_mm = c, .width_mm = c, .angle_rad = 0.5 * std::numbers::pi});
   s.axial_depth_mm = c;
-  s.why.text = "edges are broken by " + mm(c);
+  s.why.text = "edges are broken by " + mm_text(c);
   return s;
 }
 

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "planner/ground/base/number.h"
+#include "planner/ground/base/text.h"
 #include "rules/strategy/action.h"
 
 // Holes: centre, drill, ream, bore, mill, counterbore. Cones are in cone.cpp.
@@ -15,9 +16,6 @@ using model::HoleBottom;
 using model::ProposedStep;
 using model::StrategyKind;
 using model::TypeId;
-
-Made no(std::string why) { return tl::unexpected(std::move(why)); }
-std::string mm(double v) { return trimmed(v, 3) + " mm"; }
 
 double lower_limit(const Making& m) { return m.known.diameter.nominal_mm + m.known.diameter.lower_mm; }
 
@@ -116,11 +114,12 @@ tl::expected<bool, std::string> pecked(const Making& m, double ratio, std::strin
 
 Made drill(const Making& m) {
   const Window w = drill_window(m);
-  if (!(w.lo > 0.0)) return no("no drill is small enough for a hole of " + mm(m.shape.diameter.nominal_mm));
+  if (!(w.lo > 0.0))
+    return no("no drill is small enough for a hole of " + mm_text(m.shape.diameter.nominal_mm));
   const double depth = drill_depth(m, w.hi);
   if (!(depth > 0.0)) {
-    return no("the tip of a " + mm(w.best) + " drill is longer than the hole of " + mm(m.shape.depth_mm) +
-              " is deep");
+    return no("the tip of a " + mm_text(w.best) + " drill is longer than the hole of " +
+              mm_text(m.shape.depth_mm) + " is deep");
   }
   ProposedStep s = begin(m, depth);
   s.tool.classes = {CutterClass::kTwistDrill};
@@ -157,7 +156,8 @@ Made peck_drill(const Making& m) {
 // smaller than the gun drill.
 Made gun_pilot(const Making& m) {
   const Window w = drill_window(m);
-  if (!(w.lo > 0.0)) return no("no drill is small enough for a hole of " + mm(m.shape.diameter.nominal_mm));
+  if (!(w.lo > 0.0))
+    return no("no drill is small enough for a hole of " + mm_text(m.shape.diameter.nominal_mm));
   const double depth = m.number("depth_ratio") * w.best;
   if (depth + kDrillTip * w.hi >= m.shape.depth_mm)
     return no("the hole is too shallow for a pilot and a gun drill");
@@ -176,7 +176,8 @@ Made gun_drill(const Making& m) {
   if (!m.context.has_through_coolant)
     return no("a gun drill needs coolant through the spindle: the machine has none");
   const Window w = drill_window(m);
-  if (!(w.lo > 0.0)) return no("no drill is small enough for a hole of " + mm(m.shape.diameter.nominal_mm));
+  if (!(w.lo > 0.0))
+    return no("no drill is small enough for a hole of " + mm_text(m.shape.diameter.nominal_mm));
   const double depth = drill_depth(m, w.hi);
   if (!(depth > 0.0)) return no("the tip of a gun drill is longer than the hole is deep");
   if (!(m.hole_mm > 0.0)) return no("a gun drill starts in a pilot bore: gun_pilot comes before it");
@@ -208,7 +209,8 @@ Made pilot(const Making& m) {
   if (m.hole_mm > 0.0) {
     // Only the least diameter of the pilot before is known.
     lo = std::max(kLeastNextPilot * hi, m.hole_mm / kLeastPilot + 1.0);
-    if (!(lo < hi)) return no("between the pilot before and " + mm(hi) + " there is no room for another");
+    if (!(lo < hi))
+      return no("between the pilot before and " + mm_text(hi) + " there is no room for another");
   }
   s.tool.diameter_min_mm = lo;
   s.tool.diameter_max_mm = hi;
@@ -241,9 +243,10 @@ Made centre(const Making& m) {
     const double clear = *m.context.clear_radius_mm;
     const double widest = 2.0 * (clear - kBesideWallMm);
     if (!(widest > 0.0))
-      return no("a wall stands " + mm(clear) + " from the hole's axis: no spot drill passes beside it");
+      return no("a wall stands " + mm_text(clear) + " from the hole's axis: no spot drill passes beside it");
     s.tool.diameter_max_mm = widest;
-    s.why.text = "a wall stands " + mm(clear) + " from the axis: a body of " + mm(widest) + " at most passes";
+    s.why.text = "a wall stands " + mm_text(clear) + " from the axis: a body of " + mm_text(widest) +
+                 " at most passes";
   }
   return s;
 }
@@ -267,7 +270,7 @@ Made bore(const Making& m) {
   s.tool.classes = {CutterClass::kBoringTool};
   s.tool.diameter_exact_mm = m.known.diameter.middle() - m.number("under_mm");
   if (!(s.tool.diameter_exact_mm > m.hole_mm))
-    return no("nothing is left to bore in a hole of " + mm(m.hole_mm));
+    return no("nothing is left to bore in a hole of " + mm_text(m.hole_mm));
   return s;
 }
 
@@ -290,7 +293,7 @@ Made mill(const Making& m, double allowance_side, double allowance_bottom) {
     s.tool.corner_radius_exact_mm = radius;
     s.tool.corner_radius_max_mm = radius;
     if (2.0 * radius > s.tool.diameter_max_mm)
-      return no("a bottom radius of " + mm(radius) + " needs a cutter wider than the hole lets in");
+      return no("a bottom radius of " + mm_text(radius) + " needs a cutter wider than the hole lets in");
   }
   return s;
 }
@@ -314,7 +317,7 @@ Made ball_bottom(const Making& m) {
   const double r = m.shape.bottom_hole_radius_mm;
   const double d = m.shape.diameter.nominal_mm;
   if (std::abs(2.0 * r - d) > 1e-3) {
-    return no("a bottom of radius " + mm(r) + " under a diameter of " + mm(d) +
+    return no("a bottom of radius " + mm_text(r) + " under a diameter of " + mm_text(d) +
               " is no half sphere: a ball end mill that fits the hole does not make it");
   }
   ProposedStep s = begin(m, m.shape.depth_mm - r);

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/ground/base/number.h"
+#include "planner/ground/base/text.h"
 #include "rules/strategy/action.h"
 
 // Slots that are not square and holes that taper, by cutters that have not their form.
@@ -13,9 +13,6 @@ using model::CutterClass;
 using model::ProposedStep;
 using model::StrategyKind;
 using model::TypeId;
-
-Made no(std::string why) { return tl::unexpected(std::move(why)); }
-std::string mm(double v) { return trimmed(v, 3) + " mm"; }
 
 ProposedStep begin(const Making& m) {
   ProposedStep s;
@@ -47,7 +44,7 @@ Made section_rough(const Making& m) {
   s.tool.classes = {CutterClass::kEndmill};
   s.tool.diameter_max_mm = m.number("of_width") * (width - 2.0 * s.allowance_side_mm);
   if (!(s.tool.diameter_max_mm > 0.0)) return no("half way down the slot is too narrow to rough");
-  s.why.text = "half way down the slot is " + mm(width) + " wide";
+  s.why.text = "half way down the slot is " + mm_text(width) + " wide";
   return s;
 }
 
@@ -58,7 +55,7 @@ Made section_finish(const Making& m) {
   ProposedStep s = begin(m);
   s.tool.classes = {CutterClass::kBallEndmill};
   s.tool.diameter_max_mm = m.number("of_radius") * 2.0 * r;
-  s.why.text = "the bottom's radius of " + mm(r) + " limits the ball";
+  s.why.text = "the bottom's radius of " + mm_text(r) + " limits the ball";
   return s;
 }
 
@@ -80,7 +77,8 @@ Made taper_drill(const Making& m) {
   const double tip = kDrillTip * hi;
   if (!(hi > 0.0)) return no("no drill is small enough for the narrow end");
   if (!through) s.depth_mm -= tip + m.number("leave_mm");
-  if (!(s.depth_mm > 0.0)) return no("the tip of a drill of " + mm(hi) + " is longer than the hole is deep");
+  if (!(s.depth_mm > 0.0))
+    return no("the tip of a drill of " + mm_text(hi) + " is longer than the hole is deep");
   const Table* table = m.base.table("drill_depth");
   Facts facts = m.known.facts;
   facts.set("depth_ratio", (s.depth_mm + m.context.stock_above_mm) / (0.5 * hi));
@@ -107,7 +105,7 @@ Made taper_mill(const Making& m, double side, double bottom, CutterClass c) {
   s.tool.classes = {c};
   s.tool.diameter_max_mm = m.number("of_diameter") * (m.shape.bottom_diameter_mm - 2.0 * side);
   if (!(s.tool.diameter_max_mm > 0.0)) return no("the narrow end leaves no room for a cutter");
-  s.why.text = "the narrow end of " + mm(m.shape.bottom_diameter_mm) + " limits the cutter";
+  s.why.text = "the narrow end of " + mm_text(m.shape.bottom_diameter_mm) + " limits the cutter";
   return made;
 }
 

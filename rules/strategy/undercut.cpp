@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/ground/base/number.h"
+#include "planner/ground/base/text.h"
 #include "rules/strategy/action.h"
 
 // Slots under an overhang: an upright slot through the mouth first, then a form cutter along the course.
@@ -13,9 +13,6 @@ using model::CutterClass;
 using model::ProposedStep;
 using model::StrategyKind;
 using model::TypeId;
-
-Made no(std::string why) { return tl::unexpected(std::move(why)); }
-std::string mm(double v) { return trimmed(v, 3) + " mm"; }
 
 /// Half widths at the mouth and on the floor, height of the wide part.
 struct Section {
@@ -50,7 +47,7 @@ Made neck(const Making& m) {
   s.tool.corner_radius_limited = true;
   if (!(s.tool.diameter_max_mm > 0.0)) return no("the allowance leaves no room for an end mill in the mouth");
   s.strategy = StrategyKind::kContourParallel;
-  s.why.text = "the slot through the mouth of " + mm(2.0 * q->mouth) + ", before the form cutter";
+  s.why.text = "the slot through the mouth of " + mm_text(2.0 * q->mouth) + ", before the form cutter";
   return s;
 }
 

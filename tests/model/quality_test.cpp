@@ -93,8 +93,6 @@ TEST(Quality, SaysAPositionAsADrawingDoes) {
   const Quality q = quality_of(p.m, p.hole);
   EXPECT_THAT(q.texts, ElementsAre("position dia 0.05 (M) | A | B"));
   EXPECT_THAT(q.datums, ElementsAre("A", "B"));
-  EXPECT_THAT(q.is_datum, IsEmpty());
-  EXPECT_THAT(quality_of(p.m, p.face).is_datum, ElementsAre("A"));
   EXPECT_THAT(quality_of(p.m, p.face).texts, IsEmpty());
 }
 

@@ -67,10 +67,9 @@ TEST(Check, NamesAGapThatAnEditOfTheShippedTablesLeaves) {
   EXPECT_THAT(findings(edited("demand", "shape: [hole], ra_um: {from: 0.8, below: 1.6}",
                               "shape: [hole], ra_um: {from: 1, below: 1.6}")),
               ElementsAre("texture: gap: no row for shape in {hole}, ra_um in [0.8, 1)"));
-  EXPECT_THAT(
-      findings(edited("thread", "thread_side: [outside]", "thread_side: [outside], hardness_hb: {from: 10}")),
-      testing::IsEmpty())
-      << "rows below decide what was outside; nothing is undecided";
+  EXPECT_THAT(findings(edited("thread", "hardness_hb: {from: 420}", "hardness_hb: {from: 430}")),
+              testing::IsEmpty())
+      << "rows below decide what was too hard; nothing is undecided";
 }
 
 TEST(Check, NamesAContradictionThatAnEditOfTheShippedTablesMakes) {
@@ -79,14 +78,16 @@ TEST(Check, NamesAContradictionThatAnEditOfTheShippedTablesMakes) {
   EXPECT_THAT(
       findings(edited("thread", "{from: 0, below: 0.5}", "{from: 0, below: 0.75}")),
       ElementsAre("thread: contradiction: thread.mill.short and thread.no_room conclude differently for "
-                  "thread_side in {inside}, thread_major_mm in [1, 2000), thread_runout_pitches in [0.5, "
+                  "thread_major_mm in [1, 2000), thread_runout_pitches in [0.5, "
                   "0.75)"));
 }
 
 TEST(Check, NamesARowThatAnEditOfTheShippedTablesKills) {
   EXPECT_THAT(
-      findings(edited("thread", "{thread_major_mm: {from: 0, below: 1}}", "{thread_side: [outside]}")),
-      Contains("thread: dead row: thread.small never decides: better rows cover thread_side in {outside}"));
+      findings(edited("thread", "{thread_runout_pitches: {from: 3}, hardness_hb: {from: 420}}",
+                      "{thread_major_mm: {from: 0, below: 1}}")),
+      Contains(
+          "thread: dead row: thread.mill.hard never decides: better rows cover thread_major_mm in [0, 1)"));
 }
 
 TEST(Check, CountsACatchAllInTheShippedTablesAsAGap) {

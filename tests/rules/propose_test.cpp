@@ -401,9 +401,6 @@ TEST(Thread, IsTappedWhereTheLeadHasRoomAndMilledWhereNot) {
   EXPECT_THAT(proposed(thread(10, 1.5, 30)).cannot, HasSubstr("[thread.no_room]"));
   EXPECT_EQ(row(proposed(thread(24, 3, 15))), "thread.mill.large");
   Context c = steel();
-  c.outer_thread = true;
-  EXPECT_THAT(proposed(thread(10, 1.5, 20), c).cannot, HasSubstr("[thread.outside]"));
-  c = steel();
   c.abilities.rigid_tapping = false;
   EXPECT_THAT(first(proposed(thread(10, 1.5, 20), c)), ElementsAre(TypeId::kThreadDrilling));
 }

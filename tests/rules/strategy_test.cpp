@@ -194,7 +194,7 @@ TEST(ThreadActions, LockTheOverrides) {
   c.core_diameter_mm = 5.0;
   c.core_depth_mm = 20.0;
   for (const char* action : {"tap", "thread_mill"}) {
-    const RuleBase base = with_chain("thread", "thread_side: [inside]", action);
+    const RuleBase base = with_chain("thread", "thread_hand: [right]", action);
     const Proposal p = propose(base, s, c);
     ASSERT_FALSE(p.chains.empty()) << p.cannot;
     EXPECT_TRUE(p.chains[0][0].lock_override) << action;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "planner/ground/base/number.h"
+#include "planner/ground/base/text.h"
 #include "planner/ground/vocabulary/unit_factors.h"
 #include "tooling/library/cutters/generic.h"
 #include "tooling/library/formats/linuxcnc/linuxcnc.h"
@@ -25,12 +26,11 @@ constexpr double kLeastIncludedDeg = 60.0;  // below it "45 deg" may as well be 
 bool digit(char c) { return c >= '0' && c <= '9'; }
 bool letter(char c) { return c >= 'a' && c <= 'z'; }
 
-std::string lower(std::string_view s) {
-  std::string out(s);
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    char& c = out[i];
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + 32);
-    if (c == ',' && i > 0 && i + 1 < out.size() && digit(out[i - 1]) && digit(out[i + 1])) c = '.';
+/// In lower case, with a point where a number has a comma.
+std::string plain_words(std::string_view s) {
+  std::string out = lower_text(s);
+  for (std::size_t i = 1; i + 1 < out.size(); ++i) {
+    if (out[i] == ',' && digit(out[i - 1]) && digit(out[i + 1])) out[i] = '.';
   }
   return out;
 }
@@ -238,7 +238,7 @@ double angle_of(const std::string& text, CutterClass c) {
 
 CommentSizes sizes_of_words(std::string_view words, CutterClass c, double diameter_mm, double mm_per_unit) {
   constexpr std::size_t kLongest = 4096;  // default, unsourced: far above any comment
-  const std::string text = lower(words.substr(0, kLongest));
+  const std::string text = plain_words(words.substr(0, kLongest));
   CommentSizes out;
   if (model::has(c, model::CutterTrait::kThreads)) out.pitch_mm = pitch_of(text, c, diameter_mm);
   if (c == CutterClass::kBullnoseEndmill) out.corner_radius_mm = radius_of(text, diameter_mm, mm_per_unit);

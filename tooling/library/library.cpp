@@ -11,6 +11,7 @@
 #include "tooling/library/cutters/complete.h"
 #include "tooling/library/cutters/generic.h"
 #include "tooling/library/formats/all.h"
+#include "tooling/library/formats/byte_cap.h"
 #include "tooling/library/formats/import.h"
 #include "tooling/library/store/store.h"
 #include "tooling/shop/data/tree.h"
@@ -19,8 +20,6 @@ namespace capstan::tooling {
 namespace {
 
 using model::Cutter;
-
-constexpr std::size_t kLibraryBytesCap = std::size_t{256} << 20;
 
 void read_presets(Fields& f, Cutter& c, double mm_per_unit) {
   const Node* list = f.child("presets", false);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "planner/ground/base/number.h"
+#include "planner/ground/base/text.h"
 #include "tooling/library/formats/all.h"
 #include "tooling/library/formats/linuxcnc/linuxcnc.h"
 #include "tooling/library/library.h"
@@ -15,13 +16,6 @@ namespace {
 
 using model::Cutter;
 using model::CutterClass;
-
-std::string lower(std::string_view s) {
-  std::string out(s);
-  for (char& c : out)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + 32);
-  return out;
-}
 
 bool holds(const std::string& text, const char* word) { return text.find(word) != std::string::npos; }
 
@@ -117,12 +111,12 @@ std::optional<model::Substrate> substrate_from_words(const std::string& text) {
 }  // namespace
 
 std::optional<CutterClass> class_from_words(std::string_view comment) {
-  return model::cutter_class_called(lower(comment));
+  return model::cutter_class_called(lower_text(comment));
 }
 
 CommentWords words_of_comment(std::string_view comment, CutterClass c, double diameter_mm,
                               double mm_per_unit) {
-  const std::string words = lower(comment);
+  const std::string words = lower_text(comment);
   CommentWords out;
   out.substrate = substrate_from_words(words);
   out.teeth = teeth_from_words(words);

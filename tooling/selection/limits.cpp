@@ -5,6 +5,8 @@
 #include <numbers>
 
 #include "planner/ground/base/number.h"
+#include "planner/ground/base/text.h"
+#include "planner/model/plan/requirement.h"
 #include "planner/physics/mechanics/constants.h"
 #include "planner/physics/mechanics/force/drilling.h"
 #include "planner/physics/mechanics/force/immersion.h"
@@ -26,7 +28,6 @@ using model::WorkMaterial;
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kPitchSlackMm = 1e-3;
 constexpr double kAngleSlackRad = 0.5 * kPi / 180.0;
 /// Drawings show the point of a twist drill, 118 degrees, as 120; the difference in the cone is 1.2 % of the
 /// diameter. The next point of a catalogue, 130 degrees, is another. Default, unsourced.
@@ -42,20 +43,18 @@ constexpr double kLeastFeedRatio = 0.4;
 /// (handbook values).
 constexpr double kSteelDensity = 7.85e-6, kCarbideDensity = 14.9e-6;
 
-std::string mm(double v) { return trimmed(v, 3) + " mm"; }
-std::string degrees(double rad) { return trimmed(rad * 180.0 / kPi, 1) + " deg"; }
-
 std::optional<std::string> wrong_thread(const Cutter& c, const ToolRequirement& r) {
-  if (r.thread_pitch_mm > 0.0 && std::abs(c.thread_pitch_mm - r.thread_pitch_mm) > kPitchSlackMm)
-    return "pitch " + mm(c.thread_pitch_mm) + " is not " + mm(r.thread_pitch_mm);
+  if (r.thread_pitch_mm > 0.0 && std::abs(c.thread_pitch_mm - r.thread_pitch_mm) > model::kPitchSlackMm)
+    return "pitch " + mm_text(c.thread_pitch_mm) + " is not " + mm_text(r.thread_pitch_mm);
   if (!model::has(c.cutter_class, model::CutterTrait::kThreads)) return std::nullopt;
   if (!r.thread_form.empty() && !c.thread_form.empty() && r.thread_form != c.thread_form)
     return "thread form " + c.thread_form + " is not " + r.thread_form;
   if (r.thread_size_mm > 0.0 && c.thread_size_mm > 0.0) {
-    if (c.cutter_class == CutterClass::kTap && std::abs(c.thread_size_mm - r.thread_size_mm) > kPitchSlackMm)
-      return "thread " + mm(c.thread_size_mm) + " is not " + mm(r.thread_size_mm);
-    if (c.thread_size_mm > r.thread_size_mm + kPitchSlackMm)
-      return "made for threads from " + mm(c.thread_size_mm) + ", above " + mm(r.thread_size_mm);
+    if (c.cutter_class == CutterClass::kTap &&
+        std::abs(c.thread_size_mm - r.thread_size_mm) > model::kPitchSlackMm)
+      return "thread " + mm_text(c.thread_size_mm) + " is not " + mm_text(r.thread_size_mm);
+    if (c.thread_size_mm > r.thread_size_mm + model::kPitchSlackMm)
+      return "made for threads from " + mm_text(c.thread_size_mm) + ", above " + mm_text(r.thread_size_mm);
   }
   return std::nullopt;
 }
@@ -74,16 +73,16 @@ std::optional<std::string> wrong_neck(const Cutter& c, const ToolRequirement& r)
   double most = r.neck_diameter_max_mm;
   if (r.neck_step_min_mm > 0.0) {
     const double by_step = c.cutting_diameter_mm - r.neck_step_min_mm;
-    if (by_step <= 0.0) return "diameter " + mm(c.cutting_diameter_mm) + " leaves no neck";
+    if (by_step <= 0.0) return "diameter " + mm_text(c.cutting_diameter_mm) + " leaves no neck";
     most = most > 0.0 ? std::min(most, by_step) : by_step;
   }
   if (most <= 0.0) return std::nullopt;
   const bool necked = c.neck_diameter_mm > 0.0;
   const double thick = necked ? c.neck_diameter_mm : c.shank_diameter_mm;
   if (thick > most + kSizeSlackMm)
-    return std::string(necked ? "neck " : "shank ") + mm(thick) + " is above " + mm(most);
+    return std::string(necked ? "neck " : "shank ") + mm_text(thick) + " is above " + mm_text(most);
   if (necked && c.neck_length_mm + kSizeSlackMm < r.reach_mm && c.shank_diameter_mm > most + kSizeSlackMm)
-    return "neck of " + mm(c.neck_length_mm) + " is shorter than " + mm(r.reach_mm);
+    return "neck of " + mm_text(c.neck_length_mm) + " is shorter than " + mm_text(r.reach_mm);
   return std::nullopt;
 }
 
@@ -130,12 +129,7 @@ std::optional<double> least_torque_nm(const Cutter& c, const StartValues& s, con
     return l->torque_nm;
   }
   if (c.cutter_class == CutterClass::kTap) {
-    mechanics::TappingCut t;
-    t.nominal_diameter_mm = c.cutting_diameter_mm;
-    t.pitch_mm = c.thread_pitch_mm;
-    t.core_hole_diameter_mm = p.pre_hole_mm > 0.0 ? p.pre_hole_mm : c.cutting_diameter_mm - c.thread_pitch_mm;
-    t.n_rpm = n;
-    const auto l = mechanics::tapping_loads(t, work);
+    const auto l = mechanics::tapping_loads(mechanics::tapping_cut_of(c, p.pre_hole_mm, n), work);
     if (!l) return std::nullopt;
     return l->torque_nm;
   }
@@ -171,9 +165,11 @@ double least_mass_kg(const Cutter& c) {
 
 std::optional<std::string> not_in_magazine(const Cutter& c, const Machine& m, const Preferences& p) {
   if (m.tool_diameter_max_mm > 0.0 && c.cutting_diameter_mm > m.tool_diameter_max_mm + kSizeSlackMm)
-    return "diameter " + mm(c.cutting_diameter_mm) + " is above the magazine's " + mm(m.tool_diameter_max_mm);
+    return "diameter " + mm_text(c.cutting_diameter_mm) + " is above the magazine's " +
+           mm_text(m.tool_diameter_max_mm);
   if (m.tool_length_max_mm > 0.0 && c.functional_length_mm > m.tool_length_max_mm + kSizeSlackMm)
-    return "length " + mm(c.functional_length_mm) + " is above the magazine's " + mm(m.tool_length_max_mm);
+    return "length " + mm_text(c.functional_length_mm) + " is above the magazine's " +
+           mm_text(m.tool_length_max_mm);
   if (const double most = m.abilities.magazine_mass_max_kg; most > 0.0 && least_mass_kg(c) > most)
     return "its mass is at least " + trimmed(least_mass_kg(c), 2) + " kg, above the magazine's " +
            trimmed(most, 2) + " kg";
@@ -210,33 +206,33 @@ std::optional<std::string> not_cut_with(const Cutter& c, const StartValues& star
 
 std::optional<std::string> wrong_size(const Cutter& c, const ToolRequirement& r) {
   const double low = lower_size(r), high = upper_size(r), d = c.cutting_diameter_mm;
-  if (low > 0.0 && d < low - kSizeSlackMm) return "diameter " + mm(d) + " is below " + mm(low);
-  if (high > 0.0 && d > high + kSizeSlackMm) return "diameter " + mm(d) + " is above " + mm(high);
+  if (low > 0.0 && d < low - kSizeSlackMm) return "diameter " + mm_text(d) + " is below " + mm_text(low);
+  if (high > 0.0 && d > high + kSizeSlackMm) return "diameter " + mm_text(d) + " is above " + mm_text(high);
   return std::nullopt;
 }
 
 std::optional<std::string> wrong_shape(const Cutter& c, const ToolRequirement& r) {
   if (r.corner_radius_exact_mm >= 0.0 &&
-      std::abs(c.corner_radius_mm - r.corner_radius_exact_mm) > kPitchSlackMm)
-    return "corner radius " + mm(c.corner_radius_mm) + " is not " + mm(r.corner_radius_exact_mm);
+      std::abs(c.corner_radius_mm - r.corner_radius_exact_mm) > model::kPitchSlackMm)
+    return "corner radius " + mm_text(c.corner_radius_mm) + " is not " + mm_text(r.corner_radius_exact_mm);
   if (r.corner_radius_limited && c.corner_radius_mm > r.corner_radius_max_mm + kSizeSlackMm)
-    return "corner radius " + mm(c.corner_radius_mm) + " is above " + mm(r.corner_radius_max_mm);
+    return "corner radius " + mm_text(c.corner_radius_mm) + " is above " + mm_text(r.corner_radius_max_mm);
   const double slack = c.cutter_class == CutterClass::kTwistDrill ? kPointSlackRad : kAngleSlackRad;
   if (r.point_angle_rad > 0.0 && std::abs(c.point_angle_rad - r.point_angle_rad) > slack + 1e-9)
-    return "point angle " + degrees(c.point_angle_rad) + " is not " + degrees(r.point_angle_rad);
+    return "point angle " + deg_text(c.point_angle_rad) + " is not " + deg_text(r.point_angle_rad);
   // A dovetail's flanks lean inwards by its lead angle.
   const double taper = c.cutter_class == CutterClass::kDovetailMill ? c.lead_angle_rad : c.taper_angle_rad;
   if (r.taper_angle_rad > 0.0 && std::abs(taper - r.taper_angle_rad) > kAngleSlackRad)
-    return "taper " + degrees(taper) + " is not " + degrees(r.taper_angle_rad);
+    return "taper " + deg_text(taper) + " is not " + deg_text(r.taper_angle_rad);
   // T-slot cutters of older libraries state their head as the length of flutes.
   const double width = c.cutting_width_mm > 0.0 ? c.cutting_width_mm : c.maximum_depth_of_cut_mm;
   if (r.cutting_width_max_mm > 0.0 && width > r.cutting_width_max_mm + kSizeSlackMm)
-    return "cutting width " + mm(width) + " is above " + mm(r.cutting_width_max_mm);
+    return "cutting width " + mm_text(width) + " is above " + mm_text(r.cutting_width_max_mm);
   if (auto why = wrong_thread(c, r)) return why;
   if (auto why = wrong_hand(c, r)) return why;
   if (auto why = wrong_neck(c, r)) return why;
   if (r.tip_diameter_max_mm > 0.0 && c.tip_diameter_mm > r.tip_diameter_max_mm + kSizeSlackMm)
-    return "tip of " + mm(c.tip_diameter_mm) + " is above " + mm(r.tip_diameter_max_mm);
+    return "tip of " + mm_text(c.tip_diameter_mm) + " is above " + mm_text(r.tip_diameter_max_mm);
   if (r.centre_cutting && !c.centre_cutting && c.maximum_ramp_angle_rad <= 0.0)
     return std::string("it neither cuts to centre nor ramps");
   if (r.coolant_through && !c.coolant_through) return std::string("no coolant comes through it");
@@ -245,19 +241,19 @@ std::optional<std::string> wrong_shape(const Cutter& c, const ToolRequirement& r
 
 std::optional<std::string> too_short(const Cutter& c, const ToolRequirement& r) {
   if (r.reach_mm > reach_of(c) + kSizeSlackMm) {
-    std::string why = "reach " + mm(reach_of(c)) + " is below " + mm(r.reach_mm);
+    std::string why = "reach " + mm_text(reach_of(c)) + " is below " + mm_text(r.reach_mm);
     const std::string* out = source_of(c, "stick_out_mm");
     if (c.table_line && out != nullptr && !out->starts_with("stated"))
-      why += " (its stick-out of " + mm(c.stick_out_mm) + " is not stated, but " + *out + ")";
+      why += " (its stick-out of " + mm_text(c.stick_out_mm) + " is not stated, but " + *out + ")";
     const bool thin_enough = c.shank_diameter_mm > 0.0 && c.shank_diameter_mm <= c.cutting_diameter_mm;
     if (thin_enough && !c.holder.empty() && !model::has(c.cutter_class, model::CutterTrait::kAlongAxis))
       why += ", and its holder (" +
-             mm(std::max(c.holder.front().lower_diameter_mm, c.holder.front().upper_diameter_mm)) +
+             mm_text(std::max(c.holder.front().lower_diameter_mm, c.holder.front().upper_diameter_mm)) +
              ") would meet the walls";
     return why;
   }
   if (r.depth_of_cut_mm > c.maximum_depth_of_cut_mm + kSizeSlackMm)
-    return "flutes " + mm(c.maximum_depth_of_cut_mm) + " are shorter than " + mm(r.depth_of_cut_mm);
+    return "flutes " + mm_text(c.maximum_depth_of_cut_mm) + " are shorter than " + mm_text(r.depth_of_cut_mm);
   return std::nullopt;
 }
 

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "planner/ground/base/number.h"
+#include "planner/ground/base/text.h"
 #include "tooling/selection/limits.h"
 
 namespace capstan::tooling {
@@ -32,8 +33,6 @@ constexpr double kStiff = 3.0;
 /// Between equals the larger cutter, which is worth this over the smallest.
 constexpr double kPerSizeS = 1.0;
 
-std::string mm(double v) { return trimmed(v, 3) + " mm"; }
-
 /// A boring tool set to the wanted size, when it can be.
 Cutter as_set(const Cutter& c, const ToolRequirement& r) {
   const double wanted = r.diameter_exact_mm > 0.0 ? r.diameter_exact_mm : r.diameter_max_mm;
@@ -41,8 +40,9 @@ Cutter as_set(const Cutter& c, const ToolRequirement& r) {
   Cutter out = c;
   out.cutting_diameter_mm = wanted;
   if (wanted != c.cutting_diameter_mm) {
-    out.sources.emplace_back("cutting_diameter_mm", "derived: set to the bore, " + mm(c.cutting_diameter_mm) +
-                                                        " to " + mm(c.adjustable_to_mm));
+    out.sources.emplace_back(
+        "cutting_diameter_mm",
+        "derived: set to the bore, " + mm_text(c.cutting_diameter_mm) + " to " + mm_text(c.adjustable_to_mm));
   }
   return out;
 }
@@ -79,11 +79,11 @@ void sum_up_sizes(const ToolRequirement& r, const std::map<CutterClass, std::set
     std::string nearest;
     const auto above = high > 0.0 ? all.upper_bound(high) : all.end();
     const auto below = all.lower_bound(low);
-    if (below != all.begin()) nearest = mm(*std::prev(below));
-    if (above != all.end()) nearest += (nearest.empty() ? "" : " and ") + mm(*above);
-    std::string wanted = low > 0.0 ? "from " + mm(low) : "";
-    if (high > 0.0) wanted += (wanted.empty() ? "up to " : " to ") + mm(high);
-    if (r.diameter_exact_mm > 0.0) wanted = mm(r.diameter_exact_mm);
+    if (below != all.begin()) nearest = mm_text(*std::prev(below));
+    if (above != all.end()) nearest += (nearest.empty() ? "" : " and ") + mm_text(*above);
+    std::string wanted = low > 0.0 ? "from " + mm_text(low) : "";
+    if (high > 0.0) wanted += (wanted.empty() ? "up to " : " to ") + mm_text(high);
+    if (r.diameter_exact_mm > 0.0) wanted = mm_text(r.diameter_exact_mm);
     out.rejected.push_back(
         {std::to_string(all.size()) + " other sizes of " + std::string(model::words_of(cls)),
          "diameter is not " + wanted + "; nearest " + nearest});
@@ -94,9 +94,9 @@ model::Reason reason_for(const Cutter& c, const ToolRequirement& r, const StartV
                          const Preferences& p, std::size_t fitting, const Estimate& e) {
   std::string text = c.description.empty() ? c.id : c.description;
   text += ": ";
-  text += r.diameter_exact_mm > 0.0 ? "of the size wanted" : "diameter " + mm(c.cutting_diameter_mm);
-  if (upper_size(r) > 0.0 && r.diameter_exact_mm <= 0.0) text += " within " + mm(upper_size(r));
-  if (r.reach_mm > 0.0) text += ", reach " + mm(reach_of(c)) + " for " + mm(r.reach_mm);
+  text += r.diameter_exact_mm > 0.0 ? "of the size wanted" : "diameter " + mm_text(c.cutting_diameter_mm);
+  if (upper_size(r) > 0.0 && r.diameter_exact_mm <= 0.0) text += " within " + mm_text(upper_size(r));
+  if (r.reach_mm > 0.0) text += ", reach " + mm_text(reach_of(c)) + " for " + mm_text(r.reach_mm);
   if (c.loaded)
     text += ", loaded as T" + std::to_string(c.pocket);
   else if (std::find(p.used.begin(), p.used.end(), c.id) != p.used.end())

@@ -6,6 +6,7 @@
 #include "planner/controls/gcode/text.h"
 #include "planner/controls/linuxcnc/linuxcnc.h"
 #include "planner/ground/base/number.h"
+#include "planner/model/plan/cutter/table_offsets.h"
 
 namespace capstan::controls::linuxcnc {
 namespace {
@@ -19,12 +20,11 @@ std::string table_number(double v) {
 
 /// What the machine's table says of it, but for a diameter that it has been set to since.
 std::string table_words(const model::Cutter& c) {
-  constexpr double kSameDiameter = 0.001;  // mm, as a tool of the magazine is told
   std::string out;
   for (const std::string_view letter : {"X", "Y", "Z", "A", "B", "C", "U", "V", "W", "D", "I", "J", "Q"}) {
     auto v = model::table_word(c, letter);
     if (letter == "Z" && !v && !c.table_line) v = c.functional_length_mm;
-    if (letter == "D" && (!v || std::abs(*v - c.cutting_diameter_mm) > kSameDiameter))
+    if (letter == "D" && (!v || std::abs(*v - c.cutting_diameter_mm) > model::kSameDiameterMm))
       v = c.cutting_diameter_mm;
     if (v) out += " " + std::string(letter) + (letter == "Q" ? trimmed(*v, 0) : table_number(*v));
   }

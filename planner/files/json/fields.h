@@ -12,10 +12,9 @@
 
 #include "planner/model/plan/cutter/cutter_fields.h"
 #include "planner/model/plan/fields.h"
-#include "planner/model/plan/plan.h"
+#include "planner/model/plan/plan_fields.h"
 #include "planner/model/plan/resources/machine_fields.h"
 #include "planner/model/plan/resources/material_fields.h"
-#include "planner/model/plan/resources/workholding_fields.h"
 
 /// @file The fields of the plan's plain structs, named once: the writer, the reader, the schema (and the test
 /// that fills everything) visit them through these. Names wear their units. Optional members may be absent.
@@ -31,56 +30,8 @@ void fields(V& v, model::HasFields auto& x) {
   model::for_each_field(x, [&v](const auto& row, auto& value) { v(row.name, value); });
 }
 template <class V>
-void fields(V& v, Is<geometry::Box3> auto& x) {
-  v("lo", x.lo), v("hi", x.hi);
-}
-template <class V>
 void fields(V& v, Is<std::pair<std::string, std::string>> auto& x) {
   v("of", x.first), v("source", x.second);
-}
-template <class V>
-void fields(V& v, Is<model::Stock> auto& x) {
-  v("box", x.box), v("source", x.source), v("cylinder_radius_mm", x.cylinder_radius_mm);
-}
-template <class V>
-void fields(V& v, Is<model::SetupResult> auto& x) {
-  v("setup", x.setup), v("work_offset", x.work_offset), v("security_z_mm", x.security_z_mm);
-  v("holding", x.holding);
-}
-template <class V>
-void fields(V& v, Is<model::AxisForces> auto& x) {
-  v("x_n", x.x_n), v("y_n", x.y_n), v("z_n", x.z_n);
-}
-template <class V>
-void fields(V& v, Is<model::LimitAlongPath> auto& x) {
-  v("name", x.name), v("limit", x.limit), v("unit", x.unit), v("share", x.share), v("saves_s", x.saves_s);
-}
-template <class V>
-void fields(V& v, Is<model::StepLoads> auto& x) {
-  v("peak_force_n", x.peak_force_n), v("torque_nm", x.torque_nm), v("power_w", x.power_w);
-  v("deflection_mm", x.deflection_mm), v("chip_thickness_mm", x.chip_thickness_mm);
-  v("mrr_mm3_min", x.mrr_mm3_min), v("mean_axis_force", x.mean_force), v("peak_axis_force", x.peak_force);
-  v("wall_error_mm", x.wall_error_mm), v("surface_rz_mm", x.surface_rz_mm);
-  v("tool_life_min", x.tool_life_min), v("force_margin", x.force_margin);
-}
-template <class V>
-void fields(V& v, Is<model::ActiveConstraint> auto& x) {
-  v("name", x.name), v("value", x.value), v("limit", x.limit), v("unit", x.unit);
-  v("shadow_price", x.shadow_price), v("saves_s", x.saves_s), v("at_rpm", x.at_rpm);
-}
-template <class V>
-void fields(V& v, Is<model::ExceededLimit> auto& x) {
-  v("name", x.name), v("value", x.value), v("limit", x.limit), v("unit", x.unit), v("at_mm", x.at_mm);
-}
-template <class V>
-void fields(V& v, Is<model::StepResult> auto& x) {
-  v("step", x.step), v("setup", x.setup), v("cutter_id", x.cutter_id), v("axial_depth_mm", x.axial_depth_mm);
-  v("radial_depth_mm", x.radial_depth_mm), v("vc_m_min", x.vc_m_min), v("fz_mm", x.fz_mm);
-  v("spindle_rpm", x.spindle_rpm), v("feed_mm_min", x.feed_mm_min), v("flood", x.flood), v("mist", x.mist);
-  v("path", x.path), v("sections", x.sections), v("schedule", x.schedule), v("cutting_s", x.cutting_s);
-  v("rapid_s", x.rapid_s), v("loads", x.loads), v("active", x.active), v("through", x.through);
-  v("path_deviation_mm", x.path_deviation_mm), v("contour_tolerance_mm", x.contour_tolerance_mm);
-  v("held_by", x.held_by), v("exceeded", x.exceeded);
 }
 template <class V>
 void fields(V& v, Is<model::Unplanned> auto& x) {

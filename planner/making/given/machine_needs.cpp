@@ -5,6 +5,7 @@
 #include <map>
 
 #include "planner/ground/base/number.h"
+#include "planner/ground/vocabulary/unit_factors.h"
 #include "planner/model/nouns/all.h"
 #include "planner/physics/mechanics/constants.h"
 
@@ -37,14 +38,13 @@ void add_path(Needs& n, const model::StepResult& s) {
     const double r = std::hypot(p.x[i] - p.cx[i], p.y[i] - p.cy[i]);
     const double a0 = std::atan2(p.y[i - 1] - p.cy[i], p.x[i - 1] - p.cx[i]);
     const double a1 = std::atan2(p.y[i] - p.cy[i], p.x[i] - p.cx[i]);
-    constexpr double kTurn = 6.283185307179586;
     const bool ccw = p.kind[i] == model::MoveKind::kArcCcw;
     double sweep = ccw ? a1 - a0 : a0 - a1;
-    if (sweep <= 1e-12) sweep += kTurn;
+    if (sweep <= 1e-12) sweep += kRadPerTurn;
     for (int quarter = 0; quarter < 4; ++quarter) {
-      const double at = 0.25 * kTurn * quarter;
+      const double at = 0.25 * kRadPerTurn * quarter;
       double from = ccw ? at - a0 : a0 - at;
-      from -= kTurn * std::floor(from / kTurn);
+      from -= kRadPerTurn * std::floor(from / kRadPerTurn);
       if (from < sweep) box.add({p.cx[i] + r * std::cos(at), p.cy[i] + r * std::sin(at), p.z[i]});
     }
   }

@@ -9,6 +9,7 @@
 #include "planner/model/nouns/all.h"
 #include "planner/model/nouns/arena/walk.h"
 #include "planner/model/plan/cutter/measured_length.h"
+#include "planner/model/plan/cutter/table_offsets.h"
 #include "tooling/library/cutters/complete.h"
 #include "tooling/library/formats/linuxcnc/linuxcnc.h"
 #include "tooling/library/nouns/nouns.h"
@@ -21,8 +22,7 @@ namespace {
 using model::AnyRef;
 using model::Cutter;
 
-constexpr double kSameAngle = 0.01;      // rad, about half a degree
-constexpr double kSameDiameter = 0.001;  // mm; a tool table's diameter is measured to a micrometre at best
+constexpr double kSameAngle = 0.01;  // rad, about half a degree
 
 /// A name says nothing: every size that both know has to agree, and what a thread is has to be known.
 bool same_tool(const Cutter& a, const Cutter& b) {
@@ -31,11 +31,11 @@ bool same_tool(const Cutter& a, const Cutter& b) {
     return x == 0.0 || y == 0.0 || near(x, y, by);
   };
   return a.cutter_class == b.cutter_class && a.hand == b.hand &&
-         near(a.cutting_diameter_mm, b.cutting_diameter_mm, kSameDiameter) &&
-         near(a.corner_radius_mm, b.corner_radius_mm, kSameDiameter) &&
+         near(a.cutting_diameter_mm, b.cutting_diameter_mm, model::kSameDiameterMm) &&
+         near(a.corner_radius_mm, b.corner_radius_mm, model::kSameDiameterMm) &&
          near(a.thread_pitch_mm, b.thread_pitch_mm, 1e-6) &&
          near_if_known(a.point_angle_rad, b.point_angle_rad, kSameAngle) &&
-         near_if_known(a.tip_diameter_mm, b.tip_diameter_mm, kSameDiameter);
+         near_if_known(a.tip_diameter_mm, b.tip_diameter_mm, model::kSameDiameterMm);
 }
 
 /// True if the loaded tool can replace the planned one. A value of a library counts only if the library

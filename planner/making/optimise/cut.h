@@ -88,13 +88,11 @@ inline constexpr double kRoughWidthRatio = 0.65;
 /// Least feed at which a drill, reamer or countersink is worth choosing, as a fraction of the start value.
 /// Default, unsourced.
 inline constexpr double kLeastDrillFeed = 0.4;
-/// Taylor's exponent n in v T^n = C for the cost objective. Textbook values: carbide 0.25, HSS 0.125
-/// (Kalpakjian & Schmid, Manufacturing Engineering and Technology, ranges 0.2-0.5 and 0.08-0.2).
-inline constexpr double kTaylorCarbide = 0.25;
-inline constexpr double kTaylorHss = 0.125;
-/// Tool life at the table's speed when neither material nor cutter states one, min. Default, unsourced.
-inline constexpr double kLifeAtTableSpeedMin = 15.0;
-/// Hourly rate of a machine that states none. Default, unsourced.
+/// Thin cuts and air on the way of a cut go no faster than this times the feed of the largest chip: by chip
+/// thinning that chip is then kept up to a width of 0.029 D, so a sliver that the section missed does no
+/// harm. Default, unsourced.
+inline constexpr double kMostThinning = 3.0;
+/// Rate of a machine that states none, per hour. Default, unsourced.
 inline constexpr double kMachinePerHour = 60.0;
 
 struct CutAnswer {

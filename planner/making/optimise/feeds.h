@@ -35,16 +35,15 @@ inline constexpr double kRampFraction = 0.5;
 /// Feed of moves through air that may not be rapids (close above material): at least this, mm/min, as far as
 /// the axes go. Default, unsourced.
 inline constexpr double kAirFeedMmMin = 3000.0;
-/// Thin cuts and air on the way of a cut go no faster than this times the feed of the largest chip: by chip
-/// thinning that chip is then kept up to a width of 0.029 D, so a sliver that the section missed does no
-/// harm. The same bound as in `cut`. Default, unsourced.
-inline constexpr double kMostThinning = 3.0;
 /// Below this share of the step's feed nothing is scheduled, nor below the thinnest chip that the cutter
 /// takes (least_feed_mm_min): an edge rubs there. Default, unsourced.
 inline constexpr double kLeastFeedShare = 0.04;
 /// Neighbouring moves whose feeds lie within this ratio share the lower one. Default, unsourced: it costs
 /// about half of it in time and keeps F words and its_speed curves few.
 inline constexpr double kGroupRatio = 0.03;
+
+/// Share of depth times width from which a cross section counts as the whole rectangle. Default, unsourced.
+inline constexpr double kWholeSection = 0.95;
 
 struct FeedQuestion {
   CutQuestion cut;     ///< limits, cutter, material, machine

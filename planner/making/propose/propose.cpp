@@ -229,15 +229,16 @@ class Proposer {
   /// Whether `hole` runs on the axis of `s`, from above its bottom to below it, from whichever side it is
   /// cut.
   static bool runs_through(const FeatureShape& hole, const FeatureShape& s) {
-    constexpr double kCoaxial = 1e-4;  // mm
-    if (hole.kind != model::ShapeKind::kHole || hole.bottom_diameter_mm < hole.diameter.nominal_mm - kCoaxial)
+    if (hole.kind != model::ShapeKind::kHole ||
+        hole.bottom_diameter_mm < hole.diameter.nominal_mm - model::kCoaxialMm)
       return false;
-    if (hole.diameter.nominal_mm > s.diameter.nominal_mm - kCoaxial) return false;
+    if (hole.diameter.nominal_mm > s.diameter.nominal_mm - model::kCoaxialMm) return false;
     const auto rel = compose(inverse(s.frame), hole.frame);
-    if (std::abs(std::abs(rel.z.z) - 1.0) > kSameAxis || std::hypot(rel.origin.x, rel.origin.y) > kCoaxial)
+    if (std::abs(std::abs(rel.z.z) - 1.0) > kSameAxis ||
+        std::hypot(rel.origin.x, rel.origin.y) > model::kCoaxialMm)
       return false;
     const double a = rel.origin.z, b = rel.origin.z - hole.depth_mm * rel.z.z;
-    return std::min(a, b) < -s.depth_mm - kCoaxial && std::max(a, b) > -kCoaxial;
+    return std::min(a, b) < -s.depth_mm - model::kCoaxialMm && std::max(a, b) > -model::kCoaxialMm;
   }
 
   /// The set-up in which this axis points up; past the last one if there is none yet.

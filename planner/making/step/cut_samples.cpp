@@ -16,8 +16,6 @@ namespace {
 
 using optimise::CutSample;
 
-constexpr double kWhole = 0.95;  // share of depth times width from which a section is a rectangle
-
 /// How wide a cutter sweeps with the diameter that it has at the top of its contact. It is a disc that is
 /// moved: on an arc, too, its flank takes no more than that of a length of its centre's way.
 double widest(const CutSample& s, const model::Cutter& cutter) {
@@ -48,7 +46,7 @@ void add(CutSample s, const model::CutterPath& path, const model::Cutter& cutter
     }
   }
   const double ap = s.ap_mm, ae = s.ae_mm, flank = s.csa_mm2 - s.end_mm2;
-  const bool whole = !(ae > 0.0) || flank >= kWhole * ap * ae;
+  const bool whole = !(ae > 0.0) || flank >= optimise::kWholeSection * ap * ae;
   // On an arc about a corner the edge goes farther than the centre, and removes more than depth times width.
   s.ae_mm = whole ? std::max(ae, flank / ap) : flank / ap;
   out.push_back(s);

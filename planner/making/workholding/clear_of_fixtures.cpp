@@ -5,6 +5,7 @@
 
 #include "planner/ground/base/number.h"
 #include "planner/ground/geometry/moved.h"
+#include "planner/ground/vocabulary/unit_factors.h"
 
 namespace capstan::workholding {
 namespace {
@@ -70,10 +71,9 @@ std::vector<Vec2> track(const model::CutterPath& p, std::size_t i) {
     const Vec2 centre{p.cx[i], p.cy[i]};
     const double a0 = std::atan2(a.y - centre.y, a.x - centre.x);
     double turn = std::atan2(b.y - centre.y, b.x - centre.x) - a0;
-    constexpr double kTurn = 6.283185307179586;
     const bool ccw = p.kind[i] == MoveKind::kArcCcw;
-    while (ccw && turn <= 1e-9) turn += kTurn;
-    while (!ccw && turn >= -1e-9) turn -= kTurn;
+    while (ccw && turn <= 1e-9) turn += kRadPerTurn;
+    while (!ccw && turn >= -1e-9) turn -= kRadPerTurn;
     geometry::append_arc(out, centre, a, turn, kChord);
     return out;
   }

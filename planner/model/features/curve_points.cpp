@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <string>
 
 #include "planner/ground/base/number.h"
+#include "planner/ground/vocabulary/unit_factors.h"
 #include "planner/model/features/resolve.h"
 #include "planner/model/nouns/geometric_item.h"
 
@@ -16,7 +16,6 @@ namespace {
 using geometry::Vec3;
 using Points = std::vector<Vec3>;
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kSameAngle = 1e-9;  // rad
 constexpr double kGap = 0.01;        // mm that the pieces of a composite may be apart; default, unsourced
 constexpr int kNesting = 32;         // composites of trimmed curves of ...: deeper is refused
@@ -144,7 +143,8 @@ Result<Points> between(const Model& m, AnyRef self, const TrimmedCurve& c, doubl
     const auto at = [&](const Trim& t) -> std::optional<double> {
       if (t.point && !(by_parameter && t.parameter)) return conic->parameter(*t.point);
       if (!t.parameter) return std::nullopt;
-      return conic->closed() ? *t.parameter * kTurn / 360.0 : *t.parameter;  // angles are in degrees here
+      return conic->closed() ? *t.parameter * kRadPerTurn / 360.0
+                             : *t.parameter;  // angles are in degrees here
     };
     const auto t0 = at(a);
     auto t1 = at(b);
@@ -154,9 +154,9 @@ Result<Points> between(const Model& m, AnyRef self, const TrimmedCurve& c, doubl
     // up to a full turn, which is what ends that coincide mean.
     if (conic->closed()) {
       const bool along = c.sense_agreement.value_or(true);
-      double turn = std::fmod(along ? *t1 - *t0 : *t0 - *t1, kTurn);
-      if (turn < 0.0) turn += kTurn;
-      if (turn < kSameAngle || turn > kTurn - kSameAngle) turn = kTurn;
+      double turn = std::fmod(along ? *t1 - *t0 : *t0 - *t1, kRadPerTurn);
+      if (turn < 0.0) turn += kRadPerTurn;
+      if (turn < kSameAngle || turn > kRadPerTurn - kSameAngle) turn = kRadPerTurn;
       t1 = along ? *t0 + turn : *t0 - turn;
     }
     return sample(m, self, *conic, *t0, *t1, tolerance_mm);
@@ -271,7 +271,7 @@ Result<Points> points(const Model& m, AnyRef curve, double tolerance_mm, int dep
   } else if (const auto* s = m.get<BSplineCurve>(curve)) {
     out = spline(m, curve, *s, tolerance_mm);
   } else if (const auto conic = conic_of(m, curve); conic && conic->closed()) {
-    out = sample(m, curve, *conic, 0.0, kTurn, tolerance_mm);
+    out = sample(m, curve, *conic, 0.0, kRadPerTurn, tolerance_mm);
   }
   if (out && out->size() > kMaxPoints) return refuse(m, curve, "has too many points");
   return out;

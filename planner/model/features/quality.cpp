@@ -7,6 +7,7 @@
 #include <set>
 
 #include "planner/ground/base/number.h"
+#include "planner/ground/base/text.h"
 #include "planner/model/features/fit/stated.h"
 #include "planner/model/features/raw_piece.h"
 #include "planner/model/features/requirements.h"
@@ -199,17 +200,11 @@ std::string words(const Model& m, AnyRef r, const KindOfTolerance& kind) {
   return out;
 }
 
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
 /// Ra in micrometres of a texture, when it states Ra. Other parameters (Rz, Rmax) do not convert: their ratio
 /// to Ra depends on the process.
 std::optional<double> ra_of(const SurfaceTextureParameter& t) {
   if (!t.its_value || !(*t.its_value > 0.0)) return std::nullopt;
-  const std::string name = lower(t.parameter_name.value_or(""));
+  const std::string name = lower_text(t.parameter_name.value_or(""));
   if (name == "ra" || name == "r_a" || name == "roughness average") return t.its_value;
   return std::nullopt;
 }
@@ -222,8 +217,9 @@ std::string words(const SurfaceTextureParameter& t) {
 std::optional<double> ra_of(const Model& m, const SurfaceProperty& p) {
   for (const AnyRef r : p.its_parameters.items) {
     const auto* n = m.get<NumericParameter>(r);
-    if (n == nullptr || lower(n->parameter_name.value_or("")) != "ra" || !n->its_parameter_value) continue;
-    const std::string unit = lower(n->its_parameter_unit.value_or(""));
+    if (n == nullptr || lower_text(n->parameter_name.value_or("")) != "ra" || !n->its_parameter_value)
+      continue;
+    const std::string unit = lower_text(n->its_parameter_unit.value_or(""));
     if (unit == "mm" || unit == "millimetre") return 1000.0 * *n->its_parameter_value;
     if (unit == "um" || unit == "micrometre" || unit == "micron" || unit == "\xc2\xb5m")
       return n->its_parameter_value;
@@ -345,8 +341,6 @@ Quality Attribution::quality(AnyRef feature) const {
       if (!ra) continue;
       tighten(out.ra_um, *ra);
       out.texts.push_back("Ra " + trimmed(*ra, 6));
-    } else if (const auto* d = model_.get<Datum>(r)) {
-      out.is_datum.push_back(d->identification.value_or(""));
     } else if (model_.holds<LocationDimension>(r)) {
       take_location(model_, r, out);
     } else if (model_.holds<GeometricTolerance>(r)) {
@@ -410,7 +404,7 @@ Result<std::optional<GeneralTolerance>> general_tolerance_of(const Model& m, Ref
     for (const AnyRef p : property->its_parameters.items) {
       const auto* text = m.get<DescriptiveParameter>(p);
       const std::string words = text == nullptr ? "" : text->descriptive_string.value_or("");
-      const std::string plain = lower(words);
+      const std::string plain = lower_text(words);
       if (plain.find("2768") == std::string::npos && plain.find("22081") == std::string::npos) continue;
       auto read = parse_general(words);
       if (!read) return tl::unexpected(read.error());

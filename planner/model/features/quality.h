@@ -17,10 +17,9 @@ struct Quality {
   std::optional<double> orientation_mm;  ///< parallelism, perpendicularity, angularity
   std::optional<double> location_mm;     ///< position, concentricity, coaxiality, symmetry
   std::optional<double> runout_mm;
-  std::optional<double> profile_mm;   ///< of a line or a surface
-  std::vector<std::string> datums;    ///< letters that it refers to, primary first
-  std::vector<std::string> is_datum;  ///< letters that it carries itself
-  std::vector<std::string> texts;     ///< each as a person would read it: "position 0.05 | A | B"
+  std::optional<double> profile_mm;  ///< of a line or a surface
+  std::vector<std::string> datums;   ///< letters that it refers to, primary first
+  std::vector<std::string> texts;    ///< each as a person would read it: "position 0.05 | A | B"
 };
 
 /// The tolerances and textures whose faces, dimensions or shape elements belong to this feature.

@@ -15,9 +15,9 @@ namespace capstan::model {
 /// Above this a stated general tolerance is hardly meant: no workpiece is that rough. mm; default, unsourced.
 inline constexpr double kLargestGlobalTolerance = 5.0;
 
-/// The widest, and the finest, that a general tolerance lets a surface be from where it should be: beyond the
-/// first a check finds nothing any more, below the second no cell is fine enough. mm; default, unsourced.
-inline constexpr double kWidestJudged = 0.5, kFinestJudged = 0.001;
+/// The widest that a general tolerance lets a surface be from where it should be: beyond it a check finds
+/// nothing any more. mm; default, unsourced.
+inline constexpr double kWidestJudged = 0.5;
 
 /// The part's general tolerance, +- mm; nothing where none is stated, or one that is hardly meant: that
 /// widens no check and no allowance.

@@ -16,6 +16,9 @@ namespace capstan::model {
 
 enum class HoleBottom : std::uint8_t { kThrough, kFlat, kFlatWithRadius, kConical, kSpherical };
 
+/// Axes this near are one, mm.
+inline constexpr double kCoaxialMm = 1e-4;
+
 /// A nominal size with its allowed deviations, mm.
 struct Toleranced {
   double nominal_mm = 0.0;

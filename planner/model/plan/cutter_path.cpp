@@ -1,16 +1,15 @@
 #include "planner/model/plan/cutter_path.h"
 
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
+
+#include "planner/ground/vocabulary/unit_factors.h"
 
 namespace capstan::model {
 namespace {
 
 using geometry::Vec2;
 using geometry::Vec3;
-
-constexpr double kTurn = 2.0 * std::numbers::pi;
 
 void push(CutterPath& p, Vec3 to, Vec2 centre, MoveKind kind, MoveRole why) {
   if (p.x.empty() && why != MoveRole::kApproach) throw std::logic_error("a path begins with start()");
@@ -41,8 +40,8 @@ double arc_sweep(const CutterPath& path, std::size_t i) {
   const double a0 = std::atan2(path.y[i - 1] - path.cy[i], path.x[i - 1] - path.cx[i]);
   const double a1 = std::atan2(path.y[i] - path.cy[i], path.x[i] - path.cx[i]);
   double sweep = path.kind[i] == MoveKind::kArcCcw ? a1 - a0 : a0 - a1;
-  while (sweep <= 1e-9) sweep += kTurn;
-  while (sweep > kTurn + 1e-9) sweep -= kTurn;
+  while (sweep <= 1e-9) sweep += kRadPerTurn;
+  while (sweep > kRadPerTurn + 1e-9) sweep -= kRadPerTurn;
   return sweep;
 }
 
@@ -76,10 +75,10 @@ geometry::Box3 bounds(const CutterPath& path) {
     const double sweep = arc_sweep(path, i);
     const double a0 = std::atan2(path.y[i - 1] - path.cy[i], path.x[i - 1] - path.cx[i]);
     for (int quarter = 0; quarter < 4; ++quarter) {
-      const double at = quarter * kTurn / 4.0;
+      const double at = quarter * kRadPerTurn / 4.0;
       double ahead = path.kind[i] == MoveKind::kArcCcw ? at - a0 : a0 - at;
-      while (ahead < 0.0) ahead += kTurn;
-      while (ahead >= kTurn) ahead -= kTurn;
+      while (ahead < 0.0) ahead += kRadPerTurn;
+      while (ahead >= kRadPerTurn) ahead -= kRadPerTurn;
       if (ahead > sweep) continue;
       box.add({path.cx[i] + radius * std::cos(at), path.cy[i] + radius * std::sin(at), path.z[i]});
     }

@@ -1,18 +1,10 @@
 #include "planner/model/plan/requirement.h"
 
 #include <algorithm>
-#include <numbers>
 
-#include "planner/ground/base/number.h"
+#include "planner/ground/base/text.h"
 
 namespace capstan::model {
-namespace {
-
-std::string mm(double v) { return trimmed(v, 3) + " mm"; }
-std::string degrees(double rad) { return trimmed(rad * 180.0 / std::numbers::pi, 1) + " deg"; }
-
-}  // namespace
-
 double lower_size(const ToolRequirement& r) {
   return r.diameter_exact_mm > 0.0 ? r.diameter_exact_mm - r.diameter_tolerance_mm : r.diameter_min_mm;
 }
@@ -26,33 +18,33 @@ std::string words_of(const ToolRequirement& r) {
   std::string out = vowel ? "an " : "a ";
   const double low = lower_size(r), high = upper_size(r);
   if (r.diameter_exact_mm > 0.0)
-    out += mm(r.diameter_exact_mm) + " ";
+    out += mm_text(r.diameter_exact_mm) + " ";
   else if (low > 0.0 && high > 0.0)
-    out += mm(low) + " to " + mm(high) + " ";
+    out += mm_text(low) + " to " + mm_text(high) + " ";
   for (std::size_t i = 0; i < r.classes.size(); ++i)
     out += (i == 0 ? "" : " or ") + std::string(words_of(r.classes[i]));
   if (r.classes.empty()) out += "cutter";
-  if (r.diameter_exact_mm <= 0.0 && low <= 0.0 && high > 0.0) out += " of at most " + mm(high);
-  if (low > 0.0 && high <= 0.0) out += " of at least " + mm(low);
+  if (r.diameter_exact_mm <= 0.0 && low <= 0.0 && high > 0.0) out += " of at most " + mm_text(high);
+  if (low > 0.0 && high <= 0.0) out += " of at least " + mm_text(low);
   std::string with;
   const auto add = [&](const std::string& text) { with += (with.empty() ? " with " : ", ") + text; };
-  if (r.thread_size_mm > 0.0) add("threads of " + mm(r.thread_size_mm));
-  if (r.thread_pitch_mm > 0.0) add(mm(r.thread_pitch_mm) + " pitch");
+  if (r.thread_size_mm > 0.0) add("threads of " + mm_text(r.thread_size_mm));
+  if (r.thread_pitch_mm > 0.0) add(mm_text(r.thread_pitch_mm) + " pitch");
   if (!r.thread_form.empty()) add("form " + r.thread_form);
-  if (r.taper_angle_rad > 0.0) add(degrees(r.taper_angle_rad) + " taper");
-  if (r.point_angle_rad > 0.0) add(degrees(r.point_angle_rad) + " point");
-  if (r.corner_radius_exact_mm >= 0.0) add(mm(r.corner_radius_exact_mm) + " corner radius");
-  if (r.corner_radius_limited) add("at most " + mm(r.corner_radius_max_mm) + " corner radius");
-  if (r.cutting_width_max_mm > 0.0) add("at most " + mm(r.cutting_width_max_mm) + " width");
-  if (r.neck_diameter_max_mm > 0.0) add("a neck of at most " + mm(r.neck_diameter_max_mm));
+  if (r.taper_angle_rad > 0.0) add(deg_text(r.taper_angle_rad) + " taper");
+  if (r.point_angle_rad > 0.0) add(deg_text(r.point_angle_rad) + " point");
+  if (r.corner_radius_exact_mm >= 0.0) add(mm_text(r.corner_radius_exact_mm) + " corner radius");
+  if (r.corner_radius_limited) add("at most " + mm_text(r.corner_radius_max_mm) + " corner radius");
+  if (r.cutting_width_max_mm > 0.0) add("at most " + mm_text(r.cutting_width_max_mm) + " width");
+  if (r.neck_diameter_max_mm > 0.0) add("a neck of at most " + mm_text(r.neck_diameter_max_mm));
   if (r.neck_step_min_mm > 0.0) {
-    add(high > r.neck_step_min_mm ? "a neck of at most " + mm(high - r.neck_step_min_mm) + " (" +
-                                        mm(r.neck_step_min_mm) + " below its head)"
-                                  : "a neck " + mm(r.neck_step_min_mm) + " below its head");
+    add(high > r.neck_step_min_mm ? "a neck of at most " + mm_text(high - r.neck_step_min_mm) + " (" +
+                                        mm_text(r.neck_step_min_mm) + " below its head)"
+                                  : "a neck " + mm_text(r.neck_step_min_mm) + " below its head");
   }
-  if (r.tip_diameter_max_mm > 0.0) add("a tip of at most " + mm(r.tip_diameter_max_mm));
-  if (r.depth_of_cut_mm > 0.0) add(mm(r.depth_of_cut_mm) + " flutes");
-  if (r.reach_mm > 0.0) add(mm(r.reach_mm) + " reach");
+  if (r.tip_diameter_max_mm > 0.0) add("a tip of at most " + mm_text(r.tip_diameter_max_mm));
+  if (r.depth_of_cut_mm > 0.0) add(mm_text(r.depth_of_cut_mm) + " flutes");
+  if (r.reach_mm > 0.0) add(mm_text(r.reach_mm) + " reach");
   if (r.centre_cutting) with += ", cutting to centre or ramping";
   if (r.coolant_through) with += ", with coolant through it";
   if (r.left_hand) with += ", left-hand";

@@ -21,8 +21,8 @@ struct ToolRequirement {
   bool centre_cutting = false;           ///< or a ramp the tool allows
   double point_angle_rad = 0.0;
   double thread_pitch_mm = 0.0;
-  double thread_size_mm = 0.0;                                    ///< nominal, thread mills and taps
-  double taper_angle_rad = 0.0;                                   ///< tapered end mills: half angle
+  double thread_size_mm = 0.0;        ///< nominal, thread mills and taps
+  double taper_angle_rad = 0.0;       ///< tapered end mills: half angle
   double cutting_width_max_mm = 0.0;  ///< side mills, heads of T-slot cutters
   double neck_diameter_max_mm = 0.0;  ///< what must pass above the head, over `reach_mm`
   double neck_step_min_mm = 0.0;     ///< head less neck, on the diameter, over `reach_mm`: undercuts in holes
@@ -36,6 +36,8 @@ struct ToolRequirement {
 
 /// Sizes are compared after the printer's rounding; below this two are one.
 inline constexpr double kSizeSlackMm = 1e-6;
+/// Pitches of threads this near are one: inch pitches in mm are rounded. Default, unsourced.
+inline constexpr double kPitchSlackMm = 1e-3;
 
 /// The diameters that will do, mm; 0: any.
 [[nodiscard]] double lower_size(const ToolRequirement& r);

@@ -17,7 +17,6 @@ using geometry::Vec2;
 using geometry::Vec3;
 
 static_assert(Tally::kBins == rows::kBins);
-constexpr double kHalfDiagonal = 0.70711;
 constexpr double kLongest = 20.0;  // mm: so far single precision keeps a slope's heights
 
 rows::Piece piece_of(const ProfilePiece& p) {

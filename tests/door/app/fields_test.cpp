@@ -4,9 +4,9 @@
 #include "planner/making/step/cut/cuts.h"
 #include "planner/model/plan/cutter/cutter_faults.h"
 #include "planner/model/plan/cutter/cutter_fields.h"
+#include "planner/model/plan/plan_fields.h"
 #include "planner/model/plan/resources/machine_fields.h"
 #include "planner/model/plan/resources/material_fields.h"
-#include "planner/model/plan/resources/workholding_fields.h"
 #include "planner/physics/mechanics/bending/beam.h"
 #include "planner/physics/mechanics/force/force_law.h"
 #include "tests/door/app/plans.h"
@@ -43,6 +43,8 @@ class Filler {
       v = unit == Unit::kAngle ? 0.1 + 0.01 * n_ : unit == Unit::kNone ? 2.0 + 0.125 * n_ : 20.0 + 0.5 * n_;
     } else if constexpr (std::is_same_v<T, int>) {
       v = 2 + n_;
+    } else if constexpr (std::is_same_v<T, std::size_t>) {
+      v = 1;  // a place among set-ups: the second
     } else if constexpr (std::is_same_v<T, bool>) {
       v = !v;
     } else if constexpr (std::is_same_v<T, std::string>) {
@@ -57,6 +59,9 @@ class Filler {
       v = {"of " + std::to_string(n_), "stated: here"};
     } else if constexpr (model::HasFields<T>) {
       fill(v);
+    } else if constexpr (
+        requires { v.set(); } || requires { v.use_count(); }) {
+      // nouns and shared columns stay as they are
     } else if constexpr (requires { v.emplace_back(); }) {
       v.clear();
       give(unit, v.emplace_back());
@@ -207,6 +212,66 @@ TEST(MaterialFields, DiffTellsEachOrHasAReasonWhyNot) {
     after.material.*row.member = unsaid.*row.member;
     EXPECT_EQ(diff(before, after).same, row.not_told != nullptr) << row.name;
   });
+}
+
+/// The plate with raw piece, two set-ups and a step whose every field has a value.
+model::Plan plan_with_filled_steps() {
+  model::Plan plan = testing::planned_plate();
+  Filler fill;
+  fill.fill(plan.stock);
+  plan.setups.resize(2);
+  for (model::SetupResult& s : plan.setups) fill.fill(s);
+  for (model::StepResult& s : plan.steps) fill.fill(s);
+  return plan;
+}
+
+/// Takes one field after another back to its default: diff tells each, but for those with a reason why not.
+template <model::HasFields S, class Select>
+void expect_diff_tells_each_field(Select&& select) {
+  const model::Plan before = plan_with_filled_steps();
+  ASSERT_TRUE(diff(before, before).same);
+  const S unsaid;
+  for_each_field(unsaid, [&](const auto& row, const auto& value) {
+    if (std::string_view(row.name) == "step") return;  // without it the result is of no step at all
+    model::Plan after = before;
+    S& changed = select(after);
+    changed.*row.member = value;
+    EXPECT_EQ(diff(before, after).same, row.not_told != nullptr) << row.name;
+  });
+}
+
+TEST(StockFields, DiffTellsEachOrHasAReasonWhyNot) {
+  expect_diff_tells_each_field<model::Stock>([](model::Plan & p) -> auto& { return p.stock; });
+}
+
+TEST(SetupFields, DiffTellsEachOrHasAReasonWhyNot) {
+  expect_diff_tells_each_field<model::SetupResult>([](model::Plan & p) -> auto& { return p.setups[0]; });
+}
+
+TEST(WorkholdingFields, DiffTellsEachInEverySetup) {
+  for (const std::size_t i : {0, 1})
+    expect_diff_tells_each_field<model::Workholding>([i](model::Plan & p) -> auto& {
+      return p.setups[i].holding;
+    });
+}
+
+TEST(WorkholdingFields, DiffTellsEachOfASolid) {
+  expect_diff_tells_each_field<model::FixtureSolid>(
+      [](model::Plan & p) -> auto& { return p.setups[0].holding.solids.front(); });
+}
+
+TEST(StepFields, DiffTellsEachOrHasAReasonWhyNot) {
+  expect_diff_tells_each_field<model::StepResult>([](model::Plan & p) -> auto& { return p.steps[0]; });
+}
+
+TEST(StepFields, DiffTellsEachLoadAndLimit) {
+  expect_diff_tells_each_field<model::StepLoads>([](model::Plan & p) -> auto& { return p.steps[0].loads; });
+  expect_diff_tells_each_field<model::ActiveConstraint>(
+      [](model::Plan & p) -> auto& { return p.steps[0].active.front(); });
+  expect_diff_tells_each_field<model::LimitAlongPath>(
+      [](model::Plan & p) -> auto& { return p.steps[0].held_by.front(); });
+  expect_diff_tells_each_field<model::ExceededLimit>(
+      [](model::Plan & p) -> auto& { return p.steps[0].exceeded.front(); });
 }
 
 TEST(WorkholdingFields, ComeBackFromEachFormOfAPlan) {

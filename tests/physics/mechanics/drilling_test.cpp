@@ -77,6 +77,29 @@ TEST(TappingLoads, AreNearTheTablesOfTwoTapMakers) {
   EXPECT_GT(loads->torque_nm, 3.94);  // ours is the conservative factor
 }
 
+TEST(TappingCut, HasTheTeethAndTheLeadOfItsTap) {
+  model::Cutter tap;
+  tap.cutting_diameter_mm = 8.0;
+  tap.thread_pitch_mm = 1.25;
+  const TappingCut usual;
+  const TappingCut untold = tapping_cut_of(tap, 0.0, 240.0);
+  EXPECT_EQ(untold.core_hole_diameter_mm, 6.75);
+  EXPECT_EQ(untold.flutes, usual.flutes);
+  EXPECT_EQ(untold.chamfer_threads, usual.chamfer_threads);
+  EXPECT_EQ(untold.n_rpm, 240.0);
+  const TappingCut of_usual = tapping_cut_of(tap, 6.8, 240.0);
+  tap.teeth = 4;
+  tap.lead_threads = 5.0;
+  const TappingCut told = tapping_cut_of(tap, 6.8, 240.0);
+  EXPECT_EQ(told.core_hole_diameter_mm, 6.8);
+  EXPECT_EQ(told.flutes, 4);
+  EXPECT_EQ(told.chamfer_threads, 5.0);
+  // The chip is shared by 20 teeth of the chamfer instead of 7.5, and kc = kc1.1 h^-mc.
+  const WorkMaterial work{2110.0, 0.17};
+  EXPECT_NEAR(tapping_loads(told, work)->torque_nm / tapping_loads(of_usual, work)->torque_nm,
+              std::pow(20.0 / 7.5, 0.17), 1e-12);
+}
+
 TEST(DrillingDoors, RefuseWhatIsNotACut) {
   const WorkMaterial work{2110.0, 0.17};
   const DrillingCut good{.diameter_mm = 10.0, .feed_mm_per_rev = 0.2, .n_rpm = 800.0, .point_angle_rad = 2.0};

@@ -3,7 +3,7 @@
 #include <map>
 #include <utility>
 
-#include "planner/ground/base/number.h"
+#include "planner/ground/base/text.h"
 
 namespace capstan::tooling {
 namespace {
@@ -11,18 +11,16 @@ namespace {
 using model::Cutter;
 using model::CutterClass;
 
-std::string mm(double v) { return trimmed(v, 4) + " mm"; }
-
 }  // namespace
 
 std::string unlikely_of(const Cutter& c) {
   // default, unsourced: beyond these only face mills, discs and bored-in heads are common
   constexpr double kWideMm = 100.0, kLongFlutesMm = 300.0;
   if (c.cutting_diameter_mm > kWideMm && !model::has(c.cutter_class, model::CutterTrait::kWide))
-    return "a diameter of " + mm(c.cutting_diameter_mm) + " is unlikely for a " +
+    return "a diameter of " + mm_text(c.cutting_diameter_mm, 4) + " is unlikely for a " +
            std::string(model::to_text(c.cutter_class));
   if (c.maximum_depth_of_cut_mm > kLongFlutesMm && c.cutter_class != CutterClass::kGunDrill)
-    return "flutes of " + mm(c.maximum_depth_of_cut_mm) + " are unlikely";
+    return "flutes of " + mm_text(c.maximum_depth_of_cut_mm, 4) + " are unlikely";
   return {};
 }
 

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numbers>
 #include <optional>
 
 #include "planner/ground/base/no_number.h"
 #include "planner/ground/base/number.h"
+#include "planner/ground/vocabulary/unit_factors.h"
 #include "tooling/library/cutters/check.h"
 #include "tooling/library/cutters/complete.h"
 #include "tooling/shop/data/data.h"
@@ -23,7 +23,6 @@ using model::Cutter;
 using model::CutterClass;
 using model::WorkMaterial;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr std::size_t kMostSizes = 1000;  // of one series
 
 /// A number that depends on the size: linear with bounds, or a table of upper limits.
@@ -221,11 +220,11 @@ Series read_series(Fields& f) {
   s.base.cutter_class = c.value_or(CutterClass::kEndmill);
   s.base.substrate = m.value_or(model::Substrate::kHss);
   s.base.teeth = static_cast<int>(f.optional_integer("teeth").value_or(0));
-  s.base.point_angle_rad = f.number_or("point_angle_deg", 0.0) * kDegree;
-  s.base.helix_rad = f.number_or("helix_deg", 0.0) * kDegree;
-  s.base.lead_angle_rad = f.number_or("lead_angle_deg", 0.0) * kDegree;
-  s.base.maximum_ramp_angle_rad = f.number_or("max_ramp_deg", 0.0) * kDegree;
-  s.base.taper_angle_rad = f.number_or("taper_deg", 0.0) * kDegree;
+  s.base.point_angle_rad = f.number_or("point_angle_deg", 0.0) * kRadPerDegree;
+  s.base.helix_rad = f.number_or("helix_deg", 0.0) * kRadPerDegree;
+  s.base.lead_angle_rad = f.number_or("lead_angle_deg", 0.0) * kRadPerDegree;
+  s.base.maximum_ramp_angle_rad = f.number_or("max_ramp_deg", 0.0) * kRadPerDegree;
+  s.base.taper_angle_rad = f.number_or("taper_deg", 0.0) * kRadPerDegree;
   s.base.thread_form = f.text_or("thread_form", "");
   s.base.lead_threads = f.number_or("lead_threads", 0.0);
   s.base.coolant_through = f.flag_or("coolant_through", false);
@@ -357,7 +356,7 @@ void add_cutter(const Series& s, const Size& size, Fields& f, Reader& r) {
     c.thread_size_mm = row.number_or("thread_size", 0.0);
     c.cutting_width_mm = row.number_or("cutting_width", 0.0);
     c.neck_diameter_mm = row.number_or("neck", 0.0);
-    if (row.has("taper_deg")) c.taper_angle_rad = row.number("taper_deg") * kDegree;
+    if (row.has("taper_deg")) c.taper_angle_rad = row.number("taper_deg") * kRadPerDegree;
     c.adjustable_to_mm = row.number_or("adjustable_to", 0.0);
     if (const auto z = row.optional_integer("teeth")) c.teeth = static_cast<int>(*z);
     row_flute = row.has("flute_length");

@@ -3,6 +3,7 @@
 #include <map>
 
 #include "planner/ground/base/number.h"
+#include "planner/ground/base/text.h"
 #include "planner/model/plan/cutter/cutter_fields.h"
 #include "tooling/library/cutters/check.h"
 #include "tooling/library/cutters/complete.h"
@@ -440,16 +441,15 @@ class Maker {
   }
   /// One line for people; the report has them all.
   void say() {
-    constexpr std::size_t kShown = 20;  // default, unsourced: what a person still reads
-    for (std::size_t k = 0; k < left_.size() && k < kShown; ++k)
+    for (std::size_t k = 0; k < left_.size() && k < kEntriesShown; ++k)
       job_.report({.code = "TOOL-LEFT-OUT",
                    .severity = Severity::kWarning,
                    .message = "'" + left_[k].first + "' is not used: " + left_[k].second,
                    .file = l_.source});
-    if (left_.size() > kShown)
+    if (left_.size() > kEntriesShown)
       job_.report({.code = "TOOL-LEFT-OUT",
                    .severity = Severity::kWarning,
-                   .message = std::to_string(left_.size() - kShown) + " more tools are not used",
+                   .message = std::to_string(left_.size() - kEntriesShown) + " more tools are not used",
                    .file = l_.source,
                    .hint = "capstan tools import --report lists them"});
   }

@@ -4,7 +4,9 @@
 #include <filesystem>
 
 #include "planner/ground/base/file.h"
+#include "planner/ground/base/text.h"
 #include "tooling/library/formats/all.h"
+#include "tooling/library/formats/byte_cap.h"
 #include "tooling/library/formats/import.h"
 #include "tooling/library/formats/values.h"
 #include "tooling/library/records/check.h"
@@ -15,7 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kLibraryBytesCap = std::size_t{256} << 20;
 constexpr std::size_t kFolderFilesCap = 20'000;
 constexpr int kFolderDepthCap = 8;
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,7 +12,11 @@
 
 namespace capstan::tooling {
 
-/// Options that reading or writing a format may need.
+/// So many entries of a library are told one by one, then their number: what a person still reads. Default,
+/// unsourced.
+inline constexpr std::size_t kEntriesShown = 20;
+
+/// What reading or writing a format may need to be told.
 struct FormatOptions {
   /// For formats that do not state their unit (LinuxCNC tables, some CSV): 1 or 25.4.
   std::optional<double> mm_per_unit;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <set>
 
+#include "tooling/library/formats/byte_cap.h"
+
 namespace capstan::tooling {
 namespace {
 
@@ -32,9 +34,9 @@ class Parser {
   Parser(std::string_view text, const std::string& file) : s_(text), file_(file) {}
 
   Result<Json> parse() {
-    if (s_.size() > kJsonBytesCap)
+    if (s_.size() > kLibraryBytesCap)
       return fail({.code = "FILE-TOO-LARGE",
-                   .message = "more than " + std::to_string(kJsonBytesCap) + " bytes",
+                   .message = "more than " + std::to_string(kLibraryBytesCap) + " bytes",
                    .file = file_});
     if (s_.starts_with("\xEF\xBB\xBF")) at_ = 3;
     while (fault_.empty() && step()) {

@@ -10,7 +10,6 @@
 
 namespace capstan::tooling {
 
-inline constexpr std::size_t kJsonBytesCap = std::size_t{256} << 20;
 inline constexpr std::size_t kJsonDepthCap = 64;
 inline constexpr std::size_t kJsonNodesCap = 20'000'000;
 

@@ -8,6 +8,7 @@
 #include "planner/ground/base/number.h"
 #include "planner/model/plan/cutter/table_offsets.h"
 #include "tooling/library/cutters/complete.h"
+#include "tooling/library/formats/format.h"
 
 namespace capstan::tooling {
 namespace {
@@ -47,9 +48,8 @@ void TableLines::give(const MachineEntry& entry, double mm_per_unit, model::Cutt
   }
   model::take_table_line(c, line);
   if (const std::string fault = model::offset_fault(c); !fault.empty()) {
-    constexpr std::size_t kShown = 20;  // default, unsourced: what a person still reads
-    if (++doubted_ > kShown) return;
-    const std::string more = doubted_ == kShown ? "; more like it are not listed" : "";
+    if (++doubted_ > kEntriesShown) return;
+    const std::string more = doubted_ == kEntriesShown ? "; more like it are not listed" : "";
     job.report({.code = "TOOL-OFFSET",
                 .severity = Severity::kWarning,
                 .message = fault + "; the length of " + trimmed(c.functional_length_mm, 4) +

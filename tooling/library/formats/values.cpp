@@ -6,6 +6,7 @@
 
 #include "planner/ground/base/no_number.h"
 #include "planner/ground/base/number.h"
+#include "planner/ground/base/text.h"
 #include "planner/model/plan/range/ranges.h"
 
 namespace capstan::tooling {
@@ -256,13 +257,6 @@ std::string_view trimmed_text(std::string_view text) {
   const auto first = text.find_first_not_of(" \t\r\n");
   if (first == std::string_view::npos) return {};
   return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
-}
-
-std::string lower_text(std::string_view text) {
-  std::string out(text);
-  for (char& c : out)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + 32);
-  return out;
 }
 
 std::string unique_id(const std::string& id, UniqueIds& ids) {

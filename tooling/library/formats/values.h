@@ -76,9 +76,7 @@ struct UniqueIds {
 [[nodiscard]] std::string tool_words(std::size_t index, std::string_view description);
 /// Without blanks at either end.
 [[nodiscard]] std::string_view trimmed_text(std::string_view text);
-/// ASCII letters in lower case.
-[[nodiscard]] std::string lower_text(std::string_view text);
-/// The id, or the id with " (2)", " (3)" ... behind, so that it differs from all in `taken`; adds it there.
+/// The id, or the id with " (2)", " (3)" ... behind, so that none of `taken` is met; adds it there.
 [[nodiscard]] std::string unique_id(const std::string& id, UniqueIds& taken);
 
 /// The value stated for a path ("geometry.JET") in a list of kept texts, or null.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <pugixml.hpp>
 
+#include "tooling/library/formats/byte_cap.h"
 #include "tooling/library/formats/values.h"
 
 // The one file that knows pugixml.
@@ -69,9 +70,9 @@ std::string XmlNode::attribute(std::string_view wanted) const {
 }
 
 Result<XmlNode> parse_xml(std::string_view bytes, const std::string& file) {
-  if (bytes.size() > kXmlBytesCap)
+  if (bytes.size() > kLibraryBytesCap)
     return fail({.code = "FILE-TOO-LARGE",
-                 .message = "more than " + std::to_string(kXmlBytesCap) + " bytes",
+                 .message = "more than " + std::to_string(kLibraryBytesCap) + " bytes",
                  .file = file});
   Lines lines(bytes);
   pugi::xml_document doc;

@@ -10,7 +10,6 @@
 
 namespace capstan::tooling {
 
-inline constexpr std::size_t kXmlBytesCap = std::size_t{256} << 20;
 inline constexpr std::size_t kXmlDepthCap = 64;
 inline constexpr std::size_t kXmlNodesCap = 5'000'000;
 

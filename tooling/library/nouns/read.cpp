@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <span>
 
 #include "planner/ground/base/number.h"
+#include "planner/ground/vocabulary/unit_factors.h"
 #include "planner/model/nouns/geometric_item.h"
 #include "planner/model/nouns/tool.h"
 #include "planner/model/nouns/workpiece.h"
@@ -24,8 +24,6 @@ using model::MachiningTool;
 using model::Model;
 using model::Ref;
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kDegree = kPi / 180.0;
 /// Smaller face mills are not made; the word is used for end mills that face.
 constexpr double kLeastFacemillMm = 25.0;
 constexpr double kSizeSlackMm = 1e-4;
@@ -105,7 +103,7 @@ std::optional<CutterClass> class_of_body(const Model& m, const Parts& p, double 
   if (const auto* u = m.get<model::UserDefinedTool>(b)) return class_of_words(*u, re);
   if (width_of(m, b) > 0.0) return CutterClass::kSideMill;
   if (m.holds<model::CenterDrill>(b))
-    return point_angle_rad > 75.0 * kDegree ? CutterClass::kSpotDrill : CutterClass::kCenterDrill;
+    return point_angle_rad > 75.0 * kRadPerDegree ? CutterClass::kSpotDrill : CutterClass::kCenterDrill;
   if (m.holds<model::Drill>(b)) {
     // Neither standard has a word for them: one lip, and coolant through it.
     const bool gun = p.body->number_of_teeth.value_or(0) == 1 && p.body->coolant_through_tool.value_or(false);
@@ -327,9 +325,9 @@ Result<Kind> kind_of(const Model& m, const Parts& p, Job& job) {
     k.point_angle_rad = point_angle_from(a, about, k.reading);
     if (a > 0.0 && !k.reading.starts_with("stated"))
       job.note("TOOL-POINT",
-               p.name + ": tool_top_angle " + trimmed(a / kDegree, 2) + " deg: " +
+               p.name + ": tool_top_angle " + trimmed(a / kRadPerDegree, 2) + " deg: " +
                    (k.point_angle_rad > 0.0
-                        ? "a point of " + trimmed(k.point_angle_rad / kDegree, 1) + " deg, " + k.reading
+                        ? "a point of " + trimmed(k.point_angle_rad / kRadPerDegree, 1) + " deg, " + k.reading
                         : k.reading));
   }
   const auto cls = class_of_body(m, p, k.point_angle_rad);
@@ -417,7 +415,7 @@ double point_angle_from(double tool_top_angle_rad, CutterClass c, std::string& r
     return 0.0;
   }
   constexpr double kNearDeg = 1.0;
-  const double a = tool_top_angle_rad / kDegree;
+  const double a = tool_top_angle_rad / kRadPerDegree;
   const std::array<std::pair<double, const char*>, 3> readings{
       {{2.0 * a, "stated: tool_top_angle, half of it"},
        {180.0 - 2.0 * a, "derived: the file holds the complement of half the point angle"},
@@ -426,7 +424,7 @@ double point_angle_from(double tool_top_angle_rad, CutterClass c, std::string& r
     for (const double usual : usual_points(c)) {
       if (std::abs(full - usual) > kNearDeg) continue;
       reading = how;
-      return full * kDegree;
+      return full * kRadPerDegree;
     }
   }
   reading = "default: no reading of it is a usual point";

@@ -4,13 +4,12 @@
 #include <set>
 
 #include "planner/ground/base/number.h"
+#include "planner/ground/base/text.h"
 
 namespace capstan::tooling {
 namespace {
 
 constexpr double kSlackMm = 1e-6;
-
-std::string mm(double v) { return trimmed(v, 4) + " mm"; }
 
 class Checker {
  public:
@@ -85,8 +84,8 @@ class Checker {
     const bool flutes = std::string_view(symbol) == "APMX" || std::string_view(symbol) == "LCF";
     say("TOOL-VALUE",
         (flutes ? std::string("the flutes are longer than the tool: ") : std::string()) + symbol + " is " +
-            mm(*v) + ", more than " + what + ", " + mm(*most),
-        who, "at most " + mm(*most));
+            mm_text(*v, 4) + ", more than " + what + ", " + mm_text(*most, 4),
+        who, "at most " + mm_text(*most, 4));
   }
   void assembly(const ToolAssembly& a) {
     if (a.stick_out_mm && (!std::isfinite(*a.stick_out_mm) || *a.stick_out_mm < 0.0))

@@ -480,8 +480,7 @@ std::vector<std::int64_t> ToolStore::find(const model::ToolRequirement& r) const
       if (to < low || reach < r.reach_mm - kSlackMm) continue;
       if (flutes < r.depth_of_cut_mm - kSlackMm) continue;
       if (r.corner_radius_limited && corner > r.corner_radius_max_mm + kSlackMm) continue;
-      constexpr double kPitchSlackMm = 1e-3;
-      if (r.thread_pitch_mm > 0.0 && std::abs(pitch - r.thread_pitch_mm) > kPitchSlackMm) continue;
+      if (r.thread_pitch_mm > 0.0 && std::abs(pitch - r.thread_pitch_mm) > model::kPitchSlackMm) continue;
       out.push_back(k->place);
     }
   }

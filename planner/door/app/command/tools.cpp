@@ -6,6 +6,7 @@
 #include "planner/ground/base/number.h"
 #include "planner/ground/vocabulary/unit_factors.h"
 #include "tooling/library/cutters/generic.h"
+#include "tooling/library/formats/format.h"
 #include "tooling/library/formats/import.h"
 #include "tooling/library/formats/json.h"
 #include "tooling/library/library.h"
@@ -134,7 +135,6 @@ class Tools {
 
   /// The lines of a report on standard error: all with --report, else what is dropped, alike ones together.
   void told(const char* what, const std::string& file, const LossReport& r) {
-    constexpr std::size_t kShown = 20;  // default, unsourced: what a person still reads
     const auto note = [&](const char* code, const std::string& text) {
       s_.job.report({.code = code, .severity = Severity::kNote, .message = text, .file = file});
     };
@@ -144,10 +144,11 @@ class Tools {
       return;
     }
     const auto lines = grouped(r.dropped);
-    for (std::size_t k = 0; k < lines.size() && k < kShown; ++k)
+    for (std::size_t k = 0; k < lines.size() && k < tooling::kEntriesShown; ++k)
       note("TOOLS-DROPPED", std::string(what) + ", dropped: " + lines[k]);
-    if (lines.size() > kShown)
-      note("TOOLS-DROPPED", std::to_string(lines.size() - kShown) + " more; --report shows all");
+    if (lines.size() > tooling::kEntriesShown)
+      note("TOOLS-DROPPED",
+           std::to_string(lines.size() - tooling::kEntriesShown) + " more; --report shows all");
   }
 
   /// Reports the cutters that planning could use from the library.

@@ -4,14 +4,14 @@
 #include <cmath>
 #include <map>
 #include <optional>
-#include <set>
 
+#include "planner/door/app/diff/noun_changes.h"
 #include "planner/door/service/explain/step_view.h"
 #include "planner/door/service/explain/values.h"
 #include "planner/ground/base/number.h"
 #include "planner/model/nouns/all.h"
-#include "planner/model/nouns/arena/walk.h"
 #include "planner/model/plan/cutter/cutter_fields.h"
+#include "planner/model/plan/plan_fields.h"
 #include "planner/model/plan/resources/machine_fields.h"
 #include "planner/model/plan/resources/material_fields.h"
 #include "planner/physics/motion/time.h"
@@ -19,207 +19,20 @@
 namespace capstan::app {
 
 using model::AnyRef;
-using model::Attribute;
 using model::Plan;
-using model::Storage;
-using service::binder_text;
 using service::box_text;
 using service::cutter_text;
 using service::duration;
 using service::name_of;
 using service::StepView;
-using service::value_text;
 using service::views_of;
 
 namespace {
-
-constexpr std::size_t kPairs = 2000;  // of objects compared for one feature or step
-
-std::string change(const std::string& what, const std::string& from, const std::string& to) {
-  return what + ": " + from + " -> " + to;
-}
 
 std::string signed_time(double seconds) {
   const double s = rounded(seconds, 1);
   return s < 0.0 ? "-" + duration(-s) : "+" + duration(s);
 }
-
-bool is_reference(Storage s) {
-  return s == Storage::kRef || s == Storage::kRefList || s == Storage::kRefTable || s == Storage::kSelect ||
-         s == Storage::kSelectList;
-}
-
-/// Two plans' objects side by side, from a pair of roots, as far as they belong to these alone.
-class Pairs {
- public:
-  Pairs(const Plan& a, const Plan& b) : a_(a), b_(b) {}
-
-  /// Lines about what differs below the two roots.
-  std::vector<std::string> compare(AnyRef a, AnyRef b) {
-    pending_ = {{a, b, {}}};
-    seen_.clear();
-    lines_.clear();
-    for (std::size_t i = 0; i < pending_.size() && i < kPairs; ++i) {
-      const Pair next = pending_[i];  // the list grows under it
-      pair(next);
-    }
-    return std::move(lines_);
-  }
-
- private:
-  struct Pair {
-    AnyRef a, b;
-    std::string path;
-  };
-
-  // Compared under their own heading.
-  static bool stands_apart(model::TypeId t) {
-    return model::is_a(t, model::TypeId::kExecutable) ||
-           model::is_a(t, model::TypeId::kManufacturingFeature) ||
-           model::is_a(t, model::TypeId::kWorkpiece) || model::is_a(t, model::TypeId::kToolpathList);
-  }
-
-  void pair(const Pair& p) {
-    if (p.a.type != p.b.type) {
-      lines_.push_back(change(p.path, name_of(a_.model, p.a), name_of(b_.model, p.b)));
-      return;
-    }
-    if (model::is_a(p.a.type, model::TypeId::kKeptInstance)) return;
-    for (const Attribute& at : model::noun_type(p.a.type).attributes) {
-      const std::string name = p.path.empty() ? std::string(at.name) : p.path + "/" + std::string(at.name);
-      if (at.name == "persistent_id") continue;
-      // An attribute that only one kind of file can hold is no difference if the other plan lacks it.
-      if (!at.in_iso14649 &&
-          model::has_value(at, a_.model.object(p.a)) != model::has_value(at, b_.model.object(p.b)))
-        continue;
-      if (is_reference(at.storage)) {
-        references(at, p, name);
-      } else {
-        values(at, p, name);
-      }
-      decisions(at.name, p, name);
-    }
-  }
-
-  void values(const Attribute& at, const Pair& p, const std::string& name) {
-    if (at.storage == Storage::kPath) return;  // paths are compared as the steps' results
-    const std::string x = value_text(a_.model, at, a_.model.object(p.a));
-    const std::string y = value_text(b_.model, at, b_.model.object(p.b));
-    if (x != y) lines_.push_back(change(name, x, y) + by(p, std::string(at.name)));
-  }
-
-  /// " (bound by rule: ...; was given in the file)"
-  std::string by(const Pair& p, const std::string& attribute) const {
-    const auto* x = a_.ledger.find(p.a, attribute);
-    const auto* y = b_.ledger.find(p.b, attribute);
-    if (x == nullptr && y == nullptr) return {};
-    std::string out = " (" + binder_text(b_, y);
-    if (y != nullptr && y->state == model::DecisionState::kBound && !b_.ledger.reason(y->reason).text.empty())
-      out += ": " + b_.ledger.reason(y->reason).text;
-    const std::string was = binder_text(a_, x);
-    if (was != binder_text(b_, y)) out += "; was " + was;
-    return out + ")";
-  }
-
-  void decisions(std::string_view attribute, const Pair& p, const std::string& name) {
-    const auto* x = a_.ledger.find(p.a, attribute);
-    const auto* y = b_.ledger.find(p.b, attribute);
-    const auto said = [](const Plan& plan, const model::Decision* d) {
-      std::string out = binder_text(plan, d);
-      if (d != nullptr && d->state == model::DecisionState::kBound) {
-        const auto& why = plan.ledger.reason(d->reason);
-        if (why.id != "given") out += " (" + why.id + ")";
-      }
-      return out;
-    };
-    const std::string from = said(a_, x);
-    const std::string to = said(b_, y);
-    if (from != to) lines_.push_back("why " + change(name, from, to));
-  }
-
-  void follow(AnyRef x, AnyRef y, const std::string& name) {
-    if (!x.set() && !y.set()) return;
-    if (!x.set() || !y.set() || x.type != y.type) {
-      lines_.push_back(change(name, name_of(a_.model, x), name_of(b_.model, y)));
-      return;
-    }
-    if (stands_apart(x.type)) {
-      if (name_of(a_.model, x) != name_of(b_.model, y))
-        lines_.push_back(change(name, name_of(a_.model, x), name_of(b_.model, y)));
-      return;
-    }
-    if (seen_.insert({x, y}).second) pending_.push_back({x, y, name});
-  }
-
-  void lists(const std::vector<AnyRef>& x, const std::vector<AnyRef>& y, const std::string& name) {
-    if (x.size() != y.size())
-      lines_.push_back(
-          change(name, std::to_string(x.size()) + " items", std::to_string(y.size()) + " items"));
-    for (std::size_t i = 0; i < std::min(x.size(), y.size()); ++i)
-      follow(x[i], y[i], name + "[" + std::to_string(i) + "]");
-  }
-
-  static std::vector<AnyRef> refs_of(const Attribute& at, const void* o) {
-    std::vector<AnyRef> out;
-    switch (at.storage) {
-      case Storage::kRef:
-        out.push_back(model::value_of<AnyRef>(at, o));
-        break;
-      case Storage::kRefList:
-        out = model::value_of<model::AnyRefList>(at, o).items;
-        break;
-      case Storage::kRefTable:
-        for (const auto& row : model::value_of<model::RefTable>(at, o).items)
-          out.insert(out.end(), row.begin(), row.end());
-        break;
-      default:
-        break;
-    }
-    return out;
-  }
-
-  void references(const Attribute& at, const Pair& p, const std::string& name) {
-    const void* x = a_.model.object(p.a);
-    const void* y = b_.model.object(p.b);
-    if (at.storage == Storage::kSelect || at.storage == Storage::kSelectList) {
-      selects(at, x, y, name);
-    } else if (at.storage == Storage::kRef) {
-      follow(model::value_of<AnyRef>(at, x), model::value_of<AnyRef>(at, y), name);
-    } else if (at.name != "its_operations") {  // those are the steps' business
-      lists(refs_of(at, x), refs_of(at, y), name);
-    }
-  }
-
-  void selects(const Attribute& at, const void* x, const void* y, const std::string& name) {
-    std::vector<model::SelectValue> u, v;
-    if (at.storage == Storage::kSelect) {
-      u = {model::value_of<model::SelectValue>(at, x)};
-      v = {model::value_of<model::SelectValue>(at, y)};
-    } else {
-      u = model::value_of<model::SelectList>(at, x).items;
-      v = model::value_of<model::SelectList>(at, y).items;
-    }
-    const auto text = [](const model::SelectValue& s) {
-      return s.real ? shortest(*s.real) : s.text.empty() ? std::string("absent") : s.text;
-    };
-    if (u.size() != v.size())
-      lines_.push_back(
-          change(name, std::to_string(u.size()) + " items", std::to_string(v.size()) + " items"));
-    for (std::size_t i = 0; i < std::min(u.size(), v.size()); ++i) {
-      if (u[i].ref.set() || v[i].ref.set()) {
-        follow(u[i].ref, v[i].ref, name);
-      } else if (text(u[i]) != text(v[i])) {
-        lines_.push_back(change(name, text(u[i]), text(v[i])));
-      }
-    }
-  }
-
-  const Plan& a_;
-  const Plan& b_;
-  std::vector<Pair> pending_;
-  std::set<std::pair<AnyRef, AnyRef>> seen_;
-  std::vector<std::string> lines_;
-};
 
 /// The report as it grows.
 class Report {
@@ -259,8 +72,15 @@ std::vector<std::string> inputs(const Plan& a, const Plan& b) {
   else if (const std::string fields = model::told_differences(a.material, b.material);
            a.material.id == b.material.id && !fields.empty())
     out.push_back("material: its data differ (" + fields + ")");
-  one("stock", a.stock.box.empty() ? "" : box_text(a.stock.box),
-      b.stock.box.empty() ? "" : box_text(b.stock.box));
+  const auto boxed = [](const model::Stock& s) { return s.box.empty() ? std::string() : box_text(s.box); };
+  one("stock", boxed(a.stock), boxed(b.stock));
+  if (const std::string fields = model::told_differences(a.stock, b.stock, {"cylinder_radius_mm"});
+      boxed(a.stock) == boxed(b.stock) && !fields.empty())
+    out.push_back("stock: its data differ (" + fields + ")");
+  const auto radius = [](const model::Stock& s) {
+    return s.cylinder_radius_mm ? shortest(*s.cylinder_radius_mm) + " mm" : std::string();
+  };
+  one("radius of the stock", radius(a.stock), radius(b.stock));
   one("set-ups", std::to_string(a.setups.size()), std::to_string(b.setups.size()));
   std::map<std::string, std::pair<std::string, std::string>> provenance;
   for (const auto& p : a.provenance) provenance[p.what].first = p.value + " (" + p.source + ")";
@@ -269,6 +89,32 @@ std::vector<std::string> inputs(const Plan& a, const Plan& b) {
     if (what != "machine" && what != "material" && what != "stock") one("input " + what, xy.first, xy.second);
   }
   return out;
+}
+
+/// What differs between two set-ups at the same place in their plans.
+std::vector<std::string> setup_changes(const Plan& a, const Plan& b, std::size_t i) {
+  const model::SetupResult& p = a.setups[i];
+  const model::SetupResult& q = b.setups[i];
+  std::vector<std::string> out;
+  if (p.work_offset != q.work_offset) out.push_back(change("work offset", p.work_offset, q.work_offset));
+  if (p.security_z_mm != q.security_z_mm)
+    out.push_back(change("security plane", "Z " + shortest(p.security_z_mm) + " mm",
+                         "Z " + shortest(q.security_z_mm) + " mm"));
+  const auto named = [](const model::Workholding& h) {
+    return h.id.empty() ? std::string("not stated") : h.id;
+  };
+  if (p.holding.id != q.holding.id) out.push_back(change("workholding", named(p.holding), named(q.holding)));
+  if (const std::string fields = model::told_differences(p.holding, q.holding, {"id"}); !fields.empty())
+    out.push_back("workholding: its data differ (" + fields + ")");
+  if (p.setup.set() && q.setup.set()) {
+    for (auto& line : noun_changes(a, b, p.setup, q.setup)) out.push_back(std::move(line));
+  }
+  return out;
+}
+
+void setups(const Plan& a, const Plan& b, Report& report) {
+  for (std::size_t i = 0; i < std::min(a.setups.size(), b.setups.size()); ++i)
+    report.section("Set-up " + std::to_string(i + 1), setup_changes(a, b, i));
 }
 
 std::vector<std::string> tools(const Plan& a, const Plan& b) {
@@ -314,14 +160,13 @@ std::vector<std::string> features(const Plan& a, const Plan& b) {
   std::vector<std::string> out;
   const auto before = features_of(a);
   const auto after = features_of(b);
-  Pairs pairs(a, b);
   for (const auto& [name, at] : before) {
     const auto other = after.find(name);
     if (other == after.end()) {
       out.push_back("- " + name);
       continue;
     }
-    for (const auto& line : pairs.compare(at, other->second)) out.push_back(name + ": " + line);
+    for (const auto& line : noun_changes(a, b, at, other->second)) out.push_back(name + ": " + line);
     const std::string x = unplanned_reason(a, at);
     const std::string y = unplanned_reason(b, other->second);
     if (x != y)
@@ -355,6 +200,28 @@ std::string path_text(const model::StepResult& r) {
   return std::to_string(r.path->size()) + " points, " + trimmed(length, 1) + " mm";
 }
 
+std::string coolant_text(const model::StepResult& r) {
+  std::string out;
+  const auto add = [&](bool on, const char* word) {
+    if (on) out += (out.empty() ? "" : ", ") + std::string(word);
+  };
+  add(r.flood, "flood"), add(r.mist, "mist"), add(r.through, "through the tool");
+  return out.empty() ? "none" : out;
+}
+
+/// "spindle_torque 1.11 of 0.48 Nm at X12.4 Y30.1 Z-2; chip"
+std::string exceeded_text(const model::StepResult& r) {
+  std::string out;
+  for (const model::ExceededLimit& l : r.exceeded) {
+    out += (out.empty() ? "" : "; ") + l.name;
+    if (l.value != 0.0 || l.limit != 0.0)
+      out += " " + trimmed(l.value, 4) + " of " + trimmed(l.limit, 4) + (l.unit.empty() ? "" : " " + l.unit);
+    if (l.at_mm)
+      out += " at X" + trimmed(l.at_mm->x, 3) + " Y" + trimmed(l.at_mm->y, 3) + " Z" + trimmed(l.at_mm->z, 3);
+  }
+  return out.empty() ? "none" : out;
+}
+
 std::vector<std::string> results(const Plan& a, const Plan& b, const StepView& x, const StepView& y) {
   std::vector<std::string> out;
   if ((x.result == nullptr) != (y.result == nullptr)) {
@@ -376,12 +243,23 @@ std::vector<std::string> results(const Plan& a, const Plan& b, const StepView& x
   number("radial depth", p.radial_depth_mm, q.radial_depth_mm, " mm");
   number("spindle", p.spindle_rpm, q.spindle_rpm, " 1/min");
   number("feed", p.feed_mm_min, q.feed_mm_min, " mm/min");
-  if (p.flood != q.flood || p.mist != q.mist) out.emplace_back("coolant differs");
+  if (coolant_text(p) != coolant_text(q)) out.push_back(change("coolant", coolant_text(p), coolant_text(q)));
+  if (p.exceeded != q.exceeded) out.push_back(change("exceeded limits", exceeded_text(p), exceeded_text(q)));
+  // Times have a line of their own, rounded, by motion where there are paths.
+  if (const std::string fields = model::told_differences(
+          p, q,
+          {"cutter_id", "setup", "axial_depth_mm", "radial_depth_mm", "spindle_rpm", "feed_mm_min", "flood",
+           "mist", "through", "exceeded", "cutting_s", "rapid_s"});
+      !fields.empty())
+    out.push_back("its data differ (" + fields + ")");
   if (p.path != nullptr && q.path != nullptr && !(*p.path == *q.path))
     out.push_back(change("path", path_text(p), path_text(q)));
   const bool schedule = p.schedule != nullptr && q.schedule != nullptr && p.path != nullptr &&
                         q.path != nullptr && *p.path == *q.path && !(*p.schedule == *q.schedule);
   if (schedule) out.emplace_back("feed along the path differs");
+  const bool sections = p.sections != nullptr && q.sections != nullptr && p.path != nullptr &&
+                        q.path != nullptr && *p.path == *q.path && !(*p.sections == *q.sections);
+  if (sections) out.emplace_back("cross sections along the path differ");
   return out;
 }
 
@@ -437,7 +315,6 @@ void steps(const Plan& a, const Plan& b, Report& report) {
   }
   if (const auto moved = order_change(before, after)) listed.push_back(*moved);
   report.section("Steps", listed);
-  Pairs pairs(a, b);
   for (const auto& v : before) {
     const StepView* w = find(after, v.id);
     if (w == nullptr) continue;
@@ -445,7 +322,7 @@ void steps(const Plan& a, const Plan& b, Report& report) {
     const auto add = [&](const std::vector<std::string>& more) {
       lines.insert(lines.end(), more.begin(), more.end());
     };
-    add(pairs.compare(v.step, w->step));
+    add(noun_changes(a, b, v.step, w->step));
     const double gain = seconds_of(b, *w, by_path) - seconds_of(a, v, by_path);
     if (rounded(gain, 1) != 0.0) lines.push_back("time: " + signed_time(gain));
     report.section("Step '" + v.id + "'", lines);
@@ -464,6 +341,7 @@ std::optional<double> total(const Plan& plan, bool by_path) {
 Difference diff(const Plan& before, const Plan& after) {
   Report report;
   report.section("Inputs", inputs(before, after));
+  setups(before, after, report);
   report.section("Tools", tools(before, after));
   report.section("Features", features(before, after));
   steps(before, after, report);

@@ -6,6 +6,7 @@
 
 #include "planner/door/app/show/node.h"
 #include "planner/door/service/explain/values.h"
+#include "planner/ground/base/text.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/nouns/arena/walk.h"
 
@@ -22,12 +23,6 @@ namespace {
 
 constexpr double kEqual =
     1e-9;  // default, unsourced: far above what units cost, far below what a shop measures
-
-std::string lower(std::string_view s) {
-  std::string out(s);
-  for (char& c : out) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
-  return out;
-}
 
 template <class T>
 bool ordered(Compare how, const T& a, const T& b, bool equal) {
@@ -187,30 +182,30 @@ class Evaluator {
       case Storage::kTextList:
         return text(value_of<model::TextList>(a, data).items[n.item[0]], c);
       case Storage::kBoolean: {
-        const std::string literal = lower(c.text);
+        const std::string literal = lower_text(c.text);
         if (c.quoted || (literal != "true" && literal != "false"))
           return wrong(c, std::string(a.name) + " is true or false", "true or false");
         const bool same = *value_of<model::Boolean>(a, data) == (literal == "true");
         return equal_only(same, c, a);
       }
       case Storage::kEnum: {
-        const std::string literal = lower(c.text);
+        const std::string literal = lower_text(c.text);
         std::string all;
         bool known = false;
         for (const auto e : a.enumerators) {
-          known = known || lower(e) == literal;
-          all += (all.empty() ? "" : ", ") + lower(e);
+          known = known || lower_text(e) == literal;
+          all += (all.empty() ? "" : ", ") + lower_text(e);
         }
         if (!known) return wrong(c, std::string(a.name) + " is never '" + c.text + "'", all);
         const auto code = static_cast<std::size_t>(value_of<model::AnyEnum>(a, data).code);
-        return equal_only(lower(a.enumerators[code]) == literal, c, a);
+        return equal_only(lower_text(a.enumerators[code]) == literal, c, a);
       }
       case Storage::kSelect:
       case Storage::kSelectList: {
         const auto& v = a.storage == Storage::kSelect ? value_of<model::SelectValue>(a, data)
                                                       : value_of<model::SelectList>(a, data).items[n.item[0]];
         if (v.real) return number(*v.real, c);
-        return equal_only(lower(v.text) == lower(c.text), c, a);
+        return equal_only(lower_text(v.text) == lower_text(c.text), c, a);
       }
       default:
         return wrong(c, std::string(a.name) + " cannot be compared");

@@ -3,6 +3,7 @@
 #include <charconv>
 
 #include "planner/ground/base/number.h"
+#include "planner/ground/base/text.h"
 #include "planner/model/nouns/all.h"
 
 namespace capstan::app {
@@ -16,12 +17,6 @@ constexpr const char* kRoots =
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_name(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || is_digit(c) || c == '_'; }
-
-std::string lower(std::string_view s) {
-  std::string out(s);
-  for (char& c : out) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
-  return out;
-}
 
 std::optional<model::TypeId> kind_of(std::string_view name) {
   std::string upper(name);
@@ -84,7 +79,7 @@ class Parser {
   // A word by itself: "and", "or", "not", "is".
   bool word(std::string_view w) {
     const std::size_t from = at_;
-    if (lower(name()) == w) return true;
+    if (lower_text(name()) == w) return true;
     at_ = from;
     return false;
   }
@@ -142,7 +137,7 @@ class Parser {
         fault("'" + std::string(1, peek()) + "' has no meaning here", "a name, '/', '//' or '['");
       fault("a segment has no name");
     }
-    s.name = lower(s.name);
+    s.name = lower_text(s.name);
     return s;
   }
 
@@ -255,7 +250,7 @@ class Parser {
     while (true) {
       OperandStep s;
       s.position = at_;
-      s.attribute = lower(name());
+      s.attribute = lower_text(name());
       if (s.attribute.empty() || is_digit(s.attribute.front())) {
         at_ = s.position;
         fault(left() ? "an attribute is missing" : "a bracket is not closed",

@@ -5,6 +5,7 @@
 
 #include "planner/files/exchange/ap238/tables/addresses.h"
 #include "planner/ground/base/number.h"
+#include "planner/ground/base/text.h"
 #include "planner/model/nouns/all.h"
 
 namespace capstan::exchange::ap238 {
@@ -19,11 +20,6 @@ namespace {
 constexpr std::string_view kPrefix = "capstan ";
 constexpr std::string_view kNumber = "number";
 
-std::string lower(std::string_view s) {
-  std::string out(s);
-  for (char& c : out) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c + 32 : c);
-  return out;
-}
 std::string upper(std::string_view s) {
   std::string out(s);
   for (char& c : out) c = static_cast<char>(c >= 'a' && c <= 'z' ? c - 32 : c);
@@ -260,7 +256,7 @@ void Records::restore(bool sealed) {
   const Addresses addresses(plan, [&](AnyRef at) { return plan.model.origin(at).instance; });
   std::vector<Unlisted> unlisted;
   for (const Found& record : found_) {
-    const std::string label = std::string(kPrefix) + lower(record.kind);
+    const std::string label = std::string(kPrefix) + lower_text(record.kind);
     const auto say = [&](Severity s, std::string code, std::string message) {
       reader_.about(record.property, {.code = std::move(code), .severity = s, .message = std::move(message)});
     };
@@ -304,7 +300,7 @@ void write_records(Writer& w, const std::vector<Unlisted>& unlisted) {
     const AnyRef on = addresses.executable(about);
     const Id executable = on.set() ? w.written(on) : kNoId;
     if (executable == kNoId) return w.lose("a record of the plan, without a main workplan,");
-    const std::string name = "'" + std::string(kPrefix) + lower(kind) + "'";
+    const std::string name = "'" + std::string(kPrefix) + lower_text(kind) + "'";
     const Id property = w.make("machining_process_property");
     w.set(property, "name", name);
     w.link(property, "definition", executable);

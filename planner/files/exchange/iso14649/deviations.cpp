@@ -8,6 +8,7 @@
 #include "planner/files/exchange/common/text.h"
 #include "planner/files/exchange/iso14649/deviations_internal.h"
 #include "planner/ground/base/number.h"
+#include "planner/ground/vocabulary/unit_factors.h"
 #include "planner/model/nouns/all.h"
 
 namespace capstan::exchange {
@@ -53,8 +54,6 @@ std::string show(double v) { return trimmed(v, 3); }
 
 // --- angles -----------------------------------------------------------------------------------------------
 
-constexpr double kDegree = std::numbers::pi / 180.0;
-
 struct AngleAt {
   AnyRef at;
   const model::Attribute* attribute;
@@ -68,7 +67,7 @@ std::vector<AngleAt> angles(const Reading& r) {
     for (const model::Attribute& a : model::noun_type(at.type).attributes) {
       if (a.unit != model::Unit::kAngle || a.storage != model::Storage::kReal || !a.in_iso14649) continue;
       const auto& v = *static_cast<const model::Real*>(a.in(r.plan.model.object(at)));
-      if (v && *v != 0.0) out.push_back({at, &a, *v / kDegree});
+      if (v && *v != 0.0) out.push_back({at, &a, *v / kRadPerDegree});
     }
   }
   return out;
@@ -77,7 +76,7 @@ std::vector<AngleAt> angles(const Reading& r) {
 // A number that is not round in degrees and, read as radians, is a multiple of half a degree to nine digits
 // is in radians: such an angle in degrees is not written by hand.
 bool is_radians(double v) {
-  const double halves = 2.0 * v / kDegree;
+  const double halves = 2.0 * v / kRadPerDegree;
   const bool round_in_radians = std::abs(halves - std::round(halves)) < 1e-7 && std::round(halves) != 0.0;
   const bool round_as_written = std::abs(1000.0 * v - std::round(1000.0 * v)) < 1e-9;
   return std::abs(v) <= 2.0 * std::numbers::pi && round_in_radians && !round_as_written;
@@ -103,7 +102,7 @@ void check_trims(Reading& r) {
     for (const char* name : {"trim_1", "trim_2"}) {
       for (auto& v : (name[5] == '1' ? c->trim_1 : c->trim_2).items) {
         if (!v.real) continue;
-        v.real = *v.real / kDegree;
+        v.real = *v.real / kRadPerDegree;
         note(r, at, name, true, "EXC-UNIT-ANGLE",
              in_file(r, at, name) + " is taken as radians, that is " + show(*v.real) +
                  " degrees: read as degrees the arc's ends would be no round numbers");
@@ -129,8 +128,8 @@ void check_angles(Reading& r) {
     *static_cast<model::Real*>(a.attribute->at(r.plan.model.object(a.at))) =
         a.degrees;  // rad are the model's
     note(r, a.at, a.attribute->name, true, "EXC-UNIT-ANGLE",
-         in_file(r, a.at, a.attribute->name) + " is taken as radians, that is " + show(a.degrees / kDegree) +
-             " degrees: " +
+         in_file(r, a.at, a.attribute->name) + " is taken as radians, that is " +
+             show(a.degrees / kRadPerDegree) + " degrees: " +
              (sure ? "read as degrees it would be no round number"
                    : "other angles of the file are in radians without doubt"));
   }
@@ -147,10 +146,10 @@ void check_drill_points(Reading& r) {
     const AnyRef dimension = m.at<model::Drill>(at).dimension;
     auto* d = m.get<model::MillingToolDimension>(dimension);
     if (d == nullptr || !d->tool_top_angle) continue;
-    const double half = *d->tool_top_angle / kDegree;
+    const double half = *d->tool_top_angle / kRadPerDegree;
     const double other = 90.0 - half;
     if (half >= kHalfPointMin || half <= 0.0 || other < kHalfPointMin || other > kHalfPointMax) continue;
-    d->tool_top_angle = other * kDegree;
+    d->tool_top_angle = other * kRadPerDegree;
     note(r, dimension, "tool_top_angle", true, "EXC-TIP-ANGLE",
          in_file(r, dimension, "tool_top_angle") + " would be a point of " + show(2.0 * half) +
              " degrees; taken as the complement, so that the half angle is " + show(other) +

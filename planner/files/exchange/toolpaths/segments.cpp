@@ -8,6 +8,7 @@
 #include "planner/files/exchange/toolpaths/left_helix.h"
 #include "planner/files/exchange/toolpaths/via.h"
 #include "planner/ground/base/number.h"
+#include "planner/ground/vocabulary/unit_factors.h"
 #include "planner/model/features/curve_points.h"
 #include "planner/model/features/resolve.h"
 #include "planner/model/nouns/all.h"
@@ -20,7 +21,6 @@ using model::AnyRef;
 
 namespace {
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kSameAngle = 1e-9;
 constexpr int kMaxDepth = 32;
 constexpr double kMostTurns = 1e5;  // of one helix; default, unsourced
@@ -251,7 +251,7 @@ class Walker {
     const auto place = [&](const Trim& t) {
       if (t.point) return *t.point;
       const double w = angle(t);
-      const double z = pitch ? *pitch * w / kTurn : 0.0;
+      const double z = pitch ? *pitch * w / kRadPerTurn : 0.0;
       return frame->to_parent({*radius * std::cos(w), *radius * std::sin(w), z});
     };
     Segment s{.from = place(a),
@@ -262,18 +262,18 @@ class Walker {
               .sweep = 0.0};
     if (!a.point && !b.point && pitch) {
       s.sweep = angle(b) - angle(a);
-      if (!(std::abs(s.sweep) <= kMostTurns * kTurn)) return bad(m_, at, "a HELIX has too many turns");
+      if (!(std::abs(s.sweep) <= kMostTurns * kRadPerTurn)) return bad(m_, at, "a HELIX has too many turns");
       return std::vector<Segment>{s};
     }
-    double turn = std::fmod(along ? angle(b) - angle(a) : angle(a) - angle(b), kTurn);
-    if (turn < 0.0) turn += kTurn;
-    if (turn < kSameAngle || turn > kTurn - kSameAngle) turn = kTurn;
+    double turn = std::fmod(along ? angle(b) - angle(a) : angle(a) - angle(b), kRadPerTurn);
+    if (turn < 0.0) turn += kRadPerTurn;
+    if (turn < kSameAngle || turn > kRadPerTurn - kSameAngle) turn = kRadPerTurn;
     if (pitch) {
       if (!(*pitch > 0.0)) return bad(m_, at, "a HELIX has no pitch");
       const double rise = std::abs(dot(s.to - s.from, s.axis));
-      const double turns = std::round((rise / *pitch) - turn / kTurn);
+      const double turns = std::round((rise / *pitch) - turn / kRadPerTurn);
       if (!(std::abs(turns) <= kMostTurns)) return bad(m_, at, "a HELIX has too many turns");
-      turn = std::max(0.0, turn + kTurn * turns);
+      turn = std::max(0.0, turn + kRadPerTurn * turns);
       if (turn == 0.0) return std::vector<Segment>{{s.from, s.to, false, {}, {}, 0.0}};
     }
     s.sweep = along ? turn : -turn;
@@ -285,7 +285,7 @@ class Walker {
     if (!frame) return fail(frame.error());
     if (!c.radius || !(*c.radius > 0.0)) return bad(m_, at, "a CIRCLE has no radius");
     const Vec3 start = frame->to_parent({*c.radius, 0.0, 0.0});
-    return std::vector<Segment>{{start, start, true, frame->origin, frame->z, kTurn}};
+    return std::vector<Segment>{{start, start, true, frame->origin, frame->z, kRadPerTurn}};
   }
 
   Result<std::vector<Segment>> spline(AnyRef at, double from, double to, bool whole) {

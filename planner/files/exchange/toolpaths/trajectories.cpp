@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <tuple>
 
 #include "planner/files/exchange/toolpaths/curves.h"
 #include "planner/files/exchange/toolpaths/left_helix.h"
+#include "planner/ground/vocabulary/unit_factors.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/nouns/arena/walk.h"
 
@@ -21,8 +21,6 @@ using model::MoveKind;
 using model::MoveRole;
 
 namespace {
-
-constexpr double kTurn = 2.0 * std::numbers::pi;
 
 model::Ref<model::CartesianPoint> add_point(model::Model& m, Vec3 p) {
   model::CartesianPoint noun;
@@ -133,7 +131,7 @@ class CurveWriter {
       helix.name = "";
       helix.position = position;
       helix.radius = radius;
-      helix.pitch = std::abs(b.z - a.z) * kTurn / arc_sweep(p_, i);
+      helix.pitch = std::abs(b.z - a.z) * kRadPerTurn / arc_sweep(p_, i);
       c.basis_curve = m_.add(std::move(helix));
     }
     c.trim_1 = trim(a);

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <vector>
 
 #include "planner/ground/base/number.h"
+#include "planner/ground/vocabulary/unit_factors.h"
 #include "planner/model/features/resolve.h"
 #include "planner/model/nouns/all.h"
 
@@ -16,7 +16,6 @@ using geometry::Vec3;
 
 namespace {
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kGridMm = 1e-9;    // of decimals that people and programs write
 constexpr double kNoiseMm = 1e-11;  // error of a centre computed from three points
 
@@ -38,7 +37,7 @@ struct Round {
   [[nodiscard]] double angle(Vec3 start, Vec3 p) const {
     const Vec3 u = start - centre, v = p - centre;
     const double w = std::atan2(dot(cross(u, v), axis), dot(u, v) - dot(u, axis) * dot(v, axis));
-    return w < 0.0 ? w + kTurn : w;
+    return w < 0.0 ? w + kRadPerTurn : w;
   }
 };
 
@@ -82,7 +81,7 @@ class Through {
       return bad("no circle goes through them");
     }
     Round r = round_through(a, b, d);
-    double sweep = closed ? kTurn : r.angle(a, c);
+    double sweep = closed ? kRadPerTurn : r.angle(a, c);
     double last = 0.0;
     for (std::size_t i = 0; i < flats.size(); ++i) {
       const Vec3 p = flats[i];
@@ -167,6 +166,6 @@ std::size_t degenerate_via_points(model::Model& m, model::Ref<model::Polyline> a
   return count;
 }
 
-std::size_t via_count(double sweep) { return std::abs(sweep) > kTurn - 1e-9 ? 2 : 1; }
+std::size_t via_count(double sweep) { return std::abs(sweep) > kRadPerTurn - 1e-9 ? 2 : 1; }
 
 }  // namespace capstan::exchange::curves

@@ -19,13 +19,7 @@ const model::ToolLifeLaw* law_of(const CutQuestion& q) {
   return nullptr;
 }
 
-/// (x / x0)^(-1/e); 1 where the law knows no such influence.
-double influence(double x, double x0, double e) {
-  return e > 0.0 && x0 > 0.0 ? std::pow(x / x0, -1.0 / e) : 1.0;
-}
-
-/// Value of one machine minute. A minute in which an edge is changed costs the machine's lost earning as
-/// well.
+/// What a minute counts. What stands still while an edge is changed costs what it would have earned, too.
 double minute_of(const CutQuestion& q) {
   if (q.aim == Aim::kTime) return 1.0;
   const double rate = (q.machine.cost_per_hour > 0.0 ? q.machine.cost_per_hour : kMachinePerHour) / 60.0;
@@ -42,9 +36,9 @@ double edge_life_min(const CutQuestion& q, const CutPoint& at) {
     const double life = mechanics::median_life_min(*l, vc, fz, depth) * std::exp(-mechanics::scatter_of(*l));
     if (life > 0.0) return life;
   }
-  const double n = q.cutter.substrate == model::Substrate::kCarbide ? kTaylorCarbide : kTaylorHss;
-  const double at_table = q.cutter.life_min > 0.0 ? q.cutter.life_min : kLifeAtTableSpeedMin;
-  return q.vc_start_m_min > 0.0 ? at_table * influence(vc, q.vc_start_m_min, n) : at_table;
+  const double n = mechanics::taylor_exponent(q.cutter.substrate);
+  const double at_table = q.cutter.life_min > 0.0 ? q.cutter.life_min : mechanics::kLifeAtTableMin;
+  return q.vc_start_m_min > 0.0 ? at_table * mechanics::taylor_factor(vc, q.vc_start_m_min, n) : at_table;
 }
 
 double time_of(const CutQuestion& q, const CutPoint& at) {

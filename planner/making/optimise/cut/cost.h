@@ -12,7 +12,7 @@ struct CutPoint {
 
 /// Cutting time of an edge. The material's life law for the cutter's substrate where it has one, at its
 /// median less one standard deviation of the scatter (five edges of six last longer); else Taylor's law
-/// through the cutter's life (kLifeAtTableSpeedMin) at the table's speed.
+/// through the cutter's life (mechanics::kLifeAtTableMin) at the table's speed.
 ///
 ///     T = T0 (v / v0)^(-1/n) (h / h0)^(-1/p) (a / a0)^(-1/q) exp(-scatter)
 ///

@@ -89,6 +89,9 @@ class MillingLoads {
 /// whichever is right, the spindle must not stall: no power is counted below it. 0: no measured set.
 [[nodiscard]] double power_by_card_w(const CutQuestion& q, double removal_mm3_min, double mean_chip_mm);
 
+/// Slowest speed that is tried, as a fraction of the fastest. Default, unsourced.
+inline constexpr double kSlowestSpeedShare = 0.25;
+
 /// Speeds of machine and cutter, 1/min.
 [[nodiscard]] Range speeds(const CutQuestion& q);
 

@@ -142,12 +142,7 @@ std::optional<model::StepLoads> loads_of(const CutQuestion& q, double ap_mm, dou
   model::StepLoads out;
   out.force_margin = margin;
   if (q.kind == CutKind::kTap) {
-    mechanics::TappingCut c;
-    c.nominal_diameter_mm = q.cutter.cutting_diameter_mm;
-    c.pitch_mm = q.cutter.thread_pitch_mm;
-    c.core_hole_diameter_mm = q.pre_hole_mm > 0.0 ? q.pre_hole_mm : c.nominal_diameter_mm - c.pitch_mm;
-    c.n_rpm = n_rpm;
-    const auto l = mechanics::tapping_loads(c, work);
+    const auto l = mechanics::tapping_loads(mechanics::tapping_cut_of(q.cutter, q.pre_hole_mm, n_rpm), work);
     if (!l) return std::nullopt;
     out.torque_nm = l->torque_nm * margin;
     out.power_w = l->power_w * margin;

@@ -18,10 +18,6 @@ constexpr const char* kCutterSpeed = "cutter_speed_most";
 constexpr const char* kFeed = "feed_per_tooth";
 constexpr const char* kWidth = "radial_cutting_depth";
 
-/// Slowest speed that is tried, as a fraction of the fastest. Default, unsourced.
-constexpr double kSlowest = 0.25;
-/// A thin cut may advance faster for the same chip, by this factor at most. Default, unsourced.
-constexpr double kThinning = 3.0;
 /// Narrowest width that is tried, as a fraction of the widest. A rough path begins with a slot of the whole
 /// diameter, which the check lets be eight times the planned section (verify/sweep: CHK-WIDTH-LEFT); a
 /// narrower cut would mostly not be what its path does. Derived from that: more than an eighth.
@@ -65,7 +61,7 @@ void Search::add_speed() {
   constexpr double kSame = 1e-9;
   speed_by_spindle_ = rpm.hi > 0.0 && rpm.hi <= table * (1.0 + kSame);
   const double most = std::max(speed_by_spindle_ ? rpm.hi : table, rpm.lo);
-  add(kSpeed, "m/min", speed_of(std::max(rpm.lo, kSlowest * most)), speed_of(most));
+  add(kSpeed, "m/min", speed_of(std::max(rpm.lo, kSlowestSpeedShare * most)), speed_of(most));
 }
 
 void Search::add_feed() {
@@ -77,7 +73,7 @@ void Search::add_feed() {
     fz_fixed_ = q_.cutter.thread_pitch_mm / teeth_of(q_);
   } else {
     const double largest = largest_fz(q_);
-    double most = largest * (is_milling(q_.kind) ? kThinning : 1.0);
+    double most = largest * (is_milling(q_.kind) ? kMostThinning : 1.0);
     if (const double borne = model::borne_feed_mm(q_.cutter, q_.material); borne > 0.0)
       most = std::min(most, borne / feed_override(q_));
     most *= ease_of(q_, kFeed);

@@ -67,10 +67,9 @@ std::optional<double> stable_depth(const CutQuestion& q, double ae_mm, double fz
 std::optional<double> quiet_speed(const CutQuestion& q, double ap_mm, double ae_mm, double fz_mm,
                                   double n_rpm) {
   constexpr double kStep = 0.98;
-  constexpr double kSlowest = 0.25;
   const auto lobes = lobes_of(q, ae_mm, fz_mm);
   if (!lobes) return std::nullopt;
-  const double last = std::max({kSlowest * n_rpm, speeds(q).lo, 1.0});
+  const double last = std::max({kSlowestSpeedShare * n_rpm, speeds(q).lo, 1.0});
   for (double n = std::floor(n_rpm); n >= last; n = std::floor(n * kStep)) {
     if (lobes->depth(n) >= ap_mm) return n;
   }

@@ -17,10 +17,7 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kNoLimit =
-    std::numeric_limits<double>::infinity();  // the value of a limit that is not stated
-constexpr double kWhole = 0.95;  // share of depth times width from which a section is a rectangle
-
+constexpr double kNoLimit = std::numeric_limits<double>::infinity();  // of what nobody states
 /// Width of an arc across the feed.
 double width_of(double entry, double exit, double diameter) {
   return 0.5 * diameter * (std::cos(entry) - std::cos(exit));
@@ -97,7 +94,7 @@ Cuts cuts_of(const CutSample& sample, const CutQuestion& question) {
     c.csa_mm2 = area;
     c.front_sin = front_of(s) * kappa_sin;
     const double strip = width_of(c.entry_rad, c.exit_rad, diameter);
-    if (area >= kWhole * ap * strip) {
+    if (area >= kWholeSection * ap * strip) {
       out.cut[out.n++] = c;
       return out;
     }
@@ -109,7 +106,7 @@ Cuts cuts_of(const CutSample& sample, const CutQuestion& question) {
     out.cut[out.n++] = layer;
     return out;
   }
-  if (s.csa_mm2 > 0.0 && s.csa_mm2 < kWhole * ap * ae) {
+  if (s.csa_mm2 > 0.0 && s.csa_mm2 < kWholeSection * ap * ae) {
     out.cut[out.n++] = rectangle(ap, s.csa_mm2 / ap, s, diameter);
     out.cut[out.n++] = rectangle(s.csa_mm2 / ae, ae, s, diameter);
     return out;

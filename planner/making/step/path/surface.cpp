@@ -8,6 +8,7 @@
 #include "planner/making/workholding/clear_of_fixtures.h"
 #include "planner/physics/mechanics/force/force_law.h"
 #include "planner/physics/mechanics/force/immersion.h"
+#include "planner/physics/mechanics/life/life.h"
 
 namespace capstan::step {
 namespace {
@@ -22,8 +23,7 @@ void ask_as_measured(const std::vector<optimise::CutSample>& samples, optimise::
   const model::Cutter& c = q.cutter;
   const double d = c.cutting_diameter_mm;
   const double corner = mechanics::tooth_of(c).corner_radius_mm;
-  const double n =
-      c.substrate == model::Substrate::kCarbide ? optimise::kTaylorCarbide : optimise::kTaylorHss;
+  const double n = mechanics::taylor_exponent(c.substrate);
   std::vector<const optimise::CutSample*> cut;
   double volume = 0.0, length = 0.0, wear = 0.0, widest = 0.0;
   for (const optimise::CutSample& s : samples) {

@@ -21,9 +21,9 @@ namespace capstan::step {
 ///
 ///     D = max((sum d^(1/n) s / sum s)^n, d_max / kOverTable),    d = 2 sqrt(t (2 r - t)) + D0 - 2 r
 ///
-/// Here t is the top of the contact above the tip and s the length of a section. Does nothing where no
-/// section cuts. Source    T v^(1/n) = C (optimise::kTaylorCarbide, kTaylorHss), wear per way summed:
-/// derived.
+/// t being the top of the contact above the tip, s the length that a section stands for. Nothing changes
+/// where no section cuts. Source    T v^(1/n) = C (mechanics::taylor_exponent), wear per way
+/// summed: derived.
 void ask_as_measured(const std::vector<optimise::CutSample>& samples, optimise::CutQuestion& q);
 
 /// Makes the passes over a surface, which need no speed and feed, and completes the question with the

@@ -5,7 +5,9 @@
 #include "planner/ground/base/number.h"
 #include "planner/making/toolpath/hole/hole_paths.h"
 #include "planner/making/toolpath/link/path_writer.h"
+#include "planner/making/toolpath/refuse.h"
 #include "planner/making/toolpath/region/patterns.h"
+#include "planner/model/plan/clearances.h"
 
 // Counterbores and countersinks at the far end of a hole, milled on circles from above.
 
@@ -18,17 +20,11 @@ using model::MoveRole;
 
 namespace {
 
-constexpr double kHeadClear = 0.2;  ///< mm between the head and the narrow hole's wall, on each side
-constexpr double kNeckClear = 0.1;  ///< mm between the neck and that wall while the head is out
 constexpr double kSidePart = 0.25;  ///< of the head's diameter: most that a circle takes; default, unsourced
 constexpr double kHeightPart = 0.25;  ///< of the head's height: most that a level takes; default, unsourced
 constexpr std::size_t kMost = 400;    ///< circles or levels
 
-tl::unexpected<Diagnostic> refuse(const PathJob& task, const char* code, const std::string& what) {
-  return fail({.code = code, .message = task.shape.name + ": " + what, .path = task.shape.name});
-}
-
-/// Sizes of the head, and the cutter's position at the last level.
+/// The head, and where the cutter stands for the last level.
 struct Back {
   double head_mm = 0.0, height_mm = 0.0, neck_mm = 0.0;
   double aside_mm = 0.0;  ///< of the last circle
@@ -81,10 +77,11 @@ Status passes(const PathJob& task, const Back& b) {
   if (!(b.aside_mm > 0.0))
     return refuse(task, "TPA-NO-FIT",
                   "the head of " + trimmed(b.head_mm, 3) + " mm is as wide as what it mills");
-  const double room = 0.5 * (hole - b.neck_mm) - kNeckClear;
-  if (b.head_mm <= hole - 2.0 * kHeadClear + 1e-9 && b.aside_mm <= room + 1e-9) return {};
-  const double most = hole - 2.0 * kHeadClear;
-  const double neck = hole - 2.0 * kNeckClear - 2.0 * b.aside_mm - b.head_mm + std::min(b.head_mm, most);
+  const double room = 0.5 * (hole - b.neck_mm) - model::kNeckClearMm;
+  if (b.head_mm <= hole - 2.0 * model::kHeadClearMm + 1e-9 && b.aside_mm <= room + 1e-9) return {};
+  const double most = hole - 2.0 * model::kHeadClearMm;
+  const double neck =
+      hole - 2.0 * model::kNeckClearMm - 2.0 * b.aside_mm - b.head_mm + std::min(b.head_mm, most);
   return fail({.code = "TPA-NO-FIT",
                .message = task.shape.name + ": the cutter " + task.cutter.id + " with a head of " +
                           trimmed(b.head_mm, 3) + " mm and a neck of " + trimmed(b.neck_mm, 3) +

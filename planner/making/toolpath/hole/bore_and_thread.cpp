@@ -6,6 +6,7 @@
 #include "planner/making/toolpath/defaults.h"
 #include "planner/making/toolpath/hole/hole_paths.h"
 #include "planner/making/toolpath/link/path_writer.h"
+#include "planner/making/toolpath/refuse.h"
 #include "planner/making/toolpath/region/patterns.h"
 
 namespace capstan::toolpath {
@@ -18,10 +19,6 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr int kMostTurns = 10'000;
-
-tl::unexpected<Diagnostic> refuse(const PathJob& task, const char* code, const std::string& what) {
-  return fail({.code = code, .message = task.shape.name + ": " + what, .path = task.shape.name});
-}
 
 double helix_radius(const PathJob& task) {
   return 0.5 * (task.shape.diameter.middle() - task.cutter.cutting_diameter_mm) - task.allowance_side_mm;

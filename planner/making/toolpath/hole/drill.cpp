@@ -6,6 +6,7 @@
 #include "planner/ground/vocabulary/operation.h"
 #include "planner/making/toolpath/hole/hole_paths.h"
 #include "planner/making/toolpath/link/path_writer.h"
+#include "planner/making/toolpath/refuse.h"
 
 namespace capstan::toolpath {
 
@@ -20,10 +21,6 @@ namespace {
 struct Stretch {
   double to_z = 0.0, feed = 1.0, speed = 1.0;
 };
-
-tl::unexpected<Diagnostic> refuse(const PathJob& task, const char* code, const std::string& what) {
-  return fail({.code = code, .message = task.shape.name + ": " + what, .path = task.shape.name});
-}
 
 bool to_tip(const PathJob& task) {
   return task.operation == TypeId::kCenterDrilling ||

@@ -12,7 +12,6 @@ namespace {
 
 constexpr double kTouches = 1e-4;   ///< mm; nearer than this the cutter is at the point
 constexpr double kReached = 0.002;  ///< mm; what stays farther from every pass is out of reach
-constexpr double kLeastU = 0.02;    ///< mm; nearer to the middle a pass is the middle itself
 constexpr int kPlaces = 1500;
 
 /// Points of the finished surface, from the middle outwards and up.

@@ -22,6 +22,9 @@ struct Section {
   [[nodiscard]] double half_width_mm() const { return wall.back().x; }
 };
 
+/// Nearer to the middle than this a pass is the middle itself, mm. Default, unsourced.
+inline constexpr double kLeastU = 0.02;
+
 /// Fails  TPA-UNSUPPORTED  the section narrows upwards (tee, dovetail), or a bottom that is not flat lies
 ///                         under a taper.
 [[nodiscard]] Result<Section> slot_section(const model::FeatureShape& slot);

@@ -29,9 +29,7 @@ constexpr double kFinishStep = 0.35;
 constexpr double kOwnAllowance = 0.3;
 /// Depth of the levels of that roughing, in diameters, if none is given. Default, unsourced.
 constexpr double kOwnLevel = 0.25;
-constexpr double kLeastU = 0.02;     ///< mm; nearer to the middle a track is the middle itself
-constexpr double kSameWidth = 0.02;  ///< mm; so near to the hole's own size a cutter is sunk, not led
-constexpr double kTellRest = 0.01;   ///< mm
+constexpr double kTellRest = 0.01;  ///< mm
 
 /// A place on the track, moved to the nearest end of a segment when it is almost there: no crumbs of arcs.
 Spot snapped(const Track& t, Spot s) {
@@ -361,12 +359,12 @@ bool is_hole_cutter(const PathJob& task) {
   using model::HoleBottom;
   const auto& s = task.shape;
   const auto& c = task.cutter;
-  if (std::abs(c.cutting_diameter_mm - s.diameter.middle()) > kSameWidth || task.allowance_side_mm > 0.0)
+  if (std::abs(c.cutting_diameter_mm - s.diameter.middle()) > kSameSize || task.allowance_side_mm > 0.0)
     return false;
   if (s.bottom_diameter_mm > 0.0 && s.bottom_diameter_mm < s.diameter.nominal_mm - 1e-6) return false;
   if (s.bottom == HoleBottom::kSpherical || s.bottom == HoleBottom::kFlatWithRadius)
-    return std::abs(c.corner_radius_mm - s.bottom_hole_radius_mm) <= kSameWidth;
-  if (s.bottom == HoleBottom::kFlat) return c.corner_radius_mm <= kSameWidth;
+    return std::abs(c.corner_radius_mm - s.bottom_hole_radius_mm) <= kSameSize;
+  if (s.bottom == HoleBottom::kFlat) return c.corner_radius_mm <= kSameSize;
   return s.bottom == HoleBottom::kThrough;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "planner/ground/base/number.h"
+#include "planner/ground/base/text.h"
 #include "planner/model/features/fit/deviation.h"
 #include "planner/model/nouns/support.h"
 
@@ -26,8 +27,7 @@ tl::unexpected<Diagnostic> wrong(std::string message, std::string expected, std:
                          .hint = std::move(hint)});
 }
 
-std::string mm(double x) { return trimmed(x, 5) + " mm"; }
-std::string text_of(const Deviations& d) { return mm(d.lower_mm) + " to " + mm(d.upper_mm); }
+std::string text_of(const Deviations& d) { return mm_text(d.lower_mm, 5) + " to " + mm_text(d.upper_mm, 5); }
 
 std::string plain(const Text& t) {
   std::string out;
@@ -61,11 +61,11 @@ struct Width {
 };
 Result<Width> width_of(double nominal_mm, double grade) {
   if (!(nominal_mm > 0.0) || nominal_mm > kLargestSize)
-    return wrong("a fit at " + mm(nominal_mm), "a size above 0 up to " + mm(kLargestSize));
+    return wrong("a fit at " + mm_text(nominal_mm, 5), "a size above 0 up to " + mm_text(kLargestSize, 5));
   const auto exact = grade_of_exact(nominal_mm, grade);
   const bool whole = grade >= 1.0 && grade <= kCoarsestGrade && grade == std::floor(grade);
   if (exact && whole)
-    return wrong("the grade " + trimmed(grade, 5) + " of a fit at " + mm(nominal_mm) + " is both IT" +
+    return wrong("the grade " + trimmed(grade, 5) + " of a fit at " + mm_text(nominal_mm, 5) + " is both IT" +
                      trimmed(grade, 0) + " and the width of " + grade_name(*exact),
                  "a grade that says one thing", "state the tolerance by its limits");
   if (exact) return Width{exact, *tolerance_grade(nominal_mm, *exact)};
@@ -75,9 +75,9 @@ Result<Width> width_of(double nominal_mm, double grade) {
   }
   const double widest = *tolerance_grade(nominal_mm, kCoarsestGrade);
   if (!(grade > kEmpty) || grade > widest)
-    return wrong(
-        "the grade of a fit is " + trimmed(grade, 5),
-        "a width above 0 up to IT18, " + mm(widest) + " at " + mm(nominal_mm) + ", or a grade 1 to 18");
+    return wrong("the grade of a fit is " + trimmed(grade, 5),
+                 "a width above 0 up to IT18, " + mm_text(widest, 5) + " at " + mm_text(nominal_mm, 5) +
+                     ", or a grade 1 to 18");
   return Width{std::nullopt, grade};
 }
 
@@ -118,7 +118,8 @@ Result<Deviations> by_numbers(double nominal_mm, const LimitsAndFits& t, Side si
   const Deviations up{d, d + w}, down{d - w, d};
   if (std::abs(d) <= kEmpty) {  // H or h: what the deviation 0 stands for
     if (side == Side::kUnknown)
-      return wrong("a fit with the deviation 0 lies above or below " + mm(nominal_mm), "its_fitting_type");
+      return wrong("a fit with the deviation 0 lies above or below " + mm_text(nominal_mm, 5),
+                   "its_fitting_type");
     if (width->grade) return fit(nominal_mm, FitClass{"h", side == Side::kHole, *width->grade});
     return side == Side::kHole ? up : down;
   }
@@ -126,13 +127,13 @@ Result<Deviations> by_numbers(double nominal_mm, const LimitsAndFits& t, Side si
     const auto found = classes_at(nominal_mm, *width->grade, side, d);
     if (found.size() == 1) return found.front().zone;
     if (found.size() > 1)
-      return wrong("a fit of deviation " + mm(d) + " and grade " + grade_name(*width->grade) + " at " +
-                       mm(nominal_mm) + " is " + found[0].name + " or " + found[1].name,
+      return wrong("a fit of deviation " + mm_text(d, 5) + " and grade " + grade_name(*width->grade) +
+                       " at " + mm_text(nominal_mm, 5) + " is " + found[0].name + " or " + found[1].name,
                    "a fit that only one class has", "name the letter, or state the tolerance by its limits");
   }
   if (w >= 2.0 * std::abs(d))
-    return wrong("a fit of deviation " + mm(d) + " and width " + mm(w) + " at " + mm(nominal_mm) +
-                     " may be " + text_of(up) + " or " + text_of(down),
+    return wrong("a fit of deviation " + mm_text(d, 5) + " and width " + mm_text(w, 5) + " at " +
+                     mm_text(nominal_mm, 5) + " may be " + text_of(up) + " or " + text_of(down),
                  "a class of ISO 286", "state the tolerance by its limits");
   return d < 0.0 ? down : up;
 }
@@ -146,7 +147,7 @@ Result<Deviations> by_letter(double nominal_mm, const LimitsAndFits& t, Side sid
     const auto width = width_of(nominal_mm, *t.grade);
     if (!width) return tl::unexpected(width.error());
     if (!width->grade)
-      return wrong("the fit " + letter + " has the width " + mm(width->mm),
+      return wrong("the fit " + letter + " has the width " + mm_text(width->mm, 5),
                    "a standard tolerance of ISO 286");
     grade = grade_name(*width->grade).substr(2);
   }
@@ -159,8 +160,8 @@ Result<Deviations> by_letter(double nominal_mm, const LimitsAndFits& t, Side sid
   auto zone = fit(nominal_mm, *c);
   if (zone && t.deviation && std::abs(*t.deviation - zone->lower_mm) > kRounded &&
       std::abs(*t.deviation - zone->upper_mm) > kRounded)
-    return wrong("the fit " + to_text(*c) + " at " + mm(nominal_mm) + " is " + text_of(*zone) +
-                     ", its deviation stated as " + mm(*t.deviation),
+    return wrong("the fit " + to_text(*c) + " at " + mm_text(nominal_mm, 5) + " is " + text_of(*zone) +
+                     ", its deviation stated as " + mm_text(*t.deviation, 5),
                  "one of its limits");
   return zone;
 }
@@ -178,10 +179,10 @@ Result<std::optional<Deviations>> stated(const PlusMinusValue& t) {
   if (d.width() <= kEmpty && *t.lower_limit < 0.0) d.lower_mm = *t.lower_limit;
   if (!(d.width() > kEmpty)) {
     const bool none = std::abs(d.width()) <= kEmpty;
-    return wrong(none ? "a tolerance has no width: both limits are " + mm(d.upper_mm) + " from nominal"
-                      : "a tolerance ends at " + mm(d.upper_mm) + " and begins at " + mm(d.lower_mm),
-                 "a lower limit below the upper one",
-                 none ? "leave the tolerance out where none is meant" : "");
+    return wrong(
+        none ? "a tolerance has no width: both limits are " + mm_text(d.upper_mm, 5) + " from nominal"
+             : "a tolerance ends at " + mm_text(d.upper_mm, 5) + " and begins at " + mm_text(d.lower_mm, 5),
+        "a lower limit below the upper one", none ? "leave the tolerance out where none is meant" : "");
   }
   return d;
 }

@@ -5,15 +5,13 @@
 #include <numbers>
 #include <utility>
 
-#include "planner/ground/base/number.h"
+#include "planner/ground/base/text.h"
 #include "planner/model/plan/range/ranges.h"
 
 namespace capstan::model {
 namespace {
 
 constexpr double kSlackMm = 1e-9;
-
-std::string mm(double v) { return trimmed(v, 4) + " mm"; }
 
 void check_number(double v, const char* name, const Range& range, std::vector<std::string>& out) {
   if (range.holds(v)) return;
@@ -43,23 +41,24 @@ void check_together(const Cutter& c, std::vector<std::string>& out) {
     return;
   }
   if (c.corner_radius_mm > radius + kSlackMm)
-    out.push_back("the corner radius " + mm(c.corner_radius_mm) + " is larger than half the diameter " +
-                  mm(c.cutting_diameter_mm));
+    out.push_back("the corner radius " + mm_text(c.corner_radius_mm, 4) +
+                  " is larger than half the diameter " + mm_text(c.cutting_diameter_mm, 4));
   if (c.tip_diameter_mm > c.cutting_diameter_mm + kSlackMm)
-    out.push_back("the tip " + mm(c.tip_diameter_mm) + " is wider than the diameter " +
-                  mm(c.cutting_diameter_mm));
+    out.push_back("the tip " + mm_text(c.tip_diameter_mm, 4) + " is wider than the diameter " +
+                  mm_text(c.cutting_diameter_mm, 4));
   if (c.maximum_depth_of_cut_mm > c.stick_out_mm + kSlackMm)
-    out.push_back("the flutes (" + mm(c.maximum_depth_of_cut_mm) + ") are longer than the tool sticks out (" +
-                  mm(c.stick_out_mm) + ")");
+    out.push_back("the flutes (" + mm_text(c.maximum_depth_of_cut_mm, 4) +
+                  ") are longer than the tool sticks out (" + mm_text(c.stick_out_mm, 4) + ")");
   if (c.usable_length_mm > c.stick_out_mm + kSlackMm)
-    out.push_back("the usable length " + mm(c.usable_length_mm) + " is longer than the tool sticks out (" +
-                  mm(c.stick_out_mm) + ")");
+    out.push_back("the usable length " + mm_text(c.usable_length_mm, 4) +
+                  " is longer than the tool sticks out (" + mm_text(c.stick_out_mm, 4) + ")");
   if (c.stick_out_mm > c.functional_length_mm + kSlackMm)
-    out.push_back("the tool sticks out " + mm(c.stick_out_mm) + ", more than from gage line to tip (" +
-                  mm(c.functional_length_mm) + ")");
+    out.push_back("the tool sticks out " + mm_text(c.stick_out_mm, 4) +
+                  ", more than from gage line to tip (" + mm_text(c.functional_length_mm, 4) + ")");
   const auto longer = [&](double v, const char* what, double than, const char* other) {
     if (than > 0.0 && v > than + kSlackMm)
-      out.push_back(std::string(what) + " (" + mm(v) + ") is longer than " + other + " (" + mm(than) + ")");
+      out.push_back(std::string(what) + " (" + mm_text(v, 4) + ") is longer than " + other + " (" +
+                    mm_text(than, 4) + ")");
   };
   longer(c.maximum_depth_of_cut_mm, "the length of the flutes", c.overall_length_mm, "the whole tool");
   longer(c.stick_out_mm, "what sticks out", c.overall_length_mm, "the whole tool");
@@ -68,18 +67,19 @@ void check_together(const Cutter& c, std::vector<std::string>& out) {
     longer(c.maximum_depth_of_cut_mm, "the length of the flutes", c.neck_length_mm, "the neck, from the tip");
   const double widest = std::max(c.cutting_diameter_mm, c.shank_diameter_mm);
   if (c.neck_diameter_mm > widest + kSlackMm)
-    out.push_back("the neck " + mm(c.neck_diameter_mm) + " is thicker than head and shank (" + mm(widest) +
-                  ")");
+    out.push_back("the neck " + mm_text(c.neck_diameter_mm, 4) + " is thicker than head and shank (" +
+                  mm_text(widest, 4) + ")");
   const bool probe = c.cutter_class == CutterClass::kTouchProbe;
   if (!range::kTeeth.holds(c.teeth) && !(probe && c.teeth == 0))
     out.push_back(std::to_string(c.teeth) + " teeth");
   if (c.pocket < 0) out.push_back("the tool number is negative: " + std::to_string(c.pocket));
   if (std::string missing = missing_of(c); !missing.empty()) out.push_back(std::move(missing));
   if (c.fz_min_mm > c.fz_max_mm)
-    out.push_back("the least feed per tooth " + mm(c.fz_min_mm) + " is above the largest " + mm(c.fz_max_mm));
+    out.push_back("the least feed per tooth " + mm_text(c.fz_min_mm, 4) + " is above the largest " +
+                  mm_text(c.fz_max_mm, 4));
   if (c.adjustable_to_mm != 0.0 && c.adjustable_to_mm < c.cutting_diameter_mm)
-    out.push_back("it can be set to " + mm(c.adjustable_to_mm) + ", less than its diameter " +
-                  mm(c.cutting_diameter_mm));
+    out.push_back("it can be set to " + mm_text(c.adjustable_to_mm, 4) + ", less than its diameter " +
+                  mm_text(c.cutting_diameter_mm, 4));
 }
 
 }  // namespace

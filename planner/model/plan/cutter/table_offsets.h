@@ -26,6 +26,9 @@ struct TableReading {
 /// description may say it (control, length_offsets): `stated`.
 [[nodiscard]] TableReading reading_of(const std::vector<TableOffset>& table, std::optional<bool> stated);
 
+/// Diameters this near are one, mm: a tool table's is measured to a micrometre at best.
+inline constexpr double kSameDiameterMm = 0.001;
+
 /// Where the tool is in the magazine: P of its line in the machine's tool table, else its number.
 [[nodiscard]] int magazine_pocket(const Cutter& c);
 

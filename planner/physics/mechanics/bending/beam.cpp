@@ -61,10 +61,10 @@ double force_y(const Tooth& t, const ForceLaw& law, double fz, double angle, dou
 
 }  // namespace
 
-Result<ToolBeam> beam_of(const model::Cutter& c, const HolderCompliance& holder) {
+Result<ToolBeam> beam_of(const model::Cutter& c) {
   if (auto ok = check_positive({{"cutting_diameter_mm", c.cutting_diameter_mm}}); !ok)
     return fail(ok.error());
-  ToolBeam beam{.segments = {}, .holder = holder};
+  ToolBeam beam;
   const double modulus = modulus_of(c.substrate);
   const double d = c.cutting_diameter_mm;
   const double out = c.stick_out_mm > 0.0 ? c.stick_out_mm : std::max(c.usable_length_mm, 3.0 * d);
@@ -104,8 +104,7 @@ double bending_mm_n(const ToolBeam& beam, double force_mm, double seen_mm) {
     }
     from = to;
   }
-  if (low >= from) return 0.0;
-  return sum + beam.holder.shift_mm_n + beam.holder.tilt_rad_nmm * (from - force_mm) * (from - seen_mm);
+  return sum;
 }
 
 double WallError::largest_mm() const { return most_left_mm >= -most_over_mm ? most_left_mm : most_over_mm; }

@@ -18,18 +18,10 @@ struct BeamSegment {
   double youngs_modulus_n_mm2 = 0.0;
 };
 
-/// How the upper end of the beam (the gauge line, or the holder's face when its outline is not known) gives
-/// way; zero: rigid.
-struct HolderCompliance {
-  double shift_mm_n = 0.0;    ///< sideways per force
-  double tilt_rad_nmm = 0.0;  ///< per moment
-};
-
 /// A cantilever, force and place counted from the tip. Bending alone: shear would add 0.5 (d / L)^2 of it (6
 /// % at three diameters, 2 % at five; derived for a plain cylinder), and clamping is not soft here.
 struct ToolBeam {
   std::vector<BeamSegment> segments;
-  HolderCompliance holder;
 };
 
 /// Young's modulus of a holder of steel, N/mm2. Source: as kHssYoungsModulusNMm2, the soft end of tool
@@ -45,11 +37,11 @@ inline constexpr double kHolderYoungsModulusNMm2 = 200e3;
 /// compliance. Holder,
 ///           clamping and spindle of a real machine often add as much again as a short tool: rigid is the
 ///           lower bound.
-[[nodiscard]] Result<ToolBeam> beam_of(const model::Cutter& cutter, const HolderCompliance& holder = {});
+[[nodiscard]] Result<ToolBeam> beam_of(const model::Cutter& cutter);
 
 /// Bending at `seen_mm` per force at `force_mm` above the tip, mm/N:
 ///
-///     int_{max(a,b)}^{L} (x - a)(x - b) / (E I) dx + shift + tilt (L - a)(L - b)
+///     int_{max(a,b)}^{L} (x - a)(x - b) / (E I) dx
 ///
 /// Symmetric (Maxwell). A place above the beam's end does not move.
 /// Source    Euler-Bernoulli, unit load; derived.

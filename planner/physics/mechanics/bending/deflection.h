@@ -27,7 +27,7 @@ struct ToolStiffness {
 /// Needs     at least one of the lengths positive; 0 < flute_length.
 /// Uncertainty  20 % by the flutes' equivalent diameter (0.8 D within 5 %, fourth power); the rigid holder
 /// makes
-///           it a lower bound. beam.h has necks, holders and their compliance.
+///           it a lower bound. beam.h has necks and holders.
 /// Fails     MECH-DOMAIN.
 /// Source    Euler-Bernoulli beam, integral of x^2 / (E I) from the tip; derived.
 [[nodiscard]] Result<double> tip_compliance_mm_n(const ToolStiffness& tool);

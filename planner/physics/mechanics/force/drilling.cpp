@@ -58,6 +58,18 @@ Result<DrillingLoads> reaming_loads(const DrillingCut& cut, const WorkMaterial& 
   return loads;
 }
 
+TappingCut tapping_cut_of(const model::Cutter& tap, double core_hole_mm, double n_rpm) {
+  TappingCut out;
+  out.nominal_diameter_mm = tap.cutting_diameter_mm;
+  out.pitch_mm = tap.thread_pitch_mm;
+  out.core_hole_diameter_mm =
+      core_hole_mm > 0.0 ? core_hole_mm : tap.cutting_diameter_mm - tap.thread_pitch_mm;
+  out.n_rpm = n_rpm;
+  if (tap.teeth > 0) out.flutes = tap.teeth;
+  if (tap.lead_threads > 0.0) out.chamfer_threads = tap.lead_threads;
+  return out;
+}
+
 Result<TappingLoads> tapping_loads(const TappingCut& cut, const WorkMaterial& work) {
   if (auto s = check_positive({{"nominal_diameter_mm", cut.nominal_diameter_mm},
                                {"core_hole_diameter_mm", cut.core_hole_diameter_mm},

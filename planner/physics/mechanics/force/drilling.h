@@ -1,6 +1,7 @@
 #pragma once
 
 #include "planner/ground/base/result.h"
+#include "planner/model/plan/cutter/cutter.h"
 #include "planner/physics/mechanics/force/kienzle.h"
 
 /// Torque, thrust and power of drilling, enlarging, reaming and tapping.
@@ -52,6 +53,10 @@ struct TappingCut {
   double chamfer_threads = 2.5;                ///< threads on the chamfer
   double half_angle_rad = 0.5235987755982988;  ///< of the thread's flanks; 30 degrees
 };
+
+/// What a tap cuts at a speed. `core_hole_mm` 0: the hole is not known, as wide as the nominal diameter less
+/// the pitch. Teeth and threads of the chamfer that the cutter does not state are TappingCut's.
+[[nodiscard]] TappingCut tapping_cut_of(const model::Cutter& tap, double core_hole_mm, double n_rpm);
 
 struct TappingLoads {
   double chip_thickness_mm = 0.0;

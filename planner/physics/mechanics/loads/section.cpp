@@ -367,7 +367,6 @@ SectionLoads plunge_loads(const Section& s, const Tooth& t, const ForceLaw& law,
   const double one_tooth = kc * fz * 0.5 * d;
   out.peak_force_n = one_tooth * std::hypot(1.0, kRadialToTangentialRatio);
   out.peak.fx_n = out.peak.fy_n = out.peak_force_n;
-  out.irregular = area < (1.0 - kIrregular) * disc;
   return out;
 }
 
@@ -574,7 +573,6 @@ Result<SectionLoads> SectionAtFeeds::at(double fz_mm, double n_rpm) const {
   SectionLoads out;
   if (s.nothing) return out;
   if (s.plunge) return plunge_loads(s.section, s.tooth, s.law, fz_mm, n_rpm);
-  out.irregular = std::abs(s.ratio - 1.0) > kIrregular;
   Pieces all = s.all;
   set_force(all, s.law, s.tooth.helix_rad, fz_mm);
   const double per_turn = s.tooth.teeth / (2.0 * kPi);

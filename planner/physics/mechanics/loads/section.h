@@ -52,10 +52,10 @@ struct SectionLoads {
   double peak_torque_nm = 0.0;
   double power_w = 0.0;  ///< mean, at the tool
   double h_max_mm = 0.0, h_mean_mm = 0.0;
-  bool irregular = false;  ///< the measured area is not that of depth and arc, by more than kIrregular
 };
 
-/// Above this relative difference of areas a section is called irregular. Default, unsourced.
+/// Where the measured area exceeds that of depth and arc by more than this part, the thickest chip is that of
+/// the whole feed. Default, unsourced.
 inline constexpr double kIrregular = 0.05;
 
 /// The loads of one section at a feed per tooth and a speed, for a sharp edge with mean coefficients; no

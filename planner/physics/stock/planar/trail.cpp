@@ -4,12 +4,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "planner/ground/vocabulary/unit_factors.h"
+
 namespace capstan::stock {
 namespace {
 
 using geometry::Vec2;
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kStrip = 1e-3;  // mm of height, as far as 16 strips go
 constexpr int kMostStrips = 16;
 
@@ -44,7 +45,7 @@ double deepest_on_arc(const Trail& t, Vec2 p) {
   const bool falls = t.zb < t.za;
   const double middle = angle_from_start(t, p);
   double best = falls ? 0.0 : turn;
-  for (const double m : {middle - kTurn, middle, middle + kTurn}) {
+  for (const double m : {middle - kRadPerTurn, middle, middle + kRadPerTurn}) {
     const double from = std::max(0.0, m - half);
     const double to = std::min(turn, m + half);
     if (from > to) continue;

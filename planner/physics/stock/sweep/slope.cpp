@@ -16,7 +16,6 @@ using geometry::Vec2;
 using geometry::Vec3;
 using rows::kThinnest;
 
-constexpr double kHalfDiagonal = 0.70711;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 struct Chip {

@@ -4,6 +4,9 @@
 
 namespace capstan::stock {
 
+/// From the middle of a cell to its corner, in cells; rounded up.
+inline constexpr double kHalfDiagonal = 0.70711;
+
 /// A straight track that rises or falls, and the cells it may touch.
 struct Slope {
   geometry::Vec2 a, b;  ///< ends of the track

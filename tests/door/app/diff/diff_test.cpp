@@ -75,6 +75,65 @@ TEST(Diff, TellsOtherToolsMachinesAndFeatures) {
   EXPECT_THAT(d.text, HasSubstr("ROUND_HOLE 'HOLE': diameter/theoretical_size: 10 mm -> 10.5 mm"));
 }
 
+TEST(Diff, TellsAnotherHoldingSecurityPlaneAndWorkOffset) {
+  const auto before = testing::planned_plate();
+  auto after = testing::planned_plate();
+  after.setups[0].work_offset = "G55";
+  after.setups[0].security_z_mm = 42.5;
+  after.setups[0].holding.id = "vise";
+  after.setups[0].holding.pickup = {0.0, 6.0, 0.0};
+  const auto d = diff(before, after);
+  EXPECT_FALSE(d.same);
+  EXPECT_THAT(d.text, HasSubstr("Set-up 1\n"
+                                "  work offset: G54 -> G55\n"
+                                "  security plane: Z 30 mm -> Z 42.5 mm\n"
+                                "  workholding: not stated -> vise\n"
+                                "  workholding: its data differ (pickup)\n"));
+}
+
+TEST(Diff, TellsASetupThatLiesElsewhere) {
+  const auto before = testing::planned_plate();
+  auto after = testing::planned_plate();
+  auto* setup = after.model.get<model::Setup>(after.setups[0].setup);
+  auto* origin = after.model.get<model::Axis2Placement3d>(setup->its_origin);
+  model::CartesianPoint aside;
+  aside.coordinates.items = {5.0, 0.0, 0.0};
+  origin->location = after.model.add(aside);
+  const auto d = diff(before, after);
+  EXPECT_FALSE(d.same);
+  EXPECT_THAT(d.text, HasSubstr("its_origin/location"));
+}
+
+TEST(Diff, DoesNotTellNamesOfPlacementsWhichAp238DoesNotKeep) {
+  const auto before = testing::planned_plate();
+  auto after = testing::planned_plate();
+  auto* setup = after.model.get<model::Setup>(after.setups[0].setup);
+  after.model.get<model::Axis2Placement3d>(setup->its_origin)->name = "orientation";
+  EXPECT_TRUE(diff(before, after).same);
+}
+
+TEST(Diff, TellsCoolantThroughTheToolAndExceededLimits) {
+  const auto before = testing::planned_plate();
+  auto after = testing::planned_plate();
+  after.steps[0].through = true;
+  after.steps[0].exceeded = {{"spindle_torque", 1.11, 0.48, "Nm", geometry::Vec3{12.4, 30.1, -2.0}}};
+  after.steps[0].loads.torque_nm = 1.11;
+  const auto d = diff(before, after);
+  EXPECT_THAT(d.text, HasSubstr("coolant: none -> through the tool"));
+  EXPECT_THAT(d.text,
+              HasSubstr("exceeded limits: none -> spindle_torque 1.11 of 0.48 Nm at X12.4 Y30.1 Z-2"));
+  EXPECT_THAT(d.text, HasSubstr("its data differ (loads)"));
+}
+
+TEST(Diff, TellsAnotherRadiusOfABarInTheSameBox) {
+  auto before = testing::planned_plate();
+  before.stock.box.add({0.0, 0.0, 0.0});
+  before.stock.box.add({40.0, 40.0, 30.0});
+  auto after = before;
+  after.stock.cylinder_radius_mm = 20.0;
+  EXPECT_THAT(diff(before, after).text, HasSubstr("radius of the stock: none -> 20 mm"));
+}
+
 TEST(Diff, SurvivesTheFile) {
   Job job;
   const auto plan = testing::planned_plate();

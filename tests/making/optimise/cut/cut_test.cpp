@@ -307,7 +307,7 @@ TEST_F(Cut, TheSpeedOfLeastCostIsTheTextbooks) {
   q.fz_mm = 0.05;
   const double rate = 72.0 / 60.0;
   const double edge = 60.0 + rate * 0.5;
-  const double n = kTaylorCarbide;
+  const double n = mechanics::kTaylorExponentCarbide;
   const double c = 120.0 * std::pow(15.0, n);
   const double best = c * std::pow(n / (1.0 - n) * rate / edge, n);
   const CutAnswer a = answered(q);
@@ -337,7 +337,9 @@ TEST_F(Cut, TheMaterialsLifeLawRulesTheCost) {
   const CutPoint deeper{4.0, 3.0, n, 0.05 * 4.0 * n};
   EXPECT_EQ(edge_life_min(q, deeper), edge_life_min(q, at));  // q = 0: no influence
   q.cutter.substrate = model::Substrate::kHss;                // no law for it
-  EXPECT_NEAR(edge_life_min(q, at), kLifeAtTableSpeedMin * std::pow(120.0 / 100.0, 1.0 / kTaylorHss), 1e-9);
+  EXPECT_NEAR(edge_life_min(q, at),
+              mechanics::kLifeAtTableMin * std::pow(120.0 / 100.0, 1.0 / mechanics::kTaylorExponentHss),
+              1e-9);
 }
 
 TEST_F(Cut, KeepsTheSurfaceThatIsDemanded) {

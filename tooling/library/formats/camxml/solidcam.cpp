@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "planner/ground/base/number.h"
+#include "planner/ground/base/text.h"
 #include "tooling/library/formats/all.h"
 #include "tooling/library/formats/camxml/parameters.h"
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <set>
 
+#include "planner/ground/base/text.h"
 #include "tooling/library/formats/fusion/keys.h"
 #include "tooling/library/formats/json.h"
 #include "tooling/library/formats/values.h"

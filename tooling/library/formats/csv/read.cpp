@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "planner/ground/base/number.h"
+#include "planner/ground/base/text.h"
 #include "tooling/library/formats/csv/csv.h"
 #include "tooling/library/formats/fusion/keys.h"
 #include "tooling/library/formats/values.h"

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "planner/ground/base/number.h"
+#include "planner/ground/base/text.h"
 #include "tooling/library/formats/din4000/codes.h"
 #include "tooling/library/formats/din4000/din4000.h"
 
@@ -12,8 +12,6 @@ namespace {
 using model::CutterClass;
 
 constexpr double kSlackMm = 0.05;  // files round to a tenth or a hundredth
-
-std::string mm(double v) { return trimmed(v, 3) + " mm"; }
 
 class RecordReader {
  public:
@@ -140,20 +138,20 @@ class RecordReader {
   void contradictions() {
     const auto oal = number_of(item_, "OAL"), ls = number_of(item_, "LS"), lh = number_of(item_, "LH");
     if (oal && ls && lh && *lh + *ls > *oal + kSlackMm)
-      contradict("B3", "head " + mm(*lh) + " and shank " + mm(*ls) + " together are longer than the tool, " +
-                           mm(*oal));
+      contradict("B3", "head " + mm_text(*lh) + " and shank " + mm_text(*ls) +
+                           " together are longer than the tool, " + mm_text(*oal));
     const auto lu = number_of(item_, "LU");
     if (lu && lh && *lu > *lh + kSlackMm)
-      contradict("LU", "the usable length " + mm(*lu) + " is longer than the head " + mm(*lh));
+      contradict("LU", "the usable length " + mm_text(*lu) + " is longer than the head " + mm_text(*lh));
     const auto dn = number_of(item_, "DN"), dc = number_of(item_, "DC");
     if (dn && dc && *dn > *dc + 1e-9)
-      contradict("A5", "the neck " + mm(*dn) + " is thicker than the cutting diameter " + mm(*dc));
+      contradict("A5", "the neck " + mm_text(*dn) + " is thicker than the cutting diameter " + mm_text(*dc));
     const auto sig = number_of(item_, "SIG"), pl = number_of(item_, "PL");
     if (sig && pl && dc && *sig > 0.0) {
       const double height = 0.5 * *dc / std::tan(0.5 * *sig);
       if (std::abs(height - *pl) > kSlackMm)
-        contradict("B7", "a point of " + trimmed(*sig / kRadPerDegree, 1) + " deg is " + mm(height) +
-                             " high, B7 says " + mm(*pl));
+        contradict("B7", "a point of " + trimmed(*sig / kRadPerDegree, 1) + " deg is " + mm_text(height) +
+                             " high, B7 says " + mm_text(*pl));
     }
     if (table_ == "82" && !number_of(item_, "APMX") && !number_of(item_, "LCF") && item_.cutter_class)
       report_.dropped.push_back({item_.id, "APMX", "the file states no length of cut (B2, B6)"});

@@ -8,6 +8,7 @@
 #include "planner/ground/base/file.h"
 #include "planner/ground/base/number.h"
 #include "tooling/library/formats/all.h"
+#include "tooling/library/formats/byte_cap.h"
 #include "tooling/library/formats/freecad/freecad.h"
 #include "tooling/library/formats/freecad/shapes.h"
 #include "tooling/library/formats/item/item.h"
@@ -321,7 +322,7 @@ std::vector<FreecadFile> bits_of(std::string_view bytes, const std::string& file
     const std::string name = stem_of(path->text) + ".fctb";
     if (!names.insert(name).second) continue;
     for (const fs::path& place : {folder, folder / ".." / "Bit", folder / "Bit"}) {
-      if (auto bit = read_file((place / name).string(), kJsonBytesCap)) {
+      if (auto bit = read_file((place / name).string(), kLibraryBytesCap)) {
         out.push_back({"Bit/" + name, std::move(*bit)});
         break;
       }

@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/ground/base/number.h"
+#include "planner/ground/base/text.h"
 #include "tooling/library/formats/item/symbols.h"
 
 namespace capstan::tooling {
 namespace {
 
 constexpr double kSlackMm = 1e-9;
-
-std::string mm(double v) { return trimmed(v, 4) + " mm"; }
 
 /// Files give weights in grams, too; ours are in kilograms.
 std::optional<double> kg_per_unit(std::string_view unit) {
@@ -101,12 +99,13 @@ std::vector<std::string> item_faults(const CatalogueItem& item) {
   const auto dc = number_of(item, "DC"), re = number_of(item, "RE"), oal = number_of(item, "OAL");
   if (dc && *dc == 0.0) out.emplace_back("the cutting diameter (DC) is zero");
   if (dc && *dc > 0.0 && re && *re > 0.5 * *dc + kSlackMm)
-    out.push_back("the corner radius " + mm(*re) + " is larger than half the cutting diameter " + mm(*dc));
+    out.push_back("the corner radius " + mm_text(*re, 4) + " is larger than half the cutting diameter " +
+                  mm_text(*dc, 4));
   for (const char* symbol : {"APMX", "LCF", "LU"}) {
     const auto l = number_of(item, symbol);
     if (l && oal && *l > *oal + kSlackMm)
-      out.push_back("the flutes (" + std::string(symbol) + " " + mm(*l) + ") are longer than the tool (" +
-                    mm(*oal) + ")");
+      out.push_back("the flutes (" + std::string(symbol) + " " + mm_text(*l, 4) +
+                    ") are longer than the tool (" + mm_text(*oal, 4) + ")");
   }
   if (number_of(item, "ZEFF") == 0.0 && item.cutter_class != model::CutterClass::kTouchProbe)
     out.emplace_back("the tool has 0 teeth (ZEFF)");

@@ -1,4 +1,5 @@
 #include "planner/files/exchange/ap238/codecs/tolerance_codec.h"
+#include "planner/ground/base/text.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/nouns/arena/walk.h"
 
@@ -94,7 +95,7 @@ bool read_modifiers(Reader& reader, const Row&, AnyRef at, const Attribute& a,
   const Value list = reader.graph().get(found.front().node, "modifiers");
   for (std::size_t i = 0; list.is(Kind::kList) && i < list.size(); ++i) {
     const Value v = list[i].is(Kind::kTyped) ? list[i][0] : list[i];
-    if (v.is(Kind::kEnumeration)) out.items.push_back(lower_case(v.enumeration()));
+    if (v.is(Kind::kEnumeration)) out.items.push_back(lower_text(v.enumeration()));
   }
   if (out.items.empty()) return false;
   out.given = true;
@@ -115,7 +116,7 @@ bool read_valued(Reader& reader, const Row&, AnyRef at, const Attribute& a,
   if (a.storage == model::Storage::kText) {
     const Value v = g.get(t.node, "modifier_type");
     if (!v.is(Kind::kEnumeration)) return false;
-    assign_to(reader, at, a, model::Text(lower_case(v.enumeration())));
+    assign_to(reader, at, a, model::Text(lower_text(v.enumeration())));
     return true;
   }
   const Value v = g.get(t.node, "modifier_value");

@@ -2,6 +2,7 @@
 #include <unordered_set>
 
 #include "planner/files/exchange/ap238/codecs/tolerance_codec.h"
+#include "planner/ground/base/text.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/nouns/arena/walk.h"
 
@@ -27,7 +28,7 @@ bool fits_one(TypeId t, const Attribute& a) {
 
 // Skewness, kurtosis and material ratio have no unit (ISO 4287).
 bool is_ratio(std::string_view name) {
-  const std::string what = lower_case(name.substr(std::min<std::size_t>(1, name.size())));
+  const std::string what = lower_text(name.substr(std::min<std::size_t>(1, name.size())));
   return what.rfind("sk", 0) == 0 || what.rfind("ku", 0) == 0 || what.rfind("mr", 0) == 0;
 }
 

@@ -4,6 +4,7 @@
 
 #include "planner/files/p21/print.h"
 #include "planner/ground/base/number.h"
+#include "planner/ground/base/text.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/nouns/arena/walk.h"
 
@@ -17,12 +18,6 @@ using p21::Value;
 namespace {
 
 using p21::quoted;
-
-std::string lower(std::string_view s) {
-  std::string out(s);
-  for (char& c : out) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c + 32 : c);
-  return out;
-}
 
 template <class T>
 void assign(Reader& reader, AnyRef at, const Attribute& a, T value) {
@@ -88,7 +83,7 @@ void write_twice(Writer& writer, const Row& row, AnyRef owner, const Attribute& 
 bool read_other_kind(Reader& reader, const Row& row, AnyRef at, const Attribute& a,
                      const std::vector<Terminal>& found) {
   const bool named = found.empty() || !found.front().text.is(Kind::kString) ||
-                     lower(found.front().text.as_text()) == "user defined milling tool";
+                     lower_text(found.front().text.as_text()) == "user defined milling tool";
   return !named && read_said(reader, row, at, a, found);
 }
 
@@ -207,7 +202,7 @@ std::string unit_name(const Graph& g, Node n, int depth, std::size_t& left) {
   }
   for (const char* attribute : {"prefix", "si_unit.name"}) {
     const Value part = g.get(n, attribute);
-    if (part.is(Kind::kEnumeration)) out += lower(part.enumeration());
+    if (part.is(Kind::kEnumeration)) out += lower_text(part.enumeration());
   }
   return out;
 }

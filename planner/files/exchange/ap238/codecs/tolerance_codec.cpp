@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "planner/ground/base/text.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/nouns/arena/walk.h"
 
@@ -91,7 +92,7 @@ AnyRef system_of(Reader& reader, const Row& row, AnyRef at, std::vector<Node> re
       r.referenced_datum = model::Ref<model::Datum>(reader.object_at(datum, kDatum, Scale{}));
     const Value modifier = g.get(n, "modifier");
     if (modifier.is(Kind::kEnumeration)) {
-      r.modifiers.items.push_back(modifier_of_condition(lower_case(modifier.enumeration())));
+      r.modifiers.items.push_back(modifier_of_condition(lower_text(modifier.enumeration())));
       r.modifiers.given = true;
     }
     const auto ref = m.add(std::move(r));
@@ -132,11 +133,11 @@ bool read_modifiers(Reader& reader, const Row&, AnyRef at, const Attribute& a,
   model::TextList out;
   const Value list = g.get(found.front().node, "modifiers");
   for (std::size_t i = 0; list.is(Kind::kList) && i < list.size(); ++i) {
-    if (list[i].is(Kind::kEnumeration)) out.items.push_back(lower_case(list[i].enumeration()));
+    if (list[i].is(Kind::kEnumeration)) out.items.push_back(lower_text(list[i].enumeration()));
   }
   const Value older = g.get(found.front().node, "modifier");
   if (older.is(Kind::kEnumeration))
-    out.items.push_back(modifier_of_condition(lower_case(older.enumeration())));
+    out.items.push_back(modifier_of_condition(lower_text(older.enumeration())));
   if (out.items.empty()) return false;
   out.given = true;
   assign_to(reader, at, a, std::move(out));
@@ -377,12 +378,6 @@ bool measures(Reader& reader, Node n, Unit unit) {
   if (u == kNoNode) return unit == Unit::kLength;
   const auto of = reader.units().unit(u);
   return of && Units::factor(*of, unit).has_value();
-}
-
-std::string lower_case(std::string_view s) {
-  std::string out(s);
-  for (char& c : out) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c + 32 : c);
-  return out;
 }
 
 std::string enumerated(std::string_view word) {

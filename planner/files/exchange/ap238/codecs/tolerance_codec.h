@@ -76,7 +76,6 @@ void mark_one(Reader& reader, const Row& row, model::AnyRef owner, Node n, std::
 /// One aspect for all items: the item itself, or a new group. kNoId for none.
 [[nodiscard]] Id group_of(Writer& writer, model::AnyRef owner, const std::vector<model::AnyRef>& items);
 [[nodiscard]] bool measures(Reader& reader, Node n, model::Unit unit);
-[[nodiscard]] std::string lower_case(std::string_view s);
 [[nodiscard]] std::string enumerated(std::string_view word);  ///< ".WORD."
 
 template <class T>

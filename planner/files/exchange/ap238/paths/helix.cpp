@@ -4,12 +4,12 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <optional>
 #include <sstream>
 
 #include "planner/files/exchange/toolpaths/segments.h"
 #include "planner/ground/base/number.h"
+#include "planner/ground/vocabulary/unit_factors.h"
 #include "planner/model/features/resolve.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/nouns/arena/walk.h"
@@ -22,7 +22,6 @@ using model::Storage;
 
 namespace {
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kUpright = 1e-9;
 constexpr double kSameMm = 1e-6;
 constexpr std::string_view kName = "HELIX";
@@ -160,7 +159,7 @@ std::optional<std::vector<Point>> points_of(const curves::Segment& s, bool uprig
   }
   const double sweep = std::abs(s.sweep);
   const double radius = norm(s.from - s.centre - dot(s.from - s.centre, s.axis) * s.axis);
-  double step = kTurn;
+  double step = kRadPerTurn;
   if (!upright)
     step = 2.0 *
            std::acos(std::clamp(1.0 - CurveOptions{}.chord_tolerance_mm / std::max(radius, 1e-6), -1.0, 1.0));
@@ -170,7 +169,7 @@ std::optional<std::vector<Point>> points_of(const curves::Segment& s, bool uprig
   for (std::size_t i = 1; i <= n; ++i) {
     const double a = static_cast<double>(i - 1) * step / sweep,
                  b = std::min(1.0, static_cast<double>(i) * step / sweep);
-    const std::size_t vias = !upright ? 0 : (b - a) * sweep > kTurn - 1e-9 ? 2 : 1;
+    const std::size_t vias = !upright ? 0 : (b - a) * sweep > kRadPerTurn - 1e-9 ? 2 : 1;
     for (std::size_t k = 1; k <= vias; ++k) {
       out.push_back(
           {curves::at(s, a + (b - a) * static_cast<double>(k) / static_cast<double>(vias + 1)), true});

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
+
+#include "planner/ground/vocabulary/unit_factors.h"
 
 namespace capstan::exchange::ap238 {
 
@@ -11,8 +12,6 @@ using p21::Kind;
 using p21::Value;
 
 namespace {
-
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
 // SI prefixes (ISO 10303-41 si_prefix).
 std::optional<double> prefix(const Value& v) {
@@ -110,8 +109,7 @@ std::optional<FileUnit> Units::work_out(Node n, int depth) {
     if (!out) return std::nullopt;
     out->factor *= value;
     // Files spell the degree with 8 to 12 digits.
-    constexpr double kDegree = std::numbers::pi / 180.0;
-    if (out->exponents[7] == 1.0 && std::abs(out->factor - kDegree) < 1e-9) out->factor = kDegree;
+    if (out->exponents[7] == 1.0 && std::abs(out->factor - kRadPerDegree) < 1e-9) out->factor = kRadPerDegree;
     out->counted = out->exponents[7] == 1.0 && is_revolution(g_.get(n, "conversion_based_unit.name"));
     return out;
   }
@@ -162,7 +160,7 @@ std::optional<double> Units::factor(const FileUnit& from, model::Unit to) {
     FileUnit f = from;
     // Revolutions and radians per time are both spindle speeds; a counted thing has no angle.
     if (f.exponents[7] != 0.0 && r.rad == 0.0 && (f.counted || to == Unit::kRotSpeed)) {
-      f.factor /= std::pow(kTwoPi, f.exponents[7]);
+      f.factor /= std::pow(kRadPerTurn, f.exponents[7]);
       f.exponents[7] = 0.0;
     }
     const std::array<double, 8> want = {r.m, r.kg, r.s, 0, 0, 0, 0, r.rad};

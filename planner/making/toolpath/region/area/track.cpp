@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "planner/ground/vocabulary/unit_factors.h"
 
 namespace capstan::toolpath {
 
@@ -11,8 +12,6 @@ using geometry::Vec2;
 
 namespace {
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
-
 double angle_of(Vec2 v) { return std::atan2(v.y, v.x); }
 
 /// Angle swept by an arc segment, (0, 2 pi].
@@ -20,7 +19,7 @@ double sweep_of(Vec2 from, const Segment& s) {
   const double a = angle_of(from - s.centre);
   const double b = angle_of(s.to - s.centre);
   double sweep = s.bend == Bend::kCcw ? b - a : a - b;
-  if (sweep <= 1e-12) sweep += kTurn;
+  if (sweep <= 1e-12) sweep += kRadPerTurn;
   return sweep;
 }
 
@@ -94,10 +93,10 @@ Spot nearest(const Track& t, Vec2 p) {
       const double a = angle_of(from - s.centre);
       const double b = angle_of(p - s.centre);
       double ahead = s.bend == Bend::kCcw ? b - a : a - b;
-      while (ahead < 0.0) ahead += kTurn;
-      while (ahead >= kTurn) ahead -= kTurn;
+      while (ahead < 0.0) ahead += kRadPerTurn;
+      while (ahead >= kRadPerTurn) ahead -= kRadPerTurn;
       // Beyond the arc's end the nearer of its two ends counts.
-      if (ahead > sweep) ahead = ahead - sweep < kTurn - ahead ? sweep : 0.0;
+      if (ahead > sweep) ahead = ahead - sweep < kRadPerTurn - ahead ? sweep : 0.0;
       at = ahead / sweep;
       d = norm(p - point_at(from, s, at));
     }

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "planner/ground/base/number.h"
+#include "planner/making/toolpath/defaults.h"
 #include "planner/making/toolpath/region/form/undercut.h"
 #include "planner/making/toolpath/region/patterns.h"
 #include "planner/making/toolpath/region/region_paths.h"
@@ -16,9 +17,7 @@ using model::MoveRole;
 
 namespace {
 
-constexpr double kSameWidth = 0.02;  ///< mm; a cutter this much narrower than the slot cuts it in one pass
-
-/// Largest distance of a flat tip's corners beyond a vee's flanks if no tolerance limits it, mm; default,
+/// By how much a flat tip may stand out of a vee's flanks where no tolerance says more, mm; default,
 /// unsourced.
 constexpr double kSharpVee = 0.05;
 
@@ -45,7 +44,7 @@ Status check_form(const PathJob& task) {
   }
   if (s.slot_bottom_radius_mm > 0.0) {
     if (c.cutter_class != CutterClass::kBallEndmill ||
-        std::abs(0.5 * c.cutting_diameter_mm - s.slot_bottom_radius_mm) > kSameWidth)
+        std::abs(0.5 * c.cutting_diameter_mm - s.slot_bottom_radius_mm) > kSameSize)
       return refuse("a rounded U needs a ball end mill of " + trimmed(2.0 * s.slot_bottom_radius_mm, 3) +
                     " mm");
     return {};
@@ -113,7 +112,7 @@ Result<GeneratedPath> slot_path(const PathJob& task, Job& job) {
                    .path = s.name,
                    .hint = "a diameter of at most " + trimmed(largest, 3) + " mm would"});
     }
-    if (d < largest - kSameWidth && task.strategy != model::StrategyKind::kCenterMilling)
+    if (d < largest - kSameSize && task.strategy != model::StrategyKind::kCenterMilling)
       return area_path(task, job);
   }
   if (s.spine.size() < 2) {

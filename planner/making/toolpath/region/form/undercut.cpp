@@ -5,8 +5,10 @@
 
 #include "planner/ground/base/number.h"
 #include "planner/making/toolpath/defaults.h"
+#include "planner/making/toolpath/refuse.h"
 #include "planner/making/toolpath/region/form/undercut.h"
 #include "planner/making/toolpath/region/patterns.h"
+#include "planner/model/plan/clearances.h"
 
 namespace capstan::toolpath {
 
@@ -16,8 +18,6 @@ using model::MoveRole;
 
 namespace {
 
-constexpr double kSameSize = 0.02;    ///< mm; what a head narrower or lower than the slot by this still makes
-constexpr double kNeckClear = 0.1;    ///< mm between the neck and the mouth's walls
 constexpr double kSidePart = 0.1;     ///< of the diameter: most that a pass takes further; default, unsourced
 constexpr double kSameAngle = 0.002;  ///< rad
 constexpr int kMostPasses = 200;
@@ -31,10 +31,6 @@ constexpr double kMostQuicker = 3.0;
 struct Head {
   double diameter_mm = 0.0, height_mm = 0.0, neck_mm = 0.0;
 };
-
-tl::unexpected<Diagnostic> refuse(const PathJob& task, const char* code, const std::string& what) {
-  return fail({.code = code, .message = task.shape.name + ": " + what, .path = task.shape.name});
-}
 
 Result<Head> head_of(const PathJob& task, const Undercut& u) {
   const auto& c = task.cutter;
@@ -278,7 +274,7 @@ Result<GeneratedPath> undercut_path(const PathJob& task, const Undercut& u, Slot
                  .path = s.name,
                  .hint = "a diameter of at most " + trimmed(2.0 * (aside + radius), 3) + " mm would"});
   }
-  const double room = u.mouth_mm - kNeckClear - 0.5 * head->neck_mm;
+  const double room = u.mouth_mm - model::kNeckClearMm - 0.5 * head->neck_mm;
   if (std::max(aside, 0.0) > room + 1e-9)
     return refuse(task, "TPA-NO-FIT",
                   "to reach the sides the cutter moves " + trimmed(std::max(aside, 0.0), 3) +
