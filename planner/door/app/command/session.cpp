@@ -94,6 +94,19 @@ Session::Session(Options o) : options(std::move(o)) {
     job.set_progress([](std::string_view stage, double fraction) { bar().show(stage, fraction); });
 }
 
+bool Session::news(const service::FileFinding& f) {
+  if (!f.program) {
+    of_plans_.push_back(f.finding);
+    return true;
+  }
+  const bool line = options.command == Command::kCheck && f.finding.move > 0;
+  if (line || options.json_diagnostics) return true;
+  return std::none_of(of_plans_.begin(), of_plans_.end(), [&](const model::Finding& known) {
+    return known.code == f.finding.code && known.severity == f.finding.severity &&
+           known.step == f.finding.step && known.message == f.finding.message;
+  });
+}
+
 int Session::end(const Diagnostic& d, int code) {
   // Readers report each fault before they fail with a summary; that summary may be one of them.
   const auto& told = job.diagnostics();
