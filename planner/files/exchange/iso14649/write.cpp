@@ -236,8 +236,7 @@ class FileWriter {
       return;
     }
     const void* data = m_.object(at);
-    if (written_type(at.type) != at.type)
-      ++rewritten_[std::string(model::noun_type(at.type).keyword)];
+    if (written_type(at.type) != at.type) ++rewritten_[std::string(model::noun_type(at.type).keyword)];
     for (const Attribute& a : model::noun_type(at.type).attributes) {
       if (!a.in_iso14649) {
         if (model::has_value(a, data)) beyond_at_.emplace_back(at, &a);
