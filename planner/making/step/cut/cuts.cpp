@@ -93,7 +93,8 @@ Result<model::StepLoads> hold_under_overhang(const optimise::CutQuestion& q, con
   constexpr int kHalvings = 12;                        // to a thousandth of the feed
   const auto at = [&](double width, double edges, double share) -> Result<model::StepLoads> {
     auto l = optimise::loads_of(q, a.ap_mm, width, a.n_rpm, share * a.feed_mm_min);
-    if (!l) return fail("PIP-INFEASIBLE", "the loads of " + q.cutter.id +
+    if (!l)
+      return fail("PIP-INFEASIBLE", "the loads of " + q.cutter.id +
                                         " under the overhang are outside the range of the force formulas; "
                                         "state its teeth and cutting width");
     l->torque_nm *= edges;

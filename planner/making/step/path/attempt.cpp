@@ -63,8 +63,7 @@ Result<PathWithCut> path_with_cut(const PlanSoFar& p, const StepDraft& step,
   bool first = true;
   std::optional<toolpath::GeneratedPath> over_surface;  // of the shape at hand
   const bool freeform = m.holds<model::FreeformOperation>(step.operation);
-  const bool passes =
-      m.holds<model::FreeformFinishMilling>(step.operation) && !draft::cuts_levels(m, step);
+  const bool passes = m.holds<model::FreeformFinishMilling>(step.operation) && !draft::cuts_levels(m, step);
   for (const auto& shape : step.shapes) {
     auto job = job_of(p, step, shape);
     means.progress.prepare(step, means.stocks.of(step.setup), job);

@@ -40,7 +40,9 @@ Result<Back> sized(const PathJob& task) {
   const auto& s = task.shape;
   Back b{c.cutting_diameter_mm, c.cutting_width_mm > 0.0 ? c.cutting_width_mm : c.maximum_depth_of_cut_mm,
          c.neck_diameter_mm};
-  if (!(b.height_mm > 0.0)) return refuse(task, "TPA-TOOL", "cutter " + c.id + ": the height of its head is missing; state its cutting width");
+  if (!(b.height_mm > 0.0))
+    return refuse(task, "TPA-TOOL",
+                  "cutter " + c.id + ": the height of its head is missing; state its cutting width");
   if (!(b.neck_mm > 0.0 && b.neck_mm < b.head_mm))
     return refuse(task, "TPA-TOOL",
                   "cutter " + c.id + ": its neck diameter is missing or not below its " +

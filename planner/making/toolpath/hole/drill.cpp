@@ -62,7 +62,8 @@ Result<double> bottom_z(const PathJob& task) {
     return top - 0.5 * width / std::tan(half);
   }
   const double depth = task.cutting_depth_mm.value_or(s.depth_mm);
-  if (!(depth > 0.0)) return refuse(task, "TPA-DEPTH", "the depth of the hole is missing in the file; state it");
+  if (!(depth > 0.0))
+    return refuse(task, "TPA-DEPTH", "the depth of the hole is missing in the file; state it");
   double z = top - depth;
   const bool reaches_bottom = depth >= s.depth_mm - 1e-6;
   if (s.through && reaches_bottom) {
@@ -147,7 +148,8 @@ Result<GeneratedPath> drill_path(const PathJob& task, Job& job) {
   if (task.peck && !(task.peck->first_mm > 0.0 && task.peck->step_mm > 0.0 && task.peck->retract_mm >= 0.0))
     return refuse(task, "TPA-DEPTH", "first_depth and depth_of_step of the step drilling must be above 0");
   if (task.operation == TypeId::kMultistepDrilling && !task.peck)
-    return refuse(task, "TPA-DEPTH", "first_depth and depth_of_step of the step drilling are missing; state them");
+    return refuse(task, "TPA-DEPTH",
+                  "first_depth and depth_of_step of the step drilling are missing; state them");
   PathWriter w(task);
   const auto o = task.feature_in_setup.origin;
   w.over(xy(o));

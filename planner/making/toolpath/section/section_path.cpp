@@ -152,9 +152,8 @@ class SectionCutter {
     if (zs.empty() && lowest >= section_.depth_mm - 1e-6) return no_fit();
     if (zs.empty()) {
       return fail({.code = "TPA-DEPTH",
-                   .message = task_.shape.name + ": cutter " + task_.cutter.id +
-                              " reaches nothing below Z" + trimmed(task_.start_z_mm, 3) +
-                              "; use a narrower one",
+                   .message = task_.shape.name + ": cutter " + task_.cutter.id + " reaches nothing below Z" +
+                              trimmed(task_.start_z_mm, 3) + "; use a narrower one",
                    .path = task_.shape.name});
     }
     // A hole is narrowest at its bottom: what roughed that has cleared all above but the wall.

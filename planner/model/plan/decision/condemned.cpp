@@ -26,7 +26,8 @@ std::string number(double v, double other) {
   constexpr int kMostDecimals = 6;
   if (!std::isfinite(v)) return "no number";
   int n = decimals_of(v);
-  const bool told = v == other || !std::isfinite(other) || trimmed(v, n) != trimmed(other, decimals_of(other));
+  const bool told =
+      v == other || !std::isfinite(other) || trimmed(v, n) != trimmed(other, decimals_of(other));
   if (!told) {
     n = std::max(n, decimals_of(other));
     while (n < kMostDecimals && trimmed(v, n) == trimmed(other, n)) ++n;

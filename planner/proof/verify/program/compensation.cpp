@@ -116,9 +116,8 @@ void check_program_coolant(const ProgramCase& c, Findings& findings) {
     const model::StepResult& s = c.plan->steps[static_cast<std::size_t>(i)];
     const auto missing = [&](const char* what, const char* code) {
       if (!said.insert({b.marker, what}).second) return;
-      findings.error(
-          29, "CHK-COOLANT", c.where(b),
-          "the step cuts with " + std::string(what) + ", the program has it off; state " + code);
+      findings.error(29, "CHK-COOLANT", c.where(b),
+                     "the step cuts with " + std::string(what) + ", the program has it off; state " + code);
     };
     if (s.flood && !b.flood) missing("flood coolant", "M8");
     if (s.mist && !b.mist) missing("mist", "M7");

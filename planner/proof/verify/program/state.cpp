@@ -163,7 +163,8 @@ class StateChecks {
                  "the tool goes to Z" + plain(b.to.z) + " without a length offset; state G43 before");
     const bool cutting = feeds && !b.in_machine;
     if (cutting && !b.known_from[2] && !b.words[2] && said_.insert({27, b.line}).second)
-      out_.error(27, "CHK-POSITION", c_.where(b), "a feed move starts where the height is not known; state Z before it");
+      out_.error(27, "CHK-POSITION", c_.where(b),
+                 "a feed move starts where the height is not known; state Z before it");
     height(b);
     if (c_.plan == nullptr) tool_of_marker(b);
     restart(b);
@@ -181,10 +182,9 @@ class StateChecks {
     if (!b.in_machine) {
       if (b.move != MoveKind::kRapid || !across || b.known_from[2] || was_at_top_) return;
       if (said_.insert({9, b.line}).second)
-        out_.error(
-            9, "CHK-HEIGHT", c_.where(b),
-            "a rapid across where the height of the tool is not known; retract first, G53 G0 Z" +
-                plain(top_of(c_.machine)));
+        out_.error(9, "CHK-HEIGHT", c_.where(b),
+                   "a rapid across where the height of the tool is not known; retract first, G53 G0 Z" +
+                       plain(top_of(c_.machine)));
       return;
     }
     if (across && (b.words[2] || !was_at_top_))
@@ -207,10 +207,9 @@ class StateChecks {
     if (b.marker < 0 || b.in_machine) return;
     const long wanted = c_.program.markers[static_cast<std::size_t>(b.marker)].tool;
     if (wanted <= 0 || wanted == b.tool || !said_.insert({104, b.marker}).second) return;
-    out_.error(
-        4, "CHK-MARKER-TOOL", c_.where(b),
-        "T" + std::to_string(b.tool) + " is loaded, the step's marker says T" + std::to_string(wanted) +
-            "; load that one, or write the program again");
+    out_.error(4, "CHK-MARKER-TOOL", c_.where(b),
+               "T" + std::to_string(b.tool) + " is loaded, the step's marker says T" +
+                   std::to_string(wanted) + "; load that one, or write the program again");
   }
 
   /// The steps' own numbers: 1, 2, 3, ...
@@ -221,8 +220,8 @@ class StateChecks {
       last = m.n;
       if (m.n == expected) continue;
       out_.error(28, "CHK-MARKER-ORDER", {1, m.id, m.line},
-                 "the marker of step '" + m.id + "' has n=" + std::to_string(m.n) + " where n=" +
-                     std::to_string(expected) +
+                 "the marker of step '" + m.id + "' has n=" + std::to_string(m.n) +
+                     " where n=" + std::to_string(expected) +
                      " comes: steps are missing, doubled or in another order; write the program again");
       return;
     }

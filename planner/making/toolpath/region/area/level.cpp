@@ -87,9 +87,7 @@ void LevelCutter::tell(Severity severity, const std::string& code, const std::st
     if (d.code == code && d.message == message) return;
   }
   said.push_back({.code = code, .severity = severity, .message = message});
-  job.report({.code = code,
-              .severity = severity,
-              .message = about(task) + message});
+  job.report({.code = code, .severity = severity, .message = about(task) + message});
 }
 
 double LevelCutter::gap() const { return std::min(task.clearance_mm, 1.0); }
@@ -256,8 +254,8 @@ Result<Track> LevelCutter::enter(const Level& level, const Track& track, const R
   };
   if (asked == Kind::kPlunge && task.cutter.centre_cutting) return plunge();
   if (asked == Kind::kPlunge)
-    warn("TPA-CHANGED", "ramp instead of the given plunge: cutter " + task.cutter.id +
-                            " does not cut to its centre");
+    warn("TPA-CHANGED",
+         "ramp instead of the given plunge: cutter " + task.cutter.id + " does not cut to its centre");
   const bool ramp_first = asked == Kind::kRamp || asked == Kind::kZigzag;
   if (leaf != nullptr && !ramp_first) {
     if (auto t = by_helix(level, track, *leaf)) return *t;

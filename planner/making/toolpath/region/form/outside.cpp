@@ -156,12 +156,12 @@ Status run_in(const Around& a, const Inside& material, std::vector<Vec2>& line, 
   double at = std::clamp(dot(end - line[1], out), 0.0, length);
   while (!material.clear_of(line[1] + at * out, room)) {
     if (at >= length) {
-      return fail(
-          {.code = "TPA-ENTRY",
-           .message = a.task.shape.name + ": no room for the approach: at the end of the contour cutter " +
-                      a.task.cutter.id + " is within " + trimmed(room, 2) +
-                      " mm of the raw piece; extend the contour beyond it",
-           .path = a.task.shape.name});
+      return fail({.code = "TPA-ENTRY",
+                   .message = a.task.shape.name +
+                              ": no room for the approach: at the end of the contour cutter " +
+                              a.task.cutter.id + " is within " + trimmed(room, 2) +
+                              " mm of the raw piece; extend the contour beyond it",
+                   .path = a.task.shape.name});
     }
     at = std::min(at + 0.5 * a.radius, length);
   }
@@ -234,7 +234,8 @@ Result<GeneratedPath> outside_path(const PathJob& task, Job& job) {
   const bool along = a.kept.empty() && task.shape.spine.size() > 1;
   if (a.kept.empty() && !along) {
     return fail({.code = "TPA-UNSUPPORTED",
-                 .message = task.shape.name + ": its closed contour has no area inside that stays; correct the contour",
+                 .message = task.shape.name +
+                            ": its closed contour has no area inside that stays; correct the contour",
                  .path = task.shape.name});
   }
   a.w.islands.clear();

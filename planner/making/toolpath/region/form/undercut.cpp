@@ -41,7 +41,9 @@ Result<Head> head_of(const PathJob& task, const Undercut& u) {
   const auto& c = task.cutter;
   Head h{c.cutting_diameter_mm, c.cutting_width_mm > 0.0 ? c.cutting_width_mm : c.maximum_depth_of_cut_mm,
          c.neck_diameter_mm > 0.0 ? c.neck_diameter_mm : c.shank_diameter_mm};
-  if (!(h.height_mm > 0.0)) return refuse(task, "TPA-TOOL", "cutter " + c.id + ": the height of its head is missing; state its cutting width");
+  if (!(h.height_mm > 0.0))
+    return refuse(task, "TPA-TOOL",
+                  "cutter " + c.id + ": the height of its head is missing; state its cutting width");
   if (u.flank_rad > 0.0) {
     if (c.cutter_class != CutterClass::kDovetailMill || std::abs(c.lead_angle_rad - u.flank_rad) > kSameAngle)
       return refuse(task, "TPA-TOOL",
