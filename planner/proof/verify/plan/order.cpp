@@ -159,7 +159,8 @@ void check_faces(const model::Plan& plan, const std::vector<Entry>& entries, Fin
       // In the face lies what goes on below it.
       if (other.bottom >= face.bottom - 1e-6 || !overlap(face, other)) continue;
       findings.error(28, "CHK-FACE-FIRST", {firsts[f].entry->order + 1, firsts[f].entry->id, -1},
-                     "the face is begun after " + firsts[g].entry->id + ", whose feature lies in it");
+                     "the face is begun after " + firsts[g].entry->id +
+                         ", whose feature lies in it: put the face first");
     }
   }
 }
