@@ -108,7 +108,9 @@ std::string why(const Situation& at, const Row& row, const std::string& made) {
   std::string notes = at.known.notes;
   while (!notes.empty() && (notes.back() == ' ' || notes.back() == ';')) notes.pop_back();
   std::string assumed;
-  for (const std::string& a : at.shape.assumptions) assumed += (assumed.empty() ? "" : "; ") + a;
+  for (const auto* said : {&at.shape.assumptions, &at.shape.remarks}) {
+    for (const std::string& a : *said) assumed += (assumed.empty() ? "" : "; ") + a;
+  }
   return joined({row.text, at.demand.text, made, notes, assumed, at.cooling.text});
 }
 
@@ -369,8 +371,8 @@ std::vector<FeatureShape> from_the_top(std::vector<FeatureShape> shapes) {
             continue;
           s.frame.origin = s.frame.origin + rise * s.frame.z;
           s.depth_mm += rise;
-          s.assumptions.push_back("drilled from the top of the wider hole around it, " + trimmed(rise, 3) +
-                                  " mm higher");
+          s.remarks.push_back("drilled before the wider hole above it, from " + trimmed(rise, 3) +
+                              " mm higher");
         }
       }
     }

@@ -32,15 +32,17 @@ bool fits(double v) { return std::isfinite(v) && std::abs(v) <= kLargest; }
 Status check_tools(const model::Plan& plan, Job& job) {
   std::map<int, const model::Cutter*> by_pocket;
   for (const model::Cutter& c : plan.cutters) {
-    if (c.pocket <= 0) return bad("OUT-TOOL", "cutter " + c.id + " has no tool number", c.id, "load it");
+    if (c.pocket <= 0)
+      return bad("OUT-TOOL", "cutter " + c.id + " has no tool number", c.id, "load it into the magazine");
     const auto [it, fresh] = by_pocket.emplace(c.pocket, &c);
     if (!fresh) {
       return bad("OUT-TOOL",
                  "cutters " + it->second->id + " and " + c.id + " are both T" + std::to_string(c.pocket),
-                 c.id);
+                 c.id, "give one of them another tool number");
     }
     if (!fits(c.functional_length_mm) || !fits(c.cutting_diameter_mm)) {
-      return bad("OUT-NUMBER", "length or diameter of cutter " + c.id + " is not a size", c.id);
+      return bad("OUT-NUMBER", "length or diameter of cutter " + c.id + " is out of range", c.id,
+                 "at most " + trimmed(kLargest, 0) + " mm; correct it in the tool library");
     }
     const auto& line = c.table_line;
     if (line &&
@@ -123,15 +125,37 @@ Status check_step(const model::Plan& plan, const StepResult& step, const std::st
       plan.machine.control.feed_decimals, id);
 }
 
+/// The first number of a machine that a program cannot be written with, with its range; empty: none.
+std::string bad_number(const model::Machine& machine) {
+  const auto decimals = [](const char* name, int v) {
+    return v >= 0 && v <= kMostDecimals
+               ? std::string()
+               : std::string(name) + " " + std::to_string(v) + ", 0 to " + std::to_string(kMostDecimals);
+  };
+  const auto size = [](const char* name, double v) {
+    return fits(v) ? std::string()
+                   : std::string(name) + " " + (std::isfinite(v) ? shortest(v) : std::string("no number")) +
+                         ", at most " + trimmed(kLargest, 0);
+  };
+  for (const std::string& fault : {decimals("decimals", machine.control.decimals),
+                                   decimals("feed decimals", machine.control.feed_decimals),
+                                   size("path tolerance", machine.control.path_tolerance_mm),
+                                   size("travel of Z", machine.axes[2].travel_max_mm),
+                                   size("spin-up time", machine.spindle.spin_up_s)}) {
+    if (!fault.empty()) return fault;
+  }
+  return {};
+}
+
 }  // namespace
 
 Status writable(const model::Plan& plan, Offsets work_offsets, Job& job) {
   if (plan.steps.empty()) return fail("OUT-EMPTY", "the plan has no step to write a program of");
-  const auto& control = plan.machine.control;
-  if (control.decimals < 0 || control.decimals > kMostDecimals || control.feed_decimals < 0 ||
-      control.feed_decimals > kMostDecimals || !fits(control.path_tolerance_mm) ||
-      !fits(plan.machine.axes[2].travel_max_mm) || !fits(plan.machine.spindle.spin_up_s)) {
-    return fail("OUT-NUMBER", "the machine's control is described by numbers that cannot be");
+  if (!bad_number(plan.machine).empty()) {
+    return fail({.code = "OUT-NUMBER",
+                 .message = "machine '" + plan.machine.id +
+                            "' has a number that no control can have: " + bad_number(plan.machine),
+                 .hint = "correct it in the machine's file"});
   }
   if (auto tools = check_tools(plan, job); !tools) return tools;
   const std::vector<std::string> ids = model::step_ids(plan);

@@ -76,9 +76,10 @@ Status collect_setups(model::Plan& plan, const std::vector<draft::SetupDraft>& s
   const controls::Dialect& control = known != nullptr ? *known : *controls::dialects().front();
   const std::size_t count = control.work_offsets.size();
   if (setups.size() > count) {
-    return fail("PIP-OFFSETS", "the part needs " + std::to_string(setups.size()) + " set-ups, and " +
-                                   std::string(control.name) + " has " + std::to_string(count) +
-                                   " work offsets; plan it in parts");
+    return fail("PIP-OFFSETS", std::to_string(setups.size()) + " set-ups, but " + std::string(control.name) +
+                                   " has " + std::to_string(count) + " work offsets (" +
+                                   std::string(control.work_offsets.front()) + " to " +
+                                   std::string(control.work_offsets.back()) + "); split the part");
   }
   for (std::size_t i = 0; i < setups.size(); ++i) {
     plan.setups.push_back(
@@ -253,7 +254,7 @@ Result<model::Plan> bind_within(const model::Plan& plan, const Inputs& inputs, c
   if (inputs.objective != Objective::kProfit) return bind_settled(plan, inputs, policy, 0.0, tries, job);
   if (!inputs.revenue) {
     return fail({.code = "PIP-REVENUE",
-                 .message = "most profit needs to be told what a piece brings",
+                 .message = "planning for most profit needs the revenue of a piece (--revenue)",
                  .expected = "its price less its material, in the currency of the machine's cost per hour"});
   }
   // Open decisions have no time, and so no profit: the plan is made for least cost.
@@ -269,7 +270,7 @@ Result<model::Plan> bind_within(const model::Plan& plan, const Inputs& inputs, c
 Result<model::Plan> bind(model::Plan plan, const Inputs& inputs, const Policy& policy, Job& job) {
   if (const std::string beyond = model::beyond_range(plan); !beyond.empty())
     return fail({.code = "PIP-RANGE",
-                 .message = beyond + ": nothing can be computed with it",
+                 .message = beyond,
                  .file = plan.file_name,
                  .hint = "correct it in the file; lengths are in mm unless it says otherwise"});
   Tries tries;

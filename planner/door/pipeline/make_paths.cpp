@@ -340,9 +340,9 @@ class PathMaker {
     // What the check asked for is told by `bind_checked`.
     const bool asked = step.proposed && bans_.thinner(step.member, step.chain, step.in_chain) != nullptr;
     if (made.thicker.size() > 1 || !asked) {
-      job_.note("PIP-ANEW", "step '" + draft::name_of(plan_.model, step) + "': planned anew " +
-                                sizes(made.answer) + " instead of " + made.thicker.front().what +
-                                ", because " + made.thicker.front().why);
+      job_.note("PIP-ANEW", "step '" + draft::name_of(plan_.model, step) + "': " + sizes(made.answer) +
+                                " instead of " + made.thicker.front().what + ", because " +
+                                made.thicker.front().why);
     }
     const char* what = made.depth_open ? "axial_cutting_depth" : "radial_cutting_depth";
     auto* d = plan_.ledger.find(step.operation, what);

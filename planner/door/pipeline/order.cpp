@@ -252,7 +252,8 @@ Result<std::pair<Drafts, Learned>> order_steps(model::Plan& plan, Drafts drafts,
   }
   const auto order = order_of(plan.model, drafts, demands, proposed, job);
   if (!order) return tl::unexpected(order.error());
-  if (!order->cannot.empty()) return fail("PIP-ORDER", "no order of the steps exists: " + order->cannot);
+  if (!order->cannot.empty())
+    return fail("PIP-ORDER", "the steps have no order that keeps every rule: " + order->cannot);
   std::vector<StepDraft> sorted;
   for (const std::size_t i : given) sorted.push_back(std::move(steps[i]));
   for (const auto& setup : order->setups) {
@@ -263,7 +264,8 @@ Result<std::pair<Drafts, Learned>> order_steps(model::Plan& plan, Drafts drafts,
   learned.again = !added.given_up.empty();
   learned.given_up = std::move(added.given_up);
   for (const auto& d : order->dropped)
-    job.note("PIP-ORDER", "an order that was found gives way to one that must hold: " + d.text);
+    job.note("PIP-ORDER", "order not kept: " + d.text +
+                              "; it contradicts an order that must hold, or needs a further set-up");
   warn_of_parted(plan.model, steps, demands, job);
   rebuild_workplan(plan, drafts, !given.empty());
   const auto* project = plan.model.get<model::Project>(plan.project);

@@ -354,13 +354,13 @@ void overrule_coolant(model::Plan& plan, const StepDraft& step, Job& job) {
   if (mist) f->mist = false;
   if (flood) f->coolant = false;
   const bool on = f->coolant.value_or(false) || f->mist.value_or(false);
-  const char* instead = on ? "without it" : "cut dry";
+  const char* instead = on ? "cut without it" : "cut dry";
   if (!on && machine.has_flood) {
     f->coolant = true;
-    instead = "flood coolant instead";
+    instead = "cut with flood";
   } else if (!on && machine.has_mist) {
     f->mist = true;
-    instead = "mist instead";
+    instead = "cut with mist";
   }
   const std::string text = "machine '" + machine.id + "' has no " + what + ": " + instead;
   job.warn("PIP-CHANGED", "operation '" + op->its_id.value_or("") + "': " + text);
@@ -409,17 +409,22 @@ std::vector<model::FeatureShape> elements_meant(const model::Model& m,
 /// How the shapes of given steps were read, where that was assumed: once for each feature.
 void say_assumptions(const model::Plan& plan, const std::vector<StepDraft>& steps, Job& job) {
   std::set<std::pair<AnyRef, std::string>> said;
+  const auto say = [&](const StepDraft& step, const model::FeatureShape& s, Severity severity,
+                       const std::vector<std::string>& texts) {
+    for (const std::string& text : texts) {
+      if (!said.insert({step.feature, text}).second) continue;
+      job.report({.code = "PIP-ASSUMED",
+                  .severity = severity,
+                  .message = "feature '" + s.name + "': " + text,
+                  .file = plan.file_name,
+                  .line = plan.model.origin(step.feature).line,
+                  .instance = plan.model.origin(step.feature).instance});
+    }
+  };
   for (const StepDraft& step : steps) {
     for (const model::FeatureShape& s : step.shapes) {
-      for (const std::string& a : s.assumptions) {
-        if (!said.insert({step.feature, a}).second) continue;
-        job.report({.code = "PIP-ASSUMED",
-                    .severity = Severity::kWarning,
-                    .message = "feature '" + s.name + "': " + a,
-                    .file = plan.file_name,
-                    .line = plan.model.origin(step.feature).line,
-                    .instance = plan.model.origin(step.feature).instance});
-      }
+      say(step, s, Severity::kWarning, s.assumptions);
+      say(step, s, Severity::kNote, s.remarks);
     }
   }
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "planner/ground/base/number.h"
 #include "planner/making/piece/raw_piece_limits.h"
 #include "planner/making/piece/surroundings.h"
 #include "planner/model/features/raw_piece.h"
@@ -40,8 +41,9 @@ void warn_of_zero_zones(const Model& m, const model::Attribution& attribution, J
     }
     job.warn("PIP-REQUIREMENT",
              std::string(model::noun_type(r.type).keyword) + of +
-                 (value ? " has a zone of 0, the whole of which the size leaves" : " states no value") +
-                 "; kept in the plan, and not planned for: hold it by the size");
+                 (value ? " has a zone of 0, which depends on the finished size" : " has no value") +
+                 ": not planned for; " +
+                 (value ? "state a tolerance of the size that holds it" : "state its value"));
   }
 }
 
@@ -77,8 +79,9 @@ Result<Demands> demands_of(const model::Plan& plan, const std::string& general_t
   std::string lost;
   for (const auto& l : attribution.lost()) lost += (lost.empty() ? "" : "; ") + l.text;
   if (!lost.empty()) {
-    job.warn("PIP-REQUIREMENT", "no feature answers for what is asked of faces or elements of the part: " +
-                                    lost + "; kept in the plan, and not planned for");
+    job.warn("PIP-REQUIREMENT",
+             counted(attribution.lost().size(), "tolerance or texture names", "tolerances or textures name") +
+                 " faces or elements that no feature has, not planned for: " + lost);
   }
   warn_of_zero_zones(m, attribution, job);
   return out;

@@ -68,10 +68,10 @@ void tell_mesh_corners(const model::Plan& plan, const std::vector<draft::StepDra
   }
   if (count == 0) return;
   if (count > kMostNamed) where += ", and " + std::to_string(count - kMostNamed) + " more";
-  job.warn("PIP-CORNER",
-           std::string("the surface: its inner corner") + (count == 1 ? "" : "s") + " at " + where +
-               (count == 1 ? " is" : " are") + " drawn sharp, and a radius of " + trimmed(radius, 3) +
-               " mm, that of the narrowest mill, stays; it needs broaching or erosion if it must be sharp");
+  job.warn("PIP-CORNER", std::string("the surface: its inner corner") + (count == 1 ? "" : "s") + " at " +
+                             where + (count == 1 ? " is" : " are") + " drawn sharp, and a radius of " +
+                             trimmed(radius, 3) +
+                             " mm, that of the narrowest mill, stays; broach or erode what must be sharp");
 }
 
 }  // namespace capstan::piece

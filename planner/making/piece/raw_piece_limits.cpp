@@ -116,8 +116,7 @@ void tell_corners(const Piece& piece, const std::vector<draft::StepDraft>& steps
                                (corners.size() == 1 ? "its inner corner at " : "its inner corners at ") +
                                where + (corners.size() == 1 ? " is" : " are") +
                                " drawn sharp, and a radius of " + trimmed(radius, 3) +
-                               " mm, that of the narrowest mill, stays; it needs broaching or erosion if it "
-                               "must be sharp");
+                               " mm, that of the narrowest mill, stays; broach or erode what must be sharp");
   }
 }
 

@@ -109,8 +109,7 @@ std::set<std::pair<Drawn, Drawn>> twins_of(const std::vector<FeatureShape>& all,
       if (std::exchange(told, true)) continue;
       job.warn("PIP-TWICE", "features '" + all[k].name + "' and '" + all[i].name +
                                 "' are the same at the same place, " + where(all[i]) +
-                                ": it is made once; if one of them belongs elsewhere, mend its placement, "
-                                "else take it out of the file");
+                                ": machined once; delete one of them, or correct its placement");
     }
   }
   return out;

@@ -295,12 +295,10 @@ Result<model::Stock> raw_piece_of(const model::Plan& plan, const WorkpieceWish& 
     look_for_raw_piece(plan, wish, stock, job);
   }
   if (stock.box.empty()) {
-    return fail(
-        {.code = "PIP-NOTHING",
-         .message =
-             "there is neither a raw piece nor a feature whose size is known, so there is nothing to plan",
-         .file = plan.file_name,
-         .hint = "give the workpiece a bounding geometry, or name one with --stock"});
+    return fail({.code = "PIP-NOTHING",
+                 .message = "nothing to plan: no raw piece, and no feature whose size is known",
+                 .file = plan.file_name,
+                 .hint = "state the raw piece in the file (its_bounding_geometry) or with --stock"});
   }
   if (auto ok = sheet_covers_raw_piece(plan, stock.box); !ok) return tl::unexpected(ok.error());
   const Vec3 size = stock.box.size();

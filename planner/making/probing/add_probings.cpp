@@ -246,8 +246,8 @@ Added add_probings(model::Plan& plan, std::vector<StepDraft> steps, const piece:
                             "measure the piece on another machine and take the tolerance out "
                             "of this plan")});
       } else if (!probing.probe) {
-        job.warn("PIP-PROBE", "'" + wanted.name + "': " + not_by_probe +
-                                  "; the program stops, and it is measured by other means");
+        job.warn("PIP-PROBE", "step '" + wanted.name + "': " + not_by_probe +
+                                  ": the program stops there; measure by hand");
       }
       for (std::size_t k = 0; k < what.found.touches.size(); ++k) {
         StepDraft step;

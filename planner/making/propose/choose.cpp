@@ -40,8 +40,8 @@ std::string keep_able(const Choice& choice, const model::ProposedStep& step, mod
     const std::string limit = !answer                    ? answer.error().message
                               : answer->violated.empty() ? ""
                                                          : answer->violated.front();
-    s.rejected.push_back({c.cutter.id, "no useful feed keeps the limits: " + limit});
-    if (why.empty()) why = step.name + ": " + c.cutter.id + ": no useful feed keeps the limits: " + limit;
+    s.rejected.push_back({c.cutter.id, "no feed is within the limits: " + limit});
+    if (why.empty()) why = step.name + ": " + c.cutter.id + ": no feed is within the limits: " + limit;
   }
   if (able.empty()) return why;
   s.ranked = std::move(able);

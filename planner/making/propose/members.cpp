@@ -42,11 +42,11 @@ void warn_of_lost_threads(const model::Plan& plan, Job& job) {
                   .severity = Severity::kWarning,
                   .message = "hole '" + hole->its_id.value_or("") + "': its operation '" +
                              (o == nullptr ? "" : o->its_id.value_or("")) +
-                             "' makes a thread that no feature states; planned anew, a plain hole stays",
+                             "' makes a thread that no feature states: planning anew drops it",
                   .file = plan.file_name,
                   .line = m.origin(r).line,
                   .instance = m.origin(r).instance,
-                  .hint = "state the thread as a feature on the hole, or keep the operation"});
+                  .hint = "state a thread feature on the hole, or keep the operation"});
     }
   }
 }

@@ -37,7 +37,7 @@ Coolant coolant_on(const model::Machine& machine, const model::ProposedStep& ste
   out.flood = false;
   out.mist = machine.has_mist;
   out.instead =
-      "machine '" + machine.id + "' has no flood coolant: " + (out.mist ? "mist instead" : "cut dry");
+      "machine '" + machine.id + "' has no flood coolant: " + (out.mist ? "cut with mist" : "cut dry");
   return out;
 }
 

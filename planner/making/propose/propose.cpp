@@ -134,6 +134,9 @@ class Proposer {
       for (const std::string& a : s.assumptions) {
         if (said_.insert({f, a}).second) job_.warn("PIP-ASSUMED", "feature '" + s.name + "': " + a);
       }
+      for (const std::string& r : s.remarks) {
+        if (said_.insert({f, r}).second) job_.note("PIP-ASSUMED", "feature '" + s.name + "': " + r);
+      }
       if (s.kind == model::ShapeKind::kFreeform && plan_.target_mesh) {
         context.surface_radius_mm = piece::surface_radius(*plan_.target_mesh);
         const piece::SurfaceForm form = piece::surface_form(*plan_.target_mesh, plan_.stock.box);
@@ -167,8 +170,8 @@ class Proposer {
         continue;
       }
       if (within[i] != i) {
-        job_.note("PIP-WITHIN", "feature '" + shapes[i].name + "': nothing is left to cut, for '" +
-                                    shapes[within[i]].name + "' takes all of it away");
+        job_.note("PIP-WITHIN", "feature '" + shapes[i].name + "': no step of its own, '" +
+                                    shapes[within[i]].name + "' removes all of it");
         continue;
       }
       made[i] = shape(f, shapes[i], proposals[i]);
@@ -357,7 +360,8 @@ class Proposer {
     }
     for (const model::Rejected& r : p.rejected) {
       if (r.what == "breaking edges" && said_.insert({f, "edges: " + r.why}).second)
-        job_.note("PIP-EDGE", "feature '" + given.name + "': its edges are not broken: " + r.why);
+        job_.note("PIP-EDGE", "feature '" + given.name + "': its edges are not broken: " + r.why +
+                                  "; deburr them, or state a chamfer");
     }
     const FeatureShape s = reachable_side(f, given);
     std::vector<model::Rejected> rejected = p.rejected;

@@ -253,7 +253,7 @@ Result<Order> order(const std::vector<model::FeatureShape>& shapes, const std::v
     done = again.run(out);
   }
   for (const Precedence& p : out.dropped)
-    job.note("SEQ-GIVEN", "not kept, for what must hold says otherwise: " + p.text);
+    job.note("SEQ-GIVEN", "order not kept, it contradicts one that must hold: " + p.text);
   if (!done) {
     out.cycle = scheduler.cycle(out.precedences);
     out.cannot = describe(out.cycle, items, out.precedences);

@@ -56,10 +56,9 @@ Result<GeneratedPath> generate(const PathJob& task, Job& job) {
   const double down = breaks_edge(task) ? task.axial_depth_mm : task.shape.depth_mm;
   const double depth = task.start_z_mm - (task.feature_in_setup.origin.z - down);
   if (task.cutter.usable_length_mm > 0.0 && depth > task.cutter.usable_length_mm + 1e-9) {
-    job.warn("TPA-REACH",
-             "the cutter " + task.cutter.id + " reaches " + trimmed(task.cutter.usable_length_mm, 2) +
-                 " mm, the work is " + trimmed(depth, 2) + " mm deep",
-             task.shape.name);
+    job.warn("TPA-REACH", about(task) + "cutter " + task.cutter.id + " reaches " +
+                              trimmed(task.cutter.usable_length_mm, 2) + " mm of a depth of " +
+                              trimmed(depth, 2) + " mm; use a longer one");
   }
   auto out = dispatch(task, job);
   if (out && out->path.size() < 2) {

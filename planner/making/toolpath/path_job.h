@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "planner/ground/base/job.h"
@@ -70,6 +71,7 @@ struct Cleared {
 ///        `shape` is in its feature's frame, which `feature_in_setup` puts into the set-up's.
 /// Units  mm, rad, s.
 struct PathJob {
+  std::string step;  ///< name of the workingstep, for messages; empty: none
   model::FeatureShape shape;
   geometry::Placement feature_in_setup;            ///< a turn about z and a shift; anything else is refused
   model::TypeId operation = model::TypeId::kNone;  ///< concrete operation, e.g. kBottomAndSideRoughMilling
@@ -130,6 +132,12 @@ struct GeneratedPath {
   std::vector<double> dwell_s;       ///< of kDwell moves, 0 elsewhere
   std::vector<double> levels_z_mm;   ///< heights of the tip that were cut, from above
 };
+
+/// What a message about the path begins with: "step 'POCKET rough': ", or the feature's name.
+[[nodiscard]] inline std::string about(const PathJob& task) {
+  if (!task.step.empty()) return "step '" + task.step + "': ";
+  return task.shape.name.empty() ? std::string() : task.shape.name + ": ";
+}
 
 /// The path of one workingstep: begins at the security plane above the entry, rapids down to the retract
 /// plane and no further, enters, cuts, and ends at the security plane. Lines with role kApproach and kLink

@@ -223,8 +223,9 @@ Result<std::vector<Workholding>> by_file(const Clampings& c, const tooling::Hold
   for (std::size_t i = 0; i < c.setups.size(); ++i) {
     const HoldingWish* wish = wish_for(c, i, file.setups);
     if (wish == nullptr) {
-      job.warn("PIP-HOLDING", "the file of workholding says nothing of set-up " + std::to_string(i + 1) +
-                                  ": what holds it is not planned");
+      job.warn("PIP-HOLDING",
+               "set-up " + std::to_string(i + 1) +
+                   " is missing in the file of workholding: no fixture is checked there; add it");
       continue;
     }
     auto h = place(*wish, remaining(c.setups, c.steps, i), file.fixtures, file.file);
@@ -251,8 +252,9 @@ std::vector<Workholding> chosen(const Clampings& c, const std::vector<Fixture>& 
       }
     }
     if (!h) {
-      job.warn("PIP-HOLDING", "no way was found to hold set-up " + std::to_string(i + 1) + " with '" + id +
-                                  "': " + chooser.why_not() + "; what holds it is not planned");
+      job.warn("PIP-HOLDING", "set-up " + std::to_string(i + 1) + " is not held by '" + id +
+                                  "': " + chooser.why_not() +
+                                  "; no fixture is checked there, name another with --workholding");
       continue;
     }
     out[i] = *std::move(h);
@@ -324,10 +326,9 @@ Result<Held> hold(const model::Plan& plan, const std::vector<SetupDraft>& setups
   }
   for (std::size_t i = 0; i < setups.size(); ++i) {
     if (kept && out.holdings[i].solids.empty())
-      job.warn("PIP-HOLDING", "the plan says what holds other set-ups, but nothing of set-up " +
-                                  std::to_string(i + 1) +
-                                  ": what holds it is not planned and no fixture is checked there; "
-                                  "--workholding plans all of them anew");
+      job.warn("PIP-HOLDING", "set-up " + std::to_string(i + 1) +
+                                  " has no workholding in the plan, others have: no fixture is checked "
+                                  "there; --workholding plans all of them anew");
   }
   return out;
 }

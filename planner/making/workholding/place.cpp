@@ -137,7 +137,10 @@ class Placer {
     const double a0 = wish_.offset_mm - 0.5 * f.width_mm;
     const double a1 = wish_.offset_mm + 0.5 * f.width_mm;
     if (a0 > 0.5 * length - kTouch || a1 < -0.5 * length + kTouch)
-      return wrong("HOLD-CONTACT", "the jaws are moved past the end of the piece", wish_.line);
+      return wrong("HOLD-CONTACT",
+                   "an offset of " + n(wish_.offset_mm) + " mm moves the jaws off the piece; at most " +
+                       n(0.5 * (length + f.width_mm) - kTouch) + " mm to either side",
+                   wish_.line);
     const std::string kind = f.kind == FixtureKind::kSoftJaws ? "soft_jaw" : "jaw";
     auto& s = out_.solids;
     s.push_back(
@@ -217,10 +220,10 @@ class Placer {
     const double stud = std::max(edge, 0.0) + 0.5 * f->stud_mm + kBoltToPiece;
     if (stud + 0.5 * f->stud_mm + kBehindBolt > f->length_mm) {
       return wrong("HOLD-CONTACT",
-                   c.name + " ('" + c.clamp + "') is " + n(f->length_mm) +
-                       " mm long: its bolt would stand in the "
-                       "piece, whose edge is " +
-                       n(edge) + " mm behind its tip",
+                   c.name + " ('" + c.clamp + "') is " + n(f->length_mm) + " mm long, and needs " +
+                       n(stud + 0.5 * f->stud_mm + kBehindBolt) +
+                       " mm to have its bolt outside the piece, whose edge is " + n(edge) +
+                       " mm behind its tip; set it nearer to the edge or use a longer one",
                    c.line);
     }
     const Vec2 bolt = c.at + stud * back;

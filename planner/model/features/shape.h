@@ -82,6 +82,7 @@ struct FeatureShape {
   double round_radius_mm = 0.0;                            ///< edge_round
   double sphere_radius_mm = 0.0;                           ///< spherical_cap
   std::vector<std::string> assumptions;  ///< how an unusual or incomplete noun was read, a sentence each
+  std::vector<std::string> remarks;      ///< how it is made where nobody needs to act, a sentence each
 };
 
 /// The shapes of a feature: one for a simple one, several for compounds, patterns, counterbored holes.

@@ -250,9 +250,11 @@ TEST(Losses, WhatIso14649CannotHoldIsSaid) {
   m.at<model::MachiningTool>(tool).its_usage = m.add(std::move(usage));
   const auto written = write_iso14649(plan, job);
   ASSERT_TRUE(written);
-  EXPECT_THAT(written->losses,
-              Contains(HasSubstr("MILLING_CUTTING_TOOL.its_usage, kept in the header only, has no place")));
-  EXPECT_THAT(written->losses, Contains(HasSubstr("enabled, kept in the header only,")));
+  EXPECT_THAT(
+      written->losses,
+      Contains("the .p21 form cannot store tool numbers (MILLING_CUTTING_TOOL.its_usage, in its header "
+               "for Capstan alone); write .stpnc or .json"));
+  EXPECT_THAT(written->losses, Contains(HasSubstr("enabled, in its header for Capstan alone")));
   EXPECT_THAT(written->bytes.substr(written->bytes.find("\nDATA;")), ::testing::Not(HasSubstr("TOOL_USAGE")));
   const auto back = read_bytes(written->bytes, "test.stp", ReadOptions{}, job);
   ASSERT_TRUE(back) << to_text(back.error());

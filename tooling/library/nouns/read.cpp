@@ -43,6 +43,7 @@ Result<Parts> parts_of(const Model& m, Ref<MachiningTool> tool) {
   if (p.tool == nullptr) return fail("TOOL-NONE", "there is no milling tool");
   p.name = p.tool->its_id.value_or("");
   const model::Origin& origin = m.origin(tool);
+  if (p.name.empty() && origin.instance != 0) p.name = "#" + std::to_string(origin.instance);
   const auto refuse = [&](std::string message) {
     return fail({.code = "TOOL-BODY",
                  .message = std::move(message),
@@ -324,11 +325,11 @@ Result<Kind> kind_of(const Model& m, const Parts& p, Job& job) {
     const double a = p.dimension->tool_top_angle.value_or(0.0);
     k.point_angle_rad = point_angle_from(a, about, k.reading);
     if (a > 0.0 && !k.reading.starts_with("stated"))
-      job.note("TOOL-POINT",
-               p.name + ": tool_top_angle " + trimmed(a / kRadPerDegree, 2) + " deg: " +
-                   (k.point_angle_rad > 0.0
-                        ? "a point of " + trimmed(k.point_angle_rad / kRadPerDegree, 1) + " deg, " + k.reading
-                        : k.reading));
+      job.note("TOOL-POINT", "tool '" + p.name + "': tool_top_angle " + trimmed(a / kRadPerDegree, 2) + " deg " +
+                                 (k.point_angle_rad > 0.0
+                                      ? "read as a point of " + trimmed(k.point_angle_rad / kRadPerDegree, 1) +
+                                            " deg; " + k.reading
+                                      : std::string("is no usual point; the default is used")));
   }
   const auto cls = class_of_body(m, p, k.point_angle_rad);
   if (!cls) {
@@ -339,8 +340,8 @@ Result<Kind> kind_of(const Model& m, const Parts& p, Job& job) {
   }
   k.cutter_class = *cls;
   if (m.holds<model::Facemill>(p.body_ref) && *cls == CutterClass::kEndmill)
-    job.warn("TOOL-CLASS", p.name + ": a face mill of " + trimmed(*p.dimension->diameter, 3) +
-                               " mm is not made; taken as an end mill that need not cut to the centre");
+    job.warn("TOOL-CLASS", "tool '" + p.name + "': face mill of " + trimmed(*p.dimension->diameter, 3) +
+                               " mm read as an end mill that is not centre-cutting");
   return k;
 }
 

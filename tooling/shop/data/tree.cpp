@@ -9,6 +9,7 @@
 #include <sstream>
 #include <unordered_set>
 
+#include "planner/ground/base/nearest_names.h"
 #include "planner/ground/base/no_number.h"
 #include "planner/ground/base/number.h"
 
@@ -29,7 +30,7 @@ class Builder final : public YAML::EventHandler {
   void OnDocumentEnd() override {}
   void OnNull(const YAML::Mark& m, YAML::anchor_t) override { value({.line = line_of(m)}); }
   void OnAlias(const YAML::Mark& m, YAML::anchor_t) override {
-    throw Refused{"DATA-SYNTAX", "aliases are not read", line_of(m)};
+    throw Refused{"DATA-SYNTAX", "aliases (*) are not read; write the values out", line_of(m)};
   }
   void OnScalar(const YAML::Mark& m, const std::string&, YAML::anchor_t, const std::string& v) override {
     if (!open_.empty() && open_.back().kind == Node::Kind::kMap && !keys_.back()) {
@@ -96,6 +97,16 @@ class Builder final : public YAML::EventHandler {
   std::vector<bool> keys_;                              // whether a map's key waits for its value
   std::vector<std::unordered_set<std::string>> names_;  // of its keys
 };
+
+/// The keys that `name` may be meant for; where none is near, those there are, if they are few.
+std::string like(std::string_view name, const std::vector<std::string>& known) {
+  constexpr std::size_t kFew = 8;
+  std::vector<std::string> keys = nearest_names(name, known);
+  if (keys.empty() && known.size() <= kFew) keys = known;
+  std::string out;
+  for (const std::string& k : keys) out += (out.empty() ? "'" : ", '") + k + "'";
+  return out;
+}
 
 }  // namespace
 
@@ -244,7 +255,7 @@ bool Fields::flag_or(std::string_view key, bool other) {
 void Fields::finish() {
   for (const auto& [name, child] : node_.entries) {
     if (std::find(asked_.begin(), asked_.end(), name) == asked_.end())
-      fault("DATA-UNKNOWN", "'" + name + "' is not known here", name, child.line);
+      fault("DATA-UNKNOWN", "'" + name + "' is no key here", name, child.line, like(name, asked_));
   }
 }
 

@@ -57,8 +57,7 @@ void withhold(Session& s, const model::Plan& plan, const std::vector<model::Cond
                     model::text_of(plan, condemned),
          .file = o.path,
          .hint = model::never_written(condemned)
-                     ? "correct the file; nobody can tell what its program would be, so that "
-                       "--allow-findings does not write it either"
+                     ? "correct the file; --allow-findings cannot override this"
                      : "plan it with other tools, depths or another machine; --allow-findings writes "
                        "it all the same, with a stop before each condemned step"});
     put_aside(o, s.job);
@@ -104,7 +103,9 @@ int finish(Session& s, const service::Planned& planned, std::vector<Output> outp
                     .message = c.why,
                     .file = plan.file_name});
     }
-    for (const FileFinding& f : verdict.findings) s.job.report(as_diagnostic(f.finding, f.file, f.program));
+    for (const FileFinding& f : verdict.findings) {
+      if (s.news(f)) s.job.report(as_diagnostic(f.finding, f.file, f.program));
+    }
   }
   service::take_plan(plan, end);
   service::take_verdict(plan, verdict, end);

@@ -3,9 +3,13 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <charconv>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <optional>
+#include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "planner/door/app/command/folded_diagnostics.h"
@@ -92,6 +96,49 @@ Session::Session(Options o) : options(std::move(o)) {
   job.threads = options.inputs.threads;
   if (::isatty(STDERR_FILENO) != 0 && !options.json_diagnostics)
     job.set_progress([](std::string_view stage, double fraction) { bar().show(stage, fraction); });
+}
+
+namespace {
+
+/// Whether two sentences say the same with the same numbers, but for the digits that a program rounds.
+bool same_but_for_rounding(std::string_view a, std::string_view b) {
+  constexpr double kRounded = 1e-3;  // of a number: a program has its speeds to 0.1 1/min; default, unsourced
+  const auto number = [](std::string_view& text, double& value) {
+    const auto read =
+        std::from_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed);
+    if (read.ec != std::errc()) return false;
+    text.remove_prefix(static_cast<std::size_t>(read.ptr - text.data()));
+    return true;
+  };
+  while (!a.empty() && !b.empty()) {
+    double x = 0.0, y = 0.0;
+    std::string_view rest_a = a, rest_b = b;
+    if (number(rest_a, x) && number(rest_b, y)) {
+      if (std::abs(x - y) > kRounded * std::max(std::abs(x), std::abs(y))) return false;
+      a = rest_a;
+      b = rest_b;
+      continue;
+    }
+    if (a.front() != b.front()) return false;
+    a.remove_prefix(1);
+    b.remove_prefix(1);
+  }
+  return a.empty() && b.empty();
+}
+
+}  // namespace
+
+bool Session::news(const service::FileFinding& f) {
+  if (!f.program) {
+    of_plans_.push_back(f.finding);
+    return true;
+  }
+  const bool line = options.command == Command::kCheck && f.finding.move > 0;
+  if (line || options.json_diagnostics) return true;
+  return std::none_of(of_plans_.begin(), of_plans_.end(), [&](const model::Finding& known) {
+    return known.code == f.finding.code && known.severity == f.finding.severity &&
+           known.step == f.finding.step && same_but_for_rounding(known.message, f.finding.message);
+  });
 }
 
 int Session::end(const Diagnostic& d, int code) {

@@ -23,7 +23,14 @@ struct Session {
   /// Reports a fault that ends the command, and returns the exit code: that of wrong usage for an unknown
   /// name, wherever it was given.
   int end(const Diagnostic& d, int code);
+  /// Whether a finding says what none before it said: of a program that a plan is checked with, one that
+  /// repeats the plan's says nothing, unless it names a line of a program that is there to be read (`check`).
+  /// Diagnostics as JSON keep all.
+  [[nodiscard]] bool news(const service::FileFinding& f);
   int end(const service::Failure& failure) { return end(failure.what, static_cast<int>(failure.code)); }
+
+ private:
+  std::vector<model::Finding> of_plans_;  ///< that `news` met
 };
 
 /// Prints the job's diagnostics and the summary line on standard error, as `--diagnostics` says.

@@ -84,9 +84,17 @@ class Conversion {
   [[nodiscard]] std::string name() const { return attribute_name(object_, a_.name); }
 
   void warn(std::string code, std::string message) {
-    r_.reporter.about(
-        r_.plan.model, object_,
-        {.code = std::move(code), .severity = Severity::kWarning, .message = std::move(message)});
+    tell(Severity::kWarning, std::move(code), std::move(message));
+  }
+
+  /// What is read as it was meant, so that nobody needs to act.
+  void note(std::string code, std::string message) {
+    tell(Severity::kNote, std::move(code), std::move(message));
+  }
+
+  void tell(Severity severity, std::string code, std::string message) {
+    r_.reporter.about(r_.plan.model, object_,
+                      {.code = std::move(code), .severity = severity, .message = std::move(message)});
   }
 
   void missing() {
@@ -98,7 +106,12 @@ class Conversion {
     // Open decisions are reported separately, when all is read.
     static constexpr std::array<std::string_view, 3> kOpen = {"its_tool", "its_technology", "its_operation"};
     if (std::find(kOpen.begin(), kOpen.end(), a_.name) != kOpen.end()) return;
-    warn("P21-MANDATORY", name() + (is_list ? " is missing; taken as empty" : " is missing; left unset"));
+    // Nothing is made otherwise without them.
+    static constexpr std::array<std::string_view, 3> kIdle = {"its_instructions", "axis_clamping",
+                                                              "other_functions"};
+    const bool idle = std::find(kIdle.begin(), kIdle.end(), a_.name) != kIdle.end();
+    tell(is_list && idle ? Severity::kNote : Severity::kWarning, "P21-MANDATORY",
+         name() + (is_list ? " is missing; taken as empty" : " is missing; left unset"));
   }
 
   void wrong(const Value& v, std::string expected) {
@@ -124,7 +137,7 @@ class Conversion {
       return std::nullopt;
     }
     if (v.is(Kind::kInteger))
-      warn("EXC-NUMBER", name() + ": integer " + std::string(v.lexeme()) + " read as a real");
+      note("EXC-NUMBER", name() + ": integer " + std::string(v.lexeme()) + " read as a real");
     const double x = from_file(v.as_real(), a_.unit);
     if (!std::isfinite(x)) {
       wrong(v, "a number that is finite in the model's unit");
@@ -138,7 +151,7 @@ class Conversion {
     if (v.is(Kind::kInteger)) return v.as_integer();
     constexpr double kExact = 9007199254740992.0;  // 2^53: whole doubles are exact below
     if (v.is(Kind::kReal) && std::trunc(v.as_real()) == v.as_real() && std::abs(v.as_real()) < kExact) {
-      warn("EXC-NUMBER", name() + ": real " + std::string(v.lexeme()) + " read as an integer");
+      note("EXC-NUMBER", name() + ": real " + std::string(v.lexeme()) + " read as an integer");
       return static_cast<std::int64_t>(v.as_real());
     }
     wrong(typed, "an integer");
@@ -194,7 +207,7 @@ class Conversion {
     return std::find(kOfShapes.begin(), kOfShapes.end(), a_.name) != kOfShapes.end();
   }
 
-  // Deviations of real files that lose nothing: kept, with a warning.
+  // Deviations of real files that lose nothing: kept, and told.
   std::optional<AnyRef> tolerated(AnyRef target) {
     if (model::may_stand_in(a_, target.type)) {
       warn("EXC-REFERENCE",
@@ -202,7 +215,7 @@ class Conversion {
       return target;
     }
     if (a_.name == "segments" && model::is_a(target.type, TypeId::kBoundedCurve)) {
-      warn("EXC-REFERENCE", name() + " points straight at a " +
+      note("EXC-REFERENCE", name() + " points straight at a " +
                                 std::string(model::noun_type(target.type).keyword) +
                                 "; taken as a segment in the same sense");
       model::CompositeCurveSegment s;

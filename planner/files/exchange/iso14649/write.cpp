@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <map>
 #include <set>
 #include <vector>
@@ -56,6 +57,22 @@ TypeId written_type(TypeId t) {
   return t;
 }
 
+/// What ISO 14649 has no place for, as a sentence.
+std::string cannot_store(const std::string& what) {
+  return "the .p21 form cannot store " + what + "; write .stpnc or .json";
+}
+
+/// An attribute in the words of a shop: "thread pitch of a tap".
+std::string words_of(const model::NounType& noun, const Attribute& a) {
+  if (a.name == "its_usage") return "tool numbers";
+  if (a.name == "enabled") return "which steps are disabled";
+  if (a.name == "its_minimum_machine_params") return "the least that the machine must have";
+  std::string text = std::string(a.name) + " of " + std::string(noun.keyword);
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return c == '_' ? ' ' : static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
 class FileWriter {
  public:
   /// `original` is the plan whose copy with curves is written.
@@ -72,9 +89,11 @@ class FileWriter {
     out += "ENDSEC;\n" + sections_text(plan_, [this](AnyRef r) { return reference(r); }) + "DATA;\n";
     for (const auto& [n, at] : by_number_) instance(n, at, out);
     out += "ENDSEC;\nEND-ISO-10303-21;\n";
-    for (const auto& [what, n] : left_out_) {
-      losses_.push_back(what + " has no place in ISO 14649 (" + std::to_string(n) + " left out)");
-    }
+    for (const auto& [what, n] : left_out_)
+      losses_.push_back(cannot_store(what + (n == 1 ? "" : ", " + std::to_string(n) + " times") + ")"));
+    for (const auto& [what, n] : rewritten_)
+      losses_.push_back("the .p21 form stores " + what + " as FREEFORM_OPERATION" +
+                        (n == 1 ? "" : " (" + std::to_string(n) + " times)"));
     return out;
   }
 
@@ -203,7 +222,7 @@ class FileWriter {
     const auto* kept = m_.get<model::KeptInstance>(at);
     if (kept == nullptr || kept->schema != model::KeptSchema::kAp238) return false;
     if (kept->section != model::KeptSection::kData || kept->keyword.rfind('!', 0) == 0) return false;
-    if (kept->keyword.rfind('&', 0) != 0) ++left_out_[kept->keyword + ", kept from AP238,"];
+    if (kept->keyword.rfind('&', 0) != 0) ++left_out_[kept->keyword + " (kept from AP238"];
     return true;
   }
 
@@ -217,8 +236,7 @@ class FileWriter {
       return;
     }
     const void* data = m_.object(at);
-    if (written_type(at.type) != at.type)
-      ++left_out_[std::string(model::noun_type(at.type).keyword) + " (written as FREEFORM_OPERATION)"];
+    if (written_type(at.type) != at.type) ++rewritten_[std::string(model::noun_type(at.type).keyword)];
     for (const Attribute& a : model::noun_type(at.type).attributes) {
       if (!a.in_iso14649) {
         if (model::has_value(a, data)) beyond_at_.emplace_back(at, &a);
@@ -245,9 +263,10 @@ class FileWriter {
 
   void lost(AnyRef at, const Attribute& a, bool kept) {
     if (a.name == "persistent_id") return;  // in the header, and only for people and Capstan
-    if (number_of(at) == 0) return;         // reported for its owner
-    const std::string what = std::string(model::noun_type(at.type).keyword) + "." + std::string(a.name);
-    ++left_out_[kept || a.name == "enabled" ? what + ", kept in the header only," : what];
+    if (number_of(at) == 0) return;         // told of what holds it
+    const model::NounType& noun = model::noun_type(at.type);
+    ++left_out_[words_of(noun, a) + " (" + std::string(noun.keyword) + "." + std::string(a.name) +
+                (kept || a.name == "enabled" ? ", in its header for Capstan alone" : "")];
   }
 
   std::uint64_t& slot(AnyRef at) { return number_[static_cast<std::size_t>(at.type)][at.index]; }
@@ -448,22 +467,22 @@ class FileWriter {
   std::string beyond_;                                                // their header entities
   std::array<std::vector<std::uint64_t>, model::kTypeCount> number_;  // 0: not written
   std::map<std::uint64_t, AnyRef> by_number_;
-  std::map<std::string, std::size_t> left_out_;
+  std::map<std::string, std::size_t> left_out_;   // its bracket still open
+  std::map<std::string, std::size_t> rewritten_;  // kinds of operation
 };
 
 void say_what_the_plan_loses(const model::Plan& plan, std::vector<std::string>& losses) {
-  if (plan.target_mesh) losses.emplace_back("the target mesh has no place in ISO 14649");
+  if (plan.target_mesh) losses.push_back(cannot_store("the target mesh"));
   const bool sections =
       std::any_of(plan.steps.begin(), plan.steps.end(), [](const auto& s) { return s.sections != nullptr; });
-  if (sections) losses.emplace_back("cross-section parameters have no place in ISO 14649");
+  if (sections) losses.push_back(cannot_store("cross-section parameters"));
   if (!plan.machine.id.empty()) {
-    losses.emplace_back(
-        "machine parameters have no place in ISO 14649; the machine's name is kept in the header");
+    losses.push_back(cannot_store("machine parameters (the machine's name is in its header)"));
   }
   for (const AnyRef at : plan.model.all(TypeId::kEndmill)) {
     (void)at;
     losses.emplace_back(
-        "ENDMILL is written as in the 2001 draft: the published level knows its subtypes only");
+        "ENDMILL is written as in the draft of 2001; the published ISO 14649 has only its subtypes");
     break;
   }
 }

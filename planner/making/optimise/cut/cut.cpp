@@ -10,6 +10,7 @@
 #include "planner/making/optimise/cut/limits.h"
 #include "planner/making/optimise/cut/search.h"
 #include "planner/making/optimise/cut/stability.h"
+#include "planner/model/plan/decision/condemned.h"
 #include "planner/physics/mechanics/constants.h"
 
 namespace capstan::optimise {
@@ -41,8 +42,15 @@ struct Solved {
   Solution solution;
 };
 
-/// At most four decimals; a sum of nonsense may be no number.
-std::string number(double v) { return std::isfinite(v) ? trimmed(v, 4) : std::string("no number"); }
+/// A limit that the cut breaks, in words.
+std::string broken(std::string_view name, double value, double limit, std::string_view unit) {
+  model::ExceededLimit l;
+  l.name = name;
+  l.value = value;
+  l.limit = limit;
+  l.unit = unit;
+  return model::text_of(l);
+}
 
 /// Faults of the given values that make a cut impossible to compute.
 std::vector<std::string> not_a_cut(const CutQuestion& q) {
@@ -60,9 +68,9 @@ std::vector<std::string> not_a_cut(const CutQuestion& q) {
   std::vector<std::string> out;
   for (const Given& g : given) {
     if (!g.value || (*g.value >= g.least && *g.value <= g.most)) continue;
-    out.push_back(std::string(g.name) + ": " +
-                  (std::isfinite(*g.value) ? shortest(*g.value) : std::string("what is no number")) +
-                  " is none that cuts");
+    out.push_back(std::string(g.name) + " " +
+                  (std::isfinite(*g.value) ? shortest(*g.value) : std::string("that is no number")) +
+                  " is out of range");
   }
   return out;
 }
@@ -82,15 +90,14 @@ void measure_answer(const CutQuestion& q, CutAnswer& a) {
     if (!one.stated() || one.value <= one.limit * (1.0 + kRounding)) continue;
     if (r.value == (torque ? Limit::kSpindlePower : Limit::kSpindleTorque)) continue;  // its other name
     a.feasible = false;
-    a.violated.push_back(std::string(r.name) + ": " + number(one.value) + " against " + number(one.limit) +
-                         " " + std::string(r.unit));
+    a.violated.push_back(broken(r.name, one.value, one.limit, r.unit));
   }
   const bool chosen = !q.feed_mm_min && !q.fz_mm;
   const double least = least_fz(q) / ease_of(q, "feed_per_tooth_least");
   const double step = feed_step(a.feed_mm_min) / (a.n_rpm * teeth_of(q));
   if (chosen && a.fz_mm + step < least * (1.0 - kRounding)) {
     a.feasible = false;
-    a.violated.push_back("feed_per_tooth_least: " + number(a.fz_mm) + " against " + number(least) + " mm");
+    a.violated.push_back(broken("feed_per_tooth_least", least, a.fz_mm, "mm"));
   }
 }
 
@@ -310,8 +317,8 @@ Result<Level> quiet_level(const CutQuestion& q, double ap_mm, const Options& opt
     from = 0.98 * *n;
   }
   level->answer.feasible = false;
-  level->answer.violated.push_back("stable_depth: " + number(level->answer.ap_mm) + " against " +
-                                   number(allowed) + " mm");
+  level->answer.violated.push_back(broken("stable_depth", level->answer.ap_mm, allowed, "mm") + " at " +
+                                   trimmed(level->answer.n_rpm, 0) + " 1/min");
   return level;
 }
 
@@ -343,8 +350,8 @@ Result<Level> best_level(const CutQuestion& q, const Options& options, Job& job)
     a.levels = levels;
     if (levels > 1 && depth / levels < thinnest) {
       a.feasible = false;
-      a.violated.push_back("level_depth_least: " + number(depth / levels) + " against " + number(thinnest) +
-                           " mm, below which the edge smears");
+      a.violated.push_back(broken("level_depth_least", thinnest, depth / levels, "mm") +
+                           ", or the edge smears");
     }
     const double objective = objective_of(q, {a.ap_mm, a.ae_mm, a.n_rpm, a.feed_mm_min});
     const bool better_one = !best || (a.feasible && !best->answer.feasible) ||

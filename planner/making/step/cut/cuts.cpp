@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "planner/ground/base/number.h"
+#include "planner/model/plan/decision/condemned.h"
 
 namespace capstan::step {
 namespace {
@@ -73,14 +74,14 @@ Result<optimise::CutAnswer> Cuts::answer(const draft::StepDraft& step, optimise:
   free.fz_mm.reset();
   auto other = answer(free);
   if (!other || !other->feasible) return out;
-  let_go = "the stated ";
+  let_go = trimmed(other->n_rpm, 1) + " 1/min and " + trimmed(other->feed_mm_min, 1) +
+           " mm/min instead of the stated ";
   if (step.keep_speed && q.n_rpm) let_go += "speed of " + trimmed(*q.n_rpm, 3) + " 1/min";
   if (step.keep_speed && step.keep_feed) let_go += " and ";
   if (step.keep_feed && q.feed_mm_min) let_go += "feed of " + trimmed(*q.feed_mm_min, 3) + " mm/min";
   if (step.keep_feed && q.fz_mm) let_go += "feed of " + trimmed(*q.fz_mm, 4) + " mm per tooth";
-  let_go += " breaks " + (out->violated.empty() ? std::string("a limit") : out->violated.front()) +
-            "; chosen anew, " + trimmed(other->n_rpm, 1) + " 1/min and " + trimmed(other->feed_mm_min, 1) +
-            " mm/min";
+  let_go += step.keep_speed && step.keep_feed ? ", which break a limit" : ", which breaks a limit";
+  if (!out->violated.empty()) let_go += ": " + out->violated.front();
   q = free;
   return other;
 }
@@ -92,7 +93,10 @@ Result<model::StepLoads> hold_under_overhang(const optimise::CutQuestion& q, con
   constexpr int kHalvings = 12;                        // to a thousandth of the feed
   const auto at = [&](double width, double edges, double share) -> Result<model::StepLoads> {
     auto l = optimise::loads_of(q, a.ap_mm, width, a.n_rpm, share * a.feed_mm_min);
-    if (!l) return fail("PIP-INFEASIBLE", "under the overhang the loads of the head cannot be computed");
+    if (!l)
+      return fail("PIP-INFEASIBLE", "the loads of " + q.cutter.id +
+                                        " under the overhang are outside the range of the force formulas; "
+                                        "state its teeth and cutting width");
     l->torque_nm *= edges;
     l->power_w *= edges;
     l->mrr_mm3_min *= edges;
@@ -109,8 +113,8 @@ Result<model::StepLoads> hold_under_overhang(const optimise::CutQuestion& q, con
       if (!l) return tl::unexpected(l.error());
       const auto worst = optimise::worst_load(q, *l, a.n_rpm);
       return fail("PIP-INFEASIBLE", "under the overhang, over a width of " + trimmed(width, 2) + " mm, " +
-                                        worst.name + " is " + trimmed(worst.value, 3) + " of " +
-                                        trimmed(worst.limit, 3) + " " + worst.unit +
+                                        model::text_of(model::ExceededLimit{
+                                            worst.name, worst.value, worst.limit, worst.unit, {}}) +
                                         " even at a fiftieth of the feed; use a smaller or a lower head");
     }
     double lo = kLeast, hi = share;

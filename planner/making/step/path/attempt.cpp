@@ -30,7 +30,7 @@ Status make_thinner(PathWithCut& out, double share, Cuts& cuts) {
   }
   auto answer = cuts.answer(q);
   if (!answer) return tl::unexpected(answer.error());
-  if (!answer->feasible) return fail("PIP-INFEASIBLE", "no thinner cut keeps every limit");
+  if (!answer->feasible) return fail("PIP-INFEASIBLE", "no thinner cut is within the limits");
   out.question = q;
   out.answer = *std::move(answer);
   return {};
@@ -44,10 +44,10 @@ Status lower_depth(const model::Model& m, const StepDraft& step, PathWithCut& ou
   auto answer = means.cuts.answer(q);
   if (!answer) return tl::unexpected(answer.error());
   if (!answer->feasible) return {};
-  means.job.warn("PIP-CHANGED", "step '" + draft::name_of(m, step) + "': the given depth of " +
-                                    trimmed(q.ap_most_mm, 3) + " mm per level breaks " +
-                                    out.answer.violated.front() + "; cut " + trimmed(answer->ap_mm, 3) +
-                                    " mm deep instead");
+  means.job.warn("PIP-CHANGED", "step '" + draft::name_of(m, step) + "': levels of " +
+                                    trimmed(answer->ap_mm, 3) + " mm instead of the stated " +
+                                    trimmed(q.ap_most_mm, 3) +
+                                    " mm, which break a limit: " + out.answer.violated.front());
   out.question = q;
   out.answer = *std::move(answer);
   out.depth_open = true;
@@ -63,8 +63,7 @@ Result<PathWithCut> path_with_cut(const PlanSoFar& p, const StepDraft& step,
   bool first = true;
   std::optional<toolpath::GeneratedPath> over_surface;  // of the shape at hand
   const bool freeform = m.holds<model::FreeformOperation>(step.operation);
-  const bool passes =
-      m.holds<model::FreeformFinishMilling>(step.operation) && !draft::cuts_levels(m, step);
+  const bool passes = m.holds<model::FreeformFinishMilling>(step.operation) && !draft::cuts_levels(m, step);
   for (const auto& shape : step.shapes) {
     auto job = job_of(p, step, shape);
     means.progress.prepare(step, means.stocks.of(step.setup), job);
@@ -90,7 +89,8 @@ Result<PathWithCut> path_with_cut(const PlanSoFar& p, const StepDraft& step,
       if (step.open_technology && !out.answer.feasible) {
         std::string limits;
         for (const auto& v : out.answer.violated) limits += (limits.empty() ? "" : ", ") + v;
-        return fail("PIP-INFEASIBLE", "no cut keeps every limit: " + limits);
+        return fail("PIP-INFEASIBLE",
+                    "no cut is within the limits: " + limits + "; use another tool or machine");
       }
       if (share < 1.0) {
         if (auto ok = make_thinner(out, share, means.cuts); !ok) return tl::unexpected(ok.error());

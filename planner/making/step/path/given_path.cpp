@@ -120,7 +120,8 @@ Result<model::FeedSchedule> chosen(model::Plan& plan, const PlanSoFar& p, StepDr
   if (!answer->feasible) {
     std::string limits;
     for (const auto& v : answer->violated) limits += (limits.empty() ? "" : ", ") + v;
-    return fail("PIP-INFEASIBLE", "no feed keeps every limit on the given path: " + limits);
+    return fail("PIP-INFEASIBLE", "no feed keeps the given path within the limits: " + limits +
+                                      "; use another tool or machine");
   }
   record_cut(plan, p.steps, step, *answer, false, false, std::nullopt);
   out.feeds.n_rpm = (step.cutter.hand == model::Hand::kLeft ? -1.0 : 1.0) * answer->n_rpm;

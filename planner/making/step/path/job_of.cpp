@@ -219,6 +219,7 @@ toolpath::PathJob job_of(const PlanSoFar& p, const StepDraft& step, const model:
   const Model& m = p.plan.model;
   const SetupDraft& setup = p.setups[step.setup];
   toolpath::PathJob job;
+  job.step = draft::name_of(m, step);
   job.shape = shape;
   job.feature_in_setup = compose(setup.workpiece, shape.frame);
   job.operation = step.operation.type;

@@ -158,8 +158,8 @@ bool leave_out(model::Plan& plan, const PlanSoFar& p, const StepDraft& step, con
     std::erase(m.get<model::Workplan>(w)->its_elements.items, AnyRef(step.step));
   if (auto* f = m.get<model::MachiningFeature>(step.feature))
     std::erase(f->its_operations.items, step.operation);
-  job.note("PIP-GONE", "step '" + draft::name_of(m, step) +
-                           "' is left out: what it would cut is gone already" + with + "; " + why);
+  job.note("PIP-GONE", "step '" + draft::name_of(m, step) + "' is left out: its material is removed already" +
+                           with + "; " + why);
   return true;
 }
 

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "planner/ground/base/number.h"
-#include "planner/model/plan/cutter/cutter_fields.h"
 #include "planner/model/nouns/all.h"
+#include "planner/model/plan/cutter/cutter_fields.h"
 #include "planner/model/plan/decision/condemned.h"
 #include "planner/physics/motion/time.h"
 
@@ -21,12 +21,12 @@ void tell_slow(const model::Model& m, const StepDraft& step, const model::StepRe
   constexpr double kSlowS = 4.0 * 3600.0;  // default, unsourced
   if (!step.open_technology || r.cutting_s < kSlowS) return;
   std::string limits;
-  for (const auto& a : r.active) limits += (limits.empty() ? "" : ", ") + a.name;
+  for (const auto& a : r.active) limits += (limits.empty() ? "" : ", ") + model::limit_words(a.name);
   job.warn("PIP-SLOW", "step '" + draft::name_of(m, step) + "' cuts " + trimmed(r.cutting_s / 3600.0, 1) +
                            " h with " + step.cutter.id + " (" + trimmed(step.cutter.cutting_diameter_mm, 3) +
-                           " mm, " + trimmed(step.cutter.stick_out_mm, 1) + " mm out), held back by " +
-                           (limits.empty() ? "given values" : limits) +
-                           "; a larger or shorter cutter would be quicker");
+                           " mm, stick-out " + trimmed(step.cutter.stick_out_mm, 1) +
+                           " mm); limit: " + (limits.empty() ? "the given values" : limits) +
+                           ". Use a larger or shorter cutter");
 }
 
 /// Whether forces and bending find the same in both.

@@ -36,16 +36,24 @@ Result<Back> sized(const PathJob& task) {
   const auto& s = task.shape;
   Back b{c.cutting_diameter_mm, c.cutting_width_mm > 0.0 ? c.cutting_width_mm : c.maximum_depth_of_cut_mm,
          c.neck_diameter_mm};
-  if (!(b.height_mm > 0.0)) return refuse(task, "TPA-TOOL", "the height of the cutter's head is not known");
+  if (!(b.height_mm > 0.0))
+    return refuse(task, "TPA-TOOL",
+                  "cutter " + c.id + ": the height of its head is missing; state its cutting width");
   if (!(b.neck_mm > 0.0 && b.neck_mm < b.head_mm))
-    return refuse(task, "TPA-TOOL", "the cutter's neck is not known: it must pass the hole above");
+    return refuse(task, "TPA-TOOL",
+                  "cutter " + c.id + ": its neck diameter is missing or not below its " +
+                      trimmed(b.head_mm, 3) + " mm; state it (the hole above is " +
+                      trimmed(task.hole_above_mm, 3) + " mm)");
   const double top = task.feature_in_setup.origin.z;
   const double bottom = top - s.depth_mm;
   const double half = 0.5 * s.diameter.middle();
   if (c.cutter_class == CutterClass::kBackCountersink) {
     const double wide = 0.5 * s.bottom_diameter_mm;
     const double lean = std::atan2(wide - half, s.depth_mm);
-    if (!s.through) return refuse(task, "TPA-TOOL", "the head stands below the cone: there must be air");
+    if (!s.through)
+      return refuse(task, "TPA-TOOL",
+                    "the head of cutter " + c.id + ", " + trimmed(b.height_mm, 3) +
+                        " mm high, needs air below the cone; mill it from the other side");
     if (std::abs(0.5 * c.point_angle_rad - lean) > 0.01)
       return refuse(task, "TPA-TOOL",
                     "its cone of " + trimmed(2.0 * lean * 180.0 / std::numbers::pi, 2) +
@@ -76,12 +84,14 @@ Status passes(const PathJob& task, const Back& b) {
   const double hole = task.hole_above_mm;
   if (!(b.aside_mm > 0.0))
     return refuse(task, "TPA-NO-FIT",
-                  "the head of " + trimmed(b.head_mm, 3) + " mm is as wide as what it mills");
+                  "the head of cutter " + task.cutter.id + ", " + trimmed(b.head_mm, 3) +
+                      " mm, is not smaller than what it mills, " +
+                      trimmed(std::max(task.shape.diameter.middle(), task.shape.bottom_diameter_mm), 3) +
+                      " mm; use a smaller one");
   const double room = 0.5 * (hole - b.neck_mm) - model::kNeckClearMm;
   if (b.head_mm <= hole - 2.0 * model::kHeadClearMm + 1e-9 && b.aside_mm <= room + 1e-9) return {};
   const double most = hole - 2.0 * model::kHeadClearMm;
-  const double neck =
-      hole - 2.0 * model::kNeckClearMm - 2.0 * b.aside_mm - b.head_mm + std::min(b.head_mm, most);
+  const double neck = hole - 2.0 * model::kNeckClearMm - 2.0 * b.aside_mm - b.head_mm + std::min(b.head_mm, most);
   return fail({.code = "TPA-NO-FIT",
                .message = task.shape.name + ": the cutter " + task.cutter.id + " with a head of " +
                           trimmed(b.head_mm, 3) + " mm and a neck of " + trimmed(b.neck_mm, 3) +

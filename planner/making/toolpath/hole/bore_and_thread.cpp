@@ -111,7 +111,7 @@ Result<GeneratedPath> thread_mill_path(const PathJob& task, Job&) {
     return refuse(task, "TPA-TOOL",
                   "thread milling needs a thread mill; cutter " + task.cutter.id + " is none");
   if (!(pitch > 0.0) || !(s.thread_major_mm > 0.0))
-    return refuse(task, "TPA-DEPTH", "the thread has no pitch");
+    return refuse(task, "TPA-DEPTH", "pitch or diameter of the thread is missing in the file; state it");
   if (task.cutter.thread_pitch_mm > 0.0 && std::abs(task.cutter.thread_pitch_mm - pitch) > 1e-4)
     return refuse(task, "TPA-TOOL",
                   "the thread mill's pitch of " + trimmed(task.cutter.thread_pitch_mm, 3) +

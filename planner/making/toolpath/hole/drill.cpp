@@ -47,17 +47,20 @@ Result<double> bottom_z(const PathJob& task) {
         0.01;  // a tip so much wider than the cone's foot cuts no step; default, unsourced
     if (s.bottom_diameter_mm > 0.0 && task.cutter.tip_diameter_mm > s.bottom_diameter_mm + kFootMm)
       return refuse(task, "TPA-NO-FIT",
-                    "the cutter's flat tip of " + trimmed(task.cutter.tip_diameter_mm, 3) +
-                        " mm would stand on the cone's foot of " + trimmed(s.bottom_diameter_mm, 3) +
-                        " mm and leave a ring; take a countersink with a narrower tip, or a chamfer mill");
+                    "the flat tip of cutter " + task.cutter.id + ", " +
+                        trimmed(task.cutter.tip_diameter_mm, 3) + " mm, is wider than the cone's foot, " +
+                        trimmed(s.bottom_diameter_mm, 3) +
+                        " mm; use a countersink with a narrower tip, or a chamfer mill");
     if (s.diameter.middle() > task.cutter.cutting_diameter_mm + 1e-6)
       return refuse(task, "TPA-NO-FIT",
-                    "the countersink is " + trimmed(s.diameter.middle(), 3) + " mm wide, its cutter " +
-                        trimmed(task.cutter.cutting_diameter_mm, 3) + " mm; take a wider one");
+                    "the countersink is " + trimmed(s.diameter.middle(), 3) + " mm wide, cutter " +
+                        task.cutter.id + " " + trimmed(task.cutter.cutting_diameter_mm, 3) +
+                        " mm; use a wider one");
     return top - 0.5 * width / std::tan(half);
   }
   const double depth = task.cutting_depth_mm.value_or(s.depth_mm);
-  if (!(depth > 0.0)) return refuse(task, "TPA-DEPTH", "the hole has no depth");
+  if (!(depth > 0.0))
+    return refuse(task, "TPA-DEPTH", "the depth of the hole is missing in the file; state it");
   double z = top - depth;
   const bool reaches_bottom = depth >= s.depth_mm - 1e-6;
   if (s.through && reaches_bottom) {
@@ -140,9 +143,10 @@ Result<GeneratedPath> drill_path(const PathJob& task, Job& job) {
     return refuse(task, kNothingToCut,
                   "there is nothing to drill below " + trimmed(task.start_z_mm, 3) + " mm");
   if (task.peck && !(task.peck->first_mm > 0.0 && task.peck->step_mm > 0.0 && task.peck->retract_mm >= 0.0))
-    return refuse(task, "TPA-DEPTH", "the steps of step drilling must be above 0");
+    return refuse(task, "TPA-DEPTH", "first_depth and depth_of_step of the step drilling must be above 0");
   if (task.operation == TypeId::kMultistepDrilling && !task.peck)
-    return refuse(task, "TPA-DEPTH", "step drilling needs its steps");
+    return refuse(task, "TPA-DEPTH",
+                  "first_depth and depth_of_step of the step drilling are missing; state them");
   PathWriter w(task);
   const auto o = task.feature_in_setup.origin;
   w.over(xy(o));
@@ -160,7 +164,9 @@ Result<GeneratedPath> drill_path(const PathJob& task, Job& job) {
   if (task.spindle_stop_at_bottom) {
     w.factors(task.feed_on_retract.value_or(1.0), 0.0);
     if (task.operation == TypeId::kReaming)
-      job.warn("TPA-GIVEN", "the reamer is drawn out with the spindle stopped, as given", task.shape.name);
+      job.warn("TPA-GIVEN", about(task) +
+                                "the reamer is drawn out with the spindle stopped, as given; let it turn, or "
+                                "it scores the hole");
   } else {
     w.factors(task.feed_on_retract.value_or(1.0), 1.0);
   }
@@ -185,7 +191,7 @@ Result<GeneratedPath> tap_path(const PathJob& task, Job&) {
   const double depth =
       task.cutting_depth_mm.value_or(s.thread_depth_mm > 0.0 ? s.thread_depth_mm : s.depth_mm);
   if (!(depth > 0.0) || !(pitch > 0.0))
-    return refuse(task, "TPA-DEPTH", "the thread has no depth or no pitch");
+    return refuse(task, "TPA-DEPTH", "depth or pitch of the thread is missing in the file; state it");
   const auto o = task.feature_in_setup.origin;
   double z = o.z - depth;
   if (s.through && depth >= s.depth_mm - 1e-6) z -= task.break_through_mm;

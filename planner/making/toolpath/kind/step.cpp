@@ -7,7 +7,8 @@ template <>
 Result<GeneratedPath> mill<model::ShapeKind::kStep>(const PathJob& task, Job& job) {
   if (task.stock.empty()) {
     return fail({.code = "TPA-STOCK",
-                 .message = task.shape.name + ": how far a step reaches is known only with the raw outline",
+                 .message = task.shape.name +
+                            ": the extent of the step follows from the raw piece; state it (--stock)",
                  .path = task.shape.name});
   }
   return area_path(task, job);

@@ -21,13 +21,11 @@ void warn_of_taper(const PathJob& task, Job& job) {
                        s.bottom_diameter_mm < s.diameter.nominal_mm - 1e-6;
   if (!tapered || !model::has(task.operation, model::OperationTrait::kEnlarges)) return;
   const double depth = task.cutting_depth_mm.value_or(s.depth_mm);
-  job.warn("TPA-REST",
-           "its wall tapers from " + trimmed(s.diameter.nominal_mm, 3) + " to " +
-               trimmed(s.bottom_diameter_mm, 3) + " mm over " + trimmed(s.depth_mm, 3) + " mm; " +
-               task.cutter.id + " is taken as upright, " + trimmed(task.cutter.cutting_diameter_mm, 3) +
-               " mm wide, and goes " + trimmed(depth, 3) +
-               " mm deep as given: that the taper is finished is not shown",
-           s.name);
+  job.warn("TPA-REST", about(task) + "the taper from " + trimmed(s.diameter.nominal_mm, 3) + " to " +
+                           trimmed(s.bottom_diameter_mm, 3) + " mm over " + trimmed(s.depth_mm, 3) +
+                           " mm is not proved: " + task.cutter.id + " is taken as a cylinder of " +
+                           trimmed(task.cutter.cutting_diameter_mm, 3) + " mm, " + trimmed(depth, 3) +
+                           " mm deep as given; measure the hole");
 }
 
 Result<GeneratedPath> along_axis(const PathJob& task, Job& job) {

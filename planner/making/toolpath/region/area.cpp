@@ -95,9 +95,9 @@ Result<GeneratedPath> rest_path(const PathJob& task, const WorkArea& w, const st
   }
   if (most == 0.0) {
     return fail({.code = "TPA-NO-REST",
-                 .message = task.shape.name + ": a cutter of " + trimmed(task.cleared_by->diameter_mm, 3) +
-                            " mm left nothing that one of " + trimmed(task.cutter.cutting_diameter_mm, 3) +
-                            " mm reaches",
+                 .message = task.shape.name + ": nothing remains for " + task.cutter.id + " (" +
+                            trimmed(task.cutter.cutting_diameter_mm, 3) + " mm) after the cutter of " +
+                            trimmed(task.cleared_by->diameter_mm, 3) + " mm",
                  .path = task.shape.name});
   }
   GeneratedPath out = c.writer.finish();
@@ -112,8 +112,10 @@ void warn_of_rest(LevelCutter& c, const WorkArea& w, const Region& centres) {
   const double lost =
       unreachable(w, centres, 0.5 * task.cutter.cutting_diameter_mm + task.allowance_side_mm + 0.01);
   if (lost > 0.05) {
-    c.warn("TPA-REST", "a cutter of " + trimmed(task.cutter.cutting_diameter_mm, 3) + " mm leaves " +
-                           trimmed(lost, 1) + " mm2 of the floor uncut in corners or narrow places");
+    c.warn("TPA-REST", "cutter " + task.cutter.id + " (" + trimmed(task.cutter.cutting_diameter_mm, 3) +
+                           " mm) leaves " + trimmed(lost, 1) +
+                           " mm2 of the floor uncut in corners or narrow places; use a smaller one, or add "
+                           "a step with one");
   }
 }
 

@@ -147,8 +147,8 @@ class Contours {
     double step = std::min(c_.step_mm, 0.99 * c_.radius_mm);
     if (flat > 0.1 * c_.radius_mm) step = std::min(step, flat);
     if (step < c_.step_mm - 1e-9) {
-      c_.note("TPA-CHANGED", "the step-over of the rings is " + trimmed(step, 2) + " mm instead of " +
-                                 trimmed(c_.step_mm, 2) + " mm: between wider ones ridges would stay");
+      c_.note("TPA-CHANGED", "step-over " + trimmed(step, 2) + " mm instead of " + trimmed(c_.step_mm, 2) +
+                                 " mm, or ridges would stay between the rings");
     }
     step_ = step;
     all_ = c_.rings_of(level_.centres, step);

@@ -76,7 +76,7 @@ class SectionCutter {
       ok = clear(task_.allowance_side_mm, task_.allowance_bottom_mm, level_step(), true);
     } else {
       if (!task_.left_on_side_mm) {
-        cutter_.warn("TPA-ROUGH", "no earlier step has roughed it; this one clears it in levels first");
+        cutter_.note("TPA-ROUGH", "no roughing step before it; it roughs in levels first");
         const double own = kOwnLevel * 2.0 * tip_.radius_mm;
         const double step = task_.axial_depth_mm > 0.0 ? std::min(task_.axial_depth_mm, own) : own;
         ok = clear(std::max(kOwnAllowance, task_.allowance_side_mm),
@@ -94,10 +94,10 @@ class SectionCutter {
  private:
   [[nodiscard]] tl::unexpected<Diagnostic> no_fit() const {
     return fail({.code = "TPA-NO-FIT",
-                 .message = "the cutter " + task_.cutter.id + " does not fit into the section of " +
-                            task_.shape.name + " at any height",
+                 .message = "cutter " + task_.cutter.id + " (" + trimmed(2.0 * tip_.radius_mm, 3) +
+                            " mm) is wider than " + task_.shape.name + " at every height",
                  .path = task_.shape.name,
-                 .hint = "a smaller cutter would"});
+                 .hint = "use a smaller cutter"});
   }
 
   [[nodiscard]] double level_step() const {
@@ -140,8 +140,9 @@ class SectionCutter {
     const double rise = std::min(side, bottom);
     const double lowest = std::max(drop(section_, thick, 0.0) + rise, bottom);
     if (tell && lowest > bottom + side + kTellRest) {
-      cutter_.warn("TPA-REST", "the cutter " + task_.cutter.id + " stays " + trimmed(lowest, 3) +
-                                   " mm above the bottom: it is wider than the section there");
+      cutter_.warn("TPA-REST", "cutter " + task_.cutter.id + " (" + trimmed(2.0 * tip_.radius_mm, 3) +
+                                   " mm) is wider than " + task_.shape.name + " at its bottom: " +
+                                   trimmed(lowest, 3) + " mm remain; use a narrower cutter");
     }
     const double end = zero_z_ + lowest;
     const bool fine = model::finishes_walls(task_.operation) && tip_.corner_mm <= 0.0;
@@ -149,8 +150,8 @@ class SectionCutter {
     if (zs.empty() && lowest >= section_.depth_mm - 1e-6) return no_fit();
     if (zs.empty()) {
       return fail({.code = "TPA-DEPTH",
-                   .message = task_.shape.name + ": the cutter " + task_.cutter.id +
-                              " reaches nothing below " + trimmed(task_.start_z_mm, 3) + " mm",
+                   .message = task_.shape.name + ": cutter " + task_.cutter.id + " reaches nothing below Z" +
+                              trimmed(task_.start_z_mm, 3) + "; use a narrower one",
                    .path = task_.shape.name});
     }
     // A hole is narrowest at its bottom: what roughed that has cleared all above but the wall.
@@ -230,14 +231,12 @@ class SectionCutter {
   Status finish() {
     const Tip thick{tip_.radius_mm + task_.allowance_side_mm, tip_.corner_mm + task_.allowance_side_mm};
     const Finishing all = finishing(section_, thick, kScallop, task_.axial_depth_mm);
-    cutter_.job.note("TPA-DEFAULT",
-                     (task_.shape.name.empty() ? std::string("the section") : task_.shape.name) +
-                         ": finished to ridges of " + trimmed(kScallop, 3) +
-                         " mm at most (default, unsourced)");
+    cutter_.note("TPA-DEFAULT", "ridges of up to " + trimmed(kScallop, 3) + " mm stay (default)");
     if (all.rest_mm > kTellRest) {
-      cutter_.warn("TPA-REST", "the cutter's radius of " + trimmed(tip_.corner_mm, 3) + " mm leaves up to " +
-                                   trimmed(all.rest_mm, 3) +
-                                   " mm in the corners of the section, where no flat end has cut before");
+      cutter_.warn("TPA-REST", "the corner radius of cutter " + task_.cutter.id + ", " +
+                                   trimmed(tip_.corner_mm, 3) + " mm, leaves up to " +
+                                   trimmed(all.rest_mm, 3) + " mm in the corners of " + task_.shape.name +
+                                   "; finish them with a flat end mill");
     }
     bool first = true;
     double last_z = task_.start_z_mm;

@@ -15,16 +15,24 @@ namespace {
 
 constexpr std::string_view kOfUnreadable = "PIP-UNREADABLE", kOfContradicted = "PIP-CONTRADICTED";
 
-/// The names of limits as sentences have them: "spindle_torque" is "spindle torque".
-std::string plain_name(std::string name) {
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
+/// Decimals of about three digits that count.
+int decimals_of(double v) {
+  const double a = std::abs(v);
+  return a >= 100.0 ? 0 : a >= 10.0 ? 1 : a >= 0.1 ? 2 : 4;
 }
 
-/// Three digits that count, or three decimals of what is larger.
-std::string number(double v) {
-  const double a = std::abs(v);
-  return trimmed(v, a >= 100.0 ? 0 : a >= 10.0 ? 1 : a >= 0.1 ? 2 : 4);
+/// The number with about three digits that count, with more where it would read as `other` does.
+std::string number(double v, double other) {
+  constexpr int kMostDecimals = 6;
+  if (!std::isfinite(v)) return "no number";
+  int n = decimals_of(v);
+  const bool told =
+      v == other || !std::isfinite(other) || trimmed(v, n) != trimmed(other, decimals_of(other));
+  if (!told) {
+    n = std::max(n, decimals_of(other));
+    while (n < kMostDecimals && trimmed(v, n) == trimmed(other, n)) ++n;
+  }
+  return trimmed(v, n);
 }
 
 const std::string& feature_name(const Plan& plan, const StepResult& step) {
@@ -65,12 +73,23 @@ class Reasons {
 
 }  // namespace
 
+std::string limit_words(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
 std::string text_of(const ExceededLimit& l) {
-  std::string out = plain_name(l.name);
+  constexpr std::string_view kLeast = "_least";
+  const std::string unit = l.unit.empty() ? std::string() : " " + l.unit;
+  const std::string value = number(l.value, l.limit), limit = number(l.limit, l.value);
+  std::string out = limit_words(l.name);
   if (l.value == 0.0 && l.limit == 0.0) {
     out += " outside what any formula tells";
+  } else if (l.name.ends_with(kLeast)) {
+    out.resize(out.size() - kLeast.size());
+    out += " " + limit + unit + ", at least " + value + unit;
   } else {
-    out += " " + number(l.value) + " of " + number(l.limit) + (l.unit.empty() ? "" : " " + l.unit);
+    out += " " + value + " of " + limit + unit;
   }
   if (l.at_mm) out += " at X" + trimmed(l.at_mm->x, 1) + " Y" + trimmed(l.at_mm->y, 1);
   return out;

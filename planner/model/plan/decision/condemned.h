@@ -34,7 +34,10 @@ struct Condemnation {
 /// where programs that the check condemns are asked for.
 [[nodiscard]] bool never_written(const std::vector<Condemnation>& reasons);
 
-/// "spindle torque 1.11 of 0.48 Nm at X12.4 Y30.1".
+/// The name of a limit as sentences have it: "spindle torque" of "spindle_torque".
+[[nodiscard]] std::string limit_words(std::string name);
+/// "spindle torque 1.11 of 0.48 Nm at X12.4 Y30.1". Of a limit from below, whose value is the bound and whose
+/// limit is what the cut has: "feed per tooth 0.004 mm, at least 0.01 mm".
 [[nodiscard]] std::string text_of(const ExceededLimit& limit);
 /// "step 5 SLOT: spindle torque 1.11 of 0.48 Nm at X12.4 Y30.1; use a smaller tool or depth".
 [[nodiscard]] std::string text_of(const Plan& plan, const Condemnation& reason);

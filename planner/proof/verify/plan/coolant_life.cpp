@@ -25,7 +25,7 @@ void check_coolant(const model::Plan& plan, const std::vector<StepMoves>& steps,
         if (wanted && !on)
           findings.error(
               29, "CHK-COOLANT", at,
-              "its operation asks for " + std::string(what) + ", and the step does not switch it on");
+              "its operation asks for " + std::string(what) + ", which the step has off: switch it on");
       };
       asked(f->coolant.value_or(false), p.flood, "flood coolant");
       asked(f->mist.value_or(false), p.mist, "mist");
@@ -33,17 +33,17 @@ void check_coolant(const model::Plan& plan, const std::vector<StepMoves>& steps,
     }
     const auto lacks = [&](bool on, bool has, const char* what) {
       if (on && !has)
-        findings.error(
-            29, "CHK-COOLANT-MACHINE", at,
-            "the step wants " + std::string(what) + "; machine '" + plan.machine.id + "' has none");
+        findings.error(29, "CHK-COOLANT-MACHINE", at,
+                       "the step cuts with " + std::string(what) + "; machine '" + plan.machine.id +
+                           "' has none: switch it off, or use another machine");
     };
     lacks(p.flood, plan.machine.has_flood, "flood coolant");
     lacks(p.mist, plan.machine.has_mist, "mist");
     lacks(p.through, plan.machine.has_through, "coolant through the spindle");
     if (p.through && s.cutter != nullptr && !s.cutter->coolant_through)
-      findings.warn(
-          29, "CHK-COOLANT-TOOL", at,
-          "the step wants coolant through the spindle; tool " + s.cutter->id + " has no channel for it");
+      findings.warn(29, "CHK-COOLANT-TOOL", at,
+                    "the step cuts with coolant through the spindle; tool " + s.cutter->id +
+                        " has no channel for it: use one that has, or flood");
   }
 }
 
@@ -78,7 +78,8 @@ void check_life(const std::vector<StepMoves>& steps, Findings& findings) {
     findings.error(30, "CHK-TOOL-LIFE", {s.order + 1, s.id, -1},
                    "tool " + s.cutter->id + " runs out of life in this step: it cuts " + plain(whole) +
                        " min in all; " + plain(left) + " min are left (" + plain(s.cutter->life_used_min) +
-                       " of " + plain(s.cutter->life_min) + " min used" + sisters + ")");
+                       " of " + plain(s.cutter->life_min) + " min used" + sisters +
+                       "): change its edges, or load another");
   }
 }
 

@@ -66,7 +66,7 @@ void check_overlap(const model::Workholding& h, const Findings::Where& at, Findi
       if (deep > kTouchMm)
         findings.error(31, "CHK-HOLD-OVERLAP", at,
                        "'" + a.id + "' and '" + b.id + "' of '" + h.id + "' stand in the same place, " +
-                           mm(deep) + " into each other",
+                           mm(deep) + " into each other: move one of them",
                        deep);
     }
   }
@@ -82,7 +82,7 @@ void check_alone(const model::Workholding& h, const Findings::Where& at, Finding
   if (only == nullptr || only->kind != "clamp") return;
   findings.warn(31, "CHK-HOLD-ALONE", at,
                 "'" + only->id + "' of '" + h.id +
-                    "' alone holds the piece: one contact does not hold it against being turned");
+                    "' alone holds the piece, which may turn under it: add a second clamp");
 }
 
 /// The thrust of a drill goes down into the table, not along it.
@@ -122,7 +122,8 @@ void check_holding(const model::Plan& plan, Findings& findings) {
       findings.warn(31, "CHK-HOLD-FORCE", {heaviest_at + 1, model::step_id(plan, *heaviest), -1},
                     "the step cuts with up to " + plain(heaviest->loads.peak_force_n) + " N; '" + h.id +
                         "' holds with " + plain(h.holding_force_n) + " N against sliding, less than " +
-                        plain(mechanics::kHoldingForceSafety) + " times that (default, unsourced)",
+                        plain(mechanics::kHoldingForceSafety) +
+                        " times that (default): cut less, or hold it with more",
                     needed);
   }
 }

@@ -28,15 +28,17 @@ void check_speed(const StepMoves& step, const Move& m, const model::Machine& mac
   const Findings::Where at{step.order + 1, step.id, m.where};
   const model::Spindle& s = machine.spindle;
   if (s.rpm_max > 0.0 && n > s.rpm_max * (1.0 + 1e-9))
-    findings.error(16, "CHK-SPEED", at, plain(n) + " rpm; the machine's spindle ends at " + plain(s.rpm_max),
-                   n);
+    findings.error(16, "CHK-SPEED", at,
+                   plain(n) + " 1/min; the machine's spindle has at most " + plain(s.rpm_max), n);
   if (n < s.rpm_min * (1.0 - 1e-9))
     findings.error(16, "CHK-SPEED-LOW", at,
-                   plain(n) + " rpm; the machine's spindle begins at " + plain(s.rpm_min), -n);
+                   plain(n) + " 1/min; the machine's spindle has at least " + plain(s.rpm_min), -n);
   if (step.cutter != nullptr && step.cutter->maximum_speed_rpm > 0.0 &&
       n > step.cutter->maximum_speed_rpm * (1.0 + 1e-9)) {
     findings.error(16, "CHK-SPEED-TOOL", at,
-                   plain(n) + " rpm; the tool's limit is " + plain(step.cutter->maximum_speed_rpm), n);
+                   plain(n) + " 1/min; tool " + step.cutter->id + " bears at most " +
+                       plain(step.cutter->maximum_speed_rpm),
+                   n);
   }
 }
 
@@ -137,13 +139,15 @@ void check_limits(const model::Plan& plan, const std::vector<StepMoves>& steps, 
     if (mills && s.cutter->maximum_depth_of_cut_mm > 0.0 &&
         s.planned->axial_depth_mm > s.cutter->maximum_depth_of_cut_mm + 1e-6) {
       findings.error(20, "CHK-DEPTH-PLANNED", at,
-                     "an axial depth of " + mm(s.planned->axial_depth_mm) + "; the tool's largest is " +
-                         mm(s.cutter->maximum_depth_of_cut_mm));
+                     "an axial depth of " + mm(s.planned->axial_depth_mm) + "; tool " + s.cutter->id +
+                         " has at most " + mm(s.cutter->maximum_depth_of_cut_mm) +
+                         ": cut in more levels, or use a longer edge");
     }
     if (mills && s.planned->radial_depth_mm > s.cutter->cutting_diameter_mm + 1e-6) {
       findings.error(20, "CHK-WIDTH-PLANNED", at,
-                     "a radial depth of " + mm(s.planned->radial_depth_mm) + "; the tool's diameter is " +
-                         mm(s.cutter->cutting_diameter_mm));
+                     "a radial depth of " + mm(s.planned->radial_depth_mm) + "; the diameter of tool " +
+                         s.cutter->id + " is " + mm(s.cutter->cutting_diameter_mm) +
+                         ": cut less wide, or use a larger one");
     }
   }
 }

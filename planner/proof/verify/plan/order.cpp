@@ -91,7 +91,7 @@ void check_ranks(const model::Plan& plan, const std::vector<Entry>& entries, Fin
     if (before != nullptr && rank < rank_of(before->operation.type)) {
       findings.error(28, "CHK-ORDER", {e.order + 1, e.id, -1},
                      name_of(e.operation.type) + " comes after " + name_of(before->operation.type) + " (" +
-                         before->id + ") on the same feature");
+                         before->id + ") on the same feature; put it before");
       continue;
     }
     before = &e;
@@ -159,7 +159,8 @@ void check_faces(const model::Plan& plan, const std::vector<Entry>& entries, Fin
       // In the face lies what goes on below it.
       if (other.bottom >= face.bottom - 1e-6 || !overlap(face, other)) continue;
       findings.error(28, "CHK-FACE-FIRST", {firsts[f].entry->order + 1, firsts[f].entry->id, -1},
-                     "the face is begun after " + firsts[g].entry->id + ", whose feature lies in it");
+                     "the face is begun after " + firsts[g].entry->id +
+                         ", whose feature lies in it: put the face first");
     }
   }
 }
@@ -182,7 +183,7 @@ void check_coverage(const model::Plan& plan, Findings& findings) {
     findings.error(34, "CHK-UNPLANNED", {0, "", -1},
                    "feature " + (feature == nullptr ? std::string() : feature->its_id.value_or("")) + " (" +
                        name_of(u.feature.type) +
-                       ") is listed as not planned, and no reason stands beside it");
+                       ") is listed as not planned, without a reason; plan it again, or state the reason");
   }
   for (const auto& s : plan.steps) {
     const auto* ws = m.get<model::MachiningWorkingstep>(s.step);
@@ -206,7 +207,7 @@ void check_coverage(const model::Plan& plan, Findings& findings) {
     const auto* feature = m.get<model::ManufacturingFeature>(f);
     findings.error(34, "CHK-UNPLANNED", {0, "", -1},
                    "feature " + feature->its_id.value_or("") + " (" + name_of(f.type) +
-                       ") has no step with a path, and nothing says why");
+                       ") has no step with a path, and is not listed as not planned; plan it again");
   }
 }
 

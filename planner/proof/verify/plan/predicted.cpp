@@ -227,11 +227,10 @@ class Speed {
     const bool assumed = carbide && carbide->vc_m_min > 0.0;
     const Reference& by = assumed ? *carbide : ref;
     const double rpm = std::floor(cut_.rpm * ref.vc_m_min / vc_);
-    std::string text = "a cutting speed of " + speed_text(vc_) + where_ + " in " + plan_.material.id +
-                       " with " + c_.id + "; at most " + speed_text(kFaster * ref.vc_m_min) + ", " +
-                       plain(kFaster) + " times " + ref.source + " (" + speed_text(ref.vc_m_min) +
-                       "): an edge lasts " + life_text(ref.life_at(vc_)) + " of the step's " +
-                       trimmed(cut_.minutes, 2) + " min";
+    std::string text = "an edge of " + c_.id + " lasts " + life_text(ref.life_at(vc_)) + " of the step's " +
+                       trimmed(cut_.minutes, 2) + " min: " + speed_text(vc_) + where_ + " in " +
+                       plan_.material.id + ", at most " + speed_text(kFaster * ref.vc_m_min) + " (" +
+                       plain(kFaster) + " times " + ref.source + ", " + speed_text(ref.vc_m_min) + ")";
     if (assumed && vc_ <= kFaster * carbide->vc_m_min) {
       text += "; that the tool is hss is only assumed, and carbide bears " + speed_text(carbide->vc_m_min) +
               ": " + state();

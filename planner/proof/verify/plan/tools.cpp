@@ -22,17 +22,19 @@ void check_cutter(const model::Plan& plan, const model::Cutter& c, Findings& fin
   for (const double v : {c.cutting_diameter_mm, c.corner_radius_mm, c.point_angle_rad,
                          c.maximum_depth_of_cut_mm, c.stick_out_mm, c.functional_length_mm}) {
     if (!std::isfinite(v))
-      findings.error(1, "CHK-NUMBER", whole, "tool " + c.id + " has a size that is not finite");
+      findings.error(1, "CHK-NUMBER", whole,
+                     "tool " + c.id + " has a size that is no number: correct it in the tool library");
   }
   if (!(c.cutting_diameter_mm > 0.0))
-    findings.error(4, "CHK-TOOL", whole, "tool " + c.id + " has no cutting diameter");
+    findings.error(4, "CHK-TOOL", whole,
+                   "tool " + c.id + " has no cutting diameter: state it in the tool library");
   const int pockets = plan.machine.magazine_pockets;
   // One pocket is the spindle itself: tools are changed by hand, and numbers are free.
   const int at = model::magazine_pocket(c);
   if (c.pocket <= 0 || (pockets > 1 && at > pockets)) {
     findings.error(4, "CHK-TOOL", whole,
                    "tool " + c.id + " is in pocket " + std::to_string(at) + "; the magazine has " +
-                       std::to_string(pockets));
+                       std::to_string(pockets) + ": load it into one of these");
   }
   const double longest = plan.machine.tool_length_max_mm;
   if (longest > 0.0 && c.functional_length_mm > longest) {
@@ -68,7 +70,7 @@ void check_tools(const model::Plan& plan, const std::vector<StepMoves>& steps, F
     if (!fresh && c.pocket > 0) {
       findings.error(5, "CHK-TOOL-NUMBER", whole,
                      "tools " + it->second + " and " + c.id + " share number " + std::to_string(c.pocket) +
-                         ", and with it one length offset");
+                         ", and with it one length offset: give one of them another");
     }
   }
   for (std::size_t i = 0; i < plan.setups.size(); ++i) {
@@ -82,14 +84,15 @@ void check_tools(const model::Plan& plan, const std::vector<StepMoves>& steps, F
     const StepMoves& s = steps[i];
     const Findings::Where at{s.order + 1, s.id, -1};
     if (s.cutter == nullptr)
-      findings.error(4, "CHK-TOOL", at,
-                     "its tool \"" + s.planned->cutter_id + "\" is not among the plan's tools");
+      findings.error(
+          4, "CHK-TOOL", at,
+          "its tool \"" + s.planned->cutter_id + "\" is not among the plan's tools: plan it again");
     else if (const std::string fault = model::offset_fault(*s.cutter); !fault.empty())
       findings.error(6, "CHK-TOOL-OFFSET", at,
                      fault + ", and G43 H" + std::to_string(s.cutter->pocket) +
                          " would take that for its length: measure it and enter its length");
     if (s.setup >= plan.setups.size()) {
-      findings.error(3, "CHK-WORK-OFFSET", at, "its set-up is not among the plan's");
+      findings.error(3, "CHK-WORK-OFFSET", at, "its set-up is not among the plan's: plan it again");
       continue;
     }
     const double security = plan.setups[s.setup].security_z_mm;

@@ -26,7 +26,7 @@ class Compensation {
                    "M6 changes the tool while cutter compensation is active; cancel it before (G40)");
       if (b.kind == Block::Kind::kEnd && on)
         out_.error(25, "CHK-COMP-END", c_.where(b),
-                   "the program ends with cutter compensation active: it is cancelled by G40");
+                   "the program ends with cutter compensation active; cancel it before (G40)");
       if (b.kind != Block::Kind::kMove) continue;
       // A move of the height alone neither leads in nor out.
       const bool flat = b.words[0] || b.words[1] || b.move != MoveKind::kLine;
@@ -76,7 +76,7 @@ class Compensation {
       out_.error(25, "CHK-COMP-CONCAVE", c_.where(b),
                  "a concave arc of radius " + mm(b.radius_start) +
                      " under cutter compensation; the tool's radius is " + mm(r) + " (T" +
-                     std::to_string(b.tool) + ")",
+                     std::to_string(b.tool) + "); use a smaller tool",
                  r - b.radius_start);
     }
   }
@@ -106,7 +106,7 @@ void check_program_coolant(const ProgramCase& c, Findings& findings) {
     const auto lacks = [&](bool machine_has, const char* word) {
       if (machine_has || !said.insert({b.marker, std::string("has no ") + word}).second) return;
       findings.error(29, "CHK-COOLANT-MACHINE", c.where(b),
-                     std::string(word) + " is on; machine '" + c.machine.id + "' has none");
+                     std::string(word) + " is on, machine '" + c.machine.id + "' has none; take it out");
     };
     if (b.flood) lacks(c.machine.has_flood || c.machine.has_through, "flood coolant (M8)");
     if (b.mist) lacks(c.machine.has_mist || c.machine.has_through, "mist (M7)");
@@ -116,9 +116,8 @@ void check_program_coolant(const ProgramCase& c, Findings& findings) {
     const model::StepResult& s = c.plan->steps[static_cast<std::size_t>(i)];
     const auto missing = [&](const char* what, const char* code) {
       if (!said.insert({b.marker, what}).second) return;
-      findings.error(
-          29, "CHK-COOLANT", c.where(b),
-          "the step cuts with " + std::string(what) + "; the program has not switched it on (" + code + ")");
+      findings.error(29, "CHK-COOLANT", c.where(b),
+                     "the step cuts with " + std::string(what) + ", the program has it off; state " + code);
     };
     if (s.flood && !b.flood) missing("flood coolant", "M8");
     if (s.mist && !b.mist) missing("mist", "M7");
@@ -126,12 +125,12 @@ void check_program_coolant(const ProgramCase& c, Findings& findings) {
     if (s.through) continue;
     if (!s.flood && !s.mist && (b.flood || b.mist) && said.insert({b.marker, "dry"}).second) {
       findings.error(29, "CHK-COOLANT-DRY", c.where(b),
-                     "the step is planned dry; the program cuts with coolant on");
+                     "the step is planned dry, the program cuts with coolant on; state M9");
     } else if (((b.flood && !s.flood) || (b.mist && !s.mist)) && said.insert({b.marker, "other"}).second) {
       findings.error(29, "CHK-COOLANT-OTHER", c.where(b),
                      std::string("the program cuts with ") +
                          (b.flood && !s.flood ? "flood coolant (M8)" : "mist (M7)") +
-                         " on; the step is planned without");
+                         " on, the step is planned without; switch it off (M9)");
     }
   }
 }

@@ -160,17 +160,18 @@ class StateChecks {
     const bool low = security_ < 1e299 ? b.to.z < security_ - 1e-6 : true;
     if (b.length_offset < 0 && low && (named_z || feeds) && said_.insert({8, b.marker}).second)
       out_.error(8, "CHK-LENGTH-OFFSET", c_.where(b),
-                 "the tool goes to z = " + plain(b.to.z) + " without a length offset");
+                 "the tool goes to Z" + plain(b.to.z) + " without a length offset; state G43 before");
     const bool cutting = feeds && !b.in_machine;
     if (cutting && !b.known_from[2] && !b.words[2] && said_.insert({27, b.line}).second)
-      out_.error(27, "CHK-POSITION", c_.where(b), "a feed move starts where the height is not known");
+      out_.error(27, "CHK-POSITION", c_.where(b),
+                 "a feed move starts where the height is not known; state Z before it");
     height(b);
     if (c_.plan == nullptr) tool_of_marker(b);
     restart(b);
     if (c_.plan == nullptr && cutting && b.spindle_rpm == 0.0)
       out_.unproved(
           Severity::kWarning, 15, "CHK-SPINDLE-STOPPED", c_.where(b),
-          "a feed move with the spindle stopped; without the plan it cannot be told whether it cuts");
+          "a feed move with the spindle stopped, which may cut; start it (M3), or check with the plan");
     direction(b, cutting);
     tap(b);
   }
@@ -181,24 +182,23 @@ class StateChecks {
     if (!b.in_machine) {
       if (b.move != MoveKind::kRapid || !across || b.known_from[2] || was_at_top_) return;
       if (said_.insert({9, b.line}).second)
-        out_.error(
-            9, "CHK-HEIGHT", c_.where(b),
-            "a rapid across where the height of the tool is not known; it is retracted first, G53 G0 Z" +
-                plain(top_of(c_.machine)));
+        out_.error(9, "CHK-HEIGHT", c_.where(b),
+                   "a rapid across where the height of the tool is not known; retract first, G53 G0 Z" +
+                       plain(top_of(c_.machine)));
       return;
     }
     if (across && (b.words[2] || !was_at_top_))
       out_.error(9, "CHK-MACHINE-MOVE", c_.where(b),
                  "a move across in machine coordinates (G53) below the top of Z, " +
-                     plain(top_of(c_.machine)) + ": what it passes is not known");
+                     plain(top_of(c_.machine)) + ", may hit the piece; go to the top first");
     if (!b.words[2] || b.to.z >= top_of(c_.machine) - 1e-6) return;
     const std::string text = "G53 moves Z to " + plain(b.to.z) + " in machine coordinates, below the top, " +
                              plain(top_of(c_.machine));
     // Own programs go to the top and nowhere else; others may have another height in mind.
     if (!c_.program.markers.empty() || (machine_z_ && b.to.z < *machine_z_ - 1e-6)) {
-      out_.error(10, "CHK-MACHINE-MOVE", c_.where(b), text + ": whether that is clear is not known");
+      out_.error(10, "CHK-MACHINE-MOVE", c_.where(b), text + ", may hit the piece; go to the top");
     } else {
-      out_.warn(10, "CHK-MACHINE-MOVE", c_.where(b), text + ": it does not count as retracted");
+      out_.warn(10, "CHK-MACHINE-MOVE", c_.where(b), text + ", does not count as retracted; go to the top");
     }
   }
 
@@ -207,9 +207,9 @@ class StateChecks {
     if (b.marker < 0 || b.in_machine) return;
     const long wanted = c_.program.markers[static_cast<std::size_t>(b.marker)].tool;
     if (wanted <= 0 || wanted == b.tool || !said_.insert({104, b.marker}).second) return;
-    out_.error(
-        4, "CHK-MARKER-TOOL", c_.where(b),
-        "T" + std::to_string(b.tool) + " is loaded; the step's marker says T" + std::to_string(wanted));
+    out_.error(4, "CHK-MARKER-TOOL", c_.where(b),
+               "T" + std::to_string(b.tool) + " is loaded, the step's marker says T" +
+                   std::to_string(wanted) + "; load that one, or write the program again");
   }
 
   /// The steps' own numbers: 1, 2, 3, ...
@@ -220,8 +220,9 @@ class StateChecks {
       last = m.n;
       if (m.n == expected) continue;
       out_.error(28, "CHK-MARKER-ORDER", {1, m.id, m.line},
-                 "the marker of step '" + m.id + "' has n=" + std::to_string(m.n) + " where n=" +
-                     std::to_string(expected) + " comes: steps are missing, doubled or in another order");
+                 "the marker of step '" + m.id + "' has n=" + std::to_string(m.n) +
+                     " where n=" + std::to_string(expected) +
+                     " comes: steps are missing, doubled or in another order; write the program again");
       return;
     }
   }
@@ -234,7 +235,8 @@ class StateChecks {
     if (t != nullptr && t->hand == model::Hand::kLeft) return;
     out_.error(
         15, "CHK-SPINDLE-REVERSED", c_.where(b),
-        "a feed move with the spindle turning counter-clockwise (M4): that breaks a right-hand cutter");
+        "a feed move with the spindle turning counter-clockwise (M4), which breaks a right-hand cutter; "
+        "state M3, or a left-hand cutter");
   }
 
   void tap(const Block& b) {
@@ -242,7 +244,8 @@ class StateChecks {
     if (!b.synchronised || t == nullptr || !(t->thread_pitch_mm > 0.0) || b.from_cycle) return;
     if (std::abs(b.pitch_mm - t->thread_pitch_mm) > 1e-3)
       out_.error(18, "CHK-TAP-FEED", c_.where(b),
-                 "G33.1 with a pitch of " + mm(b.pitch_mm) + "; the tap's is " + mm(t->thread_pitch_mm));
+                 "G33.1 with a pitch of " + mm(b.pitch_mm) + ", the tap's is " + mm(t->thread_pitch_mm) +
+                     "; state K" + plain(t->thread_pitch_mm) + ", or load another tap");
   }
 
   void restart(const Block& b) {

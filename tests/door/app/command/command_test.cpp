@@ -79,7 +79,8 @@ TEST_F(CommandTest, KeptInstancesOfAp238StayOutOfIso14649) {
   put("vendor.stpnc", text);
   const Ran there = run("convert vendor.stpnc -o vendor.p21 -o again.stpnc -o vendor.json");
   EXPECT_EQ(there.code, 0) << there.err;
-  EXPECT_THAT(there.err, HasSubstr("DOCUMENT_TYPE, kept from AP238, has no place in ISO 14649"));
+  EXPECT_THAT(there.err,
+              HasSubstr("the .p21 form cannot store DOCUMENT_TYPE (kept from AP238); write .stpnc or .json"));
   EXPECT_THAT(slurp(folder_ / "vendor.p21"), Not(HasSubstr("DOCUMENT_TYPE")));
   EXPECT_THAT(slurp(folder_ / "again.stpnc"), HasSubstr("DOCUMENT_TYPE('vendor')"));
   // JSON loses nothing: it knows of which standard the text is.

@@ -100,7 +100,7 @@ class ContradictedPlan : public CommandTest {
     EXPECT_EQ(asked.code, 1) << asked.err;
     EXPECT_THAT(files(), AllOf(Not(Contains("x.ngc")), Not(Contains("x.tbl"))));
     EXPECT_THAT(asked.err, AllOf(HasSubstr("program not written: "),
-                                 HasSubstr("--allow-findings does not write it either")));
+                                 HasSubstr("--allow-findings cannot override this")));
   }
 
   static ::capstan::testing::ScratchFolder* scratch_of_all_;

@@ -117,7 +117,10 @@ TEST(StatedTechnology, ReopenedItIsChosenAnew) {
 TEST(StatedTechnology, ASpeedAtWhichNothingCanBeCutIsLetGoAndItIsSaid) {
   const Planned p = drilled("MILLING_TECHNOLOGY($,.TCP.,$,-0.05,$");  // 3 1/min
   EXPECT_GT(cut_of(p).rpm, 3.0);
-  EXPECT_NE(p.said.find("the stated speed of 3 1/min breaks spindle_speed_least"), std::string::npos)
+  EXPECT_NE(
+      p.said.find("instead of the stated speed of 3 1/min, which breaks a limit: spindle speed 3 1/min, "
+                  "at least "),
+      std::string::npos)
       << p.said;
 }
 

@@ -76,7 +76,7 @@ TEST_F(Cut, InLevelsThatAnEdgeSmearsIsNone) {
   const CutAnswer a = answered(q);
   EXPECT_FALSE(a.feasible);
   ASSERT_FALSE(a.violated.empty());
-  EXPECT_NE(a.violated.back().find("level_depth_least: 0.009 against 0.06 mm"), std::string::npos)
+  EXPECT_NE(a.violated.back().find("level depth 0.009 mm, at least 0.06 mm"), std::string::npos)
       << a.violated.back();
   q.ap_most_mm = 0.061;
   EXPECT_TRUE(answered(q).feasible);
@@ -84,7 +84,7 @@ TEST_F(Cut, InLevelsThatAnEdgeSmearsIsNone) {
   const CutAnswer in_titanium = answered(q);
   EXPECT_FALSE(in_titanium.feasible);
   ASSERT_FALSE(in_titanium.violated.empty());
-  EXPECT_NE(in_titanium.violated.back().find("against 0.2 mm"), std::string::npos)
+  EXPECT_NE(in_titanium.violated.back().find("at least 0.2 mm"), std::string::npos)
       << in_titanium.violated.back();
   q.material.iso_group = "P";
   // What is left in all may be thinner: one level.
@@ -489,7 +489,7 @@ TEST_F(Cut, SaysWhatIsViolatedWhenNothingCanBeCut) {
   const CutAnswer a = answered(q);
   EXPECT_FALSE(a.feasible);
   ASSERT_FALSE(a.violated.empty());
-  EXPECT_EQ(a.violated[0].rfind("spindle_", 0), 0u) << a.violated[0];
+  EXPECT_EQ(a.violated[0].rfind("spindle ", 0), 0u) << a.violated[0];
 }
 
 TEST_F(Cut, GivesTheSameAnswerTwice) {

@@ -87,9 +87,7 @@ void LevelCutter::tell(Severity severity, const std::string& code, const std::st
     if (d.code == code && d.message == message) return;
   }
   said.push_back({.code = code, .severity = severity, .message = message});
-  job.report({.code = code,
-              .severity = severity,
-              .message = task.shape.name.empty() ? message : task.shape.name + ": " + message});
+  job.report({.code = code, .severity = severity, .message = about(task) + message});
 }
 
 double LevelCutter::gap() const { return std::min(task.clearance_mm, 1.0); }
@@ -103,9 +101,9 @@ double LevelCutter::ramp_angle() {
                      task.approach.kind == Approach::Kind::kZigzag;
   if (!asked || !(given > 0.0)) return std::min(most, kUsualRamp);
   if (given > most + 1e-9) {
-    warn("TPA-CHANGED", "the given ramp angle of " + trimmed(given * 180.0 / kPi, 2) +
-                            " degrees is more than the cutter allows; " + trimmed(most * 180.0 / kPi, 2) +
-                            " is used");
+    warn("TPA-CHANGED", "ramp angle " + trimmed(most * 180.0 / kPi, 2) + " instead of " +
+                            trimmed(given * 180.0 / kPi, 2) + " degrees: cutter " + task.cutter.id +
+                            " allows no more");
   }
   return std::min({most, given, 1.5});
 }
@@ -170,7 +168,7 @@ std::optional<Track> LevelCutter::by_helix(const Level& level, const Track& trac
   if (task.approach.kind == Approach::Kind::kHelix && task.approach.radius_mm > 0.0) {
     r = std::min(task.approach.radius_mm, flat);
     if (r < task.approach.radius_mm - 1e-9)
-      warn("TPA-CHANGED", "the given helix would leave a core; its radius is " + trimmed(r, 3) + " mm");
+      warn("TPA-CHANGED", "helix radius " + trimmed(r, 3) + " mm: a core would stay in the given one");
   }
   r = std::min(r, room);
   if (r < least) return std::nullopt;
@@ -256,7 +254,8 @@ Result<Track> LevelCutter::enter(const Level& level, const Track& track, const R
   };
   if (asked == Kind::kPlunge && task.cutter.centre_cutting) return plunge();
   if (asked == Kind::kPlunge)
-    warn("TPA-CHANGED", "the cutter does not cut to its centre; the plunge given is replaced by a ramp");
+    warn("TPA-CHANGED",
+         "ramp instead of the given plunge: cutter " + task.cutter.id + " does not cut to its centre");
   const bool ramp_first = asked == Kind::kRamp || asked == Kind::kZigzag;
   if (leaf != nullptr && !ramp_first) {
     if (auto t = by_helix(level, track, *leaf)) return *t;
@@ -267,12 +266,11 @@ Result<Track> LevelCutter::enter(const Level& level, const Track& track, const R
   }
   if (task.cutter.centre_cutting) return plunge();
   return fail({.code = "TPA-ENTRY",
-               .message = "no legal way into the material for " + task.shape.name + ": the cutter " +
-                          task.cutter.id + " does not cut to its centre, may ramp at " +
-                          trimmed(task.cutter.maximum_ramp_angle_rad * 180.0 / kPi, 2) +
-                          " degrees, and the place is too narrow for it",
+               .message = "no entry into " + task.shape.name + ": cutter " + task.cutter.id +
+                          " does not cut to its centre, and the place is too narrow for its ramp of " +
+                          trimmed(task.cutter.maximum_ramp_angle_rad * 180.0 / kPi, 2) + " degrees",
                .path = task.shape.name,
-               .hint = "a cutter that cuts to its centre, a smaller one, or a hole drilled first"});
+               .hint = "use a centre-cutting or a smaller cutter, or drill a start hole"});
 }
 
 }  // namespace capstan::toolpath

@@ -145,7 +145,7 @@ Result<GeneratedPath> broken_edge_path(const PathJob& task, Job& job) {
   auto& s = edge.shape;
   if (!(task.axial_depth_mm > 0.0)) {
     return fail({.code = "TPA-DEPTH",
-                 .message = s.name + ": how deep its edge is to be broken is not said (axial_cutting_depth)",
+                 .message = s.name + ": the edge break has no size; state axial_cutting_depth",
                  .path = s.name});
   }
   if (s.kind == model::ShapeKind::kHole)

@@ -156,11 +156,12 @@ Status run_in(const Around& a, const Inside& material, std::vector<Vec2>& line, 
   double at = std::clamp(dot(end - line[1], out), 0.0, length);
   while (!material.clear_of(line[1] + at * out, room)) {
     if (at >= length) {
-      return fail(
-          {.code = "TPA-ENTRY",
-           .message = a.task.shape.name +
-                      ": the cutter does not stand free of the raw piece beyond the end of its contour",
-           .path = a.task.shape.name});
+      return fail({.code = "TPA-ENTRY",
+                   .message = a.task.shape.name +
+                              ": no room for the approach: at the end of the contour cutter " +
+                              a.task.cutter.id + " is within " + trimmed(room, 2) +
+                              " mm of the raw piece; extend the contour beyond it",
+                   .path = a.task.shape.name});
     }
     at = std::min(at + 0.5 * a.radius, length);
   }
@@ -233,14 +234,15 @@ Result<GeneratedPath> outside_path(const PathJob& task, Job& job) {
   const bool along = a.kept.empty() && task.shape.spine.size() > 1;
   if (a.kept.empty() && !along) {
     return fail({.code = "TPA-UNSUPPORTED",
-                 .message = task.shape.name + " does not say what stays inside its contour",
+                 .message = task.shape.name +
+                            ": its closed contour has no area inside that stays; correct the contour",
                  .path = task.shape.name});
   }
   a.w.islands.clear();
   if (task.stock.empty() && along) {
     return fail({.code = "TPA-STOCK",
                  .message = task.shape.name +
-                            ": how far an open contour is run on is known only with the raw outline",
+                            ": the end of the open contour follows from the raw piece; state it (--stock)",
                  .path = task.shape.name});
   }
   if (task.stock.empty()) a.w.material = a.w.area = geometry::offset_sharp(a.kept, a.radius);
@@ -249,7 +251,7 @@ Result<GeneratedPath> outside_path(const PathJob& task, Job& job) {
   const bool shell =
       model::has(task.operation, model::OperationTrait::kFinishes) && task.left_on_side_mm.has_value();
   if (task.stock.empty() && !shell)
-    c.warn("TPA-REST", "the raw outline is not known: one round is made beside the contour");
+    c.warn("TPA-REST", "one round beside the contour: the raw piece is not known; state it (--stock)");
   const double step = std::min(c.step_mm, 0.99 * a.radius);
   const double end = a.w.bottom_z_mm + task.allowance_bottom_mm;
   const bool single = task.multiple_passes.has_value() && !*task.multiple_passes;

@@ -92,7 +92,9 @@ Result<GeneratedPath> slot_path(const PathJob& task, Job& job) {
   if (u && model::has(task.cutter.cutter_class, model::CutterTrait::kSlotForm)) {
     if (s.spine.size() < 2 || norm(s.spine.front() - s.spine.back()) < 1e-6) {
       return fail({.code = "TPA-ENTRY",
-                   .message = s.name + ": a cutter wider than the slot's mouth needs an open end to enter by",
+                   .message = s.name + ": no open end, and cutter " + task.cutter.id + " (" + trimmed(d, 3) +
+                              " mm) does not pass the mouth of " + trimmed(2.0 * u->mouth_mm, 3) +
+                              " mm; open an end of the slot",
                    .path = s.name});
     }
     return undercut_path(task, *u, run_of(task, *w));

@@ -36,7 +36,9 @@ Result<Head> head_of(const PathJob& task, const Undercut& u) {
   const auto& c = task.cutter;
   Head h{c.cutting_diameter_mm, c.cutting_width_mm > 0.0 ? c.cutting_width_mm : c.maximum_depth_of_cut_mm,
          c.neck_diameter_mm > 0.0 ? c.neck_diameter_mm : c.shank_diameter_mm};
-  if (!(h.height_mm > 0.0)) return refuse(task, "TPA-TOOL", "the height of the cutter's head is not known");
+  if (!(h.height_mm > 0.0))
+    return refuse(task, "TPA-TOOL",
+                  "cutter " + c.id + ": the height of its head is missing; state its cutting width");
   if (u.flank_rad > 0.0) {
     if (c.cutter_class != CutterClass::kDovetailMill || std::abs(c.lead_angle_rad - u.flank_rad) > kSameAngle)
       return refuse(task, "TPA-TOOL",
@@ -53,14 +55,16 @@ Result<Head> head_of(const PathJob& task, const Undercut& u) {
     }
   } else {
     if (c.cutter_class != CutterClass::kTSlotMill)
-      return refuse(task, "TPA-TOOL", "its section needs a T-slot cutter");
+      return refuse(task, "TPA-TOOL", "cutter " + c.id + " is no T-slot cutter; its section needs one");
     if (h.height_mm > u.height_mm + 0.005)
       return refuse(task, "TPA-NO-FIT",
                     "the cutter's head is " + trimmed(h.height_mm, 3) + " mm high, the slot's wide part is " +
                         trimmed(u.height_mm, 3) + " mm");
   }
   if (!(h.neck_mm > 0.0))
-    return refuse(task, "TPA-TOOL", "the cutter's neck is not known: it must pass the mouth");
+    return refuse(task, "TPA-TOOL",
+                  "cutter " + c.id + ": its neck diameter is missing; state it (the mouth is " +
+                      trimmed(2.0 * u.mouth_mm, 3) + " mm wide)");
   return h;
 }
 
@@ -137,7 +141,8 @@ Status cut_through(const PathJob& task, const Undercut& u, const std::vector<Vec
     for (const auto& [side, share] : passes) {
       writer.factors(edges ? share : 1.0, 1.0);
       const auto line = side == 0.0 ? course : beside(course, side);
-      if (line.empty()) return refuse(task, "TPA-UNSUPPORTED", "its course turns back on itself");
+      if (line.empty())
+        return refuse(task, "TPA-UNSUPPORTED", "slots whose course turns back on itself are not planned");
       Track there = track_of_line(line);
       if (back) there = reversed(there);
       go_to(writer, there.start, z);
@@ -172,7 +177,7 @@ Status cut_to_the_end(const PathJob& task, const Undercut& u, const WorkArea& w,
   for (const double s : sides) {
     const auto right = beside(course, -s), left = beside(course, s);
     if (right.empty() || left.empty())
-      return refuse(task, "TPA-UNSUPPORTED", "its course turns back on itself");
+      return refuse(task, "TPA-UNSUPPORTED", "slots whose course turns back on itself are not planned");
     Loop loop{track_of_line(right), {}, reversed(track_of_line(left))};
     loop.end.start = right.back();
     loop.end.segments.push_back({left.back(), end, round ? Bend::kCcw : Bend::kStraight});
@@ -281,7 +286,10 @@ Result<GeneratedPath> undercut_path(const PathJob& task, const Undercut& u, Slot
                       " mm off the middle; its neck of " + trimmed(head->neck_mm, 3) + " mm leaves " +
                       trimmed(std::max(room, 0.0), 3) + " mm in the mouth");
   if (run.line.size() < 2 || (!run.open_first && !run.open_last)) {
-    return refuse(task, "TPA-ENTRY", "a cutter wider than the slot's mouth needs an open end to enter by");
+    return refuse(task, "TPA-ENTRY",
+                  "no open end, and cutter " + task.cutter.id + " (" +
+                      trimmed(task.cutter.cutting_diameter_mm, 3) + " mm) does not pass the mouth of " +
+                      trimmed(2.0 * u.mouth_mm, 3) + " mm; open an end of the slot");
   }
   if (!run.open_first) {
     std::reverse(run.line.begin(), run.line.end());
