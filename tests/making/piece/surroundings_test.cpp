@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 #include "planner/making/piece/demands.h"
 
@@ -119,6 +120,41 @@ TEST(Face, ThatCrossesABossOfAnotherFeatureIsRefused) {
   EXPECT_EQ(crosses_a_wall(plate.piece, face), "");
   face.area = geometry::rectangle({0, 0}, {100, 100});  // over all of it: the boss is faced
   EXPECT_EQ(crosses_a_wall(plate.piece, face), "");
+}
+
+TEST(ThicknessProperty, IsTheSameWhetherOrNotItIsKnownWhereShapesAre) {
+  std::mt19937 random(7);
+  const auto between = [&](double lo, double hi) {
+    return std::uniform_real_distribution<double>(lo, hi)(random);
+  };
+  Plate p;
+  for (int i = 0; i < 60; ++i) {
+    const bool below = i % 5 == 0;
+    p.add(i % 2 == 0 ? ShapeKind::kPocket : ShapeKind::kHole, {between(5, 95), between(5, 95), below ? -20.0 : 0.0},
+          between(2, 12), between(2, 12), between(2, 14), below);
+  }
+  std::vector<Thickness> looked_at_all;
+  for (const FeatureShape& s : p.shapes.all) looked_at_all.push_back(thickness_beside(p.piece, s));
+  for (const FeatureShape& s : p.shapes.all) p.shapes.around.push_back(around(s));
+  int walls = 0, floors = 0;
+  for (std::size_t i = 0; i < p.shapes.all.size(); ++i) {
+    const Thickness t = thickness_beside(p.piece, p.shapes.all[i]);
+    EXPECT_EQ(t.wall_mm, looked_at_all[i].wall_mm) << "shape " << i;
+    EXPECT_EQ(t.floor_mm, looked_at_all[i].floor_mm) << "shape " << i;
+    walls += t.wall_mm.has_value();
+    floors += t.floor_mm.has_value();
+  }
+  EXPECT_GT(walls, 30);
+  EXPECT_GT(floors, 30);
+}
+
+TEST(Around, HoldsTheAreaWhereverItLies) {
+  Plate p;
+  FeatureShape s = p.add(ShapeKind::kPocket, {10, 20, -3}, 6, 8, 2);
+  s.area = geometry::rectangle({1, 1}, {7, 9});
+  const Around ball = around(s);
+  EXPECT_DOUBLE_EQ(ball.radius_mm, 5.0) << "half the diagonal of 6 x 8";
+  EXPECT_EQ(ball.centre, (Vec3{14, 25, -3}));
 }
 
 }  // namespace

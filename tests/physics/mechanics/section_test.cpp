@@ -402,5 +402,36 @@ TEST(SectionLoads, RefuseWhatIsNotANumberOrOutOfRange) {
   EXPECT_EQ(code(good, none, kSteel, 0.1, kSpeed), "MECH-DOMAIN teeth");
 }
 
+TEST(SectionAtFeeds, GivesTheSameAtAFeedWhateverItWasAskedBefore) {
+  const Tooth ball{.cutting_diameter_mm = 12.0, .corner_radius_mm = 6.0, .helix_rad = kHelix30, .runout_mm = 0.01,
+                   .teeth = 2};
+  for (const ForceLaw& law : {kAl7075, kSteel}) {
+    for (const Tooth& tooth : {end_mill(kHelix30), ball}) {
+      const Section section{.ap_mm = 1.5, .arc = {0.4, 1.9}, .csa_mm2 = 4.0, .band_mm = 0.8};
+      const auto ready = SectionAtFeeds::of(section, tooth, law);
+      ASSERT_TRUE(ready);
+      for (const double fz : {0.1, 0.02, 0.3, 0.1}) {
+        const auto l = ready->at(fz, kSpeed);
+        const SectionLoads alone = loads(section, tooth, law, fz);
+        ASSERT_TRUE(l);
+        EXPECT_EQ(l->peak_force_n, alone.peak_force_n);
+        EXPECT_EQ(l->torque_nm, alone.torque_nm);
+        EXPECT_EQ(l->power_w, alone.power_w);
+        EXPECT_EQ(l->mean.fx_n, alone.mean.fx_n);
+        EXPECT_EQ(l->h_max_mm, alone.h_max_mm);
+        EXPECT_EQ(ready->thickest_chip_mm(fz), alone.h_max_mm);
+      }
+    }
+  }
+}
+
+TEST(SectionAtFeeds, RefusesASectionAtOnceAndAFeedWhenItIsAsked) {
+  EXPECT_FALSE(SectionAtFeeds::of({.ap_mm = -1.0, .arc = {0.0, 1.0}}, end_mill(0.0), kSteel));
+  const auto ready = SectionAtFeeds::of({.ap_mm = 1.0, .arc = {0.0, 1.0}}, end_mill(0.0), kSteel);
+  ASSERT_TRUE(ready);
+  EXPECT_FALSE(ready->at(0.0, kSpeed));
+  EXPECT_FALSE(ready->at(0.1, -kSpeed));
+}
+
 }  // namespace
 }  // namespace capstan::mechanics

@@ -100,5 +100,30 @@ TEST(Grid, IsTheSameWhateverTheOrderOfTheCutsAndWhetherTheyAreMeasured) {
   }
 }
 
+TEST(Grid, KnowsTheTopOfEachRowAfterCuts) {
+  for (const CutterProfile& cutter : cutters()) {
+    Grid g = block();
+    for (const Move& m : ways()) {
+      (void)cut(g, m, cutter, 1e300, nullptr);
+      g.find_top_after_cuts();
+      for (int iy = 0; iy < g.ny(); ++iy) {
+        const auto row = g.stock.begin() + static_cast<std::ptrdiff_t>(g.index(0, iy));
+        EXPECT_EQ(g.row_top(iy), *std::max_element(row, row + g.nx())) << "row " << iy;
+      }
+      EXPECT_EQ(g.top(), *std::max_element(g.stock.begin(), g.stock.end()));
+    }
+  }
+}
+
+TEST(CutterOutline, IsNeverBelowItsFloor) {
+  for (const CutterProfile& cutter : cutters()) {
+    const CutterOutline outline(cutter);
+    for (int i = 0; i <= 10000; ++i) {
+      const double d = cutter.radius_mm * i / 10000;
+      EXPECT_LE(outline.at_least(d * d), outline.height(d)) << d;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace capstan::verify
