@@ -35,6 +35,7 @@ struct Parts {
   const model::MillingToolDimension* dimension = nullptr;
   model::AnyRef body_ref;
   std::string name;
+  std::string told;  ///< what messages call it, also where it has no name
 };
 
 Result<Parts> parts_of(const Model& m, Ref<MachiningTool> tool) {
@@ -43,7 +44,9 @@ Result<Parts> parts_of(const Model& m, Ref<MachiningTool> tool) {
   if (p.tool == nullptr) return fail("TOOL-NONE", "there is no milling tool");
   p.name = p.tool->its_id.value_or("");
   const model::Origin& origin = m.origin(tool);
-  if (p.name.empty() && origin.instance != 0) p.name = "#" + std::to_string(origin.instance);
+  p.told = !p.name.empty()        ? "tool '" + p.name + "'"
+           : origin.instance != 0 ? "tool #" + std::to_string(origin.instance)
+                                  : "a tool without a name";
   const auto refuse = [&](std::string message) {
     return fail({.code = "TOOL-BODY",
                  .message = std::move(message),
@@ -325,7 +328,7 @@ Result<Kind> kind_of(const Model& m, const Parts& p, Job& job) {
     const double a = p.dimension->tool_top_angle.value_or(0.0);
     k.point_angle_rad = point_angle_from(a, about, k.reading);
     if (a > 0.0 && !k.reading.starts_with("stated"))
-      job.note("TOOL-POINT", "tool '" + p.name + "': tool_top_angle " + trimmed(a / kRadPerDegree, 2) + " deg " +
+      job.note("TOOL-POINT", p.told + ": tool_top_angle " + trimmed(a / kRadPerDegree, 2) + " deg " +
                                  (k.point_angle_rad > 0.0
                                       ? "read as a point of " + trimmed(k.point_angle_rad / kRadPerDegree, 1) +
                                             " deg; " + k.reading
@@ -340,7 +343,7 @@ Result<Kind> kind_of(const Model& m, const Parts& p, Job& job) {
   }
   k.cutter_class = *cls;
   if (m.holds<model::Facemill>(p.body_ref) && *cls == CutterClass::kEndmill)
-    job.warn("TOOL-CLASS", "tool '" + p.name + "': face mill of " + trimmed(*p.dimension->diameter, 3) +
+    job.warn("TOOL-CLASS", p.told + ": face mill of " + trimmed(*p.dimension->diameter, 3) +
                                " mm read as an end mill that is not centre-cutting");
   return k;
 }

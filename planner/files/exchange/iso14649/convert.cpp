@@ -151,7 +151,7 @@ class Conversion {
     if (v.is(Kind::kInteger)) return v.as_integer();
     constexpr double kExact = 9007199254740992.0;  // 2^53: whole doubles are exact below
     if (v.is(Kind::kReal) && std::trunc(v.as_real()) == v.as_real() && std::abs(v.as_real()) < kExact) {
-      note("EXC-NUMBER", name() + ": real " + std::string(v.lexeme()) + " read as an integer");
+      warn("EXC-NUMBER", name() + ": real " + std::string(v.lexeme()) + " read as an integer");
       return static_cast<std::int64_t>(v.as_real());
     }
     wrong(typed, "an integer");

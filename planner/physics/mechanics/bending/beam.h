@@ -70,7 +70,7 @@ enum class WallSide { kLeft, kRight };
 ///
 /// The section must reach that side (arc from 0, or to pi); the forces are those of section.h's model at the
 /// nominal chip, without runout. Flanks only: heights of a corner radius or a ball count as their own radius.
-/// Fails     MECH-DOMAIN as section_loads, or when the arc does not reach the wall.
+/// Fails     MECH-DOMAIN as SectionAtFeeds, or when the arc does not reach the wall.
 /// Accuracy  six Gauss points on each tooth's part in the arc: within 1 % of the integral. Of the model: the
 /// force's
 ///           uncertainty (force_law.h) times the beam's.

@@ -419,12 +419,4 @@ Result<SectionLoads> SectionAtFeeds::at(double fz_mm, double n_rpm) const {
   return out;
 }
 
-Result<SectionLoads> section_loads(const Section& section, const Tooth& tooth, const ForceLaw& law,
-                                   double fz_mm, double n_rpm) {
-  if (auto ok = check_feed(fz_mm, n_rpm); !ok) return fail(ok.error());
-  const auto prepared = SectionAtFeeds::of(section, tooth, law);
-  if (!prepared) return fail(prepared.error());
-  return prepared->at(fz_mm, n_rpm);
-}
-
 }  // namespace capstan::mechanics

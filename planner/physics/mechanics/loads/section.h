@@ -58,7 +58,7 @@ struct SectionLoads {
 /// the whole feed. Default, unsourced.
 inline constexpr double kIrregular = 0.05;
 
-/// The loads of one section at a feed per tooth and a speed, for a sharp edge with mean coefficients; no
+/// The loads of one section at feeds per tooth and speeds, for a sharp edge with mean coefficients; no
 /// engagement gives zeros.
 ///
 /// Along the edge, kappa is the angle between it and the plane normal to the axis (pi / 2 on an upright
@@ -101,16 +101,12 @@ inline constexpr double kIrregular = 0.05;
 ///           ForceLaw::uncertainty_factor, which is not applied here.
 /// Source    Altintas, Manufacturing Automation, 2nd ed., sections 2.7 and 2.8 (general end mill); Kienzle's
 ///           law in it, runout and area: derived.
-[[nodiscard]] Result<SectionLoads> section_loads(const Section& section, const Tooth& tooth,
-                                                 const ForceLaw& law, double fz_mm, double n_rpm);
-
-/// A section made ready for many feeds: what does not depend on feed and speed (pieces of the edge, integrals of
-/// the chip over their arcs) is worked out once. `at` gives the same numbers as `section_loads`, to the bit.
 ///
-/// Cost      `at` a tenth of `section_loads`.
+/// What does not depend on feed and speed (pieces of the edge, integrals of the chip over their arcs) is worked
+/// out once, by `of`.
 class SectionAtFeeds {
  public:
-  /// Fails  as section_loads does for what is not feed or speed.
+  /// Refuses what is wrong of section, tooth and law; `at` what is wrong of feed and speed.
   [[nodiscard]] static Result<SectionAtFeeds> of(const Section& section, const Tooth& tooth,
                                                  const ForceLaw& law);
   [[nodiscard]] Result<SectionLoads> at(double fz_mm, double n_rpm) const;
@@ -122,7 +118,15 @@ class SectionAtFeeds {
   std::shared_ptr<const Shape> shape_;
 };
 
-/// What section_loads refuses, and nothing else: for whoever walks along the edge himself.
+/// The loads of a section that is asked about once.
+[[nodiscard]] inline Result<SectionLoads> section_loads(const Section& section, const Tooth& tooth,
+                                                        const ForceLaw& law, double fz_mm, double n_rpm) {
+  const auto ready = SectionAtFeeds::of(section, tooth, law);
+  if (!ready) return fail(ready.error());
+  return ready->at(fz_mm, n_rpm);
+}
+
+/// What SectionAtFeeds refuses, and nothing else: for whoever walks along the edge himself.
 [[nodiscard]] Status check_section(const Section& section, const Tooth& tooth, const ForceLaw& law,
                                    double fz_mm, double n_rpm);
 
