@@ -6,6 +6,7 @@
 
 #include "planner/physics/mechanics/bending/beam.h"
 #include "planner/physics/mechanics/loads/section.h"
+#include "tests/support/section_loads.h"
 
 namespace capstan::mechanics {
 namespace {

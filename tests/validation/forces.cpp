@@ -10,6 +10,7 @@
 #include "tests/support/kienzle_fit.h"
 #include "tests/validation/studies.h"
 #include "tooling/shop/material/material.h"
+#include "tests/support/section_loads.h"
 
 namespace capstan::validation {
 namespace {

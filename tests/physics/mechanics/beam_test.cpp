@@ -9,6 +9,7 @@
 
 #include "planner/physics/mechanics/bending/deflection.h"
 #include "planner/physics/mechanics/constants.h"
+#include "tests/support/section_loads.h"
 
 namespace capstan::mechanics {
 namespace {

@@ -10,6 +10,7 @@
 #include "planner/physics/mechanics/life/life.h"
 #include "planner/physics/mechanics/loads/section.h"
 #include "planner/physics/mechanics/stability.h"
+#include "tests/support/section_loads.h"
 
 namespace capstan::mechanics {
 namespace {

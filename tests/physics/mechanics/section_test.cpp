@@ -8,6 +8,7 @@
 #include <random>
 
 #include "planner/physics/mechanics/constants.h"
+#include "tests/support/section_loads.h"
 
 namespace capstan::mechanics {
 namespace {

@@ -118,14 +118,6 @@ class SectionAtFeeds {
   std::shared_ptr<const Shape> shape_;
 };
 
-/// The loads of a section that is asked about once.
-[[nodiscard]] inline Result<SectionLoads> section_loads(const Section& section, const Tooth& tooth,
-                                                        const ForceLaw& law, double fz_mm, double n_rpm) {
-  const auto ready = SectionAtFeeds::of(section, tooth, law);
-  if (!ready) return fail(ready.error());
-  return ready->at(fz_mm, n_rpm);
-}
-
 /// What SectionAtFeeds refuses, and nothing else: for whoever walks along the edge himself.
 [[nodiscard]] Status check_section(const Section& section, const Tooth& tooth, const ForceLaw& law,
                                    double fz_mm, double n_rpm);
