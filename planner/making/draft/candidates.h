@@ -41,7 +41,7 @@ class Candidates {
   void add(Shared candidate) { all_.push_back(std::move(candidate)); }
   /// Puts one in front of those that stand before it.
   void prefer(std::size_t i);
-  /// The same ones, those of `first` in front and in that order.
+  /// The same ones, those of `first` in front and in that order. Needs distinct numbers.
   void prefer(const std::vector<std::size_t>& first);
   /// Puts what `by` gives in the place of each; null: it stays.
   void replace(const std::function<Shared(const Shared&)>& by);

@@ -30,7 +30,8 @@ struct Session {
   int end(const service::Failure& failure) { return end(failure.what, static_cast<int>(failure.code)); }
 
  private:
-  std::vector<model::Finding> of_plans_;  ///< that `news` met
+  std::vector<model::Finding> of_plan_;  ///< that `news` met, of the first plan's file
+  std::string plan_file_;
 };
 
 /// Prints the job's diagnostics and the summary line on standard error, as `--diagnostics` says.

@@ -9,6 +9,7 @@
 #include "planner/door/service/explain/step_view.h"
 #include "planner/door/service/explain/values.h"
 #include "planner/ground/base/number.h"
+#include "planner/model/plan/decision/condemned.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/plan/cutter/cutter_fields.h"
 #include "planner/model/plan/plan_fields.h"
@@ -209,16 +210,10 @@ std::string coolant_text(const model::StepResult& r) {
   return out.empty() ? "none" : out;
 }
 
-/// "spindle_torque 1.11 of 0.48 Nm at X12.4 Y30.1 Z-2; chip"
+/// "spindle torque 1.11 of 0.48 Nm at X12.4 Y30.1; chip thickness 0.2 of 0.1 mm"
 std::string exceeded_text(const model::StepResult& r) {
   std::string out;
-  for (const model::ExceededLimit& l : r.exceeded) {
-    out += (out.empty() ? "" : "; ") + l.name;
-    if (l.value != 0.0 || l.limit != 0.0)
-      out += " " + trimmed(l.value, 4) + " of " + trimmed(l.limit, 4) + (l.unit.empty() ? "" : " " + l.unit);
-    if (l.at_mm)
-      out += " at X" + trimmed(l.at_mm->x, 3) + " Y" + trimmed(l.at_mm->y, 3) + " Z" + trimmed(l.at_mm->z, 3);
-  }
+  for (const model::ExceededLimit& l : r.exceeded) out += (out.empty() ? "" : "; ") + model::text_of(l);
   return out.empty() ? "none" : out;
 }
 

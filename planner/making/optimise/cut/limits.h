@@ -63,7 +63,7 @@ struct FixedLimits {
                                             const model::Cutter& cutter);
 
 /// Loads of milling cuts of one question. Cuts of one depth and width share what their sections have at every
-/// feed, so that a search that moves speed and feed costs little.
+/// feed, so that a search that moves speed and feed costs little. Not for several threads at once.
 class MillingLoads {
  public:
   /// The question must outlive it.

@@ -76,7 +76,7 @@ class SectionCutter {
       ok = clear(task_.allowance_side_mm, task_.allowance_bottom_mm, level_step(), true);
     } else {
       if (!task_.left_on_side_mm) {
-        cutter_.note("TPA-ROUGH", "no roughing step before it; it roughs in levels first");
+        cutter_.warn("TPA-ROUGH", "no roughing step before it; it roughs in levels first");
         const double own = kOwnLevel * 2.0 * tip_.radius_mm;
         const double step = task_.axial_depth_mm > 0.0 ? std::min(task_.axial_depth_mm, own) : own;
         ok = clear(std::max(kOwnAllowance, task_.allowance_side_mm),

@@ -248,6 +248,7 @@ void set_force(Pieces& all, const ForceLaw& law, double helix_rad, double fz) {
 constexpr double kSteepestHelixRad = 1.3962634015954636;  // 80 degrees: tan stays moderate
 constexpr double kMostTeeth = 1000.0;                     // so that no sum over teeth is endless
 constexpr double kMostLagRad = 1000.0;                    // 160 turns of an edge: no cutter
+constexpr double kMostInCut = 10'000.0;                   // teeth and turns of their edges: memory has an end
 constexpr double kFlattestLeadRad = 1.5;                  // 86 degrees
 
 bool is_plunge(const ImmersionArc& arc) { return arc.exit_rad - arc.entry_rad >= 2.0 * kPi - 1e-6; }
@@ -300,6 +301,8 @@ Status check_shape(const Section& s, const Tooth& t, const ForceLaw& law) {
   if (auto ok = check_range({"teeth", static_cast<double>(t.teeth)}, 1.0, kMostTeeth); !ok) return ok;
   const double lag = helix_lag_rad(s.ap_mm, t.cutting_diameter_mm, std::abs(t.helix_rad));
   if (auto ok = check_range({"lag of the helix, rad", lag}, 0.0, kMostLagRad); !ok) return ok;
+  if (auto ok = check_range({"teeth in the cut", t.teeth * (1.0 + lag / (2.0 * kPi))}, 0.0, kMostInCut); !ok)
+    return ok;
   if (law.mechanistic) {
     const CuttingCoefficients& k = *law.mechanistic;
     if (auto ok = check_positive({{"ktc_n_mm2", k.ktc_n_mm2}}); !ok) return ok;

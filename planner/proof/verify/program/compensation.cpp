@@ -130,7 +130,8 @@ void check_program_coolant(const ProgramCase& c, Findings& findings) {
       findings.error(29, "CHK-COOLANT-OTHER", c.where(b),
                      std::string("the program cuts with ") +
                          (b.flood && !s.flood ? "flood coolant (M8)" : "mist (M7)") +
-                         " on, the step is planned without; switch it off (M9)");
+                         " on, the step is planned without; state M9" +
+                         (s.flood ? ", then M8" : s.mist ? ", then M7" : ""));
     }
   }
 }

@@ -245,7 +245,7 @@ class StateChecks {
     if (std::abs(b.pitch_mm - t->thread_pitch_mm) > 1e-3)
       out_.error(18, "CHK-TAP-FEED", c_.where(b),
                  "G33.1 with a pitch of " + mm(b.pitch_mm) + ", the tap's is " + mm(t->thread_pitch_mm) +
-                     "; state K" + plain(t->thread_pitch_mm) + ", or load another tap");
+                     "; state K as a pitch of " + mm(t->thread_pitch_mm) + ", or load another tap");
   }
 
   void restart(const Block& b) {

@@ -121,7 +121,7 @@ TEST(Diff, TellsCoolantThroughTheToolAndExceededLimits) {
   const auto d = diff(before, after);
   EXPECT_THAT(d.text, HasSubstr("coolant: none -> through the tool"));
   EXPECT_THAT(d.text,
-              HasSubstr("exceeded limits: none -> spindle_torque 1.11 of 0.48 Nm at X12.4 Y30.1 Z-2"));
+              HasSubstr("exceeded limits: none -> spindle torque 1.11 of 0.48 Nm at X12.4 Y30.1"));
   EXPECT_THAT(d.text, HasSubstr("its data differ (loads)"));
 }
 

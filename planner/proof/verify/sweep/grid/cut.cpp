@@ -12,7 +12,8 @@ using geometry::Vec3;
 
 namespace {
 
-/// No depth of cut is taken from what stands no farther than this inside the rim.
+/// No depth of cut is taken from what stands no farther than this inside the rim: twice the chord of curves
+/// that a file gives as lines. Default, unsourced.
 constexpr double kRimMm = 0.004;
 
 /// A point nearer to the rim than this at the start of a move is met by the move, not by what was before.
@@ -157,7 +158,8 @@ void cut_line(Edge& k, const CutterOutline& o, Vec3 a, Vec3 b) {
 
 template <class Edge>
 void cut_arc(Edge& k, const CutterOutline& o, const Move& m) {
-  const double ra = 0.5 * (norm(xy(m.from) - m.centre) + norm(xy(m.to) - m.centre));
+  const double begins = norm(xy(m.from) - m.centre), ends = norm(xy(m.to) - m.centre);
+  const double ra = 0.5 * (begins + ends), gap = std::abs(begins - ends);
   const double r = o.radius();
   const double sweep = sweep_of(m);
   const double start = std::atan2(m.from.y - m.centre.y, m.from.x - m.centre.x);
@@ -168,8 +170,8 @@ void cut_arc(Edge& k, const CutterOutline& o, const Move& m) {
   const double inner = std::max(0.0, ra - r), outer = ra + r;
   const geometry::Box3 box = box_of(m);
   constexpr double kTurn = 6.283185307179586;
-  const auto [y0, y1] = k.grid.rows(box.lo.y - r, box.hi.y + r);
-  const auto [x0, x1] = k.grid.columns(box.lo.x - r, box.hi.x + r);
+  const auto [y0, y1] = k.grid.rows(box.lo.y - gap - r, box.hi.y + gap + r);
+  const auto [x0, x1] = k.grid.columns(box.lo.x - gap - r, box.hi.x + gap + r);
   k.grid.cut_rows(y0, y1);
   for (int iy = y0; iy < y1; ++iy) {
     if (k.grid.row_top(iy) <= zmin) continue;
@@ -199,11 +201,21 @@ void cut_arc(Edge& k, const CutterOutline& o, const Move& m) {
           const double c = (away * away + ra * ra - rho * rho) / (2.0 * away * ra);
           return c >= 1.0 || c <= -1.0 ? -1.0 : std::acos(c);
         };
-        if (!level) {
+        const double apart = norm(p - xy(m.from));
+        // How far along the way the edge is when a circle about the axis meets the point, rad.
+        const auto met_at = [&](double before) {
+          const double met = ahead - before;
+          // The circle is over the point where the way begins, and comes round to it once more or leaves it.
+          if (met < 0.0) return met + kTurn <= sweep ? met + kTurn : 0.0;
+          return met <= sweep ? met : apart <= r ? 0.0 : sweep;
+        };
+        if (!level && apart <= r && stands > m.from.z + o.height(apart)) {
+          tip = m.from.z;  // it is cut where the way begins
+        } else if (!level) {
           // The tip's height where the edge that stands as high as the material first meets the point.
           for (double rho = r; const int again : {0, 1}) {
             const double before = early(rho);
-            if (before >= 0.0) tip = m.from.z + rise * std::clamp(ahead - before, 0.0, sweep) / sweep;
+            if (before >= 0.0) tip = m.from.z + rise * met_at(before) / sweep;
             if (again == 0) rho = o.profile().radius_at(stands - tip);
           }
         }

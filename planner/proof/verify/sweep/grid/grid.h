@@ -104,7 +104,8 @@ class GougeJudge {
 };
 
 /// Cuts with the move and says what it took. `allowed_mm`: depth below the part that is within tolerance.
-/// Exact at cell centres for lines and arcs, level or not.
+/// Exact at cell centres for lines and arcs, level or not; an arc whose ends are not as far from its centre
+/// runs at the mean of both.
 ///
 /// Chips: a centre that the front of the cutter meets has met it at one place of its surface, whose normal n
 /// and the direction of travel v are known exactly. `advance_mm`, what a tooth advances, times n v is the

@@ -101,8 +101,8 @@ double lowest_on_helix(const CutterOutline& o, double z0, double dz, double radi
   // The turn to either side of the point within which it lies under the cutter's end.
   const auto turn_at = [&](double distance) {
     const double c = sum - distance * distance;
-    if (c >= twice) return c > twice ? -1.0 : 0.0;
-    return c <= -twice ? 0.5 * kTurn : std::acos(c / twice);
+    if (c > twice) return -1.0;
+    return c <= -twice ? 0.5 * kTurn : std::acos(std::min(1.0, c / twice));
   };
   double best = std::numeric_limits<double>::infinity();
   const double within = turn_at(r);

@@ -275,8 +275,9 @@ std::size_t Target::Walls::strip(double y) const {
   return static_cast<std::size_t>(at);
 }
 
-std::size_t Target::Walls::square(double at, double begin) const {
-  return static_cast<std::size_t>(std::clamp((at - begin) / square_mm, 0.0, kSquares - 1.0));
+std::size_t Target::Walls::square_at(double at, double begin) const {
+  return static_cast<std::size_t>(
+      std::clamp((at - begin) / square_mm, 0.0, static_cast<double>(along) - 1.0));
 }
 
 bool Target::Walls::stands(Vec2 p) const {
@@ -321,17 +322,21 @@ const Target::Walls& Target::walls(double z) {
     const std::size_t last = out.strip(std::max(e.a.y, e.b.y));
     for (std::size_t k = out.strip(std::min(e.a.y, e.b.y)); k <= last; ++k) out.strips[k].push_back(i);
   }
+  // About as many squares as edges, so that heights with few edges cost little.
+  constexpr double kMostAlong = 128.0;
+  out.along = static_cast<std::size_t>(
+      std::clamp(std::sqrt(static_cast<double>(out.edges.size())), 1.0, kMostAlong));
   out.x0_mm = part_box_.lo.x;
   out.square_mm = std::max({part_box_.hi.x - part_box_.lo.x, part_box_.hi.y - part_box_.lo.y, 0.1}) /
-                  static_cast<double>(Walls::kSquares);
-  out.squares.resize(Walls::kSquares * Walls::kSquares);
+                  static_cast<double>(out.along);
+  out.squares.resize(out.along * out.along);
   for (std::uint32_t i = 0; i < out.edges.size(); ++i) {
     const auto& e = out.edges[i];
-    const std::size_t last_y = out.square(std::max(e.a.y, e.b.y), out.y0_mm);
-    const std::size_t last_x = out.square(std::max(e.a.x, e.b.x), out.x0_mm);
-    for (std::size_t y = out.square(std::min(e.a.y, e.b.y), out.y0_mm); y <= last_y; ++y)
-      for (std::size_t x = out.square(std::min(e.a.x, e.b.x), out.x0_mm); x <= last_x; ++x)
-        out.squares[y * Walls::kSquares + x].push_back(i);
+    const std::size_t last_y = out.square_at(std::max(e.a.y, e.b.y), out.y0_mm);
+    const std::size_t last_x = out.square_at(std::max(e.a.x, e.b.x), out.x0_mm);
+    for (std::size_t y = out.square_at(std::min(e.a.y, e.b.y), out.y0_mm); y <= last_y; ++y)
+      for (std::size_t x = out.square_at(std::min(e.a.x, e.b.x), out.x0_mm); x <= last_x; ++x)
+        out.squares[y * out.along + x].push_back(i);
   }
   return walls_.emplace(key, std::move(out)).first->second;
 }
@@ -351,27 +356,27 @@ double Target::wall_gouge(const Move& m, double radius, double height_mm, Vec2& 
     if (z + allowed() < part_box_.hi.z) {
       const Walls& w = walls(z);
       const Vec2 p = i == n && changes ? xy(b) : xy(a);
-      double square = 1e300;
+      double squared = 1e300;
       const double reach = radius - allowed();
       const double x0 = std::min(p.x, b.x) - reach, x1 = std::max(p.x, b.x) + reach;
       const double y0 = std::min(p.y, b.y) - reach, y1 = std::max(p.y, b.y) + reach;
       // An edge that lies in several squares is merely looked at again.
-      const std::size_t last_y = w.square(y1, w.y0_mm), last_x = w.square(x1, w.x0_mm);
-      for (std::size_t iy = w.square(y0, w.y0_mm); iy <= last_y; ++iy) {
-        for (std::size_t ix = w.square(x0, w.x0_mm); ix <= last_x; ++ix) {
-          for (const std::uint32_t index : w.squares[iy * Walls::kSquares + ix]) {
+      const std::size_t last_y = w.square_at(y1, w.y0_mm), last_x = w.square_at(x1, w.x0_mm);
+      for (std::size_t iy = w.square_at(y0, w.y0_mm); iy <= last_y; ++iy) {
+        for (std::size_t ix = w.square_at(x0, w.x0_mm); ix <= last_x; ++ix) {
+          for (const std::uint32_t index : w.squares[iy * w.along + ix]) {
             const auto& e = w.edges[index];
             if (std::max(e.a.x, e.b.x) < x0 || std::min(e.a.x, e.b.x) > x1 || std::max(e.a.y, e.b.y) < y0 ||
                 std::min(e.a.y, e.b.y) > y1) {
               continue;
             }
-            if (crossing(p, xy(b), e.a, e.b)) square = 0.0;
-            square = std::min({square, squared_distance(p, e.a, e.b), squared_distance(xy(b), e.a, e.b),
+            if (crossing(p, xy(b), e.a, e.b)) squared = 0.0;
+            squared = std::min({squared, squared_distance(p, e.a, e.b), squared_distance(xy(b), e.a, e.b),
                                squared_distance(e.a, p, xy(b)), squared_distance(e.b, p, xy(b))});
           }
         }
       }
-      const double near = std::sqrt(square);
+      const double near = std::sqrt(squared);
       double into = radius - near;
       if (near > std::max(reach, kChordMm) && w.stands(xy(b))) {
         into = radius;

@@ -110,10 +110,10 @@ class Target : public GougeJudge {
     [[nodiscard]] std::size_t strip(double y) const;
     /// Edges by the squares that their boxes touch, rows of y: a look around a move sees those near it only.
     std::vector<std::vector<std::uint32_t>> squares;
+    std::size_t along = 1;  ///< squares along x, and along y
     double x0_mm = 0.0, square_mm = 1.0;
-    static constexpr std::size_t kSquares = 128;  ///< along x and along y
     /// Number of the square along x or y that a coordinate lies in, from where they begin.
-    [[nodiscard]] std::size_t square(double at, double begin) const;
+    [[nodiscard]] std::size_t square_at(double at, double begin) const;
     /// Whether the part stands at p: the winding of the edges to its right.
     [[nodiscard]] bool stands(geometry::Vec2 p) const;
   };
