@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "planner/ground/vocabulary/unit_factors.h"
 
 namespace capstan::verify {
 namespace {
-
-constexpr double kTurn = 2.0 * std::numbers::pi;
 
 double start_angle(const Move& m) { return std::atan2(m.from.y - m.centre.y, m.from.x - m.centre.x); }
 
@@ -17,9 +16,9 @@ double sweep_of(const Move& m) {
   const double end = std::atan2(m.to.y - m.centre.y, m.to.x - m.centre.x);
   double sweep = end - start_angle(m);
   if (m.kind == model::MoveKind::kArcCw) sweep = -sweep;
-  sweep = std::fmod(sweep, kTurn);
-  if (sweep < 0.0) sweep += kTurn;
-  return sweep <= 1e-9 ? kTurn : sweep;
+  sweep = std::fmod(sweep, kRadPerTurn);
+  if (sweep < 0.0) sweep += kRadPerTurn;
+  return sweep <= 1e-9 ? kRadPerTurn : sweep;
 }
 
 double length_of(const Move& m) {
@@ -44,11 +43,11 @@ geometry::Box3 box_of(const Move& m) {
   const double r = norm(xy(m.to) - m.centre);
   const double sweep = sweep_of(m);
   for (int quarter = 0; quarter < 4; ++quarter) {
-    const double at = quarter * kTurn / 4.0;
+    const double at = quarter * kRadPerTurn / 4.0;
     double ahead = at - start_angle(m);
     if (m.kind == model::MoveKind::kArcCw) ahead = -ahead;
-    ahead = std::fmod(ahead, kTurn);
-    if (ahead < 0.0) ahead += kTurn;
+    ahead = std::fmod(ahead, kRadPerTurn);
+    if (ahead < 0.0) ahead += kRadPerTurn;
     if (ahead <= sweep) box.add({m.centre.x + r * std::cos(at), m.centre.y + r * std::sin(at), m.to.z});
   }
   return box;

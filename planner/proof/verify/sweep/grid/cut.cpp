@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/ground/vocabulary/unit_factors.h"
 #include "planner/proof/verify/sweep/grid/grid.h"
 
 namespace capstan::verify {
@@ -169,7 +170,6 @@ void cut_arc(Edge& k, const CutterOutline& o, const Move& m) {
   const double zmin = level ? m.to.z : std::min(m.from.z, m.to.z);
   const double inner = std::max(0.0, ra - r), outer = ra + r;
   const geometry::Box3 box = box_of(m);
-  constexpr double kTurn = 6.283185307179586;
   const auto [y0, y1] = k.grid.rows(box.lo.y - gap - r, box.hi.y + gap + r);
   const auto [x0, x1] = k.grid.columns(box.lo.x - gap - r, box.hi.x + gap + r);
   k.grid.cut_rows(y0, y1);
@@ -186,8 +186,8 @@ void cut_arc(Edge& k, const CutterOutline& o, const Move& m) {
       const double away = std::sqrt(square);
       const double radial = std::abs(away - ra);
       if (radial > r || stands <= zmin + o.at_least(radial * radial)) continue;
-      double ahead = std::fmod(sign * (std::atan2(q.y, q.x) - start), kTurn);
-      if (ahead < 0.0) ahead += kTurn;
+      double ahead = std::fmod(sign * (std::atan2(q.y, q.x) - start), kRadPerTurn);
+      if (ahead < 0.0) ahead += kRadPerTurn;
       const double near = ahead <= sweep ? radial : std::min(norm(p - xy(m.from)), norm(p - xy(m.to)));
       if (near > r) continue;
       const double z = level ? zmin + o.height(near) : lowest_on_helix(o, m.from.z, rise, ra, sweep, away, ahead);
@@ -206,7 +206,7 @@ void cut_arc(Edge& k, const CutterOutline& o, const Move& m) {
         const auto met_at = [&](double before) {
           const double met = ahead - before;
           // The circle is over the point where the way begins, and comes round to it once more or leaves it.
-          if (met < 0.0) return met + kTurn <= sweep ? met + kTurn : 0.0;
+          if (met < 0.0) return met + kRadPerTurn <= sweep ? met + kRadPerTurn : 0.0;
           return met <= sweep ? met : apart <= r ? 0.0 : sweep;
         };
         if (!level && apart <= r && stands > m.from.z + o.height(apart)) {

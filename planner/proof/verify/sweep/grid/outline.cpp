@@ -9,14 +9,14 @@
 #include <limits>
 #include <utility>
 
+#include "planner/ground/vocabulary/unit_factors.h"
+
 namespace capstan::verify {
 
 using geometry::CutterProfile;
 using geometry::ProfilePiece;
 
 namespace {
-
-constexpr double kTurn = 6.283185307179586;
 
 /// Where f is least between two places, by golden section: 16 steps leave 1/2000 of the way between them.
 template <class F>
@@ -102,7 +102,7 @@ double lowest_on_helix(const CutterOutline& o, double z0, double dz, double radi
   const auto turn_at = [&](double distance) {
     const double c = sum - distance * distance;
     if (c > twice) return -1.0;
-    return c <= -twice ? 0.5 * kTurn : std::acos(std::min(1.0, c / twice));
+    return c <= -twice ? 0.5 * kRadPerTurn : std::acos(std::min(1.0, c / twice));
   };
   double best = std::numeric_limits<double>::infinity();
   const double within = turn_at(r);
@@ -113,7 +113,7 @@ double lowest_on_helix(const CutterOutline& o, double z0, double dz, double radi
   const auto height_at = [&](double turn) {
     return o.height(std::min(r, std::sqrt(std::max(0.0, sum - twice * std::cos(turn)))));
   };
-  for (const double round : {-kTurn, 0.0, kTurn}) {
+  for (const double round : {-kRadPerTurn, 0.0, kRadPerTurn}) {
     const double foot = ahead + round;  // the point's turn, from the start of the way
     const double z_foot = z0 + foot / sweep * dz;
     const double from = std::max(foot - within, 0.0), to = std::min(foot + within, sweep);
