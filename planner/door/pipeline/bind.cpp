@@ -251,6 +251,7 @@ Result<model::Plan> bind_settled(const model::Plan& plan, const Inputs& inputs, 
 
 Result<model::Plan> bind_within(const model::Plan& plan, const Inputs& inputs, const Policy& policy,
                                 Tries& tries, Job& job) {
+  if (!tries.memo) tries.memo = inputs.memo ? inputs.memo : std::make_shared<memo::Memo>();
   if (inputs.objective != Objective::kProfit) return bind_settled(plan, inputs, policy, 0.0, tries, job);
   if (!inputs.revenue) {
     return fail({.code = "PIP-REVENUE",

@@ -59,9 +59,10 @@ class PathMaker {
         used_(used),
         bans_(tries.bans),
         job_(job),
-        stocks_(plan.stock, p.setups, steps, left_out_, tries.smallest),
+        stocks_(plan.stock, p.setups, steps, left_out_, tries.smallest, tries.memo.get()),
         progress_(p),
-        cuts_(tries.cuts, options, job) {}
+        cuts_(tries.cuts, options, job),
+        means_{stocks_, progress_, cuts_, job_, tries.memo.get()} {}
 
   Result<Learned> run() {
     std::size_t done = 0;
@@ -372,7 +373,7 @@ class PathMaker {
   step::Stocks stocks_;
   step::Progress progress_;
   step::Cuts cuts_;
-  step::Means means_{stocks_, progress_, cuts_, job_};
+  step::Means means_;
   Learned learned_;
   std::set<AnyRef> failed_;   ///< features with a step that failed in this try
   std::set<AnyRef> resting_;  ///< features that rest on those

@@ -10,6 +10,7 @@
 
 #include "planner/ground/base/job.h"
 #include "planner/ground/base/result.h"
+#include "planner/ground/memo/memo.h"
 #include "planner/making/given/listed_steps.h"
 #include "planner/making/optimise/cut.h"
 #include "planner/model/plan/cutter/cutter.h"
@@ -60,6 +61,8 @@ struct Inputs {
   int batch = 1;    ///< pieces
   double edge_break_mm = 0.0;                 ///< chamfer on edges that the part leaves sharp; 0: none
   std::vector<model::Provenance> provenance;  ///< origin of each input: named or default
+  /// Results of earlier plannings; changes how long planning takes and nothing else. Null: those of this one only.
+  std::shared_ptr<memo::Memo> memo;
 };
 
 /// Plannings for most profit, the first for least cost among them; two or three usually do.

@@ -2,11 +2,13 @@
 
 #include <cstddef>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "planner/ground/memo/memo.h"
 #include "planner/making/draft/bans.h"
 #include "planner/making/step/cut/cuts.h"
 #include "planner/making/step/path/stocks.h"
@@ -51,6 +53,8 @@ struct Tries {
   step::KnownCuts cuts;
   /// By set-up, where the last try began with another: the stock's cells follow it.
   step::SmallestCutters smallest;
+  /// Results of stages: the caller's, or those of these tries alone.
+  std::shared_ptr<memo::Memo> memo;
 
   /// Keeps what a stage learned; whether the plan is to be made again.
   bool learn(Learned learned);

@@ -20,7 +20,7 @@ class Try {
   std::set<model::AnyRef> left_out;
   Stocks stocks;
   Try(const SmallestCutters& known, bool from_below_first)
-      : setups(two_setups(from_below_first)), stocks(raw, setups, steps, left_out, known) {
+      : setups(two_setups(from_below_first)), stocks(raw, setups, steps, left_out, known, nullptr) {
     raw.box = {{0, 0, -20}, {100, 100, 0}};
     for (draft::SetupDraft& s : setups) s.stock = transformed(raw.box, s.workpiece);
   }

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "planner/ground/base/number.h"
+#include "planner/ground/memo/remembered.h"
 #include "planner/making/step/cut/question.h"
 #include "planner/making/step/cut_samples.h"
 #include "planner/making/step/path/freeform.h"
@@ -52,6 +53,41 @@ Status lower_depth(const model::Model& m, const StepDraft& step, PathWithCut& ou
   out.answer = *std::move(answer);
   out.depth_open = true;
   return {};
+}
+
+/// Feeds along a path, with the path and what belongs to its moves as they are split for them.
+struct Scheduled {
+  optimise::FeedAnswer feeds;
+  model::CutterPath path;
+  model::SectionSeries sections;
+  std::vector<optimise::CutSample> samples;
+  std::vector<double> feed_factor, speed_factor, dwell_s;
+};
+
+/// Splits the moves by their sections, where there are some, and schedules the feeds of all.
+void schedule(MeasuredCut& cut, model::SectionSeries* sections, memo::Memo* memo) {
+  optimise::FeedQuestion& asked = cut.asked;
+  const auto make = [&] {
+    if (sections != nullptr) optimise::split_moves(asked, *cut.path, sections);
+    return optimise::feeds(asked, *cut.path);
+  };
+  if (memo == nullptr) {
+    cut.feeds = make();
+    return;
+  }
+  const auto key = memo::key_of(memo::Stage::kFeeds, asked, *cut.path, sections);
+  auto known = memo::remembered<Scheduled>(memo, memo::Stage::kFeeds, key, [&] {
+    Scheduled out{make(), *cut.path, {}, asked.samples, asked.feed_factor, asked.speed_factor, asked.dwell_s};
+    if (sections != nullptr) out.sections = *sections;
+    return out;
+  });
+  cut.feeds = std::move(known.feeds);
+  *cut.path = std::move(known.path);
+  if (sections != nullptr) *sections = std::move(known.sections);
+  asked.samples = std::move(known.samples);
+  asked.feed_factor = std::move(known.feed_factor);
+  asked.speed_factor = std::move(known.speed_factor);
+  asked.dwell_s = std::move(known.dwell_s);
 }
 
 }  // namespace
@@ -161,10 +197,11 @@ MeasuredCut measured_cut(model::Plan& plan, const PlanSoFar& p, const StepDraft&
         r.radial_depth_mm = std::max(r.radial_depth_mm, ae);
       }
     }
-    optimise::split_moves(fq, *out.path, &m->sections);
+    schedule(out, &m->sections, means.memo);
     r.sections = std::make_shared<const model::SectionSeries>(std::move(m->sections));
+  } else {
+    schedule(out, nullptr, means.memo);
   }
-  out.feeds = optimise::feeds(fq, *out.path);
   out.made = std::move(made);
   return out;
 }

@@ -7,6 +7,7 @@
 
 #include "planner/ground/base/job.h"
 #include "planner/ground/base/result.h"
+#include "planner/ground/memo/memo.h"
 #include "planner/making/optimise/feeds.h"
 #include "planner/making/step/cut/cuts.h"
 #include "planner/making/step/path/progress.h"
@@ -47,6 +48,7 @@ struct Means {
   const Progress& progress;
   Cuts& cuts;
   Job& job;
+  memo::Memo* memo = nullptr;  ///< null: every result is made
 };
 
 /// Chooses the cut and makes the path of a step with the cutter that it has; `candidate` is that cutter with

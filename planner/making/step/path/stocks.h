@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "planner/ground/base/result.h"
+#include "planner/ground/memo/memo.h"
 #include "planner/making/draft/draft.h"
 #include "planner/making/toolpath/path_job.h"
 #include "planner/model/plan/plan.h"
@@ -35,15 +36,17 @@ using SmallestCutters = std::map<SameSetup, Smallest>;
 
 class Stocks {
  public:
-  /// `left_out` are steps that are not made, `known` the cutters of earlier tries. All are referred to.
+  /// `left_out` are steps that are not made, `known` the cutters of earlier tries. All are referred to, also
+  /// `memo`, which may be null: sections along the same path through the same material are taken from it.
   Stocks(const model::Stock& raw, const std::vector<draft::SetupDraft>& setups,
          const std::vector<draft::StepDraft>& steps, const std::set<model::AnyRef>& left_out,
-         const SmallestCutters& known)
+         const SmallestCutters& known, memo::Memo* memo)
       : raw_(raw),
         setups_(setups),
         steps_(steps),
         left_out_(left_out),
         known_(known),
+        memo_(memo),
         maps_(setups.size()),
         patches_(setups.size()),
         smallest_(setups.size()),
@@ -84,6 +87,11 @@ class Stocks {
 
  private:
   [[nodiscard]] double smallest(std::size_t setup) const;
+  [[nodiscard]] Result<engagement::Measurement> measure_cells(std::size_t setup, const model::CutterPath& path,
+                                                              const model::Cutter& cutter);
+  [[nodiscard]] Result<engagement::Measurement> measure_planar(std::size_t setup,
+                                                               const model::CutterPath& path,
+                                                               const model::Cutter& cutter);
   [[nodiscard]] double cell(std::size_t setup, double smallest_mm) const;
 
   const model::Stock& raw_;
@@ -91,6 +99,7 @@ class Stocks {
   const std::vector<draft::StepDraft>& steps_;
   const std::set<model::AnyRef>& left_out_;
   const SmallestCutters& known_;
+  memo::Memo* memo_;
   std::size_t last_ = static_cast<std::size_t>(-1);
   std::vector<std::optional<stock::HeightMap>> maps_;
   std::vector<std::vector<stock::Patch>> patches_;        ///< of the maps before they were cut, oldest first

@@ -1,0 +1,205 @@
+#include "planner/ground/memo/folder.h"
+
+#include <elf.h>
+#include <link.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+#include "planner/ground/base/file.h"
+
+// A file is a head (mark, key, length, checksum) and the content. Its name is its key in hex, in one of 256 folders
+// named by the first two digits. The checksum is XXH3 over build, key and content.
+//
+// The bound is kept when a memo that wrote is closed: files by the time they were last used (their time of change is set
+// when they are read), oldest first, are removed until nine tenths of the bound are left, so that this is not done
+// after every call.
+
+namespace capstan::memo {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array<char, 8> kMark{'C', 'A', 'P', 'M', 'E', 'M', '0', '1'};
+constexpr double kKept = 0.9;  // of the bound, after making room; default, unsourced
+
+struct Head {
+  std::array<char, 8> mark = kMark;
+  Key key;
+  std::uint64_t size = 0, checksum = 0;
+};
+
+struct Search {
+  std::uintptr_t address = 0;
+  std::string found;
+};
+
+/// The build id among the notes of a loaded module that holds the address.
+int look_at_module(dl_phdr_info* module, std::size_t, void* data) {
+  auto& search = *static_cast<Search*>(data);
+  const auto at = [&](const ElfW(Phdr) & p) { return module->dlpi_addr + p.p_vaddr; };
+  const ElfW(Phdr)* first = module->dlpi_phdr;
+  const ElfW(Phdr)* last = first + module->dlpi_phnum;
+  const bool here = std::any_of(first, last, [&](const ElfW(Phdr) & p) {
+    return p.p_type == PT_LOAD && search.address >= at(p) && search.address < at(p) + p.p_memsz;
+  });
+  if (!here) return 0;
+  for (const ElfW(Phdr)* p = first; p != last; ++p) {
+    if (p->p_type != PT_NOTE) continue;
+    std::size_t offset = 0;
+    while (offset + sizeof(ElfW(Nhdr)) <= p->p_memsz) {
+      const auto* note = reinterpret_cast<const ElfW(Nhdr)*>(at(*p) + offset);
+      const std::size_t name = (note->n_namesz + 3U) & ~std::size_t{3};
+      const auto* text = reinterpret_cast<const char*>(note + 1);
+      if (note->n_type == NT_GNU_BUILD_ID && note->n_namesz == 4 && std::memcmp(text, "GNU", 4) == 0) {
+        const auto* id = reinterpret_cast<const unsigned char*>(text + name);
+        constexpr std::string_view kDigits = "0123456789abcdef";
+        for (std::size_t i = 0; i < note->n_descsz; ++i) {
+          search.found += kDigits[id[i] >> 4U];
+          search.found += kDigits[id[i] & 15U];
+        }
+        return 1;
+      }
+      offset += sizeof(ElfW(Nhdr)) + name + ((note->n_descsz + 3U) & ~std::size_t{3});
+    }
+  }
+  return 1;
+}
+
+}  // namespace
+
+std::string build_identity() {
+  Search search;
+  search.address = reinterpret_cast<std::uintptr_t>(&build_identity);
+  dl_iterate_phdr(look_at_module, &search);
+  return search.found;
+}
+
+Folder::Folder(std::string path, std::string build, std::size_t most_bytes)
+    : path_(std::move(path)), build_(std::move(build)), most_bytes_(most_bytes) {}
+
+Folder::Folder(Folder&& other) noexcept
+    : path_(std::exchange(other.path_, {})),
+      build_(std::exchange(other.build_, {})),
+      most_bytes_(other.most_bytes_),
+      wrote_(std::exchange(other.wrote_, false)) {}
+
+Folder::~Folder() {
+  if (wrote_) make_room();
+}
+
+Result<Folder> Folder::open(const std::string& path, std::size_t most_bytes) {
+  const std::string build = build_identity();
+  if (build.empty()) {
+    return fail({.code = "MEM-BUILD",
+                 .message = "results are not kept between calls: this program carries no build identity",
+                 .file = path,
+                 .hint = "link it with --build-id, or leave --cache out"});
+  }
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (error || !fs::is_directory(path, error)) {
+    return fail({.code = "MEM-FOLDER",
+                 .message = "the folder for results cannot be made or read" + (error ? ": " + error.message() : ""),
+                 .file = path,
+                 .expected = "a folder that may be written",
+                 .hint = "give another one with --cache"});
+  }
+  return Folder(path, build, most_bytes);
+}
+
+std::string Folder::file_of(const Key& key) const {
+  const std::string name = hex64(key.high) + hex64(key.low);
+  return path_ + "/" + name.substr(0, 2) + "/" + name.substr(2);
+}
+
+std::uint64_t Folder::checksum(const Key& key, std::string_view bytes) const {
+  const std::uint64_t named = XXH3_64bits_withSeed(build_.data(), build_.size(), key.high ^ (key.low * 3));
+  return XXH3_64bits_withSeed(bytes.data(), bytes.size(), named);
+}
+
+std::optional<std::string> Folder::find(const Key& key) const {
+  const std::string name = file_of(key);
+  std::error_code error;
+  if (!fs::is_regular_file(name, error)) return std::nullopt;
+  auto all = read_file(name);
+  Head head;
+  if (!all || all->size() < sizeof head) return std::nullopt;
+  std::memcpy(&head, all->data(), sizeof head);
+  if (head.mark != kMark || head.key != key || head.size != all->size() - sizeof head) return std::nullopt;
+  all->erase(0, sizeof head);
+  if (head.checksum != checksum(key, *all)) return std::nullopt;
+  fs::last_write_time(name, fs::file_time_type::clock::now(), error);
+  return *std::move(all);
+}
+
+void Folder::keep(const Key& key, std::string_view bytes) {
+  Head head;
+  head.key = key;
+  head.size = bytes.size();
+  head.checksum = checksum(key, bytes);
+  std::string all(sizeof head, '\0');
+  std::memcpy(all.data(), &head, sizeof head);
+  all += bytes;
+  const std::string name = file_of(key);
+  std::error_code error;
+  fs::create_directories(fs::path(name).parent_path(), error);
+  // Not brought to disk before it gets its name: a file that a power cut leaves short is found by its checksum.
+  const std::string unnamed = name + "." + std::to_string(::getpid()) + ".tmp";
+  {
+    std::ofstream out(unnamed, std::ios::binary | std::ios::trunc);
+    out.write(all.data(), static_cast<std::streamsize>(all.size()));
+    if (!out.flush()) {
+      out.close();
+      fs::remove(unnamed, error);
+      return;
+    }
+  }
+  fs::rename(unnamed, name, error);
+  if (error) {
+    fs::remove(unnamed, error);
+    return;
+  }
+  wrote_ = true;
+}
+
+void Folder::make_room() const {
+  struct File {
+    fs::file_time_type used;
+    std::string path;
+    std::uintmax_t size = 0;
+  };
+  std::vector<File> files;
+  std::uintmax_t sum = 0;
+  std::error_code error;
+  for (fs::recursive_directory_iterator at(path_, error), end; !error && at != end; at.increment(error)) {
+    std::error_code gone;  // another process may remove it meanwhile
+    if (!at->is_regular_file(gone) || gone) continue;
+    File f{at->last_write_time(gone), at->path().string(), 0};
+    f.size = at->file_size(gone);
+    if (gone) continue;
+    sum += f.size;
+    files.push_back(std::move(f));
+  }
+  if (sum <= most_bytes_) return;
+  std::sort(files.begin(), files.end(), [](const File& a, const File& b) {
+    return a.used != b.used ? a.used < b.used : a.path < b.path;
+  });
+  const double kept = kKept * static_cast<double>(most_bytes_);
+  for (const File& f : files) {
+    if (static_cast<double>(sum) <= kept) break;
+    if (fs::remove(f.path, error)) sum -= f.size;
+  }
+}
+
+}  // namespace capstan::memo

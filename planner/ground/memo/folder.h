@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "planner/ground/base/result.h"
+#include "planner/ground/memo/memo.h"
+
+// Results in a folder; only this room includes this.
+
+namespace capstan::memo {
+
+/// Identity of the program that runs: the linker's build id of the module that this code is in, in hex. Empty where the
+/// linker left none. Results of another build never count, for the formulas may have changed.
+[[nodiscard]] std::string build_identity();
+
+class Folder {
+ public:
+  /// Fails  as Memo::in_folder.
+  [[nodiscard]] static Result<Folder> open(const std::string& path, std::size_t most_bytes);
+  Folder(Folder&& other) noexcept;
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  Folder& operator=(Folder&&) = delete;
+  ~Folder();  ///< removes what was not used for longest, down to its bound
+
+  /// The content kept under a key; nothing where it is missing, damaged, or of another build.
+  [[nodiscard]] std::optional<std::string> find(const Key& key) const;
+  /// Writes it whole or not at all, and says nothing where it cannot.
+  void keep(const Key& key, std::string_view bytes);
+
+ private:
+  Folder(std::string path, std::string build, std::size_t most_bytes);
+  [[nodiscard]] std::string file_of(const Key& key) const;
+  [[nodiscard]] std::uint64_t checksum(const Key& key, std::string_view bytes) const;
+  void make_room() const;
+
+  std::string path_, build_;
+  std::size_t most_bytes_;
+  bool wrote_ = false;
+};
+
+}  // namespace capstan::memo

@@ -1,0 +1,209 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "planner/ground/memo/fields.h"
+
+// Values as bytes, and back: numbers, enumerations, text, vectors, maps, pairs, optionals, shared constants, pointers (in keys; a value
+// is read back with null ones only), and structs of these, field by field in the order of their declaration. The fields are not named here (fields.h), so that a field that is
+// added to a struct is packed without a word here.
+//
+// The form is that of this build on this machine (byte order, enumerators, fields): it never leaves a memo,
+// whose keys tell builds apart. What is read is checked for length, never for sense.
+
+namespace capstan::memo {
+
+namespace detail {
+
+template <class T>
+inline constexpr bool kPlain = std::is_arithmetic_v<T> || std::is_enum_v<T>;
+
+template <class T>
+inline constexpr bool kVector = false;
+template <class T, class A>
+inline constexpr bool kVector<std::vector<T, A>> = true;
+
+template <class T>
+inline constexpr bool kMap = false;
+template <class K, class V, class C, class A>
+inline constexpr bool kMap<std::map<K, V, C, A>> = true;
+
+template <class T>
+inline constexpr bool kOptional = false;
+template <class T>
+inline constexpr bool kOptional<std::optional<T>> = true;
+
+template <class T>
+inline constexpr bool kPair = false;
+template <class A, class B>
+inline constexpr bool kPair<std::pair<A, B>> = true;
+
+template <class T>
+inline constexpr bool kShared = false;
+template <class T>
+inline constexpr bool kShared<std::shared_ptr<T>> = true;
+
+}  // namespace detail
+
+/// Appends a value to the bytes.
+template <class T>
+void pack(std::string& out, const T& v) {
+  using namespace detail;
+  if constexpr (kPlain<T>) {
+    char raw[sizeof(T)];
+    std::memcpy(raw, &v, sizeof(T));
+    out.append(raw, sizeof(T));
+  } else if constexpr (std::is_same_v<T, std::string>) {
+    pack(out, static_cast<std::uint64_t>(v.size()));
+    out += v;
+  } else if constexpr (kVector<T>) {
+    using E = typename T::value_type;
+    pack(out, static_cast<std::uint64_t>(v.size()));
+    if constexpr (kPlain<E> && !std::is_same_v<E, bool>) {
+      if (!v.empty()) out.append(reinterpret_cast<const char*>(v.data()), v.size() * sizeof(E));
+    } else {
+      for (const auto& e : v) pack(out, static_cast<const E&>(e));
+    }
+  } else if constexpr (kMap<T>) {
+    pack(out, static_cast<std::uint64_t>(v.size()));
+    for (const auto& [key, value] : v) {
+      pack(out, key);
+      pack(out, value);
+    }
+  } else if constexpr (kPair<T>) {
+    pack(out, v.first);
+    pack(out, v.second);
+  } else if constexpr (kOptional<T>) {
+    pack(out, v.has_value());
+    if (v) pack(out, *v);
+  } else if constexpr (kShared<T> || std::is_pointer_v<T>) {
+    pack(out, v != nullptr);
+    if (v != nullptr) pack(out, *v);
+  } else {
+    static_assert(std::is_aggregate_v<T>, "packed field by field: needs a struct without constructors");
+    each_field(v, [&](const auto& field) { pack(out, field); });
+  }
+}
+
+/// Reads values in the order in which they were packed. After bytes that are too few `whole` is false, and what was
+/// read is to be thrown away.
+class Unpacker {
+ public:
+  explicit Unpacker(std::string_view bytes) : bytes_(bytes) {}
+  [[nodiscard]] bool whole() const { return whole_; }
+  [[nodiscard]] bool at_end() const { return whole_ && bytes_.empty(); }
+
+  template <class T>
+  void read(T& v) {
+    using namespace detail;
+    if constexpr (std::is_same_v<T, bool>) {
+      std::uint8_t byte = 0;
+      raw(&byte, 1);
+      v = byte != 0;
+    } else if constexpr (kPlain<T>) {
+      raw(&v, sizeof(T));
+    } else if constexpr (std::is_same_v<T, std::string>) {
+      const std::size_t n = count(1);
+      v.assign(bytes_.substr(0, n));
+      bytes_.remove_prefix(n);
+    } else if constexpr (kVector<T>) {
+      using E = typename T::value_type;
+      if constexpr (kPlain<E> && !std::is_same_v<E, bool>) {
+        const std::size_t n = count(sizeof(E));
+        v.resize(n);
+        raw(v.data(), n * sizeof(E));
+      } else {
+        const std::size_t n = count(1);
+        v.clear();
+        v.reserve(n);
+        for (std::size_t i = 0; i < n && whole_; ++i) {
+          E e{};
+          read(e);
+          v.push_back(std::move(e));
+        }
+      }
+    } else if constexpr (kMap<T>) {
+      const std::size_t n = count(1);
+      v.clear();
+      for (std::size_t i = 0; i < n && whole_; ++i) {
+        typename T::key_type key{};
+        typename T::mapped_type value{};
+        read(key);
+        read(value);
+        v.insert_or_assign(std::move(key), std::move(value));
+      }
+    } else if constexpr (kPair<T>) {
+      read(v.first);
+      read(v.second);
+    } else if constexpr (kOptional<T>) {
+      bool there = false;
+      read(there);
+      if (!there) {
+        v.reset();
+        return;
+      }
+      read(v.emplace());
+    } else if constexpr (std::is_pointer_v<T>) {
+      bool there = false;
+      read(there);
+      whole_ = whole_ && !there;
+      v = nullptr;
+    } else if constexpr (kShared<T>) {
+      using E = std::remove_const_t<typename T::element_type>;
+      bool there = false;
+      read(there);
+      if (!there) {
+        v.reset();
+        return;
+      }
+      auto value = std::make_shared<E>();
+      read(*value);
+      v = std::move(value);
+    } else {
+      static_assert(std::is_aggregate_v<T>);
+      each_field(v, [&](auto& field) { read(field); });
+    }
+  }
+
+ private:
+  void raw(void* to, std::size_t n) {
+    if (!whole_ || n > bytes_.size()) {
+      whole_ = false;
+      return;
+    }
+    if (n > 0) std::memcpy(to, bytes_.data(), n);
+    bytes_.remove_prefix(n);
+  }
+  /// A number of elements of at least `least` bytes each; 0 where so many cannot follow.
+  std::size_t count(std::size_t least) {
+    std::uint64_t n = 0;
+    raw(&n, sizeof n);
+    if (n > bytes_.size() / least) whole_ = false;
+    return whole_ ? static_cast<std::size_t>(n) : 0;
+  }
+
+  std::string_view bytes_;
+  bool whole_ = true;
+};
+
+/// The value that all of the bytes say; nothing where they are too few or too many.
+template <class T>
+[[nodiscard]] std::optional<T> unpacked(std::string_view bytes) {
+  T out{};
+  Unpacker from(bytes);
+  from.read(out);
+  if (!from.at_end()) return std::nullopt;
+  return out;
+}
+
+}  // namespace capstan::memo
