@@ -11,14 +11,11 @@
 
 namespace capstan::verify {
 
-/// Heights at the centres of square cells, seen along the tool axis: the raw piece as it is now, and the
-/// finished part. A point sample, not an average: what holds at a centre holds there exactly.
-///
-/// Frame  the set-up's. Units  mm.
-class Grid {
+/// Square cells over an area, by their centres.
+class Raster {
  public:
   /// At most `maximum_cells` cells over the area [lo, hi].
-  Grid(geometry::Vec2 lo, geometry::Vec2 hi, double cell_mm, long maximum_cells);
+  Raster(geometry::Vec2 lo, geometry::Vec2 hi, double cell_mm, long maximum_cells);
 
   [[nodiscard]] int nx() const { return nx_; }
   [[nodiscard]] int ny() const { return ny_; }
@@ -32,6 +29,20 @@ class Grid {
   /// Cells whose centres lie in [a, b]: first and last + 1, clipped.
   [[nodiscard]] std::pair<int, int> columns(double a, double b) const;
   [[nodiscard]] std::pair<int, int> rows(double a, double b) const;
+
+ protected:
+  geometry::Vec2 lo_;
+  double cell_ = 0.0;
+  int nx_ = 0, ny_ = 0;
+};
+
+/// Heights at the centres of the cells, seen along the tool axis: the raw piece as it is now, and the finished
+/// part. A point sample, not an average: what holds at a centre holds there exactly.
+///
+/// Frame  the set-up's. Units  mm.
+class Grid : public Raster {
+ public:
+  Grid(geometry::Vec2 lo, geometry::Vec2 hi, double cell_mm, long maximum_cells);
 
   std::vector<double> stock;  ///< in-process height; kNothing: no material
   std::vector<double> part;   ///< finished height; kNothing: nothing stays here
@@ -69,9 +80,6 @@ class Grid {
   void find_top_after_cuts();
 
  private:
-  geometry::Vec2 lo_;
-  double cell_ = 0.0;
-  int nx_ = 0, ny_ = 0;
   double top_ = kNothing;
   std::vector<double> row_top_;
   int cut_from_ = 0, cut_to_ = 0;  ///< rows cut since their tops were found
@@ -90,8 +98,6 @@ struct Bite {
   geometry::Vec2 gouge_at;
   std::size_t cells = 0;
   double chip_mm = 0.0;  ///< thickest chip that the front of the cutter took off a cell's centre
-  double chip_most_mm =
-      0.0;  ///< the same where material may end up to a cell nearer to the middle of the way
   geometry::Vec2 chip_at;
 };
 
