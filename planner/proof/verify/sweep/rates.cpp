@@ -187,7 +187,7 @@ void StepChecks::chips(const Move& m, const Bite& bite, double fz) {
   if (bite.chip_mm > most) looks_ = 0;  // the step has its finding: no closer look changes that
   if (works_along_axis(cutter_) || fz <= most || looks_ <= 0) return;
   if (std::min(m.from.z, m.to.z) >= grid_.top()) return;
-  const Chip closer = earlier_.look(grid_, m, *outline_, fz, most, looks_);
+  const Chip closer = earlier_.look(grid_, m, outline_, fz, most, looks_);
   chip(m, closer.mm, fz, closer.at);
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "planner/proof/verify/sweep/grid/grid.h"
@@ -27,8 +28,8 @@ class EarlierCuts {
   /// radii long. Stock of the beginning counts where all cells around a point have it, so that no chip is found
   /// that is not there. Nothing where points would lie hardly closer. `pieces`: how many more may be looked at;
   /// counted down. Needs  `advance_mm` > `least_mm`.
-  [[nodiscard]] Chip look(const Grid& grid, const Move& m, const CutterOutline& cutter, double advance_mm,
-                          double least_mm, int& pieces);
+  [[nodiscard]] Chip look(const Grid& grid, const Move& m, const std::shared_ptr<const CutterOutline>& cutter,
+                          double advance_mm, double least_mm, int& pieces);
   /// How many cuts there are: a place to look back to.
   [[nodiscard]] std::size_t mark() const { return cuts_.size(); }
   /// Whether these moves take anything off what stood at that mark, on points as close as those of `look`;
@@ -44,15 +45,23 @@ class EarlierCuts {
     geometry::Box3 box;
   };
   struct Place;
+  struct Block;
   struct Point;
   template <class F>
   void squares(geometry::Vec2 lo, geometry::Vec2 hi, const F& f);
-  [[nodiscard]] std::vector<std::uint32_t> met(const Place& place, std::size_t mark);
+  [[nodiscard]] std::vector<const Cut*> met(const Place& place, std::size_t mark);
   template <class Way>
-  [[nodiscard]] std::vector<Point> begun(const Grid& grid, const Place& place, const Way& way,
-                                         const Front* front, double least_mm) const;
+  [[nodiscard]] static std::vector<Block> blocks(const Raster& local, const Way& way, const Front* front,
+                                                 double least_mm, const std::vector<const Cut*>& cuts);
+  template <class Way>
+  [[nodiscard]] std::vector<Point> begun(const Grid& grid, const Raster& local, const Way& way,
+                                         const Front* front, double least_mm,
+                                         std::span<const Block> blocks) const;
   static void lower(std::vector<Point>& points, const Move& m, const CutterOutline& cutter, double least_mm);
-  void lower(std::vector<Point>& points, const Place& place, std::size_t mark, double least_mm);
+  template <class Way>
+  [[nodiscard]] std::vector<Point> left(const Grid& grid, const Place& place, const Way& way,
+                                        const Front* front, double least_mm,
+                                        const std::vector<const Cut*>& cuts) const;
 
   std::vector<double> stock_, base_;
   std::vector<Cut> cuts_;

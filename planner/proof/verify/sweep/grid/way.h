@@ -45,6 +45,11 @@ class Way {
       : o_(o), r_(o.radius()), z0_(from_z), level_(level), rise_(level ? 0.0 : to_z - from_z) {}
   /// The tip is nowhere lower.
   [[nodiscard]] double zmin() const { return zmin_; }
+  /// Whatever lies within `apart_mm` of a point that is so near to the way is left no higher.
+  [[nodiscard]] double leaves(double near_mm, double apart_mm) const {
+    const double far = near_mm + apart_mm + kSlack;
+    return far > r_ ? 1e300 : zmin_ + std::abs(rise_) + o_.height(far) + kSlack;
+  }
   /// Of a chip of more than `least_mm`, when a tooth advances by more than that.
   [[nodiscard]] Front front(double least_mm, double advance_mm) const {
     // Of a level way the material stands higher than the tip by the chip at least; half of it is taken for
@@ -111,6 +116,13 @@ class LineWay : public Way {
     if (off2 > half_squared(f)) return false;
     const double begins = std::sqrt(std::max(0.0, f.narrow_mm * f.narrow_mm - off2));
     return along >= begins - kMetMm - kSlack && along <= length_ + r_ + kSlack;
+  }
+
+  /// How far a point is from the line.
+  [[nodiscard]] double distance(geometry::Vec2 p) const {
+    const double square = length_ * length_;
+    const double t = square < 1e-18 ? 0.0 : std::clamp(dot(p - a_, d_) / square, 0.0, 1.0);
+    return norm(p - (a_ + t * d_));
   }
 
   /// Whether the cutter may come below `stands` over p.
@@ -223,6 +235,13 @@ class ArcWay : public Way {
     const double ahead = ahead_of(q);
     return ahead >= turn(f.narrow_mm) - (kMetMm + kSlack) / ra_ - kSlack &&
            ahead <= sweep_ + turn(r_) + kSlack;
+  }
+
+  /// How far a point is from the arc, and as much more as its ends lie off it.
+  [[nodiscard]] double distance(geometry::Vec2 p) const {
+    const geometry::Vec2 q = p - centre_;
+    const double ends = std::min(norm(p - from_), norm(p - to_)), beside = std::abs(norm(q) - ra_);
+    return gap_ + (ahead_of(q) <= sweep_ ? beside : std::max(beside, ends));
   }
 
   [[nodiscard]] bool meets(geometry::Vec2 p, double stands, Over& at) const {
