@@ -16,34 +16,21 @@ namespace {
 /// that a file gives as lines. Default, unsourced.
 constexpr double kRimMm = 0.004;
 
-/// Takes cells down, and that is all.
-struct Plane {
-  Grid& grid;
-  template <class Way>
-  void take(int ix, int iy, const Way&, Vec2, Over& at) {
-    const std::size_t i = grid.index(ix, iy);
-    if (at.z < grid.stock[i]) grid.stock[i] = at.z <= grid.base[i] ? Grid::kNothing : at.z;
-  }
-};
-
 /// Takes cells down and keeps the account. What only the outermost rim takes may be what the chords of a
 /// file's curves left before: no depth of cut.
 struct Knife {
   Grid& grid;
-  double allowed;
-  const GougeJudge* judge;
+  const CutAsks& asks;
   Bite& bite;
   double core, rim;
-  double advance;
-  double head = 0.0;
   int judged = 0;
 
   template <class Way>
   void take(int ix, int iy, const Way& way, Vec2 p, Over& over) {
     const std::size_t i = grid.index(ix, iy);
-    way.find_tip(p, grid.stock[i], over);
+    if (asks.contact || asks.head_mm > 0.0 || asks.advance_mm > 0.0) way.find_tip(p, grid.stock[i], over);
     const double deep = grid.stock[i] - std::max(over.at_most, grid.base[i]);
-    const double thick = way.chip(p, grid.stock[i], deep, advance, over);
+    const double thick = way.chip(p, grid.stock[i], deep, asks.advance_mm, over);
     if (thick > bite.chip_mm) {
       bite.chip_mm = thick;
       bite.chip_at = p;
@@ -53,33 +40,33 @@ struct Knife {
   void at(int ix, int iy, double tip_z, double z, double from_axis) {
     const std::size_t i = grid.index(ix, iy);
     double& s = grid.stock[i];
-    if (z >= s || (head > 0.0 && s > tip_z + head)) return;
+    if (z >= s || (asks.head_mm > 0.0 && s > tip_z + asks.head_mm)) return;
     const double floor = grid.base[i];
     if (s > Grid::kNothing / 2) {
       bite.volume_mm3 += (s - std::max(z, floor)) * grid.cell() * grid.cell();
-      const double taken = grid.before_move(i, s) - std::max(z, floor);
+      const double taken = s - std::max(z, floor);
       if (from_axis <= rim) {
-        bite.contact_mm = std::max(bite.contact_mm, s - tip_z);
+        if (asks.contact) bite.contact_mm = std::max(bite.contact_mm, s - tip_z);
         bite.thickest_mm = std::max(bite.thickest_mm, taken);
       }
       if (from_axis <= core) bite.core_mm = std::max(bite.core_mm, taken);
       ++bite.cells;
       const double below = grid.part[i] - z;
-      if (below > allowed && below > bite.gouge_mm) gouge(ix, iy, z, below);
+      if (below > asks.allowed_mm && below > bite.gouge_mm) gouge(ix, iy, z, below);
     }
     s = z <= floor ? Grid::kNothing : z;
   }
   void gouge(int ix, int iy, double z, double below) {
     constexpr int kMostJudged = 500;  // per move; a true gouge is found by the first
-    if (judge != nullptr && (++judged > kMostJudged || !judge->guilty(grid.centre(ix, iy), z))) return;
+    if (asks.judge != nullptr && (++judged > kMostJudged || !asks.judge->guilty(grid.centre(ix, iy), z))) return;
     bite.gouge_mm = below;
     bite.gouge_at = grid.centre(ix, iy);
   }
 };
 
 /// Cells in rows and columns that the way touches, those that stand higher than it comes.
-template <class Edge, class Way>
-void pass(Edge& k, const Way& way) {
+template <class Way>
+void pass(Knife& k, const Way& way) {
   const auto [ya, yb] = way.reach_y();
   const auto [y0, y1] = k.grid.rows(ya, yb);
   k.grid.cut_rows(y0, y1);
@@ -99,21 +86,13 @@ void pass(Edge& k, const Way& way) {
 
 }  // namespace
 
-Bite cut(Grid& grid, const Move& m, const CutterOutline& o, double allowed_mm, const GougeJudge* judge,
-         double advance_mm, double head_mm) {
+Bite cut(Grid& grid, const Move& m, const CutterOutline& o, const CutAsks& asks) {
   Bite bite;
   if (m.kind == model::MoveKind::kDwell) return bite;
   if (std::min(m.from.z, m.to.z) >= grid.top()) return bite;
-  grid.begin_move();
-  Knife k{grid, allowed_mm, judge, bite, o.middle(), o.radius() - kRimMm, advance_mm, head_mm};
+  Knife k{grid, asks, bite, o.middle(), o.radius() - kRimMm};
   along_way(o, m, [&](const auto& way) { pass(k, way); });
   return bite;
-}
-
-void lower(Grid& grid, const Move& m, const CutterOutline& o) {
-  if (m.kind == model::MoveKind::kDwell || std::min(m.from.z, m.to.z) >= grid.top()) return;
-  Plane k{grid};
-  along_way(o, m, [&](const auto& way) { pass(k, way); });
 }
 
 }  // namespace capstan::verify

@@ -24,8 +24,6 @@ Grid::Grid(Vec2 lo, Vec2 hi, double cell_mm, long maximum_cells) : Raster(lo, hi
   stock.assign(index(0, ny_), kNothing);
   part.assign(index(0, ny_), kNothing);
   base.assign(index(0, ny_), kNothing);
-  before_.assign(index(0, ny_), kNothing);
-  touched_.assign(index(0, ny_), 0U);
   row_top_.assign(static_cast<std::size_t>(ny_), kNothing);
   cut_from_ = ny_;
 }

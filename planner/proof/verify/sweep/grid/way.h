@@ -54,7 +54,7 @@ class Way {
   [[nodiscard]] Front front(double least_mm, double advance_mm) const {
     // Of a level way the material stands higher than the tip by the chip at least; half of it is taken for
     // what rounding may lose.
-    return {least_mm / advance_mm, level_ ? o_.profile().radius_at(0.5 * least_mm) : 0.0};
+    return {least_mm / advance_mm, level_ ? o_.radius_at(0.5 * least_mm) : 0.0};
   }
 
  protected:
@@ -65,13 +65,13 @@ class Way {
   /// meets it; below 0: it does not, or the cutter stood over it before the move.
   template <class Meets>
   [[nodiscard]] double thickness(double above, double deep, double advance, const Meets& meets) const {
-    const double rho = o_.profile().radius_at(above);
+    const double rho = o_.radius_at(above);
     if (rho <= 0.0) return 0.0;
     const double cosine = meets(rho);
     if (cosine < 0.0) return 0.0;
     // How upright the surface is there.
     constexpr double kStep = 1e-4;
-    const double lean = above > kStep ? (rho - o_.profile().radius_at(above - kStep)) / kStep : 0.0;
+    const double lean = above > kStep ? (rho - o_.radius_at(above - kStep)) / kStep : 0.0;
     return std::min(advance / std::sqrt(1.0 + lean * lean) * cosine, deep);
   }
 
@@ -143,7 +143,7 @@ class LineWay : public Way {
       return true;
     }
     const geometry::Vec2 aside = p - (a_ + foot * d_);
-    at.z = lowest_on_line(o_, z0_, dz_, at.along, std::sqrt(dot(aside, aside)), length_);
+    at.z = std::max(at.at_most, lowest_on_line(o_, z0_, dz_, at.along, std::sqrt(dot(aside, aside)), length_));
     at.tip = z0_ + t * dz_;
     return true;
   }
@@ -279,7 +279,7 @@ class ArcWay : public Way {
     for (double rho = r_; const int again : {0, 1}) {
       const double before = early(at.away, rho);
       if (before >= 0.0) at.tip = z0_ + rise_ * met_at(before) / sweep_;
-      if (again == 0) rho = o_.profile().radius_at(stands - at.tip);
+      if (again == 0) rho = o_.radius_at(stands - at.tip);
     }
   }
   [[nodiscard]] double chip(geometry::Vec2, double stands, double deep, double advance, const Over& at) const {
