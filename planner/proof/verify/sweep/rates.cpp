@@ -183,12 +183,12 @@ void StepChecks::chips(const Move& m, const Bite& bite, double fz) {
     rubbed_mm_ += length_of(m);
   }
   chip(m, bite.chip_mm, fz, bite.chip_at);
-  const double most = feed_limit_.mm * (1.0 + kWritten);
+  const double most = thickest_chip();
   if (bite.chip_mm > most) looks_ = 0;  // the step has its finding: no closer look changes that
   if (works_along_axis(cutter_) || fz <= most || looks_ <= 0) return;
   if (std::min(m.from.z, m.to.z) >= grid_.top()) return;
-  const Bite closer = earlier_.look(grid_, m, *outline_, fz, looks_);
-  chip(m, closer.chip_mm, fz, closer.chip_at);
+  const Chip closer = earlier_.look(grid_, m, outline_, fz, most, looks_);
+  chip(m, closer.mm, fz, closer.at);
 }
 
 // No tooth takes a thicker chip than its feed: below the thinnest one that cuts, all of it rubs. Moves too
@@ -203,9 +203,11 @@ void StepChecks::rubbing() {
             rubbed_at_mm_);
 }
 
+double StepChecks::thickest_chip() const { return feed_limit_.mm * (1.0 + kWritten); }
+
 void StepChecks::chip(const Move& m, double thickest_mm, double fz, Vec2 where) {
   const FeedLimit& limit = feed_limit_;
-  if (limit.per_revolution || thickest_mm <= limit.mm * (1.0 + kWritten)) return;
+  if (limit.per_revolution || thickest_mm <= thickest_chip()) return;
   out_.error(18, "CHK-FEED-TOOL", at(m),
              "chips of up to " + mm(thickest_mm) + " at (" + plain(where.x) + ", " + plain(where.y) +
                  ") (feed per tooth " + mm(fz) + "); at most " + mm(limit.mm) + " (" + limit.source +

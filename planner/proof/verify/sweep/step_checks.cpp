@@ -166,7 +166,14 @@ void StepChecks::feed(const Move& m) {
   }
   const double allowed = target_.allowed();
   const double fz = feed_per_tooth(m);
-  const Bite bite = cut(grid_, m, *outline_, judge_gouge_ ? allowed : 1e300, &target_, fz);
+  const double flutes = cutter_.maximum_depth_of_cut_mm, low = std::min(m.from.z, m.to.z);
+  // No chip is thicker than its feed, no contact higher than the stock above the lowest tip: what must be within
+  // its limit is not measured.
+  const Bite bite = cut(grid_, m, *outline_,
+                        {.allowed_mm = judge_gouge_ ? allowed : 1e300,
+                         .judge = &target_,
+                         .advance_mm = !feed_limit_.per_revolution && fz > thickest_chip() ? fz : 0.0,
+                         .contact = flutes > 0.0 && grid_.top() - low > flutes + kSlackMm});
   cut_mm3_ += bite.volume_mm3;
   chips(m, bite, fz);
   earlier_.add(m, outline_);

@@ -49,6 +49,8 @@ class StepChecks {
   void power(double volume, double minutes, double chip_mm);
   [[nodiscard]] double feed_per_tooth(const Move& m) const;
   void chips(const Move& m, const Bite& bite, double fz);
+  /// The largest that is no finding.
+  [[nodiscard]] double thickest_chip() const;
   void chip(const Move& m, double thickest_mm, double fz, geometry::Vec2 where);
   void rubbing();
   void axial_feed(double fz);

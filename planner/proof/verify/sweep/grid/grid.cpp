@@ -8,7 +8,7 @@ namespace capstan::verify {
 
 using geometry::Vec2;
 
-Grid::Grid(Vec2 lo, Vec2 hi, double cell_mm, long maximum_cells) : lo_(lo) {
+Raster::Raster(Vec2 lo, Vec2 hi, double cell_mm, long maximum_cells) : lo_(lo) {
   const double w = std::max(hi.x - lo.x, 1e-3);
   const double h = std::max(hi.y - lo.y, 1e-3);
   cell_ = std::max(cell_mm, std::sqrt(w * h / static_cast<double>(maximum_cells)));
@@ -18,23 +18,24 @@ Grid::Grid(Vec2 lo, Vec2 hi, double cell_mm, long maximum_cells) : lo_(lo) {
   };
   nx_ = count(w);
   ny_ = count(h);
+}
+
+Grid::Grid(Vec2 lo, Vec2 hi, double cell_mm, long maximum_cells) : Raster(lo, hi, cell_mm, maximum_cells) {
   stock.assign(index(0, ny_), kNothing);
   part.assign(index(0, ny_), kNothing);
   base.assign(index(0, ny_), kNothing);
-  before_.assign(index(0, ny_), kNothing);
-  touched_.assign(index(0, ny_), 0U);
   row_top_.assign(static_cast<std::size_t>(ny_), kNothing);
   cut_from_ = ny_;
 }
 
-std::pair<int, int> Grid::columns(double a, double b) const {
+std::pair<int, int> Raster::columns(double a, double b) const {
   const double first = std::ceil((a - lo_.x) / cell_ - 0.5);
   const double last = std::floor((b - lo_.x) / cell_ - 0.5);
   return {static_cast<int>(std::clamp(first, 0.0, static_cast<double>(nx_))),
           static_cast<int>(std::clamp(last + 1.0, 0.0, static_cast<double>(nx_)))};
 }
 
-std::pair<int, int> Grid::rows(double a, double b) const {
+std::pair<int, int> Raster::rows(double a, double b) const {
   const double first = std::ceil((a - lo_.y) / cell_ - 0.5);
   const double last = std::floor((b - lo_.y) / cell_ - 0.5);
   return {static_cast<int>(std::clamp(first, 0.0, static_cast<double>(ny_))),

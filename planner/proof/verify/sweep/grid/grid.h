@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -11,14 +10,11 @@
 
 namespace capstan::verify {
 
-/// Heights at the centres of square cells, seen along the tool axis: the raw piece as it is now, and the
-/// finished part. A point sample, not an average: what holds at a centre holds there exactly.
-///
-/// Frame  the set-up's. Units  mm.
-class Grid {
+/// Square cells over an area, by their centres.
+class Raster {
  public:
   /// At most `maximum_cells` cells over the area [lo, hi].
-  Grid(geometry::Vec2 lo, geometry::Vec2 hi, double cell_mm, long maximum_cells);
+  Raster(geometry::Vec2 lo, geometry::Vec2 hi, double cell_mm, long maximum_cells);
 
   [[nodiscard]] int nx() const { return nx_; }
   [[nodiscard]] int ny() const { return ny_; }
@@ -33,21 +29,25 @@ class Grid {
   [[nodiscard]] std::pair<int, int> columns(double a, double b) const;
   [[nodiscard]] std::pair<int, int> rows(double a, double b) const;
 
+ protected:
+  geometry::Vec2 lo_;
+  double cell_ = 0.0;
+  int nx_ = 0, ny_ = 0;
+};
+
+/// Heights at the centres of the cells, seen along the tool axis: the raw piece as it is now, and the finished
+/// part. A point sample, not an average: what holds at a centre holds there exactly.
+///
+/// Frame  the set-up's. Units  mm.
+class Grid : public Raster {
+ public:
+  Grid(geometry::Vec2 lo, geometry::Vec2 hi, double cell_mm, long maximum_cells);
+
   std::vector<double> stock;  ///< in-process height; kNothing: no material
   std::vector<double> part;   ///< finished height; kNothing: nothing stays here
   std::vector<double> base;   ///< underside of the stock: above `floor` where it was cut from the other side
   static constexpr double kNothing = -1e9;
   double floor = kNothing;  ///< underside of the raw piece
-
-  /// Height of a cell before the current move touched it; `height` is recorded at the first touch.
-  double before_move(std::size_t cell, double height) {
-    if (touched_[cell] != move_) {
-      touched_[cell] = move_;
-      before_[cell] = height;
-    }
-    return before_[cell];
-  }
-  void begin_move() { ++move_; }
 
   /// Highest stock under a disc, cell centres counted; kNothing when none.
   [[nodiscard]] double highest(geometry::Vec2 at, double radius_mm) const;
@@ -63,21 +63,15 @@ class Grid {
     cut_from_ = std::min(cut_from_, from);
     cut_to_ = std::max(cut_to_, to);
   }
-  /// Finds the tops of all rows: for stock that was written other than by `cut` and `lower`.
+  /// Finds the tops of all rows: for stock that was written other than by `cut`.
   void find_top();
   /// Finds those of the rows that were cut since.
   void find_top_after_cuts();
 
  private:
-  geometry::Vec2 lo_;
-  double cell_ = 0.0;
-  int nx_ = 0, ny_ = 0;
   double top_ = kNothing;
   std::vector<double> row_top_;
   int cut_from_ = 0, cut_to_ = 0;  ///< rows cut since their tops were found
-  std::vector<double> before_;
-  std::vector<std::uint32_t> touched_;
-  std::uint32_t move_ = 0;
 };
 
 /// What one move took away.
@@ -90,8 +84,6 @@ struct Bite {
   geometry::Vec2 gouge_at;
   std::size_t cells = 0;
   double chip_mm = 0.0;  ///< thickest chip that the front of the cutter took off a cell's centre
-  double chip_most_mm =
-      0.0;  ///< the same where material may end up to a cell nearer to the middle of the way
   geometry::Vec2 chip_at;
 };
 
@@ -103,22 +95,24 @@ class GougeJudge {
   [[nodiscard]] virtual bool guilty(geometry::Vec2 at, double z_mm) const = 0;
 };
 
-/// Cuts with the move and says what it took. `allowed_mm`: depth below the part that is within tolerance.
-/// Exact at cell centres for lines and arcs, level or not; an arc whose ends are not as far from its centre
-/// runs at the mean of both.
-///
-/// Chips: a centre that the front of the cutter meets has met it at one place of its surface, whose normal n
-/// and the direction of travel v are known exactly. `advance_mm`, what a tooth advances, times n v is the
-/// chip there; no thicker than the material is deep. 0: chips are not measured.
-///
-/// `head_mm` > 0: the cutter has nothing that cuts above that height. What stands higher than the head's top
-/// is an overhang, which heights do not hold: it stays.
-Bite cut(Grid& grid, const Move& m, const CutterOutline& cutter, double allowed_mm,
-         const GougeJudge* judge, double advance_mm = 0.0, double head_mm = 0.0);
+/// What is asked of a cut beside its volume; what is not asked for costs nothing.
+struct CutAsks {
+  double allowed_mm = 1e300;          ///< depth below the part that is within tolerance
+  const GougeJudge* judge = nullptr;  ///< of what is deeper; null: all of it is a gouge
+  /// What a tooth advances; 0: chips are not measured. A centre that the front of the cutter meets has met it at
+  /// one place of its surface, whose normal n and the direction of travel v are known exactly: the chip there is
+  /// the advance times n v, no thicker than the material is deep.
+  double advance_mm = 0.0;
+  /// > 0: the cutter has nothing that cuts above that height. What stands higher than the head's top is an
+  /// overhang, which heights do not hold: it stays.
+  double head_mm = 0.0;
+  bool contact = true;  ///< `Bite::contact_mm`
+};
 
-/// Takes the heights down as `cut` does, and measures nothing. Heights after several moves do not depend on
-/// their order; the lowest first is the fastest.
-void lower(Grid& grid, const Move& m, const CutterOutline& cutter);
+/// Cuts with the move and says what it took. Exact at cell centres for lines and arcs, level or not; an arc whose
+/// ends are not as far from its centre runs at the mean of both. Heights after several moves do not depend on
+/// their order.
+Bite cut(Grid& grid, const Move& m, const CutterOutline& cutter, const CutAsks& asks);
 
 /// How deep a rapid would dip into what stands there, > 0: it does, also when axes do not arrive together:
 /// the box that the two ends span, swept by the cutter. `at` says where.

@@ -56,6 +56,7 @@ double lowest_of(const ProfilePiece& p, const CutterOutline& o, double fall, dou
 CutterOutline::CutterOutline(CutterProfile profile) : profile_(std::move(profile)) {
   const auto& p = profile_.pieces;
   if (!p.empty() && p.front().radius_mm == 0.0 && p.front().slope == 0.0) flat_ = p.front().r1_mm;
+  if (!p.empty() && p.back().r1_mm == profile_.radius_mm) top_ = profile_.height(profile_.radius_mm);
   // A bin's least height is that of its inner edge, for heights do not fall; less what rounding of the square
   // may shift.
   constexpr double kRounding = 1e-9;
@@ -120,6 +121,10 @@ double lowest_on_helix(const CutterOutline& o, double z0, double dz, double radi
     if (from > to) continue;
     const double begin = falls ? from - foot : foot - to, end = falls ? to - foot : foot - from;
     const auto f = [&](double turn) { return z_foot - fall * turn + height_at(turn); };
+    if (o.flat()) {  // lowest where it was last over the point
+      best = std::min(best, z_foot - fall * end);
+      continue;
+    }
     best = std::min(best, f(end));
     if (end <= 0.0) continue;
     const double first = std::max(begin, 0.0);

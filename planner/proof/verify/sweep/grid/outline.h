@@ -20,6 +20,12 @@ class CutterOutline {
   [[nodiscard]] double height(double d) const {
     return d <= flat_ ? 0.0 : profile_.height(d < profile_.radius_mm ? d : profile_.radius_mm);
   }
+  /// The profile's, without a search where all of it is below.
+  [[nodiscard]] double radius_at(double height_mm) const {
+    return height_mm >= top_ ? profile_.radius_mm : profile_.radius_at(height_mm);
+  }
+  /// Whether it is one plane across the whole end.
+  [[nodiscard]] bool flat() const { return flat_ >= profile_.radius_mm; }
   /// No more than `height(sqrt(square))`, for a square of at most that of the radius.
   [[nodiscard]] double at_least(double square) const {
     return floor_[static_cast<std::size_t>(square * bins_per_square_)];
@@ -31,7 +37,7 @@ class CutterOutline {
  private:
   static constexpr std::size_t kBins = 256;
   geometry::CutterProfile profile_;
-  double flat_ = 0.0;
+  double flat_ = 0.0, top_ = 1e300;  ///< the flat part's radius, the height of the rim
   double bins_per_square_ = 0.0;
   std::array<double, kBins + 2> floor_{};
 };

@@ -39,7 +39,7 @@ void StepChecks::head(const Move& m) {
       met_ = grid_.stands(xy(p), r, p.z + kSkinMm, p.z + high - kSkinMm);
     }
   }
-  cut_mm3_ += cut(grid_, m, *outline_, 1e300, nullptr, 0.0, high).volume_mm3;
+  cut_mm3_ += cut(grid_, m, *outline_, {.head_mm = high, .contact = false}).volume_mm3;
 }
 
 bool StepChecks::follows_finished() {
