@@ -37,6 +37,7 @@ struct PlanOptions {
               ///< plan that its file states in two ways, or whose workpiece or set-ups it states wrongly
   std::string margin = {};             ///< of loads against their limits: "careful", "usual", "bold"
   std::string cases = {};              ///< a case base to begin from
+  std::string cache = {};              ///< a folder that keeps results of stages from call to call
   std::string stock = {};              ///< the raw piece: "block:+2" or "box:x0,y0,z0,x1,y1,z1", mm
   std::string solver = {};             ///< as `capstan plan --solver` lists them
   std::string workholding = {};        ///< ids or a file of fixtures, "auto", "none"

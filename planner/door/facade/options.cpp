@@ -38,6 +38,7 @@ constexpr std::array kFields = {
     Field{"feeds", [](const PlanOptions& o) { return o.feeds; }},
     Field{"rules", [](const PlanOptions& o) { return o.rules; }},
     Field{"cases", [](const PlanOptions& o) { return o.cases; }},
+    Field{"cache", [](const PlanOptions& o) { return o.cache; }},
     Field{"solver", [](const PlanOptions& o) { return o.solver; }},
     Field{"workholding", [](const PlanOptions& o) { return o.workholding; }},
     Field{"general-tolerance", [](const PlanOptions& o) { return o.general_tolerance; }},

@@ -1,6 +1,7 @@
 #include "planner/door/late/late.h"
 
 #include <algorithm>
+#include <memory>
 #include <utility>
 
 #include "planner/door/pipeline/program_check.h"
@@ -78,6 +79,8 @@ Result<LateOutcome> bind(model::Plan plan, pipeline::Inputs inputs, const LatePo
     return std::move(out);
   };
   const std::vector<model::Cutter> magazine = inputs.library;
+  // The improvement repeats most of the fallback.
+  if (!inputs.memo) inputs.memo = std::make_shared<memo::Memo>();
   auto reopened = given::match_loaded(plan, inputs.library, job);
   if (!reopened) return tl::unexpected(reopened.error());
   out.reopened = *std::move(reopened);

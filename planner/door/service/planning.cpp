@@ -55,7 +55,7 @@ std::size_t features_of(const model::Plan& plan) {
 
 Code code_of(const Diagnostic& fault, Code otherwise) {
   const bool usage = fault.code == kUnknownName || fault.code == "MACHINE-GEAR" ||
-                     fault.code == "FILE-WRITE" || fault.code == "APP-EDGES" ||
+                     fault.code == "FILE-WRITE" || fault.code.starts_with("MEM-") || fault.code == "APP-EDGES" ||
                      fault.code.starts_with("OPTION-");
   return usage ? Code::kUsage : otherwise;
 }

@@ -264,6 +264,11 @@ Result<pipeline::Inputs> open_shop(const Request& o, const model::Plan& plan, Jo
     if (!base) return tl::unexpected(base.error());
     in.cases = std::make_shared<const casebase::CaseBase>(*std::move(base));
   }
+  if (o.cache) {
+    auto memo = memo::Memo::in_folder(*o.cache);
+    if (!memo) return tl::unexpected(memo.error());
+    in.memo = *std::move(memo);
+  }
   in.backends = o.backends;
   return in;
 }
