@@ -55,7 +55,7 @@ class Writer {
 
 }  // namespace
 
-Plate plate(std::size_t features) {
+Plate plate(std::size_t features, double first_pocket_mm) {
   Plate out;
   out.features = features;
   const auto columns = static_cast<std::size_t>(std::ceil(std::sqrt(1.6 * static_cast<double>(features))));
@@ -85,6 +85,8 @@ Plate plate(std::size_t features) {
   const std::string flat = w.add("PLANAR_POCKET_BOTTOM_CONDITION()");
   const std::string through_depth = w.add("PLANE(''," + w.place(0.0, 0.0, -kThickness) + ")");
   const std::string pocket_depth = w.add("PLANE(''," + w.place(0.0, 0.0, -3.0) + ")");
+  const std::string first_depth =
+      first_pocket_mm == 3.0 ? pocket_depth : w.add("PLANE(''," + w.place(0.0, 0.0, -first_pocket_mm) + ")");
   for (std::size_t i = 0; i < features; ++i) {
     const double x = kCell * (static_cast<double>(i % columns) + 0.5);
     const double y = kCell * (static_cast<double>(i / columns) + 0.5);
@@ -95,7 +97,7 @@ Plate plate(std::size_t features) {
         const std::string profile =
             w.add("RECTANGULAR_CLOSED_PROFILE($," + w.size(8.0, medium) + "," + w.size(10.0, medium) + ")");
         const std::string corner = w.size(2.5, coarse);
-        w.add("CLOSED_POCKET(" + name + "," + piece + ",()," + at + "," + pocket_depth + ",(),$," + flat +
+        w.add("CLOSED_POCKET(" + name + "," + piece + ",()," + at + "," + (i == 1 ? first_depth : pocket_depth) + ",(),$," + flat +
               ",$," + corner + "," + profile + ")");
         ++out.pockets;
         break;

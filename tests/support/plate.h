@@ -7,7 +7,7 @@ namespace capstan::testing {
 
 /// A steel plate 20 mm thick with `features` features in a grid, every operation open, as ISO 14649 Part 21
 /// text: by turns two through holes of 6.6 mm (+-0.2), a pocket of 10 x 8 mm with corners R2.5 and 3 mm deep
-/// (+-0.1), and a dowel hole 8 H7.
+/// (+-0.1), and a dowel hole 8 H7. The first pocket may be of another depth.
 struct Plate {
   std::size_t features = 0;
   std::size_t pockets = 0, holes = 0, dowel_holes = 0;
@@ -15,6 +15,6 @@ struct Plate {
   std::string text;
 };
 
-[[nodiscard]] Plate plate(std::size_t features);
+[[nodiscard]] Plate plate(std::size_t features, double first_pocket_mm = 3.0);
 
 }  // namespace capstan::testing

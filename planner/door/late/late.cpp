@@ -98,7 +98,7 @@ Result<LateOutcome> bind(model::Plan plan, pipeline::Inputs inputs, const LatePo
   job.evaluation_budget = budget;
   if (!fallback) return tl::unexpected(fallback.error());
   const auto check_start = job.now();
-  out.findings = pipeline::findings_of(*fallback, job);
+  out.findings = pipeline::findings_of(*fallback, job, &out.program);
   const auto checking = fallback->checking + (job.now() - check_start);
   out.condemned = model::condemned(fallback->plan, out.findings);
   if (!out.condemned.empty() && (!policy.allow_findings || model::never_written(out.condemned))) {
@@ -134,13 +134,15 @@ Result<LateOutcome> bind(model::Plan plan, pipeline::Inputs inputs, const LatePo
   const bool faster = t < out.fallback_s || !out.condemned.empty();
   if (!faster) return told_late();
   pipeline::Checked checked = pipeline::checked(*std::move(better), trial);
-  auto findings = pipeline::findings_of(checked, trial);
+  pipeline::CheckedProgram program;
+  auto findings = pipeline::findings_of(checked, trial, &program);
   if (!model::condemned(checked.plan, findings).empty()) return told_late();
   if (policy.deadline && job.now() > began + *policy.deadline) return told_late();
   for (auto& d : trial.take_diagnostics()) job.report(std::move(d));
   out.plan = std::move(checked.plan);
   out.of_plan = std::move(checked.findings);
   out.findings = std::move(findings);
+  out.program = std::move(program);
   out.condemned.clear();
   out.improved = true;
   out.machining_s = t;

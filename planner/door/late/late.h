@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "planner/door/pipeline/pipeline.h"
+#include "planner/door/pipeline/program_check.h"
 #include "planner/ground/base/job.h"
 #include "planner/ground/base/result.h"
 #include "planner/model/plan/decision/condemned.h"
@@ -33,6 +34,7 @@ struct LateOutcome {
   std::vector<std::string> reopened;           ///< what the machine's state re-opened, one sentence each
   std::vector<model::Finding> findings;        ///< notes and warnings; no errors
   std::vector<model::Finding> of_plan;         ///< those of them that are of the plan, not of its program
+  pipeline::CheckedProgram program;            ///< that of the plan, with its own findings
   std::vector<model::Condemnation> condemned;  ///< empty, unless the policy allows findings
   bool improved = false;                       ///< false: the fallback
   bool late = false;                           ///< the deadline was past when the plan was there

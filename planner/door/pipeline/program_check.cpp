@@ -9,7 +9,7 @@ std::vector<model::Finding> findings_of(const model::Plan& plan, Job& job) {
   return findings_of(checked(plan, job), job);
 }
 
-std::vector<model::Finding> findings_of(const Checked& checked, Job& job) {
+std::vector<model::Finding> findings_of(const Checked& checked, Job& job, CheckedProgram* kept) {
   const model::Plan& plan = checked.plan;
   std::vector<model::Finding> out = checked.findings;
   if (plan.steps.empty()) return out;
@@ -23,8 +23,9 @@ std::vector<model::Finding> findings_of(const Checked& checked, Job& job) {
     return out;
   }
   const verify::ProgramText text{"program", *program, controls::tool_table_of(plan)};
-  const auto more = verify::check_program(text, &plan, plan.machine, plan.cutters, job);
+  auto more = verify::check_program(text, &plan, plan.machine, plan.cutters, job);
   out.insert(out.end(), more.begin(), more.end());
+  if (kept != nullptr) *kept = {text.text, text.tool_table, std::move(more)};
   return out;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "planner/door/pipeline/pipeline.h"
@@ -8,7 +9,13 @@ namespace capstan::pipeline {
 
 /// Findings of the check on a plan and on the program that its machine's control gets.
 [[nodiscard]] std::vector<model::Finding> findings_of(const model::Plan& plan, Job& job);
-/// The same for a plan that is checked already.
-[[nodiscard]] std::vector<model::Finding> findings_of(const Checked& checked, Job& job);
+/// A program with its tool table, and what the check says of them; without a text: nothing was checked.
+struct CheckedProgram {
+  std::string text, tool_table;
+  std::vector<model::Finding> findings;
+};
+/// The same for a plan that is checked already. `kept`, where it is given, gets the program.
+[[nodiscard]] std::vector<model::Finding> findings_of(const Checked& checked, Job& job,
+                                                      CheckedProgram* kept = nullptr);
 
 }  // namespace capstan::pipeline

@@ -20,14 +20,21 @@ Result<model::Plan> read(Source source, bool strict, Job& job) {
   return load_plan(source.name, job, strict);
 }
 
-/// Findings of each program among the outputs.
-std::vector<FileFinding> of_programs(const model::Plan& plan, const std::vector<Output>& outputs, Job& job) {
+/// Findings of each program among the outputs. One that was checked with its plan, and is the same to the byte, is
+/// not checked once more.
+std::vector<FileFinding> of_programs(const Planned& planned, const std::vector<Output>& outputs, Job& job) {
+  const model::Plan& plan = planned.plan;
+  const pipeline::CheckedProgram& known = planned.program;
   std::vector<FileFinding> out;
   for (const Output& o : outputs) {
     if (!is_program(o)) continue;
     std::string table;
     for (const Output& t : outputs) {
       if (t.format->holds == Holds::kToolTable && t.format->control == o.format->control) table = t.bytes;
+    }
+    if (!known.text.empty() && o.bytes == known.text && table == known.tool_table) {
+      for (const model::Finding& f : known.findings) out.push_back({o.path, f, true});
+      continue;
     }
     for (auto& f : verify::check_program({o.path, o.bytes, table}, &plan, plan.machine, plan.cutters, job))
       out.push_back({o.path, std::move(f), true});
@@ -97,7 +104,8 @@ Outcome<Planned> bound(const Request& request, model::Plan plan, pipeline::Input
   auto outcome = late::bind(std::move(plan), std::move(inputs), policy, job);
   if (!outcome) return failed(outcome.error(), code_of(outcome.error(), Code::kImpossible));
   for (const std::string& what : outcome->reopened) job.note("LATE-REOPENED", what, "");
-  return Planned{std::move(outcome->plan), std::move(outcome->of_plan), false, outcome->late};
+  return Planned{std::move(outcome->plan), std::move(outcome->of_plan), false, std::move(outcome->program),
+                 outcome->late};
 }
 
 }  // namespace
@@ -125,7 +133,7 @@ Result<Verdict> judge(const Request& request, const Planned& planned, std::vecto
   const model::Plan& made = planned.plan;
   Verdict v;
   for (const auto& f : planned.findings) v.findings.push_back({made.file_name, f, false});
-  auto of_text = of_programs(made, outputs, job);
+  auto of_text = of_programs(planned, outputs, job);
   std::vector<model::Finding> all = planned.findings;
   for (const FileFinding& f : of_text) all.push_back(f.finding);
   v.condemned = model::condemned(made, all);
@@ -138,7 +146,7 @@ Result<Verdict> judge(const Request& request, const Planned& planned, std::vecto
       if (!text) return tl::unexpected(text.error());
       o.bytes = std::move(text->bytes);
     }
-    of_text = of_programs(made, outputs, job);
+    of_text = of_programs(planned, outputs, job);
   }
   std::move(of_text.begin(), of_text.end(), std::back_inserter(v.findings));
   for (const FileFinding& f : v.findings) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "planner/door/pipeline/pipeline.h"
+#include "planner/door/pipeline/program_check.h"
 #include "planner/door/service/outputs.h"
 #include "planner/door/service/request.h"
 #include "planner/ground/base/job.h"
@@ -26,6 +27,7 @@ struct Planned {
   model::Plan plan;
   std::vector<model::Finding> findings;  ///< of the plan; those of its program: `judge`
   bool open = false;                     ///< decisions are left open, so there is no path to check yet
+  pipeline::CheckedProgram program = {}; ///< bind: the program as it was checked with the plan
   bool late = false;                     ///< bind: the deadline was past when the plan was there
 };
 

@@ -49,13 +49,14 @@ Result<std::string> read_file(const std::string& path, std::size_t cap) {
   if (stream) cap = std::min(cap, kStreamCap);
   std::string bytes;
   constexpr std::size_t kChunk = std::size_t{1} << 20;
-  if (info.st_size > 0 && static_cast<std::size_t>(info.st_size) <= cap) {
-    bytes.reserve(static_cast<std::size_t>(info.st_size) + kChunk);  // the last read finds the end in place
-  }
+  // A file of known size is read at once, and one byte more tells that it ends there.
+  std::size_t left = !stream && info.st_size > 0 && static_cast<std::size_t>(info.st_size) <= cap
+                         ? static_cast<std::size_t>(info.st_size) + 1
+                         : kChunk;
   for (;;) {
     const std::size_t at = bytes.size();
-    bytes.resize(at + kChunk);
-    const ssize_t got = ::read(fd.get(), bytes.data() + at, kChunk);
+    bytes.resize(at + left);
+    const ssize_t got = ::read(fd.get(), bytes.data() + at, left);
     if (got < 0) {
       if (errno == EINTR) {
         bytes.resize(at);
@@ -64,6 +65,8 @@ Result<std::string> read_file(const std::string& path, std::size_t cap) {
       return io_fault("FILE-READ", path, "the file cannot be read");
     }
     bytes.resize(at + static_cast<std::size_t>(got));
+    left -= static_cast<std::size_t>(got);
+    if (left == 0) left = kChunk;
     if (bytes.size() > cap) {
       return fail({.code = "FILE-TOO-LARGE",
                    .message = std::string(stream ? "this is no regular file, and gives more than "

@@ -55,6 +55,37 @@ Status lower_depth(const model::Model& m, const StepDraft& step, PathWithCut& ou
   return {};
 }
 
+/// A path or why there is none, with what was said of it.
+struct Generated {
+  toolpath::GeneratedPath path;
+  std::optional<Diagnostic> why_not;
+  std::vector<Diagnostic> said;
+};
+
+/// toolpath::generate, asked once for each job.
+Result<toolpath::GeneratedPath> generated(const toolpath::PathJob& task, const Means& means) {
+  if (means.memo == nullptr) return toolpath::generate(task, means.job);
+  const auto make = [&] {
+    Generated out;
+    auto before = means.job.take_diagnostics();
+    auto path = toolpath::generate(task, means.job);
+    out.said = means.job.take_diagnostics();
+    for (auto& d : before) means.job.report(std::move(d));
+    if (path) {
+      out.path = *std::move(path);
+    } else {
+      out.why_not = path.error();
+    }
+    return out;
+  };
+  auto known = memo::remembered<Generated>(means.memo, memo::Stage::kPath,
+                                           memo::key_of(memo::Stage::kPath, task), make,
+                                           [&] { return !means.job.stop_requested(); });
+  for (auto& d : known.said) means.job.report(std::move(d));
+  if (known.why_not) return tl::unexpected(*std::move(known.why_not));
+  return std::move(known.path);
+}
+
 /// Feeds along a path, with the path and what belongs to its moves as they are split for them.
 struct Scheduled {
   optimise::FeedAnswer feeds;
@@ -146,7 +177,7 @@ Result<PathWithCut> path_with_cut(const PlanSoFar& p, const StepDraft& step,
                                    p.setups[step.setup], step.cutter, job, [&](const toolpath::PathJob& j) {
                                      return freeform ? freeform_path(p, step, j, out.answer,
                                                                      means.stocks.of(step.setup), means.job)
-                                                     : toolpath::generate(j, means.job);
+                                                     : generated(j, means);
                                    });
     over_surface.reset();
     if (!path) return tl::unexpected(path.error());

@@ -1,0 +1,1 @@
+capstan_test(memo DEPENDS memo)
