@@ -24,6 +24,23 @@ foreach(warning array-bounds restrict stringop-overflow stringop-overread)
   list(APPEND capstan_falsely_warned $<$<CXX_COMPILER_ID:GNU>:-Wno-${warning}>)
 endforeach()
 
+# capstan_precompile(<target> <header>...)
+#
+# Precompiles headers, and says beside the result what it was made from: that is what ccache then tells one from
+# another by (CCACHE_PCH_EXTSUM), for its bytes differ from folder to folder.
+function(capstan_precompile target)
+  target_precompile_headers(${target} PRIVATE ${ARGN})
+  execute_process(COMMAND ${CMAKE_CXX_COMPILER} --version OUTPUT_VARIABLE compiler)
+  set(made_from "${compiler}${CMAKE_CXX_FLAGS} ${CMAKE_BUILD_TYPE} ${CAPSTAN_SANITIZE} ${ARGN}\n")
+  find_file(CAPSTAN_EXPECTED_HEADER tl/expected.hpp)
+  if(CAPSTAN_EXPECTED_HEADER)
+    file(SHA256 ${CAPSTAN_EXPECTED_HEADER} sum)
+    string(APPEND made_from "${sum}\n")
+  endif()
+  set(pch ${CMAKE_CURRENT_BINARY_DIR}/CMakeFiles/${target}.dir/cmake_pch.hxx.gch)
+  file(WRITE ${pch}.sum "${made_from}")
+endfunction()
+
 # What most sources of the rooms include of the standard library, parsed once: it was 40 % of their compile time.
 # No header of ours is in it, so that a change rebuilds what includes the change. A source that leans on it
 # without including what it names is found by the presets release and fuzz, which do without it.
@@ -31,7 +48,7 @@ option(CAPSTAN_PRECOMPILE "Precompile what the rooms include of the standard lib
 if(CAPSTAN_PRECOMPILE)
   add_library(capstan_room_pch STATIC ${CMAKE_SOURCE_DIR}/cmake/room_pch.cpp)
   target_link_libraries(capstan_room_pch PRIVATE capstan_options)
-  target_precompile_headers(capstan_room_pch PRIVATE
+  capstan_precompile(capstan_room_pch
     <algorithm> <array> <charconv> <chrono> <cmath> <cstdint> <functional> <map> <memory> <optional> <set> <span>
     <string> <string_view> <vector> <tl/expected.hpp>)
 endif()
