@@ -98,8 +98,8 @@ class Target : public GougeJudge {
     bool open_bottom = false;  ///< anything below is legal, too
     bool bevel = false;        ///< of an edge that the plan breaks: no feature
   };
+  /// Where the part stands above a height, by its edges: material to their left.
   struct Walls {
-    geometry::Region region;  ///< where the part stands above the height
     struct Edge {
       geometry::Vec2 a, b;
     };
