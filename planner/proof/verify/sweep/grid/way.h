@@ -48,7 +48,7 @@ class Way {
   /// Whatever lies within `apart_mm` of a point that is so near to the way is left no higher.
   [[nodiscard]] double leaves(double near_mm, double apart_mm) const {
     const double far = near_mm + apart_mm + kSlack;
-    return far > r_ ? 1e300 : zmin_ + std::abs(rise_) + o_.height(far) + kSlack;
+    return far > r_ ? 1e300 : zmin_ + std::abs(rise_) + o_.height(far) + searched_ + kSlack;
   }
   /// Of a chip of more than `least_mm`, when a tooth advances by more than that.
   [[nodiscard]] Front front(double least_mm, double advance_mm) const {
@@ -80,6 +80,7 @@ class Way {
   bool level_;
   double rise_;
   double zmin_ = 0.0;
+  double searched_ = 0.0;  ///< by which a search may miss the lowest height
 };
 
 class LineWay : public Way {
@@ -92,6 +93,8 @@ class LineWay : public Way {
         length_(norm(d_)),
         dz_(m.to.z - m.from.z) {
     zmin_ = std::min(m.from.z, m.to.z);
+    // Of a torus, by less than a thousandth of the radius along the way (`least_between`).
+    if (!level_) searched_ = 1e-3 * r_ * std::abs(dz_) / length_;
   }
 
   /// The rows that it touches.
@@ -255,7 +258,7 @@ class ArcWay : public Way {
     at.near = at.along <= sweep_ ? radial : std::min(norm(p - from_), norm(p - to_));
     if (at.near > r_) return false;
     at.z = level_ ? zmin_ + o_.height(at.near)
-                  : lowest_on_helix(o_, z0_, rise_, ra_, sweep_, at.away, at.along);
+                  : std::max(zmin_, lowest_on_helix(o_, z0_, rise_, ra_, sweep_, at.away, at.along));
     at.at_most = at.z;
     at.tip = zmin_;
     return stands > at.z;
