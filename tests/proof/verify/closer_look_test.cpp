@@ -9,8 +9,8 @@
 
 #include "planner/proof/verify/sweep/grid/way.h"
 
-// A closer look leaves out what decides nothing. Held here against a look that leaves out nothing: all points of the
-// place, each cut made again on them.
+// A closer look leaves out what decides nothing. Held here against a look that leaves out nothing: all points
+// of the place, each cut made again on them.
 
 namespace capstan::verify {
 namespace {
@@ -30,7 +30,8 @@ std::vector<OutlinePtr> cutters() {
   return out;
 }
 
-/// A block of 40 x 40 x 20 about the origin, its top at 0, with a step in it and an underside that is cut away.
+/// A block of 40 x 40 x 20 about the origin, its top at 0, with a step in it and an underside that is cut
+/// away.
 Grid block() {
   Grid g({-20, -20}, {20, 20}, kCell, 100000);
   g.floor = -20.0;
@@ -188,8 +189,8 @@ TEST(Way, LeavesNoPointHigherThanItSaysOfWhatLiesAboutIt) {
     const OutlinePtr cutter = cutters()[static_cast<std::size_t>(i) % 4];
     const Move m = ways.next();
     along_way(*cutter, m, [&](const auto& way) {
-      const Vec2 middle = xy(point_of(m, ways.between(0.0, 1.0))) +
-                          Vec2{ways.between(-4.0, 4.0), ways.between(-4.0, 4.0)};
+      const Vec2 middle =
+          xy(point_of(m, ways.between(0.0, 1.0))) + Vec2{ways.between(-4.0, 4.0), ways.between(-4.0, 4.0)};
       const double apart = ways.between(0.0, 0.5), most = way.leaves(way.distance(middle), apart);
       if (most > 1e299) return;
       for (int k = 0; k < 16; ++k) {

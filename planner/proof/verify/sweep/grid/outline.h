@@ -47,10 +47,10 @@ class CutterOutline {
 [[nodiscard]] double lowest_on_line(const CutterOutline& o, double z0, double dz, double foot, double d,
                                     double length);
 
-/// The same along a helix of that radius about an axis that the point is `away` from. `ahead`: the angle, rad,
-/// in [0, 2 pi), from the helix's start to the point, in the way's direction; `sweep` that of the whole way,
-/// in (0, 2 pi]. +inf where the cutter does not come over the point.
-[[nodiscard]] double lowest_on_helix(const CutterOutline& o, double z0, double dz, double radius, double sweep,
-                                     double away, double ahead);
+/// The same along a helix of that radius about an axis that the point is `away` from. `ahead`: the angle,
+/// rad, in [0, 2 pi), from the helix's start to the point, in the way's direction; `sweep` that of the whole
+/// way, in (0, 2 pi]. +inf where the cutter does not come over the point.
+[[nodiscard]] double lowest_on_helix(const CutterOutline& o, double z0, double dz, double radius,
+                                     double sweep, double away, double ahead);
 
 }  // namespace capstan::verify

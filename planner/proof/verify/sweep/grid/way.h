@@ -9,12 +9,13 @@
 #include "planner/proof/verify/sweep/grid/outline.h"
 
 // How a move passes over a point: how low the cutter comes there, and how thick a chip its front takes. One
-// account for the cells of a set-up and for the points of a closer look, so that both say the same of a point.
+// account for the cells of a set-up and for the points of a closer look, so that both say the same of a
+// point.
 //
 // Chips: the front meets a point where a circle about the axis, as wide as the cutter is at the height of the
-// material, first passes through it. On a line that circle is `ahead` before the point; on an arc, seen from the
-// arc's centre, `early`: the triangle of centre, axis and point. The chip is the advance of a tooth times the
-// cosine between the way and the surface's normal there.
+// material, first passes through it. On a line that circle is `ahead` before the point; on an arc, seen from
+// the arc's centre, `early`: the triangle of centre, axis and point. The chip is the advance of a tooth times
+// the cosine between the way and the surface's normal there.
 
 namespace capstan::verify {
 
@@ -86,8 +87,7 @@ class Way {
 class LineWay : public Way {
  public:
   LineWay(const CutterOutline& o, const Move& m)
-      : Way(o, m.from.z, m.to.z,
-            std::abs(m.to.z - m.from.z) < 1e-9 || norm(xy(m.to) - xy(m.from)) < 1e-9),
+      : Way(o, m.from.z, m.to.z, std::abs(m.to.z - m.from.z) < 1e-9 || norm(xy(m.to) - xy(m.from)) < 1e-9),
         a_(xy(m.from)),
         d_(xy(m.to) - xy(m.from)),
         length_(norm(d_)),
@@ -146,7 +146,8 @@ class LineWay : public Way {
       return true;
     }
     const geometry::Vec2 aside = p - (a_ + foot * d_);
-    at.z = std::max(at.at_most, lowest_on_line(o_, z0_, dz_, at.along, std::sqrt(dot(aside, aside)), length_));
+    at.z =
+        std::max(at.at_most, lowest_on_line(o_, z0_, dz_, at.along, std::sqrt(dot(aside, aside)), length_));
     at.tip = z0_ + t * dz_;
     return true;
   }
@@ -285,7 +286,8 @@ class ArcWay : public Way {
       if (again == 0) rho = o_.radius_at(stands - at.tip);
     }
   }
-  [[nodiscard]] double chip(geometry::Vec2, double stands, double deep, double advance, const Over& at) const {
+  [[nodiscard]] double chip(geometry::Vec2, double stands, double deep, double advance,
+                            const Over& at) const {
     if (advance <= 0.0 || deep <= 0.0) return 0.0;
     return thickness(stands - at.tip, deep, advance, [&](double rho) {
       const double before = early(at.away, rho);

@@ -1,7 +1,7 @@
 // The walls that stand at a height: the finished part's area there, less what the features take that reach so
-// deep. Features that are apart from all others and lie within the part take what is theirs, so that polygons are
-// combined only among those whose boxes meet: n log n in features that are apart. Coordinates are those of one
-// grid (kRegionGrid), whichever are combined together.
+// deep. Features that are apart from all others and lie within the part take what is theirs, so that polygons
+// are combined only among those whose boxes meet: n log n in features that are apart. Coordinates are those
+// of one grid (kRegionGrid), whichever are combined together.
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -148,8 +148,8 @@ const Target::Walls& Target::walls(double z) {
   }
   // About as many squares as edges, so that heights with few edges cost little.
   constexpr double kMostAlong = 128.0;
-  out.along = static_cast<std::size_t>(
-      std::clamp(std::sqrt(static_cast<double>(out.edges.size())), 1.0, kMostAlong));
+  out.along =
+      static_cast<std::size_t>(std::clamp(std::sqrt(static_cast<double>(out.edges.size())), 1.0, kMostAlong));
   out.x0_mm = part_box_.lo.x;
   out.square_mm = std::max({part_box_.hi.x - part_box_.lo.x, part_box_.hi.y - part_box_.lo.y, 0.1}) /
                   static_cast<double>(out.along);
@@ -196,7 +196,7 @@ double Target::wall_gouge(const Move& m, double radius, double height_mm, Vec2& 
             }
             if (crossing(p, xy(b), e.a, e.b)) squared = 0.0;
             squared = std::min({squared, squared_distance(p, e.a, e.b), squared_distance(xy(b), e.a, e.b),
-                               squared_distance(e.a, p, xy(b)), squared_distance(e.b, p, xy(b))});
+                                squared_distance(e.a, p, xy(b)), squared_distance(e.b, p, xy(b))});
           }
         }
       }
