@@ -26,6 +26,11 @@ class CutterOutline {
   }
   /// Whether it is one plane across the whole end.
   [[nodiscard]] bool flat() const { return flat_ >= profile_.radius_mm; }
+  /// The one sphere that its end is; null: it has another shape.
+  [[nodiscard]] const geometry::ProfilePiece* ball() const {
+    const auto& p = profile_.pieces;
+    return p.size() == 1 && p[0].radius_mm > 0.0 && p[0].rc_mm == 0.0 ? p.data() : nullptr;
+  }
   /// No more than `height(sqrt(square))`, for a square of at most that of the radius.
   [[nodiscard]] double at_least(double square) const {
     return floor_[static_cast<std::size_t>(square * bins_per_square_)];

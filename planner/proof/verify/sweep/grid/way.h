@@ -102,7 +102,12 @@ class LineWay : public Way {
     return {std::min(a_.y, a_.y + d_.y) - r_, std::max(a_.y, a_.y + d_.y) + r_};
   }
   /// What it touches of the row at y.
-  [[nodiscard]] std::pair<double, double> reach_x(double y) const { return beside(y, r_, 0.0); }
+  [[nodiscard]] std::pair<double, double> reach_x(double y) const {
+    const double apart = y - std::clamp(y, std::min(a_.y, a_.y + d_.y), std::max(a_.y, a_.y + d_.y));
+    const double half = std::sqrt(std::max(0.0, r_ * r_ - apart * apart)) + kSlack;
+    const auto [from, to] = beside(y, r_, 0.0);
+    return {from + (r_ - half), to - (r_ - half)};
+  }
   [[nodiscard]] bool has_front() const { return length_ > 1e-9; }
   /// The same of the points whose chips count.
   [[nodiscard]] std::pair<double, double> front_y(const Front& f) const {
