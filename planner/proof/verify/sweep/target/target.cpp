@@ -198,10 +198,22 @@ void Target::fill(Grid& grid) {
   for (const Cavity& c : cavities_) {
     const auto [y0, y1] = grid.rows(c.box.lo.y, c.box.hi.y);
     const auto [x0, x1] = grid.columns(c.box.lo.x, c.box.hi.x);
-    for (int iy = y0; iy < y1; ++iy) {
-      for (int ix = x0; ix < x1; ++ix) {
-        double& z = grid.part[grid.index(ix, iy)];
-        if (z > c.floor_mm || c.open_bottom) z = std::min(z, floor_of(c, grid.centre(ix, iy)));
+    // Where the floor is level all over a block of cells it is asked for once.
+    constexpr int kBlock = 16;
+    for (int by = y0; by < y1; by += kBlock) {
+      for (int bx = x0; bx < x1; bx += kBlock) {
+        const int ty = std::min(by + kBlock, y1), tx = std::min(bx + kBlock, x1);
+        const Vec2 first = grid.centre(bx, by), middle = 0.5 * (first + grid.centre(tx - 1, ty - 1));
+        const Vec3 local = c.frame.to_local({middle.x, middle.y, 0.0});
+        const bool level = volumes::level_about(*c.shape, {local.x, local.y}, norm(middle - first));
+        const double floor = level ? floor_of(c, middle) : 0.0;
+        for (int iy = by; iy < ty; ++iy) {
+          for (int ix = bx; ix < tx; ++ix) {
+            double& z = grid.part[grid.index(ix, iy)];
+            if (z > c.floor_mm || c.open_bottom)
+              z = std::min(z, level ? floor : floor_of(c, grid.centre(ix, iy)));
+          }
+        }
       }
     }
   }

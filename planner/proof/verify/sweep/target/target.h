@@ -148,6 +148,12 @@ class Target : public GougeJudge {
   std::vector<Cavity> cavities_;
   std::vector<double> levels_;
   std::map<std::size_t, Walls> walls_;
+  /// Whether the part stands at a point that was asked for last.
+  struct Stood {
+    const Walls* walls = nullptr;
+    geometry::Vec2 at;
+    bool stands = false;
+  } stood_;
   const Grid* grid_ = nullptr;  ///< of the last fill: slopes of a mesh are read from it
 };
 

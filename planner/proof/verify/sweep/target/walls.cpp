@@ -202,8 +202,11 @@ double Target::wall_gouge(const Move& m, double radius, double height_mm, Vec2& 
       }
       const double near = std::sqrt(squared);
       double into = radius - near;
-      if (near > std::max(reach, kChordMm) && w.stands(xy(b))) {
-        into = radius;
+      if (near > std::max(reach, kChordMm)) {
+        // No edge lies between the two ends: what is known of one holds for the other.
+        const bool known = stood_.walls == &w && stood_.at.x == p.x && stood_.at.y == p.y;
+        stood_ = {&w, xy(b), known ? stood_.stands : w.stands(xy(b))};
+        if (stood_.stands) into = radius;
       }
       if (into > allowed() && into > worst) {
         worst = into;
