@@ -1,7 +1,6 @@
 #include "planner/proof/verify/compared/meaning.h"
 
 #include "planner/model/nouns/all.h"
-#include "planner/model/plan/step_ids.h"
 #include "planner/proof/verify/compared/compare.h"
 
 namespace capstan::verify {
@@ -24,7 +23,6 @@ void check_meaning(const model::Plan& plan, Findings& findings) {
 
 void check_meaning(const model::Plan& plan, const std::vector<PlannersReading>& planner, Findings& findings) {
   const volumes::Source source = volumes::source_of(plan.model, plan.stock.box);
-  const std::vector<std::string> ids = model::step_ids(plan);
   const std::set<model::AnyRef> pieces = volumes::parts_of_others(plan.model);
   for (const PlannersReading& e : planner) {
     if (e.shapes.empty()) continue;
@@ -34,7 +32,7 @@ void check_meaning(const model::Plan& plan, const std::vector<PlannersReading>& 
       const auto* ws = plan.model.get<model::MachiningWorkingstep>(plan.steps[i].step);
       if (ws == nullptr || model::AnyRef(ws->its_feature) != e.feature) continue;
       order = i + 1;
-      step = ids[i];
+      step = model::step_id(plan, plan.steps[i]);
       break;
     }
     // A part of another feature is compared with that one, unless it is cut on its own.

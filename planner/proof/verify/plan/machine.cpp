@@ -6,7 +6,6 @@
 
 #include "planner/model/nouns/all.h"
 #include "planner/model/nouns/arena/walk.h"
-#include "planner/model/plan/step_ids.h"
 #include "planner/proof/verify/plan/plan_checks.h"
 #include "planner/proof/verify/volumes/form/limits.h"
 
@@ -143,10 +142,9 @@ bool taps(const model::Plan& plan, const model::StepResult& step) {
 void check_steps(const model::Plan& plan, Findings& findings) {
   const Machine& m = plan.machine;
   std::set<std::string> seen;
-  const std::vector<std::string> ids = model::step_ids(plan);
   for (std::size_t i = 0; i < plan.steps.size(); ++i) {
     const model::StepResult& s = plan.steps[i];
-    const Findings::Where at{i + 1, ids[i], -1};
+    const Findings::Where at{i + 1, model::step_id(plan, s), -1};
     if (!m.abilities.rigid_tapping && taps(plan, s))
       findings.error(22, "CHK-MACHINE-TAPPING", at,
                      "the step taps with the feed bound to the spindle; the machine '" + m.id +
@@ -181,11 +179,10 @@ class Tightest {
       if (l.given) add(l.width(), "a size of " + mm(l.nominal_mm));
     }
     const auto zones = volumes::location_zones(plan.model);
-    const std::vector<std::string> ids = model::step_ids(plan);
-    for (std::size_t i = 0; i < ids.size(); ++i) {
-      const auto* ws = plan.model.get<model::MachiningWorkingstep>(plan.steps[i].step);
+    for (const model::StepResult& s : plan.steps) {
+      const auto* ws = plan.model.get<model::MachiningWorkingstep>(s.step);
       const auto zone = ws == nullptr ? zones.end() : zones.find(ws->its_feature);
-      if (zone != zones.end()) add(zone->second, "a location of step '" + ids[i] + "'");
+      if (zone != zones.end()) add(zone->second, "a location of step '" + model::step_id(plan, s) + "'");
     }
   }
   double width_mm = 1e300;

@@ -1,6 +1,5 @@
 #include <cmath>
 
-#include "planner/model/plan/step_ids.h"
 #include "planner/proof/verify/plan/plan_checks.h"
 
 namespace capstan::verify {
@@ -95,11 +94,10 @@ StepMoves of_step(const model::Plan& plan, const model::StepResult& s, std::size
 
 std::vector<StepMoves> moves_of(const model::Plan& plan, Findings& findings) {
   std::vector<StepMoves> out;
-  const std::vector<std::string> ids = model::step_ids(plan);
   for (std::size_t i = 0; i < plan.steps.size(); ++i) {
     const model::StepResult& s = plan.steps[i];
     if (!s.path || s.path->size() == 0) continue;
-    std::string id = ids[i];
+    std::string id = model::step_id(plan, s);
     if (!columns_agree(s)) {
       findings.error(1, "CHK-COLUMNS", {i + 1, id, -1},
                      "the columns of its path and its feed schedule differ in length; the path has " +

@@ -3,7 +3,6 @@
 
 #include "planner/model/plan/cutter/cutter_faults.h"
 #include "planner/model/plan/range/ranges.h"
-#include "planner/model/plan/step_ids.h"
 #include "planner/proof/verify/plan/plan_checks.h"
 
 // Values that a plan's file states, against what they can be at all. A plan may come back from somebody's
@@ -222,10 +221,9 @@ void check_ranges(const model::Plan& plan, Findings& findings) {
   check_material(plan.material, r);
   check_stock(plan, r);
   for (std::size_t i = 0; i < plan.setups.size(); ++i) check_setup(plan.setups[i], i + 1, r);
-  const std::vector<std::string> ids = model::step_ids(plan);
-  for (std::size_t i = 0; i < ids.size(); ++i) {
-    r.of("step '" + ids[i] + "'");
-    check_step(plan.steps[i], r);
+  for (const auto& s : plan.steps) {
+    r.of("step '" + model::step_id(plan, s) + "'");
+    check_step(s, r);
   }
 }
 
