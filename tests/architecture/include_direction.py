@@ -27,6 +27,7 @@ EXCHANGE = "common toolpaths records express conformance iso14649 ap238"
 TOOLING = {"tooling": "shop library selection", "tooling/library": "formats"}
 FOLDERS = {
     "planner/proof/verify/volumes": "volumes", "planner/proof/verify/compared": "compared",
+    "planner/proof/verify/sweep/grid": "grid",
     "planner/model/features/fit": "fit",
     **{f"planner/files/exchange/{name}": name for name in EXCHANGE.split()},
     **{f"{folder}/{name}": name for folder, rooms in reversed(TOOLING.items()) for name in rooms.split()},
@@ -75,7 +76,9 @@ ALLOWED = {
     "volumes": PROVEN,
     # The one place that looks at the planner's shapes: to hold them against the own reading.
     "compared": MODEL + " volumes verify",
-    "verify": PROVEN + " p21 " + EXCHANGE + " exchange mechanics volumes compared",
+    # Heights that moves cut: of the check it knows what a move is.
+    "grid": GROUND + " nouns plan verify",
+    "verify": PROVEN + " p21 " + EXCHANGE + " exchange mechanics volumes compared grid",
     "pipeline": " ".join(r for r in FOLDERS.values() if r not in DOORS),
     "late": MODEL + " given pipeline",
     "service": " ".join(r for r in FOLDERS.values() if r not in DOORS) + " pipeline late",

@@ -98,14 +98,14 @@ TEST(Grid, IsTheSameWhateverTheOrderOfTheCuts) {
 
 TEST(Grid, DepthOfContactOfAHelixIsThatWhereItMeetsThePiece) {
   const CutterProfile flat = geometry::flat_profile(6, 20);
-  // It begins 0.15 mm deep at the piece's side, goes half a turn away from it and 32 mm down. The last centres, at
-  // x = 11.75, are 3 mm from the axis after acos(3.85 / 4) = 0.275 rad, which is 2.8 mm down.
+  // It begins 0.15 mm deep at the piece's side, goes half a turn away from it and 32 mm down. The last
+  // centres, at x = 11.75, are 3 mm from the axis after acos(3.85 / 4) = 0.275 rad, which is 2.8 mm down.
   Grid beside = block();
   const Bite away = cut(beside, helix({14.6, 0, 9.85}, {22.6, 0, -22.15}, {18.6, 0}), flat, {});
   EXPECT_GE(away.contact_mm, 0.15);
   EXPECT_LE(away.contact_mm, 0.15 + 32 * std::acos(3.85 / 4) / std::numbers::pi);
-  // It begins 2 mm over the piece, whose top is at 10, and ends a turn later 2 mm deep: the last points that it
-  // meets, at its end, are the deepest.
+  // It begins 2 mm over the piece, whose top is at 10, and ends a turn later 2 mm deep: the last points that
+  // it meets, at its end, are the deepest.
   Grid below = block();
   const Bite turn = cut(below, helix({4, 0, 12}, {4, 0, 8}, {0, 0}), flat, {});
   EXPECT_GT(turn.contact_mm, 1.8);

@@ -198,8 +198,8 @@ void StepChecks::rubbing() {
   if (rubbed_mm_ <= kHarmlessMm) return;
   out_.warn(18, "CHK-RUB", rubbed_,
             "over " + mm(rubbed_mm_) + " of way in material the feed is down to " + mm(rubbed_at_mm_) +
-                " per tooth, where an edge rubs; at least " + mm(least_chip_mm_) +
-                " in " + plan_.material.id + ": feed faster, cut less deep, or use a stiffer cutter",
+                " per tooth, where an edge rubs; at least " + mm(least_chip_mm_) + " in " +
+                plan_.material.id + ": feed faster, cut less deep, or use a stiffer cutter",
             rubbed_at_mm_);
 }
 

@@ -167,8 +167,8 @@ void StepChecks::feed(const Move& m) {
   const double allowed = target_.allowed();
   const double fz = feed_per_tooth(m);
   const double flutes = cutter_.maximum_depth_of_cut_mm, low = std::min(m.from.z, m.to.z);
-  // No chip is thicker than its feed, no contact higher than the stock above the lowest tip: what must be within
-  // its limit is not measured.
+  // No chip is thicker than its feed, no contact higher than the stock above the lowest tip: what must be
+  // within its limit is not measured.
   const Bite bite = cut(grid_, m, *outline_,
                         {.allowed_mm = judge_gouge_ ? allowed : 1e300,
                          .judge = &target_,

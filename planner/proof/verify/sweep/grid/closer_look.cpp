@@ -1,9 +1,9 @@
-// A place is looked at on points of its own that lie closer than the set-up's cells. Only points that may decide
-// are made: those from which the move can take a thick enough chip whatever stands there (way.h), in blocks of
-// which no earlier cut leaves too little anywhere, where so much stood at the beginning. The cuts since take them
-// down, the latest first, for it has mostly been there just before; a point is done with as soon as what is left
-// of it decides nothing, the look as soon as no point is left. Heights do not depend on the order of the cuts, so
-// that what is left is as if all had been made again.
+// A place is looked at on points of its own that lie closer than the set-up's cells. Only points that may
+// decide are made: those from which the move can take a thick enough chip whatever stands there (way.h), in
+// blocks of which no earlier cut leaves too little anywhere, where so much stood at the beginning. The cuts
+// since take them down, the latest first, for it has mostly been there just before; a point is done with as
+// soon as what is left of it decides nothing, the look as soon as no point is left. Heights do not depend on
+// the order of the cuts, so that what is left is as if all had been made again.
 #include "planner/proof/verify/sweep/grid/closer_look.h"
 
 #include <algorithm>
@@ -128,8 +128,8 @@ std::vector<const EarlierCuts::Cut*> EarlierCuts::met(const Place& place, std::s
   return out;
 }
 
-/// The blocks of a place with points that count, by rows, but those of which an earlier cut leaves no more than
-/// `least_mm` above the move that is looked at.
+/// The blocks of a place with points that count, by rows, but those of which an earlier cut leaves no more
+/// than `least_mm` above the move that is looked at.
 template <class Way>
 std::vector<EarlierCuts::Block> EarlierCuts::blocks(const Raster& local, const Way& way, const Front* front,
                                                     double least_mm, const std::vector<const Cut*>& cuts) {
@@ -159,8 +159,8 @@ std::vector<EarlierCuts::Block> EarlierCuts::blocks(const Raster& local, const W
   return out;
 }
 
-/// The points of these blocks where the move would take more than `least_mm` off what stood at the beginning: of
-/// those in front of it, where all cells around have it; without a front of all, where any cell has it.
+/// The points of these blocks where the move would take more than `least_mm` off what stood at the beginning:
+/// of those in front of it, where all cells around have it; without a front of all, where any cell has it.
 template <class Way>
 std::vector<EarlierCuts::Point> EarlierCuts::begun(const Grid& grid, const Raster& local, const Way& way,
                                                    const Front* front, double least_mm,
@@ -249,9 +249,8 @@ std::vector<EarlierCuts::Point> EarlierCuts::left(const Grid& grid, const Place&
   return points;
 }
 
-Chip EarlierCuts::look(const Grid& grid, const Move& m,
-                       const std::shared_ptr<const CutterOutline>& cutter, double advance_mm,
-                       double least_mm, int& pieces) {
+Chip EarlierCuts::look(const Grid& grid, const Move& m, const std::shared_ptr<const CutterOutline>& cutter,
+                       double advance_mm, double least_mm, int& pieces) {
   Chip worst;
   Cut before{m, cutter, {}};  // what of the way lies before a piece
   if (stock_.size() != grid.stock.size()) return worst;
@@ -292,9 +291,8 @@ bool EarlierCuts::takes(const Grid& grid, const std::vector<Move>& moves, const 
       const Place place(m, i, n, cutter.radius(), grid.cell());
       cell_mm = std::max(cell_mm, place.raster().cell());
       const std::vector<const Cut*> cuts = met(place, mark);
-      if (along_way(cutter, place.part, [&](const auto& way) {
-            return !left(grid, place, way, nullptr, 0.0, cuts).empty();
-          }))
+      if (along_way(cutter, place.part,
+                    [&](const auto& way) { return !left(grid, place, way, nullptr, 0.0, cuts).empty(); }))
         return true;
     }
   }

@@ -24,10 +24,10 @@ class EarlierCuts {
   void begin(const Grid& grid);
   void add(const Move& m, std::shared_ptr<const CutterOutline> cutter);
   /// The thickest chip of a move that is about to be added, if it is thicker than `least_mm`, on points up to
-  /// eight times as close as the set-up's cells, at most 40,000 of them for each piece of the way that is four
-  /// radii long. Stock of the beginning counts where all cells around a point have it, so that no chip is found
-  /// that is not there. Nothing where points would lie hardly closer. `pieces`: how many more may be looked at;
-  /// counted down. Needs  `advance_mm` > `least_mm`.
+  /// eight times as close as the set-up's cells, at most 40,000 of them for each piece of the way that is
+  /// four radii long. Stock of the beginning counts where all cells around a point have it, so that no chip
+  /// is found that is not there. Nothing where points would lie hardly closer. `pieces`: how many more may be
+  /// looked at; counted down. Needs  `advance_mm` > `least_mm`.
   [[nodiscard]] Chip look(const Grid& grid, const Move& m, const std::shared_ptr<const CutterOutline>& cutter,
                           double advance_mm, double least_mm, int& pieces);
   /// How many cuts there are: a place to look back to.

@@ -50,7 +50,6 @@ struct Knife {
         bite.thickest_mm = std::max(bite.thickest_mm, taken);
       }
       if (from_axis <= core) bite.core_mm = std::max(bite.core_mm, taken);
-      ++bite.cells;
       const double below = grid.part[i] - z;
       if (below > asks.allowed_mm && below > bite.gouge_mm) gouge(ix, iy, z, below);
     }
@@ -58,7 +57,8 @@ struct Knife {
   }
   void gouge(int ix, int iy, double z, double below) {
     constexpr int kMostJudged = 500;  // per move; a true gouge is found by the first
-    if (asks.judge != nullptr && (++judged > kMostJudged || !asks.judge->guilty(grid.centre(ix, iy), z))) return;
+    if (asks.judge != nullptr && (++judged > kMostJudged || !asks.judge->guilty(grid.centre(ix, iy), z)))
+      return;
     bite.gouge_mm = below;
     bite.gouge_at = grid.centre(ix, iy);
   }

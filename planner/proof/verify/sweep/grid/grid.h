@@ -35,8 +35,8 @@ class Raster {
   int nx_ = 0, ny_ = 0;
 };
 
-/// Heights at the centres of the cells, seen along the tool axis: the raw piece as it is now, and the finished
-/// part. A point sample, not an average: what holds at a centre holds there exactly.
+/// Heights at the centres of the cells, seen along the tool axis: the raw piece as it is now, and the
+/// finished part. A point sample, not an average: what holds at a centre holds there exactly.
 ///
 /// Frame  the set-up's. Units  mm.
 class Grid : public Raster {
@@ -82,7 +82,6 @@ struct Bite {
   double core_mm = 0.0;      ///< most taken off a cell within 0.3 radii of the axis's track
   double gouge_mm = 0.0;     ///< deepest below the finished part, beyond the tolerance
   geometry::Vec2 gouge_at;
-  std::size_t cells = 0;
   double chip_mm = 0.0;  ///< thickest chip that the front of the cutter took off a cell's centre
   geometry::Vec2 chip_at;
 };
@@ -99,9 +98,9 @@ class GougeJudge {
 struct CutAsks {
   double allowed_mm = 1e300;          ///< depth below the part that is within tolerance
   const GougeJudge* judge = nullptr;  ///< of what is deeper; null: all of it is a gouge
-  /// What a tooth advances; 0: chips are not measured. A centre that the front of the cutter meets has met it at
-  /// one place of its surface, whose normal n and the direction of travel v are known exactly: the chip there is
-  /// the advance times n v, no thicker than the material is deep.
+  /// What a tooth advances; 0: chips are not measured. A centre that the front of the cutter meets has met it
+  /// at one place of its surface, whose normal n and the direction of travel v are known exactly: the chip
+  /// there is the advance times n v, no thicker than the material is deep.
   double advance_mm = 0.0;
   /// > 0: the cutter has nothing that cuts above that height. What stands higher than the head's top is an
   /// overhang, which heights do not hold: it stays.
@@ -109,9 +108,9 @@ struct CutAsks {
   bool contact = true;  ///< `Bite::contact_mm`
 };
 
-/// Cuts with the move and says what it took. Exact at cell centres for lines and arcs, level or not; an arc whose
-/// ends are not as far from its centre runs at the mean of both. Heights after several moves do not depend on
-/// their order.
+/// Cuts with the move and says what it took. Exact at cell centres for lines and arcs, level or not; an arc
+/// whose ends are not as far from its centre runs at the mean of both. Heights after several moves do not
+/// depend on their order.
 Bite cut(Grid& grid, const Move& m, const CutterOutline& cutter, const CutAsks& asks);
 
 /// How deep a rapid would dip into what stands there, > 0: it does, also when axes do not arrive together:

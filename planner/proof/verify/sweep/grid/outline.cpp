@@ -83,9 +83,11 @@ double lowest_on_line(const CutterOutline& o, double z0, double dz, double foot,
   const double begin = dz < 0.0 ? from - foot : foot - to, end = dz < 0.0 ? to - foot : foot - from;
   const double z_foot = z0 + foot / length * dz;
   const auto f = [&](double v) { return z_foot - fall * v + o.height(std::sqrt(d * d + v * v)); };
-  double best = f(end);
-  if (end <= 0.0) return best;
+  if (end <= 0.0) return f(end);
   const double first = std::max(begin, 0.0);
+  if (const ProfilePiece* ball = o.ball())  // of one sphere the place is known
+    return f(std::clamp(lowest_of(*ball, o, fall, d, first, end), first, std::max(first, end)));
+  double best = f(end);
   for (const ProfilePiece& p : o.profile().pieces) {
     const double lo = std::max(first, std::sqrt(std::max(0.0, p.r0_mm * p.r0_mm - d * d)));
     const double hi = std::min(end, std::sqrt(std::max(0.0, p.r1_mm * p.r1_mm - d * d)));

@@ -26,6 +26,11 @@ class CutterOutline {
   }
   /// Whether it is one plane across the whole end.
   [[nodiscard]] bool flat() const { return flat_ >= profile_.radius_mm; }
+  /// The one sphere that its end is; null: it has another shape.
+  [[nodiscard]] const geometry::ProfilePiece* ball() const {
+    const auto& p = profile_.pieces;
+    return p.size() == 1 && p[0].radius_mm > 0.0 && p[0].rc_mm == 0.0 ? p.data() : nullptr;
+  }
   /// No more than `height(sqrt(square))`, for a square of at most that of the radius.
   [[nodiscard]] double at_least(double square) const {
     return floor_[static_cast<std::size_t>(square * bins_per_square_)];
@@ -47,10 +52,10 @@ class CutterOutline {
 [[nodiscard]] double lowest_on_line(const CutterOutline& o, double z0, double dz, double foot, double d,
                                     double length);
 
-/// The same along a helix of that radius about an axis that the point is `away` from. `ahead`: the angle, rad,
-/// in [0, 2 pi), from the helix's start to the point, in the way's direction; `sweep` that of the whole way,
-/// in (0, 2 pi]. +inf where the cutter does not come over the point.
-[[nodiscard]] double lowest_on_helix(const CutterOutline& o, double z0, double dz, double radius, double sweep,
-                                     double away, double ahead);
+/// The same along a helix of that radius about an axis that the point is `away` from. `ahead`: the angle,
+/// rad, in [0, 2 pi), from the helix's start to the point, in the way's direction; `sweep` that of the whole
+/// way, in (0, 2 pi]. +inf where the cutter does not come over the point.
+[[nodiscard]] double lowest_on_helix(const CutterOutline& o, double z0, double dz, double radius,
+                                     double sweep, double away, double ahead);
 
 }  // namespace capstan::verify

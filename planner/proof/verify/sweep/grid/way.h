@@ -9,12 +9,13 @@
 #include "planner/proof/verify/sweep/grid/outline.h"
 
 // How a move passes over a point: how low the cutter comes there, and how thick a chip its front takes. One
-// account for the cells of a set-up and for the points of a closer look, so that both say the same of a point.
+// account for the cells of a set-up and for the points of a closer look, so that both say the same of a
+// point.
 //
 // Chips: the front meets a point where a circle about the axis, as wide as the cutter is at the height of the
-// material, first passes through it. On a line that circle is `ahead` before the point; on an arc, seen from the
-// arc's centre, `early`: the triangle of centre, axis and point. The chip is the advance of a tooth times the
-// cosine between the way and the surface's normal there.
+// material, first passes through it. On a line that circle is `ahead` before the point; on an arc, seen from
+// the arc's centre, `early`: the triangle of centre, axis and point. The chip is the advance of a tooth times
+// the cosine between the way and the surface's normal there.
 
 namespace capstan::verify {
 
@@ -48,7 +49,7 @@ class Way {
   /// Whatever lies within `apart_mm` of a point that is so near to the way is left no higher.
   [[nodiscard]] double leaves(double near_mm, double apart_mm) const {
     const double far = near_mm + apart_mm + kSlack;
-    return far > r_ ? 1e300 : zmin_ + std::abs(rise_) + o_.height(far) + kSlack;
+    return far > r_ ? 1e300 : zmin_ + std::abs(rise_) + o_.height(far) + searched_ + kSlack;
   }
   /// Of a chip of more than `least_mm`, when a tooth advances by more than that.
   [[nodiscard]] Front front(double least_mm, double advance_mm) const {
@@ -80,18 +81,20 @@ class Way {
   bool level_;
   double rise_;
   double zmin_ = 0.0;
+  double searched_ = 0.0;  ///< by which a search may miss the lowest height
 };
 
 class LineWay : public Way {
  public:
   LineWay(const CutterOutline& o, const Move& m)
-      : Way(o, m.from.z, m.to.z,
-            std::abs(m.to.z - m.from.z) < 1e-9 || norm(xy(m.to) - xy(m.from)) < 1e-9),
+      : Way(o, m.from.z, m.to.z, std::abs(m.to.z - m.from.z) < 1e-9 || norm(xy(m.to) - xy(m.from)) < 1e-9),
         a_(xy(m.from)),
         d_(xy(m.to) - xy(m.from)),
         length_(norm(d_)),
         dz_(m.to.z - m.from.z) {
     zmin_ = std::min(m.from.z, m.to.z);
+    // Of a torus, by less than a thousandth of the radius along the way (`least_between`).
+    if (!level_) searched_ = 1e-3 * r_ * std::abs(dz_) / length_;
   }
 
   /// The rows that it touches.
@@ -99,7 +102,12 @@ class LineWay : public Way {
     return {std::min(a_.y, a_.y + d_.y) - r_, std::max(a_.y, a_.y + d_.y) + r_};
   }
   /// What it touches of the row at y.
-  [[nodiscard]] std::pair<double, double> reach_x(double y) const { return beside(y, r_, 0.0); }
+  [[nodiscard]] std::pair<double, double> reach_x(double y) const {
+    const double apart = y - std::clamp(y, std::min(a_.y, a_.y + d_.y), std::max(a_.y, a_.y + d_.y));
+    const double half = std::sqrt(std::max(0.0, r_ * r_ - apart * apart)) + kSlack;
+    const auto [from, to] = beside(y, r_, 0.0);
+    return {from + (r_ - half), to - (r_ - half)};
+  }
   [[nodiscard]] bool has_front() const { return length_ > 1e-9; }
   /// The same of the points whose chips count.
   [[nodiscard]] std::pair<double, double> front_y(const Front& f) const {
@@ -143,7 +151,8 @@ class LineWay : public Way {
       return true;
     }
     const geometry::Vec2 aside = p - (a_ + foot * d_);
-    at.z = std::max(at.at_most, lowest_on_line(o_, z0_, dz_, at.along, std::sqrt(dot(aside, aside)), length_));
+    at.z =
+        std::max(at.at_most, lowest_on_line(o_, z0_, dz_, at.along, std::sqrt(dot(aside, aside)), length_));
     at.tip = z0_ + t * dz_;
     return true;
   }
@@ -255,7 +264,7 @@ class ArcWay : public Way {
     at.near = at.along <= sweep_ ? radial : std::min(norm(p - from_), norm(p - to_));
     if (at.near > r_) return false;
     at.z = level_ ? zmin_ + o_.height(at.near)
-                  : lowest_on_helix(o_, z0_, rise_, ra_, sweep_, at.away, at.along);
+                  : std::max(zmin_, lowest_on_helix(o_, z0_, rise_, ra_, sweep_, at.away, at.along));
     at.at_most = at.z;
     at.tip = zmin_;
     return stands > at.z;
@@ -282,7 +291,8 @@ class ArcWay : public Way {
       if (again == 0) rho = o_.radius_at(stands - at.tip);
     }
   }
-  [[nodiscard]] double chip(geometry::Vec2, double stands, double deep, double advance, const Over& at) const {
+  [[nodiscard]] double chip(geometry::Vec2, double stands, double deep, double advance,
+                            const Over& at) const {
     if (advance <= 0.0 || deep <= 0.0) return 0.0;
     return thickness(stands - at.tip, deep, advance, [&](double rho) {
       const double before = early(at.away, rho);

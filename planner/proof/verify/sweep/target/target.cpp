@@ -71,21 +71,6 @@ Region widest(const Form& s) {
   return grow + wider > 0.0 ? geometry::offset(s.area, grow + wider) : s.area;
 }
 
-/// The square of the distance between a point and a line's piece.
-double squared_distance(Vec2 p, Vec2 a, Vec2 b) {
-  const Vec2 d = b - a;
-  const double n = dot(d, d);
-  const double t = n > 0.0 ? std::clamp(dot(p - a, d) / n, 0.0, 1.0) : 0.0;
-  const Vec2 apart = p - (a + t * d);
-  return dot(apart, apart);
-}
-
-bool crossing(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
-  const double s1 = cross(b - a, c - a), s2 = cross(b - a, d - a);
-  const double s3 = cross(d - c, a - c), s4 = cross(d - c, b - c);
-  return ((s1 > 0.0) != (s2 > 0.0)) && ((s3 > 0.0) != (s4 > 0.0));
-}
-
 }  // namespace
 
 Target::Target(const model::Plan& plan, const PartShapes& part, std::size_t setup)
@@ -213,10 +198,22 @@ void Target::fill(Grid& grid) {
   for (const Cavity& c : cavities_) {
     const auto [y0, y1] = grid.rows(c.box.lo.y, c.box.hi.y);
     const auto [x0, x1] = grid.columns(c.box.lo.x, c.box.hi.x);
-    for (int iy = y0; iy < y1; ++iy) {
-      for (int ix = x0; ix < x1; ++ix) {
-        double& z = grid.part[grid.index(ix, iy)];
-        if (z > c.floor_mm || c.open_bottom) z = std::min(z, floor_of(c, grid.centre(ix, iy)));
+    // Where the floor is level all over a block of cells it is asked for once.
+    constexpr int kBlock = 16;
+    for (int by = y0; by < y1; by += kBlock) {
+      for (int bx = x0; bx < x1; bx += kBlock) {
+        const int ty = std::min(by + kBlock, y1), tx = std::min(bx + kBlock, x1);
+        const Vec2 first = grid.centre(bx, by), middle = 0.5 * (first + grid.centre(tx - 1, ty - 1));
+        const Vec3 local = c.frame.to_local({middle.x, middle.y, 0.0});
+        const bool level = volumes::level_about(*c.shape, {local.x, local.y}, norm(middle - first));
+        const double floor = level ? floor_of(c, middle) : 0.0;
+        for (int iy = by; iy < ty; ++iy) {
+          for (int ix = bx; ix < tx; ++ix) {
+            double& z = grid.part[grid.index(ix, iy)];
+            if (z > c.floor_mm || c.open_bottom)
+              z = std::min(z, level ? floor : floor_of(c, grid.centre(ix, iy)));
+          }
+        }
       }
     }
   }
@@ -263,132 +260,6 @@ bool Target::guilty(Vec2 at, double z) const {
     if (height(at + Vec2{r * std::cos(a), r * std::sin(a)}) - reach <= z) return false;
   }
   return true;
-}
-
-std::size_t Target::level(double z) const {
-  return static_cast<std::size_t>(std::upper_bound(levels_.begin(), levels_.end(), z + allowed()) -
-                                  levels_.begin());
-}
-
-std::size_t Target::Walls::strip(double y) const {
-  const double at = std::clamp((y - y0_mm) / strip_mm, 0.0, static_cast<double>(strips.size()) - 1.0);
-  return static_cast<std::size_t>(at);
-}
-
-std::size_t Target::Walls::square_at(double at, double begin) const {
-  return static_cast<std::size_t>(
-      std::clamp((at - begin) / square_mm, 0.0, static_cast<double>(along) - 1.0));
-}
-
-bool Target::Walls::stands(Vec2 p) const {
-  if (strips.empty()) return false;
-  int winding = 0;
-  for (const std::uint32_t i : strips[strip(p.y)]) {
-    const Edge& e = edges[i];
-    if ((e.a.y <= p.y) == (e.b.y <= p.y)) continue;
-    const double x = e.a.x + (p.y - e.a.y) / (e.b.y - e.a.y) * (e.b.x - e.a.x);
-    if (x > p.x) winding += e.b.y > e.a.y ? 1 : -1;
-  }
-  return winding != 0;
-}
-
-const Target::Walls& Target::walls(double z) {
-  const std::size_t key = level(z);
-  const auto found = walls_.find(key);
-  if (found != walls_.end()) return found->second;
-  Walls out;
-  std::vector<geometry::Loop> loops;
-  for (const Cavity& c : cavities_) {
-    if (c.floor_mm > z + allowed() && !c.open_bottom) continue;
-    Region r = c.area;
-    for (const auto& [island, top] : c.islands) {
-      if (top > z + allowed()) r = geometry::subtract(r, island);
-    }
-    loops.insert(loops.end(), r.loops.begin(), r.loops.end());
-  }
-  Region part = geometry::rectangle(xy(part_box_.lo), xy(part_box_.hi));
-  if (round_)
-    part = geometry::intersect(part, geometry::disc(0.5 * (xy(stock_.lo) + xy(stock_.hi)), *round_));
-  out.region = loops.empty() ? part : geometry::subtract(part, geometry::clean(loops));
-  for (const auto& loop : out.region.loops) {
-    for (std::size_t i = 0; i < loop.size(); ++i) out.edges.push_back({loop[i], loop[(i + 1) % loop.size()]});
-  }
-  constexpr std::size_t kStrips = 512;
-  out.y0_mm = part_box_.lo.y;
-  out.strip_mm = std::max((part_box_.hi.y - part_box_.lo.y) / kStrips, 1e-3);
-  out.strips.resize(kStrips);
-  for (std::uint32_t i = 0; i < out.edges.size(); ++i) {
-    const auto& e = out.edges[i];
-    const std::size_t last = out.strip(std::max(e.a.y, e.b.y));
-    for (std::size_t k = out.strip(std::min(e.a.y, e.b.y)); k <= last; ++k) out.strips[k].push_back(i);
-  }
-  // About as many squares as edges, so that heights with few edges cost little.
-  constexpr double kMostAlong = 128.0;
-  out.along = static_cast<std::size_t>(
-      std::clamp(std::sqrt(static_cast<double>(out.edges.size())), 1.0, kMostAlong));
-  out.x0_mm = part_box_.lo.x;
-  out.square_mm = std::max({part_box_.hi.x - part_box_.lo.x, part_box_.hi.y - part_box_.lo.y, 0.1}) /
-                  static_cast<double>(out.along);
-  out.squares.resize(out.along * out.along);
-  for (std::uint32_t i = 0; i < out.edges.size(); ++i) {
-    const auto& e = out.edges[i];
-    const std::size_t last_y = out.square_at(std::max(e.a.y, e.b.y), out.y0_mm);
-    const std::size_t last_x = out.square_at(std::max(e.a.x, e.b.x), out.x0_mm);
-    for (std::size_t y = out.square_at(std::min(e.a.y, e.b.y), out.y0_mm); y <= last_y; ++y)
-      for (std::size_t x = out.square_at(std::min(e.a.x, e.b.x), out.x0_mm); x <= last_x; ++x)
-        out.squares[y * out.along + x].push_back(i);
-  }
-  return walls_.emplace(key, std::move(out)).first->second;
-}
-
-double Target::wall_gouge(const Move& m, double radius, double height_mm, Vec2& at) {
-  if (plan_.target_mesh) return 0.0;
-  const double low = std::min(m.from.z, m.to.z) + height_mm;
-  if (low + allowed() >= part_box_.hi.z) return 0.0;
-  const bool changes = level(m.from.z + height_mm) != level(m.to.z + height_mm);
-  const int n = std::max(pieces_of(m, kChordMm), changes ? 16 : 1);
-  double worst = 0.0;
-  Vec3 a = m.from;
-  for (int i = 1; i <= n; ++i) {
-    const Vec3 b = point_of(m, static_cast<double>(i) / n);
-    // While falling from one level to the next the higher end decides; the last piece is judged at its end.
-    const double z = (i == n ? std::min(a.z, b.z) : std::max(a.z, b.z)) + height_mm;
-    if (z + allowed() < part_box_.hi.z) {
-      const Walls& w = walls(z);
-      const Vec2 p = i == n && changes ? xy(b) : xy(a);
-      double squared = 1e300;
-      const double reach = radius - allowed();
-      const double x0 = std::min(p.x, b.x) - reach, x1 = std::max(p.x, b.x) + reach;
-      const double y0 = std::min(p.y, b.y) - reach, y1 = std::max(p.y, b.y) + reach;
-      // An edge that lies in several squares is merely looked at again.
-      const std::size_t last_y = w.square_at(y1, w.y0_mm), last_x = w.square_at(x1, w.x0_mm);
-      for (std::size_t iy = w.square_at(y0, w.y0_mm); iy <= last_y; ++iy) {
-        for (std::size_t ix = w.square_at(x0, w.x0_mm); ix <= last_x; ++ix) {
-          for (const std::uint32_t index : w.squares[iy * w.along + ix]) {
-            const auto& e = w.edges[index];
-            if (std::max(e.a.x, e.b.x) < x0 || std::min(e.a.x, e.b.x) > x1 || std::max(e.a.y, e.b.y) < y0 ||
-                std::min(e.a.y, e.b.y) > y1) {
-              continue;
-            }
-            if (crossing(p, xy(b), e.a, e.b)) squared = 0.0;
-            squared = std::min({squared, squared_distance(p, e.a, e.b), squared_distance(xy(b), e.a, e.b),
-                               squared_distance(e.a, p, xy(b)), squared_distance(e.b, p, xy(b))});
-          }
-        }
-      }
-      const double near = std::sqrt(squared);
-      double into = radius - near;
-      if (near > std::max(reach, kChordMm) && w.stands(xy(b))) {
-        into = radius;
-      }
-      if (into > allowed() && into > worst) {
-        worst = into;
-        at = xy(b);
-      }
-    }
-    a = b;
-  }
-  return worst;
 }
 
 std::string Target::undecided(model::AnyRef feature) const {

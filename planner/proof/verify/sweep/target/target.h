@@ -98,8 +98,8 @@ class Target : public GougeJudge {
     bool open_bottom = false;  ///< anything below is legal, too
     bool bevel = false;        ///< of an edge that the plan breaks: no feature
   };
+  /// Where the part stands above a height, by its edges: material to their left.
   struct Walls {
-    geometry::Region region;  ///< where the part stands above the height
     struct Edge {
       geometry::Vec2 a, b;
     };
@@ -148,6 +148,12 @@ class Target : public GougeJudge {
   std::vector<Cavity> cavities_;
   std::vector<double> levels_;
   std::map<std::size_t, Walls> walls_;
+  /// Whether the part stands at a point that was asked for last.
+  struct Stood {
+    const Walls* walls = nullptr;
+    geometry::Vec2 at;
+    bool stands = false;
+  } stood_;
   const Grid* grid_ = nullptr;  ///< of the last fill: slopes of a mesh are read from it
 };
 

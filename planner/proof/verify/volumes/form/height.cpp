@@ -107,6 +107,16 @@ std::optional<double> floor_at(const Form& f, Vec2 q) {
   return floor_of_groove(f, q);
 }
 
+bool level_about(const Form& f, Vec2 q, double distance_mm) {
+  const auto* a = std::get_if<Area>(&f.solid.form);
+  if (a == nullptr || f.area.empty() || f.slope_rad > 0.0) return false;
+  const double apart = distance_mm + kHair;
+  if (nearest(a->outline, q).distance_mm <= apart + (f.open() ? 0.0 : a->foot_radius_mm)) return false;
+  return std::all_of(a->standing.begin(), a->standing.end(), [&](const Standing& s) {
+    return nearest(s.outline, q).distance_mm > apart + s.leaning_mm;
+  });
+}
+
 bool takes(const Form& f, Vec3 p) {
   if (f.area.empty()) return false;
   const Vec3 q = f.frame().to_local(p);

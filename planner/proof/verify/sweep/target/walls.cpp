@@ -1,0 +1,221 @@
+// The walls that stand at a height: the finished part's area there, less what the features take that reach so
+// deep. Features that are apart from all others and lie within the part take what is theirs, so that polygons
+// are combined only among those whose boxes meet: n log n in features that are apart. Coordinates are those
+// of one grid (kRegionGrid), whichever are combined together.
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numeric>
+#include <utility>
+
+#include "planner/proof/verify/sweep/target/target.h"
+
+namespace capstan::verify {
+
+using geometry::Region;
+using geometry::Vec2;
+using geometry::Vec3;
+
+namespace {
+
+constexpr double kApartMm = 1e-4;  ///< farther apart than this no polygons meet after rounding
+
+/// The square of the distance between a point and a line's piece.
+double squared_distance(Vec2 p, Vec2 a, Vec2 b) {
+  const Vec2 d = b - a;
+  const double n = dot(d, d);
+  const double t = n > 0.0 ? std::clamp(dot(p - a, d) / n, 0.0, 1.0) : 0.0;
+  const Vec2 apart = p - (a + t * d);
+  return dot(apart, apart);
+}
+
+bool crossing(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
+  const double s1 = cross(b - a, c - a), s2 = cross(b - a, d - a);
+  const double s3 = cross(d - c, a - c), s4 = cross(d - c, b - c);
+  return ((s1 > 0.0) != (s2 > 0.0)) && ((s3 > 0.0) != (s4 > 0.0));
+}
+
+/// Loops of one feature, or of several whose boxes meet.
+struct Part {
+  geometry::Box2 box;
+  std::vector<geometry::Loop> loops;
+};
+
+/// The same loops, those together whose boxes meet, over others too: a sweep along x.
+std::vector<Part> apart(std::vector<Part> all) {
+  std::sort(all.begin(), all.end(), [](const Part& a, const Part& b) { return a.box.lo.x < b.box.lo.x; });
+  std::vector<std::size_t> first(all.size()), open;
+  std::iota(first.begin(), first.end(), std::size_t{0});
+  const auto root = [&](std::size_t i) {
+    while (first[i] != i) i = first[i] = first[first[i]];
+    return i;
+  };
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const geometry::Box2& b = all[i].box;
+    std::erase_if(open, [&](std::size_t k) { return all[k].box.hi.x < b.lo.x - kApartMm; });
+    for (const std::size_t k : open) {
+      if (all[k].box.lo.y > b.hi.y + kApartMm || all[k].box.hi.y < b.lo.y - kApartMm) continue;
+      const std::size_t one = root(i), other = root(k);
+      first[std::max(one, other)] = std::min(one, other);
+    }
+    open.push_back(i);
+  }
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    Part& to = all[root(i)];
+    if (&to == &all[i]) continue;
+    to.box.lo = {std::min(to.box.lo.x, all[i].box.lo.x), std::min(to.box.lo.y, all[i].box.lo.y)};
+    to.box.hi = {std::max(to.box.hi.x, all[i].box.hi.x), std::max(to.box.hi.y, all[i].box.hi.y)};
+    std::move(all[i].loops.begin(), all[i].loops.end(), std::back_inserter(to.loops));
+    all[i].loops.clear();
+  }
+  std::erase_if(all, [](const Part& p) { return p.loops.empty(); });
+  return all;
+}
+
+}  // namespace
+
+std::size_t Target::level(double z) const {
+  return static_cast<std::size_t>(std::upper_bound(levels_.begin(), levels_.end(), z + allowed()) -
+                                  levels_.begin());
+}
+
+std::size_t Target::Walls::strip(double y) const {
+  const double at = std::clamp((y - y0_mm) / strip_mm, 0.0, static_cast<double>(strips.size()) - 1.0);
+  return static_cast<std::size_t>(at);
+}
+
+std::size_t Target::Walls::square_at(double at, double begin) const {
+  return static_cast<std::size_t>(
+      std::clamp((at - begin) / square_mm, 0.0, static_cast<double>(along) - 1.0));
+}
+
+bool Target::Walls::stands(Vec2 p) const {
+  if (strips.empty()) return false;
+  int winding = 0;
+  for (const std::uint32_t i : strips[strip(p.y)]) {
+    const Edge& e = edges[i];
+    if ((e.a.y <= p.y) == (e.b.y <= p.y)) continue;
+    const double x = e.a.x + (p.y - e.a.y) / (e.b.y - e.a.y) * (e.b.x - e.a.x);
+    if (x > p.x) winding += e.b.y > e.a.y ? 1 : -1;
+  }
+  return winding != 0;
+}
+
+const Target::Walls& Target::walls(double z) {
+  const std::size_t key = level(z);
+  const auto found = walls_.find(key);
+  if (found != walls_.end()) return found->second;
+  Walls out;
+  std::vector<Part> parts;
+  for (const Cavity& c : cavities_) {
+    if (c.floor_mm > z + allowed() && !c.open_bottom) continue;
+    Region r = c.area;
+    for (const auto& [island, top] : c.islands) {
+      if (top > z + allowed()) r = geometry::subtract(r, island);
+    }
+    if (!r.empty()) parts.push_back({c.box, std::move(r.loops)});
+  }
+  Region part = geometry::rectangle(xy(part_box_.lo), xy(part_box_.hi));
+  if (round_)
+    part = geometry::intersect(part, geometry::disc(0.5 * (xy(stock_.lo) + xy(stock_.hi)), *round_));
+  const auto add = [&](const Region& region, bool taken) {
+    for (const auto& loop : region.loops) {
+      for (std::size_t i = 0; i < loop.size(); ++i) {
+        const Vec2 a = loop[i], b = loop[(i + 1) % loop.size()];
+        out.edges.push_back(taken ? Walls::Edge{b, a} : Walls::Edge{a, b});
+      }
+    }
+  };
+  std::vector<geometry::Loop> across;
+  for (Part& p : apart(std::move(parts))) {
+    const bool within = !round_ && p.box.lo.x > part_box_.lo.x + kApartMm &&
+                        p.box.lo.y > part_box_.lo.y + kApartMm && p.box.hi.x < part_box_.hi.x - kApartMm &&
+                        p.box.hi.y < part_box_.hi.y - kApartMm;
+    if (within)
+      add(geometry::clean(p.loops), true);
+    else
+      across.insert(across.end(), p.loops.begin(), p.loops.end());
+  }
+  add(across.empty() ? part : geometry::subtract(part, geometry::clean(across)), false);
+  constexpr std::size_t kStrips = 512;
+  out.y0_mm = part_box_.lo.y;
+  out.strip_mm = std::max((part_box_.hi.y - part_box_.lo.y) / kStrips, 1e-3);
+  out.strips.resize(kStrips);
+  for (std::uint32_t i = 0; i < out.edges.size(); ++i) {
+    const auto& e = out.edges[i];
+    const std::size_t last = out.strip(std::max(e.a.y, e.b.y));
+    for (std::size_t k = out.strip(std::min(e.a.y, e.b.y)); k <= last; ++k) out.strips[k].push_back(i);
+  }
+  // About as many squares as edges, so that heights with few edges cost little.
+  constexpr double kMostAlong = 128.0;
+  out.along =
+      static_cast<std::size_t>(std::clamp(std::sqrt(static_cast<double>(out.edges.size())), 1.0, kMostAlong));
+  out.x0_mm = part_box_.lo.x;
+  out.square_mm = std::max({part_box_.hi.x - part_box_.lo.x, part_box_.hi.y - part_box_.lo.y, 0.1}) /
+                  static_cast<double>(out.along);
+  out.squares.resize(out.along * out.along);
+  for (std::uint32_t i = 0; i < out.edges.size(); ++i) {
+    const auto& e = out.edges[i];
+    const std::size_t last_y = out.square_at(std::max(e.a.y, e.b.y), out.y0_mm);
+    const std::size_t last_x = out.square_at(std::max(e.a.x, e.b.x), out.x0_mm);
+    for (std::size_t y = out.square_at(std::min(e.a.y, e.b.y), out.y0_mm); y <= last_y; ++y)
+      for (std::size_t x = out.square_at(std::min(e.a.x, e.b.x), out.x0_mm); x <= last_x; ++x)
+        out.squares[y * out.along + x].push_back(i);
+  }
+  return walls_.emplace(key, std::move(out)).first->second;
+}
+
+double Target::wall_gouge(const Move& m, double radius, double height_mm, Vec2& at) {
+  if (plan_.target_mesh) return 0.0;
+  const double low = std::min(m.from.z, m.to.z) + height_mm;
+  if (low + allowed() >= part_box_.hi.z) return 0.0;
+  const bool changes = level(m.from.z + height_mm) != level(m.to.z + height_mm);
+  const int n = std::max(pieces_of(m, kChordMm), changes ? 16 : 1);
+  double worst = 0.0;
+  Vec3 a = m.from;
+  for (int i = 1; i <= n; ++i) {
+    const Vec3 b = point_of(m, static_cast<double>(i) / n);
+    // While falling from one level to the next the higher end decides; the last piece is judged at its end.
+    const double z = (i == n ? std::min(a.z, b.z) : std::max(a.z, b.z)) + height_mm;
+    if (z + allowed() < part_box_.hi.z) {
+      const Walls& w = walls(z);
+      const Vec2 p = i == n && changes ? xy(b) : xy(a);
+      double squared = 1e300;
+      const double reach = radius - allowed();
+      const double x0 = std::min(p.x, b.x) - reach, x1 = std::max(p.x, b.x) + reach;
+      const double y0 = std::min(p.y, b.y) - reach, y1 = std::max(p.y, b.y) + reach;
+      // An edge that lies in several squares is merely looked at again.
+      const std::size_t last_y = w.square_at(y1, w.y0_mm), last_x = w.square_at(x1, w.x0_mm);
+      for (std::size_t iy = w.square_at(y0, w.y0_mm); iy <= last_y; ++iy) {
+        for (std::size_t ix = w.square_at(x0, w.x0_mm); ix <= last_x; ++ix) {
+          for (const std::uint32_t index : w.squares[iy * w.along + ix]) {
+            const auto& e = w.edges[index];
+            if (std::max(e.a.x, e.b.x) < x0 || std::min(e.a.x, e.b.x) > x1 || std::max(e.a.y, e.b.y) < y0 ||
+                std::min(e.a.y, e.b.y) > y1) {
+              continue;
+            }
+            if (crossing(p, xy(b), e.a, e.b)) squared = 0.0;
+            squared = std::min({squared, squared_distance(p, e.a, e.b), squared_distance(xy(b), e.a, e.b),
+                                squared_distance(e.a, p, xy(b)), squared_distance(e.b, p, xy(b))});
+          }
+        }
+      }
+      const double near = std::sqrt(squared);
+      double into = radius - near;
+      if (near > std::max(reach, kChordMm)) {
+        // No edge lies between the two ends: what is known of one holds for the other.
+        const bool known = stood_.walls == &w && stood_.at.x == p.x && stood_.at.y == p.y;
+        stood_ = {&w, xy(b), known ? stood_.stands : w.stands(xy(b))};
+        if (stood_.stands) into = radius;
+      }
+      if (into > allowed() && into > worst) {
+        worst = into;
+        at = xy(b);
+      }
+    }
+    a = b;
+  }
+  return worst;
+}
+
+}  // namespace capstan::verify
