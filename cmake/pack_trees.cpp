@@ -66,10 +66,11 @@ int main(int count, char** words) {
     cases += "  if (name == \"" + name + "\") return {" + literal(bytes) + ",\n          " +
              std::to_string(bytes.size()) + "};\n";
   }
-  const std::string source = "// Generated from data files; edit those.\n#include <string_view>\n\nnamespace " +
-                             all[2] + " {\nstd::string_view embedded_tree(std::string_view name);\n\n" +
-                             "std::string_view embedded_tree(std::string_view name) {\n" + cases +
-                             "  return {};\n}\n}  // namespace " + all[2] + "\n";
+  const std::string source =
+      "// Generated from data files; edit those.\n#include <string_view>\n\nnamespace " + all[2] +
+      " {\nstd::string_view embedded_tree(std::string_view name);\n\n" +
+      "std::string_view embedded_tree(std::string_view name) {\n" + cases +
+      "  return {};\n}\n}  // namespace " + all[2] + "\n";
   if (const auto written = write_file(all[1], source); !written) return refuse(written.error());
   return 0;
 }

@@ -84,8 +84,7 @@ Side interval(const DataNode& node, const FactType& type) {
 }
 
 Side symbol_set(const DataNode& node, const FactType& type) {
-  if (!is_filled_list(node))
-    refuse("RULE-ROW", std::string(type.name) + " needs a list of symbols", node);
+  if (!is_filled_list(node)) refuse("RULE-ROW", std::string(type.name) + " needs a list of symbols", node);
   Side side{0.0, 0.0, 0, true};
   for (const DataNode& item : node.items) {
     const std::string& symbol = item.text;
@@ -232,7 +231,8 @@ Table& open_table(RuleBase& base, const DataNode& root, const std::string& file,
   const auto it =
       std::find_if(base.tables.begin(), base.tables.end(), [&](const Table& t) { return t.name == name; });
   if (it != base.tables.end()) {
-    if (root.find("facts") != nullptr && shipped) refuse("RULE-TABLE", "table " + name + " is defined twice", root);
+    if (root.find("facts") != nullptr && shipped)
+      refuse("RULE-TABLE", "table " + name + " is defined twice", root);
     return *it;
   }
   if (!shipped) refuse("RULE-TABLE", "there is no table named " + name, root);
@@ -306,8 +306,7 @@ void add_document(RuleBase& base, const DataNode& root, const std::string& file,
   }
   Table& table = open_table(base, root, file, shipped);
   const DataNode* rows = root.find("rows");
-  if (rows == nullptr || rows->kind != DataNode::Kind::kList)
-    refuse("RULE-ROW", "rows is not a list", root);
+  if (rows == nullptr || rows->kind != DataNode::Kind::kList) refuse("RULE-ROW", "rows is not a list", root);
   std::vector<std::string> ids;
   for (const DataNode& node : rows->items) {
     Row row = read_row(node, table, file);

@@ -252,7 +252,8 @@ void tell_apart(const std::vector<StepDraft>& steps, const std::vector<model::Cu
     if (first != all.begin() && same_chosen(*all.front(), s.cutter, recorded.contains(&s)))
       return std::size_t{0};
     return static_cast<std::size_t>(
-        std::find_if(first, all.end(), [&](const auto* o) { return same_given(*o, s.cutter); }) - all.begin());
+        std::find_if(first, all.end(), [&](const auto* o) { return same_given(*o, s.cutter); }) -
+        all.begin());
   };
   std::vector<const StepDraft*> sorted(given.begin(), given.end());
   const auto size = [](const StepDraft* s) {

@@ -319,8 +319,8 @@ std::vector<SeriesPreset> presets_of(const Series& s, const Reader& r) {
     std::string times =
         s.speed_factor == 1.0 ? "" : trimmed(s.speed_factor, 3) + " (" + s.factor_source + ") x ";
     if (faster != 1.0) times += by_edge(faster) + " x ";
-    out.push_back({m.id, m.iso_group, vc,
-                   "vc: " + times + std::string(kMaterialsSpeed) + "; fz: " + r.feeds_source});
+    out.push_back(
+        {m.id, m.iso_group, vc, "vc: " + times + std::string(kMaterialsSpeed) + "; fz: " + r.feeds_source});
     const auto [at, fresh] = slowest.emplace(m.iso_group, vc);
     if (!fresh) at->second = std::min(at->second, vc);
   }
