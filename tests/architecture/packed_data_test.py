@@ -16,31 +16,39 @@ import unittest
 PACK_TREES, ROOT, BUILD = (pathlib.Path(p) for p in sys.argv[1:4])
 
 
-def packed(folder, text):
-    (folder / "a.yaml").write_text(text)
+def packed(folder, texts):
+    """Exit code, messages, and what stands for each file in the source; nothing when there is none."""
+    for name, text in texts.items():
+        (folder / name).write_text(text)
     out = folder / "out.cpp"
     out.unlink(missing_ok=True)
-    done = subprocess.run([PACK_TREES, out, "n", folder, folder / "a.yaml"], capture_output=True, text=True)
-    return done.returncode, done.stderr, out.read_text() if out.exists() else None
+    done = subprocess.run([PACK_TREES, out, "n", folder, *(folder / name for name in texts)],
+                          capture_output=True, text=True)
+    source = out.read_text() if out.exists() else ""
+    parts = re.split(r'  if \(name == "([^"]+)"\)', source)[1:]
+    return done.returncode, done.stderr, dict(zip(parts[::2], parts[1::2])) or None
 
 
 class PackedData(unittest.TestCase):
-    def test_an_edit_changes_the_source(self):
+    def test_an_edit_of_each_file_changes_the_source(self):
         for room in ("rules", "tooling"):
-            for file in sorted((ROOT / room / "data").rglob("*.yaml")):
-                text = file.read_text()
-                edited, count = re.subn(r": (\d+)", lambda m: f": {int(m[1]) + 1}", text, count=1)
-                self.assertEqual(count, 1, file)
-                with tempfile.TemporaryDirectory() as folder:
-                    folder = pathlib.Path(folder)
-                    code, said, before = packed(folder, text)
-                    self.assertEqual(code, 0, said)
-                    self.assertEqual(packed(folder, text)[2], before, file)
-                    self.assertNotEqual(packed(folder, edited)[2], before, file)
+            texts = {file.name: file.read_text() for file in sorted((ROOT / room / "data").rglob("*.yaml"))}
+            edited = {}
+            for name, text in texts.items():
+                edited[name], count = re.subn(r": (\d+)", lambda m: f": {int(m[1]) + 1}", text, count=1)
+                self.assertEqual(count, 1, name)
+            with tempfile.TemporaryDirectory() as folder:
+                code, said, before = packed(pathlib.Path(folder), texts)
+                self.assertEqual(code, 0, said)
+                self.assertEqual(sorted(before), sorted(texts))
+                self.assertEqual(packed(pathlib.Path(folder), texts)[2], before)
+                after = packed(pathlib.Path(folder), edited)[2]
+                for name in texts:
+                    self.assertNotEqual(after[name], before[name], name)
 
     def test_a_file_that_cannot_be_read_ends_the_build(self):
         with tempfile.TemporaryDirectory() as folder:
-            code, said, out = packed(pathlib.Path(folder), "a: 1\na: 2\n")
+            code, said, out = packed(pathlib.Path(folder), {"a.yaml": "a: 1\na: 2\n"})
             self.assertEqual(code, 1)
             self.assertIn("a.yaml:2: error: 'a' is given twice", said)
             self.assertIsNone(out)
