@@ -1,4 +1,4 @@
-# capstan_embed(<target> <namespace> FILES file... [BASE folder])
+# capstan_embed(<target> <namespace> FILES file... [BASE folder] [TREES])
 #
 # Compiles the text of the files into <target>, so that the program needs no data files beside it. Defines
 #
@@ -9,6 +9,11 @@
 #
 # which the room declares in a header of its own. A name is the path relative to BASE (default: the current
 # folder). Changing a file rebuilds the one generated source. A text must not hold the sequence )capstan".
+#
+# With TREES the files are YAML, and read while building: a start copies what stands in them and parses nothing.
+#
+#   std::string_view embedded_tree(std::string_view name);  // for `unpack` of planner/ground/base/data_tree.h;
+#                                                           // data() is null when there is no such file
 #
 # Run as a script (cmake -DOUT= -DNAMESPACE= -DBASE= -DLIST= -P Embed.cmake) it writes that source; LIST is a
 # file with one path per line.
@@ -39,7 +44,7 @@ endif()
 set(CAPSTAN_EMBED_SCRIPT ${CMAKE_CURRENT_LIST_FILE})
 
 function(capstan_embed target namespace)
-  cmake_parse_arguments(ARG "" "BASE" "FILES" ${ARGN})
+  cmake_parse_arguments(ARG "TREES" "BASE" "FILES" ${ARGN})
   if(NOT ARG_BASE)
     set(ARG_BASE ${CMAKE_CURRENT_SOURCE_DIR})
   endif()
@@ -61,4 +66,19 @@ function(capstan_embed target namespace)
   # A text may be longer than the 65536 bytes that every C++ compiler must take; clang warns, both compilers take it.
   set_source_files_properties(${out} PROPERTIES COMPILE_OPTIONS -Wno-overlength-strings)
   target_sources(${target} PRIVATE ${out})
+  if(ARG_TREES)
+    if(NOT TARGET capstan_pack_trees)
+      find_package(yaml-cpp REQUIRED)
+      add_executable(capstan_pack_trees
+        ${CMAKE_SOURCE_DIR}/cmake/pack_trees.cpp ${CMAKE_SOURCE_DIR}/tooling/shop/data/tree.cpp)
+      target_link_libraries(capstan_pack_trees PRIVATE capstan::base yaml-cpp)
+    endif()
+    set(trees ${CMAKE_CURRENT_BINARY_DIR}/${target}_trees.cpp)
+    add_custom_command(OUTPUT ${trees}
+      COMMAND capstan_pack_trees ${trees} ${namespace} ${base} ${files}
+      DEPENDS ${files} ${list} capstan_pack_trees
+      COMMENT "Reading the data of ${target}" VERBATIM)
+    set_source_files_properties(${trees} PROPERTIES COMPILE_OPTIONS -Wno-overlength-strings)
+    target_sources(${target} PRIVATE ${trees})
+  endif()
 endfunction()

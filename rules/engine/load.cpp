@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <span>
 
+#include "planner/ground/base/data_tree.h"
 #include "planner/ground/base/file.h"
 #include "planner/ground/base/number.h"
 #include "rules/engine/stray.h"
@@ -14,6 +15,7 @@
 namespace capstan::rules {
 
 std::string_view embedded_file(std::string_view name);
+std::string_view embedded_tree(std::string_view name);
 std::span<const std::string_view> embedded_names();
 
 namespace {
@@ -21,32 +23,48 @@ namespace {
 // A fault while reading one file: caught in `add_text`, so that it never leaves this source.
 struct Fault {
   std::string code, message;
-  YAML::Mark mark;
+  std::uint64_t line;
 };
 
-[[noreturn]] void refuse(const char* code, std::string message, const YAML::Node& at) {
-  throw Fault{code, std::move(message), at.Mark()};
+[[noreturn]] void refuse(const char* code, std::string message, const DataNode& at) {
+  throw Fault{code, std::move(message), at.line};
 }
 
-std::string text_of(const YAML::Node& node, const char* what, const YAML::Node& owner) {
-  if (!node || !node.IsScalar()) refuse("RULE-ROW", std::string(what) + " is missing or not a text", owner);
-  return node.Scalar();
+bool is_scalar(const DataNode& node) { return node.kind == DataNode::Kind::kScalar; }
+bool is_map(const DataNode& node) { return node.kind == DataNode::Kind::kMap; }
+bool is_filled_list(const DataNode& node) {
+  return node.kind == DataNode::Kind::kList && !node.items.empty();
 }
 
-double number_of(const YAML::Node& node, const std::string& what) {
+std::string text_of(const DataNode& owner, const char* what) {
+  const DataNode* node = owner.find(what);
+  if (node == nullptr || !is_scalar(*node))
+    refuse("RULE-ROW", std::string(what) + " is missing or not a text", owner);
+  return node->text;
+}
+
+/// The scalar as a number; yaml-cpp's own reading where it is not plainly one ("+.5", ".inf").
+std::optional<double> number_in(const std::string& text) {
+  if (!text.empty() && text.front() != '+') {
+    if (const auto plain = parse_double(text)) return plain;
+  }
   double value = 0.0;
-  if (!node.IsScalar() || !YAML::convert<double>::decode(node, value) || !std::isfinite(value))
-    refuse("RULE-ROW", what + " is not a finite number", node);
+  if (!YAML::convert<double>::decode(YAML::Node(text), value) || !std::isfinite(value)) return std::nullopt;
   return value;
 }
 
-Side interval(const YAML::Node& node, const FactType& type) {
+double number_of(const DataNode& node, const std::string& what) {
+  const auto value = is_scalar(node) ? number_in(node.text) : std::nullopt;
+  if (!value) refuse("RULE-ROW", what + " is not a finite number", node);
+  return *value;
+}
+
+Side interval(const DataNode& node, const FactType& type) {
   const std::string name(type.name);
-  if (!node.IsMap()) refuse("RULE-ROW", name + " needs {from: , below: } or {from: , to: }", node);
+  if (!is_map(node)) refuse("RULE-ROW", name + " needs {from: , below: } or {from: , to: }", node);
   Side side{type.from, type.below, 0, false};
-  for (const auto& item : node) {
-    const std::string key = item.first.as<std::string>();
-    const double value = number_of(item.second, name + "." + key);
+  for (const auto& [key, bound] : node.entries) {
+    const double value = number_of(bound, name + "." + key);
     const bool integer = type.kind == FactKind::kInteger;
     if (integer && value != std::floor(value)) refuse("RULE-ROW", name + "." + key + " is not whole", node);
     if (key == "from") {
@@ -65,12 +83,11 @@ Side interval(const YAML::Node& node, const FactType& type) {
   return side;
 }
 
-Side symbol_set(const YAML::Node& node, const FactType& type) {
-  if (!node.IsSequence() || node.size() == 0)
-    refuse("RULE-ROW", std::string(type.name) + " needs a list of symbols", node);
+Side symbol_set(const DataNode& node, const FactType& type) {
+  if (!is_filled_list(node)) refuse("RULE-ROW", std::string(type.name) + " needs a list of symbols", node);
   Side side{0.0, 0.0, 0, true};
-  for (const auto& item : node) {
-    const std::string symbol = item.IsScalar() ? item.Scalar() : std::string();
+  for (const DataNode& item : node.items) {
+    const std::string& symbol = item.text;
     const auto it = std::find(type.symbols.begin(), type.symbols.end(), symbol);
     if (it == type.symbols.end())
       refuse("RULE-ROW", std::string(type.name) + " has no symbol '" + symbol + "'", node);
@@ -79,20 +96,19 @@ Side symbol_set(const YAML::Node& node, const FactType& type) {
   return side;
 }
 
-void read_conditions(const YAML::Node& node, const Table& table, Row& row) {
+void read_conditions(const DataNode* node, const Table& table, Row& row) {
   for (const std::size_t fact : table.facts) row.when.push_back(domain_of(fact_types()[fact]));
-  if (!node) return;
-  if (!node.IsMap()) refuse("RULE-ROW", "when is not a map of facts", node);
-  for (const auto& item : node) {
-    const std::string name = item.first.as<std::string>();
+  if (node == nullptr) return;
+  if (!is_map(*node)) refuse("RULE-ROW", "when is not a map of facts", *node);
+  for (const auto& [name, condition] : node->entries) {
     const auto fact = find_fact(name);
-    if (!fact) refuse("RULE-FACT", "there is no fact named " + name, node);
+    if (!fact) refuse("RULE-FACT", "there is no fact named " + name, *node);
     const auto at = std::find(table.facts.begin(), table.facts.end(), *fact);
     if (at == table.facts.end())
-      refuse("RULE-FACT", "table " + table.name + " does not ask about " + name, node);
+      refuse("RULE-FACT", "table " + table.name + " does not ask about " + name, *node);
     const FactType& type = fact_types()[*fact];
     row.when[static_cast<std::size_t>(at - table.facts.begin())] =
-        type.kind == FactKind::kSymbol ? symbol_set(item.second, type) : interval(item.second, type);
+        type.kind == FactKind::kSymbol ? symbol_set(condition, type) : interval(condition, type);
     row.conditional = true;
   }
 }
@@ -102,7 +118,7 @@ constexpr std::size_t kMostChains = 64;
 
 /// No parameter of a step and no value of a table means anything below zero; what is a part of a size is no
 /// more than all of it.
-void check_range(const std::string& key, double value, const YAML::Node& at) {
+void check_range(const std::string& key, double value, const DataNode& at) {
   if (value < 0.0) refuse("RULE-ROW", key + " is " + trimmed(value, 3) + ", below zero", at);
   const bool part = key.starts_with("of_") && key != "of_thickness";
   if (part && !(value > 0.0 && value <= 1.0))
@@ -110,16 +126,14 @@ void check_range(const std::string& key, double value, const YAML::Node& at) {
            at);
 }
 
-StepSpec read_step(const YAML::Node& node) {
+StepSpec read_step(const DataNode& node) {
   StepSpec step;
-  if (node.IsScalar()) {
-    step.action = node.Scalar();
-  } else if (node.IsMap()) {
-    step.action = text_of(node["do"], "do", node);
-    for (const auto& item : node) {
-      const std::string key = item.first.as<std::string>();
-      if (key != "do") step.parameters.emplace_back(key, number_of(item.second, key));
-    }
+  if (is_scalar(node)) {
+    step.action = node.text;
+  } else if (is_map(node)) {
+    step.action = text_of(node, "do");
+    for (const auto& [key, value] : node.entries)
+      if (key != "do") step.parameters.emplace_back(key, number_of(value, key));
   } else {
     refuse("RULE-ROW", "a step is an action's name or a map with `do`", node);
   }
@@ -134,96 +148,108 @@ StepSpec read_step(const YAML::Node& node) {
   return step;
 }
 
-void read_conclusion(const YAML::Node& node, Row& row) {
-  const int given = (node["chains"] ? 1 : 0) + (node["cannot"] ? 1 : 0) + (node["values"] ? 1 : 0);
-  if (given != 1) refuse("RULE-ROW", "a row has exactly one of chains, cannot and values", node);
-  if (const YAML::Node chains = node["chains"]) {
-    if (!chains.IsSequence() || chains.size() == 0)
-      refuse("RULE-ROW", "chains is not a list of chains", chains);
-    if (chains.size() > kMostChains)
+void read_chains(const DataNode& chains, Row& row) {
+  if (!is_filled_list(chains)) refuse("RULE-ROW", "chains is not a list of chains", chains);
+  if (chains.items.size() > kMostChains)
+    refuse("RULE-ROW",
+           std::to_string(chains.items.size()) + " chains; a row has at most " + std::to_string(kMostChains),
+           chains);
+  for (const DataNode& chain : chains.items) {
+    if (!is_filled_list(chain)) refuse("RULE-ROW", "a chain is not a list of steps", chain);
+    if (chain.items.size() > kLongestChain)
       refuse("RULE-ROW",
-             std::to_string(chains.size()) + " chains; a row has at most " + std::to_string(kMostChains),
-             chains);
-    for (const auto& chain : chains) {
-      if (!chain.IsSequence() || chain.size() == 0)
-        refuse("RULE-ROW", "a chain is not a list of steps", chain);
-      if (chain.size() > kLongestChain)
-        refuse("RULE-ROW",
-               "a chain of " + std::to_string(chain.size()) + " steps; it has at most " +
-                   std::to_string(kLongestChain),
-               chain);
-      row.chains.emplace_back();
-      for (const auto& step : chain) row.chains.back().push_back(read_step(step));
-    }
-  } else if (node["cannot"]) {
-    row.cannot = text_of(node["cannot"], "cannot", node);
-    if (row.cannot.empty()) refuse("RULE-ROW", "cannot gives no reason", node);
-  } else {
-    if (!node["values"].IsMap()) refuse("RULE-ROW", "values is not a map", node);
-    static const std::vector<std::string> kValues{"as_grade", "machined",        "probe",    "flood",
-                                                  "peck",     "coolant_through", "under_mm", "none"};
-    for (const auto& item : node["values"]) {
-      const std::string key = item.first.as<std::string>();
-      if (std::find(kValues.begin(), kValues.end(), key) == kValues.end())
-        refuse("RULE-ROW", "no table asks for a value named " + key, node);
-    }
-    for (const auto& item : node["values"]) {
-      const std::string key = item.first.as<std::string>();
-      row.values.emplace_back(key, number_of(item.second, key));
-      check_range(key, row.values.back().second, item.second);
-    }
-    std::sort(row.values.begin(), row.values.end());
+             "a chain of " + std::to_string(chain.items.size()) + " steps; it has at most " +
+                 std::to_string(kLongestChain),
+             chain);
+    row.chains.emplace_back();
+    for (const DataNode& step : chain.items) row.chains.back().push_back(read_step(step));
   }
 }
 
-Row read_row(const YAML::Node& node, const Table& table, const std::string& file) {
-  if (!node.IsMap()) refuse("RULE-ROW", "a row is not a map", node);
+void read_values(const DataNode& values, Row& row) {
+  if (!is_map(values)) refuse("RULE-ROW", "values is not a map", values);
+  static const std::vector<std::string> kValues{"as_grade", "machined",        "probe",    "flood",
+                                                "peck",     "coolant_through", "under_mm", "none"};
+  for (const auto& [key, value] : values.entries) {
+    if (std::find(kValues.begin(), kValues.end(), key) == kValues.end())
+      refuse("RULE-ROW", "no table asks for a value named " + key, values);
+  }
+  for (const auto& [key, value] : values.entries) {
+    row.values.emplace_back(key, number_of(value, key));
+    check_range(key, row.values.back().second, value);
+  }
+  std::sort(row.values.begin(), row.values.end());
+}
+
+void read_conclusion(const DataNode& node, Row& row) {
+  const DataNode* chains = node.find("chains");
+  const DataNode* cannot = node.find("cannot");
+  const DataNode* values = node.find("values");
+  if ((chains != nullptr ? 1 : 0) + (cannot != nullptr ? 1 : 0) + (values != nullptr ? 1 : 0) != 1)
+    refuse("RULE-ROW", "a row has exactly one of chains, cannot and values", node);
+  if (chains != nullptr) {
+    read_chains(*chains, row);
+  } else if (cannot != nullptr) {
+    row.cannot = text_of(node, "cannot");
+    if (row.cannot.empty()) refuse("RULE-ROW", "cannot gives no reason", node);
+  } else {
+    read_values(*values, row);
+  }
+}
+
+/// Refuses a key that is none of `known`.
+void check_keys(const DataNode& node, const std::vector<std::string>& known, const char* what) {
+  for (const auto& [key, value] : node.entries)
+    if (std::find(known.begin(), known.end(), key) == known.end())
+      refuse("RULE-ROW", std::string(what) + " has no " + key, node);
+}
+
+Row read_row(const DataNode& node, const Table& table, const std::string& file) {
+  if (!is_map(node)) refuse("RULE-ROW", "a row is not a map", node);
   static const std::vector<std::string> kKnown{"id",     "priority", "when", "chains",
                                                "cannot", "values",   "text", "source"};
-  for (const auto& item : node) {
-    const std::string key = item.first.as<std::string>();
-    if (std::find(kKnown.begin(), kKnown.end(), key) == kKnown.end())
-      refuse("RULE-ROW", "a row has no " + key, node);
-  }
+  check_keys(node, kKnown, "a row");
   Row row;
-  row.id = text_of(node["id"], "id", node);
-  row.source = text_of(node["source"], "source", node);
+  row.id = text_of(node, "id");
+  row.source = text_of(node, "source");
   if (row.id.empty() || row.source.empty()) refuse("RULE-ROW", "id and source must not be empty", node);
-  if (node["text"]) row.text = text_of(node["text"], "text", node);
-  if (node["priority"]) {
-    const double p = number_of(node["priority"], "priority");
+  if (node.find("text") != nullptr) row.text = text_of(node, "text");
+  if (const DataNode* priority = node.find("priority")) {
+    const double p = number_of(*priority, "priority");
     if (p != std::floor(p) || std::abs(p) > 1e6) refuse("RULE-ROW", "priority is not a whole number", node);
     row.priority = static_cast<int>(p);
   }
   row.file = file;
-  row.line = static_cast<std::uint64_t>(node.Mark().line + 1);
-  read_conditions(node["when"], table, row);
+  row.line = node.line;
+  read_conditions(node.find("when"), table, row);
   read_conclusion(node, row);
   return row;
 }
 
-Table& open_table(RuleBase& base, const YAML::Node& root, const std::string& file, bool shipped) {
-  const std::string name = text_of(root["table"], "table", root);
+Table& open_table(RuleBase& base, const DataNode& root, const std::string& file, bool shipped) {
+  const std::string name = text_of(root, "table");
   const auto it =
       std::find_if(base.tables.begin(), base.tables.end(), [&](const Table& t) { return t.name == name; });
   if (it != base.tables.end()) {
-    if (root["facts"] && shipped) refuse("RULE-TABLE", "table " + name + " is defined twice", root);
+    if (root.find("facts") != nullptr && shipped)
+      refuse("RULE-TABLE", "table " + name + " is defined twice", root);
     return *it;
   }
   if (!shipped) refuse("RULE-TABLE", "there is no table named " + name, root);
   Table table{name, {}, {}, file};
-  if (!root["facts"] || !root["facts"].IsSequence())
+  const DataNode* facts = root.find("facts");
+  if (facts == nullptr || facts->kind != DataNode::Kind::kList)
     refuse("RULE-TABLE", "table " + name + " names no facts", root);
-  for (const auto& item : root["facts"]) {
-    const auto fact = find_fact(item.as<std::string>());
-    if (!fact) refuse("RULE-FACT", "there is no fact named " + item.as<std::string>(), root["facts"]);
+  for (const DataNode& item : facts->items) {
+    const auto fact = find_fact(item.text);
+    if (!fact) refuse("RULE-FACT", "there is no fact named " + item.text, *facts);
     table.facts.push_back(*fact);
   }
   base.tables.push_back(std::move(table));
   return base.tables.back();
 }
 
-void add_row(Table& table, Row row, const std::vector<std::string>& of_this_file, const YAML::Node& at) {
+void add_row(Table& table, Row row, const std::vector<std::string>& of_this_file, const DataNode& at) {
   if (std::find(of_this_file.begin(), of_this_file.end(), row.id) != of_this_file.end())
     refuse("RULE-ROW", "the id " + row.id + " stands twice", at);
   const auto same =
@@ -235,21 +261,19 @@ void add_row(Table& table, Row row, const std::vector<std::string>& of_this_file
   }
 }
 
-void read_capabilities(const YAML::Node& node, RuleBase& base) {
-  for (const auto& item : node) {
+void read_capabilities(const DataNode& node, RuleBase& base) {
+  if (is_map(node)) refuse("RULE-ROW", "capabilities is not a list", node);
+  for (const DataNode& item : node.items) {
     Capability c;
-    c.action = text_of(item["action"], "action", item);
+    c.action = text_of(item, "action");
     if (find_action(c.action) == nullptr) refuse("RULE-ROW", "there is no action named " + c.action, item);
     static const std::vector<std::string> kKnown{"action",      "finest_grade", "finest_ra_um",
                                                  "position_mm", "form_mm",      "source"};
-    for (const auto& field : item) {
-      const std::string key = field.first.as<std::string>();
-      if (std::find(kKnown.begin(), kKnown.end(), key) == kKnown.end())
-        refuse("RULE-ROW", "a capability has no " + key, item);
-    }
+    check_keys(item, kKnown, "a capability");
     const auto claimed = [&item](const char* key) -> std::optional<double> {
-      if (!item[key]) return std::nullopt;
-      const double value = number_of(item[key], key);
+      const DataNode* given = item.find(key);
+      if (given == nullptr) return std::nullopt;
+      const double value = number_of(*given, key);
       if (value < 0.0) refuse("RULE-ROW", std::string(key) + " is negative", item);
       return value;
     };
@@ -261,7 +285,7 @@ void read_capabilities(const YAML::Node& node, RuleBase& base) {
     c.finest_ra_um = claimed("finest_ra_um");
     c.position_mm = claimed("position_mm");
     c.form_mm = claimed("form_mm");
-    c.source = text_of(item["source"], "source", item);
+    c.source = text_of(item, "source");
     const auto it = std::find_if(base.capabilities.begin(), base.capabilities.end(),
                                  [&](const Capability& k) { return k.action == c.action; });
     if (it != base.capabilities.end()) {
@@ -272,18 +296,19 @@ void read_capabilities(const YAML::Node& node, RuleBase& base) {
   }
 }
 
-void add_document(RuleBase& base, const YAML::Node& root, const std::string& file, bool shipped) {
-  if (!root.IsMap()) refuse("RULE-SYNTAX", "the file is not a map", root);
-  if (root["capabilities"]) read_capabilities(root["capabilities"], base);
-  if (!root["table"]) {
-    if (!root["capabilities"]) refuse("RULE-SYNTAX", "the file has neither table nor capabilities", root);
+void add_document(RuleBase& base, const DataNode& root, const std::string& file, bool shipped) {
+  if (!is_map(root)) refuse("RULE-SYNTAX", "the file is not a map", root);
+  const DataNode* capabilities = root.find("capabilities");
+  if (capabilities != nullptr) read_capabilities(*capabilities, base);
+  if (root.find("table") == nullptr) {
+    if (capabilities == nullptr) refuse("RULE-SYNTAX", "the file has neither table nor capabilities", root);
     return;
   }
   Table& table = open_table(base, root, file, shipped);
-  const YAML::Node rows = root["rows"];
-  if (!rows || !rows.IsSequence()) refuse("RULE-ROW", "rows is not a list", root);
+  const DataNode* rows = root.find("rows");
+  if (rows == nullptr || rows->kind != DataNode::Kind::kList) refuse("RULE-ROW", "rows is not a list", root);
   std::vector<std::string> ids;
-  for (const auto& node : rows) {
+  for (const DataNode& node : rows->items) {
     Row row = read_row(node, table, file);
     const std::string id = row.id;
     add_row(table, std::move(row), ids, node);
@@ -291,28 +316,72 @@ void add_document(RuleBase& base, const YAML::Node& root, const std::string& fil
   }
 }
 
-Status add_text(RuleBase& base, const std::string& name, const std::string& text, bool shipped) {
+/// A document as yaml-cpp reads it: aliases stand for what they name. So it can be larger than its text, or
+/// hold itself, and is read within bounds.
+DataNode tree_of(const YAML::Node& node, int depth, std::size_t& values) {
+  constexpr int kDeepest = 64;
+  constexpr std::size_t kMostValues = std::size_t{1} << 20;
+  DataNode out{.line = static_cast<std::uint64_t>(node.Mark().line + 1)};
+  if (depth > kDeepest) refuse("RULE-SYNTAX", "nested deeper than " + std::to_string(kDeepest), out);
+  if (++values > kMostValues)
+    refuse("RULE-SYNTAX", "more than " + std::to_string(kMostValues) + " values", out);
+  if (node.IsScalar()) {
+    out.kind = DataNode::Kind::kScalar;
+    out.text = node.Scalar();
+  } else if (node.IsSequence()) {
+    out.kind = DataNode::Kind::kList;
+    for (const auto& item : node) out.items.push_back(tree_of(item, depth + 1, values));
+  } else if (node.IsMap()) {
+    out.kind = DataNode::Kind::kMap;
+    for (const auto& item : node)
+      out.entries.emplace_back(item.first.as<std::string>(), tree_of(item.second, depth + 1, values));
+  }
+  return out;
+}
+
+/// Adds what `documents` gives, and returns the fault that ended it.
+template <class Documents>
+Status add_documents(RuleBase& base, const std::string& name, bool shipped, Documents documents) {
   Diagnostic d;
   d.file = name;
-  if (const std::uint64_t line = stray_sign(text); line != 0)
-    return fail({.code = "RULE-SYNTAX",
-                 .message = "what stands here belongs to no value",
-                 .file = name,
-                 .line = line,
-                 .expected = "a map of table, facts and rows, or of capabilities"});
   try {
-    for (const YAML::Node& root : YAML::LoadAll(text)) add_document(base, root, name, shipped);
+    documents([&](const DataNode& root) { add_document(base, root, name, shipped); });
     return {};
   } catch (const Fault& f) {
     d.code = f.code;
     d.message = f.message;
-    d.line = static_cast<std::uint64_t>(f.mark.line + 1);
+    d.line = f.line;
   } catch (const YAML::Exception& e) {
     d.code = "RULE-SYNTAX";
     d.message = e.msg;
     d.line = static_cast<std::uint64_t>(e.mark.line + 1);
   }
   return fail(std::move(d));
+}
+
+Status add_text(RuleBase& base, const std::string& name, const std::string& text, bool shipped) {
+  if (const std::uint64_t line = stray_sign(text); line != 0)
+    return fail({.code = "RULE-SYNTAX",
+                 .message = "what stands here belongs to no value",
+                 .file = name,
+                 .line = line,
+                 .expected = "a map of table, facts and rows, or of capabilities"});
+  return add_documents(base, name, shipped, [&text](const auto& add) {
+    std::size_t values = 0;
+    for (const YAML::Node& root : YAML::LoadAll(text)) add(tree_of(root, 0, values));
+  });
+}
+
+/// What is compiled in, without parsing.
+Result<RuleBase> shipped_rules() {
+  RuleBase base;
+  for (const std::string_view name : embedded_names()) {
+    auto added = add_documents(base, std::string(name), true, [&](const auto& add) {
+      for (const DataNode& root : unpack(embedded_tree(name))) add(root);
+    });
+    if (!added) return fail(added.error());
+  }
+  return base;
 }
 
 void sort_all(RuleBase& base) {
@@ -356,8 +425,10 @@ Result<RuleBase> rules_from_texts(const std::vector<std::pair<std::string, std::
 }
 
 Result<RuleBase> load_rules(const std::string& extra_directory, Job& job) {
-  auto base = rules_from_texts(shipped_texts());
-  if (!base || extra_directory.empty()) return base;
+  auto base = shipped_rules();
+  if (!base) return base;
+  sort_all(*base);
+  if (extra_directory.empty()) return base;
   const auto files = yaml_files(extra_directory);
   if (!files) return fail(files.error());
   if (files->empty())

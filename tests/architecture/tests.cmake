@@ -22,3 +22,7 @@ capstan_python_test(BuildRunsOnEveryProcessor portable.py ${CMAKE_SOURCE_DIR} ${
 capstan_python_test(PlantedProcessorOptionsAreNamed portable_test.py)
 capstan_python_test(KernelsCompileForArm64 portable.py --arm64 ${CMAKE_SOURCE_DIR})
 set_tests_properties(Architecture.KernelsCompileForArm64 PROPERTIES SKIP_RETURN_CODE 77)
+if(CMAKE_GENERATOR STREQUAL "Ninja")
+  capstan_python_test(CompiledInDataFollowTheFiles packed_data_test.py
+    $<TARGET_FILE:capstan_pack_trees> ${CMAKE_SOURCE_DIR} ${CMAKE_BINARY_DIR})
+endif()

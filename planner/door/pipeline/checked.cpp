@@ -11,6 +11,7 @@
 
 #include "planner/ground/base/number.h"
 #include "planner/model/plan/decision/condemned.h"
+#include "planner/model/plan/order/step_ids.h"
 #include "planner/proof/verify/verify.h"
 
 // Plans, checks, and plans again what the check condemns. The check is independent: it gets no information
@@ -59,7 +60,8 @@ std::string heaviest(const model::Plan& plan, const Finding& f) {
 std::vector<Offence> offences_of(const model::Plan& plan, const std::vector<Finding>& findings,
                                  const Tries& tries) {
   std::map<std::string, AnyRef> step_of;
-  for (const auto& s : plan.steps) step_of.emplace(model::step_id(plan, s), s.step);
+  const std::vector<std::string> ids = model::step_ids(plan);
+  for (std::size_t i = 0; i < ids.size(); ++i) step_of.emplace(ids[i], plan.steps[i].step);
   std::vector<Offence> out;
   std::set<AnyRef> seen;
   for (const Finding& f : findings) {

@@ -11,14 +11,13 @@
 namespace capstan::pipeline {
 namespace {
 
-/// The cutters that may be used: the library, or what of it is loaded.
-std::vector<model::Cutter> usable(const Asked& asked) {
+/// The cutters that may be used: the library, or what of it is loaded, which `loaded` keeps.
+const std::vector<model::Cutter>& usable(const Asked& asked, std::vector<model::Cutter>& loaded) {
   if (!asked.policy.only_loaded_cutters) return asked.inputs.library;
-  std::vector<model::Cutter> out;
   for (const auto& c : asked.inputs.library) {
-    if (c.loaded) out.push_back(c);
+    if (c.loaded) loaded.push_back(c);
   }
-  return out;
+  return loaded;
 }
 
 }  // namespace
@@ -62,7 +61,8 @@ Result<Required> take_requirements(model::Plan& plan, const Asked& asked, Job& j
 
 std::pair<Drafts, Learned> propose_missing(model::Plan& plan, Drafts drafts, const Required& required,
                                            const Asked& asked, Job& job) {
-  const std::vector<model::Cutter> cutters = usable(asked);
+  std::vector<model::Cutter> loaded;
+  const std::vector<model::Cutter>& cutters = usable(asked, loaded);
   const optimise::Options options = options_of(asked.inputs);
   const piece::Piece piece{plan, required.shapes, grown_mm(asked.inputs)};
   const propose::Choice choice{
@@ -78,7 +78,8 @@ std::pair<Drafts, Learned> propose_missing(model::Plan& plan, Drafts drafts, con
 
 Drafts select_open_tools(model::Plan& plan, Drafts drafts, const Required& required, const Asked& asked,
                          Job& job) {
-  const std::vector<model::Cutter> cutters = usable(asked);
+  std::vector<model::Cutter> loaded;
+  const std::vector<model::Cutter>& cutters = usable(asked, loaded);
   const std::vector<model::Cutter>& library = asked.inputs.library;
   const piece::Piece piece{plan, required.shapes, grown_mm(asked.inputs)};
   const given::Choice choice{library, cutters,          asked.inputs.rules,

@@ -227,7 +227,7 @@ bool same_chosen(const model::Cutter& a, const model::Cutter& b, bool recorded) 
 /// chose or the library has, then the smaller.
 void tell_apart(const std::vector<StepDraft>& steps, const std::vector<model::Cutter>& library,
                 const std::vector<StepDraft*>& given, const std::set<const StepDraft*>& recorded, Job& job) {
-  std::map<std::string, std::vector<model::Cutter>> named;
+  std::map<std::string, std::vector<const model::Cutter*>> named;
   std::set<std::string> taken, known;
   // A head that is set to a size is named with it where a plan sets it to several (choose.cpp): its size says
   // nothing against it.
@@ -238,21 +238,22 @@ void tell_apart(const std::vector<StepDraft>& steps, const std::vector<model::Cu
   };
   for (const model::Cutter& c : library) {
     taken.insert(c.id);
-    if (!only_set(c) && known.insert(c.id).second) named[c.id] = {c};
+    if (!only_set(c) && known.insert(c.id).second) named[c.id] = {&c};
   }
   for (const StepDraft& s : steps) {
     if (s.cutter.id.empty()) continue;
     taken.insert(s.cutter.id);
     if (std::find(given.begin(), given.end(), &s) != given.end()) continue;
-    if (known.insert(s.cutter.id).second) named[s.cutter.id] = {s.cutter};
+    if (known.insert(s.cutter.id).second) named[s.cutter.id] = {&s.cutter};
   }
   const auto find = [&](const StepDraft& s) {
     const auto& all = named[s.cutter.id];
     const auto first = all.begin() + (known.contains(s.cutter.id) ? 1 : 0);
-    if (first != all.begin() && same_chosen(all.front(), s.cutter, recorded.contains(&s)))
+    if (first != all.begin() && same_chosen(*all.front(), s.cutter, recorded.contains(&s)))
       return std::size_t{0};
     return static_cast<std::size_t>(
-        std::find_if(first, all.end(), [&](const auto& o) { return same_given(o, s.cutter); }) - all.begin());
+        std::find_if(first, all.end(), [&](const auto* o) { return same_given(*o, s.cutter); }) -
+        all.begin());
   };
   std::vector<const StepDraft*> sorted(given.begin(), given.end());
   const auto size = [](const StepDraft* s) {
@@ -264,7 +265,7 @@ void tell_apart(const std::vector<StepDraft>& steps, const std::vector<model::Cu
   std::stable_sort(sorted.begin(), sorted.end(),
                    [&](const StepDraft* a, const StepDraft* b) { return size(a) < size(b); });
   for (const StepDraft* s : sorted) {
-    if (find(*s) == named[s->cutter.id].size()) named[s->cutter.id].push_back(s->cutter);
+    if (find(*s) == named[s->cutter.id].size()) named[s->cutter.id].push_back(&s->cutter);
   }
   std::map<std::string, std::vector<std::string>> names;
   for (const auto& [name, all] : named) {
@@ -275,12 +276,15 @@ void tell_apart(const std::vector<StepDraft>& steps, const std::vector<model::Cu
     }
     if (!known.contains(name)) continue;
     for (std::size_t i = 1; i < own.size(); ++i) {
-      job.note("PIP-TOOL-NAME", "the file's tool '" + name + "' (" + words(all[i]) +
+      job.note("PIP-TOOL-NAME", "the file's tool '" + name + "' (" + words(*all[i]) +
                                     ") is another than the one of that name that planning has (" +
-                                    words(all.front()) + "): it is '" + own[i] + "' in the plan");
+                                    words(*all.front()) + "): it is '" + own[i] + "' in the plan");
     }
   }
-  for (StepDraft* s : given) s->cutter.id = names[s->cutter.id][find(*s)];
+  // What a name stands for is among these cutters, so that all are told apart before one is renamed.
+  std::vector<std::string> own;
+  for (const StepDraft* s : given) own.push_back(names[s->cutter.id][find(*s)]);
+  for (std::size_t i = 0; i < given.size(); ++i) given[i]->cutter.id = std::move(own[i]);
 }
 
 /// Takes the cutter that the plan recorded if planning chose it before: nouns hold fewer values. If the nouns

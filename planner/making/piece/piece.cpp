@@ -107,16 +107,10 @@ Shapes shapes_of_all(const model::Plan& plan, double grown_mm, const draft::Bans
   take_whole();  // stop_at_walls needs these
   for (FeatureShape& s : out.all) stop_at_walls({plan, out, grown_mm}, s);
   take_whole();
-  for (const FeatureShape& s : out.all) out.around.push_back(around(s));
-  out.twins = twins_of(out.whole, job);
+  out.near_all = Neighbours(out.all);
+  out.near_whole = Neighbours(out.whole);
+  out.twins = twins_of(out.whole, out.near_whole, job);
   return out;
-}
-
-Around around(const FeatureShape& s) {
-  if (s.area.empty()) return {s.frame.origin, 0.0};
-  const geometry::Box2 box = geometry::bounds(s.area);
-  const geometry::Vec2 middle = 0.5 * (box.lo + box.hi);
-  return {s.frame.to_parent({middle.x, middle.y, 0.0}), norm(box.hi - middle)};
 }
 
 bool alike(const FeatureShape& a, const FeatureShape& b) {

@@ -8,6 +8,7 @@
 #include "planner/ground/base/job.h"
 #include "planner/ground/base/result.h"
 #include "planner/making/draft/bans.h"
+#include "planner/making/piece/neighbours.h"
 #include "planner/model/features/shape.h"
 #include "planner/model/plan/plan.h"
 
@@ -19,17 +20,10 @@ using model::Ref;
 /// A shape as it is drawn: its feature, and its number among those of a pattern or compound.
 using Drawn = std::pair<AnyRef, int>;
 
-/// A ball around a shape's area at its top: a quick answer to whether two are far apart.
-struct Around {
-  geometry::Vec3 centre;
-  double radius_mm = 0.0;
-};
-[[nodiscard]] Around around(const model::FeatureShape& shape);
-
 /// The shapes of all features, workpiece coordinates.
 struct Shapes {
   std::vector<model::FeatureShape> all;
-  std::vector<Around> around;  ///< of each of `all`; empty: not known
+  Neighbours near_all, near_whole;          ///< of `all` and of `whole`; of another size: not known
   std::vector<model::FeatureShape> whole;   ///< each once: elements and bosses count with what holds them
   std::vector<model::FeatureShape> faces;   ///< planar faces that are made: cut before the rest
   std::set<std::pair<Drawn, Drawn>> twins;  ///< shapes that are one removal, drawn twice; both ways

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "planner/ground/base/number.h"
-#include "planner/making/piece/surface_form.h"
+#include "planner/making/piece/mesh/surface_form.h"
 #include "planner/model/features/in_piece.h"
 #include "planner/model/nouns/feature.h"
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "planner/ground/base/number.h"
 #include "planner/ground/geometry/moved.h"
@@ -14,13 +15,13 @@ namespace {
 
 using geometry::Box2;
 using geometry::Loop;
+using geometry::Region;
 using geometry::Vec2;
 using model::FeatureShape;
 using model::Model;
 using model::ShapeKind;
 
 constexpr double kSame = 1e-6;                 // mm, and of directions
-constexpr std::size_t kMostShapes = 2000;      // beyond, thicknesses are left unknown: pairs are compared
 constexpr std::size_t kMostPoints = 400;       // of an outline that distances are measured from
 constexpr std::size_t kMostMeasured = 200000;  // points against segments, of one pair of outlines
 
@@ -109,30 +110,17 @@ void to_raw_sides(const FeatureShape& s, const geometry::Box3& raw, std::optiona
   }
 }
 
-}  // namespace
-
-Thickness thickness_beside(const Piece& piece, const FeatureShape& s) {
+/// What the shapes of these numbers leave beside and below `s`.
+Thickness thickness_among(const Piece& piece, const FeatureShape& s, const Region& own,
+                          const std::vector<std::size_t>& others) {
   Thickness out;
-  if (s.area.empty() || piece.shapes.all.size() > kMostShapes || s.kind == ShapeKind::kFreeform) return out;
   const auto to = inverse(s.frame);
   const geometry::Box3 raw = transformed(piece.plan.stock.box, to);
-  const geometry::Region own = taken(s);
   const Box2 box = geometry::bounds(own);
   if (model::has(s.kind, model::ShapeTrait::kWalled)) to_raw_sides(s, raw, out.wall_mm);
   double below = s.through ? 0.0 : -s.depth_mm - raw.lo.z;
-  const Around here = around(s);
-  const bool known = piece.shapes.around.size() == piece.shapes.all.size();
-  for (std::size_t i = 0; i < piece.shapes.all.size(); ++i) {
+  for (const std::size_t i : others) {
     const FeatureShape& other = piece.shapes.all[i];
-    if (known && out.wall_mm) {
-      // What lies farther aside than the thinnest wall so far is neither beside nor under.
-      const Around& there = piece.shapes.around[i];
-      const geometry::Vec3 way = there.centre - here.centre;
-      const double along = dot(way, s.frame.z);
-      const double apart =
-          std::sqrt(std::max(0.0, dot(way, way) - along * along)) - there.radius_mm - here.radius_mm;
-      if (apart > kSame && apart - kSame >= *out.wall_mm) continue;
-    }
     if (other.feature == s.feature && other.member == s.member) continue;
     if (other.area.empty() || std::abs(std::abs(dot(other.frame.z, s.frame.z)) - 1.0) > kSame) continue;
     const Seen seen = see(other, to);
@@ -153,15 +141,56 @@ Thickness thickness_beside(const Piece& piece, const FeatureShape& s) {
   return out;
 }
 
+bool is_wide(const FeatureShape& s) { return s.kind == ShapeKind::kFace || s.kind == ShapeKind::kOutside; }
+
+std::vector<std::size_t> all_of(const Shapes& shapes) {
+  std::vector<std::size_t> out(shapes.all.size());
+  std::iota(out.begin(), out.end(), std::size_t{0});
+  return out;
+}
+
+/// Those that lie no farther than `far` from the axis of `s`, and all that may be open all round. Rising.
+std::vector<std::size_t> mouths_about(const Shapes& shapes, const FeatureShape& s, double far) {
+  if (shapes.near_all.size() != shapes.all.size()) return all_of(shapes);
+  std::vector<std::size_t> out = shapes.near_all.near({s.frame.origin, 0.0}, s.frame.z, far);
+  const auto near = static_cast<std::ptrdiff_t>(out.size());
+  for (std::size_t i = 0; i < shapes.all.size(); ++i)
+    if (is_wide(shapes.all[i])) out.push_back(i);
+  std::inplace_merge(out.begin(), out.begin() + near, out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
+}
+
+}  // namespace
+
+Thickness thickness_beside(const Piece& piece, const FeatureShape& s) {
+  if (s.area.empty() || s.kind == ShapeKind::kFreeform) return {};
+  const Region own = taken(s);
+  const Neighbours& index = piece.shapes.near_all;
+  if (index.size() != piece.shapes.all.size()) return thickness_among(piece, s, own, all_of(piece.shapes));
+  // What lies farther aside than the thinnest wall is neither beside nor under. A wall among the near ones
+  // says how far the others can matter; where there is none, more are near.
+  const Around here = around(s);
+  const double farthest =
+      norm(here.centre - (index.size() > 0 ? index.ball(0).centre : here.centre)) + index.span_mm();
+  for (double reach = index.spacing_mm();;) {
+    const Thickness out = thickness_among(piece, s, own, index.near(here, s.frame.z, reach));
+    if ((out.wall_mm && *out.wall_mm <= reach) || reach >= farthest) return out;
+    constexpr double kWider = 4.0;
+    reach = out.wall_mm ? *out.wall_mm : kWider * reach;
+  }
+}
+
 std::optional<double> clear_beside(const Piece& piece, const FeatureShape& s) {
   constexpr double kFarMm = 50.0;     // no spot drill is as wide as this from its axis
   constexpr double kAwayMm = 1000.0;  // where a face has no walls
-  if (s.kind != ShapeKind::kHole || piece.shapes.all.size() > kMostShapes) return std::nullopt;
+  if (s.kind != ShapeKind::kHole) return std::nullopt;
   const auto to = inverse(s.frame);
   geometry::Region free;
-  for (const FeatureShape& other : piece.shapes.all) {
+  for (const std::size_t i : mouths_about(piece.shapes, s, kFarMm)) {
+    const FeatureShape& other = piece.shapes.all[i];
     if (other.area.empty() || dot(other.frame.z, s.frame.z) < 1.0 - kSame) continue;
-    const bool wide = other.kind == ShapeKind::kFace || other.kind == ShapeKind::kOutside;
+    const bool wide = is_wide(other);
     const bool walled = other.kind == ShapeKind::kStep || model::has(other.kind, model::ShapeTrait::kWalled);
     if (!wide && !walled) continue;
     if (other.kind == ShapeKind::kHole && other.diameter.nominal_mm <= s.diameter.nominal_mm) continue;
@@ -186,7 +215,7 @@ std::optional<double> clear_beside(const Piece& piece, const FeatureShape& s) {
 /// How far the walls are apart at which a step ends on both sides; 0: it runs out on one.
 double between_ends(const Piece& piece, const FeatureShape& s) {
   constexpr double kBeyond = 0.5;  // mm
-  if (s.kind != ShapeKind::kStep || s.spine.size() < 2 || piece.shapes.all.size() > kMostShapes) return 0.0;
+  if (s.kind != ShapeKind::kStep || s.spine.size() < 2) return 0.0;
   const double length = norm(s.spine.back() - s.spine.front());
   if (length < kSame) return 0.0;
   const Vec2 d = (kBeyond / length) * (s.spine.back() - s.spine.front());
@@ -200,7 +229,7 @@ double between_ends(const Piece& piece, const FeatureShape& s) {
 
 std::string crosses_a_wall(const Piece& piece, const FeatureShape& face) {
   constexpr double kSomeArea = 1.0;  // mm2: less is rounding of outlines
-  if (face.kind != ShapeKind::kFace || piece.shapes.all.size() > kMostShapes) return {};
+  if (face.kind != ShapeKind::kFace) return {};
   const auto to = inverse(face.frame);
   const geometry::Region own = taken(face);
   for (const FeatureShape& other : piece.shapes.all) {

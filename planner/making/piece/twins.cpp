@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -68,6 +69,17 @@ bool within(const FeatureShape& a, const FeatureShape& b) {
   return !mouth;
 }
 
+/// Those of `all` whose areas may reach the place of `s`, seen along its axis; rising. Twins, and what a hole
+/// lies within, are among them: both areas hold the place.
+std::vector<std::size_t> about(const FeatureShape& s, const std::vector<FeatureShape>& all,
+                               const Neighbours& index) {
+  constexpr double kReachMm = 10.0 * kSamePlaceMm;
+  if (index.size() == all.size()) return index.near(around(s), s.frame.z, kReachMm);
+  std::vector<std::size_t> out(all.size());
+  std::iota(out.begin(), out.end(), std::size_t{0});
+  return out;
+}
+
 std::string where(const FeatureShape& s) {
   const auto& p = s.frame.origin;
   return "(" + trimmed(p.x, 3) + ", " + trimmed(p.y, 3) + ", " + trimmed(p.z, 3) + ")";
@@ -84,7 +96,8 @@ bool same_removal(const Shapes& shapes, const FeatureShape& a, const FeatureShap
 }
 
 std::string lies_within_another(const Shapes& shapes, const FeatureShape& s) {
-  for (const FeatureShape& o : shapes.whole) {
+  for (const std::size_t i : about(s, shapes.whole, shapes.near_whole)) {
+    const FeatureShape& o = shapes.whole[i];
     if (!within(s, o) || twins(s, o)) continue;
     const bool of_one = near(s.diameter.nominal_mm, o.diameter.nominal_mm) && near(s.depth_mm, o.depth_mm);
     return of_one ? "'" + o.name + "' is a hole of the same size at the same place, " + where(s) +
@@ -98,11 +111,13 @@ std::string lies_within_another(const Shapes& shapes, const FeatureShape& s) {
   return {};
 }
 
-std::set<std::pair<Drawn, Drawn>> twins_of(const std::vector<FeatureShape>& all, Job& job) {
+std::set<std::pair<Drawn, Drawn>> twins_of(const std::vector<FeatureShape>& all, const Neighbours& index,
+                                           Job& job) {
   std::set<std::pair<Drawn, Drawn>> out;
   for (std::size_t i = 0; i < all.size(); ++i) {
     bool told = false;
-    for (std::size_t k = 0; k < i; ++k) {
+    for (const std::size_t k : about(all[i], all, index)) {
+      if (k >= i) break;
       if (!twins(all[k], all[i])) continue;
       const Drawn first{all[k].feature, all[k].member}, second{all[i].feature, all[i].member};
       out.insert({{first, second}, {second, first}});

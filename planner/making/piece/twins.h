@@ -10,8 +10,9 @@
 namespace capstan::piece {
 
 /// Pairs of features that are the same at the same place, both ways; made once and reported (PIP-TWICE).
+/// `index`: of those shapes.
 [[nodiscard]] std::set<std::pair<Drawn, Drawn>> twins_of(const std::vector<model::FeatureShape>& whole,
-                                                         Job& job);
+                                                         const Neighbours& index, Job& job);
 /// True if the shapes of two features are one removal drawn twice, whatever steps cut them.
 [[nodiscard]] bool same_removal(const Shapes& shapes, const model::FeatureShape& a,
                                 const model::FeatureShape& b);

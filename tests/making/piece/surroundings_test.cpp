@@ -122,30 +122,65 @@ TEST(Face, ThatCrossesABossOfAnotherFeatureIsRefused) {
   EXPECT_EQ(crosses_a_wall(plate.piece, face), "");
 }
 
-TEST(ThicknessProperty, IsTheSameWhetherOrNotItIsKnownWhereShapesAre) {
-  std::mt19937 random(7);
+/// Many shapes from above, below and a side, some leaning by a little, of sizes from a hole to a face over
+/// all.
+void add_many(Plate& p, int count, unsigned seed) {
+  std::mt19937 random(seed);
   const auto between = [&](double lo, double hi) {
     return std::uniform_real_distribution<double>(lo, hi)(random);
   };
-  Plate p;
-  for (int i = 0; i < 60; ++i) {
+  for (int i = 0; i < count; ++i) {
     const bool below = i % 5 == 0;
-    p.add(i % 2 == 0 ? ShapeKind::kPocket : ShapeKind::kHole, {between(5, 95), between(5, 95), below ? -20.0 : 0.0},
-          between(2, 12), between(2, 12), between(2, 14), below);
+    const double large = i % 40 == 7 ? 8.0 : 1.0;
+    p.add(i % 2 == 0 ? ShapeKind::kPocket : ShapeKind::kHole,
+          {between(5, 95), between(5, 95), below ? -20.0 : between(-6, 0)}, large * between(0.5, 6),
+          large * between(0.5, 6), between(0.5, 14), below);
+    FeatureShape& s = p.shapes.all.back();
+    if (s.kind == ShapeKind::kHole) s.diameter.nominal_mm = between(1, 6);
+    const double lean = i % 7 == 3 ? 5e-4 : i % 11 == 4 ? 0.5 : 0.0;
+    s.frame = compose(
+        s.frame,
+        geometry::Placement{
+            {}, {std::cos(lean), 0, std::sin(lean)}, {0, 1, 0}, {-std::sin(lean), 0, std::cos(lean)}});
   }
-  std::vector<Thickness> looked_at_all;
-  for (const FeatureShape& s : p.shapes.all) looked_at_all.push_back(thickness_beside(p.piece, s));
-  for (const FeatureShape& s : p.shapes.all) p.shapes.around.push_back(around(s));
-  int walls = 0, floors = 0;
-  for (std::size_t i = 0; i < p.shapes.all.size(); ++i) {
-    const Thickness t = thickness_beside(p.piece, p.shapes.all[i]);
-    EXPECT_EQ(t.wall_mm, looked_at_all[i].wall_mm) << "shape " << i;
-    EXPECT_EQ(t.floor_mm, looked_at_all[i].floor_mm) << "shape " << i;
-    walls += t.wall_mm.has_value();
-    floors += t.floor_mm.has_value();
+  p.add(ShapeKind::kFace, {50, 50, 0}, 100, 100, 1);
+  p.shapes.all.back().area = p.shapes.all.back().reach = geometry::rectangle({-50, -50}, {50, 50});
+}
+
+TEST(ThicknessProperty, IsThatOfAllPairsWhereNeighboursAreLookedUp) {
+  int walls = 0, floors = 0, clear = 0;
+  for (const int count : {1, 2, 60, 300}) {
+    Plate p;
+    add_many(p, count, static_cast<unsigned>(count));
+    std::vector<Thickness> of_all_pairs;
+    std::vector<std::optional<double>> clear_of_all;
+    for (const FeatureShape& s : p.shapes.all) {
+      of_all_pairs.push_back(thickness_beside(p.piece, s));
+      clear_of_all.push_back(clear_beside(p.piece, s));
+    }
+    p.shapes.near_all = Neighbours(p.shapes.all);
+    for (std::size_t i = 0; i < p.shapes.all.size(); ++i) {
+      const Thickness t = thickness_beside(p.piece, p.shapes.all[i]);
+      EXPECT_EQ(t.wall_mm, of_all_pairs[i].wall_mm) << "shape " << i << " of " << count;
+      EXPECT_EQ(t.floor_mm, of_all_pairs[i].floor_mm) << "shape " << i << " of " << count;
+      EXPECT_EQ(clear_beside(p.piece, p.shapes.all[i]), clear_of_all[i]) << "shape " << i << " of " << count;
+      walls += t.wall_mm.has_value();
+      floors += t.floor_mm.has_value();
+      clear += clear_of_all[i].has_value();
+    }
   }
-  EXPECT_GT(walls, 30);
-  EXPECT_GT(floors, 30);
+  EXPECT_GT(walls, 200);
+  EXPECT_GT(floors, 100);
+  EXPECT_GT(clear, 20);
+}
+
+TEST(Thickness, IsKnownAmongThousandsOfHoles) {
+  Plate p;
+  p.plan.stock.box = {{0, 0, -20}, {1000, 1000, 0}};
+  for (int i = 0; i < 2500; ++i)
+    p.add(ShapeKind::kHole, {10.0 + 20.0 * (i % 50), 10.0 + 20.0 * (i / 50), 0}, 6, 8, 10);
+  p.shapes.near_all = Neighbours(p.shapes.all);
+  EXPECT_DOUBLE_EQ(thickness_beside(p.piece, p.shapes.all[1225]).wall_mm.value_or(0), 12.0) << "20 less 8";
 }
 
 TEST(Around, HoldsTheAreaWhereverItLies) {

@@ -291,17 +291,18 @@ void set_lengths(const Series& s, const Holding& h, Cutter& c, Fields& where, bo
 
 constexpr const char* kSlowestOfGroup = "vc: the slowest shipped material of the group";
 
-void set_presets(const Series& s, const Reader& r, Cutter& c) {
-  const auto it = r.feeds.find(s.feeds);
-  if (it == r.feeds.end()) return;
-  const Feeds& feeds = it->second;
-  const double d = std::min(c.cutting_diameter_mm, feeds.d_cap);
-  c.fz_min_mm = rounded(feeds.least * d, 5);
-  c.fz_max_mm = rounded(feeds.most * d, 5);
-  const bool hss = c.substrate == model::Substrate::kHss;
-  const bool tap = c.cutter_class == CutterClass::kTap;
-  // A tap advances by its pitch in a turn, whatever is cut.
-  if (tap) c.fz_min_mm = c.fz_max_mm = c.thread_pitch_mm / c.teeth;
+/// What the start values of a series have in common, whatever the size.
+struct SeriesPreset {
+  std::string of;  ///< a material's id, or the letter of a group
+  std::string iso_group;
+  double vc_m_min = 0.0;
+  std::string source;
+};
+
+std::vector<SeriesPreset> presets_of(const Series& s, const Reader& r) {
+  std::vector<SeriesPreset> out;
+  if (r.feeds.find(s.feeds) == r.feeds.end()) return out;
+  const bool hss = s.base.substrate == model::Substrate::kHss;
   const auto edge = r.edges.find(s.edge);
   const auto over_bare = [&](const std::string& group) {
     return edge == r.edges.end() ? 1.0 : edge->second.over_bare.at(group);
@@ -315,12 +316,11 @@ void set_presets(const Series& s, const Reader& r, Cutter& c) {
     const double bare = hss ? m.vc_hss_m_min : m.vc_carbide_m_min;
     if (!(bare > 0.0)) continue;  // no tool of this substrate is to cut it
     const double vc = rounded(bare * s.speed_factor * faster, 3);
-    const double fz = tap ? c.fz_min_mm : rounded(feeds.factor.at(m.iso_group) * d, 5);
     std::string times =
         s.speed_factor == 1.0 ? "" : trimmed(s.speed_factor, 3) + " (" + s.factor_source + ") x ";
     if (faster != 1.0) times += by_edge(faster) + " x ";
-    c.presets.push_back(
-        {m.id, vc, fz, "vc: " + times + std::string(kMaterialsSpeed) + "; fz: " + r.feeds_source});
+    out.push_back(
+        {m.id, m.iso_group, vc, "vc: " + times + std::string(kMaterialsSpeed) + "; fz: " + r.feeds_source});
     const auto [at, fresh] = slowest.emplace(m.iso_group, vc);
     if (!fresh) at->second = std::min(at->second, vc);
   }
@@ -328,11 +328,28 @@ void set_presets(const Series& s, const Reader& r, Cutter& c) {
     const std::string group(g.letter);
     const auto vc = slowest.find(group);
     if (vc == slowest.end()) continue;
-    const double fz = tap ? c.fz_min_mm : rounded(feeds.factor.at(group) * d, 5);
     const double faster = over_bare(group);
     const std::string times = faster == 1.0 ? "" : ", " + by_edge(faster);
-    c.presets.push_back({group, vc->second, fz, kSlowestOfGroup + times + "; fz: " + r.feeds_source});
+    out.push_back({group, group, vc->second, kSlowestOfGroup + times + "; fz: " + r.feeds_source});
   }
+  return out;
+}
+
+void set_presets(const Series& s, const std::vector<SeriesPreset>& presets, const Reader& r, Cutter& c) {
+  const auto it = r.feeds.find(s.feeds);
+  if (it == r.feeds.end()) return;
+  const Feeds& feeds = it->second;
+  const double d = std::min(c.cutting_diameter_mm, feeds.d_cap);
+  c.fz_min_mm = rounded(feeds.least * d, 5);
+  c.fz_max_mm = rounded(feeds.most * d, 5);
+  const bool tap = c.cutter_class == CutterClass::kTap;
+  // A tap advances by its pitch in a turn, whatever is cut.
+  if (tap) c.fz_min_mm = c.fz_max_mm = c.thread_pitch_mm / c.teeth;
+  std::map<std::string_view, double> fz_of;
+  for (const auto& [group, factor] : feeds.factor) fz_of[group] = tap ? c.fz_min_mm : rounded(factor * d, 5);
+  c.presets.reserve(presets.size());
+  for (const SeriesPreset& p : presets)
+    c.presets.push_back({p.of, p.vc_m_min, fz_of.at(p.iso_group), p.source});
 }
 
 void set_sources(const Series& s, const Reader& r, Cutter& c) {
@@ -342,7 +359,8 @@ void set_sources(const Series& s, const Reader& r, Cutter& c) {
   for (const char* field : {"fz_min_mm", "fz_max_mm"}) c.sources.emplace_back(field, r.feeds_source);
 }
 
-void add_cutter(const Series& s, const Size& size, Fields& f, Reader& r) {
+void add_cutter(const Series& s, const std::vector<SeriesPreset>& presets, const Size& size, Fields& f,
+                Reader& r) {
   Cutter c = s.base;
   c.cutting_diameter_mm = size.d;
   bool row_flute = false, row_shank = false;
@@ -375,7 +393,7 @@ void add_cutter(const Series& s, const Size& size, Fields& f, Reader& r) {
   c.description = "generic " + trimmed(size.d, 3) + " mm " + s.words + extra;
   if (size.row != nullptr && size.row->find("name") != nullptr) c.description += ", " + label;
   set_lengths(s, r.holding, c, f, row_flute, row_shank);
-  set_presets(s, r, c);
+  set_presets(s, presets, r, c);
   set_sources(s, r, c);
   r.cutters.push_back(std::move(c));
   r.lines.push_back(size.row != nullptr ? size.row->line : f.line());
@@ -383,12 +401,10 @@ void add_cutter(const Series& s, const Size& size, Fields& f, Reader& r) {
 
 }  // namespace
 
-Result<std::vector<Cutter>> expand_series(std::string_view text, const std::string& file,
+Result<std::vector<Cutter>> expand_series(const Node& root, const std::string& file,
                                           const std::vector<WorkMaterial>& materials, Job& job) {
-  auto root = parse_tree(text, file);
-  if (!root) return fail(root.error());
   std::vector<Diagnostic> faults;
-  Fields top(*root, file, "", "", faults);
+  Fields top(root, file, "", "", faults);
   Reader r{materials, faults, {}, {}, {}, {}, {}};
   if (top.text("capstan_cutter_series") != "1")
     top.fault("DATA-VERSION", "not a table of cutter series of version 1", "capstan_cutter_series", 1);
@@ -406,7 +422,8 @@ Result<std::vector<Cutter>> expand_series(std::string_view text, const std::stri
       const std::vector<Size> sizes = read_sizes(f);
       f.finish();
       if (!faults.empty()) continue;
-      for (const Size& size : sizes) add_cutter(s, size, f, r);
+      const std::vector<SeriesPreset> presets = presets_of(s, r);
+      for (const Size& size : sizes) add_cutter(s, presets, size, f, r);
     }
   }
   top.finish();
@@ -418,8 +435,11 @@ Result<std::vector<Cutter>> expand_series(std::string_view text, const std::stri
 Result<std::vector<Cutter>> generic_library() {
   auto materials = shipped_materials();
   if (!materials) return fail(materials.error());
+  constexpr const char* kFile = "cutters.yaml";
+  const auto root = shipped_tree(kFile);
+  if (!root) return fail(root.error());
   Job job;
-  return expand_series(shipped_text("cutters.yaml"), "cutters.yaml", *materials, job);
+  return expand_series(*root, kFile, *materials, job);
 }
 
 Status add_start_values(const WorkMaterial& own, std::vector<Cutter>& library) {

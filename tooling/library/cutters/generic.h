@@ -8,6 +8,7 @@
 #include "planner/ground/base/result.h"
 #include "planner/model/plan/cutter/cutter.h"
 #include "planner/model/plan/resources/material.h"
+#include "tooling/shop/data/tree.h"
 
 namespace capstan::tooling {
 
@@ -25,10 +26,9 @@ inline constexpr std::string_view kMaterialsSpeed = "the material's";
 /// proportion as the group's, the group's feed.
 [[nodiscard]] Status add_start_values(const model::WorkMaterial& own, std::vector<model::Cutter>& library);
 
-/// As above from texts of the same form.
+/// As `generic_library`, from the tree of a file of the same form.
 /// Fails  DATA-*, and what `check_cutters` finds.
 [[nodiscard]] Result<std::vector<model::Cutter>> expand_series(
-    std::string_view text, const std::string& file, const std::vector<model::WorkMaterial>& materials,
-    Job& job);
+    const Node& root, const std::string& file, const std::vector<model::WorkMaterial>& materials, Job& job);
 
 }  // namespace capstan::tooling

@@ -98,6 +98,31 @@ class Builder final : public YAML::EventHandler {
   std::vector<std::unordered_set<std::string>> names_;  // of its keys
 };
 
+enum class Documents : std::uint8_t { kFirst, kAll };
+
+Result<std::vector<Node>> read(std::string_view text, const std::string& file, Documents which) {
+  if (text.size() > kDataFileCap) {
+    return fail({.code = "FILE-TOO-LARGE",
+                 .message = "more than " + std::to_string(kDataFileCap) + " bytes",
+                 .file = file});
+  }
+  std::vector<Node> out;
+  try {
+    std::istringstream in{std::string(text)};
+    YAML::Parser parser(in);
+    for (;;) {
+      Builder builder;
+      if (!parser.HandleNextDocument(builder)) return out;
+      out.push_back(std::move(builder.root));
+      if (which == Documents::kFirst) return out;
+    }
+  } catch (const Refused& r) {
+    return fail({.code = r.code, .message = r.message, .file = file, .line = r.line});
+  } catch (const YAML::Exception& e) {
+    return fail({.code = "DATA-SYNTAX", .message = e.msg, .file = file, .line = line_of(e.mark)});
+  }
+}
+
 /// The keys that `name` may be meant for; where none is near, those there are, if they are few.
 std::string like(std::string_view name, const std::vector<std::string>& known) {
   constexpr std::size_t kFew = 8;
@@ -110,29 +135,14 @@ std::string like(std::string_view name, const std::vector<std::string>& known) {
 
 }  // namespace
 
-const Node* Node::find(std::string_view key) const {
-  for (const auto& [name, node] : entries)
-    if (name == key) return &node;
-  return nullptr;
+Result<Node> parse_tree(std::string_view text, const std::string& file) {
+  auto documents = read(text, file, Documents::kFirst);
+  if (!documents) return fail(documents.error());
+  return documents->empty() ? Node{} : std::move(documents->front());
 }
 
-Result<Node> parse_tree(std::string_view text, const std::string& file) {
-  if (text.size() > kDataFileCap) {
-    return fail({.code = "FILE-TOO-LARGE",
-                 .message = "more than " + std::to_string(kDataFileCap) + " bytes",
-                 .file = file});
-  }
-  Builder builder;
-  try {
-    std::istringstream in{std::string(text)};
-    YAML::Parser parser(in);
-    parser.HandleNextDocument(builder);
-  } catch (const Refused& r) {
-    return fail({.code = r.code, .message = r.message, .file = file, .line = r.line});
-  } catch (const YAML::Exception& e) {
-    return fail({.code = "DATA-SYNTAX", .message = e.msg, .file = file, .line = line_of(e.mark)});
-  }
-  return std::move(builder.root);
+Result<std::vector<Node>> parse_documents(std::string_view text, const std::string& file) {
+  return read(text, file, Documents::kAll);
 }
 
 Fields::Fields(const Node& node, std::string file, std::string path, std::string source,

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "planner/ground/base/data_tree.h"
 #include "planner/ground/base/job.h"
 #include "planner/ground/base/result.h"
 
@@ -15,22 +16,15 @@ namespace capstan::tooling {
 inline constexpr std::size_t kDataFileCap = std::size_t{64} << 20;  ///< bytes of one data file
 inline constexpr int kDataDepthCap = 64;                            ///< nesting
 
-/// A data file as a tree: YAML, and therefore JSON. Scalars keep their spelling.
-struct Node {
-  enum class Kind : std::uint8_t { kNull, kScalar, kList, kMap };
-  Kind kind = Kind::kNull;
-  std::string text = {};   ///< of a scalar
-  std::uint64_t line = 0;  ///< 1-based
-  std::vector<Node> items = {};
-  std::vector<std::pair<std::string, Node>> entries = {};  ///< in file order, keys unique
-
-  [[nodiscard]] const Node* find(std::string_view key) const;
-};
+using Node = DataNode;
 
 /// One document.
 /// Fails  DATA-SYNTAX (also aliases, tags aside, and nesting past kDataDepthCap), DATA-DUPLICATE for a key
 ///        given twice, FILE-TOO-LARGE; each with file and line.
 [[nodiscard]] Result<Node> parse_tree(std::string_view text, const std::string& file);
+
+/// All documents of a file; fails as `parse_tree`.
+[[nodiscard]] Result<std::vector<Node>> parse_documents(std::string_view text, const std::string& file);
 
 /// Reads the fields of one mapping and collects the faults, so that all are reported, not only the first.
 ///

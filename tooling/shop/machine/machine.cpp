@@ -380,11 +380,11 @@ std::vector<std::string> shipped_machines() {
   return out;
 }
 
-Result<Machine> read_machine(std::string_view text, const std::string& file, Job& job) {
-  auto root = parse_tree(text, file);
-  if (!root) return fail(root.error());
+namespace {
+
+Result<Machine> machine_in(const Node& root, const std::string& file, Job& job) {
   std::vector<Diagnostic> faults;
-  Fields top(*root, file, "", "", faults);
+  Fields top(root, file, "", "", faults);
   Machine m;
   if (top.text("capstan_machine") != "1")
     top.fault("DATA-VERSION", "not a machine of version 1", "capstan_machine", 1, "capstan_machine: 1");
@@ -409,6 +409,14 @@ Result<Machine> read_machine(std::string_view text, const std::string& file, Job
   return m;
 }
 
+}  // namespace
+
+Result<Machine> read_machine(std::string_view text, const std::string& file, Job& job) {
+  const auto root = parse_tree(text, file);
+  if (!root) return fail(root.error());
+  return machine_in(*root, file, job);
+}
+
 Result<Machine> in_gear(Machine m, std::string_view id) {
   std::string names;
   for (const auto& g : m.spindle.gears) {
@@ -430,7 +438,9 @@ Result<Machine> load_plain(const std::string& path, Job& job) {
   const auto shipped = shipped_machines();
   if (std::find(shipped.begin(), shipped.end(), path) != shipped.end()) {
     const std::string name = "machines/" + path + ".yaml";
-    return read_machine(shipped_text(name), name, job);
+    const auto root = shipped_tree(name);
+    if (!root) return fail(root.error());
+    return machine_in(*root, name, job);
   }
   auto text = read_file(path, kDataFileCap);
   if (!text) {

@@ -291,16 +291,16 @@ std::string plain_name(std::string_view text) {
 
 std::string set_key(std::size_t set) { return "set " + std::to_string(set) + " for "; }
 
-Result<MaterialTable> read_material_table(std::string_view text, const std::string& file, Job& job) {
-  auto root = parse_tree(text, file);
-  if (!root) return fail(root.error());
+namespace {
+
+Result<MaterialTable> table_in(const Node& root, const std::string& file, Job& job) {
   std::vector<Diagnostic> faults;
-  Fields top(*root, file, "", "", faults);
+  Fields top(root, file, "", "", faults);
   MaterialTable out;
   if (top.text("capstan_materials") != "1")
     top.fault("DATA-VERSION", "not a material table of version 1", "capstan_materials", 1);
   const std::size_t before = faults.size();
-  if (const std::size_t values = count_values(*root, top); values > kMostValues)
+  if (const std::size_t values = count_values(root, top); values > kMostValues)
     top.fault("DATA-SIZE", "the table has " + std::to_string(values) + " values", "", 1,
               "at most " + std::to_string(kMostValues));
   if (faults.size() > before) return fail(*tell(std::move(faults), job));
@@ -322,10 +322,20 @@ Result<MaterialTable> read_material_table(std::string_view text, const std::stri
   return out;
 }
 
+}  // namespace
+
+Result<MaterialTable> read_material_table(std::string_view text, const std::string& file, Job& job) {
+  const auto root = parse_tree(text, file);
+  if (!root) return fail(root.error());
+  return table_in(*root, file, job);
+}
+
 const Result<MaterialTable>& shipped_material_table() {
-  static const Result<MaterialTable> kTable = [] {
+  static const Result<MaterialTable> kTable = []() -> Result<MaterialTable> {
     Job job;
-    return read_material_table(shipped_text(kFile), kFile, job);
+    const auto root = shipped_tree(kFile);
+    if (!root) return fail(root.error());
+    return table_in(*root, kFile, job);
   }();
   return kTable;
 }

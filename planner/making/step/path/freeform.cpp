@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "planner/making/piece/surface_form.h"
+#include "planner/making/piece/mesh/surface_form.h"
 #include "planner/making/toolpath/freeform/freeform.h"
 
 namespace capstan::step {

@@ -9,6 +9,7 @@
 #include "planner/model/nouns/feature.h"
 #include "planner/model/plan/decision/contradicted.h"
 #include "planner/model/plan/decision/unreadable.h"
+#include "planner/model/plan/order/step_ids.h"
 
 namespace capstan::model {
 namespace {
@@ -45,9 +46,7 @@ const std::string& feature_name(const Plan& plan, const StepResult& step) {
 /// Gathers reasons by the place of their step; 0 is the whole plan.
 class Reasons {
  public:
-  explicit Reasons(const Plan& plan) : of_step_(plan.steps.size() + 1) {
-    for (const StepResult& s : plan.steps) ids_.push_back(step_id(plan, s));
-  }
+  explicit Reasons(const Plan& plan) : ids_(step_ids(plan)), of_step_(plan.steps.size() + 1) {}
 
   void add(const std::string& step, const std::string& code, const std::string& text) {
     const auto at = std::find(ids_.begin(), ids_.end(), step);

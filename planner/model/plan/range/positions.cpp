@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "planner/model/nouns/arena/walk.h"
+#include "planner/model/plan/order/step_ids.h"
 #include "planner/model/plan/range/ranges.h"
 
 namespace capstan::model {
@@ -89,8 +90,10 @@ std::string beyond_range(const Plan& plan) {
       if (look.text.empty()) look.point(v, "a vertex of the target mesh");
     }
   }
-  for (const StepResult& s : plan.steps) {
-    if (s.path && look.text.empty()) look.path(*s.path, "the path of step '" + step_id(plan, s) + "'");
+  const std::vector<std::string> ids = step_ids(plan);
+  for (std::size_t i = 0; i < plan.steps.size(); ++i) {
+    const StepResult& s = plan.steps[i];
+    if (s.path && look.text.empty()) look.path(*s.path, "the path of step '" + ids[i] + "'");
   }
   return look.text;
 }

@@ -1,6 +1,9 @@
 #include "planner/proof/verify/compared/meaning.h"
 
+#include <map>
+
 #include "planner/model/nouns/all.h"
+#include "planner/model/plan/order/step_ids.h"
 #include "planner/proof/verify/compared/compare.h"
 
 namespace capstan::verify {
@@ -24,17 +27,17 @@ void check_meaning(const model::Plan& plan, Findings& findings) {
 void check_meaning(const model::Plan& plan, const std::vector<PlannersReading>& planner, Findings& findings) {
   const volumes::Source source = volumes::source_of(plan.model, plan.stock.box);
   const std::set<model::AnyRef> pieces = volumes::parts_of_others(plan.model);
+  const std::vector<std::string> ids = model::step_ids(plan);
+  std::map<model::AnyRef, std::size_t> first;  // step of a feature
+  for (std::size_t i = 0; i < plan.steps.size(); ++i) {
+    if (const auto* ws = plan.model.get<model::MachiningWorkingstep>(plan.steps[i].step))
+      first.emplace(ws->its_feature, i);
+  }
   for (const PlannersReading& e : planner) {
     if (e.shapes.empty()) continue;
-    std::size_t order = 0;
-    std::string step;
-    for (std::size_t i = 0; i < plan.steps.size(); ++i) {
-      const auto* ws = plan.model.get<model::MachiningWorkingstep>(plan.steps[i].step);
-      if (ws == nullptr || model::AnyRef(ws->its_feature) != e.feature) continue;
-      order = i + 1;
-      step = model::step_id(plan, plan.steps[i]);
-      break;
-    }
+    const auto at = first.find(e.feature);
+    const std::size_t order = at == first.end() ? 0 : at->second + 1;
+    const std::string step = at == first.end() ? std::string() : ids[at->second];
     // A part of another feature is compared with that one, unless it is cut on its own.
     if (order == 0 && pieces.contains(e.feature)) continue;
     const volumes::Reading own = volumes::read(source, e.feature);

@@ -6,6 +6,7 @@
 
 #include "planner/model/nouns/all.h"
 #include "planner/model/nouns/arena/walk.h"
+#include "planner/model/plan/order/step_ids.h"
 #include "planner/proof/verify/plan/plan_checks.h"
 #include "planner/proof/verify/volumes/form/limits.h"
 
@@ -142,9 +143,10 @@ bool taps(const model::Plan& plan, const model::StepResult& step) {
 void check_steps(const model::Plan& plan, Findings& findings) {
   const Machine& m = plan.machine;
   std::set<std::string> seen;
+  const std::vector<std::string> ids = model::step_ids(plan);
   for (std::size_t i = 0; i < plan.steps.size(); ++i) {
     const model::StepResult& s = plan.steps[i];
-    const Findings::Where at{i + 1, model::step_id(plan, s), -1};
+    const Findings::Where at{i + 1, ids[i], -1};
     if (!m.abilities.rigid_tapping && taps(plan, s))
       findings.error(22, "CHK-MACHINE-TAPPING", at,
                      "the step taps with the feed bound to the spindle; the machine '" + m.id +

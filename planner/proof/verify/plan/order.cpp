@@ -4,6 +4,7 @@
 
 #include "planner/ground/geometry/region.h"
 #include "planner/model/nouns/all.h"
+#include "planner/model/plan/order/step_ids.h"
 #include "planner/proof/verify/copies.h"
 #include "planner/proof/verify/plan/plan_checks.h"
 #include "planner/proof/verify/sweep/target/target.h"
@@ -66,11 +67,11 @@ struct Entry {
 
 std::vector<Entry> entries_of(const model::Plan& plan) {
   std::vector<Entry> out;
+  const std::vector<std::string> ids = model::step_ids(plan);
   for (std::size_t i = 0; i < plan.steps.size(); ++i) {
     const auto* ws = plan.model.get<model::MachiningWorkingstep>(plan.steps[i].step);
     if (ws == nullptr || !plan.steps[i].path) continue;
-    out.push_back(
-        {i, model::step_id(plan, plan.steps[i]), ws->its_feature, ws->its_operation, plan.steps[i].setup});
+    out.push_back({i, ids[i], ws->its_feature, ws->its_operation, plan.steps[i].setup});
   }
   return out;
 }

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "planner/model/plan/order/step_ids.h"
 #include "planner/proof/verify/plan/plan_checks.h"
 
 namespace capstan::verify {
@@ -94,10 +95,11 @@ StepMoves of_step(const model::Plan& plan, const model::StepResult& s, std::size
 
 std::vector<StepMoves> moves_of(const model::Plan& plan, Findings& findings) {
   std::vector<StepMoves> out;
+  std::vector<std::string> ids = model::step_ids(plan);
   for (std::size_t i = 0; i < plan.steps.size(); ++i) {
     const model::StepResult& s = plan.steps[i];
     if (!s.path || s.path->size() == 0) continue;
-    std::string id = model::step_id(plan, s);
+    std::string id = std::move(ids[i]);
     if (!columns_agree(s)) {
       findings.error(1, "CHK-COLUMNS", {i + 1, id, -1},
                      "the columns of its path and its feed schedule differ in length; the path has " +

@@ -2,6 +2,7 @@
 #include <set>
 
 #include "planner/model/plan/cutter/cutter_faults.h"
+#include "planner/model/plan/order/step_ids.h"
 #include "planner/model/plan/range/ranges.h"
 #include "planner/proof/verify/plan/plan_checks.h"
 
@@ -221,9 +222,10 @@ void check_ranges(const model::Plan& plan, Findings& findings) {
   check_material(plan.material, r);
   check_stock(plan, r);
   for (std::size_t i = 0; i < plan.setups.size(); ++i) check_setup(plan.setups[i], i + 1, r);
-  for (const auto& s : plan.steps) {
-    r.of("step '" + model::step_id(plan, s) + "'");
-    check_step(s, r);
+  const std::vector<std::string> ids = model::step_ids(plan);
+  for (std::size_t i = 0; i < plan.steps.size(); ++i) {
+    r.of("step '" + ids[i] + "'");
+    check_step(plan.steps[i], r);
   }
 }
 

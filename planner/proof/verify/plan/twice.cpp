@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "planner/model/nouns/all.h"
+#include "planner/model/plan/order/step_ids.h"
 #include "planner/proof/verify/plan/plan_checks.h"
 
 // Facts that stand twice in a plan, against each other: a tool is an object of the part's file and an entry
@@ -19,8 +20,8 @@ class Twice {
  public:
   Twice(const model::Plan& plan, Findings& out) : plan_(plan), out_(out) {}
 
-  void step(const model::StepResult& s, std::size_t order) {
-    at_ = {order + 1, model::step_id(plan_, s), -1};
+  void step(const model::StepResult& s, std::size_t order, const std::string& id) {
+    at_ = {order + 1, id, -1};
     const model::Cutter* c = model::find_cutter(plan_, s.cutter_id);
     if (c == nullptr) return;  // said elsewhere
     const double rpm = std::abs(s.spindle_rpm);
@@ -132,7 +133,8 @@ void check_names(const model::Plan& plan, Findings& out) {
 void check_twice(const model::Plan& plan, Findings& findings) {
   check_names(plan, findings);
   Twice twice(plan, findings);
-  for (std::size_t i = 0; i < plan.steps.size(); ++i) twice.step(plan.steps[i], i);
+  const std::vector<std::string> ids = model::step_ids(plan);
+  for (std::size_t i = 0; i < plan.steps.size(); ++i) twice.step(plan.steps[i], i, ids[i]);
   check_curve(plan, plan.machine.spindle.curve, findings);
   for (const model::SpindleGear& g : plan.machine.spindle.gears) {
     check_curve(plan, g.curve, findings);

@@ -4,6 +4,7 @@
 
 #include "planner/ground/base/file.h"
 #include "planner/model/plan/cutter/table_offsets.h"
+#include "planner/model/plan/order/step_ids.h"
 #include "planner/proof/verify/program/program_checks.h"
 
 namespace capstan::verify {
@@ -39,11 +40,12 @@ ProgramCase make_case(const DialectReader& reader, const Program& program, const
   ProgramCase out{reader, program, plan, machine, cutters, std::vector<long>(program.markers.size(), -1)};
   if (plan == nullptr) return out;
   std::size_t next = 0;
+  const std::vector<std::string> ids = model::step_ids(*plan);
   for (std::size_t m = 0; m < program.markers.size(); ++m) {
     // In the plan's order as a rule: begin to look where the last one was found.
     for (std::size_t k = 0; k < plan->steps.size(); ++k) {
       const std::size_t i = (next + k) % plan->steps.size();
-      if (!is_of(program.markers[m].id, model::step_id(*plan, plan->steps[i]))) continue;
+      if (!is_of(program.markers[m].id, ids[i])) continue;
       out.step_of_marker[m] = static_cast<long>(i);
       next = i + 1;
       break;

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "planner/model/nouns/all.h"
+#include "planner/model/plan/order/step_ids.h"
 #include "planner/proof/verify/copies.h"
 #include "planner/proof/verify/sweep/target/target.h"
 #include "planner/proof/verify/volumes/form/in_raw.h"
@@ -140,6 +141,7 @@ std::vector<Asked> asked_of(const model::Plan& plan) {
   std::set<model::AnyRef> given_up;
   for (const auto& u : plan.unplanned) given_up.insert(u.feature);
   std::vector<Asked> out;
+  const std::vector<std::string> ids = model::step_ids(plan);
   for (std::size_t i = 0; i < plan.steps.size(); ++i) {
     const model::StepResult& step = plan.steps[i];
     const auto* ws = plan.model.get<model::MachiningWorkingstep>(step.step);
@@ -152,7 +154,7 @@ std::vector<Asked> asked_of(const model::Plan& plan) {
       if (!f.set() || given_up.contains(f)) continue;
       auto it = std::find_if(out.begin(), out.end(), [&](const Asked& a) { return a.feature == f; });
       if (it == out.end()) it = out.insert(out.end(), Asked{.feature = f});
-      it->where = {i + 1, model::step_id(plan, step), -1};
+      it->where = {i + 1, ids[i], -1};
       it->setup = step.setup;
       double side = kNone, bottom = kNone;
       if (const auto* o = plan.model.get<model::PlaneMilling>(ws->its_operation)) {

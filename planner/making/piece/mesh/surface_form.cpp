@@ -1,4 +1,4 @@
-#include "planner/making/piece/surface_form.h"
+#include "planner/making/piece/mesh/surface_form.h"
 
 #include <algorithm>
 #include <array>

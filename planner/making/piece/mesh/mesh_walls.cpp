@@ -4,7 +4,7 @@
 
 #include "planner/ground/base/number.h"
 #include "planner/ground/geometry/mesh_form.h"
-#include "planner/making/piece/surface_form.h"
+#include "planner/making/piece/mesh/surface_form.h"
 #include "planner/model/features/in_piece.h"
 #include "rules/facts/passage.h"
 
