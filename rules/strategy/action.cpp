@@ -8,21 +8,13 @@
 
 namespace capstan::rules {
 
-// The families, a row for each source file of this folder (rules/CMakeLists.txt writes them). Names of actions
-// differ, so that the order is of no matter.
-#define CAPSTAN_ACTIONS(family) std::vector<Action> family();
-#include "families.inc"
-#undef CAPSTAN_ACTIONS
-
 const Action* find_action(std::string_view name) {
   static const std::vector<Action> kActions = [] {
     std::vector<Action> all;
-    for (auto&& family : {
-#define CAPSTAN_ACTIONS(family) family(),
-#include "families.inc"
-#undef CAPSTAN_ACTIONS
-         })
-      all.insert(all.end(), family.begin(), family.end());
+    for (const Family family : families()) {
+      const std::vector<Action> actions = family();
+      all.insert(all.end(), actions.begin(), actions.end());
+    }
     return all;
   }();
   const auto it =

@@ -43,6 +43,11 @@ struct Action {
   Made (*make)(const Making&) = nullptr;
 };
 
+/// A family's function. Names of actions differ, so that the order of families is of no matter.
+using Family = std::vector<Action> (*)();
+/// All families; the build writes this function from the names of the source files (rules/CMakeLists.txt).
+[[nodiscard]] std::vector<Family> families();
+
 /// The action of this name; null if there is none.
 [[nodiscard]] const Action* find_action(std::string_view name);
 
