@@ -46,7 +46,8 @@ Result<std::string> write_program(const model::Plan& plan, Job& job,
 
 std::string tool_table_of(const model::Plan& plan) {
   const Dialect* dialect = find_dialect(plan.machine.control.dialect);
-  return dialect == nullptr ? std::string() : dialect->write_tool_table(plan);
+  if (dialect == nullptr || dialect->write_tool_table == nullptr) return {};
+  return dialect->write_tool_table(plan);
 }
 
 }  // namespace capstan::controls

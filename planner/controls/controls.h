@@ -26,7 +26,7 @@ struct Unwritten {
 /// Fails  OUT-DIALECT for a control that has no row, and as the control's writer.
 [[nodiscard]] Result<std::string> write_program(const model::Plan& plan, Job& job,
                                                 const std::vector<model::Condemnation>& condemned = {});
-/// The tool table of that program; empty for a control that has no row.
+/// The tool table of that program; empty for a control that has no row or reads no tool table.
 [[nodiscard]] std::string tool_table_of(const model::Plan& plan);
 
 }  // namespace capstan::controls

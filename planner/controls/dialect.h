@@ -25,14 +25,14 @@ struct FileKind {
 struct Dialect {
   std::string_view id;    ///< as model::Control::dialect has it
   std::string_view name;  ///< for people
-  FileKind program, tool_table;
+  FileKind program, tool_table;  ///< `tool_table` is empty for a control that reads none
   std::span<const std::string_view> work_offsets;  ///< in the order in which set-ups get them
   /// The plan as one program. `condemned` (model::condemned): why it must not be run; the program says so and
   /// stops before each condemned step.
   Result<std::string> (*write_program)(const model::Plan& plan, Job& job,
                                        const std::vector<model::Condemnation>& condemned);
-  /// The tools of that program as the control reads them.
-  std::string (*write_tool_table)(const model::Plan& plan);
+  /// The tools of that program as the control reads them; null for a control that reads no tool table.
+  std::string (*write_tool_table)(const model::Plan& plan) = nullptr;
 };
 
 }  // namespace capstan::controls

@@ -11,12 +11,10 @@ namespace capstan::rules {
 const Action* find_action(std::string_view name) {
   static const std::vector<Action> kActions = [] {
     std::vector<Action> all;
-    for (auto&& family : {
-#define CAPSTAN_ACTIONS(family) family(),
-#include "rules/strategy/families.inc"
-#undef CAPSTAN_ACTIONS
-         })
-      all.insert(all.end(), family.begin(), family.end());
+    for (const Family family : families()) {
+      const std::vector<Action> actions = family();
+      all.insert(all.end(), actions.begin(), actions.end());
+    }
     return all;
   }();
   const auto it =

@@ -33,7 +33,9 @@ struct ActionParameter {
   std::string_view meaning;
 };
 
-/// Something a chain can do: the bridge from a row to an operation and its tool requirement.
+/// Something a chain can do: the bridge from a row to an operation and its tool requirement. Each other source
+/// file of this folder is a family: NAME.cpp gives its actions by `std::vector<Action> NAME_actions()`, which
+/// the build finds by the file's name.
 struct Action {
   std::string_view name;
   model::TypeId operation;
@@ -41,13 +43,13 @@ struct Action {
   Made (*make)(const Making&) = nullptr;
 };
 
+/// A family's function. Names of actions differ, so that the order of families is of no matter.
+using Family = std::vector<Action> (*)();
+/// All families; the build writes this function from the names of the source files (rules/CMakeLists.txt).
+[[nodiscard]] std::vector<Family> families();
+
 /// The action of this name; null if there is none.
 [[nodiscard]] const Action* find_action(std::string_view name);
-
-/// The actions of each family, for `find_action`.
-#define CAPSTAN_ACTIONS(family) [[nodiscard]] std::vector<Action> family();
-#include "rules/strategy/families.inc"
-#undef CAPSTAN_ACTIONS
 
 /// The cut of a cone along an edge or the wall of a hole.
 struct Bevel {

@@ -13,7 +13,14 @@ void Program::line(std::string_view text) {
   text_ += '\n';
 }
 
-void Program::comment(std::string_view text) { text_ += comment_line(text, words_.longest_line); }
+void Program::comment(std::string_view text) { marker(comment_text(text, words_.longest_line)); }
+
+void Program::marker(std::string_view text) {
+  text_ += words_.comment_begin;
+  text_ += text;
+  text_ += words_.comment_end;
+  text_ += '\n';
+}
 
 void Program::forget() {
   x_.reset();

@@ -18,6 +18,8 @@ class Program {
 
   void line(std::string_view text);
   void comment(std::string_view text);
+  /// A comment that is never cut off; the caller keeps it short (marker_text).
+  void marker(std::string_view text);
   void blank() { text_ += '\n'; }
 
   /// Forgets position and feed, so that the next words are all written.

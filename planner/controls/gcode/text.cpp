@@ -33,8 +33,8 @@ std::string plain_text(std::string_view text) {
   return out;
 }
 
-std::string comment_line(std::string_view text, std::size_t longest_line) {
-  return "(" + plain_text(text).substr(0, longest_line - std::min(kFree, longest_line)) + ")\n";
+std::string comment_text(std::string_view text, std::size_t longest_line) {
+  return plain_text(text).substr(0, longest_line - std::min(kFree, longest_line));
 }
 
 std::string marker_text(std::string_view text) {

@@ -6,9 +6,9 @@
 
 namespace capstan::controls::gcode {
 
-/// One comment line of a program, `(text)` and a line end: plain ASCII, no nested parentheses, cut off where
-/// it would be longer than a control's line.
-[[nodiscard]] std::string comment_line(std::string_view text, std::size_t longest_line);
+/// The text of one comment line of a program: plain ASCII, no parentheses, cut off where it would make the
+/// line longer than a control's.
+[[nodiscard]] std::string comment_text(std::string_view text, std::size_t longest_line);
 
 /// Plain ASCII without control characters and parentheses; others become `?` (one per character).
 [[nodiscard]] std::string plain_text(std::string_view text);

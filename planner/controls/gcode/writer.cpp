@@ -26,10 +26,6 @@ using model::MoveRole;
 using model::Plan;
 using model::StepResult;
 
-// Millimetres, plane XY, absolute, feed per minute, no compensation of the radius, no cycle.
-constexpr std::string_view kStepState = "G21 G17 G90 G94 G40 G80";
-// Before the first tool no length offset either.
-constexpr std::string_view kFirstState = "G21 G17 G90 G94 G40 G49 G80";
 // Characters of a line that a message leaves free; defaults, unsourced.
 constexpr std::size_t kFreeOfClamping = 22, kFreeOfProbing = 32, kFreeOfCondemned = 52;
 // Feed and pitch times speed of a tap may differ by what rounding of either explains.
@@ -49,7 +45,7 @@ class Writer {
     write_header(plan_, condemned_, program_);
     write_setup(plan_, plan_.steps.front().setup, std::nullopt, program_);
     program_.blank();
-    program_.line(kFirstState);
+    program_.line(words_.first_state);
     tolerance(0.0);
     retract();
     stop();
@@ -162,24 +158,23 @@ class Writer {
       retract();
       stop();
     }
-    program_.line("(CAPSTAN STEP id=\"" + marker_text(id) + "\" n=" + std::to_string(n + 1) +
-                  " tool=" + std::to_string(cutter.pocket) + " setup=" + std::to_string(step.setup + 1) +
-                  (why.empty() ? std::string() : " condemned=\"" + marker_text(why.front()->code) + "\"") +
-                  ")");
+    program_.marker("CAPSTAN STEP id=\"" + marker_text(id) + "\" n=" + std::to_string(n + 1) +
+                    " tool=" + std::to_string(cutter.pocket) + " setup=" + std::to_string(step.setup + 1) +
+                    (why.empty() ? std::string() : " condemned=\"" + marker_text(why.front()->code) + "\""));
     if (new_setup) {
       write_setup(plan_, step.setup, setup_, program_);
       tell(plain_text(clamping_text(plan_, step.setup, setup_, room(kFreeOfClamping))));
     }
     if (!why.empty()) stop_for(why, n);
-    program_.line(kStepState);
+    program_.line(words_.step_state);
     tolerance(step.contour_tolerance_mm);
     program_.line(setup.work_offset);
     const std::string t = std::to_string(cutter.pocket);
     if (new_tool && cutter.cutter_class == model::CutterClass::kBoringTool)
       program_.comment("T" + t + ": the boring tool is set to diameter " +
                        program_.number(cutter.cutting_diameter_mm) + " mm");
-    if (new_tool) program_.line("T" + t + " M6");
-    program_.line("G43 H" + t);
+    if (new_tool) program_.line(words_.change_tool(t));
+    program_.line(words_.length_offset(t));
     tool_ = cutter.pocket;
     setup_ = step.setup;
     approach(step, setup, new_tool || new_setup || measured || !why.empty());

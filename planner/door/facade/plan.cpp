@@ -70,7 +70,10 @@ std::vector<service::Output> forms_of(const service::Planned& planned, Job& job)
 }
 
 void take(std::vector<service::Output> made, PlanOutput& out) {
-  for (service::Output& o : made) out.forms[std::string(o.format->name)] = std::move(o.bytes);
+  for (service::Output& o : made) {
+    if (o.format->holds == service::Holds::kToolTable) out.tool_table = o.bytes;
+    out.forms[std::string(o.format->name)] = std::move(o.bytes);
+  }
   const auto form = [&](const char* name) {
     const auto at = out.forms.find(name);
     return at == out.forms.end() ? std::string() : at->second;
@@ -79,7 +82,6 @@ void take(std::vector<service::Output> made, PlanOutput& out) {
   out.iso14649 = form("iso14649");
   out.ap238 = form("ap238");
   out.linuxcnc = form("linuxcnc");
-  out.tool_table = form("linuxcnc_tools");
 }
 
 /// Makes the forms and checks the program, with what is known of the plan. A condemned program is taken back,

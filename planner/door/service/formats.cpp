@@ -47,6 +47,7 @@ std::vector<Format> table() {
     const auto& [program_name, program_ending, program_media] = d->program;
     out.push_back(
         {program_name, "program", {program_ending}, program_media, Holds::kProgram, false, d, &program});
+    if (d->write_tool_table == nullptr) continue;
     const auto& [table_name, table_ending, table_media] = d->tool_table;
     out.push_back(
         {table_name, "tool table", {table_ending}, table_media, Holds::kToolTable, false, d, &tool_table});

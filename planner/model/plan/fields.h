@@ -1,10 +1,8 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <concepts>
 #include <cstddef>
-#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -102,20 +100,6 @@ concept HasFields = !std::same_as<std::remove_cv_t<decltype(kFields<std::remove_
 template <HasFields S, class Visit>
 constexpr void for_each_field(S& x, Visit&& visit) {
   std::apply([&](const auto&... row) { (visit(row, x.*row.member), ...); }, kFields<std::remove_cv_t<S>>);
-}
-
-/// The names of the fields in which two differ, in order and with commas between; of those that diff tells,
-/// but for those that it tells elsewhere, by name.
-template <HasFields S>
-[[nodiscard]] std::string told_differences(const S& a, const S& b,
-                                           std::initializer_list<std::string_view> elsewhere = {}) {
-  std::string out;
-  for_each_field(a, [&](const auto& row, const auto& value) {
-    const bool is_elsewhere = std::find(elsewhere.begin(), elsewhere.end(), row.name) != elsewhere.end();
-    if (row.not_told == nullptr && !is_elsewhere && !(value == b.*row.member))
-      out += (out.empty() ? "" : ", ") + std::string(row.name);
-  });
-  return out;
 }
 
 /// Stands for a value of any type where members are counted; never made.

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "planner/ground/base/number.h"
+#include "planner/ground/vocabulary/thread_mill.h"
 #include "planner/physics/stock/sweep.h"
 
 // Cross sections on a height map, measured by volume. A move is divided into steps. `stock::sweep` lowers the
@@ -239,7 +240,7 @@ class Measurer {
 
 std::optional<double> head_height(const model::Cutter& c) {
   if (c.cutter_class == CutterClass::kSideMill && c.cutting_width_mm > 0.0) return c.cutting_width_mm;
-  if (c.cutter_class == CutterClass::kSideMill || c.cutter_class == CutterClass::kThreadMill) {
+  if (c.cutter_class == CutterClass::kSideMill || model::mills_threads(c.cutter_class)) {
     return c.maximum_depth_of_cut_mm;
   }
   return std::nullopt;

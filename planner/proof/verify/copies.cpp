@@ -6,6 +6,12 @@ namespace capstan::verify {
 
 using model::CutterClass;
 
+namespace {
+
+constexpr int kFinishingRank = 4;
+
+}  // namespace
+
 bool undercuts(CutterClass c) {
   switch (c) {
     case CutterClass::kTSlotMill:
@@ -61,11 +67,36 @@ bool mills(CutterClass c) {
   }
 }
 
-bool finishes(model::TypeId op) {
+int order_rank(model::TypeId op) {
   using model::TypeId;
-  return op == TypeId::kSideFinishMilling || op == TypeId::kBottomAndSideFinishMilling ||
-         op == TypeId::kPlaneFinishMilling || op == TypeId::kFreeformFinishMilling;
+  switch (op) {
+    case TypeId::kCenterDrilling:
+      return 1;
+    case TypeId::kDrilling:
+    case TypeId::kMultistepDrilling:
+      return 2;
+    case TypeId::kPlaneRoughMilling:
+    case TypeId::kSideRoughMilling:
+    case TypeId::kBottomAndSideRoughMilling:
+    case TypeId::kFreeformRoughMilling:
+      return 3;
+    case TypeId::kPlaneFinishMilling:
+    case TypeId::kSideFinishMilling:
+    case TypeId::kBottomAndSideFinishMilling:
+    case TypeId::kFreeformFinishMilling:
+      return kFinishingRank;
+    case TypeId::kBoring:
+    case TypeId::kReaming:
+    case TypeId::kBackBoring:
+    case TypeId::kTapping:
+    case TypeId::kThreadDrilling:
+      return 5;
+    default:
+      return 0;
+  }
 }
+
+bool finishes(model::TypeId op) { return order_rank(op) == kFinishingRank; }
 
 geometry::CutterProfile outline_of(const model::Cutter& c) {
   const double d = c.cutting_diameter_mm, high = c.maximum_depth_of_cut_mm;

@@ -21,6 +21,8 @@ namespace capstan::verify {
 [[nodiscard]] bool cuts_by_point(model::CutterClass c);
 /// Moves along walls, and so leaves its radius in their corners.
 [[nodiscard]] bool mills(model::CutterClass c);
+/// Operations of one feature in the order of the craft: a lower one never follows a higher one. 0: any order.
+[[nodiscard]] int order_rank(model::TypeId operation);
 /// Makes the surface that stays.
 [[nodiscard]] bool finishes(model::TypeId operation);
 /// What a cutter's edges sweep, by its class and its stated sizes: a cone to a point, a cone over a flat tip,

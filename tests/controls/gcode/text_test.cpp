@@ -6,9 +6,9 @@ namespace capstan::controls::gcode {
 namespace {
 
 TEST(GcodeText, ACommentIsPlainHasNoBracketsInsideAndEndsWithinTheLine) {
-  EXPECT_EQ(comment_line("bore \xC3\x98 6 (two)\n", 80), "(bore ? 6 [two] )\n");
-  EXPECT_LE(comment_line(std::string(500, 'a'), 80).size(), 81U);  // with the line's end
-  EXPECT_EQ(comment_line("a", 0), "()\n");
+  EXPECT_EQ(comment_text("bore \xC3\x98 6 (two)\n", 80), "bore ? 6 [two] ");
+  EXPECT_LE(comment_text(std::string(500, 'a'), 80).size(), 78U);  // with its parentheses 80
+  EXPECT_EQ(comment_text("a", 0), "");
 }
 
 // As in a URL: a blank is 20, u umlaut C3 BC, brackets 28 and 29, a line's end 0A, the sign itself 25.

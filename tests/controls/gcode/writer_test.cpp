@@ -73,6 +73,27 @@ TEST(GcodeWriter, SaysInTheControlsWordsWhatControlsSayDifferently) {
     EXPECT_THAT(text, Not(HasSubstr(linuxcnc)));
 }
 
+TEST(GcodeWriter, TakesCommentsStatesAndToolChangesFromAControlThatHasItsOwn) {
+  constexpr std::string_view kBegin = "; ", kFirst = "G71 D0", kStep = "G71";
+  Words words = kWords;
+  words.comment_begin = kBegin;
+  words.comment_end = "";
+  words.first_state = kFirst;
+  words.step_state = kStep;
+  words.change_tool = [](const std::string& tool) { return "T=" + tool + "\nM6"; };
+  words.length_offset = [](const std::string& tool) { return "D" + tool; };
+  Plan plan = testing::empty_plan();
+  testing::add_step(plan, "a", "em18", cut());
+  Job job;
+  const auto text = write(plan, words, {}, job);
+  ASSERT_TRUE(text) << to_text(text.error());
+  EXPECT_THAT(*text, StartsWith("%\n; CAPSTAN PROGRAM version=1\n"));
+  EXPECT_THAT(*text, HasSubstr("\nG71 D0\nG5.1 R0.01\n"));
+  EXPECT_THAT(*text, HasSubstr("\n; CAPSTAN STEP id=\"a\" n=1 tool=1 setup=1\nG71\nG5.1 R0.01\nG54\nT=1\nM6\nD1\n"));
+  EXPECT_THAT(*text, Not(HasSubstr("(")));
+  for (const char* other : {"G21", "G43", "G49"}) EXPECT_THAT(*text, Not(HasSubstr(other)));
+}
+
 TEST(GcodeWriter, StopsExactlyWhereTheMachineHasNoPathTolerance) {
   Plan plan = testing::empty_plan();
   plan.machine.control.path_tolerance_mm = 0.0;

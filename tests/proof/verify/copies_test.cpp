@@ -85,6 +85,13 @@ TEST(Copies, MillWhatTheTableSaysIsNotAxialAndCounterboresToo) {
                      CutterClass::kTouchProbe}));
 }
 
+TEST(Copies, RankOperationsAsTheTableSays) {
+  for (std::size_t i = 0; i < model::kTypeCount; ++i) {
+    const auto op = static_cast<model::TypeId>(i);
+    EXPECT_EQ(order_rank(op), model::craft_rank(op)) << i;
+  }
+}
+
 TEST(Copies, FinishWhatTheTableSays) {
   for (std::size_t i = 0; i < model::kTypeCount; ++i) {
     const auto op = static_cast<model::TypeId>(i);

@@ -104,7 +104,7 @@ int finish(Session& s, const service::Planned& planned, std::vector<Output> outp
                     .file = plan.file_name});
     }
     for (const FileFinding& f : verdict.findings) {
-      if (s.news(f)) s.job.report(as_diagnostic(f.finding, f.file, f.program));
+      if (s.is_new(f)) s.job.report(as_diagnostic(f.finding, f.file, f.program));
     }
   }
   service::take_plan(plan, end);

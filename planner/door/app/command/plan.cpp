@@ -44,7 +44,7 @@ int run_check(Session& s) {
   std::vector<service::Source> sources;
   for (const std::string& path : s.options.files) sources.push_back({path});
   const auto tell = [&](const FileFinding& t) {
-    if (!s.options.json && s.news(t)) s.job.report(as_diagnostic(t.finding, t.file, t.program));
+    if (!s.options.json && s.is_new(t)) s.job.report(as_diagnostic(t.finding, t.file, t.program));
   };
   const auto result = service::check(s.options.inputs, std::move(sources), tell, s.job);
   if (!result) return s.end(result.error());

@@ -136,7 +136,7 @@ bool same_but_for_rounding(std::string_view a, std::string_view b) {
 
 }  // namespace
 
-bool Session::news(const service::FileFinding& f) {
+bool Session::is_new(const service::FileFinding& f) {
   if (!f.program) {
     // Programs are judged against the first plan.
     if (of_plan_.empty()) plan_file_ = f.file;

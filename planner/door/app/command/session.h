@@ -26,11 +26,11 @@ struct Session {
   /// Whether a finding says what none before it said: of a program that a plan is checked with, one that
   /// repeats the plan's says nothing, unless it names a line of a program that is there to be read (`check`).
   /// Diagnostics as JSON keep all.
-  [[nodiscard]] bool news(const service::FileFinding& f);
+  [[nodiscard]] bool is_new(const service::FileFinding& f);
   int end(const service::Failure& failure) { return end(failure.what, static_cast<int>(failure.code)); }
 
  private:
-  std::vector<model::Finding> of_plan_;  ///< that `news` met, of the first plan's file
+  std::vector<model::Finding> of_plan_;  ///< that `is_new` was given, of the first plan's file
   std::string plan_file_;
 };
 

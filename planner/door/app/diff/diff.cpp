@@ -9,9 +9,10 @@
 #include "planner/door/service/explain/step_view.h"
 #include "planner/door/service/explain/values.h"
 #include "planner/ground/base/number.h"
-#include "planner/model/plan/decision/condemned.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/plan/cutter/cutter_fields.h"
+#include "planner/model/plan/decision/condemned.h"
+#include "planner/model/plan/field_differences.h"
 #include "planner/model/plan/plan_fields.h"
 #include "planner/model/plan/resources/machine_fields.h"
 #include "planner/model/plan/resources/material_fields.h"
@@ -68,20 +69,23 @@ std::vector<std::string> inputs(const Plan& a, const Plan& b) {
       a.machine.id == b.machine.id && known && !fields.empty())
     out.push_back("machine: its data differ (" + fields + ")");
   one("material", a.material.id, b.material.id);
-  if (a.material.id == b.material.id && a.material.kc11_n_mm2 != b.material.kc11_n_mm2)
+  if (a.material.id == b.material.id &&
+      !model::same_value(a.material.kc11_n_mm2, b.material.kc11_n_mm2))
     one("kc1.1 of the material", shortest(a.material.kc11_n_mm2), shortest(b.material.kc11_n_mm2));
   else if (const std::string fields = model::told_differences(a.material, b.material);
            a.material.id == b.material.id && !fields.empty())
     out.push_back("material: its data differ (" + fields + ")");
   const auto boxed = [](const model::Stock& s) { return s.box.empty() ? std::string() : box_text(s.box); };
-  one("stock", boxed(a.stock), boxed(b.stock));
+  const bool same_box = model::same_value(a.stock.box, b.stock.box);
+  if (!same_box) one("stock", boxed(a.stock), boxed(b.stock));
   if (const std::string fields = model::told_differences(a.stock, b.stock, {"cylinder_radius_mm"});
       boxed(a.stock) == boxed(b.stock) && !fields.empty())
     out.push_back("stock: its data differ (" + fields + ")");
   const auto radius = [](const model::Stock& s) {
     return s.cylinder_radius_mm ? shortest(*s.cylinder_radius_mm) + " mm" : std::string();
   };
-  one("radius of the stock", radius(a.stock), radius(b.stock));
+  if (!model::same_value(a.stock.cylinder_radius_mm, b.stock.cylinder_radius_mm))
+    one("radius of the stock", radius(a.stock), radius(b.stock));
   one("set-ups", std::to_string(a.setups.size()), std::to_string(b.setups.size()));
   std::map<std::string, std::pair<std::string, std::string>> provenance;
   for (const auto& p : a.provenance) provenance[p.what].first = p.value + " (" + p.source + ")";
@@ -98,7 +102,7 @@ std::vector<std::string> setup_changes(const Plan& a, const Plan& b, std::size_t
   const model::SetupResult& q = b.setups[i];
   std::vector<std::string> out;
   if (p.work_offset != q.work_offset) out.push_back(change("work offset", p.work_offset, q.work_offset));
-  if (p.security_z_mm != q.security_z_mm)
+  if (!model::same_value(p.security_z_mm, q.security_z_mm))
     out.push_back(change("security plane", "Z " + shortest(p.security_z_mm) + " mm",
                          "Z " + shortest(q.security_z_mm) + " mm"));
   const auto named = [](const model::Workholding& h) {
@@ -227,7 +231,7 @@ std::vector<std::string> results(const Plan& a, const Plan& b, const StepView& x
   const auto& p = *x.result;
   const auto& q = *y.result;
   const auto number = [&](const std::string& what, double from, double to, const std::string& unit) {
-    if (from != to) out.push_back(change(what, trimmed(from, 4) + unit, trimmed(to, 4) + unit));
+    if (!model::same_value(from, to)) out.push_back(change(what, trimmed(from, 4) + unit, trimmed(to, 4) + unit));
   };
   if (p.cutter_id != q.cutter_id)
     out.push_back(change("cutter", p.cutter_id + " (" + cutter_text(a, p.cutter_id) + ")",
@@ -239,7 +243,7 @@ std::vector<std::string> results(const Plan& a, const Plan& b, const StepView& x
   number("spindle", p.spindle_rpm, q.spindle_rpm, " 1/min");
   number("feed", p.feed_mm_min, q.feed_mm_min, " mm/min");
   if (coolant_text(p) != coolant_text(q)) out.push_back(change("coolant", coolant_text(p), coolant_text(q)));
-  if (p.exceeded != q.exceeded) out.push_back(change("exceeded limits", exceeded_text(p), exceeded_text(q)));
+  if (!model::same_value(p.exceeded, q.exceeded)) out.push_back(change("exceeded limits", exceeded_text(p), exceeded_text(q)));
   // Times have a line of their own, rounded, by motion where there are paths.
   if (const std::string fields = model::told_differences(
           p, q,

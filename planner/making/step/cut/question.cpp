@@ -6,6 +6,7 @@
 #include "casebase/casebase.h"
 #include "planner/ground/base/number.h"
 #include "planner/ground/vocabulary/operation.h"
+#include "planner/ground/vocabulary/thread_mill.h"
 #include "planner/making/step/record/record.h"
 #include "planner/making/toolpath/hole/hole_paths.h"
 #include "planner/making/toolpath/region/form/undercut.h"
@@ -36,7 +37,7 @@ constexpr double kAsWide = 1.02;
 
 CutKind kind_of(const Model& m, AnyRef op, const model::Cutter& c) {
   if (m.holds<model::Tapping>(op)) return CutKind::kTap;
-  if (c.cutter_class == model::CutterClass::kThreadMill) return CutKind::kFinish;
+  if (model::mills_threads(c.cutter_class)) return CutKind::kFinish;
   if (m.holds<model::Reaming>(op)) return CutKind::kReam;
   if (m.holds<model::DrillingTypeOperation>(op)) {
     const bool mills = model::has(c.cutter_class, model::CutterTrait::kEndMill);
@@ -228,7 +229,7 @@ optimise::CutQuestion question_of(const PlanSoFar& p, const StepDraft& step,
     // A semi-finishing pass of a surface may bend within the allowance it leaves.
     if (m.holds<model::FreeformFinishMilling>(step.operation) && job.allowance_bottom_mm > 0.0)
       q.deflection_limit_mm = std::max(q.deflection_limit_mm, kDeflectionShare * job.allowance_bottom_mm);
-    if (step.cutter.cutter_class == model::CutterClass::kThreadMill) {
+    if (model::mills_threads(step.cutter.cutter_class)) {
       // Depth of an ISO metric thread's flank, 0.6134 p (ISO 68-1).
       q.width_mm = 0.6134 * job.shape.thread_pitch_mm;
       q.ap_mm = std::min(step.cutter.maximum_depth_of_cut_mm, job.shape.thread_pitch_mm);

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "planner/ground/base/number.h"
+#include "planner/ground/vocabulary/thread_mill.h"
 #include "planner/making/toolpath/defaults.h"
 #include "planner/making/toolpath/hole/hole_paths.h"
 #include "planner/making/toolpath/link/path_writer.h"
@@ -107,7 +108,7 @@ Result<GeneratedPath> thread_mill_path(const PathJob& task, Job&) {
   const auto& s = task.shape;
   const double pitch = s.thread_pitch_mm;
   const double r = 0.5 * (s.thread_major_mm - task.cutter.cutting_diameter_mm);
-  if (task.cutter.cutter_class != model::CutterClass::kThreadMill)
+  if (!model::mills_threads(task.cutter.cutter_class))
     return refuse(task, "TPA-TOOL",
                   "thread milling needs a thread mill; cutter " + task.cutter.id + " is none");
   if (!(pitch > 0.0) || !(s.thread_major_mm > 0.0))

@@ -2,6 +2,7 @@
 #include <stdexcept>
 
 #include "planner/ground/vocabulary/operation.h"
+#include "planner/ground/vocabulary/thread_mill.h"
 #include "planner/making/toolpath/hole/hole_paths.h"
 #include "planner/making/toolpath/kind/kind_path.h"
 #include "planner/making/toolpath/operation/operation_path.h"
@@ -12,7 +13,6 @@
 
 namespace capstan::toolpath {
 
-using model::CutterClass;
 using model::ShapeKind;
 using model::TypeId;
 
@@ -41,7 +41,7 @@ bool breaks_edge(const PathJob& task) {
 namespace {
 
 Result<GeneratedPath> milling(const PathJob& task, Job& job) {
-  if (task.cutter.cutter_class == CutterClass::kThreadMill) return thread_mill_path(task, job);
+  if (model::mills_threads(task.cutter.cutter_class)) return thread_mill_path(task, job);
   if (mills_cone(task)) return cone_of_hole_path(task, job);
   if (breaks_edge(task)) return broken_edge_path(task, job);
   switch (task.shape.kind) {

@@ -162,7 +162,8 @@ double bend_at(const Edge& e, double above) {
 
 Result<WallError> wall_error(const Section& section, const Tooth& tooth, const ForceLaw& law, double fz_mm,
                              WallSide side, const ToolBeam& beam) {
-  if (auto ok = check_section(section, tooth, law, fz_mm, 1.0); !ok) return fail(ok.error());
+  if (auto ok = check_positive({{"fz_mm", fz_mm}}); !ok) return fail(ok.error());
+  if (auto ok = check_shape(section, tooth, law); !ok) return fail(ok.error());
   WallError out;
   if (!(section.ap_mm > 0.0)) return out;
   const double wall = side == WallSide::kLeft ? 0.0 : kPi;

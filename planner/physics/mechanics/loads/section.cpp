@@ -282,6 +282,8 @@ ForceVector scaled(const ForceVector& f, double k) { return {f.fx_n * k, f.fy_n 
 
 Status check_feed(double fz, double n) { return check_positive({{"fz_mm", fz}, {"n_rpm", n}}); }
 
+}  // namespace
+
 Status check_shape(const Section& s, const Tooth& t, const ForceLaw& law) {
   constexpr double kMost = 1e9;
   if (auto ok = check_positive({{"cutting_diameter_mm", t.cutting_diameter_mm},
@@ -314,13 +316,6 @@ Status check_shape(const Section& s, const Tooth& t, const ForceLaw& law) {
   }
   if (auto ok = check_positive({{"kc11_n_mm2", law.kienzle.kc11_n_mm2}}); !ok) return ok;
   return check_range({"mc", law.kienzle.mc}, 0.0, 0.999);
-}
-
-}  // namespace
-
-Status check_section(const Section& s, const Tooth& t, const ForceLaw& law, double fz, double n) {
-  if (auto ok = check_feed(fz, n); !ok) return ok;
-  return check_shape(s, t, law);
 }
 
 /// What of a section is the same at every feed.

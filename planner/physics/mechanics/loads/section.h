@@ -118,8 +118,7 @@ class SectionAtFeeds {
   std::shared_ptr<const Shape> shape_;
 };
 
-/// What SectionAtFeeds refuses, and nothing else: for whoever walks along the edge himself.
-[[nodiscard]] Status check_section(const Section& section, const Tooth& tooth, const ForceLaw& law,
-                                   double fz_mm, double n_rpm);
+/// What SectionAtFeeds::of refuses, and nothing else: for a caller who integrates along the edge himself.
+[[nodiscard]] Status check_shape(const Section& section, const Tooth& tooth, const ForceLaw& law);
 
 }  // namespace capstan::mechanics

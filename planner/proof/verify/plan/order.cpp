@@ -19,35 +19,6 @@ using model::TypeId;
 
 namespace {
 
-/// Operations of one feature in the order of the craft: a lower one never follows a higher one.
-int rank_of(TypeId operation) {
-  switch (operation) {
-    case TypeId::kCenterDrilling:
-      return 1;
-    case TypeId::kDrilling:
-    case TypeId::kMultistepDrilling:
-      return 2;
-    case TypeId::kPlaneRoughMilling:
-    case TypeId::kSideRoughMilling:
-    case TypeId::kBottomAndSideRoughMilling:
-    case TypeId::kFreeformRoughMilling:
-      return 3;
-    case TypeId::kPlaneFinishMilling:
-    case TypeId::kSideFinishMilling:
-    case TypeId::kBottomAndSideFinishMilling:
-    case TypeId::kFreeformFinishMilling:
-      return 4;
-    case TypeId::kBoring:
-    case TypeId::kReaming:
-    case TypeId::kBackBoring:
-    case TypeId::kTapping:
-    case TypeId::kThreadDrilling:
-      return 5;
-    default:
-      return 0;
-  }
-}
-
 std::string name_of(TypeId t) { return std::string(model::noun_type(t).keyword); }
 
 /// A thread and the hole that it is cut into are one thing to the order.
@@ -86,10 +57,10 @@ bool breaks_edges(const model::Plan& plan, const Entry& e) {
 void check_ranks(const model::Plan& plan, const std::vector<Entry>& entries, Findings& findings) {
   std::map<AnyRef, const Entry*> highest;
   for (const Entry& e : entries) {
-    const int rank = rank_of(e.operation.type);
+    const int rank = order_rank(e.operation.type);
     if (rank == 0 || breaks_edges(plan, e)) continue;
     const Entry*& before = highest[group_of(plan.model, e.feature)];
-    if (before != nullptr && rank < rank_of(before->operation.type)) {
+    if (before != nullptr && rank < order_rank(before->operation.type)) {
       findings.error(28, "CHK-ORDER", {e.order + 1, e.id, -1},
                      name_of(e.operation.type) + " comes after " + name_of(before->operation.type) + " (" +
                          before->id + ") on the same feature; put it before");

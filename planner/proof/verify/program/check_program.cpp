@@ -13,7 +13,7 @@ std::vector<StepMoves> judge_text(const DialectReader& reader, const Program& pr
                                   const model::Machine& machine, const std::vector<model::Cutter>& cutters,
                                   Findings& findings) {
   ProgramCase c = make_case(reader, program, plan, machine, cutters);
-  c.has_table = !text.tool_table.empty();
+  c.has_table = !text.tool_table.empty() && reader.tool_table != nullptr;
   for (const ReaderFault& f : program.faults) {
     std::size_t order = 1;
     std::string id;
@@ -33,7 +33,7 @@ std::vector<StepMoves> judge_text(const DialectReader& reader, const Program& pr
   check_program_coolant(c, findings);
   check_setups(c, findings);
   ToolTable table;
-  if (!text.tool_table.empty()) {
+  if (c.has_table) {
     table = reader.tool_table(text.tool_table);
     check_tool_table(c, table, findings);
   } else {

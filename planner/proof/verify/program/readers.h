@@ -16,7 +16,7 @@ struct DialectReader {
   std::string_view name;                           ///< for people
   std::span<const std::string_view> work_offsets;  ///< in the order of their numbers
   Program (*program)(std::string_view text);
-  ToolTable (*tool_table)(std::string_view text);
+  ToolTable (*tool_table)(std::string_view text);  ///< null for a control that reads no tool table
 };
 
 /// The reader for programs of that control; null when there is none.

@@ -26,23 +26,31 @@ using Json = nlohmann::json;
 
 class ContradictedPlan : public CommandTest {
  protected:
-  static void SetUpTestSuite() {
-    scratch_of_all_ = new ::capstan::testing::ScratchFolder();
-    const std::string examples = capstan::testing::source_dir() + "/examples/";
-    const std::string line = "cd '" + scratch_of_all_->path() + "' && '" CAPSTAN_COMMAND "' plan '" +
-                             examples +
-                             "bracket.p21' -o b.json -o b.p21 >out 2>&1 && '" CAPSTAN_COMMAND "' plan '" +
-                             examples + "two_setups.p21' -o t.p21 >out 2>&1 && '" CAPSTAN_COMMAND "' plan '" +
-                             examples + "plate_bound.p21' -o p.p21 >out 2>&1";
-    ASSERT_EQ(std::system(line.c_str()), 0) << slurp(scratch_of_all_->path() + "/out");
-    json_ = slurp(scratch_of_all_->path() + "/b.json");
-    part21_ = slurp(scratch_of_all_->path() + "/b.p21");
-    two_setups_ = slurp(scratch_of_all_->path() + "/t.p21");
-    holes_ = slurp(scratch_of_all_->path() + "/p.p21");
+  /// The plan of an example in a form, as the command writes it.
+  static std::string planned(const std::string& example, const std::string& form) {
+    const ::capstan::testing::ScratchFolder scratch;
+    const std::string line = "cd '" + scratch.path() + "' && '" CAPSTAN_COMMAND "' plan '" +
+                             capstan::testing::source_dir() + "/examples/" + example + ".p21' -o x." + form +
+                             " >out 2>&1";
+    EXPECT_EQ(std::system(line.c_str()), 0) << slurp(scratch.path() + "/out");
+    return slurp(scratch.path() + "/x." + form);
   }
-  static void TearDownTestSuite() {
-    delete scratch_of_all_;
-    scratch_of_all_ = nullptr;
+  /// Planned once in a process, and only where a test asks: each test is a process of its own.
+  static const std::string& part21() {
+    static const std::string text = planned("bracket", "p21");
+    return text;
+  }
+  static const std::string& json() {
+    static const std::string text = planned("bracket", "json");
+    return text;
+  }
+  static const std::string& two_setups() {
+    static const std::string text = planned("two_setups", "p21");
+    return text;
+  }
+  static const std::string& holes() {
+    static const std::string text = planned("plate_bound", "p21");
+    return text;
   }
 
   static std::size_t count(const std::string& text, const std::string& what) {
@@ -80,41 +88,46 @@ class ContradictedPlan : public CommandTest {
     return m[1];
   }
 
-  /// Neither passes the check nor becomes a program; both name what is wrong.
-  void expect_refused(const std::string& file, const std::string& text, const std::vector<std::string>& named,
-                      const std::string& options = "") {
+  /// A reference that is the parameter of that number of the first instance of a keyword, in the plan of holes,
+  /// now to another instance.
+  static std::string with_reference(const std::string& keyword, int parameter, const std::string& to) {
+    std::string text = holes();
+    std::size_t i = text.find('(', text.find("\n" + number_of(text, keyword) + "=")) + 1;
+    int depth = 0;
+    for (int n = 0; n < parameter; ++i) {
+      depth += text[i] == '(' ? 1 : text[i] == ')' ? -1 : 0;
+      n += depth == 0 && text[i] == ',' ? 1 : 0;
+    }
+    const std::size_t from = text.find('#', i);
+    return text.replace(from, text.find_first_of(",)", from) - from, to);
+  }
+
+  /// Neither passes the check nor becomes a program, not even where findings are allowed: stops before its
+  /// steps would not tell what the steps are. Both name what is wrong.
+  void expect_refused(const std::string& file, const std::string& text,
+                      const std::vector<std::string>& named) {
     put(file, text);
     std::filesystem::remove(folder_ / "x.ngc");
-    const Ran checked = run("check " + options + file);
+    const Ran checked = run("check " + file);
     EXPECT_EQ(checked.code, 1) << checked.err;
     EXPECT_THAT(checked.err, HasSubstr("error: "));
-    const Ran planned = run("plan " + file + " -o x.ngc " + options);
-    EXPECT_EQ(planned.code, 1) << planned.err;
-    EXPECT_THAT(files(), Not(Contains("x.ngc")));
+    const Ran asked = run("plan " + file + " --allow-findings -o x.ngc -o x.tbl");
+    EXPECT_EQ(asked.code, 1) << asked.err;
     for (const std::string& name : named) {
       EXPECT_THAT(checked.err, HasSubstr(name));
-      EXPECT_THAT(planned.err, HasSubstr(name));
+      EXPECT_THAT(asked.err, HasSubstr(name));
     }
-    // Stops before its steps would not tell what the steps are.
-    const Ran asked = run("plan " + file + " --allow-findings -o x.ngc -o x.tbl " + options);
-    EXPECT_EQ(asked.code, 1) << asked.err;
     EXPECT_THAT(files(), AllOf(Not(Contains("x.ngc")), Not(Contains("x.tbl"))));
     EXPECT_THAT(asked.err, AllOf(HasSubstr("program not written: "),
                                  HasSubstr("--allow-findings cannot override this")));
   }
-
-  static ::capstan::testing::ScratchFolder* scratch_of_all_;
-  static std::string json_, part21_, two_setups_, holes_;
 };
-::capstan::testing::ScratchFolder* ContradictedPlan::scratch_of_all_ = nullptr;
-std::string ContradictedPlan::json_, ContradictedPlan::part21_, ContradictedPlan::two_setups_,
-    ContradictedPlan::holes_;
 
 TEST_F(ContradictedPlan, StepsInAnotherOrderThanTheWorkplansAreJudgedInTheWorkplansAndSaidOnce) {
   const auto step = [&](const std::string& its_id) {
-    return "!CAPSTAN_STEP('" + number_of(part21_, "MACHINING_WORKINGSTEP", "'" + its_id) + "'";
+    return "!CAPSTAN_STEP('" + number_of(part21(), "MACHINING_WORKINGSTEP", "'" + its_id) + "'";
   };
-  put("e.p21", with_lines_swapped(part21_, step("POCKET area_rough"), step("POCKET area_finish")));
+  put("e.p21", with_lines_swapped(part21(), step("POCKET area_rough"), step("POCKET area_finish")));
   const Ran r = run("check e.p21");
   EXPECT_EQ(r.code, 1);
   EXPECT_EQ(count(r.err, "EXC-ORDER"), 1U) << r.err;
@@ -125,10 +138,10 @@ TEST_F(ContradictedPlan, StepsInAnotherOrderThanTheWorkplansAreJudgedInTheWorkpl
 }
 
 TEST_F(ContradictedPlan, AWorkplanThatWasReorderedIsFollowed) {
-  const std::string a = number_of(part21_, "MACHINING_WORKINGSTEP", "'DOWEL HOLE 1 drill");
-  const std::string b = number_of(part21_, "MACHINING_WORKINGSTEP", "'DOWEL HOLE 2 drill");
-  const std::string plan = number_of(part21_, "WORKPLAN") + "=WORKPLAN";
-  put("e.p21", with(part21_, plan, a + "," + b, b + "," + a));
+  const std::string a = number_of(part21(), "MACHINING_WORKINGSTEP", "'DOWEL HOLE 1 drill");
+  const std::string b = number_of(part21(), "MACHINING_WORKINGSTEP", "'DOWEL HOLE 2 drill");
+  const std::string plan = number_of(part21(), "WORKPLAN") + "=WORKPLAN";
+  put("e.p21", with(part21(), plan, a + "," + b, b + "," + a));
   const Ran r = run("check e.p21");
   EXPECT_EQ(r.code, 1);
   EXPECT_EQ(count(r.err, "EXC-ORDER"), 1U) << r.err;
@@ -142,15 +155,15 @@ TEST_F(ContradictedPlan, AWorkplanThatWasReorderedIsFollowed) {
 }
 
 TEST_F(ContradictedPlan, SetUpsInAnotherOrderDoNotMoveTheStepsBetweenThem) {
-  const auto at = two_setups_.find("\n!CAPSTAN_SETUP(") + 1;
-  const auto next = two_setups_.find("\n!CAPSTAN_SETUP(", at) + 1;
+  const auto at = two_setups().find("\n!CAPSTAN_SETUP(") + 1;
+  const auto next = two_setups().find("\n!CAPSTAN_SETUP(", at) + 1;
   ASSERT_NE(next, 0U);
-  std::string text = two_setups_;
+  std::string text = two_setups();
   const std::string first = text.substr(at, next - at);
   const auto end = text.find('\n', next) + 1;
   text = text.substr(0, at) + text.substr(next, end - next) + first + text.substr(end);
   put("e.p21", text);
-  put("t.p21", two_setups_);
+  put("t.p21", two_setups());
   const Ran before = run("check t.p21"), r = run("check e.p21");
   EXPECT_EQ(r.code, 1);
   EXPECT_EQ(count(r.err, "EXC-ORDER"), 1U) << r.err;
@@ -158,22 +171,39 @@ TEST_F(ContradictedPlan, SetUpsInAnotherOrderDoNotMoveTheStepsBetweenThem) {
 }
 
 TEST_F(ContradictedPlan, AMaterialThatWasEditedInTheHeaderIsAnErrorUntilItIsNamed) {
-  const std::string text = with(part21_, "!CAPSTAN_MATERIAL", "641.", "320.5");
+  const std::string text = with(part21(), "!CAPSTAN_MATERIAL", "641.", "320.5");
   expect_refused("e.p21", text, {"its_material", "--material"});
   put("e.p21", text);
   EXPECT_EQ(run("plan e.p21 -o x.ngc --material wrought_aluminium").code, 0);
   EXPECT_THAT(files(), Contains("x.ngc"));
 }
 
+// Where findings are not allowed either, of each kind of contradiction one: lists, json, references.
+TEST_F(ContradictedPlan, HasNoProgramWhereFindingsAreNotAllowed) {
+  put("header.p21", with(part21(), "!CAPSTAN_STOCK", "80.,1.", "80.,5."));
+  Json plan = Json::parse(json());
+  plan["setups"][0]["work_offset"] = "G55";
+  put("list.json", plan.dump());
+  put("reference.p21", with_reference("WORKPLAN", 3, "#999999"));
+  for (const auto& [file, named] : {std::pair{"header.p21", "its_rawpiece"}, std::pair{"list.json", "set-ups"},
+                                    std::pair{"reference.p21", "WORKPLAN.its_setup"}}) {
+    SCOPED_TRACE(file);
+    const Ran planned = run(std::string("plan ") + file + " -o x.ngc");
+    EXPECT_EQ(planned.code, 1) << planned.err;
+    EXPECT_THAT(planned.err, HasSubstr(named));
+    EXPECT_THAT(files(), Not(Contains("x.ngc")));
+  }
+}
+
 TEST_F(ContradictedPlan, WhatTheHeaderListsIsNotEditedThere) {
-  expect_refused("e.p21", with(part21_, "!CAPSTAN_STOCK", "80.,1.", "80.,5."), {"its_rawpiece"});
-  expect_refused("e.p21", with(part21_, "!CAPSTAN_SETUP", "'G54'", "'G55'"), {"set-ups"});
-  expect_refused("e.p21", with(part21_, "!CAPSTAN_STEP", "859.", "1859."), {"steps"});
-  expect_refused("e.p21", with(part21_, "!CAPSTAN_CUTTER", "120.", "150."), {"tools"});
+  expect_refused("e.p21", with(part21(), "!CAPSTAN_STOCK", "80.,1.", "80.,5."), {"its_rawpiece"});
+  expect_refused("e.p21", with(part21(), "!CAPSTAN_SETUP", "'G54'", "'G55'"), {"set-ups"});
+  expect_refused("e.p21", with(part21(), "!CAPSTAN_STEP", "859.", "1859."), {"steps"});
+  expect_refused("e.p21", with(part21(), "!CAPSTAN_CUTTER", "120.", "150."), {"tools"});
 }
 
 TEST_F(ContradictedPlan, IsNotBoundToAProgramEither) {
-  put("e.p21", with(part21_, "!CAPSTAN_SETUP", "'G54'", "'G55'"));
+  put("e.p21", with(part21(), "!CAPSTAN_SETUP", "'G54'", "'G55'"));
   for (const char* asked : {"", "--allow-findings "}) {
     EXPECT_NE(run(std::string("bind e.p21 ") + asked + "-o x.ngc -o x.tbl").code, 0);
     EXPECT_THAT(files(), AllOf(Not(Contains("x.ngc")), Not(Contains("x.tbl"))));
@@ -190,14 +220,14 @@ TEST_F(ContradictedPlan, WhatTheJsonListsIsNotEditedThere) {
       {"set-ups", [](Json& p) { p["setups"][0]["work_offset"] = "G55"; }}};
   for (const auto& [named, edit] : edits) {
     SCOPED_TRACE(named);
-    Json plan = Json::parse(json_);
+    Json plan = Json::parse(json());
     edit(plan);
     expect_refused("e.json", plan.dump(), {named});
   }
 }
 
 TEST_F(ContradictedPlan, WrittenAgainIsAsTheNounsHaveItAndNoContradictionAnyMore) {
-  put("e.p21", with(part21_, "!CAPSTAN_STOCK", "80.,1.", "80.,5."));
+  put("e.p21", with(part21(), "!CAPSTAN_STOCK", "80.,1.", "80.,5."));
   EXPECT_EQ(run("plan e.p21 -o f.p21 -o f.json").code, 1);
   for (const char* form : {"f.p21", "f.json"}) {
     const Ran r = run(std::string("check ") + form);
@@ -214,20 +244,10 @@ TEST_F(ContradictedPlan, AWrongReferenceOfTheWholePlanIsAnErrorThatNamesIt) {
        {Wrong{"WORKPIECE", "its_material", 1}, Wrong{"WORKPLAN", "its_setup", 3},
         Wrong{"SETUP", "its_origin", 1}, Wrong{"SETUP", "its_secplane", 2},
         Wrong{"SETUP", "its_workpiece_setup", 3}, Wrong{"WORKPIECE_SETUP", "its_origin", 1}}) {
-    const std::string instance = number_of(holes_, w.keyword);
-    const std::string kind = number_of(holes_, "CUTTING_COMPONENT");
+    const std::string kind = number_of(holes(), "CUTTING_COMPONENT");
     for (const std::string& to : {std::string("#999999"), kind}) {
       SCOPED_TRACE(std::string(w.keyword) + "." + w.attribute + " = " + to);
-      std::string text = holes_;
-      std::size_t i = text.find('(', text.find("\n" + instance + "=")) + 1;
-      int depth = 0;
-      for (int n = 0; n < w.parameter; ++i) {
-        depth += text[i] == '(' ? 1 : text[i] == ')' ? -1 : 0;
-        n += depth == 0 && text[i] == ',' ? 1 : 0;
-      }
-      const std::size_t from = text.find('#', i);
-      text.replace(from, text.find_first_of(",)", from) - from, to);
-      expect_refused("e.p21", text, {std::string(w.keyword) + "." + w.attribute});
+      expect_refused("e.p21", with_reference(w.keyword, w.parameter, to), {std::string(w.keyword) + "." + w.attribute});
     }
   }
 }

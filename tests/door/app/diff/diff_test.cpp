@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "planner/model/plan/field_differences.h"
 #include "tests/door/app/plans.h"
 
 namespace capstan::app {
@@ -89,6 +90,25 @@ TEST(Diff, TellsAnotherHoldingSecurityPlaneAndWorkOffset) {
                                 "  security plane: Z 30 mm -> Z 42.5 mm\n"
                                 "  workholding: not stated -> vise\n"
                                 "  workholding: its data differ (pickup)\n"));
+}
+
+// 3.937 inch and the like are lengths whose last digits differ; what is computed of them differs, too.
+TEST(Diff, TellsNoDifferenceBelowTheResolutionOfNumbersAndTellsOneAboveIt) {
+  auto before = testing::planned_plate();
+  before.stock.box = {{0, 0, -20}, {100, 50, 0}};
+  for (const double off : {4e-10, 4e-6}) {
+    auto after = before;
+    after.stock.box.hi.x += off;
+    after.setups[0].security_z_mm += off;
+    after.steps[0].loads.peak_force_n += off;
+    after.steps[0].feed_mm_min += off;
+    const auto d = diff(before, after);
+    EXPECT_EQ(d.same, off < model::kSameNumber) << d.text;
+    if (d.same) continue;
+    for (const char* told :
+         {"stock: its data differ (box)", "security plane: ", "its data differ (loads)", "feed: "})
+      EXPECT_THAT(d.text, HasSubstr(told));
+  }
 }
 
 TEST(Diff, TellsASetupThatLiesElsewhere) {

@@ -3,14 +3,20 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "planner/ground/base/number.h"
 
-// Forms against the piece that they are cut from. What lies above a form's top is asked for by points, over
-// its area and at several heights. A point is open outside the piece and where some form takes it away. It
-// counts as solid when its neighbours, a hair aside, are solid, too: in corners where two outlines meet
-// something always stays. Beside what an outside leaves standing nothing of the part is higher than that:
-// above it is raw piece only.
+// Forms against the piece that they are cut from, by lines along a form's axis.
+//
+// A line is cut by exact spans: where the piece is (the sides of its box, the chord of its bar), less what each
+// other form takes of it (from its floor to its top, for a form whose axis is parallel; from step to step for one
+// that lies across). What is left above the form's top on a line, and on four lines a hair aside, is a lid; in
+// corners where two outlines meet something always stays on one line. Over an outside a line ends at the height
+// of what stands beyond the nearest point of its outline: higher than that there is raw piece only.
+//
+// The planner samples the same places by points in the form's frame (model/features/shape/in_piece.cpp); here
+// places are judged in the workpiece's frame or by spans, so that one mistake does not pass both.
 
 namespace capstan::verify::volumes {
 
@@ -22,27 +28,119 @@ using model::ShapeKind;
 namespace {
 
 constexpr double kSquare = 1.0 - 1e-9;
-constexpr int kAcross = 32;       // points along a side; default, unsourced
-constexpr int kUp = 6;            // heights; default, unsourced
-constexpr double kAsideMm = 0.2;  // neighbours; default, unsourced
-constexpr double kLidMm = 0.02;   // thinner lids are rounding of a file; default, unsourced
+constexpr double kEndless = 1e300;
+constexpr int kLines = 36;        // along a side of the form's area; default, unsourced
+constexpr double kStepMm = 0.25;  // along a line through a form that lies across it; default, unsourced
+constexpr int kMostSteps = 400;
+constexpr double kAsideMm = 0.2;  // of the lines beside a line; default, unsourced
+constexpr double kLidMm = 0.02;   // how far a form's top and floor may be off; default, unsourced
+constexpr double kThinMm = 0.1;   // thinner lids are rounding of a file; default, unsourced
 
-Box3 seen(const Box3& box, const geometry::Placement& frame) {
-  Box3 out;
-  for (int i = 0; i < 8; ++i)
-    out.add(frame.to_local({(i & 1) != 0 ? box.hi.x : box.lo.x, (i & 2) != 0 ? box.hi.y : box.lo.y,
-                            (i & 4) != 0 ? box.hi.z : box.lo.z}));
+double along(Vec3 v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
+
+/// The axis of the workpiece that a form's z runs along, and to which side; none for a tilted form.
+struct Axis {
+  int number = 0;
+  double sign = 1.0;
+};
+std::optional<Axis> axis_of(const Form& f) {
+  for (int i = 0; i < 3; ++i) {
+    const double part = along(f.frame().z, i);
+    if (std::abs(part) >= kSquare) return Axis{i, part > 0.0 ? 1.0 : -1.0};
+  }
+  return std::nullopt;
+}
+
+/// How far a place of the workpiece lies beyond the side of the box that the form's z comes out of from below:
+/// above 0 below the underside.
+double below_underside(const Box3& box, const Axis& axis, Vec3 p) {
+  return axis.sign > 0.0 ? along(box.lo, axis.number) - along(p, axis.number)
+                         : along(p, axis.number) - along(box.hi, axis.number);
+}
+
+/// Pieces of a line by the way along it, in order and apart.
+using Spans = std::vector<std::pair<double, double>>;
+
+Spans common(const Spans& a, const Spans& b) {
+  Spans out;
+  for (const auto& [a0, a1] : a) {
+    for (const auto& [b0, b1] : b) {
+      if (std::max(a0, b0) < std::min(a1, b1)) out.emplace_back(std::max(a0, b0), std::min(a1, b1));
+    }
+  }
   return out;
 }
 
-bool tilted(const Form& f) {
-  const Vec3 z = f.frame().z;
-  return std::max({std::abs(z.x), std::abs(z.y), std::abs(z.z)}) < kSquare;
+void cut_out(Spans& spans, double from, double to) {
+  if (!(from < to)) return;
+  Spans out;
+  for (const auto& [lo, hi] : spans) {
+    if (lo < std::min(hi, from)) out.emplace_back(lo, std::min(hi, from));
+    if (std::max(lo, to) < hi) out.emplace_back(std::max(lo, to), hi);
+  }
+  spans = std::move(out);
 }
 
-double radius_of(const Form& f, const Bore& b) {
-  if (f.kind == ShapeKind::kThread) return std::max(0.5 * b.thread_major_mm, b.top_radius_mm);
-  return std::min(b.top_radius_mm, b.bottom_radius_mm);
+/// A line of the workpiece: `start`, and a direction of length 1.
+struct Line {
+  Vec3 start, way;
+  [[nodiscard]] Vec3 at(double t) const { return start + t * way; }
+};
+
+/// What of the line lies in the piece.
+Spans within(const Piece& piece, const Line& line) {
+  double from = -kEndless, to = kEndless;
+  for (int i = 0; i < 3; ++i) {
+    const double s = along(line.start, i), w = along(line.way, i);
+    const double lo = along(piece.box.lo, i) - s, hi = along(piece.box.hi, i) - s;
+    if (std::abs(w) < 1e-12) {
+      if (lo > 0.0 || hi < 0.0) return {};
+      continue;
+    }
+    from = std::max(from, std::min(lo / w, hi / w));
+    to = std::min(to, std::max(lo / w, hi / w));
+  }
+  if (piece.round_mm) {
+    const Vec3 middle = 0.5 * (piece.box.lo + piece.box.hi);
+    const Vec2 s = xy(line.start - middle), w = xy(line.way);
+    // |s + t w|^2 = r^2
+    const double a = dot(w, w), b = dot(s, w), c = dot(s, s) - *piece.round_mm * *piece.round_mm;
+    if (a < 1e-12) {
+      if (c > 0.0) return {};
+    } else {
+      const double square = b * b - a * c;
+      if (square <= 0.0) return {};
+      from = std::max(from, (-b - std::sqrt(square)) / a);
+      to = std::min(to, (-b + std::sqrt(square)) / a);
+    }
+  }
+  return from < to ? Spans{{from, to}} : Spans{};
+}
+
+/// Takes from the spans what the form takes away.
+void take(const Form& f, const Line& line, Spans& spans) {
+  const Vec3 start = f.frame().to_local(line.start);
+  const double rise = dot(line.way, f.frame().z);
+  if (std::abs(rise) < kSquare) {  // it lies across
+    if (spans.empty()) return;
+    const double from = spans.front().first, to = spans.back().second;
+    const int steps = std::clamp(static_cast<int>(std::ceil((to - from) / kStepMm)), 1, kMostSteps);
+    const double step = (to - from) / steps;
+    for (int i = 0; i < steps; ++i) {
+      if (takes(f, line.at(from + (i + 0.5) * step))) cut_out(spans, from + i * step, from + (i + 1) * step);
+    }
+    return;
+  }
+  const auto floor = floor_at(f, xy(start));
+  if (!floor) return;
+  const bool out_below = f.solid.through && *floor <= -f.depth_mm() + kLidMm;
+  const double low = out_below ? -kEndless : *floor - kLidMm;
+  const double high = f.kind == ShapeKind::kFace ? kEndless : kLidMm;
+  if (rise > 0.0) {
+    cut_out(spans, low - start.z, high - start.z);
+  } else {
+    cut_out(spans, start.z - high, start.z - low);
+  }
 }
 
 /// A wall on each side of the cutter, and a floor.
@@ -66,50 +164,67 @@ bool lies_below(const Form& f) {
   }
 }
 
-struct Left {
-  Vec2 at;
-  double top_mm = 0.0;
-};
-
-/// How high the faces over a place let the part be there, form's frame.
-double under_faces(const Form& f, const std::vector<Form>& others, Vec2 p, double most) {
+/// How high the part is over a place of the form's frame: to the lowest floor of the faces there, else to
+/// `most`.
+double part_over(const Form& f, const std::vector<Form>& others, Vec2 p, double most) {
   for (const Form& o : others) {
     if (o.kind != ShapeKind::kFace || dot(o.frame().z, f.frame().z) < kSquare) continue;
-    const Vec3 q = o.frame().to_local(f.frame().to_parent({p.x, p.y, 0.0}));
-    if (geometry::contains(o.area, xy(q)))
-      most = std::min(most, f.frame().to_local(o.frame().origin).z - o.depth_mm());
+    if (!geometry::contains(o.area, xy(o.frame().to_local(f.frame().to_parent({p.x, p.y, 0.0}))))) continue;
+    most = std::min(most, dot(o.frame().origin - f.frame().origin, f.frame().z) - o.depth_mm());
   }
   return most;
 }
 
-double top_beside(const std::vector<Left>& left, Vec2 p, double cell, double most) {
-  double near = 1e300;
-  for (const Left& l : left) near = std::min(near, norm(l.at - p));
-  for (const Left& l : left) {
-    if (norm(l.at - p) <= near + cell) most = std::min(most, l.top_mm);
+/// The height of what stands beyond the nearest point of the form's outlines, form's frame. Of points that are
+/// farther by less than `slack` the lowest counts. `foot`: the piece as it lies under the form.
+double beside_outline(const Form& f, const std::vector<Form>& others, Vec2 p, const geometry::Box2& foot,
+                      double slack, double most) {
+  std::vector<std::pair<double, double>> stands;  // how far, how high
+  double nearest_mm = kEndless;
+  const auto loop = [&](const geometry::Loop& l) {
+    for (std::size_t i = 0; i < l.size(); ++i) {
+      const Vec2 a = l[i], d = l[(i + 1) % l.size()] - a;
+      const double share = std::clamp(dot(p - a, d) / std::max(dot(d, d), 1e-300), 0.0, 1.0);
+      const Vec2 on = a + share * d;
+      const double far = norm(on - p);
+      if (far > nearest_mm + slack || !(far > 0.0)) continue;
+      const Vec2 beyond = on + (kAsideMm / far) * (on - p);
+      if (beyond.x < foot.lo.x || beyond.x > foot.hi.x || beyond.y < foot.lo.y || beyond.y > foot.hi.y)
+        continue;
+      const auto floor = floor_at(f, beyond);
+      if (floor && *floor <= -kLidMm) continue;  // it takes that away, too
+      nearest_mm = std::min(nearest_mm, far);
+      stands.emplace_back(far, part_over(f, others, beyond, most));
+    }
+  };
+  for (const geometry::Loop& l : f.area.loops) loop(l);
+  for (const Island& i : f.islands) {
+    for (const geometry::Loop& l : i.area.loops) loop(l);
+  }
+  for (const auto& [far, high] : stands) {
+    if (far <= nearest_mm + slack) most = std::min(most, high);
   }
   return most;
 }
 
 }  // namespace
 
-bool Piece::holds(Vec3 p) const {
-  if (p.x < box.lo.x || p.x > box.hi.x || p.y < box.lo.y || p.y > box.hi.y || p.z < box.lo.z ||
-      p.z > box.hi.z)
-    return false;
-  const Vec3 middle = 0.5 * (box.lo + box.hi);
-  return !round_mm || std::hypot(p.x - middle.x, p.y - middle.y) <= *round_mm;
-}
-
 std::string cuts_an_edge(const Form& f, const Piece& raw) {
   const Bore* b = f.bore();
-  if (b == nullptr || raw.box.empty() || tilted(f)) return {};
-  const double r = radius_of(f, *b);
-  const Box3 box = seen(raw.box, f.frame());
-  double beyond = std::max({r + box.lo.x, r - box.hi.x, r + box.lo.y, r - box.hi.y});
-  if (raw.round_mm && std::abs(f.frame().z.z) >= kSquare) {
+  const auto axis = axis_of(f);
+  if (b == nullptr || raw.box.empty() || !axis) return {};
+  const double r = f.kind == ShapeKind::kThread ? std::max(0.5 * b->thread_major_mm, b->top_radius_mm)
+                                                : std::min(b->top_radius_mm, b->bottom_radius_mm);
+  // The rim on either side of the axis, along the sides of the box that the axis is parallel to.
+  double beyond = -kEndless;
+  for (int i = 0; i < 3; ++i) {
+    if (i == axis->number) continue;
+    const double middle = along(f.frame().origin, i);
+    beyond = std::max({beyond, along(raw.box.lo, i) - (middle - r), middle + r - along(raw.box.hi, i)});
+  }
+  if (raw.round_mm && axis->number == 2) {
     const Vec3 off = f.frame().origin - 0.5 * (raw.box.lo + raw.box.hi);
-    beyond = std::max(beyond, std::hypot(off.x, off.y) + r - *raw.round_mm);
+    beyond = std::max(beyond, norm(xy(off)) + r - *raw.round_mm);
   }
   if (beyond <= kBeyondMm) return {};
   return (beyond > r ? "its axis lies " + trimmed(beyond - r, 3) + " mm outside the raw piece"
@@ -120,87 +235,102 @@ std::string cuts_an_edge(const Form& f, const Piece& raw) {
 
 std::string point_runs_through(const Form& f, const Piece& raw, const Piece& part) {
   const Bore* b = f.bore();
-  if (b == nullptr || f.kind != ShapeKind::kHole || !(f.tip_mm > 0.0) || raw.box.empty() || tilted(f))
-    return {};
-  const double raw_under = -seen(raw.box, f.frame()).lo.z;
-  const double part_under = part.box.empty() ? raw_under : -seen(part.box, f.frame()).lo.z;
-  const double under = std::min(raw_under, part_under);
+  const auto axis = axis_of(f);
+  if (b == nullptr || f.kind != ShapeKind::kHole || !(f.tip_mm > 0.0) || raw.box.empty() || !axis) return {};
   if (!std::isfinite(f.tip_mm)) return "the point of its drill has no end; state a tip_angle in radians";
-  const double by = f.depth_mm() + f.tip_mm - under;
-  if (by <= kBeyondMm || f.depth_mm() > under + kBeyondMm) return {};
+  // Where depth and point end in the workpiece; the part may end above the raw piece.
+  const Vec3 floor = f.frame().to_parent({0.0, 0.0, -f.depth_mm()});
+  const Vec3 point = f.frame().to_parent({0.0, 0.0, -f.depth_mm() - f.tip_mm});
+  const auto below = [&](const Piece& p, Vec3 at) {
+    return p.box.empty() ? -kEndless : below_underside(p.box, *axis, at);
+  };
+  const bool of_part = below(part, point) > below(raw, point) + kBeyondMm;
+  const double by = std::max(below(part, point), below(raw, point));
+  if (by <= kBeyondMm || std::max(below(part, floor), below(raw, floor)) > kBeyondMm) return {};
   const double full = 2.0 * std::atan(b->bottom_radius_mm / f.tip_mm) * 180.0 / std::numbers::pi;
   return "the point of its drill (" + trimmed(full, 1) + " degrees, " + trimmed(f.tip_mm, 3) +
          " mm long, below a depth of " + trimmed(f.depth_mm(), 3) +
-         " mm) runs through the underside of the " +
-         (part_under < raw_under - kBeyondMm ? "finished part" : "raw piece") + " by " + trimmed(by, 3) +
-         " mm; give the hole a flat bottom, make it " + trimmed(by, 3) + " mm less deep, or through";
+         " mm) runs through the underside of the " + (of_part ? "finished part" : "raw piece") + " by " +
+         trimmed(by, 3) + " mm; give the hole a flat bottom, make it " + trimmed(by, 3) +
+         " mm less deep, or through";
 }
 
 std::string floor_below_part(const Form& f, const Piece& raw, const Piece& part) {
-  if (!walled(f) || f.solid.through || f.area.empty() || raw.box.empty() || part.box.empty() || tilted(f))
+  const auto axis = axis_of(f);
+  if (!walled(f) || f.solid.through || f.area.empty() || raw.box.empty() || part.box.empty() || !axis)
     return {};
-  const Box3 finished = seen(part.box, f.frame());
-  const double raw_under = -seen(raw.box, f.frame()).lo.z, depth = f.depth_mm();
-  const double by = depth + finished.lo.z;
-  if (-finished.lo.z >= raw_under - kBeyondMm || by <= kBeyondMm || depth > raw_under + kBeyondMm) return {};
+  const Vec3 floor = f.frame().to_parent({0.0, 0.0, -f.depth_mm()});
+  const double by = below_underside(part.box, *axis, floor);
+  const double below_raw = below_underside(raw.box, *axis, floor);
+  // Only what ends between the two undersides is cut off with the rest of the raw piece.
+  if (by <= kBeyondMm || below_raw > kBeyondMm || by <= below_raw + kBeyondMm) return {};
   // What lies beside the part is cut off with all of its floor.
   const auto b = geometry::bounds(f.area);
-  if (b.hi.x < finished.lo.x || b.lo.x > finished.hi.x || b.hi.y < finished.lo.y || b.lo.y > finished.hi.y)
-    return {};
-  return "its floor, " + trimmed(depth, 3) + " mm deep, lies " + trimmed(by, 3) +
+  Box3 floor_box;
+  for (const Vec2 corner : {b.lo, b.hi}) floor_box.add(f.frame().to_parent({corner.x, corner.y, 0.0}));
+  for (int i = 0; i < 3; ++i) {
+    if (i == axis->number) continue;
+    if (along(floor_box.lo, i) > along(part.box.hi, i) || along(floor_box.hi, i) < along(part.box.lo, i))
+      return {};
+  }
+  return "its floor, " + trimmed(f.depth_mm(), 3) + " mm deep, lies " + trimmed(by, 3) +
          " mm below the underside of the finished part, in what is cut off there: make it through, make it " +
          trimmed(by, 3) + " mm less deep, or state the finished part's true size";
 }
 
 std::string buried(const Form& f, const std::vector<Form>& others, const Piece& part, double& above_mm) {
-  if (!lies_below(f) || f.area.empty() || part.box.empty() || tilted(f)) return {};
-  const Box3 box = seen(part.box, f.frame());
-  if (box.hi.z <= kLidMm) return {};
-  auto b = geometry::bounds(f.area);
-  b.lo = {std::max(b.lo.x, box.lo.x), std::max(b.lo.y, box.lo.y)};
-  b.hi = {std::min(b.hi.x, box.hi.x), std::min(b.hi.y, box.hi.y)};
-  if (!(b.lo.x < b.hi.x && b.lo.y < b.hi.y)) return {};
-  const Vec2 cell = (1.0 / kAcross) * (b.hi - b.lo);
-  const auto taken = [&](Vec2 p) {
-    const auto own = floor_at(f, p);
-    return own && *own <= -kLidMm;
-  };
-  std::vector<Left> left;
-  // A strip along a side has all that it leaves standing beside it: hence a margin around.
-  const double margin = 2.0 * std::max(cell.x, cell.y);
-  const Vec2 from{std::max(b.lo.x - margin, box.lo.x), std::max(b.lo.y - margin, box.lo.y)};
-  const Vec2 to{std::min(b.hi.x + margin, box.hi.x), std::min(b.hi.y + margin, box.hi.y)};
-  for (int i = 0; f.kind == ShapeKind::kOutside && i < kAcross * kAcross; ++i) {
-    const double u = (i % kAcross + 0.5) / kAcross, v = (i / kAcross + 0.5) / kAcross;
-    const Vec2 p{from.x + u * (to.x - from.x), from.y + v * (to.y - from.y)};
-    if (!taken(p)) left.push_back({p, under_faces(f, others, p, box.hi.z)});
+  if (!lies_below(f) || f.area.empty() || part.box.empty() || !axis_of(f)) return {};
+  Box3 box;  // of the part, form's frame
+  for (const double x : {part.box.lo.x, part.box.hi.x}) {
+    for (const double y : {part.box.lo.y, part.box.hi.y}) {
+      for (const double z : {part.box.lo.z, part.box.hi.z}) box.add(f.frame().to_local({x, y, z}));
+    }
   }
-  const auto solid = [&](double x, double y, double z) {
-    const Vec3 p = f.frame().to_parent({x, y, z});
-    return part.holds(p) &&
-           std::none_of(others.begin(), others.end(), [&](const Form& o) { return takes(o, p); });
+  if (box.hi.z <= kLidMm) return {};
+  const geometry::Box2 foot{{box.lo.x, box.lo.y}, {box.hi.x, box.hi.y}};
+  const auto bounds = geometry::bounds(f.area);
+  const Vec2 lo{std::max(bounds.lo.x, foot.lo.x), std::max(bounds.lo.y, foot.lo.y)};
+  const Vec2 hi{std::min(bounds.hi.x, foot.hi.x), std::min(bounds.hi.y, foot.hi.y)};
+  if (!(lo.x < hi.x && lo.y < hi.y)) return {};
+  // The solid that nobody takes over a place, from the form's top up to `top`; the way along a line is the
+  // height in the form's frame.
+  const auto solid_over = [&](Vec2 p, double top) {
+    const Line line{f.frame().to_parent({p.x, p.y, 0.0}), f.frame().z};
+    Spans spans = common(within(part, line), {{kLidMm, top}});
+    for (const Form& o : others) {
+      if (spans.empty()) break;
+      take(o, line, spans);
+    }
+    return spans;
   };
   // Wide below a narrower hole on its axis and open at the underside: it is cut from below.
-  if (f.bore() != nullptr && (f.solid.through || -f.depth_mm() <= box.lo.z + kLidMm)) {
-    bool open = !others.empty();
-    const double high = (box.hi.z - kLidMm) / kUp;
-    for (int k = 0; k < kUp && open; ++k) open = !solid(0.0, 0.0, kLidMm + (k + 0.5) * high);
-    if (open) return {};
+  const bool open_below = f.solid.through || -f.depth_mm() <= box.lo.z + kLidMm;
+  if (f.bore() != nullptr && open_below && !others.empty()) {
+    const Spans over_axis = solid_over({0.0, 0.0}, box.hi.z);
+    const auto thick = [](const auto& span) { return span.second - span.first >= kThinMm; };
+    if (std::none_of(over_axis.begin(), over_axis.end(), thick)) return {};
   }
+  const Vec2 cell = (1.0 / kLines) * (hi - lo);
   double above = 0.0, volume = 0.0;
   Vec3 at;
-  for (int i = 0; i < kAcross * kAcross; ++i) {
-    const Vec2 p{b.lo.x + (i % kAcross + 0.5) * cell.x, b.lo.y + (i / kAcross + 0.5) * cell.y};
-    if (!taken(p)) continue;
-    const double high = (top_beside(left, p, norm(cell), box.hi.z) - kLidMm) / kUp;
-    for (int k = 0; high > 0.0 && k < kUp; ++k) {
-      const double z = kLidMm + (k + 0.5) * high;
-      if (!solid(p.x, p.y, z) || !solid(p.x + kAsideMm, p.y, z) || !solid(p.x - kAsideMm, p.y, z) ||
-          !solid(p.x, p.y + kAsideMm, z) || !solid(p.x, p.y - kAsideMm, z))
-        continue;
-      volume += cell.x * cell.y * high;
-      if (z + 0.5 * high <= above) continue;
-      above = z + 0.5 * high;
+  for (int i = 0; i < kLines * kLines; ++i) {
+    const Vec2 p{lo.x + (i % kLines + 0.5) * cell.x, lo.y + (i / kLines + 0.5) * cell.y};
+    const auto own = floor_at(f, p);
+    if (!own || *own > -kLidMm) continue;
+    const double top = f.kind == ShapeKind::kOutside
+                           ? beside_outline(f, others, p, foot, norm(cell), box.hi.z)
+                           : box.hi.z;
+    Spans lid = solid_over(p, top);
+    for (const Vec2 aside :
+         {Vec2{kAsideMm, 0.0}, Vec2{-kAsideMm, 0.0}, Vec2{0.0, kAsideMm}, Vec2{0.0, -kAsideMm}}) {
+      if (lid.empty()) break;
+      lid = common(lid, solid_over(p + aside, top));
+    }
+    for (const auto& [from, to] : lid) {
+      if (to - from < kThinMm) continue;
+      volume += cell.x * cell.y * (to - from);
+      if (to <= above) continue;
+      above = to;
       at = f.frame().to_parent({p.x, p.y, above});
     }
   }

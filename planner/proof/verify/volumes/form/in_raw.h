@@ -12,7 +12,6 @@ namespace capstan::verify::volumes {
 struct Piece {
   geometry::Box3 box;
   std::optional<double> round_mm;  ///< radius of a bar along z about the middle of the box
-  [[nodiscard]] bool holds(geometry::Vec3 p) const;
 };
 
 /// What of a feature lies beyond the raw piece, or of a raw piece beyond a feature, counts from here on, mm.
