@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "planner/ground/base/stopping.h"
+
 namespace capstan::verify {
 
 using geometry::Vec2;
@@ -33,6 +35,7 @@ Grid EarlierCuts::before(const Grid& grid, Vec2 lo, Vec2 hi, double cell, std::s
   Grid local(lo, hi, cell, static_cast<long>(2.0 * kPoints));
   local.floor = grid.floor;
   for (int iy = 0; iy < local.ny(); ++iy) {
+    tick();
     for (int ix = 0; ix < local.nx(); ++ix) {
       const Vec2 p = local.centre(ix, iy);
       const auto [x0, x1] = grid.columns(p.x - 1.01 * grid.cell(), p.x + 1.01 * grid.cell());
@@ -62,7 +65,10 @@ Grid EarlierCuts::before(const Grid& grid, Vec2 lo, Vec2 hi, double cell, std::s
   }
   std::stable_sort(met.begin(), met.end(),
                    [](const Cut* a, const Cut* b) { return a->box.lo.z < b->box.lo.z; });
-  for (const Cut* c : met) lower(local, c->move, *c->cutter);
+  for (const Cut* c : met) {
+    tick();
+    lower(local, c->move, *c->cutter);
+  }
   return local;
 }
 

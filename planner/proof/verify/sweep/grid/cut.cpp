@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/ground/base/stopping.h"
 #include "planner/ground/vocabulary/unit_factors.h"
 #include "planner/proof/verify/sweep/grid/grid.h"
 
@@ -104,6 +105,7 @@ void cut_line(Edge& k, const CutterOutline& o, Vec3 a, Vec3 b) {
   const auto [y0, y1] = k.grid.rows(std::min(a.y, b.y) - r, std::max(a.y, b.y) + r);
   k.grid.cut_rows(y0, y1);
   for (int iy = y0; iy < y1; ++iy) {
+    tick();
     if (k.grid.row_top(iy) <= zmin) continue;
     const double y = k.grid.centre(0, iy).y;
     // Of the line only what lies within r of this row matters.
@@ -174,6 +176,7 @@ void cut_arc(Edge& k, const CutterOutline& o, const Move& m) {
   const auto [x0, x1] = k.grid.columns(box.lo.x - gap - r, box.hi.x + gap + r);
   k.grid.cut_rows(y0, y1);
   for (int iy = y0; iy < y1; ++iy) {
+    tick();
     if (k.grid.row_top(iy) <= zmin) continue;
     for (int ix = x0; ix < x1; ++ix) {
       const std::size_t cell = k.grid.index(ix, iy);
@@ -190,7 +193,8 @@ void cut_arc(Edge& k, const CutterOutline& o, const Move& m) {
       if (ahead < 0.0) ahead += kRadPerTurn;
       const double near = ahead <= sweep ? radial : std::min(norm(p - xy(m.from)), norm(p - xy(m.to)));
       if (near > r) continue;
-      const double z = level ? zmin + o.height(near) : lowest_on_helix(o, m.from.z, rise, ra, sweep, away, ahead);
+      const double z =
+          level ? zmin + o.height(near) : lowest_on_helix(o, m.from.z, rise, ra, sweep, away, ahead);
       if (stands <= z) continue;
       double tip = level ? zmin : m.from.z + rise * std::min(ahead, sweep) / sweep;
       if constexpr (Edge::kMeasures) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "planner/ground/base/stopping.h"
 #include "planner/ground/geometry/mesh_form.h"
 #include "planner/model/nouns/all.h"
 #include "planner/proof/verify/copies.h"
@@ -200,6 +201,7 @@ void Target::fill(Grid& grid) {
   grid_ = &grid;
   grid.floor = stock_.lo.z;
   for (int iy = 0; iy < grid.ny(); ++iy) {
+    poll();
     for (int ix = 0; ix < grid.nx(); ++ix) {
       const Vec2 p = grid.centre(ix, iy);
       const bool there = !round_ || norm(p - 0.5 * (xy(stock_.lo) + xy(stock_.hi))) <= *round_;
@@ -214,6 +216,7 @@ void Target::fill(Grid& grid) {
     const auto [y0, y1] = grid.rows(c.box.lo.y, c.box.hi.y);
     const auto [x0, x1] = grid.columns(c.box.lo.x, c.box.hi.x);
     for (int iy = y0; iy < y1; ++iy) {
+      tick();
       for (int ix = x0; ix < x1; ++ix) {
         double& z = grid.part[grid.index(ix, iy)];
         if (z > c.floor_mm || c.open_bottom) z = std::min(z, floor_of(c, grid.centre(ix, iy)));
@@ -227,6 +230,7 @@ void Target::fill_mesh(Grid& grid) const {
   const geometry::Mesh& mesh = *plan_.target_mesh;
   std::vector<double> high(grid.part.size(), Grid::kNothing);
   for (const auto& t : mesh.triangles) {
+    tick();
     const Vec3 a = frame_.to_parent(mesh.vertices[t[0]]);
     const Vec3 b = frame_.to_parent(mesh.vertices[t[1]]);
     const Vec3 c = frame_.to_parent(mesh.vertices[t[2]]);
@@ -235,6 +239,7 @@ void Target::fill_mesh(Grid& grid) const {
     const auto [y0, y1] = grid.rows(std::min({a.y, b.y, c.y}), std::max({a.y, b.y, c.y}));
     const auto [x0, x1] = grid.columns(std::min({a.x, b.x, c.x}), std::max({a.x, b.x, c.x}));
     for (int iy = y0; iy < y1; ++iy) {
+      tick();
       for (int ix = x0; ix < x1; ++ix) {
         const Vec2 p = grid.centre(ix, iy);
         const double u = cross(xy(b) - p, xy(c) - p) / twice;
@@ -324,8 +329,8 @@ const Target::Walls& Target::walls(double z) {
   }
   // About as many squares as edges, so that heights with few edges cost little.
   constexpr double kMostAlong = 128.0;
-  out.along = static_cast<std::size_t>(
-      std::clamp(std::sqrt(static_cast<double>(out.edges.size())), 1.0, kMostAlong));
+  out.along =
+      static_cast<std::size_t>(std::clamp(std::sqrt(static_cast<double>(out.edges.size())), 1.0, kMostAlong));
   out.x0_mm = part_box_.lo.x;
   out.square_mm = std::max({part_box_.hi.x - part_box_.lo.x, part_box_.hi.y - part_box_.lo.y, 0.1}) /
                   static_cast<double>(out.along);
@@ -372,7 +377,7 @@ double Target::wall_gouge(const Move& m, double radius, double height_mm, Vec2& 
             }
             if (crossing(p, xy(b), e.a, e.b)) squared = 0.0;
             squared = std::min({squared, squared_distance(p, e.a, e.b), squared_distance(xy(b), e.a, e.b),
-                               squared_distance(e.a, p, xy(b)), squared_distance(e.b, p, xy(b))});
+                                squared_distance(e.a, p, xy(b)), squared_distance(e.b, p, xy(b))});
           }
         }
       }
