@@ -104,6 +104,10 @@ void finish(const service::Request& request, const service::Planned& planned, Pl
   }
   for (const service::FileFinding& t : verdict.findings) out.findings.push_back(message(t, false));
   for (const auto& c : verdict.condemned) out.condemned.push_back(message_of(plan, c));
+  if (job.stop_requested()) {
+    out.planned = false;
+    return;
+  }
   if (!verdict.written) std::erase_if(made, service::of_program);
   const bool clean = verdict.count == 0 && plan.unplanned.empty() && verdict.condemned.empty() &&
                      model::unreadable(plan).empty();

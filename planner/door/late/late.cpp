@@ -1,11 +1,13 @@
 #include "planner/door/late/late.h"
 
 #include <algorithm>
+#include <functional>
 #include <memory>
 #include <utility>
 
 #include "planner/door/pipeline/program_check.h"
 #include "planner/ground/base/number.h"
+#include "planner/ground/base/stopping.h"
 #include "planner/making/given/magazine.h"
 
 // A fallback first, whatever it takes; then an improvement on the rest of the time. Each answer passes the
@@ -65,79 +67,60 @@ Status nothing_open(const model::Plan& plan) {
                .hint = "load what is missing, or plan anew"});
 }
 
-}  // namespace
+/// Says that the deadline is past, if it is.
+void tell_late(LateOutcome& out, const LatePolicy& policy, TimePoint began, Job& job) {
+  const Duration passed = job.now() - began;
+  out.late = policy.deadline && passed > *policy.deadline;
+  if (out.late)
+    job.warn("LATE-DEADLINE",
+             "the deadline of " + ms(*policy.deadline) + " is past: a checked plan took " + ms(passed));
+}
 
-Result<LateOutcome> bind(model::Plan plan, pipeline::Inputs inputs, const LatePolicy& policy, Job& job) {
-  const TimePoint began = policy.began.value_or(job.now());
+/// The fallback: everything, on a small budget, and checked. Steps that the check condemns are planned again
+/// while half of the time is left. `checking` is what one check takes. A stop leaves it.
+Result<LateOutcome> fallback(const model::Plan& plan, const pipeline::Inputs& inputs,
+                             const std::function<Status(const model::Plan&)>& acceptable,
+                             const LatePolicy& policy, TimePoint began, Duration& checking, Job& job) {
   LateOutcome out;
-  const auto told_late = [&] {
-    const Duration passed = job.now() - began;
-    out.late = policy.deadline && passed > *policy.deadline;
-    if (out.late)
-      job.warn("LATE-DEADLINE",
-               "the deadline of " + ms(*policy.deadline) + " is past: a checked plan took " + ms(passed));
-    return std::move(out);
-  };
-  const std::vector<model::Cutter> magazine = inputs.library;
-  // The improvement repeats most of the fallback.
-  if (!inputs.memo) inputs.memo = std::make_shared<memo::Memo>();
-  auto reopened = given::match_loaded(plan, inputs.library, job);
-  if (!reopened) return tl::unexpected(reopened.error());
-  out.reopened = *std::move(reopened);
-
-  // The fallback: everything, on a small budget, and checked. Steps that the check condemns are planned again
-  // while half of the time is left.
   std::optional<TimePoint> half;
   if (policy.deadline) half = began + *policy.deadline / 2;
-  const auto acceptable = [&](const model::Plan& made) -> Status {
-    if (auto ok = nothing_open(made); !ok) return ok;
-    return only_loaded(made, magazine);
-  };
   const std::uint32_t budget = std::exchange(job.evaluation_budget, policy.fallback_budget);
-  auto fallback = pipeline::bind_checked(plan, inputs, policy_of(), job, {half, acceptable});
+  auto made = pipeline::bind_checked(plan, inputs, policy_of(), job, {half, acceptable});
   job.evaluation_budget = budget;
-  if (!fallback) return tl::unexpected(fallback.error());
+  if (!made) return tl::unexpected(made.error());
   const auto check_start = job.now();
-  out.findings = pipeline::findings_of(*fallback, job, &out.program);
-  const auto checking = fallback->checking + (job.now() - check_start);
-  out.condemned = model::condemned(fallback->plan, out.findings);
+  out.findings = pipeline::findings_of(*made, job, &out.program);
+  poll();  // a check that was stopped proves nothing, whatever findings are allowed
+  checking = made->checking + (job.now() - check_start);
+  out.condemned = model::condemned(made->plan, out.findings);
   if (!out.condemned.empty() && (!policy.allow_findings || model::never_written(out.condemned))) {
-    return fail({.code = "LATE-UNSAFE",
-                 .message = "the plan does not pass the check: " +
-                            model::text_of(fallback->plan, out.condemned.front()),
-                 .file = fallback->plan.file_name,
-                 .path = out.condemned.front().step,
-                 .hint = "retract and stop; nothing may be cut from this plan"});
+    return fail(
+        {.code = "LATE-UNSAFE",
+         .message = "the plan does not pass the check: " + model::text_of(made->plan, out.condemned.front()),
+         .file = made->plan.file_name,
+         .path = out.condemned.front().step,
+         .hint = "retract and stop; nothing may be cut from this plan"});
   }
-  out.of_plan = std::move(fallback->findings);
-  out.plan = std::move(fallback->plan);
+  out.of_plan = std::move(made->findings);
+  out.plan = std::move(made->plan);
   out.fallback_s = out.machining_s = machining_s(out.plan);
+  return out;
+}
 
-  // The improvement: only in the time left, with twice the time of one check in reserve.
-  std::optional<TimePoint> until;
-  if (policy.deadline) until = began + *policy.deadline - 2 * checking;
-  if (job.stop_requested() || policy.budget <= policy.fallback_budget || (until && job.now() >= *until))
-    return told_late();
-  Job trial;
-  trial.threads = job.threads;
-  trial.evaluation_budget = policy.budget;
-  trial.set_clock(job.clock());
-  // Who stops the call stops the improvement; the fallback is what was checked by then.
-  trial.set_progress([&](std::string_view stage, double fraction) {
-    job.progress(stage, fraction);
-    if (job.stop_requested()) trial.request_stop();
-  });
-  if (until) trial.set_deadline(*until);
+/// Plans again with the whole budget; takes the plan into `out` if it is whole, checked, in time and faster.
+void improve(LateOutcome& out, model::Plan plan, const pipeline::Inputs& inputs,
+             const std::function<Status(const model::Plan&)>& acceptable, const LatePolicy& policy,
+             TimePoint began, Job& trial, Job& job) {
   auto better = pipeline::bind(std::move(plan), inputs, policy_of(), trial);
-  if (!better || !acceptable(*better)) return told_late();
+  if (!better || !acceptable(*better)) return;
   const double t = machining_s(*better);
   const bool faster = t < out.fallback_s || !out.condemned.empty();
-  if (!faster) return told_late();
+  if (!faster) return;
   pipeline::Checked checked = pipeline::checked(*std::move(better), trial);
   pipeline::CheckedProgram program;
   auto findings = pipeline::findings_of(checked, trial, &program);
-  if (!model::condemned(checked.plan, findings).empty()) return told_late();
-  if (policy.deadline && job.now() > began + *policy.deadline) return told_late();
+  if (!model::condemned(checked.plan, findings).empty()) return;
+  if (policy.deadline && job.now() > began + *policy.deadline) return;
   for (auto& d : trial.take_diagnostics()) job.report(std::move(d));
   out.plan = std::move(checked.plan);
   out.of_plan = std::move(checked.findings);
@@ -146,7 +129,53 @@ Result<LateOutcome> bind(model::Plan plan, pipeline::Inputs inputs, const LatePo
   out.condemned.clear();
   out.improved = true;
   out.machining_s = t;
-  return told_late();
+}
+
+}  // namespace
+
+Result<LateOutcome> bind(model::Plan plan, pipeline::Inputs inputs, const LatePolicy& policy, Job& job) {
+  const TimePoint began = policy.began.value_or(job.now());
+  const std::vector<model::Cutter> magazine = inputs.library;
+  // The improvement repeats most of the fallback.
+  if (!inputs.memo) inputs.memo = std::make_shared<memo::Memo>();
+  auto reopened = given::match_loaded(plan, inputs.library, job);
+  if (!reopened) return tl::unexpected(reopened.error());
+  const auto acceptable = [&](const model::Plan& made) -> Status {
+    if (auto ok = nothing_open(made); !ok) return ok;
+    return only_loaded(made, magazine);
+  };
+  Duration checking{};
+  auto out = stoppable(
+      job, [&] { return fallback(plan, inputs, acceptable, policy, began, checking, job); },
+      [&]() -> Result<LateOutcome> { return tl::unexpected(pipeline::stopped_planning(plan)); });
+  if (!out) return out;
+  out->reopened = *std::move(reopened);
+
+  // The improvement: only in the time left, with twice the time of one check in reserve.
+  std::optional<TimePoint> until;
+  if (policy.deadline) until = began + *policy.deadline - 2 * checking;
+  const bool more =
+      !job.stop_requested() && policy.budget > policy.fallback_budget && !(until && job.now() >= *until);
+  if (more) {
+    Job trial;
+    trial.threads = job.threads;
+    trial.evaluation_budget = policy.budget;
+    trial.set_clock(job.clock());
+    trial.set_progress([&](std::string_view stage, double fraction) { job.progress(stage, fraction); });
+    if (until) trial.set_deadline(*until);
+    // Who stops the call stops the improvement; the fallback is what was checked by then.
+    const auto nothing_more = [] {};
+    stoppable(
+        job,
+        [&] {
+          stoppable(
+              trial, [&] { improve(*out, std::move(plan), inputs, acceptable, policy, began, trial, job); },
+              nothing_more);
+        },
+        nothing_more);
+  }
+  tell_late(*out, policy, began, job);
+  return out;
 }
 
 }  // namespace capstan::late

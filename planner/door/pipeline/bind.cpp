@@ -7,6 +7,7 @@
 #include "planner/door/pipeline/checked.h"
 #include "planner/door/pipeline/profit.h"
 #include "planner/door/pipeline/stages.h"
+#include "planner/ground/base/stopping.h"
 #include "planner/making/given/ends.h"
 #include "planner/making/given/machine_needs.h"
 #include "planner/making/piece/raw_piece_limits.h"
@@ -157,13 +158,17 @@ std::map<AnyRef, std::string> unreadable_of(const model::Plan& plan,
 /// The stages of one try that choose steps, tools and order; whether all of them came to their end.
 Result<bool> choose_steps(model::Plan& plan, Drafts& drafts, const Required& required, const Asked& asked,
                           Tries& tries, Job& job) {
+  poll();
   auto [proposed, learned] = propose_missing(plan, std::move(drafts), required, asked, job);
   if (tries.learn(std::move(learned))) return false;
+  poll();
   drafts = select_open_tools(plan, std::move(proposed), required, asked, job);
   if (tries.learn(leave_what_rests(plan, drafts))) return false;
+  poll();
   auto ordered = order_steps(plan, std::move(drafts), required, job);
   if (!ordered) return tl::unexpected(ordered.error());
   if (tries.learn(std::move(ordered->second))) return false;
+  poll();
   auto held = hold_workpieces(plan, std::move(ordered->first), asked, job);
   if (!held) return tl::unexpected(held.error());
   drafts = *std::move(held);
@@ -189,10 +194,13 @@ Result<std::optional<model::Plan>> bind_once(model::Plan plan, const Inputs& inp
   if (!margin) return tl::unexpected(margin.error());
   const Asked asked{inputs, policy, tries.bans, recorded, not_made, *margin};
   piece::report_outside(plan, job);
+  poll();
   auto listed = given::list_steps(plan, policy.reopen, not_made, grown_mm(inputs), job);
   if (!listed) return tl::unexpected(listed.error());
+  poll();
   const auto required = take_requirements(plan, asked, job);
   if (!required) return tl::unexpected(required.error());
+  poll();
   Drafts drafts{std::move(listed->setups), std::move(listed->steps), {}};
   if (policy.bind >= Bind::kStrategy) {
     const auto chosen = choose_steps(plan, drafts, *required, asked, tries, job);
@@ -211,6 +219,7 @@ Result<std::optional<model::Plan>> bind_once(model::Plan plan, const Inputs& inp
     given::join_paths(plan, drafts.setups);
   }
 
+  poll();
   if (policy.bind == Bind::kAll || policy.bind == Bind::kTools) {
     collect_cutters(plan, drafts.steps, policy);
     given::tell_loading(plan, inputs.library, job);
@@ -236,7 +245,14 @@ Result<model::Plan> bind_settled(const model::Plan& plan, const Inputs& inputs, 
   tries.cuts = {};  // another earning, other answers
   auto before = job.take_diagnostics();
   for (;;) {
-    auto out = bind_once(plan, inputs, policy, earning_per_min, tries, job);
+    auto out = stoppable(
+        job,
+        [&] {
+          auto once = bind_once(plan, inputs, policy, earning_per_min, tries, job);
+          poll();  // one that was stopped in its last moment is no plan either
+          return once;
+        },
+        [&]() -> Result<std::optional<model::Plan>> { return tl::unexpected(stopped_planning(plan)); });
     const bool again = out && !out->has_value();
     auto said = job.take_diagnostics();
     if (again) continue;
@@ -249,6 +265,12 @@ Result<model::Plan> bind_settled(const model::Plan& plan, const Inputs& inputs, 
 
 }  // namespace
 
+Diagnostic stopped_planning(const model::Plan& plan) {
+  return {.code = "PIP-STOPPED",
+          .message = "planning was stopped before its end, so that there is no plan",
+          .file = plan.file_name};
+}
+
 Result<model::Plan> bind_within(const model::Plan& plan, const Inputs& inputs, const Policy& policy,
                                 Tries& tries, Job& job) {
   if (!tries.memo) tries.memo = inputs.memo ? inputs.memo : std::make_shared<memo::Memo>();
@@ -260,12 +282,17 @@ Result<model::Plan> bind_within(const model::Plan& plan, const Inputs& inputs, c
   }
   // Open decisions have no time, and so no profit: the plan is made for least cost.
   if (policy.bind != Bind::kAll) return bind_settled(plan, inputs, policy, 0.0, tries, job);
-  return most_profit(
-      *inputs.revenue,
-      [&](double earning_per_min, Job& trial) {
-        return bind_settled(plan, inputs, policy, earning_per_min, tries, trial);
+  const auto plan_for = [&](double earning_per_min, Job& trial) {
+    return bind_settled(plan, inputs, policy, earning_per_min, tries, trial);
+  };
+  return stoppable(
+      job,
+      [&] {
+        auto most = most_profit(*inputs.revenue, plan_for, job);
+        poll();
+        return most;
       },
-      job);
+      [&]() -> Result<model::Plan> { return tl::unexpected(stopped_planning(plan)); });
 }
 
 Result<model::Plan> bind(model::Plan plan, const Inputs& inputs, const Policy& policy, Job& job) {

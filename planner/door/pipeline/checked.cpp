@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "planner/ground/base/number.h"
+#include "planner/ground/base/stopping.h"
 #include "planner/model/plan/decision/condemned.h"
 #include "planner/model/plan/order/step_ids.h"
 #include "planner/proof/verify/verify.h"
@@ -161,8 +162,11 @@ Checked checked(model::Plan plan, Job& job) {
   return out;
 }
 
-Result<Checked> bind_checked(const model::Plan& plan, const Inputs& inputs, const Policy& policy, Job& job,
-                             const Anew& anew) {
+namespace {
+
+/// `bind_checked`, left by a stop.
+Result<Checked> bind_anew(const model::Plan& plan, const Inputs& inputs, const Policy& policy, Job& job,
+                          const Anew& anew) {
   auto until = anew.until;
   Tries tries;
   auto first = bind_within(plan, inputs, policy, tries, job);
@@ -187,10 +191,7 @@ Result<Checked> bind_checked(const model::Plan& plan, const Inputs& inputs, cons
     trial.set_clock(job.clock());
     if (job.deadline()) until = until ? std::min(*until, *job.deadline()) : *job.deadline();
     if (until) trial.set_deadline(*until);
-    trial.set_progress([&](std::string_view stage, double f) {
-      job.progress(stage, f);
-      if (job.stop_requested()) trial.request_stop();
-    });
+    trial.set_progress([&](std::string_view stage, double f) { job.progress(stage, f); });
     if (trial.stop_requested()) break;
     auto again = bind_within(plan, inputs, policy, tries, trial);
     if (!again) break;
@@ -211,9 +212,19 @@ Result<Checked> bind_checked(const model::Plan& plan, const Inputs& inputs, cons
     diagnostics = std::move(now);
   }
   for (auto& d : diagnostics) job.report(std::move(d));
+  poll();  // its last check may not have come to its end, and a better plan may have been on its way
   tries.said = std::move(said);
   tell_tries(tries, job);
   return best;
+}
+
+}  // namespace
+
+Result<Checked> bind_checked(const model::Plan& plan, const Inputs& inputs, const Policy& policy, Job& job,
+                             const Anew& anew) {
+  return stoppable(
+      job, [&] { return bind_anew(plan, inputs, policy, job, anew); },
+      [&]() -> Result<Checked> { return tl::unexpected(stopped_planning(plan)); });
 }
 
 }  // namespace capstan::pipeline

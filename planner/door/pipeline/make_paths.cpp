@@ -10,6 +10,7 @@
 
 #include "planner/door/pipeline/stages.h"
 #include "planner/ground/base/number.h"
+#include "planner/ground/base/stopping.h"
 #include "planner/ground/vocabulary/operation.h"
 #include "planner/making/piece/rests.h"
 #include "planner/making/step/cut/cuts.h"
@@ -68,8 +69,7 @@ class PathMaker {
     std::size_t done = 0;
     for (StepDraft& step : steps_) {
       job_.progress("paths", static_cast<double>(done++) / static_cast<double>(steps_.size()));
-      if (job_.stop_requested())
-        return fail("PIP-STOPPED", "planning was stopped before every step had its path");
+      poll();
       if (given_up(step)) continue;
       if (auto ok = make(step); !ok) return tl::unexpected(ok.error());
     }

@@ -91,9 +91,13 @@ struct Policy {
 /// even at least cost is planned so, and PIP-LOSS says it. Determinism  same inputs, any number of threads:
 /// same plan. Fails        PIP-… when nothing can be planned at all: no workpiece, no machine, a set-up that
 /// is none;
-///              PIP-REVENUE for profit without a revenue.
+///              PIP-REVENUE for profit without a revenue; PIP-STOPPED when the job was stopped or its
+///              deadline came.
 [[nodiscard]] Result<model::Plan> bind(model::Plan plan, const Inputs& inputs, const Policy& policy,
                                        Job& job);
+
+/// What there is instead of a plan where the work on it was stopped (PIP-STOPPED).
+[[nodiscard]] Diagnostic stopped_planning(const model::Plan& plan);
 
 /// How often a plan that the check condemns is made anew, at most.
 inline constexpr int kMostReplannings = 5;
@@ -122,8 +126,9 @@ struct Anew {
 /// recorded in the ledger among the rejected alternatives. A plan without errors costs one check. A plan with
 /// open decisions is not checked.
 ///
-/// Determinism  as `bind`, unless the job is stopped or `Anew::until` is past: then nothing more is made
-///              anew, and what is there so far is given, with its findings.
+/// Determinism  as `bind`, unless `Anew::until` is past: then nothing more is made anew, and what is there so
+///              far is given, with its findings.
+/// Fails        as `bind`; PIP-STOPPED when the job was stopped, or its deadline came, before all was done.
 [[nodiscard]] Result<Checked> bind_checked(const model::Plan& plan, const Inputs& inputs,
                                            const Policy& policy, Job& job, const Anew& anew = {});
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <string>
@@ -10,12 +11,14 @@
 #include "planner/door/pipeline/pipeline.h"
 #include "planner/door/service/ending/last_line.h"
 #include "planner/door/service/formats.h"
+#include "planner/door/service/outputs.h"
 #include "planner/door/service/reading.h"
 #include "planner/door/service/shop.h"
 #include "planner/files/exchange/conformance/check.h"
 #include "planner/files/exchange/toolpaths/curves.h"
 #include "planner/files/p21/read/parse.h"
 #include "planner/ground/base/file.h"
+#include "planner/ground/base/stopping.h"
 #include "planner/model/plan/decision/condemned.h"
 #include "planner/model/plan/decision/contradicted.h"
 #include "planner/model/plan/decision/edited.h"
@@ -46,16 +49,16 @@ class Check {
       : request_(request), sources_(std::move(sources)), tell_(tell), job_(job) {}
 
   Outcome<CheckResult> run() {
-    if (const auto d = read()) return failed(*d, code_of(*d, Code::kUnreadable));
-    if (const auto d = shop()) return failed(*d, code_of(*d, Code::kUnreadable));
-    for (const Input& in : inputs_) {
-      if (in.content != Content::kProgram) continue;
-      ++out_.checked;
-      const model::Plan* plan = plans_.empty() ? nullptr : &plans_.front();
-      add(verify::check_program({in.path, in.bytes, shop_.tool_table}, plan, shop_.machine, shop_.cutters,
-                                job_),
-          in.path, true);
+    auto fault = read();
+    if (!fault) {
+      parts_.emplace_back();
+      fault = shop();
+      parts_.back().said = job_.take_diagnostics();
     }
+    if (!fault) add_programs();
+    check_parts();
+    tell_parts();
+    if (fault) return failed(*fault, code_of(*fault, Code::kUnreadable));
     if (out_.checked == 0)
       return failed(
           {.code = "APP-NOTHING", .message = "there is neither a plan nor a program among the files"},
@@ -64,6 +67,63 @@ class Check {
   }
 
  private:
+  /// What is said of one file, in this order; the parts in the order of the files.
+  struct Part {
+    std::vector<Diagnostic> said;     ///< by reading it
+    std::vector<FileFinding> found;   ///< by reading it, too; told already
+    std::string file;                 ///< of what is to be checked; empty: nothing is
+    std::optional<std::size_t> plan;  ///< of `plans_`
+    const Input* program = nullptr;   ///< of `inputs_`
+    std::vector<model::Finding> findings;
+  };
+
+  void add_programs() {
+    for (const Input& in : inputs_) {
+      if (in.content != Content::kProgram) continue;
+      ++out_.checked;
+      parts_.emplace_back();
+      parts_.back().file = in.path;
+      parts_.back().program = &in;
+    }
+  }
+
+  /// A plan and its programs are checked at once where there are threads for it: no check knows of another.
+  void check_parts() {
+    std::vector<Part*> checked;
+    for (Part& p : parts_) {
+      if (!p.file.empty()) checked.push_back(&p);
+    }
+    parallel_for(job_, checked.size(), [&](std::size_t i) {
+      Part& p = *checked[i];
+      if (i == 0) return check(p, job_);
+      Job silent;  // one of them tells how far it is; a stop of `job_` ends all
+      check(p, silent);
+    });
+  }
+
+  void check(Part& p, Job& job) const {
+    if (p.plan) {
+      const model::Plan& plan = plans_[*p.plan];
+      p.findings = verify::check_plan(plan, job);
+      auto more = beside_the_check(plan);
+      std::move(more.begin(), more.end(), std::back_inserter(p.findings));
+    } else {
+      const model::Plan* plan = plans_.empty() ? nullptr : &plans_.front();
+      p.findings = verify::check_program({p.program->path, p.program->bytes, shop_.tool_table}, plan,
+                                         shop_.machine, shop_.cutters, job);
+    }
+  }
+
+  void tell_parts() {
+    auto last = job_.take_diagnostics();
+    for (Part& p : parts_) {
+      for (Diagnostic& d : p.said) job_.report(std::move(d));
+      for (FileFinding& f : p.found) out_.findings.push_back(std::move(f));
+      add(p.findings, p.file, p.program != nullptr);
+    }
+    for (Diagnostic& d : last) job_.report(std::move(d));
+  }
+
   /// Whether there is something to check at all: planned steps with their paths.
   static bool has_paths(const model::Plan& plan) {
     bool any = false;
@@ -144,7 +204,7 @@ class Check {
       f.code = all[i].code;
       f.severity = all[i].severity;
       f.message = instance + path + all[i].message + expected;
-      out_.findings.push_back({.file = in.path, .finding = std::move(f), .schema = true});
+      parts_.back().found.push_back({.file = in.path, .finding = std::move(f), .schema = true});
     }
     return std::nullopt;
   }
@@ -175,6 +235,9 @@ class Check {
     }
     for (Input& in : inputs_) {
       if (in.content != Content::kPlanJson && in.content != Content::kPart) continue;
+      // What was said before belongs to the file before.
+      if (!parts_.empty()) parts_.back().said = job_.take_diagnostics();
+      parts_.emplace_back();
       if (request_.schema && exchange::declares_ap238(in.bytes)) {
         if (const auto d = compare_with_schema(in)) return d;
         continue;
@@ -201,10 +264,11 @@ class Check {
         if (!machine) return machine.error();
         plan->machine = *std::move(machine);
       }
-      add(verify::check_plan(*plan, job_), in.path, false);
-      add(beside_the_check(*plan), in.path, false);
+      parts_.back().file = in.path;
+      parts_.back().plan = plans_.size();
       plans_.push_back(*std::move(plan));
     }
+    if (!parts_.empty()) parts_.back().said = job_.take_diagnostics();
     return std::nullopt;
   }
 
@@ -224,7 +288,7 @@ class Check {
         f.severity = all[i].severity;
         f.message = all[i].message;
         ++out_.count;
-        out_.findings.push_back({file, std::move(f)});
+        parts_.back().found.push_back({file, std::move(f)});
       }
       job_.report(std::move(all[i]));
     }
@@ -294,6 +358,7 @@ class Check {
   Job& job_;
   std::vector<Input> inputs_;
   std::vector<model::Plan> plans_;
+  std::vector<Part> parts_;
   Shop shop_;
   CheckResult out_;
 };
@@ -302,7 +367,10 @@ class Check {
 
 Outcome<CheckResult> check(const Request& request, std::vector<Source> sources,
                            const std::function<void(const FileFinding&)>& tell, Job& job) {
-  return Check(request, std::move(sources), tell, job).run();
+  const std::string first = sources.empty() ? std::string() : sources.front().name;
+  return stoppable(
+      job, [&] { return Check(request, std::move(sources), tell, job).run(); },
+      [&]() -> Outcome<CheckResult> { return failed(stopped_call(first), Code::kImpossible); });
 }
 
 }  // namespace capstan::service

@@ -32,7 +32,8 @@ struct CheckResult {
 ///
 /// `tell` (may be empty) is called for each finding when it is found, so that it appears in its place among
 /// the diagnostics.
-/// Fails  APP-NOTHING when there is neither a plan nor a program; as the readers.
+/// Fails  APP-STOPPED when a stop came before anything was checked; later it is the finding CHK-STOPPED.
+///        APP-NOTHING when there is neither a plan nor a program; as the readers.
 [[nodiscard]] Outcome<CheckResult> check(const Request& request, std::vector<Source> sources,
                                          const std::function<void(const FileFinding&)>& tell, Job& job);
 

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 #include <set>
 #include <system_error>
 #include <utility>
 
 #include "planner/ground/base/file.h"
+#include "planner/ground/base/stopping.h"
 
 namespace capstan::service {
 namespace {
@@ -54,15 +56,30 @@ Result<std::vector<Output>> outputs_of(const std::vector<std::string>& paths) {
   return out;
 }
 
+Diagnostic stopped_call(const std::string& file) {
+  return {.code = "APP-STOPPED", .message = "stopped before its end; nothing is written", .file = file};
+}
+
 Status make(const model::Plan& plan, std::vector<Output>& outputs, Job& job) {
-  for (Output& o : outputs) {
-    auto written = write(plan, *o.format, job);
-    if (!written) return tl::unexpected(written.error());
-    name_file(job, o.path);
-    o.bytes = std::move(written->bytes);
-    o.losses = written->losses;
-  }
-  return {};
+  const auto all = [&]() -> Status {
+    // Each writes its own; what they say is told in the order of the outputs.
+    std::vector<Job> jobs(outputs.size());
+    std::vector<std::optional<Result<Written>>> made(outputs.size());
+    parallel_for(job, outputs.size(),
+                 [&](std::size_t i) { made[i] = write(plan, *outputs[i].format, jobs[i]); });
+    for (std::size_t i = 0; i < outputs.size(); ++i) {
+      Output& o = outputs[i];
+      for (Diagnostic& d : jobs[i].take_diagnostics()) job.report(std::move(d));
+      Result<Written>& written = *made[i];
+      if (!written) return tl::unexpected(written.error());
+      name_file(job, o.path);
+      o.bytes = std::move(written->bytes);
+      o.losses = written->losses;
+    }
+    poll();
+    return {};
+  };
+  return stoppable(job, all, [&]() -> Status { return tl::unexpected(stopped_call(plan.file_name)); });
 }
 
 std::string losses_text(const Output& o) {
@@ -112,14 +129,17 @@ Status can_be_written(const std::vector<std::string>& outputs, const std::vector
   return {};
 }
 
-Status write_all(const std::vector<Output>& outputs) {
+Status write_all(const std::vector<Output>& outputs, const Job& job) {
   std::vector<StagedFile> files;
   for (const Output& o : outputs) {
     if (o.path == "-") continue;
+    if (job.stop_requested()) return fail(stopped_call(o.path));
     auto staged = StagedFile::make(o.path, o.bytes);
     if (!staged) return tl::unexpected(staged.error());
     files.push_back(*std::move(staged));
   }
+  // From here on all are put in place: a rename takes no time, and half of them would be worse.
+  if (job.stop_requested()) return fail(stopped_call({}));
   std::string done;
   for (StagedFile& f : files) {
     if (auto ok = f.put(); !ok) {

@@ -25,8 +25,11 @@ struct Output {
 /// All of them.
 [[nodiscard]] Result<std::vector<Output>> outputs_of(const std::vector<std::string>& paths);
 
-/// Fills `bytes` and `losses`. Things that ISO 14649 or AP238 cannot hold are noted (EXC-LOSS).
-/// Fails  as the writers.
+/// What a call ends with that was stopped in another part of it than planning (APP-STOPPED).
+[[nodiscard]] Diagnostic stopped_call(const std::string& file);
+
+/// Fills `bytes` and `losses`, on the job's threads. Things that ISO 14649 or AP238 cannot hold are noted
+/// (EXC-LOSS). Fails  as the writers; APP-STOPPED.
 [[nodiscard]] Status make(const model::Plan& plan, std::vector<Output>& outputs, Job& job);
 
 /// " (without 3 things)", or nothing when the file holds all of the plan.
@@ -52,8 +55,8 @@ struct Aside {
 /// Writes all files or none: all are brought to disk first (StagedFile), then all are renamed into place.
 /// Only if a rename fails after another succeeded (another program removed the folder) some are written; the
 /// fault says so.
-/// "-" goes to standard output last.
-/// Fails  FILE-WRITE.
-[[nodiscard]] Status write_all(const std::vector<Output>& outputs);
+/// "-" goes to standard output last. A stop before the first rename leaves nothing.
+/// Fails  FILE-WRITE; APP-STOPPED.
+[[nodiscard]] Status write_all(const std::vector<Output>& outputs, const Job& job);
 
 }  // namespace capstan::service

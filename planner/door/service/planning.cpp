@@ -9,6 +9,7 @@
 #include "planner/door/service/reading.h"
 #include "planner/door/service/shop.h"
 #include "planner/ground/base/nearest_names.h"
+#include "planner/ground/base/stopping.h"
 #include "planner/model/nouns/executable.h"
 #include "planner/proof/verify/verify.h"
 
@@ -64,20 +65,36 @@ Code code_of(const Diagnostic& fault, Code otherwise) {
   const bool usage = fault.code == kUnknownName || fault.code == "MACHINE-GEAR" ||
                      fault.code == "FILE-WRITE" || fault.code.starts_with("MEM-") || fault.code == "APP-EDGES" ||
                      fault.code.starts_with("OPTION-");
-  return usage ? Code::kUsage : otherwise;
+  // Wherever the stop came: in reading, planning or writing.
+  const bool stopped = fault.code.ends_with("-STOPPED");
+  return usage ? Code::kUsage : stopped ? Code::kImpossible : otherwise;
 }
 
+namespace {
+
+/// What `body` gives, an error if the job was stopped before its end.
+template <class Body>
+Outcome<Planned> to_its_end(const std::string& file, Job& job, Body body) {
+  return stoppable(job, body,
+                   [&]() -> Outcome<Planned> { return failed(stopped_call(file), Code::kImpossible); });
+}
+
+}  // namespace
+
 Outcome<Planned> plan(const Request& request, Source part, Job& job) {
-  auto read_part = read(std::move(part), request.strict, job);
-  if (!read_part) return failed(read_part.error(), code_of(read_part.error(), Code::kUnreadable));
-  const auto inputs = gather(request, *read_part, job);
-  if (!inputs) return failed(inputs.error(), code_of(inputs.error(), Code::kUnreadable));
-  pipeline::Policy policy;
-  policy.reopen = request.reopen;
-  policy.bind = request.bind;
-  auto bound = pipeline::bind_checked(*read_part, *inputs, policy, job);
-  if (!bound) return failed(bound.error(), code_of(bound.error(), Code::kImpossible));
-  return Planned{std::move(bound->plan), std::move(bound->findings), policy.bind != pipeline::Bind::kAll};
+  const std::string name = part.name;
+  return to_its_end(name, job, [&]() -> Outcome<Planned> {
+    auto read_part = read(std::move(part), request.strict, job);
+    if (!read_part) return failed(read_part.error(), code_of(read_part.error(), Code::kUnreadable));
+    const auto inputs = gather(request, *read_part, job);
+    if (!inputs) return failed(inputs.error(), code_of(inputs.error(), Code::kUnreadable));
+    pipeline::Policy policy;
+    policy.reopen = request.reopen;
+    policy.bind = request.bind;
+    auto bound = pipeline::bind_checked(*read_part, *inputs, policy, job);
+    if (!bound) return failed(bound.error(), code_of(bound.error(), Code::kImpossible));
+    return Planned{std::move(bound->plan), std::move(bound->findings), policy.bind != pipeline::Bind::kAll};
+  });
 }
 
 namespace {
@@ -112,24 +129,33 @@ Outcome<Planned> bound(const Request& request, model::Plan plan, pipeline::Input
 
 Outcome<Planned> bind(const Request& request, Source source, std::chrono::steady_clock::time_point began,
                       Job& job) {
-  auto read_part = read(std::move(source), request.strict, job);
-  if (!read_part) return failed(read_part.error(), code_of(read_part.error(), Code::kUnreadable));
-  auto inputs = gather(request, *read_part, job);
-  if (!inputs) return failed(inputs.error(), code_of(inputs.error(), Code::kUnreadable));
-  return bound(request, *std::move(read_part), *std::move(inputs), began, job);
+  const std::string name = source.name;
+  return to_its_end(name, job, [&]() -> Outcome<Planned> {
+    auto read_part = read(std::move(source), request.strict, job);
+    if (!read_part) return failed(read_part.error(), code_of(read_part.error(), Code::kUnreadable));
+    auto inputs = gather(request, *read_part, job);
+    if (!inputs) return failed(inputs.error(), code_of(inputs.error(), Code::kUnreadable));
+    return bound(request, *std::move(read_part), *std::move(inputs), began, job);
+  });
 }
 
 Outcome<Planned> bind_in(pipeline::Inputs shop, const Request& request, Source source,
                          std::chrono::steady_clock::time_point began, Job& job) {
-  auto read_part = read(std::move(source), request.strict, job);
-  if (!read_part) return failed(read_part.error(), code_of(read_part.error(), Code::kUnreadable));
-  if (auto ok = take_choices(request, *read_part, shop, job); !ok)
-    return failed(ok.error(), code_of(ok.error(), Code::kUnreadable));
-  return bound(request, *std::move(read_part), std::move(shop), began, job);
+  const std::string name = source.name;
+  return to_its_end(name, job, [&]() -> Outcome<Planned> {
+    auto read_part = read(std::move(source), request.strict, job);
+    if (!read_part) return failed(read_part.error(), code_of(read_part.error(), Code::kUnreadable));
+    if (auto ok = take_choices(request, *read_part, shop, job); !ok)
+      return failed(ok.error(), code_of(ok.error(), Code::kUnreadable));
+    return bound(request, *std::move(read_part), std::move(shop), began, job);
+  });
 }
 
-Result<Verdict> judge(const Request& request, const Planned& planned, std::vector<Output>& outputs,
-                      Job& job) {
+namespace {
+
+/// `judge`, left by a stop.
+Result<Verdict> judged(const Request& request, const Planned& planned, std::vector<Output>& outputs,
+                       Job& job) {
   const model::Plan& made = planned.plan;
   Verdict v;
   for (const auto& f : planned.findings) v.findings.push_back({made.file_name, f, false});
@@ -152,7 +178,17 @@ Result<Verdict> judge(const Request& request, const Planned& planned, std::vecto
   for (const FileFinding& f : v.findings) {
     if (f.finding.severity != Severity::kNote) ++v.count;
   }
+  poll();  // what a stopped check did not find is not allowed by --allow-findings
   return v;
+}
+
+}  // namespace
+
+Result<Verdict> judge(const Request& request, const Planned& planned, std::vector<Output>& outputs,
+                      Job& job) {
+  return stoppable(
+      job, [&] { return judged(request, planned, outputs, job); },
+      [&]() -> Result<Verdict> { return tl::unexpected(stopped_call(planned.plan.file_name)); });
 }
 
 }  // namespace capstan::service

@@ -31,11 +31,12 @@ struct Planned {
   bool late = false;                     ///< bind: the deadline was past when the plan was there
 };
 
-/// The exit code of a fault: wrong usage for an unknown name, wherever it was given.
+/// The exit code of a fault: wrong usage for an unknown name, wherever it was given; kImpossible where the
+/// work was stopped.
 [[nodiscard]] Code code_of(const Diagnostic& fault, Code otherwise);
 
-/// Reads a part, opens the shop and plans. A job that is stopped gives no unchecked program: planning ends
-/// with PIP-STOPPED, a check with a finding that condemns the program (CHK-STOPPED).
+/// Reads a part, opens the shop and plans. A job that is stopped, or past its deadline, gives no plan: the
+/// call fails with a code that ends in -STOPPED. `check` gives the finding CHK-STOPPED, an error.
 [[nodiscard]] Outcome<Planned> plan(const Request& request, Source part, Job& job);
 
 /// The same, binding at the machine the decisions that a plan leaves open, with the tools in the magazine
@@ -66,7 +67,7 @@ struct Verdict {
 
 /// Checks the programs among the outputs against the plan. A condemned program that is requested all the same
 /// (Request::allow_findings) is written again with its stops, and checked in that form.
-/// A program's file in `findings` is its output's path. Fails  as the writers.
+/// A program's file in `findings` is its output's path. Fails  as the writers; APP-STOPPED.
 [[nodiscard]] Result<Verdict> judge(const Request& request, const Planned& planned,
                                     std::vector<Output>& outputs, Job& job);
 

@@ -11,6 +11,7 @@
 #include "planner/ground/base/file.h"
 #include "planner/ground/base/nearest_names.h"
 #include "planner/ground/base/number.h"
+#include "planner/ground/base/stopping.h"
 #include "rules/engine/check.h"
 #include "rules/rules.h"
 #include "tooling/library/cutters/generic.h"
@@ -233,6 +234,7 @@ Result<pipeline::Inputs> open_shop(const Request& o, const model::Plan& plan, Jo
   pipeline::Inputs in;
   if (auto ok = machine_of(o, plan, in, job); !ok) return tl::unexpected(ok.error());
 
+  poll();
   auto library = tooling::load_library(
       o.tools.value_or("generic"), job,
       {.mm_per_unit = {}, .offsets_against_reference = in.machine.control.offsets_against_reference});
@@ -242,18 +244,21 @@ Result<pipeline::Inputs> open_shop(const Request& o, const model::Plan& plan, Jo
       {"tools", o.tools.value_or("generic") + ", " + std::to_string(in.library.size()) + " cutters",
        o.tools ? option(o, "tools " + *o.tools) : kDefault});
 
+  poll();
   auto materials = tooling::shipped_materials();
   if (!materials) return tl::unexpected(materials.error());
   in.materials = *std::move(materials);
   in.provenance.push_back(
       {"materials", "shipped table, " + std::to_string(in.materials.size()) + " materials", kDefault});
 
+  poll();
   auto rules = rules::load_rules(o.rules.value_or(""), job);
   if (!rules) return tl::unexpected(rules.error());
   in.rules = *std::move(rules);
   in.provenance.push_back({"rules",
                            o.rules ? "shipped tables and " + *o.rules : std::string("shipped tables"),
                            o.rules ? option(o, "rules " + *o.rules) : kDefault});
+  poll();
   if (o.rules) judge_rules(in.rules, job);
 
   if (o.workholding) {

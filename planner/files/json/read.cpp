@@ -9,6 +9,7 @@
 #include "planner/files/json/values.h"
 #include "planner/ground/base/file.h"
 #include "planner/ground/base/no_number.h"
+#include "planner/ground/base/stopping.h"
 #include "planner/model/plan/decision/contradicted.h"
 #include "planner/model/plan/decision/edited.h"
 #include "planner/model/plan/order/step_ids.h"
@@ -73,6 +74,7 @@ class Reader {
     const Place here{&top, "decisions"};
     need_array(decisions, here);
     for (std::size_t i = 0; i < decisions.size(); ++i) {
+      tick();
       const Place at{&here, {}, i};
       need_object(decisions[i], at);
       model::DecisionKey key;

@@ -8,6 +8,7 @@
 #include "planner/files/json/fields.h"
 #include "planner/files/json/ids.h"
 #include "planner/ground/base/file.h"
+#include "planner/ground/base/stopping.h"
 #include "planner/model/nouns/arena/kept.h"
 #include "planner/model/nouns/arena/walk.h"
 #include "planner/model/plan/order/step_ids.h"
@@ -77,6 +78,7 @@ class Sealer {
       add("the reasons", h);
     }
     for (const auto& [key, decision] : plan_.ledger.entries()) {
+      tick();
       if (!model::is_written(plan_.ledger, decision)) continue;
       Hash h;
       of(h, key);
@@ -152,7 +154,10 @@ class Sealer {
     const std::uint32_t count = plan_.model.count(type);
     if (count == 0) return;
     Hash h;
-    for (std::uint32_t i = 0; i < count; ++i) object(h, {type, i});
+    for (std::uint32_t i = 0; i < count; ++i) {
+      tick();
+      object(h, {type, i});
+    }
     add("objects of kind " + kind_name(type), h);
   }
   void object(Hash& h, AnyRef at) {

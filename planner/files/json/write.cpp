@@ -10,6 +10,7 @@
 #include "planner/files/json/seal.h"
 #include "planner/files/json/summary.h"
 #include "planner/ground/base/file.h"
+#include "planner/ground/base/stopping.h"
 #include "planner/model/nouns/arena/walk.h"
 #include "planner/model/plan/order/step_ids.h"
 #include "planner/physics/motion/time.h"
@@ -217,7 +218,10 @@ class Writer {
       if (count == 0) continue;
       out_.key(kind_name(type));
       out_.open('[', true);
-      for (std::uint32_t i = 0; i < count; ++i) object({type, i});
+      for (std::uint32_t i = 0; i < count; ++i) {
+        tick();
+        object({type, i});
+      }
       out_.close();
     }
     out_.close();
@@ -347,6 +351,7 @@ class Writer {
     out_.key("decisions");
     out_.open('[', true);
     for (const auto& [key, known] : plan_.ledger.entries()) {
+      tick();
       if (!model::is_written(plan_.ledger, known)) continue;
       // What the value is as it is written, so that a reader sees whether somebody changed it since.
       model::Decision decision = known;

@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "planner/ground/base/stopping.h"
+
 namespace capstan::geometry {
 namespace {
 
@@ -64,6 +66,7 @@ Region from_paths(const Paths& paths) {
 }
 
 Region combine(ClipType type, const std::vector<Loop>& a, const std::vector<Loop>& b) {
+  poll();
   ClipperLib::Clipper clipper;
   clipper.AddPaths(to_paths(a), ClipperLib::ptSubject, true);
   clipper.AddPaths(to_paths(b), ClipperLib::ptClip, true);
@@ -74,6 +77,7 @@ Region combine(ClipType type, const std::vector<Loop>& a, const std::vector<Loop
 
 Region offset_paths(const Paths& paths, double delta_mm, ClipperLib::JoinType join, ClipperLib::EndType end,
                     double arc_tolerance_mm) {
+  poll();
   ClipperLib::ClipperOffset clipper(2.0, arc_tolerance_mm * kScale);
   clipper.AddPaths(paths, join, end);
   Paths solution;
@@ -113,6 +117,7 @@ Region offset_sharp(const Region& a, double delta_mm) {
 }
 
 std::vector<Region> pieces(const Region& a) {
+  poll();
   std::vector<Region> out;
   for (const Loop& loop : a.loops) {
     if (signed_area(loop) > 0.0) out.push_back({{loop}});

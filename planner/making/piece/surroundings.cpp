@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "planner/ground/base/number.h"
+#include "planner/ground/base/stopping.h"
 #include "planner/ground/geometry/moved.h"
 #include "planner/model/features/in_piece.h"
 #include "planner/model/features/raw_piece.h"
@@ -315,6 +316,7 @@ double stock_above(const Piece& piece, const FeatureShape& s) {
 Thickness thinnest_beside(const Piece& piece, const std::vector<FeatureShape>& shapes) {
   Thickness out;
   for (const FeatureShape& s : shapes) {
+    poll();
     const Thickness t = thickness_beside(piece, s);
     if (t.wall_mm) least(out.wall_mm, *t.wall_mm);
     if (t.floor_mm) least(out.floor_mm, *t.floor_mm);

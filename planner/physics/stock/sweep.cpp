@@ -5,6 +5,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "planner/ground/base/stopping.h"
 #include "planner/physics/stock/sweep/rows.h"
 #include "planner/physics/stock/sweep/slope.h"
 
@@ -119,6 +120,9 @@ void sweep_chords(HeightMap& map, const CutterProfile& profile, const Track& t, 
 
 void sweep(HeightMap& map, const CutterProfile& profile, const Track& track, bool behind_is_cut, Vec2 heading,
            Tally& tally) {
+  // By the cells under the cutter: a wide one takes as long as many narrow ones.
+  const double across = 2.0 * profile.radius_mm / map.cell_mm;
+  tick(1U + static_cast<unsigned>(std::min(64.0, across * across / 512.0)));
   const double rise = track.to.z - track.from.z;
   if (track.arc && rise != 0.0) return sweep_chords(map, profile, track, behind_is_cut, heading, tally);
   const Vec2 a = xy(track.from);

@@ -122,7 +122,7 @@ int finish(Session& s, const service::Planned& planned, std::vector<Output> outp
                                       : service::ProgramEnd::kWithheld;
     }
     if (!verdict.written) withhold(s, plan, verdict.condemned, outputs);
-    if (auto ok = service::write_all(outputs); !ok) return s.end(ok.error(), kImpossible);
+    if (auto ok = service::write_all(outputs, s.job); !ok) return s.end(ok.error(), kImpossible);
     end.wrote = written(outputs);
   }
   const auto& deadline = s.options.inputs.deadline;

@@ -1,5 +1,6 @@
 #include "planner/door/app/command/run.h"
 
+#include <atomic>
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -75,6 +76,36 @@ int begun(Session& s) {
   return dispatch(s);
 }
 
+/// Whose work a signal ends; nothing: none that can be.
+std::atomic<Job*> stopped_by_signal{nullptr};
+static_assert(std::atomic<Job*>::is_always_lock_free);
+
+extern "C" void stop_by_signal(int) {
+  if (Job* job = stopped_by_signal.load()) job->request_stop();
+}
+
+/// While it lives, Ctrl-C and a plain `kill` end plan, bind and check as a stop does: with a message, and
+/// nothing half written. The second one ends the process at once. The other commands end at the first.
+class StopsBySignal {
+ public:
+  explicit StopsBySignal(Session& s) {
+    const Command c = s.options.command;
+    if (c != Command::kPlan && c != Command::kBind && c != Command::kCheck) return;
+    stopped_by_signal = &s.job;
+    for (const int signal : {SIGINT, SIGTERM}) {
+      struct sigaction now = {}, stop = {};
+      // What a caller has ignored (nohup, a job in the background) stays so.
+      if (::sigaction(signal, nullptr, &now) != 0 || now.sa_handler == SIG_IGN) continue;
+      stop.sa_handler = stop_by_signal;
+      stop.sa_flags = SA_RESTART | static_cast<int>(SA_RESETHAND);
+      ::sigaction(signal, &stop, nullptr);
+    }
+  }
+  ~StopsBySignal() { stopped_by_signal = nullptr; }
+  StopsBySignal(const StopsBySignal&) = delete;
+  StopsBySignal& operator=(const StopsBySignal&) = delete;
+};
+
 /// The only place that catches exceptions: all functions below return their outcome by value.
 int guarded(Session& s) {
   try {
@@ -114,6 +145,7 @@ int run(int argc, const char* const* argv) {
     return parsed.ending.code;
   }
   Session session(*std::move(parsed.options));
+  const StopsBySignal stops(session);
   const int code = guarded(session);
   leave_nothing_stale(session, code);
   print_diagnostics(session, code);

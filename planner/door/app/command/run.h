@@ -31,7 +31,7 @@ inline constexpr std::array kExitTexts{
              "wrong usage; a material, machine, fixture or tool that nobody knows; an output that cannot "
              "be written"},
     ExitText{kUnreadable, "an input cannot be read"},
-    ExitText{kImpossible, "impossible: no tool, no machine can"},
+    ExitText{kImpossible, "impossible: no tool, no machine can; or stopped before the end"},
     ExitText{kLate, "bind: done, but after the deadline"},
     ExitText{kOurFault, "a fault of the program itself"},
 };

@@ -18,6 +18,7 @@
 #include "planner/files/p21/print.h"
 #include "planner/files/p21/read/parse.h"
 #include "planner/ground/base/number.h"
+#include "planner/ground/base/stopping.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/nouns/arena/walk.h"
 
@@ -87,7 +88,10 @@ class FileWriter {
     out += beyond_ + write_records(plan_, m_, [this](AnyRef at) { return number_of(at); });
     out += exact_paths(original_, m_, [this](AnyRef at) { return name_of(at); });
     out += "ENDSEC;\n" + sections_text(plan_, [this](AnyRef r) { return reference(r); }) + "DATA;\n";
-    for (const auto& [n, at] : by_number_) instance(n, at, out);
+    for (const auto& [n, at] : by_number_) {
+      tick();
+      instance(n, at, out);
+    }
     out += "ENDSEC;\nEND-ISO-10303-21;\n";
     for (const auto& [what, n] : left_out_)
       losses_.push_back(cannot_store(what + (n == 1 ? "" : ", " + std::to_string(n) + " times") + ")"));

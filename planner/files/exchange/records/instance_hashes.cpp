@@ -6,6 +6,7 @@
 #include "planner/files/p21/print.h"
 #include "planner/ground/base/file.h"
 #include "planner/ground/base/number.h"
+#include "planner/ground/base/stopping.h"
 
 namespace capstan::exchange {
 
@@ -60,6 +61,7 @@ std::map<std::uint64_t, std::string> hashes_of(const p21::File& file,
   if (numbers.empty()) return out;
   std::map<std::uint64_t, std::vector<std::string>> named_by;
   for (const p21::Instance i : file) {
+    tick();
     std::set<std::uint64_t> to;
     for (std::size_t k = 0; k < i.part_count(); ++k) refers_to(i.part(k).parameters, numbers, to);
     if (to.empty()) continue;
@@ -71,6 +73,7 @@ std::map<std::uint64_t, std::string> hashes_of(const p21::File& file,
     for (const std::uint64_t n : to) named_by[n].push_back(names);
   }
   for (const std::uint64_t n : numbers) {
+    tick();
     const auto instance = file.find(n);
     if (!instance) continue;
     std::string text;

@@ -11,6 +11,7 @@
 #include "planner/files/p21/read/parse.h"
 #include "planner/ground/base/file.h"
 #include "planner/ground/base/number.h"
+#include "planner/ground/base/stopping.h"
 #include "planner/model/plan/decision/edited.h"
 
 namespace capstan::exchange {
@@ -87,6 +88,7 @@ std::map<std::string, Seal> sealed(const p21::File& file) {
       add(e.keyword(), spelled(e.parameters()[0]) + "," + spelled(e.parameters()[1]));
   }
   for (const p21::Instance e : file) {
+    tick();
     std::string text = "#" + std::to_string(e.id());
     for (std::size_t k = 0; k < e.part_count(); ++k)
       text += std::string(e.part(k).keyword) + spelled(e.part(k).parameters);

@@ -2,6 +2,8 @@
 #include <array>
 #include <cstring>
 
+#include "planner/ground/base/stopping.h"
+
 #include "planner/files/p21/read/parser.h"
 
 namespace capstan::p21::detail {
@@ -161,6 +163,7 @@ void Parser::data_section() {
   if (!good || !semicolon()) resync();
   DataSection section{.parameters = Value(&store_.arena, node), .first = store_.entities.size()};
   while (!stop_) {
+    tick();
     skip();
     if (*at_.p == '#') {
       if (store_.entities.size() >= limits_.instances) {

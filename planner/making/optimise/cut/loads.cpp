@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "planner/ground/base/stopping.h"
 #include "planner/making/optimise/cut/limits.h"
 #include "planner/physics/mechanics/bending/beam.h"
 #include "planner/physics/mechanics/constants.h"
@@ -84,6 +85,7 @@ MillingLoads::MillingLoads(const CutQuestion& q)
       margin_(margin_of(q).factor()) {}
 
 std::optional<model::StepLoads> MillingLoads::at(double ap_mm, double ae_mm, double n_rpm, double fz_mm) {
+  tick();
   const CutQuestion& q = q_;
   const mechanics::Tooth& tooth = tooth_;
   const mechanics::ForceLaw& law = law_;

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "planner/ground/base/stopping.h"
 #include "planner/making/optimise/cut/limits.h"
 #include "planner/physics/mechanics/constants.h"
 #include "planner/physics/mechanics/force/drilling.h"
@@ -207,6 +208,7 @@ std::optional<State> CutLoads::at(const Cut& cut, double feed) const {
 }
 
 std::optional<State> CutLoads::at(const ReadyCut& made, double feed) const {
+  tick();
   const Cut& cut = made.cut;
   const double fz = feed / (n_ * tooth_.teeth) * cut.gain;
   const auto l = made.loads.at(fz, n_);

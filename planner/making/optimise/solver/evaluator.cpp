@@ -1,5 +1,7 @@
 #include "planner/making/optimise/solver/evaluator.h"
 
+#include "planner/ground/base/stopping.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -85,6 +87,7 @@ const Evaluation& Evaluator::at(std::span<const double> u, bool want_slopes) {
 }
 
 void Evaluator::compute(bool want_slopes) {
+  poll();
   problem_.model(to_x(u_), want_slopes, raw_);
   unit_.objective = raw_.objective;
   unit_.constraints = raw_.constraints;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "planner/ground/base/stopping.h"
 #include "planner/making/toolpath/freeform/drop_tree.h"
 
 namespace capstan::toolpath::freeform {
@@ -117,6 +118,7 @@ void DropCutter::leaf(const Leaf& l, const Toroid& t, double x, double y, double
 }
 
 double DropCutter::search(const Toroid& t, double x, double y, std::uint32_t& hint) const {
+  tick();
   double best = kNoContact;
   if (nodes_.empty()) return best;
   const double radius = t.radius();

@@ -1,5 +1,7 @@
 #include "planner/physics/stock/planar/planar_stock.h"
 
+#include "planner/ground/base/stopping.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -261,6 +263,7 @@ void PlanarStock::describe(Vec2 lo, Vec2 hi, std::string& bytes) const {
 }
 
 void PlanarStock::take(Trail trail) {
+  tick();
   if (record_ != nullptr) record_->push_back(trail);
   if (trail.outline != nullptr) {  // what of it goes over the piece's top matters to nobody
     const double most = reach_of(*trail.outline, trail.radius_mm, box_.hi.z - trail.za);
@@ -303,6 +306,7 @@ void PlanarStock::put_back(const Mark& mark) {
 void PlanarStock::forget() { changes_.clear(); }
 
 double PlanarStock::highest(Vec2 lo, Vec2 hi) const {
+  tick();
   double best = box_.lo.z;
   if (hi.x <= box_.lo.x || lo.x >= box_.hi.x || hi.y <= box_.lo.y || lo.y >= box_.hi.y) return best;
   int x0, x1, y0, y1;
@@ -415,6 +419,7 @@ bool PlanarStock::cleared(const Nearby& near, Vec2 centre, double radius_mm, dou
 
 void PlanarStock::heights(const Probe& probe, Nearby& near, double above_mm, Heights& out,
                           double most_mm) const {
+  tick();
   out.reset(probe.lo, probe.hi, std::max(std::min(box_.hi.z, most_mm), above_mm));
   near.in_strips = false;
   if (box_.hi.z <= above_mm) return;

@@ -1,14 +1,17 @@
 #include "planner/model/plan/range/positions.h"
 #include "planner/proof/verify/compared/meaning.h"
 #include "planner/proof/verify/plan/plan_checks.h"
+#include "planner/proof/verify/stopped.h"
 #include "planner/proof/verify/sweep/sweep.h"
 #include "planner/proof/verify/sweep/target/target.h"
 #include "planner/proof/verify/verify.h"
 
 namespace capstan::verify {
 
-std::vector<model::Finding> check_plan(const model::Plan& plan, Job& job) {
-  Findings findings;
+namespace {
+
+/// False if a stop ended it and the finding says where.
+bool judge(const model::Plan& plan, Findings& findings, Job& job) {
   const std::vector<StepMoves> steps = moves_of(plan, findings);
   check_ranges(plan, findings);
   check_twice(plan, findings);
@@ -17,7 +20,7 @@ std::vector<model::Finding> check_plan(const model::Plan& plan, Job& job) {
                    beyond +
                        ": nothing can be computed with it, and nothing else is checked: correct it in "
                        "the plan's file");
-    return findings.take();
+    return true;
   }
   check_tools(plan, steps, findings);
   check_limits(plan, steps, findings);
@@ -31,8 +34,16 @@ std::vector<model::Finding> check_plan(const model::Plan& plan, Job& job) {
   const PartShapes part = shapes_of_part(plan);
   check_meaning(plan, findings);
   check_within(plan, part, findings);
-  check_removal(plan, steps, findings, job);
+  if (!check_removal(plan, steps, findings, job)) return false;
   job.progress("check", 1.0);
+  return true;
+}
+
+}  // namespace
+
+std::vector<model::Finding> check_plan(const model::Plan& plan, Job& job) {
+  Findings findings;
+  check_to_its_end(job, findings, [&] { return judge(plan, findings, job); });
   return findings.take();
 }
 

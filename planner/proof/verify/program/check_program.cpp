@@ -1,6 +1,7 @@
 #include "planner/proof/verify/plan/plan_checks.h"
 #include "planner/proof/verify/program/program_checks.h"
 #include "planner/proof/verify/program/readers.h"
+#include "planner/proof/verify/stopped.h"
 #include "planner/proof/verify/sweep/sweep.h"
 #include "planner/proof/verify/verify.h"
 
@@ -94,13 +95,16 @@ std::vector<model::Finding> check_program(const ProgramText& text, const model::
   Findings findings;
   const DialectReader* reader = reader_for(machine, findings);
   if (reader == nullptr) return findings.take();
-  const Program program = reader->program(text.text);
-  // Moves refer to the cutters.
-  const bool none = plan == nullptr && cutters.empty() && text.tool_table.empty();
-  const std::vector<model::Cutter> tools = none ? tools_of_header(program) : cutters;
-  const std::vector<StepMoves> steps = judge_text(*reader, program, text, plan, machine, tools, findings);
-  if (plan != nullptr) check_removal(*plan, steps, findings, job);
-  job.progress("check", 1.0);
+  check_to_its_end(job, findings, [&] {
+    const Program program = reader->program(text.text);
+    // Moves refer to the cutters.
+    const bool none = plan == nullptr && cutters.empty() && text.tool_table.empty();
+    const std::vector<model::Cutter> tools = none ? tools_of_header(program) : cutters;
+    const std::vector<StepMoves> steps = judge_text(*reader, program, text, plan, machine, tools, findings);
+    if (plan != nullptr && !check_removal(*plan, steps, findings, job)) return false;
+    job.progress("check", 1.0);
+    return true;
+  });
   return findings.take();
 }
 

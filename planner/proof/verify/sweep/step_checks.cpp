@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "planner/ground/base/stopping.h"
 #include "planner/model/nouns/all.h"
 #include "planner/physics/mechanics/constants.h"
 #include "planner/proof/verify/copies.h"
@@ -120,6 +121,7 @@ bool StepChecks::in_hole(const Move& m) const {
 
 void StepChecks::run() {
   for (const Move& m : step_.moves) {
+    poll();
     if (m.kind == MoveKind::kRapid) {
       settle();
       rapid(m);
@@ -312,6 +314,7 @@ void StepChecks::body(const Move& m) {
     const double half = 0.5 * length_of(m) / n;
     const double r = std::hypot(p.radius_mm - kSlackMm, half);
     for (int i = 0; i < n; ++i) {
+      tick();
       const geometry::Vec3 at_point = point_of(m, (i + 0.5) / n);
       const double z =
           std::min(point_of(m, static_cast<double>(i) / n).z, point_of(m, static_cast<double>(i + 1) / n).z);

@@ -65,14 +65,14 @@ void check_left(const model::Plan& plan, const std::vector<std::unique_ptr<Scene
 
 }  // namespace
 
-void check_removal(const model::Plan& plan, const std::vector<StepMoves>& steps, Findings& findings,
+bool check_removal(const model::Plan& plan, const std::vector<StepMoves>& steps, Findings& findings,
                    Job& job) {
   check_bodies(plan, steps, findings);
   check_fixtures(plan, steps, findings);
   if (plan.stock.box.empty()) {
     findings.unproved(Severity::kWarning, 11, "CHK-NO-STOCK", {0, "", -1},
                       "there is no raw piece, so that removal cannot be checked");
-    return;
+    return true;
   }
   const PartShapes part = shapes_of_part(plan);
   const double cell = cell_of(plan);
@@ -89,7 +89,7 @@ void check_removal(const model::Plan& plan, const std::vector<StepMoves>& steps,
       findings.error(11, std::string(kStopped), {Findings::kWhole, "", -1},
                      "the check was stopped before step " + std::to_string(i + 1) + " of " +
                          std::to_string(steps.size()) + ": nothing is proven of it and of what follows");
-      return;
+      return false;
     }
     const geometry::Placement frame = workpiece_in(plan, step.setup);
     Scene* scene = nullptr;
@@ -123,6 +123,7 @@ void check_removal(const model::Plan& plan, const std::vector<StepMoves>& steps,
     if (grip && step.setup == held) grip->after(step, scene->grid, findings);
   }
   check_left(plan, scenes, findings);
+  return true;
 }
 
 }  // namespace capstan::verify

@@ -15,8 +15,9 @@ namespace capstan::verify {
 /// touched and the piece let go (31), steps that cut nothing (35), what stays of planned features (36).
 /// Set-ups begin with what others left.
 ///
-/// Cost  linear in the area that the cutter sweeps, in cells.
-void check_removal(const model::Plan& plan, const std::vector<StepMoves>& steps, Findings& findings,
+/// Cost  linear in the area that the cutter sweeps, in cells. Gives false if a stop ended it before a step:
+/// then the finding `kStopped` says which.
+bool check_removal(const model::Plan& plan, const std::vector<StepMoves>& steps, Findings& findings,
                    Job& job);
 
 }  // namespace capstan::verify

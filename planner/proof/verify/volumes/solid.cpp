@@ -1,5 +1,7 @@
 #include "planner/proof/verify/volumes/solid.h"
 
+#include "planner/ground/base/stopping.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -168,6 +170,7 @@ void grow(Box3& box, Vec2 lo, Vec2 hi, double by) {
 }  // namespace
 
 Said Solid::at(Vec3 p) const {
+  tick();
   if (const auto* a = std::get_if<Area>(&form)) return in_area(*a, *this, p);
   if (const auto* b = std::get_if<Bore>(&form)) return in_bore(*b, *this, p);
   if (const auto* g = std::get_if<Groove>(&form)) return in_groove(*g, *this, p);

@@ -65,58 +65,74 @@ TEST(Bind, PlansTheBracketWholeAndSafe) {
   }
 }
 
-/// A clock that notes who reads it: each row of a surface asks its job whether it is to stop, from its own
-/// thread. The first worker waits there for a second, so that one cannot do the work of both.
+/// A clock that notes which other threads than the planner's read it: each piece of shared work asks its job
+/// whether it is to stop. Where others are `awaited`, the planner's own questions take a millisecond until
+/// the first of them is there, so that it does not do the work of both.
 class Witness {
  public:
+  explicit Witness(bool awaited) : awaited_(awaited) {}
   std::chrono::steady_clock::time_point read() {
+    constexpr int kLongest = 20000;  // waited out only where none ever comes: the test fails then
     std::unique_lock lock(mutex_);
-    if (std::this_thread::get_id() != planner_ && workers_.insert(std::this_thread::get_id()).second) {
+    if (std::this_thread::get_id() != planner_) {
+      workers_.insert(std::this_thread::get_id());
       arrived_.notify_all();
-      // Waited out only where no second worker ever comes: the test fails then.
-      arrived_.wait_for(lock, std::chrono::seconds(10), [this] { return workers_.size() > 1; });
+    } else if (awaited_ && workers_.empty() && ++waited_ < kLongest) {
+      arrived_.wait_for(lock, std::chrono::milliseconds(1));
     }
     return std::chrono::steady_clock::now();
   }
   [[nodiscard]] std::size_t workers() const { return workers_.size(); }
 
  private:
+  bool awaited_;
+  int waited_ = 0;
   std::thread::id planner_ = std::this_thread::get_id();
   std::mutex mutex_;
   std::condition_variable arrived_;
   std::set<std::thread::id> workers_;
 };
 
-// Only paths over surfaces are made on several threads (parallel_for in planner/making/toolpath/freeform).
-TEST(Bind, GivesTheSameBytesOnOneThreadAndOnTwo) {
+/// A part planned and checked on so many threads: all forms, all findings of the plan and of its program, all
+/// that was reported. `workers` are the threads that helped.
+std::string made_on(const std::string& name, const Inputs& in, unsigned threads, std::size_t& workers) {
+  Witness witness(threads > 1);
+  Job job;
+  job.threads = threads;
+  job.set_deadline(std::chrono::steady_clock::now() + std::chrono::hours(1));  // so that the clock is read
+  job.set_clock([&witness] { return witness.read(); });
+  const auto made = bind_checked(part(name), in, {}, job);
+  EXPECT_TRUE(made) << (made ? "" : to_text(made.error()));
+  if (!made) return {};
+  std::string out;
+  for (const Format f :
+       {Format::kIso14649, Format::kAp238, Format::kJson, Format::kLinuxCnc, Format::kToolTable}) {
+    auto text = write_plan(made->plan, f, job);
+    EXPECT_TRUE(text) << (text ? "" : to_text(text.error()));
+    out += text ? *text : "";
+  }
+  for (const model::Finding& f : findings_of(*made, job))
+    out += f.code + " " + f.step + " " + std::to_string(f.move) + " " + f.message + "\n";
+  for (const Diagnostic& d : job.diagnostics()) out += to_text(d) + "\n";
+  workers = witness.workers();
+  return out;
+}
+
+// Of planning only paths over surfaces are made on several threads; for files and checks see
+// tests/door/service/threads_test.cpp.
+TEST(Bind, GivesTheSameBytesOnOneTwoAndEightThreads) {
   Inputs in = shop();
   in.material_name = "EN AW-6061";
-  const auto bytes = [&in](unsigned threads, std::size_t& workers) {
-    Witness witness;
-    Job job;
-    job.threads = threads;
-    job.set_deadline(std::chrono::steady_clock::now() + std::chrono::hours(1));  // so that the clock is read
-    job.set_clock([&witness] { return witness.read(); });
-    auto plan = bind(part("surface.stl"), in, {}, job);
-    EXPECT_TRUE(plan) << (plan ? "" : to_text(plan.error()));
-    workers = witness.workers();
-    std::string out;
-    if (!plan) return out;
-    for (const Format f :
-         {Format::kIso14649, Format::kAp238, Format::kJson, Format::kLinuxCnc, Format::kToolTable}) {
-      auto text = write_plan(*plan, f, job);
-      EXPECT_TRUE(text) << (text ? "" : to_text(text.error()));
-      out += text ? *text : "";
-    }
-    return out;
-  };
-  std::size_t alone = 0, together = 0;
-  const std::string one = bytes(1, alone);
-  const std::string two = bytes(2, together);
+  std::size_t alone = 0;
+  const std::string one = made_on("surface.stl", in, 1, alone);
   EXPECT_EQ(alone, 0U) << "one thread is the planner's own";
-  EXPECT_GE(together, 2U);
-  EXPECT_FALSE(one.empty());
-  EXPECT_TRUE(one == two);
+  ASSERT_FALSE(one.empty());
+  for (const unsigned threads : {2U, 8U}) {
+    std::size_t together = 0;
+    const std::string many = made_on("surface.stl", in, threads, together);
+    EXPECT_GE(together, 1U);
+    EXPECT_TRUE(one == many) << "on " << threads;
+  }
 }
 
 TEST(Bind, BindsEveryToolAndFeedWithAReason) {

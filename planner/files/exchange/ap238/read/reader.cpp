@@ -8,6 +8,7 @@
 #include <set>
 #include <tuple>
 
+#include "planner/ground/base/stopping.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/nouns/arena/walk.h"
 
@@ -302,6 +303,7 @@ AnyRef Reader::object_at(Node n, std::span<const TypeId> targets, const Scale& s
 
 void Reader::drain() {
   while (!pending_.empty()) {
+    tick();
     const Pending p = pending_.front();
     pending_.pop_front();
     if (p.geometry) {

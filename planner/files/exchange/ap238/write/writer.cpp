@@ -9,6 +9,7 @@
 #include "planner/files/exchange/common/file_sections.h"
 #include "planner/files/p21/print.h"
 #include "planner/ground/base/number.h"
+#include "planner/ground/base/stopping.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/nouns/arena/walk.h"
 
@@ -51,6 +52,7 @@ std::string Writer::run(const std::vector<Unlisted>& unlisted) {
   for (const AnyRef f : m_.all_below(TypeId::kManufacturingFeature)) require(f);
   for (const AnyRef k : plan_.kept) require(k);
   while (!tasks_.empty() || !to_scan_.empty()) {
+    tick();
     if (!tasks_.empty()) {
       const Task t = tasks_.front();
       tasks_.pop_front();
@@ -67,6 +69,7 @@ std::string Writer::run(const std::vector<Unlisted>& unlisted) {
   fall_back();
   std::string out;
   for (Id id = 1; id <= made_.size(); ++id) {
+    tick();
     if (!reserved_.contains(id)) print(id, made_[id - 1], out);
   }
   for (const auto& [what, n] : lost_) {

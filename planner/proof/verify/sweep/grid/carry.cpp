@@ -1,4 +1,5 @@
 #include "planner/proof/verify/sweep/grid/carry.h"
+#include "planner/ground/base/stopping.h"
 
 #include <algorithm>
 #include <cmath>
@@ -48,6 +49,7 @@ void carry(Grid& to, const Placement& to_frame, const Grid& from, const Placemen
   const double same = there.z.z;
   const double step = to.cell();
   for (int iy = 0; iy < to.ny(); ++iy) {
+    poll();
     for (int ix = 0; ix < to.nx(); ++ix) {
       const std::size_t i = to.index(ix, iy);
       double hi = to.stock[i];

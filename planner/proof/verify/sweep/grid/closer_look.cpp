@@ -13,6 +13,7 @@
 #include <span>
 #include <utility>
 
+#include "planner/ground/base/stopping.h"
 #include "planner/proof/verify/sweep/grid/way.h"
 
 namespace capstan::verify {
@@ -148,6 +149,7 @@ std::vector<EarlierCuts::Block> EarlierCuts::blocks(const Raster& local, const W
   const double apart = local.cell() * 0.5 * (kWide - 1) * std::numbers::sqrt2;
   for (const Cut* c : cuts) {
     if (out.empty()) break;
+    tick();
     along_way(*c->cutter, c->move, [&](const auto& earlier) {
       if (earlier.zmin() - way.zmin() > least_mm) return;
       std::erase_if(out, [&](const Block& b) {
@@ -188,6 +190,7 @@ std::vector<EarlierCuts::Point> EarlierCuts::begun(const Grid& grid, const Raste
     const std::span<const Block> beside(blocks.begin(), beyond);
     std::pair<int, int> last{-1, -1};
     for (int iy = y; iy < std::min(y + Block::kWide, local.ny()); ++iy) {
+      tick();
       const Vec2 begin = local.centre(0, iy);
       const std::pair<int, int> about = grid.rows(begin.y - reach, begin.y + reach);
       const auto [x0, x1] = columns(local, way, front, iy);
@@ -244,6 +247,7 @@ std::vector<EarlierCuts::Point> EarlierCuts::left(const Grid& grid, const Place&
   std::vector<Point> points = begun(grid, local, way, front, least_mm, of);
   for (const Cut* c : cuts) {
     if (points.empty()) break;
+    tick();
     lower(points, c->move, *c->cutter, least_mm);
   }
   return points;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/ground/base/stopping.h"
 #include "planner/proof/verify/sweep/grid/grid.h"
 #include "planner/proof/verify/sweep/grid/way.h"
 
@@ -72,6 +73,7 @@ void pass(Knife& k, const Way& way) {
   k.grid.cut_rows(y0, y1);
   Over at;
   for (int iy = y0; iy < y1; ++iy) {
+    tick();
     if (k.grid.row_top(iy) <= way.zmin()) continue;
     const auto [xa, xb] = way.reach_x(k.grid.centre(0, iy).y);
     const auto [x0, x1] = k.grid.columns(xa, xb);

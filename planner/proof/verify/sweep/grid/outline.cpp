@@ -9,6 +9,7 @@
 #include <limits>
 #include <utility>
 
+#include "planner/ground/base/stopping.h"
 #include "planner/ground/vocabulary/unit_factors.h"
 
 namespace capstan::verify {
@@ -99,6 +100,7 @@ double lowest_on_line(const CutterOutline& o, double z0, double dz, double foot,
 
 double lowest_on_helix(const CutterOutline& o, double z0, double dz, double radius, double sweep, double away,
                        double ahead) {
+  tick();
   const double sum = away * away + radius * radius, twice = 2.0 * away * radius;
   const double r = o.radius();
   // The turn to either side of the point within which it lies under the cutter's end.

@@ -3,6 +3,7 @@
 #include <numbers>
 #include <set>
 
+#include "planner/ground/base/stopping.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/plan/order/step_ids.h"
 #include "planner/proof/verify/copies.h"
@@ -249,6 +250,7 @@ void Target::left_of(const Cavity& c, const Grid& grid, const Asked& a, const st
   const auto [y0, y1] = grid.rows(c.box.lo.y, c.box.hi.y);
   const auto [x0, x1] = grid.columns(c.box.lo.x, c.box.hi.x);
   for (int iy = y0; iy < y1; ++iy) {
+    poll();
     for (int ix = x0; ix < x1; ++ix) {
       const std::size_t i = grid.index(ix, iy);
       const double stands = grid.stock[i];
@@ -313,6 +315,7 @@ void Target::left_on_mesh(const Grid& grid, const Asked& a, Findings& out) const
   std::size_t cells = 0, all = 0;
   Vec2 where;
   for (int iy = 0; iy < grid.ny(); ++iy) {
+    poll();
     for (int ix = 0; ix < grid.nx(); ++ix) {
       const std::size_t i = grid.index(ix, iy);
       const double z = grid.stock[i];

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "planner/ground/base/stopping.h"
 #include "planner/ground/geometry/mesh_form.h"
 #include "planner/model/nouns/all.h"
 #include "planner/proof/verify/copies.h"
@@ -185,6 +186,7 @@ void Target::fill(Grid& grid) {
   grid_ = &grid;
   grid.floor = stock_.lo.z;
   for (int iy = 0; iy < grid.ny(); ++iy) {
+    poll();
     for (int ix = 0; ix < grid.nx(); ++ix) {
       const Vec2 p = grid.centre(ix, iy);
       const bool there = !round_ || norm(p - 0.5 * (xy(stock_.lo) + xy(stock_.hi))) <= *round_;
@@ -201,6 +203,7 @@ void Target::fill(Grid& grid) {
     // Where the floor is level all over a block of cells it is asked for once.
     constexpr int kBlock = 16;
     for (int by = y0; by < y1; by += kBlock) {
+      tick(16);
       for (int bx = x0; bx < x1; bx += kBlock) {
         const int ty = std::min(by + kBlock, y1), tx = std::min(bx + kBlock, x1);
         const Vec2 first = grid.centre(bx, by), middle = 0.5 * (first + grid.centre(tx - 1, ty - 1));
@@ -224,6 +227,7 @@ void Target::fill_mesh(Grid& grid) const {
   const geometry::Mesh& mesh = *plan_.target_mesh;
   std::vector<double> high(grid.part.size(), Grid::kNothing);
   for (const auto& t : mesh.triangles) {
+    tick();
     const Vec3 a = frame_.to_parent(mesh.vertices[t[0]]);
     const Vec3 b = frame_.to_parent(mesh.vertices[t[1]]);
     const Vec3 c = frame_.to_parent(mesh.vertices[t[2]]);
@@ -232,6 +236,7 @@ void Target::fill_mesh(Grid& grid) const {
     const auto [y0, y1] = grid.rows(std::min({a.y, b.y, c.y}), std::max({a.y, b.y, c.y}));
     const auto [x0, x1] = grid.columns(std::min({a.x, b.x, c.x}), std::max({a.x, b.x, c.x}));
     for (int iy = y0; iy < y1; ++iy) {
+      tick();
       for (int ix = x0; ix < x1; ++ix) {
         const Vec2 p = grid.centre(ix, iy);
         const double u = cross(xy(b) - p, xy(c) - p) / twice;

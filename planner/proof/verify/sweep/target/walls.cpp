@@ -8,6 +8,7 @@
 #include <numeric>
 #include <utility>
 
+#include "planner/ground/base/stopping.h"
 #include "planner/proof/verify/sweep/target/target.h"
 
 namespace capstan::verify {
@@ -108,6 +109,7 @@ const Target::Walls& Target::walls(double z) {
   Walls out;
   std::vector<Part> parts;
   for (const Cavity& c : cavities_) {
+    tick();
     if (c.floor_mm > z + allowed() && !c.open_bottom) continue;
     Region r = c.area;
     for (const auto& [island, top] : c.islands) {
@@ -128,6 +130,7 @@ const Target::Walls& Target::walls(double z) {
   };
   std::vector<geometry::Loop> across;
   for (Part& p : apart(std::move(parts))) {
+    tick();
     const bool within = !round_ && p.box.lo.x > part_box_.lo.x + kApartMm &&
                         p.box.lo.y > part_box_.lo.y + kApartMm && p.box.hi.x < part_box_.hi.x - kApartMm &&
                         p.box.hi.y < part_box_.hi.y - kApartMm;
@@ -174,6 +177,7 @@ double Target::wall_gouge(const Move& m, double radius, double height_mm, Vec2& 
   double worst = 0.0;
   Vec3 a = m.from;
   for (int i = 1; i <= n; ++i) {
+    tick();
     const Vec3 b = point_of(m, static_cast<double>(i) / n);
     // While falling from one level to the next the higher end decides; the last piece is judged at its end.
     const double z = (i == n ? std::min(a.z, b.z) : std::max(a.z, b.z)) + height_mm;

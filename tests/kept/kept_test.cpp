@@ -1,0 +1,81 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/kept/measure.h"
+
+namespace capstan::kept {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+TEST(KeptTable, ReadsWhatItWrites) {
+  const std::vector<Cost> costs = {{"start-up", 1.25, std::nullopt},
+                                   {"a-row-with-a-name-that-is-very-long", 3.5, 4.0}};
+  const auto again = read(write(costs), "fast.table");
+  ASSERT_TRUE(again) << to_text(again.error());
+  EXPECT_EQ(*again, costs);
+}
+
+TEST(KeptTable, RefusesALineThatIsNoRow) {
+  for (const char* text : {"row\n", "row 0 -\n", "row 1.5 x\n", "row 1.5 - more\n", "row -2 -\n"}) {
+    const auto table = read("# a comment\n" + std::string(text), "fast.table");
+    ASSERT_FALSE(table) << text;
+    EXPECT_EQ(table.error().code, "KEPT-TABLE");
+    EXPECT_EQ(table.error().line, 2U);
+  }
+}
+
+TEST(KeptTable, ARowBeyondTheLimitIsToldWithItsRatiosTheLimitAndWhatToDo) {
+  const std::vector<Cost> table = {{"json", 2.0, std::nullopt}};
+  EXPECT_FALSE(fault({"json", 2.39, std::nullopt}, table));
+  EXPECT_FALSE(fault({"json", 0.5, std::nullopt}, table)) << "faster is no fault";
+  const auto wrong = fault({"json", 3.0, std::nullopt}, table);
+  ASSERT_TRUE(wrong);
+  for (const char* part : {"json", "3 times", "the table has 2", "50 % more", "the limit is 20 %", "--take"})
+    EXPECT_THAT(*wrong, HasSubstr(part));
+}
+
+TEST(KeptTable, ARowThatTheTableDoesNotHaveIsAFault) {
+  const auto wrong = fault({"new", 1.0, std::nullopt}, {});
+  ASSERT_TRUE(wrong);
+  EXPECT_THAT(*wrong, HasSubstr("no such row"));
+}
+
+TEST(KeptTable, InstructionsDecideWhereBothHaveThem) {
+  const std::vector<Cost> table = {{"json", 2.0, 10.0}};
+  EXPECT_FALSE(fault({"json", 9.0, 10.5}, table));
+  EXPECT_TRUE(fault({"json", 2.0, 15.0}, table));
+  EXPECT_TRUE(fault({"json", 9.0, std::nullopt}, table)) << "not counted here: the time decides";
+}
+
+/// A row of so many kernels: its cost is that number on every machine.
+Row kernels(int n) {
+  return {"kernels", [n] {
+            Taken all;
+            for (int k = 0; k < n; ++k) {
+              const Taken one = reference_kernel();
+              all.cpu_s += one.cpu_s;
+              all.instructions += one.instructions;
+            }
+            return all;
+          }};
+}
+
+TEST(Kept, ARowOfHalfAsMuchWorkAgainFailsAndTheSameWorkPasses) {
+  const std::vector<Cost> table = {{"kernels", 2.0, 2.0}};
+  std::vector<Cost> costs;
+  EXPECT_THAT(check({kernels(2)}, table, 3, costs), IsEmpty());
+  EXPECT_THAT(check({kernels(3)}, table, 3, costs), SizeIs(1));
+  EXPECT_THAT(costs, SizeIs(2));
+}
+
+TEST(Kept, AProgramThatFailsIsNoMeasurement) {
+  EXPECT_THROW((void)taken_by(std::vector<std::string>{"/bin/sh", "-c", "exit 3"}), std::runtime_error);
+  EXPECT_THROW((void)taken_by(std::vector<std::string>{"/no/such/program"}), std::runtime_error);
+  EXPECT_GT(taken_by(std::vector<std::string>{"/bin/sh", "-c", "true"}).cpu_s, 0.0);
+}
+
+}  // namespace
+}  // namespace capstan::kept

@@ -1,0 +1,122 @@
+#include "tests/kept/rows.h"
+
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <utility>
+
+#include "planner/files/json/json.h"
+#include "planner/ground/base/file.h"
+#include "planner/making/toolpath/freeform/drop_cutter.h"
+#include "planner/physics/engagement/engagement.h"
+
+// Plans and checks are made by the command, in a process each: what a process keeps for its next call makes
+// no row faster. The kernels of sections and of the drop-cutter, and JSON, run here.
+
+namespace capstan::kept {
+namespace {
+
+void wanted(bool ok, const char* what) {
+  if (!ok) throw std::runtime_error(what);
+}
+
+/// Zigzag passes of a 10 mm end mill 4 mm apart and 2 mm deep, at 27 degrees to the cells of 0.1 mm.
+void sections() {
+  model::Cutter c;
+  c.cutter_class = model::CutterClass::kEndmill;
+  c.cutting_diameter_mm = 10.0;
+  c.maximum_depth_of_cut_mm = 20.0;
+  constexpr double kSkew = 27.0 * std::numbers::pi / 180.0;
+  const auto at = [&](double s, double left, double z) {
+    return geometry::Vec3{20.0 + s * std::cos(kSkew) - left * std::sin(kSkew),
+                          8.0 + s * std::sin(kSkew) + left * std::cos(kSkew), z};
+  };
+  model::CutterPath p;
+  p.start(at(0.0, 0.0, 5.0));
+  p.line(at(0.0, 0.0, -2.0), model::MoveRole::kPlunge);
+  for (int k = 0; k < 8; ++k) {
+    p.line(at(k % 2 == 0 ? 60.0 : 0.0, 4.0 * k, -2.0), model::MoveRole::kCut);
+    p.line(at(k % 2 == 0 ? 60.0 : 0.0, 4.0 * (k + 1), -2.0), model::MoveRole::kLink);
+  }
+  for (int k = 0; k < 4; ++k) {
+    auto map = stock::from_box({{0, 0, -10}, {100, 80, 0}}, 0.1);
+    const auto m = engagement::measure(p, c, map, {.step_mm = 0.25});
+    wanted(m && m->removed_mm3 > 0.0, "the sections are wrong");
+  }
+}
+
+/// A wavy surface of 100 mm by 100 mm.
+geometry::Mesh wavy(int n) {
+  geometry::Mesh m;
+  for (int j = 0; j <= n; ++j) {
+    for (int i = 0; i <= n; ++i) {
+      const double x = 100.0 * i / n;
+      const double y = 100.0 * j / n;
+      m.vertices.push_back({x, y, 5.0 * std::sin(0.15 * x) * std::cos(0.11 * y)});
+    }
+  }
+  const auto at = [n](int i, int j) { return static_cast<std::uint32_t>(j * (n + 1) + i); };
+  for (int j = 0; j < n; ++j) {
+    for (int i = 0; i < n; ++i) {
+      m.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+      m.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+    }
+  }
+  return m;
+}
+
+/// A ball of 6 mm dropped on the surface at places 0.5 mm apart, row by row.
+void drops() {
+  constexpr int kPlaces = 200;
+  const toolpath::freeform::DropCutter cutter(wavy(100));
+  std::vector<geometry::Vec2> points;
+  for (int j = 0; j < kPlaces; ++j) {
+    for (int i = 0; i < kPlaces; ++i)
+      points.push_back({100.0 * (j % 2 == 0 ? i : kPlaces - 1 - i) / kPlaces, 100.0 * j / kPlaces});
+  }
+  const Job job;
+  const auto z = cutter.drop({0.0, 3.0}, points, 0.0, job);
+  wanted(z.size() == points.size() && z.front() > -6.0, "the drops are wrong");
+}
+
+void json_both_ways(const std::string& text) {
+  Job job;
+  const auto plan = json::read_json(text, "plan.json", job);
+  wanted(plan.has_value() && json::write_json(*plan) == text, "the plan's JSON is not what it was");
+}
+
+}  // namespace
+
+std::vector<Row> rows(const std::string& capstan, const std::string& examples, const std::string& scratch,
+                      bool smoke) {
+  const auto command = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), capstan);
+    return [arguments] { return taken_by(arguments); };
+  };
+  const std::string pocket = examples + "/reference_pocket";
+  const std::string plan = scratch + "/bracket.json", program = scratch + "/bracket.ngc";
+  const std::vector<std::string> whole = {"plan", examples + "/bracket.p21", "-o", plan, "-o", program};
+  (void)command(whole)();  // what the check and JSON read is there before
+  const auto text = read_file(plan);
+  if (!text) throw std::runtime_error(text.error().message);
+  std::vector<Row> out;
+  // Shop, rules and tools, and a part of one pocket that is left open.
+  out.push_back(
+      {"start-up", command({"plan", pocket + ".p21", "--bind", "none", "-o", scratch + "/open.json"})});
+  out.push_back({"plan-bracket", command(whole)});
+  out.push_back(
+      {"plan-reference-pocket",
+       command({"plan", pocket + ".p21", "--tools", pocket + "_tools.yaml", "--machine",
+                pocket + "_machine.yaml", "-o", scratch + "/pocket.json", "-o", scratch + "/pocket.ngc"})});
+  out.push_back({"check-bracket", command({"check", plan, program})});
+  out.push_back({"sections", [] { return taken_by(sections); }});
+  out.push_back({"drop-cutter", [] { return taken_by(drops); }});
+  out.push_back({"json", [json = *text] { return taken_by([&] { json_both_ways(json); }); }});
+  if (!smoke)
+    out.push_back(
+        {"plan-surface", command({"plan", examples + "/surface.stl", "--material", "EN AW-6061", "-o",
+                                  scratch + "/surface.json", "-o", scratch + "/surface.ngc"})});
+  return out;
+}
+
+}  // namespace capstan::kept

@@ -1,0 +1,17 @@
+# What is kept fast: the program capstan_kept (./dev bench --check and --take), its test, and a run of the small
+# rows against the table. That run is alone, so that the other tests do not take its processor.
+set(kept ${CMAKE_CURRENT_LIST_DIR})
+add_library(capstan_kept_measure STATIC ${kept}/measure.cpp ${kept}/table.cpp)
+target_link_libraries(capstan_kept_measure PUBLIC $<BUILD_INTERFACE:capstan_options> capstan_test_support)
+capstan_test(kept LIBS capstan_kept_measure)
+
+if(TARGET capstan_engagement AND TARGET capstan_toolpath AND TARGET capstan_json)
+  add_executable(capstan_kept ${kept}/main.cpp ${kept}/rows.cpp)
+  target_link_libraries(capstan_kept PRIVATE capstan_kept_measure capstan::engagement capstan::toolpath
+    capstan::json)
+  if(NOT CAPSTAN_SANITIZE AND CAPSTAN_WITH_NLOPT)
+    add_test(NAME Kept.AsFastAsTheTableSays
+      COMMAND capstan_kept --smoke ${kept}/fast.table $<TARGET_FILE:capstan> ${CMAKE_SOURCE_DIR}/examples)
+    set_tests_properties(Kept.AsFastAsTheTableSays PROPERTIES TIMEOUT 300 RUN_SERIAL TRUE)
+  endif()
+endif()
