@@ -9,7 +9,7 @@
 #include "casebase/store.h"
 #include "planner/ground/base/no_number.h"
 #include "planner/ground/base/number.h"
-#include "planner/ground/base/separated.h"
+#include "planner/ground/base/tables/separated.h"
 
 namespace capstan::casebase {
 namespace {

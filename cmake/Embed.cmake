@@ -12,7 +12,7 @@
 #
 # With TREES the files are YAML, and read while building: a start copies what stands in them and parses nothing.
 #
-#   std::string_view embedded_tree(std::string_view name);  // for `unpack` of planner/ground/base/data_tree.h;
+#   std::string_view embedded_tree(std::string_view name);  // for `unpack` of planner/ground/base/tables/data_tree.h;
 #                                                           // data() is null when there is no such file
 #
 # Run as a script (cmake -DOUT= -DNAMESPACE= -DBASE= -DLIST= -P Embed.cmake) it writes that source; LIST is a

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "planner/ground/base/data_tree.h"
+#include "planner/ground/base/tables/data_tree.h"
 #include "planner/ground/base/file.h"
 #include "tooling/shop/data/tree.h"
 

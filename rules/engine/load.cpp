@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <span>
 
-#include "planner/ground/base/data_tree.h"
+#include "planner/ground/base/tables/data_tree.h"
 #include "planner/ground/base/file.h"
 #include "planner/ground/base/number.h"
 #include "rules/engine/stray.h"

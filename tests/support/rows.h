@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "planner/ground/base/separated.h"
+#include "planner/ground/base/tables/separated.h"
 #include "tests/support/corpus.h"
 
 namespace capstan::testing {

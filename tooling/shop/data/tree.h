@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "planner/ground/base/data_tree.h"
+#include "planner/ground/base/tables/data_tree.h"
 #include "planner/ground/base/job.h"
 #include "planner/ground/base/result.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "planner/ground/base/separated.h"
+#include "planner/ground/base/tables/separated.h"
 #include "tooling/library/formats/csv/columns.h"
 #include "tooling/library/formats/format.h"
 

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <map>
 
-#include "planner/ground/base/separated.h"
+#include "planner/ground/base/tables/separated.h"
 #include "tooling/library/formats/all.h"
 #include "tooling/library/formats/din4000/din4000.h"
 #include "tooling/library/formats/xml.h"

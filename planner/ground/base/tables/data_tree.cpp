@@ -6,7 +6,7 @@
 //
 // Numbers are unsigned, seven bits a byte, the lowest first; the eighth bit says that more follow.
 
-#include "planner/ground/base/data_tree.h"
+#include "planner/ground/base/tables/data_tree.h"
 
 #include <stdexcept>
 

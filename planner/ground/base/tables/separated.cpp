@@ -1,4 +1,4 @@
-#include "planner/ground/base/separated.h"
+#include "planner/ground/base/tables/separated.h"
 
 #include <algorithm>
 #include <array>

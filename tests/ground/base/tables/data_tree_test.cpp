@@ -1,4 +1,4 @@
-#include "planner/ground/base/data_tree.h"
+#include "planner/ground/base/tables/data_tree.h"
 
 #include <gtest/gtest.h>
 
