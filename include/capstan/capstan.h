@@ -69,7 +69,7 @@ struct PlanOutput {
   std::string iso14649;       ///< as Part 21
   std::string ap238;          ///< ISO 10303-238, as Part 21
   std::string linuxcnc;       ///< the program; empty when the check condemns it
-  std::string tool_table;     ///< LinuxCNC's .tbl of the program
+  std::string tool_table;     ///< the control's tool table of the program: LinuxCNC's .tbl
   std::size_t steps = 0;      ///< workingsteps planned
   std::size_t unplanned = 0;  ///< features that are not; each has an error among `diagnostics`
   double time_s = 0.0;        ///< of the whole program

@@ -23,9 +23,9 @@ struct FileKind {
 /// follows a path is in ground/vocabulary/path_following.h, for timing and feeds need it; who reads its
 /// programs back for the check in proof/verify/program/readers.cpp.
 struct Dialect {
-  std::string_view id;    ///< as model::Control::dialect has it
-  std::string_view name;  ///< for people
-  FileKind program, tool_table;  ///< `tool_table` is empty for a control that reads none
+  std::string_view id;                             ///< as model::Control::dialect has it
+  std::string_view name;                           ///< for people
+  FileKind program, tool_table;                    ///< `tool_table` is empty for a control that reads none
   std::span<const std::string_view> work_offsets;  ///< in the order in which set-ups get them
   /// The plan as one program. `condemned` (model::condemned): why it must not be run; the program says so and
   /// stops before each condemned step.

@@ -33,9 +33,9 @@ struct ActionParameter {
   std::string_view meaning;
 };
 
-/// Something a chain can do: the bridge from a row to an operation and its tool requirement. Each other source
-/// file of this folder is a family: NAME.cpp gives its actions by `std::vector<Action> NAME_actions()`, which
-/// the build finds by the file's name.
+/// Something a chain can do: the bridge from a row to an operation and its tool requirement. Each other
+/// source file of this folder is a family: NAME.cpp gives its actions by `std::vector<Action>
+/// NAME_actions()`, which the build finds by the file's name.
 struct Action {
   std::string_view name;
   model::TypeId operation;

@@ -132,7 +132,8 @@ def faults(found, allowed):
 
 
 def objects_of(root, build):
-    """The objects of the rooms' sources (not what is left of sources that are gone), and the sources without."""
+    """The objects of the rooms' sources and of those that the build writes (not what is left of sources that are
+    gone), and the sources without."""
     built = {}
     for top in FOLDERS:
         for folder, _, names in os.walk(os.path.join(build, top)):
@@ -142,7 +143,8 @@ def objects_of(root, build):
                     place = re.sub(r"CMakeFiles/[^/]+\.dir/", "", os.path.relpath(path, build))
                     built[place[:-len(".o")]] = path
     own = [path for path, _ in sources(root) if path.endswith(".cpp") and not path.startswith("include")]
-    return sorted(built[path] for path in own if path in built), [path for path in own if path not in built]
+    written = [path for path in built if path not in own and os.path.exists(os.path.join(build, path))]
+    return sorted(built[path] for path in own + written if path in built), [path for path in own if path not in built]
 
 
 def main(root, build):

@@ -49,7 +49,7 @@ std::string marker_text(std::string_view text) {
       out += c;
     }
   }
-  // An id too long for a line is told by its hash.
+  // The hash replaces an id that is too long for a line.
   if (out.size() > kLongestMarker) out = "fnv1a:" + hex64(fnv1a(text));
   return out;
 }

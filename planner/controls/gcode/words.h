@@ -40,7 +40,7 @@ struct Words {
   /// A line that shows a text to the operator; the program stops with an M0 behind it.
   std::string (*message)(const std::string& text) = nullptr;
   std::string (*dwell)(const std::string& seconds) = nullptr;
-  /// Rigid tapping from `top` to `bottom` and back, at which the tool stands then; one or more lines.
+  /// Rigid tapping from `top` to `bottom` and back to `top`, where the tool is then; one or more lines.
   std::string (*tap)(const std::string& top, const std::string& bottom, const std::string& pitch) = nullptr;
 };
 

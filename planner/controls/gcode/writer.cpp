@@ -77,7 +77,7 @@ class Writer {
     program_.line("M0");
   }
 
-  // `after` stands whole, what comes before it as far as there is room.
+  // `after` is written whole, `text` before it as far as there is room.
   static std::string shortened(const std::string& text, const std::string& after, std::size_t longest) {
     return plain_text(text).substr(0, longest - std::min(longest, after.size())) + after;
   }

@@ -39,8 +39,8 @@ struct Format {
   [[nodiscard]] bool of_program() const { return holds == Holds::kProgram || holds == Holds::kToolTable; }
 };
 
-/// All formats: those of plans, then a program and, where the control reads one, a tool table for each control
-/// (controls::dialects), then those that are not written yet (neither reader nor writer).
+/// All formats: those of plans, then a program and, where the control reads one, a tool table for each
+/// control (controls::dialects), then those that are not written yet (neither reader nor writer).
 [[nodiscard]] std::span<const Format> formats();
 
 /// The format of that name; null if there is none.

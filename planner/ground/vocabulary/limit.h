@@ -7,8 +7,7 @@
 
 namespace capstan::model {
 
-/// What bounds a cut: by loads, by what machine and cutter can do, by what is asked of the surface. The order
-/// is that of kLimitRows.
+/// The limits of a cut: of loads, of machine and cutter, of the required surface. In the order of kLimitRows.
 enum class Limit : std::uint8_t {
   kSpindlePower,
   kSpindleTorque,

@@ -75,7 +75,7 @@ struct SharpCorner {
 /// An inside corner that no mill makes, in words; empty when there is none: a slot whose end is square, as an
 /// open one is drawn, where solid stands beyond it and no corner radius is stated (`features` as above), a
 /// pocket whose open side lies within solid, or one that states a corner radius of 0. `stated_only`: where
-/// only what the nouns say of an end counts, for what stands there is told by another than the features.
+/// only what the nouns say of an end counts, because the features do not tell where material is.
 [[nodiscard]] std::string square_corner(const Model& m, const FeatureShape& s,
                                         const std::vector<FeatureShape>& features, const PieceForm& part,
                                         bool stated_only = false);

@@ -86,10 +86,10 @@ struct FeatureShape {
 };
 
 /// The shapes of a feature: one for a simple one, several for compounds, patterns, counterbored holes.
-/// Elements of a compound stand relative to it, the base of a pattern relative to the pattern, in turn; asked
-/// for alone they stand where their compound or pattern puts them, in each that lists them. Where that would
-/// be outside the piece, and workpiece coordinates would not, these are read, and `assumptions` says so
-/// (shape/containers.cpp).
+/// Elements of a compound are placed relative to it, the base of a pattern relative to the pattern, and so
+/// on. An element that is asked for by itself has a shape for each compound or pattern that lists it. Where
+/// this places an element outside the piece, and workpiece coordinates would not, the placement is read in
+/// workpiece coordinates, and `assumptions` says so (shape/containers.cpp).
 /// Fails  SHP-… when the noun lacks what a shape needs (no depth, no profile), naming the attribute.
 [[nodiscard]] Result<std::vector<FeatureShape>> shapes_of(const Model& model,
                                                           Ref<ManufacturingFeature> feature);

@@ -30,7 +30,8 @@ const CuttingPreset* feed_preset(const Cutter& c, const WorkMaterial& m, bool of
 }  // namespace
 
 bool borrowed(const CuttingPreset& p) {
-  // From its bracket: sources are full of blanks, and this is asked of every preset of every candidate.
+  // Searched from its bracket: sources are full of blanks, and selection calls this for every preset of every
+  // candidate.
   const std::string& s = p.source;
   for (std::size_t at = s.find('('); at != std::string::npos; at = s.find('(', at + 1)) {
     if (at > 0 && s.compare(at - 1, kBorrowed.size(), kBorrowed) == 0) return true;

@@ -15,28 +15,28 @@ inline constexpr std::string_view kAsGeneric = "default: as ";
 /// where no own preset is for the material.
 [[nodiscard]] bool borrowed(const CuttingPreset& p);
 
-/// Whether neither maker nor shop stands behind a preset: it is borrowed, or its source says that it is a
-/// default.
+/// Whether neither maker nor shop states a preset: it is borrowed, or its source says that it is a default.
 [[nodiscard]] bool nobodys(const CuttingPreset& p);
 
-/// The cutter's own (or, where asked, borrowed) preset for a material: by id, by name, by ISO 513 group; null
-/// when it has none. What the material's card does not cut with this substrate is cut by a preset that names
-/// the material only: a group is wider than the card.
+/// The cutter's own preset for a material: by id, by name, by ISO 513 group; null when it has none. With
+/// `of_its_like` also a borrowed one. Where the material's card has no speeds for the substrate, only a
+/// preset that names the material counts: a group is wider than the card.
 [[nodiscard]] const CuttingPreset* preset_of(const Cutter& c, const WorkMaterial& m, bool of_its_like);
 
 /// Whether the card states speeds, and none for this substrate: not cut with it.
 [[nodiscard]] bool card_excludes(const WorkMaterial& m, Substrate s);
 
-/// Feed that a cutter bears over the start value that its maker or the shop states. Default, unsourced.
+/// The largest feed of a cutter by the start value that its maker or the shop states. Default, unsourced.
 inline constexpr double kOverPreset = 1.5;
 
-/// What stands at the end of an own preset's source, where the group of the material that it names is known.
+/// The ending that an own preset's source gets when the group of the material that it names is known.
 [[nodiscard]] std::string of_group(std::string_view iso_group);
 
-/// The largest feed per tooth that a cutter bears in a material, mm; 0: not known. It is its stated largest;
-/// where that is only taken from a generic cutter, or not known, at least kOverPreset times its own start
-/// value for this material. Where it has none, the least of those for materials of the same ISO 513 group
-/// (`of_group`), and no more: groups are wide. What it bears in another group says nothing.
+/// The largest feed per tooth that a cutter can take in a material, mm; 0: not known. It is the stated
+/// largest. Where that is taken from a generic cutter, or not known, it is at least kOverPreset times the
+/// cutter's own start value for this material. Where the cutter has no start value, it is the least of those
+/// for materials of the same ISO 513 group (`of_group`), and no more: groups are wide. Values of another
+/// group do not count.
 [[nodiscard]] double borne_feed_mm(const Cutter& c, const WorkMaterial& m);
 
 /// The feed per tooth that its presets state for a material, the own before those of its like; 0: none.

@@ -17,9 +17,10 @@
 
 namespace capstan::model {
 
-/// Two numbers of two plans are the same when they agree within a millionth, of a mm, N, W and so on, the grid
-/// that areas of paths lie on (geometry::kRegionGrid), or within a thousand-millionth of the larger: an inch file
-/// of the same piece says its lengths in other digits, and what is computed of them differs in the last ones.
+/// Two numbers of two plans are the same when they agree within a millionth, of a mm, N, W and so on, the
+/// grid that areas of paths lie on (geometry::kRegionGrid), or within a thousand-millionth of the larger: an
+/// inch file of the same piece says its lengths in other digits, and what is computed of them differs in the
+/// last ones.
 inline constexpr double kSameNumber = 1e-6, kSameShare = 1e-9;
 
 [[nodiscard]] inline bool same_value(double a, double b) {
@@ -57,9 +58,8 @@ template <class T>
 bool same_value(const T& a, const T& b) {
   if constexpr (HasFields<T>) {
     bool same = true;
-    for_each_field(a, [&](const auto& row, const auto& value) {
-      same = same && same_value(value, b.*row.member);
-    });
+    for_each_field(
+        a, [&](const auto& row, const auto& value) { same = same && same_value(value, b.*row.member); });
     return same;
   } else {
     return a == b;

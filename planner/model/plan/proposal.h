@@ -68,7 +68,7 @@ struct Selection {
   std::string would_fit;  ///< when nothing fits: what would
 };
 
-/// A case as planning uses it: what was cut once, near to what is asked.
+/// A case as planning uses it: a cut of the past, near to the one that is planned.
 struct Precedent {
   std::string case_id;
   double distance = 0.0;

@@ -26,7 +26,7 @@ struct ToolRequirement {
   double cutting_width_max_mm = 0.0;  ///< side mills, heads of T-slot cutters
   double neck_diameter_max_mm = 0.0;  ///< what must pass above the head, over `reach_mm`
   double neck_step_min_mm = 0.0;     ///< head less neck, on the diameter, over `reach_mm`: undercuts in holes
-  double tip_diameter_max_mm = 0.0;  ///< flat at the tip at most: what stands below a cone stays
+  double tip_diameter_max_mm = 0.0;  ///< flat at the tip at most: it leaves a core below a cone
   bool coolant_through = false;
   bool left_hand = false;   ///< taps of left-hand threads
   std::string thread_form;  ///< "M", "UN"; empty: any of the pitch

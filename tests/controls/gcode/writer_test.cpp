@@ -89,7 +89,8 @@ TEST(GcodeWriter, TakesCommentsStatesAndToolChangesFromAControlThatHasItsOwn) {
   ASSERT_TRUE(text) << to_text(text.error());
   EXPECT_THAT(*text, StartsWith("%\n; CAPSTAN PROGRAM version=1\n"));
   EXPECT_THAT(*text, HasSubstr("\nG71 D0\nG5.1 R0.01\n"));
-  EXPECT_THAT(*text, HasSubstr("\n; CAPSTAN STEP id=\"a\" n=1 tool=1 setup=1\nG71\nG5.1 R0.01\nG54\nT=1\nM6\nD1\n"));
+  EXPECT_THAT(*text,
+              HasSubstr("\n; CAPSTAN STEP id=\"a\" n=1 tool=1 setup=1\nG71\nG5.1 R0.01\nG54\nT=1\nM6\nD1\n"));
   EXPECT_THAT(*text, Not(HasSubstr("(")));
   for (const char* other : {"G21", "G43", "G49"}) EXPECT_THAT(*text, Not(HasSubstr(other)));
 }

@@ -69,8 +69,7 @@ std::vector<std::string> inputs(const Plan& a, const Plan& b) {
       a.machine.id == b.machine.id && known && !fields.empty())
     out.push_back("machine: its data differ (" + fields + ")");
   one("material", a.material.id, b.material.id);
-  if (a.material.id == b.material.id &&
-      !model::same_value(a.material.kc11_n_mm2, b.material.kc11_n_mm2))
+  if (a.material.id == b.material.id && !model::same_value(a.material.kc11_n_mm2, b.material.kc11_n_mm2))
     one("kc1.1 of the material", shortest(a.material.kc11_n_mm2), shortest(b.material.kc11_n_mm2));
   else if (const std::string fields = model::told_differences(a.material, b.material);
            a.material.id == b.material.id && !fields.empty())
@@ -231,7 +230,8 @@ std::vector<std::string> results(const Plan& a, const Plan& b, const StepView& x
   const auto& p = *x.result;
   const auto& q = *y.result;
   const auto number = [&](const std::string& what, double from, double to, const std::string& unit) {
-    if (!model::same_value(from, to)) out.push_back(change(what, trimmed(from, 4) + unit, trimmed(to, 4) + unit));
+    if (!model::same_value(from, to))
+      out.push_back(change(what, trimmed(from, 4) + unit, trimmed(to, 4) + unit));
   };
   if (p.cutter_id != q.cutter_id)
     out.push_back(change("cutter", p.cutter_id + " (" + cutter_text(a, p.cutter_id) + ")",
@@ -243,7 +243,8 @@ std::vector<std::string> results(const Plan& a, const Plan& b, const StepView& x
   number("spindle", p.spindle_rpm, q.spindle_rpm, " 1/min");
   number("feed", p.feed_mm_min, q.feed_mm_min, " mm/min");
   if (coolant_text(p) != coolant_text(q)) out.push_back(change("coolant", coolant_text(p), coolant_text(q)));
-  if (!model::same_value(p.exceeded, q.exceeded)) out.push_back(change("exceeded limits", exceeded_text(p), exceeded_text(q)));
+  if (!model::same_value(p.exceeded, q.exceeded))
+    out.push_back(change("exceeded limits", exceeded_text(p), exceeded_text(q)));
   // Times have a line of their own, rounded, by motion where there are paths.
   if (const std::string fields = model::told_differences(
           p, q,

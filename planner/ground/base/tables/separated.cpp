@@ -67,7 +67,7 @@ class Reader {
     return false;
   }
 
-  /// What stands without quotes up to the separator or the end of the line, which is not taken.
+  /// The text without quotes up to the separator or the end of the line, which is not consumed.
   std::string_view rest_of_cell() {
     const std::array<char, 2> stops = {separator_, '\n'};
     const auto end = std::min(text_.find_first_of(std::string_view(stops.data(), 2), at_), text_.size());

@@ -12,8 +12,8 @@ namespace capstan::model {
 /// it says nothing; always with a width.
 
 /// [nominal - lower_limit, nominal + upper_limit], both limits signed: f7 at 20 mm is upper_limit -0.020,
-/// lower_limit 0.041. Writers that put the lower deviation itself into lower_limit (-0.041) are told by the
-/// first reading's being empty; where it is not, it lies within theirs.
+/// lower_limit 0.041. Some writers put the lower deviation itself into lower_limit (-0.041). The first
+/// reading is empty then, and the second is taken; where it is not empty, it lies within the second.
 ///
 /// Fails   MDL-TOLERANCE when one limit is missing, when both readings are empty, and for a width of 0, which
 ///         nobody can make.

@@ -149,7 +149,7 @@ void spare(FeatureShape& s, const Standing& boss, const geometry::Placement& at,
 }
 
 /// Whether a shape would cut into a boss that stands across its axis. Seen from there the boss is no area
-/// with a top: it is told by the box around it, which in a right angle is what it looks like from the side.
+/// with a top: the box around it stands for it, which at a right angle is its outline from the side.
 bool cuts_across(const FeatureShape& s, const Standing& boss, const geometry::Placement& at) {
   const geometry::Placement rel = compose(inverse(s.frame), at);
   if (std::abs(std::abs(rel.z.z) - 1.0) <= kLower) return false;

@@ -73,8 +73,8 @@ Status add_islands(const Model& m, const RefList<Boss>& bosses, FeatureShape& in
 /// The box that spans a box in plan: workpiece coordinates in, coordinates of the frame out.
 geometry::Box2 in_plan(const geometry::Box3& box, const geometry::Placement& frame);
 
-/// Takes out of a feature what bosses of their own leave standing in it, wherever compounds and patterns put
-/// them. Fails  SHP-BOSS where a boss may stand in it of which not even the contour is known.
+/// Takes out of a feature's shapes the bosses that are features of their own, at each place that compounds
+/// and patterns give them. Fails  SHP-BOSS where a boss of unknown contour may lie in the feature.
 Status spare_bosses(const Model& m, AnyRef feature, const Within& in, Shapes& shapes);
 /// Whether its walls are not upright; why it is not planned then.
 bool leans(const Boss& boss);
@@ -116,7 +116,7 @@ Result<Within> stated_in(const Model& m, AnyRef feature, const Within& in);
 Result<Shapes> referred(const Model& m, AnyRef feature, const Within& in);
 
 tl::unexpected<Diagnostic> missing(const Model& m, AnyRef feature, const std::string& attribute);
-/// As above; but what stands there and cannot be read (`why`) is said itself.
+/// As above, for a value that is there and cannot be read; `why` says what is wrong with it.
 tl::unexpected<Diagnostic> missing(const Model& m, AnyRef feature, const std::string& attribute,
                                    Diagnostic why);
 /// As `unsupported`: an outline that crosses itself.

@@ -9,7 +9,7 @@
 #include "planner/model/nouns/geometric_item.h"
 #include "planner/model/nouns/support.h"
 
-// Compounds and patterns: where their elements stand.
+// Compounds and patterns: the places of their elements.
 //
 // The standard's reading: elements are placed relative to their compound, the base of a pattern and its
 // locations relative to the pattern, and so on through what is nested (ISO 14649-11, example 2; ISO 10303-214
@@ -37,7 +37,7 @@ std::string place(const Vec3& p) {
   return std::abs(p.z) < kSamePlace ? out : out + " Z" + trimmed(p.z, 2);
 }
 
-/// Threads and edges stand where the feature does that they are on.
+/// Whether the noun has a place of its own. Threads and edges have that of the feature that they are on.
 bool placed(const Model& m, AnyRef feature) {
   return m.holds<Two5dManufacturingFeature>(feature) && !m.holds<Thread>(feature);
 }
@@ -189,7 +189,7 @@ Result<Decided> decide(const Model& m, AnyRef self, const Within& in) {
   if (in.depth > kNesting) return unsupported(m, self, "is nested too deeply, or in itself");
   if (const auto* c = m.get<CompoundFeature>(self)) return decide(m, self, *c, in);
   if (const auto* p = m.get<ReplicateFeature>(self)) return decide(m, self, *p, in);
-  // A boss stands in the coordinates of its pocket.
+  // A boss is placed in the coordinates of its pocket.
   return Decided{{in.frame, in.container, in.depth, in.by_the_standard, in.piece}, {}};
 }
 

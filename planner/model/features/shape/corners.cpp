@@ -8,8 +8,8 @@
 // Inside corners that a stated radius rounds.
 //
 // The drawn area is shrunk by the radius and grown again: a mill of that radius covers what comes out. What
-// it does not cover are the corners, and, where the area is narrower than the mill, all of a passage. The two
-// are told apart by the drawn corners in each piece that is not covered. One corner is rounded when the
+// it does not cover are the corners, and, where the area is narrower than the mill, all of a passage. The
+// drawn corners in each piece that is not covered tell which of the two it is. One corner is rounded when the
 // circle touches both of its sides, that is, when either side is as long as radius x tan(turn / 2); or when
 // no more is lost than in a square corner. Several corners together are one corner drawn with a chamfer or a
 // smaller arc: they turn no more than kTurnOfOne and lose no more than a square corner does. Anything else is

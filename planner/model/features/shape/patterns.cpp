@@ -9,8 +9,8 @@
 #include "planner/model/nouns/geometric_item.h"
 
 // The members of patterns: turned about the pattern's axis, set out in rows and columns, or at the locations
-// that it lists. Members that it leaves out are not among them, those that it moves stand where they are
-// moved to, and a place where several would stand is taken once.
+// that it lists. A member that the pattern leaves out is no member; one that it moves is at its new place. Of
+// several members at one place one counts.
 
 namespace capstan::model::shape {
 
@@ -165,7 +165,8 @@ Result<std::vector<Placement>> members(const Model& m, const GeneralPattern& g, 
   return out;
 }
 
-/// Members that stand where others do go: they would be cut in air. All at one place is a slip of the pen.
+/// Removes members at the place of another: they would be cut in air. Fails if all are at one place, which is
+/// a slip of the pen.
 Status each_once(const Model& m, AnyRef self, std::vector<Placement>& frames, bool round,
                  std::string& assumed) {
   // Sorted by a sum in which few places are as near to each other as one place is to itself.

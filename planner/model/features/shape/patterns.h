@@ -6,7 +6,7 @@
 
 #include "planner/model/features/shape/build.h"
 
-// Where the members of a pattern stand; only shape/*.cpp include this.
+// The places of a pattern's members; only shape/*.cpp include this.
 
 namespace capstan::model::shape {
 

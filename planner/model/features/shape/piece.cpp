@@ -109,7 +109,7 @@ bool Piece::holds(const FeatureShape& s) {
   for (const double x : {b.lo.x, b.hi.x}) {
     for (const double y : {b.lo.y, b.hi.y}) there.add(s.frame.to_parent({x, y, 0.0}));
   }
-  // Across the axis only: how deep it may go is not what is asked.
+  // Across the axis only: this function does not judge the depth.
   const Vec3 z = s.frame.z;
   const auto within = [](double along, double lo, double hi, double least, double most) {
     return std::abs(along) > 0.5 || (lo > least - kBeyond && hi < most + kBeyond);

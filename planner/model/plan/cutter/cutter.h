@@ -37,7 +37,7 @@ struct SisterTool {
   friend bool operator==(const SisterTool&, const SisterTool&) = default;
 };
 
-/// A word of the machine's tool table: "Z" and 115.0, "P" and 3. Lengths in mm, the rest as it stands there.
+/// A word of the machine's tool table: "Z" and 115.0, "P" and 3. Lengths in mm, other numbers as written.
 struct ToolTableWord {
   std::string letter;
   double value = 0.0;
@@ -118,8 +118,8 @@ struct Cutter {
 [[nodiscard]] std::optional<double> table_word(const Cutter& c, std::string_view letter);
 /// What G43 adds for the tool: the table's Z where a table says one, else its length. mm.
 [[nodiscard]] double length_offset_mm(const Cutter& c);
-/// The tool is as long as the table says, and stands out of its holder no farther than that. An offset that
-/// counts from a reference, or that no such tool can have as its length, changes no length.
+/// Sets the tool's length to the table's, and its stick-out to at most that. An offset that counts from a
+/// reference, or that no such tool can have as its length, changes no length.
 void take_table_line(Cutter& c, const ToolTableLine& line);
 /// Why the tool cannot run at the machine with what its tool table says of its length; empty: it can. A
 /// length from the gage line is above zero and not shorter than the flutes; an offset from a reference is any

@@ -4,12 +4,12 @@
 
 namespace capstan::model {
 
-/// Gives the cutter a length from the gage line that somebody measured, or stated for the tool as it is
-/// loaded. A stick-out that is assumed was assumed with the old length, holder and all: a tool that is
-/// shorter than that stands out by so much less, for its holder is as long as before; one that is longer
-/// stands out no farther, for its holder may be the longer one. A stick-out that is stated is kept, up to the
-/// length. The tool reaches no farther than it stands out, nor do flutes whose length is assumed. Where the
-/// holder takes up the whole length a trace is left over, for a stick-out of 0 says that none is known.
+/// Sets the cutter's length from the gage line to one that somebody measured, or stated for the tool as it is
+/// loaded, mm. An assumed stick-out changes with it. If the tool is shorter than was assumed, the stick-out
+/// is less by the difference, because the holder is as long as before. If it is longer, the stick-out stays,
+/// because the holder may be the longer part. A stated stick-out stays, up to the length. Reach, and an
+/// assumed flute length, are at most the stick-out. Where the holder is as long as the tool, a small
+/// stick-out remains, because 0 means that none is known.
 void take_measured_length(Cutter& c, double length_mm, const std::string& source);
 
 }  // namespace capstan::model

@@ -6,7 +6,7 @@
 
 namespace capstan::model {
 
-/// Whether somebody said the value of a cutter's field; what counts for all fields stands under "*".
+/// Whether somebody stated the value of a cutter's field; the key "*" states all fields.
 [[nodiscard]] bool is_stated(const Cutter& c, std::string_view field);
 
 }  // namespace capstan::model

@@ -15,7 +15,7 @@ struct TableOffset {
 
 /// How the length offsets of a tool table are to be read.
 struct TableReading {
-  bool against_reference = false;  ///< they count from a reference tool or gauge: no length is told
+  bool against_reference = false;  ///< from a reference tool or gauge: they are no lengths
   int zeros = 0;                   ///< tools with a diameter and an offset of 0
 };
 

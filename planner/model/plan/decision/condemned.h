@@ -25,13 +25,13 @@ struct Condemnation {
 ///     a feature that is not planned, and needed       the steps of the features in Unplanned::needed_by,
 ///                                                     or the whole plan when none of them has a step
 ///
-/// Each reason stands once, in the order of the plan's steps, reasons of the whole plan first. Every door
-/// that hands out a program asks this and nothing else.
+/// Lists each reason once, in the order of the plan's steps, reasons of the whole plan first. Command,
+/// library and service call this, and nothing else, before they hand out a program.
 [[nodiscard]] std::vector<Condemnation> condemned(const Plan& plan, const std::vector<Finding>& findings);
 
 /// Whether one of them says that nobody knows what the plan is: its file states it in two ways, or states
 /// wrongly what all of it rests on. No stop makes a program of such a plan fit to run: none is written, even
-/// where programs that the check condemns are asked for.
+/// where the user allows programs that the check condemns.
 [[nodiscard]] bool never_written(const std::vector<Condemnation>& reasons);
 
 /// The name of a limit as sentences have it: "spindle torque" of "spindle_torque".

@@ -26,11 +26,12 @@ void named_by_caller(Plan& plan, bool material, bool raw_piece);
   return ledger.reason(d.reason).id != kContradicted;
 }
 
-/// What a plan's file lists of what follows from its nouns: planning takes it from the nouns, or finds it
-/// anew.
+/// The lists of a plan's file that follow from its nouns: planning takes them from the nouns, or computes
+/// them anew.
 enum class Listed { kMaterial, kRawPiece, kCutters, kSetups, kSteps };
-/// Who typed into one of these would be made what the nouns say: it is a contradiction. A raw piece that was
-/// named to planning stands in no noun, so it counts as it is listed. `called`: what the file calls them.
+/// Records a contradiction for each list that a user edited: planning would follow the nouns and not the
+/// edit. No noun holds a raw piece that was named to planning, so the list of it counts. `called`: the file's
+/// word for its lists.
 void refuse_edited(Plan& plan, const std::set<Listed>& edited, std::string_view called);
 
 }  // namespace capstan::model

@@ -42,7 +42,7 @@ struct Rejected {
   friend bool operator==(const Rejected&, const Rejected&) = default;
 };
 
-/// Everything about one decision except the value, which stands in the object's attribute.
+/// Everything about one decision except the value, which the object's attribute holds.
 /// It exists per attribute, never per path point.
 struct Decision {
   DecisionState state = DecisionState::kBound;

@@ -22,7 +22,7 @@ struct Edited {
   DecisionKey key;
   bool was_open = false;
   Binder was = Binder::kGiven;
-  /// What was decided from it, and is open again; what two edits open stands with the first of them.
+  /// The decisions that depended on it and are open again; one that two edits open is listed with the first.
   std::vector<DecisionKey> opened;
 };
 
@@ -59,8 +59,8 @@ template <class Seal>
 [[nodiscard]] Diagnostic parts_edited(std::string code, const std::vector<std::string>& parts,
                                       std::string file = {});
 
-/// The codes by which readers tell of edits: of a value that was decided, or of a part of the file (a
-/// warning) in Part 21, and of a part in JSON; and that what stands twice about steps disagrees.
+/// The codes of the readers' messages about edits: Part 21, of a value that was decided or of a part of the
+/// file (a warning); JSON, of a part; and of two places of a file that disagree about steps.
 inline constexpr std::string_view kEditedCode = "EXC-EDITED", kEditedJsonCode = "JSON-EDITED",
                                   kDisagreesCode = "EXC-ORDER";
 /// What a diagnostic tells of edits. This is the one place that knows.

@@ -9,8 +9,9 @@
 
 namespace capstan::model {
 
-/// The reason, in the ledger, of an attribute that a file states wrongly: a reference to nothing, or to what
-/// cannot stand there. It is unset, and what it would have said (a boss, a boundary, a depth) is not known.
+/// The reason, in the ledger, of an attribute that a file states wrongly: it refers to nothing, or to an
+/// instance of a kind that the attribute does not take. The attribute is unset; the boss, boundary or depth
+/// that the file meant is not known.
 inline constexpr std::string_view kUnreadable = "given.unreadable";
 
 struct Unreadable {

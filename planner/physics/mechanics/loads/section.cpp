@@ -141,7 +141,8 @@ struct Part {
 };
 
 /// What all teeth add with the tip of one at an angle.
-void append_parts(std::vector<Part>& parts, const Pieces& all, const ArcTable& table, double tip, double pitch) {
+void append_parts(std::vector<Part>& parts, const Pieces& all, const ArcTable& table, double tip,
+                  double pitch) {
   for (std::size_t k = 0; k < all.count; ++k) {
     const Piece& p = all.item[k];
     const double lag = p.lag_high - p.lag_low;
@@ -286,8 +287,8 @@ Status check_feed(double fz, double n) { return check_positive({{"fz_mm", fz}, {
 
 Status check_shape(const Section& s, const Tooth& t, const ForceLaw& law) {
   constexpr double kMost = 1e9;
-  if (auto ok = check_positive({{"cutting_diameter_mm", t.cutting_diameter_mm},
-                                {"teeth", static_cast<double>(t.teeth)}});
+  if (auto ok = check_positive(
+          {{"cutting_diameter_mm", t.cutting_diameter_mm}, {"teeth", static_cast<double>(t.teeth)}});
       !ok)
     return ok;
   for (const Named& v : {Named{"ap_mm", s.ap_mm}, Named{"csa_mm2", s.csa_mm2},

@@ -102,8 +102,8 @@ inline constexpr double kIrregular = 0.05;
 /// Source    Altintas, Manufacturing Automation, 2nd ed., sections 2.7 and 2.8 (general end mill); Kienzle's
 ///           law in it, runout and area: derived.
 ///
-/// What does not depend on feed and speed (pieces of the edge, integrals of the chip over their arcs) is worked
-/// out once, by `of`.
+/// What does not depend on feed and speed (pieces of the edge, integrals of the chip over their arcs) is
+/// worked out once, by `of`.
 class SectionAtFeeds {
  public:
   /// Refuses what is wrong of section, tooth and law; `at` what is wrong of feed and speed.

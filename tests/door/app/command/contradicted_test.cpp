@@ -88,8 +88,8 @@ class ContradictedPlan : public CommandTest {
     return m[1];
   }
 
-  /// A reference that is the parameter of that number of the first instance of a keyword, in the plan of holes,
-  /// now to another instance.
+  /// A reference that is the parameter of that number of the first instance of a keyword, in the plan of
+  /// holes, now to another instance.
   static std::string with_reference(const std::string& keyword, int parameter, const std::string& to) {
     std::string text = holes();
     std::size_t i = text.find('(', text.find("\n" + number_of(text, keyword) + "=")) + 1;
@@ -185,8 +185,9 @@ TEST_F(ContradictedPlan, HasNoProgramWhereFindingsAreNotAllowed) {
   plan["setups"][0]["work_offset"] = "G55";
   put("list.json", plan.dump());
   put("reference.p21", with_reference("WORKPLAN", 3, "#999999"));
-  for (const auto& [file, named] : {std::pair{"header.p21", "its_rawpiece"}, std::pair{"list.json", "set-ups"},
-                                    std::pair{"reference.p21", "WORKPLAN.its_setup"}}) {
+  for (const auto& [file, named] :
+       {std::pair{"header.p21", "its_rawpiece"}, std::pair{"list.json", "set-ups"},
+        std::pair{"reference.p21", "WORKPLAN.its_setup"}}) {
     SCOPED_TRACE(file);
     const Ran planned = run(std::string("plan ") + file + " -o x.ngc");
     EXPECT_EQ(planned.code, 1) << planned.err;
@@ -247,7 +248,8 @@ TEST_F(ContradictedPlan, AWrongReferenceOfTheWholePlanIsAnErrorThatNamesIt) {
     const std::string kind = number_of(holes(), "CUTTING_COMPONENT");
     for (const std::string& to : {std::string("#999999"), kind}) {
       SCOPED_TRACE(std::string(w.keyword) + "." + w.attribute + " = " + to);
-      expect_refused("e.p21", with_reference(w.keyword, w.parameter, to), {std::string(w.keyword) + "." + w.attribute});
+      expect_refused("e.p21", with_reference(w.keyword, w.parameter, to),
+                     {std::string(w.keyword) + "." + w.attribute});
     }
   }
 }

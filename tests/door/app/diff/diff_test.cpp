@@ -140,8 +140,7 @@ TEST(Diff, TellsCoolantThroughTheToolAndExceededLimits) {
   after.steps[0].loads.torque_nm = 1.11;
   const auto d = diff(before, after);
   EXPECT_THAT(d.text, HasSubstr("coolant: none -> through the tool"));
-  EXPECT_THAT(d.text,
-              HasSubstr("exceeded limits: none -> spindle torque 1.11 of 0.48 Nm at X12.4 Y30.1"));
+  EXPECT_THAT(d.text, HasSubstr("exceeded limits: none -> spindle torque 1.11 of 0.48 Nm at X12.4 Y30.1"));
   EXPECT_THAT(d.text, HasSubstr("its data differ (loads)"));
 }
 

@@ -277,8 +277,8 @@ std::string twice_as_large(std::string stl) {
   return stl;
 }
 
-// How far a place stands from the surface is searched in rings of cells of the check's grid, which has as many
-// for every part: the larger the part, the fewer rings.
+// How far a place stands from the surface is searched in rings of cells of the check's grid, which has as
+// many for every part: the larger the part, the fewer rings.
 TEST(Bind, ASurfaceThatIsRoughedOnlyIsFoundToStandTooHigh) {
   // What lacks its finish keeps terraces and half a millimetre on them.
   Inputs in = shop();

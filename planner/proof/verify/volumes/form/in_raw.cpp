@@ -9,11 +9,12 @@
 
 // Forms against the piece that they are cut from, by lines along a form's axis.
 //
-// A line is cut by exact spans: where the piece is (the sides of its box, the chord of its bar), less what each
-// other form takes of it (from its floor to its top, for a form whose axis is parallel; from step to step for one
-// that lies across). What is left above the form's top on a line, and on four lines a hair aside, is a lid; in
-// corners where two outlines meet something always stays on one line. Over an outside a line ends at the height
-// of what stands beyond the nearest point of its outline: higher than that there is raw piece only.
+// A line is cut by exact spans: where the piece is (the sides of its box, the chord of its bar), less what
+// each other form takes of it (from its floor to its top, for a form whose axis is parallel; from step to
+// step for one that lies across). What is left above the form's top on a line, and on four lines a hair
+// aside, is a lid; in corners where two outlines meet something always stays on one line. Over an outside a
+// line ends at the height of what stands beyond the nearest point of its outline: higher than that there is
+// raw piece only.
 //
 // The planner samples the same places by points in the form's frame (model/features/shape/in_piece.cpp); here
 // places are judged in the workpiece's frame or by spans, so that one mistake does not pass both.
@@ -51,8 +52,8 @@ std::optional<Axis> axis_of(const Form& f) {
   return std::nullopt;
 }
 
-/// How far a place of the workpiece lies beyond the side of the box that the form's z comes out of from below:
-/// above 0 below the underside.
+/// How far a place of the workpiece lies beyond the side of the box that the form's z comes out of from
+/// below: above 0 below the underside.
 double below_underside(const Box3& box, const Axis& axis, Vec3 p) {
   return axis.sign > 0.0 ? along(box.lo, axis.number) - along(p, axis.number)
                          : along(p, axis.number) - along(box.hi, axis.number);
@@ -175,8 +176,8 @@ double part_over(const Form& f, const std::vector<Form>& others, Vec2 p, double 
   return most;
 }
 
-/// The height of what stands beyond the nearest point of the form's outlines, form's frame. Of points that are
-/// farther by less than `slack` the lowest counts. `foot`: the piece as it lies under the form.
+/// The height of what stands beyond the nearest point of the form's outlines, form's frame. Of points that
+/// are farther by less than `slack` the lowest counts. `foot`: the piece as it lies under the form.
 double beside_outline(const Form& f, const std::vector<Form>& others, Vec2 p, const geometry::Box2& foot,
                       double slack, double most) {
   std::vector<std::pair<double, double>> stands;  // how far, how high
@@ -317,9 +318,8 @@ std::string buried(const Form& f, const std::vector<Form>& others, const Piece& 
     const Vec2 p{lo.x + (i % kLines + 0.5) * cell.x, lo.y + (i / kLines + 0.5) * cell.y};
     const auto own = floor_at(f, p);
     if (!own || *own > -kLidMm) continue;
-    const double top = f.kind == ShapeKind::kOutside
-                           ? beside_outline(f, others, p, foot, norm(cell), box.hi.z)
-                           : box.hi.z;
+    const double top =
+        f.kind == ShapeKind::kOutside ? beside_outline(f, others, p, foot, norm(cell), box.hi.z) : box.hi.z;
     Spans lid = solid_over(p, top);
     for (const Vec2 aside :
          {Vec2{kAsideMm, 0.0}, Vec2{-kAsideMm, 0.0}, Vec2{0.0, kAsideMm}, Vec2{0.0, -kAsideMm}}) {

@@ -64,7 +64,8 @@ TEST_F(InRaw, AHoleInABarIsMeasuredFromTheBarsAxis) {
   EXPECT_NE(cuts_an_edge(form(over), raw).find("runs 1 mm out"), std::string::npos);
 }
 
-// A planner that forgot the point of 118 degrees, 8 / 2 / tan 59 = 2.403 mm, would let it out of the table side.
+// A planner that forgot the point of 118 degrees, 8 / 2 / tan 59 = 2.403 mm, would let it out of the table
+// side.
 TEST_F(InRaw, APointBelowTheUndersideIsFoundAlthoughThePlannerForgetsIt) {
   const auto hole = k.hole(100, 75, 8, 48);
   model::ConicalHoleBottom cone;
@@ -124,8 +125,8 @@ TEST_F(InRaw, WhatAHoleAcrossTakesIsNoLidAndTheRestIs) {
   EXPECT_NE(less, all) << "what the hole takes is not counted";
 }
 
-// Pockets and holes at drawn depths below faces of drawn depths and lengths. Worked out by hand: the lid is what
-// the face leaves above the form's top, wherever the face does not reach all of the form.
+// Pockets and holes at drawn depths below faces of drawn depths and lengths. Worked out by hand: the lid is
+// what the face leaves above the form's top, wherever the face does not reach all of the form.
 TEST_F(InRaw, PropertyALidIsWhatAFaceLeavesAboveAFormsTop) {
   std::mt19937 draw(20261124U);
   const auto between = [&](double lo, double hi) {
@@ -147,13 +148,13 @@ TEST_F(InRaw, PropertyALidIsWhatAFaceLeavesAboveAFormsTop) {
     }
     const Form own = form(made), faced = form(face(length, depth));
     // Near the face's end some lines are under it and some are not; the lid's height is the higher one.
-    const bool beside = length < x + 0.5 * size - 1.0, under = length > x - 0.5 * size + 1.0;
+    const bool beside = length<x + 0.5 * size - 1.0, under = length> x - 0.5 * size + 1.0;
     if (length > x - 0.5 * size - 1.0 && length < x - 0.5 * size + 1.0) continue;
     if (length > x + 0.5 * size - 1.0 && length < x + 0.5 * size + 1.0) continue;
     const double left = beside ? top : under ? std::max(0.0, top - depth) : top;
     if (left > 0.0 && left < 0.2) continue;  // thin ones are rounding of a file
-    EXPECT_NEAR(lid_over(own, {own, faced}), left, 0.05) << n << ": " << size << " at " << x << " " << top
-                                                         << "; face " << length << " x " << depth;
+    EXPECT_NEAR(lid_over(own, {own, faced}), left, 0.05)
+        << n << ": " << size << " at " << x << " " << top << "; face " << length << " x " << depth;
     ++(left > 0.0 ? buried_ones : open_ones);
   }
   EXPECT_GT(buried_ones, 20);
