@@ -98,6 +98,8 @@ int order_rank(model::TypeId op) {
 
 bool finishes(model::TypeId op) { return order_rank(op) == kFinishingRank; }
 
+bool mills_threads(CutterClass c) { return c == CutterClass::kThreadMill; }
+
 geometry::CutterProfile outline_of(const model::Cutter& c) {
   const double d = c.cutting_diameter_mm, high = c.maximum_depth_of_cut_mm;
   const auto widening = [&](double lean) {

@@ -25,6 +25,8 @@ namespace capstan::verify {
 [[nodiscard]] int order_rank(model::TypeId operation);
 /// Makes the surface that stays.
 [[nodiscard]] bool finishes(model::TypeId operation);
+/// Makes a thread by a helix about its axis.
+[[nodiscard]] bool mills_threads(model::CutterClass c);
 /// What a cutter's edges sweep, by its class and its stated sizes: a cone to a point, a cone over a flat tip,
 /// a ball, else a flat end with rounded corners.
 [[nodiscard]] geometry::CutterProfile outline_of(const model::Cutter& c);

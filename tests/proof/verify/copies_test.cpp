@@ -6,6 +6,7 @@
 #include <set>
 
 #include "planner/ground/vocabulary/operation.h"
+#include "planner/ground/vocabulary/thread_mill.h"
 #include "planner/proof/verify/sweep/step_checks.h"
 
 namespace capstan::verify {
@@ -83,6 +84,11 @@ TEST(Copies, MillWhatTheTableSaysIsNotAxialAndCounterboresToo) {
   EXPECT_EQ(differing(says, CutterTrait::kAlongAxis),
             (Classes{CutterClass::kCounterbore, CutterClass::kBackCounterbore, CutterClass::kBackCountersink,
                      CutterClass::kTouchProbe}));
+}
+
+TEST(Copies, MillThreadsAsTheTableSays) {
+  for (const model::CutterClassRow& r : model::cutter_classes())
+    EXPECT_EQ(mills_threads(r.value), model::mills_threads(r.value)) << r.name;
 }
 
 TEST(Copies, RankOperationsAsTheTableSays) {

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "planner/physics/mechanics/constants.h"
+#include "planner/proof/verify/copies.h"
 #include "planner/proof/verify/stated_values.h"
 #include "planner/proof/verify/sweep/step_checks.h"
 
@@ -113,7 +114,7 @@ void StepChecks::planned_section() {
 }
 
 double StepChecks::override_most() const {
-  if (cutter_.cutter_class == CutterClass::kTap || cutter_.cutter_class == CutterClass::kThreadMill)
+  if (cutter_.cutter_class == CutterClass::kTap || mills_threads(cutter_.cutter_class))
     return 1.0;
   return std::max(1.0, plan_.machine.abilities.feed_override_max);
 }

@@ -26,7 +26,7 @@ constexpr double kSlackMm = 0.02;           ///< of lengths measured on heights
 std::string here(Vec2 p) { return "(" + plain(p.x) + ", " + plain(p.y) + ")"; }
 
 bool is_mill(const model::Cutter& c) {
-  return !works_along_axis(c) && c.cutter_class != CutterClass::kThreadMill;
+  return !works_along_axis(c) && !mills_threads(c.cutter_class);
 }
 /// How far the head, its tip at p, is in the walls of the feature's upright holes, mm; 0 where there are
 /// none. A back countersink's cone ends at its neck, at the head's top.
@@ -350,7 +350,7 @@ void StepChecks::entry(const Move& m, const Bite& bite) {
   // Following a surface down with a ball, or down a thread, is not an entry; a mill whose end cuts is.
   const bool ramp = m.role_known && m.role == MoveRole::kRamp;
   const bool shaped = cutter_.cutter_class == CutterClass::kBallEndmill || plan_.target_mesh != nullptr;
-  if (!core || cutter_.cutter_class == CutterClass::kThreadMill || (shaped && !ramp)) return;
+  if (!core || mills_threads(cutter_.cutter_class) || (shaped && !ramp)) return;
   const double most = cutter_.maximum_ramp_angle_rad;
   const double degrees = 180.0 / std::numbers::pi;
   if (angle > most + 1e-4) {
