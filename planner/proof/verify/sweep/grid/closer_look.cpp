@@ -211,7 +211,7 @@ std::vector<EarlierCuts::Point> EarlierCuts::begun(const Grid& grid, const Raste
               !way.meets(p.at, p.stock, over)) {
             continue;
           }
-          p.under = std::max(all ? over.at_most : over.z, p.base);
+          p.under = std::max(all ? over.bound : over.z, p.base);
           if (p.stock - p.under > least_mm) out.push_back(p);
         }
       }

@@ -30,7 +30,7 @@ struct Knife {
   void take(int ix, int iy, const Way& way, Vec2 p, Over& over) {
     const std::size_t i = grid.index(ix, iy);
     if (asks.contact || asks.head_mm > 0.0 || asks.advance_mm > 0.0) way.find_tip(p, grid.stock[i], over);
-    const double deep = grid.stock[i] - std::max(over.at_most, grid.base[i]);
+    const double deep = grid.stock[i] - std::max(over.bound, grid.base[i]);
     const double thick = way.chip(p, grid.stock[i], deep, asks.advance_mm, over);
     if (thick > bite.chip_mm) {
       bite.chip_mm = thick;

@@ -24,12 +24,12 @@ inline constexpr double kMetMm = 1e-6;
 
 /// What a move does over one point.
 struct Over {
-  double z = 0.0;        ///< lowest height of the cutter
-  double at_most = 0.0;  ///< it is no lower; `z` where that costs no more
-  double near = 0.0;     ///< from the axis at its nearest
-  double tip = 0.0;      ///< the tip's height there; of an arc, where the edge meets the material
-  double along = 0.0;    ///< the point's foot: mm along a line; rad along an arc
-  double away = 0.0;     ///< of an arc: from its centre
+  double z = 0.0;      ///< lowest height of the cutter
+  double bound = 0.0;  ///< `z` is no lower; `z` itself where that costs no more
+  double near = 0.0;   ///< from the axis at its nearest
+  double tip = 0.0;    ///< the tip's height there; of an arc, where the edge meets the material
+  double along = 0.0;  ///< the point's foot: mm along a line; rad along an arc
+  double away = 0.0;   ///< of an arc: from its centre
 };
 
 /// Which points a move can take a chip of more than `least_mm` from, whatever stands there: those that its
@@ -142,17 +142,16 @@ class LineWay : public Way {
     if (square > r_ * r_ || stands <= zmin_ + o_.at_least(square)) return false;
     at.near = std::sqrt(square);
     // No lower than the cutter would be at its nearest, at the lower end.
-    at.at_most = zmin_ + o_.height(at.near);
-    if (stands <= at.at_most) return false;
+    at.bound = zmin_ + o_.height(at.near);
+    if (stands <= at.bound) return false;
     at.along = foot * length_;
     if (level_) {
-      at.z = at.at_most;
+      at.z = at.bound;
       at.tip = zmin_;
       return true;
     }
     const geometry::Vec2 aside = p - (a_ + foot * d_);
-    at.z =
-        std::max(at.at_most, lowest_on_line(o_, z0_, dz_, at.along, std::sqrt(dot(aside, aside)), length_));
+    at.z = std::max(at.bound, lowest_on_line(o_, z0_, dz_, at.along, std::sqrt(dot(aside, aside)), length_));
     at.tip = z0_ + t * dz_;
     return true;
   }
@@ -265,7 +264,7 @@ class ArcWay : public Way {
     if (at.near > r_) return false;
     at.z = level_ ? zmin_ + o_.height(at.near)
                   : std::max(zmin_, lowest_on_helix(o_, z0_, rise_, ra_, sweep_, at.away, at.along));
-    at.at_most = at.z;
+    at.bound = at.z;
     at.tip = zmin_;
     return stands > at.z;
   }

@@ -116,6 +116,8 @@ class Target : public GougeJudge {
     [[nodiscard]] std::size_t square_at(double at, double begin) const;
     /// Whether the part stands at p: the winding of the edges to its right.
     [[nodiscard]] bool stands(geometry::Vec2 p) const;
+    template <class F>
+    void each_near(geometry::Vec2 lo, geometry::Vec2 hi, const F& f) const;
   };
 
   void add(const volumes::Form& s, bool bevel = false);
@@ -134,6 +136,9 @@ class Target : public GougeJudge {
   [[nodiscard]] double height(geometry::Vec2 p) const;
   void fill_mesh(Grid& grid) const;
   const Walls& walls(double z_mm);
+  /// Whether no wall comes within `reach_mm` of a move whose walls are all those at z, and no part stands
+  /// there.
+  [[nodiscard]] bool clear_of_walls(const Move& m, double z_mm, double reach_mm);
   [[nodiscard]] std::size_t level(double z_mm) const;
   [[nodiscard]] bool outside(geometry::Vec2 p) const;
 

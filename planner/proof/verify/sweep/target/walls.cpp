@@ -168,12 +168,43 @@ const Target::Walls& Target::walls(double z) {
   return walls_.emplace(key, std::move(out)).first->second;
 }
 
+/// Edges whose boxes meet a box; one that lies in several squares may come again. `f` says whether to go on.
+template <class F>
+void Target::Walls::each_near(Vec2 lo, Vec2 hi, const F& f) const {
+  const std::size_t last_y = square_at(hi.y, y0_mm), last_x = square_at(hi.x, x0_mm);
+  for (std::size_t iy = square_at(lo.y, y0_mm); iy <= last_y; ++iy) {
+    for (std::size_t ix = square_at(lo.x, x0_mm); ix <= last_x; ++ix) {
+      for (const std::uint32_t index : squares[iy * along + ix]) {
+        const Edge& e = edges[index];
+        if (std::max(e.a.x, e.b.x) < lo.x || std::min(e.a.x, e.b.x) > hi.x || std::max(e.a.y, e.b.y) < lo.y ||
+            std::min(e.a.y, e.b.y) > hi.y) {
+          continue;
+        }
+        if (!f(e)) return;
+      }
+    }
+  }
+}
+
+bool Target::clear_of_walls(const Move& m, double z, double reach) {
+  const geometry::Box3 box = box_of(m);
+  const double off = is_arc(m.kind) ? std::abs(norm(xy(m.from) - m.centre) - norm(xy(m.to) - m.centre)) : 0.0;
+  const Vec2 more{reach + off, reach + off};
+  const Walls& w = walls(z);
+  bool clear = true;
+  w.each_near(xy(box.lo) - more, xy(box.hi) + more, [&](const Walls::Edge&) { return clear = false; });
+  return clear && !w.stands(xy(m.to));
+}
+
 double Target::wall_gouge(const Move& m, double radius, double height_mm, Vec2& at) {
   if (plan_.target_mesh) return 0.0;
   const double low = std::min(m.from.z, m.to.z) + height_mm;
   if (low + allowed() >= part_box_.hi.z) return 0.0;
   const bool changes = level(m.from.z + height_mm) != level(m.to.z + height_mm);
   const int n = std::max(pieces_of(m, kChordMm), changes ? 16 : 1);
+  const double reach = radius - allowed();
+  // With no wall within the box of all of it, the way need not be taken to pieces.
+  if (!changes && n > 1 && clear_of_walls(m, low, std::max(reach, kChordMm))) return 0.0;
   double worst = 0.0;
   Vec3 a = m.from;
   for (int i = 1; i <= n; ++i) {
@@ -185,25 +216,14 @@ double Target::wall_gouge(const Move& m, double radius, double height_mm, Vec2& 
       const Walls& w = walls(z);
       const Vec2 p = i == n && changes ? xy(b) : xy(a);
       double squared = 1e300;
-      const double reach = radius - allowed();
-      const double x0 = std::min(p.x, b.x) - reach, x1 = std::max(p.x, b.x) + reach;
-      const double y0 = std::min(p.y, b.y) - reach, y1 = std::max(p.y, b.y) + reach;
-      // An edge that lies in several squares is merely looked at again.
-      const std::size_t last_y = w.square_at(y1, w.y0_mm), last_x = w.square_at(x1, w.x0_mm);
-      for (std::size_t iy = w.square_at(y0, w.y0_mm); iy <= last_y; ++iy) {
-        for (std::size_t ix = w.square_at(x0, w.x0_mm); ix <= last_x; ++ix) {
-          for (const std::uint32_t index : w.squares[iy * w.along + ix]) {
-            const auto& e = w.edges[index];
-            if (std::max(e.a.x, e.b.x) < x0 || std::min(e.a.x, e.b.x) > x1 || std::max(e.a.y, e.b.y) < y0 ||
-                std::min(e.a.y, e.b.y) > y1) {
-              continue;
-            }
-            if (crossing(p, xy(b), e.a, e.b)) squared = 0.0;
-            squared = std::min({squared, squared_distance(p, e.a, e.b), squared_distance(xy(b), e.a, e.b),
-                                squared_distance(e.a, p, xy(b)), squared_distance(e.b, p, xy(b))});
-          }
-        }
-      }
+      const Vec2 lo{std::min(p.x, b.x) - reach, std::min(p.y, b.y) - reach};
+      const Vec2 hi{std::max(p.x, b.x) + reach, std::max(p.y, b.y) + reach};
+      w.each_near(lo, hi, [&](const Walls::Edge& e) {
+        if (crossing(p, xy(b), e.a, e.b)) squared = 0.0;
+        squared = std::min({squared, squared_distance(p, e.a, e.b), squared_distance(xy(b), e.a, e.b),
+                            squared_distance(e.a, p, xy(b)), squared_distance(e.b, p, xy(b))});
+        return true;
+      });
       const double near = std::sqrt(squared);
       double into = radius - near;
       if (near > std::max(reach, kChordMm)) {

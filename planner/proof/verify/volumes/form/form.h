@@ -59,7 +59,8 @@ inline constexpr double kDrawnBeyondMm = 100.0;
 
 /// Height of the form's finished surface above q, form's frame; nothing where it takes nothing away.
 [[nodiscard]] std::optional<double> floor_at(const Form& f, geometry::Vec2 q);
-/// Whether `floor_at` is the same everywhere within that distance of q; false where that is not known at once.
+/// Whether `floor_at` is the same everywhere within that distance of q; false where that is not known at
+/// once.
 [[nodiscard]] bool level_about(const Form& f, geometry::Vec2 q, double distance_mm);
 /// Whether it takes a place of the workpiece away; a face all above its floor.
 [[nodiscard]] bool takes(const Form& f, geometry::Vec3 p);
