@@ -8,6 +8,7 @@
 
 #include "planner/ground/base/no_number.h"
 #include "planner/ground/base/number.h"
+#include "planner/ground/base/stopping.h"
 #include "planner/ground/vocabulary/unit_factors.h"
 #include "tooling/library/cutters/check.h"
 #include "tooling/library/cutters/complete.h"
@@ -361,6 +362,7 @@ void set_sources(const Series& s, const Reader& r, Cutter& c) {
 
 void add_cutter(const Series& s, const std::vector<SeriesPreset>& presets, const Size& size, Fields& f,
                 Reader& r) {
+  poll();
   Cutter c = s.base;
   c.cutting_diameter_mm = size.d;
   bool row_flute = false, row_shank = false;
