@@ -14,6 +14,7 @@
 #include "planner/making/step/record/results.h"
 #include "planner/making/workholding/clear_of_fixtures.h"
 #include "planner/model/nouns/all.h"
+#include "planner/physics/engagement/kept_digits.h"
 
 namespace capstan::step {
 namespace {
@@ -162,6 +163,7 @@ MeasuredCut measured_cut(model::Plan& plan, const PlanSoFar& p, const StepDraft&
       }
     }
     optimise::split_moves(fq, *out.path, &m->sections);
+    engagement::keep_digits(m->sections, m->known_to_mm);
     r.sections = std::make_shared<const model::SectionSeries>(std::move(m->sections));
   }
   out.feeds = optimise::feeds(fq, *out.path);
