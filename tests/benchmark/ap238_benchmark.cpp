@@ -13,9 +13,11 @@
 #include "planner/ground/base/file.h"
 #include "planner/model/nouns/all.h"
 #include "tests/support/corpus.h"
+#include "tests/support/long_paths.h"
 
 // AP238 files of 25, 50 and 100 MB, from bytes in memory to the model: one full of toolpaths, one full of
-// B-rep solids that no attribute of a noun holds and that are kept verbatim.
+// B-rep solids that no attribute of a noun holds and that are kept verbatim. And plans of long paths with
+// feeds and sections, written and read, by the number of their points.
 
 namespace capstan::exchange {
 namespace {
@@ -219,6 +221,40 @@ void read_into_model(benchmark::State& state, Input (*make)(std::size_t)) {
 void toolpaths_into_model(benchmark::State& state) { read_into_model(state, &toolpaths); }
 void solids_into_model(benchmark::State& state) { read_into_model(state, &solids); }
 
+// --- plans of long paths ---
+
+std::string written(const model::Plan& plan) {
+  Job job;
+  auto file = write_ap238(plan, job);
+  if (!file) throw std::runtime_error(to_text(file.error()));
+  return std::move(file->bytes);
+}
+
+model::Plan read_back(std::string bytes, const model::Plan& plan) {
+  Job job;
+  auto back = read_bytes(std::move(bytes), "benchmark.stpnc", {}, job);
+  if (!back) throw std::runtime_error(to_text(back.error()));
+  if (capstan::testing::sum_of_paths(*back) != capstan::testing::sum_of_paths(plan))
+    throw std::runtime_error("the paths were not read as they were written");
+  return *std::move(back);
+}
+
+void write_long_paths(benchmark::State& state) {
+  const auto plan = capstan::testing::long_paths_plan(static_cast<std::size_t>(state.range(0)));
+  std::string bytes;
+  for (auto _ : state) bytes = written(plan);
+  state.counters["MB"] = static_cast<double>(bytes.size()) / 1e6;
+  read_back(std::move(bytes), plan);
+}
+
+void read_long_paths(benchmark::State& state) {
+  const auto plan = capstan::testing::long_paths_plan(static_cast<std::size_t>(state.range(0)));
+  const std::string bytes = written(plan);
+  for (auto _ : state) read_back(bytes, plan);
+}
+
+BENCHMARK(write_long_paths)->Arg(100000)->Arg(1000000)->Unit(benchmark::kMillisecond)->Iterations(1);
+BENCHMARK(read_long_paths)->Arg(100000)->Arg(1000000)->Unit(benchmark::kMillisecond)->Iterations(1);
 BENCHMARK(toolpaths_into_model)->Arg(25)->Arg(50)->Arg(100)->Unit(benchmark::kMillisecond)->Iterations(1);
 BENCHMARK(solids_into_model)->Arg(25)->Arg(50)->Arg(100)->Unit(benchmark::kMillisecond)->Iterations(1);
 

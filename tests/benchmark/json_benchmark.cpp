@@ -1,4 +1,5 @@
-// A plan written as JSON, by the number of its features: the time grows in proportion (see the line BigO).
+// A plan written as JSON, by the number of its features: the time grows in proportion (see the line BigO);
+// and plans of long paths, written and read, by the number of their points.
 #include <benchmark/benchmark.h>
 
 #include <cstdlib>
@@ -6,6 +7,7 @@
 #include "planner/files/json/json.h"
 #include "planner/model/nouns/all.h"
 #include "tests/support/empty_plan.h"
+#include "tests/support/long_paths.h"
 
 namespace capstan {
 namespace {
@@ -38,6 +40,30 @@ void write_plan(benchmark::State& state) {
   state.SetComplexityN(state.range(0));
 }
 BENCHMARK(write_plan)->RangeMultiplier(2)->Range(250, 2000)->Unit(benchmark::kMillisecond)->Complexity();
+
+void write_long_paths(benchmark::State& state) {
+  const Plan plan = testing::long_paths_plan(static_cast<std::size_t>(state.range(0)));
+  std::string bytes;
+  for (auto _ : state) bytes = json::write_json(plan);
+  Job job;
+  state.counters["MB"] = static_cast<double>(bytes.size()) / 1e6;
+  const auto back = json::read_json(std::move(bytes), "plan.json", job);
+  if (!back || testing::sum_of_paths(*back) != testing::sum_of_paths(plan)) std::abort();
+}
+BENCHMARK(write_long_paths)->Arg(100000)->Arg(1000000)->Unit(benchmark::kMillisecond)->Iterations(1);
+
+void read_long_paths(benchmark::State& state) {
+  const Plan plan = testing::long_paths_plan(static_cast<std::size_t>(state.range(0)));
+  const std::string bytes = json::write_json(plan);
+  for (auto _ : state) {
+    Job job;
+    const auto back = json::read_json(bytes, "plan.json", job);
+    state.PauseTiming();
+    if (!back || testing::sum_of_paths(*back) != testing::sum_of_paths(plan)) std::abort();
+    state.ResumeTiming();
+  }
+}
+BENCHMARK(read_long_paths)->Arg(100000)->Arg(1000000)->Unit(benchmark::kMillisecond)->Iterations(1);
 
 }  // namespace
 }  // namespace capstan

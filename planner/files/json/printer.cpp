@@ -1,8 +1,11 @@
 #include "planner/files/json/printer.h"
 
+#include <array>
+#include <bit>
+#include <charconv>
 #include <cstddef>
 
-#include "planner/ground/base/number.h"
+#include "planner/ground/base/append_number.h"
 
 namespace capstan::json {
 namespace {
@@ -134,7 +137,7 @@ void Printer::text(std::string_view bytes) {
 }
 void Printer::number(double v) {
   next();
-  out_ += shortest(v);
+  append_shortest(out_, v);
 }
 void Printer::integer(std::int64_t v) {
   next();
@@ -143,6 +146,37 @@ void Printer::integer(std::int64_t v) {
 void Printer::natural(std::uint64_t v) {
   next();
   out_ += std::to_string(v);
+}
+void Printer::numbers(std::span<const double> column) {
+  open('[', false);
+  // Neighbours are often equal: feeds, depths, centres of no arc.
+  std::array<char, kNumberRoom> text;
+  std::size_t length = 0;
+  std::uint64_t before = 0;
+  for (const double v : column) {
+    const auto bits = std::bit_cast<std::uint64_t>(v);
+    if (length == 0) {
+      levels_.back().empty = false;
+    } else {
+      out_ += ',';
+    }
+    if (length == 0 || bits != before) {
+      length = static_cast<std::size_t>(print_shortest(text.data(), v) - text.data());
+      before = bits;
+    }
+    out_.append(text.data(), length);
+  }
+  close();
+}
+void Printer::naturals(std::span<const std::uint32_t> column) {
+  open('[', false);
+  std::array<char, kNumberRoom> text;
+  for (const std::uint32_t v : column) {
+    if (!levels_.back().empty) out_ += ',';
+    levels_.back().empty = false;
+    out_.append(text.data(), std::to_chars(text.data(), text.data() + text.size(), v).ptr);
+  }
+  close();
 }
 void Printer::boolean(bool v) {
   next();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,6 +18,9 @@ class Printer {
   void number(double v);              ///< shortest; needs a finite value
   void integer(std::int64_t v);
   void natural(std::uint64_t v);
+  /// An array in one line: as `number` or `natural` for each, without a call for each.
+  void numbers(std::span<const double> column);
+  void naturals(std::span<const std::uint32_t> column);
   void boolean(bool v);
   void null();
   [[nodiscard]] std::string take();

@@ -6,6 +6,8 @@
 #include "planner/files/json/objects.h"
 #include "planner/files/json/seal.h"
 #include "planner/files/json/summary.h"
+#include "planner/files/json/tree/columns.h"
+#include "planner/files/json/tree/tree.h"
 #include "planner/files/json/values.h"
 #include "planner/ground/base/file.h"
 #include "planner/ground/base/no_number.h"
@@ -139,27 +141,6 @@ class Reader {
   std::vector<std::string> edited_;
 };
 
-// The parser copies and destroys values recursively: depth is bounded before it sees the text.
-int deepest(std::string_view text) {
-  int depth = 0;
-  int most = 0;
-  bool in_text = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (in_text) {
-      if (c == '\\') ++i;
-      if (c == '"') in_text = false;
-    } else if (c == '"') {
-      in_text = true;
-    } else if (c == '[' || c == '{') {
-      most = std::max(most, ++depth);
-    } else if (c == ']' || c == '}') {
-      --depth;
-    }
-  }
-  return most;
-}
-
 std::uint64_t line_of(std::string_view text, std::size_t byte) {
   const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(byte, text.size()));
   return 1 + static_cast<std::uint64_t>(std::count(text.begin(), end, '\n'));
@@ -173,22 +154,16 @@ Result<model::Plan> read_json(std::string bytes, std::string file_name, Job& job
   };
   if (bytes.size() > cap)
     return refuse("JSON-SIZE", "the file is larger than " + std::to_string(cap) + " bytes");
-  if (deepest(bytes) > kDeepest) {
+  Columns taken = take_columns(bytes);
+  const std::string text = taken.rest;
+  // The parser destroys values recursively: depth is bounded before it sees the text.
+  if (taken.deepest > kDeepest)
     return refuse("JSON-DEPTH", "the file nests deeper than " + std::to_string(kDeepest) + " levels");
-  }
+  bytes = {};
   Tree tree;
-  try {
-    tree = Tree::parse(bytes);
-  } catch (const Tree::parse_error& e) {
-    return refuse("JSON-SYNTAX", "the file is not JSON", line_of(bytes, e.byte));
-  } catch (const Tree::out_of_range& e) {
-    // The library ends such a message with the number as written: "... parsing '1e999'".
-    const std::string said = e.what();
-    const std::size_t to = said.rfind('\''), from = to == 0 ? to : said.rfind('\'', to - 1);
-    const std::string number = to == std::string::npos ? "" : said.substr(from + 1, to - from - 1);
-    return refuse("JSON-SYNTAX", no_number(number), line_of(bytes, bytes.find(number)));
-  } catch (const Tree::exception&) {
-    return refuse("JSON-SYNTAX", "the file is not JSON");
+  if (TreeFault why; !make_tree(std::move(taken), tree, why)) {
+    return refuse("JSON-SYNTAX", why.too_large.empty() ? "the file is not JSON" : no_number(why.too_large),
+                  line_of(text, why.byte));
   }
   const auto version = tree.is_object() ? tree.find("capstan_plan") : tree.end();
   if (!tree.is_object() || version == tree.end())

@@ -13,6 +13,7 @@
 #include "planner/files/json/fields.h"
 #include "planner/files/json/ids.h"
 #include "planner/files/json/printer.h"
+#include "planner/files/json/tree/tree.h"
 #include "planner/model/nouns/executable.h"
 #include "planner/model/nouns/workpiece.h"
 #include "planner/model/plan/decision/edited.h"
@@ -181,6 +182,7 @@ class ValueReader {
 
   template <class T>
   void sequence(const Tree& t, T& x, const Place& at) {
+    if (t.is_binary()) return column(t, x, at);
     need_array(t, at);
     if constexpr (kIsArray<T>) {
       if (t.size() != x.size()) fault(at, std::to_string(x.size()) + " items");
@@ -190,9 +192,32 @@ class ValueReader {
     for (std::size_t i = 0; i < t.size(); ++i) get(t[i], x[i], {&at, {}, i});
   }
 
+  /// Numbers that were read as they stood.
+  template <class T>
+  void column(const Tree& t, T& x, const Place& at) {
+    if constexpr (std::is_same_v<T, std::vector<double>>) {
+      x = numbers_of(t);
+    } else {
+      if constexpr (std::is_same_v<T, std::vector<std::uint32_t>>) {
+        constexpr double kMost = std::numeric_limits<std::uint32_t>::max();
+        const std::vector<double> values = numbers_of(t);
+        if (is_whole(t) &&
+            std::all_of(values.begin(), values.end(), [](double v) { return v >= 0.0 && v <= kMost; })) {
+          x.resize(values.size());
+          std::transform(values.begin(), values.end(), x.begin(),
+                         [](double v) { return static_cast<std::uint32_t>(v); });
+          return;
+        }
+      }
+      sequence(expanded(t), x, at);
+    }
+  }
+
   template <class E>
   static void letters(const Tree& t, std::vector<E>& x, std::string_view alphabet, const Place& at) {
-    for (const char c : string_of(t, at)) {
+    const std::string& text = string_of(t, at);
+    x.reserve(text.size());
+    for (const char c : text) {
       const auto code = alphabet.find(c);
       if (code == std::string_view::npos) fault(at, "letters of " + std::string(alphabet));
       x.push_back(static_cast<E>(code));

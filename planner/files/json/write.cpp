@@ -144,6 +144,10 @@ class Writer {
       letters(x, kMoveKinds);
     } else if constexpr (std::is_same_v<T, std::vector<model::MoveRole>>) {
       letters(x, kMoveRoles);
+    } else if constexpr (std::is_same_v<T, std::vector<double>>) {
+      out_.numbers(x);
+    } else if constexpr (std::is_same_v<T, std::vector<std::uint32_t>>) {
+      out_.naturals(x);
     } else if constexpr (kIsVector<T> || kIsArray<T>) {
       out_.open('[', Described<const typename T::value_type>);
       for (const auto& item : x) put(item);

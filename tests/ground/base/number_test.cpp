@@ -2,8 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <random>
+
+#include "planner/ground/base/append_number.h"
 
 namespace capstan {
 namespace {
@@ -26,6 +30,32 @@ TEST(Number, ShortestReadsBackToTheSameDouble) {
     ASSERT_NE(real.find('.'), std::string::npos) << real;
     ASSERT_EQ(parse_double(real), value) << real;
   }
+}
+
+TEST(Number, ShortestIsThatOfTheStandardLibrary) {
+  std::mt19937_64 random(20261124);
+  const auto standard = [](double v) {
+    std::array<char, 40> buffer{};
+    return std::string(buffer.data(), std::to_chars(buffer.data(), buffer.data() + buffer.size(), v).ptr);
+  };
+  for (int i = 0; i < 200000; ++i) {
+    // Decimals of 0 to 8 places and up to 12 digits, and their neighbours.
+    const double ten = std::pow(10.0, static_cast<double>(random() % 9));
+    const auto digits = static_cast<double>(random() % (std::uint64_t{1} << (random() % 41)));
+    const double value = (random() % 2 == 0 ? 1.0 : -1.0) * digits / ten;
+    for (const double v : {value, std::nextafter(value, 1e300), std::nextafter(value, -1e300)}) {
+      if (v != 0.0) {
+        ASSERT_EQ(shortest(v), standard(v));
+      }
+      std::string out = "x";
+      append_part21_real(out, v);
+      ASSERT_EQ(out, "x" + part21_real(v));
+    }
+  }
+  for (const double v : {1e-3, 0.00099999, 99999.999999, 1e5, 123456.0, 1e15, 5e-324, 0.1 + 0.2})
+    EXPECT_EQ(shortest(v), standard(v));
+  EXPECT_EQ(part21_real(1e30), "1.E+30");
+  EXPECT_EQ(part21_real(1.5e-30), "1.5E-30");
 }
 
 TEST(Number, FixedKeepsAndTrimmedDropsTrailingZeros) {

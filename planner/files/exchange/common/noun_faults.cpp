@@ -78,13 +78,23 @@ class CycleFinder {
         continue;
       }
       const AnyRef to = f.next[f.i++];
-      if (to.type == TypeId::kKeptInstance) continue;
+      if (to.type == TypeId::kKeptInstance || !refers(to.type)) continue;
       if (state(to) == kOnPath) {
         circle(path.back().at, to);
       } else if (state(to) == kNew) {
         enter(path, to);
       }
     }
+  }
+
+  /// Whether objects of that kind can have parts.
+  static bool refers(TypeId type) {
+    const auto& attributes = model::noun_type(type).attributes;
+    return std::any_of(attributes.begin(), attributes.end(), [](const model::Attribute& a) {
+      return a.storage == model::Storage::kRef || a.storage == model::Storage::kRefList ||
+             a.storage == model::Storage::kRefTable || a.storage == model::Storage::kSelect ||
+             a.storage == model::Storage::kSelectList;
+    });
   }
 
   void enter(std::vector<Frame>& path, AnyRef at) {
@@ -330,18 +340,40 @@ void Marks::set_from(const model::Model& m, AnyRef root) {
   }
 }
 
-std::vector<AnyRef> objects_in_file_order(const model::Model& m) {
-  std::vector<AnyRef> out;
+std::vector<AnyRef> objects_in_file_order(const model::Model& m, const std::function<bool(TypeId)>& of_kind) {
+  struct Placed {
+    std::uint64_t line, instance;
+    AnyRef at;
+    auto operator<=>(const Placed&) const = default;
+  };
+  // Points and the like are many, and mostly in order: what is in order is merged, the rest is sorted.
+  constexpr std::size_t kMany = 10000;
+  std::vector<Placed> out;
+  std::vector<std::vector<Placed>> runs;
   for (std::size_t t = 1; t < model::kTypeCount; ++t) {
-    for (const AnyRef at : m.all(static_cast<TypeId>(t))) {
-      if (m.origin(at).instance != 0) out.push_back(at);
+    const auto type = static_cast<TypeId>(t);
+    if (m.count(type) == 0 || (of_kind && !of_kind(type))) continue;
+    std::vector<Placed> run;
+    for (std::uint32_t i = 0; i < m.count(type); ++i) {
+      const model::Origin& o = m.origin({type, i});
+      if (o.instance != 0) run.push_back({o.line, o.instance, {type, i}});
+    }
+    if (run.size() >= kMany && std::is_sorted(run.begin(), run.end())) {
+      runs.push_back(std::move(run));
+    } else {
+      out.insert(out.end(), run.begin(), run.end());
     }
   }
-  std::sort(out.begin(), out.end(), [&](AnyRef a, AnyRef b) {
-    const auto x = m.origin(a), y = m.origin(b);
-    return std::tie(x.line, x.instance, a) < std::tie(y.line, y.instance, b);
-  });
-  return out;
+  std::sort(out.begin(), out.end());
+  for (const auto& run : runs) {
+    const auto middle = static_cast<std::ptrdiff_t>(out.size());
+    out.insert(out.end(), run.begin(), run.end());
+    std::inplace_merge(out.begin(), out.begin() + middle, out.end());
+  }
+  std::vector<AnyRef> objects;
+  objects.reserve(out.size());
+  for (const Placed& p : out) objects.push_back(p.at);
+  return objects;
 }
 
 void check_nouns(const model::Model& m, std::vector<Doubt>& doubts) {

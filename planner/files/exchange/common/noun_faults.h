@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <vector>
 
 #include "planner/files/exchange/common/report.h"
@@ -36,7 +37,8 @@ class Marks {
 };
 
 /// Every object that came from the file, in the file's order.
-[[nodiscard]] std::vector<model::AnyRef> objects_in_file_order(const model::Model& m);
+[[nodiscard]] std::vector<model::AnyRef> objects_in_file_order(
+    const model::Model& m, const std::function<bool(model::TypeId)>& of_kind = {});
 
 /// Circles of references, workplans that expand without end, B-splines that do not add up, directions
 /// without length, sizes below zero, empty sets.

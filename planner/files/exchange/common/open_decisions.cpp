@@ -16,7 +16,11 @@ class Opening {
 
   void run(const Marks& reached) {
     std::vector<AnyRef> technologies;
-    for (const AnyRef at : objects_in_file_order(m_)) {
+    const auto matters = [](model::TypeId t) {
+      return model::is_a(t, model::TypeId::kMachiningWorkingstep) ||
+             model::is_a(t, model::TypeId::kMachiningOperation);
+    };
+    for (const AnyRef at : objects_in_file_order(m_, matters)) {
       if (!reached.has(at)) continue;
       if (const auto* step = m_.get<model::MachiningWorkingstep>(at);
           step != nullptr && !step->its_operation) {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "planner/files/exchange/common/report.h"
+#include "planner/files/exchange/records/seal.h"
 #include "planner/files/p21/file.h"
 #include "planner/ground/base/result.h"
 #include "planner/model/plan/plan.h"
@@ -27,9 +28,9 @@ namespace capstan::exchange {
 using FileName = std::function<std::string(model::AnyRef)>;
 
 /// The header entities of the plan's paths. `written` is the model whose toolpaths have curves, made from a
-/// copy of the plan's: objects that both have are the same.
+/// copy of the plan's: objects that both have are the same. `sealed` gets their seals (seal.h).
 [[nodiscard]] std::string exact_paths(const model::Plan& plan, const model::Model& written,
-                                      const FileName& name_of);
+                                      const FileName& name_of, Seals* sealed = nullptr);
 
 /// Puts the paths back into a plan whose steps and toolpaths have been read. Only for a file whose seal
 /// holds. Malformed entities are skipped, with the warning EXC-RECORD.

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "planner/files/p21/print.h"
+#include "planner/ground/base/append_number.h"
 #include "planner/ground/base/file.h"
 #include "planner/ground/base/number.h"
 #include "planner/ground/base/stopping.h"
@@ -29,30 +30,85 @@ void add_texts(const Value& v, std::string& out) {
 
 }  // namespace
 
-std::string spelled(const Value& v) {
+namespace {
+
+bool all_digits(std::string_view s) {
+  bool good = true;
+  for (const char c : s) good = good && c >= '0' && c <= '9';
+  return good;
+}
+
+/// Whether a real is spelled as `part21_real` spells it, which few are not: no sign but -, no zero in front
+/// or behind, no exponent, at most 15 digits (no other of so few is the same double), and between 0.001 and
+/// 1e5, where the fixed notation is the shortest.
+bool spelled_shortest(std::string_view lexeme) {
+  constexpr std::size_t kDigits = 15, kMostWhole = 5;
+  if (lexeme.starts_with('-')) lexeme.remove_prefix(1);
+  const std::size_t point = lexeme.find('.');
+  if (point == 0 || point > kMostWhole || lexeme.size() > kDigits) return false;
+  const std::string_view whole = lexeme.substr(0, point), decimals = lexeme.substr(point + 1);
+  if (!all_digits(whole) || !all_digits(decimals)) return false;
+  if (!decimals.empty() && decimals.back() == '0') return false;
+  if (lexeme.front() != '0') return true;
+  return point == 1 && decimals.substr(0, 3).find_first_not_of('0') != std::string_view::npos;
+}
+
+}  // namespace
+
+void spell(const Value& v, std::string& out) {
   switch (v.kind()) {
     case Kind::kReal:
-      return part21_real(v.as_real());
-    case Kind::kString:
-      return quoted(v.as_text());
-    case Kind::kEnumeration:
-      return "." + std::string(v.enumeration()) + ".";
-    case Kind::kReference:
-      return "#" + std::to_string(v.reference());
-    case Kind::kInteger:
-      return std::to_string(v.as_integer());
-    case Kind::kList:
-    case Kind::kTyped: {
-      std::string out = v.is(Kind::kTyped) ? std::string(v.keyword()) + "(" : "(";
-      for (std::size_t i = 0; i < v.size(); ++i) out += (i == 0 ? "" : ",") + spelled(v[i]);
-      return out + ")";
+      if (const std::string_view lexeme = v.lexeme(); spelled_shortest(lexeme)) {
+        out += lexeme;
+      } else {
+        append_part21_real(out, v.as_real());
+      }
+      return;
+    case Kind::kString: {
+      std::string buffer;
+      const std::string_view text = v.as_text(buffer);
+      if (text.data() == v.lexeme().data()) {  // nothing in it is escaped
+        out.append(1, '\'').append(text).append(1, '\'');
+      } else {
+        out += quoted(text);
+      }
+      return;
     }
+    case Kind::kEnumeration:
+      out.append(1, '.').append(v.enumeration()).append(1, '.');
+      return;
+    case Kind::kReference:
+      if (const std::string_view lexeme = v.lexeme(); lexeme[1] != '0') {
+        out += lexeme;
+      } else {
+        out.append(1, '#').append(std::to_string(v.reference()));
+      }
+      return;
+    case Kind::kInteger:
+      out += std::to_string(v.as_integer());
+      return;
+    case Kind::kList:
+    case Kind::kTyped:
+      if (v.is(Kind::kTyped)) out += v.keyword();
+      out += '(';
+      for (std::size_t i = 0; i < v.size(); ++i) {
+        if (i != 0) out += ',';
+        spell(v[i], out);
+      }
+      out += ')';
+      return;
     case Kind::kOmitted:
     case Kind::kDerived:
     case Kind::kBinary:
-      return std::string(v.lexeme());
+      out += v.lexeme();
+      return;
   }
-  return {};
+}
+
+std::string spelled(const Value& v) {
+  std::string out;
+  spell(v, out);
+  return out;
 }
 
 std::map<std::uint64_t, std::string> hashes_of(const p21::File& file,

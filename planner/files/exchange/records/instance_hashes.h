@@ -15,7 +15,8 @@ namespace capstan::exchange {
 [[nodiscard]] std::map<std::uint64_t, std::string> hashes_of(const p21::File& file,
                                                              const std::set<std::uint64_t>& numbers);
 
-/// A parameter's content in one spelling.
+/// A parameter's content in one spelling; `spell` appends it.
 [[nodiscard]] std::string spelled(const p21::Value& v);
+void spell(const p21::Value& v, std::string& out);
 
 }  // namespace capstan::exchange

@@ -34,12 +34,6 @@ constexpr std::array<std::pair<std::string_view, model::Listed>, 10> kListed = {
      {"!CAPSTAN_SETUP", model::Listed::kSetups},
      {"!CAPSTAN_STEP", model::Listed::kSteps}}};
 
-struct Seal {
-  std::size_t count = 0;
-  std::uint64_t sum = 0;  // of the entities' hashes: their order does not count
-  bool operator==(const Seal&) const = default;
-};
-
 bool is_sealed(const p21::Instance& header) {
   static constexpr std::array<std::string_view, 2> kWords = {"!CAPSTAN_REASON", "!CAPSTAN_PROVENANCE"};
   return header.user_defined() && header.keyword() != kSeal &&
@@ -73,51 +67,89 @@ std::optional<std::pair<std::string, std::string>> record_of(const p21::File& fi
   return std::pair(name, text);
 }
 
-std::map<std::string, Seal> sealed(const p21::File& file) {
-  std::map<std::string, Seal> out;
-  const auto add = [&](std::string_view keyword, const std::string& text) {
-    Seal& s = out[std::string(keyword)];
-    ++s.count;
-    s.sum += fnv1a(text);
-  };
+Seals sealed(const p21::File& file) {
+  Seals out;
+  const auto add = [&](std::string_view keyword, std::string_view of) { out.add(keyword, fnv1a(of)); };
+  std::string text;
   for (std::size_t i = 0; i < file.header_count(); ++i) {
     const p21::Instance e = file.header(i);
-    if (is_sealed(e)) add(e.keyword(), spelled(e.parameters()));
+    text.clear();
+    if (is_sealed(e)) {
+      spell(e.parameters(), text);
+      add(e.keyword(), text);
+    }
     // Of a reason its number and its id, which decide; not its words.
     if (e.keyword() == "!CAPSTAN_REASON" && e.parameters().size() > 1)
       add(e.keyword(), spelled(e.parameters()[0]) + "," + spelled(e.parameters()[1]));
   }
   for (const p21::Instance e : file) {
     tick();
-    std::string text = "#" + std::to_string(e.id());
-    for (std::size_t k = 0; k < e.part_count(); ++k)
-      text += std::string(e.part(k).keyword) + spelled(e.part(k).parameters);
+    text.assign(1, '#').append(std::to_string(e.id()));
+    for (std::size_t k = 0; k < e.part_count(); ++k) {
+      const p21::Record part = e.part(k);
+      text += part.keyword;
+      spell(part.parameters, text);
+    }
     add(e.part_count() == 0 ? std::string_view() : e.part(0).keyword, text);
     if (const auto record = record_of(file, e)) add(record->first, record->second);
   }
-  for (const auto& section : file.verbatim_sections()) add("a section", std::string(section.text));
+  for (const auto& section : file.verbatim_sections()) add("a section", section.text);
   return out;
 }
 
 }  // namespace
 
-Result<std::string> with_seal(std::string file) {
+void Seals::add(std::string_view keyword, std::uint64_t hash) {
+  if (last_ == nullptr || last_->first != keyword) {
+    auto it = seals_.find(keyword);
+    if (it == seals_.end()) it = seals_.emplace(keyword, Seal{}).first;
+    last_ = &*it;
+  }
+  ++last_->second.count;
+  last_->second.sum += hash;
+}
+
+void Seals::add(const Seals& others) {
+  for (const auto& [keyword, s] : others.seals_) {
+    Seal& mine = seals_[keyword];
+    mine.count += s.count;
+    mine.sum += s.sum;
+  }
+}
+
+void add_instance(Seals& seals, std::uint64_t id, std::string_view keyword, std::string_view text) {
+  seals.add(keyword, fnv1a(text, fnv1a("#" + std::to_string(id))));
+}
+
+void add_header(Seals& seals, std::string_view keyword, std::string_view text) {
+  seals.add(keyword, fnv1a(text.substr(keyword.size())));
+}
+
+Result<std::string> seal_text(std::string rest, const Seals& sealed_already) {
   Job quiet;
-  const auto parsed = p21::parse(std::string(file), "", {}, quiet);
+  const auto parsed = p21::parse(std::move(rest), "", {}, quiet);
   if (!parsed) return fail(parsed.error());
+  Seals all = sealed(*parsed);
+  all.add(sealed_already);
   std::string seals;
-  for (const auto& [keyword, s] : sealed(*parsed))
+  for (const auto& [keyword, s] : all.by_keyword())
     seals +=
         std::string(kSeal) + "('" + keyword + "'," + std::to_string(s.count) + ",'" + hex64(s.sum) + "');\n";
-  file.insert(file.find("\nENDSEC;") + 1, seals);  // of the header: texts hold no line feed
+  return seals;
+}
+
+Result<std::string> with_seal(std::string file) {
+  const auto seals = seal_text(file, {});
+  if (!seals) return fail(seals.error());
+  file.insert(file.find("\nENDSEC;") + 1, *seals);  // of the header: texts hold no line feed
   return file;
 }
 
 bool is_seal(std::string_view keyword) { return keyword == kSeal; }
 
 SealState seal_of(const p21::File& file, Reporter& reporter) {
-  using Seals = std::map<std::string, std::pair<std::int64_t, std::string>>;  // count and hash by keyword
-  Seals then;
+  using Stated = std::map<std::string, std::pair<std::int64_t, std::string>>;  // count and hash by keyword
+  Stated then;
   for (std::size_t i = 0; i < file.header_count(); ++i) {
     const p21::Instance e = file.header(i);
     if (e.keyword() != kSeal) continue;
@@ -134,11 +166,12 @@ SealState seal_of(const p21::File& file, Reporter& reporter) {
   }
   SealState state;
   if (then.empty()) return state;  // of another system, or an earlier version
-  Seals now;
+  Stated now;
   // Files of earlier versions have no seals of their own for the records of AP238.
   const bool records =
       std::any_of(then.begin(), then.end(), [](const auto& s) { return s.first.starts_with(kRecord); });
-  for (const auto& [keyword, s] : sealed(file))
+  const Seals here = sealed(file);
+  for (const auto& [keyword, s] : here.by_keyword())
     if (records || !keyword.starts_with(kRecord))
       now[keyword] = {static_cast<std::int64_t>(s.count), hex64(s.sum)};
   const std::vector<std::string> edited = model::edited_parts(now, std::move(then));

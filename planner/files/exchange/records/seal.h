@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdint>
+#include <functional>
+#include <map>
 #include <set>
 #include <string>
 #include <string_view>
@@ -21,6 +24,33 @@ namespace capstan::exchange {
 /// spacing, comments and the order of entities do not. Words for people (reasons, provenance, the standard's
 /// own header) are not sealed. Fails  P21-... when the file cannot be read.
 [[nodiscard]] Result<std::string> with_seal(std::string file);
+
+/// Counts and hashes by keyword.
+class Seals {
+ public:
+  struct Seal {
+    std::size_t count = 0;
+    std::uint64_t sum = 0;  ///< of the entities' hashes: their order does not count
+  };
+  using ByKeyword = std::map<std::string, Seal, std::less<>>;
+  Seals() = default;
+  Seals(Seals&&) = default;
+  Seals(const Seals&) = delete;
+  Seals& operator=(const Seals&) = delete;
+  void add(std::string_view keyword, std::uint64_t hash);
+  void add(const Seals& others);
+  [[nodiscard]] const ByKeyword& by_keyword() const { return seals_; }
+
+ private:
+  ByKeyword seals_;
+  ByKeyword::value_type* last_ = nullptr;  ///< most are of the keyword of the one before
+};
+/// An instance, and a header entity, as `spelled` spells it: for those who print just so, and need not be
+/// parsed. `text` begins with the keyword.
+void add_instance(Seals& seals, std::uint64_t id, std::string_view keyword, std::string_view text);
+void add_header(Seals& seals, std::string_view keyword, std::string_view text);
+/// The header entities that seal a file: of what `rest` holds (a file), and of what was sealed already.
+[[nodiscard]] Result<std::string> seal_text(std::string rest, const Seals& sealed_already);
 /// Result of comparing a file with its seal.
 struct SealState {
   bool holds = false;       ///< there is one, and nothing was edited

@@ -15,6 +15,7 @@
 #include "planner/making/step/record/results.h"
 #include "planner/making/workholding/clear_of_fixtures.h"
 #include "planner/model/nouns/all.h"
+#include "planner/physics/engagement/kept_digits.h"
 
 namespace capstan::step {
 namespace {
@@ -229,6 +230,7 @@ MeasuredCut measured_cut(model::Plan& plan, const PlanSoFar& p, const StepDraft&
       }
     }
     schedule(out, &m->sections, means.memo);
+    engagement::keep_digits(m->sections, m->known_to_mm);
     r.sections = std::make_shared<const model::SectionSeries>(std::move(m->sections));
   } else {
     schedule(out, nullptr, means.memo);

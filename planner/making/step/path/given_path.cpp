@@ -14,6 +14,7 @@
 #include "planner/making/step/record/record.h"
 #include "planner/making/step/record/results.h"
 #include "planner/making/workholding/clear_of_fixtures.h"
+#include "planner/physics/engagement/kept_digits.h"
 
 namespace capstan::step {
 namespace {
@@ -195,6 +196,7 @@ Result<std::optional<GivenPath>> given_path(model::Plan& plan, const PlanSoFar& 
     if (found) tell_rapids(plan.model, step, found->rapid_removed_mm3, job);
     fq.samples = samples_for(plan.model, step, *path, given->sections, found, job);
     if (found) {
+      engagement::keep_digits(found->sections, found->known_to_mm);
       out.result.sections = std::make_shared<const model::SectionSeries>(std::move(found->sections));
     } else if (given->sections.size() > 0) {
       out.result.sections = std::make_shared<const model::SectionSeries>(std::move(given->sections));

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <bitset>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -33,10 +34,12 @@ class Registry {
       collect(row.type, attributes_[i]);
       types_[i] = {row.keyword, row.parent, row.abstract, row.in_iso14649, attributes_[i]};
       by_keyword_.emplace(row.keyword, row.type);
+      for (TypeId at = row.type; at != TypeId::kNone; at = rows_[index(at)].parent) is_a_[i].set(index(at));
     }
   }
 
   [[nodiscard]] const NounType& type(TypeId t) const { return types_[index(t)]; }
+  [[nodiscard]] bool is_a(TypeId t, TypeId ancestor) const { return is_a_[index(t)][index(ancestor)]; }
   [[nodiscard]] std::optional<TypeId> find(std::string_view keyword) const {
     const auto it = by_keyword_.find(keyword);
     if (it == by_keyword_.end()) return std::nullopt;
@@ -58,6 +61,7 @@ class Registry {
   std::array<NounRow, kTypeCount> rows_{};
   std::array<std::vector<Attribute>, kTypeCount> attributes_;
   std::array<NounType, kTypeCount> types_{};
+  std::array<std::bitset<kTypeCount>, kTypeCount> is_a_;  ///< by kind: the kind and those above it
   std::map<std::string_view, TypeId> by_keyword_;
 };
 
@@ -75,10 +79,7 @@ const NounType& noun_type(TypeId t) {
 
 std::optional<TypeId> find_noun(std::string_view keyword) { return registry().find(keyword); }
 
-bool is_a(TypeId t, TypeId ancestor) {
-  while (t != TypeId::kNone && t != ancestor) t = registry().type(t).parent;
-  return t != TypeId::kNone;
-}
+bool is_a(TypeId t, TypeId ancestor) { return registry().is_a(t, ancestor); }
 
 const Attribute* find_attribute(TypeId t, std::string_view name) {
   for (const Attribute& a : noun_type(t).attributes) {

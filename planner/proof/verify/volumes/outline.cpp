@@ -6,7 +6,9 @@
 
 // Exact boundaries. Whether a point lies inside is told by the number of turns that the boundary makes about
 // it: the turns of the polygon of all ends, counted where edges cross a ray (Sunday's form of the winding
-// number), and one turn more or less for each arc whose segment, between arc and chord, holds the point.
+// number), and one turn more or less for each arc whose segment, between arc and chord, holds the point. Only
+// edges that reach the height of the point can do either: an outline of many edges has them sorted into bands
+// of y.
 
 namespace capstan::verify::volumes {
 
@@ -103,6 +105,7 @@ Edge round(Vec2 centre, double radius_mm, double start_rad, double sweep_rad) {
 
 void Outline::add(const Edge& e) {
   edges.push_back(e);
+  rows.reset();
   const auto hold = [&](Vec2 p) {
     lo = {std::min(lo.x, p.x), std::min(lo.y, p.y)};
     hi = {std::max(hi.x, p.x), std::max(hi.y, p.y)};
@@ -127,19 +130,82 @@ Near nearest(const Outline& o, Vec2 p, bool walls_only) {
   return out;
 }
 
+namespace {
+
+/// What one edge adds to the turns about p. `b` is where the next edge begins: it ends this one, so that no
+/// gap lets the ray through.
+int turns_of(const Edge& e, Vec2 b, Vec2 p) {
+  int out = 0;
+  const Vec2 a = e.from;
+  if (a.y <= p.y) {
+    if (b.y > p.y && side_of(a, b, p) > 0) ++out;
+  } else if (b.y <= p.y && side_of(a, b, p) < 0) {
+    --out;
+  }
+  if (e.arc() && in_segment(e, b, p)) out += e.sweep_rad > 0.0 ? 1 : -1;
+  return out;
+}
+
+constexpr std::size_t kFewEdges = 32;  ///< are looked at one by one; default, unsourced
+constexpr double kEntries = 4.0;       ///< of rows for each edge, about; default, unsourced
+
+std::size_t row_of(const Rows& r, double y) {
+  const double row = (y - r.from) * r.per_mm;
+  return static_cast<std::size_t>(std::clamp(row, 0.0, static_cast<double>(r.begin.size() - 2)));
+}
+
+}  // namespace
+
+void Outline::sort() {
+  rows.reset();
+  const std::size_t n = edges.size();
+  if (n <= kFewEdges || !(hi.y > lo.y)) return;
+  struct Span {
+    double lo, hi;
+  };
+  std::vector<Span> spans(n);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Edge& e = edges[i];
+    const double b = edges[(i + 1) % n].from.y;
+    Span s{std::min(e.from.y, b), std::max(e.from.y, b)};
+    if (e.arc()) s = {std::min(s.lo, e.centre.y - e.radius_mm), std::max(s.hi, e.centre.y + e.radius_mm)};
+    spans[i] = s;
+    sum += s.hi - s.lo;
+  }
+  // Long edges stand in many rows: there are as many rows as keep the entries in proportion to the edges.
+  const double most = kEntries * static_cast<double>(n) * (hi.y - lo.y) / std::max(sum, 1e-9);
+  const auto count = static_cast<std::size_t>(std::clamp(most, 1.0, static_cast<double>(n)));
+  auto out = std::make_shared<Rows>();
+  out->from = lo.y;
+  out->per_mm = static_cast<double>(count) / (hi.y - lo.y);
+  out->of = n;
+  out->begin.assign(count + 1, 0);
+  for (const Span& s : spans) {
+    for (std::size_t r = row_of(*out, s.lo); r <= row_of(*out, s.hi); ++r) ++out->begin[r + 1];
+  }
+  for (std::size_t r = 0; r < count; ++r) out->begin[r + 1] += out->begin[r];
+  out->edges.resize(out->begin.back());
+  std::vector<std::uint32_t> next(out->begin.begin(), out->begin.end() - 1);
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t last = row_of(*out, spans[i].hi);
+    for (std::size_t r = row_of(*out, spans[i].lo); r <= last; ++r)
+      out->edges[next[r]++] = static_cast<std::uint32_t>(i);
+  }
+  rows = std::move(out);
+}
+
 int turns_around(const Outline& o, Vec2 p) {
   int out = 0;
   const std::size_t n = o.edges.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    const Edge& e = o.edges[i];
-    // The next edge's beginning ends this one, so that no gap lets the ray through.
-    const Vec2 a = e.from, b = o.edges[(i + 1) % n].from;
-    if (a.y <= p.y) {
-      if (b.y > p.y && side_of(a, b, p) > 0) ++out;
-    } else if (b.y <= p.y && side_of(a, b, p) < 0) {
-      --out;
-    }
-    if (e.arc() && in_segment(e, b, p)) out += e.sweep_rad > 0.0 ? 1 : -1;
+  const auto add = [&](std::size_t i) {
+    out += turns_of(o.edges[i], o.edges[i + 1 < n ? i + 1 : 0].from, p);
+  };
+  if (const Rows* r = o.rows.get(); r != nullptr && r->of == n) {
+    const std::size_t row = row_of(*r, p.y);
+    for (std::uint32_t k = r->begin[row]; k < r->begin[row + 1]; ++k) add(r->edges[k]);
+  } else {
+    for (std::size_t i = 0; i < n; ++i) add(i);
   }
   return out;
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,11 +29,22 @@ struct Edge {
 [[nodiscard]] Edge straight(geometry::Vec2 from, geometry::Vec2 to);
 [[nodiscard]] Edge round(geometry::Vec2 centre, double radius_mm, double start_rad, double sweep_rad);
 
+/// Which edges of an outline reach into each of its rows: bands of y, one above the other.
+struct Rows {
+  double from = 0.0, per_mm = 0.0;   ///< y of the first row's foot, and how many rows there are in a mm
+  std::vector<std::uint32_t> begin;  ///< of row i in `edges`; one more than there are rows
+  std::vector<std::uint32_t> edges;
+  std::size_t of = 0;  ///< edges of the outline
+};
+
 /// Edges one after the other; closed: the boundary of an area. Ends may be apart by less than kJoin.
 struct Outline {
   std::vector<Edge> edges;
   geometry::Vec2 lo{1e300, 1e300}, hi{-1e300, -1e300};  ///< the box that holds it
+  std::shared_ptr<const Rows> rows;                     ///< of many edges; unset: not sorted
   void add(const Edge& e);
+  /// Sorts the edges of a finished outline into rows, so that `turns_around` looks at few of them.
+  void sort();
   [[nodiscard]] bool empty() const { return edges.empty(); }
 };
 

@@ -206,7 +206,14 @@ std::set<AnyRef> parts_of_others(const Model& m) {
 
 Reading read(const Source& source, AnyRef feature) {
   Reading out = wherever(source, feature);
-  for (Solid& s : out.solids) spare(source, s);
+  for (Solid& s : out.solids) {
+    spare(source, s);
+    if (auto* a = std::get_if<Area>(&s.form)) {
+      a->outline.sort();
+      for (Standing& b : a->standing) b.outline.sort();
+    }
+    if (auto* b = std::get_if<Bevel>(&s.form)) b->outline.sort();
+  }
   return out;
 }
 

@@ -37,6 +37,37 @@ TEST(Outline, HoldsWhatItsArcsHoldAndNotTheirChordsOnly) {
   EXPECT_EQ(o.hi.x, 15);
 }
 
+TEST(Outline, SortedIntoRowsHoldsTheSame) {
+  // Waves of short lines, half circles upwards and one long upright line.
+  Outline o;
+  for (int i = 0; i < 100; ++i) {
+    const double x = 0.3 * i, y = std::sin(0.7 * i);
+    o.add(straight({x, y}, {x + 0.1, y + 0.05}));
+    const double next = std::sin(0.7 * (i + 1));
+    o.add(straight({x + 0.1, y + 0.05}, {x + 0.3, next}));
+  }
+  o.add(straight({30.0, std::sin(70.0)}, {30.0, 4.0}));
+  for (int i = 0; i < 100; ++i) o.add(round({29.85 - 0.3 * i, 4.0}, 0.15, 0.0, kPi));
+  o.add(straight({0.0, 4.0}, {0.0, 0.0}));
+  Outline sorted = o;
+  sorted.sort();
+  ASSERT_TRUE(sorted.rows);
+  int in = 0, asked = 0;
+  for (double x = -1.0; x < 31.0; x += 0.0371) {
+    for (double y = -2.0; y < 5.0; y += 0.0713) {
+      EXPECT_EQ(turns_around(sorted, {x, y}), turns_around(o, {x, y})) << x << " " << y;
+      in += turns_around(o, {x, y}) != 0 ? 1 : 0;
+      ++asked;
+    }
+  }
+  EXPECT_GT(in, asked / 3);
+  EXPECT_LT(in, asked);
+  // At the ends of edges, too.
+  for (const Edge& e : o.edges) EXPECT_EQ(turns_around(sorted, e.from), turns_around(o, e.from));
+  sorted.add(straight({0.0, 0.0}, {0.0, 0.0}));
+  EXPECT_FALSE(sorted.rows) << "an edge that is new is in no row";
+}
+
 TEST(Outline, IsTheSameTheOtherWayRound) {
   const Outline o = stadium();
   Outline back;

@@ -6,7 +6,8 @@
 namespace capstan::exchange::ap238 {
 namespace {
 
-constexpr double kSamePlace = 1e-9;  // mm
+constexpr double kSamePlace = 2e-6;  // mm; a plan keeps places to 1e-6 (engagement/kept_digits.h)
+constexpr double kSameStep = 2e-4;   // of a step: a plan keeps five digits of volume and area
 constexpr double kNear = 0.02, kOffsetNear = 0.05;
 
 struct Knot {
@@ -82,7 +83,7 @@ SectionNumbers PathSections::at(std::size_t move, double at_mm) const {
       order_.begin(), order_.end(), at_mm - kSamePlace,
       [&](std::size_t i, double v) { return s_->move[i] != move ? s_->move[i] < move : s_->at_mm[i] < v; });
   if (it == order_.end() || s_->move[*it] != move) return {};
-  const bool here = at_mm >= s_->at_mm[*it] - std::max(step_mm(*it) * (1.0 + 1e-6), kSamePlace);
+  const bool here = at_mm >= s_->at_mm[*it] - step_mm(*it) * (1.0 + kSameStep) - kSamePlace;
   return here ? numbers(*it) : SectionNumbers{};
 }
 
@@ -95,7 +96,8 @@ std::vector<std::pair<double, SectionNumbers>> PathSections::inside(std::size_t 
   for (; it != order_.end() && s_->move[*it] == move; ++it) {
     const double end = s_->at_mm[*it], begin = end - step_mm(*it);
     // Air before a cut is known up to where the cut begins.
-    if (begin > knots.back().at_mm + 1e-6 * length_mm) knots.push_back({begin, {}});
+    const double unsure = 1e-6 * length_mm + kSameStep * (end - begin) + kSamePlace;
+    if (begin > knots.back().at_mm + unsure) knots.push_back({begin, {}});
     if (end > knots.back().at_mm + kSamePlace && end < length_mm - kSamePlace)
       knots.push_back({end, numbers(*it)});
   }
@@ -110,9 +112,9 @@ std::vector<std::pair<double, SectionNumbers>> PathSections::inside(std::size_t 
 
 double PathSections::volume(std::size_t first, std::size_t last) const {
   double out = 0.0;
-  for (std::size_t i = 0; s_ != nullptr && i < s_->size(); ++i) {
-    if (s_->move[i] >= first && s_->move[i] <= last) out += s_->removed_mm3[i];
-  }
+  auto it = std::lower_bound(order_.begin(), order_.end(), first,
+                             [this](std::size_t i, std::size_t m) { return s_->move[i] < m; });
+  for (; it != order_.end() && s_->move[*it] <= last; ++it) out += s_->removed_mm3[*it];
   return out;
 }
 

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <numbers>
 #include <optional>
 #include <tuple>
+#include <unordered_map>
 
 #include "planner/files/exchange/ap238/paths/path_sections.h"
 #include "planner/files/exchange/toolpaths/curves.h"
@@ -51,6 +54,18 @@ model::Ref<model::CartesianPoint> add_point(model::Model& m, std::vector<double>
   return m.add(std::move(p));
 }
 
+/// Numbers by their bits; 0 and -0 are equal.
+struct HashOfNumbers {
+  std::size_t operator()(const std::vector<double>& v) const {
+    std::uint64_t h = 14695981039346656037U;
+    for (const double x : v) {
+      h = (h ^ std::bit_cast<std::uint64_t>(x + 0.0)) * 0x9e3779b97f4a7c15U;
+      h ^= h >> 29U;
+    }
+    return h;
+  }
+};
+
 /// Curves of one path in the frame's local coordinates.
 class Curves {
  public:
@@ -79,12 +94,18 @@ class Curves {
   model::Ref<model::BoundedCurve> beside(const std::vector<Place>& places, const Numbers& numbers) {
     model::Polyline c;
     c.name = "";
-    std::map<std::vector<double>, model::Ref<model::CartesianPoint>> known;
+    std::unordered_map<std::vector<double>, model::Ref<model::CartesianPoint>, HashOfNumbers> known;
+    model::Ref<model::CartesianPoint> last;
+    std::vector<double> before;
     for (const Place& at : places) {
       std::vector<double> v = numbers(at);
-      auto& p = known[v];
-      if (!p) p = add_point(m_, std::move(v));
-      c.points.push_back(p);
+      if (!last || v != before) {
+        auto& p = known[v];
+        if (!p) p = add_point(m_, v);
+        last = p;
+        before = std::move(v);
+      }
+      c.points.push_back(last);
     }
     return m_.add(std::move(c));
   }
@@ -101,6 +122,7 @@ class Curves {
  private:
   // The end of a run is the start of the next.
   model::Ref<model::CartesianPoint> end_of(std::size_t i) {
+    if (ends_.empty()) ends_.resize(p_.size());
     auto& p = ends_[i];
     if (!p) p = add_point(m_, numbers(p_.point(i)));
     return p;
@@ -160,7 +182,7 @@ class Curves {
   model::Model& m_;
   const CutterPath& p_;
   const Placement& f_;
-  std::map<std::size_t, model::Ref<model::CartesianPoint>> ends_;
+  std::vector<model::Ref<model::CartesianPoint>> ends_;  ///< by move, unset: not made yet
 };
 
 // f / base as a number that times base gives f again.

@@ -42,7 +42,7 @@ AnyRef Reader::geometry_at(Node n, TypeId type, const Scale& stated) {
   const auto at_scale = std::find_if(scales_.begin(), scales_.end(), [&](const Scale& s) {
     return s.length == scale.length && s.angle == scale.angle && s.coordinates == scale.coordinates;
   });
-  const Key key{n, static_cast<std::uint32_t>(at_scale - scales_.begin())};
+  const std::uint64_t key = key_of(n, static_cast<std::size_t>(at_scale - scales_.begin()));
   if (at_scale == scales_.end()) scales_.push_back(scale);
   const auto it = geometry_.find(key);
   if (it != geometry_.end()) return it->second;

@@ -34,9 +34,16 @@ Graph::Graph(const p21::File& file, const express::Dictionary& schema) : file_(f
       }
     }
   };
+  // Most instances are of the keyword of the one before.
+  std::string_view keyword;
+  EntityId entity = express::kNoEntity;
   for (Node at = 0; at < n; ++at) {
     const p21::Instance i = file.instance(at);
-    entity_.push_back(i.is_complex() ? express::kNoEntity : schema.find(i.keyword()));
+    if (!i.is_complex() && i.keyword() != keyword) {
+      keyword = i.keyword();
+      entity = schema.find(keyword);
+    }
+    entity_.push_back(i.is_complex() ? express::kNoEntity : entity);
   }
   each([&](Node, Node to) { ++first_[to + 1]; });
   for (std::uint32_t i = 0; i < n; ++i) first_[i + 1] += first_[i];

@@ -277,9 +277,11 @@ void make_inner(model::Model& m, AnyRef at, const ObjectRow& row) {
 }  // namespace
 
 AnyRef Reader::object_at(Node n, std::span<const TypeId> targets, const Scale& scale) {
-  const auto [first, last] = nouns_.equal_range(n);
-  for (auto it = first; it != last; ++it) {
-    if (fits_any(it->second.type, targets)) return it->second;
+  if (object_[n]) {
+    const auto [first, last] = nouns_.equal_range(n);
+    for (auto it = first; it != last; ++it) {
+      if (fits_any(it->second.type, targets)) return it->second;
+    }
   }
   if (const ObjectRow* row = object_row(n, targets)) {
     const AnyRef at = plan_.model.add_object(row->noun);

@@ -86,11 +86,10 @@ class Reader {
     std::uint32_t prefix = 0, ordinal = 0;
     [[nodiscard]] bool set() const { return owner.set(); }
   };
-  struct Key {
-    Node node;
-    std::uint32_t scale;
-    friend auto operator<=>(const Key&, const Key&) = default;
-  };
+
+  [[nodiscard]] static std::uint64_t key_of(Node n, std::size_t scale) {
+    return std::uint64_t{scale} << 32U | n;
+  }
 
   void drain();
   void settle();
@@ -138,7 +137,7 @@ class Reader {
   std::vector<bool> claimed_;  ///< by node: not for the mapping
   std::vector<bool> object_;   ///< by node: root of an application object, or geometry
   std::unordered_multimap<Node, model::AnyRef> nouns_;
-  std::map<Key, model::AnyRef> geometry_;
+  std::unordered_map<std::uint64_t, model::AnyRef> geometry_;  ///< by `key_of`
   std::vector<Scale> scales_;
   std::map<model::AnyRef, double> uncertainty_mm_;
   std::vector<model::AnyRef> kept_;  ///< by node: its verbatim instance

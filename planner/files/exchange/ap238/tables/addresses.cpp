@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <stdexcept>
 
 #include "planner/model/nouns/all.h"
 #include "planner/model/nouns/arena/walk.h"
@@ -53,25 +54,25 @@ bool has_a_name(TypeId t) {
          model::is_a(t, TypeId::kWorkpiece);
 }
 
-// Calls `visit` with the name and what it leads to, for each reference outside tables and selects.
+}  // namespace
+
+// Calls `visit` with the way and what it leads to, for each reference outside tables and selects.
 template <class Visit>
-void for_each_step(const model::Model& m, AnyRef at, const Visit& visit) {
+void Addresses::for_each_way(AnyRef at, const Visit& visit) const {
   if (at.type == TypeId::kKeptInstance) return;
-  const void* data = m.object(at);
+  const void* data = m_.object(at);
   for (const Attribute& a : model::noun_type(at.type).attributes) {
     if (a.storage == Storage::kRef) {
       const AnyRef to = model::value_of<AnyRef>(a, data);
-      if (to.set()) visit(std::string(a.name), to);
+      if (to.set()) visit(Way{&a, kNoItem}, to);
     } else if (a.storage == Storage::kRefList) {
       const auto& items = model::value_of<model::AnyRefList>(a, data).items;
-      for (std::size_t i = 0; i < items.size(); ++i) {
-        if (items[i].set()) visit(std::string(a.name) + "[" + std::to_string(i) + "]", items[i]);
+      for (std::uint32_t i = 0; i < items.size(); ++i) {
+        if (items[i].set()) visit(Way{&a, i}, items[i]);
       }
     }
   }
 }
-
-}  // namespace
 
 Addresses::Addresses(const model::Plan& plan, const std::function<std::uint64_t(AnyRef)>& number)
     : m_(plan.model) {
@@ -106,46 +107,71 @@ void Addresses::name_objects(const std::function<std::uint64_t(AnyRef)>& number)
   }
 }
 
+bool Addresses::put(AnyRef at, const Place& place) {
+  auto& places = places_[static_cast<std::size_t>(at.type)];
+  if (places.empty()) places.resize(m_.count(at.type));
+  Place& here = places[at.index];
+  if (here.order != 0) return false;
+  here = place;
+  here.order = ++placed_;
+  return true;
+}
+
+const Addresses::Place* Addresses::place_of(AnyRef at) const {
+  const auto& places = places_[static_cast<std::size_t>(at.type)];
+  return at.index < places.size() && places[at.index].order != 0 ? &places[at.index] : nullptr;
+}
+
 // Breadth first, so that each object has the shortest way; not into what has a name of its own.
 void Addresses::place_from(AnyRef base) {
-  if (!places_.try_emplace(base, Place{base, "", places_.size() + 1}).second) return;
+  if (!put(base, {.base = base, .from = {}, .way = {}})) return;
   std::vector<AnyRef> level = {base};
   while (!level.empty()) {
     std::vector<AnyRef> next;
     for (const AnyRef from : level) {
-      const std::string path = places_.at(from).path;
-      for_each_step(m_, from, [&](const std::string& step, AnyRef to) {
-        if (has_a_name(to.type)) return;
-        const bool fresh =
-            places_.try_emplace(to, Place{base, path.empty() ? step : path + "." + step, places_.size() + 1})
-                .second;
-        if (fresh) next.push_back(to);
+      for_each_way(from, [&](Way way, AnyRef to) {
+        if (!has_a_name(to.type) && put(to, {.base = base, .from = from, .way = way})) next.push_back(to);
       });
     }
     level = std::move(next);
   }
 }
 
+std::string Addresses::path_to(AnyRef object) const {
+  std::vector<Way> ways;
+  for (const Place* p = place_of(object); p->from.set(); p = place_of(p->from)) ways.push_back(p->way);
+  std::string out;
+  for (auto way = ways.rbegin(); way != ways.rend(); ++way) {
+    if (!out.empty()) out += '.';
+    out += way->attribute->name;
+    if (way->item != kNoItem) out += "[" + std::to_string(way->item) + "]";
+  }
+  return out;
+}
+
 std::uint64_t Addresses::order(AnyRef object) const {
-  const auto it = places_.find(object);
-  return it == places_.end() ? 0 : it->second.order;
+  const Place* place = place_of(object);
+  return place == nullptr ? 0 : place->order;
 }
 
 AnyRef Addresses::executable(AnyRef object) const {
-  const auto it = places_.find(object);
-  return it != places_.end() && m_.holds<model::Executable>(it->second.base) ? it->second.base : main_;
+  const Place* place = place_of(object);
+  return place != nullptr && m_.holds<model::Executable>(place->base) ? place->base : main_;
 }
 
 std::string Addresses::from(AnyRef executable, AnyRef object) const {
-  const Place& place = places_.at(object);
-  if (place.base == executable) return place.path;
+  const Place* known = place_of(object);
+  if (known == nullptr) throw std::logic_error("an object without an address has no way to it");
+  const Place& place = *known;
+  const std::string path = path_to(object);
+  if (place.base == executable) return path;
   const std::string id = its_id(place.base);
   const auto& same = named_.at({place.base.type, id});
   const auto k = std::find(same.begin(), same.end(), place.base) - same.begin();
   std::string out = "{" + std::string(model::noun_type(place.base.type).keyword) + ":" + escaped(id);
   if (k > 0) out += ":" + std::to_string(k + 1);
   out += "}";
-  return place.path.empty() ? out : out + "." + place.path;
+  return path.empty() ? out : out + "." + path;
 }
 
 AnyRef Addresses::find(AnyRef executable, std::string_view address) const {
@@ -174,8 +200,11 @@ AnyRef Addresses::find(AnyRef executable, std::string_view address) const {
     const std::string_view step = address.substr(0, dot);
     address.remove_prefix(dot == std::string_view::npos ? address.size() : dot + 1);
     AnyRef to;
-    for_each_step(m_, at, [&](const std::string& name, AnyRef next) {
-      if (name == step) to = next;
+    for_each_way(at, [&](Way way, AnyRef next) {
+      const std::string_view name = way.attribute->name;
+      if (!step.starts_with(name)) return;
+      const std::string_view item = step.substr(name.size());
+      if (way.item == kNoItem ? item.empty() : item == "[" + std::to_string(way.item) + "]") to = next;
     });
     at = to;
   }

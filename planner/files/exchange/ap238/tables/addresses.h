@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -33,18 +34,30 @@ class Addresses {
   [[nodiscard]] model::AnyRef find(model::AnyRef executable, std::string_view address) const;
 
  private:
-  struct Place {
-    model::AnyRef base;
-    std::string path;
-    std::uint64_t order = 0;
+  /// What leads to an object: an attribute, and the item of a list.
+  struct Way {
+    const model::Attribute* attribute = nullptr;
+    std::uint32_t item = kNoItem;
   };
+  static constexpr std::uint32_t kNoItem = 0xFFFFFFFF;
+  struct Place {
+    model::AnyRef base, from;
+    Way way;
+    std::uint64_t order = 0;  ///< 0: no place
+  };
+  template <class Visit>
+  void for_each_way(model::AnyRef at, const Visit& visit) const;
+  bool put(model::AnyRef at, const Place& place);
+  [[nodiscard]] const Place* place_of(model::AnyRef at) const;
+  [[nodiscard]] std::string path_to(model::AnyRef object) const;
   void name_objects(const std::function<std::uint64_t(model::AnyRef)>& number);
   void place_from(model::AnyRef base);
   [[nodiscard]] std::string its_id(model::AnyRef at) const;
 
   const model::Model& m_;
   model::AnyRef main_;
-  std::map<model::AnyRef, Place> places_;
+  std::array<std::vector<Place>, model::kTypeCount> places_;  ///< by kind and number
+  std::uint64_t placed_ = 0;
   std::map<std::pair<model::TypeId, std::string>, std::vector<model::AnyRef>> named_;
 };
 

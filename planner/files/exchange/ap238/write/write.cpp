@@ -9,11 +9,15 @@
 #include "planner/files/exchange/records/exact_paths.h"
 #include "planner/files/exchange/records/seal.h"
 #include "planner/files/p21/print.h"
+#include "planner/files/p21/read/parse.h"
+#include "planner/model/nouns/all.h"
 
 namespace capstan::exchange {
 namespace {
 
 using p21::quoted;
+
+constexpr std::string_view kEnd = "ENDSEC;\nEND-ISO-10303-21;\n";
 
 std::string texts(const std::vector<std::string>& items) {
   std::string out = "(";
@@ -38,6 +42,21 @@ std::string header(const model::Plan& plan) {
          ",'Capstan','Capstan','');\nFILE_SCHEMA(('MODEL_BASED_INTEGRATED_MANUFACTURING_SCHEMA'));\n";
 }
 
+/// What is sealed as it is printed is not parsed, which would find what no reader takes.
+Status within_limits(const model::Plan& plan, const model::Model& written, std::size_t bytes) {
+  const p21::Limits limits;
+  std::size_t longest = 0;
+  for (const auto& s : plan.steps) {
+    longest = std::max({longest, s.path ? s.path->size() : 0, s.sections ? s.sections->size() : 0});
+  }
+  for (const model::AnyRef at : written.all(model::TypeId::kPolyline))
+    longest = std::max(longest, written.at<model::Polyline>(at).points.size());
+  if (longest <= std::min(limits.string_bytes, limits.list_elements) && bytes <= limits.bytes) return {};
+  return fail({.code = "P21-LIMIT",
+               .message = "a path of " + std::to_string(longest) + " points, or a file of " +
+                          std::to_string(bytes) + " bytes, is more than readers of the file take"});
+}
+
 }  // namespace
 
 Result<Written> write_ap238(const model::Plan& plan, Job& job) {
@@ -48,12 +67,21 @@ Result<Written> write_ap238(const model::Plan& plan, Job& job) {
   ap238::helices_to_via_points(copy, out.losses);
   const auto unlisted = ap238::to_ap238(copy, out.losses);
   ap238::Writer writer(copy, ap238::Mapping::instance(), out.losses);
-  const std::string data = writer.run(unlisted);
+  Seals already;
+  std::string rest;
+  const std::string data = writer.run(unlisted, already, rest);
   const auto name = [&](model::AnyRef r) { return writer.reference_text(r); };
-  auto sealed = with_seal(header(copy) + exact_paths(plan, copy.model, name) + "ENDSEC;\n" +
-                          sections_text(copy, name) + "DATA;\n" + data + "ENDSEC;\nEND-ISO-10303-21;\n");
-  if (!sealed) return tl::unexpected(sealed.error());
-  out.bytes = *std::move(sealed);
+  const std::string head = header(copy), paths = exact_paths(plan, copy.model, name, &already);
+  const std::string sections = sections_text(copy, name);
+  const auto seals = seal_text(head + "ENDSEC;\n" + sections + "DATA;\n" + rest + std::string(kEnd), already);
+  if (!seals) return tl::unexpected(seals.error());
+  out.bytes.reserve(head.size() + paths.size() + seals->size() + sections.size() + data.size() + 64);
+  for (const std::string_view part :
+       {std::string_view(head), std::string_view(paths), std::string_view(*seals),
+        std::string_view("ENDSEC;\n"), std::string_view(sections), std::string_view("DATA;\n"),
+        std::string_view(data), kEnd})
+    out.bytes += part;
+  if (auto done = within_limits(plan, copy.model, out.bytes.size()); !done) return fail(done.error());
   std::sort(out.losses.begin(), out.losses.end());
   for (const std::string& loss : out.losses) job.note("EXC-LOSS", loss);
   return out;

@@ -46,7 +46,7 @@ Writer::Writer(const model::Plan& plan, const Mapping& mapping, std::vector<std:
   }
 }
 
-std::string Writer::run(const std::vector<Unlisted>& unlisted) {
+std::string Writer::run(const std::vector<Unlisted>& unlisted, Seals& sealed, std::string& unsealed) {
   shared("protocol");
   if (plan_.project) instance_of(plan_.project);
   for (const AnyRef f : m_.all_below(TypeId::kManufacturingFeature)) require(f);
@@ -70,7 +70,19 @@ std::string Writer::run(const std::vector<Unlisted>& unlisted) {
   std::string out;
   for (Id id = 1; id <= made_.size(); ++id) {
     tick();
-    if (!reserved_.contains(id)) print(id, made_[id - 1], out);
+    if (reserved_.contains(id)) continue;
+    const Made& made = made_[id - 1];
+    const std::size_t begin = out.size();
+    print(id, made, out);
+    const std::string_view line = std::string_view(out).substr(begin);
+    if (made.leaves.empty() && made.name.empty() && geometry_of(made.noun.type).of_points) {
+      const std::size_t behind = line.find('=') + 1;
+      constexpr std::size_t kEnd = 2;  // ";\n"
+      add_instance(sealed, id, model::noun_type(made.noun.type).keyword,
+                   line.substr(behind, line.size() - behind - kEnd));
+    } else {
+      unsealed += line;
+    }
   }
   for (const auto& [what, n] : lost_) {
     losses_.push_back(what + " has no place in AP238 (" + std::to_string(n) + " left out)");
@@ -94,15 +106,9 @@ void Writer::fall_back() {
 
 // --- instances ---
 
-Id Writer::written(AnyRef at) const {
-  const auto it = ids_.find(at);
-  return it == ids_.end() ? kNoId : it->second;
-}
+Id Writer::written(AnyRef at) const { return ids_.find(at).value_or(kNoId); }
 
-bool Writer::is_lost(AnyRef at) const {
-  const auto it = ids_.find(at);
-  return it != ids_.end() && it->second == kNoId;
-}
+bool Writer::is_lost(AnyRef at) const { return ids_.find(at) == kNoId; }
 
 bool Writer::is_geometry(AnyRef at) {
   return model::is_a(at.type, TypeId::kRepresentationItem) || at.type == TypeId::kCompositeCurveSegment;
@@ -187,35 +193,34 @@ const ObjectRow* Writer::object_row(AnyRef at) const {
 }
 
 Id Writer::instance_of(AnyRef at) {
-  const auto it = ids_.find(at);
-  if (it != ids_.end()) return it->second;
+  if (const auto known = ids_.find(at)) return *known;
   if (const auto* kept = m_.get<model::KeptInstance>(at);
       kept != nullptr && kept->schema != model::KeptSchema::kAp238 && kept->keyword.rfind('!', 0) != 0) {
     lose(kept->keyword + ", kept from ISO 14649,");
-    ids_.emplace(at, kNoId);
+    ids_.set(at, kNoId);
     return kNoId;
   }
-  if (is_geometry(at) && map_.objects_of(at.type).empty() &&
-      schema_.find(model::noun_type(at.type).keyword) == express::kNoEntity) {
+  const Geometry& geometry = geometry_of(at.type);
+  if (geometry.plain && geometry.entity == express::kNoEntity) {
     lose(std::string(model::noun_type(at.type).keyword));  // a helix that no toolpath runs along
-    ids_.emplace(at, kNoId);
+    ids_.set(at, kNoId);
     return kNoId;
   }
   // BLOCK and the like are geometry that AP238 has as representations.
-  if (at.type == TypeId::kKeptInstance || (is_geometry(at) && map_.objects_of(at.type).empty())) {
+  if (at.type == TypeId::kKeptInstance || geometry.plain) {
     const Id id = add({.leaves = {}, .noun = at, .name = {}, .values = {}});
-    ids_.emplace(at, id);
-    to_scan_.push_back(at);
+    ids_.set(at, id);
+    if (at.type == TypeId::kKeptInstance || geometry.refers) to_scan_.push_back(at);
     return id;
   }
   const ObjectRow* row = object_row(at);
   if (row == nullptr) {
     lose(std::string(model::noun_type(at.type).keyword));
-    ids_.emplace(at, kNoId);
+    ids_.set(at, kNoId);
     return kNoId;
   }
   const Id id = make(row->root.entities);
-  ids_.emplace(at, id);
+  ids_.set(at, id);
   begin(at, *row, id, 0);
   return id;
 }

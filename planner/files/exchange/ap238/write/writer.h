@@ -2,12 +2,14 @@
 
 #include <deque>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <unordered_map>
 #include <vector>
 
 #include "planner/files/exchange/ap238/tables/mapping.h"
+#include "planner/files/exchange/records/seal.h"
 #include "planner/model/plan/plan.h"
 
 namespace capstan::exchange::ap238 {
@@ -18,13 +20,37 @@ struct Unlisted;  // placement.h
 using Id = std::uint32_t;
 inline constexpr Id kNoId = 0;
 
+/// Numbers of instances by object: there may be millions of points.
+class IdsOfObjects {
+ public:
+  /// Nothing: not met yet.
+  [[nodiscard]] std::optional<Id> find(model::AnyRef at) const {
+    const auto type = static_cast<std::size_t>(at.type);
+    if (type >= of_type_.size() || at.index >= of_type_[type].size()) return std::nullopt;
+    const Id id = of_type_[type][at.index];
+    return id == kNotMet ? std::nullopt : std::optional(id);
+  }
+  void set(model::AnyRef at, Id id) {
+    const auto type = static_cast<std::size_t>(at.type);
+    if (type >= of_type_.size()) of_type_.resize(type + 1);
+    if (at.index >= of_type_[type].size()) of_type_[type].resize(std::size_t{at.index} + 1, kNotMet);
+    of_type_[type][at.index] = id;
+  }
+
+ private:
+  static constexpr Id kNotMet = 0xFFFFFFFF;
+  std::vector<std::vector<Id>> of_type_;
+};
+
 /// Builds the instances of a plan by the rows of the mapping, then prints them. One per file.
 class Writer {
  public:
   Writer(const model::Plan& plan, const Mapping& mapping, std::vector<std::string>& losses);
 
-  /// The data section, one instance per line. `unlisted`: what `to_ap238` gave.
-  std::string run(const std::vector<Unlisted>& unlisted);
+  /// The data section, one instance per line. `unlisted`: what `to_ap238` gave. `sealed` gets the points and
+  /// the lines through them, which are printed as seals spell them (records/seal.h); `unsealed` the text of
+  /// the others.
+  std::string run(const std::vector<Unlisted>& unlisted, Seals& sealed, std::string& unsealed);
   /// After run(): the file's reference to an object, "$" if it has none.
   [[nodiscard]] std::string reference_text(model::AnyRef r);
 
@@ -97,6 +123,20 @@ class Writer {
   void write_value(const Row& row, model::AnyRef owner, const model::Attribute& a, const void* data, Id root);
   void write_reference(const Row& row, model::AnyRef owner, model::AnyRef to, Id root, std::uint32_t ordinal);
   void write_leaf(const Row& row, model::AnyRef owner, Id root, std::uint32_t ordinal, Id leaf);
+  /// What all objects of a kind that is written as its entity of geometry have in common.
+  struct Geometry {
+    bool plain = false;  ///< the kind is written so, and no row says otherwise
+    EntityId entity;     ///< kNoEntity: AP238 has none
+    bool refers = false;
+    bool of_points = false;  ///< texts, numbers and references only
+    struct Slot {
+      bool derived = false, name = false;
+      const model::Attribute* attribute = nullptr;
+      std::string nothing;  ///< is written where there is no value
+    };
+    std::vector<Slot> slots;
+  };
+  [[nodiscard]] const Geometry& geometry_of(model::TypeId type);
   [[nodiscard]] static bool is_geometry(model::AnyRef at);
   void require(model::AnyRef at);
   [[nodiscard]] std::string resolved(const std::string& spelling);
@@ -111,6 +151,8 @@ class Writer {
   Id unit(model::Unit u);
   void print(Id id, const Made& made, std::string& out);
   void print_geometry(model::AnyRef at, const std::string& name, std::string& out);
+  void append_reference(model::AnyRef r, std::string& out);
+  void append_attribute(const model::Attribute& a, const void* data, std::string& out);
   void print_kept(const model::KeptInstance& kept, std::string& out);
   [[nodiscard]] std::string slot_text(const Made& made, const express::Slot& slot) const;
   [[nodiscard]] std::string select_text(const model::SelectValue& v);
@@ -123,7 +165,8 @@ class Writer {
   std::vector<std::string>& losses_;
   std::deque<Made> made_;
   std::set<std::uint64_t> reserved_;  ///< numbers that kept text mentions and no instance has
-  std::map<model::AnyRef, Id> ids_;
+  IdsOfObjects ids_;
+  std::map<model::TypeId, Geometry> geometry_;
   std::map<std::pair<model::AnyRef, std::string>, Id> named_;
   std::map<model::AnyRef, std::string> descriptions_;
   std::map<MemoKey, Id> memo_;

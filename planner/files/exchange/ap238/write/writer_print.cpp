@@ -1,9 +1,12 @@
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <numbers>
 
 #include "planner/files/exchange/ap238/read/auxiliary.h"
 #include "planner/files/exchange/ap238/write/writer.h"
 #include "planner/files/p21/print.h"
+#include "planner/ground/base/append_number.h"
 #include "planner/ground/base/number.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/nouns/arena/walk.h"
@@ -33,6 +36,12 @@ std::string nothing(const express::Type* t, bool optional) {
   }
 }
 
+void append_number_of(Id id, std::string& out) {
+  std::array<char, 16> text;
+  out += '#';
+  out.append(text.data(), std::to_chars(text.data(), text.data() + text.size(), id).ptr);
+}
+
 template <class List, class Show>
 std::string listed(const List& items, const Show& show) {
   std::string out = "(";
@@ -44,6 +53,31 @@ std::string listed(const List& items, const Show& show) {
 }
 
 }  // namespace
+
+const Writer::Geometry& Writer::geometry_of(model::TypeId type) {
+  const auto [it, fresh] = geometry_.try_emplace(type);
+  Geometry& g = it->second;
+  if (!fresh) return g;
+  const auto& noun = model::noun_type(type);
+  g.plain = is_geometry({type, 0}) && map_.objects_of(type).empty();
+  g.entity = schema_.find(noun.keyword);
+  for (const Attribute& a : noun.attributes) {
+    g.refers = g.refers || a.storage == Storage::kRef || a.storage == Storage::kRefList ||
+               a.storage == Storage::kRefTable || a.storage == Storage::kSelect ||
+               a.storage == Storage::kSelectList;
+  }
+  g.of_points = g.plain && g.entity != express::kNoEntity &&
+                std::all_of(noun.attributes.begin(), noun.attributes.end(), [](const Attribute& a) {
+                  return a.storage == Storage::kText || a.storage == Storage::kRealList ||
+                         a.storage == Storage::kRefList;
+                });
+  if (g.entity == express::kNoEntity) return g;
+  for (const express::Slot& s : schema_.slots(g.entity)) {
+    g.slots.push_back({s.derived, s.attribute->name == "name", model::find_attribute(type, s.attribute->name),
+                       nothing(s.type, s.optional)});
+  }
+  return g;
+}
 
 std::string Writer::slot_text(const Made& made, const express::Slot& slot) const {
   if (slot.derived) return "*";
@@ -57,7 +91,8 @@ std::string Writer::slot_text(const Made& made, const express::Slot& slot) const
 }
 
 void Writer::print(Id id, const Made& made, std::string& out) {
-  out += "#" + std::to_string(id) + "=";
+  append_number_of(id, out);
+  out += '=';
   if (const auto* kept = made.leaves.empty() ? m_.get<model::KeptInstance>(made.noun) : nullptr) {
     print_kept(*kept, out);
   } else if (made.leaves.empty()) {
@@ -95,8 +130,8 @@ std::string Writer::reference_text(AnyRef r) {
       return "$";
     }
   }
-  const auto it = ids_.find(r);
-  return it == ids_.end() || it->second == kNoId ? "$" : "#" + std::to_string(it->second);
+  const Id id = ids_.find(r).value_or(kNoId);
+  return id == kNoId ? "$" : "#" + std::to_string(id);
 }
 
 void Writer::print_kept(const model::KeptInstance& kept, std::string& out) {
@@ -106,27 +141,73 @@ void Writer::print_kept(const model::KeptInstance& kept, std::string& out) {
   }
 }
 
+void Writer::append_reference(AnyRef r, std::string& out) {
+  if (r.type == model::TypeId::kKeptInstance) {
+    out += reference_text(r);
+  } else if (const Id id = r.set() ? ids_.find(r).value_or(kNoId) : kNoId; id != kNoId) {
+    append_number_of(id, out);
+  } else {
+    out += '$';
+  }
+}
+
+// What millions of points, and the lines through them, consist of; all else as `attribute_text`.
+void Writer::append_attribute(const Attribute& a, const void* data, std::string& out) {
+  const auto list = [&out](const auto& items, const auto& append) {
+    char before = '(';
+    for (const auto& item : items) {
+      out += before;
+      append(item);
+      before = ',';
+    }
+    out += items.empty() ? "()" : ")";
+  };
+  if (a.storage == Storage::kRealList) {
+    list(model::value_of<model::RealList>(a, data).items, [&](double v) { append_part21_real(out, v); });
+  } else if (a.storage == Storage::kRefList) {
+    list(model::value_of<model::AnyRefList>(a, data).items, [&](AnyRef r) { append_reference(r, out); });
+  } else if (a.storage == Storage::kText && model::value_of<model::Text>(a, data)->empty()) {
+    out += "''";
+  } else {
+    out += attribute_text(a, data);
+  }
+}
+
 void Writer::print_geometry(AnyRef at, const std::string& name, std::string& out) {
   const auto& type = model::noun_type(at.type);
-  const EntityId e = schema_.find(type.keyword);
+  const Geometry& geometry = geometry_of(at.type);
   out += type.keyword;
-  if (e == express::kNoEntity) throw std::logic_error("AP238 has no " + std::string(type.keyword));
-  out += listed(schema_.slots(e), [&](const express::Slot& s) -> std::string {
-    if (s.derived) return "*";
-    if (s.attribute->name == "name" && !name.empty()) return name;
-    const Attribute* a = model::find_attribute(at.type, s.attribute->name);
-    if (a == nullptr || !model::has_value(*a, m_.object(at))) return nothing(s.type, s.optional);
-    if (const auto* trimmed = m_.get<model::TrimmedCurve>(at);
-        trimmed != nullptr && a->storage == Storage::kSelectList &&
-        (m_.holds<model::Circle>(trimmed->basis_curve) || m_.holds<model::Ellipse>(trimmed->basis_curve))) {
-      auto values = model::value_of<model::SelectList>(*a, m_.object(at));
+  if (geometry.entity == express::kNoEntity)
+    throw std::logic_error("AP238 has no " + std::string(type.keyword));
+  const void* const data = m_.object(at);
+  const auto* trimmed = m_.get<model::TrimmedCurve>(at);
+  const bool of_angles = trimmed != nullptr && (m_.holds<model::Circle>(trimmed->basis_curve) ||
+                                                m_.holds<model::Ellipse>(trimmed->basis_curve));
+  const auto slot = [&](const Geometry::Slot& s) {
+    const Attribute* a = s.attribute;
+    if (s.derived) {
+      out += '*';
+    } else if (s.name && !name.empty()) {
+      out += name;
+    } else if (a == nullptr || !model::has_value(*a, data)) {
+      out += s.nothing;
+    } else if (of_angles && a->storage == Storage::kSelectList) {
+      auto values = model::value_of<model::SelectList>(*a, data);
       for (auto& v : values.items) {  // degrees in the model, radians in the written context
         if (v.real) v.real = *v.real * std::numbers::pi / 180.0;
       }
-      return listed(values.items, [&](const model::SelectValue& v) { return select_text(v); });
+      out += listed(values.items, [&](const model::SelectValue& v) { return select_text(v); });
+    } else {
+      append_attribute(*a, data, out);
     }
-    return attribute_text(*a, m_.object(at));
-  });
+  };
+  char before = '(';
+  for (const Geometry::Slot& s : geometry.slots) {
+    out += before;
+    slot(s);
+    before = ',';
+  }
+  out += geometry.slots.empty() ? "()" : ")";
 }
 
 std::string Writer::select_text(const model::SelectValue& v) {
