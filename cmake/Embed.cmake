@@ -67,6 +67,10 @@ function(capstan_embed target namespace)
   set_source_files_properties(${out} PROPERTIES COMPILE_OPTIONS -Wno-overlength-strings)
   target_sources(${target} PRIVATE ${out})
   if(ARG_TREES)
+    if(CMAKE_CROSSCOMPILING AND NOT CMAKE_CROSSCOMPILING_EMULATOR)
+      message(FATAL_ERROR "The shipped data are read by a program of the build, capstan_pack_trees: set "
+        "CMAKE_CROSSCOMPILING_EMULATOR (qemu-aarch64 for arm64), so that it can run here")
+    endif()
     if(NOT TARGET capstan_pack_trees)
       find_package(yaml-cpp REQUIRED)
       add_executable(capstan_pack_trees

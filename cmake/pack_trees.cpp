@@ -10,8 +10,8 @@
 #include <string_view>
 #include <vector>
 
-#include "planner/ground/base/tables/data_tree.h"
 #include "planner/ground/base/file.h"
+#include "planner/ground/base/tables/data_tree.h"
 #include "tooling/shop/data/tree.h"
 
 namespace {

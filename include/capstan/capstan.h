@@ -37,7 +37,6 @@ struct PlanOptions {
               ///< plan that its file states in two ways, or whose workpiece or set-ups it states wrongly
   std::string margin = {};             ///< of loads against their limits: "careful", "usual", "bold"
   std::string cases = {};              ///< a case base to begin from
-  std::string cache = {};              ///< a folder that keeps results of stages from call to call
   std::string stock = {};              ///< the raw piece: "block:+2" or "box:x0,y0,z0,x1,y1,z1", mm
   std::string solver = {};             ///< as `capstan plan --solver` lists them
   std::string workholding = {};        ///< ids or a file of fixtures, "auto", "none"
@@ -53,6 +52,7 @@ struct PlanOptions {
   std::function<void(std::string_view stage, double fraction)> progress = {};
   /// Ends the call early: there is a plan only where one was made by then, and no program without its check.
   std::stop_token stop = {};
+  std::string cache = {};  ///< a folder that keeps results of stages from call to call
 };
 
 /// A thing said about the input or the plan, as the command prints it.

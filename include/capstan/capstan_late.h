@@ -1,7 +1,8 @@
 /* Late binding inside a control: a C interface. Link `capstan::late`.
  *
  * A session is opened once with the machine and its tool table; a plan is bound before its deadline, and what
- * came of it is fetched as text. Nothing is thrown, nothing is printed, no thread outlives a call.
+ * came of it is fetched as text. Nothing is thrown, nothing is printed, and with one thread (the
+ * default) none outlives a call; others wait, signals blocked, until the process ends.
  *
  * Call it with the tool retracted and the spindle stopped; on any code but CAPSTAN_LATE_OK retract and stop.
  * CAPSTAN_LATE_LATE means: the plan is checked and can be fetched, but the deadline had passed when it was

@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <span>
 
-#include "planner/ground/base/tables/data_tree.h"
 #include "planner/ground/base/file.h"
 #include "planner/ground/base/number.h"
+#include "planner/ground/base/tables/data_tree.h"
 #include "rules/engine/stray.h"
 #include "rules/engine/table.h"
 #include "rules/strategy/action.h"
@@ -323,8 +323,13 @@ DataNode tree_of(const YAML::Node& node, int depth, std::size_t& values) {
   constexpr std::size_t kMostValues = std::size_t{1} << 20;
   DataNode out{.line = static_cast<std::uint64_t>(node.Mark().line + 1)};
   if (depth > kDeepest) refuse("RULE-SYNTAX", "nested deeper than " + std::to_string(kDeepest), out);
-  if (++values > kMostValues)
-    refuse("RULE-SYNTAX", "more than " + std::to_string(kMostValues) + " values", out);
+  // A long text counts for its length: an alias repeats it.
+  constexpr std::size_t kBytesPerValue = 64;
+  values += 1 + node.Scalar().size() / kBytesPerValue;
+  if (values > kMostValues)
+    refuse("RULE-SYNTAX",
+           "more than " + std::to_string(kMostValues) + " values, or as much text, with what aliases repeat",
+           out);
   if (node.IsScalar()) {
     out.kind = DataNode::Kind::kScalar;
     out.text = node.Scalar();

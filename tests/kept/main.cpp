@@ -1,6 +1,6 @@
 // capstan_kept [--smoke] [--take] TABLE COMMAND EXAMPLES: measures what is kept fast against the table of
 // ratios, or writes the table anew. Status 0: as fast as it says; 1: slower; 2: wrong usage; 3: no table, or
-// the work failed.
+// the work failed; 77: the table is of another processor.
 
 #include <cstdio>
 #include <exception>
@@ -17,6 +17,7 @@ namespace {
 using namespace capstan;  // a program of its own
 
 constexpr std::size_t kRepeats = 5, kSmokeRepeats = 3;
+constexpr int kNotJudged = 77;  // ctest's status of a test that is skipped
 
 int run(bool smoke, bool take, const std::string& table_file, const std::vector<kept::Row>& rows) {
   if (!kept::instructions_can_be_counted())
@@ -37,6 +38,16 @@ int run(bool smoke, bool take, const std::string& table_file, const std::vector<
     if (!table) {
       std::fprintf(stderr, "kept: %s\n", to_text(table.error()).c_str());
       return 3;
+    }
+    const std::string own = kept::processor(), theirs = kept::processor_of(*text);
+    if (own != theirs) {
+      std::printf(
+          "kept: not judged: the table was taken on another processor (%s, this is %s); `./dev bench --take` "
+          "makes "
+          "one for this\n",
+          theirs.c_str(), own.c_str());
+      std::fputs(kept::write(kept::measured(rows, smoke ? kSmokeRepeats : kRepeats)).c_str(), stdout);
+      return kNotJudged;
     }
     wrong = kept::check(rows, *table, smoke ? kSmokeRepeats : kRepeats, costs);
   }

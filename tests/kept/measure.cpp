@@ -111,7 +111,7 @@ Taken taken_by(const std::vector<std::string>& command) {
   if (failed != 0) throw std::runtime_error(command.front() + " cannot be run");
   int status = 0;
   rusage usage = {};
-  if (::wait4(pid, &status, 0, &usage) != pid || !WIFEXITED(status) || WEXITSTATUS(status) > 1) {
+  if (::wait4(pid, &status, 0, &usage) != pid || !WIFEXITED(status) || WEXITSTATUS(status) != 0) {
     std::string all;
     for (const std::string& a : command) all += a + " ";
     throw std::runtime_error(all + "failed");

@@ -1,17 +1,40 @@
 #include "tests/kept/table.h"
 
 #include <algorithm>
+#include <fstream>
 #include <sstream>
 
 #include "planner/ground/base/number.h"
 
 namespace capstan::kept {
 
+namespace {
+constexpr std::string_view kProcessor = "# processor: ";
+}
+
+std::string processor() {
+  std::ifstream info("/proc/cpuinfo");
+  for (std::string line; std::getline(info, line);) {
+    if (line.starts_with("model name") && line.find(": ") != line.npos)
+      return line.substr(line.find(": ") + 2);
+  }
+  return "unknown";
+}
+
+std::string processor_of(std::string_view text) {
+  const auto at = text.find(kProcessor);
+  if (at == text.npos) return {};
+  const auto from = at + kProcessor.size();
+  return std::string(text.substr(from, text.find('\n', from) - from));
+}
+
 std::string write(const std::vector<Cost>& costs) {
-  std::string out =
-      "# What pieces of work cost, in units of the reference kernel of the same run (tests/kept/README.md).\n"
-      "# Written by ./dev bench --take; held by ./dev bench --check.\n"
-      "# row                     time        instructions\n";
+  std::string out = std::string(
+                        "# What pieces of work cost, in units of the reference kernel of the same run "
+                        "(tests/kept/README.md).\n"
+                        "# Written by ./dev bench --take; held by ./dev bench --check.\n") +
+                    std::string(kProcessor) + processor() +
+                    "\n# row                     time        instructions\n";
   for (const Cost& c : costs) {
     std::string line = c.row;
     line.resize(std::max<std::size_t>(line.size() + 1, 26), ' ');

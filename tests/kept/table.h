@@ -9,7 +9,7 @@
 
 namespace capstan::kept {
 
-/// What one piece of work costs, in units of the reference kernel (reference.h), so that the machine's speed
+/// What one piece of work costs, in units of the reference kernel (measure.h), so that the machine's speed
 /// cancels.
 struct Cost {
   std::string row;
@@ -23,7 +23,14 @@ struct Cost {
 /// shared machine differ by.
 inline constexpr double kLimit = 0.20;
 
-/// The table's text: a line `row  time  instructions` each ("-": not counted), comments from `#` on.
+/// The processor of this machine, as Linux names it. Ratios differ from one to another, so that a table holds
+/// for its own.
+[[nodiscard]] std::string processor();
+/// The processor that a table was taken on; empty where it does not say.
+[[nodiscard]] std::string processor_of(std::string_view text);
+
+/// The table's text: the processor, and a line `row  time  instructions` each ("-": not counted), comments
+/// from `#` on.
 [[nodiscard]] std::string write(const std::vector<Cost>& costs);
 /// Fails  KEPT-TABLE with the line.
 [[nodiscard]] Result<std::vector<Cost>> read(std::string_view text, const std::string& name);

@@ -97,8 +97,8 @@ Plate plate(std::size_t features, double first_pocket_mm) {
         const std::string profile =
             w.add("RECTANGULAR_CLOSED_PROFILE($," + w.size(8.0, medium) + "," + w.size(10.0, medium) + ")");
         const std::string corner = w.size(2.5, coarse);
-        w.add("CLOSED_POCKET(" + name + "," + piece + ",()," + at + "," + (i == 1 ? first_depth : pocket_depth) + ",(),$," + flat +
-              ",$," + corner + "," + profile + ")");
+        w.add("CLOSED_POCKET(" + name + "," + piece + ",()," + at + "," +
+              (i == 1 ? first_depth : pocket_depth) + ",(),$," + flat + ",$," + corner + "," + profile + ")");
         ++out.pockets;
         break;
       }

@@ -9,8 +9,10 @@
 #include "planner/door/facade/options.h"
 #include "planner/door/service/check.h"
 #include "planner/door/service/explain/explain.h"
+#include "planner/door/service/outputs.h"
 #include "planner/door/service/planning.h"
 #include "planner/door/service/reading.h"
+#include "planner/ground/base/stopping.h"
 #include "planner/model/plan/decision/unreadable.h"
 #include "planner/physics/motion/time.h"
 
@@ -125,7 +127,12 @@ PlanOutput done(service::Source source, const PlanOptions& options, bool late) {
     work.job.report(request.error());
   } else if (const auto planned = late ? service::bind(*request, std::move(source), began, work.job)
                                        : service::plan(*request, std::move(source), work.job)) {
-    finish(*request, *planned, out, work.job);
+    stoppable(
+        work.job, [&] { finish(*request, *planned, out, work.job); },
+        [&] {
+          out = {};
+          work.job.report(service::stopped_call({}));
+        });
     // Making and checking the forms takes its time, too.
     if (late && request->deadline && work.job.now() - began > *request->deadline) out.late = true;
   } else {

@@ -61,7 +61,8 @@ struct Inputs {
   int batch = 1;    ///< pieces
   double edge_break_mm = 0.0;                 ///< chamfer on edges that the part leaves sharp; 0: none
   std::vector<model::Provenance> provenance;  ///< origin of each input: named or default
-  /// Results of earlier plannings; changes how long planning takes and nothing else. Null: those of this one only.
+  /// Results of earlier plannings; changes how long planning takes and nothing else. Null: those of this one
+  /// only.
   std::shared_ptr<memo::Memo> memo;
 };
 

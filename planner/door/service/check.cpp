@@ -70,11 +70,12 @@ class Check {
   /// What is said of one file, in this order; the parts in the order of the files.
   struct Part {
     std::vector<Diagnostic> said;     ///< by reading it
-    std::vector<FileFinding> found;   ///< by reading it, too; told already
+    std::vector<FileFinding> found;   ///< by reading it, too, which told them as diagnostics
     std::string file;                 ///< of what is to be checked; empty: nothing is
     std::optional<std::size_t> plan;  ///< of `plans_`
     const Input* program = nullptr;   ///< of `inputs_`
     std::vector<model::Finding> findings;
+    bool done = false;  ///< checked, to its end or to a stop
   };
 
   void add_programs() {
@@ -93,11 +94,19 @@ class Check {
     for (Part& p : parts_) {
       if (!p.file.empty()) checked.push_back(&p);
     }
-    parallel_for(job_, checked.size(), [&](std::size_t i) {
-      Part& p = *checked[i];
-      if (i == 0) return check(p, job_);
-      Job silent;  // one of them tells how far it is; a stop of `job_` ends all
-      check(p, silent);
+    const auto all = [&] {
+      parallel_for(job_, checked.size(), [&](std::size_t i) {
+        Part& p = *checked[i];
+        Job silent;  // one of them tells how far it is; a stop of `job_` ends all
+        check(p, i == 0 ? job_ : silent);
+        p.done = true;
+      });
+    };
+    // What was found before a stop is told, and of each part that was not looked at that nothing is proven.
+    stoppable(job_, all, [&] {
+      for (Part* p : checked) {
+        if (!p->done) p->findings.push_back(verify::not_begun());
+      }
     });
   }
 

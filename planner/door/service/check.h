@@ -30,9 +30,9 @@ struct CheckResult {
 /// Proves plans and programs safe, or lists their faults. The kind of each source is found by its content
 /// (content_of). Programs are checked against the first plan, with the tool table among the sources.
 ///
-/// `tell` (may be empty) is called for each finding when it is found, so that it appears in its place among
-/// the diagnostics.
-/// Fails  APP-STOPPED when a stop came before anything was checked; later it is the finding CHK-STOPPED.
+/// `tell` (may be empty) is called for each finding, after all checks, file by file in the order of the
+/// sources. Fails  APP-STOPPED when a stop came before anything was checked; later it is the finding
+/// CHK-STOPPED.
 ///        APP-NOTHING when there is neither a plan nor a program; as the readers.
 [[nodiscard]] Outcome<CheckResult> check(const Request& request, std::vector<Source> sources,
                                          const std::function<void(const FileFinding&)>& tell, Job& job);

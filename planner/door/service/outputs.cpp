@@ -57,7 +57,7 @@ Result<std::vector<Output>> outputs_of(const std::vector<std::string>& paths) {
 }
 
 Diagnostic stopped_call(const std::string& file) {
-  return {.code = "APP-STOPPED", .message = "stopped before its end; nothing is written", .file = file};
+  return {.code = "APP-STOPPED", .message = "stopped before its end; nothing is given", .file = file};
 }
 
 Status make(const model::Plan& plan, std::vector<Output>& outputs, Job& job) {

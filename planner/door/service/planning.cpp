@@ -21,8 +21,8 @@ Result<model::Plan> read(Source source, bool strict, Job& job) {
   return load_plan(source.name, job, strict);
 }
 
-/// Findings of each program among the outputs. One that was checked with its plan, and is the same to the byte, is
-/// not checked once more.
+/// Findings of each program among the outputs. One that was checked with its plan, and is the same to the
+/// byte, is not checked once more.
 std::vector<FileFinding> of_programs(const Planned& planned, const std::vector<Output>& outputs, Job& job) {
   const model::Plan& plan = planned.plan;
   const pipeline::CheckedProgram& known = planned.program;
@@ -63,8 +63,8 @@ std::size_t features_of(const model::Plan& plan) {
 
 Code code_of(const Diagnostic& fault, Code otherwise) {
   const bool usage = fault.code == kUnknownName || fault.code == "MACHINE-GEAR" ||
-                     fault.code == "FILE-WRITE" || fault.code.starts_with("MEM-") || fault.code == "APP-EDGES" ||
-                     fault.code.starts_with("OPTION-");
+                     fault.code == "FILE-WRITE" || fault.code.starts_with("MEM-") ||
+                     fault.code == "APP-EDGES" || fault.code.starts_with("OPTION-");
   // Wherever the stop came: in reading, planning or writing.
   const bool stopped = fault.code.ends_with("-STOPPED");
   return usage ? Code::kUsage : stopped ? Code::kImpossible : otherwise;

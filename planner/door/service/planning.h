@@ -25,10 +25,10 @@ struct Source {
 /// A plan, and what the check says of it.
 struct Planned {
   model::Plan plan;
-  std::vector<model::Finding> findings;  ///< of the plan; those of its program: `judge`
-  bool open = false;                     ///< decisions are left open, so there is no path to check yet
-  pipeline::CheckedProgram program = {}; ///< bind: the program as it was checked with the plan
-  bool late = false;                     ///< bind: the deadline was past when the plan was there
+  std::vector<model::Finding> findings;   ///< of the plan; those of its program: `judge`
+  bool open = false;                      ///< decisions are left open, so there is no path to check yet
+  pipeline::CheckedProgram program = {};  ///< bind: the program as it was checked with the plan
+  bool late = false;                      ///< bind: the deadline was past when the plan was there
 };
 
 /// The exit code of a fault: wrong usage for an unknown name, wherever it was given; kImpossible where the

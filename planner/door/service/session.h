@@ -15,7 +15,8 @@
 namespace capstan::service {
 
 /// A session of late binding in a shop that is opened once: what every transport (the C interface, lines on a
-/// pipe, ...) keeps for its caller. Nothing is thrown, nothing is printed, no thread outlives a call.
+/// pipe, ...) keeps for its caller. Nothing is thrown, nothing is printed. With one thread
+/// (the default) none outlives a call; others wait, signals blocked, until the process ends.
 ///
 /// Thread safety  one thread at a time, but for `stop`, which any thread may call at any time.
 class Session {

@@ -1,5 +1,6 @@
 #include "planner/ground/base/job.h"
 
+#include <signal.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -177,6 +178,9 @@ class Pool {
   }
 
   void serve() {
+    sigset_t all;  // signals are the business of the caller's threads
+    ::sigfillset(&all);
+    ::pthread_sigmask(SIG_BLOCK, &all, nullptr);
     std::unique_lock lock(mutex_);
     for (;;) {
       Shared* shared = nullptr;

@@ -5,9 +5,10 @@
 #include <type_traits>
 #include <utility>
 
-// The fields of a struct without constructors, in the order of their declaration, without naming them: how many there
-// are is how many values may stand between its braces, and a structured binding of so many names gives each.
-// (Boost.PFR does the same; its counting makes GCC 12 fail with an internal error on structs of fifty fields.)
+// The fields of a struct without constructors, in the order of their declaration, without naming them: how
+// many there are is how many values may stand between its braces, and a structured binding of so many names
+// gives each. (Boost.PFR does the same; its counting makes GCC 12 fail with an internal error on structs of
+// fifty fields.)
 
 namespace capstan::memo {
 

@@ -1,11 +1,15 @@
 #include "planner/ground/memo/folder.h"
 
 #include <elf.h>
+#include <fcntl.h>
+#include <gnu/libc-version.h>
 #include <link.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -18,12 +22,13 @@
 
 #include "planner/ground/base/file.h"
 
-// A file is a head (mark, key, length, checksum) and the content. Its name is its key in hex, in one of 256 folders
-// named by the first two digits. The checksum is XXH3 over build, key and content.
+// A file is a head (mark, key, length, checksum) and the content. Its name is its key in hex, in a folder of
+// its build, in one of 256 folders named by the key's first two digits. The checksum is XXH3 over build, key
+// and content.
 //
-// The bound is kept when a memo that wrote is closed: files by the time they were last used (their time of change is set
-// when they are read), oldest first, are removed until nine tenths of the bound are left, so that this is not done
-// after every call.
+// The bound is kept after each tenth of it that was written, and at the end: files by the time they were last
+// used (their time of change is set when they are read), oldest first, are removed until nine tenths of the
+// bound are left.
 
 namespace capstan::memo {
 namespace {
@@ -85,6 +90,17 @@ std::string build_identity() {
   return search.found;
 }
 
+std::string identity_of_results() {
+  std::string out = build_identity();
+  if (out.empty()) return out;
+  out += std::string(" ") + gnu_get_libc_version();
+  std::ifstream processor("/proc/cpuinfo");
+  for (std::string line; std::getline(processor, line);) {
+    if (line.starts_with("flags") || line.starts_with("Features")) return out + " " + hex64(fnv1a(line));
+  }
+  return out;
+}
+
 Folder::Folder(std::string path, std::string build, std::size_t most_bytes)
     : path_(std::move(path)), build_(std::move(build)), most_bytes_(most_bytes) {}
 
@@ -92,35 +108,58 @@ Folder::Folder(Folder&& other) noexcept
     : path_(std::exchange(other.path_, {})),
       build_(std::exchange(other.build_, {})),
       most_bytes_(other.most_bytes_),
-      wrote_(std::exchange(other.wrote_, false)) {}
+      written_(other.written_.exchange(0)) {}
 
 Folder::~Folder() {
-  if (wrote_) make_room();
+  if (written_ == 0) return;
+  try {
+    make_room();
+  } catch (...) {  // what stays too much goes at the next end
+  }
 }
 
 Result<Folder> Folder::open(const std::string& path, std::size_t most_bytes) {
-  const std::string build = build_identity();
+  const std::string build = identity_of_results();
   if (build.empty()) {
     return fail({.code = "MEM-BUILD",
                  .message = "results are not kept between calls: this program carries no build identity",
                  .file = path,
-                 .hint = "link it with --build-id, or leave --cache out"});
+                 .hint = "leave the option out; or link the program with --build-id"});
   }
-  std::error_code error;
-  fs::create_directories(path, error);
-  if (error || !fs::is_directory(path, error)) {
+  const auto wrong = [&](const std::string& what) {
     return fail({.code = "MEM-FOLDER",
-                 .message = "the folder for results cannot be made or read" + (error ? ": " + error.message() : ""),
+                 .message = "results cannot be kept in this folder: " + what,
                  .file = path,
-                 .expected = "a folder that may be written",
-                 .hint = "give another one with --cache"});
-  }
+                 .expected = "a folder of the caller's own that others may not write",
+                 .hint = "name another one"});
+  };
+  std::error_code error;
+  fs::create_directories(fs::path(path).parent_path(), error);
+  if (::mkdir(path.c_str(), 0700) != 0 && errno != EEXIST) return wrong(std::strerror(errno));
+  struct stat info {};
+  if (::stat(path.c_str(), &info) != 0) return wrong(std::strerror(errno));
+  if (!S_ISDIR(info.st_mode)) return wrong("it is a file");
+  // Who can write a result can make a plan of it.
+  if (info.st_uid != ::geteuid()) return wrong("it belongs to another user");
+  if ((info.st_mode & (S_IWGRP | S_IWOTH)) != 0) return wrong("others may write it");
   return Folder(path, build, most_bytes);
 }
 
 std::string Folder::file_of(const Key& key) const {
   const std::string name = hex64(key.high) + hex64(key.low);
-  return path_ + "/" + name.substr(0, 2) + "/" + name.substr(2);
+  return path_ + "/" + hex64(fnv1a(build_)) + "/" + name.substr(0, 2) + "/" + name.substr(2);
+}
+
+/// Whether a file has a name that `file_of` gives for some build and key, or that of one being written.
+bool Folder::is_ours(const std::string& path) const {
+  const fs::path relative = fs::path(path).lexically_relative(path_);
+  const std::string file = relative.filename().string(), sub = relative.parent_path().filename().string();
+  const std::string build = relative.parent_path().parent_path().string();
+  const auto hex = [](std::string_view s) { return s.find_first_not_of("0123456789abcdef") == s.npos; };
+  constexpr std::size_t kBuild = 16, kSub = 2, kFile = 30;
+  if (build.size() != kBuild || sub.size() != kSub || file.size() < kFile) return false;
+  if (!hex(build) || !hex(sub) || !hex(std::string_view(file).substr(0, kFile))) return false;
+  return file.size() == kFile || (file[kFile] == '.' && file.ends_with(".tmp"));
 }
 
 std::uint64_t Folder::checksum(const Key& key, std::string_view bytes) const {
@@ -132,7 +171,7 @@ std::optional<std::string> Folder::find(const Key& key) const {
   const std::string name = file_of(key);
   std::error_code error;
   if (!fs::is_regular_file(name, error)) return std::nullopt;
-  auto all = read_file(name);
+  auto all = read_file(name, kMostInMemory);
   Head head;
   if (!all || all->size() < sizeof head) return std::nullopt;
   std::memcpy(&head, all->data(), sizeof head);
@@ -154,23 +193,28 @@ void Folder::keep(const Key& key, std::string_view bytes) {
   const std::string name = file_of(key);
   std::error_code error;
   fs::create_directories(fs::path(name).parent_path(), error);
-  // Not brought to disk before it gets its name: a file that a power cut leaves short is found by its checksum.
-  const std::string unnamed = name + "." + std::to_string(::getpid()) + ".tmp";
-  {
-    std::ofstream out(unnamed, std::ios::binary | std::ios::trunc);
-    out.write(all.data(), static_cast<std::streamsize>(all.size()));
-    if (!out.flush()) {
-      out.close();
-      fs::remove(unnamed, error);
-      return;
-    }
+  // Not brought to disk before it gets its name: a file that a power cut leaves short is found by its
+  // checksum.
+  const std::string unnamed =
+      name + "." + std::to_string(::getpid()) + "." + std::to_string(count_++) + ".tmp";
+  const int fd = ::open(unnamed.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600);
+  if (fd < 0) return;
+  bool whole = true;
+  for (std::size_t at = 0; whole && at < all.size();) {
+    const ssize_t n = ::write(fd, all.data() + at, all.size() - at);
+    whole = n > 0 || (n < 0 && errno == EINTR);
+    if (n > 0) at += static_cast<std::size_t>(n);
   }
-  fs::rename(unnamed, name, error);
-  if (error) {
-    fs::remove(unnamed, error);
+  whole = ::close(fd) == 0 && whole;
+  if (!whole || ::rename(unnamed.c_str(), name.c_str()) != 0) {
+    ::unlink(unnamed.c_str());
     return;
   }
-  wrote_ = true;
+  constexpr std::size_t kTenth = 10;
+  if ((written_ += all.size()) > most_bytes_ / kTenth) {
+    written_ = 0;
+    make_room();
+  }
 }
 
 void Folder::make_room() const {
@@ -184,7 +228,7 @@ void Folder::make_room() const {
   std::error_code error;
   for (fs::recursive_directory_iterator at(path_, error), end; !error && at != end; at.increment(error)) {
     std::error_code gone;  // another process may remove it meanwhile
-    if (!at->is_regular_file(gone) || gone) continue;
+    if (!at->is_regular_file(gone) || gone || !is_ours(at->path().string())) continue;
     File f{at->last_write_time(gone), at->path().string(), 0};
     f.size = at->file_size(gone);
     if (gone) continue;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -13,9 +14,12 @@
 
 namespace capstan::memo {
 
-/// Identity of the program that runs: the linker's build id of the module that this code is in, in hex. Empty where the
-/// linker left none. Results of another build never count, for the formulas may have changed.
+/// Identity of the program that runs, in hex: the linker's build id of the module that this code is in. Empty
+/// where the linker left none. Results of another build never count, for the formulas may have changed.
 [[nodiscard]] std::string build_identity();
+/// That, and what else decides the last bits of a result: the C library's version, and what the processor
+/// can, by which its mathematical functions are chosen.
+[[nodiscard]] std::string identity_of_results();
 
 class Folder {
  public:
@@ -25,7 +29,7 @@ class Folder {
   Folder(const Folder&) = delete;
   Folder& operator=(const Folder&) = delete;
   Folder& operator=(Folder&&) = delete;
-  ~Folder();  ///< removes what was not used for longest, down to its bound
+  ~Folder();  ///< keeps to its bound, as `keep` does after each tenth of it that was written
 
   /// The content kept under a key; nothing where it is missing, damaged, or of another build.
   [[nodiscard]] std::optional<std::string> find(const Key& key) const;
@@ -35,12 +39,15 @@ class Folder {
  private:
   Folder(std::string path, std::string build, std::size_t most_bytes);
   [[nodiscard]] std::string file_of(const Key& key) const;
+  [[nodiscard]] bool is_ours(const std::string& path) const;
   [[nodiscard]] std::uint64_t checksum(const Key& key, std::string_view bytes) const;
+  /// Removes the files of this room that were not used for longest, down to the bound. Files of others stay.
   void make_room() const;
 
   std::string path_, build_;
   std::size_t most_bytes_;
-  bool wrote_ = false;
+  std::atomic<std::size_t> count_{0};    ///< of files written, for names of unfinished ones
+  std::atomic<std::size_t> written_{0};  ///< since room was made last
 };
 
 }  // namespace capstan::memo

@@ -44,26 +44,28 @@ void Memo::put(const Key& key, std::shared_ptr<const std::string> bytes) {
 }
 
 std::shared_ptr<const std::string> Memo::find(Stage stage, const Key& key) {
-  const std::scoped_lock lock(mutex_);
-  Counts& counts = counts_[static_cast<std::size_t>(stage)];
-  if (const auto at = entries_.find(key); at != entries_.end()) {
-    used_.splice(used_.end(), used_, at->second.used);
-    ++counts.found;
-    return at->second.bytes;
+  {
+    const std::scoped_lock lock(mutex_);
+    if (const auto at = entries_.find(key); at != entries_.end()) {
+      used_.splice(used_.end(), used_, at->second.used);
+      ++counts_[static_cast<std::size_t>(stage)].found;
+      return at->second.bytes;
+    }
   }
   if (!folder_) return nullptr;
   auto bytes = folder_->find(key);
   if (!bytes) return nullptr;
   auto shared = std::make_shared<const std::string>(*std::move(bytes));
+  const std::scoped_lock lock(mutex_);
   put(key, shared);
-  ++counts.found;
+  ++counts_[static_cast<std::size_t>(stage)].found;
   return shared;
 }
 
 void Memo::keep(Stage stage, const Key& key, std::string bytes) {
+  if (folder_) folder_->keep(key, bytes);
   const std::scoped_lock lock(mutex_);
   ++counts_[static_cast<std::size_t>(stage)].made;
-  if (folder_) folder_->keep(key, bytes);
   put(key, std::make_shared<const std::string>(std::move(bytes)));
 }
 

@@ -17,11 +17,12 @@
 namespace capstan::memo {
 
 /// The stages whose results are kept.
-enum class Stage : std::uint8_t { kCut, kPath, kSections, kFeeds, kCheck };
-inline constexpr std::size_t kStages = 5;
+enum class Stage : std::uint8_t { kPath, kSections, kFeeds };
+inline constexpr std::size_t kStages = 3;
 
-/// 128 bits of XXH3 over a stage and everything its result was made from. Two different questions meet in one key with a
-/// chance of 2^-128.
+/// 128 bits of XXH3 over a stage and everything its result was made from. Two different questions meet in one
+/// key with a chance of 2^-128. XXH3 does not resist somebody who looks for such two: whatever comes of a
+/// memo is judged by the check like any other plan.
 struct Key {
   std::uint64_t high = 0, low = 0;
   friend auto operator<=>(const Key&, const Key&) = default;
@@ -38,22 +39,25 @@ class Folder;
 inline constexpr std::size_t kMostInMemory = std::size_t{64} << 20;
 inline constexpr std::size_t kMostInFolder = std::size_t{512} << 20;
 
-/// Results of stages by what they were made from, within this process and, where a folder is given, beyond it.
+/// Results of stages by what they were made from, within this process and, where a folder is given, beyond
+/// it.
 ///
-/// A result that is found is the one that would be made: its key holds the whole question and, in a folder, the build of
-/// the program. What was not used for longest goes first when the memo is full.
+/// A result that is found is the one that would be made: its key holds the whole question and, in a folder,
+/// the build of the program and what else decides the last bits (folder.h). When the memo is full, the
+/// results that were not used for longest go first.
 ///
-/// In a folder each result is a file of its own, named by its key, with a checksum over key and content. It is written
-/// whole under another name and then put in place, so that processes share a folder. A file that is damaged, short or of
-/// another key counts as not there, and is written anew. A folder that cannot be written is not written to: a memo
-/// speeds up and never fails what it serves.
+/// In a folder each result is a file of its own, named by its key, with a checksum over key and content. It
+/// is written whole under another name and then put in place, so that processes share a folder. A file that
+/// is damaged, short or of another key counts as not there, and is written anew. Where a folder cannot be
+/// written, results stay in memory. Files of others in the folder are not touched.
 ///
 /// Thread safety  all calls.
 class Memo {
  public:
   explicit Memo(std::size_t most_bytes = kMostInMemory);
   /// Beside memory, in a folder, which is made where it is missing.
-  /// Fails  MEM-FOLDER where it cannot be made or read; MEM-BUILD where the program carries no build identity.
+  /// Fails  MEM-FOLDER where it cannot be made or read, or where others may write it; MEM-BUILD where the
+  /// program carries no build identity.
   [[nodiscard]] static Result<std::shared_ptr<Memo>> in_folder(const std::string& folder,
                                                                std::size_t most_bytes = kMostInMemory,
                                                                std::size_t most_in_folder = kMostInFolder);
@@ -78,7 +82,7 @@ class Memo {
   };
   void put(const Key& key, std::shared_ptr<const std::string> bytes);
 
-  mutable std::mutex mutex_;
+  mutable std::mutex mutex_;  ///< never held while a file is read or written
   std::map<Key, Entry> entries_;
   std::list<Key> used_;  ///< longest unused first
   std::size_t bytes_ = 0, most_bytes_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -14,12 +15,13 @@
 
 #include "planner/ground/memo/fields.h"
 
-// Values as bytes, and back: numbers, enumerations, text, vectors, maps, pairs, optionals, shared constants, pointers (in keys; a value
-// is read back with null ones only), and structs of these, field by field in the order of their declaration. The fields are not named here (fields.h), so that a field that is
-// added to a struct is packed without a word here.
+// Values as bytes, and back: numbers, enumerations, text, vectors, maps, pairs, optionals, shared constants,
+// pointers, and structs of these, field by field in the order of their declaration. A pointer is packed as
+// what it points to, for keys; in a value that is read back it must be null. Structs need no list of their
+// fields (fields.h): a new field is packed like the others.
 //
-// The form is that of this build on this machine (byte order, enumerators, fields): it never leaves a memo,
-// whose keys tell builds apart. What is read is checked for length, never for sense.
+// The form is that of this build on this machine (byte order, enumerators, fields). It is written by a memo
+// and read by one of the same build only. What is read is checked for length, never for sense.
 
 namespace capstan::memo {
 
@@ -87,6 +89,9 @@ void pack(std::string& out, const T& v) {
     pack(out, v.has_value());
     if (v) pack(out, *v);
   } else if constexpr (kShared<T> || std::is_pointer_v<T>) {
+    if constexpr (std::is_pointer_v<T>)
+      static_assert(!std::is_same_v<std::remove_cv_t<std::remove_pointer_t<T>>, char>,
+                    "a text is no single character");
     pack(out, v != nullptr);
     if (v != nullptr) pack(out, *v);
   } else {
@@ -95,8 +100,8 @@ void pack(std::string& out, const T& v) {
   }
 }
 
-/// Reads values in the order in which they were packed. After bytes that are too few `whole` is false, and what was
-/// read is to be thrown away.
+/// Reads values in the order in which they were packed. After bytes that are too few `whole` is false, and
+/// what was read is to be thrown away.
 class Unpacker {
  public:
   explicit Unpacker(std::string_view bytes) : bytes_(bytes) {}
@@ -125,7 +130,7 @@ class Unpacker {
       } else {
         const std::size_t n = count(1);
         v.clear();
-        v.reserve(n);
+        v.reserve(std::min(n, bytes_.size() / sizeof(E) + 1));
         for (std::size_t i = 0; i < n && whole_; ++i) {
           E e{};
           read(e);

@@ -18,26 +18,27 @@ template <class... Parts>
   return key_of_bytes(stage, bytes);
 }
 
-/// The result of a stage: from the memo, or made and, where `whole` says so, kept. `memo` may be null. A result that
-/// depends on more than its question, such as that of a stage that was stopped, is not whole.
-template <class T, class Make, class Whole>
-[[nodiscard]] T remembered(Memo* memo, Stage stage, const Key& key, Make&& make, Whole&& whole) {
+/// The result of a stage: from the memo, or made and kept. `memo` may be null. A fault is not kept. `sound`
+/// says whether a value can be a result at all: bytes are read for their length only, and what is not sound
+/// is neither taken nor kept. `found`: whether it came from the memo.
+template <class T, class Make, class Sound>
+[[nodiscard]] Result<T> remembered(Memo* memo, Stage stage, const Key& key, Make&& make, Sound&& sound,
+                                   bool* found = nullptr) {
+  if (found != nullptr) *found = false;
   if (memo == nullptr) return make();
   if (const auto bytes = memo->find(stage, key)) {
-    if (auto value = unpacked<T>(*bytes)) return *std::move(value);
+    if (auto value = unpacked<T>(*bytes); value && sound(*value)) {
+      if (found != nullptr) *found = true;
+      return *std::move(value);
+    }
     memo->reject(stage);
   }
-  T out = make();
-  if (!whole()) return out;
+  Result<T> out = make();
+  if (!out || !sound(*out)) return out;
   std::string bytes;
-  pack(bytes, out);
+  pack(bytes, *out);
   memo->keep(stage, key, std::move(bytes));
   return out;
-}
-
-template <class T, class Make>
-[[nodiscard]] T remembered(Memo* memo, Stage stage, const Key& key, Make&& make) {
-  return remembered<T>(memo, stage, key, std::forward<Make>(make), [] { return true; });
 }
 
 }  // namespace capstan::memo

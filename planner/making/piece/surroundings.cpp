@@ -176,7 +176,7 @@ Thickness thickness_beside(const Piece& piece, const FeatureShape& s) {
       norm(here.centre - (index.size() > 0 ? index.ball(0).centre : here.centre)) + index.span_mm();
   for (double reach = index.spacing_mm();;) {
     const Thickness out = thickness_among(piece, s, own, index.near(here, s.frame.z, reach));
-    if ((out.wall_mm && *out.wall_mm <= reach) || reach >= farthest) return out;
+    if ((out.wall_mm && *out.wall_mm <= reach) || !(reach < farthest)) return out;
     constexpr double kWider = 4.0;
     reach = out.wall_mm ? *out.wall_mm : kWider * reach;
   }

@@ -9,8 +9,8 @@
 
 #include "planner/ground/base/number.h"
 #include "planner/making/draft/setup_nouns.h"
-#include "planner/making/piece/raw_piece_limits.h"
 #include "planner/making/piece/mesh/surface_form.h"
+#include "planner/making/piece/raw_piece_limits.h"
 #include "planner/making/piece/surroundings.h"
 #include "planner/making/piece/twins.h"
 #include "planner/making/propose/members.h"

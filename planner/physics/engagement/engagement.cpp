@@ -64,6 +64,23 @@ Extent axial_extent(const Tally& t, double tip) {
   return best;
 }
 
+/// What lies under a move, or may: a band about the line from a to b, or a disc about a.
+struct Band {
+  Vec2 a, b;
+  double radius_mm = 0.0;
+  bool disc = false;
+};
+Band band_over(const CutterPath& path, std::size_t i, double r) {
+  const Vec2 a = xy(path.point(i - 1));
+  const Vec2 b = xy(path.point(i));
+  if (!is_arc(path.kind[i])) return {a, b, r};
+  const Vec2 centre{path.cx[i], path.cy[i]};
+  const double arc = std::max(norm(a - centre), norm(b - centre));
+  const double half = 0.5 * model::arc_sweep(path, i);
+  if (half > 0.5 * std::numbers::pi) return {centre, centre, arc + r, true};
+  return {a, b, r + arc * (1.0 - std::cos(half))};
+}
+
 class Measurer {
  public:
   Measurer(const CutterPath& path, geometry::CutterProfile profile, stock::HeightMap& map, double step)
@@ -98,15 +115,9 @@ class Measurer {
 
   /// Highest material under the move, judged by the whole disc.
   [[nodiscard]] double ceiling_over(std::size_t i) const {
-    const Vec2 a = xy(path_.point(i - 1));
-    const Vec2 b = xy(path_.point(i));
-    const double r = profile_.radius_mm;
-    if (!is_arc(path_.kind[i])) return stock::max_height(map_, a, b, r);
-    const Vec2 centre{path_.cx[i], path_.cy[i]};
-    const double arc = std::max(norm(a - centre), norm(b - centre));
-    const double half = 0.5 * model::arc_sweep(path_, i);
-    if (half > 0.5 * std::numbers::pi) return stock::max_height(map_, centre, arc + r);
-    return stock::max_height(map_, a, b, r + arc * (1.0 - std::cos(half)));
+    const Band over = band_over(path_, i, profile_.radius_mm);
+    return over.disc ? stock::max_height(map_, over.a, over.radius_mm)
+                     : stock::max_height(map_, over.a, over.b, over.radius_mm);
   }
 
   void turn_to(Vec3 d) {
@@ -237,6 +248,24 @@ class Measurer {
 };
 
 }  // namespace
+
+geometry::Box3 looked_at(const CutterPath& path, double radius_mm) {
+  geometry::Box3 out;
+  const auto add = [&](Vec2 p, double r) {
+    out.add({p.x - r, p.y - r, 0.0});
+    out.add({p.x + r, p.y + r, 0.0});
+  };
+  const geometry::Box3 way = model::bounds(path);
+  add(xy(way.lo), radius_mm);
+  add(xy(way.hi), radius_mm);
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    if (!is_arc(path.kind[i])) continue;
+    const Band over = band_over(path, i, radius_mm);
+    add(over.a, over.radius_mm);
+    add(over.b, over.radius_mm);
+  }
+  return out;
+}
 
 std::optional<double> head_height(const model::Cutter& c) {
   if (c.cutter_class == CutterClass::kSideMill && c.cutting_width_mm > 0.0) return c.cutting_width_mm;

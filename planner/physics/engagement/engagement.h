@@ -46,6 +46,10 @@ struct Measurement {
   double known_to_mm = 0.0;
 };
 
+/// The area of a height map that `measure` looks at along a path; heights are 0. It reaches beyond the disc's
+/// own way, since whether an arc meets anything is judged by a band or a disc about it.
+[[nodiscard]] geometry::Box3 looked_at(const model::CutterPath& path, double radius_mm);
+
 /// Measures the cut along a path and takes what it cuts from the stock.
 ///
 /// One sample is made at the end of each step; its numbers are those of the step (means over it, for depths

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "planner/ground/base/number.h"
+#include "planner/proof/verify/verify.h"
 
 namespace capstan::verify {
 
@@ -66,6 +67,13 @@ std::vector<model::Finding> Findings::take() {
   }
   items_.clear();
   return out;
+}
+
+model::Finding not_begun() {
+  Findings out;
+  out.error(11, std::string(kStopped), {Findings::kWhole, "", -1},
+            "the check was stopped before it began: nothing is proven");
+  return std::move(out.take().front());
 }
 
 }  // namespace capstan::verify

@@ -39,6 +39,8 @@ struct ProgramText {
 
 /// The code of the finding, an error, of a check that was stopped before its end.
 inline constexpr std::string_view kStopped = "CHK-STOPPED";
+/// That of a check that was stopped before it began.
+[[nodiscard]] model::Finding not_begun();
 
 /// Largest height map of one set-up.
 inline constexpr long kMaximumCells = 1000000;

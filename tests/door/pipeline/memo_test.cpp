@@ -1,6 +1,7 @@
 #include "planner/ground/memo/memo.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <map>
@@ -56,7 +57,7 @@ TEST(PlannedWithAMemo, IsTheSameToTheByte) {
     const std::string text = testing::slurp(testing::source_dir() + "/examples/" + name);
     Inputs in = shop();
     in.material_name = "EN AW-6061";
-    const std::string folder = ::testing::TempDir() + "memo_planned";
+    const std::string folder = ::testing::TempDir() + "memo_planned" + std::to_string(::getpid());
     std::filesystem::remove_all(folder);
     const auto without = planned(text, in, std::make_shared<Memo>(0));
     const auto kept = Memo::in_folder(folder);
@@ -65,7 +66,9 @@ TEST(PlannedWithAMemo, IsTheSameToTheByte) {
     const auto again = Memo::in_folder(folder);
     ASSERT_TRUE(again);
     EXPECT_EQ(planned(text, in, *again), without) << name << ", from the folder";
-    for (const Stage s : kOfSteps) EXPECT_EQ(made(**again, s), 0U) << name << ", stage " << static_cast<int>(s);
+    for (const Stage s : kOfSteps)
+      EXPECT_EQ(made(**again, s), 0U) << name << ", stage " << static_cast<int>(s);
+    std::filesystem::remove_all(folder);
   }
 }
 
@@ -87,7 +90,8 @@ TEST(PlannedWithAMemo, AChangedFeatureIsMadeAnewAndNoOther) {
   for (const Stage s : kOfSteps) {
     const std::size_t anew = made(*memo, s) - before[s];
     EXPECT_GE(anew, 1U) << "stage " << static_cast<int>(s);
-    EXPECT_LE(anew, 2U) << "stage " << static_cast<int>(s) << ": the pocket's roughing and finishing, no more";
+    EXPECT_LE(anew, 2U) << "stage " << static_cast<int>(s)
+                        << ": the pocket's roughing and finishing, no more";
   }
 }
 

@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <set>
@@ -26,6 +27,11 @@ std::string new_folder(const std::string& name) {
 
 Key key(int i) { return key_of(Stage::kPath, i); }
 
+template <class Make>
+int asked(Memo* memo, int question, Make&& make) {
+  return remembered<int>(memo, Stage::kPath, key(question), make, [](int) { return true; }).value();
+}
+
 std::string slurp(const fs::path& path) {
   std::ostringstream out;
   out << std::ifstream(path, std::ios::binary).rdbuf();
@@ -43,7 +49,7 @@ TEST(Memo, MakesAResultOnceForOneQuestion) {
   Memo memo;
   int made = 0;
   const auto ask = [&](int question) {
-    return remembered<int>(&memo, Stage::kPath, key(question), [&] { return ++made, 10 * question; });
+    return asked(&memo, question, [&] { return ++made, 10 * question; });
   };
   EXPECT_EQ(ask(1), 10);
   EXPECT_EQ(ask(1), 10);
@@ -54,18 +60,33 @@ TEST(Memo, MakesAResultOnceForOneQuestion) {
   EXPECT_EQ(memo.counts(Stage::kFeeds).made, 0U);
 }
 
-TEST(Memo, AResultThatIsNotWholeIsNotKept) {
+TEST(Memo, AFaultIsNotKept) {
   Memo memo;
   int made = 0;
+  const auto fails = [&]() -> Result<int> { return ++made, fail("NO", "no"); };
   for (int i = 0; i < 2; ++i)
-    EXPECT_EQ(remembered<int>(&memo, Stage::kPath, key(1), [&] { return ++made; }, [] { return false; }), i + 1);
+    EXPECT_FALSE(remembered<int>(&memo, Stage::kPath, key(1), fails, [](int) { return true; }));
+  EXPECT_EQ(made, 2);
+}
+
+TEST(Memo, WhatIsNotSoundIsNeitherKeptNorTaken) {
+  Memo memo;
+  const auto even = [](int v) { return v % 2 == 0; };
+  EXPECT_EQ(remembered<int>(
+                &memo, Stage::kPath, key(1), [] { return 3; }, even),
+            3);
   EXPECT_EQ(memo.counts(Stage::kPath).made, 0U);
+  std::string odd;
+  pack(odd, 5);
+  memo.keep(Stage::kPath, key(1), odd);
+  EXPECT_EQ(remembered<int>(
+                &memo, Stage::kPath, key(1), [] { return 4; }, even),
+            4);
 }
 
 TEST(Memo, WithoutAMemoEveryResultIsMade) {
   int made = 0;
-  for (int i = 0; i < 2; ++i)
-    EXPECT_EQ(remembered<int>(nullptr, Stage::kPath, key(1), [&] { return ++made, 5; }), 5);
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(asked(nullptr, 1, [&] { return ++made, 5; }), 5);
   EXPECT_EQ(made, 2);
 }
 
@@ -87,8 +108,8 @@ TEST(Memo, LetsGoOfWhatWasNotUsedForLongest) {
 TEST(Memo, BytesThatAreNoValueAreMadeAnew) {
   Memo memo;
   memo.keep(Stage::kPath, key(1), "x");
-  EXPECT_EQ(remembered<int>(&memo, Stage::kPath, key(1), [] { return 3; }), 3);
-  EXPECT_EQ(remembered<int>(&memo, Stage::kPath, key(1), [] { return 4; }), 3);
+  EXPECT_EQ(asked(&memo, 1, [] { return 3; }), 3);
+  EXPECT_EQ(asked(&memo, 1, [] { return 4; }), 3);
 }
 
 TEST(Memo, ThreadsAskAndKeepAtOnce) {
@@ -99,7 +120,7 @@ TEST(Memo, ThreadsAskAndKeepAtOnce) {
     threads.emplace_back([&, t] {
       for (int i = 0; i < 2000; ++i) {
         const int question = (i * (t + 1)) % 50;
-        if (remembered<int>(&memo, Stage::kPath, key(question), [&] { return question; }) != question) ++wrong;
+        if (asked(&memo, question, [&] { return question; }) != question) ++wrong;
       }
     });
   }
@@ -201,8 +222,10 @@ TEST(Folder, KeepsToItsBound) {
   const std::string folder = new_folder("bounded");
   for (int round = 0; round < 3; ++round) {
     auto memo = Memo::in_folder(folder, 1 << 20, 20000);
-    for (int i = 0; i < 20; ++i)
-      (*memo)->keep(Stage::kPath, key(100 * round + i), std::string(1000, 'x'));
+    for (int i = 0; i < 20; ++i) (*memo)->keep(Stage::kPath, key(100 * round + i), std::string(1000, 'x'));
+    // As if each round were a day: files may be written within one tick of the clock.
+    for (const auto& f : files_in(folder))
+      fs::last_write_time(f, fs::last_write_time(f) - std::chrono::hours(24));
   }
   std::uintmax_t sum = 0;
   for (const auto& f : files_in(folder)) sum += fs::file_size(f);
@@ -211,6 +234,31 @@ TEST(Folder, KeepsToItsBound) {
   int newest = 0;
   for (int i = 0; i < 20; ++i) newest += (*memo)->find(Stage::kPath, key(200 + i)) != nullptr ? 1 : 0;
   EXPECT_GE(newest, 15) << "the oldest went first";
+}
+
+TEST(Folder, FilesOfOthersInItStay) {
+  const std::string folder = new_folder("others");
+  fs::create_directories(folder + "/photos");
+  fs::permissions(folder, fs::perms::owner_all);
+  std::ofstream(folder + "/photos/abcdef0123456789abcdef012345678") << std::string(5000, 'p');
+  std::ofstream(folder + "/letter.txt") << std::string(5000, 'l');
+  for (int round = 0; round < 2; ++round) {
+    auto memo = Memo::in_folder(folder, 1 << 20, 3000);
+    ASSERT_TRUE(memo) << to_text(memo.error());
+    for (int i = 0; i < 20; ++i) (*memo)->keep(Stage::kPath, key(100 * round + i), std::string(1000, 'x'));
+  }
+  EXPECT_EQ(fs::file_size(folder + "/letter.txt"), 5000U);
+  EXPECT_EQ(fs::file_size(folder + "/photos/abcdef0123456789abcdef012345678"), 5000U);
+}
+
+TEST(Folder, ThatOthersMayWriteIsRefused) {
+  const std::string folder = new_folder("open");
+  fs::create_directories(folder);
+  fs::permissions(folder, fs::perms::all);
+  const auto memo = Memo::in_folder(folder);
+  ASSERT_FALSE(memo);
+  EXPECT_EQ(memo.error().code, "MEM-FOLDER");
+  EXPECT_NE(memo.error().message.find("others may write it"), std::string::npos) << memo.error().message;
 }
 
 TEST(Folder, WhereNoneCanBeMadeIsRefused) {

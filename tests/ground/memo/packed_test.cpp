@@ -82,7 +82,7 @@ TEST(Packed, AStructOfEachKindOfFieldComesBack) {
 }
 
 TEST(Packed, EachFieldChangesTheKey) {
-  const auto key = [](const Outer& o) { return key_of(Stage::kCut, o); };
+  const auto key = [](const Outer& o) { return key_of(Stage::kPath, o); };
   const std::vector<std::function<void(Outer&)>> changes{
       [](Outer& o) { o.number = 8; },
       [](Outer& o) { o.yes = false; },
@@ -105,12 +105,12 @@ TEST(Packed, EachFieldChangesTheKey) {
     changes[i](o);
     EXPECT_NE(before, key(o)) << "field " << i;
   }
-  EXPECT_NE(before, key_of(Stage::kPath, filled())) << "another stage asks another question";
+  EXPECT_NE(before, key_of(Stage::kFeeds, filled())) << "another stage asks another question";
 }
 
 TEST(Packed, WhatMovesFromOneTextToTheNextChangesTheKey) {
-  EXPECT_NE(key_of(Stage::kCut, std::string("ab"), std::string("c")),
-            key_of(Stage::kCut, std::string("a"), std::string("bc")));
+  EXPECT_NE(key_of(Stage::kPath, std::string("ab"), std::string("c")),
+            key_of(Stage::kPath, std::string("a"), std::string("bc")));
 }
 
 TEST(Packed, BytesThatAreTooFewOrTooManyAreNoValue) {
@@ -141,8 +141,8 @@ TEST(Packed, APointerCountsByWhatItPointsTo) {
     const Inner* to = nullptr;
   };
   const Inner a{1, 2}, same{1, 2}, other{1, 3};
-  EXPECT_EQ(key_of(Stage::kCut, Pointing{&a}), key_of(Stage::kCut, Pointing{&same}));
-  EXPECT_NE(key_of(Stage::kCut, Pointing{&a}), key_of(Stage::kCut, Pointing{&other}));
+  EXPECT_EQ(key_of(Stage::kPath, Pointing{&a}), key_of(Stage::kPath, Pointing{&same}));
+  EXPECT_NE(key_of(Stage::kPath, Pointing{&a}), key_of(Stage::kPath, Pointing{&other}));
   std::string bytes;
   pack(bytes, Pointing{&a});
   EXPECT_FALSE(unpacked<Pointing>(bytes)) << "nobody owns what it would point to";

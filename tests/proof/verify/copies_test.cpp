@@ -88,7 +88,7 @@ TEST(Copies, MillWhatTheTableSaysIsNotAxialAndCounterboresToo) {
 
 TEST(Copies, MillThreadsAsTheTableSays) {
   for (const model::CutterClassRow& r : model::cutter_classes())
-    EXPECT_EQ(mills_threads(r.value), model::mills_threads(r.value)) << r.name;
+    EXPECT_EQ(verify::mills_threads(r.value), model::mills_threads(r.value)) << r.name;
 }
 
 TEST(Copies, RankOperationsAsTheTableSays) {

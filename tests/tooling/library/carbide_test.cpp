@@ -173,7 +173,8 @@ TEST(ExpandSeries, RefusesAnEdgeThatTheTableDoesNotName) {
   const auto at = text.find("edge: coated_drill");
   ASSERT_NE(at, std::string::npos);
   text.replace(at, 18, "edge: coated_auger");
-  const auto got = expand_series(parse_tree(text, "mine.yaml").value(), "mine.yaml", shipped_materials().value(), job);
+  const auto got =
+      expand_series(parse_tree(text, "mine.yaml").value(), "mine.yaml", shipped_materials().value(), job);
   ASSERT_FALSE(got);
   EXPECT_EQ(got.error().code, "DATA-UNKNOWN");
   EXPECT_NE(got.error().message.find("coated_auger"), std::string::npos);

@@ -146,7 +146,8 @@ TEST(ExpandSeries, SaysWhereATableEnds) {
   const auto at = text.find("20, 25]\n    teeth: 2");
   ASSERT_NE(at, std::string::npos);
   text.replace(at, 7, "20, 26]");
-  const auto got = expand_series(parse_tree(text, "mine.yaml").value(), "mine.yaml", shipped_materials().value(), job);
+  const auto got =
+      expand_series(parse_tree(text, "mine.yaml").value(), "mine.yaml", shipped_materials().value(), job);
   ASSERT_FALSE(got);
   EXPECT_EQ(got.error().code, "DATA-TABLE");
   EXPECT_EQ(got.error().file, "mine.yaml");

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "planner/ground/base/tables/data_tree.h"
 #include "planner/ground/base/job.h"
 #include "planner/ground/base/result.h"
+#include "planner/ground/base/tables/data_tree.h"
 
 namespace capstan::tooling {
 

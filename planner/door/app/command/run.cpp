@@ -80,8 +80,11 @@ int begun(Session& s) {
 std::atomic<Job*> stopped_by_signal{nullptr};
 static_assert(std::atomic<Job*>::is_always_lock_free);
 
-extern "C" void stop_by_signal(int) {
-  if (Job* job = stopped_by_signal.load()) job->request_stop();
+extern "C" void stop_by_signal(int signal) {
+  Job* job = stopped_by_signal.exchange(nullptr);
+  if (job != nullptr) return job->request_stop();
+  ::signal(signal, SIG_DFL);
+  ::raise(signal);
 }
 
 /// While it lives, Ctrl-C and a plain `kill` end plan, bind and check as a stop does: with a message, and
@@ -97,7 +100,6 @@ class StopsBySignal {
       // What a caller has ignored (nohup, a job in the background) stays so.
       if (::sigaction(signal, nullptr, &now) != 0 || now.sa_handler == SIG_IGN) continue;
       stop.sa_handler = stop_by_signal;
-      stop.sa_flags = SA_RESTART | static_cast<int>(SA_RESETHAND);
       ::sigaction(signal, &stop, nullptr);
     }
   }

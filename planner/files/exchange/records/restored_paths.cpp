@@ -5,11 +5,11 @@
 #include <memory>
 #include <vector>
 
-#include "planner/ground/base/stopping.h"
 #include "planner/files/exchange/records/exact_paths.h"
 #include "planner/files/exchange/records/path_columns.h"
 #include "planner/files/exchange/records/records.h"
 #include "planner/files/exchange/toolpaths/trajectories.h"
+#include "planner/ground/base/stopping.h"
 #include "planner/model/nouns/all.h"
 
 namespace capstan::exchange {
@@ -28,6 +28,7 @@ std::vector<double> column_of(const Value& v) {
   std::vector<double> out;
   out.reserve(v.size());
   for (std::size_t i = 0; i < v.size(); ++i) {
+    tick();
     if (v[i].is(Kind::kOmitted)) {
       if (i == 0) throw MalformedRecord{};
       out.push_back(out.back());
@@ -115,7 +116,6 @@ class Restoring {
     out.kind = codes_of(p[1 + kPathColumns.size()], model::MoveKind::kDwell);
     out.role = codes_of(p[2 + kPathColumns.size()], model::MoveRole::kTap);
     for (const auto c : kPathColumns) {
-      poll();
       if ((out.*c).size() != out.kind.size()) throw MalformedRecord{};
     }
     if (out.role.size() != out.kind.size()) throw MalformedRecord{};

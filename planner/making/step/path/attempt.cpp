@@ -63,15 +63,38 @@ struct Generated {
   std::vector<Diagnostic> said;
 };
 
+/// Reports at the end of a scope what was said before it, whatever ends it.
+class SaidBefore {
+ public:
+  explicit SaidBefore(Job& job) : job_(job), said_(job.take_diagnostics()) {}
+  ~SaidBefore() {
+    auto now = job_.take_diagnostics();
+    for (auto& d : said_) job_.report(std::move(d));
+    for (auto& d : now) job_.report(std::move(d));
+  }
+  SaidBefore(const SaidBefore&) = delete;
+  SaidBefore& operator=(const SaidBefore&) = delete;
+
+ private:
+  Job& job_;
+  std::vector<Diagnostic> said_;
+};
+
+bool sound(const model::CutterPath& p) {
+  for (const auto* column : {&p.y, &p.z, &p.cx, &p.cy}) {
+    if (column->size() != p.size()) return false;
+  }
+  return p.kind.size() == p.size() && p.role.size() == p.size();
+}
+
 /// toolpath::generate, asked once for each job.
 Result<toolpath::GeneratedPath> generated(const toolpath::PathJob& task, const Means& means) {
   if (means.memo == nullptr) return toolpath::generate(task, means.job);
-  const auto make = [&] {
+  const auto make = [&]() -> Result<Generated> {
     Generated out;
-    auto before = means.job.take_diagnostics();
+    const SaidBefore before(means.job);
     auto path = toolpath::generate(task, means.job);
     out.said = means.job.take_diagnostics();
-    for (auto& d : before) means.job.report(std::move(d));
     if (path) {
       out.path = *std::move(path);
     } else {
@@ -79,12 +102,16 @@ Result<toolpath::GeneratedPath> generated(const toolpath::PathJob& task, const M
     }
     return out;
   };
+  const auto whole = [&](const Generated& g) {
+    const toolpath::GeneratedPath& p = g.path;
+    return !means.job.stop_requested() && sound(p.path) && p.feed_factor.size() == p.path.size() &&
+           p.speed_factor.size() == p.path.size() && p.dwell_s.size() == p.path.size();
+  };
   auto known = memo::remembered<Generated>(means.memo, memo::Stage::kPath,
-                                           memo::key_of(memo::Stage::kPath, task), make,
-                                           [&] { return !means.job.stop_requested(); });
-  for (auto& d : known.said) means.job.report(std::move(d));
-  if (known.why_not) return tl::unexpected(*std::move(known.why_not));
-  return std::move(known.path);
+                                           memo::key_of(memo::Stage::kPath, task), make, whole);
+  for (auto& d : known->said) means.job.report(std::move(d));
+  if (known->why_not) return tl::unexpected(*std::move(known->why_not));
+  return std::move(known->path);
 }
 
 /// Feeds along a path, with the path and what belongs to its moves as they are split for them.
@@ -95,6 +122,16 @@ struct Scheduled {
   std::vector<optimise::CutSample> samples;
   std::vector<double> feed_factor, speed_factor, dwell_s;
 };
+
+bool sound(const Scheduled& s) {
+  const std::size_t n = s.path.size();
+  const model::FeedSchedule& f = s.feeds.schedule;
+  const auto in = [n](const auto& all) {
+    return std::all_of(all.begin(), all.end(), [n](const auto& one) { return one.move < n; });
+  };
+  return sound(s.path) && f.feed_mm_min.size() == n && f.spindle_rpm.size() == n && f.dwell_s.size() == n &&
+         in(s.samples);
+}
 
 /// Splits the moves by their sections, where there are some, and schedules the feeds of all.
 void schedule(MeasuredCut& cut, model::SectionSeries* sections, memo::Memo* memo) {
@@ -108,11 +145,16 @@ void schedule(MeasuredCut& cut, model::SectionSeries* sections, memo::Memo* memo
     return;
   }
   const auto key = memo::key_of(memo::Stage::kFeeds, asked, *cut.path, sections);
-  auto known = memo::remembered<Scheduled>(memo, memo::Stage::kFeeds, key, [&] {
-    Scheduled out{make(), *cut.path, {}, asked.samples, asked.feed_factor, asked.speed_factor, asked.dwell_s};
-    if (sections != nullptr) out.sections = *sections;
-    return out;
-  });
+  auto answer = memo::remembered<Scheduled>(
+      memo, memo::Stage::kFeeds, key,
+      [&]() -> Result<Scheduled> {
+        Scheduled out{make(),       *cut.path, {}, asked.samples, asked.feed_factor, asked.speed_factor,
+                      asked.dwell_s};
+        if (sections != nullptr) out.sections = *sections;
+        return out;
+      },
+      [](const Scheduled& s) { return sound(s); });
+  Scheduled known = *std::move(answer);
   cut.feeds = std::move(known.feeds);
   *cut.path = std::move(known.path);
   if (sections != nullptr) *sections = std::move(known.sections);

@@ -4,15 +4,12 @@
 #include <cmath>
 #include <utility>
 
-#include "planner/ground/memo/remembered.h"
-#include "planner/physics/engagement/planar/planar.h"
+#include "planner/making/step/path/remembered_sections.h"
 #include "planner/physics/stock/sweep.h"
 #include "planner/physics/stock/turned.h"
 
 namespace capstan::step {
 namespace {
-
-using engagement::Measurement;
 
 constexpr double kCellsPerDiameter = 30.0;  // of the stock map, for the smallest cutter of the set-up
 constexpr double kMaximumCells = 600e3;     // keeps a set-up's map near 7 MB
@@ -24,24 +21,6 @@ SameSetup same_setup(const draft::SetupDraft& s) {
   const geometry::Placement& at = s.workpiece;
   return {s.setup, {at.origin.x, at.origin.y, at.origin.z, at.x.x, at.x.y, at.x.z, at.z.x, at.z.y, at.z.z}};
 }
-
-/// The columns under a path, before or after it is cut.
-stock::Patch patch_under(const stock::HeightMap& map, const model::CutterPath& path,
-                         const geometry::CutterProfile& profile) {
-  const auto around = model::bounds(path);
-  const geometry::Vec2 reach{profile.radius_mm, profile.radius_mm};
-  return stock::patch_of(map, xy(around.lo) - reach, xy(around.hi) + reach);
-}
-
-/// Sections with what their cut left, as a memo keeps them.
-struct CellsCut {
-  Measurement measured;
-  stock::Patch after;
-};
-struct PlanarCut {
-  Measurement measured;
-  std::vector<stock::Trail> trails;  ///< in order, without their outline: it is the cutter's
-};
 
 }  // namespace
 
@@ -116,85 +95,15 @@ void Stocks::keep(std::size_t setup) {
   if (exact_[setup]) exact_[setup]->forget();
 }
 
-// Sections on the map: found again where path, outline and the columns under the path are the same. What is kept
-// says the columns after the cut, too.
-Result<Measurement> Stocks::measure_cells(std::size_t setup, const model::CutterPath& path,
-                                          const model::Cutter& cutter) {
-  auto& map = of(setup);
-  if (memo_ == nullptr) return engagement::measure(path, cutter, map);
-  const auto profile = model::profile_of(cutter);
-  const auto key =
-      memo::key_of(memo::Stage::kSections, std::string("cells"), path, profile, cutter.cutter_class,
-                   engagement::head_height(cutter), map.origin, map.cell_mm, map.nx, map.ny, patch_under(map, path, profile));
-  if (const auto bytes = memo_->find(memo::Stage::kSections, key)) {
-    if (auto known = memo::unpacked<CellsCut>(*bytes)) {
-      stock::put_back(map, known->after);
-      return std::move(known->measured);
-    }
-    memo_->reject(memo::Stage::kSections);
-  }
-  auto measured = engagement::measure(path, cutter, map);
-  if (!measured) return measured;
-  std::string bytes;
-  memo::pack(bytes, CellsCut{*measured, patch_under(map, path, profile)});
-  memo_->keep(memo::Stage::kSections, key, std::move(bytes));
-  return measured;
-}
-
-// Sections on the exact stock: found again where path, outline and the trails near the path are the same. What
-// is kept says which trails the path left.
-Result<Measurement> Stocks::measure_planar(std::size_t setup, const model::CutterPath& path,
-                                           const model::Cutter& cutter) {
-  stock::PlanarStock& exact = *exact_[setup];
-  const auto profile = model::profile_of(cutter);
-  const engagement::Options options{.step_mm = std::max(profile.radius_mm / 20.0, 2.0 * of(setup).cell_mm)};
-  if (memo_ == nullptr || path.size() == 0) return engagement::measure(path, cutter, exact, options);
-  const auto around = model::bounds(path);
-  // Beyond the disc a look goes as far as half the piece of an arc that it is about.
-  double beyond = profile.radius_mm + options.step_mm;
-  if (!geometry::is_flat(profile)) {
-    for (std::size_t i = 1; i < path.size(); ++i) {
-      if (model::is_arc(path.kind[i])) beyond = std::max(beyond, model::move_length(path, i));
-    }
-  }
-  const geometry::Vec2 reach{profile.radius_mm + beyond, profile.radius_mm + beyond};
-  std::string near;
-  exact.describe(xy(around.lo) - reach, xy(around.hi) + reach, near);
-  const auto key = memo::key_of(memo::Stage::kSections, std::string("planar"), path, profile,
-                                cutter.cutter_class, engagement::head_height(cutter), options, near);
-  if (const auto bytes = memo_->find(memo::Stage::kSections, key)) {
-    if (auto known = memo::unpacked<PlanarCut>(*bytes)) {
-      const geometry::CutterProfile* outline = exact.keep(profile);
-      for (stock::Trail t : known->trails) {
-        t.outline = outline;
-        exact.take(t);
-      }
-      return std::move(known->measured);
-    }
-    memo_->reject(memo::Stage::kSections);
-  }
-  PlanarCut cut;
-  exact.record(&cut.trails);
-  auto measured = engagement::measure(path, cutter, exact, options);
-  exact.record(nullptr);
-  if (!measured) return measured;
-  for (stock::Trail& t : cut.trails) t.outline = nullptr;
-  cut.measured = *measured;
-  std::string bytes;
-  memo::pack(bytes, cut);
-  memo_->keep(memo::Stage::kSections, key, std::move(bytes));
-  return measured;
-}
-
 Result<engagement::Measurement> Stocks::measure(std::size_t setup, const model::CutterPath& path,
                                                 const model::Cutter& cutter) {
   auto& map = of(setup);
   auto& exact = exact_[setup];
   const auto profile = model::profile_of(cutter);
-  patches_[setup].push_back(patch_under(map, path, profile));
-  if (!exact || !exact->lost().empty()) return measure_cells(setup, path, cutter);
+  patches_[setup].push_back(columns_under(map, path, profile));
+  if (!exact || !exact->lost().empty()) return measure_again(map, path, cutter, memo_);
   if (engagement::head_height(cutter) || !geometry::is_flat(profile)) {
-    auto cells = measure_cells(setup, path, cutter);
+    auto cells = measure_again(map, path, cutter, memo_);
     if (!cells) return cells;
     if (engagement::head_height(cutter)) {
       exact->lose("cut by a cutter that is thinner behind its head");
@@ -203,10 +112,11 @@ Result<engagement::Measurement> Stocks::measure(std::size_t setup, const model::
     }
     return cells;
   }
-  auto measured = measure_planar(setup, path, cutter);
+  const engagement::Options options{.step_mm = std::max(profile.radius_mm / 20.0, 2.0 * map.cell_mm)};
+  auto measured = measure_again(*exact, path, cutter, options, memo_);
   if (!measured) {
     if (exact->lost().empty()) exact->lose(measured.error().message);
-    return measure_cells(setup, path, cutter);
+    return measure_again(map, path, cutter, memo_);
   }
   // Two accounts of one cut: where they contradict each other the map's is kept.
   const double cells_mm3 = stock::cut(map, profile, path);
@@ -214,7 +124,7 @@ Result<engagement::Measurement> Stocks::measure(std::size_t setup, const model::
   if (std::abs(cells_mm3 - exact_mm3) > kContradiction * std::max(cells_mm3, exact_mm3) + kTraceMm3) {
     exact->lose("it contradicts the height map");
     stock::put_back(map, patches_[setup].back());
-    return measure_cells(setup, path, cutter);
+    return measure_again(map, path, cutter, memo_);
   }
   return measured;
 }

@@ -87,11 +87,6 @@ class Stocks {
 
  private:
   [[nodiscard]] double smallest(std::size_t setup) const;
-  [[nodiscard]] Result<engagement::Measurement> measure_cells(std::size_t setup, const model::CutterPath& path,
-                                                              const model::Cutter& cutter);
-  [[nodiscard]] Result<engagement::Measurement> measure_planar(std::size_t setup,
-                                                               const model::CutterPath& path,
-                                                               const model::Cutter& cutter);
   [[nodiscard]] double cell(std::size_t setup, double smallest_mm) const;
 
   const model::Stock& raw_;

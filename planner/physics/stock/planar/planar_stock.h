@@ -53,11 +53,21 @@ class PlanarStock {
   /// A copy of the profile that lives as long as this stock and its copies; null for a flat one.
   [[nodiscard]] const geometry::CutterProfile* keep(const geometry::CutterProfile& profile);
 
-  /// Appends what of the stock may matter between lo and hi: the piece, the tiles there and their trails, packed
-  /// (memo/packed.h). Where two stocks say the same, cutting and asking there give the same, to the bit.
+  /// Appends what of the stock may matter between lo and hi: the piece, the tiles there and their trails,
+  /// packed (memo/packed.h). Where two stocks say the same, cutting and asking there give the same, to the
+  /// bit.
   void describe(geometry::Vec2 lo, geometry::Vec2 hi, std::string& bytes) const;
-  /// From now on trails are added to `to` as they are given to `take`; null: no longer.
-  void record(std::vector<Trail>* to) { record_ = to; }
+  /// While one lives, trails are added to `to` as they are given to `take`.
+  class Recording {
+   public:
+    Recording(PlanarStock& stock, std::vector<Trail>& to) : stock_(stock) { stock.record_ = &to; }
+    ~Recording() { stock_.record_ = nullptr; }
+    Recording(const Recording&) = delete;
+    Recording& operator=(const Recording&) = delete;
+
+   private:
+    PlanarStock& stock_;
+  };
 
   /// The stock at a moment. Changes after `mark` are recorded, so that `put_back` can undo them.
   struct Mark {
@@ -123,7 +133,7 @@ class PlanarStock {
   std::string lost_;
   std::vector<std::pair<std::size_t, Tile>> changes_;  ///< tiles before they were changed, oldest first
   std::vector<Trail>* record_ = nullptr;
-  std::uint32_t marks_ = 0;                            ///< how many were made
+  std::uint32_t marks_ = 0;  ///< how many were made
 };
 
 /// Move i as trails of a cutter (arcs in pieces of at most a quarter turn), from first to last.

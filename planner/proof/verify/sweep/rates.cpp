@@ -114,8 +114,7 @@ void StepChecks::planned_section() {
 }
 
 double StepChecks::override_most() const {
-  if (cutter_.cutter_class == CutterClass::kTap || mills_threads(cutter_.cutter_class))
-    return 1.0;
+  if (cutter_.cutter_class == CutterClass::kTap || mills_threads(cutter_.cutter_class)) return 1.0;
   return std::max(1.0, plan_.machine.abilities.feed_override_max);
 }
 

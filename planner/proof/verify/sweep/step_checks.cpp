@@ -25,9 +25,7 @@ constexpr double kSlackMm = 0.02;           ///< of lengths measured on heights
 
 std::string here(Vec2 p) { return "(" + plain(p.x) + ", " + plain(p.y) + ")"; }
 
-bool is_mill(const model::Cutter& c) {
-  return !works_along_axis(c) && !mills_threads(c.cutter_class);
-}
+bool is_mill(const model::Cutter& c) { return !works_along_axis(c) && !mills_threads(c.cutter_class); }
 /// How far the head, its tip at p, is in the walls of the feature's upright holes, mm; 0 where there are
 /// none. A back countersink's cone ends at its neck, at the head's top.
 double into_hole_walls(const std::vector<volumes::Form>& shapes, const geometry::Placement& frame,

@@ -52,9 +52,15 @@ class Interrupted : public CommandTest, public ::testing::WithParamInterface<int
     posix_spawn_file_actions_destroy(&files);
     if (failed != 0) return {};
     int status = 0;
-    while (!catches(pid, signal) && ::waitpid(pid, &status, WNOHANG) == 0) std::this_thread::yield();
-    ::kill(pid, signal);
-    ::waitpid(pid, &status, 0);
+    pid_t ended = 0;
+    while (!catches(pid, signal) && (ended = ::waitpid(pid, &status, WNOHANG)) == 0)
+      std::this_thread::yield();
+    if (ended == 0) {
+      ::kill(pid, signal);
+      ::waitpid(pid, &status, 0);
+    } else {
+      ADD_FAILURE() << "the command ended before the signal";
+    }
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, {}, slurp(err)};
   }
 };

@@ -51,10 +51,16 @@ Status within_limits(const model::Plan& plan, const model::Model& written, std::
   }
   for (const model::AnyRef at : written.all(model::TypeId::kPolyline))
     longest = std::max(longest, written.at<model::Polyline>(at).points.size());
-  if (longest <= std::min(limits.string_bytes, limits.list_elements) && bytes <= limits.bytes) return {};
-  return fail({.code = "P21-LIMIT",
-               .message = "a path of " + std::to_string(longest) + " points, or a file of " +
-                          std::to_string(bytes) + " bytes, is more than readers of the file take"});
+  const auto too_much = [](const std::string& what, std::size_t n, std::size_t most, const char* unit) {
+    return fail({.code = "P21-LIMIT",
+                 .message = what + " has " + std::to_string(n) + " " + unit + "; readers of the file take " +
+                            std::to_string(most),
+                 .hint = "write .json, or split the step"});
+  };
+  const std::size_t most = std::min(limits.string_bytes, limits.list_elements);
+  if (longest > most) return too_much("the longest path", longest, most, "points");
+  if (bytes > limits.bytes) return too_much("the file", bytes, limits.bytes, "bytes");
+  return {};
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // The walls that stand at a height: the finished part's area there, less what the features take that reach so
-// deep. Features that are apart from all others and lie within the part take what is theirs, so that polygons
-// are combined only among those whose boxes meet: n log n in features that are apart. Coordinates are those
-// of one grid (kRegionGrid), whichever are combined together.
+// deep. Features that are apart from all others and lie within the part are subtracted by themselves, so that
+// polygons are combined only among those whose boxes meet: n log n in features that are apart. Coordinates
+// are those of one grid (kRegionGrid), whichever are combined together.
 #include <algorithm>
 #include <cmath>
 #include <iterator>

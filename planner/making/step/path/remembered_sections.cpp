@@ -1,0 +1,108 @@
+#include "planner/making/step/path/remembered_sections.h"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "planner/ground/memo/remembered.h"
+#include "planner/physics/engagement/planar/planar.h"
+
+namespace capstan::step {
+namespace {
+
+using engagement::Measurement;
+using geometry::Vec2;
+
+/// Sections with what their cut left.
+struct CellsCut {
+  Measurement measured;
+  stock::Patch after;
+};
+struct PlanarCut {
+  Measurement measured;
+  std::vector<stock::Trail> trails;  ///< in order, without their outline: it is the cutter's
+};
+
+bool sound(const Measurement& m) {
+  const model::SectionSeries& s = m.sections;
+  for (const auto* column : {&s.at_mm, &s.ad_max_mm, &s.rd_max_mm, &s.x_max_ofs_mm, &s.y_max_ofs_mm, &s.csa_mm2,
+                             &s.x_cg_ofs_mm, &s.y_cg_ofs_mm, &s.removed_mm3}) {
+    if (column->size() != s.size()) return false;
+  }
+  return m.engagement.size() == s.size();
+}
+
+bool same_place(const stock::Patch& a, const stock::Patch& b) {
+  return a.x0 == b.x0 && a.y0 == b.y0 && a.nx == b.nx && a.ny == b.ny && a.top.size() == b.top.size() &&
+         a.low.size() == b.low.size() && a.share.size() == b.share.size();
+}
+
+}  // namespace
+
+stock::Patch columns_under(const stock::HeightMap& map, const model::CutterPath& path,
+                           const geometry::CutterProfile& profile) {
+  const auto around = model::bounds(path);
+  const Vec2 reach{profile.radius_mm, profile.radius_mm};
+  return stock::patch_of(map, xy(around.lo) - reach, xy(around.hi) + reach);
+}
+
+Result<Measurement> measure_again(stock::HeightMap& map, const model::CutterPath& path,
+                                  const model::Cutter& cutter, memo::Memo* memo) {
+  if (memo == nullptr || path.size() == 0) return engagement::measure(path, cutter, map);
+  const auto profile = model::profile_of(cutter);
+  const geometry::Box3 seen = engagement::looked_at(path, profile.radius_mm);
+  const auto key = memo::key_of(memo::Stage::kSections, std::string("cells"), path, profile, cutter.cutter_class,
+                                engagement::head_height(cutter), map.origin, map.cell_mm, map.nx, map.ny,
+                                stock::patch_of(map, xy(seen.lo), xy(seen.hi)));
+  const stock::Patch before = columns_under(map, path, profile);
+  bool found = false;
+  auto cut = memo::remembered<CellsCut>(
+      memo, memo::Stage::kSections, key,
+      [&]() -> Result<CellsCut> {
+        auto measured = engagement::measure(path, cutter, map);
+        if (!measured) return tl::unexpected(measured.error());
+        return CellsCut{*std::move(measured), columns_under(map, path, profile)};
+      },
+      [&](const CellsCut& c) { return sound(c.measured) && same_place(c.after, before); }, &found);
+  if (!cut) return tl::unexpected(cut.error());
+  if (found) stock::put_back(map, cut->after);
+  return std::move(cut->measured);
+}
+
+Result<Measurement> measure_again(stock::PlanarStock& exact, const model::CutterPath& path,
+                                  const model::Cutter& cutter, const engagement::Options& options,
+                                  memo::Memo* memo) {
+  if (memo == nullptr || path.size() == 0) return engagement::measure(path, cutter, exact, options);
+  const auto profile = model::profile_of(cutter);
+  const auto around = model::bounds(path);
+  // Beyond the disc a look goes as far as half the piece of an arc that it is about: a radius, or a step.
+  const double beyond = 2.0 * profile.radius_mm + options.step_mm;
+  std::string near;
+  exact.describe(xy(around.lo) - Vec2{beyond, beyond}, xy(around.hi) + Vec2{beyond, beyond}, near);
+  const auto key = memo::key_of(memo::Stage::kSections, std::string("planar"), path, profile,
+                                cutter.cutter_class, engagement::head_height(cutter), options, near);
+  bool found = false;
+  auto cut = memo::remembered<PlanarCut>(
+      memo, memo::Stage::kSections, key,
+      [&]() -> Result<PlanarCut> {
+        PlanarCut out;
+        const stock::PlanarStock::Recording recording(exact, out.trails);
+        auto measured = engagement::measure(path, cutter, exact, options);
+        if (!measured) return tl::unexpected(measured.error());
+        out.measured = *std::move(measured);
+        for (stock::Trail& t : out.trails) t.outline = nullptr;
+        return out;
+      },
+      [](const PlanarCut& c) { return sound(c.measured); }, &found);
+  if (!cut) return tl::unexpected(cut.error());
+  if (found) {
+    const geometry::CutterProfile* outline = exact.keep(profile);
+    for (stock::Trail t : cut->trails) {
+      t.outline = outline;
+      exact.take(t);
+    }
+  }
+  return std::move(cut->measured);
+}
+
+}  // namespace capstan::step
