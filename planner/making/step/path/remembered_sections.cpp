@@ -25,8 +25,8 @@ struct PlanarCut {
 
 bool sound(const Measurement& m) {
   const model::SectionSeries& s = m.sections;
-  for (const auto* column : {&s.at_mm, &s.ad_max_mm, &s.rd_max_mm, &s.x_max_ofs_mm, &s.y_max_ofs_mm, &s.csa_mm2,
-                             &s.x_cg_ofs_mm, &s.y_cg_ofs_mm, &s.removed_mm3}) {
+  for (const auto* column : {&s.at_mm, &s.ad_max_mm, &s.rd_max_mm, &s.x_max_ofs_mm, &s.y_max_ofs_mm,
+                             &s.csa_mm2, &s.x_cg_ofs_mm, &s.y_cg_ofs_mm, &s.removed_mm3}) {
     if (column->size() != s.size()) return false;
   }
   return m.engagement.size() == s.size();
@@ -51,9 +51,9 @@ Result<Measurement> measure_again(stock::HeightMap& map, const model::CutterPath
   if (memo == nullptr || path.size() == 0) return engagement::measure(path, cutter, map);
   const auto profile = model::profile_of(cutter);
   const geometry::Box3 seen = engagement::looked_at(path, profile.radius_mm);
-  const auto key = memo::key_of(memo::Stage::kSections, std::string("cells"), path, profile, cutter.cutter_class,
-                                engagement::head_height(cutter), map.origin, map.cell_mm, map.nx, map.ny,
-                                stock::patch_of(map, xy(seen.lo), xy(seen.hi)));
+  const auto key = memo::key_of(memo::Stage::kSections, std::string("cells"), path, profile,
+                                cutter.cutter_class, engagement::head_height(cutter), map.origin, map.cell_mm,
+                                map.nx, map.ny, stock::patch_of(map, xy(seen.lo), xy(seen.hi)));
   const stock::Patch before = columns_under(map, path, profile);
   bool found = false;
   auto cut = memo::remembered<CellsCut>(

@@ -13,14 +13,14 @@
 
 namespace capstan::step {
 
-/// engagement::measure on a height map: found again where path, outline and all columns that it looks at are the
-/// same. What is kept says the columns after the cut, too.
+/// engagement::measure on a height map: found again where path, outline and all columns that it looks at are
+/// the same. What is kept says the columns after the cut, too.
 [[nodiscard]] Result<engagement::Measurement> measure_again(stock::HeightMap& map,
                                                             const model::CutterPath& path,
                                                             const model::Cutter& cutter, memo::Memo* memo);
 
-/// The same on the exact stock, for a cutter that is flat below: found again where path, outline and the trails
-/// near the path are the same. What is kept says which trails the path left.
+/// The same on the exact stock, for a cutter that is flat below: found again where path, outline and the
+/// trails near the path are the same. What is kept says which trails the path left.
 [[nodiscard]] Result<engagement::Measurement> measure_again(stock::PlanarStock& exact,
                                                             const model::CutterPath& path,
                                                             const model::Cutter& cutter,
