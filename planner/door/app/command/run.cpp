@@ -80,11 +80,13 @@ int begun(Session& s) {
 std::atomic<Job*> stopped_by_signal{nullptr};
 static_assert(std::atomic<Job*>::is_always_lock_free);
 
-extern "C" void stop_by_signal(int signal) {
+extern "C" {
+static void stop_by_signal(int signal) {
   Job* job = stopped_by_signal.exchange(nullptr);
   if (job != nullptr) return job->request_stop();
   ::signal(signal, SIG_DFL);
   ::raise(signal);
+}
 }
 
 /// While it lives, Ctrl-C and a plain `kill` end plan, bind and check as a stop does: with a message, and
