@@ -2,7 +2,6 @@
 
 #include <chrono>
 #include <exception>
-#include <memory>
 #include <utility>
 
 #include "planner/door/service/formats.h"
@@ -51,8 +50,8 @@ Code Session::opened(Job& job) {
   failed_ = !shop;
   if (!shop) return end(Code::kUnreadable, to_text(shop.error()));
   shop_ = *std::move(shop);
-  // What one call found out, the next one need not.
-  if (!shop_->memo) shop_->memo = std::make_shared<memo::Memo>();
+  // What one call found out, the next one need not, also with another tool table.
+  if (!shop_->memo) shop_->memo = memo_;
   return Code::kDone;
 }
 

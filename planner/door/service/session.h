@@ -3,6 +3,7 @@
 #include <chrono>
 #include <functional>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -59,6 +60,7 @@ class Session {
   Request request_;
   Job::Progress progress_;
   std::optional<pipeline::Inputs> shop_;
+  std::shared_ptr<memo::Memo> memo_ = std::make_shared<memo::Memo>();  ///< of all shops that name no folder
   bool failed_ = false;  ///< the shop did not open, and no option was set since
   std::optional<Planned> bound_;
   std::map<std::string, std::string, std::less<>> outputs_;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <sstream>
 
 #include "planner/door/service/options.h"
@@ -87,6 +88,34 @@ TEST(Session, BindsWithThePlansOwnToolsWhenNoneAreNamed) {
   EXPECT_EQ(s.bind(testing::slurp(kSource + "/examples/bracket.p21"), std::nullopt), Code::kUsage);
   EXPECT_NE(s.message().find("no cutter of the library is in the magazine"), std::string::npos)
       << s.message();
+}
+
+/// What a session gives for the example, with this length of its end mill T7.
+std::string bound_with(Session& s, const std::string& length_mm) {
+  const testing::ScratchFolder folder;
+  std::string table = testing::slurp(kSource + "/tests/door/late/magazine.tbl");
+  const auto at = table.find("Z+", table.find("T7 "));
+  const auto end = table.find(' ', at);
+  EXPECT_NE(end, std::string::npos);
+  table.replace(at, end - at, "Z+" + length_mm);
+  const std::string path = folder.path() + "/magazine.tbl";
+  std::ofstream(path) << table;
+  EXPECT_EQ(s.set("tools", path), Code::kDone);
+  EXPECT_EQ(s.bind(testing::slurp(kSource + "/examples/plate_bound.p21"), std::nullopt), Code::kDone)
+      << s.message();
+  const std::string* program = s.output("linuxcnc");
+  EXPECT_NE(program, nullptr);
+  return program == nullptr ? std::string() : *program;
+}
+
+TEST(Session, GivesWhatANewOneGivesAfterATableWasChanged) {
+  Session one;
+  const std::string first = bound_with(one, "115.0");
+  const std::string changed = bound_with(one, "118.5");
+  Session another;
+  EXPECT_EQ(changed, bound_with(another, "118.5"));
+  EXPECT_NE(changed, first);
+  EXPECT_EQ(bound_with(one, "115.0"), first);
 }
 
 }  // namespace
