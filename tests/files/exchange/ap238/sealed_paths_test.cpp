@@ -59,7 +59,7 @@ TEST_F(SealOfLongPaths, HoldsWhereTheLastParenthesesStandApart) {
 }
 
 TEST_F(SealOfLongPaths, DoesNotHoldWhereAPointWasMoved) {
-  edit("=CARTESIAN_POINT('',(", "(", "(1");
+  edit("=CARTESIAN_POINT('',(", "',(", "',(1");
   read_sum();
   EXPECT_THAT(said, Contains(AllOf(HasSubstr("EXC-EDITED"), HasSubstr("CARTESIAN_POINT"))));
 }
