@@ -1,5 +1,6 @@
 #include "planner/ground/base/number.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -64,6 +65,12 @@ char* print_shortest(char* to, double value) {
 
 char* print_part21_real(char* to, double value) {
   char* const end = print_shortest(to, value);
+  const double size = std::abs(value);
+  if (size == 0.0 || (size >= 1e-3 && size < 1e5)) {  // no exponent: the fixed notation is no longer
+    if (std::find(to, end, '.') != end) return end;
+    *end = '.';
+    return end + 1;
+  }
   const auto length = static_cast<std::size_t>(end - to);
   auto* e = static_cast<char*>(std::memchr(to, 'e', length));
   if (std::memchr(to, '.', length) == nullptr) {

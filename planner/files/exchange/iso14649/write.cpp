@@ -86,7 +86,7 @@ class FileWriter {
     if (auto kept = keep_beyond(); !kept) return tl::unexpected(kept.error());
     std::string out = "ISO-10303-21;\nHEADER;\n" + header();
     out += beyond_ + write_records(plan_, m_, [this](AnyRef at) { return number_of(at); });
-    out += exact_paths(original_, m_, [this](AnyRef at) { return name_of(at); });
+    append_exact_paths(out, original_, m_, [this](AnyRef at) { return name_of(at); });
     out += "ENDSEC;\n" + sections_text(plan_, [this](AnyRef r) { return reference(r); }) + "DATA;\n";
     for (const auto& [n, at] : by_number_) {
       tick();

@@ -153,15 +153,17 @@ class Writing {
   Writing(const model::Plan& plan, const model::Model& written, const FileName& name_of)
       : plan_(plan), written_(written), name_of_(name_of) {}
 
-  std::string run() {
+  /// Also gives where each entity ends.
+  std::vector<std::size_t> run(std::string& out) {
+    std::vector<std::size_t> ends;
     std::string uses;
     for (const auto& s : plan_.steps) uses += step(s);
     for (const AnyRef at : plan_.model.all_below(model::TypeId::kWorkingstep)) uses += toolpaths(at);
-    std::string out;
     const auto numbered = [&](std::string_view keyword, std::size_t i, const auto& parameters) {
       out.append(keyword).append("(").append(std::to_string(i + 1));
       parameters();
       out += ");\n";
+      ends.push_back(out.size());
     };
     for (std::size_t i = 0; i < paths_.items.size(); ++i) {
       const CutterPath& p = *paths_.items[i];
@@ -180,7 +182,12 @@ class Writing {
         columns(s, kSectionColumns, out);
       });
     }
-    return out + uses;
+    // An entity a line: texts hold no line feed.
+    for (std::size_t i = 0; i < uses.size(); ++i) {
+      if (uses[i] == '\n') ends.push_back(out.size() + i + 1);
+    }
+    out += uses;
+    return ends;
   }
 
  private:
@@ -243,17 +250,30 @@ class Writing {
 
 }  // namespace
 
-std::string exact_paths(const model::Plan& plan, const model::Model& written, const FileName& name_of,
-                        Seals* sealed) {
-  std::string out = Writing(plan, written, name_of).run();
-  if (sealed == nullptr) return out;
-  // An entity a line: texts hold no line feed.
-  for (std::string_view rest = out; !rest.empty();) {
-    const std::string_view line = rest.substr(0, rest.find('\n'));
-    add_header(*sealed, line.substr(0, line.find('(')), line.substr(0, line.size() - 1));
-    rest.remove_prefix(line.size() + 1);
+void append_exact_paths(std::string& out, const model::Plan& plan, const model::Model& written,
+                        const FileName& name_of, Seals* sealed) {
+  std::size_t begin = out.size();
+  const std::vector<std::size_t> ends = Writing(plan, written, name_of).run(out);
+  if (sealed == nullptr) return;
+  std::vector<Seals::Text> texts;
+  for (const std::size_t end : ends) {
+    constexpr std::size_t kEnd = 2;  // ";\n"
+    const auto entity = std::string_view(out).substr(begin, end - begin - kEnd);
+    texts.push_back(text_of_header(entity.substr(0, entity.find('(')), entity));
+    begin = end;
   }
-  return out;
+  sealed->add(texts);
+}
+
+std::size_t bytes_of_exact_paths(const model::Plan& plan) {
+  constexpr std::size_t kInNumber = 10;  // 2 of one as the one before, at most 25 of another
+  std::size_t numbers = 0;
+  for (const auto& s : plan.steps) {
+    numbers += (s.path ? s.path->size() * kPathColumns.size() : 0) +
+               (s.schedule ? s.schedule->feed_mm_min.size() * kScheduleColumns.size() : 0) +
+               (s.sections ? s.sections->size() * kSectionColumns.size() : 0);
+  }
+  return numbers * kInNumber;
 }
 
 bool is_of_paths(std::string_view keyword) {

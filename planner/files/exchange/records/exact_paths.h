@@ -27,10 +27,12 @@ namespace capstan::exchange {
 /// How the file calls an object, "#12"; anything else: it does not hold it.
 using FileName = std::function<std::string(model::AnyRef)>;
 
-/// The header entities of the plan's paths. `written` is the model whose toolpaths have curves, made from a
-/// copy of the plan's: objects that both have are the same. `sealed` gets their seals (seal.h).
-[[nodiscard]] std::string exact_paths(const model::Plan& plan, const model::Model& written,
-                                      const FileName& name_of, Seals* sealed = nullptr);
+/// Appends the header entities of the plan's paths. `written` is the model whose toolpaths have curves, made
+/// from a copy of the plan's: objects that both have are the same. `sealed` gets their seals (seal.h).
+void append_exact_paths(std::string& out, const model::Plan& plan, const model::Model& written,
+                        const FileName& name_of, Seals* sealed = nullptr);
+/// About how many bytes that appends.
+[[nodiscard]] std::size_t bytes_of_exact_paths(const model::Plan& plan);
 
 /// Puts the paths back into a plan whose steps and toolpaths have been read. Only for a file whose seal
 /// holds. Malformed entities are skipped, with the warning EXC-RECORD.

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <map>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "planner/files/exchange/records/exact_paths.h"
 #include "planner/files/exchange/records/instance_hashes.h"
 #include "planner/files/p21/read/parse.h"
 #include "planner/ground/base/file.h"
@@ -67,14 +69,64 @@ std::optional<std::pair<std::string, std::string>> record_of(const p21::File& fi
   return std::pair(name, text);
 }
 
-Seals sealed(const p21::File& file) {
+/// Entities whose text is hashed at once.
+constexpr std::size_t kAtOnce = 64;
+
+/// Whether the seals of what there are millions of are those of its text as the file has it, if that is as
+/// `spell` would print it.
+enum class Spelling : std::uint8_t { kOfFile, kOfSeal };
+
+bool is_of_points(std::string_view keyword) { return keyword == "CARTESIAN_POINT" || keyword == "POLYLINE"; }
+
+/// What the file has from the keyword to the last parenthesis. Empty: where that is would have to be looked
+/// for.
+std::string_view as_it_stands(std::string_view keyword, const p21::Value& parameters) {
+  p21::Value last = parameters;
+  std::size_t closing = 0;
+  for (; last.is(p21::Kind::kList) && !last.empty(); ++closing) last = last[last.size() - 1];
+  if (last.is(p21::Kind::kList) || last.is(p21::Kind::kTyped)) return {};
+  const std::string_view lexeme = last.lexeme();
+  const char* end = lexeme.data() + lexeme.size();
+  if (last.is(p21::Kind::kString) || last.is(p21::Kind::kEnumeration) || last.is(p21::Kind::kBinary)) ++end;
+  // Of a parsed file, so that each is there, or something else before it.
+  for (; closing != 0; --closing) {
+    if (*end++ != ')') return {};
+  }
+  return {keyword.data(), static_cast<std::size_t>(end - keyword.data())};
+}
+
+/// Texts that stand in the file, to be sealed some at a time.
+class Standing {
+ public:
+  explicit Standing(Seals& seals) : seals_(seals) { texts_.reserve(kAtOnce); }
+  void add(const Seals::Text& text) {
+    texts_.push_back(text);
+    if (texts_.size() == kAtOnce) settle();
+  }
+  void settle() {
+    seals_.add(texts_);
+    texts_.clear();
+  }
+
+ private:
+  Seals& seals_;
+  std::vector<Seals::Text> texts_;
+};
+
+Seals sealed(const p21::File& file, Spelling spelling) {
   Seals out;
+  Standing standing(out);
   const auto add = [&](std::string_view keyword, std::string_view of) { out.add(keyword, fnv1a(of)); };
+  const auto stands = [&](bool may, std::string_view keyword, const p21::Value& parameters) {
+    return may && spelling == Spelling::kOfFile ? as_it_stands(keyword, parameters) : std::string_view();
+  };
   std::string text;
   for (std::size_t i = 0; i < file.header_count(); ++i) {
     const p21::Instance e = file.header(i);
     text.clear();
-    if (is_sealed(e)) {
+    if (const auto it = stands(is_of_paths(e.keyword()), e.keyword(), e.parameters()); !it.empty()) {
+      standing.add(text_of_header(e.keyword(), it));
+    } else if (is_sealed(e)) {
       spell(e.parameters(), text);
       add(e.keyword(), text);
     }
@@ -84,6 +136,13 @@ Seals sealed(const p21::File& file) {
   }
   for (const p21::Instance e : file) {
     tick();
+    if (e.part_count() == 1 && is_of_points(e.part(0).keyword)) {
+      const p21::Record part = e.part(0);
+      if (const auto it = stands(!e.is_complex(), part.keyword, part.parameters); !it.empty()) {
+        standing.add(text_of_instance(e.id(), part.keyword, it));
+        continue;
+      }
+    }
     text.assign(1, '#').append(std::to_string(e.id()));
     for (std::size_t k = 0; k < e.part_count(); ++k) {
       const p21::Record part = e.part(k);
@@ -94,7 +153,60 @@ Seals sealed(const p21::File& file) {
     if (const auto record = record_of(file, e)) add(record->first, record->second);
   }
   for (const auto& section : file.verbatim_sections()) add("a section", section.text);
+  standing.settle();
   return out;
+}
+
+/// Texts of which one byte each is taken in turn: the multiplication of one does not wait for another's.
+constexpr std::size_t kLanes = 4;
+/// Bytes of each that take some 20 us.
+constexpr std::size_t kInTurn = std::size_t{1} << 16;
+
+/// 64-bit FNV-1a (`fnv1a`) of each text, from its `hash` on.
+void hash_each(std::span<Seals::Text> texts) {
+  constexpr std::uint64_t kPrime = 1099511628211ULL;
+  struct Lane {
+    const char* at = nullptr;
+    std::size_t left = 0;
+    Seals::Text* of = nullptr;
+  };
+  std::array<Lane, kLanes> lanes;
+  std::array<std::uint64_t, kLanes> hash{};
+  std::size_t next = 0;
+  while (true) {
+    std::size_t all_have = SIZE_MAX;
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      Lane& lane = lanes[k];
+      while (lane.left == 0 && next < texts.size()) {
+        if (lane.of != nullptr) lane.of->hash = hash[k];
+        lane.of = &texts[next++];
+        lane.at = lane.of->text.data();
+        lane.left = lane.of->text.size();
+        hash[k] = lane.of->hash;
+      }
+      all_have = std::min(all_have, lane.left);
+    }
+    if (all_have == 0) break;  // fewer texts than lanes are left
+    tick();
+    all_have = std::min(all_have, kInTurn);
+    static_assert(kLanes == 4);
+    std::uint64_t a = hash[0], b = hash[1], c = hash[2], d = hash[3];
+    const char *const p = lanes[0].at, *const q = lanes[1].at, *const r = lanes[2].at, *const s = lanes[3].at;
+    for (std::size_t i = 0; i < all_have; ++i) {
+      a = (a ^ static_cast<unsigned char>(p[i])) * kPrime;
+      b = (b ^ static_cast<unsigned char>(q[i])) * kPrime;
+      c = (c ^ static_cast<unsigned char>(r[i])) * kPrime;
+      d = (d ^ static_cast<unsigned char>(s[i])) * kPrime;
+    }
+    hash = {a, b, c, d};
+    for (Lane& lane : lanes) {
+      lane.at += all_have;
+      lane.left -= all_have;
+    }
+  }
+  for (std::size_t k = 0; k < kLanes; ++k) {
+    if (lanes[k].of != nullptr) lanes[k].of->hash = fnv1a({lanes[k].at, lanes[k].left}, hash[k]);
+  }
 }
 
 }  // namespace
@@ -117,19 +229,26 @@ void Seals::add(const Seals& others) {
   }
 }
 
-void add_instance(Seals& seals, std::uint64_t id, std::string_view keyword, std::string_view text) {
-  seals.add(keyword, fnv1a(text, fnv1a("#" + std::to_string(id))));
+void Seals::add(std::span<Text> texts) {
+  hash_each(texts);
+  for (const Text& t : texts) add(t.keyword, t.hash);
 }
 
-void add_header(Seals& seals, std::string_view keyword, std::string_view text) {
-  seals.add(keyword, fnv1a(text.substr(keyword.size())));
+Seals::Text text_of_instance(std::uint64_t id, std::string_view keyword, std::string_view text) {
+  std::array<char, 24> number{'#'};
+  const char* const end = std::to_chars(number.data() + 1, number.data() + number.size(), id).ptr;
+  return {keyword, text, fnv1a({number.data(), static_cast<std::size_t>(end - number.data())})};
+}
+
+Seals::Text text_of_header(std::string_view keyword, std::string_view text) {
+  return {keyword, text.substr(keyword.size()), fnv1a("")};
 }
 
 Result<std::string> seal_text(std::string rest, const Seals& sealed_already) {
   Job quiet;
   const auto parsed = p21::parse(std::move(rest), "", {}, quiet);
   if (!parsed) return fail(parsed.error());
-  Seals all = sealed(*parsed);
+  Seals all = sealed(*parsed, Spelling::kOfSeal);
   all.add(sealed_already);
   std::string seals;
   for (const auto& [keyword, s] : all.by_keyword())
@@ -166,15 +285,20 @@ SealState seal_of(const p21::File& file, Reporter& reporter) {
   }
   SealState state;
   if (then.empty()) return state;  // of another system, or an earlier version
-  Stated now;
   // Files of earlier versions have no seals of their own for the records of AP238.
   const bool records =
       std::any_of(then.begin(), then.end(), [](const auto& s) { return s.first.starts_with(kRecord); });
-  const Seals here = sealed(file);
-  for (const auto& [keyword, s] : here.by_keyword())
-    if (records || !keyword.starts_with(kRecord))
-      now[keyword] = {static_cast<std::int64_t>(s.count), hex64(s.sum)};
-  const std::vector<std::string> edited = model::edited_parts(now, std::move(then));
+  const auto edited_since = [&](Spelling spelling) {
+    const Seals here = sealed(file, spelling);
+    Stated now;
+    for (const auto& [keyword, s] : here.by_keyword())
+      if (records || !keyword.starts_with(kRecord))
+        now[keyword] = {static_cast<std::int64_t>(s.count), hex64(s.sum)};
+    return model::edited_parts(now, then);
+  };
+  // A text that has the sealed hash is what was sealed. One that has another may only be spelled otherwise.
+  std::vector<std::string> edited = edited_since(Spelling::kOfFile);
+  if (!edited.empty()) edited = edited_since(Spelling::kOfSeal);
   state.holds = state.paths_hold = edited.empty();
   if (state.holds) return state;
   reporter.report(model::parts_edited(std::string(model::kEditedCode), edited));

@@ -56,7 +56,8 @@ model::Ref<model::CartesianPoint> add_point(model::Model& m, std::vector<double>
 
 /// Numbers by their bits; 0 and -0 are equal.
 struct HashOfNumbers {
-  std::size_t operator()(const std::vector<double>& v) const {
+  template <std::size_t N>
+  std::size_t operator()(const std::array<double, N>& v) const {
     std::uint64_t h = 14695981039346656037U;
     for (const double x : v) {
       h = (h ^ std::bit_cast<std::uint64_t>(x + 0.0)) * 0x9e3779b97f4a7c15U;
@@ -77,6 +78,7 @@ class Curves {
   std::vector<Place> places(std::size_t first, std::size_t last, const Jumps& jumps,
                             const PathSections& sections) {
     std::vector<Place> out = {{end_of(first - 1), first, 0.0}};
+    out.reserve(last - first + 2);
     for (std::size_t i = first; i <= last; ++i) {
       if (i > first && jumps(i)) out.push_back({end_of(i - 1), i, 0.0});
       if (is_arc(p_.kind[i])) {
@@ -94,16 +96,18 @@ class Curves {
   model::Ref<model::BoundedCurve> beside(const std::vector<Place>& places, const Numbers& numbers) {
     model::Polyline c;
     c.name = "";
-    std::unordered_map<std::vector<double>, model::Ref<model::CartesianPoint>, HashOfNumbers> known;
+    using Of = decltype(numbers(places.front()));
+    std::unordered_map<Of, model::Ref<model::CartesianPoint>, HashOfNumbers> known;
     model::Ref<model::CartesianPoint> last;
-    std::vector<double> before;
+    Of before{};
+    c.points.items.reserve(places.size());
     for (const Place& at : places) {
-      std::vector<double> v = numbers(at);
+      const Of v = numbers(at);
       if (!last || v != before) {
         auto& p = known[v];
-        if (!p) p = add_point(m_, v);
+        if (!p) p = add_point(m_, {v.begin(), v.end()});
         last = p;
-        before = std::move(v);
+        before = v;
       }
       c.points.push_back(last);
     }
@@ -113,6 +117,7 @@ class Curves {
   model::Ref<model::BoundedCurve> basic(const std::vector<Place>& places) {
     model::Polyline c;
     c.name = "";
+    c.points.items.reserve(places.size());
     for (const Place& at : places) c.points.push_back(at.point);
     return m_.add(std::move(c));
   }
@@ -283,14 +288,12 @@ class Splitter {
     model::Ref<model::BoundedCurve> cut, axis;
     const double volume = sections.volume(first, last);
     if (volume > 0.0) {
-      cut = curves.beside(places, [&](const Place& at) {
-        const auto v = at.section ? *at.section : sections.at(at.move, at.at_mm);
-        return std::vector<double>(v.begin(), v.end());
-      });
+      cut = curves.beside(
+          places, [&](const Place& at) { return at.section ? *at.section : sections.at(at.move, at.at_mm); });
     }
     const Vec3 z = frame_.direction_to_local({0.0, 0.0, 1.0});
     if (std::hypot(z.x, z.y) > kUpright || z.z < 0.0) {
-      axis = curves.beside(places, [&](const Place&) { return std::vector<double>{z.x, z.y, z.z}; });
+      axis = curves.beside(places, [&](const Place&) { return std::array{z.x, z.y, z.z}; });
     }
     auto& t = m_.at<model::CutterLocationTrajectory>(target);
     t.path.reset();
@@ -320,8 +323,8 @@ class Splitter {
       return out;
     }
     model::ToolpathSpeed speed;
-    speed.speed = curves.beside(
-        places, [&](const Place& at) { return std::vector<double>{ratio_of(feed(at.move), base)}; });
+    speed.speed =
+        curves.beside(places, [&](const Place& at) { return std::array{ratio_of(feed(at.move), base)}; });
     out.ref = m_.add(std::move(speed));
     return out;
   }

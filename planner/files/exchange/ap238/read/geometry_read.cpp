@@ -22,7 +22,15 @@ using p21::Value;
 std::optional<TypeId> Reader::geometry_type(Node n, bool solids) const {
   const auto i = g_.instance(n);
   if (i.is_complex()) return std::nullopt;
-  const auto t = model::find_noun(i.keyword());
+  const EntityId entity = g_.entity(n);
+  if (entity == express::kNoEntity) return geometry_type(i.keyword(), solids);
+  if (entity != type_before_.entity || solids != type_before_.solids)
+    type_before_ = {entity, solids, geometry_type(i.keyword(), solids)};
+  return type_before_.type;
+}
+
+std::optional<TypeId> Reader::geometry_type(std::string_view keyword, bool solids) {
+  const auto t = model::find_noun(keyword);
   if (!t || model::noun_type(*t).abstract) return std::nullopt;
   const bool item = model::is_a(*t, TypeId::kRepresentationItem) || *t == TypeId::kCompositeCurveSegment;
   const bool solid = item && (model::is_a(*t, TypeId::kTopologicalRepresentationItem) ||
@@ -31,6 +39,13 @@ std::optional<TypeId> Reader::geometry_type(Node n, bool solids) const {
     return std::nullopt;
   }
   return t;
+}
+
+AnyRef Reader::geometry_met(Node n, std::size_t scale) const {
+  const Placed& first = geometry_[n];
+  if (!first.at.set() || first.scale == scale) return first.at;
+  const auto it = geometry_again_.find(key_of(n, scale));
+  return it == geometry_again_.end() ? AnyRef{} : it->second;
 }
 
 AnyRef Reader::geometry_at(Node n, TypeId type, const Scale& stated) {
@@ -42,14 +57,17 @@ AnyRef Reader::geometry_at(Node n, TypeId type, const Scale& stated) {
   const auto at_scale = std::find_if(scales_.begin(), scales_.end(), [&](const Scale& s) {
     return s.length == scale.length && s.angle == scale.angle && s.coordinates == scale.coordinates;
   });
-  const std::uint64_t key = key_of(n, static_cast<std::size_t>(at_scale - scales_.begin()));
+  const auto in = static_cast<std::size_t>(at_scale - scales_.begin());
   if (at_scale == scales_.end()) scales_.push_back(scale);
-  const auto it = geometry_.find(key);
-  if (it != geometry_.end()) return it->second;
+  if (const AnyRef met = geometry_met(n, in); met.set()) return met;
   const AnyRef at = plan_.model.add_object(type);
   const auto i = g_.instance(n);
   plan_.model.set_origin(at, {i.id(), i.line()});
-  geometry_.emplace(key, at);
+  if (geometry_[n].at.set()) {
+    geometry_again_.emplace(key_of(n, in), at);
+  } else {
+    geometry_[n] = {at, static_cast<std::uint32_t>(in)};
+  }
   if (type == TypeId::kPolyline && scale.uncertainty_mm > 0.0) uncertainty_mm_[at] = scale.uncertainty_mm;
   if (scale.unclear && !model::is_a(type, TypeId::kDirection)) {
     doubts_.push_back({at,
@@ -59,7 +77,12 @@ AnyRef Reader::geometry_at(Node n, TypeId type, const Scale& stated) {
                         .hint = "give its GLOBAL_UNIT_ASSIGNED_CONTEXT one length unit"}});
   }
   object_[n] = true;
-  pending_.push_back({at, n, true, scale});
+  if (scale_before_ >= pending_scales_.size() || !(pending_scales_[scale_before_] == scale)) {
+    const auto known = std::find(pending_scales_.begin(), pending_scales_.end(), scale);
+    scale_before_ = static_cast<std::uint32_t>(known - pending_scales_.begin());
+    if (known == pending_scales_.end()) pending_scales_.push_back(scale);
+  }
+  pending_.push_back({at, n, scale_before_});
   return at;
 }
 
@@ -152,6 +175,7 @@ void Reader::fill_geometry(AnyRef at, Node n, const Scale& scale) {
       case Storage::kRefList: {
         model::AnyRefList out;
         out.given = true;
+        out.items.reserve(v.size());
         each([&](const Value& e) {
           if (const AnyRef r = reference(e, a); r.set()) out.items.push_back(r);
         });
@@ -173,6 +197,7 @@ void Reader::fill_geometry(AnyRef at, Node n, const Scale& scale) {
       case Storage::kRealList: {
         model::RealList out;
         out.given = true;
+        out.items.reserve(v.size());
         each([&](const Value& e) {
           if (const auto x = scaled(e, coordinate(a, out.items.size()))) out.items.push_back(*x);
         });

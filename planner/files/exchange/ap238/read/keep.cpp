@@ -45,8 +45,7 @@ AnyRef Reader::connected(std::uint64_t id) {
   // Geometry that was read in the model's own units is written back the same.
   for (std::uint32_t s = 0; s < scales_.size(); ++s) {
     if (!scales_[s].identity()) continue;
-    const auto g = geometry_.find(key_of(to, s));
-    if (g != geometry_.end()) return g->second;
+    if (const AnyRef g = geometry_met(to, s); g.set()) return g;
   }
   if (owner_[to].set()) return auxiliary(to);
   return kept_at(to);

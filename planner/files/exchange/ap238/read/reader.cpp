@@ -53,7 +53,8 @@ Reader::Reader(const Graph& graph, const Mapping& mapping, model::Plan& plan, bo
       owner_(graph.size()),
       claimed_(graph.size(), false),
       object_(graph.size(), false),
-      kept_(graph.size()) {}
+      kept_(graph.size()),
+      geometry_(graph.size()) {}
 
 void Reader::about(Node n, Diagnostic d) const {
   const auto i = g_.instance(n);
@@ -295,7 +296,7 @@ AnyRef Reader::object_at(Node n, std::span<const TypeId> targets, const Scale& s
     Terminal guard;
     for (const Terminal& t : row->guard.empty() ? std::vector<Terminal>{} : follow(row->guard, "", n))
       mark(t, at);
-    pending_.push_back({at, n, false, scale});
+    pending_.push_back({at, n, kNoScale});
     return at;
   }
   if (const auto type = geometry_type(n, scale.ours); type && fits_any(*type, targets))
@@ -308,8 +309,8 @@ void Reader::drain() {
     tick();
     const Pending p = pending_.front();
     pending_.pop_front();
-    if (p.geometry) {
-      fill_geometry(p.at, p.node, p.scale);
+    if (p.scale != kNoScale) {
+      fill_geometry(p.at, p.node, Scale(pending_scales_[p.scale]));  // more may come meanwhile
     } else {
       fill(p.at, p.node);
     }

@@ -118,7 +118,10 @@ class Reader {
   model::AnyRef geometry_at(Node n, model::TypeId type, const Scale& scale);
   [[nodiscard]] double parameter_factor(Node n, const Scale& scale) const;
   void fill_geometry(model::AnyRef at, Node n, const Scale& scale);
+  /// Geometry read from there in the units of that place of `scales_`; unset if there is none.
+  [[nodiscard]] model::AnyRef geometry_met(Node n, std::size_t scale) const;
   [[nodiscard]] std::optional<model::TypeId> geometry_type(Node n, bool solids = false) const;
+  [[nodiscard]] static std::optional<model::TypeId> geometry_type(std::string_view keyword, bool solids);
   model::AnyRef kept_at(Node n);
   model::AnyRef auxiliary(Node n);
   [[nodiscard]] model::AnyRef connected(std::uint64_t id);
@@ -137,25 +140,42 @@ class Reader {
   std::vector<bool> claimed_;  ///< by node: not for the mapping
   std::vector<bool> object_;   ///< by node: root of an application object, or geometry
   std::unordered_multimap<Node, model::AnyRef> nouns_;
-  std::unordered_map<std::uint64_t, model::AnyRef> geometry_;  ///< by `key_of`
+  std::unordered_map<std::uint64_t, model::AnyRef> geometry_again_;  ///< by `key_of`; see `geometry_`
   std::vector<Scale> scales_;
   std::map<model::AnyRef, double> uncertainty_mm_;
   std::vector<model::AnyRef> kept_;  ///< by node: its verbatim instance
   std::unordered_map<Node, model::AnyRef> auxiliary_;
   std::deque<Node> kept_pending_;
   std::map<model::AnyRef, Node> root_;
+  /// An object whose attributes are to be read.
   struct Pending {
     model::AnyRef at;
     Node node;
-    bool geometry;
-    Scale scale;
+    std::uint32_t scale;  ///< of geometry, in `pending_scales_`; kNoScale: of the mapping
   };
+  static constexpr std::uint32_t kNoScale = 0xFFFFFFFF;
   std::deque<Pending> pending_;
   std::vector<Doubt> doubts_;
 
   mutable std::uint64_t visits_ = 0;  ///< steps of paths taken so far, see `visit`
   /// Attributes and references that paths and constraints have used, in either direction.
   mutable std::vector<std::uint64_t> read_attributes_, read_references_;
+
+  /// Geometry by node, in the units in which it was met first: most is met in one only, and there may be
+  /// millions.
+  struct Placed {
+    model::AnyRef at;
+    std::uint32_t scale = 0;  ///< in `scales_`
+  };
+  std::vector<Placed> geometry_;
+  std::vector<Scale> pending_scales_;
+  std::uint32_t scale_before_ = 0;  ///< place of the one that was pending last
+  /// What `geometry_type` gave for the entity that was asked for last.
+  mutable struct {
+    EntityId entity = express::kNoEntity;
+    bool solids = false;
+    std::optional<model::TypeId> type;
+  } type_before_;
 };
 
 }  // namespace capstan::exchange::ap238

@@ -73,20 +73,23 @@ Result<Written> write_ap238(const model::Plan& plan, Job& job) {
   ap238::helices_to_via_points(copy, out.losses);
   const auto unlisted = ap238::to_ap238(copy, out.losses);
   ap238::Writer writer(copy, ap238::Mapping::instance(), out.losses);
-  Seals already;
-  std::string rest;
-  const std::string data = writer.run(unlisted, already, rest);
+  writer.run(unlisted);
   const auto name = [&](model::AnyRef r) { return writer.reference_text(r); };
-  const std::string head = header(copy), paths = exact_paths(plan, copy.model, name, &already);
-  const std::string sections = sections_text(copy, name);
-  const auto seals = seal_text(head + "ENDSEC;\n" + sections + "DATA;\n" + rest + std::string(kEnd), already);
+  const std::string head = header(copy);
+  const std::string between = "ENDSEC;\n" + sections_text(copy, name) + "DATA;\n";
+  Seals already;
+  std::string rest = head + between;
+  // A file may have hundreds of megabytes, which are written once, where they stay.
+  out.bytes.reserve(rest.size() + bytes_of_exact_paths(plan) + writer.bytes());
+  out.bytes += head;
+  append_exact_paths(out.bytes, plan, copy.model, name, &already);
+  const std::size_t seals_at = out.bytes.size();
+  out.bytes += between;
+  writer.print(out.bytes, already, rest);
+  out.bytes += kEnd;
+  const auto seals = seal_text(std::move(rest.append(kEnd)), already);
   if (!seals) return tl::unexpected(seals.error());
-  out.bytes.reserve(head.size() + paths.size() + seals->size() + sections.size() + data.size() + 64);
-  for (const std::string_view part :
-       {std::string_view(head), std::string_view(paths), std::string_view(*seals),
-        std::string_view("ENDSEC;\n"), std::string_view(sections), std::string_view("DATA;\n"),
-        std::string_view(data), kEnd})
-    out.bytes += part;
+  out.bytes.insert(seals_at, *seals);
   if (auto done = within_limits(plan, copy.model, out.bytes.size()); !done) return fail(done.error());
   std::sort(out.losses.begin(), out.losses.end());
   for (const std::string& loss : out.losses) job.note("EXC-LOSS", loss);

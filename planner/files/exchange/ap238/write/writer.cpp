@@ -46,7 +46,7 @@ Writer::Writer(const model::Plan& plan, const Mapping& mapping, std::vector<std:
   }
 }
 
-std::string Writer::run(const std::vector<Unlisted>& unlisted, Seals& sealed, std::string& unsealed) {
+void Writer::run(const std::vector<Unlisted>& unlisted) {
   shared("protocol");
   if (plan_.project) instance_of(plan_.project);
   for (const AnyRef f : m_.all_below(TypeId::kManufacturingFeature)) require(f);
@@ -67,34 +67,13 @@ std::string Writer::run(const std::vector<Unlisted>& unlisted, Seals& sealed, st
   }
   write_records(*this, unlisted);
   fall_back();
-  std::string out;
-  for (Id id = 1; id <= made_.size(); ++id) {
-    tick();
-    if (reserved_.contains(id)) continue;
-    const Made& made = made_[id - 1];
-    const std::size_t begin = out.size();
-    print(id, made, out);
-    const std::string_view line = std::string_view(out).substr(begin);
-    if (made.leaves.empty() && made.name.empty() && geometry_of(made.noun.type).of_points) {
-      const std::size_t behind = line.find('=') + 1;
-      constexpr std::size_t kEnd = 2;  // ";\n"
-      add_instance(sealed, id, model::noun_type(made.noun.type).keyword,
-                   line.substr(behind, line.size() - behind - kEnd));
-    } else {
-      unsealed += line;
-    }
-  }
-  for (const auto& [what, n] : lost_) {
-    losses_.push_back(what + " has no place in AP238 (" + std::to_string(n) + " left out)");
-  }
-  return out;
 }
 
 // Sets texts that the standard requires and the plan does not have.
 void Writer::fall_back() {
   const auto pending = std::move(fallbacks_);
   for (const auto& [at, constraint] : pending) {
-    const auto& values = made_[at - 1].values;
+    const auto& values = made_of(at).values;
     const auto name = qualified(constraint->attribute).second;
     if (std::any_of(values.begin(), values.end(), [&](const Value& v) { return v.attribute->name == name; }))
       continue;
@@ -125,10 +104,30 @@ void Writer::require(AnyRef at) {
   instance_of(at);
 }
 
+void Writer::skip_reserved() {
+  while (reserved_.contains(instances_.size() + 1)) instances_.emplace_back();  // printed as nothing
+}
+
 Id Writer::add(Made made) {
-  while (reserved_.contains(made_.size() + 1)) made_.emplace_back();  // printed as nothing
+  skip_reserved();
+  instances_.push_back({static_cast<std::uint32_t>(made_.size()), {}});
   made_.push_back(std::move(made));
-  return static_cast<Id>(made_.size());
+  return static_cast<Id>(instances_.size());
+}
+
+Id Writer::add_as_it_is(AnyRef noun) {
+  skip_reserved();
+  instances_.push_back({kAsItIs, noun});
+  return static_cast<Id>(instances_.size());
+}
+
+Writer::Made& Writer::made_of(Id at) {
+  Instance& i = instances_[at - 1];
+  if (i.made == kAsItIs) {
+    i.made = static_cast<std::uint32_t>(made_.size());
+    made_.push_back({.leaves = {}, .noun = i.noun, .name = {}, .values = {}});
+  }
+  return made_[i.made];
 }
 
 Id Writer::make(std::vector<EntityId> leaves) {
@@ -149,7 +148,8 @@ Id Writer::make(std::string_view entity) {
 void Writer::become(Id at, std::string_view entity) {
   const EntityId e = schema_.find(entity);
   if (e == express::kNoEntity) throw std::logic_error("no entity " + std::string(entity));
-  auto& leaves = made_[at - 1].leaves;
+  if (instances_[at - 1].made == kAsItIs) return;
+  auto& leaves = made_of(at).leaves;
   if (leaves.empty()) return;  // kept, or geometry: written as it is
   if (std::any_of(leaves.begin(), leaves.end(), [&](EntityId l) { return schema_.is_a(l, e); })) return;
   std::erase_if(leaves, [&](EntityId l) { return schema_.is_a(e, l); });
@@ -159,7 +159,8 @@ void Writer::become(Id at, std::string_view entity) {
 void Writer::turn_into(Id at, std::string_view entity) {
   const EntityId e = schema_.find(entity);
   if (e == express::kNoEntity) throw std::logic_error("no entity " + std::string(entity));
-  if (!made_[at - 1].leaves.empty()) made_[at - 1].leaves = {e};
+  if (instances_[at - 1].made == kAsItIs) return;
+  if (auto& leaves = made_of(at).leaves; !leaves.empty()) leaves = {e};
 }
 
 std::string Writer::quoted(std::string_view text) { return p21::quoted(text); }
@@ -208,7 +209,7 @@ Id Writer::instance_of(AnyRef at) {
   }
   // BLOCK and the like are geometry that AP238 has as representations.
   if (at.type == TypeId::kKeptInstance || geometry.plain) {
-    const Id id = add({.leaves = {}, .noun = at, .name = {}, .values = {}});
+    const Id id = add_as_it_is(at);
     ids_.set(at, id);
     if (at.type == TypeId::kKeptInstance || geometry.refers) to_scan_.push_back(at);
     return id;
@@ -238,12 +239,13 @@ void Writer::begin(AnyRef at, const ObjectRow& row, Id id, std::uint32_t copy) {
 bool Writer::is_taken(Id at, std::string_view attribute, Id by) const {
   const auto [owner, bare] = qualified(attribute);
   const EntityId wanted = owner.empty() ? express::kNoEntity : schema_.find(owner);
-  return std::any_of(
-      made_[at - 1].values.begin(), made_[at - 1].values.end(), [&, name = bare](const Value& v) {
-        return v.attribute->name == name && (wanted == express::kNoEntity || v.attribute->owner == wanted) &&
-               !v.aggregate && !v.items.empty() && v.items.front().rfind('#', 0) == 0 &&
-               v.items.front() != "#" + std::to_string(by);
-      });
+  if (instances_[at - 1].made == kAsItIs) return false;
+  const auto& values = made_[instances_[at - 1].made].values;
+  return std::any_of(values.begin(), values.end(), [&, name = bare](const Value& v) {
+    return v.attribute->name == name && (wanted == express::kNoEntity || v.attribute->owner == wanted) &&
+           !v.aggregate && !v.items.empty() && v.items.front().rfind('#', 0) == 0 &&
+           v.items.front() != "#" + std::to_string(by);
+  });
 }
 
 // Another instance of an object: where it says itself whose it is, and is two objects' at once.
@@ -327,7 +329,7 @@ void Writer::constrain(Id at, const std::vector<Constraint>& constraints, std::u
 }
 
 void Writer::set(Id at, std::string_view attribute, std::string spelling) {
-  Made& made = made_[at - 1];
+  Made& made = made_of(at);
   const auto [owner, bare] = qualified(attribute);
   const EntityId wanted = owner.empty() ? express::kNoEntity : schema_.find(owner);
   for (const EntityId leaf : made.leaves) {
@@ -381,7 +383,7 @@ void Writer::connect(const Step& s, Id from, Id to, std::uint32_t, AnyRef) {
   }
   set(from, s.attribute, "#" + std::to_string(to));
   if (s.wrapper.empty()) return;
-  for (Value& v : made_[from - 1].values) {
+  for (Value& v : made_of(from).values) {
     if (v.attribute->name == s.attribute) {
       v.wrapper = s.wrapper;
       v.aggregate = true;

@@ -47,10 +47,14 @@ class Writer {
  public:
   Writer(const model::Plan& plan, const Mapping& mapping, std::vector<std::string>& losses);
 
-  /// The data section, one instance per line. `unlisted`: what `to_ap238` gave. `sealed` gets the points and
-  /// the lines through them, which are printed as seals spell them (records/seal.h); `unsealed` the text of
-  /// the others.
-  std::string run(const std::vector<Unlisted>& unlisted, Seals& sealed, std::string& unsealed);
+  /// Makes the instances. `unlisted`: what `to_ap238` gave.
+  void run(const std::vector<Unlisted>& unlisted);
+  /// After run(), once: appends the data section, one instance per line, and lists what is lost. `sealed`
+  /// gets the points and the lines through them, which are printed as seals spell them (records/seal.h);
+  /// `unsealed` the text of the others.
+  void print(std::string& out, Seals& sealed, std::string& unsealed);
+  /// After run(): about how many bytes `print` will append.
+  [[nodiscard]] std::size_t bytes() const;
   /// After run(): the file's reference to an object, "$" if it has none.
   [[nodiscard]] std::string reference_text(model::AnyRef r);
 
@@ -102,7 +106,16 @@ class Writer {
     std::string name;  ///< of geometry whose role fixes it, as spelled; else empty
     std::vector<Value> values;
   };
+  static constexpr std::uint32_t kAsItIs = 0xFFFFFFFF;
+  /// An instance: one of `made_`, or a noun that is written as it is, of which there may be millions.
+  struct Instance {
+    std::uint32_t made = kAsItIs;
+    model::AnyRef noun;
+  };
   Id add(Made made);
+  Id add_as_it_is(model::AnyRef noun);
+  void skip_reserved();
+  [[nodiscard]] Made& made_of(Id at);
   struct MemoKey {
     model::AnyRef owner;
     std::uint32_t prefix, ordinal;
@@ -149,7 +162,8 @@ class Writer {
   void fall_back();
   void note_unmapped(model::AnyRef at, const ObjectRow* row);
   Id unit(model::Unit u);
-  void print(Id id, const Made& made, std::string& out);
+  void print(const Made& made, std::string& out);
+  void print_as_it_is(model::AnyRef noun, const std::string& name, std::string& out);
   void print_geometry(model::AnyRef at, const std::string& name, std::string& out);
   void append_reference(model::AnyRef r, std::string& out);
   void append_attribute(const model::Attribute& a, const void* data, std::string& out);
@@ -179,6 +193,8 @@ class Writer {
   std::vector<std::pair<Id, const Constraint*>> fallbacks_;
   std::deque<model::AnyRef> to_scan_;
   std::map<std::string, std::size_t> lost_;
+  std::vector<Instance> instances_;                            ///< by number, from 1
+  std::pair<model::TypeId, const Geometry*> geometry_before_;  ///< that was asked for last
 };
 
 }  // namespace capstan::exchange::ap238

@@ -8,6 +8,7 @@
 #include "planner/files/p21/print.h"
 #include "planner/ground/base/append_number.h"
 #include "planner/ground/base/number.h"
+#include "planner/ground/base/stopping.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/nouns/arena/walk.h"
 
@@ -55,8 +56,10 @@ std::string listed(const List& items, const Show& show) {
 }  // namespace
 
 const Writer::Geometry& Writer::geometry_of(model::TypeId type) {
+  if (geometry_before_.second != nullptr && geometry_before_.first == type) return *geometry_before_.second;
   const auto [it, fresh] = geometry_.try_emplace(type);
   Geometry& g = it->second;
+  geometry_before_ = {type, &g};
   if (!fresh) return g;
   const auto& noun = model::noun_type(type);
   g.plain = is_geometry({type, 0}) && map_.objects_of(type).empty();
@@ -90,17 +93,67 @@ std::string Writer::slot_text(const Made& made, const express::Slot& slot) const
   return nothing(slot.type, slot.optional);
 }
 
-void Writer::print(Id id, const Made& made, std::string& out) {
-  append_number_of(id, out);
-  out += '=';
-  if (const auto* kept = made.leaves.empty() ? m_.get<model::KeptInstance>(made.noun) : nullptr) {
-    print_kept(*kept, out);
-  } else if (made.leaves.empty()) {
-    if (made.name.empty()) {
-      print_geometry(made.noun, {}, out);
+std::size_t Writer::bytes() const {
+  constexpr std::size_t kInInstance = 110;  // a point of a computed path has 60 to 100
+  return instances_.size() * kInInstance;
+}
+
+void Writer::print(std::string& out, Seals& sealed, std::string& unsealed) {
+  constexpr std::size_t kAtOnce = 64;  // whose seals are taken together
+  struct Printed {
+    Id id;
+    std::string_view keyword;
+    std::size_t begin, end;  // the text moves as it grows
+  };
+  std::vector<Printed> printed;
+  std::vector<Seals::Text> texts;
+  const auto seal = [&] {
+    texts.clear();
+    for (const Printed& p : printed)
+      texts.push_back(
+          text_of_instance(p.id, p.keyword, std::string_view(out).substr(p.begin, p.end - p.begin)));
+    sealed.add(texts);
+    printed.clear();
+  };
+  for (Id id = 1; id <= instances_.size(); ++id) {
+    tick();
+    if (reserved_.contains(id)) continue;
+    const Instance& instance = instances_[id - 1];
+    const std::size_t line = out.size();
+    append_number_of(id, out);
+    out += '=';
+    const std::size_t begin = out.size();
+    if (instance.made != kAsItIs) {
+      print(made_[instance.made], out);
     } else {
-      print_geometry(made.noun, made.name, out);
+      print_as_it_is(instance.noun, {}, out);
     }
+    const std::size_t end = out.size();
+    out += ";\n";
+    if (instance.made == kAsItIs && geometry_of(instance.noun.type).of_points) {
+      printed.push_back({id, model::noun_type(instance.noun.type).keyword, begin, end});
+      if (printed.size() == kAtOnce) seal();
+    } else {
+      unsealed.append(out, line);
+    }
+  }
+  seal();
+  for (const auto& [what, n] : lost_) {
+    losses_.push_back(what + " has no place in AP238 (" + std::to_string(n) + " left out)");
+  }
+}
+
+void Writer::print_as_it_is(AnyRef noun, const std::string& name, std::string& out) {
+  if (const auto* kept = m_.get<model::KeptInstance>(noun)) {
+    print_kept(*kept, out);
+  } else {
+    print_geometry(noun, name, out);
+  }
+}
+
+void Writer::print(const Made& made, std::string& out) {
+  if (made.leaves.empty()) {
+    print_as_it_is(made.noun, made.name, out);
   } else if (made.leaves.size() == 1) {
     out += schema_.keyword(made.leaves.front());
     out += listed(schema_.slots(made.leaves.front()),
@@ -114,7 +167,6 @@ void Writer::print(Id id, const Made& made, std::string& out) {
     }
     out += ')';
   }
-  out += ";\n";
 }
 
 std::string Writer::reference_text(AnyRef r) {
