@@ -23,7 +23,7 @@ struct Early {
 Early early(std::size_t features) {
   Job job;
   const auto shop = pipeline::load_shop({}, job);
-  auto plan = pipeline::read_plan(testing::plate(features).text, "plate.p21", job);
+  auto plan = pipeline::read_plan(capstan::testing::plate(features).text, "plate.p21", job);
   if (!shop || !plan) return {};
   auto made = pipeline::bind(*std::move(plan), *shop, {}, job);
   if (!made) return {};
@@ -36,7 +36,7 @@ Early early(std::size_t features) {
 void bind_again(benchmark::State& state) {
   const Early plan = early(22);
   const std::string tool = "T" + std::to_string(state.range(0)) + " ";
-  const testing::ScratchFolder folder;
+  const capstan::testing::ScratchFolder folder;
   const std::string path = folder.path() + "/tool.tbl";
   service::Session session;
   double longer_mm = 0.0;

@@ -101,6 +101,25 @@ std::string identity_of_results() {
   return out;
 }
 
+namespace {
+
+/// Makes a folder where it is missing. Why it may not be used, or nothing: who can write a result can make a
+/// plan of it. A link is followed to the folder that the user names, and to no other.
+std::string not_our_own(const std::string& path, bool by_link) {
+  if (::mkdir(path.c_str(), 0700) != 0 && errno != EEXIST) return std::strerror(errno);
+  struct stat info {};
+  if ((by_link ? ::stat(path.c_str(), &info) : ::lstat(path.c_str(), &info)) != 0)
+    return std::strerror(errno);
+  if (!S_ISDIR(info.st_mode)) return "it is no folder";
+  if (info.st_uid != ::geteuid()) return "it belongs to another user";
+  if ((info.st_mode & (S_IWGRP | S_IWOTH)) != 0) return "others may write it";
+  return {};
+}
+
+}  // namespace
+
+std::string Folder::of_build() const { return path_ + "/" + hex64(fnv1a(build_)); }
+
 Folder::Folder(std::string path, std::string build, std::size_t most_bytes)
     : path_(std::move(path)), build_(std::move(build)), most_bytes_(most_bytes) {}
 
@@ -135,31 +154,16 @@ Result<Folder> Folder::open(const std::string& path, std::size_t most_bytes) {
   };
   std::error_code error;
   fs::create_directories(fs::path(path).parent_path(), error);
-  if (::mkdir(path.c_str(), 0700) != 0 && errno != EEXIST) return wrong(std::strerror(errno));
-  struct stat info {};
-  if (::stat(path.c_str(), &info) != 0) return wrong(std::strerror(errno));
-  if (!S_ISDIR(info.st_mode)) return wrong("it is a file");
-  // Who can write a result can make a plan of it.
-  if (info.st_uid != ::geteuid()) return wrong("it belongs to another user");
-  if ((info.st_mode & (S_IWGRP | S_IWOTH)) != 0) return wrong("others may write it");
-  return Folder(path, build, most_bytes);
+  if (const std::string fault = not_our_own(path, true); !fault.empty()) return wrong(fault);
+  Folder out(path, build, most_bytes);
+  if (const std::string fault = not_our_own(out.of_build(), false); !fault.empty())
+    return wrong(fs::path(out.of_build()).filename().string() + " in it: " + fault);
+  return out;
 }
 
 std::string Folder::file_of(const Key& key) const {
   const std::string name = hex64(key.high) + hex64(key.low);
-  return path_ + "/" + hex64(fnv1a(build_)) + "/" + name.substr(0, 2) + "/" + name.substr(2);
-}
-
-/// Whether a file has a name that `file_of` gives for some build and key, or that of one being written.
-bool Folder::is_ours(const std::string& path) const {
-  const fs::path relative = fs::path(path).lexically_relative(path_);
-  const std::string file = relative.filename().string(), sub = relative.parent_path().filename().string();
-  const std::string build = relative.parent_path().parent_path().string();
-  const auto hex = [](std::string_view s) { return s.find_first_not_of("0123456789abcdef") == s.npos; };
-  constexpr std::size_t kBuild = 16, kSub = 2, kFile = 30;
-  if (build.size() != kBuild || sub.size() != kSub || file.size() < kFile) return false;
-  if (!hex(build) || !hex(sub) || !hex(std::string_view(file).substr(0, kFile))) return false;
-  return file.size() == kFile || (file[kFile] == '.' && file.ends_with(".tmp"));
+  return of_build() + "/" + name.substr(0, 2) + "/" + name.substr(2);
 }
 
 std::uint64_t Folder::checksum(const Key& key, std::string_view bytes) const {
@@ -191,8 +195,9 @@ void Folder::keep(const Key& key, std::string_view bytes) {
   std::memcpy(all.data(), &head, sizeof head);
   all += bytes;
   const std::string name = file_of(key);
-  std::error_code error;
-  fs::create_directories(fs::path(name).parent_path(), error);
+  for (const std::string& folder : {of_build(), fs::path(name).parent_path().string()}) {
+    if (!not_our_own(folder, false).empty()) return;
+  }
   // Not brought to disk before it gets its name: a file that a power cut leaves short is found by its
   // checksum.
   const std::string unnamed =
@@ -217,29 +222,53 @@ void Folder::keep(const Key& key, std::string_view bytes) {
   }
 }
 
+namespace {
+
+/// The entries of a folder whose names are so many hexadecimal digits, and for files perhaps an ending; of
+/// one that cannot be read there are none.
+std::vector<fs::path> named(const fs::path& folder, std::size_t digits, bool files) {
+  std::vector<fs::path> out;
+  std::error_code error;
+  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+    const std::string name = at->path().filename().string();
+    if (name.size() < digits || name.find_first_not_of("0123456789abcdef") < digits) continue;
+    const bool whole = name.size() == digits || (files && name[digits] == '.' && name.ends_with(".tmp"));
+    std::error_code gone;  // another process may remove it meanwhile
+    const auto status = at->symlink_status(gone);
+    if (whole && (files ? fs::is_regular_file(status) : fs::is_directory(status))) out.push_back(at->path());
+  }
+  return out;
+}
+
+}  // namespace
+
 void Folder::make_room() const {
   struct File {
     fs::file_time_type used;
     std::string path;
     std::uintmax_t size = 0;
   };
+  constexpr std::size_t kBuild = 16, kSub = 2, kFile = 30;  // digits, as in `file_of`
   std::vector<File> files;
   std::uintmax_t sum = 0;
-  std::error_code error;
-  for (fs::recursive_directory_iterator at(path_, error), end; !error && at != end; at.increment(error)) {
-    std::error_code gone;  // another process may remove it meanwhile
-    if (!at->is_regular_file(gone) || gone || !is_ours(at->path().string())) continue;
-    File f{at->last_write_time(gone), at->path().string(), 0};
-    f.size = at->file_size(gone);
-    if (gone) continue;
-    sum += f.size;
-    files.push_back(std::move(f));
+  for (const fs::path& build : named(path_, kBuild, false)) {
+    for (const fs::path& sub : named(build, kSub, false)) {
+      for (const fs::path& file : named(sub, kFile, true)) {
+        std::error_code gone;
+        File f{fs::last_write_time(file, gone), file.string(), 0};
+        f.size = fs::file_size(file, gone);
+        if (gone) continue;
+        sum += f.size;
+        files.push_back(std::move(f));
+      }
+    }
   }
   if (sum <= most_bytes_) return;
   std::sort(files.begin(), files.end(), [](const File& a, const File& b) {
     return a.used != b.used ? a.used < b.used : a.path < b.path;
   });
   const double kept = kKept * static_cast<double>(most_bytes_);
+  std::error_code error;
   for (const File& f : files) {
     if (static_cast<double>(sum) <= kept) break;
     if (fs::remove(f.path, error)) sum -= f.size;

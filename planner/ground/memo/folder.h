@@ -39,7 +39,7 @@ class Folder {
  private:
   Folder(std::string path, std::string build, std::size_t most_bytes);
   [[nodiscard]] std::string file_of(const Key& key) const;
-  [[nodiscard]] bool is_ours(const std::string& path) const;
+  [[nodiscard]] std::string of_build() const;
   [[nodiscard]] std::uint64_t checksum(const Key& key, std::string_view bytes) const;
   /// Removes the files of this room that were not used for longest, down to the bound. Files of others stay.
   void make_room() const;

@@ -1,6 +1,7 @@
 #include "planner/ground/memo/memo.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -249,6 +250,53 @@ TEST(Folder, FilesOfOthersInItStay) {
   }
   EXPECT_EQ(fs::file_size(folder + "/letter.txt"), 5000U);
   EXPECT_EQ(fs::file_size(folder + "/photos/abcdef0123456789abcdef012345678"), 5000U);
+}
+
+TEST(Folder, KeepsToItsBoundBesideAFolderThatMayNotBeRead) {
+  const std::string folder = new_folder("locked");
+  fs::create_directories(folder + "/lost+found");
+  fs::permissions(folder, fs::perms::owner_all);
+  fs::permissions(folder + "/lost+found", fs::perms::none);
+  for (int round = 0; round < 2; ++round) {
+    auto memo = Memo::in_folder(folder, 1 << 20, 3000);
+    for (int i = 0; i < 20; ++i) (*memo)->keep(Stage::kPath, key(100 * round + i), std::string(1000, 'x'));
+  }
+  fs::permissions(folder + "/lost+found", fs::perms::owner_all);
+  std::uintmax_t sum = 0;
+  for (const auto& f : files_in(folder)) sum += fs::file_size(f);
+  EXPECT_LE(sum, 3000U);
+}
+
+TEST(Folder, LetsNobodyElseWriteWhateverTheMaskOfThisProcess) {
+  const std::string folder = new_folder("mask");
+  const mode_t before = ::umask(0);
+  {
+    auto memo = Memo::in_folder(folder);
+    (*memo)->keep(Stage::kPath, key(1), "x");
+  }
+  ::umask(before);
+  int seen = 0;
+  for (const auto& e : fs::recursive_directory_iterator(folder)) {
+    EXPECT_EQ(e.status().permissions() & (fs::perms::group_write | fs::perms::others_write), fs::perms::none)
+        << e.path();
+    ++seen;
+  }
+  EXPECT_EQ(seen, 3) << "a folder of the build, one of 256, the file";
+}
+
+TEST(Folder, WithAFolderOfTheBuildThatLeadsElsewhereIsRefused) {
+  const std::string folder = new_folder("link"), elsewhere = new_folder("elsewhere");
+  {
+    auto memo = Memo::in_folder(folder);
+    ASSERT_TRUE(memo);
+  }
+  fs::path build;
+  for (const auto& e : fs::directory_iterator(folder)) build = e.path();
+  ASSERT_FALSE(build.empty());
+  fs::create_directories(elsewhere);
+  fs::remove_all(build);
+  fs::create_directory_symlink(elsewhere, build);
+  EXPECT_FALSE(Memo::in_folder(folder));
 }
 
 TEST(Folder, ThatOthersMayWriteIsRefused) {

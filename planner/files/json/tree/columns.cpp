@@ -81,7 +81,7 @@ bool column(const char*& p, const char* end, Column& out, std::size_t& lines) {
     double value = 0.0;
     bool whole = true;
     if (!number(at, end, value, whole)) return false;
-    out.whole = out.whole && whole;
+    if (!whole && !out.not_whole) out.not_whole = n;
     if (out.bytes.size() < (n + 1) * sizeof value)
       out.bytes.resize(std::max(2 * out.bytes.size(), kLeastColumn * sizeof value));
     std::memcpy(out.bytes.data() + n * sizeof value, &value, sizeof value);

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,8 +11,9 @@ namespace capstan::json {
 
 /// An array of numbers that was taken out of a text.
 struct Column {
-  std::size_t array = 0;            ///< which of the document's arrays, counted from 0 as they open
-  bool whole = true;                ///< all are spelled without point and exponent
+  std::size_t array = 0;  ///< which of the document's arrays, counted from 0 as they open
+  /// The first number that is spelled with a point or an exponent.
+  std::optional<std::size_t> not_whole = std::nullopt;
   std::vector<std::uint8_t> bytes;  ///< the doubles, one after the other
 };
 

@@ -31,7 +31,7 @@ class Builder final : public nlohmann::json_sax<Tree> {
     const std::size_t array = arrays_++;
     if (taken_ == columns_.size() || columns_[taken_].array != array) return open(Tree::array());
     Column& c = columns_[taken_++];
-    return open(Tree::binary(std::move(c.bytes), subtype_of(c.whole)));
+    return open(Tree::binary(std::move(c.bytes), subtype_of(c.not_whole)));
   }
   bool end_array() override { return close(); }
   bool parse_error(std::size_t byte, const std::string& token, const Tree::exception& e) override {

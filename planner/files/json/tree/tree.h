@@ -30,21 +30,27 @@ template <class Tree>
   if (!out.empty()) std::memcpy(out.data(), bytes.data(), bytes.size());
   return out;
 }
-[[nodiscard]] inline std::size_t subtype_of(bool whole) { return whole ? 1 : 0; }
+/// 1: all numbers are spelled as whole ones; else 2 and more, by the first that is not.
+[[nodiscard]] inline std::size_t subtype_of(const std::optional<std::size_t>& not_whole) {
+  return not_whole ? 2 + *not_whole : 1;
+}
 /// Whether all its numbers are spelled as whole ones.
 template <class Tree>
 [[nodiscard]] bool is_whole(const Tree& column) {
-  return column.get_binary().subtype() == subtype_of(true);
+  return column.get_binary().subtype() == subtype_of(std::nullopt);
 }
 /// A column as the library would have read it.
 template <class Tree>
 [[nodiscard]] Tree expanded(const Tree& column) {
   Tree out = Tree::array();
-  const bool whole = is_whole(column);
-  for (const double v : numbers_of(column)) {
-    if (whole && v >= 0.0) {
+  const std::vector<double> numbers = numbers_of(column);
+  const std::size_t whole =
+      is_whole(column) ? numbers.size() : static_cast<std::size_t>(column.get_binary().subtype()) - 2;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const double v = numbers[i];
+    if (i < whole && v >= 0.0) {
       out.push_back(static_cast<std::uint64_t>(v));
-    } else if (whole) {
+    } else if (i < whole) {
       out.push_back(static_cast<std::int64_t>(v));
     } else {
       out.push_back(v);

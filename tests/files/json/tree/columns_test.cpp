@@ -47,11 +47,16 @@ TEST(Columns, AreReadToTheNearestDoubleHoweverTheyAreSpelled) {
   const Columns taken = take_columns(in_a_plan(text));
   ASSERT_EQ(taken.columns.size(), 1U);
   EXPECT_EQ(values(taken.columns[0]), expected);
-  EXPECT_FALSE(taken.columns[0].whole);
+  EXPECT_EQ(taken.columns[0].not_whole, 0U);
   EXPECT_EQ(taken.columns[0].array, 1U);
   // The line ends stay, so that faults behind the column are told where they are.
   const std::string lines(static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')), '\n');
   EXPECT_EQ(taken.rest, in_a_plan(lines));
+}
+
+TEST(Columns, KnowTheFirstNumberThatIsNotSpelledAsAWholeOne) {
+  EXPECT_EQ(take_columns(in_a_plan(times("7", 20))).columns.at(0).not_whole, std::nullopt);
+  EXPECT_EQ(take_columns(in_a_plan(times("7", 20) + ",2.0," + times("7", 20))).columns.at(0).not_whole, 20U);
 }
 
 TEST(Columns, AreLeftToTheGeneralParserWhereTheyAreNone) {

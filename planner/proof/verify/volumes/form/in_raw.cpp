@@ -35,7 +35,15 @@ constexpr double kStepMm = 0.25;  // along a line through a form that lies acros
 constexpr int kMostSteps = 400;
 constexpr double kAsideMm = 0.2;  // of the lines beside a line; default, unsourced
 constexpr double kLidMm = 0.02;   // how far a form's top and floor may be off; default, unsourced
-constexpr double kThinMm = 0.1;   // thinner lids are rounding of a file; default, unsourced
+constexpr double kThinMm =
+    0.1;  // thinner lids between what others take are rounding of a file; default, unsourced
+
+/// Whether a lid counts. One that begins where the form's top may be off has had that taken away already.
+bool counts(const std::pair<double, double>& span) {
+  constexpr double kTraceMm = 1e-6;
+  const bool on_top = span.first <= kLidMm + kTraceMm;
+  return span.second - span.first >= (on_top ? kTraceMm : kThinMm);
+}
 
 double along(Vec3 v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 
@@ -308,8 +316,7 @@ std::string buried(const Form& f, const std::vector<Form>& others, const Piece& 
   const bool open_below = f.solid.through || -f.depth_mm() <= box.lo.z + kLidMm;
   if (f.bore() != nullptr && open_below && !others.empty()) {
     const Spans over_axis = solid_over({0.0, 0.0}, box.hi.z);
-    const auto thick = [](const auto& span) { return span.second - span.first >= kThinMm; };
-    if (std::none_of(over_axis.begin(), over_axis.end(), thick)) return {};
+    if (std::none_of(over_axis.begin(), over_axis.end(), counts)) return {};
   }
   const Vec2 cell = (1.0 / kLines) * (hi - lo);
   double above = 0.0, volume = 0.0;
@@ -326,8 +333,9 @@ std::string buried(const Form& f, const std::vector<Form>& others, const Piece& 
       if (lid.empty()) break;
       lid = common(lid, solid_over(p + aside, top));
     }
-    for (const auto& [from, to] : lid) {
-      if (to - from < kThinMm) continue;
+    for (const auto& span : lid) {
+      if (!counts(span)) continue;
+      const auto [from, to] = span;
       volume += cell.x * cell.y * (to - from);
       if (to <= above) continue;
       above = to;

@@ -105,6 +105,16 @@ TEST_F(InRaw, ALidIsFoundAlthoughThePlannersFaceIsTooLong) {
   EXPECT_EQ(lid_over(form(pocket), {form(pocket), form(whole)}), 0.0);
 }
 
+// Only what lies within the tolerance of a form's top is rounding of a file.
+TEST_F(InRaw, AThinLidOnAFormsTopIsFoundFromThatToleranceOn) {
+  for (const double lid_mm : {0.01, 0.03, 0.05, 0.1, 0.119, 0.125, 0.5}) {
+    const auto hole = k.hole(100, 75, 10, 10);
+    k.m.at<model::RoundHole>(hole).feature_placement = k.at(100, 75, -lid_mm);
+    const double found = lid_over(form(hole), {form(hole)});
+    EXPECT_NEAR(found, lid_mm > 0.02 ? lid_mm : 0.0, 1e-6);
+  }
+}
+
 // A hole across the part, 6 mm below its top, opens nothing above the pocket but where it runs.
 TEST_F(InRaw, WhatAHoleAcrossTakesIsNoLidAndTheRestIs) {
   const auto pocket = k.pocket(100, 75, 4, 4, 10);
