@@ -9,6 +9,7 @@
 #include "planner/ground/base/file.h"
 #include "planner/making/toolpath/freeform/drop_cutter.h"
 #include "planner/physics/engagement/engagement.h"
+#include "tests/kept/wavy.h"
 
 // Plans and checks are made by the command, in a process each: what a process keeps for its next call makes
 // no row faster. The kernels of sections and of the drop-cutter, and JSON, run here.
@@ -45,30 +46,10 @@ void sections() {
   }
 }
 
-/// A wavy surface of 100 mm by 100 mm.
-geometry::Mesh wavy(int n) {
-  geometry::Mesh m;
-  for (int j = 0; j <= n; ++j) {
-    for (int i = 0; i <= n; ++i) {
-      const double x = 100.0 * i / n;
-      const double y = 100.0 * j / n;
-      m.vertices.push_back({x, y, 5.0 * std::sin(0.15 * x) * std::cos(0.11 * y)});
-    }
-  }
-  const auto at = [n](int i, int j) { return static_cast<std::uint32_t>(j * (n + 1) + i); };
-  for (int j = 0; j < n; ++j) {
-    for (int i = 0; i < n; ++i) {
-      m.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
-      m.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
-    }
-  }
-  return m;
-}
-
 /// A ball of 6 mm dropped on the surface at places 0.5 mm apart, row by row.
 void drops() {
   constexpr int kPlaces = 200;
-  const toolpath::freeform::DropCutter cutter(wavy(100));
+  const toolpath::freeform::DropCutter cutter(capstan::testing::wavy(100));
   std::vector<geometry::Vec2> points;
   for (int j = 0; j < kPlaces; ++j) {
     for (int i = 0; i < kPlaces; ++i)

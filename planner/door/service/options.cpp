@@ -173,8 +173,7 @@ std::vector<Option> table() {
       {"cache",
        Value::kText,
        both("a folder that keeps results of stages from call to call: a plan that differs little from an "
-            "earlier one "
-            "is made in a fraction of the time, byte for byte the same"),
+            "earlier one is made in a fraction of the time, byte for byte the same"),
        [](Request& r, Text t) { return r.cache = t, std::string(); },
        {}},
       {"solver", Value::kWord, both(solver_help()),

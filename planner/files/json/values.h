@@ -18,6 +18,7 @@
 #include "planner/model/nouns/workpiece.h"
 #include "planner/model/plan/decision/edited.h"
 #include "planner/model/plan/plan.h"
+#include "planner/model/plan/range/columns_agree.h"
 
 // Values of the plan's JSON into the plan's own types, by `fields.h`. What is wrong ends the reading with the
 // place and what was expected there. Tree is the JSON library's value, which stays in sources.
@@ -234,11 +235,7 @@ class ValueReader {
     if constexpr (std::is_same_v<T, model::StepResult>) known.names.insert(known.names.end(), {"id", "peak"});
     only(t, known.names, at);
     if constexpr (std::is_same_v<T, model::CutterPath>) {
-      const std::size_t n = x.size();
-      if (x.y.size() != n || x.z.size() != n || x.cx.size() != n || x.cy.size() != n || x.kind.size() != n ||
-          x.role.size() != n) {
-        fault(at, "columns of one length");
-      }
+      if (!model::columns_agree(x)) fault(at, "columns of one length");
     }
   }
 

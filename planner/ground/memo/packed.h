@@ -30,30 +30,11 @@ namespace detail {
 template <class T>
 inline constexpr bool kPlain = std::is_arithmetic_v<T> || std::is_enum_v<T>;
 
-template <class T>
-inline constexpr bool kVector = false;
-template <class T, class A>
-inline constexpr bool kVector<std::vector<T, A>> = true;
-
-template <class T>
-inline constexpr bool kMap = false;
-template <class K, class V, class C, class A>
-inline constexpr bool kMap<std::map<K, V, C, A>> = true;
-
-template <class T>
-inline constexpr bool kOptional = false;
-template <class T>
-inline constexpr bool kOptional<std::optional<T>> = true;
-
-template <class T>
-inline constexpr bool kPair = false;
-template <class A, class B>
-inline constexpr bool kPair<std::pair<A, B>> = true;
-
-template <class T>
-inline constexpr bool kShared = false;
-template <class T>
-inline constexpr bool kShared<std::shared_ptr<T>> = true;
+/// Whether T is made of this template: kIs<std::vector<int>, std::vector>.
+template <class T, template <class...> class Of>
+inline constexpr bool kIs = false;
+template <template <class...> class Of, class... Arguments>
+inline constexpr bool kIs<Of<Arguments...>, Of> = true;
 
 }  // namespace detail
 
@@ -68,7 +49,7 @@ void pack(std::string& out, const T& v) {
   } else if constexpr (std::is_same_v<T, std::string>) {
     pack(out, static_cast<std::uint64_t>(v.size()));
     out += v;
-  } else if constexpr (kVector<T>) {
+  } else if constexpr (kIs<T, std::vector>) {
     using E = typename T::value_type;
     pack(out, static_cast<std::uint64_t>(v.size()));
     if constexpr (kPlain<E> && !std::is_same_v<E, bool>) {
@@ -76,19 +57,19 @@ void pack(std::string& out, const T& v) {
     } else {
       for (const auto& e : v) pack(out, static_cast<const E&>(e));
     }
-  } else if constexpr (kMap<T>) {
+  } else if constexpr (kIs<T, std::map>) {
     pack(out, static_cast<std::uint64_t>(v.size()));
     for (const auto& [key, value] : v) {
       pack(out, key);
       pack(out, value);
     }
-  } else if constexpr (kPair<T>) {
+  } else if constexpr (kIs<T, std::pair>) {
     pack(out, v.first);
     pack(out, v.second);
-  } else if constexpr (kOptional<T>) {
+  } else if constexpr (kIs<T, std::optional>) {
     pack(out, v.has_value());
     if (v) pack(out, *v);
-  } else if constexpr (kShared<T> || std::is_pointer_v<T>) {
+  } else if constexpr (kIs<T, std::shared_ptr> || std::is_pointer_v<T>) {
     if constexpr (std::is_pointer_v<T>)
       static_assert(!std::is_same_v<std::remove_cv_t<std::remove_pointer_t<T>>, char>,
                     "a text is no single character");
@@ -121,7 +102,7 @@ class Unpacker {
       const std::size_t n = count(1);
       v.assign(bytes_.substr(0, n));
       bytes_.remove_prefix(n);
-    } else if constexpr (kVector<T>) {
+    } else if constexpr (kIs<T, std::vector>) {
       using E = typename T::value_type;
       if constexpr (kPlain<E> && !std::is_same_v<E, bool>) {
         const std::size_t n = count(sizeof(E));
@@ -137,7 +118,7 @@ class Unpacker {
           v.push_back(std::move(e));
         }
       }
-    } else if constexpr (kMap<T>) {
+    } else if constexpr (kIs<T, std::map>) {
       const std::size_t n = count(1);
       v.clear();
       for (std::size_t i = 0; i < n && whole_; ++i) {
@@ -147,10 +128,10 @@ class Unpacker {
         read(value);
         v.insert_or_assign(std::move(key), std::move(value));
       }
-    } else if constexpr (kPair<T>) {
+    } else if constexpr (kIs<T, std::pair>) {
       read(v.first);
       read(v.second);
-    } else if constexpr (kOptional<T>) {
+    } else if constexpr (kIs<T, std::optional>) {
       bool there = false;
       read(there);
       if (!there) {
@@ -163,7 +144,7 @@ class Unpacker {
       read(there);
       whole_ = whole_ && !there;
       v = nullptr;
-    } else if constexpr (kShared<T>) {
+    } else if constexpr (kIs<T, std::shared_ptr>) {
       using E = std::remove_const_t<typename T::element_type>;
       bool there = false;
       read(there);

@@ -1,14 +1,12 @@
 #include <gtest/gtest.h>
 
-#include <condition_variable>
-#include <mutex>
-#include <set>
+#include <chrono>
 #include <string>
-#include <thread>
 
 #include "planner/door/service/check.h"
 #include "planner/door/service/planning.h"
 #include "tests/support/corpus.h"
+#include "tests/support/witness.h"
 
 // What the command does with a part (plan it, make all files, check their program; check the files again)
 // gives the same bytes, findings and messages in the same order on any number of threads.
@@ -18,37 +16,10 @@ namespace {
 
 const std::string kSource = capstan::testing::source_dir();
 
-/// A clock that notes which threads read it. Where helpers are `awaited`, the caller's own questions take a
-/// millisecond each until one is there, so that it does not do all the work before.
-class Witness {
- public:
-  explicit Witness(bool awaited) : awaited_(awaited) {}
-  std::chrono::steady_clock::time_point read() {
-    constexpr int kLongest = 20000;  // waited out only where none ever comes: the test fails then
-    std::unique_lock lock(mutex_);
-    if (std::this_thread::get_id() != caller_) {
-      helpers_.insert(std::this_thread::get_id());
-      arrived_.notify_all();
-    } else if (awaited_ && helpers_.empty() && ++waited_ < kLongest) {
-      arrived_.wait_for(lock, std::chrono::milliseconds(1));
-    }
-    return {};
-  }
-  [[nodiscard]] std::size_t helpers() const { return helpers_.size(); }
-
- private:
-  bool awaited_;
-  int waited_ = 0;
-  std::thread::id caller_ = std::this_thread::get_id();
-  std::mutex mutex_;
-  std::condition_variable arrived_;
-  std::set<std::thread::id> helpers_;
-};
-
 /// Runs `work` with a job of so many threads; true if others than the caller's did some of it.
 template <class Work>
 bool helped(unsigned threads, Job& job, Work work) {
-  Witness witness(threads > 1);
+  testing::Witness witness(threads > 1);
   job.threads = threads;
   job.set_deadline(std::chrono::steady_clock::time_point::max());  // so that the clock is read
   job.set_clock([&witness] { return witness.read(); });

@@ -15,6 +15,7 @@
 #include "planner/making/step/record/results.h"
 #include "planner/making/workholding/clear_of_fixtures.h"
 #include "planner/model/nouns/all.h"
+#include "planner/model/plan/range/columns_agree.h"
 #include "planner/physics/engagement/kept_digits.h"
 
 namespace capstan::step {
@@ -80,13 +81,6 @@ class SaidBefore {
   std::vector<Diagnostic> said_;
 };
 
-bool sound(const model::CutterPath& p) {
-  for (const auto* column : {&p.y, &p.z, &p.cx, &p.cy}) {
-    if (column->size() != p.size()) return false;
-  }
-  return p.kind.size() == p.size() && p.role.size() == p.size();
-}
-
 /// toolpath::generate, asked once for each job.
 Result<toolpath::GeneratedPath> generated(const toolpath::PathJob& task, const Means& means) {
   if (means.memo == nullptr) return toolpath::generate(task, means.job);
@@ -104,8 +98,8 @@ Result<toolpath::GeneratedPath> generated(const toolpath::PathJob& task, const M
   };
   const auto whole = [&](const Generated& g) {
     const toolpath::GeneratedPath& p = g.path;
-    return !means.job.stop_requested() && sound(p.path) && p.feed_factor.size() == p.path.size() &&
-           p.speed_factor.size() == p.path.size() && p.dwell_s.size() == p.path.size();
+    return !means.job.stop_requested() && model::columns_agree(p.path) &&
+           model::of_one_length(p.path, p.feed_factor, p.speed_factor, p.dwell_s);
   };
   auto known = memo::remembered<Generated>(means.memo, memo::Stage::kPath,
                                            memo::key_of(memo::Stage::kPath, task), make, whole);
@@ -124,13 +118,11 @@ struct Scheduled {
 };
 
 bool sound(const Scheduled& s) {
-  const std::size_t n = s.path.size();
   const model::FeedSchedule& f = s.feeds.schedule;
-  const auto in = [n](const auto& all) {
-    return std::all_of(all.begin(), all.end(), [n](const auto& one) { return one.move < n; });
-  };
-  return sound(s.path) && f.feed_mm_min.size() == n && f.spindle_rpm.size() == n && f.dwell_s.size() == n &&
-         in(s.samples);
+  return model::columns_agree(s.path) && model::columns_agree(s.sections) &&
+         model::of_one_length(s.path, f.feed_mm_min, f.spindle_rpm, f.dwell_s) &&
+         std::all_of(s.samples.begin(), s.samples.end(),
+                     [&](const optimise::CutSample& one) { return one.move < s.path.size(); });
 }
 
 /// Splits the moves by their sections, where there are some, and schedules the feeds of all.

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "planner/ground/memo/remembered.h"
+#include "planner/model/plan/range/columns_agree.h"
 #include "planner/physics/engagement/planar/planar.h"
 
 namespace capstan::step {
@@ -24,12 +25,7 @@ struct PlanarCut {
 };
 
 bool sound(const Measurement& m) {
-  const model::SectionSeries& s = m.sections;
-  for (const auto* column : {&s.at_mm, &s.ad_max_mm, &s.rd_max_mm, &s.x_max_ofs_mm, &s.y_max_ofs_mm,
-                             &s.csa_mm2, &s.x_cg_ofs_mm, &s.y_cg_ofs_mm, &s.removed_mm3}) {
-    if (column->size() != s.size()) return false;
-  }
-  return m.engagement.size() == s.size();
+  return model::columns_agree(m.sections) && model::of_one_length(m.sections, m.engagement);
 }
 
 bool same_place(const stock::Patch& a, const stock::Patch& b) {
@@ -54,16 +50,20 @@ Result<Measurement> measure_again(stock::HeightMap& map, const model::CutterPath
   const auto key = memo::key_of(memo::Stage::kSections, std::string("cells"), path, profile,
                                 cutter.cutter_class, engagement::head_height(cutter), map.origin, map.cell_mm,
                                 map.nx, map.ny, stock::patch_of(map, xy(seen.lo), xy(seen.hi)));
-  const stock::Patch before = columns_under(map, path, profile);
-  bool found = false;
+  bool found = false, measured_now = false;
   auto cut = memo::remembered<CellsCut>(
       memo, memo::Stage::kSections, key,
       [&]() -> Result<CellsCut> {
         auto measured = engagement::measure(path, cutter, map);
         if (!measured) return tl::unexpected(measured.error());
+        measured_now = true;
         return CellsCut{*std::move(measured), columns_under(map, path, profile)};
       },
-      [&](const CellsCut& c) { return sound(c.measured) && same_place(c.after, before); }, &found);
+      // What was measured just now has its place from this very map.
+      [&](const CellsCut& c) {
+        return sound(c.measured) && (measured_now || same_place(c.after, columns_under(map, path, profile)));
+      },
+      &found);
   if (!cut) return tl::unexpected(cut.error());
   if (found) stock::put_back(map, cut->after);
   return std::move(cut->measured);

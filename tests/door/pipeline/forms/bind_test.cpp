@@ -3,18 +3,15 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <condition_variable>
 #include <cstring>
 #include <memory>
-#include <mutex>
-#include <set>
 #include <string>
-#include <thread>
 
 #include "casebase/casebase.h"
 #include "planner/model/nouns/all.h"
 #include "tests/support/corpus.h"
 #include "tests/support/shop.h"
+#include "tests/support/witness.h"
 
 namespace capstan::pipeline {
 namespace {
@@ -65,38 +62,10 @@ TEST(Bind, PlansTheBracketWholeAndSafe) {
   }
 }
 
-/// A clock that notes which other threads than the planner's read it: each piece of shared work asks its job
-/// whether it is to stop. Where others are `awaited`, the planner's own questions take a millisecond until
-/// the first of them is there, so that it does not do the work of both.
-class Witness {
- public:
-  explicit Witness(bool awaited) : awaited_(awaited) {}
-  std::chrono::steady_clock::time_point read() {
-    constexpr int kLongest = 20000;  // waited out only where none ever comes: the test fails then
-    std::unique_lock lock(mutex_);
-    if (std::this_thread::get_id() != planner_) {
-      workers_.insert(std::this_thread::get_id());
-      arrived_.notify_all();
-    } else if (awaited_ && workers_.empty() && ++waited_ < kLongest) {
-      arrived_.wait_for(lock, std::chrono::milliseconds(1));
-    }
-    return std::chrono::steady_clock::now();
-  }
-  [[nodiscard]] std::size_t workers() const { return workers_.size(); }
-
- private:
-  bool awaited_;
-  int waited_ = 0;
-  std::thread::id planner_ = std::this_thread::get_id();
-  std::mutex mutex_;
-  std::condition_variable arrived_;
-  std::set<std::thread::id> workers_;
-};
-
 /// A part planned and checked on so many threads: all forms, all findings of the plan and of its program, all
 /// that was reported. `workers` are the threads that helped.
 std::string made_on(const std::string& name, const Inputs& in, unsigned threads, std::size_t& workers) {
-  Witness witness(threads > 1);
+  testing::Witness witness(threads > 1);
   Job job;
   job.threads = threads;
   job.set_deadline(std::chrono::steady_clock::now() + std::chrono::hours(1));  // so that the clock is read
@@ -114,7 +83,7 @@ std::string made_on(const std::string& name, const Inputs& in, unsigned threads,
   for (const model::Finding& f : findings_of(*made, job))
     out += f.code + " " + f.step + " " + std::to_string(f.move) + " " + f.message + "\n";
   for (const Diagnostic& d : job.diagnostics()) out += to_text(d) + "\n";
-  workers = witness.workers();
+  workers = witness.helpers();
   return out;
 }
 
