@@ -78,6 +78,9 @@ struct PathJob {
   model::Cutter cutter;
   model::StrategyKind strategy = model::StrategyKind::kNone;  ///< kNone: what suits the shape
   bool climb = true;
+  /// Roughing of areas between upright walls: passes that engage the cutter by `radial_depth_mm` at most, in
+  /// corners too, instead of rings. Where such a path is not known: TPA-UNSUPPORTED.
+  bool constant_engagement = false;
 
   double axial_depth_mm = 0.0;   ///< at most, per level; 0: the whole depth at once
   double radial_depth_mm = 0.0;  ///< stepover; 0: from `overlap`, else half the diameter

@@ -124,6 +124,8 @@ void warn_of_rest(LevelCutter& c, const WorkArea& w, const Region& centres) {
 Result<GeneratedPath> area_path(const PathJob& task, Job& job) {
   const auto w = work_area(task);
   if (!w) return tl::unexpected(w.error());
+  if (task.constant_engagement)
+    return fail("TPA-UNSUPPORTED", about(task) + "no path of constant engagement is known for this area");
   PathWriter writer(task);
   LevelCutter c(task, *w, writer, job);
   const bool finish = model::has(task.operation, model::OperationTrait::kFinishes);
