@@ -245,15 +245,23 @@ TEST(Pattern, ProposesTheSameForEachCopyAsForOne) {
   for (const auto& p : proposals) EXPECT_EQ(kinds(p.chains.at(0)), first(proposed(shapes[0])));
 }
 
-TEST(Face, IsRoughedFromHalfAMillimetre) {
+TEST(Face, IsMilledAtOnceWhereNoSurfaceIsAskedForAndRoughedFirstElse) {
   FeatureShape s = pocket(0.0);
   s.kind = ShapeKind::kFace;
   s.open = true;
   s.reach = geometry::offset_sharp(s.area, 100.0);  // nothing stands beside it
+  for (const double depth : {0.49, 0.5, 2.99}) {
+    s.depth_mm = depth;
+    EXPECT_THAT(first(proposed(s)), ElementsAre(TypeId::kPlaneFinishMilling)) << depth;
+  }
+  s.depth_mm = 3.0;
+  EXPECT_THAT(first(proposed(s)), ElementsAre(TypeId::kPlaneRoughMilling, TypeId::kPlaneFinishMilling));
+  Context fine = steel();
+  fine.quality.ra_um = 3.2;
   s.depth_mm = 0.49;
-  EXPECT_THAT(first(proposed(s)), ElementsAre(TypeId::kPlaneFinishMilling));
+  EXPECT_THAT(first(propose(shipped(), s, fine)), ElementsAre(TypeId::kPlaneFinishMilling));
   s.depth_mm = 0.5;
-  const Proposal p = proposed(s);
+  const Proposal p = propose(shipped(), s, fine);
   EXPECT_THAT(first(p), ElementsAre(TypeId::kPlaneRoughMilling, TypeId::kPlaneFinishMilling));
   EXPECT_EQ(p.chains[0][0].allowance_bottom_mm, 0.3);
   EXPECT_EQ(p.chains[0][0].tool.classes.front(), CutterClass::kFacemill);

@@ -62,8 +62,8 @@ struct CutQuestion {
   double surface_ra_um = 0.0;     ///< required Ra of the surface that this cut leaves, um; 0: none
   double wall_error_limit_mm = 0.0;  ///< largest error of the wall by bending, mm; 0: no limit
   double peak_force_limit_n = 0.0;   ///< largest force that the workholding holds, N; 0: unknown
-  /// The largest diameter that cuts: of a ball or bull nose that is not in with all of its radius, the one
-  /// that cutting speed is counted at. 0: the cutter's.
+  /// The largest diameter that cuts: of a ball or bull nose that is not in with all of its radius, and of a
+  /// cone's point, the one that cutting speed is counted at. 0: the cutter's.
   double speed_diameter_mm = 0.0;
   bool as_measured =
       false;  ///< depth and width are those of the path's sections: each may ask for its own feed

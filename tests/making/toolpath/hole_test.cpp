@@ -142,6 +142,20 @@ TEST(DrillPath, SinksAConeToTheDiameterAsked) {
   EXPECT_NEAR(lowest(*generate(t, job)), -5.0, 1e-9);  // (12 - 2) / 2 at 45 degrees
 }
 
+TEST(DrillPath, OfASpotReachesAsDeepAsTheSpotNotTheHole) {
+  PathJob t = hole_job(TypeId::kCenterDrilling, CutterClass::kSpotDrill, 6.0, 30.0);
+  t.cutter.point_angle_rad = 0.5 * kPi;
+  t.cutter.usable_length_mm = 12.0;
+  t.cutting_depth_mm = 2.0;
+  Job job;
+  ASSERT_TRUE(generate(t, job));
+  for (const auto& d : job.take_diagnostics()) EXPECT_NE(d.code, "TPA-REACH") << d.message;
+  t.cutting_depth_mm = 13.0;
+  ASSERT_TRUE(generate(t, job));
+  const auto said = job.take_diagnostics();
+  EXPECT_TRUE(std::any_of(said.begin(), said.end(), [](const auto& d) { return d.code == "TPA-REACH"; }));
+}
+
 TEST(DrillPath, RefusesBackBoring) {
   Job job;
   const auto g = generate(hole_job(TypeId::kBackBoring, CutterClass::kBoringTool, 22.0, 30.0), job);

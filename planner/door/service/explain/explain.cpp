@@ -178,7 +178,7 @@ std::vector<Computed> computed_of(const Plan& plan, const StepView& v) {
   add("radial_depth", r->radial_depth_mm, " mm", "as cut");
   add("spindle_rpm", std::abs(r->spindle_rpm), r->spindle_rpm < 0.0 ? " 1/min, counter-clockwise" : " 1/min",
       "see spindle of its_technology");
-  add("vc", r->vc_m_min, " m/min", "pi D n / 1000");
+  add("vc", r->vc_m_min, " m/min", "pi D n / 1000, D the whole diameter");
   add("feed", r->feed_mm_min, " mm/min",
       "before the schedule along the path; see feedrate of its_technology");
   add("fz", r->fz_mm, " mm", "feed per tooth: feed / (teeth n)");

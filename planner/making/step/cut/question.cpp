@@ -109,6 +109,23 @@ double engaged(TypeId operation, const model::Cutter& c, std::optional<double> d
   return c.tip_diameter_mm + 2.0 * *depth_mm * std::tan(0.5 * c.point_angle_rad);
 }
 
+/// Speed and feed of a cone that is not in as wide as it is: at its point the material passes more slowly, and
+/// a tooth takes less. Speed counts at the widest circle that cuts. A feed that nobody states for this very tool
+/// is a share of the diameter (tooling/data/cutters.yaml), and so of that circle's. Source of the first: short
+/// spots run at the speed of their small circle, as chamfer mills do (myshopmetrics.com, wiki, drilling, spot
+/// drills).
+void start_at_point(optimise::CutQuestion& q, double wanted_vc_m_min) {
+  const double d = q.cutter.cutting_diameter_mm;
+  if (!(q.engaged_diameter_mm > 0.0) || q.engaged_diameter_mm >= d) return;
+  q.speed_diameter_mm = q.engaged_diameter_mm;
+  q.vc_start_m_min = std::max(q.vc_start_m_min, wanted_vc_m_min);
+  const auto* own = model::preset_of(q.cutter, q.material, false);
+  if (own == nullptr || !(own->fz_mm > 0.0) || model::nobodys(*own)) {
+    const double least = q.cutter.fz_min_mm * q.engaged_diameter_mm / d;
+    q.fz_start_mm = std::max(least, q.fz_start_mm * q.engaged_diameter_mm / d);
+  }
+}
+
 AnyRef technology_of(const PlanSoFar& p, const StepDraft& step) {
   const auto* op = p.plan.model.get<model::MachiningOperation>(step.operation);
   return op != nullptr ? AnyRef(op->its_technology) : AnyRef{};
@@ -174,6 +191,7 @@ optimise::CutQuestion hole_question(const model::Plan& plan, double margin_devia
   q.least_feed_ratio = optimise::kLeastDrillFeed;
   q.override_locked = step.lock_override;
   q.engaged_diameter_mm = engaged(step.operation, c.cutter, step.depth_mm);
+  start_at_point(q, tooling::start_values(c.cutter, plan.material, plan.machine).wanted_vc_m_min);
   return q;
 }
 
@@ -204,6 +222,7 @@ optimise::CutQuestion question_of(const PlanSoFar& p, const StepDraft& step,
            q.width_mm <= kAsWide * step.cutter.cutting_diameter_mm;
   q.pre_hole_mm = job.previous_diameter_mm.value_or(0.0);
   q.engaged_diameter_mm = engaged(step.operation.type, step.cutter, job.cutting_depth_mm);
+  start_at_point(q, start.wanted_vc_m_min);
   const double d = step.cutter.cutting_diameter_mm;
   if (job.axial_depth_mm > 0.0) q.ap_mm = job.axial_depth_mm;
   // The finishing pass cuts the terraces that the levels leave on a slope.

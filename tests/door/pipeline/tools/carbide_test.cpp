@@ -46,20 +46,40 @@ TEST(Bracket, IsDrilledAndReamedWithCarbideWhereCarbideMakesTheHole) {
   }
 }
 
-TEST(Bracket, IsFacedInOnePassByACutterOfFiveFourthsItsWidth) {
-  // The face is 80 mm wide, the cutter 100 mm; a pass is 120 mm and three fourths of the cutter at either
-  // end.
+TEST(Bracket, IsFacedOnceByACutterOfFiveFourthsItsWidth) {
+  // Nothing asks for a surface of the top face: its millimetre is one cut. The face is 80 mm wide, the cutter
+  // 100 mm; a pass is 120 mm and three fourths of the cutter at either end.
   const model::Plan plan = bracket_of("304");
-  for (const char* id : {"TOP FACE plane_rough", "TOP FACE plane_finish"}) {
-    const model::StepResult& s = step_of(plan, id);
-    EXPECT_EQ(s.cutter_id, "generic/face_mill/100");
-    double cut = 0.0;
-    for (std::size_t i = 1; i < s.path->size(); ++i) {
-      if (s.path->role[i] != model::MoveRole::kCut) continue;
-      cut += std::hypot(s.path->x[i] - s.path->x[i - 1], s.path->y[i] - s.path->y[i - 1]);
-    }
-    EXPECT_NEAR(cut, 120.0 + 2.0 * 75.0, 1e-6) << id;
+  const model::StepResult& s = step_of(plan, "TOP FACE plane_finish");
+  EXPECT_EQ(s.cutter_id, "generic/face_mill/100");
+  double cut = 0.0;
+  for (std::size_t i = 1; i < s.path->size(); ++i) {
+    if (s.path->role[i] != model::MoveRole::kCut) continue;
+    cut += std::hypot(s.path->x[i] - s.path->x[i - 1], s.path->y[i] - s.path->y[i - 1]);
   }
+  EXPECT_NEAR(cut, 120.0 + 2.0 * 75.0, 1e-6);
+  for (const auto& other : plan.steps) EXPECT_NE(model::step_id(plan, other), "TOP FACE plane_rough");
+}
+
+TEST(Bracket, IsSpottedByOneSmallPointAtTheSpeedOfTheCircleThatItCuts) {
+  const model::Plan plan = bracket_of("304");
+  std::string spot;
+  for (const model::StepResult& s : plan.steps) {
+    const auto* ws = plan.model.get<model::MachiningWorkingstep>(s.step);
+    const auto* op = ws == nullptr ? nullptr : plan.model.get<model::CenterDrilling>(ws->its_operation);
+    if (op == nullptr) continue;
+    const model::Cutter* c = model::find_cutter(plan, s.cutter_id);
+    ASSERT_NE(c, nullptr);
+    if (spot.empty()) spot = s.cutter_id;
+    EXPECT_EQ(s.cutter_id, spot) << "another tool for another hole";
+    EXPECT_LE(c->cutting_diameter_mm, 6.0) << "the widest mark is below 5 mm";
+    // A point of 90 degrees is twice as wide as it is deep. The speed is 0.8 of the card's, as of all drills.
+    const double circle = 2.0 * op->cutting_depth.value();
+    ASSERT_LT(circle, c->cutting_diameter_mm);
+    const double vc = 3.14159265 * circle * s.spindle_rpm / 1000.0;
+    EXPECT_NEAR(vc, 0.8 * plan.material.vc_carbide_m_min, 0.001 * vc) << s.cutter_id;
+  }
+  EXPECT_FALSE(spot.empty());
 }
 
 }  // namespace
