@@ -87,6 +87,7 @@ Law read_law(Fields& parent, std::string_view key) {
 struct Feeds {
   double d_cap = 0.0, least = 0.0, most = 0.0;
   std::map<std::string, double> factor;
+  std::string source;  ///< that of all feeds, where the entry has none of its own
 };
 
 /// Speed of an edge relative to a bare one of its substrate, by group.
@@ -113,7 +114,6 @@ struct Reader {
   std::vector<Diagnostic>& faults;
   Holding holding;
   std::map<std::string, Feeds> feeds;
-  std::string feeds_source;
   std::vector<Cutter> cutters;
   std::vector<std::uint64_t> lines;
   std::map<std::string, Edge> edges = {};
@@ -146,12 +146,13 @@ void read_holding(Fields top, Reader& r) {
 }
 
 void read_feeds(const Node& node, Fields top, Reader& r) {
-  r.feeds_source = top.source();
+  const std::string of_all = top.source();
   for (const auto& [name, child] : node.entries) {
     if (name == "source") continue;
     (void)top.child(name, true);
     Fields f = top.below(name, child);
     Feeds& out = r.feeds[name];
+    out.source = f.has("source") ? f.source() : of_all;
     out.d_cap = f.number("d_cap");
     out.least = f.number("least");
     out.most = f.number("most");
@@ -302,7 +303,9 @@ struct SeriesPreset {
 
 std::vector<SeriesPreset> presets_of(const Series& s, const Reader& r) {
   std::vector<SeriesPreset> out;
-  if (r.feeds.find(s.feeds) == r.feeds.end()) return out;
+  const auto feeds = r.feeds.find(s.feeds);
+  if (feeds == r.feeds.end()) return out;
+  const std::string& fz_source = feeds->second.source;
   const bool hss = s.base.substrate == model::Substrate::kHss;
   const auto edge = r.edges.find(s.edge);
   const auto over_bare = [&](const std::string& group) {
@@ -321,7 +324,7 @@ std::vector<SeriesPreset> presets_of(const Series& s, const Reader& r) {
         s.speed_factor == 1.0 ? "" : trimmed(s.speed_factor, 3) + " (" + s.factor_source + ") x ";
     if (faster != 1.0) times += by_edge(faster) + " x ";
     out.push_back(
-        {m.id, m.iso_group, vc, "vc: " + times + std::string(kMaterialsSpeed) + "; fz: " + r.feeds_source});
+        {m.id, m.iso_group, vc, "vc: " + times + std::string(kMaterialsSpeed) + "; fz: " + fz_source});
     const auto [at, fresh] = slowest.emplace(m.iso_group, vc);
     if (!fresh) at->second = std::min(at->second, vc);
   }
@@ -331,7 +334,7 @@ std::vector<SeriesPreset> presets_of(const Series& s, const Reader& r) {
     if (vc == slowest.end()) continue;
     const double faster = over_bare(group);
     const std::string times = faster == 1.0 ? "" : ", " + by_edge(faster);
-    out.push_back({group, group, vc->second, kSlowestOfGroup + times + "; fz: " + r.feeds_source});
+    out.push_back({group, group, vc->second, kSlowestOfGroup + times + "; fz: " + fz_source});
   }
   return out;
 }
@@ -357,7 +360,8 @@ void set_sources(const Series& s, const Reader& r, Cutter& c) {
   c.sources.emplace_back("*", s.source);
   for (const char* field : {"stick_out_mm", "holder_diameter_mm", "holder", "functional_length_mm"})
     c.sources.emplace_back(field, r.holding.source);
-  for (const char* field : {"fz_min_mm", "fz_max_mm"}) c.sources.emplace_back(field, r.feeds_source);
+  if (const auto feeds = r.feeds.find(s.feeds); feeds != r.feeds.end())
+    for (const char* field : {"fz_min_mm", "fz_max_mm"}) c.sources.emplace_back(field, feeds->second.source);
 }
 
 void add_cutter(const Series& s, const std::vector<SeriesPreset>& presets, const Size& size, Fields& f,
