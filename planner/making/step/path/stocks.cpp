@@ -27,6 +27,8 @@ SameSetup same_setup(const draft::SetupDraft& s) {
 double Stocks::smallest(std::size_t setup) const {
   double mm = 1e300;
   for (const draft::StepDraft& s : steps_) {
+    // A point that marks a place is no measure of the sections of others.
+    if (model::has(s.cutter.cutter_class, model::CutterTrait::kMarks)) continue;
     if (s.setup == setup && s.cutter.cutting_diameter_mm > 0.0 && !left_out_.contains(s.step))
       mm = std::min(mm, s.cutter.cutting_diameter_mm);
   }
