@@ -30,8 +30,7 @@ constexpr double kUsedShare = 0.25;
 /// Of each diameter that it sticks out beyond kStiff.
 constexpr double kPerSlendernessS = 2.0;
 constexpr double kStiff = 3.0;
-/// Between equals the larger cutter, which is worth this over the smallest; of points that only mark a place
-/// the smaller one, for no more of it ever cuts.
+/// Between equals the larger cutter, which is worth this over the smallest.
 constexpr double kPerSizeS = 1.0;
 
 /// A boring tool set to the wanted size, when it can be.
@@ -62,10 +61,8 @@ double score_of(const Cutter& c, std::size_t class_rank, const ToolRequirement& 
   s += kPerClassS * static_cast<double>(class_rank);
   if (r.diameter_exact_mm > 0.0)
     s += kPerExactMmS * std::abs(c.cutting_diameter_mm - r.diameter_exact_mm);
-  else if (largest_mm > 0.0) {
-    const double size = c.cutting_diameter_mm / largest_mm;
-    s += kPerSizeS * (model::has(c.cutter_class, model::CutterTrait::kMarks) ? size : 1.0 - size);
-  }
+  else if (largest_mm > 0.0)
+    s += kPerSizeS * (1.0 - c.cutting_diameter_mm / largest_mm);
   s += kPerSlendernessS * std::max(0.0, c.stick_out_mm / c.cutting_diameter_mm - kStiff);
   return rounded(s, 9);
 }

@@ -8,6 +8,7 @@
 
 #include "planner/ground/base/number.h"
 #include "planner/making/step/cut/drilled_hole.h"
+#include "planner/making/step/cut/question.h"
 #include "planner/model/nouns/all.h"
 #include "tooling/library/nouns/nouns.h"
 #include "tooling/selection/select.h"
@@ -51,6 +52,7 @@ class Sharer {
         stay.insert(id);
       }
     }
+    for (const auto& [id, steps] : by_use()) take_smallest_point(steps);
     // Cutters that were replaced are no longer in use.
     std::vector<std::string> used;
     for (const StepDraft& s : steps_) {
@@ -114,6 +116,38 @@ class Sharer {
     return true;
   }
 
+  /// A point that only marks places is as small as all its steps bear: the larger one was taken first, so that
+  /// one serves them all, and no more of it ever cuts than its tip.
+  void take_smallest_point(const std::vector<std::size_t>& steps) {
+    const model::Cutter& now = steps_[steps.front()].cutter;
+    if (!model::has(now.cutter_class, model::CutterTrait::kMarks) || now.loaded) return;
+    const Candidate* best = nullptr;
+    for (const Candidate& c : steps_[steps.front()].candidates) {
+      const bool smaller =
+          c.cutter.cutting_diameter_mm <
+          (best == nullptr ? now.cutting_diameter_mm : best->cutter.cutting_diameter_mm);
+      if (!smaller || c.cutter.cutter_class != now.cutter_class) continue;
+      const auto serves = [&](std::size_t i) {
+        const StepDraft& s = steps_[i];
+        if (!s.proposed || !index_of(s, c.cutter.id)) return false;
+        const double width = step::engaged_diameter_mm(s.operation.type, c.cutter, s.proposal.depth_mm);
+        return width > 0.0 && width <= c.cutter.cutting_diameter_mm;
+      };
+      if (std::all_of(steps.begin(), steps.end(), serves)) best = &c;
+    }
+    if (best == nullptr) return;
+    const std::string id = best->cutter.id, was = now.id;
+    const std::string why = "gives way to " + id + ": no more of a point than its tip marks a place";
+    for (const std::size_t i : steps) take(i, *index_of(steps_[i], id), was, "tooling.smallest_point", why);
+  }
+
+  static std::optional<std::size_t> index_of(const StepDraft& s, const std::string& id) {
+    for (std::size_t k = 0; k < s.candidates.size(); ++k) {
+      if (s.candidates[k].cutter.id == id) return k;
+    }
+    return std::nullopt;
+  }
+
   [[nodiscard]] double saved_s(const model::Cutter& c) const {
     const model::Machine& m = plan_.machine;
     const double loading = magazine_known_ && !c.loaded ? tooling::kLoadingS / std::max(1, batch_) : 0.0;
@@ -121,22 +155,27 @@ class Sharer {
   }
 
   void swap(const Instead& t, const std::string& id, double loss_s, double saved_s) {
-    StepDraft& s = steps_[t.step];
-    s.candidates.prefer(t.candidate);
+    const std::string now = steps_[t.step].candidates[t.candidate].cutter.id;
+    take(t.step, t.candidate, id, "tooling.fewer_changes",
+         "gives way to " + now + ", which the plan uses already: that costs about " +
+             trimmed(std::max(0.0, loss_s), 1) + " s of cutting and saves " + trimmed(saved_s, 1) +
+             " s of changing tools");
+  }
+
+  /// The step gets this candidate in place of the tool `was`.
+  void take(std::size_t step, std::size_t candidate, const std::string& was, const char* rule,
+            const std::string& why) {
+    StepDraft& s = steps_[step];
+    s.candidates.prefer(candidate);
     const Candidate& now = s.candidates.front();
     s.cutter = now.cutter;
     step::fit_to_cutter(plan_.model, steps_, s);
-    const std::string why = "gives way to " + now.cutter.id +
-                            ", which the plan uses already: that costs about " +
-                            trimmed(std::max(0.0, loss_s), 1) + " s of cutting and saves " +
-                            trimmed(saved_s, 1) + " s of changing tools";
-    s.rejected_tools.push_back({id, why});
+    s.rejected_tools.push_back({was, why});
     const auto tool = tooling::tool_noun(plan_.model, s.cutter);
     plan_.model.get<model::MachiningOperation>(s.operation)->its_tool = tool;
-    plan_.ledger.bind(
-        s.operation, "its_tool", model::Binder::kToolSelection,
-        {"tooling.fewer_changes", now.why.text + "; in place of " + id + ", which " + why, now.why.source},
-        {{s.step, "its_operation"}}, s.rejected_tools);
+    plan_.ledger.bind(s.operation, "its_tool", model::Binder::kToolSelection,
+                      {rule, now.why.text + "; in place of " + was + ", which " + why, now.why.source},
+                      {{s.step, "its_operation"}}, s.rejected_tools);
   }
 
   model::Plan& plan_;

@@ -65,16 +65,6 @@ TEST(Select, ComesToAToolWithoutALengthLast) {
   EXPECT_EQ(s.ranked[0].cutter.id, "b");
 }
 
-TEST(Select, TakesTheSmallestPointThatMarksThePlace) {
-  ToolRequirement r;
-  r.classes = {CutterClass::kSpotDrill};
-  r.diameter_min_mm = 4.5;
-  r.reach_mm = 3;
-  const auto s = choose(r);
-  ASSERT_GT(s.ranked.size(), 2U);
-  EXPECT_EQ(s.ranked[0].cutter.cutting_diameter_mm, 5.0);
-}
-
 TEST(Select, TakesTheLargestEndMillThatTheCornersAllow) {
   ToolRequirement r;
   r.classes = {CutterClass::kEndmill};

@@ -102,13 +102,6 @@ double width_of(const model::FeatureShape& s) {
   return std::min(b.hi.x - b.lo.x, b.hi.y - b.lo.y);
 }
 
-/// How wide a cone cuts at its depth: 2 t tan(SIG / 2), plus its flat tip; 0 when all of the cutter does.
-double engaged(TypeId operation, const model::Cutter& c, std::optional<double> depth_mm) {
-  const bool cone = model::has(operation, model::OperationTrait::kConeTip);
-  if (!cone || !depth_mm || !(c.point_angle_rad > 0.0)) return 0.0;
-  return c.tip_diameter_mm + 2.0 * *depth_mm * std::tan(0.5 * c.point_angle_rad);
-}
-
 /// Speed and feed of a cone that is not in as wide as it is: at its point the material passes more slowly, and
 /// a tooth takes less. Speed counts at the widest circle that cuts. A feed that nobody states for this very tool
 /// is a share of the diameter (tooling/data/cutters.yaml), and so of that circle's. Source of the first: short
@@ -175,6 +168,12 @@ void under_an_overhang(optimise::CutQuestion& q, const toolpath::PathJob& job) {
 
 }  // namespace
 
+double engaged_diameter_mm(TypeId operation, const model::Cutter& c, std::optional<double> depth_mm) {
+  const bool cone = model::has(operation, model::OperationTrait::kConeTip);
+  if (!cone || !depth_mm || !(c.point_angle_rad > 0.0)) return 0.0;
+  return c.tip_diameter_mm + 2.0 * *depth_mm * std::tan(0.5 * c.point_angle_rad);
+}
+
 optimise::CutQuestion hole_question(const model::Plan& plan, double margin_deviations,
                                     const model::ProposedStep& step, const model::Candidate& c) {
   optimise::CutQuestion q;
@@ -190,7 +189,7 @@ optimise::CutQuestion hole_question(const model::Plan& plan, double margin_devia
   q.pre_hole_mm = step.start_diameter_mm;
   q.least_feed_ratio = optimise::kLeastDrillFeed;
   q.override_locked = step.lock_override;
-  q.engaged_diameter_mm = engaged(step.operation, c.cutter, step.depth_mm);
+  q.engaged_diameter_mm = engaged_diameter_mm(step.operation, c.cutter, step.depth_mm);
   start_at_point(q, tooling::start_values(c.cutter, plan.material, plan.machine).wanted_vc_m_min);
   return q;
 }
@@ -221,7 +220,7 @@ optimise::CutQuestion question_of(const PlanSoFar& p, const StepDraft& step,
   q.slot = model::has(job.shape.kind, model::ShapeTrait::kWalled) && q.width_mm > 0.0 &&
            q.width_mm <= kAsWide * step.cutter.cutting_diameter_mm;
   q.pre_hole_mm = job.previous_diameter_mm.value_or(0.0);
-  q.engaged_diameter_mm = engaged(step.operation.type, step.cutter, job.cutting_depth_mm);
+  q.engaged_diameter_mm = engaged_diameter_mm(step.operation.type, step.cutter, job.cutting_depth_mm);
   start_at_point(q, start.wanted_vc_m_min);
   const double d = step.cutter.cutting_diameter_mm;
   if (job.axial_depth_mm > 0.0) q.ap_mm = job.axial_depth_mm;

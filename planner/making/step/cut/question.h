@@ -32,4 +32,8 @@ namespace capstan::step {
   return q.kind == optimise::CutKind::kRough || q.kind == optimise::CutKind::kFinish;
 }
 
+/// How wide a cone cuts at its depth: 2 t tan(SIG / 2), plus its flat tip; 0 when all of the cutter does.
+[[nodiscard]] double engaged_diameter_mm(model::TypeId operation, const model::Cutter& c,
+                                         std::optional<double> depth_mm);
+
 }  // namespace capstan::step
