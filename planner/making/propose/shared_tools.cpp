@@ -116,16 +116,15 @@ class Sharer {
     return true;
   }
 
-  /// A point that only marks places is as small as all its steps bear: the larger one was taken first, so that
-  /// one serves them all, and no more of it ever cuts than its tip.
+  /// A point that only marks places is as small as all its steps bear: the larger one was taken first, so
+  /// that one serves them all, and no more of it ever cuts than its tip.
   void take_smallest_point(const std::vector<std::size_t>& steps) {
     const model::Cutter& now = steps_[steps.front()].cutter;
     if (!model::has(now.cutter_class, model::CutterTrait::kMarks) || now.loaded) return;
     const Candidate* best = nullptr;
     for (const Candidate& c : steps_[steps.front()].candidates) {
-      const bool smaller =
-          c.cutter.cutting_diameter_mm <
-          (best == nullptr ? now.cutting_diameter_mm : best->cutter.cutting_diameter_mm);
+      const bool smaller = c.cutter.cutting_diameter_mm <
+                           (best == nullptr ? now.cutting_diameter_mm : best->cutter.cutting_diameter_mm);
       if (!smaller || c.cutter.cutter_class != now.cutter_class) continue;
       const auto serves = [&](std::size_t i) {
         const StepDraft& s = steps_[i];

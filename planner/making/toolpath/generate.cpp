@@ -53,8 +53,8 @@ Result<GeneratedPath> dispatch(const PathJob& task, Job& job) {
 
 Result<GeneratedPath> generate(const PathJob& task, Job& job) {
   if (auto ok = check(task); !ok) return tl::unexpected(ok.error());
-  const double down = breaks_edge(task) ? task.axial_depth_mm
-                                        : task.cutting_depth_mm.value_or(task.shape.depth_mm);
+  const double down =
+      breaks_edge(task) ? task.axial_depth_mm : task.cutting_depth_mm.value_or(task.shape.depth_mm);
   const double depth = task.start_z_mm - (task.feature_in_setup.origin.z - down);
   if (task.cutter.usable_length_mm > 0.0 && depth > task.cutter.usable_length_mm + 1e-9) {
     job.warn("TPA-REACH", about(task) + "cutter " + task.cutter.id + " reaches " +

@@ -102,11 +102,11 @@ double width_of(const model::FeatureShape& s) {
   return std::min(b.hi.x - b.lo.x, b.hi.y - b.lo.y);
 }
 
-/// Speed and feed of a cone that is not in as wide as it is: at its point the material passes more slowly, and
-/// a tooth takes less. Speed counts at the widest circle that cuts. A feed that nobody states for this very tool
-/// is a share of the diameter (tooling/data/cutters.yaml), and so of that circle's. Source of the first: short
-/// spots run at the speed of their small circle, as chamfer mills do (myshopmetrics.com, wiki, drilling, spot
-/// drills).
+/// Speed and feed of a cone that is not in as wide as it is: at its point the material passes more slowly,
+/// and a tooth takes less. Speed counts at the widest circle that cuts. A feed that nobody states for this
+/// very tool is a share of the diameter (tooling/data/cutters.yaml), and so of that circle's. Source of the
+/// first: short spots run at the speed of their small circle, as chamfer mills do (myshopmetrics.com, wiki,
+/// drilling, spot drills).
 void start_at_point(optimise::CutQuestion& q, double wanted_vc_m_min) {
   const double d = q.cutter.cutting_diameter_mm;
   if (!(q.engaged_diameter_mm > 0.0) || q.engaged_diameter_mm >= d) return;

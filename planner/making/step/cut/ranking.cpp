@@ -1,6 +1,7 @@
 #include "planner/making/step/cut/ranking.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -36,6 +37,14 @@ bool is_used(const std::vector<std::string>& used, const model::Cutter& c) {
   return std::find(used.begin(), used.end(), c.id) != used.end();
 }
 
+/// Seconds of a face: whole passes over its longer side, and the cutter's own width at the ends of each.
+double face_s(const toolpath::PathJob& job, const optimise::CutQuestion& q, const optimise::CutAnswer& a) {
+  constexpr double kSlack = 1e-9;
+  const double length = geometry::area(job.shape.area) / q.width_mm;
+  const double passes = std::ceil(q.width_mm / a.ae_mm - kSlack);
+  return 60.0 * a.levels * passes * (length + q.cutter.cutting_diameter_mm) / a.feed_mm_min;
+}
+
 /// The candidates that were compared by their times, then the others.
 void in_order(model::Plan& plan, std::vector<StepDraft>& steps, StepDraft& step,
               std::vector<std::pair<double, std::size_t>> times) {
@@ -61,9 +70,9 @@ void rank_by_time(model::Plan& plan, const PlanSoFar& p, std::vector<StepDraft>&
                   const std::vector<std::string>& used, Stocks& stocks, const Progress& progress,
                   Cuts& cuts) {
   if (step.candidates.size() < 2 || step.shapes.empty()) return;
-  if (!model::has(step.operation.type, model::OperationTrait::kPlane) &&
-      !(model::has(step.operation.type, model::OperationTrait::kRoughs) &&
-        model::has(step.operation.type, model::OperationTrait::kWalls))) {
+  const bool plane = model::has(step.operation.type, model::OperationTrait::kPlane);
+  if (!plane && !(model::has(step.operation.type, model::OperationTrait::kRoughs) &&
+                  model::has(step.operation.type, model::OperationTrait::kWalls))) {
     return;
   }
   const std::size_t n = std::min(kCompared, step.candidates.size());
@@ -77,8 +86,9 @@ void rank_by_time(model::Plan& plan, const PlanSoFar& p, std::vector<StepDraft>&
     const auto a = cuts.answer(q);
     double t = kNever * static_cast<double>(i + 1);
     if (a && a->feasible) {
-      const double volume = geometry::area(job.shape.area) * q.depth_mm;
-      t = volume / (a->ap_mm * a->ae_mm * a->feed_mm_min) * 60.0;
+      t = plane && q.width_mm > 0.0
+              ? face_s(job, q, cuts.in_one_pass(q, *a))
+              : geometry::area(job.shape.area) * q.depth_mm / (a->ap_mm * a->ae_mm * a->feed_mm_min) * 60.0;
       if (!is_used(used, trial.cutter)) t += plan.machine.tool_change_s;
     }
     times.emplace_back(t, i);

@@ -46,19 +46,30 @@ TEST(Bracket, IsDrilledAndReamedWithCarbideWhereCarbideMakesTheHole) {
   }
 }
 
-TEST(Bracket, IsFacedOnceByACutterOfFiveFourthsItsWidth) {
-  // Nothing asks for a surface of the top face: its millimetre is one cut. The face is 80 mm wide, the cutter
-  // 100 mm; a pass is 120 mm and three fourths of the cutter at either end.
-  const model::Plan plan = bracket_of("304");
-  const model::StepResult& s = step_of(plan, "TOP FACE plane_finish");
-  EXPECT_EQ(s.cutter_id, "generic/face_mill/100");
+/// Length of the straight cuts of a step, mm.
+double cut_length(const model::StepResult& s) {
   double cut = 0.0;
   for (std::size_t i = 1; i < s.path->size(); ++i) {
     if (s.path->role[i] != model::MoveRole::kCut) continue;
     cut += std::hypot(s.path->x[i] - s.path->x[i - 1], s.path->y[i] - s.path->y[i - 1]);
   }
-  EXPECT_NEAR(cut, 120.0 + 2.0 * 75.0, 1e-6);
-  for (const auto& other : plan.steps) EXPECT_NE(model::step_id(plan, other), "TOP FACE plane_rough");
+  return cut;
+}
+
+TEST(Bracket, IsFacedOnceInWholePasses) {
+  // Nothing asks for a surface of the top face: its millimetre is one cut. The face is 80 mm wide: in
+  // aluminium one pass of 120 mm and three fourths of a cutter of 100 mm at either end; in stainless steel
+  // the torque of the spindle makes two passes of a smaller cutter as quick.
+  const model::Plan soft = bracket_of("EN AW-6061"), tough = bracket_of("304");
+  const model::StepResult& one = step_of(soft, "TOP FACE plane_finish");
+  EXPECT_EQ(one.cutter_id, "generic/face_mill/100");
+  EXPECT_NEAR(cut_length(one), 120.0 + 2.0 * 75.0, 1e-6);
+  const model::StepResult& two = step_of(tough, "TOP FACE plane_finish");
+  EXPECT_EQ(two.cutter_id, "generic/face_mill/63");
+  EXPECT_GT(cut_length(two), 2.0 * 120.0);
+  EXPECT_LT(cut_length(two), 3.0 * 120.0 + 2.0 * 63.0);
+  for (const model::Plan* plan : {&soft, &tough})
+    for (const auto& s : plan->steps) EXPECT_NE(model::step_id(*plan, s), "TOP FACE plane_rough");
 }
 
 TEST(Bracket, IsSpottedByOneSmallPointAtTheSpeedOfTheCircleThatItCuts) {
