@@ -45,6 +45,15 @@ const std::vector<model::Plan>& plans() {
   return kPlans;
 }
 
+/// The widest circle that cuts: a spot of 90 degrees is twice as wide as it is deep.
+double widest_mm(const model::Plan& plan, const model::StepResult& s, const model::Cutter& c) {
+  const auto* ws = plan.model.get<model::MachiningWorkingstep>(s.step);
+  const auto* spot = plan.model.get<model::CenterDrilling>(ws->its_operation);
+  if (spot == nullptr) return c.cutting_diameter_mm;
+  EXPECT_NEAR(c.point_angle_rad, 0.5 * std::numbers::pi, 1e-9) << c.id;
+  return std::min(c.cutting_diameter_mm, 2.0 * spot->cutting_depth.value());
+}
+
 TEST(ReasonsProperty, ALimitThatIsNamedIsAtItsBoundAtTheSpeedAndFeedThatWereChosen) {
   std::size_t named = 0;
   std::map<std::string, std::size_t> by_name;
@@ -59,7 +68,7 @@ TEST(ReasonsProperty, ALimitThatIsNamedIsAtItsBoundAtTheSpeedAndFeedThatWereChos
         ++by_name[a.name];
         // Numbers are rounded to whole turns and mm/min, to the safe side: a hundredth is more than that.
         EXPECT_NEAR(a.value, a.limit, 0.01 * a.limit);
-        const double vc = std::numbers::pi * c->cutting_diameter_mm * n / 1000.0;
+        const double vc = std::numbers::pi * widest_mm(plan, s, *c) * n / 1000.0;
         if (a.name == "cutting_speed") {
           EXPECT_NEAR(vc, a.limit, 0.01 * a.limit);
           EXPECT_LT(n, plan.machine.spindle.rpm_max * (1.0 - 1e-9)) << "what held is the spindle";
