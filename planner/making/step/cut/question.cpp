@@ -102,6 +102,18 @@ double width_of(const model::FeatureShape& s) {
   return std::min(b.hi.x - b.lo.x, b.hi.y - b.lo.y);
 }
 
+/// True if the wall leans from its upper edge on, so that no level may be deep.
+bool leans_at_top(const model::FeatureShape& s) {
+  constexpr double kSteep = 0.05;  // tangent of the lean, as good as upright; default, unsourced
+  if (!leaves_terraces(s)) return false;
+  if (s.kind == ShapeKind::kHole)
+    return s.diameter.nominal_mm - s.bottom_diameter_mm > 2.0 * kSteep * s.depth_mm;
+  const auto n = s.slot_profile.size();
+  if (n < 2) return false;
+  const geometry::Vec2 rise = s.slot_profile[n - 1] - s.slot_profile[n - 2];
+  return rise.y > kSteep * rise.x;
+}
+
 /// Speed and feed of a cone that is not in as wide as it is: at its point the material passes more slowly,
 /// and a tooth takes less. Speed counts at the widest circle that cuts. A feed that nobody states for this
 /// very tool is a share of the diameter (tooling/data/cutters.yaml), and so of that circle's. Source of the
@@ -174,6 +186,12 @@ double engaged_diameter_mm(TypeId operation, const model::Cutter& c, std::option
   return c.tip_diameter_mm + 2.0 * *depth_mm * std::tan(0.5 * c.point_angle_rad);
 }
 
+bool leaves_terraces(const model::FeatureShape& s) {
+  const bool narrows = s.kind == ShapeKind::kHole && s.bottom_diameter_mm > 0.0 &&
+                       s.bottom_diameter_mm < s.diameter.nominal_mm - 1e-6;
+  return narrows || (s.kind == ShapeKind::kSlot && !s.slot_profile.empty());
+}
+
 optimise::CutQuestion hole_question(const model::Plan& plan, double margin_deviations,
                                     const model::ProposedStep& step, const model::Candidate& c) {
   optimise::CutQuestion q;
@@ -225,8 +243,9 @@ optimise::CutQuestion question_of(const PlanSoFar& p, const StepDraft& step,
   const double d = step.cutter.cutting_diameter_mm;
   if (job.axial_depth_mm > 0.0) q.ap_mm = job.axial_depth_mm;
   // The finishing pass cuts the terraces that the levels leave on a slope.
-  if (m.holds<model::FreeformOperation>(step.operation) && q.kind == CutKind::kRough)
-    q.ap_most_mm = kTerraceShare * d;
+  const bool terraces = m.holds<model::FreeformOperation>(step.operation) ||
+                        (job.allowance_side_mm > 0.0 && leans_at_top(job.shape));
+  if (terraces && q.kind == CutKind::kRough) q.ap_most_mm = kTerraceShare * d;
   // Across the floor a finishing pass steps as given; what it takes from the wall is what roughing left.
   const bool rough = q.kind != CutKind::kFinish;
   if (rough && job.radial_depth_mm > 0.0) {

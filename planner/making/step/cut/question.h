@@ -36,4 +36,8 @@ namespace capstan::step {
 [[nodiscard]] double engaged_diameter_mm(model::TypeId operation, const model::Cutter& c,
                                          std::optional<double> depth_mm);
 
+/// True if levels leave terraces on the shape's walls: a slot whose section is not square, a hole that narrows
+/// downwards.
+[[nodiscard]] bool leaves_terraces(const model::FeatureShape& shape);
+
 }  // namespace capstan::step

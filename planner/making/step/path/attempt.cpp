@@ -165,14 +165,17 @@ Result<PathWithCut> path_with_cut(const PlanSoFar& p, const StepDraft& step,
   bool first = true;
   std::optional<toolpath::GeneratedPath> over_surface;  // of the shape at hand
   const bool freeform = m.holds<model::FreeformOperation>(step.operation);
-  const bool passes = m.holds<model::FreeformFinishMilling>(step.operation) && !draft::cuts_levels(m, step);
+  const auto make_path = [&](const toolpath::PathJob& j) {
+    return freeform ? freeform_path(p, step, j, out.answer, means.stocks.of(step.setup), means.job)
+                    : generated(j, means);
+  };
   for (const auto& shape : step.shapes) {
     auto job = job_of(p, step, shape);
     means.progress.prepare(step, means.stocks.of(step.setup), job);
     if (first) {
       out.question = question_of(p, step, candidate, job);
-      if (passes && step.open_technology) {
-        auto path = pass_over(p, step, job, means.stocks, out.question, means.job);
+      if (step.open_technology && finishes_in_passes(m, step, shape)) {
+        auto path = pass_over(p, step, job, means.stocks, out.question, make_path);
         if (!path) return tl::unexpected(path.error());
         over_surface = *std::move(path);
       }
@@ -207,13 +210,9 @@ Result<PathWithCut> path_with_cut(const PlanSoFar& p, const StepDraft& step,
       if (!loads && step.open_technology) return tl::unexpected(loads.error());
       if (loads) out.under = *loads;
     }
-    auto path = over_surface ? Result<toolpath::GeneratedPath>(*std::move(over_surface))
-                             : workholding::kept_clear(
-                                   p.setups[step.setup], step.cutter, job, [&](const toolpath::PathJob& j) {
-                                     return freeform ? freeform_path(p, step, j, out.answer,
-                                                                     means.stocks.of(step.setup), means.job)
-                                                     : generated(j, means);
-                                   });
+    auto path = over_surface
+                    ? Result<toolpath::GeneratedPath>(*std::move(over_surface))
+                    : workholding::kept_clear(p.setups[step.setup], step.cutter, job, make_path);
     over_surface.reset();
     if (!path) return tl::unexpected(path.error());
     if (first) {
@@ -255,7 +254,7 @@ MeasuredCut measured_cut(model::Plan& plan, const PlanSoFar& p, const StepDraft&
     fq.samples = samples_of(*m, *out.path, step.cutter);
     fq.known_to_mm = m->known_to_mm;
     // One pass over a surface, not levels: as deep and as wide as what roughing left there.
-    if (plan.model.holds<model::FreeformFinishMilling>(step.operation)) {
+    if (fq.cut.as_measured || plan.model.holds<model::FreeformFinishMilling>(step.operation)) {
       for (const optimise::CutSample& sample : fq.samples) {
         if (sample.plunge) continue;
         const double ae = std::min(sample.ae_mm, step.cutter.cutting_diameter_mm);

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/making/step/cut/question.h"
 #include "planner/making/step/cut_samples.h"
-#include "planner/making/step/path/freeform.h"
+#include "planner/ground/vocabulary/operation.h"
 #include "planner/making/workholding/clear_of_fixtures.h"
+#include "planner/model/nouns/all.h"
 #include "planner/physics/mechanics/force/force_law.h"
 #include "planner/physics/mechanics/force/immersion.h"
 #include "planner/physics/mechanics/life/life.h"
@@ -16,6 +18,12 @@ namespace {
 /// How far above the table's speed the widest contact of a path may run, where most of it runs below.
 /// Default, unsourced: as far as a cutter's slowest speed may exceed its preset (tooling/selection).
 constexpr double kOverTable = 1.25;
+
+/// A ball or a bull nose: it touches a wall that leans.
+bool mills_round(const model::Cutter& c) {
+  return model::has(c.cutter_class, model::CutterTrait::kBall) ||
+         (model::has(c.cutter_class, model::CutterTrait::kEndMill) && c.corner_radius_mm > 0.0);
+}
 
 }  // namespace
 
@@ -53,12 +61,18 @@ void ask_as_measured(const std::vector<optimise::CutSample>& samples, optimise::
   if (q.speed_diameter_mm < d) q.vc_start_m_min = std::max(q.vc_start_m_min, q.vc_table_m_min);
 }
 
+bool finishes_in_passes(const model::Model& m, const draft::StepDraft& step,
+                        const model::FeatureShape& shape) {
+  if (m.holds<model::FreeformFinishMilling>(step.operation)) return !draft::cuts_levels(m, step);
+  if (!model::has(step.operation.type, model::OperationTrait::kFinishes) || !mills_round(step.cutter))
+    return false;
+  return leaves_terraces(shape);
+}
+
 Result<toolpath::GeneratedPath> pass_over(const PlanSoFar& p, const draft::StepDraft& step,
                                           const toolpath::PathJob& path, Stocks& stocks,
-                                          optimise::CutQuestion& q, Job& job) {
-  auto made = workholding::kept_clear(
-      p.setups[step.setup], step.cutter, path,
-      [&](const toolpath::PathJob& j) { return freeform_path(p, step, j, {}, stocks.of(step.setup), job); });
+                                          optimise::CutQuestion& q, const MakePath& make) {
+  auto made = workholding::kept_clear(p.setups[step.setup], step.cutter, path, make);
   if (!made) return made;
   const auto before = stocks.before(step.setup);
   if (const auto m = stocks.measure(step.setup, made->path, step.cutter))

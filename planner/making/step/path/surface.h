@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "planner/making/optimise/cut.h"
@@ -26,10 +27,17 @@ namespace capstan::step {
 /// summed: derived.
 void ask_as_measured(const std::vector<optimise::CutSample>& samples, optimise::CutQuestion& q);
 
+/// True if the step finishes in passes side by side with the round of its cutter: a freeform surface, a slot
+/// whose section is not square, a hole that narrows downwards. Such a pass is as deep as what roughing left
+/// where it runs, whatever the feature's depth.
+[[nodiscard]] bool finishes_in_passes(const model::Model& m, const draft::StepDraft& step,
+                                      const model::FeatureShape& shape);
+
+using MakePath = std::function<Result<toolpath::GeneratedPath>(const toolpath::PathJob&)>;
 /// Makes the passes over a surface, which need no speed and feed, and completes the question with the
 /// sections that they cut. The stock is not changed.
 [[nodiscard]] Result<toolpath::GeneratedPath> pass_over(const PlanSoFar& p, const draft::StepDraft& step,
                                                         const toolpath::PathJob& path, Stocks& stocks,
-                                                        optimise::CutQuestion& q, Job& job);
+                                                        optimise::CutQuestion& q, const MakePath& make);
 
 }  // namespace capstan::step

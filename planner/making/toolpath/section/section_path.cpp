@@ -25,6 +25,9 @@ constexpr double kScallop = 0.01;
 /// Largest height of the steps that a flat cutter leaves in finishing a leaning or round wall, square to the
 /// wall, mm. Default, unsourced.
 constexpr double kFinishStep = 0.35;
+/// The same of roughing before a round cutter, of the diameter: as high as those of freeform roughing at 45
+/// degrees. Default, unsourced.
+constexpr double kRoughStep = 0.18;
 /// Allowance for the finishing passes where no earlier step has roughed, mm. Default, unsourced.
 constexpr double kOwnAllowance = 0.3;
 /// Depth of the levels of that roughing, in diameters, if none is given. Default, unsourced.
@@ -106,7 +109,9 @@ class SectionCutter {
   }
 
   /// Levels between which the steps on the wall stay small: far apart on steep walls, close on shallow ones.
-  [[nodiscard]] std::vector<double> fine_levels(const Tip& thick, double rise, double end) const {
+  /// `terrace`: their height against the wall, mm.
+  [[nodiscard]] std::vector<double> fine_levels(const Tip& thick, double rise, double end,
+                                                double terrace) const {
     std::vector<double> out;
     double from = task_.start_z_mm;
     const double most = level_step() > 0.0 ? level_step() : 1e300;
@@ -117,13 +122,13 @@ class SectionCutter {
         return fall * side / std::hypot(fall, side);
       };
       double hi = std::min(most, from - end);
-      double lo = std::min(hi, kFinishStep);  // a step is never higher than the fall
-      if (step_at(hi) <= kFinishStep) {
+      double lo = std::min(hi, terrace);  // a step is never higher than the fall
+      if (step_at(hi) <= terrace) {
         lo = hi;
       } else {
         for (int i = 0; i < 40; ++i) {
           const double mid = 0.5 * (lo + hi);
-          (step_at(mid) <= kFinishStep ? lo : hi) = mid;
+          (step_at(mid) <= terrace ? lo : hi) = mid;
         }
       }
       from = from - lo < end + 0.02 ? end : from - lo;
@@ -145,8 +150,12 @@ class SectionCutter {
                                    trimmed(lowest, 3) + " mm remain; use a narrower cutter");
     }
     const double end = zero_z_ + lowest;
-    const bool fine = model::finishes_walls(task_.operation) && tip_.corner_mm <= 0.0;
-    const auto zs = fine ? fine_levels(thick, rise, end) : levels(area_, task_.start_z_mm, end, step, 0.0);
+    // What roughing leaves for a round cutter is even: levels as deep as may be where the wall is steep.
+    const bool finishes = model::finishes_walls(task_.operation);
+    const double terrace = finishes ? kFinishStep : kRoughStep * 2.0 * tip_.radius_mm;
+    const bool fine = finishes ? tip_.corner_mm <= 0.0 : side > 0.0;
+    const auto zs = fine ? fine_levels(thick, rise, end, terrace)
+                         : levels(area_, task_.start_z_mm, end, step, 0.0);
     if (zs.empty() && lowest >= section_.depth_mm - 1e-6) return no_fit();
     if (zs.empty()) {
       return fail({.code = "TPA-DEPTH",
