@@ -52,6 +52,22 @@ TEST_P(CorpusParts, ArePlannedAsGivenStepByStep) {
   interpreted(session);
 }
 
+TEST(CorpusSlots, AreFinishedByARoundCutterFedByWhatItCutsNotByTheirDepth) {
+  // Roughing leaves terraces of a fifth of its cutter; the slots are 13 mm deep. A pass as deep as that was fed at
+  // 196 mm/min, for 57 min.
+  for (const char* file : {"iso14649/ufsc_RanhuraPerfilVee.p21", "iso14649/ufsc_RanhuraPerfilRoundedU.p21"}) {
+    CAPSTAN_CORPUS_FILE(path, std::string(file));
+    const Session session = planned(path, Reopen::kAll);
+    ASSERT_EQ(session.plan.steps.size(), 2U) << file;
+    const model::StepResult& finish = session.plan.steps[1];
+    ASSERT_TRUE(finish.schedule && finish.path);
+    const double fastest =
+        *std::max_element(finish.schedule->feed_mm_min.begin(), finish.schedule->feed_mm_min.end());
+    EXPECT_LT(finish.cutting_s, 0.5 * 57.0 * 60.0) << file;
+    EXPECT_GT(fastest, 800.0) << file;
+  }
+}
+
 TEST_P(CorpusParts, PlannedAnewAreWhole) {
   CAPSTAN_CORPUS_FILE(path, std::string("iso14649/") + GetParam().file);
   CAPSTAN_NEEDS_RS274();

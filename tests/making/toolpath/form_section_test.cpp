@@ -202,6 +202,30 @@ TEST(FormSlot, IsRoughedInLevelsWithoutGouging) {
   }
 }
 
+TEST(FormSlot, IsRoughedToTerracesThatARoundCutterTakesWhateverTheDepthOfCut) {
+  // A wall at 45 degrees: a level of height h leaves a terrace of h sin(45) square to the wall.
+  PathJob t = form_slot(3.0, 0.5 * kPi, 13.0, true);
+  t.operation = TypeId::kBottomAndSideRoughMilling;
+  t.cutter = cutter(model::CutterClass::kEndmill, 10.0, 0.0);
+  t.axial_depth_mm = 12.0;
+  t.allowance_side_mm = t.allowance_bottom_mm = 0.3;
+  Job job;
+  const auto g = generate(t, job);
+  ASSERT_TRUE(g) << g.error().message;
+  ASSERT_GT(g->levels_z_mm.size(), 2U);
+  for (std::size_t i = 1; i < g->levels_z_mm.size(); ++i)
+    EXPECT_LE((g->levels_z_mm[i - 1] - g->levels_z_mm[i]) * std::sin(0.25 * kPi), 0.18 * 10.0 + 1e-6);
+  // Upright walls leave none: the rounded U is as deep as it may be down to where its bottom begins.
+  PathJob u = form_slot(5.5, 0.0, 13.0, true);
+  u.operation = t.operation;
+  u.cutter = cutter(model::CutterClass::kEndmill, 6.0, 0.0);
+  u.axial_depth_mm = 6.0;
+  u.allowance_side_mm = u.allowance_bottom_mm = 0.3;
+  const auto round = generate(u, job);
+  ASSERT_TRUE(round) << round.error().message;
+  EXPECT_NEAR(round->levels_z_mm.front(), u.start_z_mm - 6.0, 1e-9);
+}
+
 TEST(FormSlot, IsFinishedByABallToTheScallopWithoutGouging) {
   struct Case {
     double r, angle, depth, diameter;
