@@ -169,7 +169,8 @@ void read_chains(const DataNode& chains, Row& row) {
 void read_values(const DataNode& values, Row& row) {
   if (!is_map(values)) refuse("RULE-ROW", "values is not a map", values);
   static const std::vector<std::string> kValues{"as_grade", "machined",        "probe",    "flood",
-                                                "peck",     "coolant_through", "under_mm", "none"};
+                                                "peck",     "coolant_through", "under_mm", "none",
+                                                "retract_mm"};
   for (const auto& [key, value] : values.entries) {
     if (std::find(kValues.begin(), kValues.end(), key) == kValues.end())
       refuse("RULE-ROW", "no table asks for a value named " + key, values);

@@ -97,8 +97,24 @@ double drill_depth(const Making& m, double drill_mm) {
   return s.depth_mm;
 }
 
+/// How a hole of this depth is drilled.
+struct Pecks {
+  bool peck = false;
+  double retract_mm = 0.0;  ///< 0: out of the hole
+};
+
+void take(const Pecks& p, ProposedStep& s) {
+  s.peck = p.peck;
+  s.peck_retract_mm = p.retract_mm;
+  if (p.peck) s.operation = TypeId::kMultistepDrilling;
+}
+
+Pecks pecks_of(const Row& row) {
+  return {find(row.values, "peck").value_or(0.0) > 0.0, find(row.values, "retract_mm").value_or(0.0)};
+}
+
 // The row on pecking for this depth; its text, or why it cannot be drilled.
-tl::expected<bool, std::string> pecked(const Making& m, double ratio, std::string& text) {
+tl::expected<Pecks, std::string> pecked(const Making& m, double ratio, std::string& text) {
   const Table* table = m.base.table("drill_depth");
   if (table == nullptr) return tl::unexpected(std::string("there is no table drill_depth"));
   Facts facts = m.known.facts;
@@ -109,7 +125,7 @@ tl::expected<bool, std::string> pecked(const Making& m, double ratio, std::strin
     return tl::unexpected("no row of drill_depth holds for a depth of " + trimmed(ratio, 2) + " D");
   if (!row->cannot.empty()) return tl::unexpected(row->cannot + " [" + row->id + "]");
   if (!row->text.empty()) text = row->text + " [" + row->id + "]";
-  return find(row->values, "peck").value_or(0.0) > 0.0;
+  return pecks_of(*row);
 }
 
 Made drill(const Making& m) {
@@ -133,8 +149,7 @@ Made drill(const Making& m) {
   std::string text;
   const auto peck = pecked(m, (depth + m.context.stock_above_mm) / w.best, text);
   if (!peck) return tl::unexpected(peck.error());
-  s.peck = *peck;
-  if (s.peck) s.operation = TypeId::kMultistepDrilling;
+  take(*peck, s);
   if (m.number("coolant_through") > 0.0) {
     if (!m.context.has_through_coolant) return no("the machine has no coolant through the spindle");
     s.coolant_through = s.tool.coolant_through = true;
@@ -146,9 +161,7 @@ Made drill(const Making& m) {
 // Out of the hole after every step, whatever the table on depths says.
 Made peck_drill(const Making& m) {
   Made made = drill(m);
-  if (!made || made->peck) return made;
-  made->peck = true;
-  made->operation = TypeId::kMultistepDrilling;
+  if (made) take({.peck = true}, *made);
   return made;
 }
 
@@ -220,8 +233,7 @@ Made pilot(const Making& m) {
   std::string text;
   const auto peck = pecked(m, s.depth_mm / lo, text);
   if (!peck) return tl::unexpected(peck.error());
-  s.peck = *peck;
-  if (s.peck) s.operation = TypeId::kMultistepDrilling;
+  take(*peck, s);
   s.why.text = text;
   return s;
 }

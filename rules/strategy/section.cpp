@@ -86,6 +86,7 @@ Made taper_drill(const Making& m) {
   if (row == nullptr || !row->cannot.empty())
     return no(row == nullptr ? "no row of drill_depth holds" : row->cannot + " [" + row->id + "]");
   s.peck = find(row->values, "peck").value_or(0.0) > 0.0;
+  s.peck_retract_mm = find(row->values, "retract_mm").value_or(0.0);
   if (s.peck) s.operation = TypeId::kMultistepDrilling;
   s.strategy = StrategyKind::kNone;
   s.tool.classes = {CutterClass::kTwistDrill};

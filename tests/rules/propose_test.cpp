@@ -116,7 +116,13 @@ TEST(Hole, IsPeckedFromThreeDiametersAndRefusedFromTwelve) {
   const auto drill = [](double depth) { return proposed(hole(10, depth)).chains.at(0).at(1); };
   EXPECT_FALSE(drill(29.0).peck);
   EXPECT_TRUE(drill(30.0).peck);
-  EXPECT_THAT(drill(30.0).why.text, HasSubstr("[drill_depth.peck]"));
+  EXPECT_THAT(drill(30.0).why.text, HasSubstr("[drill_depth.break]"));
+  EXPECT_EQ(drill(30.0).peck_retract_mm, 0.5) << "up to five diameters in steel the chip is broken";
+  EXPECT_EQ(drill(50.0).peck_retract_mm, 0.0) << "deeper the drill comes out";
+  Context tough = steel();
+  tough.material.iso_group = "M";
+  EXPECT_EQ(proposed(hole(10, 30), tough).chains.at(0).at(1).peck_retract_mm, 0.0)
+      << "long chips are not broken";
   EXPECT_THAT(proposed(hole(2, 40)).cannot, HasSubstr("[hole.gun.dry]"));
   EXPECT_THAT(proposed(hole(2, 240)).cannot, HasSubstr("[hole.gun.too_deep]"));
 }

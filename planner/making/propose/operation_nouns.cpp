@@ -144,12 +144,13 @@ void fill_drilling(Model& m, AnyRef op, const model::ProposedStep& step) {
   if (step.start_diameter_mm > 0.0) o->previous_diameter = step.start_diameter_mm;
   if (step.dwell_s > 0.0) o->dwell_time_bottom = step.dwell_s;
   if (auto* s = m.get<model::MultistepDrilling>(op)) {
-    // Pecks of one diameter, then cleared to just above the material: a common default, unsourced.
+    // Pecks of one diameter; out of the hole to just above the material, or up a little to break the chip. The
+    // diameter is a common default, unsourced.
     const double d =
         step.tool.diameter_exact_mm > 0.0 ? step.tool.diameter_exact_mm : step.tool.diameter_max_mm;
     s->first_depth = d;
     s->depth_of_step = d;
-    s->retract_distance = 0.0;
+    s->retract_distance = step.peck_retract_mm;
   }
   if (!step.tool.classes.empty() && step.tool.classes.front() == model::CutterClass::kGunDrill) {
     // Into its pilot a gun drill turns slowly; defaults, unsourced.
@@ -207,7 +208,7 @@ Ref<model::MachiningWorkingstep> add_nouns(model::Plan& plan, const model::Propo
   ledger.bind(op, "its_tool", Binder::kToolSelection, tool.why, {chain}, std::move(rejected_tools));
   for (const char* name : {"its_machining_strategy", "axial_cutting_depth", "allowance_side",
                            "allowance_bottom", "cutting_depth", "previous_diameter", "dwell_time_bottom",
-                           "first_depth", "depth_of_step", "its_machine_functions"}) {
+                           "first_depth", "depth_of_step", "retract_distance", "its_machine_functions"}) {
     const auto* a = model::find_attribute(op.type, name);
     if (a != nullptr && model::has_value(*a, m.object(op)))
       ledger.bind(op, name, Binder::kRule, step.why, {chain});

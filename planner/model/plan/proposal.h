@@ -32,6 +32,7 @@ struct ProposedStep {
   double start_diameter_mm = 0.0;  ///< hole already there (previous_diameter)
   double depth_mm = 0.0;           ///< drilling family: depth of the full diameter below the feature's top
   bool peck = false;
+  double peck_retract_mm = 0.0;  ///< up after each peck, which breaks the chip; 0: out of the hole
   double dwell_s = 0.0;
   bool coolant = true;
   bool coolant_through = false;
