@@ -106,9 +106,6 @@ TEST_P(CorpusParts, OnlyTheFilesOwnFaultsAreFoundAgainstThemPlannedAnew) {
 
 // Placed at z 100 of the workpiece; the raw piece of the file ends at z 50.
 const Codes kAboveTheRawPiece{"CHK-CUTS-NOTHING", "CHK-OUTSIDE"};
-// A ball of 6 mm finishes the cone for 58 min, four times what its edge lasts; that it does so in air the
-// check tells apart.
-const Codes kAboveTheRawPieceForAnHour{"CHK-CUTS-NOTHING", "CHK-EDGES", "CHK-OUTSIDE"};
 
 INSTANTIATE_TEST_SUITE_P(
     Universities, CorpusParts,
@@ -135,7 +132,7 @@ INSTANTIATE_TEST_SUITE_P(
                            {"WS center drilling", "Operacao Furacao Desbaste", "Operacao Furacao Acabamento"},
                            {},
                            1,
-                           kAboveTheRawPieceForAnHour},
+                           kAboveTheRawPiece},
                       Part{"Slot",
                            "ufsc_Ranhura.p21",
                            {"EXC-DIALECT", "EXC-OPEN", "EXC-RATIO", "EXC-SPEED-CONFLICT", "EXC-UNIT-CUTSPEED",
@@ -156,9 +153,7 @@ INSTANTIATE_TEST_SUITE_P(
                             "EXC-UNIT-CUTSPEED", "EXC-UNIT-SPINDLE", "P21-MANDATORY"},
                            {"WS 0", "WS 1", "WS 2"},
                            {},
-                           1,
-                           // A ball of 6 mm finishes the slot's sides for 57 min: four edges of 15 min.
-                           {"CHK-EDGES"}},
+                           1},
                       Part{"Hole",
                            "meduag_furo.p21",
                            {"EXC-FEED", "EXC-SPEED-CONFLICT", "EXC-TIP-ANGLE", "EXC-TOLERANCE",
