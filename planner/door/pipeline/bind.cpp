@@ -10,6 +10,7 @@
 #include "planner/ground/base/stopping.h"
 #include "planner/making/given/ends.h"
 #include "planner/making/given/machine_needs.h"
+#include "planner/making/given/tool_material.h"
 #include "planner/making/piece/raw_piece_limits.h"
 #include "planner/making/piece/workpiece.h"
 #include "planner/making/step/record/gone.h"
@@ -223,6 +224,7 @@ Result<std::optional<model::Plan>> bind_once(model::Plan plan, const Inputs& inp
   if (policy.bind == Bind::kAll || policy.bind == Bind::kTools) {
     collect_cutters(plan, drafts.steps, policy);
     given::tell_loading(plan, inputs.library, job);
+    given::tell_assumed_materials(plan, inputs.tool_materials, job);
   }
   if (policy.bind == Bind::kAll) {
     given::state_machine_needs(plan);

@@ -312,6 +312,18 @@ bool take_recorded(const model::Plan& plan, const Choice& choice, const StepDraf
   return true;
 }
 
+/// The cutter of a step as the file gives it. Where the file does not state what it is made of, it is read
+/// once more with what tells of it, for its start values follow from that.
+Result<model::Cutter> given_cutter(const model::Plan& plan, const StepDraft& step, const Choice& choice,
+                                   Job& job) {
+  const auto tool = plan.model.at<model::MachiningOperation>(step.operation).its_tool;
+  auto cutter = tooling::cutter_from_nouns(plan.model, tool, job, choice.library);
+  if (!cutter || !tooling::material_is_assumed(*cutter)) return cutter;
+  const auto hints = hints_of(plan, step, *cutter, choice.library, choice.materials);
+  Job silent;  // what is to be said of it was said above
+  return tooling::cutter_from_nouns(plan.model, tool, silent, choice.library, &hints);
+}
+
 }  // namespace
 
 void select_open_tools(model::Plan& plan, std::vector<StepDraft>& steps, std::vector<std::string>& used,
@@ -325,7 +337,7 @@ void select_open_tools(model::Plan& plan, std::vector<StepDraft>& steps, std::ve
       select_one(plan, step, used, choice, job);
       continue;
     }
-    auto cutter = tooling::cutter_from_nouns(plan.model, op->its_tool, job, choice.library);
+    auto cutter = given_cutter(plan, step, choice, job);
     if (cutter) {
       step.cutter = *std::move(cutter);
       if (take_recorded(plan, choice, step, step.cutter)) recorded.insert(&step);

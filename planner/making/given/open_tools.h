@@ -5,6 +5,7 @@
 
 #include "planner/ground/base/job.h"
 #include "planner/making/draft/draft.h"
+#include "planner/making/given/tool_material.h"
 #include "planner/making/piece/demands.h"
 #include "planner/making/piece/piece.h"
 #include "planner/model/plan/plan.h"
@@ -22,6 +23,7 @@ struct Choice {
   const piece::Piece& piece;
   const piece::Demands& demands;
   const std::vector<model::Cutter>& recorded;  ///< what the plan said of its cutters when it was read
+  const ToolMaterialWish& materials;           ///< of tools whose file does not state it
 };
 
 /// Gives each step of the file its cutter. Writes the chosen tools into `plan`, and reports the steps without

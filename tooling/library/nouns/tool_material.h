@@ -1,0 +1,42 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "planner/model/plan/cutter/cutter.h"
+#include "planner/model/plan/resources/material.h"
+
+namespace capstan::tooling {
+
+/// What tells of which material a tool is whose file does not say it.
+struct ToolMaterialHints {
+  const model::WorkMaterial* material = nullptr;  ///< that it cuts; null: not known
+  double vc_m_min = 0.0;                          ///< the fastest that the file gives for the tool; 0: none
+  std::optional<model::Substrate> settled;        ///< somebody has settled it,
+  std::string settled_by;                         ///< and this is the field's source
+};
+
+/// The material of a tool's edges, with the text for `Cutter::sources`.
+struct ToolMaterial {
+  model::Substrate substrate = model::Substrate::kHss;
+  std::string source;
+};
+
+/// Chooses for a tool whose file states no tool material; class and diameter have to be set. What is settled
+/// holds. Else the card of the work material decides where it excludes one of the two, or where one of the two
+/// alone bears the speed that the file gives; else today's practice for the class and size. A speed that HSS
+/// bears keeps HSS: carbide in its place would be run several times as fast, and a tool of HSS burns then.
+/// Source  of the practice: the table in the .cpp
+[[nodiscard]] ToolMaterial likely_material(const model::Cutter& c, const ToolMaterialHints& hints);
+
+/// Whether nobody stated what the cutter is made of, so that it is an assumption.
+[[nodiscard]] bool material_is_assumed(const model::Cutter& c);
+
+/// How the source of an assumed tool material goes on behind kNotStated: "default: not stated; carbide taken: "
+/// and the reason.
+[[nodiscard]] std::string assumed_source(model::Substrate s, std::string_view why);
+/// The reason of such a source.
+[[nodiscard]] std::string reason_of_source(std::string_view source);
+
+}  // namespace capstan::tooling
