@@ -8,6 +8,7 @@
 #include "planner/making/given/tool_material.h"
 #include "planner/making/piece/demands.h"
 #include "planner/making/piece/piece.h"
+#include "planner/model/plan/needed_tool.h"
 #include "planner/model/plan/plan.h"
 #include "rules/rules.h"
 
@@ -28,8 +29,10 @@ struct Choice {
 
 /// Gives each step of the file its cutter. Writes the chosen tools into `plan`, and reports the steps without
 /// one (PIP-NO-TOOL). `used`: ids of the cutters that steps use, each once.
+/// `needed` gets the tools that they lack.
 void select_open_tools(model::Plan& plan, std::vector<draft::StepDraft>& steps,
-                       std::vector<std::string>& used, const Choice& choice, Job& job);
+                       std::vector<std::string>& used, std::vector<model::NeededTool>& needed,
+                       const Choice& choice, Job& job);
 
 /// Gives a tool one stick-out and length in the whole plan: the one that the deepest of its steps needs. It
 /// bends accordingly in all its steps.

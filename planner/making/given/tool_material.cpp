@@ -1,6 +1,7 @@
 #include "planner/making/given/tool_material.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -55,7 +56,7 @@ tooling::ToolMaterialHints hints_of(const model::Plan& plan, const draft::StepDr
   }
   if (wish.assumed) {
     out.settled = wish.assumed;
-    out.settled_by = tooling::assumed_source(*wish.assumed, wish.assumed_by);
+    out.settled_by = tooling::settled_source(wish.assumed_by);
     return out;
   }
   for (const model::AssumedToolMaterial& a : wish.of_plan) {
@@ -72,35 +73,40 @@ void assume_materials(std::vector<Cutter>& library, const ToolMaterialWish& wish
     if (!tooling::material_is_assumed(c)) continue;
     c.substrate = *wish.assumed;
     for (auto& [field, source] : c.sources) {
-      if (field == "substrate") source = tooling::assumed_source(c.substrate, wish.assumed_by);
+      if (field == "substrate") source = tooling::settled_source(wish.assumed_by);
     }
   }
 }
 
-void tell_assumed_materials(model::Plan& plan, const ToolMaterialWish& wish, Job& job) {
-  std::string told;
+void tell_assumed_materials(model::Plan& plan, Job& job) {
+  std::array<std::string, 2> taken;  // by Substrate
   std::size_t count = 0;
   for (const Cutter& c : plan.cutters) {
     if (c.cutter_class == model::CutterClass::kTouchProbe || !tooling::material_is_assumed(c)) continue;
-    const std::string* source = tooling::source_of(c, "substrate");
-    const std::string why = tooling::reason_of_source(*source);
-    const bool settled = wish.assumed && *wish.assumed == c.substrate && why == wish.assumed_by;
+    const std::string why = tooling::reason_of_source(*tooling::source_of(c, "substrate"));
+    const bool settled = !tooling::material_is_open(c);
     plan.provenance.push_back(model::provenance_of({c.id, c.substrate, why, settled}));
     if (settled) continue;
-    told += (told.empty() ? "" : "; ") + ("'" + c.id) + "' is taken as " +
-            std::string(model::to_text(c.substrate)) + " (" + why + ")";
+    std::string& names = taken.at(static_cast<std::size_t>(c.substrate));
+    names += (names.empty() ? "'" : "; '") + c.id + "': " + why;
     ++count;
   }
   if (count == 0) return;
+  std::string told;
+  for (const auto s : {model::Substrate::kCarbide, model::Substrate::kHss}) {
+    const std::string& names = taken.at(static_cast<std::size_t>(s));
+    if (!names.empty())
+      told += (told.empty() ? "" : ". Taken as ") + std::string(model::to_text(s)) + ": " + names;
+  }
   job.report({.code = "PIP-TOOL-MATERIAL",
               .severity = Severity::kWarning,
-              .message = (count == 1 ? std::string("nobody states what the edges of one tool are made of: ")
-                                     : "nobody states what the edges of " + std::to_string(count) +
-                                           " tools are made of: ") +
-                         told + "; HSS at the speed of carbide burns, and carbide at that of HSS loses hours",
+              .message = "nobody states what " +
+                         (count == 1 ? std::string("one tool is") : std::to_string(count) + " tools are") +
+                         " made of. Taken as " + told +
+                         ". HSS at the speed of carbide burns, and carbide at that of HSS costs hours",
               .file = plan.file_name,
-              .hint = "settle it with --assume tool-material=carbide or =hss, state its_material of the "
-                      "cutting edge in the file, or the material in the list of tools"});
+              .hint = "settle it with --assume tool-material=carbide or tool-material=hss, or state "
+                      "its_material of the cutting edge, or the material in the list of tools"});
 }
 
 }  // namespace capstan::given

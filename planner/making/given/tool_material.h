@@ -23,6 +23,6 @@ namespace capstan::given {
 void assume_materials(std::vector<model::Cutter>& library, const ToolMaterialWish& wish);
 
 /// Puts what is assumed of the plan's cutters into its provenance, and tells it, once (PIP-TOOL-MATERIAL).
-void tell_assumed_materials(model::Plan& plan, const ToolMaterialWish& wish, Job& job);
+void tell_assumed_materials(model::Plan& plan, Job& job);
 
 }  // namespace capstan::given

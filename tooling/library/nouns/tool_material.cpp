@@ -85,10 +85,11 @@ ToolMaterial by_practice(const model::Cutter& c) {
       return {Substrate::kCarbide, assumed_source(Substrate::kCarbide, p.why)};
   }
   return {Substrate::kHss,
-          assumed_source(Substrate::kHss, "the slower one, for such tools are sold of HSS, too")};
+          assumed_source(Substrate::kHss, "the slower one; such tools are sold of HSS, too")};
 }
 
 constexpr std::string_view kTaken = " taken: ";
+constexpr std::string_view kSettled = "settled: ";
 
 }  // namespace
 
@@ -101,10 +102,17 @@ ToolMaterial likely_material(const model::Cutter& c, const ToolMaterialHints& hi
   return by_practice(c);
 }
 
-bool material_is_assumed(const model::Cutter& c) {
+bool material_is_open(const model::Cutter& c) {
   const std::string* source = source_of(c, "substrate");
   return source != nullptr && (source->starts_with(kNotStated) || source->starts_with(kSubstrateUnstated));
 }
+
+bool material_is_assumed(const model::Cutter& c) {
+  const std::string* source = source_of(c, "substrate");
+  return material_is_open(c) || (source != nullptr && source->starts_with(kSettled));
+}
+
+std::string settled_source(std::string_view option) { return std::string(kSettled) + std::string(option); }
 
 std::string assumed_source(Substrate s, std::string_view why) {
   return std::string(kNotStated) + "; " + std::string(model::to_text(s)) + std::string(kTaken) +
@@ -112,6 +120,7 @@ std::string assumed_source(Substrate s, std::string_view why) {
 }
 
 std::string reason_of_source(std::string_view source) {
+  if (source.starts_with(kSettled)) return std::string(source.substr(kSettled.size()));
   const auto at = source.find(kTaken);
   return at == std::string_view::npos ? std::string("the slower one")
                                       : std::string(source.substr(at + kTaken.size()));

@@ -30,12 +30,15 @@ struct ToolMaterial {
 /// Source  of the practice: the table in the .cpp
 [[nodiscard]] ToolMaterial likely_material(const model::Cutter& c, const ToolMaterialHints& hints);
 
-/// Whether nobody stated what the cutter is made of, so that it is an assumption.
+/// Whether neither file nor list states what the cutter is made of: it is assumed, or the caller settled it.
 [[nodiscard]] bool material_is_assumed(const model::Cutter& c);
+/// The same, and the caller has not settled it.
+[[nodiscard]] bool material_is_open(const model::Cutter& c);
 
-/// How the source of an assumed tool material goes on behind kNotStated: "default: not stated; carbide taken: "
-/// and the reason.
+/// The source of an assumed tool material: "default: not stated; carbide taken: " and the reason.
 [[nodiscard]] std::string assumed_source(model::Substrate s, std::string_view why);
+/// The source of one that the caller has settled by an option.
+[[nodiscard]] std::string settled_source(std::string_view option);
 /// The reason of such a source.
 [[nodiscard]] std::string reason_of_source(std::string_view source);
 

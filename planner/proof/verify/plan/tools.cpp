@@ -137,7 +137,7 @@ void check_tool_materials(const model::Plan& plan, Findings& findings) {
   }
   if (tools.empty()) return;
   findings.warn(16, "CHK-TOOL-MATERIAL", {Findings::kWhole, "", -1},
-                "that these tools are carbide is assumed, and their speeds are of carbide: " + tools +
+                "that these tools are carbide is assumed, and speeds and stiffness are of carbide: " + tools +
                     "; look at them before the program runs; --assume tool-material=carbide or =hss settles "
                     "it");
 }
