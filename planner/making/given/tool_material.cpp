@@ -98,8 +98,10 @@ void tell_assumed_materials(model::Plan& plan, Job& job) {
     if (!names.empty())
       told += (told.empty() ? "" : ". Taken as ") + std::string(model::to_text(s)) + ": " + names;
   }
+  // Carbide that is assumed may break a tool; HSS only costs time.
+  const bool risky = !taken.at(static_cast<std::size_t>(model::Substrate::kCarbide)).empty();
   job.report({.code = "PIP-TOOL-MATERIAL",
-              .severity = Severity::kWarning,
+              .severity = risky ? Severity::kWarning : Severity::kNote,
               .message = "nobody states what " +
                          (count == 1 ? std::string("one tool is") : std::to_string(count) + " tools are") +
                          " made of. Taken as " + told +
