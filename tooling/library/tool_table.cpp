@@ -98,7 +98,8 @@ int teeth_from_words(const std::string& text) {
 std::optional<model::Substrate> substrate_from_words(std::string text) {
   for (const auto s : {model::Substrate::kCarbide, model::Substrate::kHss}) {
     const std::string words = std::string(model::kAssumedWord) + std::string(model::to_text(s));
-    for (auto at = text.find(words); at != std::string::npos; at = text.find(words)) text.erase(at, words.size());
+    for (auto at = text.find(words); at != std::string::npos; at = text.find(words))
+      text.erase(at, words.size());
   }
   for (auto at = text.find("hss"); at != std::string::npos; at = text.find("hss", at + 1)) {
     // "HSS", "HSSE", "HSS-Co5", "HSSPM"; no part of another word.

@@ -101,7 +101,8 @@ double milling_s(const Cutter& c, const StartValues& s, const WorkMaterial& w, c
         std::max(1.0, mechanics::mean_engaged_teeth(teeth, mechanics::immersion_angle_rad(ae, d)));
     const double one = mechanics::specific_force_n_mm2(work, h_max) * h_max * ap;
     const double force = margin * one * in_cut * std::hypot(1.0, mechanics::kRadialToTangentialRatio);
-    if (const auto bend = compliance_mm_n(c)) scale_down(kBendingMm / (force * *bend), "bending", scale, limited);
+    if (const auto bend = compliance_mm_n(c))
+      scale_down(kBendingMm / (force * *bend), "bending", scale, limited);
   }
   ap *= scale;
   // Levels are whole.

@@ -19,8 +19,8 @@ using model::ToolRequirement;
 /// Between what is cut and the holder's face. Default, unsourced.
 constexpr double kClearOfHolderMm = 2.0;
 
-/// The generic cutter of the class with the largest diameter within the limits, the shortest of these; else the
-/// nearest. Null where there is none of the class.
+/// The generic cutter of the class with the largest diameter within the limits, the shortest of these; else
+/// the nearest. Null where there is none of the class.
 const Cutter* pattern_of(const ToolRequirement& r, CutterClass c, const std::vector<Cutter>& generic) {
   const double low = model::lower_size(r), high = model::upper_size(r);
   const auto off = [&](const Cutter& g) {
@@ -73,11 +73,11 @@ void take_lengths(Cutter& c, const ToolRequirement& r) {
     c.shank_diameter_mm = c.cutting_diameter_mm;
   c.usable_length_mm = std::max(r.reach_mm, r.depth_of_cut_mm);
   const bool flutes_carry = model::has(c.cutter_class, CutterTrait::kDrills);
-  c.maximum_depth_of_cut_mm =
-      std::max(flutes_carry ? c.usable_length_mm + 1.5 * c.cutting_diameter_mm : 0.0,
-               r.depth_of_cut_mm > 0.0 ? r.depth_of_cut_mm
-                                       : std::min(c.maximum_depth_of_cut_mm,
-                                                  std::max(c.usable_length_mm, c.cutting_diameter_mm)));
+  c.maximum_depth_of_cut_mm = std::max(
+      flutes_carry ? c.usable_length_mm + 1.5 * c.cutting_diameter_mm : 0.0,
+      r.depth_of_cut_mm > 0.0
+          ? r.depth_of_cut_mm
+          : std::min(c.maximum_depth_of_cut_mm, std::max(c.usable_length_mm, c.cutting_diameter_mm)));
   c.usable_length_mm = std::max(c.usable_length_mm, flutes_carry ? 0.0 : c.maximum_depth_of_cut_mm);
   c.stick_out_mm = std::max(c.usable_length_mm, c.maximum_depth_of_cut_mm) + kClearOfHolderMm;
 }

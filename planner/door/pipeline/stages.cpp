@@ -82,8 +82,12 @@ Drafts select_open_tools(model::Plan& plan, Drafts drafts, const Required& requi
   const std::vector<model::Cutter>& cutters = usable(asked, loaded);
   const std::vector<model::Cutter>& library = asked.inputs.library;
   const piece::Piece piece{plan, required.shapes, grown_mm(asked.inputs)};
-  const given::Choice choice{library, cutters,          asked.inputs.rules,
-                             piece,   required.demands, asked.recorded.cutters,
+  const given::Choice choice{library,
+                             cutters,
+                             asked.inputs.rules,
+                             piece,
+                             required.demands,
+                             asked.recorded.cutters,
                              asked.inputs.tool_materials};
   given::select_open_tools(plan, drafts.steps, drafts.used, drafts.needed, choice, job);
   const bool magazine_known =

@@ -27,7 +27,7 @@ struct Sources {
 struct Drafts {
   std::vector<draft::SetupDraft> setups;
   std::vector<draft::StepDraft> steps;
-  std::vector<std::string> used;  ///< ids of the cutters that steps use, each once
+  std::vector<std::string> used;               ///< ids of the cutters that steps use, each once
   std::vector<model::NeededTool> needed = {};  ///< what features lack that no cutter fits
 };
 

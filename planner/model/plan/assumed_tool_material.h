@@ -10,8 +10,8 @@
 
 namespace capstan::model {
 
-/// A tool of which nobody stated what it is made of, and what the plan takes it to be. It stands in the plan's
-/// provenance, which every form of a plan keeps: planning again takes the same.
+/// A tool of which nobody stated what it is made of, and what the plan takes it to be. It stands in the
+/// plan's provenance, which every form of a plan keeps: planning again takes the same.
 struct AssumedToolMaterial {
   std::string tool;  ///< id of the cutter
   Substrate substrate = Substrate::kHss;

@@ -28,8 +28,8 @@ struct NeededKind {
 /// one.
 [[nodiscard]] std::vector<NeededKind> needed_kinds(const Plan& plan, const std::vector<NeededTool>& needed);
 
-/// The row of provenance that names the n-th kind: "needed tool 1", the cutter as an entry of a shop's own tool
-/// list (tooling/data/README.md), and for which features.
+/// The row of provenance that names the n-th kind: "needed tool 1", the cutter as an entry of a shop's own
+/// tool list (tooling/data/README.md), and for which features.
 [[nodiscard]] Provenance provenance_of(const NeededKind& kind, std::size_t number);
 
 /// "twist_drill 6.6 mm, usable length 34 mm, flutes 34 mm, for 'HOLE1', 'HOLE2'"

@@ -131,9 +131,11 @@ TEST(StatingMaterial, IsTheLoadedToolOfThatSizeThatStatesWhatItIsMadeOf) {
     c.sources = {{"substrate", source}};
     return c;
   };
-  const Cutter hss = loaded(model::Substrate::kHss, 1, "stated"), carbide = loaded(model::Substrate::kCarbide, 2, "stated");
+  const Cutter hss = loaded(model::Substrate::kHss, 1, "stated"),
+               carbide = loaded(model::Substrate::kCarbide, 2, "stated");
   EXPECT_EQ(stating_material({}, wanted), nullptr);
-  EXPECT_EQ(stating_material({loaded(model::Substrate::kHss, 1, "default: the slower one")}, wanted), nullptr);
+  EXPECT_EQ(stating_material({loaded(model::Substrate::kHss, 1, "default: the slower one")}, wanted),
+            nullptr);
   const std::vector<Cutter> one{hss};
   EXPECT_EQ(stating_material(one, wanted), &one[0]);
   // Two of a size that differ tell nothing, unless one of them has the wanted one's name.

@@ -47,7 +47,8 @@ Substrate likely(CutterClass c, double diameter_mm, double vc_m_min, const model
 }
 
 TEST(LikelyMaterial, IsHssWhereTheFileRunsTheToolAsHss) {
-  // An end mill of that size is carbide by today's practice: the speed says otherwise, and it is the safe word.
+  // An end mill of that size is carbide by today's practice: the speed says otherwise, and it is the safe
+  // word.
   EXPECT_EQ(likely(CutterClass::kEndmill, 10.0, kHss), Substrate::kHss);
   EXPECT_EQ(likely(CutterClass::kFacemill, 63.0, kHss), Substrate::kHss);
 }

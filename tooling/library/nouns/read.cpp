@@ -336,11 +336,12 @@ Result<Kind> kind_of(const Model& m, const Parts& p, Job& job) {
     const double a = p.dimension->tool_top_angle.value_or(0.0);
     k.point_angle_rad = point_angle_from(a, about, k.reading);
     if (a > 0.0 && !k.reading.starts_with("stated"))
-      job.note("TOOL-POINT", p.told + ": tool_top_angle " + trimmed(a / kRadPerDegree, 2) + " deg " +
-                                 (k.point_angle_rad > 0.0
-                                      ? "read as a point of " + trimmed(k.point_angle_rad / kRadPerDegree, 1) +
-                                            " deg; " + k.reading
-                                      : std::string("is no usual point; the default is used")));
+      job.note("TOOL-POINT",
+               p.told + ": tool_top_angle " + trimmed(a / kRadPerDegree, 2) + " deg " +
+                   (k.point_angle_rad > 0.0
+                        ? "read as a point of " + trimmed(k.point_angle_rad / kRadPerDegree, 1) + " deg; " +
+                              k.reading
+                        : std::string("is no usual point; the default is used")));
   }
   const auto cls = class_of_body(m, p, k.point_angle_rad);
   if (!cls) {

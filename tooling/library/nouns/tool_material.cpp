@@ -1,53 +1,33 @@
 #include "tooling/library/nouns/tool_material.h"
 
-#include <algorithm>
-#include <array>
-#include <limits>
+#include <utility>
 
 #include "planner/ground/base/number.h"
 #include "planner/model/plan/borne_feed.h"
 #include "tooling/library/cutters/complete.h"
+#include "tooling/library/cutters/generic.h"
 
 // Chooses what a tool is made of whose file does not say it. First by the work material's card, then by the
-// speed that the file gives the tool, then by what such a tool is usually bought as today. The table's source
-// is the range of sizes in which tool makers sell each class: solid carbide end mills stand in DIN 6527 up to
-// 20 mm; drills of DIN 338 and 345 are HSS and of DIN 6537 carbide, of one size range, so that their class
-// tells nothing; machine taps (DIN 371, 376), machine reamers (DIN 212, 208), countersinks (DIN 335) and
-// counterbores (DIN 373) are HSS tools; milling cutters with indexable inserts are ISO 6462's.
+// speed that the file gives the tool, then by what such a tool is usually bought as today: carbide where all
+// of the generic series of its class are carbide, but for end mills above the sizes of DIN 6527 and for
+// points that only mark. Drills and reamers are sold of either (DIN 338 and 6537, 212 and 8093), so that
+// their class tells nothing; taps, countersinks, T-slot and dovetail cutters are HSS.
 
 namespace capstan::tooling {
 namespace {
 
-using model::CutterClass;
 using model::Substrate;
 
 /// How far a stated speed may lie above a card's and still be meant for that edge: cards differ among
-/// themselves by about this. Default, unsourced; the check warns from the same factor on (CHK-SPEED-MATERIAL).
+/// themselves by about this. Default, unsourced; the check warns from the same factor on
+/// (CHK-SPEED-MATERIAL).
 constexpr double kOverCard = 1.25;
 /// By how much an edge that is coated, or of a better grade, runs faster than the cards' bare one: the least
 /// that `edges` of data/cutters.yaml says of steel.
 constexpr double kBestOverBare = 1.7;
 
-struct Practice {
-  CutterClass cutter_class;
-  double up_to_mm;
-  const char* why;
-};
-constexpr double kAnySize = std::numeric_limits<double>::infinity();
+/// End mills are made of solid carbide up to here. Source: the range of sizes of DIN 6527.
 constexpr double kSolidCarbideMm = 20.0;
-constexpr const char* kSolid = "end mills of up to 20 mm are solid carbide today (DIN 6527)";
-constexpr const char* kInserts = "such a body carries carbide inserts (ISO 6462)";
-/// Classes that are carbide today, up to a diameter; all else is taken as HSS.
-constexpr std::array kCarbideToday = {
-    Practice{CutterClass::kEndmill, kSolidCarbideMm, kSolid},
-    Practice{CutterClass::kBallEndmill, kSolidCarbideMm, kSolid},
-    Practice{CutterClass::kBullnoseEndmill, kSolidCarbideMm, kSolid},
-    Practice{CutterClass::kTaperedEndmill, kSolidCarbideMm, kSolid},
-    Practice{CutterClass::kFacemill, kAnySize, kInserts},
-    Practice{CutterClass::kBoringTool, kAnySize, "boring tools carry carbide inserts"},
-    Practice{CutterClass::kThreadMill, kAnySize, "thread mills are solid carbide"},
-    Practice{CutterClass::kGunDrill, kAnySize, "single-lip drills have a carbide head"},
-};
 
 std::string speed(double m_min) { return trimmed(m_min, 1) + " m/min"; }
 
@@ -73,16 +53,35 @@ std::optional<ToolMaterial> by_speed(const ToolMaterialHints& hints) {
     return ToolMaterial{Substrate::kHss,
                         assumed_source(Substrate::kHss, in_file + " is a speed of HSS (" + speed(hss) + ")")};
   if (v > kOverCard * kBestOverBare * carbide) return std::nullopt;
-  return ToolMaterial{Substrate::kCarbide,
-                      assumed_source(Substrate::kCarbide,
-                                     in_file + " is more than HSS bears (" + speed(hss) +
-                                         "), and a speed of carbide (" + speed(carbide) + ")")};
+  return ToolMaterial{
+      Substrate::kCarbide,
+      assumed_source(Substrate::kCarbide, in_file + " is more than HSS bears (" + speed(hss) +
+                                              "), and a speed of carbide (" + speed(carbide) + ")")};
+}
+
+/// Whether the generic library has the class of carbide alone.
+bool only_carbide_is_generic(model::CutterClass c) {
+  const auto& generic = shared_generic_library();
+  if (!generic) return false;
+  bool any = false;
+  for (const model::Cutter& g : *generic) {
+    if (g.cutter_class != c) continue;
+    if (g.substrate != Substrate::kCarbide) return false;
+    any = true;
+  }
+  return any;
 }
 
 ToolMaterial by_practice(const model::Cutter& c) {
-  for (const Practice& p : kCarbideToday) {
-    if (p.cutter_class == c.cutter_class && c.cutting_diameter_mm <= p.up_to_mm)
-      return {Substrate::kCarbide, assumed_source(Substrate::kCarbide, p.why)};
+  const bool solid = model::has(c.cutter_class, model::CutterTrait::kEndMill);
+  const bool fits = !solid || c.cutting_diameter_mm <= kSolidCarbideMm;
+  if (fits && !model::has(c.cutter_class, model::CutterTrait::kMarks) &&
+      only_carbide_is_generic(c.cutter_class)) {
+    const std::string words(model::words_of(c.cutter_class));
+    return {Substrate::kCarbide,
+            assumed_source(Substrate::kCarbide,
+                           solid ? words + "s of up to 20 mm are solid carbide today (DIN 6527)"
+                                 : words + "s are carbide today, as all of the generic series")};
   }
   return {Substrate::kHss,
           assumed_source(Substrate::kHss, "the slower one; such tools are sold of HSS, too")};

@@ -31,9 +31,8 @@ const char* const kParts =
 
 Inputs shop_with(const std::vector<std::string>& ids) {
   Inputs in = shop();
-  std::erase_if(in.library, [&](const model::Cutter& c) {
-    return std::find(ids.begin(), ids.end(), c.id) == ids.end();
-  });
+  std::erase_if(in.library,
+                [&](const model::Cutter& c) { return std::find(ids.begin(), ids.end(), c.id) == ids.end(); });
   return in;
 }
 

@@ -1,4 +1,5 @@
-// A plan whose file does not say what a tool is made of: what is taken, where it is told, and what settles it.
+// A plan whose file does not say what a tool is made of: what is taken, where it is told, and what settles
+// it.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -18,7 +19,6 @@ namespace {
 
 using model::Substrate;
 using ::testing::HasSubstr;
-
 
 const std::string kTool = "END MILL 12";
 
@@ -63,7 +63,8 @@ void make(Made& out, std::string text, const std::string& name, const std::strin
 
 const Diagnostic* told(const Job& job) {
   const auto& all = job.diagnostics();
-  const auto at = std::find_if(all.begin(), all.end(), [](const auto& d) { return d.code == "PIP-TOOL-MATERIAL"; });
+  const auto at =
+      std::find_if(all.begin(), all.end(), [](const auto& d) { return d.code == "PIP-TOOL-MATERIAL"; });
   return at == all.end() ? nullptr : &*at;
 }
 
@@ -124,8 +125,9 @@ TEST(UnstatedToolMaterial, IsTakenAgainWhenThePlanIsPlannedAgainInEachForm) {
   for (const std::string assume : {"", "tool-material=hss"}) {
     Made first;
     make(first, plate(), "plate.p21", assume);
-    for (const auto& [form, name] : {std::pair(Format::kJson, "plan.json"), std::pair(Format::kIso14649, "plan.p21"),
-                                     std::pair(Format::kAp238, "plan.stpnc")}) {
+    for (const auto& [form, name] :
+         {std::pair(Format::kJson, "plan.json"), std::pair(Format::kIso14649, "plan.p21"),
+          std::pair(Format::kAp238, "plan.stpnc")}) {
       Job job;
       Made again;
       make(again, write_plan(first.plan, form, job).value(), name);
