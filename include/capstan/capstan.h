@@ -41,6 +41,7 @@ struct PlanOptions {
   std::string solver = {};             ///< as `capstan plan --solver` lists them
   std::string workholding = {};        ///< ids or a file of fixtures, "auto", "none"
   std::string general_tolerance = {};  ///< of sizes without one: "ISO 2768-m", "ISO 22081 0.2", "+-0.1"
+  std::string assume = {};             ///< "tool-material=carbide": of tools that do not state it
   int batch = 1;                       ///< pieces to be made
   double edge_break_mm = 0.0;          ///< edges that the part leaves sharp are chamfered by this
   std::string bind = {};      ///< how far `plan_...` closes decisions: "none", "strategy", "tools", "all"

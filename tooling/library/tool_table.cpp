@@ -7,6 +7,7 @@
 
 #include "planner/ground/base/number.h"
 #include "planner/ground/base/text.h"
+#include "planner/model/plan/assumed_tool_material.h"
 #include "tooling/library/formats/all.h"
 #include "tooling/library/formats/linuxcnc/linuxcnc.h"
 #include "tooling/library/library.h"
@@ -93,7 +94,13 @@ int teeth_from_words(const std::string& text) {
 }
 
 /// Material of the edges; if both are named ("HSS, carbide tipped") the slower one.
-std::optional<model::Substrate> substrate_from_words(const std::string& text) {
+/// What a plan's own table says that it assumes is nobody's statement.
+std::optional<model::Substrate> substrate_from_words(std::string text) {
+  for (const auto s : {model::Substrate::kCarbide, model::Substrate::kHss}) {
+    const std::string words = std::string(model::kAssumedWord) + std::string(model::to_text(s));
+    for (auto at = text.find(words); at != std::string::npos; at = text.find(words))
+      text.erase(at, words.size());
+  }
   for (auto at = text.find("hss"); at != std::string::npos; at = text.find("hss", at + 1)) {
     // "HSS", "HSSE", "HSS-Co5", "HSSPM"; no part of another word.
     if (at == 0 || !letter(text[at - 1])) return model::Substrate::kHss;

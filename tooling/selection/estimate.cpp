@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "planner/physics/mechanics/bending/beam.h"
 #include "planner/physics/mechanics/bending/deflection.h"
 #include "planner/physics/mechanics/constants.h"
 #include "planner/physics/mechanics/force/drilling.h"
@@ -55,6 +56,18 @@ void scale_down(double part, const char* by, double& scale, std::string& limited
   limited = by;
 }
 
+/// Of the tip, mm/N. A long neck is most of what bends; without one the holder is left out as stiff.
+Result<double> compliance_mm_n(const Cutter& c) {
+  if (c.neck_diameter_mm > 0.0) return mechanics::tip_compliance_mm_n(c);
+  const double d = c.cutting_diameter_mm;
+  const double e = c.substrate == model::Substrate::kCarbide ? mechanics::kCarbideYoungsModulusNMm2
+                                                             : mechanics::kHssYoungsModulusNMm2;
+  const double out = c.stick_out_mm > 0.0 ? c.stick_out_mm : 3.0 * d;
+  const double shank = c.shank_diameter_mm > 0.0 ? c.shank_diameter_mm : d;
+  const double flute = c.maximum_depth_of_cut_mm > 0.0 ? std::min(c.maximum_depth_of_cut_mm, out) : out;
+  return mechanics::tip_compliance_mm_n({out, shank, flute, d, e});
+}
+
 double milling_s(const Cutter& c, const StartValues& s, const WorkMaterial& w, const Machine& m,
                  const Preferences& p, std::string& limited) {
   const double d = c.cutting_diameter_mm;
@@ -88,12 +101,7 @@ double milling_s(const Cutter& c, const StartValues& s, const WorkMaterial& w, c
         std::max(1.0, mechanics::mean_engaged_teeth(teeth, mechanics::immersion_angle_rad(ae, d)));
     const double one = mechanics::specific_force_n_mm2(work, h_max) * h_max * ap;
     const double force = margin * one * in_cut * std::hypot(1.0, mechanics::kRadialToTangentialRatio);
-    const double e = c.substrate == model::Substrate::kCarbide ? mechanics::kCarbideYoungsModulusNMm2
-                                                               : mechanics::kHssYoungsModulusNMm2;
-    const double out = c.stick_out_mm > 0.0 ? c.stick_out_mm : 3.0 * d;
-    const double shank = c.shank_diameter_mm > 0.0 ? c.shank_diameter_mm : d;
-    const double flute = c.maximum_depth_of_cut_mm > 0.0 ? std::min(c.maximum_depth_of_cut_mm, out) : out;
-    if (const auto bend = mechanics::tip_compliance_mm_n({out, shank, flute, d, e}))
+    if (const auto bend = compliance_mm_n(c))
       scale_down(kBendingMm / (force * *bend), "bending", scale, limited);
   }
   ap *= scale;

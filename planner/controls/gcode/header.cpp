@@ -5,6 +5,7 @@
 
 #include "planner/controls/gcode/text.h"
 #include "planner/model/nouns/workpiece.h"
+#include "planner/model/plan/assumed_tool_material.h"
 #include "planner/physics/motion/time.h"
 
 namespace capstan::controls::gcode {
@@ -12,12 +13,20 @@ namespace {
 
 using model::Cutter;
 
-void write_tools(const std::vector<const Cutter*>& cutters, Program& out) {
+void write_tools(const model::Plan& plan, const std::vector<const Cutter*>& cutters, Program& out) {
   for (const Cutter* c : cutters) {
     const std::string t = std::to_string(c->pocket);
     out.comment("CAPSTAN TOOL T" + t + " H" + t + " length=" + out.number(model::length_offset_mm(*c)) +
                 " diameter=" + out.number(c->cutting_diameter_mm) + " id=\"" + marker_text(c->id) + "\" " +
                 std::string(model::to_text(c->cutter_class)));
+  }
+  for (const Cutter* c : cutters) {
+    const auto assumed = model::assumed_material_of(plan, c->id);
+    if (!assumed) continue;
+    out.comment("T" + std::to_string(c->pocket) + ": what its edges are made of is not stated; " +
+                std::string(model::to_text(assumed->substrate)) +
+                (assumed->settled ? " by " + assumed->why
+                                  : std::string(" is assumed: look at the tool before this program runs")));
   }
   for (const Cutter* c : cutters) {
     if (const std::string fault = model::offset_fault(*c); !fault.empty()) {
@@ -67,7 +76,7 @@ void write_header(const model::Plan& plan, const std::vector<model::Condemnation
     out.comment("CAPSTAN SETUP n=" + std::to_string(i + 1) + " offset=" + plan.setups[i].work_offset +
                 " security=" + out.number(plan.setups[i].security_z_mm));
   }
-  write_tools(by_tool_number(plan), out);
+  write_tools(plan, by_tool_number(plan), out);
   write_warnings(plan, condemned, out);
 }
 

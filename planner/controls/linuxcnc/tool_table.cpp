@@ -6,6 +6,7 @@
 #include "planner/controls/gcode/text.h"
 #include "planner/controls/linuxcnc/linuxcnc.h"
 #include "planner/ground/base/number.h"
+#include "planner/model/plan/assumed_tool_material.h"
 #include "planner/model/plan/cutter/table_offsets.h"
 
 namespace capstan::controls::linuxcnc {
@@ -31,6 +32,13 @@ std::string table_words(const model::Cutter& c) {
   return out;
 }
 
+/// ", assumed carbide" where nobody states what the tool is made of; else nothing.
+std::string assumed_words(const model::Plan& plan, const model::Cutter& c) {
+  const auto assumed = model::assumed_material_of(plan, c.id);
+  if (!assumed) return {};
+  return ", " + std::string(model::kAssumedWord) + std::string(model::to_text(assumed->substrate));
+}
+
 }  // namespace
 
 std::string write_tool_table(const model::Plan& plan) {
@@ -40,7 +48,8 @@ std::string write_tool_table(const model::Plan& plan) {
     const auto pocket = model::table_word(*c, "P");
     const std::string t = std::to_string(c->pocket);
     out += "T" + t + " P" + (pocket ? trimmed(*pocket, 0) : t) + table_words(*c) + " ;" +
-           gcode::plain_text(c->description.empty() ? c->id : c->description).substr(0, 120) + "\n";
+           gcode::plain_text(c->description.empty() ? c->id : c->description).substr(0, 120) +
+           assumed_words(plan, *c) + "\n";
   }
   return out;
 }

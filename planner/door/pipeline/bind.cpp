@@ -10,6 +10,7 @@
 #include "planner/ground/base/stopping.h"
 #include "planner/making/given/ends.h"
 #include "planner/making/given/machine_needs.h"
+#include "planner/making/given/tool_material.h"
 #include "planner/making/piece/raw_piece_limits.h"
 #include "planner/making/piece/workpiece.h"
 #include "planner/making/step/record/gone.h"
@@ -155,14 +156,33 @@ std::map<AnyRef, std::string> unreadable_of(const model::Plan& plan,
   return out;
 }
 
+/// What a shop has to buy or load so that the unplanned features find their tools: all of it at once, and as
+/// rows of provenance, which every form of a plan keeps.
+void tell_needed(model::Plan& plan, const std::vector<model::NeededTool>& needed, Job& job) {
+  const auto kinds = model::needed_kinds(plan, needed);
+  std::string all;
+  for (std::size_t i = 0; i < kinds.size(); ++i) {
+    plan.provenance.push_back(model::provenance_of(kinds[i], i + 1));
+    all += (all.empty() ? "" : "; ") + model::text_of(kinds[i]);
+  }
+  if (all.empty()) return;
+  job.report({.code = "PIP-TOOLS-NEEDED",
+              .severity = Severity::kWarning,
+              .message = "to plan all of this part you need: " + all,
+              .file = plan.file_name,
+              .hint = "the plan holds them as entries for a list of tools (--tools): capstan explain"});
+}
+
 /// The stages of one try that choose steps, tools and order; whether all of them came to their end.
 Result<bool> choose_steps(model::Plan& plan, Drafts& drafts, const Required& required, const Asked& asked,
                           Tries& tries, Job& job) {
   poll();
   auto [proposed, learned] = propose_missing(plan, std::move(drafts), required, asked, job);
+  tries.need(proposed.needed);
   if (tries.learn(std::move(learned))) return false;
   poll();
   drafts = select_open_tools(plan, std::move(proposed), required, asked, job);
+  tries.need(drafts.needed);
   if (tries.learn(leave_what_rests(plan, drafts))) return false;
   poll();
   auto ordered = order_steps(plan, std::move(drafts), required, job);
@@ -223,6 +243,7 @@ Result<std::optional<model::Plan>> bind_once(model::Plan plan, const Inputs& inp
   if (policy.bind == Bind::kAll || policy.bind == Bind::kTools) {
     collect_cutters(plan, drafts.steps, policy);
     given::tell_loading(plan, inputs.library, job);
+    given::tell_assumed_materials(plan, job);
   }
   if (policy.bind == Bind::kAll) {
     given::state_machine_needs(plan);
@@ -232,6 +253,7 @@ Result<std::optional<model::Plan>> bind_once(model::Plan plan, const Inputs& inp
   if (auto ok = collect_setups(plan, drafts.setups); !ok) return tl::unexpected(ok.error());
   name_what_rests(plan, drafts.setups);
   name_steps(plan);
+  tell_needed(plan, tries.needed, job);
   tries.made = made_steps(so_far);
   // A value chosen in place of an unreadable one does not make that readable.
   for (const auto& u : wrong) model::set_unreadable(plan, u.key.object, u.key.attribute, u.why);

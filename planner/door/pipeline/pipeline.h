@@ -12,6 +12,7 @@
 #include "planner/ground/base/result.h"
 #include "planner/ground/memo/memo.h"
 #include "planner/making/given/listed_steps.h"
+#include "planner/making/given/tool_material_wish.h"
 #include "planner/making/optimise/cut.h"
 #include "planner/model/plan/cutter/cutter.h"
 #include "planner/model/plan/plan.h"
@@ -61,6 +62,7 @@ struct Inputs {
   int batch = 1;    ///< pieces
   double edge_break_mm = 0.0;                 ///< chamfer on edges that the part leaves sharp; 0: none
   std::vector<model::Provenance> provenance;  ///< origin of each input: named or default
+  given::ToolMaterialWish tool_materials;     ///< of tools whose file or list does not state it
   /// Results of earlier plannings; changes how long planning takes and nothing else. Null: those of this one
   /// only.
   std::shared_ptr<memo::Memo> memo;

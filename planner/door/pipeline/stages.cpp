@@ -82,9 +82,14 @@ Drafts select_open_tools(model::Plan& plan, Drafts drafts, const Required& requi
   const std::vector<model::Cutter>& cutters = usable(asked, loaded);
   const std::vector<model::Cutter>& library = asked.inputs.library;
   const piece::Piece piece{plan, required.shapes, grown_mm(asked.inputs)};
-  const given::Choice choice{library, cutters,          asked.inputs.rules,
-                             piece,   required.demands, asked.recorded.cutters};
-  given::select_open_tools(plan, drafts.steps, drafts.used, choice, job);
+  const given::Choice choice{library,
+                             cutters,
+                             asked.inputs.rules,
+                             piece,
+                             required.demands,
+                             asked.recorded.cutters,
+                             asked.inputs.tool_materials};
+  given::select_open_tools(plan, drafts.steps, drafts.used, drafts.needed, choice, job);
   const bool magazine_known =
       std::any_of(library.begin(), library.end(), [](const model::Cutter& c) { return c.loaded; });
   drafts.used = propose::share_tools(plan, drafts.steps, magazine_known, required.demands.batch);

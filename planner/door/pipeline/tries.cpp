@@ -1,8 +1,16 @@
 #include "planner/door/pipeline/tries.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace capstan::pipeline {
+
+void Tries::need(const std::vector<model::NeededTool>& tools) {
+  std::erase_if(needed, [&](const model::NeededTool& n) {
+    return std::any_of(tools.begin(), tools.end(), [&](const auto& t) { return t.feature == n.feature; });
+  });
+  needed.insert(needed.end(), tools.begin(), tools.end());
+}
 
 bool Tries::learn(Learned learned) {
   for (const draft::GivenUp& g : learned.given_up) bans.ban_chain(g);

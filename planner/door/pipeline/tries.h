@@ -12,6 +12,7 @@
 #include "planner/making/draft/bans.h"
 #include "planner/making/step/cut/cuts.h"
 #include "planner/making/step/path/stocks.h"
+#include "planner/model/plan/needed_tool.h"
 
 // Results of earlier tries at one plan; only planner/door/pipeline/*.cpp include this.
 
@@ -49,6 +50,8 @@ struct Tries {
   std::vector<std::string> said;
   /// Of the last try that ended: its proposed steps.
   std::map<model::AnyRef, MadeStep> made;
+  /// Tools that features lack for which no cutter fits, of all tries.
+  std::vector<model::NeededTool> needed = {};
   /// Answers of the optimiser that hold in every try.
   step::KnownCuts cuts;
   /// By set-up, where the last try began with another: the stock's cells follow it.
@@ -56,6 +59,8 @@ struct Tries {
   /// Results of stages: the caller's, or those of these tries alone.
   std::shared_ptr<memo::Memo> memo;
 
+  /// Keeps what features lack; what a feature asked for in an earlier try no longer counts.
+  void need(const std::vector<model::NeededTool>& tools);
   /// Keeps what a stage learned; whether the plan is to be made again.
   bool learn(Learned learned);
 };

@@ -9,6 +9,7 @@
 #include "planner/door/service/formats.h"
 #include "planner/ground/base/nearest_names.h"
 #include "planner/ground/base/number.h"
+#include "planner/ground/vocabulary/cutter_class.h"
 #include "planner/model/features/fit/general.h"
 #include "planner/physics/mechanics/loads/margin.h"
 
@@ -102,6 +103,17 @@ std::string set_edges(Request& r, Text text) {
   r.edge_break_mm = *v;
   return {};
 }
+/// The words of `--assume`; each is a value of one name.
+const std::vector<std::string>& assume_words() {
+  static const std::vector<std::string> kWords = [] {
+    std::vector<std::string> words;
+    for (const auto s : {model::Substrate::kCarbide, model::Substrate::kHss})
+      words.push_back(kAssumeToolMaterial + std::string(model::to_text(s)));
+    return words;
+  }();
+  return kWords;
+}
+
 std::string set_deadline(Request& r, Text text) {
   r.deadline = parse_duration(text);
   return r.deadline ? "" : "'" + text + "' is no time above 0, e.g. 200ms or 2s";
@@ -190,6 +202,9 @@ std::vector<Option> table() {
        both("for sizes without one: \"ISO 2768-m\", \"ISO 22081 0.2\" or \"+-0.1\""),
        &set_general_tolerance,
        {}},
+      {"assume", Value::kWord,
+       both("what tools are made of whose file or list does not say it, instead of what is likely"),
+       [](Request& r, Text t) { return r.assume = t, std::string(); }, assume_words()},
       {"batch",
        Value::kWhole,
        both("pieces to be made"),

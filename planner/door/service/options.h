@@ -37,6 +37,9 @@ struct Option {
   [[nodiscard]] const char* help_of(Verb v) const { return help[static_cast<std::size_t>(v)]; }
 };
 
+/// How a value of `assume` begins that says what tools are made of; the material follows.
+inline constexpr const char* kAssumeToolMaterial = "tool-material=";
+
 /// All options, in the order of help texts.
 [[nodiscard]] std::span<const Option> options();
 /// The option of that name; null if there is none.

@@ -21,6 +21,7 @@ struct Request {
   std::optional<pipeline::Objective> objective;
   std::optional<optimise::Solver> solver;
   std::optional<std::string> general_tolerance, workholding;
+  std::optional<std::string> assume;  ///< "tool-material=carbide", of tools that do not state it
   std::optional<std::string> feeds;   ///< "constant" or "scheduled"
   std::optional<std::string> margin;  ///< by name, of mechanics/loads/margin.h
   std::optional<double> revenue;

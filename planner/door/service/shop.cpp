@@ -8,10 +8,12 @@
 
 #include "casebase/casebase.h"
 
+#include "planner/door/service/options.h"
 #include "planner/ground/base/file.h"
 #include "planner/ground/base/nearest_names.h"
 #include "planner/ground/base/number.h"
 #include "planner/ground/base/stopping.h"
+#include "planner/making/given/tool_material.h"
 #include "rules/engine/check.h"
 #include "rules/rules.h"
 #include "tooling/library/cutters/generic.h"
@@ -80,6 +82,22 @@ Status material_of(const Request& o, const model::Plan& plan, pipeline::Inputs& 
   return {};
 }
 
+/// What is taken of tools that do not state their material: the caller's word, also that of an earlier
+/// planning; else what the plan took them to be before.
+template <class Carried>
+void assumptions(const Request& o, const model::Plan& plan, pipeline::Inputs& in, const Carried& carried) {
+  std::string text;
+  carried("assume", o.assume, text);
+  given::ToolMaterialWish& wish = in.tool_materials;
+  wish = {};
+  if (text.starts_with(kAssumeToolMaterial)) {
+    wish.assumed = model::substrate_from_text(text.substr(std::string_view(kAssumeToolMaterial).size()));
+    wish.assumed_by = option(o, "assume ") + text;
+  }
+  wish.of_plan = model::assumed_tool_materials(plan);
+  given::assume_materials(in.library, wish);
+}
+
 /// The option that a plan was made with still holds when it is planned again, unless another is given.
 void choices(const Request& o, const model::Plan& plan, pipeline::Inputs& in) {
   auto& p = in.provenance;
@@ -113,6 +131,7 @@ void choices(const Request& o, const model::Plan& plan, pipeline::Inputs& in) {
   std::string feeds = "scheduled";
   carried("feeds", o.feeds, feeds);
   in.constant_feeds = feeds == "constant";
+  assumptions(o, plan, in, carried);
   in.batch = o.batch;
   if (o.batch > 1) p.push_back({"batch", std::to_string(o.batch), option(o, "batch")});
   in.edge_break_mm = o.edge_break_mm;

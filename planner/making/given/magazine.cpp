@@ -8,11 +8,13 @@
 #include "planner/ground/base/number.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/nouns/arena/walk.h"
+#include "planner/model/plan/assumed_tool_material.h"
 #include "planner/model/plan/cutter/measured_length.h"
 #include "planner/model/plan/cutter/table_offsets.h"
 #include "tooling/library/cutters/complete.h"
 #include "tooling/library/formats/linuxcnc/linuxcnc.h"
 #include "tooling/library/nouns/nouns.h"
+#include "tooling/library/nouns/tool_material.h"
 
 // Compares the tools of the plan with those loaded in the magazine.
 
@@ -38,16 +40,19 @@ bool same_tool(const Cutter& a, const Cutter& b) {
          near_if_known(a.tip_diameter_mm, b.tip_diameter_mm, model::kSameDiameterMm);
 }
 
+/// Whether a loaded tool states a field: its library does; of a line of a tool table, its comment.
+bool states(const Cutter& loaded, std::string_view field) {
+  const std::string* source = tooling::source_of(loaded, field);
+  if (loaded.table_line)
+    return source != nullptr && (source->starts_with("stated") || source->ends_with(tooling::kOfComment));
+  return source == nullptr || source->starts_with("stated");
+}
+
 /// True if the loaded tool can replace the planned one. A value of a library counts only if the library
 /// states it and it is no default; of a line of a tool table the values in its comment count.
 bool does_as_much(const Cutter& loaded, const Cutter& planned) {
   constexpr double kRoom = 0.01;  // mm and 1/min: rounding of what is written
-  const auto says = [&](std::string_view field) {
-    const std::string* source = tooling::source_of(loaded, field);
-    if (loaded.table_line)
-      return source != nullptr && (source->starts_with("stated") || source->ends_with(tooling::kOfComment));
-    return source == nullptr || source->starts_with("stated");
-  };
+  const auto says = [&](std::string_view field) { return states(loaded, field); };
   const auto less = [&](std::string_view field, double has, double wants) {
     return says(field) && has > 0.0 && wants > 0.0 && has < wants - kRoom;
   };
@@ -76,6 +81,21 @@ bool does_as_much(const Cutter& loaded, const Cutter& planned) {
          !more("shank_diameter_mm", loaded.shank_diameter_mm, planned.shank_diameter_mm);
 }
 
+/// What the plan took a tool to be whose file does not say it: its speeds are for that.
+void take_assumed(const std::vector<model::AssumedToolMaterial>& assumed, Cutter& c) {
+  if (!tooling::material_is_assumed(c)) return;
+  for (const model::AssumedToolMaterial& a : assumed) {
+    if (a.tool == c.id) c.substrate = a.substrate;
+  }
+}
+
+/// What the loaded tool states is no assumption any more.
+void state_material(const Cutter& loaded, Cutter& c) {
+  for (auto& [field, source] : c.sources) {
+    if (field == "substrate") source = "stated: of the loaded tool T" + std::to_string(loaded.pocket);
+  }
+}
+
 }  // namespace
 
 const Cutter* loaded_like(const std::vector<Cutter>& library, const Cutter& wanted) {
@@ -93,6 +113,18 @@ const Cutter* loaded_like(const std::vector<Cutter>& library, const Cutter& want
   return found;
 }
 
+const Cutter* stating_material(const std::vector<Cutter>& library, const Cutter& wanted) {
+  const Cutter* found = nullptr;
+  bool differ = false;
+  for (const Cutter& c : library) {
+    if (c.pocket <= 0 || !same_tool(c, wanted) || !states(c, "substrate")) continue;
+    if (c.id == wanted.id) return &c;
+    if (found != nullptr) differ = differ || found->substrate != c.substrate;
+    if (found == nullptr) found = &c;
+  }
+  return differ ? nullptr : found;
+}
+
 void take_length(const Cutter& loaded, Cutter& into) {
   if (loaded.table_line) return model::take_table_line(into, *loaded.table_line);
   if (!(loaded.functional_length_mm > 0.0)) return;
@@ -101,6 +133,7 @@ void take_length(const Cutter& loaded, Cutter& into) {
 }
 
 Result<std::vector<std::string>> match_loaded(model::Plan& plan, std::vector<Cutter>& library, Job& job) {
+  const auto assumed = model::assumed_tool_materials(plan);
   std::vector<std::string> reopened;
   std::vector<Cutter> merged;
   std::set<std::string> seen;
@@ -109,8 +142,9 @@ Result<std::vector<std::string>> match_loaded(model::Plan& plan, std::vector<Cut
     const auto* op = plan.model.get<model::MachiningOperation>(r);
     if (op == nullptr || !plan.model.holds<model::MachiningTool>(op->its_tool)) continue;
     if (tooling::is_requirement(plan.model, op->its_tool)) continue;
-    const auto wanted = tooling::cutter_from_nouns(plan.model, op->its_tool, job, plan.cutters);
+    auto wanted = tooling::cutter_from_nouns(plan.model, op->its_tool, job, plan.cutters);
     if (!wanted) return tl::unexpected(wanted.error());
+    take_assumed(assumed, *wanted);
     if (const Cutter* there = loaded_like(library, *wanted)) {
       if (!seen.insert(wanted->id).second) continue;
       const auto same_pocket = [&](const Cutter& m) { return m.pocket == there->pocket; };
@@ -119,6 +153,7 @@ Result<std::vector<std::string>> match_loaded(model::Plan& plan, std::vector<Cut
       Cutter c = *wanted;
       c.pocket = there->pocket;
       c.loaded = true;
+      if (there->substrate == c.substrate && states(*there, "substrate")) state_material(*there, c);
       take_length(*there, c);
       if (std::string fault = model::offset_fault(c); !fault.empty()) {
         return fail({.code = "LATE-TOOL",

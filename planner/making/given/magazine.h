@@ -26,6 +26,11 @@ namespace capstan::given {
 [[nodiscard]] const model::Cutter* loaded_like(const std::vector<model::Cutter>& library,
                                                const model::Cutter& wanted);
 
+/// The loaded cutter of the same class and sizes that states what it is made of: of the same name, else where
+/// all that state it state the same. Null if there is none.
+[[nodiscard]] const model::Cutter* stating_material(const std::vector<model::Cutter>& library,
+                                                    const model::Cutter& wanted);
+
 /// Takes the length, the stick-out (if shorter) and the tool table's line of the loaded tool.
 void take_length(const model::Cutter& loaded, model::Cutter& into);
 

@@ -15,6 +15,7 @@
 #include "planner/model/nouns/arena/walk.h"
 #include "planner/model/plan/cutter/stated.h"
 #include "tooling/library/nouns/nouns.h"
+#include "tooling/selection/needed.h"
 #include "tooling/selection/select.h"
 
 namespace capstan::given {
@@ -141,8 +142,8 @@ std::optional<std::string> too_short_as_loaded(const model::Cutter& c, double as
 }
 
 /// Selects the cutter of one open operation; false if none fits.
-bool select_one(model::Plan& plan, StepDraft& step, std::vector<std::string>& used, const Choice& choice,
-                Job& job) {
+bool select_one(model::Plan& plan, StepDraft& step, std::vector<std::string>& used,
+                std::vector<model::NeededTool>& needed, const Choice& choice, Job& job) {
   const std::string name = plan.model.at<model::MachiningOperation>(step.operation).its_id.value_or("");
   const auto requirement = requirement_of(plan, choice, step, job);
   if (!requirement) {
@@ -162,6 +163,9 @@ bool select_one(model::Plan& plan, StepDraft& step, std::vector<std::string>& us
   wanted.used = used;
   auto s = tooling::select(*requirement, choice.usable, plan.material, plan.machine, wanted);
   if (s.ranked.empty()) {
+    if (auto lacks = tooling::needed_cutter(*requirement, plan.material, plan.machine, wanted))
+      needed.push_back({step.feature, draft::name_of(plan.model, step), std::move(lacks->cutter),
+                        model::words_of(*requirement)});
     plan.unplanned.push_back(
         {step.feature, "operation '" + name + "': no cutter fits; " + s.would_fit + " would"});
     job.report({.code = "PIP-NO-TOOL",
@@ -312,20 +316,32 @@ bool take_recorded(const model::Plan& plan, const Choice& choice, const StepDraf
   return true;
 }
 
+/// The cutter of a step as the file gives it. Where the file does not state what it is made of, it is read
+/// once more with what tells of it, for its start values follow from that.
+Result<model::Cutter> given_cutter(const model::Plan& plan, const StepDraft& step, const Choice& choice,
+                                   Job& job) {
+  const auto tool = plan.model.at<model::MachiningOperation>(step.operation).its_tool;
+  auto cutter = tooling::cutter_from_nouns(plan.model, tool, job, choice.library);
+  if (!cutter || !tooling::material_is_assumed(*cutter)) return cutter;
+  const auto hints = hints_of(plan, step, *cutter, choice.library, choice.materials);
+  Job silent;  // what is to be said of it was said above
+  return tooling::cutter_from_nouns(plan.model, tool, silent, choice.library, &hints);
+}
+
 }  // namespace
 
 void select_open_tools(model::Plan& plan, std::vector<StepDraft>& steps, std::vector<std::string>& used,
-                       const Choice& choice, Job& job) {
+                       std::vector<model::NeededTool>& needed, const Choice& choice, Job& job) {
   std::vector<StepDraft*> given;
   std::set<const StepDraft*> recorded;
   for (StepDraft& step : steps) {
     if (step.proposed || !step.operation.set()) continue;
     const auto* op = plan.model.get<model::MachiningOperation>(step.operation);
     if (step.open_tool) {
-      select_one(plan, step, used, choice, job);
+      select_one(plan, step, used, needed, choice, job);
       continue;
     }
-    auto cutter = tooling::cutter_from_nouns(plan.model, op->its_tool, job, choice.library);
+    auto cutter = given_cutter(plan, step, choice, job);
     if (cutter) {
       step.cutter = *std::move(cutter);
       if (take_recorded(plan, choice, step, step.cutter)) recorded.insert(&step);

@@ -5,8 +5,10 @@
 
 #include "planner/ground/base/job.h"
 #include "planner/making/draft/draft.h"
+#include "planner/making/given/tool_material.h"
 #include "planner/making/piece/demands.h"
 #include "planner/making/piece/piece.h"
+#include "planner/model/plan/needed_tool.h"
 #include "planner/model/plan/plan.h"
 #include "rules/rules.h"
 
@@ -22,12 +24,15 @@ struct Choice {
   const piece::Piece& piece;
   const piece::Demands& demands;
   const std::vector<model::Cutter>& recorded;  ///< what the plan said of its cutters when it was read
+  const ToolMaterialWish& materials;           ///< of tools whose file does not state it
 };
 
 /// Gives each step of the file its cutter. Writes the chosen tools into `plan`, and reports the steps without
 /// one (PIP-NO-TOOL). `used`: ids of the cutters that steps use, each once.
+/// `needed` gets the tools that they lack.
 void select_open_tools(model::Plan& plan, std::vector<draft::StepDraft>& steps,
-                       std::vector<std::string>& used, const Choice& choice, Job& job);
+                       std::vector<std::string>& used, std::vector<model::NeededTool>& needed,
+                       const Choice& choice, Job& job);
 
 /// Gives a tool one stick-out and length in the whole plan: the one that the deepest of its steps needs. It
 /// bends accordingly in all its steps.

@@ -14,6 +14,7 @@
 #include "planner/making/piece/surroundings.h"
 #include "planner/making/piece/twins.h"
 #include "planner/making/propose/members.h"
+#include "planner/making/propose/needed.h"
 #include "planner/making/propose/operation_nouns.h"
 #include "planner/making/step/cut/drilled_hole.h"
 #include "planner/model/nouns/all.h"
@@ -376,6 +377,8 @@ class Proposer {
         if (reason.find("; " + r.why) == std::string::npos) reason += "; " + r.why;  // chains share reasons
       }
       fail_member(f, given, reason);
+      for (model::NeededTool& n : needed_tools(choice_, p, s, member, out_.drafts.used))
+        out_.drafts.needed.push_back(std::move(n));
       return {};
     }
     for (model::Rejected& r : alternatives(choice_, p, s, chosen, out_.drafts.used))

@@ -7,6 +7,7 @@
 
 #include "planner/making/piece/demands.h"
 #include "planner/making/propose/choose.h"
+#include "planner/model/plan/needed_tool.h"
 #include "rules/rules.h"
 
 // Features without bound operations: what the rules say, which cutters there are.
@@ -26,7 +27,8 @@ struct Sources {
 struct Drafts {
   std::vector<draft::SetupDraft> setups;
   std::vector<draft::StepDraft> steps;
-  std::vector<std::string> used;  ///< ids of the cutters that steps use, each once
+  std::vector<std::string> used;               ///< ids of the cutters that steps use, each once
+  std::vector<model::NeededTool> needed = {};  ///< what features lack that no cutter fits
 };
 
 /// The drafts with the proposed steps of features that have none. Writes their nouns into `plan`, and the

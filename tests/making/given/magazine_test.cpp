@@ -122,5 +122,30 @@ TEST(LoadedTool, OfAToolTableIsKnownByItsSizesWhereItsCommentSaysNoMore) {
   EXPECT_NE(loaded_like({loaded}, planned()), nullptr);
 }
 
+TEST(StatingMaterial, IsTheLoadedToolOfThatSizeThatStatesWhatItIsMadeOf) {
+  Cutter wanted = planned();
+  const auto loaded = [](model::Substrate s, int pocket, const char* source) {
+    Cutter c = in_pocket_1(planned());
+    c.substrate = s;
+    c.pocket = pocket;
+    c.sources = {{"substrate", source}};
+    return c;
+  };
+  const Cutter hss = loaded(model::Substrate::kHss, 1, "stated"),
+               carbide = loaded(model::Substrate::kCarbide, 2, "stated");
+  EXPECT_EQ(stating_material({}, wanted), nullptr);
+  EXPECT_EQ(stating_material({loaded(model::Substrate::kHss, 1, "default: the slower one")}, wanted),
+            nullptr);
+  const std::vector<Cutter> one{hss};
+  EXPECT_EQ(stating_material(one, wanted), &one[0]);
+  // Two of a size that differ tell nothing, unless one of them has the wanted one's name.
+  std::vector<Cutter> two{hss, carbide};
+  EXPECT_EQ(stating_material(two, wanted), nullptr);
+  two[1].id = wanted.id;
+  EXPECT_EQ(stating_material(two, wanted), &two[1]);
+  wanted.cutting_diameter_mm = 12.0;
+  EXPECT_EQ(stating_material(two, wanted), nullptr);
+}
+
 }  // namespace
 }  // namespace capstan::given

@@ -106,7 +106,35 @@ void tell_groups(Cutter& c) {
   }
 }
 
-void fill_feeds(Cutter& c, const Cutter& g, Filler& f) {
+/// The nearest in diameter of the same class and tool material: a carbide reamer, too, cuts slower than a
+/// carbide mill. Null if there is none.
+const Cutter* nearest_of_material(const Cutter& c, const std::vector<Cutter>& generic) {
+  const Cutter* best = nullptr;
+  for (const Cutter& g : generic) {
+    if (g.cutter_class != c.cutter_class || g.substrate != c.substrate) continue;
+    if (best == nullptr || std::abs(g.cutting_diameter_mm - c.cutting_diameter_mm) <
+                               std::abs(best->cutting_diameter_mm - c.cutting_diameter_mm))
+      best = &g;
+  }
+  return best;
+}
+
+/// The speed at which a cutter starts in a material, as a bare edge. 0: it has none.
+struct Speed {
+  double vc_m_min = 0.0;
+  std::string source;
+};
+Speed speed_of_like(const Cutter* like, const std::string& material) {
+  if (like == nullptr) return {};
+  for (model::CuttingPreset p : like->presets) {
+    if (p.material_group != material) continue;
+    as_bare(p);
+    return {p.vc_m_min, p.source.substr(0, p.source.find("; fz: "))};
+  }
+  return {};
+}
+
+void fill_feeds(Cutter& c, const Cutter& g, const std::vector<Cutter>& generic, Filler& f) {
   // A smaller tooth allows less; a larger one is not given more.
   const double scale = std::min(1.0, c.cutting_diameter_mm / g.cutting_diameter_mm);
   if (c.cutter_class == CutterClass::kTap) {
@@ -134,6 +162,7 @@ void fill_feeds(Cutter& c, const Cutter& g, Filler& f) {
     if (borrowed(p)) return;
     own += (own.empty() ? "" : ", ") + p.material_group;
   }
+  const Cutter* same_material = c.substrate == g.substrate ? &g : nearest_of_material(c, generic);
   const std::size_t stated = c.presets.size();
   for (model::CuttingPreset p : g.presets) {
     const auto end = c.presets.begin() + static_cast<std::ptrdiff_t>(stated);
@@ -141,14 +170,15 @@ void fill_feeds(Cutter& c, const Cutter& g, Filler& f) {
                     [&](const auto& o) { return o.material_group == p.material_group; }))
       continue;
     p.fz_mm = rounded(p.fz_mm * scale, 5);
-    // The edge is not stated to be coated. For another substrate the speed is not known either: the
-    // material's own is taken then.
+    // The edge is not stated to be coated. Of another tool material the speed is that of its like; where
+    // there is none, the work material's own is taken.
     if (c.substrate == g.substrate) {
       as_bare(p);
     } else {
-      p.vc_m_min = 0.0;
+      const Speed like = speed_of_like(same_material, p.material_group);
+      p.vc_m_min = like.vc_m_min;
       if (const auto fz_at = p.source.find("; fz: "); fz_at != std::string::npos)
-        p.source.erase(0, fz_at + 2);
+        p.source = like.vc_m_min > 0.0 ? like.source + p.source.substr(fz_at) : p.source.substr(fz_at + 2);
     }
     p.source += " (as " + g.id + (own.empty() ? "" : "; its own values are for " + own + " only") + ")";
     c.presets.push_back(std::move(p));
@@ -177,7 +207,7 @@ void complete(Cutter& c, const std::vector<Cutter>& generic) {
   f.take(c.shank_diameter_mm, g->shank_diameter_mm, "shank_diameter_mm");
   f.take(c.holder_diameter_mm, g->holder_diameter_mm, "holder_diameter_mm");
   fill_lengths(c, *g, f);
-  fill_feeds(c, *g, f);
+  fill_feeds(c, *g, generic, f);
   if (model::has(c.cutter_class, model::CutterTrait::kToCentre) && !c.centre_cutting) {
     c.centre_cutting = true;
     f.note("centre_cutting", "derived: a drill");

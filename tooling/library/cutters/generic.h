@@ -12,7 +12,7 @@
 
 namespace capstan::tooling {
 
-/// The generic library: tooling/data/cutters.yaml expanded, some 600 sizes, ids "generic/<series>/<size>".
+/// The generic library: tooling/data/cutters.yaml expanded, some 800 sizes, ids "generic/<series>/<size>".
 /// None can be bought by this name; every number says "default: ..." in Cutter::sources.
 /// Presets: one per shipped material, and one per ISO 513 group for materials of other tables.
 [[nodiscard]] Result<std::vector<model::Cutter>> generic_library();

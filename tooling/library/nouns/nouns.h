@@ -9,6 +9,7 @@
 #include "planner/model/nouns/forward.h"
 #include "planner/model/plan/cutter/cutter.h"
 #include "planner/model/plan/proposal.h"
+#include "tooling/library/nouns/tool_material.h"
 
 namespace capstan::tooling {
 
@@ -28,6 +29,8 @@ namespace capstan::tooling {
 ///     usable length       the stick-out
 ///     point angle         tool_top_angle, see `point_angle_from`
 ///     number of teeth     as stated, else as the generic series
+///     tool material       its_material of the first cutting edge, else by `hints` (tool_material.h), HSS
+///                         without them
 ///
 /// A face mill below 25 mm is taken as an end mill (TOOL-CLASS): no such face mill exists. Tapered kinds
 /// without a taper angle are plain tools.
@@ -35,7 +38,8 @@ namespace capstan::tooling {
 ///        values, TOOL-KIND a body that no cutter describes (side mill, woodruff, tapered, user-defined).
 [[nodiscard]] Result<model::Cutter> cutter_from_nouns(const model::Model& m,
                                                       model::Ref<model::MachiningTool> tool, Job& job,
-                                                      const std::vector<model::Cutter>& library = {});
+                                                      const std::vector<model::Cutter>& library = {},
+                                                      const ToolMaterialHints* hints = nullptr);
 
 /// The full point angle that a file's tool_top_angle means, rad. The standard's is half of it; real files
 /// hold the complement (31 deg for a 118 deg drill) or the full angle. The reading whose result is a usual

@@ -175,14 +175,14 @@ class Reader {
  public:
   Reader(const Model& m, const Parts& p, Cutter& c, Job& job) : m_(m), p_(p), c_(c), job_(job) {}
 
-  void read(const std::string& reading) {
+  void read(const std::string& reading, const ToolMaterialHints* hints) {
     c_.id = c_.description = p_.name.empty() ? "tool" : p_.name;
     c_.cutting_diameter_mm = *p_.dimension->diameter;
     stated("cutting_diameter_mm", "diameter");
     if (c_.point_angle_rad > 0.0) c_.sources.emplace_back("point_angle_rad", reading);
     read_shape();
     read_lengths();
-    read_material();
+    read_material(hints);
   }
 
  private:
@@ -285,9 +285,10 @@ class Reader {
     c_.sources.emplace_back("stick_out_mm", derived);
     c_.sources.emplace_back("usable_length_mm", derived);
   }
-  void read_material() {
+  void read_material(const ToolMaterialHints* hints) {
     c_.substrate = model::Substrate::kHss;
     std::string source = std::string(kNotStated) + ", the slower one";
+    bool stated = false;
     if (!p_.tool->its_cutting_edge.empty()) {
       const auto* edge = m_.get<model::CuttingComponent>(p_.tool->its_cutting_edge.items[0]);
       const auto* mat = edge == nullptr ? nullptr : m_.get<model::Material>(edge->its_material);
@@ -296,11 +297,18 @@ class Reader {
             mat->material_identifier.value_or("") + " " + mat->standard_identifier.value_or("");
         if (text.find("CARBIDE") != std::string::npos || text.find("carbide") != std::string::npos) {
           c_.substrate = model::Substrate::kCarbide;
-          source = "stated: its_material";
+          stated = true;
         } else if (text.find("HSS") != std::string::npos || text.find("hss") != std::string::npos) {
-          source = "stated: its_material";
+          stated = true;
         }
       }
+    }
+    if (stated) {
+      source = "stated: its_material";
+    } else if (hints != nullptr) {
+      ToolMaterial likely = likely_material(c_, *hints);
+      c_.substrate = likely.substrate;
+      source = std::move(likely.source);
     }
     c_.sources.emplace_back("substrate", source);
   }
@@ -328,11 +336,12 @@ Result<Kind> kind_of(const Model& m, const Parts& p, Job& job) {
     const double a = p.dimension->tool_top_angle.value_or(0.0);
     k.point_angle_rad = point_angle_from(a, about, k.reading);
     if (a > 0.0 && !k.reading.starts_with("stated"))
-      job.note("TOOL-POINT", p.told + ": tool_top_angle " + trimmed(a / kRadPerDegree, 2) + " deg " +
-                                 (k.point_angle_rad > 0.0
-                                      ? "read as a point of " + trimmed(k.point_angle_rad / kRadPerDegree, 1) +
-                                            " deg; " + k.reading
-                                      : std::string("is no usual point; the default is used")));
+      job.note("TOOL-POINT",
+               p.told + ": tool_top_angle " + trimmed(a / kRadPerDegree, 2) + " deg " +
+                   (k.point_angle_rad > 0.0
+                        ? "read as a point of " + trimmed(k.point_angle_rad / kRadPerDegree, 1) + " deg; " +
+                              k.reading
+                        : std::string("is no usual point; the default is used")));
   }
   const auto cls = class_of_body(m, p, k.point_angle_rad);
   if (!cls) {
@@ -444,7 +453,7 @@ bool is_requirement(const Model& m, Ref<MachiningTool> tool) {
 }
 
 Result<Cutter> cutter_from_nouns(const Model& m, Ref<MachiningTool> tool, Job& job,
-                                 const std::vector<Cutter>& library) {
+                                 const std::vector<Cutter>& library, const ToolMaterialHints* hints) {
   if (const auto* probe = m.get<model::TouchProbe>(tool)) return probe_from(m, *probe, library);
   const auto p = parts_of(m, tool);
   if (!p) return fail(p.error());
@@ -465,7 +474,7 @@ Result<Cutter> cutter_from_nouns(const Model& m, Ref<MachiningTool> tool, Job& j
   Cutter c;
   c.cutter_class = k->cutter_class;
   c.point_angle_rad = k->point_angle_rad;
-  Reader(m, *p, c, job).read(k->reading);
+  Reader(m, *p, c, job).read(k->reading, hints);
   c.pocket = pocket_of(m, *p);
   if (const auto* usage = m.get<model::ToolUsage>(p->tool->its_usage)) {
     read_usage(m, *usage, c);

@@ -102,6 +102,17 @@ void fill_body(Model& m, model::AnyRef body, const Cutter& c) {
   if (auto* sink = m.get<model::Countersink>(body)) sink->minimum_cutting_diameter = known(c.tip_diameter_mm);
 }
 
+/// What the edges are made of; unset where that is only assumed: a file that states it would settle it.
+Ref<model::Material> material_of(Model& m, const Cutter& c) {
+  if (material_is_assumed(c)) return {};
+  const auto material = m.add<model::Material>();
+  auto& mat = m.at<model::Material>(material);
+  mat.standard_identifier = c.substrate == model::Substrate::kCarbide ? "ISO 513" : "ISO 4957";
+  mat.material_identifier = c.substrate == model::Substrate::kCarbide ? "CARBIDE" : "HSS";
+  mat.material_property.given = true;
+  return material;
+}
+
 }  // namespace
 
 Ref<MachiningTool> nouns_from_cutter(Model& m, const Cutter& c) {
@@ -122,11 +133,7 @@ Ref<MachiningTool> nouns_from_cutter(Model& m, const Cutter& c) {
   body.coolant_through_tool = c.coolant_through;
   fill_body(m, body_ref, c);
 
-  const auto material = m.add<model::Material>();
-  auto& mat = m.at<model::Material>(material);
-  mat.standard_identifier = c.substrate == model::Substrate::kCarbide ? "ISO 513" : "ISO 4957";
-  mat.material_identifier = c.substrate == model::Substrate::kCarbide ? "CARBIDE" : "HSS";
-  mat.material_property.given = true;
+  const auto material = material_of(m, c);
   const auto edge = m.add<model::CuttingComponent>();
   auto& e = m.at<model::CuttingComponent>(edge);
   e.tool_offset_length = c.functional_length_mm;

@@ -8,6 +8,7 @@
 #include "planner/door/service/explain/values.h"
 #include "planner/ground/base/number.h"
 #include "planner/model/nouns/arena/walk.h"
+#include "planner/model/plan/assumed_tool_material.h"
 #include "planner/model/plan/decision/edited.h"
 #include "planner/physics/mechanics/force/force_law.h"
 #include "planner/physics/motion/time.h"
@@ -320,6 +321,13 @@ void overview_head(const Plan& plan, std::string& out) {
     for (const auto& [field, source] : m.sources) {
       if (field == "chosen") out += "            " + source + "\n";
     }
+  }
+  if (const auto assumed = model::assumed_tool_materials(plan); !assumed.empty()) {
+    std::string tools;
+    for (const auto& a : assumed)
+      tools += (tools.empty() ? "" : ", ") + ("'" + a.tool) + "' " + std::string(model::to_text(a.substrate));
+    line("tools   ", "made of what nobody states, and taken as: " + tools +
+                         "; the reasons stand below; --assume tool-material=carbide or =hss settles it");
   }
   if (!plan.stock.box.empty()) line("stock   ", box_text(plan.stock.box) + " (" + plan.stock.source + ")");
   if (const auto t = motion::time_of(plan); t && !plan.steps.empty() && t->total_s() > 0.0) {

@@ -23,6 +23,7 @@ bool judge(const model::Plan& plan, Findings& findings, Job& job) {
     return true;
   }
   check_tools(plan, steps, findings);
+  check_tool_materials(plan, findings);
   check_limits(plan, steps, findings);
   check_coolant(plan, steps, findings);
   check_life(steps, findings);

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <map>
 
+#include "planner/model/plan/assumed_tool_material.h"
 #include "planner/model/plan/cutter/table_offsets.h"
 #include "planner/proof/verify/copies.h"
 #include "planner/proof/verify/plan/plan_checks.h"
@@ -123,6 +124,22 @@ void check_tools(const model::Plan& plan, const std::vector<StepMoves>& steps, F
       }
     }
   }
+}
+
+/// An edge of HSS at the speed of carbide burns within seconds, and breaks. That a tool is HSS may be wrong,
+/// too, but harms nothing.
+void check_tool_materials(const model::Plan& plan, Findings& findings) {
+  std::string tools;
+  for (const model::AssumedToolMaterial& a : model::assumed_tool_materials(plan)) {
+    const model::Cutter* c = model::find_cutter(plan, a.tool);
+    if (a.settled || c == nullptr || c->substrate != model::Substrate::kCarbide) continue;
+    tools += (tools.empty() ? "" : ", ") + ("'" + a.tool) + "' (T" + std::to_string(c->pocket) + ")";
+  }
+  if (tools.empty()) return;
+  findings.warn(16, "CHK-TOOL-MATERIAL", {Findings::kWhole, "", -1},
+                "that these tools are carbide is assumed, and speeds and stiffness are of carbide: " + tools +
+                    "; look at them before the program runs; --assume tool-material=carbide or =hss settles "
+                    "it");
 }
 
 }  // namespace capstan::verify
