@@ -406,7 +406,8 @@ class Rougher {
     const double leg = std::min(std::abs(far - u), 4.0 * radius);
     const double end = u + (far > u ? leg : -leg);
     const double top = stock::max_height(rest_, hatch_.place(u, v), hatch_.place(end, v), radius);
-    const double angle = task_.cutter.maximum_ramp_angle_rad;
+    const double most = task_.cutter.maximum_ramp_angle_rad;
+    const double angle = task_.ramp_angle_rad > 0.0 ? std::min(most, task_.ramp_angle_rad) : most;
     if (angle > 0.0 && leg >= 0.5 * radius) {
       const double turns = std::ceil((top - z) / (2.0 * leg * std::tan(angle)) - 1e-9);
       if (turns <= kMostRampTurns) return ramp(u, end, v, top, z, std::max(1, static_cast<int>(turns)));

@@ -19,6 +19,9 @@ constexpr double kPi = std::numbers::pi;
 /// Helix radius as a part of the cutter's; below 1, so that no core is left; default, unsourced.
 constexpr double kHelixPart = 0.9;
 constexpr int kMostTurns = 5'000;
+/// Of the cutter's end over the raw piece, and over a floor on its way to another place, mm; default, unsourced.
+constexpr double kAboveRaw = 1.0;
+constexpr double kSameHeight = 1e-6;  // mm
 
 std::vector<Vec2> air_points(const WorkArea& w, const Region& centres, const Inside& material,
                              double radius) {
@@ -90,7 +93,11 @@ void LevelCutter::tell(Severity severity, const std::string& code, const std::st
   job.report({.code = code, .severity = severity, .message = about(task) + message});
 }
 
-double LevelCutter::gap() const { return std::min(task.clearance_mm, 1.0); }
+double LevelCutter::gap(const Level& level) const {
+  // How high the raw piece is at its top is less well known than a floor that was cut.
+  const bool cut = level.from_mm < task.start_z_mm - kSameHeight;
+  return std::min(task.clearance_mm, cut ? kAirAbove : kAboveRaw);
+}
 
 double LevelCutter::ramp_angle() {
   const double most = task.cutter.maximum_ramp_angle_rad;
@@ -99,7 +106,7 @@ double LevelCutter::ramp_angle() {
   const bool asked = task.approach.kind == Approach::Kind::kRamp ||
                      task.approach.kind == Approach::Kind::kHelix ||
                      task.approach.kind == Approach::Kind::kZigzag;
-  if (!asked || !(given > 0.0)) return std::min(most, kUsualRamp);
+  if (!asked || !(given > 0.0)) return usual_ramp_rad(task);
   if (given > most + 1e-9) {
     warn("TPA-CHANGED", "ramp angle " + trimmed(most * 180.0 / kPi, 2) + " instead of " +
                             trimmed(given * 180.0 / kPi, 2) + " degrees: cutter " + task.cutter.id +
@@ -109,7 +116,7 @@ double LevelCutter::ramp_angle() {
 }
 
 void LevelCutter::go_above(const Level& level, Vec2 p) {
-  const double z = level.from_mm + gap();
+  const double z = level.from_mm + std::min(task.clearance_mm, kAboveRaw);
   if (writer.begun() && writer.at().z < writer.rapid_z_mm() - 1e-9 && z < writer.rapid_z_mm()) {
     const Vec2 here = xy(writer.at());
     // Above the level before, within its cleared area: no need to go out.
@@ -176,12 +183,12 @@ std::optional<Track> LevelCutter::by_helix(const Level& level, const Track& trac
   const Vec2 start{d.point.x + r, d.point.y};
   const Spot spot = track.closed ? nearest(track, start) : Spot{.point = track.start};
   if (!level.inside.contains(start, spot.point)) return std::nullopt;
-  const double depth = level.from_mm + gap() - level.z_mm;
+  const double depth = level.from_mm + gap(level) - level.z_mm;
   const double half_pitch = kPi * r * std::tan(angle);
   const int halves = static_cast<int>(std::min(std::ceil(depth / half_pitch), 2.0 * kMostTurns + 1.0));
   if (halves > 2 * kMostTurns) return std::nullopt;
   go_above(level, start);
-  writer.descend(level.from_mm + gap(), level.from_mm + gap());
+  writer.descend(level.from_mm + gap(level), level.from_mm + gap(level));
   const Vec2 other{d.point.x - r, d.point.y};
   const bool cw = (task.cutter.hand == model::Hand::kLeft) == task.climb;
   const double top = writer.at().z;
@@ -208,11 +215,11 @@ std::optional<Track> LevelCutter::by_ramp(const Level& level, const Track& track
     const auto b = geometry::bounds(box);
     if (std::max(b.hi.x - b.lo.x, b.hi.y - b.lo.y) < radius_mm) return std::nullopt;
   }
-  const double depth = level.from_mm + gap() - level.z_mm;
+  const double depth = level.from_mm + gap(level) - level.z_mm;
   const double run = depth / std::tan(angle);
   if (run / length > kMostTurns) return std::nullopt;
   go_above(level, track.start);
-  writer.descend(level.from_mm + gap(), level.from_mm + gap());
+  writer.descend(level.from_mm + gap(level), level.from_mm + gap(level));
   const double top = writer.at().z;
   const bool zigzag = !track.closed || task.approach.kind == Approach::Kind::kZigzag;
   if (zigzag) {
@@ -249,7 +256,7 @@ Result<Track> LevelCutter::enter(const Level& level, const Track& track, const R
   const Kind asked = task.approach.kind;
   const auto plunge = [&] {
     go_above(level, track.start);
-    writer.descend(level.z_mm, level.from_mm + gap());
+    writer.descend(level.z_mm, level.from_mm + gap(level));
     return track;
   };
   if (asked == Kind::kPlunge && task.cutter.centre_cutting) return plunge();

@@ -65,7 +65,8 @@ class LevelCutter {
   std::optional<Track> by_helix(const Level& level, const Track& track, const geometry::Region& leaf);
   std::optional<Track> by_ramp(const Level& level, const Track& track);
   [[nodiscard]] double ramp_angle();
-  [[nodiscard]] double gap() const;
+  /// Height of the cutter's end over the level's material where it begins to ramp.
+  [[nodiscard]] double gap(const Level& level) const;
 
   geometry::Region ringed_;  ///< what `rings_` are of
   double ringed_apart_mm_ = 0.0;
