@@ -15,6 +15,7 @@ struct Ramp {
   double angle_rad = 0.0;  ///< 0: it must not ramp
   /// Of the feed that its flanks would have in a slot of the same depth, at most.
   double feed_share = 1.0;
+  double depth_mm = 0.0;  ///< deepest bore along a helix; chips must come out of it
 };
 
 /// The angle is that which the cutter's maker or the shop states; else that of the table by substrate and ISO

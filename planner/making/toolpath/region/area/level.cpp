@@ -164,10 +164,39 @@ std::optional<Track> LevelCutter::from_outside(const Level& level, const Track& 
   return std::nullopt;
 }
 
+double LevelCutter::bore_floor(const Level& level, Vec2 middle, double radius) const {
+  const double deepest = level.from_mm - std::min(task.ramp_depth_mm, model::reach_of(task.cutter));
+  double out = level.z_mm;
+  for (const double z : floors) {
+    if (z >= out - kSameHeight) continue;
+    const double top = std::max(task.start_z_mm, level.from_mm);
+    if (z < deepest - kSameHeight || top - z > model::reach_of(task.cutter)) break;
+    const Region there = centres_at(area, task.cutter, z, level.allowance_mm, task.allowance_bottom_mm);
+    const bool stays = geometry::contains(there, middle) &&
+                       geometry::distance_to_boundary(there, middle) >= radius - kInsideSlack;
+    if (!stays) break;
+    out = z;
+  }
+  return out;
+}
+
+std::optional<Track> LevelCutter::by_bore(const Level& level, const Track& track, Vec2 middle) {
+  for (const Bore& b : bores_) {
+    if (b.z_mm > level.z_mm + kSameHeight || norm(b.middle - middle) > 0.5 * radius_mm) continue;
+    const Spot spot = track.closed ? nearest(track, b.middle) : Spot{.point = track.start};
+    if (!level.inside.contains(b.middle, spot.point)) continue;
+    go_cleared(level, b.middle);
+    writer.line({spot.point.x, spot.point.y, level.z_mm}, MoveRole::kCut);
+    return track.closed ? begun_at(track, spot) : track;
+  }
+  return std::nullopt;
+}
+
 std::optional<Track> LevelCutter::by_helix(const Level& level, const Track& track, const Region& leaf) {
   const double angle = ramp_angle();
   if (angle <= 0.0) return std::nullopt;
   const Deepest d = deepest(leaf);
+  if (auto t = by_bore(level, track, d.point)) return t;
   const double room = geometry::distance_to_boundary(level.centres, d.point);
   const double flat = std::max(radius_mm - task.cutter.corner_radius_mm, 0.5 * radius_mm);
   const double least = task.cutter.centre_cutting ? 0.2 * radius_mm : 0.5 * radius_mm;
@@ -179,28 +208,34 @@ std::optional<Track> LevelCutter::by_helix(const Level& level, const Track& trac
   }
   r = std::min(r, room);
   if (r < least) return std::nullopt;
-  // The ring must be reached from the helix without leaving the centres.
   const Vec2 start{d.point.x + r, d.point.y};
-  const Spot spot = track.closed ? nearest(track, start) : Spot{.point = track.start};
-  if (!level.inside.contains(start, spot.point)) return std::nullopt;
-  const double depth = level.from_mm + gap(level) - level.z_mm;
+  const Vec2 other{d.point.x - r, d.point.y};
+  const double floor = bore_floor(level, d.point, r);
+  const double depth = level.from_mm + gap(level) - floor;
   const double half_pitch = kPi * r * std::tan(angle);
   const int halves = static_cast<int>(std::min(std::ceil(depth / half_pitch), 2.0 * kMostTurns + 1.0));
   if (halves > 2 * kMostTurns) return std::nullopt;
+  // The ring must be reached from the helix without leaving the centres.
+  const bool odd = halves % 2 == 1;
+  const Vec2 end = odd ? other : start;
+  const bool bored = floor < level.z_mm - kSameHeight && level.inside.contains(end, d.point);
+  const Vec2 from = bored ? d.point : end;
+  const Spot spot = track.closed ? nearest(track, from) : Spot{.point = track.start};
+  if (!level.inside.contains(from, spot.point)) return std::nullopt;
   go_above(level, start);
   writer.descend(level.from_mm + gap(level), level.from_mm + gap(level));
-  const Vec2 other{d.point.x - r, d.point.y};
   const bool cw = (task.cutter.hand == model::Hand::kLeft) == task.climb;
   const double top = writer.at().z;
-  const int n = halves + halves % 2;
-  for (int i = 1; i <= n; ++i) {
+  for (int i = 1; i <= halves; ++i) {
     const Vec2 to = i % 2 == 1 ? other : start;
-    writer.arc({to.x, to.y, i == n ? level.z_mm : top - (top - level.z_mm) * i / n}, d.point, cw,
-               MoveRole::kRamp);
+    const double z = i == halves ? floor : top - (top - floor) * i / halves;
+    writer.arc({to.x, to.y, z}, d.point, cw, MoveRole::kRamp);
   }
-  for (const Vec2 to : {other, start}) {
-    writer.arc({to.x, to.y, level.z_mm}, d.point, cw, MoveRole::kCut);
+  for (const Vec2 to : {odd ? start : other, end}) {
+    writer.arc({to.x, to.y, floor}, d.point, cw, MoveRole::kCut);
   }
+  bores_.push_back({d.point, floor});
+  writer.line({from.x, from.y, level.z_mm}, MoveRole::kLink);  // up in the bore, off its wall
   writer.line({spot.point.x, spot.point.y, level.z_mm}, MoveRole::kCut);
   return track.closed ? begun_at(track, spot) : track;
 }
