@@ -19,8 +19,6 @@ constexpr double kPi = std::numbers::pi;
 /// Helix radius as a part of the cutter's; below 1, so that no core is left; default, unsourced.
 constexpr double kHelixPart = 0.9;
 constexpr int kMostTurns = 5'000;
-/// Of the cutter's end over the raw piece, and over a floor on its way to another place, mm; default, unsourced.
-constexpr double kAboveRaw = 1.0;
 constexpr double kSameHeight = 1e-6;  // mm
 
 std::vector<Vec2> air_points(const WorkArea& w, const Region& centres, const Inside& material,
@@ -94,7 +92,6 @@ void LevelCutter::tell(Severity severity, const std::string& code, const std::st
 }
 
 double LevelCutter::gap(const Level& level) const {
-  // How high the raw piece is at its top is less well known than a floor that was cut.
   const bool cut = level.from_mm < task.start_z_mm - kSameHeight;
   return std::min(task.clearance_mm, cut ? kAirAbove : kAboveRaw);
 }
