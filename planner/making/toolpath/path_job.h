@@ -105,6 +105,11 @@ struct PathJob {
   std::optional<geometry::Vec2> start_point;     ///< feature frame: begin near here
   std::optional<bool> multiple_passes;           ///< false: one level only
   Approach approach, retract;
+  /// Slope of the ways into the solid where `approach` states none, rad; 0: model::kUsualRampRad. Never steeper than the
+  /// cutter may.
+  double ramp_angle_rad = 0.0;
+  /// Deepest bore along a helix, mm: levels below the first are entered through it. 0: as deep as a level.
+  double ramp_depth_mm = 0.0;
 
   std::optional<double> cutting_depth_mm;      ///< drilling: of the full diameter (centre drill: of the tip)
   std::optional<double> previous_diameter_mm;  ///< hole already there

@@ -143,6 +143,7 @@ CutLoads::CutLoads(const FeedQuestion& question, double n_rpm)
   // for a median of the measured sections: thinner sections allow more, by their chips.
   const bool faster =
       chip < kNoLimit && (q_.kind == CutKind::kRough || q_.surface_ra_um > 0.0 || q_.as_measured);
+  whole_chip_ = faster ? std::max(nominal, chip * tooth_.teeth * n_) : nominal;
   ceiling_ = faster ? std::max(nominal, kMostThinning * chip * tooth_.teeth * n_) : nominal;
   // The lower bound never exceeds the planned feed: a thinner feed chosen for the step is the minimum there.
   floor_ = std::min(nominal, std::max(kLeastFeedShare * nominal, least_feed_mm_min(q_, n_)));

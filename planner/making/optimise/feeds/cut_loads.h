@@ -85,6 +85,8 @@ class CutLoads {
   /// Largest and smallest feed that the schedule may use, mm/min.
   [[nodiscard]] double ceiling_mm_min() const { return ceiling_; }
   [[nodiscard]] double floor_mm_min() const { return floor_; }
+  /// The feed at which the largest chip is cut where nothing thins it, and no less than the step's, mm/min.
+  [[nodiscard]] double whole_chip_mm_min() const { return whole_chip_; }
   [[nodiscard]] double margin() const { return margin_; }
   [[nodiscard]] double rpm() const { return n_; }
   /// Largest feed that keeps every limit, at most `most_mm_min`, mm/min; 0 if none down to the floor does.
@@ -98,7 +100,7 @@ class CutLoads {
 
   const CutQuestion& q_;
   double n_ = 0.0, margin_ = 1.0, compliance_ = 0.0;
-  double ceiling_ = 0.0, floor_ = 0.0;
+  double ceiling_ = 0.0, floor_ = 0.0, whole_chip_ = 0.0;
   mechanics::Tooth tooth_;
   mechanics::ForceLaw law_;
   mechanics::ToolBeam beam_;  ///< empty unless a wall's error is limited

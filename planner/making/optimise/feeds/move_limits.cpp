@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "planner/model/plan/cutter/ramp.h"
+
 namespace capstan::optimise::feed {
 namespace {
 
@@ -99,6 +101,12 @@ bool unmeasured_plunge(const FeedQuestion& q, const model::CutterPath& p, std::s
          p.x[i] == p.x[i - 1] && p.y[i] == p.y[i - 1] && p.z[i] < p.z[i - 1];
 }
 
+/// Sine of the slope on which a move goes down; 0: it does not.
+double fall_of(const model::CutterPath& p, std::size_t i) {
+  const double length = model::move_length(p, i);
+  return length > 0.0 ? std::clamp((p.z[i - 1] - p.z[i]) / length, 0.0, 1.0) : 0.0;
+}
+
 /// A move of a milling step whose feed is free.
 Cap milled(const FeedQuestion& q, CutClasses& classes, const model::CutterPath& path, std::size_t i,
            double given, const OnMove& m) {
@@ -113,9 +121,12 @@ Cap milled(const FeedQuestion& q, CutClasses& classes, const model::CutterPath& 
     bound(cap, kPlungeFraction * given * q.feed_mm_min, FeedBound::kEndCut);
     bound(cap, classes.plunge(rpm_on(q, i)).feed_mm_min, FeedBound::kEndCut);
   } else if (role == MoveRole::kRamp) {
-    // A part of a feed that is near the thinnest chip would rub all the way down.
     const double meant = given * q.feed_mm_min;
-    bound(cap, std::max(kRampFraction * meant, std::min(meant, loads.floor_mm_min())), FeedBound::kEndCut);
+    const double share = model::ramp_of(q.cut.cutter, q.cut.material).feed_share;
+    double most = share * given * loads.whole_chip_mm_min();
+    if (const double fall = fall_of(path, i); fall > 0.0) most = std::min(most, kPlungeFraction * meant / fall);
+    // A part of a feed that is near the thinnest chip would rub all the way down.
+    bound(cap, std::max(most, std::min(meant, loads.floor_mm_min())), FeedBound::kEndCut);
   } else if (in_air_by_role(role) && !m.cuts && !m.plunges) {
     const double feed = std::max(given * q.feed_mm_min, air_feed(q));
     cap = open_cap(feed);

@@ -77,6 +77,7 @@ Result<toolpath::GeneratedPath> freeform_path(const PlanSoFar& p, const StepDraf
   f.bottom_z_mm = geometry::bounds(mesh).lo.z;
   f.security_z_mm = path.security_z_mm;
   f.clearance_mm = path.clearance_mm;
+  f.ramp_angle_rad = path.ramp_angle_rad;
   f.avoid = path.avoid;
   f.tolerance_mm = kChordMm;
   f.scallop_mm = kScallopMm;

@@ -7,6 +7,7 @@
 #include "planner/making/step/path/freeform.h"
 #include "planner/model/features/resolve.h"
 #include "planner/model/nouns/all.h"
+#include "planner/model/plan/cutter/ramp.h"
 
 // What the nouns of an operation say, as the values that the path is made from.
 
@@ -224,6 +225,9 @@ toolpath::PathJob job_of(const PlanSoFar& p, const StepDraft& step, const model:
   job.feature_in_setup = compose(setup.workpiece, shape.frame);
   job.operation = step.operation.type;
   job.cutter = with_neck(p.wishes.library, step.cutter);
+  const model::Ramp ramp = model::ramp_of(job.cutter, p.plan.material);
+  job.ramp_angle_rad = ramp.angle_rad;
+  job.ramp_depth_mm = ramp.depth_mm;
   take_milling(m, step.operation, job);
   take_drilling(m, step.operation, job);
   // The noun's is that of the cutter that the step had: another may be tried.

@@ -35,6 +35,7 @@ struct FreeformJob {
   double allowance_mm = 0.0;    ///< left on the surface, along its normal
   double tolerance_mm = 0.01;   ///< largest distance of the cut from surface + allowance, outwards
   double feed_angle_rad = 0.0;  ///< of the passes, against x
+  double ramp_angle_rad = 0.0;  ///< rough: of ramps into the solid; 0: the steepest that the cutter may
   double axial_depth_mm = 0.0;  ///< rough: at most, per level
   double stepover_mm = 0.0;     ///< between passes; finish: 0 takes it from scallop_mm
   double scallop_mm = 0.0;      ///< finish: height of the ridges between passes

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "planner/ground/base/number.h"
+#include "planner/making/toolpath/defaults.h"
 #include "planner/making/toolpath/freeform/freeform.h"
 #include "planner/making/toolpath/freeform/hatch.h"
 #include "planner/making/toolpath/freeform/level_contour.h"
@@ -406,7 +407,8 @@ class Rougher {
     const double leg = std::min(std::abs(far - u), 4.0 * radius);
     const double end = u + (far > u ? leg : -leg);
     const double top = stock::max_height(rest_, hatch_.place(u, v), hatch_.place(end, v), radius);
-    const double angle = task_.cutter.maximum_ramp_angle_rad;
+    const double most = task_.cutter.maximum_ramp_angle_rad;
+    const double angle = task_.ramp_angle_rad > 0.0 ? std::min(most, task_.ramp_angle_rad) : most;
     if (angle > 0.0 && leg >= 0.5 * radius) {
       const double turns = std::ceil((top - z) / (2.0 * leg * std::tan(angle)) - 1e-9);
       if (turns <= kMostRampTurns) return ramp(u, end, v, top, z, std::max(1, static_cast<int>(turns)));
@@ -425,7 +427,8 @@ class Rougher {
     return true;
   }
 
-  /// Over the place at the security plane, fast to the clearance above `material`, then at feed.
+  /// Over the place at the security plane, fast to the clearance above `material`, at feed through the air there,
+  /// then as a plunge.
   void come_down(Vec3 p, double material) {
     const Vec3 high{p.x, p.y, task_.security_z_mm};
     if (out_.path.size() == 0) {
@@ -436,6 +439,9 @@ class Rougher {
     }
     const double z = std::min(task_.security_z_mm, std::max(material, p.z) + task_.clearance_mm);
     if (z < task_.security_z_mm) out_.path.rapid({p.x, p.y, z}, MoveRole::kApproach);
+    const bool raw = material >= task_.top_z_mm - kNothing;
+    const double near = std::max(material, p.z) + (raw ? kAboveRaw : kAirAbove);
+    if (near < z) line({p.x, p.y, near}, MoveRole::kApproach);
     line(p, MoveRole::kPlunge);
   }
 

@@ -68,8 +68,7 @@ Result<GeneratedPath> helix_path(const PathJob& task, Job&) {
   const double gap = std::min(1.0, task.clearance_mm);
   const double top = task.start_z_mm + gap;
   if (end >= task.start_z_mm) return refuse(task, kNothingToCut, "there is nothing to cut");
-  double angle = task.cutter.maximum_ramp_angle_rad;
-  if (angle > 0.0) angle = std::min(angle, kUsualRamp);
+  double angle = usual_ramp_rad(task);
   if (task.approach.kind == Approach::Kind::kHelix && task.approach.angle_rad > 0.0)
     angle = std::min(task.approach.angle_rad, task.cutter.maximum_ramp_angle_rad);
   // Where the cutter's middle goes down in the hole that is there, only its flank and rim cut, and the pitch

@@ -145,6 +145,7 @@ Result<GeneratedPath> area_path(const PathJob& task, Job& job) {
                  .path = task.shape.name});
   }
   if (task.cleared_by && !plane && w->slope_rad == 0.0) return rest_path(task, *w, heights, c);
+  if (!finish) c.floors = heights;
   // Top of the material away from the walls.
   const bool opened = shell || (plane && task.left_on_bottom_mm.has_value());
   const double left_bottom = task.left_on_bottom_mm.value_or(0.0);

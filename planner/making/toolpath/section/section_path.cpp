@@ -306,7 +306,7 @@ class SectionCutter {
       writer_.follow(reversed(t), z, MoveRole::kCut);
       return {};
     }
-    const double run = fall / std::tan(std::min(most, kUsualRamp));
+    const double run = fall / std::tan(usual_ramp_rad(task_));
     const double top = writer_.at().z;
     const int rounds = std::min(1000, static_cast<int>(std::floor(run / length)));
     for (int i = 1; i <= rounds; ++i)

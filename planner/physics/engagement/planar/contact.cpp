@@ -90,18 +90,47 @@ Contact over_disc(double radius, double allowed, F&& f) {
   return Disc<F>(radius, allowed, kDeepest, f).all();
 }
 
-/// Joins pieces that touch, so that strips of one contact are not taken for slivers.
-struct Run {
-  double x0 = 0.0, x1 = -1e300, low = 0.0, high = 0.0;
-  void into(Contact& c, double radius) const {
-    if (x1 - x0 < kSliver) return;
-    const auto angle = [&](double x) { return std::acos(std::clamp(-x / radius, -1.0, 1.0)); };
-    if (c.seen()) c.gap_rad += angle(x0) - angle(c.right);
-    c.left = std::min(c.left, x0);
-    c.right = std::max(c.right, x1);
-    c.low = std::min(c.low, low);
-    c.high = std::max(c.high, high);
+/// Joins pieces that touch, so that strips of one contact are not taken for slivers. Its height is that above
+/// which it is no sliver: on a helix the cutter touches the wall of its own bore along a line, up to the top.
+class Run {
+ public:
+  explicit Run(std::vector<Heights::Piece>& thin) : thin_(thin) {}
+  void begin(double x0, double low) {
+    x0_ = x1 = x0;
+    low_ = high_ = low;
+    thin_.clear();
   }
+  void add(const Heights::Piece& p, double high) {
+    x1 = p.x1;
+    if (p.x1 - p.x0 >= kSliver) {
+      high_ = std::max(high_, high);
+    } else {
+      thin_.push_back({p.x0, p.x1, high});
+    }
+  }
+  void into(Contact& c, double radius) {
+    if (x1 - x0_ < kSliver) return;
+    std::sort(thin_.begin(), thin_.end(), [](const auto& a, const auto& b) { return a.z_mm > b.z_mm; });
+    double wide = 0.0;
+    for (const Heights::Piece& p : thin_) {
+      wide += p.x1 - p.x0;
+      if (wide < kSliver) continue;
+      high_ = std::max(high_, p.z_mm);
+      break;
+    }
+    const auto angle = [&](double x) { return std::acos(std::clamp(-x / radius, -1.0, 1.0)); };
+    if (c.seen()) c.gap_rad += angle(x0_) - angle(c.right);
+    c.left = std::min(c.left, x0_);
+    c.right = std::max(c.right, x1);
+    c.low = std::min(c.low, low_);
+    c.high = std::max(c.high, high_);
+  }
+
+  double x1 = -1e300;  ///< where it ends; below anything: it has not begun
+
+ private:
+  double x0_ = 0.0, low_ = 0.0, high_ = 0.0;
+  std::vector<Heights::Piece>& thin_;
 };
 
 }  // namespace
@@ -134,7 +163,7 @@ Contact Prober::on_the_way(Vec2 at, Vec2 unit_heading, double z_mm, double fall)
   stock_.heights(Probe::front(at, unit_heading, profile_.radius_mm), near_, z_mm + base + stock::kTouch,
                  heights_);
   c.in_strips = near_.in_strips;
-  Run run;
+  Run run(thin_);
   for (const Heights::Piece& p : heights_.pieces()) {
     const double h = p.z_mm - z_mm - base;
     if (h <= 2.0 * stock::kTouch) continue;
@@ -145,11 +174,9 @@ Contact Prober::on_the_way(Vec2 at, Vec2 unit_heading, double z_mm, double fall)
     c.highest = std::max(c.highest, base + h);
     if (p.x0 > run.x1) {
       run.into(c, profile_.radius_mm);
-      run = {.x0 = p.x0, .x1 = p.x1, .low = base, .high = base + h};
-    } else {
-      run.x1 = p.x1;
-      run.high = std::max(run.high, base + h);
+      run.begin(p.x0, base);
     }
+    run.add(p, base + h);
   }
   run.into(c, profile_.radius_mm);
   if (fall > 0.0 && base <= 0.0) under_tip(at, unit_heading, z_mm, fall, c);

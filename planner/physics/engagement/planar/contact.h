@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "planner/ground/geometry/profile.h"
 #include "planner/physics/stock/planar/planar_stock.h"
 
@@ -13,7 +15,7 @@ struct Contact {
   double amount = 0.0;                       ///< area of the section; of a plunge the volume above the tip
   double moment_x = 0.0, moment_y = 0.0;     ///< amount times centre of gravity
   double left = 1e300, right = -1e300;       ///< of contacts that are no slivers
-  double low = 1e300, high = -1e300;         ///< of the tallest of them
+  double low = 1e300, high = -1e300;         ///< of the tallest of them, less its slivers
   double highest = 0.0;                      ///< of any, above the tip
   bool in_strips = false;                    ///< floors read in strips contribute, or edges under a ramp
   double unsure = 0.0;                       ///< error of the amount from the lines under a ramp's tip
@@ -48,6 +50,7 @@ class Prober {
   const geometry::CutterProfile& profile_;
   stock::PlanarStock::Nearby near_;
   stock::Heights heights_;
+  std::vector<stock::Heights::Piece> thin_;  ///< pieces of a contact that are slivers by themselves
 };
 
 }  // namespace capstan::engagement

@@ -116,7 +116,7 @@ TEST(Feeds, OfAGivenFeedAreNeverRaisedByThePath) {
   }
 }
 
-TEST(Feeds, OfPlungesAndRampsAreFractionsAtMost) {
+TEST(Feeds, OfPlungesAreAFractionAtMost) {
   FeedQuestion q = question();
   CutterPath p;
   p.start({0, 0, 10});
@@ -125,11 +125,39 @@ TEST(Feeds, OfPlungesAndRampsAreFractionsAtMost) {
   cut_along(q, p, 2, 0.5, 1.0);
   const auto a = feeds(q, p);
   EXPECT_LE(a.schedule.feed_mm_min[1], kPlungeFraction * 800.0);
-  EXPECT_LE(a.schedule.feed_mm_min[2], kRampFraction * 800.0);
   EXPECT_GT(a.schedule.feed_mm_min[1], 0.0);
   // In something very hard the plunge is slower than its fraction: torque and power hold it.
   q.cut.machine.spindle.curve = {{60, 100, 0}, {10000, 300, 0}};
   EXPECT_LT(feeds(q, p).schedule.feed_mm_min[1], 0.5 * kPlungeFraction * 800.0);
+}
+
+/// A ramp that falls by `fall` over 20 mm, with a shallow slot along it, and its feed.
+double feed_on_a_ramp(FeedQuestion q, double fall_mm) {
+  CutterPath p;
+  p.start({0, 0, 0});
+  p.line({20, 0, -fall_mm}, MoveRole::kRamp);
+  cut_along(q, p, 1, 0.5, 10.0);
+  return feeds(q, p).schedule.feed_mm_min[1];
+}
+
+TEST(Feeds, OfRampsAreThoseOfASlotForEdgesThatReachTheCentreAndHalfForOthers) {
+  FeedQuestion q = question();
+  q.cut.cutter.maximum_ramp_angle_rad = 0.2;
+  q.cut.cutter.centre_cutting = true;
+  const double slot = feed_on_a_ramp(q, 1.0);
+  EXPECT_GE(slot, 800.0 - 0.1);
+  q.cut.cutter.centre_cutting = false;
+  EXPECT_NEAR(feed_on_a_ramp(q, 1.0), 0.5 * slot, 1.0);
+}
+
+TEST(Feeds, OfSteepRampsKeepTheChipOfTheEndsEdgesAtThatOfAPlunge) {
+  FeedQuestion q = question();
+  q.cut.cutter.maximum_ramp_angle_rad = 0.8;
+  q.cut.cutter.centre_cutting = true;
+  for (const double fall : {1.0, 5.0, 10.0, 15.0}) {
+    const double sine = fall / std::hypot(20.0, fall);
+    EXPECT_LE(feed_on_a_ramp(q, fall) * sine, kPlungeFraction * 800.0 + 0.1) << fall;
+  }
 }
 
 // In titanium an edge of carbide asks for 0.008 mm: 4 x 4000 x 0.008 = 128 mm/min, and the step's feed is
@@ -140,6 +168,7 @@ TEST(Feeds, OfRampsAreNotBelowTheThinnestChip) {
   q.cut.cutter.substrate = model::Substrate::kCarbide;
   q.cut.fz_start_mm = 0.01;
   q.feed_mm_min = 160.0;
+  q.cut.cutter.maximum_ramp_angle_rad = 0.1;  // its edges do not reach the centre: half the feed
   CutterPath p;
   p.start({0, 0, 0});
   p.line({20, 0, -1}, MoveRole::kRamp);

@@ -19,6 +19,7 @@ constexpr double kPi = std::numbers::pi;
 /// Helix radius as a part of the cutter's; below 1, so that no core is left; default, unsourced.
 constexpr double kHelixPart = 0.9;
 constexpr int kMostTurns = 5'000;
+constexpr double kSameHeight = 1e-6;  // mm
 
 std::vector<Vec2> air_points(const WorkArea& w, const Region& centres, const Inside& material,
                              double radius) {
@@ -90,7 +91,10 @@ void LevelCutter::tell(Severity severity, const std::string& code, const std::st
   job.report({.code = code, .severity = severity, .message = about(task) + message});
 }
 
-double LevelCutter::gap() const { return std::min(task.clearance_mm, 1.0); }
+double LevelCutter::gap(const Level& level) const {
+  const bool cut = level.from_mm < task.start_z_mm - kSameHeight;
+  return std::min(task.clearance_mm, cut ? kAirAbove : kAboveRaw);
+}
 
 double LevelCutter::ramp_angle() {
   const double most = task.cutter.maximum_ramp_angle_rad;
@@ -99,7 +103,7 @@ double LevelCutter::ramp_angle() {
   const bool asked = task.approach.kind == Approach::Kind::kRamp ||
                      task.approach.kind == Approach::Kind::kHelix ||
                      task.approach.kind == Approach::Kind::kZigzag;
-  if (!asked || !(given > 0.0)) return std::min(most, kUsualRamp);
+  if (!asked || !(given > 0.0)) return usual_ramp_rad(task);
   if (given > most + 1e-9) {
     warn("TPA-CHANGED", "ramp angle " + trimmed(most * 180.0 / kPi, 2) + " instead of " +
                             trimmed(given * 180.0 / kPi, 2) + " degrees: cutter " + task.cutter.id +
@@ -109,7 +113,7 @@ double LevelCutter::ramp_angle() {
 }
 
 void LevelCutter::go_above(const Level& level, Vec2 p) {
-  const double z = level.from_mm + gap();
+  const double z = level.from_mm + std::min(task.clearance_mm, kAboveRaw);
   if (writer.begun() && writer.at().z < writer.rapid_z_mm() - 1e-9 && z < writer.rapid_z_mm()) {
     const Vec2 here = xy(writer.at());
     // Above the level before, within its cleared area: no need to go out.
@@ -157,10 +161,39 @@ std::optional<Track> LevelCutter::from_outside(const Level& level, const Track& 
   return std::nullopt;
 }
 
+double LevelCutter::bore_floor(const Level& level, Vec2 middle, double radius) const {
+  const double deepest = level.from_mm - std::min(task.ramp_depth_mm, model::reach_of(task.cutter));
+  double out = level.z_mm;
+  for (const double z : floors) {
+    if (z >= out - kSameHeight) continue;
+    const double top = std::max(task.start_z_mm, level.from_mm);
+    if (z < deepest - kSameHeight || top - z > model::reach_of(task.cutter)) break;
+    const Region there = centres_at(area, task.cutter, z, level.allowance_mm, task.allowance_bottom_mm);
+    const bool stays = geometry::contains(there, middle) &&
+                       geometry::distance_to_boundary(there, middle) >= radius - kInsideSlack;
+    if (!stays) break;
+    out = z;
+  }
+  return out;
+}
+
+std::optional<Track> LevelCutter::by_bore(const Level& level, const Track& track, Vec2 middle) {
+  for (const Bore& b : bores_) {
+    if (b.z_mm > level.z_mm + kSameHeight || norm(b.middle - middle) > 0.5 * radius_mm) continue;
+    const Spot spot = track.closed ? nearest(track, b.middle) : Spot{.point = track.start};
+    if (!level.inside.contains(b.middle, spot.point)) continue;
+    go_cleared(level, b.middle);
+    writer.line({spot.point.x, spot.point.y, level.z_mm}, MoveRole::kCut);
+    return track.closed ? begun_at(track, spot) : track;
+  }
+  return std::nullopt;
+}
+
 std::optional<Track> LevelCutter::by_helix(const Level& level, const Track& track, const Region& leaf) {
   const double angle = ramp_angle();
   if (angle <= 0.0) return std::nullopt;
   const Deepest d = deepest(leaf);
+  if (auto t = by_bore(level, track, d.point)) return t;
   const double room = geometry::distance_to_boundary(level.centres, d.point);
   const double flat = std::max(radius_mm - task.cutter.corner_radius_mm, 0.5 * radius_mm);
   const double least = task.cutter.centre_cutting ? 0.2 * radius_mm : 0.5 * radius_mm;
@@ -172,28 +205,34 @@ std::optional<Track> LevelCutter::by_helix(const Level& level, const Track& trac
   }
   r = std::min(r, room);
   if (r < least) return std::nullopt;
-  // The ring must be reached from the helix without leaving the centres.
   const Vec2 start{d.point.x + r, d.point.y};
-  const Spot spot = track.closed ? nearest(track, start) : Spot{.point = track.start};
-  if (!level.inside.contains(start, spot.point)) return std::nullopt;
-  const double depth = level.from_mm + gap() - level.z_mm;
+  const Vec2 other{d.point.x - r, d.point.y};
+  const double floor = bore_floor(level, d.point, r);
+  const double depth = level.from_mm + gap(level) - floor;
   const double half_pitch = kPi * r * std::tan(angle);
   const int halves = static_cast<int>(std::min(std::ceil(depth / half_pitch), 2.0 * kMostTurns + 1.0));
   if (halves > 2 * kMostTurns) return std::nullopt;
+  // The ring must be reached from the helix without leaving the centres.
+  const bool odd = halves % 2 == 1;
+  const Vec2 end = odd ? other : start;
+  const bool bored = floor < level.z_mm - kSameHeight && level.inside.contains(end, d.point);
+  const Vec2 from = bored ? d.point : end;
+  const Spot spot = track.closed ? nearest(track, from) : Spot{.point = track.start};
+  if (!level.inside.contains(from, spot.point)) return std::nullopt;
   go_above(level, start);
-  writer.descend(level.from_mm + gap(), level.from_mm + gap());
-  const Vec2 other{d.point.x - r, d.point.y};
+  writer.descend(level.from_mm + gap(level), level.from_mm + gap(level));
   const bool cw = (task.cutter.hand == model::Hand::kLeft) == task.climb;
   const double top = writer.at().z;
-  const int n = halves + halves % 2;
-  for (int i = 1; i <= n; ++i) {
+  for (int i = 1; i <= halves; ++i) {
     const Vec2 to = i % 2 == 1 ? other : start;
-    writer.arc({to.x, to.y, i == n ? level.z_mm : top - (top - level.z_mm) * i / n}, d.point, cw,
-               MoveRole::kRamp);
+    const double z = i == halves ? floor : top - (top - floor) * i / halves;
+    writer.arc({to.x, to.y, z}, d.point, cw, MoveRole::kRamp);
   }
-  for (const Vec2 to : {other, start}) {
-    writer.arc({to.x, to.y, level.z_mm}, d.point, cw, MoveRole::kCut);
+  for (const Vec2 to : {odd ? start : other, end}) {
+    writer.arc({to.x, to.y, floor}, d.point, cw, MoveRole::kCut);
   }
+  bores_.push_back({d.point, floor});
+  writer.line({from.x, from.y, level.z_mm}, MoveRole::kLink);  // up in the bore, off its wall
   writer.line({spot.point.x, spot.point.y, level.z_mm}, MoveRole::kCut);
   return track.closed ? begun_at(track, spot) : track;
 }
@@ -208,11 +247,11 @@ std::optional<Track> LevelCutter::by_ramp(const Level& level, const Track& track
     const auto b = geometry::bounds(box);
     if (std::max(b.hi.x - b.lo.x, b.hi.y - b.lo.y) < radius_mm) return std::nullopt;
   }
-  const double depth = level.from_mm + gap() - level.z_mm;
+  const double depth = level.from_mm + gap(level) - level.z_mm;
   const double run = depth / std::tan(angle);
   if (run / length > kMostTurns) return std::nullopt;
   go_above(level, track.start);
-  writer.descend(level.from_mm + gap(), level.from_mm + gap());
+  writer.descend(level.from_mm + gap(level), level.from_mm + gap(level));
   const double top = writer.at().z;
   const bool zigzag = !track.closed || task.approach.kind == Approach::Kind::kZigzag;
   if (zigzag) {
@@ -249,7 +288,7 @@ Result<Track> LevelCutter::enter(const Level& level, const Track& track, const R
   const Kind asked = task.approach.kind;
   const auto plunge = [&] {
     go_above(level, track.start);
-    writer.descend(level.z_mm, level.from_mm + gap());
+    writer.descend(level.z_mm, level.from_mm + gap(level));
     return track;
   };
   if (asked == Kind::kPlunge && task.cutter.centre_cutting) return plunge();

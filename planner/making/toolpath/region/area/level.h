@@ -34,7 +34,7 @@ class LevelCutter {
   LevelCutter(const PathJob& task, const WorkArea& area, PathWriter& writer, Job& job);
 
   /// Brings the cutter onto the track at the level's height, by the best legal way: from outside, along a
-  /// helix, along a ramp on the track, or straight down. Returns the track turned so that it begins where the
+  /// helix or through the bore of one that went deeper, along a ramp on the track, or straight down. Returns the track turned so that it begins where the
   /// cutter is. `leaf`: the area inside the track, for a helix.
   /// Fails  TPA-ENTRY.
   Result<Track> enter(const Level& level, const Track& track, const geometry::Region* leaf);
@@ -52,6 +52,8 @@ class LevelCutter {
   double radius_mm;
   double step_mm;  ///< between passes
   std::vector<Diagnostic> said;
+  /// Heights that are roughed, from above: a helix goes down to as many of them as it may. Empty: to its own.
+  std::vector<double> floors;
 
   /// Warns once.
   void warn(const std::string& code, const std::string& message);
@@ -63,10 +65,19 @@ class LevelCutter {
   void go_above(const Level& level, geometry::Vec2 p);
   std::optional<Track> from_outside(const Level& level, const Track& track);
   std::optional<Track> by_helix(const Level& level, const Track& track, const geometry::Region& leaf);
+  std::optional<Track> by_bore(const Level& level, const Track& track, geometry::Vec2 middle);
+  /// Lowest of `floors` down to which a helix of this radius stays within the centres.
+  [[nodiscard]] double bore_floor(const Level& level, geometry::Vec2 middle, double radius) const;
   std::optional<Track> by_ramp(const Level& level, const Track& track);
   [[nodiscard]] double ramp_angle();
-  [[nodiscard]] double gap() const;
+  /// Height of the cutter's end over the level's material where it begins to ramp.
+  [[nodiscard]] double gap(const Level& level) const;
 
+  struct Bore {
+    geometry::Vec2 middle;
+    double z_mm;
+  };
+  std::vector<Bore> bores_;  ///< made by helices
   geometry::Region ringed_;  ///< what `rings_` are of
   double ringed_apart_mm_ = 0.0;
   std::vector<Ring> rings_;

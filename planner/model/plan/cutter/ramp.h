@@ -1,0 +1,27 @@
+#pragma once
+
+#include "planner/model/plan/cutter/cutter.h"
+#include "planner/model/plan/resources/material.h"
+
+namespace capstan::model {
+
+/// Steepest ramp where neither cutter nor material says more, rad.
+/// Source  Harvey Performance, In the Loupe, "Ramping to success": 1 to 3 degrees to begin with in hard and
+///         ferrous materials; the upper end.
+inline constexpr double kUsualRampRad = 3.0 * 3.14159265358979323846 / 180.0;
+
+/// How a cutter goes down into solid material on a slope.
+struct Ramp {
+  double angle_rad = 0.0;  ///< 0: it must not ramp
+  /// Of the feed that its flanks would have in a slot of the same depth, at most.
+  double feed_share = 1.0;
+  double depth_mm = 0.0;  ///< deepest bore along a helix; chips must come out of it
+};
+
+/// The angle is that which the cutter's maker or the shop states; else that of the table by substrate and ISO
+/// 513 group, and no more than the cutter's own.
+///
+/// Source  the rows in ramp.cpp.
+[[nodiscard]] Ramp ramp_of(const Cutter& c, const WorkMaterial& m);
+
+}  // namespace capstan::model
