@@ -102,6 +102,23 @@ TEST(Select, RefusesEveryToolThatIsTooShortAndSaysWhatWouldFit) {
   EXPECT_EQ(it->why, "reach 19 mm is below 80 mm, and its holder (32 mm) would meet the walls");
 }
 
+TEST(Select, SaysWhatOfTheMachineStandsInTheWayOfCuttersThatWouldFit) {
+  ToolRequirement r;
+  r.classes = {CutterClass::kEndmill};
+  r.diameter_min_mm = 10;
+  r.diameter_max_mm = 12;
+  model::Machine fast = machine();
+  fast.spindle.rpm_min = 30000.0;
+  fast.spindle.rpm_max = 40000.0;
+  const auto s = select(r, library(), material("mild_steel"), fast);
+  EXPECT_TRUE(s.ranked.empty());
+  EXPECT_NE(s.would_fit.find(", if the machine could use it (of "), std::string::npos) << s.would_fit;
+  // pi x 10 mm x 30000 1/min
+  EXPECT_NE(s.would_fit.find("/10: the spindle's least speed 30000 1/min gives 942.5 m/min"),
+            std::string::npos)
+      << s.would_fit;
+}
+
 TEST(Select, NamesTheNearestSizesWhenThereIsNoneOfTheSizeWanted) {
   ToolRequirement r;
   r.classes = {CutterClass::kReamer};
