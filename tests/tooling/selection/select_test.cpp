@@ -102,6 +102,21 @@ TEST(Select, RefusesEveryToolThatIsTooShortAndSaysWhatWouldFit) {
   EXPECT_EQ(it->why, "reach 19 mm is below 80 mm, and its holder (32 mm) would meet the walls");
 }
 
+TEST(Select, TakesNoTapWhoseLeadIsLongerThanTheHoleHasRoomFor) {
+  ToolRequirement r;
+  r.classes = {CutterClass::kTap};
+  r.diameter_exact_mm = 8;
+  r.thread_pitch_mm = 1.25;
+  EXPECT_EQ(choose(r).ranked.front().cutter.id, "generic/tap/M8");  // form B: 4 threads
+  r.lead_threads_max = 3;
+  const auto s = choose(r);
+  ASSERT_EQ(s.ranked.size(), 1U);
+  EXPECT_EQ(s.ranked.front().cutter.id, "generic/tap_blind/M8");
+  EXPECT_TRUE(std::any_of(s.rejected.begin(), s.rejected.end(), [](const auto& x) {
+    return x.what == "generic/tap/M8" && x.why == "its lead of 4 threads is above 3";
+  }));
+}
+
 TEST(Select, SaysWhatOfTheMachineStandsInTheWayOfCuttersThatWouldFit) {
   ToolRequirement r;
   r.classes = {CutterClass::kEndmill};
