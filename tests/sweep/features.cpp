@@ -186,9 +186,11 @@ Feature freeform() {
 
 }  // namespace
 
-std::vector<Feature> features() {
-  return {through_hole(),  reamed_hole(), tapped_hole(), counterbore(), shallow_pocket(), deep_pocket(),
-          island_pocket(), step(),        slot(),        face(),        contour(),        freeform()};
+const std::vector<Feature>& features() {
+  static const std::vector<Feature> all = {through_hole(),   reamed_hole(), tapped_hole(),   counterbore(),
+                                           shallow_pocket(), deep_pocket(), island_pocket(), step(),
+                                           slot(),           face(),        contour(),       freeform()};
+  return all;
 }
 
 }  // namespace capstan::testing::sweep

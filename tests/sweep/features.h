@@ -35,6 +35,6 @@ struct Feature {
 };
 
 /// Twelve kinds of feature: holes, pockets, step, slot, face, contour, freeform.
-[[nodiscard]] std::vector<Feature> features();
+[[nodiscard]] const std::vector<Feature>& features();
 
 }  // namespace capstan::testing::sweep

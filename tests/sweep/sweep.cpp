@@ -93,7 +93,15 @@ std::vector<Case> diagonal() {
   return out;
 }
 
-Sweep::Sweep() : features_(features()) {
+std::vector<Case> each_once_per_machine() {
+  std::vector<Case> out;
+  for (std::size_t k = 0; k < std::size(kMachines); ++k)
+    for (std::size_t i = 0; i < features().size(); ++i)
+      out.push_back({i, (5 * i + 4 * k) % std::size(kMaterials), k});
+  return out;
+}
+
+Sweep::Sweep() {
   Job quiet;
   for (const char* machine : kMachines) {
     pipeline::ShopFiles files;
@@ -104,7 +112,7 @@ Sweep::Sweep() : features_(features()) {
 
 Outcome Sweep::plan(const Case& c) {
   Outcome out;
-  const Feature& feature = features_.at(c.feature);
+  const Feature& feature = features().at(c.feature);
   if (!shops_[c.machine]) {
     out.failed = shops_[c.machine].error().message;
     return out;

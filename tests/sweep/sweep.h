@@ -31,6 +31,9 @@ inline constexpr const char* kMachines[] = {"small_router", "tormach_1100mx", "g
 /// Each feature and each material once, the machines in turn.
 [[nodiscard]] std::vector<Case> diagonal();
 
+/// On each machine each feature once and each material once.
+[[nodiscard]] std::vector<Case> each_once_per_machine();
+
 /// What became of a case.
 struct Outcome {
   std::string failed;  ///< why there is no plan at all; empty: there is one
@@ -50,7 +53,6 @@ class Sweep {
   [[nodiscard]] Outcome plan(const Case& c);
 
  private:
-  std::vector<Feature> features_;
   std::vector<Result<pipeline::Inputs>> shops_;
 };
 
