@@ -11,7 +11,7 @@ set grid
 set xrange [0.5:30]
 set xtics (0.5, 1, 2, 3, 5, 10, 20, 30)
 set yrange [0:1.02]
-set key bottom right Left reverse samplen 1.5
+set key below Left reverse samplen 1.5
 plot d using 2:($1==2?$3:1/0) with linespoints ls 1 title "generic\\_vmc, 7.5 kW", \
   d using 2:($1==1?$3:1/0) with linespoints ls 2 title "tormach\\_1100mx, 1.5 kW", \
-  d using 2:($1==0?$3:1/0) with linespoints ls 5 title "small\\_router, 1.5 kW from 6000 1/min on"
+  d using 2:($1==0?$3:1/0) with linespoints ls 5 title "small\\_router, 1.5 kW at 24000 1/min"
