@@ -102,38 +102,6 @@ TEST(Select, RefusesEveryToolThatIsTooShortAndSaysWhatWouldFit) {
   EXPECT_EQ(it->why, "reach 19 mm is below 80 mm, and its holder (32 mm) would meet the walls");
 }
 
-TEST(Select, TakesNoTapWhoseLeadIsLongerThanTheHoleHasRoomFor) {
-  ToolRequirement r;
-  r.classes = {CutterClass::kTap};
-  r.diameter_exact_mm = 8;
-  r.thread_pitch_mm = 1.25;
-  EXPECT_EQ(choose(r).ranked.front().cutter.id, "generic/tap/M8");  // form B: 4 threads
-  r.lead_threads_max = 3;
-  const auto s = choose(r);
-  ASSERT_EQ(s.ranked.size(), 1U);
-  EXPECT_EQ(s.ranked.front().cutter.id, "generic/tap_blind/M8");
-  EXPECT_TRUE(std::any_of(s.rejected.begin(), s.rejected.end(), [](const auto& x) {
-    return x.what == "generic/tap/M8" && x.why == "its lead of 4 threads is above 3";
-  }));
-}
-
-TEST(Select, SaysWhatOfTheMachineStandsInTheWayOfCuttersThatWouldFit) {
-  ToolRequirement r;
-  r.classes = {CutterClass::kEndmill};
-  r.diameter_min_mm = 10;
-  r.diameter_max_mm = 12;
-  model::Machine fast = machine();
-  fast.spindle.rpm_min = 30000.0;
-  fast.spindle.rpm_max = 40000.0;
-  const auto s = select(r, library(), material("mild_steel"), fast);
-  EXPECT_TRUE(s.ranked.empty());
-  EXPECT_NE(s.would_fit.find(", if the machine could use it (of "), std::string::npos) << s.would_fit;
-  // pi x 10 mm x 30000 1/min
-  EXPECT_NE(s.would_fit.find("/10: the spindle's least speed 30000 1/min gives 942.5 m/min"),
-            std::string::npos)
-      << s.would_fit;
-}
-
 TEST(Select, NamesTheNearestSizesWhenThereIsNoneOfTheSizeWanted) {
   ToolRequirement r;
   r.classes = {CutterClass::kReamer};
