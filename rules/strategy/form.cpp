@@ -43,13 +43,17 @@ Made tap(const Making& m) {
   const auto c = core(m);
   if (!c) return tl::unexpected(c.error());
   const double p = m.shape.thread_pitch_mm;
-  const double lead = m.number("lead_pitches") * p;
+  // A tap with a spiral point and a long lead (form B) pushes its chips ahead: it is for holes that go
+  // through.
+  const double threads = m.number(m.shape.through ? "lead_pitches_through" : "lead_pitches");
+  const double lead = threads * p;
   ProposedStep s;
   s.depth_mm = m.shape.thread_depth_mm + lead;  // of the tip
   s.start_diameter_mm = *c;
   s.tool.classes = {CutterClass::kTap};
   s.tool.diameter_exact_mm = m.shape.thread_major_mm;
   s.tool.thread_pitch_mm = p;
+  s.tool.lead_threads_max = threads;
   s.lock_override = true;  // feed and spindle run in step
   s.tool.reach_mm = s.depth_mm + m.context.stock_above_mm + kReachClearanceMm;
   return s;
@@ -214,7 +218,8 @@ std::vector<Action> form_actions() {
   return {
       {"tap",
        TypeId::kTapping,
-       {{"lead_pitches", 3.0, "chamfered threads of the tap, ISO 8830 form C: 2 to 3"}},
+       {{"lead_pitches", 3.0, "chamfered threads of the tap, ISO 8830 form C: 2 to 3"},
+        {"lead_pitches_through", 4.0, "of the tap for through holes, DIN 2197 form B: 3.5 to 5.5"}},
        tap},
       {"thread_mill",
        TypeId::kThreadDrilling,

@@ -204,6 +204,23 @@ TEST(Threads, AreMilledInHardMaterialAndWithoutSynchronisedSpindle) {
   EXPECT_EQ(propose(shipped(), s, c).chains.at(0).at(0).why.id, "thread.mill.unsynchronised");
 }
 
+TEST(Threads, OfBlindHolesAreTappedWithAShortLeadOfThroughHolesWithALongOne) {
+  FeatureShape s = hole(0, 8.5);
+  s.kind = ShapeKind::kThread;
+  s.thread_major_mm = 10.0;
+  s.thread_pitch_mm = 1.5;
+  s.thread_depth_mm = 12.0;
+  for (const bool through : {false, true}) {
+    s.through = through;
+    s.depth_mm = 20.0;
+    const Proposal p = propose(shipped(), s, steel());
+    ASSERT_THAT(actions(p), ElementsAre("tap"));
+    const double lead = through ? 4.0 : 3.0;  // threads
+    EXPECT_EQ(p.chains[0][0].tool.lead_threads_max, lead);
+    EXPECT_NEAR(p.chains[0][0].depth_mm, 12.0 + lead * 1.5, 1e-9);
+  }
+}
+
 TEST(Counterbore, OfALargeBatchIsMadeByItsOwnTool) {
   FeatureShape s = hole(11, 20);
   s.bottom = HoleBottom::kFlat;

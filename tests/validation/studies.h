@@ -39,6 +39,9 @@ namespace capstan::validation {
 /// Machining times against a good shop's estimates, and what holds the parts that take longer.
 [[nodiscard]] Comparison productivity(const std::string& corpus);
 
+/// Times of plans over a catalogue's, for a sample of features, materials and machines.
+[[nodiscard]] Comparison catalogue_times();
+
 /// Cycle times on LinuxCNC's simulated machine, as `capstan_cycle_times` recorded them in a file.
 [[nodiscard]] Comparison cycle_times(const std::string& file);
 

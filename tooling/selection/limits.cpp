@@ -49,6 +49,9 @@ std::optional<std::string> wrong_thread(const Cutter& c, const ToolRequirement& 
   if (!model::has(c.cutter_class, model::CutterTrait::kThreads)) return std::nullopt;
   if (!r.thread_form.empty() && !c.thread_form.empty() && r.thread_form != c.thread_form)
     return "thread form " + c.thread_form + " is not " + r.thread_form;
+  if (r.lead_threads_max > 0.0 && c.lead_threads > r.lead_threads_max + model::kPitchSlackMm)
+    return "its lead of " + trimmed(c.lead_threads, 1) + " threads is above " +
+           trimmed(r.lead_threads_max, 1);
   if (r.thread_size_mm > 0.0 && c.thread_size_mm > 0.0) {
     if (c.cutter_class == CutterClass::kTap &&
         std::abs(c.thread_size_mm - r.thread_size_mm) > model::kPitchSlackMm)

@@ -124,6 +124,26 @@ struct Near {
   std::string why;
 };
 
+/// Cutters that have all that is wanted, but cannot be used on the machine: the narrowest of them asks least
+/// of a spindle that turns too fast or is too weak.
+struct Unable {
+  const Cutter* narrowest = nullptr;
+  std::string why;
+  std::size_t count = 0;
+  void add(const Cutter& c, const std::string& reason) {
+    ++count;
+    if (narrowest != nullptr && c.cutting_diameter_mm >= narrowest->cutting_diameter_mm) return;
+    narrowest = &c;
+    why = reason;
+  }
+  [[nodiscard]] std::string text() const {
+    if (narrowest == nullptr) return {};
+    return ", if the machine could use it (" +
+           (count > 1 ? "of " + std::to_string(count) + " such cutters the narrowest, " : std::string()) +
+           narrowest->id + ": " + why + ")";
+  }
+};
+
 /// The largest first: they come nearest to what was wanted.
 void tell_near(std::vector<Near>& near, std::size_t most, Selection& out) {
   std::sort(near.begin(), near.end(), [](const Near& a, const Near& b) {
@@ -148,6 +168,7 @@ Selection select(const ToolRequirement& requirement, const std::vector<Cutter>& 
   std::vector<Near> near;
   std::map<CutterClass, std::set<double>> other_sizes;
   std::string not_of;  // what the material is not cut with, of the first that would fit else
+  Unable unable;
   for (const Cutter& original : library) {
     const std::size_t rank = rank_of(r, original.cutter_class);
     if (rank == r.classes.size() || original.cutting_diameter_mm <= 0.0) continue;
@@ -163,8 +184,10 @@ Selection select(const ToolRequirement& requirement, const std::vector<Cutter>& 
     if (!why) {
       if (c.cutter_class != CutterClass::kTouchProbe) start = start_values(c, material, machine);
       why = not_for_machine(c, start, material, machine, preferences);
-      if (const auto never = not_cut_with(c, start, material); never && not_of.empty())
+      const auto never = not_cut_with(c, start, material);
+      if (never && not_of.empty())
         not_of = ", not of " + std::string(model::to_text(c.substrate)) + " (" + c.id + ": " + *never + ")";
+      if (why && !never) unable.add(c, *why);
     }
     if (why)
       near.push_back({&c, std::move(*why)});
@@ -191,7 +214,7 @@ Selection select(const ToolRequirement& requirement, const std::vector<Cutter>& 
   }
   tell_near(near, preferences.most_rejected, out);
   sum_up_sizes(r, other_sizes, out);
-  if (out.ranked.empty()) out.would_fit = words_of(r) + not_of;
+  if (out.ranked.empty()) out.would_fit = words_of(r) + not_of + unable.text();
   return out;
 }
 

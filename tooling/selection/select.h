@@ -82,7 +82,8 @@ inline void use(std::vector<std::string>& used, const std::string& id) {
 ///
 /// and, as defaults: 600 s for each class that the rules like less and for each mm from the exact diameter, 2
 /// s for each diameter that it sticks out beyond three, 1 s between the smallest and the largest. Ties by id.
-/// When nothing fits, `would_fit` says what would.
+/// When nothing fits, `would_fit` says what would, and of cutters that would but for the machine, what of it
+/// stands in the way.
 [[nodiscard]] model::Selection select(const model::ToolRequirement& requirement,
                                       const std::vector<model::Cutter>& library,
                                       const model::WorkMaterial& material, const model::Machine& machine,

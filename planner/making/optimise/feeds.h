@@ -94,7 +94,8 @@ struct FeedAnswer {
 
 /// Splits feed moves (lines and arcs) where the allowed feed of their sections changes. A move has one feed,
 /// so that without this a heavy corner at its end would slow all of it. The path itself does not change.
-/// Pieces are at least a fifth of the diameter long, and made only where they save time.
+/// Pieces are at least a fifth of the diameter long, and made only where they save time. A heavy place that
+/// is shorter takes what it lacks from the faster way beside it.
 ///
 /// Needs   samples and sections of this very path, `at_mm` from the start of each move, steps of samples that
 ///         do not overlap (but the second rectangle of one step). `sections` may be null.

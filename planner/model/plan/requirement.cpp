@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "planner/ground/base/number.h"
 #include "planner/ground/base/text.h"
 
 namespace capstan::model {
@@ -31,6 +32,7 @@ std::string words_of(const ToolRequirement& r) {
   if (r.thread_size_mm > 0.0) add("threads of " + mm_text(r.thread_size_mm));
   if (r.thread_pitch_mm > 0.0) add(mm_text(r.thread_pitch_mm) + " pitch");
   if (!r.thread_form.empty()) add("form " + r.thread_form);
+  if (r.lead_threads_max > 0.0) add("a lead of at most " + trimmed(r.lead_threads_max, 1) + " threads");
   if (r.taper_angle_rad > 0.0) add(deg_text(r.taper_angle_rad) + " taper");
   if (r.point_angle_rad > 0.0) add(deg_text(r.point_angle_rad) + " point");
   if (r.corner_radius_exact_mm >= 0.0) add(mm_text(r.corner_radius_exact_mm) + " corner radius");

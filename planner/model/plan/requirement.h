@@ -22,6 +22,7 @@ struct ToolRequirement {
   double point_angle_rad = 0.0;
   double thread_pitch_mm = 0.0;
   double thread_size_mm = 0.0;        ///< nominal, thread mills and taps
+  double lead_threads_max = 0.0;      ///< taps: threads in the chamfer, where the tap states them; 0: any
   double taper_angle_rad = 0.0;       ///< tapered end mills: half angle
   double cutting_width_max_mm = 0.0;  ///< side mills, heads of T-slot cutters
   double neck_diameter_max_mm = 0.0;  ///< what must pass above the head, over `reach_mm`

@@ -55,7 +55,54 @@ void give_way(std::vector<Piece>& p, double known_to_mm) {
   if (!p.empty()) p.back().end_mm = end;
 }
 
-/// Merges pieces that are too short, then pieces that would save too little time to need a block.
+/// Takes from a faster neighbour what a piece lacks; the other way round it would be merged.
+struct Growth {
+  bool left = false, possible = false;
+  double lacking_mm = 0.0, lost_s = 0.0;
+};
+
+Growth growth(const std::vector<Piece>& p, std::size_t i, bool left, double least_mm) {
+  Growth out{.left = left};
+  if (left ? i == 0 : i + 1 == p.size()) return out;
+  const Piece& from = p[left ? i - 1 : i + 1];
+  out.lacking_mm = least_mm - p[i].length_mm;
+  out.possible = from.feed > p[i].feed && from.length_mm - out.lacking_mm >= least_mm;
+  out.lost_s = 60.0 * out.lacking_mm * (1.0 / p[i].feed - 1.0 / from.feed);
+  return out;
+}
+
+void grow(std::vector<Piece>& p, std::size_t i, const Growth& g, double least_mm) {
+  p[i].length_mm = least_mm;
+  if (g.left) {
+    p[i - 1].length_mm -= g.lacking_mm;
+    p[i - 1].end_mm -= g.lacking_mm;
+  } else {
+    p[i + 1].length_mm -= g.lacking_mm;
+    p[i].end_mm += g.lacking_mm;
+  }
+}
+
+/// Makes a piece long enough, as it costs least: a slow one reaches into a faster neighbour, or it is merged
+/// with one, which then has the slower feed of both all along.
+void lengthen(std::vector<Piece>& p, std::size_t i, double least_mm) {
+  const bool left = i + 1 == p.size() || (i > 0 && lost_s(p[i - 1], p[i]) <= lost_s(p[i], p[i + 1]));
+  const std::size_t into = left ? i - 1 : i;
+  double cheapest_s = lost_s(p[into], p[into + 1]);
+  Growth best;
+  for (const bool side : {true, false}) {
+    const Growth g = growth(p, i, side, least_mm);
+    if (!g.possible || g.lost_s >= cheapest_s) continue;
+    cheapest_s = g.lost_s;
+    best = g;
+  }
+  if (best.possible) {
+    grow(p, i, best, least_mm);
+  } else {
+    merge(p, into);
+  }
+}
+
+/// Lengthens pieces that are too short, then merges those that would save too little time to need a block.
 void join(std::vector<Piece>& p, double least_mm) {
   while (p.size() > 1) {
     std::size_t shortest = 0;
@@ -63,9 +110,7 @@ void join(std::vector<Piece>& p, double least_mm) {
       if (p[i].length_mm < p[shortest].length_mm) shortest = i;
     }
     if (p[shortest].length_mm >= least_mm) break;
-    const bool left = shortest + 1 == p.size() || (shortest > 0 && lost_s(p[shortest - 1], p[shortest]) <=
-                                                                       lost_s(p[shortest], p[shortest + 1]));
-    merge(p, left ? shortest - 1 : shortest);
+    lengthen(p, shortest, least_mm);
   }
   while (p.size() > 1) {
     std::size_t cheapest = 0;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "planner/making/piece/mesh/rim.h"
 #include "planner/making/piece/mesh/surface_form.h"
 #include "planner/making/toolpath/freeform/freeform.h"
 
@@ -31,6 +32,24 @@ geometry::Mesh mesh_in_setup(const PlanSoFar& p, std::size_t setup) {
   geometry::Mesh out = *p.plan.target_mesh;
   for (geometry::Vec3& v : out.vertices) v = p.setups[setup].workpiece.to_parent(v);
   return out;
+}
+
+/// Where the axis of a finishing cutter may go: as far beyond the mesh as a slope that falls to its rim
+/// needs, on those sides where no material of the raw piece stands, or it has been cut away.
+geometry::Region over_its_rim(const geometry::Mesh& mesh, const model::Cutter& c, const geometry::Box3& raw,
+                              bool beside_is_cut, double scallop_mm) {
+  constexpr double kSameMm = 0.02;  // of coordinates, as SurfaceForm has it; default, unsourced
+  const double radius = 0.5 * c.cutting_diameter_mm;
+  const bool ball = c.cutter_class == model::CutterClass::kBallEndmill;
+  geometry::Box2 out = piece::box_of_axis(mesh, radius, ball ? radius : c.corner_radius_mm, scallop_mm);
+  const geometry::Box3 own = geometry::bounds(mesh);
+  if (!beside_is_cut) {
+    if (raw.lo.x < own.lo.x - kSameMm) out.lo.x = own.lo.x;
+    if (raw.lo.y < own.lo.y - kSameMm) out.lo.y = own.lo.y;
+    if (raw.hi.x > own.hi.x + kSameMm) out.hi.x = own.hi.x;
+    if (raw.hi.y > own.hi.y + kSameMm) out.hi.y = own.hi.y;
+  }
+  return geometry::rectangle(out.lo, out.hi);
 }
 
 }  // namespace
@@ -97,8 +116,9 @@ Result<toolpath::GeneratedPath> freeform_path(const PlanSoFar& p, const StepDraf
   }
   const geometry::Box3& raw = p.setups[step.setup].stock;
   const bool levels = draft::cuts_levels(p.plan.model, step);
-  const SurfaceForm form = rough || levels ? piece::surface_form(mesh, raw) : SurfaceForm{};
-  if (form.walls) {
+  const SurfaceForm form = piece::surface_form(mesh, raw);
+  if (!rough && !levels) f.area = over_its_rim(mesh, step.cutter, raw, form.walls, f.scallop_mm);
+  if (form.walls && (rough || levels)) {
     // Around the solid all goes, down to the underside; the cutter comes from beside the raw piece.
     constexpr double kBesideMm = 1.0;
     f.area = geometry::offset_sharp(geometry::rectangle(geometry::xy(raw.lo), geometry::xy(raw.hi)),

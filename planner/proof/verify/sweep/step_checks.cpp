@@ -72,6 +72,20 @@ bool cuts_to_centre(const model::Cutter& c) {
   }
 }
 
+/// What a neck must be thicker than to be judged on these cells.
+double neck_slack(const Grid& grid) { return 1.5 * grid.cell(); }
+
+bool ring_on_a_neck(const model::Cutter& c, const Grid& grid) {
+  return mills_threads(c.cutter_class) && c.neck_length_mm > c.maximum_depth_of_cut_mm &&
+         0.5 * c.neck_diameter_mm > neck_slack(grid);
+}
+
+/// Of what heights lose to a ring of teeth, what the ring itself takes from an upright wall: its own height.
+void of_a_ring(Bite& bite, double height_mm) {
+  if (bite.contact_mm > height_mm) bite.volume_mm3 *= height_mm / bite.contact_mm;
+  bite.thickest_mm = std::min(bite.thickest_mm, height_mm);
+}
+
 }  // namespace
 
 StepChecks::StepChecks(const model::Plan& plan, const StepMoves& step, Grid& grid, Target& target,
@@ -89,7 +103,8 @@ StepChecks::StepChecks(const model::Plan& plan, const StepMoves& step, Grid& gri
       tip_mm_(outline_->profile().height(0.5 * step.cutter->cutting_diameter_mm)),
       feed_limit_(feed_limit(*step.cutter, plan.material)),
       least_chip_mm_(least_chip_of(*step.cutter, plan.material)),
-      mark_(earlier.mark()) {
+      mark_(earlier.mark()),
+      before_(ring_on_a_neck(*step.cutter, grid) ? std::make_unique<const Grid>(grid) : nullptr) {
   constexpr double kThicker = 0.02;  // mm: what is no thicker follows where the cutter has been
   std::erase_if(body_, [&](const BodyPart& p) {
     return p.what == BodyPart::What::kCutter || p.radius_mm <= radius_ + kThicker;
@@ -161,19 +176,21 @@ void StepChecks::feed(const Move& m) {
     head(m);
     spindle(m, {});
     reach(m);
-    neck(m);
+    neck(m, grid_);
     return;
   }
+  if (before_ != nullptr) neck(m, *before_);
   const double allowed = target_.allowed();
   const double fz = feed_per_tooth(m);
   const double flutes = cutter_.maximum_depth_of_cut_mm, low = std::min(m.from.z, m.to.z);
   // No chip is thicker than its feed, no contact higher than the stock above the lowest tip: what must be
   // within its limit is not measured.
-  const Bite bite = cut(grid_, m, *outline_,
-                        {.allowed_mm = judge_gouge_ ? allowed : 1e300,
-                         .judge = &target_,
-                         .advance_mm = !feed_limit_.per_revolution && fz > thickest_chip() ? fz : 0.0,
-                         .contact = flutes > 0.0 && grid_.top() - low > flutes + kSlackMm});
+  Bite bite = cut(grid_, m, *outline_,
+                  {.allowed_mm = judge_gouge_ ? allowed : 1e300,
+                   .judge = &target_,
+                   .advance_mm = !feed_limit_.per_revolution && fz > thickest_chip() ? fz : 0.0,
+                   .contact = flutes > 0.0 && grid_.top() - low > flutes + kSlackMm});
+  if (before_ != nullptr) of_a_ring(bite, flutes);
   cut_mm3_ += bite.volume_mm3;
   chips(m, bite, fz);
   earlier_.add(m, outline_);
@@ -194,7 +211,7 @@ void StepChecks::feed(const Move& m) {
 
 // Above its head such a cutter has nothing that cuts: the mouth must be open for the neck, and there must be
 // nothing under the head where it goes down.
-void StepChecks::neck(const Move& m) {
+void StepChecks::neck(const Move& m, const Grid& grid) {
   const double head =
       cutter_.cutting_width_mm > 0.0 ? cutter_.cutting_width_mm : cutter_.maximum_depth_of_cut_mm;
   double radius = 0.5 * cutter_.neck_diameter_mm;
@@ -217,21 +234,21 @@ void StepChecks::neck(const Move& m) {
       return;
     }
   }
-  const double slack = 1.5 * grid_.cell();
+  const double slack = neck_slack(grid);
   if (radius <= slack) return;  // not known, or too thin to be judged on these cells
   const double length = length_of(m);
-  const int n = std::max(1, static_cast<int>(std::ceil(length / std::max(grid_.cell(), 0.5 * radius))));
+  const int n = std::max(1, static_cast<int>(std::ceil(length / std::max(grid.cell(), 0.5 * radius))));
   const bool falls = m.to.z < m.from.z - 1e-9;
   for (int i = 0; i <= n; ++i) {
     const geometry::Vec3 p = point_of(m, static_cast<double>(i) / n);
-    const double beside = grid_.highest(xy(p), radius - slack) - (p.z + head);
-    const double below = falls ? grid_.highest(xy(p), radius_ - slack) - p.z : 0.0;
+    const double beside = grid.highest(xy(p), radius - slack) - (p.z + head);
+    const double below = falls ? grid.highest(xy(p), radius_ - slack) - p.z : 0.0;
     if (beside > kSlackMm || below > kSlackMm) {
       const bool first = beside > kSlackMm;
       out_.error(11, first ? "CHK-NECK" : "CHK-HEAD", at(m),
                  std::string(first ? "the tool's neck" : "the tool goes down and its head") + " runs " +
                      mm(first ? beside : below) + " into material at " + here(xy(p)) + " (cells of " +
-                     mm(grid_.cell()) + ")",
+                     mm(grid.cell()) + ")",
                  first ? beside : below);
       return;
     }
@@ -275,7 +292,9 @@ void StepChecks::gouge(const Move& m, const Bite& bite) {
 void StepChecks::contact(const Move& m, const Bite& bite) {
   const double flutes = cutter_.maximum_depth_of_cut_mm;
   if (flutes <= 0.0) return;
-  if (bite.contact_mm > flutes + kSlackMm) {
+  // Above a ring of teeth is its neck, which was judged.
+  const double cuts_to = before_ != nullptr ? cutter_.neck_length_mm : flutes;
+  if (bite.contact_mm > cuts_to + kSlackMm) {
     out_.error(
         13, "CHK-FLUTE", at(m),
         "material is cut " + mm(bite.contact_mm) + " above the tip; the flutes are " + mm(flutes) + " long",

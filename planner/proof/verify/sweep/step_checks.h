@@ -36,7 +36,7 @@ class StepChecks {
   void rapid(const Move& m);
   void feed(const Move& m);
   void gouge(const Move& m, const Bite& bite);
-  void neck(const Move& m);
+  void neck(const Move& m, const Grid& grid);
   void head(const Move& m);
   [[nodiscard]] bool follows_finished();
   void contact(const Move& m, const Bite& bite);
@@ -87,6 +87,10 @@ class StepChecks {
   double cut_mm3_ = 0.0;       ///< by the step so far
   bool met_ = false;           ///< a head that heights do not follow was in material
   std::size_t mark_;           ///< in `earlier_`, before the step
+  /// The heights before the step, where its cutter is a ring of teeth on a neck: the groove that it makes
+  /// takes no more from what is above than the neck does, but heights lose all of it. Null: it is no such
+  /// cutter.
+  std::unique_ptr<const Grid> before_;
 
   // Moves taken together until they are long enough to be measured on the grid.
   struct Account {

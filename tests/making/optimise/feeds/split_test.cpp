@@ -98,6 +98,37 @@ TEST(SplitMoves, IsSlowWhereACutMayBeginOrEndForAllThatIsKnown) {
   EXPECT_NEAR(p.x[3], 100.0, 1e-12);
 }
 
+// As where a finishing mill meets the next wall: the last tenth of a millimetre is heavy. A piece is at least
+// a fifth of the diameter long, and takes that from the straight; the straight keeps its feed.
+TEST(SplitMoves, LetsAHeavyEndThatIsTooShortTakeWhatItLacksFromTheStraight) {
+  FeedQuestion q = question();
+  q.cut.peak_force_limit_n = 500.0;
+  const double least = 0.2 * q.cut.cutter.cutting_diameter_mm;
+  for (const bool at_end : {true, false}) {
+    q.samples.clear();
+    CutterPath p;
+    p.start({0, 0, 0});
+    p.line({100, 0, 0}, MoveRole::kCut);
+    const double heavy = 0.1, light = 100.0 - heavy;
+    if (at_end) {
+      cut_along(q, p, 1, 1.0, 1.0, 0.0, light);
+      cut_along(q, p, 1, 8.0, 8.0, light);
+    } else {
+      cut_along(q, p, 1, 8.0, 8.0, 0.0, heavy);
+      cut_along(q, p, 1, 1.0, 1.0, heavy);
+    }
+    split_moves(q, p, nullptr);
+    ASSERT_EQ(p.size(), 3U) << at_end;
+    EXPECT_NEAR(p.x[1], at_end ? 100.0 - least : least, 1e-9);
+    const auto a = feeds(q, p);
+    const std::size_t fast = at_end ? 1 : 2, slow = at_end ? 2 : 1;
+    EXPECT_GT(a.schedule.feed_mm_min[fast], 3.0 * a.schedule.feed_mm_min[slow]);
+    for (const CutSample& s : q.samples) EXPECT_TRUE(s.ap_mm < 4.0 || s.move == slow) << s.at_mm;
+    q = question();
+    q.cut.peak_force_limit_n = 500.0;
+  }
+}
+
 TEST(SplitMoves, LeavesAnEvenMoveWhole) {
   FeedQuestion q = question();
   CutterPath p;
