@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "planner/model/plan/borne_feed.h"
+#include "planner/physics/mechanics/bending/beam.h"
 #include "planner/physics/mechanics/constants.h"
 #include "planner/physics/mechanics/stability.h"
 #include "planner/physics/mechanics/surface.h"
@@ -26,8 +27,13 @@ double axis_feed(const CutQuestion& q) {
   return std::min(a[0].feed_max_mm_min, a[1].feed_max_mm_min);
 }
 
+/// The smaller of what is asked and what the tool's own material bears for its life, mm. The body of a face
+/// mill is no bar.
 double deflection_limit(const CutQuestion& q) {
-  return q.deflection_limit_mm > 0.0 ? q.deflection_limit_mm : kRoughDeflectionMm;
+  const double asked =
+      q.deflection_limit_mm > 0.0 ? q.deflection_limit_mm : std::numeric_limits<double>::infinity();
+  if (!is_milling(q.kind) || q.cutter.cutter_class == model::CutterClass::kFacemill) return asked;
+  return std::min(asked, mechanics::enduring_bend_mm(q.cutter, force_height_mm(q.cutter)).value_or(asked));
 }
 
 }  // namespace
@@ -133,6 +139,7 @@ FixedLimits fixed_limits(const CutQuestion& q) {
                   .efficiency = efficiency(q),
                   .largest_fz_mm = largest_fz(q),
                   .thinnest_chip_mm = thinnest_chip_mm(q),
+                  .deflection_mm = deflection_limit(q),
                   .axis_feed_mm_min = axis_feed(q),
                   .slender_depth_mm = slender_depth(q)};
   for (const model::LimitRow& r : model::kLimitRows) out.ease.at(model::index_of(r.value)) = ease_of(q, r.name);
@@ -156,7 +163,7 @@ Measures measures(const CutQuestion& q, const FixedLimits& fixed, const model::S
     }
   }
   if (mills) {
-    m[Limit::kToolDeflection] = {l.deflection_mm, deflection_limit(q)};
+    m[Limit::kToolDeflection] = {l.deflection_mm, fixed.deflection_mm};
     // A catalogue's feed is along the feed: with a lead angle its chip is thinner from the start.
     const double slot =
         q.kind == CutKind::kRough && q.slot ? deep_slot_share(ap, q.cutter.cutting_diameter_mm) : 1.0;

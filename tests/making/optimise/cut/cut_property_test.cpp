@@ -125,7 +125,7 @@ void expect_kept(const CutQuestion& q, const CutAnswer& a, int number) {
     EXPECT_LE(a.ap_mm, c.maximum_depth_of_cut_mm * kHair);
     EXPECT_LE(a.ae_mm, c.cutting_diameter_mm * kHair);
     mechanics::Tooth tooth = mechanics::tooth_of(c);
-    const auto law = mechanics::force_law(q.material, c.substrate);
+    const auto law = mechanics::force_law(q.material, c);
     for (const auto side : {mechanics::CutDirection::kUp, mechanics::CutDirection::kDown}) {
       // A flat cutter's arc is known; a corner or ball has to remove what the cut removes.
       mechanics::Section section{.ap_mm = a.ap_mm,

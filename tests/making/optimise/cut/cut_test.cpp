@@ -456,7 +456,7 @@ TEST_F(Cut, KeepsOutOfTheLobesThatTheModesTell) {
   EXPECT_LE(a.ap_mm, *allowed * (1.0 + 1e-9));
   // The lobes of the mean chip's specific force, in the direction that allows less; fewer than one and a half
   // teeth are in the cut (4 phi / 2 pi for a width of at most 0.65 D), so that their margin counts.
-  const auto law = mechanics::force_law(q.material, q.cutter.substrate);
+  const auto law = mechanics::force_law(q.material, q.cutter);
   const double kc =
       law.uncertainty_factor *
       mechanics::specific_force_n_mm2(law.kienzle, mechanics::mean_chip_thickness_mm(a.fz_mm, a.ae_mm, 10.0));
