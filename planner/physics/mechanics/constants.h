@@ -33,6 +33,10 @@ inline constexpr double kFluteEquivalentDiameterRatio = 0.8;
 inline constexpr double kCarbideEnduranceNMm2 = 1000.0;
 inline constexpr double kHssEnduranceNMm2 = 685.0;
 
+/// Runout, total indicated, of a tool in a usual collet, where none is stated, mm.
+/// Source: ISO 15488, table 4 (accufixtools.com), collets of the normal class: 0.015 up to 10 mm, 0.020 above.
+inline constexpr double kColletRunoutMm = 0.015;
+
 // --- Cutting force ----------------------------------------------------------------------------------
 
 /// Share of Kienzle's force that is saved by each degree of rake over the 0 degrees of the tables.

@@ -51,7 +51,9 @@ std::string force_source(const model::WorkMaterial& material, model::Substrate s
 }
 
 WorkMaterial milled_with(const model::WorkMaterial& material, const model::Cutter& cutter) {
-  const bool raked = model::has(cutter.cutter_class, model::CutterTrait::kEndMill) && material.iso_group != "H";
+  const bool end_mill = model::has(cutter.cutter_class, model::CutterTrait::kEndMill) ||
+                        model::has(cutter.cutter_class, model::CutterTrait::kBall);
+  const bool raked = end_mill && material.iso_group != "H";
   const double share = raked ? 1.0 - kForcePerDegreeOfRake * kEndMillRakeDeg : 1.0;
   return {share * material.kc11_n_mm2, material.mc};
 }

@@ -218,7 +218,7 @@ TEST_F(Cut, ShadowPricesAreWhatMoreOfALimitSaves) {
   expect_price(corner, "spindle_power");  // where torque ends and power begins
   CutQuestion wide = questions::roughing();
   wide.deflection_limit_mm = 0.01;
-  wide.ap_mm = 0.4;
+  wide.ap_mm = 0.45;
   expect_price(wide, "tool_deflection");
   CutQuestion light = questions::roughing();
   light.ap_mm = 0.5;
