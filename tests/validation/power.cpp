@@ -93,6 +93,7 @@ double ours_kw(const char* material, double fz_mm, const std::vector<model::Work
       mechanics::side_section(kDepthMm, kWidthMm, tooth, mechanics::CutDirection::kDown);
   const auto loads = mechanics::section_loads(section, tooth, mechanics::force_law(*card, mill()), fz_mm, rpm());
   if (!loads) return 0.0;
+  if (mechanics::measured_set(*card, mill().substrate) == nullptr) return loads->power_w / 1000.0;
   const double by_card = mechanics::cutting_power_w(
       removal_mm3_min(fz_mm),
       mechanics::specific_force_n_mm2(mechanics::milled_with(*card, mill()), loads->h_mean_mm));
