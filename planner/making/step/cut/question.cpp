@@ -7,6 +7,7 @@
 #include "planner/ground/base/number.h"
 #include "planner/ground/vocabulary/operation.h"
 #include "planner/ground/vocabulary/thread_mill.h"
+#include "planner/making/step/path/freeform.h"
 #include "planner/making/step/record/record.h"
 #include "planner/making/toolpath/hole/hole_paths.h"
 #include "planner/making/toolpath/region/form/undercut.h"
@@ -81,19 +82,21 @@ double zone_across(const PlanSoFar& p, const StepDraft& step, const toolpath::Pa
   return surface || !(width_mm > 0.0) ? 0.0 : general_zone_mm(p, width_mm);
 }
 
-/// What a roughing cut may bend at its tip, mm; 0: only the tool's strength counts.
+/// What a cut before the last may bend at its tip, mm.
 ///
 /// A wall is pushed off by no more than the tip is bent. Where the step leaves an allowance, the bent cutter
-/// must not reach the finished wall, and must leave there what the next pass can cut at all. Where it leaves
-/// none, its wall is the finished one: kWallOfZone.
+/// must not reach the finished wall, and should leave there what the next pass can cut at all, but at least half
+/// of it. Where it leaves none, its wall is the finished one: kWallOfZone.
 double rough_bending_mm(const PlanSoFar& p, const StepDraft& step, const toolpath::PathJob& job,
                         const optimise::CutQuestion& q) {
   if (p.plan.model.holds<model::PlaneMilling>(step.operation)) return optimise::kFaceDeflectionMm;
-  if (job.allowance_side_mm > 0.0) {
+  const bool surface = p.plan.model.holds<model::FreeformOperation>(step.operation);
+  const double left = surface ? freeform_allowance(p.plan.model, p.steps, step) : job.allowance_side_mm;
+  if (left > 0.0) {
     const bool hss = q.cutter.substrate == model::Substrate::kHss;
     const double least =
         mechanics::least_depth_mm(q.cutter.cutting_diameter_mm, hss, q.material.iso_group);
-    return std::max(kDeflectionShare * job.allowance_side_mm, job.allowance_side_mm - least);
+    return std::max(0.5 * left, left - least);
   }
   const double zone = zone_across(p, step, job, q.width_mm);
   return zone > 0.0 ? std::max(kLeastDeflection, kWallOfZone * zone) : kFinishDeflection;
@@ -264,9 +267,8 @@ optimise::CutQuestion question_of(const PlanSoFar& p, const StepDraft& step,
     const double zone = zone_across(p, step, job, width_of(job.shape));
     q.deflection_limit_mm =
         zone > 0.0 ? std::max(kLeastDeflection, kDeflectionShare * zone) : kFinishDeflection;
-    // A semi-finishing pass may bend within its own allowance: the tolerance is for the next step.
-    if (job.allowance_side_mm > 0.0)
-      q.deflection_limit_mm = std::max(q.deflection_limit_mm, kDeflectionShare * job.allowance_side_mm);
+    // A semi-finishing pass may bend as a rough one: the tolerance is for the next step.
+    if (job.allowance_side_mm > 0.0) q.deflection_limit_mm = rough_bending_mm(p, step, job, q);
     // A semi-finishing pass of a surface may bend within the allowance it leaves.
     if (m.holds<model::FreeformFinishMilling>(step.operation) && job.allowance_bottom_mm > 0.0)
       q.deflection_limit_mm = std::max(q.deflection_limit_mm, kDeflectionShare * job.allowance_bottom_mm);
