@@ -67,6 +67,8 @@ std::vector<Comparison> all_comparisons(const std::string& corpus) {
   add_plate(corpus, out);
   out.push_back(wear(corpus));
   out.push_back(forces());
+  out.push_back(power());
+  out.push_back(slots());
   out.push_back(kienzle());
   out.push_back(optima());
   out.push_back(lobes());

@@ -18,6 +18,12 @@ namespace capstan::validation {
 /// Mean and peak forces against the tabulated cases, and the spread between published coefficients.
 [[nodiscard]] Comparison forces();
 
+/// Milling power by published tables and by our law.
+[[nodiscard]] Comparison power();
+
+/// Feeds in slots beside a maker's, by the diameter.
+[[nodiscard]] Comparison slots();
+
 /// Fits of Kienzle's law against the tables they are made from.
 [[nodiscard]] Comparison kienzle();
 

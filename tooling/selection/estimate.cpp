@@ -28,8 +28,9 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kNominalVolumeMm3 = 2000.0;
 /// A mill's cut at most, as parts of its diameter; default, unsourced (the optimiser's own bounds are wider).
 constexpr double kWidthRatio = 0.5, kDepthRatio = 1.0;
-/// Bending of the tip that roughing may have, mm; default, unsourced: a fifth of the usual allowance.
-constexpr double kBendingMm = 0.1;
+/// Bending of the tip that roughing may have, mm: what the usual side allowance of 0.3 mm leaves over the
+/// thinnest pass that finishes it (mechanics::least_depth_mm, 0.04 mm).
+constexpr double kBendingMm = 0.26;
 /// In aluminium and copper chips need room: teeth beyond these are not counted. Default, unsourced.
 constexpr int kTeethInSoft = 3;
 
@@ -83,7 +84,7 @@ double milling_s(const Cutter& c, const StartValues& s, const WorkMaterial& w, c
     feed *= static_cast<double>(kTeethInSoft) / teeth;
     teeth = kTeethInSoft;
   }
-  const mechanics::WorkMaterial work{w.kc11_n_mm2, w.mc};
+  const mechanics::WorkMaterial work = mechanics::milled_with(w, c);
   const double h_mean = mechanics::mean_chip_thickness_mm(s.fz_mm, ae, d);
   const double h_max = mechanics::max_chip_thickness_mm(s.fz_mm, ae, d);
   double scale = 1.0;
@@ -102,7 +103,8 @@ double milling_s(const Cutter& c, const StartValues& s, const WorkMaterial& w, c
     const double one = mechanics::specific_force_n_mm2(work, h_max) * h_max * ap;
     const double force = margin * one * in_cut * std::hypot(1.0, mechanics::kRadialToTangentialRatio);
     if (const auto bend = compliance_mm_n(c))
-      scale_down(kBendingMm / (force * *bend), "bending", scale, limited);
+      scale_down(std::min(kBendingMm, mechanics::enduring_bend_mm(c).value_or(kBendingMm)) / (force * *bend),
+                 "bending", scale, limited);
   }
   ap *= scale;
   // Levels are whole.

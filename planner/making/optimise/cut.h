@@ -53,7 +53,7 @@ struct CutQuestion {
   bool slot = false;                 ///< milling: the cutter is engaged over its whole diameter
   double least_feed_ratio = 0.1;     ///< of the start value: below, an edge rubs rather than cuts
   double ap_most_mm = 0.0;  ///< depth per level at most, where something else than the cutter says so
-  double deflection_limit_mm = 0.0;                               ///< of the tip; 0: kRoughDeflection
+  double deflection_limit_mm = 0.0;  ///< of the tip, beside the strength of the tool; 0: no other
   std::optional<double> ap_mm, ae_mm, n_rpm, feed_mm_min, fz_mm;  ///< given, kept
   Aim aim = Aim::kTime;
   double earning_per_min = 0.0;   ///< kProfit: what a minute of this machine earns, net of its own cost
@@ -79,9 +79,7 @@ inline constexpr double kRoughnessOverGeometry = 1.24;
 /// Time of a level beside its cutting: moving over, down, and back to speed, s. Default, unsourced.
 inline constexpr double kLevelOverheadS = 2.0;
 
-/// Largest deflection of the tip in roughing, mm. Default, unsourced: a third of the usual side allowance.
-inline constexpr double kRoughDeflectionMm = 0.1;
-/// The same in facing, where bending moves the edge along the face. Default, unsourced.
+/// Largest deflection of the tip in facing, mm, where bending moves the edge along the face. Default, unsourced.
 inline constexpr double kFaceDeflectionMm = 0.2;
 /// Widest cut of a rough pass that is not a slot, as a fraction of the diameter. Default, unsourced.
 inline constexpr double kRoughWidthRatio = 0.65;
@@ -118,8 +116,9 @@ struct CutAnswer {
 }
 
 /// Depth, width, speed and feed that cut fastest (or cheapest, or to most profit) within every limit: spindle
-/// speed range, power and torque at that speed, tip deflection, wall error, surface, peak force, largest and
-/// least chip, depths, cutting length, axis feed. Forces carry the margin of mechanics/loads/margin.h: the
+/// speed range, power and torque at that speed, tip deflection (what is asked, and what the tool's own material
+/// bears: mechanics::enduring_bend_mm), wall error, surface, peak force, largest and least chip, depths, cutting
+/// length, axis feed. Forces carry the margin of mechanics/loads/margin.h: the
 /// spread of their coefficients, a worn edge and the operator's override; limits are thus never met on
 /// average values.
 ///

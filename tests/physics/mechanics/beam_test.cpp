@@ -45,6 +45,40 @@ TEST(ToolBeam, OfOneCylinderHasTheTextbookBending) {
   EXPECT_NEAR(bending_mm_n(beam, 10.0, 0.0), 27000.0 / (3.0 * ei) + 10.0 * 900.0 / (2.0 * ei), 1e-15);
 }
 
+// A bar of diameter d is bent by F L^3 / (3 E I) and bears 32 F L / (pi d^3) at its clamp: 2 s L^2 / (3 E d).
+// Flutes bend like 0.8 D, their outer fibre lies at D / 2: the bend is that of a bar of the whole diameter.
+TEST(EnduringBend, OfOneCylinderHasTheTextbookStress) {
+  model::Cutter c = end_mill();
+  c.maximum_depth_of_cut_mm = 40.0;
+  const double bar = 2.0 * kCarbideEnduranceNMm2 * 40.0 * 40.0 / (3.0 * kCarbideYoungsModulusNMm2 * 12.0);
+  EXPECT_NEAR(enduring_bend_mm(c).value() / bar, 1.0, 1e-12);
+  c.substrate = model::Substrate::kHss;
+  const double hss = 2.0 * kHssEnduranceNMm2 * 40.0 * 40.0 / (3.0 * kHssYoungsModulusNMm2 * 12.0);
+  EXPECT_NEAR(enduring_bend_mm(c).value() / hss, 1.0, 1e-12);
+}
+
+TEST(EnduringBend, IsThatOfTheWeakestPlace) {
+  model::Cutter c = end_mill();
+  c.neck_diameter_mm = 5.0;
+  c.neck_length_mm = 34.0;
+  c.holder = {{20.0, 24.0, 30.0}};
+  const double force = kCarbideEnduranceNMm2 * moment_mm4(5.0) / 2.5 / 34.0;  // at the neck's upper end
+  const double compliance = bending_mm_n(beam_of(c).value(), 0.0, 0.0);
+  EXPECT_NEAR(enduring_bend_mm(c).value(), force * compliance, 1e-12);
+}
+
+TEST(EnduringBend, OfLikeToolsIsProportionalToTheirSize) {
+  const auto of = [](double d) {
+    model::Cutter c;
+    c.cutting_diameter_mm = c.shank_diameter_mm = d;
+    c.maximum_depth_of_cut_mm = 2.0 * d;
+    c.stick_out_mm = 3.0 * d;
+    return enduring_bend_mm(c).value();
+  };
+  EXPECT_NEAR(of(10.0) / of(1.0), 10.0, 1e-9);
+  EXPECT_LT(of(1.0), 0.03);  // where 0.1 mm was allowed
+}
+
 TEST(ToolBeam, WithANeckAndAHolderIsTheIntegralAlongIt) {
   model::Cutter c = end_mill();
   c.neck_diameter_mm = 11.0;

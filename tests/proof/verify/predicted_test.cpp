@@ -343,6 +343,40 @@ TEST(PredictedBending, OfARoughingToolIsTold) {
   EXPECT_EQ(found[0].severity, Severity::kWarning);
 }
 
+TEST(PredictedBending, OfAToolThatReachesTheFinishedWallIsTold) {
+  PlanMaker k = testing::good_plan();
+  const auto* ws = k.plan.model.get<model::MachiningWorkingstep>(k.plan.steps[0].step);
+  ASSERT_NE(ws, nullptr);
+  auto* op = k.plan.model.get<model::BottomAndSideMilling>(ws->its_operation);
+  ASSERT_NE(op, nullptr);
+  op->allowance_side = 0.3;
+  k.plan.steps[0].loads.deflection_mm = 0.29;
+  EXPECT_TRUE(of(k, "CHK-BENDING").empty());
+  op->allowance_side = 0.1;
+  k.plan.steps[0].loads.deflection_mm = 0.11;
+  const auto found = of(k, "CHK-BENDING");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_THAT(found[0].message, HasSubstr("what it leaves on its walls"));
+}
+
+// Flutes of 25 mm on 10 mm of carbide: I = pi 8^4 / 64 = 201.06 mm4, so that 2000 N are 2000 * 25 * 5 / I = 1243.
+TEST(PredictedBending, ThatTiresTheToolIsTold) {
+  PlanMaker k = testing::good_plan();
+  model::Cutter& c = k.plan.cutters[0];
+  c.substrate = model::Substrate::kCarbide;
+  c.cutting_diameter_mm = 10.0;
+  c.maximum_depth_of_cut_mm = 25.0;
+  c.stick_out_mm = 40.0;
+  k.plan.steps[0].loads.deflection_mm = 0.05;
+  k.plan.steps[0].loads.peak_force_n = 1700.0;  // 1057 N/mm2 of 1000, as near as it is known
+  EXPECT_TRUE(of(k, "CHK-BENDING").empty());
+  k.plan.steps[0].loads.peak_force_n = 2000.0;
+  const auto found = of(k, "CHK-BENDING");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].severity, Severity::kWarning);
+  EXPECT_THAT(found[0].message, HasSubstr("a stress of 1243 N/mm2"));
+}
+
 // Carbide of 10 mm, 40 mm out, bent by 1 mm: 1.5 x 580000 x 10 x 1 / 40^2 = 5437 N/mm2.
 TEST(PredictedBending, ThatBreaksTheToolIsAnError) {
   PlanMaker k = testing::good_plan();

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "planner/model/plan/borne_feed.h"
+#include "planner/physics/mechanics/bending/beam.h"
 #include "planner/physics/mechanics/constants.h"
 #include "planner/physics/mechanics/stability.h"
 #include "planner/physics/mechanics/surface.h"
@@ -26,8 +28,29 @@ double axis_feed(const CutQuestion& q) {
   return std::min(a[0].feed_max_mm_min, a[1].feed_max_mm_min);
 }
 
+/// Share of the force of a true-running cutter that one with the usual runout may have at the start feed. The
+/// tooth that stands out most takes a chip that is thicker by kColletRunoutMm sin(pi / z) (as in
+/// mechanics/loads/section.h), and its force grows by Kienzle's law. That is one more factor of the margin, which
+/// knows nothing of the others: their logarithms add as squares. Thin cutters, whose feeds are of the runout's
+/// size, lose a fifth by it, others a few per cent. 1 where a runout is stated: the forces have it.
+double true_running_share(const CutQuestion& q) {
+  const double fz = largest_fz(q);
+  if (q.cutter.runout_mm > 0.0 || !(fz > 0.0)) return 1.0;
+  const double more = mechanics::kColletRunoutMm * std::sin(std::numbers::pi / std::max(2, teeth_of(q)));
+  const double grown = (1.0 - q.material.mc) * std::log1p(more / fz);
+  const mechanics::ForceMargin margin = margin_of(q);
+  const double others = std::log(margin.factor());
+  return std::exp(others - std::hypot(others, margin.deviations * grown));
+}
+
+/// The smaller of what is asked and what the tool's own material bears for its life, mm. The body of a face
+/// mill is no bar.
 double deflection_limit(const CutQuestion& q) {
-  return q.deflection_limit_mm > 0.0 ? q.deflection_limit_mm : kRoughDeflectionMm;
+  const double asked =
+      q.deflection_limit_mm > 0.0 ? q.deflection_limit_mm : std::numeric_limits<double>::infinity();
+  if (!is_milling(q.kind) || q.cutter.cutter_class == model::CutterClass::kFacemill) return asked;
+  const auto bears = mechanics::enduring_bend_mm(q.cutter, force_height_mm(q.cutter));
+  return bears ? std::min(asked, true_running_share(q) * *bears) : asked;
 }
 
 }  // namespace
@@ -133,6 +156,7 @@ FixedLimits fixed_limits(const CutQuestion& q) {
                   .efficiency = efficiency(q),
                   .largest_fz_mm = largest_fz(q),
                   .thinnest_chip_mm = thinnest_chip_mm(q),
+                  .deflection_mm = deflection_limit(q),
                   .axis_feed_mm_min = axis_feed(q),
                   .slender_depth_mm = slender_depth(q)};
   for (const model::LimitRow& r : model::kLimitRows) out.ease.at(model::index_of(r.value)) = ease_of(q, r.name);
@@ -156,7 +180,7 @@ Measures measures(const CutQuestion& q, const FixedLimits& fixed, const model::S
     }
   }
   if (mills) {
-    m[Limit::kToolDeflection] = {l.deflection_mm, deflection_limit(q)};
+    m[Limit::kToolDeflection] = {l.deflection_mm, fixed.deflection_mm};
     // A catalogue's feed is along the feed: with a lead angle its chip is thinner from the start.
     const double slot =
         q.kind == CutKind::kRough && q.slot ? deep_slot_share(ap, q.cutter.cutting_diameter_mm) : 1.0;

@@ -45,7 +45,7 @@ struct FixedLimits {
   std::optional<mechanics::SpindleCurve> curve;
   Range rpm;
   double efficiency = 1.0;
-  double largest_fz_mm = 0.0, thinnest_chip_mm = 0.0;
+  double largest_fz_mm = 0.0, thinnest_chip_mm = 0.0, deflection_mm = 0.0;
   double axis_feed_mm_min = 0.0, slender_depth_mm = 0.0;
   std::array<double, model::kLimitCount> ease{};  ///< factor of each limit
 };
@@ -61,6 +61,10 @@ struct FixedLimits {
 /// in mechanics; a left-hand cutter is the mirror image of the one that mechanics computes.
 [[nodiscard]] model::AxisForces axis_forces(const mechanics::ForceVector& f, double margin,
                                             const model::Cutter& cutter);
+
+/// Where the force acts that bends a tool, above its tip, mm: half way up the head of a T-slot cutter, which
+/// always cuts with all of it. Where it acts on others is not asked: at the tip, the safe side.
+[[nodiscard]] double force_height_mm(const model::Cutter& cutter);
 
 /// Loads of milling cuts of one question. Cuts of one depth and width share what their sections have at every
 /// feed, so that a search that moves speed and feed costs little. Not for several threads at once.

@@ -36,18 +36,18 @@ std::optional<double> wall_error(const CutQuestion& q, const mechanics::Section&
   return error->largest_mm();
 }
 
-/// How far the tip gives way by force. Where the force acts is not asked of other cutters: at the tip, the
-/// safe side. A T-slot cutter's head always cuts with all of its height, and the force acts half way up.
-std::optional<double> compliance_of(const CutQuestion& q, double ap_mm) {
-  if (q.cutter.cutter_class != model::CutterClass::kTSlotMill) {
-    const auto tip = mechanics::tip_compliance_mm_n(q.cutter);
-    return tip ? std::optional(*tip) : std::nullopt;
-  }
+/// How far the tip gives way by force, mm/N.
+std::optional<double> compliance_of(const CutQuestion& q) {
   const auto beam = mechanics::beam_of(q.cutter);
-  return beam ? std::optional(mechanics::bending_mm_n(*beam, 0.5 * ap_mm, 0.0)) : std::nullopt;
+  if (!beam) return std::nullopt;
+  return mechanics::bending_mm_n(*beam, force_height_mm(q.cutter), 0.0);
 }
 
 }  // namespace
+
+double force_height_mm(const model::Cutter& cutter) {
+  return cutter.cutter_class == model::CutterClass::kTSlotMill ? 0.5 * cutter.maximum_depth_of_cut_mm : 0.0;
+}
 
 model::AxisForces axis_forces(const mechanics::ForceVector& f, double margin, const model::Cutter& cutter) {
   const double left = cutter.hand == model::Hand::kLeft ? -1.0 : 1.0;
@@ -64,7 +64,7 @@ double power_by_card_w(const CutQuestion& q, double removal_mm3_min, double mean
   margin.spread = 1.0;
   const double h =
       std::clamp(mean_chip_mm, mechanics::kKienzleMinChipThicknessMm, mechanics::kKienzleMaxChipThicknessMm);
-  const double kc = mechanics::specific_force_n_mm2({q.material.kc11_n_mm2, q.material.mc}, h);
+  const double kc = mechanics::specific_force_n_mm2(mechanics::milled_with(q.material, q.cutter), h);
   return kc * removal_mm3_min / 60000.0 * margin.factor();  // N mm/min = 1/60000 W
 }
 
@@ -81,7 +81,7 @@ double feed_override(const CutQuestion& q) {
 MillingLoads::MillingLoads(const CutQuestion& q)
     : q_(q),
       tooth_(mechanics::tooth_of(q.cutter)),
-      law_(mechanics::force_law(q.material, q.cutter.substrate)),
+      law_(mechanics::force_law(q.material, q.cutter)),
       margin_(margin_of(q).factor()) {}
 
 std::optional<model::StepLoads> MillingLoads::at(double ap_mm, double ae_mm, double n_rpm, double fz_mm) {
@@ -90,7 +90,7 @@ std::optional<model::StepLoads> MillingLoads::at(double ap_mm, double ae_mm, dou
   const mechanics::Tooth& tooth = tooth_;
   const mechanics::ForceLaw& law = law_;
   const double margin = margin_;
-  const auto compliance = compliance_of(q, ap_mm);
+  const auto compliance = compliance_of(q);
   if (!compliance || !(ae_mm > 0.0) || !(ap_mm > 0.0)) return std::nullopt;
   if (ap_mm != ap_mm_ || ae_mm != ae_mm_) ready_ = {};
   ap_mm_ = ap_mm;

@@ -35,7 +35,7 @@ struct Lobes {
 std::optional<Lobes> lobes_of(const CutQuestion& q, double ae_mm, double fz_mm) {
   if (!has_modes(q) || !(ae_mm > 0.0) || !(fz_mm > 0.0)) return std::nullopt;
   const double d = q.cutter.cutting_diameter_mm;
-  const auto law = mechanics::force_law(q.material, q.cutter.substrate);
+  const auto law = mechanics::force_law(q.material, q.cutter);
   const auto modes = mechanics::modes_for(q.machine, q.cutter.id);
   Lobes out;
   for (const auto direction : {mechanics::CutDirection::kUp, mechanics::CutDirection::kDown}) {

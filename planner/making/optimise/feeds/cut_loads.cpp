@@ -128,11 +128,11 @@ CutLoads::CutLoads(const FeedQuestion& question, double n_rpm)
     : q_(question.cut),
       n_(std::abs(n_rpm)),
       tooth_(mechanics::tooth_of(question.cut.cutter)),
-      law_(mechanics::force_law(question.cut.material, question.cut.cutter.substrate)) {
+      law_(mechanics::force_law(question.cut.material, question.cut.cutter)) {
   margin_ = margin_of(q_).factor();
-  if (const auto c = mechanics::tip_compliance_mm_n(q_.cutter)) compliance_ = *c;
-  if (q_.wall_error_limit_mm > 0.0) {
-    if (auto beam = mechanics::beam_of(q_.cutter)) beam_ = *std::move(beam);
+  if (auto beam = mechanics::beam_of(q_.cutter)) {
+    compliance_ = mechanics::bending_mm_n(*beam, force_height_mm(q_.cutter), 0.0);
+    if (q_.wall_error_limit_mm > 0.0) beam_ = *std::move(beam);
   }
   // Limits are those of `cut`.
   const Measures m = measures(q_, {}, 0.0, n_, 0.0);

@@ -7,11 +7,14 @@
 #include "planner/ground/base/number.h"
 #include "planner/ground/vocabulary/operation.h"
 #include "planner/ground/vocabulary/thread_mill.h"
+#include "planner/making/step/path/freeform.h"
 #include "planner/making/step/record/record.h"
 #include "planner/making/toolpath/hole/hole_paths.h"
 #include "planner/making/toolpath/region/form/undercut.h"
+#include "planner/model/features/fit/general.h"
 #include "planner/model/features/raw_piece.h"
 #include "planner/model/plan/borne_feed.h"
+#include "planner/physics/mechanics/constants.h"
 #include "planner/physics/mechanics/holding_constants.h"
 #include "planner/physics/mechanics/stability.h"
 #include "tooling/selection/select.h"
@@ -28,7 +31,9 @@ using optimise::CutKind;
 
 /// Share of a tolerance zone that bending of the tool may use in finishing. Default, unsourced.
 constexpr double kDeflectionShare = 0.25;
-constexpr double kFinishDeflection = 0.02;  // mm, where no tolerance is stated; default, unsourced
+constexpr double kFinishDeflection = 0.02;  // mm, of a surface without a tolerance; default, unsourced
+/// What one wall may be off of a zone: a size in its middle has half of it on either side (derived).
+constexpr double kWallOfZone = 0.5;
 constexpr double kLeastDeflection = 0.004;  // mm; below, the model's own error rules
 /// Largest height of the terraces that roughing of a surface leaves, in diameters. Default, unsourced.
 constexpr double kTerraceShare = 0.25;
@@ -61,10 +66,47 @@ double tolerance_of(const PlanSoFar& p, const StepDraft& step, const model::Feat
   return 0.0;
 }
 
+/// Zone of a size that states no tolerance, mm: the general one of the drawing, else what a careful shop holds
+/// where a drawing says nothing, ISO 2768-1 class f; 0: it has none for this size.
+double general_zone_mm(const PlanSoFar& p, double size_mm) {
+  model::GeneralTolerance fine;
+  fine.size_class = 'f';
+  return 2.0 * model::general_size(p.demands.general.value_or(fine), size_mm).value_or(0.0);
+}
+
+/// Zone of the feature's sizes across, mm: stated, of the workpiece, or general; 0: of a surface, or none.
+double zone_across(const PlanSoFar& p, const StepDraft& step, const toolpath::PathJob& job, double width_mm) {
+  const double stated = tolerance_of(p, step, job.shape);
+  if (stated > 0.0) return stated;
+  const bool surface = p.plan.model.holds<model::FreeformOperation>(step.operation);
+  return surface || !(width_mm > 0.0) ? 0.0 : general_zone_mm(p, width_mm);
+}
+
+/// What a cut before the last may bend at its tip, mm.
+///
+/// A wall is pushed off by no more than the tip is bent. Where the step leaves an allowance, the bent cutter
+/// must not reach the finished wall, and should leave there what the next pass can cut at all, but at least half
+/// of it. Where it leaves none, its wall is the finished one: kWallOfZone.
+double rough_bending_mm(const PlanSoFar& p, const StepDraft& step, const toolpath::PathJob& job,
+                        const optimise::CutQuestion& q) {
+  if (p.plan.model.holds<model::PlaneMilling>(step.operation)) return optimise::kFaceDeflectionMm;
+  const bool surface = p.plan.model.holds<model::FreeformOperation>(step.operation);
+  const double left = surface ? freeform_allowance(p.plan.model, p.steps, step) : job.allowance_side_mm;
+  if (left > 0.0) {
+    const bool hss = q.cutter.substrate == model::Substrate::kHss;
+    const double least =
+        mechanics::least_depth_mm(q.cutter.cutting_diameter_mm, hss, q.material.iso_group);
+    return std::max(0.5 * left, left - least);
+  }
+  const double zone = zone_across(p, step, job, q.width_mm);
+  return zone > 0.0 ? std::max(kLeastDeflection, kWallOfZone * zone) : kFinishDeflection;
+}
+
 /// Sets the surface limits of a finishing step: roughness and form error. Roughing steps have none.
 ///
-/// If the wall error can be computed, it is limited to a share of the tolerance. The tip's deflection then
-/// only has to keep the cut quiet: most of it is along the wall, or occurs while no tooth touches the wall.
+/// If the wall error can be computed, it is limited to a share of the tolerance. Most of the tip's deflection is
+/// along the wall, or occurs while no tooth touches the wall: it may be as much as one wall may be off at all,
+/// so that the wall is within its tolerance even if it were pushed off by all of it.
 void hold_quality(const PlanSoFar& p, const StepDraft& step, const toolpath::PathJob& job,
                   optimise::CutQuestion& q) {
   const Model& m = p.plan.model;
@@ -78,7 +120,8 @@ void hold_quality(const PlanSoFar& p, const StepDraft& step, const toolpath::Pat
   if (q.kind != CutKind::kFinish || wall || !upright || m.holds<model::FreeformFinishMilling>(step.operation))
     return;
   q.wall_error_limit_mm = q.deflection_limit_mm;
-  q.deflection_limit_mm = std::max(q.deflection_limit_mm, mechanics::kQuietDeflectionMm);
+  q.deflection_limit_mm =
+      std::max(kWallOfZone / kDeflectionShare * q.deflection_limit_mm, mechanics::kQuietDeflectionMm);
 }
 
 /// Largest cutting force that the workholding holds, N; 0: unknown. Applies to milling cuts whose technology
@@ -174,8 +217,9 @@ void under_an_overhang(optimise::CutQuestion& q, const toolpath::PathJob& job) {
   if (!u || u->flank_rad > 0.0 || !job.left_on_side_mm) return;
   q.slot = false;
   q.ae_mm = q.width_mm = toolpath::undercut_width_mm(job, *u);
-  // Where the head moves aside, a last thin pass makes the walls: the others may bend it as roughing may.
-  if (u->widest_mm - job.allowance_side_mm - 0.5 * d > toolpath::kLastSide) q.deflection_limit_mm = 0.0;
+  // Where the head moves aside, a last thin pass makes the walls: the others may bend it within that.
+  if (u->widest_mm - job.allowance_side_mm - 0.5 * d > toolpath::kLastSide)
+    q.deflection_limit_mm = std::max(q.deflection_limit_mm, kWallOfZone * toolpath::kLastSide);
 }
 
 }  // namespace
@@ -253,16 +297,15 @@ optimise::CutQuestion question_of(const PlanSoFar& p, const StepDraft& step,
   } else if (rough && job.overlap && !step.proposed) {
     q.ae_mm = std::max(0.0, 1.0 - *job.overlap) * d;
   }
-  if (m.holds<model::PlaneMilling>(step.operation)) q.deflection_limit_mm = optimise::kFaceDeflectionMm;
+  if (q.kind == CutKind::kRough) q.deflection_limit_mm = rough_bending_mm(p, step, job, q);
   if (q.kind == CutKind::kFinish) {
     // Width: the allowance that the step before left on the walls; if unknown, the usual finishing allowance.
     q.width_mm = std::max(0.05, job.left_on_side_mm.value_or(0.5) - job.allowance_side_mm);
-    const double zone = tolerance_of(p, step, job.shape);
+    const double zone = zone_across(p, step, job, width_of(job.shape));
     q.deflection_limit_mm =
         zone > 0.0 ? std::max(kLeastDeflection, kDeflectionShare * zone) : kFinishDeflection;
-    // A semi-finishing pass may bend within its own allowance: the tolerance is for the next step.
-    if (job.allowance_side_mm > 0.0)
-      q.deflection_limit_mm = std::max(q.deflection_limit_mm, kDeflectionShare * job.allowance_side_mm);
+    // A semi-finishing pass may bend as a rough one: the tolerance is for the next step.
+    if (job.allowance_side_mm > 0.0) q.deflection_limit_mm = rough_bending_mm(p, step, job, q);
     // A semi-finishing pass of a surface may bend within the allowance it leaves.
     if (m.holds<model::FreeformFinishMilling>(step.operation) && job.allowance_bottom_mm > 0.0)
       q.deflection_limit_mm = std::max(q.deflection_limit_mm, kDeflectionShare * job.allowance_bottom_mm);

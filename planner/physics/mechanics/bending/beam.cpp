@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "planner/physics/mechanics/constants.h"
@@ -87,6 +88,30 @@ Result<ToolBeam> beam_of(const model::Cutter& c) {
 
 Result<double> tip_compliance_mm_n(const model::Cutter& cutter) {
   return beam_of(cutter).map([](const ToolBeam& beam) { return bending_mm_n(beam, 0.0, 0.0); });
+}
+
+Result<double> enduring_bend_mm(const model::Cutter& cutter, double force_mm) {
+  const double out = cutter.stick_out_mm > 0.0 ? cutter.stick_out_mm
+                                               : std::numeric_limits<double>::infinity();
+  const double endurance = cutter.substrate == model::Substrate::kCarbide ? kCarbideEnduranceNMm2
+                                                                          : kHssEnduranceNMm2;
+  return beam_of(cutter).map([&](const ToolBeam& beam) {
+    double stress_per_n = 0.0;
+    double top = 0.0;
+    // The first segment is that of the flutes.
+    double fibre = 0.5 / kFluteEquivalentDiameterRatio;
+    for (std::size_t i = 0; i + cutter.holder.size() < beam.segments.size(); ++i) {
+      const BeamSegment& s = beam.segments[i];
+      top += s.length_mm;
+      if (top > out + 1e-9) break;
+      const double moment = std::max(0.0, top - force_mm) * fibre * s.diameter_mm;
+      stress_per_n = std::max(stress_per_n, moment * s.youngs_modulus_n_mm2 / stiffness_nmm2(s));
+      fibre = 0.5;
+    }
+    const double compliance = bending_mm_n(beam, force_mm, 0.0);
+    return stress_per_n > 0.0 ? endurance * compliance / stress_per_n
+                              : std::numeric_limits<double>::infinity();
+  });
 }
 
 double bending_mm_n(const ToolBeam& beam, double force_mm, double seen_mm) {

@@ -50,12 +50,20 @@ std::string force_source(const model::WorkMaterial& material, model::Substrate s
   return "Kienzle's kc1.1 and mc of " + material.id + source;
 }
 
-ForceLaw force_law(const model::WorkMaterial& material, model::Substrate substrate) {
-  ForceLaw law{.kienzle = {material.kc11_n_mm2, material.mc}};
-  if (const model::MechanisticSet* set = measured_set(material, substrate))
+WorkMaterial milled_with(const model::WorkMaterial& material, const model::Cutter& cutter) {
+  const bool end_mill = model::has(cutter.cutter_class, model::CutterTrait::kEndMill) ||
+                        model::has(cutter.cutter_class, model::CutterTrait::kBall);
+  const bool raked = end_mill && material.iso_group != "H";
+  const double share = raked ? 1.0 - kForcePerDegreeOfRake * kEndMillRakeDeg : 1.0;
+  return {share * material.kc11_n_mm2, material.mc};
+}
+
+ForceLaw force_law(const model::WorkMaterial& material, const model::Cutter& cutter) {
+  ForceLaw law{.kienzle = milled_with(material, cutter)};
+  if (const model::MechanisticSet* set = measured_set(material, cutter.substrate))
     law.mechanistic = CuttingCoefficients{set->ktc_n_mm2, set->kte_n_mm,  set->krc_n_mm2,
                                           set->kre_n_mm,  set->kac_n_mm2, set->kae_n_mm};
-  law.uncertainty_factor = force_margin(material, substrate).spread;
+  law.uncertainty_factor = force_margin(material, cutter.substrate).spread;
   return law;
 }
 

@@ -41,9 +41,13 @@ struct MarginAsked {
 [[nodiscard]] std::string force_source(const model::WorkMaterial& material, model::Substrate substrate,
                                        bool milled);
 
-/// The measured set where there is one for this substrate, else Kienzle's law; uncertainty_factor is the
-/// margin's spread. The Kienzle values are there either way.
-[[nodiscard]] ForceLaw force_law(const model::WorkMaterial& material, model::Substrate substrate);
+/// Kienzle's coefficients of a material as they hold for milling with this cutter: less by
+/// kForcePerDegreeOfRake for each degree of its rake (kEndMillRakeDeg).
+[[nodiscard]] WorkMaterial milled_with(const model::WorkMaterial& material, const model::Cutter& cutter);
+
+/// The measured set where there is one for the cutter's substrate, else Kienzle's law; uncertainty_factor is
+/// the margin's spread. The Kienzle values (`milled_with`) are there either way.
+[[nodiscard]] ForceLaw force_law(const model::WorkMaterial& material, const model::Cutter& cutter);
 
 /// Spread: 1 + the set's own uncertainty, kForceUncertaintyFactor for a set that states none; with Kienzle's
 /// law the larger of kForceUncertaintyFactor and 1 + kc_uncertainty. Wear: kWearForceFactor. Override: forces

@@ -308,6 +308,29 @@ double bending_stress(const model::Cutter& c, double bent_mm) {
   return 1.5 * youngs_modulus(c) * c.cutting_diameter_mm * bent_mm / (c.stick_out_mm * c.stick_out_mm);
 }
 
+/// Of flutes that are loaded at their end, in their outer fibre, N/mm2; 0: their length is not known. They bend
+/// like a cylinder of kFluteEquivalentDiameterRatio of the diameter.
+double flute_stress(const model::Cutter& c, double force_n) {
+  const double lever = std::min(c.maximum_depth_of_cut_mm, c.stick_out_mm);
+  const double thick = mechanics::kFluteEquivalentDiameterRatio * c.cutting_diameter_mm;
+  const double inertia = std::numbers::pi * std::pow(thick, 4) / 64.0;
+  return lever > 0.0 ? force_n * lever * 0.5 * c.cutting_diameter_mm / inertia : 0.0;
+}
+
+double endurance(const model::Cutter& c) {
+  return c.substrate == Substrate::kCarbide ? mechanics::kCarbideEnduranceNMm2
+                                            : mechanics::kHssEnduranceNMm2;
+}
+
+/// What the operation leaves on the walls, mm; 0: nothing, or it is not one that does.
+double left_on_walls(const model::Plan& plan, const model::MachiningWorkingstep* ws) {
+  if (ws == nullptr) return 0.0;
+  if (const auto* o = plan.model.get<model::BottomAndSideMilling>(ws->its_operation))
+    return o->allowance_side.value_or(0.0);
+  if (const auto* o = plan.model.get<model::SideMilling>(ws->its_operation)) return o->allowance_side.value_or(0.0);
+  return 0.0;
+}
+
 void judge_bending(const model::Plan& plan, const PartShapes& part, const StepMoves& s, Findings& findings) {
   const model::StepLoads& l = s.planned->loads;
   const model::Cutter& c = *s.cutter;
@@ -345,12 +368,24 @@ void judge_bending(const model::Plan& plan, const PartShapes& part, const StepMo
                     wall);
     return;
   }
-  // What no tolerance judges is held against what roughing may bend.
+  // What no tolerance judges is held against what the step leaves on its walls: bent by more, a tool reaches the
+  // finished wall. And a tool that bends by less than that may still be bent too often.
   const double bent = std::max(l.deflection_mm, wall);
-  if (stress > kBreakingNMm2 || !mills || bent <= kMeasured * kMostBentMm) return;
-  findings.warn(21, "CHK-BENDING", at,
-                "tool " + c.id + " bends by " + mm(bent) + load + "; at most " + mm(kMostBentMm) + stiffer,
-                bent);
+  if (stress > kBreakingNMm2 || !mills) return;
+  const double left = left_on_walls(plan, ws);
+  const double most = left > 0.0 ? left : kMeasured * kMostBentMm;
+  const double tires = flute_stress(c, l.peak_force_n);
+  if (bent > most)
+    findings.warn(21, "CHK-BENDING", at,
+                  "tool " + c.id + " bends by " + mm(bent) + load + "; at most " +
+                      mm(left > 0.0 ? left : kMostBentMm) + (left > 0.0 ? ", what it leaves on its walls" : "") +
+                      stiffer,
+                  bent);
+  else if (tires > kMeasured * endurance(c))
+    findings.warn(21, "CHK-BENDING", at,
+                  "the flutes of tool " + c.id + " bear a stress of " + trimmed(tires, 0) + " N/mm2" + load +
+                      "; for all the bites of its life they bear " + trimmed(endurance(c), 0) + stiffer,
+                  tires);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "planner/making/optimise/cut.h"
+#include "planner/physics/mechanics/bending/beam.h"
 #include "planner/physics/mechanics/constants.h"
 #include "planner/physics/mechanics/force/drilling.h"
 #include "planner/physics/mechanics/force/force_law.h"
@@ -125,7 +126,7 @@ void expect_kept(const CutQuestion& q, const CutAnswer& a, int number) {
     EXPECT_LE(a.ap_mm, c.maximum_depth_of_cut_mm * kHair);
     EXPECT_LE(a.ae_mm, c.cutting_diameter_mm * kHair);
     mechanics::Tooth tooth = mechanics::tooth_of(c);
-    const auto law = mechanics::force_law(q.material, c.substrate);
+    const auto law = mechanics::force_law(q.material, c);
     for (const auto side : {mechanics::CutDirection::kUp, mechanics::CutDirection::kDown}) {
       // A flat cutter's arc is known; a corner or ball has to remove what the cut removes.
       mechanics::Section section{.ap_mm = a.ap_mm,
@@ -151,8 +152,13 @@ void expect_kept(const CutQuestion& q, const CutAnswer& a, int number) {
     force *= margin;
     const double planned = c.fz_max_mm > 0.0 ? std::min(q.fz_start_mm, c.fz_max_mm / up) : q.fz_start_mm;
     EXPECT_LE(chip, planned * kHair);
-    EXPECT_LE(a.loads.deflection_mm,
-              (q.deflection_limit_mm > 0.0 ? q.deflection_limit_mm : kRoughDeflectionMm) * kHair);
+    if (q.deflection_limit_mm > 0.0) {
+      EXPECT_LE(a.loads.deflection_mm, q.deflection_limit_mm * kHair);
+    }
+    if (const auto bears = mechanics::enduring_bend_mm(c);
+        bears && c.cutter_class != model::CutterClass::kFacemill) {
+      EXPECT_LE(a.loads.deflection_mm, *bears * kHair);
+    }
     EXPECT_NEAR(a.loads.peak_force_n, force, 1e-9 * force);
     if (q.surface_ra_um > 0.0) {
       EXPECT_LE(1.24 * 256.6 * fz * fz / (4.0 * c.cutting_diameter_mm), q.surface_ra_um * 1.001);

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace capstan::validation {
+
+/// What of a table's power ours may be off by.
+inline constexpr double kPowerBound = 0.25;
+
+/// One cut by a published table of milling power and by ours, kW at the tool.
+struct PowerRow {
+  std::string source, material, row;
+  double fz_mm = 0.0, table_kw = 0.0, ours_kw = 0.0;
+  [[nodiscard]] double ratio() const { return ours_kw / table_kw; }
+};
+[[nodiscard]] std::vector<PowerRow> power_rows();
+
+}  // namespace capstan::validation
