@@ -187,6 +187,8 @@ std::vector<CutSample> samples_of(const engagement::Measurement& m, const model:
       entry = std::min(entry, m.engagement[i - 1].entry_rad);
       exit = std::max(exit, m.engagement[i - 1].exit_rad);
     }
+    const double before = follows ? m.engagement[i - 1].chip_over_feed : 0.0;
+    const double chip = e.chip_over_feed > 0.0 ? std::max(e.chip_over_feed, before) : 0.0;
     add({.move = s.move[i],
          .ap_mm = e.ap_mm,
          .ae_mm = e.ae_mm,
@@ -196,7 +198,8 @@ std::vector<CutSample> samples_of(const engagement::Measurement& m, const model:
          .entry_rad = entry,
          .exit_rad = exit,
          .csa_mm2 = e.csa_mm2,
-         .top_mm = s.y_max_ofs_mm[i] + 0.5 * s.ad_max_mm[i]},
+         .top_mm = s.y_max_ofs_mm[i] + 0.5 * s.ad_max_mm[i],
+         .chip_over_feed = chip},
         path, cutter, out);
   }
   return out;
