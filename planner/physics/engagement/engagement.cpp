@@ -161,7 +161,8 @@ class Measurer {
     const Vec3 feed = (1.0 / norm(to - from)) * (to - from);
     const double found = std::max(chip_over_feed(map_, *nose_, 0.5 * (from + to), feed),
                                   chip_over_feed(map_, *nose_, to, feed));
-    return std::min(1.0, found + map_.cell_mm / nose_->round_mm);
+    constexpr double kDoubt = 1.1;  // of a cell: rows lie beside the way, heights are rounded
+    return std::min(1.0, found + kDoubt * map_.cell_mm / nose_->round_mm);
   }
 
   /// One sample without contact after the last with it.

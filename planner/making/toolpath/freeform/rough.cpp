@@ -464,7 +464,9 @@ class Rougher {
     }
     const double z = std::min(task_.security_z_mm, std::max(material, p.z) + task_.clearance_mm);
     if (z < task_.security_z_mm) out_.path.rapid({p.x, p.y, z}, MoveRole::kApproach);
-    line(p, in_air(xy(p), p.z) ? MoveRole::kApproach : MoveRole::kPlunge);
+    // Beside the piece nothing is near; on what this level has cleared the tip comes to stand on material.
+    constexpr double kNearMm = 0.1;
+    line(p, in_air(xy(p), p.z - kNearMm) ? MoveRole::kApproach : MoveRole::kPlunge);
   }
 
   void lift() {
