@@ -136,7 +136,7 @@ class Measurer {
       Tally tally;
       turn_to(to - from);
       const bool plunge = !arc && norm(xy(to) - xy(from)) < 1e-9;
-      const double chip = arc || plunge ? 0.0 : thickest_chip(from, to);
+      const double chip = arc || plunge ? 0.0 : thickest_chip(from, to, ceiling);
       stock::sweep(map_, profile_,
                    {.from = from,
                     .to = to,
@@ -156,11 +156,11 @@ class Measurer {
   }
 
   /// Of a step about to be swept, over the feed per tooth: the larger of its middle and its end.
-  [[nodiscard]] double thickest_chip(Vec3 from, Vec3 to) const {
+  [[nodiscard]] double thickest_chip(Vec3 from, Vec3 to, double ceiling) const {
     if (!nose_) return 0.0;
     const Vec3 feed = (1.0 / norm(to - from)) * (to - from);
-    const double found = std::max(chip_over_feed(map_, *nose_, 0.5 * (from + to), feed),
-                                  chip_over_feed(map_, *nose_, to, feed));
+    const double found = std::max(chip_over_feed(map_, *nose_, 0.5 * (from + to), feed, ceiling),
+                                  chip_over_feed(map_, *nose_, to, feed, ceiling));
     constexpr double kDoubt = 1.1;  // of a cell: rows lie beside the way, heights are rounded
     return std::min(1.0, found + kDoubt * map_.cell_mm / nose_->round_mm);
   }

@@ -30,17 +30,31 @@ std::optional<RoundNose> round_nose(const geometry::CutterProfile& profile) {
 }
 
 double chip_over_feed(const stock::HeightMap& map, const RoundNose& nose, geometry::Vec3 tip,
-                      geometry::Vec3 feed) {
-  const double r = nose.cutter_mm;
+                      geometry::Vec3 feed, double ceiling_mm) {
+  const double round = nose.round_mm;
+  // What is no higher than the ceiling lies within the outline's radius there.
+  const double up = std::clamp(ceiling_mm - tip.z, 0.0, round);
+  const double r = nose.centre_mm + std::sqrt(up * (2.0 * round - up));
+  // A cell counts where (x, y) . feed > R f_z cos k: ahead of the axis, down hill also so far behind it.
+  const double behind = std::min(0.0, nose.cutter_mm * feed.z);
   const Cells rows = cells_in(tip.y - r, tip.y + r, map.origin.y, map.cell_mm, map.ny);
   // Heights above the map's floor, less the tip's: what stands over the cutter's plane there.
   const double floor = tip.z - map.origin.z + kSlack;
-  const double round = nose.round_mm;
   double most = 0.0;
   for (int iy = rows.first; iy <= rows.last; ++iy) {
     const double y = map.y_of(iy) - tip.y;
     const double half = std::sqrt(std::max(0.0, r * r - y * y));
-    const Cells columns = cells_in(tip.x - half, tip.x + half, map.origin.x, map.cell_mm, map.nx);
+    double from = -half, to = half;
+    const double counts = behind - y * feed.y;  // x feed.x is more
+    if (feed.x > 0.0) {
+      from = std::max(from, counts / feed.x);
+    } else if (feed.x < 0.0) {
+      to = std::min(to, counts / feed.x);
+    } else if (counts >= 0.0) {
+      continue;
+    }
+    if (from > to) continue;
+    const Cells columns = cells_in(tip.x + from, tip.x + to, map.origin.x, map.cell_mm, map.nx);
     const float* top = map.top.data() + map.index(0, iy);
     for (int ix = columns.first; ix <= columns.last; ++ix) {
       const double stands = static_cast<double>(top[ix]) - floor;
