@@ -112,6 +112,12 @@ double milling_s(const Cutter& c, const StartValues& s, const WorkMaterial& w, c
   return 60.0 * volume / (ap * ae * feed);
 }
 
+/// Parallel passes of a ball over a surface, as far apart as their ridges allow on a level one.
+double passes_s(const Cutter& c, const StartValues& s, const Preferences& p) {
+  const double d = c.cutting_diameter_mm, h = std::min(p.ridges_mm, 0.5 * d);
+  return 60.0 * p.passes_mm2 / (2.0 * std::sqrt(h * (d - h)) * s.feed_mm_min);
+}
+
 double axial_s(const Cutter& c, const ToolRequirement& r, const StartValues& s, const WorkMaterial& w,
                const Machine& m, const Preferences& p, std::string& limited) {
   double length = p.depth_mm > 0.0 ? p.depth_mm : r.depth_of_cut_mm;
@@ -148,7 +154,9 @@ Estimate estimate(const Cutter& c, const ToolRequirement& r, const StartValues& 
                   const Machine& m, const Preferences& p) {
   Estimate out;
   if (c.cutter_class == CutterClass::kTouchProbe || !(s.feed_mm_min > 0.0)) return out;
-  out.cutting_s = model::has(c.cutter_class, model::CutterTrait::kAlongAxis)
+  const bool passes = p.passes_mm2 > 0.0 && p.ridges_mm > 0.0 && c.cutter_class == CutterClass::kBallEndmill;
+  out.cutting_s = passes ? passes_s(c, s, p)
+                  : model::has(c.cutter_class, model::CutterTrait::kAlongAxis)
                       ? axial_s(c, r, s, w, m, p, out.limited_by)
                       : milling_s(c, s, w, m, p, out.limited_by);
   out.cutting_s *= std::max(1, p.places);

@@ -51,6 +51,8 @@ struct Preferences {
   double volume_mm3 = 0.0;         ///< milling: what is to be removed
   double depth_mm = 0.0;           ///< along the axis, in all
   double width_mm = 0.0;           ///< across the feed, at most
+  double passes_mm2 = 0.0;         ///< balls: the surface that parallel passes cover, as seen from above
+  double ridges_mm = 0.0;          ///< with it: height of what stays between two passes
   double pre_hole_mm = 0.0;        ///< drilling, tapping: the hole that is there
   int places = 1;                  ///< members of a pattern made with it
   int batch = 1;                   ///< pieces that loading is shared by

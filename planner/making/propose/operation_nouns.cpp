@@ -6,6 +6,7 @@
 
 #include "planner/ground/base/number.h"
 #include "planner/making/piece/surroundings.h"
+#include "planner/making/step/cut/preferences.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/nouns/arena/walk.h"
 #include "tooling/library/nouns/nouns.h"
@@ -117,13 +118,10 @@ void fill_milling(Model& m, AnyRef op, const model::ProposedStep& step) {
   }
 }
 
-/// Parallel passes at the usual tolerances; a step with an allowance uses a quarter of it. Defaults,
-/// unsourced.
+/// Parallel passes at the usual tolerances.
 Ref<model::FreeformStrategy> passes(Model& m, const model::ProposedStep& step) {
   model::Tolerances t;
-  constexpr double kFine = 0.01, kShareOfLeft = 0.25;
-  const bool semi = model::is_a(step.operation, model::TypeId::kFreeformFinishMilling);
-  const double within = semi ? std::max(kFine, kShareOfLeft * step.allowance_side_mm) : kFine;
+  const double within = step::freeform_ridges_mm(step);
   t.chordal_tolerance = within;
   t.scallop_height = within;
   model::Direction across;

@@ -113,6 +113,16 @@ std::pair<double, double> mean_extents(const model::SectionSeries& s) {
   return all > 0.0 ? std::pair(ad / all, rd / all) : std::pair(0.0, 0.0);
 }
 
+/// The thickest chip over the feed of a sample and of its neighbours: cells tell of what a cutter meets next
+/// up to a step late.
+double chip_about(const engagement::Measurement& m, std::size_t i) {
+  double most = m.engagement[i].chip_over_feed;
+  if (!(most > 0.0)) return 0.0;
+  if (i > 0) most = std::max(most, m.engagement[i - 1].chip_over_feed);
+  if (i + 1 < m.engagement.size()) most = std::max(most, m.engagement[i + 1].chip_over_feed);
+  return most;
+}
+
 }  // namespace
 
 std::optional<std::string> impossible(const model::SectionSeries& s, const model::CutterPath& path,
@@ -196,7 +206,8 @@ std::vector<CutSample> samples_of(const engagement::Measurement& m, const model:
          .entry_rad = entry,
          .exit_rad = exit,
          .csa_mm2 = e.csa_mm2,
-         .top_mm = s.y_max_ofs_mm[i] + 0.5 * s.ad_max_mm[i]},
+         .top_mm = s.y_max_ofs_mm[i] + 0.5 * s.ad_max_mm[i],
+         .chip_over_feed = chip_about(m, i)},
         path, cutter, out);
   }
   return out;

@@ -8,6 +8,7 @@
 
 #include "planner/ground/base/number.h"
 #include "planner/ground/vocabulary/thread_mill.h"
+#include "planner/physics/engagement/front.h"
 #include "planner/physics/stock/sweep.h"
 
 // Cross sections on a height map, measured by volume. A move is divided into steps. `stock::sweep` lowers the
@@ -84,7 +85,7 @@ Band band_over(const CutterPath& path, std::size_t i, double r) {
 class Measurer {
  public:
   Measurer(const CutterPath& path, geometry::CutterProfile profile, stock::HeightMap& map, double step)
-      : path_(path), profile_(std::move(profile)), map_(map), step_(step) {}
+      : path_(path), profile_(std::move(profile)), nose_(round_nose(profile_)), map_(map), step_(step) {}
 
   Measurement run() {
     for (std::size_t i = 0; i < path_.size(); ++i) move(i);
@@ -134,6 +135,8 @@ class Measurer {
       const Vec3 to = k == n ? path_.point(i) : model::point_on_move(path_, i, static_cast<double>(k) / n);
       Tally tally;
       turn_to(to - from);
+      const bool plunge = !arc && norm(xy(to) - xy(from)) < 1e-9;
+      const double chip = arc || plunge ? 0.0 : thickest_chip(from, to, ceiling);
       stock::sweep(map_, profile_,
                    {.from = from,
                     .to = to,
@@ -142,15 +145,24 @@ class Measurer {
                     .clockwise = path_.kind[i] == MoveKind::kArcCw,
                     .ceiling_mm = ceiling},
                    true, heading_, tally);
-      const bool plunge = !arc && norm(xy(to) - xy(from)) < 1e-9;
       const double at = length * k / n;
       if (tally.removed_mm3 > 0.0) {
-        add(i, at, length / n, plunge, std::min(from.z, to.z) - map_.origin.z, tally);
+        add(i, at, length / n, plunge, std::min(from.z, to.z) - map_.origin.z, chip, tally);
       } else {
         close(i, at);
       }
       from = to;
     }
+  }
+
+  /// Of a step about to be swept, over the feed per tooth: the larger of its middle and its end.
+  [[nodiscard]] double thickest_chip(Vec3 from, Vec3 to, double ceiling) const {
+    if (!nose_) return 0.0;
+    const Vec3 feed = (1.0 / norm(to - from)) * (to - from);
+    const double found = std::max(chip_over_feed(map_, *nose_, 0.5 * (from + to), feed, ceiling),
+                                  chip_over_feed(map_, *nose_, to, feed, ceiling));
+    constexpr double kDoubt = 1.1;  // of a cell: rows lie beside the way, heights are rounded
+    return std::min(1.0, found + kDoubt * map_.cell_mm / nose_->round_mm);
   }
 
   /// One sample without contact after the last with it.
@@ -159,7 +171,7 @@ class Measurer {
     push(i, at, {}, {}, 0.0, 0.0, {});
   }
 
-  void add(std::size_t i, double at, double step, bool plunge, double tip, const Tally& t) {
+  void add(std::size_t i, double at, double step, bool plunge, double tip, double chip, const Tally& t) {
     const double csa = t.removed_mm3 / step;
     const Extent axial = axial_extent(t, tip);
     double highest = 0.0;  // above the tip
@@ -175,7 +187,8 @@ class Measurer {
                  .csa_mm2 = csa,
                  .removed_mm3 = t.removed_mm3,
                  .step_mm = step,
-                 .plunge = plunge};
+                 .plunge = plunge,
+                 .chip_over_feed = chip};
     if (plunge) {
       e.exit_rad = 2.0 * std::numbers::pi;
     } else {
@@ -241,6 +254,7 @@ class Measurer {
 
   const CutterPath& path_;
   geometry::CutterProfile profile_;
+  std::optional<RoundNose> nose_;
   stock::HeightMap& map_;
   double step_;
   Vec2 heading_{1.0, 0.0};

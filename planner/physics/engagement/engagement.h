@@ -23,6 +23,9 @@ struct Engagement {
   double removed_mm3 = 0.0;
   double step_mm = 0.0;  ///< length of path that the sample represents, up to its point
   bool plunge = false;   ///< the move goes straight along the axis
+  /// Of a ball or bull nose on a straight move: its thickest chip over the feed per tooth (front.h), a cell's
+  /// doubt included; 0: not measured.
+  double chip_over_feed = 0.0;
   friend bool operator==(const Engagement&, const Engagement&) = default;
 };
 

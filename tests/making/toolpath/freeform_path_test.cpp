@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <memory>
 #include <numbers>
 #include <random>
 
@@ -263,10 +264,12 @@ TEST(Rough, EntersOnlyByWaysTheCutterKnows) {
   const Mesh mesh = surface(60, 50.0, waves);
   FreeformJob task = job_on(mesh, cutter(CutterClass::kEndmill, 8.0, 0.0));
   task.allowance_mm = 0.3;
+  auto map = stock::from_box({{-20, -20, -20}, {70, 70, 0}}, 0.25);  // no way in from beside
+  const stock::HeightMap whole = map;
+  task.stock = &whole;
   Job job;
   const auto out = rough(task, job);
   ASSERT_TRUE(out);
-  auto map = stock::from_box({{0, 0, -20}, {50, 50, 0}}, 0.25);
   const auto profile = model::profile_of(task.cutter);
   int ramps = 0;
   for (std::size_t i = 1; i < out->path.size(); ++i) {
@@ -334,6 +337,54 @@ TEST(Rough, ComesInFromTheSideWhereTheAreaReachesBeyondTheStock) {
   EXPECT_EQ(job.count(Severity::kWarning), 0U);
   EXPECT_GE(clearance(mesh, task.cutter, out->path, 0.2).least, 0.0);
   expect_safe_rapids(out->path, task);
+}
+
+TEST(Rough, ComesInFromBesideWhereTheSurfaceEndsWithTheStock) {
+  const Mesh mesh = surface(20, 50.0, [](double x, double) { return -2.0 - 0.12 * x; });
+  FreeformJob task = job_on(mesh, cutter(CutterClass::kBullnoseEndmill, 8.0, 1.0));
+  task.allowance_mm = 0.3;
+  task.feed_angle_rad = 0.0;
+  const auto ramps = [&](const stock::HeightMap& stock) {
+    task.stock = &stock;
+    Job job;
+    const auto out = rough(task, job);
+    EXPECT_TRUE(out.has_value());
+    int n = 0;
+    for (const MoveRole r : out->path.role) n += r == MoveRole::kRamp;
+    EXPECT_GE(clearance(mesh, task.cutter, out->path, 0.3).least, 0.0);
+    return n;
+  };
+  const auto alike = stock::from_box({{0, 0, -20}, {50, 50, 0}}, 0.25);
+  EXPECT_EQ(ramps(alike), 0);
+  expect_safe_rapids(rough(task, *std::make_unique<Job>())->path, task);
+  // Beside the surface stands what must stay: no way in through it.
+  const auto wider = stock::from_box({{-20, -20, -20}, {70, 70, 0}}, 0.25);
+  EXPECT_GT(ramps(wider), 0);
+}
+
+TEST(Finish, ReachesTheRimOfASurfaceThatRisesInwards) {
+  // A roof: both sides rise to the middle, at 35 degrees.
+  const double rise = std::tan(35.0 * std::numbers::pi / 180.0);
+  const auto roof = [&](double x, double) { return -18.0 + rise * std::min(x, 50.0 - x); };
+  const Mesh mesh = surface(50, 50.0, roof);
+  for (const double angle : {0.0, 0.5 * std::numbers::pi}) {
+    FreeformJob task = job_on(mesh, cutter(CutterClass::kBallEndmill, 10.0, 5.0));
+    task.feed_angle_rad = angle;
+    task.stepover_mm = 0.5;
+    Job job;
+    const auto out = finish(task, job);
+    ASSERT_TRUE(out) << out.error().message;
+    EXPECT_GE(clearance(mesh, task.cutter, out->path, 0.0).least, 0.0);
+    auto map = stock::from_box({{0, 0, -20}, {50, 50, 0}}, 0.1);
+    stock::cut(map, model::profile_of(task.cutter), out->path);
+    // Ridges of half a millimetre's step on this slope, and the tolerance.
+    const double allowed = (0.5 * 0.5 / (8.0 * 5.0) / std::pow(std::cos(std::atan(rise)), 2.0) + 0.01 + 0.005) /
+                           std::cos(std::atan(rise));
+    for (double y = 2.0; y < 48.0; y += 1.0) {
+      for (const double x : {0.15, 49.85})
+        EXPECT_LE(stock::height_at(map, {x, y}) - roof(x, y), allowed + 0.1 * rise) << x << ' ' << y;
+    }
+  }
 }
 
 TEST(Paths, DoNotDependOnTheNumberOfThreads) {

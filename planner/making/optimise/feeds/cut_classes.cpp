@@ -79,7 +79,8 @@ CutClass& CutClasses::class_of(const Cut& cut, double n_rpm) {
   const long gain = static_cast<long>(std::ceil(std::log(std::max(cut.gain, 1.0)) / kGainStep - 1e-9));
   const long band =
       cut.band_mm > 0.0 ? static_cast<long>(std::ceil(std::log(cut.band_mm) / kDepthStep - 1e-9)) : kNoArea;
-  const long front = static_cast<long>(std::ceil(cut.front_sin / kFrontStep - 1e-9));
+  const long share = static_cast<long>(std::ceil(cut.front_sin / kFrontStep - 1e-9));
+  const long front = cut.chip_measured ? -share : share;
   const Key key{n_rpm, depth, sweep_class, entry_class, area, gain, band, front};
   if (last_ != nullptr && key == last_key_) return *last_;
   auto it = classes_.find(key);
@@ -89,7 +90,8 @@ CutClass& CutClasses::class_of(const Cut& cut, double n_rpm) {
     if (area != kNoArea) p.cut.csa_mm2 = std::exp(kDepthStep * static_cast<double>(area));
     if (band != kNoArea) p.cut.band_mm = std::exp(kDepthStep * static_cast<double>(band));
     p.gain = std::exp(kGainStep * static_cast<double>(gain));
-    p.cut.front_sin = std::min(1.0, kFrontStep * static_cast<double>(front));
+    p.cut.front_sin = std::min(1.0, kFrontStep * static_cast<double>(share));
+    p.cut.chip_measured = cut.chip_measured;
     p.cut.entry_rad = std::min(static_cast<double>(entry_class) * entry_step, cut.entry_rad);
     p.cut.exit_rad = std::min(p.cut.entry_rad + swept, std::max(pi, cut.exit_rad));
     fill(p, loads(n_rpm));

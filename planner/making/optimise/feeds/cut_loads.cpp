@@ -94,6 +94,10 @@ Cuts cuts_of(const CutSample& sample, const CutQuestion& question) {
                          : trimmed_arc(ap, ae, s, diameter);
     c.csa_mm2 = area;
     c.front_sin = front_of(s) * kappa_sin;
+    if (s.chip_over_feed > 0.0) {
+      c.front_sin = s.chip_over_feed;
+      c.chip_measured = true;
+    }
     const double strip = width_of(c.entry_rad, c.exit_rad, diameter);
     if (area >= kWholeSection * ap * strip) {
       out.cut[out.n++] = c;
@@ -215,8 +219,14 @@ std::optional<State> CutLoads::at(const ReadyCut& made, double feed) const {
   const auto l = made.loads.at(fz, n_);
   if (!l) return std::nullopt;
   double chip = l->h_max_mm;
-  // How the area lies in the strip is not known: the chip is that of the front, wherever the arc has it.
-  if (made.strip) chip = std::max(chip, made.strip->thickest_chip_mm(fz));
+  if (cut.chip_measured) {
+    // A longer tooth takes what the others leave, at most all of it (mechanics/loads/section.h).
+    const double longer = tooth_.runout_mm * std::sin(pi / tooth_.teeth);
+    chip = std::min(fz * cut.front_sin + longer, fz * cut.front_sin * tooth_.teeth);
+  } else if (made.strip) {
+    // How the area lies in the strip is not known: the chip is that of the front, wherever the arc has it.
+    chip = std::max(chip, made.strip->thickest_chip_mm(fz));
+  }
   // The area of a section that is no rectangle may lie anywhere in its arc: a rib stands in front.
   chip =
       std::max(chip, fz * cut.front_sin * std::cos(tooth_.lead_angle_rad) * std::cos(tooth_.taper_angle_rad));

@@ -36,6 +36,8 @@ struct Cut {
   /// Sine of the measured arc where it is nearest to the front. Wherever the area lies in the arc, no chip is
   /// thicker than this share of the feed per tooth. 0: use the arc of contact of this cut.
   double front_sin = 0.0;
+  /// front_sin is the thickest chip over the feed as it was measured, and no chip is thicker.
+  bool chip_measured = false;
 };
 
 /// One or two: a section that is no rectangle (a wall and a floor at once) counts as two of its area, as deep

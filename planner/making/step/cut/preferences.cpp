@@ -24,6 +24,16 @@ double perimeter(const geometry::Region& area) {
   return out;
 }
 
+/// Area of what faces upwards, projected.
+double seen_from_above_mm2(const geometry::Mesh& mesh) {
+  double out = 0.0;
+  for (const auto& t : mesh.triangles) {
+    const geometry::Vec3 a = mesh.vertices[t[0]];
+    out += std::max(0.0, 0.5 * cross(mesh.vertices[t[1]] - a, mesh.vertices[t[2]] - a).z);
+  }
+  return out;
+}
+
 }  // namespace
 
 tooling::Preferences preferences_of(const piece::Piece& piece, int batch, const model::ProposedStep& step,
@@ -42,6 +52,11 @@ tooling::Preferences preferences_of(const piece::Piece& piece, int batch, const 
     p.volume_mm3 = geometry::area(s.area) * p.depth_mm;
     return p;
   }
+  if (model::is_a(step.operation, TypeId::kFreeformFinishMilling) && s.kind == ShapeKind::kFreeform &&
+      piece.plan.target_mesh) {
+    p.passes_mm2 = seen_from_above_mm2(*piece.plan.target_mesh);
+    p.ridges_mm = freeform_ridges_mm(step);
+  }
   if (model::has(step.operation, model::OperationTrait::kFinishes)) {  // planes have returned
     p.width_mm = kLeftOnWalls;
     p.depth_mm = depth;
@@ -58,6 +73,12 @@ tooling::Preferences preferences_of(const piece::Piece& piece, int batch, const 
     p.volume_mm3 = kQuarterPi * std::max(0.0, d * d - hole * hole) * depth;
   }
   return p;
+}
+
+double freeform_ridges_mm(const model::ProposedStep& step) {
+  constexpr double kFine = 0.01, kShareOfLeft = 0.25;
+  const bool semi = model::is_a(step.operation, TypeId::kFreeformFinishMilling);
+  return semi ? std::max(kFine, kShareOfLeft * step.allowance_side_mm) : kFine;
 }
 
 }  // namespace capstan::step

@@ -5,6 +5,7 @@
 #include "planner/ground/base/number.h"
 #include "planner/making/toolpath/freeform/freeform.h"
 #include "planner/making/toolpath/freeform/hatch.h"
+#include "planner/making/toolpath/freeform/rim.h"
 #include "planner/making/toolpath/freeform/surface_line.h"
 #include "planner/making/toolpath/freeform/task.h"
 
@@ -71,7 +72,7 @@ class Finisher {
     if (job_.stop_requested()) return fail("FRF-STOPPED", "the finish path was stopped before it was whole");
     for (std::size_t i = 0; i < found.size(); ++i) {
       job_.progress("freeform finish", static_cast<double>(i) / static_cast<double>(found.size()));
-      const bool back = task_.to_and_fro && hatch_.stripes[i].line % 2 == 1;
+      const bool back = task_.to_and_fro && hatch_.stripes[i].line % 2 != 0;
       if (back) std::reverse(found[i].begin(), found[i].end());
       for (Run& r : found[i]) {
         if (back) std::reverse(r.begin(), r.end());
@@ -151,6 +152,8 @@ Result<FreeformPath> finish(const FreeformJob& task, Job& job) {
   // A step to the next pass is shorter than what is kept out of is wide.
   Hatch lines =
       hatch(geometry::subtract(area_of(task, drop), kept_out(task, *cutter)), task.feed_angle_rad, stepover);
+  // What is kept out of may lie beyond the rim.
+  if (task.area.empty() && task.avoid.empty()) lines = beyond_rim(lines, drop, *cutter, task.allowance_mm);
   if (task.scallop_mm > 0.0) warn_of_ridges(task, cutter->ball_mm, lines, job);
   return Finisher(task, drop, *cutter, std::move(lines), job).run();
 }

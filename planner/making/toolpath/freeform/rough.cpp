@@ -55,6 +55,7 @@ class Rougher {
     spacing_ =
         std::min(probe_spacing(cutter.ball_mm + task.allowance_mm, margin_), kProbedShare * cutter.radius());
     floor_ = std::max(task.bottom_z_mm, rest_.origin.z);
+    ends_alike_ = stock_ends_with(drop.bounds());
   }
 
   Result<FreeformPath> run(const geometry::Region& area) {
@@ -134,10 +135,18 @@ class Rougher {
     return stock::from_box(box, stock::cell_for(task.cutter.cutting_diameter_mm, box, 40.0));
   }
 
+  /// Whether the material ends where the surface does: then beside both is nothing that must stay.
+  [[nodiscard]] bool stock_ends_with(const geometry::Box3& surface) const {
+    const double within = 1.5 * rest_.cell_mm;  // the map's last cells are cut through
+    return rest_.origin.x > surface.lo.x - within && rest_.origin.y > surface.lo.y - within &&
+           rest_.origin.x + rest_.nx * rest_.cell_mm < surface.hi.x + within &&
+           rest_.origin.y + rest_.ny * rest_.cell_mm < surface.hi.y + within;
+  }
+
   [[nodiscard]] double reach_down(Vec2 p, std::uint32_t& hint, double share = 1.0) const {
     if (!kept_out_.empty() && geometry::contains(kept_out_, p)) return kBlocked;
     const double z = drop_.drop(cutter_, p.x, p.y, task_.allowance_mm + share * margin_, hint);
-    if (z == DropCutter::kNoContact) return task_.beside_is_free ? floor_ : kBlocked;
+    if (z == DropCutter::kNoContact) return task_.beside_is_free || ends_alike_ ? floor_ : kBlocked;
     return std::max(z, floor_);
   }
 
@@ -375,7 +384,8 @@ class Rougher {
     if (linked) {
       line(at(from, v, z), MoveRole::kCut);
     } else {
-      if (in_air(to, v, z) && !in_air(from, v, z)) std::swap(from, to);
+      const auto open = [&](double u, double far) { return in_air(u, v, z) || air_before(u, far, v, z); };
+      if (open(to, from) && !open(from, to)) std::swap(from, to);
       if (!enter(from, to, v, z)) {
         ++skipped_;
         skipped_mm_ += std::abs(to - from);
@@ -404,6 +414,11 @@ class Rougher {
       come_down(at(u, v, z), z);
       return true;
     }
+    if (const auto beside = air_before(u, far, v, z)) {
+      come_down(at(*beside, v, z), z);
+      line(at(u, v, z), MoveRole::kCut);
+      return true;
+    }
     const double leg = std::min(std::abs(far - u), 4.0 * radius);
     const double end = u + (far > u ? leg : -leg);
     const double top = stock::max_height(rest_, hatch_.place(u, v), hatch_.place(end, v), radius);
@@ -416,6 +431,19 @@ class Rougher {
     if (!task_.cutter.centre_cutting) return false;
     come_down(at(u, v, z), stock::max_height(rest_, hatch_.place(u, v), radius));
     return true;
+  }
+
+  /// The nearest place in air, within a diameter and a half before a pass from u to `far`, that has a free way
+  /// to its beginning: beside the piece, or where this level is cleared.
+  [[nodiscard]] std::optional<double> air_before(double u, double far, double v, double z) const {
+    constexpr int kPlaces = 24;
+    const double step = 3.0 * cutter_.radius() / kPlaces * (far > u ? -1.0 : 1.0);
+    const Vec2 begin = hatch_.place(u, v);
+    for (int k = 1; k <= kPlaces; ++k) {
+      const Vec2 p = hatch_.place(u + k * step, v);
+      if (in_air(p, z)) return is_free(p, begin, z) ? std::optional(u + k * step) : std::nullopt;
+    }
+    return std::nullopt;
   }
 
   bool ramp(double u, double end, double v, double top, double z, int turns) {
@@ -439,6 +467,9 @@ class Rougher {
     }
     const double z = std::min(task_.security_z_mm, std::max(material, p.z) + task_.clearance_mm);
     if (z < task_.security_z_mm) out_.path.rapid({p.x, p.y, z}, MoveRole::kApproach);
+    // Beside the piece nothing is near; on what this level has cleared the tip comes to stand on material.
+    constexpr double kNearMm = 0.1;
+    if (in_air(xy(p), p.z - kNearMm)) return line(p, MoveRole::kApproach);
     const bool raw = material >= task_.top_z_mm - kNothing;
     const double near = std::max(material, p.z) + (raw ? kAboveRaw : kAirAbove);
     if (near < z) line({p.x, p.y, near}, MoveRole::kApproach);
@@ -467,6 +498,7 @@ class Rougher {
   stock::HeightMap rest_;
   std::vector<double> floors_;  ///< levels that end on a floor
   double margin_ = 0.0, spacing_ = 0.0, floor_ = 0.0;
+  bool ends_alike_ = false;  ///< stock and surface
   std::vector<Probes> probes_;
   DropGrid grid_;
   std::vector<Vec2> ends_;  ///< of the passes of this level

@@ -51,6 +51,35 @@ TEST(Feeds, OfAHalfImmersedLightCutIsThatOfTheChip) {
   EXPECT_NEAR(feed, 800.0, 1.0);
 }
 
+/// A layer of a ball on a slope, by its section; `chip_over_feed` 0: the chip is not measured.
+model::FeedSchedule over_a_slope(double chip_over_feed) {
+  FeedQuestion q = question();
+  q.cut.kind = CutKind::kFinish;
+  q.cut.as_measured = true;
+  q.cut.cutter.cutter_class = model::CutterClass::kBallEndmill;
+  const CutterPath p = straight();
+  // Of 0.1 mm over a width of 1.3 mm, high on the ball: more area than a strip from the tip up has.
+  q.samples = {{.move = 1,
+                .ap_mm = 0.1,
+                .ae_mm = 1.3,
+                .at_mm = 100.0,
+                .step_mm = 100.0,
+                .entry_rad = 1.45,
+                .exit_rad = 1.72,
+                .csa_mm2 = 0.13,
+                .top_mm = 1.8,
+                .chip_over_feed = chip_over_feed}};
+  return feeds(q, p).schedule;
+}
+
+TEST(Feeds, OfABallOnASlopeAreThoseOfTheChipThatWasMeasured) {
+  // 0.05 mm at 4 x 4000 1/min; shares of the feed are rounded up by 1 / 128.
+  EXPECT_NEAR(over_a_slope(0.5).feed_mm_min[1], 2.0 * 800.0, 0.03 * 1600.0);
+  EXPECT_NEAR(over_a_slope(1.0).feed_mm_min[1], 800.0, 0.03 * 800.0);
+  // Where nobody looked, by the section's height and arc.
+  EXPECT_LT(over_a_slope(0.0).feed_mm_min[1], over_a_slope(0.5).feed_mm_min[1]);
+}
+
 TEST(Feeds, GoNoFasterThanTheBoundOfThinning) {
   EXPECT_NEAR(feed_of(question(), 0.5, 0.01), kMostThinning * 800.0, 0.1);
 }

@@ -15,7 +15,10 @@
 // Chips: the front meets a point where a circle about the axis, as wide as the cutter is at the height of the
 // material, first passes through it. On a line that circle is `ahead` before the point; on an arc, seen from
 // the arc's centre, `early`: the triangle of centre, axis and point. The chip is the advance of a tooth times
-// the cosine between the way and the surface's normal there.
+// the cosine between the way and the surface's normal there. A ball on a sloping line meets a point as a
+// sphere meets it: at a distance d of the point from the way of its centre that cosine is
+// sqrt(1 - d^2 / R^2). Up hill the contact stands high on the ball, but the way runs along the surface;
+// down hill it may lie behind the axis. Derived: sphere and line.
 
 namespace capstan::verify {
 
@@ -161,6 +164,7 @@ class LineWay : public Way {
   [[nodiscard]] double chip(geometry::Vec2 p, double stands, double deep, double advance,
                             const Over& at) const {
     if (!has_front() || advance <= 0.0 || deep <= 0.0) return 0.0;
+    if (!level_ && o_.ball() != nullptr) return std::min(ball_chip(p, stands, advance, at), deep);
     const double off2 = std::max(0.0, dot(p - a_, p - a_) - at.along * at.along);
     // Where the rim of the full radius meets the centre: the tip's height there.
     const double met = at.along - std::sqrt(std::max(0.0, r_ * r_ - off2));
@@ -174,6 +178,32 @@ class LineWay : public Way {
   }
 
  private:
+  /// Of a ball on a sloping line: the thickest chip off the column at p between the material's height and
+  /// what stays. Material over the ball's middle is met by the shank, whose normal is level.
+  [[nodiscard]] double ball_chip(geometry::Vec2 p, double stands, double advance, const Over& at) const {
+    if (stands <= at.z) return 0.0;
+    const double way = std::hypot(length_, dz_), down = dz_ / way, square = r_ * r_;
+    const geometry::Vec2 side = p - a_;
+    const double ahead = dot(side, d_) / way;
+    const double top = stands - z0_ - r_;  // over the centre, at the start
+    // Cosine where the ball meets the column's point at that height; 0: it never does.
+    const auto squarely = [&](double z) {
+      const double foot = ahead + z * down;
+      return std::sqrt(std::max(0.0, 1.0 - (dot(side, side) + z * z - foot * foot) / square));
+    };
+    // Further down the column the ball may meet it more squarely.
+    const double squarest = ahead * down / std::max(1.0 - down * down, kSlack);
+    const double below = advance * squarely(std::clamp(squarest, top - (stands - at.z), top));
+    const double met = ahead + top * down - r_ * squarely(top);
+    if (squarely(top) > 0.0 && top <= met * down)
+      return met < -kMetMm || met > way ? 0.0 : below;  // before: the ball stood over it
+    const double off2 = dot(side, side) - at.along * at.along;
+    if (off2 >= square) return 0.0;
+    const double reach = std::sqrt(square - off2), begins = at.along - reach;
+    if (begins < -kMetMm || begins > length_) return 0.0;
+    const double by_shank = advance * reach / r_ * length_ / way;
+    return down < 0.0 ? std::max(by_shank, below) : by_shank;
+  }
   /// How far to either side of the line such chips are cut, squared.
   [[nodiscard]] double half_squared(const Front& f) const {
     return r_ * r_ * (1.0 - f.cosine * f.cosine) + kSlack;
