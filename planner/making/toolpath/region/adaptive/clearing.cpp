@@ -25,6 +25,9 @@ namespace {
 // acos(1 - x) grows as the root of x: three arcs of an eighth of the depth are 1.06 of the whole one's.
 constexpr double kLeftPart = 0.125;
 constexpr double kOffWall = 0.01;     // mm; passes keep this off the walls, which the last one meets exactly
+constexpr double kFit = 0.004;        // mm between a pass and the lines and arcs that are written
+constexpr double kCoarse = 0.02;     // mm
+constexpr double kSame = 0.0005;     // mm
 constexpr double kCusp = 0.02;        // mm; less along a wall is left
 constexpr double kLeadPart = 0.3;     // radius of the arc off a front, of the cutter's; default, unsourced
 constexpr double kLeadTurn = 1.2;     // rad
@@ -81,13 +84,15 @@ class Clearing {
     const auto grown = [&](double by) {
       return geometry::rectangle(fresh_.lo - Vec2{by, by}, fresh_.hi + Vec2{by, by});
     };
+    // Where ways and fronts lie may be coarser than where material does.
+    const double coarse = std::min(kCoarse, 0.2 * left_mm_);
     const auto shrunk = [&](double by) {
-      const Region about = geometry::intersect(ground_, grown(2.0 * (r + by)));
-      const Region inner = geometry::intersect(geometry::offset(about, -by, bite_.chord_mm), centres_);
+      const Region about = simplified(geometry::intersect(ground_, grown(2.0 * (r + by))), 0.5 * coarse);
+      const Region inner = geometry::intersect(geometry::offset(about, -by, coarse), centres_);
       return geometry::intersect(inner, grown(r + by));
     };
-    free_ = simplified(geometry::unite(free_, shrunk(r + kBesideWay)), 0.1 * bite_.chord_mm);
-    done_ = geometry::unite(done_, shrunk(r - left_mm_));
+    free_ = simplified(geometry::unite(free_, shrunk(r + kBesideWay)), kSame);
+    done_ = simplified(geometry::unite(done_, shrunk(r - left_mm_)), kSame);
     fresh_ = {};
   }
 
@@ -147,7 +152,7 @@ class Clearing {
                            tracer.line().begin() + static_cast<std::ptrdiff_t>(tracer.cut()));
     if (geometry::area(ground_) - before < 1e-3 * bite_.radius_mm * bite_.radial_mm) return false;
     lead_off(line);
-    add(track_of_line(line, bite_.chord_mm));
+    add(track_of_line(line, kFit));
     return true;
   }
 
